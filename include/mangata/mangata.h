@@ -1,0 +1,272 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Mangata: reflections of the sun and the moon on water, anti-aliased in space and time.
+ *
+ * In one breath: create a context, fill a scene from mgt_scene_defaults(), point one or more targets at
+ * your memory, call mgt_render().
+ *
+ * Conventions of every function here
+ *   Units       metres, seconds, degrees where the name says so and radians elsewhere; luminance in kcd/m².
+ *   Axes        right-handed, y up. The mean water surface is y = 0. Azimuth 0 is -z ("north"), 90 is +x ("east").
+ *   Pixels      (0,0) is the top left pixel; +x of the image is cross(forward, up).
+ *   Structs     every public struct begins with `struct_size`. Fill structs with their mgt_*_defaults()
+ *               function, which also sets it; a struct whose size this library does not know is refused.
+ *   Errors      functions return an mgt_status; mgt_last_error() and the log say what was wrong. After a
+ *               failure no object has changed; pixels of the targets may have been written in part.
+ *   Threads     a context is used by one thread at a time; different contexts are independent.
+ *   Determinism the pixels depend on the scene alone: not on threads, tiles, crop, instruction set (AVX2,
+ *               AVX-512 and the scalar build agree to the bit) or what was rendered before.
+ */
+#ifndef MANGATA_MANGATA_H
+#define MANGATA_MANGATA_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(_WIN32)
+#define MGT_API
+#else
+#define MGT_API __attribute__((visibility("default")))
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define MGT_VERSION_MAJOR 0
+#define MGT_VERSION_MINOR 1
+#define MGT_VERSION_PATCH 0
+#define MGT_VERSION_STRING "0.1.0"
+
+/* Limits that mgt_render() checks. */
+#define MGT_MAX_WAVES 512
+#define MGT_MAX_IMAGE_SIDE 32768
+
+typedef enum mgt_status {
+    MGT_OK = 0,
+    MGT_ERROR_ARGUMENT,    /* a pointer, size or enum that makes no call possible */
+    MGT_ERROR_SCENE,       /* a scene value out of its range; mgt_last_error() names the field */
+    MGT_ERROR_MEMORY,      /* an allocation failed */
+    MGT_ERROR_UNAVAILABLE, /* the backend or instruction set does not exist here */
+    MGT_ERROR_UNSUPPORTED, /* meaningful, but not built yet */
+    MGT_ERROR_THREAD,      /* a thread could not be started */
+    MGT_CANCELLED          /* the progress callback asked to stop */
+} mgt_status;
+
+/* Lower-case English text for a status; never NULL. */
+MGT_API const char *mgt_status_text(mgt_status status);
+
+/* Version of the library in use, "major.minor.patch". */
+MGT_API const char *mgt_version(void);
+
+/* ---- context ------------------------------------------------------------------------------------------ */
+
+typedef enum mgt_backend {
+    MGT_BACKEND_CPU = 0,
+    MGT_BACKEND_GL = 1,
+    MGT_BACKEND_AUTO = 2, /* hardware GL where there is one, else the CPU */
+    MGT_BACKEND_NULL = 3  /* checks arguments and fills targets with zero: for tests of a host's own code */
+} mgt_backend;
+
+typedef enum mgt_isa {
+    MGT_ISA_AUTO = 0, /* the best that this processor runs */
+    MGT_ISA_SCALAR,   /* one lane, the plain reference */
+    MGT_ISA_SSE2,     /* four lanes without fma: compatible, but not bit-identical to the others */
+    MGT_ISA_AVX2,     /* eight lanes, AVX2 + FMA */
+    MGT_ISA_AVX512,   /* sixteen lanes, AVX-512 F, DQ, BW, VL */
+    MGT_ISA_NEON      /* four lanes */
+} mgt_isa;
+
+typedef enum mgt_log_level { MGT_LOG_DEBUG, MGT_LOG_INFO, MGT_LOG_WARNING, MGT_LOG_ERROR } mgt_log_level;
+
+/* One log message. `id` is stable between versions ("render.scene", …) so that tests may assert on it; `text` is for
+ * people. Both live only during the call. May be called from the thread inside an mgt_ function only. */
+typedef void (*mgt_log_function)(void *user, mgt_log_level level, const char *id, const char *text);
+
+/* Called from the rendering thread several times a second while mgt_render() runs; fraction in [0, 1].
+ * Return false to stop: mgt_render() then returns MGT_CANCELLED. */
+typedef bool (*mgt_progress_function)(void *user, double fraction);
+
+typedef struct mgt_context_desc {
+    size_t struct_size;
+    mgt_backend backend;
+    mgt_isa isa;          /* highest instruction set to use; a missing one fails with MGT_ERROR_UNAVAILABLE */
+    uint32_t threads;     /* 0: as many as the CPUs this process may use (affinity and cgroup quota); at most 1024 */
+    mgt_log_function log; /* NULL: silent */
+    void *log_user;
+    mgt_progress_function progress; /* NULL: none */
+    void *progress_user;
+} mgt_context_desc;
+
+typedef struct mgt_context mgt_context;
+
+MGT_API mgt_context_desc mgt_context_desc_defaults(void);
+
+/* Creates a context with its threads. `desc` may be NULL (all defaults). On failure *context is NULL and the status says why;
+ * mgt_last_error(NULL) gives the detail (per thread). The caller owns the context and destroys it. */
+MGT_API mgt_status mgt_context_create(mgt_context **context, const mgt_context_desc *desc);
+
+/* Frees the context and joins its threads. NULL is allowed. */
+MGT_API void mgt_context_destroy(mgt_context *context);
+
+/* Detail of the last failure on this context (NULL: of the last failed mgt_context_create on this thread). Never NULL; valid until the next call. */
+MGT_API const char *mgt_last_error(const mgt_context *context);
+
+typedef struct mgt_context_info {
+    size_t struct_size;
+    mgt_backend backend; /* what runs, never AUTO */
+    mgt_isa isa;         /* what runs, never AUTO */
+    uint32_t lanes;      /* pixels computed at once */
+    uint32_t threads;
+} mgt_context_info;
+
+/* What the context resolved to. `info->struct_size` must be set by the caller. */
+MGT_API mgt_status mgt_context_get_info(const mgt_context *context, mgt_context_info *info);
+
+/* Whether this build and this processor run `isa` (AUTO: always). */
+MGT_API bool mgt_isa_available(mgt_isa isa);
+
+/* ---- scene -------------------------------------------------------------------------------------------- */
+
+/* One sine wave of P1 Eq. 1: y += amplitude · sin(a·x + b·z + c·t + phase). */
+typedef struct mgt_wave {
+    double amplitude; /* metres, ≥ 0 */
+    double a, b;      /* wave vector, radians per metre */
+    double c;         /* radians per second */
+    double phase;     /* radians */
+} mgt_wave;
+
+typedef struct mgt_image {
+    uint32_t width, height;                        /* whole image, pixels, 1 … MGT_MAX_IMAGE_SIDE */
+    uint32_t crop_x, crop_y, crop_width, crop_height; /* what is rendered; width or height 0: up to the edge */
+} mgt_image;
+
+typedef struct mgt_camera {
+    double position[3]; /* metres; above every wave is usual, above the mean surface is required */
+    double target[3];   /* a point in front; must differ from position */
+    double up[3];       /* must not be parallel to the view */
+    double fov_y_deg;   /* vertical field of view, (0, 179) */
+} mgt_camera;
+
+typedef enum mgt_body { MGT_BODY_SUN = 0, MGT_BODY_MOON = 1 } mgt_body;
+
+/* One spherical light at infinity. Direction to it: (sin az·cos el, sin el, −cos az·cos el). */
+typedef struct mgt_light {
+    mgt_body body;             /* kind of sky around it, limb darkening */
+    double elevation_deg;      /* [−90, 90]; below 0 no direct light meets the water */
+    double azimuth_deg;        /* any */
+    double angular_radius_deg; /* (0, 20] */
+    float radiance[3];         /* kcd/m², linear sRGB, ≥ 0; with MGT_SKY_ATMOSPHERE as seen outside the atmosphere */
+} mgt_light;
+
+typedef enum mgt_sky_model {
+    MGT_SKY_ATMOSPHERE = 0, /* precomputed Rayleigh, Mie and ozone scattering of the light, day to night */
+    MGT_SKY_GRADIENT = 1,   /* horizon to zenith */
+    MGT_SKY_BLACK = 2       /* the papers' experiments: only the glitter */
+} mgt_sky_model;
+
+typedef struct mgt_sky {
+    mgt_sky_model model;
+    float turbidity;   /* aerosol amount over clear air, [1, 10]: scales Mie scattering (atmosphere) */
+    float zenith[3];   /* kcd/m², linear sRGB (gradient) */
+    float horizon[3];  /* kcd/m², linear sRGB (gradient) */
+    float night[3];    /* kcd/m², added everywhere: airglow and stars (atmosphere) */
+} mgt_sky;
+
+typedef struct mgt_water {
+    const mgt_wave *waves; /* wave_count of them, read during the call; NULL when wave_count is 0 (a flat mirror) */
+    size_t wave_count;     /* 0 … MGT_MAX_WAVES */
+    double index_of_refraction; /* [1.0, 3.0]; 1.333 */
+    float body_albedo[3];  /* share of the light entering the water that deep water sends up again, [0, 1], linear sRGB;
+                              shows only with a sky other than black */
+} mgt_water;
+
+typedef enum mgt_tone_map { MGT_TONE_NONE = 0, MGT_TONE_REINHARD, MGT_TONE_ACES, MGT_TONE_AGX } mgt_tone_map;
+
+/* How radiance becomes displayed colour; used by the 8-bit targets alone, float targets stay scene-linear. */
+typedef struct mgt_post {
+    bool auto_exposure;  /* exposure from light and sky (never from the picture, so that films do not pump) */
+    double exposure_ev;  /* stops, added to the automatic exposure or, without it, 2^ev per kcd/m² */
+    mgt_tone_map tone_map;
+    float glare;         /* share of the light that the eye scatters, [0, 1] */
+} mgt_post;
+
+typedef enum mgt_method {
+    MGT_METHOD_NONE = 0,       /* one sample at the pixel's centre at time t */
+    MGT_METHOD_SSAA,           /* spatial_samples² jittered samples × time_samples */
+    MGT_METHOD_PODEE_UNIFORM,  /* Podee et al. 2021, one covariance for the waves above the Nyquist limit (Eq. 3) */
+    MGT_METHOD_PODEE_PIXEL,    /* the same with the per-pixel covariance (Eqs. 4–7) */
+    MGT_METHOD_MANGATA,        /* this library's own model */
+    MGT_METHOD_REFERENCE       /* brute force in double precision (CPU backend only) */
+} mgt_method;
+
+typedef struct mgt_quality {
+    mgt_method method;
+    uint32_t spatial_samples; /* N of N×N strata a pixel: ssaa, reference; 1 … 1024 */
+    uint32_t time_samples;    /* M strata of the shutter: ssaa (1: the instant t), reference; 1 … 65536 */
+    uint64_t sample_first;    /* ssaa, reference: first of the N·N·M samples to take, … */
+    uint64_t sample_count;    /* … and how many; 0: all that remain. The mean over the range is returned */
+    uint64_t seed;            /* of the jitter */
+    bool ndf_mean_drop;       /* podee-pixel: leave the mean slope B out of the path (P1 Eq. 4 as printed) */
+} mgt_quality;
+
+/* Everything a frame depends on. Plain data, read during mgt_render() only. */
+typedef struct mgt_scene {
+    size_t struct_size;
+    mgt_image image;
+    mgt_camera camera;      /* when the shutter closes */
+    mgt_camera camera_open; /* when it opens; used when camera_moves */
+    bool camera_moves;
+    double time;            /* seconds, when the shutter closes */
+    double shutter;         /* seconds the shutter is open, ≥ 0; light is integrated over [time − shutter, time] */
+    mgt_light light;
+    mgt_sky sky;
+    mgt_water water;
+    mgt_post post;
+    mgt_quality quality;
+} mgt_scene;
+
+/* A 1280×720 noon view of a flat sea without waves by the default method: every field legal. */
+MGT_API mgt_scene mgt_scene_defaults(void);
+
+/* Radius (degrees), radiance outside the atmosphere and limb of a body, placed at elevation 30°, azimuth 0. */
+MGT_API mgt_light mgt_light_defaults(mgt_body body);
+
+/* Checks a scene as mgt_render() would, without rendering. The detail of an error is in mgt_last_error(context). */
+MGT_API mgt_status mgt_scene_check(mgt_context *context, const mgt_scene *scene);
+
+/* ---- targets and rendering ------------------------------------------------------------------------------ */
+
+typedef enum mgt_layer {
+    MGT_LAYER_COLOR = 0, /* 3 channels: radiance in kcd/m², or displayed colour in 8-bit formats */
+    MGT_LAYER_COVERAGE,  /* 1: share of pixel area × shutter time whose mirror ray meets the light, [0, 1] (P1 Eq. 17 / L_l) */
+    MGT_LAYER_MASK,      /* 1: share of the pixel that is water */
+    MGT_LAYER_DEPTH,     /* 1: metres along the ray to the first hit at time t; +inf where there is no water */
+    MGT_LAYER_NORMAL     /* 3: world space unit normal, the mean shading normal at time t; (0,0,0) where no water */
+} mgt_layer;
+
+typedef enum mgt_format {
+    MGT_FORMAT_R32F = 0,   /* one float: coverage, mask, depth */
+    MGT_FORMAT_RGB32F,     /* three floats: color, normal */
+    MGT_FORMAT_RGBA32F,    /* four floats, alpha 1: color, normal */
+    MGT_FORMAT_RGBA8_SRGB  /* displayed colour with exposure, glare, tone map and sRGB transfer, alpha 255: color only */
+} mgt_format;
+
+typedef struct mgt_target {
+    size_t struct_size;
+    mgt_layer layer;
+    mgt_format format;
+    void *pixels;         /* the caller's memory: top left pixel of the crop */
+    ptrdiff_t row_stride; /* bytes from a row to the next one below; negative for bottom-up; 0: tightly packed */
+} mgt_target;
+
+MGT_API mgt_target mgt_target_defaults(void);
+
+/* Renders one frame into `count` targets (1 … 16). Blocks until done. The same scene gives the same bytes. */
+MGT_API mgt_status mgt_render(mgt_context *context, const mgt_scene *scene, const mgt_target *targets, size_t count);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: MIT
+ * What the core asks of a backend: one table of functions beside a private state.
+ *
+ * The core validates every argument before it calls; a backend never checks them again.
+ */
+#ifndef MANGATA_CORE_BACKEND_H
+#define MANGATA_CORE_BACKEND_H
+
+#include "mangata/mangata.h"
+
+/* Where a backend reports: the log of the context and the text of mgt_last_error(). */
+typedef struct reporter {
+    mgt_log_function log;
+    void *log_user;
+    char *error; /* REPORTER_TEXT bytes */
+} reporter;
+
+#define REPORTER_TEXT 512
+
+/* Writes the detail of a failure, logs it and returns `status`, so that callers can `return report_error(…)`. */
+mgt_status report_error(const reporter *r, mgt_status status, const char *id, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+void report(const reporter *r, mgt_log_level level, const char *id, const char *format, ...) __attribute__((format(printf, 4, 5)));
+
+typedef struct backend_functions {
+    /* Fills `info` with what runs. `desc` has been checked. */
+    mgt_status (*create)(void **state, const mgt_context_desc *desc, const reporter *r, mgt_context_info *info);
+    void (*destroy)(void *state);
+    /* Scene and targets have been checked. */
+    mgt_status (*render)(void *state, const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count);
+} backend_functions;
+
+extern const backend_functions cpu_backend;
+extern const backend_functions null_backend;
+
+/* The rectangle of the image that a scene asks for. */
+typedef struct region {
+    uint32_t x, y, width, height;
+} region;
+
+region image_region(const mgt_image *image);
+
+/* Bytes of one pixel of a format. */
+size_t format_size(mgt_format format);
+
+/* Address of the first pixel of a row of the region, tight stride resolved. */
+void *target_row(const mgt_target *target, const region *area, uint32_t row);
+
+#endif

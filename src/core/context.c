@@ -1,0 +1,120 @@
+/* SPDX-License-Identifier: MIT
+ * Contexts: creation, what they resolved to, errors, and the one rendering call. */
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "core/backend.h"
+#include "core/validate.h"
+
+struct mgt_context {
+    const backend_functions *backend;
+    void *state;
+    reporter report;
+    mgt_context_info info;
+    char error[REPORTER_TEXT];
+};
+
+/* Where creation reports, since there is no context to hold the text yet. */
+static _Thread_local char creation_error[REPORTER_TEXT];
+
+static void send(const reporter *r, mgt_log_level level, const char *id, const char *text)
+{
+    if (r->log)
+        r->log(r->log_user, level, id, text);
+}
+
+void report(const reporter *r, mgt_log_level level, const char *id, const char *format, ...)
+{
+    char text[REPORTER_TEXT];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    send(r, level, id, text);
+}
+
+mgt_status report_error(const reporter *r, mgt_status status, const char *id, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(r->error, REPORTER_TEXT, format, arguments);
+    va_end(arguments);
+    send(r, MGT_LOG_ERROR, id, r->error);
+    return status;
+}
+
+mgt_status mgt_context_create(mgt_context **context, const mgt_context_desc *desc)
+{
+    const mgt_context_desc defaults = mgt_context_desc_defaults();
+    if (!desc)
+        desc = &defaults;
+    creation_error[0] = 0;
+    reporter early = {desc->struct_size == sizeof *desc ? desc->log : NULL, desc->log_user, creation_error};
+    if (!context)
+        return report_error(&early, MGT_ERROR_ARGUMENT, "context.create", "mgt_context_create: the pointer to fill is NULL");
+    *context = NULL;
+    mgt_status status = validate_desc(&early, desc);
+    if (status != MGT_OK)
+        return status;
+    if (desc->backend == MGT_BACKEND_GL)
+        return report_error(&early, MGT_ERROR_UNAVAILABLE, "context.backend", "this build has no OpenGL backend; use the CPU backend");
+
+    mgt_context *c = calloc(1, sizeof *c);
+    if (!c)
+        return report_error(&early, MGT_ERROR_MEMORY, "context.create", "out of memory");
+    c->report = (reporter){desc->log, desc->log_user, c->error};
+    c->backend = desc->backend == MGT_BACKEND_NULL ? &null_backend : &cpu_backend;
+    c->info.struct_size = sizeof c->info;
+    if (desc->backend == MGT_BACKEND_AUTO)
+        report(&early, MGT_LOG_INFO, "context.backend", "no hardware OpenGL in this build: the CPU renders");
+    status = c->backend->create(&c->state, desc, &early, &c->info);
+    if (status != MGT_OK) {
+        free(c);
+        return status;
+    }
+    *context = c;
+    return MGT_OK;
+}
+
+void mgt_context_destroy(mgt_context *context)
+{
+    if (!context)
+        return;
+    context->backend->destroy(context->state);
+    free(context);
+}
+
+const char *mgt_last_error(const mgt_context *context)
+{
+    return context ? context->error : creation_error;
+}
+
+mgt_status mgt_context_get_info(const mgt_context *context, mgt_context_info *info)
+{
+    if (!context || !info || info->struct_size != sizeof *info)
+        return MGT_ERROR_ARGUMENT;
+    *info = context->info;
+    return MGT_OK;
+}
+
+mgt_status mgt_scene_check(mgt_context *context, const mgt_scene *scene)
+{
+    if (!context)
+        return MGT_ERROR_ARGUMENT;
+    context->error[0] = 0;
+    return validate_scene(&context->report, scene);
+}
+
+mgt_status mgt_render(mgt_context *context, const mgt_scene *scene, const mgt_target *targets, size_t count)
+{
+    if (!context)
+        return MGT_ERROR_ARGUMENT;
+    context->error[0] = 0;
+    mgt_status status = validate_scene(&context->report, scene);
+    if (status == MGT_OK)
+        status = validate_targets(&context->report, scene, targets, count);
+    if (status == MGT_OK)
+        status = context->backend->render(context->state, &context->report, scene, targets, count);
+    return status;
+}

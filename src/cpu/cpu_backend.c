@@ -1,0 +1,412 @@
+/* SPDX-License-Identifier: MIT
+ * The CPU backend: tiles over a thread pool, the lanes that this processor runs, targets and display. */
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/backend.h"
+#include "cpu/frame.h"
+#include "cpu/glare.h"
+#include "cpu/thread_pool.h"
+#include "cpu/tile_job.h"
+#include "reference/reference.h"
+
+typedef struct cpu_state {
+    thread_pool *pool;
+    const lane_kernels *kernels;
+    mgt_isa isa;
+    sky_state *sky; /* of the last frame; zeroed at first */
+    tile_scratch **scratch; /* one a worker */
+    mgt_progress_function progress;
+    void *progress_user;
+} cpu_state;
+
+/* ---- instruction sets ---- */
+
+bool mgt_isa_available(mgt_isa isa)
+{
+    switch (isa) {
+    case MGT_ISA_AUTO:
+    case MGT_ISA_SCALAR: return true;
+#if defined(__x86_64__)
+    case MGT_ISA_SSE2: return true;
+    case MGT_ISA_AVX2: return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+    case MGT_ISA_AVX512:
+        return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
+               __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("fma");
+#elif defined(__aarch64__)
+    case MGT_ISA_NEON: return true;
+#endif
+    default: return false;
+    }
+}
+
+static const lane_kernels *kernels_of(mgt_isa isa)
+{
+    switch (isa) {
+#if defined(__x86_64__)
+    case MGT_ISA_AVX512: return &lane_kernels_16;
+    case MGT_ISA_AVX2: return &lane_kernels_8;
+#endif
+    case MGT_ISA_SSE2:
+    case MGT_ISA_NEON: return &lane_kernels_4;
+    default: return &lane_kernels_1;
+    }
+}
+
+static mgt_isa best_isa(void)
+{
+    static const mgt_isa order[] = {MGT_ISA_AVX512, MGT_ISA_AVX2, MGT_ISA_NEON, MGT_ISA_SSE2};
+    for (size_t i = 0; i < sizeof order / sizeof *order; i++)
+        if (mgt_isa_available(order[i]))
+            return order[i];
+    return MGT_ISA_SCALAR;
+}
+
+/* ---- context ---- */
+
+static void cpu_destroy(void *state)
+{
+    cpu_state *s = state;
+    if (!s)
+        return;
+    if (s->scratch)
+        for (uint32_t i = 0; i < thread_pool_size(s->pool); i++)
+            free(s->scratch[i]);
+    free(s->scratch);
+    thread_pool_destroy(s->pool);
+    free(s->sky);
+    free(s);
+}
+
+static bool allocate_scratch(cpu_state *s)
+{
+    const uint32_t workers = thread_pool_size(s->pool);
+    s->scratch = calloc(workers, sizeof *s->scratch);
+    for (uint32_t i = 0; s->scratch && i < workers; i++)
+        if (!(s->scratch[i] = calloc(1, sizeof *s->scratch[i])))
+            return false;
+    return s->scratch != NULL;
+}
+
+static mgt_status cpu_create(void **state, const mgt_context_desc *desc, const reporter *r, mgt_context_info *info)
+{
+    if (!mgt_isa_available(desc->isa))
+        return report_error(r, MGT_ERROR_UNAVAILABLE, "context.isa", "this processor or build does not run the instruction set asked for");
+    cpu_state *s = calloc(1, sizeof *s);
+    if (!s)
+        return report_error(r, MGT_ERROR_MEMORY, "context.create", "out of memory");
+    s->isa = desc->isa == MGT_ISA_AUTO ? best_isa() : desc->isa;
+    s->kernels = kernels_of(s->isa);
+    s->progress = desc->progress;
+    s->progress_user = desc->progress_user;
+    s->sky = calloc(1, sizeof *s->sky);
+    s->pool = s->sky ? thread_pool_create(desc->threads ? desc->threads : thread_pool_usable_cpus()) : NULL;
+    if (!s->pool || !allocate_scratch(s)) {
+        const mgt_status status = s->sky && !s->pool ? MGT_ERROR_THREAD : MGT_ERROR_MEMORY;
+        cpu_destroy(s);
+        return report_error(r, status, "context.create", "%s", mgt_status_text(status));
+    }
+    info->backend = MGT_BACKEND_CPU;
+    info->isa = s->isa;
+    info->lanes = s->kernels->lanes;
+    info->threads = thread_pool_size(s->pool);
+    *state = s;
+    return MGT_OK;
+}
+
+/* ---- one frame ---- */
+
+typedef struct render_job {
+    cpu_state *state;
+    const mgt_scene *scene;
+    frame frame;
+    tile_wants wants;
+    region area;      /* rendered: the crop, or the whole image where glare needs it */
+    region crop;      /* what the targets hold */
+    const mgt_target *targets;
+    size_t target_count;
+    float *radiance;  /* area.width × area.height × 3 for glare, or NULL */
+    uint32_t first_x, first_y, columns; /* blocks of the loop */
+    uint32_t block_width, block_height;
+    reference_frame *reference;
+} render_job;
+
+/* A rectangle of finished pixels in planes, wherever they come from. */
+typedef struct pixel_planes {
+    const float *color[3]; /* red, green, blue, each `color_step` floats a pixel */
+    size_t color_step;
+    const float *coverage, *water, *depth;
+    const float *normal[3];
+    size_t normal_step;
+    size_t stride; /* pixels a row */
+} pixel_planes;
+
+static void write_pixel(const mgt_target *t, const pixel_planes *p, size_t i, void *out)
+{
+    float *f = out;
+    const size_t c = i * p->color_step, n = i * p->normal_step;
+    switch (t->layer) {
+    case MGT_LAYER_COLOR:
+        f[0] = p->color[0][c], f[1] = p->color[1][c], f[2] = p->color[2][c];
+        break;
+    case MGT_LAYER_COVERAGE: f[0] = p->coverage[i]; break;
+    case MGT_LAYER_MASK: f[0] = p->water[i]; break;
+    case MGT_LAYER_DEPTH: f[0] = p->depth[i]; break;
+    case MGT_LAYER_NORMAL:
+        f[0] = p->normal[0][n], f[1] = p->normal[1][n], f[2] = p->normal[2][n];
+        break;
+    }
+    if (t->format == MGT_FORMAT_RGBA32F)
+        f[3] = 1;
+}
+
+/* The part of `block` that the crop holds goes to every float target, and to display where no glare is to come. */
+static void write_block(const render_job *job, const region *block, const pixel_planes *p)
+{
+    const region *crop = &job->crop;
+    const uint32_t x0 = block->x > crop->x ? block->x : crop->x, y0 = block->y > crop->y ? block->y : crop->y;
+    const uint32_t x1 = block->x + block->width < crop->x + crop->width ? block->x + block->width : crop->x + crop->width;
+    const uint32_t y1 = block->y + block->height < crop->y + crop->height ? block->y + block->height : crop->y + crop->height;
+    for (uint32_t y = y0; y < y1; y++)
+        for (size_t k = 0; k < job->target_count && x0 < x1; k++) {
+            const mgt_target *t = &job->targets[k];
+            const size_t size = format_size(t->format), first = (y - block->y) * p->stride + x0 - block->x;
+            char *row = (char *)target_row(t, crop, y - crop->y) + size * (x0 - crop->x);
+            if (t->format != MGT_FORMAT_RGBA8_SRGB) {
+                for (uint32_t x = 0; x < x1 - x0; x++)
+                    write_pixel(t, p, first + x, row + size * x);
+            } else if (!job->radiance) {
+                float rgb[3 * TILE_WIDTH];
+                for (uint32_t x = 0; x < x1 - x0; x++)
+                    for (int c = 0; c < 3; c++)
+                        rgb[3 * x + (uint32_t)c] = p->color[c][(first + x) * p->color_step];
+                job->state->kernels->display(&job->frame.data, rgb, (uint8_t *)row, x1 - x0);
+            }
+        }
+}
+
+static void keep_radiance(const render_job *job, const region *block, const pixel_planes *p)
+{
+    for (uint32_t y = 0; y < block->height; y++) {
+        float *row = job->radiance + ((size_t)(block->y + y - job->area.y) * job->area.width + block->x - job->area.x) * 3;
+        for (uint32_t x = 0; x < block->width; x++)
+            for (int c = 0; c < 3; c++)
+                row[3 * x + (uint32_t)c] = p->color[c][(y * p->stride + x) * p->color_step];
+    }
+}
+
+/* The block with this index, cut to what is rendered; `offset` says where it begins within its uncut self. */
+static region block_of(const render_job *job, size_t index, uint32_t offset[2])
+{
+    const uint32_t left = (job->first_x + (uint32_t)(index % job->columns)) * job->block_width;
+    const uint32_t top = (job->first_y + (uint32_t)(index / job->columns)) * job->block_height;
+    const region *a = &job->area;
+    region b = {left > a->x ? left : a->x, top > a->y ? top : a->y, 0, 0};
+    const uint32_t right = left + job->block_width < a->x + a->width ? left + job->block_width : a->x + a->width;
+    const uint32_t bottom = top + job->block_height < a->y + a->height ? top + job->block_height : a->y + a->height;
+    b.width = right - b.x;
+    b.height = bottom - b.y;
+    offset[0] = b.x - left;
+    offset[1] = b.y - top;
+    return b;
+}
+
+static void render_tile(void *argument, size_t index, uint32_t worker)
+{
+    const render_job *job = argument;
+    tile_scratch *s = job->state->scratch[worker];
+    uint32_t offset[2];
+    const region block = block_of(job, index, offset);
+    tile_render(&job->frame, job->state->kernels, job->state->sky->table, job->wants, job->first_x + (uint32_t)(index % job->columns),
+                job->first_y + (uint32_t)(index / job->columns), s);
+    const size_t at = (size_t)offset[1] * TILE_WIDTH + offset[0];
+    const pixel_planes planes = {
+        .color = {s->pixels.red + at, s->pixels.green + at, s->pixels.blue + at},
+        .color_step = 1,
+        .coverage = s->pixels.coverage + at,
+        .water = s->pixels.water + at,
+        .depth = s->surface.along + at,
+        .normal = {s->surface.normal_x + at, s->surface.normal_y + at, s->surface.normal_z + at},
+        .normal_step = 1,
+        .stride = TILE_WIDTH,
+    };
+    write_block(job, &block, &planes);
+    if (job->radiance)
+        keep_radiance(job, &block, &planes);
+}
+
+/* Blocks are small so that even thousands of samples a pixel leave time for progress and cancelling. */
+enum { REFERENCE_WIDTH = 16, REFERENCE_HEIGHT = 4, REFERENCE_PIXELS = REFERENCE_WIDTH * REFERENCE_HEIGHT };
+
+static void render_reference_block(void *argument, size_t index, uint32_t worker)
+{
+    (void)worker;
+    const render_job *job = argument;
+    uint32_t offset[2];
+    const region block = block_of(job, index, offset);
+    float color[REFERENCE_PIXELS * 3], coverage[REFERENCE_PIXELS], mask[REFERENCE_PIXELS], depth[REFERENCE_PIXELS], normal[REFERENCE_PIXELS * 3];
+    const bool pixels = job->wants.pixels, surface = job->wants.surface;
+    const reference_result result = {.color = pixels && job->frame.data.want_color ? color : NULL,
+                                     .coverage = pixels ? coverage : NULL,
+                                     .mask = pixels ? mask : NULL,
+                                     .depth = surface ? depth : NULL,
+                                     .normal = surface ? normal : NULL};
+    reference_render_block(job->reference, block.x, block.y, block.width, block.height, &result);
+    const pixel_planes planes = {
+        .color = {color, color + 1, color + 2},
+        .color_step = 3,
+        .coverage = coverage,
+        .water = mask,
+        .depth = depth,
+        .normal = {normal, normal + 1, normal + 2},
+        .normal_step = 3,
+        .stride = block.width,
+    };
+    write_block(job, &block, &planes);
+    if (job->radiance)
+        keep_radiance(job, &block, &planes);
+}
+
+static bool forward_progress(void *argument, double fraction)
+{
+    const render_job *job = argument;
+    return job->state->progress(job->state->progress_user, fraction);
+}
+
+static bool run_loop(render_job *job, uint32_t block_width, uint32_t block_height, void (*body)(void *, size_t, uint32_t))
+{
+    const region *a = &job->area;
+    job->block_width = block_width;
+    job->block_height = block_height;
+    job->first_x = a->x / block_width;
+    job->first_y = a->y / block_height;
+    job->columns = (a->x + a->width - 1) / block_width - job->first_x + 1;
+    const uint32_t rows = (a->y + a->height - 1) / block_height - job->first_y + 1;
+    const thread_loop loop = {(size_t)job->columns * rows, body, job, job->state->progress ? forward_progress : NULL};
+    return thread_pool_run(job->state->pool, &loop);
+}
+
+/* ---- the reference ---- */
+
+static void reference_lookup(const void *user, const double direction[3], double rgb[3])
+{
+    sky_lookup(user, direction, rgb);
+}
+
+static mgt_status make_reference(render_job *job, const reporter *r)
+{
+    const sky_state *sky = job->state->sky;
+    reference_sky rs = {.lookup = job->scene->sky.model == MGT_SKY_BLACK ? NULL : reference_lookup, .user = sky, .limb = sky->limb};
+    sky_body_radiance(sky, &job->scene->water, rs.body_radiance);
+    for (int i = 0; i < 3; i++)
+        rs.light_radiance[i] = sky->light_radiance[i];
+    const reference_options options = {.isa = job->state->isa};
+    const mgt_status status = reference_frame_create(&job->reference, job->scene, &rs, &options);
+    return status == MGT_OK ? MGT_OK : report_error(r, status, "render.reference", "the reference frame: %s", mgt_status_text(status));
+}
+
+/* ---- display ---- */
+
+static void display_row(void *argument, size_t row, uint32_t worker)
+{
+    (void)worker;
+    const render_job *job = argument;
+    const size_t y = row + job->crop.y - job->area.y;
+    const float *rgb = job->radiance + (y * job->area.width + job->crop.x - job->area.x) * 3;
+    for (size_t k = 0; k < job->target_count; k++)
+        if (job->targets[k].format == MGT_FORMAT_RGBA8_SRGB)
+            job->state->kernels->display(&job->frame.data, rgb, target_row(&job->targets[k], &job->crop, (uint32_t)row), job->crop.width);
+}
+
+typedef struct glare_loop {
+    void (*body)(void *, size_t);
+    void *argument;
+} glare_loop;
+
+static void glare_step(void *argument, size_t index, uint32_t worker)
+{
+    (void)worker;
+    const glare_loop *g = argument;
+    g->body(g->argument, index);
+}
+
+static void glare_run(void *user, size_t count, void (*body)(void *, size_t), void *argument)
+{
+    glare_loop g = {body, argument};
+    const thread_loop loop = {count, glare_step, &g, NULL};
+    thread_pool_run(user, &loop);
+}
+
+static mgt_status display(render_job *job, const reporter *r)
+{
+    const mgt_status status = glare_apply(job->radiance, job->area.width, job->area.height, (size_t)job->area.width * 3, job->scene->post.glare,
+                                          glare_run, job->state->pool);
+    if (status != MGT_OK)
+        return report_error(r, status, "render.memory", "out of memory for the glare of %u x %u pixels", job->area.width, job->area.height);
+    const thread_loop loop = {job->crop.height, display_row, job, NULL};
+    thread_pool_run(job->state->pool, &loop);
+    return MGT_OK;
+}
+
+/* ---- mgt_render ---- */
+
+static mgt_status prepare_sky(cpu_state *s, const reporter *r, const mgt_scene *scene)
+{
+    if (sky_state_same_inputs(s->sky, &scene->sky, &scene->light))
+        return MGT_OK;
+    const mgt_status status = sky_state_build(s->sky, &scene->sky, &scene->light);
+    return status == MGT_OK ? MGT_OK : report_error(r, status, "render.memory", "out of memory for the sky's tables");
+}
+
+static bool wants_layer(const mgt_target *targets, size_t count, mgt_layer first, mgt_layer last)
+{
+    for (size_t i = 0; i < count; i++)
+        if (targets[i].layer >= first && targets[i].layer <= last)
+            return true;
+    return false;
+}
+
+static bool wants_glare(const mgt_scene *scene, const mgt_target *targets, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (targets[i].format == MGT_FORMAT_RGBA8_SRGB && scene->post.glare > 0)
+            return true;
+    return false;
+}
+
+static mgt_status cpu_render(void *state, const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count)
+{
+    cpu_state *s = state;
+    mgt_status status = prepare_sky(s, r, scene);
+    if (status != MGT_OK)
+        return status;
+    render_job job = {.state = s, .scene = scene, .targets = targets, .target_count = count};
+    job.frame = frame_of(scene, s->sky, wants_layer(targets, count, MGT_LAYER_COLOR, MGT_LAYER_COLOR));
+    job.wants.pixels = wants_layer(targets, count, MGT_LAYER_COLOR, MGT_LAYER_MASK);
+    job.wants.surface = wants_layer(targets, count, MGT_LAYER_DEPTH, MGT_LAYER_NORMAL);
+    job.crop = job.area = image_region(&scene->image);
+    if (wants_glare(scene, targets, count)) {
+        job.area = (region){0, 0, scene->image.width, scene->image.height};
+        job.radiance = malloc((size_t)job.area.width * job.area.height * 3 * sizeof *job.radiance);
+        if (!job.radiance)
+            return report_error(r, MGT_ERROR_MEMORY, "render.memory", "out of memory for %u x %u pixels", job.area.width, job.area.height);
+    }
+    bool finished = false;
+    if (scene->quality.method == MGT_METHOD_REFERENCE) {
+        status = make_reference(&job, r);
+        if (status == MGT_OK)
+            finished = run_loop(&job, REFERENCE_WIDTH, REFERENCE_HEIGHT, render_reference_block);
+        reference_frame_destroy(job.reference);
+    } else {
+        finished = run_loop(&job, TILE_WIDTH, TILE_HEIGHT, render_tile);
+    }
+    if (status == MGT_OK && !finished)
+        status = report_error(r, MGT_CANCELLED, "render.cancelled", "rendering was cancelled");
+    if (status == MGT_OK && job.radiance)
+        status = display(&job, r);
+    free(job.radiance);
+    return status;
+}
+
+const backend_functions cpu_backend = {cpu_create, cpu_destroy, cpu_render};

@@ -1,0 +1,341 @@
+/* SPDX-License-Identifier: MIT
+ * From a scene in double precision to the uniform floats of a frame and of its tiles. */
+#include "cpu/frame.h"
+
+#include <math.h>
+
+static const double pi = 3.14159265358979323846;
+
+static void normalize3(double v[3])
+{
+    const double length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    for (int i = 0; i < 3; i++)
+        v[i] /= length;
+}
+
+static void cross3(const double a[3], const double b[3], double out[3])
+{
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        out[i] = a[j] * b[k] - a[k] * b[j];
+    }
+}
+
+camera_rays camera_rays_of(const mgt_camera *camera, uint32_t width, uint32_t height)
+{
+    camera_rays rays;
+    double forward[3], right[3], up[3];
+    for (int i = 0; i < 3; i++) {
+        rays.position[i] = camera->position[i];
+        forward[i] = camera->target[i] - camera->position[i];
+    }
+    normalize3(forward);
+    cross3(forward, camera->up, right);
+    normalize3(right);
+    cross3(right, forward, up);
+    const double pixel = 2 * tan(camera->fov_y_deg * pi / 360) / height;
+    for (int i = 0; i < 3; i++) {
+        rays.right[i] = right[i] * pixel;
+        rays.down[i] = -up[i] * pixel;
+        rays.corner[i] = forward[i] + rays.right[i] * (0.5 - 0.5 * width) + rays.down[i] * (0.5 - 0.5 * height);
+    }
+    return rays;
+}
+
+static void light_axes(const double light[3], FrameData *d)
+{
+    const double up[3] = {0, 1, 0}, north[3] = {0, 0, -1};
+    double e[3], f[3];
+    cross3(fabs(light[1]) < 0.999 ? up : north, light, e);
+    normalize3(e);
+    cross3(light, e, f);
+    d->axis_e_x = (float)e[0], d->axis_e_y = (float)e[1], d->axis_e_z = (float)e[2];
+    d->axis_f_x = (float)f[0], d->axis_f_y = (float)f[1], d->axis_f_z = (float)f[2];
+}
+
+static void set_method(frame *f)
+{
+    const mgt_quality *q = &f->scene->quality;
+    f->ramp_start = 0.35;
+    f->ramp_end = 1.1;
+    if (q->method == MGT_METHOD_PODEE_UNIFORM || q->method == MGT_METHOD_PODEE_PIXEL) {
+        f->ramp_start = 0.2;
+        f->ramp_end = 0.5;
+    }
+    f->keep_filtered = q->method == MGT_METHOD_PODEE_PIXEL;
+    f->data.ramp_start = (float)f->ramp_start;
+    f->data.ramp_scale = (float)(1 / (f->ramp_end - f->ramp_start));
+    f->data.ndf_per_pixel = f->keep_filtered;
+    f->data.ndf_mean = f->keep_filtered && !q->ndf_mean_drop ? 1 : 0;
+}
+
+frame frame_of(const mgt_scene *scene, const sky_state *sky, bool want_color)
+{
+    frame f = {.scene = scene};
+    FrameData *d = &f.data;
+    d->light_x = (float)sky->direction[0];
+    d->light_y = (float)sky->direction[1];
+    d->light_z = (float)sky->direction[2];
+    d->light_radius = (float)sky->tan_radius;
+    d->light_azimuth_x = (float)sky->azimuth[0];
+    d->light_azimuth_z = (float)sky->azimuth[1];
+    d->limb = (float)sky->limb;
+    d->light_visible = scene->light.elevation_deg >= 0 ? 1 : 0;
+    d->light_radiance_r = (float)sky->light_radiance[0];
+    d->light_radiance_g = (float)sky->light_radiance[1];
+    d->light_radiance_b = (float)sky->light_radiance[2];
+    d->index_of_refraction = (float)scene->water.index_of_refraction;
+    light_axes(sky->direction, d);
+    double body[3];
+    sky_body_radiance(sky, &scene->water, body);
+    d->body_r = (float)body[0];
+    d->body_g = (float)body[1];
+    d->body_b = (float)body[2];
+    const double ev = scene->post.exposure_ev + (scene->post.auto_exposure ? sky->exposure_ev : 0);
+    d->exposure = (float)exp2(ev);
+    d->tone_map = (int)scene->post.tone_map;
+    d->slope_floor = 1e-9f;
+    d->pixel_angle = (float)(2 * tan(scene->camera.fov_y_deg * pi / 360) / scene->image.height);
+    d->want_color = want_color;
+    d->sky_black = scene->sky.model == MGT_SKY_BLACK;
+    set_method(&f);
+    f.close = camera_rays_of(&scene->camera, scene->image.width, scene->image.height);
+    f.open = scene->camera_moves ? camera_rays_of(&scene->camera_open, scene->image.width, scene->image.height) : f.close;
+    return f;
+}
+
+/* ---- tiles ---- */
+
+/* ∂(x, z)/∂(pixel) on the mean surface at five places of a tile: what frequencies its waves may have there. */
+enum { PROBES = 5 };
+
+typedef struct tile_probes {
+    double right[PROBES][2], down[PROBES][2];
+    int count;         /* probes that see water */
+    bool horizon;      /* some probe sees none: frequencies go up without end */
+    double least_margin, most_margin; /* factors for the displaced surface being nearer or farther */
+} tile_probes;
+
+static void tile_ray(const camera_rays *camera, double x, double y, double ray[3])
+{
+    for (int i = 0; i < 3; i++)
+        ray[i] = camera->corner[i] + x * camera->right[i] + y * camera->down[i];
+}
+
+static tile_probes probe_tile(const camera_rays *camera, uint32_t tile_x, uint32_t tile_y, double displacement)
+{
+    static const double at[PROBES][2] = {{0.5, 0.5}, {0, 0}, {1, 0}, {0, 1}, {1, 1}};
+    tile_probes p = {0};
+    const double height = camera->position[1];
+    const double relative = fmin(displacement / height, 0.5);
+    p.least_margin = (1 - relative) * 0.95;
+    p.most_margin = (1 + relative) * 1.05;
+    for (int i = 0; i < PROBES; i++) {
+        double ray[3];
+        tile_ray(camera, tile_x * (double)TILE_WIDTH - 1 + at[i][0] * (TILE_WIDTH + 1), tile_y * (double)TILE_HEIGHT - 1 + at[i][1] * (TILE_HEIGHT + 1), ray);
+        if (ray[1] >= -1e-9) {
+            p.horizon = true;
+            continue;
+        }
+        const double along = height / -ray[1];
+        for (int j = 0; j < 2; j++) {
+            const int axis = 2 * j;
+            p.right[p.count][j] = along * (camera->right[axis] - ray[axis] / ray[1] * camera->right[1]);
+            p.down[p.count][j] = along * (camera->down[axis] - ray[axis] / ray[1] * camera->down[1]);
+        }
+        p.count++;
+    }
+    return p;
+}
+
+typedef struct frequency_range {
+    double least, most; /* cycles per pixel over the tile */
+} frequency_range;
+
+static frequency_range frequencies(const tile_probes *p, const mgt_wave *w)
+{
+    double least = INFINITY, most = 0;
+    for (int i = 0; i < p->count; i++) {
+        const double u = p->right[i][0] * w->a + p->right[i][1] * w->b;
+        const double v = p->down[i][0] * w->a + p->down[i][1] * w->b;
+        const double squared = u * u + v * v;
+        least = fmin(least, squared);
+        most = fmax(most, squared);
+    }
+    if (p->count == 0)
+        least = INFINITY;
+    return (frequency_range){sqrt(least) / (2 * pi) * p->least_margin, p->horizon ? INFINITY : sqrt(most) / (2 * pi) * p->most_margin};
+}
+
+/* A point near which the tile's phases are exact: where its centre meets the mean surface, or its steepest corner. */
+static void tile_origin(const camera_rays *camera, uint32_t tile_x, uint32_t tile_y, TileData *d)
+{
+    double best[3];
+    tile_ray(camera, (tile_x + 0.5) * TILE_WIDTH, (tile_y + 0.5) * TILE_HEIGHT, best);
+    for (int corner = 0; corner < 4 && best[1] > -1e-3; corner++) {
+        double ray[3];
+        tile_ray(camera, (tile_x + (corner & 1)) * (double)TILE_WIDTH, (tile_y + (corner >> 1)) * (double)TILE_HEIGHT, ray);
+        if (ray[1] < best[1])
+            for (int i = 0; i < 3; i++)
+                best[i] = ray[i];
+    }
+    const double along = camera->position[1] / fmax(-best[1], 1e-4);
+    d->origin_x = (float)(best[0] * along);
+    d->origin_z = (float)(best[2] * along);
+}
+
+static double turns(double radians)
+{
+    const double t = radians / (2 * pi);
+    return t - rint(t);
+}
+
+static WaveData wave_data(const mgt_wave *w, double phase, interval time)
+{
+    const double cos_half = cos(w->c * time.half), sin_half = sin(w->c * time.half);
+    const double squared = w->a * w->a + w->b * w->b, A = w->amplitude;
+    return (WaveData){
+        .turns_x = (float)(w->a / (2 * pi)),
+        .turns_z = (float)(w->b / (2 * pi)),
+        .phase = (float)phase,
+        .amplitude = (float)A,
+        .even_x = (float)(A * w->a * cos_half),
+        .even_z = (float)(A * w->b * cos_half),
+        .odd_x = (float)(A * w->a * sin_half),
+        .odd_z = (float)(A * w->b * sin_half),
+        .bend_xx = (float)(-A * w->a * w->a),
+        .bend_xz = (float)(-A * w->a * w->b),
+        .bend_zz = (float)(-A * w->b * w->b),
+        .even_height = (float)(A * cos_half),
+        .k_x = (float)w->a,
+        .k_z = (float)w->b,
+        .half_variance = (float)(A * A / 2),
+        .odd_height = (float)(A * sin_half),
+        .cos_half = (float)cos_half,
+        .sin_half = (float)sin_half,
+        .octave = (float)(squared > 0 ? 0.5 * log2(squared) : 0),
+        .slope_variance = (float)(A * A * squared / 2),
+    };
+}
+
+typedef struct march_sums {
+    double direction[2]; /* horizontal, of the tile's centre; zero when the tile looks straight down */
+    double spread;       /* sine of the largest angle between it and the tile's other rays */
+    double amplitude, variance, slope, slope_variance, bend, bend_variance, shortest, most_cycles;
+} march_sums;
+
+static march_sums march_sums_of(const camera_rays *camera, uint32_t tile_x, uint32_t tile_y)
+{
+    march_sums s = {.spread = 1, .shortest = INFINITY};
+    double centre[3];
+    tile_ray(camera, (tile_x + 0.5) * TILE_WIDTH, (tile_y + 0.5) * TILE_HEIGHT, centre);
+    const double length = hypot(centre[0], centre[2]);
+    if (length < 1e-9)
+        return s;
+    double least = 1;
+    for (int corner = 0; corner < 4; corner++) {
+        double ray[3];
+        tile_ray(camera, (tile_x + (corner & 1)) * (double)TILE_WIDTH, (tile_y + (corner >> 1)) * (double)TILE_HEIGHT, ray);
+        least = fmin(least, (ray[0] * centre[0] + ray[2] * centre[2]) / (length * fmax(hypot(ray[0], ray[2]), 1e-9)));
+    }
+    if (least < 0.7)
+        return s;
+    s.direction[0] = centre[0] / length;
+    s.direction[1] = centre[2] / length;
+    s.spread = sqrt(fmax(1 - least * least, 0));
+    return s;
+}
+
+static void add_march_wave(tile_waves *out, march_sums *sums, const mgt_wave *w, const WaveData *data, double most_cycles)
+{
+    out->march[out->data.march_count++] = (MarchWave){data->turns_x, data->turns_z, data->phase, data->amplitude};
+    const double length = hypot(w->a, w->b), A = w->amplitude;
+    const double k = fmin(length, fabs(w->a * sums->direction[0] + w->b * sums->direction[1]) + length * sums->spread);
+    sums->amplitude += A;
+    sums->variance += A * A / 2;
+    sums->slope += A * k;
+    sums->slope_variance += A * A * k * k / 2;
+    sums->bend += A * k * k;
+    sums->bend_variance += A * A * k * k * k * k / 2;
+    if (A > 0 && length > 0) {
+        sums->shortest = fmin(sums->shortest, 2 * pi / length);
+        sums->most_cycles = fmax(sums->most_cycles, most_cycles);
+    }
+}
+
+/* A wave with most of its frequencies beyond this many cycles per pixel does not steer the first hit. */
+static const double march_cycles = 0.25;
+
+void tile_build(const frame *f, const camera_rays *camera, interval time, bool filter, uint32_t tile_x, uint32_t tile_y, tile_waves *out)
+{
+    const mgt_water *water = &f->scene->water;
+    TileData d = {0};
+    double ray[3];
+    tile_ray(camera, tile_x * (double)TILE_WIDTH, tile_y * (double)TILE_HEIGHT, ray);
+    d.ray_x = (float)ray[0], d.ray_y = (float)ray[1], d.ray_z = (float)ray[2];
+    d.right_x = (float)camera->right[0], d.right_y = (float)camera->right[1], d.right_z = (float)camera->right[2];
+    d.down_x = (float)camera->down[0], d.down_y = (float)camera->down[1], d.down_z = (float)camera->down[2];
+    d.camera_height = (float)camera->position[1];
+    tile_origin(camera, tile_x, tile_y, &d);
+    out->data = d;
+
+    double displacement = 0;
+    for (size_t i = 0; i < water->wave_count; i++)
+        displacement += water->waves[i].amplitude * water->waves[i].amplitude / 2;
+    const tile_probes probes = probe_tile(camera, tile_x, tile_y, 4 * sqrt(displacement));
+
+    march_sums sums = march_sums_of(camera, tile_x, tile_y);
+    double filtered[5] = {0};
+    int mixed = 0; /* gathered from the array's end, then moved behind the resolved ones */
+    for (size_t i = 0; i < water->wave_count; i++) {
+        const mgt_wave *w = &water->waves[i];
+        const frequency_range range = frequencies(&probes, w);
+        if (filter && !f->keep_filtered && range.least >= f->ramp_end) {
+            const double k2 = w->a * w->a + w->b * w->b, half = w->amplitude * w->amplitude / 2;
+            const double octave = k2 > 0 ? 0.5 * log2(k2) : 0;
+            filtered[0] += half * w->a * w->a;
+            filtered[1] += half * w->a * w->b;
+            filtered[2] += half * w->b * w->b;
+            filtered[3] += half * k2 * octave;
+            filtered[4] += half * k2 * octave * octave;
+            continue;
+        }
+        const double phase = turns(w->a * (camera->position[0] + (double)d.origin_x) + w->b * (camera->position[2] + (double)d.origin_z) +
+                                   w->c * time.middle + w->phase);
+        const WaveData data = wave_data(w, phase, time);
+        if (!filter || range.most <= f->ramp_start)
+            out->waves[out->data.resolved_count++] = data;
+        else
+            out->waves[MGT_MAX_WAVES - ++mixed] = data;
+        if (!filter || range.least < march_cycles)
+            add_march_wave(out, &sums, w, &data, range.most);
+    }
+    for (int i = 0; i < mixed; i++)
+        out->waves[out->data.resolved_count + i] = out->waves[MGT_MAX_WAVES - mixed + i];
+    out->data.mixed_count = mixed;
+    out->data.march_bound = (float)fmin(sums.amplitude, 5 * sqrt(sums.variance));
+    out->data.march_slope = (float)fmin(sums.slope, 5 * sqrt(sums.slope_variance));
+    out->data.march_bend = (float)fmin(sums.bend, 5 * sqrt(sums.bend_variance));
+    out->data.march_tolerance = (float)(isfinite(sums.shortest) ? 0.02 * sums.shortest : 1e-3);
+    out->data.march_pixels = !filter && sums.most_cycles > march_cycles;
+    out->data.filtered_xx = (float)filtered[0];
+    out->data.filtered_xz = (float)filtered[1];
+    out->data.filtered_zz = (float)filtered[2];
+    out->data.filtered_octave = (float)filtered[3];
+    out->data.filtered_octave_sq = (float)filtered[4];
+    out->data.far_distance = 1e5f;
+}
+
+bool tile_sees_water(const tile_waves *tile)
+{
+    const TileData *d = &tile->data;
+    if (d->camera_height < d->march_bound)
+        return true;
+    const float width = TILE_WIDTH, height = TILE_HEIGHT;
+    const float steep = fabsf(d->right_y) + fabsf(d->down_y); /* a pixel's margin for partly covered ones */
+    float least = d->ray_y;
+    least = fminf(least, d->ray_y + width * d->right_y);
+    least = fminf(least, d->ray_y + height * d->down_y);
+    least = fminf(least, d->ray_y + width * d->right_y + height * d->down_y);
+    return least < steep;
+}

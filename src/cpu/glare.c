@@ -1,0 +1,318 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Glare by a blur pyramid.
+ *
+ * Let U carry a level to the next finer one: quadratic B-spline subdivision, weights 3/4 and 1/4 (Chaikin 1974), which repeated gives a
+ * C¹ surface without blocks. Going down uses its transpose divided by the coarse pixel's mass m (m = Uᵀ applied to the finer masses):
+ * D = m⁻¹·Uᵀ·m'. Then Σ m·value is the same on all levels, also where an odd size leaves half a pixel over, so the
+ * picture's sum is kept exactly, and the whole spread is a symmetric operator.
+ *
+ * Each level spreads over an octave of angles. CIE's glare function falls as θ⁻³ near the source and θ⁻² far from it; with θ^−2.5
+ * an octave's share of the light falls by √2.
+ */
+#include "cpu/glare.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define MAX_LEVELS 16
+#define ROWS_PER_TASK 8
+#define BLOCK 128 /* coarse pixels a row is cut into, so that scratch fits the first cache */
+
+/* Octaves of spread as log2 of a share of the image's height: 1/512 … 1/4. */
+#define FINEST_OCTAVE (-9.0)
+#define COARSEST_OCTAVE (-2.0)
+
+typedef float lanes __attribute__((vector_size(16)));
+
+static lanes load(const float *from)
+{
+    lanes v;
+    memcpy(&v, from, sizeof v);
+    return v;
+}
+
+static void store(float *to, lanes v)
+{
+    memcpy(to, &v, sizeof v);
+}
+
+/* Rows end with room for the fourth lane of the last pixel. */
+typedef struct level {
+    size_t width, height, stride;
+    float *rgb;
+    float *across, *down; /* four weights a column, a row, on the finer pixels 2i − 1 … 2i + 2 */
+    float weight;
+} level;
+
+typedef struct pyramid {
+    size_t count;
+    level levels[MAX_LEVELS]; /* [0] has half the image's size */
+    float kept;               /* share of the image that stays */
+    void *memory;
+} pyramid;
+
+/* ---- weights -------------------------------------------------------------------------------------------- */
+
+/* ∫ 2^(−x/2) dx over the part of [centre − ½, centre + ½] that is glare. */
+static double octave_share(double centre)
+{
+    double from = fmax(centre - 0.5, FINEST_OCTAVE), to = fmin(centre + 0.5, COARSEST_OCTAVE);
+    return from < to ? exp2(-0.5 * from) - exp2(-0.5 * to) : 0.0;
+}
+
+static void weigh_levels(pyramid *p, size_t image_height, float glare)
+{
+    double all = exp2(-0.5 * FINEST_OCTAVE) - exp2(-0.5 * COARSEST_OCTAVE), spread = 0.0;
+    for (size_t k = 0; k < p->count; ++k) {
+        double share = glare * octave_share((double)(k + 1) - log2((double)image_height)) / all;
+        p->levels[k].weight = (float)share;
+        spread += share;
+    }
+    p->kept = (float)(1.0 - spread);
+}
+
+/* Weights of D along one axis, and the coarse masses. */
+static void weigh_axis(size_t fine_count, const float *fine_mass, size_t coarse_count, float *weights, float *mass)
+{
+    for (size_t i = 0; i < coarse_count; ++i) {
+        static const float subdivision[4] = {0.25f, 0.75f, 0.75f, 0.25f};
+        float *w = &weights[4 * i], sum = 0.0f;
+        for (size_t t = 0; t < 4; ++t) {
+            bool inside = 2 * i + t >= 1 && 2 * i + t - 1 < fine_count;
+            w[t] = inside ? subdivision[t] : 0.0f;
+        }
+        if (i == 0) {
+            w[1] += 0.25f; /* a fine pixel at the edge takes its whole value from the last coarse one */
+        }
+        if (i + 1 == coarse_count && 2 * i + 1 < fine_count) {
+            w[2] += 0.25f;
+        }
+        for (size_t t = 0; t < 4; ++t) {
+            if (w[t] > 0.0f) {
+                w[t] *= fine_mass ? fine_mass[2 * i + t - 1] : 1.0f;
+            }
+            sum += w[t];
+        }
+        mass[i] = sum;
+        for (size_t t = 0; t < 4; ++t) {
+            w[t] /= sum;
+        }
+    }
+}
+
+/* ---- memory --------------------------------------------------------------------------------------------- */
+
+/* Levels are added while they count and can still be halved. */
+static void size_levels(pyramid *p, size_t width, size_t height)
+{
+    double octave = 1.0 - log2((double)height);
+    for (p->count = 0; p->count < MAX_LEVELS && width > 1 && height > 1 && octave - 0.5 < COARSEST_OCTAVE; ++p->count) {
+        level *l = &p->levels[p->count];
+        width = (width + 1) / 2;
+        height = (height + 1) / 2;
+        octave += 1.0;
+        l->width = width;
+        l->height = height;
+        l->stride = 3 * width + 4;
+    }
+}
+
+static bool allocate_levels(pyramid *p, size_t width, size_t height)
+{
+    size_t total = 0;
+    for (size_t k = 0; k < p->count; ++k) {
+        const level *l = &p->levels[k];
+        if (l->stride > SIZE_MAX / 64 / l->height) {
+            return false;
+        }
+        total += l->stride * l->height + 5 * (l->width + l->height);
+    }
+    float *next = malloc(total * sizeof(float));
+    if (!next) {
+        return false;
+    }
+    p->memory = next;
+    const float *mass_x = NULL, *mass_y = NULL;
+    for (size_t k = 0; k < p->count; ++k) {
+        level *l = &p->levels[k];
+        l->rgb = next;
+        next += l->stride * l->height;
+        l->across = next;
+        l->down = l->across + 4 * l->width;
+        float *coarse_x = l->down + 4 * l->height, *coarse_y = coarse_x + l->width;
+        next = coarse_y + l->height;
+        weigh_axis(k ? p->levels[k - 1].width : width, mass_x, l->width, l->across, coarse_x);
+        weigh_axis(k ? p->levels[k - 1].height : height, mass_y, l->height, l->down, coarse_y);
+        mass_x = coarse_x;
+        mass_y = coarse_y;
+    }
+    return true;
+}
+
+/* ---- down: D ---------------------------------------------------------------------------------------------- */
+
+typedef struct down_job {
+    const float *fine;
+    size_t fine_width, fine_height, fine_stride;
+    level *coarse;
+} down_job;
+
+static void down_row(const down_job *job, size_t row)
+{
+    const level *coarse = job->coarse;
+    const float *weight = &coarse->down[4 * row];
+    const float *source[4];
+    for (size_t t = 0; t < 4; ++t) {
+        size_t y = 2 * row + t > 0 ? 2 * row + t - 1 : 0;
+        source[t] = job->fine + (y < job->fine_height ? y : job->fine_height - 1) * job->fine_stride;
+    }
+    float *out = coarse->rgb + row * coarse->stride;
+    for (size_t from = 0; from < coarse->width; from += BLOCK) {
+        size_t count = coarse->width - from < BLOCK ? coarse->width - from : BLOCK;
+        float mixed[3 * (2 * BLOCK + 2) + 4]; /* fine pixels 2·from − 1 …, zero beyond the edges */
+        size_t first = from ? 2 * from - 1 : 0, last = 2 * (from + count) + 1; /* one past */
+        if (last > job->fine_width) {
+            last = job->fine_width;
+        }
+        size_t offset = from ? 0 : 3, length = 3 * (last - first), i = 0;
+        memset(mixed, 0, 3 * sizeof(float));
+        const float *s0 = source[0] + 3 * first, *s1 = source[1] + 3 * first, *s2 = source[2] + 3 * first, *s3 = source[3] + 3 * first;
+        for (; i + 4 <= length; i += 4) {
+            store(mixed + offset + i, (weight[0] * load(s0 + i) + weight[1] * load(s1 + i)) +
+                                          (weight[2] * load(s2 + i) + weight[3] * load(s3 + i)));
+        }
+        for (; i < length; ++i) {
+            mixed[offset + i] = (weight[0] * s0[i] + weight[1] * s1[i]) + (weight[2] * s2[i] + weight[3] * s3[i]);
+        }
+        memset(mixed + offset + length, 0, sizeof mixed - (offset + length) * sizeof(float));
+        for (size_t x = 0; x < count; ++x) {
+            const float *w = &coarse->across[4 * (from + x)], *m = &mixed[6 * x];
+            store(out + 3 * (from + x), (w[0] * load(m) + w[1] * load(m + 3)) + (w[2] * load(m + 6) + w[3] * load(m + 9)));
+        }
+    }
+}
+
+static void down_task(void *arg, size_t index)
+{
+    const down_job *job = arg;
+    size_t end = (index + 1) * ROWS_PER_TASK;
+    for (size_t row = index * ROWS_PER_TASK; row < end && row < job->coarse->height; ++row) {
+        down_row(job, row);
+    }
+}
+
+/* ---- up: fine := keep·fine + gain·U·coarse ---------------------------------------------------------------- */
+
+typedef struct up_job {
+    float *fine;
+    size_t fine_width, fine_height, fine_stride;
+    const level *coarse;
+    float keep, gain;
+} up_job;
+
+static void up_row(const up_job *job, size_t row)
+{
+    const level *coarse = job->coarse;
+    size_t near = row / 2, far = row % 2 ? near + 1 : near - 1; /* wraps at row 0: clamped next */
+    if (far >= coarse->height) {
+        far = near;
+    }
+    const float *a = coarse->rgb + near * coarse->stride, *b = coarse->rgb + far * coarse->stride;
+    float *fine = job->fine + row * job->fine_stride;
+    float near_gain = 0.75f * job->gain, far_gain = 0.25f * job->gain, keep = job->keep;
+    for (size_t from = 0; from < coarse->width; from += BLOCK) {
+        size_t count = coarse->width - from < BLOCK ? coarse->width - from : BLOCK;
+        float mixed[3 * (BLOCK + 2) + 4], spread[6 * BLOCK + 4]; /* coarse pixels from − 1 … from + count, fine ones from 2·from */
+        size_t first = from ? from - 1 : 0, last = from + count < coarse->width ? from + count + 1 : coarse->width;
+        size_t offset = from ? 0 : 3, length = 3 * (last - first);
+        for (size_t i = 0; i < length; i += 4) { /* the rows' room at the end bears the overshoot */
+            store(mixed + offset + i, near_gain * load(a + 3 * first + i) + far_gain * load(b + 3 * first + i));
+        }
+        if (from == 0) {
+            memcpy(mixed, mixed + 3, 3 * sizeof(float));
+        }
+        if (last == from + count) {
+            memcpy(mixed + offset + length, mixed + offset + length - 3, 3 * sizeof(float));
+        }
+        mixed[3 * (count + 2)] = 0.0f; /* read by the last pixel's fourth lane, then dropped */
+        for (size_t x = 0; x < count; ++x) {
+            const float *m = &mixed[3 * x];
+            lanes centre = 0.75f * load(m + 3);
+            store(spread + 6 * x, centre + 0.25f * load(m));
+            store(spread + 6 * x + 3, centre + 0.25f * load(m + 6));
+        }
+        size_t end = 2 * (from + count) < job->fine_width ? 2 * (from + count) : job->fine_width;
+        float *out = fine + 6 * from;
+        size_t floats = 3 * end - 6 * from, i = 0;
+        for (; i + 4 <= floats; i += 4) {
+            store(out + i, keep * load(out + i) + load(spread + i));
+        }
+        for (; i < floats; ++i) {
+            out[i] = keep * out[i] + spread[i];
+        }
+    }
+}
+
+static void up_task(void *arg, size_t index)
+{
+    const up_job *job = arg;
+    size_t end = (index + 1) * ROWS_PER_TASK;
+    for (size_t row = index * ROWS_PER_TASK; row < end && row < job->fine_height; ++row) {
+        up_row(job, row);
+    }
+}
+
+/* ---- interface ------------------------------------------------------------------------------------------ */
+
+static void serial_for(void *user, size_t count, void (*body)(void *arg, size_t index), void *arg)
+{
+    (void)user;
+    for (size_t i = 0; i < count; ++i) {
+        body(arg, i);
+    }
+}
+
+static size_t tasks(size_t rows)
+{
+    return (rows + ROWS_PER_TASK - 1) / ROWS_PER_TASK;
+}
+
+mgt_status glare_apply(float *rgb, size_t width, size_t height, size_t row_stride, float glare, glare_parallel_for parallel_for,
+                       void *user)
+{
+    pyramid p;
+    memset(&p, 0, sizeof p);
+    if (width > 1 && height > 1 && glare > 0.0f) {
+        size_levels(&p, width, height);
+    }
+    if (p.count == 0) {
+        return MGT_OK;
+    }
+    if (!allocate_levels(&p, width, height)) {
+        return MGT_ERROR_MEMORY;
+    }
+    glare_parallel_for run = parallel_for ? parallel_for : serial_for;
+    weigh_levels(&p, height, fminf(glare, 1.0f));
+    for (size_t k = 0; k < p.count; ++k) {
+        const level *finer = k ? &p.levels[k - 1] : NULL;
+        down_job job = {rgb, width, height, row_stride, &p.levels[k]};
+        if (finer) {
+            job = (down_job){finer->rgb, finer->width, finer->height, finer->stride, &p.levels[k]};
+        }
+        run(user, tasks(p.levels[k].height), down_task, &job);
+    }
+    float gain = p.levels[p.count - 1].weight;
+    for (size_t k = p.count; k-- > 0; gain = 1.0f) {
+        level *finer = k ? &p.levels[k - 1] : NULL;
+        up_job job = {rgb, width, height, row_stride, &p.levels[k], p.kept, gain};
+        if (finer) {
+            job = (up_job){finer->rgb, finer->width, finer->height, finer->stride, &p.levels[k], finer->weight, gain};
+        }
+        run(user, tasks(job.fine_height), up_task, &job);
+    }
+    free(p.memory);
+    return MGT_OK;
+}

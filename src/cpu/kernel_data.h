@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: MIT
+ * The uniform structs of the kernels, seen from ordinary C. */
+#ifndef MANGATA_CPU_KERNEL_DATA_H
+#define MANGATA_CPU_KERNEL_DATA_H
+
+#define STRUCT(name)          \
+    typedef struct name name; \
+    struct name
+#include "kernels/types.k"
+#undef STRUCT
+
+_Static_assert(sizeof(FrameData) % 16 == 0, "std140 layout");
+_Static_assert(sizeof(TileData) % 16 == 0, "std140 layout");
+_Static_assert(sizeof(WaveData) == 80, "std140 layout");
+_Static_assert(sizeof(MarchWave) == 16, "std140 layout");
+
+/* What a kernel can reach through its accessors. */
+struct kernel_context {
+    const FrameData *frame;
+    const TileData *tile;
+    const WaveData *waves;
+    const MarchWave *march;
+    const float *sky; /* SKY_ROWS × SKY_COLUMNS × 3 */
+};
+
+#endif

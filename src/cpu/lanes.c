@@ -1,0 +1,317 @@
+/* SPDX-License-Identifier: MIT
+ * The kernels over the pixels of a tile, compiled once per lane width (MGT_LANES).
+ *
+ * Whatever the width, a pixel sees the same operations in the same order: the bits do not depend on it. */
+#include "cpu/lanes.h"
+
+#include <math.h>
+
+#include "precompute/atmosphere.h"
+
+#define LANES_NAME_(n) lane_kernels_##n
+#define LANES_NAME(n) LANES_NAME_(n)
+static const float infinity = INFINITY;
+
+#include "kernels/prelude_c.h"
+
+#define FRAME(cx) (*(cx)->frame)
+#define TILE(cx) (*(cx)->tile)
+#define WAVE(cx, i) ((cx)->waves[i])
+#define MARCH_WAVE(cx, i) ((cx)->march[i])
+
+KERNEL vec3 SKY_TEXEL(CTX cx, real column, real row)
+{
+    const real index = real_fma(row, real_broadcast(SKY_COLUMNS), column);
+#if MGT_LANES == 1
+    const float *texel = cx->sky + 3 * (int)index;
+    return (vec3){texel[0], texel[1], texel[2]};
+#else
+    const mask at = __builtin_convertvector(index, mask) * 3;
+#if MGT_LANES == 16
+    return (vec3){(real)_mm512_i32gather_ps((__m512i)at, cx->sky, 4), (real)_mm512_i32gather_ps((__m512i)at, cx->sky + 1, 4),
+                  (real)_mm512_i32gather_ps((__m512i)at, cx->sky + 2, 4)};
+#elif MGT_LANES == 8
+    return (vec3){(real)_mm256_i32gather_ps(cx->sky, (__m256i)at, 4), (real)_mm256_i32gather_ps(cx->sky + 1, (__m256i)at, 4),
+                  (real)_mm256_i32gather_ps(cx->sky + 2, (__m256i)at, 4)};
+#else
+    vec3 texel;
+    for (int i = 0; i < MGT_LANES; i++) {
+        texel.x[i] = cx->sky[at[i]];
+        texel.y[i] = cx->sky[at[i] + 1];
+        texel.z[i] = cx->sky[at[i] + 2];
+    }
+    return texel;
+#endif
+#endif
+}
+
+#include "kernels/glitter.k"
+#include "kernels/podee.k"
+#include "kernels/sample.k"
+#include "kernels/tone.k"
+
+/* ---- loads and stores ---- */
+
+static inline real load(const float *p)
+{
+#if MGT_LANES == 1
+    return *p;
+#else
+    real r;
+    __builtin_memcpy(&r, p, sizeof r);
+    return r;
+#endif
+}
+
+static inline void store(float *p, real r)
+{
+    __builtin_memcpy(p, &r, sizeof r);
+}
+
+/* 0, 1, 2, … for the lanes. */
+static inline real lane_numbers(void)
+{
+    static const float numbers[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+    return load(numbers);
+}
+
+static inline HitGuess load_guess(const tile_guess *guess, size_t i)
+{
+    return (HitGuess){load(guess->height + i), load(guess->from + i), load(guess->march + i)};
+}
+
+/* ---- first-hit lattice ---- */
+
+typedef struct tile_nodes {
+    float along[NODE_PADDED], height[NODE_PADDED], slope_x[NODE_PADDED], slope_z[NODE_PADDED], found[NODE_PADDED];
+} tile_nodes;
+
+static void march_nodes(const struct kernel_context *cx, tile_nodes *nodes)
+{
+    float column[NODE_PADDED], row[NODE_PADDED];
+    for (int i = 0; i < NODE_PADDED; i++) {
+        const int node = i < NODE_COUNT ? i : NODE_COUNT - 1;
+        column[i] = (float)(node % NODE_COLUMNS * NODE_STEP);
+        row[i] = (float)(node / NODE_COLUMNS * NODE_STEP);
+    }
+    for (int i = 0; i < NODE_PADDED; i += MGT_LANES) {
+        const NodeHit hit = node_hit(cx, pixel_ray_at(cx, load(column + i), load(row + i)));
+        store(nodes->along + i, hit.along);
+        store(nodes->height + i, hit.height);
+        store(nodes->slope_x + i, hit.slope.x);
+        store(nodes->slope_z + i, hit.slope.y);
+        store(nodes->found + i, hit.found);
+    }
+}
+
+typedef struct node_ray {
+    float x, y, z;
+} node_ray;
+
+static node_ray ray_of(const TileData *t, int node)
+{
+    const float column = (float)(node % NODE_COLUMNS * NODE_STEP), row = (float)(node / NODE_COLUMNS * NODE_STEP);
+    return (node_ray){t->ray_x + column * t->right_x + row * t->down_x, t->ray_y + column * t->right_y + row * t->down_y,
+                      t->ray_z + column * t->right_z + row * t->down_z};
+}
+
+/* Whether the tangent plane at node `from` leads to what node `to` found. Where it does not, a crest may stand between. */
+static bool nodes_agree(const TileData *t, const tile_nodes *nodes, int from, int to)
+{
+    const node_ray a = ray_of(t, from), b = ray_of(t, to);
+    const float sx = nodes->slope_x[from], sz = nodes->slope_z[from], along = nodes->along[from];
+    const float base = nodes->height[from] - along * (sx * a.x + sz * a.z);
+    const float closing = sx * b.x + sz * b.z - b.y;
+    const float level = t->camera_height - base;
+    const float tolerance = 0.02f * nodes->along[to];
+    return closing > 0 && nodes->found[from] > 0 && nodes->found[to] > 0 && __builtin_fabsf(level - nodes->along[to] * closing) < tolerance * closing;
+}
+
+/* Rays so steep that no wave can hide another need no second look. */
+static bool tile_may_occlude(const TileData *t)
+{
+    for (int corner = 0; corner < 4; corner++) {
+        const node_ray r = ray_of(t, (corner & 1 ? NODE_COLUMNS - 1 : 0) + (corner & 2 ? NODE_COUNT - NODE_COLUMNS : 0));
+        if (r.y * r.y < t->march_slope * t->march_slope * (r.x * r.x + r.z * r.z) || r.y >= 0)
+            return true;
+    }
+    return false;
+}
+
+static void guess_cell(const TileData *t, const tile_nodes *nodes, bool may_occlude, int cell_x, int cell_y, tile_guess *guess)
+{
+    const int n00 = cell_y * NODE_COLUMNS + cell_x, n10 = n00 + 1, n01 = n00 + NODE_COLUMNS, n11 = n01 + 1;
+    float march = 0, from = 0;
+    if (may_occlude) {
+        const bool agree = nodes_agree(t, nodes, n00, n10) && nodes_agree(t, nodes, n10, n00) && nodes_agree(t, nodes, n01, n11) &&
+                           nodes_agree(t, nodes, n11, n01) && nodes_agree(t, nodes, n00, n01) && nodes_agree(t, nodes, n01, n00) &&
+                           nodes_agree(t, nodes, n10, n11) && nodes_agree(t, nodes, n11, n10);
+        const bool any = nodes->found[n00] + nodes->found[n10] + nodes->found[n01] + nodes->found[n11] > 0;
+        march = any && !agree ? 1.0f : 0.0f;
+        from = __builtin_fminf(__builtin_fminf(nodes->along[n00], nodes->along[n10]), __builtin_fminf(nodes->along[n01], nodes->along[n11]));
+    }
+    for (int y = 0; y < NODE_STEP; y++) {
+        const float v = (float)y / NODE_STEP;
+        const float left = nodes->height[n00] * (1 - v) + nodes->height[n01] * v;
+        const float right = nodes->height[n10] * (1 - v) + nodes->height[n11] * v;
+        for (int x = 0; x < NODE_STEP; x++) {
+            const float u = (float)x / NODE_STEP;
+            const int i = (cell_y * NODE_STEP + y) * TILE_WIDTH + cell_x * NODE_STEP + x;
+            guess->height[i] = left * (1 - u) + right * u;
+            guess->march[i] = march;
+            guess->from[i] = from;
+        }
+    }
+}
+
+static void lanes_guess(const FrameData *frame, const tile_waves *tile, tile_guess *guess)
+{
+    const struct kernel_context cx = {frame, &tile->data, tile->waves, tile->march, NULL};
+    if (tile->data.march_pixels) {
+        *guess = (tile_guess){0};
+        for (int i = 0; i < TILE_PIXELS; i++)
+            guess->march[i] = 1;
+        return;
+    }
+    tile_nodes nodes;
+    march_nodes(&cx, &nodes);
+    for (int i = 0; i < NODE_COUNT; i++)
+        if (!(nodes.found[i] > 0))
+            nodes.height[i] = 0;
+    const bool may_occlude = tile_may_occlude(&tile->data);
+    for (int y = 0; y < NODE_ROWS - 1; y++)
+        for (int x = 0; x < NODE_COLUMNS - 1; x++)
+            guess_cell(&tile->data, &nodes, may_occlude, x, y, guess);
+}
+
+/* ---- methods ---- */
+
+static inline void accumulate(float *p, real value, float weight)
+{
+    store(p, load(p) + value * weight);
+}
+
+static void lanes_sample(const FrameData *frame, const float *sky, const tile_waves *tile, const tile_guess *guess, const float *dx,
+                         const float *dy, float weight, tile_pixels *out)
+{
+    const struct kernel_context context = {frame, &tile->data, tile->waves, tile->march, sky};
+    for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
+        real column = lane_numbers() + (float)(i % TILE_WIDTH);
+        real row = real_broadcast((float)(i / TILE_WIDTH));
+        if (dx) {
+            column = column + load(dx + i);
+            row = row + load(dy + i);
+        }
+        const PixelResult p = sample_pixel(&context, column, row, load_guess(guess, i));
+        accumulate(out->red + i, p.color.x, weight);
+        accumulate(out->green + i, p.color.y, weight);
+        accumulate(out->blue + i, p.color.z, weight);
+        accumulate(out->coverage + i, p.coverage, weight);
+        accumulate(out->water + i, p.water, weight);
+    }
+}
+
+static PixelResult nothing_but_sky(const struct kernel_context *cx, PixelRay p)
+{
+    PixelResult result = {vec3(real(0.0f), real(0.0f), real(0.0f)), real(0.0f), real(0.0f)};
+    if (FRAME(cx).want_color != 0)
+        result.color = background(cx, p.sky_ray);
+    return result;
+}
+
+static void store_pixels(tile_pixels *out, size_t i, PixelResult p)
+{
+    store(out->red + i, p.color.x);
+    store(out->green + i, p.color.y);
+    store(out->blue + i, p.color.z);
+    store(out->coverage + i, p.coverage);
+    store(out->water + i, p.water);
+}
+
+static void lanes_filtered(const FrameData *frame, const float *sky, mgt_method method, const tile_waves *close, const tile_guess *close_guess,
+                           const tile_waves *open, const tile_guess *open_guess, tile_pixels *out)
+{
+    const struct kernel_context context = {frame, &close->data, close->waves, close->march, sky};
+    struct kernel_context open_context = context;
+    if (open)
+        open_context.tile = &open->data, open_context.waves = open->waves, open_context.march = open->march;
+    for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
+        const real column = lane_numbers() + (float)(i % TILE_WIDTH);
+        const real row = real_broadcast((float)(i / TILE_WIDTH));
+        const PixelRay p = pixel_ray_filtered(&context, column, row);
+        if (!any_lane(p.water > real(0.0f))) {
+            store_pixels(out, i, nothing_but_sky(&context, p));
+            continue;
+        }
+        if (method == MGT_METHOD_MANGATA) {
+            const SlopeState state = slope_state(&context, p.ray, load_guess(close_guess, i));
+            SlopeState before = state;
+            if (open)
+                before = slope_state(&open_context, pixel_ray_filtered(&open_context, column, row).ray, load_guess(open_guess, i));
+            store_pixels(out, i, glitter_result(&context, p, before, state));
+        } else {
+            const PodeeState state = podee_state(&context, p.ray, load_guess(close_guess, i));
+            PodeeState before = state;
+            if (open)
+                before = podee_state(&open_context, pixel_ray_filtered(&open_context, column, row).ray, load_guess(open_guess, i));
+            store_pixels(out, i, podee_result(&context, p, before, state));
+        }
+    }
+}
+
+static void store_normal(tile_surface *out, size_t i, vec2 slope, mask water)
+{
+    const vec3 normal = normalize(vec3(real(0.0f) - slope.x, real(1.0f), real(0.0f) - slope.y));
+    store(out->normal_x + i, SELECT(water, normal.x, real(0.0f)));
+    store(out->normal_y + i, SELECT(water, normal.y, real(0.0f)));
+    store(out->normal_z + i, SELECT(water, normal.z, real(0.0f)));
+}
+
+static void lanes_surface(const FrameData *frame, const tile_waves *tile, const tile_guess *guess, tile_surface *out)
+{
+    const struct kernel_context context = {frame, &tile->data, tile->waves, tile->march, NULL};
+    for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
+        const vec3 ray = pixel_ray_at(&context, lane_numbers() + (float)(i % TILE_WIDTH), real_broadcast((float)(i / TILE_WIDTH)));
+        const SampleHit hit = sample_hit(&context, ray, load_guess(guess, i));
+        const mask water = hit.found > real(0.0f);
+        store(out->along + i, SELECT(water, hit.along * sqrt(length_squared(ray)), real(infinity)));
+        store_normal(out, i, hit.slope, water);
+    }
+}
+
+static void lanes_filtered_normal(const FrameData *frame, const tile_waves *tile, const tile_guess *guess, tile_surface *out)
+{
+    const struct kernel_context context = {frame, &tile->data, tile->waves, tile->march, NULL};
+    for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
+        const PixelRay p = pixel_ray_filtered(&context, lane_numbers() + (float)(i % TILE_WIDTH), real_broadcast((float)(i / TILE_WIDTH)));
+        const SlopeState state = slope_state(&context, p.ray, load_guess(guess, i));
+        store_normal(out, i, state.close, p.water > real(0.0f));
+    }
+}
+
+/* ---- display ---- */
+
+static void lanes_display(const FrameData *frame, const float *rgb, uint8_t *rgba, size_t count)
+{
+    const struct kernel_context context = {frame, NULL, NULL, NULL, NULL};
+    for (size_t i = 0; i < count; i += MGT_LANES) {
+        const size_t valid = count - i < MGT_LANES ? count - i : MGT_LANES;
+        float channel[3][MGT_LANES] = {{0}};
+        for (size_t lane = 0; lane < valid; lane++)
+            for (int c = 0; c < 3; c++)
+                channel[c][lane] = rgb[3 * (i + lane) + (size_t)c];
+        const vec3 shown = display_color(&context, vec3(load(channel[0]), load(channel[1]), load(channel[2])), frame->tone_map);
+        store(channel[0], shown.x);
+        store(channel[1], shown.y);
+        store(channel[2], shown.z);
+        for (size_t lane = 0; lane < valid; lane++) {
+            for (int c = 0; c < 3; c++)
+                rgba[4 * (i + lane) + (size_t)c] = (uint8_t)(channel[c][lane] * 255.0f + 0.5f);
+            rgba[4 * (i + lane) + 3] = 255;
+        }
+    }
+}
+
+const lane_kernels LANES_NAME(MGT_LANES) = {
+    MGT_LANES, lanes_guess, lanes_sample, lanes_filtered, lanes_surface, lanes_filtered_normal, lanes_display,
+};

@@ -1,0 +1,75 @@
+/* SPDX-License-Identifier: MIT
+ * The functions that are compiled once per lane width, and the tile they work on. */
+#ifndef MANGATA_CPU_LANES_H
+#define MANGATA_CPU_LANES_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "cpu/kernel_data.h"
+#include "mangata/mangata.h"
+
+/* Tiles of one fixed lattice of the whole image, whatever the crop; nodes of the hit lattice lie on their edges too. */
+enum {
+    TILE_WIDTH = 32,
+    TILE_HEIGHT = 16,
+    TILE_PIXELS = TILE_WIDTH * TILE_HEIGHT,
+    NODE_STEP = 4,
+    NODE_COLUMNS = TILE_WIDTH / NODE_STEP + 1,
+    NODE_ROWS = TILE_HEIGHT / NODE_STEP + 1,
+    NODE_COUNT = NODE_COLUMNS * NODE_ROWS,
+    NODE_PADDED = (NODE_COUNT + 15) / 16 * 16,
+};
+
+/* The waves of a tile at one instant or over one shutter interval, for one camera. */
+typedef struct tile_waves {
+    TileData data;
+    WaveData waves[MGT_MAX_WAVES];
+    MarchWave march[MGT_MAX_WAVES];
+} tile_waves;
+
+/* Where the first hits are looked for, a value per pixel (see HitGuess in pixel.k). */
+typedef struct tile_guess {
+    float height[TILE_PIXELS];
+    float from[TILE_PIXELS];
+    float march[TILE_PIXELS];
+} tile_guess;
+
+typedef struct tile_pixels {
+    float red[TILE_PIXELS], green[TILE_PIXELS], blue[TILE_PIXELS];
+    float coverage[TILE_PIXELS];
+    float water[TILE_PIXELS];
+} tile_pixels;
+
+typedef struct tile_surface {
+    float along[TILE_PIXELS]; /* metres along the ray; +inf without water */
+    float normal_x[TILE_PIXELS], normal_y[TILE_PIXELS], normal_z[TILE_PIXELS];
+} tile_surface;
+
+typedef struct lane_kernels {
+    uint32_t lanes;
+    /* Marches the tile's nodes and fills the guesses of its pixels. */
+    void (*guess)(const FrameData *frame, const tile_waves *tile, tile_guess *guess);
+    /* One sample a pixel at (x + dx, y + dy), dx and dy in pixels from its centre (NULL: 0); adds weight × result to `out`. */
+    void (*sample)(const FrameData *frame, const float *sky, const tile_waves *tile, const tile_guess *guess, const float *dx,
+                   const float *dy, float weight, tile_pixels *out);
+    /* Filtered methods; `open` is NULL unless the camera moves. */
+    void (*filtered)(const FrameData *frame, const float *sky, mgt_method method, const tile_waves *close, const tile_guess *close_guess,
+                     const tile_waves *open, const tile_guess *open_guess, tile_pixels *out);
+    /* Depth and normal at one instant. */
+    void (*surface)(const FrameData *frame, const tile_waves *tile, const tile_guess *guess, tile_surface *out);
+    /* The mean shading normal of filtered methods instead, from a tile with resolved and mixed waves at one instant. */
+    void (*filtered_normal)(const FrameData *frame, const tile_waves *tile, const tile_guess *guess, tile_surface *out);
+    /* Displayed colour: `count` pixels of 3 floats to 4 bytes. */
+    void (*display)(const FrameData *frame, const float *rgb, uint8_t *rgba, size_t count);
+} lane_kernels;
+
+extern const lane_kernels lane_kernels_1;
+extern const lane_kernels lane_kernels_4;
+#if defined(__x86_64__)
+extern const lane_kernels lane_kernels_8;
+extern const lane_kernels lane_kernels_16;
+#endif
+
+#endif

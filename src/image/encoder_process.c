@@ -1,0 +1,357 @@
+/* SPDX-License-Identifier: MIT */
+/* Running ffmpeg: start, feed, finish, kill. */
+#define _GNU_SOURCE /* memfd_create, asprintf */
+
+#include "image/encoder_process.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+extern char **environ;
+
+enum { WAIT_STEP_MS = 100, FIXED_ARGUMENTS = 64 };
+
+struct encoder_process {
+    pid_t pid;   /* 0: reaped */
+    int input;   /* our end of the socket that is ffmpeg's stdin */
+    int messages; /* memory file that is ffmpeg's stderr */
+    const char *path;
+    const output_file *file;
+};
+
+/* ---- finding and starting ---- */
+
+/* First executable regular file of that name on the PATH; empty parts (the current folder) are passed over. NULL: none. */
+static char *find_program(const char *name)
+{
+    const char *paths = getenv("PATH");
+    if (!paths)
+        paths = "/usr/local/bin:/usr/bin:/bin";
+    while (*paths) {
+        size_t length = strcspn(paths, ":");
+        char *candidate = NULL;
+        struct stat info;
+        if (length > 0 && asprintf(&candidate, "%.*s/%s", (int)length, paths, name) >= 0) {
+            if (stat(candidate, &info) == 0 && S_ISREG(info.st_mode) && access(candidate, X_OK) == 0)
+                return candidate;
+            free(candidate);
+        }
+        paths += length + (paths[length] == ':');
+    }
+    return NULL;
+}
+
+/* A list of arguments that owns its strings; `failed` once any allocation did. */
+typedef struct argument_list {
+    char **items;
+    size_t count, capacity;
+    bool failed;
+} argument_list;
+
+static void add_argument(argument_list *list, char *owned)
+{
+    if (!owned || list->count + 1 >= list->capacity) {
+        free(owned);
+        list->failed = true;
+        return;
+    }
+    list->items[list->count++] = owned;
+}
+
+static void free_arguments(argument_list *list)
+{
+    for (size_t i = 0; i < list->count; i++)
+        free(list->items[i]);
+    free(list->items);
+    *list = (argument_list){0};
+}
+
+static char *format_text(const char *format, ...) __attribute__((format(printf, 1, 2)));
+static char *format_text(const char *format, ...)
+{
+    char *text = NULL;
+    va_list arguments;
+    va_start(arguments, format);
+    if (vasprintf(&text, format, arguments) < 0)
+        text = NULL;
+    va_end(arguments);
+    return text;
+}
+
+/* x264's result depends on its number of threads, so it is fixed; bitexact keeps times and versions of the muxer out. */
+static argument_list encoder_arguments(const encoder_desc *desc)
+{
+    static const char *const before[] = {"ffmpeg", "-nostdin", "-hide_banner", "-loglevel", "error", "-xerror", "-y",
+                                         "-f", "rawvideo", "-pix_fmt", "yuv420p", "-color_range", "tv", "-colorspace", "bt709",
+                                         "-color_primaries", "bt709", "-color_trc", "bt709"};
+    static const char *const after[] = {"-i", "pipe:0", "-map", "0:v:0", "-c:v", "libx264", "-preset", "fast", "-crf", "16",
+                                        "-pix_fmt", "yuv420p", "-threads", "4", "-x264-params", "lookahead-threads=1",
+                                        "-color_range", "tv", "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc",
+                                        "bt709", "-fflags", "+bitexact", "-flags:v", "+bitexact", "-map_metadata", "-1",
+                                        "-movflags", "+faststart+use_metadata_tags", "-f", "mp4"};
+    size_t tags = desc->metadata ? desc->metadata->count : 0;
+    argument_list list = {.capacity = FIXED_ARGUMENTS + sizeof before / sizeof *before + sizeof after / sizeof *after + 2 * tags};
+    list.items = calloc(list.capacity, sizeof *list.items);
+    if (!list.items) {
+        list.failed = true;
+        return list;
+    }
+    for (size_t i = 0; i < sizeof before / sizeof *before; i++)
+        add_argument(&list, strdup(before[i]));
+    add_argument(&list, strdup("-video_size"));
+    add_argument(&list, format_text("%ux%u", desc->width, desc->height));
+    add_argument(&list, strdup("-framerate"));
+    add_argument(&list, format_text("%u/%u", desc->rate_numerator, desc->rate_denominator));
+    for (size_t i = 0; i < sizeof after / sizeof *after; i++)
+        add_argument(&list, strdup(after[i]));
+    for (size_t i = 0; i < tags; i++) {
+        add_argument(&list, strdup("-metadata"));
+        add_argument(&list, format_text("%s=%s", desc->metadata->entries[i].key, desc->metadata->entries[i].value));
+    }
+    /* "file:" so that a colon in a folder's name is no protocol. */
+    add_argument(&list, format_text("file:%s", output_file_temporary_path(desc->file)));
+    return list;
+}
+
+/* posix_spawn with our socket as stdin, the memory file as stderr, signals back to their defaults. 0 or an errno. */
+static int spawn(pid_t *pid, const char *program, char *const *arguments, int input, int messages)
+{
+    posix_spawn_file_actions_t actions;
+    posix_spawnattr_t attributes;
+    sigset_t none, all;
+    sigemptyset(&none);
+    sigfillset(&all);
+    int code = posix_spawn_file_actions_init(&actions);
+    if (code)
+        return code;
+    code = posix_spawnattr_init(&attributes);
+    if (code) {
+        posix_spawn_file_actions_destroy(&actions);
+        return code;
+    }
+    code = posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
+    if (!code)
+        code = posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    if (!code)
+        code = posix_spawn_file_actions_adddup2(&actions, messages, STDERR_FILENO);
+    if (!code)
+        code = posix_spawnattr_setpgroup(&attributes, 0);
+    if (!code)
+        code = posix_spawnattr_setsigmask(&attributes, &none);
+    if (!code)
+        code = posix_spawnattr_setsigdefault(&attributes, &all);
+    if (!code)
+        code = posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+    if (!code)
+        code = posix_spawn(pid, program, &actions, &attributes, arguments, environ);
+    posix_spawnattr_destroy(&attributes);
+    posix_spawn_file_actions_destroy(&actions);
+    return code;
+}
+
+file_status encoder_process_start(encoder_process **result, const encoder_desc *desc, file_error *error)
+{
+    *result = NULL;
+    file_status status = FILE_OK;
+    int ends[2] = {-1, -1};
+    argument_list arguments = {0};
+    char *program = find_program("ffmpeg");
+    if (!program)
+        return file_error_set(error, FILE_UNAVAILABLE, "%s: ffmpeg, which writes .mp4, is not on the PATH; .y4m needs none",
+                              desc->path);
+    encoder_process *process = calloc(1, sizeof *process);
+    if (!process) {
+        status = file_error_errno(error, FILE_MEMORY, desc->path, NULL, ENOMEM);
+        goto fail;
+    }
+    process->input = process->messages = -1;
+    process->path = desc->path;
+    process->file = desc->file;
+    arguments = encoder_arguments(desc);
+    if (arguments.failed) {
+        status = file_error_errno(error, FILE_MEMORY, desc->path, NULL, ENOMEM);
+        goto fail;
+    }
+    /* A socket, not a pipe: send() can be told not to raise SIGPIPE, so that nobody's handlers are touched. */
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0 ||
+        (process->messages = memfd_create("ffmpeg", MFD_CLOEXEC)) < 0) {
+        status = file_error_errno(error, FILE_WRITE, desc->path, "cannot start ffmpeg", errno);
+        goto fail;
+    }
+    int code = spawn(&process->pid, program, arguments.items, ends[1], process->messages);
+    if (code) {
+        process->pid = 0;
+        status = file_error_errno(error, FILE_UNAVAILABLE, desc->path, "cannot start ffmpeg", code);
+        goto fail;
+    }
+    process->input = ends[0];
+    ends[0] = -1;
+    *result = process;
+    process = NULL;
+
+fail:
+    if (ends[0] >= 0)
+        close(ends[0]);
+    if (ends[1] >= 0)
+        close(ends[1]);
+    encoder_process_abort(process);
+    free_arguments(&arguments);
+    free(program);
+    return status;
+}
+
+/* ---- ending ---- */
+
+/* Waits without end, but heeds the cancel flag. *exit_status is as waitpid gives it. */
+static file_status wait_for_exit(encoder_process *process, int *exit_status, file_error *error)
+{
+    for (long wait_ms = 1;; wait_ms = wait_ms < WAIT_STEP_MS ? wait_ms * 2 : WAIT_STEP_MS) {
+        pid_t reaped = waitpid(process->pid, exit_status, WNOHANG);
+        if (reaped == process->pid) {
+            process->pid = 0;
+            return FILE_OK;
+        }
+        if (reaped < 0 && errno != EINTR)
+            return file_error_errno(error, FILE_WRITE, process->path, "cannot wait for ffmpeg", errno);
+        file_status status = output_file_check_cancel(process->file, error);
+        if (status != FILE_OK)
+            return status;
+        struct timespec pause = {.tv_sec = 0, .tv_nsec = wait_ms * 1000000};
+        nanosleep(&pause, NULL);
+    }
+}
+
+/* Last line that ffmpeg wrote to stderr. */
+static void last_message(const encoder_process *process, char *text, size_t capacity)
+{
+    struct stat info;
+    text[0] = '\0';
+    if (fstat(process->messages, &info) != 0)
+        return;
+    off_t start = info.st_size > (off_t)capacity - 1 ? info.st_size - (off_t)(capacity - 1) : 0;
+    ssize_t length = pread(process->messages, text, capacity - 1, start);
+    if (length < 0)
+        length = 0;
+    while (length > 0 && (text[length - 1] == '\n' || text[length - 1] == ' '))
+        length--;
+    text[length] = '\0';
+    char *line = strrchr(text, '\n');
+    if (line)
+        memmove(text, line + 1, strlen(line + 1) + 1);
+}
+
+static file_status encoder_failure(encoder_process *process, int exit_status, file_error *error)
+{
+    char message[256];
+    last_message(process, message, sizeof message);
+    if (message[0])
+        return file_error_set(error, FILE_WRITE, "%s: ffmpeg failed: %s", process->path, message);
+    if (WIFSIGNALED(exit_status))
+        return file_error_set(error, FILE_WRITE, "%s: ffmpeg was ended by signal %d", process->path, WTERMSIG(exit_status));
+    return file_error_set(error, FILE_WRITE, "%s: ffmpeg failed with status %d", process->path, WEXITSTATUS(exit_status));
+}
+
+file_status encoder_process_write(encoder_process *process, const void *bytes, size_t size, file_error *error)
+{
+    const char *from = bytes;
+    while (size > 0) {
+        file_status status = output_file_check_cancel(process->file, error);
+        if (status != FILE_OK)
+            return status;
+        ssize_t sent = send(process->input, from, size, MSG_NOSIGNAL | MSG_DONTWAIT);
+        if (sent > 0) {
+            from += sent;
+            size -= (size_t)sent;
+        } else if (sent < 0 && errno == EAGAIN) {
+            struct pollfd ready = {.fd = process->input, .events = POLLOUT};
+            poll(&ready, 1, WAIT_STEP_MS);
+        } else if (sent < 0 && errno != EINTR) {
+            /* It has closed its end: it is dead or dying. */
+            int exit_status = 0;
+            status = wait_for_exit(process, &exit_status, error);
+            return status != FILE_OK ? status : encoder_failure(process, exit_status, error);
+        }
+    }
+    return FILE_OK;
+}
+
+file_status encoder_process_finish(encoder_process *process, file_error *error)
+{
+    int exit_status = 0;
+    close(process->input);
+    process->input = -1;
+    file_status status = wait_for_exit(process, &exit_status, error);
+    if (status == FILE_OK && !(WIFEXITED(exit_status) && WEXITSTATUS(exit_status) == 0))
+        status = encoder_failure(process, exit_status, error);
+    encoder_process_abort(process);
+    return status;
+}
+
+void encoder_process_abort(encoder_process *process)
+{
+    if (!process)
+        return;
+    if (process->pid > 0) {
+        /* The whole group: a wrapper around ffmpeg may have children. */
+        kill(-process->pid, SIGKILL);
+        kill(process->pid, SIGKILL);
+        while (waitpid(process->pid, NULL, 0) < 0 && errno == EINTR)
+            continue;
+    }
+    if (process->input >= 0)
+        close(process->input);
+    if (process->messages >= 0)
+        close(process->messages);
+    free(process);
+}
+
+/* ---- checking the result ---- */
+
+static uint64_t big_endian(const unsigned char *bytes, int count)
+{
+    uint64_t value = 0;
+    for (int i = 0; i < count; i++)
+        value = value << 8 | bytes[i];
+    return value;
+}
+
+file_status encoder_check_mp4(int descriptor, const char *path, file_error *error)
+{
+    struct stat info;
+    if (fstat(descriptor, &info) != 0)
+        return file_error_errno(error, FILE_WRITE, path, "cannot write", errno);
+    uint64_t size = (uint64_t)info.st_size, offset = 0;
+    bool index = false, data = false, ordered = false;
+    while (offset < size) {
+        unsigned char header[16] = {0};
+        ssize_t length = pread(descriptor, header, sizeof header, (off_t)offset);
+        uint64_t box = length >= 8 ? big_endian(header, 4) : 0;
+        if (box == 1 && length == 16)
+            box = big_endian(header + 8, 8);
+        if (box < 8 || box > size - offset)
+            break;
+        if (memcmp(header + 4, "moov", 4) == 0)
+            index = true;
+        if (memcmp(header + 4, "mdat", 4) == 0) {
+            data = true;
+            ordered = index;
+        }
+        offset += box;
+    }
+    if (size == 0 || offset != size || !index || !data || !ordered)
+        return file_error_set(error, FILE_WRITE, "%s: ffmpeg left an incomplete file (is the disk full?)", path);
+    return FILE_OK;
+}

@@ -1,0 +1,206 @@
+/* SPDX-License-Identifier: MIT */
+/* Multi-layer scanline EXR through OpenEXRCore, written into the atomic file. */
+#define _POSIX_C_SOURCE 200809L
+
+#include <errno.h>
+#include <openexr.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "image/exr_names.h"
+#include "image/picture_formats.h"
+
+enum {
+    ZIP_LEVEL = 4, /* stated, so that another version's default does not change our bytes */
+    CHANNELS_MAX = 64
+};
+
+typedef struct exr_sink {
+    output_file *file;
+    file_error *error;
+    file_status status;
+} exr_sink;
+
+/* One channel of the file and where its values come from. */
+typedef struct exr_source {
+    char name[EXR_CHANNEL_NAME_SIZE];
+    const picture_layer *layer;
+    uint32_t component;
+} exr_source;
+
+static int64_t sink_write(exr_const_context_t context, void *user, const void *bytes, uint64_t size, uint64_t offset,
+                          exr_stream_error_func_ptr_t report)
+{
+    (void)context;
+    (void)report;
+    exr_sink *sink = user;
+    if (sink->status == FILE_OK)
+        sink->status = output_file_write_at(sink->file, offset, bytes, (size_t)size, sink->error);
+    return sink->status == FILE_OK ? (int64_t)size : -1;
+}
+
+/* Without a handler of ours the library prints to stderr. */
+static void ignore_message(exr_const_context_t context, exr_result_t code, const char *message)
+{
+    (void)context;
+    (void)code;
+    (void)message;
+}
+
+/* Lists the channels of all layers; 0 with an error set where a layer cannot be written. */
+static int list_sources(exr_source *sources, const char *path, const picture_layer *layers, size_t count, file_error *error)
+{
+    int used = 0;
+    for (size_t i = 0; i < count; i++) {
+        const picture_layer *layer = &layers[i];
+        if ((layer->channels != 1 && layer->channels != 3) || !exr_layer_name_is_valid(layer->name))
+            return file_error_set(error, FILE_ARGUMENT, "%s: an EXR layer has a name of letters, digits and _, and 1 or 3 channels",
+                                  path), 0;
+        for (uint32_t c = 0; c < layer->channels; c++) {
+            if (used == CHANNELS_MAX)
+                return file_error_set(error, FILE_ARGUMENT, "%s: more than %d channels", path, (int)CHANNELS_MAX), 0;
+            exr_source *source = &sources[used];
+            exr_channel_name(source->name, layer->name, layer->channels, c);
+            source->layer = layer;
+            source->component = c;
+            for (int other = 0; other < used; other++)
+                if (strcmp(sources[other].name, source->name) == 0)
+                    return file_error_set(error, FILE_ARGUMENT, "%s: channel %s is given twice", path, source->name), 0;
+            used++;
+        }
+    }
+    if (used == 0)
+        file_error_set(error, FILE_ARGUMENT, "%s: an EXR needs a layer", path);
+    return used;
+}
+
+static exr_result_t write_header(exr_context_t context, uint32_t width, uint32_t height, const exr_source *sources, int count,
+                                 const metadata_list *metadata)
+{
+    int part = 0;
+    exr_result_t code = exr_set_longname_support(context, 1);
+    if (!code)
+        code = exr_add_part(context, "mangata", EXR_STORAGE_SCANLINE, &part);
+    if (!code)
+        code = exr_initialize_required_attr_simple(context, part, (int32_t)width, (int32_t)height, EXR_COMPRESSION_ZIP);
+    if (!code)
+        code = exr_set_zip_compression_level(context, part, ZIP_LEVEL);
+    for (int i = 0; i < count && !code; i++)
+        code = exr_add_channel(context, part, sources[i].name, EXR_PIXEL_FLOAT, EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
+    for (size_t i = 0; metadata && i < metadata->count && !code; i++) {
+        char name[EXR_ATTRIBUTE_NAME_SIZE];
+        exr_attribute_name(name, metadata->entries[i].key);
+        code = exr_attr_set_string(context, part, name, metadata->entries[i].value);
+    }
+    return code ? code : exr_write_header(context);
+}
+
+static const exr_source *find_source(const exr_source *sources, int count, const char *name)
+{
+    for (int i = 0; i < count; i++)
+        if (strcmp(sources[i].name, name) == 0)
+            return &sources[i];
+    return NULL;
+}
+
+/* Gathers a chunk's rows of every channel into the planar `band` and points the encoder there. */
+static exr_result_t gather_band(exr_encode_pipeline_t *encoder, float *band, uint32_t width, uint32_t y, int32_t rows,
+                                const exr_source *sources, int count)
+{
+    for (int c = 0; c < encoder->channel_count; c++) {
+        exr_coding_channel_info_t *channel = &encoder->channels[c];
+        const exr_source *source = find_source(sources, count, channel->channel_name);
+        if (!source)
+            return EXR_ERR_INVALID_ARGUMENT;
+        const picture_layer *layer = source->layer;
+        size_t step = layer->pixel_floats ? layer->pixel_floats : layer->channels;
+        channel->encode_from_ptr = (const uint8_t *)band;
+        channel->user_data_type = EXR_PIXEL_FLOAT;
+        channel->user_bytes_per_element = (int16_t)sizeof(float);
+        channel->user_pixel_stride = (int32_t)sizeof(float);
+        channel->user_line_stride = (int32_t)(width * sizeof(float));
+        for (int32_t row = 0; row < rows; row++) {
+            const float *from = picture_row(layer->pixels, width * step * sizeof(float), layer->row_stride, y + (uint32_t)row);
+            for (uint32_t x = 0; x < width; x++)
+                memcpy(band++, from + x * step + source->component, sizeof(float));
+        }
+    }
+    return EXR_ERR_SUCCESS;
+}
+
+static exr_result_t write_pixels(exr_context_t context, float *band, uint32_t width, uint32_t height, const exr_source *sources,
+                                 int count)
+{
+    exr_encode_pipeline_t encoder = EXR_ENCODE_PIPELINE_INITIALIZER;
+    exr_chunk_info_t chunk;
+    int32_t rows = 0;
+    exr_result_t code = exr_get_scanlines_per_chunk(context, 0, &rows);
+    for (uint32_t y = 0; y < height && !code; y += (uint32_t)rows) {
+        code = exr_write_scanline_chunk_info(context, 0, (int)y, &chunk);
+        if (!code && y == 0)
+            code = exr_encoding_initialize(context, 0, &chunk, &encoder);
+        else if (!code)
+            code = exr_encoding_update(context, 0, &chunk, &encoder);
+        if (!code)
+            code = gather_band(&encoder, band, width, y, chunk.height, sources, count);
+        if (!code && y == 0)
+            code = exr_encoding_choose_default_routines(context, 0, &encoder);
+        if (!code)
+            code = exr_encoding_run(context, 0, &encoder);
+    }
+    exr_encoding_destroy(context, &encoder);
+    return code;
+}
+
+file_status picture_write_exr(const char *path, uint32_t width, uint32_t height, const picture_layer *layers,
+                              size_t layer_count, const metadata_list *metadata, const output_options *options,
+                              file_error *error)
+{
+    enum { CHUNK_ROWS_MAX = 16 }; /* of ZIP */
+    exr_source sources[CHANNELS_MAX];
+    file_status status = picture_check_size(path, width, height, error);
+    if (status == FILE_OK)
+        status = metadata_check(metadata, error);
+    if (status != FILE_OK)
+        return status;
+    int count = list_sources(sources, path, layers, layer_count, error);
+    if (count == 0)
+        return FILE_ARGUMENT;
+
+    exr_sink sink = {.error = error};
+    exr_context_t context = NULL;
+    float *band = malloc((size_t)width * CHUNK_ROWS_MAX * (size_t)count * sizeof *band);
+    if (!band)
+        return file_error_errno(error, FILE_MEMORY, path, NULL, ENOMEM);
+    status = output_file_open(&sink.file, path, options, error);
+    if (status != FILE_OK)
+        goto fail;
+
+    exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    initializer.error_handler_fn = ignore_message;
+    initializer.user_data = &sink;
+    initializer.write_fn = sink_write;
+    exr_result_t code = exr_start_write(&context, path, EXR_WRITE_FILE_DIRECTLY, &initializer);
+    if (!code)
+        code = write_header(context, width, height, sources, count, metadata);
+    if (!code)
+        code = write_pixels(context, band, width, height, sources, count);
+    /* Writes the table of chunks, too. */
+    exr_result_t finish_code = context ? exr_finish(&context) : EXR_ERR_SUCCESS;
+    if (!code)
+        code = finish_code;
+    if (code || sink.status != FILE_OK) {
+        status = sink.status != FILE_OK ? sink.status
+                 : code == EXR_ERR_OUT_OF_MEMORY
+                     ? file_error_errno(error, FILE_MEMORY, path, NULL, ENOMEM)
+                     : file_error_set(error, FILE_WRITE, "%s: cannot encode: %s", path, exr_get_default_error_message(code));
+        goto fail;
+    }
+    status = output_file_finish(sink.file, error);
+    sink.file = NULL;
+
+fail:
+    output_file_abort(sink.file);
+    free(band);
+    return status;
+}

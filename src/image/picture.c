@@ -1,0 +1,157 @@
+/* SPDX-License-Identifier: MIT */
+/* Telling picture formats apart, opening inputs, and reading any of them. */
+#define _POSIX_C_SOURCE 200809L
+
+#include "image/picture.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "image/picture_formats.h"
+
+picture_format picture_format_of(const char *path)
+{
+    static const struct {
+        const char *extension;
+        picture_format format;
+    } known[] = {{".png", PICTURE_PNG}, {".exr", PICTURE_EXR}, {".pfm", PICTURE_PFM}, {".mp4", PICTURE_MP4}, {".y4m", PICTURE_Y4M}};
+    const char *slash = strrchr(path, '/');
+    const char *name = slash ? slash + 1 : path;
+    const char *dot = strrchr(name, '.');
+    if (!dot)
+        return PICTURE_UNKNOWN;
+    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
+        if (strcasecmp(dot, known[i].extension) == 0)
+            return known[i].format;
+    return PICTURE_UNKNOWN;
+}
+
+file_status picture_check_output(const char *path, const output_options *options, file_error *error)
+{
+    picture_format format = picture_format_of(path);
+    if (format == PICTURE_UNKNOWN)
+        return file_error_set(error, FILE_ARGUMENT, "%s: the name must end in .png, .exr, .pfm, .mp4 or .y4m", path);
+    file_status status = output_file_check(path, options, error);
+    if (status != FILE_OK || format == PICTURE_PNG || format == PICTURE_EXR)
+        return status;
+    char *sidecar = metadata_sidecar_path(path);
+    if (!sidecar)
+        return file_error_errno(error, FILE_MEMORY, path, NULL, ENOMEM);
+    status = output_file_check(sidecar, options, error);
+    free(sidecar);
+    return status;
+}
+
+file_status input_file_open(input_file *input, const char *path, file_error *error)
+{
+    *input = (input_file){.path = path};
+    struct stat info;
+    /* Not to wait for the other end of a named pipe. */
+    int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    if (descriptor < 0)
+        return file_error_errno(error, FILE_MISSING, path, "cannot read", errno);
+    if (fstat(descriptor, &info) != 0) {
+        file_status status = file_error_errno(error, FILE_MISSING, path, "cannot read", errno);
+        close(descriptor);
+        return status;
+    }
+    if (!S_ISREG(info.st_mode)) {
+        close(descriptor);
+        return file_error_set(error, FILE_BAD, "%s: is %s", path, S_ISDIR(info.st_mode) ? "a directory" : "not a regular file");
+    }
+    input->size = (uint64_t)info.st_size;
+    input->stream = fdopen(descriptor, "rb");
+    if (!input->stream) {
+        close(descriptor);
+        return file_error_errno(error, FILE_MEMORY, path, NULL, ENOMEM);
+    }
+    return FILE_OK;
+}
+
+void input_file_close(input_file *input)
+{
+    if (input->stream)
+        fclose(input->stream);
+    *input = (input_file){0};
+}
+
+picture_format input_file_format(const input_file *input)
+{
+    static const unsigned char png[8] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+    static const unsigned char exr[4] = {0x76, 0x2f, 0x31, 0x01};
+    unsigned char start[8] = {0};
+    size_t length = fread(start, 1, sizeof start, input->stream);
+    rewind(input->stream);
+    if (length >= sizeof png && memcmp(start, png, sizeof png) == 0)
+        return PICTURE_PNG;
+    if (length >= sizeof exr && memcmp(start, exr, sizeof exr) == 0)
+        return PICTURE_EXR;
+    if (length >= 2 && start[0] == 'P' && (start[1] == 'F' || start[1] == 'f'))
+        return PICTURE_PFM;
+    return PICTURE_UNKNOWN;
+}
+
+file_status picture_check_size(const char *path, uint32_t width, uint32_t height, file_error *error)
+{
+    if (width < 1 || height < 1 || width > PICTURE_SIDE_MAX || height > PICTURE_SIDE_MAX)
+        return file_error_set(error, FILE_ARGUMENT, "%s: size %ux%u is not within 1x1 and %dx%d", path, width, height,
+                              (int)PICTURE_SIDE_MAX, (int)PICTURE_SIDE_MAX);
+    return FILE_OK;
+}
+
+file_status float_image_allocate(float_image *image, const char *path, file_error *error)
+{
+    if (image->width < 1 || image->height < 1 || image->width > PICTURE_SIDE_MAX || image->height > PICTURE_SIDE_MAX)
+        return file_error_set(error, FILE_BAD, "%s: size %ux%u is not within 1x1 and %dx%d", path, image->width, image->height,
+                              (int)PICTURE_SIDE_MAX, (int)PICTURE_SIDE_MAX);
+    size_t pixels = (size_t)image->width * image->height;
+    if (pixels > SIZE_MAX / sizeof(float) / image->channels)
+        return file_error_errno(error, FILE_MEMORY, path, NULL, ENOMEM);
+    image->pixels = malloc(pixels * image->channels * sizeof(float));
+    if (!image->pixels)
+        return file_error_errno(error, FILE_MEMORY, path, NULL, ENOMEM);
+    return FILE_OK;
+}
+
+const void *picture_row(const void *pixels, size_t packed_row_bytes, ptrdiff_t row_stride, uint32_t y)
+{
+    ptrdiff_t stride = row_stride != 0 ? row_stride : (ptrdiff_t)packed_row_bytes;
+    return (const char *)pixels + (ptrdiff_t)y * stride;
+}
+
+file_status picture_read(float_image *image, const char *path, const char *layer, file_error *error)
+{
+    *image = (float_image){0};
+    input_file input = {0};
+    file_status status = input_file_open(&input, path, error);
+    if (status != FILE_OK)
+        return status;
+    switch (input_file_format(&input)) {
+    case PICTURE_PNG:
+        status = png_read(image, &input, error);
+        break;
+    case PICTURE_EXR:
+        status = exr_read(image, &input, layer, error);
+        break;
+    case PICTURE_PFM:
+        status = pfm_read(image, &input, error);
+        break;
+    default:
+        status = file_error_set(error, FILE_BAD, "%s: is not a PNG, EXR or PFM picture", path);
+    }
+    input_file_close(&input);
+    if (status != FILE_OK)
+        float_image_free(image);
+    return status;
+}
+
+void float_image_free(float_image *image)
+{
+    free(image->pixels);
+    *image = (float_image){0};
+}

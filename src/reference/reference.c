@@ -1,0 +1,360 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The brute-force renderer around the lanes: preparing a frame, placing samples, and what a sample sees at its first hit.
+ */
+#include "reference/reference.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "reference/equations.h"
+#include "reference/reference_frame.h"
+
+static const long double pi = 3.14159265358979323846264338327950288L;
+
+/* ---- preparing a frame ---- */
+
+/* long double, because a camera may stand at phases of 10⁷ radians. */
+static double reduced_half_turns(const mgt_wave *wave, const mgt_scene *scene)
+{
+    const long double phase = (long double)wave->a * scene->camera.position[0] +
+                              (long double)wave->b * scene->camera.position[2] + (long double)wave->c * scene->time +
+                              (long double)wave->phase;
+    return (double)remainderl(phase / pi, 2.0L);
+}
+
+static reference_view relative_view(const mgt_camera *camera, const mgt_camera *anchor)
+{
+    reference_view view;
+    for (int i = 0; i < 3; i++) {
+        const double offset = i == 1 ? 0 : anchor->position[i];
+        view.position[i] = camera->position[i] - offset;
+        view.target[i] = camera->target[i] - offset;
+        view.up[i] = camera->up[i];
+    }
+    view.fov_half_turns = camera->fov_y_deg / 360;
+    return view;
+}
+
+static void set_waves(reference_frame *frame, const mgt_scene *scene)
+{
+    double sum = 0, square = 0;
+    for (uint32_t i = 0; i < frame->wave_count; i++) {
+        const mgt_wave *from = &scene->water.waves[i];
+        reference_wave *to = &frame->waves[i];
+        to->amplitude = from->amplitude;
+        to->a = from->a;
+        to->b = from->b;
+        to->amplitude_a = from->amplitude * from->a;
+        to->amplitude_b = from->amplitude * from->b;
+        to->half_turns_a = (double)(from->a / pi);
+        to->half_turns_b = (double)(from->b / pi);
+        to->half_turns_c = (double)(from->c / pi);
+        to->phase = reduced_half_turns(from, scene);
+        sum += fabs(from->amplitude);
+        square += from->amplitude * from->amplitude;
+    }
+    frame->height_bound = fmin(sum, frame->bound_deviations * sqrt(0.5 * square));
+}
+
+static void set_light(reference_frame *frame, const mgt_light *light)
+{
+    light_direction(light, frame->light_direction);
+    frame->light_radius = light->angular_radius_deg * (double)(pi / 180);
+    const double chord = 2 * sin(0.5 * frame->light_radius);
+    frame->light_chord_squared = chord * chord;
+}
+
+static void set_sample_range(reference_frame *frame, const mgt_quality *quality)
+{
+    const uint64_t total = (uint64_t)quality->spatial_samples * quality->spatial_samples * quality->time_samples;
+    frame->sample_first = quality->sample_first < total ? quality->sample_first : total;
+    const uint64_t remaining = total - frame->sample_first;
+    frame->sample_count = quality->sample_count && quality->sample_count < remaining ? quality->sample_count : remaining;
+}
+
+/* NULL when this processor lacks it. */
+static reference_trace *pick_trace(mgt_isa isa, uint32_t *lanes)
+{
+#if defined(__x86_64__)
+    const bool avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+                        __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl");
+    const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+    if (isa == MGT_ISA_AVX512 || (isa == MGT_ISA_AUTO && avx512))
+        return *lanes = 8, avx512 ? reference_trace_8 : NULL;
+    if (isa == MGT_ISA_AVX2 || (isa == MGT_ISA_AUTO && avx2))
+        return *lanes = 4, avx2 ? reference_trace_4 : NULL;
+#else
+    if (isa == MGT_ISA_AVX512 || isa == MGT_ISA_AVX2)
+        return NULL;
+#endif
+    return *lanes = 1, reference_trace_1;
+}
+
+mgt_status reference_frame_create(reference_frame **result, const mgt_scene *scene, const reference_sky *sky,
+                                  const reference_options *options)
+{
+    *result = NULL;
+    const reference_options defaults = {0};
+    if (!options)
+        options = &defaults;
+    uint32_t lanes = 1;
+    reference_trace *trace = pick_trace(options->isa, &lanes);
+    if (!trace)
+        return MGT_ERROR_UNAVAILABLE;
+    const size_t count = scene->water.wave_count;
+    if (count > (SIZE_MAX - sizeof(reference_frame)) / sizeof(reference_wave) || count > UINT32_MAX)
+        return MGT_ERROR_MEMORY;
+    reference_frame *frame = calloc(1, sizeof *frame + count * sizeof frame->waves[0]);
+    if (!frame)
+        return MGT_ERROR_MEMORY;
+    frame->scene = *scene;
+    frame->scene.water.waves = NULL;
+    if (sky)
+        frame->sky = *sky;
+    frame->trace = trace;
+    frame->lanes = lanes;
+    frame->bound_deviations = options->bound_deviations > 0 ? options->bound_deviations : REFERENCE_BOUND_DEVIATIONS;
+    frame->view = relative_view(&scene->camera, &scene->camera);
+    frame->view_open = scene->camera_moves ? relative_view(&scene->camera_open, &scene->camera) : frame->view;
+    frame->view_scale_x = (double)scene->image.width / scene->image.height;
+    frame->wave_count = (uint32_t)count;
+    set_waves(frame, scene);
+    set_light(frame, &scene->light);
+    set_sample_range(frame, &scene->quality);
+    *result = frame;
+    return MGT_OK;
+}
+
+void reference_frame_destroy(reference_frame *frame)
+{
+    free(frame);
+}
+
+uint32_t reference_frame_lanes(const reference_frame *frame)
+{
+    return frame->lanes;
+}
+
+/* ---- samples ---- */
+
+/* The finaliser of SplitMix64. */
+static uint64_t mix_bits(uint64_t x)
+{
+    x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
+    x = (x ^ x >> 27) * 0x94d049bb133111ebu;
+    return x ^ x >> 31;
+}
+
+static const uint64_t golden_step = 0x9e3779b97f4a7c15u;
+
+static uint64_t pixel_key(uint64_t seed, uint32_t x, uint32_t y)
+{
+    return mix_bits(mix_bits(seed + golden_step) ^ mix_bits(((uint64_t)y << 32 | x) + golden_step));
+}
+
+/* Three numbers in (0, 1) from 21 bits each. */
+static void jitter(uint64_t key, uint64_t index, double offset[3])
+{
+    const uint64_t bits = mix_bits(key + (index + 1) * golden_step);
+    for (int i = 0; i < 3; i++)
+        offset[i] = ((double)(bits >> (21 * i) & 0x1fffff) + 0.5) * 0x1p-21;
+}
+
+static void place_sample(const reference_frame *frame, uint32_t x, uint32_t y, uint64_t key, uint64_t index,
+                         reference_batch *batch, uint32_t slot)
+{
+    const uint64_t n = frame->scene.quality.spatial_samples, m = frame->scene.quality.time_samples;
+    const uint64_t cell = index % (n * n), instant = (index / (n * n) + cell) % m;
+    double offset[3];
+    jitter(key, index, offset);
+    batch->pixel_x[slot] = x + ((double)(cell % n) + offset[0]) / (double)n;
+    batch->pixel_y[slot] = y + ((double)(cell / n) + offset[1]) / (double)n;
+    batch->time_offset[slot] = -frame->scene.shutter * ((double)instant + offset[2]) / (double)m;
+}
+
+/* ---- what a sample sees ---- */
+
+/* Squared distance of two unit vectors: for small angles far better than their dot product. */
+static double chord_squared(const double a[3], const double b[3])
+{
+    const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
+    return x * x + y * y + z * z;
+}
+
+/* Sky and light in a direction; below the horizon the horizon's. */
+static void radiance_of_sky(const reference_frame *frame, const double direction[3], bool with_light, double rgb[3])
+{
+    const reference_sky *sky = &frame->sky;
+    rgb[0] = rgb[1] = rgb[2] = 0;
+    if (sky->lookup) {
+        double d[3] = {direction[0], direction[1], direction[2]};
+        if (d[1] < 0) {
+            const double length = sqrt(d[0] * d[0] + d[2] * d[2]);
+            d[0] = length > 0 ? d[0] / length : 1;
+            d[1] = 0;
+            d[2] = length > 0 ? d[2] / length : 0;
+        }
+        sky->lookup(sky->user, d, rgb);
+    }
+    const double chord = chord_squared(direction, frame->light_direction);
+    if (!with_light || chord >= frame->light_chord_squared)
+        return;
+    const double relative = 2 * asin(fmin(0.5 * sqrt(chord), 1)) / frame->light_radius;
+    const double limb = limb_profile(sky->limb, relative);
+    for (int i = 0; i < 3; i++)
+        rgb[i] += sky->light_radiance[i] * limb;
+}
+
+/* One sample's mirror ray: whether it meets the light, and its radiance where `rgb` is not NULL. */
+static bool shade_hit(const reference_frame *frame, const double view[3], double slope_x, double slope_z, double rgb[3])
+{
+    const double length = sqrt(slope_x * slope_x + 1 + slope_z * slope_z);
+    const double normal[3] = {-slope_x / length, 1 / length, -slope_z / length};
+    const double cosine = -(view[0] * normal[0] + view[1] * normal[1] + view[2] * normal[2]);
+    double mirrored[3];
+    for (int i = 0; i < 3; i++)
+        mirrored[i] = view[i] + 2 * cosine * normal[i];
+    const bool light_is_up = frame->scene.light.elevation_deg >= 0;
+    if (rgb) {
+        const double reflectance = fresnel_dielectric(cosine, frame->scene.water.index_of_refraction);
+        radiance_of_sky(frame, mirrored, light_is_up, rgb);
+        for (int i = 0; i < 3; i++)
+            rgb[i] = reflectance * rgb[i] + (1 - reflectance) * frame->sky.body_radiance[i];
+    }
+    return light_is_up && chord_squared(mirrored, frame->light_direction) < frame->light_chord_squared;
+}
+
+/* Sums of a pixel. Samples are added in the order of their index, so that batches leave no trace. */
+typedef struct pixel_sums {
+    uint64_t hits, covered;
+    double rgb[3];
+} pixel_sums;
+
+static void add_sample(const reference_frame *frame, const reference_batch *batch, uint32_t i, bool with_color, pixel_sums *sums)
+{
+    const double view[3] = {batch->direction_x[i], batch->direction_y[i], batch->direction_z[i]};
+    double rgb[3] = {0};
+    if (!(batch->distance[i] < HUGE_VAL)) {
+        if (with_color)
+            radiance_of_sky(frame, view, true, rgb);
+    } else if (batch->distance[i] > 0) {
+        sums->hits++;
+        sums->covered += shade_hit(frame, view, batch->slope_x[i], batch->slope_z[i], with_color ? rgb : NULL);
+    } else { /* the camera is under a crest: nothing but water */
+        sums->hits++;
+        memcpy(rgb, frame->sky.body_radiance, sizeof rgb);
+    }
+    for (int c = 0; c < 3; c++)
+        sums->rgb[c] += rgb[c];
+}
+
+static void store_pixel(const reference_result *result, size_t at, const pixel_sums *sums, uint64_t count)
+{
+    const double n = count ? (double)count : 1;
+    if (result->coverage)
+        result->coverage[at] = (float)((double)sums->covered / n);
+    if (result->mask)
+        result->mask[at] = (float)((double)sums->hits / n);
+    if (result->color)
+        for (int c = 0; c < 3; c++)
+            result->color[3 * at + (size_t)c] = (float)(sums->rgb[c] / n);
+}
+
+/* ---- blocks ---- */
+
+typedef struct block {
+    uint32_t x0, y0, width, height;
+    size_t stride;
+} block;
+
+static size_t block_offset(const block *area, uint64_t pixel)
+{
+    return (size_t)(pixel / area->width) * area->stride + (size_t)(pixel % area->width);
+}
+
+/* Batches run on over the pixels' borders, so that few samples a pixel still fill the lanes. */
+static void render_samples(const reference_frame *frame, const block *area, const reference_result *result,
+                           reference_batch *batch)
+{
+    const uint64_t pixels = (uint64_t)area->width * area->height, count = frame->sample_count;
+    pixel_sums sums = {0};
+    if (count == 0) {
+        for (uint64_t pixel = 0; pixel < pixels; pixel++)
+            store_pixel(result, block_offset(area, pixel), &sums, 0);
+        return;
+    }
+    uint64_t pixel_in = 0, sample_in = 0;   /* next to place */
+    uint64_t pixel_out = 0, sample_out = 0; /* next to add */
+    uint64_t key = pixel_key(frame->scene.quality.seed, area->x0, area->y0);
+    while (pixel_in < pixels) {
+        uint32_t filled = 0;
+        while (filled < REFERENCE_BATCH && pixel_in < pixels) {
+            const uint32_t x = area->x0 + (uint32_t)(pixel_in % area->width), y = area->y0 + (uint32_t)(pixel_in / area->width);
+            if (sample_in == 0)
+                key = pixel_key(frame->scene.quality.seed, x, y);
+            place_sample(frame, x, y, key, frame->sample_first + sample_in, batch, filled++);
+            if (++sample_in == count) {
+                sample_in = 0;
+                pixel_in++;
+            }
+        }
+        frame->trace(frame, batch, filled);
+        for (uint32_t i = 0; i < filled; i++) {
+            add_sample(frame, batch, i, result->color != NULL, &sums);
+            if (++sample_out == count) {
+                store_pixel(result, block_offset(area, pixel_out++), &sums, count);
+                memset(&sums, 0, sizeof sums);
+                sample_out = 0;
+            }
+        }
+    }
+}
+
+static void store_geometry(const reference_result *result, size_t at, const reference_batch *batch, uint32_t i)
+{
+    const bool hit = batch->distance[i] < HUGE_VAL;
+    if (result->depth)
+        result->depth[at] = (float)batch->distance[i];
+    if (result->normal) {
+        const double x = -batch->slope_x[i], z = -batch->slope_z[i], length = sqrt(x * x + 1 + z * z);
+        result->normal[3 * at] = hit ? (float)(x / length) : 0;
+        result->normal[3 * at + 1] = hit ? (float)(1 / length) : 0;
+        result->normal[3 * at + 2] = hit ? (float)(z / length) : 0;
+    }
+}
+
+/* Depth and normal: one ray through each pixel's centre when the shutter closes. */
+static void render_geometry(const reference_frame *frame, const block *area, const reference_result *result,
+                            reference_batch *batch)
+{
+    const uint64_t pixels = (uint64_t)area->width * area->height;
+    for (uint64_t first = 0; first < pixels; first += REFERENCE_BATCH) {
+        const uint32_t count = (uint32_t)(pixels - first < REFERENCE_BATCH ? pixels - first : REFERENCE_BATCH);
+        for (uint32_t i = 0; i < count; i++) {
+            batch->pixel_x[i] = area->x0 + (double)((first + i) % area->width) + 0.5;
+            batch->pixel_y[i] = area->y0 + (double)((first + i) / area->width) + 0.5;
+            batch->time_offset[i] = 0;
+        }
+        frame->trace(frame, batch, count);
+        for (uint32_t i = 0; i < count; i++)
+            store_geometry(result, block_offset(area, first + i), batch, i);
+    }
+}
+
+void reference_render_block(const reference_frame *frame, uint32_t x0, uint32_t y0, uint32_t width, uint32_t height,
+                            const reference_result *result)
+{
+    if (width == 0 || height == 0)
+        return;
+    const block area = {x0, y0, width, height, result->row_stride ? result->row_stride : width};
+    reference_batch batch;
+    batch.evaluations = 0;
+    if (result->color || result->coverage || result->mask)
+        render_samples(frame, &area, result, &batch);
+    if (result->depth || result->normal)
+        render_geometry(frame, &area, result, &batch);
+    if (result->evaluations)
+        *result->evaluations += batch.evaluations;
+}

@@ -1,0 +1,70 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The brute-force renderer: every pixel is the mean of jittered samples, each the exact mirror of one ray at the first hit
+ * of the displaced surface. Double precision throughout; shares no code with the kernels it judges.
+ *
+ * Samples. quality.spatial_samples N and time_samples M give N·N·M strata of (pixel area × shutter): one sample in each,
+ * jittered in x, y and time by a hash of (seed, pixel x, pixel y, sample index) alone. Every N·N consecutive samples cover all
+ * spatial strata, with the time strata interleaved; all N·N·M cover each pair once. With shutter 0 every sample shows scene.time.
+ *
+ * Coverage of a sample is 1 when the mirrored ray lies within the light's angular radius and the light's centre stands at or
+ * above the horizon. Only the first hit counts; nothing shadows the mirrored ray.
+ */
+#ifndef MANGATA_REFERENCE_REFERENCE_H
+#define MANGATA_REFERENCE_REFERENCE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "mangata/mangata.h"
+
+/* Radiances for the colour layer, in any unit. Read while frames render, from several threads. */
+typedef struct reference_sky {
+    /* Radiance of the sky without the light's disk, for a unit direction with direction[1] ≥ 0. NULL: black. */
+    void (*lookup)(const void *user, const double direction[3], double rgb[3]);
+    const void *user;
+    double light_radiance[3]; /* mean over the light's disk, at the observer */
+    double body_radiance[3];  /* leaves the water with the factor 1 − F */
+    double limb;              /* u of I(μ) ∝ 1 − u·(1 − μ), normalised to a disk mean of 1; [0, 1] */
+} reference_sky;
+
+typedef struct reference_options {
+    mgt_isa isa; /* AUTO: the best; SSE2 and NEON run the one-lane build. Every choice gives the same bits. */
+
+    /* The march steps by bounds on the waves' slope and curvature along the ray: the smaller of the exhaustive bound (all crests
+     * aligned) and this many standard deviations. 0: the default, REFERENCE_BOUND_DEVIATIONS. INFINITY: exhaustive alone.
+     * A sum of sines of random phases is sub-Gaussian, so a point exceeds k deviations with probability < exp(−k²/2). */
+    double bound_deviations;
+} reference_options;
+
+#define REFERENCE_BOUND_DEVIATIONS 5.0
+
+typedef struct reference_frame reference_frame;
+
+/* Planes of floats, the first pixel being the block's own top left one. Any pointer may be NULL. */
+typedef struct reference_result {
+    float *color;    /* 3 per pixel */
+    float *coverage; /* 1 */
+    float *mask;     /* 1: share of the samples that meet water */
+    float *depth;    /* 1: metres along the centre ray at scene.time, +inf without water */
+    float *normal;   /* 3: of the surface at that hit, (0,0,0) without water */
+    size_t row_stride; /* pixels from a row to the next; 0: the block's width */
+    uint64_t *evaluations; /* adds how often a sum of all waves was evaluated for a ray; NULL: not wanted */
+} reference_result;
+
+/* Prepares a frame; `scene` must have passed mgt_scene_check(). The scene and its waves are copied, `sky` too (but not what its
+ * `user` points to); a NULL `sky` makes the colour layer black. `options` may be NULL. The caller destroys the frame.
+ * MGT_ERROR_MEMORY, or MGT_ERROR_UNAVAILABLE when this processor lacks options->isa; *frame is then NULL. */
+mgt_status reference_frame_create(reference_frame **frame, const mgt_scene *scene, const reference_sky *sky,
+                                  const reference_options *options);
+void reference_frame_destroy(reference_frame *frame);
+
+/* Samples that run side by side: 1, 4 or 8. */
+uint32_t reference_frame_lanes(const reference_frame *frame);
+
+/* Renders the pixels [x0, x0 + width) × [y0, y0 + height) of the whole image, blocks of any size in any order from any number
+ * of threads. Uses about 100 KiB of stack and allocates nothing. */
+void reference_render_block(const reference_frame *frame, uint32_t x0, uint32_t y0, uint32_t width, uint32_t height,
+                            const reference_result *result);
+
+#endif

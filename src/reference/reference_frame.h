@@ -1,0 +1,75 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * What the reference renderer keeps per frame, and the batch of rays that its lane builds trace.
+ */
+#ifndef MANGATA_REFERENCE_REFERENCE_FRAME_H
+#define MANGATA_REFERENCE_REFERENCE_FRAME_H
+
+#include <stdint.h>
+
+#include "reference/reference.h"
+
+/* Phases are kept in half turns (π radians): reducing them is then one exact subtraction. */
+typedef struct reference_wave {
+    double amplitude;
+    double amplitude_a, amplitude_b; /* amplitude × wave vector in radians per metre */
+    double a, b;                     /* wave vector, radians per metre */
+    double half_turns_a, half_turns_b, half_turns_c;
+    double phase; /* half turns at camera.position (x, z) and scene.time, in [−1, 1] */
+} reference_wave;
+
+typedef struct reference_view {
+    double position[3]; /* x and z relative to camera.position of scene.camera; y absolute */
+    double target[3];   /* in the same frame */
+    double up[3];
+    double fov_half_turns; /* half of the vertical field of view */
+} reference_view;
+
+#define REFERENCE_BATCH 512 /* rays; a multiple of every lane count */
+
+/* One batch of rays. The first three arrays are the input. */
+typedef struct reference_batch {
+    _Alignas(64) double pixel_x[REFERENCE_BATCH]; /* continuous, the pixel (0,0) covers [0,1)² */
+    double pixel_y[REFERENCE_BATCH];
+    double time_offset[REFERENCE_BATCH]; /* seconds, ≤ 0 */
+
+    double origin_x[REFERENCE_BATCH], origin_y[REFERENCE_BATCH], origin_z[REFERENCE_BATCH];
+    double direction_x[REFERENCE_BATCH], direction_y[REFERENCE_BATCH], direction_z[REFERENCE_BATCH];
+    double slope_bound[REFERENCE_BATCH], curvature_bound[REFERENCE_BATCH]; /* of the water's height along the ray */
+    double start[REFERENCE_BATCH], end[REFERENCE_BATCH];                   /* metres, of the march */
+
+    double distance[REFERENCE_BATCH]; /* metres to the first hit; +inf: none; 0: the camera is under the surface */
+    double slope_x[REFERENCE_BATCH], slope_z[REFERENCE_BATCH]; /* at the hit */
+
+    uint64_t evaluations; /* counts up */
+} reference_batch;
+
+typedef void reference_trace(const reference_frame *frame, reference_batch *batch, uint32_t count);
+
+struct reference_frame {
+    mgt_scene scene; /* water.waves is NULL: see below */
+    reference_sky sky;
+    reference_trace *trace;
+    uint32_t lanes;
+
+    reference_view view, view_open;
+    double view_scale_x; /* width / height */
+    double light_direction[3];
+    double light_chord_squared; /* of the angular radius: (2 sin(R/2))² */
+    double light_radius;        /* radians */
+
+    double bound_deviations;
+    double height_bound; /* no wave rises above it, ± */
+
+    uint64_t sample_first, sample_count; /* resolved range */
+
+    uint32_t wave_count;
+    reference_wave waves[];
+};
+
+/* One of these per lane count; all give the same bits. */
+void reference_trace_1(const reference_frame *frame, reference_batch *batch, uint32_t count);
+void reference_trace_4(const reference_frame *frame, reference_batch *batch, uint32_t count);
+void reference_trace_8(const reference_frame *frame, reference_batch *batch, uint32_t count);
+
+#endif

@@ -1,0 +1,125 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Checks that concern several keys of a scene at once.
+ */
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene/scene_path.h"
+#include "scene/scene_read.h"
+
+static const double MAX_PIXELS = 268435456; /* 2^28 */
+static const double MIN_KEYFRAME_GAP = 1e-6;
+
+/* The first of two nodes that is there: where a message about both of them points. */
+static const tree_node *either(const tree_node *first, const tree_node *second)
+{
+    return first != NULL ? first : second;
+}
+
+static bool check_image(const scene_tree *tree, const mgt_image *image, scene_error *error)
+{
+    double pixels = (double)image->width * image->height;
+    if (pixels <= MAX_PIXELS)
+        return true;
+    const tree_node *mapping = tree_get(tree->root, "image");
+    const tree_node *node = either(tree_get(mapping, "height"), tree_get(mapping, "width"));
+    return tree_error(tree, node->source, node->place, error, "image is %u x %u = %.0f pixels; allowed: width x height at most %.0f",
+                      image->width, image->height, pixels, MAX_PIXELS);
+}
+
+static bool refuse_camera(const scene_tree *tree, const tree_node *node, camera_fault fault, const char *where, scene_error *error)
+{
+    static const char *const faults[] = {
+        [CAMERA_LEGAL] = "",
+        [CAMERA_NO_VIEW] = "the camera looks at its own position; allowed: a target apart from position",
+        [CAMERA_NO_UP] = "up is zero or parallel to the view (target - position); allowed: a direction across the view",
+        [CAMERA_FAR_AWAY] = "the camera is too far away; allowed: coordinates of -1e9 to 1e9 m",
+    };
+    return tree_error(tree, node->source, node->place, error, "%s: %s", where, faults[fault]);
+}
+
+/* The node that most likely is at fault: the last of the two points, or up. */
+static const tree_node *faulty_node(const tree_node *mapping, camera_fault fault, const tree_node *fallback)
+{
+    const tree_node *up = tree_get(mapping, "up"), *target = tree_get(mapping, "target"), *position = tree_get(mapping, "position");
+    /* A value from the command line was written last. */
+    const tree_node *point = position != NULL && position->source != NULL && (target == NULL || target->source == NULL)
+                                 ? position
+                                 : either(target, position);
+    const tree_node *node = fault == CAMERA_NO_UP ? either(up, point) : point;
+    return either(node, either(mapping, fallback));
+}
+
+static bool check_still_camera(const scene_tree *tree, const scene_camera *camera, scene_error *error)
+{
+    camera_fault fault = scene_camera_fault(&camera->still);
+    if (fault == CAMERA_LEGAL)
+        return true;
+    const tree_node *mapping = tree_get(tree->root, "camera");
+    return refuse_camera(tree, faulty_node(mapping, fault, tree->root), fault, "camera", error);
+}
+
+static bool check_keyframes(const scene_tree *tree, const scene_camera *camera, const tree_node *path, scene_error *error)
+{
+    static const char *const excluded[] = {"position", "target"};
+    const tree_node *mapping = tree_get(tree->root, "camera");
+    for (size_t i = 0; i < 2; i++) {
+        const tree_node *node = tree_get(mapping, excluded[i]);
+        if (node != NULL)
+            return tree_error(tree, node->key_source != NULL ? node->key_source : node->source, node->key_place, error,
+                              "camera.%s stands beside camera.path, which replaces it; allowed: one of them", excluded[i]);
+    }
+    const scene_keyframe *keyframes = camera->path.items;
+    const tree_node *item = path->first;
+    for (size_t i = 0; i < camera->path.count; i++, item = item->next) {
+        const tree_node *time = tree_get(item, "time");
+        if (i > 0 && !(keyframes[i].time - keyframes[i - 1].time >= MIN_KEYFRAME_GAP))
+            return tree_error(tree, time->source, time->place, error,
+                              "camera.path[%zu].time is %s; allowed: later than camera.path[%zu].time, %s s, by at least 1e-6 s", i,
+                              time->text, i - 1, scene_double_text(keyframes[i - 1].time).text);
+        camera_fault fault = scene_camera_fault(&keyframes[i].camera);
+        if (fault != CAMERA_LEGAL)
+            return refuse_camera(tree, faulty_node(item, fault, path), fault, "camera.path", error);
+    }
+    return true;
+}
+
+/* Between good keyframes the interpolated camera may still turn through its own axis. */
+static bool check_path(const scene_tree *tree, const scene_values *values, const tree_node *path, scene_error *error)
+{
+    const scene_clock *clock = &values->time;
+    for (uint32_t frame = 0; frame < clock->frames; frame++) {
+        double close = clock->start + frame / clock->fps, open = close - clock->shutter / clock->fps;
+        const double times[2] = {close, open};
+        for (int i = 0; i < 2; i++) {
+            mgt_camera camera = scene_camera_at(&values->camera, times[i]);
+            camera_fault fault = scene_camera_fault(&camera);
+            if (fault != CAMERA_LEGAL) {
+                char where[96];
+                snprintf(where, sizeof where, "camera.path at %s s (frame %u)", scene_double_text(times[i]).text, frame);
+                return refuse_camera(tree, path, fault, where, error);
+            }
+        }
+    }
+    return true;
+}
+
+static bool check_exposure(const scene_tree *tree, const scene_values *values, scene_error *error)
+{
+    const tree_node *offset = tree_get(tree_get(tree->root, "post"), "exposure_offset");
+    if (values->post.exposure.automatic || offset == NULL)
+        return true;
+    return tree_error(tree, offset->key_source != NULL ? offset->key_source : offset->source, offset->key_place, error,
+                      "post.exposure_offset stands beside an exposure that is a number; allowed: only with exposure: auto");
+}
+
+bool scene_check(const scene_tree *tree, const scene_values *values, scene_error *error)
+{
+    const tree_node *path = tree_get(tree_get(tree->root, "camera"), "path");
+    bool moves = values->camera.path.count > 0;
+    return check_image(tree, &values->image, error) &&
+           (moves ? check_keyframes(tree, &values->camera, path, error) && check_path(tree, values, path, error)
+                  : check_still_camera(tree, &values->camera, error)) &&
+           check_exposure(tree, values, error);
+}

@@ -1,0 +1,133 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The scene format as one table: keys, types, ranges, units, meanings. Reading, messages, the render hash's text, the
+ * JSON Schema and the documentation all walk it.
+ */
+#ifndef MANGATA_SCENE_SCENE_FIELDS_H
+#define MANGATA_SCENE_SCENE_FIELDS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "scene/scene_text.h"
+
+/* ---- the values of a file ------------------------------------------------------------------------------ */
+
+typedef struct scene_list {
+    void *items; /* owned */
+    size_t count;
+} scene_list;
+
+typedef struct scene_keyframe {
+    double time; /* seconds, as mgt_scene.time */
+    mgt_camera camera;
+} scene_keyframe;
+
+typedef struct scene_camera {
+    mgt_camera still;
+    scene_list path; /* of scene_keyframe; empty: the still camera */
+} scene_camera;
+
+typedef struct scene_clock {
+    double start; /* seconds */
+    double fps;
+    uint32_t frames;
+    double shutter; /* share of a frame's interval */
+} scene_clock;
+
+typedef struct scene_water {
+    scene_list waves; /* of mgt_wave */
+    double index_of_refraction;
+    float body_albedo[3];
+} scene_water;
+
+typedef struct scene_exposure {
+    bool automatic;
+    double stops; /* when not automatic */
+} scene_exposure;
+
+typedef struct scene_post {
+    scene_exposure exposure;
+    double exposure_offset; /* when automatic */
+    mgt_tone_map tone_map;
+    float glare;
+} scene_post;
+
+typedef struct scene_values {
+    uint32_t version;
+    char *description; /* owned; NULL: none */
+    mgt_image image;
+    scene_camera camera;
+    scene_clock time;
+    mgt_light light;
+    mgt_sky sky;
+    scene_water water;
+    scene_post post;
+} scene_values;
+
+/* What mgt_scene_defaults() and the format's own defaults say. */
+scene_values scene_values_defaults(void);
+void scene_values_free(scene_values *values);
+
+/* ---- the table ------------------------------------------------------------------------------------------ */
+
+typedef enum field_type {
+    FIELD_COUNT,    /* uint32_t */
+    FIELD_NUMBER,   /* double */
+    FIELD_SHARE,    /* float */
+    FIELD_VECTOR,   /* double[3] */
+    FIELD_COLOR,    /* float[3] */
+    FIELD_CHOICE,   /* int, one of `choices` by name */
+    FIELD_EXPOSURE, /* scene_exposure: "auto" or a number */
+    FIELD_TEXT,     /* char * */
+    FIELD_MAPPING,  /* `fields` inside */
+    FIELD_LIST      /* scene_list of mappings with `fields` inside */
+} field_type;
+
+typedef enum field_flags {
+    FIELD_REQUIRED = 1,
+    FIELD_OPEN_MIN = 2,    /* the minimum itself is not allowed */
+    FIELD_OPEN_MAX = 4,    /* nor the maximum */
+    FIELD_NO_PIXELS = 8,   /* changes no pixel: left out of the canonical text */
+    FIELD_ABOVE_WATER = 16 /* vector: its y must be above 0 */
+} field_flags;
+
+typedef struct scene_field scene_field;
+struct scene_field {
+    const char *key;
+    field_type type;
+    size_t offset; /* in the parent's struct */
+    unsigned flags;
+    double min, max;
+    const char *unit; /* NULL: none */
+    const char *doc;
+    const char *const *choices; /* in the enum's order, NULL-terminated */
+    const scene_field *fields;  /* ended by one without a key */
+    size_t item_size, max_items; /* list */
+    /* After a key was read: sets what it decides of its neighbours, which are read later. */
+    void (*decide)(void *parent);
+    /* Before a list item is read: its defaults, from the struct that holds the list. */
+    void (*prepare)(const void *parent, void *item);
+};
+
+/* The format: a mapping whose struct is scene_values. */
+const scene_field *scene_root_field(void);
+
+/* "-90 to 90 degrees", "above 0 and below 179 degrees", "one of sun, moon", …: what a message allows. `out` is cut to size. */
+void scene_field_allowed(const scene_field *field, char *out, size_t size);
+
+/* Only the range and, if wanted, the unit of a number: "-90 to 90". */
+void scene_field_range(const scene_field *field, bool with_unit, char *out, size_t size);
+
+bool scene_field_in_range(const scene_field *field, double value);
+
+/* The text behind scene_file_canonical(). */
+char *scene_values_canonical(const scene_values *values, size_t *length);
+
+static inline const void *scene_field_at(const scene_field *field, const void *parent)
+{
+    return (const char *)parent + field->offset;
+}
+
+#endif

@@ -1,0 +1,200 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Scene files: loading, and one mgt_scene a frame.
+ */
+#include "scene/scene_file.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "scene/scene_path.h"
+#include "scene/scene_read.h"
+
+enum { MAX_BYTES = 16 * 1024 * 1024, FIRST_BYTES = 64 * 1024 };
+
+struct scene_file {
+    char *path;
+    scene_values values;
+};
+
+/* ---- loading -------------------------------------------------------------------------------------------- */
+
+static bool refuse_file(scene_error *error, scene_error_kind kind, const char *path, const char *what)
+{
+    return scene_error_set(error, kind, "%s: %s; allowed: a YAML or JSON file of at most 16 MiB", scene_file_name(path).text, what);
+}
+
+/* The whole file into memory of the caller's; NULL on failure. */
+static char *read_whole_file(const char *path, size_t *length, scene_error *error)
+{
+    char *text = NULL;
+    size_t size = FIRST_BYTES, used = 0;
+    struct stat status;
+    FILE *stream = fopen(path, "rbe");
+    if (stream == NULL) {
+        refuse_file(error, SCENE_ERROR_MISSING_INPUT, path, strerror(errno));
+        return NULL;
+    }
+    if (fstat(fileno(stream), &status) == 0 && S_ISDIR(status.st_mode)) {
+        refuse_file(error, SCENE_ERROR_MISSING_INPUT, path, "is a directory");
+        goto fail;
+    }
+    for (;;) {
+        char *more = realloc(text, size);
+        if (more == NULL) {
+            scene_error_memory(error);
+            goto fail;
+        }
+        text = more;
+        used += fread(text + used, 1, size - used, stream);
+        if (ferror(stream)) {
+            refuse_file(error, SCENE_ERROR_MISSING_INPUT, path, strerror(errno));
+            goto fail;
+        }
+        if (used < size)
+            break;
+        if (used > MAX_BYTES) {
+            refuse_file(error, SCENE_ERROR_BAD_SCENE, path, "is larger than 16 MiB");
+            goto fail;
+        }
+        size = 2 * size < MAX_BYTES ? 2 * size : MAX_BYTES + 1;
+    }
+    fclose(stream);
+    *length = used;
+    return text;
+
+fail:
+    free(text);
+    fclose(stream);
+    return NULL;
+}
+
+scene_file *scene_file_parse(const char *text, size_t length, const char *name, const char *const *overrides,
+                             size_t override_count, scene_error *error)
+{
+    scene_tree tree = {.file_name = name};
+    scene_file *file = NULL;
+
+    if (error != NULL)
+        *error = (scene_error){0};
+    if (length > MAX_BYTES) {
+        refuse_file(error, SCENE_ERROR_BAD_SCENE, name, "is larger than 16 MiB");
+        return NULL;
+    }
+    tree.root = tree_parse(&tree, text, length, NULL, error);
+    if (tree.root == NULL)
+        goto fail;
+    for (size_t i = 0; i < override_count; i++)
+        if (!scene_override_apply(&tree, overrides[i], error))
+            goto fail;
+    file = calloc(1, sizeof *file);
+    if (file == NULL || (file->path = strdup(name)) == NULL) {
+        scene_error_memory(error);
+        goto fail;
+    }
+    file->values = scene_values_defaults();
+    if (!scene_read(&tree, &file->values, error) || !scene_check(&tree, &file->values, error))
+        goto fail;
+    tree_free(&tree);
+    return file;
+
+fail:
+    tree_free(&tree);
+    scene_file_free(file);
+    return NULL;
+}
+
+scene_file *scene_file_load(const char *path, const char *const *overrides, size_t override_count, scene_error *error)
+{
+    size_t length = 0;
+    if (error != NULL)
+        *error = (scene_error){0};
+    if (path == NULL || *path == '\0') {
+        scene_error_set(error, SCENE_ERROR_MISSING_INPUT, "the scene's file name is empty; allowed: the path of a YAML or JSON file");
+        return NULL;
+    }
+    char *text = read_whole_file(path, &length, error);
+    if (text == NULL)
+        return NULL;
+    scene_file *file = scene_file_parse(text, length, path, overrides, override_count, error);
+    free(text);
+    return file;
+}
+
+void scene_file_free(scene_file *file)
+{
+    if (file == NULL)
+        return;
+    scene_values_free(&file->values);
+    free(file->path);
+    free(file);
+}
+
+/* ---- frames --------------------------------------------------------------------------------------------- */
+
+bool scene_file_frame(const scene_file *file, int frame, mgt_scene *out)
+{
+    if (file == NULL || frame < 0)
+        return false;
+    const scene_values *values = &file->values;
+    mgt_scene scene = mgt_scene_defaults();
+    scene.image.width = values->image.width;
+    scene.image.height = values->image.height;
+    scene.time = values->time.start + frame / values->time.fps;
+    scene.shutter = values->time.shutter / values->time.fps;
+    scene.camera = scene_camera_at(&values->camera, scene.time);
+    scene.camera_open = scene_camera_at(&values->camera, scene.time - scene.shutter);
+    scene.camera_moves = !scene_camera_equal(&scene.camera, &scene.camera_open);
+    if (scene_camera_fault(&scene.camera) != CAMERA_LEGAL || scene_camera_fault(&scene.camera_open) != CAMERA_LEGAL)
+        return false;
+    scene.light = values->light;
+    scene.sky = values->sky;
+    scene.water = (mgt_water){.waves = values->water.waves.items,
+                              .wave_count = values->water.waves.count,
+                              .index_of_refraction = values->water.index_of_refraction};
+    memcpy(scene.water.body_albedo, values->water.body_albedo, sizeof scene.water.body_albedo);
+    const scene_exposure *exposure = &values->post.exposure;
+    scene.post = (mgt_post){.auto_exposure = exposure->automatic,
+                            .exposure_ev = exposure->automatic ? values->post.exposure_offset : exposure->stops,
+                            .tone_map = values->post.tone_map,
+                            .glare = values->post.glare};
+    *out = scene;
+    return true;
+}
+
+const char *scene_file_path(const scene_file *file)
+{
+    return file->path;
+}
+
+const char *scene_file_description(const scene_file *file)
+{
+    return file->values.description != NULL ? file->values.description : "";
+}
+
+int scene_file_frame_count(const scene_file *file)
+{
+    return (int)file->values.time.frames;
+}
+
+double scene_file_fps(const scene_file *file)
+{
+    return file->values.time.fps;
+}
+
+double scene_file_start(const scene_file *file)
+{
+    return file->values.time.start;
+}
+
+size_t scene_file_wave_count(const scene_file *file)
+{
+    return file->values.water.waves.count;
+}
+
+char *scene_file_canonical(const scene_file *file, size_t *length)
+{
+    return scene_values_canonical(&file->values, length);
+}

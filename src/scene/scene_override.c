@@ -1,0 +1,132 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Overrides, "key=value", written into a scene's tree before it is read.
+ */
+#include <ctype.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene/scene_read.h"
+
+/* One step of a key's path: a word, or an index in brackets. */
+typedef struct path_step {
+    const char *word; /* not terminated; NULL: an index */
+    size_t length, index;
+} path_step;
+
+/* Takes the next step of "light.radiance[1]" from *text; false where it is malformed. */
+static bool next_step(const char **text, const char *end, bool first, path_step *step)
+{
+    const char *at = *text;
+    if (*at == '[' && !first) {
+        char *close;
+        if (!isdigit((unsigned char)at[1]))
+            return false;
+        unsigned long long index = strtoull(at + 1, &close, 10);
+        if (*close != ']' || close - at > 10)
+            return false;
+        *step = (path_step){.index = (size_t)index};
+        *text = close + 1;
+        return true;
+    }
+    if (!first && *at++ != '.')
+        return false;
+    const char *word = at;
+    while (at < end && (isalnum((unsigned char)*at) || *at == '_'))
+        at++;
+    *step = (path_step){.word = word, .length = (size_t)(at - word)};
+    *text = at;
+    return at > word;
+}
+
+static bool refuse_form(const char *override, scene_error *error)
+{
+    scene_quote quote = scene_quote_text(override, strlen(override));
+    return scene_error_set(error, SCENE_ERROR_BAD_OVERRIDE,
+                           "--set %s: not of the form key=value; allowed: such as light.elevation_deg=3, "
+                           "water.waves[0].amplitude=0.1, camera.position=[0, 5, 0]",
+                           quote.text);
+}
+
+/* The step asks for another kind of value than the scene has there. */
+static bool refuse_step(const scene_tree *tree, const char *override, const tree_node *node, scene_error *error)
+{
+    const char *name = node->key != NULL ? node->key : "the item";
+    switch (node->kind) {
+    case TREE_LIST: return tree_error(tree, override, node->place, error, "%s is a list; allowed: an index, as in %s[0]", name, name);
+    case TREE_MAPPING: return tree_error(tree, override, node->place, error, "%s is a mapping; allowed: a key, as in %s.key", name, name);
+    default: return tree_error(tree, override, node->place, error, "%s is a single value; allowed: %s=value", name, name);
+    }
+}
+
+/* The child that a step names, made where it is missing. */
+static tree_node *take_step(scene_tree *tree, tree_node *node, const path_step *step, const char *override, scene_error *error)
+{
+    tree_kind wanted = step->word != NULL ? TREE_MAPPING : TREE_LIST;
+    if (node->kind == TREE_NULL) {
+        node->kind = wanted;
+        node->source = override;
+    }
+    if (node->kind != wanted) {
+        refuse_step(tree, override, node, error);
+        return NULL;
+    }
+    char *word = NULL;
+    tree_node *child;
+    if (step->word != NULL) {
+        word = tree_copy_text(tree, step->word, step->length);
+        if (word == NULL)
+            goto memory;
+        child = tree_get(node, word);
+    } else {
+        child = tree_at(node, step->index);
+        if (child == NULL && step->index > node->count) {
+            tree_error(tree, override, node->place, error, "%s has %zu items; allowed: an index from 0 to %zu (which appends)",
+                       node->key != NULL ? node->key : "the list", node->count, node->count);
+            return NULL;
+        }
+    }
+    if (child != NULL)
+        return child;
+    child = tree_add_node(tree, TREE_NULL, node->place, override);
+    if (child == NULL)
+        goto memory;
+    child->key = word;
+    tree_append(node, child);
+    return child;
+
+memory:
+    scene_error_memory(error);
+    return NULL;
+}
+
+bool scene_override_apply(scene_tree *tree, const char *override, scene_error *error)
+{
+    const char *equals = override != NULL ? strchr(override, '=') : NULL;
+    if (equals == NULL)
+        return refuse_form(override != NULL ? override : "", error);
+    path_step step;
+    for (const char *at = override; at == override || at < equals;)
+        if (!next_step(&at, equals, at == override, &step))
+            return refuse_form(override, error);
+    tree_node *value = tree_parse(tree, equals + 1, strlen(equals + 1), override, error);
+    if (value == NULL)
+        return false;
+    if (tree->root->kind != TREE_MAPPING)
+        return true; /* reading it will say what is wrong */
+
+    tree_node *node = tree->root;
+    for (const char *at = override; at < equals;) {
+        next_step(&at, equals, at == override, &step);
+        node = take_step(tree, node, &step, override, error);
+        if (node == NULL)
+            return false;
+    }
+    tree_node replaced = *value;
+    replaced.key = node->key;
+    replaced.key_place = node->key_place;
+    replaced.key_source = node->key_source;
+    replaced.next = node->next;
+    *node = replaced;
+    return true;
+}

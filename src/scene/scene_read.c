@@ -1,0 +1,314 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * From a tree of YAML nodes to scene values: keys, types and ranges, as the field table says.
+ */
+#include "scene/scene_read.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+enum { MAX_FIELDS = 16 };
+
+typedef struct scene_reader {
+    const scene_tree *tree;
+    scene_error *error;
+    char path[128]; /* "water.waves[3].amplitude", for messages */
+} scene_reader;
+
+/* ---- messages ------------------------------------------------------------------------------------------- */
+
+/* "elevation_deg is …; allowed: …": the one shape of all messages about values. */
+static bool refuse_value(const scene_reader *reader, const scene_field *field, const tree_node *node)
+{
+    char allowed[160], value[128];
+    scene_quote quote = scene_quote_text(node->text != NULL ? node->text : "", node->length);
+    scene_field_allowed(field, allowed, sizeof allowed);
+    switch (node->kind) {
+    case TREE_NULL: snprintf(value, sizeof value, "empty"); break;
+    case TREE_LIST: snprintf(value, sizeof value, "a list of %zu", node->count); break;
+    case TREE_MAPPING: snprintf(value, sizeof value, "a mapping"); break;
+    case TREE_SCALAR: snprintf(value, sizeof value, node->plain ? "%s" : "the text \"%s\"", quote.text); break;
+    }
+    bool may_go = node->kind == TREE_NULL && node->key != NULL && !(field->flags & FIELD_REQUIRED);
+    return tree_error(reader->tree, node->source, node->place, reader->error, "%s is %s; allowed: %s%s",
+                      reader->path[0] != '\0' ? reader->path : "the scene", value, allowed, may_go ? ", or no such key" : "");
+}
+
+/* How far a key is from a known one; a known one's beginning counts as near ("elevation" for "elevation_deg"). */
+static size_t key_distance(const char *key, const char *known)
+{
+    size_t length = strlen(key), distance = scene_edit_distance(key, length, known);
+    if (length >= 3 && strncmp(key, known, length) == 0)
+        return 1;
+    return 2 * distance < strlen(known) ? distance : SIZE_MAX;
+}
+
+static bool refuse_unknown_key(const scene_reader *reader, const scene_field *mapping, const tree_node *node)
+{
+    char known[320] = "", hint[64] = "";
+    size_t nearest = 3, used = 0; /* further than two edits is no slip of the finger */
+    for (const scene_field *field = mapping->fields; field->key != NULL; field++) {
+        size_t distance = key_distance(node->key, field->key);
+        if (distance < nearest) {
+            nearest = distance;
+            snprintf(hint, sizeof hint, "did you mean \"%s\"? ", field->key);
+        }
+        if (used < sizeof known)
+            used += (size_t)snprintf(known + used, sizeof known - used, "%s%s", used > 0 ? ", " : "", field->key);
+    }
+    scene_quote quote = scene_quote_text(node->key, strlen(node->key));
+    return tree_error(reader->tree, node->key_source, node->key_place, reader->error, "unknown key \"%s\" in %s; %sallowed: %s",
+                      quote.text, reader->path[0] != '\0' ? reader->path : "the scene", hint, known);
+}
+
+static size_t path_enter(scene_reader *reader, const char *key)
+{
+    size_t length = strlen(reader->path);
+    snprintf(reader->path + length, sizeof reader->path - length, "%s%s", length > 0 ? "." : "", key);
+    return length;
+}
+
+static size_t path_enter_item(scene_reader *reader, size_t index)
+{
+    size_t length = strlen(reader->path);
+    snprintf(reader->path + length, sizeof reader->path - length, "[%zu]", index);
+    return length;
+}
+
+static void path_leave(scene_reader *reader, size_t length)
+{
+    reader->path[length] = '\0';
+}
+
+/* ---- numbers -------------------------------------------------------------------------------------------- */
+
+static const char *skip_digits(const char *text)
+{
+    return text + strspn(text, "0123456789");
+}
+
+/* The numbers of YAML's core schema: decimal, 0x and 0o; strtod alone would also take "nan", "1e" or " 3". */
+static bool is_decimal(const char *text)
+{
+    text += *text == '-' || *text == '+';
+    const char *whole = skip_digits(text), *end = whole;
+    bool digits = whole > text;
+    if (*end == '.') {
+        const char *fraction = skip_digits(end + 1);
+        digits |= fraction > end + 1;
+        end = fraction;
+    }
+    if (digits && (*end == 'e' || *end == 'E')) {
+        const char *exponent = end + 1 + (end[1] == '-' || end[1] == '+');
+        end = skip_digits(exponent);
+        digits = end > exponent;
+    }
+    return digits && *end == '\0';
+}
+
+/* False where the scalar is no number at all; infinities and NaN come out as such and fail every range. */
+static bool node_number(const tree_node *node, double *value)
+{
+    if (node->kind != TREE_SCALAR || !node->plain)
+        return false;
+    const char *text = node->text;
+    const char *unsigned_text = text + (*text == '-' || *text == '+');
+    if (is_decimal(text)) {
+        *value = strtod(text, NULL);
+        return true;
+    }
+    if (strcasecmp(unsigned_text, ".inf") == 0 || strcasecmp(text, ".nan") == 0) {
+        *value = NAN;
+        return true;
+    }
+    bool hexadecimal = text[0] == '0' && text[1] == 'x', octal = text[0] == '0' && text[1] == 'o';
+    const char *digits = hexadecimal ? "0123456789abcdefABCDEF" : "01234567";
+    if ((!hexadecimal && !octal) || node->length < 3 || node->length > 18 || strspn(text + 2, digits) != node->length - 2)
+        return false;
+    *value = (double)strtoull(text + 2, NULL, hexadecimal ? 16 : 8);
+    return true;
+}
+
+/* A number in the field's range. */
+static bool read_number(const scene_reader *reader, const scene_field *field, const tree_node *node, double *value)
+{
+    if (!node_number(node, value) || !isfinite(*value) || !scene_field_in_range(field, *value))
+        return refuse_value(reader, field, node);
+    if (field->type == FIELD_COUNT && *value != floor(*value))
+        return refuse_value(reader, field, node);
+    return true;
+}
+
+/* ---- values --------------------------------------------------------------------------------------------- */
+
+static bool read_vector(scene_reader *reader, const scene_field *field, const tree_node *node, double vector[3])
+{
+    if (node->kind != TREE_LIST || node->count != 3)
+        return refuse_value(reader, field, node);
+    scene_field component = *field;
+    component.type = FIELD_NUMBER;
+    const tree_node *item = node->first;
+    for (size_t i = 0; i < 3; i++, item = item->next) {
+        size_t length = path_enter_item(reader, i);
+        if (!read_number(reader, &component, item, &vector[i]))
+            return false;
+        if (field->flags & FIELD_ABOVE_WATER && i == 1 && vector[1] <= 0)
+            return tree_error(reader->tree, item->source, item->place, reader->error,
+                              "%s is %s: cameras at or under the mean water surface (y = 0) are not supported yet; "
+                              "allowed: above 0, at most 1e9 m",
+                              reader->path, item->text);
+        path_leave(reader, length);
+    }
+    return true;
+}
+
+static bool read_choice(const scene_reader *reader, const scene_field *field, const tree_node *node, int *choice)
+{
+    if (node->kind == TREE_SCALAR)
+        for (int i = 0; field->choices[i] != NULL; i++)
+            if (strcmp(node->text, field->choices[i]) == 0) {
+                *choice = i;
+                return true;
+            }
+    return refuse_value(reader, field, node);
+}
+
+static bool read_text(const scene_reader *reader, const scene_field *field, const tree_node *node, char **text)
+{
+    if (node->kind != TREE_SCALAR)
+        return refuse_value(reader, field, node);
+    char *copy = strdup(node->text);
+    if (copy == NULL)
+        return scene_error_memory(reader->error);
+    free(*text);
+    *text = copy;
+    return true;
+}
+
+static bool read_exposure(const scene_reader *reader, const scene_field *field, const tree_node *node, scene_exposure *exposure)
+{
+    if (node->kind == TREE_SCALAR && strcmp(node->text, "auto") == 0) {
+        *exposure = (scene_exposure){.automatic = true};
+        return true;
+    }
+    exposure->automatic = false;
+    return read_number(reader, field, node, &exposure->stops);
+}
+
+static bool read_mapping(scene_reader *reader, const scene_field *field, const tree_node *node, void *values);
+
+static bool read_list(scene_reader *reader, const scene_field *field, const tree_node *node, void *parent)
+{
+    scene_list *list = (scene_list *)((char *)parent + field->offset);
+    if (node->kind != TREE_LIST)
+        return refuse_value(reader, field, node);
+    if (node->count > field->max_items)
+        return tree_error(reader->tree, node->source, node->place, reader->error, "%s has %zu items; allowed: at most %zu",
+                          reader->path, node->count, field->max_items);
+    if (node->count == 0)
+        return true;
+    list->items = calloc(node->count, field->item_size);
+    if (list->items == NULL)
+        return scene_error_memory(reader->error);
+    list->count = node->count;
+    const tree_node *child = node->first;
+    for (size_t i = 0; i < list->count; i++, child = child->next) {
+        void *item = (char *)list->items + i * field->item_size;
+        size_t length = path_enter_item(reader, i);
+        field->prepare(parent, item);
+        if (!read_mapping(reader, field, child, item))
+            return false;
+        path_leave(reader, length);
+    }
+    return true;
+}
+
+static bool read_field(scene_reader *reader, const scene_field *field, const tree_node *node, void *parent)
+{
+    void *place = (char *)parent + field->offset;
+    double number, vector[3];
+    switch (field->type) {
+    case FIELD_COUNT:
+        if (!read_number(reader, field, node, &number))
+            return false;
+        *(uint32_t *)place = (uint32_t)number;
+        return true;
+    case FIELD_SHARE:
+        if (!read_number(reader, field, node, &number))
+            return false;
+        *(float *)place = (float)number;
+        return true;
+    case FIELD_COLOR:
+        if (!read_vector(reader, field, node, vector))
+            return false;
+        for (int i = 0; i < 3; i++)
+            ((float *)place)[i] = (float)vector[i];
+        return true;
+    case FIELD_NUMBER: return read_number(reader, field, node, place);
+    case FIELD_VECTOR: return read_vector(reader, field, node, place);
+    case FIELD_CHOICE: return read_choice(reader, field, node, place);
+    case FIELD_EXPOSURE: return read_exposure(reader, field, node, place);
+    case FIELD_TEXT: return read_text(reader, field, node, place);
+    case FIELD_MAPPING: return read_mapping(reader, field, node, place);
+    case FIELD_LIST: return read_list(reader, field, node, parent);
+    }
+    return false;
+}
+
+/* Which field each child is; refuses unknown and repeated keys, in the order of the file. */
+static bool match_keys(const scene_reader *reader, const scene_field *mapping, const tree_node *node,
+                       const tree_node *found[MAX_FIELDS])
+{
+    for (const tree_node *child = node->first; child != NULL; child = child->next) {
+        size_t index = 0;
+        while (mapping->fields[index].key != NULL && strcmp(mapping->fields[index].key, child->key) != 0)
+            index++;
+        if (mapping->fields[index].key == NULL)
+            return refuse_unknown_key(reader, mapping, child);
+        if (found[index] != NULL)
+            return tree_error(reader->tree, child->key_source, child->key_place, reader->error,
+                              "key \"%s\" stands twice, first at line %d, column %d; allowed: once", child->key,
+                              found[index]->key_place.line, found[index]->key_place.column);
+        found[index] = child;
+    }
+    return true;
+}
+
+static bool read_mapping(scene_reader *reader, const scene_field *mapping, const tree_node *node, void *values)
+{
+    const tree_node *found[MAX_FIELDS] = {0};
+    if (node->kind != TREE_MAPPING) {
+        scene_field item = *mapping;
+        item.type = FIELD_MAPPING;
+        return refuse_value(reader, &item, node);
+    }
+    if (!match_keys(reader, mapping, node, found))
+        return false;
+    for (size_t i = 0; mapping->fields[i].key != NULL; i++) {
+        const scene_field *field = &mapping->fields[i];
+        size_t length = path_enter(reader, field->key);
+        if (found[i] == NULL && field->flags & FIELD_REQUIRED) {
+            char allowed[160];
+            scene_field_allowed(field, allowed, sizeof allowed);
+            return tree_error(reader->tree, node->source, node->place, reader->error, "%s is missing; required: %s: %s",
+                              reader->path, field->key, allowed);
+        }
+        if (found[i] != NULL) {
+            if (!read_field(reader, field, found[i], values))
+                return false;
+            if (field->decide != NULL)
+                field->decide(values);
+        }
+        path_leave(reader, length);
+    }
+    return true;
+}
+
+bool scene_read(const scene_tree *tree, scene_values *values, scene_error *error)
+{
+    scene_reader reader = {.tree = tree, .error = error};
+    return read_mapping(&reader, scene_root_field(), tree->root, values);
+}

@@ -1,0 +1,237 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The format described by its own table: as a JSON Schema, and as the tables of the documentation.
+ */
+#include <stdio.h>
+#include <string.h>
+
+#include "scene/scene_fields.h"
+
+/* ---- defaults ------------------------------------------------------------------------------------------- */
+
+/* A field's default as JSON, which is YAML too: "30", "[0, 4, 0]", "\"sun\"". Empty where it has none. */
+static void write_default(FILE *stream, const scene_field *field, const void *value)
+{
+    const scene_exposure *exposure = value;
+    switch (field->type) {
+    case FIELD_COUNT: fprintf(stream, "%u", *(const uint32_t *)value); break;
+    case FIELD_NUMBER: fputs(scene_double_text(*(const double *)value).text, stream); break;
+    case FIELD_SHARE: fputs(scene_float_text(*(const float *)value).text, stream); break;
+    case FIELD_VECTOR:
+    case FIELD_COLOR:
+        for (int i = 0; i < 3; i++) {
+            scene_number_text number = field->type == FIELD_VECTOR ? scene_double_text(((const double *)value)[i])
+                                                                   : scene_float_text(((const float *)value)[i]);
+            fprintf(stream, "%s%s", i == 0 ? "[" : ", ", number.text);
+        }
+        fputs("]", stream);
+        break;
+    case FIELD_CHOICE: fprintf(stream, "\"%s\"", field->choices[*(const int *)value]); break;
+    case FIELD_EXPOSURE:
+        if (exposure->automatic)
+            fputs("\"auto\"", stream);
+        else
+            fputs(scene_double_text(exposure->stops).text, stream);
+        break;
+    case FIELD_TEXT: fputs("\"\"", stream); break;
+    case FIELD_LIST: fputs("[]", stream); break;
+    case FIELD_MAPPING: break;
+    }
+}
+
+static bool has_default(const scene_field *field)
+{
+    return !(field->flags & FIELD_REQUIRED) && field->type != FIELD_MAPPING;
+}
+
+/* ---- JSON Schema ---------------------------------------------------------------------------------------- */
+
+static void write_text(FILE *stream, const char *text)
+{
+    fputc('"', stream);
+    for (; *text != '\0'; text++) {
+        if (*text == '"' || *text == '\\')
+            fputc('\\', stream);
+        fputc(*text, stream);
+    }
+    fputc('"', stream);
+}
+
+static void write_range(FILE *stream, const scene_field *field)
+{
+    fprintf(stream, "\"%s\": %s, \"%s\": %s", field->flags & FIELD_OPEN_MIN ? "exclusiveMinimum" : "minimum",
+            scene_double_text(field->min).text, field->flags & FIELD_OPEN_MAX ? "exclusiveMaximum" : "maximum",
+            scene_double_text(field->max).text);
+}
+
+static void write_number_schema(FILE *stream, const scene_field *field)
+{
+    fprintf(stream, "{\"type\": \"%s\", ", field->type == FIELD_COUNT ? "integer" : "number");
+    write_range(stream, field);
+    fputs("}", stream);
+}
+
+static void write_vector_schema(FILE *stream, const scene_field *field)
+{
+    fputs("\"type\": \"array\", \"minItems\": 3, \"maxItems\": 3, ", stream);
+    if (field->flags & FIELD_ABOVE_WATER) {
+        scene_field height = *field;
+        height.min = 0;
+        height.flags |= FIELD_OPEN_MIN;
+        fputs("\"prefixItems\": [", stream);
+        write_number_schema(stream, field);
+        fputs(", ", stream);
+        write_number_schema(stream, &height);
+        fputs(", ", stream);
+        write_number_schema(stream, field);
+        fputs("]", stream);
+    } else {
+        fputs("\"items\": ", stream);
+        write_number_schema(stream, field);
+    }
+}
+
+static void indent(FILE *stream, int depth)
+{
+    fprintf(stream, "%*s", 2 * depth, "");
+}
+
+/* `values`: the struct that holds the mapping's defaults. */
+static void write_mapping_schema(FILE *stream, const scene_field *mapping, const void *values, int depth);
+
+static void write_type_schema(FILE *stream, const scene_field *field, const void *value, const void *parent, int depth)
+{
+    union {
+        mgt_wave wave;
+        scene_keyframe keyframe;
+    } item;
+    switch (field->type) {
+    case FIELD_COUNT:
+    case FIELD_NUMBER:
+    case FIELD_SHARE:
+        if (field->min == field->max) {
+            fprintf(stream, "\"const\": %s", scene_double_text(field->min).text);
+            break;
+        }
+        fprintf(stream, "\"type\": \"%s\", ", field->type == FIELD_COUNT ? "integer" : "number");
+        write_range(stream, field);
+        break;
+    case FIELD_VECTOR:
+    case FIELD_COLOR: write_vector_schema(stream, field); break;
+    case FIELD_CHOICE:
+        for (size_t i = 0; field->choices[i] != NULL; i++)
+            fprintf(stream, "%s\"%s\"", i == 0 ? "\"enum\": [" : ", ", field->choices[i]);
+        fputs("]", stream);
+        break;
+    case FIELD_EXPOSURE:
+        fputs("\"oneOf\": [{\"const\": \"auto\"}, ", stream);
+        write_number_schema(stream, field);
+        fputs("]", stream);
+        break;
+    case FIELD_TEXT: fputs("\"type\": [\"string\", \"number\", \"boolean\"]", stream); break;
+    case FIELD_MAPPING: write_mapping_schema(stream, field, value, depth); break;
+    case FIELD_LIST:
+        memset(&item, 0, sizeof item);
+        field->prepare(parent, &item);
+        fprintf(stream, "\"type\": \"array\", \"maxItems\": %zu,\n", field->max_items);
+        indent(stream, depth);
+        fputs("\"items\": {\n", stream);
+        indent(stream, depth + 1);
+        write_mapping_schema(stream, field, &item, depth + 1);
+        fputs("\n", stream);
+        indent(stream, depth);
+        fputs("}", stream);
+        break;
+    }
+}
+
+static void write_mapping_schema(FILE *stream, const scene_field *mapping, const void *values, int depth)
+{
+    const char *separator = " \"required\": [";
+    fputs("\"type\": \"object\", \"additionalProperties\": false,", stream);
+    for (const scene_field *field = mapping->fields; field->key != NULL; field++)
+        if (field->flags & FIELD_REQUIRED) {
+            fprintf(stream, "%s\"%s\"", separator, field->key);
+            separator = ", ";
+        }
+    fputs(separator[0] == ',' ? "],\n" : "\n", stream);
+    indent(stream, depth);
+    fputs("\"properties\": {\n", stream);
+    for (const scene_field *field = mapping->fields; field->key != NULL; field++) {
+        const void *value = scene_field_at(field, values);
+        indent(stream, depth + 1);
+        fprintf(stream, "\"%s\": {\n", field->key);
+        indent(stream, depth + 2);
+        fputs("\"description\": ", stream);
+        char text[512];
+        snprintf(text, sizeof text, "%s%s%s%s", field->doc, field->unit != NULL ? " [" : "", field->unit != NULL ? field->unit : "",
+                 field->unit != NULL ? "]" : "");
+        write_text(stream, text);
+        fputs(",\n", stream);
+        indent(stream, depth + 2);
+        if (has_default(field)) {
+            fputs("\"default\": ", stream);
+            write_default(stream, field, value);
+            fputs(",\n", stream);
+            indent(stream, depth + 2);
+        }
+        write_type_schema(stream, field, value, values, depth + 2);
+        fputs("\n", stream);
+        indent(stream, depth + 1);
+        fputs(field[1].key != NULL ? "},\n" : "}\n", stream);
+    }
+    indent(stream, depth);
+    fputs("}", stream);
+}
+
+bool scene_schema_write(FILE *stream)
+{
+    const scene_values defaults = scene_values_defaults();
+    fputs("{\n  \"$schema\": \"https://json-schema.org/draft/2020-12/schema\",\n  \"title\": \"Mangata scene\",\n  ", stream);
+    write_mapping_schema(stream, scene_root_field(), &defaults, 1);
+    fputs("\n}\n", stream);
+    return fflush(stream) == 0 && !ferror(stream);
+}
+
+/* ---- tables of the documentation ------------------------------------------------------------------------- */
+
+static void write_table(FILE *stream, const char *path, const scene_field *mapping, const void *values)
+{
+    union {
+        mgt_wave wave;
+        scene_keyframe keyframe;
+    } item;
+    for (const scene_field *field = mapping->fields; field->key != NULL; field++) {
+        const void *value = scene_field_at(field, values);
+        char name[64], allowed[160];
+        snprintf(name, sizeof name, "%s%s%s", path, path[0] != '\0' ? "." : "", field->key);
+        if (field->type == FIELD_MAPPING) {
+            write_table(stream, name, field, value);
+            continue;
+        }
+        scene_field_allowed(field, allowed, sizeof allowed);
+        fprintf(stream, "| `%s` | %s | ", name, allowed);
+        if (has_default(field)) {
+            fputs("`", stream);
+            write_default(stream, field, value);
+            fputs("`", stream);
+        } else {
+            fputs("required", stream);
+        }
+        fprintf(stream, " | %s |\n", field->doc);
+        if (field->type == FIELD_LIST) {
+            memset(&item, 0, sizeof item);
+            field->prepare(values, &item);
+            snprintf(name + strlen(name), sizeof name - strlen(name), "[]");
+            write_table(stream, name, field, &item);
+        }
+    }
+}
+
+bool scene_reference_write(FILE *stream)
+{
+    const scene_values defaults = scene_values_defaults();
+    fputs("| key | allowed | default | meaning |\n|---|---|---|---|\n", stream);
+    write_table(stream, "", scene_root_field(), &defaults);
+    return fflush(stream) == 0 && !ferror(stream);
+}

@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Text for messages: safe quoting, shortest numbers, UTF-8 checks, the nearest known word.
+ */
+#ifndef MANGATA_SCENE_SCENE_TEXT_H
+#define MANGATA_SCENE_SCENE_TEXT_H
+
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "scene/scene_file.h"
+
+#define SCENE_FORMAT(string, first) __attribute__((format(printf, string, first)))
+
+/* A piece of the user's text made fit for a one-line message. */
+typedef struct scene_quote {
+    char text[96];
+} scene_quote;
+
+/* A file's name for a message: its end where it is very long. */
+typedef struct scene_name {
+    char text[192];
+} scene_name;
+
+/* A number as a person would write it. */
+typedef struct scene_number_text {
+    char text[40];
+} scene_number_text;
+
+/* Where in a file: from 1, columns in characters. */
+typedef struct scene_place {
+    int line, column;
+} scene_place;
+
+/* Fills *error (NULL is allowed) with one line: control characters become '?', what is too long is cut at a whole
+ * character. Always returns false, so that callers can `return scene_error_set(…)`. */
+bool scene_error_set(scene_error *error, scene_error_kind kind, const char *format, ...) SCENE_FORMAT(3, 4);
+bool scene_error_set_va(scene_error *error, scene_error_kind kind, const char *format, va_list arguments)
+    SCENE_FORMAT(3, 0);
+bool scene_error_memory(scene_error *error);
+
+/* Control characters replaced, cut to about 60 characters with "..." where longer. */
+scene_quote scene_quote_text(const char *text, size_t length);
+
+scene_name scene_file_name(const char *path);
+
+/* The fewest digits that read back as the same double (or the same float). */
+scene_number_text scene_double_text(double value);
+scene_number_text scene_float_text(float value);
+
+/* Whether the bytes are UTF-8 without control characters other than tab and line ends; *place is the
+ * first bad one, or the end of the text. */
+bool scene_text_is_clean(const char *text, size_t length, scene_place *place);
+
+/* Number of single-character edits (insert, delete, replace, swap of neighbours) between two short words; words over
+ * 63 bytes are infinitely far apart (SIZE_MAX). */
+size_t scene_edit_distance(const char *word, size_t word_length, const char *known);
+
+#endif

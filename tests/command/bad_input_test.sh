@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: MIT
+# Bad scenes and bad pictures: what is wrong, where, what is allowed; the exit code; nothing written.
+. "$CHECK"
+
+refused() { # CODE PATTERN SCENE [options]
+    local code=$1 pattern=$2
+    shift 2
+    expect "$code" "$pattern" render "$@" -o out.png "${null[@]}"
+    absent out.png
+    no_temporaries .
+}
+
+refused 66 'missing.json: No such file' missing.json
+refused 66 'No such file|Not a directory' "$simple/below.json"
+refused 66 'directory' .
+if ((EUID != 0)); then
+    cp "$simple" secret.json
+    chmod 0 secret.json
+    refused 66 'Permission denied' secret.json
+fi
+
+# A scene with one thing wrong, and where: the place is part of the message.
+scene() { printf '%s\n' "$@" >scene.yaml; }
+scene 'mangata: 1' 'image: {width: 640, height: 360' 'time: {fps: 30}'
+refused 65 '^scene.yaml:[0-9]+:[0-9]+: ' scene.yaml
+scene 'mangata: 1' 'water:' '  wavse: []'
+refused 65 '^scene.yaml:3:3: .*wavse' scene.yaml
+scene 'mangata: 1' 'image: {width: wide}'
+refused 65 '^scene.yaml:2:[0-9]+: .*width' scene.yaml
+scene 'mangata: 1' 'image: {width: [640]}'
+refused 65 '^scene.yaml:2:[0-9]+: .*width' scene.yaml
+for value in 0 -1 100000 1.5 .inf; do
+    scene 'mangata: 1' "image: {width: $value}"
+    refused 65 '^scene.yaml:2:[0-9]+: .*width.*allowed' scene.yaml
+done
+for value in .nan .inf nan '"high"' 91; do
+    scene 'mangata: 1' 'light:' "  elevation_deg: $value"
+    refused 65 '^scene.yaml:3:[0-9]+: .*elevation_deg' scene.yaml
+done
+scene 'mangata: 1' 'camera: {position: [0, -1, 0], target: [0, -1, -1]}'
+refused 65 '^scene.yaml:2:[0-9]+: .*not supported yet' scene.yaml
+scene 'mangata: 1' 'camera: {position: [1, 2, 3], target: [1, 2, 3]}'
+refused 65 '^scene.yaml:2:[0-9]+: .*own position' scene.yaml
+scene 'mangata: 1' 'camera: {position: [0, 4, 0], target: [0, 0, 0], up: [0, 1, 0]}'
+refused 65 '^scene.yaml:[0-9]+:[0-9]+: .*up' scene.yaml
+{
+    printf 'mangata: 1\nwater:\n  waves:\n'
+    for ((i = 0; i < 10000; i++)); do echo '    - {amplitude: 0.01, a: 1, b: 0, c: 1}'; done
+} >scene.yaml
+refused 65 '^scene.yaml:[0-9]+:[0-9]+: .*512' scene.yaml
+: >scene.yaml
+refused 65 '^scene.yaml' scene.yaml
+head -c 4096 /dev/urandom >scene.yaml
+refused 65 '^scene.yaml' scene.yaml
+head -c 300 "$SOURCE/scenes/sunset.json" >scene.yaml
+refused 65 '^scene.yaml:[0-9]+:[0-9]+: ' scene.yaml
+
+refused 65 'light.elevation_degrees' "$simple" --set light.elevation_degrees=3
+refused 65 'elevation_deg' "$simple" --set light.elevation_deg=nan
+refused 65 'elevation_deg' "$simple" --set light.elevation_deg=high
+refused 64 'key=value' "$simple" --set light
+
+for code in 65 66; do
+    [[ $code == 66 ]] && rm -f scene.yaml
+    expect $code 'scene.yaml' "$MANGATA" scene check scene.yaml
+    "$MANGATA" scene check scene.yaml --json >stdout.txt 2>/dev/null
+    [[ $? == "$code" && $("$JSON_GET" 0.ok <stdout.txt) == false ]] || fail "scene check --json of a bad scene"
+done
+expect 0 '' "$MANGATA" scene check "$SOURCE"/scenes/*.json
+grep -q 'simple.json: ok, ' stdout.txt || fail "scene check does not say ok"
+expect 0 '' "$MANGATA" scene schema
+"$JSON_GET" '$schema' <stdout.txt >/dev/null || fail "the schema is not JSON"
+
+# Pictures that are not.
+expect 66 'missing.png' "$MANGATA" diff missing.png missing.png
+echo 'not a picture' >bad.png
+expect 65 'bad.png' "$MANGATA" diff bad.png bad.png
+works render "$simple" -o whole.exr "${small[@]}" "${null[@]}" --quiet
+head -c 200 whole.exr >short.exr
+expect 65 'short.exr' "$MANGATA" diff whole.exr short.exr
+expect '64' 'nolayer' "$MANGATA" diff whole.exr whole.exr --layer nolayer
+
+# Unusual but meaningful scenes render.
+good() {
+    works render "$@" -o good.png "${small[@]}" --quiet --overwrite
+    exists good.png
+}
+scene 'mangata: 1'
+good scene.yaml
+good "$simple" --set water.waves=[]
+good "$simple" --set light.elevation_deg=-6
+good "$simple" --set time.shutter=0
+good "$simple" --set light.radiance=[0,0,0]
+finish

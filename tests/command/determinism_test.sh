@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: MIT
+# The same bytes from any number of threads, any instruction set with fma, from a crop, and from a frame alone.
+. "$CHECK"
+
+scene=$SOURCE/scenes/smooth.json
+size=(--size 160x90)
+quiet=(--quiet --overwrite)
+crop_of() { # FILE X Y W H OUT: the rectangle of a grey PFM, as raw bytes
+    local width height header row
+    width=$(sed -n 2p "$1" | cut -d' ' -f1) height=$(sed -n 2p "$1" | cut -d' ' -f2)
+    header=$(head -n 3 "$1" | wc -c)
+    : >"$6"
+    for ((row = $3 + $5 - 1; row >= $3; row--)); do
+        dd if="$1" bs=4 iflag=skip_bytes,count_bytes skip=$((header + 4 * ((height - 1 - row) * width + $2))) count=$((4 * $4)) status=none >>"$6"
+    done
+}
+raw() { tail -c +$(($(head -n 3 "$1" | wc -c) + 1)) "$1"; }
+
+for method in none mangata podee-uniform podee-pixel ssaa2 reference; do
+    few=()
+    [[ $method == reference ]] && few=(--spatial 2 --time-samples 2)
+    for n in 1 2 7; do
+        works render "$scene" -o t$n.exr --layer all --method $method "${few[@]}" --threads $n "${size[@]}" "${quiet[@]}"
+    done
+    same t1.exr t2.exr
+    same t1.exr t7.exr
+    works render "$scene" -o whole.pfm --layer coverage --method $method "${few[@]}" "${size[@]}" "${quiet[@]}"
+    works render "$scene" -o part.pfm --layer coverage --method $method "${few[@]}" "${size[@]}" "${quiet[@]}" --crop 37,41,70,33
+    crop_of whole.pfm 37 41 70 33 whole.raw
+    raw part.pfm >part.raw
+    same whole.raw part.raw
+    for isa in scalar avx2 avx512; do
+        "$MANGATA" info --json | grep -q "\"$isa\"" || continue
+        works render "$scene" -o $isa.exr --layer all --method $method "${few[@]}" --isa $isa "${size[@]}" "${quiet[@]}"
+        same t1.exr $isa.exr
+    done
+done
+differ whole.raw /dev/null
+
+# 8-bit pictures: threads and instruction sets; frame 30 alone and among others; in one process or another.
+works render "$scene" -o f_%02d.png --frames 28-31 "${size[@]}" "${quiet[@]}"
+works render "$scene" -o alone.png --frames 30 "${size[@]}" "${quiet[@]}" --threads 1
+same f_30.png alone.png
+differ f_29.png f_30.png
+for isa in scalar avx2 avx512; do
+    "$MANGATA" info --json | grep -q "\"$isa\"" || continue
+    works render "$scene" -o $isa.png --frames 30 --isa $isa "${size[@]}" "${quiet[@]}"
+    same $isa.png alone.png
+done
+
+# The mean of the halves is the whole; the seed matters to the reference.
+works render "$scene" -o seed.pfm --layer coverage --method reference --spatial 2 --time-samples 2 --seed 9 "${size[@]}" "${quiet[@]}"
+differ seed.pfm whole.pfm
+finish

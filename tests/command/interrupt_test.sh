@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: MIT
+# Signals: an orderly stop within two seconds, and nothing under a final name that is not whole, even after kill -9.
+. "$CHECK"
+
+stops() { # SIGNAL CODE OUT [options]
+    local signal=$1 code=$2 out=$3 start result
+    shift 3
+    mkdir stop
+    start=$(date +%s%N)
+    timeout -s "$signal" -k 20 --preserve-status 1 "$MANGATA" render "$simple" -o "stop/$out" "$@" >stdout.txt 2>stderr.txt
+    result=$?
+    ((result == code)) || fail "$signal, $out: exit code $result: $(cat stderr.txt)"
+    (($(date +%s%N) - start < 3000000000)) || fail "$signal, $out: it took $((($(date +%s%N) - start) / 1000000 - 1000)) ms to stop"
+    (($(wc -l <stderr.txt) <= 1)) || fail "$signal: more than one line: $(cat stderr.txt)"
+    [[ -z $(ls -A stop) ]] || fail "$signal, $out: left $(ls -A stop)"
+    rm -r stop
+}
+long=(--method reference --spatial 16 --size 3840x2160)
+stops INT 130 a.png "${long[@]}"
+stops TERM 143 a.exr "${long[@]}" --layer all
+stops INT 130 a.y4m "${long[@]}" --frames 0-9
+stops TERM 143 b.y4m --frames 0-99999 --size 640x360 "${null[@]}"
+command -v ffmpeg >/dev/null && stops INT 130 b.mp4 --frames 0-99999 --size 640x360 "${null[@]}"
+
+# Killed at once: what has a final name can be read to its end.
+mkdir kill
+for ((i = 0; i < 6; i++)); do
+    (timeout -s KILL "0.$((RANDOM % 70 + 10))" "$MANGATA" render "$simple" -o "kill/f_%05d.png" --frames 0-999 --size 320x180 "${null[@]}" --overwrite --quiet; true) 2>/dev/null
+    (timeout -s KILL "0.$((RANDOM % 70 + 10))" "$MANGATA" render "$simple" -o kill/film.y4m --frames 0-99999 --size 320x180 "${null[@]}" --overwrite --quiet; true) 2>/dev/null
+done
+(($(ls kill/f_*.png | wc -l) > 0)) || fail "no frame was finished; the test shows nothing"
+for file in kill/f_*.png; do
+    "$MANGATA" diff "$file" "$file" >/dev/null || fail "$file is not whole"
+done
+absent kill/film.y4m kill/film.y4m.json
+
+# A series that was killed goes on where it stopped.
+works render "$simple" -o "kill/f_%05d.png" --frames 0-9 --size 320x180 "${null[@]}" --skip-existing --quiet
+finish

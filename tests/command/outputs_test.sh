@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: MIT
+# Kinds of files, layers, numbering, and what happens to files that are there already.
+. "$CHECK"
+
+works render "$simple" -o a.png "${small[@]}" --quiet
+[[ ! -s stderr.txt ]] || fail "--quiet is not quiet"
+exists a.png
+expect 73 'a.png: .*--overwrite' render "$simple" -o a.png "${small[@]}"
+works render "$simple" -o a.png "${small[@]}" --overwrite
+expect 0 'a.png: 1 frame of 64 x 36' render "$simple" -o a.png "${small[@]}" --overwrite
+
+for layer in color coverage mask depth normal; do
+    works render "$simple" -o $layer.pfm --layer $layer "${small[@]}" --quiet
+    exists $layer.pfm $layer.pfm.json
+    head -c 2 $layer.pfm | grep -q "$([[ $layer == color || $layer == normal ]] && echo PF || echo Pf)" || fail "$layer.pfm has the wrong kind"
+done
+for layer in coverage mask normal; do
+    works render "$simple" -o $layer.png --layer $layer "${small[@]}" --quiet
+    exists $layer.png
+done
+works render "$simple" -o all.exr --layer all "${small[@]}" --quiet
+works render "$simple" -o two.exr --layer depth --layer color "${small[@]}" --quiet
+for layer in color coverage mask depth normal; do
+    expect 0 '' "$MANGATA" diff all.exr $layer.pfm --layer $layer --max-rmse 0
+done
+expect 0 '' "$MANGATA" diff all.exr two.exr --layer depth --max-rmse 0
+expect 64 'normal' "$MANGATA" diff all.exr two.exr --layer normal
+
+# A mask as a grey picture is the mask within half a step of 8 bits, water below and sky above.
+"$MANGATA" diff coverage.png coverage.png >/dev/null || fail "a grey picture cannot be read"
+
+# Numbering; one frame through a numbered name; an explicit list.
+works render "$simple" -o 'n_%04d.png' --frames 0-4:2,9 "${small[@]}" "${null[@]}" --quiet
+exists n_0000.png n_0002.png n_0004.png n_0009.png
+(($(ls n_*.png | wc -l) == 4)) || fail "wrong number of frames: $(ls n_*)"
+works render "$simple" -o 'h_###.png' --frames 7 "${small[@]}" "${null[@]}" --quiet
+exists h_007.png
+works render "$simple" -o 'plain%d.png' --frames 12 "${small[@]}" "${null[@]}" --quiet
+exists plain12.png
+works render "$simple" -o '100%%.png' "${small[@]}" "${null[@]}" --quiet
+exists '100%.png'
+mkdir 'dir%s#'
+works render "$simple" -o 'dir%s#/x.png' "${small[@]}" "${null[@]}" --quiet
+exists 'dir%s#/x.png'
+works render "$simple" -o 'every_##.png' --set time.frames=3 "${small[@]}" "${null[@]}" --quiet
+(($(ls every_*.png | wc -l) == 3)) || fail "a numbered name takes all frames of the scene: $(ls every_*)"
+works render "$simple" -o one.png --set time.frames=3 "${small[@]}" "${null[@]}" --quiet
+no_temporaries .
+
+# Sizes and crops.
+works render "$simple" -o tall.pfm --size 10x20 "${null[@]}" --quiet
+head -n 2 tall.pfm | tail -n 1 | grep -q '^10 20$' || fail "--size is not the size"
+works render "$simple" -o crop.pfm --size 100x50 --crop 10,20,30,15 "${null[@]}" --quiet
+head -n 2 crop.pfm | tail -n 1 | grep -q '^30 15$' || fail "--crop is not the size"
+finish

@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: MIT
+# Metadata, the render hash, and --skip-existing.
+. "$CHECK"
+
+hash_of() { # options: the hash that the render records
+    "$MANGATA" render "$simple" -o hash.pfm "${small[@]}" "${null[@]}" --quiet --overwrite "$@" || fail "render $*"
+    "$JSON_GET" render_hash <hash.pfm.json
+}
+first=$(hash_of)
+[[ $first =~ ^[0-9a-f]{64}$ ]] || fail "the hash is '$first'"
+keeps() { [[ $(hash_of "$@") == "$first" ]] || fail "the hash must not depend on $*"; }
+changes() { [[ $(hash_of "$@") != "$first" ]] || fail "the hash must depend on $*"; }
+keeps --threads 7
+keeps --stamp
+keeps --progress json 2>/dev/null
+keeps --verbose 2>/dev/null
+keeps --set description=other
+keeps --method mangata
+keeps --crop 0,0,64,36
+keeps --set image.width=64
+changes --size 64x37
+changes --crop 0,0,64,35
+changes --method none
+changes --method ssaa4
+changes --method reference
+changes --seed 1
+changes --frames 1
+changes --layer mask
+changes --set light.elevation_deg=3
+changes --set water.waves[0].phase=1
+changes --set post.exposure=1
+[[ $(hash_of --method reference) != $(hash_of --method reference --spatial 9) ]] || fail "the hash must depend on --spatial"
+[[ $(hash_of --method reference) != $(hash_of --method reference --samples-range 0,64) ]] || fail "the hash must depend on the range"
+[[ $(hash_of --method reference) == $(hash_of --method reference --samples-range 0,512) ]] || fail "the whole range is no range"
+[[ $(hash_of --method podee-pixel) != $(hash_of --method podee-pixel --ndf-mean drop) ]] || fail "the hash must depend on --ndf-mean"
+
+value() { "$JSON_GET" "$1" <hash.pfm.json 2>/dev/null; }
+hash_of --method ssaa3 --time-samples 2 --seed 5 --frames 4 >/dev/null
+[[ $(value method) == ssaa3 && $(value samples) == 18 && $(value seed) == 5 && $(value frame) == 4 ]] || fail "sidecar: $(cat hash.pfm.json)"
+[[ $(value mangata_version) == $("$MANGATA" --version | cut -d' ' -f2) ]] || fail "version in the sidecar"
+[[ -z $(value host)$(value threads)$(value isa) ]] || fail "the machine is recorded without --stamp"
+hash_of --stamp >/dev/null
+[[ -n $(value host) && -n $(value threads) && -n $(value isa) ]] || fail "--stamp records nothing"
+
+# Nothing is rendered again when it is there; anything else is refused.
+works render "$simple" -o s_##.png --frames 0-3 "${small[@]}" "${null[@]}" --quiet
+rm s_02.png
+touch -d '2001-01-01' s_00.png s_01.png s_03.png
+before=$(stat -c %Y s_0[013].png)
+expect 0 '1 frame of .*others kept' render "$simple" -o s_##.png --frames 0-3 "${small[@]}" "${null[@]}" --skip-existing
+exists s_02.png
+[[ $(stat -c %Y s_0[013].png) == "$before" ]] || fail "--skip-existing wrote files anew"
+expect 0 'nothing to render' render "$simple" -o s_##.png --frames 0-3 "${small[@]}" "${null[@]}" --skip-existing
+expect 73 's_00.png: .*was not rendered from this scene' render "$simple" -o s_##.png --frames 0-4 "${small[@]}" "${null[@]}" --skip-existing --seed 2
+absent s_04.png
+works render "$simple" -o s_##.png --frames 0-4 "${small[@]}" "${null[@]}" --skip-existing --overwrite --seed 2 --quiet
+exists s_04.png
+[[ $(stat -c %Y s_0[013].png) != "$before" ]] || fail "--skip-existing --overwrite kept files of another seed"
+for out in x.exr x.pfm x.y4m; do
+    works render "$simple" -o $out --frames 0 "${small[@]}" "${null[@]}" --quiet
+    expect 0 'nothing to render' render "$simple" -o $out --frames 0 "${small[@]}" "${null[@]}" --skip-existing
+    expect 73 'was not rendered' render "$simple" -o $out --frames 1 "${small[@]}" "${null[@]}" --skip-existing
+done
+echo foreign >y.png
+expect 73 'y.png' render "$simple" -o y.png "${small[@]}" "${null[@]}" --skip-existing
+[[ $(cat y.png) == foreign ]] || fail "a foreign file was replaced"
+finish

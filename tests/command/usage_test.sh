@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: MIT
+# Every kind of wrong command line: exit code 64 and one line with a hint; help and version.
+. "$CHECK"
+
+for verb in render diff scene bench info view; do
+    expect 0 '' "$MANGATA" $verb --help
+    grep -q "^usage: mangata $verb" stdout.txt || fail "$verb --help has no usage line"
+    [[ ! -s stderr.txt ]] || fail "$verb --help writes to stderr"
+    for option in --json --verbose --quiet --help; do
+        grep -q -- "$option" stdout.txt || fail "$verb --help does not list $option"
+    done
+    expect 64 'unknown option --no-such-thing; see mangata' "$MANGATA" $verb --no-such-thing
+done
+expect 0 '' "$MANGATA" --help
+grep -q '^  render ' stdout.txt || fail "--help does not list render"
+expect 0 '' "$MANGATA" help diff
+expect 0 '' "$MANGATA" --version
+grep -Eq '^mangata [0-9]+\.[0-9]+\.[0-9]+$' stdout.txt || fail "--version: $(cat stdout.txt)"
+
+expect 64 'no verb given' "$MANGATA"
+expect 64 'unknown verb rendr; did you mean render\?' "$MANGATA" rendr
+expect 64 'unknown verb zzz; see mangata --help' "$MANGATA" zzz
+expect 64 'unknown option --fames; did you mean --frames\?' render "$simple" -o a.png --fames 3
+expect 64 'unknown option -x' render "$simple" -x
+expect 64 '--overwrite takes no value' render "$simple" -o a.png --overwrite=yes
+expect 64 '--frames needs a value' render "$simple" -o a.png --frames
+expect 64 'no scene given' render -o a.png
+expect 64 'no output given' render "$simple"
+expect 64 'one scene at a time' render "$simple" "$simple" -o a.png
+
+bad() { # OPTION VALUE PATTERN
+    expect 64 "^mangata: --$1.*$3" render "$simple" -o a.png "--$1" "$2"
+}
+for value in 0x10 10x0 -1x5 1x 10 10x10x10 100000x100000 1e3x10 ' 1x1' 99999999999999999999x1; do
+    bad size "$value" 'each from 1 to 32768'
+done
+for value in 1,2,3 1,2,3,0 a,b,c,d 1,2,3,4,5 -1,0,1,1; do
+    bad crop "$value" 'X,Y,W,H'
+done
+expect 64 '--crop 60,0,10,10: it lies outside the picture of 64 x 36 pixels' render "$simple" -o a.png --crop 60,0,10,10 "${small[@]}"
+for value in ssaa ssaa0 ssaa1025 ssaa-1 ssaax Mangata '' reference8; do
+    bad method "$value" 'none, ssaaN'
+done
+for value in '' - 1- -1 5-3 1-9:0 1,1 3,2 1-5,5 1,,2 1.5 999999999999 0-9x; do
+    bad frames "$value" '(allowed|must|twice)'
+done
+bad seed -1 'whole number'
+bad seed 18446744073709551616 'whole number'
+bad threads 1025 'from 0'
+bad isa sse9 'auto, scalar'
+bad backend cuda 'cpu, gl'
+bad layer colour 'color, coverage'
+bad progress yes 'auto, json or none'
+bad spatial 8 'only --method reference'
+bad time-samples 8 'takes one sample'
+bad samples-range 0,4 'takes one sample'
+bad ndf-mean drop 'podee-pixel'
+bad set nonsense 'nonsense'
+for value in 0,0 512,1 0,513 1 0,-1 18446744073709551615,2; do
+    expect 64 "samples-range $value: .*512 samples" render "$simple" -o a.png --method reference --samples-range "$value"
+done
+expect 64 'ssaaN' render "$simple" -o a.png --method ssaa4 --spatial 2
+expect 64 '--ndf-mean maybe: allowed is add or drop' render "$simple" -o a.png --method podee-pixel --ndf-mean maybe
+
+expect 64 'unknown kind of file; allowed are .png .exr .pfm .mp4 .y4m' render "$simple" -o a.jpg
+expect 64 'unknown kind of file' render "$simple" -o png
+expect 64 'names no file' render "$simple" -o folder/
+expect 64 '2 frames do not fit into one picture' render "$simple" -o a.png --frames 3-4
+expect 64 'leave the frame number out' render "$simple" -o a%04d.mp4
+for name in a%s.png a%n.png a%04x.png a%4d.png a%.png a%99d.png 'a%0100d.png' 'a##########.png'; do
+    expect 64 'the frame number is written' render "$simple" -o "$name" "${null[@]}"
+done
+expect 64 'only one frame number' render "$simple" -o 'a%04d_%d.png'
+expect 64 'only one frame number' render "$simple" -o 'a##_##.png'
+expect 64 'depth does not fit into 8 bits; write .exr or .pfm' render "$simple" -o a.png --layer depth
+expect 64 'only .exr holds several layers' render "$simple" -o a.pfm --layer mask --layer depth
+expect 64 'only .exr holds several layers' render "$simple" -o a.png --layer all
+
+expect 64 'two pictures are needed' "$MANGATA" diff a.png
+expect 64 'one more' "$MANGATA" diff a.png b.png c.png
+expect 64 'number both names or neither' "$MANGATA" diff a##.png b.png --frames 0-1
+expect 64 'need --frames' "$MANGATA" diff a##.png b##.png
+expect 64 'needs numbered names' "$MANGATA" diff a.png b.png --frames 0-1
+expect 64 'at least two frames' "$MANGATA" diff a.png b.png --flicker
+expect 64 'a number from 0' "$MANGATA" diff a.png b.png --max-rmse nan
+expect 64 'takes check FILE or schema' "$MANGATA" scene
+expect 64 'takes check FILE or schema' "$MANGATA" scene chekc "$simple"
+expect 64 'no scene given' "$MANGATA" scene check
+expect 64 'none of none, ssaaN' "$MANGATA" bench "$simple" --methods none,fast
+expect 64 'info takes no' "$MANGATA" info now
+expect 69 'the viewer is not installed' env PATH=/nonexistent "$MANGATA" view "$simple"
+expect 69 '.' render "$simple" -o a.png --backend gl
+if [[ $(uname -m) == x86_64 ]]; then
+    expect 69 '.' render "$simple" -o a.png --isa neon
+fi
+absent a.png
+finish

@@ -1,0 +1,421 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Scene files that are bad: one line that says what is wrong, where, and what is allowed; hostile files do no harm.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "scene/scene_file.h"
+
+#define DATA MGT_SOURCE_DIR "/tests/data/scenes/"
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+
+/* Fails unless the text is refused with a proper one-line error. */
+static scene_error refused_bytes(const char *text, size_t length, const char *override)
+{
+    scene_error error;
+    memset(&error, 'x', sizeof error);
+    scene_file *file = scene_file_parse(text, length, "s.yaml", &override, override != NULL ? 1 : 0, &error);
+    if (file != NULL) {
+        scene_file_free(file);
+        fail_msg("accepted: %.60s %s", text, override != NULL ? override : "");
+    }
+    assert_int_not_equal(error.kind, SCENE_ERROR_NONE);
+    assert_non_null(memchr(error.text, '\0', sizeof error.text));
+    assert_null(strchr(error.text, '\n'));
+    assert_true(strlen(error.text) > 10);
+    return error;
+}
+
+static scene_error refused(const char *text, const char *override)
+{
+    return refused_bytes(text, strlen(text), override);
+}
+
+static void assert_error(scene_error error, scene_error_kind kind, const char *expected)
+{
+    if (error.kind != kind || strcmp(error.text, expected) != 0)
+        fail_msg("kind %d: %s\n  expected kind %d: %s", (int)error.kind, error.text, (int)kind, expected);
+}
+
+static void messages_say_what_where_and_what_is_allowed(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *message;
+    } cases[] = {
+        /* syntax */
+        {"mangata: 1\nimage: {width: 12, height: 3\ncamera:\n",
+         "s.yaml:3:7: not valid YAML or JSON: a comma or a closing bracket is missing; allowed: a \"}\" for the \"{\" of line 2, column 8"},
+        {"mangata: 1\nlight: [1, 2\n", "s.yaml:3:1: not valid YAML or JSON: a closing bracket is missing; allowed: a \"]\" for the \"[\" of line 2, column 8"},
+        {"mangata: \"1\n", "s.yaml:1:11: not valid YAML or JSON: double-quoted scalar without closing quote; allowed: YAML 1.2 or JSON"},
+        {"", "s.yaml:1:1: the file is empty; allowed: a scene, at least \"mangata: 1\""},
+        {"# only a comment\n", "s.yaml:1:1: the file is empty; allowed: a scene, at least \"mangata: 1\""},
+        {"mangata: 1\n---\nmangata: 1\n", "s.yaml:2:1: a second document begins here; allowed: one"},
+        {"mangata: &one 1\n", "s.yaml:1:15: anchors (&name) are not supported; allowed: the value written out"},
+        {"mangata: 1\nsky: *dusk\n", "s.yaml:2:6: aliases (*name) are not supported; allowed: the value written out"},
+        {"mangata: !!int 1\n", "s.yaml:1:16: tags (!type) are not supported; allowed: a plain value"},
+        {"? [mangata]\n: 1\n", "s.yaml:1:3: a list or mapping stands as a key; allowed: a plain word"},
+        {"mangata: 1\ndescription: caf\xe9\n",
+         "s.yaml:2:17: not a text file: a byte that is not printable UTF-8; allowed: YAML or JSON in UTF-8"},
+        {"{\"mangata\": 1, \"description\": \"\\u0000\"}", "s.yaml:1:31: a text holds a NUL character; allowed: any other"},
+        /* keys */
+        {"mangata: 1\nligth: {}\n",
+         "s.yaml:2:1: unknown key \"ligth\" in the scene; did you mean \"light\"? allowed: mangata, description, image, camera, time, "
+         "light, sky, water, post"},
+        {"mangata: 1\nlight: {elevation: 3}\n",
+         "s.yaml:2:9: unknown key \"elevation\" in light; did you mean \"elevation_deg\"? allowed: body, elevation_deg, azimuth_deg, "
+         "angular_radius_deg, radiance"},
+        {"mangata: 1\nwater: {waves: [{amplitude: 1, a: 1, b: 1, c: 1, wibble: 2}]}\n",
+         "s.yaml:2:50: unknown key \"wibble\" in water.waves[0]; allowed: amplitude, a, b, c, phase"},
+        {"mangata: 1\nlight:\n  body: sun\n  body: moon\n",
+         "s.yaml:4:3: key \"body\" stands twice, first at line 3, column 3; allowed: once"},
+        {"light: {}\n", "s.yaml:1:1: mangata is missing; required: mangata: 1"},
+        {"mangata: 2\n", "s.yaml:1:10: mangata is 2; allowed: 1"},
+        {"mangata: 1\nwater: {waves: [{a: 1, b: 1, c: 1}]}\n",
+         "s.yaml:2:17: water.waves[0].amplitude is missing; required: amplitude: a number, 0 to 1000 m"},
+        /* types */
+        {"- mangata\n", "s.yaml:1:1: the scene is a list of 1; allowed: a mapping {key: value, ...}"},
+        {"mangata: 1\nlight: sun\n", "s.yaml:2:8: light is sun; allowed: a mapping {key: value, ...}"},
+        {"mangata: 1\nlight:\n", "s.yaml:2:1: light is empty; allowed: a mapping {key: value, ...}, or no such key"},
+        {"mangata: 1\nlight: {elevation_deg: high}\n",
+         "s.yaml:2:24: light.elevation_deg is high; allowed: a number, -90 to 90 degrees"},
+        {"mangata: 1\nlight: {elevation_deg: \"3\"}\n",
+         "s.yaml:2:24: light.elevation_deg is the text \"3\"; allowed: a number, -90 to 90 degrees"},
+        {"{\"mangata\": 1,\n \"lihgt\": 3}",
+         "s.yaml:2:2: unknown key \"lihgt\" in the scene; did you mean \"light\"? allowed: mangata, description, image, camera, time, "
+         "light, sky, water, post"},
+        {"{\"mangata\": 1,\n \"description\": \"\\u00e9\", \"light\": 'x'}", "s.yaml:2:36: light is the text \"x\"; allowed: a mapping {key: value, ...}"},
+        {"mangata: 1\nlight: {elevation_deg: [3]}\n",
+         "s.yaml:2:24: light.elevation_deg is a list of 1; allowed: a number, -90 to 90 degrees"},
+        {"mangata: 1\nlight: {body: star}\n", "s.yaml:2:15: light.body is star; allowed: one of sun, moon"},
+        {"mangata: 1\npost: {exposure: bright}\n", "s.yaml:2:18: post.exposure is bright; allowed: auto or a number, -60 to 60 stops"},
+        {"mangata: 1\nlight: {radiance: [1, 2]}\n",
+         "s.yaml:2:19: light.radiance is a list of 2; allowed: a list of 3 numbers [r, g, b], each 0 to 1e12 kcd/m²"},
+        {"mangata: 1\nlight: {radiance: [1, 2, red]}\n",
+         "s.yaml:2:26: light.radiance[2] is red; allowed: a number, 0 to 1e12 kcd/m²"},
+        {"mangata: 1\nwater: {waves: {a: 1}}\n", "s.yaml:2:16: water.waves is a mapping; allowed: a list of at most 512 mappings"},
+        {"mangata: 1\ndescription: [a]\n", "s.yaml:2:14: description is a list of 1; allowed: text"},
+        /* ranges */
+        {"mangata: 1\nlight: {elevation_deg: .nan}\n",
+         "s.yaml:2:24: light.elevation_deg is .nan; allowed: a number, -90 to 90 degrees"},
+        {"mangata: 1\ntime: {start: -.inf}\n", "s.yaml:2:15: time.start is -.inf; allowed: a number, -1e8 to 1e8 s"},
+        {"mangata: 1\ntime: {start: 1e999}\n", "s.yaml:2:15: time.start is 1e999; allowed: a number, -1e8 to 1e8 s"},
+        {"mangata: 1\nimage: {width: 0}\n", "s.yaml:2:16: image.width is 0; allowed: a whole number, 1 to 32768 pixels"},
+        {"mangata: 1\nimage: {height: -720}\n", "s.yaml:2:17: image.height is -720; allowed: a whole number, 1 to 32768 pixels"},
+        {"mangata: 1\nimage: {width: 12.5}\n", "s.yaml:2:16: image.width is 12.5; allowed: a whole number, 1 to 32768 pixels"},
+        {"mangata: 1\nimage: {width: 100000, height: 100000}\n",
+         "s.yaml:2:16: image.width is 100000; allowed: a whole number, 1 to 32768 pixels"},
+        {"mangata: 1\nimage: {width: 32768, height: 32768}\n",
+         "s.yaml:2:31: image is 32768 x 32768 = 1073741824 pixels; allowed: width x height at most 268435456"},
+        {"mangata: 1\ncamera: {fov_y_deg: 179}\n",
+         "s.yaml:2:21: camera.fov_y_deg is 179; allowed: a number, above 0 and below 179 degrees"},
+        {"mangata: 1\ntime: {shutter: -1}\n", "s.yaml:2:17: time.shutter is -1; allowed: a number, 0 to 1000 frames"},
+        /* cameras */
+        {"mangata: 1\ncamera: {position: [0, 0, 0]}\n",
+         "s.yaml:2:24: camera.position[1] is 0: cameras at or under the mean water surface (y = 0) are not supported yet; "
+         "allowed: above 0, at most 1e9 m"},
+        {"mangata: 1\ncamera: {position: [0, 5, 0], target: [0, 5, 0]}\n",
+         "s.yaml:2:39: camera: the camera looks at its own position; allowed: a target apart from position"},
+        {"mangata: 1\ncamera: {position: [0, 3.84, -0.987]}\n",
+         "s.yaml:2:20: camera: the camera looks at its own position; allowed: a target apart from position"},
+        {"mangata: 1\ncamera: {up: [0, 0, 0]}\n",
+         "s.yaml:2:14: camera: up is zero or parallel to the view (target - position); allowed: a direction across the view"},
+        {"mangata: 1\ncamera:\n  position: [0, 5, 0]\n  target: [0, -5, 0]\n",
+         "s.yaml:4:11: camera: up is zero or parallel to the view (target - position); allowed: a direction across the view"},
+        {"mangata: 1\ncamera:\n  path:\n  - {time: 1, position: [0, 5, 0], target: [0, 0, -9]}\n  - {time: 1, position: [0, 6, 0], target: [0, 0, -9]}\n",
+         "s.yaml:5:12: camera.path[1].time is 1; allowed: later than camera.path[0].time, 1 s, by at least 1e-6 s"},
+        {"mangata: 1\ncamera:\n  position: [0, 2, 0]\n  path:\n  - {time: 1, position: [0, 5, 0], target: [0, 0, -9]}\n",
+         "s.yaml:3:3: camera.position stands beside camera.path, which replaces it; allowed: one of them"},
+        {"mangata: 1\ncamera:\n  path:\n  - {time: 1, position: [0, 5, 0], target: [0, 5, 0]}\n",
+         "s.yaml:4:44: camera.path: the camera looks at its own position; allowed: a target apart from position"},
+        {"mangata: 1\ntime: {fps: 4, frames: 9}\ncamera:\n  path:\n  - {time: 0, position: [0, 5, 0], target: [4, 5, 0]}\n"
+         "  - {time: 2, position: [2, 5, 0], target: [-2, 5, 0]}\n",
+         "s.yaml:5:3: camera.path at 1 s (frame 4): the camera looks at its own position; allowed: a target apart from position"},
+        {"mangata: 1\npost: {exposure: 2, exposure_offset: 1}\n",
+         "s.yaml:2:21: post.exposure_offset stands beside an exposure that is a number; allowed: only with exposure: auto"},
+    };
+    for (size_t i = 0; i < COUNT(cases); i++)
+        assert_error(refused(cases[i].text, NULL), SCENE_ERROR_BAD_SCENE, cases[i].message);
+}
+
+static void override_messages_name_the_option(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *override, *message;
+    } cases[] = {
+        {"light.elevation_deg=95", "light.elevation_deg is 95; allowed: a number, -90 to 90 degrees"},
+        {"light.elevation_deg=", "light.elevation_deg is empty; allowed: a number, -90 to 90 degrees, or no such key"},
+        {"ligth.body=sun", "unknown key \"ligth\" in the scene; did you mean \"light\"? allowed: mangata, description, image, camera, "
+                           "time, light, sky, water, post"},
+        {"light=3", "light is 3; allowed: a mapping {key: value, ...}"},
+        {"light.body.x=3", "body is a single value; allowed: body=value"},
+        {"light[0]=3", "light is a mapping; allowed: a key, as in light.key"},
+        {"water.waves.a=3", "waves is a list; allowed: an index, as in waves[0]"},
+        {"water.waves[2].a=3", "waves has 1 items; allowed: an index from 0 to 1 (which appends)"},
+        {"water.waves[999999999].a=3", "waves has 1 items; allowed: an index from 0 to 1 (which appends)"},
+        {"water.waves[0].amplitude=-1", "water.waves[0].amplitude is -1; allowed: a number, 0 to 1000 m"},
+        {"time.fps={a", "not valid YAML or JSON: a comma or a closing bracket is missing; allowed: a \"}\" for the \"{\" of line 1, column 1"},
+        {"time.fps=*a", "aliases (*name) are not supported; allowed: the value written out"},
+        {"camera.position=[0,-5,0]", "camera.position[1] is -5: cameras at or under the mean water surface (y = 0) are not supported "
+                                     "yet; allowed: above 0, at most 1e9 m"},
+        {"camera.position=[0, 3.84, -0.987]", "camera: the camera looks at its own position; allowed: a target apart from position"},
+    };
+    static const char text[] = "mangata: 1\nlight: {body: sun}\nwater: {waves: [{amplitude: 1, a: 1, b: 1, c: 1}]}\n";
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        char expected[512];
+        snprintf(expected, sizeof expected, "--set %s: %s", cases[i].override, cases[i].message);
+        assert_error(refused(text, cases[i].override), SCENE_ERROR_BAD_SCENE, expected);
+    }
+    static const char *const malformed[] = {"", "=", "=3", "light", "light.=3", ".light=3", "a..b=3", "[0]=3", "water.waves[]=3",
+                                            "water.waves[-1]=3", "water.waves[0=3", "water.waves[99999999999]=3", "li ght=3"};
+    for (size_t i = 0; i < COUNT(malformed); i++) {
+        char expected[512];
+        snprintf(expected, sizeof expected,
+                 "--set %s: not of the form key=value; allowed: such as light.elevation_deg=3, water.waves[0].amplitude=0.1, "
+                 "camera.position=[0, 5, 0]",
+                 malformed[i]);
+        assert_error(refused(text, malformed[i]), SCENE_ERROR_BAD_OVERRIDE, expected);
+    }
+}
+
+static scene_error load_fails(const char *path)
+{
+    scene_error error;
+    scene_file *file = scene_file_load(path, NULL, 0, &error);
+    scene_file_free(file);
+    assert_null(file);
+    assert_null(strchr(error.text, '\n'));
+    assert_null(scene_file_load(path, NULL, 0, NULL)); /* without an error to fill */
+    return error;
+}
+
+static void files_that_cannot_be_read(void **state)
+{
+    (void)state;
+    assert_error(load_fails("/nowhere/at/all.yaml"), SCENE_ERROR_MISSING_INPUT,
+                 "/nowhere/at/all.yaml: No such file or directory; allowed: a YAML or JSON file of at most 16 MiB");
+    assert_error(load_fails("/tmp"), SCENE_ERROR_MISSING_INPUT,
+                 "/tmp: is a directory; allowed: a YAML or JSON file of at most 16 MiB");
+    assert_error(load_fails(""), SCENE_ERROR_MISSING_INPUT,
+                 "the scene's file name is empty; allowed: the path of a YAML or JSON file");
+    assert_error(load_fails("/dev/zero"), SCENE_ERROR_BAD_SCENE,
+                 "/dev/zero: is larger than 16 MiB; allowed: a YAML or JSON file of at most 16 MiB");
+    assert_error(load_fails("/nowhere/new\nline"), SCENE_ERROR_MISSING_INPUT,
+                 "/nowhere/new?line: No such file or directory; allowed: a YAML or JSON file of at most 16 MiB");
+    char long_name[5000];
+    memset(long_name, 'n', sizeof long_name - 1);
+    long_name[sizeof long_name - 1] = '\0';
+    assert_non_null(strstr(load_fails(long_name).text, "nnn: File name too long; allowed: "));
+}
+
+static void a_file_without_permission(void **state)
+{
+    (void)state;
+    char folder[] = "/tmp/mangata-scene-XXXXXX", path[64];
+    assert_non_null(mkdtemp(folder));
+    assert_int_equal(chmod(folder, 0755), 0);
+    snprintf(path, sizeof path, "%s/secret.yaml", folder);
+    FILE *stream = fopen(path, "w");
+    assert_non_null(stream);
+    fclose(stream);
+    chmod(path, 0);
+    pid_t child = fork(); /* root may read anything: the child gives that up */
+    if (child == 0) {
+        if (geteuid() == 0 && setuid(65534) != 0)
+            _exit(2);
+        scene_error error;
+        scene_file *file = scene_file_load(path, NULL, 0, &error);
+        _exit(file == NULL && error.kind == SCENE_ERROR_MISSING_INPUT && strstr(error.text, ": Permission denied; allowed: ") != NULL ? 0 : 1);
+    }
+    int status = -1;
+    waitpid(child, &status, 0);
+    unlink(path);
+    rmdir(folder);
+    assert_true(WIFEXITED(status));
+    assert_int_equal(WEXITSTATUS(status), 0);
+}
+
+static void bad_files_of_the_test_data(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name, *message;
+    } cases[] = {
+        {"empty.yaml", ":1:1: the file is empty; allowed: a scene, at least \"mangata: 1\""},
+        {"truncated.json", ":3:35: not valid YAML or JSON: a comma or a closing bracket is missing; allowed: a \"}\" for the \"{\" of line 3, column 12"},
+        {"garbage.bin", ":1:1: not a text file: a byte that is not printable UTF-8; allowed: YAML or JSON in UTF-8"},
+        {"unknown_key.yaml", ":4:3: unknown key \"azimut_deg\" in light; did you mean \"azimuth_deg\"? allowed: body, elevation_deg, "
+                             "azimuth_deg, angular_radius_deg, radiance"},
+        {"under_water.yaml", ":2:24: camera.position[1] is -1.5: cameras at or under the mean water surface (y = 0) are not supported "
+                             "yet; allowed: above 0, at most 1e9 m"},
+    };
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        char path[1024];
+        snprintf(path, sizeof path, DATA "%s", cases[i].name);
+        scene_error error = load_fails(path);
+        assert_int_equal(error.kind, SCENE_ERROR_BAD_SCENE);
+        const char *message = strstr(error.text, cases[i].name);
+        assert_non_null(message);
+        assert_string_equal(message + strlen(cases[i].name), cases[i].message);
+    }
+}
+
+/* `count` copies of a piece between two ends; the caller frees it. */
+static char *repeat(const char *head, const char *piece, size_t count, const char *tail)
+{
+    size_t length = strlen(piece), at = strlen(head);
+    char *text = malloc(at + count * length + strlen(tail) + 1);
+    assert_non_null(text);
+    memcpy(text, head, at);
+    for (size_t i = 0; i < count; i++, at += length)
+        memcpy(text + at, piece, length);
+    strcpy(text + at, tail);
+    return text;
+}
+
+static void hostile_files_are_refused(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *head, *piece;
+        size_t count;
+        const char *tail, *message;
+    } cases[] = {
+        {"mangata: 1\nwater: {waves: [", "{amplitude: .1, a: 1, b: 1, c: 1},", 10000, "]}", "s.yaml:2:16: water.waves has 10000 items; allowed: at most 512"},
+        {"mangata: 1\nwater: {waves: [", "{amplitude: .1, a: 1, b: 1, c: 1},", 513, "]}", "s.yaml:2:16: water.waves has 513 items; allowed: at most 512"},
+        {"", "[", 100000, "", "s.yaml:1:33: nested too deep; allowed: at most 32 levels"},
+        {"", "{a: ", 100000, "", "s.yaml:1:129: nested too deep; allowed: at most 32 levels"},
+        {"", "- ", 3000, "x", "s.yaml:1:65: nested too deep; allowed: at most 32 levels"},
+        {"mangata: 1\ndescription: ", "x", 1000000, "\n", "s.yaml:2:14: a text is too long; allowed: at most 65536 bytes"},
+        {"", "k", 1000000, ": 1\n", NULL},
+        {"a: [", "1,", 1000001, "]", "s.yaml:1:2000001: too many values; allowed: at most 1000000 in a scene"},
+        {"mangata: 1\n", "#", 17 * 1024 * 1024, "", "s.yaml: is larger than 16 MiB; allowed: a YAML or JSON file of at most 16 MiB"},
+        {"mangata: 1\n", "\n", 100000, "x: 1", NULL},
+        {"mangata: 1\ndescription: '", "\n", 60000, "'\nx: 1\n", NULL},
+        {"a: &a [x, x]\nb: ", "[*a, *a, *a, *a, *a],", 20, "\n", "s.yaml:1:7: anchors (&name) are not supported; allowed: the value written out"},
+        {"mangata: 1\n", "\xc3\xa9", 30000, ": 1\n", NULL},
+        {"mangata: 1\nlight: {elevation_deg: ", "1", 60000, "}", NULL},
+        {"mangata: 1\nlight: {elevation_deg: 0x", "f", 60000, "}", NULL},
+    };
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        char *text = repeat(cases[i].head, cases[i].piece, cases[i].count, cases[i].tail);
+        scene_error error = refused(text, NULL);
+        if (cases[i].message != NULL)
+            assert_error(error, SCENE_ERROR_BAD_SCENE, cases[i].message);
+        free(text);
+    }
+    char *override = repeat("a", ".a", 100000, "=1");
+    assert_int_equal(refused("mangata: 1", override).kind, SCENE_ERROR_BAD_SCENE);
+    free(override);
+}
+
+static char *read_file(const char *path, size_t *length)
+{
+    FILE *stream = fopen(path, "rb");
+    assert_non_null(stream);
+    char *text = malloc(1 << 20);
+    assert_non_null(text);
+    *length = fread(text, 1, 1 << 20, stream);
+    fclose(stream);
+    return text;
+}
+
+static void every_truncation_of_a_file_is_refused(void **state)
+{
+    (void)state;
+    size_t length;
+    char *text = read_file(MGT_SOURCE_DIR "/scenes/simple.json", &length);
+    while (length > 0 && text[length - 1] != '}')
+        length--;
+    for (size_t cut = 0; cut < length; cut++) {
+        char *piece = malloc(cut + 1); /* exactly as long, so that the sanitizer sees a read beyond */
+        assert_non_null(piece);
+        memcpy(piece, text, cut);
+        assert_int_equal(refused_bytes(piece, cut, NULL).kind, SCENE_ERROR_BAD_SCENE);
+        free(piece);
+    }
+    free(text);
+}
+
+/* Seeded changes of good files: whatever comes of it, nothing breaks and each error is one line. */
+static void changed_files_do_no_harm(void **state)
+{
+    (void)state;
+    static const char *const paths[] = {DATA "full.yaml", DATA "path.yaml"};
+    static const char bytes[] = "{}[]:,-?&*!|>'\"%@`#\n\t\r \\.0e~a\0\xff\xc3";
+    uint64_t random = 2026;
+    for (size_t p = 0; p < COUNT(paths); p++) {
+        size_t length;
+        char *text = read_file(paths[p], &length), *changed = malloc(length);
+        assert_non_null(changed);
+        for (int round = 0; round < 1500; round++) {
+            memcpy(changed, text, length);
+            for (int i = 0; i < 1 + round % 4; i++) {
+                random = random * 6364136223846793005u + 1442695040888963407u;
+                changed[(random >> 33) % length] = bytes[(random >> 20) % (sizeof bytes - 1)];
+            }
+            scene_error error;
+            scene_file *file = scene_file_parse(changed, length, "s.yaml", NULL, 0, &error);
+            assert_int_equal(file == NULL, error.kind != SCENE_ERROR_NONE);
+            if (file == NULL)
+                assert_null(strchr(error.text, '\n'));
+            scene_file_free(file);
+        }
+        free(changed);
+        free(text);
+    }
+}
+
+static void nothing_is_printed(void **state)
+{
+    (void)state;
+    FILE *sink = tmpfile();
+    assert_non_null(sink);
+    fflush(NULL);
+    int kept_error = dup(STDERR_FILENO), kept_output = dup(STDOUT_FILENO);
+    dup2(fileno(sink), STDERR_FILENO);
+    dup2(fileno(sink), STDOUT_FILENO);
+    static const char *const texts[] = {"a: [1, 2", "\"", "a: b: c", "{a: 1, a: 2}", "%YAML 9.9\n---\nmangata: 1", "- a\nb", "@", "a: %"};
+    for (size_t i = 0; i < COUNT(texts); i++) {
+        scene_error error;
+        scene_file_free(scene_file_parse(texts[i], strlen(texts[i]), "s.yaml", NULL, 0, &error));
+    }
+    fflush(NULL);
+    dup2(kept_error, STDERR_FILENO);
+    dup2(kept_output, STDOUT_FILENO);
+    close(kept_error);
+    close(kept_output);
+    struct stat status;
+    assert_int_equal(fstat(fileno(sink), &status), 0);
+    fclose(sink);
+    assert_int_equal(status.st_size, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(messages_say_what_where_and_what_is_allowed),
+        cmocka_unit_test(override_messages_name_the_option),
+        cmocka_unit_test(files_that_cannot_be_read),
+        cmocka_unit_test(a_file_without_permission),
+        cmocka_unit_test(bad_files_of_the_test_data),
+        cmocka_unit_test(hostile_files_are_refused),
+        cmocka_unit_test(every_truncation_of_a_file_is_refused),
+        cmocka_unit_test(changed_files_do_no_harm),
+        cmocka_unit_test(nothing_is_printed),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,287 @@
+/* SPDX-License-Identifier: MIT */
+/* `mangata bench`: time per frame of several methods, measured in turn so that all see the same machine. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "interrupt.h"
+#include "names.h"
+#include "numbers.h"
+#include "options.h"
+#include "progress.h"
+#include "verbs.h"
+
+enum { OPT_METHODS, OPT_SIZE, OPT_FRAMES, OPT_REPEAT, OPT_THREADS, OPT_ISA, OPT_SET, OPT_DISPLAY };
+
+static const option bench_options[] = {
+    [OPT_METHODS] = {"methods", 0, "LIST", "methods to measure (default none,podee-pixel,mangata)"},
+    [OPT_SIZE] = {"size", 0, "WxH", "size in pixels instead of the scene's"},
+    [OPT_FRAMES] = {"frames", 0, "N", "measure frames 0 to N-1 (default 3)"},
+    [OPT_REPEAT] = {"repeat", 0, "R", "measure each of them R times (default 5)"},
+    [OPT_THREADS] = {"threads", 0, "N", "threads (default 0: one for each CPU this process may use)"},
+    [OPT_ISA] = {"isa", 0, "NAME", "highest instruction set"},
+    [OPT_SET] = {"set", 0, "KEY=VALUE", "change a value of the scene; may be repeated"},
+    [OPT_DISPLAY] = {"display", 0, NULL, "make displayed colours: with exposure, glare and tone mapping"},
+};
+
+static const option_table bench_table = {
+    "bench", "SCENE [options]",
+    "Renders in memory, without output: scene-linear colour, or with --display what a picture shows.\n"
+    "The methods take turns, so that a change of the machine's pace meets all of them.",
+    bench_options, sizeof bench_options / sizeof bench_options[0], NULL};
+
+enum { METHOD_LIMIT = 16 };
+
+typedef struct bench_request {
+    console out;
+    const char *scene_path, *methods;
+    const char **overrides;
+    size_t override_count;
+    uint64_t frames, repeat, threads;
+    mgt_isa isa;
+    bool display;
+} bench_request;
+
+typedef struct bench_method {
+    mgt_quality quality;
+    double *seconds; /* frames × repeat */
+} bench_method;
+
+typedef struct bench {
+    const bench_request *request;
+    scene_file *scene;
+    mgt_context *context;
+    mgt_context_info info;
+    mgt_target target;
+    uint32_t width, height;
+    size_t count;
+    bench_method methods[METHOD_LIMIT];
+} bench;
+
+static int bad_value(size_t id, const char *value, const char *allowed)
+{
+    return console_error(EXIT_CODE_USAGE, "--%s %s: allowed is %s", bench_options[id].name, value, allowed);
+}
+
+static int set_option(bench_request *r, int id, const char *value, char size[2][32])
+{
+    uint64_t side[2];
+    switch (id) {
+    case OPT_METHODS: r->methods = value; break;
+    case OPT_SIZE:
+        if (!number_parse_list(value, 'x', MGT_MAX_IMAGE_SIDE, 2, side) || side[0] == 0 || side[1] == 0)
+            return bad_value(OPT_SIZE, value, "WxH, each from 1 to 32768 pixels, such as 1280x720");
+        snprintf(size[0], 32, "image.width=%u", (unsigned)side[0]);
+        snprintf(size[1], 32, "image.height=%u", (unsigned)side[1]);
+        break;
+    case OPT_FRAMES:
+        if (!number_parse_u64(value, 1000000, &r->frames) || r->frames == 0)
+            return bad_value(OPT_FRAMES, value, "a number from 1 to 1000000");
+        break;
+    case OPT_REPEAT:
+        if (!number_parse_u64(value, 1000, &r->repeat) || r->repeat == 0)
+            return bad_value(OPT_REPEAT, value, "a number from 1 to 1000");
+        break;
+    case OPT_THREADS:
+        if (!number_parse_u64(value, 1024, &r->threads))
+            return bad_value(OPT_THREADS, value, "a number from 0 (all CPUs) to 1024");
+        break;
+    case OPT_ISA:
+        if (!isa_from_name(value, &r->isa))
+            return bad_value(OPT_ISA, value, isa_words);
+        break;
+    case OPT_SET: r->overrides[r->override_count++] = value; break;
+    case OPT_DISPLAY: r->display = true; break;
+    case OPTION_OPERAND:
+        if (r->scene_path)
+            return console_error(EXIT_CODE_USAGE, "one scene at a time: %s and %s are given", r->scene_path, value);
+        r->scene_path = value;
+        break;
+    default: break;
+    }
+    return EXIT_CODE_OK;
+}
+
+static int add_methods(bench *b)
+{
+    for (const char *p = b->request->methods; *p;) {
+        const size_t length = strcspn(p, ",");
+        char name[32];
+        if (b->count == METHOD_LIMIT)
+            return console_error(EXIT_CODE_USAGE, "--methods: at most %d are allowed", METHOD_LIMIT);
+        snprintf(name, sizeof name, "%.*s", (int)(length < sizeof name ? length : sizeof name - 1), p);
+        bench_method *method = &b->methods[b->count];
+        method->quality = mgt_scene_defaults().quality;
+        if (!method_from_name(name, &method->quality))
+            return console_error(EXIT_CODE_USAGE, "--methods: %s is none of %s", name, method_words);
+        method->seconds = calloc((size_t)(b->request->frames * b->request->repeat), sizeof *method->seconds);
+        if (!method->seconds)
+            return console_error(EXIT_CODE_FAILED, "out of memory");
+        b->count++;
+        p += length + (p[length] == ',');
+    }
+    return b->count ? EXIT_CODE_OK : bad_value(OPT_METHODS, b->request->methods, method_words);
+}
+
+static bool keep_going(void *user, double fraction)
+{
+    (void)user, (void)fraction;
+    return *interrupt_flag() == 0;
+}
+
+static int prepare(bench *b)
+{
+    const bench_request *r = b->request;
+    scene_error error;
+    int code = add_methods(b);
+    if (code != EXIT_CODE_OK)
+        return code;
+    b->scene = scene_file_load(r->scene_path, r->overrides, r->override_count, &error);
+    if (!b->scene)
+        return console_scene_error(&error);
+    mgt_scene first;
+    if (!scene_file_frame(b->scene, 0, &first))
+        return console_error(EXIT_CODE_BAD_INPUT, "%s: the camera of frame 0 is not a legal one", r->scene_path);
+    b->width = first.image.width;
+    b->height = first.image.height;
+    b->target = mgt_target_defaults();
+    b->target.format = r->display ? MGT_FORMAT_RGBA8_SRGB : MGT_FORMAT_RGB32F;
+    b->target.pixels = calloc((size_t)b->width * b->height, r->display ? 4 : 12);
+    if (!b->target.pixels)
+        return console_error(EXIT_CODE_FAILED, "out of memory");
+    mgt_context_desc desc = mgt_context_desc_defaults();
+    desc.isa = r->isa;
+    desc.threads = (uint32_t)r->threads;
+    desc.log = console_log;
+    desc.log_user = (void *)&r->out;
+    desc.progress = keep_going;
+    const mgt_status status = mgt_context_create(&b->context, &desc);
+    if (status != MGT_OK)
+        return console_library_error(NULL, status);
+    b->info.struct_size = sizeof b->info;
+    mgt_context_get_info(b->context, &b->info);
+    return EXIT_CODE_OK;
+}
+
+static int render_once(bench *b, const bench_method *method, uint64_t frame, double *seconds)
+{
+    mgt_scene scene;
+    if (!scene_file_frame(b->scene, (int)frame, &scene))
+        return console_error(EXIT_CODE_BAD_INPUT, "%s: the camera of frame %d is not a legal one", b->request->scene_path, (int)frame);
+    scene.quality = method->quality;
+    const double start = seconds_now();
+    const mgt_status status = mgt_render(b->context, &scene, &b->target, 1);
+    *seconds = seconds_now() - start;
+    if (status == MGT_CANCELLED || *interrupt_flag())
+        return interrupt_exit_code();
+    return status == MGT_OK ? EXIT_CODE_OK : console_library_error(b->context, status);
+}
+
+static int measure(bench *b)
+{
+    const uint64_t runs = b->request->frames * b->request->repeat;
+    double unused;
+    /* Tables are built and memory is touched by the first frame, which does not count. */
+    for (size_t m = 0; m < b->count; m++) {
+        const int code = render_once(b, &b->methods[m], 0, &unused);
+        if (code != EXIT_CODE_OK)
+            return code;
+    }
+    for (uint64_t i = 0; i < runs; i++)
+        for (size_t m = 0; m < b->count; m++) {
+            const int code = render_once(b, &b->methods[m], i % b->request->frames, &b->methods[m].seconds[i]);
+            if (code != EXIT_CODE_OK)
+                return code;
+        }
+    return EXIT_CODE_OK;
+}
+
+static int ascending(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static int print_report(bench *b)
+{
+    const size_t runs = (size_t)(b->request->frames * b->request->repeat);
+    const double megapixels = 1e-6 * b->width * b->height;
+    json_t *list = b->request->out.json ? json_array() : NULL;
+    if (!list)
+        printf("%s, %u x %u, %s, %u lanes, %u threads, %zu frames each\n%-15s%10s%10s%10s%10s%10s\n", b->request->scene_path, b->width,
+               b->height, isa_name(b->info.isa), b->info.lanes, b->info.threads, runs, "method", "median ms", "min ms", "max ms", "fps",
+               "Mpixel/s");
+    for (size_t m = 0; m < b->count; m++) {
+        double *s = b->methods[m].seconds;
+        qsort(s, runs, sizeof *s, ascending);
+        const double median = 0.5 * (s[(runs - 1) / 2] + s[runs / 2]);
+        const method_text name = method_name(&b->methods[m].quality);
+        if (list)
+            json_array_append_new(list, json_pack("{s:s, s:f, s:f, s:f, s:f, s:f}", "method", name.text, "median_ms", 1e3 * median, "min_ms",
+                                                  1e3 * s[0], "max_ms", 1e3 * s[runs - 1], "fps", 1 / fmax(median, 1e-9), "mpixel_per_s",
+                                                  megapixels / fmax(median, 1e-9)));
+        else
+            printf("%-15s%10.2f%10.2f%10.2f%10.1f%10.1f\n", name.text, 1e3 * median, 1e3 * s[0], 1e3 * s[runs - 1], 1 / fmax(median, 1e-9),
+                   megapixels / fmax(median, 1e-9));
+    }
+    if (!list)
+        return EXIT_CODE_OK;
+    return console_print_json(json_pack("{s:s, s:o, s:i, s:i, s:s, s:i, s:i, s:I, s:b, s:o}", "version", mgt_version(), "scene",
+                                        console_json_text(b->request->scene_path), "width", (int)b->width, "height", (int)b->height, "isa",
+                                        isa_name(b->info.isa), "lanes", (int)b->info.lanes, "threads", (int)b->info.threads, "runs",
+                                        (json_int_t)runs, "display", b->request->display, "methods", list));
+}
+
+static int run(const bench_request *request)
+{
+    bench b = {.request = request};
+    interrupt_install();
+    int code = prepare(&b);
+    if (code == EXIT_CODE_OK)
+        code = measure(&b);
+    if (code == EXIT_CODE_OK)
+        code = print_report(&b);
+    mgt_context_destroy(b.context);
+    free(b.target.pixels);
+    for (size_t m = 0; m < b.count; m++)
+        free(b.methods[m].seconds);
+    scene_file_free(b.scene);
+    return code;
+}
+
+static int read_command_line(bench_request *r, int count, char **arguments, char size[2][32])
+{
+    option_reader reader = option_reader_start(&bench_table, &r->out, count, arguments);
+    const char *value = NULL;
+    int id;
+    while ((id = option_reader_next(&reader, &value)) != OPTION_END) {
+        if (id == OPTION_HELP)
+            return -1;
+        if (id == OPTION_ERROR)
+            return EXIT_CODE_USAGE;
+        const int code = set_option(r, id, value, size);
+        if (code != EXIT_CODE_OK)
+            return code;
+    }
+    if (!r->scene_path)
+        return console_error(EXIT_CODE_USAGE, "no scene given; see mangata bench --help");
+    if (size[0][0]) {
+        r->overrides[r->override_count++] = size[0];
+        r->overrides[r->override_count++] = size[1];
+    }
+    return EXIT_CODE_OK;
+}
+
+int verb_bench(int count, char **arguments)
+{
+    char size[2][32] = {{0}};
+    const char **overrides = calloc((size_t)count + 2, sizeof *overrides);
+    if (!overrides)
+        return console_error(EXIT_CODE_FAILED, "out of memory");
+    bench_request request = {.methods = "none,podee-pixel,mangata", .overrides = overrides, .frames = 3, .repeat = 5};
+    int code = read_command_line(&request, count, arguments, size);
+    if (code == EXIT_CODE_OK)
+        code = run(&request);
+    free(overrides);
+    return code < 0 ? EXIT_CODE_OK : code;
+}

@@ -1,0 +1,220 @@
+/* SPDX-License-Identifier: MIT */
+/* `mangata diff A B`: errors of a picture against another, or of two series scored as one clip. */
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "frames.h"
+#include "image/image_metrics.h"
+#include "numbers.h"
+#include "options.h"
+#include "verbs.h"
+
+enum { OPT_FRAMES, OPT_LAYER, OPT_MAX_RMSE, OPT_FLICKER };
+
+static const option diff_options[] = {
+    [OPT_FRAMES] = {"frames", 0, "LIST", "frames to compare when A and B are numbered names"},
+    [OPT_LAYER] = {"layer", 0, "NAME", "layer of .exr pictures (default color, or the only one)"},
+    [OPT_MAX_RMSE] = {"max-rmse", 0, "X", "exit with 2 when the RMSE is above X or values are not comparable"},
+    [OPT_FLICKER] = {"flicker", 0, NULL, "compare the differences from frame to frame: the RMS of\n"
+                                         "(A[n+1] - A[n]) - (B[n+1] - B[n])"},
+};
+
+static const option_table diff_table = {
+    "diff", "A B [options]",
+    "Measures how far A is from B (.png, .exr, .pfm): RMSE, relative RMSE (by the RMS of B),\n"
+    "mean ratio (A / B) and the largest difference, over whole pictures. Numbered names\n"
+    "(frame_%04d.pfm or frame_####.pfm) are read as clips and scored together.",
+    diff_options, sizeof diff_options / sizeof diff_options[0],
+    "exit codes: 0 done, 1 sizes or channels differ, 2 above --max-rmse, 64 usage, 65 bad picture,\n"
+    "66 no such picture"};
+
+typedef struct diff_request {
+    console out;
+    const char *paths[2], *layer;
+    frame_path names[2];
+    bool frames_given, gated, flicker;
+    frame_list frames;
+    double max_rmse;
+} diff_request;
+
+static int set_option(diff_request *r, int id, const char *value)
+{
+    const char *wrong;
+    switch (id) {
+    case OPT_FRAMES:
+        if ((wrong = frame_list_parse(&r->frames, value)))
+            return console_error(EXIT_CODE_USAGE, "--frames %s: %s", value, wrong);
+        r->frames_given = true;
+        break;
+    case OPT_LAYER: r->layer = value; break;
+    case OPT_MAX_RMSE:
+        if (!number_parse_double(value, &r->max_rmse) || r->max_rmse < 0)
+            return console_error(EXIT_CODE_USAGE, "--max-rmse %s: allowed is a number from 0", value);
+        r->gated = true;
+        break;
+    case OPT_FLICKER: r->flicker = true; break;
+    case OPTION_OPERAND:
+        if (r->paths[1])
+            return console_error(EXIT_CODE_USAGE, "two pictures are compared; %s is one more", value);
+        r->paths[r->paths[0] ? 1 : 0] = value;
+        break;
+    default: break;
+    }
+    return EXIT_CODE_OK;
+}
+
+static int check_request(diff_request *r)
+{
+    if (!r->paths[1])
+        return console_error(EXIT_CODE_USAGE, "two pictures are needed: mangata diff A B");
+    for (int i = 0; i < 2; i++) {
+        const char *wrong = frame_path_parse(&r->names[i], r->paths[i]);
+        if (wrong)
+            return console_error(EXIT_CODE_USAGE, "%s: %s", r->paths[i], wrong);
+    }
+    if (r->names[0].numbered != r->names[1].numbered)
+        return console_error(EXIT_CODE_USAGE, "%s and %s: number both names or neither", r->paths[0], r->paths[1]);
+    if (r->names[0].numbered && !r->frames_given)
+        return console_error(EXIT_CODE_USAGE, "numbered names need --frames, such as --frames 0-59");
+    if (!r->names[0].numbered && r->frames_given)
+        return console_error(EXIT_CODE_USAGE, "--frames needs numbered names, such as frame_%%04d.pfm");
+    if (!r->frames_given)
+        frame_list_span(&r->frames, 0, 0);
+    if (r->flicker && frame_list_length(&r->frames) < 2)
+        return console_error(EXIT_CODE_USAGE, "--flicker needs numbered names and at least two frames");
+    return EXIT_CODE_OK;
+}
+
+static int read_pair(const diff_request *r, uint32_t frame, float_image pair[2])
+{
+    for (int i = 0; i < 2; i++) {
+        char path[sizeof r->names[i].before + 64 + sizeof r->names[i].after];
+        file_error error;
+        if (!frame_path_print(&r->names[i], frame, path, sizeof path))
+            return console_error(EXIT_CODE_USAGE, "%s: the path is too long", r->paths[i]);
+        if (picture_read(&pair[i], path, r->layer, &error) != FILE_OK)
+            return console_file_error(&error);
+    }
+    const float_image *a = &pair[0], *b = &pair[1];
+    if (a->width != b->width || a->height != b->height || a->channels != b->channels)
+        return console_error(EXIT_CODE_FAILED, "%s has %u x %u pixels of %u channel%s, %s has %u x %u of %u; they must agree", r->paths[0],
+                             a->width, a->height, a->channels, a->channels == 1 ? "" : "s", r->paths[1], b->width, b->height,
+                             b->channels);
+    return EXIT_CODE_OK;
+}
+
+/* image := next − image. */
+static void to_difference(float_image *image, const float_image *next)
+{
+    const size_t count = (size_t)image->width * image->height * image->channels;
+    for (size_t i = 0; i < count; i++)
+        image->pixels[i] = next->pixels[i] - image->pixels[i];
+}
+
+static void free_pair(float_image pair[2])
+{
+    float_image_free(&pair[0]);
+    float_image_free(&pair[1]);
+}
+
+static int add_frame(const diff_request *r, float_image pair[2], float_image previous[2], image_metrics *metrics)
+{
+    file_error error;
+    if (!r->flicker)
+        return image_metrics_add(metrics, &pair[0], &pair[1], &error) == FILE_OK ? EXIT_CODE_OK : console_file_error(&error);
+    if (!previous[0].pixels)
+        return EXIT_CODE_OK;
+    if (previous[0].width != pair[0].width || previous[0].height != pair[0].height || previous[0].channels != pair[0].channels)
+        return console_error(EXIT_CODE_FAILED, "the frames of %s do not all have the same size", r->paths[0]);
+    to_difference(&previous[0], &pair[0]);
+    to_difference(&previous[1], &pair[1]);
+    return image_metrics_add(metrics, &previous[0], &previous[1], &error) == FILE_OK ? EXIT_CODE_OK : console_file_error(&error);
+}
+
+static int measure(const diff_request *r, image_metrics *metrics)
+{
+    float_image previous[2] = {{0}};
+    int code = EXIT_CODE_OK;
+    const uint64_t count = frame_list_length(&r->frames);
+    for (uint64_t i = 0; i < count && code == EXIT_CODE_OK; i++) {
+        float_image pair[2] = {{0}};
+        code = read_pair(r, frame_list_at(&r->frames, i), pair);
+        if (code == EXIT_CODE_OK)
+            code = add_frame(r, pair, previous, metrics);
+        free_pair(previous);
+        previous[0] = pair[0];
+        previous[1] = pair[1];
+    }
+    free_pair(previous);
+    return code;
+}
+
+/* JSON has no infinity: null. */
+static json_t *json_number(double number)
+{
+    return isfinite(number) ? json_real(number) : json_null();
+}
+
+static int print_report(const diff_request *r, const image_metrics *m)
+{
+    const double rmse = image_metrics_rmse(m), relative = image_metrics_relative_rmse(m), ratio = image_metrics_mean_ratio(m);
+    const uint32_t frame = frame_list_at(&r->frames, m->max_frame + (r->flicker ? 1 : 0));
+    if (r->out.json) {
+        json_t *report = json_pack(
+            "{s:o, s:o, s:b, s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:{s:o, s:I, s:i, s:i, s:i}, s:I, s:I}", "a", console_json_text(r->paths[0]), "b",
+            console_json_text(r->paths[1]), "flicker", r->flicker, "frames", (json_int_t)m->frames, "values", (json_int_t)m->values, "rmse",
+            json_number(rmse), "relative_rmse", json_number(relative), "mean_ratio", json_number(ratio), "mean_a",
+            json_number(m->values ? m->sum_a / (double)m->values : 0), "mean_b", json_number(m->values ? m->sum_b / (double)m->values : 0),
+            "maximum", "difference", json_number(m->max_difference), "frame", (json_int_t)frame, "x", (int)m->max_x, "y", (int)m->max_y,
+            "channel", (int)m->max_channel, "equal_infinities", (json_int_t)m->equal_infinities, "mismatches", (json_int_t)m->mismatches);
+        if (report && r->gated)
+            json_object_set_new(report, "max_rmse", json_real(r->max_rmse));
+        return console_print_json(report);
+    }
+    printf("%-15s%" PRIu64 "\n", r->flicker ? "frame steps" : "frames", m->frames);
+    printf("%-15s%.6g\n%-15s%.6g\n%-15s%.6g\n", r->flicker ? "flicker" : "rmse", rmse, "relative rmse", relative, "mean ratio", ratio);
+    printf("%-15s%.6g at x %u, y %u, channel %u", "maximum", m->max_difference, m->max_x, m->max_y, m->max_channel);
+    if (r->frames_given)
+        printf(", frame %u", frame);
+    putchar('\n');
+    if (m->mismatches)
+        printf("%-15s%" PRIu64 " values are infinite or not a number in one picture\n", "mismatches", m->mismatches);
+    return EXIT_CODE_OK;
+}
+
+static int run(diff_request *r, int count, char **arguments)
+{
+    option_reader reader = option_reader_start(&diff_table, &r->out, count, arguments);
+    const char *value = NULL;
+    int id, code;
+    while ((id = option_reader_next(&reader, &value)) != OPTION_END) {
+        if (id == OPTION_HELP)
+            return EXIT_CODE_OK;
+        if (id == OPTION_ERROR)
+            return EXIT_CODE_USAGE;
+        if ((code = set_option(r, id, value)) != EXIT_CODE_OK)
+            return code;
+    }
+    image_metrics metrics = {0};
+    if ((code = check_request(r)) != EXIT_CODE_OK || (code = measure(r, &metrics)) != EXIT_CODE_OK)
+        return code;
+    if (!(r->out.quiet && !r->out.json) && (code = print_report(r, &metrics)) != EXIT_CODE_OK)
+        return code;
+    const double rmse = image_metrics_rmse(&metrics);
+    if (r->gated && (!(rmse <= r->max_rmse) || metrics.mismatches > 0))
+        return console_error(EXIT_CODE_DIFFERENT, "%s against %s: RMSE %g is above %g%s", r->paths[0], r->paths[1], rmse, r->max_rmse,
+                             metrics.mismatches ? ", or values are not comparable" : "");
+    return EXIT_CODE_OK;
+}
+
+int verb_diff(int count, char **arguments)
+{
+    diff_request *request = calloc(1, sizeof *request);
+    if (!request)
+        return console_error(EXIT_CODE_FAILED, "out of memory");
+    const int code = run(request, count, arguments);
+    free(request);
+    return code;
+}

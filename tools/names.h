@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: MIT */
+/* The command's words for the library's enums. */
+#ifndef MANGATA_TOOLS_NAMES_H
+#define MANGATA_TOOLS_NAMES_H
+
+#include <stdbool.h>
+
+#include "mangata/mangata.h"
+
+/* Each returns false for a word it does not know; the _words texts say what is allowed. */
+bool backend_from_name(const char *name, mgt_backend *backend);
+const char *backend_name(mgt_backend backend);
+
+bool isa_from_name(const char *name, mgt_isa *isa);
+const char *isa_name(mgt_isa isa);
+extern const char isa_words[];
+
+bool layer_from_name(const char *name, mgt_layer *layer);
+const char *layer_name(mgt_layer layer);
+uint32_t layer_channels(mgt_layer layer);
+enum { LAYER_COUNT = MGT_LAYER_NORMAL + 1 };
+
+/* "ssaa4" and the like set spatial_samples; "reference" sets its default of 8×8×8; the rest take one sample. */
+bool method_from_name(const char *name, mgt_quality *quality);
+bool method_takes_samples(mgt_method method);
+extern const char method_words[];
+
+typedef struct method_text {
+    char text[24];
+} method_text;
+method_text method_name(const mgt_quality *quality);
+
+#endif
