@@ -16,6 +16,7 @@ typedef struct cpu_state {
     const lane_kernels *kernels;
     mgt_isa isa;
     sky_state *sky; /* of the last frame; zeroed at first */
+    frame_waves *waves;
     tile_scratch **scratch; /* one a worker */
     mgt_progress_function progress;
     void *progress_user;
@@ -75,6 +76,7 @@ static void cpu_destroy(void *state)
             free(s->scratch[i]);
     free(s->scratch);
     thread_pool_destroy(s->pool);
+    free(s->waves);
     free(s->sky);
     free(s);
 }
@@ -101,9 +103,10 @@ static mgt_status cpu_create(void **state, const mgt_context_desc *desc, const r
     s->progress = desc->progress;
     s->progress_user = desc->progress_user;
     s->sky = calloc(1, sizeof *s->sky);
-    s->pool = s->sky ? thread_pool_create(desc->threads ? desc->threads : thread_pool_usable_cpus()) : NULL;
+    s->waves = calloc(1, sizeof *s->waves);
+    s->pool = s->sky && s->waves ? thread_pool_create(desc->threads ? desc->threads : thread_pool_usable_cpus()) : NULL;
     if (!s->pool || !allocate_scratch(s)) {
-        const mgt_status status = s->sky && !s->pool ? MGT_ERROR_THREAD : MGT_ERROR_MEMORY;
+        const mgt_status status = s->sky && s->waves && !s->pool ? MGT_ERROR_THREAD : MGT_ERROR_MEMORY;
         cpu_destroy(s);
         return report_error(r, status, "context.create", "%s", mgt_status_text(status));
     }
@@ -121,6 +124,7 @@ typedef struct render_job {
     cpu_state *state;
     const mgt_scene *scene;
     frame frame;
+    tile_job tiles;
     tile_wants wants;
     region area;      /* rendered: the crop, or the whole image where glare needs it */
     region crop;      /* what the targets hold */
@@ -218,8 +222,7 @@ static void render_tile(void *argument, size_t index, uint32_t worker)
     tile_scratch *s = job->state->scratch[worker];
     uint32_t offset[2];
     const region block = block_of(job, index, offset);
-    tile_render(&job->frame, job->state->kernels, job->state->sky->table, job->wants, job->first_x + (uint32_t)(index % job->columns),
-                job->first_y + (uint32_t)(index / job->columns), s);
+    tile_render(&job->tiles, job->first_x + (uint32_t)(index % job->columns), job->first_y + (uint32_t)(index / job->columns), s);
     const size_t at = (size_t)offset[1] * TILE_WIDTH + offset[0];
     const pixel_planes planes = {
         .color = {s->pixels.red + at, s->pixels.green + at, s->pixels.blue + at},
@@ -399,6 +402,8 @@ static mgt_status cpu_render(void *state, const reporter *r, const mgt_scene *sc
             finished = run_loop(&job, REFERENCE_WIDTH, REFERENCE_HEIGHT, render_reference_block);
         reference_frame_destroy(job.reference);
     } else {
+        frame_waves_build(&job.frame, s->waves);
+        job.tiles = (tile_job){&job.frame, s->waves, s->kernels, s->sky->table, job.wants};
         finished = run_loop(&job, TILE_WIDTH, TILE_HEIGHT, render_tile);
     }
     if (status == MGT_OK && !finished)

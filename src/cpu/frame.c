@@ -2,6 +2,7 @@
  * From a scene in double precision to the uniform floats of a frame and of its tiles. */
 #include "cpu/frame.h"
 
+#include <float.h>
 #include <math.h>
 
 static const double pi = 3.14159265358979323846;
@@ -53,18 +54,18 @@ static void light_axes(const double light[3], FrameData *d)
     d->axis_f_x = (float)f[0], d->axis_f_y = (float)f[1], d->axis_f_z = (float)f[2];
 }
 
+/* The ramps over which a wave turns from resolved to unresolved. Ours was chosen by error and flicker on the standard scenes. */
 static void set_method(frame *f)
 {
     const mgt_quality *q = &f->scene->quality;
-    f->ramp_start = 0.35;
-    f->ramp_end = 1.1;
-    if (q->method == MGT_METHOD_PODEE_UNIFORM || q->method == MGT_METHOD_PODEE_PIXEL) {
-        f->ramp_start = 0.2;
-        f->ramp_end = 0.5;
-    }
+    const bool podee = q->method == MGT_METHOD_PODEE_UNIFORM || q->method == MGT_METHOD_PODEE_PIXEL;
+    f->ramp_start = podee ? 0.2 : 0.18;
+    f->ramp_end = podee ? 0.5 : 1.2;
+    const double start = podee ? f->ramp_start : f->ramp_start * f->ramp_start;
+    const double end = podee ? f->ramp_end : f->ramp_end * f->ramp_end;
+    f->data.ramp_start = (float)start;
+    f->data.ramp_scale = (float)(1 / (end - start));
     f->keep_filtered = q->method == MGT_METHOD_PODEE_PIXEL;
-    f->data.ramp_start = (float)f->ramp_start;
-    f->data.ramp_scale = (float)(1 / (f->ramp_end - f->ramp_start));
     f->data.ndf_per_pixel = f->keep_filtered;
     f->data.ndf_mean = f->keep_filtered && !q->ndf_mean_drop ? 1 : 0;
 }
@@ -104,100 +105,15 @@ frame frame_of(const mgt_scene *scene, const sky_state *sky, bool want_color)
     return f;
 }
 
-/* ---- tiles ---- */
+/* ---- waves of an interval ---- */
 
-/* ∂(x, z)/∂(pixel) on the mean surface at five places of a tile: what frequencies its waves may have there. */
-enum { PROBES = 5 };
-
-typedef struct tile_probes {
-    double right[PROBES][2], down[PROBES][2];
-    int count;         /* probes that see water */
-    bool horizon;      /* some probe sees none: frequencies go up without end */
-    double least_margin, most_margin; /* factors for the displaced surface being nearer or farther */
-} tile_probes;
-
-static void tile_ray(const camera_rays *camera, double x, double y, double ray[3])
+static WaveData wave_data(const mgt_wave *w, double half)
 {
-    for (int i = 0; i < 3; i++)
-        ray[i] = camera->corner[i] + x * camera->right[i] + y * camera->down[i];
-}
-
-static tile_probes probe_tile(const camera_rays *camera, uint32_t tile_x, uint32_t tile_y, double displacement)
-{
-    static const double at[PROBES][2] = {{0.5, 0.5}, {0, 0}, {1, 0}, {0, 1}, {1, 1}};
-    tile_probes p = {0};
-    const double height = camera->position[1];
-    const double relative = fmin(displacement / height, 0.5);
-    p.least_margin = (1 - relative) * 0.95;
-    p.most_margin = (1 + relative) * 1.05;
-    for (int i = 0; i < PROBES; i++) {
-        double ray[3];
-        tile_ray(camera, tile_x * (double)TILE_WIDTH - 1 + at[i][0] * (TILE_WIDTH + 1), tile_y * (double)TILE_HEIGHT - 1 + at[i][1] * (TILE_HEIGHT + 1), ray);
-        if (ray[1] >= -1e-9) {
-            p.horizon = true;
-            continue;
-        }
-        const double along = height / -ray[1];
-        for (int j = 0; j < 2; j++) {
-            const int axis = 2 * j;
-            p.right[p.count][j] = along * (camera->right[axis] - ray[axis] / ray[1] * camera->right[1]);
-            p.down[p.count][j] = along * (camera->down[axis] - ray[axis] / ray[1] * camera->down[1]);
-        }
-        p.count++;
-    }
-    return p;
-}
-
-typedef struct frequency_range {
-    double least, most; /* cycles per pixel over the tile */
-} frequency_range;
-
-static frequency_range frequencies(const tile_probes *p, const mgt_wave *w)
-{
-    double least = INFINITY, most = 0;
-    for (int i = 0; i < p->count; i++) {
-        const double u = p->right[i][0] * w->a + p->right[i][1] * w->b;
-        const double v = p->down[i][0] * w->a + p->down[i][1] * w->b;
-        const double squared = u * u + v * v;
-        least = fmin(least, squared);
-        most = fmax(most, squared);
-    }
-    if (p->count == 0)
-        least = INFINITY;
-    return (frequency_range){sqrt(least) / (2 * pi) * p->least_margin, p->horizon ? INFINITY : sqrt(most) / (2 * pi) * p->most_margin};
-}
-
-/* A point near which the tile's phases are exact: where its centre meets the mean surface, or its steepest corner. */
-static void tile_origin(const camera_rays *camera, uint32_t tile_x, uint32_t tile_y, TileData *d)
-{
-    double best[3];
-    tile_ray(camera, (tile_x + 0.5) * TILE_WIDTH, (tile_y + 0.5) * TILE_HEIGHT, best);
-    for (int corner = 0; corner < 4 && best[1] > -1e-3; corner++) {
-        double ray[3];
-        tile_ray(camera, (tile_x + (corner & 1)) * (double)TILE_WIDTH, (tile_y + (corner >> 1)) * (double)TILE_HEIGHT, ray);
-        if (ray[1] < best[1])
-            for (int i = 0; i < 3; i++)
-                best[i] = ray[i];
-    }
-    const double along = camera->position[1] / fmax(-best[1], 1e-4);
-    d->origin_x = (float)(best[0] * along);
-    d->origin_z = (float)(best[2] * along);
-}
-
-static double turns(double radians)
-{
-    const double t = radians / (2 * pi);
-    return t - rint(t);
-}
-
-static WaveData wave_data(const mgt_wave *w, double phase, interval time)
-{
-    const double cos_half = cos(w->c * time.half), sin_half = sin(w->c * time.half);
+    const double cos_half = cos(w->c * half), sin_half = sin(w->c * half);
     const double squared = w->a * w->a + w->b * w->b, A = w->amplitude;
     return (WaveData){
         .turns_x = (float)(w->a / (2 * pi)),
         .turns_z = (float)(w->b / (2 * pi)),
-        .phase = (float)phase,
         .amplitude = (float)A,
         .even_x = (float)(A * w->a * cos_half),
         .even_z = (float)(A * w->b * cos_half),
@@ -218,57 +134,174 @@ static WaveData wave_data(const mgt_wave *w, double phase, interval time)
     };
 }
 
+void wave_set_build(const mgt_water *water, const camera_rays *camera, interval time, wave_set *set)
+{
+    set->count = water->wave_count;
+    double variance = 0;
+    for (size_t i = 0; i < set->count; i++) {
+        const mgt_wave *w = &water->waves[i];
+        set->data[i] = wave_data(w, time.half);
+        set->turns_x[i] = w->a / (2 * pi);
+        set->turns_z[i] = w->b / (2 * pi);
+        const double phase = (w->a * camera->position[0] + w->b * camera->position[2] + w->c * time.middle + w->phase) / (2 * pi);
+        set->phase[i] = phase - rint(phase);
+        variance += w->amplitude * w->amplitude / 2;
+    }
+    set->height_deviation = sqrt(variance);
+}
+
+/* ---- tiles ---- */
+
+/* ∂(x, z)/∂(pixel) on the mean surface at five places of a tile: what frequencies its waves may have there. */
+enum { PROBES = 5 };
+
+typedef struct tile_probes {
+    float right[PROBES][2], down[PROBES][2];
+    int count;         /* probes that see water */
+    bool horizon;      /* some probe sees none: frequencies go up without end */
+    float least_margin, most_margin; /* factors on squared frequencies for the displaced surface being nearer or farther */
+} tile_probes;
+
+static void tile_ray(const camera_rays *camera, double x, double y, double ray[3])
+{
+    for (int i = 0; i < 3; i++)
+        ray[i] = camera->corner[i] + x * camera->right[i] + y * camera->down[i];
+}
+
+static tile_probes probe_tile(const camera_rays *camera, uint32_t tile_x, uint32_t tile_y, double displacement)
+{
+    static const double at[PROBES][2] = {{0.5, 0.5}, {0, 0}, {1, 0}, {0, 1}, {1, 1}};
+    tile_probes p = {0};
+    const double height = camera->position[1];
+    const double relative = fmin(displacement / height, 0.5);
+    p.least_margin = (float)((1 - relative) * (1 - relative) * 0.9);
+    p.most_margin = (float)((1 + relative) * (1 + relative) * 1.1);
+    for (int i = 0; i < PROBES; i++) {
+        double ray[3];
+        tile_ray(camera, tile_x * (double)TILE_WIDTH - 1 + at[i][0] * (TILE_WIDTH + 1), tile_y * (double)TILE_HEIGHT - 1 + at[i][1] * (TILE_HEIGHT + 1), ray);
+        if (ray[1] >= -1e-9) {
+            p.horizon = true;
+            continue;
+        }
+        const double along = height / -ray[1];
+        for (int j = 0; j < 2; j++) {
+            const int axis = 2 * j;
+            p.right[p.count][j] = (float)(along * (camera->right[axis] - ray[axis] / ray[1] * camera->right[1]));
+            p.down[p.count][j] = (float)(along * (camera->down[axis] - ray[axis] / ray[1] * camera->down[1]));
+        }
+        p.count++;
+    }
+    return p;
+}
+
+/* Least and most squared frequency of a wave over the tile, in (cycles per pixel)². */
+typedef struct frequency_range {
+    float least, most;
+} frequency_range;
+
+static frequency_range frequencies(const tile_probes *p, const WaveData *w)
+{
+    float least = p->count ? FLT_MAX : INFINITY, most = 0;
+    for (int i = 0; i < p->count; i++) {
+        const float u = p->right[i][0] * w->turns_x + p->right[i][1] * w->turns_z;
+        const float v = p->down[i][0] * w->turns_x + p->down[i][1] * w->turns_z;
+        const float squared = u * u + v * v;
+        least = squared < least ? squared : least;
+        most = squared > most ? squared : most;
+    }
+    return (frequency_range){least * p->least_margin, p->horizon ? INFINITY : most * p->most_margin};
+}
+
+/* A point near which the tile's phases are exact: where its centre meets the mean surface, or its steepest corner. */
+static void tile_origin(const camera_rays *camera, uint32_t tile_x, uint32_t tile_y, TileData *d)
+{
+    double best[3];
+    tile_ray(camera, (tile_x + 0.5) * TILE_WIDTH, (tile_y + 0.5) * TILE_HEIGHT, best);
+    for (int corner = 0; corner < 4 && best[1] > -1e-3; corner++) {
+        double ray[3];
+        tile_ray(camera, (tile_x + (corner & 1)) * (double)TILE_WIDTH, (tile_y + (corner >> 1)) * (double)TILE_HEIGHT, ray);
+        if (ray[1] < best[1])
+            for (int i = 0; i < 3; i++)
+                best[i] = ray[i];
+    }
+    const double along = camera->position[1] / fmax(-best[1], 1e-4);
+    d->origin_x = (float)(best[0] * along);
+    d->origin_z = (float)(best[2] * along);
+}
+
+/* What bounds the marched waves along the view: sums of worst cases and of variances, whichever is tighter in the end. */
 typedef struct march_sums {
-    double direction[2]; /* horizontal, of the tile's centre; zero when the tile looks straight down */
-    double spread;       /* sine of the largest angle between it and the tile's other rays */
-    double amplitude, variance, slope, slope_variance, bend, bend_variance, shortest, most_cycles;
+    float direction[2]; /* horizontal, of the tile's centre; zero when the tile looks straight down */
+    float spread;       /* sine of the largest angle between it and the tile's other rays */
+    float amplitude, variance, slope, slope_variance, bend, bend_variance;
+    float largest_turns, most_frequency; /* squared */
 } march_sums;
 
 static march_sums march_sums_of(const camera_rays *camera, uint32_t tile_x, uint32_t tile_y)
 {
-    march_sums s = {.spread = 1, .shortest = INFINITY};
+    march_sums s = {.spread = 1};
     double centre[3];
     tile_ray(camera, (tile_x + 0.5) * TILE_WIDTH, (tile_y + 0.5) * TILE_HEIGHT, centre);
-    const double length = hypot(centre[0], centre[2]);
+    const double length = sqrt(centre[0] * centre[0] + centre[2] * centre[2]);
     if (length < 1e-9)
         return s;
     double least = 1;
     for (int corner = 0; corner < 4; corner++) {
         double ray[3];
         tile_ray(camera, (tile_x + (corner & 1)) * (double)TILE_WIDTH, (tile_y + (corner >> 1)) * (double)TILE_HEIGHT, ray);
-        least = fmin(least, (ray[0] * centre[0] + ray[2] * centre[2]) / (length * fmax(hypot(ray[0], ray[2]), 1e-9)));
+        least = fmin(least, (ray[0] * centre[0] + ray[2] * centre[2]) / (length * fmax(sqrt(ray[0] * ray[0] + ray[2] * ray[2]), 1e-9)));
     }
     if (least < 0.7)
         return s;
-    s.direction[0] = centre[0] / length;
-    s.direction[1] = centre[2] / length;
-    s.spread = sqrt(fmax(1 - least * least, 0));
+    s.direction[0] = (float)(centre[0] / length);
+    s.direction[1] = (float)(centre[2] / length);
+    s.spread = (float)sqrt(fmax(1 - least * least, 0));
     return s;
 }
 
-static void add_march_wave(tile_waves *out, march_sums *sums, const mgt_wave *w, const WaveData *data, double most_cycles)
+static void add_march_wave(tile_waves *out, march_sums *sums, const WaveData *w, float phase, float most_frequency)
 {
-    out->march[out->data.march_count++] = (MarchWave){data->turns_x, data->turns_z, data->phase, data->amplitude};
-    const double length = hypot(w->a, w->b), A = w->amplitude;
-    const double k = fmin(length, fabs(w->a * sums->direction[0] + w->b * sums->direction[1]) + length * sums->spread);
+    out->march[out->data.march_count++] = (MarchWave){w->turns_x, w->turns_z, phase, w->amplitude};
+    const float squared = w->k_x * w->k_x + w->k_z * w->k_z, length = sqrtf(squared), A = w->amplitude;
+    const float along = fabsf(w->k_x * sums->direction[0] + w->k_z * sums->direction[1]) + length * sums->spread;
+    const float k = along < length ? along : length;
     sums->amplitude += A;
     sums->variance += A * A / 2;
     sums->slope += A * k;
     sums->slope_variance += A * A * k * k / 2;
     sums->bend += A * k * k;
     sums->bend_variance += A * A * k * k * k * k / 2;
-    if (A > 0 && length > 0) {
-        sums->shortest = fmin(sums->shortest, 2 * pi / length);
-        sums->most_cycles = fmax(sums->most_cycles, most_cycles);
-    }
+    if (A > 0 && squared > sums->largest_turns)
+        sums->largest_turns = squared;
+    if (A > 0 && most_frequency > sums->most_frequency)
+        sums->most_frequency = most_frequency;
 }
 
-/* A wave with most of its frequencies beyond this many cycles per pixel does not steer the first hit. */
-static const double march_cycles = 0.25;
+/* A wave with all of its frequencies beyond this many cycles per pixel does not steer the first hit of filtered methods; point
+ * samples of tiles with such waves look for each pixel's hit on its own. */
+static const float march_cycles = 0.25f;
 
-void tile_build(const frame *f, const camera_rays *camera, interval time, bool filter, uint32_t tile_x, uint32_t tile_y, tile_waves *out)
+static void finish_march(const march_sums *s, bool filter, TileData *d)
 {
-    const mgt_water *water = &f->scene->water;
+    d->march_bound = fminf(s->amplitude, 5 * sqrtf(s->variance));
+    d->march_slope = fminf(s->slope, 5 * sqrtf(s->slope_variance));
+    d->march_bend = fminf(s->bend, 5 * sqrtf(s->bend_variance));
+    d->march_tolerance = s->largest_turns > 0 ? 0.02f * (float)(2 * pi) / sqrtf(s->largest_turns) : 1e-3f;
+    d->march_pixels = !filter && s->most_frequency > march_cycles * march_cycles;
+    d->far_distance = 1e5f;
+}
+
+static void add_filtered(TileData *d, const WaveData *w)
+{
+    d->filtered_xx += w->half_variance * w->k_x * w->k_x;
+    d->filtered_xz += w->half_variance * w->k_x * w->k_z;
+    d->filtered_zz += w->half_variance * w->k_z * w->k_z;
+    d->filtered_octave += w->slope_variance * w->octave;
+    d->filtered_octave_sq += w->slope_variance * w->octave * w->octave;
+}
+
+static TileData tile_view(const camera_rays *camera, uint32_t tile_x, uint32_t tile_y)
+{
     TileData d = {0};
     double ray[3];
     tile_ray(camera, tile_x * (double)TILE_WIDTH, tile_y * (double)TILE_HEIGHT, ray);
@@ -277,53 +310,35 @@ void tile_build(const frame *f, const camera_rays *camera, interval time, bool f
     d.down_x = (float)camera->down[0], d.down_y = (float)camera->down[1], d.down_z = (float)camera->down[2];
     d.camera_height = (float)camera->position[1];
     tile_origin(camera, tile_x, tile_y, &d);
-    out->data = d;
+    return d;
+}
 
-    double displacement = 0;
-    for (size_t i = 0; i < water->wave_count; i++)
-        displacement += water->waves[i].amplitude * water->waves[i].amplitude / 2;
-    const tile_probes probes = probe_tile(camera, tile_x, tile_y, 4 * sqrt(displacement));
-
+void tile_build(const frame *f, const camera_rays *camera, const wave_set *set, bool filter, uint32_t tile_x, uint32_t tile_y, tile_waves *out)
+{
+    out->data = tile_view(camera, tile_x, tile_y);
+    const tile_probes probes = probe_tile(camera, tile_x, tile_y, 4 * set->height_deviation);
+    const float start = (float)(f->ramp_start * f->ramp_start), end = (float)(f->ramp_end * f->ramp_end);
     march_sums sums = march_sums_of(camera, tile_x, tile_y);
-    double filtered[5] = {0};
     int mixed = 0; /* gathered from the array's end, then moved behind the resolved ones */
-    for (size_t i = 0; i < water->wave_count; i++) {
-        const mgt_wave *w = &water->waves[i];
+    for (size_t i = 0; i < set->count; i++) {
+        const WaveData *w = &set->data[i];
         const frequency_range range = frequencies(&probes, w);
-        if (filter && !f->keep_filtered && range.least >= f->ramp_end) {
-            const double k2 = w->a * w->a + w->b * w->b, half = w->amplitude * w->amplitude / 2;
-            const double octave = k2 > 0 ? 0.5 * log2(k2) : 0;
-            filtered[0] += half * w->a * w->a;
-            filtered[1] += half * w->a * w->b;
-            filtered[2] += half * w->b * w->b;
-            filtered[3] += half * k2 * octave;
-            filtered[4] += half * k2 * octave * octave;
+        if (filter && !f->keep_filtered && range.least >= end) {
+            add_filtered(&out->data, w);
             continue;
         }
-        const double phase = turns(w->a * (camera->position[0] + (double)d.origin_x) + w->b * (camera->position[2] + (double)d.origin_z) +
-                                   w->c * time.middle + w->phase);
-        const WaveData data = wave_data(w, phase, time);
-        if (!filter || range.most <= f->ramp_start)
-            out->waves[out->data.resolved_count++] = data;
-        else
-            out->waves[MGT_MAX_WAVES - ++mixed] = data;
-        if (!filter || range.least < march_cycles)
-            add_march_wave(out, &sums, w, &data, range.most);
+        const double turns = set->phase[i] + set->turns_x[i] * (double)out->data.origin_x + set->turns_z[i] * (double)out->data.origin_z;
+        const float phase = (float)(turns - rint(turns));
+        WaveData *place = !filter || range.most <= start ? &out->waves[out->data.resolved_count++] : &out->waves[MGT_MAX_WAVES - ++mixed];
+        *place = *w;
+        place->phase = phase;
+        if (!filter || range.least < march_cycles * march_cycles)
+            add_march_wave(out, &sums, w, phase, range.most);
     }
     for (int i = 0; i < mixed; i++)
         out->waves[out->data.resolved_count + i] = out->waves[MGT_MAX_WAVES - mixed + i];
     out->data.mixed_count = mixed;
-    out->data.march_bound = (float)fmin(sums.amplitude, 5 * sqrt(sums.variance));
-    out->data.march_slope = (float)fmin(sums.slope, 5 * sqrt(sums.slope_variance));
-    out->data.march_bend = (float)fmin(sums.bend, 5 * sqrt(sums.bend_variance));
-    out->data.march_tolerance = (float)(isfinite(sums.shortest) ? 0.02 * sums.shortest : 1e-3);
-    out->data.march_pixels = !filter && sums.most_cycles > march_cycles;
-    out->data.filtered_xx = (float)filtered[0];
-    out->data.filtered_xz = (float)filtered[1];
-    out->data.filtered_zz = (float)filtered[2];
-    out->data.filtered_octave = (float)filtered[3];
-    out->data.filtered_octave_sq = (float)filtered[4];
-    out->data.far_distance = 1e5f;
+    finish_march(&sums, filter, &out->data);
 }
 
 bool tile_sees_water(const tile_waves *tile)

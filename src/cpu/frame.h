@@ -30,8 +30,19 @@ typedef struct interval {
     double middle, half;
 } interval;
 
+/* The waves over an interval as a camera meets them: what is the same for every tile. */
+typedef struct wave_set {
+    size_t count;
+    double height_deviation; /* metres, RMS of the surface */
+    WaveData data[MGT_MAX_WAVES]; /* phase left open */
+    double turns_x[MGT_MAX_WAVES], turns_z[MGT_MAX_WAVES];
+    double phase[MGT_MAX_WAVES]; /* turns under the camera at the interval's middle, reduced */
+} wave_set;
+
+void wave_set_build(const mgt_water *water, const camera_rays *camera, interval time, wave_set *set);
+
 /* Sorts the waves for the tile (tile_x, tile_y) of the lattice. `filter` false: every wave is resolved (point samples). */
-void tile_build(const frame *f, const camera_rays *camera, interval time, bool filter, uint32_t tile_x, uint32_t tile_y, tile_waves *out);
+void tile_build(const frame *f, const camera_rays *camera, const wave_set *set, bool filter, uint32_t tile_x, uint32_t tile_y, tile_waves *out);
 
 /* Whether any pixel of the tile can see water. */
 bool tile_sees_water(const tile_waves *tile);

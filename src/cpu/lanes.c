@@ -148,7 +148,10 @@ static void guess_cell(const TileData *t, const tile_nodes *nodes, bool may_occl
                            nodes_agree(t, nodes, n10, n11) && nodes_agree(t, nodes, n11, n10);
         const bool any = nodes->found[n00] + nodes->found[n10] + nodes->found[n01] + nodes->found[n11] > 0;
         march = any && !agree ? 1.0f : 0.0f;
-        from = __builtin_fminf(__builtin_fminf(nodes->along[n00], nodes->along[n10]), __builtin_fminf(nodes->along[n01], nodes->along[n11]));
+        from = nodes->along[n00];
+        from = nodes->along[n10] < from ? nodes->along[n10] : from;
+        from = nodes->along[n01] < from ? nodes->along[n01] : from;
+        from = nodes->along[n11] < from ? nodes->along[n11] : from;
     }
     for (int y = 0; y < NODE_STEP; y++) {
         const float v = (float)y / NODE_STEP;

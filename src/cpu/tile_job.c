@@ -19,12 +19,27 @@ static float unit(uint64_t bits)
     return (float)(bits >> 40) * 0x1p-24f;
 }
 
-static void build(const frame *f, const lane_kernels *kernels, const camera_rays *camera, interval time, bool filter, uint32_t tile_x,
-                  uint32_t tile_y, tile_waves *waves, tile_guess *guess)
+void frame_waves_build(const frame *f, frame_waves *waves)
 {
-    tile_build(f, camera, time, filter, tile_x, tile_y, waves);
+    const mgt_scene *s = f->scene;
+    const interval now = {s->time, 0}, shutter = {s->time - s->shutter / 2, s->shutter / 2};
+    wave_set_build(&s->water, &f->close, now, &waves->now);
+    wave_set_build(&s->water, &f->close, s->camera_moves ? now : shutter, &waves->shutter);
+    if (s->camera_moves)
+        wave_set_build(&s->water, &f->open, (interval){s->time - s->shutter, 0}, &waves->open);
+}
+
+/* A tile of the lattice on its way. */
+typedef struct tile_place {
+    const tile_job *job;
+    uint32_t x, y;
+} tile_place;
+
+static void build(tile_place place, const camera_rays *camera, const wave_set *set, bool filter, tile_waves *waves, tile_guess *guess)
+{
+    tile_build(place.job->frame, camera, set, filter, place.x, place.y, waves);
     if (tile_sees_water(waves))
-        kernels->guess(&f->data, waves, guess);
+        place.job->kernels->guess(&place.job->frame->data, waves, guess);
     else
         memset(guess, 0, sizeof *guess);
 }
@@ -47,20 +62,22 @@ static camera_rays camera_at(const frame *f, double share)
 }
 
 /* A jittered place in stratum `index` of n × n for every pixel of the tile. */
-static void jitter(uint64_t seed, uint32_t tile_x, uint32_t tile_y, uint32_t n, uint64_t index, uint64_t sample, tile_scratch *scratch)
+static void jitter(tile_place place, uint64_t seed, uint32_t n, uint64_t index, uint64_t sample, tile_scratch *scratch)
 {
     const float column = (float)(index % n), row = (float)(index / n), size = 1.0f / (float)n;
     const uint64_t key = mix(seed ^ mix(sample));
     for (uint32_t i = 0; i < TILE_PIXELS; i++) {
-        const uint64_t x = tile_x * TILE_WIDTH + i % TILE_WIDTH, y = tile_y * TILE_HEIGHT + i / TILE_WIDTH;
+        const uint64_t x = place.x * TILE_WIDTH + i % TILE_WIDTH, y = place.y * TILE_HEIGHT + i / TILE_WIDTH;
         const uint64_t bits = mix(key ^ (x << 32 | y));
         scratch->jitter_x[i] = (column + unit(bits)) * size - 0.5f;
         scratch->jitter_y[i] = (row + unit(mix(bits))) * size - 0.5f;
     }
 }
 
-static void render_samples(const frame *f, const lane_kernels *kernels, const float *sky, uint32_t tile_x, uint32_t tile_y, tile_scratch *scratch)
+static void render_samples(tile_place place, tile_scratch *scratch)
 {
+    const tile_job *job = place.job;
+    const frame *f = job->frame;
     const mgt_quality *q = &f->scene->quality;
     const uint64_t per_time = (uint64_t)q->spatial_samples * q->spatial_samples;
     const uint64_t first = q->sample_first;
@@ -70,38 +87,40 @@ static void render_samples(const frame *f, const lane_kernels *kernels, const fl
     for (uint64_t sample = first; sample < first + count;) {
         const uint64_t m = sample / per_time, end = (m + 1) * per_time < first + count ? (m + 1) * per_time : first + count;
         const double share = q->time_samples == 1 ? 1 : ((double)m + (double)unit(mix(q->seed ^ mix(~m)))) / q->time_samples;
-        const interval time = {f->scene->time - (1 - share) * f->scene->shutter, 0};
         const camera_rays camera = camera_at(f, share);
-        build(f, kernels, &camera, time, false, tile_x, tile_y, &scratch->close, &scratch->close_guess);
+        const wave_set *waves = &job->waves->now;
+        if (q->time_samples > 1) {
+            wave_set_build(&f->scene->water, &camera, (interval){f->scene->time - (1 - share) * f->scene->shutter, 0}, &scratch->sample_waves);
+            waves = &scratch->sample_waves;
+        }
+        build(place, &camera, waves, false, &scratch->close, &scratch->close_guess);
         for (; sample < end; sample++) {
-            jitter(q->seed, tile_x, tile_y, q->spatial_samples, sample % per_time, sample, scratch);
-            kernels->sample(&f->data, sky, &scratch->close, &scratch->close_guess, scratch->jitter_x, scratch->jitter_y, weight, &scratch->pixels);
+            jitter(place, q->seed, q->spatial_samples, sample % per_time, sample, scratch);
+            job->kernels->sample(&f->data, job->sky, &scratch->close, &scratch->close_guess, scratch->jitter_x, scratch->jitter_y, weight, &scratch->pixels);
         }
     }
 }
 
-static void render_centre(const frame *f, const lane_kernels *kernels, const float *sky, uint32_t tile_x, uint32_t tile_y, tile_scratch *scratch)
+static void render_centre(tile_place place, tile_scratch *scratch)
 {
-    build(f, kernels, &f->close, (interval){f->scene->time, 0}, false, tile_x, tile_y, &scratch->close, &scratch->close_guess);
+    const tile_job *job = place.job;
+    build(place, &job->frame->close, &job->waves->now, false, &scratch->close, &scratch->close_guess);
     memset(&scratch->pixels, 0, sizeof scratch->pixels);
-    kernels->sample(&f->data, sky, &scratch->close, &scratch->close_guess, NULL, NULL, 1, &scratch->pixels);
+    job->kernels->sample(&job->frame->data, job->sky, &scratch->close, &scratch->close_guess, NULL, NULL, 1, &scratch->pixels);
 }
 
 /* ---- filtered methods ---- */
 
-static void render_filtered(const frame *f, const lane_kernels *kernels, const float *sky, uint32_t tile_x, uint32_t tile_y, tile_scratch *scratch)
+static void render_filtered(tile_place place, tile_scratch *scratch)
 {
-    const mgt_scene *s = f->scene;
-    if (!s->camera_moves) {
-        const interval shutter = {s->time - s->shutter / 2, s->shutter / 2};
-        build(f, kernels, &f->close, shutter, true, tile_x, tile_y, &scratch->close, &scratch->close_guess);
-        kernels->filtered(&f->data, sky, s->quality.method, &scratch->close, &scratch->close_guess, NULL, NULL, &scratch->pixels);
-        return;
-    }
-    build(f, kernels, &f->close, (interval){s->time, 0}, true, tile_x, tile_y, &scratch->close, &scratch->close_guess);
-    build(f, kernels, &f->open, (interval){s->time - s->shutter, 0}, true, tile_x, tile_y, &scratch->open, &scratch->open_guess);
-    kernels->filtered(&f->data, sky, s->quality.method, &scratch->close, &scratch->close_guess, &scratch->open, &scratch->open_guess,
-                      &scratch->pixels);
+    const tile_job *job = place.job;
+    const frame *f = job->frame;
+    const bool moves = f->scene->camera_moves;
+    build(place, &f->close, &job->waves->shutter, true, &scratch->close, &scratch->close_guess);
+    if (moves)
+        build(place, &f->open, &job->waves->open, true, &scratch->open, &scratch->open_guess);
+    job->kernels->filtered(&f->data, job->sky, f->scene->quality.method, &scratch->close, &scratch->close_guess, moves ? &scratch->open : NULL,
+                           moves ? &scratch->open_guess : NULL, &scratch->pixels);
 }
 
 static bool is_filtered(mgt_method method)
@@ -109,22 +128,28 @@ static bool is_filtered(mgt_method method)
     return method == MGT_METHOD_MANGATA || method == MGT_METHOD_PODEE_UNIFORM || method == MGT_METHOD_PODEE_PIXEL;
 }
 
-void tile_render(const frame *f, const lane_kernels *kernels, const float *sky, tile_wants wants, uint32_t tile_x, uint32_t tile_y, tile_scratch *scratch)
+static void render_surface(tile_place place, tile_scratch *scratch)
 {
-    const mgt_quality *q = &f->scene->quality;
-    if (wants.pixels && is_filtered(q->method))
-        render_filtered(f, kernels, sky, tile_x, tile_y, scratch);
-    else if (wants.pixels && q->method == MGT_METHOD_SSAA)
-        render_samples(f, kernels, sky, tile_x, tile_y, scratch);
-    else if (wants.pixels)
-        render_centre(f, kernels, sky, tile_x, tile_y, scratch);
-    if (!wants.surface)
+    const tile_job *job = place.job;
+    const frame *f = job->frame;
+    build(place, &f->close, &job->waves->now, false, &scratch->close, &scratch->close_guess);
+    job->kernels->surface(&f->data, &scratch->close, &scratch->close_guess, &scratch->surface);
+    if (!is_filtered(f->scene->quality.method))
         return;
-    const interval now = {f->scene->time, 0};
-    build(f, kernels, &f->close, now, false, tile_x, tile_y, &scratch->close, &scratch->close_guess);
-    kernels->surface(&f->data, &scratch->close, &scratch->close_guess, &scratch->surface);
-    if (is_filtered(q->method)) {
-        build(f, kernels, &f->close, now, true, tile_x, tile_y, &scratch->close, &scratch->close_guess);
-        kernels->filtered_normal(&f->data, &scratch->close, &scratch->close_guess, &scratch->surface);
-    }
+    build(place, &f->close, &job->waves->now, true, &scratch->close, &scratch->close_guess);
+    job->kernels->filtered_normal(&f->data, &scratch->close, &scratch->close_guess, &scratch->surface);
+}
+
+void tile_render(const tile_job *job, uint32_t tile_x, uint32_t tile_y, tile_scratch *scratch)
+{
+    const tile_place place = {job, tile_x, tile_y};
+    const mgt_method method = job->frame->scene->quality.method;
+    if (job->wants.pixels && is_filtered(method))
+        render_filtered(place, scratch);
+    else if (job->wants.pixels && method == MGT_METHOD_SSAA)
+        render_samples(place, scratch);
+    else if (job->wants.pixels)
+        render_centre(place, scratch);
+    if (job->wants.surface)
+        render_surface(place, scratch);
 }

@@ -5,21 +5,40 @@
 
 #include "cpu/frame.h"
 
-/* What a worker needs while it renders a tile; about 200 KiB. */
+/* What a worker needs while it renders a tile; about 300 KiB. */
 typedef struct tile_scratch {
     tile_waves close, open;
     tile_guess close_guess, open_guess;
     float jitter_x[TILE_PIXELS], jitter_y[TILE_PIXELS];
     tile_pixels pixels;
     tile_surface surface;
+    wave_set sample_waves;
 } tile_scratch;
+
+/* The waves of a frame, shared by its tiles. */
+typedef struct frame_waves {
+    wave_set now;     /* the instant t */
+    wave_set shutter; /* over the shutter; the instant t where the camera moves … */
+    wave_set open;    /* … and then the instant the shutter opens, at the camera's place of that time */
+} frame_waves;
+
+void frame_waves_build(const frame *f, frame_waves *waves);
 
 typedef struct tile_wants {
     bool pixels;  /* color, coverage or mask */
     bool surface; /* depth or normal */
 } tile_wants;
 
+/* One frame's tiles. */
+typedef struct tile_job {
+    const frame *frame;
+    const frame_waves *waves;
+    const lane_kernels *kernels;
+    const float *sky; /* the table of a sky_state */
+    tile_wants wants;
+} tile_job;
+
 /* Fills scratch->pixels and scratch->surface for the tile (tile_x, tile_y) of the lattice. Not for the reference. */
-void tile_render(const frame *f, const lane_kernels *kernels, const float *sky, tile_wants wants, uint32_t tile_x, uint32_t tile_y, tile_scratch *scratch);
+void tile_render(const tile_job *job, uint32_t tile_x, uint32_t tile_y, tile_scratch *scratch);
 
 #endif
