@@ -3,18 +3,17 @@
 
 .PHONY: all setup demo check bench install clean
 
-all: build/build.ninja
+all:
+	[ -f build/build.ninja ] || cmake --preset release
 	cmake --build build
-
-build/build.ninja:
-	cmake --preset release
 
 setup:
 	scripts/setup
 
-# Recipes rather than prerequisites keep the order under `make -j`.
+# The steps are recipes, not prerequisites, so that they keep their order under `make -j`.
 demo: setup
-	$(MAKE) --no-print-directory all
+	[ -f build/build.ninja ] || cmake --preset release
+	cmake --build build --target mangata
 	scripts/demo
 
 check: setup

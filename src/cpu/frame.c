@@ -59,8 +59,8 @@ static void set_method(frame *f)
 {
     const mgt_quality *q = &f->scene->quality;
     const bool podee = q->method == MGT_METHOD_PODEE_UNIFORM || q->method == MGT_METHOD_PODEE_PIXEL;
-    f->ramp_start = podee ? 0.2 : 0.18;
-    f->ramp_end = podee ? 0.5 : 1.2;
+    f->ramp_start = podee ? 0.2 : 0.25;
+    f->ramp_end = podee ? 0.5 : 1.1;
     const double start = podee ? f->ramp_start : f->ramp_start * f->ramp_start;
     const double end = podee ? f->ramp_end : f->ramp_end * f->ramp_end;
     f->data.ramp_start = (float)start;

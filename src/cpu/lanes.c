@@ -123,7 +123,7 @@ static bool nodes_agree(const TileData *t, const tile_nodes *nodes, int from, in
     const float base = nodes->height[from] - along * (sx * a.x + sz * a.z);
     const float closing = sx * b.x + sz * b.z - b.y;
     const float level = t->camera_height - base;
-    const float tolerance = 0.02f * nodes->along[to];
+    const float tolerance = 0.1f * nodes->along[to];
     return closing > 0 && nodes->found[from] > 0 && nodes->found[to] > 0 && __builtin_fabsf(level - nodes->along[to] * closing) < tolerance * closing;
 }
 

@@ -70,6 +70,7 @@ KERNEL real real_from_bits(mask b) { real x; memcpy(&x, &b, sizeof x); return x;
 KERNEL real real_from_int(mask i) { return (real)i; }
 KERNEL real real_select(mask m, real a, real b) { return m ? a : b; }
 KERNEL mask mask_not(mask m) { return !m; }
+KERNEL mask mask_shift_left(mask b, int places) { return (mask)((unsigned)b << places); }
 KERNEL bool any_lane(mask m) { return m != 0; }
 KERNEL bool all_lanes(mask m) { return m != 0; }
 KERNEL real real_min(real a, real b) { return a < b ? a : b; }
@@ -90,6 +91,7 @@ KERNEL mask real_bits(real x) { return (mask)x; }
 KERNEL real real_from_bits(mask b) { return (real)b; }
 KERNEL real real_from_int(mask i) { return __builtin_convertvector(i, real); }
 KERNEL mask mask_not(mask m) { return ~m; }
+KERNEL mask mask_shift_left(mask b, int places) { return b << places; }
 
 /* Comparing a comparison with 0 changes nothing, but lets compilers see the blend instruction (gcc with AVX-512 too). */
 KERNEL real real_select(mask m, real a, real b)
@@ -201,7 +203,7 @@ KERNEL real real_floor(real x)
 #define MGT_ROUNDER 12582912.0f /* 1.5 * 2^23: in x + MGT_ROUNDER the low bits are the integer nearest x. */
 
 /* 2^n for integral n from -126 to 127. */
-KERNEL real pow2i(real n) { return real_from_bits(real_bits(n + (MGT_ROUNDER + 127.0f)) << 23); }
+KERNEL real pow2i(real n) { return real_from_bits(mask_shift_left(real_bits(n + (MGT_ROUNDER + 127.0f)), 23)); }
 
 /* x = mantissa_of(x) * 2^exponent_of(x), the mantissa in [1, 2), for normal x > 0. */
 KERNEL real exponent_of(real x) { return real_from_int((real_bits(x) >> 23) - 127); }
@@ -213,11 +215,7 @@ STRUCT(Nearest) { real integer, parity; };
 KERNEL Nearest real_nearest(real x, float factor, float rounder)
 {
     real shifted = real_fma(x, real_broadcast(factor), real_broadcast(rounder));
-#if MGT_LANES == 1
-    real parity = real_from_bits((mask)((unsigned)real_bits(shifted) << 31));
-#else
-    real parity = real_from_bits(real_bits(shifted) << 31);
-#endif
+    real parity = real_from_bits(mask_shift_left(real_bits(shifted), 31));
     return (Nearest){shifted - rounder, parity};
 }
 

@@ -28,6 +28,8 @@ changes --frames 1
 changes --layer mask
 changes --set light.elevation_deg=3
 changes --set water.waves[0].phase=1
+changes --set time.fps=25
+changes --set time.start=3
 changes --set post.exposure=1
 [[ $(hash_of --method reference) != $(hash_of --method reference --spatial 9) ]] || fail "the hash must depend on --spatial"
 [[ $(hash_of --method reference) != $(hash_of --method reference --samples-range 0,64) ]] || fail "the hash must depend on the range"
