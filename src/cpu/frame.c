@@ -54,17 +54,15 @@ static void light_axes(const double light[3], FrameData *d)
     d->axis_f_x = (float)f[0], d->axis_f_y = (float)f[1], d->axis_f_z = (float)f[2];
 }
 
-/* The ramps over which a wave turns from resolved to unresolved. Ours was chosen by error and flicker on the standard scenes. */
+/* Where waves turn from resolved to unresolved: P1's linear ramp, or ours, chosen by error and flicker on the standard scenes. */
 static void set_method(frame *f)
 {
     const mgt_quality *q = &f->scene->quality;
     const bool podee = q->method == MGT_METHOD_PODEE_UNIFORM || q->method == MGT_METHOD_PODEE_PIXEL;
-    f->ramp_start = podee ? 0.2 : 0.25;
-    f->ramp_end = podee ? 0.5 : 1.1;
-    const double start = podee ? f->ramp_start : f->ramp_start * f->ramp_start;
-    const double end = podee ? f->ramp_end : f->ramp_end * f->ramp_end;
-    f->data.ramp_start = (float)start;
-    f->data.ramp_scale = (float)(1 / (end - start));
+    f->ramp_start = podee ? 0.2 : 0.1;
+    f->ramp_end = podee ? 0.5 : 1.2;
+    f->data.ramp_start = (float)f->ramp_start;
+    f->data.ramp_scale = (float)(podee ? 1 / (f->ramp_end - f->ramp_start) : 1 / (f->ramp_end * f->ramp_end));
     f->keep_filtered = q->method == MGT_METHOD_PODEE_PIXEL;
     f->data.ndf_per_pixel = f->keep_filtered;
     f->data.ndf_mean = f->keep_filtered && !q->ndf_mean_drop ? 1 : 0;
@@ -111,6 +109,7 @@ static WaveData wave_data(const mgt_wave *w, double half)
 {
     const double cos_half = cos(w->c * half), sin_half = sin(w->c * half);
     const double squared = w->a * w->a + w->b * w->b, A = w->amplitude;
+    const double octave = squared > 0 ? 0.5 * log2(squared) : 0;
     return (WaveData){
         .turns_x = (float)(w->a / (2 * pi)),
         .turns_z = (float)(w->b / (2 * pi)),
@@ -129,8 +128,11 @@ static WaveData wave_data(const mgt_wave *w, double half)
         .odd_height = (float)(A * sin_half),
         .cos_half = (float)cos_half,
         .sin_half = (float)sin_half,
-        .octave = (float)(squared > 0 ? 0.5 * log2(squared) : 0),
-        .slope_variance = (float)(A * A * squared / 2),
+        .octave_mass = (float)(A * A * squared / 2 * octave),
+        .octave_sq_mass = (float)(A * A * squared / 2 * octave * octave),
+        .variance_xx = (float)(A * A / 2 * w->a * w->a),
+        .variance_xz = (float)(A * A / 2 * w->a * w->b),
+        .variance_zz = (float)(A * A / 2 * w->b * w->b),
     };
 }
 
@@ -293,11 +295,11 @@ static void finish_march(const march_sums *s, bool filter, TileData *d)
 
 static void add_filtered(TileData *d, const WaveData *w)
 {
-    d->filtered_xx += w->half_variance * w->k_x * w->k_x;
-    d->filtered_xz += w->half_variance * w->k_x * w->k_z;
-    d->filtered_zz += w->half_variance * w->k_z * w->k_z;
-    d->filtered_octave += w->slope_variance * w->octave;
-    d->filtered_octave_sq += w->slope_variance * w->octave * w->octave;
+    d->filtered_xx += w->variance_xx;
+    d->filtered_xz += w->variance_xz;
+    d->filtered_zz += w->variance_zz;
+    d->filtered_octave += w->octave_mass;
+    d->filtered_octave_sq += w->octave_sq_mass;
 }
 
 static TileData tile_view(const camera_rays *camera, uint32_t tile_x, uint32_t tile_y)

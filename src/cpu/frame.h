@@ -16,7 +16,7 @@ typedef struct frame {
     FrameData data;
     const mgt_scene *scene;
     camera_rays close, open;       /* cameras when the shutter closes and opens */
-    double ramp_start, ramp_end;   /* cycles per pixel over which a wave turns from resolved to unresolved */
+    double ramp_start, ramp_end;   /* cycles per pixel below which a wave is resolved and above which it is not */
     bool keep_filtered;            /* unresolved waves stay in the mixed list: their phase matters (podee-pixel) */
 } frame;
 

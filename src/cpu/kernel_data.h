@@ -11,7 +11,7 @@
 
 _Static_assert(sizeof(FrameData) % 16 == 0, "std140 layout");
 _Static_assert(sizeof(TileData) % 16 == 0, "std140 layout");
-_Static_assert(sizeof(WaveData) == 80, "std140 layout");
+_Static_assert(sizeof(WaveData) == 96, "std140 layout");
 _Static_assert(sizeof(MarchWave) == 16, "std140 layout");
 
 /* What a kernel can reach through its accessors. */

@@ -1,0 +1,43 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# Every kernel file must be valid GLSL 4.50 (compute) and GLSL ES 3.00 (fragment). usage: validate_glsl.sh SOURCE_DIR
+# Exit 77, which ctest counts as skipped, where glslangValidator is missing.
+set -u
+source=$1
+kernels=$source/src/kernels
+command -v glslangValidator >/dev/null 2>&1 || { echo "glslangValidator is not installed"; exit 77; }
+work=$(mktemp -d) || exit 1
+trap 'rm -rf "$work"' EXIT
+failed=0
+
+check() { # name, version line, extension, epilogue, kernel
+    "$source/scripts/kernel_glsl" "$2" "$kernels/prelude_glsl.k" "$kernels/accessors_glsl.k" "$5" >"$work/$1.$3" || { failed=1; return; }
+    printf '%s\n' "$4" >>"$work/$1.$3"
+    if ! glslangValidator "$work/$1.$3" >"$work/log" 2>&1; then
+        failed=1
+        echo "FAILED: $1 as GLSL $2"
+        grep '^// ' "$work/$1.$3"
+        grep -E 'ERROR|WARNING' "$work/log"
+    fi
+}
+
+count=0
+for kernel in "$kernels"/*.k; do
+    name=$(basename "$kernel" .k)
+    case $name in prelude_glsl | accessors_glsl) continue ;; esac
+    count=$((count + 1))
+    check "$name" "450 core" comp 'layout(local_size_x = 8, local_size_y = 8) in; void main() {}' "$kernel"
+    check "$name" "300 es" frag 'void main() {}' "$kernel"
+done
+echo "$count kernel files, each as GLSL 4.50 and GLSL ES 3.00"
+
+# The check itself must be able to fail, and say where.
+printf '/* broken */\n#include "math.k"\nKERNEL real broken(CTX cx, real x) { return x +; }\n' >"$work/broken.k"
+cp "$kernels/math.k" "$work/math.k"
+"$source/scripts/kernel_glsl" "450 core" "$kernels/prelude_glsl.k" "$work/broken.k" >"$work/broken.comp" || failed=1
+if glslangValidator "$work/broken.comp" >"$work/log" 2>&1 || ! grep -q 'ERROR: 2:3:' "$work/log"; then
+    echo "FAILED: a broken kernel was not reported at its own line"
+    cat "$work/log"
+    failed=1
+fi
+exit $failed
