@@ -141,17 +141,16 @@ static bool tile_may_occlude(const TileData *t)
 static void guess_cell(const TileData *t, const tile_nodes *nodes, bool may_occlude, int cell_x, int cell_y, tile_guess *guess)
 {
     const int n00 = cell_y * NODE_COLUMNS + cell_x, n10 = n00 + 1, n01 = n00 + NODE_COLUMNS, n11 = n01 + 1;
-    float march = 0, from = 0;
+    float march = 0, from = nodes->along[n00];
+    from = nodes->along[n10] < from ? nodes->along[n10] : from;
+    from = nodes->along[n01] < from ? nodes->along[n01] : from;
+    from = nodes->along[n11] < from ? nodes->along[n11] : from;
     if (may_occlude) {
         const bool agree = nodes_agree(t, nodes, n00, n10) && nodes_agree(t, nodes, n10, n00) && nodes_agree(t, nodes, n01, n11) &&
                            nodes_agree(t, nodes, n11, n01) && nodes_agree(t, nodes, n00, n01) && nodes_agree(t, nodes, n01, n00) &&
                            nodes_agree(t, nodes, n10, n11) && nodes_agree(t, nodes, n11, n10);
         const bool any = nodes->found[n00] + nodes->found[n10] + nodes->found[n01] + nodes->found[n11] > 0;
         march = any && !agree ? 1.0f : 0.0f;
-        from = nodes->along[n00];
-        from = nodes->along[n10] < from ? nodes->along[n10] : from;
-        from = nodes->along[n01] < from ? nodes->along[n01] : from;
-        from = nodes->along[n11] < from ? nodes->along[n11] : from;
     }
     for (int y = 0; y < NODE_STEP; y++) {
         const float v = (float)y / NODE_STEP;
