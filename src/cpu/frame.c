@@ -263,7 +263,7 @@ static march_sums march_sums_of(const camera_rays *camera, uint32_t tile_x, uint
 
 static void add_march_wave(tile_waves *out, march_sums *sums, const WaveData *w, float phase, float most_frequency)
 {
-    out->march[out->data.march_count++] = (MarchWave){w->turns_x, w->turns_z, phase, w->amplitude};
+    out->march[out->data.march_count++] = (MarchWave){w->turns_x, w->turns_z, phase, w->even_height};
     const float squared = w->k_x * w->k_x + w->k_z * w->k_z, length = sqrtf(squared), A = w->amplitude;
     const float along = fabsf(w->k_x * sums->direction[0] + w->k_z * sums->direction[1]) + length * sums->spread;
     const float k = along < length ? along : length;
@@ -288,7 +288,7 @@ static void finish_march(const march_sums *s, bool filter, TileData *d)
     d->march_bound = fminf(s->amplitude, 5 * sqrtf(s->variance));
     d->march_slope = fminf(s->slope, 5 * sqrtf(s->slope_variance));
     d->march_bend = fminf(s->bend, 5 * sqrtf(s->bend_variance));
-    d->march_tolerance = s->largest_turns > 0 ? 0.02f * (float)(2 * pi) / sqrtf(s->largest_turns) : 1e-3f;
+    d->march_tolerance = s->largest_turns > 0 ? (filter ? 0.1f : 0.02f) * (float)(2 * pi) / sqrtf(s->largest_turns) : 1e-3f;
     d->march_pixels = !filter && s->most_frequency > march_cycles * march_cycles;
     d->far_distance = 1e5f;
 }

@@ -123,7 +123,7 @@ static bool nodes_agree(const TileData *t, const tile_nodes *nodes, int from, in
     const float base = nodes->height[from] - along * (sx * a.x + sz * a.z);
     const float closing = sx * b.x + sz * b.z - b.y;
     const float level = t->camera_height - base;
-    const float tolerance = 0.1f * nodes->along[to];
+    const float tolerance = 0.3f * nodes->along[to];
     return closing > 0 && nodes->found[from] > 0 && nodes->found[to] > 0 && __builtin_fabsf(level - nodes->along[to] * closing) < tolerance * closing;
 }
 
@@ -138,7 +138,64 @@ static bool tile_may_occlude(const TileData *t)
     return false;
 }
 
-static void guess_cell(const TileData *t, const tile_nodes *nodes, bool may_occlude, int cell_x, int cell_y, tile_guess *guess)
+/* The nodes at the left and right of every pixel column, for one row of nodes, as tangent planes: a ray meets the plane of a
+ * node where along · (slope·ray.xz − ray.y) = level. */
+typedef struct node_planes {
+    float level[2][TILE_WIDTH], slope_x[2][TILE_WIDTH], slope_z[2][TILE_WIDTH], height[2][TILE_WIDTH];
+} node_planes;
+
+static void spread_nodes(const TileData *t, const tile_nodes *nodes, int row, node_planes *out)
+{
+    for (int x = 0; x < TILE_WIDTH; x++)
+        for (int side = 0; side < 2; side++) {
+            const int n = row * NODE_COLUMNS + x / NODE_STEP + side;
+            const node_ray r = ray_of(t, n);
+            const float sx = nodes->slope_x[n], sz = nodes->slope_z[n], along = nodes->along[n];
+            out->slope_x[side][x] = sx;
+            out->slope_z[side][x] = sz;
+            out->level[side][x] = t->camera_height - nodes->height[n] + along * (sx * r.x + sz * r.z);
+            out->height[side][x] = nodes->height[n];
+        }
+}
+
+/* Height at which a ray meets a node's plane; the node's own height where it does not, or far off. */
+static inline real plane_height(const TileData *t, const node_planes *p, int side, int x, vec3 ray)
+{
+    const real closing = real_fma(load(p->slope_x[side] + x), ray.x, real_fma(load(p->slope_z[side] + x), ray.z, -ray.y));
+    const real own = load(p->height[side] + x);
+    const mask meets = closing > abs(ray.y) * 0.1f;
+    const real height = real_fma(ray.y, load(p->level[side] + x) / SELECT(meets, closing, real(1.0f)), real(t->camera_height));
+    const real bound = real(t->march_bound);
+    return SELECT(AND(meets, abs(height) <= bound), height, own);
+}
+
+/* Heights between nodes: the mean of interpolated heights and interpolated planes. Their errors of second order are opposite. */
+static void guess_heights(const struct kernel_context *cx, const tile_nodes *nodes, tile_guess *guess)
+{
+    const TileData *t = cx->tile;
+    node_planes planes[2];
+    spread_nodes(t, nodes, 0, &planes[0]);
+    for (int y = 0; y < TILE_HEIGHT; y++) {
+        const node_planes *above = &planes[y / NODE_STEP & 1], *below = &planes[(y / NODE_STEP & 1) ^ 1];
+        if (y % NODE_STEP == 0)
+            spread_nodes(t, nodes, y / NODE_STEP + 1, &planes[(y / NODE_STEP & 1) ^ 1]);
+        const real v = real((float)(y % NODE_STEP) / NODE_STEP);
+        for (int x = 0; x < TILE_WIDTH; x += MGT_LANES) {
+            static const float shares[16] = {0, 0.25f, 0.5f, 0.75f, 0, 0.25f, 0.5f, 0.75f, 0, 0.25f, 0.5f, 0.75f, 0, 0.25f, 0.5f, 0.75f};
+            const real u = load(shares + x % NODE_STEP);
+            const vec3 ray = pixel_ray_at(cx, lane_numbers() + (float)x, real((float)y));
+            real top_left = load(above->height[0] + x) + plane_height(t, above, 0, x, ray);
+            real top_right = load(above->height[1] + x) + plane_height(t, above, 1, x, ray);
+            real low_left = load(below->height[0] + x) + plane_height(t, below, 0, x, ray);
+            real low_right = load(below->height[1] + x) + plane_height(t, below, 1, x, ray);
+            const real top = real_fma(u, top_right - top_left, top_left), low = real_fma(u, low_right - low_left, low_left);
+            store(guess->height + y * TILE_WIDTH + x, real(0.5f) * real_fma(v, low - top, top));
+        }
+    }
+}
+
+/* Which pixels of a cell must march themselves, and from where. */
+static void guess_march(const TileData *t, const tile_nodes *nodes, bool may_occlude, int cell_x, int cell_y, tile_guess *guess)
 {
     const int n00 = cell_y * NODE_COLUMNS + cell_x, n10 = n00 + 1, n01 = n00 + NODE_COLUMNS, n11 = n01 + 1;
     float march = 0, from = nodes->along[n00];
@@ -152,18 +209,12 @@ static void guess_cell(const TileData *t, const tile_nodes *nodes, bool may_occl
         const bool any = nodes->found[n00] + nodes->found[n10] + nodes->found[n01] + nodes->found[n11] > 0;
         march = any && !agree ? 1.0f : 0.0f;
     }
-    for (int y = 0; y < NODE_STEP; y++) {
-        const float v = (float)y / NODE_STEP;
-        const float left = nodes->height[n00] * (1 - v) + nodes->height[n01] * v;
-        const float right = nodes->height[n10] * (1 - v) + nodes->height[n11] * v;
+    for (int y = 0; y < NODE_STEP; y++)
         for (int x = 0; x < NODE_STEP; x++) {
-            const float u = (float)x / NODE_STEP;
             const int i = (cell_y * NODE_STEP + y) * TILE_WIDTH + cell_x * NODE_STEP + x;
-            guess->height[i] = left * (1 - u) + right * u;
             guess->march[i] = march;
             guess->from[i] = from;
         }
-    }
 }
 
 static void lanes_guess(const FrameData *frame, const tile_waves *tile, tile_guess *guess)
@@ -179,11 +230,12 @@ static void lanes_guess(const FrameData *frame, const tile_waves *tile, tile_gue
     march_nodes(&cx, &nodes);
     for (int i = 0; i < NODE_COUNT; i++)
         if (!(nodes.found[i] > 0))
-            nodes.height[i] = 0;
+            nodes.height[i] = nodes.slope_x[i] = nodes.slope_z[i] = 0;
     const bool may_occlude = tile_may_occlude(&tile->data);
     for (int y = 0; y < NODE_ROWS - 1; y++)
         for (int x = 0; x < NODE_COLUMNS - 1; x++)
-            guess_cell(&tile->data, &nodes, may_occlude, x, y, guess);
+            guess_march(&tile->data, &nodes, may_occlude, x, y, guess);
+    guess_heights(&cx, &nodes, guess);
 }
 
 /* ---- methods ---- */
