@@ -146,23 +146,26 @@ typedef struct pixel_planes {
     size_t stride; /* pixels a row */
 } pixel_planes;
 
-static void write_pixel(const mgt_target *t, const pixel_planes *p, size_t i, void *out)
+static void write_row(const mgt_target *t, const pixel_planes *p, size_t first, uint32_t count, float *out)
 {
-    float *f = out;
-    const size_t c = i * p->color_step, n = i * p->normal_step;
+    const float *const *source = t->layer == MGT_LAYER_COLOR ? p->color : p->normal;
+    const size_t step = t->layer == MGT_LAYER_COLOR ? p->color_step : p->normal_step;
+    const size_t channels = t->format == MGT_FORMAT_RGBA32F ? 4 : 3;
     switch (t->layer) {
+    case MGT_LAYER_COVERAGE: memcpy(out, p->coverage + first, count * sizeof *out); return;
+    case MGT_LAYER_MASK: memcpy(out, p->water + first, count * sizeof *out); return;
+    case MGT_LAYER_DEPTH: memcpy(out, p->depth + first, count * sizeof *out); return;
     case MGT_LAYER_COLOR:
-        f[0] = p->color[0][c], f[1] = p->color[1][c], f[2] = p->color[2][c];
-        break;
-    case MGT_LAYER_COVERAGE: f[0] = p->coverage[i]; break;
-    case MGT_LAYER_MASK: f[0] = p->water[i]; break;
-    case MGT_LAYER_DEPTH: f[0] = p->depth[i]; break;
-    case MGT_LAYER_NORMAL:
-        f[0] = p->normal[0][n], f[1] = p->normal[1][n], f[2] = p->normal[2][n];
-        break;
+    case MGT_LAYER_NORMAL: break;
     }
-    if (t->format == MGT_FORMAT_RGBA32F)
-        f[3] = 1;
+    for (uint32_t x = 0; x < count; x++) {
+        const size_t i = (first + x) * step;
+        out[channels * x] = source[0][i];
+        out[channels * x + 1] = source[1][i];
+        out[channels * x + 2] = source[2][i];
+        if (channels == 4)
+            out[4 * x + 3] = 1;
+    }
 }
 
 /* The part of `block` that the crop holds goes to every float target, and to display where no glare is to come. */
@@ -178,8 +181,7 @@ static void write_block(const render_job *job, const region *block, const pixel_
             const size_t size = format_size(t->format), first = (y - block->y) * p->stride + x0 - block->x;
             char *row = (char *)target_row(t, crop, y - crop->y) + size * (x0 - crop->x);
             if (t->format != MGT_FORMAT_RGBA8_SRGB) {
-                for (uint32_t x = 0; x < x1 - x0; x++)
-                    write_pixel(t, p, first + x, row + size * x);
+                write_row(t, p, first, x1 - x0, (float *)(void *)row);
             } else if (!job->radiance) {
                 float rgb[3 * TILE_WIDTH];
                 for (uint32_t x = 0; x < x1 - x0; x++)
@@ -239,8 +241,15 @@ static void render_tile(void *argument, size_t index, uint32_t worker)
         keep_radiance(job, &block, &planes);
 }
 
-/* Blocks are small so that even thousands of samples a pixel leave time for progress and cancelling. */
+/* Blocks shrink with the samples of a pixel so that progress and cancelling stay prompt. */
 enum { REFERENCE_WIDTH = 16, REFERENCE_HEIGHT = 4, REFERENCE_PIXELS = REFERENCE_WIDTH * REFERENCE_HEIGHT };
+
+static uint32_t reference_block_width(const mgt_quality *q)
+{
+    const uint64_t all = (uint64_t)q->spatial_samples * q->spatial_samples * q->time_samples - q->sample_first;
+    const uint64_t samples = q->sample_count ? q->sample_count : all;
+    return samples > 16384 ? 1 : samples > 2048 ? 4 : REFERENCE_WIDTH;
+}
 
 static void render_reference_block(void *argument, size_t index, uint32_t worker)
 {
@@ -398,8 +407,10 @@ static mgt_status cpu_render(void *state, const reporter *r, const mgt_scene *sc
     bool finished = false;
     if (scene->quality.method == MGT_METHOD_REFERENCE) {
         status = make_reference(&job, r);
-        if (status == MGT_OK)
-            finished = run_loop(&job, REFERENCE_WIDTH, REFERENCE_HEIGHT, render_reference_block);
+        if (status == MGT_OK) {
+            const uint32_t width = reference_block_width(&scene->quality);
+            finished = run_loop(&job, width, width == REFERENCE_WIDTH ? REFERENCE_HEIGHT : 1, render_reference_block);
+        }
         reference_frame_destroy(job.reference);
     } else {
         frame_waves_build(&job.frame, s->waves);

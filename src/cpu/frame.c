@@ -139,7 +139,7 @@ static WaveData wave_data(const mgt_wave *w, double half)
 void wave_set_build(const mgt_water *water, const camera_rays *camera, interval time, wave_set *set)
 {
     set->count = water->wave_count;
-    double variance = 0;
+    double variance = 0, slope_variance = 0;
     for (size_t i = 0; i < set->count; i++) {
         const mgt_wave *w = &water->waves[i];
         set->data[i] = wave_data(w, time.half);
@@ -148,8 +148,10 @@ void wave_set_build(const mgt_water *water, const camera_rays *camera, interval 
         const double phase = (w->a * camera->position[0] + w->b * camera->position[2] + w->c * time.middle + w->phase) / (2 * pi);
         set->phase[i] = phase - rint(phase);
         variance += w->amplitude * w->amplitude / 2;
+        slope_variance += w->amplitude * w->amplitude * (w->a * w->a + w->b * w->b) / 2;
     }
     set->height_deviation = sqrt(variance);
+    set->slope_deviation = sqrt(slope_variance);
 }
 
 /* ---- tiles ---- */
@@ -302,6 +304,44 @@ static void add_filtered(TileData *d, const WaveData *w)
     d->filtered_octave_sq += w->octave_sq_mass;
 }
 
+/* The mirror slope s_h of a ray; false where none exists. `size` gets what the disk's radius can be worth in slope. */
+static bool mirror_slope(const FrameData *f, const double ray[3], double slope[2], double *size)
+{
+    const double inverse = 1 / sqrt(ray[0] * ray[0] + ray[1] * ray[1] + ray[2] * ray[2]);
+    double h[3] = {(double)f->light_x - ray[0] * inverse, (double)f->light_y - ray[1] * inverse, (double)f->light_z - ray[2] * inverse};
+    const double facing = -(h[0] * ray[0] + h[1] * ray[1] + h[2] * ray[2]) * inverse;
+    if (h[1] < 1e-3 || facing < 1e-3)
+        return false;
+    slope[0] = -h[0] / h[1];
+    slope[1] = -h[2] / h[1];
+    normalize3(h);
+    /* |det J| = 4 (h·v) h.y³ and no singular value of J exceeds 2. */
+    *size = (double)f->light_radius / (2 * (-(h[0] * ray[0] + h[1] * ray[1] + h[2] * ray[2]) * inverse) * h[1] * h[1] * h[1]);
+    return true;
+}
+
+/* Whether a slope within seven deviations of level could mirror the light somewhere in the tile. */
+static bool light_reaches(const frame *f, const camera_rays *camera, const wave_set *set, uint32_t tile_x, uint32_t tile_y)
+{
+    if (f->data.light_visible <= 0)
+        return false;
+    double centre[2] = {0, 0}, size = 0, spread = 0;
+    for (int place = 0; place < 5; place++) {
+        const double x = place == 0 ? 0.5 : place & 1, y = place == 0 ? 0.5 : (place - 1) >> 1;
+        double ray[3], slope[2], here;
+        tile_ray(camera, (tile_x + x) * TILE_WIDTH, (tile_y + y) * TILE_HEIGHT, ray);
+        if (!mirror_slope(&f->data, ray, slope, &here))
+            return true;
+        if (place == 0) {
+            centre[0] = slope[0];
+            centre[1] = slope[1];
+        }
+        spread = fmax(spread, hypot(slope[0] - centre[0], slope[1] - centre[1]));
+        size = fmax(size, here);
+    }
+    return hypot(centre[0], centre[1]) - 1.5 * spread - 1.5 * size < 7 * set->slope_deviation + 0.02;
+}
+
 static TileData tile_view(const camera_rays *camera, uint32_t tile_x, uint32_t tile_y)
 {
     TileData d = {0};
@@ -341,6 +381,7 @@ void tile_build(const frame *f, const camera_rays *camera, const wave_set *set, 
         out->waves[out->data.resolved_count + i] = out->waves[MGT_MAX_WAVES - mixed + i];
     out->data.mixed_count = mixed;
     finish_march(&sums, filter, &out->data);
+    out->data.light_reach = filter && light_reaches(f, camera, set, tile_x, tile_y);
 }
 
 bool tile_sees_water(const tile_waves *tile)

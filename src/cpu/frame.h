@@ -34,6 +34,7 @@ typedef struct interval {
 typedef struct wave_set {
     size_t count;
     double height_deviation; /* metres, RMS of the surface */
+    double slope_deviation;  /* RMS of its slope */
     WaveData data[MGT_MAX_WAVES]; /* phase left open */
     double turns_x[MGT_MAX_WAVES], turns_z[MGT_MAX_WAVES];
     double phase[MGT_MAX_WAVES]; /* turns under the camera at the interval's middle, reduced */

@@ -82,8 +82,11 @@ static inline HitGuess load_guess(const tile_guess *guess, size_t i)
 
 /* ---- first-hit lattice ---- */
 
+/* Hits at the nodes, as tangent planes: a ray meets the plane of a node where along · (slope·ray.xz − ray.y) = level. */
 typedef struct tile_nodes {
+    float ray_x[NODE_PADDED], ray_y[NODE_PADDED], ray_z[NODE_PADDED];
     float along[NODE_PADDED], height[NODE_PADDED], slope_x[NODE_PADDED], slope_z[NODE_PADDED], found[NODE_PADDED];
+    float level[NODE_PADDED];
 } tile_nodes;
 
 static void march_nodes(const struct kernel_context *cx, tile_nodes *nodes)
@@ -95,65 +98,57 @@ static void march_nodes(const struct kernel_context *cx, tile_nodes *nodes)
         row[i] = (float)(node / NODE_COLUMNS * NODE_STEP);
     }
     for (int i = 0; i < NODE_PADDED; i += MGT_LANES) {
-        const NodeHit hit = node_hit(cx, pixel_ray_at(cx, load(column + i), load(row + i)));
+        const vec3 ray = pixel_ray_at(cx, load(column + i), load(row + i));
+        const NodeHit hit = node_hit(cx, ray);
+        const mask found = hit.found > real(0.0f);
+        const real height = SELECT(found, hit.height, real(0.0f));
+        const real slope_x = SELECT(found, hit.slope.x, real(0.0f)), slope_z = SELECT(found, hit.slope.y, real(0.0f));
+        store(nodes->ray_x + i, ray.x);
+        store(nodes->ray_y + i, ray.y);
+        store(nodes->ray_z + i, ray.z);
         store(nodes->along + i, hit.along);
-        store(nodes->height + i, hit.height);
-        store(nodes->slope_x + i, hit.slope.x);
-        store(nodes->slope_z + i, hit.slope.y);
+        store(nodes->height + i, height);
+        store(nodes->slope_x + i, slope_x);
+        store(nodes->slope_z + i, slope_z);
         store(nodes->found + i, hit.found);
+        store(nodes->level + i, real(cx->tile->camera_height) - height + hit.along * real_fma(slope_x, ray.x, slope_z * ray.z));
     }
 }
 
-typedef struct node_ray {
-    float x, y, z;
-} node_ray;
-
-static node_ray ray_of(const TileData *t, int node)
-{
-    const float column = (float)(node % NODE_COLUMNS * NODE_STEP), row = (float)(node / NODE_COLUMNS * NODE_STEP);
-    return (node_ray){t->ray_x + column * t->right_x + row * t->down_x, t->ray_y + column * t->right_y + row * t->down_y,
-                      t->ray_z + column * t->right_z + row * t->down_z};
-}
-
 /* Whether the tangent plane at node `from` leads to what node `to` found. Where it does not, a crest may stand between. */
-static bool nodes_agree(const TileData *t, const tile_nodes *nodes, int from, int to)
+static bool nodes_agree(const tile_nodes *n, int from, int to)
 {
-    const node_ray a = ray_of(t, from), b = ray_of(t, to);
-    const float sx = nodes->slope_x[from], sz = nodes->slope_z[from], along = nodes->along[from];
-    const float base = nodes->height[from] - along * (sx * a.x + sz * a.z);
-    const float closing = sx * b.x + sz * b.z - b.y;
-    const float level = t->camera_height - base;
-    const float tolerance = 0.3f * nodes->along[to];
-    return closing > 0 && nodes->found[from] > 0 && nodes->found[to] > 0 && __builtin_fabsf(level - nodes->along[to] * closing) < tolerance * closing;
+    const float closing = n->slope_x[from] * n->ray_x[to] + n->slope_z[from] * n->ray_z[to] - n->ray_y[to];
+    const float miss = n->level[from] - n->along[to] * closing;
+    const float tolerance = 0.3f * n->along[to] * closing;
+    return closing > 0 && miss < tolerance && -miss < tolerance;
 }
 
 /* Rays so steep that no wave can hide another need no second look. */
-static bool tile_may_occlude(const TileData *t)
+static bool tile_may_occlude(const TileData *t, const tile_nodes *nodes)
 {
     for (int corner = 0; corner < 4; corner++) {
-        const node_ray r = ray_of(t, (corner & 1 ? NODE_COLUMNS - 1 : 0) + (corner & 2 ? NODE_COUNT - NODE_COLUMNS : 0));
-        if (r.y * r.y < t->march_slope * t->march_slope * (r.x * r.x + r.z * r.z) || r.y >= 0)
+        const int n = (corner & 1 ? NODE_COLUMNS - 1 : 0) + (corner & 2 ? NODE_COUNT - NODE_COLUMNS : 0);
+        const float x = nodes->ray_x[n], y = nodes->ray_y[n], z = nodes->ray_z[n];
+        if (y * y < t->march_slope * t->march_slope * (x * x + z * z) || y >= 0)
             return true;
     }
     return false;
 }
 
-/* The nodes at the left and right of every pixel column, for one row of nodes, as tangent planes: a ray meets the plane of a
- * node where along · (slope·ray.xz − ray.y) = level. */
+/* The nodes at the left and right of every pixel column, for one row of nodes. */
 typedef struct node_planes {
     float level[2][TILE_WIDTH], slope_x[2][TILE_WIDTH], slope_z[2][TILE_WIDTH], height[2][TILE_WIDTH];
 } node_planes;
 
-static void spread_nodes(const TileData *t, const tile_nodes *nodes, int row, node_planes *out)
+static void spread_nodes(const tile_nodes *nodes, int row, node_planes *out)
 {
-    for (int x = 0; x < TILE_WIDTH; x++)
-        for (int side = 0; side < 2; side++) {
+    for (int side = 0; side < 2; side++)
+        for (int x = 0; x < TILE_WIDTH; x++) {
             const int n = row * NODE_COLUMNS + x / NODE_STEP + side;
-            const node_ray r = ray_of(t, n);
-            const float sx = nodes->slope_x[n], sz = nodes->slope_z[n], along = nodes->along[n];
-            out->slope_x[side][x] = sx;
-            out->slope_z[side][x] = sz;
-            out->level[side][x] = t->camera_height - nodes->height[n] + along * (sx * r.x + sz * r.z);
+            out->slope_x[side][x] = nodes->slope_x[n];
+            out->slope_z[side][x] = nodes->slope_z[n];
+            out->level[side][x] = nodes->level[n];
             out->height[side][x] = nodes->height[n];
         }
 }
@@ -174,11 +169,11 @@ static void guess_heights(const struct kernel_context *cx, const tile_nodes *nod
 {
     const TileData *t = cx->tile;
     node_planes planes[2];
-    spread_nodes(t, nodes, 0, &planes[0]);
+    spread_nodes(nodes, 0, &planes[0]);
     for (int y = 0; y < TILE_HEIGHT; y++) {
         const node_planes *above = &planes[y / NODE_STEP & 1], *below = &planes[(y / NODE_STEP & 1) ^ 1];
         if (y % NODE_STEP == 0)
-            spread_nodes(t, nodes, y / NODE_STEP + 1, &planes[(y / NODE_STEP & 1) ^ 1]);
+            spread_nodes(nodes, y / NODE_STEP + 1, &planes[(y / NODE_STEP & 1) ^ 1]);
         const real v = real((float)(y % NODE_STEP) / NODE_STEP);
         for (int x = 0; x < TILE_WIDTH; x += MGT_LANES) {
             static const float shares[16] = {0, 0.25f, 0.5f, 0.75f, 0, 0.25f, 0.5f, 0.75f, 0, 0.25f, 0.5f, 0.75f, 0, 0.25f, 0.5f, 0.75f};
@@ -195,19 +190,19 @@ static void guess_heights(const struct kernel_context *cx, const tile_nodes *nod
 }
 
 /* Which pixels of a cell must march themselves, and from where. */
-static void guess_march(const TileData *t, const tile_nodes *nodes, bool may_occlude, int cell_x, int cell_y, tile_guess *guess)
+static void guess_march(const tile_nodes *nodes, bool may_occlude, int cell_x, int cell_y, tile_guess *guess)
 {
     const int n00 = cell_y * NODE_COLUMNS + cell_x, n10 = n00 + 1, n01 = n00 + NODE_COLUMNS, n11 = n01 + 1;
     float march = 0, from = nodes->along[n00];
     from = nodes->along[n10] < from ? nodes->along[n10] : from;
     from = nodes->along[n01] < from ? nodes->along[n01] : from;
     from = nodes->along[n11] < from ? nodes->along[n11] : from;
-    if (may_occlude) {
-        const bool agree = nodes_agree(t, nodes, n00, n10) && nodes_agree(t, nodes, n10, n00) && nodes_agree(t, nodes, n01, n11) &&
-                           nodes_agree(t, nodes, n11, n01) && nodes_agree(t, nodes, n00, n01) && nodes_agree(t, nodes, n01, n00) &&
-                           nodes_agree(t, nodes, n10, n11) && nodes_agree(t, nodes, n11, n10);
-        const bool any = nodes->found[n00] + nodes->found[n10] + nodes->found[n01] + nodes->found[n11] > 0;
-        march = any && !agree ? 1.0f : 0.0f;
+    const float found = nodes->found[n00] + nodes->found[n10] + nodes->found[n01] + nodes->found[n11];
+    if (may_occlude && found > 0) {
+        const bool agree = found == 4 && nodes_agree(nodes, n00, n10) && nodes_agree(nodes, n10, n00) && nodes_agree(nodes, n01, n11) &&
+                           nodes_agree(nodes, n11, n01) && nodes_agree(nodes, n00, n01) && nodes_agree(nodes, n01, n00) &&
+                           nodes_agree(nodes, n10, n11) && nodes_agree(nodes, n11, n10);
+        march = agree ? 0.0f : 1.0f;
     }
     for (int y = 0; y < NODE_STEP; y++)
         for (int x = 0; x < NODE_STEP; x++) {
@@ -228,13 +223,10 @@ static void lanes_guess(const FrameData *frame, const tile_waves *tile, tile_gue
     }
     tile_nodes nodes;
     march_nodes(&cx, &nodes);
-    for (int i = 0; i < NODE_COUNT; i++)
-        if (!(nodes.found[i] > 0))
-            nodes.height[i] = nodes.slope_x[i] = nodes.slope_z[i] = 0;
-    const bool may_occlude = tile_may_occlude(&tile->data);
+    const bool may_occlude = tile_may_occlude(&tile->data, &nodes);
     for (int y = 0; y < NODE_ROWS - 1; y++)
         for (int x = 0; x < NODE_COLUMNS - 1; x++)
-            guess_march(&tile->data, &nodes, may_occlude, x, y, guess);
+            guess_march(&nodes, may_occlude, x, y, guess);
     guess_heights(&cx, &nodes, guess);
 }
 
