@@ -287,9 +287,10 @@ static const float march_cycles = 0.25f;
 
 static void finish_march(const march_sums *s, bool filter, TileData *d)
 {
-    d->march_bound = fminf(s->amplitude, 5 * sqrtf(s->variance));
-    d->march_slope = fminf(s->slope, 5 * sqrtf(s->slope_variance));
-    d->march_bend = fminf(s->bend, 5 * sqrtf(s->bend_variance));
+    const float deviations = filter ? 4.0f : 5.0f;
+    d->march_bound = fminf(s->amplitude, deviations * sqrtf(s->variance));
+    d->march_slope = fminf(s->slope, deviations * sqrtf(s->slope_variance));
+    d->march_bend = fminf(s->bend, deviations * sqrtf(s->bend_variance));
     d->march_tolerance = s->largest_turns > 0 ? (filter ? 0.1f : 0.02f) * (float)(2 * pi) / sqrtf(s->largest_turns) : 1e-3f;
     d->march_pixels = !filter && s->most_frequency > march_cycles * march_cycles;
     d->far_distance = 1e5f;
