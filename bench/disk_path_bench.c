@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* Time of the Gaussian-disk-path integral and of sincos, per full vector of lanes, at every width this processor has. */
+/* Time of the Gaussian-disk-path integral and of sincos, per full vector of lanes, at every width this processor has, on made-up
+ * cases. (--quick: once, to see that it works.) */
 #define _POSIX_C_SOURCE 200809L
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
 #include "disk_path_reference.h"
@@ -19,10 +21,10 @@ static double seconds(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static double best_time(const struct kernel_probe *probe, enum probe_function function, const float *const *in, float *const *out)
+static double best_time(const struct kernel_probe *probe, enum probe_function function, int rounds, const float *const *in, float *const *out)
 {
     double best = 1e9;
-    for (int i = 0; i < ROUNDS; i++) {
+    for (int i = 0; i < rounds; i++) {
         double start = seconds();
         probe->run(function, in, out, COUNT);
         best = fmin(best, seconds() - start);
@@ -46,8 +48,9 @@ static struct disk_path_case sea_case(uint64_t *state, int i, double spread, dou
     return c;
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
+    const int rounds = argc > 1 && strcmp(argv[1], "--quick") == 0 ? 1 : ROUNDS;
     struct kernel_probe probes[4];
     int widths = kernel_probes(probes);
     float *memory = calloc((size_t)COUNT * (PROBE_INPUTS + PROBE_OUTPUTS), sizeof *memory);
@@ -79,7 +82,7 @@ int main(void)
         probes[0].run(PROBE_DISK_PATH, in, out, COUNT);
         printf("disk path, %s: %.2f evaluations a case\n", names[set], (double)(probes[0].evaluations() - before) / COUNT);
         for (int w = 0; w < widths; w++) {
-            double time = best_time(&probes[w], PROBE_DISK_PATH, in, out);
+            double time = best_time(&probes[w], PROBE_DISK_PATH, rounds, in, out);
             printf("    %2d lanes: %7.1f ns a vector, %6.2f ns a pixel\n", probes[w].lanes, 1e9 * time * probes[w].lanes / COUNT,
                    1e9 * time / COUNT);
         }
@@ -87,7 +90,7 @@ int main(void)
     for (int i = 0; i < COUNT; i++)
         memory[i] = (float)i * 0.137f;
     for (int w = 0; w < widths; w++) {
-        double turns = best_time(&probes[w], PROBE_SINCOS_TURNS, in, out), radians = best_time(&probes[w], PROBE_SINCOS_REDUCED, in, out);
+        double turns = best_time(&probes[w], PROBE_SINCOS_TURNS, rounds, in, out), radians = best_time(&probes[w], PROBE_SINCOS_REDUCED, rounds, in, out);
         printf("sincos, %2d lanes: turns %.2f, radians %.2f ns a vector, loads and stores of all arrays included\n", probes[w].lanes,
                1e9 * turns * probes[w].lanes / COUNT, 1e9 * radians * probes[w].lanes / COUNT);
     }

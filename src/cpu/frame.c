@@ -68,6 +68,17 @@ static void set_method(frame *f)
     f->data.ndf_mean = f->keep_filtered && !q->ndf_mean_drop ? 1 : 0;
 }
 
+static void sum_lesser_waves(const mgt_water *water, float *lesser_variance)
+{
+    for (size_t i = 0; i < water->wave_count; i++) {
+        double sum = 0;
+        for (size_t j = 0; j < water->wave_count; j++)
+            if (water->waves[j].amplitude <= water->waves[i].amplitude)
+                sum += water->waves[j].amplitude * water->waves[j].amplitude / 2;
+        lesser_variance[i] = (float)sum;
+    }
+}
+
 frame frame_of(const mgt_scene *scene, const sky_state *sky, bool want_color)
 {
     frame f = {.scene = scene};
@@ -98,6 +109,7 @@ frame frame_of(const mgt_scene *scene, const sky_state *sky, bool want_color)
     d->want_color = want_color;
     d->sky_black = scene->sky.model == MGT_SKY_BLACK;
     set_method(&f);
+    sum_lesser_waves(&scene->water, f.lesser_variance);
     f.close = camera_rays_of(&scene->camera, scene->image.width, scene->image.height);
     f.open = scene->camera_moves ? camera_rays_of(&scene->camera_open, scene->image.width, scene->image.height) : f.close;
     return f;
@@ -163,6 +175,7 @@ typedef struct tile_probes {
     float right[PROBES][2], down[PROBES][2];
     int count;         /* probes that see water */
     bool horizon;      /* some probe sees none: frequencies go up without end */
+    float nearest;     /* metres from the camera to the nearest probe */
     float least_margin, most_margin; /* factors on squared frequencies for the displaced surface being nearer or farther */
 } tile_probes;
 
@@ -175,7 +188,7 @@ static void tile_ray(const camera_rays *camera, double x, double y, double ray[3
 static tile_probes probe_tile(const camera_rays *camera, uint32_t tile_x, uint32_t tile_y, double displacement)
 {
     static const double at[PROBES][2] = {{0.5, 0.5}, {0, 0}, {1, 0}, {0, 1}, {1, 1}};
-    tile_probes p = {0};
+    tile_probes p = {.nearest = INFINITY};
     const double height = camera->position[1];
     const double relative = fmin(displacement / height, 0.5);
     p.least_margin = (float)((1 - relative) * (1 - relative) * 0.9);
@@ -188,6 +201,7 @@ static tile_probes probe_tile(const camera_rays *camera, uint32_t tile_x, uint32
             continue;
         }
         const double along = height / -ray[1];
+        p.nearest = fminf(p.nearest, (float)along);
         for (int j = 0; j < 2; j++) {
             const int axis = 2 * j;
             p.right[p.count][j] = (float)(along * (camera->right[axis] - ray[axis] / ray[1] * camera->right[1]));
@@ -285,6 +299,9 @@ static void add_march_wave(tile_waves *out, march_sums *sums, const WaveData *w,
  * samples of tiles with such waves look for each pixel's hit on its own. */
 static const float march_cycles = 0.25f;
 
+/* The smallest waves that together lift the surface by less than this part of a pixel are left to Newton's step. */
+static const float march_pixels = 0.1f;
+
 static void finish_march(const march_sums *s, bool filter, TileData *d)
 {
     /* A sum of many sines of random phases exceeds four deviations once in 30,000 places; few sines never reach their sum. */
@@ -353,6 +370,9 @@ static TileData tile_view(const camera_rays *camera, uint32_t tile_x, uint32_t t
     d.right_x = (float)camera->right[0], d.right_y = (float)camera->right[1], d.right_z = (float)camera->right[2];
     d.down_x = (float)camera->down[0], d.down_y = (float)camera->down[1], d.down_z = (float)camera->down[2];
     d.camera_height = (float)camera->position[1];
+    const double steepness = fmax(hypot(camera->right[1], camera->down[1]), 1e-10);
+    d.horizon_steepness = (float)steepness;
+    d.horizon_inverse = (float)(1 / steepness);
     tile_origin(camera, tile_x, tile_y, &d);
     return d;
 }
@@ -362,6 +382,7 @@ void tile_build(const frame *f, const camera_rays *camera, const wave_set *set, 
     out->data = tile_view(camera, tile_x, tile_y);
     const tile_probes probes = probe_tile(camera, tile_x, tile_y, 4 * set->height_deviation);
     const float start = (float)(f->ramp_start * f->ramp_start), end = (float)(f->ramp_end * f->ramp_end);
+    const float negligible = filter ? march_pixels * f->data.pixel_angle * probes.nearest : 0;
     march_sums sums = march_sums_of(camera, tile_x, tile_y);
     int mixed = 0; /* gathered from the array's end, then moved behind the resolved ones */
     for (size_t i = 0; i < set->count; i++) {
@@ -376,7 +397,7 @@ void tile_build(const frame *f, const camera_rays *camera, const wave_set *set, 
         WaveData *place = !filter || range.most <= start ? &out->waves[out->data.resolved_count++] : &out->waves[MGT_MAX_WAVES - ++mixed];
         *place = *w;
         place->phase = phase;
-        if (!filter || range.least < march_cycles * march_cycles)
+        if (!filter || (range.least < march_cycles * march_cycles && f->lesser_variance[i] > negligible * negligible))
             add_march_wave(out, &sums, w, phase, range.most);
     }
     for (int i = 0; i < mixed; i++)

@@ -18,6 +18,7 @@ typedef struct frame {
     camera_rays close, open;       /* cameras when the shutter closes and opens */
     double ramp_start, ramp_end;   /* cycles per pixel below which a wave is resolved and above which it is not */
     bool keep_filtered;            /* unresolved waves stay in the mixed list: their phase matters (podee-pixel) */
+    float lesser_variance[MGT_MAX_WAVES]; /* metres², of the heights of a wave and of all with smaller amplitudes */
 } frame;
 
 camera_rays camera_rays_of(const mgt_camera *camera, uint32_t width, uint32_t height);
