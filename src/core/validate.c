@@ -31,11 +31,11 @@ static mgt_status enum_range(const reporter *r, const char *field, int value, in
     return report_error(r, MGT_ERROR_SCENE, "render.scene", "%s is %d; allowed is 0 to %d", field, value, last);
 }
 
-static mgt_status check_vector(const reporter *r, const char *field, const double v[3])
+static mgt_status check_vector(const reporter *r, const char *object, const char *field, const double v[3])
 {
     for (int i = 0; i < 3; i++)
         if (!(fabs(v[i]) <= 1e9))
-            return report_error(r, MGT_ERROR_SCENE, "render.scene", "%s[%d] is %g; allowed is -1e9 to 1e9", field, i, v[i]);
+            return report_error(r, MGT_ERROR_SCENE, "render.scene", "%s.%s[%d] is %g; allowed is -1e9 to 1e9", object, field, i, v[i]);
     return MGT_OK;
 }
 
@@ -66,16 +66,16 @@ static mgt_status check_image(const reporter *r, const mgt_image *image)
     return MGT_OK;
 }
 
-static mgt_status check_camera(const reporter *r, const mgt_camera *camera)
+static mgt_status check_camera(const reporter *r, const char *name, const mgt_camera *camera)
 {
-    TRY(check_vector(r, "camera.position", camera->position));
-    TRY(check_vector(r, "camera.target", camera->target));
-    TRY(check_vector(r, "camera.up", camera->up));
+    TRY(check_vector(r, name, "position", camera->position));
+    TRY(check_vector(r, name, "target", camera->target));
+    TRY(check_vector(r, name, "up", camera->up));
     if (!(camera->fov_y_deg > 0 && camera->fov_y_deg < 179))
-        return report_error(r, MGT_ERROR_SCENE, "render.scene", "camera.fov_y_deg is %g; allowed is more than 0 and less than 179", camera->fov_y_deg);
+        return report_error(r, MGT_ERROR_SCENE, "render.scene", "%s.fov_y_deg is %g; allowed is more than 0 and less than 179", name, camera->fov_y_deg);
     if (camera->position[1] <= 0)
         return report_error(r, MGT_ERROR_UNSUPPORTED, "render.scene",
-                            "camera.position[1] is %g; cameras at or under the mean water surface (y = 0) are not supported yet", camera->position[1]);
+                            "%s.position[1] is %g; cameras at or under the mean water surface (y = 0) are not supported yet", name, camera->position[1]);
     double f[3], length = 0, up_length = 0, cross_length = 0;
     for (int i = 0; i < 3; i++) {
         f[i] = camera->target[i] - camera->position[i];
@@ -83,14 +83,14 @@ static mgt_status check_camera(const reporter *r, const mgt_camera *camera)
         up_length += camera->up[i] * camera->up[i];
     }
     if (!(length > 1e-18))
-        return report_error(r, MGT_ERROR_SCENE, "render.scene", "camera.target equals camera.position; it must be a point in front of the camera");
+        return report_error(r, MGT_ERROR_SCENE, "render.scene", "%s.target equals its position; it must be a point in front of the camera", name);
     for (int i = 0; i < 3; i++) {
         const int j = (i + 1) % 3, k = (i + 2) % 3;
         const double c = f[j] * camera->up[k] - f[k] * camera->up[j];
         cross_length += c * c;
     }
     if (!(cross_length > 1e-12 * length * up_length) || !(up_length > 1e-18))
-        return report_error(r, MGT_ERROR_SCENE, "render.scene", "camera.up is zero or parallel to the view; it must point across it");
+        return report_error(r, MGT_ERROR_SCENE, "render.scene", "%s.up is zero or parallel to the view; it must point across it", name);
     return MGT_OK;
 }
 
@@ -117,9 +117,9 @@ mgt_status validate_scene(const reporter *r, const mgt_scene *scene)
     if (scene->struct_size != sizeof *scene)
         return report_error(r, MGT_ERROR_ARGUMENT, "render.scene", "mgt_scene.struct_size is %zu, this library knows %zu", scene->struct_size, sizeof *scene);
     TRY(check_image(r, &scene->image));
-    TRY(check_camera(r, &scene->camera));
+    TRY(check_camera(r, "camera", &scene->camera));
     if (scene->camera_moves)
-        TRY(check_camera(r, &scene->camera_open));
+        TRY(check_camera(r, "camera_open", &scene->camera_open));
     TRY(in_range(r, "time", scene->time, -1e9, 1e9));
     TRY(in_range(r, "shutter", scene->shutter, 0, 1e6));
 

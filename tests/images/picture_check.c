@@ -1,0 +1,140 @@
+/* SPDX-License-Identifier: MIT */
+/* Comparisons of pictures for the image tests:
+ *
+ *   picture_check near A B MAX MEAN DIFFERENCE.png   largest and mean |A − B| within limits; else |A − B| × 8 is saved
+ *   picture_check crop WHOLE PART X Y                PART equals that place of WHOLE to the bit
+ *   picture_check depth A B                          per cent of B's pixels off by more than max(1%, 5 mm), and the largest error
+ *
+ * Exit code 0: alike, 1: not, 64: usage, 66: unreadable. */
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "image/picture.h"
+
+typedef struct picture_pair {
+    float_image a, b;
+} picture_pair;
+
+static bool read_pair(picture_pair *pair, char **paths)
+{
+    file_error error;
+    if (picture_read(&pair->a, paths[0], NULL, &error) != FILE_OK || picture_read(&pair->b, paths[1], NULL, &error) != FILE_OK) {
+        fprintf(stderr, "picture_check: %s\n", error.text);
+        return false;
+    }
+    return true;
+}
+
+static bool same_shape(const picture_pair *p)
+{
+    if (p->a.width == p->b.width && p->a.height == p->b.height && p->a.channels == p->b.channels)
+        return true;
+    fprintf(stderr, "picture_check: %u x %u x %u against %u x %u x %u\n", p->a.width, p->a.height, p->a.channels, p->b.width, p->b.height,
+            p->b.channels);
+    return false;
+}
+
+/* Infinities of one sign are alike; whatever else is not finite is infinitely far. */
+static double distance(float a, float b)
+{
+    if (a == b)
+        return 0;
+    const double d = fabs((double)a - (double)b);
+    return isfinite(d) ? d : INFINITY;
+}
+
+static void save_difference(const picture_pair *p, const char *path)
+{
+    const size_t pixels = (size_t)p->a.width * p->a.height;
+    uint8_t *rgba = malloc(pixels * 4);
+    if (!rgba)
+        return;
+    for (size_t i = 0; i < pixels; i++) {
+        for (size_t c = 0; c < 3; c++) {
+            const size_t at = i * p->a.channels + (c < p->a.channels ? c : 0);
+            rgba[4 * i + c] = (uint8_t)lrint(fmin(distance(p->a.pixels[at], p->b.pixels[at]) * 8, 1) * 255);
+        }
+        rgba[4 * i + 3] = 255;
+    }
+    const metadata_list none = {0};
+    const output_options options = {.overwrite = true};
+    file_error error;
+    if (picture_write_png(path, p->a.width, p->a.height, rgba, 0, &none, &options, &error) == FILE_OK)
+        fprintf(stderr, "picture_check: the difference × 8 is in %s\n", path);
+    free(rgba);
+}
+
+static int check_near(const picture_pair *p, char **limits)
+{
+    if (!same_shape(p))
+        return 1;
+    const size_t count = (size_t)p->a.width * p->a.height * p->a.channels;
+    double largest = 0, sum = 0;
+    for (size_t i = 0; i < count; i++) {
+        const double d = distance(p->a.pixels[i], p->b.pixels[i]);
+        largest = fmax(largest, d);
+        sum += d;
+    }
+    const double mean = sum / (double)count;
+    printf("largest difference %.6f (≤ %s), mean %.7f (≤ %s)\n", largest, limits[0], mean, limits[1]);
+    if (largest <= atof(limits[0]) && mean <= atof(limits[1]))
+        return 0;
+    save_difference(p, limits[2]);
+    return 1;
+}
+
+static int check_crop(const picture_pair *p, char **place)
+{
+    const unsigned long x = strtoul(place[0], NULL, 10), y = strtoul(place[1], NULL, 10);
+    const float_image *whole = &p->a, *part = &p->b;
+    if (x + part->width > whole->width || y + part->height > whole->height || whole->channels != part->channels) {
+        fprintf(stderr, "picture_check: the part does not fit into the whole\n");
+        return 1;
+    }
+    const size_t row = (size_t)part->width * part->channels;
+    for (uint32_t j = 0; j < part->height; j++)
+        if (memcmp(whole->pixels + (((y + j) * whole->width) + x) * whole->channels, part->pixels + j * row, row * sizeof *part->pixels) != 0) {
+            fprintf(stderr, "picture_check: row %u of the part differs from the whole\n", j);
+            return 1;
+        }
+    printf("%u x %u pixels at %lu, %lu are equal to the bit\n", part->width, part->height, x, y);
+    return 0;
+}
+
+static int check_depth(const picture_pair *p)
+{
+    if (!same_shape(p) || p->a.channels != 1)
+        return 1;
+    const size_t count = (size_t)p->a.width * p->a.height;
+    size_t off = 0;
+    double largest = 0;
+    for (size_t i = 0; i < count; i++) {
+        const double exact = (double)p->b.pixels[i], d = distance(p->a.pixels[i], p->b.pixels[i]);
+        off += !(d <= fmax(0.01 * exact, 0.005));
+        if (isfinite(d))
+            largest = fmax(largest, d);
+    }
+    printf("%.5f %.4g\n", 100.0 * (double)off / (double)count, largest);
+    return 0;
+}
+
+int main(int count, char **arguments)
+{
+    const char *verb = count > 3 ? arguments[1] : "";
+    const bool near = !strcmp(verb, "near") && count == 7, crop = !strcmp(verb, "crop") && count == 6;
+    const bool depth = !strcmp(verb, "depth") && count == 4;
+    if (!near && !crop && !depth) {
+        fprintf(stderr, "usage: picture_check near A B MAX MEAN DIFFERENCE.png | crop WHOLE PART X Y | depth A B\n");
+        return 64;
+    }
+    picture_pair pair = {0};
+    int code = 66;
+    if (read_pair(&pair, arguments + 2))
+        code = near ? check_near(&pair, arguments + 4) : crop ? check_crop(&pair, arguments + 4) : check_depth(&pair);
+    float_image_free(&pair.a);
+    float_image_free(&pair.b);
+    return code;
+}

@@ -1,0 +1,215 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Contexts: what creation accepts and resolves to, errors and log messages, progress and cancelling.
+ */
+#include "api_sea.h"
+
+typedef struct log_record {
+    int count;
+    mgt_log_level level;
+    char id[64], text[512];
+} log_record;
+
+static void keep_log(void *user, mgt_log_level level, const char *id, const char *text)
+{
+    log_record *r = user;
+    r->count++;
+    r->level = level;
+    snprintf(r->id, sizeof r->id, "%s", id);
+    snprintf(r->text, sizeof r->text, "%s", text);
+}
+
+static void creation_refuses_nonsense(void **state)
+{
+    (void)state;
+    log_record log = {0};
+    mgt_context_desc good = mgt_context_desc_defaults();
+    good.log = keep_log;
+    good.log_user = &log;
+    assert_int_equal(mgt_context_create(NULL, &good), MGT_ERROR_ARGUMENT);
+    assert_int_equal(log.level, MGT_LOG_ERROR);
+    assert_string_equal(log.id, "context.create");
+    assert_int_equal(mgt_context_create(NULL, NULL), MGT_ERROR_ARGUMENT);
+
+    const struct {
+        mgt_context_desc desc;
+        mgt_status status;
+        const char *text, *id;
+    } cases[] = {
+        {{.struct_size = 0}, MGT_ERROR_ARGUMENT, "struct_size", NULL},
+        {{.struct_size = sizeof good + 8, .log = keep_log, .log_user = &log}, MGT_ERROR_ARGUMENT, "struct_size", NULL}, /* may not be called */
+        {{.struct_size = sizeof good, .backend = (mgt_backend)4, .log = keep_log, .log_user = &log}, MGT_ERROR_ARGUMENT, "backend", "context.desc"},
+        {{.struct_size = sizeof good, .backend = (mgt_backend)-1, .log = keep_log, .log_user = &log}, MGT_ERROR_ARGUMENT, "backend", "context.desc"},
+        {{.struct_size = sizeof good, .isa = (mgt_isa)6, .log = keep_log, .log_user = &log}, MGT_ERROR_ARGUMENT, "isa", "context.desc"},
+        {{.struct_size = sizeof good, .threads = 1025, .log = keep_log, .log_user = &log}, MGT_ERROR_ARGUMENT, "threads", "context.desc"},
+        {{.struct_size = sizeof good, .backend = MGT_BACKEND_GL, .log = keep_log, .log_user = &log}, MGT_ERROR_UNAVAILABLE, "OpenGL", "context.backend"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        memset(&log, 0, sizeof log);
+        mgt_context *context = (void *)&log;
+        assert_int_equal(mgt_context_create(&context, &cases[i].desc), cases[i].status);
+        assert_null(context);
+        assert_non_null(strstr(mgt_last_error(NULL), cases[i].text));
+        assert_int_equal(log.count, cases[i].id ? 1 : 0);
+        if (cases[i].id) {
+            assert_string_equal(log.id, cases[i].id);
+            assert_string_equal(log.text, mgt_last_error(NULL));
+            assert_int_equal(log.level, MGT_LOG_ERROR);
+        }
+    }
+    for (mgt_isa isa = MGT_ISA_SCALAR; isa <= MGT_ISA_NEON; isa++) {
+        mgt_context_desc desc = good;
+        desc.isa = isa;
+        desc.threads = 1;
+        mgt_context *context = NULL;
+        const mgt_status status = mgt_context_create(&context, &desc);
+        assert_int_equal(status, mgt_isa_available(isa) ? MGT_OK : MGT_ERROR_UNAVAILABLE);
+        assert_int_equal(context != NULL, mgt_isa_available(isa));
+        if (!context)
+            assert_string_equal(log.id, "context.isa");
+        mgt_context_destroy(context);
+    }
+    assert_true(mgt_isa_available(MGT_ISA_AUTO) && mgt_isa_available(MGT_ISA_SCALAR));
+    assert_false(mgt_isa_available((mgt_isa)99));
+}
+
+static void creation_resolves(void **state)
+{
+    (void)state;
+    mgt_context *context = NULL;
+    mgt_context_info info = {.struct_size = sizeof info};
+    assert_int_equal(mgt_context_create(&context, NULL), MGT_OK);
+    assert_string_equal(mgt_last_error(NULL), "");
+    assert_string_equal(mgt_last_error(context), "");
+    assert_int_equal(mgt_context_get_info(context, &info), MGT_OK);
+    assert_true(info.backend == MGT_BACKEND_CPU && info.isa != MGT_ISA_AUTO && info.lanes >= 1 && info.threads >= 1);
+    assert_int_equal(info.struct_size, sizeof info);
+    assert_int_equal(mgt_context_get_info(NULL, &info), MGT_ERROR_ARGUMENT);
+    assert_int_equal(mgt_context_get_info(context, NULL), MGT_ERROR_ARGUMENT);
+    info.struct_size = 4;
+    assert_int_equal(mgt_context_get_info(context, &info), MGT_ERROR_ARGUMENT);
+    assert_int_equal(info.struct_size, 4);
+    mgt_context_destroy(context);
+    mgt_context_destroy(NULL);
+
+    log_record log = {0};
+    mgt_context_desc desc = mgt_context_desc_defaults();
+    desc.backend = MGT_BACKEND_AUTO;
+    desc.isa = MGT_ISA_SCALAR;
+    desc.threads = 7;
+    desc.log = keep_log;
+    desc.log_user = &log;
+    assert_int_equal(mgt_context_create(&context, &desc), MGT_OK);
+    info.struct_size = sizeof info;
+    assert_int_equal(mgt_context_get_info(context, &info), MGT_OK);
+    assert_true(info.backend != MGT_BACKEND_AUTO && info.threads == 7 && info.isa == MGT_ISA_SCALAR && info.lanes == 1);
+    assert_string_equal(log.id, "context.backend");
+    assert_int_equal(log.level, MGT_LOG_INFO);
+    mgt_context_destroy(context);
+}
+
+static void texts_are_there(void **state)
+{
+    (void)state;
+    for (int status = -1; status <= MGT_CANCELLED + 1; status++)
+        assert_true(strlen(mgt_status_text((mgt_status)status)) > 1);
+    char version[32];
+    snprintf(version, sizeof version, "%d.%d.%d", MGT_VERSION_MAJOR, MGT_VERSION_MINOR, MGT_VERSION_PATCH);
+    assert_string_equal(mgt_version(), version);
+    assert_string_equal(MGT_VERSION_STRING, version);
+}
+
+/* Errors are logged once, under a stable id, with the text of mgt_last_error(); the next success clears it. */
+static void render_errors_are_logged(void **state)
+{
+    (void)state;
+    log_record log = {0};
+    mgt_context_desc desc = mgt_context_desc_defaults();
+    desc.log = keep_log;
+    desc.log_user = &log;
+    desc.threads = 1;
+    mgt_context *context = NULL;
+    assert_int_equal(mgt_context_create(&context, &desc), MGT_OK);
+    log.count = 0;
+    static float pixels[SEA_WIDTH * SEA_HEIGHT];
+    mgt_wave waves[SEA_WAVES];
+    mgt_scene scene = sea_scene(waves);
+    mgt_target target = sea_target(MGT_LAYER_MASK, MGT_FORMAT_R32F, pixels, 0);
+    scene.shutter = -1;
+    assert_int_equal(mgt_render(context, &scene, &target, 1), MGT_ERROR_SCENE);
+    assert_int_equal(log.count, 1);
+    assert_string_equal(log.id, "render.scene");
+    assert_string_equal(log.text, mgt_last_error(context));
+    scene.shutter = 0;
+    target.format = MGT_FORMAT_RGB32F;
+    assert_int_equal(mgt_render(context, &scene, &target, 1), MGT_ERROR_ARGUMENT);
+    assert_int_equal(log.count, 2);
+    assert_string_equal(log.id, "render.target");
+    target.format = MGT_FORMAT_R32F;
+    assert_int_equal(mgt_render(context, &scene, &target, 1), MGT_OK);
+    assert_string_equal(mgt_last_error(context), "");
+    mgt_context_destroy(context);
+}
+
+typedef struct progress_record {
+    int calls, stop_after;
+    double last;
+    bool in_order;
+} progress_record;
+
+static bool keep_progress(void *user, double fraction)
+{
+    progress_record *p = user;
+    p->in_order = p->in_order && fraction >= p->last && fraction >= 0 && fraction <= 1;
+    p->last = fraction;
+    return ++p->calls != p->stop_after;
+}
+
+/* A frame long enough to be asked about several times; stopping it leaves a context that renders as before. */
+static void progress_can_cancel(void **state)
+{
+    (void)state;
+    static float pixels[SEA_WIDTH * SEA_HEIGHT], before[SEA_WIDTH * SEA_HEIGHT];
+    log_record log = {0};
+    progress_record progress = {.in_order = true};
+    mgt_context_desc desc = mgt_context_desc_defaults();
+    desc.threads = 2;
+    desc.log = keep_log;
+    desc.log_user = &log;
+    desc.progress = keep_progress;
+    desc.progress_user = &progress;
+    mgt_context *context = NULL;
+    assert_int_equal(mgt_context_create(&context, &desc), MGT_OK);
+    mgt_wave waves[SEA_WAVES];
+    mgt_scene scene = sea_scene(waves);
+    const mgt_target target = sea_target(MGT_LAYER_COVERAGE, MGT_FORMAT_R32F, pixels, 0);
+    sea_render(context, &scene, &target, 1);
+    memcpy(before, pixels, sizeof before);
+
+    mgt_scene slow = scene;
+    slow.quality = (mgt_quality){.method = MGT_METHOD_REFERENCE, .spatial_samples = 128, .time_samples = 64};
+    progress = (progress_record){.in_order = true, .stop_after = 2};
+    assert_int_equal(mgt_render(context, &slow, &target, 1), MGT_CANCELLED);
+    assert_true(progress.in_order && progress.calls >= 2);
+    assert_string_equal(log.id, "render.cancelled");
+    assert_string_equal(log.text, mgt_last_error(context));
+
+    slow.quality = (mgt_quality){.method = MGT_METHOD_SSAA, .spatial_samples = 32, .time_samples = 4};
+    progress = (progress_record){.in_order = true, .stop_after = 1};
+    assert_int_equal(mgt_render(context, &slow, &target, 1), MGT_CANCELLED);
+
+    progress = (progress_record){.in_order = true};
+    sea_render(context, &scene, &target, 1);
+    assert_memory_equal(pixels, before, sizeof before);
+    assert_true(progress.in_order);
+    mgt_context_destroy(context);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(creation_refuses_nonsense), cmocka_unit_test(creation_resolves),  cmocka_unit_test(texts_are_there),
+        cmocka_unit_test(render_errors_are_logged),  cmocka_unit_test(progress_can_cancel),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,138 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Every allocation and thread of a context's life fails once: an error comes back, nothing leaks, and what is left still works. The
+ * linker hands malloc, calloc, free and pthread_create of the library to the functions below (--wrap).
+ */
+#include "api_sea.h"
+
+#include <errno.h>
+#include <pthread.h>
+#include <stdatomic.h>
+
+static atomic_long calls, fail_at, outstanding; /* fail_at: number of the call that fails, from 1; 0: none */
+static atomic_long threads_started, thread_fails_at;
+
+void *__real_malloc(size_t size);
+void *__real_calloc(size_t count, size_t size);
+void __real_free(void *memory);
+int __real_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*body)(void *), void *argument);
+void *__wrap_malloc(size_t size);
+void *__wrap_calloc(size_t count, size_t size);
+void __wrap_free(void *memory);
+int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*body)(void *), void *argument);
+
+static void *counted(void *memory)
+{
+    outstanding += memory != NULL;
+    return memory;
+}
+
+void *__wrap_malloc(size_t size)
+{
+    return ++calls == fail_at ? NULL : counted(__real_malloc(size));
+}
+
+void *__wrap_calloc(size_t count, size_t size)
+{
+    return ++calls == fail_at ? NULL : counted(__real_calloc(count, size));
+}
+
+void __wrap_free(void *memory)
+{
+    outstanding -= memory != NULL;
+    __real_free(memory);
+}
+
+int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*body)(void *), void *argument)
+{
+    return ++threads_started == thread_fails_at ? EAGAIN : __real_pthread_create(thread, attributes, body, argument);
+}
+
+static float pixels[2][SEA_WIDTH * SEA_HEIGHT];
+static unsigned char shown[2][SEA_WIDTH * SEA_HEIGHT * 4];
+
+/* A context, a frame with the atmosphere's tables and glare, a reference frame. Returns the first failure. */
+static mgt_status whole_life(int which)
+{
+    mgt_wave waves[SEA_WAVES];
+    mgt_scene scene = sea_scene(waves);
+    scene.sky.model = MGT_SKY_ATMOSPHERE;
+    mgt_context_desc desc = mgt_context_desc_defaults();
+    desc.threads = 3;
+    mgt_context *context = NULL;
+    mgt_status status = mgt_context_create(&context, &desc);
+    if (status != MGT_OK) {
+        assert_null(context);
+        assert_true(strlen(mgt_last_error(NULL)) > 0);
+        return status;
+    }
+    const mgt_target targets[2] = {sea_target(MGT_LAYER_COVERAGE, MGT_FORMAT_R32F, pixels[which], 0),
+                                   sea_target(MGT_LAYER_COLOR, MGT_FORMAT_RGBA8_SRGB, shown[which], 0)};
+    status = mgt_render(context, &scene, targets, 2);
+    if (status == MGT_OK) {
+        scene.quality.method = MGT_METHOD_REFERENCE;
+        scene.quality.spatial_samples = scene.quality.time_samples = 1;
+        status = mgt_render(context, &scene, targets, 2);
+    }
+    if (status != MGT_OK) {
+        assert_true(strlen(mgt_last_error(context)) > 0);
+        /* The failure was for once: the same context renders now. */
+        scene.quality.method = MGT_METHOD_REFERENCE;
+        scene.quality.spatial_samples = scene.quality.time_samples = 1;
+        fail_at = 0;
+        sea_render(context, &scene, targets, 2);
+        assert_memory_equal(pixels[which], pixels[0], sizeof pixels[0]);
+        assert_memory_equal(shown[which], shown[0], sizeof shown[0]);
+    }
+    mgt_context_destroy(context);
+    return status;
+}
+
+static void allocations_may_fail(void **state)
+{
+    (void)state;
+    calls = fail_at = outstanding = 0;
+    assert_int_equal(whole_life(0), MGT_OK);
+    const long count = calls;
+    assert_int_equal(outstanding, 0);
+    assert_true(count >= 10); /* else the linker has not wrapped anything */
+    int other = 0;
+    for (long k = 1; k <= count; k++) {
+        calls = 0;
+        fail_at = k;
+        const mgt_status status = whole_life(1);
+        fail_at = 0;
+        if (status == MGT_OK)
+            fail_msg("allocation %ld of %ld failed and nobody said so", k, count);
+        assert_true(status == MGT_ERROR_MEMORY || status == MGT_ERROR_THREAD);
+        other += status != MGT_ERROR_MEMORY;
+        if (outstanding != 0)
+            fail_msg("allocation %ld of %ld failed and %ld blocks leaked", k, count, (long)outstanding);
+    }
+    print_message("  each of %ld allocations failed once; %d were reported as a thread's\n", count, other);
+}
+
+static void threads_may_fail(void **state)
+{
+    (void)state;
+    threads_started = thread_fails_at = calls = fail_at = outstanding = 0;
+    assert_int_equal(whole_life(0), MGT_OK);
+    const long count = threads_started;
+    assert_true(count >= 2);
+    for (long k = 1; k <= count; k++) {
+        threads_started = 0;
+        thread_fails_at = k;
+        assert_int_equal(whole_life(1), MGT_ERROR_THREAD);
+        assert_int_equal(outstanding, 0);
+    }
+    thread_fails_at = 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(allocations_may_fail),
+        cmocka_unit_test(threads_may_fail),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

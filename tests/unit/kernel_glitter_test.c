@@ -1,0 +1,364 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * glitter.k at one lane: footprints and the mirror slope's change by finite differences, the slopes of a pixel and how they bend over it
+ * by brute-force rays.
+ */
+#include "kernel_lane.h"
+
+enum { WIDTH = 160, HEIGHT = 90 };
+
+static double relative_matrix_error(const double ours[4], const double exact[4])
+{
+    double size = 0, off = 0;
+    for (int i = 0; i < 4; i++) {
+        size += exact[i] * exact[i];
+        off += (ours[i] - exact[i]) * (ours[i] - exact[i]);
+    }
+    return sqrt(off / size);
+}
+
+static void unpack(const Footprint *p, double out[4])
+{
+    out[0] = (double)p->right.x, out[1] = (double)p->down.x, out[2] = (double)p->right.y, out[3] = (double)p->down.y;
+}
+
+static mgt_scene tilted_camera(void)
+{
+    mgt_scene s = black_scene(WIDTH, HEIGHT, NULL, 0);
+    s.camera.up[0] = 0.3;
+    s.camera.target[0] = 0.4;
+    return s;
+}
+
+static void footprint_is_the_derivative(void **state)
+{
+    (void)state;
+    const mgt_scene scene = tilted_camera();
+    kernel_bench *b = kernel_bench_create(&scene);
+    double worst = 0;
+    for (uint32_t y = 0; y < HEIGHT; y += 5)
+        for (uint32_t x = 0; x < WIDTH; x += 7) {
+            kernel_bench_tile(b, false, true, x, y);
+            const vec3 ray = kernel_bench_ray(b, x, y);
+            if (ray.y > -0.02f)
+                continue;
+            const Footprint p = footprint_at(&b->cx, ray, b->tile.data.camera_height / -ray.y);
+            double exact[2][2], ours[4];
+            assert_true(pixel_footprint(&scene, x + 0.5, y + 0.5, 0, exact));
+            unpack(&p, ours);
+            worst = fmax(worst, relative_matrix_error(ours, (double[]){exact[0][0], exact[0][1], exact[1][0], exact[1][1]}));
+        }
+    kernel_bench_destroy(b);
+    /* The ray's y, at least .02 of rays of length 1, keeps 1e-6 of itself over a tile's steps. */
+    expect_below("footprint on the mean surface, relative", worst, 1e-5);
+}
+
+/* Where the ray through a pixel meets the plane of a slope through the point at height 0 that another pixel sees. */
+static void on_tilted_plane(const mgt_scene *scene, double x, double y, const double at[2], const double slope[2], double xz[2])
+{
+    double origin[3], d[3];
+    camera_ray(scene, x, y, scene->time, origin, d);
+    const double gap = origin[1] - (slope[0] * (origin[0] - at[0]) + slope[1] * (origin[2] - at[1]));
+    const double t = gap / (slope[0] * d[0] + slope[1] * d[2] - d[1]);
+    xz[0] = origin[0] + t * d[0];
+    xz[1] = origin[2] + t * d[2];
+}
+
+static void tilted_footprint_is_the_derivative(void **state)
+{
+    (void)state;
+    const mgt_scene scene = tilted_camera();
+    kernel_bench *b = kernel_bench_create(&scene);
+    random_state r = {21};
+    double worst = 0;
+    int tested = 0;
+    while (tested < 400) {
+        const uint32_t x = (uint32_t)random_range(&r, 0, WIDTH), y = (uint32_t)random_range(&r, 0, HEIGHT);
+        const double slope[2] = {random_range(&r, -0.4, 0.4), random_range(&r, -0.4, 0.4)};
+        kernel_bench_tile(b, false, true, x, y);
+        const vec3 ray = kernel_bench_ray(b, x, y);
+        const double fall = slope[0] * (double)ray.x + slope[1] * (double)ray.z - (double)ray.y;
+        if (ray.y > -0.02f || fall < -0.3 * (double)ray.y) /* the gain is bounded from .25 on */
+            continue;
+        const Footprint p = footprint_tilted(&b->cx, ray, b->tile.data.camera_height / -ray.y, vec2((float)slope[0], (float)slope[1]));
+        double at[2], right[2], left[2], down[2], up[2], ours[4];
+        const double h = 1e-4;
+        assert_true(pixel_on_plane(&scene, x + 0.5, y + 0.5, 0, at));
+        on_tilted_plane(&scene, x + 0.5 + h, y + 0.5, at, slope, right);
+        on_tilted_plane(&scene, x + 0.5 - h, y + 0.5, at, slope, left);
+        on_tilted_plane(&scene, x + 0.5, y + 0.5 + h, at, slope, down);
+        on_tilted_plane(&scene, x + 0.5, y + 0.5 - h, at, slope, up);
+        unpack(&p, ours);
+        const double exact[4] = {(right[0] - left[0]) / (2 * h), (down[0] - up[0]) / (2 * h), (right[1] - left[1]) / (2 * h), (down[1] - up[1]) / (2 * h)};
+        worst = fmax(worst, relative_matrix_error(ours, exact));
+        tested++;
+    }
+    kernel_bench_destroy(b);
+    expect_below("footprint on a tilted plane, relative", worst, 1e-4);
+}
+
+static void mirror_slope_at(const kernel_bench *b, double x, double y, double slope[2])
+{
+    double origin[3], d[3];
+    camera_ray(&b->scene, x, y, b->scene.time, origin, d);
+    const double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    const double view[3] = {-d[0] / length, -d[1] / length, -d[2] / length};
+    mirror_slope(view, b->sky->direction, slope);
+}
+
+static void mirror_slope_turns_with_the_view(void **state)
+{
+    (void)state;
+    const mgt_scene scene = tilted_camera();
+    kernel_bench *b = kernel_bench_create(&scene);
+    double worst = 0;
+    for (uint32_t y = 0; y < HEIGHT; y += 5)
+        for (uint32_t x = 0; x < WIDTH; x += 7) {
+            kernel_bench_tile(b, false, true, x, y);
+            const vec3 ray = kernel_bench_ray(b, x, y);
+            const float inverse = 1 / sqrtf(ray.x * ray.x + ray.y * ray.y + ray.z * ray.z);
+            const vec3 view = scale(ray, -inverse);
+            const Mirror m = mirror_at(&b->cx, view);
+            const TileData *t = &b->tile.data;
+            const vec2 right = mirror_slope_step(&b->cx, view, inverse, m, vec3(t->right_x, t->right_y, t->right_z));
+            const vec2 down = mirror_slope_step(&b->cx, view, inverse, m, vec3(t->down_x, t->down_y, t->down_z));
+            double ahead[2][2], behind[2][2];
+            const double h = 1e-3;
+            mirror_slope_at(b, x + 0.5 + h, y + 0.5, ahead[0]);
+            mirror_slope_at(b, x + 0.5 - h, y + 0.5, behind[0]);
+            mirror_slope_at(b, x + 0.5, y + 0.5 + h, ahead[1]);
+            mirror_slope_at(b, x + 0.5, y + 0.5 - h, behind[1]);
+            double exact[4];
+            for (int i = 0; i < 4; i++)
+                exact[i] = (ahead[i / 2][i % 2] - behind[i / 2][i % 2]) / (2 * h);
+            worst = fmax(worst, relative_matrix_error((double[]){(double)right.x, (double)right.y, (double)down.x, (double)down.y}, exact));
+        }
+    kernel_bench_destroy(b);
+    expect_below("mirror slope per pixel, relative", worst, 2e-5);
+}
+
+/* ---- a pixel's slopes by brute force ---- */
+
+/* Long waves that every pixel tested resolves. */
+static size_t long_waves(mgt_wave *waves)
+{
+    random_state r = {22};
+    random_waves(&r, waves, 6, 8, 40, 0.06);
+    return 6;
+}
+
+static bool slope_from_mirror(const kernel_bench *b, double x, double y, double slope[2])
+{
+    const water_hit hit = first_hit_brute_force(&b->scene, x, y, b->scene.time);
+    double mirror[2];
+    mirror_slope_at(b, x, y, mirror);
+    slope[0] = hit.water.slope[0] - mirror[0];
+    slope[1] = hit.water.slope[1] - mirror[1];
+    return hit.hit;
+}
+
+/* Covariance of (slope − mirror slope) over the pixel's box. */
+static bool brute_covariance(const kernel_bench *b, uint32_t x, uint32_t y, double cov[4])
+{
+    enum { SIDE = 8 };
+    double sum[2] = {0}, square[3] = {0};
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        double s[2];
+        if (!slope_from_mirror(b, x + (i % SIDE + 0.5) / SIDE, y + (i / SIDE + 0.5) / SIDE, s))
+            return false;
+        sum[0] += s[0], sum[1] += s[1];
+        square[0] += s[0] * s[0], square[1] += s[0] * s[1], square[2] += s[1] * s[1];
+    }
+    const double n = SIDE * SIDE, lattice = 1 - 1.0 / (SIDE * SIDE); /* midpoints hold that share of the box's variance */
+    cov[0] = (square[0] / n - sum[0] * sum[0] / (n * n)) / lattice;
+    cov[1] = cov[2] = (square[1] / n - sum[0] * sum[1] / (n * n)) / lattice;
+    cov[3] = (square[2] / n - sum[1] * sum[1] / (n * n)) / lattice;
+    return true;
+}
+
+static SlopeState state_of(kernel_bench *b, uint32_t x, uint32_t y)
+{
+    kernel_bench_tile(b, true, true, x, y);
+    const water_hit hit = first_hit_brute_force(&b->scene, x + 0.5, y + 0.5, b->scene.time - b->scene.shutter / 2);
+    assert_true(hit.hit);
+    const HitGuess guess = {(float)hit.water.height, 0, 0};
+    return slope_state(&b->cx, kernel_bench_ray(b, x, y), guess);
+}
+
+/* The covariance from second derivatives at the pixel's centre is exact for a surface of the second degree; waves of .01 to .1 cycles a
+ * pixel change their bend within it by a share of 2πf. */
+static void bend_is_the_spread_over_the_pixel(void **state)
+{
+    (void)state;
+    mgt_wave waves[8];
+    mgt_scene scene = black_scene(WIDTH, HEIGHT, waves, long_waves(waves));
+    scene.shutter = 0;
+    kernel_bench *b = kernel_bench_create(&scene);
+    static double error[WIDTH * HEIGHT];
+    size_t count = 0;
+    for (uint32_t y = 46; y < HEIGHT; y += 5)
+        for (uint32_t x = 3; x < WIDTH; x += 11) {
+            double exact[4];
+            const SlopeState s = state_of(b, x, y);
+            if (!brute_covariance(b, x, y, exact))
+                continue;
+            const double xz = (double)(s.bend_xz + s.variance_xz);
+            error[count++] = relative_matrix_error((double[]){(double)(s.bend_xx + s.variance_xx), xz, xz, (double)(s.bend_zz + s.variance_zz)}, exact);
+        }
+    kernel_bench_destroy(b);
+    assert_true(count > 100);
+    expect_below("spread of slopes over the pixel, relative, median", quantile(error, count, 0.5), 0.003);
+    expect_below("the same, nine of ten", quantile(error, count, 0.9), 0.03);
+}
+
+/* Slopes at both ends of the shutter where the pixel's own ray meets the surface at that time. */
+static void slopes_are_those_at_the_shutters_ends(void **state)
+{
+    (void)state;
+    mgt_wave waves[8];
+    const mgt_scene scene = black_scene(WIDTH, HEIGHT, waves, long_waves(waves));
+    kernel_bench *b = kernel_bench_create(&scene);
+    static double error[WIDTH * HEIGHT], path_error[WIDTH * HEIGHT];
+    size_t count = 0;
+    for (uint32_t y = 46; y < HEIGHT; y += 4)
+        for (uint32_t x = 3; x < WIDTH; x += 9) {
+            const SlopeState s = state_of(b, x, y);
+            if (b->tile.data.mixed_count > 0)
+                continue;
+            const water_hit close = first_hit_brute_force(&scene, x + 0.5, y + 0.5, scene.time);
+            const water_hit open = first_hit_brute_force(&scene, x + 0.5, y + 0.5, scene.time - scene.shutter);
+            const double dx = (double)s.close.x - close.water.slope[0], dz = (double)s.close.y - close.water.slope[1];
+            const double ex = (double)s.open.x - open.water.slope[0], ez = (double)s.open.y - open.water.slope[1];
+            const double length = hypot(close.water.slope[0] - open.water.slope[0], close.water.slope[1] - open.water.slope[1]);
+            error[count] = fmax(hypot(dx, dz), hypot(ex, ez));
+            path_error[count++] = hypot(dx - ex, dz - ez) / fmax(length, 1e-3);
+        }
+    kernel_bench_destroy(b);
+    assert_true(count > 50);
+    /* The sea's slope is .06 RMS; its path in one shutter about .005. */
+    expect_below("slope at t and t - T, median", quantile(error, count, 0.5), 2e-5);
+    expect_below("slope at t and t - T, all but one of a hundred", quantile(error, count, 0.99), 1e-4);
+    expect_below("path between, of its length, median", quantile(path_error, count, 0.5), 0.002);
+}
+
+/* Nothing resolved and nothing moving: the closed form is P(disk) of the exact map within the linear map's error, times the weight. */
+static void unresolved_sea_mirrors_its_probability(void **state)
+{
+    (void)state;
+    enum { COUNT = 200 };
+    mgt_wave waves[COUNT];
+    random_state r = {23};
+    random_waves(&r, waves, COUNT, 0.0005, 0.0006, 0.15);
+    for (int i = 0; i < COUNT; i++) { /* they run along the view, and x and z vary together */
+        const double k = hypot(waves[i].a, waves[i].b), direction = -0.8 + random_range(&r, -0.7, 0.7);
+        waves[i].a = k * cos(direction), waves[i].b = k * sin(direction);
+    }
+    mgt_scene scene = black_scene(WIDTH, HEIGHT, waves, COUNT);
+    scene.camera.target[0] = 0.8;
+    scene.light.azimuth_deg = 35;
+    scene.light.elevation_deg = 25;
+    scene.light.angular_radius_deg = 1;
+    kernel_bench *b = kernel_bench_create(&scene);
+    double cov[3] = {0};
+    for (int i = 0; i < COUNT; i++) {
+        const double half = waves[i].amplitude * waves[i].amplitude / 2;
+        cov[0] += half * waves[i].a * waves[i].a, cov[1] += half * waves[i].a * waves[i].b, cov[2] += half * waves[i].b * waves[i].b;
+    }
+    static double error[WIDTH * HEIGHT];
+    size_t count = 0;
+    for (uint32_t y = 32; y < HEIGHT; y += 3)
+        for (uint32_t x = 30; x < 130; x += 9) {
+            kernel_bench_tile(b, true, true, x, y);
+            assert_int_equal(b->tile.data.resolved_count + b->tile.data.mixed_count, 0);
+            const SlopeState s = slope_state(&b->cx, kernel_bench_ray(b, x, y), (HitGuess){0, 0, 0});
+            const double ours = (double)glitter_coverage(&b->cx, s, s);
+            /* Brute force: the share of the slopes seen by the eye that mirror the light, over a lattice around the mirror slope. */
+            enum { SIDE = 160 };
+            const double view[3] = {(double)s.view.x, (double)s.view.y, (double)s.view.z}, radius = tan(scene.light.angular_radius_deg * 0.017453292519943295);
+            const double det = cov[0] * cov[2] - cov[1] * cov[1], cell = 4 * radius / SIDE;
+            double centre[2], lit = 0;
+            mirror_slope(view, b->sky->direction, centre);
+            for (int i = 0; i < SIDE * SIDE; i++) {
+                const double slope[2] = {centre[0] + cell * (i % SIDE - 0.5 * (SIDE - 1)), centre[1] + cell * (i / SIDE - 0.5 * (SIDE - 1))};
+                double at[2];
+                if (!mirror_map(view, b->sky->direction, slope, at) || hypot(at[0], at[1]) >= radius)
+                    continue;
+                const double square = cov[2] * slope[0] * slope[0] - 2 * cov[1] * slope[0] * slope[1] + cov[0] * slope[1] * slope[1];
+                lit += (view[1] - view[0] * slope[0] - view[2] * slope[1]) * exp(-0.5 * square / det) * cell * cell / (2 * 3.14159265358979323846 * sqrt(det));
+            }
+            const double along = cov[0] * view[0] * view[0] + 2 * cov[1] * view[0] * view[2] + cov[2] * view[2] * view[2];
+            const double seen = mean_visible_weight(view[1], sqrt(along));
+            if (lit / seen > 1e-4)
+                error[count++] = fabs(ours / (lit / seen) - 1);
+        }
+    kernel_bench_destroy(b);
+    assert_true(count > 50);
+    /* One octave: the weight is Smith's alone. The lattice of slopes is off by about half a per cent itself. */
+    expect_below("coverage of an unresolved sea, relative, median", quantile(error, count, 0.5), 0.01);
+    expect_below("the same, nine of ten", quantile(error, count, 0.9), 0.04);
+}
+
+/* Octaves of a spectrum that is flat from 1 m to 2⁻ⁿ m: n, but for the steps between 400 waves. */
+static void octaves_are_the_spectrums(void **state)
+{
+    (void)state;
+    enum { COUNT = 400 };
+    mgt_wave waves[COUNT];
+    double worst = 0;
+    for (int octaves = 1; octaves <= 5; octaves++) {
+        for (int i = 0; i < COUNT; i++) {
+            const double k = 3000 * exp2(octaves * (i + 0.5) / COUNT);
+            waves[i] = (mgt_wave){0.01 / k, k, 0, 0, 0};
+        }
+        const mgt_scene scene = black_scene(WIDTH, HEIGHT, waves, COUNT);
+        kernel_bench *b = kernel_bench_create(&scene);
+        kernel_bench_tile(b, true, true, 80, 70);
+        const SlopeState s = slope_state(&b->cx, kernel_bench_ray(b, 80, 70), (HitGuess){0, 0, 0});
+        worst = fmax(worst, fabs((double)octaves_of(&b->cx, s) - octaves));
+        kernel_bench_destroy(b);
+    }
+    expect_below("octaves of a flat spectrum", worst, 0.01);
+}
+
+/* Mean and variance of a normal x seen in proportion to max(x, 0), by the midpoint rule. */
+static void visible_moments_are_their_integrals(void **state)
+{
+    (void)state;
+    random_state r = {24};
+    const struct kernel_context cx = {0};
+    double mean_error = 0, variance_error = 0;
+    for (int i = 0; i < 300; i++) {
+        const double sigma = random_range(&r, 0.01, 0.4), mu = sigma * random_range(&r, -1.5, 8);
+        enum { STEPS = 4000 };
+        double sum[3] = {0};
+        for (int k = 0; k < STEPS; k++) {
+            const double x = fmax(mu, 0) + sigma * 9 * (k + 0.5) / STEPS, y = fmax(mu, 0) * (k + 0.5) / STEPS;
+            const double u = (x - mu) / sigma, v = (y - mu) / sigma;
+            const double above = x * exp(-0.5 * u * u) * sigma * 9, under = y * exp(-0.5 * v * v) * fmax(mu, 0);
+            sum[0] += above + under;
+            sum[1] += above * x + under * y;
+            sum[2] += above * x * x + under * y * y;
+        }
+        const double mean = sum[1] / sum[0], variance = sum[2] / sum[0] - mean * mean;
+        const VisibleMoments v = visible_moments(&cx, (float)mu, (float)(sigma * sigma));
+        mean_error = fmax(mean_error, fabs((double)v.mean - mean) / sigma);
+        variance_error = fmax(variance_error, fabs((double)v.variance - variance) / (sigma * sigma));
+    }
+    expect_below("mean of the visible, of sigma", mean_error, 1e-4);
+    expect_below("variance of the visible, of sigma squared", variance_error, 5e-4);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(footprint_is_the_derivative),
+        cmocka_unit_test(tilted_footprint_is_the_derivative),
+        cmocka_unit_test(mirror_slope_turns_with_the_view),
+        cmocka_unit_test(bend_is_the_spread_over_the_pixel),
+        cmocka_unit_test(slopes_are_those_at_the_shutters_ends),
+        cmocka_unit_test(unresolved_sea_mirrors_its_probability),
+        cmocka_unit_test(octaves_are_the_spectrums),
+        cmocka_unit_test(visible_moments_are_their_integrals),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,174 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The kernels at one lane inside a test, with the tiles and waves that the CPU backend prepares for them. Include it once, before
+ * any other header; afterwards sqrt, abs, … mean those of <math.h> again.
+ */
+#ifndef MANGATA_TESTS_KERNEL_LANE_H
+#define MANGATA_TESTS_KERNEL_LANE_H
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "cpu/frame.h"
+#include "precompute/atmosphere.h"
+#include "reference/equations.h"
+
+#pragma GCC diagnostic ignored "-Wunused-parameter" /* the dialect hands cx to every function */
+#define MGT_LANES 1
+#include "kernels/prelude_c.h"
+
+#define FRAME(cx) (*(cx)->frame)
+#define TILE(cx) (*(cx)->tile)
+#define WAVE(cx, i) ((cx)->waves[i])
+#define MARCH_WAVE(cx, i) ((cx)->march[i])
+
+KERNEL vec3 SKY_TEXEL(CTX cx, real column, real row)
+{
+    const float *t = cx->sky + ((size_t)row * SKY_COLUMNS + (size_t)column) * 3;
+    return vec3(t[0], t[1], t[2]);
+}
+
+#define light_direction kernel_light_direction /* the oracle has one of its own */
+#include "kernels/glitter.k"
+#include "kernels/podee.k"
+#include "kernels/sample.k"
+#undef light_direction
+
+#undef sqrt
+#undef floor
+#undef min
+#undef max
+#undef abs
+#undef fma
+#undef clamp
+#undef real
+
+/* ---- seeded random numbers ---- */
+
+typedef struct random_state {
+    uint64_t state;
+} random_state;
+
+static inline double random_unit(random_state *r)
+{
+    uint64_t x = r->state += 0x9e3779b97f4a7c15u;
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+    return (double)((x ^ (x >> 31)) >> 11) * 0x1p-53;
+}
+
+static inline double random_range(random_state *r, double low, double high)
+{
+    return low + (high - low) * random_unit(r);
+}
+
+/* ---- statistics of errors ---- */
+
+static inline int compare_doubles(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Sorts the values. */
+static inline double quantile(double *values, size_t count, double share)
+{
+    qsort(values, count, sizeof *values, compare_doubles);
+    return values[(size_t)(share * (double)(count - 1))];
+}
+
+/* Prints a measured error beside its bound, and holds it. */
+static inline void expect_below(const char *what, double measured, double bound)
+{
+    print_message("  %-58s %.3g (≤ %.3g)\n", what, measured, bound);
+    if (!(measured <= bound))
+        fail_msg("%s: %g is above %g", what, measured, bound);
+}
+
+/* ---- a tile as the backend prepares it ---- */
+
+typedef struct kernel_bench {
+    sky_state *sky;
+    mgt_scene scene;
+    frame frame;
+    wave_set set;
+    tile_waves tile;
+    struct kernel_context cx;
+} kernel_bench;
+
+/* The scene's waves must outlive the bench. */
+static inline kernel_bench *kernel_bench_create(const mgt_scene *scene)
+{
+    kernel_bench *b = calloc(1, sizeof *b);
+    assert_non_null(b);
+    b->sky = calloc(1, sizeof *b->sky);
+    assert_non_null(b->sky);
+    b->scene = *scene;
+    assert_int_equal(sky_state_build(b->sky, &b->scene.sky, &b->scene.light), MGT_OK);
+    b->frame = frame_of(&b->scene, b->sky, false);
+    b->cx = (struct kernel_context){&b->frame.data, &b->tile.data, b->tile.waves, b->tile.march, b->sky->table};
+    return b;
+}
+
+static inline void kernel_bench_destroy(kernel_bench *b)
+{
+    free(b->sky);
+    free(b);
+}
+
+/* Builds the tile that holds a pixel, for the whole shutter or for scene->time alone; `filter` sorts its waves. */
+static inline void kernel_bench_tile(kernel_bench *b, bool shutter, bool filter, uint32_t x, uint32_t y)
+{
+    const double half = shutter ? b->scene.shutter / 2 : 0;
+    wave_set_build(&b->scene.water, &b->frame.close, (interval){b->scene.time - half, half}, &b->set);
+    memset(&b->tile, 0, sizeof b->tile);
+    tile_build(&b->frame, &b->frame.close, &b->set, filter, x / TILE_WIDTH, y / TILE_HEIGHT, &b->tile);
+}
+
+/* The ray through the pixel's centre, in the tile built last. */
+static inline vec3 kernel_bench_ray(const kernel_bench *b, uint32_t x, uint32_t y)
+{
+    return pixel_ray_at(&b->cx, (float)(x % TILE_WIDTH), (float)(y % TILE_HEIGHT));
+}
+
+/* A scene of random waves: wavelengths log-uniform, slopes shared alike, c by deep-water dispersion. */
+static inline void random_waves(random_state *r, mgt_wave *waves, size_t count, double shortest, double longest, double slope_rms)
+{
+    for (size_t i = 0; i < count; i++) {
+        const double length = shortest * pow(longest / shortest, random_unit(r)), k = 2 * 3.14159265358979323846 / length;
+        const double direction = random_range(r, -3.2, 3.2);
+        waves[i] = (mgt_wave){.amplitude = slope_rms * sqrt(2.0 / (double)count) / k,
+                              .a = k * cos(direction),
+                              .b = k * sin(direction),
+                              .c = -sqrt(9.81 * k),
+                              .phase = random_range(r, 0, 6.3)};
+    }
+}
+
+static inline mgt_scene black_scene(uint32_t width, uint32_t height, const mgt_wave *waves, size_t count)
+{
+    mgt_scene s = mgt_scene_defaults();
+    s.image = (mgt_image){.width = width, .height = height};
+    s.sky.model = MGT_SKY_BLACK;
+    s.time = 10;
+    s.water.waves = waves;
+    s.water.wave_count = count;
+    return s;
+}
+
+/* A unit vector by elevation and azimuth in degrees; azimuth 0 is −z. */
+static inline void direction_of(double elevation, double azimuth, double direction[3])
+{
+    const mgt_light light = {.elevation_deg = elevation, .azimuth_deg = azimuth};
+    light_direction(&light, direction);
+}
+
+#endif
