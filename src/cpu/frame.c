@@ -63,6 +63,7 @@ static void set_method(frame *f)
     f->ramp_end = podee ? 0.5 : 1.2;
     f->data.ramp_start = (float)f->ramp_start;
     f->data.ramp_scale = (float)(podee ? 1 / (f->ramp_end - f->ramp_start) : 1 / (f->ramp_end * f->ramp_end));
+    f->podee = podee;
     f->keep_filtered = q->method == MGT_METHOD_PODEE_PIXEL;
     f->data.ndf_per_pixel = f->keep_filtered;
     f->data.ndf_mean = f->keep_filtered && !q->ndf_mean_drop ? 1 : 0;
@@ -212,9 +213,11 @@ static tile_probes probe_tile(const camera_rays *camera, uint32_t tile_x, uint32
     return p;
 }
 
-/* Least and most squared frequency of a wave over the tile, in (cycles per pixel)². */
+/* Squared frequency of a wave over the tile, in (cycles per pixel)²: least and most on the displaced surface, and least and most
+ * on the mean one. */
 typedef struct frequency_range {
     float least, most;
+    float flat_least, flat_most;
 } frequency_range;
 
 static frequency_range frequencies(const tile_probes *p, const WaveData *w)
@@ -227,7 +230,9 @@ static frequency_range frequencies(const tile_probes *p, const WaveData *w)
         least = squared < least ? squared : least;
         most = squared > most ? squared : most;
     }
-    return (frequency_range){least * p->least_margin, p->horizon ? INFINITY : most * p->most_margin};
+    if (p->horizon)
+        most = INFINITY;
+    return (frequency_range){least * p->least_margin, most * p->most_margin, least, most};
 }
 
 /* A point near which the tile's phases are exact: where its centre meets the mean surface, or its steepest corner. */
@@ -300,7 +305,7 @@ static void add_march_wave(tile_waves *out, march_sums *sums, const WaveData *w,
 static const float march_cycles = 0.25f;
 
 /* The smallest waves that together lift the surface by less than this part of a pixel are left to Newton's step. */
-static const float march_pixels = 0.1f;
+static const float march_pixels = 0.15f;
 
 static void finish_march(const march_sums *s, bool filter, TileData *d)
 {
@@ -377,6 +382,28 @@ static TileData tile_view(const camera_rays *camera, uint32_t tile_x, uint32_t t
     return d;
 }
 
+/* A wave whose resolved share hardly changes over the tile needs no share per pixel: one serves all. */
+static bool share_is_constant(const frame *f, const frequency_range *range)
+{
+    return !f->podee && range->flat_most < 0.1024f && (range->flat_most - range->flat_least) * f->data.ramp_scale < 0.04f;
+}
+
+/* Takes the unresolved part out of such a wave and adds it to the tile's covariance; resolved_share() and unresolved_variance() of
+ * surface.k at one frequency. */
+static void split_wave(const frame *f, float frequency, WaveData *w, TileData *d)
+{
+    const float root = 1 - f->data.ramp_scale * frequency, share = root * root;
+    const float lost = fmaxf(1 - share * share * (1 + 3.2898681f * frequency), 0);
+    w->even_x *= share, w->even_z *= share, w->odd_x *= share, w->odd_z *= share;
+    w->bend_xx *= share, w->bend_xz *= share, w->bend_zz *= share;
+    w->even_height *= share, w->odd_height *= share;
+    d->filtered_xx += lost * w->variance_xx;
+    d->filtered_xz += lost * w->variance_xz;
+    d->filtered_zz += lost * w->variance_zz;
+    d->filtered_octave += lost * w->octave_mass;
+    d->filtered_octave_sq += lost * w->octave_sq_mass;
+}
+
 void tile_build(const frame *f, const camera_rays *camera, const wave_set *set, bool filter, uint32_t tile_x, uint32_t tile_y, tile_waves *out)
 {
     out->data = tile_view(camera, tile_x, tile_y);
@@ -394,9 +421,13 @@ void tile_build(const frame *f, const camera_rays *camera, const wave_set *set, 
         }
         const double turns = set->phase[i] + set->turns_x[i] * (double)out->data.origin_x + set->turns_z[i] * (double)out->data.origin_z;
         const float phase = (float)(turns - rint(turns));
-        WaveData *place = !filter || range.most <= start ? &out->waves[out->data.resolved_count++] : &out->waves[MGT_MAX_WAVES - ++mixed];
+        const bool constant = filter && share_is_constant(f, &range);
+        const bool resolved = !filter || constant || range.most <= start;
+        WaveData *place = resolved ? &out->waves[out->data.resolved_count++] : &out->waves[MGT_MAX_WAVES - ++mixed];
         *place = *w;
         place->phase = phase;
+        if (constant)
+            split_wave(f, 0.5f * (range.flat_least + range.flat_most), place, &out->data);
         if (!filter || (range.least < march_cycles * march_cycles && f->lesser_variance[i] > negligible * negligible))
             add_march_wave(out, &sums, w, phase, range.most);
     }
@@ -404,6 +435,7 @@ void tile_build(const frame *f, const camera_rays *camera, const wave_set *set, 
         out->waves[out->data.resolved_count + i] = out->waves[MGT_MAX_WAVES - mixed + i];
     out->data.mixed_count = mixed;
     finish_march(&sums, filter, &out->data);
+    out->data.slope_variance = (float)(set->slope_deviation * set->slope_deviation);
     out->data.light_reach = filter && light_reaches(f, camera, set, tile_x, tile_y);
 }
 

@@ -17,6 +17,7 @@ typedef struct frame {
     const mgt_scene *scene;
     camera_rays close, open;       /* cameras when the shutter closes and opens */
     double ramp_start, ramp_end;   /* cycles per pixel below which a wave is resolved and above which it is not */
+    bool podee;                    /* resolved and unresolved as published */
     bool keep_filtered;            /* unresolved waves stay in the mixed list: their phase matters (podee-pixel) */
     float lesser_variance[MGT_MAX_WAVES]; /* metres², of the heights of a wave and of all with smaller amplitudes */
 } frame;

@@ -94,8 +94,8 @@ static void march_nodes(const struct kernel_context *cx, tile_nodes *nodes)
     float column[NODE_PADDED], row[NODE_PADDED];
     for (int i = 0; i < NODE_PADDED; i++) {
         const int node = i < NODE_COUNT ? i : NODE_COUNT - 1;
-        column[i] = (float)(node % NODE_COLUMNS * NODE_STEP);
-        row[i] = (float)(node / NODE_COLUMNS * NODE_STEP);
+        column[i] = (float)(node % NODE_COLUMNS * NODE_STEP_X);
+        row[i] = (float)(node / NODE_COLUMNS * NODE_STEP_Y);
     }
     for (int i = 0; i < NODE_PADDED; i += MGT_LANES) {
         const vec3 ray = pixel_ray_at(cx, load(column + i), load(row + i));
@@ -145,7 +145,7 @@ static void spread_nodes(const tile_nodes *nodes, int row, node_planes *out)
 {
     for (int side = 0; side < 2; side++)
         for (int x = 0; x < TILE_WIDTH; x++) {
-            const int n = row * NODE_COLUMNS + x / NODE_STEP + side;
+            const int n = row * NODE_COLUMNS + x / NODE_STEP_X + side;
             out->slope_x[side][x] = nodes->slope_x[n];
             out->slope_z[side][x] = nodes->slope_z[n];
             out->level[side][x] = nodes->level[n];
@@ -169,15 +169,17 @@ static void guess_heights(const struct kernel_context *cx, const tile_nodes *nod
 {
     const TileData *t = cx->tile;
     node_planes planes[2];
+    float shares[TILE_WIDTH];
+    for (int x = 0; x < TILE_WIDTH; x++)
+        shares[x] = (float)(x % NODE_STEP_X) / NODE_STEP_X;
     spread_nodes(nodes, 0, &planes[0]);
     for (int y = 0; y < TILE_HEIGHT; y++) {
-        const node_planes *above = &planes[y / NODE_STEP & 1], *below = &planes[(y / NODE_STEP & 1) ^ 1];
-        if (y % NODE_STEP == 0)
-            spread_nodes(nodes, y / NODE_STEP + 1, &planes[(y / NODE_STEP & 1) ^ 1]);
-        const real v = real((float)(y % NODE_STEP) / NODE_STEP);
+        const node_planes *above = &planes[y / NODE_STEP_Y & 1], *below = &planes[(y / NODE_STEP_Y & 1) ^ 1];
+        if (y % NODE_STEP_Y == 0)
+            spread_nodes(nodes, y / NODE_STEP_Y + 1, &planes[(y / NODE_STEP_Y & 1) ^ 1]);
+        const real v = real((float)(y % NODE_STEP_Y) / NODE_STEP_Y);
         for (int x = 0; x < TILE_WIDTH; x += MGT_LANES) {
-            static const float shares[16] = {0, 0.25f, 0.5f, 0.75f, 0, 0.25f, 0.5f, 0.75f, 0, 0.25f, 0.5f, 0.75f, 0, 0.25f, 0.5f, 0.75f};
-            const real u = load(shares + x % NODE_STEP);
+            const real u = load(shares + x);
             const vec3 ray = pixel_ray_at(cx, lane_numbers() + (float)x, real((float)y));
             real top_left = load(above->height[0] + x) + plane_height(t, above, 0, x, ray);
             real top_right = load(above->height[1] + x) + plane_height(t, above, 1, x, ray);
@@ -204,9 +206,9 @@ static void guess_march(const tile_nodes *nodes, bool may_occlude, int cell_x, i
                            nodes_agree(nodes, n10, n11) && nodes_agree(nodes, n11, n10);
         march = agree ? 0.0f : 1.0f;
     }
-    for (int y = 0; y < NODE_STEP; y++)
-        for (int x = 0; x < NODE_STEP; x++) {
-            const int i = (cell_y * NODE_STEP + y) * TILE_WIDTH + cell_x * NODE_STEP + x;
+    for (int y = 0; y < NODE_STEP_Y; y++)
+        for (int x = 0; x < NODE_STEP_X; x++) {
+            const int i = (cell_y * NODE_STEP_Y + y) * TILE_WIDTH + cell_x * NODE_STEP_X + x;
             guess->march[i] = march;
             guess->from[i] = from;
         }

@@ -15,9 +15,10 @@ enum {
     TILE_WIDTH = 32,
     TILE_HEIGHT = 16,
     TILE_PIXELS = TILE_WIDTH * TILE_HEIGHT,
-    NODE_STEP = 4,
-    NODE_COLUMNS = TILE_WIDTH / NODE_STEP + 1,
-    NODE_ROWS = TILE_HEIGHT / NODE_STEP + 1,
+    NODE_STEP_X = 8, /* the water is foreshortened down the screen, seldom across */
+    NODE_STEP_Y = 4,
+    NODE_COLUMNS = TILE_WIDTH / NODE_STEP_X + 1,
+    NODE_ROWS = TILE_HEIGHT / NODE_STEP_Y + 1,
     NODE_COUNT = NODE_COLUMNS * NODE_ROWS,
     NODE_PADDED = (NODE_COUNT + 15) / 16 * 16,
 };
