@@ -305,7 +305,7 @@ static void add_march_wave(tile_waves *out, march_sums *sums, const WaveData *w,
 static const float march_cycles = 0.25f;
 
 /* The smallest waves that together lift the surface by less than this part of a pixel are left to Newton's step. */
-static const float march_pixels = 0.15f;
+static const float march_pixels = 0.07f;
 
 static void finish_march(const march_sums *s, bool filter, TileData *d)
 {
