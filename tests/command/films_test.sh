@@ -21,9 +21,10 @@ expect 69 'ffmpeg' env PATH="$work/empty" "$MANGATA" render "$simple" -o b.mp4 -
 absent b.mp4 b.mp4.json
 no_temporaries .
 
-# Peak memory does not grow with the frames. (Sanitizers keep freed memory on purpose.)
+# Peak memory does not grow with the frames: within 2% and the few pages by which a process this small differs from run to run.
+# (Sanitizers keep freed memory on purpose.)
 few=$("$PEAK_MEMORY" "$MANGATA" render "$simple" -o few.y4m --frames 0-9 --size 320x180 "${null[@]}" --quiet) || fail "ten frames"
 many=$("$PEAK_MEMORY" "$MANGATA" render "$simple" -o many.y4m --frames 0-599 --size 320x180 "${null[@]}" --quiet) || fail "six hundred frames"
 echo "peak memory: $few kB for 10 frames, $many kB for 600"
-((many <= few + few / 50)) || [[ -n ${SANITIZED:-} ]] || fail "memory grows with the film"
+((many <= few + few / 50 + 256)) || [[ -n ${SANITIZED:-} ]] || fail "memory grows with the film"
 finish
