@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: MIT
  * The CPU backend: tiles over a thread pool, the lanes that this processor runs, targets and display. */
+#define _POSIX_C_SOURCE 199309L
+#include <stdatomic.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "core/backend.h"
 #include "cpu/frame.h"
@@ -85,9 +88,11 @@ static bool allocate_scratch(cpu_state *s)
 {
     const uint32_t workers = thread_pool_size(s->pool);
     s->scratch = calloc(workers, sizeof *s->scratch);
-    for (uint32_t i = 0; s->scratch && i < workers; i++)
+    for (uint32_t i = 0; s->scratch && i < workers; i++) {
         if (!(s->scratch[i] = calloc(1, sizeof *s->scratch[i])))
             return false;
+        s->scratch[i]->worker = i;
+    }
     return s->scratch != NULL;
 }
 
@@ -134,6 +139,9 @@ typedef struct render_job {
     uint32_t first_x, first_y, columns; /* blocks of the loop */
     uint32_t block_width, block_height;
     reference_frame *reference;
+    atomic_bool cancelled;
+    double fraction;  /* done when progress was last told; the caller's thread only */
+    double last_told; /* seconds */
 } render_job;
 
 /* A rectangle of finished pixels in planes, wherever they come from. */
@@ -280,10 +288,30 @@ static void render_reference_block(void *argument, size_t index, uint32_t worker
         keep_radiance(job, &block, &planes);
 }
 
+static double seconds(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
 static bool forward_progress(void *argument, double fraction)
 {
-    const render_job *job = argument;
-    return job->state->progress(job->state->progress_user, fraction);
+    render_job *job = argument;
+    job->fraction = fraction;
+    job->last_told = seconds();
+    if (!atomic_load(&job->cancelled) && !job->state->progress(job->state->progress_user, fraction))
+        atomic_store(&job->cancelled, true);
+    return !atomic_load(&job->cancelled);
+}
+
+/* Within a long tile: worker 0 is the caller's thread and may speak to it. */
+static bool keep_going(void *argument, uint32_t worker)
+{
+    render_job *job = argument;
+    if (worker == 0 && seconds() - job->last_told >= 0.1)
+        return forward_progress(job, job->fraction);
+    return !atomic_load_explicit(&job->cancelled, memory_order_relaxed);
 }
 
 static bool run_loop(render_job *job, uint32_t block_width, uint32_t block_height, void (*body)(void *, size_t, uint32_t))
@@ -414,10 +442,10 @@ static mgt_status cpu_render(void *state, const reporter *r, const mgt_scene *sc
         reference_frame_destroy(job.reference);
     } else {
         frame_waves_build(&job.frame, s->waves);
-        job.tiles = (tile_job){&job.frame, s->waves, s->kernels, s->sky->table, job.wants};
+        job.tiles = (tile_job){&job.frame, s->waves, s->kernels, s->sky->table, job.wants, s->progress ? keep_going : NULL, &job};
         finished = run_loop(&job, TILE_WIDTH, TILE_HEIGHT, render_tile);
     }
-    if (status == MGT_OK && !finished)
+    if (status == MGT_OK && (!finished || atomic_load(&job.cancelled)))
         status = report_error(r, MGT_CANCELLED, "render.cancelled", "rendering was cancelled");
     if (status == MGT_OK && job.radiance)
         status = display(&job, r);

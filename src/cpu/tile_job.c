@@ -95,6 +95,8 @@ static void render_samples(tile_place place, tile_scratch *scratch)
         }
         build(place, &camera, waves, false, &scratch->close, &scratch->close_guess);
         for (; sample < end; sample++) {
+            if (sample % 16 == 15 && job->keep_going && !job->keep_going(job->keep_going_argument, scratch->worker))
+                return;
             jitter(place, q->seed, q->spatial_samples, sample % per_time, sample, scratch);
             job->kernels->sample(&f->data, job->sky, &scratch->close, &scratch->close_guess, scratch->jitter_x, scratch->jitter_y, weight, &scratch->pixels);
         }

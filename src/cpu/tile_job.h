@@ -7,6 +7,7 @@
 
 /* What a worker needs while it renders a tile; about 300 KiB. */
 typedef struct tile_scratch {
+    uint32_t worker; /* whose it is */
     tile_waves close, open;
     tile_guess close_guess, open_guess;
     float jitter_x[TILE_PIXELS], jitter_y[TILE_PIXELS];
@@ -36,6 +37,9 @@ typedef struct tile_job {
     const lane_kernels *kernels;
     const float *sky; /* the table of a sky_state */
     tile_wants wants;
+    /* Asked between the samples of a tile, on any worker; false: leave the tile unfinished. NULL: never asked. */
+    bool (*keep_going)(void *argument, uint32_t worker);
+    void *keep_going_argument;
 } tile_job;
 
 /* Fills scratch->pixels and scratch->surface for the tile (tile_x, tile_y) of the lattice. Not for the reference. */
