@@ -55,7 +55,7 @@ static bool count_frame(const mgt_scene *scene, stage_count *out)
         }
         out->lattice = operations_done;
         operations_done = (operation_count){0};
-        const tile_job job = {&f->frame, f->waves, &counting_lane_kernels, f->sky->table, {.pixels = true}};
+        const tile_job job = {.frame = &f->frame, .waves = f->waves, .kernels = &counting_lane_kernels, .sky = f->sky->table, .wants = {.pixels = true}};
         for (uint32_t i = 0; i < f->rows * f->columns; i++) {
             tile_render(&job, i % f->columns, i / f->columns, s);
             if (i % 37 == 0 && !same_pixels(&job, i % f->columns, i / f->columns, &s->pixels, s + 1)) {

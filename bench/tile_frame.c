@@ -33,7 +33,7 @@ void tile_frame_free(tile_frame *f)
 
 void tile_frame_render(const tile_frame *f, const lane_kernels *kernels, tile_scratch *scratch)
 {
-    const tile_job job = {&f->frame, f->waves, kernels, f->sky->table, {.pixels = true}};
+    const tile_job job = {.frame = &f->frame, .waves = f->waves, .kernels = kernels, .sky = f->sky->table, .wants = {.pixels = true}};
     for (uint32_t y = 0; y < f->rows; y++)
         for (uint32_t x = 0; x < f->columns; x++)
             tile_render(&job, x, y, scratch);
