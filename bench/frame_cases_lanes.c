@@ -48,7 +48,7 @@ static void keep(disk_path_cases *cases)
 
 static float replay(const disk_path_cases *cases, size_t first, size_t count)
 {
-    const struct kernel_context context = {NULL, NULL, NULL, NULL, NULL};
+    const struct kernel_context context = {.frame = NULL};
     real sum = real(0.0f);
     for (size_t i = first; i < first + count; i++) {
         const float *v = cases->values + i * DISK_PATH_INPUTS * MGT_LANES;
@@ -63,7 +63,7 @@ static float replay(const disk_path_cases *cases, size_t first, size_t count)
 
 static void run_stage(frame_stage stage, const FrameData *frame, const float *sky, const tile_waves *tile, const tile_guess *guess, tile_pixels *out)
 {
-    const struct kernel_context context = {frame, &tile->data, tile->waves, tile->march, sky};
+    const struct kernel_context context = {.frame = frame, .tile = &tile->data, .waves = tile->waves, .march = tile->march, .sky = sky};
     for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
         const real column = lane_numbers() + (float)(i % TILE_WIDTH);
         const PixelRay p = pixel_ray_filtered(&context, column, real_broadcast((float)(i / TILE_WIDTH)));

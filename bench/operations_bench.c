@@ -49,7 +49,7 @@ static bool count_frame(const mgt_scene *scene, stage_count *out)
     if (done) {
         operations_done = (operation_count){0};
         for (uint32_t i = 0; i < f->rows * f->columns; i++) {
-            tile_build(&f->frame, &f->frame.close, &f->waves->shutter, true, i % f->columns, i / f->columns, &s->close);
+            counting_lane_kernels.sort(&f->frame.data, &f->waves->shutter, i % f->columns, i / f->columns, &s->close);
             if (tile_sees_water(&s->close))
                 counting_lane_kernels.guess(&f->frame.data, &s->close, &s->close_guess);
         }

@@ -16,10 +16,7 @@ typedef struct frame {
     FrameData data;
     const mgt_scene *scene;
     camera_rays close, open;       /* cameras when the shutter closes and opens */
-    double ramp_start, ramp_end;   /* cycles per pixel below which a wave is resolved and above which it is not */
-    bool podee;                    /* resolved and unresolved as published */
-    bool keep_filtered;            /* unresolved waves stay in the mixed list: their phase matters (podee-pixel) */
-    float lesser_variance[MGT_MAX_WAVES]; /* metres², of the heights of a wave and of all with smaller amplitudes */
+    uint16_t order[MGT_MAX_WAVES]; /* of the scene's waves by falling amplitude */
 } frame;
 
 camera_rays camera_rays_of(const mgt_camera *camera, uint32_t width, uint32_t height);
@@ -32,20 +29,8 @@ typedef struct interval {
     double middle, half;
 } interval;
 
-/* The waves over an interval as a camera meets them: what is the same for every tile. */
-typedef struct wave_set {
-    size_t count;
-    double height_deviation; /* metres, RMS of the surface */
-    double slope_deviation;  /* RMS of its slope */
-    WaveData data[MGT_MAX_WAVES]; /* phase left open */
-    double turns_x[MGT_MAX_WAVES], turns_z[MGT_MAX_WAVES];
-    double phase[MGT_MAX_WAVES]; /* turns under the camera at the interval's middle, reduced */
-} wave_set;
-
-void wave_set_build(const mgt_water *water, const camera_rays *camera, interval time, wave_set *set);
-
-/* Sorts the waves for the tile (tile_x, tile_y) of the lattice. `filter` false: every wave is resolved (point samples). */
-void tile_build(const frame *f, const camera_rays *camera, const wave_set *set, bool filter, uint32_t tile_x, uint32_t tile_y, tile_waves *out);
+/* Places the frame's waves before a camera. `filter` false: every wave is resolved (point samples). */
+void wave_set_build(const frame *f, const camera_rays *camera, interval time, bool filter, wave_set *set);
 
 /* Whether any pixel of the tile can see water. */
 bool tile_sees_water(const tile_waves *tile);

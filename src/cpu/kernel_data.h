@@ -11,6 +11,7 @@
 
 _Static_assert(sizeof(FrameData) % 16 == 0, "std140 layout");
 _Static_assert(sizeof(TileData) % 16 == 0, "std140 layout");
+_Static_assert(sizeof(ViewData) % 16 == 0, "std140 layout");
 _Static_assert(sizeof(WaveData) == 96, "std140 layout");
 _Static_assert(sizeof(MarchWave) == 16, "std140 layout");
 
@@ -21,6 +22,7 @@ struct kernel_context {
     const WaveData *waves;
     const MarchWave *march;
     const float *sky; /* SKY_ROWS × SKY_COLUMNS × 3 */
+    const ViewData *view; /* only while tiles are sorted */
 };
 
 #endif

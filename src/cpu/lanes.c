@@ -15,6 +15,7 @@ static const float infinity = INFINITY;
 #include "kernels/prelude_c.h"
 
 #define FRAME(cx) (*(cx)->frame)
+#define VIEW(cx) (*(cx)->view)
 #define TILE(cx) (*(cx)->tile)
 #define WAVE(cx, i) ((cx)->waves[i])
 #define MARCH_WAVE(cx, i) ((cx)->march[i])
@@ -46,8 +47,10 @@ KERNEL vec3 SKY_TEXEL(CTX cx, real column, real row)
 }
 
 #include "kernels/glitter.k"
+#include "kernels/lattice.k"
 #include "kernels/podee.k"
 #include "kernels/sample.k"
+#include "kernels/tile.k"
 #include "kernels/tone.k"
 
 /* ---- loads and stores ---- */
@@ -80,13 +83,178 @@ static inline HitGuess load_guess(const tile_guess *guess, size_t i)
     return (HitGuess){load(guess->height + i), load(guess->from + i), load(guess->march + i)};
 }
 
+/* ---- tiles ---- */
+
+/* A lane that stands for all, where all hold the same. */
+static inline float any_of(real x)
+{
+    float lanes[MGT_LANES];
+    store(lanes, x);
+    return lanes[0];
+}
+
+static TileData tile_data(const ViewData *v, TileView t)
+{
+    const float steepness = sqrtf(v->right_y * v->right_y + v->down_y * v->down_y), steep = steepness > 1e-10f ? steepness : 1e-10f;
+    return (TileData){
+        .ray_x = any_of(t.ray.x),
+        .ray_y = any_of(t.ray.y),
+        .ray_z = any_of(t.ray.z),
+        .camera_height = v->camera_height,
+        .right_x = v->right_x,
+        .right_y = v->right_y,
+        .right_z = v->right_z,
+        .origin_x = any_of(t.origin_x),
+        .down_x = v->down_x,
+        .down_y = v->down_y,
+        .down_z = v->down_z,
+        .origin_z = any_of(t.origin_z),
+        .far_distance = 1e5f,
+        .horizon_steepness = steep,
+        .horizon_inverse = 1.0f / steep,
+        .slope_variance = v->slope_deviation * v->slope_deviation,
+    };
+}
+
+/* The classes of all waves, an array per member that is read again. */
+typedef struct wave_classes {
+    float kind[MGT_MAX_WAVES], phase[MGT_MAX_WAVES], share[MGT_MAX_WAVES], lost[MGT_MAX_WAVES], marched[MGT_MAX_WAVES];
+    float along[MGT_MAX_WAVES], most[MGT_MAX_WAVES];
+} wave_classes;
+
+static void classify_waves(const struct kernel_context *cx, const wave_set *set, TileView view, wave_classes *out)
+{
+    for (int i = 0; i < set->view.wave_count; i += MGT_LANES) {
+        const WaveClass c = classify_wave(cx, view, load(set->turns_x + i), load(set->turns_z + i), load(set->turns_low_x + i),
+                                          load(set->turns_low_z + i), load(set->phase + i), load(set->lesser_variance + i));
+        store(out->kind + i, c.kind);
+        store(out->phase + i, c.phase);
+        store(out->share + i, c.share);
+        store(out->lost + i, c.lost);
+        store(out->marched + i, c.marched);
+        store(out->along + i, c.along);
+        store(out->most + i, c.most);
+    }
+}
+
+static inline void add_lost(TileData *d, const WaveData *w, float lost)
+{
+    d->filtered_xx += lost * w->variance_xx;
+    d->filtered_xz += lost * w->variance_xz;
+    d->filtered_zz += lost * w->variance_zz;
+    d->filtered_octave += lost * w->octave_mass;
+    d->filtered_octave_sq += lost * w->octave_sq_mass;
+}
+
+static inline void scale_wave(WaveData *w, float share)
+{
+    w->even_x *= share, w->even_z *= share, w->odd_x *= share, w->odd_z *= share;
+    w->bend_xx *= share, w->bend_xz *= share, w->bend_zz *= share;
+    w->even_height *= share, w->odd_height *= share;
+}
+
+static void list_waves(const wave_set *set, const wave_classes *c, tile_waves *out)
+{
+    int count = 0;
+    for (int i = 0; i < set->view.wave_count; i++) {
+        if (c->kind[i] < 2)
+            add_lost(&out->data, &set->data[i], c->kind[i] > 0 ? c->lost[i] : 1.0f);
+        if (c->kind[i] != 1)
+            continue;
+        out->waves[count] = set->data[i];
+        out->waves[count].phase = c->phase[i];
+        scale_wave(&out->waves[count++], c->share[i]);
+    }
+    out->data.resolved_count = count;
+    for (int i = 0; i < set->view.wave_count; i++)
+        if (c->kind[i] == 2) {
+            out->waves[count] = set->data[i];
+            out->waves[count++].phase = c->phase[i];
+        }
+    out->data.mixed_count = count - out->data.resolved_count;
+}
+
+/* What bounds marched waves along the view: sums of worst cases and of variances, whichever is tighter in the end. A sum of many sines
+ * of random phases exceeds four deviations once in 30,000 places; few sines never reach their sum. */
+typedef struct march_bounds {
+    float height, height_variance, slope, slope_variance, bend, bend_variance;
+} march_bounds;
+
+static inline void add_bounds(march_bounds *b, float amplitude, float k)
+{
+    const float slope = amplitude * k, bend = slope * k;
+    b->height += amplitude, b->height_variance += 0.5f * amplitude * amplitude;
+    b->slope += slope, b->slope_variance += 0.5f * slope * slope;
+    b->bend += bend, b->bend_variance += 0.5f * bend * bend;
+}
+
+static inline float tighter(float sum, float variance)
+{
+    const float deviations = 4.0f * sqrtf(variance);
+    return sum < deviations ? sum : deviations;
+}
+
+/* The first leg of a march takes the largest quarter of the waves, where they are many. */
+enum { COARSE_LEAST = 32, COARSE_SHARE = 4 };
+
+static void list_marched(const wave_set *set, const wave_classes *c, tile_waves *out)
+{
+    TileData *d = &out->data;
+    float along[MGT_MAX_WAVES], most = 0, largest = 0;
+    int count = 0;
+    for (int i = 0; i < set->view.wave_count; i++) {
+        if (c->marched[i] == 0)
+            continue;
+        const WaveData *w = &set->data[i];
+        out->march[count] = (MarchWave){w->turns_x, w->turns_z, c->phase[i], w->even_height};
+        along[count++] = c->along[i];
+        const float squared = w->amplitude > 0 ? w->turns_x * w->turns_x + w->turns_z * w->turns_z : 0;
+        largest = squared > largest ? squared : largest;
+        most = w->amplitude > 0 && c->most[i] > most ? c->most[i] : most;
+    }
+    march_bounds coarse = {0}, all, rest = {0};
+    const int first = count < COARSE_LEAST ? count : count / COARSE_SHARE;
+    for (int i = 0; i < first; i++)
+        add_bounds(&coarse, fabsf(out->march[i].amplitude), along[i]);
+    all = coarse;
+    for (int i = first; i < count; i++) {
+        add_bounds(&all, fabsf(out->march[i].amplitude), along[i]);
+        add_bounds(&rest, fabsf(out->march[i].amplitude), 0);
+    }
+    d->march_count = count;
+    d->march_bound = tighter(all.height, all.height_variance);
+    d->march_slope = tighter(all.slope, all.slope_variance);
+    /* After a first leg, one deviation of the bend serves filtered methods: what small waves could hide from the second moves no pixel. */
+    d->march_bend = tighter(all.bend, all.bend_variance) * (set->view.filter_waves && first < count ? 0.25f : 1.0f);
+    d->coarse_count = first;
+    d->coarse_rest = tighter(rest.height, rest.height_variance);
+    d->coarse_slope = tighter(coarse.slope, coarse.slope_variance);
+    d->coarse_bend = tighter(coarse.bend, coarse.bend_variance);
+    /* A tenth of the shortest wave is near enough for Newton's step of filtered methods. */
+    d->march_tolerance = largest > 0 ? (set->view.filter_waves ? 0.1f : 0.02f) / sqrtf(largest) : 1e-3f;
+    d->march_pixels = !set->view.filter_waves && most > 0.0625f;
+}
+
+static void lanes_sort(const FrameData *frame, const wave_set *set, uint32_t tile_x, uint32_t tile_y, tile_waves *out)
+{
+    const struct kernel_context cx = {.frame = frame, .view = &set->view};
+    const real column = real((float)(tile_x * TILE_WIDTH)), row = real((float)(tile_y * TILE_HEIGHT));
+    const TileView view = tile_view(&cx, column, row, TILE_WIDTH, TILE_HEIGHT);
+    wave_classes classes;
+    out->data = tile_data(&set->view, view);
+    classify_waves(&cx, set, view, &classes);
+    list_waves(set, &classes, out);
+    list_marched(set, &classes, out);
+    out->data.light_reach = set->view.filter_waves && any_of(tile_meets_light(&cx, column, row, TILE_WIDTH, TILE_HEIGHT)) > 0;
+}
+
 /* ---- first-hit lattice ---- */
 
-/* Hits at the nodes, as tangent planes: a ray meets the plane of a node where along · (slope·ray.xz − ray.y) = level. */
+/* The nodes of a tile, an array per member. */
 typedef struct tile_nodes {
     float ray_x[NODE_PADDED], ray_y[NODE_PADDED], ray_z[NODE_PADDED];
-    float along[NODE_PADDED], height[NODE_PADDED], slope_x[NODE_PADDED], slope_z[NODE_PADDED], found[NODE_PADDED];
-    float level[NODE_PADDED];
+    float along[NODE_PADDED], found[NODE_PADDED];
+    float level[NODE_PADDED], slope_x[NODE_PADDED], slope_z[NODE_PADDED], height[NODE_PADDED];
 } tile_nodes;
 
 static void march_nodes(const struct kernel_context *cx, tile_nodes *nodes)
@@ -98,42 +266,69 @@ static void march_nodes(const struct kernel_context *cx, tile_nodes *nodes)
         row[i] = (float)(node / NODE_COLUMNS * NODE_STEP_Y);
     }
     for (int i = 0; i < NODE_PADDED; i += MGT_LANES) {
-        const vec3 ray = pixel_ray_at(cx, load(column + i), load(row + i));
-        const NodeHit hit = node_hit(cx, ray);
-        const mask found = hit.found > real(0.0f);
-        const real height = SELECT(found, hit.height, real(0.0f));
-        const real slope_x = SELECT(found, hit.slope.x, real(0.0f)), slope_z = SELECT(found, hit.slope.y, real(0.0f));
-        store(nodes->ray_x + i, ray.x);
-        store(nodes->ray_y + i, ray.y);
-        store(nodes->ray_z + i, ray.z);
-        store(nodes->along + i, hit.along);
-        store(nodes->height + i, height);
-        store(nodes->slope_x + i, slope_x);
-        store(nodes->slope_z + i, slope_z);
-        store(nodes->found + i, hit.found);
-        store(nodes->level + i, real(cx->tile->camera_height) - height + hit.along * real_fma(slope_x, ray.x, slope_z * ray.z));
+        const LatticeNode n = lattice_node(cx, pixel_ray_at(cx, load(column + i), load(row + i)));
+        store(nodes->ray_x + i, n.ray.x);
+        store(nodes->ray_y + i, n.ray.y);
+        store(nodes->ray_z + i, n.ray.z);
+        store(nodes->along + i, n.along);
+        store(nodes->found + i, n.found);
+        store(nodes->level + i, n.plane.level);
+        store(nodes->slope_x + i, n.plane.slope_x);
+        store(nodes->slope_z + i, n.plane.slope_z);
+        store(nodes->height + i, n.plane.height);
     }
 }
 
-/* Whether the tangent plane at node `from` leads to what node `to` found. Where it does not, a crest may stand between. */
-static bool nodes_agree(const tile_nodes *n, int from, int to)
-{
-    const float closing = n->slope_x[from] * n->ray_x[to] + n->slope_z[from] * n->ray_z[to] - n->ray_y[to];
-    const float miss = n->level[from] - n->along[to] * closing;
-    const float tolerance = 0.3f * n->along[to] * closing;
-    return closing > 0 && miss < tolerance && -miss < tolerance;
-}
-
-/* Rays so steep that no wave can hide another need no second look. */
-static bool tile_may_occlude(const TileData *t, const tile_nodes *nodes)
+static bool tile_may_occlude(const struct kernel_context *cx, const tile_nodes *n)
 {
     for (int corner = 0; corner < 4; corner++) {
-        const int n = (corner & 1 ? NODE_COLUMNS - 1 : 0) + (corner & 2 ? NODE_COUNT - NODE_COLUMNS : 0);
-        const float x = nodes->ray_x[n], y = nodes->ray_y[n], z = nodes->ray_z[n];
-        if (y * y < t->march_slope * t->march_slope * (x * x + z * z) || y >= 0)
+        const int i = (corner & 1 ? NODE_COLUMNS - 1 : 0) + (corner & 2 ? NODE_COUNT - NODE_COLUMNS : 0);
+        if (any_lane(may_occlude(cx, vec3(real(n->ray_x[i]), real(n->ray_y[i]), real(n->ray_z[i])))))
             return true;
     }
     return false;
+}
+
+/* ---- guesses of pixels ---- */
+
+enum { CELLS = (NODE_COLUMNS - 1) * (NODE_ROWS - 1), CELL_COLUMNS = NODE_COLUMNS - 1 };
+_Static_assert(CELLS % 16 == 0, "cells fill vectors");
+
+static inline real gather(const float *plane, const uint16_t *list)
+{
+    float lanes[MGT_LANES];
+    for (int i = 0; i < MGT_LANES; i++)
+        lanes[i] = plane[list[i]];
+    return load(lanes);
+}
+
+static LatticeNode gather_node(const tile_nodes *n, const uint16_t *list)
+{
+    LatticeNode node;
+    node.ray = vec3(gather(n->ray_x, list), gather(n->ray_y, list), gather(n->ray_z, list));
+    node.along = gather(n->along, list);
+    node.found = gather(n->found, list);
+    node.plane = (NodePlane){gather(n->level, list), gather(n->slope_x, list), gather(n->slope_z, list), gather(n->height, list)};
+    return node;
+}
+
+/* Which cells' pixels must march themselves, and from where; a lane is a cell. */
+static void judge_cells(const struct kernel_context *cx, const tile_nodes *nodes, float *doubt, float *from)
+{
+    const bool occlude = tile_may_occlude(cx, nodes);
+    for (int first = 0; first < CELLS; first += MGT_LANES) {
+        uint16_t at[4][MGT_LANES];
+        for (int i = 0; i < MGT_LANES; i++) {
+            const int cell = first + i;
+            at[0][i] = (uint16_t)(cell / CELL_COLUMNS * NODE_COLUMNS + cell % CELL_COLUMNS);
+            at[1][i] = at[0][i] + 1;
+            at[2][i] = at[0][i] + NODE_COLUMNS;
+            at[3][i] = at[2][i] + 1;
+        }
+        const LatticeNode tl = gather_node(nodes, at[0]), tr = gather_node(nodes, at[1]), ll = gather_node(nodes, at[2]), lr = gather_node(nodes, at[3]);
+        store(doubt + first, occlude ? cell_doubt(cx, tl, tr, ll, lr) : real(0.0f));
+        store(from + first, cell_from(cx, tl, tr, ll, lr));
+    }
 }
 
 /* The nodes at the left and right of every pixel column, for one row of nodes. */
@@ -153,21 +348,13 @@ static void spread_nodes(const tile_nodes *nodes, int row, node_planes *out)
         }
 }
 
-/* Height at which a ray meets a node's plane; the node's own height where it does not, or far off. */
-static inline real plane_height(const TileData *t, const node_planes *p, int side, int x, vec3 ray)
+static inline NodePlane load_plane(const node_planes *p, int side, int x)
 {
-    const real closing = real_fma(load(p->slope_x[side] + x), ray.x, real_fma(load(p->slope_z[side] + x), ray.z, -ray.y));
-    const real own = load(p->height[side] + x);
-    const mask meets = closing > abs(ray.y) * 0.1f;
-    const real height = real_fma(ray.y, load(p->level[side] + x) / SELECT(meets, closing, real(1.0f)), real(t->camera_height));
-    const real bound = real(t->march_bound);
-    return SELECT(AND(meets, abs(height) <= bound), height, own);
+    return (NodePlane){load(p->level[side] + x), load(p->slope_x[side] + x), load(p->slope_z[side] + x), load(p->height[side] + x)};
 }
 
-/* Heights between nodes: the mean of interpolated heights and interpolated planes. Their errors of second order are opposite. */
 static void guess_heights(const struct kernel_context *cx, const tile_nodes *nodes, tile_guess *guess)
 {
-    const TileData *t = cx->tile;
     node_planes planes[2];
     float shares[TILE_WIDTH];
     for (int x = 0; x < TILE_WIDTH; x++)
@@ -179,44 +366,16 @@ static void guess_heights(const struct kernel_context *cx, const tile_nodes *nod
             spread_nodes(nodes, y / NODE_STEP_Y + 1, &planes[(y / NODE_STEP_Y & 1) ^ 1]);
         const real v = real((float)(y % NODE_STEP_Y) / NODE_STEP_Y);
         for (int x = 0; x < TILE_WIDTH; x += MGT_LANES) {
-            const real u = load(shares + x);
             const vec3 ray = pixel_ray_at(cx, lane_numbers() + (float)x, real((float)y));
-            real top_left = load(above->height[0] + x) + plane_height(t, above, 0, x, ray);
-            real top_right = load(above->height[1] + x) + plane_height(t, above, 1, x, ray);
-            real low_left = load(below->height[0] + x) + plane_height(t, below, 0, x, ray);
-            real low_right = load(below->height[1] + x) + plane_height(t, below, 1, x, ray);
-            const real top = real_fma(u, top_right - top_left, top_left), low = real_fma(u, low_right - low_left, low_left);
-            store(guess->height + y * TILE_WIDTH + x, real(0.5f) * real_fma(v, low - top, top));
+            store(guess->height + y * TILE_WIDTH + x, lattice_height(cx, load_plane(above, 0, x), load_plane(above, 1, x), load_plane(below, 0, x),
+                                                                     load_plane(below, 1, x), ray, load(shares + x), v));
         }
     }
-}
-
-/* Which pixels of a cell must march themselves, and from where. */
-static void guess_march(const tile_nodes *nodes, bool may_occlude, int cell_x, int cell_y, tile_guess *guess)
-{
-    const int n00 = cell_y * NODE_COLUMNS + cell_x, n10 = n00 + 1, n01 = n00 + NODE_COLUMNS, n11 = n01 + 1;
-    float march = 0, from = nodes->along[n00];
-    from = nodes->along[n10] < from ? nodes->along[n10] : from;
-    from = nodes->along[n01] < from ? nodes->along[n01] : from;
-    from = nodes->along[n11] < from ? nodes->along[n11] : from;
-    const float found = nodes->found[n00] + nodes->found[n10] + nodes->found[n01] + nodes->found[n11];
-    if (may_occlude && found > 0) {
-        const bool agree = found == 4 && nodes_agree(nodes, n00, n10) && nodes_agree(nodes, n10, n00) && nodes_agree(nodes, n01, n11) &&
-                           nodes_agree(nodes, n11, n01) && nodes_agree(nodes, n00, n01) && nodes_agree(nodes, n01, n00) &&
-                           nodes_agree(nodes, n10, n11) && nodes_agree(nodes, n11, n10);
-        march = agree ? 0.0f : 1.0f;
-    }
-    for (int y = 0; y < NODE_STEP_Y; y++)
-        for (int x = 0; x < NODE_STEP_X; x++) {
-            const int i = (cell_y * NODE_STEP_Y + y) * TILE_WIDTH + cell_x * NODE_STEP_X + x;
-            guess->march[i] = march;
-            guess->from[i] = from;
-        }
 }
 
 static void lanes_guess(const FrameData *frame, const tile_waves *tile, tile_guess *guess)
 {
-    const struct kernel_context cx = {frame, &tile->data, tile->waves, tile->march, NULL};
+    const struct kernel_context cx = {.frame = frame, .tile = &tile->data, .waves = tile->waves, .march = tile->march};
     if (tile->data.march_pixels) {
         *guess = (tile_guess){0};
         for (int i = 0; i < TILE_PIXELS; i++)
@@ -224,11 +383,14 @@ static void lanes_guess(const FrameData *frame, const tile_waves *tile, tile_gue
         return;
     }
     tile_nodes nodes;
+    float doubt[CELLS], from[CELLS];
     march_nodes(&cx, &nodes);
-    const bool may_occlude = tile_may_occlude(&tile->data, &nodes);
-    for (int y = 0; y < NODE_ROWS - 1; y++)
-        for (int x = 0; x < NODE_COLUMNS - 1; x++)
-            guess_march(&nodes, may_occlude, x, y, guess);
+    judge_cells(&cx, &nodes, doubt, from);
+    for (int i = 0; i < TILE_PIXELS; i++) {
+        const int cell = i / TILE_WIDTH / NODE_STEP_Y * CELL_COLUMNS + i % TILE_WIDTH / NODE_STEP_X;
+        guess->march[i] = doubt[cell];
+        guess->from[i] = from[cell];
+    }
     guess_heights(&cx, &nodes, guess);
 }
 
@@ -242,7 +404,7 @@ static inline void accumulate(float *p, real value, float weight)
 static void lanes_sample(const FrameData *frame, const float *sky, const tile_waves *tile, const tile_guess *guess, const float *dx,
                          const float *dy, float weight, tile_pixels *out)
 {
-    const struct kernel_context context = {frame, &tile->data, tile->waves, tile->march, sky};
+    const struct kernel_context context = {.frame = frame, .tile = &tile->data, .waves = tile->waves, .march = tile->march, .sky = sky};
     for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
         real column = lane_numbers() + (float)(i % TILE_WIDTH);
         real row = real_broadcast((float)(i / TILE_WIDTH));
@@ -276,35 +438,182 @@ static void store_pixels(tile_pixels *out, size_t i, PixelResult p)
     store(out->water + i, p.water);
 }
 
+/* ---- the filtered surface of a tile ---- */
+
+enum { SURFACE_FLOATS = sizeof(Surface) / sizeof(real) };
+
+/* What slope_state() of glitter.k knows of each pixel on its way. Marches and second looks are for few pixels: these are gathered from the whole
+ * tile into full vectors. */
+typedef struct tile_looks {
+    float surface[SURFACE_FLOATS][TILE_PIXELS];
+    float along[TILE_PIXELS], correction[TILE_PIXELS], lost[TILE_PIXELS], again[TILE_PIXELS];
+    float ray_x[TILE_PIXELS], ray_y[TILE_PIXELS], ray_z[TILE_PIXELS];
+    uint16_t list[TILE_PIXELS + MGT_LANES];
+} tile_looks;
+
+static inline vec3 load_ray(const tile_looks *l, size_t i)
+{
+    return vec3(load(l->ray_x + i), load(l->ray_y + i), load(l->ray_z + i));
+}
+
+static Surface load_surface(const tile_looks *l, size_t i)
+{
+    Surface s;
+    real *members = (real *)&s;
+    for (int m = 0; m < SURFACE_FLOATS; m++)
+        members[m] = load(l->surface[m] + i);
+    return s;
+}
+
+/* The pixels whose flag is set; the list's last vector is filled up with its last pixel. Returns how many vectors. */
+static size_t list_pixels(const float *flags, uint16_t *list)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < TILE_PIXELS; i++) {
+        list[count] = (uint16_t)i;
+        count += flags[i] > 0;
+    }
+    const size_t vectors = (count + MGT_LANES - 1) / MGT_LANES;
+    for (size_t i = count; i < vectors * MGT_LANES; i++)
+        list[i] = list[count - 1];
+    return vectors;
+}
+
+static inline void scatter(float *plane, const uint16_t *list, real value)
+{
+    float lanes[MGT_LANES];
+    store(lanes, value);
+    for (int i = 0; i < MGT_LANES; i++)
+        plane[list[i]] = lanes[i];
+}
+
+static inline vec3 gather_ray(const tile_looks *l, const uint16_t *list)
+{
+    return vec3(gather(l->ray_x, list), gather(l->ray_y, list), gather(l->ray_z, list));
+}
+
+/* Replaces the guesses that the lattice itself doubts. */
+static void march_doubtful(const struct kernel_context *cx, const tile_guess *guess, tile_looks *l)
+{
+    const size_t vectors = list_pixels(l->lost, l->list);
+    for (size_t v = 0; v < vectors; v++) {
+        const uint16_t *list = l->list + v * MGT_LANES;
+        const MarchHit hit = march(cx, gather_ray(l, list), gather(guess->from, list), real(1.0f));
+        scatter(l->along, list, SELECT(hit.found > real(0.0f), hit.along, gather(l->along, list)));
+    }
+}
+
+static void march_lost(const struct kernel_context *cx, const tile_guess *guess, tile_looks *l)
+{
+    const size_t vectors = list_pixels(l->lost, l->list);
+    for (size_t v = 0; v < vectors; v++) {
+        const uint16_t *list = l->list + v * MGT_LANES;
+        const MarchHit hit = march(cx, gather_ray(l, list), gather(guess->from, list), real(1.0f));
+        const mask found = hit.found > real(0.0f);
+        scatter(l->correction, list, SELECT(found, hit.along - gather(l->along, list), gather(l->correction, list)));
+        scatter(l->again, list, SELECT(found, real(1.0f), gather(l->again, list)));
+    }
+}
+
+static void look_again(const struct kernel_context *cx, tile_looks *l)
+{
+    const size_t vectors = list_pixels(l->again, l->list);
+    for (size_t v = 0; v < vectors; v++) {
+        const uint16_t *list = l->list + v * MGT_LANES;
+        const real along = gather(l->along, list) + gather(l->correction, list);
+        const Surface s = surface_along(cx, gather_ray(l, list), along);
+        const real *members = (const real *)&s;
+        scatter(l->along, list, along);
+        for (int m = 0; m < SURFACE_FLOATS; m++)
+            scatter(l->surface[m], list, members[m]);
+    }
+}
+
+/* Pixels whose `wanted` is 0 keep their rays but nothing else. */
+static void look_at_tile(const struct kernel_context *cx, const tile_guess *guess, const float *wanted, tile_looks *l)
+{
+    for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
+        const vec3 ray = pixel_ray_filtered(cx, lane_numbers() + (float)(i % TILE_WIDTH), real_broadcast((float)(i / TILE_WIDTH))).ray;
+        store(l->ray_x + i, ray.x);
+        store(l->ray_y + i, ray.y);
+        store(l->ray_z + i, ray.z);
+        store(l->along + i, guessed_along(cx, ray, load_guess(guess, i)));
+        store(l->lost + i, SELECT(load(wanted + i) > real(0.0f), load(guess->march + i), real(0.0f)));
+    }
+    march_doubtful(cx, guess, l);
+    for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
+        const mask water = load(wanted + i) > real(0.0f);
+        store(l->lost + i, real(0.0f));
+        store(l->again + i, real(0.0f));
+        if (!any_lane(water))
+            continue;
+        const SurfaceLook look = look_at_guess(cx, load_ray(l, i), load(l->along + i));
+        const real *members = (const real *)&look.surface;
+        for (int m = 0; m < SURFACE_FLOATS; m++)
+            store(l->surface[m] + i, members[m]);
+        store(l->correction + i, look.correction);
+        store(l->lost + i, SELECT(water, look.lost, real(0.0f)));
+        store(l->again + i, SELECT(water, look.again, real(0.0f)));
+    }
+    march_lost(cx, guess, l);
+    look_again(cx, l);
+}
+
+static inline SlopeState looked_slopes(const struct kernel_context *cx, const tile_looks *l, size_t i)
+{
+    return slopes_at(cx, load_ray(l, i), load(l->along + i), load_surface(l, i));
+}
+
+static void render_glitter(const struct kernel_context *cx, const tile_guess *guess, const struct kernel_context *open, const tile_guess *open_guess,
+                           tile_pixels *out)
+{
+    tile_looks close_looks, open_looks;
+    float water[TILE_PIXELS];
+    for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES)
+        store(water + i, pixel_ray_filtered(cx, lane_numbers() + (float)(i % TILE_WIDTH), real_broadcast((float)(i / TILE_WIDTH))).water);
+    look_at_tile(cx, guess, water, &close_looks);
+    if (open)
+        look_at_tile(open, open_guess, water, &open_looks);
+    for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
+        const PixelRay p = pixel_ray_filtered(cx, lane_numbers() + (float)(i % TILE_WIDTH), real_broadcast((float)(i / TILE_WIDTH)));
+        if (!any_lane(p.water > real(0.0f))) {
+            store_pixels(out, i, nothing_but_sky(cx, p));
+            continue;
+        }
+        const SlopeState state = looked_slopes(cx, &close_looks, i);
+        store_pixels(out, i, glitter_result(cx, p, open ? looked_slopes(open, &open_looks, i) : state, state));
+    }
+}
+
+static void render_podee(const struct kernel_context *cx, const tile_guess *guess, const struct kernel_context *open, const tile_guess *open_guess,
+                         tile_pixels *out)
+{
+    for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
+        const real column = lane_numbers() + (float)(i % TILE_WIDTH), row = real_broadcast((float)(i / TILE_WIDTH));
+        const PixelRay p = pixel_ray_filtered(cx, column, row);
+        if (!any_lane(p.water > real(0.0f))) {
+            store_pixels(out, i, nothing_but_sky(cx, p));
+            continue;
+        }
+        const PodeeState state = podee_state(cx, p.ray, load_guess(guess, i));
+        PodeeState before = state;
+        if (open)
+            before = podee_state(open, pixel_ray_filtered(open, column, row).ray, load_guess(open_guess, i));
+        store_pixels(out, i, podee_result(cx, p, before, state));
+    }
+}
+
 static void lanes_filtered(const FrameData *frame, const float *sky, mgt_method method, const tile_waves *close, const tile_guess *close_guess,
                            const tile_waves *open, const tile_guess *open_guess, tile_pixels *out)
 {
-    const struct kernel_context context = {frame, &close->data, close->waves, close->march, sky};
+    const struct kernel_context context = {.frame = frame, .tile = &close->data, .waves = close->waves, .march = close->march, .sky = sky};
     struct kernel_context open_context = context;
     if (open)
         open_context.tile = &open->data, open_context.waves = open->waves, open_context.march = open->march;
-    for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
-        const real column = lane_numbers() + (float)(i % TILE_WIDTH);
-        const real row = real_broadcast((float)(i / TILE_WIDTH));
-        const PixelRay p = pixel_ray_filtered(&context, column, row);
-        if (!any_lane(p.water > real(0.0f))) {
-            store_pixels(out, i, nothing_but_sky(&context, p));
-            continue;
-        }
-        if (method == MGT_METHOD_MANGATA) {
-            const SlopeState state = slope_state(&context, p.ray, load_guess(close_guess, i));
-            SlopeState before = state;
-            if (open)
-                before = slope_state(&open_context, pixel_ray_filtered(&open_context, column, row).ray, load_guess(open_guess, i));
-            store_pixels(out, i, glitter_result(&context, p, before, state));
-        } else {
-            const PodeeState state = podee_state(&context, p.ray, load_guess(close_guess, i));
-            PodeeState before = state;
-            if (open)
-                before = podee_state(&open_context, pixel_ray_filtered(&open_context, column, row).ray, load_guess(open_guess, i));
-            store_pixels(out, i, podee_result(&context, p, before, state));
-        }
-    }
+    if (method == MGT_METHOD_MANGATA)
+        render_glitter(&context, close_guess, open ? &open_context : NULL, open_guess, out);
+    else
+        render_podee(&context, close_guess, open ? &open_context : NULL, open_guess, out);
 }
 
 static void store_normal(tile_surface *out, size_t i, vec2 slope, mask water)
@@ -317,7 +626,7 @@ static void store_normal(tile_surface *out, size_t i, vec2 slope, mask water)
 
 static void lanes_surface(const FrameData *frame, const tile_waves *tile, const tile_guess *guess, tile_surface *out)
 {
-    const struct kernel_context context = {frame, &tile->data, tile->waves, tile->march, NULL};
+    const struct kernel_context context = {.frame = frame, .tile = &tile->data, .waves = tile->waves, .march = tile->march};
     for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
         const vec3 ray = pixel_ray_at(&context, lane_numbers() + (float)(i % TILE_WIDTH), real_broadcast((float)(i / TILE_WIDTH)));
         const SampleHit hit = sample_hit(&context, ray, load_guess(guess, i));
@@ -329,7 +638,7 @@ static void lanes_surface(const FrameData *frame, const tile_waves *tile, const 
 
 static void lanes_filtered_normal(const FrameData *frame, const tile_waves *tile, const tile_guess *guess, tile_surface *out)
 {
-    const struct kernel_context context = {frame, &tile->data, tile->waves, tile->march, NULL};
+    const struct kernel_context context = {.frame = frame, .tile = &tile->data, .waves = tile->waves, .march = tile->march};
     for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
         const PixelRay p = pixel_ray_filtered(&context, lane_numbers() + (float)(i % TILE_WIDTH), real_broadcast((float)(i / TILE_WIDTH)));
         const SlopeState state = slope_state(&context, p.ray, load_guess(guess, i));
@@ -341,7 +650,7 @@ static void lanes_filtered_normal(const FrameData *frame, const tile_waves *tile
 
 static void lanes_display(const FrameData *frame, const float *rgb, uint8_t *rgba, size_t count)
 {
-    const struct kernel_context context = {frame, NULL, NULL, NULL, NULL};
+    const struct kernel_context context = {.frame = frame};
     for (size_t i = 0; i < count; i += MGT_LANES) {
         const size_t valid = count - i < MGT_LANES ? count - i : MGT_LANES;
         float channel[3][MGT_LANES] = {{0}};
@@ -361,5 +670,5 @@ static void lanes_display(const FrameData *frame, const float *rgb, uint8_t *rgb
 }
 
 const lane_kernels LANES_NAME(MGT_LANES) = {
-    MGT_LANES, lanes_guess, lanes_sample, lanes_filtered, lanes_surface, lanes_filtered_normal, lanes_display,
+    MGT_LANES, lanes_sort, lanes_guess, lanes_sample, lanes_filtered, lanes_surface, lanes_filtered_normal, lanes_display,
 };

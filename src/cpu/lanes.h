@@ -23,6 +23,17 @@ enum {
     NODE_PADDED = (NODE_COUNT + 15) / 16 * 16,
 };
 
+/* The waves over an interval as a camera meets them: what is the same for every tile. Sorted by amplitude, the largest first. */
+typedef struct wave_set {
+    ViewData view;
+    WaveData data[MGT_MAX_WAVES]; /* phase left open */
+    /* What sorting needs, see tile.k; room for the widest lanes, and zero there. */
+    float turns_x[MGT_MAX_WAVES], turns_z[MGT_MAX_WAVES];
+    float turns_low_x[MGT_MAX_WAVES], turns_low_z[MGT_MAX_WAVES]; /* what rounding to float took away */
+    float phase[MGT_MAX_WAVES];           /* turns under the camera at the interval's middle, in [-1/2, 1/2] */
+    float lesser_variance[MGT_MAX_WAVES]; /* metres², of the heights of a wave and of all smaller ones */
+} wave_set;
+
 /* The waves of a tile at one instant or over one shutter interval, for one camera. */
 typedef struct tile_waves {
     TileData data;
@@ -50,6 +61,8 @@ typedef struct tile_surface {
 
 typedef struct lane_kernels {
     uint32_t lanes;
+    /* Sorts the waves for the tile (tile_x, tile_y) of the lattice. */
+    void (*sort)(const FrameData *frame, const wave_set *set, uint32_t tile_x, uint32_t tile_y, tile_waves *out);
     /* Marches the tile's nodes and fills the guesses of its pixels. */
     void (*guess)(const FrameData *frame, const tile_waves *tile, tile_guess *guess);
     /* One sample a pixel at (x + dx, y + dy), dx and dy in pixels from its centre (NULL: 0); adds weight × result to `out`. */

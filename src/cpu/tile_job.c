@@ -23,10 +23,11 @@ void frame_waves_build(const frame *f, frame_waves *waves)
 {
     const mgt_scene *s = f->scene;
     const interval now = {s->time, 0}, shutter = {s->time - s->shutter / 2, s->shutter / 2};
-    wave_set_build(&s->water, &f->close, now, &waves->now);
-    wave_set_build(&s->water, &f->close, s->camera_moves ? now : shutter, &waves->shutter);
+    wave_set_build(f, &f->close, now, false, &waves->samples);
+    wave_set_build(f, &f->close, now, true, &waves->now);
+    wave_set_build(f, &f->close, s->camera_moves ? now : shutter, true, &waves->shutter);
     if (s->camera_moves)
-        wave_set_build(&s->water, &f->open, (interval){s->time - s->shutter, 0}, &waves->open);
+        wave_set_build(f, &f->open, (interval){s->time - s->shutter, 0}, true, &waves->open);
 }
 
 /* A tile of the lattice on its way. */
@@ -35,18 +36,24 @@ typedef struct tile_place {
     uint32_t x, y;
 } tile_place;
 
-static void build(tile_place place, const camera_rays *camera, const wave_set *set, bool filter, tile_waves *waves, tile_guess *guess)
+static void build(tile_place place, const wave_set *set, tile_waves *waves, tile_guess *guess)
 {
-    tile_build(place.job->frame, camera, set, filter, place.x, place.y, waves);
+    const tile_job *job = place.job;
+    job->kernels->sort(&job->frame->data, set, place.x, place.y, waves);
     if (tile_sees_water(waves))
-        place.job->kernels->guess(&place.job->frame->data, waves, guess);
+        job->kernels->guess(&job->frame->data, waves, guess);
     else
         memset(guess, 0, sizeof *guess);
 }
 
 /* ---- point samples ---- */
 
-static camera_rays camera_at(const frame *f, double share)
+double time_share(const mgt_quality *q, uint64_t m)
+{
+    return q->time_samples == 1 ? 1 : ((double)m + (double)unit(mix(q->seed ^ mix(~m)))) / q->time_samples;
+}
+
+camera_rays camera_at(const frame *f, double share)
 {
     const mgt_scene *s = f->scene;
     if (!s->camera_moves)
@@ -86,14 +93,14 @@ static void render_samples(tile_place place, tile_scratch *scratch)
     memset(&scratch->pixels, 0, sizeof scratch->pixels);
     for (uint64_t sample = first; sample < first + count;) {
         const uint64_t m = sample / per_time, end = (m + 1) * per_time < first + count ? (m + 1) * per_time : first + count;
-        const double share = q->time_samples == 1 ? 1 : ((double)m + (double)unit(mix(q->seed ^ mix(~m)))) / q->time_samples;
+        const double share = time_share(q, m);
         const camera_rays camera = camera_at(f, share);
-        const wave_set *waves = &job->waves->now;
+        const wave_set *waves = &job->waves->samples;
         if (q->time_samples > 1) {
-            wave_set_build(&f->scene->water, &camera, (interval){f->scene->time - (1 - share) * f->scene->shutter, 0}, &scratch->sample_waves);
+            wave_set_build(f, &camera, (interval){f->scene->time - (1 - share) * f->scene->shutter, 0}, false, &scratch->sample_waves);
             waves = &scratch->sample_waves;
         }
-        build(place, &camera, waves, false, &scratch->close, &scratch->close_guess);
+        build(place, waves, &scratch->close, &scratch->close_guess);
         for (; sample < end; sample++) {
             if (sample % 16 == 15 && job->keep_going && !job->keep_going(job->keep_going_argument, scratch->worker))
                 return;
@@ -106,7 +113,7 @@ static void render_samples(tile_place place, tile_scratch *scratch)
 static void render_centre(tile_place place, tile_scratch *scratch)
 {
     const tile_job *job = place.job;
-    build(place, &job->frame->close, &job->waves->now, false, &scratch->close, &scratch->close_guess);
+    build(place, &job->waves->samples, &scratch->close, &scratch->close_guess);
     memset(&scratch->pixels, 0, sizeof scratch->pixels);
     job->kernels->sample(&job->frame->data, job->sky, &scratch->close, &scratch->close_guess, NULL, NULL, 1, &scratch->pixels);
 }
@@ -118,9 +125,9 @@ static void render_filtered(tile_place place, tile_scratch *scratch)
     const tile_job *job = place.job;
     const frame *f = job->frame;
     const bool moves = f->scene->camera_moves;
-    build(place, &f->close, &job->waves->shutter, true, &scratch->close, &scratch->close_guess);
+    build(place, &job->waves->shutter, &scratch->close, &scratch->close_guess);
     if (moves)
-        build(place, &f->open, &job->waves->open, true, &scratch->open, &scratch->open_guess);
+        build(place, &job->waves->open, &scratch->open, &scratch->open_guess);
     job->kernels->filtered(&f->data, job->sky, f->scene->quality.method, &scratch->close, &scratch->close_guess, moves ? &scratch->open : NULL,
                            moves ? &scratch->open_guess : NULL, &scratch->pixels);
 }
@@ -134,11 +141,11 @@ static void render_surface(tile_place place, tile_scratch *scratch)
 {
     const tile_job *job = place.job;
     const frame *f = job->frame;
-    build(place, &f->close, &job->waves->now, false, &scratch->close, &scratch->close_guess);
+    build(place, &job->waves->samples, &scratch->close, &scratch->close_guess);
     job->kernels->surface(&f->data, &scratch->close, &scratch->close_guess, &scratch->surface);
     if (!is_filtered(f->scene->quality.method))
         return;
-    build(place, &f->close, &job->waves->now, true, &scratch->close, &scratch->close_guess);
+    build(place, &job->waves->now, &scratch->close, &scratch->close_guess);
     job->kernels->filtered_normal(&f->data, &scratch->close, &scratch->close_guess, &scratch->surface);
 }
 

@@ -198,6 +198,10 @@ KERNEL real real_floor(real x)
 }
 #endif
 
+/* What rounding took from a * b, to be added to it. Without fused multiply-add: 0. */
+KERNEL real real_product_error(real a, real b) { return real_fma(a, b, -(a * b)); }
+#define product_error(a, b) real_product_error(MGT_LIFT(a), MGT_LIFT(b))
+
 /* ---- Exponents and parity ---- */
 
 #define MGT_ROUNDER 12582912.0f /* 1.5 * 2^23: in x + MGT_ROUNDER the low bits are the integer nearest x. */

@@ -38,7 +38,7 @@ done
 differ whole.raw /dev/null
 
 # 8-bit pictures: threads and instruction sets; frame 30 alone and among others; in one process or another.
-works render "$scene" -o f_%02d.png --frames 28-31 "${size[@]}" "${quiet[@]}"
+works render "$scene" -o f_%02d.png --frames 0-59 "${size[@]}" "${quiet[@]}"
 works render "$scene" -o alone.png --frames 30 "${size[@]}" "${quiet[@]}" --threads 1
 same f_30.png alone.png
 differ f_29.png f_30.png

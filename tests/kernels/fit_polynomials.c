@@ -131,6 +131,13 @@ static wide cosine_turns(wide z)
 }
 static wide cosine_turns_weight(wide z) { return z * (1 - z / 2) + 1e-6L; }
 
+/* Waves, z = r^2 with r in turns: S = r p(z) = sqrt(2) sin(pi r), C = p(z) = sqrt(2) cos(pi r); sin = S C, cos = 1 - S^2. */
+static wide pi(void) { return 2 * half_pi(); }
+static wide sine_half(wide z) { return sqrtl(2) * (z > 1e-12L ? sinl(pi() * sqrtl(z)) / sqrtl(z) : pi()); }
+static wide sine_half_weight(wide z) { return sqrtl(8 * z) * sinl(pi() * fmaxl(sqrtl(z), 0.25L)) + 1e-6L; }
+static wide cosine_half(wide z) { return sqrtl(2) * cosl(pi() * sqrtl(z)); }
+static wide cosine_half_weight(wide z) { return sqrtl(2) * sinl(pi() * sqrtl(z)) + 1e-6L; }
+
 /* Radians, z = r^2: sin = r + r z p(z), cos = 1 - k z + z p(z) with k = (2 / pi)^2 as a float. */
 static wide sine(wide z) { return z > 1e-6L ? (sinl(sqrtl(z)) / sqrtl(z) - 1) / z : -1 / 6.0L + z / 120; }
 static wide sine_weight(wide z) { return z * sqrtl(z) + 1e-6L; }
@@ -165,6 +172,8 @@ int main(void)
     const struct problem problems[] = {
         {"sincos_turns, sine", sine_turns, sine_turns_weight, 0, 1, 5},
         {"sincos_turns, cosine", cosine_turns, cosine_turns_weight, 0, 1, 4},
+        {"sincos_wave, sine", sine_half, sine_half_weight, 0, 0.25L, 4},
+        {"sincos_wave, cosine", cosine_half, cosine_half_weight, 0, 0.25L, 4},
         {"sincos_reduced, sine", sine, sine_weight, 0, 2.47L, 4},
         {"sincos_reduced, cosine", cosine, cosine_weight, 0, 2.47L, 5},
         {"exp2_fraction, relative", power_of_two, power_weight, -0.5L, 0.5L, 6},

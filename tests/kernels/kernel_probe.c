@@ -43,6 +43,9 @@ static vec3 evaluate(enum probe_function function, const real *x)
     case PROBE_SINCOS_TURNS:
         pair = sincos_turns(cx, x[0]);
         return vec3(pair.s, pair.c, zero);
+    case PROBE_SINCOS_WAVE:
+        pair = sincos_wave(cx, x[0]);
+        return vec3(pair.s, pair.c, zero);
     case PROBE_SINCOS_REDUCED:
         pair = sincos_reduced(cx, x[0]);
         return vec3(pair.s, pair.c, zero);

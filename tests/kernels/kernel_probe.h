@@ -9,6 +9,7 @@ enum { PROBE_INPUTS = 8, PROBE_OUTPUTS = 3, PROBE_BATCH = 16 };
 
 enum probe_function {
     PROBE_SINCOS_TURNS,
+    PROBE_SINCOS_WAVE,
     PROBE_SINCOS_REDUCED,
     PROBE_EXP2,
     PROBE_EXP,

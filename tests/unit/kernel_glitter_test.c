@@ -338,7 +338,7 @@ static void visible_moments_are_their_integrals(void **state)
 {
     (void)state;
     random_state r = {24};
-    const struct kernel_context cx = {0};
+    const struct kernel_context cx = {.frame = NULL};
     double mean_error = 0, variance_error = 0;
     for (int i = 0; i < 300; i++) {
         const double sigma = random_range(&r, 0.01, 0.4), mu = sigma * random_range(&r, -1.5, 8);

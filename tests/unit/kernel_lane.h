@@ -114,7 +114,7 @@ static inline kernel_bench *kernel_bench_create(const mgt_scene *scene)
     b->scene = *scene;
     assert_int_equal(sky_state_build(b->sky, &b->scene.sky, &b->scene.light), MGT_OK);
     b->frame = frame_of(&b->scene, b->sky, false);
-    b->cx = (struct kernel_context){&b->frame.data, &b->tile.data, b->tile.waves, b->tile.march, b->sky->table};
+    b->cx = (struct kernel_context){&b->frame.data, &b->tile.data, b->tile.waves, b->tile.march, b->sky->table, &b->set.view};
     return b;
 }
 
@@ -128,9 +128,9 @@ static inline void kernel_bench_destroy(kernel_bench *b)
 static inline void kernel_bench_tile(kernel_bench *b, bool shutter, bool filter, uint32_t x, uint32_t y)
 {
     const double half = shutter ? b->scene.shutter / 2 : 0;
-    wave_set_build(&b->scene.water, &b->frame.close, (interval){b->scene.time - half, half}, &b->set);
+    wave_set_build(&b->frame, &b->frame.close, (interval){b->scene.time - half, half}, filter, &b->set);
     memset(&b->tile, 0, sizeof b->tile);
-    tile_build(&b->frame, &b->frame.close, &b->set, filter, x / TILE_WIDTH, y / TILE_HEIGHT, &b->tile);
+    lane_kernels_1.sort(&b->frame.data, &b->set, x / TILE_WIDTH, y / TILE_HEIGHT, &b->tile);
 }
 
 /* The ray through the pixel's centre, in the tile built last. */

@@ -194,7 +194,7 @@ static void one_level_weight_is_smiths(void **state)
     (void)state;
     random_state r = {4};
     double mean_error = 0, weight_error = 0;
-    const struct kernel_context cx = {0};
+    const struct kernel_context cx = {.frame = 0};
     for (int i = 0; i < 2000; i++) {
         const double mean = random_range(&r, 0.01, 0.9), deviation = random_range(&r, 0.002, 0.3), mirror = random_range(&r, 0.01, 1.2);
         const double exact = mean_visible_weight((double)(float)mean, (double)(float)deviation);
@@ -232,7 +232,7 @@ static void two_level_weight_is_its_integral(void **state)
     (void)state;
     random_state r = {5};
     double largest = 0;
-    const struct kernel_context cx = {0};
+    const struct kernel_context cx = {.frame = 0};
     for (int i = 0; i < 2000; i++) {
         const float mean = (float)random_range(&r, 0.02, 0.9), deviation = (float)random_range(&r, 0.005, 0.3), mirror = (float)random_range(&r, 0.02, 1.2);
         const float octaves = (float)random_range(&r, 0, 4);

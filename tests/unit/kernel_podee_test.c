@@ -42,7 +42,7 @@ static void half_span_is_walked(void **state)
     (void)state;
     random_state r = {31};
     double worst = 0;
-    const struct kernel_context cx = {0};
+    const struct kernel_context cx = {.frame = 0};
     for (int i = 0; i < 2000; i++) {
         const Footprint p = random_footprint(&r);
         const double k = exp(random_range(&r, -2, 4)), direction = random_range(&r, -pi, pi);

@@ -14,17 +14,18 @@ typedef struct bounds {
 
 /* What float allows at (x, z) metres from the tile's origin. A phase in turns is a sum of two products and a constant, each kept to
  * 2⁻²⁴ of itself, of a wave vector kept as well: with the additions 4 roundings of |x turns_x| + |z turns_z| and 2 of the constant,
- * at most half. The sine adds 1.2e-7 of its own, the sum over the waves a rounding each. */
+ * at most half. sincos_wave() adds 1.2e-5 to the sine and 3.5e-6 to the cosine, the sum over the waves a rounding each. */
 static bounds float_bounds(const mgt_scene *scene, double x, double z)
 {
     bounds b = {1e-9, 1e-9, 1e-9};
     for (size_t i = 0; i < scene->water.wave_count; i++) {
         const mgt_wave *w = &scene->water.waves[i];
         const double turns = (fabs(w->a * x) + fabs(w->b * z)) / (2 * pi);
-        const double sine = 2 * pi * 0x1p-24 * (4 * turns + 1) + 1.2e-7 + (double)scene->water.wave_count * 0x1p-24;
+        const double rounding = 2 * pi * 0x1p-24 * (4 * turns + 1) + (double)scene->water.wave_count * 0x1p-24;
+        const double sine = rounding + 1.2e-5, cosine = rounding + 3.5e-6;
         const double k = hypot(w->a, w->b);
         b.height += w->amplitude * sine;
-        b.slope += w->amplitude * k * sine;
+        b.slope += w->amplitude * k * cosine;
         b.bend += w->amplitude * k * k * sine;
     }
     return b;
