@@ -154,25 +154,31 @@ typedef struct pixel_planes {
     size_t stride; /* pixels a row */
 } pixel_planes;
 
+/* Pixels of planes as rows of pixels, at most TILE_WIDTH: packed nearby and copied in one go, since single floats written to far rows would wait for
+ * memory one by one. */
+static void write_pixels(const float *const source[3], size_t step, size_t first, uint32_t count, size_t channels, float *out)
+{
+    float packed[4 * TILE_WIDTH];
+    for (uint32_t x = 0; x < count; x++) {
+        const size_t i = (first + x) * step;
+        packed[channels * x] = source[0][i];
+        packed[channels * x + 1] = source[1][i];
+        packed[channels * x + 2] = source[2][i];
+        if (channels == 4)
+            packed[4 * x + 3] = 1;
+    }
+    memcpy(out, packed, channels * count * sizeof *out);
+}
+
 static void write_row(const mgt_target *t, const pixel_planes *p, size_t first, uint32_t count, float *out)
 {
-    const float *const *source = t->layer == MGT_LAYER_COLOR ? p->color : p->normal;
-    const size_t step = t->layer == MGT_LAYER_COLOR ? p->color_step : p->normal_step;
     const size_t channels = t->format == MGT_FORMAT_RGBA32F ? 4 : 3;
     switch (t->layer) {
     case MGT_LAYER_COVERAGE: memcpy(out, p->coverage + first, count * sizeof *out); return;
     case MGT_LAYER_MASK: memcpy(out, p->water + first, count * sizeof *out); return;
     case MGT_LAYER_DEPTH: memcpy(out, p->depth + first, count * sizeof *out); return;
-    case MGT_LAYER_COLOR:
-    case MGT_LAYER_NORMAL: break;
-    }
-    for (uint32_t x = 0; x < count; x++) {
-        const size_t i = (first + x) * step;
-        out[channels * x] = source[0][i];
-        out[channels * x + 1] = source[1][i];
-        out[channels * x + 2] = source[2][i];
-        if (channels == 4)
-            out[4 * x + 3] = 1;
+    case MGT_LAYER_COLOR: write_pixels(p->color, p->color_step, first, count, channels, out); return;
+    case MGT_LAYER_NORMAL: write_pixels(p->normal, p->normal_step, first, count, channels, out); return;
     }
 }
 
@@ -192,9 +198,7 @@ static void write_block(const render_job *job, const region *block, const pixel_
                 write_row(t, p, first, x1 - x0, (float *)(void *)row);
             } else if (!job->radiance) {
                 float rgb[3 * TILE_WIDTH];
-                for (uint32_t x = 0; x < x1 - x0; x++)
-                    for (int c = 0; c < 3; c++)
-                        rgb[3 * x + (uint32_t)c] = p->color[c][(first + x) * p->color_step];
+                write_pixels(p->color, p->color_step, first, x1 - x0, 3, rgb);
                 job->state->kernels->display(&job->frame.data, rgb, (uint8_t *)row, x1 - x0);
             }
         }
@@ -204,9 +208,7 @@ static void keep_radiance(const render_job *job, const region *block, const pixe
 {
     for (uint32_t y = 0; y < block->height; y++) {
         float *row = job->radiance + ((size_t)(block->y + y - job->area.y) * job->area.width + block->x - job->area.x) * 3;
-        for (uint32_t x = 0; x < block->width; x++)
-            for (int c = 0; c < 3; c++)
-                row[3 * x + (uint32_t)c] = p->color[c][(y * p->stride + x) * p->color_step];
+        write_pixels(p->color, p->color_step, y * p->stride, block->width, 3, row);
     }
 }
 
