@@ -447,13 +447,13 @@ enum { SURFACE_FLOATS = sizeof(Surface) / sizeof(real) };
 typedef struct tile_looks {
     float surface[SURFACE_FLOATS][TILE_PIXELS];
     float along[TILE_PIXELS], correction[TILE_PIXELS], lost[TILE_PIXELS], again[TILE_PIXELS];
-    float ray_x[TILE_PIXELS], ray_y[TILE_PIXELS], ray_z[TILE_PIXELS];
     uint16_t list[TILE_PIXELS + MGT_LANES];
 } tile_looks;
 
-static inline vec3 load_ray(const tile_looks *l, size_t i)
+/* The pixels i, i + 1, … of the tile. */
+static inline PixelRay pixel_rays(const struct kernel_context *cx, size_t i)
 {
-    return vec3(load(l->ray_x + i), load(l->ray_y + i), load(l->ray_z + i));
+    return pixel_ray_filtered(cx, lane_numbers() + (float)(i % TILE_WIDTH), real_broadcast((float)(i / TILE_WIDTH)));
 }
 
 static Surface load_surface(const tile_looks *l, size_t i)
@@ -469,9 +469,13 @@ static Surface load_surface(const tile_looks *l, size_t i)
 static size_t list_pixels(const float *flags, uint16_t *list)
 {
     size_t count = 0;
-    for (size_t i = 0; i < TILE_PIXELS; i++) {
-        list[count] = (uint16_t)i;
-        count += flags[i] > 0;
+    for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
+        if (!any_lane(load(flags + i) > real(0.0f)))
+            continue;
+        for (size_t lane = 0; lane < MGT_LANES; lane++) {
+            list[count] = (uint16_t)(i + lane);
+            count += flags[i + lane] > 0;
+        }
     }
     const size_t vectors = (count + MGT_LANES - 1) / MGT_LANES;
     for (size_t i = count; i < vectors * MGT_LANES; i++)
@@ -487,9 +491,14 @@ static inline void scatter(float *plane, const uint16_t *list, real value)
         plane[list[i]] = lanes[i];
 }
 
-static inline vec3 gather_ray(const tile_looks *l, const uint16_t *list)
+static inline vec3 listed_ray(const struct kernel_context *cx, const uint16_t *list)
 {
-    return vec3(gather(l->ray_x, list), gather(l->ray_y, list), gather(l->ray_z, list));
+    float column[MGT_LANES], row[MGT_LANES];
+    for (int i = 0; i < MGT_LANES; i++) {
+        column[i] = (float)(list[i] % TILE_WIDTH);
+        row[i] = (float)(list[i] / TILE_WIDTH);
+    }
+    return pixel_ray_filtered(cx, load(column), load(row)).ray;
 }
 
 /* Replaces the guesses that the lattice itself doubts. */
@@ -498,7 +507,7 @@ static void march_doubtful(const struct kernel_context *cx, const tile_guess *gu
     const size_t vectors = list_pixels(l->lost, l->list);
     for (size_t v = 0; v < vectors; v++) {
         const uint16_t *list = l->list + v * MGT_LANES;
-        const MarchHit hit = march(cx, gather_ray(l, list), gather(guess->from, list), real(1.0f));
+        const MarchHit hit = march(cx, listed_ray(cx, list), gather(guess->from, list), real(1.0f));
         scatter(l->along, list, SELECT(hit.found > real(0.0f), hit.along, gather(l->along, list)));
     }
 }
@@ -508,7 +517,7 @@ static void march_lost(const struct kernel_context *cx, const tile_guess *guess,
     const size_t vectors = list_pixels(l->lost, l->list);
     for (size_t v = 0; v < vectors; v++) {
         const uint16_t *list = l->list + v * MGT_LANES;
-        const MarchHit hit = march(cx, gather_ray(l, list), gather(guess->from, list), real(1.0f));
+        const MarchHit hit = march(cx, listed_ray(cx, list), gather(guess->from, list), real(1.0f));
         const mask found = hit.found > real(0.0f);
         scatter(l->correction, list, SELECT(found, hit.along - gather(l->along, list), gather(l->correction, list)));
         scatter(l->again, list, SELECT(found, real(1.0f), gather(l->again, list)));
@@ -521,7 +530,7 @@ static void look_again(const struct kernel_context *cx, tile_looks *l)
     for (size_t v = 0; v < vectors; v++) {
         const uint16_t *list = l->list + v * MGT_LANES;
         const real along = gather(l->along, list) + gather(l->correction, list);
-        const Surface s = surface_along(cx, gather_ray(l, list), along);
+        const Surface s = surface_along(cx, listed_ray(cx, list), along);
         const real *members = (const real *)&s;
         scatter(l->along, list, along);
         for (int m = 0; m < SURFACE_FLOATS; m++)
@@ -529,15 +538,11 @@ static void look_again(const struct kernel_context *cx, tile_looks *l)
     }
 }
 
-/* Pixels whose `wanted` is 0 keep their rays but nothing else. */
+/* Only where `wanted` is above 0. */
 static void look_at_tile(const struct kernel_context *cx, const tile_guess *guess, const float *wanted, tile_looks *l)
 {
     for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
-        const vec3 ray = pixel_ray_filtered(cx, lane_numbers() + (float)(i % TILE_WIDTH), real_broadcast((float)(i / TILE_WIDTH))).ray;
-        store(l->ray_x + i, ray.x);
-        store(l->ray_y + i, ray.y);
-        store(l->ray_z + i, ray.z);
-        store(l->along + i, guessed_along(cx, ray, load_guess(guess, i)));
+        store(l->along + i, guessed_along(cx, pixel_rays(cx, i).ray, load_guess(guess, i)));
         store(l->lost + i, SELECT(load(wanted + i) > real(0.0f), load(guess->march + i), real(0.0f)));
     }
     march_doubtful(cx, guess, l);
@@ -547,7 +552,7 @@ static void look_at_tile(const struct kernel_context *cx, const tile_guess *gues
         store(l->again + i, real(0.0f));
         if (!any_lane(water))
             continue;
-        const SurfaceLook look = look_at_guess(cx, load_ray(l, i), load(l->along + i));
+        const SurfaceLook look = look_at_guess(cx, pixel_rays(cx, i).ray, load(l->along + i));
         const real *members = (const real *)&look.surface;
         for (int m = 0; m < SURFACE_FLOATS; m++)
             store(l->surface[m] + i, members[m]);
@@ -559,29 +564,28 @@ static void look_at_tile(const struct kernel_context *cx, const tile_guess *gues
     look_again(cx, l);
 }
 
-static inline SlopeState looked_slopes(const struct kernel_context *cx, const tile_looks *l, size_t i)
+static inline SlopeState looked_slopes(const struct kernel_context *cx, const tile_looks *l, size_t i, vec3 ray)
 {
-    return slopes_at(cx, load_ray(l, i), load(l->along + i), load_surface(l, i));
+    return slopes_at(cx, ray, load(l->along + i), load_surface(l, i));
 }
 
 static void render_glitter(const struct kernel_context *cx, const tile_guess *guess, const struct kernel_context *open, const tile_guess *open_guess,
                            tile_pixels *out)
 {
     tile_looks close_looks, open_looks;
-    float water[TILE_PIXELS];
     for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES)
-        store(water + i, pixel_ray_filtered(cx, lane_numbers() + (float)(i % TILE_WIDTH), real_broadcast((float)(i / TILE_WIDTH))).water);
-    look_at_tile(cx, guess, water, &close_looks);
+        store(out->water + i, pixel_rays(cx, i).water);
+    look_at_tile(cx, guess, out->water, &close_looks);
     if (open)
-        look_at_tile(open, open_guess, water, &open_looks);
+        look_at_tile(open, open_guess, out->water, &open_looks);
     for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
-        const PixelRay p = pixel_ray_filtered(cx, lane_numbers() + (float)(i % TILE_WIDTH), real_broadcast((float)(i / TILE_WIDTH)));
+        const PixelRay p = pixel_rays(cx, i);
         if (!any_lane(p.water > real(0.0f))) {
             store_pixels(out, i, nothing_but_sky(cx, p));
             continue;
         }
-        const SlopeState state = looked_slopes(cx, &close_looks, i);
-        store_pixels(out, i, glitter_result(cx, p, open ? looked_slopes(open, &open_looks, i) : state, state));
+        const SlopeState state = looked_slopes(cx, &close_looks, i, p.ray);
+        store_pixels(out, i, glitter_result(cx, p, open ? looked_slopes(open, &open_looks, i, pixel_rays(open, i).ray) : state, state));
     }
 }
 
