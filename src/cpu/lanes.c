@@ -224,8 +224,8 @@ static void list_marched(const wave_set *set, const wave_classes *c, tile_waves 
     d->march_count = count;
     d->march_bound = tighter(all.height, all.height_variance);
     d->march_slope = tighter(all.slope, all.slope_variance);
-    /* After a first leg, one deviation of the bend serves filtered methods: what small waves could hide from the second moves no pixel. */
-    d->march_bend = tighter(all.bend, all.bend_variance) * (set->view.filter_waves && first < count ? 0.25f : 1.0f);
+    /* After a first leg, two deviations of the bend serve filtered methods: what small waves could hide from the second moves no pixel. */
+    d->march_bend = tighter(all.bend, all.bend_variance) * (set->view.filter_waves && first < count ? 0.5f : 1.0f);
     d->coarse_count = first;
     d->coarse_rest = tighter(rest.height, rest.height_variance);
     d->coarse_slope = tighter(coarse.slope, coarse.slope_variance);
