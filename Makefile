@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # A thin front of CMake: `make` builds the command build/mangata, `make demo` and `make check` start from nothing.
 
-.PHONY: all setup demo check bench install clean
+.PHONY: all setup demo check bench bench-gpu install clean
 
 all:
 	[ -f build/build.ninja ] || cmake --preset release
@@ -21,6 +21,9 @@ check: setup
 
 bench: all
 	scripts/bench
+
+bench-gpu: all
+	scripts/bench_gpu
 
 install: all
 	cmake --install build

@@ -51,8 +51,8 @@ static struct disk_path_case sea_case(uint64_t *state, int i, double spread, dou
 int main(int argc, char **argv)
 {
     const int rounds = argc > 1 && strcmp(argv[1], "--quick") == 0 ? 1 : ROUNDS;
-    struct kernel_probe probes[4];
-    int widths = kernel_probes(probes);
+    struct kernel_probe probes[MOST_PROBES];
+    int widths = kernel_lane_probes(probes);
     float *memory = calloc((size_t)COUNT * (PROBE_INPUTS + PROBE_OUTPUTS), sizeof *memory);
     if (!memory)
         return 1;

@@ -11,13 +11,15 @@
 #include "progress.h"
 #include "verbs.h"
 
-enum { OPT_METHODS, OPT_SIZE, OPT_FRAMES, OPT_REPEAT, OPT_THREADS, OPT_ISA, OPT_SET, OPT_DISPLAY };
+enum { OPT_METHODS, OPT_SIZE, OPT_FRAMES, OPT_REPEAT, OPT_BACKEND, OPT_GL_DEVICE, OPT_THREADS, OPT_ISA, OPT_SET, OPT_DISPLAY };
 
 static const option bench_options[] = {
     [OPT_METHODS] = {"methods", 0, "LIST", "methods to measure (default none,podee-pixel,mangata)"},
     [OPT_SIZE] = {"size", 0, "WxH", "size in pixels instead of the scene's"},
     [OPT_FRAMES] = {"frames", 0, "N", "measure frames 0 to N-1 (default 3)"},
     [OPT_REPEAT] = {"repeat", 0, "R", "measure each of them R times (default 5)"},
+    [OPT_BACKEND] = {"backend", 0, "NAME", "cpu (default), gl or auto"},
+    [OPT_GL_DEVICE] = {"gl-device", 0, "N", "OpenGL: which device of those that mangata info lists (default 0)"},
     [OPT_THREADS] = {"threads", 0, "N", "threads (default 0: one for each CPU this process may use)"},
     [OPT_ISA] = {"isa", 0, "NAME", "highest instruction set"},
     [OPT_SET] = {"set", 0, "KEY=VALUE", "change a value of the scene; may be repeated"},
@@ -37,7 +39,8 @@ typedef struct bench_request {
     const char *scene_path, *methods;
     const char **overrides;
     size_t override_count;
-    uint64_t frames, repeat, threads;
+    uint64_t frames, repeat, threads, gl_device;
+    mgt_backend backend;
     mgt_isa isa;
     bool display;
 } bench_request;
@@ -81,6 +84,14 @@ static int set_option(bench_request *r, int id, const char *value, char size[2][
     case OPT_REPEAT:
         if (!number_parse_u64(value, 1000, &r->repeat) || r->repeat == 0)
             return bad_value(OPT_REPEAT, value, "a number from 1 to 1000");
+        break;
+    case OPT_BACKEND:
+        if (!backend_from_name(value, &r->backend) || r->backend == MGT_BACKEND_NULL)
+            return bad_value(OPT_BACKEND, value, "cpu, gl or auto");
+        break;
+    case OPT_GL_DEVICE:
+        if (!number_parse_u64(value, 1023, &r->gl_device))
+            return bad_value(OPT_GL_DEVICE, value, "a number from 0 to 1023");
         break;
     case OPT_THREADS:
         if (!number_parse_u64(value, 1024, &r->threads))
@@ -150,6 +161,8 @@ static int prepare(bench *b)
     if (!b->target.pixels)
         return console_error(EXIT_CODE_FAILED, "out of memory");
     mgt_context_desc desc = mgt_context_desc_defaults();
+    desc.backend = r->backend;
+    desc.gl_device = (uint32_t)r->gl_device;
     desc.isa = r->isa;
     desc.threads = (uint32_t)r->threads;
     desc.log = console_log;
@@ -207,10 +220,14 @@ static int print_report(bench *b)
     const size_t runs = (size_t)(b->request->frames * b->request->repeat);
     const double megapixels = 1e-6 * b->width * b->height;
     json_t *list = b->request->out.json ? json_array() : NULL;
-    if (!list)
-        printf("%s, %u x %u, %s, %u lanes, %u threads, %zu frames each\n%-15s%10s%10s%10s%10s%10s\n", b->request->scene_path, b->width,
-               b->height, isa_name(b->info.isa), b->info.lanes, b->info.threads, runs, "method", "median ms", "min ms", "max ms", "fps",
-               "Mpixel/s");
+    if (!list) {
+        printf("%s, %u x %u, ", b->request->scene_path, b->width, b->height);
+        if (b->info.backend == MGT_BACKEND_GL)
+            printf("%s, ", b->info.renderer);
+        else
+            printf("%s, %u lanes, %u threads, ", isa_name(b->info.isa), b->info.lanes, b->info.threads);
+        printf("%zu frames each\n%-15s%10s%10s%10s%10s%10s\n", runs, "method", "median ms", "min ms", "max ms", "fps", "Mpixel/s");
+    }
     for (size_t m = 0; m < b->count; m++) {
         double *s = b->methods[m].seconds;
         qsort(s, runs, sizeof *s, ascending);
@@ -226,9 +243,9 @@ static int print_report(bench *b)
     }
     if (!list)
         return EXIT_CODE_OK;
-    return console_print_json(json_pack("{s:s, s:o, s:i, s:i, s:s, s:i, s:i, s:I, s:b, s:o}", "version", mgt_version(), "scene",
-                                        console_json_text(b->request->scene_path), "width", (int)b->width, "height", (int)b->height, "isa",
-                                        isa_name(b->info.isa), "lanes", (int)b->info.lanes, "threads", (int)b->info.threads, "runs",
+    return console_print_json(json_pack("{s:s, s:o, s:i, s:i, s:s, s:s, s:s, s:i, s:i, s:I, s:b, s:o}", "version", mgt_version(), "scene",
+                                        console_json_text(b->request->scene_path), "width", (int)b->width, "height", (int)b->height, "backend",
+                                        backend_name(b->info.backend), "renderer", b->info.renderer, "isa", isa_name(b->info.isa), "lanes", (int)b->info.lanes, "threads", (int)b->info.threads, "runs",
                                         (json_int_t)runs, "display", b->request->display, "methods", list));
 }
 

@@ -49,6 +49,47 @@ static json_t *list_isas(void)
     return list;
 }
 
+/* What a context says when it cannot be created. */
+typedef struct refusal {
+    char id[64];
+} refusal;
+
+static void keep_refusal(void *user, mgt_log_level level, const char *id, const char *text)
+{
+    (void)text;
+    refusal *r = user;
+    if (level == MGT_LOG_ERROR)
+        snprintf(r->id, sizeof r->id, "%s", id);
+}
+
+/* The renderers of the OpenGL devices in their order; one that is there but of no use says why ("context.gl"). */
+static json_t *list_gl_devices(void)
+{
+    json_t *list = json_array();
+    for (uint32_t device = 0; list && device < 64; device++) {
+        refusal refused = {""};
+        mgt_context_desc desc = mgt_context_desc_defaults();
+        desc.backend = MGT_BACKEND_GL;
+        desc.gl_device = device;
+        desc.log = keep_refusal;
+        desc.log_user = &refused;
+        mgt_context *context = NULL;
+        if (mgt_context_create(&context, &desc) == MGT_OK) {
+            mgt_context_info info = {.struct_size = sizeof info};
+            mgt_context_get_info(context, &info);
+            json_array_append_new(list, json_string(info.renderer));
+            mgt_context_destroy(context);
+        } else if (strcmp(refused.id, "context.gl") != 0) {
+            break;
+        } else {
+            char text[600];
+            snprintf(text, sizeof text, "not usable: %s", mgt_last_error(NULL));
+            json_array_append_new(list, json_string(text));
+        }
+    }
+    return list;
+}
+
 static json_t *collect(const mgt_context_info *info)
 {
     int major = 0, minor = 0, patch = 0;
@@ -57,12 +98,12 @@ static json_t *collect(const mgt_context_info *info)
     exr_get_library_version(&major, &minor, &patch, &extra);
     snprintf(exr, sizeof exr, "%d.%d.%d", major, minor, patch);
     find_ffmpeg(ffmpeg, sizeof ffmpeg);
-    return json_pack("{s:s, s:s, s:{s:s, s:s, s:i, s:i}, s:o, s:{s:s, s:s, s:s, s:s, s:s*}, s:[s,s,s,s,s], s:[s,s]}", "version", mgt_version(),
+    return json_pack("{s:s, s:s, s:{s:s, s:s, s:i, s:i}, s:o, s:{s:s, s:s, s:s, s:s, s:s*}, s:[s,s,s,s,s], s:[s,s,s], s:o}", "version", mgt_version(),
                      "compiler", COMPILER, "default", "backend", backend_name(info->backend), "isa", isa_name(info->isa), "lanes",
                      (int)info->lanes, "threads", (int)info->threads, "instruction_sets", list_isas(), "libraries", "libfyaml",
                      fy_library_version(), "libspng", spng_version_string(), "openexr", exr, "jansson", jansson_version_str(), "ffmpeg",
                      ffmpeg[0] ? ffmpeg : NULL, "formats", "png", "exr", "pfm", "y4m", ffmpeg[0] ? "mp4" : "mp4 (needs ffmpeg)", "backends",
-                     "cpu", "null");
+                     "cpu", "gl", "null", "gl_devices", list_gl_devices());
 }
 
 static void print_words(const char *label, const json_t *list)
@@ -82,6 +123,9 @@ static void print_text(const json_t *all)
     printf("%-18s%s\n", "mangata", json_string_value(json_object_get(all, "version")));
     printf("%-18s%s\n", "compiler", json_string_value(json_object_get(all, "compiler")));
     print_words("backends", json_object_get(all, "backends"));
+    size_t i;
+    json_t *device;
+    json_array_foreach(json_object_get(all, "gl_devices"), i, device) printf("OpenGL device %-4zu%s\n", i, json_string_value(device));
     print_words("instruction sets", json_object_get(all, "instruction_sets"));
     printf("%-18s%s, %d lanes, %d threads\n", "used", json_string_value(json_object_get(used, "isa")),
            (int)json_integer_value(json_object_get(used, "lanes")), (int)json_integer_value(json_object_get(used, "threads")));

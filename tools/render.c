@@ -12,7 +12,7 @@
 
 enum {
     OPT_OUTPUT, OPT_FRAMES, OPT_SIZE, OPT_CROP, OPT_METHOD, OPT_SPATIAL, OPT_TIME, OPT_RANGE, OPT_NDF_MEAN, OPT_SET, OPT_SEED,
-    OPT_LAYER, OPT_BACKEND, OPT_THREADS, OPT_ISA, OPT_OVERWRITE, OPT_SKIP, OPT_STAMP, OPT_PROGRESS
+    OPT_LAYER, OPT_BACKEND, OPT_GL_DEVICE, OPT_THREADS, OPT_ISA, OPT_OVERWRITE, OPT_SKIP, OPT_STAMP, OPT_PROGRESS
 };
 
 static const option render_options[] = {
@@ -35,6 +35,7 @@ static const option render_options[] = {
     [OPT_LAYER] = {"layer", 0, "NAME", "color (default), coverage, mask, depth or normal; .exr takes\n"
                                        "several, or all"},
     [OPT_BACKEND] = {"backend", 0, "NAME", "cpu (default), gl, auto, or null (renders nothing: for tests)"},
+    [OPT_GL_DEVICE] = {"gl-device", 0, "N", "OpenGL: which device of those that mangata info lists (default 0)"},
     [OPT_THREADS] = {"threads", 0, "N", "threads (default 0: one for each CPU this process may use)"},
     [OPT_ISA] = {"isa", 0, "NAME", "highest instruction set: auto (default), scalar, sse2, avx2,\n"
                                    "avx512 or neon"},
@@ -164,6 +165,11 @@ static int set_option(render_request *r, int id, const char *value, sample_optio
     case OPT_BACKEND:
         if (!backend_from_name(value, &r->backend))
             return bad_value(OPT_BACKEND, value, "cpu, gl, auto or null");
+        break;
+    case OPT_GL_DEVICE:
+        if (!number_parse_u64(value, 1023, &n))
+            return bad_value(OPT_GL_DEVICE, value, "a number from 0 to 1023");
+        r->gl_device = (uint32_t)n;
         break;
     case OPT_THREADS:
         if (!number_parse_u64(value, 1024, &n))

@@ -98,6 +98,7 @@ static int create_context(render_job *job)
 {
     mgt_context_desc desc = mgt_context_desc_defaults();
     desc.backend = job->request->backend;
+    desc.gl_device = job->request->gl_device;
     desc.isa = job->request->isa;
     desc.threads = job->request->threads;
     desc.log = console_log;
@@ -109,8 +110,11 @@ static int create_context(render_job *job)
         return console_library_error(NULL, status);
     job->info.struct_size = sizeof job->info;
     mgt_context_get_info(job->context, &job->info);
-    console_detail(&job->request->out, "backend %s, %s, %u lanes, %u threads", backend_name(job->info.backend), isa_name(job->info.isa),
-                   job->info.lanes, job->info.threads);
+    if (job->info.backend == MGT_BACKEND_GL)
+        console_detail(&job->request->out, "backend gl, %s", job->info.renderer);
+    else
+        console_detail(&job->request->out, "backend %s, %s, %u lanes, %u threads", backend_name(job->info.backend), isa_name(job->info.isa),
+                       job->info.lanes, job->info.threads);
     return EXIT_CODE_OK;
 }
 

@@ -28,6 +28,8 @@ static const char *format_word(picture_format format)
 /* Which group of builds that agree to the bit has rendered. */
 static const char *arithmetic_word(const mgt_context_info *info)
 {
+    if (info->backend == MGT_BACKEND_GL)
+        return info->renderer;
     if (info->backend != MGT_BACKEND_CPU)
         return backend_name(info->backend);
     return info->isa == MGT_ISA_SSE2 ? "cpu without fma" : "cpu";
@@ -85,7 +87,10 @@ static void add_stamp(render_record *record, const mgt_context_info *info, doubl
         strftime(date, sizeof date, "%Y-%m-%dT%H:%M:%SZ", &utc);
     add(record, "host", "%s", host);
     add(record, "threads", "%u", info->threads);
-    add(record, "isa", "%s", isa_name(info->isa));
+    if (info->backend == MGT_BACKEND_GL)
+        add(record, "renderer", "%s", info->renderer);
+    else
+        add(record, "isa", "%s", isa_name(info->isa));
     add(record, "rendered_at", "%s", date);
     if (seconds >= 0)
         add(record, "render_seconds", "%.6f", seconds);

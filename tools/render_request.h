@@ -23,6 +23,7 @@ typedef struct render_request {
     uint64_t crop[4]; /* x, y, width, height */
     mgt_quality quality;
     mgt_backend backend;
+    uint32_t gl_device;
     mgt_isa isa;
     uint32_t threads;
     mgt_layer layers[LAYER_COUNT];

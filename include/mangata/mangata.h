@@ -88,6 +88,10 @@ typedef void (*mgt_log_function)(void *user, mgt_log_level level, const char *id
  * Return false to stop: mgt_render() then returns MGT_CANCELLED. */
 typedef bool (*mgt_progress_function)(void *user, double fraction);
 
+/* Address of an OpenGL function, NULL where there is none: eglGetProcAddress and glfwGetProcAddress have this type. */
+typedef void (*mgt_gl_function)(void);
+typedef mgt_gl_function (*mgt_gl_get_proc)(const char *name);
+
 typedef struct mgt_context_desc {
     size_t struct_size;
     mgt_backend backend;
@@ -97,6 +101,9 @@ typedef struct mgt_context_desc {
     void *log_user;
     mgt_progress_function progress; /* NULL: none */
     void *progress_user;
+    mgt_gl_get_proc gl_get_proc; /* OpenGL: functions of the context that is current on this thread, used instead of one of its own (mangata_gl.h);
+                                    NULL: a context of its own without a window, through EGL */
+    uint32_t gl_device;          /* OpenGL of its own: which EGL device, counted from 0 */
 } mgt_context_desc;
 
 typedef struct mgt_context mgt_context;
@@ -119,6 +126,8 @@ typedef struct mgt_context_info {
     mgt_isa isa;         /* what runs, never AUTO */
     uint32_t lanes;      /* pixels computed at once */
     uint32_t threads;
+    char renderer[128];  /* OpenGL: GL_RENDERER and GL_VERSION; else empty */
+    bool software;       /* OpenGL by a software rasteriser */
 } mgt_context_info;
 
 /* What the context resolved to. `info->struct_size` must be set by the caller. */
@@ -265,6 +274,33 @@ MGT_API mgt_target mgt_target_defaults(void);
 
 /* Renders one frame into `count` targets (1 … 16). Blocks until done. The same scene gives the same bytes. */
 MGT_API mgt_status mgt_render(mgt_context *context, const mgt_scene *scene, const mgt_target *targets, size_t count);
+
+/* Displayed colour of radiance that the caller holds, as mgt_render() makes it for scene.post: exposure, glare, tone map and sRGB, on the CPU whatever
+ * the backend. For means over several sample ranges. `radiance`: the whole image, 3 floats a pixel, tightly packed, finite and ≥ 0.
+ * `target`: MGT_LAYER_COLOR in MGT_FORMAT_RGBA8_SRGB, of the crop. */
+MGT_API mgt_status mgt_display(mgt_context *context, const mgt_scene *scene, const float *radiance, const mgt_target *target);
+
+/* What method `mangata` knows of one pixel. Slopes are (∂y/∂x, ∂y/∂z). The light plane is r·L = 1, its axes as in the kernels: e horizontal, f up. */
+typedef struct mgt_pixel_info {
+    size_t struct_size;
+    double water;              /* share of the pixel that is water; where it is 0 all else is 0 */
+    double coverage;           /* as the layer's */
+    double radiance[3];        /* kcd/m² */
+    double position[3];        /* of the hit, metres */
+    double distance;           /* along the ray, metres */
+    double slope_open[2];      /* mean slope when the shutter opens, … */
+    double slope_close[2];     /* … and when it closes */
+    double unresolved[3];      /* slope covariance xx, xz, zz of the waves that the pixel does not resolve */
+    double bend[3];            /* and of the resolved ones' bend over the pixel, relative to the mirror slope */
+    double mirror_slope[2];    /* the slope that mirrors the light's centre */
+    double path[2][2];         /* mean mirror ray on the light plane, at both ends of the shutter; the light's centre is (0, 0) … */
+    double light_radius;       /* … and its radius this */
+    double covariance[3];      /* of the Gaussian about the path there: ee, ef, ff */
+    uint32_t resolved, mixed, filtered; /* waves of the pixel's tile by class */
+} mgt_pixel_info;
+
+/* Computes the pixel (x, y) of the whole image on the CPU, whatever the backend and the scene's method. `info->struct_size` must be set by the caller. */
+MGT_API mgt_status mgt_inspect_pixel(mgt_context *context, const mgt_scene *scene, uint32_t x, uint32_t y, mgt_pixel_info *info);
 
 #ifdef __cplusplus
 }

@@ -6,7 +6,7 @@
 #ifndef MANGATA_CORE_BACKEND_H
 #define MANGATA_CORE_BACKEND_H
 
-#include "mangata/mangata.h"
+#include "mangata/mangata_gl.h"
 
 /* Where a backend reports: the log of the context and the text of mgt_last_error(). */
 typedef struct reporter {
@@ -28,10 +28,20 @@ typedef struct backend_functions {
     void (*destroy)(void *state);
     /* Scene and targets have been checked. */
     mgt_status (*render)(void *state, const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count);
+    /* OpenGL only, else NULL. Structs and counts have been checked, the scene of render_views has not. */
+    mgt_status (*render_textures)(void *state, const reporter *r, const mgt_scene *scene, const mgt_gl_texture *textures, size_t count);
+    mgt_status (*render_views)(void *state, const reporter *r, const mgt_scene *scene, const mgt_gl_view *views, size_t count);
+    mgt_status (*set_sources)(void *state, const reporter *r, const mgt_gl_source *sources, size_t count);
+    size_t (*get_timings)(const void *state, mgt_gl_timing *timings, size_t capacity);
 } backend_functions;
 
 extern const backend_functions cpu_backend;
+extern const backend_functions gl_backend; /* src/gl/missing in builds without OpenGL */
 extern const backend_functions null_backend;
+
+/* What only the CPU does, whatever a context renders with. `state` is one that cpu_backend has created; arguments have been checked. */
+mgt_status cpu_display(void *state, const reporter *r, const mgt_scene *scene, const float *radiance, const mgt_target *target);
+mgt_status cpu_inspect(void *state, const reporter *r, const mgt_scene *scene, uint32_t x, uint32_t y, mgt_pixel_info *info);
 
 /* The rectangle of the image that a scene asks for. */
 typedef struct region {

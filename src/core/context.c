@@ -4,16 +4,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "core/backend.h"
+#include "core/context.h"
 #include "core/validate.h"
-
-struct mgt_context {
-    const backend_functions *backend;
-    void *state;
-    reporter report;
-    mgt_context_info info;
-    char error[REPORTER_TEXT];
-};
 
 /* Where creation reports, since there is no context to hold the text yet. */
 static _Thread_local char creation_error[REPORTER_TEXT];
@@ -44,6 +36,28 @@ mgt_status report_error(const reporter *r, mgt_status status, const char *id, co
     return status;
 }
 
+/* AUTO: OpenGL by hardware, else the CPU. Says which and why. */
+static mgt_status create_auto(mgt_context *c, const mgt_context_desc *desc, const reporter *r)
+{
+    const reporter quiet = {.error = r->error};
+    mgt_status status = gl_backend.create(&c->state, desc, &quiet, &c->info);
+    if (status == MGT_OK && !c->info.software) {
+        c->backend = &gl_backend;
+        report(r, MGT_LOG_INFO, "context.backend", "%s renders", c->info.renderer);
+        return MGT_OK;
+    }
+    if (status == MGT_OK) {
+        gl_backend.destroy(c->state);
+        report(r, MGT_LOG_INFO, "context.backend", "the CPU renders: OpenGL here is software itself (%s)", c->info.renderer);
+    } else {
+        report(r, MGT_LOG_INFO, "context.backend", "the CPU renders: %s", r->error);
+    }
+    r->error[0] = 0;
+    c->state = NULL;
+    c->info = (mgt_context_info){.struct_size = sizeof c->info};
+    return cpu_backend.create(&c->state, desc, r, &c->info);
+}
+
 mgt_status mgt_context_create(mgt_context **context, const mgt_context_desc *desc)
 {
     const mgt_context_desc defaults = mgt_context_desc_defaults();
@@ -57,18 +71,17 @@ mgt_status mgt_context_create(mgt_context **context, const mgt_context_desc *des
     mgt_status status = validate_desc(&early, desc);
     if (status != MGT_OK)
         return status;
-    if (desc->backend == MGT_BACKEND_GL)
-        return report_error(&early, MGT_ERROR_UNAVAILABLE, "context.backend", "this build has no OpenGL backend; use the CPU backend");
 
     mgt_context *c = calloc(1, sizeof *c);
     if (!c)
         return report_error(&early, MGT_ERROR_MEMORY, "context.create", "out of memory");
     c->report = (reporter){desc->log, desc->log_user, c->error};
-    c->backend = desc->backend == MGT_BACKEND_NULL ? &null_backend : &cpu_backend;
+    c->backend = desc->backend == MGT_BACKEND_NULL ? &null_backend : desc->backend == MGT_BACKEND_GL ? &gl_backend : &cpu_backend;
     c->info.struct_size = sizeof c->info;
     if (desc->backend == MGT_BACKEND_AUTO)
-        report(&early, MGT_LOG_INFO, "context.backend", "no hardware OpenGL in this build: the CPU renders");
-    status = c->backend->create(&c->state, desc, &early, &c->info);
+        status = create_auto(c, desc, &early);
+    else
+        status = c->backend->create(&c->state, desc, &early, &c->info);
     if (status != MGT_OK) {
         free(c);
         return status;
@@ -82,6 +95,7 @@ void mgt_context_destroy(mgt_context *context)
     if (!context)
         return;
     context->backend->destroy(context->state);
+    cpu_backend.destroy(context->cpu);
     free(context);
 }
 

@@ -10,6 +10,7 @@
 #include "core/backend.h"
 #include "cpu/frame.h"
 #include "cpu/glare.h"
+#include "cpu/inspect.h"
 #include "cpu/thread_pool.h"
 #include "cpu/tile_job.h"
 #include "reference/reference.h"
@@ -455,4 +456,38 @@ static mgt_status cpu_render(void *state, const reporter *r, const mgt_scene *sc
     return status;
 }
 
-const backend_functions cpu_backend = {cpu_create, cpu_destroy, cpu_render};
+mgt_status cpu_display(void *state, const reporter *r, const mgt_scene *scene, const float *radiance, const mgt_target *target)
+{
+    cpu_state *s = state;
+    mgt_status status = prepare_sky(s, r, scene);
+    if (status != MGT_OK)
+        return status;
+    render_job job = {.state = s, .scene = scene, .targets = target, .target_count = 1};
+    job.frame = frame_of(scene, s->sky, true);
+    job.crop = image_region(&scene->image);
+    job.area = (region){0, 0, scene->image.width, scene->image.height};
+    const size_t size = (size_t)job.area.width * job.area.height * 3 * sizeof *job.radiance;
+    job.radiance = malloc(size);
+    if (!job.radiance)
+        return report_error(r, MGT_ERROR_MEMORY, "render.memory", "out of memory for %u x %u pixels", job.area.width, job.area.height);
+    memcpy(job.radiance, radiance, size);
+    status = display(&job, r);
+    free(job.radiance);
+    return status;
+}
+
+mgt_status cpu_inspect(void *state, const reporter *r, const mgt_scene *scene, uint32_t x, uint32_t y, mgt_pixel_info *info)
+{
+    cpu_state *s = state;
+    const mgt_status status = prepare_sky(s, r, scene);
+    if (status != MGT_OK)
+        return status;
+    mgt_scene ours = *scene;
+    ours.quality.method = MGT_METHOD_MANGATA;
+    const frame f = frame_of(&ours, s->sky, true);
+    frame_waves_build(&f, s->waves);
+    inspect_pixel(&f, s->waves, s->sky->table, x, y, s->scratch[0], info);
+    return MGT_OK;
+}
+
+const backend_functions cpu_backend = {.create = cpu_create, .destroy = cpu_destroy, .render = cpu_render};

@@ -17,7 +17,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MAX_LEVELS 16
 #define ROWS_PER_TASK 8
 #define BLOCK 128 /* coarse pixels a row is cut into, so that scratch fits the first cache */
 
@@ -49,7 +48,7 @@ typedef struct level {
 
 typedef struct pyramid {
     size_t count;
-    level levels[MAX_LEVELS]; /* [0] has half the image's size */
+    level levels[GLARE_MAX_LEVELS];
     float kept;               /* share of the image that stays */
     void *memory;
 } pyramid;
@@ -63,15 +62,16 @@ static double octave_share(double centre)
     return from < to ? exp2(-0.5 * from) - exp2(-0.5 * to) : 0.0;
 }
 
-static void weigh_levels(pyramid *p, size_t image_height, float glare)
+float glare_plan_shares(const glare_plan *plan, float glare, float shares[GLARE_MAX_LEVELS])
 {
     double all = exp2(-0.5 * FINEST_OCTAVE) - exp2(-0.5 * COARSEST_OCTAVE), spread = 0.0;
-    for (size_t k = 0; k < p->count; ++k) {
-        double share = glare * octave_share((double)(k + 1) - log2((double)image_height)) / all;
-        p->levels[k].weight = (float)share;
+    glare = fminf(glare, 1.0f);
+    for (size_t k = 0; k < plan->count; ++k) {
+        double share = glare * octave_share((double)(k + 1) - log2((double)plan->image.height)) / all;
+        shares[k] = (float)share;
         spread += share;
     }
-    p->kept = (float)(1.0 - spread);
+    return (float)(1.0 - spread);
 }
 
 /* Weights of D along one axis, and the coarse masses. */
@@ -103,20 +103,49 @@ static void weigh_axis(size_t fine_count, const float *fine_mass, size_t coarse_
     }
 }
 
+bool glare_plan_weights(const glare_plan *plan, float *weights)
+{
+    const size_t side = plan->image.width + plan->image.height;
+    float *masses = malloc(2 * side * sizeof(float)), *mass_x = NULL, *mass_y = NULL;
+    if (!masses) {
+        return false;
+    }
+    for (size_t k = 0; k < plan->count; ++k) {
+        const glare_size *fine = k ? &plan->sizes[k - 1] : &plan->image, *coarse = &plan->sizes[k];
+        float *coarse_x = masses + (k % 2) * side, *coarse_y = coarse_x + coarse->width;
+        weigh_axis(fine->width, mass_x, coarse->width, weights, coarse_x);
+        weigh_axis(fine->height, mass_y, coarse->height, weights + 4 * coarse->width, coarse_y);
+        weights += 4 * (coarse->width + coarse->height);
+        mass_x = coarse_x;
+        mass_y = coarse_y;
+    }
+    free(masses);
+    return true;
+}
+
 /* ---- memory --------------------------------------------------------------------------------------------- */
 
 /* Levels are added while they count and can still be halved. */
-static void size_levels(pyramid *p, size_t width, size_t height)
+glare_plan glare_plan_of(size_t width, size_t height)
 {
+    glare_plan plan = {.image = {width, height}};
     double octave = 1.0 - log2((double)height);
-    for (p->count = 0; p->count < MAX_LEVELS && width > 1 && height > 1 && octave - 0.5 < COARSEST_OCTAVE; ++p->count) {
-        level *l = &p->levels[p->count];
+    while (plan.count < GLARE_MAX_LEVELS && width > 1 && height > 1 && octave - 0.5 < COARSEST_OCTAVE) {
         width = (width + 1) / 2;
         height = (height + 1) / 2;
         octave += 1.0;
-        l->width = width;
-        l->height = height;
-        l->stride = 3 * width + 4;
+        plan.sizes[plan.count++] = (glare_size){width, height};
+    }
+    return plan;
+}
+
+static void size_levels(pyramid *p, const glare_plan *plan)
+{
+    p->count = plan->count;
+    for (size_t k = 0; k < p->count; ++k) {
+        p->levels[k].width = plan->sizes[k].width;
+        p->levels[k].height = plan->sizes[k].height;
+        p->levels[k].stride = 3 * plan->sizes[k].width + 4;
     }
 }
 
@@ -285,8 +314,9 @@ mgt_status glare_apply(float *rgb, size_t width, size_t height, size_t row_strid
 {
     pyramid p;
     memset(&p, 0, sizeof p);
-    if (width > 1 && height > 1 && glare > 0.0f) {
-        size_levels(&p, width, height);
+    const glare_plan plan = glare_plan_of(width, height);
+    if (glare > 0.0f) {
+        size_levels(&p, &plan);
     }
     if (p.count == 0) {
         return MGT_OK;
@@ -295,7 +325,11 @@ mgt_status glare_apply(float *rgb, size_t width, size_t height, size_t row_strid
         return MGT_ERROR_MEMORY;
     }
     glare_parallel_for run = parallel_for ? parallel_for : serial_for;
-    weigh_levels(&p, height, fminf(glare, 1.0f));
+    float shares[GLARE_MAX_LEVELS];
+    p.kept = glare_plan_shares(&plan, glare, shares);
+    for (size_t k = 0; k < p.count; ++k) {
+        p.levels[k].weight = shares[k];
+    }
     for (size_t k = 0; k < p.count; ++k) {
         const level *finer = k ? &p.levels[k - 1] : NULL;
         down_job job = {rgb, width, height, row_stride, &p.levels[k]};

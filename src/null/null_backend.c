@@ -30,4 +30,4 @@ static mgt_status null_render(void *state, const reporter *r, const mgt_scene *s
     return MGT_OK;
 }
 
-const backend_functions null_backend = {null_create, null_destroy, null_render};
+const backend_functions null_backend = {.create = null_create, .destroy = null_destroy, .render = null_render};

@@ -245,44 +245,44 @@ void sky_body_radiance(const sky_state *state, const mgt_water *water, double rg
     }
 }
 
+/* Everything that follows from the inputs; with air, `ray` is room to work in. */
+static void fill_state(sky_state *s, const mgt_sky *sky, const mgt_light *light, const scattering *air, scattering_ray *ray)
+{
+    memset(s, 0, sizeof *s);
+    s->sky = *sky;
+    s->light = *light;
+    place_light(s);
+    if (air) {
+        spectrum_weights weights = spectrum_weights_make();
+        see_light(s, air, &weights);
+        fill_atmosphere(s, air, &weights, ray);
+    } else {
+        see_light_without_air(s);
+        if (sky->model == MGT_SKY_GRADIENT) {
+            fill_gradient(s);
+        }
+    }
+    sum_irradiance(s);
+    s->exposure_ev = automatic_exposure(s);
+}
+
 mgt_status sky_state_build(sky_state *state, const mgt_sky *sky, const mgt_light *light)
 {
-    scattering *air = NULL;
-    scattering_ray *ray = NULL;
-    sky_state *next = calloc(1, sizeof *next);
-    if (!next) {
-        goto fail;
+    const mgt_sky wanted_sky = *sky; /* may be the state's own */
+    const mgt_light wanted_light = *light;
+    if (wanted_sky.model != MGT_SKY_ATMOSPHERE) { /* a light that moves from frame to frame allocates nothing */
+        fill_state(state, &wanted_sky, &wanted_light, NULL, NULL);
+        return MGT_OK;
     }
-    next->sky = *sky;
-    next->light = *light;
-    place_light(next);
-    if (sky->model == MGT_SKY_ATMOSPHERE) {
-        air = scattering_create(sky->turbidity, sin(light->angular_radius_deg * (PI / 180.0)));
-        ray = scattering_ray_create();
-        if (!air || !ray) {
-            goto fail;
-        }
-        spectrum_weights weights = spectrum_weights_make();
-        see_light(next, air, &weights);
-        fill_atmosphere(next, air, &weights, ray);
-    } else {
-        see_light_without_air(next);
-        if (sky->model == MGT_SKY_GRADIENT) {
-            fill_gradient(next);
-        }
+    scattering *air = scattering_create(wanted_sky.turbidity, sin(wanted_light.angular_radius_deg * (PI / 180.0)));
+    scattering_ray *ray = scattering_ray_create();
+    const bool enough = air && ray;
+    if (enough) {
+        fill_state(state, &wanted_sky, &wanted_light, air, ray);
     }
-    sum_irradiance(next);
-    next->exposure_ev = automatic_exposure(next);
-    memcpy(state, next, sizeof *state);
     scattering_ray_destroy(ray);
     scattering_destroy(air);
-    free(next);
-    return MGT_OK;
-fail:
-    scattering_ray_destroy(ray);
-    scattering_destroy(air);
-    free(next);
-    return MGT_ERROR_MEMORY;
+    return enough ? MGT_OK : MGT_ERROR_MEMORY;
 }
 
 static bool same_colour(const float a[3], const float b[3])

@@ -9,6 +9,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "scene/scene_edit.h"
 #include "scene/scene_path.h"
 #include "scene/scene_read.h"
 
@@ -134,15 +135,12 @@ void scene_file_free(scene_file *file)
 
 /* ---- frames --------------------------------------------------------------------------------------------- */
 
-bool scene_file_frame(const scene_file *file, int frame, mgt_scene *out)
+bool scene_values_shot(const scene_values *values, double time, mgt_scene *out)
 {
-    if (file == NULL || frame < 0)
-        return false;
-    const scene_values *values = &file->values;
     mgt_scene scene = mgt_scene_defaults();
     scene.image.width = values->image.width;
     scene.image.height = values->image.height;
-    scene.time = values->time.start + frame / values->time.fps;
+    scene.time = time;
     scene.shutter = values->time.shutter / values->time.fps;
     scene.camera = scene_camera_at(&values->camera, scene.time);
     scene.camera_open = scene_camera_at(&values->camera, scene.time - scene.shutter);
@@ -162,6 +160,18 @@ bool scene_file_frame(const scene_file *file, int frame, mgt_scene *out)
                             .glare = values->post.glare};
     *out = scene;
     return true;
+}
+
+bool scene_file_frame(const scene_file *file, int frame, mgt_scene *out)
+{
+    if (file == NULL || frame < 0)
+        return false;
+    return scene_values_shot(&file->values, file->values.time.start + frame / file->values.time.fps, out);
+}
+
+const scene_values *scene_file_values(const scene_file *file)
+{
+    return &file->values;
 }
 
 const char *scene_file_path(const scene_file *file)

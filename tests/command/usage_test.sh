@@ -88,8 +88,10 @@ expect 64 'takes check FILE or schema' "$MANGATA" scene chekc "$simple"
 expect 64 'no scene given' "$MANGATA" scene check
 expect 64 'none of none, ssaaN' "$MANGATA" bench "$simple" --methods none,fast
 expect 64 'info takes no' "$MANGATA" info now
-expect 69 'the viewer is not installed' env PATH=/nonexistent "$MANGATA" view "$simple"
-expect 69 '.' render "$simple" -o a.png --backend gl
+cp "$MANGATA" alone # the viewer is looked for beside the command first
+expect 69 'the viewer is not installed' env PATH=/nonexistent ./alone view "$simple"
+expect 69 'OpenGL|EGL' render "$simple" -o a.png --backend gl --gl-device 63
+bad gl-device -1 '0 to 1023'
 if [[ $(uname -m) == x86_64 ]]; then
     expect 69 '.' render "$simple" -o a.png --isa neon
 fi

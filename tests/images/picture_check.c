@@ -2,6 +2,7 @@
 /* Comparisons of pictures for the image tests:
  *
  *   picture_check near A B MAX MEAN DIFFERENCE.png   largest and mean |A − B| within limits; else |A − B| × 8 is saved
+ *   picture_check most A B FAR SHARE MEAN DIFFERENCE.png   the share of |A − B| beyond FAR and the mean of the others within limits; else the same
  *   picture_check crop WHOLE PART X Y                PART equals that place of WHOLE to the bit
  *   picture_check depth A B                          per cent of B's pixels off by more than max(1%, 5 mm), and the largest error
  *
@@ -86,6 +87,29 @@ static int check_near(const picture_pair *p, char **limits)
     return 1;
 }
 
+static int check_most(const picture_pair *p, char **limits)
+{
+    if (!same_shape(p))
+        return 1;
+    const size_t count = (size_t)p->a.width * p->a.height * p->a.channels;
+    const double far = atof(limits[0]);
+    double sum = 0;
+    size_t beyond = 0;
+    for (size_t i = 0; i < count; i++) {
+        const double d = distance(p->a.pixels[i], p->b.pixels[i]);
+        if (d > far)
+            beyond++;
+        else
+            sum += d;
+    }
+    const double share = (double)beyond / (double)count, mean = sum / (double)count;
+    printf("share beyond %s: %.5f (≤ %s), mean of the others %.7f (≤ %s)\n", limits[0], share, limits[1], mean, limits[2]);
+    if (share <= atof(limits[1]) && mean <= atof(limits[2]))
+        return 0;
+    save_difference(p, limits[3]);
+    return 1;
+}
+
 static int check_crop(const picture_pair *p, char **place)
 {
     const unsigned long x = strtoul(place[0], NULL, 10), y = strtoul(place[1], NULL, 10);
@@ -125,15 +149,15 @@ int main(int count, char **arguments)
 {
     const char *verb = count > 3 ? arguments[1] : "";
     const bool near = !strcmp(verb, "near") && count == 7, crop = !strcmp(verb, "crop") && count == 6;
-    const bool depth = !strcmp(verb, "depth") && count == 4;
-    if (!near && !crop && !depth) {
-        fprintf(stderr, "usage: picture_check near A B MAX MEAN DIFFERENCE.png | crop WHOLE PART X Y | depth A B\n");
+    const bool most = !strcmp(verb, "most") && count == 8, depth = !strcmp(verb, "depth") && count == 4;
+    if (!near && !most && !crop && !depth) {
+        fprintf(stderr, "usage: picture_check near A B MAX MEAN DIFFERENCE.png | most A B FAR SHARE MEAN DIFFERENCE.png | crop WHOLE PART X Y | depth A B\n");
         return 64;
     }
     picture_pair pair = {0};
     int code = 66;
     if (read_pair(&pair, arguments + 2))
-        code = near ? check_near(&pair, arguments + 4) : crop ? check_crop(&pair, arguments + 4) : check_depth(&pair);
+        code = near ? check_near(&pair, arguments + 4) : most ? check_most(&pair, arguments + 4) : crop ? check_crop(&pair, arguments + 4) : check_depth(&pair);
     float_image_free(&pair.a);
     float_image_free(&pair.b);
     return code;

@@ -39,7 +39,7 @@ done
 
 # All that is exported is the public interface, and all of the public interface is exported.
 nm -D --defined-only "$library" | awk '{ print $3 }' | grep -v '^_' | sort >"$work/exported"
-grep -Eo '^MGT_API [^(]*\(' "$prefix/include/mangata/mangata.h" | grep -Eo 'mgt_[a-z0-9_]+\(' | tr -d '(' | sort >"$work/declared"
+grep -Eho '^MGT_API [^(]*\(' "$prefix"/include/mangata/*.h | grep -Eo 'mgt_[a-z0-9_]+\(' | tr -d '(' | sort >"$work/declared"
 [[ -s $work/declared ]] || die "no declarations found"
 diff "$work/declared" "$work/exported" || die "exported symbols are not the declared ones"
 objdump -p "$library" | grep -Eq 'SONAME +libmangata\.so\.[0-9]+$' || die "no soname"

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Which lane widths were built and can run here. */
+/* Which lane widths were built and can run here, and OpenGL. */
 #include "kernel_probe.h"
 
-int kernel_probes(struct kernel_probe *probes)
+int kernel_lane_probes(struct kernel_probe *probes)
 {
     int count = 0;
     probes[count++] = kernel_probe_1();
@@ -13,6 +13,15 @@ int kernel_probes(struct kernel_probe *probes)
     if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw")
         && __builtin_cpu_supports("avx512vl"))
         probes[count++] = kernel_probe_16();
+#endif
+    return count;
+}
+
+int kernel_probes(struct kernel_probe *probes)
+{
+    int count = kernel_lane_probes(probes);
+#if defined(MGT_TEST_GL)
+    count += kernel_probe_gl(&probes[count]);
 #endif
     return count;
 }

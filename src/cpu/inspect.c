@@ -1,0 +1,144 @@
+/* SPDX-License-Identifier: MIT
+ * One pixel through the kernels in one lane: the same bits as the frame's, and what lies between. */
+#include "cpu/inspect.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "precompute/atmosphere.h"
+
+#define MGT_LANES 1
+#include "kernels/prelude_c.h"
+
+#define FRAME(cx) (*(cx)->frame)
+#define VIEW(cx) (*(cx)->view)
+#define TILE(cx) (*(cx)->tile)
+#define WAVE(cx, i) ((cx)->waves[i])
+#define MARCH_WAVE(cx, i) ((cx)->march[i])
+
+KERNEL vec3 SKY_TEXEL(CTX cx, real column, real row)
+{
+    const float *texel = cx->sky + 3 * ((int)row * SKY_COLUMNS + (int)column);
+    return (vec3){texel[0], texel[1], texel[2]};
+}
+
+#include "kernels/glitter.k"
+
+/* The pixel within its tile. */
+typedef struct tile_pixel {
+    uint32_t tile_x, tile_y;
+    uint32_t column, row;
+} tile_pixel;
+
+static struct kernel_context sort_tile(const frame *f, const wave_set *set, const float *sky, tile_pixel at, tile_waves *waves, tile_guess *guess)
+{
+    lane_kernels_1.sort(&f->data, set, at.tile_x, at.tile_y, waves);
+    if (tile_sees_water(waves))
+        lane_kernels_1.guess(&f->data, waves, guess);
+    else
+        memset(guess, 0, sizeof *guess);
+    return (struct kernel_context){.frame = &f->data, .tile = &waves->data, .waves = waves->waves, .march = waves->march, .sky = sky};
+}
+
+static SlopeState slopes_of(const struct kernel_context *cx, const tile_guess *guess, tile_pixel at)
+{
+    const size_t i = at.row * TILE_WIDTH + at.column;
+    const HitGuess from = {guess->height[i], guess->from[i], guess->march[i]};
+    return slope_state(cx, pixel_ray_filtered(cx, (float)at.column, (float)at.row).ray, from);
+}
+
+/* The first hit in double precision at the instant t, near where the pixel's search began: Newton along the ray. */
+static void find_hit(const frame *f, tile_pixel at, const tile_guess *guess, mgt_pixel_info *info)
+{
+    const camera_rays *c = &f->close;
+    const double x = at.tile_x * (double)TILE_WIDTH + at.column, y = at.tile_y * (double)TILE_HEIGHT + at.row;
+    const mgt_water *water = &f->scene->water;
+    double ray[3];
+    for (int i = 0; i < 3; i++)
+        ray[i] = c->corner[i] + x * c->right[i] + y * c->down[i];
+    const double start = (double)guess->height[at.row * TILE_WIDTH + at.column];
+    double along = ray[1] < 0 ? (c->position[1] - start) / -ray[1] : 0;
+    for (int step = 0; step < 8 && ray[1] < 0; step++) {
+        const double px = c->position[0] + along * ray[0], pz = c->position[2] + along * ray[2];
+        double gap = c->position[1] + along * ray[1], closing = ray[1];
+        for (size_t i = 0; i < water->wave_count; i++) {
+            const mgt_wave *w = &water->waves[i];
+            const double phase = w->a * px + w->b * pz + w->c * f->scene->time + w->phase;
+            gap -= w->amplitude * sin(phase);
+            closing -= w->amplitude * (w->a * ray[0] + w->b * ray[2]) * cos(phase);
+        }
+        const double move = gap / fmin(closing, 0.25 * ray[1]);
+        along -= fmin(fmax(move, -0.1 * along), 0.1 * along);
+    }
+    for (int i = 0; i < 3; i++)
+        info->position[i] = c->position[i] + along * ray[i];
+    info->distance = along * sqrt(ray[0] * ray[0] + ray[1] * ray[1] + ray[2] * ray[2]);
+}
+
+/* J S Jᵀ of a covariance xx, xz, zz. */
+static void map_covariance(const Mirror *m, const double s[3], double out[3])
+{
+    const double ex = (double)m->j_ex, ez = (double)m->j_ez, fx = (double)m->j_fx, fz = (double)m->j_fz;
+    out[0] = ex * ex * s[0] + 2 * ex * ez * s[1] + ez * ez * s[2];
+    out[1] = ex * fx * s[0] + (ex * fz + ez * fx) * s[1] + ez * fz * s[2];
+    out[2] = fx * fx * s[0] + 2 * fx * fz * s[1] + fz * fz * s[2];
+}
+
+static void describe_mirror(const struct kernel_context *cx, SlopeState open, SlopeState close, mgt_pixel_info *info)
+{
+    const Mirror *m = &close.mirror;
+    const vec2 r0 = mirror_to_light(cx, open.mirror, sub(open.open, open.mirror.slope)), r1 = mirror_to_light(cx, *m, sub(close.close, m->slope));
+    const double both[3] = {info->unresolved[0] + info->bend[0] + (double)cx->frame->slope_floor, info->unresolved[1] + info->bend[1],
+                            info->unresolved[2] + info->bend[2] + (double)cx->frame->slope_floor};
+    info->mirror_slope[0] = (double)m->slope.x;
+    info->mirror_slope[1] = (double)m->slope.y;
+    info->path[0][0] = (double)r0.x;
+    info->path[0][1] = (double)r0.y;
+    info->path[1][0] = (double)r1.x;
+    info->path[1][1] = (double)r1.y;
+    info->light_radius = (double)cx->frame->light_radius;
+    map_covariance(m, both, info->covariance);
+}
+
+void inspect_pixel(const frame *f, const frame_waves *waves, const float *sky, uint32_t x, uint32_t y, tile_scratch *scratch, mgt_pixel_info *info)
+{
+    const tile_pixel at = {x / TILE_WIDTH, y / TILE_HEIGHT, x % TILE_WIDTH, y % TILE_HEIGHT};
+    const bool moves = f->scene->camera_moves;
+    const struct kernel_context cx = sort_tile(f, &waves->shutter, sky, at, &scratch->close, &scratch->close_guess);
+    const PixelRay ray = pixel_ray_filtered(&cx, (float)at.column, (float)at.row);
+    *info = (mgt_pixel_info){.struct_size = sizeof *info, .water = (double)ray.water};
+    if (!(ray.water > 0)) {
+        const vec3 color = background(&cx, ray.sky_ray);
+        info->radiance[0] = (double)color.x;
+        info->radiance[1] = (double)color.y;
+        info->radiance[2] = (double)color.z;
+        return;
+    }
+    const SlopeState close = slopes_of(&cx, &scratch->close_guess, at);
+    SlopeState open = close;
+    if (moves) {
+        const struct kernel_context before = sort_tile(f, &waves->open, sky, at, &scratch->open, &scratch->open_guess);
+        open = slopes_of(&before, &scratch->open_guess, at);
+    }
+    const PixelResult result = glitter_result(&cx, ray, open, close);
+    info->coverage = (double)result.coverage;
+    info->radiance[0] = (double)result.color.x;
+    info->radiance[1] = (double)result.color.y;
+    info->radiance[2] = (double)result.color.z;
+    info->slope_open[0] = (double)open.open.x;
+    info->slope_open[1] = (double)open.open.y;
+    info->slope_close[0] = (double)close.close.x;
+    info->slope_close[1] = (double)close.close.y;
+    info->unresolved[0] = (double)close.variance_xx;
+    info->unresolved[1] = (double)close.variance_xz;
+    info->unresolved[2] = (double)close.variance_zz;
+    info->bend[0] = (double)close.bend_xx;
+    info->bend[1] = (double)close.bend_xz;
+    info->bend[2] = (double)close.bend_zz;
+    info->resolved = (uint32_t)cx.tile->resolved_count;
+    info->mixed = (uint32_t)cx.tile->mixed_count;
+    info->filtered = (uint32_t)f->scene->water.wave_count - info->resolved - info->mixed;
+    find_hit(f, at, &scratch->close_guess, info);
+    if (cx.tile->light_reach != 0)
+        describe_mirror(&cx, open, close, info);
+}

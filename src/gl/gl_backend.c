@@ -1,0 +1,309 @@
+/* SPDX-License-Identifier: MIT
+ * The OpenGL backend: contexts, and mgt_render() with its reading back. */
+#include "gl/gl_backend.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cpu/tile_job.h"
+
+/* ---- contexts ---- */
+
+static mgt_status check_lost(const gl_backend_state *s, const reporter *r)
+{
+    if (s->renderer->gl.GetGraphicsResetStatus() == GL_NO_ERROR)
+        return MGT_OK;
+    return report_error(r, MGT_ERROR_UNAVAILABLE, "gl.lost", "the OpenGL context was lost (the GPU was reset); create a new context");
+}
+
+mgt_status gl_enter(gl_backend_state *s, gl_scope *scope, const reporter *r)
+{
+    if (s->egl) {
+        const mgt_status status = gl_egl_enter(s->egl, &scope->egl, r);
+        if (status != MGT_OK)
+            return status;
+    } else {
+        GLenum error = GL_NO_ERROR;
+        for (int i = 0; i < 32 && (error = s->renderer->gl.GetError()) != GL_NO_ERROR; i++)
+            report(r, MGT_LOG_WARNING, "gl.host", "the host left OpenGL error 0x%04x behind; it has been cleared", error);
+        gl_host_state_save(&s->renderer->gl, &scope->host);
+    }
+    const mgt_status status = check_lost(s, r);
+    if (status != MGT_OK)
+        return gl_leave(s, scope, status, r);
+    gl_timers_frame(&s->renderer->gl, &s->renderer->timers);
+    return MGT_OK;
+}
+
+mgt_status gl_leave(gl_backend_state *s, const gl_scope *scope, mgt_status status, const reporter *r)
+{
+    if (status == MGT_OK)
+        status = check_lost(s, r);
+    if (s->egl) {
+        gl_egl_leave(s->egl, &scope->egl);
+        return status;
+    }
+    gl_host_state_restore(&s->renderer->gl, &scope->host);
+    const mgt_status ended = status == MGT_OK ? gl_check(&s->renderer->gl, "restore", r) : status;
+    return ended;
+}
+
+static void APIENTRY forward_message(GLenum source, GLenum type, GLuint id, GLenum severity, GLsizei length, const GLchar *text, const void *user)
+{
+    (void)id, (void)length;
+    const gl_backend_state *s = user;
+    const mgt_log_level level = type == GL_DEBUG_TYPE_ERROR ? MGT_LOG_WARNING : MGT_LOG_DEBUG;
+    /* Compilers are listened to where a program is built, and the groups are our own. */
+    if (source != GL_DEBUG_SOURCE_SHADER_COMPILER && source != GL_DEBUG_SOURCE_APPLICATION && severity != GL_DEBUG_SEVERITY_NOTIFICATION)
+        report(&s->report, level, "gl.message", "%s", text);
+}
+
+static void fill_info(const gl_renderer *g, mgt_context_info *info)
+{
+    const char *renderer = (const char *)g->gl.GetString(GL_RENDERER), *version = (const char *)g->gl.GetString(GL_VERSION);
+    info->backend = MGT_BACKEND_GL;
+    info->isa = MGT_ISA_AUTO;
+    info->lanes = 1;
+    info->threads = 1;
+    snprintf(info->renderer, sizeof info->renderer, "%s, OpenGL %s", renderer ? renderer : "unknown", version ? version : "");
+    info->software = g->limits.software;
+}
+
+static void gl_destroy(void *state)
+{
+    gl_backend_state *s = state;
+    if (!s)
+        return;
+    gl_scope scope;
+    const reporter silent = {.error = (char[REPORTER_TEXT]){0}};
+    const bool entered = s->renderer && (!s->egl || gl_egl_enter(s->egl, &scope.egl, &silent) == MGT_OK);
+    if (entered) {
+        gl_buffer_free(&s->renderer->gl, &s->transfer);
+        if (s->vertex_array)
+            s->renderer->gl.DeleteVertexArrays(1, &s->vertex_array);
+        gl_renderer_destroy(s->renderer);
+        if (s->egl)
+            gl_egl_leave(s->egl, &scope.egl);
+    }
+    gl_egl_destroy(s->egl);
+    if (s->cpu)
+        cpu_backend.destroy(s->cpu);
+    free(s);
+}
+
+/* In the context that is current. */
+static mgt_status create_renderer(gl_backend_state *s, const reporter *r, mgt_context_info *info)
+{
+    const mgt_gl_get_proc get_proc = s->desc.gl_get_proc ? s->desc.gl_get_proc : gl_egl_get_proc;
+    const mgt_status status = gl_renderer_create(&s->renderer, get_proc, r);
+    if (status != MGT_OK)
+        return status;
+    const gl_api *gl = &s->renderer->gl;
+    gl->CreateVertexArrays(1, &s->vertex_array);
+    if (s->egl) {
+        gl->Enable(GL_DEBUG_OUTPUT);
+        gl->DebugMessageCallback(forward_message, s);
+    }
+    fill_info(s->renderer, info);
+    return MGT_OK;
+}
+
+static mgt_status gl_create(void **state, const mgt_context_desc *desc, const reporter *r, mgt_context_info *info)
+{
+    gl_backend_state *s = calloc(1, sizeof *s);
+    if (!s)
+        return report_error(r, MGT_ERROR_MEMORY, "context.create", "out of memory");
+    s->desc = *desc;
+    s->report = (reporter){.log = desc->log, .log_user = desc->log_user};
+    mgt_status status = MGT_OK;
+    gl_egl_scope scope;
+    if (!desc->gl_get_proc) {
+        status = gl_egl_create(&s->egl, desc->gl_device, r);
+        if (status == MGT_OK)
+            status = gl_egl_enter(s->egl, &scope, r);
+    }
+    if (status == MGT_OK) {
+        status = create_renderer(s, r, info);
+        if (s->egl)
+            gl_egl_leave(s->egl, &scope);
+    }
+    if (status != MGT_OK) {
+        gl_destroy(s);
+        return status;
+    }
+    if (info->software && desc->backend == MGT_BACKEND_GL)
+        report(r, MGT_LOG_INFO, "context.software", "OpenGL here is software: %s; the CPU backend is faster, and exact where "
+               "a software rasteriser ends the long loops of point samples near the horizon", info->renderer);
+    *state = s;
+    return MGT_OK;
+}
+
+/* ---- reading back ---- */
+
+/* Bytes that are read back at once. */
+static const size_t transfer_bytes = (size_t)16 << 20;
+
+typedef struct layer_source {
+    const gl_image *image;
+    GLenum format, type;
+} layer_source;
+
+static layer_source source_of(const gl_layers *l, const mgt_target *target)
+{
+    const GLenum channels = target->format == MGT_FORMAT_RGBA32F ? GL_RGBA : GL_RGB;
+    if (target->format == MGT_FORMAT_RGBA8_SRGB)
+        return (layer_source){&l->display, GL_RGBA, GL_UNSIGNED_BYTE};
+    switch (target->layer) {
+    case MGT_LAYER_COVERAGE: return (layer_source){&l->coverage, GL_RED, GL_FLOAT};
+    case MGT_LAYER_MASK: return (layer_source){&l->water, GL_RED, GL_FLOAT};
+    case MGT_LAYER_DEPTH: return (layer_source){&l->depth, GL_RED, GL_FLOAT};
+    case MGT_LAYER_NORMAL: return (layer_source){&l->normal, channels, GL_FLOAT};
+    case MGT_LAYER_COLOR: break;
+    }
+    return (layer_source){&l->color, channels, GL_FLOAT};
+}
+
+/* `crop` lies within `area`, which the layers hold. */
+static mgt_status read_target(gl_backend_state *s, const mgt_target *target, const region *area, const region *crop, const reporter *r)
+{
+    const gl_api *gl = &s->renderer->gl;
+    const layer_source source = source_of(&s->renderer->layers, target);
+    const size_t row = format_size(target->format) * crop->width;
+    const uint32_t rows = transfer_bytes / row > 0 ? (uint32_t)(transfer_bytes / row) : 1;
+    mgt_status status = gl_buffer_reserve(gl, &s->transfer, row * (rows < crop->height ? rows : crop->height),
+                                          GL_MAP_READ_BIT | GL_CLIENT_STORAGE_BIT, r);
+    for (uint32_t y = 0; y < crop->height && status == MGT_OK; y += rows) {
+        const uint32_t count = crop->height - y < rows ? crop->height - y : rows;
+        const size_t size = row * count;
+        gl->BindBuffer(GL_PIXEL_PACK_BUFFER, s->transfer.name);
+        gl->GetTextureSubImage(source.image->name, 0, (GLint)(crop->x - area->x), (GLint)(crop->y - area->y + y), 0, (GLsizei)crop->width,
+                               (GLsizei)count, 1,
+                               source.format, source.type, (GLsizei)s->transfer.size, NULL);
+        gl->BindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+        const char *pixels = gl->MapNamedBufferRange(s->transfer.name, 0, (GLsizeiptr)size, GL_MAP_READ_BIT);
+        if (!pixels)
+            return gl_check(gl, "readback", r) == MGT_OK ? report_error(r, MGT_ERROR_MEMORY, "gl.memory", "OpenGL cannot map %zu bytes",
+                                                                        size) : MGT_ERROR_MEMORY;
+        for (uint32_t i = 0; i < count; i++)
+            memcpy(target_row(target, crop, y + i), pixels + row * i, row);
+        gl->UnmapNamedBuffer(s->transfer.name);
+        status = gl_check(gl, "readback", r);
+    }
+    return status;
+}
+
+/* ---- mgt_render ---- */
+
+static mgt_status render_reference(gl_backend_state *s, const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count)
+{
+    if (!s->cpu) {
+        mgt_context_info info;
+        mgt_context_desc desc = s->desc;
+        desc.backend = MGT_BACKEND_CPU;
+        const mgt_status status = cpu_backend.create(&s->cpu, &desc, r, &info);
+        if (status != MGT_OK)
+            return status;
+    }
+    return cpu_backend.render(s->cpu, r, scene, targets, count);
+}
+
+static camera_rays scene_camera_at(const void *user, double share)
+{
+    return camera_at(user, share);
+}
+
+void layer_wants_add(layer_wants *w, mgt_layer layer, bool display)
+{
+    w->color |= layer == MGT_LAYER_COLOR;
+    w->pixels |= layer <= MGT_LAYER_MASK;
+    w->depth |= layer == MGT_LAYER_DEPTH;
+    w->normal |= layer == MGT_LAYER_NORMAL;
+    w->display |= display;
+}
+
+mgt_status gl_layers_render(gl_backend_state *s, const reporter *r, const mgt_scene *scene, const layer_wants *wants, bool tell_progress,
+                            region *area)
+{
+    mgt_status status = gl_sky_prepare(s->renderer, scene, r);
+    if (status != MGT_OK)
+        return status;
+    const frame f = frame_of(scene, s->renderer->sky, wants->color);
+    *area = image_region(&scene->image);
+    if (wants->display && scene->post.glare > 0)
+        *area = (region){0, 0, scene->image.width, scene->image.height};
+    const gl_job job = {
+        .frame = &f,
+        .camera_at = scene_camera_at,
+        .camera_user = &f,
+        .area = *area,
+        .wants_pixels = wants->pixels,
+        .wants_depth = wants->depth,
+        .wants_normal = wants->normal,
+        .background = true,
+        .progress = tell_progress ? s->desc.progress : NULL,
+        .progress_user = s->desc.progress_user,
+    };
+    status = gl_frame_render(s->renderer, &job, r);
+    return status == MGT_OK && wants->display ? gl_display_render(s->renderer, &f, area, r) : status;
+}
+
+static mgt_status render_entered(gl_backend_state *s, const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count)
+{
+    layer_wants wants = {0};
+    for (size_t i = 0; i < count; i++)
+        layer_wants_add(&wants, targets[i].layer, targets[i].format == MGT_FORMAT_RGBA8_SRGB);
+    region area;
+    const region crop = image_region(&scene->image);
+    mgt_status status = gl_layers_render(s, r, scene, &wants, true, &area);
+    for (size_t i = 0; i < count && status == MGT_OK; i++)
+        status = read_target(s, &targets[i], &area, &crop, r);
+    return status;
+}
+
+static mgt_status gl_render(void *state, const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count)
+{
+    gl_backend_state *s = state;
+    if (scene->quality.method == MGT_METHOD_REFERENCE)
+        return render_reference(s, r, scene, targets, count);
+    gl_scope scope;
+    mgt_status status = gl_enter(s, &scope, r);
+    if (status != MGT_OK)
+        return status;
+    status = render_entered(s, r, scene, targets, count);
+    return gl_leave(s, &scope, status, r);
+}
+
+/* ---- sources and timings ---- */
+
+static mgt_status gl_set_sources(void *state, const reporter *r, const mgt_gl_source *sources, size_t count)
+{
+    gl_backend_state *s = state;
+    for (size_t i = 0; i < count; i++)
+        if (!gl_text_exists(sources[i].name))
+            return report_error(r, MGT_ERROR_ARGUMENT, "gl.sources", "source %zu: there is no file \"%s\" to replace", i, sources[i].name);
+    gl_scope scope;
+    mgt_status status = gl_enter(s, &scope, r);
+    if (status != MGT_OK)
+        return status;
+    status = gl_programs_replace(&s->renderer->programs, sources, count, r);
+    return gl_leave(s, &scope, status, r);
+}
+
+static size_t gl_get_timings(const void *state, mgt_gl_timing *timings, size_t capacity)
+{
+    const gl_timers *t = &((const gl_backend_state *)state)->renderer->timers;
+    for (size_t i = 0; i < t->count && i < capacity; i++)
+        timings[i] = t->timings[i];
+    return t->count;
+}
+
+const backend_functions gl_backend = {
+    .create = gl_create,
+    .destroy = gl_destroy,
+    .render = gl_render,
+    .render_textures = gl_render_textures,
+    .render_views = gl_render_views,
+    .set_sources = gl_set_sources,
+    .get_timings = gl_get_timings,
+};

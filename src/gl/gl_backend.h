@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: MIT
+ * The state of the OpenGL backend, and how a call enters and leaves its context. */
+#ifndef MANGATA_GL_GL_BACKEND_H
+#define MANGATA_GL_GL_BACKEND_H
+
+#include "gl/gl_egl.h"
+#include "gl/gl_host_state.h"
+#include "gl/gl_renderer.h"
+
+typedef struct gl_backend_state {
+    gl_egl *egl; /* the context of our own; NULL in the host's */
+    gl_renderer *renderer;
+    gl_buffer transfer;
+    mgt_context_desc desc;
+    reporter report;     /* for messages of OpenGL's own */
+    void *cpu;           /* state of the CPU backend for the reference; NULL until it is needed */
+    GLuint vertex_array; /* empty */
+} gl_backend_state;
+
+/* What a call puts back at its end. */
+typedef struct gl_scope {
+    gl_egl_scope egl;
+    gl_host_state host;
+} gl_scope;
+
+mgt_status gl_enter(gl_backend_state *s, gl_scope *scope, const reporter *r);
+
+/* Returns `status`, or what OpenGL has to say where that is MGT_OK. */
+mgt_status gl_leave(gl_backend_state *s, const gl_scope *scope, mgt_status status, const reporter *r);
+
+/* What a call asks for. */
+typedef struct layer_wants {
+    bool color, pixels, depth, normal, display;
+} layer_wants;
+
+void layer_wants_add(layer_wants *w, mgt_layer layer, bool display);
+
+/* Renders the layers of a scene that has been checked; `area` gets the part of the image that they hold: the crop, or all of it for glare. */
+mgt_status gl_layers_render(gl_backend_state *s, const reporter *r, const mgt_scene *scene, const layer_wants *wants, bool tell_progress,
+                            region *area);
+
+mgt_status gl_render_textures(void *state, const reporter *r, const mgt_scene *scene, const mgt_gl_texture *textures, size_t count);
+mgt_status gl_render_views(void *state, const reporter *r, const mgt_scene *scene, const mgt_gl_view *views, size_t count);
+
+#endif

@@ -1,0 +1,403 @@
+/* SPDX-License-Identifier: MIT
+ * A frame on the GPU: bands of tiles, and the passes over each.
+ *
+ * A set of waves (an instant or a shutter interval before a camera) is sorted into the tiles of a band, their lattices of first hits are
+ * marched, and then a method shades the band's pixels. The next set takes the same memory. */
+#include <string.h>
+
+#include "cpu/tile_job.h"
+#include "gl/gl_renderer.h"
+
+/* Memory of a band's lists of waves, unless a single row of tiles needs more. */
+static const size_t band_bytes = (size_t)64 << 20;
+
+/* Point samples of a dispatch, and pixels of a band where progress is told: what keeps both prompt. */
+static const uint64_t prompt_samples = (uint64_t)1 << 20;
+
+typedef struct band {
+    PassData pass;
+    uint32_t tiles; /* of one camera */
+} band;
+
+typedef struct frame_run {
+    gl_renderer *g;
+    const gl_job *job;
+    const reporter *r;
+    uint32_t first_row, end_row, first_column, columns; /* of tiles */
+    uint32_t band_rows;
+    int wave_stride;
+    GLsync behind;  /* of the last step but one told */
+    double done, steps;
+} frame_run;
+
+static bool is_filtered(mgt_method method)
+{
+    return method == MGT_METHOD_MANGATA || method == MGT_METHOD_PODEE_UNIFORM || method == MGT_METHOD_PODEE_PIXEL;
+}
+
+/* ---- memory ---- */
+
+static uint32_t least(uint64_t a, uint64_t b)
+{
+    return (uint32_t)(a < b ? a : b);
+}
+
+static mgt_status reserve_tiles(frame_run *run)
+{
+    gl_renderer *g = run->g;
+    const frame *f = run->job->frame;
+    const region *a = &run->job->area;
+    run->first_column = a->x / TILE_WIDTH;
+    run->columns = (a->x + a->width - 1) / TILE_WIDTH - run->first_column + 1;
+    run->first_row = a->y / TILE_HEIGHT;
+    run->end_row = (a->y + a->height - 1) / TILE_HEIGHT + 1;
+    const size_t waves = f->scene->water.wave_count;
+    run->wave_stride = (int)(waves > 0 ? waves : 1);
+    const size_t cameras = is_filtered(f->scene->quality.method) && f->scene->camera_moves ? 2 : 1;
+    const size_t tile_bytes = sizeof(TileData) + NODE_COUNT * sizeof(NodeData) + (size_t)run->wave_stride * (sizeof(TileWave) + sizeof(MarchWave));
+    const size_t row_bytes = run->columns * cameras * tile_bytes;
+    uint64_t rows = band_bytes / row_bytes;
+    if (run->job->progress)
+        rows = rows < prompt_samples / ((uint64_t)run->columns * TILE_PIXELS) ? rows : prompt_samples / ((uint64_t)run->columns * TILE_PIXELS);
+    run->band_rows = least(rows > 0 ? rows : 1, run->end_row - run->first_row);
+
+    const size_t tiles = (size_t)run->columns * run->band_rows * cameras;
+    const gl_api *gl = &g->gl;
+    mgt_status status = gl_buffer_reserve(gl, &g->tiles, tiles * sizeof(TileData), 0, run->r);
+    if (status == MGT_OK)
+        status = gl_buffer_reserve(gl, &g->tile_waves, tiles * (size_t)run->wave_stride * sizeof(TileWave), 0, run->r);
+    if (status == MGT_OK)
+        status = gl_buffer_reserve(gl, &g->march_waves, tiles * (size_t)run->wave_stride * sizeof(MarchWave), 0, run->r);
+    if (status == MGT_OK)
+        status = gl_buffer_reserve(gl, &g->nodes, tiles * NODE_COUNT * sizeof(NodeData), 0, run->r);
+    return status;
+}
+
+static mgt_status reserve_layers(const frame_run *run)
+{
+    gl_renderer *g = run->g;
+    gl_layers *l = &g->layers;
+    const gl_job *job = run->job;
+    const region *a = &job->area;
+    if (a->width > g->limits.texture_side || a->height > g->limits.texture_side)
+        return report_error(run->r, MGT_ERROR_UNSUPPORTED, "render.size",
+                            "%u x %u pixels are more than this OpenGL's textures hold: %u a side; render a crop or use the CPU",
+                            a->width, a->height, g->limits.texture_side);
+    mgt_status status = MGT_OK;
+    if (job->wants_pixels && job->frame->data.want_color)
+        status = gl_image_reserve(&g->gl, &l->color, GL_RGBA32F, a->width, a->height, run->r);
+    if (status == MGT_OK && job->wants_pixels)
+        status = gl_image_reserve(&g->gl, &l->coverage, GL_R32F, a->width, a->height, run->r);
+    if (status == MGT_OK && job->wants_pixels)
+        status = gl_image_reserve(&g->gl, &l->water, GL_R32F, a->width, a->height, run->r);
+    if (status == MGT_OK && job->wants_depth)
+        status = gl_image_reserve(&g->gl, &l->depth, GL_R32F, a->width, a->height, run->r);
+    if (status == MGT_OK && job->wants_normal)
+        status = gl_image_reserve(&g->gl, &l->normal, GL_RGBA32F, a->width, a->height, run->r);
+    return status;
+}
+
+/* ---- a set of waves ---- */
+
+/* Uniform data of all passes over one set: they stay valid until the set after the next. */
+static size_t set_bytes(void)
+{
+    return sizeof(FrameData) + MGT_MAX_WAVES * (sizeof(WaveData) + sizeof(SortData)) + sizeof(ViewData) + 3 * sizeof(PassData);
+}
+
+enum { SET_PARTS = 7 };
+
+static void bind_storage(const gl_renderer *g)
+{
+    const GLuint buffers[] = {g->tiles.name, g->tile_waves.name, g->march_waves.name, g->nodes.name};
+    for (GLuint i = 0; i < sizeof buffers / sizeof *buffers; i++)
+        g->gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, BIND_TILES + i, buffers[i]);
+}
+
+static void upload_waves(gl_renderer *g)
+{
+    const wave_set *set = g->waves;
+    const size_t count = (size_t)set->view.wave_count;
+    size_t offset;
+    memcpy(gl_ring_allocate(&g->ring, MGT_MAX_WAVES * sizeof(WaveData), &offset), set->data, count * sizeof(WaveData));
+    const bool storage = g->programs.defines != NULL;
+    g->gl.BindBufferRange(storage ? GL_SHADER_STORAGE_BUFFER : GL_UNIFORM_BUFFER, storage ? BIND_WAVE_STORAGE : BIND_WAVES, g->ring.buffer,
+                          (GLintptr)offset,
+                          MGT_MAX_WAVES * sizeof(WaveData));
+    SortData *sort = gl_ring_allocate(&g->ring, MGT_MAX_WAVES * sizeof(SortData), &offset);
+    for (size_t i = 0; i < count; i++)
+        sort[i] = (SortData){set->turns_x[i], set->turns_z[i], set->turns_low_x[i], set->turns_low_z[i], set->phase[i], set->lesser_variance[i], 0,
+            0};
+    g->gl.BindBufferRange(GL_SHADER_STORAGE_BUFFER, BIND_SORT, g->ring.buffer, (GLintptr)offset, MGT_MAX_WAVES * sizeof(SortData));
+    gl_uniform(g, BIND_EXTRA, &set->view, sizeof set->view);
+}
+
+/* Sorts the waves that g->waves holds into the band's tiles from `first_slot` on. */
+static mgt_status sort_tiles(const frame_run *run, const band *b, uint32_t first_slot)
+{
+    gl_renderer *g = run->g;
+    mgt_status status = gl_ring_begin(&g->gl, &g->ring, set_bytes(), SET_PARTS, run->r);
+    if (status != MGT_OK)
+        return status;
+    gl_pass_begin(g, "tiles");
+    PassData pass = b->pass;
+    pass.first_slot = (int)first_slot;
+    gl_uniform(g, BIND_FRAME, &run->job->frame->data, sizeof(FrameData));
+    gl_uniform(g, BIND_PASS, &pass, sizeof pass);
+    upload_waves(g);
+    bind_storage(g);
+    status = gl_use(g, PROGRAM_TILES, run->r);
+    if (status == MGT_OK) {
+        g->gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+        g->gl.DispatchCompute((GLuint)pass.columns, (GLuint)pass.rows, 1);
+        g->gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    }
+    const mgt_status ended = gl_pass_end(g, run->r);
+    return status == MGT_OK ? ended : status;
+}
+
+static mgt_status march_nodes(const frame_run *run, uint32_t tiles)
+{
+    gl_renderer *g = run->g;
+    gl_pass_begin(g, "nodes");
+    const mgt_status status = gl_use(g, PROGRAM_NODES, run->r);
+    if (status == MGT_OK) {
+        g->gl.DispatchCompute(tiles, 1, 1);
+        g->gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    }
+    const mgt_status ended = gl_pass_end(g, run->r);
+    return status == MGT_OK ? ended : status;
+}
+
+/* Tiles and lattices of one camera at g->waves. */
+static mgt_status prepare_set(const frame_run *run, const band *b)
+{
+    const mgt_status status = sort_tiles(run, b, 0);
+    return status == MGT_OK ? march_nodes(run, b->tiles) : status;
+}
+
+/* Layers that do not exist are not written: a store to no image has no effect. */
+static void bind_layers(const gl_renderer *g)
+{
+    const gl_layers *l = &g->layers;
+    const gl_image *const images[IMAGE_UNITS] = {&l->color, &l->coverage, &l->water, &l->depth, &l->normal};
+    for (GLuint i = 0; i < IMAGE_UNITS; i++)
+        g->gl.BindImageTexture(i, images[i]->name, 0, GL_FALSE, 0, GL_READ_WRITE, images[i]->name ? images[i]->format : GL_R32F);
+    g->gl.BindTextureUnit(UNIT_SKY, g->sky_texture);
+    g->gl.BindSampler(UNIT_SKY, 0);
+}
+
+/* A program over the pixels of the band. */
+static mgt_status run_pixels(const frame_run *run, const PassData *pass, const char *name, gl_program program)
+{
+    gl_renderer *g = run->g;
+    gl_pass_begin(g, name);
+    const mgt_status status = gl_use(g, program, run->r);
+    if (status == MGT_OK) {
+        gl_uniform(g, BIND_PASS, pass, sizeof *pass);
+        bind_layers(g);
+        g->gl.DispatchCompute((GLuint)pass->columns * 4, (GLuint)pass->rows * 2, 1);
+        g->gl.MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
+    }
+    const mgt_status ended = gl_pass_end(g, run->r);
+    return status == MGT_OK ? ended : status;
+}
+
+/* ---- progress ---- */
+
+/* Tells that a step has been sent, and waits until the one before has run, so that the caller hears where the GPU is. */
+static mgt_status step_done(frame_run *run, double steps)
+{
+    const gl_job *job = run->job;
+    const gl_api *gl = &run->g->gl;
+    run->done += steps;
+    if (!job->progress)
+        return MGT_OK;
+    if (run->behind) {
+        const GLuint64 tenth = 100000000;
+        while (gl->ClientWaitSync(run->behind, GL_SYNC_FLUSH_COMMANDS_BIT, tenth) == GL_TIMEOUT_EXPIRED)
+            if (gl->GetGraphicsResetStatus() != GL_NO_ERROR)
+                break;
+        gl->DeleteSync(run->behind);
+    }
+    run->behind = gl->FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+    const double fraction = run->done / run->steps;
+    if (!job->progress(job->progress_user, fraction < 1 ? fraction : 1))
+        return report_error(run->r, MGT_CANCELLED, "render.cancelled", "rendering was cancelled");
+    return MGT_OK;
+}
+
+/* ---- methods ---- */
+
+static interval shutter_of(const mgt_scene *s)
+{
+    return s->camera_moves ? (interval){s->time, 0} : (interval){s->time - s->shutter / 2, s->shutter / 2};
+}
+
+static mgt_status render_filtered(frame_run *run, const band *b)
+{
+    const frame *f = run->job->frame;
+    const mgt_scene *s = f->scene;
+    const bool podee = s->quality.method != MGT_METHOD_MANGATA;
+    PassData pass = b->pass;
+    pass.write_depth = run->job->shaded_depth;
+    mgt_status status = MGT_OK;
+    uint32_t tiles = b->tiles;
+    if (s->camera_moves) {
+        wave_set_build(f, &f->open, (interval){s->time - s->shutter, 0}, true, run->g->waves);
+        status = sort_tiles(run, b, b->tiles);
+        pass.open_slots = (int)b->tiles;
+        tiles *= 2;
+    }
+    wave_set_build(f, &f->close, shutter_of(s), true, run->g->waves);
+    if (status == MGT_OK)
+        status = sort_tiles(run, b, 0);
+    if (status == MGT_OK)
+        status = march_nodes(run, tiles);
+    if (status == MGT_OK)
+        status = run_pixels(run, &pass, "shade", podee ? PROGRAM_SHADE_PODEE : PROGRAM_SHADE_MANGATA);
+    return status == MGT_OK ? step_done(run, 1) : status;
+}
+
+static mgt_status render_centre(frame_run *run, const band *b)
+{
+    const frame *f = run->job->frame;
+    wave_set_build(f, &f->close, (interval){f->scene->time, 0}, false, run->g->waves);
+    mgt_status status = prepare_set(run, b);
+    PassData pass = b->pass;
+    pass.clear = 1;
+    pass.weight = 1;
+    pass.strata = 1;
+    if (status == MGT_OK)
+        status = run_pixels(run, &pass, "samples", PROGRAM_SAMPLES);
+    return status == MGT_OK ? step_done(run, 1) : status;
+}
+
+/* Dispatches after which a set's uniform data are sent again, before the ring comes round to them. */
+enum { resend = 1000 };
+
+/* Samples [from, end) of one instant, whose tiles are ready, in dispatches of moderate length. */
+static mgt_status run_samples(frame_run *run, const band *b, uint64_t from, uint64_t end)
+{
+    const mgt_quality *q = &run->job->frame->scene->quality;
+    const uint64_t per_time = (uint64_t)q->spatial_samples * q->spatial_samples;
+    const uint64_t all = q->sample_count ? q->sample_count : per_time * q->time_samples - q->sample_first;
+    const uint64_t pixels = (uint64_t)b->tiles * TILE_PIXELS;
+    /* llvmpipe ends an invocation's loops after 65,535 turns of all of them together, which many samples would reach. */
+    const uint64_t most = pixels < prompt_samples && !run->g->limits.software ? prompt_samples / pixels : 1;
+    mgt_status status = MGT_OK;
+    for (int sent = 1; from < end && status == MGT_OK; sent++) {
+        if (sent % resend == 0)
+            status = prepare_set(run, b);
+        const uint64_t count = end - from < most ? end - from : most;
+        PassData pass = b->pass;
+        pass.sample_first_low = (int)(uint32_t)from;
+        pass.sample_first_high = (int)(uint32_t)(from >> 32);
+        pass.sample_count = (int)count;
+        pass.stratum_first = (int)(from % per_time);
+        pass.strata = (int)q->spatial_samples;
+        pass.weight = 1.0f / (float)all;
+        pass.seed_low = (int)(uint32_t)q->seed;
+        pass.seed_high = (int)(uint32_t)(q->seed >> 32);
+        pass.clear = from == q->sample_first;
+        if (status == MGT_OK)
+            status = gl_ring_begin(&run->g->gl, &run->g->ring, sizeof pass, 1, run->r);
+        if (status == MGT_OK)
+            status = run_pixels(run, &pass, "samples", PROGRAM_SAMPLES);
+        from += count;
+        if (status == MGT_OK)
+            status = step_done(run, (double)count);
+    }
+    return status;
+}
+
+static mgt_status render_samples(frame_run *run, const band *b)
+{
+    const gl_job *job = run->job;
+    const frame *f = job->frame;
+    const mgt_quality *q = &f->scene->quality;
+    const uint64_t per_time = (uint64_t)q->spatial_samples * q->spatial_samples;
+    const uint64_t end = q->sample_count ? q->sample_first + q->sample_count : per_time * q->time_samples;
+    mgt_status status = MGT_OK;
+    for (uint64_t sample = q->sample_first; sample < end && status == MGT_OK;) {
+        const uint64_t m = sample / per_time, next = (m + 1) * per_time < end ? (m + 1) * per_time : end;
+        const double share = time_share(q, m);
+        const camera_rays camera = job->camera_at(job->camera_user, share);
+        wave_set_build(f, &camera, (interval){f->scene->time - (1 - share) * f->scene->shutter, 0}, false, run->g->waves);
+        status = prepare_set(run, b);
+        if (status == MGT_OK)
+            status = run_samples(run, b, sample, next);
+        sample = next;
+    }
+    return status;
+}
+
+/* `ready`: the tiles are those of point samples at the instant already. */
+static mgt_status render_surface(frame_run *run, const band *b, bool ready)
+{
+    const frame *f = run->job->frame;
+    const interval now = {f->scene->time, 0};
+    mgt_status status = MGT_OK;
+    if (!ready) {
+        wave_set_build(f, &f->close, now, false, run->g->waves);
+        status = prepare_set(run, b);
+    }
+    if (status == MGT_OK)
+        status = run_pixels(run, &b->pass, "surface", PROGRAM_SURFACE);
+    if (status != MGT_OK || !run->job->wants_normal || !is_filtered(f->scene->quality.method))
+        return status;
+    wave_set_build(f, &f->close, now, true, run->g->waves);
+    status = prepare_set(run, b);
+    if (status == MGT_OK)
+        status = run_pixels(run, &b->pass, "surface", PROGRAM_NORMAL);
+    return status;
+}
+
+static mgt_status render_band(frame_run *run, uint32_t row)
+{
+    const gl_job *job = run->job;
+    const mgt_method method = job->frame->scene->quality.method;
+    const uint32_t rows = least(run->band_rows, run->end_row - row);
+    const band b = {
+        .pass = {
+            .tile_x = (int)run->first_column,
+            .tile_y = (int)row,
+            .columns = (int)run->columns,
+            .rows = (int)rows,
+            .area_x = (int)job->area.x,
+            .area_y = (int)job->area.y,
+            .area_width = (int)job->area.width,
+            .area_height = (int)job->area.height,
+            .wave_count = (int)job->frame->scene->water.wave_count,
+            .wave_stride = run->wave_stride,
+            .show_background = job->background,
+        },
+        .tiles = run->columns * rows,
+    };
+    mgt_status status = MGT_OK;
+    if (job->wants_pixels)
+        status = is_filtered(method) ? render_filtered(run, &b) : method == MGT_METHOD_SSAA ? render_samples(run, &b) : render_centre(run, &b);
+    const bool depth = job->wants_depth && !(job->shaded_depth && is_filtered(method));
+    if (status == MGT_OK && (depth || job->wants_normal))
+        status = render_surface(run, &b, job->wants_pixels && method == MGT_METHOD_NONE);
+    return status;
+}
+
+mgt_status gl_frame_render(gl_renderer *g, const gl_job *job, const reporter *r)
+{
+    frame_run run = {.g = g, .job = job, .r = r};
+    mgt_status status = reserve_layers(&run);
+    if (status == MGT_OK)
+        status = reserve_tiles(&run);
+    if (status != MGT_OK)
+        return status;
+    const mgt_quality *q = &job->frame->scene->quality;
+    const uint64_t all = (uint64_t)q->spatial_samples * q->spatial_samples * q->time_samples - q->sample_first;
+    const uint32_t bands = (run.end_row - run.first_row + run.band_rows - 1) / run.band_rows;
+    run.steps = bands * (q->method == MGT_METHOD_SSAA ? (double)(q->sample_count ? q->sample_count : all) : 1.0);
+    for (uint32_t row = run.first_row; row < run.end_row && status == MGT_OK; row += run.band_rows)
+        status = render_band(&run, row);
+    if (run.behind)
+        g->gl.DeleteSync(run.behind);
+    return status;
+}

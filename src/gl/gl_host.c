@@ -1,0 +1,302 @@
+/* SPDX-License-Identifier: MIT
+ * Rendering into textures and framebuffers of the host. */
+#include "core/validate.h"
+#include "gl/gl_backend.h"
+#include "gl/gl_view.h"
+
+/* ---- textures ---- */
+
+/* Formats that a layer can be written to, the first two for floats. */
+static bool takes_layer(GLenum format, mgt_layer layer)
+{
+    switch (layer) {
+    case MGT_LAYER_COVERAGE:
+    case MGT_LAYER_MASK:
+    case MGT_LAYER_DEPTH: return format == GL_R32F || format == GL_R16F;
+    case MGT_LAYER_NORMAL: return format == GL_RGBA32F || format == GL_RGBA16F;
+    case MGT_LAYER_COLOR: break;
+    }
+    return format == GL_RGBA32F || format == GL_RGBA16F || format == GL_RGBA8;
+}
+
+static mgt_status check_texture(const gl_backend_state *s, const mgt_gl_texture *t, size_t index, const region *crop, GLenum *format,
+                                const reporter *r)
+{
+    const gl_api *gl = &s->renderer->gl;
+    static const char *const layers[] = {"color (GL_RGBA32F, GL_RGBA16F or GL_RGBA8)", "coverage (GL_R32F or GL_R16F)", "mask (GL_R32F or GL_R16F)",
+                                         "depth (GL_R32F or GL_R16F)", "normal (GL_RGBA32F or GL_RGBA16F)"};
+    if (!gl->IsTexture(t->texture))
+        return report_error(r, MGT_ERROR_ARGUMENT, "render.texture", "texture %zu: %u is no texture of this context", index, t->texture);
+    GLint target = 0, immutable = 0, levels = 0, width = 0, height = 0, internal = 0;
+    gl->GetTextureParameteriv(t->texture, GL_TEXTURE_TARGET, &target);
+    gl->GetTextureParameteriv(t->texture, GL_TEXTURE_IMMUTABLE_FORMAT, &immutable);
+    if (target != GL_TEXTURE_2D || !immutable)
+        return report_error(r, MGT_ERROR_ARGUMENT, "render.texture",
+                            "texture %zu: %u is not a GL_TEXTURE_2D with immutable storage (glTextureStorage2D)", index, t->texture);
+    gl->GetTextureParameteriv(t->texture, GL_TEXTURE_IMMUTABLE_LEVELS, &levels);
+    if (t->level < 0 || t->level >= levels)
+        return report_error(r, MGT_ERROR_ARGUMENT, "render.texture", "texture %zu: level %d does not exist; %u has %d", index, (int)t->level,
+                            t->texture, levels);
+    gl->GetTextureLevelParameteriv(t->texture, t->level, GL_TEXTURE_WIDTH, &width);
+    gl->GetTextureLevelParameteriv(t->texture, t->level, GL_TEXTURE_HEIGHT, &height);
+    gl->GetTextureLevelParameteriv(t->texture, t->level, GL_TEXTURE_INTERNAL_FORMAT, &internal);
+    if ((uint32_t)width != crop->width || (uint32_t)height != crop->height)
+        return report_error(r, MGT_ERROR_ARGUMENT, "render.texture", "texture %zu: it has %d x %d texels, the scene's picture %u x %u", index, width,
+                            height, crop->width, crop->height);
+    *format = (GLenum)internal;
+    if (takes_layer(*format, t->layer))
+        return MGT_OK;
+    return report_error(r, MGT_ERROR_ARGUMENT, "render.texture", "texture %zu: its format 0x%04x cannot hold layer %s", index, *format,
+                        layers[t->layer]);
+}
+
+static const gl_image *image_of(const gl_layers *l, mgt_layer layer, GLenum format)
+{
+    switch (layer) {
+    case MGT_LAYER_COVERAGE: return &l->coverage;
+    case MGT_LAYER_MASK: return &l->water;
+    case MGT_LAYER_DEPTH: return &l->depth;
+    case MGT_LAYER_NORMAL: return &l->normal;
+    case MGT_LAYER_COLOR: break;
+    }
+    return format == GL_RGBA8 ? &l->display : &l->color;
+}
+
+static mgt_status copy_layer(gl_backend_state *s, const mgt_gl_texture *t, GLenum format, const region *area, const region *crop, const reporter *r)
+{
+    gl_renderer *g = s->renderer;
+    const GlareData data = {.fine_width = (int)crop->width, .fine_height = (int)crop->height, .across = (int)(crop->x - area->x),
+        .down = (int)(crop->y - area->y)};
+    mgt_status status = gl_ring_begin(&g->gl, &g->ring, sizeof data, 1, r);
+    if (status != MGT_OK)
+        return status;
+    gl_pass_begin(g, "copy");
+    status = gl_use(g, PROGRAM_COPY, r);
+    if (status == MGT_OK) {
+        gl_uniform(g, BIND_EXTRA, &data, sizeof data);
+        g->gl.BindTextureUnit(UNIT_FINE, image_of(&g->layers, t->layer, format)->name);
+        g->gl.BindSampler(UNIT_FINE, 0);
+        g->gl.BindImageTexture(0, t->texture, t->level, GL_FALSE, 0, GL_WRITE_ONLY, format);
+        g->gl.DispatchCompute((crop->width + 7) / 8, (crop->height + 7) / 8, 1);
+    }
+    const mgt_status ended = gl_pass_end(g, r);
+    return status == MGT_OK ? ended : status;
+}
+
+static mgt_status render_textures(gl_backend_state *s, const reporter *r, const mgt_scene *scene, const mgt_gl_texture *textures, size_t count)
+{
+    const region crop = image_region(&scene->image);
+    GLenum formats[16];
+    layer_wants wants = {0};
+    mgt_status status = MGT_OK;
+    for (size_t i = 0; i < count && status == MGT_OK; i++) {
+        status = check_texture(s, &textures[i], i, &crop, &formats[i], r);
+        layer_wants_add(&wants, textures[i].layer, status == MGT_OK && formats[i] == GL_RGBA8);
+    }
+    region area;
+    if (status == MGT_OK)
+        status = gl_layers_render(s, r, scene, &wants, false, &area);
+    for (size_t i = 0; i < count && status == MGT_OK; i++)
+        status = copy_layer(s, &textures[i], formats[i], &area, &crop, r);
+    if (status == MGT_OK)
+        s->renderer->gl.MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT |
+                                      GL_FRAMEBUFFER_BARRIER_BIT);
+    return status;
+}
+
+mgt_status gl_render_textures(void *state, const reporter *r, const mgt_scene *scene, const mgt_gl_texture *textures, size_t count)
+{
+    gl_backend_state *s = state;
+    if (s->egl)
+        return report_error(r, MGT_ERROR_ARGUMENT, "render.texture", "this context has no host: create it with mgt_context_desc.gl_get_proc");
+    if (scene->quality.method == MGT_METHOD_REFERENCE)
+        return report_error(r, MGT_ERROR_UNSUPPORTED, "render.texture", "method reference runs on the CPU: use mgt_render()");
+    gl_scope scope;
+    mgt_status status = gl_enter(s, &scope, r);
+    if (status != MGT_OK)
+        return status;
+    status = render_textures(s, r, scene, textures, count);
+    return gl_leave(s, &scope, status, r);
+}
+
+/* ---- framebuffers ---- */
+
+/* Checks the framebuffer; `encodes` gets whether it turns linear colour into sRGB. */
+static mgt_status check_framebuffer(const gl_api *gl, GLuint name, size_t index, bool *encodes, const reporter *r)
+{
+    if (name != 0 && !gl->IsFramebuffer(name))
+        return report_error(r, MGT_ERROR_ARGUMENT, "render.view", "view %zu: %u is no framebuffer of this context", index, name);
+    const GLenum state = gl->CheckNamedFramebufferStatus(name, GL_DRAW_FRAMEBUFFER);
+    if (state != GL_FRAMEBUFFER_COMPLETE)
+        return report_error(r, MGT_ERROR_ARGUMENT, "render.view", "view %zu: framebuffer %u is not complete (status 0x%04x)", index, name, state);
+    GLint depth = GL_NONE, color = GL_NONE, type = GL_NONE, encoding = GL_LINEAR;
+    const GLenum depth_name = name ? GL_DEPTH_ATTACHMENT : GL_DEPTH, color_name = name ? GL_COLOR_ATTACHMENT0 : GL_BACK_LEFT;
+    gl->GetNamedFramebufferAttachmentParameteriv(name, depth_name, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE, &depth);
+    gl->GetNamedFramebufferAttachmentParameteriv(name, color_name, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE, &color);
+    if (depth == GL_NONE || color == GL_NONE)
+        return report_error(r, MGT_ERROR_ARGUMENT, "render.view", "view %zu: framebuffer %u has no %s attachment", index, name,
+                            depth == GL_NONE ? "depth" : "first colour");
+    gl->GetNamedFramebufferAttachmentParameteriv(name, color_name, GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE, &type);
+    if (type == GL_INT || type == GL_UNSIGNED_INT)
+        return report_error(r, MGT_ERROR_ARGUMENT, "render.view",
+                            "view %zu: framebuffer %u has an integer colour attachment; a float or normalised one is needed", index, name);
+    gl->GetNamedFramebufferAttachmentParameteriv(name, color_name, GL_FRAMEBUFFER_ATTACHMENT_COLOR_ENCODING, &encoding);
+    *encodes = encoding == GL_SRGB && gl->IsEnabled(GL_FRAMEBUFFER_SRGB);
+    return MGT_OK;
+}
+
+/* A checked view. */
+typedef struct host_view {
+    const mgt_gl_view *view;
+    view_rays close, open;
+    mgt_scene scene; /* with the view's size and camera */
+    bool encodes;
+} host_view;
+
+static mgt_status prepare_view(const gl_backend_state *s, const mgt_scene *scene, const mgt_gl_view *view, size_t index, host_view *out,
+                               const reporter *r)
+{
+    *out = (host_view){.view = view, .scene = *scene};
+    if (view->width == 0 || view->height == 0 || view->width > MGT_MAX_IMAGE_SIDE || view->height > MGT_MAX_IMAGE_SIDE)
+        return report_error(r, MGT_ERROR_ARGUMENT, "render.view", "view %zu: %u x %u pixels; allowed is 1 to %d each way", index, view->width,
+                            view->height, MGT_MAX_IMAGE_SIDE);
+    const char *wrong = view_rays_of(view, view->view, &out->close);
+    if (!wrong && scene->camera_moves)
+        wrong = view_rays_of(view, view->view_open, &out->open);
+    if (wrong)
+        return report_error(r, MGT_ERROR_ARGUMENT, "render.view", "view %zu: %s", index, wrong);
+    out->scene.image = (mgt_image){.width = view->width, .height = view->height};
+    out->scene.camera = view_camera(&out->close.rays, view->width, view->height);
+    if (scene->camera_moves)
+        out->scene.camera_open = view_camera(&out->open.rays, view->width, view->height);
+    const mgt_status status = validate_scene(r, &out->scene);
+    return status == MGT_OK ? check_framebuffer(&s->renderer->gl, view->framebuffer, index, &out->encodes, r) : status;
+}
+
+/* Between the two ends of the shutter rays and place move evenly. */
+static camera_rays view_camera_at(const void *user, double share)
+{
+    const host_view *v = user;
+    camera_rays c = v->close.rays;
+    if (!v->scene.camera_moves)
+        return c;
+    const camera_rays *open = &v->open.rays;
+    for (int i = 0; i < 3; i++) {
+        c.position[i] = open->position[i] + share * (c.position[i] - open->position[i]);
+        c.corner[i] = open->corner[i] + share * (c.corner[i] - open->corner[i]);
+        c.right[i] = open->right[i] + share * (c.right[i] - open->right[i]);
+        c.down[i] = open->down[i] + share * (c.down[i] - open->down[i]);
+    }
+    return c;
+}
+
+static WindowData window_data(const gl_api *gl, const host_view *v)
+{
+    const mgt_gl_view *view = v->view;
+    const camera_rays *c = &v->close.rays;
+    GLint mode = GL_NEGATIVE_ONE_TO_ONE;
+    GLfloat range[2] = {0, 1};
+    gl->GetIntegerv(GL_CLIP_DEPTH_MODE, &mode);
+    gl->GetFloati_v(GL_DEPTH_RANGE, 0, range);
+    const bool whole = mode == GL_ZERO_TO_ONE;
+    return (WindowData){
+        .ray_x = (float)c->corner[0], .ray_y = (float)c->corner[1], .ray_z = (float)c->corner[2],
+        .width = (int)view->width,
+        .right_x = (float)c->right[0], .right_y = (float)c->right[1], .right_z = (float)c->right[2],
+        .height = (int)view->height,
+        .down_x = (float)c->down[0], .down_y = (float)c->down[1], .down_z = (float)c->down[2],
+        .clip_depth = (float)v->close.clip_depth[0], .clip_depth_x = (float)v->close.clip_depth[1], .clip_depth_y = (float)v->close.clip_depth[2],
+        .clip_offset = (float)v->close.clip_offset,
+        .depth_scale = whole ? range[1] - range[0] : 0.5f * (range[1] - range[0]),
+        .depth_offset = whole ? range[0] : 0.5f * (range[0] + range[1]),
+        .depth_low = range[0] < range[1] ? range[0] : range[1],
+        .depth_high = range[0] < range[1] ? range[1] : range[0],
+        .draw_sky = view->draw_sky,
+        .color = (int)view->color,
+        .encodes = v->encodes,
+    };
+}
+
+static void set_drawing(const gl_backend_state *s, const mgt_gl_view *view, const gl_host_state *host)
+{
+    const gl_api *gl = &s->renderer->gl;
+    gl_host_state_neutral(gl, host);
+    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, view->framebuffer);
+    gl->BindVertexArray(s->vertex_array);
+    gl->ViewportIndexedf(0, (float)view->x, (float)view->y, (float)view->width, (float)view->height);
+    gl->Enable(GL_DEPTH_TEST);
+    gl->DepthFunc(view->reversed_depth ? GL_GEQUAL : GL_LEQUAL);
+    gl->DepthMask(GL_TRUE);
+    gl->Enablei(GL_BLEND, 0);
+    gl->BlendFuncSeparatei(0, GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    gl->BlendEquationSeparatei(0, GL_FUNC_ADD, GL_FUNC_ADD);
+}
+
+static mgt_status draw_layers(gl_backend_state *s, const host_view *v, const frame *f, const gl_host_state *host, const reporter *r)
+{
+    gl_renderer *g = s->renderer;
+    const gl_api *gl = &g->gl;
+    const WindowData window = window_data(gl, v);
+    mgt_status status = gl_ring_begin(gl, &g->ring, sizeof window + sizeof f->data, 2, r);
+    if (status != MGT_OK)
+        return status;
+    gl_pass_begin(g, "draw");
+    status = gl_use(g, PROGRAM_VIEW, r);
+    if (status == MGT_OK) {
+        const GLuint textures[] = {g->layers.color.name, g->layers.water.name, g->layers.depth.name};
+        for (GLuint i = 0; i < sizeof textures / sizeof *textures; i++) {
+            gl->BindTextureUnit(UNIT_FINE + i, textures[i]);
+            gl->BindSampler(UNIT_FINE + i, 0);
+        }
+        gl_uniform(g, BIND_FRAME, &f->data, sizeof f->data);
+        gl_uniform(g, BIND_EXTRA, &window, sizeof window);
+        set_drawing(s, v->view, host);
+        gl->DrawArrays(GL_TRIANGLES, 0, 3);
+    }
+    const mgt_status ended = gl_pass_end(g, r);
+    return status == MGT_OK ? ended : status;
+}
+
+static mgt_status render_view(gl_backend_state *s, const host_view *v, const gl_host_state *host, const reporter *r)
+{
+    const mgt_gl_view *view = v->view;
+    mgt_status status = gl_sky_prepare(s->renderer, &v->scene, r);
+    if (status != MGT_OK)
+        return status;
+    frame f = frame_of(&v->scene, s->renderer->sky, true);
+    f.close = v->close.rays;
+    f.open = v->scene.camera_moves ? v->open.rays : f.close;
+    f.data.pixel_angle = (float)view_pixel_angle(&f.close);
+    const gl_job job = {
+        .frame = &f,
+        .camera_at = view_camera_at,
+        .camera_user = v,
+        .area = {0, 0, view->width, view->height},
+        .wants_pixels = true,
+        .wants_depth = true,
+        .shaded_depth = true,
+        .background = view->draw_sky,
+    };
+    status = gl_frame_render(s->renderer, &job, r);
+    return status == MGT_OK ? draw_layers(s, v, &f, host, r) : status;
+}
+
+mgt_status gl_render_views(void *state, const reporter *r, const mgt_scene *scene, const mgt_gl_view *views, size_t count)
+{
+    gl_backend_state *s = state;
+    if (s->egl)
+        return report_error(r, MGT_ERROR_ARGUMENT, "render.view", "this context has no host: create it with mgt_context_desc.gl_get_proc");
+    if (scene->quality.method == MGT_METHOD_REFERENCE)
+        return report_error(r, MGT_ERROR_UNSUPPORTED, "render.view", "method reference runs on the CPU: use mgt_render()");
+    gl_scope scope;
+    mgt_status status = gl_enter(s, &scope, r);
+    if (status != MGT_OK)
+        return status;
+    for (size_t i = 0; i < count && status == MGT_OK; i++) {
+        host_view view;
+        status = prepare_view(s, scene, &views[i], i, &view, r);
+        if (status == MGT_OK)
+            status = render_view(s, &view, &scope.host, r);
+    }
+    return gl_leave(s, &scope, status, r);
+}

@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: MIT
+ * The state of a host's OpenGL context that the backend touches: saved before a call and put back after it. */
+#ifndef MANGATA_GL_GL_HOST_STATE_H
+#define MANGATA_GL_GL_HOST_STATE_H
+
+#include "gl/gl_api.h"
+#include "gl/gl_pass_data.h"
+
+enum { DRAW_BUFFERS = 8, CAPABILITIES = 22, PIXEL_STORES = 16 };
+
+typedef struct buffer_range {
+    GLint name;
+    GLint64 start, size;
+} buffer_range;
+
+typedef struct image_binding {
+    GLint name, level, layered, layer, access, format;
+} image_binding;
+
+/* Everything: program, buffers, textures, images, pixel store and what drawing a view needs. */
+typedef struct gl_host_state {
+    GLint program;
+    GLint uniform_buffer, storage_buffer, pack_buffer, unpack_buffer;
+    buffer_range uniform[UNIFORM_BINDINGS], storage[STORAGE_BINDINGS];
+    GLint active_texture, texture[TEXTURE_UNITS], sampler[TEXTURE_UNITS];
+    image_binding images[IMAGE_UNITS];
+    GLint pixel_store[PIXEL_STORES];
+
+    GLint vertex_array, draw_framebuffer;
+    GLfloat viewport[4];
+    GLboolean capabilities[CAPABILITIES];
+    GLboolean blend, scissor, depth_mask;
+    GLboolean color_mask[DRAW_BUFFERS][4];
+    GLint draw_buffers;
+    GLint depth_func, polygon_mode[2];
+    GLint blend_source_rgb, blend_destination_rgb, blend_source_alpha, blend_destination_alpha, blend_equation_rgb, blend_equation_alpha;
+} gl_host_state;
+
+/* Saves, and sets the pixel store that transfers here rely on. */
+void gl_host_state_save(const gl_api *gl, gl_host_state *s);
+void gl_host_state_restore(const gl_api *gl, const gl_host_state *s);
+
+/* Switches off all that would change what a full-screen triangle writes, but for depth test and blending. */
+void gl_host_state_neutral(const gl_api *gl, const gl_host_state *s);
+
+#endif

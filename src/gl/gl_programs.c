@@ -1,0 +1,156 @@
+/* SPDX-License-Identifier: MIT
+ * The programs of the passes: built when first needed, or all of them anew from replaced texts. */
+#include "gl/gl_programs.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* A compute shader, or a vertex and a fragment shader. */
+typedef struct program_text {
+    const char *name, *compute, *vertex, *fragment, *defines;
+} program_text;
+
+static const program_text program_texts[PROGRAM_COUNT] = {
+    [PROGRAM_TILES] = {"tiles", "tiles.comp", NULL, NULL, ""},
+    [PROGRAM_NODES] = {"nodes", "nodes.comp", NULL, NULL, ""},
+    [PROGRAM_SHADE_MANGATA] = {"shade", "shade_mangata.comp", NULL, NULL, ""},
+    [PROGRAM_SHADE_PODEE] = {"shade", "shade_podee.comp", NULL, NULL, ""},
+    [PROGRAM_SAMPLES] = {"samples", "samples.comp", NULL, NULL, ""},
+    [PROGRAM_SURFACE] = {"surface", "surface.comp", NULL, NULL, ""},
+    [PROGRAM_NORMAL] = {"normal", "normal.comp", NULL, NULL, ""},
+    [PROGRAM_GLARE_DOWN] = {"glare", "glare_down.comp", NULL, NULL, ""},
+    [PROGRAM_GLARE_UP] = {"glare", "glare_up.comp", NULL, NULL, ""},
+    [PROGRAM_DISPLAY] = {"display", "display.comp", NULL, NULL, ""},
+    [PROGRAM_COPY] = {"copy", "copy.comp", NULL, NULL, ""},
+    [PROGRAM_VIEW] = {"view", NULL, "view.vert", "view.frag", ""},
+};
+
+enum { LOG_SIZE = 4096 };
+
+static mgt_status explain(const gl_source *source, const char *program, const char *log, const reporter *r)
+{
+    char text[REPORTER_TEXT];
+    gl_source_explain(source, log, text, sizeof text);
+    report(r, MGT_LOG_DEBUG, "gl.shader", "%s: %s", program, log);
+    return report_error(r, MGT_ERROR_UNAVAILABLE, "gl.shader", "%s", text);
+}
+
+/* The assembled stages of a program. */
+typedef struct program_source {
+    const program_text *text;
+    gl_source stages[2];
+    GLenum kinds[2];
+    int count;
+} program_source;
+
+static mgt_status assemble(const gl_programs *p, const gl_replacements *replaced, gl_program which, program_source *out, const reporter *r)
+{
+    const program_text *t = &program_texts[which];
+    *out = (program_source){.text = t, .kinds = {t->compute ? GL_COMPUTE_SHADER : GL_VERTEX_SHADER, GL_FRAGMENT_SHADER}};
+    const char *const files[2] = {t->compute ? t->compute : t->vertex, t->fragment};
+    char defines[256];
+    snprintf(defines, sizeof defines, "%s%s", p->defines ? p->defines : "", t->defines);
+    while (out->count < 2 && files[out->count]) {
+        gl_source *s = &out->stages[out->count++];
+        if (gl_source_assemble(s, replaced, files[out->count - 1], defines))
+            continue;
+        return s->out_of_memory ? report_error(r, MGT_ERROR_MEMORY, "gl.shader", "out of memory for the text of %s", files[out->count - 1])
+                                : report_error(r, MGT_ERROR_UNAVAILABLE, "gl.shader", "%s: it includes a file that does not exist", s->missing);
+    }
+    return MGT_OK;
+}
+
+static mgt_status compile(const gl_api *gl, GLuint program, const program_source *s, int stage, const reporter *r)
+{
+    const GLuint shader = gl->CreateShader(s->kinds[stage]);
+    const GLchar *text = s->stages[stage].text;
+    const GLint length = (GLint)s->stages[stage].length;
+    gl->ShaderSource(shader, 1, &text, &length);
+    gl->CompileShader(shader);
+    GLint compiled = 0;
+    gl->GetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
+    mgt_status status = MGT_OK;
+    if (compiled) {
+        gl->AttachShader(program, shader);
+    } else {
+        char log[LOG_SIZE] = "";
+        gl->GetShaderInfoLog(shader, sizeof log, NULL, log);
+        status = explain(&s->stages[stage], s->text->name, log, r);
+    }
+    gl->DeleteShader(shader); /* lives on while attached */
+    return status;
+}
+
+static mgt_status link(const gl_api *gl, GLuint program, const program_source *s, const reporter *r)
+{
+    gl->LinkProgram(program);
+    GLint linked = 0;
+    gl->GetProgramiv(program, GL_LINK_STATUS, &linked);
+    if (linked)
+        return MGT_OK;
+    char log[LOG_SIZE] = "";
+    gl->GetProgramInfoLog(program, sizeof log, NULL, log);
+    return explain(&s->stages[0], s->text->name, log, r);
+}
+
+/* Builds a program, or takes p's own where its text is the same. */
+static mgt_status build(const gl_programs *p, const gl_replacements *replaced, gl_program which, GLuint *out, uint64_t *hash, const reporter *r)
+{
+    program_source s;
+    mgt_status status = assemble(p, replaced, which, &s, r);
+    *out = 0;
+    *hash = 0;
+    for (int i = 0; i < s.count; i++)
+        *hash = *hash * 31 + gl_source_hash(&s.stages[i]);
+    if (status == MGT_OK && p->names[which] && p->hashes[which] == *hash) {
+        *out = p->names[which];
+    } else if (status == MGT_OK) {
+        const GLuint program = p->gl->CreateProgram();
+        for (int i = 0; i < s.count && status == MGT_OK; i++)
+            status = compile(p->gl, program, &s, i, r);
+        if (status == MGT_OK)
+            status = link(p->gl, program, &s, r);
+        if (status == MGT_OK)
+            *out = program;
+        else
+            p->gl->DeleteProgram(program);
+    }
+    for (int i = 0; i < s.count; i++)
+        gl_source_free(&s.stages[i]);
+    return status;
+}
+
+GLuint gl_program_get(gl_programs *p, gl_program which, const reporter *r, mgt_status *status)
+{
+    if (p->names[which] == 0 && *status == MGT_OK)
+        *status = build(p, &p->replaced, which, &p->names[which], &p->hashes[which], r);
+    return p->names[which];
+}
+
+mgt_status gl_programs_replace(gl_programs *p, const mgt_gl_source *sources, size_t count, const reporter *r)
+{
+    gl_programs next = *p;
+    if (!gl_replacements_copy(&next.replaced, sources, count))
+        return report_error(r, MGT_ERROR_MEMORY, "gl.sources", "out of memory for %zu texts", count);
+    mgt_status status = MGT_OK;
+    int built = 0;
+    for (; built < PROGRAM_COUNT && status == MGT_OK; built++)
+        status = build(p, &next.replaced, (gl_program)built, &next.names[built], &next.hashes[built], r);
+    gl_programs *const unused = status == MGT_OK ? p : &next;
+    for (int i = 0; i < built; i++)
+        if (unused->names[i] && p->names[i] != next.names[i])
+            p->gl->DeleteProgram(unused->names[i]);
+    gl_replacements_free(&unused->replaced);
+    if (status == MGT_OK)
+        *p = next;
+    return status;
+}
+
+void gl_programs_free(gl_programs *p)
+{
+    for (int i = 0; i < PROGRAM_COUNT; i++)
+        if (p->names[i])
+            p->gl->DeleteProgram(p->names[i]);
+    memset(p->names, 0, sizeof p->names);
+    gl_replacements_free(&p->replaced);
+}

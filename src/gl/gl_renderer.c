@@ -1,0 +1,157 @@
+/* SPDX-License-Identifier: MIT
+ * What the OpenGL backend keeps between frames. */
+#include "gl/gl_renderer.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { RING_SEGMENT = 1 << 20 };
+
+static mgt_status check_version(const gl_api *gl, const reporter *r)
+{
+    GLint major = 0, minor = 0;
+    gl->GetIntegerv(GL_MAJOR_VERSION, &major);
+    gl->GetIntegerv(GL_MINOR_VERSION, &minor);
+    if (major > 4 || (major == 4 && minor >= 5))
+        return MGT_OK;
+    return report_error(r, MGT_ERROR_UNAVAILABLE, "context.gl", "the OpenGL context has version %d.%d; 4.5 core or later is needed", major, minor);
+}
+
+static bool is_software(const gl_api *gl)
+{
+    const char *renderer = (const char *)gl->GetString(GL_RENDERER);
+    static const char *const names[] = {"llvmpipe", "softpipe", "swrast", "SwiftShader", "Software Rasterizer", "lavapipe"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (renderer && strstr(renderer, names[i]))
+            return true;
+    return false;
+}
+
+static mgt_status read_limits(gl_renderer *g, const reporter *r)
+{
+    GLint texture = 0, uniform = 0, storage = 0, shared = 0;
+    g->gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &texture);
+    g->gl.GetIntegerv(GL_MAX_UNIFORM_BLOCK_SIZE, &uniform);
+    g->gl.GetIntegerv(GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS, &storage);
+    g->gl.GetIntegerv(GL_MAX_COMPUTE_SHARED_MEMORY_SIZE, &shared);
+    if (storage < 7 || shared < 16384)
+        return report_error(r, MGT_ERROR_UNAVAILABLE, "context.gl",
+                            "the OpenGL context has %d storage blocks and %d bytes of shared memory for compute shaders; "
+                            "7 and 16384 are needed", storage, shared);
+    g->limits = (gl_limits){(uint32_t)texture, (size_t)uniform, is_software(&g->gl)};
+    if (g->limits.uniform_block < MGT_MAX_WAVES * sizeof(WaveData))
+        g->programs.defines = "#define WAVES_IN_STORAGE\n";
+    return MGT_OK;
+}
+
+static void create_sky_texture(gl_renderer *g)
+{
+    g->gl.CreateTextures(GL_TEXTURE_2D, 1, &g->sky_texture);
+    g->gl.TextureStorage2D(g->sky_texture, 1, GL_RGBA32F, SKY_COLUMNS, SKY_ROWS);
+}
+
+mgt_status gl_renderer_create(gl_renderer **out, mgt_gl_get_proc get_proc, const reporter *r)
+{
+    gl_renderer *g = calloc(1, sizeof *g);
+    if (!g)
+        return report_error(r, MGT_ERROR_MEMORY, "context.create", "out of memory");
+    g->programs.gl = &g->gl;
+    g->sky = calloc(1, sizeof *g->sky);
+    g->waves = calloc(1, sizeof *g->waves);
+    mgt_status status = g->sky && g->waves ? MGT_OK : report_error(r, MGT_ERROR_MEMORY, "context.create", "out of memory");
+    const char *missing = status == MGT_OK ? gl_api_load(&g->gl, get_proc) : NULL;
+    if (missing)
+        status = report_error(r, MGT_ERROR_UNAVAILABLE, "context.gl",
+                              "the OpenGL context lacks %s; a 4.5 core context is needed, current on this thread", missing);
+    const bool loaded = status == MGT_OK;
+    if (status == MGT_OK)
+        status = check_version(&g->gl, r);
+    if (status == MGT_OK)
+        status = read_limits(g, r);
+    if (status == MGT_OK)
+        status = gl_ring_create(&g->gl, &g->ring, RING_SEGMENT, r);
+    if (status == MGT_OK) {
+        gl_timers_create(&g->gl, &g->timers);
+        create_sky_texture(g);
+        status = gl_check(&g->gl, "create", r);
+    }
+    if (status == MGT_OK) {
+        *out = g;
+        return MGT_OK;
+    }
+    if (loaded) {
+        gl_renderer_destroy(g);
+    } else {
+        free(g->sky);
+        free(g->waves);
+        free(g);
+    }
+    return status;
+}
+
+void gl_renderer_destroy(gl_renderer *g)
+{
+    if (!g)
+        return;
+    const gl_api *gl = &g->gl;
+    gl_programs_free(&g->programs);
+    gl_ring_free(gl, &g->ring);
+    gl_timers_free(gl, &g->timers);
+    gl_buffer *const buffers[] = {&g->tiles, &g->tile_waves, &g->march_waves, &g->nodes};
+    for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++)
+        gl_buffer_free(gl, buffers[i]);
+    gl_image *const images[] = {&g->layers.color, &g->layers.coverage, &g->layers.water, &g->layers.depth, &g->layers.normal, &g->layers.display};
+    for (size_t i = 0; i < sizeof images / sizeof *images; i++)
+        gl_image_free(gl, images[i]);
+    gl_glare_free(g);
+    if (g->sky_texture)
+        gl->DeleteTextures(1, &g->sky_texture);
+    free(g->sky);
+    free(g->waves);
+    free(g);
+}
+
+/* ---- passes ---- */
+
+void gl_pass_begin(gl_renderer *g, const char *name)
+{
+    g->pass = name;
+    g->gl.PushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, -1, name);
+    gl_timers_begin(&g->gl, &g->timers, name);
+}
+
+mgt_status gl_pass_end(gl_renderer *g, const reporter *r)
+{
+    gl_timers_end(&g->gl, &g->timers);
+    g->gl.PopDebugGroup();
+    return gl_check(&g->gl, g->pass, r);
+}
+
+mgt_status gl_use(gl_renderer *g, gl_program which, const reporter *r)
+{
+    mgt_status status = MGT_OK;
+    const GLuint program = gl_program_get(&g->programs, which, r, &status);
+    if (status == MGT_OK)
+        g->gl.UseProgram(program);
+    return status;
+}
+
+void gl_uniform(gl_renderer *g, GLuint binding, const void *data, size_t size)
+{
+    size_t offset;
+    memcpy(gl_ring_allocate(&g->ring, size, &offset), data, size);
+    g->gl.BindBufferRange(GL_UNIFORM_BUFFER, binding, g->ring.buffer, (GLintptr)offset, (GLsizeiptr)size);
+}
+
+/* ---- sky ---- */
+
+mgt_status gl_sky_prepare(gl_renderer *g, const mgt_scene *scene, const reporter *r)
+{
+    if (sky_state_same_inputs(g->sky, &scene->sky, &scene->light))
+        return MGT_OK;
+    const mgt_status status = sky_state_build(g->sky, &scene->sky, &scene->light);
+    if (status != MGT_OK)
+        return report_error(r, status, "render.memory", "out of memory for the sky's tables");
+    g->gl.TextureSubImage2D(g->sky_texture, 0, 0, 0, SKY_COLUMNS, SKY_ROWS, GL_RGB, GL_FLOAT, g->sky->table);
+    return gl_check(&g->gl, "sky", r);
+}

@@ -1,0 +1,95 @@
+/* SPDX-License-Identifier: MIT
+ * What the OpenGL backend keeps between frames, and the passes that make a frame of it. */
+#ifndef MANGATA_GL_GL_RENDERER_H
+#define MANGATA_GL_GL_RENDERER_H
+
+#include "cpu/frame.h"
+#include "gl/gl_memory.h"
+#include "gl/gl_pass_data.h"
+#include "gl/gl_programs.h"
+#include "gl/gl_timers.h"
+
+/* The layers of the picture on the GPU. Texel (0, 0) is the top left pixel of what is rendered. */
+typedef struct gl_layers {
+    gl_image color;              /* RGBA32F, alpha 1 */
+    gl_image coverage, water, depth; /* R32F */
+    gl_image normal;             /* RGBA32F, alpha 1 */
+    gl_image display;            /* RGBA8 */
+} gl_layers;
+
+enum { GLARE_LEVELS = 16 };
+
+/* The pyramid for pictures of one size. */
+typedef struct gl_glare {
+    uint32_t width, height;
+    size_t count;
+    gl_image levels[GLARE_LEVELS];
+    GlareData sizes[GLARE_LEVELS]; /* without keep and gain */
+    gl_buffer weights;
+} gl_glare;
+
+typedef struct gl_limits {
+    uint32_t texture_side;
+    size_t uniform_block;
+    bool software;      /* llvmpipe and its like */
+} gl_limits;
+
+typedef struct gl_renderer {
+    gl_api gl;
+    gl_limits limits;
+    gl_programs programs;
+    gl_ring ring;
+    gl_timers timers;
+    gl_buffer tiles, tile_waves, march_waves, nodes; /* of a band */
+    gl_layers layers;
+    gl_glare glare;
+    GLuint sky_texture;
+    sky_state *sky;     /* of the last frame; zeroed at first */
+    wave_set *waves;    /* of the pass being prepared */
+    const char *pass;   /* the current one's name */
+} gl_renderer;
+
+/* The current context must be the one that the functions of r->gl belong to, here and below. */
+mgt_status gl_renderer_create(gl_renderer **out, mgt_gl_get_proc get_proc, const reporter *r);
+void gl_renderer_destroy(gl_renderer *g);
+
+/* A pass: its debug group and its timer. The end looks for errors. */
+void gl_pass_begin(gl_renderer *g, const char *name);
+mgt_status gl_pass_end(gl_renderer *g, const reporter *r);
+
+/* Program `which` in use, built if need be. */
+mgt_status gl_use(gl_renderer *g, gl_program which, const reporter *r);
+
+/* A uniform block for the next dispatch, copied into the ring. */
+void gl_uniform(gl_renderer *g, GLuint binding, const void *data, size_t size);
+
+/* Where a camera is from the shutter's opening (0) to its closing (1). */
+typedef camera_rays (*gl_camera_at)(const void *user, double share);
+
+/* What to draw. */
+typedef struct gl_job {
+    const frame *frame;
+    gl_camera_at camera_at; /* for samples over time */
+    const void *camera_user;
+    region area;            /* of the image: what the layers get */
+    bool wants_pixels; /* color, coverage or mask */
+    bool wants_depth, wants_normal;
+    bool shaded_depth;      /* the depth that the method itself finds will do: filtered ones are spared another look for point samples */
+    bool background;        /* sky behind the water */
+    mgt_progress_function progress; /* NULL: none, and nothing waits */
+    void *progress_user;
+} gl_job;
+
+/* Draws the layers of a frame. */
+mgt_status gl_frame_render(gl_renderer *g, const gl_job *job, const reporter *r);
+
+/* Makes layers.display from layers.color. */
+mgt_status gl_display_render(gl_renderer *g, const frame *f, const region *area, const reporter *r);
+
+/* Frees the pyramid. */
+void gl_glare_free(gl_renderer *g);
+
+/* Brings the sky's table and its texture up to date. */
+mgt_status gl_sky_prepare(gl_renderer *g, const mgt_scene *scene, const reporter *r);
+
+#endif

@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: MIT
+ * GPU time of passes by timestamps, read a few frames later and never waited for. */
+#ifndef MANGATA_GL_GL_TIMERS_H
+#define MANGATA_GL_GL_TIMERS_H
+
+#include "gl/gl_api.h"
+#include "mangata/mangata_gl.h"
+
+enum { TIMER_FRAMES = 4, TIMER_INTERVALS = 48, TIMER_NAMES = 16 };
+
+/* The intervals of one frame; more than TIMER_INTERVALS of them are not timed. */
+typedef struct timer_frame {
+    GLuint queries[2 * TIMER_INTERVALS];
+    const char *names[TIMER_INTERVALS];
+    int count;
+} timer_frame;
+
+typedef struct gl_timers {
+    timer_frame frames[TIMER_FRAMES];
+    int current; /* frame being timed; −1: none, since the GPU is behind */
+    int next;
+    mgt_gl_timing timings[TIMER_NAMES];
+    size_t count;
+} gl_timers;
+
+void gl_timers_create(const gl_api *gl, gl_timers *t);
+void gl_timers_free(const gl_api *gl, gl_timers *t);
+
+void gl_timers_frame(const gl_api *gl, gl_timers *t);
+void gl_timers_begin(const gl_api *gl, gl_timers *t, const char *name);
+void gl_timers_end(const gl_api *gl, gl_timers *t);
+
+#endif

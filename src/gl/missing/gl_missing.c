@@ -1,0 +1,16 @@
+/* SPDX-License-Identifier: MIT
+ * Stands in for the OpenGL backend where its headers were not found. */
+#include "core/backend.h"
+
+static mgt_status missing_create(void **state, const mgt_context_desc *desc, const reporter *r, mgt_context_info *info)
+{
+    (void)state, (void)desc, (void)info;
+    return report_error(r, MGT_ERROR_UNAVAILABLE, "context.backend", "this build has no OpenGL backend (libegl-dev or libgl-dev was missing); use the CPU backend");
+}
+
+static void missing_destroy(void *state)
+{
+    (void)state;
+}
+
+const backend_functions gl_backend = {.create = missing_create, .destroy = missing_destroy};

@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Displayed colour: glare, exposure, tone map, sRGB.
+ */
+#include "glare.glsl"
+#include "types.k"
+
+layout(std140, binding = 0) uniform FrameBlock { FrameData frame_data; };
+#define FRAME(cx) frame_data
+
+#include "tone.k"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(binding = 0) writeonly uniform image2D display_image;
+
+void main()
+{
+    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+    if (texel.x >= glare_data.fine_width || texel.y >= glare_data.fine_height)
+        return;
+    vec3 radiance = texelFetch(fine_texture, texel, 0).rgb;
+    if (glare_data.coarse_width > 0)
+        radiance = glare_data.keep * radiance + glare_data.gain * glare_up(texel);
+    vec3 shown = display_color(0, radiance, FRAME(0).tone_map);
+    imageStore(display_image, texel, vec4(floor(shown * 255.0f + 0.5f) / 255.0f, 1.0f));
+}

@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Where the kernels find their data in the compute passes. A band's tiles stand in storage buffers; tile_slot says which one is meant.
+ */
+#include "prelude_glsl.k"
+#include "types.k"
+#include "pass_data.k"
+
+layout(std140, binding = 0) uniform FrameBlock { FrameData frame_data; };
+layout(std140, binding = 2) uniform PassBlock { PassData pass_data; };
+#ifdef WAVES_IN_STORAGE
+layout(std430, binding = 6) readonly buffer WaveBlock { WaveData wave_data[]; };
+#else
+layout(std140, binding = 1) uniform WaveBlock { WaveData wave_data[512]; };
+#endif
+
+#ifndef TILE_ACCESS
+#define TILE_ACCESS readonly
+#endif
+layout(std430, binding = 0) TILE_ACCESS buffer TileBlock { TileData tile_data[]; };
+layout(std430, binding = 1) TILE_ACCESS buffer TileWaveBlock { TileWave tile_waves[]; };
+layout(std430, binding = 2) TILE_ACCESS buffer MarchBlock { MarchWave march_waves[]; };
+
+layout(binding = 0) uniform sampler2D sky_texture;
+
+int tile_slot = 0;
+TileData tile; /* a copy: software rasterisers read storage buffers slowly */
+
+void select_tile(int slot)
+{
+    tile_slot = slot;
+    tile = tile_data[slot];
+}
+
+/* A wave of the tile: the frame's, with the tile's phase and share. */
+WaveData wave_of_tile(int i)
+{
+    TileWave entry = tile_waves[tile_slot * pass_data.wave_stride + i];
+    WaveData w = wave_data[entry.index];
+    w.phase = entry.phase;
+#ifdef SHARED_WAVES
+    w.even_x *= entry.share;
+    w.even_z *= entry.share;
+    w.odd_x *= entry.share;
+    w.odd_z *= entry.share;
+    w.bend_xx *= entry.share;
+    w.bend_xz *= entry.share;
+    w.bend_zz *= entry.share;
+    w.even_height *= entry.share;
+    w.odd_height *= entry.share;
+#endif
+    return w;
+}
+
+#define FRAME(cx) frame_data
+#define TILE(cx) tile
+#define WAVE(cx, i) wave_of_tile(i)
+#define MARCH_WAVE(cx, i) march_waves[tile_slot * pass_data.wave_stride + i]
+
+vec3 SKY_TEXEL(int cx, float column, float row) { return texelFetch(sky_texture, ivec2(int(column), int(row)), 0).rgb; }
+
+const int TILE_WIDTH = 32;
+const int TILE_HEIGHT = 16;

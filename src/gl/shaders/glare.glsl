@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The pyramid of src/cpu/glare.c: D takes a level to the next coarser one, U back.
+ */
+#include "prelude_glsl.k"
+#include "pass_data.k"
+
+layout(std140, binding = 3) uniform GlareBlock { GlareData glare_data; };
+layout(std430, binding = 4) readonly buffer GlareWeightBlock { vec4 glare_weights[]; };
+layout(binding = 1) uniform sampler2D fine_texture;
+layout(binding = 2) uniform sampler2D coarse_texture;
+
+/* One texel of U times the coarser level: three quarters of the nearer texel and a quarter of the farther, each way. */
+vec3 glare_up(ivec2 texel)
+{
+    ivec2 last = ivec2(glare_data.coarse_width, glare_data.coarse_height) - 1;
+    ivec2 near = texel / 2;
+    ivec2 beyond = near + (texel % 2) * 2 - 1;
+    ivec2 far = clamp(beyond, ivec2(0), last);
+    vec3 upper = 0.75f * texelFetch(coarse_texture, near, 0).rgb + 0.25f * texelFetch(coarse_texture, ivec2(far.x, near.y), 0).rgb;
+    vec3 lower = 0.75f * texelFetch(coarse_texture, ivec2(near.x, far.y), 0).rgb + 0.25f * texelFetch(coarse_texture, far, 0).rgb;
+    return 0.75f * upper + 0.25f * lower;
+}

@@ -1,0 +1,82 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The lattice of first hits of a tile, and what a pixel guesses from the four nodes about it.
+ */
+#include "gl_data.glsl"
+#include "lattice.k"
+
+const int NODE_STEP_X = 8;
+const int NODE_STEP_Y = 4;
+const int NODE_COLUMNS = 5;
+const int NODE_ROWS = 5;
+const int NODE_COUNT = 25;
+
+#ifndef NODE_ACCESS
+#define NODE_ACCESS readonly
+#endif
+layout(std430, binding = 3) NODE_ACCESS buffer NodeBlock { NodeData node_data[]; };
+
+LatticeNode node_of(int column, int row)
+{
+    NodeData d = node_data[tile_slot * NODE_COUNT + row * NODE_COLUMNS + column];
+    LatticeNode node;
+    node.ray = vec3(d.ray_x, d.ray_y, d.ray_z);
+    node.along = d.along;
+    node.found = d.found;
+    node.plane.level = d.level;
+    node.plane.slope_x = d.slope_x;
+    node.plane.slope_z = d.slope_z;
+    node.plane.height = d.height;
+    return node;
+}
+
+/* By the rays of the tile's corners. */
+bool tile_may_occlude()
+{
+    return may_occlude(0, node_of(0, 0).ray) || may_occlude(0, node_of(NODE_COLUMNS - 1, 0).ray) || may_occlude(0, node_of(0, NODE_ROWS - 1).ray) ||
+           may_occlude(0, node_of(NODE_COLUMNS - 1, NODE_ROWS - 1).ray);
+}
+
+HitGuess pixel_guess(ivec2 pixel)
+{
+    HitGuess guess;
+    if (TILE(0).march_pixels != 0) {
+        guess.height = 0.0f;
+        guess.from = 0.0f;
+        guess.march = 1.0f;
+        return guess;
+    }
+    ivec2 cell = pixel / ivec2(NODE_STEP_X, NODE_STEP_Y);
+    LatticeNode top_left = node_of(cell.x, cell.y), top_right = node_of(cell.x + 1, cell.y);
+    LatticeNode low_left = node_of(cell.x, cell.y + 1), low_right = node_of(cell.x + 1, cell.y + 1);
+    guess.from = cell_from(0, top_left, top_right, low_left, low_right);
+    guess.march = tile_may_occlude() ? cell_doubt(0, top_left, top_right, low_left, low_right) : 0.0f;
+    float u = float(pixel.x % NODE_STEP_X) / float(NODE_STEP_X), v = float(pixel.y % NODE_STEP_Y) / float(NODE_STEP_Y);
+    vec3 ray = pixel_ray_at(0, float(pixel.x), float(pixel.y));
+    guess.height = lattice_height(0, top_left.plane, top_right.plane, low_left.plane, low_right.plane, ray, u, v);
+    return guess;
+}
+
+/* The pixel of this invocation: eight by eight of them are a workgroup, a tile is four by two workgroups. */
+struct TilePixel {
+    ivec2 at;    /* in the tile */
+    ivec2 texel; /* of the layers */
+    bool inside;
+};
+
+TilePixel tile_pixel()
+{
+    TilePixel p;
+    ivec2 group = ivec2(gl_WorkGroupID.xy);
+    ivec2 cell = group / ivec2(4, 2);
+    select_tile(cell.y * pass_data.columns + cell.x);
+    p.at = (group % ivec2(4, 2)) * 8 + ivec2(gl_LocalInvocationID.xy);
+    ivec2 image = (cell + ivec2(pass_data.tile_x, pass_data.tile_y)) * ivec2(TILE_WIDTH, TILE_HEIGHT) + p.at;
+    p.texel = image - ivec2(pass_data.area_x, pass_data.area_y);
+    p.inside = all(greaterThanEqual(p.texel, ivec2(0))) && all(lessThan(p.texel, ivec2(pass_data.area_width, pass_data.area_height)));
+    return p;
+}
+
+/* Kernels below see the sky behind the water only where it is asked for. */
+vec3 shown_background(vec3 ray) { return pass_data.show_background != 0 ? background(0, ray) : vec3(0.0f); }
+#define background(cx, ray) shown_background(ray)

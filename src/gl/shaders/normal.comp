@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The mean shading normal of the filtered methods.
+ */
+#define SHARED_WAVES
+#include "lattice_data.glsl"
+#include "glitter.k"
+#include "normal.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+void main()
+{
+    TilePixel pixel = tile_pixel();
+    if (!pixel.inside)
+        return;
+    PixelRay p = pixel_ray_filtered(0, float(pixel.at.x), float(pixel.at.y));
+    SlopeState state = slope_state(0, p.ray, pixel_guess(pixel.at));
+    store_normal(pixel.texel, state.close, p.water > 0.0f);
+}

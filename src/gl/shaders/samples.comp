@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Point samples: methods `none` and `ssaaN`. A dispatch adds some samples of one instant to the layers.
+ */
+#include "lattice_data.glsl"
+#include "sample.k"
+#include "jitter.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(binding = 0, rgba32f) uniform image2D color_image;
+layout(binding = 1, r32f) uniform image2D coverage_image;
+layout(binding = 2, r32f) uniform image2D water_image;
+
+/* A place in the sample's stratum, in pixels from the pixel's centre. */
+vec2 jitter(ivec2 pixel, int index)
+{
+    uvec2 number = add_64(uvec2(uint(pass_data.sample_first_low), uint(pass_data.sample_first_high)), uvec2(uint(index), 0u));
+    uvec2 key = mix_64(uvec2(uint(pass_data.seed_low), uint(pass_data.seed_high)) ^ mix_64(number));
+    uvec2 bits = mix_64(key ^ uvec2(uint(pixel.y), uint(pixel.x)));
+    int stratum = pass_data.stratum_first + index;
+    vec2 corner = vec2(float(stratum % pass_data.strata), float(stratum / pass_data.strata));
+    return (corner + vec2(unit_64(bits), unit_64(mix_64(bits)))) * (1.0f / float(pass_data.strata)) - 0.5f;
+}
+
+void main()
+{
+    TilePixel pixel = tile_pixel();
+    if (!pixel.inside)
+        return;
+    vec3 color = vec3(0.0f);
+    float coverage = 0.0f, water = 0.0f;
+    if (pass_data.clear == 0) {
+        if (FRAME(0).want_color != 0)
+            color = imageLoad(color_image, pixel.texel).rgb;
+        coverage = imageLoad(coverage_image, pixel.texel).r;
+        water = imageLoad(water_image, pixel.texel).r;
+    }
+    HitGuess guess = pixel_guess(pixel.at);
+    ivec2 image = pixel.texel + ivec2(pass_data.area_x, pass_data.area_y);
+    for (int i = 0; i < max(pass_data.sample_count, 1); i++) {
+        vec2 place = vec2(pixel.at);
+        if (pass_data.sample_count > 0)
+            place += jitter(image, i);
+        PixelResult p = sample_pixel(0, place.x, place.y, guess);
+        color += p.color * pass_data.weight;
+        coverage += p.coverage * pass_data.weight;
+        water += p.water * pass_data.weight;
+    }
+    if (FRAME(0).want_color != 0)
+        imageStore(color_image, pixel.texel, vec4(color, 1.0f));
+    imageStore(coverage_image, pixel.texel, vec4(coverage));
+    imageStore(water_image, pixel.texel, vec4(water));
+}

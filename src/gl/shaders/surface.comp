@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Depth and normal at the instant the shutter closes.
+ */
+#include "lattice_data.glsl"
+#include "sample.k"
+#include "normal.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(binding = 3) writeonly uniform image2D depth_image;
+
+void main()
+{
+    TilePixel pixel = tile_pixel();
+    if (!pixel.inside)
+        return;
+    vec3 ray = pixel_ray_at(0, float(pixel.at.x), float(pixel.at.y));
+    SampleHit hit = sample_hit(0, ray, pixel_guess(pixel.at));
+    bool water = hit.found > 0.0f;
+    float infinity = uintBitsToFloat(0x7f800000u);
+    imageStore(depth_image, pixel.texel, vec4(water ? hit.along * sqrt(length_squared(ray)) : infinity));
+    store_normal(pixel.texel, hit.slope, water);
+}

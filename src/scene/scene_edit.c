@@ -1,0 +1,389 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Scenes that a program changes: copies, the field of a path, and the way back to text.
+ */
+#include "scene/scene_edit.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { PATH_SIZE = 96 };
+
+/* ---- copies ---------------------------------------------------------------------------------------------- */
+
+static bool copy_list(scene_list *out, const scene_list *list, size_t item_size)
+{
+    *out = (scene_list){0};
+    if (list->count == 0)
+        return true;
+    out->items = malloc(list->count * item_size);
+    if (out->items == NULL)
+        return false;
+    memcpy(out->items, list->items, list->count * item_size);
+    out->count = list->count;
+    return true;
+}
+
+bool scene_values_copy(scene_values *out, const scene_values *values)
+{
+    scene_values copy = *values;
+    copy.description = NULL;
+    copy.camera.path = copy.water.waves = (scene_list){0};
+    bool good = copy_list(&copy.camera.path, &values->camera.path, sizeof(scene_keyframe)) &&
+                copy_list(&copy.water.waves, &values->water.waves, sizeof(mgt_wave));
+    if (good && values->description != NULL)
+        good = (copy.description = strdup(values->description)) != NULL;
+    if (!good)
+        scene_values_free(&copy);
+    *out = copy;
+    return good;
+}
+
+/* ---- paths ------------------------------------------------------------------------------------------------- */
+
+static const scene_field *child_field(const scene_field *field, const char *word, size_t length)
+{
+    for (const scene_field *child = field->fields; child != NULL && child->key != NULL; child++)
+        if (strlen(child->key) == length && memcmp(child->key, word, length) == 0)
+            return child;
+    return NULL;
+}
+
+const scene_field *scene_values_find(const scene_values *values, const char *path, const void **value)
+{
+    const scene_field *field = scene_root_field();
+    const void *at = values;
+    for (const char *p = path;;) {
+        const size_t length = strcspn(p, ".[");
+        field = child_field(field, p, length);
+        if (field == NULL)
+            return NULL;
+        at = scene_field_at(field, at);
+        p += length;
+        if (*p == '[' && field->type == FIELD_LIST) {
+            char *end;
+            const scene_list *list = at;
+            const unsigned long index = strtoul(p + 1, &end, 10);
+            if (end == p + 1 || end[0] != ']' || end[1] != '.' || index >= list->count)
+                return NULL;
+            at = (const char *)list->items + index * field->item_size;
+            p = end + 2;
+            continue;
+        }
+        if (*p == '\0') {
+            *value = at;
+            return field;
+        }
+        if (*p++ != '.' || field->type != FIELD_MAPPING)
+            return NULL;
+    }
+}
+
+/* ---- values as text ---------------------------------------------------------------------------------------- */
+
+/* The size of a leaf in its struct. */
+static size_t leaf_size(const scene_field *field)
+{
+    switch (field->type) {
+    case FIELD_COUNT: return sizeof(uint32_t);
+    case FIELD_NUMBER: return sizeof(double);
+    case FIELD_SHARE: return sizeof(float);
+    case FIELD_VECTOR: return 3 * sizeof(double);
+    case FIELD_COLOR: return 3 * sizeof(float);
+    case FIELD_CHOICE: return sizeof(int);
+    case FIELD_EXPOSURE:
+    case FIELD_TEXT:
+    case FIELD_MAPPING:
+    case FIELD_LIST: break;
+    }
+    return 0;
+}
+
+static bool mappings_equal(const scene_field *mapping, const void *left, const void *right);
+
+static bool lists_equal(const scene_field *field, const scene_list *left, const scene_list *right)
+{
+    bool equal = left->count == right->count;
+    for (size_t i = 0; equal && i < left->count; i++)
+        equal = mappings_equal(field, (const char *)left->items + i * field->item_size, (const char *)right->items + i * field->item_size);
+    return equal;
+}
+
+/* Of the same field in two parents. */
+static bool values_equal(const scene_field *field, const void *left_parent, const void *right_parent)
+{
+    const void *left = scene_field_at(field, left_parent), *right = scene_field_at(field, right_parent);
+    if (field->type == FIELD_MAPPING)
+        return mappings_equal(field, left, right);
+    if (field->type == FIELD_LIST)
+        return lists_equal(field, left, right);
+    if (field->type == FIELD_TEXT) {
+        const char *a = *(char *const *)left, *b = *(char *const *)right;
+        return strcmp(a != NULL ? a : "", b != NULL ? b : "") == 0;
+    }
+    if (field->type == FIELD_EXPOSURE) {
+        const scene_exposure *a = left, *b = right;
+        return a->automatic == b->automatic && (a->automatic || a->stops == b->stops);
+    }
+    return memcmp(left, right, leaf_size(field)) == 0;
+}
+
+static bool mappings_equal(const scene_field *mapping, const void *left, const void *right)
+{
+    bool equal = true;
+    for (const scene_field *field = mapping->fields; equal && field->key != NULL; field++)
+        equal = values_equal(field, left, right);
+    return equal;
+}
+
+/* As a double-quoted scalar of JSON, which YAML reads too. */
+static void write_text(FILE *stream, const char *text)
+{
+    fputc('"', stream);
+    for (const char *p = text != NULL ? text : ""; *p != '\0'; p++) {
+        if (*p == '"' || *p == '\\')
+            fprintf(stream, "\\%c", *p);
+        else if ((unsigned char)*p < 0x20)
+            fprintf(stream, "\\u%04x", (unsigned)*p);
+        else
+            fputc(*p, stream);
+    }
+    fputc('"', stream);
+}
+
+/* Keys that another one excludes are not written: position and target beside a path, the offset beside an exposure that is a number. */
+static bool is_excluded(const scene_field *mapping, const scene_field *field, const void *parent)
+{
+    if (strcmp(mapping->key, "camera") == 0) {
+        const scene_camera *camera = parent;
+        return camera->path.count > 0 && (strcmp(field->key, "position") == 0 || strcmp(field->key, "target") == 0);
+    }
+    return strcmp(mapping->key, "post") == 0 && strcmp(field->key, "exposure_offset") == 0 && !((const scene_post *)parent)->exposure.automatic;
+}
+
+/* Room for the defaults of any mapping. */
+typedef union any_mapping {
+    scene_values values;
+    scene_camera camera;
+    scene_keyframe keyframe;
+    mgt_wave wave;
+    mgt_light light;
+} any_mapping;
+
+static size_t mapping_size(const scene_field *field)
+{
+    size_t size = 0;
+    for (const scene_field *child = field->fields; child->key != NULL; child++) {
+        size_t end = child->offset;
+        switch (child->type) {
+        case FIELD_EXPOSURE: end += sizeof(scene_exposure); break;
+        case FIELD_TEXT: end += sizeof(char *); break;
+        case FIELD_LIST: end += sizeof(scene_list); break;
+        case FIELD_MAPPING: end += mapping_size(child); break;
+        default: end += leaf_size(child); break;
+        }
+        size = end > size ? end : size;
+    }
+    return size;
+}
+
+/* `defaults`: the struct that holds the default, as `parent` holds the value. */
+typedef void (*member_writer)(FILE *stream, const scene_field *field, const void *parent, const void *defaults, bool first);
+
+static void write_value(FILE *stream, const scene_field *field, const void *parent, const void *defaults);
+
+/* Calls `write` for each member of the mapping at `at` that is not at its default; `defaults` are those of the mapping. */
+static void write_members(FILE *stream, const scene_field *mapping, const void *at, const void *defaults, member_writer write)
+{
+    any_mapping expected;
+    memcpy(&expected, defaults, mapping_size(mapping));
+    bool first = true;
+    for (const scene_field *field = mapping->fields; field->key != NULL; field++) {
+        if (is_excluded(mapping, field, at))
+            continue;
+        if ((field->flags & FIELD_REQUIRED) || !values_equal(field, at, &expected)) {
+            write(stream, field, at, &expected, first);
+            first = false;
+        }
+        if (field->decide != NULL) {
+            memcpy((char *)&expected + field->offset, scene_field_at(field, at), leaf_size(field));
+            field->decide(&expected);
+        }
+    }
+}
+
+static void write_flow_member(FILE *stream, const scene_field *field, const void *parent, const void *defaults, bool first)
+{
+    fprintf(stream, "%s%s: ", first ? "" : ", ", field->key);
+    write_value(stream, field, parent, defaults);
+}
+
+static void write_list(FILE *stream, const scene_field *field, const void *parent)
+{
+    const scene_list *list = scene_field_at(field, parent);
+    fputc('[', stream);
+    for (size_t i = 0; i < list->count; i++) {
+        any_mapping item;
+        field->prepare(parent, &item);
+        fputs(i > 0 ? ", {" : "{", stream);
+        write_members(stream, field, (const char *)list->items + i * field->item_size, &item, write_flow_member);
+        fputc('}', stream);
+    }
+    fputc(']', stream);
+}
+
+static void write_value(FILE *stream, const scene_field *field, const void *parent, const void *defaults)
+{
+    const void *value = scene_field_at(field, parent);
+    const scene_exposure *exposure = value;
+    switch (field->type) {
+    case FIELD_COUNT: fprintf(stream, "%u", *(const uint32_t *)value); break;
+    case FIELD_NUMBER: fputs(scene_double_text(*(const double *)value).text, stream); break;
+    case FIELD_SHARE: fputs(scene_float_text(*(const float *)value).text, stream); break;
+    case FIELD_VECTOR:
+    case FIELD_COLOR:
+        for (int i = 0; i < 3; i++) {
+            const scene_number_text number =
+                field->type == FIELD_VECTOR ? scene_double_text(((const double *)value)[i]) : scene_float_text(((const float *)value)[i]);
+            fprintf(stream, "%s%s", i == 0 ? "[" : ", ", number.text);
+        }
+        fputc(']', stream);
+        break;
+    case FIELD_CHOICE: fputs(field->choices[*(const int *)value], stream); break;
+    case FIELD_EXPOSURE: fputs(exposure->automatic ? "auto" : scene_double_text(exposure->stops).text, stream); break;
+    case FIELD_TEXT: write_text(stream, *(char *const *)value); break;
+    case FIELD_LIST: write_list(stream, field, parent); break;
+    case FIELD_MAPPING:
+        fputc('{', stream);
+        write_members(stream, field, value, scene_field_at(field, defaults), write_flow_member);
+        fputc('}', stream);
+        break;
+    }
+}
+
+void scene_value_write(FILE *stream, const scene_field *field, const void *parent)
+{
+    write_value(stream, field, parent, parent);
+}
+
+/* ---- whole files ------------------------------------------------------------------------------------------- */
+
+static void write_inner_member(FILE *stream, const scene_field *field, const void *parent, const void *defaults, bool first)
+{
+    (void)first;
+    if (field->type != FIELD_LIST) {
+        fprintf(stream, "  %s: ", field->key);
+        write_value(stream, field, parent, defaults);
+        fputc('\n', stream);
+        return;
+    }
+    const scene_list *list = scene_field_at(field, parent);
+    fprintf(stream, "  %s:%s\n", field->key, list->count == 0 ? " []" : "");
+    for (size_t i = 0; i < list->count; i++) {
+        any_mapping item;
+        field->prepare(parent, &item);
+        fputs("    - {", stream);
+        write_members(stream, field, (const char *)list->items + i * field->item_size, &item, write_flow_member);
+        fputs("}\n", stream);
+    }
+}
+
+static void write_outer_member(FILE *stream, const scene_field *field, const void *parent, const void *defaults, bool first)
+{
+    (void)first;
+    fprintf(stream, "%s:", field->key);
+    if (field->type != FIELD_MAPPING) {
+        fputc(' ', stream);
+        write_value(stream, field, parent, defaults);
+        fputc('\n', stream);
+        return;
+    }
+    fputc('\n', stream);
+    write_members(stream, field, scene_field_at(field, parent), scene_field_at(field, defaults), write_inner_member);
+}
+
+bool scene_values_write(FILE *stream, const scene_values *values)
+{
+    const scene_values defaults = scene_values_defaults();
+    write_members(stream, scene_root_field(), values, &defaults, write_outer_member);
+    return fflush(stream) == 0 && !ferror(stream);
+}
+
+/* ---- words ------------------------------------------------------------------------------------------------- */
+
+static bool add_word(scene_overrides *out, const char *path, const scene_field *field, const void *parent, const void *defaults)
+{
+    char **words = realloc(out->words, (out->count + 1) * sizeof *words);
+    if (words == NULL)
+        return false;
+    out->words = words;
+    words[out->count] = NULL;
+    size_t size = 0;
+    FILE *stream = open_memstream(&words[out->count], &size);
+    if (stream == NULL)
+        return false;
+    fprintf(stream, "%s=", path);
+    write_value(stream, field, parent, defaults);
+    const bool bad = ferror(stream) != 0;
+    out->count++;
+    return fclose(stream) == 0 && !bad;
+}
+
+/* Where single members would leave a file that contradicts itself, or defaults that another key decides, the whole mapping is written. */
+static bool needs_whole(const scene_field *field, const void *from, const void *to)
+{
+    if (strcmp(field->key, "camera") == 0)
+        return ((const scene_camera *)from)->path.count == 0 && ((const scene_camera *)to)->path.count > 0;
+    if (strcmp(field->key, "light") == 0)
+        return ((const mgt_light *)from)->body != ((const mgt_light *)to)->body;
+    return strcmp(field->key, "post") == 0 && ((const scene_post *)from)->exposure.automatic != ((const scene_post *)to)->exposure.automatic;
+}
+
+static bool add_differences(scene_overrides *out, const char *path, const scene_field *mapping, const void *from, const void *to,
+                            const void *defaults)
+{
+    for (const scene_field *field = mapping->fields; field->key != NULL; field++) {
+        char name[PATH_SIZE];
+        snprintf(name, sizeof name, "%s%s%s", path, path[0] != '\0' ? "." : "", field->key);
+        if (values_equal(field, from, to) || is_excluded(mapping, field, to))
+            continue;
+        const void *left = scene_field_at(field, from), *right = scene_field_at(field, to);
+        const scene_list *left_list = left, *right_list = right;
+        bool good = true;
+        if (field->type == FIELD_MAPPING && !needs_whole(field, left, right)) {
+            good = add_differences(out, name, field, left, right, scene_field_at(field, defaults));
+        } else if (field->type == FIELD_LIST && left_list->count == right_list->count) {
+            for (size_t i = 0; good && i < left_list->count; i++) {
+                char item[PATH_SIZE];
+                any_mapping expected;
+                field->prepare(to, &expected);
+                snprintf(item, sizeof item, "%.60s[%zu]", name, i);
+                good = add_differences(out, item, field, (const char *)left_list->items + i * field->item_size,
+                                       (const char *)right_list->items + i * field->item_size, &expected);
+            }
+        } else {
+            good = add_word(out, name, field, to, defaults);
+        }
+        if (!good)
+            return false;
+    }
+    return true;
+}
+
+bool scene_overrides_between(const scene_values *from, const scene_values *to, scene_overrides *out)
+{
+    const scene_values defaults = scene_values_defaults();
+    *out = (scene_overrides){0};
+    if (add_differences(out, "", scene_root_field(), from, to, &defaults))
+        return true;
+    scene_overrides_free(out);
+    return false;
+}
+
+void scene_overrides_free(scene_overrides *overrides)
+{
+    for (size_t i = 0; i < overrides->count; i++)
+        free(overrides->words[i]);
+    free(overrides->words);
+    *overrides = (scene_overrides){0};
+}

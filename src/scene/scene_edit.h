@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Scenes that a program changes: copies of their values, the scene of any moment, and the way back to text, as `--set` words and as a
+ * whole file.
+ */
+#ifndef MANGATA_SCENE_SCENE_EDIT_H
+#define MANGATA_SCENE_SCENE_EDIT_H
+
+#include "scene/scene_fields.h"
+
+/* What a file holds after defaults and overrides; lives as long as `file`. */
+const scene_values *scene_file_values(const scene_file *file);
+
+/* The scene at `time` seconds, as scene_file_frame() makes it for a frame. out->water.waves points into `values`. False, with *out untouched,
+ * where the camera is not a legal one. */
+bool scene_values_shot(const scene_values *values, double time, mgt_scene *out);
+
+/* A copy with lists and text of its own, to be freed with scene_values_free(). False when memory runs out; *out is then empty. */
+bool scene_values_copy(scene_values *out, const scene_values *values);
+
+/* The field that a path such as "light.elevation_deg", "water.waves[2].a" or "camera.path" names, and where `values` hold it. NULL where
+ * there is none, or no such item. */
+const scene_field *scene_values_find(const scene_values *values, const char *path, const void **value);
+
+/* Writes a single value or a list as YAML and `--set` read it: "3", "[0, 4, 0]", "sun", "[{a: 1, b: 2}]". `parent`: the struct that holds
+ * the value. */
+void scene_value_write(FILE *stream, const scene_field *field, const void *parent);
+
+/* A whole scene file that reads back as the same values. False on a write error. */
+bool scene_values_write(FILE *stream, const scene_values *values);
+
+/* Words "key=value" in the order in which they must be applied. */
+typedef struct scene_overrides {
+    char **words; /* owned, as is each of them */
+    size_t count;
+} scene_overrides;
+
+/* The words that turn a file with the values `from` into `to`. False when memory runs out; *out is then empty. */
+bool scene_overrides_between(const scene_values *from, const scene_values *to, scene_overrides *out);
+void scene_overrides_free(scene_overrides *overrides);
+
+#endif

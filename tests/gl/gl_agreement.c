@@ -1,0 +1,194 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * OpenGL against the CPU: every method on scene files, coverage and displayed colour, and the displayed bytes with glare.
+ * usage: gl_agreement SCENE…      Exit 1 where a limit is missed, 77 without OpenGL.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cpu/kernel_data.h"
+#include "precompute/atmosphere.h"
+#include "scene/scene_file.h"
+
+#pragma GCC diagnostic ignored "-Wunused-parameter" /* the dialect hands cx to every function */
+#define MGT_LANES 1
+#include "kernels/prelude_c.h"
+
+#define FRAME(cx) (*(cx)->frame)
+
+#include "kernels/tone.k"
+
+#undef sqrt
+#undef abs
+#undef min
+#undef max
+
+enum { WIDTH = 320, HEIGHT = 180, PIXELS = WIDTH * HEIGHT, METHODS = 6 };
+
+static const double far_off = 5e-3;       /* a pixel off by more than this has flipped at a discontinuity: … */
+static const double most_far_off = 1e-3;  /* … this share of them may have */
+static const double largest_rms = 5e-5;   /* of the others */
+static const double most_bytes_off = 1e-3; /* share of displayed bytes that differ by more than a step */
+
+static const struct {
+    const char *name;
+    mgt_quality quality;
+} methods[METHODS] = {
+    {"none", {.method = MGT_METHOD_NONE, .spatial_samples = 1, .time_samples = 1}},
+    {"ssaa2", {.method = MGT_METHOD_SSAA, .spatial_samples = 2, .time_samples = 1, .seed = 0x123456789abcdef0}},
+    {"ssaa2 x 3", {.method = MGT_METHOD_SSAA, .spatial_samples = 2, .time_samples = 3, .seed = 7}},
+    {"podee-uniform", {.method = MGT_METHOD_PODEE_UNIFORM, .spatial_samples = 1, .time_samples = 1}},
+    {"podee-pixel", {.method = MGT_METHOD_PODEE_PIXEL, .spatial_samples = 1, .time_samples = 1}},
+    {"mangata", {.method = MGT_METHOD_MANGATA, .spatial_samples = 1, .time_samples = 1}},
+};
+
+typedef struct layers {
+    float coverage[PIXELS], color[3 * PIXELS];
+    unsigned char shown[4 * PIXELS];
+} layers;
+
+/* Pixels that are compared. */
+static unsigned char compared[PIXELS];
+
+typedef struct difference {
+    double far_share, rms;
+} difference;
+
+static difference compare(const float *a, const float *b, size_t count, size_t channels)
+{
+    double sum = 0;
+    size_t far_count = 0, near_count = 0;
+    for (size_t i = 0; i < count; i++) {
+        double worst = 0, squared = 0;
+        if (!compared[i])
+            continue;
+        for (size_t c = 0; c < channels; c++) {
+            const double d = fabs((double)a[channels * i + c] - (double)b[channels * i + c]);
+            worst = d <= worst ? worst : d; /* NaN counts */
+            squared += d * d;
+        }
+        if (worst <= far_off) {
+            sum += squared;
+            near_count += channels;
+        } else {
+            far_count++;
+        }
+    }
+    return (difference){(double)far_count / (double)count, near_count ? sqrt(sum / (double)near_count) : 0};
+}
+
+static bool render(mgt_context *context, const mgt_scene *scene, layers *out)
+{
+    mgt_target targets[3] = {mgt_target_defaults(), mgt_target_defaults(), mgt_target_defaults()};
+    targets[0].layer = MGT_LAYER_COVERAGE, targets[0].format = MGT_FORMAT_R32F, targets[0].pixels = out->coverage;
+    targets[1].format = MGT_FORMAT_RGB32F, targets[1].pixels = out->color;
+    targets[2].pixels = out->shown;
+    if (mgt_render(context, scene, targets, 3) == MGT_OK)
+        return true;
+    fprintf(stderr, "gl_agreement: %s\n", mgt_last_error(context));
+    return false;
+}
+
+/* Software OpenGL (llvmpipe) ends the loops of an invocation after 65,535 turns in all, which the march of a sample ray that just misses the
+ * horizon exceeds: pixels cut by the horizon are then left out for ssaa. */
+static bool choose_pixels(mgt_context *cpu, const mgt_scene *scene, bool software)
+{
+    memset(compared, 1, sizeof compared);
+    if (!software || scene->quality.method != MGT_METHOD_SSAA)
+        return true;
+    static float water[PIXELS];
+    mgt_scene filtered = *scene;
+    filtered.quality = methods[METHODS - 1].quality;
+    mgt_target target = mgt_target_defaults();
+    target.layer = MGT_LAYER_MASK, target.format = MGT_FORMAT_R32F, target.pixels = water;
+    if (mgt_render(cpu, &filtered, &target, 1) != MGT_OK)
+        return false;
+    for (size_t i = 0; i < PIXELS; i++)
+        compared[i] = water[i] <= 0 || water[i] >= 1;
+    return true;
+}
+
+/* Radiance to what is displayed, before rounding to bytes. */
+static void display(const mgt_scene *scene, double exposure_ev, float *color)
+{
+    const FrameData frame = {.exposure = (float)exp2(scene->post.exposure_ev + (scene->post.auto_exposure ? exposure_ev : 0))};
+    const struct kernel_context cx = {.frame = &frame};
+    for (size_t i = 0; i < PIXELS; i++) {
+        float *c = color + 3 * i;
+        const vec3 shown = display_color(&cx, vec3(c[0], c[1], c[2]), (int)scene->post.tone_map);
+        c[0] = shown.x, c[1] = shown.y, c[2] = shown.z;
+    }
+}
+
+static bool print(const char *scene, const char *method, const difference *coverage, const difference *color, double bytes_off)
+{
+    const bool good = coverage->far_share <= most_far_off && coverage->rms <= largest_rms && color->far_share <= most_far_off && color->rms <= largest_rms &&
+                      bytes_off <= most_bytes_off;
+    printf("%-10s %-14s %9.4f %% %9.1e %9.4f %% %9.1e %9.4f %%  %s\n", scene, method, 100 * coverage->far_share, coverage->rms,
+           100 * color->far_share, color->rms,
+           100 * bytes_off, good ? "ok" : "MISSED");
+    fflush(stdout);
+    return good;
+}
+
+static bool compare_scene(mgt_context *cpu, mgt_context *gl, bool software, const char *path, sky_state *sky)
+{
+    static layers reference, other;
+    scene_error error;
+    scene_file *file = scene_file_load(path, NULL, 0, &error);
+    mgt_scene scene;
+    if (!file || !scene_file_frame(file, 0, &scene)) {
+        fprintf(stderr, "gl_agreement: %s\n", file ? path : error.text);
+        scene_file_free(file);
+        return false;
+    }
+    const char *name = strrchr(path, '/') ? strrchr(path, '/') + 1 : path;
+    char label[16];
+    snprintf(label, sizeof label, "%.*s", (int)strcspn(name, "."), name);
+    scene.image = (mgt_image){.width = WIDTH, .height = HEIGHT};
+    bool good = sky_state_build(sky, &scene.sky, &scene.light) == MGT_OK;
+    bool rendered = good;
+    for (int m = 0; m < METHODS && rendered; m++) {
+        scene.quality = methods[m].quality;
+        rendered = choose_pixels(cpu, &scene, software) && render(cpu, &scene, &reference) && render(gl, &scene, &other);
+        size_t bytes_off = 0;
+        for (size_t i = 0; i < sizeof reference.shown; i++)
+            bytes_off += compared[i / 4] && abs(reference.shown[i] - other.shown[i]) > 1;
+        display(&scene, sky->exposure_ev, reference.color);
+        display(&scene, sky->exposure_ev, other.color);
+        const difference coverage = compare(other.coverage, reference.coverage, PIXELS, 1), color = compare(other.color, reference.color, PIXELS, 3);
+        good = print(label, methods[m].name, &coverage, &color, (double)bytes_off / (double)sizeof reference.shown) && good;
+    }
+    scene_file_free(file);
+    return good && rendered;
+}
+
+int main(int count, char **arguments)
+{
+    mgt_context_desc desc = mgt_context_desc_defaults();
+    mgt_context *cpu = NULL, *gl = NULL;
+    desc.backend = MGT_BACKEND_GL;
+    const mgt_status status = mgt_context_create(&gl, &desc);
+    if (status == MGT_ERROR_UNAVAILABLE) {
+        printf("SKIPPED: %s\n", mgt_last_error(NULL));
+        return 77;
+    }
+    if (status != MGT_OK || mgt_context_create(&cpu, NULL) != MGT_OK) {
+        fprintf(stderr, "gl_agreement: %s\n", mgt_last_error(NULL));
+        return 1;
+    }
+    mgt_context_info info = {.struct_size = sizeof info};
+    mgt_context_get_info(gl, &info);
+    printf("%s\n%d x %d pixels; pixels off by more than %g, rms of the others (limits %g %%, %.0e), displayed bytes off by more than one (limit %g %%)\n\n%-25s %22s %22s %11s\n",
+           info.renderer, WIDTH, HEIGHT, far_off, 100 * most_far_off, largest_rms, 100 * most_bytes_off, "", "coverage", "color", "bytes");
+    sky_state *sky = calloc(1, sizeof *sky);
+    bool good = sky != NULL && count > 1;
+    for (int i = 1; i < count && sky; i++)
+        good = compare_scene(cpu, gl, info.software, arguments[i], sky) && good;
+    free(sky);
+    mgt_context_destroy(gl);
+    mgt_context_destroy(cpu);
+    return good ? 0 : 1;
+}

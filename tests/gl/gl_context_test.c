@@ -1,0 +1,582 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The OpenGL backend behind the API: creation, layers, formats, crops, sources, refusals, and textures of a host. What a host's framebuffer
+ * sees is in tests/host, how far pictures are from the CPU's on whole scenes in gl_agreement.
+ */
+#include "unit/api_sea.h"
+
+#include <dlfcn.h>
+
+#include "gl/gl_api.h"
+#include "gl/gl_egl.h"
+#include "gl/gl_sources.h"
+#include "mangata/mangata_gl.h"
+
+enum { PIXELS = SEA_WIDTH * SEA_HEIGHT };
+
+typedef struct log_record {
+    int count;
+    char last_id[64], ids[1024], text[512];
+} log_record;
+
+static void keep_log(void *user, mgt_log_level level, const char *id, const char *text)
+{
+    (void)level;
+    log_record *r = user;
+    r->count++;
+    snprintf(r->last_id, sizeof r->last_id, "%s", id);
+    snprintf(r->ids + strlen(r->ids), sizeof r->ids - strlen(r->ids), "%s ", id);
+    snprintf(r->text, sizeof r->text, "%s", text);
+}
+
+static mgt_context *gl_context(void)
+{
+    mgt_context_desc desc = mgt_context_desc_defaults();
+    desc.backend = MGT_BACKEND_GL;
+    mgt_context *context = NULL;
+    if (mgt_context_create(&context, &desc) != MGT_OK)
+        fail_msg("%s", mgt_last_error(NULL));
+    return context;
+}
+
+static mgt_context_info info_of(const mgt_context *context)
+{
+    mgt_context_info info = {.struct_size = sizeof info};
+    assert_int_equal(mgt_context_get_info(context, &info), MGT_OK);
+    return info;
+}
+
+/* ---- creation ---- */
+
+static void creation_says_what_runs(void **state)
+{
+    (void)state;
+    log_record log = {0};
+    mgt_context_desc desc = mgt_context_desc_defaults();
+    desc.backend = MGT_BACKEND_GL;
+    desc.log = keep_log;
+    desc.log_user = &log;
+    mgt_context *context = NULL;
+    assert_int_equal(mgt_context_create(&context, &desc), MGT_OK);
+    const mgt_context_info info = info_of(context);
+    assert_int_equal(info.backend, MGT_BACKEND_GL);
+    assert_true(strlen(info.renderer) > 4);
+    assert_int_equal(info.software, strstr(log.ids, "context.software") != NULL);
+    print_message("  %s\n", info.renderer);
+    mgt_context_destroy(context);
+
+    desc.gl_device = 1000;
+    assert_int_equal(mgt_context_create(&context, &desc), MGT_ERROR_UNAVAILABLE);
+    assert_null(context);
+    assert_string_equal(log.last_id, "context.device");
+    assert_non_null(strstr(mgt_last_error(NULL), "there is no OpenGL device 1000"));
+}
+
+/* AUTO takes OpenGL by hardware only, and says what it took. */
+static void automatic_choice(void **state)
+{
+    (void)state;
+    mgt_context *gl = gl_context(), *context = NULL;
+    const bool software = info_of(gl).software;
+    mgt_context_destroy(gl);
+    log_record log = {0};
+    mgt_context_desc desc = mgt_context_desc_defaults();
+    desc.backend = MGT_BACKEND_AUTO;
+    desc.log = keep_log;
+    desc.log_user = &log;
+    assert_int_equal(mgt_context_create(&context, &desc), MGT_OK);
+    assert_int_equal(info_of(context).backend, software ? MGT_BACKEND_CPU : MGT_BACKEND_GL);
+    assert_string_equal(log.last_id, "context.backend");
+    assert_int_equal(log.count, 1);
+    assert_string_equal(mgt_last_error(context), "");
+    mgt_context_destroy(context);
+}
+
+/* A function that an old OpenGL lacks. */
+static mgt_gl_function without_compute(const char *name)
+{
+    return strcmp(name, "glDispatchCompute") == 0 ? NULL : gl_egl_get_proc(name);
+}
+
+static void incomplete_hosts_are_refused(void **state)
+{
+    (void)state;
+    mgt_context_desc desc = mgt_context_desc_defaults();
+    desc.backend = MGT_BACKEND_GL;
+    desc.gl_get_proc = without_compute;
+    mgt_context *context = NULL;
+    assert_int_equal(mgt_context_create(&context, &desc), MGT_ERROR_UNAVAILABLE);
+    assert_null(context);
+    assert_non_null(strstr(mgt_last_error(NULL), "glDispatchCompute"));
+}
+
+/* ---- layers ---- */
+
+typedef struct layers {
+    float color[PIXELS * 3], color4[PIXELS * 4], coverage[PIXELS], mask[PIXELS], depth[PIXELS], normal[PIXELS * 3], normal4[PIXELS * 4];
+    unsigned char shown[PIXELS * 4];
+} layers;
+
+static void render_all(mgt_context *context, const mgt_scene *scene, layers *out)
+{
+    const mgt_target targets[] = {
+        sea_target(MGT_LAYER_COLOR, MGT_FORMAT_RGB32F, out->color, 0),      sea_target(MGT_LAYER_COLOR, MGT_FORMAT_RGBA32F, out->color4, 0),
+        sea_target(MGT_LAYER_COLOR, MGT_FORMAT_RGBA8_SRGB, out->shown, 0),  sea_target(MGT_LAYER_COVERAGE, MGT_FORMAT_R32F, out->coverage, 0),
+        sea_target(MGT_LAYER_MASK, MGT_FORMAT_R32F, out->mask, 0),          sea_target(MGT_LAYER_DEPTH, MGT_FORMAT_R32F, out->depth, 0),
+        sea_target(MGT_LAYER_NORMAL, MGT_FORMAT_RGB32F, out->normal, 0),    sea_target(MGT_LAYER_NORMAL, MGT_FORMAT_RGBA32F, out->normal4, 0),
+    };
+    sea_render(context, scene, targets, sizeof targets / sizeof *targets);
+}
+
+/* Values that differ by more than `limit`, relative to values over 1. */
+static size_t count_off(const float *a, const float *b, size_t count, double limit)
+{
+    size_t off = 0;
+    for (size_t i = 0; i < count; i++) {
+        const double x = (double)a[i], y = (double)b[i];
+        off += x != y && !(fabs(x - y) <= limit * fmax(1, fabs(y)));
+    }
+    return off;
+}
+
+static void expect_same(const char *what, size_t off, size_t count, size_t divisor)
+{
+    if (off > count / divisor)
+        fail_msg("%s: %zu of %zu values differ", what, off, count);
+}
+
+static void expect_same_layers(const layers *a, const layers *b)
+{
+    expect_same("color", count_off(a->color, b->color, PIXELS * 3, 5e-3), PIXELS * 3, 200);
+    expect_same("coverage", count_off(a->coverage, b->coverage, PIXELS, 5e-3), PIXELS, 200);
+    expect_same("mask", count_off(a->mask, b->mask, PIXELS, 1e-3), PIXELS, 200);
+    expect_same("depth", count_off(a->depth, b->depth, PIXELS, 2e-3), PIXELS, 200);
+    expect_same("normal", count_off(a->normal, b->normal, PIXELS * 3, 5e-3), PIXELS * 3, 200);
+    size_t off = 0;
+    for (size_t i = 0; i < sizeof a->shown; i++)
+        off += abs(a->shown[i] - b->shown[i]) > 1;
+    expect_same("displayed color", off, sizeof a->shown, 200);
+    for (size_t i = 0; i < PIXELS; i++) {
+        assert_memory_equal(a->color4 + 4 * i, a->color + 3 * i, 3 * sizeof(float));
+        assert_memory_equal(a->normal4 + 4 * i, a->normal + 3 * i, 3 * sizeof(float));
+        assert_true(a->color4[4 * i + 3] == 1 && a->normal4[4 * i + 3] == 1 && a->shown[4 * i + 3] == 255);
+    }
+}
+
+/* Every method, layer and format, with a camera that rests and one that moves. */
+static void layers_are_those_of_the_cpu(void **state)
+{
+    (void)state;
+    static layers expected, got;
+    mgt_wave waves[SEA_WAVES];
+    mgt_scene scene = sea_scene(waves);
+    mgt_context *gl = gl_context(), *cpu = sea_context(2, MGT_ISA_AUTO);
+    for (int moves = 0; moves < 2; moves++)
+        for (int m = 0; m < SEA_METHODS; m++) {
+            scene.camera_moves = moves;
+            scene.camera_open.position[0] = -0.05;
+            scene.quality.method = sea_methods[m];
+            render_all(cpu, &scene, &expected);
+            memset(&got, 0xff, sizeof got);
+            render_all(gl, &scene, &got);
+            expect_same_layers(&got, &expected);
+            if (scene.quality.method == MGT_METHOD_REFERENCE) /* the same code */
+                assert_memory_equal(&got, &expected, sizeof got);
+        }
+    mgt_context_destroy(gl);
+    mgt_context_destroy(cpu);
+}
+
+/* The same bytes again, after other frames, and within a crop. */
+static void crops_are_parts_of_the_whole(void **state)
+{
+    (void)state;
+    static layers whole, again;
+    static float part[PIXELS];
+    static unsigned char shown[PIXELS * 4];
+    mgt_wave waves[SEA_WAVES];
+    mgt_scene scene = sea_scene(waves);
+    mgt_context *gl = gl_context();
+    render_all(gl, &scene, &whole);
+    enum { X = 35, Y = 17, W = 40, H = 26 };
+    mgt_scene crop = scene;
+    crop.image.crop_x = X, crop.image.crop_y = Y, crop.image.crop_width = W, crop.image.crop_height = H;
+    const mgt_target targets[] = {sea_target(MGT_LAYER_COVERAGE, MGT_FORMAT_R32F, part, 0),
+        sea_target(MGT_LAYER_COLOR, MGT_FORMAT_RGBA8_SRGB, shown, 0)};
+    sea_render(gl, &crop, targets, 1); /* alone: rendered as small as it is … */
+    for (size_t y = 0; y < H; y++)
+        assert_memory_equal(part + y * W, whole.coverage + (y + Y) * SEA_WIDTH + X, W * sizeof(float));
+    sea_render(gl, &crop, targets, 2); /* … with glare out of the whole picture */
+    for (size_t y = 0; y < H; y++) {
+        assert_memory_equal(part + y * W, whole.coverage + (y + Y) * SEA_WIDTH + X, W * sizeof(float));
+        assert_memory_equal(shown + y * W * 4, whole.shown + ((y + Y) * SEA_WIDTH + X) * 4, W * 4);
+    }
+    render_all(gl, &scene, &again);
+    assert_memory_equal(&again, &whole, sizeof again);
+    mgt_context_destroy(gl);
+}
+
+static void strides_are_kept(void **state)
+{
+    (void)state;
+    enum { PITCH = SEA_WIDTH + 5 };
+    static float tight[PIXELS], loose[PITCH * SEA_HEIGHT];
+    mgt_wave waves[SEA_WAVES];
+    mgt_scene scene = sea_scene(waves);
+    mgt_context *gl = gl_context();
+    for (size_t i = 0; i < sizeof loose / sizeof *loose; i++)
+        loose[i] = -7;
+    const ptrdiff_t stride = PITCH * sizeof(float);
+    const mgt_target targets[] = {sea_target(MGT_LAYER_DEPTH, MGT_FORMAT_R32F, tight, 0),
+                                  sea_target(MGT_LAYER_DEPTH, MGT_FORMAT_R32F, loose + PITCH * (SEA_HEIGHT - 1), -stride)};
+    sea_render(gl, &scene, targets, 2);
+    for (size_t y = 0; y < SEA_HEIGHT; y++) {
+        const float *row = loose + PITCH * (SEA_HEIGHT - 1 - y);
+        assert_memory_equal(row, tight + SEA_WIDTH * y, SEA_WIDTH * sizeof(float));
+        for (size_t x = SEA_WIDTH; x < PITCH; x++)
+            assert_true(row[x] == -7);
+    }
+    mgt_context_destroy(gl);
+}
+
+/* Two halves of the samples have the whole's mean. */
+static void sample_ranges_add_up(void **state)
+{
+    (void)state;
+    static float whole[PIXELS], half[2][PIXELS];
+    mgt_wave waves[SEA_WAVES];
+    mgt_scene scene = sea_scene(waves);
+    scene.quality = (mgt_quality){.method = MGT_METHOD_SSAA, .spatial_samples = 3, .time_samples = 2, .seed = 5};
+    mgt_context *gl = gl_context();
+    mgt_target target = sea_target(MGT_LAYER_COVERAGE, MGT_FORMAT_R32F, whole, 0);
+    sea_render(gl, &scene, &target, 1);
+    for (int i = 0; i < 2; i++) {
+        scene.quality.sample_first = i ? 7 : 0;
+        scene.quality.sample_count = i ? 0 : 7;
+        target.pixels = half[i];
+        sea_render(gl, &scene, &target, 1);
+    }
+    for (size_t i = 0; i < PIXELS; i++)
+        assert_true(fabs((double)whole[i] - (7 * (double)half[0][i] + 11 * (double)half[1][i]) / 18) < 1e-5);
+    mgt_context_destroy(gl);
+}
+
+/* ---- refusals ---- */
+
+static void large_pictures_are_refused(void **state)
+{
+    (void)state;
+    static float pixels[PIXELS];
+    mgt_wave waves[SEA_WAVES];
+    mgt_scene scene = sea_scene(waves), large = scene;
+    mgt_context *gl = gl_context();
+    large.image = (mgt_image){.width = MGT_MAX_IMAGE_SIDE, .height = 2};
+    float *much = calloc((size_t)MGT_MAX_IMAGE_SIDE * 2, sizeof *much);
+    assert_non_null(much);
+    mgt_target target = sea_target(MGT_LAYER_MASK, MGT_FORMAT_R32F, much, 0);
+    const mgt_status status = mgt_render(gl, &large, &target, 1);
+    if (status != MGT_OK) { /* an OpenGL with textures that large renders it */
+        assert_int_equal(status, MGT_ERROR_UNSUPPORTED);
+        assert_non_null(strstr(mgt_last_error(gl), "32768 x 2"));
+    }
+    free(much);
+    target.pixels = pixels;
+    sea_render(gl, &scene, &target, 1);
+    mgt_context_destroy(gl);
+}
+
+static bool stop_at_once(void *user, double fraction)
+{
+    int *calls = user;
+    assert_true(fraction >= 0 && fraction <= 1);
+    return ++*calls < 2;
+}
+
+static void rendering_can_be_cancelled(void **state)
+{
+    (void)state;
+    static float pixels[PIXELS];
+    int calls = 0;
+    mgt_context_desc desc = mgt_context_desc_defaults();
+    desc.backend = MGT_BACKEND_GL;
+    desc.progress = stop_at_once;
+    desc.progress_user = &calls;
+    mgt_context *gl = NULL;
+    assert_int_equal(mgt_context_create(&gl, &desc), MGT_OK);
+    mgt_wave waves[SEA_WAVES];
+    mgt_scene scene = sea_scene(waves);
+    scene.quality = (mgt_quality){.method = MGT_METHOD_SSAA, .spatial_samples = 32, .time_samples = 8};
+    const mgt_target target = sea_target(MGT_LAYER_MASK, MGT_FORMAT_R32F, pixels, 0);
+    assert_int_equal(mgt_render(gl, &scene, &target, 1), MGT_CANCELLED);
+    assert_int_equal(calls, 2);
+    calls = -1000;
+    scene.quality.method = MGT_METHOD_MANGATA;
+    sea_render(gl, &scene, &target, 1);
+    mgt_context_destroy(gl);
+}
+
+/* ---- sources ---- */
+
+/* Replaced texts show at once; a broken one is named with its line and changes nothing. */
+static void sources_can_be_replaced(void **state)
+{
+    (void)state;
+    static float before[PIXELS], after[PIXELS];
+    mgt_wave waves[SEA_WAVES];
+    mgt_scene scene = sea_scene(waves);
+    mgt_context *gl = gl_context(), *cpu = sea_context(1, MGT_ISA_AUTO);
+    mgt_target target = sea_target(MGT_LAYER_MASK, MGT_FORMAT_R32F, before, 0);
+    sea_render(gl, &scene, &target, 1);
+    target.pixels = after;
+
+    const char *broken = "/* broken */\n#include \"math.k\"\nKERNEL real broken(CTX cx, real x) { return x +; }\n";
+    const struct {
+        mgt_gl_source source;
+        mgt_status status;
+        const char *text;
+    } refused[] = {
+        {{"tone.k", broken}, MGT_ERROR_UNAVAILABLE, "tone.k:3:"},
+        {{"glitter.k", "#include \"nowhere.k\"\n"}, MGT_ERROR_UNAVAILABLE, "glitter.k"},
+        {{"no_such.k", "\n"}, MGT_ERROR_ARGUMENT, "no_such.k"},
+        {{NULL, "\n"}, MGT_ERROR_ARGUMENT, "NULL"},
+        {{"tone.k", NULL}, MGT_ERROR_ARGUMENT, "NULL"},
+    };
+    for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {
+        assert_int_equal(mgt_gl_set_sources(gl, &refused[i].source, 1), refused[i].status);
+        if (!strstr(mgt_last_error(gl), refused[i].text))
+            fail_msg("'%s' does not name %s", mgt_last_error(gl), refused[i].text);
+        sea_render(gl, &scene, &target, 1);
+        assert_memory_equal(after, before, sizeof after);
+    }
+    assert_int_equal(mgt_gl_set_sources(gl, NULL, 1), MGT_ERROR_ARGUMENT);
+    assert_int_equal(mgt_gl_set_sources(cpu, NULL, 0), MGT_ERROR_UNAVAILABLE);
+    assert_int_equal(mgt_gl_set_sources(NULL, NULL, 0), MGT_ERROR_ARGUMENT);
+
+    const mgt_gl_source shade = {"shade.glsl",
+        "layout(local_size_x = 8, local_size_y = 8) in;\nlayout(binding = 2) writeonly uniform image2D water_image;\n"
+                                               "void main()\n{\n    TilePixel p = tile_pixel();\n    if (p.inside)\n        imageStore(water_image, p.texel, vec4(0.25));\n}\n"};
+    assert_int_equal(mgt_gl_set_sources(gl, &shade, 1), MGT_OK);
+    sea_render(gl, &scene, &target, 1);
+    for (size_t i = 0; i < PIXELS; i++)
+        assert_true(after[i] == 0.25f);
+    assert_int_equal(mgt_gl_set_sources(gl, NULL, 0), MGT_OK);
+    sea_render(gl, &scene, &target, 1);
+    assert_memory_equal(after, before, sizeof after);
+    mgt_context_destroy(gl);
+    mgt_context_destroy(cpu);
+}
+
+/* Whatever the driver's way of saying it, a message names the kernel file and its line. */
+static void messages_name_the_file(void **state)
+{
+    (void)state;
+    const gl_replacements none = {0};
+    gl_source source;
+    assert_true(gl_source_assemble(&source, &none, "shade_mangata.comp", "#define NOTHING\n"));
+    assert_ptr_equal(strstr(source.text, "#version 450 core\n#define NOTHING\n#line 1 1\n"), source.text);
+    assert_null(strstr(source.text, "#include"));
+    assert_null(strstr(source.text, "#pragma"));
+    int glitter = 0;
+    for (int i = 0; i < source.file_count; i++)
+        glitter = strcmp(source.files[i], "glitter.k") == 0 ? i : glitter;
+    assert_true(glitter > 0);
+    static const char *const forms[] = {"%d:12(5): error: `x' undeclared\n", "%d(12) : error C1503: undefined variable\n", "ERROR: %d:12: 'x' : undeclared identifier\n",
+                                        "1:3(1): warning: something else\n%d:12(5): error: `x' undeclared\n"};
+    for (size_t i = 0; i < sizeof forms / sizeof *forms; i++) {
+        char log[128], text[128];
+        snprintf(log, sizeof log, forms[i], glitter);
+        gl_source_explain(&source, log, text, sizeof text);
+        if (strncmp(text, "glitter.k:12: ", 14) != 0 || strlen(text) < 24 || strchr(text, '\n'))
+            fail_msg("'%s' became '%s'", log, text);
+    }
+    char text[64];
+    gl_source_explain(&source, "internal error\nand more", text, sizeof text);
+    assert_string_equal(text, "internal error");
+    gl_source_free(&source);
+}
+
+/* ---- a host ---- */
+
+/* An OpenGL context as a host would have it, current on this thread. */
+typedef struct host {
+    gl_egl *egl;
+    gl_egl_scope scope;
+    gl_api gl;
+    char error[REPORTER_TEXT];
+} host;
+
+static void host_start(host *h)
+{
+    memset(h, 0, sizeof *h);
+    const reporter r = {.error = h->error};
+    assert_int_equal(gl_egl_create(&h->egl, 0, &r), MGT_OK);
+    assert_int_equal(gl_egl_enter(h->egl, &h->scope, &r), MGT_OK);
+    assert_null(gl_api_load(&h->gl, gl_egl_get_proc));
+}
+
+static void host_stop(host *h)
+{
+    gl_egl_leave(h->egl, &h->scope);
+    gl_egl_destroy(h->egl);
+}
+
+static mgt_context *host_context(void)
+{
+    mgt_context_desc desc = mgt_context_desc_defaults();
+    desc.backend = MGT_BACKEND_GL;
+    desc.gl_get_proc = gl_egl_get_proc;
+    mgt_context *context = NULL;
+    if (mgt_context_create(&context, &desc) != MGT_OK)
+        fail_msg("%s", mgt_last_error(NULL));
+    return context;
+}
+
+static mgt_gl_texture host_texture(const host *h, mgt_layer layer, GLenum format, int width, int height)
+{
+    mgt_gl_texture t = mgt_gl_texture_defaults();
+    t.layer = layer;
+    h->gl.CreateTextures(GL_TEXTURE_2D, 1, &t.texture);
+    h->gl.TextureStorage2D(t.texture, 1, format, width, height);
+    return t;
+}
+
+static void read_texture(const host *h, GLuint texture, GLenum format, GLenum type, size_t size, void *out)
+{
+    h->gl.PixelStorei(GL_PACK_ALIGNMENT, 4);
+    h->gl.GetTextureSubImage(texture, 0, 0, 0, 0, SEA_WIDTH, SEA_HEIGHT, 1, format, type, (GLsizei)size, out);
+}
+
+static void textures_hold_the_layers(void **state)
+{
+    (void)state;
+    static layers expected, got;
+    host h;
+    host_start(&h);
+    mgt_context *context = host_context();
+    mgt_wave waves[SEA_WAVES];
+    const mgt_scene scene = sea_scene(waves);
+    render_all(context, &scene, &expected);
+    mgt_gl_texture t[] = {
+        host_texture(&h, MGT_LAYER_COLOR, GL_RGBA32F, SEA_WIDTH, SEA_HEIGHT), host_texture(&h, MGT_LAYER_COLOR, GL_RGBA8, SEA_WIDTH, SEA_HEIGHT),
+        host_texture(&h, MGT_LAYER_COVERAGE, GL_R32F, SEA_WIDTH, SEA_HEIGHT), host_texture(&h, MGT_LAYER_MASK, GL_R16F, SEA_WIDTH, SEA_HEIGHT),
+        host_texture(&h, MGT_LAYER_DEPTH, GL_R32F, SEA_WIDTH, SEA_HEIGHT),    host_texture(&h, MGT_LAYER_NORMAL, GL_RGBA16F, SEA_WIDTH, SEA_HEIGHT),
+    };
+    enum { TEXTURES = sizeof t / sizeof *t };
+    for (int i = 0; i < 8; i++)
+        if (mgt_gl_render_textures(context, &scene, t, TEXTURES) != MGT_OK)
+            fail_msg("%s", mgt_last_error(context));
+    assert_int_equal(h.gl.GetError(), GL_NO_ERROR);
+    read_texture(&h, t[0].texture, GL_RGBA, GL_FLOAT, sizeof got.color4, got.color4);
+    read_texture(&h, t[1].texture, GL_RGBA, GL_UNSIGNED_BYTE, sizeof got.shown, got.shown);
+    read_texture(&h, t[2].texture, GL_RED, GL_FLOAT, sizeof got.coverage, got.coverage);
+    read_texture(&h, t[3].texture, GL_RED, GL_FLOAT, sizeof got.mask, got.mask);
+    read_texture(&h, t[4].texture, GL_RED, GL_FLOAT, sizeof got.depth, got.depth);
+    read_texture(&h, t[5].texture, GL_RGBA, GL_FLOAT, sizeof got.normal4, got.normal4);
+    assert_memory_equal(got.color4, expected.color4, sizeof got.color4);
+    assert_memory_equal(got.shown, expected.shown, sizeof got.shown);
+    assert_memory_equal(got.coverage, expected.coverage, sizeof got.coverage);
+    assert_memory_equal(got.depth, expected.depth, sizeof got.depth);
+    assert_int_equal(count_off(got.mask, expected.mask, PIXELS, 1e-3), 0);
+    assert_int_equal(count_off(got.normal4, expected.normal4, PIXELS * 4, 1e-3), 0);
+
+    mgt_gl_timing timings[16];
+    const size_t count = mgt_gl_get_timings(context, timings, 16);
+    bool shaded = false;
+    for (size_t i = 0; i < count; i++)
+        shaded = shaded || (strcmp(timings[i].name, "shade") == 0 && timings[i].seconds > 0 && timings[i].seconds < 60);
+    assert_true(shaded);
+    assert_int_equal(mgt_gl_get_timings(context, NULL, 0), count);
+    assert_int_equal(mgt_gl_get_timings(NULL, timings, 16), 0);
+    for (int i = 0; i < TEXTURES; i++)
+        h.gl.DeleteTextures(1, &t[i].texture);
+    mgt_context_destroy(context);
+    host_stop(&h);
+}
+
+static void wrong_textures_are_refused(void **state)
+{
+    (void)state;
+    host h;
+    host_start(&h);
+    mgt_context *context = host_context();
+    mgt_wave waves[SEA_WAVES];
+    mgt_scene scene = sea_scene(waves);
+    mgt_gl_texture good = host_texture(&h, MGT_LAYER_COLOR, GL_RGBA16F, SEA_WIDTH, SEA_HEIGHT);
+    mgt_gl_texture changed[8];
+    for (size_t i = 0; i < 8; i++)
+        changed[i] = good;
+    changed[0].layer = MGT_LAYER_DEPTH;
+    changed[1].level = 1;
+    changed[2].texture = 0;
+    changed[3].texture = 12345;
+    changed[4].struct_size = 1;
+    changed[5].layer = (mgt_layer)9;
+    changed[6] = host_texture(&h, MGT_LAYER_COLOR, GL_RGBA32UI, SEA_WIDTH, SEA_HEIGHT);
+    changed[7] = host_texture(&h, MGT_LAYER_COLOR, GL_RGBA32F, SEA_WIDTH, SEA_HEIGHT + 1);
+    for (size_t i = 0; i < 8; i++) {
+        assert_int_equal(mgt_gl_render_textures(context, &scene, &changed[i], 1), MGT_ERROR_ARGUMENT);
+        assert_non_null(strstr(mgt_last_error(context), "texture 0"));
+    }
+    assert_int_equal(mgt_gl_render_textures(context, &scene, &good, 0), MGT_ERROR_ARGUMENT);
+    assert_int_equal(mgt_gl_render_textures(context, &scene, NULL, 1), MGT_ERROR_ARGUMENT);
+    assert_int_equal(mgt_gl_render_textures(NULL, &scene, &good, 1), MGT_ERROR_ARGUMENT);
+    assert_int_equal(mgt_gl_render_textures(context, NULL, &good, 1), MGT_ERROR_ARGUMENT);
+    scene.quality.method = MGT_METHOD_REFERENCE;
+    assert_int_equal(mgt_gl_render_textures(context, &scene, &good, 1), MGT_ERROR_UNSUPPORTED);
+    scene.quality.method = MGT_METHOD_NONE;
+    assert_int_equal(mgt_gl_render_textures(context, &scene, &good, 1), MGT_OK);
+    assert_int_equal(h.gl.GetError(), GL_NO_ERROR);
+    mgt_context_destroy(context);
+    host_stop(&h);
+}
+
+/* A context of our own comes and goes without a trace on the thread's current one, and renders nothing of a host's. */
+static void the_threads_context_stays_current(void **state)
+{
+    (void)state;
+    static float pixels[PIXELS];
+    host h;
+    host_start(&h);
+    void *(*const current)(void) = (void *(*)(void))dlsym(dlopen("libEGL.so.1", RTLD_NOW), "eglGetCurrentContext");
+    assert_non_null(current);
+    void *const before = current();
+    assert_non_null(before);
+    mgt_context *own = gl_context();
+    assert_ptr_equal(current(), before);
+    mgt_wave waves[SEA_WAVES];
+    const mgt_scene scene = sea_scene(waves);
+    const mgt_target target = sea_target(MGT_LAYER_MASK, MGT_FORMAT_R32F, pixels, 0);
+    sea_render(own, &scene, &target, 1);
+    assert_ptr_equal(current(), before);
+    const mgt_gl_texture texture = mgt_gl_texture_defaults();
+    const mgt_gl_view view = mgt_gl_view_defaults();
+    assert_int_equal(mgt_gl_render_textures(own, &scene, &texture, 1), MGT_ERROR_ARGUMENT);
+    assert_int_equal(mgt_gl_render_views(own, &scene, &view, 1), MGT_ERROR_ARGUMENT);
+    assert_int_equal(mgt_gl_set_sources(own, NULL, 0), MGT_OK);
+    mgt_context_destroy(own);
+    assert_ptr_equal(current(), before);
+    assert_int_equal(h.gl.GetError(), GL_NO_ERROR);
+    host_stop(&h);
+    assert_null(current());
+}
+
+int main(void)
+{
+    mgt_context_desc desc = mgt_context_desc_defaults();
+    desc.backend = MGT_BACKEND_GL;
+    mgt_context *context = NULL;
+    const mgt_status status = mgt_context_create(&context, &desc);
+    mgt_context_destroy(context);
+    if (status == MGT_ERROR_UNAVAILABLE) {
+        printf("SKIPPED: %s\n", mgt_last_error(NULL));
+        return 77;
+    }
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(creation_says_what_runs),   cmocka_unit_test(automatic_choice),           cmocka_unit_test(incomplete_hosts_are_refused),
+        cmocka_unit_test(layers_are_those_of_the_cpu), cmocka_unit_test(crops_are_parts_of_the_whole), cmocka_unit_test(strides_are_kept),
+        cmocka_unit_test(sample_ranges_add_up),      cmocka_unit_test(large_pictures_are_refused), cmocka_unit_test(rendering_can_be_cancelled),
+        cmocka_unit_test(sources_can_be_replaced),   cmocka_unit_test(textures_hold_the_layers),   cmocka_unit_test(wrong_textures_are_refused),
+        cmocka_unit_test(the_threads_context_stays_current), cmocka_unit_test(messages_name_the_file),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

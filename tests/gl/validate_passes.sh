@@ -1,0 +1,32 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# Every pass must be valid GLSL 4.50 also for glslang, which is stricter than drivers are. usage: validate_passes.sh SOURCE_DIR
+# Exit 77, which ctest counts as skipped, where glslangValidator is missing.
+set -u
+source=$1
+command -v glslangValidator >/dev/null 2>&1 || { echo "glslangValidator is not installed"; exit 77; }
+work=$(mktemp -d) || exit 1
+trap 'rm -rf "$work"' EXIT
+cp "$source"/src/kernels/*.k "$source"/src/gl/shaders/* "$work" || exit 1
+failed=0
+
+check() { # file, what to define
+    printf '%s\n' "$2" >"$work/defines.k"
+    "$source/scripts/kernel_glsl" "450 core" "$work/defines.k" "$1" >"$work/whole.${1##*.}" || { failed=1; return; }
+    if ! glslangValidator "$work/whole.${1##*.}" >"$work/log" 2>&1; then
+        failed=1
+        echo "FAILED: $(basename "$1") $2"
+        grep '^// ' "$work/whole.${1##*.}"
+        grep -E 'ERROR|WARNING' "$work/log"
+    fi
+}
+
+count=0
+for pass in "$work"/*.comp "$work"/*.vert "$work"/*.frag; do
+    count=$((count + 1))
+    check "$pass" ""
+    check "$pass" "#define WAVES_IN_STORAGE"
+done
+echo "$count passes, each with the waves in a uniform block and in a storage buffer"
+[ $count -ge 12 ] || failed=1
+exit $failed

@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: MIT
+# Every control changes what is seen. Each is tried in a state where it matters; a control that no state below covers fails the test.
+. "$CHECK"
+
+cat >scene.yaml <<'END'
+mangata: 1
+image: {width: 256, height: 144}
+camera: {position: [0, 3, 0], target: [0, 2.6, -1]}
+light: {elevation_deg: 15, angular_radius_deg: 1}
+time: {start: 1, frames: 30}
+water:
+  waves:
+    - {amplitude: 0.05, a: 1.5, b: 0.7, c: -4}
+    - {amplitude: 0.03, a: -2, b: 1.1, c: -4.5}
+    - {amplitude: 0.005, a: 9, b: 6, c: -10}
+END
+size=(--size 640x360)
+
+drive scene.yaml "${size[@]}" <<'END'
+list-controls
+quit
+END
+sed 's/=.*//' stdout.txt | sort >all.txt
+(($(wc -l <all.txt) > 60)) || fail "only $(wc -l <all.txt) controls"
+
+# vary NAME…: all in the state that the commands before have made.
+vary() {
+    local name
+    for name; do
+        echo "vary $name"
+        echo "$name" >>varied.txt
+    done
+}
+pattern() { grep -E "$1" all.txt; }
+
+{
+    echo 'set view.resolution full'
+    vary $(pattern '^light\.' | grep -v azimuth) light.azimuth_deg sky.model sky.turbidity water.ior water.body_albedo
+    vary post.exposure post.exposure_offset post.tone_map post.glare
+    vary camera.position camera.target camera.fov_y_deg time.shutter time.fps clock.time
+    vary $(pattern '^water\.waves\[[0-9]+\]')
+    vary waves.amplitude
+    printf '%s\n' mark 'set waves.count 1' expect-change 'set waves.count 512' expect-same # most counts are above three
+    echo waves.count >>varied.txt
+    vary a.method view.compare view.layer view.zoom view.resolution
+    echo 'set camera.position [0, 3, 0]'
+    vary camera.up panel.shown panel.keys panel.log panel.inspector panel.timings panel.scale
+    # what counts in some states only
+    echo 'set sky.model gradient'
+    vary sky.zenith sky.horizon
+    echo 'set sky.model atmosphere'
+    echo 'set light.elevation_deg -40'
+    vary sky.night
+    echo 'set light.elevation_deg 15'
+    echo 'set view.zoom 3'
+    vary view.center_x view.center_y
+    echo 'set view.zoom 1'
+    echo 'set view.frame scene'
+    vary image.width image.height
+    echo 'set view.frame fill'
+    vary view.frame
+    echo 'wipe none mangata 0.5'
+    vary view.wipe b.method
+    echo 'set view.compare difference'
+    vary view.difference_scale panel.legend
+    echo 'set view.compare off'
+    echo 'set view.layer depth'
+    vary view.near_depth view.far_depth
+    echo 'set view.layer coverage'
+    vary view.coverage_end
+    echo 'set view.layer normal'
+    vary view.lean_end
+    echo 'set view.layer color'
+    echo 'set a.method podee-pixel'
+    vary a.ndf_mean
+    echo 'set a.method ssaa'
+    echo 'set a.time_samples 4'
+    vary a.spatial a.seed
+    echo 'set a.spatial 2'
+    vary a.time_samples
+    echo 'set a.method mangata'
+    echo 'wipe mangata podee-pixel 0.2'
+    vary b.ndf_mean
+    echo 'set b.method ssaa'
+    echo 'set b.time_samples 4'
+    vary b.spatial b.seed
+    echo 'set b.spatial 2'
+    vary b.time_samples
+    echo 'set view.compare off'
+    echo 'set panel.inspector on'
+    vary inspect.x inspect.y
+    echo 'set panel.inspector off'
+    # shown by the panel's pages, not by the picture
+    echo 'resize 1000 700'
+    echo 'page 3'
+    vary move.mode move.path move.speed move.clearance
+    echo 'page 4'
+    vary time.start time.frames
+    vary clock.speed clock.loop
+    # a path
+    echo 'set move.path on'
+    echo 'set camera.path [{time: 0, position: [0, 3, 0], target: [0, 2, -5]}, {time: 2, position: [2, 3, 0], target: [1, 2, -5]}]'
+    for key in time position target up fov_y_deg; do echo "vary camera.path[0].$key"; done
+    # a running clock: the next frames are others
+    echo 'mark'
+    echo 'set clock.play on'
+    echo 'frames 3'
+    echo 'set clock.play off'
+    echo 'expect-change'
+    echo clock.play >>varied.txt
+    echo quit
+} >vary.txt
+drive scene.yaml "${size[@]}" <vary.txt
+sort -u varied.txt >covered.txt
+missing=$(comm -23 all.txt covered.txt)
+[[ -z $missing ]] || fail "not covered: $missing"
+unknown=$(comm -13 all.txt covered.txt)
+[[ -z $unknown ]] || fail "no such controls: $unknown"
+finish

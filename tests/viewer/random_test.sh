@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: MIT
+# Hundreds of changes by chance: no OpenGL error, no crash, and memory that does not grow. OpenGL's error flag is read after every frame.
+. "$CHECK"
+
+# The size of the picture stays, so that memory may.
+drive "$SOURCE/scenes/smooth.json" --size 480x300 <<'END'
+random 150 1 image.
+frames 5
+memory
+random 150 2 image.
+random 200 3 image.
+frames 5
+memory
+# and back to a picture
+set clock.play off
+set a.method mangata
+set view.compare off
+set view.layer color
+revert
+settle
+expect-no-error
+screenshot end.png
+quit
+END
+mapfile -t memory < <(sed -n 's/^memory \([0-9]*\) kB$/\1/p' stdout.txt)
+echo "memory: ${memory[*]} kB"
+((${#memory[@]} == 2)) || fail "memory was not printed twice: $(head -c 300 stdout.txt)"
+[[ -n ${SANITIZED:-} ]] || ((memory[1] <= memory[0] + 40000)) || fail "memory grew from ${memory[0]} to ${memory[1]} kB"
+"$WINDOW_CHECK" size end.png 480x300 || fail "the window has another size"
+finish
