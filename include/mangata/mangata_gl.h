@@ -10,7 +10,8 @@
  *
  *   State       what these calls change is put back before they return: program, buffer and texture bindings they use, vertex array,
  *               framebuffers, viewport, depth, blend, colour mask, cull, scissor and stencil tests, sRGB writes, pixel store. Objects
- *               are made with direct state access. Your debug groups and error flags are untouched: glGetError() stays clean.
+ *               are made with direct state access. Your debug groups are untouched, and glGetError() stays clean: an error
+ *               that you left pending is logged and cleared.
  *   Waiting     nothing waits for the GPU but mgt_render(). Parameters change from frame to frame without building a shader anew; a
  *               method's first frame builds its programs.
  *   Memory      buffers grow with the largest frame and the number of waves seen; a steady loop allocates nothing.

@@ -72,6 +72,7 @@
     X(ISENABLED, IsEnabled)                                                         \
     X(ISENABLEDI, IsEnabledi)                                                       \
     X(ISFRAMEBUFFER, IsFramebuffer)                                                 \
+    X(ISPROGRAM, IsProgram)                                                         \
     X(ISTEXTURE, IsTexture)                                                         \
     X(LINKPROGRAM, LinkProgram)                                                     \
     X(MAPNAMEDBUFFERRANGE, MapNamedBufferRange)                                     \

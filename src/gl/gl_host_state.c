@@ -180,7 +180,8 @@ void gl_host_state_save(const gl_api *gl, gl_host_state *s)
 
 void gl_host_state_restore(const gl_api *gl, const gl_host_state *s)
 {
-    gl->UseProgram((GLuint)s->program);
+    /* A program that the host deleted while it was current is gone by now. */
+    gl->UseProgram(gl->IsProgram((GLuint)s->program) ? (GLuint)s->program : 0);
     restore_ranges(gl, GL_UNIFORM_BUFFER, s->uniform, UNIFORM_BINDINGS);
     restore_ranges(gl, GL_SHADER_STORAGE_BUFFER, s->storage, STORAGE_BINDINGS);
     gl->BindBuffer(GL_UNIFORM_BUFFER, (GLuint)s->uniform_buffer);

@@ -24,13 +24,6 @@ layout(std430, binding = 2) TILE_ACCESS buffer MarchBlock { MarchWave march_wave
 layout(binding = 0) uniform sampler2D sky_texture;
 
 int tile_slot = 0;
-TileData tile; /* a copy: software rasterisers read storage buffers slowly */
-
-void select_tile(int slot)
-{
-    tile_slot = slot;
-    tile = tile_data[slot];
-}
 
 /* A wave of the tile: the frame's, with the tile's phase and share. */
 WaveData wave_of_tile(int i)
@@ -53,7 +46,7 @@ WaveData wave_of_tile(int i)
 }
 
 #define FRAME(cx) frame_data
-#define TILE(cx) tile
+#define TILE(cx) tile_data[tile_slot]
 #define WAVE(cx, i) wave_of_tile(i)
 #define MARCH_WAVE(cx, i) march_waves[tile_slot * pass_data.wave_stride + i]
 

@@ -68,10 +68,10 @@ TilePixel tile_pixel()
 {
     TilePixel p;
     ivec2 group = ivec2(gl_WorkGroupID.xy);
-    ivec2 cell = group / ivec2(4, 2);
-    select_tile(cell.y * pass_data.columns + cell.x);
+    ivec2 tile = group / ivec2(4, 2);
+    tile_slot = tile.y * pass_data.columns + tile.x;
     p.at = (group % ivec2(4, 2)) * 8 + ivec2(gl_LocalInvocationID.xy);
-    ivec2 image = (cell + ivec2(pass_data.tile_x, pass_data.tile_y)) * ivec2(TILE_WIDTH, TILE_HEIGHT) + p.at;
+    ivec2 image = (tile + ivec2(pass_data.tile_x, pass_data.tile_y)) * ivec2(TILE_WIDTH, TILE_HEIGHT) + p.at;
     p.texel = image - ivec2(pass_data.area_x, pass_data.area_y);
     p.inside = all(greaterThanEqual(p.texel, ivec2(0))) && all(lessThan(p.texel, ivec2(pass_data.area_width, pass_data.area_height)));
     return p;

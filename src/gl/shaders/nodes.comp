@@ -9,7 +9,7 @@ layout(local_size_x = 32) in;
 
 void main()
 {
-    select_tile(int(gl_WorkGroupID.x));
+    tile_slot = int(gl_WorkGroupID.x);
     int index = int(gl_LocalInvocationID.x);
     if (index >= NODE_COUNT || TILE(0).march_pixels != 0)
         return;

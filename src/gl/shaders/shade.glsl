@@ -25,9 +25,9 @@ PixelResult water_and_sky(PixelRay p, TilePixel where)
         imageStore(depth_image, where.texel, vec4(close.along * sqrt(length_squared(p.ray))));
     METHOD_STATE open = close;
     if (pass_data.open_slots != 0) {
-        select_tile(tile_slot + pass_data.open_slots);
+        tile_slot += pass_data.open_slots;
         open = method_state(0, pixel_ray_filtered(0, float(pixel.x), float(pixel.y)).ray, pixel_guess(pixel));
-        select_tile(tile_slot - pass_data.open_slots);
+        tile_slot -= pass_data.open_slots;
     }
     return method_result(0, p, open, close);
 }
