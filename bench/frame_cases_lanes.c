@@ -64,12 +64,15 @@ static float replay(const disk_path_cases *cases, size_t first, size_t count)
 static void run_stage(frame_stage stage, const FrameData *frame, const float *sky, const tile_waves *tile, const tile_guess *guess, tile_pixels *out)
 {
     const struct kernel_context context = {.frame = frame, .tile = &tile->data, .waves = tile->waves, .march = tile->march, .sky = sky};
+    tile_looks looks;
+    for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES)
+        store(out->water + i, pixel_rays(&context, i).water);
+    look_at_tile(&context, guess, out->water, &looks);
     for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
-        const real column = lane_numbers() + (float)(i % TILE_WIDTH);
-        const PixelRay p = pixel_ray_filtered(&context, column, real_broadcast((float)(i / TILE_WIDTH)));
+        const PixelRay p = pixel_rays(&context, i);
         if (!any_lane(p.water > real(0.0f)))
             continue;
-        const SlopeState state = slope_state(&context, p.ray, load_guess(guess, i));
+        const SlopeState state = looked_slopes(&context, &looks, i, p.ray);
         /* All of the state has to come out, else compilers leave out sums. */
         store(out->red + i, state.open.x + state.open.y + state.variance_xx + state.variance_xz + state.variance_zz);
         store(out->green + i, state.close.x + state.close.y + state.bend_xx + state.bend_xz + state.bend_zz);
