@@ -5,13 +5,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "diff_metrics.h"
 #include "frames.h"
 #include "image/image_metrics.h"
 #include "numbers.h"
 #include "options.h"
 #include "verbs.h"
 
-enum { OPT_FRAMES, OPT_LAYER, OPT_MAX_RMSE, OPT_FLICKER };
+enum { OPT_FRAMES, OPT_LAYER, OPT_MAX_RMSE, OPT_FLICKER, OPT_METRICS, OPT_ENCODING, OPT_PIXELS_PER_DEGREE, OPT_GLINT_THRESHOLD };
 
 static const option diff_options[] = {
     [OPT_FRAMES] = {"frames", 0, "LIST", "frames to compare when A and B are numbered names"},
@@ -19,6 +20,12 @@ static const option diff_options[] = {
     [OPT_MAX_RMSE] = {"max-rmse", 0, "X", "exit with 2 when the RMSE is above X or values are not comparable"},
     [OPT_FLICKER] = {"flicker", 0, NULL, "compare the differences from frame to frame: the RMS of\n"
                                          "(A[n+1] - A[n]) - (B[n+1] - B[n])"},
+    [OPT_METRICS] = {"metrics", 0, "LIST", "also measure: flip, hdr-flip, ssim, yee (by idiff), flicker, and rmse,\n"
+                                           "relrmse, energy, which are always there; B is the reference"},
+    [OPT_ENCODING] = {"encoding", 0, "E", "of the values, for --metrics: linear or srgb (default srgb for .png)"},
+    [OPT_PIXELS_PER_DEGREE] = {"pixels-per-degree", 0, "X", "of the viewer's eye, for FLIP, 4 to 400 (default 67)"},
+    [OPT_GLINT_THRESHOLD] = {"glint-threshold", 0, "X", "luminance above which a pixel is a glint, for flicker (default:\n"
+                                                         "half of what a thousandth of B's first frame exceed)"},
 };
 
 static const option_table diff_table = {
@@ -37,6 +44,8 @@ typedef struct diff_request {
     bool frames_given, gated, flicker;
     frame_list frames;
     double max_rmse;
+    diff_metrics metrics;
+    bool encoding_given;
 } diff_request;
 
 static int set_option(diff_request *r, int id, const char *value)
@@ -55,6 +64,25 @@ static int set_option(diff_request *r, int id, const char *value)
         r->gated = true;
         break;
     case OPT_FLICKER: r->flicker = true; break;
+    case OPT_METRICS:
+        if (!clip_metrics_parse(value, &r->metrics.wanted.metrics))
+            return console_error(EXIT_CODE_USAGE, "--metrics %s: allowed are %s, separated by commas", value, clip_metric_words);
+        break;
+    case OPT_ENCODING:
+        r->encoding_given = true;
+        r->metrics.wanted.srgb_encoded = strcmp(value, "srgb") == 0;
+        if (!r->metrics.wanted.srgb_encoded && strcmp(value, "linear") != 0)
+            return console_error(EXIT_CODE_USAGE, "--encoding %s: allowed are linear and srgb", value);
+        break;
+    case OPT_PIXELS_PER_DEGREE:
+        if (!number_parse_double(value, &r->metrics.wanted.pixels_per_degree) || r->metrics.wanted.pixels_per_degree < 4 ||
+            r->metrics.wanted.pixels_per_degree > 400)
+            return console_error(EXIT_CODE_USAGE, "--pixels-per-degree %s: allowed is a number from 4 to 400", value);
+        break;
+    case OPT_GLINT_THRESHOLD:
+        if (!number_parse_double(value, &r->metrics.wanted.glint_threshold) || !(r->metrics.wanted.glint_threshold > 0))
+            return console_error(EXIT_CODE_USAGE, "--glint-threshold %s: allowed is a number above 0", value);
+        break;
     case OPTION_OPERAND:
         if (r->paths[1])
             return console_error(EXIT_CODE_USAGE, "two pictures are compared; %s is one more", value);
@@ -62,6 +90,20 @@ static int set_option(diff_request *r, int id, const char *value)
         break;
     default: break;
     }
+    return EXIT_CODE_OK;
+}
+
+/* PNG holds sRGB-encoded values, the others light. */
+static int check_metrics(diff_request *r)
+{
+    if (r->flicker)
+        return console_error(EXIT_CODE_USAGE, "--flicker compares differences and goes with no --metrics; --metrics flicker measures both");
+    const bool png[2] = {picture_format_of(r->paths[0]) == PICTURE_PNG, picture_format_of(r->paths[1]) == PICTURE_PNG};
+    if (r->encoding_given)
+        return EXIT_CODE_OK;
+    if (png[0] != png[1])
+        return console_error(EXIT_CODE_USAGE, "%s and %s hold values of unlike encoding; --encoding says how to take both", r->paths[0], r->paths[1]);
+    r->metrics.wanted.srgb_encoded = png[0];
     return EXIT_CODE_OK;
 }
 
@@ -84,7 +126,7 @@ static int check_request(diff_request *r)
         frame_list_span(&r->frames, 0, 0);
     if (r->flicker && frame_list_length(&r->frames) < 2)
         return console_error(EXIT_CODE_USAGE, "--flicker needs numbered names and at least two frames");
-    return EXIT_CODE_OK;
+    return r->metrics.wanted.metrics ? check_metrics(r) : EXIT_CODE_OK;
 }
 
 static int read_pair(const diff_request *r, uint32_t frame, float_image pair[2])
@@ -133,7 +175,7 @@ static int add_frame(const diff_request *r, float_image pair[2], float_image pre
     return image_metrics_add(metrics, &previous[0], &previous[1], &error) == FILE_OK ? EXIT_CODE_OK : console_file_error(&error);
 }
 
-static int measure(const diff_request *r, image_metrics *metrics)
+static int measure(diff_request *r, image_metrics *metrics)
 {
     float_image previous[2] = {{0}};
     int code = EXIT_CODE_OK;
@@ -143,6 +185,8 @@ static int measure(const diff_request *r, image_metrics *metrics)
         code = read_pair(r, frame_list_at(&r->frames, i), pair);
         if (code == EXIT_CODE_OK)
             code = add_frame(r, pair, previous, metrics);
+        if (code == EXIT_CODE_OK)
+            code = diff_metrics_add(&r->metrics, frame_list_at(&r->frames, i), &pair[0], &pair[1]);
         free_pair(previous);
         previous[0] = pair[0];
         previous[1] = pair[1];
@@ -157,7 +201,7 @@ static json_t *json_number(double number)
     return isfinite(number) ? json_real(number) : json_null();
 }
 
-static int print_report(const diff_request *r, const image_metrics *m)
+static int print_report(diff_request *r, const image_metrics *m)
 {
     const double rmse = image_metrics_rmse(m), relative = image_metrics_relative_rmse(m), ratio = image_metrics_mean_ratio(m);
     const uint32_t frame = frame_list_at(&r->frames, m->max_frame + (r->flicker ? 1 : 0));
@@ -171,6 +215,11 @@ static int print_report(const diff_request *r, const image_metrics *m)
             "channel", (int)m->max_channel, "equal_infinities", (json_int_t)m->equal_infinities, "mismatches", (json_int_t)m->mismatches);
         if (report && r->gated)
             json_object_set_new(report, "max_rmse", json_real(r->max_rmse));
+        const int code = report ? diff_metrics_report(&r->metrics, report) : EXIT_CODE_OK;
+        if (code != EXIT_CODE_OK) {
+            json_decref(report);
+            return code;
+        }
         return console_print_json(report);
     }
     printf("%-15s%" PRIu64 "\n", r->flicker ? "frame steps" : "frames", m->frames);
@@ -181,7 +230,7 @@ static int print_report(const diff_request *r, const image_metrics *m)
     putchar('\n');
     if (m->mismatches)
         printf("%-15s%" PRIu64 " values are infinite or not a number in one picture\n", "mismatches", m->mismatches);
-    return EXIT_CODE_OK;
+    return diff_metrics_print(&r->metrics);
 }
 
 static int run(diff_request *r, int count, char **arguments)
@@ -215,6 +264,7 @@ int verb_diff(int count, char **arguments)
     if (!request)
         return console_error(EXIT_CODE_FAILED, "out of memory");
     const int code = run(request, count, arguments);
+    diff_metrics_free(&request->metrics);
     free(request);
     return code;
 }

@@ -15,6 +15,7 @@ typedef struct verb {
 static const verb verbs[] = {
     {"render", "render frames of a scene into pictures or a film", verb_render},
     {"diff", "measure how far pictures are from other pictures", verb_diff},
+    {"compare", "compare methods with the reference: tables and a page", verb_compare},
     {"scene", "check scene files; print the schema of their format", verb_scene},
     {"bench", "measure how fast the methods render a scene", verb_bench},
     {"info", "list version, instruction sets, threads and libraries", verb_info},

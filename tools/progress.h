@@ -14,6 +14,7 @@ typedef struct progress {
     uint64_t frames, frames_done;
     uint32_t frame;
     double started, last_shown;
+    double work, work_done, work_now; /* of frames that take unlike times: of all, of those done, of this one; work 0: all alike */
 } progress;
 
 /* "auto" (a bar on a terminal), "json" or "none". */

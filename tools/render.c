@@ -7,11 +7,13 @@
 
 #include "numbers.h"
 #include "options.h"
+#include "podee_options.h"
 #include "render_request.h"
 #include "verbs.h"
 
 enum {
-    OPT_OUTPUT, OPT_FRAMES, OPT_SIZE, OPT_CROP, OPT_METHOD, OPT_SPATIAL, OPT_TIME, OPT_RANGE, OPT_NDF_MEAN, OPT_SET, OPT_SEED,
+    OPT_OUTPUT, OPT_FRAMES, OPT_SIZE, OPT_CROP, OPT_METHOD, OPT_SPATIAL, OPT_TIME, OPT_RANGE, OPT_NDF_MEAN, OPT_KERNELS, OPT_INTEGRAL,
+    OPT_ELONGATION, OPT_SEGMENTS, OPT_TRANSITION, OPT_WIDTH, OPT_SET, OPT_SEED,
     OPT_LAYER, OPT_BACKEND, OPT_GL_DEVICE, OPT_THREADS, OPT_ISA, OPT_OVERWRITE, OPT_SKIP, OPT_STAMP, OPT_PROGRESS
 };
 
@@ -22,13 +24,22 @@ static const option render_options[] = {
                                          "scene for a film or a numbered name, else frame 0)"},
     [OPT_SIZE] = {"size", 0, "WxH", "size in pixels instead of the scene's"},
     [OPT_CROP] = {"crop", 0, "X,Y,W,H", "render this rectangle of the picture alone"},
-    [OPT_METHOD] = {"method", 0, "NAME", "none, ssaaN, podee-uniform, podee-pixel, mangata (default) or\n"
-                                         "reference"},
+    [OPT_METHOD] = {"method", 0, "NAME", "none, ssaaN, podee-uniform, podee-pixel, mangata (default),\n"
+                                         "reference, or a rival: msaa32, lean, leadr, tokuyoshi, bruneton,\n"
+                                         "fxaa, taa, tndf"},
     [OPT_SPATIAL] = {"spatial", 0, "N", "reference: NxN samples a pixel for each time sample (default 8)"},
     [OPT_TIME] = {"time-samples", 0, "M", "reference, ssaaN: samples of the open shutter (default 8; 1)"},
     [OPT_RANGE] = {"samples-range", 0, "FIRST,COUNT", "reference, ssaaN: take only these of the NxNxM samples"},
     [OPT_NDF_MEAN] = {"ndf-mean", 0, "add|drop", "podee-pixel: add the mean slope of the filtered waves (default)\n"
                                                  "or drop it"},
+    [OPT_KERNELS] = {"kernels", 0, "K", "podee-*: 1, 3, 5 or 9 circular Gaussians, feline, riemann, or exact\n"
+                                        "(default)"},
+    [OPT_INTEGRAL] = {"integral", 0, "I", "podee-*: exact (default) or kernels (9 where --kernels is not given)"},
+    [OPT_ELONGATION] = {"elongation", 0, "E", "podee-* with kernels: ellipses longer than this fall back to riemann\n"
+                                              "(default: the number of kernels; 1 and feline: never)"},
+    [OPT_SEGMENTS] = {"path-segments", 0, "N", "podee-*: straight pieces of the open shutter, 1 (default) to 64"},
+    [OPT_TRANSITION] = {"transition", 0, "T", "podee-*: waves turn from resolved to unresolved soft (default) or hard"},
+    [OPT_WIDTH] = {"transition-width", 0, "W", "podee-*: cycles per pixel that a soft one takes, to 0.5 (default 0.3)"},
     [OPT_SET] = {"set", 0, "KEY=VALUE", "change a value of the scene, e.g. light.elevation_deg=3;\n"
                                         "may be repeated"},
     [OPT_SEED] = {"seed", 0, "N", "seed of the jitter (default 0)"},
@@ -88,6 +99,7 @@ static int add_layer(render_request *r, const char *value)
 /* The options of the method, checked together once the method is known. */
 typedef struct sample_options {
     const char *spatial, *time, *range, *ndf_mean;
+    podee_options podee;
 } sample_options;
 
 static int set_samples(mgt_quality *q, const sample_options *given)
@@ -128,6 +140,9 @@ static int set_samples(mgt_quality *q, const sample_options *given)
             return bad_value(OPT_NDF_MEAN, given->ndf_mean, "add or drop");
         q->ndf_mean_drop = given->ndf_mean[0] == 'd';
     }
+    char wrong[160];
+    if (!podee_options_apply(&given->podee, q, wrong, sizeof wrong))
+        return console_error(EXIT_CODE_USAGE, "%s", wrong);
     return EXIT_CODE_OK;
 }
 
@@ -156,6 +171,12 @@ static int set_option(render_request *r, int id, const char *value, sample_optio
     case OPT_TIME: samples->time = value; break;
     case OPT_RANGE: samples->range = value; break;
     case OPT_NDF_MEAN: samples->ndf_mean = value; break;
+    case OPT_KERNELS: samples->podee.kernels = value; break;
+    case OPT_INTEGRAL: samples->podee.integral = value; break;
+    case OPT_ELONGATION: samples->podee.elongation = value; break;
+    case OPT_SEGMENTS: samples->podee.segments = value; break;
+    case OPT_TRANSITION: samples->podee.transition = value; break;
+    case OPT_WIDTH: samples->podee.width = value; break;
     case OPT_SET: r->overrides[r->override_count++] = value; break;
     case OPT_SEED:
         if (!number_parse_u64(value, UINT64_MAX, &r->quality.seed))

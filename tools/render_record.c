@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "numbers.h"
+#include "podee_options.h"
 
 static const char *format_word(picture_format format)
 {
@@ -48,6 +49,9 @@ bool render_hash(const render_request *request, const char *canonical, const mgt
     fprintf(stream, "crop %u %u %u %u\n", image->crop_x, image->crop_y, image->crop_width, image->crop_height);
     fprintf(stream, "method %s\nsamples %u %u %" PRIu64 " %" PRIu64 "\nseed %" PRIu64 "\nndf_mean_drop %d\n", method_name(q).text,
             q->spatial_samples, q->time_samples, q->sample_first, q->sample_count, q->seed, q->ndf_mean_drop);
+    const podee_text podee = podee_options_text(q);
+    if (podee.text[0])
+        fprintf(stream, "podee %s\n", podee.text);
     fprintf(stream, "arithmetic %s\nformat %s\nlayers", arithmetic_word(info), format_word(request->format));
     for (size_t i = 0; i < request->layer_count; i++)
         fprintf(stream, " %s", layer_name(request->layers[i]));
@@ -104,6 +108,9 @@ void render_record_fill(render_record *record, const render_request *request, co
     add(record, "mangata_version", "%s", mgt_version());
     add(record, RENDER_HASH_KEY, "%s", hash->text);
     add(record, "method", "%s", method_name(q).text);
+    const podee_text podee = podee_options_text(q);
+    if (podee.text[0])
+        add(record, "method_options", "%s", podee.text);
     add(record, render_is_film(request) ? "frames" : "frame", "%s", frames);
     add(record, "time", "%s", number_print(time).text);
     add(record, "samples", "%" PRIu64, (uint64_t)q->spatial_samples * q->spatial_samples * q->time_samples);

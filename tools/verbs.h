@@ -6,6 +6,7 @@
 /* Each takes the words after its name and returns the exit code. */
 int verb_render(int count, char **arguments);
 int verb_diff(int count, char **arguments);
+int verb_compare(int count, char **arguments);
 int verb_scene(int count, char **arguments);
 int verb_bench(int count, char **arguments);
 int verb_info(int count, char **arguments);

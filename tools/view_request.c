@@ -14,7 +14,8 @@ static const option view_options[] = {
     [OPT_BACKEND] = {"backend", 0, "NAME", "auto (default: OpenGL where there is hardware for it, else the\n"
                                            "CPU), cpu or gl"},
     [OPT_METHOD] = {"method", 0, "NAME", "of side A: none, ssaaN, podee-uniform, podee-pixel, mangata\n"
-                                         "(default) or reference"},
+                                         "(default), reference, msaa32, lean, leadr, tokuyoshi, bruneton,\n"
+                                         "fxaa, taa or tndf"},
     [OPT_SIZE] = {"size", 0, "WxH", "size of the window and of the picture instead of the scene's"},
     [OPT_SET] = {"set", 0, "KEY=VALUE", "change a value of the scene, e.g. light.elevation_deg=3;\n"
                                         "may be repeated"},

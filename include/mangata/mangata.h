@@ -207,8 +207,29 @@ typedef enum mgt_method {
     MGT_METHOD_PODEE_UNIFORM,  /* Podee et al. 2021, one covariance for the waves above the Nyquist limit (Eq. 3) */
     MGT_METHOD_PODEE_PIXEL,    /* the same with the per-pixel covariance (Eqs. 4–7) */
     MGT_METHOD_MANGATA,        /* this library's own model */
-    MGT_METHOD_REFERENCE       /* brute force in double precision (CPU backend only) */
+    MGT_METHOD_REFERENCE,      /* brute force in double precision (CPU backend only) */
+    /* Rivals, for comparison: docs/methods.md says what is theirs and what is different here. Rendered on the CPU whatever the
+       backend; mgt_gl_render_textures() and mgt_gl_render_views() refuse them. */
+    MGT_METHOD_MSAA32,         /* 32 samples of visibility, one shading */
+    MGT_METHOD_LEAN,           /* Olano and Baker 2010: a tiled map of slope moments */
+    MGT_METHOD_LEADR,          /* Dupuy et al. 2013: the same with masking and shadowing */
+    MGT_METHOD_TOKUYOSHI,      /* Tokuyoshi and Kaplanyan 2019: geometric specular anti-aliasing */
+    MGT_METHOD_BRUNETON,       /* Bruneton et al. 2010: Gaussian slopes and a point-like sun */
+    MGT_METHOD_FXAA,           /* Lottes 2009: `none`, its edges blended afterwards */
+    MGT_METHOD_TAA,            /* Karis 2014: `none` jittered over eight frames, history reprojected and clamped */
+    MGT_METHOD_TNDF            /* after Tessari et al. 2020: one Gaussian of slopes over pixel and shutter */
 } mgt_method;
+
+/* How podee-* integrates its Gaussian over the light disk and the shutter. */
+typedef enum mgt_kernels {
+    MGT_KERNELS_EXACT = 0,    /* the ellipse itself, in closed form */
+    MGT_KERNELS_1 = 1,        /* so many circular Gaussians, fitted (P1 App. C), from tables of 64 MiB that the context keeps */
+    MGT_KERNELS_3 = 3,
+    MGT_KERNELS_5 = 5,
+    MGT_KERNELS_9 = 9,
+    MGT_KERNELS_FELINE = 32,  /* circular Gaussians placed by the formulae of McCormack et al. 1999 */
+    MGT_KERNELS_RIEMANN = 33  /* a sum over the disk when the shutter closes: P1's fallback, everywhere */
+} mgt_kernels;
 
 typedef struct mgt_quality {
     mgt_method method;
@@ -218,6 +239,13 @@ typedef struct mgt_quality {
     uint64_t sample_count;    /* … and how many; 0: all that remain. The mean over the range is returned */
     uint64_t seed;            /* of the jitter */
     bool ndf_mean_drop;       /* podee-pixel: leave the mean slope B out of the path (P1 Eq. 4 as printed) */
+    mgt_kernels kernels;      /* podee-*: what stands for the elliptical Gaussian on the light plane */
+    double elongation_limit;  /* podee-* with kernels: ellipses longer than this, major over minor axis, are summed without time as by
+                                 MGT_KERNELS_RIEMANN, 1 … 1e6; 0: as many as there are kernels (P1 §3.6), and 1e6 for 1 kernel and Feline */
+    uint32_t path_segments;   /* podee-*: straight pieces of the shutter, each with its own Gaussian, 1 … 64; 0: 1 */
+    double transition_width;  /* podee-*: cycles per pixel below the Nyquist limit of 0.5 in which waves turn from resolved to unresolved
+                                 (Eq. 20), up to 0.5; 0: 0.3 */
+    bool transition_hard;     /* podee-*: no transition, waves turn at 0.5 cycles per pixel (Fig. 11) */
 } mgt_quality;
 
 /* Everything a frame depends on. Plain data, read during mgt_render() only. */
@@ -229,6 +257,7 @@ typedef struct mgt_scene {
     bool camera_moves;
     double time;            /* seconds, when the shutter closes */
     double shutter;         /* seconds the shutter is open, ≥ 0; light is integrated over [time − shutter, time] */
+    double frame_interval;  /* seconds since the frame before, ≥ 0; method taa alone looks back. 0: the shutter, or 1/30 where that is 0 too */
     mgt_light light;
     mgt_sky sky;
     mgt_water water;

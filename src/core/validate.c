@@ -110,6 +110,30 @@ static mgt_status check_waves(const reporter *r, const mgt_water *water)
     return MGT_OK;
 }
 
+static mgt_status check_podee(const reporter *r, const mgt_quality *q)
+{
+    const int k = (int)q->kernels;
+    if (k != MGT_KERNELS_EXACT && k != MGT_KERNELS_1 && k != MGT_KERNELS_3 && k != MGT_KERNELS_5 && k != MGT_KERNELS_9 && k != MGT_KERNELS_FELINE &&
+        k != MGT_KERNELS_RIEMANN)
+        return report_error(r, MGT_ERROR_SCENE, "render.scene", "quality.kernels is %d; allowed is 0 (exact), 1, 3, 5, 9, %d (Feline) and %d (Riemann)", k,
+                            MGT_KERNELS_FELINE, MGT_KERNELS_RIEMANN);
+    if (q->elongation_limit != 0)
+        TRY(in_range(r, "quality.elongation_limit", q->elongation_limit, 1, 1e6));
+    TRY(in_range(r, "quality.path_segments", q->path_segments, 0, 64));
+    TRY(in_range(r, "quality.transition_width", q->transition_width, 0, 0.5));
+    if (q->method == MGT_METHOD_PODEE_UNIFORM || q->method == MGT_METHOD_PODEE_PIXEL)
+        return MGT_OK;
+    const char *field = k != MGT_KERNELS_EXACT       ? "kernels"
+                        : q->elongation_limit != 0   ? "elongation_limit"
+                        : q->path_segments > 1       ? "path_segments"
+                        : q->transition_width != 0   ? "transition_width"
+                        : q->transition_hard         ? "transition_hard"
+                                                     : NULL;
+    if (field)
+        return report_error(r, MGT_ERROR_SCENE, "render.scene", "quality.%s is for the methods podee-uniform and podee-pixel alone", field);
+    return MGT_OK;
+}
+
 mgt_status validate_scene(const reporter *r, const mgt_scene *scene)
 {
     if (!scene)
@@ -122,6 +146,7 @@ mgt_status validate_scene(const reporter *r, const mgt_scene *scene)
         TRY(check_camera(r, "camera_open", &scene->camera_open));
     TRY(in_range(r, "time", scene->time, -1e9, 1e9));
     TRY(in_range(r, "shutter", scene->shutter, 0, 1e6));
+    TRY(in_range(r, "frame_interval", scene->frame_interval, 0, 1e6));
 
     TRY(enum_range(r, "light.body", (int)scene->light.body, MGT_BODY_MOON));
     TRY(in_range(r, "light.elevation_deg", scene->light.elevation_deg, -90, 90));
@@ -144,9 +169,10 @@ mgt_status validate_scene(const reporter *r, const mgt_scene *scene)
     TRY(in_range(r, "post.glare", (double)scene->post.glare, 0, 1));
 
     const mgt_quality *q = &scene->quality;
-    TRY(enum_range(r, "quality.method", (int)q->method, MGT_METHOD_REFERENCE));
+    TRY(enum_range(r, "quality.method", (int)q->method, MGT_METHOD_TNDF));
     TRY(in_range(r, "quality.spatial_samples", q->spatial_samples, 1, 1024));
     TRY(in_range(r, "quality.time_samples", q->time_samples, 1, 65536));
+    TRY(check_podee(r, q));
     const uint64_t samples = (uint64_t)q->spatial_samples * q->spatial_samples * q->time_samples;
     if (q->sample_first >= samples || q->sample_count > samples - q->sample_first)
         return report_error(r, MGT_ERROR_SCENE, "render.scene", "quality.sample_first %llu and sample_count %llu lie outside the %llu samples of a pixel",

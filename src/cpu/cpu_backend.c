@@ -11,8 +11,10 @@
 #include "cpu/frame.h"
 #include "cpu/glare.h"
 #include "cpu/inspect.h"
+#include "cpu/lean_map.h"
 #include "cpu/thread_pool.h"
 #include "cpu/tile_job.h"
+#include "cpu/whole_frame.h"
 #include "reference/reference.h"
 
 typedef struct cpu_state {
@@ -20,6 +22,8 @@ typedef struct cpu_state {
     const lane_kernels *kernels;
     mgt_isa isa;
     sky_state *sky; /* of the last frame; zeroed at first */
+    podee_tables podee; /* empty until a frame needs them */
+    lean_map *lean;     /* NULL until a frame needs it */
     frame_waves *waves;
     tile_scratch **scratch; /* one a worker */
     mgt_progress_function progress;
@@ -80,6 +84,8 @@ static void cpu_destroy(void *state)
             free(s->scratch[i]);
     free(s->scratch);
     thread_pool_destroy(s->pool);
+    podee_tables_free(&s->podee);
+    lean_map_free(s->lean);
     free(s->waves);
     free(s->sky);
     free(s);
@@ -141,6 +147,7 @@ typedef struct render_job {
     uint32_t block_width, block_height;
     reference_frame *reference;
     atomic_bool cancelled;
+    const frame_pass *pass; /* NULL: the picture is the whole frame */
     double fraction;  /* done when progress was last told; the caller's thread only */
     double last_told; /* seconds */
 } render_job;
@@ -303,7 +310,8 @@ static bool forward_progress(void *argument, double fraction)
     render_job *job = argument;
     job->fraction = fraction;
     job->last_told = seconds();
-    if (!atomic_load(&job->cancelled) && !job->state->progress(job->state->progress_user, fraction))
+    const double whole = job->pass ? job->pass->first + job->pass->share * fraction : fraction;
+    if (!atomic_load(&job->cancelled) && !job->state->progress(job->state->progress_user, whole))
         atomic_store(&job->cancelled, true);
     return !atomic_load(&job->cancelled);
 }
@@ -362,29 +370,29 @@ static void display_row(void *argument, size_t row, uint32_t worker)
             job->state->kernels->display(&job->frame.data, rgb, target_row(&job->targets[k], &job->crop, (uint32_t)row), job->crop.width);
 }
 
-typedef struct glare_loop {
+typedef struct index_loop {
     void (*body)(void *, size_t);
     void *argument;
-} glare_loop;
+} index_loop;
 
-static void glare_step(void *argument, size_t index, uint32_t worker)
+static void index_step(void *argument, size_t index, uint32_t worker)
 {
     (void)worker;
-    const glare_loop *g = argument;
+    const index_loop *g = argument;
     g->body(g->argument, index);
 }
 
-static void glare_run(void *user, size_t count, void (*body)(void *, size_t), void *argument)
+static void run_indices(void *user, size_t count, void (*body)(void *, size_t), void *argument)
 {
-    glare_loop g = {body, argument};
-    const thread_loop loop = {count, glare_step, &g, NULL};
+    index_loop g = {body, argument};
+    const thread_loop loop = {count, index_step, &g, NULL};
     thread_pool_run(user, &loop);
 }
 
 static mgt_status display(render_job *job, const reporter *r)
 {
     const mgt_status status = glare_apply(job->radiance, job->area.width, job->area.height, (size_t)job->area.width * 3, job->scene->post.glare,
-                                          glare_run, job->state->pool);
+                                          run_indices, job->state->pool);
     if (status != MGT_OK)
         return report_error(r, status, "render.memory", "out of memory for the glare of %u x %u pixels", job->area.width, job->area.height);
     const thread_loop loop = {job->crop.height, display_row, job, NULL};
@@ -400,6 +408,28 @@ static mgt_status prepare_sky(cpu_state *s, const reporter *r, const mgt_scene *
         return MGT_OK;
     const mgt_status status = sky_state_build(s->sky, &scene->sky, &scene->light);
     return status == MGT_OK ? MGT_OK : report_error(r, status, "render.memory", "out of memory for the sky's tables");
+}
+
+/* Once for all lights and frames of a context. */
+static mgt_status prepare_podee(cpu_state *s, const reporter *r, const mgt_scene *scene)
+{
+    const mgt_kernels k = scene->quality.kernels;
+    if (k == MGT_KERNELS_EXACT || k == MGT_KERNELS_RIEMANN || s->podee.sweep || podee_tables_build(&s->podee, run_indices, s->pool))
+        return MGT_OK;
+    return report_error(r, MGT_ERROR_MEMORY, "render.memory", "out of memory for the 64 MiB of tables that quality.kernels needs");
+}
+
+/* Every frame has waves of its own. */
+static mgt_status prepare_lean(cpu_state *s, const reporter *r, const frame *f)
+{
+    const mgt_method method = f->scene->quality.method;
+    if (method != MGT_METHOD_LEAN && method != MGT_METHOD_LEADR)
+        return MGT_OK;
+    if (!s->lean)
+        s->lean = calloc(1, sizeof *s->lean);
+    if (s->lean && lean_map_build(s->lean, f, s->kernels, s->pool))
+        return MGT_OK;
+    return report_error(r, MGT_ERROR_MEMORY, "render.memory", "out of memory for the 246 MiB of slope moments of methods lean and leadr");
 }
 
 static bool wants_layer(const mgt_target *targets, size_t count, mgt_layer first, mgt_layer last)
@@ -418,14 +448,22 @@ static bool wants_glare(const mgt_scene *scene, const mgt_target *targets, size_
     return false;
 }
 
-static mgt_status cpu_render(void *state, const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count)
+static mgt_status render_picture(cpu_state *s, const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count,
+                                 const frame_pass *pass)
 {
-    cpu_state *s = state;
     mgt_status status = prepare_sky(s, r, scene);
     if (status != MGT_OK)
         return status;
-    render_job job = {.state = s, .scene = scene, .targets = targets, .target_count = count};
+    status = prepare_podee(s, r, scene);
+    if (status != MGT_OK)
+        return status;
+    render_job job = {.state = s, .scene = scene, .targets = targets, .target_count = count, .pass = pass};
     job.frame = frame_of(scene, s->sky, wants_layer(targets, count, MGT_LAYER_COLOR, MGT_LAYER_COLOR));
+    if (pass)
+        job.frame.close = pass->camera;
+    status = prepare_lean(s, r, &job.frame);
+    if (status != MGT_OK)
+        return status;
     job.wants.pixels = wants_layer(targets, count, MGT_LAYER_COLOR, MGT_LAYER_MASK);
     job.wants.surface = wants_layer(targets, count, MGT_LAYER_DEPTH, MGT_LAYER_NORMAL);
     job.crop = job.area = image_region(&scene->image);
@@ -445,7 +483,7 @@ static mgt_status cpu_render(void *state, const reporter *r, const mgt_scene *sc
         reference_frame_destroy(job.reference);
     } else {
         frame_waves_build(&job.frame, s->waves);
-        job.tiles = (tile_job){&job.frame, s->waves, s->kernels, s->sky->table, job.wants, s->progress ? keep_going : NULL, &job};
+        job.tiles = (tile_job){&job.frame, s->waves, s->kernels, s->sky->table, &s->podee, job.wants, s->progress ? keep_going : NULL, &job, s->lean};
         finished = run_loop(&job, TILE_WIDTH, TILE_HEIGHT, render_tile);
     }
     if (status == MGT_OK && (!finished || atomic_load(&job.cancelled)))
@@ -454,6 +492,40 @@ static mgt_status cpu_render(void *state, const reporter *r, const mgt_scene *sc
         status = display(&job, r);
     free(job.radiance);
     return status;
+}
+
+/* ---- methods that work on whole pictures ---- */
+
+typedef struct picture_user {
+    cpu_state *state;
+    const reporter *r;
+} picture_user;
+
+static mgt_status make_picture(void *user, const mgt_scene *scene, const mgt_target *targets, size_t count, const frame_pass *pass)
+{
+    const picture_user *u = user;
+    return render_picture(u->state, u->r, scene, targets, count, pass);
+}
+
+static mgt_status show_picture(void *user, const mgt_scene *scene, const float *radiance, const mgt_target *target)
+{
+    const picture_user *u = user;
+    return cpu_display(u->state, u->r, scene, radiance, target);
+}
+
+static void run_rows(void *user, size_t count, void (*body)(void *, size_t), void *argument)
+{
+    const picture_user *u = user;
+    run_indices(u->state->pool, count, body, argument);
+}
+
+static mgt_status cpu_render(void *state, const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count)
+{
+    if (!is_whole_frame_method(scene->quality.method))
+        return render_picture(state, r, scene, targets, count, NULL);
+    picture_user user = {state, r};
+    const picture_maker maker = {&user, make_picture, show_picture, run_rows};
+    return whole_frame_render(&maker, r, scene, targets, count);
 }
 
 mgt_status cpu_display(void *state, const reporter *r, const mgt_scene *scene, const float *radiance, const mgt_target *target)

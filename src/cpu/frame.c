@@ -53,21 +53,34 @@ static void light_axes(const double light[3], FrameData *d)
     d->axis_f_x = (float)f[0], d->axis_f_y = (float)f[1], d->axis_f_z = (float)f[2];
 }
 
+/* Which ellipses fall back to Riemann sums: P1 §3.6 has "the minor axis multiplied by the number of circular kernels"; one circle is no
+ * mixture, and Feline has a number of its own for every ellipse. */
+static double elongation_limit(const mgt_quality *q)
+{
+    if (q->elongation_limit != 0)
+        return q->elongation_limit;
+    return q->kernels == MGT_KERNELS_1 || q->kernels == MGT_KERNELS_FELINE ? 1e6 : (double)q->kernels;
+}
+
 /* Where waves turn from resolved to unresolved: P1's linear ramp, or ours, chosen by error and flicker on the standard scenes. */
 static void set_method(frame *f)
 {
     const mgt_quality *q = &f->scene->quality;
     const bool podee = q->method == MGT_METHOD_PODEE_UNIFORM || q->method == MGT_METHOD_PODEE_PIXEL;
     const bool keep = q->method == MGT_METHOD_PODEE_PIXEL; /* unresolved waves stay mixed ones: their phase matters */
-    const double start = podee ? 0.2 : 0.1, end = podee ? 0.5 : 1.2; /* cycles per pixel */
+    const double width = q->transition_hard ? 0 : q->transition_width != 0 ? q->transition_width : 0.3;
+    const bool bruneton = q->method == MGT_METHOD_BRUNETON; /* 2.5 to 1 pixels a wavelength, see bruneton.k */
+    const double end = podee ? 0.5 : bruneton ? 1.0 : 1.2, start = podee ? end - width : bruneton ? 0.4 : 0.1; /* cycles per pixel */
     FrameData *d = &f->data;
     d->ramp_start = (float)start;
-    d->ramp_scale = (float)(podee ? 1 / (end - start) : 1 / (end * end));
+    d->ramp_scale = (float)(podee ? width > 0 ? 1 / width : 1e9 : 1 / (end * end));
     d->sort_start = (float)(start * start);
     d->sort_end = keep ? 1e30f : (float)(end * end);
-    d->sort_shares = podee ? 0 : 1;
+    d->sort_shares = podee || bruneton ? 0 : 1;
     d->ndf_per_pixel = keep;
     d->ndf_mean = keep && !q->ndf_mean_drop ? 1 : 0;
+    d->podee_kernels = (int)q->kernels;
+    d->podee_elongation = (float)elongation_limit(q);
 }
 
 static void order_waves(const mgt_water *water, uint16_t *order)

@@ -7,7 +7,10 @@
     typedef struct name name; \
     struct name
 #include "kernels/types.k"
+#include "kernels/lean_types.k"
 #undef STRUCT
+
+#include "precompute/podee_tables.h"
 
 _Static_assert(sizeof(FrameData) % 16 == 0, "std140 layout");
 _Static_assert(sizeof(TileData) % 16 == 0, "std140 layout");
@@ -23,6 +26,8 @@ struct kernel_context {
     const MarchWave *march;
     const float *sky; /* SKY_ROWS × SKY_COLUMNS × 3 */
     const ViewData *view; /* only while tiles are sorted */
+    const podee_tables *podee; /* only where podee-* replaces its Gaussian by kernels */
+    const struct lean_map *lean; /* methods lean and leadr alone */
 };
 
 #endif

@@ -6,77 +6,58 @@
 
 #include <math.h>
 
+#include "cpu/rival_lanes.h"
 #include "precompute/atmosphere.h"
 
 #define LANES_NAME_(n) lane_kernels_##n
 #define LANES_NAME(n) LANES_NAME_(n)
+#define RIVALS_NAME_(n) rival_kernels_##n
+#define RIVALS_NAME(n) RIVALS_NAME_(n)
 static const float infinity = INFINITY;
 
 #include "kernels/prelude_c.h"
 
-#define FRAME(cx) (*(cx)->frame)
-#define VIEW(cx) (*(cx)->view)
-#define TILE(cx) (*(cx)->tile)
-#define WAVE(cx, i) ((cx)->waves[i])
-#define MARCH_WAVE(cx, i) ((cx)->march[i])
+#include "cpu/lane_access.h"
 
-KERNEL vec3 SKY_TEXEL(CTX cx, real column, real row)
+/* Single floats of a table, at whole numbers. */
+static inline real gather_texels(const float *table, real index)
 {
-    const real index = real_fma(row, real_broadcast(SKY_COLUMNS), column);
 #if MGT_LANES == 1
-    const float *texel = cx->sky + 3 * (int)index;
-    return (vec3){texel[0], texel[1], texel[2]};
-#else
-    const mask at = __builtin_convertvector(index, mask) * 3;
-#if MGT_LANES == 16
-    return (vec3){(real)_mm512_i32gather_ps((__m512i)at, cx->sky, 4), (real)_mm512_i32gather_ps((__m512i)at, cx->sky + 1, 4),
-                  (real)_mm512_i32gather_ps((__m512i)at, cx->sky + 2, 4)};
+    return table[(int)index];
+#elif MGT_LANES == 16
+    return (real)_mm512_i32gather_ps((__m512i)__builtin_convertvector(index, mask), table, 4);
 #elif MGT_LANES == 8
-    return (vec3){(real)_mm256_i32gather_ps(cx->sky, (__m256i)at, 4), (real)_mm256_i32gather_ps(cx->sky + 1, (__m256i)at, 4),
-                  (real)_mm256_i32gather_ps(cx->sky + 2, (__m256i)at, 4)};
+    return (real)_mm256_i32gather_ps(table, (__m256i)__builtin_convertvector(index, mask), 4);
 #else
-    vec3 texel;
-    for (int i = 0; i < MGT_LANES; i++) {
-        texel.x[i] = cx->sky[at[i]];
-        texel.y[i] = cx->sky[at[i] + 1];
-        texel.z[i] = cx->sky[at[i] + 2];
-    }
+    const mask at = __builtin_convertvector(index, mask);
+    real texel;
+    for (int i = 0; i < MGT_LANES; i++)
+        texel[i] = table[at[i]];
     return texel;
 #endif
-#endif
+}
+
+/* Every index of the tables is a float: the largest is 2^24 - 1. */
+_Static_assert(PODEE_SLICES * PODEE_ROWS * PODEE_COLUMNS <= 1 << 24, "indices are exact in float");
+
+KERNEL real SWEEP_TEXEL(CTX cx, real v, real u, real slice)
+{
+    const real row = real_fma(slice, real_broadcast(PODEE_ROWS), u);
+    return gather_texels(cx->podee->sweep, real_fma(row, real_broadcast(PODEE_COLUMNS), v));
+}
+
+KERNEL real SHARE_TEXEL(CTX cx, real r, real slice)
+{
+    return gather_texels(cx->podee->share, real_fma(slice, real_broadcast(PODEE_COLUMNS), r));
 }
 
 #include "kernels/glitter.k"
 #include "kernels/lattice.k"
 #include "kernels/podee.k"
+#include "kernels/podee_mixture.k"
 #include "kernels/sample.k"
 #include "kernels/tile.k"
 #include "kernels/tone.k"
-
-/* ---- loads and stores ---- */
-
-static inline real load(const float *p)
-{
-#if MGT_LANES == 1
-    return *p;
-#else
-    real r;
-    __builtin_memcpy(&r, p, sizeof r);
-    return r;
-#endif
-}
-
-static inline void store(float *p, real r)
-{
-    __builtin_memcpy(p, &r, sizeof r);
-}
-
-/* 0, 1, 2, … for the lanes. */
-static inline real lane_numbers(void)
-{
-    static const float numbers[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-    return load(numbers);
-}
 
 static inline HitGuess load_guess(const tile_guess *guess, size_t i)
 {
@@ -603,14 +584,16 @@ static void render_podee(const struct kernel_context *cx, const tile_guess *gues
         PodeeState before = state;
         if (open)
             before = podee_state(open, pixel_ray_filtered(open, column, row).ray, load_guess(open_guess, i));
-        store_pixels(out, i, podee_result(cx, p, before, state));
+        const real coverage = FRAME(cx).podee_kernels == 0 ? podee_coverage(cx, before, state) : podee_mixture_coverage(cx, before, state);
+        store_pixels(out, i, podee_result_of(cx, p, before, state, coverage));
     }
 }
 
-static void lanes_filtered(const FrameData *frame, const float *sky, mgt_method method, const tile_waves *close, const tile_guess *close_guess,
-                           const tile_waves *open, const tile_guess *open_guess, tile_pixels *out)
+static void lanes_filtered(const FrameData *frame, const float *sky, const podee_tables *podee, mgt_method method, const tile_waves *close,
+                           const tile_guess *close_guess, const tile_waves *open, const tile_guess *open_guess, tile_pixels *out)
 {
-    const struct kernel_context context = {.frame = frame, .tile = &close->data, .waves = close->waves, .march = close->march, .sky = sky};
+    const struct kernel_context context = {
+        .frame = frame, .tile = &close->data, .waves = close->waves, .march = close->march, .sky = sky, .podee = podee};
     struct kernel_context open_context = context;
     if (open)
         open_context.tile = &open->data, open_context.waves = open->waves, open_context.march = open->march;
@@ -674,5 +657,5 @@ static void lanes_display(const FrameData *frame, const float *rgb, uint8_t *rgb
 }
 
 const lane_kernels LANES_NAME(MGT_LANES) = {
-    MGT_LANES, lanes_sort, lanes_guess, lanes_sample, lanes_filtered, lanes_surface, lanes_filtered_normal, lanes_display,
+    MGT_LANES, lanes_sort, lanes_guess, lanes_sample, lanes_filtered, lanes_surface, lanes_filtered_normal, lanes_display, &RIVALS_NAME(MGT_LANES),
 };

@@ -59,6 +59,8 @@ typedef struct tile_surface {
     float normal_x[TILE_PIXELS], normal_y[TILE_PIXELS], normal_z[TILE_PIXELS];
 } tile_surface;
 
+typedef struct rival_kernels rival_kernels; /* cpu/rival_lanes.h */
+
 typedef struct lane_kernels {
     uint32_t lanes;
     /* Sorts the waves for the tile (tile_x, tile_y) of the lattice. */
@@ -68,15 +70,16 @@ typedef struct lane_kernels {
     /* One sample a pixel at (x + dx, y + dy), dx and dy in pixels from its centre (NULL: 0); adds weight × result to `out`. */
     void (*sample)(const FrameData *frame, const float *sky, const tile_waves *tile, const tile_guess *guess, const float *dx,
                    const float *dy, float weight, tile_pixels *out);
-    /* Filtered methods; `open` is NULL unless the camera moves. */
-    void (*filtered)(const FrameData *frame, const float *sky, mgt_method method, const tile_waves *close, const tile_guess *close_guess,
-                     const tile_waves *open, const tile_guess *open_guess, tile_pixels *out);
+    /* Filtered methods; `open` is NULL unless the camera moves. `podee` is read where podee-* replaces its Gaussian by kernels. */
+    void (*filtered)(const FrameData *frame, const float *sky, const podee_tables *podee, mgt_method method, const tile_waves *close,
+                     const tile_guess *close_guess, const tile_waves *open, const tile_guess *open_guess, tile_pixels *out);
     /* Depth and normal at one instant. */
     void (*surface)(const FrameData *frame, const tile_waves *tile, const tile_guess *guess, tile_surface *out);
     /* The mean shading normal of filtered methods instead, from a tile with resolved and mixed waves at one instant. */
     void (*filtered_normal)(const FrameData *frame, const tile_waves *tile, const tile_guess *guess, tile_surface *out);
     /* Displayed colour: `count` pixels of 3 floats to 4 bytes. */
     void (*display)(const FrameData *frame, const float *rgb, uint8_t *rgba, size_t count);
+    const rival_kernels *rivals;
 } lane_kernels;
 
 extern const lane_kernels lane_kernels_1;

@@ -2,6 +2,8 @@
  * One tile of a frame by any method, into the worker's own planes. */
 #include "cpu/tile_job.h"
 
+#include "cpu/rival_lanes.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -120,21 +122,97 @@ static void render_centre(tile_place place, tile_scratch *scratch)
 
 /* ---- filtered methods ---- */
 
+static void run_filtered(const tile_job *job, bool moves, tile_scratch *scratch, tile_pixels *out)
+{
+    const frame *f = job->frame;
+    job->kernels->filtered(&f->data, job->sky, job->podee, f->scene->quality.method, &scratch->close, &scratch->close_guess,
+                           moves ? &scratch->open : NULL, moves ? &scratch->open_guess : NULL, out);
+}
+
 static void render_filtered(tile_place place, tile_scratch *scratch)
 {
     const tile_job *job = place.job;
-    const frame *f = job->frame;
-    const bool moves = f->scene->camera_moves;
+    const bool moves = job->frame->scene->camera_moves;
     build(place, &job->waves->shutter, &scratch->close, &scratch->close_guess);
     if (moves)
         build(place, &job->waves->open, &scratch->open, &scratch->open_guess);
-    job->kernels->filtered(&f->data, job->sky, f->scene->quality.method, &scratch->close, &scratch->close_guess, moves ? &scratch->open : NULL,
-                           moves ? &scratch->open_guess : NULL, &scratch->pixels);
+    run_filtered(job, moves, scratch, &scratch->pixels);
+}
+
+/* One of the parts the shutter is cut into, between two shares of it. */
+static void build_segment(tile_place place, double from, double to, tile_scratch *scratch)
+{
+    const frame *f = place.job->frame;
+    const mgt_scene *s = f->scene;
+    const double open = s->time - (1 - from) * s->shutter, close = s->time - (1 - to) * s->shutter;
+    const camera_rays camera = camera_at(f, to);
+    const interval shutter = {0.5 * (open + close), 0.5 * (close - open)};
+    wave_set_build(f, &camera, s->camera_moves ? (interval){close, 0} : shutter, true, &scratch->sample_waves);
+    build(place, &scratch->sample_waves, &scratch->close, &scratch->close_guess);
+    if (!s->camera_moves)
+        return;
+    const camera_rays before = camera_at(f, from);
+    wave_set_build(f, &before, (interval){open, 0}, true, &scratch->sample_waves);
+    build(place, &scratch->sample_waves, &scratch->open, &scratch->open_guess);
+}
+
+/* The path in several straight pieces (P1 §3.4): the mean over the parts of the shutter. */
+static void render_segments(tile_place place, tile_scratch *scratch)
+{
+    const tile_job *job = place.job;
+    const uint32_t count = job->frame->scene->quality.path_segments;
+    tile_pixels *sum = &scratch->pixels, part;
+    memset(sum, 0, sizeof *sum);
+    for (uint32_t i = 0; i < count; i++) {
+        if (job->keep_going && !job->keep_going(job->keep_going_argument, scratch->worker))
+            return;
+        build_segment(place, (double)i / count, (double)(i + 1) / count, scratch);
+        run_filtered(job, job->frame->scene->camera_moves, scratch, &part);
+        const float weight = 1.0f / (float)count;
+        for (size_t p = 0; p < TILE_PIXELS; p++) {
+            sum->red[p] += weight * part.red[p];
+            sum->green[p] += weight * part.green[p];
+            sum->blue[p] += weight * part.blue[p];
+            sum->coverage[p] += weight * part.coverage[p];
+            sum->water[p] += weight * part.water[p];
+        }
+    }
 }
 
 static bool is_filtered(mgt_method method)
 {
     return method == MGT_METHOD_MANGATA || method == MGT_METHOD_PODEE_UNIFORM || method == MGT_METHOD_PODEE_PIXEL;
+}
+
+/* ---- rivals ---- */
+
+static bool is_rival(mgt_method method)
+{
+    return method == MGT_METHOD_MSAA32 || method == MGT_METHOD_TOKUYOSHI || method == MGT_METHOD_LEAN || method == MGT_METHOD_LEADR ||
+           method == MGT_METHOD_BRUNETON || method == MGT_METHOD_TNDF;
+}
+
+/* Those that shade a point of the whole surface; the others know its filtered slopes. */
+static bool takes_points(mgt_method method)
+{
+    return method == MGT_METHOD_MSAA32 || method == MGT_METHOD_TOKUYOSHI;
+}
+
+static void render_rival(tile_place place, tile_scratch *scratch)
+{
+    const tile_job *job = place.job;
+    const frame *f = job->frame;
+    const mgt_method method = f->scene->quality.method;
+    const bool moves = method == MGT_METHOD_TNDF && f->scene->camera_moves;
+    const wave_set *waves = takes_points(method) ? &job->waves->samples : method == MGT_METHOD_TNDF ? &job->waves->shutter : &job->waves->now;
+    build(place, waves, &scratch->close, &scratch->close_guess);
+    if (moves)
+        build(place, &job->waves->open, &scratch->open, &scratch->open_guess);
+    const rival_tile tile = {&f->data,        job->sky,
+                             job->lean,       method,
+                             &scratch->close, &scratch->close_guess,
+                             moves ? &scratch->open : NULL, moves ? &scratch->open_guess : NULL};
+    job->kernels->rivals->pixels(&tile, &scratch->pixels);
 }
 
 static void render_surface(tile_place place, tile_scratch *scratch)
@@ -143,7 +221,8 @@ static void render_surface(tile_place place, tile_scratch *scratch)
     const frame *f = job->frame;
     build(place, &job->waves->samples, &scratch->close, &scratch->close_guess);
     job->kernels->surface(&f->data, &scratch->close, &scratch->close_guess, &scratch->surface);
-    if (!is_filtered(f->scene->quality.method))
+    const mgt_method method = f->scene->quality.method;
+    if (!is_filtered(method) && (!is_rival(method) || takes_points(method)))
         return;
     build(place, &job->waves->now, &scratch->close, &scratch->close_guess);
     job->kernels->filtered_normal(&f->data, &scratch->close, &scratch->close_guess, &scratch->surface);
@@ -153,8 +232,12 @@ void tile_render(const tile_job *job, uint32_t tile_x, uint32_t tile_y, tile_scr
 {
     const tile_place place = {job, tile_x, tile_y};
     const mgt_method method = job->frame->scene->quality.method;
-    if (job->wants.pixels && is_filtered(method))
+    if (job->wants.pixels && is_filtered(method) && job->frame->scene->quality.path_segments > 1)
+        render_segments(place, scratch);
+    else if (job->wants.pixels && is_filtered(method))
         render_filtered(place, scratch);
+    else if (job->wants.pixels && is_rival(method))
+        render_rival(place, scratch);
     else if (job->wants.pixels && method == MGT_METHOD_SSAA)
         render_samples(place, scratch);
     else if (job->wants.pixels)

@@ -195,7 +195,19 @@ static mgt_status read_target(gl_backend_state *s, const mgt_target *target, con
 
 /* ---- mgt_render ---- */
 
-static mgt_status render_reference(gl_backend_state *s, const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count)
+bool gl_renders(const mgt_quality *quality)
+{
+    switch (quality->method) {
+    case MGT_METHOD_NONE:
+    case MGT_METHOD_SSAA:
+    case MGT_METHOD_MANGATA: return true;
+    case MGT_METHOD_PODEE_UNIFORM:
+    case MGT_METHOD_PODEE_PIXEL: return quality->kernels == MGT_KERNELS_EXACT && quality->path_segments <= 1;
+    default: return false;
+    }
+}
+
+static mgt_status render_by_cpu(gl_backend_state *s, const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count)
 {
     if (!s->cpu) {
         mgt_context_info info;
@@ -264,8 +276,8 @@ static mgt_status render_entered(gl_backend_state *s, const reporter *r, const m
 static mgt_status gl_render(void *state, const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count)
 {
     gl_backend_state *s = state;
-    if (scene->quality.method == MGT_METHOD_REFERENCE)
-        return render_reference(s, r, scene, targets, count);
+    if (!gl_renders(&scene->quality))
+        return render_by_cpu(s, r, scene, targets, count);
     gl_scope scope;
     mgt_status status = gl_enter(s, &scope, r);
     if (status != MGT_OK)

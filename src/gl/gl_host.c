@@ -109,8 +109,8 @@ mgt_status gl_render_textures(void *state, const reporter *r, const mgt_scene *s
     gl_backend_state *s = state;
     if (s->egl)
         return report_error(r, MGT_ERROR_ARGUMENT, "render.texture", "this context has no host: create it with mgt_context_desc.gl_get_proc");
-    if (scene->quality.method == MGT_METHOD_REFERENCE)
-        return report_error(r, MGT_ERROR_UNSUPPORTED, "render.texture", "method reference runs on the CPU: use mgt_render()");
+    if (!gl_renders(&scene->quality))
+        return report_error(r, MGT_ERROR_UNSUPPORTED, "render.texture", "this method runs on the CPU alone: use mgt_render()");
     gl_scope scope;
     mgt_status status = gl_enter(s, &scope, r);
     if (status != MGT_OK)
@@ -286,8 +286,8 @@ mgt_status gl_render_views(void *state, const reporter *r, const mgt_scene *scen
     gl_backend_state *s = state;
     if (s->egl)
         return report_error(r, MGT_ERROR_ARGUMENT, "render.view", "this context has no host: create it with mgt_context_desc.gl_get_proc");
-    if (scene->quality.method == MGT_METHOD_REFERENCE)
-        return report_error(r, MGT_ERROR_UNSUPPORTED, "render.view", "method reference runs on the CPU: use mgt_render()");
+    if (!gl_renders(&scene->quality))
+        return report_error(r, MGT_ERROR_UNSUPPORTED, "render.view", "this method runs on the CPU alone: use mgt_render()");
     gl_scope scope;
     mgt_status status = gl_enter(s, &scope, r);
     if (status != MGT_OK)

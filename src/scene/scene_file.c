@@ -142,6 +142,7 @@ bool scene_values_shot(const scene_values *values, double time, mgt_scene *out)
     scene.image.height = values->image.height;
     scene.time = time;
     scene.shutter = values->time.shutter / values->time.fps;
+    scene.frame_interval = 1 / values->time.fps;
     scene.camera = scene_camera_at(&values->camera, scene.time);
     scene.camera_open = scene_camera_at(&values->camera, scene.time - scene.shutter);
     scene.camera_moves = !scene_camera_equal(&scene.camera, &scene.camera_open);

@@ -56,4 +56,49 @@ expect 0 '' "$MANGATA" diff p_#.pfm q_#.pfm --frames 0-2 --flicker --json
 [[ $(number frames) == 2 && $(number rmse) == 0.707106781* && $(number maximum.frame) == 2 ]] || fail "flicker: $(cat stdout.txt)"
 expect 66 '_3.pfm' "$MANGATA" diff p_#.pfm q_#.pfm --frames 0-2,3
 expect 0 '' "$MANGATA" diff p_#.pfm p_#.pfm --frames 0-2 --flicker --max-rmse 0
+
+# Further metrics add lines and keys and change none.
+"$MANGATA" diff p_#.pfm q_#.pfm --frames 0-2 >plain.txt
+expect 0 '' "$MANGATA" diff p_#.pfm q_#.pfm --frames 0-2 --metrics rmse,relrmse,energy
+same plain.txt stdout.txt
+expect 0 '' "$MANGATA" diff p_#.pfm q_#.pfm --frames 0-2 --metrics flip,hdr-flip,ssim,flicker
+head -n "$(wc -l <plain.txt)" stdout.txt | cmp -s - plain.txt || fail "--metrics changes the first lines: $(cat stdout.txt)"
+for word in flip hdr-flip ssim flicker flicker-power flicker-ratio flicker-bright flicker-glints flicker-sizes; do
+    grep -Eq "^$word +[0-9.]+$" stdout.txt || fail "$word: $(cat stdout.txt)"
+done
+expect 0 '' "$MANGATA" diff p_#.pfm q_#.pfm --frames 0-2 --metrics rmse,energy,flicker --json
+[[ $(number metrics.rmse) == "$(number rmse)" && $(number metrics.energy) == "$(number mean_ratio)" ]] || fail "metrics: $(cat stdout.txt)"
+[[ $(number metrics.flicker) == 0.707106781* && $(number metrics.flicker_power) == 1.5 && $(number metrics.flicker_ratio) == 0.4* ]] ||
+    fail "flicker of clips: $(cat stdout.txt)"
+[[ $(number per_frame.0.flicker) == null && $(number per_frame.1.flicker) == 0.0 && $(number per_frame.2.flicker) == 1.0 ]] ||
+    fail "flicker of frames: $(cat stdout.txt)"
+expect 0 '' "$MANGATA" diff a.pfm b.pfm --metrics flicker --json
+[[ $(number metrics.flicker) == null && $(number unavailable.flicker) == *'two frames'* ]] || fail "one frame flickers: $(cat stdout.txt)"
+
+works render "$simple" -o scene.png "${small[@]}" --quiet
+works render "$simple" -o rough.png "${small[@]}" --method none --quiet
+expect 0 '' "$MANGATA" diff scene.png scene.png --metrics flip,hdr-flip,ssim --json
+[[ $(number metrics.flip) == 0.0 && $(number metrics.hdr_flip) == 0.0 && $(number metrics.ssim) == 1.0 ]] || fail "identity: $(cat stdout.txt)"
+expect 0 '' "$MANGATA" diff rough.png scene.png --metrics flip --json
+near=$(number metrics.flip)
+expect 0 '' "$MANGATA" diff rough.png scene.png --metrics flip --pixels-per-degree 300 --json
+far=$(number metrics.flip)
+[[ $near == 0.0[1-9]* && $far == 0.0[1-9]* && $near != "$far" ]] || fail "FLIP $near near, $far from afar"
+
+# Without idiff Yee's test is unavailable and nothing else is lost.
+expect 0 '' env PATH=/nonexistent "$MANGATA" diff rough.png scene.png --metrics flip,yee --json
+[[ $(number metrics.yee) == null && $(number metrics.flip) == "$near" && $(number unavailable.yee) == *openimageio-tools* ]] || fail "no idiff: $(cat stdout.txt)"
+if command -v idiff >/dev/null; then
+    expect 0 '' "$MANGATA" diff scene.png scene.png --metrics yee --json
+    [[ $(number metrics.yee) == 0.0 ]] || fail "Yee's test of equal pictures: $(cat stdout.txt)"
+    TMPDIR=$work/nowhere expect 0 '' "$MANGATA" diff scene.png scene.png --metrics yee --json
+    [[ $(number unavailable.yee) == *nowhere* ]] || fail "no folder for Yee's test: $(cat stdout.txt)"
+fi
+
+expect 64 'allowed are rmse, relrmse' "$MANGATA" diff a.pfm b.pfm --metrics rmse,flop
+expect 64 'goes with no --metrics' "$MANGATA" diff p_#.pfm q_#.pfm --frames 0-2 --flicker --metrics flip
+expect 64 'linear and srgb' "$MANGATA" diff a.pfm b.pfm --metrics flip --encoding gamma
+expect 64 'from 4 to 400' "$MANGATA" diff a.pfm b.pfm --metrics flip --pixels-per-degree 3
+expect 64 'above 0' "$MANGATA" diff a.pfm b.pfm --metrics flicker --glint-threshold 0
+expect 64 'unlike encoding' "$MANGATA" diff a.pfm scene.png --metrics flip
 finish

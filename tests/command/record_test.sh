@@ -35,6 +35,13 @@ changes --set post.exposure=1
 [[ $(hash_of --method reference) != $(hash_of --method reference --samples-range 0,64) ]] || fail "the hash must depend on the range"
 [[ $(hash_of --method reference) == $(hash_of --method reference --samples-range 0,512) ]] || fail "the whole range is no range"
 [[ $(hash_of --method podee-pixel) != $(hash_of --method podee-pixel --ndf-mean drop) ]] || fail "the hash must depend on --ndf-mean"
+podee=$(hash_of --method podee-pixel)
+for option in 'kernels 9' 'kernels feline' 'integral kernels' 'path-segments 2' 'transition hard' 'transition-width 0.2'; do
+    [[ $(hash_of --method podee-pixel --$option) != "$podee" ]] || fail "the hash must depend on --$option"
+done
+for option in 'kernels exact' 'integral exact' 'path-segments 1' 'transition soft'; do
+    [[ $(hash_of --method podee-pixel --$option) == "$podee" ]] || fail "--$option is the default"
+done
 
 value() { "$JSON_GET" "$1" <hash.pfm.json 2>/dev/null; }
 hash_of --method ssaa3 --time-samples 2 --seed 5 --frames 4 >/dev/null
@@ -43,6 +50,9 @@ hash_of --method ssaa3 --time-samples 2 --seed 5 --frames 4 >/dev/null
 [[ -z $(value host)$(value threads)$(value isa) ]] || fail "the machine is recorded without --stamp"
 hash_of --stamp >/dev/null
 [[ -n $(value host) && -n $(value threads) && -n $(value isa) ]] || fail "--stamp records nothing"
+
+hash_of --method podee-pixel --kernels 9 --path-segments 2 >/dev/null
+[[ $(value method_options) == 'kernels 9 elongation 0 segments 2 transition soft 0' ]] || fail "options in the sidecar: $(cat hash.pfm.json)"
 
 # Nothing is rendered again when it is there; anything else is refused.
 works render "$simple" -o s_##.png --frames 0-3 "${small[@]}" "${null[@]}" --quiet

@@ -2,7 +2,7 @@
 # Every kind of wrong command line: exit code 64 and one line with a hint; help and version.
 . "$CHECK"
 
-for verb in render diff scene bench info view; do
+for verb in render diff compare scene bench info view; do
     expect 0 '' "$MANGATA" $verb --help
     grep -q "^usage: mangata $verb" stdout.txt || fail "$verb --help has no usage line"
     [[ ! -s stderr.txt ]] || fail "$verb --help writes to stderr"
@@ -61,6 +61,20 @@ for value in 0,0 512,1 0,513 1 0,-1 18446744073709551615,2; do
 done
 expect 64 'ssaaN' render "$simple" -o a.png --method ssaa4 --spatial 2
 expect 64 '--ndf-mean maybe: allowed is add or drop' render "$simple" -o a.png --method podee-pixel --ndf-mean maybe
+
+for option in 'kernels 9' 'integral exact' 'elongation 9' 'path-segments 2' 'transition hard' 'transition-width 0.2'; do
+    expect 64 'only the methods podee-uniform and podee-pixel take it' render "$simple" -o a.png --$option
+done
+podee() { expect 64 "$1" render "$simple" -o a.png --method podee-pixel "${@:2}"; }
+podee '--kernels 2: allowed is 1, 3, 5, 9, feline, riemann or exact' --kernels 2
+podee '--integral table: allowed is exact or kernels' --integral table
+podee 'contradict' --kernels 9 --integral exact
+podee '--elongation 0: allowed is a number from 1' --kernels 9 --elongation 0
+podee '--elongation: it is for --kernels 1, 3, 5, 9 and feline' --kernels riemann --elongation 5
+podee '--path-segments 65: allowed is a number from 1 to 64' --path-segments 65
+podee '--transition smooth: allowed is soft or hard' --transition smooth
+podee '--transition-width 0: allowed is more than 0' --transition-width 0
+podee 'a hard transition has none' --transition hard --transition-width 0.2
 
 expect 64 'unknown kind of file; allowed are .png .exr .pfm .mp4 .y4m' render "$simple" -o a.jpg
 expect 64 'unknown kind of file' render "$simple" -o png

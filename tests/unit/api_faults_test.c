@@ -88,11 +88,39 @@ static mgt_status whole_life(int which)
     return status;
 }
 
-static void allocations_may_fail(void **state)
+/* The methods that allocate on their own: a map, and whole pictures. A frame that failed renders when it is asked for again. */
+static mgt_status life_of_rivals(int which)
 {
-    (void)state;
+    static const mgt_method methods[] = {MGT_METHOD_LEAN, MGT_METHOD_FXAA, MGT_METHOD_TAA};
+    mgt_wave waves[SEA_WAVES];
+    mgt_scene scene = sea_scene(waves);
+    mgt_context_desc desc = mgt_context_desc_defaults();
+    desc.threads = 2;
+    mgt_context *context = NULL;
+    mgt_status status = mgt_context_create(&context, &desc), first = status;
+    const mgt_target targets[2] = {sea_target(MGT_LAYER_COVERAGE, MGT_FORMAT_R32F, pixels[which], 0),
+                                   sea_target(MGT_LAYER_COLOR, MGT_FORMAT_RGBA8_SRGB, shown[which], 0)};
+    for (size_t m = 0; m < 3 && context; m++) {
+        scene.quality.method = methods[m];
+        status = mgt_render(context, &scene, targets, 2);
+        if (status != MGT_OK) {
+            assert_true(strlen(mgt_last_error(context)) > 0);
+            first = status;
+            sea_render(context, &scene, targets, 2);
+        }
+    }
+    if (context && which > 0) {
+        assert_memory_equal(pixels[which], pixels[0], sizeof pixels[0]);
+        assert_memory_equal(shown[which], shown[0], sizeof shown[0]);
+    }
+    mgt_context_destroy(context);
+    return first;
+}
+
+static void fail_each_allocation(mgt_status (*life)(int which))
+{
     calls = fail_at = outstanding = 0;
-    assert_int_equal(whole_life(0), MGT_OK);
+    assert_int_equal(life(0), MGT_OK);
     const long count = calls;
     assert_int_equal(outstanding, 0);
     assert_true(count >= 10); /* else the linker has not wrapped anything */
@@ -100,7 +128,7 @@ static void allocations_may_fail(void **state)
     for (long k = 1; k <= count; k++) {
         calls = 0;
         fail_at = k;
-        const mgt_status status = whole_life(1);
+        const mgt_status status = life(1);
         fail_at = 0;
         if (status == MGT_OK)
             fail_msg("allocation %ld of %ld failed and nobody said so", k, count);
@@ -110,6 +138,44 @@ static void allocations_may_fail(void **state)
             fail_msg("allocation %ld of %ld failed and %ld blocks leaked", k, count, (long)outstanding);
     }
     print_message("  each of %ld allocations failed once; %d were reported as a thread's\n", count, other);
+}
+
+static void allocations_may_fail(void **state)
+{
+    (void)state;
+    fail_each_allocation(whole_life);
+}
+
+static void allocations_of_rivals_may_fail(void **state)
+{
+    (void)state;
+    fail_each_allocation(life_of_rivals);
+}
+
+/* The tables that a context makes when podee-* first asks for kernels. */
+static void tables_may_fail(void **state)
+{
+    (void)state;
+    calls = fail_at = outstanding = 0;
+    mgt_wave waves[SEA_WAVES];
+    mgt_scene scene = sea_scene(waves);
+    mgt_context *context = sea_context(2, MGT_ISA_AUTO);
+    const mgt_target target = sea_target(MGT_LAYER_COVERAGE, MGT_FORMAT_R32F, pixels[0], 0);
+    sea_render(context, &scene, &target, 1); /* the sky's tables are there */
+    const long before = outstanding;
+    scene.quality.method = MGT_METHOD_PODEE_UNIFORM;
+    scene.quality.kernels = MGT_KERNELS_3;
+    for (int k = 1; k <= 2; k++) {
+        fail_at = calls + k;
+        assert_int_equal(mgt_render(context, &scene, &target, 1), MGT_ERROR_MEMORY);
+        assert_non_null(strstr(mgt_last_error(context), "quality.kernels"));
+        assert_int_equal(outstanding, before);
+    }
+    fail_at = 0;
+    sea_render(context, &scene, &target, 1);
+    assert_int_equal(outstanding, before + 2);
+    mgt_context_destroy(context);
+    assert_int_equal(outstanding, 0);
 }
 
 static void threads_may_fail(void **state)
@@ -132,6 +198,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(allocations_may_fail),
+        cmocka_unit_test(allocations_of_rivals_may_fail),
+        cmocka_unit_test(tables_may_fail),
         cmocka_unit_test(threads_may_fail),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -197,15 +197,15 @@ static void unusual_scenes_render(void **state)
         case 10: s.camera.position[1] = 1e-4, s.camera.target[1] = 0; break; /* among the waves */
         case 11: s.camera.position[1] = 1e6, s.camera.target[1] = 1e6 - 10, s.camera.target[2] = -50, s.water.index_of_refraction = 1; break;
         }
-        for (int m = 0; m < SEA_METHODS; m++) {
-            s.quality.method = sea_methods[m];
+        for (int m = 0; m < SEA_METHODS + SEA_RIVALS; m++) {
+            s.quality.method = m < SEA_METHODS ? sea_methods[m] : sea_rivals[m - SEA_METHODS];
             sea_render(context, &s, targets, 4);
             for (int i = 0; i < PIXELS; i++) {
                 bool finite = coverage[i] >= 0 && coverage[i] <= 1 && !(dark && coverage[i] > 0);
                 for (int c = 0; c < 3; c++)
                     finite = finite && rgb[3 * i + c] >= 0 && isfinite(rgb[3 * i + c]) && isfinite(normal[3 * i + c]);
                 if (!finite)
-                    fail_msg("scene %d, method %d, pixel %d: coverage %g, colour %g %g %g, normal %g %g %g", kind, m, i, (double)coverage[i],
+                    fail_msg("scene %d, method %d, pixel %d: coverage %g, colour %g %g %g, normal %g %g %g", kind, (int)s.quality.method, i, (double)coverage[i],
                              (double)rgb[3 * i], (double)rgb[3 * i + 1], (double)rgb[3 * i + 2], (double)normal[3 * i],
                              (double)normal[3 * i + 1], (double)normal[3 * i + 2]);
             }

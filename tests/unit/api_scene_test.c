@@ -173,6 +173,7 @@ static void time_and_light_are_checked(void **state)
     api_state *a = *state;
     RANGE(time, -1.1e9, -1e9, 1e9, 1.1e9);
     RANGE(shutter, -1e-9, 0, 1e6, 1.1e6);
+    RANGE(frame_interval, -1e-9, 0, 1e6, 1.1e6);
     RANGE(light.elevation_deg, -90.001, -90, 90, 90.001);
     RANGE(light.azimuth_deg, -1.1e6, -1e6, 1e6, 1.1e6);
     RANGE(light.angular_radius_deg, 0, 1e-4, 20, 20.001);
@@ -248,7 +249,7 @@ static void water_is_checked(void **state)
 static void quality_is_checked(void **state)
 {
     api_state *a = *state;
-    REFUSE(quality.method, (mgt_method)6);
+    REFUSE(quality.method, (mgt_method)(MGT_METHOD_TNDF + 1));
     REFUSE(quality.method, (mgt_method)-1);
     REFUSE(quality.spatial_samples, 0);
     REFUSE(quality.spatial_samples, 1025);
@@ -260,6 +261,33 @@ static void quality_is_checked(void **state)
     REFUSE_AS(MGT_ERROR_SCENE, quality.sample_count, UINT64_MAX, "sample_count");
     ACCEPT(quality.sample_first, 15);
     ACCEPT(quality.sample_count, 16);
+}
+
+/* What podee-* alone takes, with it and without. */
+static void podee_is_checked(void **state)
+{
+    api_state *a = *state;
+    REFUSE_AS(MGT_ERROR_SCENE, quality.kernels, MGT_KERNELS_9, "podee-uniform and podee-pixel alone");
+    REFUSE_AS(MGT_ERROR_SCENE, quality.path_segments, 2, "podee-uniform and podee-pixel alone");
+    REFUSE_AS(MGT_ERROR_SCENE, quality.transition_hard, true, "podee-uniform and podee-pixel alone");
+    REFUSE_AS(MGT_ERROR_SCENE, quality.transition_width, 0.2, "podee-uniform and podee-pixel alone");
+    REFUSE_AS(MGT_ERROR_SCENE, quality.elongation_limit, 9, "podee-uniform and podee-pixel alone");
+    a->scene.quality.method = MGT_METHOD_PODEE_PIXEL;
+    REFUSE(quality.kernels, (mgt_kernels)2);
+    REFUSE(quality.kernels, (mgt_kernels)-1);
+    REFUSE(quality.kernels, (mgt_kernels)34);
+    REFUSE(quality.elongation_limit, 0.99);
+    REFUSE(quality.elongation_limit, 1e7);
+    REFUSE(quality.elongation_limit, NAN);
+    REFUSE(quality.path_segments, 65);
+    REFUSE(quality.transition_width, -0.1);
+    REFUSE(quality.transition_width, 0.51);
+    REFUSE(quality.transition_width, NAN);
+    ACCEPT(quality.kernels, MGT_KERNELS_RIEMANN);
+    ACCEPT(quality.elongation_limit, 1);
+    ACCEPT(quality.path_segments, 64);
+    ACCEPT(quality.transition_width, 0.5);
+    ACCEPT(quality.transition_hard, true);
 }
 
 static void struct_sizes_and_null_are_checked(void **state)
@@ -283,6 +311,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(sky_and_post_are_checked, setup, teardown),
         cmocka_unit_test_setup_teardown(water_is_checked, setup, teardown),
         cmocka_unit_test_setup_teardown(quality_is_checked, setup, teardown),
+        cmocka_unit_test_setup_teardown(podee_is_checked, setup, teardown),
         cmocka_unit_test_setup_teardown(struct_sizes_and_null_are_checked, setup, teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -23,6 +23,9 @@ enum { SEA_WAVES = 12, SEA_WIDTH = 83, SEA_HEIGHT = 47 }; /* no multiple of any 
 static const mgt_method sea_methods[] = {MGT_METHOD_NONE,         MGT_METHOD_SSAA,    MGT_METHOD_PODEE_UNIFORM,
                                          MGT_METHOD_PODEE_PIXEL, MGT_METHOD_MANGATA, MGT_METHOD_REFERENCE};
 enum { SEA_METHODS = sizeof sea_methods / sizeof *sea_methods };
+static const mgt_method sea_rivals[] = {MGT_METHOD_MSAA32,   MGT_METHOD_LEAN, MGT_METHOD_LEADR, MGT_METHOD_TOKUYOSHI,
+                                        MGT_METHOD_BRUNETON, MGT_METHOD_FXAA, MGT_METHOD_TAA,   MGT_METHOD_TNDF};
+enum { SEA_RIVALS = sizeof sea_rivals / sizeof *sea_rivals };
 
 /* Twelve waves from 20 m to 10 cm under a large sun: glitter in most pixels of its road. */
 static inline mgt_scene sea_scene(mgt_wave waves[SEA_WAVES])

@@ -18,6 +18,7 @@
 #include <cmocka.h>
 
 #include "cpu/frame.h"
+#include "cpu/lean_map.h"
 #include "precompute/atmosphere.h"
 #include "reference/equations.h"
 
@@ -36,10 +37,44 @@ KERNEL vec3 SKY_TEXEL(CTX cx, real column, real row)
     return vec3(t[0], t[1], t[2]);
 }
 
+KERNEL real SWEEP_TEXEL(CTX cx, real v, real u, real slice)
+{
+    return cx->podee->sweep[((size_t)slice * PODEE_ROWS + (size_t)u) * PODEE_COLUMNS + (size_t)v];
+}
+
+KERNEL real SHARE_TEXEL(CTX cx, real r, real slice)
+{
+    return cx->podee->share[(size_t)slice * PODEE_COLUMNS + (size_t)r];
+}
+
+#define LEAN(cx) ((cx)->lean->data)
+
+KERNEL vec2 LEAN_MEAN(CTX cx, real level, real column, real row)
+{
+    const lean_map *m = cx->lean;
+    const size_t at = ((size_t)row * LEAN_SIZE >> (int)level) + (size_t)column;
+    const float *t = level > 0 ? m->levels[(int)level] + LEAN_MOMENTS * at : NULL;
+    return t ? vec2(t[0], t[1]) : vec2(m->slope_x[at], m->slope_z[at]);
+}
+
+KERNEL vec3 LEAN_SQUARE(CTX cx, real level, real column, real row)
+{
+    const size_t at = ((size_t)row * LEAN_SIZE >> (int)level) + (size_t)column;
+    const vec2 s = LEAN_MEAN(cx, level, column, row);
+    const float *t = level > 0 ? cx->lean->levels[(int)level] + LEAN_MOMENTS * at : NULL;
+    return t ? vec3(t[2], t[3], t[4]) : vec3(s.x * s.x, s.x * s.y, s.y * s.y);
+}
+
 #define light_direction kernel_light_direction /* the oracle has one of its own */
 #include "kernels/glitter.k"
 #include "kernels/podee.k"
+#include "kernels/podee_mixture.k"
+#include "kernels/bruneton.k"
+#include "kernels/leadr.k"
+#include "kernels/msaa.k"
 #include "kernels/sample.k"
+#include "kernels/tndf.k"
+#include "kernels/tokuyoshi.k"
 #undef light_direction
 
 #undef sqrt
@@ -114,7 +149,8 @@ static inline kernel_bench *kernel_bench_create(const mgt_scene *scene)
     b->scene = *scene;
     assert_int_equal(sky_state_build(b->sky, &b->scene.sky, &b->scene.light), MGT_OK);
     b->frame = frame_of(&b->scene, b->sky, false);
-    b->cx = (struct kernel_context){&b->frame.data, &b->tile.data, b->tile.waves, b->tile.march, b->sky->table, &b->set.view};
+    b->cx = (struct kernel_context){.frame = &b->frame.data, .tile = &b->tile.data, .waves = b->tile.waves, .march = b->tile.march, .sky = b->sky->table,
+                                    .view = &b->set.view};
     return b;
 }
 

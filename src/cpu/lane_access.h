@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: MIT
+ * Where kernels find their data on the CPU, and how pixels are loaded and stored. Include it after the kernel prelude. */
+#ifndef MANGATA_CPU_LANE_ACCESS_H
+#define MANGATA_CPU_LANE_ACCESS_H
+
+#define FRAME(cx) (*(cx)->frame)
+#define VIEW(cx) (*(cx)->view)
+#define TILE(cx) (*(cx)->tile)
+#define WAVE(cx, i) ((cx)->waves[i])
+#define MARCH_WAVE(cx, i) ((cx)->march[i])
+
+KERNEL vec3 SKY_TEXEL(CTX cx, real column, real row)
+{
+    const real index = real_fma(row, real_broadcast(SKY_COLUMNS), column);
+#if MGT_LANES == 1
+    const float *texel = cx->sky + 3 * (int)index;
+    return (vec3){texel[0], texel[1], texel[2]};
+#else
+    const mask at = __builtin_convertvector(index, mask) * 3;
+#if MGT_LANES == 16
+    return (vec3){(real)_mm512_i32gather_ps((__m512i)at, cx->sky, 4), (real)_mm512_i32gather_ps((__m512i)at, cx->sky + 1, 4),
+                  (real)_mm512_i32gather_ps((__m512i)at, cx->sky + 2, 4)};
+#elif MGT_LANES == 8
+    return (vec3){(real)_mm256_i32gather_ps(cx->sky, (__m256i)at, 4), (real)_mm256_i32gather_ps(cx->sky + 1, (__m256i)at, 4),
+                  (real)_mm256_i32gather_ps(cx->sky + 2, (__m256i)at, 4)};
+#else
+    vec3 texel;
+    for (int i = 0; i < MGT_LANES; i++) {
+        texel.x[i] = cx->sky[at[i]];
+        texel.y[i] = cx->sky[at[i] + 1];
+        texel.z[i] = cx->sky[at[i] + 2];
+    }
+    return texel;
+#endif
+#endif
+}
+
+/* ---- loads and stores ---- */
+
+static inline real load(const float *p)
+{
+#if MGT_LANES == 1
+    return *p;
+#else
+    real r;
+    __builtin_memcpy(&r, p, sizeof r);
+    return r;
+#endif
+}
+
+static inline void store(float *p, real r)
+{
+    __builtin_memcpy(p, &r, sizeof r);
+}
+
+/* 0, 1, 2, … for the lanes. */
+static inline real lane_numbers(void)
+{
+    static const float numbers[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+    return load(numbers);
+}
+
+#endif

@@ -1,0 +1,194 @@
+/* SPDX-License-Identifier: MIT
+ * The tiled map of slope moments of methods lean and leadr, made from the waves of an instant. */
+#include "cpu/lean_map.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cpu/frame.h"
+#include "cpu/rival_lanes.h"
+
+static const double turn = 6.28318530717958647692;
+
+/* ---- waves on the map's grid ---- */
+
+static double map_period(const mgt_water *water)
+{
+    double least = HUGE_VAL, most = 0;
+    for (size_t i = 0; i < water->wave_count; i++) {
+        const mgt_wave *w = &water->waves[i];
+        const double k = hypot(w->a, w->b);
+        if (w->amplitude > 0 && k > 0)
+            least = fmin(least, k), most = fmax(most, k);
+    }
+    return most > 0 ? fmax(LEAN_SIZE / 4 * turn / most, 8 * turn / least) : LEAN_SIZE;
+}
+
+LeanData lean_snap_waves(const frame *f, lean_waves *out)
+{
+    const mgt_scene *s = f->scene;
+    const double period = map_period(&s->water), limit = LEAN_SIZE / 2.5;
+    double xx = 0, xz = 0, zz = 0;
+    *out = (lean_waves){0};
+    for (size_t i = 0; i < s->water.wave_count; i++) {
+        const mgt_wave *w = &s->water.waves[i];
+        const double across = rint(w->a * period / turn), down = rint(w->b * period / turn), variance = w->amplitude * w->amplitude / 2;
+        if (hypot(across, down) > limit) {
+            xx += variance * w->a * w->a;
+            xz += variance * w->a * w->b;
+            zz += variance * w->b * w->b;
+            continue;
+        }
+        const size_t at = out->count++;
+        out->across[at] = (int)across;
+        out->down[at] = (int)down;
+        out->turns[at] = (w->a * f->close.position[0] + w->b * f->close.position[2] + w->c * s->time + w->phase) / turn;
+        out->slope_x[at] = (float)(w->amplitude * w->a);
+        out->slope_z[at] = (float)(w->amplitude * w->b);
+    }
+    return (LeanData){
+        .texels_per_metre = (float)(LEAN_SIZE / period),
+        .turns_per_metre = (float)(1 / period),
+        .size = LEAN_SIZE,
+        .last_level = LEAN_LEVELS - 1,
+        .rest_xx = (float)xx,
+        .rest_xz = (float)xz,
+        .rest_zz = (float)zz,
+    };
+}
+
+/* ---- level 0 ---- */
+
+typedef struct map_job {
+    lean_map *map;
+    const lane_kernels *kernels;
+    float *cosines; /* of LEAN_SIZE equal parts of a turn */
+    float *columns;
+    int level;      /* that is shrunk */
+} map_job;
+
+static void fill_columns(void *argument, size_t block, uint32_t worker)
+{
+    (void)worker;
+    const map_job *job = argument;
+    const lean_waves *waves = &job->map->waves;
+    for (size_t i = 0; i < waves->count; i++) {
+        float *out = job->columns + (block * waves->count + i) * 2 * LEAN_BLOCK;
+        for (int x = 0; x < LEAN_BLOCK; x++) {
+            const unsigned part = (unsigned)waves->across[i] * (unsigned)(block * LEAN_BLOCK + (size_t)x);
+            out[x] = job->cosines[part % LEAN_SIZE];
+            out[LEAN_BLOCK + x] = job->cosines[(part + 3 * LEAN_SIZE / 4) % LEAN_SIZE];
+        }
+    }
+}
+
+static void fill_rows(void *argument, size_t index, uint32_t worker)
+{
+    (void)worker;
+    const map_job *job = argument;
+    const lean_waves *waves = &job->map->waves;
+    lean_phase phases[MGT_MAX_WAVES];
+    for (size_t i = 0; i < waves->count; i++)
+        for (int r = 0; r < LEAN_ROWS; r++) {
+            const unsigned part = (unsigned)waves->down[i] * (unsigned)(index * LEAN_ROWS + (size_t)r) % LEAN_SIZE;
+            const double angle = turn * (waves->turns[i] - rint(waves->turns[i]) + (double)part / LEAN_SIZE);
+            phases[i].cosine[r] = (float)cos(angle);
+            phases[i].minus_sine[r] = (float)-sin(angle);
+        }
+    const size_t first = index * LEAN_ROWS * LEAN_SIZE;
+    job->kernels->rivals->lean_rows(waves, phases, job->map->slope_x + first, job->map->slope_z + first);
+}
+
+/* ---- mip levels ---- */
+
+static void shrink_slopes(const map_job *job, size_t row, float *out)
+{
+    const float *x = job->map->slope_x + 2 * row * LEAN_SIZE, *z = job->map->slope_z + 2 * row * LEAN_SIZE;
+    for (size_t column = 0; column < LEAN_SIZE / 2; column++, out += LEAN_MOMENTS) {
+        const size_t at[4] = {2 * column, 2 * column + 1, LEAN_SIZE + 2 * column, LEAN_SIZE + 2 * column + 1};
+        float sum[LEAN_MOMENTS] = {0};
+        for (int i = 0; i < 4; i++) {
+            const float sx = x[at[i]], sz = z[at[i]];
+            sum[0] += sx, sum[1] += sz, sum[2] += sx * sx, sum[3] += sx * sz, sum[4] += sz * sz;
+        }
+        for (int m = 0; m < LEAN_MOMENTS; m++)
+            out[m] = 0.25f * sum[m];
+    }
+}
+
+static void shrink_row(void *argument, size_t row, uint32_t worker)
+{
+    (void)worker;
+    const map_job *job = argument;
+    const size_t width = LEAN_SIZE >> (job->level + 1), stride = 2 * width * LEAN_MOMENTS;
+    float *out = job->map->levels[job->level + 1] + row * width * LEAN_MOMENTS;
+    if (job->level == 0) {
+        shrink_slopes(job, row, out);
+        return;
+    }
+    const float *in = job->map->levels[job->level] + 2 * row * stride;
+    for (size_t column = 0; column < width; column++, in += 2 * LEAN_MOMENTS, out += LEAN_MOMENTS)
+        for (int m = 0; m < LEAN_MOMENTS; m++)
+            out[m] = 0.25f * (in[m] + in[m + LEAN_MOMENTS] + in[m + stride] + in[m + LEAN_MOMENTS + stride]);
+}
+
+/* ---- the whole ---- */
+
+static bool allocate(lean_map *map)
+{
+    const size_t texels = (size_t)LEAN_SIZE * LEAN_SIZE;
+    if (!map->slope_x)
+        map->slope_x = malloc(texels * sizeof *map->slope_x);
+    if (!map->slope_z)
+        map->slope_z = malloc(texels * sizeof *map->slope_z);
+    bool all = map->slope_x && map->slope_z;
+    for (int level = 1; level < LEAN_LEVELS; level++) {
+        if (!map->levels[level])
+            map->levels[level] = malloc((texels >> 2 * level) * LEAN_MOMENTS * sizeof *map->levels[level]);
+        all = all && map->levels[level];
+    }
+    return all;
+}
+
+static bool fill(lean_map *map, const lane_kernels *kernels, thread_pool *pool)
+{
+    map_job job = {.map = map, .kernels = kernels};
+    job.cosines = malloc(LEAN_SIZE * sizeof *job.cosines);
+    map->waves.columns = job.columns = malloc((map->waves.count + 1) * LEAN_SIZE * 2 * sizeof *job.columns);
+    const bool enough = allocate(map) && job.cosines && job.columns;
+    if (enough) {
+        for (int i = 0; i < LEAN_SIZE; i++)
+            job.cosines[i] = (float)cos(turn * i / LEAN_SIZE);
+        thread_pool_run(pool, &(thread_loop){.count = LEAN_SIZE / LEAN_BLOCK, .body = fill_columns, .argument = &job});
+        thread_pool_run(pool, &(thread_loop){.count = LEAN_SIZE / LEAN_ROWS, .body = fill_rows, .argument = &job});
+        for (; job.level < LEAN_LEVELS - 1; job.level++)
+            thread_pool_run(pool, &(thread_loop){.count = (size_t)LEAN_SIZE >> (job.level + 1), .body = shrink_row, .argument = &job});
+    }
+    free(job.cosines);
+    free(job.columns);
+    map->waves.columns = NULL;
+    return enough;
+}
+
+bool lean_map_build(lean_map *map, const frame *f, const lane_kernels *kernels, thread_pool *pool)
+{
+    lean_waves waves;
+    map->data = lean_snap_waves(f, &waves);
+    if (map->filled && memcmp(&waves, &map->waves, sizeof waves) == 0)
+        return true;
+    map->waves = waves;
+    map->filled = fill(map, kernels, pool);
+    return map->filled;
+}
+
+void lean_map_free(lean_map *map)
+{
+    if (!map)
+        return;
+    free(map->slope_x);
+    free(map->slope_z);
+    for (int level = 1; level < LEAN_LEVELS; level++)
+        free(map->levels[level]);
+    free(map);
+}

@@ -1,0 +1,162 @@
+/* SPDX-License-Identifier: MIT
+ * The kernels of the rival methods over the pixels of a tile, compiled once per lane width (MGT_LANES).
+ *
+ * Whatever the width, a pixel sees the same operations in the same order: the bits do not depend on it. */
+#include "cpu/rival_lanes.h"
+
+#include "precompute/atmosphere.h"
+
+#define LANES_NAME_(n) rival_kernels_##n
+#define LANES_NAME(n) LANES_NAME_(n)
+
+#include "kernels/prelude_c.h"
+
+#include "cpu/lane_access.h"
+
+#define LEAN(cx) ((cx)->lean->data)
+
+/* Where a texel's moments begin; level 0 has none. */
+static inline const float *lean_texel_at(const struct kernel_context *cx, int level, int column, int row)
+{
+    return cx->lean->levels[level] + (((size_t)row * LEAN_SIZE >> level) + (size_t)column) * LEAN_MOMENTS;
+}
+
+KERNEL vec2 LEAN_MEAN(CTX cx, real level, real column, real row)
+{
+    float at[3][MGT_LANES], mean[2][MGT_LANES];
+    store(at[0], level), store(at[1], column), store(at[2], row);
+    for (int i = 0; i < MGT_LANES; i++) {
+        const int l = (int)at[0][i], x = (int)at[1][i], z = (int)at[2][i];
+        if (l == 0) {
+            mean[0][i] = cx->lean->slope_x[(size_t)z * LEAN_SIZE + (size_t)x];
+            mean[1][i] = cx->lean->slope_z[(size_t)z * LEAN_SIZE + (size_t)x];
+        } else {
+            const float *texel = lean_texel_at(cx, l, x, z);
+            mean[0][i] = texel[0], mean[1][i] = texel[1];
+        }
+    }
+    return (vec2){load(mean[0]), load(mean[1])};
+}
+
+KERNEL vec3 LEAN_SQUARE(CTX cx, real level, real column, real row)
+{
+    float at[3][MGT_LANES], square[3][MGT_LANES];
+    store(at[0], level), store(at[1], column), store(at[2], row);
+    for (int i = 0; i < MGT_LANES; i++) {
+        const int l = (int)at[0][i], x = (int)at[1][i], z = (int)at[2][i];
+        if (l == 0) {
+            const float sx = cx->lean->slope_x[(size_t)z * LEAN_SIZE + (size_t)x], sz = cx->lean->slope_z[(size_t)z * LEAN_SIZE + (size_t)x];
+            square[0][i] = sx * sx, square[1][i] = sx * sz, square[2][i] = sz * sz;
+        } else {
+            const float *texel = lean_texel_at(cx, l, x, z);
+            square[0][i] = texel[2], square[1][i] = texel[3], square[2][i] = texel[4];
+        }
+    }
+    return (vec3){load(square[0]), load(square[1]), load(square[2])};
+}
+
+#include "kernels/bruneton.k"
+#include "kernels/leadr.k"
+#include "kernels/msaa.k"
+#include "kernels/tndf.k"
+#include "kernels/tokuyoshi.k"
+
+/* ---- pixels ---- */
+
+static inline HitGuess load_guess(const tile_guess *guess, size_t i)
+{
+    return (HitGuess){load(guess->height + i), load(guess->from + i), load(guess->march + i)};
+}
+
+static inline void store_result(tile_pixels *out, size_t i, PixelResult p)
+{
+    store(out->red + i, p.color.x);
+    store(out->green + i, p.color.y);
+    store(out->blue + i, p.color.z);
+    store(out->coverage + i, p.coverage);
+    store(out->water + i, p.water);
+}
+
+static PixelResult sky_alone(const struct kernel_context *cx, PixelRay p)
+{
+    PixelResult result = {vec3(real(0.0f), real(0.0f), real(0.0f)), real(0.0f), real(0.0f)};
+    if (FRAME(cx).want_color != 0)
+        result.color = background(cx, p.sky_ray);
+    return result;
+}
+
+static void render_points(const struct kernel_context *cx, const rival_tile *tile, tile_pixels *out)
+{
+    for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
+        const real column = lane_numbers() + (float)(i % TILE_WIDTH), row = real((float)(i / TILE_WIDTH));
+        const HitGuess guess = load_guess(tile->close_guess, i);
+        store_result(out, i, tile->method == MGT_METHOD_MSAA32 ? msaa_pixel(cx, column, row, guess) : tokuyoshi_pixel(cx, column, row, guess));
+    }
+}
+
+static PixelResult filtered_result(const struct kernel_context *cx, mgt_method method, PixelRay p, SlopeState open, SlopeState close)
+{
+    switch (method) {
+    case MGT_METHOD_LEADR: return leadr_result(cx, p, close);
+    case MGT_METHOD_BRUNETON: return bruneton_result(cx, p, close);
+    case MGT_METHOD_TNDF: return tndf_result(cx, p, open, close);
+    default: return lean_result(cx, p, close);
+    }
+}
+
+static void render_filtered(const struct kernel_context *cx, const struct kernel_context *open, const rival_tile *tile, tile_pixels *out)
+{
+    for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
+        const real column = lane_numbers() + (float)(i % TILE_WIDTH), row = real((float)(i / TILE_WIDTH));
+        const PixelRay p = pixel_ray_filtered(cx, column, row);
+        if (!any_lane(p.water > real(0.0f))) {
+            store_result(out, i, sky_alone(cx, p));
+            continue;
+        }
+        const SlopeState close = slope_state(cx, p.ray, load_guess(tile->close_guess, i));
+        SlopeState before = close;
+        if (open)
+            before = slope_state(open, pixel_ray_filtered(open, column, row).ray, load_guess(tile->open_guess, i));
+        store_result(out, i, filtered_result(cx, tile->method, p, before, close));
+    }
+}
+
+static void lanes_pixels(const rival_tile *t, tile_pixels *out)
+{
+    const struct kernel_context context = {
+        .frame = t->frame, .tile = &t->close->data, .waves = t->close->waves, .march = t->close->march, .sky = t->sky, .lean = t->lean};
+    if (t->method == MGT_METHOD_MSAA32 || t->method == MGT_METHOD_TOKUYOSHI) {
+        render_points(&context, t, out);
+        return;
+    }
+    struct kernel_context open = context;
+    if (t->open)
+        open.tile = &t->open->data, open.waves = t->open->waves, open.march = t->open->march;
+    render_filtered(&context, t->open ? &open : NULL, t, out);
+}
+
+/* ---- the map's rows ---- */
+
+static void lanes_lean_rows(const lean_waves *waves, const lean_phase *phases, float *slope_x, float *slope_z)
+{
+    for (size_t column = 0; column < LEAN_SIZE; column += MGT_LANES) {
+        const float *wave = waves->columns + column / LEAN_BLOCK * waves->count * 2 * LEAN_BLOCK + column % LEAN_BLOCK;
+        real x[LEAN_ROWS], z[LEAN_ROWS];
+        for (int r = 0; r < LEAN_ROWS; r++)
+            x[r] = z[r] = real(0.0f);
+        for (size_t i = 0; i < waves->count; i++, wave += 2 * LEAN_BLOCK) {
+            const real cosine = load(wave), sine = load(wave + LEAN_BLOCK);
+            for (int r = 0; r < LEAN_ROWS; r++) {
+                const real steep = fma(cosine, real(phases[i].cosine[r]), sine * real(phases[i].minus_sine[r]));
+                x[r] = fma(steep, real(waves->slope_x[i]), x[r]);
+                z[r] = fma(steep, real(waves->slope_z[i]), z[r]);
+            }
+        }
+        for (int r = 0; r < LEAN_ROWS; r++) {
+            store(slope_x + (size_t)r * LEAN_SIZE + column, x[r]);
+            store(slope_z + (size_t)r * LEAN_SIZE + column, z[r]);
+        }
+    }
+}
+
+const rival_kernels LANES_NAME(MGT_LANES) = {lanes_pixels, lanes_lean_rows};

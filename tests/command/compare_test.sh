@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: MIT
+# `mangata compare`: what it writes, going on after a kill, gates, bad input.
+. "$CHECK"
+json() { "$JSON_GET" "$1" <stdout.txt || echo "no $1"; }
+report() { "$JSON_GET" "$1" <"$2/report.json" || echo "no $1"; }
+compare() { "$MANGATA" compare "$@"; }
+smooth=$SOURCE/scenes/smooth.json
+tiny=(--size 32x18 --spatial 2 --time-samples 2)
+quick=("${tiny[@]}" --frames 0-1 --time-runs 2 --metrics rmse,relrmse,energy,flicker)
+
+# Everything is there, and complete.
+expect 0 '4 pictures rendered|8 pictures rendered' compare "$simple" "$smooth" -o r "${quick[@]}" --methods mangata --json
+exists r/report.html r/report.json r/report.csv r/report.tex r/frames/simple/mangata_0001.exr r/frames/smooth/reference_0000.exr
+no_temporaries r
+[[ $(json run.rendered) == 8 && $(json run.kept) == 0 && $(json scenes) == 2 && $(json scenes.0.methods) == 1 ]] || fail "$(head -c 600 stdout.txt)"
+[[ $(json scenes.0.methods.0.time_ms.median) =~ ^[0-9.]+$ && $(json reference.samples) == 8 ]] || fail "times, samples: $(head -c 600 stdout.txt)"
+(($(wc -l <r/report.csv) == 3)) && head -1 r/report.csv | grep -q '^scene,method,samples,median_ms' || fail "CSV: $(cat r/report.csv)"
+grep -q '\\toprule' r/report.tex && grep -q 'mangata compare' r/report.tex || fail "LaTeX: $(cat r/report.tex)"
+grep -q '</html>' r/report.html || fail "the page is cut short"
+! grep -Eq '(src|href)="?(http|//)' r/report.html || fail "the page fetches something"
+
+# The figures are those of mangata render and mangata diff.
+for frame in 0 1; do
+    render "$simple" -o "m_$frame.pfm" --frames $frame --layer coverage --size 32x18 --quiet
+    render "$simple" -o "t_$frame.pfm" --frames $frame --layer coverage --size 32x18 --method reference --spatial 2 --time-samples 2 --seed 1 --quiet
+done
+expect 0 '' "$MANGATA" diff m_#.pfm t_#.pfm --frames 0-1 --json
+ours=$(cut -d, -f7 r/report.csv | sed -n 2p)
+awk -v a="$ours" -v b="$(json rmse)" 'BEGIN { exit !(a > 0 && (a - b) * (a - b) < 1e-14) }' || fail "RMSE $ours, mangata diff says $(json rmse)"
+
+# Nothing is rendered or timed twice; what was asked anew is.
+before=$(stat -c %Y.%i r/frames/*/*)
+expect 0 '0 pictures rendered, 8 kept' compare "$simple" "$smooth" -o r "${quick[@]}" --methods mangata
+[[ $(stat -c %Y.%i r/frames/*/*) == "$before" ]] || fail "a finished picture or time was written again"
+expect 0 '4 pictures rendered, 8 kept' compare "$simple" "$smooth" -o r "${quick[@]}" --methods mangata,none
+expect 0 '6 pictures rendered, 0 kept' compare "$simple" -o r "${quick[@]}" --methods mangata,none --set light.elevation_deg=12
+echo junk >r/frames/simple/none_0000.exr
+expect 0 '1 pictures rendered, 5 kept' compare "$simple" -o r "${quick[@]}" --methods mangata,none --set light.elevation_deg=12
+
+# Killed without warning, it goes on: no picture twice, and the same report at the end.
+slow=(--size 160x90 --spatial 2 --time-samples 4 --frames 0-3 --time-runs 0 --metrics rmse,flicker --methods none,ssaa8,mangata
+    --progress json --quiet)
+: >killed.txt
+"$MANGATA" compare "$simple" -o k "${slow[@]}" 2>killed.txt &
+process=$!
+for ((i = 0; i < 600; i++)); do
+    (($(grep -c '"event":"frame"' killed.txt) >= 3)) && break
+    sleep 0.05
+done
+kill -9 $process
+wait $process 2>/dev/null
+done_before=$(grep '"event":"frame"' killed.txt | grep -o '"file":"[^"]*"' | sort)
+count=$(wc -l <<<"$done_before")
+((count >= 3 && count < 16)) || fail "killed after $count of 16 pictures"
+absent k/report.html
+expect 0 '' compare "$simple" -o k "${slow[@]}"
+cp stderr.txt again.txt
+done_after=$(grep '"event":"frame"' again.txt | grep -o '"file":"[^"]*"' | sort)
+[[ -z $(comm -12 <(echo "$done_before") <(echo "$done_after")) ]] || fail "rendered twice: $(comm -12 <(echo "$done_before") <(echo "$done_after"))"
+after=$(wc -l <<<"$done_after")
+# A picture may be finished but not yet told when the kill comes.
+((count + after == 16 || count + after == 15)) || fail "$count pictures before the kill, $after after it, not 16"
+expect 0 '' compare "$simple" -o whole "${slow[@]}"
+lasting() { sed '/"command"/d; /"time_ms"/d' "$1"; }
+for name in report.json report.csv; do
+    cmp -s <(lasting k/$name) <(lasting whole/$name) || fail "$name differs after a kill"
+done
+no_temporaries whole
+
+# SIGINT ends cleanly.
+"$MANGATA" compare "$simple" -o s "${slow[@]}" --spatial 8 2>/dev/null &
+process=$!
+for ((i = 0; i < 600; i++)); do
+    [[ -e s/frames/simple/none_0000.exr ]] && break
+    sleep 0.05
+done
+kill -TERM $process
+wait $process
+result=$?
+((result == 143)) || fail "SIGTERM ends with $result"
+no_temporaries s
+
+# Gates.
+gate() { compare "$simple" -o g "${quick[@]}" --methods none,mangata --quiet "$@"; }
+expect 0 '' gate --max-rmse mangata=1 --max-flicker none=2
+gate --max-rmse mangata=1 --max-rmse none=1e-6 >stdout.txt 2>stderr.txt
+(($? == 2)) && grep -q 'none: RMSE of coverage .* is above 1e-06' stderr.txt || fail "--max-rmse: $(cat stderr.txt)"
+gate --max-flicker mangata=1e-9 >stdout.txt 2>stderr.txt
+(($? == 2)) && grep -q 'mangata: flicker of coverage' stderr.txt || fail "--max-flicker: $(cat stderr.txt)"
+[[ $(report gates.0.passed g) == false && -s g/report.html ]] || fail "a failed gate is not in the report"
+sed 's/"width": *1280/"width": 1000/' "$smooth" >other.json
+expect 64 'other.json has 1000 x 720; a limit scores all scenes as one clip' compare "$simple" other.json -o g --max-rmse mangata=1
+
+# A method with options is the same as mangata render with them.
+expect 0 '' compare "$simple" -o o "${quick[@]}" --time-runs 0 --methods podee-pixel:ndf-mean=drop,ssaa2:time-samples=3 --quiet
+render "$simple" -o direct.exr --layer color --layer coverage --size 32x18 --method podee-pixel --ndf-mean drop --quiet
+expect 0 '' "$MANGATA" diff direct.exr o/frames/simple/podee-pixel-ndf-mean-drop_0000.exr --layer coverage --max-rmse 0
+[[ $(report scenes.0.methods.1.command o) == *'--method ssaa2 --time-samples 3'* && $(report scenes.0.methods.1.samples o) == 12 ]] ||
+    fail "commands: $(report scenes.0.methods.1.command o)"
+
+# Without idiff one metric is missing, and nothing else.
+mkdir bin
+expect 0 'Yee is unavailable' env PATH="$work/bin" "$MANGATA" compare "$simple" -o y "${tiny[@]}" --frames 0 --time-runs 0 \
+    --methods none --metrics rmse,yee
+[[ $(report columns.1.key y) == displayed.rmse && $(report columns.2.unavailable y) == *idiff* ]] || fail "missing idiff: $(report columns y)"
+[[ $(cut -d, -f7 y/report.csv | tail -1) =~ ^[0-9.] ]] || fail "RMSE went with idiff: $(cat y/report.csv)"
+
+# The page's pictures keep to their limit: the first frames are shown.
+expect 0 'the page shows the first [0-9]+ of 8 frames' compare "$SOURCE/scenes/sunset.json" -o p --size 160x90 --frames 0-7 --spatial 1 \
+    --time-samples 1 --time-runs 0 --methods none,podee-uniform,mangata --metrics rmse --picture-mb 1
+(($(stat -c %s p/report.html) < 1200000)) || fail "the page is larger than asked for"
+
+# Bad input.
+expect 64 'no scene given' compare -o x
+expect 64 'no folder given' compare "$simple"
+expect 64 'unknown method mirror; allowed are none' compare "$simple" -o x --methods none,mirror
+expect 64 'refraction' compare "$simple" -o x --methods mangata+refraction
+expect 64 'none is given twice' compare "$simple" -o x --methods none,mangata,none
+expect 64 'the reference is always rendered' compare "$simple" -o x --methods reference
+expect 64 'ndf-mean is for podee-pixel' compare "$simple" -o x --methods mangata:ndf-mean=drop
+expect 64 'unknown option kernel;' compare "$simple" -o x --methods podee-pixel:kernel=3
+expect 64 'only the methods podee-uniform and podee-pixel take it' compare "$simple" -o x --methods mangata:kernels=3
+expect 64 'METHOD=X' compare "$simple" -o x --max-rmse 0.1
+expect 64 'lean is not one of the methods compared' compare "$simple" -o x --max-rmse lean=0.1
+expect 64 'needs at least two frames' compare "$simple" -o x --frames 3 --max-flicker mangata=0.1
+expect 64 'needs rmse among --metrics' compare "$simple" -o x --metrics flicker --max-rmse mangata=0.1
+expect 64 'allowed' compare "$simple" -o x --metrics beauty
+expect 66 'nosuch.json' compare "$simple" nosuch.json -o x
+echo '{"mangata": 1, "light": {"elevation_deg": 99}}' >bad.json
+expect 65 'bad.json:1' compare bad.json -o x
+echo file >taken
+expect 73 'taken: it is not a folder' compare "$simple" -o taken "${quick[@]}"
+expect 73 'cannot make this folder' compare "$simple" -o no/such/place "${quick[@]}"
+expect 73 '' compare "$simple" -o /proc/report "${quick[@]}"
+absent x
+finish

@@ -1,0 +1,284 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Every rival method through the API: on every standard scene, in several sizes, on moving and still water, under lights from 0.05° to
+ * 10°; the same bytes for any threads, lanes and crop; and the light that each of them keeps.
+ */
+#include "unit/api_sea.h"
+
+#include "image/picture.h"
+#include "scene/scene_file.h"
+
+static const struct {
+    mgt_method method;
+    const char *name;
+    double least, most; /* sum of coverage over the reference's, over four scenes */
+} rivals[] = {
+    {MGT_METHOD_MSAA32, "msaa32", 0.8, 1.3},        {MGT_METHOD_LEAN, "lean", 0.7, 0.95},   {MGT_METHOD_LEADR, "leadr", 0.85, 1.1},
+    {MGT_METHOD_TOKUYOSHI, "tokuyoshi", 0.6, 1.05}, {MGT_METHOD_BRUNETON, "bruneton", 0.4, 1.1}, {MGT_METHOD_TNDF, "tndf", 0.65, 0.95},
+    {MGT_METHOD_FXAA, "fxaa", 0.2, 1.0},            {MGT_METHOD_TAA, "taa", 0.1, 1.0},
+};
+enum { RIVALS = sizeof rivals / sizeof *rivals };
+
+static scene_file *load(const char *name, mgt_scene *scene)
+{
+    char path[512];
+    scene_error error;
+    snprintf(path, sizeof path, MGT_SOURCE_DIR "/scenes/%s.json", name);
+    scene_file *file = scene_file_load(path, NULL, 0, &error);
+    assert_non_null(file);
+    assert_true(scene_file_frame(file, 0, scene));
+    return file;
+}
+
+/* ---- every scene ---- */
+
+enum { MOST = 97 * 54 };
+
+static void check_frame(mgt_context *context, const mgt_scene *scene, const char *what)
+{
+    static float rgb[MOST * 3], coverage[MOST], mask[MOST];
+    const mgt_target targets[] = {sea_target(MGT_LAYER_COLOR, MGT_FORMAT_RGB32F, rgb, 0),
+                                  sea_target(MGT_LAYER_COVERAGE, MGT_FORMAT_R32F, coverage, 0),
+                                  sea_target(MGT_LAYER_MASK, MGT_FORMAT_R32F, mask, 0)};
+    sea_render(context, scene, targets, 3);
+    for (uint32_t i = 0; i < scene->image.width * scene->image.height; i++) {
+        bool good = coverage[i] >= 0 && coverage[i] <= 1 && mask[i] >= 0 && mask[i] <= 1;
+        for (int c = 0; c < 3; c++)
+            good = good && rgb[3 * i + (uint32_t)c] >= 0 && isfinite(rgb[3 * i + (uint32_t)c]);
+        if (!good)
+            fail_msg("%s, %u x %u, light %g degrees, pixel %u: colour %g %g %g, coverage %g, mask %g", what, scene->image.width, scene->image.height,
+                     scene->light.angular_radius_deg, i, (double)rgb[3 * i], (double)rgb[3 * i + 1], (double)rgb[3 * i + 2], (double)coverage[i],
+                     (double)mask[i]);
+    }
+}
+
+/* Lights and sizes change faster than waves, for which lean makes a new map. */
+static void check_scene(mgt_context *context, mgt_scene *scene, const char *name, int *frames)
+{
+    static const double radii[] = {0.05, 0.27, 1, 3, 10};
+    static const uint32_t sizes[][2] = {{96, 54}, {33, 47}, {1, 1}};
+    for (int still = 0; still < 2; still++) {
+        mgt_wave waves[MGT_MAX_WAVES];
+        memcpy(waves, scene->water.waves, scene->water.wave_count * sizeof *waves);
+        for (size_t i = 0; still && i < scene->water.wave_count; i++)
+            waves[i].c = 0;
+        mgt_scene s = *scene;
+        s.water.waves = waves;
+        for (int k = 0; k < 15; k++)
+            for (int m = 0; m < RIVALS; m++, ++*frames) {
+                s.image = (mgt_image){.width = sizes[k / 5][0], .height = sizes[k / 5][1]};
+                s.light.angular_radius_deg = radii[k % 5];
+                s.quality.method = rivals[m].method;
+                char what[64];
+                snprintf(what, sizeof what, "%s, %s%s", rivals[m].name, name, still ? ", still" : "");
+                check_frame(context, &s, what);
+            }
+    }
+}
+
+static void every_scene_renders(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"simple", "smooth", "medium", "high", "rough", "sunset", "moonlit"};
+    mgt_context *context = sea_context(0, MGT_ISA_AUTO);
+    int frames = 0;
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        mgt_scene scene;
+        scene_file *file = load(names[i], &scene);
+        check_scene(context, &scene, names[i], &frames);
+        scene_file_free(file);
+    }
+    print_message("  %d frames: no NaN, nothing negative, coverage and mask in [0, 1]\n", frames);
+    mgt_context_destroy(context);
+}
+
+/* ---- the same bytes ---- */
+
+enum { PIXELS = SEA_WIDTH * SEA_HEIGHT };
+
+static void render_sea(mgt_context *context, const mgt_scene *scene, float *rgb, unsigned char *shown)
+{
+    const mgt_target targets[] = {sea_target(MGT_LAYER_COLOR, MGT_FORMAT_RGB32F, rgb, 0),
+                                  sea_target(MGT_LAYER_COLOR, MGT_FORMAT_RGBA8_SRGB, shown, 0)};
+    sea_render(context, scene, targets, 2);
+}
+
+static void threads_lanes_and_crops_change_nothing(void **state)
+{
+    (void)state;
+    static const mgt_isa sets[] = {MGT_ISA_SCALAR, MGT_ISA_AVX2, MGT_ISA_AVX512};
+    static float whole[PIXELS * 3], other[PIXELS * 3];
+    static unsigned char shown[PIXELS * 4], other_shown[PIXELS * 4];
+    mgt_wave waves[SEA_WAVES];
+    for (int moves = 0; moves < 2; moves++) {
+        mgt_scene scene = sea_scene(waves);
+        scene.camera_moves = moves;
+        scene.camera_open.position[0] -= 0.05;
+        mgt_context *first = sea_context(2, MGT_ISA_AUTO);
+        mgt_context *contexts[3] = {NULL};
+        for (int i = 0; i < 3; i++)
+            contexts[i] = mgt_isa_available(sets[i]) ? sea_context(1, sets[i]) : NULL;
+        for (int m = 0; m < RIVALS; m++) {
+            scene.quality.method = rivals[m].method;
+            scene.image = (mgt_image){.width = SEA_WIDTH, .height = SEA_HEIGHT};
+            render_sea(first, &scene, whole, shown);
+            for (int i = 0; i < 3; i++) {
+                if (!contexts[i] || (moves && i == 0))
+                    continue;
+                render_sea(contexts[i], &scene, other, other_shown);
+                if (memcmp(whole, other, sizeof whole) != 0 || memcmp(shown, other_shown, sizeof shown) != 0)
+                    fail_msg("%s differs with instruction set %d", rivals[m].name, (int)sets[i]);
+            }
+            scene.image.crop_x = 37, scene.image.crop_y = 11, scene.image.crop_width = 30, scene.image.crop_height = 21;
+            render_sea(first, &scene, other, other_shown);
+            for (int y = 0; y < 21; y++) {
+                const size_t at = (size_t)(y + 11) * SEA_WIDTH + 37;
+                if (memcmp(whole + 3 * at, other + 90 * y, 90 * sizeof *whole) != 0 || memcmp(shown + 4 * at, other_shown + 120 * y, 120) != 0)
+                    fail_msg("%s differs in a crop, row %d", rivals[m].name, y);
+            }
+        }
+        mgt_context_destroy(first);
+        for (int i = 0; i < 3; i++)
+            mgt_context_destroy(contexts[i]);
+    }
+}
+
+/* ---- msaa32 ---- */
+
+static void msaa_is_none_but_for_the_edges(void **state)
+{
+    (void)state;
+    static float mask[PIXELS], exact[PIXELS], rgb[PIXELS * 3], none[PIXELS * 3];
+    mgt_wave waves[SEA_WAVES];
+    mgt_scene scene = sea_scene(waves);
+    scene.camera.up[0] = 0.31; /* a slanting horizon */
+    mgt_context *context = sea_context(2, MGT_ISA_AUTO);
+    const mgt_target sampled[] = {sea_target(MGT_LAYER_MASK, MGT_FORMAT_R32F, exact, 0)};
+    const mgt_target both[] = {sea_target(MGT_LAYER_MASK, MGT_FORMAT_R32F, mask, 0), sea_target(MGT_LAYER_COLOR, MGT_FORMAT_RGB32F, rgb, 0)};
+    scene.quality = (mgt_quality){.method = MGT_METHOD_SSAA, .spatial_samples = 32, .time_samples = 1};
+    sea_render(context, &scene, sampled, 1);
+    scene.quality = (mgt_quality){.method = MGT_METHOD_NONE, .spatial_samples = 1, .time_samples = 1};
+    const mgt_target plain[] = {sea_target(MGT_LAYER_COLOR, MGT_FORMAT_RGB32F, none, 0)};
+    sea_render(context, &scene, plain, 1);
+    scene.quality.method = MGT_METHOD_MSAA32;
+    sea_render(context, &scene, both, 2);
+    double worst = 0;
+    int edges = 0;
+    for (int i = 0; i < PIXELS; i++) {
+        assert_true(mask[i] * 32 == floorf(mask[i] * 32));
+        worst = fmax(worst, fabs((double)(mask[i] - exact[i])));
+        edges += mask[i] > 0 && mask[i] < 1;
+        if (mask[i] == 0 || mask[i] == 1)
+            assert_memory_equal(rgb + 3 * i, none + 3 * i, 3 * sizeof *rgb);
+    }
+    print_message("  %d pixels at the edge, visibility against 1024 samples off by %.3f\n", edges, worst);
+    assert_true(edges > SEA_WIDTH && worst < 0.06);
+    mgt_context_destroy(context);
+}
+
+/* ---- taa ---- */
+
+/* Without waves that move, and with a sky that varies little, eight frames are their mean: near that of many samples. */
+static void taa_of_a_still_sea_is_a_mean(void **state)
+{
+    (void)state;
+    static float taa[PIXELS * 3], none[PIXELS * 3], exact[PIXELS * 3];
+    mgt_wave waves[SEA_WAVES];
+    mgt_scene scene = sea_scene(waves);
+    for (int i = 0; i < SEA_WAVES; i++)
+        waves[i].c = 0, waves[i].amplitude *= i < 5 ? 0.5 : 0;
+    scene.light.radiance[0] = scene.light.radiance[1] = scene.light.radiance[2] = 0;
+    mgt_context *context = sea_context(2, MGT_ISA_AUTO);
+    const struct {
+        mgt_quality quality;
+        float *rgb;
+    } pictures[] = {{{.method = MGT_METHOD_TAA, .spatial_samples = 1, .time_samples = 1}, taa},
+                    {{.method = MGT_METHOD_NONE, .spatial_samples = 1, .time_samples = 1}, none},
+                    {{.method = MGT_METHOD_SSAA, .spatial_samples = 16, .time_samples = 1}, exact}};
+    for (int i = 0; i < 3; i++) {
+        scene.quality = pictures[i].quality;
+        const mgt_target target = sea_target(MGT_LAYER_COLOR, MGT_FORMAT_RGB32F, pictures[i].rgb, 0);
+        sea_render(context, &scene, &target, 1);
+    }
+    double before = 0, after = 0;
+    for (int i = 0; i < PIXELS * 3; i++) {
+        before += pow((double)(none[i] - exact[i]), 2);
+        after += pow((double)(taa[i] - exact[i]), 2);
+    }
+    print_message("  RMSE of none %.4f, of taa %.4f\n", sqrt(before / PIXELS / 3), sqrt(after / PIXELS / 3));
+    assert_true(after < 0.25 * before);
+    mgt_context_destroy(context);
+}
+
+/* ---- light kept ---- */
+
+static double reference_sum(const char *name, int frame, float *pixels)
+{
+    char path[512];
+    file_error error;
+    float_image image = {0};
+    snprintf(path, sizeof path, MGT_SOURCE_DIR "/tests/reference/%s-%02d.pfm", name, frame);
+    assert_int_equal(picture_read(&image, path, NULL, &error), FILE_OK);
+    double sum = 0;
+    for (size_t i = 0; i < (size_t)image.width * image.height; i++)
+        sum += (double)(pixels[i] = image.pixels[i]);
+    float_image_free(&image);
+    return sum;
+}
+
+/* Also how much of taa's light stands where the reference has none in any neighbour: its ghosts. */
+static void light_is_kept_within_limits(void **state)
+{
+    (void)state;
+    enum { WIDTH = 160, HEIGHT = 90, FRAMES = 8 };
+    static const char *const names[] = {"simple", "smooth", "medium", "high"};
+    static float coverage[WIDTH * HEIGHT], reference[WIDTH * HEIGHT];
+    mgt_context *context = sea_context(0, MGT_ISA_AUTO);
+    double sums[RIVALS][4] = {{0}}, exact[4] = {0}, ghosts[RIVALS][4] = {{0}};
+    for (int n = 0; n < 4; n++) {
+        mgt_scene scene;
+        scene_file *file = load(names[n], &scene);
+        for (int frame = 0; frame < FRAMES; frame++) {
+            assert_true(scene_file_frame(file, 8 * frame, &scene));
+            scene.image = (mgt_image){.width = WIDTH, .height = HEIGHT};
+            exact[n] += reference_sum(names[n], 8 * frame, reference);
+            for (int m = 0; m < RIVALS; m++) {
+                scene.quality.method = rivals[m].method;
+                const mgt_target target = sea_target(MGT_LAYER_COVERAGE, MGT_FORMAT_R32F, coverage, 0);
+                sea_render(context, &scene, &target, 1);
+                for (int i = 0; i < WIDTH * HEIGHT; i++) {
+                    sums[m][n] += (double)coverage[i];
+                    ghosts[m][n] += reference[i] == 0 ? (double)coverage[i] : 0;
+                }
+            }
+        }
+        scene_file_free(file);
+    }
+    print_message("  sum of coverage over the reference's, 8 frames    | share of it where the reference has no light\n");
+    int bad = 0;
+    for (int m = 0; m < RIVALS; m++) {
+        print_message("  %-10s", rivals[m].name);
+        for (int n = 0; n < 4; n++) {
+            print_message(" %9.3f", sums[m][n] / exact[n]);
+            bad += !(sums[m][n] / exact[n] >= rivals[m].least && sums[m][n] / exact[n] <= rivals[m].most);
+        }
+        print_message("  |");
+        for (int n = 0; n < 4; n++)
+            print_message(" %9.4f", ghosts[m][n] / sums[m][n]);
+        print_message("\n");
+    }
+    assert_int_equal(bad, 0);
+    mgt_context_destroy(context);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_scene_renders),
+        cmocka_unit_test(threads_lanes_and_crops_change_nothing),
+        cmocka_unit_test(msaa_is_none_but_for_the_edges),
+        cmocka_unit_test(taa_of_a_still_sea_is_a_mean),
+        cmocka_unit_test(light_is_kept_within_limits),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,148 @@
+/* SPDX-License-Identifier: MIT */
+/* Methods with their options in one word. */
+#include "method_spec.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "names.h"
+#include "numbers.h"
+#include "podee_options.h"
+
+typedef struct spec_option {
+    const char *name, *allowed;
+    bool (*set)(mgt_quality *quality, const char *value); /* false: `allowed` says what would do */
+} spec_option;
+
+static bool set_number(const char *value, uint64_t limit, uint32_t *number)
+{
+    uint64_t n;
+    if (!number_parse_u64(value, limit, &n) || n == 0)
+        return false;
+    *number = (uint32_t)n;
+    return true;
+}
+
+static bool set_spatial(mgt_quality *quality, const char *value)
+{
+    return quality->method == MGT_METHOD_REFERENCE && set_number(value, 1024, &quality->spatial_samples);
+}
+
+static bool set_time(mgt_quality *quality, const char *value)
+{
+    return method_takes_samples(quality->method) && set_number(value, 65536, &quality->time_samples);
+}
+
+static bool set_ndf_mean(mgt_quality *quality, const char *value)
+{
+    const bool drop = strcmp(value, "drop") == 0;
+    if (quality->method != MGT_METHOD_PODEE_PIXEL || (!drop && strcmp(value, "add") != 0))
+        return false;
+    quality->ndf_mean_drop = drop;
+    return true;
+}
+
+static const spec_option spec_options[] = {
+    {"spatial", "reference with a number from 1 to 1024", set_spatial},
+    {"time-samples", "ssaaN or reference with a number from 1 to 65536", set_time},
+    {"ndf-mean", "podee-pixel with add or drop", set_ndf_mean},
+};
+enum { OPTION_COUNT = sizeof spec_options / sizeof spec_options[0] };
+
+static bool fail(char *wrong, size_t size, const char *format, ...) __attribute__((format(printf, 3, 4)));
+
+static bool fail(char *wrong, size_t size, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(wrong, size, format, arguments);
+    va_end(arguments);
+    return false;
+}
+
+/* The place of a word that podee_options reads; NULL: it is none of them. */
+static const char **podee_word(podee_options *podee, const char *word, size_t length)
+{
+    const struct {
+        const char *name, **value;
+    } words[] = {{"kernels", &podee->kernels},        {"integral", &podee->integral},     {"elongation", &podee->elongation},
+                 {"path-segments", &podee->segments}, {"transition", &podee->transition}, {"transition-width", &podee->width}};
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++)
+        if (strlen(words[i].name) == length && strncmp(words[i].name, word, length) == 0)
+            return words[i].value;
+    return NULL;
+}
+
+static void add_words(method_spec *spec, const char *word, size_t length)
+{
+    const size_t used = strlen(spec->options);
+    snprintf(spec->options + used, sizeof spec->options - used, " --%.*s %s", (int)length, word, word + length + 1);
+}
+
+static bool set_option(method_spec *spec, const char *word, podee_options *podee, char *wrong, size_t wrong_size)
+{
+    const size_t length = strcspn(word, "=");
+    if (!word[length])
+        return fail(wrong, wrong_size, "%s: options are written NAME:OPTION=VALUE", spec->name);
+    const char **podee_value = podee_word(podee, word, length);
+    if (podee_value) {
+        *podee_value = word + length + 1;
+        add_words(spec, word, length);
+        return true;
+    }
+    for (size_t i = 0; i < OPTION_COUNT; i++) {
+        const spec_option *o = &spec_options[i];
+        if (strlen(o->name) != length || strncmp(o->name, word, length) != 0)
+            continue;
+        if (!o->set(&spec->quality, word + length + 1))
+            return fail(wrong, wrong_size, "%s: %s is for %s", spec->name, o->name, o->allowed);
+        add_words(spec, word, length);
+        return true;
+    }
+    return fail(wrong, wrong_size,
+                "%s: unknown option %.*s; allowed are spatial, time-samples, ndf-mean, kernels, integral, elongation, path-segments, "
+                "transition, transition-width",
+                spec->name, (int)length, word);
+}
+
+static void print_file_name(method_spec *spec)
+{
+    size_t i = 0;
+    for (; spec->name[i]; i++) {
+        const char c = spec->name[i];
+        const bool plain = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '.';
+        spec->file[i] = plain ? c : '-';
+    }
+    spec->file[i] = 0;
+}
+
+bool method_spec_parse(method_spec *spec, const char *text, size_t length, char *wrong, size_t wrong_size)
+{
+    *spec = (method_spec){.quality = mgt_scene_defaults().quality};
+    if (length >= sizeof spec->name)
+        return fail(wrong, wrong_size, "%.*s…: the name is too long", 32, text);
+    memcpy(spec->name, text, length);
+    char words[METHOD_SPEC_TEXT];
+    memcpy(words, spec->name, sizeof words);
+    char *rest = strchr(words, ':');
+    if (rest)
+        *rest++ = 0;
+    if (strchr(words, '+'))
+        return fail(wrong, wrong_size, "%s: this version draws no refraction; leave out what follows the +", spec->name);
+    if (!method_from_name(words, &spec->quality))
+        return fail(wrong, wrong_size, "unknown method %s; allowed are %s", words, method_words);
+    snprintf(spec->options, sizeof spec->options, "--method %s", words);
+    print_file_name(spec);
+    podee_options podee = {0};
+    while (rest) {
+        char *next = strchr(rest, ':');
+        if (next)
+            *next++ = 0;
+        if (!set_option(spec, rest, &podee, wrong, wrong_size))
+            return false;
+        rest = next;
+    }
+    char reason[200];
+    return podee_options_apply(&podee, &spec->quality, reason, sizeof reason) || fail(wrong, wrong_size, "%s: %s", spec->name, reason);
+}
