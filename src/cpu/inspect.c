@@ -10,18 +10,7 @@
 #define MGT_LANES 1
 #include "kernels/prelude_c.h"
 
-#define FRAME(cx) (*(cx)->frame)
-#define VIEW(cx) (*(cx)->view)
-#define TILE(cx) (*(cx)->tile)
-#define WAVE(cx, i) ((cx)->waves[i])
-#define MARCH_WAVE(cx, i) ((cx)->march[i])
-
-KERNEL vec3 SKY_TEXEL(CTX cx, real column, real row)
-{
-    const float *texel = cx->sky + 3 * ((int)row * SKY_COLUMNS + (int)column);
-    return (vec3){texel[0], texel[1], texel[2]};
-}
-
+#include "cpu/lane_access.h"
 #include "kernels/glitter.k"
 
 /* The pixel within its tile. */

@@ -13,7 +13,11 @@ expect 73 'nowhere' timeout 20 "$MANGATA" render "$simple" -o nowhere/out.png --
 works render "$simple" -o f_03.png "${null[@]}" "${small[@]}" --quiet
 expect 73 'f_03.png: .*exist' render "$simple" -o f_##.png --frames 0-9 "${null[@]}" "${small[@]}"
 absent f_00.png
-expect 73 'standard output' bash -c '"$MANGATA" info >/dev/full'
+if [[ -c /dev/full ]]; then
+    expect 73 'standard output' bash -c '"$MANGATA" info >/dev/full'
+else
+    echo "NOTICE: no /dev/full here; a full standard output was not tested"
+fi
 
 mkdir small readonly
 if ! unshare -rm true 2>/dev/null; then
