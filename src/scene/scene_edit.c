@@ -236,19 +236,9 @@ static void write_value(FILE *stream, const scene_field *field, const void *pare
 {
     const void *value = scene_field_at(field, parent);
     const scene_exposure *exposure = value;
+    if (scene_numbers_write(stream, field, value))
+        return;
     switch (field->type) {
-    case FIELD_COUNT: fprintf(stream, "%u", *(const uint32_t *)value); break;
-    case FIELD_NUMBER: fputs(scene_double_text(*(const double *)value).text, stream); break;
-    case FIELD_SHARE: fputs(scene_float_text(*(const float *)value).text, stream); break;
-    case FIELD_VECTOR:
-    case FIELD_COLOR:
-        for (int i = 0; i < 3; i++) {
-            const scene_number_text number =
-                field->type == FIELD_VECTOR ? scene_double_text(((const double *)value)[i]) : scene_float_text(((const float *)value)[i]);
-            fprintf(stream, "%s%s", i == 0 ? "[" : ", ", number.text);
-        }
-        fputc(']', stream);
-        break;
     case FIELD_CHOICE: fputs(field->choices[*(const int *)value], stream); break;
     case FIELD_EXPOSURE: fputs(exposure->automatic ? "auto" : scene_double_text(exposure->stops).text, stream); break;
     case FIELD_TEXT: write_text(stream, *(char *const *)value); break;
@@ -258,6 +248,7 @@ static void write_value(FILE *stream, const scene_field *field, const void *pare
         write_members(stream, field, value, scene_field_at(field, defaults), write_flow_member);
         fputc('}', stream);
         break;
+    default: break;
     }
 }
 

@@ -168,6 +168,25 @@ void scene_values_free(scene_values *values)
     values->camera.path = values->water.waves = (scene_list){0};
 }
 
+bool scene_numbers_write(FILE *stream, const scene_field *field, const void *value)
+{
+    switch (field->type) {
+    case FIELD_COUNT: fprintf(stream, "%u", *(const uint32_t *)value); return true;
+    case FIELD_NUMBER: fputs(scene_double_text(*(const double *)value).text, stream); return true;
+    case FIELD_SHARE: fputs(scene_float_text(*(const float *)value).text, stream); return true;
+    case FIELD_VECTOR:
+    case FIELD_COLOR:
+        for (int i = 0; i < 3; i++) {
+            const scene_number_text number =
+                field->type == FIELD_VECTOR ? scene_double_text(((const double *)value)[i]) : scene_float_text(((const float *)value)[i]);
+            fprintf(stream, "%s%s", i == 0 ? "[" : ", ", number.text);
+        }
+        fputc(']', stream);
+        return true;
+    default: return false;
+    }
+}
+
 bool scene_field_in_range(const scene_field *field, double value)
 {
     bool above = field->flags & FIELD_OPEN_MIN ? value > field->min : value >= field->min;

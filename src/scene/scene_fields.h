@@ -9,6 +9,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 
 #include "scene/scene_text.h"
 
@@ -121,6 +122,9 @@ void scene_field_allowed(const scene_field *field, char *out, size_t size);
 void scene_field_range(const scene_field *field, bool with_unit, char *out, size_t size);
 
 bool scene_field_in_range(const scene_field *field, double value);
+
+/* Writes the value of a field of numbers as JSON, which is YAML too: "30", "[0, 4, 0]". False for fields of other types. */
+bool scene_numbers_write(FILE *stream, const scene_field *field, const void *value);
 
 /* The text behind scene_file_canonical(). */
 char *scene_values_canonical(const scene_values *values, size_t *length);

@@ -13,19 +13,9 @@
 static void write_default(FILE *stream, const scene_field *field, const void *value)
 {
     const scene_exposure *exposure = value;
+    if (scene_numbers_write(stream, field, value))
+        return;
     switch (field->type) {
-    case FIELD_COUNT: fprintf(stream, "%u", *(const uint32_t *)value); break;
-    case FIELD_NUMBER: fputs(scene_double_text(*(const double *)value).text, stream); break;
-    case FIELD_SHARE: fputs(scene_float_text(*(const float *)value).text, stream); break;
-    case FIELD_VECTOR:
-    case FIELD_COLOR:
-        for (int i = 0; i < 3; i++) {
-            scene_number_text number = field->type == FIELD_VECTOR ? scene_double_text(((const double *)value)[i])
-                                                                   : scene_float_text(((const float *)value)[i]);
-            fprintf(stream, "%s%s", i == 0 ? "[" : ", ", number.text);
-        }
-        fputs("]", stream);
-        break;
     case FIELD_CHOICE: fprintf(stream, "\"%s\"", field->choices[*(const int *)value]); break;
     case FIELD_EXPOSURE:
         if (exposure->automatic)
@@ -35,7 +25,7 @@ static void write_default(FILE *stream, const scene_field *field, const void *va
         break;
     case FIELD_TEXT: fputs("\"\"", stream); break;
     case FIELD_LIST: fputs("[]", stream); break;
-    case FIELD_MAPPING: break;
+    default: break;
     }
 }
 
