@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "context_options.h"
 #include "interrupt.h"
 #include "names.h"
 #include "numbers.h"
@@ -19,9 +20,9 @@ static const option bench_options[] = {
     [OPT_FRAMES] = {"frames", 0, "N", "measure frames 0 to N-1 (default 3)"},
     [OPT_REPEAT] = {"repeat", 0, "R", "measure each of them R times (default 5)"},
     [OPT_BACKEND] = {"backend", 0, "NAME", "cpu (default), gl or auto"},
-    [OPT_GL_DEVICE] = {"gl-device", 0, "N", "OpenGL: which device of those that mangata info lists (default 0)"},
-    [OPT_THREADS] = {"threads", 0, "N", "threads (default 0: one for each CPU this process may use)"},
-    [OPT_ISA] = {"isa", 0, "NAME", "highest instruction set"},
+    [OPT_GL_DEVICE] = CONTEXT_OPTION_GL_DEVICE,
+    [OPT_THREADS] = CONTEXT_OPTION_THREADS,
+    [OPT_ISA] = CONTEXT_OPTION_ISA,
     [OPT_SET] = {"set", 0, "KEY=VALUE", "change a value of the scene; may be repeated"},
     [OPT_DISPLAY] = {"display", 0, NULL, "make displayed colours: with exposure, glare and tone mapping"},
 };
@@ -39,9 +40,8 @@ typedef struct bench_request {
     const char *scene_path, *methods;
     const char **overrides;
     size_t override_count;
-    uint64_t frames, repeat, threads, gl_device;
-    mgt_backend backend;
-    mgt_isa isa;
+    uint64_t frames, repeat;
+    context_options context;
     bool display;
 } bench_request;
 
@@ -86,21 +86,15 @@ static int set_option(bench_request *r, int id, const char *value, char size[2][
             return bad_value(OPT_REPEAT, value, "a number from 1 to 1000");
         break;
     case OPT_BACKEND:
-        if (!backend_from_name(value, &r->backend) || r->backend == MGT_BACKEND_NULL)
+        if (!backend_from_name(value, &r->context.backend) || r->context.backend == MGT_BACKEND_NULL)
             return bad_value(OPT_BACKEND, value, "cpu, gl or auto");
         break;
     case OPT_GL_DEVICE:
-        if (!number_parse_u64(value, 1023, &r->gl_device))
-            return bad_value(OPT_GL_DEVICE, value, "a number from 0 to 1023");
-        break;
     case OPT_THREADS:
-        if (!number_parse_u64(value, 1024, &r->threads))
-            return bad_value(OPT_THREADS, value, "a number from 0 (all CPUs) to 1024");
-        break;
-    case OPT_ISA:
-        if (!isa_from_name(value, &r->isa))
-            return bad_value(OPT_ISA, value, isa_words);
-        break;
+    case OPT_ISA: {
+        const char *allowed = context_option_set(&r->context, bench_options[id].name, value);
+        return allowed ? bad_value((size_t)id, value, allowed) : EXIT_CODE_OK;
+    }
     case OPT_SET: r->overrides[r->override_count++] = value; break;
     case OPT_DISPLAY: r->display = true; break;
     case OPTION_OPERAND:
@@ -160,20 +154,7 @@ static int prepare(bench *b)
     b->target.pixels = calloc((size_t)b->width * b->height, r->display ? 4 : 12);
     if (!b->target.pixels)
         return console_error(EXIT_CODE_FAILED, "out of memory");
-    mgt_context_desc desc = mgt_context_desc_defaults();
-    desc.backend = r->backend;
-    desc.gl_device = (uint32_t)r->gl_device;
-    desc.isa = r->isa;
-    desc.threads = (uint32_t)r->threads;
-    desc.log = console_log;
-    desc.log_user = (void *)&r->out;
-    desc.progress = keep_going;
-    const mgt_status status = mgt_context_create(&b->context, &desc);
-    if (status != MGT_OK)
-        return console_library_error(NULL, status);
-    b->info.struct_size = sizeof b->info;
-    mgt_context_get_info(b->context, &b->info);
-    return EXIT_CODE_OK;
+    return context_open(&r->context, &r->out, keep_going, NULL, &b->context, &b->info);
 }
 
 static int render_once(bench *b, const bench_method *method, uint64_t frame, double *seconds)

@@ -35,9 +35,9 @@ static const option compare_options[] = {
     [OPT_PICTURE_MB] = {"picture-mb", 0, "N", "megabytes of pictures in the page (default 14); where all\n"
                                               "frames need more, it shows the first ones"},
     [OPT_BACKEND] = {"backend", 0, "NAME", "cpu (default), gl or auto; null renders nothing: for tests"},
-    [OPT_GL_DEVICE] = {"gl-device", 0, "N", "OpenGL: which device of those that mangata info lists (default 0)"},
-    [OPT_THREADS] = {"threads", 0, "N", "threads (default 0: one for each CPU this process may use)"},
-    [OPT_ISA] = {"isa", 0, "NAME", "highest instruction set"},
+    [OPT_GL_DEVICE] = CONTEXT_OPTION_GL_DEVICE,
+    [OPT_THREADS] = CONTEXT_OPTION_THREADS,
+    [OPT_ISA] = CONTEXT_OPTION_ISA,
     [OPT_PROGRESS] = {"progress", 0, "MODE", "auto (default: a bar on a terminal), json or none"},
 };
 
@@ -138,15 +138,12 @@ static int set_option(compare_request *r, int id, const char *value, late_option
         return code;
     }
     case OPT_BACKEND:
-        if (!backend_from_name(value, &r->backend))
-            return bad_value(OPT_BACKEND, value, "cpu, gl, auto or null");
-        break;
-    case OPT_GL_DEVICE: return set_number32(OPT_GL_DEVICE, value, 0, 1023, &r->gl_device);
-    case OPT_THREADS: return set_number32(OPT_THREADS, value, 0, 1024, &r->threads);
-    case OPT_ISA:
-        if (!isa_from_name(value, &r->isa))
-            return bad_value(OPT_ISA, value, isa_words);
-        break;
+    case OPT_GL_DEVICE:
+    case OPT_THREADS:
+    case OPT_ISA: {
+        const char *allowed = context_option_set(&r->context, compare_options[id].name, value);
+        return allowed ? bad_value((size_t)id, value, allowed) : EXIT_CODE_OK;
+    }
     case OPT_PROGRESS:
         if (!progress_mode_from_name(value, &r->progress))
             return bad_value(OPT_PROGRESS, value, "auto, json or none");

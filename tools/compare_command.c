@@ -70,7 +70,7 @@ char *compare_picture_command(const compare_job *job, const compare_scene *scene
         fputs(" --set", stream);
         put_word(stream, r->overrides[i]);
     }
-    if (r->backend != MGT_BACKEND_CPU)
-        fprintf(stream, " --backend %s", backend_name(r->backend));
+    if (r->context.backend != MGT_BACKEND_CPU)
+        fprintf(stream, " --backend %s", backend_name(r->context.backend));
     return finish(stream, &text);
 }

@@ -139,25 +139,6 @@ static int load_scene(compare_job *job, size_t index)
     return EXIT_CODE_OK;
 }
 
-static int create_context(compare_job *job)
-{
-    mgt_context_desc desc = mgt_context_desc_defaults();
-    desc.backend = job->request->backend;
-    desc.gl_device = job->request->gl_device;
-    desc.isa = job->request->isa;
-    desc.threads = job->request->threads;
-    desc.log = console_log;
-    desc.log_user = (void *)&job->request->out;
-    desc.progress = on_progress;
-    desc.progress_user = job;
-    const mgt_status status = mgt_context_create(&job->context, &desc);
-    if (status != MGT_OK)
-        return console_library_error(NULL, status);
-    job->info.struct_size = sizeof job->info;
-    mgt_context_get_info(job->context, &job->info);
-    return EXIT_CODE_OK;
-}
-
 /* Every frame of every method, so that an hour of rendering does not end at a bad one. */
 static int check_scene(compare_job *job, const compare_scene *scene)
 {
@@ -257,7 +238,7 @@ static int run(compare_job *job)
     for (size_t s = 0; s < job->request->scene_count && code == EXIT_CODE_OK; s++)
         code = load_scene(job, s);
     if (code == EXIT_CODE_OK)
-        code = create_context(job);
+        code = context_open(&job->request->context, &job->request->out, on_progress, job, &job->context, &job->info);
     for (size_t s = 0; s < job->request->scene_count && code == EXIT_CODE_OK; s++)
         code = check_scene(job, &job->scenes[s]);
     if (code == EXIT_CODE_OK)

@@ -4,6 +4,7 @@
 #define MANGATA_TOOLS_COMPARE_REQUEST_H
 
 #include "console.h"
+#include "context_options.h"
 #include "frames.h"
 #include "method_spec.h"
 #include "progress.h"
@@ -31,10 +32,7 @@ typedef struct compare_request {
     uint32_t metrics; /* set of clip_metric */
     uint64_t time_runs;
     uint64_t picture_bytes; /* of the page: how much its pictures may take */
-    mgt_backend backend;
-    uint32_t gl_device;
-    mgt_isa isa;
-    uint32_t threads;
+    context_options context;
     compare_gate gates[COMPARE_GATES];
     size_t gate_count;
     progress_mode progress;

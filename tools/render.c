@@ -46,10 +46,9 @@ static const option render_options[] = {
     [OPT_LAYER] = {"layer", 0, "NAME", "color (default), coverage, mask, depth or normal; .exr takes\n"
                                        "several, or all"},
     [OPT_BACKEND] = {"backend", 0, "NAME", "cpu (default), gl, auto, or null (renders nothing: for tests)"},
-    [OPT_GL_DEVICE] = {"gl-device", 0, "N", "OpenGL: which device of those that mangata info lists (default 0)"},
-    [OPT_THREADS] = {"threads", 0, "N", "threads (default 0: one for each CPU this process may use)"},
-    [OPT_ISA] = {"isa", 0, "NAME", "highest instruction set: auto (default), scalar, sse2, avx2,\n"
-                                   "avx512 or neon"},
+    [OPT_GL_DEVICE] = CONTEXT_OPTION_GL_DEVICE,
+    [OPT_THREADS] = CONTEXT_OPTION_THREADS,
+    [OPT_ISA] = CONTEXT_OPTION_ISA,
     [OPT_OVERWRITE] = {"overwrite", 0, NULL, "replace existing output"},
     [OPT_SKIP] = {"skip-existing", 0, NULL, "keep existing output that was rendered from the same scene\n"
                                             "with the same options; together with --overwrite: replace\n"
@@ -148,7 +147,6 @@ static int set_samples(mgt_quality *q, const sample_options *given)
 
 static int set_option(render_request *r, int id, const char *value, sample_options *samples, char size[2][32])
 {
-    uint64_t n;
     const char *wrong;
     switch (id) {
     case OPT_OUTPUT: r->output = value; break;
@@ -184,23 +182,12 @@ static int set_option(render_request *r, int id, const char *value, sample_optio
         break;
     case OPT_LAYER: return add_layer(r, value);
     case OPT_BACKEND:
-        if (!backend_from_name(value, &r->backend))
-            return bad_value(OPT_BACKEND, value, "cpu, gl, auto or null");
-        break;
     case OPT_GL_DEVICE:
-        if (!number_parse_u64(value, 1023, &n))
-            return bad_value(OPT_GL_DEVICE, value, "a number from 0 to 1023");
-        r->gl_device = (uint32_t)n;
-        break;
     case OPT_THREADS:
-        if (!number_parse_u64(value, 1024, &n))
-            return bad_value(OPT_THREADS, value, "a number from 0 (all CPUs) to 1024");
-        r->threads = (uint32_t)n;
-        break;
-    case OPT_ISA:
-        if (!isa_from_name(value, &r->isa))
-            return bad_value(OPT_ISA, value, isa_words);
-        break;
+    case OPT_ISA: {
+        const char *allowed = context_option_set(&r->context, render_options[id].name, value);
+        return allowed ? bad_value((size_t)id, value, allowed) : EXIT_CODE_OK;
+    }
     case OPT_OVERWRITE: r->overwrite = true; break;
     case OPT_SKIP: r->skip_existing = true; break;
     case OPT_STAMP: r->stamp = true; break;

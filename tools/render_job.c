@@ -96,20 +96,9 @@ static int load_scene(render_job *job)
 
 static int create_context(render_job *job)
 {
-    mgt_context_desc desc = mgt_context_desc_defaults();
-    desc.backend = job->request->backend;
-    desc.gl_device = job->request->gl_device;
-    desc.isa = job->request->isa;
-    desc.threads = job->request->threads;
-    desc.log = console_log;
-    desc.log_user = &job->request->out;
-    desc.progress = on_progress;
-    desc.progress_user = job;
-    const mgt_status status = mgt_context_create(&job->context, &desc);
-    if (status != MGT_OK)
-        return console_library_error(NULL, status);
-    job->info.struct_size = sizeof job->info;
-    mgt_context_get_info(job->context, &job->info);
+    const int code = context_open(&job->request->context, &job->request->out, on_progress, job, &job->context, &job->info);
+    if (code != EXIT_CODE_OK)
+        return code;
     if (job->info.backend == MGT_BACKEND_GL)
         console_detail(&job->request->out, "backend gl, %s", job->info.renderer);
     else

@@ -4,6 +4,7 @@
 #define MANGATA_TOOLS_RENDER_REQUEST_H
 
 #include "console.h"
+#include "context_options.h"
 #include "frames.h"
 #include "image/picture.h"
 #include "names.h"
@@ -22,10 +23,7 @@ typedef struct render_request {
     frame_list frames;
     uint64_t crop[4]; /* x, y, width, height */
     mgt_quality quality;
-    mgt_backend backend;
-    uint32_t gl_device;
-    mgt_isa isa;
-    uint32_t threads;
+    context_options context;
     mgt_layer layers[LAYER_COUNT];
     size_t layer_count;
 

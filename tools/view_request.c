@@ -19,9 +19,8 @@ static const option view_options[] = {
     [OPT_SIZE] = {"size", 0, "WxH", "size of the window and of the picture instead of the scene's"},
     [OPT_SET] = {"set", 0, "KEY=VALUE", "change a value of the scene, e.g. light.elevation_deg=3;\n"
                                         "may be repeated"},
-    [OPT_THREADS] = {"threads", 0, "N", "threads (default 0: one for each CPU this process may use)"},
-    [OPT_ISA] = {"isa", 0, "NAME", "highest instruction set: auto (default), scalar, sse2, avx2,\n"
-                                   "avx512 or neon"},
+    [OPT_THREADS] = CONTEXT_OPTION_THREADS,
+    [OPT_ISA] = CONTEXT_OPTION_ISA,
     [OPT_SCRIPT] = {"script", 0, "FILE", "run a script of the viewer (docs/viewer.md)"},
     [OPT_SHADERS] = {"shaders", 0, "DIR", "OpenGL: kernel files that replace the built-in ones, and are\n"
                                           "read again when they change"},
@@ -39,10 +38,10 @@ static int bad_value(size_t id, const char *value, const char *allowed)
 
 static int set_option(view_request *r, int id, const char *value)
 {
-    uint64_t n, side[2];
+    uint64_t side[2];
     switch (id) {
     case OPT_BACKEND:
-        if (!backend_from_name(value, &r->backend) || r->backend == MGT_BACKEND_NULL)
+        if (!backend_from_name(value, &r->context.backend) || r->context.backend == MGT_BACKEND_NULL)
             return bad_value(OPT_BACKEND, value, "auto, cpu or gl");
         break;
     case OPT_METHOD:
@@ -57,14 +56,10 @@ static int set_option(view_request *r, int id, const char *value)
         break;
     case OPT_SET: r->overrides[r->override_count++] = value; break;
     case OPT_THREADS:
-        if (!number_parse_u64(value, 1024, &n))
-            return bad_value(OPT_THREADS, value, "a number from 0 (all CPUs) to 1024");
-        r->threads = (uint32_t)n;
-        break;
-    case OPT_ISA:
-        if (!isa_from_name(value, &r->isa))
-            return bad_value(OPT_ISA, value, isa_words);
-        break;
+    case OPT_ISA: {
+        const char *allowed = context_option_set(&r->context, view_options[id].name, value);
+        return allowed ? bad_value((size_t)id, value, allowed) : EXIT_CODE_OK;
+    }
     case OPT_SCRIPT: r->script = value; break;
     case OPT_SHADERS: r->shader_folder = value; break;
     default: break;
@@ -75,7 +70,7 @@ static int set_option(view_request *r, int id, const char *value)
 int view_request_read(view_request *request, int count, char **arguments)
 {
     view_request *r = request;
-    *r = (view_request){.backend = MGT_BACKEND_AUTO, .quality = mgt_scene_defaults().quality};
+    *r = (view_request){.context.backend = MGT_BACKEND_AUTO, .quality = mgt_scene_defaults().quality};
     method_from_name("mangata", &r->quality);
     /* Each --set takes a word of the command line; two more hold the size. */
     r->overrides = calloc((size_t)count + 2, sizeof *r->overrides);

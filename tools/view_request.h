@@ -4,6 +4,7 @@
 #define MANGATA_TOOLS_VIEW_REQUEST_H
 
 #include "console.h"
+#include "context_options.h"
 #include "names.h"
 
 typedef struct view_request {
@@ -14,9 +15,7 @@ typedef struct view_request {
     char size_words[2][32];
     uint32_t width, height; /* of the window; 0: as the scene says */
     mgt_quality quality;
-    mgt_backend backend;
-    mgt_isa isa;
-    uint32_t threads;
+    context_options context; /* but for the device: the window has one */
     const char *script;        /* NULL: none */
     const char *shader_folder; /* NULL: none */
 } view_request;

@@ -52,7 +52,7 @@ static bool open_window(viewer *v)
 {
     const char *missing = NULL;
     char error[VIEWER_TEXT] = "";
-    if (v->request->backend != MGT_BACKEND_CPU)
+    if (v->request->context.backend != MGT_BACKEND_CPU)
         v->window = make_window(v->request, &v->document.values, 4, 5);
     if (!v->window)
         v->window = make_window(v->request, &v->document.values, 3, 3);

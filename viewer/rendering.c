@@ -31,8 +31,8 @@ static void wake(void)
 mgt_context_desc viewer_cpu_desc(const viewer *v)
 {
     mgt_context_desc desc = mgt_context_desc_defaults();
-    desc.isa = v->request->isa;
-    desc.threads = v->request->threads;
+    desc.isa = v->request->context.isa;
+    desc.threads = v->request->context.threads;
     return desc;
 }
 
@@ -42,7 +42,7 @@ static bool start_gl(viewer *v, char *why, size_t size)
     mgt_context_desc desc = viewer_cpu_desc(v);
     desc.backend = MGT_BACKEND_GL;
     desc.gl_get_proc = glfwGetProcAddress;
-    if (v->request->backend == MGT_BACKEND_GL) { /* what is only tried says its own line */
+    if (v->request->context.backend == MGT_BACKEND_GL) { /* what is only tried says its own line */
         desc.log = on_log;
         desc.log_user = v;
     }
@@ -52,7 +52,7 @@ static bool start_gl(viewer *v, char *why, size_t size)
     }
     v->render.info.struct_size = sizeof v->render.info;
     mgt_context_get_info(v->render.gl, &v->render.info);
-    if (v->request->backend != MGT_BACKEND_AUTO || !v->render.info.software)
+    if (v->request->context.backend != MGT_BACKEND_AUTO || !v->render.info.software)
         return true;
     snprintf(why, size, "OpenGL here is a software rasteriser (%s)", v->render.info.renderer);
     mgt_context_destroy(v->render.gl);
@@ -75,12 +75,12 @@ bool viewer_start_rendering(viewer *v)
     const mgt_context_desc desc = viewer_cpu_desc(v);
     v->render.refining = render_worker_create(&desc, true, wake, why, sizeof why);
     bool good = v->render.refining != NULL;
-    if (good && v->request->backend != MGT_BACKEND_CPU) {
+    if (good && v->request->context.backend != MGT_BACKEND_CPU) {
         good = start_gl(v, why, sizeof why);
-        if (!good && v->request->backend == MGT_BACKEND_AUTO)
+        if (!good && v->request->context.backend == MGT_BACKEND_AUTO)
             viewer_tell(v, false, "the CPU renders: %s", why);
     }
-    if (v->render.refining && !v->render.gl && v->request->backend != MGT_BACKEND_GL)
+    if (v->render.refining && !v->render.gl && v->request->context.backend != MGT_BACKEND_GL)
         good = start_live(v, why, sizeof why);
     if (!good)
         v->exit_code = console_error(EXIT_CODE_UNAVAILABLE, "%s", why);
