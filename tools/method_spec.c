@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "adaptive_options.h"
 #include "names.h"
 #include "numbers.h"
 #include "podee_options.h"
@@ -80,14 +81,16 @@ static void add_words(method_spec *spec, const char *word, size_t length)
     snprintf(spec->options + used, sizeof spec->options - used, " --%.*s %s", (int)length, word, word + length + 1);
 }
 
-static bool set_option(method_spec *spec, const char *word, podee_options *podee, char *wrong, size_t wrong_size)
+static bool set_option(method_spec *spec, const char *word, podee_options *podee, adaptive_options *adaptive, char *wrong, size_t wrong_size)
 {
     const size_t length = strcspn(word, "=");
     if (!word[length])
         return fail(wrong, wrong_size, "%s: options are written NAME:OPTION=VALUE", spec->name);
-    const char **podee_value = podee_word(podee, word, length);
-    if (podee_value) {
-        *podee_value = word + length + 1;
+    const char **value = podee_word(podee, word, length);
+    if (!value)
+        value = adaptive_option(adaptive, word, length);
+    if (value) {
+        *value = word + length + 1;
         add_words(spec, word, length);
         return true;
     }
@@ -102,7 +105,7 @@ static bool set_option(method_spec *spec, const char *word, podee_options *podee
     }
     return fail(wrong, wrong_size,
                 "%s: unknown option %.*s; allowed are spatial, time-samples, ndf-mean, kernels, integral, elongation, path-segments, "
-                "transition, transition-width",
+                "transition, transition-width, adaptive, samples, target-rmse, budget-ms, importance-center, importance-width, importance-threshold, slots",
                 spec->name, (int)length, word);
 }
 
@@ -135,14 +138,17 @@ bool method_spec_parse(method_spec *spec, const char *text, size_t length, char 
     snprintf(spec->options, sizeof spec->options, "--method %s", words);
     print_file_name(spec);
     podee_options podee = {0};
+    adaptive_options adaptive = {0};
     while (rest) {
         char *next = strchr(rest, ':');
         if (next)
             *next++ = 0;
-        if (!set_option(spec, rest, &podee, wrong, wrong_size))
+        if (!set_option(spec, rest, &podee, &adaptive, wrong, wrong_size))
             return false;
         rest = next;
     }
     char reason[200];
-    return podee_options_apply(&podee, &spec->quality, reason, sizeof reason) || fail(wrong, wrong_size, "%s: %s", spec->name, reason);
+    return (podee_options_apply(&podee, &spec->quality, reason, sizeof reason) &&
+            adaptive_options_apply(&adaptive, &spec->quality, reason, sizeof reason)) ||
+           fail(wrong, wrong_size, "%s: %s", spec->name, reason);
 }

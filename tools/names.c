@@ -8,7 +8,7 @@
 #include "numbers.h"
 
 const char isa_words[] = "auto, scalar, sse2, avx2, avx512, neon";
-const char method_words[] = "none, ssaaN, podee-uniform, podee-pixel, mangata, reference, msaa32, lean, leadr, tokuyoshi, bruneton, fxaa, taa, tndf";
+const char method_words[] = "none, ssaaN, podee-uniform, podee-pixel, mangata, reference, msaa32, lean, leadr, tokuyoshi, bruneton, fxaa, taa, tndf, adaptive";
 
 static const char *const backend_names[] = {
     [MGT_BACKEND_CPU] = "cpu", [MGT_BACKEND_GL] = "gl", [MGT_BACKEND_AUTO] = "auto", [MGT_BACKEND_NULL] = "null"};
@@ -17,12 +17,14 @@ static const char *const isa_names[] = {
     [MGT_ISA_AVX2] = "avx2", [MGT_ISA_AVX512] = "avx512", [MGT_ISA_NEON] = "neon"};
 static const char *const layer_names[] = {
     [MGT_LAYER_COLOR] = "color", [MGT_LAYER_COVERAGE] = "coverage", [MGT_LAYER_MASK] = "mask",
-    [MGT_LAYER_DEPTH] = "depth", [MGT_LAYER_NORMAL] = "normal"};
+    [MGT_LAYER_DEPTH] = "depth", [MGT_LAYER_NORMAL] = "normal",
+    [MGT_LAYER_SAMPLES] = "samples", [MGT_LAYER_IMPORTANCE] = "importance", [MGT_LAYER_DETAIL] = "detail"};
 static const char *const method_names[] = {
     [MGT_METHOD_NONE] = "none", [MGT_METHOD_SSAA] = "ssaa", [MGT_METHOD_PODEE_UNIFORM] = "podee-uniform",
     [MGT_METHOD_PODEE_PIXEL] = "podee-pixel", [MGT_METHOD_MANGATA] = "mangata", [MGT_METHOD_REFERENCE] = "reference",
     [MGT_METHOD_MSAA32] = "msaa32", [MGT_METHOD_LEAN] = "lean", [MGT_METHOD_LEADR] = "leadr", [MGT_METHOD_TOKUYOSHI] = "tokuyoshi",
-    [MGT_METHOD_BRUNETON] = "bruneton", [MGT_METHOD_FXAA] = "fxaa", [MGT_METHOD_TAA] = "taa", [MGT_METHOD_TNDF] = "tndf"};
+    [MGT_METHOD_BRUNETON] = "bruneton", [MGT_METHOD_FXAA] = "fxaa", [MGT_METHOD_TAA] = "taa", [MGT_METHOD_TNDF] = "tndf",
+    [MGT_METHOD_ADAPTIVE] = "adaptive"};
 
 enum { MAX_SPATIAL = 1024 };
 
@@ -93,7 +95,7 @@ bool method_from_name(const char *name, mgt_quality *quality)
             return false;
         method = MGT_METHOD_SSAA;
     } else {
-        const int i = find(name, method_names, MGT_METHOD_TNDF + 1);
+        const int i = find(name, method_names, MGT_METHOD_ADAPTIVE + 1);
         if (i < 0)
             return false;
         method = (mgt_method)i;

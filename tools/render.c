@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "adaptive_options.h"
 #include "numbers.h"
 #include "options.h"
 #include "podee_options.h"
@@ -13,7 +14,8 @@
 
 enum {
     OPT_OUTPUT, OPT_FRAMES, OPT_SIZE, OPT_CROP, OPT_METHOD, OPT_SPATIAL, OPT_TIME, OPT_RANGE, OPT_NDF_MEAN, OPT_KERNELS, OPT_INTEGRAL,
-    OPT_ELONGATION, OPT_SEGMENTS, OPT_TRANSITION, OPT_WIDTH, OPT_SET, OPT_SEED,
+    OPT_ELONGATION, OPT_SEGMENTS, OPT_TRANSITION, OPT_WIDTH,
+    OPT_ADAPTIVE, OPT_SAMPLES, OPT_TARGET, OPT_BUDGET, OPT_CENTER, OPT_IMPORTANCE_WIDTH, OPT_THRESHOLD, OPT_SLOTS, OPT_SET, OPT_SEED,
     OPT_LAYER, OPT_BACKEND, OPT_GL_DEVICE, OPT_THREADS, OPT_ISA, OPT_OVERWRITE, OPT_SKIP, OPT_STAMP, OPT_PROGRESS
 };
 
@@ -25,8 +27,8 @@ static const option render_options[] = {
     [OPT_SIZE] = {"size", 0, "WxH", "size in pixels instead of the scene's"},
     [OPT_CROP] = {"crop", 0, "X,Y,W,H", "render this rectangle of the picture alone"},
     [OPT_METHOD] = {"method", 0, "NAME", "none, ssaaN, podee-uniform, podee-pixel, mangata (default),\n"
-                                         "reference, or a rival: msaa32, lean, leadr, tokuyoshi, bruneton,\n"
-                                         "fxaa, taa, tndf"},
+                                         "adaptive, reference, or a rival: msaa32, lean, leadr, tokuyoshi,\n"
+                                         "bruneton, fxaa, taa, tndf"},
     [OPT_SPATIAL] = {"spatial", 0, "N", "reference: NxN samples a pixel for each time sample (default 8)"},
     [OPT_TIME] = {"time-samples", 0, "M", "reference, ssaaN: samples of the open shutter (default 8; 1)"},
     [OPT_RANGE] = {"samples-range", 0, "FIRST,COUNT", "reference, ssaaN: take only these of the NxNxM samples"},
@@ -40,11 +42,21 @@ static const option render_options[] = {
     [OPT_SEGMENTS] = {"path-segments", 0, "N", "podee-*: straight pieces of the open shutter, 1 (default) to 64"},
     [OPT_TRANSITION] = {"transition", 0, "T", "podee-*: waves turn from resolved to unresolved soft (default) or hard"},
     [OPT_WIDTH] = {"transition-width", 0, "W", "podee-*: cycles per pixel that a soft one takes, to 0.5 (default 0.3)"},
+    [OPT_ADAPTIVE] = {"adaptive", 0, "SCHEME", "adaptive: cells (default) or podee, the paper's"},
+    [OPT_SAMPLES] = {"samples", 0, "N", "adaptive: samples per pixel of water on average (default 8)"},
+    [OPT_TARGET] = {"target-rmse", 0, "E", "adaptive: sample until the predicted error of coverage is E instead"},
+    [OPT_BUDGET] = {"budget-ms", 0, "T", "adaptive: sample until a frame has taken T milliseconds instead\n"
+                                         "(the pixels then depend on the machine)"},
+    [OPT_CENTER] = {"importance-center", 0, "C", "adaptive podee: coverage that is most important (default 0.1)"},
+    [OPT_IMPORTANCE_WIDTH] = {"importance-width", 0, "R", "adaptive podee: deviation of the importance (default 0.04)"},
+    [OPT_THRESHOLD] = {"importance-threshold", 0, "V", "adaptive podee: importance below which no samples are taken\n"
+                                                       "(default 0.01)"},
+    [OPT_SLOTS] = {"slots", 0, "M", "adaptive podee: samples of the whole picture"},
     [OPT_SET] = {"set", 0, "KEY=VALUE", "change a value of the scene, e.g. light.elevation_deg=3;\n"
                                         "may be repeated"},
     [OPT_SEED] = {"seed", 0, "N", "seed of the jitter (default 0)"},
-    [OPT_LAYER] = {"layer", 0, "NAME", "color (default), coverage, mask, depth or normal; .exr takes\n"
-                                       "several, or all"},
+    [OPT_LAYER] = {"layer", 0, "NAME", "color (default), coverage, mask, depth, normal, samples,\n"
+                                       "importance or detail; .exr takes several, or all"},
     [OPT_BACKEND] = {"backend", 0, "NAME", "cpu (default), gl, auto, or null (renders nothing: for tests)"},
     [OPT_GL_DEVICE] = CONTEXT_OPTION_GL_DEVICE,
     [OPT_THREADS] = CONTEXT_OPTION_THREADS,
@@ -84,7 +96,7 @@ static int add_layer(render_request *r, const char *value)
     mgt_layer layer = MGT_LAYER_COLOR;
     const bool all = strcmp(value, "all") == 0;
     if (!all && !layer_from_name(value, &layer))
-        return bad_value(OPT_LAYER, value, "color, coverage, mask, depth, normal or all");
+        return bad_value(OPT_LAYER, value, "color, coverage, mask, depth, normal, samples, importance, detail or all");
     bool wanted[LAYER_COUNT] = {false};
     for (size_t i = 0; i < r->layer_count; i++)
         wanted[r->layers[i]] = true;
@@ -99,6 +111,7 @@ static int add_layer(render_request *r, const char *value)
 typedef struct sample_options {
     const char *spatial, *time, *range, *ndf_mean;
     podee_options podee;
+    adaptive_options adaptive;
 } sample_options;
 
 static int set_samples(mgt_quality *q, const sample_options *given)
@@ -140,7 +153,7 @@ static int set_samples(mgt_quality *q, const sample_options *given)
         q->ndf_mean_drop = given->ndf_mean[0] == 'd';
     }
     char wrong[160];
-    if (!podee_options_apply(&given->podee, q, wrong, sizeof wrong))
+    if (!podee_options_apply(&given->podee, q, wrong, sizeof wrong) || !adaptive_options_apply(&given->adaptive, q, wrong, sizeof wrong))
         return console_error(EXIT_CODE_USAGE, "%s", wrong);
     return EXIT_CODE_OK;
 }
@@ -175,6 +188,18 @@ static int set_option(render_request *r, int id, const char *value, sample_optio
     case OPT_SEGMENTS: samples->podee.segments = value; break;
     case OPT_TRANSITION: samples->podee.transition = value; break;
     case OPT_WIDTH: samples->podee.width = value; break;
+    case OPT_ADAPTIVE:
+    case OPT_SAMPLES:
+    case OPT_TARGET:
+    case OPT_BUDGET:
+    case OPT_CENTER:
+    case OPT_IMPORTANCE_WIDTH:
+    case OPT_THRESHOLD:
+    case OPT_SLOTS: {
+        const char *name = render_options[id].name;
+        *adaptive_option(&samples->adaptive, name, strlen(name)) = value;
+        break;
+    }
     case OPT_SET: r->overrides[r->override_count++] = value; break;
     case OPT_SEED:
         if (!number_parse_u64(value, UINT64_MAX, &r->quality.seed))

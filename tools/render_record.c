@@ -10,6 +10,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "adaptive_options.h"
 #include "numbers.h"
 #include "podee_options.h"
 
@@ -52,6 +53,9 @@ bool render_hash(const render_request *request, const char *canonical, const mgt
     const podee_text podee = podee_options_text(q);
     if (podee.text[0])
         fprintf(stream, "podee %s\n", podee.text);
+    const adaptive_text adaptive = adaptive_options_text(q);
+    if (adaptive.text[0])
+        fprintf(stream, "adaptive %s\n", adaptive.text);
     fprintf(stream, "arithmetic %s\nformat %s\nlayers", arithmetic_word(info), format_word(request->format));
     for (size_t i = 0; i < request->layer_count; i++)
         fprintf(stream, " %s", layer_name(request->layers[i]));
@@ -111,6 +115,9 @@ void render_record_fill(render_record *record, const render_request *request, co
     const podee_text podee = podee_options_text(q);
     if (podee.text[0])
         add(record, "method_options", "%s", podee.text);
+    const adaptive_text adaptive = adaptive_options_text(q);
+    if (adaptive.text[0])
+        add(record, "method_options", "%s", adaptive.text);
     add(record, render_is_film(request) ? "frames" : "frame", "%s", frames);
     add(record, "time", "%s", number_print(time).text);
     add(record, "samples", "%" PRIu64, (uint64_t)q->spatial_samples * q->spatial_samples * q->time_samples);

@@ -155,7 +155,7 @@ static void press(viewer *v, int key, int modifiers)
     case GLFW_KEY_RIGHT_BRACKET: s->clock.speed = fmin(s->clock.speed * 2, 64); break;
     case GLFW_KEY_HOME: s->clock.time = v->document.values.time.start; break;
     case GLFW_KEY_X: s->view.compare = (s->view.compare + 1) % 3; break;
-    case GLFW_KEY_L: s->view.layer = (s->view.layer + 1) % LAYER_COUNT; break;
+    case GLFW_KEY_L: s->view.layer = (s->view.layer + 1) % (MGT_LAYER_NORMAL + 1); break;
     case GLFW_KEY_MINUS: expose(v, -0.5); break;
     case GLFW_KEY_EQUAL: expose(v, 0.5); break;
     case GLFW_KEY_I:

@@ -142,8 +142,7 @@ static float range_end(const view_settings *s)
     case MGT_LAYER_COVERAGE: return (float)s->coverage_end;
     case MGT_LAYER_DEPTH: return (float)(fmax(s->near_depth, s->far_depth) * 1.0001); /* never the same as the lower one */
     case MGT_LAYER_NORMAL: return (float)s->lean_end;
-    case MGT_LAYER_COLOR:
-    case MGT_LAYER_MASK: break;
+    default: break;
     }
     return 1;
 }

@@ -129,6 +129,9 @@ static const char *layer_meaning(mgt_layer layer)
     case MGT_LAYER_MASK: return ", share that is water";
     case MGT_LAYER_DEPTH: return ", metres along the ray";
     case MGT_LAYER_NORMAL: return ", horizontal part";
+    case MGT_LAYER_SAMPLES:
+    case MGT_LAYER_IMPORTANCE:
+    case MGT_LAYER_DETAIL:
     case MGT_LAYER_COLOR: break;
     }
     return "";

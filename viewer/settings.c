@@ -3,7 +3,7 @@
 #include "settings.h"
 
 const char *const method_choices[] = {"none",   "ssaa", "podee-uniform", "podee-pixel", "mangata",  "reference", "msaa32",
-                                      "lean",   "leadr", "tokuyoshi",    "bruneton",    "fxaa",     "taa",       "tndf",  NULL};
+                                      "lean",   "leadr", "tokuyoshi",    "bruneton",    "fxaa",     "taa",       "tndf",  "adaptive", NULL};
 const char *const layer_choices[] = {"color", "coverage", "mask", "depth", "normal", NULL};
 static const char *const switch_choices[] = {"off", "on", NULL};
 static const char *const mean_choices[] = {"add", "drop", NULL};

@@ -217,8 +217,16 @@ typedef enum mgt_method {
     MGT_METHOD_BRUNETON,       /* Bruneton et al. 2010: Gaussian slopes and a point-like sun */
     MGT_METHOD_FXAA,           /* Lottes 2009: `none`, its edges blended afterwards */
     MGT_METHOD_TAA,            /* Karis 2014: `none` jittered over eight frames, history reprojected and clamped */
-    MGT_METHOD_TNDF            /* after Tessari et al. 2020: one Gaussian of slopes over pixel and shutter */
+    MGT_METHOD_TNDF,           /* after Tessari et al. 2020: one Gaussian of slopes over pixel and shutter */
+    /* Samples where they show: an analytic picture first, then more of it where that one is likely to be wrong. CPU, as the rivals. */
+    MGT_METHOD_ADAPTIVE
 } mgt_method;
+
+/* How method adaptive finds the pixels that need more, and what it gives them. */
+typedef enum mgt_adaptive {
+    MGT_ADAPTIVE_CELLS = 0, /* pixels of method mangata, split into four again and again where the predicted error is largest */
+    MGT_ADAPTIVE_PODEE = 1  /* Podee et al., Adaptive Supersampling: samples in proportion to an importance of the approximate picture */
+} mgt_adaptive;
 
 /* How podee-* integrates its Gaussian over the light disk and the shutter. */
 typedef enum mgt_kernels {
@@ -246,6 +254,15 @@ typedef struct mgt_quality {
     double transition_width;  /* podee-*: cycles per pixel below the Nyquist limit of 0.5 in which waves turn from resolved to unresolved
                                  (Eq. 20), up to 0.5; 0: 0.3 */
     bool transition_hard;     /* podee-*: no transition, waves turn at 0.5 cycles per pixel (Fig. 11) */
+    mgt_adaptive adaptive;    /* adaptive: the scheme; at most one of the next three says when it ends */
+    double samples;           /* adaptive: evaluations of all waves per pixel of water, on average, 1 … 4096; a cell that leaves waves to its
+                                 covariance counts as the share it evaluates. 0: 8 where no other end is given */
+    double target_rmse;       /* adaptive, cells: ends where the predicted RMSE of coverage over the image is this, 1e-6 … 1; 0: none */
+    double budget_ms;         /* adaptive, cells: ends after so much time, 0.1 … 1e7. The one setting whose pixels depend on the machine; 0: none */
+    double importance_center; /* adaptive, podee: c of Eq. 1, coverage, up to 1; 0: 0.1 */
+    double importance_width;  /* adaptive, podee: ρ of Eq. 1, 1e-6 … 1; 0: 0.04 */
+    double importance_threshold; /* adaptive, podee: pixels whose importance (1 at its peak) is below get no samples, up to 1; 0: 0.01 */
+    uint64_t sample_slots;    /* adaptive, podee: M of Eq. 3, how many samples the picture gets, up to 2^32; 0: as `samples` says */
 } mgt_quality;
 
 /* Everything a frame depends on. Plain data, read during mgt_render() only. */
@@ -281,11 +298,16 @@ typedef enum mgt_layer {
     MGT_LAYER_COVERAGE,  /* 1: share of pixel area × shutter time whose mirror ray meets the light, [0, 1] (P1 Eq. 17 / L_l) */
     MGT_LAYER_MASK,      /* 1: share of the pixel that is water */
     MGT_LAYER_DEPTH,     /* 1: metres along the ray to the first hit at time t; +inf where there is no water */
-    MGT_LAYER_NORMAL     /* 3: world space unit normal, the mean shading normal at time t; (0,0,0) where no water */
+    MGT_LAYER_NORMAL,    /* 3: world space unit normal, the mean shading normal at time t; (0,0,0) where no water */
+    /* What a method spent and why; not in textures and views of OpenGL. */
+    MGT_LAYER_SAMPLES,    /* 1: samples of the pixel; for adaptive evaluations of all waves (see mgt_quality.samples) */
+    MGT_LAYER_IMPORTANCE, /* 1: adaptive: what samples are given for, of the analytic picture; cells: predicted error of its coverage, podee: Eq. 1.
+                             Others: 0 */
+    MGT_LAYER_DETAIL      /* 1: adaptive: coverage of the added samples alone, 0 where there are none. Others: 0 */
 } mgt_layer;
 
 typedef enum mgt_format {
-    MGT_FORMAT_R32F = 0,   /* one float: coverage, mask, depth */
+    MGT_FORMAT_R32F = 0,   /* one float: all but color and normal */
     MGT_FORMAT_RGB32F,     /* three floats: color, normal */
     MGT_FORMAT_RGBA32F,    /* four floats, alpha 1: color, normal */
     MGT_FORMAT_RGBA8_SRGB  /* displayed colour with exposure, glare, tone map and sRGB transfer, alpha 255: color only */

@@ -50,6 +50,9 @@ typedef struct region {
 
 region image_region(const mgt_image *image);
 
+/* What the layer `samples` holds for methods that give every pixel the same. */
+float samples_per_pixel(const mgt_quality *quality);
+
 /* Bytes of one pixel of a format. */
 size_t format_size(mgt_format format);
 

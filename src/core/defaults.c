@@ -73,6 +73,21 @@ region image_region(const mgt_image *image)
     return area;
 }
 
+float samples_per_pixel(const mgt_quality *quality)
+{
+    const mgt_quality *q = quality;
+    switch (q->method) {
+    case MGT_METHOD_SSAA:
+    case MGT_METHOD_REFERENCE: {
+        const uint64_t all = (uint64_t)q->spatial_samples * q->spatial_samples * q->time_samples - q->sample_first;
+        return (float)(q->sample_count ? q->sample_count : all);
+    }
+    case MGT_METHOD_MSAA32: return 32;
+    case MGT_METHOD_TAA: return 8;
+    default: return 1;
+    }
+}
+
 size_t format_size(mgt_format format)
 {
     static const size_t sizes[] = {[MGT_FORMAT_R32F] = 4, [MGT_FORMAT_RGB32F] = 12, [MGT_FORMAT_RGBA32F] = 16, [MGT_FORMAT_RGBA8_SRGB] = 4};

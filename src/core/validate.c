@@ -134,6 +134,43 @@ static mgt_status check_podee(const reporter *r, const mgt_quality *q)
     return MGT_OK;
 }
 
+/* A number that is 0 or in a range, for method adaptive with one scheme (or either, -1). */
+typedef struct adaptive_field {
+    const char *name;
+    double value, least, most;
+    int scheme;
+} adaptive_field;
+
+static mgt_status check_adaptive(const reporter *r, const mgt_quality *q)
+{
+    const int cells = MGT_ADAPTIVE_CELLS, podee = MGT_ADAPTIVE_PODEE;
+    const adaptive_field fields[] = {
+        {"quality.samples", q->samples, 1, 4096, -1},
+        {"quality.target_rmse", q->target_rmse, 1e-6, 1, cells},
+        {"quality.budget_ms", q->budget_ms, 0.1, 1e7, cells},
+        {"quality.importance_center", q->importance_center, 0, 1, podee},
+        {"quality.importance_width", q->importance_width, 1e-6, 1, podee},
+        {"quality.importance_threshold", q->importance_threshold, 0, 1, podee},
+        {"quality.sample_slots", (double)q->sample_slots, 1, 4294967296.0, podee},
+    };
+    TRY(enum_range(r, "quality.adaptive", (int)q->adaptive, MGT_ADAPTIVE_PODEE));
+    for (size_t i = 0; i < sizeof fields / sizeof *fields; i++) {
+        const adaptive_field *f = &fields[i];
+        if (f->value == 0)
+            continue;
+        TRY(in_range(r, f->name, f->value, f->least, f->most));
+        if (q->method != MGT_METHOD_ADAPTIVE || (f->scheme >= 0 && f->scheme != (int)q->adaptive))
+            return report_error(r, MGT_ERROR_SCENE, "render.scene", "%s is for the method adaptive%s alone", f->name,
+                                f->scheme == podee ? ", scheme podee," : f->scheme == cells ? ", scheme cells," : "");
+    }
+    if (q->adaptive != MGT_ADAPTIVE_CELLS && q->method != MGT_METHOD_ADAPTIVE)
+        return report_error(r, MGT_ERROR_SCENE, "render.scene", "quality.adaptive is for the method adaptive alone");
+    if ((q->samples != 0) + (q->target_rmse != 0) + (q->budget_ms != 0) + (q->sample_slots != 0) > 1)
+        return report_error(r, MGT_ERROR_SCENE, "render.scene",
+                            "quality.samples, target_rmse, budget_ms and sample_slots each say how much to sample; at most one may be set");
+    return MGT_OK;
+}
+
 mgt_status validate_scene(const reporter *r, const mgt_scene *scene)
 {
     if (!scene)
@@ -169,10 +206,11 @@ mgt_status validate_scene(const reporter *r, const mgt_scene *scene)
     TRY(in_range(r, "post.glare", (double)scene->post.glare, 0, 1));
 
     const mgt_quality *q = &scene->quality;
-    TRY(enum_range(r, "quality.method", (int)q->method, MGT_METHOD_TNDF));
+    TRY(enum_range(r, "quality.method", (int)q->method, MGT_METHOD_ADAPTIVE));
     TRY(in_range(r, "quality.spatial_samples", q->spatial_samples, 1, 1024));
     TRY(in_range(r, "quality.time_samples", q->time_samples, 1, 65536));
     TRY(check_podee(r, q));
+    TRY(check_adaptive(r, q));
     const uint64_t samples = (uint64_t)q->spatial_samples * q->spatial_samples * q->time_samples;
     if (q->sample_first >= samples || q->sample_count > samples - q->sample_first)
         return report_error(r, MGT_ERROR_SCENE, "render.scene", "quality.sample_first %llu and sample_count %llu lie outside the %llu samples of a pixel",
@@ -188,10 +226,13 @@ static mgt_status validate_target(const reporter *r, const region *area, const m
         [MGT_LAYER_MASK] = 1u << MGT_FORMAT_R32F,
         [MGT_LAYER_DEPTH] = 1u << MGT_FORMAT_R32F,
         [MGT_LAYER_NORMAL] = 1u << MGT_FORMAT_RGB32F | 1u << MGT_FORMAT_RGBA32F,
+        [MGT_LAYER_SAMPLES] = 1u << MGT_FORMAT_R32F,
+        [MGT_LAYER_IMPORTANCE] = 1u << MGT_FORMAT_R32F,
+        [MGT_LAYER_DETAIL] = 1u << MGT_FORMAT_R32F,
     };
     if (target->struct_size != sizeof *target)
         return report_error(r, MGT_ERROR_ARGUMENT, "render.target", "target %zu: struct_size is %zu, this library knows %zu", index, target->struct_size, sizeof *target);
-    if ((int)target->layer < 0 || (int)target->layer > MGT_LAYER_NORMAL || (int)target->format < 0 || (int)target->format > MGT_FORMAT_RGBA8_SRGB ||
+    if ((int)target->layer < 0 || (int)target->layer > MGT_LAYER_DETAIL || (int)target->format < 0 || (int)target->format > MGT_FORMAT_RGBA8_SRGB ||
         !(allowed[target->layer] & 1u << target->format))
         return report_error(r, MGT_ERROR_ARGUMENT, "render.target", "target %zu: layer %d cannot be written in format %d", index, (int)target->layer, (int)target->format);
     if (!target->pixels)

@@ -8,6 +8,7 @@
 #include <time.h>
 
 #include "core/backend.h"
+#include "cpu/adaptive.h"
 #include "cpu/frame.h"
 #include "cpu/glare.h"
 #include "cpu/inspect.h"
@@ -178,7 +179,13 @@ static void write_pixels(const float *const source[3], size_t step, size_t first
     memcpy(out, packed, channels * count * sizeof *out);
 }
 
-static void write_row(const mgt_target *t, const pixel_planes *p, size_t first, uint32_t count, float *out)
+static void fill_row(float *out, uint32_t count, float value)
+{
+    for (uint32_t x = 0; x < count; x++)
+        out[x] = value;
+}
+
+static void write_row(const render_job *job, const mgt_target *t, const pixel_planes *p, size_t first, uint32_t count, float *out)
 {
     const size_t channels = t->format == MGT_FORMAT_RGBA32F ? 4 : 3;
     switch (t->layer) {
@@ -187,6 +194,9 @@ static void write_row(const mgt_target *t, const pixel_planes *p, size_t first, 
     case MGT_LAYER_DEPTH: memcpy(out, p->depth + first, count * sizeof *out); return;
     case MGT_LAYER_COLOR: write_pixels(p->color, p->color_step, first, count, channels, out); return;
     case MGT_LAYER_NORMAL: write_pixels(p->normal, p->normal_step, first, count, channels, out); return;
+    case MGT_LAYER_SAMPLES: fill_row(out, count, samples_per_pixel(&job->scene->quality)); return;
+    case MGT_LAYER_IMPORTANCE:
+    case MGT_LAYER_DETAIL: fill_row(out, count, 0); return;
     }
 }
 
@@ -203,7 +213,7 @@ static void write_block(const render_job *job, const region *block, const pixel_
             const size_t size = format_size(t->format), first = (y - block->y) * p->stride + x0 - block->x;
             char *row = (char *)target_row(t, crop, y - crop->y) + size * (x0 - crop->x);
             if (t->format != MGT_FORMAT_RGBA8_SRGB) {
-                write_row(t, p, first, x1 - x0, (float *)(void *)row);
+                write_row(job, t, p, first, x1 - x0, (float *)(void *)row);
             } else if (!job->radiance) {
                 float rgb[3 * TILE_WIDTH];
                 write_pixels(p->color, p->color_step, first, x1 - x0, 3, rgb);
@@ -519,12 +529,34 @@ static void run_rows(void *user, size_t count, void (*body)(void *, size_t), voi
     run_indices(u->state->pool, count, body, argument);
 }
 
+static bool tell_adaptive(void *argument, double fraction)
+{
+    const cpu_state *s = argument;
+    return !s->progress || s->progress(s->progress_user, fraction);
+}
+
+static mgt_status adapt_picture(void *user, const mgt_scene *scene, const picture_planes *out)
+{
+    const picture_user *u = user;
+    cpu_state *s = u->state;
+    mgt_status status = prepare_sky(s, u->r, scene);
+    if (status != MGT_OK)
+        return status;
+    const frame f = frame_of(scene, s->sky, true);
+    const adaptive_frame a = {&f, s->kernels, s->sky->table, s->pool, s->scratch, tell_adaptive, s};
+    status = adaptive_render(&a, out);
+    if (status == MGT_OK)
+        return MGT_OK;
+    return report_error(u->r, status, status == MGT_CANCELLED ? "render.cancelled" : "render.memory",
+                        status == MGT_CANCELLED ? "rendering was cancelled" : "out of memory for the cells of method adaptive");
+}
+
 static mgt_status cpu_render(void *state, const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count)
 {
     if (!is_whole_frame_method(scene->quality.method))
         return render_picture(state, r, scene, targets, count, NULL);
     picture_user user = {state, r};
-    const picture_maker maker = {&user, make_picture, show_picture, run_rows};
+    const picture_maker maker = {&user, make_picture, show_picture, run_rows, adapt_picture};
     return whole_frame_render(&maker, r, scene, targets, count);
 }
 

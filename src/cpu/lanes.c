@@ -51,6 +51,7 @@ KERNEL real SHARE_TEXEL(CTX cx, real r, real slice)
     return gather_texels(cx->podee->share, real_fma(slice, real_broadcast(PODEE_COLUMNS), r));
 }
 
+#include "kernels/cells.k"
 #include "kernels/glitter.k"
 #include "kernels/lattice.k"
 #include "kernels/podee.k"
@@ -219,14 +220,15 @@ static void list_marched(const wave_set *set, const wave_classes *c, tile_waves 
 static void lanes_sort(const FrameData *frame, const wave_set *set, uint32_t tile_x, uint32_t tile_y, tile_waves *out)
 {
     const struct kernel_context cx = {.frame = frame, .view = &set->view};
-    const real column = real((float)(tile_x * TILE_WIDTH)), row = real((float)(tile_y * TILE_HEIGHT));
-    const TileView view = tile_view(&cx, column, row, TILE_WIDTH, TILE_HEIGHT);
+    const float width = TILE_WIDTH * set->view.scale, height = TILE_HEIGHT * set->view.scale;
+    const real column = real((float)tile_x * width), row = real((float)tile_y * height);
+    const TileView view = tile_view(&cx, column, row, width, height);
     wave_classes classes;
     out->data = tile_data(&set->view, view);
     classify_waves(&cx, set, view, &classes);
     list_waves(set, &classes, out);
     list_marched(set, &classes, out);
-    out->data.light_reach = set->view.filter_waves && any_of(tile_meets_light(&cx, column, row, TILE_WIDTH, TILE_HEIGHT)) > 0;
+    out->data.light_reach = set->view.filter_waves && any_of(tile_meets_light(&cx, column, row, width, height)) > 0;
 }
 
 /* ---- first-hit lattice ---- */
@@ -423,18 +425,39 @@ static void store_pixels(tile_pixels *out, size_t i, PixelResult p)
 
 enum { SURFACE_FLOATS = sizeof(Surface) / sizeof(real) };
 
+/* Pixels of a tile, or cells of them, `count` whole vectors. */
+typedef struct tile_places {
+    const float *column, *row;
+    size_t count;
+} tile_places;
+
+/* All pixels of a tile. */
+typedef struct pixel_grid {
+    float column[TILE_PIXELS], row[TILE_PIXELS];
+} pixel_grid;
+
+static tile_places all_pixels(pixel_grid *grid)
+{
+    for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
+        store(grid->column + i, lane_numbers() + (float)(i % TILE_WIDTH));
+        store(grid->row + i, real_broadcast((float)(i / TILE_WIDTH)));
+    }
+    return (tile_places){grid->column, grid->row, TILE_PIXELS};
+}
+
 /* What slope_state() of glitter.k knows of each pixel on its way. Marches and second looks are for few pixels: these are gathered from the whole
  * tile into full vectors. */
 typedef struct tile_looks {
+    tile_places places;
     float surface[SURFACE_FLOATS][TILE_PIXELS];
     float along[TILE_PIXELS], correction[TILE_PIXELS], lost[TILE_PIXELS], again[TILE_PIXELS];
     uint16_t list[TILE_PIXELS + MGT_LANES];
 } tile_looks;
 
-/* The pixels i, i + 1, … of the tile. */
-static inline PixelRay pixel_rays(const struct kernel_context *cx, size_t i)
+/* The places i, i + 1, … */
+static inline PixelRay pixel_rays(const struct kernel_context *cx, const tile_places *p, size_t i)
 {
-    return pixel_ray_filtered(cx, lane_numbers() + (float)(i % TILE_WIDTH), real_broadcast((float)(i / TILE_WIDTH)));
+    return pixel_ray_filtered(cx, load(p->column + i), load(p->row + i));
 }
 
 static Surface load_surface(const tile_looks *l, size_t i)
@@ -447,10 +470,10 @@ static Surface load_surface(const tile_looks *l, size_t i)
 }
 
 /* The pixels whose flag is set; the list's last vector is filled up with its last pixel. Returns how many vectors. */
-static size_t list_pixels(const float *flags, uint16_t *list)
+static size_t list_pixels(const float *flags, size_t places, uint16_t *list)
 {
     size_t count = 0;
-    for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
+    for (size_t i = 0; i < places; i += MGT_LANES) {
         if (!any_lane(load(flags + i) > real(0.0f)))
             continue;
         for (size_t lane = 0; lane < MGT_LANES; lane++) {
@@ -472,33 +495,28 @@ static inline void scatter(float *plane, const uint16_t *list, real value)
         plane[list[i]] = lanes[i];
 }
 
-static inline vec3 listed_ray(const struct kernel_context *cx, const uint16_t *list)
+static inline vec3 listed_ray(const struct kernel_context *cx, const tile_places *p, const uint16_t *list)
 {
-    float column[MGT_LANES], row[MGT_LANES];
-    for (int i = 0; i < MGT_LANES; i++) {
-        column[i] = (float)(list[i] % TILE_WIDTH);
-        row[i] = (float)(list[i] / TILE_WIDTH);
-    }
-    return pixel_ray_filtered(cx, load(column), load(row)).ray;
+    return pixel_ray_filtered(cx, gather(p->column, list), gather(p->row, list)).ray;
 }
 
 /* Replaces the guesses that the lattice itself doubts. */
 static void march_doubtful(const struct kernel_context *cx, const tile_guess *guess, tile_looks *l)
 {
-    const size_t vectors = list_pixels(l->lost, l->list);
+    const size_t vectors = list_pixels(l->lost, l->places.count, l->list);
     for (size_t v = 0; v < vectors; v++) {
         const uint16_t *list = l->list + v * MGT_LANES;
-        const MarchHit hit = march(cx, listed_ray(cx, list), gather(guess->from, list), real(1.0f));
+        const MarchHit hit = march(cx, listed_ray(cx, &l->places, list), gather(guess->from, list), real(1.0f));
         scatter(l->along, list, SELECT(hit.found > real(0.0f), hit.along, gather(l->along, list)));
     }
 }
 
 static void march_lost(const struct kernel_context *cx, const tile_guess *guess, tile_looks *l)
 {
-    const size_t vectors = list_pixels(l->lost, l->list);
+    const size_t vectors = list_pixels(l->lost, l->places.count, l->list);
     for (size_t v = 0; v < vectors; v++) {
         const uint16_t *list = l->list + v * MGT_LANES;
-        const MarchHit hit = march(cx, listed_ray(cx, list), gather(guess->from, list), real(1.0f));
+        const MarchHit hit = march(cx, listed_ray(cx, &l->places, list), gather(guess->from, list), real(1.0f));
         const mask found = hit.found > real(0.0f);
         scatter(l->correction, list, SELECT(found, hit.along - gather(l->along, list), gather(l->correction, list)));
         scatter(l->again, list, SELECT(found, real(1.0f), gather(l->again, list)));
@@ -507,11 +525,11 @@ static void march_lost(const struct kernel_context *cx, const tile_guess *guess,
 
 static void look_again(const struct kernel_context *cx, tile_looks *l)
 {
-    const size_t vectors = list_pixels(l->again, l->list);
+    const size_t vectors = list_pixels(l->again, l->places.count, l->list);
     for (size_t v = 0; v < vectors; v++) {
         const uint16_t *list = l->list + v * MGT_LANES;
         const real along = gather(l->along, list) + gather(l->correction, list);
-        const Surface s = surface_along(cx, listed_ray(cx, list), along);
+        const Surface s = surface_along(cx, listed_ray(cx, &l->places, list), along);
         const real *members = (const real *)&s;
         scatter(l->along, list, along);
         for (int m = 0; m < SURFACE_FLOATS; m++)
@@ -522,18 +540,18 @@ static void look_again(const struct kernel_context *cx, tile_looks *l)
 /* Only where `wanted` is above 0. */
 static void look_at_tile(const struct kernel_context *cx, const tile_guess *guess, const float *wanted, tile_looks *l)
 {
-    for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
-        store(l->along + i, guessed_along(cx, pixel_rays(cx, i).ray, load_guess(guess, i)));
+    for (size_t i = 0; i < l->places.count; i += MGT_LANES) {
+        store(l->along + i, guessed_along(cx, pixel_rays(cx, &l->places, i).ray, load_guess(guess, i)));
         store(l->lost + i, SELECT(load(wanted + i) > real(0.0f), load(guess->march + i), real(0.0f)));
     }
     march_doubtful(cx, guess, l);
-    for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
+    for (size_t i = 0; i < l->places.count; i += MGT_LANES) {
         const mask water = load(wanted + i) > real(0.0f);
         store(l->lost + i, real(0.0f));
         store(l->again + i, real(0.0f));
         if (!any_lane(water))
             continue;
-        const SurfaceLook look = look_at_guess(cx, pixel_rays(cx, i).ray, load(l->along + i));
+        const SurfaceLook look = look_at_guess(cx, pixel_rays(cx, &l->places, i).ray, load(l->along + i));
         const real *members = (const real *)&look.surface;
         for (int m = 0; m < SURFACE_FLOATS; m++)
             store(l->surface[m] + i, members[m]);
@@ -550,24 +568,52 @@ static inline SlopeState looked_slopes(const struct kernel_context *cx, const ti
     return slopes_at(cx, ray, load(l->along + i), load_surface(l, i));
 }
 
-static void render_glitter(const struct kernel_context *cx, const tile_guess *guess, const struct kernel_context *open, const tile_guess *open_guess,
-                           tile_pixels *out)
+static void store_cell(tile_pixels *out, tile_detail *detail, size_t i, CellResult c)
+{
+    store_pixels(out, i, c.pixel);
+    if (detail) {
+        store(detail->height + i, c.height);
+        store(detail->variance + i, c.variance);
+    }
+}
+
+static void render_glitter(const struct kernel_context *cx, tile_places places, const tile_guess *guess, const struct kernel_context *open,
+                           const tile_guess *open_guess, tile_pixels *out, tile_detail *detail)
 {
     tile_looks close_looks, open_looks;
-    for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES)
-        store(out->water + i, pixel_rays(cx, i).water);
+    close_looks.places = open_looks.places = places;
+    for (size_t i = 0; i < places.count; i += MGT_LANES)
+        store(out->water + i, pixel_rays(cx, &places, i).water);
     look_at_tile(cx, guess, out->water, &close_looks);
     if (open)
         look_at_tile(open, open_guess, out->water, &open_looks);
-    for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
-        const PixelRay p = pixel_rays(cx, i);
-        if (!any_lane(p.water > real(0.0f))) {
-            store_pixels(out, i, nothing_but_sky(cx, p));
-            continue;
+    for (size_t i = 0; i < places.count; i += MGT_LANES) {
+        const PixelRay p = pixel_rays(cx, &places, i);
+        CellResult cell = {.height = real(0.0f), .variance = real(0.0f)};
+        if (any_lane(p.water > real(0.0f))) {
+            const SlopeState state = looked_slopes(cx, &close_looks, i, p.ray);
+            cell = cell_result_of(cx, p, open ? looked_slopes(open, &open_looks, i, pixel_rays(open, &places, i).ray) : state, state);
+        } else {
+            cell.pixel = nothing_but_sky(cx, p);
         }
-        const SlopeState state = looked_slopes(cx, &close_looks, i, p.ray);
-        store_pixels(out, i, glitter_result(cx, p, open ? looked_slopes(open, &open_looks, i, pixel_rays(open, i).ray) : state, state));
+        store_cell(out, detail, i, cell);
     }
+}
+
+static void lanes_cells(const FrameData *frame, const float *sky, const tile_waves *close, const tile_waves *open, tile_cells *cells)
+{
+    const struct kernel_context cx = {.frame = frame, .tile = &close->data, .waves = close->waves, .march = close->march, .sky = sky};
+    struct kernel_context before = cx;
+    if (open)
+        before.tile = &open->data, before.waves = open->waves, before.march = open->march;
+    size_t count = cells->count;
+    for (; count % MGT_LANES != 0; count++) {
+        cells->column[count] = cells->column[count - 1];
+        cells->row[count] = cells->row[count - 1];
+        cells->guess.height[count] = cells->guess.height[count - 1];
+    }
+    const tile_places places = {cells->column, cells->row, count};
+    render_glitter(&cx, places, &cells->guess, open ? &before : NULL, &cells->guess, &cells->pixels, &cells->detail);
 }
 
 static void render_podee(const struct kernel_context *cx, const tile_guess *guess, const struct kernel_context *open, const tile_guess *open_guess,
@@ -590,17 +636,20 @@ static void render_podee(const struct kernel_context *cx, const tile_guess *gues
 }
 
 static void lanes_filtered(const FrameData *frame, const float *sky, const podee_tables *podee, mgt_method method, const tile_waves *close,
-                           const tile_guess *close_guess, const tile_waves *open, const tile_guess *open_guess, tile_pixels *out)
+                           const tile_guess *close_guess, const tile_waves *open, const tile_guess *open_guess, tile_pixels *out,
+                           tile_detail *detail)
 {
     const struct kernel_context context = {
         .frame = frame, .tile = &close->data, .waves = close->waves, .march = close->march, .sky = sky, .podee = podee};
     struct kernel_context open_context = context;
     if (open)
         open_context.tile = &open->data, open_context.waves = open->waves, open_context.march = open->march;
-    if (method == MGT_METHOD_MANGATA)
-        render_glitter(&context, close_guess, open ? &open_context : NULL, open_guess, out);
-    else
+    if (method == MGT_METHOD_MANGATA) {
+        pixel_grid grid;
+        render_glitter(&context, all_pixels(&grid), close_guess, open ? &open_context : NULL, open_guess, out, detail);
+    } else {
         render_podee(&context, close_guess, open ? &open_context : NULL, open_guess, out);
+    }
 }
 
 static void store_normal(tile_surface *out, size_t i, vec2 slope, mask water)
@@ -657,5 +706,5 @@ static void lanes_display(const FrameData *frame, const float *rgb, uint8_t *rgb
 }
 
 const lane_kernels LANES_NAME(MGT_LANES) = {
-    MGT_LANES, lanes_sort, lanes_guess, lanes_sample, lanes_filtered, lanes_surface, lanes_filtered_normal, lanes_display, &RIVALS_NAME(MGT_LANES),
+    MGT_LANES, lanes_sort, lanes_guess, lanes_sample, lanes_filtered, lanes_cells, lanes_surface, lanes_filtered_normal, lanes_display, &RIVALS_NAME(MGT_LANES),
 };

@@ -54,6 +54,20 @@ typedef struct tile_pixels {
     float water[TILE_PIXELS];
 } tile_pixels;
 
+/* How a pixel or cell of method `mangata` goes on, see cells.k. */
+typedef struct tile_detail {
+    float height[TILE_PIXELS], variance[TILE_PIXELS];
+} tile_detail;
+
+/* Cells of one tile and level: pixels are split evenly into scale × scale of them. */
+typedef struct tile_cells {
+    size_t count;                                   /* at most TILE_PIXELS */
+    float column[TILE_PIXELS], row[TILE_PIXELS];    /* whole numbers, in cells from the tile's first one */
+    tile_guess guess;
+    tile_detail detail;                             /* out */
+    tile_pixels pixels;                             /* out */
+} tile_cells;
+
 typedef struct tile_surface {
     float along[TILE_PIXELS]; /* metres along the ray; +inf without water */
     float normal_x[TILE_PIXELS], normal_y[TILE_PIXELS], normal_z[TILE_PIXELS];
@@ -63,16 +77,19 @@ typedef struct rival_kernels rival_kernels; /* cpu/rival_lanes.h */
 
 typedef struct lane_kernels {
     uint32_t lanes;
-    /* Sorts the waves for the tile (tile_x, tile_y) of the lattice. */
+    /* Sorts the waves for the tile (tile_x, tile_y) of the lattice, or for its cells where set->view.scale says so. */
     void (*sort)(const FrameData *frame, const wave_set *set, uint32_t tile_x, uint32_t tile_y, tile_waves *out);
     /* Marches the tile's nodes and fills the guesses of its pixels. */
     void (*guess)(const FrameData *frame, const tile_waves *tile, tile_guess *guess);
     /* One sample a pixel at (x + dx, y + dy), dx and dy in pixels from its centre (NULL: 0); adds weight × result to `out`. */
     void (*sample)(const FrameData *frame, const float *sky, const tile_waves *tile, const tile_guess *guess, const float *dx,
                    const float *dy, float weight, tile_pixels *out);
-    /* Filtered methods; `open` is NULL unless the camera moves. `podee` is read where podee-* replaces its Gaussian by kernels. */
+    /* Filtered methods; `open` is NULL unless the camera moves. `podee` is read where podee-* replaces its Gaussian by kernels. `detail` is for
+       method `mangata`, or NULL. */
     void (*filtered)(const FrameData *frame, const float *sky, const podee_tables *podee, mgt_method method, const tile_waves *close,
-                     const tile_guess *close_guess, const tile_waves *open, const tile_guess *open_guess, tile_pixels *out);
+                     const tile_guess *close_guess, const tile_waves *open, const tile_guess *open_guess, tile_pixels *out, tile_detail *detail);
+    /* Cells by method `mangata`; the waves are sorted for their level. Lists are filled up to whole vectors. */
+    void (*cells)(const FrameData *frame, const float *sky, const tile_waves *close, const tile_waves *open, tile_cells *cells);
     /* Depth and normal at one instant. */
     void (*surface)(const FrameData *frame, const tile_waves *tile, const tile_guess *guess, tile_surface *out);
     /* The mean shading normal of filtered methods instead, from a tile with resolved and mixed waves at one instant. */

@@ -171,7 +171,7 @@ static void blend_row(void *argument, size_t y)
 mgt_status taa_render(const picture_maker *m, const reporter *r, const mgt_scene *scene, picture_planes *out)
 {
     const taa_history h = {m, scene, scene->frame_interval > 0 ? scene->frame_interval : scene->shutter > 0 ? scene->shutter : 1.0 / 30};
-    picture_planes current = picture_planes_create(out->width, out->height, true), spare = picture_planes_create(out->width, out->height, true);
+    picture_planes current = picture_planes_create(out->width, out->height, MGT_METHOD_TAA), spare = picture_planes_create(out->width, out->height, MGT_METHOD_TAA);
     mgt_status status = MGT_ERROR_MEMORY;
     if (!current.color || !spare.color) {
         report_error(r, status, "render.memory", "out of memory for taa on %u x %u pixels", out->width, out->height);

@@ -126,7 +126,7 @@ static void run_filtered(const tile_job *job, bool moves, tile_scratch *scratch,
 {
     const frame *f = job->frame;
     job->kernels->filtered(&f->data, job->sky, job->podee, f->scene->quality.method, &scratch->close, &scratch->close_guess,
-                           moves ? &scratch->open : NULL, moves ? &scratch->open_guess : NULL, out);
+                           moves ? &scratch->open : NULL, moves ? &scratch->open_guess : NULL, out, NULL);
 }
 
 static void render_filtered(tile_place place, tile_scratch *scratch)

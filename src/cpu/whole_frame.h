@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Methods that work on whole pictures of method `none`: fxaa on one, taa on several. */
+ * Methods that work on whole pictures: fxaa on one of method `none`, taa on several, adaptive on its own. */
 #ifndef MANGATA_CPU_WHOLE_FRAME_H
 #define MANGATA_CPU_WHOLE_FRAME_H
 
@@ -12,6 +12,19 @@ typedef struct frame_pass {
     double first, share; /* of the frame's progress: what is done already, and what this picture adds */
 } frame_pass;
 
+/* A whole picture; members point into one allocation. */
+typedef struct picture_planes {
+    uint32_t width, height;
+    float *color; /* 3 floats a pixel, kcd/m² */
+    float *coverage, *water;
+    float *depth; /* metres along the ray; only for taa */
+    float *samples, *importance, *detail; /* only for adaptive */
+} picture_planes;
+
+/* Zeroed; color NULL where memory is short. */
+picture_planes picture_planes_create(uint32_t width, uint32_t height, mgt_method method);
+void picture_planes_free(picture_planes *p);
+
 /* What the backend offers. */
 typedef struct picture_maker {
     void *user;
@@ -19,23 +32,13 @@ typedef struct picture_maker {
     mgt_status (*display)(void *user, const mgt_scene *scene, const float *radiance, const mgt_target *target);
     /* body(argument, i) for every i below count, on all threads. */
     void (*run)(void *user, size_t count, void (*body)(void *, size_t), void *argument);
+    /* Method adaptive: fills the planes. */
+    mgt_status (*adapt)(void *user, const mgt_scene *scene, const picture_planes *out);
 } picture_maker;
-
-/* A whole picture; members point into one allocation. */
-typedef struct picture_planes {
-    uint32_t width, height;
-    float *color; /* 3 floats a pixel, kcd/m² */
-    float *coverage, *water;
-    float *depth; /* metres along the ray; only for taa */
-} picture_planes;
-
-/* Zeroed; color NULL where memory is short. */
-picture_planes picture_planes_create(uint32_t width, uint32_t height, bool depth);
-void picture_planes_free(picture_planes *p);
 
 bool is_whole_frame_method(mgt_method method);
 
-/* Renders a scene whose method is fxaa or taa. */
+/* Renders a scene whose method is fxaa, taa or adaptive. */
 mgt_status whole_frame_render(const picture_maker *m, const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count);
 
 /* ---- its two methods: `scene` asks for `none` and for no crop ---- */

@@ -159,6 +159,9 @@ static layer_source source_of(const gl_layers *l, const mgt_target *target)
     case MGT_LAYER_MASK: return (layer_source){&l->water, GL_RED, GL_FLOAT};
     case MGT_LAYER_DEPTH: return (layer_source){&l->depth, GL_RED, GL_FLOAT};
     case MGT_LAYER_NORMAL: return (layer_source){&l->normal, channels, GL_FLOAT};
+    case MGT_LAYER_SAMPLES: /* handed to the CPU */
+    case MGT_LAYER_IMPORTANCE:
+    case MGT_LAYER_DETAIL:
     case MGT_LAYER_COLOR: break;
     }
     return (layer_source){&l->color, channels, GL_FLOAT};
@@ -276,7 +279,10 @@ static mgt_status render_entered(gl_backend_state *s, const reporter *r, const m
 static mgt_status gl_render(void *state, const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count)
 {
     gl_backend_state *s = state;
-    if (!gl_renders(&scene->quality))
+    bool renders = gl_renders(&scene->quality);
+    for (size_t i = 0; i < count; i++)
+        renders &= targets[i].layer <= MGT_LAYER_NORMAL;
+    if (!renders)
         return render_by_cpu(s, r, scene, targets, count);
     gl_scope scope;
     mgt_status status = gl_enter(s, &scope, r);

@@ -14,7 +14,8 @@ static bool takes_layer(GLenum format, mgt_layer layer)
     case MGT_LAYER_MASK:
     case MGT_LAYER_DEPTH: return format == GL_R32F || format == GL_R16F;
     case MGT_LAYER_NORMAL: return format == GL_RGBA32F || format == GL_RGBA16F;
-    case MGT_LAYER_COLOR: break;
+    case MGT_LAYER_COLOR:
+    default: break;
     }
     return format == GL_RGBA32F || format == GL_RGBA16F || format == GL_RGBA8;
 }
@@ -57,7 +58,8 @@ static const gl_image *image_of(const gl_layers *l, mgt_layer layer, GLenum form
     case MGT_LAYER_MASK: return &l->water;
     case MGT_LAYER_DEPTH: return &l->depth;
     case MGT_LAYER_NORMAL: return &l->normal;
-    case MGT_LAYER_COLOR: break;
+    case MGT_LAYER_COLOR:
+    default: break;
     }
     return format == GL_RGBA8 ? &l->display : &l->color;
 }

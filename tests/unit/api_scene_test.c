@@ -249,7 +249,7 @@ static void water_is_checked(void **state)
 static void quality_is_checked(void **state)
 {
     api_state *a = *state;
-    REFUSE(quality.method, (mgt_method)(MGT_METHOD_TNDF + 1));
+    REFUSE(quality.method, (mgt_method)(MGT_METHOD_ADAPTIVE + 1));
     REFUSE(quality.method, (mgt_method)-1);
     REFUSE(quality.spatial_samples, 0);
     REFUSE(quality.spatial_samples, 1025);

@@ -21,7 +21,7 @@
 enum { SEA_WAVES = 12, SEA_WIDTH = 83, SEA_HEIGHT = 47 }; /* no multiple of any tile */
 
 static const mgt_method sea_methods[] = {MGT_METHOD_NONE,         MGT_METHOD_SSAA,    MGT_METHOD_PODEE_UNIFORM,
-                                         MGT_METHOD_PODEE_PIXEL, MGT_METHOD_MANGATA, MGT_METHOD_REFERENCE};
+                                         MGT_METHOD_PODEE_PIXEL, MGT_METHOD_MANGATA, MGT_METHOD_REFERENCE, MGT_METHOD_ADAPTIVE};
 enum { SEA_METHODS = sizeof sea_methods / sizeof *sea_methods };
 static const mgt_method sea_rivals[] = {MGT_METHOD_MSAA32,   MGT_METHOD_LEAN, MGT_METHOD_LEADR, MGT_METHOD_TOKUYOSHI,
                                         MGT_METHOD_BRUNETON, MGT_METHOD_FXAA, MGT_METHOD_TAA,   MGT_METHOD_TNDF};

@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: MIT
+ * Method adaptive: pixels of method `mangata` are split into four cells again and again where that is worth most. */
+#ifndef MANGATA_CPU_ADAPTIVE_H
+#define MANGATA_CPU_ADAPTIVE_H
+
+#include "cpu/thread_pool.h"
+#include "cpu/tile_job.h"
+#include "cpu/whole_frame.h"
+
+/* One frame; the scene asks for no crop. */
+typedef struct adaptive_frame {
+    const frame *frame;
+    const lane_kernels *kernels;
+    const float *sky; /* the table of a sky_state */
+    thread_pool *pool;
+    tile_scratch **scratch; /* one a worker */
+    /* Asked between rounds with the share done; false: stop with MGT_CANCELLED. */
+    bool (*keep_going)(void *argument, double fraction);
+    void *keep_going_argument;
+} adaptive_frame;
+
+/* Fills all planes but depth. MGT_ERROR_MEMORY where memory is short. */
+mgt_status adaptive_render(const adaptive_frame *a, const picture_planes *out);
+
+#endif
