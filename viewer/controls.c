@@ -112,6 +112,12 @@ static const control_hint *hint_of(const char *name)
     return NULL;
 }
 
+/* The document holds a spectrum's waves, so its settings change nothing any more. */
+static bool is_written_out(const char *name)
+{
+    return strncmp(name, "water.spectrum", 14) == 0;
+}
+
 static bool is_control(const scene_field *field)
 {
     return field->type != FIELD_MAPPING && field->type != FIELD_LIST && field->type != FIELD_TEXT && field->min <= field->max &&
@@ -141,6 +147,8 @@ static void walk(control_sink *sink, const char *path, const scene_field *mappin
         char name[64];
         void *value = (char *)values + field->offset;
         snprintf(name, sizeof name, "%.40s%s%s", path, path[0] ? "." : "", field->key);
+        if (is_written_out(name))
+            continue;
         if (field->type == FIELD_MAPPING)
             walk(sink, name, field, value);
         else if (is_control(field))
@@ -226,7 +234,7 @@ bool control_find(const control_board *board, const char *name, control *out)
         out->field = find_setting(board->settings, name, &out->value);
         out->of_scene = false;
     }
-    return out->field && is_control(out->field);
+    return out->field && is_control(out->field) && !is_written_out(name);
 }
 
 /* ---- values --------------------------------------------------------------------------------------------------- */

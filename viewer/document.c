@@ -10,6 +10,15 @@
 
 static bool values_of_words(const scene_values *base, const char *const *words, size_t count, scene_values *out, scene_error *error);
 
+/* The values of a file with its spectrum as single waves: those are what the viewer changes. */
+static bool copy_values(scene_values *out, const scene_file *file)
+{
+    const bool good = scene_values_copy(out, scene_file_values(file));
+    if (good)
+        scene_values_write_out_sea(out);
+    return good;
+}
+
 /* ---- opening ------------------------------------------------------------------------------------------------ */
 
 static bool same_stamp(const struct stat *a, const struct stat *b)
@@ -31,7 +40,7 @@ bool document_open(document *d, const char *path, const char *const *words, size
         d->file = changed;
         changed = NULL;
     }
-    if (scene_values_copy(&d->values, scene_file_values(changed ? changed : d->file))) {
+    if (copy_values(&d->values, changed ? changed : d->file)) {
         scene_file_free(changed);
         *error = (scene_error){0};
         return true;
@@ -58,7 +67,7 @@ void document_replace(document *d, scene_values *values)
 bool document_revert(document *d)
 {
     scene_values values;
-    if (!scene_values_copy(&values, scene_file_values(d->file)))
+    if (!copy_values(&values, d->file))
         return false;
     document_replace(d, &values);
     return true;
@@ -103,7 +112,7 @@ static bool values_of_words(const scene_values *base, const char *const *words, 
     free(text);
     if (!file)
         return false;
-    const bool good = scene_values_copy(out, scene_file_values(file)) || scene_error_memory(error);
+    const bool good = copy_values(out, file) || scene_error_memory(error);
     scene_file_free(file);
     if (good && (gets_path || out->camera.path.count > 0)) {
         memcpy(out->camera.still.position, base->camera.still.position, sizeof out->camera.still.position);
@@ -147,16 +156,19 @@ static size_t without_keys_of(const scene_overrides *words, const scene_override
 static bool merge(document *d, const scene_file *fresh, scene_values *out)
 {
     scene_overrides mine = {0}, theirs = {0};
-    const scene_values *old = scene_file_values(d->file), *new = scene_file_values(fresh);
+    scene_values old, new = {0};
     const char **words = NULL;
-    bool good = scene_overrides_between(old, &d->values, &mine) && scene_overrides_between(old, new, &theirs);
+    bool good = copy_values(&old, d->file) && copy_values(&new, fresh) && scene_overrides_between(&old, &d->values, &mine) &&
+                scene_overrides_between(&old, &new, &theirs);
     if (good)
         words = calloc(mine.count + 1, sizeof *words);
     if (words)
-        good = values_of_words(new, words, without_keys_of(&mine, &theirs, words), out, NULL);
+        good = values_of_words(&new, words, without_keys_of(&mine, &theirs, words), out, NULL);
     /* Changes that no longer fit are given up. */
     if (!words || !good)
-        good = scene_values_copy(out, new);
+        good = copy_values(out, fresh);
+    scene_values_free(&old);
+    scene_values_free(&new);
     free(words);
     scene_overrides_free(&mine);
     scene_overrides_free(&theirs);

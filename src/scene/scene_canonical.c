@@ -76,6 +76,7 @@ char *scene_values_canonical(const scene_values *values, size_t *length)
     scene_values effective = *values;
     if (effective.camera.path.count > 0) /* the still camera is then never looked through */
         effective.camera.still = ((const scene_keyframe *)effective.camera.path.items)[0].camera;
+    effective.water.waves = scene_water_all(&values->water);
     if (!effective.post.exposure.automatic)
         effective.post.exposure_offset = 0;
     FILE *stream = open_memstream(&text, &size);

@@ -24,19 +24,36 @@ static bool copy_list(scene_list *out, const scene_list *list, size_t item_size)
     return true;
 }
 
+static bool copy_text(char **out, const char *text)
+{
+    *out = text != NULL ? strdup(text) : NULL;
+    return text == NULL || *out != NULL;
+}
+
 bool scene_values_copy(scene_values *out, const scene_values *values)
 {
     scene_values copy = *values;
-    copy.description = NULL;
-    copy.camera.path = copy.water.waves = (scene_list){0};
+    copy.description = copy.water.spectrum.file = NULL;
+    copy.camera.path = copy.water.waves = copy.water.sea = (scene_list){0};
     bool good = copy_list(&copy.camera.path, &values->camera.path, sizeof(scene_keyframe)) &&
-                copy_list(&copy.water.waves, &values->water.waves, sizeof(mgt_wave));
-    if (good && values->description != NULL)
-        good = (copy.description = strdup(values->description)) != NULL;
+                copy_list(&copy.water.waves, &values->water.waves, sizeof(mgt_wave)) &&
+                copy_list(&copy.water.sea, &values->water.sea, sizeof(mgt_wave)) && copy_text(&copy.description, values->description) &&
+                copy_text(&copy.water.spectrum.file, values->water.spectrum.file);
     if (!good)
         scene_values_free(&copy);
     *out = copy;
     return good;
+}
+
+void scene_values_write_out_sea(scene_values *values)
+{
+    scene_water *water = &values->water;
+    if (water->spectrum.settings.kind == SPECTRUM_NONE)
+        return;
+    free(water->waves.items);
+    water->waves = water->sea;
+    water->sea = (scene_list){0};
+    water->spectrum.settings.kind = SPECTRUM_NONE;
 }
 
 /* ---- paths ------------------------------------------------------------------------------------------------- */
@@ -361,11 +378,24 @@ static bool add_differences(scene_overrides *out, const char *path, const scene_
     return true;
 }
 
+/* Whether `to` holds the waves of `from` written out, all that its spectrum made. */
+static bool is_written_out(const scene_values *from, const scene_values *to)
+{
+    const scene_field *water = child_field(scene_root_field(), "water", 5), *waves = child_field(water, "waves", 5);
+    return from->water.spectrum.settings.kind != SPECTRUM_NONE && to->water.spectrum.settings.kind == SPECTRUM_NONE &&
+           lists_equal(waves, &from->water.sea, &to->water.waves);
+}
+
 bool scene_overrides_between(const scene_values *from, const scene_values *to, scene_overrides *out)
 {
     const scene_values defaults = scene_values_defaults();
+    scene_values goal = *to; /* borrows */
     *out = (scene_overrides){0};
-    if (add_differences(out, "", scene_root_field(), from, to, &defaults))
+    if (is_written_out(from, to)) {
+        goal.water.waves = from->water.waves;
+        goal.water.spectrum = from->water.spectrum;
+    }
+    if (add_differences(out, "", scene_root_field(), from, &goal, &defaults))
         return true;
     scene_overrides_free(out);
     return false;

@@ -18,6 +18,9 @@ bool scene_values_shot(const scene_values *values, double time, mgt_scene *out);
 /* A copy with lists and text of its own, to be freed with scene_values_free(). False when memory runs out; *out is then empty. */
 bool scene_values_copy(scene_values *out, const scene_values *values);
 
+/* Turns what a spectrum made into explicit waves, and the spectrum into none. */
+void scene_values_write_out_sea(scene_values *values);
+
 /* The field that a path such as "light.elevation_deg", "water.waves[2].a" or "camera.path" names, and where `values` hold it. NULL where
  * there is none, or no such item. */
 const scene_field *scene_values_find(const scene_values *values, const char *path, const void **value);
@@ -35,7 +38,7 @@ typedef struct scene_overrides {
     size_t count;
 } scene_overrides;
 
-/* The words that turn a file with the values `from` into `to`. False when memory runs out; *out is then empty. */
+/* The words that turn a file with the values `from` into `to`; where `to` is a spectrum of `from` written out there are none about waves. False when memory runs out; *out is then empty. */
 bool scene_overrides_between(const scene_values *from, const scene_values *to, scene_overrides *out);
 void scene_overrides_free(scene_overrides *overrides);
 

@@ -16,6 +16,9 @@
 
 static const char *const bodies[] = {"sun", "moon", NULL};
 static const char *const sky_models[] = {"atmosphere", "gradient", "black", NULL};
+static const char *const spectrum_kinds[] = {"none", "pierson-moskowitz", "jonswap", "tma", "buoy", NULL};
+static const char *const spectrum_spreadings[] = {"mitsuyasu", "hasselmann", "donelan-banner", "fixed", NULL};
+static const char *const spectrum_slopes[] = {"spectrum", "cox-munk", NULL};
 static const char *const tone_maps[] = {"none", "reinhard", "aces", "agx", NULL};
 
 static void decide_body(void *parent)
@@ -103,10 +106,36 @@ static const scene_field wave_fields[] = {
     {"phase", FIELD_NUMBER, offsetof(mgt_wave, phase), 0, ANYWHERE, "rad", .doc = "phase at x = z = 0, time 0"},
     {0}};
 
+static const scene_field spectrum_fields[] = {
+    {"model", FIELD_CHOICE, offsetof(scene_spectrum, settings.kind), 0, NO_RANGE, NULL,
+     .doc = "which sea; none: no further waves; buoy: the table in file", .choices = spectrum_kinds},
+    {"wind", FIELD_NUMBER, offsetof(scene_spectrum, settings.wind), 0, 0.5, 75, "m/s", .doc = "speed of the wind"},
+    {"wind_height", FIELD_NUMBER, offsetof(scene_spectrum, settings.wind_height), 0, 0, 200, "m",
+     .doc = "where the wind was measured; 0: 19.5 m for pierson-moskowitz, else 10 m, as in their papers"},
+    {"fetch", FIELD_NUMBER, offsetof(scene_spectrum, settings.fetch), 0, 100, 1e7, "m",
+     .doc = "stretch of open water that the wind has crossed (jonswap, tma)"},
+    {"depth", FIELD_NUMBER, offsetof(scene_spectrum, settings.depth), 0, 0, 12000, "m", .doc = "of the water; 0: deep"},
+    {"gamma", FIELD_NUMBER, offsetof(scene_spectrum, settings.gamma), 0, 1, 20, NULL, .doc = "how far the peak stands out (jonswap, tma)"},
+    {"direction_deg", FIELD_NUMBER, offsetof(scene_spectrum, settings.direction_deg), 0, -1e6, 1e6, "degrees",
+     .doc = "where the wind comes from: 0 is -z (\"north\"), 90 is +x (\"east\")"},
+    {"directions", FIELD_CHOICE, offsetof(scene_spectrum, settings.directions), 0, NO_RANGE, NULL,
+     .doc = "how waves spread around the wind; fixed: cos^2s of half the angle with s = spread", .choices = spectrum_spreadings},
+    {"spread", FIELD_NUMBER, offsetof(scene_spectrum, settings.spread), 0, 0, 1000, NULL, .doc = "s of directions: fixed; 0: from everywhere"},
+    {"slope", FIELD_CHOICE, offsetof(scene_spectrum, settings.slope), 0, NO_RANGE, NULL,
+     .doc = "cox-munk: the short waves are scaled to the mean-square slope of a clean sea in this wind", .choices = spectrum_slopes},
+    {"shortest", FIELD_NUMBER, offsetof(scene_spectrum, settings.shortest), 0, 0, 1000, "m",
+     .doc = "length of the shortest wave; 0: 0.05 m, or a table's end"},
+    {"count", FIELD_COUNT, offsetof(scene_spectrum, count), 0, 1, MGT_MAX_WAVES, NULL, .doc = "number of waves, with those of waves at most 512"},
+    {"seed", FIELD_COUNT, offsetof(scene_spectrum, seed), 0, 0, 4294967295, NULL, .doc = "another seed: another sea of the same kind"},
+    {"file", FIELD_TEXT, offsetof(scene_spectrum, file), 0, NO_RANGE, NULL, .doc = "table of a buoy, from the scene's folder (see waves.md)"},
+    {0}};
+
 static const scene_field water_fields[] = {
     {"waves", FIELD_LIST, offsetof(scene_water, waves), 0, NO_RANGE, NULL,
      .doc = "each adds amplitude·sin(a·x + b·z + c·t + phase) to the height; none: a flat mirror", .fields = wave_fields,
      .item_size = sizeof(mgt_wave), .max_items = MGT_MAX_WAVES, .prepare = prepare_wave},
+    {"spectrum", FIELD_MAPPING, offsetof(scene_water, spectrum), FIELD_NO_PIXELS, NO_RANGE, NULL,
+     .doc = "waves drawn from a wind's or a buoy's spectrum, beside those of waves", .fields = spectrum_fields},
     {"ior", FIELD_NUMBER, offsetof(scene_water, index_of_refraction), 0, 1, 3, NULL, .doc = "index of refraction"},
     {"body_albedo", FIELD_COLOR, offsetof(scene_water, body_albedo), 0, 0, 1, NULL,
      .doc = "share of the light entering the water that deep water sends up again, linear sRGB"},
@@ -149,7 +178,10 @@ scene_values scene_values_defaults(void)
         .time = {.start = 0, .fps = 30, .frames = 1, .shutter = 1},
         .light = scene.light,
         .sky = scene.sky,
-        .water = {.index_of_refraction = scene.water.index_of_refraction},
+        .water = {.spectrum = {.settings = {.wind = 8, .fetch = 5e4, .gamma = 3.3, .directions = DIRECTIONS_HASSELMANN, .spread = 10},
+                               .count = 64,
+                               .seed = 1},
+                  .index_of_refraction = scene.water.index_of_refraction},
         .post = {.exposure = {.automatic = scene.post.auto_exposure, .stops = scene.post.auto_exposure ? 0 : scene.post.exposure_ev},
                  .exposure_offset = scene.post.auto_exposure ? scene.post.exposure_ev : 0,
                  .tone_map = scene.post.tone_map,
@@ -164,8 +196,10 @@ void scene_values_free(scene_values *values)
     free(values->description);
     free(values->camera.path.items);
     free(values->water.waves.items);
-    values->description = NULL;
-    values->camera.path = values->water.waves = (scene_list){0};
+    free(values->water.sea.items);
+    free(values->water.spectrum.file);
+    values->description = values->water.spectrum.file = NULL;
+    values->camera.path = values->water.waves = values->water.sea = (scene_list){0};
 }
 
 bool scene_numbers_write(FILE *stream, const scene_field *field, const void *value)

@@ -12,6 +12,7 @@
 #include <stdio.h>
 
 #include "scene/scene_text.h"
+#include "scene/spectrum_model.h"
 
 /* ---- the values of a file ------------------------------------------------------------------------------ */
 
@@ -37,8 +38,16 @@ typedef struct scene_clock {
     double shutter; /* share of a frame's interval */
 } scene_clock;
 
+typedef struct scene_spectrum {
+    spectrum_settings settings;
+    uint32_t count, seed;
+    char *file; /* owned; NULL: none */
+} scene_spectrum;
+
 typedef struct scene_water {
     scene_list waves; /* of mgt_wave */
+    scene_spectrum spectrum;
+    scene_list sea; /* not of the format: of a spectrum, `waves` and then those of the spectrum; made by scene_sea_fill() */
     double index_of_refraction;
     float body_albedo[3];
 } scene_water;
@@ -70,6 +79,12 @@ typedef struct scene_values {
 /* What mgt_scene_defaults() and the format's own defaults say. */
 scene_values scene_values_defaults(void);
 void scene_values_free(scene_values *values);
+
+/* All waves: the ones written out and those of the spectrum. Belongs to `water`. */
+static inline scene_list scene_water_all(const scene_water *water)
+{
+    return water->spectrum.settings.kind == SPECTRUM_NONE ? water->waves : water->sea;
+}
 
 /* ---- the table ------------------------------------------------------------------------------------------ */
 

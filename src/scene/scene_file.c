@@ -12,6 +12,7 @@
 #include "scene/scene_edit.h"
 #include "scene/scene_path.h"
 #include "scene/scene_read.h"
+#include "scene/scene_sea.h"
 
 enum { MAX_BYTES = 16 * 1024 * 1024, FIRST_BYTES = 64 * 1024 };
 
@@ -96,7 +97,8 @@ scene_file *scene_file_parse(const char *text, size_t length, const char *name, 
         goto fail;
     }
     file->values = scene_values_defaults();
-    if (!scene_read(&tree, &file->values, error) || !scene_check(&tree, &file->values, error))
+    if (!scene_read(&tree, &file->values, error) || !scene_check(&tree, &file->values, error) ||
+        !scene_sea_read(&tree, &file->values.water, error))
         goto fail;
     tree_free(&tree);
     return file;
@@ -150,8 +152,9 @@ bool scene_values_shot(const scene_values *values, double time, mgt_scene *out)
         return false;
     scene.light = values->light;
     scene.sky = values->sky;
-    scene.water = (mgt_water){.waves = values->water.waves.items,
-                              .wave_count = values->water.waves.count,
+    const scene_list waves = scene_water_all(&values->water);
+    scene.water = (mgt_water){.waves = waves.items,
+                              .wave_count = waves.count,
                               .index_of_refraction = values->water.index_of_refraction};
     memcpy(scene.water.body_albedo, values->water.body_albedo, sizeof scene.water.body_albedo);
     const scene_exposure *exposure = &values->post.exposure;
@@ -202,7 +205,7 @@ double scene_file_start(const scene_file *file)
 
 size_t scene_file_wave_count(const scene_file *file)
 {
-    return file->values.water.waves.count;
+    return scene_water_all(&file->values.water).count;
 }
 
 char *scene_file_canonical(const scene_file *file, size_t *length)

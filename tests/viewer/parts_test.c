@@ -128,6 +128,29 @@ static void changes_that_no_longer_fit_are_given_up(void **state)
     document_close(&d);
 }
 
+static void a_spectrum_becomes_waves(void **state)
+{
+    const folder *f = *state;
+    write_file(f->scene, "mangata: 1\nwater: {waves: [{amplitude: 0.1, a: 1, b: 2, c: -3}], spectrum: {model: jonswap, count: 7}}\n");
+    document d = open_document(f);
+    assert_int_equal(d.values.water.waves.count, 8);
+    scene_overrides words;
+    assert_true(scene_overrides_between(scene_file_values(d.file), &d.values, &words));
+    assert_int_equal(words.count, 0);
+    scene_overrides_free(&words);
+    set(&d, "water.waves[3].phase=1.5");
+    assert_int_equal(d.values.water.waves.count, 8);
+    assert_true(scene_overrides_between(scene_file_values(d.file), &d.values, &words));
+    assert_int_equal(words.count, 2);
+    scene_overrides_free(&words);
+    write_file(f->scene, "mangata: 1\nlight: {elevation_deg: 12}\n"
+                         "water: {waves: [{amplitude: 0.1, a: 1, b: 2, c: -3}], spectrum: {model: jonswap, count: 7, seed: 2}}\n");
+    assert_int_equal(document_poll(&d), DOCUMENT_READ_ANEW);
+    assert_int_equal(d.values.water.waves.count, 8);
+    assert_true(d.values.light.elevation_deg == 12);
+    document_close(&d);
+}
+
 static void a_saved_scene_is_whole_and_replaces_nothing(void **state)
 {
     const folder *f = *state;
@@ -215,12 +238,13 @@ static void every_value_of_the_scene_is_a_control(void **state)
         for (const scene_field *field = part->fields; part->type == FIELD_MAPPING && field->key; field++) {
             char name[96];
             snprintf(name, sizeof name, "%s.%s", part->key, field->key);
-            if (field->type != FIELD_LIST && !control_find(&board, name, &c))
+            if (field->type != FIELD_LIST && field->type != FIELD_MAPPING && !control_find(&board, name, &c))
                 fail_msg("%s is no control", name);
         }
     assert_false(control_find(&board, "light", &c));
     assert_false(control_find(&board, "view", &c));
     assert_false(control_find(&board, "water.waves[2].a", &c));
+    assert_false(control_find(&board, "water.spectrum.wind", &c)); /* it is written out as waves */
     assert_false(control_find(&board, "view.wipes", &c));
     document_close(&d);
 }
@@ -333,6 +357,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(the_file_wins_where_it_changed_and_nothing_else_is_lost, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(a_broken_file_changes_nothing, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(changes_that_no_longer_fit_are_given_up, make_folder, remove_folder),
+        cmocka_unit_test_setup_teardown(a_spectrum_becomes_waves, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(a_saved_scene_is_whole_and_replaces_nothing, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(every_control_reads_back_and_keeps_to_its_range, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(every_value_of_the_scene_is_a_control, make_folder, remove_folder),

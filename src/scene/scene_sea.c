@@ -1,0 +1,107 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The sea of a scene's `water.spectrum`.
+ */
+#include "scene/scene_sea.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static bool refuse(scene_sea_fault *fault, const char *key, const char *text)
+{
+    fault->setting.key = key;
+    snprintf(fault->setting.text, sizeof fault->setting.text, "%s", text);
+    return false;
+}
+
+/* `file` as seen from the scene's folder; NULL when memory runs out. */
+static char *beside_scene(const char *scene_path, const char *file)
+{
+    const char *slash = strrchr(scene_path, '/');
+    const size_t folder = file[0] != '/' && slash != NULL ? (size_t)(slash - scene_path) + 1 : 0, length = strlen(file);
+    char *path = malloc(folder + length + 1);
+    if (path == NULL)
+        return NULL;
+    memcpy(path, scene_path, folder);
+    memcpy(path + folder, file, length + 1);
+    return path;
+}
+
+static bool load_table(spectrum_table *table, const scene_spectrum *settings, const char *scene_path, scene_sea_fault *fault)
+{
+    if (settings->file == NULL || settings->file[0] == '\0')
+        return refuse(fault, "file", "is missing: the model buoy is a measured table; allowed: the path of one, from the scene's folder");
+    char *path = beside_scene(scene_path, settings->file);
+    if (path == NULL)
+        return scene_error_memory(&fault->error);
+    const bool good = spectrum_table_load(table, path, &fault->error);
+    free(path);
+    return good;
+}
+
+bool scene_sea_open(scene_sea *sea, const scene_spectrum *settings, const char *scene_path, scene_sea_fault *fault)
+{
+    const spectrum_settings *s = &settings->settings;
+    *fault = (scene_sea_fault){0};
+    *sea = (scene_sea){0};
+    if (s->kind == SPECTRUM_BUOY && !load_table(&sea->table, settings, scene_path, fault))
+        return false;
+    bool good = wave_spectrum_make(&sea->spectrum, s, &sea->table, &fault->setting);
+    sea->slopes = cox_munk_slopes(wind_at_height(sea->spectrum.wind_10, 10, 12.5));
+    if (good && s->slope == SLOPE_COX_MUNK)
+        good = spectrum_bend_tail(&sea->spectrum, sea->slopes, &fault->setting);
+    if (!good)
+        scene_sea_close(sea);
+    return good;
+}
+
+void scene_sea_close(scene_sea *sea)
+{
+    spectrum_table_free(&sea->table);
+}
+
+bool scene_sea_fill(scene_water *water, const char *scene_path, scene_sea_fault *fault)
+{
+    const scene_spectrum *settings = &water->spectrum;
+    const size_t before = water->waves.count, count = before + settings->count;
+    scene_sea sea;
+    *fault = (scene_sea_fault){0};
+    free(water->sea.items);
+    water->sea = (scene_list){0};
+    if (settings->settings.kind == SPECTRUM_NONE)
+        return true;
+    if (count > MGT_MAX_WAVES) {
+        char text[160];
+        snprintf(text, sizeof text, "is %u, with water.waves %zu in all; allowed: together at most %d", settings->count, count, MGT_MAX_WAVES);
+        return refuse(fault, "count", text);
+    }
+    if (!scene_sea_open(&sea, settings, scene_path, fault))
+        return false;
+    mgt_wave *waves = malloc(count * sizeof *waves);
+    const bool good = waves != NULL && spectrum_sample(&sea.spectrum, settings->seed, settings->count, waves + before);
+    scene_sea_close(&sea);
+    if (!good) {
+        free(waves);
+        return scene_error_memory(&fault->error);
+    }
+    if (before > 0)
+        memcpy(waves, water->waves.items, before * sizeof *waves);
+    water->sea = (scene_list){.items = waves, .count = count};
+    return true;
+}
+
+bool scene_sea_read(const scene_tree *tree, scene_water *water, scene_error *error)
+{
+    scene_sea_fault fault;
+    if (scene_sea_fill(water, tree->file_name, &fault))
+        return true;
+    if (fault.setting.key == NULL) {
+        if (error != NULL)
+            *error = fault.error;
+        return false;
+    }
+    const tree_node *spectrum = tree_get(tree_get(tree->root, "water"), "spectrum"), *node = tree_get(spectrum, fault.setting.key);
+    node = node != NULL ? node : spectrum;
+    return tree_error(tree, node->source, node->place, error, "water.spectrum.%s %s", fault.setting.key, fault.setting.text);
+}

@@ -1,0 +1,262 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * From a spectrum to sines.
+ */
+#include "scene/spectrum_sample.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "scene/spectrum_math.h"
+
+enum { CELLS = 4096, DIRECTIONS = 720, HARMONIC_STEP = 64 };
+
+static const double HEIGHT_SHARE = 0.25, TAIL_BEGINS = 3 /* peaks */;
+
+/* ---- quadrature over frequency ------------------------------------------------------------------------------ */
+
+/* The variances below each node of a grid that is even in log frequency. */
+typedef struct frequency_grid {
+    double low, step; /* of log frequency */
+    double height[CELLS + 1], slope[CELLS + 1];
+} frequency_grid;
+
+static double node_frequency(const frequency_grid *grid, double node)
+{
+    return portable_exp(grid->low + grid->step * node);
+}
+
+/* By Simpson's rule in each cell. */
+static frequency_grid *make_grid(const wave_spectrum *spectrum)
+{
+    frequency_grid *grid = malloc(sizeof *grid);
+    if (grid == NULL)
+        return NULL;
+    grid->low = portable_log(spectrum->low);
+    grid->step = (portable_log(spectrum->high) - grid->low) / CELLS;
+    grid->height[0] = grid->slope[0] = 0;
+    double height_before = 0, slope_before = 0;
+    for (int i = 0; i <= 2 * CELLS; i++) {
+        /* The ends themselves: rounding must not carry them out of the spectrum. */
+        const double f = i == 0 ? spectrum->low : i == 2 * CELLS ? spectrum->high : node_frequency(grid, i / 2.0);
+        const double k = dispersion_wave_number(f, spectrum->depth);
+        const double height = grid->step / 6 * f * wave_spectrum_density(spectrum, f), slope = k * k * height;
+        const int node = (i + 1) / 2;
+        if (i == 0) {
+            height_before = height;
+            slope_before = slope;
+        } else if (i % 2 != 0) {
+            grid->height[node] = grid->height[node - 1] + height_before + 4 * height;
+            grid->slope[node] = grid->slope[node - 1] + slope_before + 4 * slope;
+        } else {
+            grid->height[node] += height;
+            grid->slope[node] += slope;
+            height_before = height;
+            slope_before = slope;
+        }
+    }
+    return grid;
+}
+
+/* ---- quadrature over direction ------------------------------------------------------------------------------ */
+
+/* The share of a frequency's waves below each of DIRECTIONS + 1 azimuths from upwind around to upwind. */
+static void cumulate_directions(const wave_spectrum *spectrum, double frequency, double share[DIRECTIONS + 1])
+{
+    const double width = 2 * SPECTRUM_PI / DIRECTIONS;
+    double before = wave_spectrum_spreading(spectrum, frequency, spectrum->downwind - SPECTRUM_PI);
+    share[0] = 0;
+    for (int i = 1; i <= DIRECTIONS; i++) {
+        const double density = wave_spectrum_spreading(spectrum, frequency, spectrum->downwind - SPECTRUM_PI + width * i);
+        share[i] = share[i - 1] + (before + density) / 2;
+        before = density;
+    }
+    /* A table may have frequencies without waves: any direction will do. */
+    const double total = share[DIRECTIONS];
+    for (int i = 1; i <= DIRECTIONS; i++)
+        share[i] = total > 0 ? share[i] / total : (double)i / DIRECTIONS;
+}
+
+/* The azimuth below which a share u of [0, 1) of the waves is. */
+static double direction_quantile(const wave_spectrum *spectrum, double frequency, double u)
+{
+    double share[DIRECTIONS + 1];
+    cumulate_directions(spectrum, frequency, share);
+    int low = 0, high = DIRECTIONS;
+    while (high - low > 1) {
+        const int middle = (low + high) / 2;
+        if (share[middle] <= u)
+            low = middle;
+        else
+            high = middle;
+    }
+    const double part = share[high] > share[low] ? (u - share[low]) / (share[high] - share[low]) : 0.5;
+    return spectrum->downwind - SPECTRUM_PI + 2 * SPECTRUM_PI / DIRECTIONS * (low + part);
+}
+
+/* The mean of cos 2θ, θ from downwind: (upwind - crosswind) / (upwind + crosswind) of the slopes of one frequency. */
+static double second_harmonic(const wave_spectrum *spectrum, double frequency)
+{
+    const double width = 2 * SPECTRUM_PI / DIRECTIONS;
+    double sum = 0, weighted = 0;
+    for (int i = 0; i < DIRECTIONS; i++) {
+        const double density = wave_spectrum_spreading(spectrum, frequency, spectrum->downwind + width * i);
+        sum += density;
+        weighted += density * portable_cos(2 * width * i);
+    }
+    return sum > 0 ? weighted / sum : 0;
+}
+
+/* Upwind minus crosswind variance of slope between two nodes. */
+static double slope_difference(const wave_spectrum *spectrum, const frequency_grid *grid, int from, int to)
+{
+    double sum = 0;
+    for (int i = from; i < to; i += HARMONIC_STEP) {
+        const int end = i + HARMONIC_STEP < to ? i + HARMONIC_STEP : to;
+        sum += (grid->slope[end] - grid->slope[i]) * second_harmonic(spectrum, node_frequency(grid, (i + end) / 2.0));
+    }
+    return sum;
+}
+
+/* ---- the tail ----------------------------------------------------------------------------------------------- */
+
+/* The mean-square slope of the waves beyond a node once they are multiplied by (ω/ω_node)^power. */
+static double bent_slope(const frequency_grid *grid, int node, double power)
+{
+    double sum = 0;
+    for (int i = node; i < CELLS; i++)
+        sum += (grid->slope[i + 1] - grid->slope[i]) * portable_exp(power * grid->step * (i + 0.5 - node));
+    return sum;
+}
+
+/* The s of cos^2s whose mean of cos 2θ, s (s - 1) / ((s + 1) (s + 2)), is `harmonic`, as near as the form comes: -0.0718 is its least. */
+static double spread_of_harmonic(double harmonic)
+{
+    const double r = fmin(fmax(harmonic, -0.0717), 0.95), b = 1 + 3 * r;
+    return (b + sqrt(b * b + 8 * r * (1 - r))) / (2 * (1 - r));
+}
+
+bool spectrum_bend_tail(wave_spectrum *spectrum, cox_munk slopes, spectrum_fault *fault)
+{
+    const double from = spectrum->kind == SPECTRUM_BUOY ? spectrum->tail_from : TAIL_BEGINS * spectrum->peak, least = -30, most = 30;
+    fault->key = "slope";
+    spectrum->bend_from = INFINITY;
+    frequency_grid *grid = make_grid(spectrum);
+    if (grid == NULL) {
+        snprintf(fault->text, sizeof fault->text, "could not be met: out of memory");
+        return false;
+    }
+    int node = (int)ceil((portable_log(from) - grid->low) / grid->step);
+    node = node < 0 ? 0 : node > CELLS - 1 ? CELLS - 1 : node;
+    const double rest = slopes.total - grid->slope[node];
+    const bool reachable = bent_slope(grid, node, least) < rest && rest < bent_slope(grid, node, most);
+    if (!reachable) {
+        snprintf(fault->text, sizeof fault->text,
+                 "cannot be cox-munk: the clean sea's mean-square slope is %.3g, that of the waves longer than %.3g m alone %.3g; allowed: spectrum, or another wind, fetch or "
+                 "shortest wave",
+                 slopes.total, 2 * SPECTRUM_PI / dispersion_wave_number(from, spectrum->depth), grid->slope[node]);
+        free(grid);
+        return false;
+    }
+    double low = least, high = most;
+    for (int i = 0; i < 60; i++) {
+        const double middle = (low + high) / 2;
+        if (bent_slope(grid, node, middle) < rest)
+            low = middle;
+        else
+            high = middle;
+    }
+    const double difference = slopes.total * (slopes.upwind - slopes.crosswind) / (slopes.upwind + slopes.crosswind);
+    spectrum->bend_spread = spread_of_harmonic((difference - slope_difference(spectrum, grid, 0, node)) / rest);
+    spectrum->bend_power = low;
+    spectrum->bend_from = node_frequency(grid, node);
+    free(grid);
+    return true;
+}
+
+/* ---- waves -------------------------------------------------------------------------------------------------- */
+
+/* A uniform number in [0, 1) for a seed and a counter: the finaliser of SplitMix64. */
+static double uniform(uint32_t seed, uint64_t counter)
+{
+    uint64_t x = ((uint64_t)seed << 32 | counter) + 0x9e3779b97f4a7c15U;
+    for (int i = 0; i < 2; i++) {
+        x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9U;
+        x = (x ^ (x >> 27)) * 0x94d049bb133111ebU;
+        x ^= x >> 31;
+    }
+    return (double)(x >> 11) * 0x1p-53;
+}
+
+static double seven_digits(double value)
+{
+    char text[32];
+    snprintf(text, sizeof text, "%.6e", value);
+    return strtod(text, NULL);
+}
+
+static mgt_wave make_wave(const wave_spectrum *spectrum, double height_variance, double slope_variance, double direction_share, double phase)
+{
+    const double k = sqrt(slope_variance / height_variance), frequency = dispersion_frequency(k, spectrum->depth);
+    const double azimuth = direction_quantile(spectrum, frequency, direction_share);
+    return (mgt_wave){.amplitude = seven_digits(sqrt(2 * height_variance)),
+                      .a = seven_digits(k * portable_sin(azimuth)),
+                      .b = seven_digits(-k * portable_cos(azimuth)),
+                      .c = seven_digits(-frequency),
+                      .phase = seven_digits(phase)};
+}
+
+bool spectrum_sample(const wave_spectrum *spectrum, uint32_t seed, size_t count, mgt_wave *waves)
+{
+    const double golden = 0.61803398874989484820;
+    frequency_grid *grid = make_grid(spectrum);
+    if (grid == NULL)
+        return false;
+    const double height_scale = HEIGHT_SHARE / grid->height[CELLS], slope_scale = (1 - HEIGHT_SHARE) / grid->slope[CELLS];
+    const double start = uniform(seed, 0);
+    double height_before = 0, slope_before = 0;
+    int cell = 0;
+    for (size_t i = 0; i < count; i++) {
+        const double share = (double)(i + 1) / (double)count;
+        while (cell < CELLS - 1 && height_scale * grid->height[cell + 1] + slope_scale * grid->slope[cell + 1] < share)
+            cell++;
+        const double height_step = grid->height[cell + 1] - grid->height[cell], slope_step = grid->slope[cell + 1] - grid->slope[cell];
+        const double low = height_scale * grid->height[cell] + slope_scale * grid->slope[cell];
+        const double part = i + 1 == count ? 1 : (share - low) / (height_scale * height_step + slope_scale * slope_step);
+        const double height = grid->height[cell] + part * height_step, slope = grid->slope[cell] + part * slope_step;
+        const double turns = start + golden * (double)i;
+        waves[i] = make_wave(spectrum, height - height_before, slope - slope_before, turns - floor(turns), 2 * SPECTRUM_PI * uniform(seed, i + 1));
+        height_before = height;
+        slope_before = slope;
+    }
+    free(grid);
+    return true;
+}
+
+/* ---- statistics --------------------------------------------------------------------------------------------- */
+
+bool spectrum_statistics(const wave_spectrum *spectrum, sea_statistics *out)
+{
+    frequency_grid *grid = make_grid(spectrum);
+    if (grid == NULL)
+        return false;
+    const double slope = grid->slope[CELLS], difference = slope_difference(spectrum, grid, 0, CELLS);
+    *out = (sea_statistics){.height = 4 * sqrt(grid->height[CELLS]), .slope = slope, .upwind = (slope + difference) / 2, .crosswind = (slope - difference) / 2};
+    free(grid);
+    return true;
+}
+
+sea_statistics waves_statistics(const mgt_wave *waves, size_t count, double azimuth)
+{
+    const double x = portable_sin(azimuth), z = -portable_cos(azimuth);
+    double height = 0, upwind = 0, crosswind = 0;
+    for (size_t i = 0; i < count; i++) {
+        const mgt_wave *w = &waves[i];
+        const double variance = w->amplitude * w->amplitude / 2, along = w->a * x + w->b * z, across = w->a * z - w->b * x;
+        height += variance;
+        upwind += variance * along * along;
+        crosswind += variance * across * across;
+    }
+    return (sea_statistics){.height = 4 * sqrt(height), .slope = upwind + crosswind, .upwind = upwind, .crosswind = crosswind};
+}

@@ -1,0 +1,371 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Directional wave spectra as buoys report them.
+ */
+#include "scene/spectrum_table.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "scene/spectrum_math.h"
+
+enum { FREQUENCY, DIRECTION, DENSITY, COLUMNS };
+
+static const double TURN = 2 * SPECTRUM_PI, WIDEST_GAP = SPECTRUM_PI / 2 * (1 + 1e-9);
+
+/* ---- lines into points -------------------------------------------------------------------------------------- */
+
+/* A word of a line, and what it should be. */
+typedef struct table_word {
+    const char *text;
+    size_t length;
+    int column; /* from 1 */
+} table_word;
+
+typedef struct table_reader {
+    spectrum_table *table;
+    const char *name;
+    scene_error *error;
+    size_t room; /* points */
+    int line;
+    bool begun;       /* a header or a row was read */
+    double per_radian; /* factor from the file's density to that per radian */
+} table_reader;
+
+static const struct {
+    const char *name;
+    double min, max;
+    const char *allowed;
+} columns[COLUMNS] = {
+    {"frequency", 1e-4, 100, "a number, 0.0001 to 100 Hz"},
+    {"direction", -360, 360, "a number, -360 to 360 degrees"},
+    {"density", 0, 1e9, "a number, 0 to 1e9"},
+};
+
+static bool refuse(const table_reader *r, int column, const char *format, ...) SCENE_FORMAT(3, 4);
+
+static bool refuse(const table_reader *r, int column, const char *format, ...)
+{
+    char what[320];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(what, sizeof what, format, arguments);
+    va_end(arguments);
+    return scene_error_set(r->error, SCENE_ERROR_BAD_SCENE, "%s:%d:%d: %s", scene_file_name(r->name).text, r->line, column, what);
+}
+
+static bool is_separator(char c)
+{
+    return c == ' ' || c == '\t' || c == ',' || c == '\r';
+}
+
+/* The words before a comment; one more than there are columns is enough to see that there are too many. */
+static size_t split(const char *line, size_t length, table_word words[COLUMNS + 1])
+{
+    size_t count = 0, at = 0;
+    int column = 1;
+    while (at < length && line[at] != '#' && count <= COLUMNS) {
+        if (is_separator(line[at])) {
+            at++;
+            column++;
+            continue;
+        }
+        table_word *word = &words[count++];
+        *word = (table_word){.text = line + at, .column = column};
+        for (; at < length && !is_separator(line[at]) && line[at] != '#'; at++, word->length++)
+            column += ((unsigned char)line[at] & 0xc0) != 0x80;
+    }
+    return count;
+}
+
+static bool word_is(const table_word *word, const char *text)
+{
+    return strlen(text) == word->length && memcmp(word->text, text, word->length) == 0;
+}
+
+static bool read_header(table_reader *r, const table_word *words, size_t count)
+{
+    const bool per_radian = count == COLUMNS && word_is(&words[DENSITY], "density_rad");
+    if (count != COLUMNS || !word_is(&words[FREQUENCY], "frequency") || !word_is(&words[DIRECTION], "direction") ||
+        (!per_radian && !word_is(&words[DENSITY], "density")))
+        return refuse(r, words[0].column, "these are not the names of the columns; allowed: frequency direction density, or frequency direction density_rad");
+    r->per_radian = per_radian ? 1 : 180 / SPECTRUM_PI;
+    return true;
+}
+
+/* The whole word as a decimal number. */
+static bool read_number(const table_word *word, double *value)
+{
+    char text[64], *end;
+    if (word->length >= sizeof text || strspn(word->text, "+-.0123456789eE") < word->length)
+        return false;
+    memcpy(text, word->text, word->length);
+    text[word->length] = '\0';
+    *value = strtod(text, &end);
+    return *end == '\0' && end != text && isfinite(*value);
+}
+
+static bool add_point(table_reader *r, const double values[COLUMNS], int column)
+{
+    spectrum_table *table = r->table;
+    const double frequency = TURN * values[FREQUENCY];
+    const spectrum_row *last = table->row_count > 0 ? &table->rows[table->row_count - 1] : NULL;
+    if (last != NULL && frequency < last->frequency)
+        return refuse(r, column, "frequency falls from %g to %g Hz; allowed: rising, the lines of one frequency together", last->frequency / TURN,
+                      values[FREQUENCY]);
+    if (table->point_count == SPECTRUM_TABLE_POINTS)
+        return refuse(r, column, "too many lines; allowed: at most %d", SPECTRUM_TABLE_POINTS);
+    if (table->point_count == r->room) {
+        const size_t room = r->room > 0 ? 2 * r->room : 1024;
+        spectrum_point *points = realloc(table->points, room * sizeof *points);
+        if (points == NULL)
+            return scene_error_memory(r->error);
+        table->points = points;
+        spectrum_row *rows = realloc(table->rows, room * sizeof *rows);
+        if (rows == NULL)
+            return scene_error_memory(r->error);
+        table->rows = rows;
+        r->room = room;
+        last = table->row_count > 0 ? &rows[table->row_count - 1] : NULL;
+    }
+    if (last == NULL || frequency > last->frequency)
+        table->rows[table->row_count++] = (spectrum_row){.frequency = frequency, .first = table->point_count};
+    double turns = (values[DIRECTION] + 180) / 360;
+    turns -= floor(turns);
+    table->rows[table->row_count - 1].count++;
+    table->points[table->point_count++] = (spectrum_point){.azimuth = TURN * turns, .density = r->per_radian * values[DENSITY] / TURN};
+    return true;
+}
+
+static bool read_line(table_reader *r, const char *line, size_t length)
+{
+    table_word words[COLUMNS + 1];
+    double values[COLUMNS];
+    const size_t count = split(line, length, words);
+    if (count == 0)
+        return true;
+    const bool first = !r->begun;
+    r->begun = true;
+    if (first && (words[0].text[0] | 32) >= 'a' && (words[0].text[0] | 32) <= 'z')
+        return read_header(r, words, count);
+    if (count != COLUMNS)
+        return refuse(r, count > COLUMNS ? words[COLUMNS].column : words[0].column, "%s columns; allowed: frequency, direction and density, a line each",
+                      count > COLUMNS ? "more than three" : count == 1 ? "one of three" : "two of three");
+    for (int i = 0; i < COLUMNS; i++)
+        if (!read_number(&words[i], &values[i]) || values[i] < columns[i].min || values[i] > columns[i].max) {
+            const scene_quote quote = scene_quote_text(words[i].text, words[i].length);
+            return refuse(r, words[i].column, "%s is %s; allowed: %s", columns[i].name, quote.text, columns[i].allowed);
+        }
+    return add_point(r, values, words[0].column);
+}
+
+/* ---- rows --------------------------------------------------------------------------------------------------- */
+
+static int compare_points(const void *left, const void *right)
+{
+    const double a = ((const spectrum_point *)left)->azimuth, b = ((const spectrum_point *)right)->azimuth;
+    return (a > b) - (a < b);
+}
+
+/* From point i of a row to the next around the circle. */
+static double gap_after(const spectrum_point *points, size_t count, size_t i)
+{
+    return i + 1 < count ? points[i + 1].azimuth - points[i].azimuth : points[0].azimuth + TURN - points[i].azimuth;
+}
+
+static bool finish_row(const table_reader *r, spectrum_row *row)
+{
+    spectrum_point *points = r->table->points + row->first;
+    const double hertz = row->frequency / TURN;
+    if (row->count < 2)
+        return scene_error_set(r->error, SCENE_ERROR_BAD_SCENE, "%s: frequency %g Hz has one direction; allowed: at least two", scene_file_name(r->name).text,
+                               hertz);
+    qsort(points, row->count, sizeof *points, compare_points);
+    for (size_t i = 0; i < row->count; i++) {
+        const double gap = gap_after(points, row->count, i);
+        if (gap < 1e-9)
+            return scene_error_set(r->error, SCENE_ERROR_BAD_SCENE, "%s: frequency %g Hz has a direction twice; allowed: each once", scene_file_name(r->name).text,
+                                   hertz);
+        if (gap <= WIDEST_GAP)
+            row->density += gap * (points[i].density + points[(i + 1) % row->count].density) / 2;
+    }
+    return true;
+}
+
+static bool finish_table(const table_reader *r)
+{
+    double most = 0;
+    for (size_t i = 0; i < r->table->row_count; i++) {
+        if (!finish_row(r, &r->table->rows[i]))
+            return false;
+        most = fmax(most, r->table->rows[i].density);
+    }
+    const char *fault = r->table->row_count == 0 ? "no rows" : r->table->row_count < 2 ? "only one frequency" : !(most > 0) ? "no waves, every density is 0" : NULL;
+    if (fault == NULL)
+        return true;
+    return scene_error_set(r->error, SCENE_ERROR_BAD_SCENE,
+                           "%s: the table holds %s; allowed: lines of frequency (Hz), direction (degrees, where waves come from) and density (m²/Hz/degree) for "
+                           "at least two frequencies",
+                           scene_file_name(r->name).text, fault);
+}
+
+bool spectrum_table_parse(spectrum_table *out, const char *text, size_t length, const char *name, scene_error *error)
+{
+    table_reader r = {.table = out, .name = name, .error = error, .line = 1, .per_radian = 180 / SPECTRUM_PI};
+    scene_place place;
+    *out = (spectrum_table){0};
+    if (!scene_text_is_clean(text, length, &place)) {
+        r.line = place.line;
+        return refuse(&r, place.column, "not a text file: a byte that is not printable UTF-8; allowed: lines of three numbers");
+    }
+    if (length >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0) {
+        text += 3;
+        length -= 3;
+    }
+    bool good = true;
+    for (size_t at = 0; good && at < length; r.line++) {
+        const char *end = memchr(text + at, '\n', length - at);
+        const size_t size = end != NULL ? (size_t)(end - text) - at : length - at;
+        good = read_line(&r, text + at, size);
+        at += size + 1;
+    }
+    if (good && finish_table(&r))
+        return true;
+    spectrum_table_free(out);
+    return false;
+}
+
+static bool refuse_file(scene_error *error, scene_error_kind kind, const char *path, const char *what)
+{
+    return scene_error_set(error, kind, "%s: %s; allowed: a table of frequency, direction and density of at most 16 MiB", scene_file_name(path).text, what);
+}
+
+bool spectrum_table_load(spectrum_table *out, const char *path, scene_error *error)
+{
+    *out = (spectrum_table){0};
+    struct stat status;
+    char *text = NULL;
+    bool good = false;
+    FILE *stream = fopen(path, "rbe");
+    if (stream == NULL)
+        return refuse_file(error, SCENE_ERROR_MISSING_INPUT, path, strerror(errno));
+    if (fstat(fileno(stream), &status) == 0 && S_ISDIR(status.st_mode)) {
+        refuse_file(error, SCENE_ERROR_MISSING_INPUT, path, "is a directory");
+        goto done;
+    }
+    text = malloc(SPECTRUM_TABLE_BYTES + 1);
+    if (text == NULL) {
+        scene_error_memory(error);
+        goto done;
+    }
+    const size_t length = fread(text, 1, SPECTRUM_TABLE_BYTES + 1, stream);
+    if (ferror(stream))
+        refuse_file(error, SCENE_ERROR_MISSING_INPUT, path, strerror(errno));
+    else if (length > SPECTRUM_TABLE_BYTES)
+        refuse_file(error, SCENE_ERROR_BAD_SCENE, path, "is larger than 16 MiB");
+    else
+        good = spectrum_table_parse(out, text, length, path, error);
+done:
+    free(text);
+    fclose(stream);
+    return good;
+}
+
+void spectrum_table_free(spectrum_table *table)
+{
+    free(table->rows);
+    free(table->points);
+    *table = (spectrum_table){0};
+}
+
+/* ---- values ------------------------------------------------------------------------------------------------- */
+
+/* The row at or before a frequency within the table; the last but one at its end. */
+static size_t find_row(const spectrum_table *table, double frequency)
+{
+    size_t low = 0, high = table->row_count - 1;
+    while (high - low > 1) {
+        const size_t middle = low + (high - low) / 2;
+        if (table->rows[middle].frequency <= frequency)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+double spectrum_table_density(const spectrum_table *table, double frequency)
+{
+    const spectrum_row *rows = table->rows;
+    if (frequency < rows[0].frequency || frequency > rows[table->row_count - 1].frequency)
+        return 0;
+    const size_t i = find_row(table, frequency);
+    const double t = (frequency - rows[i].frequency) / (rows[i + 1].frequency - rows[i].frequency);
+    return (1 - t) * rows[i].density + t * rows[i + 1].density;
+}
+
+static double row_at(const spectrum_table *table, const spectrum_row *row, double azimuth)
+{
+    const spectrum_point *points = table->points + row->first;
+    size_t low = 0, high = row->count;
+    while (low < high) { /* how many points lie at or before */
+        const size_t middle = low + (high - low) / 2;
+        if (points[middle].azimuth <= azimuth)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    const size_t i = low > 0 ? low - 1 : row->count - 1;
+    const double gap = gap_after(points, row->count, i), past = azimuth - points[i].azimuth + (low > 0 ? 0 : TURN);
+    if (gap > WIDEST_GAP)
+        return 0;
+    return points[i].density + (points[(i + 1) % row->count].density - points[i].density) * past / gap;
+}
+
+double spectrum_table_at(const spectrum_table *table, double frequency, double azimuth)
+{
+    const spectrum_row *rows = table->rows, *last = &rows[table->row_count - 1];
+    azimuth -= TURN * floor(azimuth / TURN);
+    if (frequency <= rows[0].frequency)
+        return row_at(table, rows, azimuth);
+    if (frequency >= last->frequency)
+        return row_at(table, last, azimuth);
+    const size_t i = find_row(table, frequency);
+    const double t = (frequency - rows[i].frequency) / (rows[i + 1].frequency - rows[i].frequency);
+    return (1 - t) * row_at(table, &rows[i], azimuth) + t * row_at(table, &rows[i + 1], azimuth);
+}
+
+double spectrum_table_mean_azimuth(const spectrum_table *table)
+{
+    double east = 0, north = 0;
+    for (size_t i = 0; i < table->row_count; i++) {
+        const spectrum_row *row = &table->rows[i];
+        const double before = i > 0 ? row->frequency - row[-1].frequency : 0;
+        const double after = i + 1 < table->row_count ? row[1].frequency - row->frequency : 0;
+        const spectrum_point *points = table->points + row->first;
+        for (size_t j = 0; j < row->count; j++) {
+            const double behind = gap_after(points, row->count, (j + row->count - 1) % row->count), ahead = gap_after(points, row->count, j);
+            const double width = (behind <= WIDEST_GAP ? behind : 0) + (ahead <= WIDEST_GAP ? ahead : 0);
+            const double energy = (before + after) * width * points[j].density;
+            east += energy * portable_sin(points[j].azimuth);
+            north += energy * portable_cos(points[j].azimuth);
+        }
+    }
+    if (!(east * east + north * north > 0))
+        return 0;
+    /* By bisection, for the same bits everywhere. */
+    const double length = sqrt(east * east + north * north);
+    double low = 0, high = SPECTRUM_PI;
+    for (int i = 0; i < 60; i++) {
+        const double middle = (low + high) / 2;
+        if (portable_cos(middle) > north / length)
+            low = middle;
+        else
+            high = middle;
+    }
+    return east >= 0 ? low : TURN - low;
+}

@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Directional wave spectra as buoys report them: a plain table of frequency, direction, density.
+ *
+ * Each line holds a frequency in Hz, the direction in degrees that the waves come from, clockwise from north (-z), and a density in
+ * m²/(Hz·degree), apart by blanks, tabs or commas. `#` begins a comment. A first line of words may name the columns: `frequency direction
+ * density`, where `density_rad` instead of `density` says m²/(Hz·radian). Lines of one frequency stand together, frequencies rise; each may have directions of its
+ * own, in any order. Between the points the density is linear in frequency and in direction around the circle, so that integrals are sums
+ * of trapezia; a gap of more than 90° between neighbouring directions was not measured and counts as empty.
+ */
+#ifndef MANGATA_SCENE_SPECTRUM_TABLE_H
+#define MANGATA_SCENE_SPECTRUM_TABLE_H
+
+#include <stddef.h>
+
+#include "scene/scene_text.h"
+
+typedef struct spectrum_row {
+    double frequency; /* rad/s */
+    double density;   /* m²·s/rad, over all directions */
+    size_t first, count;
+} spectrum_row;
+
+typedef struct spectrum_point {
+    double azimuth; /* radians in [0, 2π), where the waves travel to, clockwise from -z; rising within a row */
+    double density; /* m²·s/rad² */
+} spectrum_point;
+
+typedef struct spectrum_table {
+    spectrum_row *rows; /* owned, as the points */
+    size_t row_count;
+    spectrum_point *points;
+    size_t point_count;
+} spectrum_table;
+
+enum { SPECTRUM_TABLE_BYTES = 16 * 1024 * 1024, SPECTRUM_TABLE_POINTS = 500000 };
+
+/* Reads `text`, called `name` in errors, which are "name:line:column: what is wrong; allowed: …". False with *error filled and *out empty. */
+bool spectrum_table_parse(spectrum_table *out, const char *text, size_t length, const char *name, scene_error *error);
+
+/* The same from a file. */
+bool spectrum_table_load(spectrum_table *out, const char *path, scene_error *error);
+
+void spectrum_table_free(spectrum_table *table);
+
+/* Density over all directions, m²·s/rad; 0 beyond the table's frequencies. */
+double spectrum_table_density(const spectrum_table *table, double frequency);
+
+/* Density at a direction of travel in radians, m²·s/rad²; beyond the table's frequencies that of the nearest row. */
+double spectrum_table_at(const spectrum_table *table, double frequency, double azimuth);
+
+/* Where the measured waves travel to on the whole, radians (the mean vector of their energy). */
+double spectrum_table_mean_azimuth(const spectrum_table *table);
+
+#endif
