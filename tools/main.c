@@ -17,6 +17,7 @@ static const verb verbs[] = {
     {"diff", "measure how far pictures are from other pictures", verb_diff},
     {"compare", "compare methods with the reference: tables and a page", verb_compare},
     {"scene", "check scene files; print the schema of their format", verb_scene},
+    {"waves", "write a scene whose waves are drawn from a wind's or a buoy's spectrum", verb_waves},
     {"bench", "measure how fast the methods render a scene", verb_bench},
     {"info", "list version, instruction sets, threads and libraries", verb_info},
     {"view", "open a scene in the interactive viewer", verb_view},

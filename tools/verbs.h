@@ -8,6 +8,7 @@ int verb_render(int count, char **arguments);
 int verb_diff(int count, char **arguments);
 int verb_compare(int count, char **arguments);
 int verb_scene(int count, char **arguments);
+int verb_waves(int count, char **arguments);
 int verb_bench(int count, char **arguments);
 int verb_info(int count, char **arguments);
 int verb_view(int count, char **arguments);
