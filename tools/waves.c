@@ -271,7 +271,8 @@ static void warn_of_fetch(const waves_request *r, const wave_spectrum *spectrum,
     const bool fetch = spectrum->kind == SPECTRUM_JONSWAP || spectrum->kind == SPECTRUM_TMA;
     const double developed = 0.877 * SPECTRUM_GRAVITY / wind_at_height(spectrum->wind_10, 10, 19.5);
     if (fetch && spectrum->peak < developed)
-        console_note(out, "a fetch of %g km is more than this wind needs for a fully developed sea: pierson-moskowitz fits better", r->spectrum.settings.fetch / 1000);
+        console_note(out, "a fetch of %g km is more than this wind needs for a fully developed sea: pierson-moskowitz fits better",
+                     r->spectrum.settings.fetch / 1000);
 }
 
 static int make_scene(const waves_request *r, scene_values *values, const console *out)

@@ -33,6 +33,8 @@ bool waves_report_make(waves_report *report, const scene_spectrum *settings, con
                       .slope = NAN,
                       .clean = sea->slopes};
     r.spectrum.table = NULL;
+    if (s->kind == SPECTRUM_BUOY && !is_bent(&r))
+        r.clean = (cox_munk){NAN, NAN, NAN}; /* nobody said what the wind was */
     if (is_bent(&r))
         r.slope = sea->slopes.total;
     else if (parametric && s->gamma == 1 && !(s->depth > 0))
@@ -50,7 +52,8 @@ static json_t *number(double value)
 
 static json_t *figures(double closed_form, double clean, double spectrum, double waves)
 {
-    return json_pack("{s:o, s:o, s:o, s:o}", "closed_form", number(closed_form), "cox_munk", number(clean), "spectrum", number(spectrum), "waves", number(waves));
+    return json_pack("{s:o, s:o, s:o, s:o}", "closed_form", number(closed_form), "cox_munk", number(clean), "spectrum", number(spectrum), "waves",
+                     number(waves));
 }
 
 static const char *choice_name(const char *key, int choice)
@@ -67,12 +70,16 @@ json_t *waves_report_json(const waves_report *r, const char *path)
 {
     const spectrum_settings *s = &r->settings->settings;
     const double wind = r->spectrum.wind_10, azimuth = r->spectrum.downwind * 180 / SPECTRUM_PI;
-    json_t *json = json_pack("{s:s, s:o, s:o, s:o, s:o, s:o, s:s, s:I, s:I}", "spectrum", choice_name("model", (int)s->kind), "wind_10m", number(wind), "wind_19_5m",
-                             number(wind_at_height(wind, 10, 19.5)), "fetch", s->kind == SPECTRUM_JONSWAP || s->kind == SPECTRUM_TMA ? number(s->fetch) : json_null(),
-                             "depth", s->depth > 0 ? number(s->depth) : json_null(), "from_deg", number(fmod(azimuth + 180, 360)), "slope",
-                             choice_name("slope", (int)s->slope), "waves", (json_int_t)r->count, "seed", (json_int_t)r->settings->seed);
+    const bool fetch = s->kind == SPECTRUM_JONSWAP || s->kind == SPECTRUM_TMA;
+    json_t *json = json_pack("{s:s, s:s, s:I, s:I}", "spectrum", choice_name("model", (int)s->kind), "slope", choice_name("slope", (int)s->slope), "waves",
+                             (json_int_t)r->count, "seed", (json_int_t)r->settings->seed);
     if (!json)
         return NULL;
+    json_object_set_new(json, "wind_10m", number(wind));
+    json_object_set_new(json, "wind_19_5m", number(wind_at_height(wind, 10, 19.5)));
+    json_object_set_new(json, "fetch", fetch ? number(s->fetch) : json_null());
+    json_object_set_new(json, "depth", s->depth > 0 ? number(s->depth) : json_null());
+    json_object_set_new(json, "from_deg", number(fmod(azimuth + 180, 360)));
     json_object_set_new(json, "peak_period", number(r->peak_period));
     json_object_set_new(json, "longest", number(r->longest));
     json_object_set_new(json, "shortest", number(r->shortest));

@@ -59,7 +59,7 @@ double wind_at_height(double wind, double height, double wanted_height)
 double closed_form_height(double alpha, double peak, double gamma)
 {
     const double variance = alpha * G * G / (5 * peak * peak * peak * peak);
-    return 4 * sqrt(variance / (1 - 0.287 * portable_log(gamma)));
+    return gamma <= 7 ? 4 * sqrt(variance / (1 - 0.287 * portable_log(gamma))) : NAN;
 }
 
 /* E₁(x) for x > 0: its series up to 1, beyond it the continued fraction. */
@@ -169,8 +169,9 @@ bool wave_spectrum_make(wave_spectrum *out, const spectrum_settings *settings, c
     s.high = dispersion_frequency(2 * SPECTRUM_PI / shortest, s.depth);
     *out = s;
     if (s.high < 2 * s.peak)
-        return refuse(fault, settings->shortest > 0 ? "shortest" : "wind", "leaves no room between the shortest wave, %g m, and the peak's, %g m; allowed: at least four times as long",
-                      shortest, 2 * SPECTRUM_PI / dispersion_wave_number(s.peak, s.depth));
+        return refuse(fault, settings->shortest > 0 ? "shortest" : "wind",
+                      "leaves no room between the shortest wave, %g m, and the peak's, %g m; allowed: at least four times as long", shortest,
+                      2 * SPECTRUM_PI / dispersion_wave_number(s.peak, s.depth));
     return true;
 }
 

@@ -100,7 +100,8 @@ double depth_factor(double frequency, double depth);
 /* Wind at another height over a neutral sea with the drag coefficient 1.3e-3: a logarithmic profile. */
 double wind_at_height(double wind, double height, double wanted_height);
 
-/* Significant wave height 4 √m0 of α g² ω⁻⁵ exp(-5/4 (ω_p/ω)⁴) γ^…; exact for γ = 1, else by the fit 1 - 0.287 ln γ, good to 2 %. */
+/* Significant wave height 4 √m0 of α g² ω⁻⁵ exp(-5/4 (ω_p/ω)⁴) γ^…; exact for γ = 1, to γ = 7 by the fit 1 - 0.287 ln γ, good to 1 %;
+ * NAN beyond. */
 double closed_form_height(double alpha, double peak, double gamma);
 
 /* Mean-square slope of the same with γ = 1 in deep water up to the frequency `high`: α/4 E₁(5/4 (ω_p/high)⁴). */

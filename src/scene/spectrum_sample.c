@@ -153,8 +153,8 @@ bool spectrum_bend_tail(wave_spectrum *spectrum, cox_munk slopes, spectrum_fault
     const bool reachable = bent_slope(grid, node, least) < rest && rest < bent_slope(grid, node, most);
     if (!reachable) {
         snprintf(fault->text, sizeof fault->text,
-                 "cannot be cox-munk: the clean sea's mean-square slope is %.3g, that of the waves longer than %.3g m alone %.3g; allowed: spectrum, or another wind, fetch or "
-                 "shortest wave",
+                 "cannot be cox-munk: the clean sea's mean-square slope is %.3g, that of the waves longer than %.3g m alone %.3g; "
+                 "allowed: spectrum, or another wind, fetch or shortest wave",
                  slopes.total, 2 * SPECTRUM_PI / dispersion_wave_number(from, spectrum->depth), grid->slope[node]);
         free(grid);
         return false;
@@ -242,7 +242,8 @@ bool spectrum_statistics(const wave_spectrum *spectrum, sea_statistics *out)
     if (grid == NULL)
         return false;
     const double slope = grid->slope[CELLS], difference = slope_difference(spectrum, grid, 0, CELLS);
-    *out = (sea_statistics){.height = 4 * sqrt(grid->height[CELLS]), .slope = slope, .upwind = (slope + difference) / 2, .crosswind = (slope - difference) / 2};
+    *out = (sea_statistics){
+        .height = 4 * sqrt(grid->height[CELLS]), .slope = slope, .upwind = (slope + difference) / 2, .crosswind = (slope - difference) / 2};
     free(grid);
     return true;
 }

@@ -2,11 +2,11 @@
  *
  * From a spectrum to sines.
  *
- * Frequencies: the spectrum is cut into as many strata as there are waves, each with the same share of three quarters mean-square slope and one
- * quarter variance of height: glitter is made of slopes, while the swell must not become a single wave. A stratum's wave has its whole variance,
- * A² / 2, and the wave number whose square is the stratum's mean, so that any number of waves has the spectrum's variance of height and of slope exactly.
- * Directions: quantiles of the spreading at the wave's frequency, at golden ratios around a start that the seed decides, so that neighbouring frequencies run apart.
- * Phases: uniform, by the seed. Numbers are rounded to seven digits.
+ * Frequencies: the spectrum is cut into as many strata as there are waves, each with the same share of three quarters mean-square slope and
+ * one quarter variance of height: glitter is made of slopes, while the swell must not become a single wave. A stratum's wave has its whole
+ * variance, A² / 2, and the wave number whose square is the stratum's mean, so that any number of waves has the spectrum's variance of height
+ * and of slope exactly. Directions: quantiles of the spreading at the wave's frequency, at golden ratios from a start that the seed decides,
+ * so that neighbouring frequencies run apart. Phases: uniform, by the seed. Numbers are rounded to seven digits.
  */
 #ifndef MANGATA_SCENE_SPECTRUM_SAMPLE_H
 #define MANGATA_SCENE_SPECTRUM_SAMPLE_H
@@ -14,8 +14,9 @@
 #include "mangata/mangata.h"
 #include "scene/spectrum_model.h"
 
-/* Bends the spectrum's tail so that the mean-square slope down to the shortest wave is `slopes.total`, and lets the tail spread so that the share upwind is theirs
- * as far as it can. The tail begins at three times the peak, or where a table ends. False with *fault filled where no tail can do it. */
+/* Bends the spectrum's tail so that the mean-square slope down to the shortest wave is `slopes.total`, and lets the tail spread so that the
+ * share upwind is theirs as far as it can. The tail begins at three times the peak, or where a table ends. False with *fault filled where no
+ * tail can do it. */
 bool spectrum_bend_tail(wave_spectrum *spectrum, cox_munk slopes, spectrum_fault *fault);
 
 /* Fills `count` waves from the longest to the shortest. False when memory runs out. */

@@ -92,7 +92,8 @@ static bool read_header(table_reader *r, const table_word *words, size_t count)
     const bool per_radian = count == COLUMNS && word_is(&words[DENSITY], "density_rad");
     if (count != COLUMNS || !word_is(&words[FREQUENCY], "frequency") || !word_is(&words[DIRECTION], "direction") ||
         (!per_radian && !word_is(&words[DENSITY], "density")))
-        return refuse(r, words[0].column, "these are not the names of the columns; allowed: frequency direction density, or frequency direction density_rad");
+        return refuse(r, words[0].column,
+                      "these are not the names of the columns; allowed: frequency direction density, or frequency direction density_rad");
     r->per_radian = per_radian ? 1 : 180 / SPECTRUM_PI;
     return true;
 }
@@ -182,14 +183,14 @@ static bool finish_row(const table_reader *r, spectrum_row *row)
     spectrum_point *points = r->table->points + row->first;
     const double hertz = row->frequency / TURN;
     if (row->count < 2)
-        return scene_error_set(r->error, SCENE_ERROR_BAD_SCENE, "%s: frequency %g Hz has one direction; allowed: at least two", scene_file_name(r->name).text,
-                               hertz);
+        return scene_error_set(r->error, SCENE_ERROR_BAD_SCENE, "%s: frequency %g Hz has one direction; allowed: at least two",
+                               scene_file_name(r->name).text, hertz);
     qsort(points, row->count, sizeof *points, compare_points);
     for (size_t i = 0; i < row->count; i++) {
         const double gap = gap_after(points, row->count, i);
         if (gap < 1e-9)
-            return scene_error_set(r->error, SCENE_ERROR_BAD_SCENE, "%s: frequency %g Hz has a direction twice; allowed: each once", scene_file_name(r->name).text,
-                                   hertz);
+            return scene_error_set(r->error, SCENE_ERROR_BAD_SCENE, "%s: frequency %g Hz has a direction twice; allowed: each once",
+                                   scene_file_name(r->name).text, hertz);
         if (gap <= WIDEST_GAP)
             row->density += gap * (points[i].density + points[(i + 1) % row->count].density) / 2;
     }
@@ -204,12 +205,15 @@ static bool finish_table(const table_reader *r)
             return false;
         most = fmax(most, r->table->rows[i].density);
     }
-    const char *fault = r->table->row_count == 0 ? "no rows" : r->table->row_count < 2 ? "only one frequency" : !(most > 0) ? "no waves, every density is 0" : NULL;
+    const char *fault = r->table->row_count == 0  ? "no rows"
+                        : r->table->row_count < 2 ? "only one frequency"
+                        : !(most > 0)             ? "no waves, every density is 0"
+                                                  : NULL;
     if (fault == NULL)
         return true;
     return scene_error_set(r->error, SCENE_ERROR_BAD_SCENE,
-                           "%s: the table holds %s; allowed: lines of frequency (Hz), direction (degrees, where waves come from) and density (m²/Hz/degree) for "
-                           "at least two frequencies",
+                           "%s: the table holds %s; allowed: lines of frequency (Hz), direction (degrees, where waves come from) and density "
+                           "(m²/Hz/degree) for at least two frequencies",
                            scene_file_name(r->name).text, fault);
 }
 

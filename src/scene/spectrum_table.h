@@ -4,9 +4,9 @@
  *
  * Each line holds a frequency in Hz, the direction in degrees that the waves come from, clockwise from north (-z), and a density in
  * m²/(Hz·degree), apart by blanks, tabs or commas. `#` begins a comment. A first line of words may name the columns: `frequency direction
- * density`, where `density_rad` instead of `density` says m²/(Hz·radian). Lines of one frequency stand together, frequencies rise; each may have directions of its
- * own, in any order. Between the points the density is linear in frequency and in direction around the circle, so that integrals are sums
- * of trapezia; a gap of more than 90° between neighbouring directions was not measured and counts as empty.
+ * density`, where `density_rad` instead of `density` says m²/(Hz·radian). Lines of one frequency stand together, frequencies rise; each may
+ * have directions of its own, in any order. Between the points the density is linear in frequency and in direction around the circle, so that
+ * integrals are sums of trapezia; a gap of more than 90° between neighbouring directions was not measured and counts as empty.
  */
 #ifndef MANGATA_SCENE_SPECTRUM_TABLE_H
 #define MANGATA_SCENE_SPECTRUM_TABLE_H

@@ -235,8 +235,9 @@ static void spreadings_are_the_published_ones(void **state)
     settings.directions = DIRECTIONS_DONELAN_BANNER;
     s = make(&settings);
     const double beta = 2.28 * pow(1.2, -1.3);
-    assert_near(wave_spectrum_spreading(&s, 1.2 * s.peak, s.downwind + 0.5) / wave_spectrum_spreading(&s, 1.2 * s.peak, s.downwind), pow(cosh(beta * 0.5), -2), 1e-12);
-    assert_near(wave_spectrum_spreading(&s, 1.2 * s.peak, s.downwind + 0.5), wave_spectrum_spreading(&s, 1.2 * s.peak, s.downwind - 0.5 - 4 * SPECTRUM_PI), 1e-12);
+    const double w = 1.2 * s.peak, ahead = wave_spectrum_spreading(&s, w, s.downwind), aside = wave_spectrum_spreading(&s, w, s.downwind + 0.5);
+    assert_near(aside / ahead, pow(cosh(beta * 0.5), -2), 1e-12);
+    assert_near(aside, wave_spectrum_spreading(&s, w, s.downwind - 0.5 - 4 * SPECTRUM_PI), 1e-12);
 }
 
 /* ---- waves -------------------------------------------------------------------------------------------------- */

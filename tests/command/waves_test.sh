@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: MIT
+# mangata waves: scenes from spectra, their statistics, and what it says to nonsense.
+source "$CHECK"
+
+waves() { "$MANGATA" waves "$@"; }
+check() { "$MANGATA" scene check "$@"; }
+buoy=$SOURCE/tests/data/scenes/buoy.txt
+
+# near VALUE EXPECTED SHARE: numbers that agree
+near() { awk -v a="$1" -v b="$2" -v s="$3" 'BEGIN { d = a - b; exit !(d * d <= s * s * b * b) }' || fail "$1 is not $2 within $3"; }
+
+# ---- scenes ----
+works waves -q -o pm.yaml --spectrum pierson-moskowitz --wind 10 -n 100
+works waves -q -o jonswap.yaml --spectrum jonswap --wind 8 --fetch 50000 --directions mitsuyasu --seed 4
+works waves -q -o tma.yaml --spectrum tma --wind 12 --fetch 30000 --depth 6 --direction 90 --gamma 2.2 --slope cox-munk --shortest 0.1
+works waves -q -o buoy.yaml --buoy "$buoy" -n 32
+works waves -q -o deep.yml --spectrum tma --depth 9000 -n 512
+for scene in pm jonswap tma buoy; do
+    expect 0 '' check "$scene.yaml"
+    works render "$scene.yaml" -o "$scene.png" -q "${small[@]}" --frames 0
+done
+expect 0 '' check deep.yml
+grep -q '512 waves' stdout.txt || fail "deep.yml: $(cat stdout.txt)"
+same <(waves -q --wind 9 --seed 3) <(waves -q --wind 9 --seed 3)
+differ <(waves -q --wind 9 --seed 3) <(waves -q --wind 9 --seed 4)
+
+# The height and the slope of the written waves, by another program: 0.2092 U²/g; ω² = g k tanh(k d).
+sums() { # FILE DEPTH
+    sed -n 's/^ *- {amplitude: \([^,]*\), a: \([^,]*\), b: \([^,]*\), c: \([^,]*\), phase: .*/\1 \2 \3 \4/p' "$1" | awk -v d="$2" '
+        function tanh(x) { return x > 20 ? 1 : (exp(2 * x) - 1) / (exp(2 * x) + 1) }
+        { k = sqrt($2 ^ 2 + $3 ^ 2); m += $1 ^ 2 / 2; s += $1 ^ 2 / 2 * k * k; r = $4 ^ 2 / (9.80665 * k * (d ? tanh(k * d) : 1)) - 1
+          worst = r * r > worst ? r * r : worst; back += $4 >= 0 }
+        END { printf "%d %.6g %.6g %.3g %d\n", NR, 4 * sqrt(m), s, sqrt(worst), back }'
+}
+read -r count height slope worst back < <(sums pm.yaml 0)
+[[ $count == 100 && $back == 0 ]] || fail "pm.yaml: $count waves, $back with c not below 0"
+near "$height" 2.1336 0.001
+awk -v w="$worst" 'BEGIN { exit !(w < 1e-5) }' || fail "dispersion is off by $worst"
+read -r count height slope worst back < <(sums tma.yaml 6)
+awk -v w="$worst" 'BEGIN { exit !(w < 1e-5) }' || fail "dispersion in 6 m is off by $worst"
+near "$slope" "$(awk 'BEGIN { print 0.003 + 0.00512 * 12 * 1.0201 }')" 0.001
+
+# ---- statistics ----
+waves --json --spectrum pierson-moskowitz --wind 10 -n 100 >pm.json
+value() { "$JSON_GET" "$2" <"$1"; }
+near "$(value pm.json significant_wave_height.waves)" 2.1336 0.001
+near "$(value pm.json significant_wave_height.closed_form)" 2.1336 0.001
+near "$(value pm.json mean_square_slope.waves)" "$(value pm.json mean_square_slope.closed_form)" 0.001
+near "$(value pm.json mean_square_slope_upwind.waves)" "$(value pm.json mean_square_slope_upwind.spectrum)" 0.05
+near "$(value pm.json peak_period)" 7.30 0.005
+waves --json --wind 7 --slope cox-munk --wind-height 12.5 >clean.json
+near "$(value clean.json mean_square_slope.waves)" 0.03884 0.001
+near "$(value clean.json mean_square_slope.cox_munk)" 0.03884 0.001
+# The table by trapezia, in another program: sorted by hand, gaps above 90 degrees left out.
+waves --json --buoy "$buoy" >buoy.json
+expected=$(awk '!/^[#f]/ && NF { if ($1 != f) { if (n) row(); f = $1; n = 0 } t[n] = $2 % 360; e[n++] = $3 }
+    function row(  i, j, x, s, g) {
+        for (i = 1; i < n; i++) for (j = i; j > 0 && t[j - 1] > t[j]; j--) { x = t[j]; t[j] = t[j - 1]; t[j - 1] = x; x = e[j]; e[j] = e[j - 1]; e[j - 1] = x }
+        for (i = s = 0; i < n; i++) { j = (i + 1) % n; g = (t[j] - t[i] + 360) % 360; if (g <= 90) s += g * (e[i] + e[j]) / 2 }
+        if (seen++) m += (f - last) * (s + before) / 2
+        before = s; last = f }
+    END { row(); print 4 * sqrt(m) }' "$buoy")
+near "$(value buoy.json significant_wave_height.waves)" "$expected" 0.0005
+
+# ---- bases, and spectra that stay spectra ----
+works waves -q -o moon.yaml --base "$SOURCE/scenes/moonlit.json" --set image.width=64 --set image.height=36 --wind 5
+grep -q 'body: moon' moon.yaml || fail "moon.yaml has no moon"
+works waves -q -o key.yaml --base "$SOURCE/scenes/moonlit.json" --set image.width=64 --set image.height=36 --wind 5 --as-spectrum
+grep -q 'spectrum: {model: jonswap, wind: 5' key.yaml || fail "key.yaml has no spectrum"
+works render moon.yaml -o moon.png -q --frames 0
+works render key.yaml -o key.png -q --frames 0
+same moon.png key.png # the same waves, and the same render hash
+works render key.yaml -o other.png -q --frames 0 --set water.spectrum.seed=2
+differ other.png key.png
+mkdir folder
+cp "$buoy" near.txt
+works waves -q -o folder/table.yaml --buoy near.txt --as-spectrum -n 20
+expect 0 '' check folder/table.yaml
+cp near.txt folder/beside.txt
+printf 'mangata: 1\nwater: {spectrum: {model: buoy, file: beside.txt}}\n' >folder/beside.yaml
+expect 0 '' check folder/beside.yaml
+expect 65 'count is 9999; allowed: a whole number, 1 to 512' check folder/beside.yaml --set water.spectrum.count=9999
+
+# ---- the scenes of the repository ----
+for scene in breeze gale lagoon; do
+    expect 0 '' check "$SOURCE/scenes/$scene.yaml"
+    works render "$SOURCE/scenes/$scene.yaml" -o "$scene.png" -q "${small[@]}" --frames 0
+done
+
+# ---- nonsense ----
+expect 64 '--wind -3: allowed is a number, 0.5 to 75 m/s' waves --wind -3
+expect 64 '--wind 0: allowed' waves --wind 0
+expect 64 '--wind nan: allowed' waves --wind nan
+expect 64 '--wind 400: allowed' waves --wind 400
+expect 64 '--wind fresh: allowed' waves --wind fresh
+expect 64 '--fetch -1: allowed is a number, 100 to 1e7 m' waves --fetch -1
+expect 64 '--depth -2: allowed is a number, 0 to 12000 m' waves --depth=-2
+expect 64 '--count 0: allowed is a whole number, 1 to 512' waves -n 0
+expect 64 '--count 100000: allowed' waves -n 100000
+expect 64 '--count 1.5: allowed' waves -n 1.5
+expect 64 '--seed -1: allowed' waves --seed -1
+expect 64 '--spectrum phillips: allowed is pierson-moskowitz, jonswap, tma or buoy' waves --spectrum phillips
+expect 64 '--spectrum none: allowed' waves --spectrum none
+expect 64 '--directions sideways: allowed is one of mitsuyasu' waves --directions sideways
+expect 64 '--spectrum tma needs --depth' waves --spectrum tma --wind 8
+expect 64 '--spectrum buoy needs --buoy FILE' waves --spectrum buoy
+expect 64 '--buoy is for --spectrum buoy' waves --spectrum jonswap --buoy "$buoy"
+expect 64 'ends in .yaml or .yml' waves -o sea.png
+expect 64 'takes options alone' waves pm.yaml
+expect 65 '--shortest leaves no room between the shortest wave, 900 m' waves --shortest 900
+expect 65 '--slope cannot be cox-munk' waves --wind 0.5 --fetch 100 --shortest 0.01 --slope cox-munk
+expect 66 'no-such.txt: No such file' waves --buoy no-such.txt
+expect 66 'no-such.yaml: No such file' waves --base no-such.yaml
+: >empty.txt
+expect 65 'empty.txt: the table holds no rows; allowed: lines of frequency' waves --buoy empty.txt
+printf '0.1 0 1\n0.1 10 much\n' >word.txt
+expect 65 'word.txt:2:8: density is much; allowed' waves --buoy word.txt
+expect 73 'pm.yaml.*--overwrite replaces it' waves -q -o pm.yaml
+works waves -q -o pm.yaml --overwrite
+expect 73 'no-folder' waves -q -o no-folder/pm.yaml
+expect 0 '--fetch changes nothing' waves --spectrum pierson-moskowitz --fetch 1000
+expect 0 'fully developed' waves --wind 3 --fetch 1e6
+if [[ -w /dev/full ]]; then
+    waves -q >/dev/full 2>stderr.txt
+    (($? == 73)) || fail "a full standard output is no error"
+fi
+no_temporaries .
+finish
