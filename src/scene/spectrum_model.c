@@ -165,6 +165,10 @@ bool wave_spectrum_make(wave_spectrum *out, const spectrum_settings *settings, c
         make_pierson_moskowitz(&s, wind_at_height(settings->wind, height, 19.5));
     else
         make_jonswap(&s, s.wind_10, settings->fetch, settings->gamma);
+    const double shallow = 0.7616 * G / (s.peak * s.peak); /* k d = 1 at the peak: tanh 1 */
+    if (settings->kind != SPECTRUM_TMA && s.depth > 0 && s.depth < shallow)
+        return refuse(fault, "depth", "is %g m, shallow for this sea's waves, and the model one of deep water; allowed: the model tma, 0 (deep), or above %.3g m",
+                      s.depth, shallow);
     s.low = LOWEST * s.peak;
     s.high = dispersion_frequency(2 * SPECTRUM_PI / shortest, s.depth);
     *out = s;

@@ -139,7 +139,8 @@ static double spread_of_harmonic(double harmonic)
 
 bool spectrum_bend_tail(wave_spectrum *spectrum, cox_munk slopes, spectrum_fault *fault)
 {
-    const double from = spectrum->kind == SPECTRUM_BUOY ? spectrum->tail_from : TAIL_BEGINS * spectrum->peak, least = -30, most = 30;
+    const double least = -30, most = 30, halfway = sqrt(spectrum->peak * spectrum->high);
+    const double from = spectrum->kind == SPECTRUM_BUOY ? spectrum->tail_from : fmin(TAIL_BEGINS * spectrum->peak, halfway);
     fault->key = "slope";
     spectrum->bend_from = INFINITY;
     frequency_grid *grid = make_grid(spectrum);

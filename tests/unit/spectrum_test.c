@@ -499,6 +499,7 @@ static void bad_spectra_say_where(void **state)
         {"{model: jonswap, fetch: -5}", "fetch is -5; allowed: a number, 100 to 1e7 m"},
         {"{model: phillips}", "model is phillips; allowed: one of none, pierson-moskowitz, jonswap, tma, buoy"},
         {"{model: tma}", "sea.yaml:2:19: water.spectrum.depth is 0: tma is a sea of limited depth"},
+        {"{model: jonswap, wind: 20, depth: 3}", "sea.yaml:2:53: water.spectrum.depth is 3 m, shallow for this sea's waves"},
         {"{model: buoy}", "sea.yaml:2:19: water.spectrum.file is missing"},
         {"{model: jonswap, count: 513}", "count is 513; allowed: a whole number, 1 to 512"},
         {"{model: jonswap, shortest: 500}", "sea.yaml:2:46: water.spectrum.shortest leaves no room"},
