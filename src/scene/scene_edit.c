@@ -53,7 +53,8 @@ void scene_values_write_out_sea(scene_values *values)
     free(water->waves.items);
     water->waves = water->sea;
     water->sea = (scene_list){0};
-    water->spectrum.settings.kind = SPECTRUM_NONE;
+    free(water->spectrum.file);
+    water->spectrum = scene_values_defaults().water.spectrum;
 }
 
 /* ---- paths ------------------------------------------------------------------------------------------------- */
@@ -168,13 +169,16 @@ static void write_text(FILE *stream, const char *text)
     fputc('"', stream);
 }
 
-/* Keys that another one excludes are not written: position and target beside a path, the offset beside an exposure that is a number. */
+/* Keys that another one excludes are not written: position and target beside a path, the offset beside an exposure that is a number, what a
+ * spectrum that is none is like. */
 static bool is_excluded(const scene_field *mapping, const scene_field *field, const void *parent)
 {
     if (strcmp(mapping->key, "camera") == 0) {
         const scene_camera *camera = parent;
         return camera->path.count > 0 && (strcmp(field->key, "position") == 0 || strcmp(field->key, "target") == 0);
     }
+    if (strcmp(mapping->key, "spectrum") == 0)
+        return strcmp(field->key, "model") != 0 && ((const scene_spectrum *)parent)->settings.kind == SPECTRUM_NONE;
     return strcmp(mapping->key, "post") == 0 && strcmp(field->key, "exposure_offset") == 0 && !((const scene_post *)parent)->exposure.automatic;
 }
 

@@ -65,6 +65,7 @@ near "$(value buoy.json significant_wave_height.waves)" "$expected" 0.0005
 # ---- bases, and spectra that stay spectra ----
 works waves -q -o moon.yaml --base "$SOURCE/scenes/moonlit.json" --set image.width=64 --set image.height=36 --wind 5
 grep -q 'body: moon' moon.yaml || fail "moon.yaml has no moon"
+! grep -q 'spectrum:' moon.yaml || fail "moon.yaml has a spectrum"
 works waves -q -o key.yaml --base "$SOURCE/scenes/moonlit.json" --set image.width=64 --set image.height=36 --wind 5 --as-spectrum
 grep -q 'spectrum: {model: jonswap, wind: 5' key.yaml || fail "key.yaml has no spectrum"
 works render moon.yaml -o moon.png -q --frames 0

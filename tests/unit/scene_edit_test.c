@@ -48,6 +48,8 @@ static const char *const scenes[] = {
     ("mangata: 1\ntime: {start: 1, fps: 23.976, frames: 12, shutter: 0.5}\ncamera:\n  fov_y_deg: 40\n  path:\n"
     "    - {time: 0, position: [0, 2, 0], target: [0, 1.8, -5]}\n    - {time: 2.5, position: [3, 4, -2], target: [1, 3.5, -8], fov_y_deg: 30}\n"),
     "mangata: 1\nwater: {waves: [{amplitude: 0.1, a: 1, b: 2, c: -3.1}]}\n",
+    "mangata: 1\nwater: {waves: [{amplitude: 0.1, a: 1, b: 2, c: -3.1}], spectrum: {model: tma, wind: 7, depth: 5, count: 9, seed: 4}}\n",
+    "mangata: 1\nwater: {spectrum: {model: pierson-moskowitz, directions: fixed, spread: 4, slope: cox-munk}, ior: 1.4}\n",
 };
 enum { SCENE_COUNT = sizeof scenes / sizeof scenes[0] };
 

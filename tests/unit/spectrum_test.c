@@ -476,6 +476,7 @@ static void a_spectrum_is_its_waves_written_out(void **state)
         assert_true(scene_values_write(stream, &values));
         fclose(stream);
         assert_int_equal(strstr(text, "tma") == NULL, written_out);
+        assert_int_equal(strstr(text, "spectrum") == NULL, written_out);
         scene_file *again = parse_scene(text, &error);
         if (again == NULL)
             fail_msg("%s\n%s", error.text, text);
