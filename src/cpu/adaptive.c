@@ -28,7 +28,7 @@ typedef struct leaf {
     uint16_t column, row; /* within the tile, in cells of the level */
     uint16_t level;
     uint16_t bucket;      /* of what a split is worth */
-    float color[3], coverage, water, height, variance;
+    float color[3], coverage, water, height, variance, contrast;
 } leaf;
 
 typedef struct forest_tile {
@@ -120,7 +120,7 @@ static bool add_leaf(const forest *f, size_t tile, leaf l)
 {
     forest_tile *t = &f->tiles[tile];
     const double area = area_of(l.level);
-    const double worth = area * area * (double)l.variance * (double)f->weight[pixel_of(f, tile, &l)] / (4 * cost_below(t, l.level));
+    const double worth = area * area * (double)l.contrast * (double)f->weight[pixel_of(f, tile, &l)] / (4 * cost_below(t, l.level));
     l.bucket = worth > 0 ? bucket_of(worth) : 0;
     if (l.bucket == 0 || l.level + 1 == LEVELS) {
         settle(f, tile, &l);
@@ -144,7 +144,8 @@ static leaf leaf_from(const tile_pixels *p, const tile_detail *d, size_t i)
                   .coverage = p->coverage[i],
                   .water = p->water[i],
                   .height = d->height[i],
-                  .variance = d->variance[i]};
+                  .variance = d->variance[i],
+                  .contrast = d->contrast[i]};
 }
 
 /* ---- the picture of pixels ---- */
@@ -170,6 +171,14 @@ static void guess_tile(const forest *f, const tile_waves *waves, tile_guess *gue
         memset(guess, 0, sizeof *guess);
 }
 
+/* What an error of the pixel's luminance is worth in the displayed picture, squared: tone maps show relative errors where it is bright. */
+static float weight_of(const forest *f, const float color[3])
+{
+    const float luminance = 0.2126f * color[0] + 0.7152f * color[1] + 0.0722f * color[2];
+    const float slope = 1 / (1 + f->data[0].exposure * luminance);
+    return slope * slope;
+}
+
 static void plant_tile(void *argument, size_t tile, uint32_t worker)
 {
     forest *f = argument;
@@ -191,7 +200,7 @@ static void plant_tile(void *argument, size_t tile, uint32_t worker)
             leaf l = leaf_from(&s->pixels, detail, from);
             l.column = (uint16_t)x;
             l.row = (uint16_t)y;
-            f->weight[to] = 1;
+            f->weight[to] = weight_of(f, l.color);
             p->importance[to] = sqrtf(l.variance);
             p->samples[to] = l.water > 0 ? (float)t->cost[0] : 0;
             t->spent += (double)p->samples[to];

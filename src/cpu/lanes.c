@@ -574,6 +574,7 @@ static void store_cell(tile_pixels *out, tile_detail *detail, size_t i, CellResu
     if (detail) {
         store(detail->height + i, c.height);
         store(detail->variance + i, c.variance);
+        store(detail->contrast + i, c.contrast);
     }
 }
 
@@ -589,7 +590,7 @@ static void render_glitter(const struct kernel_context *cx, tile_places places, 
         look_at_tile(open, open_guess, out->water, &open_looks);
     for (size_t i = 0; i < places.count; i += MGT_LANES) {
         const PixelRay p = pixel_rays(cx, &places, i);
-        CellResult cell = {.height = real(0.0f), .variance = real(0.0f)};
+        CellResult cell = {.height = real(0.0f), .variance = real(0.0f), .contrast = real(0.0f)};
         if (any_lane(p.water > real(0.0f))) {
             const SlopeState state = looked_slopes(cx, &close_looks, i, p.ray);
             cell = cell_result_of(cx, p, open ? looked_slopes(open, &open_looks, i, pixel_rays(open, &places, i).ray) : state, state);

@@ -56,7 +56,7 @@ typedef struct tile_pixels {
 
 /* How a pixel or cell of method `mangata` goes on, see cells.k. */
 typedef struct tile_detail {
-    float height[TILE_PIXELS], variance[TILE_PIXELS];
+    float height[TILE_PIXELS], variance[TILE_PIXELS], contrast[TILE_PIXELS];
 } tile_detail;
 
 /* Cells of one tile and level: pixels are split evenly into scale × scale of them. */
