@@ -86,7 +86,7 @@ static void time_stages(const tile_frame *f, const frame_cases_kernels *w, tile_
     for (uint32_t i = 0; i < f->rows * f->columns; i++) {
         double t[TIMES + 1];
         t[0] = seconds_now();
-        w->kernels->sort(&f->frame.data, &f->waves->shutter, i % f->columns, i / f->columns, &s->close);
+        w->kernels->sort(&f->frame.data, &f->waves->shutter, &f->waves->shutter.view, i % f->columns, i / f->columns, &s->close);
         t[1] = seconds_now();
         if (tile_sees_water(&s->close))
             w->kernels->guess(&f->frame.data, &s->close, &s->close_guess);

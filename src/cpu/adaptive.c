@@ -14,7 +14,8 @@
 #include <time.h>
 
 enum {
-    LEVELS = 7, /* a pixel has up to 64 × 64 cells */
+    LEVELS = 7,            /* a pixel has up to 4^6 cells, … */
+    SIDES = 2 * LEVELS - 1, /* … split up to 12 times one way */
     BUCKETS_PER_OCTAVE = 32,
     OCTAVES = 96,
     BUCKETS = BUCKETS_PER_OCTAVE * OCTAVES,
@@ -25,8 +26,11 @@ static const double cost_unit = 65536; /* evaluations of all waves are counted i
 
 /* A pixel or cell that may be split. */
 typedef struct leaf {
-    uint16_t column, row; /* within the tile, in cells of the level */
-    uint16_t level;
+    uint32_t column, row; /* within the tile, in cells of this size */
+    uint8_t across, down; /* how often the pixel has been halved each way */
+    uint8_t level;        /* (across + down) / 2 */
+    uint8_t shape;        /* of the split to come, see shape_of() */
+    bool chosen;          /* to be split in this round */
     uint16_t bucket;      /* of what a split is worth */
     float color[3], coverage, water, height, variance, contrast;
 } leaf;
@@ -35,9 +39,10 @@ typedef struct forest_tile {
     leaf *leaves;
     size_t count, capacity;
     double cost[LEVELS];  /* of a cell, evaluations of all waves; 0 as long as it is unknown */
+    double below[LEVELS]; /* of the four cells that one of this level is split into, as far as is known */
+    float worth[LEVELS];  /* of a split, for each unit of squared error */
     double spent;
     double final_variance; /* of what is split no more: sum of squared errors of pixels */
-    bool sees_water;
 } forest_tile;
 
 typedef struct round_plan {
@@ -50,67 +55,69 @@ typedef struct census {
     uint64_t cost[BUCKETS];
 } census;
 
-typedef struct forest {
+struct forest {
     const adaptive_frame *a;
     const picture_planes *out;
+    uint32_t width, height; /* that the memory is for */
     uint32_t columns, rows;
+    bool by_coverage;       /* leaves are worth what they save of the coverage's error, not of the picture's */
     forest_tile *tiles;
     float *weight;         /* a pixel's, squared */
-    wave_set *close;       /* LEVELS of them, and as many for `open` where the camera moves */
-    wave_set *open;
-    FrameData data[LEVELS];
+    wave_set *close;       /* when the shutter closes, or over it, … */
+    wave_set *open;        /* … and when it opens, where the camera moves; else NULL */
+    wave_set *moving;      /* memory for this, NULL until needed */
     tile_cells **cells;    /* one a worker */
     census **census;
     size_t workers;
     round_plan plan;
+    int least_bucket;      /* leaves up to this one are settled */
     atomic_bool failed;    /* memory was short */
-} forest;
+};
 
 /* ---- places ---- */
 
 static size_t pixel_of(const forest *f, size_t tile, const leaf *l)
 {
-    const size_t x = tile % f->columns * TILE_WIDTH + (l->column >> l->level), y = tile / f->columns * TILE_HEIGHT + (l->row >> l->level);
+    const size_t x = tile % f->columns * TILE_WIDTH + (l->column >> l->across), y = tile / f->columns * TILE_HEIGHT + (l->row >> l->down);
     return y * f->out->width + x;
 }
 
-static double area_of(uint16_t level)
-{
-    return ldexp(1, -2 * level);
-}
+static const float areas[LEVELS] = {1, 0x1p-2f, 0x1p-4f, 0x1p-6f, 0x1p-8f, 0x1p-10f, 0x1p-12f}; /* of a cell, pixels */
 
 /* A cell is final: its share of the pixel. */
 static void settle(const forest *f, size_t tile, const leaf *l)
 {
     const picture_planes *p = f->out;
     const size_t i = pixel_of(f, tile, l);
-    const float area = (float)area_of(l->level);
+    const float area = areas[l->level];
     for (int k = 0; k < 3; k++)
         p->color[3 * i + (size_t)k] += area * l->color[k];
     p->coverage[i] += area * l->coverage;
     p->water[i] += area * l->water;
     if (l->level > 0)
         p->detail[i] += area * l->coverage;
-    f->tiles[tile].final_variance += area_of(l->level) * area_of(l->level) * (double)l->variance;
+    f->tiles[tile].final_variance += (double)(area * area * l->variance);
 }
 
 /* ---- what a split is worth ---- */
 
-/* Of a cell of the next level, from the nearest one that is known. */
-static double cost_below(const forest_tile *t, uint16_t level)
+/* What splits cost and are worth, after a level's cost became known: where it is not, by the nearest level above. */
+static void appraise(forest_tile *t)
 {
-    for (int k = level + 1; k >= 0; k--)
-        if (t->cost[k] > 0)
-            return fmin(t->cost[k] * (1 + 0.3 * (level + 1 - k)), 1);
-    return 1;
+    double cost = t->cost[0];
+    for (int level = 0; level < LEVELS; level++) {
+        const double next = level + 1 < LEVELS ? t->cost[level + 1] : 0;
+        cost = next > 0 ? next : fmin(1.3 * cost, 1);
+        t->below[level] = 4 * cost;
+        t->worth[level] = (float)((double)(areas[level] * areas[level]) / t->below[level]);
+    }
 }
 
 /* Steps of a 32nd octave, straight within an octave: the upper bits of the float. */
-static uint16_t bucket_of(double worth)
+static uint16_t bucket_of(float worth)
 {
-    const float scaled = (float)worth;
     uint32_t bits;
-    memcpy(&bits, &scaled, sizeof bits);
+    memcpy(&bits, &worth, sizeof bits);
     const int32_t bucket = (int32_t)(bits >> 18) - BUCKET_ZERO;
     return bucket <= 0 ? 0 : bucket >= BUCKETS ? BUCKETS - 1 : (uint16_t)bucket;
 }
@@ -119,10 +126,9 @@ static uint16_t bucket_of(double worth)
 static bool add_leaf(const forest *f, size_t tile, leaf l)
 {
     forest_tile *t = &f->tiles[tile];
-    const double area = area_of(l.level);
-    const double worth = area * area * (double)l.contrast * (double)f->weight[pixel_of(f, tile, &l)] / (4 * cost_below(t, l.level));
-    l.bucket = worth > 0 ? bucket_of(worth) : 0;
-    if (l.bucket == 0 || l.level + 1 == LEVELS) {
+    const float gain = f->by_coverage ? l.variance : l.contrast * f->weight[pixel_of(f, tile, &l)];
+    l.bucket = gain > 0 ? bucket_of(gain * t->worth[l.level]) : 0;
+    if (l.bucket <= f->least_bucket || l.level + 1 == LEVELS) {
         settle(f, tile, &l);
         return true;
     }
@@ -138,6 +144,15 @@ static bool add_leaf(const forest *f, size_t tile, leaf l)
     return true;
 }
 
+/* Into 2 × 2, four rows or four columns: whatever makes the parts' shape on the water rounder. */
+enum { SHAPE_EVEN, SHAPE_ROWS, SHAPE_COLUMNS };
+static const uint8_t halvings[3][2] = {{1, 1}, {0, 2}, {2, 0}}; /* across, down */
+
+static uint8_t shape_of(float aspect_squared)
+{
+    return aspect_squared > 8 ? SHAPE_ROWS : aspect_squared < 0.125f ? SHAPE_COLUMNS : SHAPE_EVEN;
+}
+
 static leaf leaf_from(const tile_pixels *p, const tile_detail *d, size_t i)
 {
     return (leaf){.color = {p->red[i], p->green[i], p->blue[i]},
@@ -145,28 +160,52 @@ static leaf leaf_from(const tile_pixels *p, const tile_detail *d, size_t i)
                   .water = p->water[i],
                   .height = d->height[i],
                   .variance = d->variance[i],
-                  .contrast = d->contrast[i]};
+                  .contrast = d->contrast[i],
+                  .shape = shape_of(d->aspect[i])};
 }
 
 /* ---- the picture of pixels ---- */
 
-static void sort_level(const forest *f, size_t tile, int level, tile_scratch *s)
+/* Rays of cells: every pixel is halved so many times each way. */
+static ViewData finer(const ViewData *view, int across, int down)
+{
+    ViewData v = *view;
+    v.scale_x = ldexpf(1, across);
+    v.scale_y = ldexpf(1, down);
+    v.right_x /= v.scale_x, v.right_y /= v.scale_x, v.right_z /= v.scale_x;
+    v.down_x /= v.scale_y, v.down_y /= v.scale_y, v.down_z /= v.scale_y;
+    const float x = 0.5f - 0.5f * v.scale_x, y = 0.5f - 0.5f * v.scale_y;
+    v.corner_x += x * v.right_x + y * v.down_x;
+    v.corner_y += x * v.right_y + y * v.down_y;
+    v.corner_z += x * v.right_z + y * v.down_z;
+    return v;
+}
+
+/* Sorts the tile's waves for cells; returns what the kernels are told of the frame then. */
+static FrameData sort_cells(const forest *f, size_t tile, int across, int down, tile_scratch *s)
 {
     const adaptive_frame *a = f->a;
     const uint32_t x = (uint32_t)(tile % f->columns), y = (uint32_t)(tile / f->columns);
     forest_tile *t = &f->tiles[tile];
-    a->kernels->sort(&f->data[level], &f->close[level], x, y, &s->close);
-    if (f->open)
-        a->kernels->sort(&f->data[level], &f->open[level], x, y, &s->open);
+    FrameData data = a->frame->data;
+    data.pixel_angle = ldexpf(data.pixel_angle, across > down ? -across : -down);
+    const ViewData close = finer(&f->close->view, across, down);
+    a->kernels->sort(&data, f->close, &close, x, y, &s->close);
+    if (f->open) {
+        const ViewData open = finer(&f->open->view, across, down);
+        a->kernels->sort(&data, f->open, &open, x, y, &s->open);
+    }
     const TileData *d = &s->close.data;
-    const int waves = f->close[level].view.wave_count;
-    t->cost[level] = waves > 0 ? fmax((double)(d->resolved_count + d->mixed_count) / waves, 1e-3) : 1;
+    const int waves = close.wave_count;
+    t->cost[(across + down) / 2] = waves > 0 ? fmax((double)(d->resolved_count + d->mixed_count) / waves, 1e-3) : 1;
+    appraise(t);
+    return data;
 }
 
 static void guess_tile(const forest *f, const tile_waves *waves, tile_guess *guess)
 {
     if (tile_sees_water(waves))
-        f->a->kernels->guess(&f->data[0], waves, guess);
+        f->a->kernels->guess(&f->a->frame->data, waves, guess);
     else
         memset(guess, 0, sizeof *guess);
 }
@@ -175,7 +214,7 @@ static void guess_tile(const forest *f, const tile_waves *waves, tile_guess *gue
 static float weight_of(const forest *f, const float color[3])
 {
     const float luminance = 0.2126f * color[0] + 0.7152f * color[1] + 0.0722f * color[2];
-    const float slope = 1 / (1 + f->data[0].exposure * luminance);
+    const float slope = 1 / (1 + f->a->frame->data.exposure * luminance);
     return slope * slope;
 }
 
@@ -187,19 +226,19 @@ static void plant_tile(void *argument, size_t tile, uint32_t worker)
     tile_scratch *s = a->scratch[worker];
     tile_detail *detail = &f->cells[worker]->detail;
     forest_tile *t = &f->tiles[tile];
-    sort_level(f, tile, 0, s);
+    const FrameData data = sort_cells(f, tile, 0, 0, s);
     guess_tile(f, &s->close, &s->close_guess);
     if (f->open)
         guess_tile(f, &s->open, &s->open_guess);
-    a->kernels->filtered(&f->data[0], a->sky, NULL, MGT_METHOD_MANGATA, &s->close, &s->close_guess, f->open ? &s->open : NULL,
+    a->kernels->filtered(&data, a->sky, NULL, MGT_METHOD_MANGATA, &s->close, &s->close_guess, f->open ? &s->open : NULL,
                          f->open ? &s->open_guess : NULL, &s->pixels, detail);
     const uint32_t left = (uint32_t)(tile % f->columns) * TILE_WIDTH, top = (uint32_t)(tile / f->columns) * TILE_HEIGHT;
     for (uint32_t y = 0; y < TILE_HEIGHT && top + y < p->height; y++)
         for (uint32_t x = 0; x < TILE_WIDTH && left + x < p->width; x++) {
             const size_t from = (size_t)y * TILE_WIDTH + x, to = (size_t)(top + y) * p->width + left + x;
             leaf l = leaf_from(&s->pixels, detail, from);
-            l.column = (uint16_t)x;
-            l.row = (uint16_t)y;
+            l.column = x;
+            l.row = y;
             f->weight[to] = weight_of(f, l.color);
             p->importance[to] = sqrtf(l.variance);
             p->samples[to] = l.water > 0 ? (float)t->cost[0] : 0;
@@ -217,8 +256,8 @@ static void count_tile(void *argument, size_t tile, uint32_t worker)
     const forest_tile *t = &f->tiles[tile];
     uint64_t *cost = f->census[worker]->cost;
     uint64_t units[LEVELS];
-    for (uint16_t level = 0; level < LEVELS; level++)
-        units[level] = level + 1 < LEVELS ? (uint64_t)(4 * cost_below(t, level) * cost_unit) : 0;
+    for (int level = 0; level < LEVELS; level++)
+        units[level] = (uint64_t)(t->below[level] * cost_unit);
     for (size_t i = 0; i < t->count; i++)
         cost[t->leaves[i].bucket] += units[t->leaves[i].level];
 }
@@ -231,7 +270,7 @@ static bool make_plan(forest *f, double budget)
     const thread_loop loop = {(size_t)f->columns * f->rows, count_tile, f, NULL};
     thread_pool_run(f->a->pool, &loop);
     double left = budget * cost_unit;
-    f->plan = (round_plan){-1, 0};
+    f->plan = (round_plan){0, 0};
     bool any = false;
     for (int b = BUCKETS - 1; b >= 0; b--) {
         uint64_t cost = 0;
@@ -244,13 +283,15 @@ static bool make_plan(forest *f, double budget)
         }
         left -= (double)cost;
     }
+    const int least = f->plan.bucket - KEPT_OCTAVES * BUCKETS_PER_OCTAVE;
+    f->least_bucket = least > f->least_bucket ? least : f->least_bucket;
     return any;
 }
 
 /* A number in [0, 1) that is the leaf's own. */
 static double lot_of(size_t tile, const leaf *l)
 {
-    uint64_t x = (uint64_t)tile << 40 ^ (uint64_t)l->level << 32 ^ (uint64_t)l->column << 16 ^ l->row;
+    uint64_t x = (uint64_t)tile << 44 ^ (uint64_t)l->across << 40 ^ (uint64_t)l->down << 36 ^ (uint64_t)l->column << 18 ^ l->row;
     x = (x + 0x9e3779b97f4a7c15u) * 0xbf58476d1ce4e5b9u;
     x = (x ^ (x >> 29)) * 0x94d049bb133111ebu;
     return (double)(x >> 11) * 0x1p-53;
@@ -261,19 +302,27 @@ static bool is_chosen(const forest *f, size_t tile, const leaf *l)
     return l->bucket > f->plan.bucket || (l->bucket == f->plan.bucket && lot_of(tile, l) < f->plan.share);
 }
 
-/* Renders the children that wait in `cells`. */
-static bool grow(const forest *f, size_t tile, int level, uint32_t worker)
+/* Cells of one size that wait to be rendered. */
+typedef struct brood {
+    FrameData data;
+    int across, down;
+} brood;
+
+static bool grow(const forest *f, size_t tile, const brood *b, uint32_t worker)
 {
     const adaptive_frame *a = f->a;
     tile_cells *cells = f->cells[worker];
     tile_scratch *s = a->scratch[worker];
     forest_tile *t = &f->tiles[tile];
-    a->kernels->cells(&f->data[level], a->sky, &s->close, f->open ? &s->open : NULL, cells);
+    const int level = (b->across + b->down) / 2;
+    a->kernels->cells(&b->data, a->sky, &s->close, f->open ? &s->open : NULL, cells);
     for (size_t i = 0; i < cells->count; i++) {
         leaf l = leaf_from(&cells->pixels, &cells->detail, i);
-        l.column = (uint16_t)cells->column[i];
-        l.row = (uint16_t)cells->row[i];
-        l.level = (uint16_t)level;
+        l.column = (uint32_t)cells->column[i];
+        l.row = (uint32_t)cells->row[i];
+        l.across = (uint8_t)b->across;
+        l.down = (uint8_t)b->down;
+        l.level = (uint8_t)level;
         f->out->samples[pixel_of(f, tile, &l)] += (float)t->cost[level];
         t->spent += t->cost[level];
         if (!add_leaf(f, tile, l))
@@ -283,29 +332,32 @@ static bool grow(const forest *f, size_t tile, int level, uint32_t worker)
     return true;
 }
 
-/* The chosen leaves of one level make room for their children; `end` is how many leaves there were before the round. */
-static bool split_level(const forest *f, size_t tile, int level, size_t end, uint32_t worker)
+static void add_children(tile_cells *cells, const leaf *l)
+{
+    const uint32_t wide = 1u << halvings[l->shape][0];
+    for (uint32_t k = 0; k < 4; k++) {
+        cells->column[cells->count] = (float)(l->column * wide + k % wide);
+        cells->row[cells->count] = (float)((l->row << halvings[l->shape][1]) + k / wide);
+        cells->guess.height[cells->count++] = l->height;
+    }
+}
+
+/* The chosen leaves whose children have one size; `end` is how many leaves there were before the round. */
+static bool split_size(const forest *f, size_t tile, int across, int down, size_t end, uint32_t worker)
 {
     forest_tile *t = &f->tiles[tile];
     tile_cells *cells = f->cells[worker];
-    bool sorted = false;
+    const brood b = {sort_cells(f, tile, across, down, f->a->scratch[worker]), across, down};
     cells->count = 0;
     for (size_t i = 0; i < end; i++) {
-        const leaf l = t->leaves[i];
-        if (l.level != level || !is_chosen(f, tile, &l))
+        const leaf *l = &t->leaves[i];
+        if (!l->chosen || l->across + halvings[l->shape][0] != across || l->down + halvings[l->shape][1] != down)
             continue;
-        if (!sorted)
-            sort_level(f, tile, level + 1, f->a->scratch[worker]);
-        sorted = true;
-        for (int k = 0; k < 4; k++) {
-            cells->column[cells->count] = (float)(2 * l.column + k % 2);
-            cells->row[cells->count] = (float)(2 * l.row + k / 2);
-            cells->guess.height[cells->count++] = l.height;
-        }
-        if (cells->count == TILE_PIXELS && !grow(f, tile, level + 1, worker))
+        add_children(cells, l);
+        if (cells->count == TILE_PIXELS && !grow(f, tile, &b, worker))
             return false;
     }
-    return cells->count == 0 || grow(f, tile, level + 1, worker);
+    return cells->count == 0 || grow(f, tile, &b, worker);
 }
 
 static void split_tile(void *argument, size_t tile, uint32_t worker)
@@ -313,23 +365,27 @@ static void split_tile(void *argument, size_t tile, uint32_t worker)
     forest *f = argument;
     forest_tile *t = &f->tiles[tile];
     const size_t end = t->count;
-    bool chosen[LEVELS] = {false};
-    for (size_t i = 0; i < end; i++)
-        chosen[t->leaves[i].level] |= is_chosen(f, tile, &t->leaves[i]);
-    for (int level = 0; level + 1 < LEVELS; level++)
-        if (chosen[level] && !split_level(f, tile, level, end, worker)) {
-            atomic_store(&f->failed, true);
-            return;
-        }
+    bool sizes[SIDES][SIDES] = {{false}};
+    for (size_t i = 0; i < end; i++) {
+        leaf *l = &t->leaves[i];
+        l->chosen = is_chosen(f, tile, l);
+        sizes[l->across + halvings[l->shape][0]][l->down + halvings[l->shape][1]] |= l->chosen;
+    }
+    for (int across = 0; across < SIDES; across++)
+        for (int down = 0; down < SIDES; down++)
+            if (sizes[across][down] && !split_size(f, tile, across, down, end, worker)) {
+                atomic_store(&f->failed, true);
+                return;
+            }
     size_t kept = 0;
     for (size_t i = 0; i < t->count; i++) {
         const leaf *l = &t->leaves[i];
-        if (i < end && is_chosen(f, tile, l))
+        if (l->chosen)
             continue;
-        if (l->bucket < f->plan.bucket - KEPT_OCTAVES * BUCKETS_PER_OCTAVE)
+        if (l->bucket <= f->least_bucket)
             settle(f, tile, l);
-        else
-            t->leaves[kept++] = *l;
+        else if (i > kept++)
+            t->leaves[kept - 1] = *l;
     }
     t->count = kept;
 }
@@ -362,22 +418,71 @@ static double water_of(const forest *f)
     return sum;
 }
 
+/* Of the coverage over the picture, as far as the leaves tell. */
+static double predicted_rmse(const forest *f)
+{
+    double sum = 0;
+    for (size_t tile = 0; tile < (size_t)f->columns * f->rows; tile++) {
+        const forest_tile *t = &f->tiles[tile];
+        sum += t->final_variance;
+        for (size_t i = 0; i < t->count; i++)
+            sum += (double)(areas[t->leaves[i].level] * areas[t->leaves[i].level] * t->leaves[i].variance);
+    }
+    /* Against brute force on four scenes the variance of a cell is about a third of what it says. */
+    return sqrt(0.35 * sum / ((double)f->out->width * f->out->height));
+}
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* What a frame has used and may use. */
+typedef struct frame_budget {
+    double evaluations; /* in all, for a number of samples */
+    double began, end;  /* seconds, for a budget of time */
+    double rounds_began, before; /* when the rounds began, and what had been spent then */
+} frame_budget;
+
+/* How much the next round may spend; 0: it is enough. Little at first, while little is known. */
+static double next_share(const forest *f, const frame_budget *b, size_t round)
+{
+    static const double shares[] = {0.15, 0.25, 0.35, 0.5, 0.7, 1, 1, 1, 1, 1};
+    enum { SHARES = sizeof shares / sizeof *shares, MOST_ROUNDS = 40 };
+    const mgt_quality *q = &f->a->frame->scene->quality;
+    const double used = spent(f);
+    if (q->target_rmse > 0)
+        return round < MOST_ROUNDS && predicted_rmse(f) > q->target_rmse ? 0.3 * used : 0;
+    if (q->budget_ms > 0) {
+        const double time = now(), left = b->end - time;
+        /* The first pixels are cheaper than cells: half of their speed is a careful guess. */
+        const double speed = round == 0 ? 0.5 * used / (time - b->began) : (used - b->before) / (time - b->rounds_began);
+        const double share = round == 0 ? 0.2 : 0.6;
+        return round < MOST_ROUNDS && left > 0.02 * (b->end - b->began) ? share * left * speed : 0;
+    }
+    const double left = b->evaluations - used;
+    return round < SHARES && left > 0.005 * b->evaluations ? shares[round] * left : 0;
+}
+
 static mgt_status run_rounds(forest *f)
 {
     const adaptive_frame *a = f->a;
+    const mgt_quality *q = &a->frame->scene->quality;
     const size_t tiles = (size_t)f->columns * f->rows;
     const thread_loop plant = {tiles, plant_tile, f, NULL}, split = {tiles, split_tile, f, NULL}, end = {tiles, settle_tile, f, NULL};
+    frame_budget budget = {.began = now()};
+    /* Some of the time is for what follows: settling the leaves, and the display. */
+    budget.end = budget.began + 1e-3 * q->budget_ms - 4e-9 * (double)f->out->width * f->out->height;
     thread_pool_run(a->pool, &plant);
-    const mgt_quality *q = &a->frame->scene->quality;
-    const double budget = (q->samples > 0 ? q->samples : 8) * water_of(f);
-    /* What a round may take of what is left: little at first, while little is known. */
-    static const double shares[] = {0.15, 0.25, 0.35, 0.5, 0.7, 1, 1, 1, 1, 1};
-    for (size_t round = 0; round < sizeof shares / sizeof *shares && !atomic_load(&f->failed); round++) {
-        const double left = budget - spent(f);
-        if (left < 0.005 * budget || !make_plan(f, shares[round] * left))
-            break;
+    budget.evaluations = (q->samples > 0 ? q->samples : 8) * water_of(f);
+    budget.before = spent(f);
+    budget.rounds_began = now();
+    double share;
+    for (size_t round = 0; !atomic_load(&f->failed) && (share = next_share(f, &budget, round)) > 0 && make_plan(f, share); round++) {
         thread_pool_run(a->pool, &split);
-        if (a->keep_going && !a->keep_going(a->keep_going_argument, fmin(spent(f) / budget, 1)))
+        if (a->keep_going && !a->keep_going(a->keep_going_argument, fmin(spent(f) / budget.evaluations, 1)))
             return MGT_CANCELLED;
     }
     thread_pool_run(a->pool, &end);
@@ -386,40 +491,20 @@ static mgt_status run_rounds(forest *f)
 
 /* ---- a frame ---- */
 
-/* The camera of a picture `scale` times as large, for the same view. */
-static camera_rays finer(const camera_rays *camera, double scale)
-{
-    camera_rays c = *camera;
-    for (int i = 0; i < 3; i++) {
-        c.right[i] /= scale;
-        c.down[i] /= scale;
-        c.corner[i] += (0.5 - 0.5 * scale) * (c.right[i] + c.down[i]);
-    }
-    return c;
-}
-
-static void build_levels(forest *f)
+static void place_waves(forest *f)
 {
     const frame *whole = f->a->frame;
     const mgt_scene *s = whole->scene;
-    const interval shutter = {s->time - s->shutter / 2, s->shutter / 2}, now = {s->time, 0}, before = {s->time - s->shutter, 0};
-    for (int level = 0; level < LEVELS; level++) {
-        const float scale = ldexpf(1, level);
-        const camera_rays close = finer(&whole->close, (double)scale);
-        wave_set_build(whole, &close, s->camera_moves ? now : shutter, true, &f->close[level]);
-        f->close[level].view.scale = scale;
-        if (f->open) {
-            const camera_rays open = finer(&whole->open, (double)scale);
-            wave_set_build(whole, &open, before, true, &f->open[level]);
-            f->open[level].view.scale = scale;
-        }
-        f->data[level] = whole->data;
-        f->data[level].pixel_angle /= scale;
-    }
+    const interval shutter = {s->time - s->shutter / 2, s->shutter / 2}, instant = {s->time, 0}, before = {s->time - s->shutter, 0};
+    wave_set_build(whole, &whole->close, s->camera_moves ? instant : shutter, true, f->close);
+    if (f->open)
+        wave_set_build(whole, &whole->open, before, true, f->open);
 }
 
-static void free_forest(forest *f)
+void forest_free(forest *f)
 {
+    if (!f)
+        return;
     for (size_t i = 0; f->tiles && i < (size_t)f->columns * f->rows; i++)
         free(f->tiles[i].leaves);
     for (size_t i = 0; f->cells && i < f->workers; i++)
@@ -431,7 +516,7 @@ static void free_forest(forest *f)
     free(f->tiles);
     free(f->weight);
     free(f->close);
-    free(f->open);
+    free(f->moving);
     free(f);
 }
 
@@ -440,19 +525,17 @@ static forest *make_forest(const adaptive_frame *a, const picture_planes *out)
     forest *f = calloc(1, sizeof *f);
     if (!f)
         return NULL;
-    f->a = a;
-    f->out = out;
+    f->width = out->width;
+    f->height = out->height;
     f->columns = (out->width + TILE_WIDTH - 1) / TILE_WIDTH;
     f->rows = (out->height + TILE_HEIGHT - 1) / TILE_HEIGHT;
     f->workers = thread_pool_size(a->pool);
-    const bool moves = a->frame->scene->camera_moves;
     f->tiles = calloc((size_t)f->columns * f->rows, sizeof *f->tiles);
     f->weight = malloc((size_t)out->width * out->height * sizeof *f->weight);
-    f->close = calloc(LEVELS, sizeof *f->close);
-    f->open = moves ? calloc(LEVELS, sizeof *f->open) : NULL;
+    f->close = calloc(1, sizeof *f->close);
     f->cells = calloc(f->workers, sizeof *f->cells);
     f->census = calloc(f->workers, sizeof *f->census);
-    bool all = f->tiles && f->weight && f->close && (!moves || f->open) && f->cells && f->census;
+    bool all = f->tiles && f->weight && f->close && f->cells && f->census;
     for (size_t i = 0; all && i < f->workers; i++) {
         f->cells[i] = calloc(1, sizeof **f->cells);
         f->census[i] = calloc(1, sizeof **f->census);
@@ -460,17 +543,37 @@ static forest *make_forest(const adaptive_frame *a, const picture_planes *out)
     }
     if (all)
         return f;
-    free_forest(f);
+    forest_free(f);
     return NULL;
 }
 
-mgt_status adaptive_render(const adaptive_frame *a, const picture_planes *out)
+/* Ready for a frame: empty but for memory. */
+static bool clear_forest(forest *f, const adaptive_frame *a, const picture_planes *out)
 {
-    forest *f = make_forest(a, out);
-    if (!f)
+    const bool moves = a->frame->scene->camera_moves;
+    f->a = a;
+    f->out = out;
+    f->by_coverage = a->frame->scene->quality.target_rmse > 0;
+    f->least_bucket = 0;
+    atomic_store(&f->failed, false);
+    for (size_t i = 0; i < (size_t)f->columns * f->rows; i++)
+        f->tiles[i] = (forest_tile){.leaves = f->tiles[i].leaves, .capacity = f->tiles[i].capacity};
+    if (moves && !f->moving)
+        f->moving = calloc(1, sizeof *f->moving);
+    f->open = moves ? f->moving : NULL;
+    return !moves || f->open;
+}
+
+mgt_status adaptive_render(const adaptive_frame *a, forest **kept, const picture_planes *out)
+{
+    if (*kept && ((*kept)->width != out->width || (*kept)->height != out->height)) {
+        forest_free(*kept);
+        *kept = NULL;
+    }
+    if (!*kept)
+        *kept = make_forest(a, out);
+    if (!*kept || !clear_forest(*kept, a, out))
         return MGT_ERROR_MEMORY;
-    build_levels(f);
-    const mgt_status status = run_rounds(f);
-    free_forest(f);
-    return status;
+    place_waves(*kept);
+    return run_rounds(*kept);
 }

@@ -19,7 +19,11 @@ typedef struct adaptive_frame {
     void *keep_going_argument;
 } adaptive_frame;
 
-/* Fills all planes but depth. MGT_ERROR_MEMORY where memory is short. */
-mgt_status adaptive_render(const adaptive_frame *a, const picture_planes *out);
+/* Memory that frames of one size share; nothing else outlives a frame. */
+typedef struct forest forest;
+
+/* Fills all planes but depth. MGT_ERROR_MEMORY where memory is short. *kept: NULL at first, made and remade as frames need it. */
+mgt_status adaptive_render(const adaptive_frame *a, forest **kept, const picture_planes *out);
+void forest_free(forest *f);
 
 #endif

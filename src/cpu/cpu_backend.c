@@ -25,6 +25,7 @@ typedef struct cpu_state {
     sky_state *sky; /* of the last frame; zeroed at first */
     podee_tables podee; /* empty until a frame needs them */
     lean_map *lean;     /* NULL until a frame needs it */
+    forest *adaptive;   /* NULL until a frame needs it */
     frame_waves *waves;
     tile_scratch **scratch; /* one a worker */
     mgt_progress_function progress;
@@ -87,6 +88,7 @@ static void cpu_destroy(void *state)
     thread_pool_destroy(s->pool);
     podee_tables_free(&s->podee);
     lean_map_free(s->lean);
+    forest_free(s->adaptive);
     free(s->waves);
     free(s->sky);
     free(s);
@@ -544,7 +546,7 @@ static mgt_status adapt_picture(void *user, const mgt_scene *scene, const pictur
         return status;
     const frame f = frame_of(scene, s->sky, true);
     const adaptive_frame a = {&f, s->kernels, s->sky->table, s->pool, s->scratch, tell_adaptive, s};
-    status = adaptive_render(&a, out);
+    status = adaptive_render(&a, &s->adaptive, out);
     if (status == MGT_OK)
         return MGT_OK;
     return report_error(u->r, status, status == MGT_CANCELLED ? "render.cancelled" : "render.memory",

@@ -201,7 +201,7 @@ void wave_set_build(const frame *f, const camera_rays *camera, interval time, bo
     set->view.slope_deviation = (float)sqrt(slope_variance);
     set->view.wave_count = (int)water->wave_count;
     set->view.filter_waves = filter;
-    set->view.scale = 1;
+    set->view.scale_x = set->view.scale_y = 1;
 }
 
 /* ---- tiles ---- */

@@ -21,7 +21,7 @@ typedef struct tile_pixel {
 
 static struct kernel_context sort_tile(const frame *f, const wave_set *set, const float *sky, tile_pixel at, tile_waves *waves, tile_guess *guess)
 {
-    lane_kernels_1.sort(&f->data, set, at.tile_x, at.tile_y, waves);
+    lane_kernels_1.sort(&f->data, set, &set->view, at.tile_x, at.tile_y, waves);
     if (tile_sees_water(waves))
         lane_kernels_1.guess(&f->data, waves, guess);
     else

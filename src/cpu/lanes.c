@@ -217,18 +217,18 @@ static void list_marched(const wave_set *set, const wave_classes *c, tile_waves 
     d->march_pixels = !set->view.filter_waves && most > 0.0625f;
 }
 
-static void lanes_sort(const FrameData *frame, const wave_set *set, uint32_t tile_x, uint32_t tile_y, tile_waves *out)
+static void lanes_sort(const FrameData *frame, const wave_set *set, const ViewData *view, uint32_t tile_x, uint32_t tile_y, tile_waves *out)
 {
-    const struct kernel_context cx = {.frame = frame, .view = &set->view};
-    const float width = TILE_WIDTH * set->view.scale, height = TILE_HEIGHT * set->view.scale;
+    const struct kernel_context cx = {.frame = frame, .view = view};
+    const float width = TILE_WIDTH * view->scale_x, height = TILE_HEIGHT * view->scale_y;
     const real column = real((float)tile_x * width), row = real((float)tile_y * height);
-    const TileView view = tile_view(&cx, column, row, width, height);
+    const TileView place = tile_view(&cx, column, row, width, height);
     wave_classes classes;
-    out->data = tile_data(&set->view, view);
-    classify_waves(&cx, set, view, &classes);
+    out->data = tile_data(view, place);
+    classify_waves(&cx, set, place, &classes);
     list_waves(set, &classes, out);
     list_marched(set, &classes, out);
-    out->data.light_reach = set->view.filter_waves && any_of(tile_meets_light(&cx, column, row, width, height)) > 0;
+    out->data.light_reach = view->filter_waves && any_of(tile_meets_light(&cx, column, row, width, height)) > 0;
 }
 
 /* ---- first-hit lattice ---- */
@@ -575,6 +575,7 @@ static void store_cell(tile_pixels *out, tile_detail *detail, size_t i, CellResu
         store(detail->height + i, c.height);
         store(detail->variance + i, c.variance);
         store(detail->contrast + i, c.contrast);
+        store(detail->aspect + i, c.aspect);
     }
 }
 
@@ -590,7 +591,7 @@ static void render_glitter(const struct kernel_context *cx, tile_places places, 
         look_at_tile(open, open_guess, out->water, &open_looks);
     for (size_t i = 0; i < places.count; i += MGT_LANES) {
         const PixelRay p = pixel_rays(cx, &places, i);
-        CellResult cell = {.height = real(0.0f), .variance = real(0.0f), .contrast = real(0.0f)};
+        CellResult cell = {.height = real(0.0f), .variance = real(0.0f), .contrast = real(0.0f), .aspect = real(1.0f)};
         if (any_lane(p.water > real(0.0f))) {
             const SlopeState state = looked_slopes(cx, &close_looks, i, p.ray);
             cell = cell_result_of(cx, p, open ? looked_slopes(open, &open_looks, i, pixel_rays(open, &places, i).ray) : state, state);

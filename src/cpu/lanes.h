@@ -56,14 +56,14 @@ typedef struct tile_pixels {
 
 /* How a pixel or cell of method `mangata` goes on, see cells.k. */
 typedef struct tile_detail {
-    float height[TILE_PIXELS], variance[TILE_PIXELS], contrast[TILE_PIXELS];
+    float height[TILE_PIXELS], variance[TILE_PIXELS], contrast[TILE_PIXELS], aspect[TILE_PIXELS];
 } tile_detail;
 
-/* Cells of one tile and level: pixels are split evenly into scale × scale of them. */
+/* Cells of one tile: pixels are split evenly into view.scale_x × view.scale_y of them. */
 typedef struct tile_cells {
     size_t count;                                   /* at most TILE_PIXELS */
     float column[TILE_PIXELS], row[TILE_PIXELS];    /* whole numbers, in cells from the tile's first one */
-    tile_guess guess;
+    tile_guess guess;                               /* heights; marched to only where the guess leads nowhere */
     tile_detail detail;                             /* out */
     tile_pixels pixels;                             /* out */
 } tile_cells;
@@ -77,8 +77,8 @@ typedef struct rival_kernels rival_kernels; /* cpu/rival_lanes.h */
 
 typedef struct lane_kernels {
     uint32_t lanes;
-    /* Sorts the waves for the tile (tile_x, tile_y) of the lattice, or for its cells where set->view.scale says so. */
-    void (*sort)(const FrameData *frame, const wave_set *set, uint32_t tile_x, uint32_t tile_y, tile_waves *out);
+    /* Sorts the waves for the tile (tile_x, tile_y) of the lattice; `view` is the set's own, or one that splits pixels into cells. */
+    void (*sort)(const FrameData *frame, const wave_set *set, const ViewData *view, uint32_t tile_x, uint32_t tile_y, tile_waves *out);
     /* Marches the tile's nodes and fills the guesses of its pixels. */
     void (*guess)(const FrameData *frame, const tile_waves *tile, tile_guess *guess);
     /* One sample a pixel at (x + dx, y + dy), dx and dy in pixels from its centre (NULL: 0); adds weight × result to `out`. */

@@ -41,7 +41,7 @@ typedef struct tile_place {
 static void build(tile_place place, const wave_set *set, tile_waves *waves, tile_guess *guess)
 {
     const tile_job *job = place.job;
-    job->kernels->sort(&job->frame->data, set, place.x, place.y, waves);
+    job->kernels->sort(&job->frame->data, set, &set->view, place.x, place.y, waves);
     if (tile_sees_water(waves))
         job->kernels->guess(&job->frame->data, waves, guess);
     else

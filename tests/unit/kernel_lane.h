@@ -166,7 +166,7 @@ static inline void kernel_bench_tile(kernel_bench *b, bool shutter, bool filter,
     const double half = shutter ? b->scene.shutter / 2 : 0;
     wave_set_build(&b->frame, &b->frame.close, (interval){b->scene.time - half, half}, filter, &b->set);
     memset(&b->tile, 0, sizeof b->tile);
-    lane_kernels_1.sort(&b->frame.data, &b->set, x / TILE_WIDTH, y / TILE_HEIGHT, &b->tile);
+    lane_kernels_1.sort(&b->frame.data, &b->set, &b->set.view, x / TILE_WIDTH, y / TILE_HEIGHT, &b->tile);
 }
 
 /* The ray through the pixel's centre, in the tile built last. */
