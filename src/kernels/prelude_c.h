@@ -50,6 +50,9 @@
 
 struct kernel_context;
 
+/* Turns of a loop over waves that are taken as one; a lane of C gains nothing from that. */
+#define UNROLLED 1
+
 /* Called once for each evaluation of an integrand; instrumented builds define it to count the lanes where `live` holds. */
 #ifndef TALLY
 #define TALLY(live) ((void)0)
