@@ -133,8 +133,7 @@ static mgt_status gl_create(void **state, const mgt_context_desc *desc, const re
         return status;
     }
     if (info->software && desc->backend == MGT_BACKEND_GL)
-        report(r, MGT_LOG_INFO, "context.software", "OpenGL here is software: %s; the CPU backend is faster, and exact where "
-               "a software rasteriser ends the long loops of point samples near the horizon", info->renderer);
+        report(r, MGT_LOG_INFO, "context.software", "OpenGL here is software: %s; the CPU backend is faster", info->renderer);
     *state = s;
     return MGT_OK;
 }

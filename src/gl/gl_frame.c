@@ -120,7 +120,7 @@ static void upload_waves(gl_renderer *g)
     const size_t count = (size_t)set->view.wave_count;
     size_t offset;
     memcpy(gl_ring_allocate(&g->ring, MGT_MAX_WAVES * sizeof(WaveData), &offset), set->data, count * sizeof(WaveData));
-    const bool storage = g->programs.defines != NULL;
+    const bool storage = g->limits.waves_in_storage;
     g->gl.BindBufferRange(storage ? GL_SHADER_STORAGE_BUFFER : GL_UNIFORM_BUFFER, storage ? BIND_WAVE_STORAGE : BIND_WAVES, g->ring.buffer,
                           (GLintptr)offset,
                           MGT_MAX_WAVES * sizeof(WaveData));

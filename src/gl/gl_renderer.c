@@ -38,9 +38,14 @@ static mgt_status read_limits(gl_renderer *g, const reporter *r)
         return report_error(r, MGT_ERROR_UNAVAILABLE, "context.gl",
                             "the OpenGL context has %d storage blocks and %d bytes of shared memory for compute shaders; "
                             "7 and 16384 are needed", storage, shared);
-    g->limits = (gl_limits){(uint32_t)texture, (size_t)uniform, is_software(&g->gl)};
-    if (g->limits.uniform_block < MGT_MAX_WAVES * sizeof(WaveData))
-        g->programs.defines = "#define WAVES_IN_STORAGE\n";
+    g->limits = (gl_limits){
+        .texture_side = (uint32_t)texture,
+        .waves_in_storage = (size_t)uniform < MGT_MAX_WAVES * sizeof(WaveData),
+        .software = is_software(&g->gl),
+    };
+    static const char *const defines[2][2] = {{"", "#define SOFTWARE_GL\n"},
+                                               {"#define WAVES_IN_STORAGE\n", "#define WAVES_IN_STORAGE\n#define SOFTWARE_GL\n"}};
+    g->programs.defines = defines[g->limits.waves_in_storage][g->limits.software];
     return MGT_OK;
 }
 

@@ -30,8 +30,8 @@ typedef struct gl_glare {
 
 typedef struct gl_limits {
     uint32_t texture_side;
-    size_t uniform_block;
-    bool software;      /* llvmpipe and its like */
+    bool waves_in_storage; /* uniform blocks are too small for them */
+    bool software;         /* llvmpipe and its like */
 } gl_limits;
 
 typedef struct gl_renderer {

@@ -2,6 +2,7 @@
  *
  * Depth and normal at the instant the shutter closes.
  */
+#define EXACT_FMA
 #include "lattice_data.glsl"
 #include "sample.k"
 #include "normal.glsl"

@@ -3,6 +3,7 @@
  * Sorts the frame's waves for each tile: one workgroup a tile, one invocation every 64th wave. Places in the lists come from counting
  * bits and sums are taken in one order, so that the result does not depend on which invocation is the faster.
  */
+#define EXACT_FMA
 #define TILE_ACCESS
 #include "gl_data.glsl"
 
