@@ -26,7 +26,8 @@ for pass in "$work"/*.comp "$work"/*.vert "$work"/*.frag; do
     count=$((count + 1))
     check "$pass" ""
     check "$pass" "#define WAVES_IN_STORAGE"
+    check "$pass" "#define SOFTWARE_GL"
 done
-echo "$count passes, each with the waves in a uniform block and in a storage buffer"
+echo "$count passes, each with the waves in a uniform block, in a storage buffer, and for software"
 [ $count -ge 12 ] || failed=1
 exit $failed
