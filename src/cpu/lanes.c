@@ -176,7 +176,7 @@ static inline float tighter(float sum, float variance)
     return sum < deviations ? sum : deviations;
 }
 
-/* The first leg of a march takes the largest quarter of the waves, where they are many. */
+/* A march strides over the largest quarter of the waves, where they are many. */
 enum { COARSE_LEAST = 32, COARSE_SHARE = 4 };
 
 static void list_marched(const wave_set *set, const wave_classes *c, tile_waves *out)
@@ -206,7 +206,7 @@ static void list_marched(const wave_set *set, const wave_classes *c, tile_waves 
     d->march_count = count;
     d->march_bound = tighter(all.height, all.height_variance);
     d->march_slope = tighter(all.slope, all.slope_variance);
-    /* After a first leg, two deviations of the bend serve filtered methods: what small waves could hide from the second moves no pixel. */
+    /* After such strides, two deviations of the bend serve filtered methods: what small waves could hide from the second moves no pixel. */
     d->march_bend = tighter(all.bend, all.bend_variance) * (set->view.filter_waves && first < count ? 0.5f : 1.0f);
     d->coarse_count = first;
     d->coarse_rest = tighter(rest.height, rest.height_variance);

@@ -104,7 +104,7 @@ Counts count_all()
         c.mixed += bitCount(mixed_bits[i]);
         c.marched += bitCount(marched_bits[i]);
     }
-    c.coarse = c.marched < 32 ? c.marched : c.marched / 4; /* the first leg takes the largest quarter, where they are many */
+    c.coarse = c.marched < 32 ? c.marched : c.marched / 4; /* the march strides over the largest quarter, where they are many */
     return c;
 }
 
