@@ -157,7 +157,8 @@ static int check_scene(compare_job *job, const compare_scene *scene)
     return EXIT_CODE_OK;
 }
 
-static int make_report_folder(compare_job *job)
+/* Makes the folder, in which `page` must be writable. */
+static int make_report_folder(compare_job *job, const char *page)
 {
     const char *folder = job->request->folder;
     struct stat state;
@@ -169,7 +170,7 @@ static int make_report_folder(compare_job *job)
         return console_error(EXIT_CODE_CANNOT_WRITE, "%s: %s", folder, strerror(errno));
     if (!S_ISDIR(state.st_mode))
         return console_error(EXIT_CODE_CANNOT_WRITE, "%s: it is not a folder", folder);
-    if (!compare_file_path(job, "report.html", path))
+    if (!compare_file_path(job, page, path))
         return EXIT_CODE_USAGE;
     return output_file_check(path, &job->output, &error) == FILE_OK ? EXIT_CODE_OK : compare_file_failure(job, &error);
 }
@@ -232,28 +233,20 @@ static int print_end(const compare_job *job)
     return console_print_json(report);
 }
 
-static int run(compare_job *job)
+int compare_open(compare_job *job, const compare_request *request, const char *page)
 {
     int code = EXIT_CODE_OK;
-    for (size_t s = 0; s < job->request->scene_count && code == EXIT_CODE_OK; s++)
+    interrupt_install();
+    job->request = request;
+    job->frame_count = (size_t)frame_list_length(&request->frames);
+    job->output = (output_options){.overwrite = true, .cancel = interrupt_flag()};
+    for (size_t s = 0; s < request->scene_count && code == EXIT_CODE_OK; s++)
         code = load_scene(job, s);
     if (code == EXIT_CODE_OK)
-        code = context_open(&job->request->context, &job->request->out, on_progress, job, &job->context, &job->info);
-    for (size_t s = 0; s < job->request->scene_count && code == EXIT_CODE_OK; s++)
+        code = context_open(&request->context, &request->out, on_progress, job, &job->context, &job->info);
+    for (size_t s = 0; s < request->scene_count && code == EXIT_CODE_OK; s++)
         code = check_scene(job, &job->scenes[s]);
-    if (code == EXIT_CODE_OK)
-        code = make_report_folder(job);
-    if (code == EXIT_CODE_OK)
-        code = compare_render(job);
-    if (code == EXIT_CODE_OK)
-        code = compare_time_methods(job);
-    if (code == EXIT_CODE_OK)
-        code = compare_measure(job);
-    if (code == EXIT_CODE_OK)
-        code = write_reports(job);
-    if (code == EXIT_CODE_OK)
-        code = print_end(job);
-    return code == EXIT_CODE_OK ? check_gates(job) : code;
+    return code == EXIT_CODE_OK ? make_report_folder(job, page) : code;
 }
 
 static void free_scene(compare_scene *scene, size_t methods)
@@ -266,19 +259,32 @@ static void free_scene(compare_scene *scene, size_t methods)
     scene_file_free(scene->file);
 }
 
+void compare_close(compare_job *job)
+{
+    for (size_t s = 0; s < job->request->scene_count; s++)
+        free_scene(&job->scenes[s], job->request->method_count);
+    mgt_context_destroy(job->context);
+}
+
 int compare_run(const compare_request *request)
 {
     compare_job *job = calloc(1, sizeof *job);
     if (!job)
         return console_error(EXIT_CODE_FAILED, "out of memory");
-    interrupt_install();
-    job->request = request;
-    job->frame_count = (size_t)frame_list_length(&request->frames);
-    job->output = (output_options){.overwrite = true, .cancel = interrupt_flag()};
-    const int code = run(job);
-    for (size_t s = 0; s < request->scene_count; s++)
-        free_scene(&job->scenes[s], request->method_count);
-    mgt_context_destroy(job->context);
+    int code = compare_open(job, request, "report.html");
+    if (code == EXIT_CODE_OK)
+        code = compare_render(job);
+    if (code == EXIT_CODE_OK)
+        code = compare_time_methods(job);
+    if (code == EXIT_CODE_OK)
+        code = compare_measure(job);
+    if (code == EXIT_CODE_OK)
+        code = write_reports(job);
+    if (code == EXIT_CODE_OK)
+        code = print_end(job);
+    if (code == EXIT_CODE_OK)
+        code = check_gates(job);
+    compare_close(job);
     free(job);
     return code;
 }

@@ -73,7 +73,12 @@ int compare_stopped(compare_job *job);
 /* Replaces a file whole; returns the exit code. */
 int compare_write_text(compare_job *job, const char *path, const char *text, size_t size);
 
-/* The steps, in order; each prints its errors and returns the exit code. */
+/* From a job of zeros: loads the scenes, opens the context, checks every frame of every method, and makes the folder, in which the file `page`
+ * must be writable. Prints errors and returns the exit code; compare_close() follows in every case. */
+int compare_open(compare_job *job, const compare_request *request, const char *page);
+void compare_close(compare_job *job);
+
+/* The steps after it, in order; each prints its errors and returns the exit code. */
 int compare_render(compare_job *job); /* compare_images.c: the pictures that are not there yet */
 int compare_time_methods(compare_job *job); /* compare_time.c */
 int compare_measure(compare_job *job); /* compare_scores.c */

@@ -9,6 +9,7 @@
 #include "compare_pixels.h"
 #include "compare_scores.h"
 #include "compare_tables.h"
+#include "markup.h"
 
 /* How the page shows a scene. */
 typedef struct scene_light {
@@ -31,18 +32,6 @@ static const char *text_named(const char *name)
         if (strcmp(page_texts[i].name, name) == 0)
             return page_texts[i].text;
     return "";
-}
-
-static void put_escaped(FILE *stream, const char *text)
-{
-    for (; *text; text++)
-        switch (*text) {
-        case '&': fputs("&amp;", stream); break;
-        case '<': fputs("&lt;", stream); break;
-        case '>': fputs("&gt;", stream); break;
-        case '"': fputs("&quot;", stream); break;
-        default: putc(*text, stream); break;
-        }
 }
 
 /* ---- pictures -------------------------------------------------------------------------------------------- */
@@ -214,7 +203,7 @@ static void put_row(FILE *stream, const compare_job *job, const compare_scene *s
         time = scene->results[method].time;
     fprintf(stream, "<tr data-scene=\"%d\" data-method=\"%zu\"><td class=\"scene\">%s</td><th scope=\"row\">", scene ? (int)index : -1, method,
             scene ? scene->name : "mean");
-    put_escaped(stream, spec->name);
+    markup_escape(stream, spec->name);
     fputs("</th>", stream);
     put_number(stream, (double)compare_samples(&spec->quality), false, "samples", 0);
     put_number(stream, 1e3 * time.median, false, "time", 1);
@@ -244,14 +233,14 @@ static void put_table(FILE *stream, const compare_job *job)
         if (!score_wanted(r, column))
             continue;
         fprintf(stream, "<th scope=\"col\"%s title=\"", column->main ? "" : " class=\"minor\"");
-        put_escaped(stream, column->help);
+        markup_escape(stream, column->help);
         if (job->missing[column->kind][column->metric][0]) {
             fputs(" (a dash: ", stream);
-            put_escaped(stream, job->missing[column->kind][column->metric]);
+            markup_escape(stream, job->missing[column->kind][column->metric]);
             putc(')', stream);
         }
         fputs("\">", stream);
-        put_escaped(stream, column->title);
+        markup_escape(stream, column->title);
         fputs("</th>", stream);
     }
     fputs("</tr></thead>\n<tbody>\n", stream);

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* Half floats, differences, zlib, base64. */
+/* Half floats, differences, zlib. */
 #include "compare_pixels.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <zlib.h>
+
+#include "markup.h"
 
 uint16_t half_from_float(float value)
 {
@@ -21,24 +23,6 @@ uint16_t half_from_float(float value)
     const float fraction = frexpf(magnitude, &exponent); /* magnitude = fraction · 2^exponent, fraction in [½, 1) */
     /* A mantissa that rounds up to 2048 carries into the exponent, as it should. */
     return sign | (uint16_t)(((exponent + 14) << 10) + (int)lrintf(fraction * 2048) - 1024);
-}
-
-static char *base64(const uint8_t *bytes, size_t size, size_t *length)
-{
-    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    char *text = malloc((size + 2) / 3 * 4 + 1), *out = text;
-    for (size_t i = 0; text && i < size; i += 3) {
-        const size_t left = size - i;
-        const uint32_t word = (uint32_t)bytes[i] << 16 | (left > 1 ? (uint32_t)bytes[i + 1] << 8 : 0) | (left > 2 ? bytes[i + 2] : 0);
-        *out++ = digits[word >> 18];
-        *out++ = digits[word >> 12 & 63];
-        *out++ = left > 1 ? digits[word >> 6 & 63] : '=';
-        *out++ = left > 2 ? digits[word & 63] : '=';
-    }
-    if (text)
-        *out = 0;
-    *length = text ? (size_t)(out - text) : 0;
-    return text;
 }
 
 /* The halves of a channel in the order in which they are written. */
@@ -74,7 +58,7 @@ char *pixels_pack(const float_image *image, float scale, size_t *length)
         }
     }
     if (compress2(packed, &packed_size, planes, 2 * values, Z_BEST_COMPRESSION) == Z_OK)
-        text = base64(packed, packed_size, length);
+        text = base64_text(packed, packed_size, length);
 done:
     free(planes);
     free(packed);
