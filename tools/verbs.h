@@ -7,6 +7,7 @@
 int verb_render(int count, char **arguments);
 int verb_diff(int count, char **arguments);
 int verb_compare(int count, char **arguments);
+int verb_figures(int count, char **arguments);
 int verb_scene(int count, char **arguments);
 int verb_waves(int count, char **arguments);
 int verb_bench(int count, char **arguments);
