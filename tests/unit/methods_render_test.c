@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Every rival method through the API: on every standard scene, in several sizes, on moving and still water, under lights from 0.05° to
- * 10°; the same bytes for any threads, lanes and crop; and the light that each of them keeps.
+ * Every method through the API: on every standard scene, in several sizes, on moving and still water, under lights from 0.05° to
+ * 10°; the rivals' bytes for any threads, lanes and crop; and the light that each method keeps.
  */
 #include "unit/api_sea.h"
 
@@ -9,15 +9,42 @@
 #include "scene/scene_file.h"
 
 static const struct {
-    mgt_method method;
+    mgt_quality quality;
     const char *name;
     double least, most; /* sum of coverage over the reference's, over four scenes */
-} rivals[] = {
-    {MGT_METHOD_MSAA32, "msaa32", 0.8, 1.3},        {MGT_METHOD_LEAN, "lean", 0.7, 0.95},   {MGT_METHOD_LEADR, "leadr", 0.85, 1.1},
-    {MGT_METHOD_TOKUYOSHI, "tokuyoshi", 0.6, 1.05}, {MGT_METHOD_BRUNETON, "bruneton", 0.4, 1.1}, {MGT_METHOD_TNDF, "tndf", 0.65, 0.95},
-    {MGT_METHOD_FXAA, "fxaa", 0.2, 1.0},            {MGT_METHOD_TAA, "taa", 0.1, 1.0},
+} methods[] = {
+    {{.method = MGT_METHOD_MSAA32}, "msaa32", 0.8, 1.3},
+    {{.method = MGT_METHOD_LEAN}, "lean", 0.7, 0.95},
+    {{.method = MGT_METHOD_LEADR}, "leadr", 0.85, 1.1},
+    {{.method = MGT_METHOD_TOKUYOSHI}, "tokuyoshi", 0.6, 1.05},
+    {{.method = MGT_METHOD_BRUNETON}, "bruneton", 0.4, 1.1},
+    {{.method = MGT_METHOD_TNDF}, "tndf", 0.65, 0.95},
+    {{.method = MGT_METHOD_FXAA}, "fxaa", 0.2, 1.0},
+    {{.method = MGT_METHOD_TAA}, "taa", 0.1, 1.0},
+    {{.method = MGT_METHOD_NONE}, "none", 0.8, 1.3},
+    {{.method = MGT_METHOD_SSAA, .spatial_samples = 2, .time_samples = 2}, "ssaa2, two instants", 0.85, 1.15},
+    {{.method = MGT_METHOD_PODEE_UNIFORM}, "podee-uniform", 0.65, 0.95},
+    {{.method = MGT_METHOD_PODEE_PIXEL}, "podee-pixel", 0.65, 0.95},
+    {{.method = MGT_METHOD_PODEE_PIXEL, .kernels = MGT_KERNELS_9, .elongation_limit = 9}, "podee-pixel, 9 kernels", 0.65, 0.95},
+    {{.method = MGT_METHOD_PODEE_PIXEL, .kernels = MGT_KERNELS_FELINE, .elongation_limit = 1e6}, "podee-pixel, Feline", 0.65, 0.95},
+    {{.method = MGT_METHOD_PODEE_PIXEL, .kernels = MGT_KERNELS_RIEMANN}, "podee-pixel, Riemann", 0.65, 0.95},
+    {{.method = MGT_METHOD_MANGATA}, "mangata", 0.9, 1.1},
+    {{.method = MGT_METHOD_REFERENCE, .spatial_samples = 2, .time_samples = 2}, "reference, 8 samples", 0.93, 1.07}, /* its own noise is 2% */
 };
-enum { RIVALS = sizeof rivals / sizeof *rivals };
+/* The first ones are the rivals. */
+enum { METHODS = sizeof methods / sizeof *methods, RIVALS = 8 };
+
+static mgt_quality quality_of(int method)
+{
+    const mgt_quality *q = &methods[method].quality;
+    mgt_quality quality = mgt_scene_defaults().quality;
+    quality.method = q->method;
+    quality.spatial_samples = q->spatial_samples ? q->spatial_samples : 1;
+    quality.time_samples = q->time_samples ? q->time_samples : 1;
+    quality.kernels = q->kernels;
+    quality.elongation_limit = q->elongation_limit;
+    return quality;
+}
 
 static scene_file *load(const char *name, mgt_scene *scene)
 {
@@ -65,12 +92,12 @@ static void check_scene(mgt_context *context, mgt_scene *scene, const char *name
         mgt_scene s = *scene;
         s.water.waves = waves;
         for (int k = 0; k < 15; k++)
-            for (int m = 0; m < RIVALS; m++, ++*frames) {
+            for (int m = 0; m < METHODS; m++, ++*frames) {
                 s.image = (mgt_image){.width = sizes[k / 5][0], .height = sizes[k / 5][1]};
                 s.light.angular_radius_deg = radii[k % 5];
-                s.quality.method = rivals[m].method;
+                s.quality = quality_of(m);
                 char what[64];
-                snprintf(what, sizeof what, "%s, %s%s", rivals[m].name, name, still ? ", still" : "");
+                snprintf(what, sizeof what, "%s, %s%s", methods[m].name, name, still ? ", still" : "");
                 check_frame(context, &s, what);
             }
     }
@@ -119,7 +146,7 @@ static void threads_lanes_and_crops_change_nothing(void **state)
         for (int i = 0; i < 3; i++)
             contexts[i] = mgt_isa_available(sets[i]) ? sea_context(1, sets[i]) : NULL;
         for (int m = 0; m < RIVALS; m++) {
-            scene.quality.method = rivals[m].method;
+            scene.quality = quality_of(m);
             scene.image = (mgt_image){.width = SEA_WIDTH, .height = SEA_HEIGHT};
             render_sea(first, &scene, whole, shown);
             for (int i = 0; i < 3; i++) {
@@ -127,14 +154,14 @@ static void threads_lanes_and_crops_change_nothing(void **state)
                     continue;
                 render_sea(contexts[i], &scene, other, other_shown);
                 if (memcmp(whole, other, sizeof whole) != 0 || memcmp(shown, other_shown, sizeof shown) != 0)
-                    fail_msg("%s differs with instruction set %d", rivals[m].name, (int)sets[i]);
+                    fail_msg("%s differs with instruction set %d", methods[m].name, (int)sets[i]);
             }
             scene.image.crop_x = 37, scene.image.crop_y = 11, scene.image.crop_width = 30, scene.image.crop_height = 21;
             render_sea(first, &scene, other, other_shown);
             for (int y = 0; y < 21; y++) {
                 const size_t at = (size_t)(y + 11) * SEA_WIDTH + 37;
                 if (memcmp(whole + 3 * at, other + 90 * y, 90 * sizeof *whole) != 0 || memcmp(shown + 4 * at, other_shown + 120 * y, 120) != 0)
-                    fail_msg("%s differs in a crop, row %d", rivals[m].name, y);
+                    fail_msg("%s differs in a crop, row %d", methods[m].name, y);
             }
         }
         mgt_context_destroy(first);
@@ -234,7 +261,7 @@ static void light_is_kept_within_limits(void **state)
     static const char *const names[] = {"simple", "smooth", "medium", "high"};
     static float coverage[WIDTH * HEIGHT], reference[WIDTH * HEIGHT];
     mgt_context *context = sea_context(0, MGT_ISA_AUTO);
-    double sums[RIVALS][4] = {{0}}, exact[4] = {0}, ghosts[RIVALS][4] = {{0}};
+    double sums[METHODS][4] = {{0}}, exact[4] = {0}, ghosts[METHODS][4] = {{0}};
     for (int n = 0; n < 4; n++) {
         mgt_scene scene;
         scene_file *file = load(names[n], &scene);
@@ -242,8 +269,8 @@ static void light_is_kept_within_limits(void **state)
             assert_true(scene_file_frame(file, 8 * frame, &scene));
             scene.image = (mgt_image){.width = WIDTH, .height = HEIGHT};
             exact[n] += reference_sum(names[n], 8 * frame, reference);
-            for (int m = 0; m < RIVALS; m++) {
-                scene.quality.method = rivals[m].method;
+            for (int m = 0; m < METHODS; m++) {
+                scene.quality = quality_of(m);
                 const mgt_target target = sea_target(MGT_LAYER_COVERAGE, MGT_FORMAT_R32F, coverage, 0);
                 sea_render(context, &scene, &target, 1);
                 for (int i = 0; i < WIDTH * HEIGHT; i++) {
@@ -254,13 +281,13 @@ static void light_is_kept_within_limits(void **state)
         }
         scene_file_free(file);
     }
-    print_message("  sum of coverage over the reference's, 8 frames    | share of it where the reference has no light\n");
+    print_message("  sum of coverage over the reference's, 8 frames                | share of it where the reference has no light\n");
     int bad = 0;
-    for (int m = 0; m < RIVALS; m++) {
-        print_message("  %-10s", rivals[m].name);
+    for (int m = 0; m < METHODS; m++) {
+        print_message("  %-22s", methods[m].name);
         for (int n = 0; n < 4; n++) {
             print_message(" %9.3f", sums[m][n] / exact[n]);
-            bad += !(sums[m][n] / exact[n] >= rivals[m].least && sums[m][n] / exact[n] <= rivals[m].most);
+            bad += !(sums[m][n] / exact[n] >= methods[m].least && sums[m][n] / exact[n] <= methods[m].most);
         }
         print_message("  |");
         for (int n = 0; n < 4; n++)
