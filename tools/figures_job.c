@@ -9,9 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "compare_command.h"
 #include "interrupt.h"
-#include "markup.h"
 
 const char *const figure_scenes[FIGURE_SCENES] = {"simple", "smooth", "medium", "high"};
 
@@ -30,7 +28,7 @@ const figure_method_text figure_methods[FIGURE_METHODS] = {
     [FIGURE_KERNELS_9] = {"podee-pixel:kernels=9:elongation=1e6", "9 kernels"},
     [FIGURE_FELINE] = {"podee-pixel:kernels=feline", "Feline"},
     [FIGURE_RIEMANN] = {"podee-pixel:kernels=riemann", "convolution (Riemann)"},
-    [FIGURE_HARD] = {"podee-pixel:kernels=9:transition=hard", "without transition"},
+    [FIGURE_HARD] = {"podee-uniform:kernels=9:transition=hard", "without transition"},
 };
 
 bool figure_wanted(const figures_job *f, figure_id id)
@@ -53,7 +51,7 @@ static bool method_wanted(const figures_job *f, figure_method method)
         return figure_wanted(f, FIGURE_11);
     if (method >= FIGURE_KERNELS_1)
         return figure_wanted(f, FIGURE_17);
-    return (wanted & six) || (figure_wanted(f, FIGURE_11) && (method == FIGURE_PIXEL || method == FIGURE_MANGATA));
+    return (wanted & six) || (figure_wanted(f, FIGURE_11) && (method == FIGURE_UNIFORM || method == FIGURE_MANGATA));
 }
 
 /* True when `folder` holds the scenes. */
@@ -90,8 +88,15 @@ static int choose_pictures(figures_job *f)
 {
     const figures_request *r = f->request;
     compare_request *c = &f->renders;
-    *c = (compare_request){.out = r->out, .folder = r->folder, .overrides = r->overrides, .override_count = r->override_count, .reference = r->reference,
-                           .frames = r->frames, .time_runs = r->time_runs, .context = r->context, .progress = r->progress};
+    *c = (compare_request){.out = r->out,
+                           .folder = r->folder,
+                           .overrides = r->overrides,
+                           .override_count = r->override_count,
+                           .reference = r->reference,
+                           .frames = r->frames,
+                           .time_runs = r->time_runs,
+                           .context = r->context,
+                           .progress = r->progress};
     for (int m = 0; m < FIGURE_METHODS; m++) {
         char wrong[512];
         if (!method_wanted(f, (figure_method)m))
@@ -109,43 +114,7 @@ static int choose_pictures(figures_job *f)
     return code;
 }
 
-/* ---- what the makers share ---- */
-
-void figures_section(figures_job *f, const char *name, const char *title)
-{
-    fprintf(f->page, "<section id=\"%s\"><h2>%s</h2>\n", name, title);
-}
-
-void figures_section_end(figures_job *f)
-{
-    fputs("</section>\n", f->page);
-}
-
-int figures_plate(figures_job *f, svg *sheet, const char *name, const char *description)
-{
-    char path[COMPARE_PATH], file[64];
-    size_t size = 0;
-    snprintf(file, sizeof file, "%s.svg", name);
-    char *text = svg_finish(sheet, &size);
-    if (!text)
-        return figures_no_memory();
-    const int code = compare_file_path(f->compare, file, path) ? compare_write_text(f->compare, path, text, size) : EXIT_CODE_USAGE;
-    free(text);
-    fprintf(f->page, "<a href=\"%s\"><img src=\"%s\" alt=\"%s\"></a>\n", file, file, description);
-    return code;
-}
-
-void figures_check(figures_job *f, const char *claim, double value, double least, double most)
-{
-    const bool holds = value >= least && value <= most;
-    f->failed += !holds;
-    json_t *check = json_pack("{s:s, s:f, s:b}", "claim", claim, "value", isfinite(value) ? value : 1e300, "holds", (int)holds);
-    if (isfinite(least))
-        json_object_set_new(check, "least", json_real(least));
-    if (isfinite(most))
-        json_object_set_new(check, "most", json_real(most));
-    json_array_append_new(f->checks, check);
-}
+/* ---- pictures for the makers ---- */
 
 int figures_display(figures_job *f, size_t scene, size_t picture, size_t frame, double stops, uint8_t **rgba)
 {
@@ -201,8 +170,8 @@ static uint8_t *read_whole(const char *path, size_t *size)
     return NULL;
 }
 
-int figures_embed(figures_job *f, svg *sheet, const char *name, const uint8_t *rgba, uint32_t width, uint32_t height, svg_crop crop, double x, double y,
-                  double shown_width, double shown_height)
+int figures_embed(figures_job *f, svg *sheet, const char *name, const uint8_t *rgba, uint32_t width, uint32_t height, svg_crop crop, double x,
+                  double y, double shown_width, double shown_height)
 {
     char path[COMPARE_PATH], file[128];
     file_error error;
@@ -238,90 +207,6 @@ int figures_step(figures_job *f)
     f->compare->progress.frames_done++;
     progress_update(&f->compare->progress, 0);
     return EXIT_CODE_OK;
-}
-
-/* ---- the page ---- */
-
-static const char page_head[] =
-    "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-    "<title>The figures of Podee et al. 2021 again</title>\n<style>\n"
-    "body { font: 16px/1.5 system-ui, \"DejaVu Sans\", sans-serif; color: #1c1c1c; background: #fafafa; max-width: 1360px; margin: 0 auto; padding: 1.5em; }\n"
-    "h1 { font-size: 1.6em; } h2 { font-size: 1.2em; margin: 0 0 .4em; }\n"
-    "section { background: #fff; border: 1px solid #ddd; border-radius: 6px; padding: 1.2em; margin: 1.4em 0; }\n"
-    "img { display: block; max-width: 100%; height: auto; margin: .6em auto; }\n"
-    "p { max-width: 60em; } .published { color: #5a5a5a; }\n"
-    "table { border-collapse: collapse; margin: .8em 0; font-variant-numeric: tabular-nums; font-size: .9em; }\n"
-    "th, td { padding: .25em .7em; border-bottom: 1px solid #e4e4e4; text-align: right; } th:first-child, td:first-child { text-align: left; }\n"
-    "td.best { font-weight: bold; } td.published, th.published { color: #777; } td.no { color: #b00020; font-weight: bold; }\n"
-    "nav a { margin-right: .9em; } code { background: #f0f0f0; padding: .1em .3em; border-radius: 3px; overflow-wrap: anywhere; }\n"
-    "</style></head><body>\n";
-
-static void put_command(figures_job *f, FILE *page)
-{
-    char *text = NULL;
-    size_t size = 0;
-    FILE *stream = open_memstream(&text, &size);
-    if (!stream)
-        return;
-    fputs("mangata figures", stream);
-    for (int i = 0; i < f->request->argument_count; i++)
-        fprintf(stream, " %s", f->request->arguments[i]);
-    if (fclose(stream) == 0)
-        markup_escape(page, text);
-    free(text);
-}
-
-static void put_checks(figures_job *f, FILE *page)
-{
-    size_t i;
-    json_t *check;
-    if (json_array_size(f->checks) == 0)
-        return;
-    fputs("<section id=\"claims\"><h2>Claims</h2>\n<table><tr><th>claim</th><th>measured</th><th>allowed</th><th>holds</th></tr>\n", page);
-    json_array_foreach(f->checks, i, check) {
-        const json_t *least = json_object_get(check, "least"), *most = json_object_get(check, "most");
-        const bool holds = json_is_true(json_object_get(check, "holds"));
-        fputs("<tr><td>", page);
-        markup_escape(page, json_string_value(json_object_get(check, "claim")));
-        fprintf(page, "</td><td>%.4g</td><td>", json_number_value(json_object_get(check, "value")));
-        if (least && most)
-            fprintf(page, "%g to %g", json_number_value(least), json_number_value(most));
-        else if (least || most)
-            fprintf(page, "%s %g", least ? "at least" : "at most", json_number_value(least ? least : most));
-        fprintf(page, "</td><td%s>%s</td></tr>\n", holds ? "" : " class=\"no\"", holds ? "yes" : "no");
-    }
-    fputs("</table></section>\n", page);
-}
-
-static int write_page(figures_job *f, const char *sections)
-{
-    char *text = NULL, path[COMPARE_PATH], frames[240];
-    size_t size = 0;
-    FILE *page = open_memstream(&text, &size);
-    if (!page)
-        return figures_no_memory();
-    fputs(page_head, page);
-    frame_list_print(&f->request->frames, frames, sizeof frames);
-    fputs("<h1>The figures of Podee et al. 2021 again</h1>\n<p>N. Podee, N. Max, K. Iwasaki, Y. Dobashi: <i>Temporal and spatial anti-aliasing for rendering "
-          "reflections on water waves</i>, Computational Visual Media 7(2), 2021. Their waves and cameras are not printed: the scenes here have as many waves of "
-          "the kinds that the paper describes, so compare orders and ratios, not single values.</p>\n<p>Made by <code>", page);
-    put_command(f, page);
-    fprintf(page, "</code>, version %s", mgt_version());
-    if (f->renders.scene_count)
-        fprintf(page, "; %u × %u pixels, frames %s, reference of %u × %u × %u samples a pixel", f->compare->scenes[0].width, f->compare->scenes[0].height, frames,
-                f->request->reference.spatial_samples, f->request->reference.spatial_samples, f->request->reference.time_samples);
-    fputs(". Plates open larger by a click; they are SVG files with their pictures inside.</p>\n", page);
-    fputs(sections, page);
-    put_checks(f, page);
-    fputs("</body></html>\n", page);
-    const bool failed = ferror(page) != 0;
-    if (fclose(page) != 0 || failed) {
-        free(text);
-        return figures_no_memory();
-    }
-    const int code = compare_file_path(f->compare, "index.html", path) ? compare_write_text(f->compare, path, text, size) : EXIT_CODE_USAGE;
-    free(text);
-    return code;
 }
 
 /* ---- the run ---- */
@@ -362,7 +247,7 @@ static int make_page(figures_job *f)
     if ((fclose(f->page) != 0 || failed) && code == EXIT_CODE_OK)
         code = figures_no_memory();
     if (code == EXIT_CODE_OK)
-        code = write_page(f, sections);
+        code = figures_write_page(f, sections);
     free(sections);
     return code;
 }
@@ -394,13 +279,13 @@ static int print_end(figures_job *f)
                  (unsigned long long)f->compare->kept);
     size_t i;
     json_t *check;
-    json_array_foreach(f->checks, i, check)
-        if (!json_is_true(json_object_get(check, "holds")))
-            console_note(&r->out, "this claim does not hold: %s (%.4g)", json_string_value(json_object_get(check, "claim")),
-                         json_number_value(json_object_get(check, "value")));
+    json_array_foreach(f->checks, i, check) if (!json_is_true(json_object_get(check, "holds")))
+        console_note(&r->out, "this claim does not hold: %s (%.4g)", json_string_value(json_object_get(check, "claim")),
+                     json_number_value(json_object_get(check, "value")));
     if (r->out.json) {
-        json_object_set_new(f->result, "run", json_pack("{s:o, s:I, s:I}", "folder", console_json_text(r->folder), "rendered", (json_int_t)f->compare->rendered,
-                                                        "kept", (json_int_t)f->compare->kept));
+        json_object_set_new(f->result, "run",
+                            json_pack("{s:o, s:I, s:I}", "folder", console_json_text(r->folder), "rendered", (json_int_t)f->compare->rendered, "kept",
+                                      (json_int_t)f->compare->kept));
         code = console_print_json(json_incref(f->result));
     } else if (figure_wanted(f, FIGURE_TABLE1)) {
         char *table = figures_table1_text(f);

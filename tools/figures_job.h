@@ -8,8 +8,9 @@
 #include "svg.h"
 
 typedef enum figure_method {
-    FIGURE_NONE, FIGURE_MSAA32, FIGURE_LEAN, FIGURE_UNIFORM, FIGURE_PIXEL, FIGURE_MANGATA, FIGURE_KERNELS_1, FIGURE_KERNELS_3, FIGURE_KERNELS_5,
-    FIGURE_KERNELS_9, FIGURE_FELINE, FIGURE_RIEMANN, FIGURE_HARD, FIGURE_METHODS
+    FIGURE_NONE, FIGURE_MSAA32, FIGURE_LEAN, FIGURE_UNIFORM, FIGURE_PIXEL, FIGURE_MANGATA,
+    FIGURE_KERNELS_1, FIGURE_KERNELS_3, FIGURE_KERNELS_5, FIGURE_KERNELS_9, FIGURE_FELINE, FIGURE_RIEMANN,
+    FIGURE_HARD, FIGURE_METHODS
 } figure_method;
 
 enum { FIGURE_SCENES = 4, FIGURE_EXPOSURES = 4 };
@@ -18,7 +19,7 @@ enum { FIGURE_SCENES = 4, FIGURE_EXPOSURES = 4 };
 extern const double figure_stops[FIGURE_EXPOSURES];
 
 /* The exposure of the plates. */
-enum { FIGURE_SHOWN = 1 };
+enum { FIGURE_SHOWN = 2 };
 
 extern const char *const figure_scenes[FIGURE_SCENES];
 
@@ -48,14 +49,17 @@ typedef struct figures_job {
 
 bool figure_wanted(const figures_job *f, figure_id id);
 
-/* ---- for the makers of figures ---- */
+/* ---- for the makers of figures: figures_page.c, figures_job.c ---- */
 
 /* A section of the page, and the end of it. What stands between is HTML by the maker. */
 void figures_section(figures_job *f, const char *name, const char *title);
 void figures_section_end(figures_job *f);
 
-/* Ends the sheet, writes it as DIR/NAME.svg and shows it in the page. */
-int figures_plate(figures_job *f, svg *sheet, const char *name, const char *description);
+/* Ends the sheet, writes it as DIR/NAME.svg and shows it in the page; where `code` tells of a failure drops it and returns that code. */
+int figures_plate(figures_job *f, svg *sheet, const char *name, const char *description, int code);
+
+/* A number, or null where it is not finite. */
+json_t *figures_number(double value);
 
 /* A claim of the page: `value` is from `least` to `most`. */
 void figures_check(figures_job *f, const char *claim, double value, double least, double most);
@@ -64,8 +68,8 @@ void figures_check(figures_job *f, const char *claim, double value, double least
 int figures_display(figures_job *f, size_t scene, size_t picture, size_t frame, double stops, uint8_t **rgba);
 
 /* Writes a PNG as DIR/pictures/NAME.png and embeds `crop` of it in the sheet. */
-int figures_embed(figures_job *f, svg *sheet, const char *name, const uint8_t *rgba, uint32_t width, uint32_t height, svg_crop crop, double x, double y,
-                  double shown_width, double shown_height);
+int figures_embed(figures_job *f, svg *sheet, const char *name, const uint8_t *rgba, uint32_t width, uint32_t height, svg_crop crop, double x,
+                  double y, double shown_width, double shown_height);
 
 /* The part of a picture that holds the glitter: the middle third, from above the horizon down. */
 svg_crop figures_glitter_crop(uint32_t width, uint32_t height);
@@ -76,17 +80,20 @@ int figures_step(figures_job *f);
 
 int figures_no_memory(void);
 
+/* Writes DIR/index.html around the sections. */
+int figures_write_page(figures_job *f, const char *sections);
+
 /* ---- the makers; each prints its errors and returns the exit code ---- */
 
-int figures_measure(figures_job *f);            /* figures_scores.c: fills `scores` */
-int figures_table1(figures_job *f);             /* figures_table.c */
-char *figures_table1_text(const figures_job *f); /* as Markdown */
-int figures_bars(figures_job *f);               /* Fig. 18 */
-int figures_transition(figures_job *f);         /* figures_pictures.c: Fig. 11 */
-int figures_scene_views(figures_job *f);        /* Fig. 12 */
+int figures_measure(figures_job *f);               /* figures_scores.c: fills `scores` */
+int figures_table1(figures_job *f);                /* figures_table.c */
+char *figures_table1_text(const figures_job *f);   /* as Markdown */
+int figures_bars(figures_job *f);                  /* Fig. 18 */
+int figures_transition(figures_job *f);            /* figures_pictures.c: Fig. 11 */
+int figures_scene_views(figures_job *f);           /* Fig. 12 */
 int figures_glitter(figures_job *f, size_t scene); /* Figs. 13–16 */
-int figures_kernels(figures_job *f);            /* figures_kernels.c: Fig. 17 */
-int figures_fits(figures_job *f);               /* Fig. 21 */
-int figures_mirror(figures_job *f);             /* figures_mirror.c: Fig. 20 */
+int figures_kernels(figures_job *f);               /* figures_kernels.c: Fig. 17 */
+int figures_fits(figures_job *f);                  /* figures_fits.c: Fig. 21 */
+int figures_mirror(figures_job *f);                /* figures_mirror.c: Fig. 20 */
 
 #endif

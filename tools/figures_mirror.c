@@ -50,8 +50,8 @@ static double lopsidedness(double lowest, double highest)
     return density_error(&across, lowest, highest) / density_error(&along, lowest, highest);
 }
 
-/* What a renderer needs: the share of slopes that show the light, over lights that stand as the slopes' own distribution mirrors them. Mean absolute error over mean
- * share, with the Jacobian at the slopes' mean and at the slope that mirrors the light's centre. */
+/* What a renderer needs: the share of slopes that show the light, over lights that stand as the slopes' own distribution mirrors them. Mean absolute
+ * error over mean share, with the Jacobian at the slopes' mean and at the slope that mirrors the light's centre. */
 static void share_errors(const slope_law *law, double errors[2])
 {
     double sums[2] = {0, 0}, exact = 0;
@@ -163,7 +163,8 @@ static void draw_surface(svg *s, const view_box *b, const error_field *field)
 
 static int draw(figures_job *f, const error_field fields[3])
 {
-    static const char *const titles[3] = {"(a) distance of the densities", "(b) light's share, Jacobian at the mean slope", "(c) light's share, Jacobian at the mirror slope"};
+    static const char *const titles[3] = {"(a) distance of the densities", "(b) light's share, Jacobian at the mean slope",
+                                          "(c) light's share, Jacobian at the mirror slope"};
     static const char *const notes[3] = {"as published, Jacobian at the mean slope", "as published", "as mangata has it, same scale"};
     svg sheet;
     if (!svg_start(&sheet, 1320, 460))
@@ -176,7 +177,7 @@ static int draw(figures_job *f, const error_field fields[3])
         draw_axes(&sheet, &box, step);
         draw_surface(&sheet, &box, &fields[i]);
     }
-    return figures_plate(f, &sheet, "fig20", "Relative error of the linear map over slope variances");
+    return figures_plate(f, &sheet, "fig20", "Relative error of the linear map over slope variances", EXIT_CODE_OK);
 }
 
 static json_t *field_json(const error_field *field)
@@ -202,19 +203,26 @@ int figures_mirror(figures_job *f)
         const error_field *d = &fields[0];
         const int last = SIDE - 1;
         figures_section(f, "fig20", "Fig. 20: relative error of the linear map from slopes to reflections");
-        fputs("<p class=\"published\">Published: relative error between the approximate and the sampled distribution of reflections over the slopes' variances along x and z, mean "
-              "over view directions between the x and the y axis; larger where the variance along x is low and that along z high, and where both are high. No values are printed.</p>\n",
+        fputs("<p class=\"published\">Published: relative error between the approximate and the sampled distribution of reflections over the "
+              "slopes' variances along x and z, mean over view directions between the x and the y axis; larger where the variance along x is low "
+              "and that along z high, and where both are high. No values are printed.</p>\n",
               f->page);
-        fprintf(f->page, "<p>(a) is that measure: the integral of the absolute difference of both densities on the light plane, mean over views 30° to 60° up in the x–y plane. For flatter views the "
-                "lopsidedness turns round (at 10° and 20° low x with high z has %.2f of the error of the reverse, at 30° to 60° %.2f). (b) and (c) are what a "
-                "renderer needs: the share of slopes that show a light of %g° radius, wherever the slopes' distribution puts one; mean absolute error over the mean share. (b) takes the published "
-                "Jacobian at the slopes' mean, (c) the one at the slope that mirrors the light's centre; views 10° to 80° up.</p>\n", lopsidedness(10, 20), lopsidedness(30, 60), disk_degrees);
+        fprintf(f->page,
+                "<p>(a) is that measure: the integral of the absolute difference of both densities on the light plane, mean over views 30° to 60° "
+                "up in the x–y plane. For flatter views the lopsidedness turns round (at 10° and 20° low x with high z has %.2f of the error of "
+                "the reverse, at 30° to 60° %.2f). (b) and (c) are what a renderer needs: the share of slopes that show a light of %g° radius, "
+                "wherever the slopes' distribution puts one; mean absolute error over the mean share. (b) takes the published Jacobian at the "
+                "slopes' mean, (c) the one at the slope that mirrors the light's centre; views 10° to 80° up.</p>\n",
+                lopsidedness(10, 20), lopsidedness(30, 60), disk_degrees);
         code = draw(f, fields);
-        figures_check(f, "Fig. 20: error at low x and high z variance over that at high x and low z", d->value[0][last] / d->value[last][0], 1, INFINITY);
+        figures_check(f, "Fig. 20: error at low x and high z variance over that at high x and low z", d->value[0][last] / d->value[last][0], 1,
+                      INFINITY);
         figures_check(f, "Fig. 20: error at both variances high over that at both low", d->value[last][last] / d->value[0][0], 1, INFINITY);
-        figures_check(f, "Fig. 20: error of the light's share with the Jacobian at the mirror slope over that at the mean slope", fields[2].mean / fields[1].mean, 0, 0.1);
-        json_object_set_new(f->result, "fig20", json_pack("{s:o, s:o, s:o}", "density_at_mean", field_json(&fields[0]), "share_at_mean", field_json(&fields[1]),
-                                                          "share_at_mirror", field_json(&fields[2])));
+        figures_check(f, "Fig. 20: error of the light's share with the Jacobian at the mirror slope over that at the mean slope",
+                      fields[2].mean / fields[1].mean, 0, 0.1);
+        json_object_set_new(f->result, "fig20",
+                            json_pack("{s:o, s:o, s:o}", "density_at_mean", field_json(&fields[0]), "share_at_mean", field_json(&fields[1]),
+                                      "share_at_mirror", field_json(&fields[2])));
         figures_section_end(f);
     }
     free(fields);

@@ -73,11 +73,12 @@ static panel panel_of(const figures_job *f, size_t scene, double x, double y, do
 
 /* ---- Figs. 13–16 ---- */
 
-static const char *const scene_captions[FIGURE_SCENES] = {
-    "Published: five sine waves of similar directions; the paper's model is almost the reference near the camera and smooth far away, the other two alias everywhere.",
-    "Published: 64 sine waves, smooth detail: sparse reflections that earlier methods miss.",
-    "Published: 48 sine waves, medium detail.",
-    "Published: 32 shorter sine waves, high detail: accurate near the camera, without aliasing far away."};
+static const char *const scene_captions[FIGURE_SCENES] = {"Published: five sine waves of similar directions; the paper's model is almost the "
+                                                          "reference near the camera and smooth far away, the other two alias everywhere.",
+                                                          "Published: 64 sine waves, smooth detail: sparse reflections that earlier methods miss.",
+                                                          "Published: 48 sine waves, medium detail.",
+                                                          "Published: 32 shorter sine waves, high detail: accurate near the camera, without "
+                                                          "aliasing far away."};
 
 /* The reference's whole frame, with a frame around what the panels show of it. */
 static int put_whole(figures_job *f, svg *sheet, size_t scene, double x, double y, double across)
@@ -135,10 +136,11 @@ int figures_glitter(figures_job *f, size_t scene)
         svg_text(&sheet, p.x, y + tall * across / ACROSS + 15, 11.5, SVG_LEFT, "", "(%c) %s", "abcdef"[i], figure_methods[i].title);
     }
     figures_section(f, name, title);
-    fprintf(f->page, "<p class=\"published\">%s</p>\n<p>The part of frame %u with the glitter, %g stops above the scene's exposure, every pixel a square. RMSE are of all "
-            "frames.</p>\n", scene_captions[scene], compare_frame_number(f->compare, 0), figure_stops[FIGURE_SHOWN]);
-    if (code == EXIT_CODE_OK)
-        code = figures_plate(f, &sheet, name, "Seven renderings of one scene and their errors");
+    fprintf(f->page,
+            "<p class=\"published\">%s</p>\n<p>The part of frame %u with the glitter, %g stops above the scene's exposure, every pixel a square. "
+            "RMSE are of all frames.</p>\n",
+            scene_captions[scene], compare_frame_number(f->compare, 0), figure_stops[FIGURE_SHOWN]);
+    code = figures_plate(f, &sheet, name, "Seven renderings of one scene and their errors", code);
     figures_section_end(f);
     return code;
 }
@@ -147,9 +149,9 @@ int figures_glitter(figures_job *f, size_t scene)
 
 int figures_transition(figures_job *f)
 {
-    static const figure_method methods[] = {FIGURE_PIXEL, FIGURE_HARD, FIGURE_MANGATA};
+    static const figure_method methods[] = {FIGURE_UNIFORM, FIGURE_HARD, FIGURE_MANGATA};
     static const char *const titles[] = {"(a) with a transition, 0.2 to 0.5", "(b) without: at once at 0.5", "(c) mangata"};
-    enum { ACROSS = 320, GAP = 14, SCENE = 1 };
+    enum { ACROSS = 320, GAP = 14, SCENE = 2 };
     const panel first = panel_of(f, SCENE, 0, 0, ACROSS);
     const double tall = first.crop.height * first.scale;
     svg sheet;
@@ -161,12 +163,15 @@ int figures_transition(figures_job *f)
         code = put_picture(f, &sheet, SCENE, i < 3 ? f->picture[methods[i]] : COMPARE_REFERENCE, &p);
         svg_text(&sheet, p.x, 25, 14, SVG_LEFT, "font-weight=\"bold\"", "%s", i < 3 ? titles[i] : "(d) reference");
         if (i < 3)
-            svg_text(&sheet, p.x, 34 + tall + 17, 11.5, SVG_LEFT, "", "RMSE %.4f displayed, %.4f coverage", f->scores[SCENE][methods[i]].displayed[FIGURE_SHOWN],
-                     f->scores[SCENE][methods[i]].rmse);
+            svg_text(&sheet, p.x, 34 + tall + 17, 11.5, SVG_LEFT, "", "RMSE %.4f displayed, %.4f coverage",
+                     f->scores[SCENE][methods[i]].displayed[FIGURE_SHOWN], f->scores[SCENE][methods[i]].rmse);
     }
     figures_section(f, "fig11", "Fig. 11: with and without transition regions");
-    fputs("<p class=\"published\">Published: where a wave turns from resolved to unresolved at once, arcs of sudden change stand in the picture (b).</p>\n"
-          "<p>The paper's model per pixel on the smooth scene. All scenes, RMSE of coverage:</p>\n<table><tr><th></th>", f->page);
+    fputs("<p class=\"published\">Published: where a wave turns from resolved to unresolved at once, arcs of sudden change stand in the picture "
+          "(b).</p>\n"
+          "<p>The paper's model with a uniform distribution on the medium scene: without a transition scattered pixels of single glints meet "
+          "smooth water at once. All scenes, RMSE of coverage:</p>\n<table><tr><th></th>",
+          f->page);
     for (int s = 0; s < FIGURE_SCENES; s++)
         fprintf(f->page, "<th>%s</th>", figure_scenes[s]);
     fputs("</tr>\n", f->page);
@@ -183,8 +188,7 @@ int figures_transition(figures_job *f)
     }
     fputs("</table>\n", f->page);
     json_object_set_new(f->result, "fig11_coverage_rmse", json);
-    if (code == EXIT_CODE_OK)
-        code = figures_plate(f, &sheet, "fig11", "The smooth scene with and without a transition region");
+    code = figures_plate(f, &sheet, "fig11", "The medium scene with and without a transition region", code);
     figures_section_end(f);
     return code;
 }
@@ -234,10 +238,12 @@ int figures_scene_views(figures_job *f)
     }
     free(rgba);
     figures_section(f, "fig12", "Fig. 12: the four experimental scenes");
-    fputs("<p class=\"published\">Published: a simple wave of five sine waves with similar directions, smooth, medium and high detail of 64, 48 and 32.</p>\n"
-          "<p>Our four scenes under a sky, so that the waves show (everywhere else the sky is black and only the light is mirrored), by <code>mangata</code>.</p>\n", f->page);
-    if (code == EXIT_CODE_OK)
-        code = figures_plate(f, &sheet, "fig12", "The four scenes");
+    fputs("<p class=\"published\">Published: a simple wave of five sine waves with similar directions, smooth, medium and high detail of 64, 48 "
+          "and 32.</p>\n"
+          "<p>Our four scenes under a sky, so that the waves show (everywhere else the sky is black and only the light is mirrored), by "
+          "<code>mangata</code>.</p>\n",
+          f->page);
+    code = figures_plate(f, &sheet, "fig12", "The four scenes", code);
     figures_section_end(f);
     return code;
 }

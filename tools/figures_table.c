@@ -11,9 +11,9 @@ enum { TABLE_METHODS = FIGURE_MANGATA + 1 };
 
 /* RMSE of displayed colour, simple, smooth, medium, high. */
 static const double published[TABLE_METHODS][FIGURE_SCENES] = {
-    [FIGURE_NONE] = {0.0797, 0.0299, 0.0315, 0.0778},    [FIGURE_MSAA32] = {0.0795, 0.0287, 0.0282, 0.0676},
-    [FIGURE_LEAN] = {0.0675, 0.0329, 0.0298, 0.0633},    [FIGURE_UNIFORM] = {0.0384, 0.0200, 0.0278, 0.0611},
-    [FIGURE_PIXEL] = {0.0384, 0.0192, 0.0229, 0.0610},   [FIGURE_MANGATA] = {NAN, NAN, NAN, NAN},
+    [FIGURE_NONE] = {0.0797, 0.0299, 0.0315, 0.0778},  [FIGURE_MSAA32] = {0.0795, 0.0287, 0.0282, 0.0676},
+    [FIGURE_LEAN] = {0.0675, 0.0329, 0.0298, 0.0633},  [FIGURE_UNIFORM] = {0.0384, 0.0200, 0.0278, 0.0611},
+    [FIGURE_PIXEL] = {0.0384, 0.0192, 0.0229, 0.0610}, [FIGURE_MANGATA] = {NAN, NAN, NAN, NAN},
 };
 
 /* A column of scores: of coverage, or of displayed colour at an exposure. */
@@ -82,7 +82,8 @@ char *figures_table1_text(const figures_job *f)
             fputs(column ? "\n" : " |\n", out);
         }
     }
-    fprintf(out, "\nOver the better of the paper's two models `mangata` stands at %.3f of its RMSE of coverage on average.\n", over_published(f, COLUMN_COVERAGE));
+    fprintf(out, "\nOver the better of the paper's two models `mangata` stands at %.3f of its RMSE of coverage on average.\n",
+            over_published(f, COLUMN_COVERAGE));
     const bool failed = ferror(out) != 0;
     if (fclose(out) == 0 && !failed)
         return text;
@@ -166,10 +167,10 @@ static json_t *table_json(const figures_job *f)
             for (int i = 0; i < FIGURE_EXPOSURES; i++) {
                 char key[24];
                 snprintf(key, sizeof key, "%+g", figure_stops[i]);
-                json_object_set_new(displayed, key, json_real(f->scores[s][m].displayed[i]));
+                json_object_set_new(displayed, key, figures_number(f->scores[s][m].displayed[i]));
             }
-            json_t *row = json_pack("{s:s, s:s, s:f, s:f, s:o}", "scene", figure_scenes[s], "method", figure_methods[m].spec, "coverage_rmse",
-                                    f->scores[s][m].rmse, "light_kept", f->scores[s][m].kept, "displayed_rmse", displayed);
+            json_t *row = json_pack("{s:s, s:s, s:o, s:o, s:o}", "scene", figure_scenes[s], "method", figure_methods[m].spec, "coverage_rmse",
+                                    figures_number(f->scores[s][m].rmse), "light_kept", figures_number(f->scores[s][m].kept), "displayed_rmse", displayed);
             if (isfinite(published[m][s]))
                 json_object_set_new(row, "published_rmse", json_real(published[m][s]));
             json_array_append_new(rows, row);
@@ -189,16 +190,18 @@ static void check_table(figures_job *f)
         snprintf(claim, sizeof claim, "Table 1, %s: light that mangata keeps", figure_scenes[s]);
         figures_check(f, claim, f->scores[s][FIGURE_MANGATA].kept, 0.9, 1.1);
     }
-    figures_check(f, "Table 1: RMSE of mangata over the better of the paper's two models, mean of the scenes", over_published(f, COLUMN_COVERAGE), 0, 0.75);
+    figures_check(f, "Table 1: RMSE of mangata over the better of the paper's two models, mean of the scenes", over_published(f, COLUMN_COVERAGE), 0,
+                  0.75);
 }
 
 int figures_table1(figures_job *f)
 {
     figures_section(f, "table1", "Table 1: RMSE against the reference");
     fputs("<p class=\"published\">Published: RMSE of displayed colour, after glare and tone mapping, of one frame a scene.</p>\n"
-          "<p>Here: of all frames together; of linear coverage (the share of pixel and shutter time whose mirror ray meets the light), and of displayed colour as a PNG "
-          "holds it, at four exposures: a brighter one shows fainter glints and cuts strong ones off at white. <i>Light kept</i> is the sum of coverage over the "
-          "reference's, scene by scene.</p>\n", f->page);
+          "<p>Here: of all frames together; of linear coverage (the share of pixel and shutter time whose mirror ray meets the light), and of "
+          "displayed colour as a PNG holds it, at four exposures: a brighter one shows fainter glints and cuts strong ones off at white. <i>Light "
+          "kept</i> is the sum of coverage over the reference's, scene by scene.</p>\n",
+          f->page);
     for (int column = 0; column < COLUMNS; column++)
         put_table(f, column);
     check_table(f);
@@ -231,15 +234,21 @@ int figures_bars(figures_job *f)
             for (int m = 0; m < TABLE_METHODS; m++)
                 most = fmax(most, bar_value(f, panel, s, m));
         const double step = most > 0.1 ? 0.05 : most > 0.05 ? 0.02 : 0.01;
-        const plot p = {.x = 70 + 430 * panel, .y = 40, .width = 350, .height = 270, .title = title[panel],
-                        .across = {.label = "", .low = 0, .high = FIGURE_SCENES}, .up = {.label = "RMSE", .low = 0, .high = most * 1.05, .step = step}};
+        const plot p = {.x = 70 + 430 * panel,
+                        .y = 40,
+                        .width = 350,
+                        .height = 270,
+                        .title = title[panel],
+                        .across = {.label = "", .low = 0, .high = FIGURE_SCENES},
+                        .up = {.label = "RMSE", .low = 0, .high = most * 1.05, .step = step}};
         plot_frame(&sheet, &p);
         for (int s = 0; s < FIGURE_SCENES; s++) {
             svg_text(&sheet, plot_x(&p, s + 0.5), p.y + p.height + 18, 12, SVG_MIDDLE, "", "%s", figure_scenes[s]);
             for (int m = 0; m < TABLE_METHODS; m++) {
                 const double value = bar_value(f, panel, s, m), width = p.width / FIGURE_SCENES * 0.84 / TABLE_METHODS;
                 if (isfinite(value))
-                    svg_box(&sheet, plot_x(&p, s + 0.08) + m * width, plot_y(&p, value), width * 0.92, p.y + p.height - plot_y(&p, value), plot_color((size_t)m), "none");
+                    svg_box(&sheet, plot_x(&p, s + 0.08) + m * width, plot_y(&p, value), width * 0.92, p.y + p.height - plot_y(&p, value),
+                            plot_color((size_t)m), "none");
             }
         }
     }
@@ -249,7 +258,7 @@ int figures_bars(figures_job *f)
     }
     figures_section(f, "fig18", "Fig. 18: RMSE comparison");
     fputs("<p class=\"published\">Published: Table 1 as bars.</p>\n", f->page);
-    const int code = figures_plate(f, &sheet, "fig18", "Bars of RMSE by scene and method, published and here");
+    const int code = figures_plate(f, &sheet, "fig18", "Bars of RMSE by scene and method, published and here", EXIT_CODE_OK);
     figures_section_end(f);
     return code;
 }

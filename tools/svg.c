@@ -15,8 +15,8 @@ bool svg_start(svg *s, double width, double height)
     if (!s->stream)
         return false;
     fprintf(s->stream,
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%g\" height=\"%g\" viewBox=\"0 0 %g %g\" font-family=\"DejaVu Sans, Helvetica, Arial, "
-            "sans-serif\">\n",
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%g\" height=\"%g\" viewBox=\"0 0 %g %g\" font-family=\"DejaVu Sans, Helvetica, "
+            "Arial, sans-serif\">\n",
             width, height, width, height);
     svg_box(s, 0, 0, width, height, "#fff", "none");
     return true;
@@ -94,8 +94,8 @@ bool svg_picture(svg *s, double x, double y, double width, double height, const 
     if (!text)
         return false;
     fprintf(s->stream,
-            "<svg x=\"%g\" y=\"%g\" width=\"%g\" height=\"%g\" viewBox=\"%g %g %g %g\" preserveAspectRatio=\"none\"><image width=\"%u\" height=\"%u\" "
-            "preserveAspectRatio=\"none\" style=\"image-rendering:pixelated\" href=\"data:image/png;base64,",
+            "<svg x=\"%g\" y=\"%g\" width=\"%g\" height=\"%g\" viewBox=\"%g %g %g %g\" preserveAspectRatio=\"none\"><image width=\"%u\" "
+            "height=\"%u\" preserveAspectRatio=\"none\" style=\"image-rendering:pixelated\" href=\"data:image/png;base64,",
             x, y, width, height, crop.x, crop.y, crop.width, crop.height, picture_width, picture_height);
     fwrite(text, 1, length, s->stream);
     fputs("\"/></svg>\n", s->stream);

@@ -21,7 +21,8 @@ static double determinant(const double j[2][2])
 }
 
 /* The density of mirror rays at a point of the light plane: that of the one slope that sends a ray there, over the map's stretch. */
-static double mirrored_density(const double to_eye[3], const double light[3], const double e[3], const double f[3], const slope_law *law, double x, double y)
+static double mirrored_density(const double to_eye[3], const double light[3], const double e[3], const double f[3], const slope_law *law, double x,
+                               double y)
 {
     double direction[3], slope[2], j[2][2];
     for (int i = 0; i < 3; i++)
@@ -68,7 +69,7 @@ static bool linear_map_at(const double to_eye[3], const double light[3], const d
 /* Mean and covariance that the linear map, expanded at `at`, gives on the light plane. */
 static void map_law(const linear_map *map, const slope_law *law, const double at[2], double mean[2], double covariance[3])
 {
-    const double (*j)[2] = map->jacobian, *s = law->covariance;
+    const double(*j)[2] = map->jacobian, *s = law->covariance;
     for (int row = 0; row < 2; row++)
         mean[row] = map->point[row] + j[row][0] * (law->mean[0] - at[0]) + j[row][1] * (law->mean[1] - at[1]);
     covariance[0] = j[0][0] * j[0][0] * s[0] + 2 * j[0][0] * j[0][1] * s[1] + j[0][1] * j[0][1] * s[2];
@@ -86,8 +87,8 @@ double linear_disk_share(const double to_eye[3], const double light[3], const sl
     return disk_probability(mean, covariance, radius);
 }
 
-/* Over slopes, where the true density is the law itself: r = Φ(s) turns ∬ |N(r) − p(s(r))/|J|| dr into ∬ |N(Φ(s)) |J| − p(s)| ds. What the linear law has
- * beyond the slopes that the light plane shows is added at the end. */
+/* Over slopes, where the true density is the law itself: r = Φ(s) turns ∬ |N(r) − p(s(r))/|J|| dr into ∬ |N(Φ(s)) |J| − p(s)| ds. What the linear law
+ * has beyond the slopes that the light plane shows is added at the end. */
 double linear_density_error(const double to_eye[3], const double light[3], const slope_law *law)
 {
     enum { STEPS = 64 };
@@ -99,7 +100,8 @@ double linear_density_error(const double to_eye[3], const double light[3], const
     const double reach_x = 6 * sqrt(law->covariance[0]), reach_z = 6 * sqrt(law->covariance[2]), cell = 4 * reach_x * reach_z / (STEPS * STEPS);
     for (int row = 0; row < STEPS; row++)
         for (int column = 0; column < STEPS; column++) {
-            const double slope[2] = {law->mean[0] + reach_x * (2 * (column + 0.5) / STEPS - 1), law->mean[1] + reach_z * (2 * (row + 0.5) / STEPS - 1)};
+            const double slope[2] = {law->mean[0] + reach_x * (2 * (column + 0.5) / STEPS - 1),
+                                     law->mean[1] + reach_z * (2 * (row + 0.5) / STEPS - 1)};
             const double density = gaussian(law->mean, law->covariance, slope);
             double point[2], j[2][2], linear = 0;
             if (mirror_map(to_eye, light, slope, point) && mirror_map_jacobian(to_eye, light, slope, j))

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * How well one Jacobian stands for the mirror's map of slopes onto the light plane (Podee et al. 2021, Appendix B): a Gaussian of slopes through the true
- * map, and through its linearisation at any slope. No visibility of slopes. */
+ * How well one Jacobian stands for the mirror's map of slopes onto the light plane (Podee et al. 2021, Appendix B): a Gaussian of slopes through the
+ * true map, and through its linearisation at any slope. No visibility of slopes. */
 #ifndef MANGATA_REFERENCE_LINEAR_MIRROR_H
 #define MANGATA_REFERENCE_LINEAR_MIRROR_H
 

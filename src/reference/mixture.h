@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Circular Gaussians in place of an elliptical one (Podee et al. 2021, Appendix C): how far apart they are. The ellipse has the deviations 1 and e ≥ 1, the
- * kernels' centres stand on its long axis. */
+ * Circular Gaussians in place of an elliptical one (Podee et al. 2021, Appendix C): how far apart they are. The ellipse has the deviations 1 and e ≥
+ * 1, the kernels' centres stand on its long axis. */
 #ifndef MANGATA_REFERENCE_MIXTURE_H
 #define MANGATA_REFERENCE_MIXTURE_H
 
@@ -15,8 +15,9 @@ typedef struct mixture {
     mixture_part members[MIXTURE_MEMBERS];
 } mixture;
 
-/* Feline's own formulae (McCormack et al. 1999, simple Feline): 2e − 1 probes, rounded, at most `most` (to nine), as wide as the ellipse is narrow or, where they are
- * too few, wider; evenly along what the ellipse is longer than they, weighed by its Gaussian; an ellipse's radius being two deviations. Weights sum to 1. */
+/* Feline's own formulae (McCormack et al. 1999, simple Feline): 2e − 1 probes, rounded, at most `most` (to nine), as wide as the ellipse is narrow
+ * or, where they are too few, wider; evenly along what the ellipse is longer than they, weighed by its Gaussian; an ellipse's radius being two
+ * deviations. Weights sum to 1. */
 mixture mixture_feline(double e, int most);
 
 /* ∬ (ellipse − mixture)² (Eq. 25), and the same over ∬ ellipse². */

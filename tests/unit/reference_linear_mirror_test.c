@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Gaussians of slopes through the mirror: the share in the light's disk against drawn slopes, and where the linear map must and must not agree with it.
+ * Gaussians of slopes through the mirror: the share in the light's disk against drawn slopes, and where the linear map must and must not agree with
+ * it.
  */
 #include "kernel_lane.h"
 

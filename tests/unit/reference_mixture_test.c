@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Mixtures of circular Gaussians in double: Eq. 25 of Podee et al. 2021 against sums over the plane, Eq. 28 as printed, Feline's probes against the kernel that
- * renders with them.
+ * Mixtures of circular Gaussians in double: Eq. 25 of Podee et al. 2021 against sums over the plane, Eq. 28 as printed, Feline's probes against the
+ * kernel that renders with them.
  */
 #include "kernel_lane.h"
 
@@ -36,7 +36,8 @@ static void errors_are_integrals(void **state)
     double worst = 0;
     for (size_t i = 0; i < sizeof elongations / sizeof *elongations; i++) {
         const double e = elongations[i], whole = 1 / (4 * pi * e);
-        const mixture all[] = {mixture_fitted(1, e), mixture_fitted(3, e), mixture_fitted(5, e), mixture_fitted(9, e), mixture_feline(e, 5), mixture_feline(e, 9)};
+        const mixture all[] = {mixture_fitted(1, e), mixture_fitted(3, e), mixture_fitted(5, e),
+                               mixture_fitted(9, e), mixture_feline(e, 5), mixture_feline(e, 9)};
         for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
             worst = fmax(worst, fabs(mixture_error(&all[k], e) - error_on_grid(&all[k], e)) / whole);
             assert_true(fabs(mixture_relative_error(&all[k], e) * whole - mixture_error(&all[k], e)) < 1e-12);
@@ -52,7 +53,8 @@ static void the_printed_sum_is_four_pi_times_the_integral(void **state)
     double worst = 0;
     for (double e = 2; e <= 9; e += 0.5) {
         const mixture m = mixture_fitted(3, e);
-        const double printed = mixture_error_printed(m.members[0].weight, m.members[0].deviation, m.members[1].weight, m.members[1].deviation, m.members[1].place, e);
+        const double printed =
+            mixture_error_printed(m.members[0].weight, m.members[0].deviation, m.members[1].weight, m.members[1].deviation, m.members[1].place, e);
         worst = fmax(worst, fabs(printed / (4 * pi * mixture_error(&m, e)) - 1));
     }
     expect_below("Eq. 28 over 4 pi Eq. 25, off 1", worst, 1e-9);
