@@ -33,6 +33,7 @@ extern const figure_method_text figure_methods[FIGURE_METHODS];
 typedef struct figure_score {
     double rmse, kept;                  /* coverage: RMSE, sum over the reference's */
     double displayed[FIGURE_EXPOSURES]; /* RMSE of sRGB-encoded colour after glare and tone mapping, 0 … 1 */
+    double half[2], excess[2]; /* the same at FIGURE_SHOWN above and below the middle row; how much of its square is too bright */
 } figure_score;
 
 typedef struct figures_job {

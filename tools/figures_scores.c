@@ -16,6 +16,7 @@ typedef struct scored_frame {
 typedef struct scored_clip {
     image_metrics coverage;
     double squares[FIGURE_EXPOSURES]; /* of displayed differences */
+    double half[2], excess[2];        /* of those at FIGURE_SHOWN above and below the middle row; of what is too bright there */
     double values;
 } scored_clip;
 
@@ -49,13 +50,17 @@ static int add_method(figures_job *f, size_t scene, size_t picture, size_t frame
     if (code == EXIT_CODE_OK && image_metrics_add(&clip->coverage, &own.coverage, &reference->coverage, &error) != FILE_OK)
         code = compare_file_failure(f->compare, &error);
     if (code == EXIT_CODE_OK) {
-        const size_t pixels = (size_t)own.coverage.width * own.coverage.height;
+        const size_t row = 4 * (size_t)own.coverage.width, rows = own.coverage.height;
         for (int i = 0; i < FIGURE_EXPOSURES; i++)
-            for (size_t p = 0; p < 4 * pixels; p++) {
+            for (size_t p = 0; p < row * rows; p++) {
                 const double difference = ((double)own.displayed[i][p] - reference->displayed[i][p]) / 255;
-                clip->squares[i] += p % 4 < 3 ? difference * difference : 0;
+                const double square = p % 4 < 3 ? difference * difference : 0;
+                const bool below = p / row >= rows / 2;
+                clip->squares[i] += square;
+                clip->half[below] += i == FIGURE_SHOWN ? square : 0;
+                clip->excess[below] += i == FIGURE_SHOWN && difference > 0 ? square : 0;
             }
-        clip->values += 3 * (double)pixels;
+        clip->values += 0.75 * (double)(row * rows);
     }
     free_frame(&own);
     return code == EXIT_CODE_OK ? figures_step(f) : code;
@@ -80,6 +85,10 @@ static int measure_scene(figures_job *f, size_t scene)
         score->kept = f->picture[m] ? image_metrics_mean_ratio(&clips[m].coverage) : NAN;
         for (int i = 0; i < FIGURE_EXPOSURES; i++)
             score->displayed[i] = sqrt(clips[m].squares[i] / clips[m].values);
+        for (int i = 0; i < 2; i++) {
+            score->half[i] = sqrt(2 * clips[m].half[i] / clips[m].values);
+            score->excess[i] = clips[m].half[i] > 0 ? clips[m].excess[i] / clips[m].half[i] : 0;
+        }
     }
     return EXIT_CODE_OK;
 }

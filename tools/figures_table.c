@@ -82,6 +82,19 @@ char *figures_table1_text(const figures_job *f)
             fputs(column ? "\n" : " |\n", out);
         }
     }
+    fprintf(out, "\nRMSE, displayed colour, %+g stops, above / below the middle row (share of its square that is too bright):\n\n| method |",
+            figure_stops[FIGURE_SHOWN]);
+    for (int s = 0; s < FIGURE_SCENES; s++)
+        fprintf(out, " %s |", figure_scenes[s]);
+    fputs("\n|---|---|---|---|---|\n", out);
+    for (int m = 0; m < TABLE_METHODS; m++) {
+        fprintf(out, "| `%s` |", figure_methods[m].spec);
+        for (int s = 0; s < FIGURE_SCENES; s++) {
+            const figure_score *scores = &f->scores[s][m];
+            fprintf(out, " %.4f (%.2f) / %.4f (%.2f) |", scores->half[0], scores->excess[0], scores->half[1], scores->excess[1]);
+        }
+        fputs("\n", out);
+    }
     fprintf(out, "\nOver the better of the paper's two models `mangata` stands at %.3f of its RMSE of coverage on average.\n",
             over_published(f, COLUMN_COVERAGE));
     const bool failed = ferror(out) != 0;
@@ -158,6 +171,24 @@ static void put_table(figures_job *f, int column)
     fputs("</table>\n", f->page);
 }
 
+/* Far and near water apart, and whether light is missing or too much. */
+static void put_halves(figures_job *f)
+{
+    fprintf(f->page, "<table><tr><th>RMSE, displayed colour, %+g stops</th>", figure_stops[FIGURE_SHOWN]);
+    for (int s = 0; s < FIGURE_SCENES; s++)
+        fprintf(f->page, "<th>%s: far (too bright)</th><th>near (too bright)</th>", figure_scenes[s]);
+    fputs("</tr>\n", f->page);
+    for (int m = 0; m < TABLE_METHODS; m++) {
+        fprintf(f->page, "<tr><td>%s</td>", figure_methods[m].title);
+        for (int s = 0; s < FIGURE_SCENES; s++)
+            for (int half = 0; half < 2; half++)
+                fprintf(f->page, "<td>%.4f (%.0f%%)</td>", f->scores[s][m].half[half], 100 * f->scores[s][m].excess[half]);
+        fputs("</tr>\n", f->page);
+    }
+    fputs("</table>\n<p>Far and near: above and below the middle row. In brackets the share of the squared error where the picture is brighter than the reference.</p>\n",
+          f->page);
+}
+
 static json_t *table_json(const figures_job *f)
 {
     json_t *rows = json_array();
@@ -169,8 +200,11 @@ static json_t *table_json(const figures_job *f)
                 snprintf(key, sizeof key, "%+g", figure_stops[i]);
                 json_object_set_new(displayed, key, figures_number(f->scores[s][m].displayed[i]));
             }
+            const figure_score *scores = &f->scores[s][m];
             json_t *row = json_pack("{s:s, s:s, s:o, s:o, s:o}", "scene", figure_scenes[s], "method", figure_methods[m].spec, "coverage_rmse",
                                     figures_number(f->scores[s][m].rmse), "light_kept", figures_number(f->scores[s][m].kept), "displayed_rmse", displayed);
+            json_object_set_new(row, "displayed_far_near", json_pack("{s:[f, f], s:[f, f]}", "rmse", scores->half[0], scores->half[1], "too_bright",
+                                                                     scores->excess[0], scores->excess[1]));
             if (isfinite(published[m][s]))
                 json_object_set_new(row, "published_rmse", json_real(published[m][s]));
             json_array_append_new(rows, row);
@@ -204,6 +238,7 @@ int figures_table1(figures_job *f)
           f->page);
     for (int column = 0; column < COLUMNS; column++)
         put_table(f, column);
+    put_halves(f);
     check_table(f);
     json_object_set_new(f->result, "table1", table_json(f));
     figures_section_end(f);
