@@ -29,6 +29,8 @@ static const struct {
     {{.method = MGT_METHOD_PODEE_PIXEL, .kernels = MGT_KERNELS_FELINE, .elongation_limit = 1e6}, "podee-pixel, Feline", 0.65, 0.95},
     {{.method = MGT_METHOD_PODEE_PIXEL, .kernels = MGT_KERNELS_RIEMANN}, "podee-pixel, Riemann", 0.65, 0.95},
     {{.method = MGT_METHOD_MANGATA}, "mangata", 0.9, 1.1},
+    {{.method = MGT_METHOD_ADAPTIVE, .samples = 4}, "adaptive, cells", 0.9, 1.1},
+    {{.method = MGT_METHOD_ADAPTIVE, .adaptive = MGT_ADAPTIVE_PODEE, .samples = 4}, "adaptive, podee", 0.5, 1.3},
     {{.method = MGT_METHOD_REFERENCE, .spatial_samples = 2, .time_samples = 2}, "reference, 8 samples", 0.93, 1.07}, /* its own noise is 2% */
 };
 /* The first ones are the rivals. */
@@ -42,6 +44,8 @@ static mgt_quality quality_of(int method)
     quality.spatial_samples = q->spatial_samples ? q->spatial_samples : 1;
     quality.time_samples = q->time_samples ? q->time_samples : 1;
     quality.kernels = q->kernels;
+    quality.adaptive = q->adaptive;
+    quality.samples = q->samples;
     quality.elongation_limit = q->elongation_limit;
     return quality;
 }
@@ -50,7 +54,7 @@ static scene_file *load(const char *name, mgt_scene *scene)
 {
     char path[512];
     scene_error error;
-    snprintf(path, sizeof path, MGT_SOURCE_DIR "/scenes/%s.json", name);
+    snprintf(path, sizeof path, MGT_SOURCE_DIR "/scenes/%s", name);
     scene_file *file = scene_file_load(path, NULL, 0, &error);
     assert_non_null(file);
     assert_true(scene_file_frame(file, 0, scene));
@@ -106,7 +110,8 @@ static void check_scene(mgt_context *context, mgt_scene *scene, const char *name
 static void every_scene_renders(void **state)
 {
     (void)state;
-    static const char *const names[] = {"simple", "smooth", "medium", "high", "rough", "sunset", "moonlit"};
+    static const char *const names[] = {"simple.json", "smooth.json",  "medium.json", "high.json", "rough.json",
+                                        "sunset.json", "moonlit.json", "breeze.yaml", "gale.yaml", "lagoon.yaml"};
     mgt_context *context = sea_context(0, MGT_ISA_AUTO);
     int frames = 0;
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
@@ -264,7 +269,9 @@ static void light_is_kept_within_limits(void **state)
     double sums[METHODS][4] = {{0}}, exact[4] = {0}, ghosts[METHODS][4] = {{0}};
     for (int n = 0; n < 4; n++) {
         mgt_scene scene;
-        scene_file *file = load(names[n], &scene);
+        char file_name[32];
+        snprintf(file_name, sizeof file_name, "%s.json", names[n]);
+        scene_file *file = load(file_name, &scene);
         for (int frame = 0; frame < FRAMES; frame++) {
             assert_true(scene_file_frame(file, 8 * frame, &scene));
             scene.image = (mgt_image){.width = WIDTH, .height = HEIGHT};
