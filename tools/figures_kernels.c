@@ -266,7 +266,8 @@ static void table_of_ways(figures_job *f, double stills[FIGURE_SCENES][2])
         for (int s = 0; s < FIGURE_SCENES; s++) {
             const figure_score *score = &f->scores[s][way_methods[w]];
             fprintf(f->page, "<td>%.4f</td><td>%.4f</td>", score->displayed[FIGURE_SHOWN], score->rmse);
-            json_array_append_new(list, json_pack("{s:s, s:o, s:o, s:o}", "scene", figure_scenes[s], "displayed_rmse", figures_number(score->displayed[FIGURE_SHOWN]),
+            json_array_append_new(list, json_pack("{s:s, s:o, s:o, s:o}", "scene", figure_scenes[s], "displayed_rmse",
+                                                  figures_number(score->displayed[FIGURE_SHOWN]),
                                                   "coverage_rmse", figures_number(score->rmse), "light_kept", figures_number(score->kept)));
         }
         fputs("</tr>\n", f->page);

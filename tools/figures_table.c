@@ -185,7 +185,8 @@ static void put_halves(figures_job *f)
                 fprintf(f->page, "<td>%.4f (%.0f%%)</td>", f->scores[s][m].half[half], 100 * f->scores[s][m].excess[half]);
         fputs("</tr>\n", f->page);
     }
-    fputs("</table>\n<p>Far and near: above and below the middle row. In brackets the share of the squared error where the picture is brighter than the reference.</p>\n",
+    fputs("</table>\n<p>Far and near: above and below the middle row. In brackets the share of the squared error where the picture is brighter than the "
+          "reference.</p>\n",
           f->page);
 }
 
@@ -202,7 +203,8 @@ static json_t *table_json(const figures_job *f)
             }
             const figure_score *scores = &f->scores[s][m];
             json_t *row = json_pack("{s:s, s:s, s:o, s:o, s:o}", "scene", figure_scenes[s], "method", figure_methods[m].spec, "coverage_rmse",
-                                    figures_number(f->scores[s][m].rmse), "light_kept", figures_number(f->scores[s][m].kept), "displayed_rmse", displayed);
+                                    figures_number(f->scores[s][m].rmse), "light_kept", figures_number(f->scores[s][m].kept),
+                                    "displayed_rmse", displayed);
             json_object_set_new(row, "displayed_far_near", json_pack("{s:[f, f], s:[f, f]}", "rmse", scores->half[0], scores->half[1], "too_bright",
                                                                      scores->excess[0], scores->excess[1]));
             if (isfinite(published[m][s]))
