@@ -233,7 +233,7 @@ static void check_table(figures_job *f)
 int figures_table1(figures_job *f)
 {
     figures_section(f, "table1", "Table 1: RMSE against the reference");
-    fputs("<p class=\"published\">Published: RMSE of displayed colour, after glare and tone mapping, of one frame a scene.</p>\n"
+    fputs("<p class=\"published\">Published: RMSE of displayed colour, after glare and tone mapping, presumably of one frame a scene.</p>\n"
           "<p>Here: of all frames together; of linear coverage (the share of pixel and shutter time whose mirror ray meets the light), and of "
           "displayed colour as a PNG holds it, at four exposures: a brighter one shows fainter glints and cuts strong ones off at white. <i>Light "
           "kept</i> is the sum of coverage over the reference's, scene by scene.</p>\n",
