@@ -26,6 +26,7 @@
 
 struct kernel_context;
 
+#define UNROLLED 1
 #define TALLY(live) ((void)(operations_done.integrands += (live) != 0))
 
 typedef int mask;
