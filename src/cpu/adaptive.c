@@ -14,8 +14,9 @@
 #include <time.h>
 
 enum {
-    LEVELS = 7,            /* a pixel has up to 4^6 cells, … */
-    SIDES = 2 * LEVELS - 1, /* … split up to 12 times one way */
+    LEVELS = 9,             /* a pixel has up to 4^8 cells, … */
+    SIDES = 2 * LEVELS - 1, /* … split up to 16 times one way */
+    HALVES_LEVEL = 5,       /* from which cells see the shutter in two halves */
     BUCKETS_PER_OCTAVE = 32,
     OCTAVES = 96,
     BUCKETS = BUCKETS_PER_OCTAVE * OCTAVES,
@@ -65,8 +66,10 @@ struct forest {
     float *weight;         /* a pixel's, squared */
     wave_set *close;       /* when the shutter closes, or over it, … */
     wave_set *open;        /* … and when it opens, where the camera moves; else NULL */
-    wave_set *moving;      /* memory for this, NULL until needed */
-    tile_cells **cells;    /* one a worker */
+    wave_set *halves[2];   /* over the two halves of the shutter, from the last, while the camera stands */
+    wave_set *moving;      /* memory for `open`, NULL until needed */
+    tile_cells **cells;    /* one a worker, … */
+    tile_cells **last;     /* … and one for the shutter's last half */
     census **census;
     size_t workers;
     round_plan plan;
@@ -82,7 +85,7 @@ static size_t pixel_of(const forest *f, size_t tile, const leaf *l)
     return y * f->out->width + x;
 }
 
-static const float areas[LEVELS] = {1, 0x1p-2f, 0x1p-4f, 0x1p-6f, 0x1p-8f, 0x1p-10f, 0x1p-12f}; /* of a cell, pixels */
+static const float areas[LEVELS] = {1, 0x1p-2f, 0x1p-4f, 0x1p-6f, 0x1p-8f, 0x1p-10f, 0x1p-12f, 0x1p-14f, 0x1p-16f}; /* of a cell, pixels */
 
 /* A cell is final: its share of the pixel. */
 static void settle(const forest *f, size_t tile, const leaf *l)
@@ -107,7 +110,7 @@ static void appraise(forest_tile *t)
     double cost = t->cost[0];
     for (int level = 0; level < LEVELS; level++) {
         const double next = level + 1 < LEVELS ? t->cost[level + 1] : 0;
-        cost = next > 0 ? next : fmin(1.3 * cost, 1);
+        cost = next > 0 ? next : fmin(1.3 * cost, level + 1 < HALVES_LEVEL ? 1 : 2);
         t->below[level] = 4 * cost;
         t->worth[level] = (float)((double)(areas[level] * areas[level]) / t->below[level]);
     }
@@ -181,6 +184,12 @@ static ViewData finer(const ViewData *view, int across, int down)
     return v;
 }
 
+/* Whether cells of this size see the two halves of the shutter apart: their glints are so sharp that a path's bend shows. */
+static bool sees_halves(const forest *f, int level)
+{
+    return level >= HALVES_LEVEL && !f->open && f->a->frame->scene->shutter > 0;
+}
+
 /* Sorts the tile's waves for cells; returns what the kernels are told of the frame then. */
 static FrameData sort_cells(const forest *f, size_t tile, int across, int down, tile_scratch *s)
 {
@@ -189,15 +198,24 @@ static FrameData sort_cells(const forest *f, size_t tile, int across, int down, 
     forest_tile *t = &f->tiles[tile];
     FrameData data = a->frame->data;
     data.pixel_angle = ldexpf(data.pixel_angle, across > down ? -across : -down);
+    if (across + down > 0) {
+        /* Small cells see glints so sharp that no wave's share may be a tile's mean. */
+        data.sort_shares = 0;
+        data.sort_start = 1e-3f;
+    }
     const ViewData close = finer(&f->close->view, across, down);
-    a->kernels->sort(&data, f->close, &close, x, y, &s->close);
+    const bool halves = sees_halves(f, (across + down) / 2);
+    a->kernels->sort(&data, halves ? f->halves[0] : f->close, &close, x, y, &s->close);
+    if (halves)
+        a->kernels->sort(&data, f->halves[1], &close, x, y, &s->open);
     if (f->open) {
         const ViewData open = finer(&f->open->view, across, down);
         a->kernels->sort(&data, f->open, &open, x, y, &s->open);
     }
     const TileData *d = &s->close.data;
     const int waves = close.wave_count;
-    t->cost[(across + down) / 2] = waves > 0 ? fmax((double)(d->resolved_count + d->mixed_count) / waves, 1e-3) : 1;
+    const double cost = waves > 0 ? fmax((double)(d->resolved_count + d->mixed_count) / waves, 1e-3) : 1;
+    t->cost[(across + down) / 2] = halves ? 2 * cost : cost;
     appraise(t);
     return data;
 }
@@ -308,6 +326,17 @@ typedef struct brood {
     int across, down;
 } brood;
 
+/* Of both halves of the shutter; heights are those of the last. */
+static void take_mean(tile_cells *cells, const tile_cells *last)
+{
+    float *const into[] = {cells->pixels.red, cells->pixels.green, cells->pixels.blue, cells->pixels.coverage, cells->detail.variance, cells->detail.contrast};
+    const float *const from[] = {last->pixels.red, last->pixels.green, last->pixels.blue, last->pixels.coverage, last->detail.variance, last->detail.contrast};
+    for (size_t k = 0; k < sizeof into / sizeof *into; k++)
+        for (size_t i = 0; i < cells->count; i++)
+            into[k][i] = 0.5f * (into[k][i] + from[k][i]);
+    memcpy(cells->detail.height, last->detail.height, cells->count * sizeof *cells->detail.height);
+}
+
 static bool grow(const forest *f, size_t tile, const brood *b, uint32_t worker)
 {
     const adaptive_frame *a = f->a;
@@ -316,6 +345,12 @@ static bool grow(const forest *f, size_t tile, const brood *b, uint32_t worker)
     forest_tile *t = &f->tiles[tile];
     const int level = (b->across + b->down) / 2;
     a->kernels->cells(&b->data, a->sky, &s->close, f->open ? &s->open : NULL, cells);
+    if (sees_halves(f, level)) {
+        tile_cells *last = f->last[worker];
+        *last = *cells;
+        a->kernels->cells(&b->data, a->sky, &s->open, NULL, cells);
+        take_mean(cells, last);
+    }
     for (size_t i = 0; i < cells->count; i++) {
         leaf l = leaf_from(&cells->pixels, &cells->detail, i);
         l.column = (uint32_t)cells->column[i];
@@ -499,6 +534,8 @@ static void place_waves(forest *f)
     wave_set_build(whole, &whole->close, s->camera_moves ? instant : shutter, true, f->close);
     if (f->open)
         wave_set_build(whole, &whole->open, before, true, f->open);
+    for (int i = 0; i < 2 && !f->open; i++)
+        wave_set_build(whole, &whole->close, (interval){s->time - s->shutter * (0.25 + 0.5 * i), s->shutter / 4}, true, f->halves[i]);
 }
 
 void forest_free(forest *f)
@@ -509,9 +546,14 @@ void forest_free(forest *f)
         free(f->tiles[i].leaves);
     for (size_t i = 0; f->cells && i < f->workers; i++)
         free(f->cells[i]);
+    for (size_t i = 0; f->last && i < f->workers; i++)
+        free(f->last[i]);
     for (size_t i = 0; f->census && i < f->workers; i++)
         free(f->census[i]);
     free(f->cells);
+    free(f->last);
+    free(f->halves[0]);
+    free(f->halves[1]);
     free(f->census);
     free(f->tiles);
     free(f->weight);
@@ -533,13 +575,17 @@ static forest *make_forest(const adaptive_frame *a, const picture_planes *out)
     f->tiles = calloc((size_t)f->columns * f->rows, sizeof *f->tiles);
     f->weight = malloc((size_t)out->width * out->height * sizeof *f->weight);
     f->close = calloc(1, sizeof *f->close);
+    f->halves[0] = calloc(1, sizeof **f->halves);
+    f->halves[1] = calloc(1, sizeof **f->halves);
     f->cells = calloc(f->workers, sizeof *f->cells);
+    f->last = calloc(f->workers, sizeof *f->last);
     f->census = calloc(f->workers, sizeof *f->census);
-    bool all = f->tiles && f->weight && f->close && f->cells && f->census;
+    bool all = f->tiles && f->weight && f->close && f->halves[0] && f->halves[1] && f->cells && f->last && f->census;
     for (size_t i = 0; all && i < f->workers; i++) {
         f->cells[i] = calloc(1, sizeof **f->cells);
         f->census[i] = calloc(1, sizeof **f->census);
-        all = f->cells[i] && f->census[i];
+        f->last[i] = calloc(1, sizeof **f->last);
+        all = f->cells[i] && f->last[i] && f->census[i];
     }
     if (all)
         return f;
