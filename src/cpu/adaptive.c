@@ -24,6 +24,8 @@ enum {
     KEPT_OCTAVES = 5, /* leaves worth less than 2^-5 of what was split last are settled */
 };
 static const double cost_unit = 65536; /* evaluations of all waves are counted in these parts */
+/* What a cell and a point sample cost besides their waves, in waves; measured. */
+static const double cell_waves = 20, sample_waves = 2;
 
 /* A pixel or cell that may be split. */
 typedef struct leaf {
@@ -110,7 +112,7 @@ static void appraise(forest_tile *t)
     double cost = t->cost[0];
     for (int level = 0; level < LEVELS; level++) {
         const double next = level + 1 < LEVELS ? t->cost[level + 1] : 0;
-        cost = next > 0 ? next : fmin(1.3 * cost, level + 1 < HALVES_LEVEL ? 1 : 2);
+        cost = next > 0 ? next : 1.2 * cost;
         t->below[level] = 4 * cost;
         t->worth[level] = (float)((double)(areas[level] * areas[level]) / t->below[level]);
     }
@@ -213,8 +215,7 @@ static FrameData sort_cells(const forest *f, size_t tile, int across, int down, 
         a->kernels->sort(&data, f->open, &open, x, y, &s->open);
     }
     const TileData *d = &s->close.data;
-    const int waves = close.wave_count;
-    const double cost = waves > 0 ? fmax((double)(d->resolved_count + d->mixed_count) / waves, 1e-3) : 1;
+    const double cost = (d->resolved_count + d->mixed_count + cell_waves) / (close.wave_count + sample_waves);
     t->cost[(across + down) / 2] = halves ? 2 * cost : cost;
     appraise(t);
     return data;
