@@ -16,7 +16,12 @@
 enum {
     LEVELS = 9,             /* a pixel has up to 4^8 cells, … */
     SIDES = 2 * LEVELS - 1, /* … split up to 16 times one way */
-    HALVES_LEVEL = 5,       /* from which cells see the shutter in two halves */
+    SHARP_LEVEL = 5,        /* from which cells see glints so sharp that the bend of a path shows */
+    MOST_PARTS = 16,        /* straight pieces of the shutter */
+    POINTS_PLACES = 16,     /* cells of more places are given points: splits would long say the same */
+    LEAST_POINTS = 256,
+    MOST_POINTS = 4096,
+    INSTANTS = 8,           /* of the shutter, that points are spread over */
     BUCKETS_PER_OCTAVE = 32,
     OCTAVES = 96,
     BUCKETS = BUCKETS_PER_OCTAVE * OCTAVES,
@@ -35,18 +40,26 @@ typedef struct leaf {
     uint8_t shape;        /* of the split to come, see shape_of() */
     bool chosen;          /* to be split in this round */
     uint16_t bucket;      /* of what a split is worth */
-    float color[3], coverage, water, height, variance, contrast;
+    uint16_t points;      /* samples that its values are the mean of; 0: it is a cell */
+    float color[3], coverage, water, height, variance, contrast, places;
 } leaf;
 
 typedef struct forest_tile {
     leaf *leaves;
     size_t count, capacity;
     double cost[LEVELS];  /* of a cell, evaluations of all waves; 0 as long as it is unknown */
+    double point_cost;
     double below[LEVELS]; /* of the four cells that one of this level is split into, as far as is known */
     float worth[LEVELS];  /* of a split, for each unit of squared error */
     double spent;
     double final_variance; /* of what is split no more: sum of squared errors of pixels */
 } forest_tile;
+
+/* The shutter in straight pieces. While the camera stands, sets[i] is over piece i; where it moves, sets[i] and sets[i + 1] are the instants around it. */
+typedef struct shutter_parts {
+    int count;
+    wave_set *sets[MOST_PARTS + 1];
+} shutter_parts;
 
 typedef struct round_plan {
     int bucket;     /* leaves above this bucket are split, … */
@@ -66,12 +79,11 @@ struct forest {
     bool by_coverage;       /* leaves are worth what they save of the coverage's error, not of the picture's */
     forest_tile *tiles;
     float *weight;         /* a pixel's, squared */
-    wave_set *close;       /* when the shutter closes, or over it, … */
-    wave_set *open;        /* … and when it opens, where the camera moves; else NULL */
-    wave_set *halves[2];   /* over the two halves of the shutter, from the last, while the camera stands */
-    wave_set *moving;      /* memory for `open`, NULL until needed */
+    bool moves;            /* the camera does */
+    shutter_parts parts[3]; /* of pixels, of cells and of sharp cells */
+    wave_set *instants[INSTANTS]; /* as points see them */
     tile_cells **cells;    /* one a worker, … */
-    tile_cells **last;     /* … and one for the shutter's last half */
+    tile_cells **sums;     /* … and one for the mean over the shutter's parts */
     census **census;
     size_t workers;
     round_plan plan;
@@ -99,12 +111,22 @@ static void settle(const forest *f, size_t tile, const leaf *l)
         p->color[3 * i + (size_t)k] += area * l->color[k];
     p->coverage[i] += area * l->coverage;
     p->water[i] += area * l->water;
-    if (l->level > 0)
+    if (l->level > 0 || l->points > 0)
         p->detail[i] += area * l->coverage;
     f->tiles[tile].final_variance += (double)(area * area * l->variance);
 }
 
 /* ---- what a split is worth ---- */
+
+/* Into 2 × 2, four rows or four columns, whatever makes the parts' shape on the water rounder; or points instead. */
+enum { SHAPE_EVEN, SHAPE_ROWS, SHAPE_COLUMNS, SHAPE_POINTS };
+static const uint8_t halvings[4][2] = {{1, 1}, {0, 2}, {2, 0}, {0, 0}}; /* across, down */
+
+static uint8_t shape_of(float aspect_squared)
+{
+    return aspect_squared > 8 ? SHAPE_ROWS : aspect_squared < 0.125f ? SHAPE_COLUMNS : SHAPE_EVEN;
+}
+
 
 /* What splits cost and are worth, after a level's cost became known: where it is not, by the nearest level above. */
 static void appraise(forest_tile *t)
@@ -127,13 +149,48 @@ static uint16_t bucket_of(float worth)
     return bucket <= 0 ? 0 : bucket >= BUCKETS ? BUCKETS - 1 : (uint16_t)bucket;
 }
 
+/* What the model gets wrong where waves hide each other, a tenth or two of the light, over what it cannot know. */
+static float wrong_of(const leaf *l)
+{
+    return l->points > 0 ? 0 : 0.0225f * l->places * l->coverage;
+}
+
+/* At first as many as halve the squared error. */
+static int next_points(const leaf *l)
+{
+    if (l->points > 0)
+        return 4 * l->points;
+    int points = LEAST_POINTS;
+    while (points < MOST_POINTS && (float)points * (1 + wrong_of(l)) < 2 * l->places)
+        points *= 4;
+    return points;
+}
+
+static double cost_of(const forest_tile *t, const leaf *l)
+{
+    return l->shape == SHAPE_POINTS ? (next_points(l) - l->points) * t->point_cost : t->below[l->level];
+}
+
+/* How much of its squared error a split may save for each evaluation. Four parts of a cell show the mean of a quarter of its places each; n points
+ * that of n, and get nothing wrong. */
+static float worth_of(const forest_tile *t, const leaf *l)
+{
+    const float area = areas[l->level];
+    if (l->shape != SHAPE_POINTS)
+        return 4 / (l->places + 3) * t->worth[l->level];
+    return fmaxf(1 - l->places / (float)next_points(l) + wrong_of(l), 0) * area * area / (float)cost_of(t, l);
+}
+
 /* Adds a leaf, or settles it where a split is worth nothing. */
 static bool add_leaf(const forest *f, size_t tile, leaf l)
 {
     forest_tile *t = &f->tiles[tile];
-    const float gain = f->by_coverage ? l.variance : l.contrast * f->weight[pixel_of(f, tile, &l)];
-    l.bucket = gain > 0 ? bucket_of(gain * t->worth[l.level]) : 0;
-    if (l.bucket <= f->least_bucket || l.level + 1 == LEVELS) {
+    const float now = f->by_coverage ? l.variance : l.contrast * f->weight[pixel_of(f, tile, &l)];
+    if (l.points > 0 || l.places > POINTS_PLACES)
+        l.shape = SHAPE_POINTS;
+    const bool ends = l.shape == SHAPE_POINTS ? next_points(&l) > MOST_POINTS : l.level + 1 == LEVELS;
+    l.bucket = now > 0 && !ends ? bucket_of(now * worth_of(t, &l)) : 0;
+    if (l.bucket <= f->least_bucket) {
         settle(f, tile, &l);
         return true;
     }
@@ -149,15 +206,6 @@ static bool add_leaf(const forest *f, size_t tile, leaf l)
     return true;
 }
 
-/* Into 2 × 2, four rows or four columns: whatever makes the parts' shape on the water rounder. */
-enum { SHAPE_EVEN, SHAPE_ROWS, SHAPE_COLUMNS };
-static const uint8_t halvings[3][2] = {{1, 1}, {0, 2}, {2, 0}}; /* across, down */
-
-static uint8_t shape_of(float aspect_squared)
-{
-    return aspect_squared > 8 ? SHAPE_ROWS : aspect_squared < 0.125f ? SHAPE_COLUMNS : SHAPE_EVEN;
-}
-
 static leaf leaf_from(const tile_pixels *p, const tile_detail *d, size_t i)
 {
     return (leaf){.color = {p->red[i], p->green[i], p->blue[i]},
@@ -166,6 +214,7 @@ static leaf leaf_from(const tile_pixels *p, const tile_detail *d, size_t i)
                   .height = d->height[i],
                   .variance = d->variance[i],
                   .contrast = d->contrast[i],
+                  .places = d->places[i],
                   .shape = shape_of(d->aspect[i])};
 }
 
@@ -186,37 +235,38 @@ static ViewData finer(const ViewData *view, int across, int down)
     return v;
 }
 
-/* Whether cells of this size see the two halves of the shutter apart: their glints are so sharp that a path's bend shows. */
-static bool sees_halves(const forest *f, int level)
+static const shutter_parts *parts_of(const forest *f, int level)
 {
-    return level >= HALVES_LEVEL && !f->open && f->a->frame->scene->shutter > 0;
+    return &f->parts[level == 0 ? 0 : level < SHARP_LEVEL ? 1 : 2];
 }
 
-/* Sorts the tile's waves for cells; returns what the kernels are told of the frame then. */
-static FrameData sort_cells(const forest *f, size_t tile, int across, int down, tile_scratch *s)
+/* Sorts the tile's waves of a set for cells; returns what the kernels are told of the frame then. */
+static FrameData sort_set(const forest *f, size_t tile, const wave_set *set, int across, int down, tile_waves *out)
 {
-    const adaptive_frame *a = f->a;
-    const uint32_t x = (uint32_t)(tile % f->columns), y = (uint32_t)(tile / f->columns);
-    forest_tile *t = &f->tiles[tile];
-    FrameData data = a->frame->data;
+    FrameData data = f->a->frame->data;
     data.pixel_angle = ldexpf(data.pixel_angle, across > down ? -across : -down);
     if (across + down > 0) {
         /* Small cells see glints so sharp that no wave's share may be a tile's mean. */
         data.sort_shares = 0;
         data.sort_start = 1e-3f;
     }
-    const ViewData close = finer(&f->close->view, across, down);
-    const bool halves = sees_halves(f, (across + down) / 2);
-    a->kernels->sort(&data, halves ? f->halves[0] : f->close, &close, x, y, &s->close);
-    if (halves)
-        a->kernels->sort(&data, f->halves[1], &close, x, y, &s->open);
-    if (f->open) {
-        const ViewData open = finer(&f->open->view, across, down);
-        a->kernels->sort(&data, f->open, &open, x, y, &s->open);
-    }
+    const ViewData view = finer(&set->view, across, down);
+    f->a->kernels->sort(&data, set, &view, (uint32_t)(tile % f->columns), (uint32_t)(tile / f->columns), out);
+    return data;
+}
+
+/* One piece of the shutter: into s->close, and s->open where the camera moves. */
+static FrameData sort_cells(const forest *f, size_t tile, int across, int down, int part, tile_scratch *s)
+{
+    forest_tile *t = &f->tiles[tile];
+    const shutter_parts *parts = parts_of(f, (across + down) / 2);
+    const FrameData data = sort_set(f, tile, parts->sets[f->moves ? part + 1 : part], across, down, &s->close);
+    if (f->moves)
+        sort_set(f, tile, parts->sets[part], across, down, &s->open);
     const TileData *d = &s->close.data;
-    const double cost = (d->resolved_count + d->mixed_count + cell_waves) / (close.wave_count + sample_waves);
-    t->cost[(across + down) / 2] = halves ? 2 * cost : cost;
+    const double all = parts->sets[0]->view.wave_count + sample_waves, cost = (d->resolved_count + d->mixed_count + cell_waves) / all;
+    t->cost[(across + down) / 2] = parts->count * cost;
+    t->point_cost = 1;
     appraise(t);
     return data;
 }
@@ -245,12 +295,12 @@ static void plant_tile(void *argument, size_t tile, uint32_t worker)
     tile_scratch *s = a->scratch[worker];
     tile_detail *detail = &f->cells[worker]->detail;
     forest_tile *t = &f->tiles[tile];
-    const FrameData data = sort_cells(f, tile, 0, 0, s);
+    const FrameData data = sort_cells(f, tile, 0, 0, 0, s);
     guess_tile(f, &s->close, &s->close_guess);
-    if (f->open)
+    if (f->moves)
         guess_tile(f, &s->open, &s->open_guess);
-    a->kernels->filtered(&data, a->sky, NULL, MGT_METHOD_MANGATA, &s->close, &s->close_guess, f->open ? &s->open : NULL,
-                         f->open ? &s->open_guess : NULL, &s->pixels, detail);
+    a->kernels->filtered(&data, a->sky, NULL, MGT_METHOD_MANGATA, &s->close, &s->close_guess, f->moves ? &s->open : NULL,
+                         f->moves ? &s->open_guess : NULL, &s->pixels, detail);
     const uint32_t left = (uint32_t)(tile % f->columns) * TILE_WIDTH, top = (uint32_t)(tile / f->columns) * TILE_HEIGHT;
     for (uint32_t y = 0; y < TILE_HEIGHT && top + y < p->height; y++)
         for (uint32_t x = 0; x < TILE_WIDTH && left + x < p->width; x++) {
@@ -274,11 +324,8 @@ static void count_tile(void *argument, size_t tile, uint32_t worker)
     const forest *f = argument;
     const forest_tile *t = &f->tiles[tile];
     uint64_t *cost = f->census[worker]->cost;
-    uint64_t units[LEVELS];
-    for (int level = 0; level < LEVELS; level++)
-        units[level] = (uint64_t)(t->below[level] * cost_unit);
     for (size_t i = 0; i < t->count; i++)
-        cost[t->leaves[i].bucket] += units[t->leaves[i].level];
+        cost[t->leaves[i].bucket] += (uint64_t)(cost_of(t, &t->leaves[i]) * cost_unit);
 }
 
 /* Which leaves may be split for `budget` evaluations. False: none. */
@@ -321,43 +368,40 @@ static bool is_chosen(const forest *f, size_t tile, const leaf *l)
     return l->bucket > f->plan.bucket || (l->bucket == f->plan.bucket && lot_of(tile, l) < f->plan.share);
 }
 
-/* Cells of one size that wait to be rendered. */
-typedef struct brood {
-    FrameData data;
-    int across, down;
-} brood;
-
-/* Of both halves of the shutter; heights are those of the last. */
-static void take_mean(tile_cells *cells, const tile_cells *last)
+/* Adds what a piece of the shutter shows; of detail heights alone are its own, and those of the last piece stay. */
+static void add_part(const tile_cells *part, float share, tile_cells *sum)
 {
-    float *const into[] = {cells->pixels.red, cells->pixels.green, cells->pixels.blue, cells->pixels.coverage, cells->detail.variance, cells->detail.contrast};
-    const float *const from[] = {last->pixels.red, last->pixels.green, last->pixels.blue, last->pixels.coverage, last->detail.variance, last->detail.contrast};
+    const float *const from[] = {part->pixels.red, part->pixels.green, part->pixels.blue, part->pixels.coverage, part->pixels.water,
+                                 part->detail.variance, part->detail.contrast, part->detail.places, part->detail.aspect};
+    float *const into[] = {sum->pixels.red, sum->pixels.green, sum->pixels.blue, sum->pixels.coverage, sum->pixels.water,
+                           sum->detail.variance, sum->detail.contrast, sum->detail.places, sum->detail.aspect};
     for (size_t k = 0; k < sizeof into / sizeof *into; k++)
-        for (size_t i = 0; i < cells->count; i++)
-            into[k][i] = 0.5f * (into[k][i] + from[k][i]);
-    memcpy(cells->detail.height, last->detail.height, cells->count * sizeof *cells->detail.height);
+        for (size_t i = 0; i < part->count; i++)
+            into[k][i] += share * from[k][i];
+    memcpy(sum->detail.height, part->detail.height, part->count * sizeof *part->detail.height);
 }
 
-static bool grow(const forest *f, size_t tile, const brood *b, uint32_t worker)
+/* Renders the cells that wait, all of one size. */
+static bool grow(const forest *f, size_t tile, int across, int down, uint32_t worker)
 {
     const adaptive_frame *a = f->a;
-    tile_cells *cells = f->cells[worker];
+    tile_cells *cells = f->cells[worker], *sum = f->sums[worker];
     tile_scratch *s = a->scratch[worker];
     forest_tile *t = &f->tiles[tile];
-    const int level = (b->across + b->down) / 2;
-    a->kernels->cells(&b->data, a->sky, &s->close, f->open ? &s->open : NULL, cells);
-    if (sees_halves(f, level)) {
-        tile_cells *last = f->last[worker];
-        *last = *cells;
-        a->kernels->cells(&b->data, a->sky, &s->open, NULL, cells);
-        take_mean(cells, last);
+    const int level = (across + down) / 2, parts = parts_of(f, level)->count;
+    memset(&sum->pixels, 0, sizeof sum->pixels);
+    memset(&sum->detail, 0, sizeof sum->detail);
+    for (int part = 0; part < parts; part++) {
+        const FrameData data = sort_cells(f, tile, across, down, part, s);
+        a->kernels->cells(&data, a->sky, &s->close, f->moves ? &s->open : NULL, cells);
+        add_part(cells, 1.0f / (float)parts, sum);
     }
     for (size_t i = 0; i < cells->count; i++) {
-        leaf l = leaf_from(&cells->pixels, &cells->detail, i);
+        leaf l = leaf_from(&sum->pixels, &sum->detail, i);
         l.column = (uint32_t)cells->column[i];
         l.row = (uint32_t)cells->row[i];
-        l.across = (uint8_t)b->across;
-        l.down = (uint8_t)b->down;
+        l.across = (uint8_t)across;
+        l.down = (uint8_t)down;
         l.level = (uint8_t)level;
         f->out->samples[pixel_of(f, tile, &l)] += (float)t->cost[level];
         t->spent += t->cost[level];
@@ -383,17 +427,109 @@ static bool split_size(const forest *f, size_t tile, int across, int down, size_
 {
     forest_tile *t = &f->tiles[tile];
     tile_cells *cells = f->cells[worker];
-    const brood b = {sort_cells(f, tile, across, down, f->a->scratch[worker]), across, down};
     cells->count = 0;
     for (size_t i = 0; i < end; i++) {
         const leaf *l = &t->leaves[i];
-        if (!l->chosen || l->across + halvings[l->shape][0] != across || l->down + halvings[l->shape][1] != down)
+        if (!l->chosen || l->shape == SHAPE_POINTS || l->across + halvings[l->shape][0] != across || l->down + halvings[l->shape][1] != down)
             continue;
         add_children(cells, l);
-        if (cells->count == TILE_PIXELS && !grow(f, tile, &b, worker))
+        if (cells->count == TILE_PIXELS && !grow(f, tile, across, down, worker))
             return false;
     }
-    return cells->count == 0 || grow(f, tile, &b, worker);
+    return cells->count == 0 || grow(f, tile, across, down, worker);
+}
+
+/* Points that wait to be rendered, and the leaf that each belongs to. */
+typedef struct point_batch {
+    int count;
+    uint32_t owner[TILE_PIXELS];
+} point_batch;
+
+/* Point `index` of a leaf's sequence: the R2 sequence (Roberts 2018), shifted by the leaf and the seed. */
+static void add_point(const leaf *l, double shift, int index, uint32_t owner, point_batch *batch, tile_scratch *s)
+{
+    const double u = shift + index * 0.75487766624669276, v = 0.5 + shift * 977 + index * 0.56984029099805327;
+    const int i = batch->count++;
+    batch->owner[i] = owner;
+    s->jitter_x[i] = (float)(ldexp(l->column + u - floor(u), -l->across) - 0.5 - i % TILE_WIDTH);
+    s->jitter_y[i] = (float)(ldexp(l->row + v - floor(v), -l->down) - 0.5 - i / TILE_WIDTH);
+}
+
+/* Sums of color, coverage and water go to sums[5 × owner]. */
+static void render_points(const forest *f, point_batch *batch, tile_scratch *s, double *sums)
+{
+    for (int i = batch->count; i < TILE_PIXELS; i++) {
+        s->jitter_x[i] = s->jitter_x[0] - (float)(i % TILE_WIDTH);
+        s->jitter_y[i] = s->jitter_y[0] - (float)(i / TILE_WIDTH);
+    }
+    memset(&s->pixels, 0, sizeof s->pixels);
+    f->a->kernels->sample(&f->a->frame->data, f->a->sky, &s->close, &s->close_guess, s->jitter_x, s->jitter_y, 1, &s->pixels);
+    for (int i = 0; i < batch->count; i++) {
+        double *sum = sums + 5 * batch->owner[i];
+        sum[0] += (double)s->pixels.red[i];
+        sum[1] += (double)s->pixels.green[i];
+        sum[2] += (double)s->pixels.blue[i];
+        sum[3] += (double)s->pixels.coverage[i];
+        sum[4] += (double)s->pixels.water[i];
+    }
+    batch->count = 0;
+}
+
+/* The leaf's values become the mean of all its points, old and new. */
+static void take_points(leaf *l, const double sums[5])
+{
+    const int first = l->points, end = next_points(l);
+    float *const values[] = {&l->color[0], &l->color[1], &l->color[2], &l->coverage, &l->water};
+    for (int k = 0; k < 5; k++)
+        *values[k] = (float)((first * (double)*values[k] + sums[k]) / end);
+    l->contrast *= l->places / (float)end;
+    l->variance = l->coverage * fmaxf(l->water - l->coverage, 0) / (float)end;
+    l->places = (float)end;
+    l->points = (uint16_t)end;
+}
+
+static bool scatter_points(const forest *f, size_t tile, size_t end, uint32_t worker)
+{
+    const adaptive_frame *a = f->a;
+    forest_tile *t = &f->tiles[tile];
+    tile_scratch *s = a->scratch[worker];
+    double *sums = calloc(5 * end, sizeof *sums);
+    point_batch batch = {0};
+    if (!sums)
+        return false;
+    for (int i = 0; i < TILE_PIXELS; i++)
+        s->close_guess.height[i] = s->close_guess.from[i] = 0, s->close_guess.march[i] = 1;
+    for (int k = 0; k < INSTANTS; k++) {
+        const wave_set *set = f->instants[k];
+        a->kernels->sort(&a->frame->data, set, &set->view, (uint32_t)(tile % f->columns), (uint32_t)(tile / f->columns), &s->close);
+        for (size_t i = 0; i < end; i++) {
+            const leaf *l = &t->leaves[i];
+            if (!l->chosen || l->shape != SHAPE_POINTS)
+                continue;
+            const double shift = lot_of(tile ^ (size_t)(a->frame->scene->quality.seed * 0x9e3779b97f4a7c15u), l);
+            for (int n = l->points + k; n < next_points(l); n += INSTANTS) {
+                add_point(l, shift, n, (uint32_t)i, &batch, s);
+                if (batch.count == TILE_PIXELS)
+                    render_points(f, &batch, s, sums);
+            }
+        }
+        if (batch.count > 0)
+            render_points(f, &batch, s, sums);
+    }
+    bool added = true;
+    for (size_t i = 0; i < end && added; i++) {
+        leaf l = t->leaves[i];
+        if (!l.chosen || l.shape != SHAPE_POINTS)
+            continue;
+        const double cost = cost_of(t, &l);
+        take_points(&l, sums + 5 * i);
+        l.chosen = false;
+        f->out->samples[pixel_of(f, tile, &l)] += (float)cost;
+        t->spent += cost;
+        added = add_leaf(f, tile, l);
+    }
+    free(sums);
+    return added;
 }
 
 static void split_tile(void *argument, size_t tile, uint32_t worker)
@@ -401,11 +537,14 @@ static void split_tile(void *argument, size_t tile, uint32_t worker)
     forest *f = argument;
     forest_tile *t = &f->tiles[tile];
     const size_t end = t->count;
-    bool sizes[SIDES][SIDES] = {{false}};
+    bool sizes[SIDES][SIDES] = {{false}}, points = false;
     for (size_t i = 0; i < end; i++) {
         leaf *l = &t->leaves[i];
         l->chosen = is_chosen(f, tile, l);
-        sizes[l->across + halvings[l->shape][0]][l->down + halvings[l->shape][1]] |= l->chosen;
+        if (l->shape == SHAPE_POINTS)
+            points |= l->chosen;
+        else
+            sizes[l->across + halvings[l->shape][0]][l->down + halvings[l->shape][1]] |= l->chosen;
     }
     for (int across = 0; across < SIDES; across++)
         for (int down = 0; down < SIDES; down++)
@@ -413,6 +552,10 @@ static void split_tile(void *argument, size_t tile, uint32_t worker)
                 atomic_store(&f->failed, true);
                 return;
             }
+    if (points && !scatter_points(f, tile, end, worker)) {
+        atomic_store(&f->failed, true);
+        return;
+    }
     size_t kept = 0;
     for (size_t i = 0; i < t->count; i++) {
         const leaf *l = &t->leaves[i];
@@ -527,16 +670,52 @@ static mgt_status run_rounds(forest *f)
 
 /* ---- a frame ---- */
 
-static void place_waves(forest *f)
+/* In the middle of strata of the shutter. */
+static void place_instants(forest *f)
+{
+    const frame *whole = f->a->frame;
+    for (int k = 0; k < INSTANTS; k++) {
+        const double share = (k + 0.5) / INSTANTS;
+        const camera_rays camera = camera_at(whole, share);
+        wave_set_build(whole, &camera, (interval){whole->scene->time - (1 - share) * whole->scene->shutter, 0}, false, f->instants[k]);
+    }
+}
+
+/* How far the slopes' path over a piece of the shutter strays from a straight one, RMS, over the light's radius in slopes. */
+static double path_bend(const forest *f, int parts)
+{
+    const mgt_scene *s = f->a->frame->scene;
+    double sum = 0;
+    for (size_t i = 0; i < s->water.wave_count; i++) {
+        const mgt_wave *w = &s->water.waves[i];
+        const double away = 1 - cos(fmin(fabs(w->c) * s->shutter / 2 / parts, 3.14159265358979323846));
+        sum += w->amplitude * w->amplitude * (w->a * w->a + w->b * w->b) / 2 * away * away;
+    }
+    return sqrt(sum) / (0.5 * (double)f->a->frame->data.light_radius);
+}
+
+static void place_parts(const forest *f, shutter_parts *p)
 {
     const frame *whole = f->a->frame;
     const mgt_scene *s = whole->scene;
-    const interval shutter = {s->time - s->shutter / 2, s->shutter / 2}, instant = {s->time, 0}, before = {s->time - s->shutter, 0};
-    wave_set_build(whole, &whole->close, s->camera_moves ? instant : shutter, true, f->close);
-    if (f->open)
-        wave_set_build(whole, &whole->open, before, true, f->open);
-    for (int i = 0; i < 2 && !f->open; i++)
-        wave_set_build(whole, &whole->close, (interval){s->time - s->shutter * (0.25 + 0.5 * i), s->shutter / 4}, true, f->halves[i]);
+    for (int i = 0; i < (f->moves ? p->count + 1 : p->count); i++) {
+        const double share = f->moves ? (double)i / p->count : (i + 0.5) / p->count;
+        const camera_rays camera = camera_at(whole, share);
+        wave_set_build(whole, &camera, (interval){s->time - (1 - share) * s->shutter, f->moves ? 0 : s->shutter / 2 / p->count}, true, p->sets[i]);
+    }
+}
+
+static void place_waves(forest *f)
+{
+    static const double allowed[] = {1e9, 0.5, 0.02};
+    for (int k = 0; k < 3; k++) {
+        shutter_parts *p = &f->parts[k];
+        p->count = 1;
+        while (p->count < MOST_PARTS && path_bend(f, p->count) > allowed[k])
+            p->count *= 2;
+        place_parts(f, p);
+    }
+    place_instants(f);
 }
 
 void forest_free(forest *f)
@@ -545,22 +724,44 @@ void forest_free(forest *f)
         return;
     for (size_t i = 0; f->tiles && i < (size_t)f->columns * f->rows; i++)
         free(f->tiles[i].leaves);
-    for (size_t i = 0; f->cells && i < f->workers; i++)
-        free(f->cells[i]);
-    for (size_t i = 0; f->last && i < f->workers; i++)
-        free(f->last[i]);
-    for (size_t i = 0; f->census && i < f->workers; i++)
-        free(f->census[i]);
+    for (size_t i = 0; i < f->workers; i++) {
+        free(f->cells ? f->cells[i] : NULL);
+        free(f->sums ? f->sums[i] : NULL);
+        free(f->census ? f->census[i] : NULL);
+    }
+    for (int k = 0; k < INSTANTS; k++)
+        free(f->instants[k]);
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i <= MOST_PARTS; i++)
+            free(f->parts[k].sets[i]);
     free(f->cells);
-    free(f->last);
-    free(f->halves[0]);
-    free(f->halves[1]);
+    free(f->sums);
     free(f->census);
     free(f->tiles);
     free(f->weight);
-    free(f->close);
-    free(f->moving);
     free(f);
+}
+
+static bool make_memory(forest *f)
+{
+    f->tiles = calloc((size_t)f->columns * f->rows, sizeof *f->tiles);
+    f->weight = malloc((size_t)f->width * f->height * sizeof *f->weight);
+    f->cells = calloc(f->workers, sizeof *f->cells);
+    f->sums = calloc(f->workers, sizeof *f->sums);
+    f->census = calloc(f->workers, sizeof *f->census);
+    bool all = f->tiles && f->weight && f->cells && f->sums && f->census;
+    for (size_t i = 0; all && i < f->workers; i++) {
+        f->cells[i] = calloc(1, sizeof **f->cells);
+        f->sums[i] = calloc(1, sizeof **f->sums);
+        f->census[i] = calloc(1, sizeof **f->census);
+        all = f->cells[i] && f->sums[i] && f->census[i];
+    }
+    for (int k = 0; all && k < INSTANTS; k++)
+        all = (f->instants[k] = calloc(1, sizeof **f->instants)) != NULL;
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; all && i <= MOST_PARTS; i++)
+            all = (f->parts[k].sets[i] = calloc(1, sizeof **f->parts[k].sets)) != NULL;
+    return all;
 }
 
 static forest *make_forest(const adaptive_frame *a, const picture_planes *out)
@@ -573,42 +774,23 @@ static forest *make_forest(const adaptive_frame *a, const picture_planes *out)
     f->columns = (out->width + TILE_WIDTH - 1) / TILE_WIDTH;
     f->rows = (out->height + TILE_HEIGHT - 1) / TILE_HEIGHT;
     f->workers = thread_pool_size(a->pool);
-    f->tiles = calloc((size_t)f->columns * f->rows, sizeof *f->tiles);
-    f->weight = malloc((size_t)out->width * out->height * sizeof *f->weight);
-    f->close = calloc(1, sizeof *f->close);
-    f->halves[0] = calloc(1, sizeof **f->halves);
-    f->halves[1] = calloc(1, sizeof **f->halves);
-    f->cells = calloc(f->workers, sizeof *f->cells);
-    f->last = calloc(f->workers, sizeof *f->last);
-    f->census = calloc(f->workers, sizeof *f->census);
-    bool all = f->tiles && f->weight && f->close && f->halves[0] && f->halves[1] && f->cells && f->last && f->census;
-    for (size_t i = 0; all && i < f->workers; i++) {
-        f->cells[i] = calloc(1, sizeof **f->cells);
-        f->census[i] = calloc(1, sizeof **f->census);
-        f->last[i] = calloc(1, sizeof **f->last);
-        all = f->cells[i] && f->last[i] && f->census[i];
-    }
-    if (all)
+    if (make_memory(f))
         return f;
     forest_free(f);
     return NULL;
 }
 
 /* Ready for a frame: empty but for memory. */
-static bool clear_forest(forest *f, const adaptive_frame *a, const picture_planes *out)
+static void clear_forest(forest *f, const adaptive_frame *a, const picture_planes *out)
 {
-    const bool moves = a->frame->scene->camera_moves;
     f->a = a;
     f->out = out;
+    f->moves = a->frame->scene->camera_moves;
     f->by_coverage = a->frame->scene->quality.target_rmse > 0;
     f->least_bucket = 0;
     atomic_store(&f->failed, false);
     for (size_t i = 0; i < (size_t)f->columns * f->rows; i++)
         f->tiles[i] = (forest_tile){.leaves = f->tiles[i].leaves, .capacity = f->tiles[i].capacity};
-    if (moves && !f->moving)
-        f->moving = calloc(1, sizeof *f->moving);
-    f->open = moves ? f->moving : NULL;
-    return !moves || f->open;
 }
 
 mgt_status adaptive_render(const adaptive_frame *a, forest **kept, const picture_planes *out)
@@ -619,8 +801,9 @@ mgt_status adaptive_render(const adaptive_frame *a, forest **kept, const picture
     }
     if (!*kept)
         *kept = make_forest(a, out);
-    if (!*kept || !clear_forest(*kept, a, out))
+    if (!*kept)
         return MGT_ERROR_MEMORY;
+    clear_forest(*kept, a, out);
     place_waves(*kept);
     return run_rounds(*kept);
 }

@@ -576,6 +576,7 @@ static void store_cell(tile_pixels *out, tile_detail *detail, size_t i, CellResu
         store(detail->variance + i, c.variance);
         store(detail->contrast + i, c.contrast);
         store(detail->aspect + i, c.aspect);
+        store(detail->places + i, c.places);
     }
 }
 
@@ -591,7 +592,7 @@ static void render_glitter(const struct kernel_context *cx, tile_places places, 
         look_at_tile(open, open_guess, out->water, &open_looks);
     for (size_t i = 0; i < places.count; i += MGT_LANES) {
         const PixelRay p = pixel_rays(cx, &places, i);
-        CellResult cell = {.height = real(0.0f), .variance = real(0.0f), .contrast = real(0.0f), .aspect = real(1.0f)};
+        CellResult cell = {.height = real(0.0f), .variance = real(0.0f), .contrast = real(0.0f), .aspect = real(1.0f), .places = real(1.0f)};
         if (any_lane(p.water > real(0.0f))) {
             const SlopeState state = looked_slopes(cx, &close_looks, i, p.ray);
             cell = cell_result_of(cx, p, open ? looked_slopes(open, &open_looks, i, pixel_rays(open, &places, i).ray) : state, state);
@@ -613,6 +614,7 @@ static void lanes_cells(const FrameData *frame, const float *sky, const tile_wav
         cells->column[count] = cells->column[count - 1];
         cells->row[count] = cells->row[count - 1];
         cells->guess.height[count] = cells->guess.height[count - 1];
+        cells->guess.march[count] = cells->guess.march[count - 1];
     }
     const tile_places places = {cells->column, cells->row, count};
     render_glitter(&cx, places, &cells->guess, open ? &before : NULL, &cells->guess, &cells->pixels, &cells->detail);

@@ -56,14 +56,14 @@ typedef struct tile_pixels {
 
 /* How a pixel or cell of method `mangata` goes on, see cells.k. */
 typedef struct tile_detail {
-    float height[TILE_PIXELS], variance[TILE_PIXELS], contrast[TILE_PIXELS], aspect[TILE_PIXELS];
+    float height[TILE_PIXELS], variance[TILE_PIXELS], contrast[TILE_PIXELS], aspect[TILE_PIXELS], places[TILE_PIXELS];
 } tile_detail;
 
 /* Cells of one tile: pixels are split evenly into view.scale_x × view.scale_y of them. */
 typedef struct tile_cells {
     size_t count;                                   /* at most TILE_PIXELS */
     float column[TILE_PIXELS], row[TILE_PIXELS];    /* whole numbers, in cells from the tile's first one */
-    tile_guess guess;                               /* heights; marched to only where the guess leads nowhere */
+    tile_guess guess;                               /* heights; march: 1 to march from above, 0: only where the height leads nowhere */
     tile_detail detail;                             /* out */
     tile_pixels pixels;                             /* out */
 } tile_cells;
