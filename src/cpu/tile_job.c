@@ -2,24 +2,11 @@
  * One tile of a frame by any method, into the worker's own planes. */
 #include "cpu/tile_job.h"
 
+#include "cpu/hash.h"
 #include "cpu/rival_lanes.h"
 
 #include <math.h>
 #include <string.h>
-
-/* A uniform number in [0, 1) for a counter; the finaliser of SplitMix64 applied twice. */
-static uint64_t mix(uint64_t x)
-{
-    x += 0x9e3779b97f4a7c15u;
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-    return x ^ (x >> 31);
-}
-
-static float unit(uint64_t bits)
-{
-    return (float)(bits >> 40) * 0x1p-24f;
-}
 
 void frame_waves_build(const frame *f, frame_waves *waves)
 {
@@ -52,7 +39,7 @@ static void build(tile_place place, const wave_set *set, tile_waves *waves, tile
 
 double time_share(const mgt_quality *q, uint64_t m)
 {
-    return q->time_samples == 1 ? 1 : ((double)m + (double)unit(mix(q->seed ^ mix(~m)))) / q->time_samples;
+    return q->time_samples == 1 ? 1 : ((double)m + (double)hash_unit(hash_of(q->seed ^ hash_of(~m)))) / q->time_samples;
 }
 
 camera_rays camera_at(const frame *f, double share)
@@ -74,12 +61,12 @@ camera_rays camera_at(const frame *f, double share)
 static void jitter(tile_place place, uint64_t seed, uint32_t n, uint64_t index, uint64_t sample, tile_scratch *scratch)
 {
     const float column = (float)(index % n), row = (float)(index / n), size = 1.0f / (float)n;
-    const uint64_t key = mix(seed ^ mix(sample));
+    const uint64_t key = hash_of(seed ^ hash_of(sample));
     for (uint32_t i = 0; i < TILE_PIXELS; i++) {
         const uint64_t x = place.x * TILE_WIDTH + i % TILE_WIDTH, y = place.y * TILE_HEIGHT + i / TILE_WIDTH;
-        const uint64_t bits = mix(key ^ (x << 32 | y));
-        scratch->jitter_x[i] = (column + unit(bits)) * size - 0.5f;
-        scratch->jitter_y[i] = (row + unit(mix(bits))) * size - 0.5f;
+        const uint64_t bits = hash_of(key ^ (x << 32 | y));
+        scratch->jitter_x[i] = (column + hash_unit(bits)) * size - 0.5f;
+        scratch->jitter_y[i] = (row + hash_unit(hash_of(bits))) * size - 0.5f;
     }
 }
 
