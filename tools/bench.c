@@ -6,6 +6,7 @@
 
 #include "context_options.h"
 #include "interrupt.h"
+#include "method_spec.h"
 #include "names.h"
 #include "numbers.h"
 #include "options.h"
@@ -15,7 +16,7 @@
 enum { OPT_METHODS, OPT_SIZE, OPT_FRAMES, OPT_REPEAT, OPT_BACKEND, OPT_GL_DEVICE, OPT_THREADS, OPT_ISA, OPT_SET, OPT_DISPLAY };
 
 static const option bench_options[] = {
-    [OPT_METHODS] = {"methods", 0, "LIST", "methods to measure (default none,podee-pixel,mangata)"},
+    [OPT_METHODS] = {"methods", 0, "LIST", "methods to measure, with options if wanted:\nadaptive:samples=4 (default none,podee-pixel,mangata)"},
     [OPT_SIZE] = {"size", 0, "WxH", "size in pixels instead of the scene's"},
     [OPT_FRAMES] = {"frames", 0, "N", "measure frames 0 to N-1 (default 3)"},
     [OPT_REPEAT] = {"repeat", 0, "R", "measure each of them R times (default 5)"},
@@ -46,7 +47,7 @@ typedef struct bench_request {
 } bench_request;
 
 typedef struct bench_method {
-    mgt_quality quality;
+    method_spec spec;
     double *seconds; /* frames × repeat */
 } bench_method;
 
@@ -111,14 +112,12 @@ static int add_methods(bench *b)
 {
     for (const char *p = b->request->methods; *p;) {
         const size_t length = strcspn(p, ",");
-        char name[32];
+        char wrong[300];
         if (b->count == METHOD_LIMIT)
             return console_error(EXIT_CODE_USAGE, "--methods: at most %d are allowed", METHOD_LIMIT);
-        snprintf(name, sizeof name, "%.*s", (int)(length < sizeof name ? length : sizeof name - 1), p);
         bench_method *method = &b->methods[b->count];
-        method->quality = mgt_scene_defaults().quality;
-        if (!method_from_name(name, &method->quality))
-            return console_error(EXIT_CODE_USAGE, "--methods: %s is none of %s", name, method_words);
+        if (!method_spec_parse(&method->spec, p, length, wrong, sizeof wrong))
+            return console_error(EXIT_CODE_USAGE, "--methods: %s", wrong);
         method->seconds = calloc((size_t)(b->request->frames * b->request->repeat), sizeof *method->seconds);
         if (!method->seconds)
             return console_error(EXIT_CODE_FAILED, "out of memory");
@@ -162,7 +161,7 @@ static int render_once(bench *b, const bench_method *method, uint64_t frame, dou
     mgt_scene scene;
     if (!scene_file_frame(b->scene, (int)frame, &scene))
         return console_error(EXIT_CODE_BAD_INPUT, "%s: the camera of frame %d is not a legal one", b->request->scene_path, (int)frame);
-    scene.quality = method->quality;
+    scene.quality = method->spec.quality;
     const double start = seconds_now();
     const mgt_status status = mgt_render(b->context, &scene, &b->target, 1);
     *seconds = seconds_now() - start;
@@ -201,25 +200,30 @@ static int print_report(bench *b)
     const size_t runs = (size_t)(b->request->frames * b->request->repeat);
     const double megapixels = 1e-6 * b->width * b->height;
     json_t *list = b->request->out.json ? json_array() : NULL;
+    int width = 15;
+    for (size_t m = 0; m < b->count; m++) {
+        const int length = (int)strlen(b->methods[m].spec.name);
+        width = length >= width ? length + 1 : width;
+    }
     if (!list) {
         printf("%s, %u x %u, ", b->request->scene_path, b->width, b->height);
         if (b->info.backend == MGT_BACKEND_GL)
             printf("%s, ", b->info.renderer);
         else
             printf("%s, %u lanes, %u threads, ", isa_name(b->info.isa), b->info.lanes, b->info.threads);
-        printf("%zu frames each\n%-15s%10s%10s%10s%10s%10s\n", runs, "method", "median ms", "min ms", "max ms", "fps", "Mpixel/s");
+        printf("%zu frames each\n%-*s%10s%10s%10s%10s%10s\n", runs, width, "method", "median ms", "min ms", "max ms", "fps", "Mpixel/s");
     }
     for (size_t m = 0; m < b->count; m++) {
         double *s = b->methods[m].seconds;
         qsort(s, runs, sizeof *s, ascending);
         const double median = 0.5 * (s[(runs - 1) / 2] + s[runs / 2]);
-        const method_text name = method_name(&b->methods[m].quality);
+        const char *name = b->methods[m].spec.name;
         if (list)
-            json_array_append_new(list, json_pack("{s:s, s:f, s:f, s:f, s:f, s:f}", "method", name.text, "median_ms", 1e3 * median, "min_ms",
+            json_array_append_new(list, json_pack("{s:s, s:f, s:f, s:f, s:f, s:f}", "method", name, "median_ms", 1e3 * median, "min_ms",
                                                   1e3 * s[0], "max_ms", 1e3 * s[runs - 1], "fps", 1 / fmax(median, 1e-9), "mpixel_per_s",
                                                   megapixels / fmax(median, 1e-9)));
         else
-            printf("%-15s%10.2f%10.2f%10.2f%10.1f%10.1f\n", name.text, 1e3 * median, 1e3 * s[0], 1e3 * s[runs - 1], 1 / fmax(median, 1e-9),
+            printf("%-*s%10.2f%10.2f%10.2f%10.1f%10.1f\n", width, name, 1e3 * median, 1e3 * s[0], 1e3 * s[runs - 1], 1 / fmax(median, 1e-9),
                    megapixels / fmax(median, 1e-9));
     }
     if (!list)

@@ -100,7 +100,7 @@ expect 64 'a number from 0' "$MANGATA" diff a.png b.png --max-rmse nan
 expect 64 'takes check FILE or schema' "$MANGATA" scene
 expect 64 'takes check FILE or schema' "$MANGATA" scene chekc "$simple"
 expect 64 'no scene given' "$MANGATA" scene check
-expect 64 'none of none, ssaaN' "$MANGATA" bench "$simple" --methods none,fast
+expect 64 'unknown method fast; allowed are none, ssaaN' "$MANGATA" bench "$simple" --methods none,fast
 expect 64 'info takes no' "$MANGATA" info now
 cp "$MANGATA" alone # the viewer is looked for beside the command first
 expect 69 'the viewer is not installed' env PATH=/nonexistent ./alone view "$simple"
