@@ -50,7 +50,7 @@ static const option render_options[] = {
     [OPT_CENTER] = {"importance-center", 0, "C", "adaptive podee: coverage that is most important (default 0.1)"},
     [OPT_IMPORTANCE_WIDTH] = {"importance-width", 0, "R", "adaptive podee: deviation of the importance (default 0.04)"},
     [OPT_THRESHOLD] = {"importance-threshold", 0, "V", "adaptive podee: importance below which no samples are taken\n"
-                                                       "(default 0.01)"},
+                                                       "(default 0.05)"},
     [OPT_SLOTS] = {"slots", 0, "M", "adaptive podee: samples of the whole picture"},
     [OPT_SET] = {"set", 0, "KEY=VALUE", "change a value of the scene, e.g. light.elevation_deg=3;\n"
                                         "may be repeated"},

@@ -9,6 +9,7 @@
 
 #include "core/backend.h"
 #include "cpu/adaptive.h"
+#include "cpu/adaptive_podee.h"
 #include "cpu/frame.h"
 #include "cpu/glare.h"
 #include "cpu/inspect.h"
@@ -537,20 +538,34 @@ static bool tell_adaptive(void *argument, double fraction)
     return !s->progress || s->progress(s->progress_user, fraction);
 }
 
+/* What the paper's adaptive scheme begins with: clamped waves over the shutter, and a Gaussian of the others. */
+static mgt_status approximate_picture(const picture_user *u, const mgt_scene *scene, const picture_planes *out)
+{
+    mgt_scene plain = *scene;
+    plain.quality = (mgt_quality){.method = MGT_METHOD_PODEE_UNIFORM, .spatial_samples = 1, .time_samples = 1};
+    const size_t size = sizeof(mgt_target);
+    const mgt_target layers[] = {{size, MGT_LAYER_COLOR, MGT_FORMAT_RGB32F, out->color, 0},
+                                 {size, MGT_LAYER_COVERAGE, MGT_FORMAT_R32F, out->coverage, 0},
+                                 {size, MGT_LAYER_MASK, MGT_FORMAT_R32F, out->water, 0}};
+    const frame_pass pass = {camera_rays_of(&scene->camera, scene->image.width, scene->image.height), 0, 0.3};
+    return render_picture(u->state, u->r, &plain, layers, 3, &pass);
+}
+
 static mgt_status adapt_picture(void *user, const mgt_scene *scene, const picture_planes *out)
 {
     const picture_user *u = user;
     cpu_state *s = u->state;
-    mgt_status status = prepare_sky(s, u->r, scene);
+    const bool podee = scene->quality.adaptive == MGT_ADAPTIVE_PODEE;
+    mgt_status status = podee ? approximate_picture(u, scene, out) : prepare_sky(s, u->r, scene);
     if (status != MGT_OK)
         return status;
     const frame f = frame_of(scene, s->sky, true);
     const adaptive_frame a = {&f, s->kernels, s->sky->table, s->pool, s->scratch, tell_adaptive, s};
-    status = adaptive_render(&a, &s->adaptive, out);
+    status = podee ? adaptive_podee_render(&a, out) : adaptive_render(&a, &s->adaptive, out);
     if (status == MGT_OK)
         return MGT_OK;
     return report_error(u->r, status, status == MGT_CANCELLED ? "render.cancelled" : "render.memory",
-                        status == MGT_CANCELLED ? "rendering was cancelled" : "out of memory for the cells of method adaptive");
+                        status == MGT_CANCELLED ? "rendering was cancelled" : "out of memory for method adaptive");
 }
 
 static mgt_status cpu_render(void *state, const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count)

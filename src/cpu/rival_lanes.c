@@ -58,6 +58,7 @@ KERNEL vec3 LEAN_SQUARE(CTX cx, real level, real column, real row)
 #include "kernels/bruneton.k"
 #include "kernels/leadr.k"
 #include "kernels/msaa.k"
+#include "kernels/temporal_ray.k"
 #include "kernels/tndf.k"
 #include "kernels/tokuyoshi.k"
 
@@ -135,6 +136,63 @@ static void lanes_pixels(const rival_tile *t, tile_pixels *out)
     render_filtered(&context, t->open ? &open : NULL, t, out);
 }
 
+/* ---- rays over the shutter ---- */
+
+static inline real gather(const float *plane, const uint16_t *list)
+{
+    float lanes[MGT_LANES];
+    for (int i = 0; i < MGT_LANES; i++)
+        lanes[i] = plane[list[i]];
+    return load(lanes);
+}
+
+static inline HitGuess gather_guess(const tile_guess *guess, const uint16_t *list)
+{
+    return (HitGuess){gather(guess->height, list), gather(guess->from, list), gather(guess->march, list)};
+}
+
+static void lanes_temporal(const rival_tile *t, temporal_rays *rays)
+{
+    const struct kernel_context cx = {
+        .frame = t->frame, .tile = &t->close->data, .waves = t->close->waves, .march = t->close->march, .sky = t->sky};
+    struct kernel_context open = cx;
+    if (t->open)
+        open.tile = &t->open->data, open.waves = t->open->waves, open.march = t->open->march;
+    for (size_t i = rays->count; i % MGT_LANES != 0; i++) {
+        rays->pixel[i] = rays->pixel[i - 1];
+        rays->column[i] = rays->column[i - 1];
+        rays->row[i] = rays->row[i - 1];
+    }
+    for (size_t i = 0; i < rays->count; i += MGT_LANES) {
+        const real column = load(rays->column + i), row = load(rays->row + i);
+        const vec3 ray = pixel_ray_at(&cx, column, row);
+        const TemporalEnd close = temporal_end(&cx, ray, gather_guess(t->close_guess, rays->pixel + i));
+        TemporalEnd before = close;
+        if (t->open)
+            before = temporal_end(&open, pixel_ray_at(&open, column, row), gather_guess(t->open_guess, rays->pixel + i));
+        store_result(&rays->pixels, i, temporal_result(&cx, ray, before, close));
+    }
+}
+
+/* On the mean surface; waves without height count for nothing. */
+static void lanes_frequencies(const rival_tile *t, const wave_set *waves, float *most)
+{
+    const struct kernel_context cx = {.frame = t->frame, .tile = &t->close->data};
+    int count = waves->view.wave_count;
+    while (count > 0 && waves->data[count - 1].amplitude <= 0)
+        count--;
+    for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
+        const PixelRay p = pixel_ray_filtered(&cx, lane_numbers() + (float)(i % TILE_WIDTH), real((float)(i / TILE_WIDTH)));
+        const mask water = p.water > real(0.0f);
+        const real fall = SELECT(water, real(0.0f) - p.ray.y, real(1.0f));
+        const Footprint f = footprint_at(&cx, p.ray, real(TILE(&cx).camera_height) / fall);
+        real squared = real(0.0f);
+        for (int w = 0; w < count; w++)
+            squared = max(squared, frequency_squared(&cx, f, waves->turns_x[w], waves->turns_z[w]));
+        store(most + i, SELECT(water, sqrt(squared), real(0.0f)));
+    }
+}
+
 /* ---- the map's rows ---- */
 
 static void lanes_lean_rows(const lean_waves *waves, const lean_phase *phases, float *slope_x, float *slope_z)
@@ -159,4 +217,4 @@ static void lanes_lean_rows(const lean_waves *waves, const lean_phase *phases, f
     }
 }
 
-const rival_kernels LANES_NAME(MGT_LANES) = {lanes_pixels, lanes_lean_rows};
+const rival_kernels LANES_NAME(MGT_LANES) = {lanes_pixels, lanes_temporal, lanes_frequencies, lanes_lean_rows};

@@ -13,12 +13,23 @@ typedef struct rival_tile {
     mgt_method method;
     const tile_waves *close;
     const tile_guess *close_guess;
-    const tile_waves *open; /* NULL unless the camera moves and the method counts the shutter */
+    const tile_waves *open; /* NULL unless the camera moves and the method counts the shutter; for rays over the shutter, unless this is 0 */
     const tile_guess *open_guess;
 } rival_tile;
 
+/* Rays through the pixels of a tile that are traced when the shutter opens and when it closes, see temporal_ray.k. */
+typedef struct temporal_rays {
+    size_t count;                                /* at most TILE_PIXELS */
+    uint16_t pixel[TILE_PIXELS];                 /* of the tile: whose guesses serve */
+    float column[TILE_PIXELS], row[TILE_PIXELS]; /* from the tile's first pixel centre */
+    tile_pixels pixels;                          /* out, a value a ray; lists are filled up to whole vectors */
+} temporal_rays;
+
 struct rival_kernels {
     void (*pixels)(const rival_tile *tile, tile_pixels *out);
+    void (*temporal)(const rival_tile *tile, temporal_rays *rays);
+    /* The largest frequency among the waves in each pixel of a tile, cycles per pixel; 0 where there is no water. */
+    void (*frequencies)(const rival_tile *tile, const wave_set *waves, float *most);
     /* LEAN_ROWS rows of the map's level 0; a phase per wave. */
     void (*lean_rows)(const lean_waves *waves, const lean_phase *phases, float *slope_x, float *slope_z);
 };

@@ -175,7 +175,7 @@ static void layers_are_those_of_the_cpu(void **state)
         for (int m = 0; m < SEA_METHODS; m++) {
             scene.camera_moves = moves;
             scene.camera_open.position[0] = -0.05;
-            scene.quality.method = sea_methods[m];
+            sea_take_method(&scene, m);
             render_all(cpu, &scene, &expected);
             memset(&got, 0xff, sizeof got);
             render_all(gl, &scene, &got);

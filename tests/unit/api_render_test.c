@@ -82,12 +82,13 @@ static void seeds_change_the_jitter_alone(void **state)
     mgt_scene scene = sea_scene(waves);
     mgt_context *context = sea_context(2, MGT_ISA_AUTO);
     for (int m = 0; m < SEA_METHODS; m++) {
-        scene.quality.method = sea_methods[m];
+        sea_take_method(&scene, m);
         scene.quality.seed = 1;
         render_coverage(context, &scene, a);
         scene.quality.seed = 2;
         render_coverage(context, &scene, b);
-        const bool sampled = sea_methods[m] == MGT_METHOD_SSAA || sea_methods[m] == MGT_METHOD_REFERENCE;
+        const bool sampled = sea_methods[m].method == MGT_METHOD_SSAA || sea_methods[m].method == MGT_METHOD_REFERENCE ||
+                             sea_methods[m].adaptive == MGT_ADAPTIVE_PODEE;
         assert_int_equal(memcmp(a, b, sizeof a) != 0, sampled);
     }
     mgt_context_destroy(context);
@@ -122,7 +123,7 @@ static void far_from_the_origin_nothing_changes(void **state)
         scene.camera_moves = moves;
         scene.camera_open.position[0] = 0.2 * moves;
         for (int m = 0; m < SEA_METHODS; m++) {
-            scene.quality.method = sea_methods[m];
+            sea_take_method(&scene, m);
             render_coverage(context, &scene, near);
             const mgt_scene there = shifted(scene, moved, 1e5, -7e4);
             render_coverage(context, &there, far);
@@ -155,7 +156,7 @@ static void the_most_waves_render(void **state)
     scene.water.wave_count = MGT_MAX_WAVES;
     scene.quality.spatial_samples = 1;
     for (int m = 0; m < SEA_METHODS; m++) {
-        scene.quality.method = sea_methods[m];
+        sea_take_method(&scene, m);
         double sum = 0;
         for (uint32_t threads = 1; threads < 4; threads += 2) {
             mgt_context *context = sea_context(threads, MGT_ISA_AUTO);
@@ -198,7 +199,9 @@ static void unusual_scenes_render(void **state)
         case 11: s.camera.position[1] = 1e6, s.camera.target[1] = 1e6 - 10, s.camera.target[2] = -50, s.water.index_of_refraction = 1; break;
         }
         for (int m = 0; m < SEA_METHODS + SEA_RIVALS; m++) {
-            s.quality.method = m < SEA_METHODS ? sea_methods[m] : sea_rivals[m - SEA_METHODS];
+            sea_take_method(&s, m < SEA_METHODS ? m : 0);
+            if (m >= SEA_METHODS)
+                s.quality.method = sea_rivals[m - SEA_METHODS];
             sea_render(context, &s, targets, 4);
             for (int i = 0; i < PIXELS; i++) {
                 bool finite = coverage[i] >= 0 && coverage[i] <= 1 && !(dark && coverage[i] > 0);

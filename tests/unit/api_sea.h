@@ -20,8 +20,14 @@
 
 enum { SEA_WAVES = 12, SEA_WIDTH = 83, SEA_HEIGHT = 47 }; /* no multiple of any tile */
 
-static const mgt_method sea_methods[] = {MGT_METHOD_NONE,         MGT_METHOD_SSAA,    MGT_METHOD_PODEE_UNIFORM,
-                                         MGT_METHOD_PODEE_PIXEL, MGT_METHOD_MANGATA, MGT_METHOD_REFERENCE, MGT_METHOD_ADAPTIVE};
+typedef struct sea_method {
+    mgt_method method;
+    mgt_adaptive adaptive;
+} sea_method;
+
+static const sea_method sea_methods[] = {{MGT_METHOD_NONE, 0},    {MGT_METHOD_SSAA, 0},      {MGT_METHOD_PODEE_UNIFORM, 0},
+                                         {MGT_METHOD_PODEE_PIXEL, 0}, {MGT_METHOD_MANGATA, 0}, {MGT_METHOD_REFERENCE, 0},
+                                         {MGT_METHOD_ADAPTIVE, MGT_ADAPTIVE_PODEE}, {MGT_METHOD_ADAPTIVE, MGT_ADAPTIVE_CELLS}};
 enum { SEA_METHODS = sizeof sea_methods / sizeof *sea_methods };
 static const mgt_method sea_rivals[] = {MGT_METHOD_MSAA32,   MGT_METHOD_LEAN, MGT_METHOD_LEADR, MGT_METHOD_TOKUYOSHI,
                                         MGT_METHOD_BRUNETON, MGT_METHOD_FXAA, MGT_METHOD_TAA,   MGT_METHOD_TNDF};
@@ -45,6 +51,12 @@ static inline mgt_scene sea_scene(mgt_wave waves[SEA_WAVES])
     s.quality.spatial_samples = 2;
     s.quality.time_samples = 2;
     return s;
+}
+
+static inline void sea_take_method(mgt_scene *scene, int m)
+{
+    scene->quality.method = sea_methods[m].method;
+    scene->quality.adaptive = sea_methods[m].adaptive;
 }
 
 static inline mgt_context *sea_context(uint32_t threads, mgt_isa isa)

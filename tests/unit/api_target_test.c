@@ -55,7 +55,7 @@ static void layers_together_equal_each_alone(void **state)
     unsigned char *alone = calloc(PIXELS, 16);
     assert_non_null(alone);
     for (int m = 0; m < SEA_METHODS; m++) {
-        scene.quality.method = sea_methods[m];
+        sea_take_method(&scene, m);
         render_all(context, &scene, &together);
         for (int k = 0; k < FORMATS; k++) {
             const mgt_target target = sea_target(all_formats[k].layer, all_formats[k].format, alone, 0);
@@ -147,7 +147,7 @@ static void crops_equal_the_whole(void **state)
     mgt_context *context = sea_context(2, MGT_ISA_AUTO);
     planes whole = planes_create(), part = planes_create();
     for (int m = 0; m < SEA_METHODS; m++) {
-        scene.quality.method = sea_methods[m];
+        sea_take_method(&scene, m);
         scene.image = (mgt_image){.width = SEA_WIDTH, .height = SEA_HEIGHT};
         render_all(context, &scene, &whole);
         for (size_t c = 0; c < sizeof crops / sizeof *crops; c++) {
@@ -179,7 +179,7 @@ static void threads_and_instruction_sets_do_not_count(void **state)
     mgt_context *scalar = sea_context(1, MGT_ISA_SCALAR);
     for (int m = 0; m < SEA_METHODS; m++) {
         first[m] = planes_create();
-        scene.quality.method = sea_methods[m];
+        sea_take_method(&scene, m);
         render_all(scalar, &scene, &first[m]);
     }
     mgt_context_destroy(scalar);
@@ -188,7 +188,7 @@ static void threads_and_instruction_sets_do_not_count(void **state)
             continue;
         mgt_context *context = sea_context(machines[i].threads, machines[i].isa);
         for (int m = 0; m < SEA_METHODS; m++) {
-            scene.quality.method = sea_methods[m];
+            sea_take_method(&scene, m);
             render_all(context, &scene, &again);
             for (int k = 0; k < FORMATS; k++)
                 if (memcmp(again.bytes[k], first[m].bytes[k], PIXELS * all_formats[k].size) != 0)
@@ -236,7 +236,7 @@ static void layers_hold_what_they_promise(void **state)
     planes p = planes_create();
     mgt_context *context = sea_context(2, MGT_ISA_AUTO);
     for (int m = 0; m < SEA_METHODS; m++) {
-        scene.quality.method = sea_methods[m];
+        sea_take_method(&scene, m);
         render_all(context, &scene, &p);
         const float *rgb = (const void *)p.bytes[0], *rgba = (const void *)p.bytes[1], *coverage = (const void *)p.bytes[3];
         const float *water = (const void *)p.bytes[4], *depth = (const void *)p.bytes[5], *normal = (const void *)p.bytes[6], *normal4 = (const void *)p.bytes[7];

@@ -73,6 +73,7 @@ KERNEL vec3 LEAN_SQUARE(CTX cx, real level, real column, real row)
 #include "kernels/leadr.k"
 #include "kernels/msaa.k"
 #include "kernels/sample.k"
+#include "kernels/temporal_ray.k"
 #include "kernels/tndf.k"
 #include "kernels/tokuyoshi.k"
 #undef light_direction

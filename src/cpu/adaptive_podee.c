@@ -1,0 +1,324 @@
+/* SPDX-License-Identifier: MIT
+ * Method adaptive, scheme podee: Podee et al., Adaptive Supersampling, as published (docs/adaptive.md).
+ *
+ * Pixels of the approximate picture get an importance (Eq. 1); those above a threshold are tasks, among which a number of sample slots is shared
+ * out in proportion to it (Eq. 2). Tasks stand in the order of tiles, and of pixels within a tile: a tile's slots then are neighbours, one worker takes
+ * them all, and what the paper adds up atomically is added in one fixed order. The sum over tiles is taken serially, within tiles in parallel. */
+#include "cpu/adaptive_podee.h"
+
+#include <math.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cpu/hash.h"
+#include "cpu/rival_lanes.h"
+
+/* ---- the paper's equations ---- */
+
+podee_rules podee_rules_of(const mgt_quality *q)
+{
+    return (podee_rules){.center = q->importance_center != 0 ? q->importance_center : 0.1,
+                         .width = q->importance_width != 0 ? q->importance_width : 0.04,
+                         .threshold = q->importance_threshold != 0 ? q->importance_threshold : 0.05};
+}
+
+uint64_t podee_slots_of(const mgt_quality *q, double water)
+{
+    const double slots = (q->samples > 0 ? q->samples : 8) * water;
+    return q->sample_slots ? q->sample_slots : slots > 1 ? (uint64_t)(slots + 0.5) : 1;
+}
+
+float podee_importance(const podee_rules *rules, float coverage)
+{
+    const double away = ((double)coverage - rules->center) / rules->width;
+    return (float)exp(-0.5 * away * away);
+}
+
+double podee_slot_place(uint64_t k, uint64_t slots, double sum)
+{
+    return ((double)k + 0.5) / (double)slots * sum;
+}
+
+uint64_t podee_first_slot(double place, uint64_t slots, double sum)
+{
+    uint64_t low = 0, high = slots;
+    while (low < high) {
+        const uint64_t middle = low + (high - low) / 2;
+        if (podee_slot_place(middle, slots, sum) < place)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+size_t podee_task_at(const double *prefix, size_t count, double place)
+{
+    size_t low = 0;
+    while (count > 1) {
+        const size_t half = count / 2;
+        low = prefix[low + half] <= place ? low + half : low;
+        count -= half;
+    }
+    return low;
+}
+
+double podee_detail_weight(double samples, double frequency)
+{
+    const double nyquist = 0.5;
+    return fmin(fmax(samples * nyquist / fmax(frequency, 1e-6), 0), 1);
+}
+
+/* ---- one picture ---- */
+
+typedef struct detail_job {
+    const adaptive_frame *a;
+    const picture_planes *out;
+    podee_rules rules;
+    wave_set *close, *open; /* all waves, unfiltered, at both ends of the shutter; open NULL where they are the same */
+    uint32_t columns;
+    size_t tiles;
+    double *before;   /* tiles + 1: sums of importance over tasks, of each tile at first, then of all tiles before it */
+    double *water;    /* pixels of water in each tile */
+    uint64_t slots;
+    double fraction;  /* last told, on the caller's thread */
+    atomic_bool cancelled;
+} detail_job;
+
+/* A tile's pixels that are tasks. */
+typedef struct tile_tasks {
+    size_t count;
+    uint16_t pixel[TILE_PIXELS];
+    double before[TILE_PIXELS]; /* the prefix sum of importance over the whole picture */
+} tile_tasks;
+
+/* What the slots of a tile have brought. */
+typedef struct tile_sums {
+    uint64_t samples[TILE_PIXELS];
+    double color[TILE_PIXELS][3], coverage[TILE_PIXELS], water[TILE_PIXELS];
+} tile_sums;
+
+typedef struct tile_corner {
+    uint32_t left, top, width, height; /* as much of the tile as lies in the picture */
+} tile_corner;
+
+static tile_corner corner_of(const detail_job *job, size_t tile)
+{
+    const picture_planes *p = job->out;
+    const uint32_t left = (uint32_t)(tile % job->columns) * TILE_WIDTH, top = (uint32_t)(tile / job->columns) * TILE_HEIGHT;
+    const uint32_t right = p->width - left, below = p->height - top;
+    return (tile_corner){left, top, right < TILE_WIDTH ? right : TILE_WIDTH, below < TILE_HEIGHT ? below : TILE_HEIGHT};
+}
+
+static void weigh_tile(void *argument, size_t tile, uint32_t worker)
+{
+    (void)worker;
+    const detail_job *job = argument;
+    const picture_planes *p = job->out;
+    const tile_corner c = corner_of(job, tile);
+    double sum = 0, water = 0;
+    for (uint32_t y = 0; y < c.height; y++)
+        for (uint32_t x = 0; x < c.width; x++) {
+            const size_t i = (size_t)(c.top + y) * p->width + c.left + x;
+            const float importance = podee_importance(&job->rules, p->coverage[i]);
+            p->importance[i] = p->water[i] > 0 && (double)importance > job->rules.threshold ? importance : 0;
+            sum += (double)p->importance[i];
+            water += (double)p->water[i];
+        }
+    job->before[tile] = sum;
+    job->water[tile] = water;
+}
+
+/* The sum over all tiles ends up in before[tiles]. */
+static void add_tiles(detail_job *job)
+{
+    double sum = 0, water = 0;
+    for (size_t tile = 0; tile < job->tiles; tile++) {
+        const double own = job->before[tile];
+        job->before[tile] = sum;
+        sum += own;
+        water += job->water[tile];
+    }
+    job->before[job->tiles] = sum;
+    job->slots = podee_slots_of(&job->a->frame->scene->quality, water);
+}
+
+static void list_tasks(const detail_job *job, size_t tile, tile_tasks *tasks)
+{
+    const tile_corner c = corner_of(job, tile);
+    double sum = job->before[tile];
+    tasks->count = 0;
+    for (uint32_t y = 0; y < c.height; y++)
+        for (uint32_t x = 0; x < c.width; x++) {
+            const size_t i = (size_t)(c.top + y) * job->out->width + c.left + x;
+            if (job->out->importance[i] <= 0)
+                continue;
+            tasks->pixel[tasks->count] = (uint16_t)(y * TILE_WIDTH + x);
+            tasks->before[tasks->count++] = sum;
+            sum += (double)job->out->importance[i];
+        }
+}
+
+/* ---- samples ---- */
+
+static void see_tile(const detail_job *job, size_t tile, const wave_set *set, tile_waves *waves, tile_guess *guess)
+{
+    const adaptive_frame *a = job->a;
+    const uint32_t x = (uint32_t)(tile % job->columns), y = (uint32_t)(tile / job->columns);
+    a->kernels->sort(&a->frame->data, set, &set->view, x, y, waves);
+    if (tile_sees_water(waves))
+        a->kernels->guess(&a->frame->data, waves, guess);
+    else
+        memset(guess, 0, sizeof *guess);
+}
+
+/* A random place in the pixel for its next sample. */
+static void add_ray(const detail_job *job, const tile_corner *c, uint16_t pixel, tile_sums *sums, temporal_rays *rays)
+{
+    const uint32_t column = pixel % TILE_WIDTH, row = pixel / TILE_WIDTH;
+    const uint64_t key = hash_of(job->a->frame->scene->quality.seed ^ hash_of(sums->samples[pixel]++));
+    const uint64_t bits = hash_of(key ^ ((uint64_t)(c->left + column) << 32 | (c->top + row)));
+    const size_t i = rays->count++;
+    rays->pixel[i] = pixel;
+    rays->column[i] = (float)column + (hash_unit(bits) - 0.5f);
+    rays->row[i] = (float)row + (hash_unit(hash_of(bits)) - 0.5f);
+}
+
+static void add_results(const temporal_rays *rays, tile_sums *sums)
+{
+    const tile_pixels *p = &rays->pixels;
+    for (size_t i = 0; i < rays->count; i++) {
+        const uint16_t pixel = rays->pixel[i];
+        sums->color[pixel][0] += (double)p->red[i];
+        sums->color[pixel][1] += (double)p->green[i];
+        sums->color[pixel][2] += (double)p->blue[i];
+        sums->coverage[pixel] += (double)p->coverage[i];
+        sums->water[pixel] += (double)p->water[i];
+    }
+}
+
+static bool told(void *argument, double fraction)
+{
+    detail_job *job = argument;
+    const double approximate = 0.3; /* share of the approximate picture in the whole */
+    job->fraction = fraction;
+    if (!atomic_load(&job->cancelled) && !job->a->keep_going(job->a->keep_going_argument, approximate + (1 - approximate) * fraction))
+        atomic_store(&job->cancelled, true);
+    return !atomic_load(&job->cancelled);
+}
+
+enum { BATCHES_BETWEEN_WORDS = 256 };
+
+/* The slots [first, end). False: cancelled. */
+static bool take_samples(detail_job *job, size_t tile, const tile_tasks *tasks, uint64_t first, uint64_t end, uint32_t worker, tile_sums *sums)
+{
+    const adaptive_frame *a = job->a;
+    tile_scratch *s = a->scratch[worker];
+    const rival_tile t = {.frame = &a->frame->data,
+                          .sky = a->sky,
+                          .close = &s->close,
+                          .close_guess = &s->close_guess,
+                          .open = job->open ? &s->open : NULL,
+                          .open_guess = job->open ? &s->open_guess : NULL};
+    const tile_corner corner = corner_of(job, tile);
+    temporal_rays rays;
+    uint64_t batches = 0;
+    for (uint64_t k = first; k < end;) {
+        for (rays.count = 0; k < end && rays.count < TILE_PIXELS; k++) {
+            const double place = podee_slot_place(k, job->slots, job->before[job->tiles]);
+            add_ray(job, &corner, tasks->pixel[podee_task_at(tasks->before, tasks->count, place)], sums, &rays);
+        }
+        a->kernels->rivals->temporal(&t, &rays);
+        add_results(&rays, sums);
+        if (++batches % BATCHES_BETWEEN_WORDS == 0 && worker == 0 && a->keep_going)
+            told(job, job->fraction);
+        if (atomic_load_explicit(&job->cancelled, memory_order_relaxed))
+            return false;
+    }
+    return true;
+}
+
+/* Eq. 4 for every layer. A task without a slot stays as it is. */
+static void blend_pixel(const picture_planes *p, size_t i, const tile_sums *sums, uint16_t pixel, double weight)
+{
+    const double n = (double)sums->samples[pixel];
+    p->samples[i] = (float)n;
+    if (n == 0)
+        return;
+    for (size_t c = 0; c < 3; c++)
+        p->color[3 * i + c] = (float)((1 - weight) * (double)p->color[3 * i + c] + weight * (sums->color[pixel][c] / n));
+    p->detail[i] = (float)(sums->coverage[pixel] / n);
+    p->coverage[i] = (float)((1 - weight) * (double)p->coverage[i] + weight * (sums->coverage[pixel] / n));
+    p->water[i] = (float)((1 - weight) * (double)p->water[i] + weight * (sums->water[pixel] / n));
+}
+
+static void blend_tile(const detail_job *job, size_t tile, const tile_tasks *tasks, const tile_sums *sums, const float *frequencies)
+{
+    const tile_corner c = corner_of(job, tile);
+    const double per_importance = (double)job->slots / job->before[job->tiles];
+    for (size_t task = 0; task < tasks->count; task++) {
+        const uint16_t pixel = tasks->pixel[task];
+        const size_t i = (size_t)(c.top + pixel / TILE_WIDTH) * job->out->width + c.left + pixel % TILE_WIDTH;
+        const double weight = podee_detail_weight(per_importance * (double)job->out->importance[i], (double)frequencies[pixel]);
+        blend_pixel(job->out, i, sums, pixel, weight);
+    }
+}
+
+static void sample_tile(void *argument, size_t tile, uint32_t worker)
+{
+    detail_job *job = argument;
+    const double sum = job->before[job->tiles];
+    const uint64_t first = podee_first_slot(job->before[tile], job->slots, sum), end = podee_first_slot(job->before[tile + 1], job->slots, sum);
+    if (first == end)
+        return;
+    const adaptive_frame *a = job->a;
+    tile_scratch *s = a->scratch[worker];
+    tile_tasks tasks;
+    tile_sums sums;
+    float frequencies[TILE_PIXELS];
+    memset(&sums, 0, sizeof sums);
+    list_tasks(job, tile, &tasks);
+    see_tile(job, tile, job->close, &s->close, &s->close_guess);
+    if (job->open)
+        see_tile(job, tile, job->open, &s->open, &s->open_guess);
+    if (!take_samples(job, tile, &tasks, first, end, worker, &sums))
+        return;
+    const rival_tile t = {.frame = &a->frame->data, .close = &s->close};
+    a->kernels->rivals->frequencies(&t, job->close, frequencies);
+    blend_tile(job, tile, &tasks, &sums, frequencies);
+}
+
+static void place_waves(const detail_job *job)
+{
+    const frame *f = job->a->frame;
+    const mgt_scene *s = f->scene;
+    wave_set_build(f, &f->close, (interval){s->time, 0}, false, job->close);
+    if (job->open)
+        wave_set_build(f, &f->open, (interval){s->time - s->shutter, 0}, false, job->open);
+}
+
+mgt_status adaptive_podee_render(const adaptive_frame *a, const picture_planes *out)
+{
+    const mgt_scene *scene = a->frame->scene;
+    const uint32_t columns = (out->width + TILE_WIDTH - 1) / TILE_WIDTH, rows = (out->height + TILE_HEIGHT - 1) / TILE_HEIGHT;
+    const bool two_ends = scene->shutter > 0 || scene->camera_moves;
+    detail_job job = {.a = a, .out = out, .rules = podee_rules_of(&scene->quality), .columns = columns, .tiles = (size_t)columns * rows};
+    job.close = calloc(two_ends ? 2 : 1, sizeof *job.close);
+    job.open = two_ends && job.close ? job.close + 1 : NULL;
+    job.before = calloc(2 * job.tiles + 1, sizeof *job.before);
+    mgt_status status = MGT_ERROR_MEMORY;
+    if (!job.close || !job.before)
+        goto done;
+    job.water = job.before + job.tiles + 1;
+    place_waves(&job);
+    const thread_loop weigh = {job.tiles, weigh_tile, &job, NULL}, sample = {job.tiles, sample_tile, &job, a->keep_going ? told : NULL};
+    thread_pool_run(a->pool, &weigh);
+    add_tiles(&job);
+    const bool finished = job.before[job.tiles] <= 0 || thread_pool_run(a->pool, &sample);
+    status = finished && !atomic_load(&job.cancelled) ? MGT_OK : MGT_CANCELLED;
+done:
+    free(job.before);
+    free(job.close);
+    return status;
+}
