@@ -16,8 +16,10 @@ crop_of() { # FILE X Y W H OUT: the rectangle of a grey PFM, as raw bytes
 }
 raw() { tail -c +$(($(head -n 3 "$1" | wc -c) + 1)) "$1"; }
 
-for method in none mangata podee-uniform podee-pixel ssaa2 reference; do
+for method in none mangata podee-uniform podee-pixel ssaa2 reference adaptive adaptive-podee; do
     few=()
+    [[ $method == adaptive* ]] && few=(--samples 2)
+    [[ $method == adaptive-podee ]] && few+=(--adaptive podee) && method=adaptive
     [[ $method == reference ]] && few=(--spatial 2 --time-samples 2)
     for n in 1 2 7; do
         works render "$scene" -o t$n.exr --layer all --method $method "${few[@]}" --threads $n "${size[@]}" "${quiet[@]}"

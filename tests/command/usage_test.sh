@@ -76,6 +76,42 @@ podee '--transition smooth: allowed is soft or hard' --transition smooth
 podee '--transition-width 0: allowed is more than 0' --transition-width 0
 podee 'a hard transition has none' --transition hard --transition-width 0.2
 
+for option in 'adaptive podee' 'samples 4' 'target-rmse 0.01' 'budget-ms 10' 'slots 1000' 'importance-center 0.1' 'importance-width 0.1' 'importance-threshold 0.1'; do
+    for method in mangata none podee-uniform ssaa2; do
+        expect 64 'only method adaptive takes them' render "$simple" -o a.png --method $method --$option
+    done
+done
+adaptive() { expect 64 "$1" render "$simple" -o a.png --method adaptive "${@:2}"; }
+adaptive '--adaptive both: allowed is cells or podee' --adaptive both
+for value in 0 -1 0.5 1e9 4097 nan inf '' x; do
+    adaptive "--samples $value: allowed is a number from 1 to 4096" --samples "$value"
+    adaptive "--samples $value: allowed is a number from 1 to 4096" --adaptive podee --samples "$value"
+done
+for value in 0 -0.1 2 nan; do
+    adaptive "--target-rmse $value: allowed is a number from 1e-06 to 1" --target-rmse "$value"
+    adaptive "--importance-center $value: allowed is a number from 1e-06 to 1" --adaptive podee --importance-center "$value"
+    adaptive "--importance-width $value: allowed is a number from 1e-06 to 1" --adaptive podee --importance-width "$value"
+    adaptive "--importance-threshold $value: allowed is a number from 1e-06 to 1" --adaptive podee --importance-threshold "$value"
+done
+for value in 0 -5 1e9; do
+    adaptive "--budget-ms $value: allowed is a number from 0.1 to 1e\+07" --budget-ms "$value"
+done
+for value in 0 -1 4294967297 1.5 1e6 18446744073709551617; do
+    adaptive "--slots $value: allowed is a number from 1 to 4294967296" --adaptive podee --slots "$value"
+done
+for both in '--samples 8 --target-rmse 0.01' '--samples 8 --budget-ms 10' '--target-rmse 0.01 --budget-ms 10' '--adaptive podee --samples 8 --slots 1000'; do
+    # shellcheck disable=SC2086 # options are words
+    adaptive 'each say how much to sample; give one' $both
+done
+adaptive '--slots: it is for --adaptive podee' --slots 1000
+adaptive '--slots: it is for --adaptive podee' --adaptive cells --slots 1000
+for option in 'target-rmse 0.01' 'budget-ms 10'; do
+    adaptive "--${option% *}: it is for --adaptive cells" --adaptive podee --$option
+done
+for option in 'importance-center 0.1' 'importance-width 0.1' 'importance-threshold 0.1'; do
+    adaptive "--${option% *}: it is for --adaptive podee" --$option
+done
+
 expect 64 'unknown kind of file; allowed are .png .exr .pfm .mp4 .y4m' render "$simple" -o a.jpg
 expect 64 'unknown kind of file' render "$simple" -o png
 expect 64 'names no file' render "$simple" -o folder/
