@@ -256,14 +256,14 @@ typedef struct mgt_quality {
     bool transition_hard;     /* podee-*: no transition, waves turn at 0.5 cycles per pixel (Fig. 11) */
     mgt_adaptive adaptive;    /* adaptive: the scheme; at most one of the next three says when it ends */
     double samples;           /* adaptive: evaluations of all waves per pixel of water, on average, 1 … 4096; a cell that leaves waves to its
-                                 covariance counts as the share it evaluates, a ray of podee, traced at both ends of the shutter, as one. 0: 8 where no other end
-                                 is given */
+                                 covariance counts as the share it evaluates, a ray of podee, traced at both ends of the shutter, as one.
+                                 0: 8 where no other end is given */
     double target_rmse;       /* adaptive, cells: ends where the predicted RMSE of coverage over the image is this, 1e-6 … 1; 0: none */
     double budget_ms;         /* adaptive, cells: ends after so much time, 0.1 … 1e7. The one setting whose pixels depend on the machine; 0: none */
     double importance_center; /* adaptive, podee: c of Eq. 1, a coverage, up to 1; 0: 0.1 */
     double importance_width;  /* adaptive, podee: ρ of Eq. 1, 1e-6 … 1; 0: 0.04 */
-    double importance_threshold; /* adaptive, podee: pixels whose importance (1 at its peak) is not above it get no samples, up to 1; 0: 0.05, a little
-                                 more than the importance of a pixel without light by the defaults */
+    double importance_threshold; /* adaptive, podee: pixels whose importance (1 at its peak) is not above it get no samples, up to 1; 0: 0.05,
+                                 a little more than the importance of a pixel without light by the defaults */
     uint64_t sample_slots;    /* adaptive, podee: M of Eq. 3, how many samples the picture gets, up to 2^32; 0: as `samples` says */
 } mgt_quality;
 

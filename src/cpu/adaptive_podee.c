@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: MIT
- * Method adaptive, scheme podee: Podee et al., Adaptive Supersampling, as published (docs/adaptive.md).
+ * Method adaptive, scheme podee: Podee et al., Adaptive Supersampling for Rendering Reflections on Water Surfaces, as published
+ * (docs/adaptive.md).
  *
- * Pixels of the approximate picture get an importance (Eq. 1); those above a threshold are tasks, among which a number of sample slots is shared
- * out in proportion to it (Eq. 2). Tasks stand in the order of tiles, and of pixels within a tile: a tile's slots then are neighbours, one worker takes
- * them all, and what the paper adds up atomically is added in one fixed order. The sum over tiles is taken serially, within tiles in parallel. */
+ * Pixels of the approximate picture get an importance (Eq. 1); those above a threshold are tasks, among which a number of sample slots is
+ * shared out in proportion to it (Eq. 2). Tasks stand in the order of tiles, and of pixels within a tile: a tile's slots then are neighbours, one
+ * worker takes them all, and what the paper adds up atomically is added in one fixed order. Sums within tiles are taken in parallel, over tiles
+ * serially. */
 #include "cpu/adaptive_podee.h"
 
 #include <math.h>

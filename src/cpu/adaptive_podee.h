@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Method adaptive, scheme podee: Podee et al., Adaptive Supersampling, as published (docs/adaptive.md). */
+ * Method adaptive, scheme podee: Podee et al., Adaptive Supersampling for Rendering Reflections on Water Surfaces, as published
+ * (docs/adaptive.md). */
 #ifndef MANGATA_CPU_ADAPTIVE_PODEE_H
 #define MANGATA_CPU_ADAPTIVE_PODEE_H
 

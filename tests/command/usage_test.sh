@@ -76,7 +76,8 @@ podee '--transition smooth: allowed is soft or hard' --transition smooth
 podee '--transition-width 0: allowed is more than 0' --transition-width 0
 podee 'a hard transition has none' --transition hard --transition-width 0.2
 
-for option in 'adaptive podee' 'samples 4' 'target-rmse 0.01' 'budget-ms 10' 'slots 1000' 'importance-center 0.1' 'importance-width 0.1' 'importance-threshold 0.1'; do
+for option in 'adaptive podee' 'samples 4' 'target-rmse 0.01' 'budget-ms 10' 'slots 1000' 'importance-center 0.1' 'importance-width 0.1' \
+    'importance-threshold 0.1'; do
     for method in mangata none podee-uniform ssaa2; do
         expect 64 'only method adaptive takes them' render "$simple" -o a.png --method $method --$option
     done
@@ -99,7 +100,8 @@ done
 for value in 0 -1 4294967297 1.5 1e6 18446744073709551617; do
     adaptive "--slots $value: allowed is a number from 1 to 4294967296" --adaptive podee --slots "$value"
 done
-for both in '--samples 8 --target-rmse 0.01' '--samples 8 --budget-ms 10' '--target-rmse 0.01 --budget-ms 10' '--adaptive podee --samples 8 --slots 1000'; do
+for both in '--samples 8 --target-rmse 0.01' '--samples 8 --budget-ms 10' '--target-rmse 0.01 --budget-ms 10' \
+    '--adaptive podee --samples 8 --slots 1000'; do
     # shellcheck disable=SC2086 # options are words
     adaptive 'each say how much to sample; give one' $both
 done

@@ -273,7 +273,8 @@ static void no_tasks_leave_the_picture(void **state)
     mgt_context_destroy(context);
 }
 
-/* Enough slots: where Eq. 3 is 1 the picture is the detail image, and that is the brute-force one as long as paths are straight: the shutter is short. */
+/* Enough slots: where Eq. 3 is 1 the picture is the detail image, and that is the brute-force one as long as paths are straight: the
+ * shutter is short. */
 static void many_samples_reach_the_reference(void **state)
 {
     (void)state;
@@ -353,7 +354,8 @@ static void bits_do_not_depend_on_machines(void **state)
             mgt_context_destroy(context);
         }
         for (int i = 0; i < PIXELS; i++)
-            assert_true(first.coverage[i] >= 0 && first.coverage[i] <= first.water[i] && first.water[i] <= 1 && first.detail[i] >= 0 && first.detail[i] <= 1);
+            assert_true(first.coverage[i] >= 0 && first.coverage[i] <= first.water[i] && first.water[i] <= 1 && first.detail[i] >= 0 &&
+                        first.detail[i] <= 1);
     }
 }
 

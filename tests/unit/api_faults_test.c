@@ -91,7 +91,7 @@ static mgt_status whole_life(int which)
 /* The methods that allocate on their own: a map, and whole pictures. A frame that failed renders when it is asked for again. */
 static mgt_status life_of_rivals(int which)
 {
-    static const mgt_method methods[] = {MGT_METHOD_LEAN, MGT_METHOD_FXAA, MGT_METHOD_TAA};
+    static const mgt_method methods[] = {MGT_METHOD_LEAN, MGT_METHOD_FXAA, MGT_METHOD_TAA, MGT_METHOD_ADAPTIVE};
     mgt_wave waves[SEA_WAVES];
     mgt_scene scene = sea_scene(waves);
     mgt_context_desc desc = mgt_context_desc_defaults();
@@ -100,8 +100,9 @@ static mgt_status life_of_rivals(int which)
     mgt_status status = mgt_context_create(&context, &desc), first = status;
     const mgt_target targets[2] = {sea_target(MGT_LAYER_COVERAGE, MGT_FORMAT_R32F, pixels[which], 0),
                                    sea_target(MGT_LAYER_COLOR, MGT_FORMAT_RGBA8_SRGB, shown[which], 0)};
-    for (size_t m = 0; m < 3 && context; m++) {
+    for (size_t m = 0; m < 4 && context; m++) {
         scene.quality.method = methods[m];
+        scene.quality.adaptive = methods[m] == MGT_METHOD_ADAPTIVE ? MGT_ADAPTIVE_PODEE : MGT_ADAPTIVE_CELLS;
         status = mgt_render(context, &scene, targets, 2);
         if (status != MGT_OK) {
             assert_true(strlen(mgt_last_error(context)) > 0);
