@@ -106,8 +106,12 @@ void taa_blend_row(const taa_step *s, uint32_t y)
 
 /* ---- frames of the history ---- */
 
-/* The camera `share` of the shutter before it closes, on the line that it takes while the shutter is open; never under the water. */
-static mgt_camera camera_before(const mgt_scene *s, double share)
+double taa_interval(const mgt_scene *s)
+{
+    return s->frame_interval > 0 ? s->frame_interval : s->shutter > 0 ? s->shutter : 1.0 / 30;
+}
+
+mgt_camera taa_camera(const mgt_scene *s, double share)
 {
     mgt_camera c = s->camera;
     if (!s->camera_moves)
@@ -133,6 +137,12 @@ static double halton(unsigned i, unsigned base)
     return value;
 }
 
+void taa_offset(int back, double offset[2])
+{
+    offset[0] = halton((unsigned)(TAA_FRAMES - back), 2) - 0.5;
+    offset[1] = halton((unsigned)(TAA_FRAMES - back), 3) - 0.5;
+}
+
 typedef struct taa_history {
     const picture_maker *m;
     const mgt_scene *scene;
@@ -143,7 +153,7 @@ typedef struct taa_history {
 static camera_rays rays_before(const taa_history *h, int back)
 {
     const double share = h->scene->shutter > 0 ? back * h->interval / h->scene->shutter : 0;
-    const mgt_camera camera = camera_before(h->scene, share);
+    const mgt_camera camera = taa_camera(h->scene, share);
     return camera_rays_of(&camera, h->scene->image.width, h->scene->image.height);
 }
 
@@ -152,9 +162,10 @@ static mgt_status render_current(const taa_history *h, int back, const picture_p
     mgt_scene scene = *h->scene;
     scene.time -= back * h->interval;
     frame_pass pass = {rays_before(h, back), (double)(TAA_FRAMES - 1 - back) / TAA_FRAMES, 1.0 / TAA_FRAMES};
-    const double dx = halton((unsigned)(TAA_FRAMES - back), 2) - 0.5, dy = halton((unsigned)(TAA_FRAMES - back), 3) - 0.5;
+    double offset[2];
+    taa_offset(back, offset);
     for (int i = 0; i < 3; i++)
-        pass.camera.corner[i] += dx * pass.camera.right[i] + dy * pass.camera.down[i];
+        pass.camera.corner[i] += offset[0] * pass.camera.right[i] + offset[1] * pass.camera.down[i];
     const size_t size = sizeof(mgt_target);
     const mgt_target layers[] = {{size, MGT_LAYER_COLOR, MGT_FORMAT_RGB32F, p->color, 0},
                                  {size, MGT_LAYER_COVERAGE, MGT_FORMAT_R32F, p->coverage, 0},
@@ -170,7 +181,7 @@ static void blend_row(void *argument, size_t y)
 
 mgt_status taa_render(const picture_maker *m, const reporter *r, const mgt_scene *scene, picture_planes *out)
 {
-    const taa_history h = {m, scene, scene->frame_interval > 0 ? scene->frame_interval : scene->shutter > 0 ? scene->shutter : 1.0 / 30};
+    const taa_history h = {m, scene, taa_interval(scene)};
     picture_planes current = picture_planes_create(out->width, out->height, MGT_METHOD_TAA), spare = picture_planes_create(out->width, out->height, MGT_METHOD_TAA);
     mgt_status status = MGT_ERROR_MEMORY;
     if (!current.color || !spare.color) {

@@ -59,6 +59,15 @@ fxaa_shift fxaa_shift_of(const float *luma, uint32_t width, uint32_t height, uin
 
 enum { TAA_FRAMES = 8 };
 
+/* Seconds between its frames. */
+double taa_interval(const mgt_scene *scene);
+
+/* The camera `share` of the shutter before it closes, on the line that it takes while the shutter is open; never under the water. */
+mgt_camera taa_camera(const mgt_scene *scene, double share);
+
+/* Where in the pixel the frame `back` frames ago looks, in pixels from the centre: columns and rows. */
+void taa_offset(int back, double offset[2]);
+
 /* One frame of the history: row `y` of `out` from the current picture and the history so far, of `frames` frames. Pixels' hits are
  * sought at `before`, the history's camera, unless `still`. */
 typedef struct taa_step {

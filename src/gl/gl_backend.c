@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "cpu/tile_job.h"
+#include "cpu/whole_frame.h"
 
 /* ---- contexts ---- */
 
@@ -99,6 +100,7 @@ static mgt_status create_renderer(gl_backend_state *s, const reporter *r, mgt_co
     const mgt_status status = gl_renderer_create(&s->renderer, get_proc, r);
     if (status != MGT_OK)
         return status;
+    s->renderer->threads = s->desc.threads;
     const gl_api *gl = &s->renderer->gl;
     gl->CreateVertexArrays(1, &s->vertex_array);
     if (s->egl) {
@@ -199,14 +201,7 @@ static mgt_status read_target(gl_backend_state *s, const mgt_target *target, con
 
 bool gl_renders(const mgt_quality *quality)
 {
-    switch (quality->method) {
-    case MGT_METHOD_NONE:
-    case MGT_METHOD_SSAA:
-    case MGT_METHOD_MANGATA: return true;
-    case MGT_METHOD_PODEE_UNIFORM:
-    case MGT_METHOD_PODEE_PIXEL: return quality->kernels == MGT_KERNELS_EXACT && quality->path_segments <= 1;
-    default: return false;
-    }
+    return quality->method != MGT_METHOD_REFERENCE;
 }
 
 static mgt_status render_by_cpu(gl_backend_state *s, const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count)
@@ -224,7 +219,11 @@ static mgt_status render_by_cpu(gl_backend_state *s, const reporter *r, const mg
 
 static camera_rays scene_camera_at(const void *user, double share)
 {
-    return camera_at(user, share);
+    const frame *f = user;
+    if (share >= 0)
+        return camera_at(f, share);
+    const mgt_camera camera = taa_camera(f->scene, 1 - share);
+    return camera_rays_of(&camera, f->scene->image.width, f->scene->image.height);
 }
 
 void layer_wants_add(layer_wants *w, mgt_layer layer, bool display)
@@ -244,7 +243,7 @@ mgt_status gl_layers_render(gl_backend_state *s, const reporter *r, const mgt_sc
         return status;
     const frame f = frame_of(scene, s->renderer->sky, wants->color);
     *area = image_region(&scene->image);
-    if (wants->display && scene->post.glare > 0)
+    if ((wants->display && scene->post.glare > 0) || is_whole_frame_method(scene->quality.method))
         *area = (region){0, 0, scene->image.width, scene->image.height};
     const gl_job job = {
         .frame = &f,

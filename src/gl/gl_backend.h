@@ -13,7 +13,7 @@ typedef struct gl_backend_state {
     gl_buffer transfer;
     mgt_context_desc desc;
     reporter report;     /* for messages of OpenGL's own */
-    void *cpu;           /* state of the CPU backend for what the shaders do not know; NULL until it is needed */
+    void *cpu;           /* state of the CPU backend for the reference; NULL until it is needed */
     GLuint vertex_array; /* empty */
 } gl_backend_state;
 
@@ -28,7 +28,7 @@ mgt_status gl_enter(gl_backend_state *s, gl_scope *scope, const reporter *r);
 /* Returns `status`, or what OpenGL has to say where that is MGT_OK. */
 mgt_status gl_leave(gl_backend_state *s, const gl_scope *scope, mgt_status status, const reporter *r);
 
-/* Whether the shaders know the method; the others are left to the CPU. */
+/* Whether the shaders know the method; the reference, in double precision, is left to the CPU. */
 bool gl_renders(const mgt_quality *quality);
 
 /* What a call asks for. */
@@ -38,7 +38,8 @@ typedef struct layer_wants {
 
 void layer_wants_add(layer_wants *w, mgt_layer layer, bool display);
 
-/* Renders the layers of a scene that has been checked; `area` gets the part of the image that they hold: the crop, or all of it for glare. */
+/* Renders the layers of a scene that has been checked; `area` gets the part of the image that they hold: the crop, or all of it for
+ * glare and for methods that work on whole pictures. */
 mgt_status gl_layers_render(gl_backend_state *s, const reporter *r, const mgt_scene *scene, const layer_wants *wants, bool tell_progress,
                             region *area);
 

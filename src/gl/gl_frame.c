@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "cpu/tile_job.h"
+#include "cpu/whole_frame.h"
 #include "gl/gl_renderer.h"
 
 /* Memory of a band's lists of waves, unless a single row of tiles needs more. */
@@ -19,10 +20,23 @@ typedef struct band {
     uint32_t tiles; /* of one camera */
 } band;
 
+/* The waves that a method shades from. */
+typedef enum wave_choice {
+    WAVES_POINTS,  /* of the instant t, as point samples see them */
+    WAVES_NOW,     /* of the instant t, filtered */
+    WAVES_SHUTTER, /* over the shutter, filtered */
+} wave_choice;
+
+typedef struct shading {
+    wave_choice waves;
+    gl_program program;
+} shading;
+
 typedef struct frame_run {
     gl_renderer *g;
     const gl_job *job;
     const reporter *r;
+    shading method;
     uint32_t first_row, end_row, first_column, columns; /* of tiles */
     uint32_t band_rows;
     int wave_stride;
@@ -30,9 +44,26 @@ typedef struct frame_run {
     double done, steps;
 } frame_run;
 
-static bool is_filtered(mgt_method method)
+static shading shading_of(const mgt_quality *q)
 {
-    return method == MGT_METHOD_MANGATA || method == MGT_METHOD_PODEE_UNIFORM || method == MGT_METHOD_PODEE_PIXEL;
+    switch (q->method) {
+    case MGT_METHOD_MANGATA: return (shading){WAVES_SHUTTER, PROGRAM_SHADE_MANGATA};
+    case MGT_METHOD_PODEE_UNIFORM:
+    case MGT_METHOD_PODEE_PIXEL: return (shading){WAVES_SHUTTER, q->kernels == MGT_KERNELS_EXACT ? PROGRAM_SHADE_PODEE : PROGRAM_SHADE_KERNELS};
+    case MGT_METHOD_TNDF: return (shading){WAVES_SHUTTER, PROGRAM_SHADE_TNDF};
+    case MGT_METHOD_LEAN: return (shading){WAVES_NOW, PROGRAM_SHADE_LEAN};
+    case MGT_METHOD_LEADR: return (shading){WAVES_NOW, PROGRAM_SHADE_LEADR};
+    case MGT_METHOD_BRUNETON: return (shading){WAVES_NOW, PROGRAM_SHADE_BRUNETON};
+    case MGT_METHOD_MSAA32: return (shading){WAVES_POINTS, PROGRAM_MSAA};
+    case MGT_METHOD_TOKUYOSHI: return (shading){WAVES_POINTS, PROGRAM_TOKUYOSHI};
+    default: return (shading){WAVES_POINTS, PROGRAM_SAMPLES};
+    }
+}
+
+/* Whether tiles are needed of two cameras at once. */
+static bool needs_open(const frame_run *run)
+{
+    return run->method.waves == WAVES_SHUTTER && run->job->frame->scene->camera_moves;
 }
 
 /* ---- memory ---- */
@@ -53,7 +84,7 @@ static mgt_status reserve_tiles(frame_run *run)
     run->end_row = (a->y + a->height - 1) / TILE_HEIGHT + 1;
     const size_t waves = f->scene->water.wave_count;
     run->wave_stride = (int)(waves > 0 ? waves : 1);
-    const size_t cameras = is_filtered(f->scene->quality.method) && f->scene->camera_moves ? 2 : 1;
+    const size_t cameras = needs_open(run) ? 2 : 1;
     const size_t tile_bytes = sizeof(TileData) + NODE_COUNT * sizeof(NodeData) + (size_t)run->wave_stride * (sizeof(TileWave) + sizeof(MarchWave));
     const size_t row_bytes = run->columns * cameras * tile_bytes;
     uint64_t rows = band_bytes / row_bytes;
@@ -102,10 +133,10 @@ static mgt_status reserve_layers(const frame_run *run)
 /* Uniform data of all passes over one set: they stay valid until the set after the next. */
 static size_t set_bytes(void)
 {
-    return sizeof(FrameData) + MGT_MAX_WAVES * (sizeof(WaveData) + sizeof(SortData)) + sizeof(ViewData) + 3 * sizeof(PassData);
+    return sizeof(FrameData) + MGT_MAX_WAVES * (sizeof(WaveData) + sizeof(SortData)) + sizeof(ViewData) + 3 * sizeof(PassData) + sizeof(LeanData);
 }
 
-enum { SET_PARTS = 7 };
+enum { SET_PARTS = 8 };
 
 static void bind_storage(const gl_renderer *g)
 {
@@ -187,6 +218,14 @@ static void bind_layers(const gl_renderer *g)
     g->gl.BindSampler(UNIT_SKY, 0);
 }
 
+static void bind_tables(gl_renderer *g, gl_program program)
+{
+    if (program == PROGRAM_SHADE_KERNELS)
+        gl_podee_bind(g);
+    if (program == PROGRAM_SHADE_LEAN || program == PROGRAM_SHADE_LEADR)
+        gl_lean_bind(g);
+}
+
 /* A program over the pixels of the band. */
 static mgt_status run_pixels(const frame_run *run, const PassData *pass, const char *name, gl_program program)
 {
@@ -196,6 +235,7 @@ static mgt_status run_pixels(const frame_run *run, const PassData *pass, const c
     if (status == MGT_OK) {
         gl_uniform(g, BIND_PASS, pass, sizeof *pass);
         bind_layers(g);
+        bind_tables(g, program);
         g->gl.DispatchCompute((GLuint)pass->columns * 4, (GLuint)pass->rows * 2, 1);
         g->gl.MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
     }
@@ -229,34 +269,47 @@ static mgt_status step_done(frame_run *run, double steps)
 
 /* ---- methods ---- */
 
-static interval shutter_of(const mgt_scene *s)
+/* Tiles for the part of the shutter between two shares of it, of both cameras where it moves; what the instant t shows is the part from 1 to 1. */
+static mgt_status prepare_part(const frame_run *run, const band *b, double from, double to)
 {
-    return s->camera_moves ? (interval){s->time, 0} : (interval){s->time - s->shutter / 2, s->shutter / 2};
-}
-
-static mgt_status render_filtered(frame_run *run, const band *b)
-{
-    const frame *f = run->job->frame;
+    const gl_job *job = run->job;
+    const frame *f = job->frame;
     const mgt_scene *s = f->scene;
-    const bool podee = s->quality.method != MGT_METHOD_MANGATA;
-    PassData pass = b->pass;
-    pass.write_depth = run->job->shaded_depth;
+    const double open = s->time - (1 - from) * s->shutter, close = s->time - (1 - to) * s->shutter;
+    const camera_rays camera = to < 1 ? job->camera_at(job->camera_user, to) : f->close;
     mgt_status status = MGT_OK;
-    uint32_t tiles = b->tiles;
-    if (s->camera_moves) {
-        wave_set_build(f, &f->open, (interval){s->time - s->shutter, 0}, true, run->g->waves);
+    if (needs_open(run)) {
+        const camera_rays before = from > 0 ? job->camera_at(job->camera_user, from) : f->open;
+        wave_set_build(f, &before, (interval){open, 0}, true, run->g->waves);
         status = sort_tiles(run, b, b->tiles);
-        pass.open_slots = (int)b->tiles;
-        tiles *= 2;
     }
-    wave_set_build(f, &f->close, shutter_of(s), true, run->g->waves);
+    const interval part = {0.5 * (open + close), 0.5 * (close - open)};
+    wave_set_build(f, &camera, s->camera_moves ? (interval){close, 0} : part, true, run->g->waves);
     if (status == MGT_OK)
         status = sort_tiles(run, b, 0);
-    if (status == MGT_OK)
-        status = march_nodes(run, tiles);
-    if (status == MGT_OK)
-        status = run_pixels(run, &pass, "shade", podee ? PROGRAM_SHADE_PODEE : PROGRAM_SHADE_MANGATA);
-    return status == MGT_OK ? step_done(run, 1) : status;
+    return status == MGT_OK ? march_nodes(run, needs_open(run) ? 2 * b->tiles : b->tiles) : status;
+}
+
+/* The mean over the parts of the shutter; all methods but podee-* know one part alone. */
+static mgt_status render_filtered(frame_run *run, const band *b)
+{
+    const mgt_quality *q = &run->job->frame->scene->quality;
+    const uint32_t parts = q->path_segments > 1 ? q->path_segments : 1;
+    mgt_status status = MGT_OK;
+    for (uint32_t i = 0; i < parts && status == MGT_OK; i++) {
+        const double from = run->method.waves == WAVES_NOW ? 1 : (double)i / parts;
+        status = prepare_part(run, b, from, (double)(i + 1) / parts);
+        PassData pass = b->pass;
+        pass.clear = i == 0;
+        pass.weight = 1.0f / (float)parts;
+        pass.write_depth = run->job->shaded_depth && i + 1 == parts;
+        pass.open_slots = needs_open(run) ? (int)b->tiles : 0;
+        if (status == MGT_OK)
+            status = run_pixels(run, &pass, "shade", run->method.program);
+        if (status == MGT_OK)
+            status = step_done(run, 1);
+    }
+    return status;
 }
 
 static mgt_status render_centre(frame_run *run, const band *b)
@@ -269,7 +322,7 @@ static mgt_status render_centre(frame_run *run, const band *b)
     pass.weight = 1;
     pass.strata = 1;
     if (status == MGT_OK)
-        status = run_pixels(run, &pass, "samples", PROGRAM_SAMPLES);
+        status = run_pixels(run, &pass, "samples", run->method.program);
     return status == MGT_OK ? step_done(run, 1) : status;
 }
 
@@ -344,7 +397,7 @@ static mgt_status render_surface(frame_run *run, const band *b, bool ready)
     }
     if (status == MGT_OK)
         status = run_pixels(run, &b->pass, "surface", PROGRAM_SURFACE);
-    if (status != MGT_OK || !run->job->wants_normal || !is_filtered(f->scene->quality.method))
+    if (status != MGT_OK || !run->job->wants_normal || run->method.waves == WAVES_POINTS)
         return status;
     wave_set_build(f, &f->close, now, true, run->g->waves);
     status = prepare_set(run, b);
@@ -375,26 +428,48 @@ static mgt_status render_band(frame_run *run, uint32_t row)
         .tiles = run->columns * rows,
     };
     mgt_status status = MGT_OK;
+    const bool points = run->method.waves == WAVES_POINTS;
     if (job->wants_pixels)
-        status = is_filtered(method) ? render_filtered(run, &b) : method == MGT_METHOD_SSAA ? render_samples(run, &b) : render_centre(run, &b);
-    const bool depth = job->wants_depth && !(job->shaded_depth && is_filtered(method));
+        status = !points ? render_filtered(run, &b) : method == MGT_METHOD_SSAA ? render_samples(run, &b) : render_centre(run, &b);
+    const bool depth = job->wants_depth && (points || !job->shaded_depth);
     if (status == MGT_OK && (depth || job->wants_normal))
-        status = render_surface(run, &b, job->wants_pixels && method == MGT_METHOD_NONE);
+        status = render_surface(run, &b, job->wants_pixels && points && method != MGT_METHOD_SSAA);
     return status;
+}
+
+static double count_steps(const mgt_quality *q)
+{
+    const uint64_t all = (uint64_t)q->spatial_samples * q->spatial_samples * q->time_samples - q->sample_first;
+    if (q->method == MGT_METHOD_SSAA)
+        return (double)(q->sample_count ? q->sample_count : all);
+    return q->path_segments > 1 ? q->path_segments : 1;
+}
+
+static mgt_status prepare_tables(const frame_run *run)
+{
+    switch (run->method.program) {
+    case PROGRAM_SHADE_KERNELS: return gl_podee_prepare(run->g, run->job->frame->scene, run->r);
+    case PROGRAM_SHADE_LEAN:
+    case PROGRAM_SHADE_LEADR: return gl_lean_prepare(run->g, run->job->frame, run->r);
+    default: return MGT_OK;
+    }
 }
 
 mgt_status gl_frame_render(gl_renderer *g, const gl_job *job, const reporter *r)
 {
-    frame_run run = {.g = g, .job = job, .r = r};
+    const mgt_quality *q = &job->frame->scene->quality;
+    if (is_whole_frame_method(q->method))
+        return gl_whole_frame_render(g, job, r);
+    frame_run run = {.g = g, .job = job, .r = r, .method = shading_of(q)};
     mgt_status status = reserve_layers(&run);
     if (status == MGT_OK)
         status = reserve_tiles(&run);
+    if (status == MGT_OK && job->wants_pixels)
+        status = prepare_tables(&run);
     if (status != MGT_OK)
         return status;
-    const mgt_quality *q = &job->frame->scene->quality;
-    const uint64_t all = (uint64_t)q->spatial_samples * q->spatial_samples * q->time_samples - q->sample_first;
     const uint32_t bands = (run.end_row - run.first_row + run.band_rows - 1) / run.band_rows;
-    run.steps = bands * (q->method == MGT_METHOD_SSAA ? (double)(q->sample_count ? q->sample_count : all) : 1.0);
+    run.steps = bands * count_steps(q);
     for (uint32_t row = run.first_row; row < run.end_row && status == MGT_OK; row += run.band_rows)
         status = render_band(&run, row);
     if (run.behind)

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * Rendering into textures and framebuffers of the host. */
+#include <math.h>
+
 #include "core/validate.h"
 #include "gl/gl_backend.h"
 #include "gl/gl_view.h"
@@ -112,7 +114,7 @@ mgt_status gl_render_textures(void *state, const reporter *r, const mgt_scene *s
     if (s->egl)
         return report_error(r, MGT_ERROR_ARGUMENT, "render.texture", "this context has no host: create it with mgt_context_desc.gl_get_proc");
     if (!gl_renders(&scene->quality))
-        return report_error(r, MGT_ERROR_UNSUPPORTED, "render.texture", "this method runs on the CPU alone: use mgt_render()");
+        return report_error(r, MGT_ERROR_UNSUPPORTED, "render.texture", "method reference runs on the CPU alone, in double precision: use mgt_render()");
     gl_scope scope;
     mgt_status status = gl_enter(s, &scope, r);
     if (status != MGT_OK)
@@ -175,7 +177,7 @@ static mgt_status prepare_view(const gl_backend_state *s, const mgt_scene *scene
     return status == MGT_OK ? check_framebuffer(&s->renderer->gl, view->framebuffer, index, &out->encodes, r) : status;
 }
 
-/* Between the two ends of the shutter rays and place move evenly. */
+/* Between the two ends of the shutter, and before, rays and place move evenly; never under the water. */
 static camera_rays view_camera_at(const void *user, double share)
 {
     const host_view *v = user;
@@ -189,6 +191,7 @@ static camera_rays view_camera_at(const void *user, double share)
         c.right[i] = open->right[i] + share * (c.right[i] - open->right[i]);
         c.down[i] = open->down[i] + share * (c.down[i] - open->down[i]);
     }
+    c.position[1] = fmax(c.position[1], 0.1 * v->close.rays.position[1]);
     return c;
 }
 
@@ -289,7 +292,7 @@ mgt_status gl_render_views(void *state, const reporter *r, const mgt_scene *scen
     if (s->egl)
         return report_error(r, MGT_ERROR_ARGUMENT, "render.view", "this context has no host: create it with mgt_context_desc.gl_get_proc");
     if (!gl_renders(&scene->quality))
-        return report_error(r, MGT_ERROR_UNSUPPORTED, "render.view", "this method runs on the CPU alone: use mgt_render()");
+        return report_error(r, MGT_ERROR_UNSUPPORTED, "render.view", "method reference runs on the CPU alone, in double precision: use mgt_render()");
     gl_scope scope;
     mgt_status status = gl_enter(s, &scope, r);
     if (status != MGT_OK)

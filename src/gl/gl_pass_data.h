@@ -12,14 +12,15 @@
 #undef STRUCT
 
 _Static_assert(sizeof(PassData) % 16 == 0 && sizeof(GlareData) % 16 == 0 && sizeof(WindowData) % 16 == 0, "std140 layout");
-_Static_assert(sizeof(SortData) == 32 && sizeof(TileWave) == 16 && sizeof(NodeData) == 48, "std430 layout");
+_Static_assert(sizeof(LeanData) % 16 == 0 && sizeof(LeanPass) % 16 == 0 && sizeof(BlendData) % 16 == 0, "std140 layout");
+_Static_assert(sizeof(SortData) == 32 && sizeof(TileWave) == 16 && sizeof(NodeData) == 48 && sizeof(LeanWave) == 32, "std430 layout");
 
 /* Binding points, as in the shaders. */
 enum {
     BIND_FRAME = 0, /* uniform blocks */
     BIND_WAVES = 1,
     BIND_PASS = 2,
-    BIND_EXTRA = 3, /* the view that sorts tiles, glare, or window */
+    BIND_EXTRA = 3, /* the view that sorts tiles, a map of slopes, glare, a blend, or window */
     UNIFORM_BINDINGS,
 
     BIND_TILES = 0, /* storage blocks */
@@ -27,14 +28,22 @@ enum {
     BIND_MARCH = 2,
     BIND_NODES = 3,
     BIND_GLARE_WEIGHTS = 4,
+    BIND_LEAN_WAVES = 4,
     BIND_SORT = 5,
     BIND_WAVE_STORAGE = 6, /* where a uniform block cannot hold the waves */
     STORAGE_BINDINGS,
 
-    UNIT_SKY = 0, /* textures */
+    UNIT_SKY = 0, /* textures; those that no program reads together share units */
     UNIT_FINE = 1,
     UNIT_COARSE = 2,
-    UNIT_DEPTH = 3,
+    UNIT_SWEEP = 1, /* tables of podee-* */
+    UNIT_SHARE = 2,
+    UNIT_LEAN_MEAN = 1,
+    UNIT_LEAN_SQUARE = 2,
+    UNIT_CURRENT = 1, /* color, coverage and mask of the picture that is blended … */
+    UNIT_SHOWN = 4,   /* … as it is displayed (fxaa) … */
+    UNIT_HISTORY = 4, /* … or with these three (taa) … */
+    UNIT_DEPTH = 7,   /* … where it has moved */
     TEXTURE_UNITS,
 
     IMAGE_COLOR = 0, /* images */

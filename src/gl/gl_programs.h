@@ -12,9 +12,20 @@ typedef enum gl_program {
     PROGRAM_NODES,          /* first hits of the tiles' lattices */
     PROGRAM_SHADE_MANGATA,
     PROGRAM_SHADE_PODEE,
+    PROGRAM_SHADE_KERNELS,  /* podee-* with kernels from tables */
+    PROGRAM_SHADE_LEAN,
+    PROGRAM_SHADE_LEADR,
+    PROGRAM_SHADE_BRUNETON,
+    PROGRAM_SHADE_TNDF,
     PROGRAM_SAMPLES,        /* point samples: none, ssaa */
+    PROGRAM_MSAA,
+    PROGRAM_TOKUYOSHI,
     PROGRAM_SURFACE,        /* depth and normal at an instant */
     PROGRAM_NORMAL,         /* the filtered methods' mean shading normal */
+    PROGRAM_LEAN_FILL,      /* the map of slope moments, level 0 … */
+    PROGRAM_LEAN_SHRINK,    /* … and the next coarser level */
+    PROGRAM_FXAA,
+    PROGRAM_TAA,            /* one frame into the history */
     PROGRAM_GLARE_DOWN,
     PROGRAM_GLARE_UP,
     PROGRAM_DISPLAY,

@@ -94,6 +94,13 @@ mgt_status gl_renderer_create(gl_renderer **out, mgt_gl_get_proc get_proc, const
     return status;
 }
 
+static void free_layers(const gl_api *gl, gl_layers *l)
+{
+    gl_image *const images[] = {&l->color, &l->coverage, &l->water, &l->depth, &l->normal, &l->display};
+    for (size_t i = 0; i < sizeof images / sizeof *images; i++)
+        gl_image_free(gl, images[i]);
+}
+
 void gl_renderer_destroy(gl_renderer *g)
 {
     if (!g)
@@ -105,10 +112,12 @@ void gl_renderer_destroy(gl_renderer *g)
     gl_buffer *const buffers[] = {&g->tiles, &g->tile_waves, &g->march_waves, &g->nodes};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++)
         gl_buffer_free(gl, buffers[i]);
-    gl_image *const images[] = {&g->layers.color, &g->layers.coverage, &g->layers.water, &g->layers.depth, &g->layers.normal, &g->layers.display};
-    for (size_t i = 0; i < sizeof images / sizeof *images; i++)
-        gl_image_free(gl, images[i]);
+    gl_layers *const layers[] = {&g->layers, &g->history[0], &g->history[1]};
+    for (size_t i = 0; i < sizeof layers / sizeof *layers; i++)
+        free_layers(gl, layers[i]);
     gl_glare_free(g);
+    gl_podee_free(g);
+    gl_lean_free(g);
     if (g->sky_texture)
         gl->DeleteTextures(1, &g->sky_texture);
     free(g->sky);

@@ -4,6 +4,7 @@
 #define MANGATA_GL_GL_RENDERER_H
 
 #include "cpu/frame.h"
+#include "cpu/lean_map.h"
 #include "gl/gl_memory.h"
 #include "gl/gl_pass_data.h"
 #include "gl/gl_programs.h"
@@ -28,6 +29,20 @@ typedef struct gl_glare {
     gl_buffer weights;
 } gl_glare;
 
+/* Tables of podee-* with kernels: see gl_podee.c. */
+typedef struct gl_podee {
+    gl_image sweep, share; /* R32F */
+    bool filled;
+} gl_podee;
+
+/* The map of methods lean and leadr: see gl_lean.c. */
+typedef struct gl_lean {
+    LeanData data;
+    GLuint mean, square; /* RG32F; RGBA32F, from level 1 on */
+    lean_waves waves;    /* that fill it */
+    bool filled;
+} gl_lean;
+
 typedef struct gl_limits {
     uint32_t texture_side;
     bool waves_in_storage; /* uniform blocks are too small for them */
@@ -42,7 +57,11 @@ typedef struct gl_renderer {
     gl_timers timers;
     gl_buffer tiles, tile_waves, march_waves, nodes; /* of a band */
     gl_layers layers;
+    gl_layers history[2]; /* color, coverage and mask alone: for fxaa and taa */
     gl_glare glare;
+    gl_podee podee;
+    gl_lean lean;
+    uint32_t threads;   /* for tables that the CPU makes; 0: as many as this process may use */
     GLuint sky_texture;
     sky_state *sky;     /* of the last frame; zeroed at first */
     wave_set *waves;    /* of the pass being prepared */
@@ -63,15 +82,15 @@ mgt_status gl_use(gl_renderer *g, gl_program which, const reporter *r);
 /* A uniform block for the next dispatch, copied into the ring. */
 void gl_uniform(gl_renderer *g, GLuint binding, const void *data, size_t size);
 
-/* Where a camera is from the shutter's opening (0) to its closing (1). */
+/* Where a camera is from the shutter's opening (0) to its closing (1); below 0, where it was before. */
 typedef camera_rays (*gl_camera_at)(const void *user, double share);
 
 /* What to draw. */
 typedef struct gl_job {
     const frame *frame;
-    gl_camera_at camera_at; /* for samples over time */
+    gl_camera_at camera_at; /* for samples and parts of the shutter, and frames before */
     const void *camera_user;
-    region area;            /* of the image: what the layers get */
+    region area;            /* of the image: what the layers get; all of it for methods that work on whole pictures */
     bool wants_pixels; /* color, coverage or mask */
     bool wants_depth, wants_normal;
     bool shaded_depth;      /* the depth that the method itself finds will do: filtered ones are spared another look for point samples */
@@ -82,6 +101,17 @@ typedef struct gl_job {
 
 /* Draws the layers of a frame. */
 mgt_status gl_frame_render(gl_renderer *g, const gl_job *job, const reporter *r);
+
+/* The same for methods that work on whole pictures. */
+mgt_status gl_whole_frame_render(gl_renderer *g, const gl_job *job, const reporter *r);
+
+/* What single methods read beside: filled where they are not yet, bound for the next dispatch, freed. */
+mgt_status gl_podee_prepare(gl_renderer *g, const mgt_scene *scene, const reporter *r);
+void gl_podee_bind(const gl_renderer *g);
+void gl_podee_free(gl_renderer *g);
+mgt_status gl_lean_prepare(gl_renderer *g, const frame *f, const reporter *r);
+void gl_lean_bind(gl_renderer *g);
+void gl_lean_free(gl_renderer *g);
 
 /* Makes layers.display from layers.color. */
 mgt_status gl_display_render(gl_renderer *g, const frame *f, const region *area, const reporter *r);

@@ -25,7 +25,7 @@
 #undef min
 #undef max
 
-enum { WIDTH = 320, HEIGHT = 180, PIXELS = WIDTH * HEIGHT, METHODS = 6 };
+enum { WIDTH = 320, HEIGHT = 180, PIXELS = WIDTH * HEIGHT };
 
 static const double far_off = 5e-3;       /* a pixel off by more than this has flipped at a discontinuity: … */
 static const double most_far_off = 1e-3;  /* … this share of them may have */
@@ -35,14 +35,30 @@ static const double most_bytes_off = 1e-3; /* share of displayed bytes that diff
 static const struct {
     const char *name;
     mgt_quality quality;
-} methods[METHODS] = {
+} methods[] = {
+    {"mangata", {.method = MGT_METHOD_MANGATA, .spatial_samples = 1, .time_samples = 1}},
     {"none", {.method = MGT_METHOD_NONE, .spatial_samples = 1, .time_samples = 1}},
     {"ssaa2", {.method = MGT_METHOD_SSAA, .spatial_samples = 2, .time_samples = 1, .seed = 0x123456789abcdef0}},
     {"ssaa2 x 3", {.method = MGT_METHOD_SSAA, .spatial_samples = 2, .time_samples = 3, .seed = 7}},
     {"podee-uniform", {.method = MGT_METHOD_PODEE_UNIFORM, .spatial_samples = 1, .time_samples = 1}},
     {"podee-pixel", {.method = MGT_METHOD_PODEE_PIXEL, .spatial_samples = 1, .time_samples = 1}},
-    {"mangata", {.method = MGT_METHOD_MANGATA, .spatial_samples = 1, .time_samples = 1}},
+    {"1 kernel", {.method = MGT_METHOD_PODEE_UNIFORM, .spatial_samples = 1, .time_samples = 1, .kernels = MGT_KERNELS_1}},
+    {"3 kernels", {.method = MGT_METHOD_PODEE_UNIFORM, .spatial_samples = 1, .time_samples = 1, .kernels = MGT_KERNELS_3}},
+    {"5 kernels", {.method = MGT_METHOD_PODEE_PIXEL, .spatial_samples = 1, .time_samples = 1, .kernels = MGT_KERNELS_5}},
+    {"9 kernels", {.method = MGT_METHOD_PODEE_UNIFORM, .spatial_samples = 1, .time_samples = 1, .kernels = MGT_KERNELS_9}},
+    {"feline", {.method = MGT_METHOD_PODEE_UNIFORM, .spatial_samples = 1, .time_samples = 1, .kernels = MGT_KERNELS_FELINE}},
+    {"riemann", {.method = MGT_METHOD_PODEE_UNIFORM, .spatial_samples = 1, .time_samples = 1, .kernels = MGT_KERNELS_RIEMANN}},
+    {"3 segments", {.method = MGT_METHOD_PODEE_PIXEL, .spatial_samples = 1, .time_samples = 1, .path_segments = 3}},
+    {"msaa32", {.method = MGT_METHOD_MSAA32, .spatial_samples = 1, .time_samples = 1}},
+    {"lean", {.method = MGT_METHOD_LEAN, .spatial_samples = 1, .time_samples = 1}},
+    {"leadr", {.method = MGT_METHOD_LEADR, .spatial_samples = 1, .time_samples = 1}},
+    {"tokuyoshi", {.method = MGT_METHOD_TOKUYOSHI, .spatial_samples = 1, .time_samples = 1}},
+    {"bruneton", {.method = MGT_METHOD_BRUNETON, .spatial_samples = 1, .time_samples = 1}},
+    {"tndf", {.method = MGT_METHOD_TNDF, .spatial_samples = 1, .time_samples = 1}},
+    {"fxaa", {.method = MGT_METHOD_FXAA, .spatial_samples = 1, .time_samples = 1}},
+    {"taa", {.method = MGT_METHOD_TAA, .spatial_samples = 1, .time_samples = 1}},
 };
+enum { METHODS = sizeof methods / sizeof *methods };
 
 typedef struct layers {
     float coverage[PIXELS], color[3 * PIXELS];

@@ -3,9 +3,9 @@
  * A filtered method over the pixels of a band. Define METHOD_STATE, method_state and method_result before.
  */
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) writeonly uniform image2D color_image;
-layout(binding = 1) writeonly uniform image2D coverage_image;
-layout(binding = 2) writeonly uniform image2D water_image;
+layout(binding = 0, rgba32f) uniform image2D color_image;
+layout(binding = 1, r32f) uniform image2D coverage_image;
+layout(binding = 2, r32f) uniform image2D water_image;
 layout(binding = 3) writeonly uniform image2D depth_image;
 
 PixelResult nothing_but_sky(PixelRay p)
@@ -32,6 +32,21 @@ PixelResult water_and_sky(PixelRay p, TilePixel where)
     return method_result(0, p, open, close);
 }
 
+/* A part of the shutter, and what the layers hold of those before. */
+PixelResult part_of_mean(PixelResult result, ivec2 texel)
+{
+    result.color *= pass_data.weight;
+    result.coverage *= pass_data.weight;
+    result.water *= pass_data.weight;
+    if (pass_data.clear == 0) {
+        if (FRAME(0).want_color != 0)
+            result.color += imageLoad(color_image, texel).rgb;
+        result.coverage += imageLoad(coverage_image, texel).r;
+        result.water += imageLoad(water_image, texel).r;
+    }
+    return result;
+}
+
 void main()
 {
     TilePixel pixel = tile_pixel();
@@ -43,6 +58,8 @@ void main()
         result = water_and_sky(p, pixel);
     else
         result = nothing_but_sky(p);
+    if (pass_data.weight != 1.0f)
+        result = part_of_mean(result, pixel.texel);
     if (FRAME(0).want_color != 0)
         imageStore(color_image, pixel.texel, vec4(result.color, 1.0f));
     imageStore(coverage_image, pixel.texel, vec4(result.coverage));

@@ -1,0 +1,117 @@
+/* SPDX-License-Identifier: MIT
+ * The map of slope moments of methods lean and leadr, made on the GPU from the waves of an instant. It is that of src/cpu/lean_map.c: level 0 keeps slopes
+ * alone, the second moments have a texture of their own from level 1 on. */
+#include <math.h>
+#include <string.h>
+
+#include "gl/gl_renderer.h"
+
+enum { FILL_COLUMNS = 64, FILL_ROWS = 8 }; /* of a workgroup of lean_fill.comp */
+
+static mgt_status create_texture(const gl_api *gl, GLuint *texture, GLenum format, GLsizei levels, GLsizei size, const reporter *r)
+{
+    if (*texture)
+        return MGT_OK;
+    GLuint name = 0;
+    gl->CreateTextures(GL_TEXTURE_2D, 1, &name);
+    gl->TextureStorage2D(name, levels, format, size, size);
+    if (gl->GetError() != GL_NO_ERROR) {
+        gl->DeleteTextures(1, &name);
+        return report_error(r, MGT_ERROR_MEMORY, "gl.memory", "OpenGL has no memory for the 255 MiB of slope moments of methods lean and leadr");
+    }
+    *texture = name;
+    return MGT_OK;
+}
+
+static mgt_status create_textures(gl_renderer *g, const reporter *r)
+{
+    gl_lean *l = &g->lean;
+    const mgt_status status = create_texture(&g->gl, &l->mean, GL_RG32F, LEAN_LEVELS, LEAN_SIZE, r);
+    return status == MGT_OK ? create_texture(&g->gl, &l->square, GL_RGBA32F, LEAN_LEVELS - 1, LEAN_SIZE / 2, r) : status;
+}
+
+static void bind_textures(const gl_renderer *g)
+{
+    g->gl.BindTextureUnit(UNIT_LEAN_MEAN, g->lean.mean);
+    g->gl.BindTextureUnit(UNIT_LEAN_SQUARE, g->lean.square);
+    g->gl.BindSampler(UNIT_LEAN_MEAN, 0);
+    g->gl.BindSampler(UNIT_LEAN_SQUARE, 0);
+}
+
+static void upload_waves(gl_renderer *g)
+{
+    const lean_waves *waves = &g->lean.waves;
+    size_t offset;
+    LeanWave *out = gl_ring_allocate(&g->ring, MGT_MAX_WAVES * sizeof *out, &offset);
+    for (size_t i = 0; i < waves->count; i++)
+        out[i] = (LeanWave){.across = waves->across[i],
+                            .down = waves->down[i],
+                            .turns = (float)(waves->turns[i] - rint(waves->turns[i])),
+                            .slope_x = waves->slope_x[i],
+                            .slope_z = waves->slope_z[i]};
+    g->gl.BindBufferRange(GL_SHADER_STORAGE_BUFFER, BIND_LEAN_WAVES, g->ring.buffer, (GLintptr)offset, MGT_MAX_WAVES * sizeof *out);
+}
+
+static mgt_status run_level(gl_renderer *g, int level, const reporter *r)
+{
+    const gl_api *gl = &g->gl;
+    const LeanPass pass = {.level = level, .wave_count = (int)g->lean.waves.count};
+    const mgt_status status = gl_use(g, level == 0 ? PROGRAM_LEAN_FILL : PROGRAM_LEAN_SHRINK, r);
+    if (status != MGT_OK)
+        return status;
+    gl_uniform(g, BIND_EXTRA, &pass, sizeof pass);
+    gl->BindImageTexture(0, g->lean.mean, level, GL_FALSE, 0, GL_WRITE_ONLY, GL_RG32F);
+    if (level == 0) {
+        gl->DispatchCompute(LEAN_SIZE / FILL_COLUMNS, LEAN_SIZE / FILL_ROWS, 1);
+    } else {
+        gl->BindImageTexture(1, g->lean.square, level - 1, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA32F);
+        const GLuint groups = (GLuint)((LEAN_SIZE >> level) + 7) / 8;
+        gl->DispatchCompute(groups, groups, 1);
+    }
+    gl->MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    return MGT_OK;
+}
+
+static mgt_status fill(gl_renderer *g, const reporter *r)
+{
+    mgt_status status = create_textures(g, r);
+    if (status == MGT_OK)
+        status = gl_ring_begin(&g->gl, &g->ring, LEAN_LEVELS * sizeof(LeanPass) + MGT_MAX_WAVES * sizeof(LeanWave), LEAN_LEVELS + 1, r);
+    if (status != MGT_OK)
+        return status;
+    gl_pass_begin(g, "lean");
+    upload_waves(g);
+    bind_textures(g);
+    for (int level = 0; level < LEAN_LEVELS && status == MGT_OK; level++)
+        status = run_level(g, level, r);
+    const mgt_status ended = gl_pass_end(g, r);
+    return status == MGT_OK ? ended : status;
+}
+
+mgt_status gl_lean_prepare(gl_renderer *g, const frame *f, const reporter *r)
+{
+    gl_lean *l = &g->lean;
+    lean_waves waves;
+    l->data = lean_snap_waves(f, &waves);
+    if (l->filled && memcmp(&waves, &l->waves, sizeof waves) == 0)
+        return MGT_OK;
+    l->waves = waves;
+    const mgt_status status = fill(g, r);
+    l->filled = status == MGT_OK;
+    return status;
+}
+
+void gl_lean_bind(gl_renderer *g)
+{
+    bind_textures(g);
+    gl_uniform(g, BIND_EXTRA, &g->lean.data, sizeof g->lean.data);
+}
+
+void gl_lean_free(gl_renderer *g)
+{
+    if (g->lean.mean)
+        g->gl.DeleteTextures(1, &g->lean.mean);
+    if (g->lean.square)
+        g->gl.DeleteTextures(1, &g->lean.square);
+    g->lean = (gl_lean){0};
+}

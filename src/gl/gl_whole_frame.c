@@ -1,0 +1,242 @@
+/* SPDX-License-Identifier: MIT
+ * Methods that work on whole pictures of method `none`, on the GPU: fxaa on one, taa on several. */
+#include "cpu/whole_frame.h"
+
+#include "gl/gl_renderer.h"
+
+/* ---- the pictures of `none` ---- */
+
+/* A frame of the whole one, with a scene of its own. */
+typedef struct none_frame {
+    mgt_scene scene;
+    frame frame;
+} none_frame;
+
+static void none_frame_of(const frame *f, none_frame *out)
+{
+    out->scene = *f->scene;
+    out->scene.quality.method = MGT_METHOD_NONE;
+    out->frame = *f;
+    out->frame.scene = &out->scene;
+}
+
+/* Progress of one picture as a part of the frame's. */
+typedef struct progress_part {
+    mgt_progress_function tell;
+    void *user;
+    double first, share;
+} progress_part;
+
+static bool tell_part(void *user, double fraction)
+{
+    const progress_part *p = user;
+    return p->tell(p->user, p->first + p->share * fraction);
+}
+
+static gl_job job_of_part(const gl_job *job, const none_frame *none, progress_part *part)
+{
+    gl_job own = *job;
+    own.frame = &none->frame;
+    own.shaded_depth = false;
+    if (job->progress) {
+        own.progress = tell_part;
+        own.progress_user = part;
+    }
+    return own;
+}
+
+/* ---- passes ---- */
+
+static void bind_textures(const gl_renderer *g, GLuint first, const gl_layers *l)
+{
+    const gl_image *const images[] = {&l->color, &l->coverage, &l->water};
+    for (GLuint i = 0; i < sizeof images / sizeof *images; i++) {
+        g->gl.BindTextureUnit(first + i, images[i]->name);
+        g->gl.BindSampler(first + i, 0);
+    }
+}
+
+static mgt_status reserve(gl_renderer *g, gl_layers *l, const region *area, bool color, const reporter *r)
+{
+    mgt_status status = MGT_OK;
+    if (color)
+        status = gl_image_reserve(&g->gl, &l->color, GL_RGBA32F, area->width, area->height, r);
+    if (status == MGT_OK)
+        status = gl_image_reserve(&g->gl, &l->coverage, GL_R32F, area->width, area->height, r);
+    if (status == MGT_OK)
+        status = gl_image_reserve(&g->gl, &l->water, GL_R32F, area->width, area->height, r);
+    return status;
+}
+
+/* Color, coverage and mask from g->layers, and what else is bound, to `out`. */
+static mgt_status blend(gl_renderer *g, gl_program program, const BlendData *data, const gl_layers *out, const reporter *r)
+{
+    const gl_api *gl = &g->gl;
+    mgt_status status = gl_ring_begin(gl, &g->ring, sizeof *data, 1, r);
+    if (status != MGT_OK)
+        return status;
+    gl_pass_begin(g, "blend");
+    status = gl_use(g, program, r);
+    if (status == MGT_OK) {
+        gl_uniform(g, BIND_EXTRA, data, sizeof *data);
+        bind_textures(g, UNIT_CURRENT, &g->layers);
+        gl->BindImageTexture(IMAGE_COLOR, out->color.name, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA32F);
+        gl->BindImageTexture(IMAGE_COVERAGE, out->coverage.name, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_R32F);
+        gl->BindImageTexture(IMAGE_WATER, out->water.name, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_R32F);
+        gl->DispatchCompute((GLuint)(data->width + 7) / 8, (GLuint)(data->height + 7) / 8, 1);
+        gl->MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
+    }
+    const mgt_status ended = gl_pass_end(g, r);
+    return status == MGT_OK ? ended : status;
+}
+
+static void swap_images(gl_image *a, gl_image *b)
+{
+    const gl_image c = *a;
+    *a = *b;
+    *b = c;
+}
+
+static void swap_pictures(gl_layers *a, gl_layers *b)
+{
+    swap_images(&a->color, &b->color);
+    swap_images(&a->coverage, &b->coverage);
+    swap_images(&a->water, &b->water);
+}
+
+/* ---- fxaa ---- */
+
+static mgt_status render_fxaa(gl_renderer *g, const gl_job *job, const reporter *r)
+{
+    none_frame none;
+    none_frame_of(job->frame, &none);
+    none.frame.data.want_color = 1;
+    none.scene.post.glare = 0; /* edges are those of the tone-mapped picture, before glare */
+    progress_part part = {job->progress, job->progress_user, 0, 1};
+    const gl_job own = job_of_part(job, &none, &part);
+    mgt_status status = gl_frame_render(g, &own, r);
+    if (status == MGT_OK)
+        status = reserve(g, &g->history[0], &job->area, true, r);
+    if (status == MGT_OK)
+        status = gl_display_render(g, &none.frame, &job->area, r);
+    if (status != MGT_OK)
+        return status;
+    const BlendData data = {.width = (int)job->area.width, .height = (int)job->area.height};
+    g->gl.BindTextureUnit(UNIT_SHOWN, g->layers.display.name);
+    g->gl.BindSampler(UNIT_SHOWN, 0);
+    status = blend(g, PROGRAM_FXAA, &data, &g->history[0], r);
+    swap_pictures(&g->layers, &g->history[0]);
+    return status;
+}
+
+/* ---- taa ---- */
+
+static double dot3(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* How a point before the camera `now` becomes a pixel of the camera `before`. */
+static void set_reprojection(BlendData *d, const camera_rays *now, const camera_rays *before)
+{
+    const double *right = before->right, *down = before->down;
+    const double normal[3] = {right[1] * down[2] - right[2] * down[1], right[2] * down[0] - right[0] * down[2], right[0] * down[1] - right[1] * down[0]};
+    const double ahead = dot3(normal, before->corner), columns = dot3(right, right), rows = dot3(down, down);
+    d->ray_x = (float)now->corner[0], d->ray_y = (float)now->corner[1], d->ray_z = (float)now->corner[2];
+    d->right_x = (float)now->right[0], d->right_y = (float)now->right[1], d->right_z = (float)now->right[2];
+    d->down_x = (float)now->down[0], d->down_y = (float)now->down[1], d->down_z = (float)now->down[2];
+    d->moved_x = (float)(now->position[0] - before->position[0]);
+    d->moved_y = (float)(now->position[1] - before->position[1]);
+    d->moved_z = (float)(now->position[2] - before->position[2]);
+    d->ahead_x = (float)(normal[0] / ahead), d->ahead_y = (float)(normal[1] / ahead), d->ahead_z = (float)(normal[2] / ahead);
+    d->column_x = (float)(right[0] / columns), d->column_y = (float)(right[1] / columns), d->column_z = (float)(right[2] / columns);
+    d->row_x = (float)(down[0] / rows), d->row_y = (float)(down[1] / rows), d->row_z = (float)(down[2] / rows);
+    d->first_column = (float)(dot3(before->corner, right) / columns);
+    d->first_row = (float)(dot3(before->corner, down) / rows);
+}
+
+/* The rays of the frame `back` frames ago, through the pixels' centres. */
+static camera_rays rays_before(const gl_job *job, int back)
+{
+    const mgt_scene *s = job->frame->scene;
+    if (!s->camera_moves || s->shutter <= 0)
+        return job->frame->close;
+    return job->camera_at(job->camera_user, 1 - back * taa_interval(s) / s->shutter);
+}
+
+static mgt_status render_current(gl_renderer *g, const gl_job *job, int back, const reporter *r)
+{
+    none_frame none;
+    none_frame_of(job->frame, &none);
+    none.scene.time -= back * taa_interval(job->frame->scene);
+    double offset[2];
+    taa_offset(back, offset);
+    camera_rays *c = &none.frame.close;
+    *c = rays_before(job, back);
+    for (int i = 0; i < 3; i++)
+        c->corner[i] += offset[0] * c->right[i] + offset[1] * c->down[i];
+    progress_part part = {job->progress, job->progress_user, (double)(TAA_FRAMES - 1 - back) / TAA_FRAMES, 1.0 / TAA_FRAMES};
+    gl_job own = job_of_part(job, &none, &part);
+    own.wants_depth = none.scene.camera_moves;
+    own.wants_normal = false;
+    return gl_frame_render(g, &own, r);
+}
+
+/* The picture in g->layers into the history, which is read from the first and written to the second of g->history. */
+static mgt_status add_to_history(gl_renderer *g, const gl_job *job, int back, const reporter *r)
+{
+    const int frames = TAA_FRAMES - 1 - back;
+    BlendData data = {
+        .width = (int)job->area.width,
+        .height = (int)job->area.height,
+        .still = !job->frame->scene->camera_moves,
+        .share = frames < 9 ? 1.0f / (float)(frames + 1) : 0.1f,
+    };
+    const camera_rays now = rays_before(job, back), before = rays_before(job, back + 1);
+    set_reprojection(&data, &now, &before);
+    bind_textures(g, UNIT_HISTORY, &g->history[0]);
+    g->gl.BindTextureUnit(UNIT_DEPTH, g->layers.depth.name);
+    g->gl.BindSampler(UNIT_DEPTH, 0);
+    return blend(g, PROGRAM_TAA, &data, &g->history[1], r);
+}
+
+static mgt_status render_taa(gl_renderer *g, const gl_job *job, const reporter *r)
+{
+    const bool color = job->frame->data.want_color != 0;
+    mgt_status status = reserve(g, &g->history[1], &job->area, color, r);
+    for (int back = TAA_FRAMES - 1; back >= 0 && status == MGT_OK; back--) {
+        status = render_current(g, job, back, r);
+        if (back == TAA_FRAMES - 1) {
+            swap_pictures(&g->layers, &g->history[0]);
+            continue;
+        }
+        if (status == MGT_OK)
+            status = add_to_history(g, job, back, r);
+        swap_pictures(&g->history[0], &g->history[1]);
+    }
+    swap_pictures(&g->layers, &g->history[0]);
+    return status;
+}
+
+/* ---- both ---- */
+
+/* Depth and normal are those of `none`. */
+static mgt_status render_surface(gl_renderer *g, const gl_job *job, double share, const reporter *r)
+{
+    none_frame none;
+    none_frame_of(job->frame, &none);
+    progress_part part = {job->progress, job->progress_user, 1 - share, share};
+    gl_job own = job_of_part(job, &none, &part);
+    own.wants_pixels = false;
+    return gl_frame_render(g, &own, r);
+}
+
+mgt_status gl_whole_frame_render(gl_renderer *g, const gl_job *job, const reporter *r)
+{
+    if (!job->wants_pixels)
+        return render_surface(g, job, 1, r);
+    if (job->frame->scene->quality.method == MGT_METHOD_FXAA)
+        return render_fxaa(g, job, r);
+    const mgt_status status = render_taa(g, job, r);
+    return status == MGT_OK && (job->wants_depth || job->wants_normal) ? render_surface(g, job, 0, r) : status;
+}

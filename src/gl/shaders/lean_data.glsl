@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The map of slope moments. Of level 0 only slopes are kept: its moments are their products.
+ */
+#include "lean_types.k"
+
+layout(std140, binding = 3) uniform LeanBlock { LeanData lean_data; };
+layout(binding = 1) uniform sampler2D mean_texture;
+layout(binding = 2) uniform sampler2D square_texture; /* from level 1 on */
+#define LEAN(cx) lean_data
+
+vec2 LEAN_MEAN(int cx, float level, float column, float row)
+{
+    return texelFetch(mean_texture, ivec2(int(column), int(row)), int(level)).rg;
+}
+
+vec3 LEAN_SQUARE(int cx, float level, float column, float row)
+{
+    if (level < 0.5f) {
+        vec2 slope = texelFetch(mean_texture, ivec2(int(column), int(row)), 0).rg;
+        return vec3(slope.x * slope.x, slope.x * slope.y, slope.y * slope.y);
+    }
+    return texelFetch(square_texture, ivec2(int(column), int(row)), int(level) - 1).rgb;
+}

@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Methods `podee-uniform` and `podee-pixel` with circular kernels, read from tables, in place of the Gaussian (`--kernels`).
+ */
+#include "lattice_data.glsl"
+
+/* src/precompute/podee_tables.h; the slices of the sweep stand side by side, eight a row. */
+layout(binding = 1) uniform sampler2D sweep_texture;
+layout(binding = 2) uniform sampler2D share_texture;
+
+float SWEEP_TEXEL(int cx, float v, float u, float slice)
+{
+    int s = int(slice);
+    return texelFetch(sweep_texture, ivec2(int(v), int(u)) + 512 * ivec2(s % 8, s / 8), 0).r;
+}
+
+float SHARE_TEXEL(int cx, float r, float slice) { return texelFetch(share_texture, ivec2(int(r), int(slice)), 0).r; }
+
+#include "podee_mixture.k"
+#define METHOD_STATE PodeeState
+#define method_state podee_state
+#define method_result(cx, p, open, close) podee_result_of(cx, p, open, close, podee_mixture_coverage(cx, open, close))
+#include "shade.glsl"

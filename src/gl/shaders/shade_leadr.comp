@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Method `leadr`.
+ */
+#define SHARED_WAVES
+#include "lattice_data.glsl"
+#include "lean_data.glsl"
+#include "leadr.k"
+#define METHOD_STATE SlopeState
+#define method_state slope_state
+#define method_result(cx, p, open, close) leadr_result(cx, p, close)
+#include "shade.glsl"

@@ -1,0 +1,8 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Method `tokuyoshi`.
+ */
+#include "lattice_data.glsl"
+#include "tokuyoshi.k"
+#define point_pixel tokuyoshi_pixel
+#include "points.glsl"
