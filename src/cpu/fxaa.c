@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * Method fxaa (after Lottes 2009): finds edges in the displayed picture of method `none` and reads every pixel a little across its edge. */
+ * Method fxaa (after Lottes 2009): finds edges in the displayed picture of method `none` and reads every pixel a little across its edge.
+ *
+ * Luma is a whole number, 299 red + 587 green + 114 blue of displayed bytes, by 2^-18: sums and halves are exact, and ties are ties on every machine. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -35,8 +37,8 @@ static luma_patch patch_of(const luma_view *v, int x, int y)
             if (i == 1 || j == 1)
                 least = fminf(least, p.at[j][i]), most = fmaxf(most, p.at[j][i]);
         }
-    /* Contrast below an eighth of the brightest, or too dark to see, is no edge. */
-    p.range = most - least < fmaxf(1.0f / 32, most / 8) ? 0 : most - least;
+    /* Contrast below an eighth of the brightest, or below 1/32 of white, too dark to see, is no edge. */
+    p.range = most - least < fmaxf(255000 * 0x1p-23f, most / 8) ? 0 : most - least;
     return p;
 }
 
@@ -121,7 +123,7 @@ static void luma_row(void *argument, size_t y)
     const fxaa_job *job = argument;
     for (size_t i = y * job->in->width; i < (y + 1) * job->in->width; i++) {
         const uint8_t *c = job->displayed + 4 * i;
-        job->luma[i] = (0.299f * (float)c[0] + 0.587f * (float)c[1] + 0.114f * (float)c[2]) / 255;
+        job->luma[i] = (float)(299 * c[0] + 587 * c[1] + 114 * c[2]) * 0x1p-18f;
     }
 }
 

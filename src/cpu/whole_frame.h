@@ -54,7 +54,7 @@ typedef struct fxaa_shift {
     float amount;
 } fxaa_shift;
 
-/* `luma`: of the displayed picture, [0, 1]. */
+/* `luma`: of the displayed picture, [0, 1]; white is .973. */
 fxaa_shift fxaa_shift_of(const float *luma, uint32_t width, uint32_t height, uint32_t x, uint32_t y);
 
 enum { TAA_FRAMES = 8 };

@@ -163,6 +163,25 @@ static void expect_same_layers(const layers *a, const layers *b)
     }
 }
 
+/* Every method; podee-* also with kernels and a path of several pieces. */
+enum { QUALITIES = SEA_METHODS + SEA_RIVALS + 3 };
+
+static mgt_quality quality_of(const mgt_scene *scene, int i)
+{
+    static const mgt_kernels kernels[] = {MGT_KERNELS_5, MGT_KERNELS_FELINE, MGT_KERNELS_RIEMANN};
+    mgt_quality q = scene->quality;
+    if (i < SEA_METHODS) {
+        q.method = sea_methods[i];
+    } else if (i < SEA_METHODS + SEA_RIVALS) {
+        q.method = sea_rivals[i - SEA_METHODS];
+    } else {
+        q.method = i % 2 ? MGT_METHOD_PODEE_UNIFORM : MGT_METHOD_PODEE_PIXEL;
+        q.kernels = kernels[i - SEA_METHODS - SEA_RIVALS];
+        q.path_segments = (uint32_t)(i - SEA_METHODS - SEA_RIVALS + 1);
+    }
+    return q;
+}
+
 /* Every method, layer and format, with a camera that rests and one that moves. */
 static void layers_are_those_of_the_cpu(void **state)
 {
@@ -170,12 +189,14 @@ static void layers_are_those_of_the_cpu(void **state)
     static layers expected, got;
     mgt_wave waves[SEA_WAVES];
     mgt_scene scene = sea_scene(waves);
+    scene.frame_interval = 0.01;
+    const mgt_scene still = scene;
     mgt_context *gl = gl_context(), *cpu = sea_context(2, MGT_ISA_AUTO);
     for (int moves = 0; moves < 2; moves++)
-        for (int m = 0; m < SEA_METHODS; m++) {
+        for (int m = 0; m < QUALITIES; m++) {
             scene.camera_moves = moves;
             scene.camera_open.position[0] = -0.05;
-            sea_take_method(&scene, m);
+            scene.quality = quality_of(&still, m);
             render_all(cpu, &scene, &expected);
             memset(&got, 0xff, sizeof got);
             render_all(gl, &scene, &got);
@@ -197,22 +218,26 @@ static void crops_are_parts_of_the_whole(void **state)
     mgt_wave waves[SEA_WAVES];
     mgt_scene scene = sea_scene(waves);
     mgt_context *gl = gl_context();
-    render_all(gl, &scene, &whole);
     enum { X = 35, Y = 17, W = 40, H = 26 };
-    mgt_scene crop = scene;
-    crop.image.crop_x = X, crop.image.crop_y = Y, crop.image.crop_width = W, crop.image.crop_height = H;
-    const mgt_target targets[] = {sea_target(MGT_LAYER_COVERAGE, MGT_FORMAT_R32F, part, 0),
-        sea_target(MGT_LAYER_COLOR, MGT_FORMAT_RGBA8_SRGB, shown, 0)};
-    sea_render(gl, &crop, targets, 1); /* alone: rendered as small as it is … */
-    for (size_t y = 0; y < H; y++)
-        assert_memory_equal(part + y * W, whole.coverage + (y + Y) * SEA_WIDTH + X, W * sizeof(float));
-    sea_render(gl, &crop, targets, 2); /* … with glare out of the whole picture */
-    for (size_t y = 0; y < H; y++) {
-        assert_memory_equal(part + y * W, whole.coverage + (y + Y) * SEA_WIDTH + X, W * sizeof(float));
-        assert_memory_equal(shown + y * W * 4, whole.shown + ((y + Y) * SEA_WIDTH + X) * 4, W * 4);
+    static const mgt_method methods[] = {MGT_METHOD_MANGATA, MGT_METHOD_MSAA32, MGT_METHOD_BRUNETON, MGT_METHOD_FXAA, MGT_METHOD_TAA};
+    for (size_t m = 0; m < sizeof methods / sizeof *methods; m++) {
+        scene.quality.method = methods[m];
+        render_all(gl, &scene, &whole);
+        mgt_scene crop = scene;
+        crop.image.crop_x = X, crop.image.crop_y = Y, crop.image.crop_width = W, crop.image.crop_height = H;
+        const mgt_target targets[] = {sea_target(MGT_LAYER_COVERAGE, MGT_FORMAT_R32F, part, 0),
+            sea_target(MGT_LAYER_COLOR, MGT_FORMAT_RGBA8_SRGB, shown, 0)};
+        sea_render(gl, &crop, targets, 1); /* alone: rendered as small as it is … */
+        for (size_t y = 0; y < H; y++)
+            assert_memory_equal(part + y * W, whole.coverage + (y + Y) * SEA_WIDTH + X, W * sizeof(float));
+        sea_render(gl, &crop, targets, 2); /* … with glare out of the whole picture */
+        for (size_t y = 0; y < H; y++) {
+            assert_memory_equal(part + y * W, whole.coverage + (y + Y) * SEA_WIDTH + X, W * sizeof(float));
+            assert_memory_equal(shown + y * W * 4, whole.shown + ((y + Y) * SEA_WIDTH + X) * 4, W * 4);
+        }
+        render_all(gl, &scene, &again);
+        assert_memory_equal(&again, &whole, sizeof again);
     }
-    render_all(gl, &scene, &again);
-    assert_memory_equal(&again, &whole, sizeof again);
     mgt_context_destroy(gl);
 }
 
@@ -455,29 +480,34 @@ static void textures_hold_the_layers(void **state)
     mgt_context *context = host_context();
     mgt_wave waves[SEA_WAVES];
     const mgt_scene scene = sea_scene(waves);
-    render_all(context, &scene, &expected);
     mgt_gl_texture t[] = {
         host_texture(&h, MGT_LAYER_COLOR, GL_RGBA32F, SEA_WIDTH, SEA_HEIGHT), host_texture(&h, MGT_LAYER_COLOR, GL_RGBA8, SEA_WIDTH, SEA_HEIGHT),
         host_texture(&h, MGT_LAYER_COVERAGE, GL_R32F, SEA_WIDTH, SEA_HEIGHT), host_texture(&h, MGT_LAYER_MASK, GL_R16F, SEA_WIDTH, SEA_HEIGHT),
         host_texture(&h, MGT_LAYER_DEPTH, GL_R32F, SEA_WIDTH, SEA_HEIGHT),    host_texture(&h, MGT_LAYER_NORMAL, GL_RGBA16F, SEA_WIDTH, SEA_HEIGHT),
     };
     enum { TEXTURES = sizeof t / sizeof *t };
-    for (int i = 0; i < 8; i++)
-        if (mgt_gl_render_textures(context, &scene, t, TEXTURES) != MGT_OK)
+    for (int m = 0; m < QUALITIES; m++) {
+        mgt_scene drawn = scene;
+        drawn.quality = quality_of(&scene, m);
+        if (drawn.quality.method == MGT_METHOD_REFERENCE)
+            continue;
+        render_all(context, &drawn, &expected);
+        if (mgt_gl_render_textures(context, &drawn, t, TEXTURES) != MGT_OK)
             fail_msg("%s", mgt_last_error(context));
-    assert_int_equal(h.gl.GetError(), GL_NO_ERROR);
-    read_texture(&h, t[0].texture, GL_RGBA, GL_FLOAT, sizeof got.color4, got.color4);
-    read_texture(&h, t[1].texture, GL_RGBA, GL_UNSIGNED_BYTE, sizeof got.shown, got.shown);
-    read_texture(&h, t[2].texture, GL_RED, GL_FLOAT, sizeof got.coverage, got.coverage);
-    read_texture(&h, t[3].texture, GL_RED, GL_FLOAT, sizeof got.mask, got.mask);
-    read_texture(&h, t[4].texture, GL_RED, GL_FLOAT, sizeof got.depth, got.depth);
-    read_texture(&h, t[5].texture, GL_RGBA, GL_FLOAT, sizeof got.normal4, got.normal4);
-    assert_memory_equal(got.color4, expected.color4, sizeof got.color4);
-    assert_memory_equal(got.shown, expected.shown, sizeof got.shown);
-    assert_memory_equal(got.coverage, expected.coverage, sizeof got.coverage);
-    assert_memory_equal(got.depth, expected.depth, sizeof got.depth);
-    assert_int_equal(count_off(got.mask, expected.mask, PIXELS, 1e-3), 0);
-    assert_int_equal(count_off(got.normal4, expected.normal4, PIXELS * 4, 1e-3), 0);
+        assert_int_equal(h.gl.GetError(), GL_NO_ERROR);
+        read_texture(&h, t[0].texture, GL_RGBA, GL_FLOAT, sizeof got.color4, got.color4);
+        read_texture(&h, t[1].texture, GL_RGBA, GL_UNSIGNED_BYTE, sizeof got.shown, got.shown);
+        read_texture(&h, t[2].texture, GL_RED, GL_FLOAT, sizeof got.coverage, got.coverage);
+        read_texture(&h, t[3].texture, GL_RED, GL_FLOAT, sizeof got.mask, got.mask);
+        read_texture(&h, t[4].texture, GL_RED, GL_FLOAT, sizeof got.depth, got.depth);
+        read_texture(&h, t[5].texture, GL_RGBA, GL_FLOAT, sizeof got.normal4, got.normal4);
+        assert_memory_equal(got.color4, expected.color4, sizeof got.color4);
+        assert_memory_equal(got.shown, expected.shown, sizeof got.shown);
+        assert_memory_equal(got.coverage, expected.coverage, sizeof got.coverage);
+        assert_memory_equal(got.depth, expected.depth, sizeof got.depth);
+        assert_int_equal(count_off(got.mask, expected.mask, PIXELS, 1e-3), 0);
+        assert_int_equal(count_off(got.normal4, expected.normal4, PIXELS * 4, 1e-3), 0);
+    }
 
     mgt_gl_timing timings[16];
     const size_t count = mgt_gl_get_timings(context, timings, 16);
@@ -523,6 +553,7 @@ static void wrong_textures_are_refused(void **state)
     assert_int_equal(mgt_gl_render_textures(context, NULL, &good, 1), MGT_ERROR_ARGUMENT);
     scene.quality.method = MGT_METHOD_REFERENCE;
     assert_int_equal(mgt_gl_render_textures(context, &scene, &good, 1), MGT_ERROR_UNSUPPORTED);
+    assert_non_null(strstr(mgt_last_error(context), "method reference runs on the CPU alone"));
     scene.quality.method = MGT_METHOD_NONE;
     assert_int_equal(mgt_gl_render_textures(context, &scene, &good, 1), MGT_OK);
     assert_int_equal(h.gl.GetError(), GL_NO_ERROR);

@@ -444,8 +444,17 @@ static void default_framebuffer(void **state)
 
 /* ---- what a frame costs the host ------------------------------------------------------------------------- */
 
-static const mgt_method methods[] = {MGT_METHOD_MANGATA, MGT_METHOD_NONE, MGT_METHOD_SSAA, MGT_METHOD_PODEE_UNIFORM, MGT_METHOD_PODEE_PIXEL};
+/* All that a host can draw; podee-* with kernels in place of its Gaussian on its second visit. */
+static const mgt_method methods[] = {MGT_METHOD_MANGATA,       MGT_METHOD_NONE,        MGT_METHOD_SSAA,          MGT_METHOD_PODEE_UNIFORM,
+                                     MGT_METHOD_PODEE_PIXEL,   MGT_METHOD_MSAA32,      MGT_METHOD_LEAN,          MGT_METHOD_LEADR,
+                                     MGT_METHOD_TOKUYOSHI,     MGT_METHOD_BRUNETON,    MGT_METHOD_FXAA,          MGT_METHOD_TAA,
+                                     MGT_METHOD_TNDF,          MGT_METHOD_PODEE_PIXEL};
 enum { METHODS = sizeof methods / sizeof methods[0] };
+
+static mgt_quality quality_of(int i)
+{
+    return (mgt_quality){.method = methods[i], .spatial_samples = 1, .time_samples = 1, .kernels = i + 1 == METHODS ? MGT_KERNELS_5 : MGT_KERNELS_EXACT};
+}
 
 static void state_is_as_before(void **state)
 {
@@ -457,7 +466,7 @@ static void state_is_as_before(void **state)
     mgt_scene scene = make_scene(waves, test_time);
     engine e = start(DEPTH_REVERSED);
     for (int i = 0; i < METHODS; i++) {
-        scene.quality.method = methods[i];
+        scene.quality = quality_of(i);
         scene.quality.spatial_samples = 2;
         for (int color = i == 0 ? MGT_GL_COLOR_RADIANCE : MGT_GL_COLOR_DISPLAY; color <= MGT_GL_COLOR_DISPLAY; color++) {
             mgt_gl_view view = whole_view(&e);
@@ -518,8 +527,7 @@ static mgt_scene changing_scene(mgt_wave waves[WAVES], int frame, bool sky_chang
     scene.water.index_of_refraction = 1.3 + 0.01 * (frame % 5);
     scene.post.exposure_ev = 0.1 * (frame % 3);
     scene.post.tone_map = (mgt_tone_map)(frame % 4);
-    scene.quality.method = methods[frame % METHODS];
-    scene.quality.spatial_samples = 1;
+    scene.quality = quality_of(frame % METHODS);
     scene.sky.model = MGT_SKY_GRADIENT;
     if (sky_changes) {
         scene.light.azimuth_deg = frame % 9;
