@@ -6,7 +6,7 @@
 
 #include "gl/gl_renderer.h"
 
-enum { FILL_COLUMNS = 64, FILL_ROWS = 8 }; /* of a workgroup of lean_fill.comp */
+enum { FILL_COLUMNS = 64, FILL_ROWS = 16 }; /* of a workgroup of lean_fill.comp */
 
 static mgt_status create_texture(const gl_api *gl, GLuint *texture, GLenum format, GLsizei levels, GLsizei size, const reporter *r)
 {
@@ -49,7 +49,7 @@ static void upload_waves(gl_renderer *g)
                             .turns = (float)(waves->turns[i] - rint(waves->turns[i])),
                             .slope_x = waves->slope_x[i],
                             .slope_z = waves->slope_z[i]};
-    g->gl.BindBufferRange(GL_SHADER_STORAGE_BUFFER, BIND_LEAN_WAVES, g->ring.buffer, (GLintptr)offset, MGT_MAX_WAVES * sizeof *out);
+    g->gl.BindBufferRange(GL_UNIFORM_BUFFER, BIND_WAVES, g->ring.buffer, (GLintptr)offset, MGT_MAX_WAVES * sizeof *out);
 }
 
 static mgt_status run_level(gl_renderer *g, int level, const reporter *r)

@@ -12,8 +12,8 @@
 #undef STRUCT
 
 _Static_assert(sizeof(PassData) % 16 == 0 && sizeof(GlareData) % 16 == 0 && sizeof(WindowData) % 16 == 0, "std140 layout");
-_Static_assert(sizeof(LeanData) % 16 == 0 && sizeof(LeanPass) % 16 == 0 && sizeof(BlendData) % 16 == 0, "std140 layout");
-_Static_assert(sizeof(SortData) == 32 && sizeof(TileWave) == 16 && sizeof(NodeData) == 48 && sizeof(LeanWave) == 32, "std430 layout");
+_Static_assert(sizeof(LeanWave) == 32 && sizeof(LeanData) % 16 == 0 && sizeof(LeanPass) % 16 == 0 && sizeof(BlendData) % 16 == 0, "std140 layout");
+_Static_assert(sizeof(SortData) == 32 && sizeof(TileWave) == 16 && sizeof(NodeData) == 48, "std430 layout");
 
 /* Binding points, as in the shaders. */
 enum {
@@ -28,7 +28,6 @@ enum {
     BIND_MARCH = 2,
     BIND_NODES = 3,
     BIND_GLARE_WEIGHTS = 4,
-    BIND_LEAN_WAVES = 4,
     BIND_SORT = 5,
     BIND_WAVE_STORAGE = 6, /* where a uniform block cannot hold the waves */
     STORAGE_BINDINGS,
