@@ -208,8 +208,7 @@ typedef enum mgt_method {
     MGT_METHOD_PODEE_PIXEL,    /* the same with the per-pixel covariance (Eqs. 4–7) */
     MGT_METHOD_MANGATA,        /* this library's own model */
     MGT_METHOD_REFERENCE,      /* brute force in double precision (CPU backend only) */
-    /* Rivals, for comparison: docs/methods.md says what is theirs and what is different here. Rendered on the CPU whatever the
-       backend; mgt_gl_render_textures() and mgt_gl_render_views() refuse them. */
+    /* Rivals, for comparison: docs/methods.md says what is theirs and what is different here. */
     MGT_METHOD_MSAA32,         /* 32 samples of visibility, one shading */
     MGT_METHOD_LEAN,           /* Olano and Baker 2010: a tiled map of slope moments */
     MGT_METHOD_LEADR,          /* Dupuy et al. 2013: the same with masking and shadowing */
@@ -218,7 +217,8 @@ typedef enum mgt_method {
     MGT_METHOD_FXAA,           /* Lottes 2009: `none`, its edges blended afterwards */
     MGT_METHOD_TAA,            /* Karis 2014: `none` jittered over eight frames, history reprojected and clamped */
     MGT_METHOD_TNDF,           /* after Tessari et al. 2020: one Gaussian of slopes over pixel and shutter */
-    /* Samples where they show: an analytic picture first, then more of it where that one is likely to be wrong. CPU, as the rivals. */
+    /* Samples where they show: an analytic picture first, then more of it where that one is likely to be wrong. On the CPU
+       whatever the backend. */
     MGT_METHOD_ADAPTIVE
 } mgt_method;
 

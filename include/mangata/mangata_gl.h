@@ -51,7 +51,9 @@ typedef struct mgt_gl_view {
 MGT_API mgt_gl_view mgt_gl_view_defaults(void);
 
 /* Draws the water of `scene` into `count` views (1 … 16). Water is tested against your depth buffer and writes its own depth, that of the waves
- * which a pixel resolves; the pixels of the horizon blend into what your framebuffer holds. Methods: all but MGT_METHOD_REFERENCE. */
+ * which a pixel resolves; the pixels of the horizon blend into what your framebuffer holds. Methods: all but MGT_METHOD_REFERENCE and
+ * MGT_METHOD_ADAPTIVE (MGT_ERROR_UNSUPPORTED). fxaa looks for edges in the water of the view alone; taa renders the seven frames before it anew,
+ * its camera on the line from view_open to view. */
 MGT_API mgt_status mgt_gl_render_views(mgt_context *context, const mgt_scene *scene, const mgt_gl_view *views, size_t count);
 
 /* A texture of yours that receives a layer of scene.image's size (the crop's), top row first: texel (0, 0) is the top left pixel. GL_TEXTURE_2D with immutable
@@ -66,7 +68,7 @@ typedef struct mgt_gl_texture {
 
 MGT_API mgt_gl_texture mgt_gl_texture_defaults(void);
 
-/* Renders one frame into `count` textures (1 … 16) without waiting for it. */
+/* Renders one frame into `count` textures (1 … 16) without waiting for it. Methods as for views. */
 MGT_API mgt_status mgt_gl_render_textures(mgt_context *context, const mgt_scene *scene, const mgt_gl_texture *textures, size_t count);
 
 /* GPU time of a pass, of the latest frame whose timer has been read; a few frames late, since nothing waits. */

@@ -201,7 +201,7 @@ static mgt_status read_target(gl_backend_state *s, const mgt_target *target, con
 
 bool gl_renders(const mgt_quality *quality)
 {
-    return quality->method != MGT_METHOD_REFERENCE;
+    return quality->method != MGT_METHOD_REFERENCE && quality->method != MGT_METHOD_ADAPTIVE;
 }
 
 static mgt_status render_by_cpu(gl_backend_state *s, const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count)

@@ -13,7 +13,7 @@ typedef struct gl_backend_state {
     gl_buffer transfer;
     mgt_context_desc desc;
     reporter report;     /* for messages of OpenGL's own */
-    void *cpu;           /* state of the CPU backend for the reference; NULL until it is needed */
+    void *cpu;           /* state of the CPU backend for what the shaders do not know; NULL until it is needed */
     GLuint vertex_array; /* empty */
 } gl_backend_state;
 
@@ -28,7 +28,8 @@ mgt_status gl_enter(gl_backend_state *s, gl_scope *scope, const reporter *r);
 /* Returns `status`, or what OpenGL has to say where that is MGT_OK. */
 mgt_status gl_leave(gl_backend_state *s, const gl_scope *scope, mgt_status status, const reporter *r);
 
-/* Whether the shaders know the method; the reference, in double precision, is left to the CPU. */
+/* Whether the shaders know the method. Left to the CPU are the reference, for its double precision, and adaptive, whose queue of cells decides
+ * what is sampled next. */
 bool gl_renders(const mgt_quality *quality);
 
 /* What a call asks for. */

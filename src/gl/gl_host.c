@@ -114,7 +114,7 @@ mgt_status gl_render_textures(void *state, const reporter *r, const mgt_scene *s
     if (s->egl)
         return report_error(r, MGT_ERROR_ARGUMENT, "render.texture", "this context has no host: create it with mgt_context_desc.gl_get_proc");
     if (!gl_renders(&scene->quality))
-        return report_error(r, MGT_ERROR_UNSUPPORTED, "render.texture", "method reference runs on the CPU alone, in double precision: use mgt_render()");
+        return report_error(r, MGT_ERROR_UNSUPPORTED, "render.texture", "methods reference and adaptive run on the CPU alone: use mgt_render()");
     gl_scope scope;
     mgt_status status = gl_enter(s, &scope, r);
     if (status != MGT_OK)
@@ -292,7 +292,7 @@ mgt_status gl_render_views(void *state, const reporter *r, const mgt_scene *scen
     if (s->egl)
         return report_error(r, MGT_ERROR_ARGUMENT, "render.view", "this context has no host: create it with mgt_context_desc.gl_get_proc");
     if (!gl_renders(&scene->quality))
-        return report_error(r, MGT_ERROR_UNSUPPORTED, "render.view", "method reference runs on the CPU alone, in double precision: use mgt_render()");
+        return report_error(r, MGT_ERROR_UNSUPPORTED, "render.view", "methods reference and adaptive run on the CPU alone: use mgt_render()");
     gl_scope scope;
     mgt_status status = gl_enter(s, &scope, r);
     if (status != MGT_OK)

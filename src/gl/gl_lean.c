@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * The map of slope moments of methods lean and leadr, made on the GPU from the waves of an instant. It is that of src/cpu/lean_map.c: level 0 keeps slopes
- * alone, the second moments have a texture of their own from level 1 on. */
+ * The map of slope moments of methods lean and leadr, made on the GPU from the waves of an instant. It is that of src/cpu/lean_map.c: level 0
+ * keeps slopes alone, the second moments have a texture of their own from level 1 on. */
 #include <math.h>
 #include <string.h>
 

@@ -140,7 +140,8 @@ static double dot3(const double a[3], const double b[3])
 static void set_reprojection(BlendData *d, const camera_rays *now, const camera_rays *before)
 {
     const double *right = before->right, *down = before->down;
-    const double normal[3] = {right[1] * down[2] - right[2] * down[1], right[2] * down[0] - right[0] * down[2], right[0] * down[1] - right[1] * down[0]};
+    const double normal[3] = {right[1] * down[2] - right[2] * down[1], right[2] * down[0] - right[0] * down[2],
+                              right[0] * down[1] - right[1] * down[0]};
     const double ahead = dot3(normal, before->corner), columns = dot3(right, right), rows = dot3(down, down);
     d->ray_x = (float)now->corner[0], d->ray_y = (float)now->corner[1], d->ray_z = (float)now->corner[2];
     d->right_x = (float)now->right[0], d->right_y = (float)now->right[1], d->right_z = (float)now->right[2];

@@ -201,7 +201,7 @@ static void layers_are_those_of_the_cpu(void **state)
             memset(&got, 0xff, sizeof got);
             render_all(gl, &scene, &got);
             expect_same_layers(&got, &expected);
-            if (scene.quality.method == MGT_METHOD_REFERENCE) /* the same code */
+            if (scene.quality.method == MGT_METHOD_REFERENCE || scene.quality.method == MGT_METHOD_ADAPTIVE) /* the same code */
                 assert_memory_equal(&got, &expected, sizeof got);
         }
     mgt_context_destroy(gl);
@@ -489,7 +489,7 @@ static void textures_hold_the_layers(void **state)
     for (int m = 0; m < QUALITIES; m++) {
         mgt_scene drawn = scene;
         drawn.quality = quality_of(&scene, m);
-        if (drawn.quality.method == MGT_METHOD_REFERENCE)
+        if (drawn.quality.method == MGT_METHOD_REFERENCE || drawn.quality.method == MGT_METHOD_ADAPTIVE)
             continue;
         render_all(context, &drawn, &expected);
         if (mgt_gl_render_textures(context, &drawn, t, TEXTURES) != MGT_OK)
@@ -551,9 +551,11 @@ static void wrong_textures_are_refused(void **state)
     assert_int_equal(mgt_gl_render_textures(context, &scene, NULL, 1), MGT_ERROR_ARGUMENT);
     assert_int_equal(mgt_gl_render_textures(NULL, &scene, &good, 1), MGT_ERROR_ARGUMENT);
     assert_int_equal(mgt_gl_render_textures(context, NULL, &good, 1), MGT_ERROR_ARGUMENT);
-    scene.quality.method = MGT_METHOD_REFERENCE;
-    assert_int_equal(mgt_gl_render_textures(context, &scene, &good, 1), MGT_ERROR_UNSUPPORTED);
-    assert_non_null(strstr(mgt_last_error(context), "method reference runs on the CPU alone"));
+    for (int i = 0; i < 2; i++) {
+        scene.quality.method = i ? MGT_METHOD_ADAPTIVE : MGT_METHOD_REFERENCE;
+        assert_int_equal(mgt_gl_render_textures(context, &scene, &good, 1), MGT_ERROR_UNSUPPORTED);
+        assert_non_null(strstr(mgt_last_error(context), "methods reference and adaptive run on the CPU alone"));
+    }
     scene.quality.method = MGT_METHOD_NONE;
     assert_int_equal(mgt_gl_render_textures(context, &scene, &good, 1), MGT_OK);
     assert_int_equal(h.gl.GetError(), GL_NO_ERROR);

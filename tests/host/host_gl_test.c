@@ -453,7 +453,8 @@ enum { METHODS = sizeof methods / sizeof methods[0] };
 
 static mgt_quality quality_of(int i)
 {
-    return (mgt_quality){.method = methods[i], .spatial_samples = 1, .time_samples = 1, .kernels = i + 1 == METHODS ? MGT_KERNELS_5 : MGT_KERNELS_EXACT};
+    const mgt_kernels kernels = i + 1 == METHODS ? MGT_KERNELS_5 : MGT_KERNELS_EXACT;
+    return (mgt_quality){.method = methods[i], .spatial_samples = 1, .time_samples = 1, .kernels = kernels};
 }
 
 static void state_is_as_before(void **state)
