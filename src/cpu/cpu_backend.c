@@ -14,6 +14,7 @@
 #include "cpu/glare.h"
 #include "cpu/inspect.h"
 #include "cpu/lean_map.h"
+#include "cpu/rival_lanes.h"
 #include "cpu/thread_pool.h"
 #include "cpu/tile_job.h"
 #include "cpu/whole_frame.h"
@@ -526,6 +527,32 @@ static mgt_status show_picture(void *user, const mgt_scene *scene, const float *
     return cpu_display(u->state, u->r, scene, radiance, target);
 }
 
+typedef struct luma_job {
+    const lane_kernels *kernels;
+    const FrameData *frame;
+    const float *radiance;
+    float *luma;
+    size_t width;
+} luma_job;
+
+static void luma_row(void *argument, size_t y)
+{
+    const luma_job *job = argument;
+    job->kernels->rivals->luma(job->frame, job->radiance + 3 * y * job->width, job->luma + y * job->width, job->width);
+}
+
+static mgt_status luma_of_picture(void *user, const mgt_scene *scene, const float *radiance, float *luma)
+{
+    const picture_user *u = user;
+    const mgt_status status = prepare_sky(u->state, u->r, scene);
+    if (status != MGT_OK)
+        return status;
+    const frame f = frame_of(scene, u->state->sky, true);
+    luma_job job = {u->state->kernels, &f.data, radiance, luma, scene->image.width};
+    run_indices(u->state->pool, scene->image.height, luma_row, &job);
+    return MGT_OK;
+}
+
 static void run_rows(void *user, size_t count, void (*body)(void *, size_t), void *argument)
 {
     const picture_user *u = user;
@@ -573,7 +600,7 @@ static mgt_status cpu_render(void *state, const reporter *r, const mgt_scene *sc
     if (!is_whole_frame_method(scene->quality.method))
         return render_picture(state, r, scene, targets, count, NULL);
     picture_user user = {state, r};
-    const picture_maker maker = {&user, make_picture, show_picture, run_rows, adapt_picture};
+    const picture_maker maker = {&user, make_picture, show_picture, luma_of_picture, run_rows, adapt_picture};
     return whole_frame_render(&maker, r, scene, targets, count);
 }
 

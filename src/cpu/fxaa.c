@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * Method fxaa (after Lottes 2009): finds edges in the displayed picture of method `none` and reads every pixel a little across its edge.
  *
- * Luma is a whole number, 299 red + 587 green + 114 blue of displayed bytes, by 2^-18: sums and halves are exact, and ties are ties on every machine. */
+ * Luma has twelve bits (display_luma() of tone.k). By bytes a step of one, which rounding may cause, would move what is blended too far for the
+ * pictures of two machines to agree; without steps ties would fall as rounding has it. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -37,8 +38,8 @@ static luma_patch patch_of(const luma_view *v, int x, int y)
             if (i == 1 || j == 1)
                 least = fminf(least, p.at[j][i]), most = fmaxf(most, p.at[j][i]);
         }
-    /* Contrast below an eighth of the brightest, or below 1/32 of white, too dark to see, is no edge. */
-    p.range = most - least < fmaxf(255000 * 0x1p-23f, most / 8) ? 0 : most - least;
+    /* Contrast below an eighth of the brightest, or too dark to see, is no edge. */
+    p.range = most - least < fmaxf(1.0f / 32, most / 8) ? 0 : most - least;
     return p;
 }
 
@@ -114,18 +115,8 @@ fxaa_shift fxaa_shift_of(const float *luma, uint32_t width, uint32_t height, uin
 typedef struct fxaa_job {
     const picture_planes *in;
     picture_planes *out;
-    const uint8_t *displayed; /* 4 bytes a pixel */
     float *luma;
 } fxaa_job;
-
-static void luma_row(void *argument, size_t y)
-{
-    const fxaa_job *job = argument;
-    for (size_t i = y * job->in->width; i < (y + 1) * job->in->width; i++) {
-        const uint8_t *c = job->displayed + 4 * i;
-        job->luma[i] = (float)(299 * c[0] + 587 * c[1] + 114 * c[2]) * 0x1p-18f;
-    }
-}
 
 static void blend_pixel(const fxaa_job *job, size_t to, size_t from, float amount)
 {
@@ -153,10 +144,9 @@ mgt_status fxaa_render(const picture_maker *m, const reporter *r, const mgt_scen
 {
     const size_t pixels = (size_t)out->width * out->height;
     picture_planes in = picture_planes_create(out->width, out->height, MGT_METHOD_FXAA);
-    uint8_t *displayed = malloc(4 * pixels);
-    fxaa_job job = {&in, out, displayed, malloc(pixels * sizeof(float))};
+    fxaa_job job = {&in, out, malloc(pixels * sizeof(float))};
     mgt_status status = MGT_ERROR_MEMORY;
-    if (!in.color || !displayed || !job.luma) {
+    if (!in.color || !job.luma) {
         report_error(r, status, "render.memory", "out of memory for fxaa on %u x %u pixels", out->width, out->height);
         goto done;
     }
@@ -167,18 +157,12 @@ mgt_status fxaa_render(const picture_maker *m, const reporter *r, const mgt_scen
     status = m->render(m->user, scene, layers, 3, NULL);
     if (status != MGT_OK)
         goto done;
-    /* Edges are those of the tone-mapped picture, before glare. */
-    mgt_scene plain = *scene;
-    plain.post.glare = 0;
-    const mgt_target shown = {size, MGT_LAYER_COLOR, MGT_FORMAT_RGBA8_SRGB, displayed, 0};
-    status = m->display(m->user, &plain, in.color, &shown);
+    status = m->luma(m->user, scene, in.color, job.luma); /* edges are those of the tone-mapped picture, before glare */
     if (status != MGT_OK)
         goto done;
-    m->run(m->user, out->height, luma_row, &job);
     m->run(m->user, out->height, fxaa_row, &job);
 done:
     free(job.luma);
-    free(displayed);
     picture_planes_free(&in);
     return status;
 }

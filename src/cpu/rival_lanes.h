@@ -32,6 +32,8 @@ struct rival_kernels {
     void (*frequencies)(const rival_tile *tile, const wave_set *waves, float *most);
     /* LEAN_ROWS rows of the map's level 0; a phase per wave. */
     void (*lean_rows)(const lean_waves *waves, const lean_phase *phases, float *slope_x, float *slope_z);
+    /* Luma, [0, 1], of `count` displayed pixels of 3 floats. */
+    void (*luma)(const FrameData *frame, const float *rgb, float *luma, size_t count);
 };
 
 extern const rival_kernels rival_kernels_1;

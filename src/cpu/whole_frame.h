@@ -30,6 +30,8 @@ typedef struct picture_maker {
     void *user;
     mgt_status (*render)(void *user, const mgt_scene *scene, const mgt_target *targets, size_t count, const frame_pass *pass);
     mgt_status (*display)(void *user, const mgt_scene *scene, const float *radiance, const mgt_target *target);
+    /* Luma, [0, 1], of the displayed picture without glare. */
+    mgt_status (*luma)(void *user, const mgt_scene *scene, const float *radiance, float *luma);
     /* body(argument, i) for every i below count, on all threads. */
     void (*run)(void *user, size_t count, void (*body)(void *, size_t), void *argument);
     /* Method adaptive: fills the planes. */
@@ -54,7 +56,7 @@ typedef struct fxaa_shift {
     float amount;
 } fxaa_shift;
 
-/* `luma`: of the displayed picture, [0, 1]; white is .973. */
+/* `luma`: of the displayed picture, [0, 1]. */
 fxaa_shift fxaa_shift_of(const float *luma, uint32_t width, uint32_t height, uint32_t x, uint32_t y);
 
 enum { TAA_FRAMES = 8 };

@@ -40,9 +40,9 @@ enum {
     UNIT_LEAN_MEAN = 1,
     UNIT_LEAN_SQUARE = 2,
     UNIT_CURRENT = 1, /* color, coverage and mask of the picture that is blended … */
-    UNIT_SHOWN = 4,   /* … as it is displayed (fxaa) … */
-    UNIT_HISTORY = 4, /* … or with these three (taa) … */
-    UNIT_DEPTH = 7,   /* … where it has moved */
+    UNIT_LUMA = 4,    /* … its luma (fxaa) … */
+    UNIT_HISTORY = 4, /* … or the same three of the history (taa) … */
+    UNIT_DEPTH = 7,   /* … where the camera moves */
     TEXTURE_UNITS,
 
     IMAGE_COLOR = 0, /* images */

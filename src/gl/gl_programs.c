@@ -27,6 +27,7 @@ static const program_text program_texts[PROGRAM_COUNT] = {
     [PROGRAM_NORMAL] = {"normal", "normal.comp", NULL, NULL, ""},
     [PROGRAM_LEAN_FILL] = {"lean", "lean_fill.comp", NULL, NULL, ""},
     [PROGRAM_LEAN_SHRINK] = {"lean", "lean_shrink.comp", NULL, NULL, ""},
+    [PROGRAM_LUMA] = {"blend", "luma.comp", NULL, NULL, ""},
     [PROGRAM_FXAA] = {"blend", "fxaa.comp", NULL, NULL, ""},
     [PROGRAM_TAA] = {"blend", "taa.comp", NULL, NULL, ""},
     [PROGRAM_GLARE_DOWN] = {"glare", "glare_down.comp", NULL, NULL, ""},

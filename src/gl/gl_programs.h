@@ -24,6 +24,7 @@ typedef enum gl_program {
     PROGRAM_NORMAL,         /* the filtered methods' mean shading normal */
     PROGRAM_LEAN_FILL,      /* the map of slope moments, level 0 … */
     PROGRAM_LEAN_SHRINK,    /* … and the next coarser level */
+    PROGRAM_LUMA,           /* of the displayed picture, for the next */
     PROGRAM_FXAA,
     PROGRAM_TAA,            /* one frame into the history */
     PROGRAM_GLARE_DOWN,

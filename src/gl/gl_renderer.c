@@ -115,6 +115,7 @@ void gl_renderer_destroy(gl_renderer *g)
     gl_layers *const layers[] = {&g->layers, &g->history[0], &g->history[1]};
     for (size_t i = 0; i < sizeof layers / sizeof *layers; i++)
         free_layers(gl, layers[i]);
+    gl_image_free(gl, &g->luma);
     gl_glare_free(g);
     gl_podee_free(g);
     gl_lean_free(g);

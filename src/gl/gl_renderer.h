@@ -58,6 +58,7 @@ typedef struct gl_renderer {
     gl_buffer tiles, tile_waves, march_waves, nodes; /* of a band */
     gl_layers layers;
     gl_layers history[2]; /* color, coverage and mask alone: for fxaa and taa */
+    gl_image luma;        /* R32F, for fxaa */
     gl_glare glare;
     gl_podee podee;
     gl_lean lean;

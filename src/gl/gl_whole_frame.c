@@ -106,24 +106,47 @@ static void swap_pictures(gl_layers *a, gl_layers *b)
 
 /* ---- fxaa ---- */
 
+static mgt_status make_luma(gl_renderer *g, const frame *f, const region *area, const reporter *r)
+{
+    const gl_api *gl = &g->gl;
+    const GlareData size = {.fine_width = (int)area->width, .fine_height = (int)area->height};
+    mgt_status status = gl_image_reserve(gl, &g->luma, GL_R32F, area->width, area->height, r);
+    if (status == MGT_OK)
+        status = gl_ring_begin(gl, &g->ring, sizeof size + sizeof f->data, 2, r);
+    if (status != MGT_OK)
+        return status;
+    gl_pass_begin(g, "blend");
+    status = gl_use(g, PROGRAM_LUMA, r);
+    if (status == MGT_OK) {
+        gl_uniform(g, BIND_FRAME, &f->data, sizeof f->data);
+        gl_uniform(g, BIND_EXTRA, &size, sizeof size);
+        gl->BindTextureUnit(UNIT_FINE, g->layers.color.name);
+        gl->BindSampler(UNIT_FINE, 0);
+        gl->BindImageTexture(0, g->luma.name, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_R32F);
+        gl->DispatchCompute((area->width + 7) / 8, (area->height + 7) / 8, 1);
+        gl->MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+    }
+    const mgt_status ended = gl_pass_end(g, r);
+    return status == MGT_OK ? ended : status;
+}
+
 static mgt_status render_fxaa(gl_renderer *g, const gl_job *job, const reporter *r)
 {
     none_frame none;
     none_frame_of(job->frame, &none);
     none.frame.data.want_color = 1;
-    none.scene.post.glare = 0; /* edges are those of the tone-mapped picture, before glare */
     progress_part part = {job->progress, job->progress_user, 0, 1};
     const gl_job own = job_of_part(job, &none, &part);
     mgt_status status = gl_frame_render(g, &own, r);
     if (status == MGT_OK)
         status = reserve(g, &g->history[0], &job->area, true, r);
     if (status == MGT_OK)
-        status = gl_display_render(g, &none.frame, &job->area, r);
+        status = make_luma(g, &none.frame, &job->area, r);
     if (status != MGT_OK)
         return status;
     const BlendData data = {.width = (int)job->area.width, .height = (int)job->area.height};
-    g->gl.BindTextureUnit(UNIT_SHOWN, g->layers.display.name);
-    g->gl.BindSampler(UNIT_SHOWN, 0);
+    g->gl.BindTextureUnit(UNIT_LUMA, g->luma.name);
+    g->gl.BindSampler(UNIT_LUMA, 0);
     status = blend(g, PROGRAM_FXAA, &data, &g->history[0], r);
     swap_pictures(&g->layers, &g->history[0]);
     return status;

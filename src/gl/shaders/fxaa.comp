@@ -4,13 +4,9 @@
  */
 #include "blend.glsl"
 
-layout(binding = 4) uniform sampler2D shown_texture;
+layout(binding = 4) uniform sampler2D luma_texture;
 
-float luma_at(ivec2 texel)
-{
-    vec3 c = round(texelFetch(shown_texture, clamp(texel, ivec2(0), blend_size() - 1), 0).rgb * 255.0f);
-    return (299.0f * c.r + 587.0f * c.g + 114.0f * c.b) * (1.0f / 262144.0f); /* exact */
-}
+float luma_at(ivec2 texel) { return texelFetch(luma_texture, clamp(texel, ivec2(0), blend_size() - 1), 0).r; }
 
 /* Where a pixel is read instead of at its centre: `amount` of a pixel, at most 1, towards a neighbour. */
 struct Shift {
@@ -31,8 +27,8 @@ Patch patch_of(ivec2 texel)
         p.at[i] = luma_at(texel + ivec2(i % 3 - 1, i / 3 - 1));
     float least = min(min(min(p.at[1], p.at[3]), min(p.at[4], p.at[5])), p.at[7]);
     float most = max(max(max(p.at[1], p.at[3]), max(p.at[4], p.at[5])), p.at[7]);
-    /* Contrast below an eighth of the brightest, or below 1/32 of white, too dark to see, is no edge. */
-    p.range = most - least < max(255000.0f / 8388608.0f, most * 0.125f) ? 0.0f : most - least;
+    /* Contrast below an eighth of the brightest, or too dark to see, is no edge. */
+    p.range = most - least < max(0.03125f, most * 0.125f) ? 0.0f : most - least;
     return p;
 }
 

@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Luma of the picture as it is displayed, before glare: what method `fxaa` looks for edges in.
+ */
+#include "glare.glsl"
+#include "types.k"
+
+layout(std140, binding = 0) uniform FrameBlock { FrameData frame_data; };
+#define FRAME(cx) frame_data
+
+#include "tone.k"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(binding = 0) writeonly uniform image2D luma_image;
+
+void main()
+{
+    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+    if (texel.x < glare_data.fine_width && texel.y < glare_data.fine_height)
+        imageStore(luma_image, texel, vec4(display_luma(0, display_color(0, texelFetch(fine_texture, texel, 0).rgb, FRAME(0).tone_map))));
+}
