@@ -28,8 +28,8 @@ mgt_status gl_enter(gl_backend_state *s, gl_scope *scope, const reporter *r);
 /* Returns `status`, or what OpenGL has to say where that is MGT_OK. */
 mgt_status gl_leave(gl_backend_state *s, const gl_scope *scope, mgt_status status, const reporter *r);
 
-/* Whether the shaders know the method. Left to the CPU are the reference, for its double precision, and adaptive, whose queue of cells decides
- * what is sampled next. */
+/* Whether the shaders know the method. Left to the CPU are the reference, for its double precision, and adaptive, which asks after each
+ * round where the next samples go. */
 bool gl_renders(const mgt_quality *quality);
 
 /* What a call asks for. */
