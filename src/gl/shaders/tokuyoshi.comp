@@ -2,6 +2,7 @@
  *
  * Method `tokuyoshi`.
  */
+#define EXACT_FMA
 #include "lattice_data.glsl"
 #include "tokuyoshi.k"
 #define point_pixel tokuyoshi_pixel
