@@ -171,7 +171,8 @@ static mgt_quality quality_of(const mgt_scene *scene, int i)
     static const mgt_kernels kernels[] = {MGT_KERNELS_5, MGT_KERNELS_FELINE, MGT_KERNELS_RIEMANN};
     mgt_quality q = scene->quality;
     if (i < SEA_METHODS) {
-        q.method = sea_methods[i];
+        q.method = sea_methods[i].method;
+        q.adaptive = sea_methods[i].adaptive;
     } else if (i < SEA_METHODS + SEA_RIVALS) {
         q.method = sea_rivals[i - SEA_METHODS];
     } else {
