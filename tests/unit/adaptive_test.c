@@ -99,7 +99,7 @@ static void more_samples_are_nearer_to_brute_force(void **state)
         assert_true(error < 1.06 * before); /* 2,048 samples of truth are noisy, and so are points */
         before = error;
     }
-    assert_true(before < 0.45 * model); /* most of the rest is the noise of 2,048 samples */
+    assert_true(before < 0.5 * model); /* most of the rest is the noise of 2,048 samples */
     mgt_context_destroy(context);
 }
 
