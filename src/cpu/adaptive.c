@@ -29,8 +29,8 @@ enum {
     KEPT_OCTAVES = 5, /* leaves worth less than 2^-5 of what was split last are settled */
 };
 static const double cost_unit = 65536; /* evaluations of all waves are counted in these parts */
-/* What a cell and a point sample cost besides their waves, in waves; measured. */
-static const double cell_waves = 20, sample_waves = 2;
+/* What a cell and a point sample cost besides their waves, in waves of a cell; measured, as is the 1.1 that a wave of a sample costs. */
+static const double cell_waves = 20, sample_waves = 1.5;
 /* Of a point, evaluations of all waves: points lie where rays graze, and march to their hits over every wave. Measured. */
 static const double point_cost = 12;
 
@@ -192,7 +192,7 @@ static bool add_leaf(const forest *f, size_t tile, leaf l)
 {
     forest_tile *t = &f->tiles[tile];
     const float now = f->by_coverage ? l.variance : l.contrast * f->weight[pixel_of(f, tile, &l)];
-    if (l.points > 0 || l.places > POINTS_PLACES)
+    if (l.points > 0 || (l.places > POINTS_PLACES && f->a->frame->data.sky_black))
         l.shape = SHAPE_POINTS;
     const bool ends = l.shape == SHAPE_POINTS ? next_points(&l) > MOST_POINTS : l.level + 1 == LEVELS;
     l.bucket = now > 0 && !ends ? bucket_of(now * worth_of(t, &l)) : 0;
@@ -265,7 +265,7 @@ static FrameData sort_cells(const forest *f, size_t tile, int across, int down, 
     if (f->moves)
         sort_set(f, tile, parts->sets[part], across, down, &s->open);
     const TileData *d = &s->close.data;
-    const double all = parts->sets[0]->view.wave_count + sample_waves, cost = (d->resolved_count + d->mixed_count + cell_waves) / all;
+    const double all = 1.1 * parts->sets[0]->view.wave_count + sample_waves, cost = (d->resolved_count + d->mixed_count + cell_waves) / all;
     t->cost[(across + down) / 2] = parts->count * cost;
     appraise(f, t);
     return data;
@@ -279,12 +279,17 @@ static void guess_tile(const forest *f, const tile_waves *waves, tile_guess *gue
         memset(guess, 0, sizeof *guess);
 }
 
-/* What an error of the pixel's luminance is worth in the displayed picture, squared: tone maps show relative errors where it is bright. */
-static float weight_of(const forest *f, const float color[3])
+/* What a squared error of the pixel's luminance is worth in the displayed picture: tone maps show relative errors where it is bright, and to the eye many
+ * small errors are worse than few large ones, so that it is divided by the 3/4th power of what the pixel begins with. Under a black sky, where the
+ * glitter is all there is, only the first holds. */
+static float weight_of(const forest *f, const leaf *l)
 {
-    const float luminance = 0.2126f * color[0] + 0.7152f * color[1] + 0.0722f * color[2];
-    const float slope = 1 / (1 + f->a->frame->data.exposure * luminance);
-    return slope * slope;
+    const float luminance = 0.2126f * l->color[0] + 0.7152f * l->color[1] + 0.0722f * l->color[2];
+    const float slope = 1 / (1 + f->a->frame->data.exposure * luminance), weight = slope * slope;
+    if (f->a->frame->data.sky_black)
+        return weight;
+    const float root = sqrtf(weight * l->contrast + 1e-6f);
+    return weight / (root * sqrtf(root));
 }
 
 static void plant_tile(void *argument, size_t tile, uint32_t worker)
@@ -308,7 +313,7 @@ static void plant_tile(void *argument, size_t tile, uint32_t worker)
             leaf l = leaf_from(&s->pixels, detail, from);
             l.column = x;
             l.row = y;
-            f->weight[to] = weight_of(f, l.color);
+            f->weight[to] = weight_of(f, &l);
             p->importance[to] = sqrtf(l.variance);
             p->samples[to] = l.water > 0 ? (float)t->cost[0] : 0;
             t->spent += (double)p->samples[to];
