@@ -26,11 +26,12 @@ enum {
     OCTAVES = 96,
     BUCKETS = BUCKETS_PER_OCTAVE * OCTAVES,
     BUCKET_ZERO = (127 - 80) * BUCKETS_PER_OCTAVE, /* of 2^-80 */
-    KEPT_OCTAVES = 5, /* leaves worth less than 2^-5 of what was split last are settled */
+    KEPT_OCTAVES = 5, /* leaves worth less than 2^-5 of what was split last are settled, … */
+    KEPT_ROUNDS = 2,  /* … after the first rounds, which take only the best */
 };
 static const double cost_unit = 65536; /* evaluations of all waves are counted in these parts */
 /* What a cell and a point sample cost besides their waves, in waves of a cell; measured, as is the 1.1 that a wave of a sample costs. */
-static const double cell_waves = 20, sample_waves = 1.5;
+static const double cell_waves = 20, sample_waves = 1;
 /* Of a point, evaluations of all waves: points lie where rays graze, and march to their hits over every wave. Measured. */
 static const double point_cost = 12;
 
@@ -334,7 +335,7 @@ static void count_tile(void *argument, size_t tile, uint32_t worker)
 }
 
 /* Which leaves may be split for `budget` evaluations. False: none. */
-static bool make_plan(forest *f, double budget)
+static bool make_plan(forest *f, double budget, size_t round)
 {
     for (size_t i = 0; i < f->workers; i++)
         memset(f->census[i], 0, sizeof **f->census);
@@ -355,7 +356,8 @@ static bool make_plan(forest *f, double budget)
         left -= (double)cost;
     }
     const int least = f->plan.bucket - KEPT_OCTAVES * BUCKETS_PER_OCTAVE;
-    f->least_bucket = least > f->least_bucket ? least : f->least_bucket;
+    if (round >= KEPT_ROUNDS && least > f->least_bucket)
+        f->least_bucket = least;
     return any;
 }
 
@@ -630,11 +632,11 @@ static double now(void)
 typedef struct frame_budget {
     double evaluations; /* in all, for a number of samples */
     double began, end;  /* seconds, for a budget of time */
-    double rounds_began, before; /* when the rounds began, and what had been spent then */
+    double round_began, before; /* when the last round began, and what had been spent then */
 } frame_budget;
 
 /* How much the next round may spend; 0: it is enough. Little at first, while little is known. */
-static double next_share(const forest *f, const frame_budget *b, size_t round)
+static double next_share(const forest *f, frame_budget *b, size_t round)
 {
     static const double shares[] = {0.15, 0.25, 0.35, 0.5, 0.7, 1, 1, 1, 1, 1};
     enum { SHARES = sizeof shares / sizeof *shares, MOST_ROUNDS = 40 };
@@ -645,8 +647,11 @@ static double next_share(const forest *f, const frame_budget *b, size_t round)
     if (q->budget_ms > 0) {
         const double time = now(), left = b->end - time;
         /* The first pixels are cheaper than cells: half of their speed is a careful guess. */
-        const double speed = round == 0 ? 0.5 * used / (time - b->began) : (used - b->before) / (time - b->rounds_began);
-        const double share = round == 0 ? 0.2 : 0.6;
+        const double speed = round == 0 ? 0.5 * used / (time - b->began) : (used - b->before) / (time - b->round_began);
+        /* A round may be three times as slow as the last one, when its cells turn to points. */
+        const double share = round == 0 ? 0.2 : 0.3;
+        b->round_began = time;
+        b->before = used;
         return round < MOST_ROUNDS && left > 0.02 * (b->end - b->began) ? share * left * speed : 0;
     }
     const double left = b->evaluations - used;
@@ -664,10 +669,8 @@ static mgt_status run_rounds(forest *f)
     budget.end = budget.began + 1e-3 * q->budget_ms - 4e-9 * (double)f->out->width * f->out->height;
     thread_pool_run(a->pool, &plant);
     budget.evaluations = (q->samples > 0 ? q->samples : 8) * water_of(f);
-    budget.before = spent(f);
-    budget.rounds_began = now();
     double share;
-    for (size_t round = 0; !atomic_load(&f->failed) && (share = next_share(f, &budget, round)) > 0 && make_plan(f, share); round++) {
+    for (size_t round = 0; !atomic_load(&f->failed) && (share = next_share(f, &budget, round)) > 0 && make_plan(f, share, round); round++) {
         thread_pool_run(a->pool, &split);
         if (a->keep_going && !a->keep_going(a->keep_going_argument, fmin(spent(f) / budget.evaluations, 1)))
             return MGT_CANCELLED;
