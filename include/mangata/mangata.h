@@ -255,9 +255,8 @@ typedef struct mgt_quality {
                                  (Eq. 20), up to 0.5; 0: 0.3 */
     bool transition_hard;     /* podee-*: no transition, waves turn at 0.5 cycles per pixel (Fig. 11) */
     mgt_adaptive adaptive;    /* adaptive: the scheme; at most one of the next three says when it ends */
-    double samples;           /* adaptive: evaluations of all waves per pixel of water, on average, 1 … 4096; a cell that leaves waves to its
-                                 covariance counts as the share it evaluates, a ray of podee, traced at both ends of the shutter, as one.
-                                 0: 8 where no other end is given */
+    double samples;           /* adaptive: evaluations of all waves per pixel of water, on average, 1 … 4096; cells and points count as what they
+                                 cost, a ray of podee, traced at both ends of the shutter, as one. 0: 8 where no other end is given */
     double target_rmse;       /* adaptive, cells: ends where the predicted RMSE of coverage over the image is this, 1e-6 … 1; 0: none */
     double budget_ms;         /* adaptive, cells: ends after so much time, 0.1 … 1e7. The one setting whose pixels depend on the machine; 0: none */
     double importance_center; /* adaptive, podee: c of Eq. 1, a coverage, up to 1; 0: 0.1 */
