@@ -169,10 +169,7 @@ static void see_tile(const detail_job *job, size_t tile, const wave_set *set, ti
     const adaptive_frame *a = job->a;
     const uint32_t x = (uint32_t)(tile % job->columns), y = (uint32_t)(tile / job->columns);
     a->kernels->sort(&a->frame->data, set, &set->view, x, y, waves);
-    if (tile_sees_water(waves))
-        a->kernels->guess(&a->frame->data, waves, guess);
-    else
-        memset(guess, 0, sizeof *guess);
+    tile_find_guesses(a->kernels, &a->frame->data, waves, guess);
 }
 
 /* A random place in the pixel for its next sample. */

@@ -3,6 +3,7 @@
 #include "cpu/frame.h"
 
 #include <math.h>
+#include <string.h>
 
 static const double pi = 3.14159265358979323846;
 
@@ -218,4 +219,12 @@ bool tile_sees_water(const tile_waves *tile)
     least = fminf(least, d->ray_y + height * d->down_y);
     least = fminf(least, d->ray_y + width * d->right_y + height * d->down_y);
     return least < steep;
+}
+
+void tile_find_guesses(const lane_kernels *kernels, const FrameData *data, const tile_waves *tile, tile_guess *guess)
+{
+    if (tile_sees_water(tile))
+        kernels->guess(data, tile, guess);
+    else
+        memset(guess, 0, sizeof *guess);
 }

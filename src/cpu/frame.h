@@ -35,4 +35,7 @@ void wave_set_build(const frame *f, const camera_rays *camera, interval time, bo
 /* Whether any pixel of the tile can see water. */
 bool tile_sees_water(const tile_waves *tile);
 
+/* The guesses of its pixels; zero where none does. */
+void tile_find_guesses(const lane_kernels *kernels, const FrameData *data, const tile_waves *tile, tile_guess *guess);
+
 #endif

@@ -22,10 +22,7 @@ typedef struct tile_pixel {
 static struct kernel_context sort_tile(const frame *f, const wave_set *set, const float *sky, tile_pixel at, tile_waves *waves, tile_guess *guess)
 {
     lane_kernels_1.sort(&f->data, set, &set->view, at.tile_x, at.tile_y, waves);
-    if (tile_sees_water(waves))
-        lane_kernels_1.guess(&f->data, waves, guess);
-    else
-        memset(guess, 0, sizeof *guess);
+    tile_find_guesses(&lane_kernels_1, &f->data, waves, guess);
     return (struct kernel_context){.frame = &f->data, .tile = &waves->data, .waves = waves->waves, .march = waves->march, .sky = sky};
 }
 

@@ -29,10 +29,7 @@ static void build(tile_place place, const wave_set *set, tile_waves *waves, tile
 {
     const tile_job *job = place.job;
     job->kernels->sort(&job->frame->data, set, &set->view, place.x, place.y, waves);
-    if (tile_sees_water(waves))
-        job->kernels->guess(&job->frame->data, waves, guess);
-    else
-        memset(guess, 0, sizeof *guess);
+    tile_find_guesses(job->kernels, &job->frame->data, waves, guess);
 }
 
 /* ---- point samples ---- */

@@ -87,8 +87,7 @@ static void more_samples_are_nearer_to_brute_force(void **state)
     mgt_scene scene = glitter_scene(waves, MGT_METHOD_MANGATA);
     render_truth(context, &scene, &truth);
     render_layers(context, &scene, &l);
-    double before = rmse_of(l.coverage, truth.coverage);
-    const double model = before;
+    const double model = rmse_of(l.coverage, truth.coverage);
     scene.quality.method = MGT_METHOD_ADAPTIVE;
     static const double samples[] = {4, 8, 32, 128};
     for (size_t i = 0; i < sizeof samples / sizeof *samples; i++) {
@@ -96,10 +95,8 @@ static void more_samples_are_nearer_to_brute_force(void **state)
         render_layers(context, &scene, &l);
         const double error = rmse_of(l.coverage, truth.coverage);
         print_message("%g samples: RMSE %.5f, of the analytic picture's %.5f\n", samples[i], error, model);
-        assert_true(error < 1.06 * before); /* 2,048 samples of truth are noisy, and so are points */
-        before = error;
+        assert_true(error < (samples[i] < 32 ? 0.7 : 0.55) * model); /* most of what is left is the noise of 2,048 samples */
     }
-    assert_true(before < 0.5 * model); /* most of the rest is the noise of 2,048 samples */
     mgt_context_destroy(context);
 }
 

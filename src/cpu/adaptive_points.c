@@ -1,0 +1,114 @@
+/* SPDX-License-Identifier: MIT
+ * Point samples of method adaptive, for cells of so many waves that splits would long say the same. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cpu/forest.h"
+
+/* Points that wait to be rendered, and the leaf that each belongs to. */
+typedef struct point_batch {
+    int count;
+    uint32_t owner[TILE_PIXELS];
+} point_batch;
+
+/* Point `index` of a leaf's sequence: the R2 sequence (Roberts 2018), shifted by the leaf and the seed. Its hit is looked for as its pixel's is. */
+static void add_point(const leaf *l, double shift, int index, uint32_t owner, point_batch *batch, tile_scratch *s)
+{
+    const double u = shift + index * 0.75487766624669276, v = 0.5 + shift * 977 + index * 0.56984029099805327;
+    const int i = batch->count++;
+    batch->owner[i] = owner;
+    s->jitter_x[i] = (float)(ldexp(l->column + u - floor(u), -l->across) - 0.5 - i % TILE_WIDTH);
+    s->jitter_y[i] = (float)(ldexp(l->row + v - floor(v), -l->down) - 0.5 - i / TILE_WIDTH);
+    const size_t pixel = (size_t)(l->row >> l->down) * TILE_WIDTH + (l->column >> l->across);
+    s->close_guess.height[i] = s->open_guess.height[pixel];
+    s->close_guess.from[i] = s->open_guess.from[pixel];
+    s->close_guess.march[i] = s->open_guess.march[pixel];
+}
+
+/* Sums of color, coverage and water go to sums[5 × owner]. */
+static void render_points(const forest *f, point_batch *batch, tile_scratch *s, double *sums)
+{
+    for (int i = batch->count; i < TILE_PIXELS; i++) {
+        s->jitter_x[i] = s->jitter_x[0] - (float)(i % TILE_WIDTH);
+        s->jitter_y[i] = s->jitter_y[0] - (float)(i / TILE_WIDTH);
+    }
+    memset(&s->pixels, 0, sizeof s->pixels);
+    f->a->kernels->sample(&f->a->frame->data, f->a->sky, &s->close, &s->close_guess, s->jitter_x, s->jitter_y, 1, &s->pixels);
+    for (int i = 0; i < batch->count; i++) {
+        double *sum = sums + 5 * batch->owner[i];
+        sum[0] += (double)s->pixels.red[i];
+        sum[1] += (double)s->pixels.green[i];
+        sum[2] += (double)s->pixels.blue[i];
+        sum[3] += (double)s->pixels.coverage[i];
+        sum[4] += (double)s->pixels.water[i];
+    }
+    batch->count = 0;
+}
+
+/* The leaf's values become the mean of all its points, old and new. */
+static void take_points(leaf *l, const double sums[5])
+{
+    const int first = l->points, end = leaf_next_points(l);
+    float *const values[] = {&l->color[0], &l->color[1], &l->color[2], &l->coverage, &l->water};
+    for (int k = 0; k < 5; k++)
+        *values[k] = (float)((first * (double)*values[k] + sums[k]) / end);
+    l->contrast *= l->places / (float)end;
+    l->variance = l->coverage * fmaxf(l->water - l->coverage, 0) / (float)end;
+    l->places = (float)end;
+    l->points = (uint16_t)end;
+}
+
+bool forest_scatter_points(const forest *f, size_t tile, size_t end, uint32_t worker)
+{
+    const adaptive_frame *a = f->a;
+    forest_tile *t = &f->tiles[tile];
+    tile_scratch *s = a->scratch[worker];
+    double *sums = calloc(5 * end, sizeof *sums);
+    point_batch batch = {0};
+    if (!sums)
+        return false;
+    for (int k = 0; k < INSTANTS; k++) {
+        const wave_set *set = f->instants[k];
+        a->kernels->sort(&a->frame->data, set, &set->view, (uint32_t)(tile % f->columns), (uint32_t)(tile / f->columns), &s->close);
+        tile_find_guesses(a->kernels, &a->frame->data, &s->close, &s->open_guess);
+        for (size_t i = 0; i < end; i++) {
+            const leaf *l = &t->leaves[i];
+            if (!l->chosen || l->shape != SHAPE_POINTS)
+                continue;
+            const double shift = leaf_lot(tile, l, ~a->frame->scene->quality.seed);
+            for (int n = l->points + k; n < leaf_next_points(l); n += INSTANTS) {
+                add_point(l, shift, n, (uint32_t)i, &batch, s);
+                if (batch.count == TILE_PIXELS)
+                    render_points(f, &batch, s, sums);
+            }
+        }
+        if (batch.count > 0)
+            render_points(f, &batch, s, sums);
+    }
+    bool added = true;
+    for (size_t i = 0; i < end && added; i++) {
+        leaf l = t->leaves[i];
+        if (!l.chosen || l.shape != SHAPE_POINTS)
+            continue;
+        const double cost = leaf_cost(t, &l);
+        take_points(&l, sums + 5 * i);
+        l.chosen = false;
+        f->out->samples[leaf_pixel(f, tile, &l)] += (float)cost;
+        t->spent += cost;
+        added = forest_add(f, tile, l);
+    }
+    free(sums);
+    return added;
+}
+
+/* In the middle of strata of the shutter. */
+void forest_place_instants(forest *f)
+{
+    const frame *whole = f->a->frame;
+    for (int k = 0; k < INSTANTS; k++) {
+        const double share = (k + 0.5) / INSTANTS;
+        const camera_rays camera = camera_at(whole, share);
+        wave_set_build(whole, &camera, (interval){whole->scene->time - (1 - share) * whole->scene->shutter, 0}, false, f->instants[k]);
+    }
+}

@@ -1,0 +1,319 @@
+/* SPDX-License-Identifier: MIT
+ * The leaves of method adaptive: what they are worth, which of them a round may split, and their memory. */
+#include "cpu/forest.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cpu/hash.h"
+
+enum {
+    SHARP_LEVEL = 5,    /* from which cells see glints so sharp that the bend of a path shows */
+    POINTS_PLACES = 16, /* cells of more places are given points: splits would long say the same */
+    LEAST_POINTS = 256,
+    MOST_POINTS = 4096,
+    BUCKETS_PER_OCTAVE = 32,
+    OCTAVES = 96,
+    BUCKETS = BUCKETS_PER_OCTAVE * OCTAVES,
+    BUCKET_ZERO = (127 - 80) * BUCKETS_PER_OCTAVE, /* of 2^-80 */
+    KEPT_OCTAVES = 5, /* leaves worth less than 2^-5 of what was split last are settled, … */
+    KEPT_ROUNDS = 2,  /* … after the first rounds, which take only the best */
+};
+static const double cost_unit = 65536; /* evaluations of all waves are counted in these parts */
+/* What a cell and a point sample cost besides their waves, in waves of a cell; measured, as is the 1.1 that a wave of a sample costs. */
+static const double cell_waves = 20, sample_waves = 1;
+/* Of a point, evaluations of all waves: points lie where rays graze, and march to their hits over every wave. Measured. */
+static const double point_cost = 12;
+
+const uint8_t halvings[4][2] = {{1, 1}, {0, 2}, {2, 0}, {0, 0}};
+
+/* Of one worker; whole numbers, so that their sum does not depend on who counted what. */
+struct census {
+    uint64_t cells[BUCKETS], points[BUCKETS]; /* what the leaves of a bucket cost */
+};
+
+size_t leaf_pixel(const forest *f, size_t tile, const leaf *l)
+{
+    const size_t x = tile % f->columns * TILE_WIDTH + (l->column >> l->across), y = tile / f->columns * TILE_HEIGHT + (l->row >> l->down);
+    return y * f->out->width + x;
+}
+
+static const float areas[LEVELS] = {1, 0x1p-2f, 0x1p-4f, 0x1p-6f, 0x1p-8f, 0x1p-10f, 0x1p-12f, 0x1p-14f, 0x1p-16f}; /* of a cell, pixels */
+
+void leaf_settle(const forest *f, size_t tile, const leaf *l)
+{
+    const picture_planes *p = f->out;
+    const size_t i = leaf_pixel(f, tile, l);
+    const float area = areas[l->level];
+    for (int k = 0; k < 3; k++)
+        p->color[3 * i + (size_t)k] += area * l->color[k];
+    p->coverage[i] += area * l->coverage;
+    p->water[i] += area * l->water;
+    if (l->level > 0 || l->points > 0)
+        p->detail[i] += area * l->coverage;
+    f->tiles[tile].final_variance += (double)(area * area * l->variance);
+}
+
+/* ---- what a split is worth ---- */
+
+const shutter_parts *forest_parts(const forest *f, int level)
+{
+    return &f->parts[level == 0 ? 0 : level < SHARP_LEVEL ? 1 : 2];
+}
+
+/* What splits cost and are worth, after a level's cost became known: where it is not, by the nearest level above. */
+static void forest_appraise(const forest *f, forest_tile *t)
+{
+    double cost = t->cost[0];
+    for (int level = 0; level < LEVELS; level++) {
+        const double next = level + 1 < LEVELS ? t->cost[level + 1] : 0;
+        cost = next > 0 ? next : 1.2 * cost * forest_parts(f, level + 1)->count / forest_parts(f, level)->count;
+        t->below[level] = 4 * cost;
+        t->worth[level] = (float)((double)(areas[level] * areas[level]) / t->below[level]);
+    }
+}
+
+void forest_price(const forest *f, forest_tile *t, int level, int waves)
+{
+    const double all = 1.1 * f->parts[0].sets[0]->view.wave_count + sample_waves;
+    t->cost[level] = forest_parts(f, level)->count * (waves + cell_waves) / all;
+    forest_appraise(f, t);
+}
+
+/* Steps of a 32nd octave, straight within an octave: the upper bits of the float. */
+static uint16_t bucket_of(float worth)
+{
+    uint32_t bits;
+    memcpy(&bits, &worth, sizeof bits);
+    const int32_t bucket = (int32_t)(bits >> 18) - BUCKET_ZERO;
+    return bucket <= 0 ? 0 : bucket >= BUCKETS ? BUCKETS - 1 : (uint16_t)bucket;
+}
+
+/* What the model gets wrong where waves hide each other, a tenth or two of the light, over what it cannot know. */
+static float wrong_of(const leaf *l)
+{
+    return l->points > 0 ? 0 : 0.0225f * l->places * l->coverage;
+}
+
+/* At first as many as halve the squared error. */
+int leaf_next_points(const leaf *l)
+{
+    if (l->points > 0)
+        return 4 * l->points;
+    int points = LEAST_POINTS;
+    while (points < MOST_POINTS && (float)points * (1 + wrong_of(l)) < 2 * l->places)
+        points *= 4;
+    return points;
+}
+
+double leaf_cost(const forest_tile *t, const leaf *l)
+{
+    return l->shape == SHAPE_POINTS ? (leaf_next_points(l) - l->points) * point_cost : t->below[l->level];
+}
+
+/* How much of its squared error a split may save for each evaluation. Four parts of a cell show the mean of a quarter of its places each; n points
+ * that of n, and get nothing wrong. */
+static float worth_of(const forest_tile *t, const leaf *l)
+{
+    const float area = areas[l->level];
+    if (l->shape != SHAPE_POINTS)
+        return 4 / (l->places + 3) * t->worth[l->level];
+    return fmaxf(1 - l->places / (float)leaf_next_points(l) + wrong_of(l), 0) * area * area / (float)leaf_cost(t, l);
+}
+
+bool forest_add(const forest *f, size_t tile, leaf l)
+{
+    forest_tile *t = &f->tiles[tile];
+    const float now = f->by_coverage ? l.variance : l.contrast * f->weight[leaf_pixel(f, tile, &l)];
+    if (l.points > 0 || (l.places > POINTS_PLACES && f->a->frame->data.sky_black))
+        l.shape = SHAPE_POINTS;
+    const bool ends = l.shape == SHAPE_POINTS ? leaf_next_points(&l) > MOST_POINTS : l.level + 1 == LEVELS;
+    l.bucket = now > 0 && !ends ? bucket_of(now * worth_of(t, &l)) : 0;
+    if (l.bucket <= f->least_bucket) {
+        leaf_settle(f, tile, &l);
+        return true;
+    }
+    if (t->count == t->capacity) {
+        const size_t capacity = t->capacity ? 2 * t->capacity : 64;
+        leaf *grown = realloc(t->leaves, capacity * sizeof *grown);
+        if (!grown)
+            return false;
+        t->leaves = grown;
+        t->capacity = capacity;
+    }
+    t->leaves[t->count++] = l;
+    return true;
+}
+
+/* ---- rounds ---- */
+
+static void count_tile(void *argument, size_t tile, uint32_t worker)
+{
+    const forest *f = argument;
+    const forest_tile *t = &f->tiles[tile];
+    struct census *census = f->census[worker];
+    for (size_t i = 0; i < t->count; i++) {
+        const leaf *l = &t->leaves[i];
+        (l->shape == SHAPE_POINTS ? census->points : census->cells)[l->bucket] += (uint64_t)(leaf_cost(t, l) * cost_unit);
+    }
+}
+
+bool forest_plan(forest *f, double budget, size_t round)
+{
+    for (size_t i = 0; i < f->workers; i++)
+        memset(f->census[i], 0, sizeof **f->census);
+    const thread_loop loop = {(size_t)f->columns * f->rows, count_tile, f, NULL};
+    thread_pool_run(f->a->pool, &loop);
+    double left = budget * cost_unit;
+    f->plan = (round_plan){0, 0, -1};
+    bool any = false;
+    for (int b = BUCKETS - 1; b >= 0; b--) {
+        uint64_t cells = 0, points = 0;
+        for (size_t i = 0; i < f->workers; i++) {
+            cells += f->census[i]->cells[b];
+            points += f->census[i]->points[b];
+        }
+        if (f->plan.points < b && (double)points <= left) {
+            left -= (double)points;
+            any |= points > 0;
+        } else if (f->plan.points < b) {
+            f->plan.points = b;
+        }
+        any |= cells > 0;
+        if ((double)cells > left) {
+            f->plan.bucket = b;
+            f->plan.share = left / (double)cells;
+            break;
+        }
+        left -= (double)cells;
+    }
+    if (f->plan.points < f->plan.bucket)
+        f->plan.points = f->plan.bucket - 1; /* those of the last bucket have been paid for */
+    const int least = f->plan.bucket - KEPT_OCTAVES * BUCKETS_PER_OCTAVE;
+    if (round >= KEPT_ROUNDS && least > f->least_bucket)
+        f->least_bucket = least;
+    return any;
+}
+
+double leaf_lot(size_t tile, const leaf *l, uint64_t seed)
+{
+    const uint64_t size = (uint64_t)l->across << 8 | l->down, place = (uint64_t)l->column << 32 | l->row;
+    return (double)(hash_of(hash_of(hash_of(seed ^ hash_of(tile)) ^ size) ^ place) >> 11) * 0x1p-53;
+}
+
+bool leaf_chosen(const forest *f, size_t tile, const leaf *l)
+{
+    if (l->shape == SHAPE_POINTS)
+        return l->bucket > f->plan.points;
+    return l->bucket > f->plan.bucket || (l->bucket == f->plan.bucket && leaf_lot(tile, l, 0) < f->plan.share);
+}
+
+double forest_spent(const forest *f)
+{
+    double sum = 0;
+    for (size_t i = 0; i < (size_t)f->columns * f->rows; i++)
+        sum += f->tiles[i].spent;
+    return sum;
+}
+
+double forest_water(const forest *f)
+{
+    double sum = 0;
+    for (size_t i = 0; i < (size_t)f->out->width * f->out->height; i++)
+        sum += (double)f->out->water[i];
+    /* Pixels whose leaves are open have their share there. */
+    for (size_t tile = 0; tile < (size_t)f->columns * f->rows; tile++)
+        for (size_t i = 0; i < f->tiles[tile].count; i++)
+            sum += (double)f->tiles[tile].leaves[i].water;
+    return sum;
+}
+
+double forest_predicted_rmse(const forest *f)
+{
+    double sum = 0;
+    for (size_t tile = 0; tile < (size_t)f->columns * f->rows; tile++) {
+        const forest_tile *t = &f->tiles[tile];
+        sum += t->final_variance;
+        for (size_t i = 0; i < t->count; i++)
+            sum += (double)(areas[t->leaves[i].level] * areas[t->leaves[i].level] * t->leaves[i].variance);
+    }
+    /* Against brute force on four scenes the variance of a cell is about a third of what it says. */
+    return sqrt(0.35 * sum / ((double)f->out->width * f->out->height));
+}
+
+/* ---- memory ---- */
+
+void forest_free(forest *f)
+{
+    if (!f)
+        return;
+    for (size_t i = 0; f->tiles && i < (size_t)f->columns * f->rows; i++)
+        free(f->tiles[i].leaves);
+    for (size_t i = 0; i < f->workers; i++) {
+        free(f->cells ? f->cells[i] : NULL);
+        free(f->sums ? f->sums[i] : NULL);
+        free(f->census ? f->census[i] : NULL);
+    }
+    for (int k = 0; k < INSTANTS; k++)
+        free(f->instants[k]);
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i <= MOST_PARTS; i++)
+            free(f->parts[k].sets[i]);
+    free(f->cells);
+    free(f->sums);
+    free(f->census);
+    free(f->tiles);
+    free(f->weight);
+    free(f);
+}
+
+static bool make_memory(forest *f)
+{
+    f->tiles = calloc((size_t)f->columns * f->rows, sizeof *f->tiles);
+    f->weight = malloc((size_t)f->width * f->height * sizeof *f->weight);
+    f->cells = calloc(f->workers, sizeof *f->cells);
+    f->sums = calloc(f->workers, sizeof *f->sums);
+    f->census = calloc(f->workers, sizeof *f->census);
+    bool all = f->tiles && f->weight && f->cells && f->sums && f->census;
+    for (size_t i = 0; all && i < f->workers; i++) {
+        f->cells[i] = calloc(1, sizeof **f->cells);
+        f->sums[i] = calloc(1, sizeof **f->sums);
+        f->census[i] = calloc(1, sizeof **f->census);
+        all = f->cells[i] && f->sums[i] && f->census[i];
+    }
+    for (int k = 0; all && k < INSTANTS; k++)
+        all = (f->instants[k] = calloc(1, sizeof **f->instants)) != NULL;
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; all && i <= MOST_PARTS; i++)
+            all = (f->parts[k].sets[i] = calloc(1, sizeof **f->parts[k].sets)) != NULL;
+    return all;
+}
+
+forest *forest_make(const adaptive_frame *a, const picture_planes *out)
+{
+    forest *f = calloc(1, sizeof *f);
+    if (!f)
+        return NULL;
+    f->width = out->width;
+    f->height = out->height;
+    f->columns = (out->width + TILE_WIDTH - 1) / TILE_WIDTH;
+    f->rows = (out->height + TILE_HEIGHT - 1) / TILE_HEIGHT;
+    f->workers = thread_pool_size(a->pool);
+    if (make_memory(f))
+        return f;
+    forest_free(f);
+    return NULL;
+}
+
+void forest_clear(forest *f, const adaptive_frame *a, const picture_planes *out)
+{
+    f->a = a;
+    f->out = out;
+    f->moves = a->frame->scene->camera_moves;
+    f->by_coverage = a->frame->scene->quality.target_rmse > 0;
+    f->least_bucket = 0;
+    atomic_store(&f->failed, false);
+    for (size_t i = 0; i < (size_t)f->columns * f->rows; i++)
+        f->tiles[i] = (forest_tile){.leaves = f->tiles[i].leaves, .capacity = f->tiles[i].capacity};
+}

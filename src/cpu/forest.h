@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: MIT
+ * What method adaptive knows of a frame: the pixels and cells that may still be split, what that is worth, and the memory they live in. */
+#ifndef MANGATA_CPU_FOREST_H
+#define MANGATA_CPU_FOREST_H
+
+#include <stdatomic.h>
+
+#include "cpu/adaptive.h"
+
+enum {
+    LEVELS = 9,             /* a pixel has up to 4^8 cells, … */
+    SIDES = 2 * LEVELS - 1, /* … split up to 16 times one way */
+    MOST_PARTS = 16,        /* straight pieces of the shutter */
+    INSTANTS = 8,           /* of the shutter, that points are spread over */
+};
+
+/* Into 2 × 2, four rows or four columns, whatever makes the parts' shape on the water rounder; or points instead. */
+enum { SHAPE_EVEN, SHAPE_ROWS, SHAPE_COLUMNS, SHAPE_POINTS };
+extern const uint8_t halvings[4][2]; /* of a pixel across and down, by shape */
+
+/* A pixel or cell that may be split. */
+typedef struct leaf {
+    uint32_t column, row; /* within the tile, in cells of this size */
+    uint8_t across, down; /* how often the pixel has been halved each way */
+    uint8_t level;        /* (across + down) / 2 */
+    uint8_t shape;        /* of the split to come, see shape_of() */
+    bool chosen;          /* to be split in this round */
+    uint16_t bucket;      /* of what a split is worth */
+    uint16_t points;      /* samples that its values are the mean of; 0: it is a cell */
+    float color[3], coverage, water, height, variance, contrast, places;
+} leaf;
+
+typedef struct forest_tile {
+    leaf *leaves;
+    size_t count, capacity;
+    double cost[LEVELS];  /* of a cell, evaluations of all waves; 0 as long as it is unknown */
+    double below[LEVELS]; /* of the four cells that one of this level is split into, as far as is known */
+    float worth[LEVELS];  /* of a split, for each unit of squared error */
+    double spent;
+    double final_variance; /* of what is split no more: sum of squared errors of pixels */
+} forest_tile;
+
+/* The shutter in straight pieces. While the camera stands, sets[i] is over piece i; where it moves, sets[i] and sets[i + 1] are the instants around it. */
+typedef struct shutter_parts {
+    int count;
+    wave_set *sets[MOST_PARTS + 1];
+} shutter_parts;
+
+typedef struct round_plan {
+    int bucket;     /* cells above this bucket are split, … */
+    double share;   /* … and this share of those in it */
+    int points;     /* leaves that take points: those above this bucket; they are too dear for shares */
+} round_plan;
+
+struct forest {
+    const adaptive_frame *a;
+    const picture_planes *out;
+    uint32_t width, height; /* that the memory is for */
+    uint32_t columns, rows;
+    bool by_coverage;       /* leaves are worth what they save of the coverage's error, not of the picture's */
+    forest_tile *tiles;
+    float *weight;         /* a pixel's, squared */
+    bool moves;            /* the camera does */
+    shutter_parts parts[3]; /* of pixels, of cells and of sharp cells */
+    wave_set *instants[INSTANTS]; /* as points see them */
+    tile_cells **cells;    /* one a worker, … */
+    tile_cells **sums;     /* … and one for the mean over the shutter's parts */
+    struct census **census; /* one a worker */
+    size_t workers;
+    round_plan plan;
+    double done, share;    /* of the budget, before this round and in it */
+    int least_bucket;      /* leaves up to this one are settled */
+    atomic_bool failed;    /* memory was short */
+};
+
+/* ---- leaves ---- */
+
+/* The pixel that a leaf of the tile lies in. */
+size_t leaf_pixel(const forest *f, size_t tile, const leaf *l);
+/* A leaf is final: its share of the pixel. */
+void leaf_settle(const forest *f, size_t tile, const leaf *l);
+/* A number in [0, 1) that is the leaf's own, for one seed. */
+double leaf_lot(size_t tile, const leaf *l, uint64_t seed);
+/* How many points it has after its next turn. */
+int leaf_next_points(const leaf *l);
+/* Of its split or points, evaluations of all waves. */
+double leaf_cost(const forest_tile *t, const leaf *l);
+/* Adds a leaf, or settles it where a split is worth nothing. False: memory is short. */
+bool forest_add(const forest *f, size_t tile, leaf l);
+/* Cells of a size cost so many waves in each part of the shutter: what splits are worth from now on. */
+void forest_price(const forest *f, forest_tile *t, int level, int waves);
+
+/* ---- rounds ---- */
+
+const shutter_parts *forest_parts(const forest *f, int level);
+/* Which leaves may be split for `budget` evaluations. False: none. */
+bool forest_plan(forest *f, double budget, size_t round);
+bool leaf_chosen(const forest *f, size_t tile, const leaf *l);
+/* Points for the chosen ones among the tile's first `end` leaves that take them (adaptive_points.c). False: memory is short. */
+bool forest_scatter_points(const forest *f, size_t tile, size_t end, uint32_t worker);
+void forest_place_instants(forest *f);
+
+/* Evaluations so far; pixels of water; the RMSE of coverage over the picture that the leaves expect. */
+double forest_spent(const forest *f);
+double forest_water(const forest *f);
+double forest_predicted_rmse(const forest *f);
+
+/* ---- memory ---- */
+
+/* NULL where memory is short. */
+forest *forest_make(const adaptive_frame *a, const picture_planes *out);
+/* Ready for a frame: empty but for memory. */
+void forest_clear(forest *f, const adaptive_frame *a, const picture_planes *out);
+
+#endif
