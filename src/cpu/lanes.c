@@ -18,6 +18,7 @@ static const float infinity = INFINITY;
 #include "kernels/prelude_c.h"
 
 #include "cpu/lane_access.h"
+#include "cpu/lane_display.h"
 
 /* Single floats of a table, at whole numbers. */
 static inline real gather_texels(const float *table, real index)
@@ -58,7 +59,6 @@ KERNEL real SHARE_TEXEL(CTX cx, real r, real slice)
 #include "kernels/podee_mixture.k"
 #include "kernels/sample.k"
 #include "kernels/tile.k"
-#include "kernels/tone.k"
 
 static inline HitGuess load_guess(const tile_guess *guess, size_t i)
 {
@@ -693,11 +693,8 @@ static void lanes_display(const FrameData *frame, const float *rgb, uint8_t *rgb
     const struct kernel_context context = {.frame = frame};
     for (size_t i = 0; i < count; i += MGT_LANES) {
         const size_t valid = count - i < MGT_LANES ? count - i : MGT_LANES;
-        float channel[3][MGT_LANES] = {{0}};
-        for (size_t lane = 0; lane < valid; lane++)
-            for (int c = 0; c < 3; c++)
-                channel[c][lane] = rgb[3 * (i + lane) + (size_t)c];
-        const vec3 shown = display_color(&context, vec3(load(channel[0]), load(channel[1]), load(channel[2])), frame->tone_map);
+        const vec3 shown = displayed_lanes(&context, rgb + 3 * i, count - i);
+        float channel[3][MGT_LANES];
         store(channel[0], shown.x);
         store(channel[1], shown.y);
         store(channel[2], shown.z);

@@ -12,6 +12,7 @@
 #include "kernels/prelude_c.h"
 
 #include "cpu/lane_access.h"
+#include "cpu/lane_display.h"
 
 #define LEAN(cx) ((cx)->lean->data)
 
@@ -61,7 +62,6 @@ KERNEL vec3 LEAN_SQUARE(CTX cx, real level, real column, real row)
 #include "kernels/temporal_ray.k"
 #include "kernels/tndf.k"
 #include "kernels/tokuyoshi.k"
-#include "kernels/tone.k"
 
 /* ---- pixels ---- */
 
@@ -225,14 +225,10 @@ static void lanes_luma(const FrameData *frame, const float *rgb, float *luma, si
     const struct kernel_context context = {.frame = frame};
     for (size_t i = 0; i < count; i += MGT_LANES) {
         const size_t valid = count - i < MGT_LANES ? count - i : MGT_LANES;
-        float channel[3][MGT_LANES] = {{0}};
+        float shown[MGT_LANES];
+        store(shown, display_luma(&context, displayed_lanes(&context, rgb + 3 * i, count - i)));
         for (size_t lane = 0; lane < valid; lane++)
-            for (int c = 0; c < 3; c++)
-                channel[c][lane] = rgb[3 * (i + lane) + (size_t)c];
-        const vec3 shown = display_color(&context, vec3(load(channel[0]), load(channel[1]), load(channel[2])), frame->tone_map);
-        store(channel[0], display_luma(&context, shown));
-        for (size_t lane = 0; lane < valid; lane++)
-            luma[i + lane] = channel[0][lane];
+            luma[i + lane] = shown[lane];
     }
 }
 
