@@ -18,7 +18,8 @@ static const char *const isa_names[] = {
 static const char *const layer_names[] = {
     [MGT_LAYER_COLOR] = "color", [MGT_LAYER_COVERAGE] = "coverage", [MGT_LAYER_MASK] = "mask",
     [MGT_LAYER_DEPTH] = "depth", [MGT_LAYER_NORMAL] = "normal",
-    [MGT_LAYER_SAMPLES] = "samples", [MGT_LAYER_IMPORTANCE] = "importance", [MGT_LAYER_DETAIL] = "detail"};
+    [MGT_LAYER_SAMPLES] = "samples", [MGT_LAYER_IMPORTANCE] = "importance", [MGT_LAYER_DETAIL] = "detail",
+    [MGT_LAYER_REFRACTION] = "refraction", [MGT_LAYER_REFRACTION_ERROR] = "refraction_error"};
 static const char *const method_names[] = {
     [MGT_METHOD_NONE] = "none", [MGT_METHOD_SSAA] = "ssaa", [MGT_METHOD_PODEE_UNIFORM] = "podee-uniform",
     [MGT_METHOD_PODEE_PIXEL] = "podee-pixel", [MGT_METHOD_MANGATA] = "mangata", [MGT_METHOD_REFERENCE] = "reference",
@@ -77,7 +78,7 @@ const char *layer_name(mgt_layer layer)
 
 uint32_t layer_channels(mgt_layer layer)
 {
-    return layer == MGT_LAYER_COLOR || layer == MGT_LAYER_NORMAL ? 3 : 1;
+    return layer == MGT_LAYER_COLOR || layer == MGT_LAYER_NORMAL || layer == MGT_LAYER_REFRACTION ? 3 : 1;
 }
 
 bool method_takes_samples(mgt_method method)

@@ -18,7 +18,7 @@ extern const char isa_words[];
 bool layer_from_name(const char *name, mgt_layer *layer);
 const char *layer_name(mgt_layer layer);
 uint32_t layer_channels(mgt_layer layer);
-enum { LAYER_COUNT = MGT_LAYER_DETAIL + 1 };
+enum { LAYER_COUNT = MGT_LAYER_REFRACTION_ERROR + 1 };
 
 /* "ssaa4" and the like set spatial_samples; "reference" sets its default of 8×8×8; the rest take one sample. */
 bool method_from_name(const char *name, mgt_quality *quality);

@@ -96,7 +96,7 @@ static int add_layer(render_request *r, const char *value)
     mgt_layer layer = MGT_LAYER_COLOR;
     const bool all = strcmp(value, "all") == 0;
     if (!all && !layer_from_name(value, &layer))
-        return bad_value(OPT_LAYER, value, "color, coverage, mask, depth, normal, samples, importance, detail or all");
+        return bad_value(OPT_LAYER, value, "color, coverage, mask, depth, normal, samples, importance, detail, refraction, refraction_error or all");
     bool wanted[LAYER_COUNT] = {false};
     for (size_t i = 0; i < r->layer_count; i++)
         wanted[r->layers[i]] = true;

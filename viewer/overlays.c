@@ -132,6 +132,8 @@ static const char *layer_meaning(mgt_layer layer)
     case MGT_LAYER_SAMPLES:
     case MGT_LAYER_IMPORTANCE:
     case MGT_LAYER_DETAIL:
+    case MGT_LAYER_REFRACTION:
+    case MGT_LAYER_REFRACTION_ERROR:
     case MGT_LAYER_COLOR: break;
     }
     return "";

@@ -39,8 +39,10 @@ extern "C" {
 #define MGT_VERSION_PATCH 0
 #define MGT_VERSION_STRING "0.1.0"
 
-/* Limits that mgt_render() checks. */
+/* Limits that are checked. */
 #define MGT_MAX_WAVES 512
+#define MGT_MAX_OBJECTS 65536
+#define MGT_MAX_TRIANGLES 67108864 /* of a mesh, and of all objects of a scene together */
 #define MGT_MAX_IMAGE_SIDE 32768
 
 typedef enum mgt_status {
@@ -136,6 +138,41 @@ MGT_API mgt_status mgt_context_get_info(const mgt_context *context, mgt_context_
 /* Whether this build and this processor run `isa` (AUTO: always). */
 MGT_API bool mgt_isa_available(mgt_isa isa);
 
+/* ---- meshes and textures ------------------------------------------------------------------------------ */
+
+/* Triangles and pictures that scenes refer to. They belong to no context and never change: any number of threads, contexts and scenes may use one at
+ * once. What a context uploads or builds for them it keeps while frames go on using them. A mesh or texture must outlive every mgt_render() that uses
+ * it; contexts do not read it after that. */
+typedef struct mgt_mesh mgt_mesh;
+typedef struct mgt_texture mgt_texture;
+
+typedef struct mgt_mesh_desc {
+    size_t struct_size;
+    const float *positions;  /* 3 a vertex, metres, within ±1e6 */
+    const float *normals;    /* 3 a vertex, of any length; NULL: those of the triangles */
+    const float *texcoords;  /* 2 a vertex, (0, 0) the top left of a texture, (1, 1) its bottom right; it repeats. NULL: all (0, 0) */
+    uint32_t vertex_count;
+    const uint32_t *indices; /* 3 a triangle, below vertex_count; counter-clockwise seen from outside. Both sides are drawn */
+    uint32_t triangle_count; /* 1 … MGT_MAX_TRIANGLES */
+} mgt_mesh_desc;
+
+typedef struct mgt_texture_desc {
+    size_t struct_size;
+    uint32_t width, height; /* pixels, 1 … 16384 */
+    const uint8_t *pixels;  /* RGBA, 8 bits each, sRGB; the top row first; alpha is not read */
+    ptrdiff_t row_stride;   /* bytes from a row to the next one; 0: tightly packed */
+} mgt_texture_desc;
+
+MGT_API mgt_mesh_desc mgt_mesh_desc_defaults(void);
+MGT_API mgt_texture_desc mgt_texture_desc_defaults(void);
+
+/* Copies what the description points to. On failure *mesh is NULL, the status says why and mgt_last_error(NULL) gives the detail. Triangles without
+ * area are dropped; it is an error if none is left, or if a number is not finite. The caller owns the result and destroys it. */
+MGT_API mgt_status mgt_mesh_create(mgt_mesh **mesh, const mgt_mesh_desc *desc);
+MGT_API mgt_status mgt_texture_create(mgt_texture **texture, const mgt_texture_desc *desc);
+MGT_API void mgt_mesh_destroy(mgt_mesh *mesh); /* NULL is allowed, as below */
+MGT_API void mgt_texture_destroy(mgt_texture *texture);
+
 /* ---- scene -------------------------------------------------------------------------------------------- */
 
 /* One sine wave of P1 Eq. 1: y += amplitude · sin(a·x + b·z + c·t + phase). */
@@ -152,7 +189,7 @@ typedef struct mgt_image {
 } mgt_image;
 
 typedef struct mgt_camera {
-    double position[3]; /* metres; above every wave is usual, above the mean surface is required */
+    double position[3]; /* metres; under water where it is below water.level */
     double target[3];   /* a point in front; must differ from position */
     double up[3];       /* must not be parallel to the view */
     double fov_y_deg;   /* vertical field of view, (0, 179) */
@@ -186,10 +223,39 @@ typedef struct mgt_sky {
 typedef struct mgt_water {
     const mgt_wave *waves; /* wave_count of them, read during the call; NULL when wave_count is 0 (a flat mirror) */
     size_t wave_count;     /* 0 … MGT_MAX_WAVES */
-    double index_of_refraction; /* [1.0, 3.0]; 1.333 */
+    double index_of_refraction; /* of the water, in air: [0.5, 3.0]; 1.333 */
+    double level;               /* metres: the height of the mean surface, ±1e6 */
+    float absorption[3];        /* light that a metre of water absorbs, and … */
+    float scattering[3];        /* … light that it scatters, 1/metre, linear sRGB, [0, 1000]. For what is seen through it: where there are objects */
     float body_albedo[3];  /* share of the light entering the water that deep water sends up again, [0, 1], linear sRGB;
                               shows only with a sky other than black */
 } mgt_water;
+
+typedef enum mgt_pattern {
+    MGT_PATTERN_NONE = 0,
+    MGT_PATTERN_TILES = 1,   /* a grid of tiles with joints between them */
+    MGT_PATTERN_CHECKER = 2, /* fields of two colours in turn */
+    MGT_PATTERN_STRIPES = 3  /* bands of two colours across the first texture coordinate */
+} mgt_pattern;
+
+/* What a surface is made of: diffuse (Lambert) and glossy (GGX). Colours are linear sRGB in [0, 1]. */
+typedef struct mgt_material {
+    float base_color[3];
+    float roughness;            /* GGX α = roughness², [0.02, 1] */
+    float metallic;             /* [0, 1]; 0: reflects 4% at normal incidence and is diffuse below */
+    const mgt_texture *texture; /* times base_color; NULL: none */
+    mgt_pattern pattern;        /* replaces base_color by pattern_color here and there */
+    float pattern_color[3];     /* of the joints, of every other field, of every other stripe */
+    float pattern_size;         /* side of a tile, field or stripe in texture coordinates (metres for meshes that are laid out so), > 0 */
+    float pattern_joint;        /* width of a joint in tiles, [0, 1) */
+} mgt_material;
+
+/* A mesh somewhere in the scene. */
+typedef struct mgt_object {
+    const mgt_mesh *mesh;
+    double transform[3][4]; /* from the mesh to the world: position = transform · (x, y, z, 1); it may mirror but not flatten */
+    mgt_material material;
+} mgt_object;
 
 typedef enum mgt_tone_map { MGT_TONE_NONE = 0, MGT_TONE_REINHARD, MGT_TONE_ACES, MGT_TONE_AGX } mgt_tone_map;
 
@@ -221,6 +287,19 @@ typedef enum mgt_method {
        whatever the backend. */
     MGT_METHOD_ADAPTIVE
 } mgt_method;
+
+/* How what lies on the other side of the surface is found: scenes with objects. docs/refraction.md says what is whose. */
+typedef enum mgt_refraction {
+    MGT_REFRACTION_TWO_PHASE = 0,  /* this library's own: Liu et al. 2020 in true space, with the waves' heights, iterated */
+    MGT_REFRACTION_HYBRID,         /* the same, and rays are traced where it is uncertain */
+    MGT_REFRACTION_LIU,            /* Liu et al. 2020: both phases as printed, mistakes of print mended */
+    MGT_REFRACTION_BROAD,          /* its broad phase alone: a flat surface */
+    MGT_REFRACTION_NARROW,         /* its narrow phase alone */
+    MGT_REFRACTION_SCREEN_SPACE,   /* McGuire and Mara 2014: rays marched through the depth buffer */
+    MGT_REFRACTION_DISTANCE_FIELD, /* Rodgman and Chen 2001: rays marched through voxels of distances */
+    MGT_REFRACTION_OFF,            /* straight through */
+    MGT_REFRACTION_TRUTH           /* rays traced through the waves as they are, many a pixel (CPU backend only) */
+} mgt_refraction;
 
 /* How method adaptive finds the pixels that need more, and what it gives them. */
 typedef enum mgt_adaptive {
@@ -263,6 +342,10 @@ typedef struct mgt_quality {
     double importance_width;  /* adaptive, podee: ρ of Eq. 1, 1e-6 … 1; 0: 0.04 */
     double importance_threshold; /* adaptive, podee: pixels whose importance (1 at its peak) is not above it get no samples, up to 1; 0: 0.05,
                                  a little more than the importance of a pixel without light by the defaults */
+    mgt_refraction refraction;
+    double tess_error;        /* two-phase, hybrid, liu, broad: pixels that a triangle bent by refraction may be off by, 0.01 … 100; 0: 0.25 */
+    uint32_t refraction_samples; /* N of N×N places of a pixel that rays of refraction go through, 1 … 64; 1 is the pixel's centre; 0: 1, and 4 for truth */
+    bool caustics;            /* light that the waves bundle on what lies under them */
     uint64_t sample_slots;    /* adaptive, podee: M of Eq. 3, how many samples the picture gets, up to 2^32; 0: as `samples` says */
 } mgt_quality;
 
@@ -279,6 +362,8 @@ typedef struct mgt_scene {
     mgt_light light;
     mgt_sky sky;
     mgt_water water;
+    const mgt_object *objects; /* object_count of them, read during the call; NULL when there are none */
+    size_t object_count;       /* 0 … MGT_MAX_OBJECTS */
     mgt_post post;
     mgt_quality quality;
 } mgt_scene;
@@ -304,7 +389,10 @@ typedef enum mgt_layer {
     MGT_LAYER_SAMPLES,    /* 1: samples of the pixel; for adaptive evaluations of all waves (see mgt_quality.samples) */
     MGT_LAYER_IMPORTANCE, /* 1: adaptive: what samples are given for, of the analytic picture; cells: predicted error of its coverage, podee: Eq. 1
                              where it is above the threshold. Others: 0 */
-    MGT_LAYER_DETAIL      /* 1: adaptive: coverage of the added samples alone, 0 where there are none. Others: 0 */
+    MGT_LAYER_DETAIL,     /* 1: adaptive: coverage of the added samples alone, 0 where there are none. Others: 0 */
+    /* Scenes with objects; not in textures and views of OpenGL. Elsewhere 0. */
+    MGT_LAYER_REFRACTION,      /* 3: radiance that comes through the water's surface, before Fresnel's share of it is taken; 0 where no water */
+    MGT_LAYER_REFRACTION_ERROR /* 1: pixels by which what is shown may be beside what the refracted ray meets; +inf where it is not known at all */
 } mgt_layer;
 
 typedef enum mgt_format {

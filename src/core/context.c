@@ -10,6 +10,12 @@
 /* Where creation reports, since there is no context to hold the text yet. */
 static _Thread_local char creation_error[REPORTER_TEXT];
 
+reporter creation_reporter(void)
+{
+    creation_error[0] = 0;
+    return (reporter){.error = creation_error};
+}
+
 static void send(const reporter *r, mgt_log_level level, const char *id, const char *text)
 {
     if (r->log)
@@ -120,6 +126,16 @@ mgt_status mgt_scene_check(mgt_context *context, const mgt_scene *scene)
     return validate_scene(&context->report, scene);
 }
 
+mgt_scene scene_at_sea_level(const mgt_scene *scene)
+{
+    mgt_scene s = *scene;
+    s.camera.position[1] -= s.water.level;
+    s.camera.target[1] -= s.water.level;
+    s.camera_open.position[1] -= s.water.level;
+    s.camera_open.target[1] -= s.water.level;
+    return s;
+}
+
 mgt_status mgt_render(mgt_context *context, const mgt_scene *scene, const mgt_target *targets, size_t count)
 {
     if (!context)
@@ -128,7 +144,8 @@ mgt_status mgt_render(mgt_context *context, const mgt_scene *scene, const mgt_ta
     mgt_status status = validate_scene(&context->report, scene);
     if (status == MGT_OK)
         status = validate_targets(&context->report, scene, targets, count);
-    if (status == MGT_OK)
-        status = context->backend->render(context->state, &context->report, scene, targets, count);
-    return status;
+    if (status != MGT_OK)
+        return status;
+    const mgt_scene ours = scene_at_sea_level(scene);
+    return context->backend->render(context->state, &context->report, &ours, targets, count);
 }

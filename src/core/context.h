@@ -14,4 +14,11 @@ struct mgt_context {
     char error[REPORTER_TEXT];
 };
 
+/* For what is created without a context: the text of mgt_last_error(NULL), emptied. */
+reporter creation_reporter(void);
+
+/* The scene with the mean surface at y = 0, as backends see it: its cameras are moved. Objects stay where they are, so who reads them
+ * takes water.level off. */
+mgt_scene scene_at_sea_level(const mgt_scene *scene);
+
 #endif

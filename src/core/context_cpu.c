@@ -54,5 +54,8 @@ mgt_status mgt_inspect_pixel(mgt_context *context, const mgt_scene *scene, uint3
         return report_error(&context->report, MGT_ERROR_ARGUMENT, "inspect.pixel", "pixel %u, %u lies outside the image of %u x %u pixels", x, y,
                             scene->image.width, scene->image.height);
     status = cpu_state(context, &state);
-    return status == MGT_OK ? cpu_inspect(state, &context->report, scene, x, y, info) : status;
+    if (status != MGT_OK)
+        return status;
+    const mgt_scene ours = scene_at_sea_level(scene);
+    return cpu_inspect(state, &context->report, &ours, x, y, info);
 }

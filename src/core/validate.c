@@ -4,6 +4,8 @@
 
 #include <math.h>
 
+#include "core/mesh.h"
+
 mgt_status validate_desc(const reporter *r, const mgt_context_desc *desc)
 {
     if (desc->struct_size != sizeof *desc)
@@ -66,16 +68,16 @@ static mgt_status check_image(const reporter *r, const mgt_image *image)
     return MGT_OK;
 }
 
-static mgt_status check_camera(const reporter *r, const char *name, const mgt_camera *camera)
+static mgt_status check_camera(const reporter *r, const char *name, const mgt_camera *camera, double level)
 {
     TRY(check_vector(r, name, "position", camera->position));
     TRY(check_vector(r, name, "target", camera->target));
     TRY(check_vector(r, name, "up", camera->up));
     if (!(camera->fov_y_deg > 0 && camera->fov_y_deg < 179))
         return report_error(r, MGT_ERROR_SCENE, "render.scene", "%s.fov_y_deg is %g; allowed is more than 0 and less than 179", name, camera->fov_y_deg);
-    if (camera->position[1] <= 0)
+    if (camera->position[1] <= level)
         return report_error(r, MGT_ERROR_UNSUPPORTED, "render.scene",
-                            "%s.position[1] is %g; cameras at or under the mean water surface (y = 0) are not supported yet", name, camera->position[1]);
+                            "%s.position[1] is %g; cameras at or under the mean water surface (y = %g) are not supported yet", name, camera->position[1], level);
     double f[3], length = 0, up_length = 0, cross_length = 0;
     for (int i = 0; i < 3; i++) {
         f[i] = camera->target[i] - camera->position[i];
@@ -171,6 +173,66 @@ static mgt_status check_adaptive(const reporter *r, const mgt_quality *q)
     return MGT_OK;
 }
 
+static mgt_status check_refraction(const reporter *r, const mgt_quality *q)
+{
+    TRY(enum_range(r, "quality.refraction", (int)q->refraction, MGT_REFRACTION_TRUTH));
+    if (q->tess_error != 0)
+        TRY(in_range(r, "quality.tess_error", q->tess_error, 0.01, 100));
+    return in_range(r, "quality.refraction_samples", q->refraction_samples, 0, 64);
+}
+
+/* A field of objects[index]. */
+static mgt_status object_range(const reporter *r, size_t index, const char *field, double value, double low, double high)
+{
+    if (value >= low && value <= high)
+        return MGT_OK;
+    return report_error(r, MGT_ERROR_SCENE, "render.scene", "objects[%zu].%s is %g; allowed is %g to %g", index, field, value, low, high);
+}
+
+static mgt_status check_material(const reporter *r, size_t index, const mgt_material *m)
+{
+    for (int i = 0; i < 3; i++) {
+        TRY(object_range(r, index, "material.base_color", (double)m->base_color[i], 0, 1));
+        TRY(object_range(r, index, "material.pattern_color", (double)m->pattern_color[i], 0, 1));
+    }
+    TRY(object_range(r, index, "material.roughness", (double)m->roughness, 0.02, 1));
+    TRY(object_range(r, index, "material.metallic", (double)m->metallic, 0, 1));
+    TRY(object_range(r, index, "material.pattern", (int)m->pattern, 0, MGT_PATTERN_STRIPES));
+    if (m->pattern == MGT_PATTERN_NONE)
+        return MGT_OK;
+    TRY(object_range(r, index, "material.pattern_joint", (double)m->pattern_joint, 0, 0.999));
+    return object_range(r, index, "material.pattern_size", (double)m->pattern_size, 1e-4, 1e6);
+}
+
+static mgt_status check_objects(const reporter *r, const mgt_scene *scene)
+{
+    uint64_t triangles = 0;
+    if (scene->object_count > MGT_MAX_OBJECTS)
+        return report_error(r, MGT_ERROR_SCENE, "render.scene", "the scene has %zu objects; at most %d are allowed", scene->object_count, MGT_MAX_OBJECTS);
+    if (scene->object_count > 0 && !scene->objects)
+        return report_error(r, MGT_ERROR_ARGUMENT, "render.scene", "objects is NULL although object_count is %zu", scene->object_count);
+    for (size_t i = 0; i < scene->object_count; i++) {
+        const mgt_object *o = &scene->objects[i];
+        if (!o->mesh)
+            return report_error(r, MGT_ERROR_ARGUMENT, "render.scene", "objects[%zu].mesh is NULL", i);
+        for (int k = 0; k < 12; k++)
+            TRY(object_range(r, i, "transform", o->transform[k / 4][k % 4], -1e6, 1e6));
+        const double(*t)[4] = o->transform;
+        const double volume = t[0][0] * (t[1][1] * t[2][2] - t[1][2] * t[2][1]) - t[0][1] * (t[1][0] * t[2][2] - t[1][2] * t[2][0]) +
+                              t[0][2] * (t[1][0] * t[2][1] - t[1][1] * t[2][0]);
+        if (!(fabs(volume) > 1e-24))
+            return report_error(r, MGT_ERROR_SCENE, "render.scene", "objects[%zu].transform flattens the mesh; its determinant is %g", i, volume);
+        TRY(check_material(r, i, &o->material));
+        triangles += o->mesh->triangle_count;
+    }
+    if (triangles > MGT_MAX_TRIANGLES)
+        return report_error(r, MGT_ERROR_SCENE, "render.scene", "the scene has %llu triangles; at most %d are allowed", (unsigned long long)triangles,
+                            MGT_MAX_TRIANGLES);
+    if (triangles > 0)
+        return report_error(r, MGT_ERROR_UNSUPPORTED, "render.scene", "scenes with objects are not supported yet");
+    return MGT_OK;
+}
+
 mgt_status validate_scene(const reporter *r, const mgt_scene *scene)
 {
     if (!scene)
@@ -178,9 +240,9 @@ mgt_status validate_scene(const reporter *r, const mgt_scene *scene)
     if (scene->struct_size != sizeof *scene)
         return report_error(r, MGT_ERROR_ARGUMENT, "render.scene", "mgt_scene.struct_size is %zu, this library knows %zu", scene->struct_size, sizeof *scene);
     TRY(check_image(r, &scene->image));
-    TRY(check_camera(r, "camera", &scene->camera));
+    TRY(check_camera(r, "camera", &scene->camera, scene->water.level));
     if (scene->camera_moves)
-        TRY(check_camera(r, "camera_open", &scene->camera_open));
+        TRY(check_camera(r, "camera_open", &scene->camera_open, scene->water.level));
     TRY(in_range(r, "time", scene->time, -1e9, 1e9));
     TRY(in_range(r, "shutter", scene->shutter, 0, 1e6));
     TRY(in_range(r, "frame_interval", scene->frame_interval, 0, 1e6));
@@ -198,8 +260,12 @@ mgt_status validate_scene(const reporter *r, const mgt_scene *scene)
     TRY(check_color(r, "sky.night", scene->sky.night, 1e9));
 
     TRY(check_waves(r, &scene->water));
-    TRY(in_range(r, "water.index_of_refraction", scene->water.index_of_refraction, 1, 3));
+    TRY(in_range(r, "water.index_of_refraction", scene->water.index_of_refraction, 0.5, 3));
     TRY(check_color(r, "water.body_albedo", scene->water.body_albedo, 1));
+    TRY(in_range(r, "water.level", scene->water.level, -1e6, 1e6));
+    TRY(check_color(r, "water.absorption", scene->water.absorption, 1000));
+    TRY(check_color(r, "water.scattering", scene->water.scattering, 1000));
+    TRY(check_objects(r, scene));
 
     TRY(enum_range(r, "post.tone_map", (int)scene->post.tone_map, MGT_TONE_AGX));
     TRY(in_range(r, "post.exposure_ev", scene->post.exposure_ev, -60, 60));
@@ -211,6 +277,7 @@ mgt_status validate_scene(const reporter *r, const mgt_scene *scene)
     TRY(in_range(r, "quality.time_samples", q->time_samples, 1, 65536));
     TRY(check_podee(r, q));
     TRY(check_adaptive(r, q));
+    TRY(check_refraction(r, q));
     const uint64_t samples = (uint64_t)q->spatial_samples * q->spatial_samples * q->time_samples;
     if (q->sample_first >= samples || q->sample_count > samples - q->sample_first)
         return report_error(r, MGT_ERROR_SCENE, "render.scene", "quality.sample_first %llu and sample_count %llu lie outside the %llu samples of a pixel",
@@ -229,10 +296,12 @@ static mgt_status validate_target(const reporter *r, const region *area, const m
         [MGT_LAYER_SAMPLES] = 1u << MGT_FORMAT_R32F,
         [MGT_LAYER_IMPORTANCE] = 1u << MGT_FORMAT_R32F,
         [MGT_LAYER_DETAIL] = 1u << MGT_FORMAT_R32F,
+        [MGT_LAYER_REFRACTION] = 1u << MGT_FORMAT_RGB32F | 1u << MGT_FORMAT_RGBA32F,
+        [MGT_LAYER_REFRACTION_ERROR] = 1u << MGT_FORMAT_R32F,
     };
     if (target->struct_size != sizeof *target)
         return report_error(r, MGT_ERROR_ARGUMENT, "render.target", "target %zu: struct_size is %zu, this library knows %zu", index, target->struct_size, sizeof *target);
-    if ((int)target->layer < 0 || (int)target->layer > MGT_LAYER_DETAIL || (int)target->format < 0 || (int)target->format > MGT_FORMAT_RGBA8_SRGB ||
+    if ((int)target->layer < 0 || (int)target->layer > MGT_LAYER_REFRACTION_ERROR || (int)target->format < 0 || (int)target->format > MGT_FORMAT_RGBA8_SRGB ||
         !(allowed[target->layer] & 1u << target->format))
         return report_error(r, MGT_ERROR_ARGUMENT, "render.target", "target %zu: layer %d cannot be written in format %d", index, (int)target->layer, (int)target->format);
     if (!target->pixels)

@@ -200,7 +200,9 @@ static void write_row(const render_job *job, const mgt_target *t, const pixel_pl
     case MGT_LAYER_NORMAL: write_pixels(p->normal, p->normal_step, first, count, channels, out); return;
     case MGT_LAYER_SAMPLES: fill_row(out, count, samples_per_pixel(&job->scene->quality)); return;
     case MGT_LAYER_IMPORTANCE:
-    case MGT_LAYER_DETAIL: fill_row(out, count, 0); return;
+    case MGT_LAYER_DETAIL:
+    case MGT_LAYER_REFRACTION_ERROR: fill_row(out, count, 0); return;
+    case MGT_LAYER_REFRACTION: fill_row(out, (uint32_t)channels * count, 0); return;
     }
 }
 

@@ -43,6 +43,8 @@ static const float *plane_of(const picture_planes *p, mgt_layer layer)
     case MGT_LAYER_SAMPLES: return p->samples;
     case MGT_LAYER_IMPORTANCE: return p->importance;
     case MGT_LAYER_DETAIL: return p->detail;
+    case MGT_LAYER_REFRACTION:
+    case MGT_LAYER_REFRACTION_ERROR: return NULL;
     default: return p->water;
     }
 }
@@ -55,12 +57,12 @@ static void fill_row(float *out, uint32_t count, float value)
 
 static void copy_layer(const mgt_target *t, const region *crop, const picture_planes *p, float samples)
 {
-    const size_t channels = t->layer == MGT_LAYER_COLOR ? 3 : 1;
+    const size_t channels = t->layer == MGT_LAYER_COLOR || t->layer == MGT_LAYER_REFRACTION ? 3 : 1;
     const float *plane = plane_of(p, t->layer);
     for (uint32_t y = 0; y < crop->height; y++) {
         float *out = target_row(t, crop, y);
         if (!plane) {
-            fill_row(out, crop->width, t->layer == MGT_LAYER_SAMPLES ? samples : 0);
+            fill_row(out, crop->width * (uint32_t)(format_size(t->format) / sizeof *out), t->layer == MGT_LAYER_SAMPLES ? samples : 0);
             continue;
         }
         const float *in = plane + ((size_t)(crop->y + y) * p->width + crop->x) * channels;

@@ -163,6 +163,8 @@ static layer_source source_of(const gl_layers *l, const mgt_target *target)
     case MGT_LAYER_SAMPLES: /* handed to the CPU */
     case MGT_LAYER_IMPORTANCE:
     case MGT_LAYER_DETAIL:
+    case MGT_LAYER_REFRACTION:
+    case MGT_LAYER_REFRACTION_ERROR:
     case MGT_LAYER_COLOR: break;
     }
     return (layer_source){&l->color, channels, GL_FLOAT};
