@@ -223,7 +223,7 @@ typedef struct mgt_sky {
 typedef struct mgt_water {
     const mgt_wave *waves; /* wave_count of them, read during the call; NULL when wave_count is 0 (a flat mirror) */
     size_t wave_count;     /* 0 … MGT_MAX_WAVES */
-    double index_of_refraction; /* of the water, in air: [0.5, 3.0]; 1.333 */
+    double index_of_refraction; /* of the water, in air: [1.0, 3.0]; 1.333 */
     double level;               /* metres: the height of the mean surface, ±1e6 */
     float absorption[3];        /* light that a metre of water absorbs, and … */
     float scattering[3];        /* … light that it scatters, 1/metre, linear sRGB, [0, 1000]. For what is seen through it: where there are objects */

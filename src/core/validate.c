@@ -260,7 +260,7 @@ mgt_status validate_scene(const reporter *r, const mgt_scene *scene)
     TRY(check_color(r, "sky.night", scene->sky.night, 1e9));
 
     TRY(check_waves(r, &scene->water));
-    TRY(in_range(r, "water.index_of_refraction", scene->water.index_of_refraction, 0.5, 3));
+    TRY(in_range(r, "water.index_of_refraction", scene->water.index_of_refraction, 1, 3));
     TRY(check_color(r, "water.body_albedo", scene->water.body_albedo, 1));
     TRY(in_range(r, "water.level", scene->water.level, -1e6, 1e6));
     TRY(check_color(r, "water.absorption", scene->water.absorption, 1000));
