@@ -9,13 +9,15 @@
 #include "numbers.h"
 #include "options.h"
 #include "podee_options.h"
+#include "refraction_options.h"
 #include "render_request.h"
 #include "verbs.h"
 
 enum {
     OPT_OUTPUT, OPT_FRAMES, OPT_SIZE, OPT_CROP, OPT_METHOD, OPT_SPATIAL, OPT_TIME, OPT_RANGE, OPT_NDF_MEAN, OPT_KERNELS, OPT_INTEGRAL,
     OPT_ELONGATION, OPT_SEGMENTS, OPT_TRANSITION, OPT_WIDTH,
-    OPT_ADAPTIVE, OPT_SAMPLES, OPT_TARGET, OPT_BUDGET, OPT_CENTER, OPT_IMPORTANCE_WIDTH, OPT_THRESHOLD, OPT_SLOTS, OPT_SET, OPT_SEED,
+    OPT_ADAPTIVE, OPT_SAMPLES, OPT_TARGET, OPT_BUDGET, OPT_CENTER, OPT_IMPORTANCE_WIDTH, OPT_THRESHOLD, OPT_SLOTS,
+    OPT_REFRACTION, OPT_TESS_ERROR, OPT_REFRACTION_SAMPLES, OPT_CAUSTICS, OPT_SET, OPT_SEED,
     OPT_LAYER, OPT_BACKEND, OPT_GL_DEVICE, OPT_THREADS, OPT_ISA, OPT_OVERWRITE, OPT_SKIP, OPT_STAMP, OPT_PROGRESS
 };
 
@@ -52,11 +54,18 @@ static const option render_options[] = {
     [OPT_THRESHOLD] = {"importance-threshold", 0, "V", "adaptive podee: importance below which no samples are taken\n"
                                                        "(default 0.05)"},
     [OPT_SLOTS] = {"slots", 0, "M", "adaptive podee: samples of the whole picture"},
+    [OPT_REFRACTION] = {"refraction", 0, "NAME", "how what lies behind the surface is found: two-phase (default),\n"
+                                                 "hybrid, liu, broad, narrow, screen-space, distance-field, off, truth"},
+    [OPT_TESS_ERROR] = {"tess-error", 0, "PX", "two-phase, hybrid, liu, broad: pixels that a bent triangle may be off\n"
+                                               "by (default 0.25)"},
+    [OPT_REFRACTION_SAMPLES] = {"refraction-samples", 0, "N", "NxN refracted rays a pixel (default 1; truth: 4)"},
+    [OPT_CAUSTICS] = {"caustics", 0, "on|off", "light that the waves bundle under water (default off)"},
     [OPT_SET] = {"set", 0, "KEY=VALUE", "change a value of the scene, e.g. light.elevation_deg=3;\n"
                                         "may be repeated"},
     [OPT_SEED] = {"seed", 0, "N", "seed of the jitter (default 0)"},
     [OPT_LAYER] = {"layer", 0, "NAME", "color (default), coverage, mask, depth, normal, samples,\n"
-                                       "importance or detail; .exr takes several, or all"},
+                                       "importance, detail, refraction or refraction_error;\n"
+                                       ".exr takes several, or all"},
     [OPT_BACKEND] = {"backend", 0, "NAME", "cpu (default), gl, auto, or null (renders nothing: for tests)"},
     [OPT_GL_DEVICE] = CONTEXT_OPTION_GL_DEVICE,
     [OPT_THREADS] = CONTEXT_OPTION_THREADS,
@@ -112,6 +121,7 @@ typedef struct sample_options {
     const char *spatial, *time, *range, *ndf_mean;
     podee_options podee;
     adaptive_options adaptive;
+    refraction_options refraction;
 } sample_options;
 
 static int set_samples(mgt_quality *q, const sample_options *given)
@@ -152,8 +162,9 @@ static int set_samples(mgt_quality *q, const sample_options *given)
             return bad_value(OPT_NDF_MEAN, given->ndf_mean, "add or drop");
         q->ndf_mean_drop = given->ndf_mean[0] == 'd';
     }
-    char wrong[160];
-    if (!podee_options_apply(&given->podee, q, wrong, sizeof wrong) || !adaptive_options_apply(&given->adaptive, q, wrong, sizeof wrong))
+    char wrong[240];
+    if (!podee_options_apply(&given->podee, q, wrong, sizeof wrong) || !adaptive_options_apply(&given->adaptive, q, wrong, sizeof wrong) ||
+        !refraction_options_apply(&given->refraction, q, wrong, sizeof wrong))
         return console_error(EXIT_CODE_USAGE, "%s", wrong);
     return EXIT_CODE_OK;
 }
@@ -198,6 +209,14 @@ static int set_option(render_request *r, int id, const char *value, sample_optio
     case OPT_SLOTS: {
         const char *name = render_options[id].name;
         *adaptive_option(&samples->adaptive, name, strlen(name)) = value;
+        break;
+    }
+    case OPT_REFRACTION:
+    case OPT_TESS_ERROR:
+    case OPT_REFRACTION_SAMPLES:
+    case OPT_CAUSTICS: {
+        const char *name = render_options[id].name;
+        *refraction_option(&samples->refraction, name, strlen(name)) = value;
         break;
     }
     case OPT_SET: r->overrides[r->override_count++] = value; break;

@@ -13,6 +13,7 @@
 #include "adaptive_options.h"
 #include "numbers.h"
 #include "podee_options.h"
+#include "refraction_options.h"
 
 static const char *format_word(picture_format format)
 {
@@ -56,6 +57,9 @@ bool render_hash(const render_request *request, const char *canonical, const mgt
     const adaptive_text adaptive = adaptive_options_text(q);
     if (adaptive.text[0])
         fprintf(stream, "adaptive %s\n", adaptive.text);
+    const refraction_text refraction = refraction_options_text(q);
+    if (refraction.text[0])
+        fprintf(stream, "refraction %s\n", refraction.text);
     fprintf(stream, "arithmetic %s\nformat %s\nlayers", arithmetic_word(info), format_word(request->format));
     for (size_t i = 0; i < request->layer_count; i++)
         fprintf(stream, " %s", layer_name(request->layers[i]));
@@ -118,6 +122,9 @@ void render_record_fill(render_record *record, const render_request *request, co
     const adaptive_text adaptive = adaptive_options_text(q);
     if (adaptive.text[0])
         add(record, "method_options", "%s", adaptive.text);
+    const refraction_text refraction = refraction_options_text(q);
+    if (refraction.text[0])
+        add(record, "refraction", "%s", refraction.text);
     add(record, render_is_film(request) ? "frames" : "frame", "%s", frames);
     add(record, "time", "%s", number_print(time).text);
     add(record, "samples", "%" PRIu64, (uint64_t)q->spatial_samples * q->spatial_samples * q->time_samples);

@@ -15,7 +15,7 @@
 bool render_hash(const render_request *request, const char *canonical, const mgt_image *image, const mgt_context_info *info,
                  const char *frames, sha256_text *hash);
 
-enum { RECORD_ENTRIES = 16, RECORD_TEXT = 256 };
+enum { RECORD_ENTRIES = 18, RECORD_TEXT = 256 };
 
 /* Metadata with the memory of its values. Not to be copied: the entries point into it. */
 typedef struct render_record {
