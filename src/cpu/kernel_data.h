@@ -8,6 +8,7 @@
     struct name
 #include "kernels/types.k"
 #include "kernels/lean_types.k"
+#include "kernels/refract_types.k"
 #undef STRUCT
 
 #include "precompute/podee_tables.h"
@@ -17,6 +18,7 @@ _Static_assert(sizeof(TileData) % 16 == 0, "std140 layout");
 _Static_assert(sizeof(ViewData) % 16 == 0, "std140 layout");
 _Static_assert(sizeof(WaveData) == 96, "std140 layout");
 _Static_assert(sizeof(MarchWave) == 16, "std140 layout");
+_Static_assert(sizeof(RefractData) == 48, "std140 layout");
 
 /* What a kernel can reach through its accessors. */
 struct kernel_context {
@@ -28,6 +30,7 @@ struct kernel_context {
     const ViewData *view; /* only while tiles are sorted */
     const podee_tables *podee; /* only where podee-* replaces its Gaussian by kernels */
     const struct lean_map *lean; /* methods lean and leadr alone */
+    const RefractData *refract; /* scenes with objects alone */
 };
 
 #endif

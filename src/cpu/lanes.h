@@ -73,7 +73,8 @@ typedef struct tile_surface {
     float normal_x[TILE_PIXELS], normal_y[TILE_PIXELS], normal_z[TILE_PIXELS];
 } tile_surface;
 
-typedef struct rival_kernels rival_kernels; /* cpu/rival_lanes.h */
+typedef struct rival_kernels rival_kernels;   /* cpu/rival_lanes.h */
+typedef struct raster_kernels raster_kernels; /* cpu/raster_lanes.h */
 
 typedef struct lane_kernels {
     uint32_t lanes;
@@ -97,6 +98,7 @@ typedef struct lane_kernels {
     /* Displayed colour: `count` pixels of 3 floats to 4 bytes. */
     void (*display)(const FrameData *frame, const float *rgb, uint8_t *rgba, size_t count);
     const rival_kernels *rivals;
+    const raster_kernels *raster;
 } lane_kernels;
 
 extern const lane_kernels lane_kernels_1;

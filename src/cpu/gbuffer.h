@@ -1,0 +1,68 @@
+/* SPDX-License-Identifier: MIT
+ * What a camera sees of the objects, apart on its own side of the mean surface and on the other one.
+ *
+ * On the other side, the far layer, every triangle is drawn where refraction by the flat mean surface shows it: its points are moved to their
+ * virtual images (kernels/refract_point.k), which lie on straight rays of the camera. Triangles are cut at the mean surface, split where the
+ * map bends them, and drawn into a picture with a guard band around it.
+ */
+#ifndef MANGATA_CPU_GBUFFER_H
+#define MANGATA_CPU_GBUFFER_H
+
+#include "cpu/frame.h"
+#include "cpu/thread_pool.h"
+#include "cpu/world.h"
+
+/*
+ * What is seen first through every pixel's centre. Pixel (x, y) of the image is element (top + y) · width + left + x; both layers of a picture
+ * have the same shape. The virtual image of what is seen stands at camera + depth · ray, where ray = corner + x · right + y · down of camera_rays
+ * (not normalised: depth counts along the view). Its true position is true_point() of kernels/refract_point.k, from that alone; the triangle
+ * gives the rest.
+ */
+typedef struct gbuffer {
+    uint32_t width, height; /* guard band included; the width is a multiple of 16 */
+    uint32_t left, top;
+    float *depth;      /* metres along the view; +inf: nothing */
+    int32_t *triangle; /* of the world; −1: nothing */
+} gbuffer;
+
+/* Where far triangles are drawn. */
+typedef enum gbuffer_map {
+    GBUFFER_STRAIGHT, /* where they are, as if there were no water: off, narrow, screen-space */
+    GBUFFER_SAGITTAL, /* at their sagittal images: two-phase, hybrid, broad */
+    GBUFFER_PATH      /* along the camera's ray at the length of the refracted path: liu */
+} gbuffer_map;
+
+/* What the layers depend on, beside the world. */
+typedef struct gbuffer_job {
+    camera_rays camera;     /* position[1] is its height above the mean surface; 0 counts as above */
+    uint32_t width, height; /* of the image */
+    double index;           /* of refraction of the water in air */
+    gbuffer_map map;
+    double error;           /* pixels that a triangle bent by the map may be off by; 0: 0.25 */
+    double crest;           /* metres over the mean surface that the far layer goes on for on the camera's side: as far as the waves may reach */
+} gbuffer_job;
+
+/* Counts of the last picture that was drawn. */
+typedef struct gbuffer_counts {
+    size_t near_triangles, far_triangles; /* drawn: cut, split and within the guard band */
+    size_t splits;                        /* triangles added because the map bends */
+} gbuffer_counts;
+
+typedef struct gbuffers {
+    gbuffer near, far;
+    RefractData refract; /* what the kernels' true_point() and virtual_point() need */
+    gbuffer_counts counts;
+    struct gbuffer_store *store; /* its own: memory and what the layers were drawn from */
+} gbuffers;
+
+/*
+ * Draws both layers of a world. What is in *g stays where world.version and the job are the same as the last time; start with a zeroed struct.
+ * The bits depend neither on threads nor on lanes nor on what was drawn before. MGT_ERROR_MEMORY leaves empty layers.
+ */
+mgt_status gbuffers_draw(gbuffers *g, const world *w, const gbuffer_job *job, const raster_kernels *kernels, thread_pool *pool);
+void gbuffers_free(gbuffers *g);
+
+/* The uniform numbers of the map alone. */
+RefractData refract_data_of(double camera_height, double index, gbuffer_map map);
+
+#endif
