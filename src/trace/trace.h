@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * Rays against triangles: the nearest one they meet, and whether they meet any. By Embree; src/trace/missing in builds without it.
  *
- * Embree only says which triangle a ray meets first, in arithmetic that is the same on every processor with AVX2 and AVX-512, whatever rays are
- * asked beside it and however its tree was built. Distance and place on the triangle are computed again here, in double precision. */
+ * Embree only says which triangle a ray meets first, in arithmetic that is the same on every processor with AVX2, AVX-512 or both, whatever threads
+ * built its tree. Distance and place on the triangle are computed again here, in double precision. */
 #ifndef MANGATA_TRACE_TRACE_H
 #define MANGATA_TRACE_TRACE_H
 
@@ -19,12 +19,13 @@ typedef struct trace_hit {
     float u, v;       /* the hit is (1 − u − v)·corner 0 + u·corner 1 + v·corner 2 */
 } trace_hit;
 
-/* Triangles to trace against; read while a trace_scene_update() runs and, for hits, as long as the scene is in use. */
+/* Triangles to trace against. The scene refers to the arrays, so they must stay as long as it is asked. */
 typedef struct trace_triangles {
-    size_t count;        /* 0 … MGT_MAX_TRIANGLES */
-    const float *corners; /* of the first one: 9 numbers, x y z of each corner … */
-    size_t stride;       /* … and floats from a triangle to the next one, ≥ 9 */
-    uint64_t version;    /* another one whenever the triangles are others */
+    size_t count;            /* 0 … MGT_MAX_TRIANGLES */
+    size_t vertex_count;
+    const float *positions;  /* 3 a vertex, and one number more that can be read */
+    const uint32_t *indices; /* 3 a triangle */
+    uint64_t version;        /* another one whenever the triangles are others */
 } trace_triangles;
 
 typedef struct trace_scene trace_scene;
@@ -36,10 +37,13 @@ bool trace_available(void);
 mgt_status trace_scene_update(trace_scene **scene, const trace_triangles *triangles, uint32_t threads, const reporter *r);
 void trace_scene_free(trace_scene *scene); /* NULL is allowed */
 
-/* Bytes that the tree and its copy of the triangles take. */
+/* Bytes that the tree takes. */
 size_t trace_scene_bytes(const trace_scene *scene);
 
-/* Any number of threads may ask one scene at once. A direction of length 0 and rays that are not finite meet nothing. */
+/* Any number of threads may ask one scene at once. Rays that start near each other and go the same way are fastest in one call. The same call gives
+ * the same bits; another one may name the other triangle where a ray meets an edge of two to the last bits, so that pictures whose bytes must not
+ * depend on tiles or crops ask for the rays of a lattice of their own. Between two triangles with an edge in common no ray slips through; exactly
+ * through a vertex some few do. A direction of length 0 and rays that are not finite meet nothing. */
 void trace_nearest(const trace_scene *scene, size_t count, const trace_ray *rays, trace_hit *hits);
 
 /* 1 where something lies between least and most, else 0. */

@@ -7,7 +7,6 @@
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 struct trace_scene {
     RTCDevice device;
@@ -31,7 +30,7 @@ static bool count_bytes(void *user, ssize_t bytes, bool post)
     return true;
 }
 
-/* AVX2 where there is AVX-512 too, for the same bits on both. */
+/* AVX2 where there is AVX-512 too, for the same bits on both. Threads start with the first tree that is worth them. */
 static RTCDevice create_device(uint32_t threads)
 {
     char options[96];
@@ -55,43 +54,30 @@ static mgt_status device_error(const reporter *r, RTCDevice device)
     }
 }
 
-static bool copy_triangles(RTCGeometry geometry, const trace_triangles *t)
-{
-    float *vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), 3 * t->count);
-    uint32_t *indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(uint32_t), t->count);
-    if (!vertices || !indices)
-        return false;
-    for (size_t i = 0; i < t->count; i++)
-        memcpy(vertices + 9 * i, t->corners + t->stride * i, 9 * sizeof *vertices);
-    for (size_t i = 0; i < 3 * t->count; i++)
-        indices[i] = (uint32_t)i;
-    return true;
-}
-
 static void build_tree(trace_scene *s)
 {
+    const trace_triangles *t = &s->triangles;
     s->tree = rtcNewScene(s->device);
     if (!s->tree)
         return;
     rtcSetSceneFlags(s->tree, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
-    const RTCGeometry geometry = rtcNewGeometry(s->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    if (!geometry)
-        return;
-    if (s->triangles.count == 0 || copy_triangles(geometry, &s->triangles)) {
+    if (t->count) {
+        const RTCGeometry geometry = rtcNewGeometry(s->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+        if (!geometry)
+            return;
+        rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, t->positions, 0, 3 * sizeof(float), t->vertex_count);
+        rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, t->indices, 0, 3 * sizeof(uint32_t), t->count);
         rtcCommitGeometry(geometry);
-        if (s->triangles.count)
-            rtcAttachGeometry(s->tree, geometry);
-        rtcCommitScene(s->tree);
+        rtcAttachGeometry(s->tree, geometry);
+        rtcReleaseGeometry(geometry);
     }
-    rtcReleaseGeometry(geometry);
+    rtcCommitScene(s->tree);
 }
 
 mgt_status trace_scene_update(trace_scene **scene, const trace_triangles *triangles, uint32_t threads, const reporter *r)
 {
-    if (*scene && (*scene)->triangles.version == triangles->version) {
-        (*scene)->triangles = *triangles;
+    if (*scene && (*scene)->triangles.version == triangles->version)
         return MGT_OK;
-    }
     trace_scene *s = calloc(1, sizeof *s);
     if (!s)
         return report_error(r, MGT_ERROR_MEMORY, "trace.memory", "out of memory");
@@ -131,26 +117,36 @@ size_t trace_scene_bytes(const trace_scene *scene)
 
 /* ---- asking ---- */
 
-/* Which of several triangles at the same distance a search finds depends on the tree, and that on the threads which built it: of those the first
- * one counts. */
+enum { PACKET = 8 };
+
+/* Which of several triangles at the same distance a search finds first depends on the tree: of those the first of the list counts. */
 typedef struct search {
     struct RTCIntersectContext context;
-    float distance;
-    uint32_t triangle;
+    float distance[PACKET];
+    uint32_t triangle[PACKET];
 } search;
 
+/* Embree calls with whole packets, and with a single ray of one whose others are done. */
 static void prefer_first(const struct RTCFilterFunctionNArguments *a)
 {
     search *s = (search *)(void *)a->context;
-    const float distance = ((const struct RTCRay *)a->ray)->tfar; /* one ray: N is 1 */
-    const uint32_t triangle = ((const struct RTCHit *)a->hit)->primID;
-    if (distance > s->distance || (distance == s->distance && triangle > s->triangle)) {
-        a->valid[0] = 0;
-        return;
+    const float *distance = (const float *)a->ray + 8 * a->N;
+    const uint32_t *id = (const uint32_t *)a->ray + 10 * a->N, *triangle = (const uint32_t *)a->hit + 5 * a->N;
+    for (uint32_t i = 0; i < a->N; i++) {
+        if (!a->valid[i])
+            continue;
+        const uint32_t lane = id[i];
+        if (distance[i] > s->distance[lane] || (distance[i] == s->distance[lane] && triangle[i] > s->triangle[lane])) {
+            a->valid[i] = 0;
+            continue;
+        }
+        s->distance[lane] = distance[i];
+        s->triangle[lane] = triangle[i];
     }
-    s->distance = distance;
-    s->triangle = triangle;
 }
+
+_Static_assert(offsetof(struct RTCRay, tfar) == 8 * sizeof(float) && offsetof(struct RTCRay, id) == 10 * sizeof(float), "as prefer_first reads it");
+_Static_assert(offsetof(struct RTCHit, primID) == 5 * sizeof(float), "as prefer_first reads it");
 
 static bool is_traceable(const trace_ray *ray)
 {
@@ -162,17 +158,25 @@ static bool is_traceable(const trace_ray *ray)
     return isfinite(sum) && square > 0 && isfinite(square) && ray->least <= ray->most;
 }
 
-static struct RTCRay embree_ray(const trace_ray *ray)
+/* Fills a packet with up to eight rays; those that it is asked for are marked −1 in `valid`. */
+static void fill_packet(struct RTCRay8 *packet, int valid[PACKET], const trace_ray *rays, size_t count)
 {
-    return (struct RTCRay){.org_x = ray->origin[0],
-                           .org_y = ray->origin[1],
-                           .org_z = ray->origin[2],
-                           .tnear = ray->least,
-                           .dir_x = ray->direction[0],
-                           .dir_y = ray->direction[1],
-                           .dir_z = ray->direction[2],
-                           .tfar = ray->most,
-                           .mask = UINT32_MAX};
+    for (uint32_t i = 0; i < PACKET; i++) {
+        const trace_ray *ray = &rays[i < count ? i : 0];
+        valid[i] = i < count && is_traceable(ray) ? -1 : 0;
+        packet->org_x[i] = ray->origin[0];
+        packet->org_y[i] = ray->origin[1];
+        packet->org_z[i] = ray->origin[2];
+        packet->tnear[i] = ray->least;
+        packet->dir_x[i] = ray->direction[0];
+        packet->dir_y[i] = ray->direction[1];
+        packet->dir_z[i] = ray->direction[2];
+        packet->time[i] = 0;
+        packet->tfar[i] = ray->most;
+        packet->mask[i] = UINT32_MAX;
+        packet->id[i] = i;
+        packet->flags[i] = 0;
+    }
 }
 
 static double clamped(double x, double most)
@@ -183,12 +187,13 @@ static double clamped(double x, double most)
 /* Distance and place where the ray's line meets the triangle's plane; what rounding took beyond its edges is put back. */
 static trace_hit place_hit(const trace_triangles *t, const trace_ray *ray, uint32_t triangle, float distance)
 {
-    const float *corner = t->corners + t->stride * triangle;
+    const uint32_t *corner = t->indices + 3 * (size_t)triangle;
+    const float *first = t->positions + 3 * (size_t)corner[0], *second = t->positions + 3 * (size_t)corner[1], *third = t->positions + 3 * (size_t)corner[2];
     double a[3], b[3], o[3], d[3];
     for (int i = 0; i < 3; i++) {
-        a[i] = (double)corner[3 + i] - (double)corner[i];
-        b[i] = (double)corner[6 + i] - (double)corner[i];
-        o[i] = (double)ray->origin[i] - (double)corner[i];
+        a[i] = (double)second[i] - (double)first[i];
+        b[i] = (double)third[i] - (double)first[i];
+        o[i] = (double)ray->origin[i] - (double)first[i];
         d[i] = (double)ray->direction[i];
     }
     const double p[3] = {d[1] * b[2] - d[2] * b[1], d[2] * b[0] - d[0] * b[2], d[0] * b[1] - d[1] * b[0]};
@@ -208,17 +213,25 @@ static trace_hit place_hit(const trace_triangles *t, const trace_ray *ray, uint3
 
 void trace_nearest(const trace_scene *scene, size_t count, const trace_ray *rays, trace_hit *hits)
 {
-    for (size_t i = 0; i < count; i++) {
-        hits[i] = (trace_hit){.along = HUGE_VALF, .triangle = -1};
-        if (!is_traceable(&rays[i]))
-            continue;
-        search s = {.distance = HUGE_VALF, .triangle = UINT32_MAX};
-        rtcInitIntersectContext(&s.context);
-        s.context.filter = prefer_first;
-        struct RTCRayHit asked = {.ray = embree_ray(&rays[i]), .hit = {.geomID = RTC_INVALID_GEOMETRY_ID}};
-        rtcIntersect1(scene->tree, &s.context, &asked);
-        if (asked.hit.geomID != RTC_INVALID_GEOMETRY_ID)
-            hits[i] = place_hit(&scene->triangles, &rays[i], asked.hit.primID, asked.ray.tfar);
+    search s;
+    rtcInitIntersectContext(&s.context);
+    s.context.filter = prefer_first;
+    s.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    for (size_t first = 0; first < count; first += PACKET) {
+        const size_t some = count - first < PACKET ? count - first : PACKET;
+        _Alignas(32) int valid[PACKET];
+        struct RTCRayHit8 asked;
+        fill_packet(&asked.ray, valid, rays + first, some);
+        for (int i = 0; i < PACKET; i++) {
+            asked.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+            s.distance[i] = HUGE_VALF;
+            s.triangle[i] = UINT32_MAX;
+        }
+        rtcIntersect8(valid, scene->tree, &s.context, &asked);
+        for (size_t i = 0; i < some; i++)
+            hits[first + i] = asked.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID
+                                  ? (trace_hit){.along = HUGE_VALF, .triangle = -1}
+                                  : place_hit(&scene->triangles, &rays[first + i], asked.hit.primID[i], asked.ray.tfar[i]);
     }
 }
 
@@ -226,11 +239,14 @@ void trace_occluded(const trace_scene *scene, size_t count, const trace_ray *ray
 {
     struct RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    for (size_t i = 0; i < count; i++) {
-        struct RTCRay ray = embree_ray(&rays[i]);
-        const bool asks = is_traceable(&rays[i]);
-        if (asks)
-            rtcOccluded1(scene->tree, &context, &ray);
-        occluded[i] = asks && ray.tfar < 0;
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    for (size_t first = 0; first < count; first += PACKET) {
+        const size_t some = count - first < PACKET ? count - first : PACKET;
+        _Alignas(32) int valid[PACKET];
+        struct RTCRay8 asked;
+        fill_packet(&asked, valid, rays + first, some);
+        rtcOccluded8(valid, scene->tree, &context, &asked);
+        for (size_t i = 0; i < some; i++)
+            occluded[first + i] = valid[i] && asked.tfar[i] < 0;
     }
 }
