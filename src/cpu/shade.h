@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: MIT
+ * The light that comes from points of objects, and from where rays meet none: one function for every way to find them. */
+#ifndef MANGATA_CPU_SHADE_H
+#define MANGATA_CPU_SHADE_H
+
+#include "cpu/frame.h"
+#include "cpu/thread_pool.h"
+#include "cpu/world.h"
+
+/*
+ * Where rays of a camera have ended. Every pointer leads to `count` numbers. The footprint of a ray is that of a pixel at the image's centre through
+ * a flat mean surface: `before` and `after` alone decide it, so that two ways to find the same point filter it alike.
+ */
+typedef struct shade_hits {
+    size_t count;
+    const int32_t *triangle;   /* of the world; −1: the ray meets nothing, and ends in the sky or in deep water as its direction says */
+    const float *position[3];  /* x, y, z in the world's coordinates; not read where there is no triangle */
+    const float *direction[3]; /* unit, in which the ray goes when it ends */
+    const float *before;       /* metres from the camera to the water's surface (to the hit where it meets none), … */
+    const float *after;        /* … and from there on */
+    const float *water;        /* metres of all these that lie in water; where nothing is met: those before the ray left for good */
+    const float *slopes[3];    /* covariance xx, xz, zz of the surface's slopes about the one that the ray was bent by; NULL: none */
+} shade_hits;
+
+typedef struct shade_scene shade_scene;
+typedef struct shade_kernels shade_kernels; /* cpu/refract_lanes.h */
+
+/*
+ * What shading needs beside the hits, in *s, which is NULL at first: the light under water and in the shade, where objects cast shadows, and
+ * materials. Shadows stay while the world's version and the light are the same. The world, the frame and the sky must outlive its use.
+ */
+mgt_status shade_update(shade_scene **s, const world *w, const frame *f, const sky_state *sky, const shade_kernels *kernels, thread_pool *pool);
+void shade_free(shade_scene *s); /* NULL is allowed */
+
+/* Radiance that arrives at the near end of each ray, kcd/m²: 3 floats a hit; what the water on the way takes and adds is counted, Fresnel's share at
+ * its surface is not, nor is the light's disk in the sky. The bits depend on the hit alone. Any number of threads at once. */
+void shade_points(const shade_scene *s, const shade_hits *hits, float *rgb);
+
+#endif
