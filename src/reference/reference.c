@@ -74,22 +74,28 @@ static void set_sample_range(reference_frame *frame, const mgt_quality *quality)
     frame->sample_count = quality->sample_count && quality->sample_count < remaining ? quality->sample_count : remaining;
 }
 
-/* NULL when this processor lacks it. */
-static reference_trace *pick_trace(mgt_isa isa, uint32_t *lanes)
+typedef struct lane_build {
+    uint32_t lanes;
+    reference_trace *trace, *march;
+} lane_build;
+
+/* All zero when this processor lacks it. */
+static lane_build pick_build(mgt_isa isa)
 {
+    const lane_build scalar = {1, reference_trace_1, reference_march_1}, missing = {0};
 #if defined(__x86_64__)
     const bool avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
                         __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl");
     const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
     if (isa == MGT_ISA_AVX512 || (isa == MGT_ISA_AUTO && avx512))
-        return *lanes = 8, avx512 ? reference_trace_8 : NULL;
+        return avx512 ? (lane_build){8, reference_trace_8, reference_march_8} : missing;
     if (isa == MGT_ISA_AVX2 || (isa == MGT_ISA_AUTO && avx2))
-        return *lanes = 4, avx2 ? reference_trace_4 : NULL;
+        return avx2 ? (lane_build){4, reference_trace_4, reference_march_4} : missing;
 #else
     if (isa == MGT_ISA_AVX512 || isa == MGT_ISA_AVX2)
-        return NULL;
+        return missing;
 #endif
-    return *lanes = 1, reference_trace_1;
+    return scalar;
 }
 
 mgt_status reference_frame_create(reference_frame **result, const mgt_scene *scene, const reference_sky *sky,
@@ -99,9 +105,8 @@ mgt_status reference_frame_create(reference_frame **result, const mgt_scene *sce
     const reference_options defaults = {0};
     if (!options)
         options = &defaults;
-    uint32_t lanes = 1;
-    reference_trace *trace = pick_trace(options->isa, &lanes);
-    if (!trace)
+    const lane_build build = pick_build(options->isa);
+    if (!build.trace)
         return MGT_ERROR_UNAVAILABLE;
     const size_t count = scene->water.wave_count;
     if (count > (SIZE_MAX - sizeof(reference_frame)) / sizeof(reference_wave) || count > UINT32_MAX)
@@ -113,8 +118,9 @@ mgt_status reference_frame_create(reference_frame **result, const mgt_scene *sce
     frame->scene.water.waves = NULL;
     if (sky)
         frame->sky = *sky;
-    frame->trace = trace;
-    frame->lanes = lanes;
+    frame->trace = build.trace;
+    frame->march = build.march;
+    frame->lanes = build.lanes;
     frame->bound_deviations = options->bound_deviations > 0 ? options->bound_deviations : REFERENCE_BOUND_DEVIATIONS;
     frame->view = relative_view(&scene->camera, &scene->camera);
     frame->view_open = scene->camera_moves ? relative_view(&scene->camera_open, &scene->camera) : frame->view;

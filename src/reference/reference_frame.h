@@ -49,7 +49,7 @@ typedef void reference_trace(const reference_frame *frame, reference_batch *batc
 struct reference_frame {
     mgt_scene scene; /* water.waves is NULL: see below */
     reference_sky sky;
-    reference_trace *trace;
+    reference_trace *trace, *march;
     uint32_t lanes;
 
     reference_view view, view_open;
@@ -71,5 +71,10 @@ struct reference_frame {
 void reference_trace_1(const reference_frame *frame, reference_batch *batch, uint32_t count);
 void reference_trace_4(const reference_frame *frame, reference_batch *batch, uint32_t count);
 void reference_trace_8(const reference_frame *frame, reference_batch *batch, uint32_t count);
+
+/* The same for rays whose origin, direction (unit) and time_offset are the input. One that starts at or under the surface has its hit there. */
+void reference_march_1(const reference_frame *frame, reference_batch *batch, uint32_t count);
+void reference_march_4(const reference_frame *frame, reference_batch *batch, uint32_t count);
+void reference_march_8(const reference_frame *frame, reference_batch *batch, uint32_t count);
 
 #endif

@@ -12,6 +12,7 @@
 #define PASTE(name, lanes) name##lanes
 #define NAME(name, lanes) PASTE(name, lanes)
 #define TRACE NAME(reference_trace_, REFERENCE_LANES)
+#define MARCH NAME(reference_march_, REFERENCE_LANES)
 
 static const double relative_tolerance = 1e-9;
 static const double least_distance = 1e-3; /* metres: the tolerance does not shrink below this distance */
@@ -275,6 +276,19 @@ static void march_rays(const reference_frame *frame, reference_batch *batch, uin
     }
 }
 
+void MARCH(const reference_frame *frame, reference_batch *batch, uint32_t count)
+{
+    for (uint32_t i = count; i % REFERENCE_LANES != 0; i++) { /* whole vectors: repeat the last ray */
+        batch->origin_y[i] = batch->origin_y[count - 1];
+        batch->direction_x[i] = batch->direction_x[count - 1];
+        batch->direction_y[i] = batch->direction_y[count - 1];
+        batch->direction_z[i] = batch->direction_z[count - 1];
+    }
+    for (uint32_t i = 0; i < count; i += REFERENCE_LANES)
+        bound_rays(frame, batch, i);
+    march_rays(frame, batch, count);
+}
+
 void TRACE(const reference_frame *frame, reference_batch *batch, uint32_t count)
 {
     for (uint32_t i = count; i % REFERENCE_LANES != 0; i++) { /* whole vectors: repeat the last ray */
@@ -282,9 +296,7 @@ void TRACE(const reference_frame *frame, reference_batch *batch, uint32_t count)
         batch->pixel_y[i] = batch->pixel_y[count - 1];
         batch->time_offset[i] = batch->time_offset[count - 1];
     }
-    for (uint32_t i = 0; i < count; i += REFERENCE_LANES) {
+    for (uint32_t i = 0; i < count; i += REFERENCE_LANES)
         aim_rays(frame, batch, i);
-        bound_rays(frame, batch, i);
-    }
-    march_rays(frame, batch, count);
+    MARCH(frame, batch, count);
 }

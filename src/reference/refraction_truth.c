@@ -1,0 +1,397 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Rays through the wavy surface, 512 at a time: where they cross it next, which triangle they meet before, and what they do at a crossing.
+ *
+ * Under water everything happens in a mirror: with y and the waves' heights negated, water lies above air and the march that finds the surface
+ * from above finds it from below.
+ */
+#include "reference/refraction_truth.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cpu/hash.h"
+#include "reference/reference_frame.h"
+
+enum { BATCH = REFERENCE_BATCH, MOST_PARTS = BATCH * (TRUTH_MOST_EVENTS + 4) };
+
+_Static_assert((int)BATCH == (int)TILE_PIXELS, "a tile's rays are one batch");
+
+/* A part of a pixel's light on its way. */
+typedef struct light_part {
+    double origin[3], direction[3]; /* x and z relative to the camera's foot */
+    double before, after, water;    /* metres, as in shade_hits */
+    double share;                   /* of the pixel's sample */
+    uint16_t pixel;
+    uint8_t events;
+    bool wet, mirrored; /* in water; belongs to the mirrored radiance */
+} light_part;
+
+/* Where a ray meets the surface. */
+typedef struct surface_point {
+    double distance; /* +inf: it does not */
+    double normal[3]; /* unit, towards the ray's origin */
+} surface_point;
+
+typedef struct batch_hits {
+    int32_t triangle[BATCH];
+    float position[3][BATCH], direction[3][BATCH], before[BATCH], after[BATCH], water[BATCH];
+    float rgb[3 * BATCH];
+    float share[BATCH];
+    uint16_t pixel[BATCH];
+    bool mirrored[BATCH];
+    size_t count;
+} batch_hits;
+
+typedef struct truth_scratch {
+    reference_batch march;
+    surface_point surface[BATCH];
+    trace_ray rays[BATCH];
+    trace_hit met[BATCH];
+    batch_hits ends;
+    light_part batch[BATCH], parts[MOST_PARTS];
+    size_t part_count;
+    double through[3][BATCH], mirror[3][BATCH];
+    uint32_t samples[BATCH]; /* that met the surface */
+} truth_scratch;
+
+struct refraction_truth {
+    truth_job job;
+    reference_frame *above, *below; /* the surface seen from the air, and mirrored from the water */
+    double offset[3];               /* from the camera's foot to the world's origin, to be added */
+    uint32_t side;                  /* N of N × N samples a pixel */
+    truth_scratch **scratch;
+};
+
+/* ---- creation ---- */
+
+static void mirror_waves(reference_frame *f)
+{
+    for (uint32_t i = 0; i < f->wave_count; i++) {
+        f->waves[i].amplitude *= -1;
+        f->waves[i].amplitude_a *= -1;
+        f->waves[i].amplitude_b *= -1;
+    }
+}
+
+static bool create_scratch(refraction_truth *t)
+{
+    t->scratch = calloc(t->job.workers, sizeof *t->scratch);
+    for (uint32_t i = 0; t->scratch && i < t->job.workers; i++)
+        if (!(t->scratch[i] = aligned_alloc(64, (sizeof **t->scratch + 63) / 64 * 64)))
+            return false;
+    return t->scratch != NULL;
+}
+
+mgt_status refraction_truth_create(refraction_truth **truth, const truth_job *job)
+{
+    *truth = NULL;
+    refraction_truth *t = calloc(1, sizeof *t);
+    if (!t)
+        return MGT_ERROR_MEMORY;
+    t->job = *job;
+    t->side = job->scene->quality.refraction_samples ? job->scene->quality.refraction_samples : 4;
+    t->offset[0] = job->camera.position[0] - job->world->origin[0];
+    t->offset[2] = job->camera.position[2] - job->world->origin[1];
+    mgt_scene scene = *job->scene; /* phases are counted from the camera's place */
+    scene.camera.position[0] = job->camera.position[0];
+    scene.camera.position[2] = job->camera.position[2];
+    scene.camera_moves = false;
+    const reference_options options = {.isa = job->isa};
+    mgt_status status = reference_frame_create(&t->above, &scene, NULL, &options);
+    if (status == MGT_OK)
+        status = reference_frame_create(&t->below, &scene, NULL, &options);
+    if (status == MGT_OK && !create_scratch(t))
+        status = MGT_ERROR_MEMORY;
+    if (status != MGT_OK) {
+        refraction_truth_free(t);
+        return status;
+    }
+    mirror_waves(t->below);
+    *truth = t;
+    return MGT_OK;
+}
+
+void refraction_truth_free(refraction_truth *truth)
+{
+    if (!truth)
+        return;
+    for (uint32_t i = 0; truth->scratch && i < truth->job.workers; i++)
+        free(truth->scratch[i]);
+    free(truth->scratch);
+    reference_frame_destroy(truth->above);
+    reference_frame_destroy(truth->below);
+    free(truth);
+}
+
+/* ---- rays ---- */
+
+static void scale_to_unit(double a[3])
+{
+    const double length = sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+    for (int i = 0; i < 3; i++)
+        a[i] /= length;
+}
+
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* Next crossings of the batch's parts that are in water, or of the others. */
+static void march_side(const refraction_truth *t, truth_scratch *s, size_t count, bool wet)
+{
+    uint16_t from[BATCH];
+    uint32_t used = 0;
+    const double up = wet ? -1 : 1;
+    for (size_t i = 0; i < count; i++) {
+        const light_part *p = &s->batch[i];
+        if (p->wet != wet)
+            continue;
+        s->march.origin_x[used] = p->origin[0];
+        s->march.origin_y[used] = up * p->origin[1];
+        s->march.origin_z[used] = p->origin[2];
+        s->march.direction_x[used] = p->direction[0];
+        s->march.direction_y[used] = up * p->direction[1];
+        s->march.direction_z[used] = p->direction[2];
+        s->march.time_offset[used] = 0;
+        from[used++] = (uint16_t)i;
+    }
+    if (used == 0)
+        return;
+    const reference_frame *side = wet ? t->below : t->above;
+    side->march(side, &s->march, used);
+    for (uint32_t i = 0; i < used; i++) {
+        surface_point *w = &s->surface[from[i]];
+        w->distance = s->march.distance[i];
+        w->normal[0] = -s->march.slope_x[i];
+        w->normal[1] = up;
+        w->normal[2] = -s->march.slope_z[i];
+        scale_to_unit(w->normal);
+    }
+}
+
+static trace_ray ray_of(const refraction_truth *t, const light_part *p, double most)
+{
+    trace_ray ray = {.most = most < (double)FLT_MAX ? (float)most : FLT_MAX};
+    for (int k = 0; k < 3; k++) {
+        ray.origin[k] = (float)(p->origin[k] + t->offset[k]);
+        ray.direction[k] = (float)p->direction[k];
+    }
+    return ray;
+}
+
+/* Fills surface and met for the first `count` parts of the batch. */
+static void look_ahead(const refraction_truth *t, truth_scratch *s, size_t count)
+{
+    march_side(t, s, count, false);
+    march_side(t, s, count, true);
+    for (size_t i = 0; i < count; i++)
+        s->rays[i] = ray_of(t, &s->batch[i], s->surface[i].distance);
+    trace_nearest(t->job.trace, count, s->rays, s->met);
+}
+
+/* ---- at the surface ---- */
+
+typedef struct crossing {
+    double through[3], mirrored[3]; /* unit directions */
+    double reflectance;             /* unpolarised; 1: total internal reflection */
+} crossing;
+
+/* `index`: of the medium behind the surface over that before it. */
+static crossing cross_surface(const double direction[3], const double normal[3], double index)
+{
+    crossing c = {.reflectance = 1};
+    const double cosine = -dot(direction, normal);
+    if (!(cosine > 0)) { /* a camera inside a wave: on it goes */
+        memcpy(c.through, direction, sizeof c.through);
+        memcpy(c.mirrored, direction, sizeof c.mirrored);
+        c.reflectance = 0;
+        return c;
+    }
+    for (int k = 0; k < 3; k++)
+        c.mirrored[k] = direction[k] + 2 * cosine * normal[k];
+    const double squared = 1 - (1 - cosine * cosine) / (index * index); /* of the refracted angle's cosine */
+    if (!(squared > 0))
+        return c;
+    const double refracted = sqrt(squared);
+    for (int k = 0; k < 3; k++)
+        c.through[k] = direction[k] / index + (cosine / index - refracted) * normal[k];
+    scale_to_unit(c.through);
+    const double across = (cosine - index * refracted) / (cosine + index * refracted), along = (index * cosine - refracted) / (index * cosine + refracted);
+    c.reflectance = 0.5 * (across * across + along * along);
+    return c;
+}
+
+/* Begins at the surface, a little on the side that it goes to, so that rounding does not let it cross at once. */
+static void push_part(truth_scratch *s, const light_part *from, const surface_point *w, const double direction[3], bool crosses, double share)
+{
+    if (share < TRUTH_LEAST_SHARE || s->part_count == MOST_PARTS)
+        return;
+    light_part *p = &s->parts[s->part_count++];
+    *p = *from;
+    p->share = share;
+    p->wet = from->wet != crosses;
+    p->events++;
+    const double aside = (crosses ? -2e-8 : 2e-8) * (1 + w->distance);
+    for (int k = 0; k < 3; k++) {
+        p->origin[k] = from->origin[k] + w->distance * from->direction[k] + aside * w->normal[k];
+        p->direction[k] = direction[k];
+    }
+}
+
+static void advance(light_part *p, double distance, bool first)
+{
+    if (first)
+        p->before += distance;
+    else
+        p->after += distance;
+    if (p->wet)
+        p->water += distance;
+}
+
+/* What the first surface makes of a camera's ray. */
+static void begin_parts(const refraction_truth *t, truth_scratch *s, light_part p, const surface_point *w, bool mirrored)
+{
+    const double n = t->job.scene->water.index_of_refraction;
+    const crossing c = cross_surface(p.direction, w->normal, p.wet ? 1 / n : n);
+    s->samples[p.pixel]++;
+    advance(&p, w->distance, true);
+    if (c.reflectance < 1)
+        push_part(s, &p, w, c.through, true, 1);
+    else
+        push_part(s, &p, w, c.mirrored, false, 1);
+    p.mirrored = true;
+    if (mirrored)
+        push_part(s, &p, w, c.mirrored, false, 1);
+}
+
+static void split_part(const refraction_truth *t, truth_scratch *s, light_part p, const surface_point *w)
+{
+    const double n = t->job.scene->water.index_of_refraction;
+    const crossing c = cross_surface(p.direction, w->normal, p.wet ? 1 / n : n);
+    advance(&p, w->distance, false);
+    push_part(s, &p, w, c.mirrored, false, p.share * c.reflectance);
+    if (c.reflectance < 1)
+        push_part(s, &p, w, c.through, true, p.share * (1 - c.reflectance));
+}
+
+/* ---- where rays end ---- */
+
+static void end_part(truth_scratch *s, light_part p, const trace_ray *ray, const trace_hit *met)
+{
+    batch_hits *e = &s->ends;
+    const size_t i = e->count++;
+    if (met->triangle >= 0)
+        advance(&p, (double)met->along, false);
+    e->triangle[i] = met->triangle;
+    for (int k = 0; k < 3; k++) {
+        e->position[k][i] = met->triangle >= 0 ? ray->origin[k] + met->along * ray->direction[k] : 0;
+        e->direction[k][i] = ray->direction[k];
+    }
+    e->before[i] = (float)p.before;
+    e->after[i] = (float)p.after;
+    e->water[i] = (float)p.water;
+    e->share[i] = (float)p.share;
+    e->pixel[i] = p.pixel;
+    e->mirrored[i] = p.mirrored;
+}
+
+static void shade_ends(const refraction_truth *t, truth_scratch *s)
+{
+    batch_hits *e = &s->ends;
+    const shade_hits hits = {.count = e->count,
+                             .triangle = e->triangle,
+                             .position = {e->position[0], e->position[1], e->position[2]},
+                             .direction = {e->direction[0], e->direction[1], e->direction[2]},
+                             .before = e->before,
+                             .after = e->after,
+                             .water = e->water};
+    t->job.shade(t->job.user, &hits, e->rgb);
+    for (size_t i = 0; i < e->count; i++)
+        for (int k = 0; k < 3; k++)
+            (e->mirrored[i] ? s->mirror : s->through)[k][e->pixel[i]] += (double)e->share[i] * (double)e->rgb[3 * i + (size_t)k];
+    e->count = 0;
+}
+
+/* Follows what the pixels' rays became, the newest parts first: so few wait at a time. */
+static void follow_parts(const refraction_truth *t, truth_scratch *s)
+{
+    while (s->part_count) {
+        const size_t count = s->part_count < BATCH ? s->part_count : BATCH;
+        s->part_count -= count;
+        memcpy(s->batch, s->parts + s->part_count, count * sizeof *s->batch);
+        look_ahead(t, s, count);
+        for (size_t i = 0; i < count; i++) {
+            const bool again = s->met[i].triangle < 0 && s->surface[i].distance < HUGE_VAL;
+            if (again && s->batch[i].events < TRUTH_MOST_EVENTS)
+                split_part(t, s, s->batch[i], &s->surface[i]);
+            else
+                end_part(s, s->batch[i], &s->rays[i], &s->met[i]);
+        }
+        shade_ends(t, s);
+    }
+}
+
+/* ---- a tile ---- */
+
+/* The ray of a place (x, y) of the picture, pixel centres at whole numbers. */
+static light_part camera_part(const refraction_truth *t, double x, double y, uint16_t pixel)
+{
+    const camera_rays *c = &t->job.camera;
+    light_part p = {.origin = {0, c->position[1], 0}, .pixel = pixel, .wet = c->position[1] < 0};
+    for (int k = 0; k < 3; k++)
+        p.direction[k] = c->corner[k] + x * c->right[k] + y * c->down[k];
+    scale_to_unit(p.direction);
+    return p;
+}
+
+static void aim_sample(const refraction_truth *t, truth_scratch *s, uint32_t tile_x, uint32_t tile_y, uint32_t sample)
+{
+    const uint64_t key = hash_of(t->job.scene->quality.seed ^ hash_of(sample));
+    for (uint32_t i = 0; i < BATCH; i++) {
+        const uint32_t x = tile_x * TILE_WIDTH + i % TILE_WIDTH, y = tile_y * TILE_HEIGHT + i / TILE_WIDTH;
+        double dx = 0, dy = 0;
+        if (t->side > 1) {
+            const uint64_t bits = hash_of(key ^ ((uint64_t)x << 32 | y));
+            dx = (sample % t->side + (double)hash_unit(bits)) / t->side - 0.5;
+            dy = (sample / t->side + (double)hash_unit(hash_of(bits))) / t->side - 0.5;
+        }
+        s->batch[i] = camera_part(t, x + dx, y + dy, (uint16_t)i);
+    }
+}
+
+static void write_mean(const double sum[3][BATCH], const uint32_t *count, float *red, float *green, float *blue)
+{
+    for (size_t i = 0; i < BATCH; i++) {
+        const double share = count[i] ? 1.0 / count[i] : 0;
+        red[i] = (float)(share * sum[0][i]);
+        green[i] = (float)(share * sum[1][i]);
+        blue[i] = (float)(share * sum[2][i]);
+    }
+}
+
+void refraction_truth_tile(const refraction_truth *truth, uint32_t tile_x, uint32_t tile_y, uint32_t worker, bool mirrored, truth_pixels *out)
+{
+    truth_scratch *s = truth->scratch[worker];
+    const uint32_t samples = truth->side * truth->side;
+    s->part_count = s->ends.count = 0;
+    memset(s->through, 0, sizeof s->through);
+    memset(s->mirror, 0, sizeof s->mirror);
+    memset(s->samples, 0, sizeof s->samples);
+    for (uint32_t sample = 0; sample < samples; sample++) {
+        aim_sample(truth, s, tile_x, tile_y, sample);
+        look_ahead(truth, s, BATCH);
+        for (size_t i = 0; i < BATCH; i++)
+            if (s->met[i].triangle < 0 && s->surface[i].distance < HUGE_VAL)
+                begin_parts(truth, s, s->batch[i], &s->surface[i], mirrored);
+        follow_parts(truth, s);
+    }
+    for (size_t i = 0; i < BATCH; i++)
+        out->water[i] = (float)s->samples[i] / (float)samples;
+    write_mean((const double(*)[BATCH])s->through, s->samples, out->red, out->green, out->blue);
+    if (mirrored)
+        write_mean((const double(*)[BATCH])s->mirror, s->samples, out->mirrored_red, out->mirrored_green, out->mirrored_blue);
+}
