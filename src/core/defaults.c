@@ -57,7 +57,10 @@ mgt_scene mgt_scene_defaults(void)
         .shutter = 1.0 / 30,
         .light = mgt_light_defaults(MGT_BODY_SUN),
         .sky = {.model = MGT_SKY_ATMOSPHERE, .turbidity = 1.8f, .zenith = {1.6f, 2.6f, 4.6f}, .horizon = {6.0f, 7.0f, 8.0f}, .night = {1.6e-7f, 1.8e-7f, 2.4e-7f}},
-        .water = {.index_of_refraction = 1.333, .body_albedo = {0.006f, 0.022f, 0.030f}},
+        .water = {.index_of_refraction = 1.333,
+                  .absorption = {0.264f, 0.0565f, 0.0101f},
+                  .scattering = {0.0012f, 0.0019f, 0.0039f},
+                  .body_albedo = {0.006f, 0.022f, 0.030f}},
         .post = {.auto_exposure = true, .tone_map = MGT_TONE_AGX, .glare = 0.03f},
         .quality = {.method = MGT_METHOD_MANGATA, .spatial_samples = 4, .time_samples = 1},
     };

@@ -68,16 +68,13 @@ static mgt_status check_image(const reporter *r, const mgt_image *image)
     return MGT_OK;
 }
 
-static mgt_status check_camera(const reporter *r, const char *name, const mgt_camera *camera, double level)
+static mgt_status check_camera(const reporter *r, const char *name, const mgt_camera *camera)
 {
     TRY(check_vector(r, name, "position", camera->position));
     TRY(check_vector(r, name, "target", camera->target));
     TRY(check_vector(r, name, "up", camera->up));
     if (!(camera->fov_y_deg > 0 && camera->fov_y_deg < 179))
         return report_error(r, MGT_ERROR_SCENE, "render.scene", "%s.fov_y_deg is %g; allowed is more than 0 and less than 179", name, camera->fov_y_deg);
-    if (camera->position[1] <= level)
-        return report_error(r, MGT_ERROR_UNSUPPORTED, "render.scene",
-                            "%s.position[1] is %g; cameras at or under the mean water surface (y = %g) are not supported yet", name, camera->position[1], level);
     double f[3], length = 0, up_length = 0, cross_length = 0;
     for (int i = 0; i < 3; i++) {
         f[i] = camera->target[i] - camera->position[i];
@@ -240,9 +237,9 @@ mgt_status validate_scene(const reporter *r, const mgt_scene *scene)
     if (scene->struct_size != sizeof *scene)
         return report_error(r, MGT_ERROR_ARGUMENT, "render.scene", "mgt_scene.struct_size is %zu, this library knows %zu", scene->struct_size, sizeof *scene);
     TRY(check_image(r, &scene->image));
-    TRY(check_camera(r, "camera", &scene->camera, scene->water.level));
+    TRY(check_camera(r, "camera", &scene->camera));
     if (scene->camera_moves)
-        TRY(check_camera(r, "camera_open", &scene->camera_open, scene->water.level));
+        TRY(check_camera(r, "camera_open", &scene->camera_open));
     TRY(in_range(r, "time", scene->time, -1e9, 1e9));
     TRY(in_range(r, "shutter", scene->shutter, 0, 1e6));
     TRY(in_range(r, "frame_interval", scene->frame_interval, 0, 1e6));

@@ -148,8 +148,8 @@ static void camera_is_checked(void **state)
     REFUSE(camera.fov_y_deg, NAN);
     ACCEPT(camera.fov_y_deg, 178.9);
     ACCEPT(camera.fov_y_deg, 1e-3);
-    REFUSE_AS(MGT_ERROR_UNSUPPORTED, camera.position[1], 0, "camera.position[1]");
-    REFUSE_AS(MGT_ERROR_UNSUPPORTED, camera.position[1], -1, "camera.position[1]");
+    ACCEPT(camera.position[1], 0);
+    ACCEPT(camera.position[1], -1);
     mgt_scene s = a->scene;
     memcpy(s.camera.target, s.camera.position, sizeof s.camera.target);
     expect(a, &s, MGT_ERROR_SCENE, "camera.target");
