@@ -307,10 +307,8 @@ void control_write(const control_board *board, const control *c, const double nu
     case FIELD_NUMBER: *(double *)c->value = allowed(field, numbers[0]); break;
     case FIELD_SHARE: *(float *)c->value = (float)allowed(field, numbers[0]); break;
     case FIELD_VECTOR:
-        for (int i = 0; i < 3; i++) {
-            const double number = allowed(field, numbers[i]);
-            ((double *)c->value)[i] = i == 1 && field->flags & FIELD_ABOVE_WATER ? fmax(number, 1e-3) : number;
-        }
+        for (int i = 0; i < 3; i++)
+            ((double *)c->value)[i] = allowed(field, numbers[i]);
         break;
     case FIELD_COLOR:
         for (int i = 0; i < 3; i++)
@@ -375,7 +373,7 @@ static bool parse_three(const scene_field *field, const char *text, double numbe
     for (int i = 0; i < 3; i++)
         if (!parse_number(field, words[i], &numbers[i]))
             return false;
-    return !(field->flags & FIELD_ABOVE_WATER) || numbers[1] > 0;
+    return true;
 }
 
 static bool parse(const control *c, const char *text, double numbers[3])
@@ -452,8 +450,6 @@ control_text control_random(const control *c, uint64_t *state)
     double n[3];
     for (int i = 0; i < 3; i++)
         n[i] = random_number(c, state);
-    if (c->field->flags & FIELD_ABOVE_WATER)
-        n[1] = 0.5 + fabs(n[1]);
     if (control_width(c) == 3)
         snprintf(out.text, sizeof out.text, "[%.9g, %.9g, %.9g]", n[0], n[1], n[2]);
     else

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "scene/scene_fields.h"
+#include "scene/scene_models.h"
 
 enum { DOUBLE_DIGITS = 17, FLOAT_DIGITS = 9 }; /* read back as the same number */
 
@@ -23,6 +23,7 @@ static void write_value(FILE *stream, const scene_field *field, const void *valu
     case FIELD_NUMBER: write_number(stream, *(const double *)value, DOUBLE_DIGITS); break;
     case FIELD_SHARE: write_number(stream, (double)*(const float *)value, FLOAT_DIGITS); break;
     case FIELD_VECTOR:
+    case FIELD_SCALE:
         for (int i = 0; i < 3; i++)
             write_number(stream, ((const double *)value)[i], DOUBLE_DIGITS);
         break;
@@ -53,6 +54,8 @@ static void write_fields(FILE *stream, const char *path, const scene_field *mapp
         if (field->flags & FIELD_NO_PIXELS)
             continue;
         if (field->type == FIELD_MAPPING) {
+            if (field->flags & FIELD_GIVEN)
+                fprintf(stream, "%s %d\n", name, *(const bool *)value);
             write_fields(stream, name, field, value);
             continue;
         }
@@ -83,6 +86,7 @@ char *scene_values_canonical(const scene_values *values, size_t *length)
     if (stream == NULL)
         return NULL;
     write_fields(stream, "", scene_root_field(), &effective);
+    scene_models_write(stream, values->models);
     bool bad = ferror(stream) != 0;
     if (fclose(stream) != 0 || bad) {
         free(text);

@@ -11,50 +11,17 @@ enum { PATH_SIZE = 96 };
 
 /* ---- copies ---------------------------------------------------------------------------------------------- */
 
-static bool copy_list(scene_list *out, const scene_list *list, size_t item_size)
-{
-    *out = (scene_list){0};
-    if (list->count == 0)
-        return true;
-    out->items = malloc(list->count * item_size);
-    if (out->items == NULL)
-        return false;
-    memcpy(out->items, list->items, list->count * item_size);
-    out->count = list->count;
-    return true;
-}
-
-static bool copy_text(char **out, const char *text)
-{
-    *out = text != NULL ? strdup(text) : NULL;
-    return text == NULL || *out != NULL;
-}
-
-bool scene_values_copy(scene_values *out, const scene_values *values)
-{
-    scene_values copy = *values;
-    copy.description = copy.water.spectrum.file = NULL;
-    copy.camera.path = copy.water.waves = copy.water.sea = (scene_list){0};
-    bool good = copy_list(&copy.camera.path, &values->camera.path, sizeof(scene_keyframe)) &&
-                copy_list(&copy.water.waves, &values->water.waves, sizeof(mgt_wave)) &&
-                copy_list(&copy.water.sea, &values->water.sea, sizeof(mgt_wave)) && copy_text(&copy.description, values->description) &&
-                copy_text(&copy.water.spectrum.file, values->water.spectrum.file);
-    if (!good)
-        scene_values_free(&copy);
-    *out = copy;
-    return good;
-}
-
 void scene_values_write_out_sea(scene_values *values)
 {
     scene_water *water = &values->water;
-    if (water->spectrum.settings.kind == SPECTRUM_NONE)
+    if (!scene_water_has_sea(water))
         return;
     free(water->waves.items);
     water->waves = water->sea;
     water->sea = (scene_list){0};
     free(water->spectrum.file);
     water->spectrum = scene_values_defaults().water.spectrum;
+    water->amplitude = 1;
 }
 
 /* ---- paths ------------------------------------------------------------------------------------------------- */
@@ -106,7 +73,8 @@ static size_t leaf_size(const scene_field *field)
     case FIELD_COUNT: return sizeof(uint32_t);
     case FIELD_NUMBER: return sizeof(double);
     case FIELD_SHARE: return sizeof(float);
-    case FIELD_VECTOR: return 3 * sizeof(double);
+    case FIELD_VECTOR:
+    case FIELD_SCALE: return 3 * sizeof(double);
     case FIELD_COLOR: return 3 * sizeof(float);
     case FIELD_CHOICE: return sizeof(int);
     case FIELD_EXPOSURE:
@@ -132,7 +100,7 @@ static bool values_equal(const scene_field *field, const void *left_parent, cons
 {
     const void *left = scene_field_at(field, left_parent), *right = scene_field_at(field, right_parent);
     if (field->type == FIELD_MAPPING)
-        return mappings_equal(field, left, right);
+        return !(field->flags & FIELD_GIVEN && *(const bool *)left != *(const bool *)right) && mappings_equal(field, left, right);
     if (field->type == FIELD_LIST)
         return lists_equal(field, left, right);
     if (field->type == FIELD_TEXT) {
@@ -189,6 +157,7 @@ typedef union any_mapping {
     scene_keyframe keyframe;
     mgt_wave wave;
     mgt_light light;
+    scene_object object;
 } any_mapping;
 
 static size_t mapping_size(const scene_field *field)
@@ -386,7 +355,7 @@ static bool add_differences(scene_overrides *out, const char *path, const scene_
 static bool is_written_out(const scene_values *from, const scene_values *to)
 {
     const scene_field *water = child_field(scene_root_field(), "water", 5), *waves = child_field(water, "waves", 5);
-    return from->water.spectrum.settings.kind != SPECTRUM_NONE && to->water.spectrum.settings.kind == SPECTRUM_NONE &&
+    return scene_water_has_sea(&from->water) && !scene_water_has_sea(&to->water) &&
            lists_equal(waves, &from->water.sea, &to->water.waves);
 }
 
@@ -398,6 +367,7 @@ bool scene_overrides_between(const scene_values *from, const scene_values *to, s
     if (is_written_out(from, to)) {
         goal.water.waves = from->water.waves;
         goal.water.spectrum = from->water.spectrum;
+        goal.water.amplitude = from->water.amplitude;
     }
     if (add_differences(out, "", scene_root_field(), from, &goal, &defaults))
         return true;

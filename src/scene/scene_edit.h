@@ -15,10 +15,7 @@ const scene_values *scene_file_values(const scene_file *file);
  * where the camera is not a legal one. */
 bool scene_values_shot(const scene_values *values, double time, mgt_scene *out);
 
-/* A copy with lists and text of its own, to be freed with scene_values_free(). False when memory runs out; *out is then empty. */
-bool scene_values_copy(scene_values *out, const scene_values *values);
-
-/* Turns what a spectrum made into explicit waves, and the spectrum into none. */
+/* Turns what a spectrum and a factor made into explicit waves, the spectrum into none, the factor into 1. */
 void scene_values_write_out_sea(scene_values *values);
 
 /* The field that a path such as "light.elevation_deg", "water.waves[2].a" or "camera.path" names, and where `values` hold it. NULL where

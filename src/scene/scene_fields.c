@@ -5,7 +5,6 @@
 #include "scene/scene_fields.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* The ranges are the library's own where it has them, so that a file which loads also renders. */
@@ -19,6 +18,9 @@ static const char *const sky_models[] = {"atmosphere", "gradient", "black", NULL
 static const char *const spectrum_kinds[] = {"none", "pierson-moskowitz", "jonswap", "tma", "buoy", NULL};
 static const char *const spectrum_spreadings[] = {"mitsuyasu", "hasselmann", "donelan-banner", "fixed", NULL};
 static const char *const spectrum_slopes[] = {"spectrum", "cox-munk", NULL};
+static const char *const clarities[] = {"pure", "clear", "coastal", "murky", NULL};
+static const char *const shapes[] = {"mesh", "plane", "box", "sphere", "steps", "pool", "floor", NULL};
+static const char *const patterns[] = {"none", "tiles", "checker", "stripes", NULL};
 static const char *const tone_maps[] = {"none", "reinhard", "aces", "agx", NULL};
 
 static void decide_body(void *parent)
@@ -40,6 +42,32 @@ static void prepare_wave(const void *parent, void *item)
     *(mgt_wave *)item = (mgt_wave){0};
 }
 
+/* Absorption of pure water by Pope and Fry 1997, scattering by Morel 1974, at 610, 550 and 465 nm. What is dissolved and floats in natural waters
+ * adds what Petzold measured at 514 nm (1972: Bahamas, California's coast, San Diego harbour; Mobley 1994, Table 3.10), its absorption falling with the
+ * wavelength as exp(-0.014/nm), its scattering as 1/wavelength. */
+static void decide_clarity(void *parent)
+{
+    static const float absorption[][3] = {{0.264f, 0.0565f, 0.0101f}, {0.284f, 0.102f, 0.161f}, {0.301f, 0.142f, 0.29f}, {0.35f, 0.255f, 0.661f}};
+    static const float scattering[][3] = {{0.0012f, 0.0019f, 0.0039f}, {0.0312f, 0.0346f, 0.0409f}, {0.185f, 0.205f, 0.242f}, {1.54f, 1.7f, 2.02f}};
+    scene_water *water = parent;
+    memcpy(water->absorption, absorption[water->clarity], sizeof water->absorption);
+    memcpy(water->scattering, scattering[water->clarity], sizeof water->scattering);
+    water->clarity = CLARITY_PURE;
+}
+
+static void prepare_pose(const void *parent, void *item)
+{
+    (void)parent;
+    *(scene_pose *)item = (scene_pose){.scale = {1, 1, 1}};
+}
+
+static void prepare_object(const void *parent, void *item)
+{
+    scene_object *object = item;
+    *object = (scene_object){.size = {1, 1, 1}, .count = 4, .rim_height = 0.1, .highest = 1, .material = {.look = scene_material_defaults()}};
+    prepare_pose(parent, &object->pose);
+}
+
 static const scene_field image_fields[] = {
     {"width", FIELD_COUNT, offsetof(mgt_image, width), 0, SIDE, "pixels", .doc = "width of the whole image"},
     {"height", FIELD_COUNT, offsetof(mgt_image, height), 0, SIDE, "pixels", .doc = "height of the whole image"},
@@ -47,8 +75,8 @@ static const scene_field image_fields[] = {
 
 /* The rows of an mgt_camera inside a struct: a still camera and a keyframe share them. */
 #define POSE(type, member, required)                                                                                  \
-    {"position", FIELD_VECTOR, offsetof(type, member.position), FIELD_ABOVE_WATER | (required), ANYWHERE, "m",        \
-     .doc = "where the camera stands; its y must be above 0, the mean water surface"},                                \
+    {"position", FIELD_VECTOR, offsetof(type, member.position), (required), ANYWHERE, "m",                            \
+     .doc = "where the camera stands; under water where its y is below water.level"},                                 \
     {"target", FIELD_VECTOR, offsetof(type, member.target), (required), ANYWHERE, "m",                                \
      .doc = "a point in the middle of the picture"},                                                                  \
     {"up", FIELD_VECTOR, offsetof(type, member.up), 0, ANYWHERE, NULL,                                                \
@@ -136,9 +164,67 @@ static const scene_field water_fields[] = {
      .item_size = sizeof(mgt_wave), .max_items = MGT_MAX_WAVES, .prepare = prepare_wave},
     {"spectrum", FIELD_MAPPING, offsetof(scene_water, spectrum), FIELD_NO_PIXELS, NO_RANGE, NULL,
      .doc = "waves drawn from a wind's or a buoy's spectrum, beside those of waves", .fields = spectrum_fields},
+    {"amplitude", FIELD_NUMBER, offsetof(scene_water, amplitude), FIELD_NO_PIXELS, 0, 1000, NULL,
+     .doc = "factor on the heights of all waves, those of the spectrum too; 0: a flat mirror"},
+    {"level", FIELD_NUMBER, offsetof(scene_water, level), 0, -1e6, 1e6, "m", .doc = "height of the mean surface"},
     {"ior", FIELD_NUMBER, offsetof(scene_water, index_of_refraction), 0, 1, 3, NULL, .doc = "index of refraction"},
+    {"clarity", FIELD_CHOICE, offsetof(scene_water, clarity), FIELD_NO_PIXELS, NO_RANGE, NULL,
+     .doc = "sets the defaults of absorption and scattering: a clean pool, clear ocean, a coast, a harbour", .choices = clarities,
+     .decide = decide_clarity},
+    {"absorption", FIELD_COLOR, offsetof(scene_water, absorption), 0, 0, 1000, "1/m",
+     .doc = "light that a metre of water absorbs, linear sRGB; for what is seen through it"},
+    {"scattering", FIELD_COLOR, offsetof(scene_water, scattering), 0, 0, 1000, "1/m",
+     .doc = "light that a metre of water scatters, linear sRGB; for what is seen through it"},
     {"body_albedo", FIELD_COLOR, offsetof(scene_water, body_albedo), 0, 0, 1, NULL,
      .doc = "share of the light entering the water that deep water sends up again, linear sRGB"},
+    {0}};
+
+/* The rows of a scene_pose inside a struct: an object and its instances share them. */
+#define PLACE(type, member)                                                                                                  \
+    {"position", FIELD_VECTOR, offsetof(type, member), 0, -1e6, 1e6, "m", .doc = "where the origin of the mesh or shape goes"}, \
+    {"rotation_deg", FIELD_VECTOR, offsetof(type, member) + offsetof(scene_pose, rotation_deg), 0, -1e6, 1e6, "degrees",     \
+     .doc = "angles about x, y and z, right-handed: turned about z first, then x, then y"},                                  \
+    {"scale", FIELD_SCALE, offsetof(type, member) + offsetof(scene_pose, scale), 0, 1e-6, 1e6, NULL,                         \
+     .doc = "factor on the size, before it is turned"}
+
+static const scene_field instance_fields[] = {PLACE(struct { scene_pose pose; }, pose), {0}};
+
+#define LOOK(member) offsetof(scene_material, look.member)
+
+static const scene_field material_fields[] = {
+    {"base_color", FIELD_COLOR, LOOK(base_color), 0, 0, 1, NULL, .doc = "linear sRGB, times the texture"},
+    {"roughness", FIELD_SHARE, LOOK(roughness), 0, 0.02, 1, NULL, .doc = "of the gloss (GGX, alpha is its square)"},
+    {"metallic", FIELD_SHARE, LOOK(metallic), 0, 0, 1, NULL, .doc = "1: a metal; 0: mirrors 4% at normal incidence and is diffuse below"},
+    {"texture", FIELD_TEXT, offsetof(scene_material, texture), FIELD_NO_PIXELS, NO_RANGE, NULL,
+     .doc = "PNG picture, from the scene's folder; on shapes it repeats each metre"},
+    {"pattern", FIELD_CHOICE, LOOK(pattern), 0, NO_RANGE, NULL,
+     .doc = "puts pattern_color on the joints between tiles, every other field or every other stripe", .choices = patterns},
+    {"pattern_color", FIELD_COLOR, LOOK(pattern_color), 0, 0, 1, NULL, .doc = "linear sRGB"},
+    {"pattern_size", FIELD_SHARE, LOOK(pattern_size), 0, 1e-4, 1e6, NULL,
+     .doc = "side of a tile, field or stripe in texture coordinates, which are metres on shapes"},
+    {"pattern_joint", FIELD_SHARE, LOOK(pattern_joint), 0, 0, 0.999, NULL, .doc = "width of a joint as a share of a tile"},
+    {0}};
+
+static const scene_field object_fields[] = {
+    {"name", FIELD_TEXT, offsetof(scene_object, name), FIELD_NO_PIXELS, NO_RANGE, NULL, .doc = "free text"},
+    {"mesh", FIELD_TEXT, offsetof(scene_object, mesh), FIELD_NO_PIXELS, NO_RANGE, NULL,
+     .doc = "file of triangles (.gltf, .glb, .obj, .ply), from the scene's folder; this or shape"},
+    {"shape", FIELD_CHOICE, offsetof(scene_object, shape), 0, NO_RANGE, NULL, .doc = "a built-in shape; mesh: the file in mesh", .choices = shapes},
+    {"size", FIELD_VECTOR, offsetof(scene_object, size), 0, 1e-3, 1e5, "m", .doc = "of a shape along x, y and z, before scale"},
+    {"triangles", FIELD_COUNT, offsetof(scene_object, triangles), 0, 0, SCENE_SHAPE_TRIANGLES, NULL,
+     .doc = "at most so many of a shape, as even as it goes; 0: as few as its form needs"},
+    {"count", FIELD_COUNT, offsetof(scene_object, count), 0, 1, 100, NULL, .doc = "number of steps (steps)"},
+    {"rim_width", FIELD_NUMBER, offsetof(scene_object, rim_width), 0, 0, 1e4, "m", .doc = "width of the level rim around a pool; 0: none (pool)"},
+    {"rim_height", FIELD_NUMBER, offsetof(scene_object, rim_height), 0, 0, 1000, "m", .doc = "of the walls over the pool's origin (pool)"},
+    {"heights", FIELD_TEXT, offsetof(scene_object, heights), FIELD_NO_PIXELS, NO_RANGE, NULL,
+     .doc = "grey PNG or PFM of the heights, from the scene's folder, its top row at -z (floor)"},
+    {"lowest", FIELD_NUMBER, offsetof(scene_object, lowest), 0, -1e5, 1e5, "m", .doc = "height of 0 or black (floor)"},
+    {"highest", FIELD_NUMBER, offsetof(scene_object, highest), 0, -1e5, 1e5, "m", .doc = "height of 1 or white (floor)"},
+    PLACE(scene_object, pose),
+    {"instances", FIELD_LIST, offsetof(scene_object, instances), 0, NO_RANGE, NULL, .doc = "further places of the same mesh or shape",
+     .fields = instance_fields, .item_size = sizeof(scene_pose), .max_items = MGT_MAX_OBJECTS, .prepare = prepare_pose},
+    {"material", FIELD_MAPPING, offsetof(scene_object, material), FIELD_GIVEN, NO_RANGE, NULL,
+     .doc = "what it is made of; replaces the materials of a mesh's file", .fields = material_fields},
     {0}};
 
 static const scene_field post_fields[] = {
@@ -158,6 +244,8 @@ static const scene_field scene_fields[] = {
     {"light", FIELD_MAPPING, offsetof(scene_values, light), 0, NO_RANGE, NULL, .doc = "the sun or the moon", .fields = light_fields},
     {"sky", FIELD_MAPPING, offsetof(scene_values, sky), 0, NO_RANGE, NULL, .doc = "what the water mirrors", .fields = sky_fields},
     {"water", FIELD_MAPPING, offsetof(scene_values, water), 0, NO_RANGE, NULL, .doc = "the surface and what is under it", .fields = water_fields},
+    {"objects", FIELD_LIST, offsetof(scene_values, objects), 0, NO_RANGE, NULL, .doc = "what stands in and around the water",
+     .fields = object_fields, .item_size = sizeof(scene_object), .max_items = 10000, .prepare = prepare_object},
     {"post", FIELD_MAPPING, offsetof(scene_values, post), 0, NO_RANGE, NULL, .doc = "from radiance to 8-bit pictures", .fields = post_fields},
     {0}};
 
@@ -168,51 +256,24 @@ const scene_field *scene_root_field(void)
     return &root_field;
 }
 
-scene_values scene_values_defaults(void)
-{
-    const mgt_scene scene = mgt_scene_defaults();
-    scene_values values = {
-        .version = 1,
-        .image = scene.image,
-        .camera = {.still = scene.camera},
-        .time = {.start = 0, .fps = 30, .frames = 1, .shutter = 1},
-        .light = scene.light,
-        .sky = scene.sky,
-        .water = {.spectrum = {.settings = {.wind = 8, .fetch = 5e4, .gamma = 3.3, .directions = DIRECTIONS_HASSELMANN, .spread = 10},
-                               .count = 64,
-                               .seed = 1},
-                  .index_of_refraction = scene.water.index_of_refraction},
-        .post = {.exposure = {.automatic = scene.post.auto_exposure, .stops = scene.post.auto_exposure ? 0 : scene.post.exposure_ev},
-                 .exposure_offset = scene.post.auto_exposure ? scene.post.exposure_ev : 0,
-                 .tone_map = scene.post.tone_map,
-                 .glare = scene.post.glare},
-    };
-    memcpy(values.water.body_albedo, scene.water.body_albedo, sizeof values.water.body_albedo);
-    return values;
-}
-
-void scene_values_free(scene_values *values)
-{
-    free(values->description);
-    free(values->camera.path.items);
-    free(values->water.waves.items);
-    free(values->water.sea.items);
-    free(values->water.spectrum.file);
-    values->description = values->water.spectrum.file = NULL;
-    values->camera.path = values->water.waves = values->water.sea = (scene_list){0};
-}
-
 bool scene_numbers_write(FILE *stream, const scene_field *field, const void *value)
 {
+    const double *scales = value;
     switch (field->type) {
     case FIELD_COUNT: fprintf(stream, "%u", *(const uint32_t *)value); return true;
     case FIELD_NUMBER: fputs(scene_double_text(*(const double *)value).text, stream); return true;
     case FIELD_SHARE: fputs(scene_float_text(*(const float *)value).text, stream); return true;
+    case FIELD_SCALE:
+        if (scales[0] == scales[1] && scales[0] == scales[2]) {
+            fputs(scene_double_text(scales[0]).text, stream);
+            return true;
+        }
+        /* fall through */
     case FIELD_VECTOR:
     case FIELD_COLOR:
         for (int i = 0; i < 3; i++) {
             const scene_number_text number =
-                field->type == FIELD_VECTOR ? scene_double_text(((const double *)value)[i]) : scene_float_text(((const float *)value)[i]);
+                field->type != FIELD_COLOR ? scene_double_text(((const double *)value)[i]) : scene_float_text(((const float *)value)[i]);
             fprintf(stream, "%s%s", i == 0 ? "[" : ", ", number.text);
         }
         fputc(']', stream);
@@ -252,10 +313,8 @@ void scene_field_allowed(const scene_field *field, char *out, size_t size)
     case FIELD_COUNT: snprintf(out, size, field->min == field->max ? "%s" : "a whole number, %s", range); break;
     case FIELD_NUMBER:
     case FIELD_SHARE: snprintf(out, size, "a number, %s", range); break;
-    case FIELD_VECTOR:
-        snprintf(out, size, "a list of 3 numbers [x, y, z], each %s%s", range,
-                 field->flags & FIELD_ABOVE_WATER ? ", y above 0" : "");
-        break;
+    case FIELD_VECTOR: snprintf(out, size, "a list of 3 numbers [x, y, z], each %s", range); break;
+    case FIELD_SCALE: snprintf(out, size, "a number, or a list of 3 numbers [x, y, z], each %s", range); break;
     case FIELD_COLOR: snprintf(out, size, "a list of 3 numbers [r, g, b], each %s", range); break;
     case FIELD_EXPOSURE: snprintf(out, size, "auto or a number, %s", range); break;
     case FIELD_TEXT: snprintf(out, size, "text"); break;

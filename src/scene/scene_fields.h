@@ -44,13 +44,47 @@ typedef struct scene_spectrum {
     char *file; /* owned; NULL: none */
 } scene_spectrum;
 
+/* Named waters: each sets absorption and scattering. */
+typedef enum scene_clarity { CLARITY_PURE, CLARITY_CLEAR, CLARITY_COASTAL, CLARITY_MURKY } scene_clarity;
+
 typedef struct scene_water {
     scene_list waves; /* of mgt_wave */
     scene_spectrum spectrum;
-    scene_list sea; /* not of the format: of a spectrum, `waves` and then those of the spectrum; made by scene_sea_fill() */
+    double amplitude; /* factor on all of them */
+    scene_list sea;   /* not of the format: `waves` and then those of a spectrum, times the factor; made by scene_sea_fill() where it is needed */
     double index_of_refraction;
+    double level;
+    scene_clarity clarity; /* only while it is read: what it says is then in the next two */
+    float absorption[3], scattering[3];
     float body_albedo[3];
 } scene_water;
+
+/* Where a mesh stands: scaled, turned about z, then x, then y, and moved. */
+typedef struct scene_pose {
+    double position[3];
+    double rotation_deg[3];
+    double scale[3];
+} scene_pose;
+
+typedef struct scene_material {
+    bool given; /* stands in the file, in place of the materials of a mesh's own file */
+    mgt_material look; /* but for its texture */
+    char *texture; /* owned; NULL: none */
+} scene_material;
+
+typedef enum scene_shape { SHAPE_MESH, SHAPE_PLANE, SHAPE_BOX, SHAPE_SPHERE, SHAPE_STEPS, SHAPE_POOL, SHAPE_FLOOR } scene_shape;
+
+typedef struct scene_object {
+    char *name, *mesh, *heights; /* owned; NULL: none */
+    scene_shape shape;
+    double size[3];
+    uint32_t triangles, count;
+    double rim_width, rim_height;
+    double lowest, highest;
+    scene_pose pose;
+    scene_list instances; /* of scene_pose */
+    scene_material material;
+} scene_object;
 
 typedef struct scene_exposure {
     bool automatic;
@@ -73,17 +107,29 @@ typedef struct scene_values {
     mgt_light light;
     mgt_sky sky;
     scene_water water;
+    scene_list objects; /* of scene_object */
     scene_post post;
+    struct scene_models *models; /* not of the format: what the objects are made of, shared by copies; NULL: none, or not loaded */
 } scene_values;
 
 /* What mgt_scene_defaults() and the format's own defaults say. */
 scene_values scene_values_defaults(void);
+mgt_material scene_material_defaults(void);
 void scene_values_free(scene_values *values);
 
-/* All waves: the ones written out and those of the spectrum. Belongs to `water`. */
+/* A copy with lists and text of its own, to be freed with scene_values_free(); models are shared. False when memory runs out; *out is then empty. */
+bool scene_values_copy(scene_values *out, const scene_values *values);
+
+/* Whether the waves are not simply the ones written out. */
+static inline bool scene_water_has_sea(const scene_water *water)
+{
+    return water->spectrum.settings.kind != SPECTRUM_NONE || water->amplitude != 1;
+}
+
+/* All waves as they are rendered. Belongs to `water`. */
 static inline scene_list scene_water_all(const scene_water *water)
 {
-    return water->spectrum.settings.kind == SPECTRUM_NONE ? water->waves : water->sea;
+    return scene_water_has_sea(water) ? water->sea : water->waves;
 }
 
 /* ---- the table ------------------------------------------------------------------------------------------ */
@@ -93,6 +139,7 @@ typedef enum field_type {
     FIELD_NUMBER,   /* double */
     FIELD_SHARE,    /* float */
     FIELD_VECTOR,   /* double[3] */
+    FIELD_SCALE,    /* double[3]: one number for all, or three */
     FIELD_COLOR,    /* float[3] */
     FIELD_CHOICE,   /* int, one of `choices` by name */
     FIELD_EXPOSURE, /* scene_exposure: "auto" or a number */
@@ -105,8 +152,8 @@ typedef enum field_flags {
     FIELD_REQUIRED = 1,
     FIELD_OPEN_MIN = 2,    /* the minimum itself is not allowed */
     FIELD_OPEN_MAX = 4,    /* nor the maximum */
-    FIELD_NO_PIXELS = 8,   /* changes no pixel: left out of the canonical text */
-    FIELD_ABOVE_WATER = 16 /* vector: its y must be above 0 */
+    FIELD_NO_PIXELS = 8,   /* changes no pixel, or not as it stands: left out of the canonical text */
+    FIELD_GIVEN = 16       /* mapping: its struct begins with a bool, whether it stands in the file */
 } field_flags;
 
 typedef struct scene_field scene_field;
@@ -126,6 +173,8 @@ struct scene_field {
     /* Before a list item is read: its defaults, from the struct that holds the list. */
     void (*prepare)(const void *parent, void *item);
 };
+
+enum { SCENE_SHAPE_TRIANGLES = 4194304 }; /* of a built-in shape */
 
 /* The format: a mapping whose struct is scene_values. */
 const scene_field *scene_root_field(void);

@@ -10,6 +10,7 @@
 #include <sys/stat.h>
 
 #include "scene/scene_edit.h"
+#include "scene/scene_models.h"
 #include "scene/scene_path.h"
 #include "scene/scene_read.h"
 #include "scene/scene_sea.h"
@@ -98,7 +99,7 @@ scene_file *scene_file_parse(const char *text, size_t length, const char *name, 
     }
     file->values = scene_values_defaults();
     if (!scene_read(&tree, &file->values, error) || !scene_check(&tree, &file->values, error) ||
-        !scene_sea_read(&tree, &file->values.water, error))
+        !scene_sea_read(&tree, &file->values.water, error) || !scene_models_read(&tree, &file->values, error))
         goto fail;
     tree_free(&tree);
     return file;
@@ -155,8 +156,12 @@ bool scene_values_shot(const scene_values *values, double time, mgt_scene *out)
     const scene_list waves = scene_water_all(&values->water);
     scene.water = (mgt_water){.waves = waves.items,
                               .wave_count = waves.count,
-                              .index_of_refraction = values->water.index_of_refraction};
+                              .index_of_refraction = values->water.index_of_refraction,
+                              .level = values->water.level};
+    memcpy(scene.water.absorption, values->water.absorption, sizeof scene.water.absorption);
+    memcpy(scene.water.scattering, values->water.scattering, sizeof scene.water.scattering);
     memcpy(scene.water.body_albedo, values->water.body_albedo, sizeof scene.water.body_albedo);
+    scene.objects = scene_models_objects(values->models, &scene.object_count);
     const scene_exposure *exposure = &values->post.exposure;
     scene.post = (mgt_post){.auto_exposure = exposure->automatic,
                             .exposure_ev = exposure->automatic ? values->post.exposure_offset : exposure->stops,

@@ -10,7 +10,7 @@
 #include <string.h>
 #include <strings.h>
 
-enum { MAX_FIELDS = 16 };
+enum { MAX_FIELDS = 32 };
 
 typedef struct scene_reader {
     const scene_tree *tree;
@@ -155,13 +155,18 @@ static bool read_vector(scene_reader *reader, const scene_field *field, const tr
         size_t length = path_enter_item(reader, i);
         if (!read_number(reader, &component, item, &vector[i]))
             return false;
-        if (field->flags & FIELD_ABOVE_WATER && i == 1 && vector[1] <= 0)
-            return tree_error(reader->tree, item->source, item->place, reader->error,
-                              "%s is %s: cameras at or under the mean water surface (y = 0) are not supported yet; "
-                              "allowed: above 0, at most 1e9 m",
-                              reader->path, item->text);
         path_leave(reader, length);
     }
+    return true;
+}
+
+static bool read_scale(scene_reader *reader, const scene_field *field, const tree_node *node, double scale[3])
+{
+    if (node->kind == TREE_LIST)
+        return read_vector(reader, field, node, scale);
+    if (!read_number(reader, field, node, &scale[0]))
+        return false;
+    scale[1] = scale[2] = scale[0];
     return true;
 }
 
@@ -249,10 +254,14 @@ static bool read_field(scene_reader *reader, const scene_field *field, const tre
         return true;
     case FIELD_NUMBER: return read_number(reader, field, node, place);
     case FIELD_VECTOR: return read_vector(reader, field, node, place);
+    case FIELD_SCALE: return read_scale(reader, field, node, place);
     case FIELD_CHOICE: return read_choice(reader, field, node, place);
     case FIELD_EXPOSURE: return read_exposure(reader, field, node, place);
     case FIELD_TEXT: return read_text(reader, field, node, place);
-    case FIELD_MAPPING: return read_mapping(reader, field, node, place);
+    case FIELD_MAPPING:
+        if (field->flags & FIELD_GIVEN)
+            *(bool *)place = true;
+        return read_mapping(reader, field, node, place);
     case FIELD_LIST: return read_list(reader, field, node, parent);
     }
     return false;

@@ -7,6 +7,14 @@
 
 #include "scene/scene_fields.h"
 
+/* Room for the defaults of an item of any list. */
+typedef union scene_list_item {
+    mgt_wave wave;
+    scene_keyframe keyframe;
+    scene_pose pose;
+    scene_object object;
+} scene_list_item;
+
 /* ---- defaults ------------------------------------------------------------------------------------------- */
 
 /* A field's default as JSON, which is YAML too: "30", "[0, 4, 0]", "\"sun\"". Empty where it has none. */
@@ -63,22 +71,8 @@ static void write_number_schema(FILE *stream, const scene_field *field)
 
 static void write_vector_schema(FILE *stream, const scene_field *field)
 {
-    fputs("\"type\": \"array\", \"minItems\": 3, \"maxItems\": 3, ", stream);
-    if (field->flags & FIELD_ABOVE_WATER) {
-        scene_field height = *field;
-        height.min = 0;
-        height.flags |= FIELD_OPEN_MIN;
-        fputs("\"prefixItems\": [", stream);
-        write_number_schema(stream, field);
-        fputs(", ", stream);
-        write_number_schema(stream, &height);
-        fputs(", ", stream);
-        write_number_schema(stream, field);
-        fputs("]", stream);
-    } else {
-        fputs("\"items\": ", stream);
-        write_number_schema(stream, field);
-    }
+    fputs("\"type\": \"array\", \"minItems\": 3, \"maxItems\": 3, \"items\": ", stream);
+    write_number_schema(stream, field);
 }
 
 static void indent(FILE *stream, int depth)
@@ -91,10 +85,7 @@ static void write_mapping_schema(FILE *stream, const scene_field *mapping, const
 
 static void write_type_schema(FILE *stream, const scene_field *field, const void *value, const void *parent, int depth)
 {
-    union {
-        mgt_wave wave;
-        scene_keyframe keyframe;
-    } item;
+    scene_list_item item;
     switch (field->type) {
     case FIELD_COUNT:
     case FIELD_NUMBER:
@@ -108,6 +99,13 @@ static void write_type_schema(FILE *stream, const scene_field *field, const void
         break;
     case FIELD_VECTOR:
     case FIELD_COLOR: write_vector_schema(stream, field); break;
+    case FIELD_SCALE:
+        fputs("\"oneOf\": [", stream);
+        write_number_schema(stream, field);
+        fputs(", {", stream);
+        write_vector_schema(stream, field);
+        fputs("}]", stream);
+        break;
     case FIELD_CHOICE:
         for (size_t i = 0; field->choices[i] != NULL; i++)
             fprintf(stream, "%s\"%s\"", i == 0 ? "\"enum\": [" : ", ", field->choices[i]);
@@ -187,10 +185,7 @@ bool scene_schema_write(FILE *stream)
 
 static void write_table(FILE *stream, const char *path, const scene_field *mapping, const void *values)
 {
-    union {
-        mgt_wave wave;
-        scene_keyframe keyframe;
-    } item;
+    scene_list_item item;
     for (const scene_field *field = mapping->fields; field->key != NULL; field++) {
         const void *value = scene_field_at(field, values);
         char name[64], allowed[160];

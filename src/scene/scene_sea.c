@@ -15,8 +15,7 @@ static bool refuse(scene_sea_fault *fault, const char *key, const char *text)
     return false;
 }
 
-/* `file` as seen from the scene's folder; NULL when memory runs out. */
-static char *beside_scene(const char *scene_path, const char *file)
+char *scene_file_beside(const char *scene_path, const char *file)
 {
     const char *slash = strrchr(scene_path, '/');
     const size_t folder = file[0] != '/' && slash != NULL ? (size_t)(slash - scene_path) + 1 : 0, length = strlen(file);
@@ -32,7 +31,7 @@ static bool load_table(spectrum_table *table, const scene_spectrum *settings, co
 {
     if (settings->file == NULL || settings->file[0] == '\0')
         return refuse(fault, "file", "is missing: the model buoy is a measured table; allowed: the path of one, from the scene's folder");
-    char *path = beside_scene(scene_path, settings->file);
+    char *path = scene_file_beside(scene_path, settings->file);
     if (path == NULL)
         return scene_error_memory(&fault->error);
     const bool good = spectrum_table_load(table, path, &fault->error);
@@ -61,33 +60,60 @@ void scene_sea_close(scene_sea *sea)
     spectrum_table_free(&sea->table);
 }
 
+/* The waves of the spectrum, if there is one, into `waves`. */
+static bool draw_waves(const scene_spectrum *settings, const char *scene_path, mgt_wave *waves, scene_sea_fault *fault)
+{
+    scene_sea sea;
+    if (settings->settings.kind == SPECTRUM_NONE)
+        return true;
+    if (!scene_sea_open(&sea, settings, scene_path, fault))
+        return false;
+    const bool good = spectrum_sample(&sea.spectrum, settings->seed, settings->count, waves);
+    scene_sea_close(&sea);
+    return good || scene_error_memory(&fault->error);
+}
+
 bool scene_sea_fill(scene_water *water, const char *scene_path, scene_sea_fault *fault)
 {
     const scene_spectrum *settings = &water->spectrum;
-    const size_t before = water->waves.count, count = before + settings->count;
-    scene_sea sea;
+    const bool drawn = settings->settings.kind != SPECTRUM_NONE;
+    const size_t before = water->waves.count, count = before + (drawn ? settings->count : 0);
     *fault = (scene_sea_fault){0};
     free(water->sea.items);
     water->sea = (scene_list){0};
-    if (settings->settings.kind == SPECTRUM_NONE)
+    if (!scene_water_has_sea(water) || count == 0)
         return true;
     if (count > MGT_MAX_WAVES) {
         char text[160];
         snprintf(text, sizeof text, "is %u, with water.waves %zu in all; allowed: together at most %d", settings->count, count, MGT_MAX_WAVES);
         return refuse(fault, "count", text);
     }
-    if (!scene_sea_open(&sea, settings, scene_path, fault))
-        return false;
     mgt_wave *waves = malloc(count * sizeof *waves);
-    const bool good = waves != NULL && spectrum_sample(&sea.spectrum, settings->seed, settings->count, waves + before);
-    scene_sea_close(&sea);
-    if (!good) {
-        free(waves);
+    if (waves == NULL)
         return scene_error_memory(&fault->error);
+    if (!draw_waves(settings, scene_path, waves + before, fault)) {
+        free(waves);
+        return false;
     }
     if (before > 0)
         memcpy(waves, water->waves.items, before * sizeof *waves);
+    for (size_t i = 0; i < count; i++)
+        waves[i].amplitude *= water->amplitude;
     water->sea = (scene_list){.items = waves, .count = count};
+    return true;
+}
+
+/* The library's own bound, which single waves keep but the factor may break. */
+static bool check_heights(const scene_tree *tree, const scene_water *water, scene_error *error)
+{
+    const mgt_wave *waves = water->sea.items;
+    for (size_t i = 0; i < water->sea.count; i++)
+        if (waves[i].amplitude > 1000) {
+            const tree_node *mapping = tree_get(tree->root, "water"), *node = tree_get(mapping, "amplitude");
+            node = node != NULL ? node : mapping;
+            return tree_error(tree, node->source, node->place, error, "water.amplitude is %s, which makes a wave of %s m; allowed: waves of at most 1000 m",
+                              scene_double_text(water->amplitude).text, scene_double_text(waves[i].amplitude).text);
+        }
     return true;
 }
 
@@ -95,7 +121,7 @@ bool scene_sea_read(const scene_tree *tree, scene_water *water, scene_error *err
 {
     scene_sea_fault fault;
     if (scene_sea_fill(water, tree->file_name, &fault))
-        return true;
+        return check_heights(tree, water, error);
     if (fault.setting.key == NULL) {
         if (error != NULL)
             *error = fault.error;

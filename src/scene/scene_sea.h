@@ -16,6 +16,9 @@ typedef struct scene_sea {
     cox_munk slopes;      /* of the wind, whether the spectrum meets them or not */
 } scene_sea;
 
+/* `file` as seen from the folder of the scene's file; the caller frees it. NULL when memory runs out. */
+char *scene_file_beside(const char *scene_path, const char *file);
+
 /* What went wrong: a key of the spectrum and what is wrong with it, or, where `key` is NULL, a whole message. */
 typedef struct scene_sea_fault {
     spectrum_fault setting;
@@ -26,7 +29,7 @@ typedef struct scene_sea_fault {
 bool scene_sea_open(scene_sea *sea, const scene_spectrum *settings, const char *scene_path, scene_sea_fault *fault);
 void scene_sea_close(scene_sea *sea);
 
-/* Fills water->sea with the waves and those of the spectrum, if there is one. */
+/* Fills water->sea with the waves and those of the spectrum, times the factor, where there is one or the other. */
 bool scene_sea_fill(scene_water *water, const char *scene_path, scene_sea_fault *fault);
 
 /* The same while a file is read: errors at the key's place. */

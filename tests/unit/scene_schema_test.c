@@ -105,13 +105,26 @@ static void the_examples_in_docs_load(void **state)
 
 /* ---- every numeric field at and just beyond its ends ---------------------------------------------------------- */
 
+/* Some settings belong to one shape. */
+static const char *shape_for(const char *override)
+{
+    if (strstr(override, ".count") != NULL)
+        return "shape: steps";
+    if (strstr(override, ".rim_") != NULL)
+        return "shape: pool";
+    if (strstr(override, "est=") != NULL)
+        return "shape: floor, heights: \"" MGT_SOURCE_DIR "/tests/data/scenes/floor.pfm\"";
+    return "shape: plane";
+}
+
 static bool loads(const char *override)
 {
     /* A path excludes a still camera's position and target. */
     static const char text[] = "mangata: 1\ncamera: {up: [0.3, 1, 0.2]}\nwater: {waves: [{amplitude: 1, a: 1, b: 1, c: 1}]}\n";
     static const char path[] = "mangata: 1\ncamera: {path: [{time: 0, position: [0, 4, 0], target: [0, 3, -1], up: [0.3, 1, 0.2]}]}\n";
     bool on_path = strncmp(override, "camera.path", 11) == 0;
-    const char *base = on_path ? path : text;
+    char base[512];
+    snprintf(base, sizeof base, "%s%s%s}]\n", on_path ? path : text, "objects: [{instances: [{}], ", shape_for(override));
     scene_error error;
     scene_file *file = scene_file_parse(base, strlen(base), "test", &override, 1, &error);
     scene_file_free(file);
@@ -121,8 +134,8 @@ static bool loads(const char *override)
 static void check_end(const char *name, const scene_field *field, double value, bool allowed)
 {
     static const char *const shapes[] = {"%s=%.17g", "%s=[%.17g, 1, 0.5]", "%s=[0.5, 1, %.17g]"};
-    bool vector = field->type == FIELD_VECTOR || field->type == FIELD_COLOR;
-    for (int i = vector ? 1 : 0; i < (vector ? 3 : 1); i++) {
+    bool scale = field->type == FIELD_SCALE, vector = field->type == FIELD_VECTOR || field->type == FIELD_COLOR;
+    for (int i = vector ? 1 : 0; i < (vector || scale ? 3 : 1); i++) {
         char override[160];
         snprintf(override, sizeof override, shapes[i], name, value);
         if (loads(override) != allowed)

@@ -1,0 +1,376 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The objects of a scene with what they are made of: which keys go together, each file once, every instance at its place.
+ */
+#include "scene/scene_models.h"
+
+#include <math.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene/model.h"
+#include "scene/scene_sea.h"
+#include "scene/spectrum_math.h"
+
+/* A model or a texture with the file it came from. */
+typedef struct loaded_model {
+    char *path; /* owned; NULL: a shape's */
+    bool own_materials;
+    scene_model model;
+} loaded_model;
+
+typedef struct loaded_texture {
+    char *path; /* owned */
+    mgt_texture *texture;
+    uint64_t hash;
+} loaded_texture;
+
+struct scene_models {
+    atomic_int owners;
+    loaded_model *models;
+    size_t model_count;
+    loaded_texture *textures;
+    size_t texture_count;
+    mgt_object *objects;
+    size_t object_count, object_room;
+    uint64_t *hashes; /* of each object of the file */
+    size_t hash_count;
+};
+
+typedef struct models_reader {
+    const scene_tree *tree;
+    scene_models *models;
+    scene_error *error;
+    uint64_t triangles;
+} models_reader;
+
+/* ---- keys that go together -------------------------------------------------------------------------------------- */
+
+static bool refuse_key(const models_reader *r, size_t index, const tree_node *item, const char *key, const char *what)
+{
+    const tree_node *node = tree_get(item, key);
+    const char *source = node != NULL && node->key_source != NULL ? node->key_source : item->source;
+    return tree_error(r->tree, source, node != NULL ? node->key_place : item->place, r->error, "objects[%zu].%s %s", index, key, what);
+}
+
+/* Settings that would do nothing are refused, as they were meant for something. */
+static bool check_keys(const models_reader *r, size_t index, const tree_node *item, const scene_object *o)
+{
+    static const struct {
+        const char *key;
+        unsigned shapes;
+        const char *allowed;
+    } settings[] = {
+        {"size", ~(1u << SHAPE_MESH), "is for shapes; allowed: with a mesh, scale"},
+        {"triangles", ~(1u << SHAPE_MESH), "is for shapes; allowed: not with a mesh"},
+        {"count", 1u << SHAPE_STEPS, "is a number of steps; allowed: with shape: steps"},
+        {"rim_width", 1u << SHAPE_POOL, "is of a pool; allowed: with shape: pool"},
+        {"rim_height", 1u << SHAPE_POOL, "is of a pool; allowed: with shape: pool"},
+        {"heights", 1u << SHAPE_FLOOR, "is of a floor; allowed: with shape: floor"},
+        {"lowest", 1u << SHAPE_FLOOR, "is of a floor; allowed: with shape: floor"},
+        {"highest", 1u << SHAPE_FLOOR, "is of a floor; allowed: with shape: floor"},
+    };
+    const bool has_mesh = o->mesh != NULL && o->mesh[0] != '\0', has_heights = o->heights != NULL && o->heights[0] != '\0';
+    if (has_mesh && o->shape != SHAPE_MESH)
+        return refuse_key(r, index, item, "mesh", "stands beside a shape; allowed: one of them");
+    if (!has_mesh && o->shape == SHAPE_MESH)
+        return refuse_key(r, index, item, "mesh", "and shape are missing; allowed: the path of a .gltf, .glb, .obj or .ply file, or a shape");
+    for (size_t i = 0; i < sizeof settings / sizeof *settings; i++)
+        if (!(settings[i].shapes & 1u << o->shape) && tree_get(item, settings[i].key) != NULL)
+            return refuse_key(r, index, item, settings[i].key, settings[i].allowed);
+    if (o->shape == SHAPE_FLOOR && !has_heights)
+        return refuse_key(r, index, item, "heights", "is missing; allowed: the path of a grey PNG or a PFM, from the scene's folder");
+    return true;
+}
+
+/* ---- loading ---------------------------------------------------------------------------------------------------- */
+
+static bool refuse_fault(const models_reader *r, size_t index, const tree_node *item, const char *key, const model_fault *fault)
+{
+    if (fault->kind == SCENE_ERROR_MEMORY)
+        return scene_error_memory(r->error);
+    const tree_node *inner = strncmp(key, "material.", 9) == 0 ? tree_get(tree_get(item, "material"), key + 9) : tree_get(item, key);
+    const tree_node *node = inner != NULL ? inner : item;
+    tree_error(r->tree, node->source, node->place, r->error, "objects[%zu].%s: %s", index, key, fault->text);
+    if (r->error != NULL)
+        r->error->kind = fault->kind;
+    return false;
+}
+
+/* Room for one more in an array; NULL when memory runs out. */
+static void *grown(void *items, size_t count, size_t size)
+{
+    return realloc(items, (count + 1) * size);
+}
+
+/* A place for the model of `path` (taken over; NULL: a shape's), or the one that is there already. NULL when memory runs out. */
+static loaded_model *place_for_model(scene_models *m, char *path, bool own_materials, bool *found)
+{
+    for (size_t i = 0; path != NULL && i < m->model_count; i++)
+        if (m->models[i].path != NULL && strcmp(m->models[i].path, path) == 0 && m->models[i].own_materials == own_materials) {
+            free(path);
+            *found = true;
+            return &m->models[i];
+        }
+    loaded_model *models = grown(m->models, m->model_count, sizeof *models);
+    if (models == NULL) {
+        free(path);
+        return NULL;
+    }
+    m->models = models;
+    models[m->model_count] = (loaded_model){.path = path, .own_materials = own_materials};
+    *found = false;
+    return &models[m->model_count++];
+}
+
+static bool make_shape(scene_model *out, const scene_object *object, const char *path, model_fault *fault)
+{
+    mesh_data mesh = {0};
+    uint64_t hash = 0;
+    if (object->shape == SHAPE_FLOOR) {
+        if (!floor_build(&mesh, object, path, &hash, fault))
+            return false;
+    } else if (!shape_build(&mesh, object)) {
+        return model_fault_memory(fault);
+    }
+    const bool good = model_of_mesh(out, &mesh, "the shape", fault);
+    out->hash = hash;
+    mesh_data_free(&mesh);
+    return good;
+}
+
+/* NULL with the error set. Valid until the next one is taken. */
+static const scene_model *take_model(models_reader *r, size_t index, const tree_node *item, const scene_object *object)
+{
+    const bool is_mesh = object->shape == SHAPE_MESH;
+    const char *file = is_mesh ? object->mesh : object->shape == SHAPE_FLOOR ? object->heights : NULL;
+    char *path = file != NULL ? scene_file_beside(r->tree->file_name, file) : NULL, *key = is_mesh ? path : NULL;
+    model_fault fault = {0};
+    bool found = false, good = false;
+    loaded_model *place = file == NULL || path != NULL ? place_for_model(r->models, key, !object->material.given, &found) : NULL;
+    if (place == NULL) {
+        if (!is_mesh)
+            free(path);
+        scene_error_memory(r->error);
+        return NULL;
+    }
+    if (found)
+        return &place->model;
+    good = is_mesh ? model_load(&place->model, place->path, place->own_materials, &fault) : make_shape(&place->model, object, path, &fault);
+    if (!is_mesh)
+        free(path);
+    if (good)
+        return &place->model;
+    refuse_fault(r, index, item, is_mesh ? "mesh" : file != NULL ? "heights" : "shape", &fault);
+    return NULL;
+}
+
+static const loaded_texture *take_texture(models_reader *r, size_t index, const tree_node *item, const char *file)
+{
+    scene_models *m = r->models;
+    char *path = scene_file_beside(r->tree->file_name, file);
+    for (size_t i = 0; path != NULL && i < m->texture_count; i++)
+        if (strcmp(m->textures[i].path, path) == 0) {
+            free(path);
+            return &m->textures[i];
+        }
+    loaded_texture *textures = path != NULL ? grown(m->textures, m->texture_count, sizeof *textures) : NULL;
+    if (textures == NULL) {
+        free(path);
+        scene_error_memory(r->error);
+        return NULL;
+    }
+    m->textures = textures;
+    loaded_texture *t = &textures[m->texture_count];
+    model_fault fault = {0};
+    *t = (loaded_texture){.path = path};
+    t->texture = texture_load(path, &t->hash, &fault);
+    if (t->texture == NULL) {
+        free(path);
+        refuse_fault(r, index, item, "material.texture", &fault);
+        return NULL;
+    }
+    m->texture_count++;
+    return t;
+}
+
+/* ---- places ----------------------------------------------------------------------------------------------------- */
+
+typedef struct placement {
+    double at[3][4];
+} placement;
+
+/* Of an angle in degrees; exact at right angles. */
+static double sine_of(double degrees)
+{
+    const double turns = degrees / 360, part = 4 * (turns - floor(turns)), quarter = floor(part + 0.5), rest = (part - quarter) * SPECTRUM_PI / 2;
+    switch ((int)quarter % 4) {
+    case 0: return portable_sin(rest);
+    case 1: return portable_cos(rest);
+    case 2: return -portable_sin(rest);
+    default: return -portable_cos(rest);
+    }
+}
+
+static placement product(const double a[3][4], const double b[3][4])
+{
+    placement p;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 4; j++)
+            p.at[i][j] = a[i][0] * b[0][j] + a[i][1] * b[1][j] + a[i][2] * b[2][j] + (j == 3 ? a[i][3] : 0);
+    return p;
+}
+
+static placement turn(int axis, double degrees)
+{
+    const double s = sine_of(degrees), c = sine_of(degrees + 90);
+    const int j = (axis + 1) % 3, k = (axis + 2) % 3;
+    placement p = {0};
+    p.at[axis][axis] = 1;
+    p.at[j][j] = p.at[k][k] = c;
+    p.at[j][k] = -s;
+    p.at[k][j] = s;
+    return p;
+}
+
+static placement placement_of(const scene_pose *pose)
+{
+    placement p = product(turn(1, pose->rotation_deg[1]).at, product(turn(0, pose->rotation_deg[0]).at, turn(2, pose->rotation_deg[2]).at).at);
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++)
+            p.at[i][j] *= pose->scale[j];
+        p.at[i][3] = pose->position[i];
+    }
+    return p;
+}
+
+/* The library's own limits, at the object's place in the file. */
+static bool check_reach(const models_reader *r, size_t index, const tree_node *item, const scene_model *model, const placement *p)
+{
+    double reach = 0;
+    for (int i = 0; i < 3; i++)
+        reach = fmax(reach, model->reach * (fabs(p->at[i][0]) + fabs(p->at[i][1]) + fabs(p->at[i][2])) + fabs(p->at[i][3]));
+    if (reach <= 2e6)
+        return true;
+    return tree_error(r->tree, item->source, item->place, r->error, "objects[%zu] reaches as far as %.3g m; allowed: 2e6 m from the origin", index, reach);
+}
+
+static bool add_parts(models_reader *r, size_t index, const tree_node *item, const scene_object *object, const scene_model *model, const scene_pose *pose,
+                      const mgt_texture *texture)
+{
+    scene_models *m = r->models;
+    const placement p = placement_of(pose);
+    if (!check_reach(r, index, item, model, &p))
+        return false;
+    r->triangles += model->triangles;
+    if (m->object_count + model->part_count > MGT_MAX_OBJECTS || r->triangles > MGT_MAX_TRIANGLES)
+        return tree_error(r->tree, item->source, item->place, r->error, "with objects[%zu] the scene has %zu parts of %llu triangles; allowed: at most %d of %d",
+                          index, m->object_count + model->part_count, (unsigned long long)r->triangles, MGT_MAX_OBJECTS, MGT_MAX_TRIANGLES);
+    if (m->object_count + model->part_count > m->object_room) {
+        const size_t room = 2 * (m->object_count + model->part_count);
+        mgt_object *objects = realloc(m->objects, room * sizeof *objects);
+        if (objects == NULL)
+            return scene_error_memory(r->error);
+        m->objects = objects;
+        m->object_room = room;
+    }
+    for (size_t i = 0; i < model->part_count; i++) {
+        mgt_object *o = &m->objects[m->object_count++];
+        const placement whole = product(p.at, model->parts[i].transform);
+        *o = (mgt_object){.mesh = model->parts[i].mesh,
+                          .material = object->material.given || object->shape != SHAPE_MESH ? object->material.look : model->parts[i].material};
+        memcpy(o->transform, whole.at, sizeof o->transform);
+        if (texture != NULL)
+            o->material.texture = texture;
+    }
+    return true;
+}
+
+static bool add_object(models_reader *r, size_t index, const tree_node *item, const scene_object *object)
+{
+    const loaded_texture *texture = NULL;
+    const char *file = object->material.texture;
+    if (!check_keys(r, index, item, object))
+        return false;
+    if (file != NULL && file[0] != '\0' && (texture = take_texture(r, index, item, file)) == NULL)
+        return false;
+    const scene_model *model = take_model(r, index, item, object);
+    if (model == NULL)
+        return false;
+    r->models->hashes[index] = texture != NULL ? model_hash(model->hash, &texture->hash, sizeof texture->hash) : model->hash;
+    const mgt_texture *picture = texture != NULL ? texture->texture : NULL;
+    if (!add_parts(r, index, item, object, model, &object->pose, picture))
+        return false;
+    const scene_pose *poses = object->instances.items;
+    for (size_t i = 0; i < object->instances.count; i++)
+        if (!add_parts(r, index, item, object, model, &poses[i], picture))
+            return false;
+    return true;
+}
+
+bool scene_models_read(const scene_tree *tree, scene_values *values, scene_error *error)
+{
+    scene_object *objects = values->objects.items;
+    const size_t count = values->objects.count;
+    if (count == 0)
+        return true;
+    models_reader r = {.tree = tree, .models = calloc(1, sizeof *r.models), .error = error};
+    if (r.models == NULL)
+        return scene_error_memory(error);
+    atomic_init(&r.models->owners, 1);
+    values->models = r.models;
+    r.models->hashes = calloc(count, sizeof *r.models->hashes);
+    if (r.models->hashes == NULL)
+        return scene_error_memory(error);
+    r.models->hash_count = count;
+    const tree_node *item = tree_get(tree->root, "objects")->first;
+    for (size_t i = 0; i < count; i++, item = item->next) {
+        if (!add_object(&r, i, item, &objects[i]))
+            return false;
+        /* It says something only where a file has materials of its own. */
+        objects[i].material.given &= objects[i].shape == SHAPE_MESH;
+    }
+    return true;
+}
+
+/* ---- owners ----------------------------------------------------------------------------------------------------- */
+
+scene_models *scene_models_share(scene_models *models)
+{
+    if (models != NULL)
+        atomic_fetch_add(&models->owners, 1);
+    return models;
+}
+
+void scene_models_release(scene_models *models)
+{
+    if (models == NULL || atomic_fetch_sub(&models->owners, 1) > 1)
+        return;
+    for (size_t i = 0; i < models->model_count; i++) {
+        free(models->models[i].path);
+        model_free(&models->models[i].model);
+    }
+    for (size_t i = 0; i < models->texture_count; i++) {
+        free(models->textures[i].path);
+        mgt_texture_destroy(models->textures[i].texture);
+    }
+    free(models->models);
+    free(models->textures);
+    free(models->objects);
+    free(models->hashes);
+    free(models);
+}
+
+const mgt_object *scene_models_objects(const scene_models *models, size_t *count)
+{
+    *count = models != NULL ? models->object_count : 0;
+    return models != NULL ? models->objects : NULL;
+}
+
+void scene_models_write(FILE *stream, const scene_models *models)
+{
+    for (size_t i = 0; models != NULL && i < models->hash_count; i++)
+        if (models->hashes[i] != 0)
+            fprintf(stream, "objects[%zu].content %016llx\n", i, (unsigned long long)models->hashes[i]);
+}
