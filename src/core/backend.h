@@ -28,7 +28,7 @@ typedef struct backend_functions {
     void (*destroy)(void *state);
     /* Scene and targets have been checked. */
     mgt_status (*render)(void *state, const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count);
-    /* OpenGL only, else NULL. Structs and counts have been checked, the scene of render_views has not. */
+    /* OpenGL only, else NULL. Structs and counts have been checked; the scene of render_views has neither been checked nor put at sea level. */
     mgt_status (*render_textures)(void *state, const reporter *r, const mgt_scene *scene, const mgt_gl_texture *textures, size_t count);
     mgt_status (*render_views)(void *state, const reporter *r, const mgt_scene *scene, const mgt_gl_view *views, size_t count);
     mgt_status (*set_sources)(void *state, const reporter *r, const mgt_gl_source *sources, size_t count);

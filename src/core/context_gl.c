@@ -49,7 +49,10 @@ mgt_status mgt_gl_render_textures(mgt_context *context, const mgt_scene *scene, 
         else if ((int)textures[i].layer < 0 || (int)textures[i].layer > MGT_LAYER_NORMAL)
             status = report_error(r, MGT_ERROR_ARGUMENT, "render.texture", "texture %zu: layer %d does not exist", i, (int)textures[i].layer);
     }
-    return status == MGT_OK ? context->backend->render_textures(context->state, r, scene, textures, count) : status;
+    if (status != MGT_OK)
+        return status;
+    const mgt_scene ours = scene_at_sea_level(scene);
+    return context->backend->render_textures(context->state, r, &ours, textures, count);
 }
 
 mgt_status mgt_gl_render_views(mgt_context *context, const mgt_scene *scene, const mgt_gl_view *views, size_t count)

@@ -201,9 +201,15 @@ static mgt_status read_target(gl_backend_state *s, const mgt_target *target, con
 
 /* ---- mgt_render ---- */
 
-bool gl_renders(const mgt_quality *quality)
+const char *gl_lacks(const mgt_scene *scene)
 {
-    return quality->method != MGT_METHOD_REFERENCE && quality->method != MGT_METHOD_ADAPTIVE;
+    const mgt_method method = scene->quality.method;
+    if (method == MGT_METHOD_REFERENCE || method == MGT_METHOD_ADAPTIVE)
+        return "methods reference and adaptive run";
+    if (scene->object_count > 0)
+        return "scenes with objects run";
+    const bool sinks = scene->camera.position[1] < 0 || (scene->camera_moves && scene->camera_open.position[1] < 0);
+    return sinks ? "cameras under water run" : NULL;
 }
 
 static mgt_status render_by_cpu(gl_backend_state *s, const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count)
@@ -279,7 +285,7 @@ static mgt_status render_entered(gl_backend_state *s, const reporter *r, const m
 static mgt_status gl_render(void *state, const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count)
 {
     gl_backend_state *s = state;
-    bool renders = gl_renders(&scene->quality);
+    bool renders = !gl_lacks(scene);
     for (size_t i = 0; i < count; i++)
         renders &= targets[i].layer <= MGT_LAYER_NORMAL;
     if (!renders)

@@ -28,9 +28,9 @@ mgt_status gl_enter(gl_backend_state *s, gl_scope *scope, const reporter *r);
 /* Returns `status`, or what OpenGL has to say where that is MGT_OK. */
 mgt_status gl_leave(gl_backend_state *s, const gl_scope *scope, mgt_status status, const reporter *r);
 
-/* Whether the shaders know the method. Left to the CPU are the reference, for its double precision, and adaptive, which asks after each
- * round where the next samples go. */
-bool gl_renders(const mgt_quality *quality);
+/* NULL where the shaders know all of a scene, else what runs on the CPU alone. Left to it are the reference, for its double precision, adaptive, which
+ * asks after each round where the next samples go, and what lies under water. */
+const char *gl_lacks(const mgt_scene *scene);
 
 /* What a call asks for. */
 typedef struct layer_wants {

@@ -2,6 +2,7 @@
  * Rendering into textures and framebuffers of the host. */
 #include <math.h>
 
+#include "core/context.h"
 #include "core/validate.h"
 #include "gl/gl_backend.h"
 #include "gl/gl_view.h"
@@ -113,8 +114,8 @@ mgt_status gl_render_textures(void *state, const reporter *r, const mgt_scene *s
     gl_backend_state *s = state;
     if (s->egl)
         return report_error(r, MGT_ERROR_ARGUMENT, "render.texture", "this context has no host: create it with mgt_context_desc.gl_get_proc");
-    if (!gl_renders(&scene->quality))
-        return report_error(r, MGT_ERROR_UNSUPPORTED, "render.texture", "methods reference and adaptive run on the CPU alone: use mgt_render()");
+    if (gl_lacks(scene))
+        return report_error(r, MGT_ERROR_UNSUPPORTED, "render.texture", "%s on the CPU alone: use mgt_render()", gl_lacks(scene));
     gl_scope scope;
     mgt_status status = gl_enter(s, &scope, r);
     if (status != MGT_OK)
@@ -174,7 +175,14 @@ static mgt_status prepare_view(const gl_backend_state *s, const mgt_scene *scene
     if (scene->camera_moves)
         out->scene.camera_open = view_camera(&out->open.rays, view->width, view->height);
     const mgt_status status = validate_scene(r, &out->scene);
-    return status == MGT_OK ? check_framebuffer(&s->renderer->gl, view->framebuffer, index, &out->encodes, r) : status;
+    if (status != MGT_OK)
+        return status;
+    out->scene = scene_at_sea_level(&out->scene);
+    out->close.rays.position[1] -= scene->water.level;
+    out->open.rays.position[1] -= scene->water.level;
+    if (gl_lacks(&out->scene))
+        return report_error(r, MGT_ERROR_UNSUPPORTED, "render.view", "%s on the CPU alone: use mgt_render()", gl_lacks(&out->scene));
+    return check_framebuffer(&s->renderer->gl, view->framebuffer, index, &out->encodes, r);
 }
 
 /* Between the two ends of the shutter, and before, rays and place move evenly; never under the water. */
@@ -291,8 +299,6 @@ mgt_status gl_render_views(void *state, const reporter *r, const mgt_scene *scen
     gl_backend_state *s = state;
     if (s->egl)
         return report_error(r, MGT_ERROR_ARGUMENT, "render.view", "this context has no host: create it with mgt_context_desc.gl_get_proc");
-    if (!gl_renders(&scene->quality))
-        return report_error(r, MGT_ERROR_UNSUPPORTED, "render.view", "methods reference and adaptive run on the CPU alone: use mgt_render()");
     gl_scope scope;
     mgt_status status = gl_enter(s, &scope, r);
     if (status != MGT_OK)
