@@ -112,10 +112,12 @@ static const control_hint *hint_of(const char *name)
     return NULL;
 }
 
-/* The document holds a spectrum's waves, so its settings change nothing any more. */
-static bool is_written_out(const char *name)
+/* The document holds a spectrum's waves times the factor, so their settings change nothing any more; nor does a named clarity, whose numbers it
+ * holds. Objects are built when the file is read. */
+static bool is_left_out(const char *name)
 {
-    return strncmp(name, "water.spectrum", 14) == 0;
+    return strncmp(name, "water.spectrum", 14) == 0 || strcmp(name, "water.amplitude") == 0 || strcmp(name, "water.clarity") == 0 ||
+           strncmp(name, "objects", 7) == 0;
 }
 
 static bool is_control(const scene_field *field)
@@ -147,7 +149,7 @@ static void walk(control_sink *sink, const char *path, const scene_field *mappin
         char name[64];
         void *value = (char *)values + field->offset;
         snprintf(name, sizeof name, "%.40s%s%s", path, path[0] ? "." : "", field->key);
-        if (is_written_out(name))
+        if (is_left_out(name))
             continue;
         if (field->type == FIELD_MAPPING)
             walk(sink, name, field, value);
@@ -234,14 +236,14 @@ bool control_find(const control_board *board, const char *name, control *out)
         out->field = find_setting(board->settings, name, &out->value);
         out->of_scene = false;
     }
-    return out->field && is_control(out->field) && !is_written_out(name);
+    return out->field && is_control(out->field) && !is_left_out(name);
 }
 
 /* ---- values --------------------------------------------------------------------------------------------------- */
 
 int control_width(const control *c)
 {
-    return c->field->type == FIELD_VECTOR || c->field->type == FIELD_COLOR ? 3 : 1;
+    return c->field->type == FIELD_VECTOR || c->field->type == FIELD_SCALE || c->field->type == FIELD_COLOR ? 3 : 1;
 }
 
 void control_read(const control *c, double numbers[3])
@@ -256,7 +258,8 @@ void control_read(const control *c, double numbers[3])
     case FIELD_COUNT: numbers[0] = *(const uint32_t *)c->value; break;
     case FIELD_NUMBER: numbers[0] = *(const double *)c->value; break;
     case FIELD_SHARE: numbers[0] = (double)*(const float *)c->value; break;
-    case FIELD_VECTOR: memcpy(numbers, c->value, 3 * sizeof *numbers); break;
+    case FIELD_VECTOR:
+    case FIELD_SCALE: memcpy(numbers, c->value, 3 * sizeof *numbers); break;
     case FIELD_COLOR:
         for (int i = 0; i < 3; i++)
             numbers[i] = (double)((const float *)c->value)[i];
@@ -307,6 +310,7 @@ void control_write(const control_board *board, const control *c, const double nu
     case FIELD_NUMBER: *(double *)c->value = allowed(field, numbers[0]); break;
     case FIELD_SHARE: *(float *)c->value = (float)allowed(field, numbers[0]); break;
     case FIELD_VECTOR:
+    case FIELD_SCALE:
         for (int i = 0; i < 3; i++)
             ((double *)c->value)[i] = allowed(field, numbers[i]);
         break;

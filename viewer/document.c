@@ -10,13 +10,16 @@
 
 static bool values_of_words(const scene_values *base, const char *const *words, size_t count, scene_values *out, scene_error *error);
 
-/* The values of a file with its spectrum as single waves: those are what the viewer changes. */
+/* The values of a file with its spectrum as single waves: those are what the viewer changes. It may be saved to another folder. */
 static bool copy_values(scene_values *out, const scene_file *file)
 {
-    const bool good = scene_values_copy(out, scene_file_values(file));
-    if (good)
-        scene_values_write_out_sea(out);
-    return good;
+    if (!scene_values_copy(out, scene_file_values(file)))
+        return false;
+    scene_values_write_out_sea(out);
+    if (scene_values_fix_files(out, scene_file_path(file)))
+        return true;
+    scene_values_free(out);
+    return false;
 }
 
 /* ---- opening ------------------------------------------------------------------------------------------------ */
@@ -108,7 +111,7 @@ static bool values_of_words(const scene_values *base, const char *const *words, 
     char *text = text_of_values(&plain, &size);
     if (!text)
         return scene_error_memory(error);
-    scene_file *file = scene_file_parse(text, size, "the scene", words, count, error);
+    scene_file *file = scene_file_parse_like(base, text, size, "the scene", words, count, error);
     free(text);
     if (!file)
         return false;
@@ -212,7 +215,7 @@ void document_save_name(const document *d, char *name, size_t size)
 static bool reads_back(const char *text, size_t size, const scene_values *values, file_error *error)
 {
     scene_error problem = {0};
-    scene_file *file = scene_file_parse(text, size, "the scene", NULL, 0, &problem);
+    scene_file *file = scene_file_parse_like(values, text, size, "the scene", NULL, 0, &problem);
     char *expected = file ? scene_values_canonical(values, NULL) : NULL, *found = file ? scene_file_canonical(file, NULL) : NULL;
     const bool same = expected && found && strcmp(expected, found) == 0;
     if (!same)

@@ -205,8 +205,11 @@ static const mgt_texture *read_texture(model_reader *r, const char *name)
             model_fault_memory(r->fault);
         free(path);
     }
-    if (texture == NULL)
+    if (texture == NULL) {
+        const size_t used = strlen(r->fault->text);
+        snprintf(r->fault->text + used, sizeof r->fault->text - used, ", or a material in the scene");
         return NULL;
+    }
     model->textures[model->texture_count++] = texture;
     model->hash = model_hash(model->hash, &hash, sizeof hash);
     return texture;
@@ -282,8 +285,11 @@ static bool read_mesh(model_reader *r, unsigned index)
     const struct aiMesh *mesh = r->scene->mMeshes[index];
     scene_model *model = r->model;
     r->mesh_of[index] = NO_MESH;
-    if (mesh->mPrimitiveTypes != aiPrimitiveType_TRIANGLE || mesh->mNumFaces == 0)
+    if (!(mesh->mPrimitiveTypes & aiPrimitiveType_TRIANGLE) || mesh->mNumFaces == 0)
         return true;
+    for (unsigned i = 0; i < mesh->mNumFaces; i++)
+        if (mesh->mFaces[i].mNumIndices != 3)
+            return refuse(r->fault, r->path, "holds a polygon that cannot be cut into triangles");
     mesh_data data;
     bool good = convert(r, mesh, &data) || model_fault_memory(r->fault);
     if (good) {

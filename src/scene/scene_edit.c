@@ -1,15 +1,19 @@
 /* SPDX-License-Identifier: MIT
  *
- * Scenes that a program changes: copies, the field of a path, and the way back to text.
+ * Scenes that a program changes: the field of a path, and the way back to text.
  */
+#define _GNU_SOURCE
 #include "scene/scene_edit.h"
 
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
+
+#include "scene/scene_sea.h"
 
 enum { PATH_SIZE = 96 };
 
-/* ---- copies ---------------------------------------------------------------------------------------------- */
+/* ---- for a program that goes on with the values -------------------------------------------------------------- */
 
 void scene_values_write_out_sea(scene_values *values)
 {
@@ -22,6 +26,35 @@ void scene_values_write_out_sea(scene_values *values)
     free(water->spectrum.file);
     water->spectrum = scene_values_defaults().water.spectrum;
     water->amplitude = 1;
+}
+
+static bool fix_file(char **file, const char *scene_path)
+{
+    if (*file == NULL || **file == '\0' || **file == '/')
+        return true;
+    char *beside = scene_file_beside(scene_path, *file), *folder = beside != NULL && beside[0] != '/' ? getcwd(NULL, 0) : NULL;
+    char *whole = NULL;
+    if (folder != NULL && asprintf(&whole, "%s/%s", folder, beside) < 0)
+        whole = NULL;
+    if (folder != NULL) {
+        free(beside);
+        beside = whole;
+    }
+    free(folder);
+    if (beside == NULL)
+        return false;
+    free(*file);
+    *file = beside;
+    return true;
+}
+
+bool scene_values_fix_files(scene_values *values, const char *scene_path)
+{
+    scene_object *objects = values->objects.items;
+    bool good = true;
+    for (size_t i = 0; i < values->objects.count; i++)
+        good &= fix_file(&objects[i].mesh, scene_path) && fix_file(&objects[i].heights, scene_path) && fix_file(&objects[i].material.texture, scene_path);
+    return good;
 }
 
 /* ---- paths ------------------------------------------------------------------------------------------------- */
@@ -120,6 +153,12 @@ static bool mappings_equal(const scene_field *mapping, const void *left, const v
     for (const scene_field *field = mapping->fields; equal && field->key != NULL; field++)
         equal = values_equal(field, left, right);
     return equal;
+}
+
+bool scene_objects_equal(const scene_values *left, const scene_values *right)
+{
+    const scene_field *objects = child_field(scene_root_field(), "objects", 7);
+    return lists_equal(objects, &left->objects, &right->objects);
 }
 
 /* As a double-quoted scalar of JSON, which YAML reads too. */

@@ -74,8 +74,8 @@ fail:
     return NULL;
 }
 
-scene_file *scene_file_parse(const char *text, size_t length, const char *name, const char *const *overrides,
-                             size_t override_count, scene_error *error)
+scene_file *scene_file_parse_like(const scene_values *like, const char *text, size_t length, const char *name, const char *const *overrides,
+                                  size_t override_count, scene_error *error)
 {
     scene_tree tree = {.file_name = name};
     scene_file *file = NULL;
@@ -99,7 +99,11 @@ scene_file *scene_file_parse(const char *text, size_t length, const char *name, 
     }
     file->values = scene_values_defaults();
     if (!scene_read(&tree, &file->values, error) || !scene_check(&tree, &file->values, error) ||
-        !scene_sea_read(&tree, &file->values.water, error) || !scene_models_read(&tree, &file->values, error))
+        !scene_sea_read(&tree, &file->values.water, error))
+        goto fail;
+    if (like != NULL && scene_objects_equal(like, &file->values))
+        file->values.models = scene_models_share(like->models);
+    else if (!scene_models_read(&tree, &file->values, error))
         goto fail;
     tree_free(&tree);
     return file;
@@ -108,6 +112,12 @@ fail:
     tree_free(&tree);
     scene_file_free(file);
     return NULL;
+}
+
+scene_file *scene_file_parse(const char *text, size_t length, const char *name, const char *const *overrides,
+                             size_t override_count, scene_error *error)
+{
+    return scene_file_parse_like(NULL, text, length, name, overrides, override_count, error);
 }
 
 scene_file *scene_file_load(const char *path, const char *const *overrides, size_t override_count, scene_error *error)

@@ -311,7 +311,7 @@ static bool add_object(models_reader *r, size_t index, const tree_node *item, co
 
 bool scene_models_read(const scene_tree *tree, scene_values *values, scene_error *error)
 {
-    scene_object *objects = values->objects.items;
+    const scene_object *objects = values->objects.items;
     const size_t count = values->objects.count;
     if (count == 0)
         return true;
@@ -325,12 +325,9 @@ bool scene_models_read(const scene_tree *tree, scene_values *values, scene_error
         return scene_error_memory(error);
     r.models->hash_count = count;
     const tree_node *item = tree_get(tree->root, "objects")->first;
-    for (size_t i = 0; i < count; i++, item = item->next) {
+    for (size_t i = 0; i < count; i++, item = item->next)
         if (!add_object(&r, i, item, &objects[i]))
             return false;
-        /* It says something only where a file has materials of its own. */
-        objects[i].material.given &= objects[i].shape == SHAPE_MESH;
-    }
     return true;
 }
 

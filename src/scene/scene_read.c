@@ -319,5 +319,11 @@ static bool read_mapping(scene_reader *reader, const scene_field *mapping, const
 bool scene_read(const scene_tree *tree, scene_values *values, scene_error *error)
 {
     scene_reader reader = {.tree = tree, .error = error};
-    return read_mapping(&reader, scene_root_field(), tree->root, values);
+    if (!read_mapping(&reader, scene_root_field(), tree->root, values))
+        return false;
+    /* A material replaces those of a file; where there is none it says nothing that it is there. */
+    scene_object *objects = values->objects.items;
+    for (size_t i = 0; i < values->objects.count; i++)
+        objects[i].material.given &= objects[i].shape == SHAPE_MESH;
+    return true;
 }
