@@ -19,6 +19,7 @@ _Static_assert(sizeof(ViewData) % 16 == 0, "std140 layout");
 _Static_assert(sizeof(WaveData) == 96, "std140 layout");
 _Static_assert(sizeof(MarchWave) == 16, "std140 layout");
 _Static_assert(sizeof(RefractData) == 48, "std140 layout");
+_Static_assert(sizeof(PictureData) == 80, "std140 layout");
 
 /* What a kernel can reach through its accessors. */
 struct kernel_context {
@@ -30,7 +31,8 @@ struct kernel_context {
     const ViewData *view; /* only while tiles are sorted */
     const podee_tables *podee; /* only where podee-* replaces its Gaussian by kernels */
     const struct lean_map *lean; /* methods lean and leadr alone */
-    const RefractData *refract; /* scenes with objects alone */
+    const RefractData *refract; /* scenes with objects alone, as what follows */
+    const PictureData *picture; /* only where triangles are drawn */
 };
 
 #endif

@@ -6,6 +6,7 @@
 
 #include <math.h>
 
+#include "cpu/raster_lanes.h"
 #include "cpu/rival_lanes.h"
 #include "precompute/atmosphere.h"
 
@@ -13,6 +14,8 @@
 #define LANES_NAME(n) LANES_NAME_(n)
 #define RIVALS_NAME_(n) rival_kernels_##n
 #define RIVALS_NAME(n) RIVALS_NAME_(n)
+#define RASTER_NAME_(n) raster_kernels_##n
+#define RASTER_NAME(n) RASTER_NAME_(n)
 static const float infinity = INFINITY;
 
 #include "kernels/prelude_c.h"
@@ -708,4 +711,5 @@ static void lanes_display(const FrameData *frame, const float *rgb, uint8_t *rgb
 
 const lane_kernels LANES_NAME(MGT_LANES) = {
     MGT_LANES, lanes_sort, lanes_guess, lanes_sample, lanes_filtered, lanes_cells, lanes_surface, lanes_filtered_normal, lanes_display, &RIVALS_NAME(MGT_LANES),
+    &RASTER_NAME(MGT_LANES),
 };

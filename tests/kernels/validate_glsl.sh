@@ -11,10 +11,13 @@ trap 'rm -rf "$work"' EXIT
 failed=0
 
 check() { # name, version line, extension, epilogue, kernel
-    lean=
-    case $1 in lean | leadr) lean=$kernels/lean_accessors_glsl.k ;; esac
+    more=
+    case $1 in
+    lean | leadr) more=$kernels/lean_accessors_glsl.k ;;
+    refract_*) more=$kernels/refract_accessors_glsl.k ;;
+    esac
     # shellcheck disable=SC2086 # nothing where there is none
-    "$source/scripts/kernel_glsl" "$2" "$kernels/prelude_glsl.k" "$kernels/accessors_glsl.k" $lean "$5" >"$work/$1.$3" || { failed=1; return; }
+    "$source/scripts/kernel_glsl" "$2" "$kernels/prelude_glsl.k" "$kernels/accessors_glsl.k" $more "$5" >"$work/$1.$3" || { failed=1; return; }
     printf '%s\n' "$4" >>"$work/$1.$3"
     if ! glslangValidator "$work/$1.$3" >"$work/log" 2>&1; then
         failed=1
@@ -27,7 +30,7 @@ check() { # name, version line, extension, epilogue, kernel
 count=0
 for kernel in "$kernels"/*.k; do
     name=$(basename "$kernel" .k)
-    case $name in prelude_glsl | accessors_glsl | lean_accessors_glsl) continue ;; esac
+    case $name in prelude_glsl | accessors_glsl | *_accessors_glsl) continue ;; esac
     count=$((count + 1))
     check "$name" "450 core" comp 'layout(local_size_x = 8, local_size_y = 8) in; void main() {}' "$kernel"
     check "$name" "300 es" frag 'void main() {}' "$kernel"

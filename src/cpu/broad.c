@@ -1,0 +1,292 @@
+/* SPDX-License-Identifier: MIT
+ * The broad phase: the world's triangles cut at the mean surface, moved to their virtual images and split where these bend. */
+#include "cpu/broad.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    MOST_SPLITS = 14, /* of a triangle's edges one after the other; edges in sight get too short for more long before */
+    MOST_CORNERS = 5
+};
+
+/* What a worker holds while it goes through a chunk. */
+typedef struct chunk_job {
+    const broad_view *view;
+    broad_scratch *scratch;
+    raster_bins *bins;
+    broad_counts *counts;
+} chunk_job;
+
+/* A part of a triangle: points relative to the camera's foot, and how far on the far side of the surface they lie. */
+typedef struct part {
+    int count;
+    float corner[MOST_CORNERS][3];
+    float far[MOST_CORNERS];
+} part;
+
+static void draw(const chunk_job *job, int layer, const float image[3][3], int32_t triangle)
+{
+    if (raster_bins_add(job->bins, &job->view->grid, layer, image, triangle))
+        job->counts->drawn[layer]++;
+}
+
+/* ---- splitting ---- */
+
+static void push(const chunk_job *job, patch_stack *s, const patch *p)
+{
+    if (s->count == s->room) {
+        const size_t room = s->room ? 2 * s->room : 1024;
+        patch *grown = realloc(s->patches, room * sizeof *grown);
+        if (!grown) {
+            job->scratch->failed = true;
+            return;
+        }
+        s->patches = grown;
+        s->room = room;
+    }
+    s->patches[s->count++] = *p;
+}
+
+static void load_batch(patch_batch *b, const patch *from, size_t count)
+{
+    b->count = count;
+    for (size_t i = 0; i < count; i++)
+        for (int corner = 0; corner < 3; corner++)
+            for (int k = 0; k < 3; k++) {
+                b->corner[corner][k][i] = from[i].corner[corner][k];
+                b->image[corner][k][i] = from[i].image[corner][k];
+            }
+}
+
+/* Corners 0 to 2 of a patch and the middles of its edges, 3 to 5. */
+typedef struct patch_points {
+    float point[6][3], image[6][3];
+} patch_points;
+
+static patch_points points_of(const patch_batch *b, const patch *p, size_t i)
+{
+    patch_points points;
+    memcpy(points.point, p->corner, sizeof p->corner);
+    memcpy(points.image, p->image, sizeof p->image);
+    for (int edge = 0; edge < 3; edge++)
+        for (int k = 0; k < 3; k++) {
+            points.point[3 + edge][k] = b->middle[edge][k][i];
+            points.image[3 + edge][k] = b->middle_image[edge][k][i];
+        }
+    return points;
+}
+
+/* Triangles that take the place of one, by which of its edges are split (bit e: edge e, from corner e to the next one); of points 0 to 5. */
+static const struct {
+    int count;
+    int8_t corner[4][3];
+} divisions[8] = {
+    {1, {{0, 1, 2}}},
+    {2, {{0, 3, 2}, {3, 1, 2}}},
+    {2, {{0, 1, 4}, {0, 4, 2}}},
+    {3, {{3, 1, 4}, {0, 3, 4}, {0, 4, 2}}},
+    {2, {{0, 1, 5}, {5, 1, 2}}},
+    {3, {{0, 3, 5}, {3, 1, 2}, {3, 2, 5}}},
+    {3, {{5, 4, 2}, {0, 1, 4}, {0, 4, 5}}},
+    {4, {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}}},
+};
+
+static void divide(const chunk_job *job, const patch *p, size_t i, int edges)
+{
+    const patch_points points = points_of(&job->scratch->batch, p, i);
+    patch child = {.triangle = p->triangle, .depth = p->depth + 1};
+    for (int t = divisions[edges].count; t-- > 0;) {
+        for (int corner = 0; corner < 3; corner++) {
+            memcpy(child.corner[corner], points.point[divisions[edges].corner[t][corner]], sizeof child.corner[0]);
+            memcpy(child.image[corner], points.image[divisions[edges].corner[t][corner]], sizeof child.image[0]);
+        }
+        push(job, &job->scratch->waiting, &child);
+    }
+    job->counts->splits += (size_t)divisions[edges].count - 1;
+}
+
+static int split_edges(const patch_batch *b, size_t i)
+{
+    return (b->split[0][i] > 0 ? 1 : 0) | (b->split[1][i] > 0 ? 2 : 0) | (b->split[2][i] > 0 ? 4 : 0);
+}
+
+/* Draws or divides the last ones of those that wait. `place`: their images are not known yet. */
+static void work_batch(const chunk_job *job, bool place)
+{
+    broad_scratch *s = job->scratch;
+    patch_stack *waiting = &s->waiting;
+    patch taken[PATCH_BATCH];
+    const size_t count = waiting->count < PATCH_BATCH ? waiting->count : PATCH_BATCH;
+    waiting->count -= count;
+    memcpy(taken, waiting->patches + waiting->count, count * sizeof *taken);
+    load_batch(&s->batch, taken, count);
+    job->view->kernels->patches(&job->view->refract, &job->view->picture, place, &s->batch);
+    for (size_t i = 0; i < count; i++) {
+        for (int k = 0; k < 9 && place; k++)
+            taken[i].image[k / 3][k % 3] = s->batch.image[k / 3][k % 3][i];
+        if (s->batch.hidden[i] > 0)
+            continue;
+        const int edges = taken[i].depth < MOST_SPLITS ? split_edges(&s->batch, i) : 0;
+        if (edges)
+            divide(job, &taken[i], i, edges);
+        else
+            draw(job, FAR_LAYER, (const float(*)[3])taken[i].image, taken[i].triangle);
+    }
+}
+
+static void work_until(const chunk_job *job, size_t left)
+{
+    while (job->scratch->waiting.count > left && !job->scratch->failed)
+        work_batch(job, false);
+}
+
+/* ---- cutting ---- */
+
+static void cut_edge(const part *p, int in, int out, float plane, part *to)
+{
+    const float share = (p->far[in] - plane) / (p->far[in] - p->far[out]);
+    for (int k = 0; k < 3; k++)
+        to->corner[to->count][k] = p->corner[in][k] + (p->corner[out][k] - p->corner[in][k]) * share;
+    to->far[to->count++] = plane;
+}
+
+/* What lies where far ≥ plane (`beyond`) or ≤ plane. Cuts go from the end with the larger `far` to the other one, for both. */
+static part cut(const part *p, float plane, bool beyond, float side)
+{
+    part out = {.count = 0};
+    for (int i = 0; i < p->count; i++) {
+        const int next = i + 1 == p->count ? 0 : i + 1;
+        const float a = p->far[i] - plane, b = p->far[next] - plane;
+        if (beyond ? a >= 0 : a <= 0) {
+            memcpy(out.corner[out.count], p->corner[i], sizeof out.corner[0]);
+            out.far[out.count++] = p->far[i];
+        }
+        if ((a > 0 && b < 0) || (a < 0 && b > 0)) {
+            cut_edge(p, a > 0 ? i : next, a > 0 ? next : i, plane, &out);
+            out.corner[out.count - 1][1] = -side * plane;
+        }
+    }
+    return out;
+}
+
+static void draw_near(const chunk_job *job, const part *p, int32_t triangle)
+{
+    static const float here[2] = {0, 0};
+    const broad_view *view = job->view;
+    RefractData straight = view->refract;
+    straight.map = 0;
+    float image[MOST_CORNERS][4];
+    view->kernels->images(&straight, &view->picture, here, (size_t)p->count, p->corner[0], image[0]);
+    for (int i = 1; i + 1 < p->count; i++) {
+        float corner[3][3];
+        memcpy(corner[0], image[0], sizeof corner[0]);
+        memcpy(corner[1], image[i], sizeof corner[0]);
+        memcpy(corner[2], image[i + 1], sizeof corner[0]);
+        draw(job, NEAR_LAYER, (const float(*)[3])corner, triangle);
+    }
+}
+
+/* For later: the images of its corners are not known. */
+static void push_part(const chunk_job *job, const part *p, int32_t triangle)
+{
+    for (int i = 1; i + 1 < p->count; i++) {
+        patch corners = {.triangle = triangle};
+        memcpy(corners.corner[0], p->corner[0], sizeof corners.corner[0]);
+        memcpy(corners.corner[1], p->corner[i], 2 * sizeof corners.corner[0]);
+        push(job, &job->scratch->cut, &corners);
+    }
+}
+
+static float least3(const float v[3])
+{
+    const float a = v[0] < v[1] ? v[0] : v[1];
+    return a < v[2] ? a : v[2];
+}
+
+static float most3(const float v[3])
+{
+    const float a = v[0] > v[1] ? v[0] : v[1];
+    return a > v[2] ? a : v[2];
+}
+
+/* Both sides of a triangle that meets the surface, or comes near it from the camera's side. */
+static void cut_triangle(const chunk_job *job, const patch *whole, const float far[3])
+{
+    const broad_view *view = job->view;
+    const float side = view->refract.side;
+    part p = {.count = 3};
+    memcpy(p.corner, whole->corner, sizeof whole->corner);
+    memcpy(p.far, far, 3 * sizeof *far);
+    const part own = cut(&p, 0, false, side);
+    if (most3(far) > 0) {
+        const part beyond = cut(&p, 0, true, side);
+        draw_near(job, &own, whole->triangle);
+        push_part(job, &beyond, whole->triangle);
+    } else {
+        draw(job, NEAR_LAYER, (const float(*)[3])whole->image, whole->triangle);
+    }
+    if (view->crest > 0) {
+        const part behind = cut(&own, -view->crest, true, side);
+        push_part(job, &behind, whole->triangle);
+    }
+}
+
+/* ---- chunks ---- */
+
+static void take_triangle(const chunk_job *job, size_t index)
+{
+    const broad_view *view = job->view;
+    const uint32_t *vertex = view->world->indices + 3 * index;
+    patch p = {.triangle = (int32_t)index};
+    float far[3];
+    for (int i = 0; i < 3; i++) {
+        const float *at = view->world->positions + 3 * (size_t)vertex[i], *image = view->images + 4 * (size_t)vertex[i];
+        p.corner[i][0] = at[0] - view->foot[0];
+        p.corner[i][1] = at[1];
+        p.corner[i][2] = at[2] - view->foot[1];
+        memcpy(p.image[i], image, sizeof p.image[i]);
+        far[i] = image[3];
+    }
+    if (least3(far) >= 0) {
+        if (view->refract.map == 0)
+            draw(job, FAR_LAYER, (const float(*)[3])p.image, p.triangle);
+        else
+            push(job, &job->scratch->waiting, &p);
+    } else if (most3(far) > -view->crest) {
+        cut_triangle(job, &p, far);
+    } else {
+        draw(job, NEAR_LAYER, (const float(*)[3])p.image, p.triangle);
+    }
+}
+
+void broad_chunk(const broad_view *view, size_t chunk, broad_scratch *scratch, raster_bins *bins, broad_counts *counts)
+{
+    const chunk_job job = {view, scratch, bins, counts};
+    const size_t first = chunk * BROAD_CHUNK, all = view->world->triangle_count;
+    const size_t end = first + BROAD_CHUNK < all ? first + BROAD_CHUNK : all;
+    patch_stack *waiting = &scratch->waiting, *cuts = &scratch->cut;
+    waiting->count = cuts->count = 0;
+    for (size_t i = first; i < end; i++) {
+        take_triangle(&job, i);
+        work_until(&job, PATCH_BATCH - 1);
+    }
+    work_until(&job, 0);
+    while (cuts->count > 0 && !scratch->failed) {
+        while (cuts->count > 0 && waiting->count < PATCH_BATCH)
+            push(&job, waiting, &cuts->patches[--cuts->count]);
+        work_batch(&job, true);
+        work_until(&job, 0);
+    }
+    raster_bins_sort(bins, &view->grid);
+    bins->failed |= scratch->failed;
+}
+
+void broad_scratch_free(broad_scratch *scratch)
+{
+    if (!scratch)
+        return;
+    free(scratch->waiting.patches);
+    free(scratch->cut.patches);
+    free(scratch);
+}

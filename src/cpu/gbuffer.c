@@ -1,0 +1,335 @@
+/* SPDX-License-Identifier: MIT
+ * What a camera sees of the objects, apart on its own side of the mean surface and on the other one. */
+#include "cpu/gbuffer.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cpu/broad.h"
+
+enum {
+    GUARD_LEAST = 16, /* pixels around the image, … */
+    GUARD_SHARE = 20, /* … or one in so many, whichever is more */
+    IMAGE_BLOCK = 1024 /* vertices that a worker takes at a time */
+};
+
+static const double least_depth = 1e-3;
+
+/* What the layers were drawn from, and the memory for the next ones. */
+struct gbuffer_store {
+    bool drawn;
+    uint64_t version;
+    gbuffer_job job;
+    float *images;
+    size_t image_room;
+    raster_bins *bins; /* of the world's chunks */
+    size_t bin_count;
+    broad_scratch **scratch; /* of the workers */
+    raster_tile **tiles;
+    uint32_t workers;
+    broad_counts *counts; /* of the workers */
+};
+
+/* A picture in the making. */
+typedef struct draw_job {
+    broad_view view;
+    gbuffers *out;
+    struct gbuffer_store *store;
+    size_t chunks;
+} draw_job;
+
+/* ---- what is uniform ---- */
+
+RefractData refract_data_of(double camera_height, double index, gbuffer_map map)
+{
+    const double n = fmax(index, 1), excess = n * n - 1, critical = excess > 0 ? 1 / sqrt(excess) : 0;
+    return (RefractData){
+        .side = camera_height < 0 ? -1.0f : 1.0f,
+        .distance = (float)fabs(camera_height),
+        .index = (float)n,
+        .index_inverse = (float)(1 / n),
+        .index_squared = (float)(n * n),
+        .excess = (float)excess,
+        .excess_root = (float)sqrt(excess),
+        .critical = (float)critical,
+        .critical_low = (float)(critical - (double)(float)critical),
+        .map = (int)map,
+    };
+}
+
+static void cross(const double a[3], const double b[3], double out[3])
+{
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        out[i] = a[j] * b[k] - a[k] * b[j];
+    }
+}
+
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* The rays' inverse: p = depth · corner + x · right + y · down, where x and y are pixels times depth from the image's first one. */
+static PictureData picture_data(const gbuffer_job *job, const raster_grid *grid, const gbuffer *layer)
+{
+    const camera_rays *c = &job->camera;
+    const double tau = job->error > 0 ? job->error : 0.25, edge = 0.7 * tau; /* a triangle's middle is off by up to 4/3 of its edges */
+    double depth[3], x[3], y[3];
+    cross(c->right, c->down, depth);
+    cross(c->down, c->corner, x);
+    cross(c->corner, c->right, y);
+    const double volume = dot(c->corner, depth), shift_x = grid->middle_x - (double)layer->left, shift_y = grid->middle_y - (double)layer->top;
+    for (int i = 0; i < 3; i++) {
+        depth[i] /= volume;
+        x[i] = x[i] / volume - shift_x * depth[i];
+        y[i] = y[i] / volume - shift_y * depth[i];
+    }
+    const double focal = 1 / sqrt(dot(c->right, c->right));
+    const double wide = grid->width - grid->middle_x, high = grid->height - grid->middle_y;
+    return (PictureData){
+        .x_x = (float)x[0], .x_y = (float)x[1], .x_z = (float)x[2],
+        .eye_height = (float)c->position[1],
+        .y_x = (float)y[0], .y_y = (float)y[1], .y_z = (float)y[2],
+        .focal = (float)focal,
+        .z_x = (float)depth[0], .z_y = (float)depth[1], .z_z = (float)depth[2],
+        .cosine_squared = (float)(focal * focal / (focal * focal + wide * wide + high * high)),
+        .left = -(float)(grid->middle_x + 1),
+        .right = (float)(grid->width - grid->middle_x),
+        .top = -(float)(grid->middle_y + 1),
+        .bottom = (float)(grid->height - grid->middle_y),
+        .least_depth = (float)grid->least_depth,
+        .error_squared = (float)(edge * edge),
+        .short_squared = (float)(16 * tau * tau),
+        .long_squared = 32 * 32,
+    };
+}
+
+/* ---- memory ---- */
+
+static void free_layer(gbuffer *layer)
+{
+    free(layer->depth);
+    free(layer->triangle);
+    *layer = (gbuffer){0};
+}
+
+static uint32_t guard_of(uint32_t size)
+{
+    const uint32_t share = (size + GUARD_SHARE - 1) / GUARD_SHARE;
+    return ((share > GUARD_LEAST ? share : GUARD_LEAST) + 15) / 16 * 16;
+}
+
+static bool shape_layer(gbuffer *layer, const gbuffer_job *job)
+{
+    const uint32_t left = guard_of(job->width), top = guard_of(job->height);
+    const uint32_t width = (job->width + 2 * left + 15) / 16 * 16, height = job->height + 2 * top;
+    if (layer->depth && layer->width == width && layer->height == height)
+        return true;
+    free_layer(layer);
+    const size_t count = (size_t)width * height;
+    *layer = (gbuffer){width, height, left, top, malloc(count * sizeof *layer->depth), malloc(count * sizeof *layer->triangle)};
+    return layer->depth && layer->triangle;
+}
+
+static void free_store(struct gbuffer_store *s)
+{
+    if (!s)
+        return;
+    for (size_t i = 0; i < s->bin_count; i++)
+        raster_bins_free(&s->bins[i]);
+    for (uint32_t i = 0; i < s->workers; i++) {
+        broad_scratch_free(s->scratch[i]);
+        free(s->tiles[i]);
+    }
+    free(s->bins);
+    free(s->images);
+    free(s->scratch);
+    free(s->tiles);
+    free(s->counts);
+    free(s);
+}
+
+void gbuffers_free(gbuffers *g)
+{
+    free_layer(&g->near);
+    free_layer(&g->far);
+    free_store(g->store);
+    *g = (gbuffers){0};
+}
+
+static struct gbuffer_store *new_store(uint32_t workers)
+{
+    struct gbuffer_store *s = calloc(1, sizeof *s);
+    if (!s)
+        return NULL;
+    s->scratch = calloc(workers, sizeof *s->scratch);
+    s->tiles = calloc(workers, sizeof *s->tiles);
+    s->counts = calloc(workers, sizeof *s->counts);
+    bool good = s->scratch && s->tiles && s->counts;
+    for (; good && s->workers < workers; s->workers++) {
+        s->scratch[s->workers] = calloc(1, sizeof **s->scratch);
+        s->tiles[s->workers] = calloc(1, sizeof **s->tiles);
+        good = s->scratch[s->workers] && s->tiles[s->workers];
+    }
+    if (good)
+        return s;
+    free_store(s);
+    return NULL;
+}
+
+/* Room for the world's vertices and chunks; what another world needed more goes. */
+static bool fit_store(struct gbuffer_store *s, const world *w, size_t chunks)
+{
+    if (w->vertex_count > s->image_room || w->vertex_count < s->image_room / 4) {
+        free(s->images);
+        s->images = malloc((w->vertex_count + 1) * 4 * sizeof *s->images);
+        s->image_room = s->images ? w->vertex_count : 0;
+    }
+    if (!s->images)
+        return false;
+    for (size_t i = chunks; i < s->bin_count; i++)
+        raster_bins_free(&s->bins[i]);
+    if (chunks != s->bin_count) {
+        raster_bins *bins = realloc(s->bins, (chunks + 1) * sizeof *bins);
+        if (!bins)
+            return false;
+        for (size_t i = s->bin_count; i < chunks; i++)
+            bins[i] = (raster_bins){0};
+        s->bins = bins;
+        s->bin_count = chunks;
+    }
+    return true;
+}
+
+/* ---- the three loops ---- */
+
+static void place_vertices(void *argument, size_t index, uint32_t worker)
+{
+    (void)worker;
+    const draw_job *job = argument;
+    const broad_view *view = &job->view;
+    const size_t first = index * IMAGE_BLOCK, left = view->world->vertex_count - first;
+    view->kernels->images(&view->refract, &view->picture, view->foot, left < IMAGE_BLOCK ? left : IMAGE_BLOCK, view->world->positions + 3 * first,
+                          job->store->images + 4 * first);
+}
+
+static void bin_chunk(void *argument, size_t index, uint32_t worker)
+{
+    const draw_job *job = argument;
+    raster_bins_clear(&job->store->bins[index]);
+    broad_chunk(&job->view, index, job->store->scratch[worker], &job->store->bins[index], &job->store->counts[worker]);
+}
+
+static void draw_tile(void *argument, size_t index, uint32_t worker)
+{
+    const draw_job *job = argument;
+    const raster_grid *grid = &job->view.grid;
+    const raster_kernels *kernels = job->view.kernels;
+    raster_tile *tile = job->store->tiles[worker];
+    const size_t tiles = (size_t)grid->columns * (size_t)grid->rows;
+    const int32_t x = (int32_t)(index % tiles) % grid->columns * RASTER_TILE, y = (int32_t)(index % tiles) / grid->columns * RASTER_TILE;
+    tile->x = x - grid->middle_x;
+    tile->y = y - grid->middle_y;
+    tile->width = grid->width - x < RASTER_TILE ? grid->width - x : RASTER_TILE;
+    tile->height = grid->height - y < RASTER_TILE ? grid->height - y : RASTER_TILE;
+    kernels->tile_clear(tile);
+    for (size_t i = 0; i < job->chunks; i++) {
+        const raster_bins *bins = &job->store->bins[i];
+        const uint32_t first = bins->starts[index], end = bins->starts[index + 1];
+        if (end > first)
+            kernels->tile_draw(tile, bins->triangles, bins->list + first, end - first);
+    }
+    const gbuffer *layer = index < tiles ? &job->out->near : &job->out->far;
+    for (int32_t row = 0; row < tile->height; row++) {
+        const size_t at = (size_t)(y + row) * layer->width + (size_t)x;
+        kernels->tile_row(tile, row, layer->depth + at, layer->triangle + at);
+    }
+}
+
+/* ---- drawing ---- */
+
+static bool same_camera(const camera_rays *a, const camera_rays *b)
+{
+    return memcmp(a, b, sizeof *a) == 0;
+}
+
+static bool is_drawn(const struct gbuffer_store *s, const world *w, const gbuffer_job *job)
+{
+    return s && s->drawn && s->version == w->version && same_camera(&s->job.camera, &job->camera) && s->job.width == job->width &&
+           s->job.height == job->height && s->job.index == job->index && s->job.map == job->map && s->job.error == job->error &&
+           s->job.crest == job->crest;
+}
+
+static broad_view view_of(const gbuffers *g, const world *w, const gbuffer_job *job, const raster_kernels *kernels)
+{
+    const gbuffer *layer = &g->near;
+    broad_view view = {.world = w, .kernels = kernels, .refract = g->refract, .images = g->store->images};
+    view.grid = (raster_grid){
+        .width = (int32_t)layer->width,
+        .height = (int32_t)layer->height,
+        .middle_x = (int32_t)(layer->left + job->width / 2),
+        .middle_y = (int32_t)(layer->top + job->height / 2),
+        .columns = (int32_t)((layer->width + RASTER_TILE - 1) / RASTER_TILE),
+        .rows = (int32_t)((layer->height + RASTER_TILE - 1) / RASTER_TILE),
+        .least_depth = least_depth,
+    };
+    view.picture = picture_data(job, &view.grid, layer);
+    view.foot[0] = (float)(job->camera.position[0] - w->origin[0]);
+    view.foot[1] = (float)(job->camera.position[2] - w->origin[1]);
+    view.crest = job->map == GBUFFER_SAGITTAL ? (float)job->crest : 0;
+    return view;
+}
+
+static bool draw_layers(draw_job *job, thread_pool *pool)
+{
+    struct gbuffer_store *s = job->store;
+    const raster_grid *grid = &job->view.grid;
+    memset(s->counts, 0, s->workers * sizeof *s->counts);
+    for (uint32_t i = 0; i < s->workers; i++)
+        s->scratch[i]->failed = false;
+    const thread_loop vertices = {(job->view.world->vertex_count + IMAGE_BLOCK - 1) / IMAGE_BLOCK, place_vertices, job, NULL};
+    thread_pool_run(pool, &vertices);
+    const thread_loop chunks = {job->chunks, bin_chunk, job, NULL};
+    thread_pool_run(pool, &chunks);
+    for (size_t i = 0; i < job->chunks; i++)
+        if (s->bins[i].failed)
+            return false;
+    const thread_loop tiles = {(size_t)LAYERS * (size_t)grid->columns * (size_t)grid->rows, draw_tile, job, NULL};
+    thread_pool_run(pool, &tiles);
+    job->out->counts = (gbuffer_counts){0, 0, 0};
+    for (uint32_t i = 0; i < s->workers; i++) {
+        job->out->counts.near_triangles += s->counts[i].drawn[NEAR_LAYER];
+        job->out->counts.far_triangles += s->counts[i].drawn[FAR_LAYER];
+        job->out->counts.splits += s->counts[i].splits;
+    }
+    return true;
+}
+
+mgt_status gbuffers_draw(gbuffers *g, const world *w, const gbuffer_job *job, const raster_kernels *kernels, thread_pool *pool)
+{
+    if (is_drawn(g->store, w, job))
+        return MGT_OK;
+    if (g->store && g->store->workers != thread_pool_size(pool)) {
+        free_store(g->store);
+        g->store = NULL;
+    }
+    if (!g->store)
+        g->store = new_store(thread_pool_size(pool));
+    const size_t chunks = (w->triangle_count + BROAD_CHUNK - 1) / BROAD_CHUNK;
+    if (!g->store || !fit_store(g->store, w, chunks) || !shape_layer(&g->near, job) || !shape_layer(&g->far, job))
+        goto fail;
+    g->store->drawn = false;
+    g->refract = refract_data_of(job->camera.position[1], job->index, job->map);
+    draw_job d = {.view = view_of(g, w, job, kernels), .out = g, .store = g->store, .chunks = chunks};
+    if (!draw_layers(&d, pool))
+        goto fail;
+    g->store->version = w->version;
+    g->store->job = *job;
+    g->store->drawn = true;
+    return MGT_OK;
+fail:
+    gbuffers_free(g);
+    return MGT_ERROR_MEMORY;
+}

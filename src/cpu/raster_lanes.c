@@ -1,0 +1,281 @@
+/* SPDX-License-Identifier: MIT
+ * Points, triangles and pixels of G-buffers in lanes, compiled once per lane width (MGT_LANES).
+ *
+ * Whatever the width, a point, an edge or a pixel sees the same operations in the same order: the bits do not depend on it. */
+#include "cpu/raster_lanes.h"
+
+#include <math.h>
+#include <string.h>
+
+#define LANES_NAME_(n) raster_kernels_##n
+#define LANES_NAME(n) LANES_NAME_(n)
+static const float infinity = INFINITY;
+
+#include "kernels/prelude_c.h"
+
+#define REFRACT(cx) (*(cx)->refract)
+#define PICTURE(cx) (*(cx)->picture)
+#include "kernels/refract_patch.k"
+
+static inline real load(const float *p)
+{
+    real r;
+    memcpy(&r, p, sizeof r);
+    return r;
+}
+
+static inline void store(float *p, real r)
+{
+    memcpy(p, &r, sizeof r);
+}
+
+static inline vec3 load3(const float *const p[3], size_t i)
+{
+    return (vec3){load(p[0] + i), load(p[1] + i), load(p[2] + i)};
+}
+
+/* ---- points ---- */
+
+static void lanes_virtual_points(const RefractData *refract, size_t count, const float *const in[3], float *const out[3])
+{
+    const struct kernel_context cx = {.refract = refract};
+    for (size_t i = 0; i < count; i += MGT_LANES) {
+        const vec3 p = virtual_point(&cx, load3(in, i));
+        store(out[0] + i, p.x), store(out[1] + i, p.y), store(out[2] + i, p.z);
+    }
+}
+
+static void lanes_true_points(const RefractData *refract, size_t count, const float *const in[3], float *const out[3])
+{
+    const struct kernel_context cx = {.refract = refract};
+    for (size_t i = 0; i < count; i += MGT_LANES) {
+        const vec3 p = true_point(&cx, load3(in, i));
+        store(out[0] + i, p.x), store(out[1] + i, p.y), store(out[2] + i, p.z);
+    }
+}
+
+static void lanes_images(const RefractData *refract, const PictureData *picture, const float foot[2], size_t count, const float *positions,
+                         float *images)
+{
+    const struct kernel_context cx = {.refract = refract, .picture = picture};
+    for (size_t i = 0; i < count; i += MGT_LANES) {
+        const size_t valid = count - i < MGT_LANES ? count - i : MGT_LANES;
+        float in[3][MGT_LANES], out[4][MGT_LANES];
+        memset(in, 0, sizeof in);
+        for (size_t lane = 0; lane < valid; lane++)
+            for (size_t k = 0; k < 3; k++)
+                in[k][lane] = positions[3 * (i + lane) + k];
+        const vec3 p = {load(in[0]) - foot[0], load(in[1]), load(in[2]) - foot[1]};
+        const real far = p.y * (0.0f - refract->side);
+        const mask mapped = far >= real(0.0f);
+        vec3 image = straight_image(&cx, p);
+        if (refract->map != 0 && any_lane(mapped))
+            image = SELECT3(mapped, far_image(&cx, p), image);
+        store(out[0], image.x), store(out[1], image.y), store(out[2], image.z), store(out[3], far);
+        for (size_t lane = 0; lane < valid; lane++)
+            for (size_t k = 0; k < 4; k++)
+                images[4 * (i + lane) + k] = out[k][lane];
+    }
+}
+
+/* ---- patches ---- */
+
+static inline vec3 load_corner(const float from[3][3][PATCH_BATCH], int corner, size_t i)
+{
+    return (vec3){load(from[corner][0] + i), load(from[corner][1] + i), load(from[corner][2] + i)};
+}
+
+static inline void store_corner(float to[3][3][PATCH_BATCH], int corner, size_t i, vec3 p)
+{
+    store(to[corner][0] + i, p.x), store(to[corner][1] + i, p.y), store(to[corner][2] + i, p.z);
+}
+
+static void fill_up(patch_batch *b)
+{
+    for (size_t i = b->count; i % MGT_LANES != 0; i++)
+        for (int corner = 0; corner < 3; corner++)
+            for (int k = 0; k < 3; k++) {
+                b->corner[corner][k][i] = b->corner[corner][k][i - 1];
+                b->image[corner][k][i] = b->image[corner][k][i - 1];
+            }
+}
+
+static void lanes_patches(const RefractData *refract, const PictureData *picture, int place, patch_batch *b)
+{
+    const struct kernel_context cx = {.refract = refract, .picture = picture};
+    fill_up(b);
+    for (size_t i = 0; i < b->count; i += MGT_LANES) {
+        vec3 corner[3], image[3];
+        for (int k = 0; k < 3; k++) {
+            corner[k] = load_corner(b->corner, k, i);
+            if (place)
+                store_corner(b->image, k, i, far_image(&cx, corner[k]));
+            image[k] = load_corner(b->image, k, i);
+        }
+        real hidden = real(0.0f), splits = real(0.0f);
+        for (int k = 0; k < 3; k++) {
+            const int next = k == 2 ? 0 : k + 1;
+            const PatchEdge edge = patch_edge(&cx, corner[k], corner[next], image[k], image[next]);
+            store_corner(b->middle, k, i, edge.middle);
+            store_corner(b->middle_image, k, i, edge.image);
+            store(b->split[k] + i, edge.split);
+            splits = max(splits, edge.split);
+        }
+        const Beyond beyond = both_beyond(&cx, both_beyond(&cx, beyond_of(&cx, image[0]), beyond_of(&cx, image[1])), beyond_of(&cx, image[2]));
+        const mask outside = most_beyond(&cx, beyond) > real(0.0f), whole = splits <= real(0.0f);
+        hidden = SELECT(AND(outside, whole), real(1.0f), hidden);
+        if (refract->map == 1 && any_lane(AND(outside, NOT(whole))))
+            hidden = SELECT(AND(outside, NOT(whole)), patch_hidden(&cx, corner[0], corner[1], corner[2]), hidden);
+        store(b->hidden + i, hidden);
+    }
+}
+
+/* ---- tiles ---- */
+
+static void lanes_tile_clear(raster_tile *tile)
+{
+    memset(tile->inverse_depth, 0, sizeof tile->inverse_depth);
+    memset(tile->triangle, 0xff, sizeof tile->triangle);
+}
+
+/* An edge's number at the pixels of a tile; 0 or more inside. It counts whole subpixels times pixels, rounded down, which leaves its sign. */
+typedef struct edge_number {
+    int32_t first, right, down; /* at the tile's first pixel, and its changes per pixel */
+} edge_number;
+
+typedef enum edge_place { EDGE_OUTSIDE, EDGE_INSIDE, EDGE_CROSSES } edge_place;
+
+/* Pixels on an edge belong to the triangle if it is a top or a left one: to one of the two that share it. */
+static inline edge_place place_edge(const raster_triangle *t, int from, int to, const raster_tile *tile, edge_number *out)
+{
+    const int64_t dx = (int64_t)t->x[to] - t->x[from], dy = (int64_t)t->y[to] - t->y[from];
+    const int64_t px = (int64_t)tile->x * SUBPIXELS - t->x[from], py = (int64_t)tile->y * SUBPIXELS - t->y[from];
+    const bool kept = dy < 0 || (dy == 0 && dx > 0);
+    const int64_t first = (dx * py - dy * px - (kept ? 0 : 1)) >> 8;
+    const int64_t across = -dy * (tile->width - 1), down = dx * (tile->height - 1);
+    if (first + (across > 0 ? across : 0) + (down > 0 ? down : 0) < 0)
+        return EDGE_OUTSIDE;
+    if (first + (across < 0 ? across : 0) + (down < 0 ? down : 0) >= 0) {
+        *out = (edge_number){0, 0, 0};
+        return EDGE_INSIDE;
+    }
+    *out = (edge_number){(int32_t)first, (int32_t)-dy, (int32_t)dx};
+    return EDGE_CROSSES;
+}
+
+/* First and last pixel, from the tile's first one, whose centres may lie between two subpixel coordinates. */
+static inline int32_t first_pixel(int32_t least, int32_t origin)
+{
+    const int32_t pixel = ((least + SUBPIXELS - 1) >> 8) - origin;
+    return pixel > 0 ? pixel : 0;
+}
+
+static inline int32_t last_pixel(int32_t most, int32_t origin, int32_t size)
+{
+    const int32_t pixel = (most >> 8) - origin;
+    return pixel < size - 1 ? pixel : size - 1;
+}
+
+static inline int32_t least3(const int32_t v[3])
+{
+    const int32_t a = v[0] < v[1] ? v[0] : v[1];
+    return a < v[2] ? a : v[2];
+}
+
+static inline int32_t most3(const int32_t v[3])
+{
+    const int32_t a = v[0] > v[1] ? v[0] : v[1];
+    return a > v[2] ? a : v[2];
+}
+
+static inline mask load_ints(const int32_t *p)
+{
+    mask m;
+    memcpy(&m, p, sizeof m);
+    return m;
+}
+
+static inline void store_ints(int32_t *p, mask m)
+{
+    memcpy(p, &m, sizeof m);
+}
+
+static inline void draw_vector(const raster_triangle *t, raster_tile *tile, size_t at, mask inside, real x, float row_part)
+{
+    const real stored = load(tile->inverse_depth + at);
+    const real line = fma(x, real(t->slope_x), real(row_part));
+    const real depth = clamp(line, real(t->least), real(t->most));
+    const mask nearer = AND(inside, depth > stored);
+    if (!any_lane(nearer))
+        return;
+    store(tile->inverse_depth + at, SELECT(nearer, depth, stored));
+    const real triangle = real_from_bits((mask){0} + t->triangle);
+    store_ints(tile->triangle + at, real_bits(real_select(nearer, triangle, real_from_bits(load_ints(tile->triangle + at)))));
+}
+
+static inline mask lane_counts(void)
+{
+    static const int32_t numbers[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+    return load_ints(numbers);
+}
+
+static void draw_triangle(raster_tile *tile, const raster_triangle *t)
+{
+    edge_number edge[3];
+    bool crosses = false;
+    for (int k = 0; k < 3; k++) {
+        const edge_place place = place_edge(t, k, k == 2 ? 0 : k + 1, tile, &edge[k]);
+        if (place == EDGE_OUTSIDE)
+            return;
+        crosses |= place == EDGE_CROSSES;
+    }
+    const int32_t left = first_pixel(least3(t->x), tile->x), right = last_pixel(most3(t->x), tile->x, tile->width);
+    const int32_t top = first_pixel(least3(t->y), tile->y), bottom = last_pixel(most3(t->y), tile->y, tile->height);
+    const float corner_x = (float)t->x[0] * (1.0f / SUBPIXELS), corner_y = (float)t->y[0] * (1.0f / SUBPIXELS);
+    const mask lanes = lane_counts();
+    const real first_x = real_from_int(lanes) + ((float)(tile->x + left) - corner_x);
+    mask across[3], start[3];
+    for (int k = 0; k < 3; k++) {
+        across[k] = (mask){0} + edge[k].right * MGT_LANES;
+        start[k] = lanes * edge[k].right + (edge[k].first + left * edge[k].right);
+    }
+    for (int32_t y = top; y <= bottom; y++) {
+        const float row_part = real_fma((real){0} + ((float)(tile->y + y) - corner_y), (real){0} + t->slope_y, (real){0} + t->inverse_depth)
+#if MGT_LANES > 1
+            [0]
+#endif
+            ;
+        mask number[3];
+        for (int k = 0; k < 3; k++)
+            number[k] = start[k] + y * edge[k].down;
+        real x = first_x;
+        for (int32_t i = left; i <= right; i += MGT_LANES) {
+            const mask inside = crosses ? (number[0] | number[1] | number[2]) >= 0 : lanes >= 0;
+            draw_vector(t, tile, (size_t)(y * RASTER_STRIDE + i), inside, x, row_part);
+            for (int k = 0; k < 3; k++)
+                number[k] += across[k];
+            x = x + (float)MGT_LANES;
+        }
+    }
+}
+
+static void lanes_tile_draw(raster_tile *tile, const raster_triangle *triangles, const uint32_t *list, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        draw_triangle(tile, &triangles[list[i]]);
+}
+
+static void lanes_tile_row(const raster_tile *tile, int32_t row, float *depth, int32_t *triangle)
+{
+    const float *inverse = tile->inverse_depth + row * RASTER_STRIDE;
+    for (int32_t i = 0; i < tile->width; i += MGT_LANES) {
+        const real v = load(inverse + i);
+        const mask there = v > real(0.0f);
+        store(depth + i, SELECT(there, real(1.0f) / SELECT(there, v, real(1.0f)), real(infinity)));
+    }
+    memcpy(triangle, tile->triangle + row * RASTER_STRIDE, (size_t)tile->width * sizeof *triangle);
+}
+
+const raster_kernels LANES_NAME(MGT_LANES) = {
+    lanes_virtual_points, lanes_true_points, lanes_images, lanes_patches, lanes_tile_clear, lanes_tile_draw, lanes_tile_row,
+};
