@@ -226,7 +226,7 @@ static mgt_status check_objects(const reporter *r, const mgt_scene *scene)
         return report_error(r, MGT_ERROR_SCENE, "render.scene", "the scene has %llu triangles; at most %d are allowed", (unsigned long long)triangles,
                             MGT_MAX_TRIANGLES);
     if (triangles > 0)
-        return report_error(r, MGT_ERROR_UNSUPPORTED, "render.scene", "scenes with objects are not supported yet");
+        return MGT_OK;
     return MGT_OK;
 }
 

@@ -98,7 +98,7 @@ static void plant_tile(void *argument, size_t tile, uint32_t worker)
     tile_find_guesses(a->kernels, &data, &s->close, &s->close_guess);
     if (f->moves)
         tile_find_guesses(a->kernels, &data, &s->open, &s->open_guess);
-    a->kernels->filtered(&data, a->sky, NULL, MGT_METHOD_MANGATA, &s->close, &s->close_guess, f->moves ? &s->open : NULL,
+    a->kernels->filtered(&data, a->sky, NULL, NULL, MGT_METHOD_MANGATA, &s->close, &s->close_guess, f->moves ? &s->open : NULL,
                          f->moves ? &s->open_guess : NULL, &s->pixels, detail);
     const uint32_t left = (uint32_t)(tile % f->columns) * TILE_WIDTH, top = (uint32_t)(tile / f->columns) * TILE_HEIGHT;
     for (uint32_t y = 0; y < TILE_HEIGHT && top + y < p->height; y++)

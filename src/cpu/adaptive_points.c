@@ -34,7 +34,7 @@ static void render_points(const forest *f, point_batch *batch, tile_scratch *s, 
         s->jitter_y[i] = s->jitter_y[0] - (float)(i / TILE_WIDTH);
     }
     memset(&s->pixels, 0, sizeof s->pixels);
-    f->a->kernels->sample(&f->a->frame->data, f->a->sky, &s->close, &s->close_guess, s->jitter_x, s->jitter_y, 1, &s->pixels);
+    f->a->kernels->sample(&f->a->frame->data, f->a->sky, NULL, &s->close, &s->close_guess, s->jitter_x, s->jitter_y, 1, &s->pixels);
     for (int i = 0; i < batch->count; i++) {
         double *sum = sums + 5 * batch->owner[i];
         sum[0] += (double)s->pixels.red[i];

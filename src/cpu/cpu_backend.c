@@ -28,6 +28,7 @@ typedef struct cpu_state {
     podee_tables podee; /* empty until a frame needs them */
     lean_map *lean;     /* NULL until a frame needs it */
     forest *adaptive;   /* NULL until a frame needs it */
+    refraction *objects; /* NULL until a frame has some */
     frame_waves *waves;
     tile_scratch **scratch; /* one a worker */
     mgt_progress_function progress;
@@ -91,6 +92,7 @@ static void cpu_destroy(void *state)
     podee_tables_free(&s->podee);
     lean_map_free(s->lean);
     forest_free(s->adaptive);
+    refraction_free(s->objects);
     free(s->waves);
     free(s->sky);
     free(s);
@@ -162,6 +164,7 @@ typedef struct pixel_planes {
     const float *color[3]; /* red, green, blue, each `color_step` floats a pixel */
     size_t color_step;
     const float *coverage, *water, *depth;
+    const float *refraction[3], *error; /* one float a pixel; NULL: zeros */
     const float *normal[3];
     size_t normal_step;
     size_t stride; /* pixels a row */
@@ -200,9 +203,19 @@ static void write_row(const render_job *job, const mgt_target *t, const pixel_pl
     case MGT_LAYER_NORMAL: write_pixels(p->normal, p->normal_step, first, count, channels, out); return;
     case MGT_LAYER_SAMPLES: fill_row(out, count, samples_per_pixel(&job->scene->quality)); return;
     case MGT_LAYER_IMPORTANCE:
-    case MGT_LAYER_DETAIL:
-    case MGT_LAYER_REFRACTION_ERROR: fill_row(out, count, 0); return;
-    case MGT_LAYER_REFRACTION: fill_row(out, (uint32_t)channels * count, 0); return;
+    case MGT_LAYER_DETAIL: fill_row(out, count, 0); return;
+    case MGT_LAYER_REFRACTION_ERROR:
+        if (p->error)
+            memcpy(out, p->error + first, count * sizeof *out);
+        else
+            fill_row(out, count, 0);
+        return;
+    case MGT_LAYER_REFRACTION:
+        if (p->error)
+            write_pixels(p->refraction, 1, first, count, channels, out);
+        else
+            fill_row(out, (uint32_t)channels * count, 0);
+        return;
     }
 }
 
@@ -268,6 +281,8 @@ static void render_tile(void *argument, size_t index, uint32_t worker)
         .depth = s->surface.along + at,
         .normal = {s->surface.normal_x + at, s->surface.normal_y + at, s->surface.normal_z + at},
         .normal_step = 1,
+        .refraction = {s->objects.refraction[0] + at, s->objects.refraction[1] + at, s->objects.refraction[2] + at},
+        .error = job->tiles.objects ? s->objects.error + at : NULL,
         .stride = TILE_WIDTH,
     };
     write_block(job, &block, &planes);
@@ -476,7 +491,7 @@ static mgt_status render_picture(cpu_state *s, const reporter *r, const mgt_scen
     render_job job = {.state = s, .scene = scene, .targets = targets, .target_count = count, .pass = pass};
     job.frame = frame_of(scene, s->sky, wants_layer(targets, count, MGT_LAYER_COLOR, MGT_LAYER_COLOR));
     if (pass)
-        job.frame.close = pass->camera;
+        job.frame.close = rays_above(&job.frame, &pass->camera);
     status = prepare_lean(s, r, &job.frame);
     if (status != MGT_OK)
         return status;
@@ -498,9 +513,22 @@ static mgt_status render_picture(cpu_state *s, const reporter *r, const mgt_scen
         }
         reference_frame_destroy(job.reference);
     } else {
+        const bool objects = scene->object_count > 0;
         frame_waves_build(&job.frame, s->waves);
-        job.tiles = (tile_job){&job.frame, s->waves, s->kernels, s->sky->table, &s->podee, job.wants, s->progress ? keep_going : NULL, &job, s->lean};
-        finished = run_loop(&job, TILE_WIDTH, TILE_HEIGHT, render_tile);
+        if (objects)
+            status = refraction_prepare(&s->objects, r, &job.frame, s->sky, s->kernels, s->pool);
+        job.tiles = (tile_job){.frame = &job.frame,
+                               .waves = s->waves,
+                               .kernels = s->kernels,
+                               .sky = s->sky->table,
+                               .podee = &s->podee,
+                               .wants = job.wants,
+                               .keep_going = s->progress ? keep_going : NULL,
+                               .keep_going_argument = &job,
+                               .lean = s->lean,
+                               .objects = objects ? s->objects : NULL};
+        if (status == MGT_OK)
+            finished = run_loop(&job, TILE_WIDTH, TILE_HEIGHT, render_tile);
     }
     if (status == MGT_OK && (!finished || atomic_load(&job.cancelled)))
         status = report_error(r, MGT_CANCELLED, "render.cancelled", "rendering was cancelled");

@@ -43,6 +43,24 @@ camera_rays camera_rays_of(const mgt_camera *camera, uint32_t width, uint32_t he
     return rays;
 }
 
+camera_rays mirrored_rays(const camera_rays *rays)
+{
+    camera_rays m = *rays;
+    m.position[1] = -m.position[1];
+    m.corner[1] = -m.corner[1];
+    m.right[1] = -m.right[1];
+    m.down[1] = -m.down[1];
+    return m;
+}
+
+/* A camera on the surface, or beyond it while another of its frame is not, is moved a little way off. */
+camera_rays rays_above(const frame *f, const camera_rays *rays)
+{
+    camera_rays above = f->under ? mirrored_rays(rays) : *rays;
+    above.position[1] = fmax(above.position[1], 1e-4);
+    return above;
+}
+
 static void light_axes(const double light[3], FrameData *d)
 {
     const double up[3] = {0, 1, 0}, north[3] = {0, 0, -1};
@@ -96,7 +114,7 @@ static void order_waves(const mgt_water *water, uint16_t *order)
 
 frame frame_of(const mgt_scene *scene, const sky_state *sky, bool want_color)
 {
-    frame f = {.scene = scene};
+    frame f = {.scene = scene, .under = scene->camera.position[1] < 0};
     FrameData *d = &f.data;
     d->light_x = (float)sky->direction[0];
     d->light_y = (float)sky->direction[1];
@@ -122,11 +140,13 @@ frame frame_of(const mgt_scene *scene, const sky_state *sky, bool want_color)
     d->slope_floor = 1e-9f;
     d->pixel_angle = (float)(2 * tan(scene->camera.fov_y_deg * pi / 360) / scene->image.height);
     d->want_color = want_color;
-    d->sky_black = scene->sky.model == MGT_SKY_BLACK;
+    d->sky_black = scene->sky.model == MGT_SKY_BLACK && scene->object_count == 0; /* what objects shine still shows */
     set_method(&f);
     order_waves(&scene->water, f.order);
-    f.close = camera_rays_of(&scene->camera, scene->image.width, scene->image.height);
-    f.open = scene->camera_moves ? camera_rays_of(&scene->camera_open, scene->image.width, scene->image.height) : f.close;
+    const camera_rays close = camera_rays_of(&scene->camera, scene->image.width, scene->image.height);
+    f.close = rays_above(&f, &close);
+    const camera_rays open = scene->camera_moves ? camera_rays_of(&scene->camera_open, scene->image.width, scene->image.height) : close;
+    f.open = rays_above(&f, &open);
     return f;
 }
 

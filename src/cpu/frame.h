@@ -15,11 +15,18 @@ typedef struct camera_rays {
 typedef struct frame {
     FrameData data;
     const mgt_scene *scene;
-    camera_rays close, open;       /* cameras when the shutter closes and opens */
+    camera_rays close, open;       /* cameras when the shutter closes and opens, on the upper side of what is called the water; see `under` */
+    bool under;                    /* the camera is under water: cameras, light and waves are mirrored at the mean surface */
     uint16_t order[MGT_MAX_WAVES]; /* of the scene's waves by falling amplitude */
 } frame;
 
 camera_rays camera_rays_of(const mgt_camera *camera, uint32_t width, uint32_t height);
+
+/* The same, mirrored at the mean surface y = 0. */
+camera_rays mirrored_rays(const camera_rays *rays);
+
+/* A camera as a frame takes it: above the surface, if need be mirrored or moved off it. */
+camera_rays rays_above(const frame *f, const camera_rays *rays);
 
 /* `sky` must have been built from the scene; the scene must outlive the frame. */
 frame frame_of(const mgt_scene *scene, const sky_state *sky, bool want_color);

@@ -9,6 +9,8 @@
 #include "kernels/types.k"
 #include "kernels/lean_types.k"
 #include "kernels/refract_types.k"
+#include "kernels/narrow_types.k"
+#include "kernels/shade_types.k"
 #undef STRUCT
 
 #include "precompute/podee_tables.h"
@@ -16,6 +18,8 @@
 _Static_assert(sizeof(FrameData) % 16 == 0, "std140 layout");
 _Static_assert(sizeof(TileData) % 16 == 0, "std140 layout");
 _Static_assert(sizeof(ViewData) % 16 == 0, "std140 layout");
+_Static_assert(sizeof(ShadeData) % 16 == 0, "std140 layout");
+_Static_assert(sizeof(NarrowData) % 16 == 0, "std140 layout");
 _Static_assert(sizeof(WaveData) == 96, "std140 layout");
 _Static_assert(sizeof(MarchWave) == 16, "std140 layout");
 _Static_assert(sizeof(RefractData) == 48, "std140 layout");
@@ -33,6 +37,9 @@ struct kernel_context {
     const struct lean_map *lean; /* methods lean and leadr alone */
     const RefractData *refract; /* scenes with objects alone, as what follows */
     const PictureData *picture; /* only where triangles are drawn */
+    const struct shade_scene *shade; /* only where objects are shaded */
+    const struct narrow_scene *narrow; /* only where objects are looked for */
+    const float *light; /* of this vector's pixels, planes of a tile_light; NULL: no objects */
 };
 
 #endif

@@ -60,4 +60,24 @@ static inline real lane_numbers(void)
     return load(numbers);
 }
 
+/* ---- light of objects ---- */
+
+/* A plane of a tile_light at the vector that cx stands for. */
+static inline real light_plane(CTX cx, size_t plane)
+{
+    return load(cx->light + plane * TILE_PIXELS);
+}
+
+KERNEL vec3 BODY_LIGHT(CTX cx)
+{
+    if (!cx->light)
+        return (vec3){real_broadcast(FRAME(cx).body_r), real_broadcast(FRAME(cx).body_g), real_broadcast(FRAME(cx).body_b)};
+    return (vec3){light_plane(cx, 0), light_plane(cx, 1), light_plane(cx, 2)};
+}
+
+#define MIRRORS_OBJECTS(cx) ((cx)->light != NULL)
+
+KERNEL vec3 OBJECTS_COLOR(CTX cx) { return (vec3){light_plane(cx, 3), light_plane(cx, 4), light_plane(cx, 5)}; }
+KERNEL real OBJECTS_SHARE(CTX cx) { return light_plane(cx, 6); }
+
 #endif

@@ -16,6 +16,10 @@
 #define RIVALS_NAME(n) RIVALS_NAME_(n)
 #define RASTER_NAME_(n) raster_kernels_##n
 #define RASTER_NAME(n) RASTER_NAME_(n)
+#define SHADE_NAME_(n) shade_kernels_##n
+#define SHADE_NAME(n) SHADE_NAME_(n)
+#define NARROW_NAME_(n) narrow_kernels_##n
+#define NARROW_NAME(n) NARROW_NAME_(n)
 static const float infinity = INFINITY;
 
 #include "kernels/prelude_c.h"
@@ -382,15 +386,20 @@ static void lanes_guess(const FrameData *frame, const tile_waves *tile, tile_gue
 
 /* ---- methods ---- */
 
+static inline const float *light_at(const tile_light *light, size_t i)
+{
+    return light ? &light->body[0][i] : NULL;
+}
+
 static inline void accumulate(float *p, real value, float weight)
 {
     store(p, load(p) + value * weight);
 }
 
-static void lanes_sample(const FrameData *frame, const float *sky, const tile_waves *tile, const tile_guess *guess, const float *dx,
-                         const float *dy, float weight, tile_pixels *out)
+static void lanes_sample(const FrameData *frame, const float *sky, const tile_light *light, const tile_waves *tile, const tile_guess *guess,
+                         const float *dx, const float *dy, float weight, tile_pixels *out)
 {
-    const struct kernel_context context = {.frame = frame, .tile = &tile->data, .waves = tile->waves, .march = tile->march, .sky = sky};
+    struct kernel_context context = {.frame = frame, .tile = &tile->data, .waves = tile->waves, .march = tile->march, .sky = sky};
     for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
         real column = lane_numbers() + (float)(i % TILE_WIDTH);
         real row = real_broadcast((float)(i / TILE_WIDTH));
@@ -398,6 +407,7 @@ static void lanes_sample(const FrameData *frame, const float *sky, const tile_wa
             column = column + load(dx + i);
             row = row + load(dy + i);
         }
+        context.light = light_at(light, i);
         const PixelResult p = sample_pixel(&context, column, row, load_guess(guess, i));
         accumulate(out->red + i, p.color.x, weight);
         accumulate(out->green + i, p.color.y, weight);
@@ -583,9 +593,10 @@ static void store_cell(tile_pixels *out, tile_detail *detail, size_t i, CellResu
     }
 }
 
-static void render_glitter(const struct kernel_context *cx, tile_places places, const tile_guess *guess, const struct kernel_context *open,
-                           const tile_guess *open_guess, tile_pixels *out, tile_detail *detail)
+static void render_glitter(const struct kernel_context *cx, const tile_light *light, tile_places places, const tile_guess *guess,
+                           const struct kernel_context *open, const tile_guess *open_guess, tile_pixels *out, tile_detail *detail)
 {
+    struct kernel_context here = *cx;
     tile_looks close_looks, open_looks;
     close_looks.places = open_looks.places = places;
     for (size_t i = 0; i < places.count; i += MGT_LANES)
@@ -598,7 +609,8 @@ static void render_glitter(const struct kernel_context *cx, tile_places places, 
         CellResult cell = {.height = real(0.0f), .variance = real(0.0f), .contrast = real(0.0f), .places = real(1.0f), .aspect = real(1.0f)};
         if (any_lane(p.water > real(0.0f))) {
             const SlopeState state = looked_slopes(cx, &close_looks, i, p.ray);
-            cell = cell_result_of(cx, p, open ? looked_slopes(open, &open_looks, i, pixel_rays(open, &places, i).ray) : state, state);
+            here.light = light_at(light, i);
+            cell = cell_result_of(&here, p, open ? looked_slopes(open, &open_looks, i, pixel_rays(open, &places, i).ray) : state, state);
         } else {
             cell.pixel = nothing_but_sky(cx, p);
         }
@@ -620,12 +632,13 @@ static void lanes_cells(const FrameData *frame, const float *sky, const tile_wav
         cells->guess.march[count] = cells->guess.march[count - 1];
     }
     const tile_places places = {cells->column, cells->row, count};
-    render_glitter(&cx, places, &cells->guess, open ? &before : NULL, &cells->guess, &cells->pixels, &cells->detail);
+    render_glitter(&cx, cells->light, places, &cells->guess, open ? &before : NULL, &cells->guess, &cells->pixels, &cells->detail);
 }
 
-static void render_podee(const struct kernel_context *cx, const tile_guess *guess, const struct kernel_context *open, const tile_guess *open_guess,
-                         tile_pixels *out)
+static void render_podee(const struct kernel_context *cx, const tile_light *light, const tile_guess *guess, const struct kernel_context *open,
+                         const tile_guess *open_guess, tile_pixels *out)
 {
+    struct kernel_context here = *cx;
     for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
         const real column = lane_numbers() + (float)(i % TILE_WIDTH), row = real_broadcast((float)(i / TILE_WIDTH));
         const PixelRay p = pixel_ray_filtered(cx, column, row);
@@ -638,13 +651,14 @@ static void render_podee(const struct kernel_context *cx, const tile_guess *gues
         if (open)
             before = podee_state(open, pixel_ray_filtered(open, column, row).ray, load_guess(open_guess, i));
         const real coverage = FRAME(cx).podee_kernels == 0 ? podee_coverage(cx, before, state) : podee_mixture_coverage(cx, before, state);
-        store_pixels(out, i, podee_result_of(cx, p, before, state, coverage));
+        here.light = light_at(light, i);
+        store_pixels(out, i, podee_result_of(&here, p, before, state, coverage));
     }
 }
 
-static void lanes_filtered(const FrameData *frame, const float *sky, const podee_tables *podee, mgt_method method, const tile_waves *close,
-                           const tile_guess *close_guess, const tile_waves *open, const tile_guess *open_guess, tile_pixels *out,
-                           tile_detail *detail)
+static void lanes_filtered(const FrameData *frame, const float *sky, const tile_light *light, const podee_tables *podee, mgt_method method,
+                           const tile_waves *close, const tile_guess *close_guess, const tile_waves *open, const tile_guess *open_guess,
+                           tile_pixels *out, tile_detail *detail)
 {
     const struct kernel_context context = {
         .frame = frame, .tile = &close->data, .waves = close->waves, .march = close->march, .sky = sky, .podee = podee};
@@ -653,9 +667,9 @@ static void lanes_filtered(const FrameData *frame, const float *sky, const podee
         open_context.tile = &open->data, open_context.waves = open->waves, open_context.march = open->march;
     if (method == MGT_METHOD_MANGATA) {
         pixel_grid grid;
-        render_glitter(&context, all_pixels(&grid), close_guess, open ? &open_context : NULL, open_guess, out, detail);
+        render_glitter(&context, light, all_pixels(&grid), close_guess, open ? &open_context : NULL, open_guess, out, detail);
     } else {
-        render_podee(&context, close_guess, open ? &open_context : NULL, open_guess, out);
+        render_podee(&context, light, close_guess, open ? &open_context : NULL, open_guess, out);
     }
 }
 
@@ -711,5 +725,5 @@ static void lanes_display(const FrameData *frame, const float *rgb, uint8_t *rgb
 
 const lane_kernels LANES_NAME(MGT_LANES) = {
     MGT_LANES, lanes_sort, lanes_guess, lanes_sample, lanes_filtered, lanes_cells, lanes_surface, lanes_filtered_normal, lanes_display, &RIVALS_NAME(MGT_LANES),
-    &RASTER_NAME(MGT_LANES),
+    &SHADE_NAME(MGT_LANES), &NARROW_NAME(MGT_LANES), &RASTER_NAME(MGT_LANES),
 };

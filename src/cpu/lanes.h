@@ -59,10 +59,18 @@ typedef struct tile_detail {
     float height[TILE_PIXELS], variance[TILE_PIXELS], contrast[TILE_PIXELS], aspect[TILE_PIXELS], places[TILE_PIXELS];
 } tile_detail;
 
+/* What the pixels of a tile see of objects through the surface and mirrored by it, see pixel.k. Kernels read the planes by their numbers. */
+typedef struct tile_light {
+    float body[3][TILE_PIXELS];     /* what comes through */
+    float mirrored[3][TILE_PIXELS]; /* what objects shine instead of what they hide of the sky, … */
+    float share[TILE_PIXELS];       /* … and how much that is */
+} tile_light;
+
 /* Cells of one tile: pixels are split evenly into view.scale_x × view.scale_y of them. */
 typedef struct tile_cells {
     size_t count;                                   /* at most TILE_PIXELS */
     float column[TILE_PIXELS], row[TILE_PIXELS];    /* whole numbers, in cells from the tile's first one */
+    const tile_light *light;                        /* a value a cell; NULL: no objects */
     tile_guess guess;                               /* heights; march: 1 to march from above, 0: only where the height leads nowhere */
     tile_detail detail;                             /* out */
     tile_pixels pixels;                             /* out */
@@ -73,6 +81,8 @@ typedef struct tile_surface {
     float normal_x[TILE_PIXELS], normal_y[TILE_PIXELS], normal_z[TILE_PIXELS];
 } tile_surface;
 
+typedef struct shade_kernels shade_kernels;   /* cpu/shade_lanes.h */
+typedef struct narrow_kernels narrow_kernels; /* cpu/narrow_lanes.h */
 typedef struct rival_kernels rival_kernels;   /* cpu/rival_lanes.h */
 typedef struct raster_kernels raster_kernels; /* cpu/raster_lanes.h */
 
@@ -82,13 +92,15 @@ typedef struct lane_kernels {
     void (*sort)(const FrameData *frame, const wave_set *set, const ViewData *view, uint32_t tile_x, uint32_t tile_y, tile_waves *out);
     /* Marches the tile's nodes and fills the guesses of its pixels. */
     void (*guess)(const FrameData *frame, const tile_waves *tile, tile_guess *guess);
-    /* One sample a pixel at (x + dx, y + dy), dx and dy in pixels from its centre (NULL: 0); adds weight × result to `out`. */
-    void (*sample)(const FrameData *frame, const float *sky, const tile_waves *tile, const tile_guess *guess, const float *dx,
-                   const float *dy, float weight, tile_pixels *out);
+    /* One sample a pixel at (x + dx, y + dy), dx and dy in pixels from its centre (NULL: 0); adds weight × result to `out`. `light`: of objects;
+       NULL where there are none, here and below. */
+    void (*sample)(const FrameData *frame, const float *sky, const tile_light *light, const tile_waves *tile, const tile_guess *guess,
+                   const float *dx, const float *dy, float weight, tile_pixels *out);
     /* Filtered methods; `open` is NULL unless the camera moves. `podee` is read where podee-* replaces its Gaussian by kernels. `detail` is for
        method `mangata`, or NULL. */
-    void (*filtered)(const FrameData *frame, const float *sky, const podee_tables *podee, mgt_method method, const tile_waves *close,
-                     const tile_guess *close_guess, const tile_waves *open, const tile_guess *open_guess, tile_pixels *out, tile_detail *detail);
+    void (*filtered)(const FrameData *frame, const float *sky, const tile_light *light, const podee_tables *podee, mgt_method method,
+                     const tile_waves *close, const tile_guess *close_guess, const tile_waves *open, const tile_guess *open_guess, tile_pixels *out,
+                     tile_detail *detail);
     /* Cells by method `mangata`; the waves are sorted for their level. Lists are filled up to whole vectors. */
     void (*cells)(const FrameData *frame, const float *sky, const tile_waves *close, const tile_waves *open, tile_cells *cells);
     /* Depth and normal at one instant. */
@@ -98,8 +110,14 @@ typedef struct lane_kernels {
     /* Displayed colour: `count` pixels of 3 floats to 4 bytes. */
     void (*display)(const FrameData *frame, const float *rgb, uint8_t *rgba, size_t count);
     const rival_kernels *rivals;
+    const shade_kernels *shade;
+    const narrow_kernels *narrow;
     const raster_kernels *raster;
 } lane_kernels;
+
+/* Those that lane_kernels lead to. */
+extern const shade_kernels shade_kernels_1, shade_kernels_4, shade_kernels_8, shade_kernels_16;
+extern const narrow_kernels narrow_kernels_1, narrow_kernels_4, narrow_kernels_8, narrow_kernels_16;
 
 extern const lane_kernels lane_kernels_1;
 extern const lane_kernels lane_kernels_4;

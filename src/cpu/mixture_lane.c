@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "cpu/kernel_data.h"
+#include "cpu/lanes.h"
 #include "precompute/atmosphere.h"
 
 /* Before the prelude takes the names of <math.h>. */

@@ -87,11 +87,17 @@ static PixelResult sky_alone(const struct kernel_context *cx, PixelRay p)
     return result;
 }
 
-static void render_points(const struct kernel_context *cx, const rival_tile *tile, tile_pixels *out)
+static inline const float *light_at(const tile_light *light, size_t i)
+{
+    return light ? &light->body[0][i] : NULL;
+}
+
+static void render_points(struct kernel_context *cx, const rival_tile *tile, tile_pixels *out)
 {
     for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
         const real column = lane_numbers() + (float)(i % TILE_WIDTH), row = real((float)(i / TILE_WIDTH));
         const HitGuess guess = load_guess(tile->close_guess, i);
+        cx->light = light_at(tile->light, i);
         store_result(out, i, tile->method == MGT_METHOD_MSAA32 ? msaa_pixel(cx, column, row, guess) : tokuyoshi_pixel(cx, column, row, guess));
     }
 }
@@ -106,7 +112,7 @@ static PixelResult filtered_result(const struct kernel_context *cx, mgt_method m
     }
 }
 
-static void render_filtered(const struct kernel_context *cx, const struct kernel_context *open, const rival_tile *tile, tile_pixels *out)
+static void render_filtered(struct kernel_context *cx, const struct kernel_context *open, const rival_tile *tile, tile_pixels *out)
 {
     for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
         const real column = lane_numbers() + (float)(i % TILE_WIDTH), row = real((float)(i / TILE_WIDTH));
@@ -119,13 +125,14 @@ static void render_filtered(const struct kernel_context *cx, const struct kernel
         SlopeState before = close;
         if (open)
             before = slope_state(open, pixel_ray_filtered(open, column, row).ray, load_guess(tile->open_guess, i));
+        cx->light = light_at(tile->light, i);
         store_result(out, i, filtered_result(cx, tile->method, p, before, close));
     }
 }
 
 static void lanes_pixels(const rival_tile *t, tile_pixels *out)
 {
-    const struct kernel_context context = {
+    struct kernel_context context = {
         .frame = t->frame, .tile = &t->close->data, .waves = t->close->waves, .march = t->close->march, .sky = t->sky, .lean = t->lean};
     if (t->method == MGT_METHOD_MSAA32 || t->method == MGT_METHOD_TOKUYOSHI) {
         render_points(&context, t, out);

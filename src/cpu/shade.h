@@ -4,7 +4,6 @@
 #define MANGATA_CPU_SHADE_H
 
 #include "cpu/frame.h"
-#include "cpu/thread_pool.h"
 #include "cpu/world.h"
 
 /*
@@ -23,13 +22,12 @@ typedef struct shade_hits {
 } shade_hits;
 
 typedef struct shade_scene shade_scene;
-typedef struct shade_kernels shade_kernels; /* cpu/refract_lanes.h */
 
 /*
  * What shading needs beside the hits, in *s, which is NULL at first: the light under water and in the shade, where objects cast shadows, and
  * materials. Shadows stay while the world's version and the light are the same. The world, the frame and the sky must outlive its use.
  */
-mgt_status shade_update(shade_scene **s, const world *w, const frame *f, const sky_state *sky, const shade_kernels *kernels, thread_pool *pool);
+mgt_status shade_update(shade_scene **s, const world *w, const frame *f, const sky_state *sky, const shade_kernels *kernels);
 void shade_free(shade_scene *s); /* NULL is allowed */
 
 /* Radiance that arrives at the near end of each ray, kcd/m²: 3 floats a hit; what the water on the way takes and adds is counted, Fresnel's share at

@@ -32,6 +32,11 @@ static void build(tile_place place, const wave_set *set, tile_waves *waves, tile
     tile_find_guesses(job->kernels, &job->frame->data, waves, guess);
 }
 
+static const tile_light *light_of(const tile_job *job, const tile_scratch *scratch)
+{
+    return job->objects ? &scratch->objects.light : NULL;
+}
+
 /* ---- point samples ---- */
 
 double time_share(const mgt_quality *q, uint64_t m)
@@ -51,7 +56,8 @@ camera_rays camera_at(const frame *f, double share)
         camera.up[i] = s->camera_open.up[i] + share * (s->camera.up[i] - s->camera_open.up[i]);
     }
     camera.fov_y_deg = s->camera_open.fov_y_deg + share * (s->camera.fov_y_deg - s->camera_open.fov_y_deg);
-    return camera_rays_of(&camera, s->image.width, s->image.height);
+    const camera_rays rays = camera_rays_of(&camera, s->image.width, s->image.height);
+    return rays_above(f, &rays);
 }
 
 /* A jittered place in stratum `index` of n × n for every pixel of the tile. */
@@ -91,7 +97,8 @@ static void render_samples(tile_place place, tile_scratch *scratch)
             if (sample % 16 == 15 && job->keep_going && !job->keep_going(job->keep_going_argument, scratch->worker))
                 return;
             jitter(place, q->seed, q->spatial_samples, sample % per_time, sample, scratch);
-            job->kernels->sample(&f->data, job->sky, &scratch->close, &scratch->close_guess, scratch->jitter_x, scratch->jitter_y, weight, &scratch->pixels);
+            job->kernels->sample(&f->data, job->sky, light_of(job, scratch), &scratch->close, &scratch->close_guess, scratch->jitter_x, scratch->jitter_y, weight,
+                                 &scratch->pixels);
         }
     }
 }
@@ -101,7 +108,7 @@ static void render_centre(tile_place place, tile_scratch *scratch)
     const tile_job *job = place.job;
     build(place, &job->waves->samples, &scratch->close, &scratch->close_guess);
     memset(&scratch->pixels, 0, sizeof scratch->pixels);
-    job->kernels->sample(&job->frame->data, job->sky, &scratch->close, &scratch->close_guess, NULL, NULL, 1, &scratch->pixels);
+    job->kernels->sample(&job->frame->data, job->sky, light_of(job, scratch), &scratch->close, &scratch->close_guess, NULL, NULL, 1, &scratch->pixels);
 }
 
 /* ---- filtered methods ---- */
@@ -109,7 +116,7 @@ static void render_centre(tile_place place, tile_scratch *scratch)
 static void run_filtered(const tile_job *job, bool moves, tile_scratch *scratch, tile_pixels *out)
 {
     const frame *f = job->frame;
-    job->kernels->filtered(&f->data, job->sky, job->podee, f->scene->quality.method, &scratch->close, &scratch->close_guess,
+    job->kernels->filtered(&f->data, job->sky, light_of(job, scratch), job->podee, f->scene->quality.method, &scratch->close, &scratch->close_guess,
                            moves ? &scratch->open : NULL, moves ? &scratch->open_guess : NULL, out, NULL);
 }
 
@@ -192,7 +199,7 @@ static void render_rival(tile_place place, tile_scratch *scratch)
     build(place, waves, &scratch->close, &scratch->close_guess);
     if (moves)
         build(place, &job->waves->open, &scratch->open, &scratch->open_guess);
-    const rival_tile tile = {&f->data,        job->sky,
+    const rival_tile tile = {&f->data,        job->sky, light_of(job, scratch),
                              job->lean,       method,
                              &scratch->close, &scratch->close_guess,
                              moves ? &scratch->open : NULL, moves ? &scratch->open_guess : NULL};
@@ -216,6 +223,10 @@ void tile_render(const tile_job *job, uint32_t tile_x, uint32_t tile_y, tile_scr
 {
     const tile_place place = {job, tile_x, tile_y};
     const mgt_method method = job->frame->scene->quality.method;
+    if (job->objects) {
+        build(place, &job->waves->now, &scratch->close, &scratch->close_guess);
+        refraction_tile(job->objects, &scratch->close, &scratch->close_guess, tile_x, tile_y, &scratch->objects);
+    }
     if (job->wants.pixels && is_filtered(method) && job->frame->scene->quality.path_segments > 1)
         render_segments(place, scratch);
     else if (job->wants.pixels && is_filtered(method))
@@ -228,4 +239,6 @@ void tile_render(const tile_job *job, uint32_t tile_x, uint32_t tile_y, tile_scr
         render_centre(place, scratch);
     if (job->wants.surface)
         render_surface(place, scratch);
+    if (job->objects)
+        refraction_compose(&scratch->objects, job->wants.pixels ? &scratch->pixels : NULL, job->wants.surface ? &scratch->surface : NULL);
 }

@@ -3,9 +3,9 @@
 #ifndef MANGATA_CPU_TILE_JOB_H
 #define MANGATA_CPU_TILE_JOB_H
 
-#include "cpu/frame.h"
+#include "cpu/refraction.h"
 
-/* What a worker needs while it renders a tile; about 300 KiB. */
+/* What a worker needs while it renders a tile; about 450 KiB. */
 typedef struct tile_scratch {
     uint32_t worker; /* whose it is */
     tile_waves close, open;
@@ -14,6 +14,7 @@ typedef struct tile_scratch {
     tile_pixels pixels;
     tile_surface surface;
     wave_set sample_waves;
+    tile_objects objects; /* where there are some */
 } tile_scratch;
 
 /* The waves of a frame, shared by its tiles. */
@@ -47,6 +48,7 @@ typedef struct tile_job {
     bool (*keep_going)(void *argument, uint32_t worker);
     void *keep_going_argument;
     const struct lean_map *lean; /* filled, for methods lean and leadr; else NULL */
+    const refraction *objects;   /* prepared for the frame; NULL: the scene has none */
 } tile_job;
 
 /* Fills scratch->pixels and scratch->surface for the tile (tile_x, tile_y) of the lattice. Not for the reference. */

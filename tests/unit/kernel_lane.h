@@ -30,6 +30,10 @@
 #define TILE(cx) (*(cx)->tile)
 #define WAVE(cx, i) ((cx)->waves[i])
 #define MARCH_WAVE(cx, i) ((cx)->march[i])
+#define BODY_LIGHT(cx) vec3(FRAME(cx).body_r, FRAME(cx).body_g, FRAME(cx).body_b)
+#define MIRRORS_OBJECTS(cx) 0
+#define OBJECTS_SHARE(cx) 0.0f
+#define OBJECTS_COLOR(cx) vec3(0.0f, 0.0f, 0.0f)
 
 KERNEL vec3 SKY_TEXEL(CTX cx, real column, real row)
 {

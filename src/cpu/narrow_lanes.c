@@ -1,0 +1,166 @@
+/* SPDX-License-Identifier: MIT
+ * The narrow phase of refraction over the pixels of a tile, compiled once per lane width (MGT_LANES).
+ *
+ * Whatever the width, a pixel sees the same operations in the same order: the bits do not depend on it. */
+#include "cpu/narrow_lanes.h"
+
+#include <math.h>
+
+#include "precompute/atmosphere.h"
+
+#define LANES_NAME_(n) narrow_kernels_##n
+#define LANES_NAME(n) LANES_NAME_(n)
+static const float infinity = INFINITY;
+
+#include "kernels/prelude_c.h"
+
+#include "cpu/lane_access.h"
+
+#define REFRACT(cx) ((cx)->narrow->refract)
+#define NARROW(cx) ((cx)->narrow->data)
+
+#include "kernels/glitter.k"
+
+#include "kernels/layer.k"
+
+KERNEL LayerPixel LAYER(CTX cx, int layer, real column, real row)
+{
+    const gbuffer *g = cx->narrow->layers[layer];
+    float at[2][MGT_LANES], depth[MGT_LANES], plane[4][MGT_LANES];
+    store(at[0], column), store(at[1], row);
+    for (int i = 0; i < MGT_LANES; i++) {
+        const size_t pixel = (size_t)at[1][i] * g->width + (size_t)at[0][i];
+        const int32_t triangle = g->triangle[pixel];
+        const float *p = cx->narrow->planes + 4 * (size_t)(triangle > 0 ? triangle : 0);
+        depth[i] = g->depth[pixel];
+        for (int k = 0; k < 4; k++)
+            plane[k][i] = p[k];
+    }
+    return (LayerPixel){load(depth), {load(plane[0]), load(plane[1]), load(plane[2])}, load(plane[3])};
+}
+
+#include "kernels/narrow.k"
+
+/* ---- the surface ---- */
+
+static void lanes_water(const FrameData *data, const tile_waves *tile, const tile_guess *guess, const tile_offset *at, tile_water *out)
+{
+    const struct kernel_context cx = {.frame = data, .tile = &tile->data, .waves = tile->waves, .march = tile->march};
+    for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
+        const real column = lane_numbers() + ((float)(i % TILE_WIDTH) + at->dx), row = real((float)(i / TILE_WIDTH) + at->dy);
+        const PixelRay p = pixel_ray_filtered(&cx, column, row);
+        store(out->share + i, p.water);
+        if (!any_lane(p.water > real(0.0f)))
+            continue;
+        const SlopeState s = slope_state(&cx, p.ray, (HitGuess){load(guess->height + i), load(guess->from + i), load(guess->march + i)});
+        const vec2 slope = facing_slope(&cx, s.view, s.close);
+        const vec3 normal = normalize(vec3(real(0.0f) - slope.x, real(1.0f), real(0.0f) - slope.y));
+        store(out->view[0] + i, real(0.0f) - s.view.x);
+        store(out->view[1] + i, real(0.0f) - s.view.y);
+        store(out->view[2] + i, real(0.0f) - s.view.z);
+        store(out->along + i, s.along * sqrt(length_squared(p.ray)));
+        store(out->normal[0] + i, normal.x);
+        store(out->normal[1] + i, normal.y);
+        store(out->normal[2] + i, normal.z);
+        store(out->slopes[0] + i, s.variance_xx);
+        store(out->slopes[1] + i, s.variance_xz);
+        store(out->slopes[2] + i, s.variance_zz);
+    }
+}
+
+/* ---- what lies behind it ---- */
+
+static WaterHit load_water(const tile_water *w, const tile_offset *at, size_t i)
+{
+    WaterHit hit;
+    hit.view = vec3(load(w->view[0] + i), load(w->view[1] + i), load(w->view[2] + i));
+    hit.along = load(w->along + i);
+    hit.normal = vec3(load(w->normal[0] + i), load(w->normal[1] + i), load(w->normal[2] + i));
+    hit.column = lane_numbers() + ((float)(at->column + i % TILE_WIDTH) + at->dx);
+    hit.row = real((float)(at->row + i / TILE_WIDTH) + at->dy);
+    return hit;
+}
+
+static void store_vector(float (*planes)[TILE_PIXELS], size_t i, vec3 v)
+{
+    store(planes[0] + i, v.x);
+    store(planes[1] + i, v.y);
+    store(planes[2] + i, v.z);
+}
+
+/* `layer`: 1 for all lanes where `mirrored`, 0 elsewhere; `wet`: metres in water. */
+static void store_found(const struct kernel_context *cx, tile_ends *out, size_t i, WaterHit hit, FoundPoint f, mask mirrored, real wet)
+{
+    const narrow_scene *n = cx->narrow;
+    float x[MGT_LANES], y[MGT_LANES], shown[MGT_LANES], layer[MGT_LANES];
+    store(x, f.column), store(y, f.row), store(shown, f.shown);
+    store(layer, SELECT(mirrored, real(1.0f), real(0.0f)));
+    for (size_t lane = 0; lane < MGT_LANES; lane++) {
+        const gbuffer *g = n->layers[layer[lane] > 0];
+        out->triangle[i + lane] = shown[lane] > 0 ? g->triangle[(size_t)y[lane] * g->width + (size_t)x[lane]] : -1;
+    }
+    const vec3 position = turned(cx, f.position);
+    store_vector(out->position, i, vec3(position.x + n->data.foot_x, position.y, position.z + n->data.foot_z));
+    store_vector(out->direction, i, turned(cx, f.direction));
+    store(out->before + i, hit.along);
+    store(out->after + i, f.after);
+    store(out->water + i, wet);
+    store(out->error + i, SELECT(f.residual < real(1e28f), f.residual, real(infinity)));
+}
+
+/* `off` looks straight through, `broad` knows the mean surface alone. */
+static WaterHit surface_of_method(const struct kernel_context *cx, WaterHit hit)
+{
+    if (NARROW(cx).method != MGT_REFRACTION_BROAD)
+        return hit;
+    hit.along = real(NARROW(cx).distance) / max(real(0.0f) - hit.view.y, real(1e-6f));
+    hit.normal = vec3(real(0.0f), real(1.0f), real(0.0f));
+    return hit;
+}
+
+static FoundPoint select_found(mask m, FoundPoint a, FoundPoint b)
+{
+    return (FoundPoint){SELECT3(m, a.position, b.position), SELECT3(m, a.direction, b.direction), SELECT(m, a.column, b.column), SELECT(m, a.row, b.row),
+                        SELECT(m, a.shown, b.shown), SELECT(m, a.after, b.after), SELECT(m, a.residual, b.residual)};
+}
+
+static void lanes_refracted(const narrow_scene *n, const tile_offset *at, const tile_water *water, tile_ends *out)
+{
+    const struct kernel_context cx = {.narrow = n};
+    for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
+        const mask wet = load(water->share + i) > real(0.0f);
+        if (!any_lane(wet))
+            continue;
+        const WaterHit hit = surface_of_method(&cx, load_water(water, at, i));
+        Bent bent = bent_at(&cx, hit.view, hit.normal);
+        if (n->data.method == MGT_REFRACTION_OFF)
+            bent = (Bent){hit.view, real(0.0f)};
+        FoundPoint f = find_refracted(&cx, hit, bent);
+        const mask total = AND(wet, bent.total > real(0.0f));
+        if (any_lane(total))
+            f = select_found(total, find_mirrored(&cx, hit), f);
+        const real in_water = n->data.side > 0 ? f.after : hit.along + SELECT(total, f.after, real(0.0f));
+        store_found(&cx, out, i, hit, f, total, in_water);
+        store(out->total + i, SELECT(total, real(1.0f), real(0.0f)));
+        for (int k = 0; k < 3; k++)
+            store(out->slopes[k] + i, load(water->slopes[k] + i));
+    }
+}
+
+static void lanes_mirrored(const narrow_scene *n, const tile_offset *at, const tile_water *water, tile_ends *out)
+{
+    const struct kernel_context cx = {.narrow = n};
+    for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
+        const mask wet = load(water->share + i) > real(0.0f);
+        if (!any_lane(wet))
+            continue;
+        const WaterHit hit = load_water(water, at, i);
+        const FoundPoint f = find_mirrored(&cx, hit);
+        store_found(&cx, out, i, hit, f, wet, n->data.side > 0 ? real(0.0f) : hit.along + f.after);
+        store(out->total + i, real(0.0f));
+        for (int k = 0; k < 3; k++)
+            store(out->slopes[k] + i, real(0.0f));
+    }
+}
+
+const narrow_kernels LANES_NAME(MGT_LANES) = {lanes_water, lanes_refracted, lanes_mirrored};

@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: MIT
+ * The narrow phase of refraction over the pixels of a tile: functions that are compiled once per lane width. */
+#ifndef MANGATA_CPU_NARROW_LANES_H
+#define MANGATA_CPU_NARROW_LANES_H
+
+#include "cpu/gbuffer.h"
+#include "cpu/lanes.h"
+
+/* What points are looked for in. */
+typedef struct narrow_scene {
+    NarrowData data;
+    RefractData refract;
+    const gbuffer *layers[2]; /* beyond the surface, and as the surface mirrors it; all of one shape */
+    const float *planes;      /* of the world's triangles: unit normal, and its product with a point of the triangle */
+} narrow_scene;
+
+/* The surface in the pixels of a tile; directions as in narrow_types.k, y away from the surface on the camera's side. */
+typedef struct tile_water {
+    float share[TILE_PIXELS];     /* of the pixel that is water; 0: the rest is not set */
+    float view[3][TILE_PIXELS];   /* unit, of the ray */
+    float along[TILE_PIXELS];     /* metres */
+    float normal[3][TILE_PIXELS]; /* unit */
+    float slopes[3][TILE_PIXELS]; /* covariance xx, xz, zz of the slopes that the pixel does not resolve */
+} tile_water;
+
+/* Where rays end, as shade_hits takes them. */
+typedef struct tile_ends {
+    int32_t triangle[TILE_PIXELS];
+    float position[3][TILE_PIXELS];
+    float direction[3][TILE_PIXELS];
+    float before[TILE_PIXELS], after[TILE_PIXELS], water[TILE_PIXELS];
+    float slopes[3][TILE_PIXELS];
+    float error[TILE_PIXELS]; /* pixels; +inf: nothing is known */
+    float total[TILE_PIXELS]; /* 1 where the surface lets nothing through */
+} tile_ends;
+
+/* Pixel 0 of the tile within the image, and the place in every pixel that rays go through, from its centre. */
+typedef struct tile_offset {
+    uint32_t column, row;
+    float dx, dy;
+} tile_offset;
+
+struct narrow_kernels {
+    /* The filtered surface at one instant. */
+    void (*water)(const FrameData *frame, const tile_waves *tile, const tile_guess *guess, const tile_offset *at, tile_water *out);
+    /* What lies behind it. */
+    void (*refracted)(const narrow_scene *n, const tile_offset *at, const tile_water *water, tile_ends *out);
+    /* What its mean slope mirrors of the camera's own side. */
+    void (*mirrored)(const narrow_scene *n, const tile_offset *at, const tile_water *water, tile_ends *out);
+};
+
+#endif

@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: MIT
+ * Scenes with objects: what the pixels of a tile see of them, through the water's surface, mirrored by it and in front of it. */
+#ifndef MANGATA_CPU_REFRACTION_H
+#define MANGATA_CPU_REFRACTION_H
+
+#include "core/backend.h"
+#include "cpu/narrow_lanes.h"
+#include "cpu/shade.h"
+
+/* What objects are to the pixels of a tile. */
+typedef struct tile_objects {
+    tile_light light; /* through the surface and mirrored by it: for the methods that draw the water */
+    /* In front of water and sky. */
+    float share[TILE_PIXELS];     /* of the pixel */
+    float color[3][TILE_PIXELS];  /* kcd/m², of that share */
+    float along[TILE_PIXELS];     /* metres along the ray, where the share is most of the pixel; else +inf */
+    float normal[3][TILE_PIXELS]; /* unit, towards the camera; there alone */
+    /* Layers. */
+    float refraction[3][TILE_PIXELS];
+    float error[TILE_PIXELS];
+    /* Room to work in. */
+    tile_water water;
+    tile_ends ends;
+    float rgb[3 * TILE_PIXELS];
+    uint16_t list[TILE_PIXELS];
+} tile_objects;
+
+typedef struct refraction refraction;
+
+/*
+ * Everything that a frame with objects needs before its tiles, in *r, which is NULL at first; what depends on the objects and the camera alone stays
+ * between frames. The frame, its scene and the sky must outlive the tiles. On failure the report says why.
+ */
+mgt_status refraction_prepare(refraction **r, const reporter *report, const frame *f, const sky_state *sky, const lane_kernels *kernels,
+                              thread_pool *pool);
+void refraction_free(refraction *r); /* NULL is allowed */
+
+/* Objects in the tile (tile_x, tile_y). `waves` and `guess`: sorted for the tile, filtered, at the instant t. Any number of tiles at once. */
+void refraction_tile(const refraction *r, const tile_waves *waves, const tile_guess *guess, uint32_t tile_x, uint32_t tile_y, tile_objects *out);
+
+/* Puts what stands in front before a tile's pixels, and before its layers of depth and normals; either may be NULL. */
+void refraction_compose(const tile_objects *o, tile_pixels *pixels, tile_surface *surface);
+
+#endif

@@ -1,0 +1,168 @@
+/* SPDX-License-Identifier: MIT
+ * What shading needs beside the hits: light in air and in water, materials, shadows. */
+#include "cpu/shade.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/mesh.h"
+#include "cpu/shade_lanes.h"
+
+/* Fresnel's reflectance into a medium of index n, for unpolarised light. */
+static double fresnel(double cosine, double n)
+{
+    const double squared = n * n - 1 + cosine * cosine;
+    if (squared <= 0)
+        return 1;
+    const double g = sqrt(squared), a = (g - cosine) / (g + cosine), b = (cosine * (g + cosine) - 1) / (cosine * (g - cosine) + 1);
+    return 0.5 * a * a * (1 + b * b);
+}
+
+/* Of light from everywhere above. */
+static double fresnel_diffuse(double n)
+{
+    enum { STEPS = 64 };
+    double mirrored = 0;
+    for (int i = 0; i < STEPS; i++) {
+        const double cosine = (i + 0.5) / STEPS;
+        mirrored += fresnel(cosine, n) * 2 * cosine / STEPS;
+    }
+    return mirrored;
+}
+
+/* How the light's rays lean in air and, bent by a flat surface, in water. A light that stands lower than the least height counts as if there. */
+static shadow_rays rays_of(const double direction[3], double n)
+{
+    const double level = hypot(direction[0], direction[2]), up = fmax(direction[1], 0.01);
+    const double sine = level / n, down = sqrt(fmax(1 - sine * sine, 1e-4));
+    shadow_rays rays;
+    for (int i = 0; i < 2; i++) {
+        rays.air[i] = direction[2 * i] / up;
+        rays.water[i] = direction[2 * i] / n / down;
+    }
+    return rays;
+}
+
+static void set_light(ShadeData *d, const frame *f, const sky_state *sky, const shadow_rays *rays)
+{
+    const mgt_water *water = &f->scene->water;
+    const double n = water->index_of_refraction, up = sky->direction[1], entering = up > 0 ? 1 - fresnel(up, n) : 0;
+    const double slant = sqrt(1 + rays->water[0] * rays->water[0] + rays->water[1] * rays->water[1]), diffuse = 1 - fresnel_diffuse(n);
+    double sun[3], sun_water[3], above[3], ground[3];
+    for (int i = 0; i < 3; i++) {
+        sun[i] = up > 0 ? sky->light_radiance[i] * sky->light_solid_angle : 0;
+        sun_water[i] = sun[i] * up * entering * slant; /* as much light as met the surface, on a beam of another width */
+        above[i] = sky->irradiance_sky[i];
+        ground[i] = 0.25 * (above[i] + sun[i] * fmax(up, 0));
+    }
+    d->sun_r = (float)sun[0], d->sun_g = (float)sun[1], d->sun_b = (float)sun[2];
+    d->sun_water_r = (float)sun_water[0], d->sun_water_g = (float)sun_water[1], d->sun_water_b = (float)sun_water[2];
+    d->sky_r = (float)above[0], d->sky_g = (float)above[1], d->sky_b = (float)above[2];
+    d->sky_water_r = (float)(above[0] * diffuse), d->sky_water_g = (float)(above[1] * diffuse), d->sky_water_b = (float)(above[2] * diffuse);
+    d->ground_r = (float)ground[0], d->ground_g = (float)ground[1], d->ground_b = (float)ground[2];
+    d->bounce = 0.35f;
+    d->sun_air_x = (float)rays->air[0], d->sun_air_z = (float)rays->air[1];
+    d->sun_water_x = (float)rays->water[0], d->sun_water_z = (float)rays->water[1];
+    d->sun_water_slant = (float)slant;
+}
+
+static void set_water(ShadeData *d, const frame *f, const sky_state *sky)
+{
+    const mgt_water *water = &f->scene->water;
+    double deep[3];
+    sky_body_radiance(sky, water, deep);
+    d->absorption_r = water->absorption[0], d->absorption_g = water->absorption[1], d->absorption_b = water->absorption[2];
+    d->scattering_r = water->scattering[0], d->scattering_g = water->scattering[1], d->scattering_b = water->scattering[2];
+    d->deep_r = (float)deep[0], d->deep_g = (float)deep[1], d->deep_b = (float)deep[2];
+    d->index = (float)water->index_of_refraction;
+    const double height = f->scene->camera.position[1];
+    d->camera_side = height < 0 ? -1 : 1;
+    d->camera_depth = (float)fmax(-height, 0);
+    d->pixel_angle = f->data.pixel_angle;
+}
+
+static void set_shadows(ShadeData *d, const shadow_map *m)
+{
+    d->shadow_left = m->left;
+    d->shadow_top = m->top;
+    d->shadow_texel = m->texel;
+    d->shadow_scale = m->columns > 0 ? 1 / m->texel : 0;
+    d->shadow_columns = (float)m->columns;
+    d->shadow_rows = (float)m->rows;
+}
+
+static shade_material material_of(const mgt_material *m)
+{
+    const float alpha = m->roughness * m->roughness, size = m->pattern_size;
+    shade_material out = {
+        .alpha = alpha > 0.02f ? alpha : 0.02f,
+        .metallic = m->metallic,
+        .kind = (float)m->pattern,
+        .inverse_size = size > 0 ? 1 / size : 1,
+        .joint = m->pattern_joint,
+        .texture_width = m->texture ? (float)m->texture->width : 0,
+        .texture_height = m->texture ? (float)m->texture->height : 0,
+        .texture = m->texture,
+    };
+    memcpy(out.base, m->base_color, sizeof out.base);
+    memcpy(out.color, m->pattern_color, sizeof out.color);
+    return out;
+}
+
+static bool set_materials(shade_scene *s, const world *w)
+{
+    if (w->object_count > s->material_room) {
+        shade_material *more = realloc(s->materials, w->object_count * sizeof *more);
+        if (!more)
+            return false;
+        s->materials = more;
+        s->material_room = w->object_count;
+    }
+    for (size_t i = 0; i < w->object_count; i++)
+        s->materials[i] = material_of(&w->objects[i].material);
+    return true;
+}
+
+static void fill_codes(shade_scene *s)
+{
+    for (int i = 0; i < SHADE_TEXTURE_CODES; i++) {
+        const double c = i / 255.0;
+        s->linear[i] = (float)(c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4));
+    }
+}
+
+mgt_status shade_update(shade_scene **scene, const world *w, const frame *f, const sky_state *sky, const shade_kernels *kernels)
+{
+    if (!*scene) {
+        if (!(*scene = calloc(1, sizeof **scene)))
+            return MGT_ERROR_MEMORY;
+        fill_codes(*scene);
+    }
+    shade_scene *s = *scene;
+    s->frame = f->data;
+    s->sky = sky->table;
+    s->world = w;
+    s->kernels = kernels;
+    const shadow_rays rays = rays_of(sky->direction, f->scene->water.index_of_refraction);
+    if (!set_materials(s, w) || shadow_map_update(&s->shadows, w, &rays) != MGT_OK)
+        return MGT_ERROR_MEMORY;
+    set_light(&s->data, f, sky, &rays);
+    set_water(&s->data, f, sky);
+    set_shadows(&s->data, s->shadows);
+    return MGT_OK;
+}
+
+void shade_free(shade_scene *s)
+{
+    if (!s)
+        return;
+    shadow_map_free(s->shadows);
+    free(s->materials);
+    free(s);
+}
+
+void shade_points(const shade_scene *s, const shade_hits *hits, float *rgb)
+{
+    s->kernels->points(s, hits, rgb);
+}

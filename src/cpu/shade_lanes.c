@@ -1,0 +1,224 @@
+/* SPDX-License-Identifier: MIT
+ * Points of objects shaded in lanes, compiled once per lane width (MGT_LANES).
+ *
+ * Whatever the width, a point sees the same operations in the same order: the bits do not depend on it. */
+#include "cpu/shade_lanes.h"
+
+#include <math.h>
+
+#include "core/mesh.h"
+#include "precompute/atmosphere.h"
+
+#define LANES_NAME_(n) shade_kernels_##n
+#define LANES_NAME(n) LANES_NAME_(n)
+
+/* ---- textures, a texel at a time ---- */
+
+typedef struct texture_color {
+    float rgb[3];
+} texture_color;
+
+static texture_color texel_of(const shade_scene *s, const mgt_texture *t, uint32_t level, int64_t x, int64_t y)
+{
+    const int64_t width = t->width >> level ? t->width >> level : 1, height = t->height >> level ? t->height >> level : 1;
+    const int64_t column = x % width, row = y % height;
+    const size_t at = (size_t)(row < 0 ? row + height : row) * (size_t)width + (size_t)(column < 0 ? column + width : column);
+    const uint32_t rgba = t->texels[t->level_start[level] + at];
+    return (texture_color){{s->linear[rgba & 255], s->linear[rgba >> 8 & 255], s->linear[rgba >> 16 & 255]}};
+}
+
+static texture_color blend(texture_color a, texture_color b, float share)
+{
+    texture_color mixed;
+    for (int i = 0; i < 3; i++)
+        mixed.rgb[i] = a.rgb[i] + share * (b.rgb[i] - a.rgb[i]);
+    return mixed;
+}
+
+static texture_color bilinear(const shade_scene *s, const mgt_texture *t, uint32_t level, float u, float v)
+{
+    const double width = t->width >> level ? t->width >> level : 1, height = t->height >> level ? t->height >> level : 1;
+    const double x = (double)u * width - 0.5, y = (double)v * height - 0.5, column = floor(x), row = floor(y);
+    const int64_t i = (int64_t)column, j = (int64_t)row;
+    const float right = (float)(x - column), down = (float)(y - row);
+    return blend(blend(texel_of(s, t, level, i, j), texel_of(s, t, level, i + 1, j), right),
+                 blend(texel_of(s, t, level, i, j + 1), texel_of(s, t, level, i + 1, j + 1), right), down);
+}
+
+static texture_color trilinear(const shade_scene *s, const mgt_texture *t, float u, float v, float level)
+{
+    if (!(fabsf(u) < 1e9f && fabsf(v) < 1e9f))
+        return (texture_color){{0}};
+    const float most = (float)(t->levels - 1), l = level > 0 ? (level < most ? level : most) : 0;
+    const uint32_t fine = (uint32_t)l;
+    const texture_color first = bilinear(s, t, fine, u, v);
+    return (float)fine < l ? blend(first, bilinear(s, t, fine + 1, u, v), l - (float)fine) : first;
+}
+
+/* ---- what kernels read ---- */
+
+#include "kernels/prelude_c.h"
+
+#include "cpu/lane_access.h"
+
+#define SHADE(cx) ((cx)->shade->data)
+
+KERNEL vec3 TEXTURE(CTX cx, real texture, real u, real v, real level)
+{
+    float at[4][MGT_LANES], rgb[3][MGT_LANES];
+    store(at[0], texture), store(at[1], u), store(at[2], v), store(at[3], level);
+    for (int i = 0; i < MGT_LANES; i++) {
+        const mgt_texture *t = cx->shade->materials[(size_t)at[0][i]].texture;
+        const texture_color mean = t ? trilinear(cx->shade, t, at[1][i], at[2][i], at[3][i]) : (texture_color){{0}};
+        for (int k = 0; k < 3; k++)
+            rgb[k][i] = mean.rgb[k];
+    }
+    return (vec3){load(rgb[0]), load(rgb[1]), load(rgb[2])};
+}
+
+#include "kernels/sky.k"
+
+/* Four texels about the ray's place, each lit or not. */
+KERNEL real SUN_SHARE(CTX cx, vec3 position)
+{
+    const ShadeData *d = &cx->shade->data;
+    if (d->shadow_columns == 0)
+        return real(1.0f);
+    const mask wet = position.y < real(0.0f);
+    const real lean_x = SELECT(wet, real(d->sun_water_x), real(d->sun_air_x)), lean_z = SELECT(wet, real(d->sun_water_z), real(d->sun_air_z));
+    const real u = (fma(real(0.0f) - lean_x, position.y, position.x) - d->shadow_left) * d->shadow_scale - 0.5f;
+    const real v = (fma(real(0.0f) - lean_z, position.y, position.z) - d->shadow_top) * d->shadow_scale - 0.5f;
+    const real column = clamp(floor(u), real(0.0f), real(d->shadow_columns - 2.0f)), row = clamp(floor(v), real(0.0f), real(d->shadow_rows - 2.0f));
+    const real right = clamp(u - column, real(0.0f), real(1.0f)), down = clamp(v - row, real(0.0f), real(1.0f));
+    float at[2][MGT_LANES], near[4][MGT_LANES];
+    store(at[0], column), store(at[1], row);
+    const size_t columns = (size_t)d->shadow_columns;
+    for (int i = 0; i < MGT_LANES; i++) {
+        const float *texel = cx->shade->shadows->height + (size_t)at[1][i] * columns + (size_t)at[0][i];
+        near[0][i] = texel[0], near[1][i] = texel[1], near[2][i] = texel[columns], near[3][i] = texel[columns + 1];
+    }
+    const real height = position.y + 2.0f * d->shadow_texel;
+    real lit[4];
+    for (int k = 0; k < 4; k++)
+        lit[k] = SELECT(load(near[k]) <= height, real(1.0f), real(0.0f));
+    const real top = fma(right, lit[1] - lit[0], lit[0]), bottom = fma(right, lit[3] - lit[2], lit[2]);
+    return fma(down, bottom - top, top);
+}
+
+#include "kernels/material.k"
+
+/* ---- hits ---- */
+
+/* The numbers of a hit that are read from a triangle and its object, as in HitTriangle and HitMaterial. */
+enum { TRIANGLE_FLOATS = 24, MATERIAL_FLOATS = 14, OBJECT_FLOATS = TRIANGLE_FLOATS + MATERIAL_FLOATS };
+
+static void read_triangle(const shade_scene *s, size_t triangle, float *out)
+{
+    const world *w = s->world;
+    const uint32_t object = w->object[triangle];
+    const bool smooth = w->objects[object].smooth;
+    const uint32_t *corner = w->indices + 3 * triangle;
+    const float *p0 = w->positions + 3 * (size_t)corner[0];
+    for (int k = 0; k < 3; k++) {
+        out[k] = p0[k];
+        out[3 + k] = w->positions[3 * (size_t)corner[1] + (size_t)k] - p0[k];
+        out[6 + k] = w->positions[3 * (size_t)corner[2] + (size_t)k] - p0[k];
+        for (int c = 0; c < 3; c++)
+            out[9 + 3 * c + k] = smooth ? w->normals[3 * (size_t)corner[c] + (size_t)k] : 0;
+    }
+    for (int c = 0; c < 3; c++)
+        for (int k = 0; k < 2; k++)
+            out[18 + 2 * c + k] = w->texcoords[2 * (size_t)corner[c] + (size_t)k];
+    const shade_material *m = &s->materials[object];
+    float *values = out + TRIANGLE_FLOATS;
+    for (int k = 0; k < 3; k++)
+        values[k] = m->base[k], values[6 + k] = m->color[k];
+    values[3] = m->alpha, values[4] = m->metallic, values[5] = m->kind;
+    values[9] = m->inverse_size, values[10] = m->joint, values[11] = (float)object;
+    values[12] = m->texture_width, values[13] = m->texture_height;
+}
+
+/* Where a hit has no triangle: one that does no harm. */
+static const float no_triangle[OBJECT_FLOATS] = {[3] = 1, [8] = 1, [TRIANGLE_FLOATS + 3] = 1, [TRIANGLE_FLOATS + 9] = 1};
+
+static vec3 triple(const real *v) { return (vec3){v[0], v[1], v[2]}; }
+
+/* Triangles and materials of MGT_LANES hits; neighbours mostly share theirs. */
+static void read_objects(const shade_scene *s, const int32_t *triangle, HitTriangle *t, HitMaterial *m)
+{
+    float plane[OBJECT_FLOATS][MGT_LANES], one[OBJECT_FLOATS];
+    real v[OBJECT_FLOATS];
+    bool same = true;
+    for (int i = 1; i < MGT_LANES; i++)
+        same = same && triangle[i] == triangle[0];
+    for (int i = 0; i < (same ? 1 : MGT_LANES); i++) {
+        if (triangle[i] >= 0)
+            read_triangle(s, (size_t)triangle[i], one);
+        for (int k = 0; k < OBJECT_FLOATS; k++)
+            plane[k][i] = triangle[i] >= 0 ? one[k] : no_triangle[k];
+    }
+    for (int k = 0; k < OBJECT_FLOATS; k++)
+        v[k] = same ? real(plane[k][0]) : load(plane[k]);
+    *t = (HitTriangle){triple(v),          triple(v + 3),        triple(v + 6),          triple(v + 9),         triple(v + 12),
+                       triple(v + 15),     {v[18], v[19]},       {v[20], v[21]},         {v[22], v[23]}};
+    const real *o = v + TRIANGLE_FLOATS;
+    *m = (HitMaterial){triple(o), o[3], o[4], o[5], triple(o + 6), o[9], o[10], o[11], o[12], o[13]};
+}
+
+/* `count` floats from `p`, the last one repeated. */
+static real load_some(const float *p, size_t count)
+{
+    if (count >= MGT_LANES)
+        return load(p);
+    float lanes[MGT_LANES];
+    for (size_t i = 0; i < MGT_LANES; i++)
+        lanes[i] = p[i < count ? i : count - 1];
+    return load(lanes);
+}
+
+static HitRay ray_of(const shade_hits *h, size_t i, size_t count, mask found)
+{
+    HitRay r;
+    r.position = vec3(load_some(h->position[0] + i, count), load_some(h->position[1] + i, count), load_some(h->position[2] + i, count));
+    r.position = SELECT3(found, r.position, vec3(real(0.0f), real(0.0f), real(0.0f)));
+    r.direction = vec3(load_some(h->direction[0] + i, count), load_some(h->direction[1] + i, count), load_some(h->direction[2] + i, count));
+    r.before = load_some(h->before + i, count);
+    r.after = load_some(h->after + i, count);
+    r.water = load_some(h->water + i, count);
+    r.slope_xx = h->slopes[0] ? load_some(h->slopes[0] + i, count) : real(0.0f);
+    r.slope_xz = h->slopes[1] ? load_some(h->slopes[1] + i, count) : real(0.0f);
+    r.slope_zz = h->slopes[2] ? load_some(h->slopes[2] + i, count) : real(0.0f);
+    return r;
+}
+
+static void lanes_points(const shade_scene *s, const shade_hits *h, float *rgb)
+{
+    const struct kernel_context cx = {.frame = &s->frame, .sky = s->sky, .shade = s};
+    for (size_t i = 0; i < h->count; i += MGT_LANES) {
+        const size_t count = h->count - i < MGT_LANES ? h->count - i : MGT_LANES;
+        int32_t triangle[MGT_LANES];
+        float met[MGT_LANES];
+        for (size_t lane = 0; lane < MGT_LANES; lane++) {
+            triangle[lane] = h->triangle[i + (lane < count ? lane : count - 1)];
+            met[lane] = triangle[lane] >= 0 ? 1.0f : 0.0f;
+        }
+        const mask found = load(met) > real(0.0f);
+        const HitRay ray = ray_of(h, i, count, found);
+        vec3 color = vec3(real(0.0f), real(0.0f), real(0.0f));
+        if (any_lane(found)) {
+            HitTriangle t;
+            HitMaterial m;
+            read_objects(s, triangle, &t, &m);
+            color = shade_hit(&cx, m, t, ray);
+        }
+        if (any_lane(NOT(found)))
+            color = SELECT3(found, color, shade_nothing(&cx, ray, sky_radiance(&cx, ray.direction)));
+        float lanes[3][MGT_LANES];
+        store(lanes[0], color.x), store(lanes[1], color.y), store(lanes[2], color.z);
+        for (size_t lane = 0; lane < count; lane++)
+            for (int k = 0; k < 3; k++)
+                rgb[3 * (i + lane) + (size_t)k] = lanes[k][lane];
+    }
+}
+
+const shade_kernels LANES_NAME(MGT_LANES) = {lanes_points};
