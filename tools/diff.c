@@ -6,13 +6,15 @@
 #include <string.h>
 
 #include "diff_metrics.h"
+#include "diff_prepare.h"
 #include "frames.h"
 #include "image/image_metrics.h"
 #include "numbers.h"
 #include "options.h"
 #include "verbs.h"
 
-enum { OPT_FRAMES, OPT_LAYER, OPT_MAX_RMSE, OPT_FLICKER, OPT_METRICS, OPT_ENCODING, OPT_PIXELS_PER_DEGREE, OPT_GLINT_THRESHOLD };
+enum { OPT_FRAMES, OPT_LAYER, OPT_MAX_RMSE, OPT_FLICKER, OPT_METRICS, OPT_ENCODING, OPT_PIXELS_PER_DEGREE, OPT_GLINT_THRESHOLD,
+       OPT_DISPLAY, OPT_MASK };
 
 static const option diff_options[] = {
     [OPT_FRAMES] = {"frames", 0, "LIST", "frames to compare when A and B are numbered names"},
@@ -26,6 +28,10 @@ static const option diff_options[] = {
     [OPT_PIXELS_PER_DEGREE] = {"pixels-per-degree", 0, "X", "of the viewer's eye, for FLIP, 4 to 400 (default 67)"},
     [OPT_GLINT_THRESHOLD] = {"glint-threshold", 0, "X", "luminance above which a pixel is a glint, for flicker (default:\n"
                                                          "half of what a thousandth of B's first frame exceed)"},
+    [OPT_DISPLAY] = {"display", 0, "EV", "first make displayed values of linear light: times 2^EV, clamped,\n"
+                                         "sRGB-encoded, 0 to 1"},
+    [OPT_MASK] = {"mask", 0, "M", "count only the pixels that are 1 in this picture of one channel\n"
+                                  "(or clip of such); the others are black in A and B"},
 };
 
 static const option_table diff_table = {
@@ -45,6 +51,7 @@ typedef struct diff_request {
     frame_list frames;
     double max_rmse;
     diff_metrics metrics;
+    diff_prepare prepare;
     bool encoding_given;
 } diff_request;
 
@@ -83,6 +90,12 @@ static int set_option(diff_request *r, int id, const char *value)
         if (!number_parse_double(value, &r->metrics.wanted.glint_threshold) || !(r->metrics.wanted.glint_threshold > 0))
             return console_error(EXIT_CODE_USAGE, "--glint-threshold %s: allowed is a number above 0", value);
         break;
+    case OPT_DISPLAY:
+        r->prepare.displayed = true;
+        if (!number_parse_double(value, &r->prepare.exposure) || !(fabs(r->prepare.exposure) <= 100))
+            return console_error(EXIT_CODE_USAGE, "--display %s: allowed is a number of stops from -100 to 100", value);
+        break;
+    case OPT_MASK: r->prepare.mask = value; break;
     case OPTION_OPERAND:
         if (r->paths[1])
             return console_error(EXIT_CODE_USAGE, "two pictures are compared; %s is one more", value);
@@ -99,7 +112,9 @@ static int check_metrics(diff_request *r)
     if (r->flicker)
         return console_error(EXIT_CODE_USAGE, "--flicker compares differences and goes with no --metrics; --metrics flicker measures both");
     const bool png[2] = {picture_format_of(r->paths[0]) == PICTURE_PNG, picture_format_of(r->paths[1]) == PICTURE_PNG};
-    if (r->encoding_given)
+    if (r->prepare.displayed)
+        r->metrics.wanted.srgb_encoded = true;
+    if (r->encoding_given || r->prepare.displayed)
         return EXIT_CODE_OK;
     if (png[0] != png[1])
         return console_error(EXIT_CODE_USAGE, "%s and %s hold values of unlike encoding; --encoding says how to take both", r->paths[0], r->paths[1]);
@@ -116,6 +131,11 @@ static int check_request(diff_request *r)
         if (wrong)
             return console_error(EXIT_CODE_USAGE, "%s: %s", r->paths[i], wrong);
     }
+    const char *wrong = r->prepare.mask ? frame_path_parse(&r->prepare.mask_name, r->prepare.mask) : NULL;
+    if (wrong)
+        return console_error(EXIT_CODE_USAGE, "--mask %s: %s", r->prepare.mask, wrong);
+    if (r->prepare.displayed && r->encoding_given)
+        return console_error(EXIT_CODE_USAGE, "--display makes sRGB-encoded values; leave --encoding out");
     if (r->names[0].numbered != r->names[1].numbered)
         return console_error(EXIT_CODE_USAGE, "%s and %s: number both names or neither", r->paths[0], r->paths[1]);
     if (r->names[0].numbered && !r->frames_given)
@@ -180,11 +200,18 @@ static int measure(diff_request *r, image_metrics *metrics)
     float_image previous[2] = {{0}};
     int code = EXIT_CODE_OK;
     const uint64_t count = frame_list_length(&r->frames);
+    uint64_t left_out = 0, counted = 0;
     for (uint64_t i = 0; i < count && code == EXIT_CODE_OK; i++) {
         float_image pair[2] = {{0}};
         code = read_pair(r, frame_list_at(&r->frames, i), pair);
         if (code == EXIT_CODE_OK)
+            code = diff_prepare_pair(&r->prepare, frame_list_at(&r->frames, i), pair, &left_out);
+        if (code == EXIT_CODE_OK)
             code = add_frame(r, pair, previous, metrics);
+        if (code == EXIT_CODE_OK && metrics->frames > counted) {
+            metrics->values -= left_out * pair[0].channels; /* black in both: the sums hold nothing of them */
+            counted = metrics->frames;
+        }
         if (code == EXIT_CODE_OK)
             code = diff_metrics_add(&r->metrics, frame_list_at(&r->frames, i), &pair[0], &pair[1]);
         free_pair(previous);

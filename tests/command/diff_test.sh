@@ -57,6 +57,23 @@ expect 0 '' "$MANGATA" diff p_#.pfm q_#.pfm --frames 0-2 --flicker --json
 expect 66 '_3.pfm' "$MANGATA" diff p_#.pfm q_#.pfm --frames 0-2,3
 expect 0 '' "$MANGATA" diff p_#.pfm p_#.pfm --frames 0-2 --flicker --max-rmse 0
 
+# A mask leaves pixels out; displayed values are clamped and encoded.
+pfm m.pfm 0 1 1 0
+expect 0 '' "$MANGATA" diff a.pfm b.pfm --mask m.pfm --json
+[[ $(number rmse) == 0.0 && $(number values) == 2 ]] || fail "mask: $(cat stdout.txt)"
+pfm m.pfm 0 0 0 1
+expect 0 '' "$MANGATA" diff a.pfm b.pfm --mask m.pfm --json
+[[ $(number rmse) == 2.0 && $(number values) == 1 ]] || fail "mask of one: $(cat stdout.txt)"
+expect 0 '' "$MANGATA" diff p_#.pfm q_#.pfm --frames 0-2 --mask m.pfm --json
+[[ $(number values) == 3 && $(number rmse) == 1.41421356* ]] || fail "mask of a clip: $(cat stdout.txt)"
+expect 0 '' "$MANGATA" diff a.pfm b.pfm --display 0 --max-rmse 0
+expect 0 '' "$MANGATA" diff a.pfm b.pfm --display -2 --json
+[[ $(number rmse) == 0.13232* ]] || fail "displayed: $(cat stdout.txt)" # 1 and 0.73536, once in four
+expect 1 'large.pfm has 64 x 36 pixels of 1 channel; a mask of 2 x 2 of 1 is needed' "$MANGATA" diff a.pfm b.pfm --mask large.pfm
+expect 66 'none.pfm' "$MANGATA" diff a.pfm b.pfm --mask none.pfm
+expect 64 '--display x: allowed is a number of stops' "$MANGATA" diff a.pfm b.pfm --display x
+expect 64 'leave --encoding out' "$MANGATA" diff a.pfm b.pfm --display 0 --encoding linear
+
 # Further metrics add lines and keys and change none.
 "$MANGATA" diff p_#.pfm q_#.pfm --frames 0-2 >plain.txt
 expect 0 '' "$MANGATA" diff p_#.pfm q_#.pfm --frames 0-2 --metrics rmse,relrmse,energy
