@@ -6,6 +6,7 @@
 
 #include "context_options.h"
 #include "interrupt.h"
+#include "memory_use.h"
 #include "method_spec.h"
 #include "names.h"
 #include "numbers.h"
@@ -13,10 +14,10 @@
 #include "progress.h"
 #include "verbs.h"
 
-enum { OPT_METHODS, OPT_SIZE, OPT_FRAMES, OPT_REPEAT, OPT_BACKEND, OPT_GL_DEVICE, OPT_THREADS, OPT_ISA, OPT_SET, OPT_DISPLAY };
+enum { OPT_METHODS, OPT_SIZE, OPT_FRAMES, OPT_REPEAT, OPT_BACKEND, OPT_GL_DEVICE, OPT_THREADS, OPT_ISA, OPT_SET, OPT_DISPLAY, OPT_MEMORY };
 
 static const option bench_options[] = {
-    [OPT_METHODS] = {"methods", 0, "LIST", "methods to measure, with options if wanted:\nadaptive:samples=4 (default none,podee-pixel,mangata)"},
+    [OPT_METHODS] = {"methods", 0, "LIST", "methods to measure, with options if wanted:\nadaptive:samples=4, none+hybrid (default none,podee-pixel,mangata)"},
     [OPT_SIZE] = {"size", 0, "WxH", "size in pixels instead of the scene's"},
     [OPT_FRAMES] = {"frames", 0, "N", "measure frames 0 to N-1 (default 3)"},
     [OPT_REPEAT] = {"repeat", 0, "R", "measure each of them R times (default 5)"},
@@ -26,6 +27,7 @@ static const option bench_options[] = {
     [OPT_ISA] = CONTEXT_OPTION_ISA,
     [OPT_SET] = {"set", 0, "KEY=VALUE", "change a value of the scene; may be repeated"},
     [OPT_DISPLAY] = {"display", 0, NULL, "make displayed colours: with exposure, glare and tone mapping"},
+    [OPT_MEMORY] = {"memory", 0, NULL, "also measure the memory that a frame takes at its peak, in a\ncontext of its own for every method"},
 };
 
 static const option_table bench_table = {
@@ -43,12 +45,13 @@ typedef struct bench_request {
     size_t override_count;
     uint64_t frames, repeat;
     context_options context;
-    bool display;
+    bool display, memory;
 } bench_request;
 
 typedef struct bench_method {
     method_spec spec;
     double *seconds; /* frames × repeat */
+    double memory;   /* bytes at the peak; NaN: not known */
 } bench_method;
 
 typedef struct bench {
@@ -98,6 +101,7 @@ static int set_option(bench_request *r, int id, const char *value, char size[2][
     }
     case OPT_SET: r->overrides[r->override_count++] = value; break;
     case OPT_DISPLAY: r->display = true; break;
+    case OPT_MEMORY: r->memory = true; break;
     case OPTION_OPERAND:
         if (r->scene_path)
             return console_error(EXIT_CODE_USAGE, "one scene at a time: %s and %s are given", r->scene_path, value);
@@ -121,6 +125,7 @@ static int add_methods(bench *b)
         method->seconds = calloc((size_t)(b->request->frames * b->request->repeat), sizeof *method->seconds);
         if (!method->seconds)
             return console_error(EXIT_CODE_FAILED, "out of memory");
+        method->memory = NAN;
         b->count++;
         p += length + (p[length] == ',');
     }
@@ -133,11 +138,17 @@ static bool keep_going(void *user, double fraction)
     return *interrupt_flag() == 0;
 }
 
+static int open_context(bench *b)
+{
+    return context_open(&b->request->context, &b->request->out, keep_going, NULL, &b->context, &b->info);
+}
+
+/* Up to the context. */
 static int prepare(bench *b)
 {
     const bench_request *r = b->request;
     scene_error error;
-    int code = add_methods(b);
+    const int code = add_methods(b);
     if (code != EXIT_CODE_OK)
         return code;
     b->scene = scene_file_load(r->scene_path, r->overrides, r->override_count, &error);
@@ -151,9 +162,7 @@ static int prepare(bench *b)
     b->target = mgt_target_defaults();
     b->target.format = r->display ? MGT_FORMAT_RGBA8_SRGB : MGT_FORMAT_RGB32F;
     b->target.pixels = calloc((size_t)b->width * b->height, r->display ? 4 : 12);
-    if (!b->target.pixels)
-        return console_error(EXIT_CODE_FAILED, "out of memory");
-    return context_open(&r->context, &r->out, keep_going, NULL, &b->context, &b->info);
+    return b->target.pixels ? EXIT_CODE_OK : console_error(EXIT_CODE_FAILED, "out of memory");
 }
 
 static int render_once(bench *b, const bench_method *method, uint64_t frame, double *seconds)
@@ -168,6 +177,24 @@ static int render_once(bench *b, const bench_method *method, uint64_t frame, dou
     if (status == MGT_CANCELLED || *interrupt_flag())
         return interrupt_exit_code();
     return status == MGT_OK ? EXIT_CODE_OK : console_library_error(b->context, status);
+}
+
+static int measure_memory(bench *b)
+{
+    double unused;
+    memset(b->target.pixels, 0, (size_t)b->width * b->height * (b->request->display ? 4 : 12)); /* theirs is no method's */
+    for (size_t m = 0; m < b->count; m++) {
+        const double before = memory_use_begin();
+        int code = open_context(b);
+        if (code == EXIT_CODE_OK)
+            code = render_once(b, &b->methods[m], 0, &unused);
+        b->methods[m].memory = memory_use_peak() - before;
+        mgt_context_destroy(b->context);
+        b->context = NULL;
+        if (code != EXIT_CODE_OK)
+            return code;
+    }
+    return EXIT_CODE_OK;
 }
 
 static int measure(bench *b)
@@ -211,20 +238,27 @@ static int print_report(bench *b)
             printf("%s, ", b->info.renderer);
         else
             printf("%s, %u lanes, %u threads, ", isa_name(b->info.isa), b->info.lanes, b->info.threads);
-        printf("%zu frames each\n%-*s%10s%10s%10s%10s%10s\n", runs, width, "method", "median ms", "min ms", "max ms", "fps", "Mpixel/s");
+        printf("%zu frames each\n%-*s%10s%10s%10s%10s%10s%s\n", runs, width, "method", "median ms", "min ms", "max ms", "fps", "Mpixel/s",
+               b->request->memory ? "       MiB" : "");
     }
     for (size_t m = 0; m < b->count; m++) {
         double *s = b->methods[m].seconds;
         qsort(s, runs, sizeof *s, ascending);
         const double median = 0.5 * (s[(runs - 1) / 2] + s[runs / 2]);
         const char *name = b->methods[m].spec.name;
+        const double memory = b->methods[m].memory;
+        json_t *bytes = list && isfinite(memory) ? json_integer((json_int_t)memory) : NULL;
         if (list)
-            json_array_append_new(list, json_pack("{s:s, s:f, s:f, s:f, s:f, s:f}", "method", name, "median_ms", 1e3 * median, "min_ms",
+            json_array_append_new(list, json_pack("{s:s, s:f, s:f, s:f, s:f, s:f, s:o*}", "method", name, "median_ms", 1e3 * median, "min_ms",
                                                   1e3 * s[0], "max_ms", 1e3 * s[runs - 1], "fps", 1 / fmax(median, 1e-9), "mpixel_per_s",
-                                                  megapixels / fmax(median, 1e-9)));
+                                                  megapixels / fmax(median, 1e-9), "memory_bytes", bytes));
         else
-            printf("%-*s%10.2f%10.2f%10.2f%10.1f%10.1f\n", width, name, 1e3 * median, 1e3 * s[0], 1e3 * s[runs - 1], 1 / fmax(median, 1e-9),
+            printf("%-*s%10.2f%10.2f%10.2f%10.1f%10.1f", width, name, 1e3 * median, 1e3 * s[0], 1e3 * s[runs - 1], 1 / fmax(median, 1e-9),
                    megapixels / fmax(median, 1e-9));
+        if (!list && isfinite(memory))
+            printf("%10.1f", memory / 1048576);
+        if (!list)
+            puts(b->request->memory && !isfinite(memory) ? "         -" : "");
     }
     if (!list)
         return EXIT_CODE_OK;
@@ -239,6 +273,10 @@ static int run(const bench_request *request)
     bench b = {.request = request};
     interrupt_install();
     int code = prepare(&b);
+    if (code == EXIT_CODE_OK && request->memory)
+        code = measure_memory(&b);
+    if (code == EXIT_CODE_OK)
+        code = open_context(&b);
     if (code == EXIT_CODE_OK)
         code = measure(&b);
     if (code == EXIT_CODE_OK)

@@ -49,7 +49,7 @@ char *compare_command(const compare_job *job)
 char *compare_picture_command(const compare_job *job, const compare_scene *scene, size_t picture)
 {
     const compare_request *r = job->request;
-    const mgt_quality *q = compare_picture_quality(job, picture);
+    const mgt_quality *q = compare_picture_quality(job, scene, picture);
     char *text = NULL, frames[240];
     size_t size = 0;
     FILE *stream = open_memstream(&text, &size);
@@ -61,7 +61,8 @@ char *compare_picture_command(const compare_job *job, const compare_scene *scene
     fprintf(stream, " -o %s_%%04d.exr --layer color --layer coverage --frames %s",
             picture == COMPARE_REFERENCE ? "reference" : r->methods[picture - 1].file, frames);
     if (picture == COMPARE_REFERENCE)
-        fprintf(stream, " --method reference --spatial %u --time-samples %u", q->spatial_samples, q->time_samples);
+        fprintf(stream, " --method reference --spatial %u --time-samples %u%s", q->spatial_samples, q->time_samples,
+                q->refraction == MGT_REFRACTION_TRUTH ? " --refraction truth" : "");
     else
         fprintf(stream, " %s", r->methods[picture - 1].options);
     if (q->seed)

@@ -19,7 +19,7 @@ static render_request picture_request(const compare_job *job, const compare_scen
 {
     return (render_request){.scene_path = scene->path,
                             .format = PICTURE_EXR,
-                            .quality = *compare_picture_quality(job, picture),
+                            .quality = *compare_picture_quality(job, scene, picture),
                             .layers = {MGT_LAYER_COLOR, MGT_LAYER_COVERAGE},
                             .layer_count = 2};
 }
@@ -68,7 +68,7 @@ static int make_folders(compare_job *job)
 /* About how long the picture takes: for the time left. */
 static double picture_work(const compare_job *job, const compare_scene *scene, size_t picture)
 {
-    const mgt_quality *quality = compare_picture_quality(job, picture);
+    const mgt_quality *quality = compare_picture_quality(job, scene, picture);
     const double each = quality->method == MGT_METHOD_SSAA ? 1 : 4; /* double precision, or a filter's integral */
     return each * (double)compare_samples(quality) * scene->width * scene->height;
 }

@@ -17,9 +17,9 @@ const char *compare_picture_name(const compare_job *job, size_t picture)
     return picture == COMPARE_REFERENCE ? "reference" : job->request->methods[picture - 1].name;
 }
 
-const mgt_quality *compare_picture_quality(const compare_job *job, size_t picture)
+const mgt_quality *compare_picture_quality(const compare_job *job, const compare_scene *scene, size_t picture)
 {
-    return picture == COMPARE_REFERENCE ? &job->request->reference : &job->request->methods[picture - 1].quality;
+    return picture == COMPARE_REFERENCE ? &scene->reference : &job->request->methods[picture - 1].quality;
 }
 
 uint32_t compare_frame_number(const compare_job *job, size_t frame)
@@ -50,7 +50,7 @@ bool compare_frame_scene(const compare_job *job, const compare_scene *scene, siz
         console_error(0, "%s: the camera of frame %u is not a legal one", scene->path, compare_frame_number(job, frame));
         return false;
     }
-    out->quality = *compare_picture_quality(job, picture);
+    out->quality = *compare_picture_quality(job, scene, picture);
     return true;
 }
 
@@ -118,6 +118,7 @@ static int load_scene(compare_job *job, size_t index)
     scene_error error;
     mgt_scene first;
     scene->path = r->scene_paths[index];
+    scene->reference = r->reference;
     scene->reference_seconds = NAN;
     name_scene(job, index);
     scene->file = scene_file_load(scene->path, r->overrides, r->override_count, &error);
@@ -132,6 +133,8 @@ static int load_scene(compare_job *job, size_t index)
     scene->width = first.image.width;
     scene->height = first.image.height;
     scene->black_sky = first.sky.model == MGT_SKY_BLACK;
+    if (first.object_count > 0)
+        scene->reference.refraction = MGT_REFRACTION_TRUTH;
     const compare_scene *other = &job->scenes[0];
     if (r->gate_count && (scene->width != other->width || scene->height != other->height))
         return console_error(EXIT_CODE_USAGE, "%s has %u x %u pixels, %s has %u x %u; a limit scores all scenes as one clip, so give --size",

@@ -33,6 +33,7 @@ typedef struct compare_scene {
     scene_file *file;
     char *canonical;
     uint32_t width, height;
+    mgt_quality reference; /* the request's; objects are seen through the waves as they are */
     bool black_sky; /* colour tells nothing that coverage does not */
     double reference_seconds; /* of a frame, on average; NaN: not known */
     compare_result *results;  /* one a method */
@@ -56,7 +57,7 @@ enum { COMPARE_PATH = 4600 };
 enum { COMPARE_REFERENCE = 0 };
 
 const char *compare_picture_name(const compare_job *job, size_t picture);
-const mgt_quality *compare_picture_quality(const compare_job *job, size_t picture);
+const mgt_quality *compare_picture_quality(const compare_job *job, const compare_scene *scene, size_t picture);
 uint32_t compare_frame_number(const compare_job *job, size_t frame);
 
 /* Where the picture is kept, and a file DIR/NAME of the report. False, with the error printed, when the path is too long. */

@@ -10,6 +10,7 @@
 #include "names.h"
 #include "numbers.h"
 #include "podee_options.h"
+#include "refraction_options.h"
 
 typedef struct spec_option {
     const char *name, *allowed;
@@ -81,14 +82,30 @@ static void add_words(method_spec *spec, const char *word, size_t length)
     snprintf(spec->options + used, sizeof spec->options - used, " --%.*s %s", (int)length, word, word + length + 1);
 }
 
-static bool set_option(method_spec *spec, const char *word, podee_options *podee, adaptive_options *adaptive, char *wrong, size_t wrong_size)
+/* Options that are checked together once all are known. */
+typedef struct spec_options_given {
+    podee_options podee;
+    adaptive_options adaptive;
+    refraction_options refraction;
+} spec_options_given;
+
+/* The place of a word that one of them reads; NULL: none does. What follows the + is no option. */
+static const char **given_word(spec_options_given *given, const char *word, size_t length)
+{
+    const char **value = podee_word(&given->podee, word, length);
+    if (!value)
+        value = adaptive_option(&given->adaptive, word, length);
+    if (!value)
+        value = refraction_option(&given->refraction, word, length);
+    return value == &given->refraction.method ? NULL : value;
+}
+
+static bool set_option(method_spec *spec, const char *word, spec_options_given *given, char *wrong, size_t wrong_size)
 {
     const size_t length = strcspn(word, "=");
     if (!word[length])
         return fail(wrong, wrong_size, "%s: options are written NAME:OPTION=VALUE", spec->name);
-    const char **value = podee_word(podee, word, length);
-    if (!value)
-        value = adaptive_option(adaptive, word, length);
+    const char **value = given_word(given, word, length);
     if (value) {
         *value = word + length + 1;
         add_words(spec, word, length);
@@ -105,7 +122,8 @@ static bool set_option(method_spec *spec, const char *word, podee_options *podee
     }
     return fail(wrong, wrong_size,
                 "%s: unknown option %.*s; allowed are spatial, time-samples, ndf-mean, kernels, integral, elongation, path-segments, "
-                "transition, transition-width, adaptive, samples, target-rmse, budget-ms, importance-center, importance-width, importance-threshold, slots",
+                "transition, transition-width, adaptive, samples, target-rmse, budget-ms, importance-center, importance-width, importance-threshold, slots, "
+                "tess-error, refraction-samples, caustics",
                 spec->name, (int)length, word);
 }
 
@@ -131,24 +149,30 @@ bool method_spec_parse(method_spec *spec, const char *text, size_t length, char 
     char *rest = strchr(words, ':');
     if (rest)
         *rest++ = 0;
-    if (strchr(words, '+'))
-        return fail(wrong, wrong_size, "%s: this version draws no refraction; leave out what follows the +", spec->name);
+    spec_options_given given = {0};
+    char *refraction = strchr(words, '+');
+    if (refraction) {
+        *refraction++ = 0;
+        mgt_refraction known;
+        if (!refraction_from_name(refraction, strlen(refraction), &known))
+            return fail(wrong, wrong_size, "%s: unknown refraction %s; allowed after the + are %s", spec->name, refraction, refraction_words);
+        given.refraction.method = refraction;
+    }
     if (!method_from_name(words, &spec->quality))
         return fail(wrong, wrong_size, "unknown method %s; allowed are %s", words, method_words);
-    snprintf(spec->options, sizeof spec->options, "--method %s", words);
+    snprintf(spec->options, sizeof spec->options, "--method %s%s%s", words, refraction ? " --refraction " : "", refraction ? refraction : "");
     print_file_name(spec);
-    podee_options podee = {0};
-    adaptive_options adaptive = {0};
     while (rest) {
         char *next = strchr(rest, ':');
         if (next)
             *next++ = 0;
-        if (!set_option(spec, rest, &podee, &adaptive, wrong, wrong_size))
+        if (!set_option(spec, rest, &given, wrong, wrong_size))
             return false;
         rest = next;
     }
     char reason[200];
-    return (podee_options_apply(&podee, &spec->quality, reason, sizeof reason) &&
-            adaptive_options_apply(&adaptive, &spec->quality, reason, sizeof reason)) ||
+    return (podee_options_apply(&given.podee, &spec->quality, reason, sizeof reason) &&
+            adaptive_options_apply(&given.adaptive, &spec->quality, reason, sizeof reason) &&
+            refraction_options_apply(&given.refraction, &spec->quality, reason, sizeof reason)) ||
            fail(wrong, wrong_size, "%s: %s", spec->name, reason);
 }

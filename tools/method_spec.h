@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* A method with its options in one word, as lists of methods need it: NAME, or NAME:OPTION=VALUE:OPTION=VALUE. The options are those of
- * `mangata render`, such as "podee-pixel:ndf-mean=drop" or "ssaa4:time-samples=8". */
+ * `mangata render`, such as "podee-pixel:ndf-mean=drop" or "ssaa4:time-samples=8". NAME+REFRACTION sees through the water by another method than the
+ * default, such as "mangata+hybrid" or "none+broad:tess-error=1". */
 #ifndef MANGATA_TOOLS_METHOD_SPEC_H
 #define MANGATA_TOOLS_METHOD_SPEC_H
 

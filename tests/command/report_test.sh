@@ -26,6 +26,9 @@ expect 0 '' "$MANGATA" bench "$simple" --size 64x36 --methods none,mangata --fra
 [[ $(json methods) == 2 && $(json runs) == 4 && $(json methods.1.method) == mangata && $(json methods.0.median_ms) != 0 ]] || fail "$(cat stdout.txt)"
 expect 0 '' "$MANGATA" bench "$simple" --size 64x36 --methods none --display --repeat 1
 grep -q '^none ' stdout.txt || fail "bench: $(cat stdout.txt)"
+expect 0 '' "$MANGATA" bench "$simple" --size 64x36 --methods none+off,mangata+hybrid:tess-error=1:refraction-samples=2,lean --memory --repeat 1 --frames 1 --json
+[[ $(json methods) == 3 && $(json methods.1.method) == mangata+hybrid:tess-error=1:refraction-samples=2 && $(json methods.1.memory_bytes) -ge 0 ]] || fail "$(cat stdout.txt)"
+[[ $(json methods.2.memory_bytes) -gt 200000000 ]] || fail "lean's tables take no memory: $(cat stdout.txt)"
 expect 0 '' "$MANGATA" scene check "$simple" --json
 [[ $(json 0.ok) == true && $(json 0.waves) == 5 ]] || fail "$(cat stdout.txt)"
 finish

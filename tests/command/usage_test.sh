@@ -139,6 +139,9 @@ expect 64 'takes check FILE or schema' "$MANGATA" scene
 expect 64 'takes check FILE or schema' "$MANGATA" scene chekc "$simple"
 expect 64 'no scene given' "$MANGATA" scene check
 expect 64 'unknown method fast; allowed are none, ssaaN' "$MANGATA" bench "$simple" --methods none,fast
+expect 64 'none\+mirror: unknown refraction mirror; allowed after the \+ are two-phase, hybrid' "$MANGATA" bench "$simple" --methods none+mirror
+expect 64 'it is for --refraction two-phase' "$MANGATA" bench "$simple" --methods none+off:tess-error=1
+expect 64 'unknown option refraction;' "$MANGATA" bench "$simple" --methods none:refraction=off
 expect 64 'info takes no' "$MANGATA" info now
 cp "$MANGATA" alone # the viewer is looked for beside the command first
 expect 69 'the viewer is not installed' env PATH=/nonexistent ./alone view "$simple"
