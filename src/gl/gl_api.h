@@ -11,9 +11,9 @@
 #define GL_FUNCTIONS(X)                                                             \
     X(ACTIVETEXTURE, ActiveTexture)                                                 \
     X(ATTACHSHADER, AttachShader)                                                   \
+    X(BINDBUFFER, BindBuffer)                                                       \
     X(BINDBUFFERBASE, BindBufferBase)                                               \
     X(BINDBUFFERRANGE, BindBufferRange)                                             \
-    X(BINDBUFFER, BindBuffer)                                                       \
     X(BINDFRAMEBUFFER, BindFramebuffer)                                             \
     X(BINDIMAGETEXTURE, BindImageTexture)                                           \
     X(BINDSAMPLER, BindSampler)                                                     \
@@ -23,10 +23,14 @@
     X(BLENDEQUATIONSEPARATEI, BlendEquationSeparatei)                               \
     X(BLENDFUNCSEPARATEI, BlendFuncSeparatei)                                       \
     X(CHECKNAMEDFRAMEBUFFERSTATUS, CheckNamedFramebufferStatus)                     \
+    X(CLEARNAMEDFRAMEBUFFERFV, ClearNamedFramebufferfv)                             \
+    X(CLEARNAMEDFRAMEBUFFERIV, ClearNamedFramebufferiv)                             \
     X(CLIENTWAITSYNC, ClientWaitSync)                                               \
+    X(CLIPCONTROL, ClipControl)                                                     \
     X(COLORMASKI, ColorMaski)                                                       \
     X(COMPILESHADER, CompileShader)                                                 \
     X(CREATEBUFFERS, CreateBuffers)                                                 \
+    X(CREATEFRAMEBUFFERS, CreateFramebuffers)                                       \
     X(CREATEPROGRAM, CreateProgram)                                                 \
     X(CREATEQUERIES, CreateQueries)                                                 \
     X(CREATESHADER, CreateShader)                                                   \
@@ -34,6 +38,7 @@
     X(CREATEVERTEXARRAYS, CreateVertexArrays)                                       \
     X(DEBUGMESSAGECALLBACK, DebugMessageCallback)                                   \
     X(DELETEBUFFERS, DeleteBuffers)                                                 \
+    X(DELETEFRAMEBUFFERS, DeleteFramebuffers)                                       \
     X(DELETEPROGRAM, DeleteProgram)                                                 \
     X(DELETEQUERIES, DeleteQueries)                                                 \
     X(DELETESHADER, DeleteShader)                                                   \
@@ -42,6 +47,7 @@
     X(DELETEVERTEXARRAYS, DeleteVertexArrays)                                       \
     X(DEPTHFUNC, DepthFunc)                                                         \
     X(DEPTHMASK, DepthMask)                                                         \
+    X(DEPTHRANGEINDEXED, DepthRangeIndexed)                                         \
     X(DISABLE, Disable)                                                             \
     X(DISABLEI, Disablei)                                                           \
     X(DISPATCHCOMPUTE, DispatchCompute)                                             \
@@ -78,12 +84,16 @@
     X(MAPNAMEDBUFFERRANGE, MapNamedBufferRange)                                     \
     X(MEMORYBARRIER, MemoryBarrier)                                                 \
     X(NAMEDBUFFERSTORAGE, NamedBufferStorage)                                       \
+    X(NAMEDFRAMEBUFFERDRAWBUFFER, NamedFramebufferDrawBuffer)                       \
+    X(NAMEDFRAMEBUFFERTEXTURE, NamedFramebufferTexture)                             \
+    X(PATCHPARAMETERI, PatchParameteri)                                             \
     X(PIXELSTOREI, PixelStorei)                                                     \
     X(POLYGONMODE, PolygonMode)                                                     \
     X(POPDEBUGGROUP, PopDebugGroup)                                                 \
     X(PUSHDEBUGGROUP, PushDebugGroup)                                               \
     X(QUERYCOUNTER, QueryCounter)                                                   \
     X(SHADERSOURCE, ShaderSource)                                                   \
+    X(TEXTUREBUFFERRANGE, TextureBufferRange)                                       \
     X(TEXTURESTORAGE2D, TextureStorage2D)                                           \
     X(TEXTURESUBIMAGE2D, TextureSubImage2D)                                         \
     X(UNMAPNAMEDBUFFER, UnmapNamedBuffer)                                           \

@@ -29,6 +29,7 @@ mgt_status gl_enter(gl_backend_state *s, gl_scope *scope, const reporter *r)
         for (int i = 0; i < 32 && (error = s->renderer->gl.GetError()) != GL_NO_ERROR; i++)
             report(r, MGT_LOG_WARNING, "gl.host", "the host left OpenGL error 0x%04x behind; it has been cleared", error);
         gl_host_state_save(&s->renderer->gl, &scope->host);
+        s->renderer->host = &scope->host;
     }
     const mgt_status status = check_lost(s, r);
     if (status != MGT_OK)
@@ -45,6 +46,7 @@ mgt_status gl_leave(gl_backend_state *s, const gl_scope *scope, mgt_status statu
         gl_egl_leave(s->egl, &scope->egl);
         return status;
     }
+    s->renderer->host = NULL;
     gl_host_state_restore(&s->renderer->gl, &scope->host);
     const mgt_status ended = status == MGT_OK ? gl_check(&s->renderer->gl, "restore", r) : status;
     return ended;
@@ -81,8 +83,6 @@ static void gl_destroy(void *state)
     const bool entered = s->renderer && (!s->egl || gl_egl_enter(s->egl, &scope.egl, &silent) == MGT_OK);
     if (entered) {
         gl_buffer_free(&s->renderer->gl, &s->transfer);
-        if (s->vertex_array)
-            s->renderer->gl.DeleteVertexArrays(1, &s->vertex_array);
         gl_renderer_destroy(s->renderer);
         if (s->egl)
             gl_egl_leave(s->egl, &scope.egl);
@@ -102,7 +102,6 @@ static mgt_status create_renderer(gl_backend_state *s, const reporter *r, mgt_co
         return status;
     s->renderer->threads = s->desc.threads;
     const gl_api *gl = &s->renderer->gl;
-    gl->CreateVertexArrays(1, &s->vertex_array);
     if (s->egl) {
         gl->Enable(GL_DEBUG_OUTPUT);
         gl->DebugMessageCallback(forward_message, s);

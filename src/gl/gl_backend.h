@@ -14,7 +14,6 @@ typedef struct gl_backend_state {
     mgt_context_desc desc;
     reporter report;     /* for messages of OpenGL's own */
     void *cpu;           /* state of the CPU backend for what the shaders do not know; NULL until it is needed */
-    GLuint vertex_array; /* empty */
 } gl_backend_state;
 
 /* What a call puts back at its end. */

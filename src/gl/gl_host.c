@@ -235,7 +235,7 @@ static void set_drawing(const gl_backend_state *s, const mgt_gl_view *view, cons
     const gl_api *gl = &s->renderer->gl;
     gl_host_state_neutral(gl, host);
     gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, view->framebuffer);
-    gl->BindVertexArray(s->vertex_array);
+    gl->BindVertexArray(s->renderer->vertex_array);
     gl->ViewportIndexedf(0, (float)view->x, (float)view->y, (float)view->width, (float)view->height);
     gl->Enable(GL_DEPTH_TEST);
     gl->DepthFunc(view->reversed_depth ? GL_GEQUAL : GL_LEQUAL);

@@ -99,6 +99,10 @@ static void save_drawing(const gl_api *gl, gl_host_state *s)
     gl->GetIntegerv(GL_VERTEX_ARRAY_BINDING, &s->vertex_array);
     gl->GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &s->draw_framebuffer);
     gl->GetFloati_v(GL_VIEWPORT, 0, s->viewport);
+    gl->GetFloati_v(GL_DEPTH_RANGE, 0, s->depth_range);
+    gl->GetIntegerv(GL_CLIP_ORIGIN, &s->clip_origin);
+    gl->GetIntegerv(GL_CLIP_DEPTH_MODE, &s->clip_depth);
+    gl->GetIntegerv(GL_PATCH_VERTICES, &s->patch_vertices);
     for (int i = 0; i < CAPABILITIES; i++)
         s->capabilities[i] = gl->IsEnabled(capabilities[i]);
     s->blend = gl->IsEnabledi(GL_BLEND, 0);
@@ -119,11 +123,14 @@ static void save_drawing(const gl_api *gl, gl_host_state *s)
     gl->GetIntegeri_v(GL_BLEND_EQUATION_ALPHA, 0, &s->blend_equation_alpha);
 }
 
-static void restore_drawing(const gl_api *gl, const gl_host_state *s)
+void gl_host_state_restore_drawing(const gl_api *gl, const gl_host_state *s)
 {
     gl->BindVertexArray((GLuint)s->vertex_array);
     gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, (GLuint)s->draw_framebuffer);
     gl->ViewportIndexedf(0, s->viewport[0], s->viewport[1], s->viewport[2], s->viewport[3]);
+    gl->DepthRangeIndexed(0, (GLdouble)s->depth_range[0], (GLdouble)s->depth_range[1]);
+    gl->ClipControl((GLenum)s->clip_origin, (GLenum)s->clip_depth);
+    gl->PatchParameteri(GL_PATCH_VERTICES, s->patch_vertices);
     for (int i = 0; i < CAPABILITIES; i++)
         set_capability(gl, capabilities[i], s->capabilities[i]);
     (s->blend ? gl->Enablei : gl->Disablei)(GL_BLEND, 0);
@@ -190,7 +197,7 @@ void gl_host_state_restore(const gl_api *gl, const gl_host_state *s)
     gl->BindBuffer(GL_PIXEL_UNPACK_BUFFER, (GLuint)s->unpack_buffer);
     restore_textures(gl, s);
     restore_images(gl, s);
-    restore_drawing(gl, s);
+    gl_host_state_restore_drawing(gl, s);
     for (int i = 0; i < PIXEL_STORES; i++)
         gl->PixelStorei(pixel_stores[i].name, s->pixel_store[i]);
 }

@@ -27,7 +27,8 @@ typedef struct gl_host_state {
     GLint pixel_store[PIXEL_STORES];
 
     GLint vertex_array, draw_framebuffer;
-    GLfloat viewport[4];
+    GLfloat viewport[4], depth_range[2];
+    GLint clip_origin, clip_depth, patch_vertices;
     GLboolean capabilities[CAPABILITIES];
     GLboolean blend, scissor, depth_mask;
     GLboolean color_mask[DRAW_BUFFERS][4];
@@ -39,6 +40,9 @@ typedef struct gl_host_state {
 /* Saves, and sets the pixel store that transfers here rely on. */
 void gl_host_state_save(const gl_api *gl, gl_host_state *s);
 void gl_host_state_restore(const gl_api *gl, const gl_host_state *s);
+
+/* Of that, what is set before triangles are drawn. */
+void gl_host_state_restore_drawing(const gl_api *gl, const gl_host_state *s);
 
 /* Switches off all that would change what a full-screen triangle writes, but for depth test and blending. */
 void gl_host_state_neutral(const gl_api *gl, const gl_host_state *s);

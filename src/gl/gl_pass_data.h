@@ -13,6 +13,7 @@
 
 _Static_assert(sizeof(PassData) % 16 == 0 && sizeof(GlareData) % 16 == 0 && sizeof(WindowData) % 16 == 0, "std140 layout");
 _Static_assert(sizeof(LeanWave) == 32 && sizeof(LeanData) % 16 == 0 && sizeof(LeanPass) % 16 == 0 && sizeof(BlendData) % 16 == 0, "std140 layout");
+_Static_assert(sizeof(GbufferData) % 16 == 0, "std140 layout");
 _Static_assert(sizeof(SortData) == 32 && sizeof(TileWave) == 16 && sizeof(NodeData) == 48, "std430 layout");
 
 /* Binding points, as in the shaders. */
@@ -43,7 +44,9 @@ enum {
     UNIT_LUMA = 4,    /* … its luma (fxaa) … */
     UNIT_HISTORY = 4, /* … or the same three of the history (taa) … */
     UNIT_DEPTH = 7,   /* … where the camera moves */
-    TEXTURE_UNITS,
+    UNIT_VERTICES = 1, /* triangles of objects: vertices, … */
+    UNIT_INDICES = 2,  /* … three of them each */
+    TEXTURE_UNITS = 8,
 
     IMAGE_COLOR = 0, /* images */
     IMAGE_COVERAGE,

@@ -5,36 +5,42 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A compute shader, or a vertex and a fragment shader. */
+enum { STAGES = 4 };
+
+static const GLenum stage_kinds[STAGES] = {GL_VERTEX_SHADER, GL_FRAGMENT_SHADER, GL_TESS_CONTROL_SHADER, GL_TESS_EVALUATION_SHADER};
+
+/* A compute shader, or a vertex and a fragment shader with or without tessellation: NAME.vert, NAME.frag, NAME.tesc, NAME.tese. */
 typedef struct program_text {
-    const char *name, *compute, *vertex, *fragment, *defines;
+    const char *name, *compute, *stages[STAGES];
 } program_text;
 
 static const program_text program_texts[PROGRAM_COUNT] = {
-    [PROGRAM_TILES] = {"tiles", "tiles.comp", NULL, NULL, ""},
-    [PROGRAM_NODES] = {"nodes", "nodes.comp", NULL, NULL, ""},
-    [PROGRAM_SHADE_MANGATA] = {"shade", "shade_mangata.comp", NULL, NULL, ""},
-    [PROGRAM_SHADE_PODEE] = {"shade", "shade_podee.comp", NULL, NULL, ""},
-    [PROGRAM_SHADE_KERNELS] = {"shade", "shade_kernels.comp", NULL, NULL, ""},
-    [PROGRAM_SHADE_LEAN] = {"shade", "shade_lean.comp", NULL, NULL, ""},
-    [PROGRAM_SHADE_LEADR] = {"shade", "shade_leadr.comp", NULL, NULL, ""},
-    [PROGRAM_SHADE_BRUNETON] = {"shade", "shade_bruneton.comp", NULL, NULL, ""},
-    [PROGRAM_SHADE_TNDF] = {"shade", "shade_tndf.comp", NULL, NULL, ""},
-    [PROGRAM_SAMPLES] = {"samples", "samples.comp", NULL, NULL, ""},
-    [PROGRAM_MSAA] = {"samples", "msaa.comp", NULL, NULL, ""},
-    [PROGRAM_TOKUYOSHI] = {"samples", "tokuyoshi.comp", NULL, NULL, ""},
-    [PROGRAM_SURFACE] = {"surface", "surface.comp", NULL, NULL, ""},
-    [PROGRAM_NORMAL] = {"normal", "normal.comp", NULL, NULL, ""},
-    [PROGRAM_LEAN_FILL] = {"lean", "lean_fill.comp", NULL, NULL, ""},
-    [PROGRAM_LEAN_SHRINK] = {"lean", "lean_shrink.comp", NULL, NULL, ""},
-    [PROGRAM_LUMA] = {"blend", "luma.comp", NULL, NULL, ""},
-    [PROGRAM_FXAA] = {"blend", "fxaa.comp", NULL, NULL, ""},
-    [PROGRAM_TAA] = {"blend", "taa.comp", NULL, NULL, ""},
-    [PROGRAM_GLARE_DOWN] = {"glare", "glare_down.comp", NULL, NULL, ""},
-    [PROGRAM_GLARE_UP] = {"glare", "glare_up.comp", NULL, NULL, ""},
-    [PROGRAM_DISPLAY] = {"display", "display.comp", NULL, NULL, ""},
-    [PROGRAM_COPY] = {"copy", "copy.comp", NULL, NULL, ""},
-    [PROGRAM_VIEW] = {"view", NULL, "view.vert", "view.frag", ""},
+    [PROGRAM_TILES] = {"tiles", "tiles.comp", {NULL}},
+    [PROGRAM_NODES] = {"nodes", "nodes.comp", {NULL}},
+    [PROGRAM_SHADE_MANGATA] = {"shade", "shade_mangata.comp", {NULL}},
+    [PROGRAM_SHADE_PODEE] = {"shade", "shade_podee.comp", {NULL}},
+    [PROGRAM_SHADE_KERNELS] = {"shade", "shade_kernels.comp", {NULL}},
+    [PROGRAM_SHADE_LEAN] = {"shade", "shade_lean.comp", {NULL}},
+    [PROGRAM_SHADE_LEADR] = {"shade", "shade_leadr.comp", {NULL}},
+    [PROGRAM_SHADE_BRUNETON] = {"shade", "shade_bruneton.comp", {NULL}},
+    [PROGRAM_SHADE_TNDF] = {"shade", "shade_tndf.comp", {NULL}},
+    [PROGRAM_SAMPLES] = {"samples", "samples.comp", {NULL}},
+    [PROGRAM_MSAA] = {"samples", "msaa.comp", {NULL}},
+    [PROGRAM_TOKUYOSHI] = {"samples", "tokuyoshi.comp", {NULL}},
+    [PROGRAM_SURFACE] = {"surface", "surface.comp", {NULL}},
+    [PROGRAM_NORMAL] = {"normal", "normal.comp", {NULL}},
+    [PROGRAM_LEAN_FILL] = {"lean", "lean_fill.comp", {NULL}},
+    [PROGRAM_LEAN_SHRINK] = {"lean", "lean_shrink.comp", {NULL}},
+    [PROGRAM_LUMA] = {"blend", "luma.comp", {NULL}},
+    [PROGRAM_FXAA] = {"blend", "fxaa.comp", {NULL}},
+    [PROGRAM_TAA] = {"blend", "taa.comp", {NULL}},
+    [PROGRAM_GLARE_DOWN] = {"glare", "glare_down.comp", {NULL}},
+    [PROGRAM_GLARE_UP] = {"glare", "glare_up.comp", {NULL}},
+    [PROGRAM_DISPLAY] = {"display", "display.comp", {NULL}},
+    [PROGRAM_COPY] = {"copy", "copy.comp", {NULL}},
+    [PROGRAM_VIEW] = {"view", NULL, {"view.vert", "view.frag"}},
+    [PROGRAM_GBUFFER] = {"gbuffer", NULL, {"gbuffer.vert", "gbuffer.frag"}},
+    [PROGRAM_GBUFFER_BENT] = {"gbuffer", NULL, {"gbuffer_bent.vert", "gbuffer.frag", "gbuffer_bent.tesc", "gbuffer_bent.tese"}},
 };
 
 enum { LOG_SIZE = 4096 };
@@ -50,21 +56,21 @@ static mgt_status explain(const gl_source *source, const char *program, const ch
 /* The assembled stages of a program. */
 typedef struct program_source {
     const program_text *text;
-    gl_source stages[2];
-    GLenum kinds[2];
+    gl_source stages[STAGES];
+    GLenum kinds[STAGES];
     int count;
 } program_source;
 
 static mgt_status assemble(const gl_programs *p, const gl_replacements *replaced, gl_program which, program_source *out, const reporter *r)
 {
     const program_text *t = &program_texts[which];
-    *out = (program_source){.text = t, .kinds = {t->compute ? GL_COMPUTE_SHADER : GL_VERTEX_SHADER, GL_FRAGMENT_SHADER}};
-    const char *const files[2] = {t->compute ? t->compute : t->vertex, t->fragment};
-    char defines[256];
-    snprintf(defines, sizeof defines, "%s%s", p->defines ? p->defines : "", t->defines);
-    while (out->count < 2 && files[out->count]) {
+    *out = (program_source){.text = t};
+    const char *const *files = t->compute ? &t->compute : t->stages;
+    const int most = t->compute ? 1 : STAGES;
+    while (out->count < most && files[out->count]) {
+        out->kinds[out->count] = t->compute ? GL_COMPUTE_SHADER : stage_kinds[out->count];
         gl_source *s = &out->stages[out->count++];
-        if (gl_source_assemble(s, replaced, files[out->count - 1], defines))
+        if (gl_source_assemble(s, replaced, files[out->count - 1], p->defines ? p->defines : ""))
             continue;
         return s->out_of_memory ? report_error(r, MGT_ERROR_MEMORY, "gl.shader", "out of memory for the text of %s", files[out->count - 1])
                                 : report_error(r, MGT_ERROR_UNAVAILABLE, "gl.shader", "%s: it includes a file that does not exist", s->missing);

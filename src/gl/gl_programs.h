@@ -32,6 +32,8 @@ typedef enum gl_program {
     PROGRAM_DISPLAY,
     PROGRAM_COPY,           /* a layer into a texture of the host */
     PROGRAM_VIEW,           /* layers into a framebuffer of the host */
+    PROGRAM_GBUFFER,        /* objects as they are */
+    PROGRAM_GBUFFER_BENT,   /* … and where refraction by the flat mean surface shows them */
     PROGRAM_COUNT
 } gl_program;
 

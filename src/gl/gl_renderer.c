@@ -29,11 +29,12 @@ static bool is_software(const gl_api *gl)
 
 static mgt_status read_limits(gl_renderer *g, const reporter *r)
 {
-    GLint texture = 0, uniform = 0, storage = 0, shared = 0;
+    GLint texture = 0, uniform = 0, storage = 0, shared = 0, table = 0;
     g->gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &texture);
     g->gl.GetIntegerv(GL_MAX_UNIFORM_BLOCK_SIZE, &uniform);
     g->gl.GetIntegerv(GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS, &storage);
     g->gl.GetIntegerv(GL_MAX_COMPUTE_SHARED_MEMORY_SIZE, &shared);
+    g->gl.GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &table);
     if (storage < 7 || shared < 16384)
         return report_error(r, MGT_ERROR_UNAVAILABLE, "context.gl",
                             "the OpenGL context has %d storage blocks and %d bytes of shared memory for compute shaders; "
@@ -42,6 +43,7 @@ static mgt_status read_limits(gl_renderer *g, const reporter *r)
         .texture_side = (uint32_t)texture,
         .waves_in_storage = (size_t)uniform < MGT_MAX_WAVES * sizeof(WaveData),
         .software = is_software(&g->gl),
+        .table_texels = (size_t)table,
     };
     static const char *const defines[2][2] = {{"", "#define SOFTWARE_GL\n"},
                                                {"#define WAVES_IN_STORAGE\n", "#define WAVES_IN_STORAGE\n#define SOFTWARE_GL\n"}};
@@ -78,6 +80,7 @@ mgt_status gl_renderer_create(gl_renderer **out, mgt_gl_get_proc get_proc, const
     if (status == MGT_OK) {
         gl_timers_create(&g->gl, &g->timers);
         create_sky_texture(g);
+        g->gl.CreateVertexArrays(1, &g->vertex_array);
         status = gl_check(&g->gl, "create", r);
     }
     if (status == MGT_OK) {
@@ -119,6 +122,10 @@ void gl_renderer_destroy(gl_renderer *g)
     gl_glare_free(g);
     gl_podee_free(g);
     gl_lean_free(g);
+    gl_gbuffers_free(gl, &g->gbuffers);
+    gl_objects_free(gl, &g->objects);
+    if (g->vertex_array)
+        gl->DeleteVertexArrays(1, &g->vertex_array);
     if (g->sky_texture)
         gl->DeleteTextures(1, &g->sky_texture);
     free(g->sky);

@@ -5,7 +5,10 @@
 
 #include "cpu/frame.h"
 #include "cpu/lean_map.h"
+#include "gl/gl_gbuffer.h"
+#include "gl/gl_host_state.h"
 #include "gl/gl_memory.h"
+#include "gl/gl_objects.h"
 #include "gl/gl_pass_data.h"
 #include "gl/gl_programs.h"
 #include "gl/gl_timers.h"
@@ -47,6 +50,7 @@ typedef struct gl_limits {
     uint32_t texture_side;
     bool waves_in_storage; /* uniform blocks are too small for them */
     bool software;         /* llvmpipe and its like */
+    size_t table_texels;   /* elements of a buffer that shaders fetch */
 } gl_limits;
 
 typedef struct gl_renderer {
@@ -62,8 +66,12 @@ typedef struct gl_renderer {
     gl_glare glare;
     gl_podee podee;
     gl_lean lean;
+    gl_objects objects;
+    gl_gbuffers gbuffers;
+    const gl_host_state *host; /* during a call in a host's context, else NULL */
     uint32_t threads;   /* for tables that the CPU makes; 0: as many as this process may use */
     GLuint sky_texture;
+    GLuint vertex_array; /* empty */
     sky_state *sky;     /* of the last frame; zeroed at first */
     wave_set *waves;    /* of the pass being prepared */
     const char *pass;   /* the current one's name */

@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * How a layer of objects is drawn. The framebuffer's depth is the least depth over that of the point; its lowest row is the picture's top one.
+ */
+#include "prelude_glsl.k"
+#include "refract_types.k"
+#include "pass_data.k"
+
+layout(std140, binding = 0) uniform RefractBlock { RefractData refract_data; };
+layout(std140, binding = 1) uniform PictureBlock { PictureData picture_data; };
+layout(std140, binding = 3) uniform GbufferBlock { GbufferData gbuffer_data; };
+#define REFRACT(cx) refract_data
+#define PICTURE(cx) picture_data
+
+#include "refract_patch.k"
+
+
+/* Clip space of an image. */
+vec4 clip_of(vec3 image)
+{
+    float x = (2.0f * image.x - (picture_data.left + picture_data.right) * image.z) / (picture_data.right - picture_data.left);
+    float y = (2.0f * image.y - (picture_data.top + picture_data.bottom) * image.z) / (picture_data.bottom - picture_data.top);
+    return vec4(x, y, picture_data.least_depth, image.z);
+}
+
+/* Above 0 on the layer's side of the surface, and as far behind it as the layer goes on. */
+float clip_distance_of(vec3 p) { return p.y * gbuffer_data.side + gbuffer_data.crest; }

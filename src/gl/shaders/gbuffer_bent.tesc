@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Splits the edges that refraction bends. Each level depends on its edge alone, so that neighbours split it at the same points; n parts are off by
+ * 1/n² of what one is.
+ */
+#include "gbuffer.glsl"
+
+layout(vertices = 3) out;
+
+layout(location = 0) in vec3 corner[];
+layout(location = 1) in vec3 corner_image[];
+layout(location = 2) flat in int corner_triangle[];
+layout(location = 0) out vec3 patch_corner[];
+layout(location = 1) patch out int patch_triangle;
+
+const float MOST_PARTS = 64.0f;
+
+float parts_of_edge(int i, int j)
+{
+    vec3 a = corner[i], b = corner[j], image_a = corner_image[i], image_b = corner_image[j];
+    float squared = edge_length_squared(0, image_a, image_b);
+    if (!(squared > picture_data.short_squared))
+        return 1.0f;
+    float error = image_error_squared(0, far_image(0, scale(add(a, b), 0.5f)), scale(add(image_a, image_b), 0.5f));
+    if (squared > picture_data.long_squared)
+        error = max(error, max(quarter_error_squared(0, a, b, image_a, image_b), quarter_error_squared(0, b, a, image_b, image_a)));
+    return clamp(ceil(sqrt(sqrt(error / picture_data.error_squared))), 1.0f, MOST_PARTS);
+}
+
+void main()
+{
+    patch_corner[gl_InvocationID] = corner[gl_InvocationID];
+    patch_triangle = corner_triangle[0];
+    /* Written one by one: Mesa's llvmpipe draws nothing where the index of a level varies. */
+    float parts = parts_of_edge((gl_InvocationID + 1) % 3, (gl_InvocationID + 2) % 3);
+    if (gl_InvocationID == 0)
+        gl_TessLevelOuter[0] = parts;
+    if (gl_InvocationID == 1)
+        gl_TessLevelOuter[1] = parts;
+    if (gl_InvocationID == 2)
+        gl_TessLevelOuter[2] = parts;
+    barrier();
+    if (gl_InvocationID == 0)
+        gl_TessLevelInner[0] = max(gl_TessLevelOuter[0], max(gl_TessLevelOuter[1], gl_TessLevelOuter[2]));
+}

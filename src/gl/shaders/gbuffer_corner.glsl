@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Corners of triangles, fetched by their number: gl_PrimitiveID starts again with every part of a draw that Mesa's llvmpipe divides.
+ */
+#include "gbuffer.glsl"
+
+layout(binding = 1) uniform samplerBuffer vertex_table;
+layout(binding = 2) uniform usamplerBuffer index_table;
+
+vec3 corner_position()
+{
+    vec3 position = texelFetch(vertex_table, 2 * int(texelFetch(index_table, gl_VertexID).r)).xyz;
+    return vec3(position.x + gbuffer_data.move_x, position.y, position.z + gbuffer_data.move_z);
+}
