@@ -106,6 +106,38 @@ static PictureData picture_data(const gbuffer_job *job, const raster_grid *grid,
     };
 }
 
+static uint32_t guard_of(uint32_t size)
+{
+    const uint32_t share = (size + GUARD_SHARE - 1) / GUARD_SHARE;
+    return ((share > GUARD_LEAST ? share : GUARD_LEAST) + 15) / 16 * 16;
+}
+
+gbuffer gbuffer_shape(const gbuffer_job *job)
+{
+    const uint32_t left = guard_of(job->width), top = guard_of(job->height);
+    return (gbuffer){.width = (job->width + 2 * left + 15) / 16 * 16, .height = job->height + 2 * top, .left = left, .top = top};
+}
+
+static raster_grid grid_of(const gbuffer_job *job, const gbuffer *layer)
+{
+    return (raster_grid){
+        .width = (int32_t)layer->width,
+        .height = (int32_t)layer->height,
+        .middle_x = (int32_t)(layer->left + job->width / 2),
+        .middle_y = (int32_t)(layer->top + job->height / 2),
+        .columns = (int32_t)((layer->width + RASTER_TILE - 1) / RASTER_TILE),
+        .rows = (int32_t)((layer->height + RASTER_TILE - 1) / RASTER_TILE),
+        .least_depth = least_depth,
+    };
+}
+
+PictureData gbuffer_picture(const gbuffer_job *job)
+{
+    const gbuffer shape = gbuffer_shape(job);
+    const raster_grid grid = grid_of(job, &shape);
+    return picture_data(job, &grid, &shape);
+}
+
 /* ---- memory ---- */
 
 static void free_layer(gbuffer *layer)
@@ -115,21 +147,16 @@ static void free_layer(gbuffer *layer)
     *layer = (gbuffer){0};
 }
 
-static uint32_t guard_of(uint32_t size)
-{
-    const uint32_t share = (size + GUARD_SHARE - 1) / GUARD_SHARE;
-    return ((share > GUARD_LEAST ? share : GUARD_LEAST) + 15) / 16 * 16;
-}
-
 static bool shape_layer(gbuffer *layer, const gbuffer_job *job)
 {
-    const uint32_t left = guard_of(job->width), top = guard_of(job->height);
-    const uint32_t width = (job->width + 2 * left + 15) / 16 * 16, height = job->height + 2 * top;
-    if (layer->depth && layer->width == width && layer->height == height)
+    const gbuffer shape = gbuffer_shape(job);
+    if (layer->depth && layer->width == shape.width && layer->height == shape.height)
         return true;
     free_layer(layer);
-    const size_t count = (size_t)width * height;
-    *layer = (gbuffer){width, height, left, top, malloc(count * sizeof *layer->depth), malloc(count * sizeof *layer->triangle)};
+    const size_t count = (size_t)shape.width * shape.height;
+    *layer = shape;
+    layer->depth = malloc(count * sizeof *layer->depth);
+    layer->triangle = malloc(count * sizeof *layer->triangle);
     return layer->depth && layer->triangle;
 }
 
@@ -264,18 +291,9 @@ static bool is_drawn(const struct gbuffer_store *s, const world *w, const gbuffe
 
 static broad_view view_of(const gbuffers *g, const world *w, const gbuffer_job *job, const raster_kernels *kernels)
 {
-    const gbuffer *layer = &g->near;
     broad_view view = {.world = w, .kernels = kernels, .refract = g->refract, .images = g->store->images};
-    view.grid = (raster_grid){
-        .width = (int32_t)layer->width,
-        .height = (int32_t)layer->height,
-        .middle_x = (int32_t)(layer->left + job->width / 2),
-        .middle_y = (int32_t)(layer->top + job->height / 2),
-        .columns = (int32_t)((layer->width + RASTER_TILE - 1) / RASTER_TILE),
-        .rows = (int32_t)((layer->height + RASTER_TILE - 1) / RASTER_TILE),
-        .least_depth = least_depth,
-    };
-    view.picture = picture_data(job, &view.grid, layer);
+    view.grid = grid_of(job, &g->near);
+    view.picture = picture_data(job, &view.grid, &g->near);
     view.foot[0] = (float)(job->camera.position[0] - w->origin[0]);
     view.foot[1] = (float)(job->camera.position[2] - w->origin[1]);
     view.crest = job->map == GBUFFER_SAGITTAL ? (float)job->crest : 0;

@@ -62,7 +62,9 @@ typedef struct gbuffers {
 mgt_status gbuffers_draw(gbuffers *g, const world *w, const gbuffer_job *job, const raster_kernels *kernels, thread_pool *pool);
 void gbuffers_free(gbuffers *g);
 
-/* The uniform numbers of the map alone. */
+/* For whom draws elsewhere: a layer's shape without its memory, and the uniform numbers of the map and of the picture. */
+gbuffer gbuffer_shape(const gbuffer_job *job);
 RefractData refract_data_of(double camera_height, double index, gbuffer_map map);
+PictureData gbuffer_picture(const gbuffer_job *job);
 
 #endif

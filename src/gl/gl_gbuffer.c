@@ -2,65 +2,7 @@
  * What a camera sees of the objects, drawn by the GPU. */
 #include "gl/gl_gbuffer.h"
 
-#include <math.h>
-
 #include "gl/gl_renderer.h"
-
-/* ---- the picture ---- */
-
-typedef struct gbuffer_view {
-    uint32_t width, height, left, top;
-    RefractData refract;
-    PictureData picture;
-} gbuffer_view;
-
-static RefractData refract_data(double height, double index, gbuffer_map map)
-{
-    const double n2 = index * index, k = n2 - 1, critical = k > 0 ? 1 / sqrt(k) : 0;
-    return (RefractData){
-        .side = height >= 0 ? 1.0f : -1.0f, .distance = (float)fabs(height), .index = (float)index, .index_inverse = (float)(1 / index),
-        .index_squared = (float)n2, .excess = (float)k, .excess_root = (float)sqrt(k), .critical = (float)critical,
-        .critical_low = (float)(critical - (double)(float)critical), .map = (int)map,
-    };
-}
-
-static gbuffer_view gbuffer_view_of(const gbuffer_job *job)
-{
-    const camera_rays *c = &job->camera;
-    gbuffer_view v = {.refract = refract_data(c->position[1], job->index, job->map)};
-    v.left = (uint32_t)fmax(16, ceil(0.05 * job->width));
-    v.top = (uint32_t)fmax(16, ceil(0.05 * job->height));
-    v.width = (job->width + 2 * v.left + 15) / 16 * 16;
-    v.height = job->height + 2 * v.top;
-    const double *r = c->right, *d = c->down, *m = c->corner;
-    double inverse[3][3];
-    const double *rows[3][2] = {{d, m}, {m, r}, {r, d}};
-    for (int i = 0; i < 3; i++)
-        for (int k = 0; k < 3; k++)
-            inverse[i][k] = rows[i][0][(k + 1) % 3] * rows[i][1][(k + 2) % 3] - rows[i][0][(k + 2) % 3] * rows[i][1][(k + 1) % 3];
-    const double det = r[0] * inverse[0][0] + r[1] * inverse[0][1] + r[2] * inverse[0][2];
-    for (int i = 0; i < 9; i++)
-        inverse[i / 3][i % 3] /= det;
-    const double middle_x = job->width / 2, middle_y = job->height / 2;
-    PictureData *p = &v.picture;
-    *p = (PictureData){
-        .x_x = (float)(inverse[0][0] - middle_x * inverse[2][0]), .x_y = (float)(inverse[0][1] - middle_x * inverse[2][1]),
-        .x_z = (float)(inverse[0][2] - middle_x * inverse[2][2]),
-        .y_x = (float)(inverse[1][0] - middle_y * inverse[2][0]), .y_y = (float)(inverse[1][1] - middle_y * inverse[2][1]),
-        .y_z = (float)(inverse[1][2] - middle_y * inverse[2][2]),
-        .z_x = (float)inverse[2][0], .z_y = (float)inverse[2][1], .z_z = (float)inverse[2][2],
-        .eye_height = (float)c->position[1],
-        .focal = (float)(1 / sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2])),
-        .cosine_squared = 0.25f,
-        .left = (float)(-middle_x - v.left - 0.5), .top = (float)(-middle_y - v.top - 0.5),
-        .least_depth = 1e-3f,
-        .error_squared = (float)(job->error > 0 ? job->error * job->error : 0.0625),
-        .short_squared = 1, .long_squared = 64 * 64,
-    };
-    p->right = p->left + (float)v.width;
-    p->bottom = p->top + (float)v.height;
-    return v;
-}
 
 /* ---- memory ---- */
 
@@ -158,13 +100,13 @@ mgt_status gl_gbuffers_draw(gl_renderer *g, const gbuffer_job *job, const report
     const gl_api *gl = &g->gl;
     gl_gbuffers *b = &g->gbuffers;
     const world *w = g->objects.world;
-    const gbuffer_view view = gbuffer_view_of(job);
-    b->width = view.width;
-    b->height = view.height;
-    b->left = view.left;
-    b->top = view.top;
-    b->refract = view.refract;
-    b->picture = view.picture;
+    const gbuffer shape = gbuffer_shape(job);
+    b->width = shape.width;
+    b->height = shape.height;
+    b->left = shape.left;
+    b->top = shape.top;
+    b->refract = refract_data_of(job->camera.position[1], job->index, job->map);
+    b->picture = gbuffer_picture(job);
     mgt_status status = reserve_layer(gl, &b->near, b->width, b->height, r);
     if (status == MGT_OK)
         status = reserve_layer(gl, &b->far, b->width, b->height, r);
@@ -180,7 +122,7 @@ mgt_status gl_gbuffers_draw(gl_renderer *g, const gbuffer_job *job, const report
     begin_drawing(g, b);
     status = draw_layer(g, &b->near, false, &data, r);
     data.side = -data.side;
-    data.crest = (float)job->crest;
+    data.crest = job->map == GBUFFER_SAGITTAL ? (float)job->crest : 0;
     if (status == MGT_OK)
         status = draw_layer(g, &b->far, b->refract.map != 0, &data, r);
     end_drawing(g);

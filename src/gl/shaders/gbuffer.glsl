@@ -18,8 +18,9 @@ layout(std140, binding = 3) uniform GbufferBlock { GbufferData gbuffer_data; };
 /* Clip space of an image. */
 vec4 clip_of(vec3 image)
 {
-    float x = (2.0f * image.x - (picture_data.left + picture_data.right) * image.z) / (picture_data.right - picture_data.left);
-    float y = (2.0f * image.y - (picture_data.top + picture_data.bottom) * image.z) / (picture_data.bottom - picture_data.top);
+    /* The borders lie half a pixel outside of the outermost pixels. */
+    float x = (2.0f * image.x - (picture_data.left + picture_data.right) * image.z) / (picture_data.right - picture_data.left - 1.0f);
+    float y = (2.0f * image.y - (picture_data.top + picture_data.bottom) * image.z) / (picture_data.bottom - picture_data.top - 1.0f);
     return vec4(x, y, picture_data.least_depth, image.z);
 }
 

@@ -24,7 +24,11 @@ float parts_of_edge(int i, int j)
     float error = image_error_squared(0, far_image(0, scale(add(a, b), 0.5f)), scale(add(image_a, image_b), 0.5f));
     if (squared > picture_data.long_squared)
         error = max(error, max(quarter_error_squared(0, a, b, image_a, image_b), quarter_error_squared(0, b, a, image_b, image_a)));
-    return clamp(ceil(sqrt(sqrt(error / picture_data.error_squared))), 1.0f, MOST_PARTS);
+    float parts = ceil(sqrt(sqrt(error / picture_data.error_squared)));
+    /* From below, images run along the edge of Snell's window where the edge meets the surface. */
+    if (refract_data.side < 0.0f && (a.y < 0.0f) != (b.y < 0.0f))
+        parts = max(parts, ceil(0.5f * sqrt(squared)));
+    return clamp(parts, 1.0f, MOST_PARTS);
 }
 
 void main()
