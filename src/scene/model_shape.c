@@ -16,8 +16,7 @@ typedef struct point {
 /* A rectangle along the axes: a corner and its two neighbours, u and v; its front is where (u - corner) × (v - corner) points. */
 typedef struct face {
     point corner, u, v;
-    double s, t; /* texture coordinates of the corner, … */
-    double down; /* … and how t grows towards v: 1 or -1 */
+    double s, t; /* texture coordinates of the corner; s grows towards u, t away from v, as pictures go down */
 } face;
 
 /* Where faces go: with no mesh they are only counted. `cell`: the longest side of a grid's fields. */
@@ -76,7 +75,7 @@ static void add_face(face_sink *sink, face f)
             p[2] = place(f.corner.z, f.u.z, f.v.z, i, columns, j, rows);
             memcpy(sink->mesh->normals + 3 * at, normal, sizeof normal);
             st[0] = (float)between(f.s, f.s + width, i, columns);
-            st[1] = (float)between(f.t, f.t + f.down * height, j, rows);
+            st[1] = (float)between(f.t, f.t - height, j, rows);
         }
     uint32_t *index = sink->mesh->indices + 3 * triangle;
     for (size_t j = 0; j < rows; j++)
@@ -89,33 +88,33 @@ static void add_face(face_sink *sink, face f)
 /* Seen from above and from below. */
 static face level_face(double x0, double x1, double y, double z0, double z1)
 {
-    return (face){.corner = {x0, y, z1}, .u = {x1, y, z1}, .v = {x0, y, z0}, .s = x0, .t = z1, .down = -1};
+    return (face){.corner = {x0, y, z1}, .u = {x1, y, z1}, .v = {x0, y, z0}, .s = x0, .t = z1};
 }
 
 static face ceiling_face(double x0, double x1, double y, double z0, double z1)
 {
-    return (face){.corner = {x0, y, z0}, .u = {x1, y, z0}, .v = {x0, y, z1}, .s = x0, .t = z0, .down = 1};
+    return (face){.corner = {x0, y, z0}, .u = {x1, y, z0}, .v = {x0, y, z1}, .s = x0, .t = -z0};
 }
 
 /* Upright, at z and seen from +z, from -z; at x and seen from +x, from -x. */
 static face south_face(double x0, double x1, double y0, double y1, double z)
 {
-    return (face){.corner = {x0, y0, z}, .u = {x1, y0, z}, .v = {x0, y1, z}, .s = x0, .t = -y0, .down = -1};
+    return (face){.corner = {x0, y0, z}, .u = {x1, y0, z}, .v = {x0, y1, z}, .s = x0, .t = -y0};
 }
 
 static face north_face(double x0, double x1, double y0, double y1, double z)
 {
-    return (face){.corner = {x1, y0, z}, .u = {x0, y0, z}, .v = {x1, y1, z}, .s = -x1, .t = -y0, .down = -1};
+    return (face){.corner = {x1, y0, z}, .u = {x0, y0, z}, .v = {x1, y1, z}, .s = -x1, .t = -y0};
 }
 
 static face east_face(double x, double y0, double y1, double z0, double z1)
 {
-    return (face){.corner = {x, y0, z1}, .u = {x, y0, z0}, .v = {x, y1, z1}, .s = -z1, .t = -y0, .down = -1};
+    return (face){.corner = {x, y0, z1}, .u = {x, y0, z0}, .v = {x, y1, z1}, .s = -z1, .t = -y0};
 }
 
 static face west_face(double x, double y0, double y1, double z0, double z1)
 {
-    return (face){.corner = {x, y0, z0}, .u = {x, y0, z1}, .v = {x, y1, z0}, .s = z0, .t = -y0, .down = -1};
+    return (face){.corner = {x, y0, z0}, .u = {x, y0, z1}, .v = {x, y1, z0}, .s = z0, .t = -y0};
 }
 
 /* ---- shapes of faces ---------------------------------------------------------------------------------------- */
