@@ -516,7 +516,7 @@ static mgt_status render_picture(cpu_state *s, const reporter *r, const mgt_scen
         const bool objects = scene->object_count > 0;
         frame_waves_build(&job.frame, s->waves);
         if (objects)
-            status = refraction_prepare(&s->objects, r, &job.frame, s->sky, s->kernels, s->pool);
+            status = refraction_prepare(&s->objects, r, &job.frame, s->sky, s->kernels, s->isa, s->pool);
         job.tiles = (tile_job){.frame = &job.frame,
                                .waves = s->waves,
                                .kernels = s->kernels,

@@ -88,16 +88,31 @@ static void store_vector(float (*planes)[TILE_PIXELS], size_t i, vec3 v)
     store(planes[2] + i, v.z);
 }
 
+/* Whether what a layer shows breaks off next to a pixel: the inverse of the depth is straight over the screen wherever a plane goes on. */
+static bool breaks_off(const narrow_scene *n, const gbuffer *g, size_t x, size_t y)
+{
+    if (x == 0 || y == 0 || x + 1 >= g->width || y + 1 >= g->height)
+        return true;
+    const float *d = g->depth + y * g->width + x;
+    const float here = 1 / d[0], across = 1 / d[-1] + 1 / d[1] - 2 * here, down = 1 / *(d - g->width) + 1 / d[g->width] - 2 * here;
+    const float limit = 6 * here / n->data.focal;
+    return !(fabsf(across) <= limit && fabsf(down) <= limit);
+}
+
 /* `layer`: 1 for all lanes where `mirrored`, 0 elsewhere; `wet`: metres in water. */
 static void store_found(const struct kernel_context *cx, tile_ends *out, size_t i, WaterHit hit, FoundPoint f, mask mirrored, real wet)
 {
     const narrow_scene *n = cx->narrow;
-    float x[MGT_LANES], y[MGT_LANES], shown[MGT_LANES], layer[MGT_LANES];
-    store(x, f.column), store(y, f.row), store(shown, f.shown);
+    float x[MGT_LANES], y[MGT_LANES], shown[MGT_LANES], layer[MGT_LANES], residual[MGT_LANES];
+    store(x, f.column), store(y, f.row), store(shown, f.shown), store(residual, f.residual);
     store(layer, SELECT(mirrored, real(1.0f), real(0.0f)));
     for (size_t lane = 0; lane < MGT_LANES; lane++) {
         const gbuffer *g = n->layers[layer[lane] > 0];
         out->triangle[i + lane] = shown[lane] > 0 ? g->triangle[(size_t)y[lane] * g->width + (size_t)x[lane]] : -1;
+        if (n->data.method == MGT_REFRACTION_HYBRID) {
+            const bool sure = layer[lane] == 0 && residual[lane] < 1.5f;
+            out->doubt[i + lane] = sure && !breaks_off(n, g, (size_t)x[lane], (size_t)y[lane]) ? 0 : 1;
+        }
     }
     const vec3 position = turned(cx, f.position);
     store_vector(out->position, i, vec3(position.x + n->data.foot_x, position.y, position.z + n->data.foot_z));

@@ -1,31 +1,15 @@
 /* SPDX-License-Identifier: MIT
- * Scenes with objects: what the pixels of a tile see of them.
+ * Scenes with objects: everything that a frame needs before its tiles.
  *
  * A frame draws three pictures of the objects: those on the camera's side of the water where they stand (near), those beyond it where the flat
  * surface shows them (far), and those on the camera's side where it mirrors them. The mirrored picture is the far one of a camera that is itself
  * mirrored. Tiles then look points up in them for the waves as they are, and shade these. */
-#include "cpu/refraction.h"
-
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "cpu/refraction_state.h"
 #include "cpu/shade_lanes.h"
-
-struct refraction {
-    world *world;
-    gbuffers direct, mirrored; /* the camera's layers, and those of its mirror image */
-    float *planes;             /* 4 a triangle */
-    size_t plane_room;         /* triangles */
-    uint64_t plane_version;    /* of the world that they are of */
-    shade_scene *shade;
-    narrow_scene narrow;
-    const lane_kernels *kernels;
-    const frame *frame;
-    camera_rays camera;        /* as it is, not mirrored */
-    bool mirrors;              /* something stands on the camera's side */
-    bool needs_far;
-};
 
 void refraction_free(refraction *r)
 {
@@ -35,11 +19,11 @@ void refraction_free(refraction *r)
     gbuffers_free(&r->mirrored);
     shade_free(r->shade);
     world_free(r->world);
+    trace_scene_free(r->trace);
+    refraction_truth_free(r->truth);
     free(r->planes);
     free(r);
 }
-
-/* ---- a frame ---- */
 
 static gbuffer_map map_of(mgt_refraction method)
 {
@@ -182,8 +166,42 @@ static mgt_status draw_layers(refraction *r, thread_pool *pool)
     return status;
 }
 
+static bool traces(mgt_refraction method)
+{
+    return method == MGT_REFRACTION_HYBRID || method == MGT_REFRACTION_TRUTH;
+}
+
+static mgt_status prepare_trace(refraction *r, const reporter *report, uint32_t threads)
+{
+    const world *w = r->world;
+    if (!traces(r->frame->scene->quality.refraction))
+        return MGT_OK;
+    const trace_triangles triangles = {w->triangle_count, w->vertex_count, w->positions, w->indices, w->version};
+    return trace_scene_update(&r->trace, &triangles, threads, report);
+}
+
+static mgt_status prepare_truth(refraction *r, const reporter *report, mgt_isa isa, uint32_t threads)
+{
+    refraction_truth_free(r->truth);
+    r->truth = NULL;
+    if (r->frame->scene->quality.refraction != MGT_REFRACTION_TRUTH)
+        return MGT_OK;
+    const truth_job job = {
+        .scene = r->frame->scene,
+        .camera = r->camera,
+        .world = r->world,
+        .trace = r->trace,
+        .shade = shade_points,
+        .user = r->shade,
+        .isa = isa,
+        .workers = threads,
+    };
+    const mgt_status status = refraction_truth_create(&r->truth, &job);
+    return status == MGT_OK ? MGT_OK : report_error(report, status, "render.truth", "the ground truth of refraction: %s", mgt_status_text(status));
+}
+
 mgt_status refraction_prepare(refraction **state, const reporter *report, const frame *f, const sky_state *sky, const lane_kernels *kernels,
-                              thread_pool *pool)
+                              mgt_isa isa, thread_pool *pool)
 {
     if (!*state && !(*state = calloc(1, sizeof **state)))
         goto out_of_memory;
@@ -198,203 +216,10 @@ mgt_status refraction_prepare(refraction **state, const reporter *report, const 
                                .refract = r->direct.refract,
                                .layers = {&r->direct.far, r->mirrors ? &r->mirrored.far : &r->direct.far},
                                .planes = r->planes};
-    return MGT_OK;
+    atomic_store(&r->pixels, 0);
+    atomic_store(&r->traced, 0);
+    const mgt_status status = prepare_trace(r, report, thread_pool_size(pool));
+    return status == MGT_OK ? prepare_truth(r, report, isa, thread_pool_size(pool)) : status;
 out_of_memory:
     return report_error(report, MGT_ERROR_MEMORY, "render.memory", "out of memory for the scene's objects");
-}
-
-/* ---- light of lists of ends ---- */
-
-static void take(float *plane, const uint16_t *list, size_t count)
-{
-    for (size_t i = 0; i < count; i++)
-        plane[i] = plane[list[i]];
-}
-
-/* Radiance of the listed pixels' ends, 3 floats each, in the list's order; the ends move together. The list rises. */
-static void shade_listed(const refraction *r, tile_objects *o, size_t count)
-{
-    tile_ends *e = &o->ends;
-    if (count < TILE_PIXELS) {
-        for (size_t i = 0; i < count; i++)
-            e->triangle[i] = e->triangle[o->list[i]];
-        for (int k = 0; k < 3; k++) {
-            take(e->position[k], o->list, count);
-            take(e->direction[k], o->list, count);
-            take(e->slopes[k], o->list, count);
-        }
-        take(e->before, o->list, count);
-        take(e->after, o->list, count);
-        take(e->water, o->list, count);
-    }
-    const shade_hits hits = {
-        .count = count,
-        .triangle = e->triangle,
-        .position = {e->position[0], e->position[1], e->position[2]},
-        .direction = {e->direction[0], e->direction[1], e->direction[2]},
-        .before = e->before,
-        .after = e->after,
-        .water = e->water,
-        .slopes = {e->slopes[0], e->slopes[1], e->slopes[2]},
-    };
-    shade_points(r->shade, &hits, o->rgb);
-}
-
-static void spread_light(const tile_objects *o, size_t count, float (*planes)[TILE_PIXELS])
-{
-    for (size_t i = 0; i < count; i++)
-        for (int k = 0; k < 3; k++)
-            planes[k][o->list[i]] = o->rgb[3 * i + (size_t)k];
-}
-
-/* ---- in front of the water ---- */
-
-/* The near layer's element at a pixel of the tile, SIZE_MAX outside of the image. */
-static size_t near_element(const refraction *r, uint32_t column, uint32_t row)
-{
-    const gbuffer *g = &r->direct.near;
-    const mgt_image *image = &r->frame->scene->image;
-    if (column >= image->width || row >= image->height)
-        return SIZE_MAX;
-    return (size_t)(g->top + row) * g->width + g->left + column;
-}
-
-static void see_near_pixel(const refraction *r, uint32_t column, uint32_t row, size_t element, size_t i, size_t at, tile_objects *o)
-{
-    const gbuffer *g = &r->direct.near;
-    const camera_rays *c = &r->camera;
-    tile_ends *e = &o->ends;
-    double ray[3], squared = 0;
-    for (int k = 0; k < 3; k++) {
-        ray[k] = c->corner[k] + column * c->right[k] + row * c->down[k];
-        squared += ray[k] * ray[k];
-    }
-    const double depth = (double)g->depth[element], length = sqrt(squared);
-    const double foot[3] = {c->position[0] - r->world->origin[0], c->position[1], c->position[2] - r->world->origin[1]};
-    const float *plane = r->planes + 4 * (size_t)g->triangle[element];
-    const double facing = (double)plane[0] * ray[0] + (double)plane[1] * ray[1] + (double)plane[2] * ray[2];
-    e->triangle[at] = g->triangle[element];
-    for (int k = 0; k < 3; k++) {
-        e->position[k][at] = (float)(foot[k] + depth * ray[k]);
-        e->direction[k][at] = (float)(ray[k] / length);
-        e->slopes[k][at] = 0;
-        o->normal[k][i] = facing > 0 ? -plane[k] : plane[k];
-    }
-    e->before[at] = (float)(depth * length);
-    e->after[at] = 0;
-    e->water[at] = r->frame->under ? e->before[at] : 0;
-    o->along[i] = e->before[at];
-}
-
-static void see_near(const refraction *r, uint32_t column, uint32_t row, tile_objects *o)
-{
-    size_t count = 0;
-    for (uint32_t i = 0; i < TILE_PIXELS; i++) {
-        const uint32_t x = column + i % TILE_WIDTH, y = row + i / TILE_WIDTH;
-        const size_t element = near_element(r, x, y);
-        o->share[i] = 0;
-        o->along[i] = INFINITY;
-        if (element == SIZE_MAX || r->direct.near.triangle[element] < 0)
-            continue;
-        see_near_pixel(r, x, y, element, i, count, o);
-        if (o->water.share[i] > 0 && o->along[i] >= o->water.along[i]) {
-            o->along[i] = INFINITY;
-            continue;
-        }
-        o->share[i] = 1;
-        o->list[count++] = (uint16_t)i;
-    }
-    if (count == 0)
-        return;
-    uint16_t kept[TILE_PIXELS];
-    memcpy(kept, o->list, count * sizeof *kept);
-    for (size_t i = 0; i < count; i++)
-        o->list[i] = (uint16_t)i;
-    shade_listed(r, o, count);
-    memcpy(o->list, kept, count * sizeof *kept);
-    spread_light(o, count, o->color);
-}
-
-/* ---- through the surface ---- */
-
-static size_t list_water(tile_objects *o)
-{
-    size_t count = 0;
-    for (uint32_t i = 0; i < TILE_PIXELS; i++)
-        if (o->water.share[i] > 0)
-            o->list[count++] = (uint16_t)i;
-    return count;
-}
-
-static void keep_layers(tile_objects *o)
-{
-    for (size_t i = 0; i < TILE_PIXELS; i++) {
-        const bool seen = o->water.share[i] > 0 && o->share[i] < 0.5f;
-        for (int k = 0; k < 3; k++)
-            o->refraction[k][i] = seen ? o->light.body[k][i] : 0;
-        o->error[i] = seen ? o->error[i] : 0;
-    }
-}
-
-static void see_mirrored(const refraction *r, const tile_offset *at, size_t count, tile_objects *o)
-{
-    memset(o->light.mirrored, 0, sizeof o->light.mirrored);
-    memset(o->light.share, 0, sizeof o->light.share);
-    if (!r->mirrors || count == 0)
-        return;
-    r->kernels->narrow->mirrored(&r->narrow, at, &o->water, &o->ends);
-    for (size_t i = 0; i < count; i++)
-        o->light.share[o->list[i]] = r->frame->under || o->ends.triangle[o->list[i]] >= 0 ? 1 : 0;
-    shade_listed(r, o, count);
-    spread_light(o, count, o->light.mirrored);
-    for (size_t i = 0; i < TILE_PIXELS; i++)
-        for (int k = 0; k < 3; k++)
-            o->light.mirrored[k][i] *= o->light.share[i];
-}
-
-void refraction_tile(const refraction *r, const tile_waves *waves, const tile_guess *guess, uint32_t tile_x, uint32_t tile_y, tile_objects *o)
-{
-    const tile_offset at = {tile_x * TILE_WIDTH, tile_y * TILE_HEIGHT, 0, 0};
-    r->kernels->narrow->water(&r->frame->data, waves, guess, &at, &o->water);
-    size_t count = list_water(o);
-    memset(o->light.body, 0, sizeof o->light.body);
-    if (count > 0) {
-        r->kernels->narrow->refracted(&r->narrow, &at, &o->water, &o->ends);
-        memcpy(o->error, o->ends.error, sizeof o->error);
-        shade_listed(r, o, count);
-        spread_light(o, count, o->light.body);
-    }
-    see_mirrored(r, &at, count, o);
-    see_near(r, at.column, at.row, o);
-    keep_layers(o);
-}
-
-/* ---- over the water ---- */
-
-static void put_before(float *below, const float *above, const float *share)
-{
-    for (size_t i = 0; i < TILE_PIXELS; i++)
-        below[i] = share[i] > 0 ? below[i] + share[i] * (above[i] - below[i]) : below[i];
-}
-
-void refraction_compose(const tile_objects *o, tile_pixels *pixels, tile_surface *surface)
-{
-    if (pixels) {
-        put_before(pixels->red, o->color[0], o->share);
-        put_before(pixels->green, o->color[1], o->share);
-        put_before(pixels->blue, o->color[2], o->share);
-        for (size_t i = 0; i < TILE_PIXELS; i++) {
-            pixels->coverage[i] *= 1 - o->share[i];
-            pixels->water[i] *= 1 - o->share[i];
-        }
-    }
-    if (!surface)
-        return;
-    for (size_t i = 0; i < TILE_PIXELS; i++)
-        if (o->share[i] >= 0.5f) {
-            surface->along[i] = o->along[i];
-            surface->normal_x[i] = o->normal[0][i];
-            surface->normal_y[i] = o->normal[1][i];
-            surface->normal_z[i] = o->normal[2][i];
-        }
 }

@@ -6,6 +6,7 @@
 #include "core/backend.h"
 #include "cpu/narrow_lanes.h"
 #include "cpu/shade.h"
+#include "reference/refraction_truth.h"
 
 /* What objects are to the pixels of a tile. */
 typedef struct tile_objects {
@@ -23,6 +24,9 @@ typedef struct tile_objects {
     tile_ends ends;
     float rgb[3 * TILE_PIXELS];
     uint16_t list[TILE_PIXELS];
+    trace_ray rays[TILE_PIXELS];
+    trace_hit hits[TILE_PIXELS];
+    truth_pixels truth;
 } tile_objects;
 
 typedef struct refraction refraction;
@@ -32,11 +36,12 @@ typedef struct refraction refraction;
  * between frames. The frame, its scene and the sky must outlive the tiles. On failure the report says why.
  */
 mgt_status refraction_prepare(refraction **r, const reporter *report, const frame *f, const sky_state *sky, const lane_kernels *kernels,
-                              thread_pool *pool);
+                              mgt_isa isa, thread_pool *pool);
 void refraction_free(refraction *r); /* NULL is allowed */
 
-/* Objects in the tile (tile_x, tile_y). `waves` and `guess`: sorted for the tile, filtered, at the instant t. Any number of tiles at once. */
-void refraction_tile(const refraction *r, const tile_waves *waves, const tile_guess *guess, uint32_t tile_x, uint32_t tile_y, tile_objects *out);
+/* Objects in the tile (tile_x, tile_y). `waves` and `guess`: sorted for the tile, filtered, at the instant t. One call a worker at a time. */
+void refraction_tile(refraction *r, const tile_waves *waves, const tile_guess *guess, uint32_t tile_x, uint32_t tile_y, uint32_t worker,
+                     tile_objects *out);
 
 /* Puts what stands in front before a tile's pixels, and before its layers of depth and normals; either may be NULL. */
 void refraction_compose(const tile_objects *o, tile_pixels *pixels, tile_surface *surface);

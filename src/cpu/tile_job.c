@@ -225,7 +225,7 @@ void tile_render(const tile_job *job, uint32_t tile_x, uint32_t tile_y, tile_scr
     const mgt_method method = job->frame->scene->quality.method;
     if (job->objects) {
         build(place, &job->waves->now, &scratch->close, &scratch->close_guess);
-        refraction_tile(job->objects, &scratch->close, &scratch->close_guess, tile_x, tile_y, &scratch->objects);
+        refraction_tile(job->objects, &scratch->close, &scratch->close_guess, tile_x, tile_y, scratch->worker, &scratch->objects);
     }
     if (job->wants.pixels && is_filtered(method) && job->frame->scene->quality.path_segments > 1)
         render_segments(place, scratch);

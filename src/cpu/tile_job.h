@@ -48,7 +48,7 @@ typedef struct tile_job {
     bool (*keep_going)(void *argument, uint32_t worker);
     void *keep_going_argument;
     const struct lean_map *lean; /* filled, for methods lean and leadr; else NULL */
-    const refraction *objects;   /* prepared for the frame; NULL: the scene has none */
+    refraction *objects;         /* prepared for the frame; NULL: the scene has none */
 } tile_job;
 
 /* Fills scratch->pixels and scratch->surface for the tile (tile_x, tile_y) of the lattice. Not for the reference. */

@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: MIT
+ * What a frame with objects keeps for its tiles, and between frames. */
+#ifndef MANGATA_CPU_REFRACTION_STATE_H
+#define MANGATA_CPU_REFRACTION_STATE_H
+
+#include <stdatomic.h>
+
+#include "cpu/refraction.h"
+#include "reference/refraction_truth.h"
+#include "trace/trace.h"
+
+struct refraction {
+    world *world;
+    gbuffers direct, mirrored; /* the camera's layers, and those of its mirror image */
+    float *planes;             /* 4 a triangle */
+    size_t plane_room;         /* triangles */
+    uint64_t plane_version;    /* of the world that they are of */
+    shade_scene *shade;
+    trace_scene *trace;        /* NULL until a method traces */
+    refraction_truth *truth;   /* of this frame, for that method */
+    narrow_scene narrow;
+    const lane_kernels *kernels;
+    const frame *frame;
+    camera_rays camera;        /* as it is, not mirrored */
+    bool mirrors;              /* something stands on the camera's side */
+    atomic_size_t pixels, traced; /* of water, of this frame; and rays traced through them */
+};
+
+#endif

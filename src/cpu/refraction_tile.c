@@ -1,0 +1,268 @@
+/* SPDX-License-Identifier: MIT
+ * Scenes with objects: what the pixels of a tile see of them. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cpu/refraction_state.h"
+
+/* ---- light of lists of ends ---- */
+
+static void take(float *plane, const uint16_t *list, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        plane[i] = plane[list[i]];
+}
+
+/* Radiance of the listed pixels' ends, 3 floats each, in the list's order; the ends move together. The list rises. */
+static void shade_listed(const refraction *r, tile_objects *o, size_t count)
+{
+    tile_ends *e = &o->ends;
+    if (count < TILE_PIXELS) {
+        for (size_t i = 0; i < count; i++)
+            e->triangle[i] = e->triangle[o->list[i]];
+        for (int k = 0; k < 3; k++) {
+            take(e->position[k], o->list, count);
+            take(e->direction[k], o->list, count);
+            take(e->slopes[k], o->list, count);
+        }
+        take(e->before, o->list, count);
+        take(e->after, o->list, count);
+        take(e->water, o->list, count);
+    }
+    const shade_hits hits = {
+        .count = count,
+        .triangle = e->triangle,
+        .position = {e->position[0], e->position[1], e->position[2]},
+        .direction = {e->direction[0], e->direction[1], e->direction[2]},
+        .before = e->before,
+        .after = e->after,
+        .water = e->water,
+        .slopes = {e->slopes[0], e->slopes[1], e->slopes[2]},
+    };
+    shade_points(r->shade, &hits, o->rgb);
+}
+
+static void spread_light(const tile_objects *o, size_t count, float (*planes)[TILE_PIXELS])
+{
+    for (size_t i = 0; i < count; i++)
+        for (int k = 0; k < 3; k++)
+            planes[k][o->list[i]] = o->rgb[3 * i + (size_t)k];
+}
+
+/* ---- in front of the water ---- */
+
+/* The near layer's element at a pixel of the tile, SIZE_MAX outside of the image. */
+static size_t near_element(const refraction *r, uint32_t column, uint32_t row)
+{
+    const gbuffer *g = &r->direct.near;
+    const mgt_image *image = &r->frame->scene->image;
+    if (column >= image->width || row >= image->height)
+        return SIZE_MAX;
+    return (size_t)(g->top + row) * g->width + g->left + column;
+}
+
+static void see_near_pixel(const refraction *r, uint32_t column, uint32_t row, size_t element, size_t i, size_t at, tile_objects *o)
+{
+    const gbuffer *g = &r->direct.near;
+    const camera_rays *c = &r->camera;
+    tile_ends *e = &o->ends;
+    double ray[3], squared = 0;
+    for (int k = 0; k < 3; k++) {
+        ray[k] = c->corner[k] + column * c->right[k] + row * c->down[k];
+        squared += ray[k] * ray[k];
+    }
+    const double depth = (double)g->depth[element], length = sqrt(squared);
+    const double foot[3] = {c->position[0] - r->world->origin[0], c->position[1], c->position[2] - r->world->origin[1]};
+    const float *plane = r->planes + 4 * (size_t)g->triangle[element];
+    const double facing = (double)plane[0] * ray[0] + (double)plane[1] * ray[1] + (double)plane[2] * ray[2];
+    e->triangle[at] = g->triangle[element];
+    for (int k = 0; k < 3; k++) {
+        e->position[k][at] = (float)(foot[k] + depth * ray[k]);
+        e->direction[k][at] = (float)(ray[k] / length);
+        e->slopes[k][at] = 0;
+        o->normal[k][i] = facing > 0 ? -plane[k] : plane[k];
+    }
+    e->before[at] = (float)(depth * length);
+    e->after[at] = 0;
+    e->water[at] = r->frame->under ? e->before[at] : 0;
+    o->along[i] = e->before[at];
+}
+
+static void see_near(const refraction *r, uint32_t column, uint32_t row, tile_objects *o)
+{
+    size_t count = 0;
+    for (uint32_t i = 0; i < TILE_PIXELS; i++) {
+        const uint32_t x = column + i % TILE_WIDTH, y = row + i / TILE_WIDTH;
+        const size_t element = near_element(r, x, y);
+        o->share[i] = 0;
+        o->along[i] = INFINITY;
+        if (element == SIZE_MAX || r->direct.near.triangle[element] < 0)
+            continue;
+        see_near_pixel(r, x, y, element, i, count, o);
+        if (o->water.share[i] > 0 && o->along[i] >= o->water.along[i]) {
+            o->along[i] = INFINITY;
+            continue;
+        }
+        o->share[i] = 1;
+        o->list[count++] = (uint16_t)i;
+    }
+    if (count == 0)
+        return;
+    uint16_t kept[TILE_PIXELS];
+    memcpy(kept, o->list, count * sizeof *kept);
+    for (size_t i = 0; i < count; i++)
+        o->list[i] = (uint16_t)i;
+    shade_listed(r, o, count);
+    memcpy(o->list, kept, count * sizeof *kept);
+    spread_light(o, count, o->color);
+}
+
+/* ---- through the surface ---- */
+
+static size_t list_water(tile_objects *o)
+{
+    size_t count = 0;
+    for (uint32_t i = 0; i < TILE_PIXELS; i++)
+        if (o->water.share[i] > 0)
+            o->list[count++] = (uint16_t)i;
+    return count;
+}
+
+static void keep_layers(tile_objects *o)
+{
+    for (size_t i = 0; i < TILE_PIXELS; i++) {
+        const bool seen = o->water.share[i] > 0 && o->share[i] < 0.5f;
+        for (int k = 0; k < 3; k++)
+            o->refraction[k][i] = seen ? o->light.body[k][i] : 0;
+        o->error[i] = seen ? o->error[i] : 0;
+    }
+}
+
+/* Uncertain pixels are traced together: which ones depends on the tile alone. */
+static void trace_doubtful(refraction *r, tile_objects *o, size_t count)
+{
+    tile_ends *e = &o->ends;
+    const camera_rays *c = &r->camera;
+    const double foot[3] = {c->position[0] - r->world->origin[0], c->position[1], c->position[2] - r->world->origin[1]};
+    const double side = r->frame->under ? -1 : 1;
+    size_t doubtful = 0;
+    uint16_t list[TILE_PIXELS];
+    for (size_t k = 0; k < count; k++) {
+        const size_t i = o->list[k];
+        if (e->doubt[i] == 0)
+            continue;
+        trace_ray *ray = &o->rays[doubtful];
+        const double along = (double)o->water.along[i];
+        for (int axis = 0; axis < 3; axis++) {
+            const double view = (double)o->water.view[axis][i] * (axis == 1 ? side : 1);
+            ray->origin[axis] = (float)(foot[axis] + along * view);
+            ray->direction[axis] = e->direction[axis][i];
+        }
+        ray->least = 1e-4f;
+        ray->most = INFINITY;
+        list[doubtful++] = (uint16_t)i;
+    }
+    if (doubtful == 0)
+        return;
+    trace_nearest(r->trace, doubtful, o->rays, o->hits);
+    for (size_t k = 0; k < doubtful; k++) {
+        const size_t i = list[k];
+        const bool found = o->hits[k].triangle >= 0;
+        e->triangle[i] = o->hits[k].triangle;
+        e->after[i] = found ? o->hits[k].along : 0;
+        for (int axis = 0; axis < 3 && found; axis++)
+            e->position[axis][i] = o->rays[k].origin[axis] + e->after[i] * e->direction[axis][i];
+        if (!r->frame->under)
+            e->water[i] = e->after[i];
+        else
+            e->water[i] = o->water.along[i] + (e->total[i] > 0 ? e->after[i] : 0);
+        e->error[i] = 0;
+    }
+    atomic_fetch_add_explicit(&r->traced, doubtful, memory_order_relaxed);
+}
+
+static void see_mirrored(const refraction *r, const tile_offset *at, size_t count, tile_objects *o)
+{
+    memset(o->light.mirrored, 0, sizeof o->light.mirrored);
+    memset(o->light.share, 0, sizeof o->light.share);
+    if (!r->mirrors || count == 0 || r->truth)
+        return;
+    r->kernels->narrow->mirrored(&r->narrow, at, &o->water, &o->ends);
+    for (size_t i = 0; i < count; i++)
+        o->light.share[o->list[i]] = r->frame->under || o->ends.triangle[o->list[i]] >= 0 ? 1 : 0;
+    shade_listed(r, o, count);
+    spread_light(o, count, o->light.mirrored);
+    for (size_t i = 0; i < TILE_PIXELS; i++)
+        for (int k = 0; k < 3; k++)
+            o->light.mirrored[k][i] *= o->light.share[i];
+}
+
+/* The ground truth in place of what the pictures tell, for what the surface mirrors too. */
+static void see_truth(const refraction *r, uint32_t tile_x, uint32_t tile_y, uint32_t worker, tile_objects *o)
+{
+    const bool mirrored = r->mirrors;
+    refraction_truth_tile(r->truth, tile_x, tile_y, worker, mirrored, &o->truth);
+    const truth_pixels *t = &o->truth;
+    for (size_t i = 0; i < TILE_PIXELS; i++) {
+        o->light.body[0][i] = t->red[i], o->light.body[1][i] = t->green[i], o->light.body[2][i] = t->blue[i];
+        o->error[i] = 0;
+        if (!mirrored || t->water[i] == 0)
+            continue;
+        o->light.mirrored[0][i] = t->mirrored_red[i], o->light.mirrored[1][i] = t->mirrored_green[i], o->light.mirrored[2][i] = t->mirrored_blue[i];
+        o->light.share[i] = 1;
+    }
+}
+
+void refraction_tile(refraction *r, const tile_waves *waves, const tile_guess *guess, uint32_t tile_x, uint32_t tile_y, uint32_t worker,
+                     tile_objects *o)
+{
+    const tile_offset at = {tile_x * TILE_WIDTH, tile_y * TILE_HEIGHT, 0, 0};
+    r->kernels->narrow->water(&r->frame->data, waves, guess, &at, &o->water);
+    const size_t count = list_water(o);
+    atomic_fetch_add_explicit(&r->pixels, count, memory_order_relaxed);
+    memset(o->light.body, 0, sizeof o->light.body);
+    if (count > 0 && !r->truth) {
+        r->kernels->narrow->refracted(&r->narrow, &at, &o->water, &o->ends);
+        if (r->frame->scene->quality.refraction == MGT_REFRACTION_HYBRID)
+            trace_doubtful(r, o, count);
+        memcpy(o->error, o->ends.error, sizeof o->error);
+        shade_listed(r, o, count);
+        spread_light(o, count, o->light.body);
+    }
+    see_mirrored(r, &at, count, o);
+    if (r->truth)
+        see_truth(r, tile_x, tile_y, worker, o);
+    see_near(r, at.column, at.row, o);
+    keep_layers(o);
+}
+
+/* ---- over the water ---- */
+
+static void put_before(float *below, const float *above, const float *share)
+{
+    for (size_t i = 0; i < TILE_PIXELS; i++)
+        below[i] = share[i] > 0 ? below[i] + share[i] * (above[i] - below[i]) : below[i];
+}
+
+void refraction_compose(const tile_objects *o, tile_pixels *pixels, tile_surface *surface)
+{
+    if (pixels) {
+        put_before(pixels->red, o->color[0], o->share);
+        put_before(pixels->green, o->color[1], o->share);
+        put_before(pixels->blue, o->color[2], o->share);
+        for (size_t i = 0; i < TILE_PIXELS; i++) {
+            pixels->coverage[i] *= 1 - o->share[i];
+            pixels->water[i] *= 1 - o->share[i];
+        }
+    }
+    if (!surface)
+        return;
+    for (size_t i = 0; i < TILE_PIXELS; i++)
+        if (o->share[i] >= 0.5f) {
+            surface->along[i] = o->along[i];
+            surface->normal_x[i] = o->normal[0][i];
+            surface->normal_y[i] = o->normal[1][i];
+            surface->normal_z[i] = o->normal[2][i];
+        }
+}
