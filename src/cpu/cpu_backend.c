@@ -529,6 +529,8 @@ static mgt_status render_picture(cpu_state *s, const reporter *r, const mgt_scen
                                .objects = objects ? s->objects : NULL};
         if (status == MGT_OK)
             finished = run_loop(&job, TILE_WIDTH, TILE_HEIGHT, render_tile);
+        if (objects && finished)
+            refraction_tell(s->objects, r);
     }
     if (status == MGT_OK && (!finished || atomic_load(&job.cancelled)))
         status = report_error(r, MGT_CANCELLED, "render.cancelled", "rendering was cancelled");

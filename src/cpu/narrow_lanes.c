@@ -88,12 +88,23 @@ static void store_vector(float (*planes)[TILE_PIXELS], size_t i, vec3 v)
     store(planes[2] + i, v.z);
 }
 
-/* Whether what a layer shows breaks off next to a pixel: the inverse of the depth is straight over the screen wherever a plane goes on. */
+static bool other_plane(const narrow_scene *n, int32_t a, int32_t b)
+{
+    if (a == b || a < 0 || b < 0)
+        return false;
+    const float *p = n->planes + 4 * (size_t)a, *q = n->planes + 4 * (size_t)b;
+    return fabsf(p[0] * q[0] + p[1] * q[1] + p[2] * q[2]) < 0.97f;
+}
+
+/* Whether what a layer shows breaks off or bends next to a pixel: the inverse of the depth is straight over the screen wherever a plane goes on. */
 static bool breaks_off(const narrow_scene *n, const gbuffer *g, size_t x, size_t y)
 {
     if (x == 0 || y == 0 || x + 1 >= g->width || y + 1 >= g->height)
         return true;
     const float *d = g->depth + y * g->width + x;
+    const int32_t *t = g->triangle + y * g->width + x;
+    if (other_plane(n, t[0], t[-1]) || other_plane(n, t[0], t[1]) || other_plane(n, t[0], *(t - g->width)) || other_plane(n, t[0], t[g->width]))
+        return true;
     const float here = 1 / d[0], across = 1 / d[-1] + 1 / d[1] - 2 * here, down = 1 / *(d - g->width) + 1 / d[g->width] - 2 * here;
     const float limit = 6 * here / n->data.focal;
     return !(fabsf(across) <= limit && fabsf(down) <= limit);
@@ -111,7 +122,7 @@ static void store_found(const struct kernel_context *cx, tile_ends *out, size_t 
         out->triangle[i + lane] = shown[lane] > 0 ? g->triangle[(size_t)y[lane] * g->width + (size_t)x[lane]] : -1;
         if (n->data.method == MGT_REFRACTION_HYBRID) {
             const bool sure = layer[lane] == 0 && residual[lane] < 1.5f;
-            out->doubt[i + lane] = sure && !breaks_off(n, g, (size_t)x[lane], (size_t)y[lane]) ? 0 : 1;
+            out->doubt[i + lane] = sure && (x[lane] < 0 || !breaks_off(n, g, (size_t)x[lane], (size_t)y[lane])) ? 0 : 1;
         }
     }
     const vec3 position = turned(cx, f.position);

@@ -103,6 +103,7 @@ static void invert(const double right[3], const double down[3], const double cor
 static NarrowData narrow_data(const refraction *r, const gbuffer *layer)
 {
     const frame *f = r->frame;
+    const world *w = r->world;
     const camera_rays *c = &f->close;
     const double n = f->scene->water.index_of_refraction;
     double rows[3][3];
@@ -134,12 +135,17 @@ static NarrowData narrow_data(const refraction *r, const gbuffer *layer)
         .top = (float)layer->top,
         .columns = (float)layer->width,
         .rows = (float)layer->height,
-        .foot_x = (float)(c->position[0] - r->world->origin[0]),
-        .foot_z = (float)(c->position[2] - r->world->origin[1]),
+        .foot_x = (float)(c->position[0] - w->origin[0]),
+        .foot_z = (float)(c->position[2] - w->origin[1]),
         .method = (int)f->scene->quality.refraction,
         .thickness = 0.5f,
         .stride = 2,
-        .slack = (float)crest_of(&f->scene->water),
+        .low_x = (float)(w->low[0] + w->origin[0] - c->position[0]) - 1e-3f,
+        .low_y = (f->under ? -w->high[1] : w->low[1]) - 1e-3f,
+        .low_z = (float)(w->low[2] + w->origin[1] - c->position[2]) - 1e-3f,
+        .high_x = (float)(w->high[0] + w->origin[0] - c->position[0]) + 1e-3f,
+        .high_y = (f->under ? -w->low[1] : w->high[1]) + 1e-3f,
+        .high_z = (float)(w->high[2] + w->origin[1] - c->position[2]) + 1e-3f,
     };
 }
 
@@ -222,4 +228,12 @@ mgt_status refraction_prepare(refraction **state, const reporter *report, const 
     return status == MGT_OK ? prepare_truth(r, report, isa, thread_pool_size(pool)) : status;
 out_of_memory:
     return report_error(report, MGT_ERROR_MEMORY, "render.memory", "out of memory for the scene's objects");
+}
+
+void refraction_tell(const refraction *r, const reporter *log)
+{
+    const size_t pixels = atomic_load(&r->pixels), traced = atomic_load(&r->traced);
+    report(log, MGT_LOG_DEBUG, "render.refraction", "%zu triangles; drawn: %zu near, %zu far, %zu mirrored; %zu pixels of water, %zu of them traced (%.2f%%)",
+           r->world->triangle_count, r->direct.counts.near_triangles, r->direct.counts.far_triangles,
+           r->mirrors ? r->mirrored.counts.far_triangles : (size_t)0, pixels, traced, pixels > 0 ? 100.0 * (double)traced / (double)pixels : 0.0);
 }

@@ -39,6 +39,9 @@ mgt_status refraction_prepare(refraction **r, const reporter *report, const fram
                               mgt_isa isa, thread_pool *pool);
 void refraction_free(refraction *r); /* NULL is allowed */
 
+/* Tells the log, after a frame's tiles, what they took. */
+void refraction_tell(const refraction *r, const reporter *report);
+
 /* Objects in the tile (tile_x, tile_y). `waves` and `guess`: sorted for the tile, filtered, at the instant t. One call a worker at a time. */
 void refraction_tile(refraction *r, const tile_waves *waves, const tile_guess *guess, uint32_t tile_x, uint32_t tile_y, uint32_t worker,
                      tile_objects *out);
