@@ -513,7 +513,7 @@ static mgt_status render_picture(cpu_state *s, const reporter *r, const mgt_scen
         }
         reference_frame_destroy(job.reference);
     } else {
-        const bool objects = scene->object_count > 0;
+        const bool objects = scene->object_count > 0 || job.frame.under;
         frame_waves_build(&job.frame, s->waves);
         if (objects)
             status = refraction_prepare(&s->objects, r, &job.frame, s->sky, s->kernels, s->isa, s->pool);

@@ -117,7 +117,7 @@ frame frame_of(const mgt_scene *scene, const sky_state *sky, bool want_color)
     frame f = {.scene = scene, .under = scene->camera.position[1] < 0};
     FrameData *d = &f.data;
     d->light_x = (float)sky->direction[0];
-    d->light_y = (float)sky->direction[1];
+    d->light_y = (float)(f.under ? -sky->direction[1] : sky->direction[1]);
     d->light_z = (float)sky->direction[2];
     d->light_radius = (float)sky->tan_radius;
     d->light_azimuth_x = (float)sky->azimuth[0];
@@ -127,8 +127,10 @@ frame frame_of(const mgt_scene *scene, const sky_state *sky, bool want_color)
     d->light_radiance_r = (float)sky->light_radiance[0];
     d->light_radiance_g = (float)sky->light_radiance[1];
     d->light_radiance_b = (float)sky->light_radiance[2];
-    d->index_of_refraction = (float)scene->water.index_of_refraction;
-    light_axes(sky->direction, d);
+    d->index_of_refraction = (float)(f.under ? 1 / scene->water.index_of_refraction : scene->water.index_of_refraction);
+    d->camera_under = f.under;
+    const double light[3] = {sky->direction[0], f.under ? -sky->direction[1] : sky->direction[1], sky->direction[2]};
+    light_axes(light, d);
     double body[3];
     sky_body_radiance(sky, &scene->water, body);
     d->body_r = (float)body[0];
@@ -151,6 +153,11 @@ frame frame_of(const mgt_scene *scene, const sky_state *sky, bool want_color)
 }
 
 /* ---- waves of an interval ---- */
+
+double wave_turns(const frame *f)
+{
+    return f->under ? 0.5 : 0;
+}
 
 static WaveData wave_data(const mgt_wave *w, double half)
 {
@@ -211,7 +218,7 @@ void wave_set_build(const frame *f, const camera_rays *camera, interval time, bo
         set->turns_z[i] = (float)turns_z;
         set->turns_low_x[i] = (float)(turns_x - (double)set->turns_x[i]);
         set->turns_low_z[i] = (float)(turns_z - (double)set->turns_z[i]);
-        const double phase = turns_x * camera->position[0] + turns_z * camera->position[2] + (w->c * time.middle + w->phase) / (2 * pi);
+        const double phase = turns_x * camera->position[0] + turns_z * camera->position[2] + (w->c * time.middle + w->phase) / (2 * pi) + wave_turns(f);
         set->phase[i] = (float)(phase - rint(phase));
         variance += w->amplitude * w->amplitude / 2;
         slope_variance += w->amplitude * w->amplitude * (w->a * w->a + w->b * w->b) / 2;

@@ -31,6 +31,9 @@ camera_rays rays_above(const frame *f, const camera_rays *rays);
 /* `sky` must have been built from the scene; the scene must outlive the frame. */
 frame frame_of(const mgt_scene *scene, const sky_state *sky, bool want_color);
 
+/* Turns to be added to every wave's phase: half of one turns the surface over. */
+double wave_turns(const frame *f);
+
 /* The middle of an interval of time and half of its length. */
 typedef struct interval {
     double middle, half;

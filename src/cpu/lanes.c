@@ -612,7 +612,8 @@ static void render_glitter(const struct kernel_context *cx, const tile_light *li
             here.light = light_at(light, i);
             cell = cell_result_of(&here, p, open ? looked_slopes(open, &open_looks, i, pixel_rays(open, &places, i).ray) : state, state);
         } else {
-            cell.pixel = nothing_but_sky(cx, p);
+            here.light = light_at(light, i);
+            cell.pixel = nothing_but_sky(&here, p);
         }
         store_cell(out, detail, i, cell);
     }
@@ -643,7 +644,8 @@ static void render_podee(const struct kernel_context *cx, const tile_light *ligh
         const real column = lane_numbers() + (float)(i % TILE_WIDTH), row = real_broadcast((float)(i / TILE_WIDTH));
         const PixelRay p = pixel_ray_filtered(cx, column, row);
         if (!any_lane(p.water > real(0.0f))) {
-            store_pixels(out, i, nothing_but_sky(cx, p));
+            here.light = light_at(light, i);
+            store_pixels(out, i, nothing_but_sky(&here, p));
             continue;
         }
         const PodeeState state = podee_state(cx, p.ray, load_guess(guess, i));

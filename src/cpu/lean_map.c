@@ -43,7 +43,7 @@ LeanData lean_snap_waves(const frame *f, lean_waves *out)
         const size_t at = out->count++;
         out->across[at] = (int)across;
         out->down[at] = (int)down;
-        out->turns[at] = (w->a * f->close.position[0] + w->b * f->close.position[2] + w->c * s->time + w->phase) / turn;
+        out->turns[at] = (w->a * f->close.position[0] + w->b * f->close.position[2] + w->c * s->time + w->phase) / turn + wave_turns(f);
         out->slope_x[at] = (float)(w->amplitude * w->a);
         out->slope_z[at] = (float)(w->amplitude * w->b);
     }

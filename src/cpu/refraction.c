@@ -163,7 +163,7 @@ static mgt_status draw_layers(refraction *r, thread_pool *pool)
         .crest = crest_of(&scene->water),
     };
     mgt_status status = gbuffers_draw(&r->direct, r->world, &job, r->kernels->raster, pool);
-    r->mirrors = r->world->triangle_count > 0 && (r->frame->under ? r->world->low[1] < 0 : r->world->high[1] > 0);
+    r->mirrors = r->frame->under || (r->world->triangle_count > 0 && r->world->high[1] > 0);
     if (status == MGT_OK && r->mirrors) {
         job.camera = mirrored_rays(&job.camera);
         job.map = GBUFFER_STRAIGHT;

@@ -22,7 +22,7 @@ struct refraction {
     const lane_kernels *kernels;
     const frame *frame;
     camera_rays camera;        /* as it is, not mirrored */
-    bool mirrors;              /* something stands on the camera's side */
+    bool mirrors;              /* something stands on the camera's side, or water does */
     atomic_size_t pixels, traced; /* of water, of this frame; and rays traced through them */
 };
 

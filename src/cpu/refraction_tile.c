@@ -14,6 +14,23 @@ static void take(float *plane, const uint16_t *list, size_t count)
         plane[i] = plane[list[i]];
 }
 
+/* The first `count` ends. */
+static void shade_ends(const refraction *r, tile_objects *o, size_t count)
+{
+    const tile_ends *e = &o->ends;
+    const shade_hits hits = {
+        .count = count,
+        .triangle = e->triangle,
+        .position = {e->position[0], e->position[1], e->position[2]},
+        .direction = {e->direction[0], e->direction[1], e->direction[2]},
+        .before = e->before,
+        .after = e->after,
+        .water = e->water,
+        .slopes = {e->slopes[0], e->slopes[1], e->slopes[2]},
+    };
+    shade_points(r->shade, &hits, o->rgb);
+}
+
 /* Radiance of the listed pixels' ends, 3 floats each, in the list's order; the ends move together. The list rises. */
 static void shade_listed(const refraction *r, tile_objects *o, size_t count)
 {
@@ -30,17 +47,7 @@ static void shade_listed(const refraction *r, tile_objects *o, size_t count)
         take(e->after, o->list, count);
         take(e->water, o->list, count);
     }
-    const shade_hits hits = {
-        .count = count,
-        .triangle = e->triangle,
-        .position = {e->position[0], e->position[1], e->position[2]},
-        .direction = {e->direction[0], e->direction[1], e->direction[2]},
-        .before = e->before,
-        .after = e->after,
-        .water = e->water,
-        .slopes = {e->slopes[0], e->slopes[1], e->slopes[2]},
-    };
-    shade_points(r->shade, &hits, o->rgb);
+    shade_ends(r, o, count);
 }
 
 static void spread_light(const tile_objects *o, size_t count, float (*planes)[TILE_PIXELS])
@@ -109,12 +116,7 @@ static void see_near(const refraction *r, uint32_t column, uint32_t row, tile_ob
     }
     if (count == 0)
         return;
-    uint16_t kept[TILE_PIXELS];
-    memcpy(kept, o->list, count * sizeof *kept);
-    for (size_t i = 0; i < count; i++)
-        o->list[i] = (uint16_t)i;
-    shade_listed(r, o, count);
-    memcpy(o->list, kept, count * sizeof *kept);
+    shade_ends(r, o, count);
     spread_light(o, count, o->color);
 }
 
@@ -127,6 +129,39 @@ static size_t list_water(tile_objects *o)
         if (o->water.share[i] > 0)
             o->list[count++] = (uint16_t)i;
     return count;
+}
+
+/* Under water: what it leaves of light from the surface, and what it shines where it has none. */
+static void see_water(const refraction *r, uint32_t column, uint32_t row, tile_objects *o)
+{
+    const mgt_water *water = &r->frame->scene->water;
+    const camera_rays *c = &r->camera;
+    tile_ends *e = &o->ends;
+    size_t count = 0;
+    for (size_t i = 0; i < TILE_PIXELS; i++) {
+        for (int k = 0; k < 3; k++) {
+            const double way = o->water.share[i] > 0 ? (double)o->water.along[i] : 0;
+            o->light.clear[k][i] = (float)exp(-way * ((double)water->absorption[k] + (double)water->scattering[k]));
+            o->light.deep[k][i] = 0;
+        }
+        if (o->water.share[i] >= 1)
+            continue;
+        double ray[3], squared = 0;
+        for (int k = 0; k < 3; k++) {
+            ray[k] = c->corner[k] + (column + i % TILE_WIDTH) * c->right[k] + (row + i / TILE_WIDTH) * c->down[k];
+            squared += ray[k] * ray[k];
+        }
+        for (int k = 0; k < 3; k++) {
+            e->direction[k][count] = (float)(ray[k] / sqrt(squared));
+            e->position[k][count] = e->slopes[k][count] = 0;
+        }
+        e->direction[1][count] = fminf(e->direction[1][count], -1e-6f);
+        e->triangle[count] = -1;
+        e->before[count] = e->after[count] = e->water[count] = 0;
+        o->list[count++] = (uint16_t)i;
+    }
+    shade_ends(r, o, count);
+    spread_light(o, count, o->light.deep);
 }
 
 static void keep_layers(tile_objects *o)
@@ -233,6 +268,8 @@ void refraction_tile(refraction *r, const tile_waves *waves, const tile_guess *g
     see_mirrored(r, &at, count, o);
     if (r->truth)
         see_truth(r, tile_x, tile_y, worker, o);
+    if (r->frame->under)
+        see_water(r, at.column, at.row, o);
     see_near(r, at.column, at.row, o);
     keep_layers(o);
 }

@@ -118,6 +118,7 @@ static void render_filtered(struct kernel_context *cx, const struct kernel_conte
         const real column = lane_numbers() + (float)(i % TILE_WIDTH), row = real((float)(i / TILE_WIDTH));
         const PixelRay p = pixel_ray_filtered(cx, column, row);
         if (!any_lane(p.water > real(0.0f))) {
+            cx->light = light_at(tile->light, i);
             store_result(out, i, sky_alone(cx, p));
             continue;
         }
