@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Meshes from glTF, OBJ and PLY files, read by Open Asset Import (assimp).
+ * Meshes from files: glTF and OBJ, read by Open Asset Import (assimp), and PLY.
  */
 #include <assimp/cfileio.h>
 #include <assimp/cimport.h>
@@ -8,13 +8,14 @@
 #include <assimp/material.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
+#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
 
-#include "scene/model.h"
+#include "scene/model_ply.h"
 #include "scene/scene_sea.h"
 
 enum { MAX_DEPTH = 256 };
@@ -220,7 +221,7 @@ static bool read_material(model_reader *r, const struct aiMaterial *m, mgt_mater
     struct aiColor4D color;
     struct aiString text;
     *out = scene_material_defaults();
-    if (r->format == FORMAT_PLY || (aiGetMaterialString(m, AI_MATKEY_NAME, &text) == aiReturn_SUCCESS && strcmp(text.data, AI_DEFAULT_MATERIAL_NAME) == 0))
+    if (aiGetMaterialString(m, AI_MATKEY_NAME, &text) == aiReturn_SUCCESS && strcmp(text.data, AI_DEFAULT_MATERIAL_NAME) == 0)
         return true;
     if (aiGetMaterialColor(m, AI_MATKEY_BASE_COLOR, &color) == aiReturn_SUCCESS || aiGetMaterialColor(m, AI_MATKEY_COLOR_DIFFUSE, &color) == aiReturn_SUCCESS) {
         out->base_color[0] = within((float)color.r, 0, 1);
@@ -411,12 +412,16 @@ bool model_load(scene_model *out, const char *path, bool own_materials, model_fa
         return refuse(fault, path, "has another extension");
     struct stat status;
     if (stat(path, &status) != 0) {
-        refuse(fault, path, "no such file");
+        char what[160];
+        snprintf(what, sizeof what, "%s (scripts/fetch_models gets those of the project's own scenes)", strerror(errno));
+        refuse(fault, path, what);
         fault->kind = SCENE_ERROR_MISSING_INPUT;
         return false;
     }
     if (!is_readable(path))
         return refuse(fault, path, S_ISREG(status.st_mode) ? "is too large" : "is no regular file");
+    if (format == FORMAT_PLY)
+        return ply_load(out, path, fault);
     const struct aiScene *scene = import(path, format, fault);
     if (scene == NULL)
         return false;
