@@ -43,7 +43,7 @@ static void prepare_wave(const void *parent, void *item)
 }
 
 /* Absorption of pure water by Pope and Fry 1997, scattering by Morel 1974, at 610, 550 and 465 nm. What is dissolved and floats in natural waters
- * adds what Petzold measured at 514 nm (1972: Bahamas, California's coast, San Diego harbour; Mobley 1994, Table 3.10), its absorption falling with the
+ * adds what Petzold measured at 514 nm (1972: Bahamas, California's coast, San Diego harbour; in Mobley 1994), its absorption falling with the
  * wavelength as exp(-0.014/nm), its scattering as 1/wavelength. */
 static void decide_clarity(void *parent)
 {
