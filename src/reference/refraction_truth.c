@@ -69,11 +69,8 @@ struct refraction_truth {
 
 static void mirror_waves(reference_frame *f)
 {
-    for (uint32_t i = 0; i < f->wave_count; i++) {
-        f->waves[i].amplitude *= -1;
-        f->waves[i].amplitude_a *= -1;
-        f->waves[i].amplitude_b *= -1;
-    }
+    for (uint32_t i = 0; i < f->wave_count; i++)
+        f->waves[i].phase += 1; /* half a turn: amplitudes stay positive, as the march's bounds want them */
 }
 
 static bool create_scratch(refraction_truth *t)

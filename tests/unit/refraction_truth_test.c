@@ -194,6 +194,22 @@ static void set_waves(setup *s)
     s->scene.time = 12.5;
 }
 
+/* Snell's law for vectors: what lies along the surface grows by `ratio`, the index before it over that behind. False: nothing is let through. */
+static bool refract(const double view[3], const double slope[2], double ratio, double out[3])
+{
+    const double n[3] = {-slope[0], 1, -slope[1]}, length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    double along = 0, square = 0;
+    for (int k = 0; k < 3; k++)
+        along += view[k] * n[k] / length;
+    for (int k = 0; k < 3; k++) {
+        out[k] = ratio * (view[k] - along * n[k] / length);
+        square += out[k] * out[k];
+    }
+    for (int k = 0; k < 3 && square < 1; k++)
+        out[k] += copysign(sqrt(1 - square), along) * n[k] / length;
+    return square < 1;
+}
+
 /* Where the refracted ray does not meet the surface again it ends on the floor. */
 static void waves_bend_rays_at_their_first_hit(void **state)
 {
@@ -209,23 +225,63 @@ static void waves_bend_rays_at_their_first_hit(void **state)
             if (!hit.hit || hit.distance > 60)
                 continue;
             assert_true(a.water == 1);
-            double o[3], v[3], n[3] = {-hit.water.slope[0], 1, -hit.water.slope[1]}, d[3];
+            double o[3], v[3], d[3];
             camera_ray(&s.scene, x + 0.5, y + 0.5, s.scene.time, o, v);
-            /* Snell's law for vectors: what lies along the surface shrinks by the index. */
-            const double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-            double along = 0, square = 0;
-            for (int k = 0; k < 3; k++)
-                along += v[k] * n[k] / length;
-            for (int k = 0; k < 3; k++) {
-                d[k] = (v[k] - along * n[k] / length) / 1.333;
-                square += d[k] * d[k];
-            }
-            for (int k = 0; k < 3; k++)
-                d[k] -= sqrt(1 - square) * n[k] / length;
+            assert_true(refract(v, hit.water.slope, 1 / 1.333, d));
             const double reach = (-2 - hit.position[1]) / d[1];
             const double exact[3] = {hit.position[0] + reach * d[0], -2, hit.position[2] + reach * d[2]};
             assert_position(&s, a.through, exact, 1e-4);
         }
+    free(places);
+    end(&s);
+}
+
+/* The surface as a ray from below meets it: where the ray's mirror image meets the mirrored surface from above, on the other half of the picture. */
+static water_hit first_hit_from_below(const mgt_scene *scene, double pixel_x, double pixel_y)
+{
+    mgt_scene mirror = *scene;
+    mgt_wave turned[16];
+    for (size_t i = 0; i < scene->water.wave_count; i++) {
+        turned[i] = scene->water.waves[i];
+        turned[i].phase += 3.14159265358979323846;
+    }
+    mirror.water.waves = turned;
+    mirror.camera.position[1] *= -1;
+    mirror.camera.target[1] *= -1;
+    mirror.camera.up[1] *= -1;
+    water_hit hit = first_hit_brute_force(&mirror, scene->image.width - pixel_x, pixel_y, scene->time);
+    hit.position[1] *= -1;
+    hit.water.slope[0] *= -1;
+    hit.water.slope[1] *= -1;
+    return hit;
+}
+
+/* A ceiling 1.5 m over the water is seen through waves; what lies beyond their critical angle is the floor of the world, which has none. */
+static void waves_bend_rays_from_below(void **state)
+{
+    (void)state;
+    setup s;
+    begin(&s, -2, 1.5);
+    set_waves(&s);
+    s.scene.camera = (mgt_camera){{5, -2, 2}, {5, 0, 0.5}, {0, 1, 0}, 70};
+    truth_pixels *places = render(&s, TOLD_POSITION, MGT_ISA_AUTO, 0);
+    int through = 0;
+    for (uint32_t y = 0; y < HEIGHT; y++)
+        for (uint32_t x = 0; x < WIDTH; x++) {
+            const water_hit hit = first_hit_from_below(&s.scene, x + 0.5, y + 0.5);
+            double o[3], v[3], d[3];
+            camera_ray(&s.scene, x + 0.5, y + 0.5, s.scene.time, o, v);
+            /* Rays that are bent far down meet another wave. */
+            if (!hit.hit || hit.distance > 30 || !refract(v, hit.water.slope, 1.333, d) || d[1] < 0.4)
+                continue;
+            through++;
+            for (int k = 0; k < 3; k++)
+                assert_true(fabs(hit.position[k] - o[k] - hit.distance * v[k]) < 1e-6);
+            const double reach = (1.5 - hit.position[1]) / d[1];
+            const double exact[3] = {hit.position[0] + reach * d[0], 1.5, hit.position[2] + reach * d[2]};
+            assert_position(&s, answer_at(places, x, y).through, exact, 1e-4);
+        }
+    assert_true(through > 400);
     free(places);
     end(&s);
 }
@@ -298,7 +354,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(flat_water_shows_a_floor_where_snell_says), cmocka_unit_test(snells_window_ends_at_its_angle),
-        cmocka_unit_test(waves_bend_rays_at_their_first_hit),        cmocka_unit_test(shares_add_up),
+        cmocka_unit_test(waves_bend_rays_at_their_first_hit),        cmocka_unit_test(waves_bend_rays_from_below),
+        cmocka_unit_test(shares_add_up),
         cmocka_unit_test(bits_depend_on_the_tile_alone),             cmocka_unit_test(samples_fill_the_pixel),
     };
     if (!trace_available()) {
