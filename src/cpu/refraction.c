@@ -20,6 +20,7 @@ void refraction_free(refraction *r)
     shade_free(r->shade);
     world_free(r->world);
     trace_scene_free(r->trace);
+    distance_field_free(r->field);
     refraction_truth_free(r->truth);
     free(r->planes);
     free(r);
@@ -177,13 +178,15 @@ static bool traces(mgt_refraction method)
     return method == MGT_REFRACTION_HYBRID || method == MGT_REFRACTION_TRUTH;
 }
 
-static mgt_status prepare_trace(refraction *r, const reporter *report, uint32_t threads)
+static mgt_status prepare_trace(refraction *r, const reporter *report, thread_pool *pool)
 {
     const world *w = r->world;
+    if (r->frame->scene->quality.refraction == MGT_REFRACTION_DISTANCE_FIELD)
+        return distance_field_update(&r->field, w, pool, report);
     if (!traces(r->frame->scene->quality.refraction))
         return MGT_OK;
     const trace_triangles triangles = {w->triangle_count, w->vertex_count, w->positions, w->indices, w->version};
-    return trace_scene_update(&r->trace, &triangles, threads, report);
+    return trace_scene_update(&r->trace, &triangles, thread_pool_size(pool), report);
 }
 
 static mgt_status prepare_truth(refraction *r, const reporter *report, mgt_isa isa, uint32_t threads)
@@ -224,7 +227,7 @@ mgt_status refraction_prepare(refraction **state, const reporter *report, const 
                                .planes = r->planes};
     atomic_store(&r->pixels, 0);
     atomic_store(&r->traced, 0);
-    const mgt_status status = prepare_trace(r, report, thread_pool_size(pool));
+    const mgt_status status = prepare_trace(r, report, pool);
     return status == MGT_OK ? prepare_truth(r, report, isa, thread_pool_size(pool)) : status;
 out_of_memory:
     return report_error(report, MGT_ERROR_MEMORY, "render.memory", "out of memory for the scene's objects");

@@ -5,6 +5,7 @@
 
 #include <stdatomic.h>
 
+#include "cpu/distance_field.h"
 #include "cpu/refraction.h"
 #include "reference/refraction_truth.h"
 #include "trace/trace.h"
@@ -17,6 +18,7 @@ struct refraction {
     uint64_t plane_version;    /* of the world that they are of */
     shade_scene *shade;
     trace_scene *trace;        /* NULL until a method traces */
+    distance_field *field;     /* NULL until a method marches through it */
     refraction_truth *truth;   /* of this frame, for that method */
     narrow_scene narrow;
     const lane_kernels *kernels;

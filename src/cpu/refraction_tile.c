@@ -174,9 +174,10 @@ static void keep_layers(tile_objects *o)
     }
 }
 
-/* Uncertain pixels are traced together: which ones depends on the tile alone. */
+/* Uncertain pixels are traced together: which ones depends on the tile alone. Of distance-field all are. */
 static void trace_doubtful(refraction *r, tile_objects *o, size_t count)
 {
+    const bool marches = r->frame->scene->quality.refraction == MGT_REFRACTION_DISTANCE_FIELD;
     tile_ends *e = &o->ends;
     const camera_rays *c = &r->camera;
     const double foot[3] = {c->position[0] - r->world->origin[0], c->position[1], c->position[2] - r->world->origin[1]};
@@ -185,7 +186,7 @@ static void trace_doubtful(refraction *r, tile_objects *o, size_t count)
     uint16_t list[TILE_PIXELS];
     for (size_t k = 0; k < count; k++) {
         const size_t i = o->list[k];
-        if (e->doubt[i] == 0)
+        if (!marches && e->doubt[i] == 0)
             continue;
         trace_ray *ray = &o->rays[doubtful];
         const double along = (double)o->water.along[i];
@@ -200,7 +201,10 @@ static void trace_doubtful(refraction *r, tile_objects *o, size_t count)
     }
     if (doubtful == 0)
         return;
-    trace_nearest(r->trace, doubtful, o->rays, o->hits);
+    if (marches)
+        distance_field_nearest(r->field, doubtful, o->rays, o->hits);
+    else
+        trace_nearest(r->trace, doubtful, o->rays, o->hits);
     for (size_t k = 0; k < doubtful; k++) {
         const size_t i = list[k];
         const bool found = o->hits[k].triangle >= 0;
@@ -212,7 +216,7 @@ static void trace_doubtful(refraction *r, tile_objects *o, size_t count)
             e->water[i] = e->after[i];
         else
             e->water[i] = o->water.along[i] + (e->total[i] > 0 ? e->after[i] : 0);
-        e->error[i] = 0;
+        e->error[i] = marches ? INFINITY : 0;
     }
     atomic_fetch_add_explicit(&r->traced, doubtful, memory_order_relaxed);
 }
@@ -257,9 +261,10 @@ void refraction_tile(refraction *r, const tile_waves *waves, const tile_guess *g
     const size_t count = list_water(o);
     atomic_fetch_add_explicit(&r->pixels, count, memory_order_relaxed);
     memset(o->light.body, 0, sizeof o->light.body);
+    const mgt_refraction method = r->frame->scene->quality.refraction;
     if (count > 0 && !r->truth) {
         r->kernels->narrow->refracted(&r->narrow, &at, &o->water, &o->ends);
-        if (r->frame->scene->quality.refraction == MGT_REFRACTION_HYBRID)
+        if (method == MGT_REFRACTION_HYBRID || method == MGT_REFRACTION_DISTANCE_FIELD)
             trace_doubtful(r, o, count);
         memcpy(o->error, o->ends.error, sizeof o->error);
         shade_listed(r, o, count);
