@@ -25,10 +25,43 @@ typedef struct part {
     float far[MOST_CORNERS];
 } part;
 
-static void draw(const chunk_job *job, int layer, const float image[3][3], int32_t triangle)
+/* ---- drawing what is flat ---- */
+
+static void load_patch(patch_batch *b, size_t i, const patch *from)
 {
-    if (raster_bins_add(job->bins, &job->view->grid, layer, image, triangle))
-        job->counts->drawn[layer]++;
+    for (int corner = 0; corner < 3; corner++)
+        for (int k = 0; k < 3; k++) {
+            b->corner[corner][k][i] = from->corner[corner][k];
+            b->image[corner][k][i] = from->image[corner][k];
+        }
+}
+
+static void draw(const chunk_job *job, int layer, const patch *p, size_t i)
+{
+    const broad_scratch *s = job->scratch;
+    job->counts->drawn[layer] += raster_bins_add(job->bins, &job->view->grid, layer, &s->setup, i, (const float(*)[3])p->image, p->triangle);
+}
+
+static void draw_straight(const chunk_job *job)
+{
+    broad_scratch *s = job->scratch;
+    patch_batch *b = &s->straight;
+    job->view->kernels->setups(&job->view->picture, b, &s->setup);
+    for (size_t i = 0; i < b->count; i++)
+        draw(job, s->straight_layer[i], &s->straight_taken[i], i);
+    b->count = 0;
+}
+
+/* A triangle that stays where its images are. */
+static void take_straight(const chunk_job *job, int layer, const patch *p)
+{
+    broad_scratch *s = job->scratch;
+    const size_t i = s->straight.count++;
+    load_patch(&s->straight, i, p);
+    s->straight_taken[i] = *p;
+    s->straight_layer[i] = layer;
+    if (s->straight.count == PATCH_BATCH)
+        draw_straight(job);
 }
 
 /* ---- splitting ---- */
@@ -46,17 +79,6 @@ static void push(const chunk_job *job, patch_stack *s, const patch *p)
         s->room = room;
     }
     s->patches[s->count++] = *p;
-}
-
-static void load_batch(patch_batch *b, const patch *from, size_t count)
-{
-    b->count = count;
-    for (size_t i = 0; i < count; i++)
-        for (int corner = 0; corner < 3; corner++)
-            for (int k = 0; k < 3; k++) {
-                b->corner[corner][k][i] = from[i].corner[corner][k];
-                b->image[corner][k][i] = from[i].image[corner][k];
-            }
 }
 
 /* Corners 0 to 2 of a patch and the middles of its edges, 3 to 5. */
@@ -111,34 +133,45 @@ static int split_edges(const patch_batch *b, size_t i)
     return (b->split[0][i] > 0 ? 1 : 0) | (b->split[1][i] > 0 ? 2 : 0) | (b->split[2][i] > 0 ? 4 : 0);
 }
 
-/* Draws or divides the last ones of those that wait. `place`: their images are not known yet. */
+/* Draws or divides the batch, which holds scratch->taken. `place`: their images are not known yet. */
 static void work_batch(const chunk_job *job, bool place)
 {
     broad_scratch *s = job->scratch;
-    patch_stack *waiting = &s->waiting;
-    patch taken[PATCH_BATCH];
-    const size_t count = waiting->count < PATCH_BATCH ? waiting->count : PATCH_BATCH;
-    waiting->count -= count;
-    memcpy(taken, waiting->patches + waiting->count, count * sizeof *taken);
-    load_batch(&s->batch, taken, count);
-    job->view->kernels->patches(&job->view->refract, &job->view->picture, place, &s->batch);
-    for (size_t i = 0; i < count; i++) {
-        for (int k = 0; k < 9 && place; k++)
-            taken[i].image[k / 3][k % 3] = s->batch.image[k / 3][k % 3][i];
-        if (s->batch.hidden[i] > 0)
+    patch_batch *b = &s->batch;
+    job->view->kernels->patches(&job->view->refract, &job->view->picture, place, b);
+    job->view->kernels->setups(&job->view->picture, b, &s->setup);
+    for (size_t i = 0; i < b->count; i++) {
+        if (b->hidden[i] > 0)
             continue;
-        const int edges = taken[i].depth < MOST_SPLITS ? split_edges(&s->batch, i) : 0;
+        patch *p = &s->taken[i];
+        for (int k = 0; k < 9 && place; k++)
+            p->image[k / 3][k % 3] = b->image[k / 3][k % 3][i];
+        const int edges = p->depth < MOST_SPLITS ? split_edges(b, i) : 0;
         if (edges)
-            divide(job, &taken[i], i, edges);
+            divide(job, p, i, edges);
         else
-            draw(job, FAR_LAYER, (const float(*)[3])taken[i].image, taken[i].triangle);
+            draw(job, FAR_LAYER, p, i);
     }
+    b->count = 0;
+}
+
+/* Works on the last ones of a stack. */
+static void work_stack(const chunk_job *job, patch_stack *stack, bool place)
+{
+    broad_scratch *s = job->scratch;
+    const size_t count = stack->count < PATCH_BATCH ? stack->count : PATCH_BATCH;
+    stack->count -= count;
+    memcpy(s->taken, stack->patches + stack->count, count * sizeof *s->taken);
+    for (size_t i = 0; i < count; i++)
+        load_patch(&s->batch, i, &s->taken[i]);
+    s->batch.count = count;
+    work_batch(job, place);
 }
 
 static void work_until(const chunk_job *job, size_t left)
 {
     while (job->scratch->waiting.count > left && !job->scratch->failed)
-        work_batch(job, false);
+        work_stack(job, &job->scratch->waiting, false);
 }
 
 /* ---- cutting ---- */
@@ -179,11 +212,11 @@ static void draw_near(const chunk_job *job, const part *p, int32_t triangle)
     float image[MOST_CORNERS][4];
     view->kernels->images(&straight, &view->picture, here, (size_t)p->count, p->corner[0], image[0]);
     for (int i = 1; i + 1 < p->count; i++) {
-        float corner[3][3];
-        memcpy(corner[0], image[0], sizeof corner[0]);
-        memcpy(corner[1], image[i], sizeof corner[0]);
-        memcpy(corner[2], image[i + 1], sizeof corner[0]);
-        draw(job, NEAR_LAYER, (const float(*)[3])corner, triangle);
+        patch flat = {.triangle = triangle};
+        memcpy(flat.image[0], image[0], sizeof flat.image[0]);
+        memcpy(flat.image[1], image[i], sizeof flat.image[0]);
+        memcpy(flat.image[2], image[i + 1], sizeof flat.image[0]);
+        take_straight(job, NEAR_LAYER, &flat);
     }
 }
 
@@ -224,7 +257,7 @@ static void cut_triangle(const chunk_job *job, const patch *whole, const float f
         draw_near(job, &own, whole->triangle);
         push_part(job, &beyond, whole->triangle);
     } else {
-        draw(job, NEAR_LAYER, (const float(*)[3])whole->image, whole->triangle);
+        take_straight(job, NEAR_LAYER, whole);
     }
     if (view->crest > 0) {
         const part behind = cut(&own, -view->crest, true, side);
@@ -233,6 +266,17 @@ static void cut_triangle(const chunk_job *job, const patch *whole, const float f
 }
 
 /* ---- chunks ---- */
+
+static void take_patch(const chunk_job *job, const patch *p)
+{
+    broad_scratch *s = job->scratch;
+    load_patch(&s->batch, s->batch.count, p);
+    s->taken[s->batch.count++] = *p;
+    if (s->batch.count < PATCH_BATCH)
+        return;
+    work_batch(job, false);
+    work_until(job, PATCH_BATCH - 1);
+}
 
 static void take_triangle(const chunk_job *job, size_t index)
 {
@@ -250,13 +294,13 @@ static void take_triangle(const chunk_job *job, size_t index)
     }
     if (least3(far) >= 0) {
         if (view->refract.map == 0)
-            draw(job, FAR_LAYER, (const float(*)[3])p.image, p.triangle);
+            take_straight(job, FAR_LAYER, &p);
         else
-            push(job, &job->scratch->waiting, &p);
+            take_patch(job, &p);
     } else if (most3(far) > -view->crest) {
         cut_triangle(job, &p, far);
     } else {
-        draw(job, NEAR_LAYER, (const float(*)[3])p.image, p.triangle);
+        take_straight(job, NEAR_LAYER, &p);
     }
 }
 
@@ -265,19 +309,16 @@ void broad_chunk(const broad_view *view, size_t chunk, broad_scratch *scratch, r
     const chunk_job job = {view, scratch, bins, counts};
     const size_t first = chunk * BROAD_CHUNK, all = view->world->triangle_count;
     const size_t end = first + BROAD_CHUNK < all ? first + BROAD_CHUNK : all;
-    patch_stack *waiting = &scratch->waiting, *cuts = &scratch->cut;
-    waiting->count = cuts->count = 0;
-    for (size_t i = first; i < end; i++) {
+    scratch->batch.count = scratch->straight.count = scratch->waiting.count = scratch->cut.count = 0;
+    for (size_t i = first; i < end; i++)
         take_triangle(&job, i);
-        work_until(&job, PATCH_BATCH - 1);
-    }
+    work_batch(&job, false);
     work_until(&job, 0);
-    while (cuts->count > 0 && !scratch->failed) {
-        while (cuts->count > 0 && waiting->count < PATCH_BATCH)
-            push(&job, waiting, &cuts->patches[--cuts->count]);
-        work_batch(&job, true);
+    while (scratch->cut.count > 0 && !scratch->failed) {
+        work_stack(&job, &scratch->cut, true);
         work_until(&job, 0);
     }
+    draw_straight(&job);
     raster_bins_sort(bins, &view->grid);
     bins->failed |= scratch->failed;
 }

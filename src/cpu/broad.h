@@ -39,9 +39,14 @@ typedef struct patch_stack {
 /* A worker's memory; zeroed at first. */
 typedef struct broad_scratch {
     patch_batch batch;
-    patch_stack waiting; /* with images */
-    patch_stack cut;     /* parts of triangles that meet the surface, without images */
-    bool failed;         /* memory was short */
+    patch taken[PATCH_BATCH]; /* what the batch holds */
+    patch_batch straight;     /* triangles that nothing bends */
+    patch straight_taken[PATCH_BATCH];
+    int straight_layer[PATCH_BATCH];
+    setup_batch setup;
+    patch_stack waiting;      /* with images */
+    patch_stack cut;          /* parts of triangles that meet the surface, without images */
+    bool failed;              /* memory was short */
 } broad_scratch;
 
 /* Bins of the triangles of one chunk, in an order of their own that depends on nothing else. */

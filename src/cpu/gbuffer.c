@@ -28,6 +28,7 @@ struct gbuffer_store {
     broad_scratch **scratch; /* of the workers */
     raster_tile **tiles;
     uint32_t workers;
+    uint8_t *empty; /* of all tiles of both layers: 1 where nothing has been drawn into memory that says so */
     broad_counts *counts; /* of the workers */
 };
 
@@ -75,7 +76,7 @@ static double dot(const double a[3], const double b[3])
 static PictureData picture_data(const gbuffer_job *job, const raster_grid *grid, const gbuffer *layer)
 {
     const camera_rays *c = &job->camera;
-    const double tau = job->error > 0 ? job->error : 0.25, edge = 0.7 * tau; /* a triangle's middle is off by up to 4/3 of its edges */
+    const double tau = job->error > 0 ? job->error : 0.25, edge = 0.8 * tau; /* the middle of a triangle may be off by a little more than its edges */
     double depth[3], x[3], y[3];
     cross(c->right, c->down, depth);
     cross(c->down, c->corner, x);
@@ -147,17 +148,22 @@ static void free_layer(gbuffer *layer)
     *layer = (gbuffer){0};
 }
 
-static bool shape_layer(gbuffer *layer, const gbuffer_job *job)
+static bool shape_layers(gbuffers *g, const gbuffer_job *job)
 {
+    struct gbuffer_store *s = g->store;
     const gbuffer shape = gbuffer_shape(job);
-    if (layer->depth && layer->width == shape.width && layer->height == shape.height)
+    if (s->empty && g->near.width == shape.width && g->near.height == shape.height)
         return true;
-    free_layer(layer);
     const size_t count = (size_t)shape.width * shape.height;
-    *layer = shape;
-    layer->depth = malloc(count * sizeof *layer->depth);
-    layer->triangle = malloc(count * sizeof *layer->triangle);
-    return layer->depth && layer->triangle;
+    const size_t tiles = (size_t)((shape.width + RASTER_TILE - 1) / RASTER_TILE) * ((shape.height + RASTER_TILE - 1) / RASTER_TILE);
+    free_layer(&g->near);
+    free_layer(&g->far);
+    free(s->empty);
+    s->empty = calloc(LAYERS * tiles, sizeof *s->empty);
+    g->near = g->far = shape;
+    g->near.depth = malloc(count * sizeof(float)), g->near.triangle = malloc(count * sizeof(int32_t));
+    g->far.depth = malloc(count * sizeof(float)), g->far.triangle = malloc(count * sizeof(int32_t));
+    return s->empty && g->near.depth && g->near.triangle && g->far.depth && g->far.triangle;
 }
 
 static void free_store(struct gbuffer_store *s)
@@ -174,6 +180,7 @@ static void free_store(struct gbuffer_store *s)
     free(s->images);
     free(s->scratch);
     free(s->tiles);
+    free(s->empty);
     free(s->counts);
     free(s);
 }
@@ -261,13 +268,22 @@ static void draw_tile(void *argument, size_t index, uint32_t worker)
     tile->y = y - grid->middle_y;
     tile->width = grid->width - x < RASTER_TILE ? grid->width - x : RASTER_TILE;
     tile->height = grid->height - y < RASTER_TILE ? grid->height - y : RASTER_TILE;
-    kernels->tile_clear(tile);
+    bool drawn = false;
     for (size_t i = 0; i < job->chunks; i++) {
         const raster_bins *bins = &job->store->bins[i];
         const uint32_t first = bins->starts[index], end = bins->starts[index + 1];
-        if (end > first)
-            kernels->tile_draw(tile, bins->triangles, bins->list + first, end - first);
+        if (end == first)
+            continue;
+        if (!drawn)
+            kernels->tile_clear(tile);
+        drawn = true;
+        kernels->tile_draw(tile, bins->triangles, bins->list + first, end - first);
     }
+    if (!drawn && job->store->empty[index])
+        return;
+    if (!drawn)
+        kernels->tile_clear(tile);
+    job->store->empty[index] = !drawn;
     const gbuffer *layer = index < tiles ? &job->out->near : &job->out->far;
     for (int32_t row = 0; row < tile->height; row++) {
         const size_t at = (size_t)(y + row) * layer->width + (size_t)x;
@@ -336,7 +352,7 @@ mgt_status gbuffers_draw(gbuffers *g, const world *w, const gbuffer_job *job, co
     if (!g->store)
         g->store = new_store(thread_pool_size(pool));
     const size_t chunks = (w->triangle_count + BROAD_CHUNK - 1) / BROAD_CHUNK;
-    if (!g->store || !fit_store(g->store, w, chunks) || !shape_layer(&g->near, job) || !shape_layer(&g->far, job))
+    if (!g->store || !fit_store(g->store, w, chunks) || !shape_layers(g, job))
         goto fail;
     g->store->drawn = false;
     g->refract = refract_data_of(job->camera.position[1], job->index, job->map);

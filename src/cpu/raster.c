@@ -9,8 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Pixels from the middle that coordinates reach, for the largest image and its guard band. Products of edges then fit into 32 bits in a tile. */
-static const double coordinate_limit = 20480;
+static const double coordinate_limit = COORDINATE_LIMIT;
 
 enum { MOST_CORNERS = 9 }; /* of a triangle that five borders cut, and one to spare */
 
@@ -59,16 +58,6 @@ static polygon clipped(const polygon *p, const double plane[3], double offset)
     return out;
 }
 
-static bool is_within(const float image[3][3], double least_depth)
-{
-    for (int i = 0; i < 3; i++) {
-        const double reach = coordinate_limit * (double)image[i][2];
-        if (!((double)image[i][2] >= least_depth && fabs((double)image[i][0]) <= reach && fabs((double)image[i][1]) <= reach))
-            return false;
-    }
-    return true;
-}
-
 static polygon clip_to_limits(const float image[3][3], double least_depth)
 {
     static const double front[3] = {0, 0, 1};
@@ -113,25 +102,39 @@ static pixel_box box_of(const raster_triangle *t, const raster_grid *grid)
     return box;
 }
 
-/* Whether the triangle has an area; corners come out clockwise. */
-static bool set_up(const double corner[3][3], int32_t triangle, raster_triangle *t)
+static double least_of(const double v[3])
+{
+    const double a = v[0] < v[1] ? v[0] : v[1];
+    return a < v[2] ? a : v[2];
+}
+
+static double most_of(const double v[3])
+{
+    const double a = v[0] > v[1] ? v[0] : v[1];
+    return a > v[2] ? a : v[2];
+}
+
+/* Whether the triangle may cover a pixel's centre; corners come out clockwise. */
+static bool set_up(const double corner[3][3], const raster_grid *grid, int32_t triangle, raster_triangle *t, pixel_box *box)
 {
     double inverse[3];
-    for (int i = 0; i < 3; i++) {
-        inverse[i] = 1 / corner[i][2];
-        t->x[i] = (int32_t)lrint(corner[i][0] * inverse[i] * SUBPIXELS);
-        t->y[i] = (int32_t)lrint(corner[i][1] * inverse[i] * SUBPIXELS);
+    for (int i = 0; i < 3; i++) { /* in floats, as raster_kernels.setups, so that corners shared with its triangles fall on the same subpixels */
+        const float one_over = 1.0f / (float)corner[i][2];
+        inverse[i] = (double)one_over;
+        t->x[i] = (int32_t)lrintf((float)corner[i][0] * one_over * SUBPIXELS);
+        t->y[i] = (int32_t)lrintf((float)corner[i][1] * one_over * SUBPIXELS);
     }
-    int64_t x1 = (int64_t)t->x[1] - t->x[0], y1 = (int64_t)t->y[1] - t->y[0], x2 = (int64_t)t->x[2] - t->x[0], y2 = (int64_t)t->y[2] - t->y[0];
-    int64_t area = x1 * y2 - y1 * x2;
-    if (area == 0)
+    *box = box_of(t, grid);
+    const int64_t x1 = (int64_t)t->x[1] - t->x[0], y1 = (int64_t)t->y[1] - t->y[0], x2 = (int64_t)t->x[2] - t->x[0], y2 = (int64_t)t->y[2] - t->y[0];
+    const int64_t area = x1 * y2 - y1 * x2;
+    if (area == 0 || box->left > box->right || box->top > box->bottom)
         return false;
     const double scale = SUBPIXELS / (double)area, d1 = inverse[1] - inverse[0], d2 = inverse[2] - inverse[0];
     t->slope_x = (float)((d1 * (double)y2 - d2 * (double)y1) * scale);
     t->slope_y = (float)((d2 * (double)x1 - d1 * (double)x2) * scale);
     t->inverse_depth = (float)inverse[0];
-    t->least = (float)fmin(fmin(inverse[0], inverse[1]), inverse[2]);
-    t->most = (float)fmax(fmax(inverse[0], inverse[1]), inverse[2]);
+    t->least = (float)least_of(inverse);
+    t->most = (float)most_of(inverse);
     t->triangle = triangle;
     if (area < 0) {
         const int32_t x = t->x[1], y = t->y[1];
@@ -182,29 +185,34 @@ static bool bin_triangle(raster_bins *bins, const raster_grid *grid, int layer, 
 static bool add_flat(raster_bins *bins, const raster_grid *grid, int layer, const double corner[3][3], int32_t triangle)
 {
     raster_triangle t;
-    if (!set_up(corner, triangle, &t))
-        return false;
-    const pixel_box box = box_of(&t, grid);
-    return box.left <= box.right && box.top <= box.bottom && bin_triangle(bins, grid, layer, &t, &box);
+    pixel_box box;
+    return set_up(corner, grid, triangle, &t, &box) && bin_triangle(bins, grid, layer, &t, &box);
 }
 
-bool raster_bins_add(raster_bins *bins, const raster_grid *grid, int layer, const float image[3][3], int32_t triangle)
+size_t raster_bins_add(raster_bins *bins, const raster_grid *grid, int layer, const setup_batch *from, size_t i, const float image[3][3],
+                       int32_t triangle)
 {
-    if (is_within(image, grid->least_depth)) {
-        double corner[3][3];
-        for (int i = 0; i < 9; i++)
-            corner[i / 3][i % 3] = (double)image[i / 3][i % 3];
-        return add_flat(bins, grid, layer, (const double(*)[3])corner, triangle);
+    if (!(from->state[i] > 0))
+        return 0;
+    if (from->state[i] < 2) {
+        raster_triangle t = {.inverse_depth = from->inverse_depth[i], .slope_x = from->slope_x[i], .slope_y = from->slope_y[i], .least = from->least[i],
+                             .most = from->most[i], .triangle = triangle};
+        for (int k = 0; k < 3; k++) {
+            t.x[k] = (int32_t)from->x[k][i];
+            t.y[k] = (int32_t)from->y[k][i];
+        }
+        const pixel_box box = box_of(&t, grid);
+        return box.left <= box.right && box.top <= box.bottom && bin_triangle(bins, grid, layer, &t, &box);
     }
     const polygon p = clip_to_limits(image, grid->least_depth);
-    bool any = false;
-    for (int i = 1; i + 1 < p.count; i++) {
+    size_t added = 0;
+    for (int k = 1; k + 1 < p.count; k++) {
         double corner[3][3];
         memcpy(corner[0], p.corner[0], sizeof corner[0]);
-        memcpy(corner[1], p.corner[i], 2 * sizeof corner[0]);
-        any |= add_flat(bins, grid, layer, (const double(*)[3])corner, triangle);
+        memcpy(corner[1], p.corner[k], 2 * sizeof corner[0]);
+        added += add_flat(bins, grid, layer, (const double(*)[3])corner, triangle);
     }
-    return any;
+    return added;
 }
 
 void raster_bins_sort(raster_bins *bins, const raster_grid *grid)

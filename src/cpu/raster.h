@@ -32,8 +32,9 @@ typedef struct raster_bins {
     bool failed; /* memory was short */
 } raster_bins;
 
-/* A triangle as drawn by refract_patch.k: three images. What is outside or touches no pixel's centre is left out; returns whether anything is left. */
-bool raster_bins_add(raster_bins *bins, const raster_grid *grid, int layer, const float image[3][3], int32_t triangle);
+/* Triangle i of a batch and its images, from which it is clipped if it reaches too far. Returns how many triangles are left of it. */
+size_t raster_bins_add(raster_bins *bins, const raster_grid *grid, int layer, const setup_batch *from, size_t i, const float image[3][3],
+                       int32_t triangle);
 
 /* Sorts the entries. */
 void raster_bins_sort(raster_bins *bins, const raster_grid *grid);

@@ -130,6 +130,68 @@ static void lanes_patches(const RefractData *refract, const PictureData *picture
     }
 }
 
+/* ---- setup ---- */
+
+/* a b − c d, rounded about once: 0 only where it is. */
+static inline real difference_of_products(real a, real b, real c, real d)
+{
+    const real product = c * d;
+    return fma(a, b, real(0.0f) - product) - product_error(c, d);
+}
+
+/* Whether a whole number lies between two, which are in subpixels. */
+static inline mask holds_center(real low, real high)
+{
+    return floor(high * (1.0f / SUBPIXELS)) * (float)SUBPIXELS >= low;
+}
+
+static inline mask reaches_over(vec3 image, float least_depth)
+{
+    const real reach = image.z * (float)COORDINATE_LIMIT;
+    return OR(OR(abs(image.x) > reach, abs(image.y) > reach), image.z < real(least_depth));
+}
+
+static void set_up(const PictureData *picture, const vec3 image[3], setup_batch *out, size_t i)
+{
+    real x[3], y[3], inverse[3];
+    mask over = real(0.0f) > real(1.0f);
+    for (int k = 0; k < 3; k++)
+        over = OR(over, reaches_over(image[k], picture->least_depth));
+    for (int k = 0; k < 3; k++) {
+        inverse[k] = real(1.0f) / SELECT(over, real(1.0f), image[k].z);
+        x[k] = round_even(SELECT(over, real(0.0f), image[k].x) * inverse[k] * (float)SUBPIXELS);
+        y[k] = round_even(SELECT(over, real(0.0f), image[k].y) * inverse[k] * (float)SUBPIXELS);
+    }
+    const real x1 = x[1] - x[0], y1 = y[1] - y[0], x2 = x[2] - x[0], y2 = y[2] - y[0];
+    const real area = difference_of_products(x1, y2, y1, x2), zero = real(0.0f);
+    const mask flat = area <= zero, turned = area < zero, empty = AND(flat, area >= zero);
+    const real low_x = min(min(x[0], x[1]), x[2]), high_x = max(max(x[0], x[1]), x[2]);
+    const real low_y = min(min(y[0], y[1]), y[2]), high_y = max(max(y[0], y[1]), y[2]);
+    const mask box = AND(holds_center(low_x, high_x), holds_center(low_y, high_y));
+    const mask inside = AND(AND(high_x >= real(picture->left * SUBPIXELS), low_x <= real(picture->right * SUBPIXELS)),
+                            AND(high_y >= real(picture->top * SUBPIXELS), low_y <= real(picture->bottom * SUBPIXELS)));
+    const real scaled = real((float)SUBPIXELS) / SELECT(empty, real(1.0f), area);
+    const real d1 = inverse[1] - inverse[0], d2 = inverse[2] - inverse[0];
+    store(out->slope_x + i, difference_of_products(d1, y2, d2, y1) * scaled);
+    store(out->slope_y + i, difference_of_products(d2, x1, d1, x2) * scaled);
+    store(out->inverse_depth + i, inverse[0]);
+    store(out->least + i, min(min(inverse[0], inverse[1]), inverse[2]));
+    store(out->most + i, max(max(inverse[0], inverse[1]), inverse[2]));
+    store(out->x[0] + i, x[0]), store(out->x[1] + i, SELECT(turned, x[2], x[1])), store(out->x[2] + i, SELECT(turned, x[1], x[2]));
+    store(out->y[0] + i, y[0]), store(out->y[1] + i, SELECT(turned, y[2], y[1])), store(out->y[2] + i, SELECT(turned, y[1], y[2]));
+    const mask seen = AND(AND(box, inside), NOT(empty));
+    store(out->state + i, SELECT(over, real(2.0f), SELECT(seen, real(1.0f), zero)));
+}
+
+static void lanes_setups(const PictureData *picture, patch_batch *b, setup_batch *out)
+{
+    fill_up(b);
+    for (size_t i = 0; i < b->count; i += MGT_LANES) {
+        const vec3 image[3] = {load_corner(b->image, 0, i), load_corner(b->image, 1, i), load_corner(b->image, 2, i)};
+        set_up(picture, image, out, i);
+    }
+}
+
 /* ---- tiles ---- */
 
 static void lanes_tile_clear(raster_tile *tile)
@@ -143,10 +205,9 @@ typedef struct edge_number {
     int32_t first, right, down; /* at the tile's first pixel, and its changes per pixel */
 } edge_number;
 
-typedef enum edge_place { EDGE_OUTSIDE, EDGE_INSIDE, EDGE_CROSSES } edge_place;
-
-/* Pixels on an edge belong to the triangle if it is a top or a left one: to one of the two that share it. */
-static inline edge_place place_edge(const raster_triangle *t, int from, int to, const raster_tile *tile, edge_number *out)
+/* False if the tile lies outside the edge; if all of it lies inside, the number is 0. Pixels on an edge belong to the triangle if it is a top or a
+ * left one: to one of the two that share it. */
+static inline bool place_edge(const raster_triangle *t, int from, int to, const raster_tile *tile, edge_number *out)
 {
     const int64_t dx = (int64_t)t->x[to] - t->x[from], dy = (int64_t)t->y[to] - t->y[from];
     const int64_t px = (int64_t)tile->x * SUBPIXELS - t->x[from], py = (int64_t)tile->y * SUBPIXELS - t->y[from];
@@ -154,13 +215,10 @@ static inline edge_place place_edge(const raster_triangle *t, int from, int to, 
     const int64_t first = (dx * py - dy * px - (kept ? 0 : 1)) >> 8;
     const int64_t across = -dy * (tile->width - 1), down = dx * (tile->height - 1);
     if (first + (across > 0 ? across : 0) + (down > 0 ? down : 0) < 0)
-        return EDGE_OUTSIDE;
-    if (first + (across < 0 ? across : 0) + (down < 0 ? down : 0) >= 0) {
-        *out = (edge_number){0, 0, 0};
-        return EDGE_INSIDE;
-    }
-    *out = (edge_number){(int32_t)first, (int32_t)-dy, (int32_t)dx};
-    return EDGE_CROSSES;
+        return false;
+    const bool inside = first + (across < 0 ? across : 0) + (down < 0 ? down : 0) >= 0;
+    *out = inside ? (edge_number){0, 0, 0} : (edge_number){(int32_t)first, (int32_t)-dy, (int32_t)dx};
+    return true;
 }
 
 /* First and last pixel, from the tile's first one, whose centres may lie between two subpixel coordinates. */
@@ -200,17 +258,20 @@ static inline void store_ints(int32_t *p, mask m)
     memcpy(p, &m, sizeof m);
 }
 
-static inline void draw_vector(const raster_triangle *t, raster_tile *tile, size_t at, mask inside, real x, float row_part)
+/* A triangle's numbers in every lane. */
+typedef struct drawn_triangle {
+    real inverse_depth, slope_x, slope_y, least, most, triangle;
+} drawn_triangle;
+
+static inline void draw_vector(const drawn_triangle *t, raster_tile *tile, size_t at, mask inside, real x, real row)
 {
     const real stored = load(tile->inverse_depth + at);
-    const real line = fma(x, real(t->slope_x), real(row_part));
-    const real depth = clamp(line, real(t->least), real(t->most));
+    const real depth = clamp(fma(x, t->slope_x, row), t->least, t->most);
     const mask nearer = AND(inside, depth > stored);
     if (!any_lane(nearer))
         return;
     store(tile->inverse_depth + at, SELECT(nearer, depth, stored));
-    const real triangle = real_from_bits((mask){0} + t->triangle);
-    store_ints(tile->triangle + at, real_bits(real_select(nearer, triangle, real_from_bits(load_ints(tile->triangle + at)))));
+    store_ints(tile->triangle + at, real_bits(real_select(nearer, t->triangle, real_from_bits(load_ints(tile->triangle + at)))));
 }
 
 static inline mask lane_counts(void)
@@ -222,40 +283,38 @@ static inline mask lane_counts(void)
 static void draw_triangle(raster_tile *tile, const raster_triangle *t)
 {
     edge_number edge[3];
-    bool crosses = false;
-    for (int k = 0; k < 3; k++) {
-        const edge_place place = place_edge(t, k, k == 2 ? 0 : k + 1, tile, &edge[k]);
-        if (place == EDGE_OUTSIDE)
+    for (int k = 0; k < 3; k++)
+        if (!place_edge(t, k, k == 2 ? 0 : k + 1, tile, &edge[k]))
             return;
-        crosses |= place == EDGE_CROSSES;
-    }
     const int32_t left = first_pixel(least3(t->x), tile->x), right = last_pixel(most3(t->x), tile->x, tile->width);
     const int32_t top = first_pixel(least3(t->y), tile->y), bottom = last_pixel(most3(t->y), tile->y, tile->height);
     const float corner_x = (float)t->x[0] * (1.0f / SUBPIXELS), corner_y = (float)t->y[0] * (1.0f / SUBPIXELS);
+    const drawn_triangle d = {real(t->inverse_depth), real(t->slope_x), real(t->slope_y), real(t->least), real(t->most),
+                              real_from_bits((mask){0} + t->triangle)};
     const mask lanes = lane_counts();
     const real first_x = real_from_int(lanes) + ((float)(tile->x + left) - corner_x);
-    mask across[3], start[3];
+    real below = real((float)(tile->y + top) - corner_y);
+    mask number[3], across[3], down[3];
     for (int k = 0; k < 3; k++) {
+        number[k] = lanes * edge[k].right + (edge[k].first + left * edge[k].right + top * edge[k].down);
         across[k] = (mask){0} + edge[k].right * MGT_LANES;
-        start[k] = lanes * edge[k].right + (edge[k].first + left * edge[k].right);
+        down[k] = (mask){0} + edge[k].down;
     }
     for (int32_t y = top; y <= bottom; y++) {
-        const float row_part = real_fma((real){0} + ((float)(tile->y + y) - corner_y), (real){0} + t->slope_y, (real){0} + t->inverse_depth)
-#if MGT_LANES > 1
-            [0]
-#endif
-            ;
-        mask number[3];
-        for (int k = 0; k < 3; k++)
-            number[k] = start[k] + y * edge[k].down;
+        const real row = fma(below, d.slope_y, d.inverse_depth);
+        const size_t at = (size_t)(y * RASTER_STRIDE);
+        mask here[3] = {number[0], number[1], number[2]};
         real x = first_x;
         for (int32_t i = left; i <= right; i += MGT_LANES) {
-            const mask inside = crosses ? (number[0] | number[1] | number[2]) >= 0 : lanes >= 0;
-            draw_vector(t, tile, (size_t)(y * RASTER_STRIDE + i), inside, x, row_part);
+            /* Where no edge crosses the tile the numbers are all 0. */
+            draw_vector(&d, tile, at + (size_t)i, (here[0] | here[1] | here[2]) >= 0, x, row);
             for (int k = 0; k < 3; k++)
-                number[k] += across[k];
+                here[k] += across[k];
             x = x + (float)MGT_LANES;
         }
+        for (int k = 0; k < 3; k++)
+            number[k] += down[k];
+        below = below + 1.0f;
     }
 }
 
@@ -277,5 +336,5 @@ static void lanes_tile_row(const raster_tile *tile, int32_t row, float *depth, i
 }
 
 const raster_kernels LANES_NAME(MGT_LANES) = {
-    lanes_virtual_points, lanes_true_points, lanes_images, lanes_patches, lanes_tile_clear, lanes_tile_draw, lanes_tile_row,
+    lanes_virtual_points, lanes_true_points, lanes_images, lanes_patches, lanes_setups, lanes_tile_clear, lanes_tile_draw, lanes_tile_row,
 };

@@ -27,6 +27,16 @@ typedef struct patch_batch {
     float hidden[PATCH_BATCH];             /* out: 1 where nothing of the triangle can be in the picture, however it bends; else 0 */
 } patch_batch;
 
+/* Triangles as they are drawn, by their images alone; see raster_triangle. */
+typedef struct setup_batch {
+    float x[3][PATCH_BATCH], y[3][PATCH_BATCH]; /* whole numbers */
+    float inverse_depth[PATCH_BATCH], slope_x[PATCH_BATCH], slope_y[PATCH_BATCH], least[PATCH_BATCH], most[PATCH_BATCH];
+    float state[PATCH_BATCH]; /* 0: no pixel's centre is covered, 1: ready, 2: reaches beyond the limits, not set up */
+} setup_batch;
+
+/* Pixels from the middle that coordinates reach: enough for the largest image and its guard band; products of edges then fit into 32 bits in a tile. */
+#define COORDINATE_LIMIT 20480
+
 /* A triangle in the picture, drawn where all three edges' numbers are 0 or more. Coordinates count subpixels from the middle pixel's centre. */
 typedef struct raster_triangle {
     int32_t x[3], y[3]; /* clockwise on the screen, y down */
@@ -52,6 +62,7 @@ typedef struct raster_kernels {
     void (*images)(const RefractData *refract, const PictureData *picture, const float foot[2], size_t count, const float *positions, float *images);
     /* The images of the corners, if `place` is set; then what to split. */
     void (*patches)(const RefractData *refract, const PictureData *picture, int place, patch_batch *batch);
+    void (*setups)(const PictureData *picture, patch_batch *batch, setup_batch *out);
     void (*tile_clear)(raster_tile *tile);
     void (*tile_draw)(raster_tile *tile, const raster_triangle *triangles, const uint32_t *list, size_t count);
     /* A row of the tile as depths and triangles. */
