@@ -16,7 +16,7 @@ double reference_crossing(double above, double below, double across, double inde
     /* Halved from the end that it is nearer to, so that both distances keep their digits. */
     const bool early = growth(above, below, 0.5 * across, 0.5 * across, index) > 0;
     double low = 0, high = 0.5 * across;
-    for (int i = 0; i < 200; i++) {
+    for (int i = 0; i < 64; i++) {
         const double middle = 0.5 * (low + high);
         const bool past = early ? growth(above, below, middle, across - middle, index) > 0 : growth(above, below, across - middle, middle, index) < 0;
         if (past)
