@@ -251,18 +251,28 @@ static void cut_triangle(const chunk_job *job, const patch *whole, const float f
     part p = {.count = 3};
     memcpy(p.corner, whole->corner, sizeof whole->corner);
     memcpy(p.far, far, 3 * sizeof *far);
-    const part own = cut(&p, 0, false, side);
     if (most3(far) > 0) {
-        const part beyond = cut(&p, 0, true, side);
-        draw_near(job, &own, whole->triangle);
+        const part near = cut(&p, view->trough, false, side), beyond = cut(&p, 0, true, side);
+        draw_near(job, &near, whole->triangle);
         push_part(job, &beyond, whole->triangle);
     } else {
         take_straight(job, NEAR_LAYER, whole);
     }
     if (view->crest > 0) {
+        const part own = cut(&p, 0, false, side);
         const part behind = cut(&own, -view->crest, true, side);
         push_part(job, &behind, whole->triangle);
     }
+}
+
+/* What of a triangle beyond the surface troughs may uncover. */
+static void draw_uncovered(const chunk_job *job, const patch *whole, const float far[3])
+{
+    part p = {.count = 3};
+    memcpy(p.corner, whole->corner, sizeof whole->corner);
+    memcpy(p.far, far, 3 * sizeof *far);
+    const part near = cut(&p, job->view->trough, false, job->view->refract.side);
+    draw_near(job, &near, whole->triangle);
 }
 
 /* ---- chunks ---- */
@@ -297,6 +307,8 @@ static void take_triangle(const chunk_job *job, size_t index)
             take_straight(job, FAR_LAYER, &p);
         else
             take_patch(job, &p);
+        if (least3(far) < view->trough)
+            draw_uncovered(job, &p, far);
     } else if (most3(far) > -view->crest) {
         cut_triangle(job, &p, far);
     } else {

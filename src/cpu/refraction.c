@@ -161,6 +161,7 @@ static mgt_status draw_layers(refraction *r, thread_pool *pool)
         .index = scene->water.index_of_refraction,
         .map = map_of(q->refraction),
         .error = q->tess_error,
+        .trough = crest_of(&scene->water),
         .crest = crest_of(&scene->water),
     };
     mgt_status status = gbuffers_draw(&r->direct, r->world, &job, r->kernels->raster, pool);
@@ -168,6 +169,7 @@ static mgt_status draw_layers(refraction *r, thread_pool *pool)
     if (status == MGT_OK && r->mirrors) {
         job.camera = mirrored_rays(&job.camera);
         job.map = GBUFFER_STRAIGHT;
+        job.trough = 0;
         status = gbuffers_draw(&r->mirrored, r->world, &job, r->kernels->raster, pool);
     }
     return status;
