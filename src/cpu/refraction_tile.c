@@ -189,13 +189,13 @@ static void trace_doubtful(refraction *r, tile_objects *o, size_t count)
         if (!marches && e->doubt[i] == 0)
             continue;
         trace_ray *ray = &o->rays[doubtful];
-        const double along = (double)o->water.along[i];
+        const double along = (double)o->water.along[i] * (1 - 2e-6); /* rounding must not put it behind a wall that stands in the water */
         for (int axis = 0; axis < 3; axis++) {
             const double view = (double)o->water.view[axis][i] * (axis == 1 ? side : 1);
             ray->origin[axis] = (float)(foot[axis] + along * view);
             ray->direction[axis] = e->direction[axis][i];
         }
-        ray->least = 1e-4f;
+        ray->least = 0;
         ray->most = INFINITY;
         list[doubtful++] = (uint16_t)i;
     }
