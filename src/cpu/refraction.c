@@ -154,6 +154,8 @@ static mgt_status draw_layers(refraction *r, thread_pool *pool)
 {
     const mgt_scene *scene = r->frame->scene;
     const mgt_quality *q = &scene->quality;
+    /* Pictures are rounded to parts of pixels: they overlap at the waterline, and the water itself says what is in front. */
+    const double reach = fmax(crest_of(&scene->water), 0.002);
     gbuffer_job job = {
         .camera = r->camera,
         .width = scene->image.width,
@@ -161,8 +163,8 @@ static mgt_status draw_layers(refraction *r, thread_pool *pool)
         .index = scene->water.index_of_refraction,
         .map = map_of(q->refraction),
         .error = q->tess_error,
-        .trough = crest_of(&scene->water),
-        .crest = crest_of(&scene->water),
+        .trough = reach,
+        .crest = reach,
     };
     mgt_status status = gbuffers_draw(&r->direct, r->world, &job, r->kernels->raster, pool);
     r->mirrors = r->frame->under || (r->world->triangle_count > 0 && r->world->high[1] > 0);
