@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "image/output_file.h"
+#include "scene/scene_models.h"
 
 static bool values_of_words(const scene_values *base, const char *const *words, size_t count, scene_values *out, scene_error *error);
 
@@ -55,13 +56,31 @@ bool document_open(document *d, const char *path, const char *const *words, size
 
 void document_close(document *d)
 {
+    for (size_t i = 0; i < d->former_count; i++)
+        scene_models_release(d->former[i]);
+    free(d->former);
     scene_values_free(&d->values);
     scene_file_free(d->file);
     *d = (document){0};
 }
 
+/* Lets models live as long as the document does; where memory runs out, for ever. */
+static void keep_models(document *d)
+{
+    if (!d->values.models)
+        return;
+    scene_models *models = scene_models_share(d->values.models);
+    scene_models **former = realloc(d->former, (d->former_count + 1) * sizeof *former);
+    if (!former)
+        return;
+    d->former = former;
+    former[d->former_count++] = models;
+}
+
 void document_replace(document *d, scene_values *values)
 {
+    if (d->values.models != values->models)
+        keep_models(d);
     scene_values_free(&d->values);
     d->values = *values;
     *values = (scene_values){0};

@@ -14,6 +14,8 @@ typedef struct document {
     scene_values values;  /* as changed */
     struct stat stamp;    /* of the file when it was last read, good or bad */
     scene_error error;    /* of that reading; kind SCENE_ERROR_NONE when it was good */
+    struct scene_models **former; /* those of earlier values: a rendering under way may still read them */
+    size_t former_count;
 } document;
 
 /* Reads `path`, then changes it by `words` ("key=value"). False with the reason in *error; *d is then empty. */

@@ -159,7 +159,8 @@ static void draw_look(viewer *v)
     static const char *const sky[][4] = {[MGT_SKY_ATMOSPHERE] = {"sky.turbidity", "sky.night", NULL},
                                          [MGT_SKY_GRADIENT] = {"sky.zenith", "sky.horizon", NULL},
                                          [MGT_SKY_BLACK] = {NULL}};
-    static const char *const water[] = {"water.ior", "water.body_albedo", NULL};
+    static const char *const water[] = {"water.level", "water.ior", "water.body_albedo", NULL};
+    static const char *const under[] = {"water.absorption", "water.scattering", NULL}; /* for what is seen through it */
     static const char *const post[] = {"post.tone_map", "post.glare", NULL};
     if (ui_header("Light", true))
         draw_controls(v, light);
@@ -167,8 +168,11 @@ static void draw_look(viewer *v)
         panel_control(v, "sky.model");
         draw_controls(v, sky[v->document.values.sky.model]);
     }
-    if (ui_header("Water", true))
+    if (ui_header("Water", true)) {
         draw_controls(v, water);
+        if (v->document.values.objects.count > 0)
+            draw_controls(v, under);
+    }
     if (ui_header("Exposure", true)) {
         draw_exposure(v);
         draw_controls(v, post);

@@ -165,7 +165,9 @@ static bool same_shot(const shot *a, const shot *b)
            same_light(&s->light, &t->light) && memcmp(&s->sky, &t->sky, sizeof s->sky) == 0 && s->water.wave_count == t->water.wave_count &&
            memcmp(a->waves, b->waves, s->water.wave_count * sizeof *a->waves) == 0 &&
            s->water.index_of_refraction == t->water.index_of_refraction &&
-           memcmp(s->water.body_albedo, t->water.body_albedo, sizeof s->water.body_albedo) == 0 &&
+           memcmp(s->water.body_albedo, t->water.body_albedo, sizeof s->water.body_albedo) == 0 && s->water.level == t->water.level &&
+           memcmp(s->water.absorption, t->water.absorption, sizeof s->water.absorption) == 0 &&
+           memcmp(s->water.scattering, t->water.scattering, sizeof s->water.scattering) == 0 && s->objects == t->objects &&
            s->post.auto_exposure == t->post.auto_exposure && s->post.exposure_ev == t->post.exposure_ev && s->post.tone_map == t->post.tone_map &&
            s->post.glare == t->post.glare;
 }

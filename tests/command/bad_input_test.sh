@@ -53,6 +53,38 @@ refused 65 '^scene.yaml' scene.yaml
 head -c 300 "$SOURCE/scenes/sunset.json" >scene.yaml
 refused 65 '^scene.yaml:[0-9]+:[0-9]+: ' scene.yaml
 
+# Objects: the file that is missing or broken is named, at the place that names it.
+cp "$SOURCE/scenes/models/rock.ply" "$SOURCE/scenes/models/sand.png" .
+head -c 300 rock.ply >cut.ply
+head -c 900 sand.png >cut.png
+echo 'not a mesh' >bad.obj
+mkfifo pipe.ply
+scene 'mangata: 1' 'objects:' '  - {mesh: nowhere.ply}'
+refused 66 'scene.yaml:3:12: objects\[0\].mesh: nowhere.ply: No such file .*allowed: ' scene.yaml
+scene 'mangata: 1' 'objects:' '  - {mesh: cut.ply}'
+refused 65 '^scene.yaml:3:12: .*cut.ply: ends too early; allowed: ' scene.yaml
+scene 'mangata: 1' 'objects:' '  - {mesh: bad.obj}'
+refused 65 '^scene.yaml:3:12: .*bad.obj: ' scene.yaml
+scene 'mangata: 1' 'objects:' '  - {mesh: pipe.ply}'
+refused 65 '^scene.yaml:3:12: .*pipe.ply: is no regular file' scene.yaml
+scene 'mangata: 1' 'objects:' '  - {mesh: sand.png}'
+refused 65 '^scene.yaml:3:12: .*sand.png: has another extension; allowed: .*gltf, .glb, .obj or .ply' scene.yaml
+scene 'mangata: 1' 'objects:' '  - {shape: box, material: {texture: cut.png}}'
+refused 65 '^scene.yaml:3:38: .*cut.png: is not a sound PNG' scene.yaml
+scene 'mangata: 1' 'objects:' '  - {shape: floor, heights: nowhere.pfm}'
+refused 66 'scene.yaml:3:29: objects\[0\].heights: nowhere.pfm' scene.yaml
+scene 'mangata: 1' 'objects:' '  - {shape: pool, mesh: rock.ply}'
+refused 65 '^scene.yaml:3:[0-9]+: objects\[0\].mesh stands beside a shape' scene.yaml
+scene 'mangata: 1' 'objects:' '  - {shape: box, scale: [1, 0, 1]}'
+refused 65 '^scene.yaml:3:[0-9]+: objects\[0\].scale\[1\] is 0; allowed: ' scene.yaml
+refused 65 '^--set objects.0..shape=cone: .*allowed: one of mesh, plane' "$SOURCE/scenes/shore.yaml" --set 'objects[0].shape=cone'
+expect 0 '' "$MANGATA" scene check "$SOURCE"/scenes/{shore,diver,hull}.yaml
+if [[ -f $SOURCE/data/bunny.ply ]]; then
+    expect 0 '' "$MANGATA" scene check "$SOURCE/scenes/pool.yaml"
+else
+    expect 66 'scripts/fetch_models' "$MANGATA" scene check "$SOURCE/scenes/pool.yaml"
+fi
+
 refused 65 'light.elevation_degrees' "$simple" --set light.elevation_degrees=3
 refused 65 'elevation_deg' "$simple" --set light.elevation_deg=nan
 refused 65 'elevation_deg' "$simple" --set light.elevation_deg=high
