@@ -10,6 +10,13 @@
 #include "image/picture.h"
 #include "scene/scene_edit.h"
 
+/* assimp loses a buffer of some damaged files. Called by LeakSanitizer, where there is one. */
+const char *__lsan_default_suppressions(void);
+const char *__lsan_default_suppressions(void)
+{
+    return "leak:libassimp";
+}
+
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
 static const char cube_obj[] =
