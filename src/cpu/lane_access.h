@@ -79,7 +79,7 @@ KERNEL vec3 BODY_LIGHT(CTX cx)
 
 KERNEL vec3 OBJECTS_COLOR(CTX cx) { return (vec3){light_plane(cx, 3), light_plane(cx, 4), light_plane(cx, 5)}; }
 KERNEL real OBJECTS_SHARE(CTX cx) { return light_plane(cx, 6); }
-KERNEL vec3 CLEAR_WATER(CTX cx) { return (vec3){light_plane(cx, 7), light_plane(cx, 8), light_plane(cx, 9)}; }
+KERNEL vec3 CLEAR_TO_LIGHT(CTX cx) { return (vec3){light_plane(cx, 7), light_plane(cx, 8), light_plane(cx, 9)}; }
 KERNEL vec3 DEEP_WATER(CTX cx) { return (vec3){light_plane(cx, 10), light_plane(cx, 11), light_plane(cx, 12)}; }
 
 #endif

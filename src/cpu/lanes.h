@@ -64,8 +64,8 @@ typedef struct tile_light {
     float body[3][TILE_PIXELS];     /* what comes through */
     float mirrored[3][TILE_PIXELS]; /* what objects shine instead of what they hide of the sky, … */
     float share[TILE_PIXELS];       /* … and how much that is */
-    float clear[3][TILE_PIXELS];    /* under water: what is left of light from the surface, … */
-    float deep[3][TILE_PIXELS];     /* … and what shines where no surface is */
+    float clear[3][TILE_PIXELS];    /* what objects and water leave of the light's disk */
+    float deep[3][TILE_PIXELS];     /* under water: what shines where no surface is */
 } tile_light;
 
 /* Cells of one tile: pixels are split evenly into view.scale_x × view.scale_y of them. */

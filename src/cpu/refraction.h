@@ -24,6 +24,7 @@ typedef struct tile_objects {
     tile_ends ends;
     float rgb[3 * TILE_PIXELS];
     uint16_t list[TILE_PIXELS];
+    float seen[TILE_PIXELS]; /* places of a pixel that met water */
     trace_ray rays[TILE_PIXELS];
     trace_hit hits[TILE_PIXELS];
     truth_pixels truth;

@@ -28,4 +28,10 @@ struct refraction {
     atomic_size_t pixels, traced; /* of water, of this frame; and rays traced through them */
 };
 
+/* Radiance of the tile's first `count` ends, in o->rgb. */
+void refraction_shade(const refraction *r, tile_objects *o, size_t count);
+
+/* What stands in front of water and sky in the tile whose first pixel this is; the water must be known. */
+void refraction_near(const refraction *r, uint32_t column, uint32_t row, tile_objects *o);
+
 #endif

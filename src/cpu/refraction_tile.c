@@ -14,8 +14,7 @@ static void take(float *plane, const uint16_t *list, size_t count)
         plane[i] = plane[list[i]];
 }
 
-/* The first `count` ends. */
-static void shade_ends(const refraction *r, tile_objects *o, size_t count)
+void refraction_shade(const refraction *r, tile_objects *o, size_t count)
 {
     const tile_ends *e = &o->ends;
     const shade_hits hits = {
@@ -47,7 +46,7 @@ static void shade_listed(const refraction *r, tile_objects *o, size_t count)
         take(e->after, o->list, count);
         take(e->water, o->list, count);
     }
-    shade_ends(r, o, count);
+    refraction_shade(r, o, count);
 }
 
 static void spread_light(const tile_objects *o, size_t count, float (*planes)[TILE_PIXELS])
@@ -55,69 +54,6 @@ static void spread_light(const tile_objects *o, size_t count, float (*planes)[TI
     for (size_t i = 0; i < count; i++)
         for (int k = 0; k < 3; k++)
             planes[k][o->list[i]] = o->rgb[3 * i + (size_t)k];
-}
-
-/* ---- in front of the water ---- */
-
-/* The near layer's element at a pixel of the tile, SIZE_MAX outside of the image. */
-static size_t near_element(const refraction *r, uint32_t column, uint32_t row)
-{
-    const gbuffer *g = &r->direct.near;
-    const mgt_image *image = &r->frame->scene->image;
-    if (column >= image->width || row >= image->height)
-        return SIZE_MAX;
-    return (size_t)(g->top + row) * g->width + g->left + column;
-}
-
-static void see_near_pixel(const refraction *r, uint32_t column, uint32_t row, size_t element, size_t i, size_t at, tile_objects *o)
-{
-    const gbuffer *g = &r->direct.near;
-    const camera_rays *c = &r->camera;
-    tile_ends *e = &o->ends;
-    double ray[3], squared = 0;
-    for (int k = 0; k < 3; k++) {
-        ray[k] = c->corner[k] + column * c->right[k] + row * c->down[k];
-        squared += ray[k] * ray[k];
-    }
-    const double depth = (double)g->depth[element], length = sqrt(squared);
-    const double foot[3] = {c->position[0] - r->world->origin[0], c->position[1], c->position[2] - r->world->origin[1]};
-    const float *plane = r->planes + 4 * (size_t)g->triangle[element];
-    const double facing = (double)plane[0] * ray[0] + (double)plane[1] * ray[1] + (double)plane[2] * ray[2];
-    e->triangle[at] = g->triangle[element];
-    for (int k = 0; k < 3; k++) {
-        e->position[k][at] = (float)(foot[k] + depth * ray[k]);
-        e->direction[k][at] = (float)(ray[k] / length);
-        e->slopes[k][at] = 0;
-        o->normal[k][i] = facing > 0 ? -plane[k] : plane[k];
-    }
-    e->before[at] = (float)(depth * length);
-    e->after[at] = 0;
-    e->water[at] = r->frame->under ? e->before[at] : 0;
-    o->along[i] = e->before[at];
-}
-
-static void see_near(const refraction *r, uint32_t column, uint32_t row, tile_objects *o)
-{
-    size_t count = 0;
-    for (uint32_t i = 0; i < TILE_PIXELS; i++) {
-        const uint32_t x = column + i % TILE_WIDTH, y = row + i / TILE_WIDTH;
-        const size_t element = near_element(r, x, y);
-        o->share[i] = 0;
-        o->along[i] = INFINITY;
-        if (element == SIZE_MAX || r->direct.near.triangle[element] < 0)
-            continue;
-        see_near_pixel(r, x, y, element, i, count, o);
-        if (o->water.share[i] > 0 && o->along[i] >= o->water.along[i]) {
-            o->along[i] = INFINITY;
-            continue;
-        }
-        o->share[i] = 1;
-        o->list[count++] = (uint16_t)i;
-    }
-    if (count == 0)
-        return;
-    shade_ends(r, o, count);
-    spread_light(o, count, o->color);
 }
 
 /* ---- through the surface ---- */
@@ -131,24 +67,40 @@ static size_t list_water(tile_objects *o)
     return count;
 }
 
-/* Under water: what it leaves of light from the surface, and what it shines where it has none. */
-static void see_water(const refraction *r, uint32_t column, uint32_t row, tile_objects *o)
+/* What objects, and under water the way from the surface, leave of the light's disk. */
+static void see_light(const refraction *r, tile_objects *o)
 {
     const mgt_water *water = &r->frame->scene->water;
     const camera_rays *c = &r->camera;
+    const float foot_x = r->narrow.data.foot_x, foot_z = r->narrow.data.foot_z;
+    float x[TILE_PIXELS], z[TILE_PIXELS], lit[TILE_PIXELS];
+    for (size_t i = 0; i < TILE_PIXELS; i++) {
+        const bool seen = o->water.share[i] > 0;
+        x[i] = seen ? foot_x + o->water.along[i] * o->water.view[0][i] : foot_x;
+        z[i] = seen ? foot_z + o->water.along[i] * o->water.view[2][i] : foot_z;
+    }
+    shade_sun(r->shade, TILE_PIXELS, x, z, lit);
+    for (size_t i = 0; i < TILE_PIXELS; i++)
+        for (int k = 0; k < 3; k++) {
+            const double way = c->position[1] < 0 && o->water.share[i] > 0 ? (double)o->water.along[i] : 0;
+            const float left = way > 0 ? (float)exp(-way * ((double)water->absorption[k] + (double)water->scattering[k])) : 1;
+            o->light.clear[k][i] = lit[i] * left;
+        }
+}
+
+/* Under water: what it shines where it has no surface. */
+static void see_deep(const refraction *r, uint32_t column, uint32_t row, tile_objects *o)
+{
+    const camera_rays *c = &r->camera;
     tile_ends *e = &o->ends;
     size_t count = 0;
+    memset(o->light.deep, 0, sizeof o->light.deep);
     for (size_t i = 0; i < TILE_PIXELS; i++) {
-        for (int k = 0; k < 3; k++) {
-            const double way = o->water.share[i] > 0 ? (double)o->water.along[i] : 0;
-            o->light.clear[k][i] = (float)exp(-way * ((double)water->absorption[k] + (double)water->scattering[k]));
-            o->light.deep[k][i] = 0;
-        }
         if (o->water.share[i] >= 1)
             continue;
         double ray[3], squared = 0;
         for (int k = 0; k < 3; k++) {
-            ray[k] = c->corner[k] + (column + i % TILE_WIDTH) * c->right[k] + (row + i / TILE_WIDTH) * c->down[k];
+            ray[k] = c->corner[k] + (double)(column + i % TILE_WIDTH) * c->right[k] + (double)(row + i / TILE_WIDTH) * c->down[k];
             squared += ray[k] * ray[k];
         }
         for (int k = 0; k < 3; k++) {
@@ -160,7 +112,7 @@ static void see_water(const refraction *r, uint32_t column, uint32_t row, tile_o
         e->before[count] = e->after[count] = e->water[count] = 0;
         o->list[count++] = (uint16_t)i;
     }
-    shade_ends(r, o, count);
+    refraction_shade(r, o, count);
     spread_light(o, count, o->light.deep);
 }
 
@@ -253,29 +205,62 @@ static void see_truth(const refraction *r, uint32_t tile_x, uint32_t tile_y, uin
     }
 }
 
+/* Radiance through one place of every pixel, added to the body's. */
+static void see_place(refraction *r, const tile_offset *at, size_t count, tile_objects *o)
+{
+    r->kernels->narrow->refracted(&r->narrow, at, &o->water, &o->ends);
+    const mgt_refraction method = r->frame->scene->quality.refraction;
+    if (method == MGT_REFRACTION_HYBRID || method == MGT_REFRACTION_DISTANCE_FIELD)
+        trace_doubtful(r, o, count);
+    for (size_t k = 0; k < count; k++)
+        o->error[o->list[k]] = fmaxf(o->error[o->list[k]], o->ends.error[o->list[k]]);
+    shade_listed(r, o, count);
+    for (size_t i = 0; i < count; i++) {
+        for (int k = 0; k < 3; k++)
+            o->light.body[k][o->list[i]] += o->rgb[3 * i + (size_t)k];
+        o->seen[o->list[i]] += 1;
+    }
+}
+
+/* N × N places of every pixel; the last water that is looked at is that through the centres. */
+static void see_refracted(refraction *r, const tile_waves *waves, const tile_guess *guess, tile_offset at, tile_objects *o)
+{
+    const uint32_t n = r->frame->scene->quality.refraction_samples ? r->frame->scene->quality.refraction_samples : 1;
+    memset(o->light.body, 0, sizeof o->light.body);
+    memset(o->seen, 0, sizeof o->seen);
+    memset(o->error, 0, sizeof o->error);
+    for (uint32_t place = 0; place < n * n && n > 1 && !r->truth; place++) {
+        at.dx = ((float)(place % n) + 0.5f) / (float)n - 0.5f;
+        at.dy = ((float)(place / n) + 0.5f) / (float)n - 0.5f;
+        r->kernels->narrow->water(&r->frame->data, waves, guess, &at, &o->water);
+        const size_t count = list_water(o);
+        if (count > 0)
+            see_place(r, &at, count, o);
+    }
+    at.dx = at.dy = 0;
+    r->kernels->narrow->water(&r->frame->data, waves, guess, &at, &o->water);
+    const size_t count = list_water(o);
+    if (n == 1 && count > 0 && !r->truth)
+        see_place(r, &at, count, o);
+    for (size_t i = 0; i < TILE_PIXELS; i++)
+        for (int k = 0; k < 3 && o->seen[i] > 1; k++)
+            o->light.body[k][i] /= o->seen[i];
+}
+
 void refraction_tile(refraction *r, const tile_waves *waves, const tile_guess *guess, uint32_t tile_x, uint32_t tile_y, uint32_t worker,
                      tile_objects *o)
 {
     const tile_offset at = {tile_x * TILE_WIDTH, tile_y * TILE_HEIGHT, 0, 0};
-    r->kernels->narrow->water(&r->frame->data, waves, guess, &at, &o->water);
+    see_refracted(r, waves, guess, at, o);
     const size_t count = list_water(o);
     atomic_fetch_add_explicit(&r->pixels, count, memory_order_relaxed);
-    memset(o->light.body, 0, sizeof o->light.body);
-    const mgt_refraction method = r->frame->scene->quality.refraction;
-    if (count > 0 && !r->truth) {
-        r->kernels->narrow->refracted(&r->narrow, &at, &o->water, &o->ends);
-        if (method == MGT_REFRACTION_HYBRID || method == MGT_REFRACTION_DISTANCE_FIELD)
-            trace_doubtful(r, o, count);
-        memcpy(o->error, o->ends.error, sizeof o->error);
-        shade_listed(r, o, count);
-        spread_light(o, count, o->light.body);
-    }
     see_mirrored(r, &at, count, o);
     if (r->truth)
         see_truth(r, tile_x, tile_y, worker, o);
     if (r->frame->under)
-        see_water(r, at.column, at.row, o);
-    see_near(r, at.column, at.row, o);
+        see_deep(r, at.column, at.row, o);
+    see_light(r, o);
+    refraction_near(r, at.column, at.row, o);
     keep_layers(o);
 }
 

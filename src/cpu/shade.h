@@ -34,4 +34,7 @@ void shade_free(shade_scene *s); /* NULL is allowed */
  * its surface is not, nor is the light's disk in the sky. The bits depend on the hit alone. Any number of threads at once. */
 void shade_points(const shade_scene *s, const shade_hits *hits, float *rgb);
 
+/* Share of the light's disk that no object hides from points of the mean surface, (x, 0, z) in the world's coordinates. */
+void shade_sun(const shade_scene *s, size_t count, const float *x, const float *z, float *share);
+
 #endif

@@ -221,4 +221,16 @@ static void lanes_points(const shade_scene *s, const shade_hits *h, float *rgb)
     }
 }
 
-const shade_kernels LANES_NAME(MGT_LANES) = {lanes_points};
+static void lanes_sun(const shade_scene *s, size_t count, const float *x, const float *z, float *share)
+{
+    const struct kernel_context cx = {.shade = s};
+    for (size_t i = 0; i < count; i += MGT_LANES) {
+        const size_t some = count - i < MGT_LANES ? count - i : MGT_LANES;
+        float lanes[MGT_LANES];
+        store(lanes, SUN_SHARE(&cx, vec3(load_some(x + i, some), real(0.0f), load_some(z + i, some))));
+        for (size_t lane = 0; lane < some; lane++)
+            share[i + lane] = lanes[lane];
+    }
+}
+
+const shade_kernels LANES_NAME(MGT_LANES) = {lanes_points, lanes_sun};

@@ -29,6 +29,7 @@ struct shade_scene {
 
 struct shade_kernels {
     void (*points)(const shade_scene *s, const shade_hits *hits, float *rgb);
+    void (*sun)(const shade_scene *s, size_t count, const float *x, const float *z, float *share);
 };
 
 #endif
