@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cpu/refraction_data.h"
 #include "cpu/refraction_state.h"
 #include "cpu/shade_lanes.h"
 
@@ -48,6 +49,27 @@ static double crest_of(const mgt_water *water)
     return fmin(sum, 4 * sqrt(variance));
 }
 
+void refraction_plane(const world *w, size_t triangle, float plane[4])
+{
+    const float *p[3];
+    double a[3], b[3], n[3];
+    for (size_t c = 0; c < 3; c++)
+        p[c] = w->positions + 3 * (size_t)w->indices[3 * triangle + c];
+    for (int k = 0; k < 3; k++) {
+        a[k] = (double)p[1][k] - (double)p[0][k];
+        b[k] = (double)p[2][k] - (double)p[0][k];
+    }
+    for (int k = 0; k < 3; k++)
+        n[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+    const double length = fmax(sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]), 1e-30);
+    double level = 0;
+    for (int k = 0; k < 3; k++) {
+        plane[k] = (float)(n[k] / length);
+        level += n[k] / length * (double)p[0][k];
+    }
+    plane[3] = (float)level;
+}
+
 static bool build_planes(refraction *r)
 {
     const world *w = r->world;
@@ -61,25 +83,8 @@ static bool build_planes(refraction *r)
         r->planes = more;
         r->plane_room = room;
     }
-    for (size_t t = 0; t < w->triangle_count; t++) {
-        const float *p[3];
-        double a[3], b[3], n[3];
-        for (size_t c = 0; c < 3; c++)
-            p[c] = w->positions + 3 * (size_t)w->indices[3 * t + c];
-        for (int k = 0; k < 3; k++) {
-            a[k] = (double)p[1][k] - (double)p[0][k];
-            b[k] = (double)p[2][k] - (double)p[0][k];
-        }
-        for (int k = 0; k < 3; k++)
-            n[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
-        const double length = fmax(sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]), 1e-30);
-        double level = 0;
-        for (int k = 0; k < 3; k++) {
-            r->planes[4 * t + (size_t)k] = (float)(n[k] / length);
-            level += n[k] / length * (double)p[0][k];
-        }
-        r->planes[4 * t + 3] = (float)level;
-    }
+    for (size_t t = 0; t < w->triangle_count; t++)
+        refraction_plane(w, t, r->planes + 4 * t);
     r->plane_version = w->version;
     return true;
 }
@@ -101,10 +106,8 @@ static void invert(const double right[3], const double down[3], const double cor
             rows[i][k] /= det;
 }
 
-static NarrowData narrow_data(const refraction *r, const gbuffer *layer)
+NarrowData refraction_narrow_data(const frame *f, const world *w, const gbuffer *layer)
 {
-    const frame *f = r->frame;
-    const world *w = r->world;
     const camera_rays *c = &f->close;
     const double n = f->scene->water.index_of_refraction;
     double rows[3][3];
@@ -150,31 +153,45 @@ static NarrowData narrow_data(const refraction *r, const gbuffer *layer)
     };
 }
 
-static mgt_status draw_layers(refraction *r, thread_pool *pool)
+gbuffer_job refraction_job(const frame *f)
 {
-    const mgt_scene *scene = r->frame->scene;
-    const mgt_quality *q = &scene->quality;
+    const mgt_scene *scene = f->scene;
     /* Pictures are rounded to parts of pixels: they overlap at the waterline, and the water itself says what is in front. */
     const double reach = fmax(crest_of(&scene->water), 0.002);
-    gbuffer_job job = {
-        .camera = r->camera,
+    return (gbuffer_job){
+        .camera = f->under ? mirrored_rays(&f->close) : f->close,
         .width = scene->image.width,
         .height = scene->image.height,
         .index = scene->water.index_of_refraction,
-        .map = map_of(q->refraction),
-        .error = q->tess_error,
+        .map = map_of(scene->quality.refraction),
+        .error = scene->quality.tess_error,
         .trough = reach,
         .crest = reach,
     };
-    mgt_status status = gbuffers_draw(&r->direct, r->world, &job, r->kernels->raster, pool);
-    r->mirrors = r->frame->under || (r->world->triangle_count > 0 && r->world->high[1] > 0);
-    if (status == MGT_OK && r->mirrors) {
-        job.camera = mirrored_rays(&job.camera);
-        job.map = GBUFFER_STRAIGHT;
-        job.trough = 0;
-        status = gbuffers_draw(&r->mirrored, r->world, &job, r->kernels->raster, pool);
-    }
-    return status;
+}
+
+gbuffer_job refraction_mirrored_job(const frame *f)
+{
+    gbuffer_job job = refraction_job(f);
+    job.camera = mirrored_rays(&job.camera);
+    job.map = GBUFFER_STRAIGHT;
+    job.trough = 0;
+    return job;
+}
+
+bool refraction_mirrors(const frame *f, const world *w)
+{
+    return f->under || (w->triangle_count > 0 && w->high[1] > 0);
+}
+
+static mgt_status draw_layers(refraction *r, thread_pool *pool)
+{
+    const gbuffer_job job = refraction_job(r->frame), mirrored = refraction_mirrored_job(r->frame);
+    const mgt_status status = gbuffers_draw(&r->direct, r->world, &job, r->kernels->raster, pool);
+    r->mirrors = refraction_mirrors(r->frame, r->world);
+    if (status != MGT_OK || !r->mirrors)
+        return status;
+    return gbuffers_draw(&r->mirrored, r->world, &mirrored, r->kernels->raster, pool);
 }
 
 static bool traces(mgt_refraction method)
@@ -225,7 +242,7 @@ mgt_status refraction_prepare(refraction **state, const reporter *report, const 
     if (world_update(&r->world, f->scene, pool) != MGT_OK || !build_planes(r) || draw_layers(r, pool) != MGT_OK ||
         shade_update(&r->shade, r->world, f, sky, kernels->shade) != MGT_OK)
         goto out_of_memory;
-    r->narrow = (narrow_scene){.data = narrow_data(r, &r->direct.far),
+    r->narrow = (narrow_scene){.data = refraction_narrow_data(f, r->world, &r->direct.far),
                                .refract = r->direct.refract,
                                .layers = {&r->direct.far, r->mirrors ? &r->mirrored.far : &r->direct.far},
                                .planes = r->planes};

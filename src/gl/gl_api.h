@@ -94,6 +94,7 @@
     X(QUERYCOUNTER, QueryCounter)                                                   \
     X(SHADERSOURCE, ShaderSource)                                                   \
     X(TEXTUREBUFFERRANGE, TextureBufferRange)                                       \
+    X(TEXTUREPARAMETERI, TextureParameteri)                                         \
     X(TEXTURESTORAGE2D, TextureStorage2D)                                           \
     X(TEXTURESUBIMAGE2D, TextureSubImage2D)                                         \
     X(UNMAPNAMEDBUFFER, UnmapNamedBuffer)                                           \

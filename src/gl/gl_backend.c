@@ -205,8 +205,17 @@ const char *gl_lacks(const mgt_scene *scene)
     const mgt_method method = scene->quality.method;
     if (method == MGT_METHOD_REFERENCE || method == MGT_METHOD_ADAPTIVE)
         return "methods reference and adaptive run";
-    if (scene->object_count > 0)
-        return "scenes with objects run";
+    switch (scene->quality.refraction) {
+    case MGT_REFRACTION_HYBRID:
+    case MGT_REFRACTION_DISTANCE_FIELD:
+    case MGT_REFRACTION_TRUTH:
+        if (scene->object_count > 0)
+            return "refraction hybrid, distance-field and truth run";
+        break;
+    default: break;
+    }
+    if (scene->object_count > 0 && (scene->quality.caustics || scene->quality.refraction_samples > 1))
+        return "caustics and several samples of refraction a pixel run";
     const bool sinks = scene->camera.position[1] < 0 || (scene->camera_moves && scene->camera_open.position[1] < 0);
     return sinks ? "cameras under water run" : NULL;
 }

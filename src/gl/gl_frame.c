@@ -40,6 +40,7 @@ typedef struct frame_run {
     uint32_t first_row, end_row, first_column, columns; /* of tiles */
     uint32_t band_rows;
     int wave_stride;
+    bool objects;   /* the scene has some */
     GLsync behind;  /* of the last step but one told */
     double done, steps;
 } frame_run;
@@ -220,6 +221,7 @@ static void bind_layers(const gl_renderer *g)
 
 static void bind_tables(gl_renderer *g, gl_program program)
 {
+    gl_refraction_bind_light(g);
     if (program == PROGRAM_SHADE_KERNELS)
         gl_podee_bind(g);
     if (program == PROGRAM_SHADE_LEAN || program == PROGRAM_SHADE_LEADR)
@@ -406,6 +408,52 @@ static mgt_status render_surface(frame_run *run, const band *b, bool ready)
     return status;
 }
 
+/* What the band's pixels see of objects, at the instant the shutter closes. */
+static mgt_status see_objects(frame_run *run, const band *b)
+{
+    gl_renderer *g = run->g;
+    const frame *f = run->job->frame;
+    wave_set_build(f, &f->close, (interval){f->scene->time, 0}, true, g->waves);
+    mgt_status status = prepare_set(run, b);
+    if (status != MGT_OK)
+        return status;
+    status = gl_ring_begin(&g->gl, &g->ring, sizeof b->pass + sizeof g->refraction.block, 2, run->r);
+    if (status != MGT_OK)
+        return status;
+    gl_pass_begin(g, "refraction");
+    status = gl_use(g, PROGRAM_OBJECTS, run->r);
+    if (status == MGT_OK) {
+        gl_uniform(g, BIND_PASS, &b->pass, sizeof b->pass);
+        gl_refraction_bind(g);
+        g->gl.BindTextureUnit(UNIT_SKY, g->sky_texture);
+        g->gl.BindSampler(UNIT_SKY, 0);
+        g->gl.DispatchCompute((GLuint)b->pass.columns * 4, (GLuint)b->pass.rows * 2, 1);
+        g->gl.MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
+    }
+    const mgt_status ended = gl_pass_end(g, run->r);
+    return status == MGT_OK ? ended : status;
+}
+
+/* Objects in front of the water over the band's layers. */
+static mgt_status put_objects_in_front(const frame_run *run, const band *b)
+{
+    gl_renderer *g = run->g;
+    mgt_status status = gl_ring_begin(&g->gl, &g->ring, sizeof b->pass, 1, run->r);
+    if (status != MGT_OK)
+        return status;
+    gl_pass_begin(g, "refraction");
+    status = gl_use(g, PROGRAM_OBJECTS_FRONT, run->r);
+    if (status == MGT_OK) {
+        gl_uniform(g, BIND_PASS, &b->pass, sizeof b->pass);
+        bind_layers(g);
+        gl_refraction_bind_front(g);
+        g->gl.DispatchCompute((GLuint)b->pass.columns * 4, (GLuint)b->pass.rows * 2, 1);
+        g->gl.MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
+    }
+    const mgt_status ended = gl_pass_end(g, run->r);
+    return status == MGT_OK ? ended : status;
+}
+
 static mgt_status render_band(frame_run *run, uint32_t row)
 {
     const gl_job *job = run->job;
@@ -424,17 +472,19 @@ static mgt_status render_band(frame_run *run, uint32_t row)
             .wave_count = (int)job->frame->scene->water.wave_count,
             .wave_stride = run->wave_stride,
             .show_background = job->background,
+            .objects = run->objects,
+            .front_shows = !job->background,
         },
         .tiles = run->columns * rows,
     };
-    mgt_status status = MGT_OK;
+    mgt_status status = run->objects ? see_objects(run, &b) : MGT_OK;
     const bool points = run->method.waves == WAVES_POINTS;
-    if (job->wants_pixels)
+    if (status == MGT_OK && job->wants_pixels)
         status = !points ? render_filtered(run, &b) : method == MGT_METHOD_SSAA ? render_samples(run, &b) : render_centre(run, &b);
     const bool depth = job->wants_depth && (points || !job->shaded_depth);
     if (status == MGT_OK && (depth || job->wants_normal))
         status = render_surface(run, &b, job->wants_pixels && points && method != MGT_METHOD_SSAA);
-    return status;
+    return status == MGT_OK && run->objects ? put_objects_in_front(run, &b) : status;
 }
 
 static double count_steps(const mgt_quality *q)
@@ -460,12 +510,14 @@ mgt_status gl_frame_render(gl_renderer *g, const gl_job *job, const reporter *r)
     const mgt_quality *q = &job->frame->scene->quality;
     if (is_whole_frame_method(q->method))
         return gl_whole_frame_render(g, job, r);
-    frame_run run = {.g = g, .job = job, .r = r, .method = shading_of(q)};
+    frame_run run = {.g = g, .job = job, .r = r, .method = shading_of(q), .objects = job->frame->scene->object_count > 0};
     mgt_status status = reserve_layers(&run);
     if (status == MGT_OK)
         status = reserve_tiles(&run);
     if (status == MGT_OK && job->wants_pixels)
         status = prepare_tables(&run);
+    if (status == MGT_OK && run.objects)
+        status = gl_refraction_prepare(g, job->frame, &job->area, r);
     if (status != MGT_OK)
         return status;
     const uint32_t bands = (run.end_row - run.first_row + run.band_rows - 1) / run.band_rows;

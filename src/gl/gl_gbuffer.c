@@ -14,6 +14,9 @@ static mgt_status reserve_layer(const gl_api *gl, gl_gbuffer *b, uint32_t width,
         status = gl_image_reserve(gl, &b->triangle, GL_R32I, width, height, r);
     if (status != MGT_OK || (b->framebuffer && b->depth.name == depth && b->triangle.name == triangle))
         return status;
+    /* Integers are never blended, and textures that ask for it read as zeros. */
+    gl->TextureParameteri(b->triangle.name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl->TextureParameteri(b->triangle.name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     if (!b->framebuffer)
         gl->CreateFramebuffers(1, &b->framebuffer);
     gl->NamedFramebufferTexture(b->framebuffer, GL_DEPTH_ATTACHMENT, b->depth.name, 0);
@@ -39,6 +42,7 @@ void gl_gbuffers_free(const gl_api *gl, gl_gbuffers *b)
 {
     free_layer(gl, &b->near);
     free_layer(gl, &b->far);
+    free_layer(gl, &b->mirrored);
 }
 
 /* ---- drawing ---- */
@@ -77,56 +81,72 @@ static void end_drawing(const gl_renderer *g)
     g->gl.BindVertexArray(0);
 }
 
-static mgt_status draw_layer(gl_renderer *g, const gl_gbuffer *layer, bool bent, const GbufferData *data, const reporter *r)
+/* One layer: on the side of the camera, or beyond the surface. */
+static mgt_status draw_layer(gl_renderer *g, const gl_gbuffer *layer, const gbuffer_job *job, bool beyond, const reporter *r)
 {
     const gl_api *gl = &g->gl;
-    const mgt_status status = gl_use(g, bent ? PROGRAM_GBUFFER_BENT : PROGRAM_GBUFFER, r);
+    const world *w = g->objects.world;
+    const double *at = job->camera.position;
+    const RefractData refract = refract_data_of(at[1], job->index, job->map);
+    const PictureData picture = gbuffer_picture(job);
+    const GbufferData data = {
+        .move_x = (float)(w->origin[0] - at[0]),
+        .move_z = (float)(w->origin[1] - at[2]),
+        .side = beyond ? -refract.side : refract.side,
+        .crest = beyond && job->map == GBUFFER_SAGITTAL ? (float)job->crest : 0,
+    };
+    const bool bent = beyond && job->map != GBUFFER_STRAIGHT;
+    mgt_status status = gl_ring_begin(gl, &g->ring, sizeof refract + sizeof picture + sizeof data, 3, r);
+    if (status == MGT_OK)
+        status = gl_use(g, bent ? PROGRAM_GBUFFER_BENT : PROGRAM_GBUFFER, r);
     if (status != MGT_OK)
         return status;
     static const GLint nothing[4] = {-1, -1, -1, -1};
     static const GLfloat farthest = 0;
-    gl_uniform(g, BIND_EXTRA, data, sizeof *data);
+    gl_uniform(g, BIND_FRAME, &refract, sizeof refract);
+    gl_uniform(g, BIND_WAVES, &picture, sizeof picture);
+    gl_uniform(g, BIND_EXTRA, &data, sizeof data);
     gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, layer->framebuffer);
     gl->ClearNamedFramebufferiv(layer->framebuffer, GL_COLOR, 0, nothing);
     gl->ClearNamedFramebufferfv(layer->framebuffer, GL_DEPTH, 0, &farthest);
-    const size_t count = 3 * g->objects.world->triangle_count;
-    if (count > 0)
-        gl->DrawArrays(bent ? GL_PATCHES : GL_TRIANGLES, 0, (GLsizei)count);
+    if (w->triangle_count > 0)
+        gl->DrawArrays(bent ? GL_PATCHES : GL_TRIANGLES, 0, (GLsizei)(3 * w->triangle_count));
     return MGT_OK;
 }
 
-mgt_status gl_gbuffers_draw(gl_renderer *g, const gbuffer_job *job, const reporter *r)
+static mgt_status draw_layers(gl_renderer *g, const gbuffer_job *job, const gbuffer_job *mirrored, const reporter *r)
 {
-    const gl_api *gl = &g->gl;
     gl_gbuffers *b = &g->gbuffers;
-    const world *w = g->objects.world;
+    mgt_status status = draw_layer(g, &b->near, job, false, r);
+    if (status == MGT_OK)
+        status = draw_layer(g, &b->far, job, true, r);
+    return status == MGT_OK && mirrored ? draw_layer(g, &b->mirrored, mirrored, true, r) : status;
+}
+
+mgt_status gl_gbuffers_draw(gl_renderer *g, const gbuffer_job *job, const gbuffer_job *mirrored, const reporter *r)
+{
+    gl_gbuffers *b = &g->gbuffers;
     const gbuffer shape = gbuffer_shape(job);
+    if (shape.width > g->limits.texture_side || shape.height > g->limits.texture_side)
+        return report_error(r, MGT_ERROR_UNSUPPORTED, "render.size",
+                            "%u x %u pixels with a band around them are more than this OpenGL's textures hold: %u a side; use the CPU", job->width,
+                            job->height, g->limits.texture_side);
     b->width = shape.width;
     b->height = shape.height;
     b->left = shape.left;
     b->top = shape.top;
-    b->refract = refract_data_of(job->camera.position[1], job->index, job->map);
-    b->picture = gbuffer_picture(job);
-    mgt_status status = reserve_layer(gl, &b->near, b->width, b->height, r);
-    if (status == MGT_OK)
-        status = reserve_layer(gl, &b->far, b->width, b->height, r);
-    if (status == MGT_OK)
-        status = gl_ring_begin(gl, &g->ring, sizeof b->refract + sizeof b->picture + 2 * sizeof(GbufferData), 4, r);
+    b->least_depth = gbuffer_picture(job).least_depth;
+    gl_gbuffer *const layers[] = {&b->near, &b->far, &b->mirrored};
+    mgt_status status = MGT_OK;
+    for (int i = 0; i < (mirrored ? 3 : 2) && status == MGT_OK; i++)
+        status = reserve_layer(&g->gl, layers[i], b->width, b->height, r);
     if (status != MGT_OK)
         return status;
-    const double *at = job->camera.position;
-    GbufferData data = {(float)(w->origin[0] - at[0]), (float)(w->origin[1] - at[2]), b->refract.side, 0};
     gl_pass_begin(g, "objects");
-    gl_uniform(g, BIND_FRAME, &b->refract, sizeof b->refract);
-    gl_uniform(g, BIND_WAVES, &b->picture, sizeof b->picture);
     begin_drawing(g, b);
-    status = draw_layer(g, &b->near, false, &data, r);
-    data.side = -data.side;
-    data.crest = job->map == GBUFFER_SAGITTAL ? (float)job->crest : 0;
-    if (status == MGT_OK)
-        status = draw_layer(g, &b->far, b->refract.map != 0, &data, r);
+    status = draw_layers(g, job, mirrored, r);
     end_drawing(g);
-    gl->MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+    g->gl.MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
     const mgt_status ended = gl_pass_end(g, r);
     return status == MGT_OK ? ended : status;
 }

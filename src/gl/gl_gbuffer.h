@@ -10,22 +10,21 @@
 struct gl_renderer;
 
 typedef struct gl_gbuffer {
-    gl_image depth;     /* DEPTH_COMPONENT32F: picture.least_depth over metres along the view; 0: nothing */
+    gl_image depth;     /* DEPTH_COMPONENT32F: least_depth over metres along the view; 0: nothing */
     gl_image triangle;  /* R32I; −1: nothing */
     GLuint framebuffer;
 } gl_gbuffer;
 
 /* Texel (0, 0) is the guard band's top left pixel; the textures may be larger. */
 typedef struct gl_gbuffers {
-    gl_gbuffer near, far;
+    gl_gbuffer near, far, mirrored;
     uint32_t width, height; /* guard band included */
     uint32_t left, top;
-    RefractData refract;
-    PictureData picture;
+    float least_depth;
 } gl_gbuffers;
 
-/* Draws both layers of the objects. */
-mgt_status gl_gbuffers_draw(struct gl_renderer *g, const gbuffer_job *job, const reporter *r);
+/* Draws the layers of the objects; `mirrored`, whose far layer is what the surface mirrors, may be NULL. */
+mgt_status gl_gbuffers_draw(struct gl_renderer *g, const gbuffer_job *job, const gbuffer_job *mirrored, const reporter *r);
 void gl_gbuffers_free(const gl_api *gl, gl_gbuffers *b);
 
 #endif

@@ -4,6 +4,8 @@
 
 #include <string.h>
 
+#include "cpu/refraction_data.h"
+
 /* ---- tables ---- */
 
 mgt_status gl_table_reserve(const gl_api *gl, gl_table *t, GLenum format, size_t count, size_t size, const reporter *r)
@@ -46,38 +48,45 @@ void gl_table_unmap(const gl_api *gl, const gl_table *t)
 
 /* ---- triangles ---- */
 
-enum { VERTEX_FLOATS = 8 };
+enum { VERTEX_FLOATS = 8, PLANE_FLOATS = 4, BLOCK = 65536 };
 
-typedef struct vertex_job {
+typedef struct fill_job {
     const world *world;
     float *out;
-} vertex_job;
+    size_t count;
+    void (*fill)(const world *w, size_t i, float *out);
+    size_t floats; /* of an element */
+} fill_job;
 
-enum { VERTEX_BLOCK = 65536 };
-
-static void fill_vertices(void *argument, size_t index, uint32_t worker)
+static void fill_vertex(const world *w, size_t i, float *out)
 {
-    (void)worker;
-    const vertex_job *job = argument;
-    const world *w = job->world;
-    const size_t end = (index + 1) * VERTEX_BLOCK < w->vertex_count ? (index + 1) * VERTEX_BLOCK : w->vertex_count;
-    for (size_t i = index * VERTEX_BLOCK; i < end; i++) {
-        const float *p = w->positions + 3 * i, *n = w->normals + 3 * i, *t = w->texcoords + 2 * i;
-        const float vertex[VERTEX_FLOATS] = {p[0], p[1], p[2], t[0], n[0], n[1], n[2], t[1]};
-        memcpy(job->out + VERTEX_FLOATS * i, vertex, sizeof vertex);
-    }
+    const float *p = w->positions + 3 * i, *n = w->normals + 3 * i, *t = w->texcoords + 2 * i;
+    const float vertex[VERTEX_FLOATS] = {p[0], p[1], p[2], t[0], n[0], n[1], n[2], t[1]};
+    memcpy(out, vertex, sizeof vertex);
 }
 
-static mgt_status upload_vertices(const gl_api *gl, gl_objects *o, const reporter *r)
+static void fill_block(void *argument, size_t index, uint32_t worker)
 {
-    const world *w = o->world;
-    const size_t size = VERTEX_FLOATS * sizeof(float) * w->vertex_count;
-    const mgt_status status = gl_table_reserve(gl, &o->vertices, GL_RGBA32F, w->vertex_count, VERTEX_FLOATS * sizeof(float), r);
-    vertex_job job = {w, status == MGT_OK && size > 0 ? gl_table_map(gl, &o->vertices, size, r) : NULL};
+    (void)worker;
+    const fill_job *job = argument;
+    const size_t end = (index + 1) * BLOCK < job->count ? (index + 1) * BLOCK : job->count;
+    for (size_t i = index * BLOCK; i < end; i++)
+        job->fill(job->world, i, job->out + job->floats * i);
+}
+
+/* Elements of RGBA32F texels. */
+static mgt_status upload_floats(const gl_api *gl, gl_objects *o, gl_table *t, fill_job job, const reporter *r)
+{
+    const size_t size = job.floats * sizeof(float);
+    const mgt_status status = gl_table_reserve(gl, t, GL_RGBA32F, job.count, size, r);
+    if (status != MGT_OK || job.count == 0)
+        return status;
+    job.world = o->world;
+    job.out = gl_table_map(gl, t, job.count * size, r);
     if (!job.out)
-        return status == MGT_OK && size > 0 ? MGT_ERROR_MEMORY : status;
-    thread_pool_run(o->pool, &(thread_loop){.count = (w->vertex_count + VERTEX_BLOCK - 1) / VERTEX_BLOCK, .body = fill_vertices, .argument = &job});
-    gl_table_unmap(gl, &o->vertices);
+        return MGT_ERROR_MEMORY;
+    thread_pool_run(o->pool, &(thread_loop){.count = (job.count + BLOCK - 1) / BLOCK, .body = fill_block, .argument = &job});
+    gl_table_unmap(gl, t);
     return MGT_OK;
 }
 
@@ -110,7 +119,9 @@ mgt_status gl_objects_update(const gl_api *gl, gl_objects *o, const mgt_scene *s
     if (2 * w->vertex_count > most_texels || 3 * w->triangle_count > most_texels)
         return report_error(r, MGT_ERROR_UNSUPPORTED, "render.size", "%zu vertices and %zu triangles are more than this OpenGL's tables hold (%zu elements)",
                             w->vertex_count, w->triangle_count, most_texels);
-    status = upload_vertices(gl, o, r);
+    status = upload_floats(gl, o, &o->vertices, (fill_job){.count = w->vertex_count, .fill = fill_vertex, .floats = VERTEX_FLOATS}, r);
+    if (status == MGT_OK)
+        status = upload_floats(gl, o, &o->planes, (fill_job){.count = w->triangle_count, .fill = refraction_plane, .floats = PLANE_FLOATS}, r);
     if (status == MGT_OK)
         status = upload_numbers(gl, &o->indices, w->indices, 3 * w->triangle_count, r);
     if (status == MGT_OK)
@@ -126,6 +137,7 @@ void gl_objects_free(const gl_api *gl, gl_objects *o)
     gl_table_free(gl, &o->vertices);
     gl_table_free(gl, &o->indices);
     gl_table_free(gl, &o->owners);
+    gl_table_free(gl, &o->planes);
     world_free(o->world);
     thread_pool_destroy(o->pool);
     *o = (gl_objects){0};

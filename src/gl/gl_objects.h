@@ -20,6 +20,7 @@ typedef struct gl_objects {
     gl_table vertices; /* RGBA32F, two a vertex: x, y, z, u; normal x, y, z, v */
     gl_table indices;  /* R32UI, three a triangle */
     gl_table owners;   /* R32UI: the object of a triangle */
+    gl_table planes;   /* RGBA32F, one a triangle: unit normal, and its product with a point of it */
 } gl_objects;
 
 /* Brings world and tables up to date; `threads` may make the world, 0: as many as this process may use. `most_texels` is what a table may hold. */

@@ -13,7 +13,7 @@
 
 _Static_assert(sizeof(PassData) % 16 == 0 && sizeof(GlareData) % 16 == 0 && sizeof(WindowData) % 16 == 0, "std140 layout");
 _Static_assert(sizeof(LeanWave) == 32 && sizeof(LeanData) % 16 == 0 && sizeof(LeanPass) % 16 == 0 && sizeof(BlendData) % 16 == 0, "std140 layout");
-_Static_assert(sizeof(GbufferData) % 16 == 0, "std140 layout");
+_Static_assert(sizeof(GbufferData) % 16 == 0 && sizeof(ObjectsData) % 16 == 0, "std140 layout");
 _Static_assert(sizeof(SortData) == 32 && sizeof(TileWave) == 16 && sizeof(NodeData) == 48, "std430 layout");
 
 /* Binding points, as in the shaders. */
@@ -44,9 +44,20 @@ enum {
     UNIT_LUMA = 4,    /* … its luma (fxaa) … */
     UNIT_HISTORY = 4, /* … or the same three of the history (taa) … */
     UNIT_DEPTH = 7,   /* … where the camera moves */
-    UNIT_VERTICES = 1, /* triangles of objects: vertices, … */
-    UNIT_INDICES = 2,  /* … three of them each */
-    TEXTURE_UNITS = 8,
+    UNIT_VERTICES = 1, /* objects: see objects_data.glsl */
+    UNIT_INDICES,
+    UNIT_OWNERS,
+    UNIT_PLANES,
+    UNIT_MATERIALS,
+    UNIT_TEXELS,
+    UNIT_SHADOWS,
+    UNIT_FAR,      /* depth and triangle */
+    UNIT_MIRRORED = UNIT_FAR + 2,
+    UNIT_NEAR = UNIT_MIRRORED + 2,
+    UNIT_FRONT = 1,
+    UNIT_BODY = 14, /* what methods see of objects … */
+    UNIT_REFLECTION = 15,
+    TEXTURE_UNITS = 16,
 
     IMAGE_COLOR = 0, /* images */
     IMAGE_COVERAGE,

@@ -39,6 +39,8 @@ static const program_text program_texts[PROGRAM_COUNT] = {
     [PROGRAM_DISPLAY] = {"display", "display.comp", {NULL}},
     [PROGRAM_COPY] = {"copy", "copy.comp", {NULL}},
     [PROGRAM_VIEW] = {"view", NULL, {"view.vert", "view.frag"}},
+    [PROGRAM_OBJECTS] = {"refraction", "objects.comp", {NULL}},
+    [PROGRAM_OBJECTS_FRONT] = {"refraction", "objects_front.comp", {NULL}},
     [PROGRAM_GBUFFER] = {"gbuffer", NULL, {"gbuffer.vert", "gbuffer.frag"}},
     [PROGRAM_GBUFFER_BENT] = {"gbuffer", NULL, {"gbuffer_bent.vert", "gbuffer.frag", "gbuffer_bent.tesc", "gbuffer_bent.tese"}},
 };

@@ -34,6 +34,8 @@ typedef enum gl_program {
     PROGRAM_VIEW,           /* layers into a framebuffer of the host */
     PROGRAM_GBUFFER,        /* objects as they are */
     PROGRAM_GBUFFER_BENT,   /* … and where refraction by the flat mean surface shows them */
+    PROGRAM_OBJECTS,        /* what pixels see of them */
+    PROGRAM_OBJECTS_FRONT,  /* those in front of the water over its layers */
     PROGRAM_COUNT
 } gl_program;
 

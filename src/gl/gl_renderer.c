@@ -122,6 +122,7 @@ void gl_renderer_destroy(gl_renderer *g)
     gl_glare_free(g);
     gl_podee_free(g);
     gl_lean_free(g);
+    gl_refraction_free(gl, &g->refraction);
     gl_gbuffers_free(gl, &g->gbuffers);
     gl_objects_free(gl, &g->objects);
     if (g->vertex_array)

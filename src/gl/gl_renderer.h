@@ -11,6 +11,7 @@
 #include "gl/gl_objects.h"
 #include "gl/gl_pass_data.h"
 #include "gl/gl_programs.h"
+#include "gl/gl_refraction.h"
 #include "gl/gl_timers.h"
 
 /* The layers of the picture on the GPU. Texel (0, 0) is the top left pixel of what is rendered. */
@@ -68,6 +69,7 @@ typedef struct gl_renderer {
     gl_lean lean;
     gl_objects objects;
     gl_gbuffers gbuffers;
+    gl_refraction refraction;
     const gl_host_state *host; /* during a call in a host's context, else NULL */
     uint32_t threads;   /* for tables that the CPU makes; 0: as many as this process may use */
     GLuint sky_texture;

@@ -23,7 +23,11 @@ layout(std430, binding = 2) TILE_ACCESS buffer MarchBlock { MarchWave march_wave
 
 layout(binding = 0) uniform sampler2D sky_texture;
 
+layout(binding = 14) uniform sampler2D body_texture;
+layout(binding = 15) uniform sampler2D reflection_texture;
+
 int tile_slot = 0;
+ivec2 layer_texel = ivec2(0); /* the pixel's */
 
 /* A wave of the tile: the frame's, with the tile's phase and share. */
 WaveData wave_of_tile(int i)
@@ -51,6 +55,23 @@ WaveData wave_of_tile(int i)
 #define MARCH_WAVE(cx, i) march_waves[tile_slot * pass_data.wave_stride + i]
 
 vec3 SKY_TEXEL(int cx, float column, float row) { return texelFetch(sky_texture, ivec2(int(column), int(row)), 0).rgb; }
+
+/* Objects, where the scene has some. */
+vec3 body_light()
+{
+    if (pass_data.objects == 0)
+        return vec3(frame_data.body_r, frame_data.body_g, frame_data.body_b);
+    return texelFetch(body_texture, layer_texel, 0).rgb;
+}
+
+#undef BODY_LIGHT
+#undef MIRRORS_OBJECTS
+#undef OBJECTS_SHARE
+#undef OBJECTS_COLOR
+#define BODY_LIGHT(cx) body_light()
+#define MIRRORS_OBJECTS(cx) pass_data.objects
+#define OBJECTS_SHARE(cx) texelFetch(reflection_texture, layer_texel, 0).a
+#define OBJECTS_COLOR(cx) texelFetch(reflection_texture, layer_texel, 0).rgb
 
 const int TILE_WIDTH = 32;
 const int TILE_HEIGHT = 16;

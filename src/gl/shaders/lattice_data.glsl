@@ -73,6 +73,7 @@ TilePixel tile_pixel()
     p.at = (group % ivec2(4, 2)) * 8 + ivec2(gl_LocalInvocationID.xy);
     ivec2 image = (tile + ivec2(pass_data.tile_x, pass_data.tile_y)) * ivec2(TILE_WIDTH, TILE_HEIGHT) + p.at;
     p.texel = image - ivec2(pass_data.area_x, pass_data.area_y);
+    layer_texel = p.texel;
     p.inside = all(greaterThanEqual(p.texel, ivec2(0))) && all(lessThan(p.texel, ivec2(pass_data.area_width, pass_data.area_height)));
     return p;
 }

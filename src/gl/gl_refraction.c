@@ -1,0 +1,248 @@
+/* SPDX-License-Identifier: MIT
+ * Scenes with objects on the GPU: what pixels see of them. */
+#include "gl/gl_refraction.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/mesh.h"
+#include "cpu/refraction_data.h"
+#include "cpu/shade_lanes.h"
+#include "gl/gl_renderer.h"
+
+/* ---- textures ---- */
+
+/* An object's texture, and where it begins among those of the frame. */
+typedef struct used_texture {
+    const mgt_texture *texture;
+    size_t object, first;
+} used_texture;
+
+static int by_identity(const void *a, const void *b)
+{
+    const uint64_t x = ((const used_texture *)a)->texture->id, y = ((const used_texture *)b)->texture->id;
+    return x < y ? -1 : x > y;
+}
+
+static size_t texel_count(const mgt_texture *t)
+{
+    return t->level_start[t->levels - 1] + 1; /* the last level is one texel */
+}
+
+static bool starts_texture(const used_texture *used, size_t i)
+{
+    return i == 0 || used[i].texture->id != used[i - 1].texture->id;
+}
+
+/* Whether `texels` holds these already. */
+static bool are_uploaded(const gl_refraction *o, const used_texture *used, size_t count)
+{
+    size_t known = 0;
+    for (size_t i = 0; i < count; i++)
+        if (starts_texture(used, i) && (known >= o->texture_count || o->textures[known++] != used[i].texture->id))
+            return false;
+    return known == o->texture_count;
+}
+
+static mgt_status upload_textures(const gl_api *gl, gl_refraction *o, const used_texture *used, size_t count, size_t texels, const reporter *r)
+{
+    o->texture_count = 0;
+    mgt_status status = gl_table_reserve(gl, &o->texels, GL_R32UI, texels, sizeof(uint32_t), r);
+    if (status != MGT_OK || texels == 0)
+        return status;
+    if (count > o->texture_room) {
+        uint64_t *more = realloc(o->textures, count * sizeof *more);
+        if (!more)
+            return report_error(r, MGT_ERROR_MEMORY, "render.memory", "out of memory for the textures of %zu objects", count);
+        o->textures = more;
+        o->texture_room = count;
+    }
+    uint32_t *map = gl_table_map(gl, &o->texels, texels * sizeof *map, r);
+    if (!map)
+        return MGT_ERROR_MEMORY;
+    for (size_t i = 0; i < count; i++)
+        if (starts_texture(used, i)) {
+            memcpy(map + used[i].first, used[i].texture->texels, texel_count(used[i].texture) * sizeof *map);
+            o->textures[o->texture_count++] = used[i].texture->id;
+        }
+    gl_table_unmap(gl, &o->texels);
+    return MGT_OK;
+}
+
+/* ---- materials ---- */
+
+enum { MATERIAL_FLOATS = 16 };
+
+static void fill_material(const shade_material *m, bool smooth, float out[MATERIAL_FLOATS])
+{
+    const float values[MATERIAL_FLOATS] = {
+        m->base[0], m->base[1], m->base[2], m->alpha,
+        m->color[0], m->color[1], m->color[2], m->kind,
+        m->metallic, m->inverse_size, m->joint, smooth ? 1.0f : 0.0f,
+        m->texture_width, m->texture_height, 0, m->texture ? (float)m->texture->levels : 1.0f,
+    };
+    memcpy(out, values, sizeof values);
+}
+
+/* The table of materials, whose textures are `used`. */
+static mgt_status upload_materials(const gl_api *gl, gl_refraction *o, const world *w, const used_texture *used, size_t used_count, const reporter *r)
+{
+    const shade_scene *s = o->shade;
+    const size_t floats = SHADE_TEXTURE_CODES + MATERIAL_FLOATS * w->object_count;
+    const mgt_status status = gl_table_reserve(gl, &o->materials, GL_RGBA32F, floats, sizeof(float), r);
+    float *map = status == MGT_OK ? gl_table_map(gl, &o->materials, floats * sizeof(float), r) : NULL;
+    if (!map)
+        return status == MGT_OK ? MGT_ERROR_MEMORY : status;
+    memcpy(map, s->linear, sizeof s->linear);
+    float *materials = map + SHADE_TEXTURE_CODES;
+    for (size_t i = 0; i < w->object_count; i++)
+        fill_material(&s->materials[i], w->objects[i].smooth, materials + MATERIAL_FLOATS * i);
+    for (size_t i = 0; i < used_count; i++) {
+        const uint32_t first = (uint32_t)used[i].first;
+        memcpy(materials + MATERIAL_FLOATS * used[i].object + 14, &first, sizeof first);
+    }
+    gl_table_unmap(gl, &o->materials);
+    return MGT_OK;
+}
+
+static mgt_status update_materials(gl_renderer *g, const reporter *r)
+{
+    gl_refraction *o = &g->refraction;
+    const world *w = g->objects.world;
+    used_texture *used = malloc((w->object_count + 1) * sizeof *used);
+    if (!used)
+        return report_error(r, MGT_ERROR_MEMORY, "render.memory", "out of memory for the materials of %zu objects", w->object_count);
+    size_t count = 0, texels = 0;
+    for (size_t i = 0; i < w->object_count; i++)
+        if (o->shade->materials[i].texture)
+            used[count++] = (used_texture){o->shade->materials[i].texture, i, 0};
+    qsort(used, count, sizeof *used, by_identity);
+    for (size_t i = 0; i < count; i++) {
+        used[i].first = starts_texture(used, i) ? texels : used[i - 1].first;
+        texels += starts_texture(used, i) ? texel_count(used[i].texture) : 0;
+    }
+    mgt_status status = MGT_OK;
+    if (texels > g->limits.table_texels)
+        status = report_error(r, MGT_ERROR_UNSUPPORTED, "render.size", "textures of %zu texels are more than this OpenGL's tables hold (%zu)", texels,
+                              g->limits.table_texels);
+    if (status == MGT_OK && (!o->texels.texture || !are_uploaded(o, used, count)))
+        status = upload_textures(&g->gl, o, used, count, texels, r);
+    if (status == MGT_OK)
+        status = upload_materials(&g->gl, o, w, used, count, r);
+    free(used);
+    return status;
+}
+
+/* ---- shadows ---- */
+
+static mgt_status update_shadows(const gl_api *gl, gl_refraction *o, const reporter *r)
+{
+    const shadow_map *m = o->shade->shadows;
+    if (m->columns == 0 || (o->shadow_version == m->version && memcmp(&o->shadow_rays, &m->rays, sizeof m->rays) == 0))
+        return MGT_OK;
+    o->shadow_version = 0;
+    mgt_status status = gl_image_reserve(gl, &o->shadows, GL_R32F, m->columns, m->rows, r);
+    if (status != MGT_OK)
+        return status;
+    gl->TextureSubImage2D(o->shadows.name, 0, 0, 0, (GLsizei)m->columns, (GLsizei)m->rows, GL_RED, GL_FLOAT, m->height);
+    status = gl_check(gl, "shadows", r);
+    if (status == MGT_OK) {
+        o->shadow_rays = m->rays;
+        o->shadow_version = m->version;
+    }
+    return status;
+}
+
+/* ---- a frame ---- */
+
+static mgt_status reserve_images(const gl_api *gl, gl_refraction *o, const region *area, const reporter *r)
+{
+    gl_image *const images[] = {&o->body, &o->mirrored, &o->front, &o->surface, &o->error};
+    mgt_status status = MGT_OK;
+    for (size_t i = 0; i < sizeof images / sizeof *images && status == MGT_OK; i++)
+        status = gl_image_reserve(gl, images[i], images[i] == &o->error ? GL_R32F : GL_RGBA32F, area->width, area->height, r);
+    return status;
+}
+
+mgt_status gl_refraction_prepare(gl_renderer *g, const frame *f, const region *area, const reporter *r)
+{
+    gl_refraction *o = &g->refraction;
+    mgt_status status = gl_objects_update(&g->gl, &g->objects, f->scene, g->threads, g->limits.table_texels, r);
+    if (status != MGT_OK)
+        return status;
+    const world *w = g->objects.world;
+    if (shade_update(&o->shade, w, f, g->sky, NULL) != MGT_OK)
+        return report_error(r, MGT_ERROR_MEMORY, "render.memory", "out of memory for the scene's objects");
+    const gbuffer_job direct = refraction_job(f), mirrored = refraction_mirrored_job(f);
+    const bool mirrors = refraction_mirrors(f, w);
+    status = reserve_images(&g->gl, o, area, r);
+    if (status == MGT_OK)
+        status = gl_gbuffers_draw(g, &direct, mirrors ? &mirrored : NULL, r);
+    if (status == MGT_OK)
+        status = update_materials(g, r);
+    if (status == MGT_OK)
+        status = update_shadows(&g->gl, o, r);
+    const gbuffer shape = gbuffer_shape(&direct);
+    o->block = (gl_objects_block){
+        .refract = refract_data_of(direct.camera.position[1], direct.index, direct.map),
+        .narrow = refraction_narrow_data(f, w, &shape),
+        .shade = o->shade->data,
+        .objects = {.least_depth = g->gbuffers.least_depth, .mirrors = mirrors},
+    };
+    return status;
+}
+
+static void bind_texture(const gl_api *gl, GLuint unit, GLuint texture)
+{
+    gl->BindTextureUnit(unit, texture);
+    gl->BindSampler(unit, 0);
+}
+
+static void bind_image(const gl_api *gl, GLuint unit, const gl_image *image)
+{
+    gl->BindImageTexture(unit, image->name, 0, GL_FALSE, 0, GL_WRITE_ONLY, image->format);
+}
+
+void gl_refraction_bind(gl_renderer *g)
+{
+    const gl_api *gl = &g->gl;
+    const gl_refraction *o = &g->refraction;
+    const gl_gbuffers *b = &g->gbuffers;
+    const gl_table *const tables[] = {&g->objects.vertices, &g->objects.indices, &g->objects.owners, &g->objects.planes, &o->materials, &o->texels};
+    for (GLuint i = 0; i < sizeof tables / sizeof *tables; i++)
+        bind_texture(gl, UNIT_VERTICES + i, tables[i]->texture);
+    bind_texture(gl, UNIT_SHADOWS, o->shadows.name);
+    const gl_gbuffer *const layers[] = {&b->far, o->block.objects.mirrors ? &b->mirrored : &b->far, &b->near};
+    for (GLuint i = 0; i < sizeof layers / sizeof *layers; i++) {
+        bind_texture(gl, UNIT_FAR + 2 * i, layers[i]->depth.name);
+        bind_texture(gl, UNIT_FAR + 2 * i + 1, layers[i]->triangle.name);
+    }
+    const gl_image *const images[] = {&o->body, &o->mirrored, &o->front, &o->surface, &o->error};
+    for (GLuint i = 0; i < sizeof images / sizeof *images; i++)
+        bind_image(gl, i, images[i]);
+    gl_uniform(g, BIND_EXTRA, &o->block, sizeof o->block);
+}
+
+void gl_refraction_bind_light(const gl_renderer *g)
+{
+    bind_texture(&g->gl, UNIT_BODY, g->refraction.body.name);
+    bind_texture(&g->gl, UNIT_REFLECTION, g->refraction.mirrored.name);
+}
+
+void gl_refraction_bind_front(const gl_renderer *g)
+{
+    bind_texture(&g->gl, UNIT_FRONT, g->refraction.front.name);
+    bind_texture(&g->gl, UNIT_FRONT + 1, g->refraction.surface.name);
+}
+
+void gl_refraction_free(const gl_api *gl, gl_refraction *o)
+{
+    gl_image *const images[] = {&o->body, &o->mirrored, &o->front, &o->surface, &o->error, &o->shadows};
+    for (size_t i = 0; i < sizeof images / sizeof *images; i++)
+        gl_image_free(gl, images[i]);
+    gl_table_free(gl, &o->materials);
+    gl_table_free(gl, &o->texels);
+    shade_free(o->shade);
+    free(o->textures);
+    *o = (gl_refraction){0};
+}

@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: MIT
+ * Scenes with objects on the GPU: what pixels see of them through the water's surface, mirrored by it and in front of it. */
+#ifndef MANGATA_GL_GL_REFRACTION_H
+#define MANGATA_GL_GL_REFRACTION_H
+
+#include "cpu/frame.h"
+#include "cpu/shade.h"
+#include "cpu/shadow_map.h"
+#include "gl/gl_memory.h"
+#include "gl/gl_objects.h"
+#include "gl/gl_pass_data.h"
+
+struct gl_renderer;
+
+/* The uniform block of objects_data.glsl. */
+typedef struct gl_objects_block {
+    RefractData refract;
+    NarrowData narrow;
+    ShadeData shade;
+    ObjectsData objects;
+} gl_objects_block;
+
+typedef struct gl_refraction {
+    gl_image body, mirrored; /* RGBA32F, of the pixels: see objects.comp */
+    gl_image front, surface; /* RGBA32F */
+    gl_image error;          /* R32F */
+    shade_scene *shade;
+    gl_table materials;      /* RGBA32F */
+    gl_table texels;         /* R32UI, of all textures */
+    uint64_t *textures;      /* identities of those that `texels` holds, in their order, … */
+    size_t texture_count, texture_room;
+    gl_image shadows;        /* R32F */
+    shadow_rays shadow_rays; /* of the map that it holds, … */
+    uint64_t shadow_version; /* … and the version of its world; 0: none */
+    gl_objects_block block;
+} gl_refraction;
+
+/* Everything that the objects of a frame need before its bands: draws them, and brings lights, materials and shadows up to date. */
+mgt_status gl_refraction_prepare(struct gl_renderer *g, const frame *f, const region *area, const reporter *r);
+
+/* Binds what objects.comp reads and writes; then what methods read, and what objects_front.comp reads and writes. */
+void gl_refraction_bind(struct gl_renderer *g);
+void gl_refraction_bind_light(const struct gl_renderer *g);
+void gl_refraction_bind_front(const struct gl_renderer *g);
+
+void gl_refraction_free(const gl_api *gl, gl_refraction *o);
+
+#endif

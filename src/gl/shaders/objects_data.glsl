@@ -1,0 +1,128 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Where the kernels that look for objects and shade them find their data.
+ */
+#include "refract_types.k"
+#include "narrow_types.k"
+#include "shade_types.k"
+#include "layer.k"
+
+layout(std140, binding = 3) uniform ObjectsBlock {
+    RefractData refract_data;
+    NarrowData narrow_data;
+    ShadeData shade_data;
+    ObjectsData objects_data;
+};
+
+layout(binding = 1) uniform samplerBuffer vertex_table;   /* two a vertex: x, y, z, u; normal x, y, z, v */
+layout(binding = 2) uniform usamplerBuffer index_table;   /* three a triangle */
+layout(binding = 3) uniform usamplerBuffer owner_table;   /* the object of a triangle */
+layout(binding = 4) uniform samplerBuffer plane_table;    /* of a triangle: unit normal, and its product with a point */
+layout(binding = 5) uniform samplerBuffer material_table; /* the linear values of sRGB codes, four each; then four an object */
+layout(binding = 6) uniform usamplerBuffer texel_table;   /* of all textures */
+layout(binding = 7) uniform sampler2D shadow_texture;
+layout(binding = 8) uniform sampler2D far_depth;
+layout(binding = 9) uniform isampler2D far_triangle;
+layout(binding = 10) uniform sampler2D mirrored_depth;
+layout(binding = 11) uniform isampler2D mirrored_triangle;
+layout(binding = 12) uniform sampler2D near_depth;
+layout(binding = 13) uniform isampler2D near_triangle;
+
+#define REFRACT(cx) refract_data
+#define NARROW(cx) narrow_data
+#define SHADE(cx) shade_data
+
+/* ---- layers ---- */
+
+int layer_triangle(int layer, ivec2 at) { return layer == 0 ? texelFetch(far_triangle, at, 0).r : texelFetch(mirrored_triangle, at, 0).r; }
+
+LayerPixel LAYER(int cx, int layer, float column, float row)
+{
+    ivec2 at = ivec2(int(column), int(row));
+    float inverse = layer == 0 ? texelFetch(far_depth, at, 0).r : texelFetch(mirrored_depth, at, 0).r;
+    vec4 plane = texelFetch(plane_table, max(layer_triangle(layer, at), 0));
+    return LayerPixel(inverse > 0.0f ? objects_data.least_depth / inverse : uintBitsToFloat(0x7f800000u), plane.xyz, plane.w);
+}
+
+ivec3 triangle_corners(int triangle)
+{
+    return ivec3(int(texelFetch(index_table, 3 * triangle).r), int(texelFetch(index_table, 3 * triangle + 1).r),
+                 int(texelFetch(index_table, 3 * triangle + 2).r));
+}
+
+/* ---- materials ---- */
+
+const int CODE_TEXELS = 64;
+
+vec4 material_texel(int object, int i) { return texelFetch(material_table, CODE_TEXELS + 4 * object + i); }
+
+float linear_of_code(uint code) { return texelFetch(material_table, int(code >> 2))[int(code & 3u)]; }
+
+/* A level of a texture. */
+struct TextureLevel {
+    int first, width, height;
+};
+
+TextureLevel texture_level(int object, int level)
+{
+    vec4 m = material_texel(object, 3);
+    TextureLevel l = TextureLevel(floatBitsToInt(m.z), int(m.x), int(m.y));
+    for (int i = 0; i < level; i++) {
+        l.first += l.width * l.height;
+        l.width = max(l.width >> 1, 1);
+        l.height = max(l.height >> 1, 1);
+    }
+    return l;
+}
+
+vec3 texture_texel(TextureLevel l, int x, int y)
+{
+    int column = x < 0 ? x + l.width : x >= l.width ? x - l.width : x;
+    int row = y < 0 ? y + l.height : y >= l.height ? y - l.height : y;
+    uint rgba = texelFetch(texel_table, l.first + row * l.width + column).r;
+    return vec3(linear_of_code(rgba & 255u), linear_of_code(rgba >> 8 & 255u), linear_of_code(rgba >> 16 & 255u));
+}
+
+vec3 texture_bilinear(int object, int level, float u, float v)
+{
+    TextureLevel l = texture_level(object, level);
+    vec2 at = vec2((u - floor(u)) * float(l.width), (v - floor(v)) * float(l.height)) - 0.5f;
+    vec2 first = floor(at), share = at - first;
+    int x = int(first.x), y = int(first.y);
+    vec3 top = texture_texel(l, x, y) + share.x * (texture_texel(l, x + 1, y) - texture_texel(l, x, y));
+    vec3 bottom = texture_texel(l, x, y + 1) + share.x * (texture_texel(l, x + 1, y + 1) - texture_texel(l, x, y + 1));
+    return top + share.y * (bottom - top);
+}
+
+vec3 TEXTURE(int cx, float object, float u, float v, float level)
+{
+    if (!(abs(u) < 1e9f && abs(v) < 1e9f))
+        return vec3(0.0f);
+    float l = clamp(level, 0.0f, material_texel(int(object), 3).w - 1.0f);
+    int fine = int(l);
+    vec3 near = texture_bilinear(int(object), fine, u, v);
+    if (!(float(fine) < l))
+        return near;
+    return near + (l - float(fine)) * (texture_bilinear(int(object), fine + 1, u, v) - near);
+}
+
+/* ---- shadows ---- */
+
+/* Four texels about the ray's place, each lit or not. */
+float SUN_SHARE(int cx, vec3 position)
+{
+    if (shade_data.shadow_columns == 0.0f)
+        return 1.0f;
+    bool wet = position.y < 0.0f;
+    vec2 lean = wet ? vec2(shade_data.sun_water_x, shade_data.sun_water_z) : vec2(shade_data.sun_air_x, shade_data.sun_air_z);
+    vec2 at = (position.xz - lean * position.y - vec2(shade_data.shadow_left, shade_data.shadow_top)) * shade_data.shadow_scale - 0.5f;
+    vec2 first = clamp(floor(at), vec2(0.0f), vec2(shade_data.shadow_columns - 2.0f, shade_data.shadow_rows - 2.0f));
+    vec2 share = clamp(at - first, vec2(0.0f), vec2(1.0f));
+    ivec2 texel = ivec2(int(first.x), int(first.y));
+    float height = position.y + 2.0f * shade_data.shadow_texel;
+    vec4 lit = vec4(lessThanEqual(vec4(texelFetch(shadow_texture, texel, 0).r, texelFetch(shadow_texture, texel + ivec2(1, 0), 0).r,
+                                       texelFetch(shadow_texture, texel + ivec2(0, 1), 0).r, texelFetch(shadow_texture, texel + ivec2(1, 1), 0).r),
+                                  vec4(height)));
+    float top = lit.x + share.x * (lit.y - lit.x), bottom = lit.z + share.x * (lit.w - lit.z);
+    return top + share.y * (bottom - top);
+}

@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Objects in front of water and sky, over the layers of a band.
+ */
+#include "prelude_glsl.k"
+#include "pass_data.k"
+
+layout(std140, binding = 2) uniform PassBlock { PassData pass_data; };
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(binding = 0, rgba32f) uniform image2D color_image;
+layout(binding = 1, r32f) uniform image2D coverage_image;
+layout(binding = 2, r32f) uniform image2D water_image;
+layout(binding = 3) writeonly uniform image2D depth_image;
+layout(binding = 4) writeonly uniform image2D normal_image;
+layout(binding = 1) uniform sampler2D front_texture;
+layout(binding = 2) uniform sampler2D surface_texture;
+
+void main()
+{
+    ivec2 texel = ivec2(gl_WorkGroupID.xy) * 8 + ivec2(gl_LocalInvocationID.xy);
+    texel += ivec2(pass_data.tile_x * 32 - pass_data.area_x, pass_data.tile_y * 16 - pass_data.area_y);
+    if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, ivec2(pass_data.area_width, pass_data.area_height))))
+        return;
+    vec4 front = texelFetch(front_texture, texel, 0);
+    if (!(front.w > 0.0f))
+        return;
+    vec3 below = imageLoad(color_image, texel).rgb;
+    imageStore(color_image, texel, vec4(below + front.w * (front.rgb - below), 1.0f));
+    imageStore(coverage_image, texel, imageLoad(coverage_image, texel) * (1.0f - front.w));
+    float water = imageLoad(water_image, texel).r;
+    imageStore(water_image, texel, vec4(water + front.w * ((pass_data.front_shows != 0 ? 1.0f : 0.0f) - water)));
+    if (front.w < 0.5f)
+        return;
+    vec4 surface = texelFetch(surface_texture, texel, 0);
+    imageStore(depth_image, texel, vec4(surface.w));
+    imageStore(normal_image, texel, vec4(surface.xyz, 1.0f));
+}
