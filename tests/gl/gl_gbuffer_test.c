@@ -16,7 +16,7 @@
 #include "gl/gl_renderer.h"
 #include "mangata/mangata.h"
 
-enum { WIDTH = 160, HEIGHT = 90, CELLS = 6, VERTICES = 5 * (CELLS + 1) * (CELLS + 1), TRIANGLES = 5 * 2 * CELLS * CELLS };
+enum { WIDTH = 160, HEIGHT = 90, CELLS = 8, VERTICES = 5 * (CELLS + 1) * (CELLS + 1), TRIANGLES = 5 * 2 * CELLS * CELLS };
 
 static const double index_of_water = 1.333;
 
@@ -137,7 +137,7 @@ static void read_layer(const gl_renderer *g, const gl_gbuffer *layer, float *dep
     g->gl.GetTextureSubImage(layer->depth.name, 0, 0, 0, 0, (GLsizei)b->width, (GLsizei)b->height, 1, GL_DEPTH_COMPONENT, GL_FLOAT, size, depth);
     g->gl.GetTextureSubImage(layer->triangle.name, 0, 0, 0, 0, (GLsizei)b->width, (GLsizei)b->height, 1, GL_RED_INTEGER, GL_INT, size, triangle);
     for (size_t i = 0; i < (size_t)b->width * b->height; i++)
-        depth[i] = depth[i] > 0 ? b->picture.least_depth / depth[i] : INFINITY;
+        depth[i] = depth[i] > 0 ? b->least_depth / depth[i] : INFINITY;
 }
 
 static void compare(const gl_renderer *g, const camera_rays *c, const gbuffer *cpu, bool far)
@@ -202,7 +202,7 @@ static void layers_are_those_of_rays(void **state)
         job.camera.position[2] -= 50;
         mgt_status status = gl_objects_update(&g->gl, &g->objects, &scene, 1, g->limits.table_texels, &r);
         if (status == MGT_OK)
-            status = gl_gbuffers_draw(g, &job, &r);
+            status = gl_gbuffers_draw(g, &job, NULL, &r);
         if (status != MGT_OK)
             fail_msg("%s", r.error);
         if (status == MGT_OK)
