@@ -216,8 +216,7 @@ const char *gl_lacks(const mgt_scene *scene)
     }
     if (scene->object_count > 0 && (scene->quality.caustics || scene->quality.refraction_samples > 1))
         return "caustics and several samples of refraction a pixel run";
-    const bool sinks = scene->camera.position[1] < 0 || (scene->camera_moves && scene->camera_open.position[1] < 0);
-    return sinks ? "cameras under water run" : NULL;
+    return NULL;
 }
 
 static mgt_status render_by_cpu(gl_backend_state *s, const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count)
@@ -239,7 +238,8 @@ static camera_rays scene_camera_at(const void *user, double share)
     if (share >= 0)
         return camera_at(f, share);
     const mgt_camera camera = taa_camera(f->scene, 1 - share);
-    return camera_rays_of(&camera, f->scene->image.width, f->scene->image.height);
+    const camera_rays rays = camera_rays_of(&camera, f->scene->image.width, f->scene->image.height);
+    return rays_above(f, &rays);
 }
 
 void layer_wants_add(layer_wants *w, mgt_layer layer, bool display)

@@ -40,7 +40,7 @@ typedef struct frame_run {
     uint32_t first_row, end_row, first_column, columns; /* of tiles */
     uint32_t band_rows;
     int wave_stride;
-    bool objects;   /* the scene has some */
+    bool objects;   /* the scene has some, or the camera is under water */
     GLsync behind;  /* of the last step but one told */
     double done, steps;
 } frame_run;
@@ -212,8 +212,8 @@ static mgt_status prepare_set(const frame_run *run, const band *b)
 static void bind_layers(const gl_renderer *g)
 {
     const gl_layers *l = &g->layers;
-    const gl_image *const images[IMAGE_UNITS] = {&l->color, &l->coverage, &l->water, &l->depth, &l->normal};
-    for (GLuint i = 0; i < IMAGE_UNITS; i++)
+    const gl_image *const images[IMAGE_LAYERS] = {&l->color, &l->coverage, &l->water, &l->depth, &l->normal};
+    for (GLuint i = 0; i < IMAGE_LAYERS; i++)
         g->gl.BindImageTexture(i, images[i]->name, 0, GL_FALSE, 0, GL_READ_WRITE, images[i]->name ? images[i]->format : GL_R32F);
     g->gl.BindTextureUnit(UNIT_SKY, g->sky_texture);
     g->gl.BindSampler(UNIT_SKY, 0);
@@ -510,7 +510,7 @@ mgt_status gl_frame_render(gl_renderer *g, const gl_job *job, const reporter *r)
     const mgt_quality *q = &job->frame->scene->quality;
     if (is_whole_frame_method(q->method))
         return gl_whole_frame_render(g, job, r);
-    frame_run run = {.g = g, .job = job, .r = r, .method = shading_of(q), .objects = job->frame->scene->object_count > 0};
+    frame_run run = {.g = g, .job = job, .r = r, .method = shading_of(q), .objects = job->frame->scene->object_count > 0 || job->frame->under};
     mgt_status status = reserve_layers(&run);
     if (status == MGT_OK)
         status = reserve_tiles(&run);

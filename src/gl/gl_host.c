@@ -185,21 +185,21 @@ static mgt_status prepare_view(const gl_backend_state *s, const mgt_scene *scene
     return check_framebuffer(&s->renderer->gl, view->framebuffer, index, &out->encodes, r);
 }
 
-/* Between the two ends of the shutter, and before, rays and place move evenly; never under the water. */
+/* Between the two ends of the shutter, and before, rays and place move evenly; never through the water. */
 static camera_rays view_camera_at(const void *user, double share)
 {
-    const host_view *v = user;
-    camera_rays c = v->close.rays;
-    if (!v->scene.camera_moves)
+    const frame *f = user;
+    camera_rays c = f->close;
+    if (!f->scene->camera_moves)
         return c;
-    const camera_rays *open = &v->open.rays;
+    const camera_rays *open = &f->open;
     for (int i = 0; i < 3; i++) {
         c.position[i] = open->position[i] + share * (c.position[i] - open->position[i]);
         c.corner[i] = open->corner[i] + share * (c.corner[i] - open->corner[i]);
         c.right[i] = open->right[i] + share * (c.right[i] - open->right[i]);
         c.down[i] = open->down[i] + share * (c.down[i] - open->down[i]);
     }
-    c.position[1] = fmax(c.position[1], 0.1 * v->close.rays.position[1]);
+    c.position[1] = fmax(c.position[1], 0.1 * f->close.position[1]);
     return c;
 }
 
@@ -277,13 +277,13 @@ static mgt_status render_view(gl_backend_state *s, const host_view *v, const gl_
     if (status != MGT_OK)
         return status;
     frame f = frame_of(&v->scene, s->renderer->sky, true);
-    f.close = v->close.rays;
-    f.open = v->scene.camera_moves ? v->open.rays : f.close;
+    f.close = rays_above(&f, &v->close.rays);
+    f.open = v->scene.camera_moves ? rays_above(&f, &v->open.rays) : f.close;
     f.data.pixel_angle = (float)view_pixel_angle(&f.close);
     const gl_job job = {
         .frame = &f,
         .camera_at = view_camera_at,
-        .camera_user = v,
+        .camera_user = &f,
         .area = {0, 0, view->width, view->height},
         .wants_pixels = true,
         .wants_depth = true,

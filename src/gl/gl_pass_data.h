@@ -55,8 +55,10 @@ enum {
     UNIT_MIRRORED = UNIT_FAR + 2,
     UNIT_NEAR = UNIT_MIRRORED + 2,
     UNIT_FRONT = 1,
-    UNIT_BODY = 14, /* what methods see of objects … */
-    UNIT_REFLECTION = 15,
+    UNIT_CLEAR = 12, /* what methods see of objects */
+    UNIT_DEEP,
+    UNIT_BODY,
+    UNIT_REFLECTION,
     TEXTURE_UNITS = 16,
 
     IMAGE_COLOR = 0, /* images */
@@ -64,7 +66,8 @@ enum {
     IMAGE_WATER,
     IMAGE_DEPTH,
     IMAGE_NORMAL,
-    IMAGE_UNITS
+    IMAGE_LAYERS,
+    IMAGE_UNITS = 7 /* objects.comp has names of its own for them */
 };
 
 #endif

@@ -155,11 +155,21 @@ static mgt_status update_shadows(const gl_api *gl, gl_refraction *o, const repor
 
 /* ---- a frame ---- */
 
-static mgt_status reserve_images(const gl_api *gl, gl_refraction *o, const region *area, const reporter *r)
+enum { IMAGES = 7 };
+
+/* In the order of objects.comp; the last two are used under water. */
+static void list_images(gl_refraction *o, gl_image *out[IMAGES])
 {
-    gl_image *const images[] = {&o->body, &o->mirrored, &o->front, &o->surface, &o->error};
+    gl_image *const images[IMAGES] = {&o->body, &o->mirrored, &o->front, &o->surface, &o->error, &o->clear, &o->deep};
+    memcpy(out, images, sizeof images);
+}
+
+static mgt_status reserve_images(const gl_api *gl, gl_refraction *o, const region *area, bool under, const reporter *r)
+{
+    gl_image *images[IMAGES];
+    list_images(o, images);
     mgt_status status = MGT_OK;
-    for (size_t i = 0; i < sizeof images / sizeof *images && status == MGT_OK; i++)
+    for (int i = 0; i < (under ? IMAGES : IMAGES - 2) && status == MGT_OK; i++)
         status = gl_image_reserve(gl, images[i], images[i] == &o->error ? GL_R32F : GL_RGBA32F, area->width, area->height, r);
     return status;
 }
@@ -175,7 +185,7 @@ mgt_status gl_refraction_prepare(gl_renderer *g, const frame *f, const region *a
         return report_error(r, MGT_ERROR_MEMORY, "render.memory", "out of memory for the scene's objects");
     const gbuffer_job direct = refraction_job(f), mirrored = refraction_mirrored_job(f);
     const bool mirrors = refraction_mirrors(f, w);
-    status = reserve_images(&g->gl, o, area, r);
+    status = reserve_images(&g->gl, o, area, f->under, r);
     if (status == MGT_OK)
         status = gl_gbuffers_draw(g, &direct, mirrors ? &mirrored : NULL, r);
     if (status == MGT_OK)
@@ -198,11 +208,6 @@ static void bind_texture(const gl_api *gl, GLuint unit, GLuint texture)
     gl->BindSampler(unit, 0);
 }
 
-static void bind_image(const gl_api *gl, GLuint unit, const gl_image *image)
-{
-    gl->BindImageTexture(unit, image->name, 0, GL_FALSE, 0, GL_WRITE_ONLY, image->format);
-}
-
 void gl_refraction_bind(gl_renderer *g)
 {
     const gl_api *gl = &g->gl;
@@ -217,16 +222,19 @@ void gl_refraction_bind(gl_renderer *g)
         bind_texture(gl, UNIT_FAR + 2 * i, layers[i]->depth.name);
         bind_texture(gl, UNIT_FAR + 2 * i + 1, layers[i]->triangle.name);
     }
-    const gl_image *const images[] = {&o->body, &o->mirrored, &o->front, &o->surface, &o->error};
-    for (GLuint i = 0; i < sizeof images / sizeof *images; i++)
-        bind_image(gl, i, images[i]);
+    gl_image *images[IMAGES];
+    list_images(&g->refraction, images);
+    for (GLuint i = 0; i < IMAGES; i++)
+        gl->BindImageTexture(i, images[i]->name, 0, GL_FALSE, 0, GL_WRITE_ONLY, images[i]->name ? images[i]->format : GL_R32F);
     gl_uniform(g, BIND_EXTRA, &o->block, sizeof o->block);
 }
 
 void gl_refraction_bind_light(const gl_renderer *g)
 {
-    bind_texture(&g->gl, UNIT_BODY, g->refraction.body.name);
-    bind_texture(&g->gl, UNIT_REFLECTION, g->refraction.mirrored.name);
+    const gl_refraction *o = &g->refraction;
+    const gl_image *const images[] = {&o->clear, &o->deep, &o->body, &o->mirrored};
+    for (GLuint i = 0; i < sizeof images / sizeof *images; i++)
+        bind_texture(&g->gl, UNIT_CLEAR + i, images[i]->name);
 }
 
 void gl_refraction_bind_front(const gl_renderer *g)
@@ -237,9 +245,11 @@ void gl_refraction_bind_front(const gl_renderer *g)
 
 void gl_refraction_free(const gl_api *gl, gl_refraction *o)
 {
-    gl_image *const images[] = {&o->body, &o->mirrored, &o->front, &o->surface, &o->error, &o->shadows};
-    for (size_t i = 0; i < sizeof images / sizeof *images; i++)
+    gl_image *images[IMAGES];
+    list_images(o, images);
+    for (int i = 0; i < IMAGES; i++)
         gl_image_free(gl, images[i]);
+    gl_image_free(gl, &o->shadows);
     gl_table_free(gl, &o->materials);
     gl_table_free(gl, &o->texels);
     shade_free(o->shade);

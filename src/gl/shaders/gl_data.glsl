@@ -23,9 +23,6 @@ layout(std430, binding = 2) TILE_ACCESS buffer MarchBlock { MarchWave march_wave
 
 layout(binding = 0) uniform sampler2D sky_texture;
 
-layout(binding = 14) uniform sampler2D body_texture;
-layout(binding = 15) uniform sampler2D reflection_texture;
-
 int tile_slot = 0;
 ivec2 layer_texel = ivec2(0); /* the pixel's */
 
@@ -56,7 +53,13 @@ WaveData wave_of_tile(int i)
 
 vec3 SKY_TEXEL(int cx, float column, float row) { return texelFetch(sky_texture, ivec2(int(column), int(row)), 0).rgb; }
 
-/* Objects, where the scene has some. */
+#ifndef OBJECTS_PASS
+/* Objects, where the scene has some, as objects.comp saw them. */
+layout(binding = 12) uniform sampler2D clear_texture;
+layout(binding = 13) uniform sampler2D deep_texture;
+layout(binding = 14) uniform sampler2D body_texture;
+layout(binding = 15) uniform sampler2D mirrored_texture;
+
 vec3 body_light()
 {
     if (pass_data.objects == 0)
@@ -68,10 +71,15 @@ vec3 body_light()
 #undef MIRRORS_OBJECTS
 #undef OBJECTS_SHARE
 #undef OBJECTS_COLOR
+#undef CLEAR_WATER
+#undef DEEP_WATER
 #define BODY_LIGHT(cx) body_light()
 #define MIRRORS_OBJECTS(cx) pass_data.objects
-#define OBJECTS_SHARE(cx) texelFetch(reflection_texture, layer_texel, 0).a
-#define OBJECTS_COLOR(cx) texelFetch(reflection_texture, layer_texel, 0).rgb
+#define OBJECTS_SHARE(cx) texelFetch(mirrored_texture, layer_texel, 0).a
+#define OBJECTS_COLOR(cx) texelFetch(mirrored_texture, layer_texel, 0).rgb
+#define CLEAR_WATER(cx) texelFetch(clear_texture, layer_texel, 0).rgb
+#define DEEP_WATER(cx) texelFetch(deep_texture, layer_texel, 0).rgb
+#endif
 
 const int TILE_WIDTH = 32;
 const int TILE_HEIGHT = 16;

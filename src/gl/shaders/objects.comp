@@ -3,6 +3,7 @@
  * What the pixels of a band see of objects: through the water's surface, mirrored by it, and in front of it. The waves are filtered, at one instant.
  */
 #define SHARED_WAVES
+#define OBJECTS_PASS
 #include "lattice_data.glsl"
 #include "glitter.k"
 #include "objects_data.glsl"
@@ -15,6 +16,8 @@ layout(binding = 1) writeonly uniform image2D mirrored_image; /* what objects sh
 layout(binding = 2) writeonly uniform image2D front_image;    /* what stands in front of water and sky, and its share of the pixel */
 layout(binding = 3) writeonly uniform image2D surface_image;  /* its normal, and metres along the ray */
 layout(binding = 4) writeonly uniform image2D error_image;    /* pixels that the point behind the surface is off by */
+layout(binding = 5) writeonly uniform image2D clear_image;    /* under water: what it leaves of light from the surface, … */
+layout(binding = 6) writeonly uniform image2D deep_image;     /* … and what it shines where it has none */
 
 const float INFINITY = uintBitsToFloat(0x7f800000u);
 
@@ -190,6 +193,30 @@ Front seen_in_front(TilePixel where, float water_along)
     return f;
 }
 
+/* ---- under water ---- */
+
+vec3 clear_water(float along)
+{
+    return exp(-along * vec3(shade_data.absorption_r + shade_data.scattering_r, shade_data.absorption_g + shade_data.scattering_g,
+                             shade_data.absorption_b + shade_data.scattering_b));
+}
+
+vec3 deep_water(TilePixel where)
+{
+    vec3 ray = turned(0, layer_ray(0, float(where.texel.x + pass_data.area_x), float(where.texel.y + pass_data.area_y)));
+    HitRay r;
+    r.position = vec3(0.0f);
+    r.direction = normalize(ray);
+    r.direction.y = min(r.direction.y, -1e-6f);
+    r.before = 0.0f;
+    r.after = 0.0f;
+    r.water = 0.0f;
+    r.slope_xx = 0.0f;
+    r.slope_xz = 0.0f;
+    r.slope_zz = 0.0f;
+    return shaded(-1, r);
+}
+
 void main()
 {
     TilePixel pixel = tile_pixel();
@@ -199,8 +226,10 @@ void main()
     Through through = Through(vec3(0.0f), 0.0f);
     vec4 mirrored = vec4(0.0f);
     Front front;
+    float surface = 0.0f;
     if (p.water > 0.0f) {
         PixelWater water = pixel_water(p, pixel);
+        surface = water.hit.along;
         front = seen_in_front(pixel, water.hit.along);
         if (front.color.w == 0.0f) {
             through = seen_through(water);
@@ -214,4 +243,8 @@ void main()
     imageStore(front_image, pixel.texel, front.color);
     imageStore(surface_image, pixel.texel, front.surface);
     imageStore(error_image, pixel.texel, vec4(through.error));
+    if (FRAME(0).camera_under == 0)
+        return;
+    imageStore(clear_image, pixel.texel, vec4(clear_water(surface), 1.0f));
+    imageStore(deep_image, pixel.texel, vec4(p.water < 1.0f ? deep_water(pixel) : vec3(0.0f), 1.0f));
 }
