@@ -11,7 +11,7 @@
 #include "scene/scene_edit.h"
 
 /* assimp loses a buffer of some damaged files. Called by LeakSanitizer, where there is one. */
-const char *__lsan_default_suppressions(void);
+__attribute__((visibility("default"))) const char *__lsan_default_suppressions(void);
 const char *__lsan_default_suppressions(void)
 {
     return "leak:libassimp";
