@@ -61,7 +61,7 @@ bool model_of_mesh(scene_model *out, const mesh_data *mesh, const char *name, mo
 /* A file of meshes. `own_materials`: with the materials and textures it names; else they are left at the format's defaults. */
 bool model_load(scene_model *out, const char *path, bool own_materials, model_fault *fault);
 
-/* A texture from a PNG file; *hash is that of its pixels. NULL with *fault filled. */
+/* A texture from a PNG or JPEG file; *hash is that of its pixels. NULL with *fault filled. */
 mgt_texture *texture_load(const char *path, uint64_t *hash, model_fault *fault);
 /* The same from the bytes of one; `name` is for messages. */
 mgt_texture *texture_parse(const void *bytes, size_t length, const char *name, uint64_t *hash, model_fault *fault);

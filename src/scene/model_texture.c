@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT
  *
- * Textures from PNG files, and from the bytes of one inside a mesh's file.
+ * Textures from PNG and JPEG files, and from the bytes of one inside a mesh's file.
  */
 #include <errno.h>
 #include <spng.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <turbojpeg.h>
 
 #include "scene/model.h"
 
@@ -14,61 +15,101 @@ enum { TEXTURE_SIDE = 16384, TEXTURE_BYTES = 512 * 1024 * 1024 };
 
 static bool refuse(model_fault *fault, const char *name, const char *what)
 {
-    return model_fault_set(fault, SCENE_ERROR_BAD_SCENE, "%s: %s; allowed: a PNG picture of at most %d x %d pixels", scene_file_name(name).text, what,
+    return model_fault_set(fault, SCENE_ERROR_BAD_SCENE, "%s: %s; allowed: a PNG or JPEG picture of at most %d x %d pixels", scene_file_name(name).text, what,
                            TEXTURE_SIDE, TEXTURE_SIDE);
 }
 
-/* RGBA, 8 bits each; the caller frees it. */
-static uint8_t *decode(spng_ctx *context, struct spng_ihdr *header, const char *name, model_fault *fault)
+/* RGBA, 8 bits each. */
+typedef struct decoded {
+    uint8_t *pixels; /* owned; NULL: the fault says why */
+    uint32_t width, height;
+} decoded;
+
+static const char *png_problem(int code)
 {
-    size_t size = 0;
-    int code = spng_get_ihdr(context, header);
-    if (!code)
-        code = spng_decoded_image_size(context, SPNG_FMT_RGBA8, &size);
-    uint8_t *pixels = code ? NULL : malloc(size);
-    if (!code && pixels == NULL) {
-        model_fault_memory(fault);
-        return NULL;
-    }
-    if (!code)
-        code = spng_decode_image(context, pixels, size, SPNG_FMT_RGBA8, 0);
-    if (!code)
-        return pixels;
-    free(pixels);
-    if (code == SPNG_EMEM)
-        model_fault_memory(fault);
-    else
-        refuse(fault, name, code == SPNG_IO_EOF ? "is not a sound PNG: it ends too early" : code == SPNG_ESIGNATURE ? "is not a PNG" : spng_strerror(code));
-    return NULL;
+    return code == SPNG_IO_EOF ? "is not a sound PNG: it ends too early" : code == SPNG_ESIGNATURE ? "is neither PNG nor JPEG" : spng_strerror(code);
 }
 
-mgt_texture *texture_parse(const void *bytes, size_t length, const char *name, uint64_t *hash, model_fault *fault)
+static decoded decode_png(const void *bytes, size_t length, const char *name, model_fault *fault)
 {
-    mgt_texture *texture = NULL;
-    mgt_texture_desc desc = mgt_texture_desc_defaults();
-    struct spng_ihdr header;
-    uint8_t *pixels = NULL;
+    decoded out = {0};
+    struct spng_ihdr header = {0};
+    size_t size = 0;
     spng_ctx *context = spng_ctx_new(0);
     if (context == NULL || spng_set_image_limits(context, TEXTURE_SIDE, TEXTURE_SIDE) != 0 ||
         spng_set_chunk_limits(context, (size_t)16 << 20, (size_t)64 << 20) != 0 || spng_set_png_buffer(context, bytes, length) != 0) {
         model_fault_memory(fault);
         goto done;
     }
-    pixels = decode(context, &header, name, fault);
-    if (pixels == NULL)
+    int code = spng_get_ihdr(context, &header);
+    if (!code)
+        code = spng_decoded_image_size(context, SPNG_FMT_RGBA8, &size);
+    out = (decoded){.pixels = code ? NULL : malloc(size), .width = header.width, .height = header.height};
+    if (!code && out.pixels == NULL)
+        code = SPNG_EMEM;
+    if (!code)
+        code = spng_decode_image(context, out.pixels, size, SPNG_FMT_RGBA8, 0);
+    if (!code)
         goto done;
-    desc.width = header.width;
-    desc.height = header.height;
-    desc.pixels = pixels;
-    *hash = model_hash(header.width, pixels, (size_t)header.width * header.height * 4);
+    free(out.pixels);
+    out.pixels = NULL;
+    if (code == SPNG_EMEM)
+        model_fault_memory(fault);
+    else
+        refuse(fault, name, png_problem(code));
+done:
+    spng_ctx_free(context);
+    return out;
+}
+
+static decoded decode_jpeg(const void *bytes, size_t length, const char *name, model_fault *fault)
+{
+    decoded out = {0};
+    int width = 0, height = 0, sampling, space;
+    tjhandle handle = tjInitDecompress();
+    if (handle == NULL) {
+        model_fault_memory(fault);
+        return out;
+    }
+    bool good = tjDecompressHeader3(handle, bytes, length, &width, &height, &sampling, &space) == 0 && width > 0 && height > 0;
+    if (good && (width > TEXTURE_SIDE || height > TEXTURE_SIDE)) {
+        refuse(fault, name, "is too large");
+        goto done;
+    }
+    out = (decoded){.pixels = good ? malloc((size_t)width * (size_t)height * 4) : NULL, .width = (uint32_t)width, .height = (uint32_t)height};
+    if (good && out.pixels == NULL) {
+        model_fault_memory(fault);
+        goto done;
+    }
+    good = good && tjDecompress2(handle, bytes, length, out.pixels, width, 0, height, TJPF_RGBA, TJFLAG_ACCURATEDCT | TJFLAG_STOPONWARNING) == 0;
+    if (!good) {
+        refuse(fault, name, "is not a sound JPEG");
+        free(out.pixels);
+        out.pixels = NULL;
+    }
+done:
+    tjDestroy(handle);
+    return out;
+}
+
+mgt_texture *texture_parse(const void *bytes, size_t length, const char *name, uint64_t *hash, model_fault *fault)
+{
+    mgt_texture *texture = NULL;
+    mgt_texture_desc desc = mgt_texture_desc_defaults();
+    const bool is_jpeg = length > 3 && memcmp(bytes, "\xff\xd8\xff", 3) == 0;
+    const decoded picture = is_jpeg ? decode_jpeg(bytes, length, name, fault) : decode_png(bytes, length, name, fault);
+    if (picture.pixels == NULL)
+        return NULL;
+    desc.width = picture.width;
+    desc.height = picture.height;
+    desc.pixels = picture.pixels;
+    *hash = model_hash(picture.width, picture.pixels, (size_t)picture.width * picture.height * 4);
     const mgt_status status = mgt_texture_create(&texture, &desc);
     if (status == MGT_ERROR_MEMORY)
         model_fault_memory(fault);
     else if (status != MGT_OK)
         refuse(fault, name, mgt_last_error(NULL));
-done:
-    free(pixels);
-    spng_ctx_free(context);
+    free(picture.pixels);
     return texture;
 }
 

@@ -196,7 +196,7 @@ static const scene_field material_fields[] = {
     {"roughness", FIELD_SHARE, LOOK(roughness), 0, 0.02, 1, NULL, .doc = "of the gloss (GGX, alpha is its square)"},
     {"metallic", FIELD_SHARE, LOOK(metallic), 0, 0, 1, NULL, .doc = "1: a metal; 0: mirrors 4% at normal incidence and is diffuse below"},
     {"texture", FIELD_TEXT, offsetof(scene_material, texture), FIELD_NO_PIXELS, NO_RANGE, NULL,
-     .doc = "PNG picture, from the scene's folder; on shapes it repeats each metre"},
+     .doc = "PNG or JPEG picture, from the scene's folder; on shapes it repeats each metre"},
     {"pattern", FIELD_CHOICE, LOOK(pattern), 0, NO_RANGE, NULL,
      .doc = "puts pattern_color on the joints between tiles, every other field or every other stripe", .choices = patterns},
     {"pattern_color", FIELD_COLOR, LOOK(pattern_color), 0, 0, 1, NULL, .doc = "linear sRGB"},

@@ -41,6 +41,25 @@ static void put(const test_folder *folder, const char *name, const char *text)
     write_bytes(in_folder(folder, name, path), text, strlen(text));
 }
 
+/* 8 x 8 pixels, all of one red. */
+static void put_jpeg(const test_folder *folder)
+{
+    char path[512];
+    static const uint8_t bytes[] = {
+        0xff, 0xd8, 0xff, 0xe0, 0x00, 0x10, 0x4a, 0x46, 0x49, 0x46, 0x00, 0x01, 0x02, 0x00, 0x00, 0x01, 0x00, 0x01, 0x00, 0x00, 0xff, 0xfe,
+        0x00, 0x10, 0x4c, 0x61, 0x76, 0x63, 0x35, 0x39, 0x2e, 0x33, 0x37, 0x2e, 0x31, 0x30, 0x30, 0x00, 0xff, 0xdb, 0x00, 0x43, 0x00, 0x08,
+        0x04, 0x04, 0x04, 0x04, 0x04, 0x05, 0x05, 0x05, 0x05, 0x05, 0x05, 0x06, 0x06, 0x06, 0x06, 0x06, 0x06, 0x06, 0x06, 0x06, 0x06, 0x06,
+        0x06, 0x06, 0x07, 0x07, 0x07, 0x08, 0x08, 0x08, 0x07, 0x07, 0x07, 0x06, 0x06, 0x07, 0x07, 0x08, 0x08, 0x08, 0x08, 0x09, 0x09, 0x09,
+        0x08, 0x08, 0x08, 0x08, 0x09, 0x09, 0x0a, 0x0a, 0x0a, 0x0c, 0x0c, 0x0b, 0x0b, 0x0e, 0x0e, 0x0e, 0x11, 0x11, 0x14, 0xff, 0xc4, 0x00,
+        0x4d, 0x00, 0x01, 0x01, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x06, 0x01, 0x01,
+        0x01, 0x01, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x06, 0x07, 0x10, 0x01, 0x00, 0x00,
+        0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x11, 0x01, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00,
+        0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0xff, 0xc0, 0x00, 0x11, 0x08, 0x00, 0x08, 0x00, 0x08, 0x03, 0x01, 0x12,
+        0x00, 0x02, 0x12, 0x00, 0x03, 0x12, 0x00, 0xff, 0xda, 0x00, 0x0c, 0x03, 0x01, 0x00, 0x02, 0x11, 0x03, 0x11, 0x00, 0x3f, 0x00, 0x8d,
+        0x13, 0x83, 0x51, 0x1f, 0xff, 0xd9};
+    write_bytes(in_folder(folder, "red.jpg", path), bytes, sizeof bytes);
+}
+
 static void put_dots(const test_folder *folder)
 {
     char path[512];
@@ -59,6 +78,7 @@ static int files_setup(void **state)
     put(folder, "triangle.ply", triangle_ply);
     put(folder, "nodes.gltf", nodes_gltf);
     put_dots(folder);
+    put_jpeg(folder);
     return 0;
 }
 
@@ -162,7 +182,7 @@ static void materials_are_read(void **state)
     const test_folder *folder = *state;
     scene_file *file = load(folder, "  - shape: plane\n    name: ground\n    material: {base_color: [0.1, 0.2, 0.3], roughness: 0.25, metallic: 1, pattern: checker,\n"
                                     "      pattern_color: [1, 0, 1], pattern_size: 0.5, pattern_joint: 0.125, texture: dots.png}\n"
-                                    "  - shape: sphere\n    material: {texture: dots.png}\n  - shape: pool\n");
+                                    "  - shape: sphere\n    material: {texture: dots.png}\n  - shape: pool\n  - shape: box\n    material: {texture: red.jpg}\n");
     const mgt_scene scene = scene_of(file);
     const mgt_material *m = &scene.objects[0].material;
     assert_true(m->base_color[0] == 0.1f && m->base_color[2] == 0.3f && m->roughness == 0.25f && m->metallic == 1);
@@ -171,6 +191,7 @@ static void materials_are_read(void **state)
     assert_non_null(m->texture);
     assert_ptr_equal(m->texture, scene.objects[1].material.texture); /* read once */
     assert_null(scene.objects[2].material.texture);
+    assert_non_null(scene.objects[3].material.texture);
     scene_file_free(file);
 }
 
@@ -352,6 +373,7 @@ static void errors_say_what_where_and_what_is_allowed(void **state)
     put(folder, "cycle.gltf", "{\"asset\": {\"version\": \"2.0\"}, \"scene\": 0, \"scenes\": [{\"nodes\": [0]}], \"nodes\": [{\"children\": [1]}, {\"children\": [0]}]}");
     put(folder, "flatten.gltf", "{\"asset\": {\"version\": \"2.0\"}}");
     put(folder, "jpeg.png", "\xff\xd8\xff\xe0 JFIF and so on, for as long as such files are");
+    put(folder, "gif.png", "GIF89a and so on, for as long as such files are");
     put(folder, "nan.pfm", "Pf\n2 1\n-1.0\n12345678");
     char fifo[512];
     assert_int_equal(mkfifo(in_folder(folder, "pipe.ply", fifo), 0600), 0);
@@ -391,7 +413,8 @@ static void errors_say_what_where_and_what_is_allowed(void **state)
         {"  - {mesh: cycle.gltf}\n", SCENE_ERROR_BAD_SCENE, "/cycle.gltf: "},
         {"  - {mesh: flatten.gltf}\n", SCENE_ERROR_BAD_SCENE, "/flatten.gltf: "},
         {"  - {shape: box, material: {texture: nowhere.png}}\n", SCENE_ERROR_MISSING_INPUT, "/s.yaml:3:38: objects[0].material.texture: "},
-        {"  - {shape: box, material: {texture: jpeg.png}}\n", SCENE_ERROR_BAD_SCENE, "/jpeg.png: is not a PNG; allowed: a PNG picture of at most 16384 x 16384 pixels"},
+        {"  - {shape: box, material: {texture: jpeg.png}}\n", SCENE_ERROR_BAD_SCENE, "/jpeg.png: is not a sound JPEG; allowed: a PNG or JPEG picture of at most 16384 x 16384 pixels"},
+        {"  - {shape: box, material: {texture: gif.png}}\n", SCENE_ERROR_BAD_SCENE, "/gif.png: is neither PNG nor JPEG; allowed: a PNG or JPEG"},
         {"  - {shape: box, material: {texture: pipe.png}}\n", SCENE_ERROR_BAD_SCENE, "/pipe.png: is no regular file; allowed: "},
         {"  - {shape: floor, heights: nowhere.png}\n", SCENE_ERROR_MISSING_INPUT, "/s.yaml:3:29: objects[0].heights: "},
         {"  - {shape: floor, heights: dots.png}\n", SCENE_ERROR_BAD_SCENE, "/dots.png: has colours or an alpha channel; allowed: a grey PNG or PFM of at least 2 x 2 pixels"},
