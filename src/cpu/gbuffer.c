@@ -216,7 +216,7 @@ static struct gbuffer_store *new_store(uint32_t workers)
 /* Room for the world's vertices and chunks; what another world needed more goes. */
 static bool fit_store(struct gbuffer_store *s, const world *w, size_t chunks)
 {
-    if (w->vertex_count > s->image_room || w->vertex_count < s->image_room / 4) {
+    if (!s->images || w->vertex_count > s->image_room || w->vertex_count < s->image_room / 4) {
         free(s->images);
         s->images = malloc((w->vertex_count + 1) * 4 * sizeof *s->images);
         s->image_room = s->images ? w->vertex_count : 0;
