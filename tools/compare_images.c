@@ -17,11 +17,14 @@ static const char seconds_key[] = "render_seconds";
 /* The `mangata render` that would make the same file. */
 static render_request picture_request(const compare_job *job, const compare_scene *scene, size_t picture)
 {
-    return (render_request){.scene_path = scene->path,
-                            .format = PICTURE_EXR,
-                            .quality = *compare_picture_quality(job, scene, picture),
-                            .layers = {MGT_LAYER_COLOR, MGT_LAYER_COVERAGE},
-                            .layer_count = 2};
+    render_request request = {.scene_path = scene->path,
+                              .format = PICTURE_EXR,
+                              .quality = *compare_picture_quality(job, scene, picture),
+                              .layers = {MGT_LAYER_COLOR, MGT_LAYER_COVERAGE},
+                              .layer_count = 2};
+    for (size_t i = 0; i < job->request->layer_count; i++)
+        request.layers[request.layer_count++] = job->request->layers[i];
+    return request;
 }
 
 static int hash_picture(const compare_job *job, const compare_scene *scene, size_t picture, size_t frame, sha256_text *hash)
@@ -120,6 +123,10 @@ static int look_for_kept(compare_job *job, const compare_scene *scene, bool *kep
     for (size_t i = 0; i < job->frame_count * pictures; i++) {
         char path[COMPARE_PATH];
         sha256_text hash;
+        if (!compare_draws(scene, i % pictures) || scene->view->only_timed) {
+            kept[i] = true;
+            continue;
+        }
         if (!compare_picture_path(job, scene, i % pictures, i / pictures, path))
             return EXIT_CODE_USAGE;
         const int code = hash_picture(job, scene, i % pictures, i / pictures, &hash);

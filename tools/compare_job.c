@@ -44,14 +44,24 @@ bool compare_picture_path(const compare_job *job, const compare_scene *scene, si
     return compare_file_path(job, name, path);
 }
 
-bool compare_frame_scene(const compare_job *job, const compare_scene *scene, size_t picture, size_t frame, mgt_scene *out)
+bool compare_draws(const compare_scene *scene, size_t picture)
 {
-    if (!scene_file_frame(scene->file, (int)compare_frame_number(job, frame), out)) {
-        console_error(0, "%s: the camera of frame %u is not a legal one", scene->path, compare_frame_number(job, frame));
+    return picture == COMPARE_REFERENCE || scene->view->methods == 0 || (scene->view->methods >> (picture - 1) & 1);
+}
+
+bool compare_number_scene(const compare_job *job, const compare_scene *scene, size_t picture, uint32_t number, mgt_scene *out)
+{
+    if (!scene_file_frame(scene->file, (int)number, out)) {
+        console_error(0, "%s: the camera of frame %u is not a legal one", scene->path, number);
         return false;
     }
     out->quality = *compare_picture_quality(job, scene, picture);
     return true;
+}
+
+bool compare_frame_scene(const compare_job *job, const compare_scene *scene, size_t picture, size_t frame, mgt_scene *out)
+{
+    return compare_number_scene(job, scene, picture, compare_frame_number(job, frame), out);
 }
 
 int compare_stopped(compare_job *job)
@@ -93,7 +103,8 @@ static bool on_progress(void *user, double fraction)
 static void name_scene(compare_job *job, size_t index)
 {
     compare_scene *scene = &job->scenes[index];
-    const char *slash = strrchr(scene->path, '/'), *start = slash ? slash + 1 : scene->path, *dot = strrchr(start, '.');
+    const char *path = scene->view->name ? scene->view->name : scene->path;
+    const char *slash = strrchr(path, '/'), *start = slash ? slash + 1 : path, *dot = strrchr(start, '.');
     const size_t length = dot && dot > start ? (size_t)(dot - start) : strlen(start);
     char base[48];
     snprintf(base, sizeof base, "%.*s", (int)(length < sizeof base ? length : sizeof base - 1), start);
@@ -111,6 +122,25 @@ static void name_scene(compare_job *job, size_t index)
     }
 }
 
+/* With the overrides of the request and of the view. */
+static scene_file *load_file(const compare_job *job, const compare_scene *scene, scene_error *error)
+{
+    const compare_request *r = job->request;
+    const compare_view *view = scene->view;
+    const char **all = calloc(r->override_count + view->override_count + 1, sizeof *all);
+    if (!all) {
+        *error = (scene_error){SCENE_ERROR_MEMORY, "out of memory"};
+        return NULL;
+    }
+    for (size_t i = 0; i < r->override_count; i++)
+        all[i] = r->overrides[i];
+    for (size_t i = 0; i < view->override_count; i++)
+        all[r->override_count + i] = view->overrides[i];
+    scene_file *file = scene_file_load(scene->path, all, r->override_count + view->override_count, error);
+    free(all);
+    return file;
+}
+
 static int load_scene(compare_job *job, size_t index)
 {
     const compare_request *r = job->request;
@@ -118,10 +148,11 @@ static int load_scene(compare_job *job, size_t index)
     scene_error error;
     mgt_scene first;
     scene->path = r->scene_paths[index];
+    scene->view = &r->views[index];
     scene->reference = r->reference;
     scene->reference_seconds = NAN;
     name_scene(job, index);
-    scene->file = scene_file_load(scene->path, r->overrides, r->override_count, &error);
+    scene->file = load_file(job, scene, &error);
     if (!scene->file)
         return console_scene_error(&error);
     scene->canonical = scene_file_canonical(scene->file, NULL);
@@ -148,6 +179,8 @@ static int check_scene(compare_job *job, const compare_scene *scene)
     for (size_t frame = 0; frame < job->frame_count; frame++)
         for (size_t picture = 0; picture <= job->request->method_count; picture++) {
             mgt_scene view;
+            if (!compare_draws(scene, picture))
+                continue;
             if (!compare_frame_scene(job, scene, picture, frame, &view))
                 return EXIT_CODE_BAD_INPUT;
             const mgt_status status = mgt_scene_check(job->context, &view);

@@ -23,12 +23,14 @@ typedef struct compare_time {
 /* A method on a scene. */
 typedef struct compare_result {
     compare_time time;
+    double memory; /* bytes that a frame takes at its peak, in a context of its own; NaN: not measured */
     clip_scores clip[COMPARE_KINDS];
     clip_scores *frames[COMPARE_KINDS]; /* one a frame */
 } compare_result;
 
 typedef struct compare_scene {
     const char *path;
+    const compare_view *view;
     char name[64]; /* the file's, without folder and extension, each once */
     scene_file *file;
     char *canonical;
@@ -64,8 +66,12 @@ uint32_t compare_frame_number(const compare_job *job, size_t frame);
 bool compare_picture_path(const compare_job *job, const compare_scene *scene, size_t picture, size_t frame, char path[COMPARE_PATH]);
 bool compare_file_path(const compare_job *job, const char *name, char path[COMPARE_PATH]);
 
-/* The frame as the picture shows it. False, with the error printed, when its camera is not a legal one. */
+/* Whether the picture is one of the scene's view. */
+bool compare_draws(const compare_scene *scene, size_t picture);
+
+/* The frame as the picture shows it, by its place in the list or by its number. False, with the error printed, when its camera is not a legal one. */
 bool compare_frame_scene(const compare_job *job, const compare_scene *scene, size_t picture, size_t frame, mgt_scene *out);
+bool compare_number_scene(const compare_job *job, const compare_scene *scene, size_t picture, uint32_t number, mgt_scene *out);
 
 /* Prints and returns the exit codes of a failed file and of a signal. */
 int compare_file_failure(compare_job *job, const file_error *error);

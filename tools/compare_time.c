@@ -7,7 +7,13 @@
 
 #include "compare_job.h"
 #include "interrupt.h"
+#include "memory_use.h"
 #include "sha256.h"
+
+static bool is_timed(const compare_scene *scene, size_t method)
+{
+    return !scene->view->untimed && compare_draws(scene, method + 1);
+}
 
 static int ascending(const void *a, const void *b)
 {
@@ -35,8 +41,13 @@ static bool times_key(const compare_job *job, const compare_scene *scene, sha256
     fprintf(stream, "%s\n%s\nframe %u\nruns %u\nbackend %d isa %d threads %u renderer %s\n", mgt_version(), scene->canonical,
             compare_frame_number(job, 0), (unsigned)r->time_runs, (int)job->info.backend, (int)job->info.isa, job->info.threads,
             job->info.renderer);
+    if (scene->view->only_timed)
+        fputs("frames in turn\n", stream);
+    if (r->memory)
+        fputs("memory\n", stream);
     for (size_t m = 0; m < r->method_count; m++)
-        fprintf(stream, "%s seed %llu\n", r->methods[m].name, (unsigned long long)r->methods[m].quality.seed);
+        if (is_timed(scene, m))
+            fprintf(stream, "%s seed %llu\n", r->methods[m].name, (unsigned long long)r->methods[m].quality.seed);
     const bool failed = ferror(stream) != 0;
     if (fclose(stream) != 0 || failed) {
         free(text);
@@ -62,7 +73,10 @@ static bool read_times(const compare_job *job, compare_scene *scene, const char 
     const char *recorded = json_string_value(json_object_get(root, "key"));
     bool found = recorded && strcmp(recorded, key->text) == 0;
     for (size_t m = 0; m < job->request->method_count && found; m++) {
-        json_t *list = json_object_get(json_object_get(root, "seconds"), job->request->methods[m].name);
+        if (!is_timed(scene, m))
+            continue;
+        const char *name = job->request->methods[m].name;
+        json_t *list = json_object_get(json_object_get(root, "seconds"), name), *memory = json_object_get(json_object_get(root, "memory"), name);
         const size_t count = json_array_size(list);
         double *seconds = calloc(count ? count : 1, sizeof *seconds);
         found = seconds && count == job->request->time_runs;
@@ -70,23 +84,30 @@ static bool read_times(const compare_job *job, compare_scene *scene, const char 
             seconds[i] = json_number_value(json_array_get(list, i));
         if (found)
             scene->results[m].time = summary(seconds, count);
+        scene->results[m].memory = json_is_number(memory) ? json_number_value(memory) : NAN;
         free(seconds);
     }
     json_decref(root);
     return found;
 }
 
-static int write_times(compare_job *job, const char *path, const sha256_text *key, const double *seconds)
+static int write_times(compare_job *job, const compare_scene *scene, const char *path, const sha256_text *key, const double *seconds)
 {
-    const size_t runs = (size_t)job->request->time_runs, methods = job->request->method_count;
-    json_t *lists = json_object();
-    for (size_t m = 0; m < methods; m++) {
+    const size_t runs = (size_t)job->request->time_runs;
+    json_t *lists = json_object(), *memory = json_object();
+    for (size_t m = 0; m < job->request->method_count; m++) {
+        const char *name = job->request->methods[m].name;
+        if (!is_timed(scene, m))
+            continue;
         json_t *list = json_array();
         for (size_t i = 0; i < runs; i++)
             json_array_append_new(list, json_real(seconds[m * runs + i]));
-        json_object_set_new(lists, job->request->methods[m].name, list);
+        json_object_set_new(lists, name, list);
+        if (isfinite(scene->results[m].memory))
+            json_object_set_new(memory, name, json_real(scene->results[m].memory));
     }
-    json_t *root = json_pack("{s:s, s:I, s:o}", "key", key->text, "frame", (json_int_t)compare_frame_number(job, 0), "seconds", lists);
+    json_t *root = json_pack("{s:s, s:I, s:o, s:o}", "key", key->text, "frame", (json_int_t)compare_frame_number(job, 0), "seconds", lists, "memory",
+                             memory);
     char *text = root ? json_dumps(root, JSON_INDENT(1) | JSON_PRESERVE_ORDER | JSON_REAL_PRECISION(9)) : NULL;
     json_decref(root);
     const int code = text ? compare_write_text(job, path, text, strlen(text)) : console_error(EXIT_CODE_FAILED, "out of memory");
@@ -94,19 +115,55 @@ static int write_times(compare_job *job, const char *path, const sha256_text *ke
     return code;
 }
 
-static int time_once(compare_job *job, const compare_scene *scene, size_t method, const mgt_target *target, double *seconds)
+static int render_once(compare_job *job, mgt_context *context, const mgt_scene *view, const mgt_target *target, double *seconds)
 {
-    mgt_scene view;
-    if (!compare_frame_scene(job, scene, method + 1, 0, &view))
-        return EXIT_CODE_BAD_INPUT;
-    progress_frame(&job->progress, compare_frame_number(job, 0));
     const double start = seconds_now();
-    const mgt_status status = mgt_render(job->context, &view, target, 1);
+    const mgt_status status = mgt_render(context, view, target, 1);
     *seconds = seconds_now() - start;
     if (status == MGT_CANCELLED || *interrupt_flag())
         return compare_stopped(job);
+    return status == MGT_OK ? EXIT_CODE_OK : console_library_error(context, status);
+}
+
+/* Run 0 is not counted. */
+static int time_once(compare_job *job, const compare_scene *scene, size_t method, size_t run, const mgt_target *target, double *seconds)
+{
+    const uint32_t number = compare_frame_number(job, 0) + (scene->view->only_timed ? (uint32_t)run : 0);
+    mgt_scene view;
+    if (!compare_number_scene(job, scene, method + 1, number, &view))
+        return EXIT_CODE_BAD_INPUT;
+    progress_frame(&job->progress, number);
+    const int code = render_once(job, job->context, &view, target, seconds);
     job->progress.frames_done++;
-    return status == MGT_OK ? EXIT_CODE_OK : console_library_error(job->context, status);
+    return code;
+}
+
+static bool keep_going(void *user, double fraction)
+{
+    (void)user, (void)fraction;
+    return *interrupt_flag() == 0;
+}
+
+static int measure_memory(compare_job *job, compare_scene *scene, const mgt_target *target)
+{
+    int code = EXIT_CODE_OK;
+    for (size_t m = 0; m < job->request->method_count && code == EXIT_CODE_OK; m++) {
+        mgt_context *context = NULL;
+        mgt_context_info info;
+        mgt_scene view;
+        double unused;
+        if (!is_timed(scene, m))
+            continue;
+        if (!compare_frame_scene(job, scene, m + 1, 0, &view))
+            return EXIT_CODE_BAD_INPUT;
+        const double before = memory_use_begin();
+        code = context_open(&job->request->context, &job->request->out, keep_going, NULL, &context, &info);
+        if (code == EXIT_CODE_OK)
+            code = render_once(job, context, &view, target, &unused);
+        scene->results[m].memory = memory_use_peak() - before;
+        mgt_context_destroy(context);
+    }
+    return code;
 }
 
 static int time_scene(compare_job *job, compare_scene *scene, const char *path, const sha256_text *key)
@@ -119,14 +176,17 @@ static int time_scene(compare_job *job, compare_scene *scene, const char *path, 
     double *seconds = calloc(methods * runs, sizeof *seconds), unused;
     int code = target.pixels && seconds ? EXIT_CODE_OK : console_error(EXIT_CODE_FAILED, "out of memory");
     /* Tables are built and memory is touched by a first frame, which does not count. */
-    for (size_t m = 0; m < methods && code == EXIT_CODE_OK; m++)
-        code = time_once(job, scene, m, &target, &unused);
-    for (size_t i = 0; i < runs * methods && code == EXIT_CODE_OK; i++)
-        code = time_once(job, scene, i % methods, &target, &seconds[i % methods * runs + i / methods]);
+    for (size_t run = 0; run <= runs; run++)
+        for (size_t m = 0; m < methods && code == EXIT_CODE_OK; m++)
+            if (is_timed(scene, m))
+                code = time_once(job, scene, m, run, &target, run ? &seconds[m * runs + run - 1] : &unused);
+    if (code == EXIT_CODE_OK && job->request->memory)
+        code = measure_memory(job, scene, &target);
     if (code == EXIT_CODE_OK)
-        code = write_times(job, path, key, seconds);
+        code = write_times(job, scene, path, key, seconds);
     for (size_t m = 0; m < methods && code == EXIT_CODE_OK; m++)
-        scene->results[m].time = summary(seconds + m * runs, runs);
+        if (is_timed(scene, m))
+            scene->results[m].time = summary(seconds + m * runs, runs);
     free(seconds);
     free(target.pixels);
     return code;
@@ -136,15 +196,21 @@ int compare_time_methods(compare_job *job)
 {
     const compare_request *r = job->request;
     int code = EXIT_CODE_OK;
+    uint64_t timed = 0;
     for (size_t s = 0; s < r->scene_count; s++)
-        for (size_t m = 0; m < r->method_count; m++)
+        for (size_t m = 0; m < r->method_count; m++) {
             job->scenes[s].results[m].time = summary(NULL, 0);
+            job->scenes[s].results[m].memory = NAN;
+            timed += is_timed(&job->scenes[s], m);
+        }
     if (r->time_runs == 0)
         return EXIT_CODE_OK;
-    job->progress = progress_start(r->progress, r->scene_count * r->method_count * (r->time_runs + 1));
+    job->progress = progress_start(r->progress, timed * (r->time_runs + 1));
     for (size_t s = 0; s < r->scene_count && code == EXIT_CODE_OK; s++) {
         char path[COMPARE_PATH];
         sha256_text key;
+        if (job->scenes[s].view->untimed)
+            continue;
         if (!times_path(job, &job->scenes[s], path))
             code = EXIT_CODE_USAGE;
         else if (!times_key(job, &job->scenes[s], &key))

@@ -7,7 +7,7 @@
 #include "console.h"
 #include "image/metrics_color.h"
 
-static void display(float_image *image, double exposure)
+void diff_prepare_display(float_image *image, double exposure)
 {
     const size_t count = (size_t)image->width * image->height * image->channels;
     const float factor = (float)exp2(exposure);
@@ -19,6 +19,19 @@ static void blacken(float_image *image, size_t pixel)
 {
     for (uint32_t c = 0; c < image->channels; c++)
         image->pixels[pixel * image->channels + c] = 0;
+}
+
+uint64_t diff_prepare_mask(float_image pair[2], const float_image *mask)
+{
+    uint64_t left_out = 0;
+    for (size_t i = 0; i < (size_t)mask->width * mask->height; i++) {
+        if (mask->pixels[i] >= 0.999f)
+            continue;
+        left_out++;
+        blacken(&pair[0], i);
+        blacken(&pair[1], i);
+    }
+    return left_out;
 }
 
 static int apply_mask(const diff_prepare *p, uint32_t frame, float_image pair[2], uint64_t *left_out)
@@ -36,13 +49,7 @@ static int apply_mask(const diff_prepare *p, uint32_t frame, float_image pair[2]
         float_image_free(&mask);
         return code;
     }
-    for (size_t i = 0; i < (size_t)mask.width * mask.height; i++) {
-        if (mask.pixels[i] >= 0.999f)
-            continue;
-        ++*left_out;
-        blacken(&pair[0], i);
-        blacken(&pair[1], i);
-    }
+    *left_out = diff_prepare_mask(pair, &mask);
     float_image_free(&mask);
     return EXIT_CODE_OK;
 }
@@ -51,6 +58,6 @@ int diff_prepare_pair(const diff_prepare *prepare, uint32_t frame, float_image p
 {
     *left_out = 0;
     for (int i = 0; i < 2 && prepare->displayed; i++)
-        display(&pair[i], prepare->exposure);
+        diff_prepare_display(&pair[i], prepare->exposure);
     return prepare->mask ? apply_mask(prepare, frame, pair, left_out) : EXIT_CODE_OK;
 }

@@ -17,6 +17,10 @@ typedef struct diff_prepare {
     frame_path mask_name; /* of `mask` */
 } diff_prepare;
 
+/* The same in parts: displayed values of linear light, and black where `mask` (of the same size, 1 channel) is below 0.999; returns how many that are. */
+void diff_prepare_display(float_image *image, double exposure);
+uint64_t diff_prepare_mask(float_image pair[2], const float_image *mask);
+
 /* Prepares both pictures of a frame: what does not count is black. Puts the number of pixels left out into *left_out. An exit code, after a line on
  * stderr where it is not 0. */
 int diff_prepare_pair(const diff_prepare *prepare, uint32_t frame, float_image pair[2], uint64_t *left_out);

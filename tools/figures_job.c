@@ -116,9 +116,8 @@ static int choose_pictures(figures_job *f)
 
 /* ---- pictures for the makers ---- */
 
-int figures_display(figures_job *f, size_t scene, size_t picture, size_t frame, double stops, uint8_t **rgba)
+int figures_display(compare_job *job, size_t scene, size_t picture, size_t frame, double stops, uint8_t **rgba)
 {
-    compare_job *job = f->compare;
     const compare_scene *s = &job->scenes[scene];
     char path[COMPARE_PATH];
     file_error error;

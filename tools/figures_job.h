@@ -66,7 +66,7 @@ json_t *figures_number(double value);
 void figures_check(figures_job *f, const char *claim, double value, double least, double most);
 
 /* Displayed colour of a kept picture, `stops` brighter than the scene asks for: 4 bytes a pixel, the caller frees them. */
-int figures_display(figures_job *f, size_t scene, size_t picture, size_t frame, double stops, uint8_t **rgba);
+int figures_display(compare_job *job, size_t scene, size_t picture, size_t frame, double stops, uint8_t **rgba);
 
 /* Writes a PNG as DIR/pictures/NAME.png and embeds `crop` of it in the sheet. */
 int figures_embed(figures_job *f, svg *sheet, const char *name, const uint8_t *rgba, uint32_t width, uint32_t height, svg_crop crop, double x,

@@ -221,7 +221,7 @@ static int put_panel(figures_job *f, svg *sheet, size_t scene, int way, double x
     const size_t picture = way < 0 ? COMPARE_REFERENCE : f->picture[way_methods[way]];
     uint8_t *rgba = NULL;
     char name[200];
-    int code = figures_display(f, scene, picture, 0, figure_stops[FIGURE_SHOWN], &rgba);
+    int code = figures_display(f->compare, scene, picture, 0, figure_stops[FIGURE_SHOWN], &rgba);
     if (code != EXIT_CODE_OK)
         return code;
     snprintf(name, sizeof name, "%s-%s", s->name, way < 0 ? "reference" : f->renders.methods[picture - 1].file);

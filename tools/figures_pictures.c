@@ -17,7 +17,7 @@ static int put_picture(figures_job *f, svg *sheet, size_t scene, size_t picture,
     const compare_scene *s = &f->compare->scenes[scene];
     uint8_t *rgba = NULL;
     char name[200];
-    int code = figures_display(f, scene, picture, 0, figure_stops[FIGURE_SHOWN], &rgba);
+    int code = figures_display(f->compare, scene, picture, 0, figure_stops[FIGURE_SHOWN], &rgba);
     if (code != EXIT_CODE_OK)
         return code;
     snprintf(name, sizeof name, "%s-%s", s->name, picture == COMPARE_REFERENCE ? "reference" : f->renders.methods[picture - 1].file);

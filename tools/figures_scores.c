@@ -38,7 +38,7 @@ static int read_frame(figures_job *f, size_t scene, size_t picture, size_t frame
         return compare_file_failure(f->compare, &error);
     int code = EXIT_CODE_OK;
     for (int i = 0; i < FIGURE_EXPOSURES && code == EXIT_CODE_OK; i++)
-        code = figures_display(f, scene, picture, frame, figure_stops[i], &out->displayed[i]);
+        code = figures_display(f->compare, scene, picture, frame, figure_stops[i], &out->displayed[i]);
     return code;
 }
 
