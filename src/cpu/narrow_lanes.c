@@ -119,11 +119,12 @@ static void store_found(const struct kernel_context *cx, tile_ends *out, size_t 
     store(layer, SELECT(mirrored, real(1.0f), real(0.0f)));
     for (size_t lane = 0; lane < MGT_LANES; lane++) {
         const gbuffer *g = n->layers[layer[lane] > 0];
-        out->triangle[i + lane] = shown[lane] > 0 ? g->triangle[(size_t)y[lane] * g->width + (size_t)x[lane]] : -1;
-        if (n->data.method == MGT_REFRACTION_HYBRID) {
-            const bool sure = layer[lane] == 0 && residual[lane] < 1.5f;
-            out->doubt[i + lane] = sure && (x[lane] < 0 || !breaks_off(n, g, (size_t)x[lane], (size_t)y[lane])) ? 0 : 1;
-        }
+        const bool asked = x[lane] >= 0;
+        const size_t pixel = asked ? (size_t)y[lane] * g->width + (size_t)x[lane] : 0;
+        out->triangle[i + lane] = shown[lane] > 0 ? g->triangle[pixel] : -1;
+        out->pixel[i + lane] = asked ? (int32_t)pixel : -1;
+        if (n->data.method <= MGT_REFRACTION_HYBRID)
+            out->doubt[i + lane] = asked && (residual[lane] >= 1.5f || breaks_off(n, g, (size_t)x[lane], (size_t)y[lane])) ? 1 : 0;
     }
     const vec3 position = turned(cx, f.position);
     store_vector(out->position, i, vec3(position.x + n->data.foot_x, position.y, position.z + n->data.foot_z));

@@ -8,7 +8,7 @@
 
 #include "cpu/refraction_state.h"
 
-enum { PLACES = 8, MOST_CANDIDATES = 9 };
+enum { PLACES = 8 };
 
 /* One in each row and column of an 8 × 8 grid, from the pixel's centre. */
 static const double place_x[PLACES] = {-7 / 16.0, -5 / 16.0, -3 / 16.0, -1 / 16.0, 1 / 16.0, 3 / 16.0, 5 / 16.0, 7 / 16.0};
@@ -21,7 +21,7 @@ typedef struct near_pixel {
     size_t element; /* of the near layer */
     size_t i;       /* in the tile */
     size_t candidate_count;
-    int32_t candidates[MOST_CANDIDATES];
+    int32_t candidates[REFRACTION_NEIGHBOURS];
 } near_pixel;
 
 static void ray_through(const refraction *r, double x, double y, double ray[3])
@@ -29,38 +29,6 @@ static void ray_through(const refraction *r, double x, double y, double ray[3])
     const camera_rays *c = &r->camera;
     for (int k = 0; k < 3; k++)
         ray[k] = c->corner[k] + x * c->right[k] + y * c->down[k];
-}
-
-static double dot3(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void cross3(const double a[3], const double b[3], double out[3])
-{
-    for (int i = 0; i < 3; i++)
-        out[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
-}
-
-/* Multiple of the camera's ray at which it meets a triangle; +inf: it does not. */
-static double meet_triangle(const refraction *r, int32_t triangle, const double ray[3])
-{
-    const world *w = r->world;
-    const double eye[3] = {r->camera.position[0] - w->origin[0], r->camera.position[1], r->camera.position[2] - w->origin[1]};
-    double p[3][3], e1[3], e2[3], from[3], across[3], turned[3];
-    for (size_t c = 0; c < 3; c++)
-        for (int k = 0; k < 3; k++)
-            p[c][k] = (double)w->positions[3 * (size_t)w->indices[3 * (size_t)triangle + c] + (size_t)k];
-    for (int k = 0; k < 3; k++)
-        e1[k] = p[1][k] - p[0][k], e2[k] = p[2][k] - p[0][k], from[k] = eye[k] - p[0][k];
-    cross3(ray, e2, across);
-    const double det = dot3(e1, across);
-    if (fabs(det) < 1e-300)
-        return INFINITY;
-    const double u = dot3(from, across) / det;
-    cross3(from, e1, turned);
-    const double v = dot3(ray, turned) / det, along = dot3(e2, turned) / det;
-    return u >= 0 && v >= 0 && u + v <= 1 && along > 0 ? along : INFINITY;
 }
 
 /* Multiple of a ray through the pixel at which it meets the plane of the surface there. */
@@ -72,8 +40,8 @@ static double meet_water(const tile_objects *o, size_t i, bool under, const doub
     const double up = under ? -1 : 1;
     const double normal[3] = {(double)w->normal[0][i], up * (double)w->normal[1][i], (double)w->normal[2][i]};
     const double view[3] = {(double)w->view[0][i], up * (double)w->view[1][i], (double)w->view[2][i]};
-    const double closing = dot3(normal, ray);
-    return closing < 0 ? (double)w->along[i] * dot3(normal, view) / closing : INFINITY;
+    const double closing = refraction_dot(normal, ray);
+    return closing < 0 ? (double)w->along[i] * refraction_dot(normal, view) / closing : INFINITY;
 }
 
 /* ---- what is shaded ---- */
@@ -92,7 +60,7 @@ static void add_point(const near_pixel *p, const double ray[3], double along, in
     const refraction *r = p->r;
     const camera_rays *c = &r->camera;
     const double foot[3] = {c->position[0] - r->world->origin[0], c->position[1], c->position[2] - r->world->origin[1]};
-    const double length = sqrt(dot3(ray, ray));
+    const double length = sqrt(refraction_dot(ray, ray));
     tile_ends *e = &o->ends;
     if (*count == TILE_PIXELS)
         flush(r, o, count);
@@ -110,7 +78,7 @@ static void add_point(const near_pixel *p, const double ray[3], double along, in
     o->share[p->i] += 1;
     const float *plane = r->planes + 4 * (size_t)triangle;
     const double normal[3] = {(double)plane[0], (double)plane[1], (double)plane[2]};
-    const float towards = dot3(normal, ray) > 0 ? -1 : 1;
+    const float towards = refraction_dot(normal, ray) > 0 ? -1 : 1;
     o->along[p->i] = e->before[at];
     for (int k = 0; k < 3; k++)
         o->normal[k][p->i] = towards * plane[k];
@@ -142,24 +110,9 @@ static bool is_edge(const near_pixel *p, const tile_objects *o)
     /* A waterline: within a pixel or two the object may be on the other side of the surface. */
     double ray[3];
     ray_through(p->r, p->x, p->y, ray);
-    const double object = (double)g->depth[at] * sqrt(dot3(ray, ray)), water = (double)o->water.along[p->i];
+    const double object = (double)g->depth[at] * sqrt(refraction_dot(ray, ray)), water = (double)o->water.along[p->i];
     const double pixel = water * (double)p->r->frame->data.pixel_angle / fmax(-(double)o->water.view[1][p->i], 0.02);
     return fabs(object - water) < 2 * pixel;
-}
-
-static void list_candidates(near_pixel *p)
-{
-    const gbuffer *g = &p->r->direct.near;
-    p->candidate_count = 0;
-    for (int dy = -1; dy <= 1; dy++)
-        for (int dx = -1; dx <= 1; dx++) {
-            const int32_t t = g->triangle[(size_t)((ptrdiff_t)p->element + dy * (ptrdiff_t)g->width + dx)];
-            bool known = t < 0;
-            for (size_t k = 0; k < p->candidate_count && !known; k++)
-                known = p->candidates[k] == t;
-            if (!known)
-                p->candidates[p->candidate_count++] = t;
-        }
 }
 
 /* Whether the place lies between two pixels that both see something: then it does, too, even if it meets none of the tiny triangles at hand. */
@@ -174,13 +127,16 @@ static bool between_objects(const near_pixel *p, int place)
 static void see_edge(near_pixel *p, tile_objects *o, size_t *count)
 {
     const gbuffer *g = &p->r->direct.near;
-    list_candidates(p);
+    const world *w = p->r->world;
+    const camera_rays *c = &p->r->camera;
+    const double eye[3] = {c->position[0] - w->origin[0], c->position[1], c->position[2] - w->origin[1]};
+    p->candidate_count = refraction_neighbours(g, p->element, p->candidates);
     for (int place = 0; place < PLACES; place++) {
         double ray[3], nearest = INFINITY;
         int32_t triangle = -1;
         ray_through(p->r, p->x + place_x[place], p->y + place_y[place], ray);
         for (size_t k = 0; k < p->candidate_count; k++) {
-            const double along = meet_triangle(p->r, p->candidates[k], ray);
+            const double along = refraction_meet(p->r, p->candidates[k], eye, ray);
             if (along < nearest)
                 nearest = along, triangle = p->candidates[k];
         }

@@ -34,4 +34,22 @@ void refraction_shade(const refraction *r, tile_objects *o, size_t count);
 /* What stands in front of water and sky in the tile whose first pixel this is; the water must be known. */
 void refraction_near(const refraction *r, uint32_t column, uint32_t row, tile_objects *o);
 
+enum { REFRACTION_NEIGHBOURS = 9 };
+
+/* The triangles, each once, that an element of a layer and those around it show; those on the layer's edge count as far as they have neighbours.
+ * Returns how many. */
+size_t refraction_neighbours(const gbuffer *g, size_t element, int32_t triangles[REFRACTION_NEIGHBOURS]);
+
+/* Multiple of a ray, in the world's coordinates, at which it meets a triangle; +inf: it does not. */
+double refraction_meet(const refraction *r, int32_t triangle, const double from[3], const double ray[3]);
+
+static inline double refraction_dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* Where what a layer shows breaks off or bends, the pixel of the answer is not enough: the rays of doubtful ends among the listed ones meet the
+ * triangles that it and its neighbours show, and the nearest one counts. */
+void refraction_sharpen(const refraction *r, tile_objects *o, size_t count);
+
 #endif

@@ -1,0 +1,96 @@
+/* SPDX-License-Identifier: MIT
+ * Rays against the few triangles that a pixel of a layer and its neighbours show. */
+#include <math.h>
+
+#include "cpu/refraction_state.h"
+
+static void cross3(const double a[3], const double b[3], double out[3])
+{
+    for (int i = 0; i < 3; i++)
+        out[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
+}
+
+double refraction_meet(const refraction *r, int32_t triangle, const double from[3], const double ray[3])
+{
+    const world *w = r->world;
+    double p[3][3], e1[3], e2[3], to[3], across[3], turned[3];
+    for (size_t c = 0; c < 3; c++)
+        for (int k = 0; k < 3; k++)
+            p[c][k] = (double)w->positions[3 * (size_t)w->indices[3 * (size_t)triangle + c] + (size_t)k];
+    for (int k = 0; k < 3; k++)
+        e1[k] = p[1][k] - p[0][k], e2[k] = p[2][k] - p[0][k], to[k] = from[k] - p[0][k];
+    cross3(ray, e2, across);
+    const double det = refraction_dot(e1, across);
+    if (fabs(det) < 1e-300)
+        return INFINITY;
+    cross3(to, e1, turned);
+    const double u = refraction_dot(to, across) / det, v = refraction_dot(ray, turned) / det, along = refraction_dot(e2, turned) / det;
+    return u >= 0 && v >= 0 && u + v <= 1 && along > 0 ? along : INFINITY;
+}
+
+size_t refraction_neighbours(const gbuffer *g, size_t element, int32_t triangles[REFRACTION_NEIGHBOURS])
+{
+    const size_t x = element % g->width, y = element / g->width;
+    size_t count = 0;
+    for (size_t row = y > 0 ? y - 1 : 0; row <= y + 1 && row < g->height; row++)
+        for (size_t column = x > 0 ? x - 1 : 0; column <= x + 1 && column < g->width; column++) {
+            const int32_t t = g->triangle[row * g->width + column];
+            bool known = t < 0;
+            for (size_t k = 0; k < count && !known; k++)
+                known = triangles[k] == t;
+            if (!known)
+                triangles[count++] = t;
+        }
+    return count;
+}
+
+/* Whether an element or one beside it shows nothing. */
+static bool by_nothing(const gbuffer *g, size_t element)
+{
+    const size_t x = element % g->width, y = element / g->width;
+    for (size_t row = y > 0 ? y - 1 : 0; row <= y + 1 && row < g->height; row++)
+        for (size_t column = x > 0 ? x - 1 : 0; column <= x + 1 && column < g->width; column++)
+            if (g->triangle[row * g->width + column] < 0)
+                return true;
+    return false;
+}
+
+static void sharpen_pixel(const refraction *r, tile_objects *o, size_t i)
+{
+    tile_ends *e = &o->ends;
+    const camera_rays *c = &r->camera;
+    const double side = r->frame->under ? -1 : 1, along = (double)o->water.along[i];
+    const double from[3] = {c->position[0] - r->world->origin[0] + along * (double)o->water.view[0][i],
+                            c->position[1] + along * side * (double)o->water.view[1][i],
+                            c->position[2] - r->world->origin[1] + along * (double)o->water.view[2][i]};
+    const double ray[3] = {(double)e->direction[0][i], (double)e->direction[1][i], (double)e->direction[2][i]};
+    const gbuffer *g = r->narrow.layers[e->total[i] > 0];
+    int32_t triangles[REFRACTION_NEIGHBOURS];
+    const size_t count = refraction_neighbours(g, (size_t)e->pixel[i], triangles);
+    double nearest = INFINITY;
+    int32_t met = -1;
+    for (size_t k = 0; k < count; k++) {
+        const double way = refraction_meet(r, triangles[k], from, ray);
+        if (way < nearest)
+            nearest = way, met = triangles[k];
+    }
+    if (met < 0 && !by_nothing(g, (size_t)e->pixel[i]))
+        return;
+    e->triangle[i] = met;
+    e->after[i] = met < 0 ? 0 : (float)nearest;
+    for (int k = 0; k < 3 && met >= 0; k++)
+        e->position[k][i] = (float)(from[k] + nearest * ray[k]);
+    if (!r->frame->under)
+        e->water[i] = e->after[i];
+    else
+        e->water[i] = o->water.along[i] + (e->total[i] > 0 ? e->after[i] : 0);
+}
+
+void refraction_sharpen(const refraction *r, tile_objects *o, size_t count)
+{
+    for (size_t k = 0; k < count; k++) {
+        const size_t i = o->list[k];
+        if (o->ends.doubt[i] > 0 && o->ends.pixel[i] >= 0 && o->ends.error[i] < 4)
+            sharpen_pixel(r, o, i);
+    }
+}
