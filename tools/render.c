@@ -57,7 +57,7 @@ static const option render_options[] = {
     [OPT_REFRACTION] = {"refraction", 0, "NAME", "how what lies behind the surface is found: two-phase (default),\n"
                                                  "hybrid, liu, broad, narrow, screen-space, distance-field, off, truth"},
     [OPT_TESS_ERROR] = {"tess-error", 0, "PX", "two-phase, hybrid, liu, broad: pixels that a bent triangle may be off\n"
-                                               "by (default 0.25)"},
+                                               "by (default 0.1)"},
     [OPT_REFRACTION_SAMPLES] = {"refraction-samples", 0, "N", "NxN refracted rays a pixel (default 1; truth: 4)"},
     [OPT_CAUSTICS] = {"caustics", 0, "on|off", "light that the waves bundle under water (default off)"},
     [OPT_SET] = {"set", 0, "KEY=VALUE", "change a value of the scene, e.g. light.elevation_deg=3;\n"

@@ -76,7 +76,7 @@ static double dot(const double a[3], const double b[3])
 static PictureData picture_data(const gbuffer_job *job, const raster_grid *grid, const gbuffer *layer)
 {
     const camera_rays *c = &job->camera;
-    const double tau = job->error > 0 ? job->error : 0.25, edge = 0.8 * tau; /* the middle of a triangle may be off by a little more than its edges */
+    const double tau = job->error > 0 ? job->error : 0.1, edge = 0.8 * tau; /* the middle of a triangle may be off by a little more than its edges */
     double depth[3], x[3], y[3];
     cross(c->right, c->down, depth);
     cross(c->down, c->corner, x);

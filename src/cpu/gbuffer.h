@@ -38,7 +38,7 @@ typedef struct gbuffer_job {
     uint32_t width, height; /* of the image */
     double index;           /* of refraction of the water in air */
     gbuffer_map map;
-    double error;           /* pixels that a triangle bent by the map may be off by; 0: 0.25 */
+    double error;           /* pixels that a triangle bent by the map may be off by; 0: 0.1 */
     double trough;          /* metres beyond the mean surface that the near layer goes on for: as far as the waves may uncover it */
     double crest;           /* metres over the mean surface that the far layer goes on for on the camera's side: as far as the waves may reach */
 } gbuffer_job;
