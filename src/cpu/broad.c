@@ -52,10 +52,25 @@ static void draw_straight(const chunk_job *job)
     b->count = 0;
 }
 
+/* Whether all corners lie beyond one border of the picture, or too near. */
+static bool is_outside(const PictureData *picture, const float image[3][3])
+{
+    bool left = true, right = true, top = true, bottom = true, near = true;
+    for (int i = 0; i < 3; i++) {
+        const float x = image[i][0], y = image[i][1], z = image[i][2];
+        left &= x < z * picture->left, right &= x > z * picture->right;
+        top &= y < z * picture->top, bottom &= y > z * picture->bottom;
+        near &= z < picture->least_depth;
+    }
+    return left || right || top || bottom || near;
+}
+
 /* A triangle that stays where its images are. */
 static void take_straight(const chunk_job *job, int layer, const patch *p)
 {
     broad_scratch *s = job->scratch;
+    if (is_outside(&job->view->picture, p->image))
+        return;
     const size_t i = s->straight.count++;
     load_patch(&s->straight, i, p);
     s->straight_taken[i] = *p;
