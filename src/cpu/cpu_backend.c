@@ -629,6 +629,9 @@ static mgt_status adapt_picture(void *user, const mgt_scene *scene, const pictur
 
 static mgt_status cpu_render(void *state, const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count)
 {
+    const mgt_method method = scene->quality.method;
+    if ((scene->object_count > 0 || scene->camera.position[1] < 0) && (method == MGT_METHOD_ADAPTIVE || method == MGT_METHOD_REFERENCE))
+        return report_error(r, MGT_ERROR_UNSUPPORTED, "render.method", "methods adaptive and reference do not draw objects or cameras under water yet; ssaa does");
     if (!is_whole_frame_method(scene->quality.method))
         return render_picture(state, r, scene, targets, count, NULL);
     picture_user user = {state, r};

@@ -16,6 +16,11 @@ void refraction_free(refraction *r)
 {
     if (!r)
         return;
+    if (r->opened) {
+        gbuffers_free(&r->opened->direct);
+        gbuffers_free(&r->opened->mirrored);
+        free(r->opened);
+    }
     gbuffers_free(&r->direct);
     gbuffers_free(&r->mirrored);
     shade_free(r->shade);
@@ -230,6 +235,43 @@ static mgt_status prepare_truth(refraction *r, const reporter *report, mgt_isa i
     return status == MGT_OK ? MGT_OK : report_error(report, status, "render.truth", "the ground truth of refraction: %s", mgt_status_text(status));
 }
 
+/* Layers of the frame's camera, and what looks points up in them. */
+static mgt_status set_camera(refraction *r, thread_pool *pool)
+{
+    const frame *f = r->frame;
+    r->camera = f->under ? mirrored_rays(&f->close) : f->close;
+    const mgt_status status = draw_layers(r, pool);
+    if (status != MGT_OK)
+        return status;
+    r->narrow = (narrow_scene){.data = refraction_narrow_data(f, r->world, &r->direct.far),
+                               .refract = r->direct.refract,
+                               .layers = {&r->direct.far, r->mirrors ? &r->mirrored.far : &r->direct.far},
+                               .planes = r->planes};
+    return MGT_OK;
+}
+
+static bool prepare_opened(refraction *r, thread_pool *pool)
+{
+    if (!r->opened && !(r->opened = calloc(1, sizeof *r->opened)))
+        return false;
+    refraction *o = r->opened;
+    o->world = r->world;
+    o->planes = r->planes;
+    o->shade = r->shade;
+    o->trace = r->trace;
+    o->field = r->field;
+    o->kernels = r->kernels;
+    o->moved = *r->frame;
+    o->moved.close = r->frame->open;
+    o->frame = &o->moved;
+    return set_camera(o, pool) == MGT_OK;
+}
+
+refraction *refraction_opened(const refraction *r)
+{
+    return r->frame->scene->camera_moves && !r->truth ? r->opened : NULL;
+}
+
 mgt_status refraction_prepare(refraction **state, const reporter *report, const frame *f, const sky_state *sky, const lane_kernels *kernels,
                               mgt_isa isa, thread_pool *pool)
 {
@@ -238,18 +280,17 @@ mgt_status refraction_prepare(refraction **state, const reporter *report, const 
     refraction *r = *state;
     r->kernels = kernels;
     r->frame = f;
-    r->camera = f->under ? mirrored_rays(&f->close) : f->close;
-    if (world_update(&r->world, f->scene, pool) != MGT_OK || !build_planes(r) || draw_layers(r, pool) != MGT_OK ||
+    if (world_update(&r->world, f->scene, pool) != MGT_OK || !build_planes(r) || set_camera(r, pool) != MGT_OK ||
         shade_update(&r->shade, r->world, f, sky, kernels->shade) != MGT_OK)
         goto out_of_memory;
-    r->narrow = (narrow_scene){.data = refraction_narrow_data(f, r->world, &r->direct.far),
-                               .refract = r->direct.refract,
-                               .layers = {&r->direct.far, r->mirrors ? &r->mirrored.far : &r->direct.far},
-                               .planes = r->planes};
     atomic_store(&r->pixels, 0);
     atomic_store(&r->traced, 0);
     const mgt_status status = prepare_trace(r, report, pool);
-    return status == MGT_OK ? prepare_truth(r, report, isa, thread_pool_size(pool)) : status;
+    if (status != MGT_OK)
+        return status;
+    if (f->scene->camera_moves && !prepare_opened(r, pool))
+        goto out_of_memory;
+    return prepare_truth(r, report, isa, thread_pool_size(pool));
 out_of_memory:
     return report_error(report, MGT_ERROR_MEMORY, "render.memory", "out of memory for the scene's objects");
 }

@@ -47,6 +47,19 @@ void refraction_tell(const refraction *r, const reporter *report);
 void refraction_tile(refraction *r, const tile_waves *waves, const tile_guess *guess, uint32_t tile_x, uint32_t tile_y, uint32_t worker,
                      tile_objects *out);
 
+/* What the tile saw of objects when the shutter opened. */
+typedef struct tile_opened {
+    tile_light light;
+    float share[TILE_PIXELS], color[3][TILE_PIXELS];
+} tile_opened;
+
+/* Where the camera is when the shutter opens; NULL unless it moves. The ground truth knows no other camera than the last one. */
+refraction *refraction_opened(const refraction *r);
+
+/* Mean of both ends of the shutter, but for the layers. */
+void refraction_keep(const tile_objects *o, tile_opened *opened);
+void refraction_blend(tile_objects *o, const tile_opened *opened);
+
 /* Puts what stands in front before a tile's pixels, and before its layers of depth and normals; either may be NULL. */
 void refraction_compose(const tile_objects *o, tile_pixels *pixels, tile_surface *surface);
 

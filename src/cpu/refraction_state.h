@@ -26,6 +26,9 @@ struct refraction {
     camera_rays camera;        /* as it is, not mirrored */
     bool mirrors;              /* something stands on the camera's side, or water does */
     atomic_size_t pixels, traced; /* of water, of this frame; and rays traced through them */
+    /* The same where the camera is when the shutter opens, NULL until one moves: layers and `moved` are its own, the rest is lent. */
+    refraction *opened;
+    frame moved;
 };
 
 /* Radiance of the tile's first `count` ends, in o->rgb. */

@@ -274,6 +274,31 @@ static void put_before(float *below, const float *above, const float *share)
         below[i] = share[i] > 0 ? below[i] + share[i] * (above[i] - below[i]) : below[i];
 }
 
+void refraction_keep(const tile_objects *o, tile_opened *opened)
+{
+    opened->light = o->light;
+    memcpy(opened->share, o->share, sizeof o->share);
+    memcpy(opened->color, o->color, sizeof o->color);
+}
+
+static void blend_planes(float *planes, const float *others, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        planes[i] = 0.5f * (planes[i] + others[i]);
+}
+
+void refraction_blend(tile_objects *o, const tile_opened *opened)
+{
+    _Static_assert(sizeof(tile_light) % sizeof(float) == 0, "planes of floats");
+    for (size_t i = 0; i < TILE_PIXELS; i++) {
+        const float both = o->share[i] + opened->share[i];
+        for (int k = 0; k < 3 && both > 0; k++)
+            o->color[k][i] = (o->share[i] * o->color[k][i] + opened->share[i] * opened->color[k][i]) / both;
+    }
+    blend_planes(o->share, opened->share, TILE_PIXELS);
+    blend_planes(o->light.body[0], opened->light.body[0], sizeof o->light / sizeof(float));
+}
+
 void refraction_compose(const tile_objects *o, tile_pixels *pixels, tile_surface *surface)
 {
     if (pixels) {

@@ -219,14 +219,27 @@ static void render_surface(tile_place place, tile_scratch *scratch)
     job->kernels->filtered_normal(&f->data, &scratch->close, &scratch->close_guess, &scratch->surface);
 }
 
+static void see_objects(tile_place place, tile_scratch *scratch)
+{
+    const tile_job *job = place.job;
+    refraction *opened = refraction_opened(job->objects);
+    if (opened) {
+        build(place, &job->waves->open, &scratch->close, &scratch->close_guess);
+        refraction_tile(opened, &scratch->close, &scratch->close_guess, place.x, place.y, scratch->worker, &scratch->objects);
+        refraction_keep(&scratch->objects, &scratch->opened);
+    }
+    build(place, &job->waves->now, &scratch->close, &scratch->close_guess);
+    refraction_tile(job->objects, &scratch->close, &scratch->close_guess, place.x, place.y, scratch->worker, &scratch->objects);
+    if (opened)
+        refraction_blend(&scratch->objects, &scratch->opened);
+}
+
 void tile_render(const tile_job *job, uint32_t tile_x, uint32_t tile_y, tile_scratch *scratch)
 {
     const tile_place place = {job, tile_x, tile_y};
     const mgt_method method = job->frame->scene->quality.method;
-    if (job->objects) {
-        build(place, &job->waves->now, &scratch->close, &scratch->close_guess);
-        refraction_tile(job->objects, &scratch->close, &scratch->close_guess, tile_x, tile_y, scratch->worker, &scratch->objects);
-    }
+    if (job->objects)
+        see_objects(place, scratch);
     if (job->wants.pixels && is_filtered(method) && job->frame->scene->quality.path_segments > 1)
         render_segments(place, scratch);
     else if (job->wants.pixels && is_filtered(method))

@@ -14,7 +14,8 @@ typedef struct tile_scratch {
     tile_pixels pixels;
     tile_surface surface;
     wave_set sample_waves;
-    tile_objects objects; /* where there are some */
+    tile_objects objects; /* where there are some, … */
+    tile_opened opened;   /* … and the camera moves */
 } tile_scratch;
 
 /* The waves of a frame, shared by its tiles. */
