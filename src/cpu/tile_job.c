@@ -113,6 +113,13 @@ static void render_centre(tile_place place, tile_scratch *scratch)
 
 /* ---- filtered methods ---- */
 
+/* Light that slopes reach at one end of the shutter is on their path at the other one, too. */
+static void share_light(tile_scratch *scratch)
+{
+    const int reach = scratch->close.data.light_reach | scratch->open.data.light_reach;
+    scratch->close.data.light_reach = scratch->open.data.light_reach = reach;
+}
+
 static void run_filtered(const tile_job *job, bool moves, tile_scratch *scratch, tile_pixels *out)
 {
     const frame *f = job->frame;
@@ -125,8 +132,10 @@ static void render_filtered(tile_place place, tile_scratch *scratch)
     const tile_job *job = place.job;
     const bool moves = job->frame->scene->camera_moves;
     build(place, &job->waves->shutter, &scratch->close, &scratch->close_guess);
-    if (moves)
+    if (moves) {
         build(place, &job->waves->open, &scratch->open, &scratch->open_guess);
+        share_light(scratch);
+    }
     run_filtered(job, moves, scratch, &scratch->pixels);
 }
 
@@ -145,6 +154,7 @@ static void build_segment(tile_place place, double from, double to, tile_scratch
     const camera_rays before = camera_at(f, from);
     wave_set_build(f, &before, (interval){open, 0}, true, &scratch->sample_waves);
     build(place, &scratch->sample_waves, &scratch->open, &scratch->open_guess);
+    share_light(scratch);
 }
 
 /* The path in several straight pieces (P1 §3.4): the mean over the parts of the shutter. */
@@ -197,8 +207,10 @@ static void render_rival(tile_place place, tile_scratch *scratch)
     const bool moves = method == MGT_METHOD_TNDF && f->scene->camera_moves;
     const wave_set *waves = takes_points(method) ? &job->waves->samples : method == MGT_METHOD_TNDF ? &job->waves->shutter : &job->waves->now;
     build(place, waves, &scratch->close, &scratch->close_guess);
-    if (moves)
+    if (moves) {
         build(place, &job->waves->open, &scratch->open, &scratch->open_guess);
+        share_light(scratch);
+    }
     const rival_tile tile = {&f->data,        job->sky, light_of(job, scratch),
                              job->lean,       method,
                              &scratch->close, &scratch->close_guess,
