@@ -200,6 +200,9 @@ static mgt_status read_target(gl_backend_state *s, const mgt_target *target, con
 
 /* ---- mgt_render ---- */
 
+/* More rays of refraction a pixel, along a side, would keep the GPU busy for too long at once. */
+enum { MOST_PLACES = 4 };
+
 const char *gl_lacks(const mgt_scene *scene)
 {
     const mgt_method method = scene->quality.method;
@@ -214,8 +217,10 @@ const char *gl_lacks(const mgt_scene *scene)
         break;
     default: break;
     }
-    if (scene->object_count > 0 && (scene->quality.caustics || scene->quality.refraction_samples > 1))
-        return "caustics and several samples of refraction a pixel run";
+    if (scene->object_count > 0 && scene->quality.caustics)
+        return "caustics run";
+    if (scene->object_count > 0 && scene->quality.refraction_samples > MOST_PLACES)
+        return "more than 4 x 4 samples of refraction a pixel run";
     return NULL;
 }
 

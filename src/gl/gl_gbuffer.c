@@ -93,7 +93,7 @@ static mgt_status draw_layer(gl_renderer *g, const gl_gbuffer *layer, const gbuf
         .move_x = (float)(w->origin[0] - at[0]),
         .move_z = (float)(w->origin[1] - at[2]),
         .side = beyond ? -refract.side : refract.side,
-        .crest = beyond && job->map == GBUFFER_SAGITTAL ? (float)job->crest : 0,
+        .crest = (float)(!beyond ? job->trough : job->map == GBUFFER_PATH ? 0 : job->crest),
     };
     const bool bent = beyond && job->map != GBUFFER_STRAIGHT;
     mgt_status status = gl_ring_begin(gl, &g->ring, sizeof refract + sizeof picture + sizeof data, 3, r);

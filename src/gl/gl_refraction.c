@@ -157,7 +157,7 @@ static mgt_status update_shadows(const gl_api *gl, gl_refraction *o, const repor
 
 enum { IMAGES = 7 };
 
-/* In the order of objects.comp; the last two are used under water. */
+/* In the order of objects.comp; the last one is used under water. */
 static void list_images(gl_refraction *o, gl_image *out[IMAGES])
 {
     gl_image *const images[IMAGES] = {&o->body, &o->mirrored, &o->front, &o->surface, &o->error, &o->clear, &o->deep};
@@ -169,7 +169,7 @@ static mgt_status reserve_images(const gl_api *gl, gl_refraction *o, const regio
     gl_image *images[IMAGES];
     list_images(o, images);
     mgt_status status = MGT_OK;
-    for (int i = 0; i < (under ? IMAGES : IMAGES - 2) && status == MGT_OK; i++)
+    for (int i = 0; i < (under ? IMAGES : IMAGES - 1) && status == MGT_OK; i++)
         status = gl_image_reserve(gl, images[i], images[i] == &o->error ? GL_R32F : GL_RGBA32F, area->width, area->height, r);
     return status;
 }
@@ -193,11 +193,12 @@ mgt_status gl_refraction_prepare(gl_renderer *g, const frame *f, const region *a
     if (status == MGT_OK)
         status = update_shadows(&g->gl, o, r);
     const gbuffer shape = gbuffer_shape(&direct);
+    const uint32_t places = f->scene->quality.refraction_samples;
     o->block = (gl_objects_block){
         .refract = refract_data_of(direct.camera.position[1], direct.index, direct.map),
         .narrow = refraction_narrow_data(f, w, &shape),
         .shade = o->shade->data,
-        .objects = {.least_depth = g->gbuffers.least_depth, .mirrors = mirrors},
+        .objects = {.least_depth = g->gbuffers.least_depth, .mirrors = mirrors, .places = places > 1 ? (int)places : 1},
     };
     return status;
 }

@@ -24,7 +24,7 @@ typedef struct gl_refraction {
     gl_image body, mirrored; /* RGBA32F, of the pixels: see objects.comp */
     gl_image front, surface; /* RGBA32F */
     gl_image error;          /* R32F */
-    gl_image clear, deep;    /* RGBA32F, while a camera is under water */
+    gl_image clear, deep;    /* RGBA32F; the last while a camera is under water */
     shade_scene *shade;
     gl_table materials;      /* RGBA32F */
     gl_table texels;         /* R32UI, of all textures */

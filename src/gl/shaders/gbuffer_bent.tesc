@@ -23,7 +23,7 @@ float parts_of_edge(int i, int j)
 {
     vec3 a = corner[i], b = corner[j], image_a = corner_image[i], image_b = corner_image[j];
     float squared = edge_length_squared(0, image_a, image_b);
-    if (!(squared > picture_data.short_squared))
+    if (!edge_counts(0, a, b, squared))
         return 1.0f;
     float error = image_error_squared(0, far_image(0, scale(add(a, b), 0.5f)), scale(add(image_a, image_b), 0.5f));
     if (squared > picture_data.long_squared)

@@ -71,13 +71,13 @@ vec3 body_light()
 #undef MIRRORS_OBJECTS
 #undef OBJECTS_SHARE
 #undef OBJECTS_COLOR
-#undef CLEAR_WATER
+#undef CLEAR_TO_LIGHT
 #undef DEEP_WATER
 #define BODY_LIGHT(cx) body_light()
 #define MIRRORS_OBJECTS(cx) pass_data.objects
 #define OBJECTS_SHARE(cx) texelFetch(mirrored_texture, layer_texel, 0).a
 #define OBJECTS_COLOR(cx) texelFetch(mirrored_texture, layer_texel, 0).rgb
-#define CLEAR_WATER(cx) texelFetch(clear_texture, layer_texel, 0).rgb
+#define CLEAR_TO_LIGHT(cx) texelFetch(clear_texture, layer_texel, 0).rgb
 #define DEEP_WATER(cx) texelFetch(deep_texture, layer_texel, 0).rgb
 #endif
 
