@@ -29,6 +29,7 @@
     X(CLIPCONTROL, ClipControl)                                                     \
     X(COLORMASKI, ColorMaski)                                                       \
     X(COMPILESHADER, CompileShader)                                                 \
+    X(COPYNAMEDBUFFERSUBDATA, CopyNamedBufferSubData)                               \
     X(CREATEBUFFERS, CreateBuffers)                                                 \
     X(CREATEFRAMEBUFFERS, CreateFramebuffers)                                       \
     X(CREATEPROGRAM, CreateProgram)                                                 \
@@ -51,6 +52,7 @@
     X(DISABLE, Disable)                                                             \
     X(DISABLEI, Disablei)                                                           \
     X(DISPATCHCOMPUTE, DispatchCompute)                                             \
+    X(DISPATCHCOMPUTEINDIRECT, DispatchComputeIndirect)                             \
     X(DRAWARRAYS, DrawArrays)                                                       \
     X(ENABLE, Enable)                                                               \
     X(ENABLEI, Enablei)                                                             \

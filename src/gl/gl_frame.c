@@ -91,6 +91,8 @@ static mgt_status reserve_tiles(frame_run *run)
     uint64_t rows = band_bytes / row_bytes;
     if (run->job->progress)
         rows = rows < prompt_samples / ((uint64_t)run->columns * TILE_PIXELS) ? rows : prompt_samples / ((uint64_t)run->columns * TILE_PIXELS);
+    if (run->objects && rows > REFRACTION_PIXELS / ((uint64_t)run->columns * TILE_PIXELS))
+        rows = REFRACTION_PIXELS / ((uint64_t)run->columns * TILE_PIXELS);
     run->band_rows = least(rows > 0 ? rows : 1, run->end_row - run->first_row);
 
     const size_t tiles = (size_t)run->columns * run->band_rows * cameras;
@@ -411,27 +413,10 @@ static mgt_status render_surface(frame_run *run, const band *b, bool ready)
 /* What the band's pixels see of objects, at the instant the shutter closes. */
 static mgt_status see_objects(frame_run *run, const band *b)
 {
-    gl_renderer *g = run->g;
     const frame *f = run->job->frame;
-    wave_set_build(f, &f->close, (interval){f->scene->time, 0}, true, g->waves);
-    mgt_status status = prepare_set(run, b);
-    if (status != MGT_OK)
-        return status;
-    status = gl_ring_begin(&g->gl, &g->ring, sizeof b->pass + sizeof g->refraction.block, 2, run->r);
-    if (status != MGT_OK)
-        return status;
-    gl_pass_begin(g, "refraction");
-    status = gl_use(g, PROGRAM_OBJECTS, run->r);
-    if (status == MGT_OK) {
-        gl_uniform(g, BIND_PASS, &b->pass, sizeof b->pass);
-        gl_refraction_bind(g);
-        g->gl.BindTextureUnit(UNIT_SKY, g->sky_texture);
-        g->gl.BindSampler(UNIT_SKY, 0);
-        g->gl.DispatchCompute((GLuint)b->pass.columns * 4, (GLuint)b->pass.rows * 2, 1);
-        g->gl.MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
-    }
-    const mgt_status ended = gl_pass_end(g, run->r);
-    return status == MGT_OK ? ended : status;
+    wave_set_build(f, &f->close, (interval){f->scene->time, 0}, true, run->g->waves);
+    const mgt_status status = prepare_set(run, b);
+    return status == MGT_OK ? gl_refraction_see(run->g, &b->pass, run->r) : status;
 }
 
 /* Objects in front of the water over the band's layers. */
@@ -442,7 +427,7 @@ static mgt_status put_objects_in_front(const frame_run *run, const band *b)
     if (status != MGT_OK)
         return status;
     gl_pass_begin(g, "refraction");
-    status = gl_use(g, PROGRAM_OBJECTS_FRONT, run->r);
+    status = gl_use(g, PROGRAM_OBJECTS_COMPOSE, run->r);
     if (status == MGT_OK) {
         gl_uniform(g, BIND_PASS, &b->pass, sizeof b->pass);
         bind_layers(g);

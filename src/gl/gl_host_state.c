@@ -48,6 +48,7 @@ static void save_textures(const gl_api *gl, gl_host_state *s)
     for (GLuint i = 0; i < TEXTURE_UNITS; i++) {
         gl->ActiveTexture(GL_TEXTURE0 + i);
         gl->GetIntegerv(GL_TEXTURE_BINDING_2D, &s->texture[i]);
+        gl->GetIntegerv(GL_TEXTURE_BINDING_BUFFER, &s->table[i]);
         gl->GetIntegerv(GL_SAMPLER_BINDING, &s->sampler[i]);
     }
     gl->ActiveTexture((GLenum)s->active_texture);
@@ -58,6 +59,7 @@ static void restore_textures(const gl_api *gl, const gl_host_state *s)
     for (GLuint i = 0; i < TEXTURE_UNITS; i++) {
         gl->ActiveTexture(GL_TEXTURE0 + i);
         gl->BindTexture(GL_TEXTURE_2D, (GLuint)s->texture[i]);
+        gl->BindTexture(GL_TEXTURE_BUFFER, (GLuint)s->table[i]);
         gl->BindSampler(i, (GLuint)s->sampler[i]);
     }
     gl->ActiveTexture((GLenum)s->active_texture);
@@ -172,6 +174,7 @@ void gl_host_state_save(const gl_api *gl, gl_host_state *s)
     gl->GetIntegerv(GL_SHADER_STORAGE_BUFFER_BINDING, &s->storage_buffer);
     gl->GetIntegerv(GL_PIXEL_PACK_BUFFER_BINDING, &s->pack_buffer);
     gl->GetIntegerv(GL_PIXEL_UNPACK_BUFFER_BINDING, &s->unpack_buffer);
+    gl->GetIntegerv(GL_DISPATCH_INDIRECT_BUFFER_BINDING, &s->indirect_buffer);
     save_ranges(gl, GL_UNIFORM_BUFFER_BINDING, GL_UNIFORM_BUFFER_START, GL_UNIFORM_BUFFER_SIZE, s->uniform, UNIFORM_BINDINGS);
     save_ranges(gl, GL_SHADER_STORAGE_BUFFER_BINDING, GL_SHADER_STORAGE_BUFFER_START, GL_SHADER_STORAGE_BUFFER_SIZE, s->storage, STORAGE_BINDINGS);
     save_textures(gl, s);
@@ -195,6 +198,7 @@ void gl_host_state_restore(const gl_api *gl, const gl_host_state *s)
     gl->BindBuffer(GL_SHADER_STORAGE_BUFFER, (GLuint)s->storage_buffer);
     gl->BindBuffer(GL_PIXEL_PACK_BUFFER, (GLuint)s->pack_buffer);
     gl->BindBuffer(GL_PIXEL_UNPACK_BUFFER, (GLuint)s->unpack_buffer);
+    gl->BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, (GLuint)s->indirect_buffer);
     restore_textures(gl, s);
     restore_images(gl, s);
     gl_host_state_restore_drawing(gl, s);

@@ -20,9 +20,9 @@ typedef struct image_binding {
 /* Everything: program, buffers, textures, images, pixel store and what drawing a view needs. */
 typedef struct gl_host_state {
     GLint program;
-    GLint uniform_buffer, storage_buffer, pack_buffer, unpack_buffer;
+    GLint uniform_buffer, storage_buffer, pack_buffer, unpack_buffer, indirect_buffer;
     buffer_range uniform[UNIFORM_BINDINGS], storage[STORAGE_BINDINGS];
-    GLint active_texture, texture[TEXTURE_UNITS], sampler[TEXTURE_UNITS];
+    GLint active_texture, texture[TEXTURE_UNITS], table[TEXTURE_UNITS], sampler[TEXTURE_UNITS];
     image_binding images[IMAGE_UNITS];
     GLint pixel_store[PIXEL_STORES];
 

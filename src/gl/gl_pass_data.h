@@ -30,6 +30,8 @@ enum {
     BIND_NODES = 3,
     BIND_GLARE_WEIGHTS = 4,
     BIND_SORT = 5,
+    BIND_OBJECT_WATER = 4, /* objects: see objects_pixel.glsl */
+    BIND_OBJECT_LISTS = 5,
     BIND_WAVE_STORAGE = 6, /* where a uniform block cannot hold the waves */
     STORAGE_BINDINGS,
 

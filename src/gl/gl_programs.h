@@ -34,8 +34,13 @@ typedef enum gl_program {
     PROGRAM_VIEW,           /* layers into a framebuffer of the host */
     PROGRAM_GBUFFER,        /* objects as they are */
     PROGRAM_GBUFFER_BENT,   /* … and where refraction by the flat mean surface shows them */
-    PROGRAM_OBJECTS,        /* what pixels see of them */
-    PROGRAM_OBJECTS_FRONT,  /* those in front of the water over its layers */
+    PROGRAM_OBJECTS,        /* water in the pixels, and which of these see objects: */
+    PROGRAM_OBJECTS_NEAR,   /* in front of the water, */
+    PROGRAM_OBJECTS_THROUGH, /* through its surface, */
+    PROGRAM_OBJECTS_PLACES, /* through several places of each pixel, */
+    PROGRAM_OBJECTS_MIRRORED, /* in the mirror that it is, */
+    PROGRAM_OBJECTS_DEEP,   /* or only water */
+    PROGRAM_OBJECTS_COMPOSE, /* what is in front over the layers */
     PROGRAM_COUNT
 } gl_program;
 

@@ -209,7 +209,7 @@ static void bind_texture(const gl_api *gl, GLuint unit, GLuint texture)
     gl->BindSampler(unit, 0);
 }
 
-void gl_refraction_bind(gl_renderer *g)
+static void bind_all(gl_renderer *g)
 {
     const gl_api *gl = &g->gl;
     const gl_refraction *o = &g->refraction;
@@ -217,6 +217,7 @@ void gl_refraction_bind(gl_renderer *g)
     const gl_table *const tables[] = {&g->objects.vertices, &g->objects.indices, &g->objects.owners, &g->objects.planes, &o->materials, &o->texels};
     for (GLuint i = 0; i < sizeof tables / sizeof *tables; i++)
         bind_texture(gl, UNIT_VERTICES + i, tables[i]->texture);
+    bind_texture(gl, UNIT_SKY, g->sky_texture);
     bind_texture(gl, UNIT_SHADOWS, o->shadows.name);
     const gl_gbuffer *const layers[] = {&b->far, o->block.objects.mirrors ? &b->mirrored : &b->far, &b->near};
     for (GLuint i = 0; i < sizeof layers / sizeof *layers; i++) {
@@ -228,6 +229,86 @@ void gl_refraction_bind(gl_renderer *g)
     for (GLuint i = 0; i < IMAGES; i++)
         gl->BindImageTexture(i, images[i]->name, 0, GL_FALSE, 0, GL_WRITE_ONLY, images[i]->name ? images[i]->format : GL_R32F);
     gl_uniform(g, BIND_EXTRA, &o->block, sizeof o->block);
+}
+
+/* ---- the passes over a band ---- */
+
+/* As in objects_pixel.glsl. */
+enum { LIST_FRONT, LIST_EDGES, LIST_THROUGH, LIST_DEEP, LISTS, WATER_FLOATS = 12 };
+
+typedef struct list_head {
+    uint32_t groups[3], count;
+} list_head;
+
+static mgt_status empty_lists(gl_renderer *g, size_t pixels, const reporter *r)
+{
+    const gl_api *gl = &g->gl;
+    gl_refraction *o = &g->refraction;
+    mgt_status status = gl_buffer_reserve(gl, &o->water, pixels * WATER_FLOATS * sizeof(float), 0, r);
+    if (status == MGT_OK)
+        status = gl_buffer_reserve(gl, &o->lists, LISTS * (sizeof(list_head) + pixels * sizeof(uint32_t)), 0, r);
+    if (status != MGT_OK)
+        return status;
+    list_head heads[LISTS];
+    for (int i = 0; i < LISTS; i++)
+        heads[i] = (list_head){{0, 1, 1}, 0};
+    size_t offset;
+    memcpy(gl_ring_allocate(&g->ring, sizeof heads, &offset), heads, sizeof heads);
+    gl->MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    gl->CopyNamedBufferSubData(g->ring.buffer, o->lists.name, (GLintptr)offset, 0, sizeof heads);
+    gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, BIND_OBJECT_WATER, o->water.name);
+    gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, BIND_OBJECT_LISTS, o->lists.name);
+    gl->BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, o->lists.name);
+    return MGT_OK;
+}
+
+static mgt_status over_list(gl_renderer *g, gl_program program, int list, const reporter *r)
+{
+    const mgt_status status = gl_use(g, program, r);
+    if (status == MGT_OK)
+        g->gl.DispatchComputeIndirect((GLintptr)((size_t)list * sizeof(list_head)));
+    return status;
+}
+
+static mgt_status run_passes(gl_renderer *g, const PassData *pass, const reporter *r)
+{
+    const gl_api *gl = &g->gl;
+    const ObjectsData *objects = &g->refraction.block.objects;
+    PassData edges = *pass;
+    edges.edges = 1;
+    mgt_status status = gl_use(g, PROGRAM_OBJECTS, r);
+    if (status != MGT_OK)
+        return status;
+    gl->DispatchCompute((GLuint)pass->columns * 4, (GLuint)pass->rows * 2, 1);
+    gl->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    status = over_list(g, objects->places > 1 ? PROGRAM_OBJECTS_PLACES : PROGRAM_OBJECTS_THROUGH, LIST_THROUGH, r);
+    if (status == MGT_OK && objects->mirrors)
+        status = over_list(g, PROGRAM_OBJECTS_MIRRORED, LIST_THROUGH, r);
+    if (status == MGT_OK && g->refraction.block.narrow.side < 0)
+        status = over_list(g, PROGRAM_OBJECTS_DEEP, LIST_DEEP, r);
+    if (status == MGT_OK)
+        status = over_list(g, PROGRAM_OBJECTS_NEAR, LIST_FRONT, r);
+    gl_uniform(g, BIND_PASS, &edges, sizeof edges);
+    if (status == MGT_OK)
+        status = over_list(g, PROGRAM_OBJECTS_NEAR, LIST_EDGES, r);
+    gl->MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
+    return status;
+}
+
+mgt_status gl_refraction_see(gl_renderer *g, const PassData *pass, const reporter *r)
+{
+    const size_t pixels = (size_t)pass->columns * (size_t)pass->rows * TILE_PIXELS;
+    mgt_status status = gl_ring_begin(&g->gl, &g->ring, 2 * sizeof *pass + sizeof g->refraction.block + LISTS * sizeof(list_head), 4, r);
+    if (status != MGT_OK)
+        return status;
+    gl_pass_begin(g, "refraction");
+    status = empty_lists(g, pixels, r);
+    gl_uniform(g, BIND_PASS, pass, sizeof *pass);
+    bind_all(g);
+    if (status == MGT_OK)
+        status = run_passes(g, pass, r);
+    const mgt_status ended = gl_pass_end(g, r);
+    return status == MGT_OK ? ended : status;
 }
 
 void gl_refraction_bind_light(const gl_renderer *g)
@@ -253,6 +334,8 @@ void gl_refraction_free(const gl_api *gl, gl_refraction *o)
     gl_image_free(gl, &o->shadows);
     gl_table_free(gl, &o->materials);
     gl_table_free(gl, &o->texels);
+    gl_buffer_free(gl, &o->water);
+    gl_buffer_free(gl, &o->lists);
     shade_free(o->shade);
     free(o->textures);
     *o = (gl_refraction){0};

@@ -33,14 +33,20 @@ typedef struct gl_refraction {
     gl_image shadows;        /* R32F */
     shadow_rays shadow_rays; /* of the map that it holds, … */
     uint64_t shadow_version; /* … and the version of its world; 0: none */
+    gl_buffer water, lists;  /* of a band's pixels: see objects_pixel.glsl */
     gl_objects_block block;
 } gl_refraction;
 
 /* Everything that the objects of a frame need before its bands: draws them, and brings lights, materials and shadows up to date. */
 mgt_status gl_refraction_prepare(struct gl_renderer *g, const frame *f, const region *area, const reporter *r);
 
-/* Binds what objects.comp reads and writes; then what methods read, and what objects_front.comp reads and writes. */
-void gl_refraction_bind(struct gl_renderer *g);
+/* Pixels of a band that the buffers can take at a time. */
+enum { REFRACTION_PIXELS = 1 << 20 };
+
+/* What the pixels of a band see of objects. The band's tiles are those of the filtered waves at the instant the shutter closes. */
+mgt_status gl_refraction_see(struct gl_renderer *g, const PassData *pass, const reporter *r);
+
+/* Binds what methods read of it, and what objects_compose.comp does. */
 void gl_refraction_bind_light(const struct gl_renderer *g);
 void gl_refraction_bind_front(const struct gl_renderer *g);
 

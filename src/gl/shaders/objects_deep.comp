@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * What water shines to pixels that see no surface, under water.
+ */
+#define OBJECTS_PASS
+#include "gl_data.glsl"
+#include "objects_pixel.glsl"
+#include "sky.k"
+#include "material.k"
+
+layout(local_size_x = 64) in;
+layout(binding = 6) writeonly uniform image2D deep_image;
+
+void main()
+{
+    int pixel = listed_pixel(LIST_DEEP);
+    if (pixel < 0)
+        return;
+    ivec2 image = image_of(known_water(pixel));
+    HitRay ray = HitRay(vec3(0.0f), normalize(camera_ray(image, vec2(0.0f))), 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f);
+    ray.direction.y = min(ray.direction.y, -1e-6f);
+    imageStore(deep_image, texel_of_image(image), vec4(shade_nothing(0, ray, sky_radiance(0, ray.direction)), 1.0f));
+}

@@ -1,0 +1,85 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Pixels of a band that see objects: what is known of the water in them, and lists of those that one pass has found for the next ones. An entry is
+ * the number of a pixel in the band: tile · 512 + row · 32 + column.
+ */
+#include "objects_data.glsl"
+#include "narrow.k"
+
+const float INFINITY = uintBitsToFloat(0x7f800000u);
+
+struct PixelWater {
+    float share; /* of the pixel; 0: the rest is not set */
+    WaterHit hit;
+    vec3 slopes; /* covariance xx, xz, zz of those that the pixel does not resolve */
+};
+
+#ifndef LIST_ACCESS
+#define LIST_ACCESS readonly
+#endif
+layout(std430, binding = 4) LIST_ACCESS buffer WaterBlock { float water_data[]; }; /* twelve a pixel */
+
+/* Lists: pixels wholly in front of the water, pixels on edges, pixels that see through the surface, and, under water, those that see no surface. */
+const int LIST_FRONT = 0;
+const int LIST_EDGES = 1;
+const int LIST_THROUGH = 2;
+const int LIST_DEEP = 3;
+const int LIST_GROUP = 64; /* entries of a workgroup */
+
+struct ListHead {
+    uint groups_x, groups_y, groups_z, count;
+};
+layout(std430, binding = 5) LIST_ACCESS buffer ListBlock {
+    ListHead list_head[4];
+    uint list_entry[];
+};
+
+int band_pixels() { return pass_data.columns * pass_data.rows * TILE_WIDTH * TILE_HEIGHT; }
+
+PixelWater known_water(int pixel)
+{
+    int i = 12 * pixel;
+    PixelWater w;
+    w.share = water_data[i];
+    w.hit.view = vec3(water_data[i + 1], water_data[i + 2], water_data[i + 3]);
+    w.hit.along = water_data[i + 4];
+    w.hit.normal = vec3(water_data[i + 5], water_data[i + 6], water_data[i + 7]);
+    w.slopes = vec3(water_data[i + 8], water_data[i + 9], water_data[i + 10]);
+    ivec2 at = ivec2(pixel % TILE_WIDTH, pixel / TILE_WIDTH % TILE_HEIGHT);
+    int tile = pixel / (TILE_WIDTH * TILE_HEIGHT);
+    ivec2 image = (ivec2(tile % pass_data.columns, tile / pass_data.columns) + ivec2(pass_data.tile_x, pass_data.tile_y)) * ivec2(TILE_WIDTH, TILE_HEIGHT) + at;
+    w.hit.column = float(image.x);
+    w.hit.row = float(image.y);
+    return w;
+}
+
+ivec2 image_of(PixelWater w) { return ivec2(int(w.hit.column), int(w.hit.row)); }
+
+ivec2 texel_of_image(ivec2 image) { return image - ivec2(pass_data.area_x, pass_data.area_y); }
+
+/* The pixel that an invocation finds in a list; −1 behind its end. */
+int listed_pixel(int list)
+{
+    uint i = gl_GlobalInvocationID.x;
+    return i < list_head[list].count ? int(list_entry[list * band_pixels() + int(i)]) : -1;
+}
+
+vec3 camera_ray(ivec2 image, vec2 place) { return turned(0, layer_ray(0, float(image.x) + place.x, float(image.y) + place.y)); }
+
+vec3 camera_position() { return vec3(narrow_data.foot_x, narrow_data.distance * narrow_data.side, narrow_data.foot_z); }
+
+ivec2 near_texel(ivec2 image) { return image + ivec2(int(narrow_data.left), int(narrow_data.top)); }
+
+int near_triangle_at(ivec2 at) { return texelFetch(near_triangle, at, 0).r; }
+
+float near_depth_at(ivec2 at) { return objects_data.least_depth / texelFetch(near_depth, at, 0).r; }
+
+/* Multiple of the camera's ray at which it meets the plane of the surface in the pixel. */
+float meet_water(PixelWater w, vec3 ray)
+{
+    if (!(w.share > 0.0f))
+        return INFINITY;
+    vec3 normal = turned(0, w.hit.normal);
+    float closing = dot(normal, ray);
+    return closing < 0.0f ? w.hit.along * dot(normal, turned(0, w.hit.view)) / closing : INFINITY;
+}

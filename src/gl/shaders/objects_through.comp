@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * What pixels see through the surface at their centres.
+ */
+#define OBJECTS_PASS
+#include "gl_data.glsl"
+#include "objects_through.glsl"
+
+void main()
+{
+    int pixel = listed_pixel(LIST_THROUGH);
+    if (pixel < 0)
+        return;
+    PixelWater water = known_water(pixel);
+    RayEnd end = end_through(water);
+    ivec2 texel = texel_of_image(image_of(water));
+    imageStore(body_image, texel, vec4(shaded(end.triangle, end.ray), 1.0f));
+    imageStore(error_image, texel, vec4(end.error));
+}

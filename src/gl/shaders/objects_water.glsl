@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The filtered surface in a pixel.
+ */
+#include "objects_pixel.glsl"
+
+/* Through a place of the pixel, from its centre. */
+PixelWater water_at(TilePixel where, vec2 place)
+{
+    PixelWater w;
+    PixelRay p = pixel_ray_filtered(0, float(where.at.x) + place.x, float(where.at.y) + place.y);
+    w.share = p.water;
+    if (!(p.water > 0.0f))
+        return w;
+    SlopeState s = slope_state(0, p.ray, pixel_guess(where.at));
+    vec2 slope = facing_slope(0, s.view, s.close);
+    w.hit.view = scale(s.view, -1.0f);
+    w.hit.along = s.along * sqrt(length_squared(p.ray));
+    w.hit.normal = normalize(vec3(-slope.x, 1.0f, -slope.y));
+    w.hit.column = float(where.texel.x + pass_data.area_x) + place.x;
+    w.hit.row = float(where.texel.y + pass_data.area_y) + place.y;
+    w.slopes = vec3(s.variance_xx, s.variance_xz, s.variance_zz);
+    return w;
+}
