@@ -166,8 +166,9 @@ static void upload_waves(gl_renderer *g)
     gl_uniform(g, BIND_EXTRA, &set->view, sizeof set->view);
 }
 
-/* Sorts the waves that g->waves holds into the band's tiles from `first_slot` on. */
-static mgt_status sort_tiles(const frame_run *run, const band *b, uint32_t first_slot)
+/* Sorts the waves that g->waves holds into the band's tiles from `first_slot` on. `open_slots`: where the same tiles stand as they were when the
+ * shutter opened, as in PassData. */
+static mgt_status sort_tiles(const frame_run *run, const band *b, uint32_t first_slot, uint32_t open_slots)
 {
     gl_renderer *g = run->g;
     mgt_status status = gl_ring_begin(&g->gl, &g->ring, set_bytes(), SET_PARTS, run->r);
@@ -176,6 +177,7 @@ static mgt_status sort_tiles(const frame_run *run, const band *b, uint32_t first
     gl_pass_begin(g, "tiles");
     PassData pass = b->pass;
     pass.first_slot = (int)first_slot;
+    pass.open_slots = (int)open_slots;
     gl_uniform(g, BIND_FRAME, &run->job->frame->data, sizeof(FrameData));
     gl_uniform(g, BIND_PASS, &pass, sizeof pass);
     upload_waves(g);
@@ -206,7 +208,7 @@ static mgt_status march_nodes(const frame_run *run, uint32_t tiles)
 /* Tiles and lattices of one camera at g->waves. */
 static mgt_status prepare_set(const frame_run *run, const band *b)
 {
-    const mgt_status status = sort_tiles(run, b, 0);
+    const mgt_status status = sort_tiles(run, b, 0, 0);
     return status == MGT_OK ? march_nodes(run, b->tiles) : status;
 }
 
@@ -285,12 +287,12 @@ static mgt_status prepare_part(const frame_run *run, const band *b, double from,
     if (needs_open(run)) {
         const camera_rays before = from > 0 ? job->camera_at(job->camera_user, from) : f->open;
         wave_set_build(f, &before, (interval){open, 0}, true, run->g->waves);
-        status = sort_tiles(run, b, b->tiles);
+        status = sort_tiles(run, b, b->tiles, 0);
     }
     const interval part = {0.5 * (open + close), 0.5 * (close - open)};
     wave_set_build(f, &camera, s->camera_moves ? (interval){close, 0} : part, true, run->g->waves);
     if (status == MGT_OK)
-        status = sort_tiles(run, b, 0);
+        status = sort_tiles(run, b, 0, needs_open(run) ? b->tiles : 0);
     return status == MGT_OK ? march_nodes(run, needs_open(run) ? 2 * b->tiles : b->tiles) : status;
 }
 
@@ -410,11 +412,10 @@ static mgt_status render_surface(frame_run *run, const band *b, bool ready)
     return status;
 }
 
-/* What the band's pixels see of objects, at the instant the shutter closes. */
-static mgt_status see_objects(frame_run *run, const band *b)
+/* What the band's pixels see of objects through a camera at one time. */
+static mgt_status see_objects(const frame_run *run, const band *b, const camera_rays *camera, double time)
 {
-    const frame *f = run->job->frame;
-    wave_set_build(f, &f->close, (interval){f->scene->time, 0}, true, run->g->waves);
+    wave_set_build(run->job->frame, camera, (interval){time, 0}, true, run->g->waves);
     const mgt_status status = prepare_set(run, b);
     return status == MGT_OK ? gl_refraction_see(run->g, &b->pass, run->r) : status;
 }
@@ -439,12 +440,11 @@ static mgt_status put_objects_in_front(const frame_run *run, const band *b)
     return status == MGT_OK ? ended : status;
 }
 
-static mgt_status render_band(frame_run *run, uint32_t row)
+static band band_at(const frame_run *run, uint32_t row)
 {
     const gl_job *job = run->job;
-    const mgt_method method = job->frame->scene->quality.method;
     const uint32_t rows = least(run->band_rows, run->end_row - row);
-    const band b = {
+    return (band){
         .pass = {
             .tile_x = (int)run->first_column,
             .tile_y = (int)row,
@@ -462,7 +462,17 @@ static mgt_status render_band(frame_run *run, uint32_t row)
         },
         .tiles = run->columns * rows,
     };
-    mgt_status status = run->objects ? see_objects(run, &b) : MGT_OK;
+}
+
+static mgt_status render_band(frame_run *run, uint32_t row)
+{
+    const gl_job *job = run->job;
+    const frame *f = job->frame;
+    const mgt_method method = f->scene->quality.method;
+    const band b = band_at(run, row);
+    mgt_status status = run->objects ? see_objects(run, &b, &f->close, f->scene->time) : MGT_OK;
+    if (status == MGT_OK && run->objects && f->scene->camera_moves)
+        status = gl_refraction_blend(run->g, &b.pass, run->r);
     const bool points = run->method.waves == WAVES_POINTS;
     if (status == MGT_OK && job->wants_pixels)
         status = !points ? render_filtered(run, &b) : method == MGT_METHOD_SSAA ? render_samples(run, &b) : render_centre(run, &b);
@@ -470,6 +480,25 @@ static mgt_status render_band(frame_run *run, uint32_t row)
     if (status == MGT_OK && (depth || job->wants_normal))
         status = render_surface(run, &b, job->wants_pixels && points && method != MGT_METHOD_SSAA);
     return status == MGT_OK && run->objects ? put_objects_in_front(run, &b) : status;
+}
+
+/* Layers of the objects and what else their passes need; where the camera moves, what all pixels see of them when the shutter opens. */
+static mgt_status prepare_objects(const frame_run *run)
+{
+    gl_renderer *g = run->g;
+    const frame *f = run->job->frame;
+    mgt_status status = MGT_OK;
+    if (f->scene->camera_moves) {
+        frame opened = *f;
+        opened.close = f->open;
+        status = gl_refraction_prepare(g, &opened, &run->job->area, run->r);
+        for (uint32_t row = run->first_row; row < run->end_row && status == MGT_OK; row += run->band_rows) {
+            const band b = band_at(run, row);
+            status = see_objects(run, &b, &f->open, f->scene->time - f->scene->shutter);
+        }
+        gl_refraction_keep(g);
+    }
+    return status == MGT_OK ? gl_refraction_prepare(g, f, &run->job->area, run->r) : status;
 }
 
 static double count_steps(const mgt_quality *q)
@@ -502,7 +531,7 @@ mgt_status gl_frame_render(gl_renderer *g, const gl_job *job, const reporter *r)
     if (status == MGT_OK && job->wants_pixels)
         status = prepare_tables(&run);
     if (status == MGT_OK && run.objects)
-        status = gl_refraction_prepare(g, job->frame, &job->area, r);
+        status = prepare_objects(&run);
     if (status != MGT_OK)
         return status;
     const uint32_t bands = (run.end_row - run.first_row + run.band_rows - 1) / run.band_rows;

@@ -45,6 +45,7 @@ static const program_text program_texts[PROGRAM_COUNT] = {
     [PROGRAM_OBJECTS_PLACES] = {"refraction", "objects_places.comp", {NULL}},
     [PROGRAM_OBJECTS_MIRRORED] = {"refraction", "objects_mirrored.comp", {NULL}},
     [PROGRAM_OBJECTS_DEEP] = {"refraction", "objects_deep.comp", {NULL}},
+    [PROGRAM_OBJECTS_BLEND] = {"refraction", "objects_blend.comp", {NULL}},
     [PROGRAM_OBJECTS_COMPOSE] = {"refraction", "objects_compose.comp", {NULL}},
     [PROGRAM_GBUFFER] = {"gbuffer", NULL, {"gbuffer.vert", "gbuffer.frag"}},
     [PROGRAM_GBUFFER_BENT] = {"gbuffer", NULL, {"gbuffer_bent.vert", "gbuffer.frag", "gbuffer_bent.tesc", "gbuffer_bent.tese"}},

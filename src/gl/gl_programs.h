@@ -40,6 +40,7 @@ typedef enum gl_program {
     PROGRAM_OBJECTS_PLACES, /* through several places of each pixel, */
     PROGRAM_OBJECTS_MIRRORED, /* in the mirror that it is, */
     PROGRAM_OBJECTS_DEEP,   /* or only water */
+    PROGRAM_OBJECTS_BLEND,  /* both ends of the shutter */
     PROGRAM_OBJECTS_COMPOSE, /* what is in front over the layers */
     PROGRAM_COUNT
 } gl_program;

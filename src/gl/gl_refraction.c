@@ -158,13 +158,13 @@ static mgt_status update_shadows(const gl_api *gl, gl_refraction *o, const repor
 enum { IMAGES = 7 };
 
 /* In the order of objects.comp; the last one is used under water. */
-static void list_images(gl_refraction *o, gl_image *out[IMAGES])
+static void list_images(gl_seen *o, gl_image *out[IMAGES])
 {
     gl_image *const images[IMAGES] = {&o->body, &o->mirrored, &o->front, &o->surface, &o->error, &o->clear, &o->deep};
     memcpy(out, images, sizeof images);
 }
 
-static mgt_status reserve_images(const gl_api *gl, gl_refraction *o, const region *area, bool under, const reporter *r)
+static mgt_status reserve_images(const gl_api *gl, gl_seen *o, const region *area, bool under, const reporter *r)
 {
     gl_image *images[IMAGES];
     list_images(o, images);
@@ -185,7 +185,7 @@ mgt_status gl_refraction_prepare(gl_renderer *g, const frame *f, const region *a
         return report_error(r, MGT_ERROR_MEMORY, "render.memory", "out of memory for the scene's objects");
     const gbuffer_job direct = refraction_job(f), mirrored = refraction_mirrored_job(f);
     const bool mirrors = refraction_mirrors(f, w);
-    status = reserve_images(&g->gl, o, area, f->under, r);
+    status = reserve_images(&g->gl, &o->seen, area, f->under, r);
     if (status == MGT_OK)
         status = gl_gbuffers_draw(g, &direct, mirrors ? &mirrored : NULL, r);
     if (status == MGT_OK)
@@ -209,6 +209,14 @@ static void bind_texture(const gl_api *gl, GLuint unit, GLuint texture)
     gl->BindSampler(unit, 0);
 }
 
+static void bind_images(gl_renderer *g, GLenum access)
+{
+    gl_image *images[IMAGES];
+    list_images(&g->refraction.seen, images);
+    for (GLuint i = 0; i < IMAGES; i++)
+        g->gl.BindImageTexture(i, images[i]->name, 0, GL_FALSE, 0, access, images[i]->name ? images[i]->format : GL_R32F);
+}
+
 static void bind_all(gl_renderer *g)
 {
     const gl_api *gl = &g->gl;
@@ -224,10 +232,7 @@ static void bind_all(gl_renderer *g)
         bind_texture(gl, UNIT_FAR + 2 * i, layers[i]->depth.name);
         bind_texture(gl, UNIT_FAR + 2 * i + 1, layers[i]->triangle.name);
     }
-    gl_image *images[IMAGES];
-    list_images(&g->refraction, images);
-    for (GLuint i = 0; i < IMAGES; i++)
-        gl->BindImageTexture(i, images[i]->name, 0, GL_FALSE, 0, GL_WRITE_ONLY, images[i]->name ? images[i]->format : GL_R32F);
+    bind_images(g, GL_WRITE_ONLY);
     gl_uniform(g, BIND_EXTRA, &o->block, sizeof o->block);
 }
 
@@ -291,7 +296,7 @@ static mgt_status run_passes(gl_renderer *g, const PassData *pass, const reporte
     gl_uniform(g, BIND_PASS, &edges, sizeof edges);
     if (status == MGT_OK)
         status = over_list(g, PROGRAM_OBJECTS_NEAR, LIST_EDGES, r);
-    gl->MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
+    gl->MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
     return status;
 }
 
@@ -311,26 +316,57 @@ mgt_status gl_refraction_see(gl_renderer *g, const PassData *pass, const reporte
     return status == MGT_OK ? ended : status;
 }
 
+void gl_refraction_keep(gl_renderer *g)
+{
+    const gl_seen opened = g->refraction.seen;
+    g->refraction.seen = g->refraction.opened;
+    g->refraction.opened = opened;
+}
+
+mgt_status gl_refraction_blend(gl_renderer *g, const PassData *pass, const reporter *r)
+{
+    const gl_seen *o = &g->refraction.opened;
+    mgt_status status = gl_ring_begin(&g->gl, &g->ring, sizeof *pass, 1, r);
+    if (status != MGT_OK)
+        return status;
+    gl_pass_begin(g, "refraction");
+    status = gl_use(g, PROGRAM_OBJECTS_BLEND, r);
+    if (status == MGT_OK) {
+        const gl_image *const images[] = {&o->body, &o->mirrored, &o->front, &o->clear, &o->deep};
+        for (GLuint i = 0; i < sizeof images / sizeof *images; i++)
+            bind_texture(&g->gl, 1 + i, images[i]->name);
+        bind_images(g, GL_READ_WRITE);
+        gl_uniform(g, BIND_PASS, pass, sizeof *pass);
+        g->gl.DispatchCompute((GLuint)pass->columns * 4, (GLuint)pass->rows * 2, 1);
+        g->gl.MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
+    }
+    const mgt_status ended = gl_pass_end(g, r);
+    return status == MGT_OK ? ended : status;
+}
+
 void gl_refraction_bind_light(const gl_renderer *g)
 {
     const gl_refraction *o = &g->refraction;
-    const gl_image *const images[] = {&o->clear, &o->deep, &o->body, &o->mirrored};
+    const gl_image *const images[] = {&o->seen.clear, &o->seen.deep, &o->seen.body, &o->seen.mirrored};
     for (GLuint i = 0; i < sizeof images / sizeof *images; i++)
         bind_texture(&g->gl, UNIT_CLEAR + i, images[i]->name);
 }
 
 void gl_refraction_bind_front(const gl_renderer *g)
 {
-    bind_texture(&g->gl, UNIT_FRONT, g->refraction.front.name);
-    bind_texture(&g->gl, UNIT_FRONT + 1, g->refraction.surface.name);
+    bind_texture(&g->gl, UNIT_FRONT, g->refraction.seen.front.name);
+    bind_texture(&g->gl, UNIT_FRONT + 1, g->refraction.seen.surface.name);
 }
 
 void gl_refraction_free(const gl_api *gl, gl_refraction *o)
 {
-    gl_image *images[IMAGES];
-    list_images(o, images);
-    for (int i = 0; i < IMAGES; i++)
-        gl_image_free(gl, images[i]);
+    gl_seen *const both[] = {&o->seen, &o->opened};
+    for (int k = 0; k < 2; k++) {
+        gl_image *images[IMAGES];
+        list_images(both[k], images);
+        for (int i = 0; i < IMAGES; i++)
+            gl_image_free(gl, images[i]);
+    }
     gl_image_free(gl, &o->shadows);
     gl_table_free(gl, &o->materials);
     gl_table_free(gl, &o->texels);

@@ -20,11 +20,16 @@ typedef struct gl_objects_block {
     ObjectsData objects;
 } gl_objects_block;
 
-typedef struct gl_refraction {
-    gl_image body, mirrored; /* RGBA32F, of the pixels: see objects.comp */
+/* What pixels see of objects: see the shaders of their names. */
+typedef struct gl_seen {
+    gl_image body, mirrored; /* RGBA32F */
     gl_image front, surface; /* RGBA32F */
     gl_image error;          /* R32F */
     gl_image clear, deep;    /* RGBA32F; the last while a camera is under water */
+} gl_seen;
+
+typedef struct gl_refraction {
+    gl_seen seen, opened;    /* now, and while a camera moves, when the shutter opened */
     shade_scene *shade;
     gl_table materials;      /* RGBA32F */
     gl_table texels;         /* R32UI, of all textures */
@@ -45,6 +50,10 @@ enum { REFRACTION_PIXELS = 1 << 20 };
 
 /* What the pixels of a band see of objects. The band's tiles are those of the filtered waves at the instant the shutter closes. */
 mgt_status gl_refraction_see(struct gl_renderer *g, const PassData *pass, const reporter *r);
+
+/* Keeps what has been seen as that of the shutter's opening, and makes it part of a band's. */
+void gl_refraction_keep(struct gl_renderer *g);
+mgt_status gl_refraction_blend(struct gl_renderer *g, const PassData *pass, const reporter *r);
 
 /* Binds what methods read of it, and what objects_compose.comp does. */
 void gl_refraction_bind_light(const struct gl_renderer *g);

@@ -36,6 +36,12 @@ layout(binding = 13) uniform isampler2D near_triangle;
 
 int layer_triangle(int layer, ivec2 at) { return layer == 0 ? texelFetch(far_triangle, at, 0).r : texelFetch(mirrored_triangle, at, 0).r; }
 
+/* Of the depth. */
+float layer_inverse(int layer, ivec2 at)
+{
+    return (layer == 0 ? texelFetch(far_depth, at, 0).r : texelFetch(mirrored_depth, at, 0).r) / objects_data.least_depth;
+}
+
 LayerPixel LAYER(int cx, int layer, float column, float row)
 {
     ivec2 at = ivec2(int(column), int(row));

@@ -19,20 +19,6 @@ vec2 edge_place(int i)
     return vec2(float(2 * i - 7), rows[i]) * 0.0625f;
 }
 
-/* Multiple of the camera's ray at which it meets a triangle. */
-float meet_triangle(int triangle, vec3 ray)
-{
-    ivec3 corner = triangle_corners(triangle);
-    vec3 p = texelFetch(vertex_table, 2 * corner.x).xyz;
-    vec3 e1 = texelFetch(vertex_table, 2 * corner.y).xyz - p, e2 = texelFetch(vertex_table, 2 * corner.z).xyz - p;
-    vec3 from = camera_position() - p, across = cross(ray, e2), around = cross(from, e1);
-    float det = dot(e1, across);
-    if (det == 0.0f)
-        return INFINITY;
-    float u = dot(from, across) / det, v = dot(ray, around) / det, along = dot(e2, around) / det;
-    return u >= 0.0f && v >= 0.0f && u + v <= 1.0f && along > 0.0f ? along : INFINITY;
-}
-
 /* Whether the place lies between two pixels that both see something: then it does, too, even if it meets none of the tiny triangles at hand. */
 bool between_objects(ivec2 at, vec2 place)
 {
@@ -49,7 +35,7 @@ RayEnd end_in_front(ivec2 image, PixelWater w, bool edge, vec2 place)
     end.triangle = -1;
     for (int i = 0; edge && i < 9; i++) {
         int triangle = near_triangle_at(at + ivec2(i % 3 - 1, i / 3 - 1));
-        float met = triangle >= 0 ? meet_triangle(triangle, ray) : INFINITY;
+        float met = triangle >= 0 ? meet_triangle(triangle, camera_position(), ray) : INFINITY;
         if (met < along) {
             along = met;
             end.triangle = triangle;
@@ -94,6 +80,7 @@ void main()
         surface = vec4(dot(normal, end.ray.direction) > 0.0f ? -normal : normal, end.ray.before);
     }
     ivec2 texel = texel_of_image(image);
-    imageStore(front_image, texel, vec4(color / max(met, 1.0f), met / float(edge ? PLACES : 1)));
-    imageStore(surface_image, texel, surface);
+    float share = met / float(edge ? PLACES : 1);
+    imageStore(front_image, texel, vec4(color / max(met, 1.0f), share));
+    imageStore(surface_image, texel, share < 0.5f ? vec4(surface.xyz, INFINITY) : surface);
 }

@@ -83,3 +83,17 @@ float meet_water(PixelWater w, vec3 ray)
     float closing = dot(normal, ray);
     return closing < 0.0f ? w.hit.along * dot(normal, turned(0, w.hit.view)) / closing : INFINITY;
 }
+
+/* Multiple of a ray at which it meets a triangle. */
+float meet_triangle(int triangle, vec3 from, vec3 ray)
+{
+    ivec3 corner = triangle_corners(triangle);
+    vec3 p = texelFetch(vertex_table, 2 * corner.x).xyz;
+    vec3 e1 = texelFetch(vertex_table, 2 * corner.y).xyz - p, e2 = texelFetch(vertex_table, 2 * corner.z).xyz - p;
+    vec3 to = from - p, across = cross(ray, e2), around = cross(to, e1);
+    float det = dot(e1, across);
+    if (det == 0.0f)
+        return INFINITY;
+    float u = dot(to, across) / det, v = dot(ray, around) / det, along = dot(e2, around) / det;
+    return u >= 0.0f && v >= 0.0f && u + v <= 1.0f && along > 0.0f ? along : INFINITY;
+}

@@ -18,6 +18,62 @@ WaterHit surface_of_method(WaterHit hit)
     return hit;
 }
 
+/* ---- where what a layer shows breaks off or bends ---- */
+
+bool bends(int a, int b)
+{
+    return a != b && a >= 0 && b >= 0 && abs(dot(texelFetch(plane_table, a).xyz, texelFetch(plane_table, b).xyz)) < 0.97f;
+}
+
+/* The inverse of the depth is straight over the screen wherever a plane goes on. */
+bool breaks_off(int layer, ivec2 at)
+{
+    if (any(lessThan(at, ivec2(1))) || any(greaterThanEqual(at + 1, ivec2(int(narrow_data.columns), int(narrow_data.rows)))))
+        return true;
+    const ivec2 beside[4] = ivec2[4](ivec2(-1, 0), ivec2(1, 0), ivec2(0, -1), ivec2(0, 1));
+    float inverse[4];
+    int here_triangle = layer_triangle(layer, at);
+    for (int i = 0; i < 4; i++) {
+        if (bends(here_triangle, layer_triangle(layer, at + beside[i])))
+            return true;
+        inverse[i] = layer_inverse(layer, at + beside[i]);
+    }
+    float here = layer_inverse(layer, at), limit = 6.0f * here / narrow_data.focal;
+    return !(abs(inverse[0] + inverse[1] - 2.0f * here) <= limit && abs(inverse[2] + inverse[3] - 2.0f * here) <= limit);
+}
+
+/* There the pixel of the answer is not enough: the ray meets the triangles that it and its neighbours show, and the nearest one counts. */
+RayEnd sharpened(RayEnd end, WaterHit hit, int layer, FoundPoint f)
+{
+    ivec2 at = ivec2(int(f.column), int(f.row)), last = ivec2(int(narrow_data.columns), int(narrow_data.rows)) - 1;
+    bool asked = narrow_data.method == 0 && f.column >= 0.0f && end.error < 4.0f;
+    asked = asked && (end.error >= 1.5f || breaks_off(layer, at));
+    vec3 view = turned(0, hit.view), from = camera_position() + hit.along * view;
+    float along = INFINITY;
+    int met = -1;
+    bool by_nothing = false;
+    for (int i = 0; asked && i < 9; i++) {
+        ivec2 beside = at + ivec2(i % 3 - 1, i / 3 - 1);
+        if (any(lessThan(beside, ivec2(0))) || any(greaterThan(beside, last)))
+            continue;
+        int triangle = layer_triangle(layer, beside);
+        float way = triangle >= 0 ? meet_triangle(triangle, from, end.ray.direction) : INFINITY;
+        by_nothing = by_nothing || triangle < 0;
+        if (way < along) {
+            along = way;
+            met = triangle;
+        }
+    }
+    if (!asked || (met < 0 && !by_nothing))
+        return end;
+    end.triangle = met;
+    end.ray.after = met < 0 ? 0.0f : along;
+    if (met >= 0)
+        end.ray.position = from + along * end.ray.direction;
+    end.ray.water = narrow_data.side > 0.0f ? end.ray.after : hit.along + (layer == 1 ? end.ray.after : 0.0f);
+    return end;
+}
+
 /* Where the surface lets nothing through, it mirrors the camera's own side. */
 RayEnd end_through(PixelWater w)
 {
@@ -37,5 +93,5 @@ RayEnd end_through(PixelWater w)
     end.ray = ray_of(hit, f, wet, w.slopes);
     end.error = f.residual < 1e28f ? f.residual : INFINITY;
     end.counts = true;
-    return end;
+    return sharpened(end, w.hit, total ? 1 : 0, f);
 }

@@ -222,6 +222,11 @@ void main()
     barrier();
     if (lane == 0) {
         bool meets_light = view_data.filter_waves != 0 && tile_meets_light(0, column, row, float(TILE_WIDTH), float(TILE_HEIGHT)) > 0.0f;
+        /* Light that slopes reach when the shutter opens is on their path when it closes, too, and the other way round. */
+        int opened = tile_slot + pass_data.open_slots;
+        meets_light = meets_light || (pass_data.open_slots != 0 && tile_data[opened].light_reach != 0);
+        if (pass_data.open_slots != 0 && meets_light)
+            tile_data[opened].light_reach = 1;
         tile_data[tile_slot] = finished_tile(view, counts, meets_light);
     }
 }
