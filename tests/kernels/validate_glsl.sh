@@ -15,6 +15,7 @@ check() { # name, version line, extension, epilogue, kernel
     case $1 in
     lean | leadr) more=$kernels/lean_accessors_glsl.k ;;
     refract_*) more=$kernels/refract_accessors_glsl.k ;;
+    footprint | material | narrow | water_path) more="$kernels/refract_accessors_glsl.k $kernels/narrow_types.k $kernels/shade_types.k $kernels/layer.k $work/object_accessors.glsl" ;;
     esac
     # shellcheck disable=SC2086 # nothing where there is none
     "$source/scripts/kernel_glsl" "$2" "$kernels/prelude_glsl.k" "$kernels/accessors_glsl.k" $more "$5" >"$work/$1.$3" || { failed=1; return; }
@@ -26,6 +27,17 @@ check() { # name, version line, extension, epilogue, kernel
         grep -E 'ERROR|WARNING' "$work/log"
     fi
 }
+
+# For the validator alone: what the kernels of objects read, wherever a shader may keep it.
+cat >"$work/object_accessors.glsl" <<'GLSL'
+layout(std140) uniform NarrowBlock { NarrowData narrow_data; };
+layout(std140) uniform ShadeBlock { ShadeData shade_data; };
+#define NARROW(cx) narrow_data
+#define SHADE(cx) shade_data
+LayerPixel LAYER(int cx, int layer, float column, float row);
+vec3 TEXTURE(int cx, float object, float u, float v, float level);
+float SUN_SHARE(int cx, vec3 position);
+GLSL
 
 count=0
 for kernel in "$kernels"/*.k; do
