@@ -82,6 +82,21 @@ static void set_water(ShadeData *d, const frame *f, const sky_state *sky)
     d->pixel_angle = f->data.pixel_angle;
 }
 
+/* Phases at the world's origin, at the frame's instant. */
+static void set_waves(shade_scene *s, const frame *f, const world *w, const sky_state *sky)
+{
+    static const double turn = 6.28318530717958647692;
+    const mgt_water *water = &f->scene->water;
+    const bool gathers = f->scene->quality.caustics && sky->direction[1] > 0;
+    s->data.caustic_waves = gathers ? (int)water->wave_count : 0;
+    s->data.sun_radius = (float)sky->tan_radius;
+    for (size_t i = 0; i < water->wave_count && gathers; i++) {
+        const mgt_wave *wave = &water->waves[i];
+        const double phase = (wave->a * w->origin[0] + wave->b * w->origin[1] + wave->c * f->scene->time + wave->phase) / turn;
+        s->waves[i] = (MarchWave){(float)(wave->a / turn), (float)(wave->b / turn), (float)(phase - rint(phase)), (float)wave->amplitude};
+    }
+}
+
 static void set_shadows(ShadeData *d, const shadow_map *m)
 {
     d->shadow_left = m->left;
@@ -149,6 +164,7 @@ mgt_status shade_update(shade_scene **scene, const world *w, const frame *f, con
         return MGT_ERROR_MEMORY;
     set_light(&s->data, f, sky, &rays);
     set_water(&s->data, f, sky);
+    set_waves(s, f, w, sky);
     set_shadows(&s->data, s->shadows);
     return MGT_OK;
 }
