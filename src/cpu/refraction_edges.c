@@ -4,6 +4,9 @@
 
 #include "cpu/refraction_state.h"
 
+/* Residual, pixels, up to which the triangles about the found pixel are all that the ray may meet. */
+static const float SHARPENED = 0.15f;
+
 static void cross3(const double a[3], const double b[3], double out[3])
 {
     for (int i = 0; i < 3; i++)
@@ -55,7 +58,8 @@ static bool by_nothing(const gbuffer *g, size_t element)
     return false;
 }
 
-static void sharpen_pixel(const refraction *r, tile_objects *o, size_t i)
+/* False where none of the triangles at hand is met. */
+static bool sharpen_pixel(const refraction *r, tile_objects *o, size_t i)
 {
     tile_ends *e = &o->ends;
     const camera_rays *c = &r->camera;
@@ -75,7 +79,7 @@ static void sharpen_pixel(const refraction *r, tile_objects *o, size_t i)
             nearest = way, met = triangles[k];
     }
     if (met < 0 && !by_nothing(g, (size_t)e->pixel[i]))
-        return;
+        return false;
     e->triangle[i] = met;
     e->after[i] = met < 0 ? 0 : (float)nearest;
     for (int k = 0; k < 3 && met >= 0; k++)
@@ -84,13 +88,15 @@ static void sharpen_pixel(const refraction *r, tile_objects *o, size_t i)
         e->water[i] = e->after[i];
     else
         e->water[i] = o->water.along[i] + (e->total[i] > 0 ? e->after[i] : 0);
+    return true;
 }
 
 void refraction_sharpen(const refraction *r, tile_objects *o, size_t count)
 {
     for (size_t k = 0; k < count; k++) {
         const size_t i = o->list[k];
-        if (o->ends.doubt[i] > 0 && o->ends.pixel[i] >= 0 && o->ends.error[i] < 4)
-            sharpen_pixel(r, o, i);
+        const float error = o->ends.error[i];
+        if (o->ends.doubt[i] > 0 && o->ends.pixel[i] >= 0 && error < 4 && sharpen_pixel(r, o, i) && error < SHARPENED)
+            o->ends.doubt[i] = 0;
     }
 }

@@ -210,10 +210,10 @@ static void see_place(refraction *r, const tile_offset *at, size_t count, tile_o
 {
     r->kernels->narrow->refracted(&r->narrow, at, &o->water, &o->ends);
     const mgt_refraction method = r->frame->scene->quality.refraction;
+    if (method == MGT_REFRACTION_TWO_PHASE || method == MGT_REFRACTION_HYBRID)
+        refraction_sharpen(r, o, count);
     if (method == MGT_REFRACTION_HYBRID || method == MGT_REFRACTION_DISTANCE_FIELD)
         trace_doubtful(r, o, count);
-    if (method == MGT_REFRACTION_TWO_PHASE)
-        refraction_sharpen(r, o, count);
     for (size_t k = 0; k < count; k++)
         o->error[o->list[k]] = fmaxf(o->error[o->list[k]], o->ends.error[o->list[k]]);
     shade_listed(r, o, count);
