@@ -60,6 +60,9 @@ refraction *refraction_opened(const refraction *r);
 void refraction_keep(const tile_objects *o, tile_opened *opened);
 void refraction_blend(tile_objects *o, const tile_opened *opened);
 
+/* Whether objects in front leave nothing else of the tile. */
+bool refraction_covers(const tile_objects *o);
+
 /* Puts what stands in front before a tile's pixels, and before its layers of depth and normals; either may be NULL. */
 void refraction_compose(const tile_objects *o, tile_pixels *pixels, tile_surface *surface);
 

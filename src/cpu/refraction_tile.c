@@ -67,6 +67,13 @@ static size_t list_water(tile_objects *o)
     return count;
 }
 
+/* Nothing is looked for behind pixels that objects wholly cover. */
+static void leave_covered(tile_objects *o)
+{
+    for (size_t i = 0; i < TILE_PIXELS; i++)
+        o->water.share[i] = o->share[i] < 1 ? o->water.share[i] : 0;
+}
+
 /* What objects, and under water the way from the surface, leave of the light's disk. */
 static void see_light(const refraction *r, tile_objects *o)
 {
@@ -96,7 +103,7 @@ static void see_deep(const refraction *r, uint32_t column, uint32_t row, tile_ob
     size_t count = 0;
     memset(o->light.deep, 0, sizeof o->light.deep);
     for (size_t i = 0; i < TILE_PIXELS; i++) {
-        if (o->water.share[i] >= 1)
+        if (o->water.share[i] >= 1 || o->share[i] >= 1)
             continue;
         double ray[3], squared = 0;
         for (int k = 0; k < 3; k++) {
@@ -180,13 +187,16 @@ static void see_mirrored(const refraction *r, const tile_offset *at, size_t coun
     if (!r->mirrors || count == 0 || r->truth)
         return;
     r->kernels->narrow->mirrored(&r->narrow, at, &o->water, &o->ends);
-    for (size_t i = 0; i < count; i++)
-        o->light.share[o->list[i]] = r->frame->under || o->ends.triangle[o->list[i]] >= 0 ? 1 : 0;
-    shade_listed(r, o, count);
-    spread_light(o, count, o->light.mirrored);
-    for (size_t i = 0; i < TILE_PIXELS; i++)
-        for (int k = 0; k < 3; k++)
-            o->light.mirrored[k][i] *= o->light.share[i];
+    size_t mirrored = 0;
+    for (size_t k = 0; k < count; k++) {
+        const uint16_t i = o->list[k];
+        const bool seen = r->frame->under || o->ends.triangle[i] >= 0;
+        o->light.share[i] = seen ? 1 : 0;
+        o->list[mirrored] = i;
+        mirrored += seen;
+    }
+    shade_listed(r, o, mirrored);
+    spread_light(o, mirrored, o->light.mirrored);
 }
 
 /* The ground truth in place of what the pictures tell, for what the surface mirrors too. */
@@ -224,7 +234,13 @@ static void see_place(refraction *r, const tile_offset *at, size_t count, tile_o
     }
 }
 
-/* N × N places of every pixel; the last water that is looked at is that through the centres. */
+static void look_at_water(const refraction *r, const tile_waves *waves, const tile_guess *guess, const tile_offset *at, tile_objects *o)
+{
+    r->kernels->narrow->water(&r->frame->data, waves, guess, at, &o->water);
+    leave_covered(o);
+}
+
+/* N × N places of every pixel that is water, or one. The water is that through the pixels' centres, also in the end. */
 static void see_refracted(refraction *r, const tile_waves *waves, const tile_guess *guess, tile_offset at, tile_objects *o)
 {
     const uint32_t n = r->frame->scene->quality.refraction_samples ? r->frame->scene->quality.refraction_samples : 1;
@@ -234,13 +250,14 @@ static void see_refracted(refraction *r, const tile_waves *waves, const tile_gue
     for (uint32_t place = 0; place < n * n && n > 1 && !r->truth; place++) {
         at.dx = ((float)(place % n) + 0.5f) / (float)n - 0.5f;
         at.dy = ((float)(place / n) + 0.5f) / (float)n - 0.5f;
-        r->kernels->narrow->water(&r->frame->data, waves, guess, &at, &o->water);
+        look_at_water(r, waves, guess, &at, o);
         const size_t count = list_water(o);
         if (count > 0)
             see_place(r, &at, count, o);
     }
     at.dx = at.dy = 0;
-    r->kernels->narrow->water(&r->frame->data, waves, guess, &at, &o->water);
+    if (n > 1 && !r->truth)
+        look_at_water(r, waves, guess, &at, o);
     const size_t count = list_water(o);
     if (n == 1 && count > 0 && !r->truth)
         see_place(r, &at, count, o);
@@ -253,6 +270,9 @@ void refraction_tile(refraction *r, const tile_waves *waves, const tile_guess *g
                      tile_objects *o)
 {
     const tile_offset at = {tile_x * TILE_WIDTH, tile_y * TILE_HEIGHT, 0, 0};
+    r->kernels->narrow->water(&r->frame->data, waves, guess, &at, &o->water);
+    refraction_near(r, at.column, at.row, o);
+    leave_covered(o);
     see_refracted(r, waves, guess, at, o);
     const size_t count = list_water(o);
     atomic_fetch_add_explicit(&r->pixels, count, memory_order_relaxed);
@@ -262,7 +282,6 @@ void refraction_tile(refraction *r, const tile_waves *waves, const tile_guess *g
     if (r->frame->under)
         see_deep(r, at.column, at.row, o);
     see_light(r, o);
-    refraction_near(r, at.column, at.row, o);
     keep_layers(o);
 }
 
@@ -271,7 +290,7 @@ void refraction_tile(refraction *r, const tile_waves *waves, const tile_guess *g
 static void put_before(float *below, const float *above, const float *share)
 {
     for (size_t i = 0; i < TILE_PIXELS; i++)
-        below[i] = share[i] > 0 ? below[i] + share[i] * (above[i] - below[i]) : below[i];
+        below[i] = share[i] >= 1 ? above[i] : share[i] > 0 ? below[i] + share[i] * (above[i] - below[i]) : below[i];
 }
 
 void refraction_keep(const tile_objects *o, tile_opened *opened)
@@ -281,22 +300,35 @@ void refraction_keep(const tile_objects *o, tile_opened *opened)
     memcpy(opened->color, o->color, sizeof o->color);
 }
 
-static void blend_planes(float *planes, const float *others, size_t count)
+/* `weight`: of the others in each pixel. */
+static void blend_planes(float *planes, const float *others, size_t count, const float *weight)
 {
     for (size_t i = 0; i < count; i++)
-        planes[i] = 0.5f * (planes[i] + others[i]);
+        planes[i] = (1 - weight[i % TILE_PIXELS]) * planes[i] + weight[i % TILE_PIXELS] * others[i];
 }
 
 void refraction_blend(tile_objects *o, const tile_opened *opened)
 {
-    _Static_assert(sizeof(tile_light) % sizeof(float) == 0, "planes of floats");
+    _Static_assert(sizeof(tile_light) % (TILE_PIXELS * sizeof(float)) == 0, "planes of floats");
+    float weight[TILE_PIXELS];
     for (size_t i = 0; i < TILE_PIXELS; i++) {
         const float both = o->share[i] + opened->share[i];
+        /* Where one end's water is wholly covered, nothing is known of its light. */
+        weight[i] = o->share[i] >= 1 ? 1 : opened->share[i] >= 1 ? 0 : 0.5f;
         for (int k = 0; k < 3 && both > 0; k++)
             o->color[k][i] = (o->share[i] * o->color[k][i] + opened->share[i] * opened->color[k][i]) / both;
     }
-    blend_planes(o->share, opened->share, TILE_PIXELS);
-    blend_planes(o->light.body[0], opened->light.body[0], sizeof o->light / sizeof(float));
+    for (size_t i = 0; i < TILE_PIXELS; i++)
+        o->share[i] = 0.5f * (o->share[i] + opened->share[i]);
+    blend_planes(o->light.body[0], opened->light.body[0], sizeof o->light / sizeof(float), weight);
+}
+
+bool refraction_covers(const tile_objects *o)
+{
+    float least = 1;
+    for (size_t i = 0; i < TILE_PIXELS; i++)
+        least = o->share[i] < least ? o->share[i] : least;
+    return least >= 1;
 }
 
 void refraction_compose(const tile_objects *o, tile_pixels *pixels, tile_surface *surface)

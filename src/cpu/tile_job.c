@@ -246,23 +246,32 @@ static void see_objects(tile_place place, tile_scratch *scratch)
         refraction_blend(&scratch->objects, &scratch->opened);
 }
 
+static void render_pixels(tile_place place, tile_scratch *scratch)
+{
+    const mgt_quality *q = &place.job->frame->scene->quality;
+    if (is_filtered(q->method) && q->path_segments > 1)
+        render_segments(place, scratch);
+    else if (is_filtered(q->method))
+        render_filtered(place, scratch);
+    else if (is_rival(q->method))
+        render_rival(place, scratch);
+    else if (q->method == MGT_METHOD_SSAA)
+        render_samples(place, scratch);
+    else
+        render_centre(place, scratch);
+}
+
 void tile_render(const tile_job *job, uint32_t tile_x, uint32_t tile_y, tile_scratch *scratch)
 {
     const tile_place place = {job, tile_x, tile_y};
-    const mgt_method method = job->frame->scene->quality.method;
     if (job->objects)
         see_objects(place, scratch);
-    if (job->wants.pixels && is_filtered(method) && job->frame->scene->quality.path_segments > 1)
-        render_segments(place, scratch);
-    else if (job->wants.pixels && is_filtered(method))
-        render_filtered(place, scratch);
-    else if (job->wants.pixels && is_rival(method))
-        render_rival(place, scratch);
-    else if (job->wants.pixels && method == MGT_METHOD_SSAA)
-        render_samples(place, scratch);
-    else if (job->wants.pixels)
-        render_centre(place, scratch);
-    if (job->wants.surface)
+    const bool covered = job->objects && refraction_covers(&scratch->objects);
+    if (covered)
+        memset(&scratch->pixels, 0, sizeof scratch->pixels);
+    if (job->wants.pixels && !covered)
+        render_pixels(place, scratch);
+    if (job->wants.surface && !covered)
         render_surface(place, scratch);
     if (job->objects)
         refraction_compose(&scratch->objects, job->wants.pixels ? &scratch->pixels : NULL, job->wants.surface ? &scratch->surface : NULL);
