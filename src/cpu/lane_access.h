@@ -53,6 +53,49 @@ static inline void store(float *p, real r)
     __builtin_memcpy(p, &r, sizeof r);
 }
 
+/* Whole numbers as such. */
+static inline mask whole(real x)
+{
+#if MGT_LANES == 1
+    return (mask)x;
+#else
+    return __builtin_convertvector(x, mask);
+#endif
+}
+
+/* Single numbers of a table; an element a lane. */
+static inline real gather_floats(const float *table, mask at)
+{
+#if MGT_LANES == 1
+    return table[at];
+#elif MGT_LANES == 16
+    return (real)_mm512_i32gather_ps((__m512i)at, table, 4);
+#elif MGT_LANES == 8
+    return (real)_mm256_i32gather_ps(table, (__m256i)at, 4);
+#else
+    real r;
+    for (int i = 0; i < MGT_LANES; i++)
+        r[i] = table[at[i]];
+    return r;
+#endif
+}
+
+static inline mask gather_ints(const int *table, mask at)
+{
+#if MGT_LANES == 1
+    return table[at];
+#elif MGT_LANES == 16
+    return (mask)_mm512_i32gather_epi32((__m512i)at, table, 4);
+#elif MGT_LANES == 8
+    return (mask)_mm256_i32gather_epi32(table, (__m256i)at, 4);
+#else
+    mask r;
+    for (int i = 0; i < MGT_LANES; i++)
+        r[i] = table[at[i]];
+    return r;
+#endif
+}
+
 /* 0, 1, 2, … for the lanes. */
 static inline real lane_numbers(void)
 {

@@ -27,36 +27,18 @@ static const float infinity = INFINITY;
 #include "cpu/lane_access.h"
 #include "cpu/lane_display.h"
 
-/* Single floats of a table, at whole numbers. */
-static inline real gather_texels(const float *table, real index)
-{
-#if MGT_LANES == 1
-    return table[(int)index];
-#elif MGT_LANES == 16
-    return (real)_mm512_i32gather_ps((__m512i)__builtin_convertvector(index, mask), table, 4);
-#elif MGT_LANES == 8
-    return (real)_mm256_i32gather_ps(table, (__m256i)__builtin_convertvector(index, mask), 4);
-#else
-    const mask at = __builtin_convertvector(index, mask);
-    real texel;
-    for (int i = 0; i < MGT_LANES; i++)
-        texel[i] = table[at[i]];
-    return texel;
-#endif
-}
-
 /* Every index of the tables is a float: the largest is 2^24 - 1. */
 _Static_assert(PODEE_SLICES * PODEE_ROWS * PODEE_COLUMNS <= 1 << 24, "indices are exact in float");
 
 KERNEL real SWEEP_TEXEL(CTX cx, real v, real u, real slice)
 {
     const real row = real_fma(slice, real_broadcast(PODEE_ROWS), u);
-    return gather_texels(cx->podee->sweep, real_fma(row, real_broadcast(PODEE_COLUMNS), v));
+    return gather_floats(cx->podee->sweep, whole(real_fma(row, real_broadcast(PODEE_COLUMNS), v)));
 }
 
 KERNEL real SHARE_TEXEL(CTX cx, real r, real slice)
 {
-    return gather_texels(cx->podee->share, real_fma(slice, real_broadcast(PODEE_COLUMNS), r));
+    return gather_floats(cx->podee->share, whole(real_fma(slice, real_broadcast(PODEE_COLUMNS), r)));
 }
 
 #include "kernels/cells.k"

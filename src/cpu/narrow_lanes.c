@@ -26,17 +26,17 @@ static const float infinity = INFINITY;
 KERNEL LayerPixel LAYER(CTX cx, int layer, real column, real row)
 {
     const gbuffer *g = cx->narrow->layers[layer];
-    float at[2][MGT_LANES], depth[MGT_LANES], plane[4][MGT_LANES];
-    store(at[0], column), store(at[1], row);
-    for (int i = 0; i < MGT_LANES; i++) {
-        const size_t pixel = (size_t)at[1][i] * g->width + (size_t)at[0][i];
-        const int32_t triangle = g->triangle[pixel];
-        const float *p = cx->narrow->planes + 4 * (size_t)(triangle > 0 ? triangle : 0);
-        depth[i] = g->depth[pixel];
-        for (int k = 0; k < 4; k++)
-            plane[k][i] = p[k];
-    }
-    return (LayerPixel){load(depth), {load(plane[0]), load(plane[1]), load(plane[2])}, load(plane[3])};
+    const mask at = whole(row) * (int)g->width + whole(column), triangle = gather_ints(g->triangle, at);
+    const real depth = gather_floats(g->depth, at);
+    const mask shown = triangle >= 0;
+    LayerPixel p = {depth, vec3(real(0.0f), real(1.0f), real(0.0f)), real(0.0f)};
+    if (!any_lane(shown))
+        return p;
+    const float *planes = cx->narrow->planes;
+    const mask plane = 4 * (triangle & ~(triangle >> 31));
+    p.normal = SELECT3(shown, vec3(gather_floats(planes, plane), gather_floats(planes + 1, plane), gather_floats(planes + 2, plane)), p.normal);
+    p.level = SELECT(shown, gather_floats(planes + 3, plane), p.level);
+    return p;
 }
 
 #include "kernels/narrow.k"

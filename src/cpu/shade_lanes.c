@@ -5,6 +5,7 @@
 #include "cpu/shade_lanes.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "core/mesh.h"
 #include "precompute/atmosphere.h"
@@ -90,17 +91,15 @@ KERNEL real SUN_SHARE(CTX cx, vec3 position)
     const real v = (fma(real(0.0f) - lean_z, position.y, position.z) - d->shadow_top) * d->shadow_scale - 0.5f;
     const real column = clamp(floor(u), real(0.0f), real(d->shadow_columns - 2.0f)), row = clamp(floor(v), real(0.0f), real(d->shadow_rows - 2.0f));
     const real right = clamp(u - column, real(0.0f), real(1.0f)), down = clamp(v - row, real(0.0f), real(1.0f));
-    float at[2][MGT_LANES], near[4][MGT_LANES];
-    store(at[0], column), store(at[1], row);
-    const size_t columns = (size_t)d->shadow_columns;
-    for (int i = 0; i < MGT_LANES; i++) {
-        const float *texel = cx->shade->shadows->height + (size_t)at[1][i] * columns + (size_t)at[0][i];
-        near[0][i] = texel[0], near[1][i] = texel[1], near[2][i] = texel[columns], near[3][i] = texel[columns + 1];
-    }
+    const int columns = (int)d->shadow_columns;
+    const mask at = whole(row) * columns + whole(column);
+    const float *heights = cx->shade->shadows->height;
+    const real near[4] = {gather_floats(heights, at), gather_floats(heights + 1, at), gather_floats(heights + columns, at),
+                          gather_floats(heights + columns + 1, at)};
     const real height = position.y + 2.0f * d->shadow_texel;
     real lit[4];
     for (int k = 0; k < 4; k++)
-        lit[k] = SELECT(load(near[k]) <= height, real(1.0f), real(0.0f));
+        lit[k] = SELECT(near[k] <= height, real(1.0f), real(0.0f));
     const real top = fma(right, lit[1] - lit[0], lit[0]), bottom = fma(right, lit[3] - lit[2], lit[2]);
     return fma(down, bottom - top, top);
 }
@@ -146,19 +145,20 @@ static vec3 triple(const real *v) { return (vec3){v[0], v[1], v[2]}; }
 /* Triangles and materials of MGT_LANES hits; neighbours mostly share theirs. */
 static void read_objects(const shade_scene *s, const int32_t *triangle, HitTriangle *t, HitMaterial *m)
 {
-    float plane[OBJECT_FLOATS][MGT_LANES], one[OBJECT_FLOATS];
+    float one[OBJECT_FLOATS];
     real v[OBJECT_FLOATS];
-    bool same = true;
-    for (int i = 1; i < MGT_LANES; i++)
-        same = same && triangle[i] == triangle[0];
-    for (int i = 0; i < (same ? 1 : MGT_LANES); i++) {
-        if (triangle[i] >= 0)
-            read_triangle(s, (size_t)triangle[i], one);
-        for (int k = 0; k < OBJECT_FLOATS; k++)
-            plane[k][i] = triangle[i] >= 0 ? one[k] : no_triangle[k];
-    }
+    mask triangles;
+    memcpy(&triangles, triangle, sizeof triangles);
     for (int k = 0; k < OBJECT_FLOATS; k++)
-        v[k] = same ? real(plane[k][0]) : load(plane[k]);
+        v[k] = real(no_triangle[k]);
+    for (int i = 0; i < MGT_LANES; i++) {
+        if (triangle[i] < 0 || (i > 0 && triangle[i] == triangle[i - 1]))
+            continue;
+        read_triangle(s, (size_t)triangle[i], one);
+        const mask same = triangles == triangle[i];
+        for (int k = 0; k < OBJECT_FLOATS; k++)
+            v[k] = SELECT(same, real(one[k]), v[k]);
+    }
     *t = (HitTriangle){triple(v),          triple(v + 3),        triple(v + 6),          triple(v + 9),         triple(v + 12),
                        triple(v + 15),     {v[18], v[19]},       {v[20], v[21]},         {v[22], v[23]}};
     const real *o = v + TRIANGLE_FLOATS;
