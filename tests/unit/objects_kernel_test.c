@@ -1,0 +1,445 @@
+/* SPDX-License-Identifier: MIT
+ * The kernels that find and shade points of objects, at one lane, against integrals, finite differences and Snell's law in double precision. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "cpu/gbuffer.h"
+#include "cpu/narrow_lanes.h"
+#include "cpu/refraction_data.h"
+
+#pragma GCC diagnostic ignored "-Wunused-parameter" /* the dialect hands cx to every function */
+#pragma GCC diagnostic ignored "-Wshadow"
+
+static const double pi = 3.14159265358979323846;
+
+/* The data of one case. */
+static FrameData frame_data;
+static ShadeData shade_data;
+static NarrowData narrow_data;
+static RefractData refract_data;
+static MarchWave waves[4];
+static double floor_depth; /* of the plane that the layer shows */
+
+#define MGT_LANES 1
+#include "kernels/prelude_c.h"
+
+#define FRAME(cx) frame_data
+#define SHADE(cx) shade_data
+#define NARROW(cx) narrow_data
+#define REFRACT(cx) refract_data
+#define MARCH_WAVE(cx, i) (waves[i])
+
+KERNEL vec3 TEXTURE(CTX cx, real texture, real u, real v, real level) { return vec3(texture, u, v * level); }
+KERNEL real SUN_SHARE(CTX cx, vec3 position) { return 1.0f; }
+
+#include "kernels/layer.k"
+
+static LayerPixel layer_pixel(double column, double row);
+KERNEL LayerPixel LAYER(CTX cx, int layer, real column, real row) { return layer_pixel((double)column, (double)row); }
+
+#include "kernels/material.k"
+#include "kernels/mirror.k"
+#include "kernels/narrow.k"
+
+#undef sqrt
+#undef floor
+#undef min
+#undef max
+#undef abs
+#undef fma
+#undef clamp
+#undef real
+#undef dot
+#undef cross
+#undef scale
+#undef add
+#undef sub
+#undef normalize
+
+static uint64_t random_state;
+
+static double range(double low, double high)
+{
+    uint64_t x = random_state += 0x9e3779b97f4a7c15u;
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+    return low + (high - low) * ((double)((x ^ (x >> 31)) >> 11) * 0x1p-53);
+}
+
+static double dot3(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+static void unit3(double v[3])
+{
+    const double length = sqrt(dot3(v, v));
+    for (int k = 0; k < 3; k++)
+        v[k] /= length;
+}
+
+/* Snell's law: false where nothing gets through. `ratio`: index before over index behind. */
+static bool refract3(const double ray[3], const double normal[3], double ratio, double out[3])
+{
+    const double cosine = -dot3(ray, normal), squared = 1 - ratio * ratio * (1 - cosine * cosine);
+    if (squared < 0)
+        return false;
+    for (int k = 0; k < 3; k++)
+        out[k] = ratio * ray[k] + (ratio * cosine - sqrt(squared)) * normal[k];
+    return true;
+}
+
+/* ---- patterns ---- */
+
+static double tile_at(double x, double joint)
+{
+    const double f = x - floor(x);
+    return f > joint / 2 && f < 1 - joint / 2 ? 1 : 0;
+}
+
+static double square_at(double x) { return ((long long)floor(x) & 1) == 0 ? 1 : -1; }
+
+static double pattern_at(int kind, double joint, double u, double v)
+{
+    switch (kind) {
+    case 1: return 1 - tile_at(u, joint) * tile_at(v, joint);
+    case 2: return 0.5 * (1 - square_at(u) * square_at(v));
+    case 3: return 0.5 * (1 - square_at(u));
+    default: return 0;
+    }
+}
+
+static void patterns_are_box_means(void **state)
+{
+    (void)state;
+    enum { STEPS = 400 };
+    random_state = 1;
+    double worst = 0;
+    for (int i = 0; i < 400; i++) {
+        const int kind = i % 4;
+        const double joint = range(0, 0.5), u = range(-30, 30), v = range(-30, 30), wide = exp(range(-4, 2)), high = exp(range(-4, 2));
+        double sum = 0;
+        for (int y = 0; y < STEPS; y++)
+            for (int x = 0; x < STEPS; x++)
+                sum += pattern_at(kind, joint, u + wide * ((x + 0.5) / STEPS - 0.5), v + high * ((y + 0.5) / STEPS - 0.5));
+        const float share = pattern_share(NULL, (float)kind, (float)joint, (float)u, (float)v, (float)wide, (float)high);
+        worst = fmax(worst, fabs((double)share - sum / (STEPS * STEPS)));
+    }
+    printf("patterns: within %.2g of the box's mean\n", worst);
+    assert_true(worst < 0.012); /* the sum's own steps: two edges of 1/400 a side, twice */
+}
+
+/* ---- light in water ---- */
+
+static void glow_is_the_integral(void **state)
+{
+    (void)state;
+    random_state = 2;
+    for (int i = 0; i < 200; i++) {
+        const double light = range(0, 10), sigma = exp(range(-6, 1)), b = sigma * range(0, 1), slant = range(1, 1.5), depth = range(0, 5),
+                     distance = exp(range(-3, 3)), fall = range(-1, 1) > 0 ? range(0, 1) : -range(0, 1) * fmin(depth / distance, 1);
+        double sum = 0;
+        for (int k = 0; k < 20000; k++) {
+            const double x = distance * (k + 0.5) / 20000;
+            sum += light * b / (4 * pi) * exp(-sigma * slant * (depth + fall * x)) * exp(-sigma * x) * distance / 20000;
+        }
+        const float found = scattered_once(NULL, (float)light, (float)sigma, (float)b, (float)slant, (float)depth, (float)fall, (float)distance);
+        assert_true(fabs((double)found - sum) <= 1e-4 * sum + 1e-7);
+    }
+}
+
+/* ---- footprints ---- */
+
+/* Two rays a thousandth of a radian apart, within the plane of incidence or across it, met by the plane across the first one's end. */
+static double spread(double theta, bool within, double ratio, double before, double after)
+{
+    const double step = 1e-4;
+    double end[2][3], last[3];
+    for (int i = 0; i < 2; i++) {
+        const double angle = theta + (within && i ? step : 0), turn = !within && i ? step / sin(theta) : 0;
+        const double ray[3] = {sin(angle) * cos(turn), -cos(angle), sin(angle) * sin(turn)}, up[3] = {0, 1, 0};
+        double bent[3], from[3];
+        assert_true(refract3(ray, up, ratio, bent));
+        const double height = before * cos(theta), along = height / -ray[1];
+        for (int k = 0; k < 3; k++)
+            from[k] = along * ray[k] + (k == 1 ? height : 0);
+        if (i == 0) {
+            memcpy(last, bent, sizeof last);
+            for (int k = 0; k < 3; k++)
+                end[0][k] = from[k] + after * bent[k];
+        }
+        double to[3];
+        for (int k = 0; k < 3; k++)
+            to[k] = end[0][k] - from[k];
+        const double way = dot3(to, last) / dot3(bent, last);
+        for (int k = 0; k < 3; k++)
+            end[i][k] = from[k] + way * bent[k];
+    }
+    return sqrt(pow(end[1][0] - end[0][0], 2) + pow(end[1][1] - end[0][1], 2) + pow(end[1][2] - end[0][2], 2)) / step;
+}
+
+static void footprints_follow_the_rays(void **state)
+{
+    (void)state;
+    random_state = 3;
+    for (int i = 0; i < 300; i++) {
+        const bool under = i % 2;
+        const double n = 1.333, ratio = under ? n : 1 / n, theta = range(0.05, under ? 0.75 : 1.3), before = range(0.5, 10), after = range(0.1, 10);
+        shade_data = (ShadeData){.pixel_angle = 1, .index = (float)n, .camera_side = under ? -1 : 1};
+        const double ray[3] = {sin(theta), -cos(theta), 0}, up[3] = {0, 1, 0};
+        double bent[3];
+        assert_true(refract3(ray, up, ratio, bent));
+        const RayFootprint f = ray_footprint(NULL, vec3((float)bent[0], (float)bent[1], (float)bent[2]), (float)before, (float)after, 0.0f, 0.0f, 0.0f);
+        assert_true(fabs(sqrt(12 * (double)f.rise_rise) / spread(theta, true, ratio, before, after) - 1) < 2e-3);
+        assert_true(fabs(sqrt(12 * (double)f.side_side) / spread(theta, false, ratio, before, after) - 1) < 2e-3);
+        assert_true(fabs((double)f.side_rise) < 1e-4);
+    }
+}
+
+/* ---- caustics ---- */
+
+static void surface_at(double x, double z, double out[6])
+{
+    memset(out, 0, 6 * sizeof *out);
+    for (int i = 0; i < shade_data.caustic_waves; i++) {
+        const double a = 2 * pi * (double)waves[i].turns_x, b = 2 * pi * (double)waves[i].turns_z, A = (double)waves[i].amplitude;
+        const double phase = a * x + b * z + 2 * pi * (double)waves[i].phase;
+        out[0] += A * sin(phase), out[1] += A * a * cos(phase), out[2] += A * b * cos(phase);
+    }
+}
+
+static void send(const double light[3], double x, double z, double depth, double to[2])
+{
+    double s[6], bent[3];
+    surface_at(x, z, s);
+    double normal[3] = {-s[1], 1, -s[2]}, ray[3] = {-light[0], -light[1], -light[2]};
+    unit3(normal);
+    assert_true(refract3(ray, normal, 1 / 1.333, bent));
+    to[0] = x - (depth + s[0]) * bent[0] / bent[1];
+    to[1] = z - (depth + s[0]) * bent[2] / bent[1];
+}
+
+/* Before rays cross, the light at a point is that of the one place that sends its ray there, over the share of the area. */
+static void caustics_are_shares_of_area(void **state)
+{
+    (void)state;
+    random_state = 4;
+    double worst = 0;
+    for (int i = 0; i < 400; i++) {
+        double light[3] = {range(-0.5, 0.5), 1, range(-0.5, 0.5)};
+        shade_data = (ShadeData){.index = 1.333f, .caustic_waves = 4, .sun_air_x = (float)light[0], .sun_air_z = (float)light[2]};
+        unit3(light);
+        for (int k = 0; k < 4; k++)
+            waves[k] = (MarchWave){(float)range(-0.5, 0.5), (float)range(-0.5, 0.5), (float)range(0, 1), 0.01f};
+        const double x = range(-5, 5), z = range(-5, 5), depth = range(0.5, 3), h = 1e-4;
+        double at[2], right[2], ahead[2];
+        send(light, x, z, depth, at);
+        send(light, x + h, z, depth, right);
+        send(light, x, z + h, depth, ahead);
+        const double det = ((right[0] - at[0]) * (ahead[1] - at[1]) - (right[1] - at[1]) * (ahead[0] - at[0])) / (h * h);
+        const float share = caustic_share(NULL, vec3((float)at[0], (float)-depth, (float)at[1]), 0.0f);
+        double s[6];
+        surface_at(x, z, s);
+        const double falls = 1 - (s[1] * light[0] + s[2] * light[2]) / light[1]; /* on a square metre of the mean surface */
+        worst = fmax(worst, fabs((double)share * sqrt(det * det + 0.02) / falls - 1));
+    }
+    printf("caustics: within %.2g of the share of area\n", worst);
+    assert_true(worst < 5e-3);
+}
+
+/* ---- the light through the surface ---- */
+
+static void slopes_bend_the_view_to_the_light(void **state)
+{
+    (void)state;
+    random_state = 5;
+    int seen = 0;
+    for (int i = 0; i < 2000; i++) {
+        /* Mirrored at the surface: the eye is above, the light below. */
+        const double elevation = range(0.2, 1.5), azimuth = range(-0.7, 0.7), steep = range(0.7, 1.5);
+        double light[3] = {cos(elevation), -sin(elevation), 0}, view[3] = {-cos(steep) * cos(azimuth), sin(steep), cos(steep) * sin(azimuth)};
+        double e[3] = {-light[2], 0, light[0]}, f[3];
+        unit3(e);
+        for (int k = 0; k < 3; k++)
+            f[k] = light[(k + 1) % 3] * e[(k + 2) % 3] - light[(k + 2) % 3] * e[(k + 1) % 3];
+        frame_data = (FrameData){.light_x = (float)light[0], .light_y = (float)light[1], .light_z = (float)light[2],
+                                 .axis_e_x = (float)e[0],    .axis_e_y = (float)e[1],    .axis_e_z = (float)e[2],
+                                 .axis_f_x = (float)f[0],    .axis_f_y = (float)f[1],    .axis_f_z = (float)f[2],
+                                 .index_of_refraction = 1 / 1.333f, .camera_under = 1};
+        const vec3 v = vec3((float)view[0], (float)view[1], (float)view[2]);
+        const Mirror m = mirror_at(NULL, v);
+        const double cosine = ((double)m.slope.x * light[0] - light[1] + (double)m.slope.y * light[2]) / sqrt(1 + pow((double)m.slope.x, 2) + pow((double)m.slope.y, 2));
+        if (!(m.possible > 0) || cosine < 0.2) /* light along the surface: differences tell nothing */
+            continue;
+        seen++;
+        const double ray[3] = {-view[0], -view[1], -view[2]}, h = 1e-5;
+        double end[3][2];
+        for (int k = 0; k < 3; k++) {
+            double normal[3] = {-((double)m.slope.x + (k == 1 ? h : 0)), 1, -((double)m.slope.y + (k == 2 ? h : 0))}, bent[3];
+            unit3(normal);
+            assert_true(refract3(ray, normal, 1.333, bent));
+            end[k][0] = dot3(bent, e) / dot3(bent, light);
+            end[k][1] = dot3(bent, f) / dot3(bent, light);
+            assert_true(dot3(bent, light) > 0);
+        }
+        const double j[4] = {(end[1][0] - end[0][0]) / h, (end[2][0] - end[0][0]) / h, (end[1][1] - end[0][1]) / h, (end[2][1] - end[0][1]) / h};
+        const double found[4] = {(double)m.j_ex, (double)m.j_ez, (double)m.j_fx, (double)m.j_fz};
+        assert_true(hypot(end[0][0], end[0][1]) < 2e-5);
+        for (int k = 0; k < 4; k++)
+            assert_true(fabs(found[k] - j[k]) < 3e-3 * (1 + fabs(j[k])));
+        const LightRay l = light_ray(NULL, v, m.slope);
+        assert_true(fabs((double)l.ray.x - light[0]) + fabs((double)l.ray.y - light[1]) + fabs((double)l.ray.z - light[2]) < 2e-5);
+    }
+    printf("light under water: %d of 2000 views have a slope for it\n", seen);
+    assert_true(seen > 500);
+}
+
+/* ---- the narrow phase ---- */
+
+static void rays_bend_by_snells_law(void **state)
+{
+    (void)state;
+    random_state = 6;
+    int total = 0;
+    for (int i = 0; i < 5000; i++) {
+        const double ratio = i % 2 ? 1.333 : 1 / 1.333, theta = range(0.01, 1.5), azimuth = range(0, 2 * pi);
+        const double ray[3] = {sin(theta) * cos(azimuth), -cos(theta), sin(theta) * sin(azimuth)};
+        double normal[3] = {range(-0.3, 0.3), 1, range(-0.3, 0.3)}, bent[3];
+        unit3(normal);
+        if (dot3(ray, normal) > -0.02)
+            continue;
+        narrow_data = (NarrowData){.ratio = (float)ratio};
+        const Bent b = bent_at(NULL, vec3((float)ray[0], (float)ray[1], (float)ray[2]), vec3((float)normal[0], (float)normal[1], (float)normal[2]));
+        const double cosine = -dot3(ray, normal), squared = 1 - ratio * ratio * (1 - cosine * cosine);
+        if (fabs(squared) < 1e-4)
+            continue;
+        assert_true((b.total > 0) == (squared < 0));
+        if (!refract3(ray, normal, ratio, bent))
+            for (int k = 0; k < 3; k++)
+                bent[k] = ray[k] + 2 * cosine * normal[k];
+        total += squared < 0;
+        assert_true(fabs((double)b.direction.x - bent[0]) + fabs((double)b.direction.y - bent[1]) + fabs((double)b.direction.z - bent[2]) < 3e-5);
+    }
+    assert_true(total > 300);
+}
+
+enum { WIDTH = 320, HEIGHT = 180 };
+
+/* What a flat surface shows of a level floor or ceiling at the centre of a pixel. */
+static LayerPixel layer_pixel(double column, double row)
+{
+    double ray[3];
+    const double x = column - (double)narrow_data.left, y = row - (double)narrow_data.top;
+    ray[0] = (double)narrow_data.corner_x + x * (double)narrow_data.right_x + y * (double)narrow_data.down_x;
+    ray[1] = (double)narrow_data.corner_y + x * (double)narrow_data.right_y + y * (double)narrow_data.down_y;
+    ray[2] = (double)narrow_data.corner_z + x * (double)narrow_data.right_z + y * (double)narrow_data.down_z;
+    const double length = sqrt(dot3(ray, ray)), up[3] = {0, 1, 0};
+    double view[3] = {ray[0] / length, ray[1] / length, ray[2] / length}, bent[3];
+    if (view[1] > -1e-3 || !refract3(view, up, (double)narrow_data.ratio, bent))
+        return (LayerPixel){INFINITY, vec3(0.0f, 1.0f, 0.0f), 0.0f};
+    const double h = (double)narrow_data.distance, along = h / -view[1], way = floor_depth / -bent[1];
+    const double side = (double)narrow_data.side;
+    const vec3 p = vec3((float)(along * view[0] + way * bent[0]), (float)(-side * floor_depth), (float)(along * view[2] + way * bent[2]));
+    const vec3 image = virtual_point(NULL, p);
+    const double from[3] = {(double)image.x, side * (double)image.y - h, (double)image.z};
+    return (LayerPixel){(float)(dot3(from, ray) / (length * length)), vec3(0.0f, 1.0f, 0.0f), (float)(-side * floor_depth)};
+}
+
+static void set_view(bool under, double height, double pitch)
+{
+    mgt_scene scene = mgt_scene_defaults();
+    static mgt_scene kept;
+    scene.image = (mgt_image){.width = WIDTH, .height = HEIGHT};
+    scene.camera = (mgt_camera){{0, height, 0}, {0.3, height - sin(pitch), -cos(pitch)}, {0, 1, 0}, 45};
+    kept = scene;
+    frame f = {.scene = &kept, .under = under};
+    f.data.pixel_angle = (float)(2 * tan(22.5 * pi / 180) / HEIGHT);
+    f.close = camera_rays_of(&scene.camera, WIDTH, HEIGHT);
+    const gbuffer layer = {.width = 400, .height = 240, .left = 40, .top = 30};
+    const world nothing = {.low = {-1e3f, -1e3f, -1e3f}, .high = {1e3f, 1e3f, 1e3f}};
+    narrow_data = refraction_narrow_data(&f, &nothing, &layer);
+    narrow_data.method = 0;
+    refract_data = refract_data_of(under ? -height : height, 1.333, GBUFFER_SAGITTAL);
+}
+
+/* Under a flat surface the picture is the answer: every pixel is its own. */
+static void flat_water_needs_no_search(void **state)
+{
+    (void)state;
+    random_state = 7;
+    double worst = 0;
+    int pixels = 0;
+    for (int i = 0; i < 3000; i++) {
+        const bool under = i % 2;
+        floor_depth = exp(range(-2, 2));
+        set_view(under, exp(range(-1, 2)), under ? range(0.9, 1.4) : range(0.3, 1.4));
+        const double column = floor(range(0, WIDTH)), row = floor(range(0, HEIGHT));
+        const vec3 ray = layer_ray(NULL, (float)column, (float)row);
+        double view[3] = {(double)ray.x, (double)ray.y, (double)ray.z};
+        unit3(view);
+        if (view[1] > -0.1)
+            continue;
+        const WaterHit hit = {vec3((float)view[0], (float)view[1], (float)view[2]), (float)((double)narrow_data.distance / -view[1]),
+                              vec3(0.0f, 1.0f, 0.0f), (float)column, (float)row};
+        const Bent bent = bent_at(NULL, hit.view, hit.normal);
+        if (bent.total > 0 || bent.direction.y > -0.05f)
+            continue;
+        const FoundPoint f = find_refracted(NULL, hit, bent);
+        pixels++;
+        assert_true(f.shown > 0);
+        assert_true((double)f.column == column + 40 && (double)f.row == row + 30);
+        worst = fmax(worst, (double)f.residual);
+        assert_true(fabs((double)f.position.y + floor_depth) < 1e-4 * (floor_depth + (double)narrow_data.distance));
+    }
+    printf("flat water: %d pixels, residual at most %.2g pixels\n", pixels, worst);
+    assert_true(pixels > 1500 && worst < 0.01);
+}
+
+/* Under waves the answer lies where the bent ray meets the floor, and says how far off its pixel is. */
+static void waves_lead_to_the_floor(void **state)
+{
+    (void)state;
+    random_state = 8;
+    int found = 0, certain = 0;
+    for (int i = 0; i < 3000; i++) {
+        floor_depth = range(0.5, 3);
+        set_view(false, range(1, 5), range(0.4, 1.3));
+        const double column = floor(range(20, WIDTH - 20)), row = floor(range(20, HEIGHT - 20));
+        const vec3 ray = layer_ray(NULL, (float)column, (float)row);
+        double view[3] = {(double)ray.x, (double)ray.y, (double)ray.z}, normal[3] = {range(-0.1, 0.1), 1, range(-0.1, 0.1)}, bent[3];
+        unit3(view);
+        unit3(normal);
+        if (view[1] > -0.15 || !refract3(view, normal, 1 / 1.333, bent))
+            continue;
+        const double along = (double)narrow_data.distance / -view[1], way = floor_depth / -bent[1];
+        const WaterHit hit = {vec3((float)view[0], (float)view[1], (float)view[2]), (float)along,
+                              vec3((float)normal[0], (float)normal[1], (float)normal[2]), (float)column, (float)row};
+        const FoundPoint f = find_refracted(NULL, hit, bent_at(NULL, hit.view, hit.normal));
+        if (!(f.shown > 0))
+            continue;
+        found++;
+        certain += f.residual < 1.0f;
+        const double size = along + way;
+        assert_true(fabs((double)f.position.x - along * view[0] - way * bent[0]) < 1e-4 * size);
+        assert_true(fabs((double)f.position.z - along * view[2] - way * bent[2]) < 1e-4 * size);
+        assert_true(fabs((double)f.after - way) < 1e-4 * size);
+    }
+    printf("waves: %d of %d points within a pixel\n", certain, found);
+    assert_true(found > 2000 && certain > 0.9 * found);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(patterns_are_box_means),      cmocka_unit_test(glow_is_the_integral),
+        cmocka_unit_test(footprints_follow_the_rays),  cmocka_unit_test(caustics_are_shares_of_area),
+        cmocka_unit_test(slopes_bend_the_view_to_the_light), cmocka_unit_test(rays_bend_by_snells_law),
+        cmocka_unit_test(flat_water_needs_no_search),  cmocka_unit_test(waves_lead_to_the_floor),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
