@@ -39,6 +39,32 @@ for method in none mangata podee-uniform podee-pixel ssaa2 reference adaptive ad
 done
 differ whole.raw /dev/null
 
+# Objects: through the water, mirrored by it and before it, seen from above and from below.
+for view in hull diver; do
+    for refraction in two-phase hybrid screen-space; do
+        objects=("$SOURCE/scenes/$view.yaml" --refraction $refraction --refraction-samples 2 --caustics on "${size[@]}" "${quiet[@]}")
+        [ $refraction = hybrid ] && { "$MANGATA" render "${objects[@]}" -o probe.png || continue; } # without Embree there is none
+        for n in 1 2 7; do
+            works render "${objects[@]}" -o t$n.exr --layer all --threads $n
+        done
+        same t1.exr t2.exr
+        same t1.exr t7.exr
+        works render "${objects[@]}" -o whole.pfm --layer refraction_error
+        works render "${objects[@]}" -o part.pfm --layer refraction_error --crop 37,21,70,33
+        crop_of whole.pfm 37 21 70 33 whole.raw
+        raw part.pfm >part.raw
+        same whole.raw part.raw
+        for isa in scalar avx2 avx512; do
+            "$MANGATA" info --json | grep -q "\"$isa\"" || continue
+            works render "${objects[@]}" -o $isa.exr --layer all --isa $isa
+            same t1.exr $isa.exr
+        done
+        works render "${objects[@]}" -o two_%d.exr --frames 3-4 --layer all
+        works render "${objects[@]}" -o one.exr --frames 4 --layer all
+        same two_4.exr one.exr
+    done
+done
+
 # 8-bit pictures: threads and instruction sets; frame 30 alone and among others; in one process or another.
 works render "$scene" -o f_%02d.png --frames 0-59 "${size[@]}" "${quiet[@]}"
 works render "$scene" -o alone.png --frames 30 "${size[@]}" "${quiet[@]}" --threads 1
