@@ -149,8 +149,9 @@ typedef struct layer_source {
     GLenum format, type;
 } layer_source;
 
-static layer_source source_of(const gl_layers *l, const mgt_target *target)
+static layer_source source_of(const gl_renderer *g, const mgt_target *target)
 {
+    const gl_layers *l = &g->layers;
     const GLenum channels = target->format == MGT_FORMAT_RGBA32F ? GL_RGBA : GL_RGB;
     if (target->format == MGT_FORMAT_RGBA8_SRGB)
         return (layer_source){&l->display, GL_RGBA, GL_UNSIGNED_BYTE};
@@ -162,9 +163,9 @@ static layer_source source_of(const gl_layers *l, const mgt_target *target)
     case MGT_LAYER_SAMPLES: /* handed to the CPU */
     case MGT_LAYER_IMPORTANCE:
     case MGT_LAYER_DETAIL:
-    case MGT_LAYER_REFRACTION:
-    case MGT_LAYER_REFRACTION_ERROR:
     case MGT_LAYER_COLOR: break;
+    case MGT_LAYER_REFRACTION: return (layer_source){&g->refraction.seen.body, channels, GL_FLOAT};
+    case MGT_LAYER_REFRACTION_ERROR: return (layer_source){&g->refraction.seen.error, GL_RED, GL_FLOAT};
     }
     return (layer_source){&l->color, channels, GL_FLOAT};
 }
@@ -173,7 +174,7 @@ static layer_source source_of(const gl_layers *l, const mgt_target *target)
 static mgt_status read_target(gl_backend_state *s, const mgt_target *target, const region *area, const region *crop, const reporter *r)
 {
     const gl_api *gl = &s->renderer->gl;
-    const layer_source source = source_of(&s->renderer->layers, target);
+    const layer_source source = source_of(s->renderer, target);
     const size_t row = format_size(target->format) * crop->width;
     const uint32_t rows = transfer_bytes / row > 0 ? (uint32_t)(transfer_bytes / row) : 1;
     mgt_status status = gl_buffer_reserve(gl, &s->transfer, row * (rows < crop->height ? rows : crop->height),
@@ -295,12 +296,20 @@ static mgt_status render_entered(gl_backend_state *s, const reporter *r, const m
     return status;
 }
 
+/* Of a moving camera's refraction only the mean over the shutter is kept, which its layers are not. */
+static bool gl_knows_layer(const mgt_scene *scene, mgt_layer layer)
+{
+    if (layer == MGT_LAYER_REFRACTION || layer == MGT_LAYER_REFRACTION_ERROR)
+        return scene->object_count > 0 && !scene->camera_moves && !is_whole_frame_method(scene->quality.method);
+    return layer <= MGT_LAYER_NORMAL;
+}
+
 static mgt_status gl_render(void *state, const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count)
 {
     gl_backend_state *s = state;
     bool renders = !gl_lacks(scene);
     for (size_t i = 0; i < count; i++)
-        renders &= targets[i].layer <= MGT_LAYER_NORMAL;
+        renders &= gl_knows_layer(scene, targets[i].layer);
     if (!renders)
         return render_by_cpu(s, r, scene, targets, count);
     gl_scope scope;

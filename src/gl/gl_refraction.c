@@ -356,6 +356,9 @@ void gl_refraction_bind_front(const gl_renderer *g)
 {
     bind_texture(&g->gl, UNIT_FRONT, g->refraction.seen.front.name);
     bind_texture(&g->gl, UNIT_FRONT + 1, g->refraction.seen.surface.name);
+    const gl_image *const layers[] = {&g->refraction.seen.body, &g->refraction.seen.error};
+    for (GLuint i = 0; i < 2; i++)
+        g->gl.BindImageTexture(IMAGE_LAYERS + i, layers[i]->name, 0, GL_FALSE, 0, GL_WRITE_ONLY, layers[i]->format);
 }
 
 void gl_refraction_free(const gl_api *gl, gl_refraction *o)

@@ -22,7 +22,7 @@ check() { # file, what to define
 }
 
 count=0
-for pass in "$work"/*.comp "$work"/*.vert "$work"/*.frag; do
+for pass in "$work"/*.comp "$work"/*.vert "$work"/*.frag "$work"/*.tesc "$work"/*.tese; do
     count=$((count + 1))
     check "$pass" ""
     check "$pass" "#define WAVES_IN_STORAGE"

@@ -13,6 +13,8 @@ layout(binding = 1, r32f) uniform image2D coverage_image;
 layout(binding = 2, r32f) uniform image2D water_image;
 layout(binding = 3) writeonly uniform image2D depth_image;
 layout(binding = 4) writeonly uniform image2D normal_image;
+layout(binding = 5) writeonly uniform image2D body_image;
+layout(binding = 6) writeonly uniform image2D error_image;
 layout(binding = 1) uniform sampler2D front_texture;
 layout(binding = 2) uniform sampler2D surface_texture;
 
@@ -35,4 +37,7 @@ void main()
     vec4 surface = texelFetch(surface_texture, texel, 0);
     imageStore(depth_image, texel, vec4(surface.w));
     imageStore(normal_image, texel, vec4(surface.xyz, 1.0f));
+    /* The layers of refraction show water alone. */
+    imageStore(body_image, texel, vec4(0.0f, 0.0f, 0.0f, 1.0f));
+    imageStore(error_image, texel, vec4(0.0f));
 }

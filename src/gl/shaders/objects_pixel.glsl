@@ -6,7 +6,7 @@
 #include "objects_data.glsl"
 #include "narrow.k"
 
-const float INFINITY = uintBitsToFloat(0x7f800000u);
+#define INFINITY uintBitsToFloat(0x7f800000u)
 
 struct PixelWater {
     float share; /* of the pixel; 0: the rest is not set */
