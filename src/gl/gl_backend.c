@@ -218,8 +218,6 @@ const char *gl_lacks(const mgt_scene *scene)
         break;
     default: break;
     }
-    if (scene->object_count > 0 && scene->quality.caustics)
-        return "caustics run";
     if (scene->object_count > 0 && scene->quality.refraction_samples > MOST_PLACES)
         return "more than 4 x 4 samples of refraction a pixel run";
     return NULL;

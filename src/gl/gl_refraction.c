@@ -71,7 +71,8 @@ static mgt_status upload_textures(const gl_api *gl, gl_refraction *o, const used
 
 /* ---- materials ---- */
 
-enum { MATERIAL_FLOATS = 16 };
+/* The table begins with linear values of codes and the waves that make caustics. */
+enum { MATERIAL_FLOATS = 16, FIRST_MATERIAL = SHADE_TEXTURE_CODES + MGT_MAX_WAVES * sizeof(MarchWave) / sizeof(float) };
 
 static void fill_material(const shade_material *m, bool smooth, float out[MATERIAL_FLOATS])
 {
@@ -88,13 +89,14 @@ static void fill_material(const shade_material *m, bool smooth, float out[MATERI
 static mgt_status upload_materials(const gl_api *gl, gl_refraction *o, const world *w, const used_texture *used, size_t used_count, const reporter *r)
 {
     const shade_scene *s = o->shade;
-    const size_t floats = SHADE_TEXTURE_CODES + MATERIAL_FLOATS * w->object_count;
+    const size_t floats = FIRST_MATERIAL + MATERIAL_FLOATS * w->object_count;
     const mgt_status status = gl_table_reserve(gl, &o->materials, GL_RGBA32F, floats, sizeof(float), r);
     float *map = status == MGT_OK ? gl_table_map(gl, &o->materials, floats * sizeof(float), r) : NULL;
     if (!map)
         return status == MGT_OK ? MGT_ERROR_MEMORY : status;
     memcpy(map, s->linear, sizeof s->linear);
-    float *materials = map + SHADE_TEXTURE_CODES;
+    memcpy(map + SHADE_TEXTURE_CODES, s->waves, sizeof s->waves);
+    float *materials = map + FIRST_MATERIAL;
     for (size_t i = 0; i < w->object_count; i++)
         fill_material(&s->materials[i], w->objects[i].smooth, materials + MATERIAL_FLOATS * i);
     for (size_t i = 0; i < used_count; i++) {

@@ -18,7 +18,7 @@ layout(binding = 1) uniform samplerBuffer vertex_table;   /* two a vertex: x, y,
 layout(binding = 2) uniform usamplerBuffer index_table;   /* three a triangle */
 layout(binding = 3) uniform usamplerBuffer owner_table;   /* the object of a triangle */
 layout(binding = 4) uniform samplerBuffer plane_table;    /* of a triangle: unit normal, and its product with a point */
-layout(binding = 5) uniform samplerBuffer material_table; /* the linear values of sRGB codes, four each; then four an object */
+layout(binding = 5) uniform samplerBuffer material_table; /* the linear values of sRGB codes, four each; waves that make caustics; then four an object */
 layout(binding = 6) uniform usamplerBuffer texel_table;   /* of all textures */
 layout(binding = 7) uniform sampler2D shadow_texture;
 layout(binding = 8) uniform sampler2D far_depth;
@@ -59,8 +59,15 @@ ivec3 triangle_corners(int triangle)
 /* ---- materials ---- */
 
 const int CODE_TEXELS = 64;
+const int CAUSTIC_TEXELS = 512;
 
-vec4 material_texel(int object, int i) { return texelFetch(material_table, CODE_TEXELS + 4 * object + i); }
+vec4 material_texel(int object, int i) { return texelFetch(material_table, CODE_TEXELS + CAUSTIC_TEXELS + 4 * object + i); }
+
+MarchWave caustic_wave(int i)
+{
+    vec4 w = texelFetch(material_table, CODE_TEXELS + i);
+    return MarchWave(w.x, w.y, w.z, w.w);
+}
 
 float linear_of_code(uint code) { return texelFetch(material_table, int(code >> 2))[int(code & 3u)]; }
 

@@ -6,6 +6,8 @@
 #include "gl_data.glsl"
 #include "objects_pixel.glsl"
 #include "sky.k"
+#undef MARCH_WAVE
+#define MARCH_WAVE(cx, i) caustic_wave(i)
 #include "material.k"
 
 layout(local_size_x = 64) in;

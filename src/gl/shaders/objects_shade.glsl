@@ -4,6 +4,8 @@
  */
 #include "objects_pixel.glsl"
 #include "sky.k"
+#undef MARCH_WAVE
+#define MARCH_WAVE(cx, i) caustic_wave(i)
 #include "material.k"
 
 struct RayEnd {
