@@ -192,7 +192,7 @@ static mgt_status check_material(const reporter *r, size_t index, const mgt_mate
         TRY(object_range(r, index, "material.base_color", (double)m->base_color[i], 0, 1));
         TRY(object_range(r, index, "material.pattern_color", (double)m->pattern_color[i], 0, 1));
     }
-    TRY(object_range(r, index, "material.roughness", (double)m->roughness, 0.02, 1));
+    TRY(object_range(r, index, "material.roughness", (double)m->roughness, (double)0.02f, 1));
     TRY(object_range(r, index, "material.metallic", (double)m->metallic, 0, 1));
     TRY(object_range(r, index, "material.pattern", (int)m->pattern, 0, MGT_PATTERN_STRIPES));
     if (m->pattern == MGT_PATTERN_NONE)

@@ -672,7 +672,8 @@ static void lanes_surface(const FrameData *frame, const tile_waves *tile, const 
         const vec3 ray = pixel_ray_at(&context, lane_numbers() + (float)(i % TILE_WIDTH), real_broadcast((float)(i / TILE_WIDTH)));
         const SampleHit hit = sample_hit(&context, ray, load_guess(guess, i));
         const mask water = hit.found > real(0.0f);
-        store(out->along + i, SELECT(water, hit.along * sqrt(length_squared(ray)), real(infinity)));
+        /* Within a wave the surface is behind the camera. */
+        store(out->along + i, SELECT(water, max(hit.along, real(0.0f)) * sqrt(length_squared(ray)), real(infinity)));
         store_normal(out, i, hit.slope, water);
     }
 }
