@@ -3,6 +3,8 @@
  *
  *   picture_check near A B MAX MEAN DIFFERENCE.png   largest and mean |A − B| within limits; else |A − B| × 8 is saved
  *   picture_check most A B FAR SHARE MEAN DIFFERENCE.png   the share of |A − B| beyond FAR and the mean of the others within limits; else the same
+ *   picture_check runs A B FAR SHARE RUN DIFFERENCE.png   the share of pixels with |A − B| beyond FAR, and how long the longest of their connected
+ *                                                    runs is, within limits; else the same
  *   picture_check crop WHOLE PART X Y                PART equals that place of WHOLE to the bit
  *   picture_check depth A B                          per cent of B's pixels off by more than max(1%, 5 mm), and the largest error
  *
@@ -110,6 +112,70 @@ static int check_most(const picture_pair *p, char **limits)
     return 1;
 }
 
+/* ---- runs ---- */
+
+static bool *find_far(const picture_pair *p, double far, size_t *count)
+{
+    const size_t pixels = (size_t)p->a.width * p->a.height;
+    bool *off = calloc(pixels, sizeof *off);
+    *count = 0;
+    for (size_t i = 0; off && i < pixels; i++) {
+        for (size_t c = 0; c < p->a.channels; c++)
+            off[i] = off[i] || distance(p->a.pixels[i * p->a.channels + c], p->b.pixels[i * p->a.channels + c]) > far;
+        *count += off[i];
+    }
+    return off;
+}
+
+/* Side of the smallest square that holds the pixels connected with `first`, corners counted; they are taken off. `stack` has room for all pixels. */
+static uint32_t run_length(bool *off, size_t *stack, uint32_t width, uint32_t height, size_t first)
+{
+    uint32_t low_x = width, low_y = height, high_x = 0, high_y = 0;
+    size_t waiting = 0;
+    stack[waiting++] = first;
+    off[first] = false;
+    while (waiting > 0) {
+        const size_t at = stack[--waiting];
+        const uint32_t x = (uint32_t)(at % width), y = (uint32_t)(at / width);
+        low_x = x < low_x ? x : low_x, high_x = x > high_x ? x : high_x;
+        low_y = y < low_y ? y : low_y, high_y = y > high_y ? y : high_y;
+        for (uint32_t row = y > 0 ? y - 1 : 0; row <= y + 1 && row < height; row++)
+            for (uint32_t column = x > 0 ? x - 1 : 0; column <= x + 1 && column < width; column++) {
+                const size_t next = (size_t)row * width + column;
+                if (off[next])
+                    stack[waiting++] = next;
+                off[next] = false;
+            }
+    }
+    const uint32_t across = high_x - low_x, down = high_y - low_y;
+    return (across > down ? across : down) + 1;
+}
+
+static int check_runs(const picture_pair *p, char **limits)
+{
+    if (!same_shape(p))
+        return 1;
+    const size_t pixels = (size_t)p->a.width * p->a.height;
+    size_t beyond, *stack = malloc(pixels * sizeof *stack);
+    bool *off = find_far(p, atof(limits[0]), &beyond);
+    uint32_t longest = 0;
+    for (size_t i = 0; off && stack && i < pixels; i++) {
+        const uint32_t length = off[i] ? run_length(off, stack, p->a.width, p->a.height, i) : 0;
+        longest = length > longest ? length : longest;
+    }
+    const bool ready = off && stack;
+    free(off);
+    free(stack);
+    if (!ready)
+        return 66;
+    const double share = (double)beyond / (double)pixels;
+    printf("share beyond %s: %.5f (≤ %s), longest run %u (≤ %s)\n", limits[0], share, limits[1], longest, limits[2]);
+    if (share <= atof(limits[1]) && longest <= strtoul(limits[2], NULL, 10))
+        return 0;
+    save_difference(p, limits[3]);
+    return 1;
+}
+
 static int check_crop(const picture_pair *p, char **place)
 {
     const unsigned long x = strtoul(place[0], NULL, 10), y = strtoul(place[1], NULL, 10);
@@ -149,15 +215,20 @@ int main(int count, char **arguments)
 {
     const char *verb = count > 3 ? arguments[1] : "";
     const bool near = !strcmp(verb, "near") && count == 7, crop = !strcmp(verb, "crop") && count == 6;
-    const bool most = !strcmp(verb, "most") && count == 8, depth = !strcmp(verb, "depth") && count == 4;
-    if (!near && !most && !crop && !depth) {
-        fprintf(stderr, "usage: picture_check near A B MAX MEAN DIFFERENCE.png | most A B FAR SHARE MEAN DIFFERENCE.png | crop WHOLE PART X Y | depth A B\n");
+    const bool most = !strcmp(verb, "most") && count == 8, runs = !strcmp(verb, "runs") && count == 8, depth = !strcmp(verb, "depth") && count == 4;
+    if (!near && !most && !runs && !crop && !depth) {
+        fprintf(stderr, "usage: picture_check near A B MAX MEAN DIFFERENCE.png | most A B FAR SHARE MEAN DIFFERENCE.png |\n"
+                        "       runs A B FAR SHARE RUN DIFFERENCE.png | crop WHOLE PART X Y | depth A B\n");
         return 64;
     }
     picture_pair pair = {0};
     int code = 66;
     if (read_pair(&pair, arguments + 2))
-        code = near ? check_near(&pair, arguments + 4) : most ? check_most(&pair, arguments + 4) : crop ? check_crop(&pair, arguments + 4) : check_depth(&pair);
+        code = near   ? check_near(&pair, arguments + 4)
+               : most ? check_most(&pair, arguments + 4)
+               : runs ? check_runs(&pair, arguments + 4)
+               : crop ? check_crop(&pair, arguments + 4)
+                      : check_depth(&pair);
     float_image_free(&pair.a);
     float_image_free(&pair.b);
     return code;
