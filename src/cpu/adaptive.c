@@ -69,6 +69,8 @@ static FrameData sort_cells(const forest *f, size_t tile, int across, int down, 
     const FrameData data = sort_set(f, tile, parts->sets[f->moves ? part + 1 : part], across, down, &s->close);
     if (f->moves)
         sort_set(f, tile, parts->sets[part], across, down, &s->open);
+    if (f->moves)
+        s->close.data.light_reach = s->open.data.light_reach = s->close.data.light_reach | s->open.data.light_reach;
     forest_price(f, &f->tiles[tile], (across + down) / 2, s->close.data.resolved_count + s->close.data.mixed_count);
     return data;
 }
@@ -98,7 +100,7 @@ static void plant_tile(void *argument, size_t tile, uint32_t worker)
     tile_find_guesses(a->kernels, &data, &s->close, &s->close_guess);
     if (f->moves)
         tile_find_guesses(a->kernels, &data, &s->open, &s->open_guess);
-    a->kernels->filtered(&data, a->sky, NULL, NULL, MGT_METHOD_MANGATA, &s->close, &s->close_guess, f->moves ? &s->open : NULL,
+    a->kernels->filtered(&data, a->sky, a->objects ? &a->objects[tile].light : NULL, NULL, MGT_METHOD_MANGATA, &s->close, &s->close_guess, f->moves ? &s->open : NULL,
                          f->moves ? &s->open_guess : NULL, &s->pixels, detail);
     const uint32_t left = (uint32_t)(tile % f->columns) * TILE_WIDTH, top = (uint32_t)(tile / f->columns) * TILE_HEIGHT;
     for (uint32_t y = 0; y < TILE_HEIGHT && top + y < p->height; y++)
@@ -141,6 +143,14 @@ static bool grow(const forest *f, size_t tile, int across, int down, uint32_t wo
     const int level = (across + down) / 2, parts = forest_parts(f, level)->count;
     memset(&sum->pixels, 0, sizeof sum->pixels);
     memset(&sum->detail, 0, sizeof sum->detail);
+    cells->light = NULL;
+    if (a->objects) {
+        uint16_t pixels[TILE_PIXELS];
+        for (size_t i = 0; i < cells->count; i++)
+            pixels[i] = (uint16_t)(((uint32_t)cells->row[i] >> down) * TILE_WIDTH + ((uint32_t)cells->column[i] >> across));
+        light_of_pixels(&a->objects[tile].light, pixels, cells->count, &s->objects.light);
+        cells->light = &s->objects.light;
+    }
     for (int part = 0; part < parts; part++) {
         const FrameData data = sort_cells(f, tile, across, down, part, s);
         a->kernels->cells(&data, a->sky, &s->close, f->moves ? &s->open : NULL, cells);

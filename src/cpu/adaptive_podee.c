@@ -216,6 +216,7 @@ static bool take_samples(detail_job *job, size_t tile, const tile_tasks *tasks, 
     tile_scratch *s = a->scratch[worker];
     const rival_tile t = {.frame = &a->frame->data,
                           .sky = a->sky,
+                          .light = a->objects ? &s->objects.light : NULL,
                           .close = &s->close,
                           .close_guess = &s->close_guess,
                           .open = job->open ? &s->open : NULL,
@@ -228,6 +229,8 @@ static bool take_samples(detail_job *job, size_t tile, const tile_tasks *tasks, 
             const double place = podee_slot_place(k, job->slots, job->before[job->tiles]);
             add_ray(job, &corner, tasks->pixel[podee_task_at(tasks->before, tasks->count, place)], sums, &rays);
         }
+        if (a->objects)
+            light_of_pixels(&a->objects[tile].light, rays.pixel, rays.count, &s->objects.light);
         a->kernels->rivals->temporal(&t, &rays);
         add_results(&rays, sums);
         if (++batches % BATCHES_BETWEEN_WORDS == 0 && worker == 0 && a->keep_going)

@@ -10,6 +10,7 @@
 typedef struct point_batch {
     int count;
     uint32_t owner[TILE_PIXELS];
+    uint16_t pixel[TILE_PIXELS]; /* of the tile */
 } point_batch;
 
 /* Point `index` of a leaf's sequence: the R2 sequence (Roberts 2018), shifted by the leaf and the seed. Its hit is looked for as its pixel's is. */
@@ -21,20 +22,24 @@ static void add_point(const leaf *l, double shift, int index, uint32_t owner, po
     s->jitter_x[i] = (float)(ldexp(l->column + u - floor(u), -l->across) - 0.5 - i % TILE_WIDTH);
     s->jitter_y[i] = (float)(ldexp(l->row + v - floor(v), -l->down) - 0.5 - i / TILE_WIDTH);
     const size_t pixel = (size_t)(l->row >> l->down) * TILE_WIDTH + (l->column >> l->across);
+    batch->pixel[i] = (uint16_t)pixel;
     s->close_guess.height[i] = s->open_guess.height[pixel];
     s->close_guess.from[i] = s->open_guess.from[pixel];
     s->close_guess.march[i] = s->open_guess.march[pixel];
 }
 
 /* Sums of color, coverage and water go to sums[5 × owner]. */
-static void render_points(const forest *f, point_batch *batch, tile_scratch *s, double *sums)
+static void render_points(const forest *f, size_t tile, point_batch *batch, tile_scratch *s, double *sums)
 {
+    const tile_opened *objects = f->a->objects;
     for (int i = batch->count; i < TILE_PIXELS; i++) {
         s->jitter_x[i] = s->jitter_x[0] - (float)(i % TILE_WIDTH);
         s->jitter_y[i] = s->jitter_y[0] - (float)(i / TILE_WIDTH);
     }
     memset(&s->pixels, 0, sizeof s->pixels);
-    f->a->kernels->sample(&f->a->frame->data, f->a->sky, NULL, &s->close, &s->close_guess, s->jitter_x, s->jitter_y, 1, &s->pixels);
+    if (objects)
+        light_of_pixels(&objects[tile].light, batch->pixel, (size_t)batch->count, &s->objects.light);
+    f->a->kernels->sample(&f->a->frame->data, f->a->sky, objects ? &s->objects.light : NULL, &s->close, &s->close_guess, s->jitter_x, s->jitter_y, 1, &s->pixels);
     for (int i = 0; i < batch->count; i++) {
         double *sum = sums + 5 * batch->owner[i];
         sum[0] += (double)s->pixels.red[i];
@@ -80,11 +85,11 @@ bool forest_scatter_points(const forest *f, size_t tile, size_t end, uint32_t wo
             for (int n = l->points + k; n < leaf_next_points(l); n += INSTANTS) {
                 add_point(l, shift, n, (uint32_t)i, &batch, s);
                 if (batch.count == TILE_PIXELS)
-                    render_points(f, &batch, s, sums);
+                    render_points(f, tile, &batch, s, sums);
             }
         }
         if (batch.count > 0)
-            render_points(f, &batch, s, sums);
+            render_points(f, tile, &batch, s, sums);
     }
     bool added = true;
     for (size_t i = 0; i < end && added; i++) {

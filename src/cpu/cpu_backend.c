@@ -479,6 +479,12 @@ static bool wants_glare(const mgt_scene *scene, const mgt_target *targets, size_
     return false;
 }
 
+/* Or only water, which a camera in it sees everywhere. */
+static bool shows_objects(const frame *f)
+{
+    return f->scene->object_count > 0 || f->under;
+}
+
 static mgt_status render_picture(cpu_state *s, const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count,
                                  const frame_pass *pass)
 {
@@ -513,7 +519,7 @@ static mgt_status render_picture(cpu_state *s, const reporter *r, const mgt_scen
         }
         reference_frame_destroy(job.reference);
     } else {
-        const bool objects = scene->object_count > 0 || job.frame.under;
+        const bool objects = shows_objects(&job.frame);
         frame_waves_build(&job.frame, s->waves);
         if (objects)
             status = refraction_prepare(&s->objects, r, &job.frame, s->sky, s->kernels, s->isa, s->pool);
@@ -526,7 +532,8 @@ static mgt_status render_picture(cpu_state *s, const reporter *r, const mgt_scen
                                .keep_going = s->progress ? keep_going : NULL,
                                .keep_going_argument = &job,
                                .lean = s->lean,
-                               .objects = objects ? s->objects : NULL};
+                               .objects = objects ? s->objects : NULL,
+                               .behind = pass && pass->behind};
         if (status == MGT_OK)
             finished = run_loop(&job, TILE_WIDTH, TILE_HEIGHT, render_tile);
         if (objects && finished)
@@ -601,13 +608,66 @@ static bool tell_adaptive(void *argument, double fraction)
 static mgt_status approximate_picture(const picture_user *u, const mgt_scene *scene, const picture_planes *out)
 {
     mgt_scene plain = *scene;
-    plain.quality = (mgt_quality){.method = MGT_METHOD_PODEE_UNIFORM, .spatial_samples = 1, .time_samples = 1};
+    plain.quality = plain_quality(&scene->quality, MGT_METHOD_PODEE_UNIFORM);
     const size_t size = sizeof(mgt_target);
     const mgt_target layers[] = {{size, MGT_LAYER_COLOR, MGT_FORMAT_RGB32F, out->color, 0},
                                  {size, MGT_LAYER_COVERAGE, MGT_FORMAT_R32F, out->coverage, 0},
                                  {size, MGT_LAYER_MASK, MGT_FORMAT_R32F, out->water, 0}};
-    const frame_pass pass = {camera_rays_of(&scene->camera, scene->image.width, scene->image.height), 0, 0.3};
+    const frame_pass pass = {camera_rays_of(&scene->camera, scene->image.width, scene->image.height), 0, 0.3, true};
     return render_picture(u->state, u->r, &plain, layers, 3, &pass);
+}
+
+/* What all tiles see of objects, before method adaptive begins. */
+typedef struct objects_job {
+    tile_job tiles;
+    tile_scratch **scratch;
+    uint32_t columns;
+    tile_opened *seen;
+} objects_job;
+
+static void see_tile(void *argument, size_t tile, uint32_t worker)
+{
+    const objects_job *job = argument;
+    tile_scratch *s = job->scratch[worker];
+    tile_see_objects(&job->tiles, (uint32_t)(tile % job->columns), (uint32_t)(tile / job->columns), s);
+    refraction_keep(&s->objects, &job->seen[tile]);
+}
+
+static mgt_status see_objects(const picture_user *u, const frame *f, objects_job *job)
+{
+    cpu_state *s = u->state;
+    if (!shows_objects(f))
+        return MGT_OK;
+    const mgt_image *image = &f->scene->image;
+    job->columns = (image->width + TILE_WIDTH - 1) / TILE_WIDTH;
+    const size_t tiles = (size_t)job->columns * ((image->height + TILE_HEIGHT - 1) / TILE_HEIGHT);
+    job->scratch = s->scratch;
+    job->seen = malloc(tiles * sizeof *job->seen);
+    if (!job->seen)
+        return report_error(u->r, MGT_ERROR_MEMORY, "render.memory", "out of memory for the objects of %u x %u pixels", image->width, image->height);
+    frame_waves_build(f, s->waves);
+    const mgt_status status = refraction_prepare(&s->objects, u->r, f, s->sky, s->kernels, s->isa, s->pool);
+    if (status != MGT_OK)
+        return status;
+    job->tiles = (tile_job){.frame = f, .waves = s->waves, .kernels = s->kernels, .sky = s->sky->table, .objects = s->objects};
+    const thread_loop loop = {tiles, see_tile, job, NULL};
+    thread_pool_run(s->pool, &loop);
+    return MGT_OK;
+}
+
+/* What stands in front of the water, over the finished picture. */
+static void put_objects_before(const objects_job *job, const picture_planes *p)
+{
+    for (uint32_t y = 0; y < p->height && job->seen; y++)
+        for (uint32_t x = 0; x < p->width; x++) {
+            const tile_opened *o = &job->seen[(size_t)(y / TILE_HEIGHT) * job->columns + x / TILE_WIDTH];
+            const size_t from = (size_t)(y % TILE_HEIGHT) * TILE_WIDTH + x % TILE_WIDTH, to = (size_t)y * p->width + x;
+            const float share = o->share[from];
+            for (size_t k = 0; k < 3 && share > 0; k++)
+                p->color[3 * to + k] += share * (o->color[k][from] - p->color[3 * to + k]);
+            p->coverage[to] *= 1 - share;
+            p->water[to] *= 1 - share;
+        }
 }
 
 static mgt_status adapt_picture(void *user, const mgt_scene *scene, const picture_planes *out)
@@ -619,8 +679,17 @@ static mgt_status adapt_picture(void *user, const mgt_scene *scene, const pictur
     if (status != MGT_OK)
         return status;
     const frame f = frame_of(scene, s->sky, true);
-    const adaptive_frame a = {&f, s->kernels, s->sky->table, s->pool, s->scratch, tell_adaptive, s};
+    objects_job objects = {.seen = NULL};
+    status = see_objects(u, &f, &objects);
+    if (status != MGT_OK) {
+        free(objects.seen);
+        return status;
+    }
+    const adaptive_frame a = {&f, s->kernels, s->sky->table, s->pool, s->scratch, objects.seen, tell_adaptive, s};
     status = podee ? adaptive_podee_render(&a, out) : adaptive_render(&a, &s->adaptive, out);
+    if (status == MGT_OK)
+        put_objects_before(&objects, out);
+    free(objects.seen);
     if (status == MGT_OK)
         return MGT_OK;
     return report_error(u->r, status, status == MGT_CANCELLED ? "render.cancelled" : "render.memory",
@@ -630,8 +699,8 @@ static mgt_status adapt_picture(void *user, const mgt_scene *scene, const pictur
 static mgt_status cpu_render(void *state, const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count)
 {
     const mgt_method method = scene->quality.method;
-    if ((scene->object_count > 0 || scene->camera.position[1] < 0) && (method == MGT_METHOD_ADAPTIVE || method == MGT_METHOD_REFERENCE))
-        return report_error(r, MGT_ERROR_UNSUPPORTED, "render.method", "methods adaptive and reference do not draw objects or cameras under water yet; ssaa does");
+    if ((scene->object_count > 0 || scene->camera.position[1] < 0) && method == MGT_METHOD_REFERENCE)
+        return report_error(r, MGT_ERROR_UNSUPPORTED, "render.method", "method reference does not draw objects or cameras under water yet; ssaa does");
     if (!is_whole_frame_method(scene->quality.method))
         return render_picture(state, r, scene, targets, count, NULL);
     picture_user user = {state, r};

@@ -63,6 +63,9 @@ void refraction_blend(tile_objects *o, const tile_opened *opened);
 /* Whether objects in front leave nothing else of the tile. */
 bool refraction_covers(const tile_objects *o);
 
+/* Planes of `count` places, each with the light of a pixel of the tile. */
+void light_of_pixels(const tile_light *light, const uint16_t *pixels, size_t count, tile_light *out);
+
 /* Puts what stands in front before a tile's pixels, and before its layers of depth and normals; either may be NULL. */
 void refraction_compose(const tile_objects *o, tile_pixels *pixels, tile_surface *surface);
 

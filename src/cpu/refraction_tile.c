@@ -293,6 +293,19 @@ static void put_before(float *below, const float *above, const float *share)
         below[i] = share[i] >= 1 ? above[i] : share[i] > 0 ? below[i] + share[i] * (above[i] - below[i]) : below[i];
 }
 
+void light_of_pixels(const tile_light *light, const uint16_t *pixels, size_t count, tile_light *out)
+{
+    enum { PLANES = sizeof(tile_light) / sizeof(float) / TILE_PIXELS };
+    for (size_t plane = 0; plane < PLANES; plane++) {
+        const float *from = light->body[0] + plane * TILE_PIXELS;
+        float *to = out->body[0] + plane * TILE_PIXELS;
+        for (size_t i = 0; i < count; i++)
+            to[i] = from[pixels[i]];
+        for (size_t i = count; i < TILE_PIXELS; i++)
+            to[i] = to[count > 0 ? count - 1 : 0];
+    }
+}
+
 void refraction_keep(const tile_objects *o, tile_opened *opened)
 {
     opened->light = o->light;

@@ -162,7 +162,7 @@ static inline HitGuess gather_guess(const tile_guess *guess, const uint16_t *lis
 
 static void lanes_temporal(const rival_tile *t, temporal_rays *rays)
 {
-    const struct kernel_context cx = {
+    struct kernel_context cx = {
         .frame = t->frame, .tile = &t->close->data, .waves = t->close->waves, .march = t->close->march, .sky = t->sky};
     struct kernel_context open = cx;
     if (t->open)
@@ -174,6 +174,7 @@ static void lanes_temporal(const rival_tile *t, temporal_rays *rays)
     }
     for (size_t i = 0; i < rays->count; i += MGT_LANES) {
         const real column = load(rays->column + i), row = load(rays->row + i);
+        cx.light = light_at(t->light, i);
         const vec3 ray = pixel_ray_at(&cx, column, row);
         const TemporalEnd close = temporal_end(&cx, ray, gather_guess(t->close_guess, rays->pixel + i));
         TemporalEnd before = close;

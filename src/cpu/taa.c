@@ -122,7 +122,7 @@ mgt_camera taa_camera(const mgt_scene *s, double share)
         c.up[i] += share * (s->camera_open.up[i] - s->camera.up[i]);
     }
     c.fov_y_deg = fmin(fmax(c.fov_y_deg + share * (s->camera_open.fov_y_deg - s->camera.fov_y_deg), 1), 178);
-    c.position[1] = fmax(c.position[1], 0.1 * s->camera.position[1]);
+    c.position[1] = s->camera.position[1] < 0 ? fmin(c.position[1], 0.1 * s->camera.position[1]) : fmax(c.position[1], 0.1 * s->camera.position[1]);
     return c;
 }
 
@@ -161,7 +161,7 @@ static mgt_status render_current(const taa_history *h, int back, const picture_p
 {
     mgt_scene scene = *h->scene;
     scene.time -= back * h->interval;
-    frame_pass pass = {rays_before(h, back), (double)(TAA_FRAMES - 1 - back) / TAA_FRAMES, 1.0 / TAA_FRAMES};
+    frame_pass pass = {rays_before(h, back), (double)(TAA_FRAMES - 1 - back) / TAA_FRAMES, 1.0 / TAA_FRAMES, false};
     double offset[2];
     taa_offset(back, offset);
     for (int i = 0; i < 3; i++)

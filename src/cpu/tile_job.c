@@ -261,6 +261,11 @@ static void render_pixels(tile_place place, tile_scratch *scratch)
         render_centre(place, scratch);
 }
 
+void tile_see_objects(const tile_job *job, uint32_t tile_x, uint32_t tile_y, tile_scratch *scratch)
+{
+    see_objects((tile_place){job, tile_x, tile_y}, scratch);
+}
+
 void tile_render(const tile_job *job, uint32_t tile_x, uint32_t tile_y, tile_scratch *scratch)
 {
     const tile_place place = {job, tile_x, tile_y};
@@ -273,6 +278,6 @@ void tile_render(const tile_job *job, uint32_t tile_x, uint32_t tile_y, tile_scr
         render_pixels(place, scratch);
     if (job->wants.surface && !covered)
         render_surface(place, scratch);
-    if (job->objects)
+    if (job->objects && !job->behind)
         refraction_compose(&scratch->objects, job->wants.pixels ? &scratch->pixels : NULL, job->wants.surface ? &scratch->surface : NULL);
 }

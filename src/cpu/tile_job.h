@@ -50,9 +50,13 @@ typedef struct tile_job {
     void *keep_going_argument;
     const struct lean_map *lean; /* filled, for methods lean and leadr; else NULL */
     refraction *objects;         /* prepared for the frame; NULL: the scene has none */
+    bool behind;               /* objects in front of the water are left out */
 } tile_job;
 
 /* Fills scratch->pixels and scratch->surface for the tile (tile_x, tile_y) of the lattice. Not for the reference. */
 void tile_render(const tile_job *job, uint32_t tile_x, uint32_t tile_y, tile_scratch *scratch);
+
+/* Fills scratch->objects alone. */
+void tile_see_objects(const tile_job *job, uint32_t tile_x, uint32_t tile_y, tile_scratch *scratch);
 
 #endif

@@ -43,8 +43,6 @@ static const float *plane_of(const picture_planes *p, mgt_layer layer)
     case MGT_LAYER_SAMPLES: return p->samples;
     case MGT_LAYER_IMPORTANCE: return p->importance;
     case MGT_LAYER_DETAIL: return p->detail;
-    case MGT_LAYER_REFRACTION:
-    case MGT_LAYER_REFRACTION_ERROR: return NULL;
     default: return p->water;
     }
 }
@@ -57,12 +55,12 @@ static void fill_row(float *out, uint32_t count, float value)
 
 static void copy_layer(const mgt_target *t, const region *crop, const picture_planes *p, float samples)
 {
-    const size_t channels = t->layer == MGT_LAYER_COLOR || t->layer == MGT_LAYER_REFRACTION ? 3 : 1;
+    const size_t channels = t->layer == MGT_LAYER_COLOR ? 3 : 1;
     const float *plane = plane_of(p, t->layer);
     for (uint32_t y = 0; y < crop->height; y++) {
         float *out = target_row(t, crop, y);
         if (!plane) {
-            fill_row(out, crop->width * (uint32_t)(format_size(t->format) / sizeof *out), t->layer == MGT_LAYER_SAMPLES ? samples : 0);
+            fill_row(out, crop->width, t->layer == MGT_LAYER_SAMPLES ? samples : 0);
             continue;
         }
         const float *in = plane + ((size_t)(crop->y + y) * p->width + crop->x) * channels;
@@ -79,7 +77,7 @@ static void copy_layer(const mgt_target *t, const region *crop, const picture_pl
 
 static bool shows_surface(const mgt_target *t)
 {
-    return t->layer == MGT_LAYER_DEPTH || t->layer == MGT_LAYER_NORMAL;
+    return t->layer == MGT_LAYER_DEPTH || t->layer == MGT_LAYER_NORMAL || t->layer == MGT_LAYER_REFRACTION || t->layer == MGT_LAYER_REFRACTION_ERROR;
 }
 
 static mgt_status write_targets(const picture_maker *m, const mgt_scene *scene, const mgt_target *targets, size_t count, const picture_planes *p)
@@ -94,19 +92,31 @@ static mgt_status write_targets(const picture_maker *m, const mgt_scene *scene, 
     return status;
 }
 
+mgt_quality plain_quality(const mgt_quality *q, mgt_method method)
+{
+    return (mgt_quality){.method = method,
+                         .spatial_samples = 1,
+                         .time_samples = 1,
+                         .seed = q->seed,
+                         .refraction = q->refraction,
+                         .tess_error = q->tess_error,
+                         .refraction_samples = q->refraction_samples,
+                         .caustics = q->caustics};
+}
+
 /* By another method and without a crop. */
 static mgt_scene plain_scene(const mgt_scene *scene, mgt_method method)
 {
     mgt_scene plain = *scene;
-    plain.quality = (mgt_quality){.method = method, .spatial_samples = 1, .time_samples = 1, .seed = scene->quality.seed};
+    plain.quality = plain_quality(&scene->quality, method);
     plain.image = (mgt_image){.width = scene->image.width, .height = scene->image.height};
     return plain;
 }
 
-/* Depth and normal are those of `none` or, for adaptive, of `mangata`; `share` of the progress is theirs. */
+/* Depth, normal and what is seen through the surface are those of `none` or, for adaptive, of `mangata`; `share` of the progress is theirs. */
 static mgt_status render_surface(const picture_maker *m, const mgt_scene *scene, const mgt_target *targets, size_t count, double share)
 {
-    const frame_pass pass = {camera_rays_of(&scene->camera, scene->image.width, scene->image.height), 0, share};
+    const frame_pass pass = {camera_rays_of(&scene->camera, scene->image.width, scene->image.height), 0, share, false};
     mgt_scene plain = plain_scene(scene, scene->quality.method == MGT_METHOD_ADAPTIVE ? MGT_METHOD_MANGATA : MGT_METHOD_NONE);
     plain.image = scene->image;
     mgt_status status = MGT_OK;

@@ -10,6 +10,7 @@
 typedef struct frame_pass {
     camera_rays camera; /* instead of the scene's */
     double first, share; /* of the frame's progress: what is done already, and what this picture adds */
+    bool behind;         /* objects in front of the water are left out */
 } frame_pass;
 
 /* A whole picture; members point into one allocation. */
@@ -40,6 +41,9 @@ typedef struct picture_maker {
 
 bool is_whole_frame_method(mgt_method method);
 
+/* Defaults of a method, with the seed and the refraction of `q`. */
+mgt_quality plain_quality(const mgt_quality *q, mgt_method method);
+
 /* Renders a scene whose method is fxaa, taa or adaptive. */
 mgt_status whole_frame_render(const picture_maker *m, const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count);
 
@@ -64,7 +68,7 @@ enum { TAA_FRAMES = 8 };
 /* Seconds between its frames. */
 double taa_interval(const mgt_scene *scene);
 
-/* The camera `share` of the shutter before it closes, on the line that it takes while the shutter is open; never under the water. */
+/* The camera `share` of the shutter before it closes, on the line that it takes while the shutter is open; never on the other side of the water. */
 mgt_camera taa_camera(const mgt_scene *scene, double share);
 
 /* Where in the pixel the frame `back` frames ago looks, in pixels from the centre: columns and rows. */
