@@ -218,6 +218,8 @@ const char *gl_lacks(const mgt_scene *scene)
         break;
     default: break;
     }
+    if (scene->object_count > 0 && scene->quality.refraction == MGT_REFRACTION_LIU && scene->camera.position[1] < 0)
+        return "refraction liu from under water runs";
     if (scene->object_count > 0 && scene->quality.refraction_samples > MOST_PLACES)
         return "more than 4 x 4 samples of refraction a pixel run";
     return NULL;
