@@ -23,8 +23,8 @@
     X(BLENDEQUATIONSEPARATEI, BlendEquationSeparatei)                               \
     X(BLENDFUNCSEPARATEI, BlendFuncSeparatei)                                       \
     X(CHECKNAMEDFRAMEBUFFERSTATUS, CheckNamedFramebufferStatus)                     \
-    X(CLEARNAMEDFRAMEBUFFERFV, ClearNamedFramebufferfv)                             \
-    X(CLEARNAMEDFRAMEBUFFERIV, ClearNamedFramebufferiv)                             \
+    X(CLEARBUFFERFV, ClearBufferfv)                                                 \
+    X(CLEARBUFFERIV, ClearBufferiv)                                                 \
     X(CLIENTWAITSYNC, ClientWaitSync)                                               \
     X(CLIPCONTROL, ClipControl)                                                     \
     X(COLORMASKI, ColorMaski)                                                       \

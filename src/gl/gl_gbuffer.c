@@ -107,8 +107,8 @@ static mgt_status draw_layer(gl_renderer *g, const gl_gbuffer *layer, const gbuf
     gl_uniform(g, BIND_WAVES, &picture, sizeof picture);
     gl_uniform(g, BIND_EXTRA, &data, sizeof data);
     gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, layer->framebuffer);
-    gl->ClearNamedFramebufferiv(layer->framebuffer, GL_COLOR, 0, nothing);
-    gl->ClearNamedFramebufferfv(layer->framebuffer, GL_DEPTH, 0, &farthest);
+    gl->ClearBufferiv(GL_COLOR, 0, nothing);
+    gl->ClearBufferfv(GL_DEPTH, 0, &farthest);
     if (w->triangle_count > 0)
         gl->DrawArrays(bent ? GL_PATCHES : GL_TRIANGLES, 0, (GLsizei)(3 * w->triangle_count));
     return MGT_OK;

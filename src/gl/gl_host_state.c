@@ -108,7 +108,11 @@ static void save_drawing(const gl_api *gl, gl_host_state *s)
     for (int i = 0; i < CAPABILITIES; i++)
         s->capabilities[i] = gl->IsEnabled(capabilities[i]);
     s->blend = gl->IsEnabledi(GL_BLEND, 0);
-    s->scissor = gl->IsEnabledi(GL_SCISSOR_TEST, 0);
+    gl->GetIntegerv(GL_MAX_VIEWPORTS, &s->viewports);
+    if (s->viewports > VIEWPORTS)
+        s->viewports = VIEWPORTS;
+    for (GLuint i = 0; i < (GLuint)s->viewports; i++)
+        s->scissor[i] = gl->IsEnabledi(GL_SCISSOR_TEST, i);
     gl->GetBooleanv(GL_DEPTH_WRITEMASK, &s->depth_mask);
     gl->GetIntegerv(GL_DEPTH_FUNC, &s->depth_func);
     gl->GetIntegerv(GL_POLYGON_MODE, s->polygon_mode);
@@ -136,7 +140,8 @@ void gl_host_state_restore_drawing(const gl_api *gl, const gl_host_state *s)
     for (int i = 0; i < CAPABILITIES; i++)
         set_capability(gl, capabilities[i], s->capabilities[i]);
     (s->blend ? gl->Enablei : gl->Disablei)(GL_BLEND, 0);
-    (s->scissor ? gl->Enablei : gl->Disablei)(GL_SCISSOR_TEST, 0);
+    for (GLuint i = 0; i < (GLuint)s->viewports; i++)
+        (s->scissor[i] ? gl->Enablei : gl->Disablei)(GL_SCISSOR_TEST, i);
     gl->DepthMask(s->depth_mask);
     gl->DepthFunc((GLenum)s->depth_func);
     gl->PolygonMode(GL_FRONT_AND_BACK, (GLenum)s->polygon_mode[0]);
@@ -152,7 +157,7 @@ void gl_host_state_neutral(const gl_api *gl, const gl_host_state *s)
     for (int i = 1; i < CAPABILITIES; i++)
         if (s->capabilities[i])
             gl->Disable(capabilities[i]);
-    gl->Disablei(GL_SCISSOR_TEST, 0);
+    gl->Disable(GL_SCISSOR_TEST); /* of all viewports: Mesa clips the first picture of a framebuffer by any of them */
     gl->PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
     for (GLuint i = 0; i < (GLuint)s->draw_buffers; i++) {
         const GLboolean first = i == 0;

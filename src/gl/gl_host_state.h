@@ -6,7 +6,7 @@
 #include "gl/gl_api.h"
 #include "gl/gl_pass_data.h"
 
-enum { DRAW_BUFFERS = 8, CAPABILITIES = 22, PIXEL_STORES = 16 };
+enum { DRAW_BUFFERS = 8, CAPABILITIES = 22, PIXEL_STORES = 16, VIEWPORTS = 16 };
 
 typedef struct buffer_range {
     GLint name;
@@ -30,9 +30,9 @@ typedef struct gl_host_state {
     GLfloat viewport[4], depth_range[2];
     GLint clip_origin, clip_depth, patch_vertices;
     GLboolean capabilities[CAPABILITIES];
-    GLboolean blend, scissor, depth_mask;
+    GLboolean blend, scissor[VIEWPORTS], depth_mask;
     GLboolean color_mask[DRAW_BUFFERS][4];
-    GLint draw_buffers;
+    GLint draw_buffers, viewports;
     GLint depth_func, polygon_mode[2];
     GLint blend_source_rgb, blend_destination_rgb, blend_source_alpha, blend_destination_alpha, blend_equation_rgb, blend_equation_alpha;
 } gl_host_state;
