@@ -9,6 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "figures_refraction.h"
 #include "interrupt.h"
 
 const char *const figure_scenes[FIGURE_SCENES] = {"simple", "smooth", "medium", "high"};
@@ -36,6 +37,16 @@ bool figure_wanted(const figures_job *f, figure_id id)
     return (f->request->wanted >> id & 1) != 0;
 }
 
+bool figures_podee_wanted(const figures_job *f)
+{
+    return (f->request->wanted & ((1u << FIGURES_PODEE) - 1)) != 0;
+}
+
+bool figures_liu_wanted(const figures_job *f)
+{
+    return f->request->wanted >> FIGURES_PODEE != 0;
+}
+
 int figures_no_memory(void)
 {
     return console_error(EXIT_CODE_FAILED, "out of memory");
@@ -60,7 +71,9 @@ static bool try_scenes(figures_job *f, const char *folder)
     for (int i = 0; i < FIGURE_SCENES; i++)
         if ((size_t)snprintf(f->scene_paths[i], sizeof f->scene_paths[i], "%s/%s.json", folder, figure_scenes[i]) >= sizeof f->scene_paths[i])
             return false;
-    return access(f->scene_paths[0], R_OK) == 0;
+    if (access(f->scene_paths[0], R_OK) != 0)
+        return false;
+    return (size_t)snprintf(f->folder, sizeof f->folder, "%s", folder) < sizeof f->folder;
 }
 
 /* Here, beside a build folder, or where they are installed. */
@@ -105,13 +118,14 @@ static int choose_pictures(figures_job *f)
             return console_error(EXIT_CODE_FAILED, "%s", wrong);
         f->picture[m] = ++c->method_count;
     }
-    if (c->method_count == 0 && !figure_wanted(f, FIGURE_12))
-        return EXIT_CODE_OK;
-    const int code = find_scenes(f);
+    const bool scenes = c->method_count > 0 || figure_wanted(f, FIGURE_12);
+    const int code = scenes || figures_liu_wanted(f) ? find_scenes(f) : EXIT_CODE_OK;
+    if (!scenes || code != EXIT_CODE_OK)
+        return code;
     for (int i = 0; i < FIGURE_SCENES; i++)
         c->scene_paths[i] = f->scene_paths[i];
     c->scene_count = FIGURE_SCENES;
-    return code;
+    return EXIT_CODE_OK;
 }
 
 /* ---- pictures for the makers ---- */
@@ -242,6 +256,8 @@ static int make_page(figures_job *f)
     if (!f->page)
         return figures_no_memory();
     int code = make_figures(f);
+    if (code == EXIT_CODE_OK && f->refraction)
+        code = figures_refraction(f);
     const bool failed = ferror(f->page) != 0;
     if ((fclose(f->page) != 0 || failed) && code == EXIT_CODE_OK)
         code = figures_no_memory();
@@ -258,6 +274,21 @@ static int make_pictures_folder(figures_job *f)
         return EXIT_CODE_USAGE;
     if (mkdir(path, 0777) != 0 && errno != EEXIST)
         return console_error(EXIT_CODE_CANNOT_WRITE, "%s: cannot make this folder: %s", path, strerror(errno));
+    return EXIT_CODE_OK;
+}
+
+static int print_tables(figures_job *f)
+{
+    char *table = figure_wanted(f, FIGURE_TABLE1) ? figures_table1_text(f) : NULL;
+    if (!table && figure_wanted(f, FIGURE_TABLE1))
+        return figures_no_memory();
+    if (table)
+        fputs(table, stdout);
+    if (table && f->refraction_table)
+        fputc('\n', stdout);
+    if (f->refraction_table)
+        fputs(f->refraction_table, stdout);
+    free(table);
     return EXIT_CODE_OK;
 }
 
@@ -286,12 +317,8 @@ static int print_end(figures_job *f)
                             json_pack("{s:o, s:I, s:I}", "folder", console_json_text(r->folder), "rendered", (json_int_t)f->compare->rendered, "kept",
                                       (json_int_t)f->compare->kept));
         code = console_print_json(json_incref(f->result));
-    } else if (figure_wanted(f, FIGURE_TABLE1)) {
-        char *table = figures_table1_text(f);
-        if (table)
-            fputs(table, stdout);
-        code = table ? EXIT_CODE_OK : figures_no_memory();
-        free(table);
+    } else {
+        code = print_tables(f);
     }
     if (code == EXIT_CODE_OK && r->check && f->failed)
         code = console_error(EXIT_CODE_DIFFERENT, "%u of %zu claims do not hold", f->failed, json_array_size(f->checks));
@@ -304,6 +331,9 @@ static int run(figures_job *f)
     if (code != EXIT_CODE_OK)
         return code;
     code = compare_open(f->compare, &f->renders, "index.html");
+    /* Before the first picture of either part, so that hours of rendering do not end at a bad scene. */
+    if (code == EXIT_CODE_OK && figures_liu_wanted(f))
+        code = figures_refraction_open(f, f->folder);
     if (code == EXIT_CODE_OK)
         code = make_pictures_folder(f);
     if (code == EXIT_CODE_OK && f->renders.method_count)
@@ -316,6 +346,7 @@ static int run(figures_job *f)
         code = make_page(f);
     if (code == EXIT_CODE_OK)
         code = print_end(f);
+    figures_refraction_close(f);
     compare_close(f->compare);
     return code;
 }
@@ -336,6 +367,7 @@ int figures_run(const figures_request *request)
     code = f->checks && f->result ? run(f) : figures_no_memory();
     json_decref(f->checks);
     json_decref(f->result);
+    free(f->refraction_table);
 done:
     free(compare);
     free(f);

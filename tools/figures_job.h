@@ -40,15 +40,22 @@ typedef struct figures_job {
     const figures_request *request;
     compare_request renders;
     compare_job *compare;
+    char folder[4200]; /* of the scenes; "" where none are needed */
     char scene_paths[FIGURE_SCENES][4300];
     size_t picture[FIGURE_METHODS]; /* its number in the comparison; 0: not wanted */
     figure_score scores[FIGURE_SCENES][FIGURE_METHODS];
+    struct refraction_figures *refraction; /* NULL where none of them is wanted */
+    char *refraction_table; /* as Markdown; NULL where none of it is wanted */
     FILE *page; /* the sections so far */
     json_t *result, *checks;
     uint32_t failed; /* checks */
 } figures_job;
 
 bool figure_wanted(const figures_job *f, figure_id id);
+
+/* Any figure of one paper or the other. */
+bool figures_podee_wanted(const figures_job *f);
+bool figures_liu_wanted(const figures_job *f);
 
 /* ---- for the makers of figures: figures_page.c, figures_job.c ---- */
 

@@ -54,10 +54,10 @@ void figures_check(figures_job *f, const char *claim, double value, double least
 
 static const char page_head[] = "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
                                 "content=\"width=device-width, initial-scale=1\">\n"
-                                "<title>The figures of Podee et al. 2021 again</title>\n<style>\n"
+                                "<title>The papers' figures again</title>\n<style>\n"
                                 "body { font: 16px/1.5 system-ui, \"DejaVu Sans\", sans-serif; color: #1c1c1c; background: #fafafa; max-width: "
                                 "1360px; margin: 0 auto; padding: 1.5em; }\n"
-                                "h1 { font-size: 1.6em; } h2 { font-size: 1.2em; margin: 0 0 .4em; }\n"
+                                "h1 { font-size: 1.6em; margin-top: 1.4em; } h2 { font-size: 1.2em; margin: 0 0 .4em; }\n"
                                 "section { background: #fff; border: 1px solid #ddd; border-radius: 6px; padding: 1.2em; margin: 1.4em 0; }\n"
                                 "img { display: block; max-width: 100%; height: auto; margin: .6em auto; }\n"
                                 "p { max-width: 60em; } .published { color: #5a5a5a; }\n"
@@ -108,26 +108,34 @@ static void put_checks(figures_job *f, FILE *page)
     fputs("</table></section>\n", page);
 }
 
+static void put_podee(figures_job *f, FILE *page)
+{
+    char frames[240];
+    frame_list_print(&f->request->frames, frames, sizeof frames);
+    fputs("<h1 id=\"podee\">Podee et al. 2021</h1>\n<p>N. Podee, N. Max, K. Iwasaki, Y. Dobashi: <i>Temporal and spatial anti-aliasing for "
+          "rendering reflections on water waves</i>, Computational Visual Media 7(2), 2021. Their waves and cameras are not printed: the scenes "
+          "here have as many waves of the kinds that the paper describes, so compare orders and ratios, not single values.",
+          page);
+    if (f->renders.scene_count)
+        fprintf(page, " %u × %u pixels, frames %s, reference of %u × %u × %u samples a pixel.", f->compare->scenes[0].width,
+                f->compare->scenes[0].height, frames, f->request->reference.spatial_samples, f->request->reference.spatial_samples,
+                f->request->reference.time_samples);
+    fputs("</p>\n", page);
+}
+
 int figures_write_page(figures_job *f, const char *sections)
 {
-    char *text = NULL, path[COMPARE_PATH], frames[240];
+    char *text = NULL, path[COMPARE_PATH];
     size_t size = 0;
     FILE *page = open_memstream(&text, &size);
     if (!page)
         return figures_no_memory();
     fputs(page_head, page);
-    frame_list_print(&f->request->frames, frames, sizeof frames);
-    fputs("<h1>The figures of Podee et al. 2021 again</h1>\n<p>N. Podee, N. Max, K. Iwasaki, Y. Dobashi: <i>Temporal and spatial anti-aliasing for "
-          "rendering reflections on water waves</i>, Computational Visual Media 7(2), 2021. Their waves and cameras are not printed: the scenes "
-          "here have as many waves of the kinds that the paper describes, so compare orders and ratios, not single values.</p>\n<p>Made by <code>",
-          page);
+    fputs("<h1>The papers' figures again</h1>\n<p>Made by <code>", page);
     put_command(f, page);
-    fprintf(page, "</code>, version %s", mgt_version());
-    if (f->renders.scene_count)
-        fprintf(page, "; %u × %u pixels, frames %s, reference of %u × %u × %u samples a pixel", f->compare->scenes[0].width,
-                f->compare->scenes[0].height, frames, f->request->reference.spatial_samples, f->request->reference.spatial_samples,
-                f->request->reference.time_samples);
-    fputs(". Plates open larger by a click; they are SVG files with their pictures inside.</p>\n", page);
+    fprintf(page, "</code>, version %s. Plates open larger by a click; they are SVG files with their pictures inside.</p>\n", mgt_version());
+    if (figures_podee_wanted(f))
+        put_podee(f, page);
     fputs(sections, page);
     put_checks(f, page);
     fputs("</body></html>\n", page);

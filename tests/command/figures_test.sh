@@ -3,12 +3,14 @@
 . "$CHECK"
 json() { "$JSON_GET" "$1" <stdout.txt || echo "no $1"; }
 figures() { "$MANGATA" figures --scenes "$SOURCE/scenes" "$@"; }
-tiny=(--size 32x18 --spatial 2 --time-samples 2 --frames 0-1 --time-runs 0)
+tiny=(--size 32x18 --spatial 2 --time-samples 2 --frames 0-1 --refraction-samples 1 --time-runs 0)
 
-# Everything is there, and complete: 4 scenes of 13 methods and the reference, 2 frames.
-expect 0 '112 pictures rendered, 0 kept' figures -o all "${tiny[@]}" --json
-plates=(all/fig{11,12,13,14,15,16,17,17-elongation,18,20,21}.svg)
-exists all/index.html all/figures.json all/table1.md all/table1.csv "${plates[@]}" all/frames/high/mangata_0001.exr all/pictures/simple-none.png
+# Everything is there, and complete: 4 scenes of 13 methods and the reference, 2 frames; 15 views of objects, 60 pictures by their methods and 15 of the truth.
+expect 0 '187 pictures rendered, 0 kept' figures -o all "${tiny[@]}" --json
+plates=(all/fig{11,12,13,14,15,16,17,17-elongation,18,20,21}.svg all/liu-fig{4,7,8,9,10,11,12,13,14,15}.svg)
+exists all/index.html all/figures.json all/table1.md all/table1.csv all/refraction.md "${plates[@]}" all/frames/high/mangata_0001.exr all/pictures/simple-none.png
+exists all/frames/pool-waves/reference_0000.exr all/pictures/pool-waves-mangata-narrow-artefacts.png
+absent all/frames/pool-waves/reference_0001.exr
 no_temporaries all
 for plate in "${plates[@]}"; do
     head -c 200 "$plate" | grep -q '^<svg xmlns' && tail -c 8 "$plate" | grep -q '</svg>' || fail "$plate is cut short"
@@ -18,7 +20,9 @@ for plate in "${plates[@]}"; do
 done
 (($(grep -c '<svg x=' all/fig13.svg) == 14 && $(grep -c '<svg x=' all/fig17.svg) == 7)) || fail "pictures in plates: $(grep -c '<svg x=' all/fig13.svg all/fig17.svg)"
 ! grep -Eqi '[> ](-?nan|inf)[ <]' all/index.html "${plates[@]}" || fail "not a number: $(grep -Eil '[> ](-?nan|inf)[ <]' all/index.html "${plates[@]}")"
-[[ $(json table1) == 24 && $(json run.rendered) == 112 && $(json claims.0.claim) == 'Table 1, simple'* ]] || fail "$(head -c 600 stdout.txt)"
+[[ $(json table1) == 24 && $(json liu_scores) == 60 && $(json run.rendered) == 187 && $(json claims.0.claim) == 'Table 1, simple'* ]] || fail "$(head -c 600 stdout.txt)"
+(($(grep -c '<svg x=' all/liu-fig10.svg) == 11 && $(grep -c '<svg x=' all/liu-fig13.svg) == 16)) || fail "pictures in plates: $(grep -c '<svg x=' all/liu-fig1[03].svg)"
+(($(grep -c '^| ' all/refraction.md) == 61)) || fail "refraction.md: $(cat all/refraction.md)"
 (($(wc -l <all/table1.csv) == 25)) || fail "table1.csv: $(cat all/table1.csv)"
 
 # The figures are those of mangata render and mangata diff.
@@ -30,16 +34,35 @@ expect 0 '' "$MANGATA" diff m_#.pfm t_#.pfm --frames 0-1 --json
 ours=$(grep '^smooth,podee-uniform' all/table1.csv | cut -d, -f4)
 awk -v a="$ours" -v b="$(json rmse)" 'BEGIN { exit !(a > 0 && (a - b) * (a - b) < 1e-12) }' || fail "RMSE $ours, mangata diff says $(json rmse)"
 
+draw() { render "$SOURCE/scenes/pool.yaml" -o "$1" --frames 0 --size 32x18 --method none --quiet "${@:2}"; }
+draw o.pfm --layer refraction --refraction off
+draw r.pfm --layer refraction --refraction truth --refraction-samples 1
+draw w.pfm --layer mask
+expect 0 '' "$MANGATA" diff o.pfm r.pfm --mask w.pfm --display -4 --json
+ours=$(awk -F' *\\| *' '$2 == "pool-waves" && $3 == "`off`" { print $4 }' all/refraction.md)
+awk -v a="$ours" -v b="$(json rmse)" 'BEGIN { exit !(a > 0 && (a - 255 * b) * (a - 255 * b) < 1e-4) }' || fail "RMSE $ours, mangata diff says 255 times $(json rmse)"
+
 # Nothing is rendered twice, and everything comes out the same.
 cp -r all before
-expect 0 '0 pictures rendered, 112 kept' figures -o all "${tiny[@]}"
-grep -q '^| `mangata` |' stdout.txt && same stdout.txt all/table1.md
-for file in "${plates[@]}" all/table1.csv all/pictures/high-mangata.png; do same "$file" "before/${file#all/}"; done
+expect 0 '0 pictures rendered, 187 kept' figures -o all "${tiny[@]}"
+{ cat all/table1.md; echo; cat all/refraction.md; } >tables.txt
+grep -q '^| `mangata` |' stdout.txt && same stdout.txt tables.txt
+for file in "${plates[@]}" all/table1.csv all/refraction.md all/pictures/high-mangata.png; do same "$file" "before/${file#all/}"; done
 
 # A part alone: only its pictures; what needs no scene renders nothing.
 expect 0 '16 pictures rendered, 0 kept' figures -o transition --only 11 --size 32x18 --spatial 1 --time-samples 1 --frames 0 --time-runs 0
 exists transition/fig11.svg
 absent transition/fig13.svg transition/table1.md
+expect 0 '4 pictures rendered, 0 kept' figures -o border --only liu-7 --size 32x18 --refraction-samples 1 --time-runs 3
+exists border/liu-fig7.svg
+absent border/liu-fig8.svg border/fig11.svg border/frames/pool-16k
+expect 0 '0 pictures rendered, 0 kept' figures -o speed --only liu-table3 --size 32x18 --time-runs 1 --json
+[[ $(json liu_table3) == 14 && $(json liu_table3.0.published_frames_per_second) == 55.* && $(json run.rendered) == 0 ]] || fail "$(head -c 600 stdout.txt)"
+awk -v ms="$(json liu_table3.2.milliseconds)" 'BEGIN { exit !(ms > 0) }' || fail "two-phase takes $(json liu_table3.2.milliseconds) ms"
+cp speed/frames/pool-16k/times.json times.json
+expect 0 '' figures -o speed --only liu-table3 --size 32x18 --time-runs 1
+same times.json speed/frames/pool-16k/times.json
+grep -q '^| `two-phase` |' speed/refraction.md || fail "$(cat speed/refraction.md)"
 expect 0 '0 pictures rendered' "$MANGATA" figures -o fits --only 21 --scenes nowhere
 exists fits/fig21.svg
 [[ ! -s stdout.txt ]] || fail "a plate is no data: $(head -c 200 stdout.txt)"
@@ -88,12 +111,18 @@ expect 64 'no folder given' figures
 expect 64 'figures takes no scene' figures -o x scene.json
 expect 64 '\-\-only 10: allowed is a list of table1, 11' figures -o x --only 10
 expect 64 'allowed' figures -o x --only 11,,12
+expect 64 'liu-15, liu-table3' figures -o x --only liu-5
+expect 64 'allowed is a number from 1' figures -o x --refraction-samples 0
 expect 64 'each from 16 to' figures -o x --size 8x8
 expect 64 'allowed is a number from 1' figures -o x --spatial 0
 expect 66 'it holds no simple.json' figures -o x --scenes "$work"
 echo '{"mangata": 1, "light": {"elevation_deg": 99}}' >simple.json
 cp simple.json smooth.json && cp simple.json medium.json && cp simple.json high.json
 expect 65 'simple.json:1' figures -o x --scenes "$work"
+expect 66 '/pool.yaml: No such file' figures -o empty --scenes "$work" --only liu-10
+# Without the bunny's file a rock stands for it.
+mkdir bare && cp -r "$SOURCE/scenes" bare/scenes
+expect 0 'a rock stands for the pool' "$MANGATA" figures --scenes bare/scenes -o rock --only liu-7 --size 16x16 --refraction-samples 1
 echo file >taken
 expect 73 'taken: it is not a folder' figures -o taken --only 21
 expect 73 'cannot make this folder' figures -o no/such/place --only 21
