@@ -26,12 +26,14 @@ void main()
     texel += ivec2(pass_data.tile_x * 32 - pass_data.area_x, pass_data.tile_y * 16 - pass_data.area_y);
     if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, ivec2(pass_data.area_width, pass_data.area_height))))
         return;
-    imageStore(body_image, texel, 0.5f * (imageLoad(body_image, texel) + texelFetch(body_texture, texel, 0)));
-    imageStore(mirrored_image, texel, 0.5f * (imageLoad(mirrored_image, texel) + texelFetch(mirrored_texture, texel, 0)));
-    imageStore(clear_image, texel, 0.5f * (imageLoad(clear_image, texel) + texelFetch(clear_texture, texel, 0)));
-    imageStore(deep_image, texel, 0.5f * (imageLoad(deep_image, texel) + texelFetch(deep_texture, texel, 0)));
     vec4 close = imageLoad(front_image, texel), open = texelFetch(front_texture, texel, 0);
     float both = close.w + open.w;
+    /* Where one end's water is wholly covered, nothing is known of its light. */
+    float share = close.w >= 1.0f ? 1.0f : open.w >= 1.0f ? 0.0f : 0.5f;
+    imageStore(body_image, texel, mix(imageLoad(body_image, texel), texelFetch(body_texture, texel, 0), share));
+    imageStore(mirrored_image, texel, mix(imageLoad(mirrored_image, texel), texelFetch(mirrored_texture, texel, 0), share));
+    imageStore(clear_image, texel, mix(imageLoad(clear_image, texel), texelFetch(clear_texture, texel, 0), share));
+    imageStore(deep_image, texel, mix(imageLoad(deep_image, texel), texelFetch(deep_texture, texel, 0), share));
     if (both > 0.0f)
         imageStore(front_image, texel, vec4((close.w * close.rgb + open.w * open.rgb) / both, 0.5f * both));
 }
