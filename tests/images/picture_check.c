@@ -6,6 +6,7 @@
  *   picture_check runs A B FAR SHARE RUN DIFFERENCE.png   the share of pixels with |A − B| beyond FAR, and how long the longest of their connected
  *                                                    runs is, within limits; else the same
  *   picture_check crop WHOLE PART X Y                PART equals that place of WHOLE to the bit
+ *   picture_check mean OUT.pfm A…                    writes the mean of pictures of one shape
  *   picture_check depth A B                          per cent of B's pixels off by more than max(1%, 5 mm), and the largest error
  *
  * Exit code 0: alike, 1: not, 64: usage, 66: unreadable. */
@@ -211,16 +212,46 @@ static int check_depth(const picture_pair *p)
     return 0;
 }
 
+/* ---- means ---- */
+
+static int write_mean(const char *path, int count, char **paths)
+{
+    const metadata_list none = {0};
+    const output_options options = {.overwrite = true};
+    file_error error;
+    float_image mean = {0}, one = {0};
+    int code = 0;
+    for (int i = 0; i < count && code == 0; i++) {
+        if (picture_read(i ? &one : &mean, paths[i], NULL, &error) != FILE_OK)
+            code = 66;
+        else if (i > 0 && !same_shape(&(picture_pair){mean, one}))
+            code = 1;
+        for (size_t k = 0; code == 0 && k < (size_t)mean.width * mean.height * mean.channels; k++)
+            mean.pixels[k] = i ? mean.pixels[k] + one.pixels[k] / (float)count : mean.pixels[k] / (float)count;
+        float_image_free(&one);
+    }
+    const picture_layer layer = {.name = "mean", .channels = mean.channels, .pixels = mean.pixels};
+    if (code == 0 && picture_write_pfm(path, mean.width, mean.height, &layer, &none, &options, &error) != FILE_OK)
+        code = 66;
+    if (code == 66)
+        fprintf(stderr, "picture_check: %s\n", error.text);
+    float_image_free(&mean);
+    return code;
+}
+
 int main(int count, char **arguments)
 {
     const char *verb = count > 3 ? arguments[1] : "";
+    const bool mean = !strcmp(verb, "mean");
     const bool near = !strcmp(verb, "near") && count == 7, crop = !strcmp(verb, "crop") && count == 6;
     const bool most = !strcmp(verb, "most") && count == 8, runs = !strcmp(verb, "runs") && count == 8, depth = !strcmp(verb, "depth") && count == 4;
-    if (!near && !most && !runs && !crop && !depth) {
+    if (!mean && !near && !most && !runs && !crop && !depth) {
         fprintf(stderr, "usage: picture_check near A B MAX MEAN DIFFERENCE.png | most A B FAR SHARE MEAN DIFFERENCE.png |\n"
-                        "       runs A B FAR SHARE RUN DIFFERENCE.png | crop WHOLE PART X Y | depth A B\n");
+                        "       runs A B FAR SHARE RUN DIFFERENCE.png | crop WHOLE PART X Y | mean OUT.pfm A... | depth A B\n");
         return 64;
     }
+    if (mean)
+        return write_mean(arguments[2], count - 3, arguments + 3);
     picture_pair pair = {0};
     int code = 66;
     if (read_pair(&pair, arguments + 2))
