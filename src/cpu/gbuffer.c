@@ -363,6 +363,7 @@ mgt_status gbuffers_draw(gbuffers *g, const world *w, const gbuffer_job *job, co
     g->store->version = w->version;
     g->store->job = *job;
     g->store->drawn = true;
+    g->drawn++;
     return MGT_OK;
 fail:
     gbuffers_free(g);

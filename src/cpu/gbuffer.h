@@ -53,6 +53,7 @@ typedef struct gbuffers {
     gbuffer near, far;
     RefractData refract; /* what the kernels' true_point() and virtual_point() need */
     gbuffer_counts counts;
+    uint64_t drawn;     /* how often */
     struct gbuffer_store *store; /* its own: memory and what the layers were drawn from */
 } gbuffers;
 

@@ -20,6 +20,8 @@
 #define SHADE_NAME(n) SHADE_NAME_(n)
 #define NARROW_NAME_(n) narrow_kernels_##n
 #define NARROW_NAME(n) NARROW_NAME_(n)
+#define NEAR_NAME_(n) near_kernels_##n
+#define NEAR_NAME(n) NEAR_NAME_(n)
 static const float infinity = INFINITY;
 
 #include "kernels/prelude_c.h"
@@ -710,5 +712,5 @@ static void lanes_display(const FrameData *frame, const float *rgb, uint8_t *rgb
 
 const lane_kernels LANES_NAME(MGT_LANES) = {
     MGT_LANES, lanes_sort, lanes_guess, lanes_sample, lanes_filtered, lanes_cells, lanes_surface, lanes_filtered_normal, lanes_display, &RIVALS_NAME(MGT_LANES),
-    &SHADE_NAME(MGT_LANES), &NARROW_NAME(MGT_LANES), &RASTER_NAME(MGT_LANES),
+    &SHADE_NAME(MGT_LANES), &NARROW_NAME(MGT_LANES), &NEAR_NAME(MGT_LANES), &RASTER_NAME(MGT_LANES),
 };

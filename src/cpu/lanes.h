@@ -85,6 +85,7 @@ typedef struct tile_surface {
 
 typedef struct shade_kernels shade_kernels;   /* cpu/shade_lanes.h */
 typedef struct narrow_kernels narrow_kernels; /* cpu/narrow_lanes.h */
+typedef struct near_kernels near_kernels;     /* cpu/near_lanes.h */
 typedef struct rival_kernels rival_kernels;   /* cpu/rival_lanes.h */
 typedef struct raster_kernels raster_kernels; /* cpu/raster_lanes.h */
 
@@ -114,12 +115,14 @@ typedef struct lane_kernels {
     const rival_kernels *rivals;
     const shade_kernels *shade;
     const narrow_kernels *narrow;
+    const near_kernels *near;
     const raster_kernels *raster;
 } lane_kernels;
 
 /* Those that lane_kernels lead to. */
 extern const shade_kernels shade_kernels_1, shade_kernels_4, shade_kernels_8, shade_kernels_16;
 extern const narrow_kernels narrow_kernels_1, narrow_kernels_4, narrow_kernels_8, narrow_kernels_16;
+extern const near_kernels near_kernels_1, near_kernels_4, near_kernels_8, near_kernels_16;
 
 extern const lane_kernels lane_kernels_1;
 extern const lane_kernels lane_kernels_4;

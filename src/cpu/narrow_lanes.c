@@ -5,6 +5,7 @@
 #include "cpu/narrow_lanes.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "precompute/atmosphere.h"
 
@@ -88,44 +89,52 @@ static void store_vector(float (*planes)[TILE_PIXELS], size_t i, vec3 v)
     store(planes[2] + i, v.z);
 }
 
-static bool other_plane(const narrow_scene *n, int32_t a, int32_t b)
+/* Bytes of a table; three beyond the last may be read. */
+static mask gather_bytes(const uint8_t *table, mask at)
 {
-    if (a == b || a < 0 || b < 0)
-        return false;
-    const float *p = n->planes + 4 * (size_t)a, *q = n->planes + 4 * (size_t)b;
-    return fabsf(p[0] * q[0] + p[1] * q[1] + p[2] * q[2]) < 0.97f;
+#if MGT_LANES == 16
+    return (mask)_mm512_i32gather_epi32((__m512i)at, table, 1) & 255;
+#elif MGT_LANES == 8
+    return (mask)_mm256_i32gather_epi32((const int *)(const void *)table, (__m256i)at, 1) & 255;
+#elif MGT_LANES == 1
+    return table[at];
+#else
+    mask r;
+    for (int i = 0; i < MGT_LANES; i++)
+        r[i] = table[at[i]];
+    return r;
+#endif
 }
 
-/* Whether what a layer shows breaks off or bends next to a pixel: the inverse of the depth is straight over the screen wherever a plane goes on. */
-static bool breaks_off(const narrow_scene *n, const gbuffer *g, size_t x, size_t y)
+static void store_whole(int32_t *p, mask m) { memcpy(p, &m, sizeof m); }
+
+static mask select_whole(mask m, mask a, mask b) { return real_bits(real_select(m, real_from_bits(a), real_from_bits(b))); }
+
+/* Whether the pictures do not certify a point: 1 or 0. */
+static real doubt_of(const narrow_scene *n, FoundPoint f, mask asked, mask pixel, mask mirrored)
 {
-    if (x == 0 || y == 0 || x + 1 >= g->width || y + 1 >= g->height)
-        return true;
-    const float *d = g->depth + y * g->width + x;
-    const int32_t *t = g->triangle + y * g->width + x;
-    if (other_plane(n, t[0], t[-1]) || other_plane(n, t[0], t[1]) || other_plane(n, t[0], *(t - g->width)) || other_plane(n, t[0], t[g->width]))
-        return true;
-    const float here = 1 / d[0], across = 1 / d[-1] + 1 / d[1] - 2 * here, down = 1 / *(d - g->width) + 1 / d[g->width] - 2 * here;
-    const float limit = 6 * here / n->data.focal;
-    return !(fabsf(across) <= limit && fabsf(down) <= limit);
+    mask breaks = AND(asked, NOT(asked));
+    if (any_lane(AND(asked, NOT(mirrored))))
+        breaks = gather_bytes(n->breaks[0], pixel) > 0;
+    if (any_lane(AND(asked, mirrored)))
+        breaks = select_whole(mirrored, gather_bytes(n->breaks[1], pixel) > 0, breaks);
+    return SELECT(AND(asked, OR(f.residual >= real(1.5f), breaks)), real(1.0f), real(0.0f));
 }
 
-/* `layer`: 1 for all lanes where `mirrored`, 0 elsewhere; `wet`: metres in water. */
-static void store_found(const struct kernel_context *cx, tile_ends *out, size_t i, WaterHit hit, FoundPoint f, mask mirrored, real wet)
+/* `mirrored`: looked for in the layer that the surface mirrors; `wet`: metres in water. */
+static void store_found(const struct kernel_context *cx, tile_ends *out, size_t i, WaterHit hit, FoundPoint f, mask mirrored, real wet, bool certifies)
 {
     const narrow_scene *n = cx->narrow;
-    float x[MGT_LANES], y[MGT_LANES], shown[MGT_LANES], layer[MGT_LANES], residual[MGT_LANES];
-    store(x, f.column), store(y, f.row), store(shown, f.shown), store(residual, f.residual);
-    store(layer, SELECT(mirrored, real(1.0f), real(0.0f)));
-    for (size_t lane = 0; lane < MGT_LANES; lane++) {
-        const gbuffer *g = n->layers[layer[lane] > 0];
-        const bool asked = x[lane] >= 0;
-        const size_t pixel = asked ? (size_t)y[lane] * g->width + (size_t)x[lane] : 0;
-        out->triangle[i + lane] = shown[lane] > 0 ? g->triangle[pixel] : -1;
-        out->pixel[i + lane] = asked ? (int32_t)pixel : -1;
-        if (n->data.method <= MGT_REFRACTION_HYBRID)
-            out->doubt[i + lane] = asked && (residual[lane] >= 1.5f || breaks_off(n, g, (size_t)x[lane], (size_t)y[lane])) ? 1 : 0;
-    }
+    const mask asked = f.column >= real(0.0f), shown = f.shown > real(0.0f);
+    const mask pixel = whole(max(f.row, real(0.0f))) * (int)n->layers[0]->width + whole(max(f.column, real(0.0f)));
+    mask triangle = gather_ints(n->layers[0]->triangle, pixel);
+    if (any_lane(mirrored))
+        triangle = select_whole(mirrored, gather_ints(n->layers[1]->triangle, pixel), triangle);
+    const mask nothing = whole(real(-1.0f));
+    store_whole(out->triangle + i, select_whole(AND(asked, shown), triangle, nothing));
+    store_whole(out->pixel + i, select_whole(asked, pixel, nothing));
+    if (certifies)
+        store(out->doubt + i, doubt_of(n, f, asked, pixel, mirrored));
     const vec3 position = turned(cx, f.position);
     store_vector(out->position, i, vec3(position.x + n->data.foot_x, position.y, position.z + n->data.foot_z));
     store_vector(out->direction, i, turned(cx, f.direction));
@@ -167,7 +176,7 @@ static void lanes_refracted(const narrow_scene *n, const tile_offset *at, const 
         if (any_lane(total))
             f = select_found(total, find_mirrored(&cx, hit), f);
         const real in_water = n->data.side > 0 ? f.after : hit.along + SELECT(total, f.after, real(0.0f));
-        store_found(&cx, out, i, hit, f, total, in_water);
+        store_found(&cx, out, i, hit, f, total, in_water, n->data.method <= MGT_REFRACTION_HYBRID);
         store(out->total + i, SELECT(total, real(1.0f), real(0.0f)));
         for (int k = 0; k < 3; k++)
             store(out->slopes[k] + i, load(water->slopes[k] + i));
@@ -183,7 +192,7 @@ static void lanes_mirrored(const narrow_scene *n, const tile_offset *at, const t
             continue;
         const WaterHit hit = load_water(water, at, i);
         const FoundPoint f = find_mirrored(&cx, hit);
-        store_found(&cx, out, i, hit, f, wet, n->data.side > 0 ? real(0.0f) : hit.along + f.after);
+        store_found(&cx, out, i, hit, f, wet, n->data.side > 0 ? real(0.0f) : hit.along + f.after, false);
         store(out->total + i, real(0.0f));
         for (int k = 0; k < 3; k++)
             store(out->slopes[k] + i, real(0.0f));

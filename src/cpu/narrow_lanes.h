@@ -11,6 +11,7 @@ typedef struct narrow_scene {
     NarrowData data;
     RefractData refract;
     const gbuffer *layers[2]; /* beyond the surface, and as the surface mirrors it; all of one shape */
+    const uint8_t *breaks[2]; /* two-phase, hybrid: near_kernels.breaks of those that are asked */
     const float *planes;      /* of the world's triangles: unit normal, and its product with a point of the triangle */
 } narrow_scene;
 

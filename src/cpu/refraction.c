@@ -19,10 +19,12 @@ void refraction_free(refraction *r)
     if (r->opened) {
         gbuffers_free(&r->opened->direct);
         gbuffers_free(&r->opened->mirrored);
+        refraction_marks_free(r->opened);
         free(r->opened);
     }
     gbuffers_free(&r->direct);
     gbuffers_free(&r->mirrored);
+    refraction_marks_free(r);
     shade_free(r->shade);
     world_free(r->world);
     trace_scene_free(r->trace);
@@ -235,18 +237,40 @@ static mgt_status prepare_truth(refraction *r, const reporter *report, mgt_isa i
     return status == MGT_OK ? MGT_OK : report_error(report, status, "render.truth", "the ground truth of refraction: %s", mgt_status_text(status));
 }
 
+static near_scene near_scene_of(const refraction *r)
+{
+    const camera_rays *c = &r->camera;
+    near_scene n = {
+        .layer = &r->direct.near,
+        .edges = r->edges.bytes,
+        .planes = r->planes,
+        .foot = {r->narrow.data.foot_x, (float)c->position[1], r->narrow.data.foot_z},
+        .pixel_angle = r->frame->data.pixel_angle,
+        .under = r->frame->under,
+        .columns = r->frame->scene->image.width,
+        .rows = r->frame->scene->image.height,
+    };
+    for (int k = 0; k < 3; k++)
+        n.corner[k] = (float)c->corner[k], n.right[k] = (float)c->right[k], n.down[k] = (float)c->down[k];
+    return n;
+}
+
 /* Layers of the frame's camera, and what looks points up in them. */
 static mgt_status set_camera(refraction *r, thread_pool *pool)
 {
     const frame *f = r->frame;
     r->camera = f->under ? mirrored_rays(&f->close) : f->close;
     const mgt_status status = draw_layers(r, pool);
-    if (status != MGT_OK)
-        return status;
+    if (status != MGT_OK || !refraction_mark(r, pool)) {
+        refraction_marks_free(r);
+        return MGT_ERROR_MEMORY;
+    }
     r->narrow = (narrow_scene){.data = refraction_narrow_data(f, r->world, &r->direct.far),
                                .refract = r->direct.refract,
                                .layers = {&r->direct.far, r->mirrors ? &r->mirrored.far : &r->direct.far},
-                               .planes = r->planes};
+                               .planes = r->planes,
+                               .breaks = {r->breaks[0].bytes, r->breaks[1].bytes}};
+    r->near = near_scene_of(r);
     return MGT_OK;
 }
 

@@ -86,35 +86,6 @@ static void add_point(const near_pixel *p, const double ray[3], double along, in
 
 /* ---- edges ---- */
 
-static bool like(const refraction *r, size_t a, size_t b)
-{
-    const gbuffer *g = &r->direct.near;
-    const int32_t s = g->triangle[a], t = g->triangle[b];
-    if (s == t)
-        return true;
-    if (s < 0 || t < 0)
-        return false;
-    const float *p = r->planes + 4 * (size_t)s, *q = r->planes + 4 * (size_t)t;
-    const bool level = fabsf(p[0] * q[0] + p[1] * q[1] + p[2] * q[2]) > 0.9f;
-    return level && fabsf(g->depth[a] - g->depth[b]) < 0.05f * g->depth[a];
-}
-
-static bool is_edge(const near_pixel *p, const tile_objects *o)
-{
-    const gbuffer *g = &p->r->direct.near;
-    const size_t row = g->width, at = p->element;
-    if (!like(p->r, at, at - 1) || !like(p->r, at, at + 1) || !like(p->r, at, at - row) || !like(p->r, at, at + row))
-        return true;
-    if (g->triangle[at] < 0 || !(o->water.share[p->i] > 0))
-        return false;
-    /* A waterline: within a pixel or two the object may be on the other side of the surface. */
-    double ray[3];
-    ray_through(p->r, p->x, p->y, ray);
-    const double object = (double)g->depth[at] * sqrt(refraction_dot(ray, ray)), water = (double)o->water.along[p->i];
-    const double pixel = water * (double)p->r->frame->data.pixel_angle / fmax(-(double)o->water.view[1][p->i], 0.02);
-    return fabs(object - water) < 2 * pixel;
-}
-
 /* Whether the place lies between two pixels that both see something: then it does, too, even if it meets none of the tiny triangles at hand. */
 static bool between_objects(const near_pixel *p, int place)
 {
@@ -147,47 +118,53 @@ static void see_edge(near_pixel *p, tile_objects *o, size_t *count)
     }
 }
 
-static void see_inside(const near_pixel *p, tile_objects *o, size_t *count)
+static size_t list_inside(const tile_near *near, tile_objects *o)
 {
-    const gbuffer *g = &p->r->direct.near;
-    if (g->triangle[p->element] < 0)
-        return;
-    double ray[3];
-    ray_through(p->r, p->x, p->y, ray);
-    const double along = (double)g->depth[p->element];
-    if (along >= meet_water(o, p->i, p->r->frame->under, ray))
-        return;
-    add_point(p, ray, along, g->triangle[p->element], o, count);
+    size_t count = 0;
+    for (size_t i = 0; i < TILE_PIXELS; i++) {
+        o->share[i] = near->kind[i] == NEAR_INSIDE;
+        o->list[count] = (uint16_t)i;
+        count += near->kind[i] == NEAR_INSIDE;
+    }
+    return count;
+}
+
+static void see_edges(const refraction *r, const tile_offset *at, const tile_near *near, tile_objects *o)
+{
+    const gbuffer *g = &r->direct.near;
+    size_t count = 0;
+    for (uint32_t i = 0; i < TILE_PIXELS; i++) {
+        if (near->kind[i] != NEAR_EDGE)
+            continue;
+        near_pixel p = {.r = r, .x = at->column + i % TILE_WIDTH, .y = at->row + i / TILE_WIDTH, .i = i};
+        p.element = (size_t)(g->top + p.y) * g->width + g->left + p.x;
+        see_edge(&p, o, &count);
+    }
+    if (count > 0)
+        flush(r, o, &count);
+    for (size_t i = 0; i < TILE_PIXELS; i++) {
+        if (near->kind[i] != NEAR_EDGE)
+            continue;
+        for (int k = 0; k < 3 && o->share[i] > 0; k++)
+            o->color[k][i] /= o->share[i];
+        o->share[i] /= PLACES;
+        if (o->share[i] < 0.5f)
+            o->along[i] = INFINITY;
+    }
 }
 
 void refraction_near(const refraction *r, uint32_t column, uint32_t row, tile_objects *o)
 {
-    const gbuffer *g = &r->direct.near;
-    const mgt_image *image = &r->frame->scene->image;
-    size_t count = 0;
-    float places[TILE_PIXELS];
-    memset(o->share, 0, sizeof o->share);
+    const tile_offset at = {column, row, 0, 0};
+    tile_near near;
+    r->kernels->near->points(&r->near, &at, &o->water, &near, &o->ends);
     memset(o->color, 0, sizeof o->color);
-    for (uint32_t i = 0; i < TILE_PIXELS; i++) {
-        near_pixel p = {.r = r, .x = column + i % TILE_WIDTH, .y = row + i / TILE_WIDTH, .i = i};
-        o->along[i] = INFINITY;
-        places[i] = 1;
-        if (p.x >= image->width || p.y >= image->height)
-            continue;
-        p.element = (size_t)(g->top + p.y) * g->width + g->left + p.x;
-        if (!is_edge(&p, o)) {
-            see_inside(&p, o, &count);
-            continue;
-        }
-        places[i] = PLACES;
-        see_edge(&p, o, &count);
+    memcpy(o->along, near.along, sizeof o->along);
+    memcpy(o->normal, near.normal, sizeof o->normal);
+    const size_t inside = list_inside(&near, o);
+    if (inside > 0) {
+        refraction_shade_listed(r, o, inside);
+        refraction_spread(o, inside, o->color);
     }
-    flush(r, o, &count);
-    for (size_t i = 0; i < TILE_PIXELS; i++) {
-        for (int k = 0; k < 3 && o->share[i] > 0; k++)
-            o->color[k][i] /= o->share[i];
-        o->share[i] /= places[i];
-        if (o->share[i] < 0.5f)
-            o->along[i] = INFINITY;
-    }
+    see_edges(r, &at, &near, o);
 }

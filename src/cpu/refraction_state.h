@@ -6,9 +6,17 @@
 #include <stdatomic.h>
 
 #include "cpu/distance_field.h"
+#include "cpu/near_lanes.h"
 #include "cpu/refraction.h"
 #include "reference/refraction_truth.h"
 #include "trace/trace.h"
+
+/* A byte a pixel of a layer. */
+typedef struct layer_marks {
+    uint8_t *bytes;
+    size_t size;
+    uint64_t drawn; /* gbuffers.drawn of what was marked */
+} layer_marks;
 
 struct refraction {
     world *world;
@@ -20,7 +28,9 @@ struct refraction {
     trace_scene *trace;        /* NULL until a method traces */
     distance_field *field;     /* NULL until a method marches through it */
     refraction_truth *truth;   /* of this frame, for that method */
+    layer_marks edges, breaks[2]; /* of the near layer; of narrow.layers, where the method asks */
     narrow_scene narrow;
+    near_scene near;
     const lane_kernels *kernels;
     const frame *frame;
     camera_rays camera;        /* as it is, not mirrored */
@@ -31,8 +41,18 @@ struct refraction {
     frame moved;
 };
 
+/* Marks what the layers' last drawing changed; false: out of memory. */
+bool refraction_mark(refraction *r, thread_pool *pool);
+void refraction_marks_free(refraction *r);
+
 /* Radiance of the tile's first `count` ends, in o->rgb. */
 void refraction_shade(const refraction *r, tile_objects *o, size_t count);
+
+/* The same of the ends of the pixels in o->list, which rises, in its order; the ends move together. */
+void refraction_shade_listed(const refraction *r, tile_objects *o, size_t count);
+
+/* From o->rgb to the pixels in o->list. */
+void refraction_spread(const tile_objects *o, size_t count, float (*planes)[TILE_PIXELS]);
 
 /* What stands in front of water and sky in the tile whose first pixel this is; the water must be known. */
 void refraction_near(const refraction *r, uint32_t column, uint32_t row, tile_objects *o);

@@ -30,8 +30,7 @@ void refraction_shade(const refraction *r, tile_objects *o, size_t count)
     shade_points(r->shade, &hits, o->rgb);
 }
 
-/* Radiance of the listed pixels' ends, 3 floats each, in the list's order; the ends move together. The list rises. */
-static void shade_listed(const refraction *r, tile_objects *o, size_t count)
+void refraction_shade_listed(const refraction *r, tile_objects *o, size_t count)
 {
     tile_ends *e = &o->ends;
     if (count < TILE_PIXELS) {
@@ -49,7 +48,7 @@ static void shade_listed(const refraction *r, tile_objects *o, size_t count)
     refraction_shade(r, o, count);
 }
 
-static void spread_light(const tile_objects *o, size_t count, float (*planes)[TILE_PIXELS])
+void refraction_spread(const tile_objects *o, size_t count, float (*planes)[TILE_PIXELS])
 {
     for (size_t i = 0; i < count; i++)
         for (int k = 0; k < 3; k++)
@@ -120,7 +119,7 @@ static void see_deep(const refraction *r, uint32_t column, uint32_t row, tile_ob
         o->list[count++] = (uint16_t)i;
     }
     refraction_shade(r, o, count);
-    spread_light(o, count, o->light.deep);
+    refraction_spread(o, count, o->light.deep);
 }
 
 static void keep_layers(tile_objects *o)
@@ -195,8 +194,8 @@ static void see_mirrored(const refraction *r, const tile_offset *at, size_t coun
         o->list[mirrored] = i;
         mirrored += seen;
     }
-    shade_listed(r, o, mirrored);
-    spread_light(o, mirrored, o->light.mirrored);
+    refraction_shade_listed(r, o, mirrored);
+    refraction_spread(o, mirrored, o->light.mirrored);
 }
 
 /* The ground truth in place of what the pictures tell, for what the surface mirrors too. */
@@ -226,7 +225,7 @@ static void see_place(refraction *r, const tile_offset *at, size_t count, tile_o
         trace_doubtful(r, o, count);
     for (size_t k = 0; k < count; k++)
         o->error[o->list[k]] = fmaxf(o->error[o->list[k]], o->ends.error[o->list[k]]);
-    shade_listed(r, o, count);
+    refraction_shade_listed(r, o, count);
     for (size_t i = 0; i < count; i++) {
         for (int k = 0; k < 3; k++)
             o->light.body[k][o->list[i]] += o->rgb[3 * i + (size_t)k];

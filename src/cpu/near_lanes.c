@@ -1,0 +1,185 @@
+/* SPDX-License-Identifier: MIT
+ * Edges of layers, and what the near one shows between them, compiled once per lane width (MGT_LANES).
+ *
+ * Whatever the width, a pixel sees the same operations in the same order: the bits do not depend on it. */
+#include "cpu/near_lanes.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "precompute/atmosphere.h"
+
+#define LANES_NAME_(n) near_kernels_##n
+#define LANES_NAME(n) LANES_NAME_(n)
+
+static const float infinity = INFINITY;
+
+#include "kernels/prelude_c.h"
+
+#include "cpu/lane_access.h"
+
+/* ---- edges ---- */
+
+static mask load_whole(const int32_t *p)
+{
+    mask m;
+    memcpy(&m, p, sizeof m);
+    return m;
+}
+
+static void store_bits(uint8_t *out, mask m)
+{
+    float lanes[MGT_LANES];
+    store(lanes, SELECT(m, real(1.0f), real(0.0f)));
+    for (int i = 0; i < MGT_LANES; i++)
+        out[i] = lanes[i] > 0;
+}
+
+static mask load_bits(const uint8_t *bits)
+{
+    float lanes[MGT_LANES];
+    for (int i = 0; i < MGT_LANES; i++)
+        lanes[i] = bits[i];
+    return load(lanes) > real(0.0f);
+}
+
+static vec3 normal_of(const float *planes, mask triangle)
+{
+    const mask at = 4 * (triangle & ~(triangle >> 31));
+    return vec3(gather_floats(planes, at), gather_floats(planes + 1, at), gather_floats(planes + 2, at));
+}
+
+/* Cosine, without its sign, of the angle between the planes of triangles. */
+static real alignment(const float *planes, mask a, mask b)
+{
+    const vec3 p = normal_of(planes, a), q = normal_of(planes, b);
+    return abs(p.x * q.x + p.y * q.y + p.z * q.z);
+}
+
+/* The inverse of the depth is straight over the screen wherever a plane goes on. */
+static void lanes_breaks(const gbuffer *g, const float *planes, float focal, uint32_t row, uint8_t *out)
+{
+    memset(out, 1, g->width);
+    if (row == 0 || row + 1 >= g->height)
+        return;
+    const ptrdiff_t width = (ptrdiff_t)g->width, beside[4] = {-1, 1, -width, width};
+    for (ptrdiff_t i = 0; i < width; i += MGT_LANES) {
+        const float *d = g->depth + row * (size_t)width + i;
+        const int32_t *t = g->triangle + row * (size_t)width + i;
+        const mask here = load_whole(t);
+        const real inverse = 1.0f / load(d);
+        real others[4];
+        mask broken = lane_numbers() < real(0.0f);
+        for (int k = 0; k < 4; k++) {
+            /* The last pixel of a row has no neighbour to its right, nor the first one to its left: they are set below. */
+            const mask there = load_whole(t + beside[k]);
+            const mask differ = AND(here != there, AND(here >= 0, there >= 0));
+            others[k] = 1.0f / load(d + beside[k]);
+            if (any_lane(differ))
+                broken = OR(broken, AND(differ, alignment(planes, here, there) < real(0.97f)));
+        }
+        const real across = others[0] + others[1] - 2.0f * inverse, down = others[2] + others[3] - 2.0f * inverse;
+        const real limit = 6.0f * inverse / real(focal);
+        store_bits(out + i, OR(broken, NOT(AND(abs(across) <= limit, abs(down) <= limit))));
+    }
+    out[0] = out[width - 1] = 1;
+}
+
+static void lanes_edges(const gbuffer *g, const float *planes, uint32_t row, uint8_t *out)
+{
+    const ptrdiff_t width = (ptrdiff_t)g->width, beside[4] = {-1, 1, -width, width};
+    for (ptrdiff_t i = 0; i < width; i += MGT_LANES) {
+        const float *d = g->depth + row * (size_t)width + i;
+        const int32_t *t = g->triangle + row * (size_t)width + i;
+        const mask here = load_whole(t);
+        const real depth = load(d);
+        mask edge = lane_numbers() < real(0.0f);
+        for (int k = 0; k < 4; k++) {
+            const mask there = load_whole(t + beside[k]), differ = here != there;
+            if (!any_lane(differ))
+                continue;
+            const mask goes_on = AND(alignment(planes, here, there) > real(0.9f), abs(depth - load(d + beside[k])) < 0.05f * depth);
+            edge = OR(edge, AND(differ, NOT(AND(goes_on, AND(here >= 0, there >= 0)))));
+        }
+        store_bits(out + i, edge);
+    }
+}
+
+/* ---- points ---- */
+
+static vec3 ray_through(const near_scene *n, real x, real y)
+{
+    return vec3(fma(x, real(n->right[0]), fma(y, real(n->down[0]), real(n->corner[0]))),
+                fma(x, real(n->right[1]), fma(y, real(n->down[1]), real(n->corner[1]))),
+                fma(x, real(n->right[2]), fma(y, real(n->down[2]), real(n->corner[2]))));
+}
+
+static vec3 load_vector(const float (*planes)[TILE_PIXELS], size_t i, float up)
+{
+    return vec3(load(planes[0] + i), load(planes[1] + i) * up, load(planes[2] + i));
+}
+
+static void store_vector(float (*planes)[TILE_PIXELS], size_t i, vec3 v)
+{
+    store(planes[0] + i, v.x);
+    store(planes[1] + i, v.y);
+    store(planes[2] + i, v.z);
+}
+
+/* Multiple of a ray at which it meets the plane of the surface in its pixel. */
+static real meet_water(const tile_water *w, size_t i, float up, vec3 ray)
+{
+    const vec3 normal = load_vector(w->normal, i, up);
+    const real closing = dot(normal, ray);
+    const mask meets = AND(load(w->share + i) > real(0.0f), closing < real(0.0f));
+    return SELECT(meets, load(w->along + i) * dot(normal, load_vector(w->view, i, up)) / SELECT(meets, closing, real(1.0f)), real(infinity));
+}
+
+/* Whether the object may be on the other side of the surface within a pixel or two. */
+static mask near_waterline(const near_scene *n, const tile_water *w, size_t i, real along)
+{
+    const real water = load(w->along + i), steepness = max(real(0.0f) - load(w->view[1] + i), real(0.02f));
+    return AND(load(w->share + i) > real(0.0f), abs(along - water) < 2.0f * n->pixel_angle * water / steepness);
+}
+
+static void lanes_points(const near_scene *n, const tile_offset *at, const tile_water *water, tile_near *out, tile_ends *ends)
+{
+    memset(out->kind, NEAR_NOTHING, sizeof out->kind);
+    const float up = n->under ? -1 : 1;
+    const gbuffer *g = n->layer;
+    for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
+        const uint32_t x = at->column + (uint32_t)(i % TILE_WIDTH), y = at->row + (uint32_t)(i / TILE_WIDTH);
+        store(out->along + i, real(infinity));
+        if (x >= n->columns || y >= n->rows)
+            continue;
+        const size_t element = (size_t)(g->top + y) * g->width + g->left + x;
+        const mask image = lane_numbers() + (float)x < real((float)n->columns);
+        const mask triangle = load_whole(g->triangle + element), shown = AND(image, triangle >= 0);
+        mask edge = AND(image, load_bits(n->edges + element));
+        if (!any_lane(OR(shown, edge)))
+            continue;
+        const real depth = SELECT(shown, load(g->depth + element), real(1.0f));
+        const vec3 ray = ray_through(n, lane_numbers() + (float)x, real((float)y));
+        const real length = sqrt(length_squared(ray)), along = depth * length;
+        edge = OR(edge, AND(shown, near_waterline(n, water, i, along)));
+        const mask inside = AND(AND(shown, NOT(edge)), depth < meet_water(water, i, up, ray));
+        float kinds[MGT_LANES];
+        store(kinds, SELECT(inside, real(1.0f), SELECT(edge, real(2.0f), real(0.0f))));
+        for (int lane = 0; lane < MGT_LANES; lane++)
+            out->kind[i + (size_t)lane] = (uint8_t)kinds[lane];
+        if (!any_lane(inside))
+            continue;
+        const vec3 normal = normal_of(n->planes, triangle);
+        store(out->along + i, SELECT(inside, along, real(infinity)));
+        store_vector(out->normal, i, scale(normal, SELECT(dot(normal, ray) > real(0.0f), real(-1.0f), real(1.0f))));
+        memcpy(ends->triangle + i, &triangle, sizeof triangle);
+        store_vector(ends->position, i, add(vec3(n->foot[0], n->foot[1], n->foot[2]), scale(ray, depth)));
+        store_vector(ends->direction, i, scale(ray, real(1.0f) / length));
+        store_vector(ends->slopes, i, vec3(real(0.0f), real(0.0f), real(0.0f)));
+        store(ends->before + i, along);
+        store(ends->after + i, real(0.0f));
+        store(ends->water + i, n->under ? along : real(0.0f));
+    }
+}
+
+const near_kernels LANES_NAME(MGT_LANES) = {lanes_breaks, lanes_edges, lanes_points};

@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: MIT
+ * Edges of layers, and what the near one shows between them: functions that are compiled once per lane width. */
+#ifndef MANGATA_CPU_NEAR_LANES_H
+#define MANGATA_CPU_NEAR_LANES_H
+
+#include "cpu/narrow_lanes.h"
+
+/* What objects in front of the water are looked up in. */
+typedef struct near_scene {
+    const gbuffer *layer;
+    const uint8_t *edges; /* as near_kernels.edges sets them */
+    const float *planes;  /* of the world's triangles, as in narrow_scene */
+    float corner[3], right[3], down[3]; /* rays of the camera */
+    float foot[3];                      /* the camera, in the world's coordinates */
+    float pixel_angle;
+    bool under;
+    uint32_t columns, rows; /* of the image */
+} near_scene;
+
+enum { NEAR_NOTHING, NEAR_INSIDE, NEAR_EDGE };
+
+/* In pixels within the image; others are NEAR_NOTHING. */
+typedef struct tile_near {
+    uint8_t kind[TILE_PIXELS];
+    float along[TILE_PIXELS];     /* metres along the ray where the pixel is NEAR_INSIDE; else +inf */
+    float normal[3][TILE_PIXELS]; /* unit, towards the camera; there alone */
+} tile_near;
+
+struct near_kernels {
+    /* Of a row of a far layer: 1 where what it shows breaks off or bends next to a pixel, else 0. focal: pixels in a radian. */
+    void (*breaks)(const gbuffer *g, const float *planes, float focal, uint32_t row, uint8_t *out);
+    /* Of a row of the near layer, neither the first nor the last one: 1 where a neighbour of a pixel shows something else, else 0. */
+    void (*edges)(const gbuffer *g, const float *planes, uint32_t row, uint8_t *out);
+    /* What the centres of a tile's pixels see in front of the water; `ends` of those inside. */
+    void (*points)(const near_scene *n, const tile_offset *at, const tile_water *water, tile_near *out, tile_ends *ends);
+};
+
+#endif

@@ -1,0 +1,66 @@
+/* SPDX-License-Identifier: MIT
+ * Edges of layers, marked once a drawing: where a pixel's neighbours show what is not to be seen as one with it. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "cpu/refraction_state.h"
+
+/* Lanes that look bytes up read three more. */
+enum { BYTES_BEYOND = 3 };
+
+typedef struct mark_job {
+    const refraction *r;
+    const gbuffer *layer;
+    uint8_t *marks;
+    bool near;
+} mark_job;
+
+static void mark_row(void *argument, size_t index, uint32_t worker)
+{
+    (void)worker;
+    const mark_job *job = argument;
+    const near_kernels *kernels = job->r->kernels->near;
+    const uint32_t row = (uint32_t)index;
+    uint8_t *out = job->marks + index * job->layer->width;
+    if (!job->near)
+        kernels->breaks(job->layer, job->r->planes, 1 / job->r->frame->data.pixel_angle, row, out);
+    else if (row > 0 && row + 1 < job->layer->height)
+        kernels->edges(job->layer, job->r->planes, row, out);
+    else
+        memset(out, 1, job->layer->width);
+}
+
+static bool mark(const refraction *r, const gbuffers *g, bool near, layer_marks *m, thread_pool *pool)
+{
+    if (m->bytes && m->drawn == g->drawn)
+        return true;
+    const gbuffer *layer = near ? &g->near : &g->far;
+    const size_t size = (size_t)layer->width * layer->height + BYTES_BEYOND;
+    if (size != m->size) {
+        free(m->bytes);
+        m->bytes = calloc(size, 1);
+        m->size = m->bytes ? size : 0;
+    }
+    if (!m->bytes)
+        return false;
+    mark_job job = {r, layer, m->bytes, near};
+    const thread_loop rows = {layer->height, mark_row, &job, NULL};
+    thread_pool_run(pool, &rows);
+    m->drawn = g->drawn;
+    return true;
+}
+
+bool refraction_mark(refraction *r, thread_pool *pool)
+{
+    const bool certifies = r->frame->scene->quality.refraction <= MGT_REFRACTION_HYBRID;
+    return mark(r, &r->direct, true, &r->edges, pool) && (!certifies || mark(r, &r->direct, false, &r->breaks[0], pool)) &&
+           (!certifies || !r->frame->under || mark(r, &r->mirrored, false, &r->breaks[1], pool));
+}
+
+void refraction_marks_free(refraction *r)
+{
+    free(r->edges.bytes);
+    free(r->breaks[0].bytes);
+    free(r->breaks[1].bytes);
+    r->edges = r->breaks[0] = r->breaks[1] = (layer_marks){0};
+}
