@@ -71,9 +71,7 @@ static void put_table(refraction_figures *r, refraction_view view)
         put_number(page, "%.2f", 100 * s->yee, false);
         fputs("</tr>\n", page);
     }
-    fputs("</table>\n<p>The last row is what one ray through the middle of a pixel differs from many by: no method with one ray a pixel can be "
-          "nearer to many.</p>\n",
-          page);
+    fputs("</table>\n<p>The last row is what one ray through the middle of a pixel differs from many by.</p>\n", page);
 }
 
 static int make(refraction_figures *r, refraction_view view, const char *name, const char *title, const char *text)
