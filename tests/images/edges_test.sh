@@ -22,12 +22,12 @@ draw() { # OUT REFRACTION CROP SCENE OPTION…
 }
 
 compare() { # NAME REFRACTION SHARE RUN CROP SCENE OPTION…
-    local name=$1 refraction=$2 share=$3 run=$4
+    local name=$1 refraction=$2 share=$3 run=$4 said
     shift 4
     draw "$folder/$name-$refraction.png" "$refraction" "$@"
-    printf '%s %s: ' "$name" "$refraction"
-    "$check" runs "$folder/$name-$refraction.png" "$folder/$name-truth.png" 0.1 "$share" "$run" "$folder/$name-$refraction.difference.png" ||
+    said=$("$check" runs "$folder/$name-$refraction.png" "$folder/$name-truth.png" 0.1 "$share" "$run" "$folder/$name-$refraction.difference.png") ||
         failures=$((failures + 1))
+    echo "$name $refraction: $said"
 }
 
 while read -r name crop share run traced_share traced_run scene options; do
