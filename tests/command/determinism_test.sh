@@ -41,9 +41,9 @@ differ whole.raw /dev/null
 
 # Objects: through the water, mirrored by it and before it, seen from above and from below.
 for view in hull diver; do
-    for refraction in two-phase hybrid screen-space; do
+    for refraction in two-phase hybrid broad screen-space truth; do
         objects=("$SOURCE/scenes/$view.yaml" --refraction $refraction --refraction-samples 2 --caustics on "${size[@]}" "${quiet[@]}")
-        [ $refraction = hybrid ] && { "$MANGATA" render "${objects[@]}" -o probe.png || continue; } # without Embree there is none
+        [[ $refraction == hybrid || $refraction == truth ]] && { "$MANGATA" render "${objects[@]}" -o probe.png || continue; } # without Embree there is none
         for n in 1 2 7; do
             works render "${objects[@]}" -o t$n.exr --layer all --threads $n
         done
