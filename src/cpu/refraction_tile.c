@@ -357,7 +357,7 @@ void refraction_compose(const tile_objects *o, tile_pixels *pixels, tile_surface
     if (!surface)
         return;
     for (size_t i = 0; i < TILE_PIXELS; i++)
-        if (o->share[i] >= 0.5f) {
+        if (o->along[i] < INFINITY) {
             surface->along[i] = o->along[i];
             surface->normal_x[i] = o->normal[0][i];
             surface->normal_y[i] = o->normal[1][i];

@@ -271,7 +271,7 @@ void tile_render(const tile_job *job, uint32_t tile_x, uint32_t tile_y, tile_scr
     const tile_place place = {job, tile_x, tile_y};
     if (job->objects)
         see_objects(place, scratch);
-    const bool covered = job->objects && refraction_covers(&scratch->objects);
+    const bool covered = job->objects && !job->behind && refraction_covers(&scratch->objects);
     if (covered)
         memset(&scratch->pixels, 0, sizeof scratch->pixels);
     if (job->wants.pixels && !covered)
