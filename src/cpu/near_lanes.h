@@ -22,8 +22,8 @@ enum { NEAR_NOTHING, NEAR_INSIDE, NEAR_EDGE };
 /* In pixels within the image; others are NEAR_NOTHING. */
 typedef struct tile_near {
     uint8_t kind[TILE_PIXELS];
-    float along[TILE_PIXELS];     /* metres along the ray where the pixel is NEAR_INSIDE; else +inf */
-    float normal[3][TILE_PIXELS]; /* unit, towards the camera; there alone */
+    float *along;                  /* TILE_PIXELS: metres along the ray where the pixel is NEAR_INSIDE; else +inf */
+    float (*normal)[TILE_PIXELS];  /* 3 planes: unit, towards the camera; there alone */
 } tile_near;
 
 struct near_kernels {

@@ -9,25 +9,36 @@ static const float SHARPENED = 0.15f;
 
 static void cross3(const double a[3], const double b[3], double out[3])
 {
-    for (int i = 0; i < 3; i++)
-        out[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
+    out[0] = a[1] * b[2] - a[2] * b[1];
+    out[1] = a[2] * b[0] - a[0] * b[2];
+    out[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-double refraction_meet(const refraction *r, int32_t triangle, const double from[3], const double ray[3])
+refraction_facet refraction_facet_of(const refraction *r, int32_t triangle, const double from[3])
 {
     const world *w = r->world;
-    double p[3][3], e1[3], e2[3], to[3], across[3], turned[3];
+    const float *p[3];
+    refraction_facet f;
     for (size_t c = 0; c < 3; c++)
-        for (int k = 0; k < 3; k++)
-            p[c][k] = (double)w->positions[3 * (size_t)w->indices[3 * (size_t)triangle + c] + (size_t)k];
-    for (int k = 0; k < 3; k++)
-        e1[k] = p[1][k] - p[0][k], e2[k] = p[2][k] - p[0][k], to[k] = from[k] - p[0][k];
-    cross3(ray, e2, across);
-    const double det = refraction_dot(e1, across);
+        p[c] = w->positions + 3 * (size_t)w->indices[3 * (size_t)triangle + c];
+    for (int k = 0; k < 3; k++) {
+        f.edges[0][k] = (double)p[1][k] - (double)p[0][k];
+        f.edges[1][k] = (double)p[2][k] - (double)p[0][k];
+        f.to[k] = from[k] - (double)p[0][k];
+    }
+    cross3(f.to, f.edges[0], f.turned);
+    f.level = refraction_dot(f.edges[1], f.turned);
+    return f;
+}
+
+double refraction_meet(const refraction_facet *f, const double ray[3])
+{
+    double across[3];
+    cross3(ray, f->edges[1], across);
+    const double det = refraction_dot(f->edges[0], across);
     if (fabs(det) < 1e-300)
         return INFINITY;
-    cross3(to, e1, turned);
-    const double u = refraction_dot(to, across) / det, v = refraction_dot(ray, turned) / det, along = refraction_dot(e2, turned) / det;
+    const double inverse = 1 / det, u = refraction_dot(f->to, across) * inverse, v = refraction_dot(ray, f->turned) * inverse, along = f->level * inverse;
     return u >= 0 && v >= 0 && u + v <= 1 && along > 0 ? along : INFINITY;
 }
 
@@ -74,7 +85,8 @@ static bool sharpen_pixel(const refraction *r, tile_objects *o, size_t i)
     double nearest = INFINITY;
     int32_t met = -1;
     for (size_t k = 0; k < count; k++) {
-        const double way = refraction_meet(r, triangles[k], from, ray);
+        const refraction_facet f = refraction_facet_of(r, triangles[k], from);
+        const double way = refraction_meet(&f, ray);
         if (way < nearest)
             nearest = way, met = triangles[k];
     }

@@ -101,13 +101,16 @@ static void see_edge(near_pixel *p, tile_objects *o, size_t *count)
     const world *w = p->r->world;
     const camera_rays *c = &p->r->camera;
     const double eye[3] = {c->position[0] - w->origin[0], c->position[1], c->position[2] - w->origin[1]};
+    refraction_facet facets[REFRACTION_NEIGHBOURS];
     p->candidate_count = refraction_neighbours(g, p->element, p->candidates);
+    for (size_t k = 0; k < p->candidate_count; k++)
+        facets[k] = refraction_facet_of(p->r, p->candidates[k], eye);
     for (int place = 0; place < PLACES; place++) {
         double ray[3], nearest = INFINITY;
         int32_t triangle = -1;
         ray_through(p->r, p->x + place_x[place], p->y + place_y[place], ray);
         for (size_t k = 0; k < p->candidate_count; k++) {
-            const double along = refraction_meet(p->r, p->candidates[k], eye, ray);
+            const double along = refraction_meet(&facets[k], ray);
             if (along < nearest)
                 nearest = along, triangle = p->candidates[k];
         }
@@ -156,11 +159,9 @@ static void see_edges(const refraction *r, const tile_offset *at, const tile_nea
 void refraction_near(const refraction *r, uint32_t column, uint32_t row, tile_objects *o)
 {
     const tile_offset at = {column, row, 0, 0};
-    tile_near near;
+    tile_near near = {.along = o->along, .normal = o->normal};
     r->kernels->near->points(&r->near, &at, &o->water, &near, &o->ends);
     memset(o->color, 0, sizeof o->color);
-    memcpy(o->along, near.along, sizeof o->along);
-    memcpy(o->normal, near.normal, sizeof o->normal);
     const size_t inside = list_inside(&near, o);
     if (inside > 0) {
         refraction_shade_listed(r, o, inside);

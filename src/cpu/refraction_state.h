@@ -63,8 +63,16 @@ enum { REFRACTION_NEIGHBOURS = 9 };
  * Returns how many. */
 size_t refraction_neighbours(const gbuffer *g, size_t element, int32_t triangles[REFRACTION_NEIGHBOURS]);
 
-/* Multiple of a ray, in the world's coordinates, at which it meets a triangle; +inf: it does not. */
-double refraction_meet(const refraction *r, int32_t triangle, const double from[3], const double ray[3]);
+/* A triangle as rays from one point meet it. */
+typedef struct refraction_facet {
+    double edges[2][3], to[3], turned[3], level;
+} refraction_facet;
+
+/* `from`: in the world's coordinates. */
+refraction_facet refraction_facet_of(const refraction *r, int32_t triangle, const double from[3]);
+
+/* Multiple of a ray at which it meets the triangle; +inf: it does not. */
+double refraction_meet(const refraction_facet *f, const double ray[3]);
 
 static inline double refraction_dot(const double a[3], const double b[3])
 {
