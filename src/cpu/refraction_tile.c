@@ -315,8 +315,9 @@ void refraction_keep(const tile_objects *o, tile_opened *opened)
 /* `weight`: of the others in each pixel. */
 static void blend_planes(float *planes, const float *others, size_t count, const float *weight)
 {
-    for (size_t i = 0; i < count; i++)
-        planes[i] = (1 - weight[i % TILE_PIXELS]) * planes[i] + weight[i % TILE_PIXELS] * others[i];
+    for (size_t plane = 0; plane < count; plane++, planes += TILE_PIXELS, others += TILE_PIXELS)
+        for (size_t i = 0; i < TILE_PIXELS; i++)
+            planes[i] = (1 - weight[i]) * planes[i] + weight[i] * others[i];
 }
 
 void refraction_blend(tile_objects *o, const tile_opened *opened)
@@ -332,7 +333,7 @@ void refraction_blend(tile_objects *o, const tile_opened *opened)
     }
     for (size_t i = 0; i < TILE_PIXELS; i++)
         o->share[i] = 0.5f * (o->share[i] + opened->share[i]);
-    blend_planes(o->light.body[0], opened->light.body[0], sizeof o->light / sizeof(float), weight);
+    blend_planes(o->light.body[0], opened->light.body[0], sizeof o->light / sizeof o->light.share, weight);
 }
 
 bool refraction_covers(const tile_objects *o)
