@@ -4,9 +4,6 @@
 
 #include "cpu/refraction_state.h"
 
-/* Residual, pixels, up to which the triangles about the found pixel are all that the ray may meet. */
-static const float SHARPENED = 0.15f;
-
 static void cross3(const double a[3], const double b[3], double out[3])
 {
     out[0] = a[1] * b[2] - a[2] * b[1];
@@ -69,8 +66,7 @@ static bool by_nothing(const gbuffer *g, size_t element)
     return false;
 }
 
-/* False where none of the triangles at hand is met. */
-static bool sharpen_pixel(const refraction *r, tile_objects *o, size_t i)
+static void sharpen_pixel(const refraction *r, tile_objects *o, size_t i)
 {
     tile_ends *e = &o->ends;
     const camera_rays *c = &r->camera;
@@ -91,7 +87,7 @@ static bool sharpen_pixel(const refraction *r, tile_objects *o, size_t i)
             nearest = way, met = triangles[k];
     }
     if (met < 0 && !by_nothing(g, (size_t)e->pixel[i]))
-        return false;
+        return;
     e->triangle[i] = met;
     e->after[i] = met < 0 ? 0 : (float)nearest;
     for (int k = 0; k < 3 && met >= 0; k++)
@@ -100,15 +96,13 @@ static bool sharpen_pixel(const refraction *r, tile_objects *o, size_t i)
         e->water[i] = e->after[i];
     else
         e->water[i] = o->water.along[i] + (e->total[i] > 0 ? e->after[i] : 0);
-    return true;
 }
 
 void refraction_sharpen(const refraction *r, tile_objects *o, size_t count)
 {
     for (size_t k = 0; k < count; k++) {
         const size_t i = o->list[k];
-        const float error = o->ends.error[i];
-        if (o->ends.doubt[i] > 0 && o->ends.pixel[i] >= 0 && error < 4 && sharpen_pixel(r, o, i) && error < SHARPENED)
-            o->ends.doubt[i] = 0;
+        if (o->ends.doubt[i] > 0 && o->ends.pixel[i] >= 0 && o->ends.error[i] < 4)
+            sharpen_pixel(r, o, i);
     }
 }
