@@ -357,6 +357,7 @@ void refraction_compose(const tile_objects *o, tile_pixels *pixels, tile_surface
     }
     if (!surface)
         return;
+    /* Of the instant at which the shutter closes; shares may be means over the shutter. */
     for (size_t i = 0; i < TILE_PIXELS; i++)
         if (o->along[i] < INFINITY) {
             surface->along[i] = o->along[i];
