@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Waterlines, borders, edges of depth and the horizon, by two-phase and hybrid against traced rays: edges_test.sh SOURCE MANGATA PICTURE_CHECK FOLDER
-# SCENE… A crack or a smear is a run of pixels that are off; edges.txt has the limits. The pictures, and where they are off the differences, stay in FOLDER.
+# Waterlines, borders, edges of depth and the horizon, by two-phase and hybrid against traced rays:
+# edges_test.sh SOURCE MANGATA PICTURE_CHECK FOLDER SCENE…
+# A crack or a smear is a run of pixels that are off; edges.txt has the limits.
+# The pictures, and where they are off the differences, stay in FOLDER.
 set -euo pipefail
 source=$1 mangata=$2 check=$3 folder=$4
 shift 4

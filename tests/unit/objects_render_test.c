@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Scenes with objects where cameras, water and sizes are as awkward as they may be: every way of refraction and every method end, and every layer holds
- * numbers within its range. What bends no rays shows what stands there.
+ * Scenes with objects where cameras, water and sizes are as awkward as they may be: every way of refraction and every method end, and every layer
+ * holds numbers within its range. What bends no rays shows what stands there.
  */
 #include "unit/api_sea.h"
 
@@ -137,19 +137,35 @@ static const struct {
     {"waves of 10 m from below", {"water.waves[0].amplitude=10", "camera.position=[0.4, -20, 40]"}},
     {"waves of 10 m about the camera", {"water.waves[0].amplitude=10"}},
     {"steep ripples", {"water.waves[2].amplitude=0.5"}},
-    {"two millimetres wide", {"objects=[{shape: pool, size: [0.002, 0.001, 0.002]}]", "water.amplitude=0", "camera={position: [0, 0.001, 0.001], target: [0, 0, 0], fov_y_deg: 60}"}},
-    {"two millimetres wide, from below", {"objects=[{shape: pool, size: [0.002, 0.001, 0.002]}]", "water.amplitude=0", "camera={position: [0, -0.0002, 0.0003], target: [0, 0, 0], fov_y_deg: 60}"}},
-    {"ten kilometres wide", {"objects=[{shape: pool, size: [10000, 1500, 10000]}]", "camera={position: [0, 800, 3000], target: [0, 0, 0], fov_y_deg: 60}"}},
+    {"two millimetres wide",
+     {"objects=[{shape: pool, size: [0.002, 0.001, 0.002]}]",
+      "water.amplitude=0",
+      "camera={position: [0, 0.001, 0.001], target: [0, 0, 0], fov_y_deg: 60}"}},
+    {"two millimetres wide, from below",
+     {"objects=[{shape: pool, size: [0.002, 0.001, 0.002]}]",
+      "water.amplitude=0",
+      "camera={position: [0, -0.0002, 0.0003], target: [0, 0, 0], fov_y_deg: 60}"}},
+    {"ten kilometres wide",
+     {"objects=[{shape: pool, size: [10000, 1500, 10000]}]",
+      "camera={position: [0, 800, 3000], target: [0, 0, 0], fov_y_deg: 60}"}},
     {"ten kilometres wide, close", {"objects=[{shape: pool, size: [10000, 1500, 10000]}]"}},
-    {"ten kilometres wide, from below", {"objects=[{shape: pool, size: [10000, 1500, 10000]}]", "camera={position: [0, -3, 0], target: [0, 0, -20], fov_y_deg: 60}"}},
-    {"far from the origin", {"camera={position: [900000, 2.2, 4.4], target: [900000, -0.2, 0], fov_y_deg: 55}", "objects[0].position=[900000, 0, 0]"}},
+    {"ten kilometres wide, from below",
+     {"objects=[{shape: pool, size: [10000, 1500, 10000]}]",
+      "camera={position: [0, -3, 0], target: [0, 0, -20], fov_y_deg: 60}"}},
+    {"far from the origin",
+     {"camera={position: [900000, 2.2, 4.4], target: [900000, -0.2, 0], fov_y_deg: 55}",
+      "objects[0].position=[900000, 0, 0]"}},
     {"murky", {"water.clarity=murky"}},
     {"as black as ink", {"water.absorption=[1000, 1000, 1000]", "water.scattering=[1000, 1000, 1000]"}},
     {"at night", {"light.elevation_deg=-30"}},
     {"light from straight above", {"light.elevation_deg=90"}},
     {"light on the horizon", {"light.elevation_deg=0"}},
-    {"a film with a path", {"camera={fov_y_deg: 55, path: [{time: 0, position: [0.4, 2.2, 4.4], target: [0, 0, 0]}, {time: 3, position: [0.4, -0.4, 2.4], target: [0, 0, 0]}]}"}},
-    {"through the surface while the shutter is open", {"camera={fov_y_deg: 55, path: [{time: 2.98, position: [0.4, 0.2, 2.4], target: [0, 0, 0]}, {time: 3, position: [0.4, -0.2, 2.4], target: [0, 0, 0]}]}"}},
+    {"a film with a path",
+     {"camera={fov_y_deg: 55, path: [{time: 0, position: [0.4, 2.2, 4.4], target: [0, 0, 0]}, "
+      "{time: 3, position: [0.4, -0.4, 2.4], target: [0, 0, 0]}]}"}},
+    {"through the surface while the shutter is open",
+     {"camera={fov_y_deg: 55, path: [{time: 2.98, position: [0.4, 0.2, 2.4], target: [0, 0, 0]}, "
+      "{time: 3, position: [0.4, -0.2, 2.4], target: [0, 0, 0]}]}"}},
     {"one pixel", {"image={width: 1, height: 1}"}},
     {"a row", {"image={width: 700, height: 1}"}},
     {"a column", {"image={width: 1, height: 700}"}},
