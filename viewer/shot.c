@@ -50,16 +50,18 @@ void viewer_revert(viewer *v)
     viewer_tell(v, false, "back to %s", v->document.path);
 }
 
+/* A camera in the air does not sink into the waves; one that is under water stays there. */
 static void keep_camera_above(viewer *v)
 {
     mgt_camera *camera = &v->document.values.camera.still;
     const scene_list *list = &v->document.values.water.waves;
     const wave_settings *w = &v->settings.waves;
-    if (viewer_follows_path(v))
+    const double level = v->document.values.water.level;
+    if (viewer_follows_path(v) || camera->position[1] < level)
         return;
     const size_t count = list->count < w->count ? list->count : w->count;
     const double wave = w->amplitude * wave_height(list->items, count, camera->position[0], camera->position[2], v->settings.clock.time);
-    camera_keep_above(camera, fmax(wave, 0) + v->settings.move.clearance);
+    camera_keep_above(camera, level + fmax(wave, 0) + v->settings.move.clearance);
 }
 
 /* ---- waves ---- */

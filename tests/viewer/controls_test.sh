@@ -46,6 +46,11 @@ pattern() { grep -E "$1" all.txt; }
     echo 'set camera.position [0, 3, 0]'
     vary camera.up panel.shown panel.keys panel.log panel.inspector panel.timings panel.scale
     # what counts in some states only
+    echo 'set camera.position [0, -2, 0]'
+    vary water.absorption water.scattering
+    echo 'set camera.position [0, 3, 0]'
+    vary water.level
+    echo 'set water.level 0'
     echo 'set sky.model gradient'
     vary sky.zenith sky.horizon
     echo 'set sky.model atmosphere'
