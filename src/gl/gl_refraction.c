@@ -277,18 +277,24 @@ static mgt_status over_list(gl_renderer *g, gl_program program, int list, const 
     return status;
 }
 
+static mgt_status over_pixels(gl_renderer *g, gl_program program, const PassData *pass, const reporter *r)
+{
+    const mgt_status status = gl_use(g, program, r);
+    if (status == MGT_OK)
+        g->gl.DispatchCompute((GLuint)pass->columns * 4, (GLuint)pass->rows * 2, 1);
+    return status;
+}
+
 static mgt_status run_passes(gl_renderer *g, const PassData *pass, const reporter *r)
 {
     const gl_api *gl = &g->gl;
     const ObjectsData *objects = &g->refraction.block.objects;
     PassData edges = *pass;
     edges.edges = 1;
-    mgt_status status = gl_use(g, PROGRAM_OBJECTS, r);
-    if (status != MGT_OK)
-        return status;
-    gl->DispatchCompute((GLuint)pass->columns * 4, (GLuint)pass->rows * 2, 1);
+    mgt_status status = over_pixels(g, PROGRAM_OBJECTS, pass, r);
     gl->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-    status = over_list(g, objects->places > 1 ? PROGRAM_OBJECTS_PLACES : PROGRAM_OBJECTS_THROUGH, LIST_THROUGH, r);
+    if (status == MGT_OK)
+        status = objects->places > 1 ? over_pixels(g, PROGRAM_OBJECTS_PLACES, pass, r) : over_list(g, PROGRAM_OBJECTS_THROUGH, LIST_THROUGH, r);
     if (status == MGT_OK && objects->mirrors)
         status = over_list(g, PROGRAM_OBJECTS_MIRRORED, LIST_THROUGH, r);
     if (status == MGT_OK && g->refraction.block.narrow.side < 0)

@@ -79,4 +79,14 @@ done
 # The mean of the halves is the whole; the seed matters to the reference.
 works render "$scene" -o seed.pfm --layer coverage --method reference --spatial 2 --time-samples 2 --seed 9 "${size[@]}" "${quiet[@]}"
 differ seed.pfm whole.pfm
+
+# OpenGL: the same bytes every time, whichever of its threads comes first.
+for view in hull diver; do
+    objects=("$SOURCE/scenes/$view.yaml" --backend gl --refraction-samples 2 "${size[@]}" "${quiet[@]}")
+    "$MANGATA" render "${objects[@]}" -o g1.exr --layer all || continue # without OpenGL there is none
+    for n in 2 3 4; do
+        works render "${objects[@]}" -o g$n.exr --layer all
+        same g1.exr g$n.exr
+    done
+done
 finish

@@ -103,7 +103,9 @@ void main()
         append(LIST_EDGES, number);
     if (front)
         append(LIST_FRONT, number);
-    if (water.share > 0.0f && !front)
+    bool through = water.share > 0.0f && !front;
+    water_data[12 * number + 11] = through ? 1.0f : 0.0f;
+    if (through)
         append(LIST_THROUGH, number);
     if (narrow_data.side < 0.0f && water.share < 1.0f)
         append(LIST_DEEP, number);

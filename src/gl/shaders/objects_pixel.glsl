@@ -17,7 +17,7 @@ struct PixelWater {
 #ifndef LIST_ACCESS
 #define LIST_ACCESS readonly
 #endif
-layout(std430, binding = 4) LIST_ACCESS buffer WaterBlock { float water_data[]; }; /* twelve a pixel */
+layout(std430, binding = 4) LIST_ACCESS buffer WaterBlock { float water_data[]; }; /* twelve a pixel: PixelWater, and 1 in those of LIST_THROUGH */
 
 /* Lists: pixels wholly in front of the water, pixels on edges, pixels that see through the surface, and, under water, those that see no surface. */
 const int LIST_FRONT = 0;
@@ -35,6 +35,8 @@ layout(std430, binding = 5) LIST_ACCESS buffer ListBlock {
 };
 
 int band_pixels() { return pass_data.columns * pass_data.rows * TILE_WIDTH * TILE_HEIGHT; }
+
+bool is_through(int pixel) { return water_data[12 * pixel + 11] > 0.0f; }
 
 PixelWater known_water(int pixel)
 {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * What pixels see through the surface, through several places of each.
+ * What pixels see through the surface, through several places of each. A workgroup stays within its tile, whose waves it sums: on Mesa's llvmpipe the
+ * sums of pixels listed from several tiles depend on which of them stand beside each other.
  */
 #define SHARED_WAVES
 #define OBJECTS_PASS
@@ -9,14 +10,17 @@
 #include "objects_water.glsl"
 #include "objects_through.glsl"
 
+layout(local_size_x = 8, local_size_y = 8) in;
+
 void main()
 {
-    int pixel = listed_pixel(LIST_THROUGH);
-    if (pixel < 0)
+    TilePixel where = tile_pixel();
+    if (!where.inside)
         return;
-    ivec2 texel = texel_of_image(image_of(known_water(pixel)));
-    tile_slot = pixel / (TILE_WIDTH * TILE_HEIGHT);
-    TilePixel where = TilePixel(ivec2(pixel % TILE_WIDTH, pixel / TILE_WIDTH % TILE_HEIGHT), texel, true);
+    ivec2 texel = where.texel;
+    int pixel = tile_slot * TILE_WIDTH * TILE_HEIGHT + where.at.y * TILE_WIDTH + where.at.x;
+    if (!is_through(pixel))
+        return;
     int places = objects_data.places;
     float seen = 0.0f, error = 0.0f;
     vec3 color = vec3(0.0f);

@@ -6,6 +6,8 @@
 #include "gl_data.glsl"
 #include "objects_through.glsl"
 
+layout(local_size_x = 64) in;
+
 void main()
 {
     int pixel = listed_pixel(LIST_THROUGH);

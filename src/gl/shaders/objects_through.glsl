@@ -4,7 +4,6 @@
  */
 #include "objects_behind.glsl"
 
-layout(local_size_x = 64) in;
 layout(binding = 0) writeonly uniform image2D body_image;  /* what comes through the surface */
 layout(binding = 4) writeonly uniform image2D error_image; /* pixels that the point behind the surface is off by */
 
