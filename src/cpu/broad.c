@@ -268,9 +268,10 @@ static void cut_triangle(const chunk_job *job, const patch *whole, const float f
     memcpy(p.far, far, 3 * sizeof *far);
     if (most3(far) > 0) {
         const part near = cut(&p, view->trough, false, side), beyond = cut(&p, 0, true, side);
-        draw_near(job, &near, whole->triangle);
+        if (!view->mirrored)
+            draw_near(job, &near, whole->triangle);
         push_part(job, &beyond, whole->triangle);
-    } else {
+    } else if (!view->mirrored) {
         take_straight(job, NEAR_LAYER, whole);
     }
     if (view->crest > 0) {
@@ -303,6 +304,20 @@ static void take_patch(const chunk_job *job, const patch *p)
     work_until(job, PATCH_BATCH - 1);
 }
 
+/* Whether a triangle of a closed object that the surface cuts open shows the camera its back. */
+static bool shows_inside(const broad_view *view, const patch *p)
+{
+    if (!view->world->objects[view->world->object[p->triangle]].cut)
+        return false;
+    float a[3], b[3], to[3];
+    for (int k = 0; k < 3; k++) {
+        a[k] = p->corner[1][k] - p->corner[0][k];
+        b[k] = p->corner[2][k] - p->corner[0][k];
+        to[k] = (k == 1 ? view->picture.eye_height : 0) - p->corner[0][k];
+    }
+    return (a[1] * b[2] - a[2] * b[1]) * to[0] + (a[2] * b[0] - a[0] * b[2]) * to[1] + (a[0] * b[1] - a[1] * b[0]) * to[2] < 0;
+}
+
 static void take_triangle(const chunk_job *job, size_t index)
 {
     const broad_view *view = job->view;
@@ -317,6 +332,8 @@ static void take_triangle(const chunk_job *job, size_t index)
         memcpy(p.image[i], image, sizeof p.image[i]);
         far[i] = image[3];
     }
+    if (view->mirrored && (most3(far) <= -view->crest || shows_inside(view, &p)))
+        return;
     if (least3(far) >= 0) {
         if (view->refract.map == 0)
             take_straight(job, FAR_LAYER, &p);

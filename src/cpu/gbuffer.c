@@ -302,7 +302,7 @@ static bool is_drawn(const struct gbuffer_store *s, const world *w, const gbuffe
 {
     return s && s->drawn && s->version == w->version && same_camera(&s->job.camera, &job->camera) && s->job.width == job->width &&
            s->job.height == job->height && s->job.index == job->index && s->job.map == job->map && s->job.error == job->error &&
-           s->job.crest == job->crest && s->job.trough == job->trough;
+           s->job.crest == job->crest && s->job.trough == job->trough && s->job.mirrored == job->mirrored;
 }
 
 static broad_view view_of(const gbuffers *g, const world *w, const gbuffer_job *job, const raster_kernels *kernels)
@@ -314,6 +314,7 @@ static broad_view view_of(const gbuffers *g, const world *w, const gbuffer_job *
     view.foot[1] = (float)(job->camera.position[2] - w->origin[1]);
     view.crest = job->map == GBUFFER_PATH ? 0 : (float)job->crest;
     view.trough = (float)job->trough;
+    view.mirrored = job->mirrored;
     return view;
 }
 

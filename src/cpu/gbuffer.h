@@ -41,6 +41,7 @@ typedef struct gbuffer_job {
     double error;           /* pixels that a triangle bent by the map may be off by; 0: 0.1 */
     double trough;          /* metres beyond the mean surface that the near layer goes on for: as far as the waves may uncover it */
     double crest;           /* metres over the mean surface that the far layer goes on for on the camera's side: as far as the waves may reach */
+    bool mirrored;          /* the far layer alone, without the insides of closed objects that the surface cuts open: of a camera that mirrors see */
 } gbuffer_job;
 
 /* Counts of the last picture that was drawn. */

@@ -31,6 +31,7 @@ typedef struct tile_ends {
     float direction[3][TILE_PIXELS];
     float before[TILE_PIXELS], after[TILE_PIXELS], water[TILE_PIXELS];
     float slopes[3][TILE_PIXELS];
+    float gain[TILE_PIXELS];  /* as in shade_hits */
     float error[TILE_PIXELS]; /* pixels; +inf: nothing is known */
     float total[TILE_PIXELS]; /* 1 where the surface lets nothing through */
     float doubt[TILE_PIXELS]; /* two-phase, hybrid: 1 where the pictures do not certify the answer, else 0 */

@@ -178,6 +178,7 @@ static void lanes_points(const near_scene *n, const tile_offset *at, const tile_
         store_vector(ends->slopes, i, vec3(real(0.0f), real(0.0f), real(0.0f)));
         store(ends->before + i, along);
         store(ends->after + i, real(0.0f));
+        store(ends->gain + i, real(1.0f));
         store(ends->water + i, n->under ? along : real(0.0f));
     }
 }

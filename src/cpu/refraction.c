@@ -183,6 +183,7 @@ gbuffer_job refraction_mirrored_job(const frame *f)
     job.camera = mirrored_rays(&job.camera);
     job.map = GBUFFER_STRAIGHT;
     job.trough = 0;
+    job.mirrored = true;
     return job;
 }
 

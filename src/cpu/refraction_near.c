@@ -74,6 +74,7 @@ static void add_point(const near_pixel *p, const double ray[3], double along, in
     }
     e->before[at] = (float)(along * length);
     e->after[at] = 0;
+    e->gain[at] = 1;
     e->water[at] = r->frame->under ? e->before[at] : 0;
     o->share[p->i] += 1;
     const float *plane = r->planes + 4 * (size_t)triangle;

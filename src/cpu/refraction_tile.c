@@ -26,6 +26,7 @@ void refraction_shade(const refraction *r, tile_objects *o, size_t count)
         .after = e->after,
         .water = e->water,
         .slopes = {e->slopes[0], e->slopes[1], e->slopes[2]},
+        .gain = e->gain,
     };
     shade_points(r->shade, &hits, o->rgb);
 }
@@ -44,6 +45,7 @@ void refraction_shade_listed(const refraction *r, tile_objects *o, size_t count)
         take(e->before, o->list, count);
         take(e->after, o->list, count);
         take(e->water, o->list, count);
+        take(e->gain, o->list, count);
     }
     refraction_shade(r, o, count);
 }
@@ -73,12 +75,13 @@ static void leave_covered(tile_objects *o)
         o->water.share[i] = o->share[i] < 1 ? o->water.share[i] : 0;
 }
 
-/* What objects, and under water the way from the surface, leave of the light's disk. */
+/* What objects leave of the light's disk; under water, where its radiance is n² times as much, the way from the surface too. */
 static void see_light(const refraction *r, tile_objects *o)
 {
     const mgt_water *water = &r->frame->scene->water;
     const camera_rays *c = &r->camera;
     const float foot_x = r->narrow.data.foot_x, foot_z = r->narrow.data.foot_z;
+    const double n = water->index_of_refraction;
     float x[TILE_PIXELS], z[TILE_PIXELS], lit[TILE_PIXELS];
     for (size_t i = 0; i < TILE_PIXELS; i++) {
         const bool seen = o->water.share[i] > 0;
@@ -89,8 +92,8 @@ static void see_light(const refraction *r, tile_objects *o)
     for (size_t i = 0; i < TILE_PIXELS; i++)
         for (int k = 0; k < 3; k++) {
             const double way = c->position[1] < 0 && o->water.share[i] > 0 ? (double)o->water.along[i] : 0;
-            const float left = way > 0 ? (float)exp(-way * ((double)water->absorption[k] + (double)water->scattering[k])) : 1;
-            o->light.clear[k][i] = lit[i] * left;
+            const double left = way > 0 ? n * n * exp(-way * ((double)water->absorption[k] + (double)water->scattering[k])) : 1;
+            o->light.clear[k][i] = lit[i] * (float)left;
         }
 }
 
@@ -116,6 +119,7 @@ static void see_deep(const refraction *r, uint32_t column, uint32_t row, tile_ob
         e->direction[1][count] = fminf(e->direction[1][count], -1e-6f);
         e->triangle[count] = -1;
         e->before[count] = e->after[count] = e->water[count] = 0;
+        e->gain[count] = 1;
         o->list[count++] = (uint16_t)i;
     }
     refraction_shade(r, o, count);
@@ -191,6 +195,7 @@ static void see_mirrored(const refraction *r, const tile_offset *at, size_t coun
         const uint16_t i = o->list[k];
         const bool seen = r->frame->under || o->ends.triangle[i] >= 0;
         o->light.share[i] = seen ? 1 : 0;
+        o->ends.gain[i] = 1;
         o->list[mirrored] = i;
         mirrored += seen;
     }
@@ -223,8 +228,13 @@ static void see_place(refraction *r, const tile_offset *at, size_t count, tile_o
         refraction_sharpen(r, o, count);
     if (method == MGT_REFRACTION_HYBRID || method == MGT_REFRACTION_DISTANCE_FIELD)
         trace_doubtful(r, o, count);
-    for (size_t k = 0; k < count; k++)
-        o->error[o->list[k]] = fmaxf(o->error[o->list[k]], o->ends.error[o->list[k]]);
+    const double n = r->frame->scene->water.index_of_refraction;
+    const float through = (float)(r->frame->under ? n * n : 1 / (n * n));
+    for (size_t k = 0; k < count; k++) {
+        const size_t i = o->list[k];
+        o->error[i] = fmaxf(o->error[i], o->ends.error[i]);
+        o->ends.gain[i] = o->ends.total[i] > 0 ? 1 : through;
+    }
     refraction_shade_listed(r, o, count);
     for (size_t i = 0; i < count; i++) {
         for (int k = 0; k < 3; k++)

@@ -74,9 +74,10 @@ static void set_water(ShadeData *d, const frame *f, const sky_state *sky)
     sky_body_radiance(sky, water, deep);
     d->absorption_r = water->absorption[0], d->absorption_g = water->absorption[1], d->absorption_b = water->absorption[2];
     d->scattering_r = water->scattering[0], d->scattering_g = water->scattering[1], d->scattering_b = water->scattering[2];
-    d->deep_r = (float)deep[0], d->deep_g = (float)deep[1], d->deep_b = (float)deep[2];
-    d->index = (float)water->index_of_refraction;
-    const double height = f->scene->camera.position[1];
+    const double n = water->index_of_refraction, height = f->scene->camera.position[1];
+    d->deep_r = (float)(n * n * deep[0]), d->deep_g = (float)(n * n * deep[1]), d->deep_b = (float)(n * n * deep[2]);
+    d->index = (float)n;
+    d->glow_gain = (float)(height < 0 ? 1 : 1 / (n * n));
     d->camera_side = height < 0 ? -1 : 1;
     d->camera_depth = (float)fmax(-height, 0);
     d->pixel_angle = f->data.pixel_angle;

@@ -19,6 +19,7 @@ typedef struct shade_hits {
     const float *after;        /* … and from there on */
     const float *water;        /* metres of all these that lie in water; where nothing is met: those before the ray left for good */
     const float *slopes[3];    /* covariance xx, xz, zz of the surface's slopes about the one that the ray was bent by; NULL: none */
+    const float *gain;         /* radiance at the camera over that at the end: its index of refraction over the end's, squared; NULL: 1 */
 } shade_hits;
 
 typedef struct shade_scene shade_scene;

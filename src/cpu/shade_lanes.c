@@ -188,6 +188,7 @@ static HitRay ray_of(const shade_hits *h, size_t i, size_t count, mask found)
     r.slope_xx = h->slopes[0] ? load_some(h->slopes[0] + i, count) : real(0.0f);
     r.slope_xz = h->slopes[1] ? load_some(h->slopes[1] + i, count) : real(0.0f);
     r.slope_zz = h->slopes[2] ? load_some(h->slopes[2] + i, count) : real(0.0f);
+    r.gain = h->gain ? load_some(h->gain + i, count) : real(1.0f);
     return r;
 }
 

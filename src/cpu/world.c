@@ -139,6 +139,28 @@ static void fill_normals(const mgt_mesh *mesh, const double matrix[3][3], float 
     }
 }
 
+/* The vector areas of a closed mesh sum up to nothing. */
+static bool is_cut(const world *w, const world_object *o)
+{
+    double sum[3] = {0, 0, 0}, area = 0;
+    float low = INFINITY, high = -INFINITY;
+    for (size_t i = o->first_triangle; i < (size_t)o->first_triangle + o->triangle_count; i++) {
+        const float *p[3];
+        double e[2][3];
+        for (int c = 0; c < 3; c++) {
+            p[c] = w->positions + 3 * (size_t)w->indices[3 * i + (size_t)c];
+            low = fminf(low, p[c][1]), high = fmaxf(high, p[c][1]);
+        }
+        for (int k = 0; k < 3; k++)
+            e[0][k] = (double)p[1][k] - (double)p[0][k], e[1][k] = (double)p[2][k] - (double)p[0][k];
+        const double a[3] = {e[0][1] * e[1][2] - e[0][2] * e[1][1], e[0][2] * e[1][0] - e[0][0] * e[1][2], e[0][0] * e[1][1] - e[0][1] * e[1][0]};
+        for (int k = 0; k < 3; k++)
+            sum[k] += a[k];
+        area += sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+    }
+    return low < 0 && high > 0 && sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]) < 1e-3 * area;
+}
+
 static void fill_object(void *argument, size_t index, uint32_t worker)
 {
     (void)worker;
@@ -166,7 +188,7 @@ static void fill_object(void *argument, size_t index, uint32_t worker)
         memcpy(w->texcoords + 2 * first, mesh->texcoords, (size_t)mesh->vertex_count * 2 * sizeof *w->texcoords);
     else
         memset(w->texcoords + 2 * first, 0, (size_t)mesh->vertex_count * 2 * sizeof *w->texcoords);
-    const world_object *o = &w->objects[index];
+    world_object *o = &w->objects[index];
     for (size_t i = 0; i < mesh->triangle_count; i++) {
         const uint32_t *from = mesh->indices + 3 * i;
         uint32_t *to = w->indices + 3 * (o->first_triangle + i);
@@ -175,6 +197,7 @@ static void fill_object(void *argument, size_t index, uint32_t worker)
         to[2] = (uint32_t)first + from[mirrors ? 1 : 2];
         w->object[o->first_triangle + i] = (uint32_t)index;
     }
+    o->cut = is_cut(w, o);
 }
 
 static void find_bounds(world *w)

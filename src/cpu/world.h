@@ -11,6 +11,7 @@ typedef struct world_object {
     mgt_material material;
     uint32_t first_triangle, triangle_count;
     bool smooth; /* the mesh has normals of its own; else its triangles are flat and `normals` holds zeros */
+    bool cut;    /* closed, and the mean surface cuts it */
 } world_object;
 
 /*

@@ -81,6 +81,19 @@ static void end_drawing(const gl_renderer *g)
     g->gl.BindVertexArray(0);
 }
 
+/* Triangles of the objects that the surface cuts open, or of the others. */
+static void draw_objects(const gl_api *gl, const world *w, bool cut)
+{
+    for (size_t i = 0; i < w->object_count; i++) {
+        const size_t first = i;
+        size_t count = 0;
+        for (; i < w->object_count && w->objects[i].cut == cut; i++)
+            count += w->objects[i].triangle_count;
+        if (count > 0)
+            gl->DrawArrays(GL_TRIANGLES, (GLint)(3 * w->objects[first].first_triangle), (GLsizei)(3 * count));
+    }
+}
+
 /* One layer: on the side of the camera, or beyond the surface. */
 static mgt_status draw_layer(gl_renderer *g, const gl_gbuffer *layer, const gbuffer_job *job, bool beyond, const reporter *r)
 {
@@ -89,14 +102,14 @@ static mgt_status draw_layer(gl_renderer *g, const gl_gbuffer *layer, const gbuf
     const double *at = job->camera.position;
     const RefractData refract = refract_data_of(at[1], job->index, job->map);
     const PictureData picture = gbuffer_picture(job);
-    const GbufferData data = {
+    GbufferData data = {
         .move_x = (float)(w->origin[0] - at[0]),
         .move_z = (float)(w->origin[1] - at[2]),
         .side = beyond ? -refract.side : refract.side,
         .crest = (float)(!beyond ? job->trough : job->map == GBUFFER_PATH ? 0 : job->crest),
     };
     const bool bent = beyond && job->map != GBUFFER_STRAIGHT;
-    mgt_status status = gl_ring_begin(gl, &g->ring, sizeof refract + sizeof picture + sizeof data, 3, r);
+    mgt_status status = gl_ring_begin(gl, &g->ring, sizeof refract + sizeof picture + 2 * sizeof data, 4, r);
     if (status == MGT_OK)
         status = gl_use(g, bent ? PROGRAM_GBUFFER_BENT : PROGRAM_GBUFFER, r);
     if (status != MGT_OK)
@@ -109,8 +122,16 @@ static mgt_status draw_layer(gl_renderer *g, const gl_gbuffer *layer, const gbuf
     gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, layer->framebuffer);
     gl->ClearBufferiv(GL_COLOR, 0, nothing);
     gl->ClearBufferfv(GL_DEPTH, 0, &farthest);
-    if (w->triangle_count > 0)
+    if (w->triangle_count == 0)
+        return MGT_OK;
+    if (!job->mirrored) {
         gl->DrawArrays(bent ? GL_PATCHES : GL_TRIANGLES, 0, (GLsizei)(3 * w->triangle_count));
+        return MGT_OK;
+    }
+    draw_objects(gl, w, false);
+    data.drop_backs = 1;
+    gl_uniform(g, BIND_EXTRA, &data, sizeof data);
+    draw_objects(gl, w, true);
     return MGT_OK;
 }
 

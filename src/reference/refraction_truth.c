@@ -37,7 +37,7 @@ typedef struct surface_point {
 
 typedef struct batch_hits {
     int32_t triangle[BATCH];
-    float position[3][BATCH], direction[3][BATCH], before[BATCH], after[BATCH], water[BATCH];
+    float position[3][BATCH], direction[3][BATCH], before[BATCH], after[BATCH], water[BATCH], gain[BATCH];
     float rgb[3 * BATCH];
     float share[BATCH];
     uint16_t pixel[BATCH];
@@ -277,10 +277,12 @@ static void split_part(const refraction_truth *t, truth_scratch *s, light_part p
 
 /* ---- where rays end ---- */
 
-static void end_part(truth_scratch *s, light_part p, const trace_ray *ray, const trace_hit *met)
+static void end_part(const refraction_truth *t, truth_scratch *s, light_part p, const trace_ray *ray, const trace_hit *met)
 {
     batch_hits *e = &s->ends;
     const size_t i = e->count++;
+    const double n = t->job.scene->water.index_of_refraction;
+    const bool wet = t->job.camera.position[1] < 0;
     if (met->triangle >= 0)
         advance(&p, (double)met->along, false);
     e->triangle[i] = met->triangle;
@@ -291,6 +293,7 @@ static void end_part(truth_scratch *s, light_part p, const trace_ray *ray, const
     e->before[i] = (float)p.before;
     e->after[i] = (float)p.after;
     e->water[i] = (float)p.water;
+    e->gain[i] = p.wet == wet ? 1 : (float)(wet ? n * n : 1 / (n * n));
     e->share[i] = (float)p.share;
     e->pixel[i] = p.pixel;
     e->mirrored[i] = p.mirrored;
@@ -305,7 +308,8 @@ static void shade_ends(const refraction_truth *t, truth_scratch *s)
                              .direction = {e->direction[0], e->direction[1], e->direction[2]},
                              .before = e->before,
                              .after = e->after,
-                             .water = e->water};
+                             .water = e->water,
+                             .gain = e->gain};
     t->job.shade(t->job.user, &hits, e->rgb);
     for (size_t i = 0; i < e->count; i++)
         for (int k = 0; k < 3; k++)
@@ -326,7 +330,7 @@ static void follow_parts(const refraction_truth *t, truth_scratch *s)
             if (again && s->batch[i].events < TRUTH_MOST_EVENTS)
                 split_part(t, s, s->batch[i], &s->surface[i]);
             else
-                end_part(s, s->batch[i], &s->rays[i], &s->met[i]);
+                end_part(t, s, s->batch[i], &s->rays[i], &s->met[i]);
         }
         shade_ends(t, s);
     }

@@ -20,7 +20,7 @@ static char error_text[REPORTER_TEXT];
 static const reporter silent = {.error = error_text};
 
 /* What the tests' shading returns. */
-typedef enum answer_kind { TOLD_POSITION, TOLD_DIRECTION, TOLD_LENGTHS, TOLD_ONE } answer_kind;
+typedef enum answer_kind { TOLD_POSITION, TOLD_DIRECTION, TOLD_LENGTHS, TOLD_GAIN, TOLD_ONE } answer_kind;
 
 static void tell(const shade_scene *user, const shade_hits *h, float *rgb)
 {
@@ -31,6 +31,7 @@ static void tell(const shade_scene *user, const shade_hits *h, float *rgb)
             rgb[3 * i + (size_t)k] = what == TOLD_ONE ? 1
                                      : what == TOLD_POSITION ? (h->triangle[i] >= 0 ? h->position[k][i] : NAN)
                                      : what == TOLD_DIRECTION ? h->direction[k][i]
+                                     : what == TOLD_GAIN ? h->gain[i]
                                                               : lengths[k];
     }
 }
@@ -114,6 +115,47 @@ static void assert_position(const setup *s, const double told[3], const double e
     for (int k = 0; k < 3; k++)
         if (!(fabs(place[k] - exact[k]) <= tolerance))
             fail_msg("(%g, %g, %g) where (%g, %g, %g) is right", place[0], place[1], place[2], exact[0], exact[1], exact[2]);
+}
+
+/* Of a thin bundle of rays through a level surface. */
+static double etendue(const double a[3], const double b[3], const double c[3])
+{
+    const double volume = a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
+    return fabs(0.5 * volume * (a[1] + b[1] + c[1]) / 3);
+}
+
+/* What a lossless surface lets through stays the same power: radiance changes as the bundle's etendue does. */
+static void radiance_keeps_the_power_of_a_bundle(void **state)
+{
+    (void)state;
+    for (int below = 0; below < 2; below++) {
+        setup s;
+        begin(&s, below ? -3 : 3, below ? 2 : -2);
+        s.scene.camera = (mgt_camera){{5, below ? -3 : 3, 2}, {6, 0, 1}, {0, 1, 0}, 40};
+        truth_pixels *directions = render(&s, TOLD_DIRECTION, MGT_ISA_AUTO, 0), *gains = render(&s, TOLD_GAIN, MGT_ISA_AUTO, 0);
+        int seen = 0;
+        for (uint32_t y = 0; y + 1 < HEIGHT; y++)
+            for (uint32_t x = 0; x + 1 < WIDTH; x++) {
+                double o[3], v[3][3];
+                answer a[3];
+                bool through = true;
+                for (uint32_t k = 0; k < 3; k++) {
+                    camera_ray(&s.scene, x + (k == 1) + 0.5, y + (k == 2) + 0.5, 0, o, v[k]);
+                    a[k] = answer_at(directions, x + (k == 1), y + (k == 2));
+                    through = through && a[k].water > 0 && (a[k].through[1] > 0) == (below > 0) && fmin(fabs(v[k][1]), fabs(a[k].through[1])) > 0.4;
+                }
+                if (!through)
+                    continue;
+                const double exact = etendue(a[0].through, a[1].through, a[2].through) / etendue(v[0], v[1], v[2]);
+                assert_true(fabs(answer_at(gains, x, y).through[0] / exact - 1) < 0.02);
+                assert_true(answer_at(gains, x, y).mirrored[0] == 1);
+                seen++;
+            }
+        assert_true(seen > 100);
+        free(directions);
+        free(gains);
+        end(&s);
+    }
 }
 
 static void flat_water_shows_a_floor_where_snell_says(void **state)
@@ -353,7 +395,8 @@ static void samples_fill_the_pixel(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(flat_water_shows_a_floor_where_snell_says), cmocka_unit_test(snells_window_ends_at_its_angle),
+        cmocka_unit_test(flat_water_shows_a_floor_where_snell_says),
+        cmocka_unit_test(radiance_keeps_the_power_of_a_bundle), cmocka_unit_test(snells_window_ends_at_its_angle),
         cmocka_unit_test(waves_bend_rays_at_their_first_hit),        cmocka_unit_test(waves_bend_rays_from_below),
         cmocka_unit_test(shares_add_up),
         cmocka_unit_test(bits_depend_on_the_tile_alone),             cmocka_unit_test(samples_fill_the_pixel),

@@ -18,7 +18,7 @@ layout(binding = 4) writeonly uniform image2D error_image;
 layout(binding = 5) writeonly uniform image2D clear_image; /* what objects and water leave of the light's disk */
 layout(binding = 6) writeonly uniform image2D deep_image;
 
-/* What objects, and under water the way from the surface, leave of the light's disk. */
+/* What objects leave of the light's disk; under water, where its radiance is n² times as much, the way from the surface too. */
 vec3 clear_to_light(PixelWater w)
 {
     vec3 at = vec3(narrow_data.foot_x, 0.0f, narrow_data.foot_z);
@@ -27,7 +27,7 @@ vec3 clear_to_light(PixelWater w)
     float lit = SUN_SHARE(0, at + w.hit.along * vec3(w.hit.view.x, 0.0f, w.hit.view.z));
     if (narrow_data.side > 0.0f)
         return vec3(lit);
-    return lit * exp(-w.hit.along * vec3(shade_data.absorption_r + shade_data.scattering_r, shade_data.absorption_g + shade_data.scattering_g,
+    return lit * shade_data.index * shade_data.index * exp(-w.hit.along * vec3(shade_data.absorption_r + shade_data.scattering_r, shade_data.absorption_g + shade_data.scattering_g,
                                          shade_data.absorption_b + shade_data.scattering_b));
 }
 

@@ -17,5 +17,6 @@ HitRay ray_of(WaterHit hit, FoundPoint f, float wet, vec3 slopes)
     r.slope_xx = slopes.x;
     r.slope_xz = slopes.y;
     r.slope_zz = slopes.z;
+    r.gain = 1.0f;
     return r;
 }

@@ -54,6 +54,7 @@ RayEnd end_in_front(ivec2 image, PixelWater w, bool edge, vec2 place)
     end.ray.slope_xx = 0.0f;
     end.ray.slope_xz = 0.0f;
     end.ray.slope_zz = 0.0f;
+    end.ray.gain = 1.0f;
     end.error = 0.0f;
     end.counts = end.triangle >= 0 && along < meet_water(w, ray);
     return end;
