@@ -14,7 +14,7 @@
 #include "cpu/raster_lanes.h"
 #include "gl/gl_egl.h"
 #include "gl/gl_renderer.h"
-#include "mangata/mangata.h"
+#include "unit/test_mesh.h"
 
 enum { WIDTH = 160, HEIGHT = 90, CELLS = 8, VERTICES = 5 * (CELLS + 1) * (CELLS + 1), TRIANGLES = 5 * 2 * CELLS * CELLS };
 
@@ -42,14 +42,7 @@ static mgt_mesh *pool_mesh(void)
                     indices[index++] = quad[k];
             }
     }
-    mgt_mesh_desc desc = mgt_mesh_desc_defaults();
-    desc.positions = positions;
-    desc.vertex_count = VERTICES;
-    desc.indices = indices;
-    desc.triangle_count = TRIANGLES;
-    mgt_mesh *mesh = NULL;
-    assert_int_equal(mgt_mesh_create(&mesh, &desc), MGT_OK);
-    return mesh;
+    return test_mesh(positions, NULL, VERTICES, indices, TRIANGLES);
 }
 
 /* ---- rays ---- */

@@ -2,23 +2,14 @@
  *
  * Scenes with objects on OpenGL: beside the CPU, in parts, and in textures of a host.
  */
-#include "unit/api_sea.h"
+#include "gl_sea.h"
 
 #include "gl/gl_api.h"
 #include "gl/gl_egl.h"
 #include "mangata/mangata_gl.h"
+#include "unit/test_mesh.h"
 
-enum { PIXELS = SEA_WIDTH * SEA_HEIGHT, SIDE = 8, TEXTURE_SIDE = 16 };
-
-static mgt_context *gl_context(void)
-{
-    mgt_context_desc desc = mgt_context_desc_defaults();
-    desc.backend = MGT_BACKEND_GL;
-    mgt_context *context = NULL;
-    if (mgt_context_create(&context, &desc) != MGT_OK)
-        fail_msg("%s", mgt_last_error(NULL));
-    return context;
-}
+enum { SIDE = 8, TEXTURE_SIDE = 16 };
 
 /* ---- a box, half of it under water, in front of the camera, and a floor under it ---- */
 
@@ -27,19 +18,6 @@ typedef struct props {
     mgt_texture *texture;
     mgt_object objects[2];
 } props;
-
-static mgt_mesh *mesh_of(const float *positions, const float *texcoords, uint32_t vertices, const uint32_t *indices, uint32_t triangles)
-{
-    mgt_mesh_desc desc = mgt_mesh_desc_defaults();
-    desc.positions = positions;
-    desc.texcoords = texcoords;
-    desc.vertex_count = vertices;
-    desc.indices = indices;
-    desc.triangle_count = triangles;
-    mgt_mesh *mesh = NULL;
-    assert_int_equal(mgt_mesh_create(&mesh, &desc), MGT_OK);
-    return mesh;
-}
 
 static mgt_texture *checks(void)
 {
@@ -76,8 +54,8 @@ static props make_props(void)
         const uint32_t a = i / SIDE * (SIDE + 1) + i % SIDE, cell[6] = {a, a + SIDE + 1, a + 1, a + 1, a + SIDE + 1, a + SIDE + 2};
         memcpy(cells + 6 * i, cell, sizeof cell);
     }
-    props p = {.box = mesh_of(corners, NULL, 8, sides, 12), .texture = checks()};
-    p.floor = mesh_of(floor_points, places, (SIDE + 1) * (SIDE + 1), cells, 2 * SIDE * SIDE);
+    props p = {.box = test_mesh(corners, NULL, 8, sides, 12), .texture = checks()};
+    p.floor = test_mesh(floor_points, places, (SIDE + 1) * (SIDE + 1), cells, 2 * SIDE * SIDE);
     p.objects[0] = (mgt_object){.mesh = p.box, .transform = {{0.5, 0, 0.2, 0.3}, {0, 0.7, 0, 0}, {-0.2, 0, 0.5, -4}}, .material = material_of(0.8f, 0.3f, 0.2f)};
     p.objects[1] = (mgt_object){.mesh = p.floor, .transform = {{1, 0, 0, 0}, {0, 1, 0, -1.2}, {0, 0, 1, -4}}, .material = material_of(1, 1, 1)};
     p.objects[1].material.texture = p.texture;
@@ -108,35 +86,6 @@ static mgt_scene scene_of(const props *p, mgt_wave waves[SEA_WAVES], bool under)
 }
 
 /* ---- layers ---- */
-
-typedef struct layers {
-    float color[PIXELS * 3], coverage[PIXELS], mask[PIXELS], depth[PIXELS], normal[PIXELS * 3], refraction[PIXELS * 3], error[PIXELS];
-    unsigned char shown[PIXELS * 4];
-} layers;
-
-static void render_all(mgt_context *context, const mgt_scene *scene, layers *out)
-{
-    const mgt_target targets[] = {
-        sea_target(MGT_LAYER_COLOR, MGT_FORMAT_RGB32F, out->color, 0),           sea_target(MGT_LAYER_COVERAGE, MGT_FORMAT_R32F, out->coverage, 0),
-        sea_target(MGT_LAYER_MASK, MGT_FORMAT_R32F, out->mask, 0),               sea_target(MGT_LAYER_DEPTH, MGT_FORMAT_R32F, out->depth, 0),
-        sea_target(MGT_LAYER_NORMAL, MGT_FORMAT_RGB32F, out->normal, 0),         sea_target(MGT_LAYER_COLOR, MGT_FORMAT_RGBA8_SRGB, out->shown, 0),
-        sea_target(MGT_LAYER_REFRACTION, MGT_FORMAT_RGB32F, out->refraction, 0), sea_target(MGT_LAYER_REFRACTION_ERROR, MGT_FORMAT_R32F, out->error, 0),
-    };
-    /* Those of refraction of a moving camera would have the CPU render all. */
-    memset(out, 0, sizeof *out);
-    sea_render(context, scene, targets, sizeof targets / sizeof *targets - (scene->camera_moves ? 2 : 0));
-}
-
-static void expect_same(const char *what, const float *a, const float *b, size_t count, double limit)
-{
-    size_t off = 0;
-    for (size_t i = 0; i < count; i++) {
-        const double x = (double)a[i], y = (double)b[i];
-        off += x != y && !(fabs(x - y) <= limit * fmax(1, fabs(y)));
-    }
-    if (off > count / 200)
-        fail_msg("%s: %zu of %zu values differ", what, off, count);
-}
 
 /* Ways to refract and methods; cameras above and under the water, at rest and moving. */
 static void objects_are_those_of_the_cpu(void **state)
@@ -178,6 +127,8 @@ static void objects_are_those_of_the_cpu(void **state)
             expect_same("mask", got.mask, expected.mask, PIXELS, 1e-3);
             expect_same("depth", got.depth, expected.depth, PIXELS, 2e-3);
             expect_same("normal", got.normal, expected.normal, PIXELS * 3, 5e-3);
+            if (scene.camera_moves)
+                continue;
             expect_same("refraction", got.refraction, expected.refraction, PIXELS * 3, 2e-2);
             expect_same("refraction_error", got.error, expected.error, PIXELS, 5e-2);
         }

@@ -13,6 +13,7 @@
 #include "gl_calls.h"
 #include "gl_state.h"
 #include "host_geometry.h"
+#include "unit/test_mesh.h"
 
 /* The example itself, but for its main(). */
 #define HOST_GL_NO_WINDOW
@@ -311,13 +312,7 @@ static void view_is_the_picture(void **state)
 
     static const float corners[] = {-6, -3, 6, 6, -3, 6, 6, 1, -14, -6, 1, -14};
     static const uint32_t halves[] = {0, 1, 2, 0, 2, 3};
-    mgt_mesh_desc desc = mgt_mesh_desc_defaults();
-    desc.positions = corners;
-    desc.vertex_count = 4;
-    desc.indices = halves;
-    desc.triangle_count = 2;
-    mgt_mesh *ramp = NULL;
-    assert_int_equal(mgt_mesh_create(&ramp, &desc), MGT_OK);
+    mgt_mesh *ramp = test_mesh(corners, NULL, 4, halves, 2);
     const mgt_object object = {.mesh = ramp, .transform = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}},
                                .material = {.base_color = {0.7f, 0.5f, 0.3f}, .roughness = 0.6f, .pattern_size = 1}};
     scene.objects = &object;

@@ -13,6 +13,7 @@
 #include <cmocka.h>
 
 #include "cpu/distance_field.h"
+#include "unit/test_mesh.h"
 
 static char error_text[REPORTER_TEXT];
 static const reporter silent = {.error = error_text};
@@ -42,14 +43,7 @@ static mgt_mesh *ball(void)
         }
     const uint32_t square[6] = {VERTICES, VERTICES + 2, VERTICES + 1, VERTICES, VERTICES + 3, VERTICES + 2};
     memcpy(t, square, sizeof square);
-    mgt_mesh_desc desc = mgt_mesh_desc_defaults();
-    desc.positions = positions;
-    desc.vertex_count = VERTICES + 4;
-    desc.indices = indices;
-    desc.triangle_count = TRIANGLES + 2;
-    mgt_mesh *mesh;
-    assert_int_equal(mgt_mesh_create(&mesh, &desc), MGT_OK);
-    return mesh;
+    return test_mesh(positions, NULL, VERTICES + 4, indices, TRIANGLES + 2);
 }
 
 typedef struct setup {

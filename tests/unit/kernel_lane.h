@@ -21,6 +21,7 @@
 #include "cpu/lean_map.h"
 #include "precompute/atmosphere.h"
 #include "reference/equations.h"
+#include "unit/random_numbers.h"
 
 #pragma GCC diagnostic ignored "-Wunused-parameter" /* the dialect hands cx to every function */
 #define MGT_LANES 1
@@ -84,33 +85,7 @@ KERNEL vec3 LEAN_SQUARE(CTX cx, real level, real column, real row)
 #include "kernels/tokuyoshi.k"
 #undef light_direction
 
-#undef sqrt
-#undef floor
-#undef min
-#undef max
-#undef abs
-#undef fma
-#undef clamp
-#undef real
-
-/* ---- seeded random numbers ---- */
-
-typedef struct random_state {
-    uint64_t state;
-} random_state;
-
-static inline double random_unit(random_state *r)
-{
-    uint64_t x = r->state += 0x9e3779b97f4a7c15u;
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-    return (double)((x ^ (x >> 31)) >> 11) * 0x1p-53;
-}
-
-static inline double random_range(random_state *r, double low, double high)
-{
-    return low + (high - low) * random_unit(r);
-}
+#include "unit/kernel_words_off.h"
 
 /* ---- statistics of errors ---- */
 

@@ -14,6 +14,7 @@
 #include "cpu/gbuffer.h"
 #include "cpu/narrow_lanes.h"
 #include "cpu/refraction_data.h"
+#include "unit/random_numbers.h"
 
 #pragma GCC diagnostic ignored "-Wunused-parameter" /* the dialect hands cx to every function */
 #pragma GCC diagnostic ignored "-Wshadow"
@@ -49,14 +50,7 @@ KERNEL LayerPixel LAYER(CTX cx, int layer, real column, real row) { return layer
 #include "kernels/mirror.k"
 #include "kernels/narrow.k"
 
-#undef sqrt
-#undef floor
-#undef min
-#undef max
-#undef abs
-#undef fma
-#undef clamp
-#undef real
+#include "unit/kernel_words_off.h"
 #undef dot
 #undef cross
 #undef scale
@@ -64,14 +58,11 @@ KERNEL LayerPixel LAYER(CTX cx, int layer, real column, real row) { return layer
 #undef sub
 #undef normalize
 
-static uint64_t random_state;
+static random_state numbers;
 
 static double range(double low, double high)
 {
-    uint64_t x = random_state += 0x9e3779b97f4a7c15u;
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-    return low + (high - low) * ((double)((x ^ (x >> 31)) >> 11) * 0x1p-53);
+    return random_range(&numbers, low, high);
 }
 
 static double dot3(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
@@ -118,7 +109,7 @@ static void patterns_are_box_means(void **state)
 {
     (void)state;
     enum { STEPS = 400 };
-    random_state = 1;
+    numbers.state = 1;
     double worst = 0;
     for (int i = 0; i < 400; i++) {
         const int kind = i % 4;
@@ -139,7 +130,7 @@ static void patterns_are_box_means(void **state)
 static void glow_is_the_integral(void **state)
 {
     (void)state;
-    random_state = 2;
+    numbers.state = 2;
     for (int i = 0; i < 200; i++) {
         const double light = range(0, 10), sigma = exp(range(-6, 1)), b = sigma * range(0, 1), slant = range(1, 1.5), depth = range(0, 5),
                      distance = exp(range(-3, 3)), fall = range(-1, 1) > 0 ? range(0, 1) : -range(0, 1) * fmin(depth / distance, 1);
@@ -186,7 +177,7 @@ static double spread(double theta, bool within, double ratio, double before, dou
 static void footprints_follow_the_rays(void **state)
 {
     (void)state;
-    random_state = 3;
+    numbers.state = 3;
     for (int i = 0; i < 300; i++) {
         const bool under = i % 2;
         const double n = 1.333, ratio = under ? n : 1 / n, theta = range(0.05, under ? 0.75 : 1.3), before = range(0.5, 10), after = range(0.1, 10);
@@ -228,7 +219,7 @@ static void send(const double light[3], double x, double z, double depth, double
 static void caustics_are_shares_of_area(void **state)
 {
     (void)state;
-    random_state = 4;
+    numbers.state = 4;
     double worst = 0;
     for (int i = 0; i < 400; i++) {
         double light[3] = {range(-0.5, 0.5), 1, range(-0.5, 0.5)};
@@ -257,7 +248,7 @@ static void caustics_are_shares_of_area(void **state)
 static void slopes_bend_the_view_to_the_light(void **state)
 {
     (void)state;
-    random_state = 5;
+    numbers.state = 5;
     int seen = 0;
     for (int i = 0; i < 2000; i++) {
         /* Mirrored at the surface: the eye is above, the light below. */
@@ -304,7 +295,7 @@ static void slopes_bend_the_view_to_the_light(void **state)
 static void rays_bend_by_snells_law(void **state)
 {
     (void)state;
-    random_state = 6;
+    numbers.state = 6;
     int total = 0;
     for (int i = 0; i < 5000; i++) {
         const double ratio = i % 2 ? 1.333 : 1 / 1.333, theta = range(0.01, 1.5), azimuth = range(0, 2 * pi);
@@ -371,7 +362,7 @@ static void set_view(bool under, double height, double pitch)
 static void flat_water_needs_no_search(void **state)
 {
     (void)state;
-    random_state = 7;
+    numbers.state = 7;
     double worst = 0;
     int pixels = 0;
     for (int i = 0; i < 3000; i++) {
@@ -404,7 +395,7 @@ static void flat_water_needs_no_search(void **state)
 static void waves_lead_to_the_floor(void **state)
 {
     (void)state;
-    random_state = 8;
+    numbers.state = 8;
     int found = 0, certain = 0;
     for (int i = 0; i < 3000; i++) {
         floor_depth = range(0.5, 3);

@@ -26,12 +26,7 @@ static double double_pow(double x, double y)
 
 #include "kernels/tone.k"
 
-#undef sqrt
-#undef floor
-#undef min
-#undef max
-#undef abs
-#undef fma
+#include "unit/kernel_words_off.h"
 
 enum { TONE_MAPS = 4 };
 

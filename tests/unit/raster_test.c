@@ -13,16 +13,10 @@
 
 #include "cpu/gbuffer.h"
 #include "cpu/raster.h"
+#include "unit/random_numbers.h"
+#include "unit/test_mesh.h"
 
 enum { SIDE = 9, GRID = SIDE * SIDE }; /* vertices of a net of triangles */
-
-static double random_unit(uint64_t *state)
-{
-    uint64_t x = *state += 0x9e3779b97f4a7c15u;
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-    return (double)((x ^ (x >> 31)) >> 11) * 0x1p-53;
-}
 
 static int widths(const raster_kernels **kernels)
 {
@@ -41,17 +35,17 @@ static int widths(const raster_kernels **kernels)
 /* ---- shared edges ---- */
 
 /* A net over the tile and beyond it, its inner vertices shaken; some exactly on pixel centres, some in a row. */
-static void shake_net(float net[GRID][3], uint64_t *state, double amount)
+static void shake_net(float net[GRID][3], random_state *numbers, double amount)
 {
     for (int i = 0; i < GRID; i++) {
         const int x = i % SIDE, y = i / SIDE;
         const bool border = x == 0 || y == 0 || x == SIDE - 1 || y == SIDE - 1;
-        const double depth = 1 + 3 * random_unit(state);
+        const double depth = 1 + 3 * random_unit(numbers);
         double px = -40 + 10 * x, py = -40 + 10 * y;
         if (!border) {
-            px += amount * (random_unit(state) - 0.5);
-            py += amount * (random_unit(state) - 0.5);
-            if (random_unit(state) < 0.3)
+            px += amount * (random_unit(numbers) - 0.5);
+            py += amount * (random_unit(numbers) - 0.5);
+            if (random_unit(numbers) < 0.3)
                 px = rint(px), py = rint(py);
         }
         net[i][0] = (float)(px * depth), net[i][1] = (float)(py * depth), net[i][2] = (float)depth;
@@ -102,7 +96,7 @@ static void test_shared_edges(void **state)
     static raster_tile tile;
     static float net[GRID][3];
     static int cover[RASTER_TILE * RASTER_TILE];
-    uint64_t seed = 5;
+    random_state seed = {5};
     for (int round = 0; round < 40; round++) {
         shake_net(net, &seed, round % 4 == 3 ? 30 : 4); /* folded now and then: then every pixel is covered an odd number of times */
         for (int k = 0; k < count; k++) {
@@ -136,9 +130,7 @@ typedef struct quad_scene {
 static void make_scene(quad_scene *s, const float *positions, uint32_t vertices, const uint32_t *indices, uint32_t triangles, const double position[3],
                        const double target[3])
 {
-    mgt_mesh_desc desc = mgt_mesh_desc_defaults();
-    desc.positions = positions, desc.vertex_count = vertices, desc.indices = indices, desc.triangle_count = triangles;
-    assert_int_equal(mgt_mesh_create(&s->mesh, &desc), MGT_OK);
+    s->mesh = test_mesh(positions, NULL, vertices, indices, triangles);
     s->object = (mgt_object){.mesh = s->mesh, .transform = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
     s->scene = mgt_scene_defaults();
     s->scene.image = (mgt_image){.width = 320, .height = 180};
@@ -205,13 +197,13 @@ static void test_waterline(void **state)
 
 enum { SOUP = 60 };
 
-static void random_soup(float positions[SOUP * 9], uint32_t indices[SOUP * 3], uint64_t *state)
+static void random_soup(float positions[SOUP * 9], uint32_t indices[SOUP * 3], random_state *numbers)
 {
     for (uint32_t i = 0; i < SOUP; i++) {
-        const double at[3] = {8 * random_unit(state) - 4, -3 * random_unit(state) - 2, -1 - 8 * random_unit(state)};
-        const double size = random_unit(state) < 0.2 ? 12 : 2;
+        const double at[3] = {8 * random_unit(numbers) - 4, -3 * random_unit(numbers) - 2, -1 - 8 * random_unit(numbers)};
+        const double size = random_unit(numbers) < 0.2 ? 12 : 2;
         for (uint32_t k = 0; k < 9; k++)
-            positions[9 * i + k] = (float)fmin(at[k % 3] + size * (random_unit(state) - 0.5), k % 3 == 1 ? -0.01 : 1e9);
+            positions[9 * i + k] = (float)fmin(at[k % 3] + size * (random_unit(numbers) - 0.5), k % 3 == 1 ? -0.01 : 1e9);
         for (uint32_t k = 0; k < 3; k++)
             indices[3 * i + k] = 3 * i + k;
     }
@@ -269,7 +261,7 @@ static void test_against_rays(void **state)
     const double position[3] = {0.3, 1.5, 3}, target[3] = {0, -2.5, -3};
     static float positions[SOUP * 9];
     static uint32_t indices[SOUP * 3];
-    uint64_t seed = 11;
+    random_state seed = {11};
     thread_pool *pool = thread_pool_create(2);
     size_t differ = 0, covered = 0;
     double worst = 0;
@@ -314,7 +306,7 @@ static void test_same_bits(void **state)
     const double position[3] = {0.3, 1.5, 3}, target[3] = {0, -2.5, -3}, elsewhere[3] = {1, 0.5, 2};
     static float positions[SOUP * 9];
     static uint32_t indices[SOUP * 3];
-    uint64_t seed = 3;
+    random_state seed = {3};
     random_soup(positions, indices, &seed);
     for (int i = 1; i < SOUP * 9; i += 3)
         positions[i] += 2.5f; /* some above the water */

@@ -13,6 +13,7 @@
 
 #include "reference/equations.h"
 #include "reference/refraction_truth.h"
+#include "unit/test_mesh.h"
 
 enum { WIDTH = 64, HEIGHT = 32, COLUMNS = WIDTH / TILE_WIDTH, ROWS = HEIGHT / TILE_HEIGHT };
 
@@ -51,12 +52,7 @@ static void begin(setup *s, double camera_height, double plane_height)
     *s = (setup){.scene = mgt_scene_defaults(), .pool = thread_pool_create(1)};
     static const float positions[] = {-200, 0, -200, 200, 0, -200, 200, 0, 200, -200, 0, 200};
     static const uint32_t indices[] = {0, 2, 1, 0, 3, 2};
-    mgt_mesh_desc desc = mgt_mesh_desc_defaults();
-    desc.positions = positions;
-    desc.vertex_count = 4;
-    desc.indices = indices;
-    desc.triangle_count = 2;
-    assert_int_equal(mgt_mesh_create(&s->mesh, &desc), MGT_OK);
+    s->mesh = test_mesh(positions, NULL, 4, indices, 2);
     s->object = (mgt_object){.mesh = s->mesh, .transform = {{1, 0, 0, 3}, {0, 1, 0, plane_height}, {0, 0, 1, -7}}};
     s->scene.objects = &s->object;
     s->scene.object_count = 1;

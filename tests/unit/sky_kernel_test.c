@@ -34,12 +34,7 @@ KERNEL vec3 sky_texel(CTX cx, real column, real row)
 
 #include "kernels/sky.k"
 
-#undef sqrt
-#undef floor
-#undef min
-#undef max
-#undef abs
-#undef fma
+#include "unit/kernel_words_off.h"
 
 static FrameData frame_of(const sky_state *s)
 {
