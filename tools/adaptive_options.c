@@ -8,48 +8,42 @@
 #include <string.h>
 
 #include "numbers.h"
+#include "option_words.h"
+
+static const option_word words[] = {
+    {"adaptive", offsetof(adaptive_options, scheme)},         {"slots", offsetof(adaptive_options, slots)},
+    {"samples", offsetof(adaptive_options, samples)},         {"target-rmse", offsetof(adaptive_options, target)},
+    {"budget-ms", offsetof(adaptive_options, budget)},        {"importance-center", offsetof(adaptive_options, center)},
+    {"importance-width", offsetof(adaptive_options, width)},  {"importance-threshold", offsetof(adaptive_options, threshold)},
+};
+enum { WORDS = sizeof words / sizeof *words };
 
 /* A number for one member of mgt_quality; podee: for that scheme alone, cells: for the other. */
 static const struct {
     const char *name;
-    size_t word, value; /* offsets in adaptive_options and mgt_quality */
+    size_t value; /* offset in mgt_quality */
     double least, most;
     bool cells, podee;
 } numbers[] = {
-    {"samples", offsetof(adaptive_options, samples), offsetof(mgt_quality, samples), 1, 4096, true, true},
-    {"target-rmse", offsetof(adaptive_options, target), offsetof(mgt_quality, target_rmse), 1e-6, 1, true, false},
-    {"budget-ms", offsetof(adaptive_options, budget), offsetof(mgt_quality, budget_ms), 0.1, 1e7, true, false},
-    {"importance-center", offsetof(adaptive_options, center), offsetof(mgt_quality, importance_center), 1e-6, 1, false, true},
-    {"importance-width", offsetof(adaptive_options, width), offsetof(mgt_quality, importance_width), 1e-6, 1, false, true},
-    {"importance-threshold", offsetof(adaptive_options, threshold), offsetof(mgt_quality, importance_threshold), 1e-6, 1, false, true},
+    {"samples", offsetof(mgt_quality, samples), 1, 4096, true, true},
+    {"target-rmse", offsetof(mgt_quality, target_rmse), 1e-6, 1, true, false},
+    {"budget-ms", offsetof(mgt_quality, budget_ms), 0.1, 1e7, true, false},
+    {"importance-center", offsetof(mgt_quality, importance_center), 1e-6, 1, false, true},
+    {"importance-width", offsetof(mgt_quality, importance_width), 1e-6, 1, false, true},
+    {"importance-threshold", offsetof(mgt_quality, importance_threshold), 1e-6, 1, false, true},
 };
 enum { NUMBERS = sizeof numbers / sizeof *numbers };
 
-static const char **word_at(adaptive_options *options, size_t offset)
-{
-    return (const char **)(void *)((char *)options + offset);
-}
-
 const char **adaptive_option(adaptive_options *options, const char *name, size_t length)
 {
-    const struct {
-        const char *name;
-        const char **word;
-    } others[] = {{"adaptive", &options->scheme}, {"slots", &options->slots}};
-    for (size_t i = 0; i < NUMBERS; i++)
-        if (strlen(numbers[i].name) == length && strncmp(numbers[i].name, name, length) == 0)
-            return word_at(options, numbers[i].word);
-    for (size_t i = 0; i < 2; i++)
-        if (strlen(others[i].name) == length && strncmp(others[i].name, name, length) == 0)
-            return others[i].word;
-    return NULL;
+    return option_word_find(words, WORDS, options, name, length);
 }
 
 static bool set_numbers(adaptive_options given, mgt_quality *q, char *wrong, size_t size)
 {
     const bool podee = q->adaptive == MGT_ADAPTIVE_PODEE;
     for (size_t i = 0; i < NUMBERS; i++) {
-        const char *word = *word_at(&given, numbers[i].word);
+        const char *word = *adaptive_option(&given, numbers[i].name, strlen(numbers[i].name));
         double value;
         if (!word)
             continue;
@@ -65,9 +59,7 @@ static bool set_numbers(adaptive_options given, mgt_quality *q, char *wrong, siz
 bool adaptive_options_apply(const adaptive_options *given, mgt_quality *quality, char *wrong, size_t size)
 {
     mgt_quality *q = quality;
-    adaptive_options words = *given;
-    const bool any = given->scheme || given->samples || given->target || given->budget || given->center || given->width || given->threshold || given->slots;
-    if (!any)
+    if (!option_word_given(words, WORDS, given))
         return true;
     if (q->method != MGT_METHOD_ADAPTIVE)
         return snprintf(wrong, size, "--adaptive, --samples, --target-rmse, --budget-ms, --importance-… and --slots: only method adaptive takes them"), false;
@@ -84,7 +76,7 @@ bool adaptive_options_apply(const adaptive_options *given, mgt_quality *quality,
         if (!number_parse_u64(given->slots, (uint64_t)1 << 32, &q->sample_slots) || q->sample_slots == 0)
             return snprintf(wrong, size, "--slots %s: allowed is a number from 1 to 4294967296", given->slots), false;
     }
-    return set_numbers(words, q, wrong, size);
+    return set_numbers(*given, q, wrong, size);
 }
 
 adaptive_text adaptive_options_text(const mgt_quality *quality)

@@ -6,11 +6,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "adaptive_options.h"
+#include "method_options.h"
 #include "names.h"
 #include "numbers.h"
-#include "podee_options.h"
-#include "refraction_options.h"
 
 typedef struct spec_option {
     const char *name, *allowed;
@@ -63,50 +61,19 @@ static bool fail(char *wrong, size_t size, const char *format, ...)
     return false;
 }
 
-/* The place of a word that podee_options reads; NULL: it is none of them. */
-static const char **podee_word(podee_options *podee, const char *word, size_t length)
-{
-    const struct {
-        const char *name, **value;
-    } words[] = {{"kernels", &podee->kernels},        {"integral", &podee->integral},     {"elongation", &podee->elongation},
-                 {"path-segments", &podee->segments}, {"transition", &podee->transition}, {"transition-width", &podee->width}};
-    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++)
-        if (strlen(words[i].name) == length && strncmp(words[i].name, word, length) == 0)
-            return words[i].value;
-    return NULL;
-}
-
 static void add_words(method_spec *spec, const char *word, size_t length)
 {
     const size_t used = strlen(spec->options);
     snprintf(spec->options + used, sizeof spec->options - used, " --%.*s %s", (int)length, word, word + length + 1);
 }
 
-/* Options that are checked together once all are known. */
-typedef struct spec_options_given {
-    podee_options podee;
-    adaptive_options adaptive;
-    refraction_options refraction;
-} spec_options_given;
-
-/* The place of a word that one of them reads; NULL: none does. What follows the + is no option. */
-static const char **given_word(spec_options_given *given, const char *word, size_t length)
-{
-    const char **value = podee_word(&given->podee, word, length);
-    if (!value)
-        value = adaptive_option(&given->adaptive, word, length);
-    if (!value)
-        value = refraction_option(&given->refraction, word, length);
-    return value == &given->refraction.method ? NULL : value;
-}
-
-static bool set_option(method_spec *spec, const char *word, spec_options_given *given, char *wrong, size_t wrong_size)
+static bool set_option(method_spec *spec, const char *word, method_options *given, char *wrong, size_t wrong_size)
 {
     const size_t length = strcspn(word, "=");
     if (!word[length])
         return fail(wrong, wrong_size, "%s: options are written NAME:OPTION=VALUE", spec->name);
-    const char **value = given_word(given, word, length);
-    if (value) {
+    const char **value = method_option(given, word, length);
+    if (value && value != &given->refraction.method) { /* which follows the + and is no option */
         *value = word + length + 1;
         add_words(spec, word, length);
         return true;
@@ -149,7 +116,7 @@ bool method_spec_parse(method_spec *spec, const char *text, size_t length, char 
     char *rest = strchr(words, ':');
     if (rest)
         *rest++ = 0;
-    spec_options_given given = {0};
+    method_options given = {0};
     char *refraction = strchr(words, '+');
     if (refraction) {
         *refraction++ = 0;
@@ -171,8 +138,5 @@ bool method_spec_parse(method_spec *spec, const char *text, size_t length, char 
         rest = next;
     }
     char reason[200];
-    return (podee_options_apply(&given.podee, &spec->quality, reason, sizeof reason) &&
-            adaptive_options_apply(&given.adaptive, &spec->quality, reason, sizeof reason) &&
-            refraction_options_apply(&given.refraction, &spec->quality, reason, sizeof reason)) ||
-           fail(wrong, wrong_size, "%s: %s", spec->name, reason);
+    return method_options_apply(&given, &spec->quality, reason, sizeof reason) || fail(wrong, wrong_size, "%s: %s", spec->name, reason);
 }

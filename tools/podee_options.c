@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "numbers.h"
+#include "option_words.h"
 
 static const struct {
     const char *word;
@@ -16,19 +17,16 @@ static const struct {
 };
 enum { KERNEL_WORDS = sizeof kernel_words / sizeof *kernel_words };
 
-/* Every option with its word, to name the one that does not fit. */
-typedef struct named_option {
-    const char *name, *value;
-} named_option;
+static const option_word words[] = {
+    {"kernels", offsetof(podee_options, kernels)},        {"integral", offsetof(podee_options, integral)},
+    {"elongation", offsetof(podee_options, elongation)},  {"path-segments", offsetof(podee_options, segments)},
+    {"transition", offsetof(podee_options, transition)},  {"transition-width", offsetof(podee_options, width)},
+};
+enum { WORDS = sizeof words / sizeof *words };
 
-static const char *first_given(const podee_options *o)
+const char **podee_option(podee_options *options, const char *name, size_t length)
 {
-    const named_option all[] = {{"kernels", o->kernels},        {"integral", o->integral},     {"elongation", o->elongation},
-                                {"path-segments", o->segments}, {"transition", o->transition}, {"transition-width", o->width}};
-    for (size_t i = 0; i < sizeof all / sizeof *all; i++)
-        if (all[i].value)
-            return all[i].name;
-    return NULL;
+    return option_word_find(words, WORDS, options, name, length);
 }
 
 static bool set_kernels(const podee_options *o, mgt_quality *q, char *wrong, size_t size)
@@ -56,7 +54,7 @@ static bool set_kernels(const podee_options *o, mgt_quality *q, char *wrong, siz
 bool podee_options_apply(const podee_options *given, mgt_quality *quality, char *wrong, size_t size)
 {
     mgt_quality *q = quality;
-    const char *name = first_given(given);
+    const char *name = option_word_given(words, WORDS, given);
     uint64_t n;
     if (!name)
         return true;

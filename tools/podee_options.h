@@ -13,6 +13,9 @@ typedef struct podee_options {
     const char *kernels, *integral, *elongation, *segments, *transition, *width;
 } podee_options;
 
+/* The member for the option of this name (without dashes); NULL: there is none. */
+const char **podee_option(podee_options *options, const char *name, size_t length);
+
 /* Puts them into `quality`, whose method is known. False with what is wrong and what is allowed. */
 bool podee_options_apply(const podee_options *given, mgt_quality *quality, char *wrong, size_t size);
 

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "numbers.h"
+#include "option_words.h"
 
 const char refraction_words[] = "two-phase, hybrid, liu, broad, narrow, screen-space, distance-field, off, truth";
 
@@ -14,15 +15,10 @@ static const char *const names[] = {
     [MGT_REFRACTION_BROAD] = "broad", [MGT_REFRACTION_NARROW] = "narrow", [MGT_REFRACTION_SCREEN_SPACE] = "screen-space",
     [MGT_REFRACTION_DISTANCE_FIELD] = "distance-field", [MGT_REFRACTION_OFF] = "off", [MGT_REFRACTION_TRUTH] = "truth"};
 
-static bool same(const char *name, const char *word, size_t length)
-{
-    return strlen(name) == length && strncmp(name, word, length) == 0;
-}
-
 bool refraction_from_name(const char *name, size_t length, mgt_refraction *refraction)
 {
     for (int i = 0; i <= MGT_REFRACTION_TRUTH; i++)
-        if (same(names[i], name, length)) {
+        if (strlen(names[i]) == length && strncmp(names[i], name, length) == 0) {
             *refraction = (mgt_refraction)i;
             return true;
         }
@@ -36,13 +32,13 @@ const char *refraction_name(mgt_refraction refraction)
 
 const char **refraction_option(refraction_options *options, const char *name, size_t length)
 {
-    const struct {
-        const char *name, **word;
-    } all[] = {{"refraction", &options->method}, {"tess-error", &options->tess_error}, {"refraction-samples", &options->samples}, {"caustics", &options->caustics}};
-    for (size_t i = 0; i < sizeof all / sizeof *all; i++)
-        if (same(all[i].name, name, length))
-            return all[i].word;
-    return NULL;
+    static const option_word words[] = {
+        {"refraction", offsetof(refraction_options, method)},
+        {"tess-error", offsetof(refraction_options, tess_error)},
+        {"refraction-samples", offsetof(refraction_options, samples)},
+        {"caustics", offsetof(refraction_options, caustics)},
+    };
+    return option_word_find(words, sizeof words / sizeof *words, options, name, length);
 }
 
 /* The methods that bend triangles. */

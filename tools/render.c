@@ -5,11 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "adaptive_options.h"
+#include "method_options.h"
 #include "numbers.h"
 #include "options.h"
-#include "podee_options.h"
-#include "refraction_options.h"
 #include "render_request.h"
 #include "verbs.h"
 
@@ -119,9 +117,7 @@ static int add_layer(render_request *r, const char *value)
 /* The options of the method, checked together once the method is known. */
 typedef struct sample_options {
     const char *spatial, *time, *range, *ndf_mean;
-    podee_options podee;
-    adaptive_options adaptive;
-    refraction_options refraction;
+    method_options method;
 } sample_options;
 
 static int set_samples(mgt_quality *q, const sample_options *given)
@@ -163,8 +159,7 @@ static int set_samples(mgt_quality *q, const sample_options *given)
         q->ndf_mean_drop = given->ndf_mean[0] == 'd';
     }
     char wrong[240];
-    if (!podee_options_apply(&given->podee, q, wrong, sizeof wrong) || !adaptive_options_apply(&given->adaptive, q, wrong, sizeof wrong) ||
-        !refraction_options_apply(&given->refraction, q, wrong, sizeof wrong))
+    if (!method_options_apply(&given->method, q, wrong, sizeof wrong))
         return console_error(EXIT_CODE_USAGE, "%s", wrong);
     return EXIT_CODE_OK;
 }
@@ -193,32 +188,6 @@ static int set_option(render_request *r, int id, const char *value, sample_optio
     case OPT_TIME: samples->time = value; break;
     case OPT_RANGE: samples->range = value; break;
     case OPT_NDF_MEAN: samples->ndf_mean = value; break;
-    case OPT_KERNELS: samples->podee.kernels = value; break;
-    case OPT_INTEGRAL: samples->podee.integral = value; break;
-    case OPT_ELONGATION: samples->podee.elongation = value; break;
-    case OPT_SEGMENTS: samples->podee.segments = value; break;
-    case OPT_TRANSITION: samples->podee.transition = value; break;
-    case OPT_WIDTH: samples->podee.width = value; break;
-    case OPT_ADAPTIVE:
-    case OPT_SAMPLES:
-    case OPT_TARGET:
-    case OPT_BUDGET:
-    case OPT_CENTER:
-    case OPT_IMPORTANCE_WIDTH:
-    case OPT_THRESHOLD:
-    case OPT_SLOTS: {
-        const char *name = render_options[id].name;
-        *adaptive_option(&samples->adaptive, name, strlen(name)) = value;
-        break;
-    }
-    case OPT_REFRACTION:
-    case OPT_TESS_ERROR:
-    case OPT_REFRACTION_SAMPLES:
-    case OPT_CAUSTICS: {
-        const char *name = render_options[id].name;
-        *refraction_option(&samples->refraction, name, strlen(name)) = value;
-        break;
-    }
     case OPT_SET: r->overrides[r->override_count++] = value; break;
     case OPT_SEED:
         if (!number_parse_u64(value, UINT64_MAX, &r->quality.seed))
@@ -239,7 +208,11 @@ static int set_option(render_request *r, int id, const char *value, sample_optio
         if (!progress_mode_from_name(value, &r->progress))
             return bad_value(OPT_PROGRESS, value, "auto, json or none");
         break;
-    default: break;
+    default: { /* of a method */
+        const char *name = render_options[id].name;
+        *method_option(&samples->method, name, strlen(name)) = value;
+        break;
+    }
     }
     return EXIT_CODE_OK;
 }
