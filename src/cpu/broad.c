@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cpu/triples.h"
+
 enum {
     MOST_SPLITS = 14, /* of a triangle's edges one after the other; edges in sight get too short for more long before */
     MOST_CORNERS = 5
@@ -246,18 +248,6 @@ static void push_part(const chunk_job *job, const part *p, int32_t triangle)
     }
 }
 
-static float least3(const float v[3])
-{
-    const float a = v[0] < v[1] ? v[0] : v[1];
-    return a < v[2] ? a : v[2];
-}
-
-static float most3(const float v[3])
-{
-    const float a = v[0] > v[1] ? v[0] : v[1];
-    return a > v[2] ? a : v[2];
-}
-
 /* Both sides of a triangle that meets the surface, or comes near it from the camera's side. */
 static void cut_triangle(const chunk_job *job, const patch *whole, const float far[3])
 {
@@ -266,7 +256,7 @@ static void cut_triangle(const chunk_job *job, const patch *whole, const float f
     part p = {.count = 3};
     memcpy(p.corner, whole->corner, sizeof whole->corner);
     memcpy(p.far, far, 3 * sizeof *far);
-    if (most3(far) > 0) {
+    if (MOST3(far) > 0) {
         const part near = cut(&p, view->trough, false, side), beyond = cut(&p, 0, true, side);
         if (!view->mirrored)
             draw_near(job, &near, whole->triangle);
@@ -332,16 +322,16 @@ static void take_triangle(const chunk_job *job, size_t index)
         memcpy(p.image[i], image, sizeof p.image[i]);
         far[i] = image[3];
     }
-    if (view->mirrored && (most3(far) <= -view->crest || shows_inside(view, &p)))
+    if (view->mirrored && (MOST3(far) <= -view->crest || shows_inside(view, &p)))
         return;
-    if (least3(far) >= 0) {
+    if (LEAST3(far) >= 0) {
         if (view->refract.map == 0)
             take_straight(job, FAR_LAYER, &p);
         else
             take_patch(job, &p);
-        if (least3(far) < view->trough)
+        if (LEAST3(far) < view->trough)
             draw_uncovered(job, &p, far);
-    } else if (most3(far) > -view->crest) {
+    } else if (MOST3(far) > -view->crest) {
         cut_triangle(job, &p, far);
     } else {
         take_straight(job, NEAR_LAYER, &p);

@@ -5,22 +5,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "cpu/triples.h"
+
 static const double pi = 3.14159265358979323846;
-
-static void normalize3(double v[3])
-{
-    const double length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-    for (int i = 0; i < 3; i++)
-        v[i] /= length;
-}
-
-static void cross3(const double a[3], const double b[3], double out[3])
-{
-    for (int i = 0; i < 3; i++) {
-        const int j = (i + 1) % 3, k = (i + 2) % 3;
-        out[i] = a[j] * b[k] - a[k] * b[j];
-    }
-}
 
 camera_rays camera_rays_of(const mgt_camera *camera, uint32_t width, uint32_t height)
 {

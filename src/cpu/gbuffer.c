@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "cpu/broad.h"
+#include "cpu/triples.h"
 
 enum {
     GUARD_LEAST = 16, /* pixels around the image, … */
@@ -59,35 +60,22 @@ RefractData refract_data_of(double camera_height, double index, gbuffer_map map)
     };
 }
 
-static void cross(const double a[3], const double b[3], double out[3])
-{
-    for (int i = 0; i < 3; i++) {
-        const int j = (i + 1) % 3, k = (i + 2) % 3;
-        out[i] = a[j] * b[k] - a[k] * b[j];
-    }
-}
-
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 /* The rays' inverse: p = depth · corner + x · right + y · down, where x and y are pixels times depth from the image's first one. */
 static PictureData picture_data(const gbuffer_job *job, const raster_grid *grid, const gbuffer *layer)
 {
     const camera_rays *c = &job->camera;
     const double tau = job->error > 0 ? job->error : 0.1, edge = 0.8 * tau; /* the middle of a triangle may be off by a little more than its edges */
     double depth[3], x[3], y[3];
-    cross(c->right, c->down, depth);
-    cross(c->down, c->corner, x);
-    cross(c->corner, c->right, y);
-    const double volume = dot(c->corner, depth), shift_x = grid->middle_x - (double)layer->left, shift_y = grid->middle_y - (double)layer->top;
+    cross3(c->right, c->down, depth);
+    cross3(c->down, c->corner, x);
+    cross3(c->corner, c->right, y);
+    const double volume = dot3(c->corner, depth), shift_x = grid->middle_x - (double)layer->left, shift_y = grid->middle_y - (double)layer->top;
     for (int i = 0; i < 3; i++) {
         depth[i] /= volume;
         x[i] = x[i] / volume - shift_x * depth[i];
         y[i] = y[i] / volume - shift_y * depth[i];
     }
-    const double focal = 1 / sqrt(dot(c->right, c->right));
+    const double focal = 1 / sqrt(dot3(c->right, c->right));
     const double wide = grid->width - grid->middle_x, high = grid->height - grid->middle_y;
     return (PictureData){
         .x_x = (float)x[0], .x_y = (float)x[1], .x_z = (float)x[2],

@@ -9,6 +9,9 @@
 #define WAVE(cx, i) ((cx)->waves[i])
 #define MARCH_WAVE(cx, i) ((cx)->march[i])
 
+/* An element a lane for the one width that has no instruction for it. */
+#define FOUR_OF(table, at) {(table)[(at)[0]], (table)[(at)[1]], (table)[(at)[2]], (table)[(at)[3]]}
+
 KERNEL vec3 SKY_TEXEL(CTX cx, real column, real row)
 {
     const real index = real_fma(row, real_broadcast(SKY_COLUMNS), column);
@@ -24,13 +27,7 @@ KERNEL vec3 SKY_TEXEL(CTX cx, real column, real row)
     return (vec3){(real)_mm256_i32gather_ps(cx->sky, (__m256i)at, 4), (real)_mm256_i32gather_ps(cx->sky + 1, (__m256i)at, 4),
                   (real)_mm256_i32gather_ps(cx->sky + 2, (__m256i)at, 4)};
 #else
-    vec3 texel;
-    for (int i = 0; i < MGT_LANES; i++) {
-        texel.x[i] = cx->sky[at[i]];
-        texel.y[i] = cx->sky[at[i] + 1];
-        texel.z[i] = cx->sky[at[i] + 2];
-    }
-    return texel;
+    return (vec3){FOUR_OF(cx->sky, at), FOUR_OF(cx->sky + 1, at), FOUR_OF(cx->sky + 2, at)};
 #endif
 #endif
 }
@@ -73,10 +70,7 @@ static inline real gather_floats(const float *table, mask at)
 #elif MGT_LANES == 8
     return (real)_mm256_i32gather_ps(table, (__m256i)at, 4);
 #else
-    real r;
-    for (int i = 0; i < MGT_LANES; i++)
-        r[i] = table[at[i]];
-    return r;
+    return (real)FOUR_OF(table, at);
 #endif
 }
 
@@ -89,10 +83,21 @@ static inline mask gather_ints(const int *table, mask at)
 #elif MGT_LANES == 8
     return (mask)_mm256_i32gather_epi32(table, (__m256i)at, 4);
 #else
-    mask r;
-    for (int i = 0; i < MGT_LANES; i++)
-        r[i] = table[at[i]];
-    return r;
+    return (mask)FOUR_OF(table, at);
+#endif
+}
+
+/* Bytes; three beyond the table's last may be read. */
+static inline mask gather_bytes(const uint8_t *table, mask at)
+{
+#if MGT_LANES == 1
+    return table[at];
+#elif MGT_LANES == 16
+    return (mask)_mm512_i32gather_epi32((__m512i)at, table, 1) & 255;
+#elif MGT_LANES == 8
+    return (mask)_mm256_i32gather_epi32((const int *)(const void *)table, (__m256i)at, 1) & 255;
+#else
+    return (mask)FOUR_OF(table, at);
 #endif
 }
 

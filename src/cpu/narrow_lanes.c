@@ -89,23 +89,6 @@ static void store_vector(float (*planes)[TILE_PIXELS], size_t i, vec3 v)
     store(planes[2] + i, v.z);
 }
 
-/* Bytes of a table; three beyond the last may be read. */
-static mask gather_bytes(const uint8_t *table, mask at)
-{
-#if MGT_LANES == 16
-    return (mask)_mm512_i32gather_epi32((__m512i)at, table, 1) & 255;
-#elif MGT_LANES == 8
-    return (mask)_mm256_i32gather_epi32((const int *)(const void *)table, (__m256i)at, 1) & 255;
-#elif MGT_LANES == 1
-    return table[at];
-#else
-    mask r;
-    for (int i = 0; i < MGT_LANES; i++)
-        r[i] = table[at[i]];
-    return r;
-#endif
-}
-
 static void store_whole(int32_t *p, mask m) { memcpy(p, &m, sizeof m); }
 
 static mask select_whole(mask m, mask a, mask b) { return real_bits(real_select(m, real_from_bits(a), real_from_bits(b))); }

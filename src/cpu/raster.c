@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cpu/triples.h"
+
 static const double coordinate_limit = COORDINATE_LIMIT;
 
 enum { MOST_CORNERS = 9 }; /* of a triangle that five borders cut, and one to spare */
@@ -74,18 +76,6 @@ static polygon clip_to_limits(const float image[3][3], double least_depth)
 
 /* ---- setup ---- */
 
-static int32_t least3(const int32_t v[3])
-{
-    const int32_t a = v[0] < v[1] ? v[0] : v[1];
-    return a < v[2] ? a : v[2];
-}
-
-static int32_t most3(const int32_t v[3])
-{
-    const int32_t a = v[0] > v[1] ? v[0] : v[1];
-    return a > v[2] ? a : v[2];
-}
-
 /* The pixels whose centres may be covered, from the picture's first one. */
 typedef struct pixel_box {
     int32_t left, right, top, bottom;
@@ -93,25 +83,13 @@ typedef struct pixel_box {
 
 static pixel_box box_of(const raster_triangle *t, const raster_grid *grid)
 {
-    pixel_box box = {((least3(t->x) + SUBPIXELS - 1) >> 8) + grid->middle_x, (most3(t->x) >> 8) + grid->middle_x,
-                     ((least3(t->y) + SUBPIXELS - 1) >> 8) + grid->middle_y, (most3(t->y) >> 8) + grid->middle_y};
+    pixel_box box = {((LEAST3(t->x) + SUBPIXELS - 1) >> 8) + grid->middle_x, (MOST3(t->x) >> 8) + grid->middle_x,
+                     ((LEAST3(t->y) + SUBPIXELS - 1) >> 8) + grid->middle_y, (MOST3(t->y) >> 8) + grid->middle_y};
     box.left = box.left > 0 ? box.left : 0;
     box.top = box.top > 0 ? box.top : 0;
     box.right = box.right < grid->width - 1 ? box.right : grid->width - 1;
     box.bottom = box.bottom < grid->height - 1 ? box.bottom : grid->height - 1;
     return box;
-}
-
-static double least_of(const double v[3])
-{
-    const double a = v[0] < v[1] ? v[0] : v[1];
-    return a < v[2] ? a : v[2];
-}
-
-static double most_of(const double v[3])
-{
-    const double a = v[0] > v[1] ? v[0] : v[1];
-    return a > v[2] ? a : v[2];
 }
 
 /* Whether the triangle may cover a pixel's centre; corners come out clockwise. */
@@ -133,8 +111,8 @@ static bool set_up(const double corner[3][3], const raster_grid *grid, int32_t t
     t->slope_x = (float)((d1 * (double)y2 - d2 * (double)y1) * scale);
     t->slope_y = (float)((d2 * (double)x1 - d1 * (double)x2) * scale);
     t->inverse_depth = (float)inverse[0];
-    t->least = (float)least_of(inverse);
-    t->most = (float)most_of(inverse);
+    t->least = (float)LEAST3(inverse);
+    t->most = (float)MOST3(inverse);
     t->triangle = triangle;
     if (area < 0) {
         const int32_t x = t->x[1], y = t->y[1];

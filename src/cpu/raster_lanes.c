@@ -7,6 +7,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "cpu/triples.h"
+
 #define LANES_NAME_(n) raster_kernels_##n
 #define LANES_NAME(n) LANES_NAME_(n)
 static const float infinity = INFINITY;
@@ -234,18 +236,6 @@ static inline int32_t last_pixel(int32_t most, int32_t origin, int32_t size)
     return pixel < size - 1 ? pixel : size - 1;
 }
 
-static inline int32_t least3(const int32_t v[3])
-{
-    const int32_t a = v[0] < v[1] ? v[0] : v[1];
-    return a < v[2] ? a : v[2];
-}
-
-static inline int32_t most3(const int32_t v[3])
-{
-    const int32_t a = v[0] > v[1] ? v[0] : v[1];
-    return a > v[2] ? a : v[2];
-}
-
 static inline mask load_ints(const int32_t *p)
 {
     mask m;
@@ -286,8 +276,8 @@ static void draw_triangle(raster_tile *tile, const raster_triangle *t)
     for (int k = 0; k < 3; k++)
         if (!place_edge(t, k, k == 2 ? 0 : k + 1, tile, &edge[k]))
             return;
-    const int32_t left = first_pixel(least3(t->x), tile->x), right = last_pixel(most3(t->x), tile->x, tile->width);
-    const int32_t top = first_pixel(least3(t->y), tile->y), bottom = last_pixel(most3(t->y), tile->y, tile->height);
+    const int32_t left = first_pixel(LEAST3(t->x), tile->x), right = last_pixel(MOST3(t->x), tile->x, tile->width);
+    const int32_t top = first_pixel(LEAST3(t->y), tile->y), bottom = last_pixel(MOST3(t->y), tile->y, tile->height);
     const float corner_x = (float)t->x[0] * (1.0f / SUBPIXELS), corner_y = (float)t->y[0] * (1.0f / SUBPIXELS);
     const drawn_triangle d = {real(t->inverse_depth), real(t->slope_x), real(t->slope_y), real(t->least), real(t->most),
                               real_from_bits((mask){0} + t->triangle)};

@@ -3,13 +3,7 @@
 #include <math.h>
 
 #include "cpu/refraction_state.h"
-
-static void cross3(const double a[3], const double b[3], double out[3])
-{
-    out[0] = a[1] * b[2] - a[2] * b[1];
-    out[1] = a[2] * b[0] - a[0] * b[2];
-    out[2] = a[0] * b[1] - a[1] * b[0];
-}
+#include "cpu/triples.h"
 
 refraction_facet refraction_facet_of(const refraction *r, int32_t triangle, const double from[3])
 {
@@ -24,7 +18,7 @@ refraction_facet refraction_facet_of(const refraction *r, int32_t triangle, cons
         f.to[k] = from[k] - (double)p[0][k];
     }
     cross3(f.to, f.edges[0], f.turned);
-    f.level = refraction_dot(f.edges[1], f.turned);
+    f.level = dot3(f.edges[1], f.turned);
     return f;
 }
 
@@ -32,10 +26,10 @@ double refraction_meet(const refraction_facet *f, const double ray[3])
 {
     double across[3];
     cross3(ray, f->edges[1], across);
-    const double det = refraction_dot(f->edges[0], across);
+    const double det = dot3(f->edges[0], across);
     if (fabs(det) < 1e-300)
         return INFINITY;
-    const double inverse = 1 / det, u = refraction_dot(f->to, across) * inverse, v = refraction_dot(ray, f->turned) * inverse, along = f->level * inverse;
+    const double inverse = 1 / det, u = dot3(f->to, across) * inverse, v = dot3(ray, f->turned) * inverse, along = f->level * inverse;
     return u >= 0 && v >= 0 && u + v <= 1 && along > 0 ? along : INFINITY;
 }
 

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "cpu/refraction_state.h"
+#include "cpu/triples.h"
 
 enum { PLACES = 8 };
 
@@ -40,8 +41,8 @@ static double meet_water(const tile_objects *o, size_t i, bool under, const doub
     const double up = under ? -1 : 1;
     const double normal[3] = {(double)w->normal[0][i], up * (double)w->normal[1][i], (double)w->normal[2][i]};
     const double view[3] = {(double)w->view[0][i], up * (double)w->view[1][i], (double)w->view[2][i]};
-    const double closing = refraction_dot(normal, ray);
-    return closing < 0 ? (double)w->along[i] * refraction_dot(normal, view) / closing : INFINITY;
+    const double closing = dot3(normal, ray);
+    return closing < 0 ? (double)w->along[i] * dot3(normal, view) / closing : INFINITY;
 }
 
 /* ---- what is shaded ---- */
@@ -60,7 +61,7 @@ static void add_point(const near_pixel *p, const double ray[3], double along, in
     const refraction *r = p->r;
     const camera_rays *c = &r->camera;
     const double foot[3] = {c->position[0] - r->world->origin[0], c->position[1], c->position[2] - r->world->origin[1]};
-    const double length = sqrt(refraction_dot(ray, ray));
+    const double length = sqrt(dot3(ray, ray));
     tile_ends *e = &o->ends;
     if (*count == TILE_PIXELS)
         flush(r, o, count);
@@ -79,7 +80,7 @@ static void add_point(const near_pixel *p, const double ray[3], double along, in
     o->share[p->i] += 1;
     const float *plane = r->planes + 4 * (size_t)triangle;
     const double normal[3] = {(double)plane[0], (double)plane[1], (double)plane[2]};
-    const float towards = refraction_dot(normal, ray) > 0 ? -1 : 1;
+    const float towards = dot3(normal, ray) > 0 ? -1 : 1;
     o->along[p->i] = e->before[at];
     for (int k = 0; k < 3; k++)
         o->normal[k][p->i] = towards * plane[k];

@@ -74,11 +74,6 @@ refraction_facet refraction_facet_of(const refraction *r, int32_t triangle, cons
 /* Multiple of a ray at which it meets the triangle; +inf: it does not. */
 double refraction_meet(const refraction_facet *f, const double ray[3]);
 
-static inline double refraction_dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 /* Where what a layer shows breaks off or bends, the pixel of the answer is not enough: the rays of doubtful ends among the listed ones meet the
  * triangles that it and its neighbours show, and the nearest one counts. */
 void refraction_sharpen(const refraction *r, tile_objects *o, size_t count);

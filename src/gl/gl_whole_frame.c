@@ -2,6 +2,7 @@
  * Methods that work on whole pictures of method `none`, on the GPU: fxaa on one, taa on several. */
 #include "cpu/whole_frame.h"
 
+#include "cpu/triples.h"
 #include "gl/gl_renderer.h"
 
 /* ---- the pictures of `none` ---- */
@@ -154,17 +155,12 @@ static mgt_status render_fxaa(gl_renderer *g, const gl_job *job, const reporter 
 
 /* ---- taa ---- */
 
-static double dot3(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 /* How a point before the camera `now` becomes a pixel of the camera `before`. */
 static void set_reprojection(BlendData *d, const camera_rays *now, const camera_rays *before)
 {
     const double *right = before->right, *down = before->down;
-    const double normal[3] = {right[1] * down[2] - right[2] * down[1], right[2] * down[0] - right[0] * down[2],
-                              right[0] * down[1] - right[1] * down[0]};
+    double normal[3];
+    cross3(right, down, normal);
     const double ahead = dot3(normal, before->corner), columns = dot3(right, right), rows = dot3(down, down);
     d->ray_x = (float)now->corner[0], d->ray_y = (float)now->corner[1], d->ray_z = (float)now->corner[2];
     d->right_x = (float)now->right[0], d->right_y = (float)now->right[1], d->right_z = (float)now->right[2];
