@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "memory_text.h"
 #include "names.h"
 
 static void put_word(FILE *stream, const char *word)
@@ -24,15 +25,6 @@ static void put_word(FILE *stream, const char *word)
     putc('\'', stream);
 }
 
-static char *finish(FILE *stream, char **text)
-{
-    const bool failed = ferror(stream) != 0;
-    if (fclose(stream) == 0 && !failed)
-        return *text;
-    free(*text);
-    return NULL;
-}
-
 char *compare_command(const compare_job *job)
 {
     char *text = NULL;
@@ -43,7 +35,7 @@ char *compare_command(const compare_job *job)
     fputs("mangata compare", stream);
     for (int i = 0; i < job->request->argument_count; i++)
         put_word(stream, job->request->arguments[i]);
-    return finish(stream, &text);
+    return memory_text_finish(stream, &text);
 }
 
 char *compare_picture_command(const compare_job *job, const compare_scene *scene, size_t picture)
@@ -73,5 +65,5 @@ char *compare_picture_command(const compare_job *job, const compare_scene *scene
     }
     if (r->context.backend != MGT_BACKEND_CPU)
         fprintf(stream, " --backend %s", backend_name(r->context.backend));
-    return finish(stream, &text);
+    return memory_text_finish(stream, &text);
 }

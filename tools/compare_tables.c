@@ -8,6 +8,7 @@
 
 #include "compare_command.h"
 #include "compare_scores.h"
+#include "memory_text.h"
 #include "names.h"
 
 uint64_t compare_samples(const mgt_quality *quality)
@@ -156,15 +157,6 @@ static void csv_number(FILE *stream, double value)
         putc(',', stream);
 }
 
-static char *finish(FILE *stream, char **text)
-{
-    const bool failed = ferror(stream) != 0;
-    if (fclose(stream) == 0 && !failed)
-        return *text;
-    free(*text);
-    return NULL;
-}
-
 char *compare_csv_text(const compare_job *job, size_t *size)
 {
     const compare_request *r = job->request;
@@ -189,7 +181,7 @@ char *compare_csv_text(const compare_job *job, size_t *size)
                     csv_number(stream, score_of(result, &score_columns[c]));
             putc('\n', stream);
         }
-    return finish(stream, &text);
+    return memory_text_finish(stream, &text);
 }
 
 /* ---- LaTeX ----------------------------------------------------------------------------------------------- */
@@ -271,5 +263,5 @@ char *compare_tex_text(const compare_job *job, size_t *size)
     }
     fputs("\\bottomrule\n\\end{tabular}\n", stream);
     free(command);
-    return finish(stream, &text);
+    return memory_text_finish(stream, &text);
 }

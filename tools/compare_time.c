@@ -7,6 +7,7 @@
 
 #include "compare_job.h"
 #include "interrupt.h"
+#include "memory_text.h"
 #include "memory_use.h"
 #include "sha256.h"
 
@@ -48,11 +49,8 @@ static bool times_key(const compare_job *job, const compare_scene *scene, sha256
     for (size_t m = 0; m < r->method_count; m++)
         if (is_timed(scene, m))
             fprintf(stream, "%s seed %llu\n", r->methods[m].name, (unsigned long long)r->methods[m].quality.seed);
-    const bool failed = ferror(stream) != 0;
-    if (fclose(stream) != 0 || failed) {
-        free(text);
+    if (!memory_text_finish(stream, &text))
         return false;
-    }
     *key = sha256(text, size);
     free(text);
     return true;

@@ -5,6 +5,7 @@
 
 #include "figures_job.h"
 #include "markup.h"
+#include "memory_text.h"
 
 /* ---- for the makers ---- */
 
@@ -139,11 +140,8 @@ int figures_write_page(figures_job *f, const char *sections)
     fputs(sections, page);
     put_checks(f, page);
     fputs("</body></html>\n", page);
-    const bool failed = ferror(page) != 0;
-    if (fclose(page) != 0 || failed) {
-        free(text);
+    if (!memory_text_finish(page, &text))
         return figures_no_memory();
-    }
     const int code = compare_file_path(f->compare, "index.html", path) ? compare_write_text(f->compare, path, text, size) : EXIT_CODE_USAGE;
     free(text);
     return code;

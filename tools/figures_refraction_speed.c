@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "memory_text.h"
+
 #include "figures_refraction.h"
 
 enum { SIZES = 2 };
@@ -98,11 +100,7 @@ static char *table_text(const refraction_figures *r)
         return NULL;
     print_scores(r, out);
     print_times(r, out);
-    const bool failed = ferror(out) != 0;
-    if (fclose(out) == 0 && !failed)
-        return text;
-    free(text);
-    return NULL;
+    return memory_text_finish(out, &text);
 }
 
 static json_t *scores_json(const refraction_figures *r)

@@ -127,17 +127,24 @@ static void check_view(refraction_figures *r, const char *figure, refraction_vie
     figures_check(r->figures, claim, r->scores[view][SHOWN_TWO_PHASE].rmse / r->scores[view][SHOWN_SCREEN_SPACE].rmse, 0, 1);
 }
 
+enum { ACROSS = 320 };
+
+/* A sheet for two rows, the lower one so far below the upper one and from the border, and the upper row on it. */
+static int start_rows(refraction_figures *r, svg *sheet, const refraction_panel *upper, refraction_panel *lower, double between, double below)
+{
+    lower->y = TOP + refraction_panel_height(r, upper) + between;
+    if (!svg_start(sheet, 4 * ACROSS + 5 * GAP, lower->y + refraction_panel_height(r, lower) + below))
+        return figures_no_memory();
+    return put_row(r, sheet, *upper, "abc");
+}
+
 int refraction_outdoors(refraction_figures *r)
 {
-    enum { ACROSS = 320 };
     const refraction_panel shore = {.view = VIEW_SHORE, .x = GAP, .y = TOP, .across = ACROSS, .left = 0.1, .top = 0.25, .width = 0.6, .height = 0.75};
     refraction_panel hull = {.view = VIEW_HULL, .x = GAP, .across = ACROSS, .left = 0.05, .top = 0.25, .width = 0.65, .height = 0.75};
     figures_job *f = r->figures;
     svg sheet;
-    hull.y = TOP + refraction_panel_height(r, &shore) + UNDER;
-    if (!svg_start(&sheet, 4 * ACROSS + 5 * GAP, hull.y + refraction_panel_height(r, &hull) + 30))
-        return figures_no_memory();
-    int code = put_row(r, &sheet, shore, "abc");
+    int code = start_rows(r, &sheet, &shore, &hull, UNDER, 30);
     if (code == EXIT_CODE_OK)
         code = put_row(r, &sheet, hull, "def");
     figures_section(f, "liu-fig14", "Fig. 14: outdoors");
@@ -156,15 +163,11 @@ int refraction_outdoors(refraction_figures *r)
 
 int refraction_diver(refraction_figures *r)
 {
-    enum { ACROSS = 320 };
-    refraction_panel p = {.view = VIEW_DIVER, .x = GAP, .y = TOP, .across = ACROSS};
+    const refraction_panel p = {.view = VIEW_DIVER, .x = GAP, .y = TOP, .across = ACROSS};
     refraction_panel part = {.view = VIEW_DIVER, .x = GAP, .across = ACROSS, .left = 0.3, .top = 0, .width = 0.45, .height = 0.45};
     figures_job *f = r->figures;
     svg sheet;
-    part.y = TOP + refraction_panel_height(r, &p) + 30;
-    if (!svg_start(&sheet, 4 * ACROSS + 5 * GAP, part.y + refraction_panel_height(r, &part) + GAP))
-        return figures_no_memory();
-    int code = put_row(r, &sheet, p, "abc");
+    int code = start_rows(r, &sheet, &p, &part, 30, GAP);
     refraction_panel_mark(r, &sheet, &p, &part);
     if (code == EXIT_CODE_OK)
         code = put_row(r, &sheet, part, "");

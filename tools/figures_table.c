@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "figures_job.h"
+#include "memory_text.h"
 #include "plot.h"
 
 enum { TABLE_METHODS = FIGURE_MANGATA + 1 };
@@ -97,11 +98,7 @@ char *figures_table1_text(const figures_job *f)
     }
     fprintf(out, "\nOver the better of the paper's two models `mangata` stands at %.3f of its RMSE of coverage on average.\n",
             over_published(f, COLUMN_COVERAGE));
-    const bool failed = ferror(out) != 0;
-    if (fclose(out) == 0 && !failed)
-        return text;
-    free(text);
-    return NULL;
+    return memory_text_finish(out, &text);
 }
 
 static char *table_csv(const figures_job *f)
@@ -127,11 +124,7 @@ static char *table_csv(const figures_job *f)
                 fprintf(out, ",%.6f", scores->displayed[i]);
             fprintf(out, isfinite(ms) ? ",%.3f\n" : ",\n", ms);
         }
-    const bool failed = ferror(out) != 0;
-    if (fclose(out) == 0 && !failed)
-        return text;
-    free(text);
-    return NULL;
+    return memory_text_finish(out, &text);
 }
 
 static int write_text(figures_job *f, const char *name, char *text)

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "adaptive_options.h"
+#include "memory_text.h"
 #include "numbers.h"
 #include "podee_options.h"
 #include "refraction_options.h"
@@ -64,11 +65,8 @@ bool render_hash(const render_request *request, const char *canonical, const mgt
     for (size_t i = 0; i < request->layer_count; i++)
         fprintf(stream, " %s", layer_name(request->layers[i]));
     fprintf(stream, "\nframes %s\n", frames);
-    const bool failed = ferror(stream) != 0;
-    if (fclose(stream) != 0 || failed) {
-        free(text);
+    if (!memory_text_finish(stream, &text))
         return false;
-    }
     *hash = sha256(text, size);
     free(text);
     return true;

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 
 #include "markup.h"
+#include "memory_text.h"
 
 bool svg_start(svg *s, double width, double height)
 {
@@ -25,11 +26,8 @@ bool svg_start(svg *s, double width, double height)
 char *svg_finish(svg *s, size_t *size)
 {
     fputs("</svg>\n", s->stream);
-    const bool failed = ferror(s->stream) != 0;
-    if (fclose(s->stream) != 0 || failed) {
-        free(s->text);
+    if (!memory_text_finish(s->stream, &s->text))
         return NULL;
-    }
     *size = s->size;
     return s->text;
 }
