@@ -29,9 +29,9 @@
 #define GATHER_AZIMUTHS 4
 #define ORDERS 4 /* gathered one by one; the rest as a geometric series */
 
-typedef struct band_values {
-    float at[BANDS];
-} band_values;
+/* Radiance or share by band, as a vector; what is beyond BANDS means nothing. */
+typedef float band_values __attribute__((vector_size(16 * sizeof(float)), aligned(16)));
+_Static_assert(BANDS <= 16, "bands fit into a vector");
 
 /* Extinction at sea level and full density, 1/km. */
 typedef struct medium {
@@ -68,6 +68,11 @@ struct scattering_ray {
     band_values through; /* transmittance of the whole ray */
 };
 
+static double clamped(double x, double least, double most)
+{
+    return x < least ? least : x > most ? most : x;
+}
+
 /* ---- the medium ----------------------------------------------------------------------------------------- */
 
 static medium medium_make(double turbidity)
@@ -94,7 +99,7 @@ static double rayleigh_density(double height)
     static const double minus_log[] = {0.0,   0.509, 1.085, 1.839,  2.623,  3.412,  4.198,  4.979,  5.726,
                                        6.430, 7.084, 7.690, 8.282,  8.920,  9.602,  10.32,  11.10,  11.93,
                                        12.79, 13.67, 14.59, 15.46,  16.30,  17.07,  17.78}; /* every 5 km up to 120 */
-    double x = fmin(fmax(height / 5.0, 0.0), 23.999);
+    double x = clamped(height / 5.0, 0.0, 23.999);
     int i = (int)x;
     return spectrum_exp(-(minus_log[i] + (minus_log[i + 1] - minus_log[i]) * (x - i)));
 }
@@ -132,7 +137,8 @@ static double aerosol_phase(double cosine, bool seen)
 
 static double distance_to_space(double radius, double sine)
 {
-    return fmax(0.0, -radius * sine + sqrt(fmax(radius * radius * (sine * sine - 1.0) + TOP * TOP, 0.0)));
+    const double square = radius * radius * (sine * sine - 1.0) + TOP * TOP, distance = -radius * sine + sqrt(square > 0.0 ? square : 0.0);
+    return distance > 0.0 ? distance : 0.0;
 }
 
 static double horizon_sine(double radius)
@@ -144,7 +150,7 @@ static double horizon_sine(double radius)
 static double radius_at(double start, double sine, double distance)
 {
     double r = sqrt(start * start + distance * distance + 2.0 * start * sine * distance);
-    return fmin(fmax(r, EARTH), TOP);
+    return clamped(r, EARTH, TOP);
 }
 
 /* ---- transmittance to space, tabulated over height and zenith angle after Bruneton and Neyret 2008 -------- */
@@ -177,9 +183,9 @@ static void fill_light_table(scattering *air)
             double d = nearest + (farthest - nearest) * column / (LIGHT_COLUMNS - 1);
             double sine = d > 0.0 ? (full * full - above * above - d * d) / (2.0 * radius * d) : 1.0;
             double through[BANDS];
-            transmittance_to_space(&air->air, radius, fmin(fmax(sine, -1.0), 1.0), 32, through);
+            transmittance_to_space(&air->air, radius, clamped(sine, -1.0, 1.0), 32, through);
             for (int b = 0; b < BANDS; ++b) {
-                air->light[row][column].at[b] = (float)through[b];
+                air->light[row][column][b] = (float)through[b];
             }
         }
     }
@@ -190,7 +196,7 @@ static void place_step(ray_step *step, double distance, double radius)
     const double full = sqrt(TOP * TOP - EARTH * EARTH);
     double above = sqrt(fmax(radius * radius - EARTH * EARTH, 0.0));
     double x = fmin(above / full * (LIGHT_ROWS - 1), LIGHT_ROWS - 1.0);
-    double y = sqrt(fmin(fmax((radius - EARTH) / TOP_HEIGHT, 0.0), 1.0)) * (MEAN_ROWS - 1);
+    double y = sqrt(clamped((radius - EARTH) / TOP_HEIGHT, 0.0, 1.0)) * (MEAN_ROWS - 1);
     step->distance = distance;
     step->radius = radius;
     step->horizon = horizon_sine(radius);
@@ -205,24 +211,20 @@ static void place_step(ray_step *step, double distance, double radius)
 static band_values blend(const band_values *low, const band_values *high, float right, float up)
 {
     float w00 = (1.0f - right) * (1.0f - up), w10 = right * (1.0f - up), w01 = (1.0f - right) * up, w11 = right * up;
-    band_values out;
-    for (int b = 0; b < BANDS; ++b) {
-        out.at[b] = (w00 * low[0].at[b] + w10 * low[1].at[b]) + (w01 * high[0].at[b] + w11 * high[1].at[b]);
-    }
-    return out;
+    return (w00 * low[0] + w10 * low[1]) + (w01 * high[0] + w11 * high[1]);
 }
 
 /* Share of the light's disk above the horizon of this point. */
 static float light_above(const scattering *air, const ray_step *at, double sine)
 {
-    return (float)fmin(fmax(0.5 + 0.5 * (sine - at->horizon) / air->sin_radius, 0.0), 1.0);
+    return (float)clamped(0.5 + 0.5 * (sine - at->horizon) / air->sin_radius, 0.0, 1.0);
 }
 
 static band_values light_at(const scattering *air, const ray_step *at, double sine)
 {
-    double lit = fmax(sine, at->horizon);
+    double lit = sine > at->horizon ? sine : at->horizon;
     double x = (distance_to_space(at->radius, lit) - at->nearest) * at->inverse_range;
-    x = fmin(fmax(x, 0.0), 1.0) * (LIGHT_COLUMNS - 1);
+    x = clamped(x, 0.0, 1.0) * (LIGHT_COLUMNS - 1);
     int column = x < LIGHT_COLUMNS - 2 ? (int)x : LIGHT_COLUMNS - 2;
     return blend(&air->light[at->light_row][column], &air->light[at->light_row + 1][column], (float)(x - column), at->light_up);
 }
@@ -265,44 +267,38 @@ static void aim_ray(const medium *air, double start, double sine, int count, sca
             double extinction = air->rayleigh[b] * rayleigh + air->aerosol[b] * aerosol + air->ozone[b] * ozone;
             double depth = extinction * length, after = spectrum_exp(-depth);
             double seen = through[b] * (depth > 1e-6 ? (1.0 - after) / extinction : length);
-            step->rayleigh.at[b] = (float)(air->rayleigh[b] * rayleigh * seen);
-            step->aerosol.at[b] = (float)(air->aerosol_scattering[b] * aerosol * seen);
-            step->all.at[b] = step->rayleigh.at[b] + step->aerosol.at[b];
+            step->rayleigh[b] = (float)(air->rayleigh[b] * rayleigh * seen);
+            step->aerosol[b] = (float)(air->aerosol_scattering[b] * aerosol * seen);
             through[b] *= after;
         }
+        step->all = step->rayleigh + step->aerosol;
     }
     for (int b = 0; b < BANDS; ++b) {
-        ray->through.at[b] = (float)through[b];
+        ray->through[b] = (float)through[b];
     }
 }
 
 static double sine_along(const scattering_ray *ray, const ray_step *step, double sin_light, double cos_angle)
 {
-    return fmin(fmax((ray->start * sin_light + step->distance * cos_angle) / step->radius, -1.0), 1.0);
+    return clamped((ray->start * sin_light + step->distance * cos_angle) / step->radius, -1.0, 1.0);
 }
 
 /* Light of the first order along a ray, phase functions included; seen: by the eye, not gathered. */
 static band_values single_scattering(const scattering *air, const scattering_ray *ray, double sin_light, double cos_angle, bool seen)
 {
-    band_values rayleigh = {{0}}, aerosol = {{0}}, out;
+    band_values rayleigh = {0}, aerosol = {0};
     for (int i = 0; i < ray->count; ++i) {
         const ray_step *step = &ray->steps[i];
         double sine = sine_along(ray, step, sin_light, cos_angle);
         float lit = light_above(air, step, sine);
         if (lit > 0.0f) {
-            band_values light = light_at(air, step, sine);
-            for (int b = 0; b < BANDS; ++b) {
-                float in = lit * light.at[b];
-                rayleigh.at[b] += step->rayleigh.at[b] * in;
-                aerosol.at[b] += step->aerosol.at[b] * in;
-            }
+            band_values in = lit * light_at(air, step, sine);
+            rayleigh += step->rayleigh * in;
+            aerosol += step->aerosol * in;
         }
     }
     float rayleigh_share = (float)rayleigh_phase(cos_angle), aerosol_share = (float)aerosol_phase(cos_angle, seen);
-    for (int b = 0; b < BANDS; ++b) {
-        out.at[b] = rayleigh_share * rayleigh.at[b] + aerosol_share * aerosol.at[b];
-    }
-    return out;
+    return rayleigh_share * rayleigh + aerosol_share * aerosol;
 }
 
 /* Adds the light of a mean radiance, scattered once more and equally to all sides. */
@@ -311,10 +307,7 @@ static void add_scattered_mean(const band_values (*mean)[MEAN_COLUMNS], const sc
 {
     for (int i = 0; i < ray->count; ++i) {
         const ray_step *step = &ray->steps[i];
-        band_values in = mean_at(mean, step, sine_along(ray, step, sin_light, cos_angle));
-        for (int b = 0; b < BANDS; ++b) {
-            sum->at[b] += step->all.at[b] * in.at[b];
-        }
+        *sum += step->all * mean_at(mean, step, sine_along(ray, step, sin_light, cos_angle));
     }
 }
 
@@ -335,9 +328,7 @@ static void add_ground(const scattering *air, const scattering_ray *ray, const b
         in = light_at(air, &ground, sine);
         factor = (float)(SEA_ALBEDO / PI * fmax(sine, 0.0)) * light_above(air, &ground, sine);
     }
-    for (int b = 0; b < BANDS; ++b) {
-        sum->at[b] += factor * in.at[b] * ray->through.at[b];
-    }
+    *sum += factor * in * ray->through;
 }
 
 /* ---- mean radiance of all orders -------------------------------------------------------------------------- */
@@ -374,13 +365,13 @@ static void gather_order(scattering *air, int from, int to, scattering_ray rays[
         }
         for (int column = 0; column < MEAN_COLUMNS; ++column) {
             double sin_light = mean_sine(column), cos_light = sqrt(fmax(0.0, 1.0 - sin_light * sin_light));
-            band_values total = {{0}};
+            band_values total = {0};
             for (int zenith = 0; zenith < GATHER_ZENITHS; ++zenith) {
                 gather_direction d = gather_direction_make(zenith);
                 const scattering_ray *ray = &rays[zenith];
                 for (int azimuth = 0; azimuth < GATHER_AZIMUTHS; ++azimuth) {
                     double cos_angle = d.sine * sin_light + d.cosine * cos_light * d.azimuth_cosine[azimuth];
-                    band_values in = {{0}};
+                    band_values in = {0};
                     if (source) {
                         add_scattered_mean(source, ray, sin_light, cos_angle, &in);
                     } else {
@@ -389,9 +380,7 @@ static void gather_order(scattering *air, int from, int to, scattering_ray rays[
                     if (ray->hits_ground) {
                         add_ground(air, ray, source, sin_light, cos_angle, &in);
                     }
-                    for (int b = 0; b < BANDS; ++b) {
-                        total.at[b] += (float)d.weight * in.at[b];
-                    }
+                    total += (float)d.weight * in;
                 }
             }
             out[row][column] = total;
@@ -410,11 +399,11 @@ static void fill_mean_table(scattering *air, scattering_ray rays[GATHER_ZENITHS]
                 band_values *sum = &air->mean[row][column];
                 for (int b = 0; b < BANDS; ++b) {
                     float rest = 0.0f;
-                    if (order == ORDERS && before->at[b] > 1e-30f) {
-                        float ratio = fminf(now->at[b] / before->at[b], 0.8f);
-                        rest = now->at[b] * ratio / (1.0f - ratio);
+                    if (order == ORDERS && (*before)[b] > 1e-30f) {
+                        float ratio = fminf((*now)[b] / (*before)[b], 0.8f);
+                        rest = (*now)[b] * ratio / (1.0f - ratio);
                     }
-                    sum->at[b] += now->at[b] + rest;
+                    (*sum)[b] += (*now)[b] + rest;
                 }
             }
         }
@@ -473,6 +462,6 @@ void scattering_radiance(const scattering *air, const scattering_ray *ray, doubl
     band_values sum = single_scattering(air, ray, sin_light, cos_angle, true);
     add_scattered_mean((const band_values (*)[MEAN_COLUMNS])air->mean, ray, sin_light, cos_angle, &sum);
     for (int b = 0; b < BANDS; ++b) {
-        radiance[b] = sum.at[b];
+        radiance[b] = (double)sum[b];
     }
 }
