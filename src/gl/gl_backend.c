@@ -210,11 +210,10 @@ const char *gl_lacks(const mgt_scene *scene)
     if (method == MGT_METHOD_REFERENCE || method == MGT_METHOD_ADAPTIVE)
         return "methods reference and adaptive run";
     switch (scene->quality.refraction) {
-    case MGT_REFRACTION_HYBRID:
     case MGT_REFRACTION_DISTANCE_FIELD:
     case MGT_REFRACTION_TRUTH:
         if (scene->object_count > 0)
-            return "refraction hybrid, distance-field and truth run";
+            return "refraction distance-field and truth run";
         break;
     default: break;
     }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "cpu/refraction_data.h"
+#include "gl/gl_bvh.h"
 
 /* ---- tables ---- */
 
@@ -132,8 +133,40 @@ mgt_status gl_objects_update(const gl_api *gl, gl_objects *o, const mgt_scene *s
     return gl_check(gl, "objects", r);
 }
 
+static mgt_status upload_tree(const gl_api *gl, gl_table *t, const gl_bvh *b, size_t most_texels, const reporter *r)
+{
+    if (b->texel_count > most_texels)
+        return report_error(r, MGT_ERROR_UNSUPPORTED, "render.size", "a tree of %zu elements to trace rays through is more than this OpenGL's tables hold (%zu)",
+                            b->texel_count, most_texels);
+    const size_t size = b->texel_count * sizeof *b->texels;
+    const mgt_status status = gl_table_reserve(gl, t, GL_RGBA32UI, b->texel_count, sizeof *b->texels, r);
+    void *map = status == MGT_OK ? gl_table_map(gl, t, size, r) : NULL;
+    if (!map)
+        return status == MGT_OK ? MGT_ERROR_MEMORY : status;
+    memcpy(map, b->texels, size);
+    gl_table_unmap(gl, t);
+    return gl_check(gl, "objects", r);
+}
+
+mgt_status gl_objects_update_tree(const gl_api *gl, gl_objects *o, size_t most_texels, const reporter *r)
+{
+    if (o->tree_version == o->world->version)
+        return MGT_OK;
+    o->tree_version = 0;
+    gl_bvh tree;
+    mgt_status status = gl_bvh_build(&tree, o->world, o->pool);
+    if (status != MGT_OK)
+        return report_error(r, status, "render.memory", "out of memory for the tree of triangles that rays are traced through");
+    status = upload_tree(gl, &o->tree, &tree, most_texels, r);
+    gl_bvh_free(&tree);
+    if (status == MGT_OK)
+        o->tree_version = o->world->version;
+    return status;
+}
+
 void gl_objects_free(const gl_api *gl, gl_objects *o)
 {
+    gl_table_free(gl, &o->tree);
     gl_table_free(gl, &o->vertices);
     gl_table_free(gl, &o->indices);
     gl_table_free(gl, &o->owners);

@@ -21,10 +21,16 @@ typedef struct gl_objects {
     gl_table indices;  /* R32UI, three a triangle */
     gl_table owners;   /* R32UI: the object of a triangle */
     gl_table planes;   /* RGBA32F, one a triangle: unit normal, and its product with a point of it */
+    gl_table tree;     /* RGBA32UI: see gl_bvh.h */
+    uint64_t tree_version; /* as `version` */
 } gl_objects;
 
 /* Brings world and tables up to date; `threads` may make the world, 0: as many as this process may use. `most_texels` is what a table may hold. */
 mgt_status gl_objects_update(const gl_api *gl, gl_objects *o, const mgt_scene *scene, uint32_t threads, size_t most_texels, const reporter *r);
+
+/* The same for the tree that rays are traced through. */
+mgt_status gl_objects_update_tree(const gl_api *gl, gl_objects *o, size_t most_texels, const reporter *r);
+
 void gl_objects_free(const gl_api *gl, gl_objects *o);
 
 /* At least `count` elements of `size` bytes, fetched as `format`. The old contents are lost when it grows. */

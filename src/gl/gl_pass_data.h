@@ -56,6 +56,7 @@ enum {
     UNIT_FAR,      /* depth and triangle */
     UNIT_MIRRORED = UNIT_FAR + 2,
     UNIT_NEAR = UNIT_MIRRORED + 2,
+    UNIT_TREE = UNIT_NEAR + 2,
     UNIT_FRONT = 1,
     UNIT_CLEAR = 12, /* what methods see of objects */
     UNIT_DEEP,

@@ -42,6 +42,7 @@ static const program_text program_texts[PROGRAM_COUNT] = {
     [PROGRAM_OBJECTS] = {"refraction", "objects.comp", {NULL}},
     [PROGRAM_OBJECTS_NEAR] = {"refraction", "objects_near.comp", {NULL}},
     [PROGRAM_OBJECTS_THROUGH] = {"refraction", "objects_through.comp", {NULL}},
+    [PROGRAM_OBJECTS_TRACED] = {"refraction", "objects_traced.comp", {NULL}},
     [PROGRAM_OBJECTS_PLACES] = {"refraction", "objects_places.comp", {NULL}},
     [PROGRAM_OBJECTS_MIRRORED] = {"refraction", "objects_mirrored.comp", {NULL}},
     [PROGRAM_OBJECTS_DEEP] = {"refraction", "objects_deep.comp", {NULL}},

@@ -37,6 +37,7 @@ typedef enum gl_program {
     PROGRAM_OBJECTS,        /* water in the pixels, and which of these see objects: */
     PROGRAM_OBJECTS_NEAR,   /* in front of the water, */
     PROGRAM_OBJECTS_THROUGH, /* through its surface, */
+    PROGRAM_OBJECTS_TRACED, /* there, where rays are traced, */
     PROGRAM_OBJECTS_PLACES, /* through several places of each pixel, */
     PROGRAM_OBJECTS_MIRRORED, /* in the mirror that it is, */
     PROGRAM_OBJECTS_DEEP,   /* or only water */

@@ -182,6 +182,10 @@ mgt_status gl_refraction_prepare(gl_renderer *g, const frame *f, const region *a
     mgt_status status = gl_objects_update(&g->gl, &g->objects, f->scene, g->threads, g->limits.table_texels, r);
     if (status != MGT_OK)
         return status;
+    if (f->scene->quality.refraction == MGT_REFRACTION_HYBRID)
+        status = gl_objects_update_tree(&g->gl, &g->objects, g->limits.table_texels, r);
+    if (status != MGT_OK)
+        return status;
     const world *w = g->objects.world;
     if (shade_update(&o->shade, w, f, g->sky, NULL) != MGT_OK)
         return report_error(r, MGT_ERROR_MEMORY, "render.memory", "out of memory for the scene's objects");
@@ -227,6 +231,7 @@ static void bind_all(gl_renderer *g)
     const gl_table *const tables[] = {&g->objects.vertices, &g->objects.indices, &g->objects.owners, &g->objects.planes, &o->materials, &o->texels};
     for (GLuint i = 0; i < sizeof tables / sizeof *tables; i++)
         bind_texture(gl, UNIT_VERTICES + i, tables[i]->texture);
+    bind_texture(gl, UNIT_TREE, g->objects.tree.texture);
     bind_texture(gl, UNIT_SKY, g->sky_texture);
     bind_texture(gl, UNIT_SHADOWS, o->shadows.name);
     const gl_gbuffer *const layers[] = {&b->far, o->block.objects.mirrors ? &b->mirrored : &b->far, &b->near};
@@ -241,7 +246,7 @@ static void bind_all(gl_renderer *g)
 /* ---- the passes over a band ---- */
 
 /* As in objects_pixel.glsl. */
-enum { LIST_FRONT, LIST_EDGES, LIST_THROUGH, LIST_DEEP, LISTS, WATER_FLOATS = 12 };
+enum { LIST_FRONT, LIST_EDGES, LIST_THROUGH, LIST_DEEP, LIST_TRACED, LISTS, WATER_FLOATS = 12 };
 
 typedef struct list_head {
     uint32_t groups[3], count;
@@ -285,6 +290,18 @@ static mgt_status over_pixels(gl_renderer *g, gl_program program, const PassData
     return status;
 }
 
+/* Through several places of a pixel all is done at once. */
+static mgt_status see_through(gl_renderer *g, const PassData *pass, const reporter *r)
+{
+    if (g->refraction.block.objects.places > 1)
+        return over_pixels(g, PROGRAM_OBJECTS_PLACES, pass, r);
+    const mgt_status status = over_list(g, PROGRAM_OBJECTS_THROUGH, LIST_THROUGH, r);
+    if (status != MGT_OK || g->refraction.block.narrow.method != MGT_REFRACTION_HYBRID)
+        return status;
+    g->gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+    return over_list(g, PROGRAM_OBJECTS_TRACED, LIST_TRACED, r);
+}
+
 static mgt_status run_passes(gl_renderer *g, const PassData *pass, const reporter *r)
 {
     const gl_api *gl = &g->gl;
@@ -294,7 +311,7 @@ static mgt_status run_passes(gl_renderer *g, const PassData *pass, const reporte
     mgt_status status = over_pixels(g, PROGRAM_OBJECTS, pass, r);
     gl->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
     if (status == MGT_OK)
-        status = objects->places > 1 ? over_pixels(g, PROGRAM_OBJECTS_PLACES, pass, r) : over_list(g, PROGRAM_OBJECTS_THROUGH, LIST_THROUGH, r);
+        status = see_through(g, pass, r);
     if (status == MGT_OK && objects->mirrors)
         status = over_list(g, PROGRAM_OBJECTS_MIRRORED, LIST_THROUGH, r);
     if (status == MGT_OK && g->refraction.block.narrow.side < 0)

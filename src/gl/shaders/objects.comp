@@ -4,7 +4,7 @@
  */
 #define SHARED_WAVES
 #define OBJECTS_PASS
-#define LIST_ACCESS
+#define LISTS_GROW
 #include "lattice_data.glsl"
 #include "glitter.k"
 #include "objects_water.glsl"
@@ -54,14 +54,6 @@ bool is_edge(ivec2 image, PixelWater w)
     float object = near_depth_at(at) * sqrt(length_squared(camera_ray(image, vec2(0.0f))));
     float pixel = w.hit.along * FRAME(0).pixel_angle / max(-w.hit.view.y, 0.02f);
     return abs(object - w.hit.along) < 2.0f * pixel;
-}
-
-void append(int list, int pixel)
-{
-    uint i = atomicAdd(list_head[list].count, 1u);
-    if (i % uint(LIST_GROUP) == 0u)
-        atomicAdd(list_head[list].groups_x, 1u);
-    list_entry[list * band_pixels() + int(i)] = uint(pixel);
 }
 
 void keep_water(int pixel, PixelWater w)

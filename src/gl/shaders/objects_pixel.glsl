@@ -14,23 +14,27 @@ struct PixelWater {
     vec3 slopes; /* covariance xx, xz, zz of those that the pixel does not resolve */
 };
 
-#ifndef LIST_ACCESS
+#ifdef LISTS_GROW
+#define LIST_ACCESS
+#else
 #define LIST_ACCESS readonly
 #endif
 layout(std430, binding = 4) LIST_ACCESS buffer WaterBlock { float water_data[]; }; /* twelve a pixel: PixelWater, and 1 in those of LIST_THROUGH */
 
-/* Lists: pixels wholly in front of the water, pixels on edges, pixels that see through the surface, and, under water, those that see no surface. */
+/* Lists: pixels wholly in front of the water, pixels on edges, pixels that see through the surface, under water those that see no surface, and of those
+ * that see through it those whose rays are traced. */
 const int LIST_FRONT = 0;
 const int LIST_EDGES = 1;
 const int LIST_THROUGH = 2;
 const int LIST_DEEP = 3;
+const int LIST_TRACED = 4;
 const int LIST_GROUP = 64; /* entries of a workgroup */
 
 struct ListHead {
     uint groups_x, groups_y, groups_z, count;
 };
 layout(std430, binding = 5) LIST_ACCESS buffer ListBlock {
-    ListHead list_head[4];
+    ListHead list_head[5];
     uint list_entry[];
 };
 
@@ -54,6 +58,16 @@ PixelWater known_water(int pixel)
     w.hit.row = float(image.y);
     return w;
 }
+
+#ifdef LISTS_GROW
+void append(int list, int pixel)
+{
+    uint i = atomicAdd(list_head[list].count, 1u);
+    if (i % uint(LIST_GROUP) == 0u)
+        atomicAdd(list_head[list].groups_x, 1u);
+    list_entry[list * band_pixels() + int(i)] = uint(pixel);
+}
+#endif
 
 ivec2 image_of(PixelWater w) { return ivec2(int(w.hit.column), int(w.hit.row)); }
 

@@ -9,6 +9,7 @@
 #include "glitter.k"
 #include "objects_water.glsl"
 #include "objects_through.glsl"
+#include "objects_tracing.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -28,7 +29,10 @@ void main()
         PixelWater water = water_at(where, (vec2(float(i % places), float(i / places)) + 0.5f) / float(places) - 0.5f);
         if (!(water.share > 0.0f))
             continue;
-        RayEnd end = end_through(water);
+        ThroughEnd through = end_through(water);
+        RayEnd end = through.end;
+        if (through.traced)
+            end = end_traced(water);
         color += shaded(end.triangle, end.ray);
         error = max(error, end.error);
         seen += 1.0f;

@@ -3,6 +3,7 @@
  * What pixels see through the surface at their centres.
  */
 #define OBJECTS_PASS
+#define LISTS_GROW
 #include "gl_data.glsl"
 #include "objects_through.glsl"
 
@@ -14,8 +15,12 @@ void main()
     if (pixel < 0)
         return;
     PixelWater water = known_water(pixel);
-    RayEnd end = end_through(water);
+    ThroughEnd through = end_through(water);
+    if (through.traced) {
+        append(LIST_TRACED, pixel);
+        return;
+    }
     ivec2 texel = texel_of_image(image_of(water));
-    imageStore(body_image, texel, vec4(shaded(end.triangle, end.ray), 1.0f));
-    imageStore(error_image, texel, vec4(end.error));
+    imageStore(body_image, texel, vec4(shaded(through.end.triangle, through.end.ray), 1.0f));
+    imageStore(error_image, texel, vec4(through.end.error));
 }

@@ -41,12 +41,17 @@ bool breaks_off(int layer, ivec2 at)
     return !(abs(inverse[0] + inverse[1] - 2.0f * here) <= limit && abs(inverse[2] + inverse[3] - 2.0f * here) <= limit);
 }
 
+/* Whether the pictures do not certify a point. */
+bool is_doubtful(FoundPoint f, int layer)
+{
+    return f.column >= 0.0f && (f.residual >= 1.5f || breaks_off(layer, ivec2(int(f.column), int(f.row))));
+}
+
 /* There the pixel of the answer is not enough: the ray meets the triangles that it and its neighbours show, and the nearest one counts. */
 RayEnd sharpened(RayEnd end, WaterHit hit, int layer, FoundPoint f)
 {
     ivec2 at = ivec2(int(f.column), int(f.row)), last = ivec2(int(narrow_data.columns), int(narrow_data.rows)) - 1;
-    bool asked = narrow_data.method == 0 && f.column >= 0.0f && end.error < 4.0f;
-    asked = asked && (end.error >= 1.5f || breaks_off(layer, at));
+    bool asked = end.error < 4.0f && is_doubtful(f, layer);
     vec3 view = turned(0, hit.view), from = camera_position() + hit.along * view;
     float along = INFINITY;
     int met = -1;
@@ -73,8 +78,13 @@ RayEnd sharpened(RayEnd end, WaterHit hit, int layer, FoundPoint f)
     return end;
 }
 
+struct ThroughEnd {
+    RayEnd end;
+    bool traced; /* the ray shall be: the end does not count */
+};
+
 /* Where the surface lets nothing through, it mirrors the camera's own side. */
-RayEnd end_through(PixelWater w)
+ThroughEnd end_through(PixelWater w)
 {
     WaterHit hit = surface_of_method(w.hit);
     Bent bent = bent_at(0, hit.view, hit.normal);
@@ -93,5 +103,10 @@ RayEnd end_through(PixelWater w)
     end.ray.gain = total ? 1.0f : narrow_data.side > 0.0f ? 1.0f / (shade_data.index * shade_data.index) : shade_data.index * shade_data.index;
     end.error = f.residual < 1e28f ? f.residual : INFINITY;
     end.counts = true;
-    return sharpened(end, w.hit, total ? 1 : 0, f);
+    int layer = total ? 1 : 0;
+    if (narrow_data.method == 1)
+        return ThroughEnd(end, is_doubtful(f, layer));
+    if (narrow_data.method == 0)
+        end = sharpened(end, w.hit, layer, f);
+    return ThroughEnd(end, false);
 }

@@ -1,0 +1,111 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The nearest triangle that a ray meets, by the tree of boxes that gl_bvh.h describes.
+ */
+
+layout(binding = 14) uniform usamplerBuffer tree_table;
+
+const int TREE_LEVELS = 32;              /* no path is longer, and each of its nodes puts off one child at most */
+const int TREE_LEAF_TRIANGLES = 4;
+const uint TREE_LEAF = 0x80000000u;
+const uint TREE_NOTHING = 0xffffffffu;   /* counts as a leaf */
+
+struct TreeHit {
+    int triangle; /* −1: nothing */
+    float along;  /* in lengths of the ray's direction; +inf: nothing */
+};
+
+/* What the boxes ask of a ray. They are asked as if each were wider by what rounding the ray's origin may be off by. */
+struct TreeRay {
+    vec3 low;     /* origin, for the sides of less … */
+    vec3 high;    /* … and of greater coordinates */
+    vec3 inverse; /* of the direction; no component is infinite */
+};
+
+TreeRay tree_ray(vec3 from, vec3 direction)
+{
+    vec3 least = vec3(direction.x < 0.0f ? -1e-18f : 1e-18f, direction.y < 0.0f ? -1e-18f : 1e-18f, direction.z < 0.0f ? -1e-18f : 1e-18f);
+    vec3 slack = 2.4e-7f * abs(from);
+    return TreeRay(from + slack, from - slack, 1.0f / mix(direction, least, lessThan(abs(direction), vec3(1e-18f))));
+}
+
+/* Where a ray enters a box, +inf where it passes by or `most` is nearer. */
+float enter_box(vec3 low, vec3 high, TreeRay r, float most)
+{
+    vec3 a = (low - r.low) * r.inverse, b = (high - r.high) * r.inverse;
+    vec3 first = min(a, b), last = max(a, b);
+    float begin = max(max(first.x, first.y), max(first.z, 0.0f));
+    float end = min(min(last.x, last.y), min(last.z, most));
+    return begin <= end * 1.0000005f ? begin : INFINITY;
+}
+
+/* On which side of the line from p to q a ray from the origin passes. Seen from q it is the same number with the other sign, to the last bit: nothing
+ * slips through between two triangles with an edge in common. */
+float side_of_edge(vec3 p, vec3 q, vec3 direction)
+{
+    vec3 along = q - p, sum = q + p;
+    precise float x = along.y * sum.z - along.z * sum.y;
+    precise float y = along.z * sum.x - along.x * sum.z;
+    precise float z = along.x * sum.y - along.y * sum.x;
+    precise float side = x * direction.x + y * direction.y + z * direction.z;
+    return side;
+}
+
+/* In lengths of the direction; +inf: the ray does not meet the triangle. */
+float cross_triangle(int triangle, vec3 from, vec3 direction)
+{
+    ivec3 corner = triangle_corners(triangle);
+    vec3 a = texelFetch(vertex_table, 2 * corner.x).xyz - from;
+    vec3 b = texelFetch(vertex_table, 2 * corner.y).xyz - from;
+    vec3 c = texelFetch(vertex_table, 2 * corner.z).xyz - from;
+    float u = side_of_edge(a, b, direction), v = side_of_edge(b, c, direction), w = side_of_edge(c, a, direction);
+    float slack = 1.2e-7f * abs(u + v + w);
+    if (min(min(u, v), w) < -slack && max(max(u, v), w) > slack)
+        return INFINITY;
+    vec3 normal = cross(b - a, c - a);
+    float closing = dot(normal, direction);
+    float along = dot(normal, a) / (closing != 0.0f ? closing : 1.0f);
+    return closing != 0.0f && along >= 0.0f ? along : INFINITY;
+}
+
+/* Of several triangles at the same distance the first of the world's list counts, in whichever order they are met. */
+TreeHit nearer_of_leaf(TreeHit best, uint texel, vec3 from, vec3 direction)
+{
+    uvec4 triangles = texelFetch(tree_table, int(texel));
+    for (int i = 0; i < TREE_LEAF_TRIANGLES; i++) {
+        int triangle = int(triangles[i]);
+        float along = triangle >= 0 ? cross_triangle(triangle, from, direction) : INFINITY;
+        if (along < best.along || (along == best.along && triangle >= 0 && triangle < best.triangle))
+            best = TreeHit(triangle, along);
+    }
+    return best;
+}
+
+TreeHit trace_nearest(vec3 from, vec3 direction)
+{
+    uint waiting[TREE_LEVELS];
+    int depth = 0;
+    uint at = 0u;
+    TreeRay ray = tree_ray(from, direction);
+    TreeHit best = TreeHit(-1, INFINITY);
+    do {
+        while ((at & TREE_LEAF) == 0u) {
+            uvec4 a = texelFetch(tree_table, int(at)), b = texelFetch(tree_table, int(at) + 1);
+            uvec4 c = texelFetch(tree_table, int(at) + 2), d = texelFetch(tree_table, int(at) + 3);
+            float left = enter_box(uintBitsToFloat(a.xyz), uintBitsToFloat(b.xyz), ray, best.along);
+            float right = enter_box(uintBitsToFloat(c.xyz), uintBitsToFloat(d.xyz), ray, best.along);
+            bool both = max(left, right) < INFINITY;
+            if (both)
+                waiting[depth++] = left <= right ? b.w : a.w;
+            if (both || min(left, right) < INFINITY)
+                at = left <= right ? a.w : b.w;
+            else
+                at = depth > 0 ? waiting[--depth] : TREE_NOTHING;
+        }
+        if (at != TREE_NOTHING) {
+            best = nearer_of_leaf(best, at & ~TREE_LEAF, from, direction);
+            at = depth > 0 ? waiting[--depth] : TREE_NOTHING;
+        }
+    } while (at != TREE_NOTHING);
+    return best;
+}

@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * What rays meet behind the surface, where the pictures do not certify an answer.
+ */
+#include "objects_shade.glsl"
+#include "bvh.glsl"
+
+RayEnd end_traced(PixelWater w)
+{
+    Bent bent = bent_at(0, w.hit.view, w.hit.normal);
+    bool total = bent.total > 0.0f;
+    RayEnd end;
+    end.ray.direction = turned(0, bent.direction);
+    /* Rounding must not put the origin behind a wall that stands in the water. */
+    vec3 from = camera_position() + w.hit.along * (1.0f - 2e-6f) * turned(0, w.hit.view);
+    TreeHit met = trace_nearest(from, end.ray.direction);
+    end.triangle = met.triangle;
+    end.ray.before = w.hit.along;
+    end.ray.after = met.triangle >= 0 ? met.along : 0.0f;
+    end.ray.position = from + end.ray.after * end.ray.direction;
+    end.ray.water = narrow_data.side > 0.0f ? end.ray.after : w.hit.along + (total ? end.ray.after : 0.0f);
+    end.ray.slope_xx = w.slopes.x;
+    end.ray.slope_xz = w.slopes.y;
+    end.ray.slope_zz = w.slopes.z;
+    end.error = 0.0f;
+    end.counts = true;
+    return end;
+}
