@@ -67,6 +67,7 @@ static const struct {
     mgt_refraction refraction;
 } object_methods[] = {
     {"two-phase", MGT_METHOD_MANGATA, MGT_REFRACTION_TWO_PHASE},
+    {"hybrid", MGT_METHOD_MANGATA, MGT_REFRACTION_HYBRID},
     {"liu", MGT_METHOD_MANGATA, MGT_REFRACTION_LIU},
     {"broad", MGT_METHOD_MANGATA, MGT_REFRACTION_BROAD},
     {"narrow", MGT_METHOD_MANGATA, MGT_REFRACTION_NARROW},
