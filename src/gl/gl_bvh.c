@@ -267,8 +267,8 @@ static uint32_t add_part(build_job *job, size_t first, size_t count, int levels)
     return CHILD_PART | (uint32_t)job->part_count++;
 }
 
-/* The tree of a range, below which at most `levels` nodes may stand in a row. A side takes no more than it can hold in one level less, 4 · 2^(levels − 1):
- * halves always do. */
+/* The tree of a range, in which at most `levels` nodes may stand in a row. A side takes no more than it can hold in one level less,
+ * 4 · 2^(levels − 1): halves always do. */
 static uint32_t grow(build_job *job, tree *t, size_t first, size_t count, int levels)
 {
     item *items = job->items + first;

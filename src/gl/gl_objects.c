@@ -136,8 +136,8 @@ mgt_status gl_objects_update(const gl_api *gl, gl_objects *o, const mgt_scene *s
 static mgt_status upload_tree(const gl_api *gl, gl_table *t, const gl_bvh *b, size_t most_texels, const reporter *r)
 {
     if (b->texel_count > most_texels)
-        return report_error(r, MGT_ERROR_UNSUPPORTED, "render.size", "a tree of %zu elements to trace rays through is more than this OpenGL's tables hold (%zu)",
-                            b->texel_count, most_texels);
+        return report_error(r, MGT_ERROR_UNSUPPORTED, "render.size",
+                            "a tree of %zu elements to trace rays through is more than this OpenGL's tables hold (%zu)", b->texel_count, most_texels);
     const size_t size = b->texel_count * sizeof *b->texels;
     const mgt_status status = gl_table_reserve(gl, t, GL_RGBA32UI, b->texel_count, sizeof *b->texels, r);
     void *map = status == MGT_OK ? gl_table_map(gl, t, size, r) : NULL;
