@@ -292,15 +292,20 @@ static void compare_view(const mgt_scene *drawn_scene, int divisor)
     target.pixels = rendered.rgba[HEIGHT - 1];
     target.row_stride = -(ptrdiff_t)sizeof rendered.rgba[0];
     assert_int_equal(mgt_context_create(&cpu, NULL), MGT_OK);
-    assert_int_equal(mgt_render(cpu, &scene, &target, 1), MGT_OK);
+    const mgt_status status = mgt_render(cpu, &scene, &target, 1);
     mgt_context_destroy(cpu);
+    if (status == MGT_ERROR_UNAVAILABLE && scene.quality.refraction == MGT_REFRACTION_HYBRID) { /* the CPU's needs Embree */
+        stop(&e);
+        return;
+    }
+    assert_int_equal(status, MGT_OK);
     const long different = count_different(&drawn, &rendered, 2);
     print_message("  %ld of %d pixels differ by more than 2 of 255 from the CPU's\n", different, WIDTH * HEIGHT);
     assert_true(different <= WIDTH * HEIGHT / divisor);
     stop(&e);
 }
 
-/* Its water and sky; with an object that rises out of the water; and under a higher sea, from below. */
+/* Its water and sky; with an object that rises out of the water; and under a higher sea, from below; with and without traced rays. */
 static void view_is_the_picture(void **state)
 {
     (void)state;
@@ -317,9 +322,11 @@ static void view_is_the_picture(void **state)
                                .material = {.base_color = {0.7f, 0.5f, 0.3f}, .roughness = 0.6f, .pattern_size = 1}};
     scene.objects = &object;
     scene.object_count = 1;
-    compare_view(&scene, 500);
-    scene.water.level = 8;
-    compare_view(&scene, 500);
+    for (int i = 0; i < 4; i++) {
+        scene.water.level = i % 2 ? 8 : 0;
+        scene.quality.refraction = i < 2 ? MGT_REFRACTION_TWO_PHASE : MGT_REFRACTION_HYBRID;
+        compare_view(&scene, 500);
+    }
     mgt_mesh_destroy(ramp);
 }
 
