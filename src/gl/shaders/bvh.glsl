@@ -39,8 +39,8 @@ float enter_box(vec3 low, vec3 high, TreeRay r, float most)
     return begin <= end * 1.0000005f ? begin : INFINITY;
 }
 
-/* On which side of the line from p to q a ray from the origin passes. Seen from q it is the same number with the other sign, to the last bit: nothing
- * slips through between two triangles with an edge in common. */
+/* On which side of the line from p to q a ray from the origin passes: the volume that both span, within 6e-7 of the product of |q − p|, |q + p| and
+ * the ray's length. Seen from q it is the same number with the other sign, to the last bit. */
 float side_of_edge(vec3 p, vec3 q, vec3 direction)
 {
     vec3 along = q - p, sum = q + p;
@@ -59,10 +59,13 @@ float cross_triangle(int triangle, vec3 from, vec3 direction)
     vec3 b = texelFetch(vertex_table, 2 * corner.y).xyz - from;
     vec3 c = texelFetch(vertex_table, 2 * corner.z).xyz - from;
     float u = side_of_edge(a, b, direction), v = side_of_edge(b, c, direction), w = side_of_edge(c, a, direction);
-    float slack = 1.2e-7f * abs(u + v + w);
+    /* What rounding may be off by, so that nothing slips through where triangles meet. */
+    vec3 e = b - a, f = c - a;
+    float longest = 4.0f * max(dot(e, e), dot(f, f)), farthest = 4.0f * max(dot(a, a), max(dot(b, b), dot(c, c)));
+    float slack = 6e-7f * sqrt(longest * farthest * dot(direction, direction));
     if (min(min(u, v), w) < -slack && max(max(u, v), w) > slack)
         return INFINITY;
-    vec3 normal = cross(b - a, c - a);
+    vec3 normal = cross(e, f);
     float closing = dot(normal, direction);
     float along = dot(normal, a) / (closing != 0.0f ? closing : 1.0f);
     return closing != 0.0f && along >= 0.0f ? along : INFINITY;
