@@ -10,59 +10,25 @@
 #include <string.h>
 
 #include "bench_scene.h"
+#include "gl_frame.h"
 #include "gl_peak.h"
-#include "mangata/mangata_gl.h"
 #include "names.h"
 #include "operation_frame.h"
 #include "timing.h"
 
-enum { RUN_LIMIT = 9, PAIRS = 5, PASSES = 16, METHODS = 5, SIZES = 3, CPU_THREADS = 2 };
+enum { RUN_LIMIT = 9, PAIRS = 5, METHODS = 5, SIZES = 3, CPU_THREADS = 2 };
 
 static const char *const methods[METHODS] = {"none", "ssaa2", "podee-uniform", "podee-pixel", "mangata"};
 static const uint32_t sizes[SIZES][2] = {{1280, 720}, {1920, 1080}, {3840, 2160}};
 static const double goal_4k = 2e-3, goal_4k_256 = 5e-3, goal_ratio = 1.5, goal_cpu = 8;
 
 typedef struct bench {
-    bool quick, software;
+    bool quick;
     int runs;
-    mgt_context *gl, *cpu;
+    gl_frame frame;
+    mgt_context *cpu;
     mgt_context_info info, cpu_info;
-    float *pixels;
 } bench;
-
-static bool render(const bench *b, mgt_context *context, const mgt_scene *scene)
-{
-    mgt_target target = mgt_target_defaults();
-    target.format = MGT_FORMAT_RGB32F;
-    target.pixels = b->pixels;
-    if (mgt_render(context, scene, &target, 1) == MGT_OK)
-        return true;
-    fprintf(stderr, "gl_bench: %s\n", mgt_last_error(context));
-    return false;
-}
-
-/* GPU seconds of the passes of a frame; `passes` may be NULL. A frame's timers are read when one of the next two begins. Software takes too long to render
- * so often: there a frame's wall time serves where the passes are not asked for. */
-static double gpu_seconds(const bench *b, const mgt_scene *scene, mgt_gl_timing *passes, size_t *pass_count)
-{
-    mgt_gl_timing timings[PASSES];
-    if (b->software && !passes) {
-        const double begin = seconds_now();
-        return render(b, b->gl, scene) ? seconds_now() - begin : -1;
-    }
-    for (int i = 0; i < 3; i++)
-        if (!render(b, b->gl, scene))
-            return -1;
-    const size_t count = mgt_gl_get_timings(b->gl, timings, PASSES);
-    double sum = 0;
-    for (size_t i = 0; i < count && i < PASSES; i++)
-        sum += timings[i].seconds;
-    if (passes) {
-        memcpy(passes, timings, sizeof timings);
-        *pass_count = count < PASSES ? count : PASSES;
-    }
-    return sum;
-}
 
 static bool time_methods(const bench *b, const bench_scene *scene, timing out[METHODS])
 {
@@ -72,14 +38,14 @@ static bool time_methods(const bench *b, const bench_scene *scene, timing out[ME
         scenes[m] = scene->scene;
         method_from_name(methods[m], &scenes[m].quality);
         mgt_scene first = scenes[m]; /* builds programs; hardware also grows its buffers and wakes up */
-        if (b->software)
+        if (b->frame.software)
             first.image = (mgt_image){.width = 64, .height = 36};
-        if (!render(b, b->gl, &first))
+        if (!frame_render(b->frame.gl, &first, b->frame.pixels))
             return false;
     }
     for (int run = 0; run < b->runs; run++)
         for (int m = 0; m < METHODS; m++)
-            if ((seconds[m][run] = gpu_seconds(b, &scenes[m], NULL, NULL)) < 0)
+            if ((seconds[m][run] = gl_frame_seconds(&b->frame, &scenes[m], NULL, NULL)) < 0)
                 return false;
     for (int m = 0; m < METHODS; m++)
         out[m] = timing_of(seconds[m], (size_t)b->runs);
@@ -88,7 +54,7 @@ static bool time_methods(const bench *b, const bench_scene *scene, timing out[ME
 
 static const char *goal(const bench *b, bool met)
 {
-    return b->software ? "for a GPU" : verdict(met);
+    return b->frame.software ? "for a GPU" : verdict(met);
 }
 
 static bool bench_size(const bench *b, uint32_t width, uint32_t height)
@@ -115,7 +81,7 @@ static bool bench_size(const bench *b, uint32_t width, uint32_t height)
 static bool bench_sizes(const bench *b)
 {
     printf("## Time per frame\n\nScene `smooth` (64 waves) with the sky of the day. %s.\n\n",
-           b->software ? "Wall time of a single frame, with reading back" : "GPU time of all passes");
+           b->frame.software ? "Wall time of a single frame, with reading back" : "GPU time of all passes");
     printf("| size | method | ms a frame | least – most | frames/s | of `none` |\n|---|---|---:|---:|---:|---:|\n");
     for (int i = 0; i < SIZES; i++)
         if (!bench_size(b, b->quick ? 64 : sizes[i][0], b->quick ? 36 : sizes[i][1]) || b->quick)
@@ -131,17 +97,17 @@ static bool bench_passes(const bench *b)
     printf("## Passes of `mangata`\n\n| waves | size |");
     printf(" passes, ms | all, ms | goal | |\n|---:|---|---|---:|---:|---|\n");
     for (size_t i = 0; i < 2; i++) {
-        const uint32_t width = b->quick ? 64 : b->software ? 640 : 3840, height = b->quick ? 36 : b->software ? 360 : 2160;
+        const uint32_t width = b->quick ? 64 : b->frame.software ? 640 : 3840, height = b->quick ? 36 : b->frame.software ? 360 : 2160;
         bench_scene scene;
-        mgt_gl_timing passes[PASSES];
+        mgt_gl_timing passes[GL_FRAME_PASSES];
         size_t count = 0;
         if (!bench_scene_load(&scene, "smooth", width, height))
             return false;
         bool done = counts[i] == 64 || bench_scene_extend(&scene, counts[i]);
         double best = -1;
         for (int run = 0; run < b->runs && done; run++) {
-            mgt_gl_timing now[PASSES];
-            const double seconds = gpu_seconds(b, &scene.scene, now, &count);
+            mgt_gl_timing now[GL_FRAME_PASSES];
+            const double seconds = gl_frame_seconds(&b->frame, &scene.scene, now, &count);
             done = seconds >= 0;
             if (best < 0 || seconds < best) {
                 best = seconds;
@@ -168,13 +134,13 @@ static bool bench_cpu(bench *b)
     double gl[RUN_LIMIT], cpu[RUN_LIMIT], ratio[RUN_LIMIT];
     if (!bench_scene_load(&scene, "smooth", b->quick ? 64 : 1280, b->quick ? 36 : 720))
         return false;
-    bool done = render(b, b->cpu, &scene.scene) && render(b, b->gl, &scene.scene);
+    bool done = frame_render(b->cpu, &scene.scene, b->frame.pixels) && frame_render(b->frame.gl, &scene.scene, b->frame.pixels);
     const int runs = b->quick ? 1 : PAIRS;
     for (int run = 0; run < runs && done; run++) {
         const double start = seconds_now();
-        done = render(b, b->cpu, &scene.scene);
+        done = frame_render(b->cpu, &scene.scene, b->frame.pixels);
         cpu[run] = seconds_now() - start;
-        gl[run] = done ? gpu_seconds(b, &scene.scene, NULL, NULL) : -1;
+        gl[run] = done ? gl_frame_seconds(&b->frame, &scene.scene, NULL, NULL) : -1;
         done = gl[run] >= 0;
         ratio[run] = gl[run] / cpu[run];
     }
@@ -186,7 +152,7 @@ static bool bench_cpu(bench *b)
            b->quick ? "64 × 36" : "1280 × 720", 1e3 * tg.median, isa_name(b->cpu_info.isa), b->cpu_info.threads, 1e3 * tc.median);
     printf("| figure | measured | least – most | limit | |\n|---|---:|---:|---:|---|\n");
     printf("| OpenGL's time / the CPU backend's | %.2f | %.2f – %.2f | %s | %s |\n\n", tr.median, tr.least, tr.most,
-           b->software ? "≥ 8 by a software rasteriser" : "", b->software ? verdict(tr.median >= goal_cpu) : "");
+           b->frame.software ? "≥ 8 by a software rasteriser" : "", b->frame.software ? verdict(tr.median >= goal_cpu) : "");
     return true;
 }
 
@@ -220,16 +186,16 @@ static int start(bench *b, uint32_t device)
         return 1;
     desc.backend = MGT_BACKEND_GL;
     desc.gl_device = device;
-    if (mgt_context_create(&b->gl, &desc) != MGT_OK) {
+    if (mgt_context_create(&b->frame.gl, &desc) != MGT_OK) {
         fprintf(stderr, "gl_bench: %s\n", mgt_last_error(NULL));
         return 77;
     }
-    mgt_context_get_info(b->gl, &b->info);
+    mgt_context_get_info(b->frame.gl, &b->info);
     mgt_context_get_info(b->cpu, &b->cpu_info);
-    b->software = b->info.software;
-    b->runs = b->quick || b->software ? 1 : RUN_LIMIT;
-    b->pixels = calloc((size_t)3840 * 2160, 12);
-    return b->pixels ? 0 : 1;
+    b->frame.software = b->info.software;
+    b->runs = b->quick || b->frame.software ? 1 : RUN_LIMIT;
+    b->frame.pixels = calloc((size_t)3840 * 2160, 12);
+    return b->frame.pixels ? 0 : 1;
 }
 
 int main(int argc, char **argv)
@@ -248,11 +214,11 @@ int main(int argc, char **argv)
     }
     int code = start(&b, device);
     if (code == 0) {
-        printf("Renderer: %s%s\n\n", b.info.renderer, b.software ? " — **a software rasteriser: these figures say nothing of a GPU**" : "");
+        printf("Renderer: %s%s\n\n", b.info.renderer, b.frame.software ? " — **a software rasteriser: these figures say nothing of a GPU**" : "");
         code = bench_sizes(&b) && bench_passes(&b) && bench_cpu(&b) && bench_rate(&b) ? 0 : 1;
     }
-    mgt_context_destroy(b.gl);
+    mgt_context_destroy(b.frame.gl);
     mgt_context_destroy(b.cpu);
-    free(b.pixels);
+    free(b.frame.pixels);
     return code;
 }

@@ -1,0 +1,177 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * OpenGL: ways to refract in a pool of about 16,000 and 128,000 triangles, with a camera that moves from frame to frame, beside no refraction, as a table
+ * in Markdown. What one table compares takes turns; each frame is compared with that of `off` next to it.
+ *
+ * usage: gl_objects_bench [--quick] [--gl-device N]      exit 77 where there is no OpenGL
+ */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/mesh.h"
+#include "gl_frame.h"
+#include "scene/scene_file.h"
+#include "timing.h"
+
+enum { WAYS = 4, METHODS = 2, COUNTS = 2, RUNS = 15, SOFTWARE_RUNS = 5 };
+
+static const struct {
+    const char *name;
+    mgt_refraction refraction;
+} ways[WAYS] = {
+    {"off", MGT_REFRACTION_OFF},
+    {"two-phase", MGT_REFRACTION_TWO_PHASE},
+    {"hybrid", MGT_REFRACTION_HYBRID},
+    {"screen-space", MGT_REFRACTION_SCREEN_SPACE},
+};
+static const struct {
+    const char *name;
+    mgt_method method;
+} methods[METHODS] = {{"none", MGT_METHOD_NONE}, {"mangata", MGT_METHOD_MANGATA}};
+static const int basins[COUNTS] = {5600, 117600}; /* triangles of the basin: the other things have 10,414 */
+static const double least_software = 0.7, least_hardware = 0.95;
+
+typedef struct bench {
+    bool quick;
+    int runs;
+    gl_frame frame;
+} bench;
+
+static scene_file *load(const bench *b, int basin)
+{
+    char size[32], rows[32], triangles[48];
+    snprintf(size, sizeof size, "image.width=%d", b->quick ? 64 : 1280);
+    snprintf(rows, sizeof rows, "image.height=%d", b->quick ? 36 : 720);
+    snprintf(triangles, sizeof triangles, "objects[0].triangles=%d", b->quick ? 1000 : basin);
+    const char *const overrides[] = {
+        size, rows, triangles, "time.shutter=0",
+        "camera={fov_y_deg: 45, path: [{time: 0, position: [0.7, 4, 7.2], target: [0.2, 0, 0.4]}, {time: 100, position: [0.9, 4, 7], target: [0.4, 0, 0.4]}]}",
+    };
+    scene_error error;
+    scene_file *file = scene_file_load(MGT_SOURCE_DIR "/scenes/pool.yaml", overrides, sizeof overrides / sizeof *overrides, &error);
+    if (!file)
+        fprintf(stderr, "gl_objects_bench: %s\n", error.text);
+    return file;
+}
+
+static double time_way(const bench *b, scene_file *file, int frame, mgt_method method, mgt_refraction refraction)
+{
+    mgt_scene scene;
+    if (!scene_file_frame(file, (uint32_t)frame, &scene))
+        return -1;
+    scene.quality.method = method;
+    scene.quality.refraction = refraction;
+    return gl_frame_seconds(&b->frame, &scene, NULL, NULL);
+}
+
+/* Seconds, and those of `off` over them. */
+typedef struct way_times {
+    timing seconds, rate;
+} way_times;
+
+static bool time_ways(const bench *b, scene_file *file, mgt_method method, way_times out[WAYS])
+{
+    static double seconds[WAYS][RUNS], rates[WAYS][RUNS];
+    for (int run = -1; run < b->runs; run++) /* the first time builds programs */
+        for (int w = 0; w < WAYS; w++) {
+            const double time = time_way(b, file, run + 1, method, ways[w].refraction);
+            if (time < 0)
+                return false;
+            if (run < 0)
+                continue;
+            seconds[w][run] = time;
+            rates[w][run] = seconds[0][run] / time;
+        }
+    for (int w = 0; w < WAYS; w++)
+        out[w] = (way_times){timing_of(seconds[w], (size_t)b->runs), timing_of(rates[w], (size_t)b->runs)};
+    return true;
+}
+
+static size_t count_triangles(scene_file *file)
+{
+    mgt_scene scene;
+    size_t count = 0;
+    for (size_t i = 0; scene_file_frame(file, 0, &scene) && i < scene.object_count; i++)
+        count += scene.objects[i].mesh->triangle_count;
+    return count;
+}
+
+static bool bench_pool(const bench *b, int basin, int method)
+{
+    scene_file *file = load(b, basin);
+    way_times t[WAYS];
+    const bool done = file && time_ways(b, file, methods[method].method, t);
+    const double least = b->frame.software ? least_software : least_hardware;
+    for (int w = 0; w < WAYS && done; w++) {
+        const bool fastest = t[1].seconds.median <= t[2].seconds.median && t[1].seconds.median <= t[3].seconds.median;
+        printf("| %zu | %s | %s | %.2f | %.2f – %.2f | %.3f |", count_triangles(file), methods[method].name, ways[w].name, 1e3 * t[w].seconds.median,
+               1e3 * t[w].seconds.least, 1e3 * t[w].seconds.most, t[w].rate.median);
+        if (w == 1)
+            printf(" ≥ %.2f: %s; the fastest that refracts: %s |\n", least, verdict(t[w].rate.median >= least), verdict(fastest));
+        else
+            printf(" |\n");
+        fflush(stdout);
+    }
+    scene_file_free(file);
+    return done;
+}
+
+static bool bench_all(const bench *b)
+{
+    printf("## Refraction\n\nScene `pool`, %s, a moving camera, both ways to draw the water's reflections. %s, median of %d in turn; the frame rate is over "
+           "that of `off`.\n\n", b->quick ? "64 × 36" : "1280 × 720", b->frame.software ? "Wall time of a frame, with reading back" : "GPU time of all passes",
+           b->runs);
+    printf("| triangles | method | refraction | ms a frame | least – most | frame rate | goal |\n|---:|---|---|---:|---:|---:|---|\n");
+    for (int m = 0; m < METHODS; m++)
+        for (int i = 0; i < (b->quick ? 1 : COUNTS); i++)
+            if (!bench_pool(b, basins[i], m))
+                return false;
+    printf("\n");
+    return true;
+}
+
+static int start(bench *b, uint32_t device)
+{
+    mgt_context_desc desc = mgt_context_desc_defaults();
+    desc.backend = MGT_BACKEND_GL;
+    desc.gl_device = device;
+    if (mgt_context_create(&b->frame.gl, &desc) != MGT_OK) {
+        fprintf(stderr, "gl_objects_bench: %s\n", mgt_last_error(NULL));
+        return 77;
+    }
+    mgt_context_info info = {.struct_size = sizeof info};
+    mgt_context_get_info(b->frame.gl, &info);
+    b->frame.software = info.software;
+    b->runs = b->quick ? 1 : info.software ? SOFTWARE_RUNS : RUNS;
+    b->frame.pixels = calloc((size_t)1280 * 720, 12);
+    return b->frame.pixels ? 0 : 1;
+}
+
+int main(int argc, char **argv)
+{
+    bench b = {0};
+    uint32_t device = 0;
+    for (int i = 1; i < argc; i++) {
+        if (strcmp(argv[i], "--quick") == 0) {
+            b.quick = true;
+        } else if (strcmp(argv[i], "--gl-device") == 0 && i + 1 < argc) {
+            device = (uint32_t)strtoul(argv[++i], NULL, 10);
+        } else {
+            fprintf(stderr, "usage: gl_objects_bench [--quick] [--gl-device N]\n");
+            return 64;
+        }
+    }
+    FILE *bunny = fopen(MGT_SOURCE_DIR "/data/bunny.ply", "r");
+    if (!bunny) {
+        fprintf(stderr, "gl_objects_bench: data/bunny.ply is missing: run scripts/fetch_models\n");
+        return 77;
+    }
+    fclose(bunny);
+    int code = start(&b, device);
+    if (code == 0)
+        code = bench_all(&b) ? 0 : 1;
+    mgt_context_destroy(b.frame.gl);
+    free(b.frame.pixels);
+    return code;
+}
