@@ -42,6 +42,13 @@ KERNEL LayerPixel LAYER(CTX cx, int layer, real column, real row)
 
 #include "kernels/narrow.k"
 
+static void store_vector(float (*planes)[TILE_PIXELS], size_t i, vec3 v)
+{
+    store(planes[0] + i, v.x);
+    store(planes[1] + i, v.y);
+    store(planes[2] + i, v.z);
+}
+
 /* ---- the surface ---- */
 
 static void lanes_water(const FrameData *data, const tile_waves *tile, const tile_guess *guess, const tile_offset *at, tile_water *out)
@@ -53,16 +60,11 @@ static void lanes_water(const FrameData *data, const tile_waves *tile, const til
         store(out->share + i, p.water);
         if (!any_lane(p.water > real(0.0f)))
             continue;
-        const SlopeState s = slope_state(&cx, p.ray, (HitGuess){load(guess->height + i), load(guess->from + i), load(guess->march + i)});
-        const vec2 slope = facing_slope(&cx, s.view, s.close);
-        const vec3 normal = normalize(vec3(real(0.0f) - slope.x, real(1.0f), real(0.0f) - slope.y));
-        store(out->view[0] + i, real(0.0f) - s.view.x);
-        store(out->view[1] + i, real(0.0f) - s.view.y);
-        store(out->view[2] + i, real(0.0f) - s.view.z);
+        const BendingSurface bending = bending_surface(&cx, p.ray, (HitGuess){load(guess->height + i), load(guess->from + i), load(guess->march + i)});
+        const SlopeState s = bending.state;
+        store_vector(out->view, i, scale(s.view, real(-1.0f)));
         store(out->along + i, s.along * sqrt(length_squared(p.ray)));
-        store(out->normal[0] + i, normal.x);
-        store(out->normal[1] + i, normal.y);
-        store(out->normal[2] + i, normal.z);
+        store_vector(out->normal, i, bending.normal);
         store(out->slopes[0] + i, s.variance_xx);
         store(out->slopes[1] + i, s.variance_xz);
         store(out->slopes[2] + i, s.variance_zz);
@@ -80,13 +82,6 @@ static WaterHit load_water(const tile_water *w, const tile_offset *at, size_t i)
     hit.column = lane_numbers() + ((float)(at->column + i % TILE_WIDTH) + at->dx);
     hit.row = real((float)(at->row + i / TILE_WIDTH) + at->dy);
     return hit;
-}
-
-static void store_vector(float (*planes)[TILE_PIXELS], size_t i, vec3 v)
-{
-    store(planes[0] + i, v.x);
-    store(planes[1] + i, v.y);
-    store(planes[2] + i, v.z);
 }
 
 static void store_whole(int32_t *p, mask m) { memcpy(p, &m, sizeof m); }
@@ -173,7 +168,8 @@ static void lanes_mirrored(const narrow_scene *n, const tile_offset *at, const t
         const mask wet = load(water->share + i) > real(0.0f);
         if (!any_lane(wet))
             continue;
-        const WaterHit hit = load_water(water, at, i);
+        WaterHit hit = load_water(water, at, i);
+        hit.normal = facing_normal(&cx, hit.view, hit.normal);
         const FoundPoint f = find_mirrored(&cx, hit);
         store_found(&cx, out, i, hit, f, wet, n->data.side > 0 ? real(0.0f) : hit.along + f.after, false);
         store(out->total + i, real(0.0f));

@@ -15,6 +15,7 @@ void main()
     if (pixel < 0)
         return;
     PixelWater water = known_water(pixel);
+    water.hit.normal = facing_normal(0, water.hit.view, water.hit.normal);
     FoundPoint f = find_mirrored(0, water.hit);
     bool above = narrow_data.side > 0.0f;
     int triangle = f.shown > 0.0f ? layer_triangle(1, ivec2(int(f.column), int(f.row))) : -1;

@@ -12,11 +12,11 @@ PixelWater water_at(TilePixel where, vec2 place)
     w.share = p.water;
     if (!(p.water > 0.0f))
         return w;
-    SlopeState s = slope_state(0, p.ray, pixel_guess(where.at));
-    vec2 slope = facing_slope(0, s.view, s.close);
+    BendingSurface bending = bending_surface(0, p.ray, pixel_guess(where.at));
+    SlopeState s = bending.state;
     w.hit.view = scale(s.view, -1.0f);
     w.hit.along = s.along * sqrt(length_squared(p.ray));
-    w.hit.normal = normalize(vec3(-slope.x, 1.0f, -slope.y));
+    w.hit.normal = bending.normal;
     w.hit.column = float(where.texel.x + pass_data.area_x) + place.x;
     w.hit.row = float(where.texel.y + pass_data.area_y) + place.y;
     w.slopes = vec3(s.variance_xx, s.variance_xz, s.variance_zz);
