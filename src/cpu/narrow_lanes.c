@@ -152,7 +152,7 @@ static void lanes_refracted(const narrow_scene *n, const tile_offset *at, const 
         FoundPoint f = find_refracted(&cx, hit, bent);
         const mask total = AND(wet, bent.total > real(0.0f));
         if (any_lane(total))
-            f = select_found(total, find_mirrored(&cx, hit), f);
+            f = select_found(total, find_mirrored(&cx, hit, bent.direction), f);
         const real in_water = n->data.side > 0 ? f.after : hit.along + SELECT(total, f.after, real(0.0f));
         store_found(&cx, out, i, hit, f, total, in_water, n->data.method <= MGT_REFRACTION_HYBRID);
         store(out->total + i, SELECT(total, real(1.0f), real(0.0f)));
@@ -168,9 +168,8 @@ static void lanes_mirrored(const narrow_scene *n, const tile_offset *at, const t
         const mask wet = load(water->share + i) > real(0.0f);
         if (!any_lane(wet))
             continue;
-        WaterHit hit = load_water(water, at, i);
-        hit.normal = facing_normal(&cx, hit.view, hit.normal);
-        const FoundPoint f = find_mirrored(&cx, hit);
+        const WaterHit hit = load_water(water, at, i);
+        const FoundPoint f = find_mirrored(&cx, hit, mirrored_by_mean(&cx, hit.view, hit.normal));
         store_found(&cx, out, i, hit, f, wet, n->data.side > 0 ? real(0.0f) : hit.along + f.after, false);
         store(out->total + i, real(0.0f));
         for (int k = 0; k < 3; k++)

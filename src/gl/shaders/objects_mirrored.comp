@@ -15,8 +15,7 @@ void main()
     if (pixel < 0)
         return;
     PixelWater water = known_water(pixel);
-    water.hit.normal = facing_normal(0, water.hit.view, water.hit.normal);
-    FoundPoint f = find_mirrored(0, water.hit);
+    FoundPoint f = find_mirrored(0, water.hit, mirrored_by_mean(0, water.hit.view, water.hit.normal));
     bool above = narrow_data.side > 0.0f;
     int triangle = f.shown > 0.0f ? layer_triangle(1, ivec2(int(f.column), int(f.row))) : -1;
     if (triangle < 0 && above)

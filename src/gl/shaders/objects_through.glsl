@@ -93,7 +93,7 @@ ThroughEnd end_through(PixelWater w)
     bool total = bent.total > 0.0f;
     FoundPoint f;
     if (total)
-        f = find_mirrored(0, hit);
+        f = find_mirrored(0, hit, bent.direction);
     else
         f = find_refracted(0, hit, bent);
     float wet = narrow_data.side > 0.0f ? f.after : hit.along + (total ? f.after : 0.0f);
