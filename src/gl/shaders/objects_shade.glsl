@@ -8,6 +8,13 @@
 #define MARCH_WAVE(cx, i) caustic_wave(i)
 #include "material.k"
 
+/* Radiance at the camera over that behind the surface; `total`: it is mirrored there. */
+float gain_behind(bool total)
+{
+    float squared = shade_data.index * shade_data.index;
+    return total ? 1.0f : narrow_data.side > 0.0f ? 1.0f / squared : squared;
+}
+
 struct RayEnd {
     int triangle;
     HitRay ray;

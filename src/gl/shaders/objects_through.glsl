@@ -100,7 +100,7 @@ ThroughEnd end_through(PixelWater w)
     RayEnd end;
     end.triangle = f.shown > 0.0f ? layer_triangle(total ? 1 : 0, ivec2(int(f.column), int(f.row))) : -1;
     end.ray = ray_of(hit, f, wet, w.slopes);
-    end.ray.gain = total ? 1.0f : narrow_data.side > 0.0f ? 1.0f / (shade_data.index * shade_data.index) : shade_data.index * shade_data.index;
+    end.ray.gain = gain_behind(total);
     end.error = f.residual < 1e28f ? f.residual : INFINITY;
     end.counts = true;
     int layer = total ? 1 : 0;

@@ -22,6 +22,7 @@ RayEnd end_traced(PixelWater w)
     end.ray.slope_xx = w.slopes.x;
     end.ray.slope_xz = w.slopes.y;
     end.ray.slope_zz = w.slopes.z;
+    end.ray.gain = gain_behind(total);
     end.error = 0.0f;
     end.counts = true;
     return end;
