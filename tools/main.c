@@ -16,7 +16,7 @@ static const verb verbs[] = {
     {"render", "render frames of a scene into pictures or a film", verb_render},
     {"diff", "measure how far pictures are from other pictures", verb_diff},
     {"compare", "compare methods with the reference: tables and a page", verb_compare},
-    {"figures", "make the tables and plates of Podee et al. 2021 again", verb_figures},
+    {"figures", "make the tables and plates of the papers again", verb_figures},
     {"scene", "check scene files; print the schema of their format", verb_scene},
     {"waves", "write a scene whose waves are drawn from a wind's or a buoy's spectrum", verb_waves},
     {"bench", "measure how fast the methods render a scene", verb_bench},

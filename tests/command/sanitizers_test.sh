@@ -6,4 +6,4 @@ if [[ ! -f $build/CTestTestfile.cmake ]]; then
     exit 0
 fi
 export ASAN_OPTIONS=detect_leaks=1:abort_on_error=0
-exec ctest --test-dir "$build" --output-on-failure --parallel "${CHECK_JOBS:-2}" --label-exclude 'slow|bench'
+exec ctest --test-dir "$build" --output-on-failure --parallel "${CHECK_JOBS:-2}" --label-exclude slow
