@@ -89,14 +89,21 @@ static void store_whole(int32_t *p, mask m) { memcpy(p, &m, sizeof m); }
 static mask select_whole(mask m, mask a, mask b) { return real_bits(real_select(m, real_from_bits(a), real_from_bits(b))); }
 
 /* Whether the pictures do not certify a point: 1 or 0. */
-static real doubt_of(const narrow_scene *n, FoundPoint f, mask asked, mask pixel, mask mirrored)
+static real doubt_of(const struct kernel_context *cx, WaterHit hit, FoundPoint f, mask asked, mask pixel, mask mirrored)
 {
+    const narrow_scene *n = cx->narrow;
     mask breaks = AND(asked, NOT(asked));
     if (any_lane(AND(asked, NOT(mirrored))))
         breaks = gather_bytes(n->breaks[0], pixel) > 0;
     if (any_lane(AND(asked, mirrored)))
         breaks = select_whole(mirrored, gather_bytes(n->breaks[1], pixel) > 0, breaks);
-    return SELECT(AND(asked, OR(f.residual >= real(1.5f), breaks)), real(1.0f), real(0.0f));
+    mask doubt = AND(asked, OR(f.residual >= real(1.5f), breaks));
+    for (int layer = 0; layer < 2 && n->data.method == MGT_REFRACTION_HYBRID; layer++) {
+        const mask wanted = AND(AND(asked, NOT(doubt)), layer == 1 ? mirrored : NOT(mirrored));
+        if (any_lane(wanted))
+            doubt = OR(doubt, passes_behind(cx, layer, hit, f, SELECT(wanted, real(1.0f), real(0.0f))) > real(0.0f));
+    }
+    return SELECT(doubt, real(1.0f), real(0.0f));
 }
 
 /* `mirrored`: looked for in the layer that the surface mirrors; `wet`: metres in water. */
@@ -112,7 +119,7 @@ static void store_found(const struct kernel_context *cx, tile_ends *out, size_t 
     store_whole(out->triangle + i, select_whole(AND(asked, shown), triangle, nothing));
     store_whole(out->pixel + i, select_whole(asked, pixel, nothing));
     if (certifies)
-        store(out->doubt + i, doubt_of(n, f, asked, pixel, mirrored));
+        store(out->doubt + i, doubt_of(cx, hit, f, asked, pixel, mirrored));
     const vec3 position = turned(cx, f.position);
     store_vector(out->position, i, vec3(position.x + n->data.foot_x, position.y, position.z + n->data.foot_z));
     store_vector(out->direction, i, turned(cx, f.direction));

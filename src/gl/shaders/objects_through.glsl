@@ -105,7 +105,7 @@ ThroughEnd end_through(PixelWater w)
     end.counts = true;
     int layer = total ? 1 : 0;
     if (narrow_data.method == 1)
-        return ThroughEnd(end, is_doubtful(f, layer));
+        return ThroughEnd(end, is_doubtful(f, layer) || passes_behind(0, layer, hit, f, f.column >= 0.0f ? 1.0f : 0.0f) > 0.0f);
     if (narrow_data.method == 0)
         end = sharpened(end, w.hit, layer, f);
     return ThroughEnd(end, false);
