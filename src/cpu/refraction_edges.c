@@ -96,7 +96,7 @@ void refraction_sharpen(const refraction *r, tile_objects *o, size_t count)
 {
     for (size_t k = 0; k < count; k++) {
         const size_t i = o->list[k];
-        if (o->ends.doubt[i] > 0 && o->ends.pixel[i] >= 0 && o->ends.error[i] < 8)
+        if (o->ends.doubt[i] > 0 && o->ends.pixel[i] >= 0 && o->ends.error[i] < 32)
             sharpen_pixel(r, o, i);
     }
 }

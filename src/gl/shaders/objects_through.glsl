@@ -51,7 +51,7 @@ bool is_doubtful(FoundPoint f, int layer)
 RayEnd sharpened(RayEnd end, WaterHit hit, int layer, FoundPoint f)
 {
     ivec2 at = ivec2(int(f.column), int(f.row)), last = ivec2(int(narrow_data.columns), int(narrow_data.rows)) - 1;
-    bool asked = end.error < 8.0f && is_doubtful(f, layer);
+    bool asked = end.error < 32.0f && is_doubtful(f, layer);
     vec3 view = turned(0, hit.view), from = camera_position() + hit.along * view;
     float along = INFINITY;
     int met = -1;
