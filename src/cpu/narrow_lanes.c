@@ -60,7 +60,8 @@ static void lanes_water(const FrameData *data, const tile_waves *tile, const til
         store(out->share + i, p.water);
         if (!any_lane(p.water > real(0.0f)))
             continue;
-        const BendingSurface bending = bending_surface(&cx, p.ray, (HitGuess){load(guess->height + i), load(guess->from + i), load(guess->march + i)});
+        const HitGuess from = {load(guess->height + i), load(guess->from + i), load(guess->march + i)};
+        const BendingSurface bending = bending_surface(&cx, p.ray, from);
         const SlopeState s = bending.state;
         store_vector(out->view, i, scale(s.view, real(-1.0f)));
         store(out->along + i, s.along * sqrt(length_squared(p.ray)));

@@ -28,6 +28,7 @@ static NarrowData narrow_data;
 static RefractData refract_data;
 static MarchWave waves[4];
 static double floor_depth; /* of the plane that the layer shows */
+static double post_column = -1, post_depth; /* of a post before it, three columns wide */
 
 #define MGT_LANES 1
 #include "kernels/prelude_c.h"
@@ -328,6 +329,8 @@ enum { WIDTH = 320, HEIGHT = 180 };
 static LayerPixel layer_pixel(double column, double row)
 {
     double ray[3];
+    if (post_column >= 0 && fabs(column - post_column) <= 1)
+        return (LayerPixel){(float)post_depth, vec3(0.0f, 0.0f, 1.0f), 0.0f};
     const double x = column - (double)narrow_data.left, y = row - (double)narrow_data.top;
     ray[0] = (double)narrow_data.corner_x + x * (double)narrow_data.right_x + y * (double)narrow_data.down_x;
     ray[1] = (double)narrow_data.corner_y + x * (double)narrow_data.right_y + y * (double)narrow_data.down_y;
@@ -427,6 +430,46 @@ static void waves_lead_to_the_floor(void **state)
     assert_true(found > 2000 && certain > 0.9 * found);
 }
 
+static double depth_of_view(const double view[3])
+{
+    const double to_depth[3] = {(double)narrow_data.depth_x, (double)narrow_data.depth_y, (double)narrow_data.depth_z};
+    return dot3(to_depth, view);
+}
+
+/* A ray that bends over the picture of the floor passes behind what stands before it there, and behind nothing else. */
+static void rays_pass_behind_posts(void **state)
+{
+    (void)state;
+    numbers.state = 9;
+    int rays = 0;
+    for (int i = 0; i < 3000; i++) {
+        floor_depth = range(0.5, 3);
+        set_view(false, range(1, 5), range(0.4, 1.3));
+        const double column = floor(range(20, WIDTH - 20)), row = floor(range(20, HEIGHT - 20)), moved = floor(range(12, 30));
+        const vec3 ray = layer_ray(NULL, (float)column, (float)row);
+        double view[3] = {(double)ray.x, (double)ray.y, (double)ray.z};
+        unit3(view);
+        if (view[1] > -0.15 || !(layer_pixel(column + 40 + moved, row + 30).depth < 1e30f))
+            continue;
+        rays++;
+        const WaterHit hit = {vec3((float)view[0], (float)view[1], (float)view[2]), (float)((double)narrow_data.distance / -view[1]),
+                              vec3(0.0f, 1.0f, 0.0f), (float)column, (float)row};
+        const FoundPoint f = {.column = (float)(column + 40 + moved), .row = (float)(row + 30), .shown = 1};
+        const double begins = 1 / ((double)hit.along * depth_of_view(view)), ends = 1 / (double)layer_pixel((double)f.column, (double)f.row).depth;
+        const double halfway = begins + 0.5 * (ends - begins);
+        assert_true(passes_behind(NULL, 0, hit, f, 1.0f) == 0);
+        post_column = column + 40 + floor(moved / 2);
+        post_depth = 0.9 / halfway; /* nearer than the ray there */
+        assert_true(passes_behind(NULL, 0, hit, f, 1.0f) == 1);
+        assert_true(passes_behind(NULL, 0, hit, f, 0.0f) == 0);
+        post_depth = 1.1 / halfway;
+        assert_true(passes_behind(NULL, 0, hit, f, 1.0f) == 0);
+        post_column = -1;
+    }
+    printf("posts: %d rays\n", rays);
+    assert_true(rays > 1500);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -434,6 +477,7 @@ int main(void)
         cmocka_unit_test(footprints_follow_the_rays),  cmocka_unit_test(caustics_are_shares_of_area),
         cmocka_unit_test(slopes_bend_the_view_to_the_light), cmocka_unit_test(rays_bend_by_snells_law),
         cmocka_unit_test(flat_water_needs_no_search),  cmocka_unit_test(waves_lead_to_the_floor),
+        cmocka_unit_test(rays_pass_behind_posts),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
