@@ -89,6 +89,21 @@ static void set_method(frame *f)
     d->podee_elongation = (float)elongation_limit(q);
 }
 
+/* What is seen through the surface does not depend on how its reflections are drawn. Of the waves a pixel sees those that face it, which are shorter on
+ * the screen than they are along the mean surface: more of them count as resolved. The end is chosen by error and flicker on far floors. */
+static void set_through(frame *f)
+{
+    const double start = 0.1, end = 1.6; /* cycles per pixel */
+    FrameData *d = &f->through;
+    *d = f->data;
+    d->ramp_start = (float)start;
+    d->ramp_scale = (float)(1 / (end * end));
+    d->sort_start = (float)(start * start);
+    d->sort_end = (float)(end * end);
+    d->sort_shares = 1;
+    d->ndf_per_pixel = d->ndf_mean = 0;
+}
+
 static void order_waves(const mgt_water *water, uint16_t *order)
 {
     for (size_t i = 0; i < water->wave_count; i++) {
@@ -131,6 +146,7 @@ frame frame_of(const mgt_scene *scene, const sky_state *sky, bool want_color)
     d->want_color = want_color;
     d->sky_black = scene->sky.model == MGT_SKY_BLACK && scene->object_count == 0; /* what objects shine still shows */
     set_method(&f);
+    set_through(&f);
     order_waves(&scene->water, f.order);
     const camera_rays close = camera_rays_of(&scene->camera, scene->image.width, scene->image.height);
     f.close = rays_above(&f, &close);
@@ -140,6 +156,12 @@ frame frame_of(const mgt_scene *scene, const sky_state *sky, bool want_color)
 }
 
 /* ---- waves of an interval ---- */
+
+interval frame_shutter(const frame *f)
+{
+    const mgt_scene *s = f->scene;
+    return s->camera_moves ? (interval){s->time, 0} : (interval){s->time - s->shutter / 2, s->shutter / 2};
+}
 
 double wave_turns(const frame *f)
 {

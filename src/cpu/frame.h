@@ -13,7 +13,8 @@ typedef struct camera_rays {
 } camera_rays;
 
 typedef struct frame {
-    FrameData data;
+    FrameData data;                /* of the methods that draw what the surface mirrors, … */
+    FrameData through;             /* … and of what is seen through it in scenes with objects: other waves count as resolved */
     const mgt_scene *scene;
     camera_rays close, open;       /* cameras when the shutter closes and opens, on the upper side of what is called the water; see `under` */
     bool under;                    /* the camera is under water: cameras, light and waves are mirrored at the mean surface */
@@ -38,6 +39,9 @@ double wave_turns(const frame *f);
 typedef struct interval {
     double middle, half;
 } interval;
+
+/* While the shutter is open, or the instant t where the camera moves: its other end is a camera of its own then. */
+interval frame_shutter(const frame *f);
 
 /* Places the frame's waves before a camera. `filter` false: every wave is resolved (point samples). */
 void wave_set_build(const frame *f, const camera_rays *camera, interval time, bool filter, wave_set *set);

@@ -40,7 +40,7 @@ KERNEL LayerPixel LAYER(CTX cx, int layer, real column, real row)
     return p;
 }
 
-#include "kernels/narrow.k"
+#include "kernels/water_seen.k"
 
 static void store_vector(float (*planes)[TILE_PIXELS], size_t i, vec3 v)
 {
@@ -60,15 +60,14 @@ static void lanes_water(const FrameData *data, const tile_waves *tile, const til
         store(out->share + i, p.water);
         if (!any_lane(p.water > real(0.0f)))
             continue;
-        const HitGuess from = {load(guess->height + i), load(guess->from + i), load(guess->march + i)};
-        const BendingSurface bending = bending_surface(&cx, p.ray, from);
-        const SlopeState s = bending.state;
-        store_vector(out->view, i, scale(s.view, real(-1.0f)));
-        store(out->along + i, s.along * sqrt(length_squared(p.ray)));
-        store_vector(out->normal, i, bending.normal);
-        store(out->slopes[0] + i, s.variance_xx);
-        store(out->slopes[1] + i, s.variance_xz);
-        store(out->slopes[2] + i, s.variance_zz);
+        const SeenWater w = seen_water(&cx, p.ray, (HitGuess){load(guess->height + i), load(guess->from + i), load(guess->march + i)});
+        const WaterVariation v = w.variation;
+        store_vector(out->view, i, scale(w.view, real(-1.0f)));
+        store(out->along + i, w.along * sqrt(length_squared(p.ray)));
+        store_vector(out->normal, i, w.normal);
+        store_vector(out->slopes, i, vec3(v.variance_xx, v.variance_xz, v.variance_zz));
+        store_vector(out->bend, i, vec3(v.bend_xx, v.bend_xz, v.bend_zz));
+        store_vector(out->path, i, vec3(v.path.x, v.path.y, v.path_along));
     }
 }
 
@@ -83,6 +82,16 @@ static WaterHit load_water(const tile_water *w, const tile_offset *at, size_t i)
     hit.column = lane_numbers() + ((float)(at->column + i % TILE_WIDTH) + at->dx);
     hit.row = real((float)(at->row + i / TILE_WIDTH) + at->dy);
     return hit;
+}
+
+static WaterVariation load_variation(const tile_water *w, size_t i)
+{
+    WaterVariation v;
+    v.bend_xx = load(w->bend[0] + i), v.bend_xz = load(w->bend[1] + i), v.bend_zz = load(w->bend[2] + i);
+    v.path = vec2(load(w->path[0] + i), load(w->path[1] + i));
+    v.path_along = load(w->path[2] + i);
+    v.variance_xx = load(w->slopes[0] + i), v.variance_xz = load(w->slopes[1] + i), v.variance_zz = load(w->slopes[2] + i);
+    return v;
 }
 
 static void store_whole(int32_t *p, mask m) { memcpy(p, &m, sizeof m); }
@@ -164,8 +173,14 @@ static void lanes_refracted(const narrow_scene *n, const tile_offset *at, const 
         const real in_water = n->data.side > 0 ? f.after : hit.along + SELECT(total, f.after, real(0.0f));
         store_found(&cx, out, i, hit, f, total, in_water, n->data.method <= MGT_REFRACTION_HYBRID);
         store(out->total + i, SELECT(total, real(1.0f), real(0.0f)));
-        for (int k = 0; k < 3; k++)
-            store(out->slopes[k] + i, load(water->slopes[k] + i));
+        const Spread s = turned_spread(&cx, spread_of(&cx, hit, bent, load_variation(water, i)));
+        store_vector(out->spread, i, spread_after(&cx, s, f.after));
+        const bool certified = n->data.method <= MGT_REFRACTION_HYBRID && !any_lane(load(out->doubt + i) > real(0.0f));
+        if (certified || (n->data.method > MGT_REFRACTION_HYBRID && n->data.method != MGT_REFRACTION_DISTANCE_FIELD))
+            continue;
+        store_vector(out->terms, i, s.constant);
+        store_vector(out->terms + 3, i, s.linear);
+        store_vector(out->terms + 6, i, s.square);
     }
 }
 
@@ -177,11 +192,14 @@ static void lanes_mirrored(const narrow_scene *n, const tile_offset *at, const t
         if (!any_lane(wet))
             continue;
         const WaterHit hit = load_water(water, at, i);
-        const FoundPoint f = find_mirrored(&cx, hit, mirrored_by_mean(&cx, hit.view, hit.normal));
+        const Bent bent = {mirrored_by_mean(&cx, hit.view, hit.normal), real(1.0f)};
+        const FoundPoint f = find_mirrored(&cx, hit, bent.direction);
         store_found(&cx, out, i, hit, f, wet, n->data.side > 0 ? real(0.0f) : hit.along + f.after, false);
         store(out->total + i, real(0.0f));
-        for (int k = 0; k < 3; k++)
-            store(out->slopes[k] + i, real(0.0f));
+        if (!any_lane(f.shown > real(0.0f)))
+            continue;
+        const Spread s = turned_spread(&cx, spread_of(&cx, hit, bent, load_variation(water, i)));
+        store_vector(out->spread, i, spread_after(&cx, s, f.after));
     }
 }
 

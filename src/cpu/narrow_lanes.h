@@ -21,7 +21,9 @@ typedef struct tile_water {
     float view[3][TILE_PIXELS];   /* unit, of the ray */
     float along[TILE_PIXELS];     /* metres */
     float normal[3][TILE_PIXELS]; /* unit */
-    float slopes[3][TILE_PIXELS]; /* covariance xx, xz, zz of the slopes that the pixel does not resolve */
+    float slopes[3][TILE_PIXELS]; /* WaterVariation's: covariance xx, xz, zz of the slopes that the pixel does not resolve, … */
+    float bend[3][TILE_PIXELS];   /* … second derivatives of the others, … */
+    float path[3][TILE_PIXELS];   /* … and change over the shutter of the slope and of `along` */
 } tile_water;
 
 /* Where rays end, as shade_hits takes them. */
@@ -30,8 +32,9 @@ typedef struct tile_ends {
     float position[3][TILE_PIXELS];
     float direction[3][TILE_PIXELS];
     float before[TILE_PIXELS], after[TILE_PIXELS], water[TILE_PIXELS];
-    float slopes[3][TILE_PIXELS];
-    float gain[TILE_PIXELS];  /* as in shade_hits */
+    float spread[3][TILE_PIXELS]; /* the footprint, as in shade_hits */
+    float terms[9][TILE_PIXELS];  /* Spread, for another `after`; two-phase, hybrid: where there is doubt */
+    float gain[TILE_PIXELS];      /* as in shade_hits */
     float error[TILE_PIXELS]; /* pixels; +inf: nothing is known */
     float total[TILE_PIXELS]; /* 1 where the surface lets nothing through */
     float doubt[TILE_PIXELS]; /* two-phase, hybrid: 1 where the pictures do not certify the answer, else 0 */
@@ -45,7 +48,7 @@ typedef struct tile_offset {
 } tile_offset;
 
 struct narrow_kernels {
-    /* The filtered surface at one instant. */
+    /* The filtered surface, over the time that the waves were sorted for. */
     void (*water)(const FrameData *frame, const tile_waves *tile, const tile_guess *guess, const tile_offset *at, tile_water *out);
     /* What lies behind it. */
     void (*refracted)(const narrow_scene *n, const tile_offset *at, const tile_water *water, tile_ends *out);

@@ -175,7 +175,8 @@ static void lanes_points(const near_scene *n, const tile_offset *at, const tile_
         memcpy(ends->triangle + i, &triangle, sizeof triangle);
         store_vector(ends->position, i, add(vec3(n->foot[0], n->foot[1], n->foot[2]), scale(ray, depth)));
         store_vector(ends->direction, i, scale(ray, real(1.0f) / length));
-        store_vector(ends->slopes, i, vec3(real(0.0f), real(0.0f), real(0.0f)));
+        const real variance = (n->pixel_angle * n->pixel_angle / 12) * along * along;
+        store_vector(ends->spread, i, vec3(variance, real(0.0f), variance));
         store(ends->before + i, along);
         store(ends->after + i, real(0.0f));
         store(ends->gain + i, real(1.0f));

@@ -151,6 +151,7 @@ NarrowData refraction_narrow_data(const frame *f, const world *w, const gbuffer 
         .method = (int)f->scene->quality.refraction,
         .thickness = 0.5f,
         .stride = 2,
+        .place = 1.0f / (float)(f->scene->quality.refraction_samples ? f->scene->quality.refraction_samples : 1),
         .low_x = (float)(w->low[0] + w->origin[0] - c->position[0]) - 1e-3f,
         .low_y = (f->under ? -w->high[1] : w->low[1]) - 1e-3f,
         .low_z = (float)(w->low[2] + w->origin[1] - c->position[2]) - 1e-3f,

@@ -43,7 +43,7 @@ void refraction_free(refraction *r); /* NULL is allowed */
 /* Tells the log, after a frame's tiles, what they took. */
 void refraction_tell(const refraction *r, const reporter *report);
 
-/* Objects in the tile (tile_x, tile_y). `waves` and `guess`: sorted for the tile, filtered, at the instant t. One call a worker at a time. */
+/* Objects in the tile (tile_x, tile_y). `waves` and `guess`: sorted for the tile, filtered, over frame_shutter(). One call a worker at a time. */
 void refraction_tile(refraction *r, const tile_waves *waves, const tile_guess *guess, uint32_t tile_x, uint32_t tile_y, uint32_t worker,
                      tile_objects *out);
 

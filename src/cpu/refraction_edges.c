@@ -84,6 +84,7 @@ static void sharpen_pixel(const refraction *r, tile_objects *o, size_t i)
         return;
     e->triangle[i] = met;
     e->after[i] = met < 0 ? 0 : (float)nearest;
+    refraction_spread_again(e, i);
     for (int k = 0; k < 3 && met >= 0; k++)
         e->position[k][i] = (float)(from[k] + nearest * ray[k]);
     if (!r->frame->under)

@@ -71,9 +71,11 @@ static void add_point(const near_pixel *p, const double ray[3], double along, in
     for (int k = 0; k < 3; k++) {
         e->position[k][at] = (float)(foot[k] + along * ray[k]);
         e->direction[k][at] = (float)(ray[k] / length);
-        e->slopes[k][at] = 0;
     }
     e->before[at] = (float)(along * length);
+    const float pixel = e->before[at] * r->frame->data.pixel_angle;
+    e->spread[0][at] = e->spread[2][at] = pixel * pixel / 12;
+    e->spread[1][at] = 0;
     e->after[at] = 0;
     e->gain[at] = 1;
     e->water[at] = r->frame->under ? e->before[at] : 0;

@@ -74,6 +74,9 @@ refraction_facet refraction_facet_of(const refraction *r, int32_t triangle, cons
 /* Multiple of a ray at which it meets the triangle; +inf: it does not. */
 double refraction_meet(const refraction_facet *f, const double ray[3]);
 
+/* The footprint of an end whose `after` became another. */
+void refraction_spread_again(tile_ends *e, size_t i);
+
 /* Where what a layer shows breaks off or bends, the pixel of the answer is not enough: the rays of doubtful ends among the listed ones meet the
  * triangles that it and its neighbours show, and the nearest one counts. */
 void refraction_sharpen(const refraction *r, tile_objects *o, size_t count);

@@ -25,7 +25,7 @@ void refraction_shade(const refraction *r, tile_objects *o, size_t count)
         .before = e->before,
         .after = e->after,
         .water = e->water,
-        .slopes = {e->slopes[0], e->slopes[1], e->slopes[2]},
+        .spread = {e->spread[0], e->spread[1], e->spread[2]},
         .gain = e->gain,
     };
     shade_points(r->shade, &hits, o->rgb);
@@ -40,7 +40,7 @@ void refraction_shade_listed(const refraction *r, tile_objects *o, size_t count)
         for (int k = 0; k < 3; k++) {
             take(e->position[k], o->list, count);
             take(e->direction[k], o->list, count);
-            take(e->slopes[k], o->list, count);
+            take(e->spread[k], o->list, count);
         }
         take(e->before, o->list, count);
         take(e->after, o->list, count);
@@ -114,7 +114,7 @@ static void see_deep(const refraction *r, uint32_t column, uint32_t row, tile_ob
         }
         for (int k = 0; k < 3; k++) {
             e->direction[k][count] = (float)(ray[k] / sqrt(squared));
-            e->position[k][count] = e->slopes[k][count] = 0;
+            e->position[k][count] = e->spread[k][count] = 0;
         }
         e->direction[1][count] = fminf(e->direction[1][count], -1e-6f);
         e->triangle[count] = -1;
@@ -134,6 +134,12 @@ static void keep_layers(tile_objects *o)
             o->refraction[k][i] = seen ? o->light.body[k][i] : 0;
         o->error[i] = seen ? o->error[i] : 0;
     }
+}
+
+void refraction_spread_again(tile_ends *e, size_t i)
+{
+    for (int k = 0; k < 3; k++)
+        e->spread[k][i] = e->terms[k][i] + e->after[i] * (e->terms[3 + k][i] + e->after[i] * e->terms[6 + k][i]);
 }
 
 /* Uncertain pixels are traced together: which ones depends on the tile alone. Of distance-field all are. */
@@ -172,6 +178,7 @@ static void trace_doubtful(refraction *r, tile_objects *o, size_t count)
         const bool found = o->hits[k].triangle >= 0;
         e->triangle[i] = o->hits[k].triangle;
         e->after[i] = found ? o->hits[k].along : 0;
+        refraction_spread_again(e, i);
         for (int axis = 0; axis < 3 && found; axis++)
             e->position[axis][i] = o->rays[k].origin[axis] + e->after[i] * e->direction[axis][i];
         if (!r->frame->under)
@@ -245,7 +252,7 @@ static void see_place(refraction *r, const tile_offset *at, size_t count, tile_o
 
 static void look_at_water(const refraction *r, const tile_waves *waves, const tile_guess *guess, const tile_offset *at, tile_objects *o)
 {
-    r->kernels->narrow->water(&r->frame->data, waves, guess, at, &o->water);
+    r->kernels->narrow->water(&r->frame->through, waves, guess, at, &o->water);
     leave_covered(o);
 }
 
@@ -279,7 +286,7 @@ void refraction_tile(refraction *r, const tile_waves *waves, const tile_guess *g
                      tile_objects *o)
 {
     const tile_offset at = {tile_x * TILE_WIDTH, tile_y * TILE_HEIGHT, 0, 0};
-    r->kernels->narrow->water(&r->frame->data, waves, guess, &at, &o->water);
+    r->kernels->narrow->water(&r->frame->through, waves, guess, &at, &o->water);
     refraction_near(r, at.column, at.row, o);
     leave_covered(o);
     see_refracted(r, waves, guess, at, o);

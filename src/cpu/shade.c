@@ -78,7 +78,6 @@ static void set_water(ShadeData *d, const frame *f, const sky_state *sky)
     d->deep_r = (float)(n * n * deep[0]), d->deep_g = (float)(n * n * deep[1]), d->deep_b = (float)(n * n * deep[2]);
     d->index = (float)n;
     d->glow_gain = (float)(height < 0 ? 1 : 1 / (n * n));
-    d->camera_side = height < 0 ? -1 : 1;
     d->camera_depth = (float)fmax(-height, 0);
     d->pixel_angle = f->data.pixel_angle;
 }

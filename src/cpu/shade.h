@@ -7,8 +7,7 @@
 #include "cpu/world.h"
 
 /*
- * Where rays of a camera have ended. Every pointer leads to `count` numbers. The footprint of a ray is that of a pixel at the image's centre through
- * a flat mean surface: `before` and `after` alone decide it, so that two ways to find the same point filter it alike.
+ * Where rays of a camera have ended. Every pointer leads to `count` numbers.
  */
 typedef struct shade_hits {
     size_t count;
@@ -18,7 +17,7 @@ typedef struct shade_hits {
     const float *before;       /* metres from the camera to the water's surface (to the hit where it meets none), … */
     const float *after;        /* … and from there on */
     const float *water;        /* metres of all these that lie in water; where nothing is met: those before the ray left for good */
-    const float *slopes[3];    /* covariance xx, xz, zz of the surface's slopes about the one that the ray was bent by; NULL: none */
+    const float *spread[3];    /* covariance side side, side rise, rise rise of what the ray covers, as in footprint.k */
     const float *gain;         /* radiance at the camera over that at the end: its index of refraction over the end's, squared; NULL: 1 */
 } shade_hits;
 

@@ -185,9 +185,7 @@ static HitRay ray_of(const shade_hits *h, size_t i, size_t count, mask found)
     r.before = load_some(h->before + i, count);
     r.after = load_some(h->after + i, count);
     r.water = load_some(h->water + i, count);
-    r.slope_xx = h->slopes[0] ? load_some(h->slopes[0] + i, count) : real(0.0f);
-    r.slope_xz = h->slopes[1] ? load_some(h->slopes[1] + i, count) : real(0.0f);
-    r.slope_zz = h->slopes[2] ? load_some(h->slopes[2] + i, count) : real(0.0f);
+    r.footprint = (RayFootprint){load_some(h->spread[0] + i, count), load_some(h->spread[1] + i, count), load_some(h->spread[2] + i, count)};
     r.gain = h->gain ? load_some(h->gain + i, count) : real(1.0f);
     return r;
 }

@@ -11,10 +11,10 @@
 void frame_waves_build(const frame *f, frame_waves *waves)
 {
     const mgt_scene *s = f->scene;
-    const interval now = {s->time, 0}, shutter = {s->time - s->shutter / 2, s->shutter / 2};
+    const interval now = {s->time, 0};
     wave_set_build(f, &f->close, now, false, &waves->samples);
     wave_set_build(f, &f->close, now, true, &waves->now);
-    wave_set_build(f, &f->close, s->camera_moves ? now : shutter, true, &waves->shutter);
+    wave_set_build(f, &f->close, frame_shutter(f), true, &waves->shutter);
     if (s->camera_moves)
         wave_set_build(f, &f->open, (interval){s->time - s->shutter, 0}, true, &waves->open);
 }
@@ -25,11 +25,16 @@ typedef struct tile_place {
     uint32_t x, y;
 } tile_place;
 
-static void build(tile_place place, const wave_set *set, tile_waves *waves, tile_guess *guess)
+static void build_with(const FrameData *data, tile_place place, const wave_set *set, tile_waves *waves, tile_guess *guess)
 {
     const tile_job *job = place.job;
-    job->kernels->sort(&job->frame->data, set, &set->view, place.x, place.y, waves);
-    tile_find_guesses(job->kernels, &job->frame->data, waves, guess);
+    job->kernels->sort(data, set, &set->view, place.x, place.y, waves);
+    tile_find_guesses(job->kernels, data, waves, guess);
+}
+
+static void build(tile_place place, const wave_set *set, tile_waves *waves, tile_guess *guess)
+{
+    build_with(&place.job->frame->data, place, set, waves, guess);
 }
 
 static const tile_light *light_of(const tile_job *job, const tile_scratch *scratch)
@@ -234,13 +239,14 @@ static void render_surface(tile_place place, tile_scratch *scratch)
 static void see_objects(tile_place place, tile_scratch *scratch)
 {
     const tile_job *job = place.job;
+    const FrameData *through = &job->frame->through;
     refraction *opened = refraction_opened(job->objects);
     if (opened) {
-        build(place, &job->waves->open, &scratch->close, &scratch->close_guess);
+        build_with(through, place, &job->waves->open, &scratch->close, &scratch->close_guess);
         refraction_tile(opened, &scratch->close, &scratch->close_guess, place.x, place.y, scratch->worker, &scratch->objects);
         refraction_keep(&scratch->objects, &scratch->opened);
     }
-    build(place, &job->waves->now, &scratch->close, &scratch->close_guess);
+    build_with(through, place, &job->waves->shutter, &scratch->close, &scratch->close_guess);
     refraction_tile(job->objects, &scratch->close, &scratch->close_guess, place.x, place.y, scratch->worker, &scratch->objects);
     if (opened)
         refraction_blend(&scratch->objects, &scratch->opened);

@@ -168,7 +168,7 @@ static void upload_waves(gl_renderer *g)
 
 /* Sorts the waves that g->waves holds into the band's tiles from `first_slot` on. `open_slots`: where the same tiles stand as they were when the
  * shutter opened, as in PassData. */
-static mgt_status sort_tiles(const frame_run *run, const band *b, uint32_t first_slot, uint32_t open_slots)
+static mgt_status sort_tiles_with(const FrameData *data, const frame_run *run, const band *b, uint32_t first_slot, uint32_t open_slots)
 {
     gl_renderer *g = run->g;
     mgt_status status = gl_ring_begin(&g->gl, &g->ring, set_bytes(), SET_PARTS, run->r);
@@ -178,7 +178,7 @@ static mgt_status sort_tiles(const frame_run *run, const band *b, uint32_t first
     PassData pass = b->pass;
     pass.first_slot = (int)first_slot;
     pass.open_slots = (int)open_slots;
-    gl_uniform(g, BIND_FRAME, &run->job->frame->data, sizeof(FrameData));
+    gl_uniform(g, BIND_FRAME, data, sizeof *data);
     gl_uniform(g, BIND_PASS, &pass, sizeof pass);
     upload_waves(g);
     bind_storage(g);
@@ -190,6 +190,11 @@ static mgt_status sort_tiles(const frame_run *run, const band *b, uint32_t first
     }
     const mgt_status ended = gl_pass_end(g, run->r);
     return status == MGT_OK ? ended : status;
+}
+
+static mgt_status sort_tiles(const frame_run *run, const band *b, uint32_t first_slot, uint32_t open_slots)
+{
+    return sort_tiles_with(&run->job->frame->data, run, b, first_slot, open_slots);
 }
 
 static mgt_status march_nodes(const frame_run *run, uint32_t tiles)
@@ -412,11 +417,13 @@ static mgt_status render_surface(frame_run *run, const band *b, bool ready)
     return status;
 }
 
-/* What the band's pixels see of objects through a camera at one time. */
-static mgt_status see_objects(const frame_run *run, const band *b, const camera_rays *camera, double time)
+/* What the band's pixels see of objects through a camera. */
+static mgt_status see_objects(const frame_run *run, const band *b, const camera_rays *camera, interval time)
 {
-    wave_set_build(run->job->frame, camera, (interval){time, 0}, true, run->g->waves);
-    const mgt_status status = prepare_set(run, b);
+    wave_set_build(run->job->frame, camera, time, true, run->g->waves);
+    mgt_status status = sort_tiles_with(&run->job->frame->through, run, b, 0, 0);
+    if (status == MGT_OK)
+        status = march_nodes(run, b->tiles);
     return status == MGT_OK ? gl_refraction_see(run->g, &b->pass, run->r) : status;
 }
 
@@ -470,7 +477,7 @@ static mgt_status render_band(frame_run *run, uint32_t row)
     const frame *f = job->frame;
     const mgt_method method = f->scene->quality.method;
     const band b = band_at(run, row);
-    mgt_status status = run->objects ? see_objects(run, &b, &f->close, f->scene->time) : MGT_OK;
+    mgt_status status = run->objects ? see_objects(run, &b, &f->close, frame_shutter(f)) : MGT_OK;
     if (status == MGT_OK && run->objects && f->scene->camera_moves)
         status = gl_refraction_blend(run->g, &b.pass, run->r);
     const bool points = run->method.waves == WAVES_POINTS;
@@ -494,7 +501,7 @@ static mgt_status prepare_objects(const frame_run *run)
         status = gl_refraction_prepare(g, &opened, &run->job->area, run->r);
         for (uint32_t row = run->first_row; row < run->end_row && status == MGT_OK; row += run->band_rows) {
             const band b = band_at(run, row);
-            status = see_objects(run, &b, &f->open, f->scene->time - f->scene->shutter);
+            status = see_objects(run, &b, &f->open, (interval){f->scene->time - f->scene->shutter, 0});
         }
         gl_refraction_keep(g);
     }

@@ -279,7 +279,7 @@ static mgt_status render_view(gl_backend_state *s, const host_view *v, const gl_
     frame f = frame_of(&v->scene, s->renderer->sky, true);
     f.close = rays_above(&f, &v->close.rays);
     f.open = v->scene.camera_moves ? rays_above(&f, &v->open.rays) : f.close;
-    f.data.pixel_angle = (float)view_pixel_angle(&f.close);
+    f.data.pixel_angle = f.through.pixel_angle = (float)view_pixel_angle(&f.close);
     const gl_job job = {
         .frame = &f,
         .camera_at = view_camera_at,

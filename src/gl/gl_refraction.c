@@ -246,7 +246,7 @@ static void bind_all(gl_renderer *g)
 /* ---- the passes over a band ---- */
 
 /* As in objects_pixel.glsl. */
-enum { LIST_FRONT, LIST_EDGES, LIST_THROUGH, LIST_DEEP, LIST_TRACED, LISTS, WATER_FLOATS = 12 };
+enum { LIST_FRONT, LIST_EDGES, LIST_THROUGH, LIST_DEEP, LIST_TRACED, LISTS, WATER_FLOATS = 18 };
 
 typedef struct list_head {
     uint32_t groups[3], count;

@@ -48,7 +48,7 @@ mgt_status gl_refraction_prepare(struct gl_renderer *g, const frame *f, const re
 /* Pixels of a band that the buffers can take at a time. */
 enum { REFRACTION_PIXELS = 1 << 20 };
 
-/* What the pixels of a band see of objects. The band's tiles are those of the filtered waves at the instant the shutter closes. */
+/* What the pixels of a band see of objects. The band's tiles are those of the filtered waves over frame_shutter(). */
 mgt_status gl_refraction_see(struct gl_renderer *g, const PassData *pass, const reporter *r);
 
 /* Keeps what has been seen as that of the shutter's opening, and makes it part of a band's. */

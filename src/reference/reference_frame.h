@@ -40,6 +40,7 @@ typedef struct reference_batch {
 
     double distance[REFERENCE_BATCH]; /* metres to the first hit; +inf: none; 0: the camera is under the surface */
     double slope_x[REFERENCE_BATCH], slope_z[REFERENCE_BATCH]; /* at the hit */
+    double bend_xx[REFERENCE_BATCH], bend_xz[REFERENCE_BATCH], bend_zz[REFERENCE_BATCH]; /* second derivatives there */
 
     uint64_t evaluations; /* counts up */
 } reference_batch;
@@ -49,7 +50,7 @@ typedef void reference_trace(const reference_frame *frame, reference_batch *batc
 struct reference_frame {
     mgt_scene scene; /* water.waves is NULL: see below */
     reference_sky sky;
-    reference_trace *trace, *march;
+    reference_trace *trace, *march, *bend;
     uint32_t lanes;
 
     reference_view view, view_open;
@@ -76,5 +77,10 @@ void reference_trace_8(const reference_frame *frame, reference_batch *batch, uin
 void reference_march_1(const reference_frame *frame, reference_batch *batch, uint32_t count);
 void reference_march_4(const reference_frame *frame, reference_batch *batch, uint32_t count);
 void reference_march_8(const reference_frame *frame, reference_batch *batch, uint32_t count);
+
+/* After either of them: fills bend where rays hit. */
+void reference_bend_1(const reference_frame *frame, reference_batch *batch, uint32_t count);
+void reference_bend_4(const reference_frame *frame, reference_batch *batch, uint32_t count);
+void reference_bend_8(const reference_frame *frame, reference_batch *batch, uint32_t count);
 
 #endif

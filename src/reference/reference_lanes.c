@@ -13,6 +13,7 @@
 #define NAME(name, lanes) PASTE(name, lanes)
 #define TRACE NAME(reference_trace_, REFERENCE_LANES)
 #define MARCH NAME(reference_march_, REFERENCE_LANES)
+#define BEND NAME(reference_bend_, REFERENCE_LANES)
 
 static const double relative_tolerance = 1e-9;
 static const double least_distance = 1e-3; /* metres: the tolerance does not shrink below this distance */
@@ -287,6 +288,29 @@ void MARCH(const reference_frame *frame, reference_batch *batch, uint32_t count)
     for (uint32_t i = 0; i < count; i += REFERENCE_LANES)
         bound_rays(frame, batch, i);
     march_rays(frame, batch, count);
+}
+
+void BEND(const reference_frame *frame, reference_batch *batch, uint32_t count)
+{
+    for (uint32_t at = 0; at < count; at += REFERENCE_LANES) {
+        const reals distance = load(&batch->distance[at]), s = select_lanes((masks)(distance < HUGE_VAL), distance, splat(0));
+        const reals x = fused(load(&batch->direction_x[at]), s, load(&batch->origin_x[at]));
+        const reals z = fused(load(&batch->direction_z[at]), s, load(&batch->origin_z[at]));
+        reals xx = splat(0), xz = splat(0), zz = splat(0);
+        for (uint32_t i = 0; i < frame->wave_count; i++) {
+            const reference_wave *wave = &frame->waves[i];
+            reals phase = fused(load(&batch->time_offset[at]), splat(wave->half_turns_c), splat(wave->phase));
+            phase = fused(z, splat(wave->half_turns_b), phase);
+            phase = fused(x, splat(wave->half_turns_a), phase);
+            const reals sine = sine_cosine_half_turns(phase).sine;
+            xx = fused(sine, splat(-wave->amplitude_a * wave->a), xx);
+            xz = fused(sine, splat(-wave->amplitude_a * wave->b), xz);
+            zz = fused(sine, splat(-wave->amplitude_b * wave->b), zz);
+        }
+        store(&batch->bend_xx[at], xx);
+        store(&batch->bend_xz[at], xz);
+        store(&batch->bend_zz[at], zz);
+    }
 }
 
 void TRACE(const reference_frame *frame, reference_batch *batch, uint32_t count)

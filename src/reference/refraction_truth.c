@@ -19,11 +19,19 @@ enum { BATCH = REFERENCE_BATCH, MOST_PARTS = BATCH * (TRUTH_MOST_EVENTS + 4) };
 
 _Static_assert((int)BATCH == (int)TILE_PIXELS, "a tile's rays are one batch");
 
+/* How far a step of the camera's ray, a pixel to the right or down, puts its hit with the surface and turns it there. */
+typedef struct ray_step {
+    double at[3], turn[3];
+} ray_step;
+
 /* A part of a pixel's light on its way. */
 typedef struct light_part {
     double origin[3], direction[3]; /* x and z relative to the camera's foot */
+    double time;                    /* seconds, from scene.time */
+    double pixel_share;             /* of the camera's ray, over its depth: what its steps count from */
     double before, after, water;    /* metres, as in shade_hits */
     double share;                   /* of the pixel's sample */
+    ray_step steps[2];              /* the footprint, over the sample's share of the pixel; bends after the first are left out */
     uint16_t pixel;
     uint8_t events;
     bool wet, mirrored; /* in water; belongs to the mirrored radiance */
@@ -33,11 +41,12 @@ typedef struct light_part {
 typedef struct surface_point {
     double distance; /* +inf: it does not */
     double normal[3]; /* unit, towards the ray's origin */
+    double bend[3];   /* of the first surface: second derivatives xx, xz, zz */
 } surface_point;
 
 typedef struct batch_hits {
     int32_t triangle[BATCH];
-    float position[3][BATCH], direction[3][BATCH], before[BATCH], after[BATCH], water[BATCH], gain[BATCH];
+    float position[3][BATCH], direction[3][BATCH], before[BATCH], after[BATCH], water[BATCH], gain[BATCH], spread[3][BATCH];
     float rgb[3 * BATCH];
     float share[BATCH];
     uint16_t pixel[BATCH];
@@ -138,7 +147,7 @@ static double dot(const double a[3], const double b[3])
 }
 
 /* Next crossings of the batch's parts that are in water, or of the others. */
-static void march_side(const refraction_truth *t, truth_scratch *s, size_t count, bool wet)
+static void march_side(const refraction_truth *t, truth_scratch *s, size_t count, bool wet, bool first)
 {
     uint16_t from[BATCH];
     uint32_t used = 0;
@@ -153,13 +162,15 @@ static void march_side(const refraction_truth *t, truth_scratch *s, size_t count
         s->march.direction_x[used] = p->direction[0];
         s->march.direction_y[used] = up * p->direction[1];
         s->march.direction_z[used] = p->direction[2];
-        s->march.time_offset[used] = 0;
+        s->march.time_offset[used] = p->time;
         from[used++] = (uint16_t)i;
     }
     if (used == 0)
         return;
     const reference_frame *side = wet ? t->below : t->above;
     side->march(side, &s->march, used);
+    if (first)
+        side->bend(side, &s->march, used);
     for (uint32_t i = 0; i < used; i++) {
         surface_point *w = &s->surface[from[i]];
         w->distance = s->march.distance[i];
@@ -167,6 +178,8 @@ static void march_side(const refraction_truth *t, truth_scratch *s, size_t count
         w->normal[1] = up;
         w->normal[2] = -s->march.slope_z[i];
         scale_to_unit(w->normal);
+        if (first)
+            w->bend[0] = s->march.bend_xx[i], w->bend[1] = s->march.bend_xz[i], w->bend[2] = s->march.bend_zz[i];
     }
 }
 
@@ -180,11 +193,11 @@ static trace_ray ray_of(const refraction_truth *t, const light_part *p, double m
     return ray;
 }
 
-/* Fills surface and met for the first `count` parts of the batch. */
-static void look_ahead(const refraction_truth *t, truth_scratch *s, size_t count)
+/* Fills surface and met for the first `count` parts of the batch; `first`: they come from the camera. */
+static void look_ahead(const refraction_truth *t, truth_scratch *s, size_t count, bool first)
 {
-    march_side(t, s, count, false);
-    march_side(t, s, count, true);
+    march_side(t, s, count, false, first);
+    march_side(t, s, count, true, first);
     for (size_t i = 0; i < count; i++)
         s->rays[i] = ray_of(t, &s->batch[i], s->surface[i].distance);
     trace_nearest(t->job.trace, count, s->rays, s->met);
@@ -249,20 +262,65 @@ static void advance(light_part *p, double distance, bool first)
         p->water += distance;
 }
 
+/* A ray that is `step` beside the camera's one, over how small the step is: where it meets the surface's tangent plane, and how the surface as it is
+ * bent there turns it. */
+static ray_step step_aside(const light_part *p, const surface_point *w, const double step[3], double index, const crossing *c, bool through)
+{
+    static const double small = 1e-3;
+    ray_step s = {0};
+    double view[3], normal[3], slope[2], towards = 0;
+    for (int k = 0; k < 3; k++)
+        view[k] = p->direction[k] + small * step[k];
+    scale_to_unit(view);
+    for (int k = 0; k < 3; k++)
+        towards += (view[k] - p->direction[k]) * w->normal[k];
+    const double closing = fmax(-dot(p->direction, w->normal), 0.25 * fabs(p->direction[1] * w->normal[1])); /* outlines stand for no more */
+    for (int k = 0; k < 3; k++)
+        s.at[k] = w->distance * (view[k] - p->direction[k] + p->direction[k] * towards / fmax(closing, 1e-9)) / small;
+    slope[0] = w->bend[0] * s.at[0] + w->bend[1] * s.at[2];
+    slope[1] = w->bend[1] * s.at[0] + w->bend[2] * s.at[2];
+    const double length = 1 / fabs(w->normal[1]);
+    for (int k = 0; k < 3; k++)
+        normal[k] = length * w->normal[k] - (k == 1 ? 0 : small * slope[k / 2]);
+    scale_to_unit(normal);
+    const crossing aside = cross_surface(view, normal, index);
+    if (through && !(aside.reflectance < 1))
+        return s;
+    for (int k = 0; k < 3; k++)
+        s.turn[k] = (through ? aside.through[k] - c->through[k] : aside.mirrored[k] - c->mirrored[k]) / small;
+    return s;
+}
+
+static void set_steps(const refraction_truth *t, light_part *p, const surface_point *w, double index, const crossing *c, bool through)
+{
+    const camera_rays *r = &t->job.camera;
+    const double size = p->pixel_share / t->side;
+    for (int i = 0; i < 2; i++) {
+        double step[3];
+        for (int k = 0; k < 3; k++)
+            step[k] = size * (i == 0 ? r->right[k] : r->down[k]);
+        p->steps[i] = step_aside(p, w, step, index, c, through);
+    }
+}
+
 /* What the first surface makes of a camera's ray. */
 static void begin_parts(const refraction_truth *t, truth_scratch *s, light_part p, const surface_point *w, bool mirrored)
 {
     const double n = t->job.scene->water.index_of_refraction;
-    const crossing c = cross_surface(p.direction, w->normal, p.wet ? 1 / n : n);
+    const double index = p.wet ? 1 / n : n;
+    const crossing c = cross_surface(p.direction, w->normal, index);
     s->samples[p.pixel]++;
     advance(&p, w->distance, true);
+    set_steps(t, &p, w, index, &c, c.reflectance < 1);
     if (c.reflectance < 1)
         push_part(s, &p, w, c.through, true, 1);
     else
         push_part(s, &p, w, c.mirrored, false, 1);
     p.mirrored = true;
-    if (mirrored)
-        push_part(s, &p, w, c.mirrored, false, 1);
+    if (!mirrored)
+        return;
+    set_steps(t, &p, w, index, &c, false);
+    push_part(s, &p, w, c.mirrored, false, 1);
 }
 
 static void split_part(const refraction_truth *t, truth_scratch *s, light_part p, const surface_point *w)
@@ -276,6 +334,24 @@ static void split_part(const refraction_truth *t, truth_scratch *s, light_part p
 }
 
 /* ---- where rays end ---- */
+
+/* Variances of a uniform variable over each step, across the ray. */
+static void spread_ray(const light_part *p, float spread[3])
+{
+    const double *d = p->direction, level = hypot(d[0], d[2]);
+    const double side[3] = {level > 1e-4 ? -d[2] / level : 0, 0, level > 1e-4 ? d[0] / level : 1};
+    const double rise[3] = {-side[2] * d[1], side[2] * d[0] - side[0] * d[2], side[0] * d[1]};
+    double sum[3] = {0};
+    for (int i = 0; i < 2; i++) {
+        double aside[3];
+        for (int k = 0; k < 3; k++)
+            aside[k] = p->steps[i].at[k] + p->after * p->steps[i].turn[k];
+        const double x = dot(aside, side), y = dot(aside, rise);
+        sum[0] += x * x / 12, sum[1] += x * y / 12, sum[2] += y * y / 12;
+    }
+    for (int k = 0; k < 3; k++)
+        spread[k] = (float)sum[k];
+}
 
 static void end_part(const refraction_truth *t, truth_scratch *s, light_part p, const trace_ray *ray, const trace_hit *met)
 {
@@ -295,6 +371,10 @@ static void end_part(const refraction_truth *t, truth_scratch *s, light_part p, 
     e->water[i] = (float)p.water;
     e->gain[i] = p.wet == wet ? 1 : (float)(wet ? n * n : 1 / (n * n));
     e->share[i] = (float)p.share;
+    float spread[3];
+    spread_ray(&p, spread);
+    for (int k = 0; k < 3; k++)
+        e->spread[k][i] = spread[k];
     e->pixel[i] = p.pixel;
     e->mirrored[i] = p.mirrored;
 }
@@ -309,7 +389,8 @@ static void shade_ends(const refraction_truth *t, truth_scratch *s)
                              .before = e->before,
                              .after = e->after,
                              .water = e->water,
-                             .gain = e->gain};
+                             .gain = e->gain,
+                             .spread = {e->spread[0], e->spread[1], e->spread[2]}};
     t->job.shade(t->job.user, &hits, e->rgb);
     for (size_t i = 0; i < e->count; i++)
         for (int k = 0; k < 3; k++)
@@ -324,7 +405,7 @@ static void follow_parts(const refraction_truth *t, truth_scratch *s)
         const size_t count = s->part_count < BATCH ? s->part_count : BATCH;
         s->part_count -= count;
         memcpy(s->batch, s->parts + s->part_count, count * sizeof *s->batch);
-        look_ahead(t, s, count);
+        look_ahead(t, s, count, false);
         for (size_t i = 0; i < count; i++) {
             const bool again = s->met[i].triangle < 0 && s->surface[i].distance < HUGE_VAL;
             if (again && s->batch[i].events < TRUTH_MOST_EVENTS)
@@ -345,22 +426,29 @@ static light_part camera_part(const refraction_truth *t, double x, double y, uin
     light_part p = {.origin = {0, c->position[1], 0}, .pixel = pixel, .wet = c->position[1] < 0};
     for (int k = 0; k < 3; k++)
         p.direction[k] = c->corner[k] + x * c->right[k] + y * c->down[k];
+    p.pixel_share = 1 / sqrt(dot(p.direction, p.direction));
     scale_to_unit(p.direction);
     return p;
 }
 
 static void aim_sample(const refraction_truth *t, truth_scratch *s, uint32_t tile_x, uint32_t tile_y, uint32_t sample)
 {
+    const mgt_scene *scene = t->job.scene;
+    const uint32_t strata = t->side * t->side;
+    const double shutter = scene->camera_moves ? 0 : scene->shutter;
     const uint64_t key = hash_of(t->job.scene->quality.seed ^ hash_of(sample));
     for (uint32_t i = 0; i < BATCH; i++) {
         const uint32_t x = tile_x * TILE_WIDTH + i % TILE_WIDTH, y = tile_y * TILE_HEIGHT + i / TILE_WIDTH;
-        double dx = 0, dy = 0;
+        double dx = 0, dy = 0, share = 0.5; /* of the shutter */
         if (t->side > 1) {
             const uint64_t bits = hash_of(key ^ ((uint64_t)x << 32 | y));
             dx = (sample % t->side + (double)hash_unit(bits)) / t->side - 0.5;
             dy = (sample / t->side + (double)hash_unit(hash_of(bits))) / t->side - 0.5;
+            const uint64_t first = hash_of(scene->quality.seed ^ hash_of((uint64_t)x << 32 | y));
+            share = ((double)((first + sample) % strata) + (double)hash_unit(hash_of(~bits))) / strata;
         }
         s->batch[i] = camera_part(t, x + dx, y + dy, (uint16_t)i);
+        s->batch[i].time = (share - 1) * shutter;
     }
 }
 
@@ -384,7 +472,7 @@ void refraction_truth_tile(const refraction_truth *truth, uint32_t tile_x, uint3
     memset(s->samples, 0, sizeof s->samples);
     for (uint32_t sample = 0; sample < samples; sample++) {
         aim_sample(truth, s, tile_x, tile_y, sample);
-        look_ahead(truth, s, BATCH);
+        look_ahead(truth, s, BATCH, true);
         for (size_t i = 0; i < BATCH; i++)
             if (s->met[i].triangle < 0 && s->surface[i].distance < HUGE_VAL)
                 begin_parts(truth, s, s->batch[i], &s->surface[i], mirrored);

@@ -20,7 +20,7 @@
 
 typedef struct truth_job {
     const mgt_scene *scene; /* its mean surface is y = 0; refraction_samples and seed count */
-    camera_rays camera;     /* at scene.time. position[1] < 0: under water */
+    camera_rays camera;     /* at scene.time. position[1] < 0: under water. Unless it moves samples are spread over the shutter, one is of its middle */
     const world *world;
     const trace_scene *trace; /* of that world */
     /* Radiance of what rays end at: shade_points(). `user` is its scene. */

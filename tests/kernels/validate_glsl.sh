@@ -15,7 +15,7 @@ check() { # name, version line, extension, epilogue, kernel
     case $1 in
     lean | leadr) more=$kernels/lean_accessors_glsl.k ;;
     refract_*) more=$kernels/refract_accessors_glsl.k ;;
-    caustic | footprint | material | narrow | water_path) more="$kernels/refract_accessors_glsl.k $kernels/narrow_types.k $kernels/shade_types.k $kernels/layer.k $work/object_accessors.glsl" ;;
+    caustic | footprint | material | narrow | spread | water_path | water_seen) more="$kernels/refract_accessors_glsl.k $kernels/narrow_types.k $kernels/shade_types.k $kernels/layer.k $work/object_accessors.glsl" ;;
     esac
     # shellcheck disable=SC2086 # nothing where there is none
     "$source/scripts/kernel_glsl" "$2" "$kernels/prelude_glsl.k" "$kernels/accessors_glsl.k" $more "$5" >"$work/$1.$3" || { failed=1; return; }

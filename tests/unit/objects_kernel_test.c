@@ -49,7 +49,7 @@ KERNEL LayerPixel LAYER(CTX cx, int layer, real column, real row) { return layer
 
 #include "kernels/material.k"
 #include "kernels/mirror.k"
-#include "kernels/narrow.k"
+#include "kernels/spread.k"
 
 #include "unit/kernel_words_off.h"
 #undef dot
@@ -147,50 +147,169 @@ static void glow_is_the_integral(void **state)
 
 /* ---- footprints ---- */
 
-/* Two rays a thousandth of a radian apart, within the plane of incidence or across it, met by the plane across the first one's end. */
-static double spread(double theta, bool within, double ratio, double before, double after)
+/* Where a camera's ray meets the surface, and what that does while its pixel and the shutter go by. */
+typedef struct bent_case {
+    double forward[3], right[3], down[3], place[2]; /* rays are forward + x right + y down */
+    double ratio, distance, slope[2], bend[3], path[3], roots[2][2];
+    bool mirrored;
+} bent_case;
+
+static void cross3(const double a[3], const double b[3], double out[3])
 {
-    const double step = 1e-4;
-    double end[2][3], last[3];
-    for (int i = 0; i < 2; i++) {
-        const double angle = theta + (within && i ? step : 0), turn = !within && i ? step / sin(theta) : 0;
-        const double ray[3] = {sin(angle) * cos(turn), -cos(angle), sin(angle) * sin(turn)}, up[3] = {0, 1, 0};
-        double bent[3], from[3];
-        assert_true(refract3(ray, up, ratio, bent));
-        const double height = before * cos(theta), along = height / -ray[1];
-        for (int k = 0; k < 3; k++)
-            from[k] = along * ray[k] + (k == 1 ? height : 0);
-        if (i == 0) {
-            memcpy(last, bent, sizeof last);
-            for (int k = 0; k < 3; k++)
-                end[0][k] = from[k] + after * bent[k];
-        }
-        double to[3];
-        for (int k = 0; k < 3; k++)
-            to[k] = end[0][k] - from[k];
-        const double way = dot3(to, last) / dot3(bent, last);
-        for (int k = 0; k < 3; k++)
-            end[i][k] = from[k] + way * bent[k];
+    for (int k = 0; k < 3; k++)
+        out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+}
+
+static bent_case random_case(int i)
+{
+    bent_case c = {.ratio = i % 2 ? 1.333 : 1 / 1.333, .mirrored = i % 3 == 2, .distance = range(1, 20), .place = {range(-200, 200), range(-200, 200)}};
+    const double steepness = range(0.25, 1.4), azimuth = range(0, 2 * pi), pixel = 1e-3;
+    const double up[3] = {0, 1, 0}, forward[3] = {cos(steepness) * cos(azimuth), -sin(steepness), cos(steepness) * sin(azimuth)};
+    memcpy(c.forward, forward, sizeof forward);
+    cross3(forward, up, c.right);
+    unit3(c.right);
+    cross3(forward, c.right, c.down);
+    for (int k = 0; k < 3; k++)
+        c.right[k] *= pixel, c.down[k] *= pixel;
+    for (int k = 0; k < 2; k++)
+        c.slope[k] = range(-0.1, 0.1);
+    for (int k = 0; k < 3; k++) {
+        c.bend[k] = range(-0.5, 0.5);
+        c.path[k] = k < 2 ? range(-2e-3, 2e-3) : range(-2e-3, 2e-3) * c.distance;
     }
-    return sqrt(pow(end[1][0] - end[0][0], 2) + pow(end[1][1] - end[0][1], 2) + pow(end[1][2] - end[0][2], 2)) / step;
+    for (int k = 0; k < 4; k++)
+        c.roots[k / 2][k % 2] = range(-1.5e-3, 1.5e-3);
+    return c;
+}
+
+static void ray3(const bent_case *c, double x, double y, double ray[3])
+{
+    for (int k = 0; k < 3; k++)
+        ray[k] = c->forward[k] + (c->place[0] + x) * c->right[k] + (c->place[1] + y) * c->down[k];
+    unit3(ray);
+}
+
+/* Where the ray of a place in the pixel meets the surface's tangent plane at a share of the shutter, from the middle, and where it goes from there. The
+ * surface's slope is `more` than it was. */
+static bool follow(const bent_case *c, double x, double y, double share, const double more[2], double hit[3], double out[3])
+{
+    double middle[3], ray[3], normal[3] = {-c->slope[0], 1, -c->slope[1]};
+    ray3(c, 0, 0, middle);
+    ray3(c, x, y, ray);
+    unit3(normal);
+    const double along = c->distance * dot3(middle, normal) / dot3(ray, normal) + share * c->path[2];
+    for (int k = 0; k < 3; k++)
+        hit[k] = along * ray[k] - c->distance * middle[k];
+    const double beside[2] = {hit[0] - share * c->path[2] * ray[0], hit[2] - share * c->path[2] * ray[2]};
+    const double slope[2] = {c->slope[0] + c->bend[0] * beside[0] + c->bend[1] * beside[1] + share * c->path[0] + more[0],
+                             c->slope[1] + c->bend[1] * beside[0] + c->bend[2] * beside[1] + share * c->path[1] + more[1]};
+    double there[3] = {-slope[0], 1, -slope[1]};
+    unit3(there);
+    if (!c->mirrored)
+        return refract3(ray, there, c->ratio, out);
+    for (int k = 0; k < 3; k++)
+        out[k] = ray[k] - 2 * dot3(ray, there) * there[k];
+    return true;
+}
+
+/* The covariance across the middle ray, by the mean over pixel, shutter and slopes. */
+static bool covariance_of(const bent_case *c, double after, double sum[3], double direction[3])
+{
+    enum { STEPS = 10 };
+    const double none[2] = {0};
+    double hit[3], side[3], rise[3], up[3] = {0, 1, 0};
+    if (!follow(c, 0, 0, 0, none, hit, direction))
+        return false;
+    cross3(up, direction, side);
+    for (int k = 0; k < 3; k++)
+        side[k] = -side[k];
+    unit3(side);
+    cross3(side, direction, rise);
+    double end[3];
+    for (int k = 0; k < 3; k++)
+        end[k] = hit[k] + after * direction[k];
+    sum[0] = sum[1] = sum[2] = 0;
+    for (int i = 0; i < STEPS * STEPS * STEPS * 4; i++) {
+        const int s = i % 4, x = i / 4 % STEPS, y = i / 4 / STEPS % STEPS, t = i / 4 / STEPS / STEPS;
+        const double sign = s % 2 ? -sqrt(2) : sqrt(2), more[2] = {sign * c->roots[s / 2][0], sign * c->roots[s / 2][1]};
+        double out[3], aside[3];
+        if (!follow(c, (x + 0.5) / STEPS - 0.5, (y + 0.5) / STEPS - 0.5, (t + 0.5) / STEPS - 0.5, more, hit, out))
+            return false;
+        for (int k = 0; k < 3; k++)
+            aside[k] = end[k] - hit[k];
+        const double way = dot3(aside, direction) / dot3(out, direction);
+        for (int k = 0; k < 3; k++)
+            aside[k] = hit[k] + way * out[k] - end[k];
+        const double a = dot3(aside, side), b = dot3(aside, rise);
+        sum[0] += a * a, sum[1] += a * b, sum[2] += b * b;
+    }
+    for (int k = 0; k < 3; k++)
+        sum[k] /= STEPS * STEPS * STEPS * 4 * (1 - 1.0 / (STEPS * STEPS)); /* the strata's middles lack that much of the variance */
+    return true;
+}
+
+static Spread spread_of_case(const bent_case *c, const double direction[3])
+{
+    double ray[3];
+    ray3(c, 0, 0, ray);
+    narrow_data = (NarrowData){
+        .ratio = (float)c->ratio, .side = 1, .place = 1,
+        .depth_x = (float)c->forward[0], .depth_y = (float)c->forward[1], .depth_z = (float)c->forward[2],
+        .right_x = (float)c->right[0], .right_y = (float)c->right[1], .right_z = (float)c->right[2],
+        .down_x = (float)c->down[0], .down_y = (float)c->down[1], .down_z = (float)c->down[2],
+    };
+    double normal[3] = {-c->slope[0], 1, -c->slope[1]};
+    unit3(normal);
+    const WaterHit hit = {.view = vec3((float)ray[0], (float)ray[1], (float)ray[2]), .along = (float)c->distance,
+                          .normal = vec3((float)normal[0], (float)normal[1], (float)normal[2])};
+    const WaterVariation v = {
+        .bend_xx = (float)c->bend[0], .bend_xz = (float)c->bend[1], .bend_zz = (float)c->bend[2],
+        .path = vec2((float)c->path[0], (float)c->path[1]), .path_along = (float)c->path[2],
+        .variance_xx = (float)(c->roots[0][0] * c->roots[0][0] + c->roots[1][0] * c->roots[1][0]),
+        .variance_xz = (float)(c->roots[0][0] * c->roots[0][1] + c->roots[1][0] * c->roots[1][1]),
+        .variance_zz = (float)(c->roots[0][1] * c->roots[0][1] + c->roots[1][1] * c->roots[1][1]),
+    };
+    const Bent bent = {vec3((float)direction[0], (float)direction[1], (float)direction[2]), c->mirrored ? 1.0f : 0.0f};
+    return spread_of(NULL, hit, bent, v);
 }
 
 static void footprints_follow_the_rays(void **state)
 {
     (void)state;
     numbers.state = 3;
+    double worst = 0;
+    int seen = 0;
     for (int i = 0; i < 300; i++) {
-        const bool under = i % 2;
-        const double n = 1.333, ratio = under ? n : 1 / n, theta = range(0.05, under ? 0.75 : 1.3), before = range(0.5, 10), after = range(0.1, 10);
-        shade_data = (ShadeData){.pixel_angle = 1, .index = (float)n, .camera_side = under ? -1 : 1};
-        const double ray[3] = {sin(theta), -cos(theta), 0}, up[3] = {0, 1, 0};
-        double bent[3];
-        assert_true(refract3(ray, up, ratio, bent));
-        const RayFootprint f = ray_footprint(NULL, vec3((float)bent[0], (float)bent[1], (float)bent[2]), (float)before, (float)after, 0.0f, 0.0f, 0.0f);
-        assert_true(fabs(sqrt(12 * (double)f.rise_rise) / spread(theta, true, ratio, before, after) - 1) < 2e-3);
-        assert_true(fabs(sqrt(12 * (double)f.side_side) / spread(theta, false, ratio, before, after) - 1) < 2e-3);
-        assert_true(fabs((double)f.side_rise) < 1e-4);
+        const bent_case c = random_case(i);
+        const double after = range(0.1, 10);
+        double exact[3], direction[3], ray[3], normal[3] = {-c.slope[0], 1, -c.slope[1]};
+        ray3(&c, 0, 0, ray);
+        unit3(normal);
+        const double cosine = -dot3(ray, normal);
+        /* Near the critical angle, and along the surface, differences tell nothing. */
+        if (cosine < 0.2 || (!c.mirrored && 1 - c.ratio * c.ratio * (1 - cosine * cosine) < 0.1) || !covariance_of(&c, after, exact, direction))
+            continue;
+        seen++;
+        const vec3 found = spread_after(NULL, spread_of_case(&c, direction), (float)after);
+        const double told[3] = {(double)found.x, (double)found.y, (double)found.z};
+        for (int k = 0; k < 3; k++)
+            worst = fmax(worst, fabs(told[k] - exact[k]) / (exact[0] + exact[2]));
     }
+    printf("footprints: within %.2g of the mean over pixel, shutter and slopes, in %d cases\n", worst, seen);
+    assert_true(seen > 150 && worst < 0.01);
+}
+
+/* Upside down, `rise` turns round: the mixed term changes its sign. */
+static void spreads_turn_with_the_camera(void **state)
+{
+    (void)state;
+    narrow_data = (NarrowData){.side = -1};
+    const Spread s = {vec3(1.0f, 2.0f, 3.0f), vec3(4.0f, 5.0f, 6.0f), vec3(7.0f, 8.0f, 9.0f)};
+    const vec3 at = spread_after(NULL, turned_spread(NULL, s), 2.0f);
+    assert_true(at.x == 1 + 8 + 28 && at.y == -(2 + 10 + 32) && at.z == 3 + 12 + 36);
+    const RayAxes above = ray_axes(NULL, vec3(0.6f, -0.8f, 0.0f)), below = ray_axes(NULL, vec3(0.6f, 0.8f, 0.0f));
+    assert_true(above.side.x == below.side.x && above.side.z == below.side.z);
+    assert_true(above.rise.x == -below.rise.x && above.rise.y == below.rise.y && above.rise.z == -below.rise.z);
 }
 
 /* ---- caustics ---- */
@@ -474,7 +593,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(patterns_are_box_means),      cmocka_unit_test(glow_is_the_integral),
-        cmocka_unit_test(footprints_follow_the_rays),  cmocka_unit_test(caustics_are_shares_of_area),
+        cmocka_unit_test(footprints_follow_the_rays),  cmocka_unit_test(spreads_turn_with_the_camera),
+        cmocka_unit_test(caustics_are_shares_of_area),
         cmocka_unit_test(slopes_bend_the_view_to_the_light), cmocka_unit_test(rays_bend_by_snells_law),
         cmocka_unit_test(flat_water_needs_no_search),  cmocka_unit_test(waves_lead_to_the_floor),
         cmocka_unit_test(rays_pass_behind_posts),

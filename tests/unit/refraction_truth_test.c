@@ -21,7 +21,7 @@ static char error_text[REPORTER_TEXT];
 static const reporter silent = {.error = error_text};
 
 /* What the tests' shading returns. */
-typedef enum answer_kind { TOLD_POSITION, TOLD_DIRECTION, TOLD_LENGTHS, TOLD_GAIN, TOLD_ONE } answer_kind;
+typedef enum answer_kind { TOLD_POSITION, TOLD_DIRECTION, TOLD_LENGTHS, TOLD_GAIN, TOLD_SPREAD, TOLD_ONE } answer_kind;
 
 static void tell(const shade_scene *user, const shade_hits *h, float *rgb)
 {
@@ -33,6 +33,7 @@ static void tell(const shade_scene *user, const shade_hits *h, float *rgb)
                                      : what == TOLD_POSITION ? (h->triangle[i] >= 0 ? h->position[k][i] : NAN)
                                      : what == TOLD_DIRECTION ? h->direction[k][i]
                                      : what == TOLD_GAIN ? h->gain[i]
+                                     : what == TOLD_SPREAD ? h->spread[k][i]
                                                               : lengths[k];
     }
 }
@@ -232,6 +233,9 @@ static void set_waves(setup *s)
     s->scene.time = 12.5;
 }
 
+/* Of one sample. */
+static double middle_of_shutter(const mgt_scene *scene) { return scene->time - scene->shutter / 2; }
+
 /* Snell's law for vectors: what lies along the surface grows by `ratio`, the index before it over that behind. False: nothing is let through. */
 static bool refract(const double view[3], const double slope[2], double ratio, double out[3])
 {
@@ -258,7 +262,7 @@ static void waves_bend_rays_at_their_first_hit(void **state)
     truth_pixels *places = render(&s, TOLD_POSITION, MGT_ISA_AUTO, 0);
     for (uint32_t y = 0; y < HEIGHT; y++)
         for (uint32_t x = 0; x < WIDTH; x++) {
-            const water_hit hit = first_hit_brute_force(&s.scene, x + 0.5, y + 0.5, s.scene.time);
+            const water_hit hit = first_hit_brute_force(&s.scene, x + 0.5, y + 0.5, middle_of_shutter(&s.scene));
             const answer a = answer_at(places, x, y);
             if (!hit.hit || hit.distance > 60)
                 continue;
@@ -271,6 +275,60 @@ static void waves_bend_rays_at_their_first_hit(void **state)
             assert_position(&s, a.through, exact, 1e-4);
         }
     free(places);
+    end(&s);
+}
+
+/* Where a ray through the waves ends on the floor, relative to another end; false: it is no ordinary ray. */
+static bool floor_end(const setup *s, double pixel_x, double pixel_y, double end[3], double direction[3])
+{
+    const water_hit hit = first_hit_brute_force(&s->scene, pixel_x, pixel_y, middle_of_shutter(&s->scene));
+    double o[3], v[3];
+    camera_ray(&s->scene, pixel_x, pixel_y, s->scene.time, o, v);
+    if (!hit.hit || hit.distance > 25 || hit.water.slope[0] * v[0] + hit.water.slope[1] * v[2] - v[1] < -0.4 * v[1])
+        return false;
+    if (!refract(v, hit.water.slope, 1 / 1.333, direction))
+        return false;
+    for (int k = 0; k < 3; k++)
+        end[k] = hit.position[k] + (-2 - hit.position[1]) / direction[1] * direction[k];
+    return true;
+}
+
+/* What a ray covers of the floor is told by how far its neighbours' ends are. */
+static void footprints_follow_the_rays(void **state)
+{
+    (void)state;
+    setup s;
+    begin(&s, 3, -2);
+    set_waves(&s);
+    truth_pixels *spreads = render(&s, TOLD_SPREAD, MGT_ISA_AUTO, 0);
+    static const double h = 0.002; /* pixels: they are large */
+    int seen = 0;
+    for (uint32_t y = 0; y < HEIGHT; y += 3)
+        for (uint32_t x = 0; x < WIDTH; x += 3) {
+            double at[3], d[3], ends[4][3], turned[3], exact[3] = {0};
+            bool ordinary = floor_end(&s, x + 0.5, y + 0.5, at, d);
+            for (int i = 0; i < 4 && ordinary; i++)
+                ordinary = floor_end(&s, x + 0.5 + (i < 2 ? (i ? h : -h) : 0), y + 0.5 + (i < 2 ? 0 : i == 3 ? h : -h), ends[i], turned);
+            if (!ordinary)
+                continue;
+            seen++;
+            const double level = hypot(d[0], d[2]), side[3] = {-d[2] / level, 0, d[0] / level};
+            const double rise[3] = {-d[0] * d[1] / level, level, -d[2] * d[1] / level};
+            for (int i = 0; i < 4; i += 2) {
+                double across[2] = {0};
+                for (int k = 0; k < 3; k++) {
+                    across[0] += (ends[i + 1][k] - ends[i][k]) / (2 * h) * side[k];
+                    across[1] += (ends[i + 1][k] - ends[i][k]) / (2 * h) * rise[k];
+                }
+                exact[0] += across[0] * across[0] / 12, exact[1] += across[0] * across[1] / 12, exact[2] += across[1] * across[1] / 12;
+            }
+            const answer a = answer_at(spreads, x, y);
+            for (int k = 0; k < 3; k++)
+                if (!(fabs(a.through[k] - exact[k]) < 3e-3 * (exact[0] + exact[2])))
+                    fail_msg("(%u, %u): %g where %g is right", x, y, a.through[k], exact[k]);
+        }
+    assert_true(seen > 100);
+    free(spreads);
     end(&s);
 }
 
@@ -287,7 +345,7 @@ static water_hit first_hit_from_below(const mgt_scene *scene, double pixel_x, do
     mirror.camera.position[1] *= -1;
     mirror.camera.target[1] *= -1;
     mirror.camera.up[1] *= -1;
-    water_hit hit = first_hit_brute_force(&mirror, scene->image.width - pixel_x, pixel_y, scene->time);
+    water_hit hit = first_hit_brute_force(&mirror, scene->image.width - pixel_x, pixel_y, middle_of_shutter(scene));
     hit.position[1] *= -1;
     hit.water.slope[0] *= -1;
     hit.water.slope[1] *= -1;
@@ -393,7 +451,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(flat_water_shows_a_floor_where_snell_says),
         cmocka_unit_test(radiance_keeps_the_power_of_a_bundle), cmocka_unit_test(snells_window_ends_at_its_angle),
-        cmocka_unit_test(waves_bend_rays_at_their_first_hit),        cmocka_unit_test(waves_bend_rays_from_below),
+        cmocka_unit_test(waves_bend_rays_at_their_first_hit),        cmocka_unit_test(footprints_follow_the_rays),
+        cmocka_unit_test(waves_bend_rays_from_below),
         cmocka_unit_test(shares_add_up),
         cmocka_unit_test(bits_depend_on_the_tile_alone),             cmocka_unit_test(samples_fill_the_pixel),
     };

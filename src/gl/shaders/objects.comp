@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * The water in the pixels of a band, filtered, at one instant, and which of the pixels see objects in which way.
+ * The water in the pixels of a band, filtered, over the shutter, and which of the pixels see objects in which way.
  */
 #define SHARED_WAVES
 #define OBJECTS_PASS
@@ -58,7 +58,7 @@ bool is_edge(ivec2 image, PixelWater w)
 
 void keep_water(int pixel, PixelWater w)
 {
-    int i = 12 * pixel;
+    int i = WATER_FLOATS * pixel;
     water_data[i] = w.share;
     water_data[i + 1] = w.hit.view.x;
     water_data[i + 2] = w.hit.view.y;
@@ -67,9 +67,15 @@ void keep_water(int pixel, PixelWater w)
     water_data[i + 5] = w.hit.normal.x;
     water_data[i + 6] = w.hit.normal.y;
     water_data[i + 7] = w.hit.normal.z;
-    water_data[i + 8] = w.slopes.x;
-    water_data[i + 9] = w.slopes.y;
-    water_data[i + 10] = w.slopes.z;
+    water_data[i + 8] = w.variation.bend_xx;
+    water_data[i + 9] = w.variation.bend_xz;
+    water_data[i + 10] = w.variation.bend_zz;
+    water_data[i + 11] = w.variation.path.x;
+    water_data[i + 12] = w.variation.path.y;
+    water_data[i + 13] = w.variation.path_along;
+    water_data[i + 14] = w.variation.variance_xx;
+    water_data[i + 15] = w.variation.variance_xz;
+    water_data[i + 16] = w.variation.variance_zz;
 }
 
 void main()
@@ -96,7 +102,7 @@ void main()
     if (front)
         append(LIST_FRONT, number);
     bool through = water.share > 0.0f && !front;
-    water_data[12 * number + 11] = through ? 1.0f : 0.0f;
+    water_data[WATER_FLOATS * number + WATER_FLOATS - 1] = through ? 1.0f : 0.0f;
     if (through)
         append(LIST_THROUGH, number);
     if (narrow_data.side < 0.0f && water.share < 1.0f)

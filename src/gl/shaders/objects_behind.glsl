@@ -5,7 +5,7 @@
 #include "objects_shade.glsl"
 
 /* `wet`: metres in water. */
-HitRay ray_of(WaterHit hit, FoundPoint f, float wet, vec3 slopes)
+HitRay ray_of(WaterHit hit, FoundPoint f, float wet)
 {
     vec3 position = turned(0, f.position);
     HitRay r;
@@ -14,9 +14,6 @@ HitRay ray_of(WaterHit hit, FoundPoint f, float wet, vec3 slopes)
     r.before = hit.along;
     r.after = f.after;
     r.water = wet;
-    r.slope_xx = slopes.x;
-    r.slope_xz = slopes.y;
-    r.slope_zz = slopes.z;
     r.gain = 1.0f;
     return r;
 }

@@ -19,7 +19,7 @@ void main()
     if (pixel < 0)
         return;
     ivec2 image = image_of(known_water(pixel));
-    HitRay ray = HitRay(vec3(0.0f), normalize(camera_ray(image, vec2(0.0f))), 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f);
+    HitRay ray = HitRay(vec3(0.0f), normalize(camera_ray(image, vec2(0.0f))), 0.0f, 0.0f, 0.0f, RayFootprint(0.0f, 0.0f, 0.0f), 1.0f);
     ray.direction.y = min(ray.direction.y, -1e-6f);
     imageStore(deep_image, texel_of_image(image), vec4(shade_nothing(0, ray, sky_radiance(0, ray.direction)), 1.0f));
 }

@@ -51,9 +51,7 @@ RayEnd end_in_front(ivec2 image, PixelWater w, bool edge, vec2 place)
     end.ray.before = along * size;
     end.ray.after = 0.0f;
     end.ray.water = narrow_data.side > 0.0f ? 0.0f : along * size;
-    end.ray.slope_xx = 0.0f;
-    end.ray.slope_xz = 0.0f;
-    end.ray.slope_zz = 0.0f;
+    end.ray.footprint = straight_footprint(0, along * size, shade_data.pixel_angle);
     end.ray.gain = 1.0f;
     end.error = 0.0f;
     end.counts = end.triangle >= 0 && along < meet_water(w, ray);

@@ -4,22 +4,24 @@
  * the number of a pixel in the band: tile · 512 + row · 32 + column.
  */
 #include "objects_data.glsl"
-#include "narrow.k"
+#include "spread.k"
 
 #define INFINITY uintBitsToFloat(0x7f800000u)
 
 struct PixelWater {
     float share; /* of the pixel; 0: the rest is not set */
     WaterHit hit;
-    vec3 slopes; /* covariance xx, xz, zz of those that the pixel does not resolve */
+    WaterVariation variation;
 };
+
+const int WATER_FLOATS = 18;
 
 #ifdef LISTS_GROW
 #define LIST_ACCESS
 #else
 #define LIST_ACCESS readonly
 #endif
-layout(std430, binding = 4) LIST_ACCESS buffer WaterBlock { float water_data[]; }; /* twelve a pixel: PixelWater, and 1 in those of LIST_THROUGH */
+layout(std430, binding = 4) LIST_ACCESS buffer WaterBlock { float water_data[]; }; /* WATER_FLOATS a pixel: PixelWater, and 1 in those of LIST_THROUGH */
 
 /* Lists: pixels wholly in front of the water, pixels on edges, pixels that see through the surface, under water those that see no surface, and of those
  * that see through it those whose rays are traced. */
@@ -40,17 +42,24 @@ layout(std430, binding = 5) LIST_ACCESS buffer ListBlock {
 
 int band_pixels() { return pass_data.columns * pass_data.rows * TILE_WIDTH * TILE_HEIGHT; }
 
-bool is_through(int pixel) { return water_data[12 * pixel + 11] > 0.0f; }
+bool is_through(int pixel) { return water_data[WATER_FLOATS * pixel + WATER_FLOATS - 1] > 0.0f; }
 
 PixelWater known_water(int pixel)
 {
-    int i = 12 * pixel;
+    int i = WATER_FLOATS * pixel;
     PixelWater w;
     w.share = water_data[i];
     w.hit.view = vec3(water_data[i + 1], water_data[i + 2], water_data[i + 3]);
     w.hit.along = water_data[i + 4];
     w.hit.normal = vec3(water_data[i + 5], water_data[i + 6], water_data[i + 7]);
-    w.slopes = vec3(water_data[i + 8], water_data[i + 9], water_data[i + 10]);
+    w.variation.bend_xx = water_data[i + 8];
+    w.variation.bend_xz = water_data[i + 9];
+    w.variation.bend_zz = water_data[i + 10];
+    w.variation.path = vec2(water_data[i + 11], water_data[i + 12]);
+    w.variation.path_along = water_data[i + 13];
+    w.variation.variance_xx = water_data[i + 14];
+    w.variation.variance_xz = water_data[i + 15];
+    w.variation.variance_zz = water_data[i + 16];
     ivec2 at = ivec2(pixel % TILE_WIDTH, pixel / TILE_WIDTH % TILE_HEIGHT);
     int tile = pixel / (TILE_WIDTH * TILE_HEIGHT);
     ivec2 image = (ivec2(tile % pass_data.columns, tile / pass_data.columns) + ivec2(pass_data.tile_x, pass_data.tile_y)) * ivec2(TILE_WIDTH, TILE_HEIGHT) + at;

@@ -60,6 +60,12 @@ HitTriangle triangle_of(int triangle, bool smooth_normals)
     return t;
 }
 
+RayFootprint footprint_behind(WaterHit hit, Bent bent, WaterVariation variation, float after)
+{
+    vec3 f = spread_after(0, turned_spread(0, spread_of(0, hit, bent, variation)), after);
+    return RayFootprint(f.x, f.y, f.z);
+}
+
 vec3 shaded(int triangle, HitRay ray)
 {
     if (triangle < 0)

@@ -99,14 +99,16 @@ ThroughEnd end_through(PixelWater w)
     float wet = narrow_data.side > 0.0f ? f.after : hit.along + (total ? f.after : 0.0f);
     RayEnd end;
     end.triangle = f.shown > 0.0f ? layer_triangle(total ? 1 : 0, ivec2(int(f.column), int(f.row))) : -1;
-    end.ray = ray_of(hit, f, wet, w.slopes);
+    end.ray = ray_of(hit, f, wet);
     end.ray.gain = gain_behind(total);
     end.error = f.residual < 1e28f ? f.residual : INFINITY;
     end.counts = true;
     int layer = total ? 1 : 0;
-    if (narrow_data.method == 1)
-        return ThroughEnd(end, is_doubtful(f, layer) || passes_behind(0, layer, hit, f, f.column >= 0.0f ? 1.0f : 0.0f) > 0.0f);
     if (narrow_data.method == 0)
         end = sharpened(end, w.hit, layer, f);
-    return ThroughEnd(end, false);
+    end.ray.footprint = footprint_behind(hit, bent, w.variation, end.ray.after);
+    bool traced = narrow_data.method == 1;
+    if (traced)
+        traced = is_doubtful(f, layer) || passes_behind(0, layer, hit, f, f.column >= 0.0f ? 1.0f : 0.0f) > 0.0f;
+    return ThroughEnd(end, traced);
 }

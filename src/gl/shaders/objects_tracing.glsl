@@ -19,9 +19,7 @@ RayEnd end_traced(PixelWater w)
     end.ray.after = met.triangle >= 0 ? met.along : 0.0f;
     end.ray.position = from + end.ray.after * end.ray.direction;
     end.ray.water = narrow_data.side > 0.0f ? end.ray.after : w.hit.along + (total ? end.ray.after : 0.0f);
-    end.ray.slope_xx = w.slopes.x;
-    end.ray.slope_xz = w.slopes.y;
-    end.ray.slope_zz = w.slopes.z;
+    end.ray.footprint = footprint_behind(w.hit, bent, w.variation, end.ray.after);
     end.ray.gain = gain_behind(total);
     end.error = 0.0f;
     end.counts = true;

@@ -3,6 +3,7 @@
  * The filtered surface in a pixel.
  */
 #include "objects_pixel.glsl"
+#include "water_seen.k"
 
 /* Through a place of the pixel, from its centre. */
 PixelWater water_at(TilePixel where, vec2 place)
@@ -12,13 +13,12 @@ PixelWater water_at(TilePixel where, vec2 place)
     w.share = p.water;
     if (!(p.water > 0.0f))
         return w;
-    BendingSurface bending = bending_surface(0, p.ray, pixel_guess(where.at));
-    SlopeState s = bending.state;
-    w.hit.view = scale(s.view, -1.0f);
-    w.hit.along = s.along * sqrt(length_squared(p.ray));
-    w.hit.normal = bending.normal;
+    SeenWater seen = seen_water(0, p.ray, pixel_guess(where.at));
+    w.hit.view = scale(seen.view, -1.0f);
+    w.hit.along = seen.along * sqrt(length_squared(p.ray));
+    w.hit.normal = seen.normal;
     w.hit.column = float(where.texel.x + pass_data.area_x) + place.x;
     w.hit.row = float(where.texel.y + pass_data.area_y) + place.y;
-    w.slopes = vec3(s.variance_xx, s.variance_xz, s.variance_zz);
+    w.variation = seen.variation;
     return w;
 }
