@@ -6,7 +6,7 @@
  *   picture_check runs A B FAR SHARE RUN DIFFERENCE.png   the share of pixels with |A − B| beyond FAR, and how long the longest of their connected
  *                                                    runs is, within limits; else the same
  *   picture_check crop WHOLE PART X Y                PART equals that place of WHOLE to the bit
- *   picture_check mean OUT.pfm A…                    writes the mean of pictures of one shape
+ *   picture_check pick OUT.pfm N A                   writes the middle one of every N × N pixels
  *   picture_check depth A B                          per cent of B's pixels off by more than max(1%, 5 mm), and the largest error
  *
  * Exit code 0: alike, 1: not, 64: usage, 66: unreadable. */
@@ -212,46 +212,47 @@ static int check_depth(const picture_pair *p)
     return 0;
 }
 
-/* ---- means ---- */
+/* ---- pixels of a larger picture ---- */
 
-static int write_mean(const char *path, int count, char **paths)
+static int write_picked(const char *path, const char *every, const char *from)
 {
     const metadata_list none = {0};
     const output_options options = {.overwrite = true};
+    const uint32_t step = (uint32_t)strtoul(every, NULL, 10);
     file_error error;
-    float_image mean = {0}, one = {0};
-    int code = 0;
-    for (int i = 0; i < count && code == 0; i++) {
-        if (picture_read(i ? &one : &mean, paths[i], NULL, &error) != FILE_OK)
-            code = 66;
-        else if (i > 0 && !same_shape(&(picture_pair){mean, one}))
-            code = 1;
-        for (size_t k = 0; code == 0 && k < (size_t)mean.width * mean.height * mean.channels; k++)
-            mean.pixels[k] = i ? mean.pixels[k] + one.pixels[k] / (float)count : mean.pixels[k] / (float)count;
-        float_image_free(&one);
+    float_image whole = {0};
+    if (step == 0 || picture_read(&whole, from, NULL, &error) != FILE_OK) {
+        fprintf(stderr, "picture_check: %s\n", step == 0 ? "every how many pixels?" : error.text);
+        return step == 0 ? 64 : 66;
     }
-    const picture_layer layer = {.name = "mean", .channels = mean.channels, .pixels = mean.pixels};
-    if (code == 0 && picture_write_pfm(path, mean.width, mean.height, &layer, &none, &options, &error) != FILE_OK)
-        code = 66;
-    if (code == 66)
+    const uint32_t columns = whole.width / step, rows = whole.height / step;
+    float *to = whole.pixels; /* nothing is overwritten before it is read */
+    for (uint32_t row = 0; row < rows; row++)
+        for (uint32_t column = 0; column < columns; column++, to += whole.channels) {
+            const size_t at = (size_t)(row * step + step / 2) * whole.width + column * step + step / 2;
+            memmove(to, whole.pixels + at * whole.channels, whole.channels * sizeof *to);
+        }
+    const picture_layer layer = {.name = "picked", .channels = whole.channels, .pixels = whole.pixels};
+    const file_status written = picture_write_pfm(path, columns, rows, &layer, &none, &options, &error);
+    if (written != FILE_OK)
         fprintf(stderr, "picture_check: %s\n", error.text);
-    float_image_free(&mean);
-    return code;
+    float_image_free(&whole);
+    return written == FILE_OK ? 0 : 66;
 }
 
 int main(int count, char **arguments)
 {
     const char *verb = count > 3 ? arguments[1] : "";
-    const bool mean = !strcmp(verb, "mean");
+    const bool pick = !strcmp(verb, "pick") && count == 5;
     const bool near = !strcmp(verb, "near") && count == 7, crop = !strcmp(verb, "crop") && count == 6;
     const bool most = !strcmp(verb, "most") && count == 8, runs = !strcmp(verb, "runs") && count == 8, depth = !strcmp(verb, "depth") && count == 4;
-    if (!mean && !near && !most && !runs && !crop && !depth) {
+    if (!pick && !near && !most && !runs && !crop && !depth) {
         fprintf(stderr, "usage: picture_check near A B MAX MEAN DIFFERENCE.png | most A B FAR SHARE MEAN DIFFERENCE.png |\n"
-                        "       runs A B FAR SHARE RUN DIFFERENCE.png | crop WHOLE PART X Y | mean OUT.pfm A... | depth A B\n");
+                        "       runs A B FAR SHARE RUN DIFFERENCE.png | crop WHOLE PART X Y | pick OUT.pfm N A | depth A B\n");
         return 64;
     }
-    if (mean)
-        return write_mean(arguments[2], count - 3, arguments + 3);
+    if (pick)
+        return write_picked(arguments[2], arguments[3], arguments[4]);
     picture_pair pair = {0};
     int code = 66;
     if (read_pair(&pair, arguments + 2))
