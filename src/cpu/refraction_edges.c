@@ -80,7 +80,9 @@ static void sharpen_pixel(const refraction *r, tile_objects *o, size_t i)
         if (way < nearest)
             nearest = way, met = triangles[k];
     }
-    if (met < 0 && !by_nothing(g, (size_t)e->pixel[i]))
+    /* Over the water the sky is all around. */
+    const bool open = r->frame->under && e->total[i] == 0;
+    if (met < 0 && !open && !by_nothing(g, (size_t)e->pixel[i]))
         return;
     e->triangle[i] = met;
     e->after[i] = met < 0 ? 0 : (float)nearest;

@@ -55,7 +55,7 @@ RayEnd sharpened(RayEnd end, WaterHit hit, int layer, FoundPoint f)
     vec3 view = turned(0, hit.view), from = camera_position() + hit.along * view;
     float along = INFINITY;
     int met = -1;
-    bool by_nothing = false;
+    bool by_nothing = narrow_data.side < 0.0f && layer == 0; /* over the water the sky is all around */
     for (int i = 0; asked && i < 9; i++) {
         ivec2 beside = at + ivec2(i % 3 - 1, i / 3 - 1);
         if (any(lessThan(beside, ivec2(0))) || any(greaterThan(beside, last)))
