@@ -185,6 +185,7 @@ gbuffer_job refraction_mirrored_job(const frame *f)
     job.map = GBUFFER_STRAIGHT;
     job.trough = 0;
     job.mirrored = true;
+    job.crest *= 0.5; /* few waves reach as far as all of them together could: below, the surface would mostly hide what is shown */
     return job;
 }
 

@@ -190,26 +190,6 @@ static void trace_doubtful(refraction *r, tile_objects *o, size_t count)
     atomic_fetch_add_explicit(&r->traced, doubtful, memory_order_relaxed);
 }
 
-static void see_mirrored(const refraction *r, const tile_offset *at, size_t count, tile_objects *o)
-{
-    memset(o->light.mirrored, 0, sizeof o->light.mirrored);
-    memset(o->light.share, 0, sizeof o->light.share);
-    if (!r->mirrors || count == 0 || r->truth)
-        return;
-    r->kernels->narrow->mirrored(&r->narrow, at, &o->water, &o->ends);
-    size_t mirrored = 0;
-    for (size_t k = 0; k < count; k++) {
-        const uint16_t i = o->list[k];
-        const bool seen = r->frame->under || o->ends.triangle[i] >= 0;
-        o->light.share[i] = seen ? 1 : 0;
-        o->ends.gain[i] = 1;
-        o->list[mirrored] = i;
-        mirrored += seen;
-    }
-    refraction_shade_listed(r, o, mirrored);
-    refraction_spread(o, mirrored, o->light.mirrored);
-}
-
 /* The ground truth in place of what the pictures tell, for what the surface mirrors too. */
 static void see_truth(const refraction *r, uint32_t tile_x, uint32_t tile_y, uint32_t worker, tile_objects *o)
 {
@@ -226,7 +206,34 @@ static void see_truth(const refraction *r, uint32_t tile_x, uint32_t tile_y, uin
     }
 }
 
-/* Radiance through one place of every pixel, added to the body's. */
+/* From o->rgb to the pixels in o->list. */
+static void add_listed(const tile_objects *o, size_t count, float (*planes)[TILE_PIXELS])
+{
+    for (size_t i = 0; i < count; i++)
+        for (int k = 0; k < 3; k++)
+            planes[k][o->list[i]] += o->rgb[3 * i + (size_t)k];
+}
+
+/* What the surface mirrors in one place of every listed pixel, added to that of the others; the list is used up. */
+static void see_mirrored(const refraction *r, const tile_offset *at, size_t count, tile_objects *o)
+{
+    if (!r->mirrors)
+        return;
+    r->kernels->narrow->mirrored(&r->narrow, at, &o->water, &o->ends);
+    size_t mirrored = 0;
+    for (size_t k = 0; k < count; k++) {
+        const uint16_t i = o->list[k];
+        const bool seen = r->frame->under || o->ends.triangle[i] >= 0;
+        o->light.share[i] += seen ? 1 : 0;
+        o->ends.gain[i] = 1;
+        o->list[mirrored] = i;
+        mirrored += seen;
+    }
+    refraction_shade_listed(r, o, mirrored);
+    add_listed(o, mirrored, o->light.mirrored);
+}
+
+/* Radiance through one place of every listed pixel, added to the body's, and what it mirrors; the list is used up. */
 static void see_place(refraction *r, const tile_offset *at, size_t count, tile_objects *o)
 {
     r->kernels->narrow->refracted(&r->narrow, at, &o->water, &o->ends);
@@ -243,11 +250,10 @@ static void see_place(refraction *r, const tile_offset *at, size_t count, tile_o
         o->ends.gain[i] = o->ends.total[i] > 0 ? 1 : through;
     }
     refraction_shade_listed(r, o, count);
-    for (size_t i = 0; i < count; i++) {
-        for (int k = 0; k < 3; k++)
-            o->light.body[k][o->list[i]] += o->rgb[3 * i + (size_t)k];
+    add_listed(o, count, o->light.body);
+    for (size_t i = 0; i < count; i++)
         o->seen[o->list[i]] += 1;
-    }
+    see_mirrored(r, at, count, o);
 }
 
 static void look_at_water(const refraction *r, const tile_waves *waves, const tile_guess *guess, const tile_offset *at, tile_objects *o)
@@ -261,6 +267,8 @@ static void see_refracted(refraction *r, const tile_waves *waves, const tile_gue
 {
     const uint32_t n = r->frame->scene->quality.refraction_samples ? r->frame->scene->quality.refraction_samples : 1;
     memset(o->light.body, 0, sizeof o->light.body);
+    memset(o->light.mirrored, 0, sizeof o->light.mirrored);
+    memset(o->light.share, 0, sizeof o->light.share);
     memset(o->seen, 0, sizeof o->seen);
     memset(o->error, 0, sizeof o->error);
     for (uint32_t place = 0; place < n * n && n > 1 && !r->truth; place++) {
@@ -277,9 +285,15 @@ static void see_refracted(refraction *r, const tile_waves *waves, const tile_gue
     const size_t count = list_water(o);
     if (n == 1 && count > 0 && !r->truth)
         see_place(r, &at, count, o);
-    for (size_t i = 0; i < TILE_PIXELS; i++)
-        for (int k = 0; k < 3 && o->seen[i] > 1; k++)
+    for (size_t i = 0; i < TILE_PIXELS; i++) {
+        if (o->seen[i] <= 1)
+            continue;
+        o->light.share[i] /= o->seen[i];
+        for (int k = 0; k < 3; k++) {
             o->light.body[k][i] /= o->seen[i];
+            o->light.mirrored[k][i] /= o->seen[i];
+        }
+    }
 }
 
 void refraction_tile(refraction *r, const tile_waves *waves, const tile_guess *guess, uint32_t tile_x, uint32_t tile_y, uint32_t worker,
@@ -292,7 +306,6 @@ void refraction_tile(refraction *r, const tile_waves *waves, const tile_guess *g
     see_refracted(r, waves, guess, at, o);
     const size_t count = list_water(o);
     atomic_fetch_add_explicit(&r->pixels, count, memory_order_relaxed);
-    see_mirrored(r, &at, count, o);
     if (r->truth)
         see_truth(r, tile_x, tile_y, worker, o);
     if (r->frame->under)

@@ -312,7 +312,7 @@ static mgt_status run_passes(gl_renderer *g, const PassData *pass, const reporte
     gl->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
     if (status == MGT_OK)
         status = see_through(g, pass, r);
-    if (status == MGT_OK && objects->mirrors)
+    if (status == MGT_OK && objects->mirrors && objects->places == 1)
         status = over_list(g, PROGRAM_OBJECTS_MIRRORED, LIST_THROUGH, r);
     if (status == MGT_OK && g->refraction.block.narrow.side < 0)
         status = over_list(g, PROGRAM_OBJECTS_DEEP, LIST_DEEP, r);

@@ -17,3 +17,17 @@ HitRay ray_of(WaterHit hit, FoundPoint f, float wet)
     r.gain = 1.0f;
     return r;
 }
+
+/* What the mean slope mirrors of objects and, under water, of the water; alpha: 1, or 0 for the sky. */
+vec4 seen_mirrored(PixelWater water)
+{
+    Bent bent = Bent(mirrored_by_mean(0, water.hit.view, water.hit.normal), 1.0f);
+    FoundPoint f = find_mirrored(0, water.hit, bent.direction);
+    bool above = narrow_data.side > 0.0f;
+    int triangle = f.shown > 0.0f ? layer_triangle(1, ivec2(int(f.column), int(f.row))) : -1;
+    if (triangle < 0 && above)
+        return vec4(0.0f);
+    HitRay ray = ray_of(water.hit, f, above ? 0.0f : water.hit.along + f.after);
+    ray.footprint = footprint_behind(water.hit, bent, water.variation, f.after);
+    return vec4(shaded(triangle, ray), 1.0f);
+}

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * What pixels see through the surface, through several places of each. A workgroup stays within its tile, whose waves it sums: on Mesa's llvmpipe the
+ * What pixels see through the surface, and mirrored by it, through several places of each. A workgroup stays within its tile, whose waves it sums: on Mesa's llvmpipe the
  * sums of pixels listed from several tiles depend on which of them stand beside each other.
  */
 #define SHARED_WAVES
@@ -12,6 +12,7 @@
 #include "objects_tracing.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
+layout(binding = 1) writeonly uniform image2D mirrored_image; /* as in objects_mirrored.comp */
 
 void main()
 {
@@ -25,6 +26,7 @@ void main()
     int places = objects_data.places;
     float seen = 0.0f, error = 0.0f;
     vec3 color = vec3(0.0f);
+    vec4 mirrored = vec4(0.0f);
     for (int i = 0; i < places * places; i++) {
         PixelWater water = water_at(where, (vec2(float(i % places), float(i / places)) + 0.5f) / float(places) - 0.5f);
         if (!(water.share > 0.0f))
@@ -34,9 +36,12 @@ void main()
         if (through.traced)
             end = end_traced(water);
         color += shaded(end.triangle, end.ray);
+        if (objects_data.mirrors != 0)
+            mirrored += seen_mirrored(water);
         error = max(error, end.error);
         seen += 1.0f;
     }
     imageStore(body_image, texel, vec4(color / max(seen, 1.0f), 1.0f));
     imageStore(error_image, texel, vec4(error));
+    imageStore(mirrored_image, texel, mirrored / max(seen, 1.0f));
 }
