@@ -97,8 +97,8 @@ static void check_scene(mgt_context *context, mgt_scene *scene, const char *name
         s.water.waves = waves;
         for (int k = 0; k < 15; k++)
             for (int m = 0; m < METHODS; m++, ++*frames) {
-                s.image = (mgt_image){.width = sizes[k / 5][0], .height = sizes[k / 5][1]};
-                s.light.angular_radius_deg = radii[k % 5];
+                s.image = (mgt_image){.width = sizes[k % 3][0], .height = sizes[k % 3][1]};
+                s.light.angular_radius_deg = radii[k / 3]; /* each makes a sky anew */
                 s.quality = quality_of(m);
                 char what[64];
                 snprintf(what, sizeof what, "%s, %s%s", methods[m].name, name, still ? ", still" : "");
