@@ -322,6 +322,7 @@ static void view_is_the_picture(void **state)
                                .material = {.base_color = {0.7f, 0.5f, 0.3f}, .roughness = 0.6f, .pattern_size = 1}};
     scene.objects = &object;
     scene.object_count = 1;
+    scene.post.exposure_ev = 1; /* this evening is dim from below */
     for (int i = 0; i < 4; i++) {
         scene.water.level = i % 2 ? 8 : 0;
         scene.quality.refraction = i < 2 ? MGT_REFRACTION_TWO_PHASE : MGT_REFRACTION_HYBRID;
