@@ -39,7 +39,8 @@ static const struct {
 } methods[] = {
     {"mangata", {.method = MGT_METHOD_MANGATA, .spatial_samples = 1, .time_samples = 1}},
     {"none", {.method = MGT_METHOD_NONE, .spatial_samples = 1, .time_samples = 1}},
-    {"ssaa2 x 2", {.method = MGT_METHOD_SSAA, .spatial_samples = 2, .time_samples = 2, .seed = 0x123456789abcdef0}},
+    {"ssaa2", {.method = MGT_METHOD_SSAA, .spatial_samples = 2, .time_samples = 1, .seed = 0x123456789abcdef0}},
+    {"ssaa2 x 3", {.method = MGT_METHOD_SSAA, .spatial_samples = 2, .time_samples = 3, .seed = 7}},
     {"podee-uniform", {.method = MGT_METHOD_PODEE_UNIFORM, .spatial_samples = 1, .time_samples = 1}},
     {"podee-pixel", {.method = MGT_METHOD_PODEE_PIXEL, .spatial_samples = 1, .time_samples = 1}},
     {"1 kernel", {.method = MGT_METHOD_PODEE_UNIFORM, .spatial_samples = 1, .time_samples = 1, .kernels = MGT_KERNELS_1}},

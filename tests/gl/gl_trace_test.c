@@ -16,6 +16,7 @@
 #include "gl/gl_egl.h"
 #include "gl/gl_renderer.h"
 #include "mangata/mangata.h"
+#include "unit/test_mesh.h"
 
 enum { SOUP = 2000, SIDE = 100, SHEET = 2 * SIDE * SIDE, RAYS = 8192, BIND_RAYS = 6, BIND_HITS = 7 };
 
@@ -52,18 +53,6 @@ static float unit(uint64_t *state)
 
 /* ---- meshes ---- */
 
-static mgt_mesh *mesh_of(const float *positions, uint32_t vertices, const uint32_t *indices, uint32_t triangles)
-{
-    mgt_mesh_desc desc = mgt_mesh_desc_defaults();
-    desc.positions = positions;
-    desc.vertex_count = vertices;
-    desc.indices = indices;
-    desc.triangle_count = triangles;
-    mgt_mesh *mesh = NULL;
-    assert_int_equal(mgt_mesh_create(&mesh, &desc), MGT_OK);
-    return mesh;
-}
-
 static mgt_mesh *soup(void)
 {
     static float positions[9 * SOUP];
@@ -78,7 +67,7 @@ static mgt_mesh *soup(void)
         for (uint32_t k = 0; k < 3; k++)
             indices[3 * i + k] = 3 * i + k;
     }
-    return mesh_of(positions, 3 * SOUP, indices, SOUP);
+    return test_mesh(positions, NULL, 3 * SOUP, indices, SOUP);
 }
 
 /* Two triangles a cell of 0.1 m. */
@@ -94,7 +83,7 @@ static mgt_mesh *sheet(void)
         const uint32_t a = i / SIDE * (SIDE + 1) + i % SIDE, cell[6] = {a, a + SIDE + 1, a + 1, a + 1, a + SIDE + 1, a + SIDE + 2};
         memcpy(indices + 6 * i, cell, sizeof cell);
     }
-    return mesh_of(positions, (SIDE + 1) * (SIDE + 1), indices, SHEET);
+    return test_mesh(positions, NULL, (SIDE + 1) * (SIDE + 1), indices, SHEET);
 }
 
 /* ---- the shader ---- */
@@ -333,7 +322,7 @@ static void trees_may_be_empty(void **state)
     static const uint32_t indices[] = {0, 1, 2};
     static ray rays[RAYS];
     static hit hits[RAYS];
-    mgt_mesh *mesh = mesh_of(corners, 3, indices, 1);
+    mgt_mesh *mesh = test_mesh(corners, NULL, 3, indices, 1);
     for (size_t count = 0; count < 2; count++) {
         const world *w = place(s, mesh, count);
         for (int i = 0; i < RAYS; i++)
