@@ -50,6 +50,7 @@ typedef struct bench_request {
 
 typedef struct bench_method {
     method_spec spec;
+    mgt_context *context; /* of its own: what one has drawn must not spare another the work */
     double *seconds; /* frames × repeat */
     double memory;   /* bytes at the peak; NaN: not known */
 } bench_method;
@@ -57,7 +58,6 @@ typedef struct bench_method {
 typedef struct bench {
     const bench_request *request;
     scene_file *scene;
-    mgt_context *context;
     mgt_context_info info;
     mgt_target target;
     uint32_t width, height;
@@ -138,12 +138,18 @@ static bool keep_going(void *user, double fraction)
     return *interrupt_flag() == 0;
 }
 
-static int open_context(bench *b)
+static int open_context(bench *b, bench_method *method)
 {
-    return context_open(&b->request->context, &b->request->out, keep_going, NULL, &b->context, &b->info);
+    return context_open(&b->request->context, &b->request->out, keep_going, NULL, &method->context, &b->info);
 }
 
-/* Up to the context. */
+static void close_context(bench_method *method)
+{
+    mgt_context_destroy(method->context);
+    method->context = NULL;
+}
+
+/* Up to the contexts. */
 static int prepare(bench *b)
 {
     const bench_request *r = b->request;
@@ -172,11 +178,11 @@ static int render_once(bench *b, const bench_method *method, uint64_t frame, dou
         return console_error(EXIT_CODE_BAD_INPUT, "%s: the camera of frame %d is not a legal one", b->request->scene_path, (int)frame);
     scene.quality = method->spec.quality;
     const double start = seconds_now();
-    const mgt_status status = mgt_render(b->context, &scene, &b->target, 1);
+    const mgt_status status = mgt_render(method->context, &scene, &b->target, 1);
     *seconds = seconds_now() - start;
     if (status == MGT_CANCELLED || *interrupt_flag())
         return interrupt_exit_code();
-    return status == MGT_OK ? EXIT_CODE_OK : console_library_error(b->context, status);
+    return status == MGT_OK ? EXIT_CODE_OK : console_library_error(method->context, status);
 }
 
 static int measure_memory(bench *b)
@@ -185,12 +191,11 @@ static int measure_memory(bench *b)
     memset(b->target.pixels, 0, (size_t)b->width * b->height * (b->request->display ? 4 : 12)); /* theirs is no method's */
     for (size_t m = 0; m < b->count; m++) {
         const double before = memory_use_begin();
-        int code = open_context(b);
+        int code = open_context(b, &b->methods[m]);
         if (code == EXIT_CODE_OK)
             code = render_once(b, &b->methods[m], 0, &unused);
         b->methods[m].memory = memory_use_peak() - before;
-        mgt_context_destroy(b->context);
-        b->context = NULL;
+        close_context(&b->methods[m]);
         if (code != EXIT_CODE_OK)
             return code;
     }
@@ -203,7 +208,9 @@ static int measure(bench *b)
     double unused;
     /* Tables are built and memory is touched by the first frame, which does not count. */
     for (size_t m = 0; m < b->count; m++) {
-        const int code = render_once(b, &b->methods[m], 0, &unused);
+        int code = open_context(b, &b->methods[m]);
+        if (code == EXIT_CODE_OK)
+            code = render_once(b, &b->methods[m], 0, &unused);
         if (code != EXIT_CODE_OK)
             return code;
     }
@@ -276,15 +283,14 @@ static int run(const bench_request *request)
     if (code == EXIT_CODE_OK && request->memory)
         code = measure_memory(&b);
     if (code == EXIT_CODE_OK)
-        code = open_context(&b);
-    if (code == EXIT_CODE_OK)
         code = measure(&b);
     if (code == EXIT_CODE_OK)
         code = print_report(&b);
-    mgt_context_destroy(b.context);
     free(b.target.pixels);
-    for (size_t m = 0; m < b.count; m++)
+    for (size_t m = 0; m < b.count; m++) {
+        close_context(&b.methods[m]);
         free(b.methods[m].seconds);
+    }
     scene_file_free(b.scene);
     return code;
 }
