@@ -83,8 +83,7 @@ int main(int argc, char **argv)
         printf("disk path, %s: %.2f evaluations a case\n", names[set], (double)(probes[0].evaluations() - before) / COUNT);
         for (int w = 0; w < widths; w++) {
             double time = best_time(&probes[w], PROBE_DISK_PATH, rounds, in, out);
-            printf("    %2d lanes: %7.1f ns a vector, %6.2f ns a pixel\n", probes[w].lanes, 1e9 * time * probes[w].lanes / COUNT,
-                   1e9 * time / COUNT);
+            printf("    %2d lanes: %7.1f ns a vector, %6.2f ns a pixel\n", probes[w].lanes, 1e9 * time * probes[w].lanes / COUNT, 1e9 * time / COUNT);
         }
     }
     for (int i = 0; i < COUNT; i++)

@@ -28,7 +28,7 @@ typedef struct bench {
     bool quick;
     mgt_context *context; /* best instruction set, THREADS threads */
     mgt_context_info info;
-    float *pixels;        /* room for the largest frame */
+    float *pixels; /* room for the largest frame */
     uint32_t width, height, large_width, large_height;
     frame_case cases[CASE_LIMIT];
     size_t case_count;
@@ -92,14 +92,11 @@ static bool measure(bench *b, int runs)
 static void print_case(const char *label, const frame_case *c)
 {
     const timing *t = &c->time;
-    printf("| %s | %s | %.2f | %.2f – %.2f | %.1f | %.1f |\n", label, method_name(&c->scene.quality).text, 1e3 * t->median, 1e3 * t->least,
-           1e3 * t->most, 1 / t->median, 1e-6 * c->scene.image.width * c->scene.image.height / t->median);
+    printf("| %s | %s | %.2f | %.2f – %.2f | %.1f | %.1f |\n", label, method_name(&c->scene.quality).text, 1e3 * t->median, 1e3 * t->least, 1e3 * t->most,
+           1 / t->median, 1e-6 * c->scene.image.width * c->scene.image.height / t->median);
 }
 
-static void print_head(const char *what)
-{
-    printf("| %s | method | ms a frame | least – most | frames/s | Mpixel/s |\n|---|---|---:|---:|---:|---:|\n", what);
-}
+static void print_head(const char *what) { printf("| %s | method | ms a frame | least – most | frames/s | Mpixel/s |\n|---|---|---:|---:|---:|---:|\n", what); }
 
 static double water_pixels(const bench *b, const frame_case *c)
 {
@@ -120,8 +117,8 @@ static bool bench_methods(bench *b, const bench_scene *smooth)
         add_case(b, b->context, &smooth->scene, methods[i]);
     if (!measure(b, 9))
         return false;
-    printf("## Time per frame\n\nScene `smooth` (%zu waves) with the sky of the day, %u × %u, %u threads.\n\n", smooth->scene.water.wave_count,
-           b->width, b->height, b->info.threads);
+    printf("## Time per frame\n\nScene `smooth` (%zu waves) with the sky of the day, %u × %u, %u threads.\n\n", smooth->scene.water.wave_count, b->width,
+           b->height, b->info.threads);
     print_head("instruction set");
     for (size_t i = 0; i < b->case_count; i++)
         print_case(isa_name(b->info.isa), &b->cases[i]);
@@ -131,8 +128,7 @@ static bool bench_methods(bench *b, const bench_scene *smooth)
     printf("\n| figure | measured | limit | |\n|---|---:|---:|---|\n");
     printf("| `mangata`, ms a frame | %.2f | ≤ 33 with AVX-512 on 2 cores | %s |\n", 1e3 * mangata->time.median,
            judged ? verdict(mangata->time.median <= 0.033) : "not this machine");
-    printf("| `mangata` / `none` | %.2f | ≤ 1.5 | %s |\n", mangata->time.median / none->time.median,
-           verdict(mangata->time.median <= 1.5 * none->time.median));
+    printf("| `mangata` / `none` | %.2f | ≤ 1.5 | %s |\n", mangata->time.median / none->time.median, verdict(mangata->time.median <= 1.5 * none->time.median));
     printf("| `mangata`, ns per water pixel (%.0f of them) and wave | %.3f | | |\n", water, 1e9 * each);
     printf("| the same, times %u threads | %.3f | | |\n\n", b->info.threads, 1e9 * each * b->info.threads);
     return true;
@@ -205,8 +201,8 @@ static bool bench_threads(bench *b, const bench_scene *smooth)
         printf("## Threads\n\n`mangata`, scene `smooth`, %u × %u: %.2f ms by one thread, %.2f ms by %u; speed-up of frames measured one after the "
                "other, the median of %d pairs.\n\n",
                b->width, b->height, 1e3 * b->cases[0].time.median, 1e3 * b->cases[1].time.median, b->info.threads, runs);
-        printf("| figure | measured | least – most | limit | |\n|---|---:|---:|---:|---|\n| speed-up | %.3f | %.2f – %.2f | ≥ 1.85 | %s |\n\n",
-               t.median, t.least, t.most, verdict(t.median >= 1.85));
+        printf("| figure | measured | least – most | limit | |\n|---|---:|---:|---:|---|\n| speed-up | %.3f | %.2f – %.2f | ≥ 1.85 | %s |\n\n", t.median,
+               t.least, t.most, verdict(t.median >= 1.85));
     }
     mgt_context_destroy(one);
     return done;

@@ -9,7 +9,7 @@ enum { DISK_PATH_INPUTS = 8 }; /* p0, p1, covariance xx, xy, yy, radius */
 
 /* Vectors of arguments, DISK_PATH_INPUTS × lanes floats each. */
 typedef struct disk_path_cases {
-    float *values;   /* those in which any lane was in reach, up to `capacity` */
+    float *values; /* those in which any lane was in reach, up to `capacity` */
     size_t count, capacity;
     size_t calls;       /* all */
     size_t in_reach;    /* calls in which any lane was in reach */

@@ -69,8 +69,8 @@ static bool bench_integral(const bench_scene *scene, tile_frame *f, tile_scratch
         const double seconds = cases.count ? replay_time(w, &cases, &sink) : 0;
         const double reached = (double)(cases.in_reach ? cases.in_reach : 1);
         printf("| %s | %s, %u | %zu | %.1f %% | %.2f | %.1f | %.2f | %.2f |\n", scene->name, isa_name(w->isa), lanes, cases.calls,
-               100.0 * (double)cases.in_reach / (double)(cases.calls ? cases.calls : 1), (double)cases.evaluations / reached,
-               1e9 * seconds / reached, 1e9 * seconds / reached / lanes, 1e3 * seconds);
+               100.0 * (double)cases.in_reach / (double)(cases.calls ? cases.calls : 1), (double)cases.evaluations / reached, 1e9 * seconds / reached,
+               1e9 * seconds / reached / lanes, 1e3 * seconds);
         free(cases.values);
     }
     return true;
@@ -116,9 +116,9 @@ static void bench_stages(const bench_scene *scene, const tile_frame *f, tile_scr
     }
     for (int k = 0; k < TIMES; k++)
         medians[k] = 1e3 * timing_of(samples[k], RUNS).median;
-    printf("| %s, %zu waves | %s | %.2f | %.2f | %.2f | %.2f | %.2f | %.2f |\n", scene->name, scene->scene.water.wave_count, isa_name(w->isa), medians[TIME_LISTS], medians[TIME_LATTICE],
-           medians[TIME_SURFACE], medians[TIME_COVERAGE] - medians[TIME_SURFACE], medians[TIME_ALL] - medians[TIME_COVERAGE],
-           medians[TIME_LISTS] + medians[TIME_LATTICE] + medians[TIME_ALL]);
+    printf("| %s, %zu waves | %s | %.2f | %.2f | %.2f | %.2f | %.2f | %.2f |\n", scene->name, scene->scene.water.wave_count, isa_name(w->isa),
+           medians[TIME_LISTS], medians[TIME_LATTICE], medians[TIME_SURFACE], medians[TIME_COVERAGE] - medians[TIME_SURFACE],
+           medians[TIME_ALL] - medians[TIME_COVERAGE], medians[TIME_LISTS] + medians[TIME_LATTICE] + medians[TIME_ALL]);
 }
 
 int main(int argc, char **argv)
@@ -131,8 +131,7 @@ int main(int argc, char **argv)
     tile_scratch *scratch = calloc(1, sizeof *scratch);
     bool done = scratch;
     for (int i = 0; i < SCENES && done; i++) {
-        done = bench_scene_load(&scenes[i], names[i], quick ? 64 : 1280, quick ? 36 : 720) &&
-               (i < CASE_SCENES || bench_scene_extend(&scenes[i], 512));
+        done = bench_scene_load(&scenes[i], names[i], quick ? 64 : 1280, quick ? 36 : 720) && (i < CASE_SCENES || bench_scene_extend(&scenes[i], 512));
         frames[i] = done ? tile_frame_create(&scenes[i].scene) : NULL;
         done = frames[i];
     }

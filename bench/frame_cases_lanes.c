@@ -41,10 +41,7 @@ static real keeping_disk_path(CTX cx, vec2 p0, vec2 p1, real sxx, real sxy, real
 #include "cpu/lanes.c"
 #undef gaussian_disk_path
 
-static void keep(disk_path_cases *cases)
-{
-    kept = cases;
-}
+static void keep(disk_path_cases *cases) { kept = cases; }
 
 static float replay(const disk_path_cases *cases, size_t first, size_t count)
 {

@@ -52,10 +52,7 @@ static bool time_methods(const bench *b, const bench_scene *scene, timing out[ME
     return true;
 }
 
-static const char *goal(const bench *b, bool met)
-{
-    return b->frame.software ? "for a GPU" : verdict(met);
-}
+static const char *goal(const bench *b, bool met) { return b->frame.software ? "for a GPU" : verdict(met); }
 
 static bool bench_size(const bench *b, uint32_t width, uint32_t height)
 {
@@ -71,8 +68,8 @@ static bool bench_size(const bench *b, uint32_t width, uint32_t height)
     }
     if (done && width == 3840) {
         const timing *mangata = &t[METHODS - 1];
-        printf("| goals at %u × %u | mangata ≤ %.0f ms | %s | | | ≤ %.1f: %s |\n", width, height, 1e3 * goal_4k, goal(b, mangata->median <= goal_4k), goal_ratio,
-               goal(b, mangata->median <= goal_ratio * t[0].median));
+        printf("| goals at %u × %u | mangata ≤ %.0f ms | %s | | | ≤ %.1f: %s |\n", width, height, 1e3 * goal_4k, goal(b, mangata->median <= goal_4k),
+               goal_ratio, goal(b, mangata->median <= goal_ratio * t[0].median));
     }
     bench_scene_free(&scene);
     return done;

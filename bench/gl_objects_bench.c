@@ -49,7 +49,10 @@ static scene_file *load(const bench *b, int basin)
     snprintf(rows, sizeof rows, "image.height=%d", b->quick ? 36 : 720);
     snprintf(triangles, sizeof triangles, "objects[0].triangles=%d", b->quick ? 1000 : basin);
     const char *const overrides[] = {
-        size, rows, triangles, "time.shutter=0",
+        size,
+        rows,
+        triangles,
+        "time.shutter=0",
         "camera={fov_y_deg: 45, path: [{time: 0, position: [0.7, 4, 7.2], target: [0.2, 0, 0.4]}, "
         "{time: 100, position: [0.9, 4, 7], target: [0.4, 0, 0.4]}]}",
     };
@@ -124,8 +127,8 @@ static bool bench_pool(const bench *b, int basin, int method)
         char processor[16] = "";
         if (b->frame.software)
             snprintf(processor, sizeof processor, "%.3f", t[w].processor_rate.median);
-        printf("| %zu | %s | %s | %.2f | %.2f – %.2f | %.3f | %s |", count_triangles(file), methods[method].name, ways[w].name,
-               1e3 * t[w].seconds.median, 1e3 * t[w].seconds.least, 1e3 * t[w].seconds.most, t[w].rate.median, processor);
+        printf("| %zu | %s | %s | %.2f | %.2f – %.2f | %.3f | %s |", count_triangles(file), methods[method].name, ways[w].name, 1e3 * t[w].seconds.median,
+               1e3 * t[w].seconds.least, 1e3 * t[w].seconds.most, t[w].rate.median, processor);
         if (w == 1 && !b->quick)
             printf(" ≥ %.2f: %s; the fastest that refracts: %s |\n", least, verdict(t[w].rate.median >= least), verdict(fastest));
         else

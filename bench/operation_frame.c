@@ -10,10 +10,7 @@
 
 extern const lane_kernels counting_lane_kernels;
 
-double flops(const operation_count *n)
-{
-    return (double)n->add + (double)n->multiply + 2.0 * (double)n->fused + (double)n->divide + (double)n->square_root;
-}
+double flops(const operation_count *n) { return (double)n->add + (double)n->multiply + 2.0 * (double)n->fused + (double)n->divide + (double)n->square_root; }
 
 /* Whether the instrumented kernels give the plain ones' pixels, to the bit. */
 static bool same_pixels(const tile_job *job, uint32_t x, uint32_t y, const tile_pixels *counted, tile_scratch *scratch)

@@ -19,9 +19,8 @@ enum { RUNS = 9, THREADS = 2 };
 
 static void print_count(const char *name, const operation_count *n, double water)
 {
-    printf("| %s | %.3f | %.3f | %.3f | %.4f | %.4f | %.3f | %.3f | %.0f |\n", name, 1e-9 * (double)n->fused, 1e-9 * (double)n->add,
-           1e-9 * (double)n->multiply, 1e-9 * (double)n->divide, 1e-9 * (double)n->square_root, 1e-9 * (double)n->other, 1e-9 * flops(n),
-           flops(n) / water);
+    printf("| %s | %.3f | %.3f | %.3f | %.4f | %.4f | %.3f | %.3f | %.0f |\n", name, 1e-9 * (double)n->fused, 1e-9 * (double)n->add, 1e-9 * (double)n->multiply,
+           1e-9 * (double)n->divide, 1e-9 * (double)n->square_root, 1e-9 * (double)n->other, 1e-9 * flops(n), flops(n) / water);
 }
 
 static bool print_counts(const bench_scene *scene, stage_count *count)
@@ -29,8 +28,7 @@ static bool print_counts(const bench_scene *scene, stage_count *count)
     if (!count_frame(&scene->scene, count))
         return false;
     printf("Scene `%s`, %u × %u, %zu waves: %.0f water pixels, %.2f evaluations of the disk-path integral's integrand for each.\n\n", scene->name,
-           scene->scene.image.width, scene->scene.image.height, scene->scene.water.wave_count, count->water,
-           (double)count->all.integrands / count->water);
+           scene->scene.image.width, scene->scene.image.height, scene->scene.water.wave_count, count->water, (double)count->all.integrands / count->water);
     printf("| 10⁹ operations | fma | + − | × | ÷ | √ | others | flop, an fma being two | flop a water pixel |\n"
            "|---|---:|---:|---:|---:|---:|---:|---:|---:|\n");
     print_count("lattice of first hits", &count->lattice, count->water);
@@ -100,8 +98,8 @@ int main(int argc, char **argv)
             const double after = fma_peak(isas[i].run, isas[i].lanes, (int)threads, quick ? 0.001 : 0.2);
             const double peak = before > after ? before : after, rate = flops(&count.all) / t.median;
             if (done)
-                printf("| %s | %u | %.1f | %.2f (%.2f – %.2f) | %.1f | %.1f %% |\n", isa_name(isas[i].isa), threads, 1e-9 * peak, 1e3 * t.median,
-                       1e3 * t.least, 1e3 * t.most, 1e-9 * rate, 100 * rate / peak);
+                printf("| %s | %u | %.1f | %.2f (%.2f – %.2f) | %.1f | %.1f %% |\n", isa_name(isas[i].isa), threads, 1e-9 * peak, 1e3 * t.median, 1e3 * t.least,
+                       1e3 * t.most, 1e-9 * rate, 100 * rate / peak);
         }
     printf("\n");
     bench_scene_free(&smooth);

@@ -85,8 +85,8 @@ static void print_points(bool quick)
             counting_virtual_points(&refract, POINTS, in);
             const double work = flops(&operations_done) / POINTS, peak = fma_peak(isas[i].run, isas[i].lanes, 1, quick ? 0.001 : 0.2);
             const double time = seconds_a_point(isas[i].kernels, &refract, in, quick ? 1 : 400);
-            printf("| %s | %s | %.2f | %s | %.0f | %.1f | %.0f %% |\n", below ? "below" : "above", isas[i].name, 1e9 * time,
-                   first ? verdict(time <= 5e-9) : "", work, 1e-9 * work / time, 100 * work / time / peak);
+            printf("| %s | %s | %.2f | %s | %.0f | %.1f | %.0f %% |\n", below ? "below" : "above", isas[i].name, 1e9 * time, first ? verdict(time <= 5e-9) : "",
+                   work, 1e-9 * work / time, 100 * work / time / peak);
         }
         first = false;
     }
@@ -103,12 +103,9 @@ typedef struct pool_case {
 } pool_case;
 
 static const pool_case cases[] = {
-    {"coarse basin, split", {0.8, 4, 7.2}, {0.3, 0, 0.4}, 12, GBUFFER_SAGITTAL},
-    {"above", {0.8, 4, 7.2}, {0.3, 0, 0.4}, 16000, GBUFFER_SAGITTAL},
-    {"above, unrefracted", {0.8, 4, 7.2}, {0.3, 0, 0.4}, 16000, GBUFFER_STRAIGHT},
-    {"above", {0.8, 4, 7.2}, {0.3, 0, 0.4}, 128000, GBUFFER_SAGITTAL},
-    {"above, unrefracted", {0.8, 4, 7.2}, {0.3, 0, 0.4}, 128000, GBUFFER_STRAIGHT},
-    {"grazing", {0.5, 0.6, 7.5}, {0.2, -0.3, 0}, 128000, GBUFFER_SAGITTAL},
+    {"coarse basin, split", {0.8, 4, 7.2}, {0.3, 0, 0.4}, 12, GBUFFER_SAGITTAL},    {"above", {0.8, 4, 7.2}, {0.3, 0, 0.4}, 16000, GBUFFER_SAGITTAL},
+    {"above, unrefracted", {0.8, 4, 7.2}, {0.3, 0, 0.4}, 16000, GBUFFER_STRAIGHT},  {"above", {0.8, 4, 7.2}, {0.3, 0, 0.4}, 128000, GBUFFER_SAGITTAL},
+    {"above, unrefracted", {0.8, 4, 7.2}, {0.3, 0, 0.4}, 128000, GBUFFER_STRAIGHT}, {"grazing", {0.5, 0.6, 7.5}, {0.2, -0.3, 0}, 128000, GBUFFER_SAGITTAL},
     {"under water", {0.8, -1.5, 4}, {0.3, 0.3, 2}, 128000, GBUFFER_SAGITTAL},
 };
 enum { CASES = sizeof cases / sizeof *cases };
@@ -137,8 +134,12 @@ static bool load_pool(pool_run *run, const pool_case *c, thread_pool *pool)
 static bool draw_pool(pool_run *run, const pool_case *c, const raster_kernels *kernels, thread_pool *pool, int step)
 {
     const mgt_image *image = &run->scene.image;
-    gbuffer_job job = {.camera = camera_rays_of(&run->scene.camera, image->width, image->height), .width = image->width, .height = image->height,
-                       .index = 1.333, .map = c->map, .crest = 0.05};
+    gbuffer_job job = {.camera = camera_rays_of(&run->scene.camera, image->width, image->height),
+                       .width = image->width,
+                       .height = image->height,
+                       .index = 1.333,
+                       .map = c->map,
+                       .crest = 0.05};
     job.camera.position[0] += 1e-4 * step;
     return gbuffers_draw(&run->layers, run->world, &job, kernels, pool) == MGT_OK;
 }
@@ -174,7 +175,8 @@ static bool print_gbuffers(bool quick)
     if (done)
         printf("## G-buffers\n\nBoth layers of a pool of 6 × 2 × 12 m, 1280 × 720 pixels and a guard band, tess_error 0.25, with a camera that moves: "
                "median, least and most of %d runs in turn. Triangles drawn are those that touch a pixel's centre, on the camera's side and on the other.\n\n"
-               "| view | triangles | drawn | MB of world | ms, 1 thread | ms, 2 threads |\n|---|---:|---:|---:|---:|---:|\n", count);
+               "| view | triangles | drawn | MB of world | ms, 1 thread | ms, 2 threads |\n|---|---:|---:|---:|---:|---:|\n",
+               count);
     for (int i = 0; i < CASES && done; i++)
         print_run(&cases[i], &runs[i], count);
     printf("\n");

@@ -25,7 +25,4 @@ timing timing_of(double *samples, size_t count)
     return (timing){0.5 * (samples[(count - 1) / 2] + samples[count / 2]), samples[0], samples[count - 1]};
 }
 
-const char *verdict(bool ok)
-{
-    return ok ? "ok" : "MISSED";
-}
+const char *verdict(bool ok) { return ok ? "ok" : "MISSED"; }

@@ -30,8 +30,14 @@ typedef struct scene {
 /* Longest first: deep-water waves from 20 metres to 10 centimetres, about a wind from the south. */
 static scene scene_make(void)
 {
-    scene s = {.position = {120, 5, -40}, .target = {120.5, 4.1, -44}, .fov_y = 50 * pi / 180, .time = 7, .shutter = 0.2,
-               .elevation = 14 * pi / 180, .azimuth = 5 * pi / 180, .radius = 1.5 * pi / 180};
+    scene s = {.position = {120, 5, -40},
+               .target = {120.5, 4.1, -44},
+               .fov_y = 50 * pi / 180,
+               .time = 7,
+               .shutter = 0.2,
+               .elevation = 14 * pi / 180,
+               .azimuth = 5 * pi / 180,
+               .radius = 1.5 * pi / 180};
     for (int i = 0; i < WAVES; i++) {
         const double k = 2 * pi / (20 * pow(0.1 / 20, i / (WAVES - 1.0))), heading = 1.1 * sin(2.4 * i);
         s.waves[i] = (wave){0.03 / k, k * sin(heading), -k * cos(heading), -sqrt(9.81 * k), fmod(1.7 * i * i, 2 * pi)};
@@ -53,8 +59,8 @@ static bool scene_write(const scene *s, const char *path)
     fprintf(file, " \"water\": {\"waves\": [");
     for (int i = 0; i < WAVES; i++) {
         const wave *w = &s->waves[i];
-        fprintf(file, "%s\n  {\"amplitude\": %.17g, \"a\": %.17g, \"b\": %.17g, \"c\": %.17g, \"phase\": %.17g}", i ? "," : "", w->amplitude,
-                w->a, w->b, w->c, w->phase);
+        fprintf(file, "%s\n  {\"amplitude\": %.17g, \"a\": %.17g, \"b\": %.17g, \"c\": %.17g, \"phase\": %.17g}", i ? "," : "", w->amplitude, w->a, w->b, w->c,
+                w->phase);
     }
     fprintf(file, "\n ]}}\n");
     return (ferror(file) | fclose(file)) == 0;
@@ -66,10 +72,7 @@ typedef struct vector {
     double x, y, z;
 } vector;
 
-static vector cross(vector a, vector b)
-{
-    return (vector){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
+static vector cross(vector a, vector b) { return (vector){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 
 static vector unit(vector v)
 {
@@ -83,11 +86,17 @@ static FrameData frame_data(const scene *s)
     const vector light = {sin(s->azimuth) * cos(s->elevation), sin(s->elevation), -cos(s->azimuth) * cos(s->elevation)};
     const vector e = unit(cross((vector){0, 1, 0}, light)), f = cross(light, e);
     return (FrameData){
-        .light_x = (float)light.x, .light_y = (float)light.y, .light_z = (float)light.z,
+        .light_x = (float)light.x,
+        .light_y = (float)light.y,
+        .light_z = (float)light.z,
         .light_radius = (float)tan(s->radius),
         .light_visible = s->elevation >= 0 ? 1 : 0,
-        .axis_e_x = (float)e.x, .axis_e_y = (float)e.y, .axis_e_z = (float)e.z,
-        .axis_f_x = (float)f.x, .axis_f_y = (float)f.y, .axis_f_z = (float)f.z,
+        .axis_e_x = (float)e.x,
+        .axis_e_y = (float)e.y,
+        .axis_e_z = (float)e.z,
+        .axis_f_x = (float)f.x,
+        .axis_f_y = (float)f.y,
+        .axis_f_z = (float)f.z,
         .ramp_scale = 1 / (1.2f * 1.2f), /* nothing is resolved beyond 1.2 cycles a pixel */
         .slope_floor = 1e-9f,
     };
@@ -115,14 +124,21 @@ static TileData tile_data(const scene *s)
         .ray_y = (float)(forward.y + pixel * (x * right.y + y * up.y)),
         .ray_z = (float)(forward.z + pixel * (x * right.z + y * up.z)),
         .camera_height = (float)s->position[1],
-        .right_x = (float)(pixel * right.x), .right_y = (float)(pixel * right.y), .right_z = (float)(pixel * right.z),
-        .down_x = (float)(pixel * up.x), .down_y = (float)(pixel * up.y), .down_z = (float)(pixel * up.z), /* one row on: up */
+        .right_x = (float)(pixel * right.x),
+        .right_y = (float)(pixel * right.y),
+        .right_z = (float)(pixel * right.z),
+        .down_x = (float)(pixel * up.x),
+        .down_y = (float)(pixel * up.y),
+        .down_z = (float)(pixel * up.z), /* one row on: up */
         .mixed_count = WAVES,
-        .march_bound = (float)height, .march_slope = (float)slope, .march_bend = (float)bend,
+        .march_bound = (float)height,
+        .march_slope = (float)slope,
+        .march_bend = (float)bend,
         .march_tolerance = (float)(0.1 * 2 * pi / shortest),
         .far_distance = 1e5f,
         .light_reach = 1,
-        .horizon_steepness = (float)(pixel * hypot(right.y, up.y)), .horizon_inverse = (float)(1 / (pixel * hypot(right.y, up.y))),
+        .horizon_steepness = (float)(pixel * hypot(right.y, up.y)),
+        .horizon_inverse = (float)(1 / (pixel * hypot(right.y, up.y))),
         .slope_variance = (float)slope_variance,
     };
 }
@@ -133,15 +149,23 @@ static WaveData wave_data(const scene *s, const wave *w)
     const double half = w->c * s->shutter / 2, A = w->amplitude, squared = w->a * w->a + w->b * w->b, octave = 0.5 * log2(squared);
     const double turns = (w->a * s->position[0] + w->b * s->position[2] + w->c * (s->time - s->shutter / 2) + w->phase) / (2 * pi);
     return (WaveData){
-        .turns_x = (float)(w->a / (2 * pi)), .turns_z = (float)(w->b / (2 * pi)),
+        .turns_x = (float)(w->a / (2 * pi)),
+        .turns_z = (float)(w->b / (2 * pi)),
         .phase = (float)(turns - rint(turns)),
         .amplitude = (float)A,
-        .even_x = (float)(A * w->a * cos(half)), .even_z = (float)(A * w->b * cos(half)),
-        .odd_x = (float)(A * w->a * sin(half)), .odd_z = (float)(A * w->b * sin(half)),
-        .bend_xx = (float)(-A * w->a * w->a), .bend_xz = (float)(-A * w->a * w->b), .bend_zz = (float)(-A * w->b * w->b),
-        .even_height = (float)(A * cos(half)), .odd_height = (float)(A * sin(half)),
-        .octave_mass = (float)(A * A * squared / 2 * octave), .octave_sq_mass = (float)(A * A * squared / 2 * octave * octave),
-        .variance_xx = (float)(A * A * w->a * w->a / 2), .variance_xz = (float)(A * A * w->a * w->b / 2),
+        .even_x = (float)(A * w->a * cos(half)),
+        .even_z = (float)(A * w->b * cos(half)),
+        .odd_x = (float)(A * w->a * sin(half)),
+        .odd_z = (float)(A * w->b * sin(half)),
+        .bend_xx = (float)(-A * w->a * w->a),
+        .bend_xz = (float)(-A * w->a * w->b),
+        .bend_zz = (float)(-A * w->b * w->b),
+        .even_height = (float)(A * cos(half)),
+        .odd_height = (float)(A * sin(half)),
+        .octave_mass = (float)(A * A * squared / 2 * octave),
+        .octave_sq_mass = (float)(A * A * squared / 2 * octave * octave),
+        .variance_xx = (float)(A * A * w->a * w->a / 2),
+        .variance_xz = (float)(A * A * w->a * w->b / 2),
         .variance_zz = (float)(A * A * w->b * w->b / 2),
     };
 }

@@ -58,10 +58,7 @@ static body make_ball(const mgt_wave waves[WAVES], double time)
     return ball;
 }
 
-static body make_pole(void)
-{
-    return (body){.centre = {2.4, 1, -5}, .radius = 0.14, .height = 5, .color = {0.75f, 0.05f, 0.08f}};
-}
+static body make_pole(void) { return (body){.centre = {2.4, 1, -5}, .radius = 0.14, .height = 5, .color = {0.75f, 0.05f, 0.08f}}; }
 
 /* ---- matrices, column-major ------------------------------------------------------------------------------ */
 
@@ -96,9 +93,7 @@ static void make_projection(depth_convention depth, double left, double right, d
     projection[11] = -1;
     const double range = far_plane - near_plane;
     projection[10] = depth == DEPTH_STANDARD ? -(far_plane + near_plane) / range : depth == DEPTH_REVERSED ? near_plane / range : 0;
-    projection[14] = depth == DEPTH_STANDARD   ? -2 * far_plane * near_plane / range
-                     : depth == DEPTH_REVERSED ? far_plane * near_plane / range
-                                               : near_plane;
+    projection[14] = depth == DEPTH_STANDARD ? -2 * far_plane * near_plane / range : depth == DEPTH_REVERSED ? far_plane * near_plane / range : near_plane;
 }
 
 static void multiply(const double a[16], const double b[16], float out[16])
@@ -134,31 +129,31 @@ typedef struct engine {
 } engine;
 
 static const char body_vertex[] = "#version 450 core\n"
-    "layout(location = 0) uniform mat4 clip;\n"
-    "layout(location = 1) uniform vec4 place; /* centre, radius */\n"
-    "layout(location = 2) uniform float height;\n"
-    "layout(location = 0) out vec3 normal;\n"
-    "layout(location = 1) out vec2 at;\n"
-    "void main() {\n"
-    "    int quad = gl_VertexID / 6, corner = gl_VertexID % 6;\n"
-    "    ivec2 step = ivec2(corner == 1 || corner == 2 || corner == 4, corner == 2 || corner == 4 || corner == 5);\n"
-    "    at = vec2(ivec2(quad % 96, quad / 96) + step) / vec2(96, 48);\n"
-    "    float around = 6.2831853 * at.x, up = 3.14159265 * (at.y - 0.5);\n"
-    "    vec3 side = vec3(cos(around), 0, sin(around));\n"
-    "    normal = height > 0 ? side : vec3(side.x * cos(up), sin(up), side.z * cos(up));\n"
-    "    gl_Position = clip * vec4(place.xyz + place.w * normal + vec3(0, height * (at.y - 0.5), 0), 1);\n"
-    "}\n";
+                                  "layout(location = 0) uniform mat4 clip;\n"
+                                  "layout(location = 1) uniform vec4 place; /* centre, radius */\n"
+                                  "layout(location = 2) uniform float height;\n"
+                                  "layout(location = 0) out vec3 normal;\n"
+                                  "layout(location = 1) out vec2 at;\n"
+                                  "void main() {\n"
+                                  "    int quad = gl_VertexID / 6, corner = gl_VertexID % 6;\n"
+                                  "    ivec2 step = ivec2(corner == 1 || corner == 2 || corner == 4, corner == 2 || corner == 4 || corner == 5);\n"
+                                  "    at = vec2(ivec2(quad % 96, quad / 96) + step) / vec2(96, 48);\n"
+                                  "    float around = 6.2831853 * at.x, up = 3.14159265 * (at.y - 0.5);\n"
+                                  "    vec3 side = vec3(cos(around), 0, sin(around));\n"
+                                  "    normal = height > 0 ? side : vec3(side.x * cos(up), sin(up), side.z * cos(up));\n"
+                                  "    gl_Position = clip * vec4(place.xyz + place.w * normal + vec3(0, height * (at.y - 0.5), 0), 1);\n"
+                                  "}\n";
 static const char body_fragment[] = "#version 450 core\n"
-    "layout(location = 3) uniform vec3 color;\n"
-    "layout(location = 4) uniform vec3 light;\n"
-    "layout(location = 0) in vec3 normal;\n"
-    "layout(location = 1) in vec2 at;\n"
-    "layout(location = 0) out vec4 shown;\n"
-    "void main() {\n"
-    "    vec3 paint = fract(6 * at.y) < 0.5 ? color : vec3(0.85);\n"
-    "    float lit = 0.35 + 0.25 * normal.y + 0.6 * max(dot(normalize(normal), light), 0);\n"
-    "    shown = vec4(pow(min(lit * paint, vec3(1)), vec3(1 / 2.2)), 1);\n"
-    "}\n";
+                                    "layout(location = 3) uniform vec3 color;\n"
+                                    "layout(location = 4) uniform vec3 light;\n"
+                                    "layout(location = 0) in vec3 normal;\n"
+                                    "layout(location = 1) in vec2 at;\n"
+                                    "layout(location = 0) out vec4 shown;\n"
+                                    "void main() {\n"
+                                    "    vec3 paint = fract(6 * at.y) < 0.5 ? color : vec3(0.85);\n"
+                                    "    float lit = 0.35 + 0.25 * normal.y + 0.6 * max(dot(normalize(normal), light), 0);\n"
+                                    "    shown = vec4(pow(min(lit * paint, vec3(1)), vec3(1 / 2.2)), 1);\n"
+                                    "}\n";
 
 static GLuint build_program(void)
 {
@@ -285,8 +280,8 @@ static bool write_png(const engine *e, const char *path)
         for (size_t y = 0; y < e->height; y++)
             memcpy(picture + size + y * row, picture + (e->height - 1 - y) * row, row);
         struct spng_ihdr header = {.width = e->width, .height = e->height, .bit_depth = 8, .color_type = SPNG_COLOR_TYPE_TRUECOLOR};
-        written = !spng_set_png_file(png, file) && !spng_set_ihdr(png, &header) &&
-                  !spng_encode_image(png, picture + size, size, SPNG_FMT_PNG, SPNG_ENCODE_FINALIZE);
+        written =
+            !spng_set_png_file(png, file) && !spng_set_ihdr(png, &header) && !spng_encode_image(png, picture + size, size, SPNG_FMT_PNG, SPNG_ENCODE_FINALIZE);
     }
     spng_ctx_free(png);
     written = file && fclose(file) == 0 && written;

@@ -11,10 +11,10 @@
 #include "option_words.h"
 
 static const option_word words[] = {
-    {"adaptive", offsetof(adaptive_options, scheme)},         {"slots", offsetof(adaptive_options, slots)},
-    {"samples", offsetof(adaptive_options, samples)},         {"target-rmse", offsetof(adaptive_options, target)},
-    {"budget-ms", offsetof(adaptive_options, budget)},        {"importance-center", offsetof(adaptive_options, center)},
-    {"importance-width", offsetof(adaptive_options, width)},  {"importance-threshold", offsetof(adaptive_options, threshold)},
+    {"adaptive", offsetof(adaptive_options, scheme)},        {"slots", offsetof(adaptive_options, slots)},
+    {"samples", offsetof(adaptive_options, samples)},        {"target-rmse", offsetof(adaptive_options, target)},
+    {"budget-ms", offsetof(adaptive_options, budget)},       {"importance-center", offsetof(adaptive_options, center)},
+    {"importance-width", offsetof(adaptive_options, width)}, {"importance-threshold", offsetof(adaptive_options, threshold)},
 };
 enum { WORDS = sizeof words / sizeof *words };
 
@@ -34,10 +34,7 @@ static const struct {
 };
 enum { NUMBERS = sizeof numbers / sizeof *numbers };
 
-const char **adaptive_option(adaptive_options *options, const char *name, size_t length)
-{
-    return option_word_find(words, WORDS, options, name, length);
-}
+const char **adaptive_option(adaptive_options *options, const char *name, size_t length) { return option_word_find(words, WORDS, options, name, length); }
 
 static bool set_numbers(adaptive_options given, mgt_quality *q, char *wrong, size_t size)
 {
@@ -86,10 +83,10 @@ adaptive_text adaptive_options_text(const mgt_quality *quality)
     if (q->method != MGT_METHOD_ADAPTIVE)
         return out;
     if (q->adaptive == MGT_ADAPTIVE_PODEE)
-        snprintf(out.text, sizeof out.text, "podee samples %s slots %" PRIu64 " center %s width %s threshold %s", number_print(q->samples).text, q->sample_slots,
-                 number_print(q->importance_center).text, number_print(q->importance_width).text, number_print(q->importance_threshold).text);
+        snprintf(out.text, sizeof out.text, "podee samples %s slots %" PRIu64 " center %s width %s threshold %s", number_print(q->samples).text,
+                 q->sample_slots, number_print(q->importance_center).text, number_print(q->importance_width).text, number_print(q->importance_threshold).text);
     else
-        snprintf(out.text, sizeof out.text, "cells samples %s target-rmse %s budget-ms %s", number_print(q->samples).text,
-                 number_print(q->target_rmse).text, number_print(q->budget_ms).text);
+        snprintf(out.text, sizeof out.text, "cells samples %s target-rmse %s budget-ms %s", number_print(q->samples).text, number_print(q->target_rmse).text,
+                 number_print(q->budget_ms).text);
     return out;
 }

@@ -30,11 +30,13 @@ static const option bench_options[] = {
     [OPT_MEMORY] = {"memory", 0, NULL, "also measure the memory that a frame takes at its peak, in a\ncontext of its own for every method"},
 };
 
-static const option_table bench_table = {
-    "bench", "SCENE [options]",
-    "Renders in memory, without output: scene-linear colour, or with --display what a picture shows.\n"
-    "The methods take turns, so that a change of the machine's pace meets all of them.",
-    bench_options, sizeof bench_options / sizeof bench_options[0], NULL};
+static const option_table bench_table = {"bench",
+                                         "SCENE [options]",
+                                         "Renders in memory, without output: scene-linear colour, or with --display what a picture shows.\n"
+                                         "The methods take turns, so that a change of the machine's pace meets all of them.",
+                                         bench_options,
+                                         sizeof bench_options / sizeof bench_options[0],
+                                         NULL};
 
 enum { METHOD_LIMIT = 16 };
 
@@ -51,8 +53,8 @@ typedef struct bench_request {
 typedef struct bench_method {
     method_spec spec;
     mgt_context *context; /* of its own: what one has drawn must not spare another the work */
-    double *seconds; /* frames × repeat */
-    double memory;   /* bytes at the peak; NaN: not known */
+    double *seconds;      /* frames × repeat */
+    double memory;        /* bytes at the peak; NaN: not known */
 } bench_method;
 
 typedef struct bench {
@@ -74,7 +76,9 @@ static int set_option(bench_request *r, int id, const char *value, char size[2][
 {
     uint64_t side[2];
     switch (id) {
-    case OPT_METHODS: r->methods = value; break;
+    case OPT_METHODS:
+        r->methods = value;
+        break;
     case OPT_SIZE:
         if (!number_parse_list(value, 'x', MGT_MAX_IMAGE_SIDE, 2, side) || side[0] == 0 || side[1] == 0)
             return bad_value(OPT_SIZE, value, "WxH, each from 1 to 32768 pixels, such as 1280x720");
@@ -99,15 +103,22 @@ static int set_option(bench_request *r, int id, const char *value, char size[2][
         const char *allowed = context_option_set(&r->context, bench_options[id].name, value);
         return allowed ? bad_value((size_t)id, value, allowed) : EXIT_CODE_OK;
     }
-    case OPT_SET: r->overrides[r->override_count++] = value; break;
-    case OPT_DISPLAY: r->display = true; break;
-    case OPT_MEMORY: r->memory = true; break;
+    case OPT_SET:
+        r->overrides[r->override_count++] = value;
+        break;
+    case OPT_DISPLAY:
+        r->display = true;
+        break;
+    case OPT_MEMORY:
+        r->memory = true;
+        break;
     case OPTION_OPERAND:
         if (r->scene_path)
             return console_error(EXIT_CODE_USAGE, "one scene at a time: %s and %s are given", r->scene_path, value);
         r->scene_path = value;
         break;
-    default: break;
+    default:
+        break;
     }
     return EXIT_CODE_OK;
 }
@@ -256,9 +267,9 @@ static int print_report(bench *b)
         const double memory = b->methods[m].memory;
         json_t *bytes = list && isfinite(memory) ? json_integer((json_int_t)memory) : NULL;
         if (list)
-            json_array_append_new(list, json_pack("{s:s, s:f, s:f, s:f, s:f, s:f, s:o*}", "method", name, "median_ms", 1e3 * median, "min_ms",
-                                                  1e3 * s[0], "max_ms", 1e3 * s[runs - 1], "fps", 1 / fmax(median, 1e-9), "mpixel_per_s",
-                                                  megapixels / fmax(median, 1e-9), "memory_bytes", bytes));
+            json_array_append_new(list, json_pack("{s:s, s:f, s:f, s:f, s:f, s:f, s:o*}", "method", name, "median_ms", 1e3 * median, "min_ms", 1e3 * s[0],
+                                                  "max_ms", 1e3 * s[runs - 1], "fps", 1 / fmax(median, 1e-9), "mpixel_per_s", megapixels / fmax(median, 1e-9),
+                                                  "memory_bytes", bytes));
         else
             printf("%-*s%10.2f%10.2f%10.2f%10.1f%10.1f", width, name, 1e3 * median, 1e3 * s[0], 1e3 * s[runs - 1], 1 / fmax(median, 1e-9),
                    megapixels / fmax(median, 1e-9));
@@ -271,8 +282,8 @@ static int print_report(bench *b)
         return EXIT_CODE_OK;
     return console_print_json(json_pack("{s:s, s:o, s:i, s:i, s:s, s:s, s:s, s:i, s:i, s:I, s:b, s:o}", "version", mgt_version(), "scene",
                                         console_json_text(b->request->scene_path), "width", (int)b->width, "height", (int)b->height, "backend",
-                                        backend_name(b->info.backend), "renderer", b->info.renderer, "isa", isa_name(b->info.isa), "lanes", (int)b->info.lanes, "threads", (int)b->info.threads, "runs",
-                                        (json_int_t)runs, "display", b->request->display, "methods", list));
+                                        backend_name(b->info.backend), "renderer", b->info.renderer, "isa", isa_name(b->info.isa), "lanes", (int)b->info.lanes,
+                                        "threads", (int)b->info.threads, "runs", (json_int_t)runs, "display", b->request->display, "methods", list));
 }
 
 static int run(const bench_request *request)

@@ -11,15 +11,32 @@
 #include "verbs.h"
 
 enum {
-    OPT_OUTPUT, OPT_METHODS, OPT_FRAMES, OPT_SIZE, OPT_SPATIAL, OPT_TIME, OPT_SET, OPT_SEED, OPT_METRICS, OPT_TIME_RUNS, OPT_MAX_RMSE,
-    OPT_MAX_FLICKER, OPT_PICTURE_MB, OPT_BACKEND, OPT_GL_DEVICE, OPT_THREADS, OPT_ISA, OPT_PROGRESS
+    OPT_OUTPUT,
+    OPT_METHODS,
+    OPT_FRAMES,
+    OPT_SIZE,
+    OPT_SPATIAL,
+    OPT_TIME,
+    OPT_SET,
+    OPT_SEED,
+    OPT_METRICS,
+    OPT_TIME_RUNS,
+    OPT_MAX_RMSE,
+    OPT_MAX_FLICKER,
+    OPT_PICTURE_MB,
+    OPT_BACKEND,
+    OPT_GL_DEVICE,
+    OPT_THREADS,
+    OPT_ISA,
+    OPT_PROGRESS
 };
 
 static const option compare_options[] = {
     [OPT_OUTPUT] = {"output", 'o', "DIR", "the folder of the report; made where it is missing"},
-    [OPT_METHODS] = {"methods", 0, "LIST", "methods to compare, each NAME or NAME:OPTION=VALUE with an\n"
-                                           "option of mangata render, such as podee-pixel:ndf-mean=drop\n"
-                                           "(default none,podee-uniform,podee-pixel,mangata)"},
+    [OPT_METHODS] = {"methods", 0, "LIST",
+                     "methods to compare, each NAME or NAME:OPTION=VALUE with an\n"
+                     "option of mangata render, such as podee-pixel:ndf-mean=drop\n"
+                     "(default none,podee-uniform,podee-pixel,mangata)"},
     [OPT_FRAMES] = {"frames", 0, "LIST", "A, A-B, A-B:STEP or a list of these (default 0-3)"},
     [OPT_SIZE] = {"size", 0, "WxH", "size in pixels instead of the scenes'"},
     [OPT_SPATIAL] = {"spatial", 0, "N", "reference: NxN samples a pixel for each time sample (default 8)"},
@@ -27,13 +44,16 @@ static const option compare_options[] = {
     [OPT_SET] = {"set", 0, "KEY=VALUE", "change a value of every scene; may be repeated"},
     [OPT_SEED] = {"seed", 0, "N", "seed of the methods' jitter; the reference's is N + 1 (default 0)"},
     [OPT_METRICS] = {"metrics", 0, "LIST", "what to measure, as in mangata diff (default: all)"},
-    [OPT_TIME_RUNS] = {"time-runs", 0, "N", "timed renders of each method on each scene, apart from the\n"
-                                            "pictures; 0: none (default 5)"},
-    [OPT_MAX_RMSE] = {"max-rmse", 0, "METHOD=X", "exit with 2 when the method's RMSE of coverage over all scenes\n"
-                                                 "is above X; may be repeated"},
+    [OPT_TIME_RUNS] = {"time-runs", 0, "N",
+                       "timed renders of each method on each scene, apart from the\n"
+                       "pictures; 0: none (default 5)"},
+    [OPT_MAX_RMSE] = {"max-rmse", 0, "METHOD=X",
+                      "exit with 2 when the method's RMSE of coverage over all scenes\n"
+                      "is above X; may be repeated"},
     [OPT_MAX_FLICKER] = {"max-flicker", 0, "METHOD=X", "the same for its flicker against the reference"},
-    [OPT_PICTURE_MB] = {"picture-mb", 0, "N", "megabytes of pictures in the page (default 14); where all\n"
-                                              "frames need more, it shows the first ones"},
+    [OPT_PICTURE_MB] = {"picture-mb", 0, "N",
+                        "megabytes of pictures in the page (default 14); where all\n"
+                        "frames need more, it shows the first ones"},
     [OPT_BACKEND] = {"backend", 0, "NAME", "cpu (default), gl or auto; null renders nothing: for tests"},
     [OPT_GL_DEVICE] = CONTEXT_OPTION_GL_DEVICE,
     [OPT_THREADS] = CONTEXT_OPTION_THREADS,
@@ -41,14 +61,15 @@ static const option compare_options[] = {
     [OPT_PROGRESS] = {"progress", 0, "MODE", "auto (default: a bar on a terminal), json or none"},
 };
 
-static const option_table compare_table = {
-    "compare", "SCENE... -o DIR [options]",
-    "Renders every method on every scene, and the reference, measures how far they are apart, and\n"
-    "writes DIR/report.html (one file that needs nothing else), report.json, report.csv and report.tex.\n"
-    "Pictures are kept in DIR/frames: the same command again goes on where it was stopped.",
-    compare_options, sizeof compare_options / sizeof compare_options[0],
-    "exit codes: 0 done, 2 above a limit, 64 usage, 65 bad scene, 66 no such scene, 69 not available,\n"
-    "73 cannot write, 130 and 143 stopped by a signal"};
+static const option_table compare_table = {"compare",
+                                           "SCENE... -o DIR [options]",
+                                           "Renders every method on every scene, and the reference, measures how far they are apart, and\n"
+                                           "writes DIR/report.html (one file that needs nothing else), report.json, report.csv and report.tex.\n"
+                                           "Pictures are kept in DIR/frames: the same command again goes on where it was stopped.",
+                                           compare_options,
+                                           sizeof compare_options / sizeof compare_options[0],
+                                           "exit codes: 0 done, 2 above a limit, 64 usage, 65 bad scene, 66 no such scene, 69 not available,\n"
+                                           "73 cannot write, 130 and 143 stopped by a signal"};
 
 /* What must wait until the methods are known. */
 typedef struct late_options {
@@ -69,8 +90,8 @@ static int set_number(size_t id, const char *value, uint64_t least, uint64_t mos
 {
     if (number_parse_u64(value, most, number) && *number >= least)
         return EXIT_CODE_OK;
-    return console_error(EXIT_CODE_USAGE, "--%s %s: allowed is a number from %llu to %llu", compare_options[id].name, value,
-                         (unsigned long long)least, (unsigned long long)most);
+    return console_error(EXIT_CODE_USAGE, "--%s %s: allowed is a number from %llu to %llu", compare_options[id].name, value, (unsigned long long)least,
+                         (unsigned long long)most);
 }
 
 static int set_number32(size_t id, const char *value, uint64_t least, uint64_t most, uint32_t *number)
@@ -112,25 +133,38 @@ static int set_option(compare_request *r, int id, const char *value, late_option
 {
     const char *wrong;
     switch (id) {
-    case OPTION_OPERAND: return add_scene(r, value);
-    case OPT_OUTPUT: r->folder = value; break;
-    case OPT_METHODS: late->methods = value; break;
+    case OPTION_OPERAND:
+        return add_scene(r, value);
+    case OPT_OUTPUT:
+        r->folder = value;
+        break;
+    case OPT_METHODS:
+        late->methods = value;
+        break;
     case OPT_FRAMES:
         if ((wrong = frame_list_parse(&r->frames, value)))
             return console_error(EXIT_CODE_USAGE, "--frames %s: %s", value, wrong);
         break;
-    case OPT_SIZE: return set_size(value, late->size);
-    case OPT_SPATIAL: return set_number32(OPT_SPATIAL, value, 1, 1024, &r->reference.spatial_samples);
-    case OPT_TIME: return set_number32(OPT_TIME, value, 1, 65536, &r->reference.time_samples);
-    case OPT_SET: r->overrides[r->override_count++] = value; break;
-    case OPT_SEED: return set_number(OPT_SEED, value, 0, UINT64_MAX - 1, &late->seed);
+    case OPT_SIZE:
+        return set_size(value, late->size);
+    case OPT_SPATIAL:
+        return set_number32(OPT_SPATIAL, value, 1, 1024, &r->reference.spatial_samples);
+    case OPT_TIME:
+        return set_number32(OPT_TIME, value, 1, 65536, &r->reference.time_samples);
+    case OPT_SET:
+        r->overrides[r->override_count++] = value;
+        break;
+    case OPT_SEED:
+        return set_number(OPT_SEED, value, 0, UINT64_MAX - 1, &late->seed);
     case OPT_METRICS:
         if (!clip_metrics_parse(value, &r->metrics) || r->metrics == 0)
             return bad_value(OPT_METRICS, value, clip_metric_words);
         break;
-    case OPT_TIME_RUNS: return set_number(OPT_TIME_RUNS, value, 0, 1000, &r->time_runs);
+    case OPT_TIME_RUNS:
+        return set_number(OPT_TIME_RUNS, value, 0, 1000, &r->time_runs);
     case OPT_MAX_RMSE:
-    case OPT_MAX_FLICKER: return add_gate(late, (size_t)id, value);
+    case OPT_MAX_FLICKER:
+        return add_gate(late, (size_t)id, value);
     case OPT_PICTURE_MB: {
         uint64_t megabytes = 0;
         const int code = set_number(OPT_PICTURE_MB, value, 1, 1024, &megabytes);
@@ -148,7 +182,8 @@ static int set_option(compare_request *r, int id, const char *value, late_option
         if (!progress_mode_from_name(value, &r->progress))
             return bad_value(OPT_PROGRESS, value, "auto, json or none");
         break;
-    default: break;
+    default:
+        break;
     }
     return EXIT_CODE_OK;
 }

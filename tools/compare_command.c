@@ -50,8 +50,8 @@ char *compare_picture_command(const compare_job *job, const compare_scene *scene
     frame_list_print(&r->frames, frames, sizeof frames);
     fputs("mangata render", stream);
     put_word(stream, scene->path);
-    fprintf(stream, " -o %s_%%04d.exr --layer color --layer coverage --frames %s",
-            picture == COMPARE_REFERENCE ? "reference" : r->methods[picture - 1].file, frames);
+    fprintf(stream, " -o %s_%%04d.exr --layer color --layer coverage --frames %s", picture == COMPARE_REFERENCE ? "reference" : r->methods[picture - 1].file,
+            frames);
     if (picture == COMPARE_REFERENCE)
         fprintf(stream, " --method reference --spatial %u --time-samples %u%s", q->spatial_samples, q->time_samples,
                 q->refraction == MGT_REFRACTION_TRUTH ? " --refraction truth" : "");

@@ -6,7 +6,7 @@
 #include "compare_job.h"
 
 /* The caller frees the text; NULL when memory runs out. */
-char *compare_command(const compare_job *job);                                                        /* the whole comparison */
-char *compare_picture_command(const compare_job *job, const compare_scene *scene, size_t picture);     /* the frames of one method */
+char *compare_command(const compare_job *job);                                                     /* the whole comparison */
+char *compare_picture_command(const compare_job *job, const compare_scene *scene, size_t picture); /* the frames of one method */
 
 #endif

@@ -33,8 +33,7 @@ static int hash_picture(const compare_job *job, const compare_scene *scene, size
     const mgt_image image = {.width = scene->width, .height = scene->height, .crop_width = scene->width, .crop_height = scene->height};
     char number[16];
     snprintf(number, sizeof number, "%u", compare_frame_number(job, frame));
-    return render_hash(&request, scene->canonical, &image, &job->info, number, hash) ? EXIT_CODE_OK
-                                                                                    : console_error(EXIT_CODE_FAILED, "out of memory");
+    return render_hash(&request, scene->canonical, &image, &job->info, number, hash) ? EXIT_CODE_OK : console_error(EXIT_CODE_FAILED, "out of memory");
 }
 
 /* Whether the file is there as these options would make it. What is there and different is rendered anew: the folder is ours. */

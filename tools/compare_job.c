@@ -22,10 +22,7 @@ const mgt_quality *compare_picture_quality(const compare_job *job, const compare
     return picture == COMPARE_REFERENCE ? &scene->reference : &job->request->methods[picture - 1].quality;
 }
 
-uint32_t compare_frame_number(const compare_job *job, size_t frame)
-{
-    return frame_list_at(&job->request->frames, frame);
-}
+uint32_t compare_frame_number(const compare_job *job, size_t frame) { return frame_list_at(&job->request->frames, frame); }
 
 bool compare_file_path(const compare_job *job, const char *name, char path[COMPARE_PATH])
 {
@@ -168,8 +165,8 @@ static int load_scene(compare_job *job, size_t index)
         scene->reference.refraction = MGT_REFRACTION_TRUTH;
     const compare_scene *other = &job->scenes[0];
     if (r->gate_count && (scene->width != other->width || scene->height != other->height))
-        return console_error(EXIT_CODE_USAGE, "%s has %u x %u pixels, %s has %u x %u; a limit scores all scenes as one clip, so give --size",
-                             other->path, other->width, other->height, scene->path, scene->width, scene->height);
+        return console_error(EXIT_CODE_USAGE, "%s has %u x %u pixels, %s has %u x %u; a limit scores all scenes as one clip, so give --size", other->path,
+                             other->width, other->height, scene->path, scene->width, scene->height);
     return EXIT_CODE_OK;
 }
 
@@ -218,8 +215,7 @@ typedef struct report_text {
     char *(*print)(const compare_job *job, size_t *size); /* NULL: out of memory */
 } report_text;
 
-static const report_text report_texts[] = {
-    {"report.json", compare_json_text}, {"report.csv", compare_csv_text}, {"report.tex", compare_tex_text}};
+static const report_text report_texts[] = {{"report.json", compare_json_text}, {"report.csv", compare_csv_text}, {"report.tex", compare_tex_text}};
 
 static int write_reports(compare_job *job)
 {
@@ -253,8 +249,7 @@ static int print_end(const compare_job *job)
 {
     const compare_request *r = job->request;
     console_note(&r->out, "%s/report.html: %zu scene%s, %zu methods, %zu frames; %llu pictures rendered, %llu kept", r->folder, r->scene_count,
-                 r->scene_count == 1 ? "" : "s", r->method_count, job->frame_count, (unsigned long long)job->rendered,
-                 (unsigned long long)job->kept);
+                 r->scene_count == 1 ? "" : "s", r->method_count, job->frame_count, (unsigned long long)job->rendered, (unsigned long long)job->kept);
     for (size_t c = 0; c < score_column_count; c++) {
         const char *missing = score_wanted(r, &score_columns[c]) ? score_missing(job, &score_columns[c]) : NULL;
         if (missing)
@@ -264,8 +259,9 @@ static int print_end(const compare_job *job)
         return EXIT_CODE_OK;
     json_t *report = compare_result_json(job);
     if (report)
-        json_object_set_new(report, "run", json_pack("{s:o, s:I, s:I}", "folder", console_json_text(r->folder), "rendered",
-                                                     (json_int_t)job->rendered, "kept", (json_int_t)job->kept));
+        json_object_set_new(report, "run",
+                            json_pack("{s:o, s:I, s:I}", "folder", console_json_text(r->folder), "rendered", (json_int_t)job->rendered, "kept",
+                                      (json_int_t)job->kept));
     return console_print_json(report);
 }
 

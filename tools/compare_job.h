@@ -35,8 +35,8 @@ typedef struct compare_scene {
     scene_file *file;
     char *canonical;
     uint32_t width, height;
-    mgt_quality reference; /* the request's; objects are seen through the waves as they are */
-    bool black_sky; /* colour tells nothing that coverage does not */
+    mgt_quality reference;    /* the request's; objects are seen through the waves as they are */
+    bool black_sky;           /* colour tells nothing that coverage does not */
     double reference_seconds; /* of a frame, on average; NaN: not known */
     compare_result *results;  /* one a method */
 } compare_scene;
@@ -49,7 +49,7 @@ typedef struct compare_job {
     progress progress;
     compare_scene scenes[COMPARE_SCENES]; /* request->scene_count of them */
     size_t frame_count;
-    uint64_t rendered, kept; /* pictures */
+    uint64_t rendered, kept;                        /* pictures */
     char missing[COMPARE_KINDS][CLIP_METRICS][160]; /* why a metric has no score; "" where it has */
 } compare_job;
 
@@ -86,8 +86,8 @@ int compare_open(compare_job *job, const compare_request *request, const char *p
 void compare_close(compare_job *job);
 
 /* The steps after it, in order; each prints its errors and returns the exit code. */
-int compare_render(compare_job *job); /* compare_images.c: the pictures that are not there yet */
+int compare_render(compare_job *job);       /* compare_images.c: the pictures that are not there yet */
 int compare_time_methods(compare_job *job); /* compare_time.c */
-int compare_measure(compare_job *job); /* compare_scores.c */
+int compare_measure(compare_job *job);      /* compare_scores.c */
 
 #endif

@@ -13,8 +13,8 @@
 
 /* How the page shows a scene. */
 typedef struct scene_light {
-    float scale;     /* stored = radiance × scale, a power of two, so that the sun fits into half floats */
-    double exposure; /* of colour: stops that bring the reference's mean to a middle grey */
+    float scale;              /* stored = radiance × scale, a power of two, so that the sun fits into half floats */
+    double exposure;          /* of colour: stops that bring the reference's mean to a middle grey */
     double coverage_exposure; /* stops that bring all but a few pixels of its coverage below white */
 } scene_light;
 
@@ -208,15 +208,14 @@ static void put_row(FILE *stream, const compare_job *job, const compare_scene *s
     put_number(stream, (double)compare_samples(&spec->quality), false, "samples", 0);
     put_number(stream, 1e3 * time.median, false, "time", 1);
     if (isfinite(time.least))
-        fprintf(stream, "<td class=\"spread\" data-value=\"%.9g\">%.1f–%.1f</td>", 1e3 * (time.most - time.least), 1e3 * time.least,
-                1e3 * time.most);
+        fprintf(stream, "<td class=\"spread\" data-value=\"%.9g\">%.1f–%.1f</td>", 1e3 * (time.most - time.least), 1e3 * time.least, 1e3 * time.most);
     else
         fputs("<td class=\"spread\">–</td>", stream);
     for (size_t c = 0; c < score_column_count; c++) {
         const score_column *column = &score_columns[c];
         if (score_wanted(job->request, column))
-            put_number(stream, scene ? score_of(&scene->results[method], column) : score_mean(job, method, column),
-                       is_best(job, scene, method, column), column->main ? "score" : "score minor",
+            put_number(stream, scene ? score_of(&scene->results[method], column) : score_mean(job, method, column), is_best(job, scene, method, column),
+                       column->main ? "score" : "score minor",
                        score_digits(scene ? score_of(&scene->results[method], column) : score_mean(job, method, column)));
     }
     fputs("</tr>\n", stream);
@@ -227,7 +226,8 @@ static void put_table(FILE *stream, const compare_job *job)
     const compare_request *r = job->request;
     fputs("<thead><tr><th scope=\"col\">scene</th><th scope=\"col\">method</th><th scope=\"col\" title=\"shaded samples a pixel\">samples</th>"
           "<th scope=\"col\" title=\"milliseconds a frame, median of the timed runs\">time, ms</th>"
-          "<th scope=\"col\" title=\"least and most of the timed runs\">least–most</th>", stream);
+          "<th scope=\"col\" title=\"least and most of the timed runs\">least–most</th>",
+          stream);
     for (size_t c = 0; c < score_column_count; c++) {
         const score_column *column = &score_columns[c];
         if (!score_wanted(r, column))
@@ -258,12 +258,12 @@ static json_t *page_json(const page *p)
 {
     json_t *report = compare_result_json(p->job), *scene;
     size_t s;
-    json_array_foreach(json_object_get(report, "scenes"), s, scene) {
-        json_t *layers = json_pack("[{s:s, s:i, s:f, s:f}]", "name", "coverage", "channels", 1, "scale", 1.0, "exposure",
-                                   p->light[s].coverage_exposure);
+    json_array_foreach(json_object_get(report, "scenes"), s, scene)
+    {
+        json_t *layers = json_pack("[{s:s, s:i, s:f, s:f}]", "name", "coverage", "channels", 1, "scale", 1.0, "exposure", p->light[s].coverage_exposure);
         if (!p->job->scenes[s].black_sky)
-            json_array_append_new(layers, json_pack("{s:s, s:i, s:f, s:f}", "name", "color", "channels", 3, "scale", (double)p->light[s].scale,
-                                                    "exposure", p->light[s].exposure));
+            json_array_append_new(layers, json_pack("{s:s, s:i, s:f, s:f}", "name", "color", "channels", 3, "scale", (double)p->light[s].scale, "exposure",
+                                                    p->light[s].exposure));
         json_object_set_new(scene, "layers", layers);
     }
     if (report)
@@ -303,11 +303,10 @@ static void put_summary(FILE *stream, const compare_job *job)
     char frames[240];
     frame_list_print(&r->frames, frames, sizeof frames);
     fprintf(stream, "%zu scene%s, %zu method%s, frame%s %s. Every figure compares whole frames with a reference of %llu jittered samples a pixel.",
-            r->scene_count, r->scene_count == 1 ? "" : "s", r->method_count, r->method_count == 1 ? "" : "s", job->frame_count == 1 ? "" : "s",
-            frames, (unsigned long long)compare_samples(&r->reference));
+            r->scene_count, r->scene_count == 1 ? "" : "s", r->method_count, r->method_count == 1 ? "" : "s", job->frame_count == 1 ? "" : "s", frames,
+            (unsigned long long)compare_samples(&r->reference));
     if (r->time_runs)
-        fprintf(stream, " Times are medians of %llu runs on %s.", (unsigned long long)r->time_runs,
-                job->info.backend == MGT_BACKEND_GL ? "OpenGL" : "the CPU");
+        fprintf(stream, " Times are medians of %llu runs on %s.", (unsigned long long)r->time_runs, job->info.backend == MGT_BACKEND_GL ? "OpenGL" : "the CPU");
 }
 
 static int put_mark(FILE *stream, const page *p, const char *mark, size_t length)

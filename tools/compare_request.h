@@ -45,7 +45,7 @@ typedef struct compare_request {
     size_t layer_count;
     uint32_t metrics; /* set of clip_metric */
     uint64_t time_runs;
-    bool memory; /* measured as well, where times are */
+    bool memory;            /* measured as well, where times are */
     uint64_t picture_bytes; /* of the page: how much its pictures may take */
     context_options context;
     compare_gate gates[COMPARE_GATES];

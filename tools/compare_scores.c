@@ -10,21 +10,18 @@
 
 const score_column score_columns[] = {
     {KIND_COVERAGE, CLIP_RMSE, "coverage.rmse", "RMSE", "coverage: root mean square of the error, whole frames", 0, true},
-    {KIND_COVERAGE, CLIP_RELATIVE_RMSE, "coverage.relrmse", "relative RMSE", "coverage: RMSE over the root mean square of the reference", 0,
-     true},
+    {KIND_COVERAGE, CLIP_RELATIVE_RMSE, "coverage.relrmse", "relative RMSE", "coverage: RMSE over the root mean square of the reference", 0, true},
     {KIND_COVERAGE, CLIP_ENERGY, "coverage.energy", "energy", "coverage: mean over the reference's mean; 1 is right", 1, true},
     {KIND_COVERAGE, CLIP_FLICKER, "coverage.flicker", "flicker",
      "coverage: root mean square of the difference between the method's frame steps and the reference's", 0, true},
-    {KIND_COVERAGE, CLIP_FLICKER_POWER, "coverage.flicker-power", "flicker power",
-     "coverage: mean over pixels of the difference of temporal power", 0, false},
+    {KIND_COVERAGE, CLIP_FLICKER_POWER, "coverage.flicker-power", "flicker power", "coverage: mean over pixels of the difference of temporal power", 0, false},
     {KIND_COVERAGE, CLIP_FLICKER_RATIO, "coverage.flicker-ratio", "flicker ratio",
      "coverage: temporal power over the reference's; below 1 too calm, above 1 too restless", 1, true},
     {KIND_COVERAGE, CLIP_FLICKER_BRIGHT, "coverage.flicker-bright", "bright pixels",
      "coverage: distance of the histograms over frames of how many pixels are bright", 0, false},
-    {KIND_COVERAGE, CLIP_FLICKER_GLINTS, "coverage.flicker-glints", "glints",
-     "coverage: distance of the histograms over frames of how many glints there are", 0, false},
-    {KIND_COVERAGE, CLIP_FLICKER_SIZES, "coverage.flicker-sizes", "glint sizes", "coverage: distance of the histograms of the glints' sizes", 0,
-     false},
+    {KIND_COVERAGE, CLIP_FLICKER_GLINTS, "coverage.flicker-glints", "glints", "coverage: distance of the histograms over frames of how many glints there are",
+     0, false},
+    {KIND_COVERAGE, CLIP_FLICKER_SIZES, "coverage.flicker-sizes", "glint sizes", "coverage: distance of the histograms of the glints' sizes", 0, false},
     {KIND_DISPLAYED, CLIP_RMSE, "displayed.rmse", "displayed RMSE", "displayed colour (sRGB, 0 to 1): root mean square of the error", 0, true},
     {KIND_DISPLAYED, CLIP_FLIP, "displayed.flip", "FLIP", "displayed colour: mean FLIP, 0 to 1", 0, true},
     {KIND_LIGHT, CLIP_HDR_FLIP, "light.hdr-flip", "HDR-FLIP", "scene-linear colour: mean HDR-FLIP, 0 to 1", 0, true},
@@ -41,10 +38,7 @@ bool score_wanted(const compare_request *request, const score_column *column)
     return (request->metrics >> column->metric & 1) && !(flicker && frame_list_length(&request->frames) < 2);
 }
 
-double score_of(const compare_result *result, const score_column *column)
-{
-    return result->clip[column->kind].values[column->metric];
-}
+double score_of(const compare_result *result, const score_column *column) { return result->clip[column->kind].values[column->metric]; }
 
 double score_of_frame(const compare_result *result, const score_column *column, size_t frame)
 {
@@ -151,8 +145,7 @@ static int start(compare_job *job, const compare_scene *scene, measuring *state)
     return EXIT_CODE_OK;
 }
 
-static int add_method_frame(compare_job *job, compare_scene *scene, measuring *state, size_t method, size_t frame,
-                            const float_image reference[COMPARE_KINDS])
+static int add_method_frame(compare_job *job, compare_scene *scene, measuring *state, size_t method, size_t frame, const float_image reference[COMPARE_KINDS])
 {
     float_image images[COMPARE_KINDS] = {{0}};
     int code = read_frame(job, scene, method + 1, frame, images);

@@ -9,8 +9,8 @@ typedef struct score_column {
     compare_kind kind;
     clip_metric metric;
     const char *key, *title, *help;
-    double best;  /* the value of a perfect method */
-    bool main;    /* among those that a first look needs */
+    double best; /* the value of a perfect method */
+    bool main;   /* among those that a first look needs */
 } score_column;
 
 extern const score_column score_columns[];

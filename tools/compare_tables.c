@@ -11,10 +11,7 @@
 #include "memory_text.h"
 #include "names.h"
 
-uint64_t compare_samples(const mgt_quality *quality)
-{
-    return (uint64_t)quality->spatial_samples * quality->spatial_samples * quality->time_samples;
-}
+uint64_t compare_samples(const mgt_quality *quality) { return (uint64_t)quality->spatial_samples * quality->spatial_samples * quality->time_samples; }
 
 double compare_gate_value(const compare_job *job, const compare_gate *gate)
 {
@@ -27,10 +24,7 @@ double compare_gate_value(const compare_job *job, const compare_gate *gate)
 /* ---- JSON ------------------------------------------------------------------------------------------------ */
 
 /* JSON has no infinity and no NaN: null. */
-static json_t *number(double value)
-{
-    return isfinite(value) ? json_real(value) : json_null();
-}
+static json_t *number(double value) { return isfinite(value) ? json_real(value) : json_null(); }
 
 static json_t *owned_text(char *text)
 {
@@ -41,8 +35,7 @@ static json_t *owned_text(char *text)
 
 static json_t *time_json(const compare_time *time)
 {
-    return json_pack("{s:o, s:o, s:o}", "median", number(1e3 * time->median), "least", number(1e3 * time->least), "most",
-                     number(1e3 * time->most));
+    return json_pack("{s:o, s:o, s:o}", "median", number(1e3 * time->median), "least", number(1e3 * time->least), "most", number(1e3 * time->most));
 }
 
 static json_t *columns_json(const compare_job *job)
@@ -53,8 +46,8 @@ static json_t *columns_json(const compare_job *job)
         if (!score_wanted(job->request, column))
             continue;
         const char *missing = score_missing(job, column);
-        json_t *entry = json_pack("{s:s, s:s, s:s, s:f, s:b}", "key", column->key, "title", column->title, "help", column->help, "best", column->best,
-                                  "main", column->main);
+        json_t *entry = json_pack("{s:s, s:s, s:s, s:f, s:b}", "key", column->key, "title", column->title, "help", column->help, "best", column->best, "main",
+                                  column->main);
         if (missing)
             json_object_set_new(entry, "unavailable", console_json_text(missing));
         json_array_append_new(list, entry);
@@ -78,8 +71,7 @@ static json_t *method_json(const compare_job *job, const compare_scene *scene, s
         json_object_set_new(frames, column->key, list);
     }
     return json_pack("{s:s, s:I, s:o, s:o, s:o, s:o}", "method", spec->name, "samples", (json_int_t)compare_samples(&spec->quality), "time_ms",
-                     time_json(&result->time), "scores", scores, "frames", frames, "command",
-                     owned_text(compare_picture_command(job, scene, method + 1)));
+                     time_json(&result->time), "scores", scores, "frames", frames, "command", owned_text(compare_picture_command(job, scene, method + 1)));
 }
 
 static json_t *scene_json(const compare_job *job, const compare_scene *scene)
@@ -90,8 +82,8 @@ static json_t *scene_json(const compare_job *job, const compare_scene *scene)
     json_t *reference = json_pack("{s:o, s:o}", "time_ms", number(1e3 * scene->reference_seconds), "command",
                                   owned_text(compare_picture_command(job, scene, COMPARE_REFERENCE)));
     return json_pack("{s:s, s:o, s:o, s:i, s:i, s:o, s:o}", "name", scene->name, "path", console_json_text(scene->path), "description",
-                     console_json_text(scene_file_description(scene->file)), "width", (int)scene->width, "height", (int)scene->height,
-                     "reference", reference, "methods", methods);
+                     console_json_text(scene_file_description(scene->file)), "width", (int)scene->width, "height", (int)scene->height, "reference", reference,
+                     "methods", methods);
 }
 
 /* Means over the scenes. */
@@ -129,13 +121,12 @@ json_t *compare_result_json(const compare_job *job)
         json_array_append_new(frames, json_integer(compare_frame_number(job, f)));
     for (size_t s = 0; s < r->scene_count; s++)
         json_array_append_new(scenes, scene_json(job, &job->scenes[s]));
-    json_t *reference = json_pack("{s:i, s:i, s:I, s:I}", "spatial", (int)r->reference.spatial_samples, "time_samples",
-                                  (int)r->reference.time_samples, "samples", (json_int_t)compare_samples(&r->reference), "seed",
-                                  (json_int_t)r->reference.seed);
-    return json_pack("{s:i, s:s, s:o, s:s, s:s, s:s, s:i, s:I, s:o, s:o, s:o, s:o, s:o, s:o}", "mangata_comparison", 1, "version", mgt_version(),
-                     "command", owned_text(compare_command(job)), "backend", backend_name(job->info.backend), "renderer", job->info.renderer,
-                     "isa", isa_name(job->info.isa), "threads", (int)job->info.threads, "time_runs", (json_int_t)r->time_runs, "frames", frames,
-                     "reference", reference, "columns", columns_json(job), "scenes", scenes, "all", all_json(job), "gates", gates_json(job));
+    json_t *reference = json_pack("{s:i, s:i, s:I, s:I}", "spatial", (int)r->reference.spatial_samples, "time_samples", (int)r->reference.time_samples,
+                                  "samples", (json_int_t)compare_samples(&r->reference), "seed", (json_int_t)r->reference.seed);
+    return json_pack("{s:i, s:s, s:o, s:s, s:s, s:s, s:i, s:I, s:o, s:o, s:o, s:o, s:o, s:o}", "mangata_comparison", 1, "version", mgt_version(), "command",
+                     owned_text(compare_command(job)), "backend", backend_name(job->info.backend), "renderer", job->info.renderer, "isa",
+                     isa_name(job->info.isa), "threads", (int)job->info.threads, "time_runs", (json_int_t)r->time_runs, "frames", frames, "reference",
+                     reference, "columns", columns_json(job), "scenes", scenes, "all", all_json(job), "gates", gates_json(job));
 }
 
 char *compare_json_text(const compare_job *job, size_t *size)
@@ -243,8 +234,7 @@ char *compare_tex_text(const compare_job *job, size_t *size)
     }
     for (size_t c = 0; c < score_column_count; c++)
         columns += tex_column(job, &score_columns[c]);
-    fprintf(stream,
-            "%% %s\n%% Needs \\usepackage{booktabs}. Against a reference of %llu samples a pixel, %zu frames; the best of each scene is bold.\n",
+    fprintf(stream, "%% %s\n%% Needs \\usepackage{booktabs}. Against a reference of %llu samples a pixel, %zu frames; the best of each scene is bold.\n",
             command, (unsigned long long)compare_samples(&r->reference), job->frame_count);
     fputs("\\begin{tabular}{lr", stream);
     for (size_t c = 0; c < columns; c++)

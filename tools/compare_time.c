@@ -11,10 +11,7 @@
 #include "memory_use.h"
 #include "sha256.h"
 
-static bool is_timed(const compare_scene *scene, size_t method)
-{
-    return !scene->view->untimed && compare_draws(scene, method + 1);
-}
+static bool is_timed(const compare_scene *scene, size_t method) { return !scene->view->untimed && compare_draws(scene, method + 1); }
 
 static int ascending(const void *a, const void *b)
 {
@@ -39,9 +36,8 @@ static bool times_key(const compare_job *job, const compare_scene *scene, sha256
     FILE *stream = open_memstream(&text, &size);
     if (!stream)
         return false;
-    fprintf(stream, "%s\n%s\nframe %u\nruns %u\nbackend %d isa %d threads %u renderer %s\n", mgt_version(), scene->canonical,
-            compare_frame_number(job, 0), (unsigned)r->time_runs, (int)job->info.backend, (int)job->info.isa, job->info.threads,
-            job->info.renderer);
+    fprintf(stream, "%s\n%s\nframe %u\nruns %u\nbackend %d isa %d threads %u renderer %s\n", mgt_version(), scene->canonical, compare_frame_number(job, 0),
+            (unsigned)r->time_runs, (int)job->info.backend, (int)job->info.isa, job->info.threads, job->info.renderer);
     if (scene->view->only_timed)
         fputs("frames in turn\n", stream);
     if (r->memory)
@@ -104,8 +100,7 @@ static int write_times(compare_job *job, const compare_scene *scene, const char 
         if (isfinite(scene->results[m].memory))
             json_object_set_new(memory, name, json_real(scene->results[m].memory));
     }
-    json_t *root = json_pack("{s:s, s:I, s:o, s:o}", "key", key->text, "frame", (json_int_t)compare_frame_number(job, 0), "seconds", lists, "memory",
-                             memory);
+    json_t *root = json_pack("{s:s, s:I, s:o, s:o}", "key", key->text, "frame", (json_int_t)compare_frame_number(job, 0), "seconds", lists, "memory", memory);
     char *text = root ? json_dumps(root, JSON_INDENT(1) | JSON_PRESERVE_ORDER | JSON_REAL_PRECISION(9)) : NULL;
     json_decref(root);
     const int code = text ? compare_write_text(job, path, text, strlen(text)) : console_error(EXIT_CODE_FAILED, "out of memory");

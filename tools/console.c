@@ -52,15 +52,26 @@ int console_file_error(const file_error *error)
 {
     int code = EXIT_CODE_FAILED;
     switch (error->status) {
-    case FILE_ARGUMENT: code = EXIT_CODE_USAGE; break;
-    case FILE_MISSING: code = EXIT_CODE_NO_INPUT; break;
-    case FILE_BAD: code = EXIT_CODE_BAD_INPUT; break;
+    case FILE_ARGUMENT:
+        code = EXIT_CODE_USAGE;
+        break;
+    case FILE_MISSING:
+        code = EXIT_CODE_NO_INPUT;
+        break;
+    case FILE_BAD:
+        code = EXIT_CODE_BAD_INPUT;
+        break;
     case FILE_EXISTS:
-    case FILE_WRITE: code = EXIT_CODE_CANNOT_WRITE; break;
-    case FILE_UNAVAILABLE: code = EXIT_CODE_UNAVAILABLE; break;
+    case FILE_WRITE:
+        code = EXIT_CODE_CANNOT_WRITE;
+        break;
+    case FILE_UNAVAILABLE:
+        code = EXIT_CODE_UNAVAILABLE;
+        break;
     case FILE_OK:
     case FILE_MEMORY:
-    case FILE_CANCELLED: break;
+    case FILE_CANCELLED:
+        break;
     }
     return console_error(code, "%s%s", error->text, error->status == FILE_EXISTS ? "; --overwrite replaces it" : "");
 }
@@ -68,11 +79,16 @@ int console_file_error(const file_error *error)
 int exit_code_of_scene_error(scene_error_kind kind)
 {
     switch (kind) {
-    case SCENE_ERROR_NONE: return EXIT_CODE_OK;
-    case SCENE_ERROR_MISSING_INPUT: return EXIT_CODE_NO_INPUT;
-    case SCENE_ERROR_BAD_SCENE: return EXIT_CODE_BAD_INPUT;
-    case SCENE_ERROR_BAD_OVERRIDE: return EXIT_CODE_USAGE;
-    case SCENE_ERROR_MEMORY: break;
+    case SCENE_ERROR_NONE:
+        return EXIT_CODE_OK;
+    case SCENE_ERROR_MISSING_INPUT:
+        return EXIT_CODE_NO_INPUT;
+    case SCENE_ERROR_BAD_SCENE:
+        return EXIT_CODE_BAD_INPUT;
+    case SCENE_ERROR_BAD_OVERRIDE:
+        return EXIT_CODE_USAGE;
+    case SCENE_ERROR_MEMORY:
+        break;
     }
     return EXIT_CODE_FAILED;
 }
@@ -91,14 +107,18 @@ int console_scene_error(const scene_error *error)
 int exit_code_of_status(mgt_status status)
 {
     switch (status) {
-    case MGT_OK: return EXIT_CODE_OK;
-    case MGT_ERROR_SCENE: return EXIT_CODE_BAD_INPUT;
+    case MGT_OK:
+        return EXIT_CODE_OK;
+    case MGT_ERROR_SCENE:
+        return EXIT_CODE_BAD_INPUT;
     case MGT_ERROR_UNAVAILABLE:
-    case MGT_ERROR_UNSUPPORTED: return EXIT_CODE_UNAVAILABLE;
+    case MGT_ERROR_UNSUPPORTED:
+        return EXIT_CODE_UNAVAILABLE;
     case MGT_ERROR_ARGUMENT:
     case MGT_ERROR_MEMORY:
     case MGT_ERROR_THREAD:
-    case MGT_CANCELLED: break;
+    case MGT_CANCELLED:
+        break;
     }
     return EXIT_CODE_FAILED;
 }

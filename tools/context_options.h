@@ -13,11 +13,20 @@ typedef struct context_options {
 } context_options;
 
 /* Rows of an option_table. */
-#define CONTEXT_OPTION_GL_DEVICE {"gl-device", 0, "N", "OpenGL: which device of those that mangata info lists (default 0)"}
-#define CONTEXT_OPTION_THREADS {"threads", 0, "N", "threads (default 0: one for each CPU this process may use)"}
-#define CONTEXT_OPTION_ISA                                                          \
-    {"isa", 0, "NAME", "highest instruction set: auto (default), scalar, sse2, avx2,\n" \
-                       "avx512 or neon"}
+#define CONTEXT_OPTION_GL_DEVICE                                                                 \
+    {                                                                                            \
+        "gl-device", 0, "N", "OpenGL: which device of those that mangata info lists (default 0)" \
+    }
+#define CONTEXT_OPTION_THREADS                                                          \
+    {                                                                                   \
+        "threads", 0, "N", "threads (default 0: one for each CPU this process may use)" \
+    }
+#define CONTEXT_OPTION_ISA                                                   \
+    {                                                                        \
+        "isa", 0, "NAME",                                                    \
+            "highest instruction set: auto (default), scalar, sse2, avx2,\n" \
+            "avx512 or neon"                                                 \
+    }
 
 /* Sets "backend", "gl-device", "threads" or "isa". NULL, or what is allowed. */
 const char *context_option_set(context_options *options, const char *name, const char *value);

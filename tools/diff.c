@@ -13,35 +13,40 @@
 #include "options.h"
 #include "verbs.h"
 
-enum { OPT_FRAMES, OPT_LAYER, OPT_MAX_RMSE, OPT_FLICKER, OPT_METRICS, OPT_ENCODING, OPT_PIXELS_PER_DEGREE, OPT_GLINT_THRESHOLD,
-       OPT_DISPLAY, OPT_MASK };
+enum { OPT_FRAMES, OPT_LAYER, OPT_MAX_RMSE, OPT_FLICKER, OPT_METRICS, OPT_ENCODING, OPT_PIXELS_PER_DEGREE, OPT_GLINT_THRESHOLD, OPT_DISPLAY, OPT_MASK };
 
 static const option diff_options[] = {
     [OPT_FRAMES] = {"frames", 0, "LIST", "frames to compare when A and B are numbered names"},
     [OPT_LAYER] = {"layer", 0, "NAME", "layer of .exr pictures (default color, or the only one)"},
     [OPT_MAX_RMSE] = {"max-rmse", 0, "X", "exit with 2 when the RMSE is above X or values are not comparable"},
-    [OPT_FLICKER] = {"flicker", 0, NULL, "compare the differences from frame to frame: the RMS of\n"
-                                         "(A[n+1] - A[n]) - (B[n+1] - B[n])"},
-    [OPT_METRICS] = {"metrics", 0, "LIST", "also measure: flip, hdr-flip, ssim, yee (by idiff), flicker, and rmse,\n"
-                                           "relrmse, energy, which are always there; B is the reference"},
+    [OPT_FLICKER] = {"flicker", 0, NULL,
+                     "compare the differences from frame to frame: the RMS of\n"
+                     "(A[n+1] - A[n]) - (B[n+1] - B[n])"},
+    [OPT_METRICS] = {"metrics", 0, "LIST",
+                     "also measure: flip, hdr-flip, ssim, yee (by idiff), flicker, and rmse,\n"
+                     "relrmse, energy, which are always there; B is the reference"},
     [OPT_ENCODING] = {"encoding", 0, "E", "of the values, for --metrics: linear or srgb (default srgb for .png)"},
     [OPT_PIXELS_PER_DEGREE] = {"pixels-per-degree", 0, "X", "of the viewer's eye, for FLIP, 4 to 400 (default 67)"},
-    [OPT_GLINT_THRESHOLD] = {"glint-threshold", 0, "X", "luminance above which a pixel is a glint, for flicker (default:\n"
-                                                         "half of what a thousandth of B's first frame exceed)"},
-    [OPT_DISPLAY] = {"display", 0, "EV", "first make displayed values of linear light: times 2^EV, clamped,\n"
-                                         "sRGB-encoded, 0 to 1"},
-    [OPT_MASK] = {"mask", 0, "M", "count only the pixels that are 1 in this picture of one channel\n"
-                                  "(or clip of such); the others are black in A and B"},
+    [OPT_GLINT_THRESHOLD] = {"glint-threshold", 0, "X",
+                             "luminance above which a pixel is a glint, for flicker (default:\n"
+                             "half of what a thousandth of B's first frame exceed)"},
+    [OPT_DISPLAY] = {"display", 0, "EV",
+                     "first make displayed values of linear light: times 2^EV, clamped,\n"
+                     "sRGB-encoded, 0 to 1"},
+    [OPT_MASK] = {"mask", 0, "M",
+                  "count only the pixels that are 1 in this picture of one channel\n"
+                  "(or clip of such); the others are black in A and B"},
 };
 
-static const option_table diff_table = {
-    "diff", "A B [options]",
-    "Measures how far A is from B (.png, .exr, .pfm): RMSE, relative RMSE (by the RMS of B),\n"
-    "mean ratio (A / B) and the largest difference, over whole pictures. Numbered names\n"
-    "(frame_%04d.pfm or frame_####.pfm) are read as clips and scored together.",
-    diff_options, sizeof diff_options / sizeof diff_options[0],
-    "exit codes: 0 done, 1 sizes or channels differ, 2 above --max-rmse, 64 usage, 65 bad picture,\n"
-    "66 no such picture"};
+static const option_table diff_table = {"diff",
+                                        "A B [options]",
+                                        "Measures how far A is from B (.png, .exr, .pfm): RMSE, relative RMSE (by the RMS of B),\n"
+                                        "mean ratio (A / B) and the largest difference, over whole pictures. Numbered names\n"
+                                        "(frame_%04d.pfm or frame_####.pfm) are read as clips and scored together.",
+                                        diff_options,
+                                        sizeof diff_options / sizeof diff_options[0],
+                                        "exit codes: 0 done, 1 sizes or channels differ, 2 above --max-rmse, 64 usage, 65 bad picture,\n"
+                                        "66 no such picture"};
 
 typedef struct diff_request {
     console out;
@@ -64,13 +69,17 @@ static int set_option(diff_request *r, int id, const char *value)
             return console_error(EXIT_CODE_USAGE, "--frames %s: %s", value, wrong);
         r->frames_given = true;
         break;
-    case OPT_LAYER: r->layer = value; break;
+    case OPT_LAYER:
+        r->layer = value;
+        break;
     case OPT_MAX_RMSE:
         if (!number_parse_double(value, &r->max_rmse) || r->max_rmse < 0)
             return console_error(EXIT_CODE_USAGE, "--max-rmse %s: allowed is a number from 0", value);
         r->gated = true;
         break;
-    case OPT_FLICKER: r->flicker = true; break;
+    case OPT_FLICKER:
+        r->flicker = true;
+        break;
     case OPT_METRICS:
         if (!clip_metrics_parse(value, &r->metrics.wanted.metrics))
             return console_error(EXIT_CODE_USAGE, "--metrics %s: allowed are %s, separated by commas", value, clip_metric_words);
@@ -95,13 +104,16 @@ static int set_option(diff_request *r, int id, const char *value)
         if (!number_parse_double(value, &r->prepare.exposure) || !(fabs(r->prepare.exposure) <= 100))
             return console_error(EXIT_CODE_USAGE, "--display %s: allowed is a number of stops from -100 to 100", value);
         break;
-    case OPT_MASK: r->prepare.mask = value; break;
+    case OPT_MASK:
+        r->prepare.mask = value;
+        break;
     case OPTION_OPERAND:
         if (r->paths[1])
             return console_error(EXIT_CODE_USAGE, "two pictures are compared; %s is one more", value);
         r->paths[r->paths[0] ? 1 : 0] = value;
         break;
-    default: break;
+    default:
+        break;
     }
     return EXIT_CODE_OK;
 }
@@ -161,9 +173,8 @@ static int read_pair(const diff_request *r, uint32_t frame, float_image pair[2])
     }
     const float_image *a = &pair[0], *b = &pair[1];
     if (a->width != b->width || a->height != b->height || a->channels != b->channels)
-        return console_error(EXIT_CODE_FAILED, "%s has %u x %u pixels of %u channel%s, %s has %u x %u of %u; they must agree", r->paths[0],
-                             a->width, a->height, a->channels, a->channels == 1 ? "" : "s", r->paths[1], b->width, b->height,
-                             b->channels);
+        return console_error(EXIT_CODE_FAILED, "%s has %u x %u pixels of %u channel%s, %s has %u x %u of %u; they must agree", r->paths[0], a->width, a->height,
+                             a->channels, a->channels == 1 ? "" : "s", r->paths[1], b->width, b->height, b->channels);
     return EXIT_CODE_OK;
 }
 
@@ -223,23 +234,20 @@ static int measure(diff_request *r, image_metrics *metrics)
 }
 
 /* JSON has no infinity: null. */
-static json_t *json_number(double number)
-{
-    return isfinite(number) ? json_real(number) : json_null();
-}
+static json_t *json_number(double number) { return isfinite(number) ? json_real(number) : json_null(); }
 
 static int print_report(diff_request *r, const image_metrics *m)
 {
     const double rmse = image_metrics_rmse(m), relative = image_metrics_relative_rmse(m), ratio = image_metrics_mean_ratio(m);
     const uint32_t frame = frame_list_at(&r->frames, m->max_frame + (r->flicker ? 1 : 0));
     if (r->out.json) {
-        json_t *report = json_pack(
-            "{s:o, s:o, s:b, s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:{s:o, s:I, s:i, s:i, s:i}, s:I, s:I}", "a", console_json_text(r->paths[0]), "b",
-            console_json_text(r->paths[1]), "flicker", r->flicker, "frames", (json_int_t)m->frames, "values", (json_int_t)m->values, "rmse",
-            json_number(rmse), "relative_rmse", json_number(relative), "mean_ratio", json_number(ratio), "mean_a",
-            json_number(m->values ? m->sum_a / (double)m->values : 0), "mean_b", json_number(m->values ? m->sum_b / (double)m->values : 0),
-            "maximum", "difference", json_number(m->max_difference), "frame", (json_int_t)frame, "x", (int)m->max_x, "y", (int)m->max_y,
-            "channel", (int)m->max_channel, "equal_infinities", (json_int_t)m->equal_infinities, "mismatches", (json_int_t)m->mismatches);
+        json_t *report =
+            json_pack("{s:o, s:o, s:b, s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:{s:o, s:I, s:i, s:i, s:i}, s:I, s:I}", "a", console_json_text(r->paths[0]), "b",
+                      console_json_text(r->paths[1]), "flicker", r->flicker, "frames", (json_int_t)m->frames, "values", (json_int_t)m->values, "rmse",
+                      json_number(rmse), "relative_rmse", json_number(relative), "mean_ratio", json_number(ratio), "mean_a",
+                      json_number(m->values ? m->sum_a / (double)m->values : 0), "mean_b", json_number(m->values ? m->sum_b / (double)m->values : 0), "maximum",
+                      "difference", json_number(m->max_difference), "frame", (json_int_t)frame, "x", (int)m->max_x, "y", (int)m->max_y, "channel",
+                      (int)m->max_channel, "equal_infinities", (json_int_t)m->equal_infinities, "mismatches", (json_int_t)m->mismatches);
         if (report && r->gated)
             json_object_set_new(report, "max_rmse", json_real(r->max_rmse));
         const int code = report ? diff_metrics_report(&r->metrics, report) : EXIT_CODE_OK;

@@ -26,10 +26,7 @@ static const char *json_key(clip_metric metric)
     return keys[metric];
 }
 
-static bool is_wanted(const diff_metrics *m, int metric)
-{
-    return m->wanted.metrics >> metric & 1;
-}
+static bool is_wanted(const diff_metrics *m, int metric) { return m->wanted.metrics >> metric & 1; }
 
 /* JSON has neither infinity nor NaN: null. */
 static json_t *scores_to_json(const diff_metrics *m, const clip_scores *scores)

@@ -44,8 +44,8 @@ static int apply_mask(const diff_prepare *p, uint32_t frame, float_image pair[2]
     if (picture_read(&mask, path, NULL, &error) != FILE_OK)
         return console_file_error(&error);
     if (mask.width != pair[0].width || mask.height != pair[0].height || mask.channels != 1) {
-        const int code = console_error(EXIT_CODE_FAILED, "%s has %u x %u pixels of %u channel%s; a mask of %u x %u of 1 is needed", path, mask.width, mask.height,
-                                       mask.channels, mask.channels == 1 ? "" : "s", pair[0].width, pair[0].height);
+        const int code = console_error(EXIT_CODE_FAILED, "%s has %u x %u pixels of %u channel%s; a mask of %u x %u of 1 is needed", path, mask.width,
+                                       mask.height, mask.channels, mask.channels == 1 ? "" : "s", pair[0].width, pair[0].height);
         float_image_free(&mask);
         return code;
     }

@@ -11,7 +11,7 @@
 
 /* Start from all zero. */
 typedef struct diff_prepare {
-    bool displayed;       /* linear light · 2^exposure, clamped to 0 … 1 and sRGB-encoded */
+    bool displayed; /* linear light · 2^exposure, clamped to 0 … 1 and sRGB-encoded */
     double exposure;
     const char *mask;     /* picture of one channel whose whole pixels (0.999 or more) count, or numbered name of such; NULL: all count */
     frame_path mask_name; /* of `mask` */

@@ -14,10 +14,7 @@ static const char *const fit_names[FITS] = {"1 kernel", "3 kernels", "5 kernels"
 static const char *const fit_dashes[FITS] = {"", "", "", "", "2 3", "7 4"};
 static const size_t fit_colors[FITS] = {0, 1, 2, 3, 2, 3};
 
-static mixture fit_at(int fit, double e)
-{
-    return fit < FITTED ? mixture_fitted(fit_kernels[fit], e) : mixture_feline(e, fit_kernels[fit]);
-}
+static mixture fit_at(int fit, double e) { return fit < FITTED ? mixture_fitted(fit_kernels[fit], e) : mixture_feline(e, fit_kernels[fit]); }
 
 /* The printed sum of Eq. 28 over Eq. 25, at some elongation, for three kernels. */
 static double printed_over_true(double e)
@@ -42,8 +39,7 @@ static void table_of_fits(figures_job *f)
             const mixture m = fit_at(k, shown[i]);
             const double error = sqrt(fmax(mixture_relative_error(&m, shown[i]), 0));
             fprintf(f->page, "<td>%.4f</td>", error);
-            json_array_append_new(list,
-                                  json_pack("{s:f, s:f, s:f}", "sigma_y", shown[i], "relative_l2", error, "epsilon", mixture_error(&m, shown[i])));
+            json_array_append_new(list, json_pack("{s:f, s:f, s:f}", "sigma_y", shown[i], "relative_l2", error, "epsilon", mixture_error(&m, shown[i])));
         }
         fputs("</tr>\n", f->page);
         json_object_set_new(json, fit_names[k], list);
@@ -124,8 +120,8 @@ int figures_fits(figures_job *f)
             ratio, feline_least(9, 5));
     figures_check(f, "Fig. 21: Eq. 28 as printed (b = w₁) over 4π times Eq. 25", ratio, 1 - 1e-4, 1 + 1e-4);
     figures_check(f, "Fig. 21: error of a fit over that of the next coarser one, largest from elongation 1.5", worst_step(), 0, 1);
-    figures_check(f, "Fig. 21: relative error of Feline with five probes over that of five fitted kernels, least from elongation 1.5",
-                  feline_least(5, 5), 1, INFINITY);
+    figures_check(f, "Fig. 21: relative error of Feline with five probes over that of five fitted kernels, least from elongation 1.5", feline_least(5, 5), 1,
+                  INFINITY);
     figures_check(f, "Fig. 21: the same with nine", feline_least(9, 9), 1, INFINITY);
     figures_section_end(f);
     return code;

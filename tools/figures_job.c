@@ -32,25 +32,13 @@ const figure_method_text figure_methods[FIGURE_METHODS] = {
     [FIGURE_HARD] = {"podee-uniform:kernels=9:transition=hard", "without transition"},
 };
 
-bool figure_wanted(const figures_job *f, figure_id id)
-{
-    return (f->request->wanted >> id & 1) != 0;
-}
+bool figure_wanted(const figures_job *f, figure_id id) { return (f->request->wanted >> id & 1) != 0; }
 
-bool figures_podee_wanted(const figures_job *f)
-{
-    return (f->request->wanted & ((1u << FIGURES_PODEE) - 1)) != 0;
-}
+bool figures_podee_wanted(const figures_job *f) { return (f->request->wanted & ((1u << FIGURES_PODEE) - 1)) != 0; }
 
-bool figures_liu_wanted(const figures_job *f)
-{
-    return f->request->wanted >> FIGURES_PODEE != 0;
-}
+bool figures_liu_wanted(const figures_job *f) { return f->request->wanted >> FIGURES_PODEE != 0; }
 
-int figures_no_memory(void)
-{
-    return console_error(EXIT_CODE_FAILED, "out of memory");
-}
+int figures_no_memory(void) { return console_error(EXIT_CODE_FAILED, "out of memory"); }
 
 /* ---- which pictures ---- */
 
@@ -183,8 +171,8 @@ static uint8_t *read_whole(const char *path, size_t *size)
     return NULL;
 }
 
-int figures_embed(figures_job *f, svg *sheet, const char *name, const uint8_t *rgba, uint32_t width, uint32_t height, svg_crop crop, double x,
-                  double y, double shown_width, double shown_height)
+int figures_embed(figures_job *f, svg *sheet, const char *name, const uint8_t *rgba, uint32_t width, uint32_t height, svg_crop crop, double x, double y,
+                  double shown_width, double shown_height)
 {
     char path[COMPARE_PATH], file[128];
     file_error error;
@@ -208,10 +196,7 @@ svg_crop figures_glitter_crop(uint32_t width, uint32_t height)
     return (svg_crop){floor((width - w) / 2), floor(height * 0.3), w, h};
 }
 
-void figures_steps(figures_job *f, uint64_t steps)
-{
-    f->compare->progress = progress_start(f->request->progress, steps);
-}
+void figures_steps(figures_job *f, uint64_t steps) { f->compare->progress = progress_start(f->request->progress, steps); }
 
 int figures_step(figures_job *f)
 {

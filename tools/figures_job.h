@@ -8,9 +8,20 @@
 #include "svg.h"
 
 typedef enum figure_method {
-    FIGURE_NONE, FIGURE_MSAA32, FIGURE_LEAN, FIGURE_UNIFORM, FIGURE_PIXEL, FIGURE_MANGATA,
-    FIGURE_KERNELS_1, FIGURE_KERNELS_3, FIGURE_KERNELS_5, FIGURE_KERNELS_9, FIGURE_FELINE, FIGURE_RIEMANN,
-    FIGURE_HARD, FIGURE_METHODS
+    FIGURE_NONE,
+    FIGURE_MSAA32,
+    FIGURE_LEAN,
+    FIGURE_UNIFORM,
+    FIGURE_PIXEL,
+    FIGURE_MANGATA,
+    FIGURE_KERNELS_1,
+    FIGURE_KERNELS_3,
+    FIGURE_KERNELS_5,
+    FIGURE_KERNELS_9,
+    FIGURE_FELINE,
+    FIGURE_RIEMANN,
+    FIGURE_HARD,
+    FIGURE_METHODS
 } figure_method;
 
 enum { FIGURE_SCENES = 4, FIGURE_EXPOSURES = 4 };
@@ -33,7 +44,7 @@ extern const figure_method_text figure_methods[FIGURE_METHODS];
 typedef struct figure_score {
     double rmse, kept;                  /* coverage: RMSE, sum over the reference's */
     double displayed[FIGURE_EXPOSURES]; /* RMSE of sRGB-encoded colour after glare and tone mapping, 0 … 1 */
-    double half[2], excess[2]; /* the same at FIGURE_SHOWN above and below the middle row; how much of its square is too bright */
+    double half[2], excess[2];          /* the same at FIGURE_SHOWN above and below the middle row; how much of its square is too bright */
 } figure_score;
 
 typedef struct figures_job {
@@ -45,8 +56,8 @@ typedef struct figures_job {
     size_t picture[FIGURE_METHODS]; /* its number in the comparison; 0: not wanted */
     figure_score scores[FIGURE_SCENES][FIGURE_METHODS];
     struct refraction_figures *refraction; /* NULL where none of them is wanted */
-    char *refraction_table; /* as Markdown; NULL where none of it is wanted */
-    FILE *page; /* the sections so far */
+    char *refraction_table;                /* as Markdown; NULL where none of it is wanted */
+    FILE *page;                            /* the sections so far */
     json_t *result, *checks;
     uint32_t failed; /* checks */
 } figures_job;
@@ -76,8 +87,8 @@ void figures_check(figures_job *f, const char *claim, double value, double least
 int figures_display(compare_job *job, size_t scene, size_t picture, size_t frame, double stops, uint8_t **rgba);
 
 /* Writes a PNG as DIR/pictures/NAME.png and embeds `crop` of it in the sheet. */
-int figures_embed(figures_job *f, svg *sheet, const char *name, const uint8_t *rgba, uint32_t width, uint32_t height, svg_crop crop, double x,
-                  double y, double shown_width, double shown_height);
+int figures_embed(figures_job *f, svg *sheet, const char *name, const uint8_t *rgba, uint32_t width, uint32_t height, svg_crop crop, double x, double y,
+                  double shown_width, double shown_height);
 
 /* The part of a picture that holds the glitter: the middle third, from above the horizon down. */
 svg_crop figures_glitter_crop(uint32_t width, uint32_t height);

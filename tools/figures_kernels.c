@@ -13,8 +13,7 @@ static const double pi = 3.14159265358979323846;
 
 /* The ways of Fig. 17, in its order. */
 enum { WAYS = 6 };
-static const figure_method way_methods[WAYS] = {FIGURE_KERNELS_1, FIGURE_KERNELS_3, FIGURE_KERNELS_5,
-                                                FIGURE_KERNELS_9, FIGURE_FELINE,    FIGURE_RIEMANN};
+static const figure_method way_methods[WAYS] = {FIGURE_KERNELS_1, FIGURE_KERNELS_3, FIGURE_KERNELS_5, FIGURE_KERNELS_9, FIGURE_FELINE, FIGURE_RIEMANN};
 static const mgt_kernels way_kernels[WAYS] = {MGT_KERNELS_1, MGT_KERNELS_3, MGT_KERNELS_5, MGT_KERNELS_9, MGT_KERNELS_FELINE, MGT_KERNELS_RIEMANN};
 static const char *const way_dashes[WAYS] = {"", "", "", "", "7 4", "2 3"};
 enum { WAY_5 = 2, WAY_9 = 3, WAY_FELINE = 4, WAY_RIEMANN = 5 };
@@ -24,10 +23,7 @@ enum { WAY_5 = 2, WAY_9 = 3, WAY_FELINE = 4, WAY_RIEMANN = 5 };
 /* Elongations ½ octave apart. */
 enum { ELONGATIONS = 10, CASES = 200 };
 
-static double elongation_at(int i)
-{
-    return pow(2, 0.5 * i);
-}
+static double elongation_at(int i) { return pow(2, 0.5 * i); }
 
 typedef struct random_numbers {
     uint64_t state;
@@ -112,18 +108,16 @@ static int plot_shares(figures_job *f, const share_errors *errors)
     if (!svg_start(&sheet, 1090, 400))
         return figures_no_memory();
     for (int moves = 0; moves < 2; moves++) {
-        const plot p = {
-            .x = 85 + 430 * moves,
-            .y = 40,
-            .width = 350,
-            .height = 300,
-            .title = moves ? "the light moves along its path" : "nothing moves",
-            .across = {.label = "elongation: major over minor deviation", .low = 1, .high = elongation_at(ELONGATIONS - 1), .logarithmic = true},
-            .up = {.label = "rms error of the share", .low = 1e-4, .high = 0.2, .logarithmic = true}};
+        const plot p = {.x = 85 + 430 * moves,
+                        .y = 40,
+                        .width = 350,
+                        .height = 300,
+                        .title = moves ? "the light moves along its path" : "nothing moves",
+                        .across = {.label = "elongation: major over minor deviation", .low = 1, .high = elongation_at(ELONGATIONS - 1), .logarithmic = true},
+                        .up = {.label = "rms error of the share", .low = 1e-4, .high = 0.2, .logarithmic = true}};
         plot_frame(&sheet, &p);
         for (int w = 0; w < WAYS; w++)
-            plot_curve(&sheet, &p, errors->elongation, moves ? errors->moving[w] : errors->still[w], ELONGATIONS, plot_color((size_t)w),
-                       way_dashes[w]);
+            plot_curve(&sheet, &p, errors->elongation, moves ? errors->moving[w] : errors->still[w], ELONGATIONS, plot_color((size_t)w), way_dashes[w]);
     }
     for (int w = 0; w < WAYS; w++)
         plot_key(&sheet, 890, 60, w, plot_color((size_t)w), way_dashes[w], figure_methods[way_methods[w]].title);
@@ -170,10 +164,8 @@ static int figure_of_shares(figures_job *f)
                 mean_to_eight(errors->moving[WAY_9]), mean_to_eight(errors->moving[WAY_FELINE]));
         figures_check(f, "Fig. 17: error of Feline's share over that of five fitted kernels, elongations 1 to 8, moving",
                       mean_to_eight(errors->moving[WAY_FELINE]) / mean_to_eight(errors->moving[WAY_5]), 1, INFINITY);
-        figures_check(f, "Fig. 17: the same, nothing moves", mean_to_eight(errors->still[WAY_FELINE]) / mean_to_eight(errors->still[WAY_5]), 1,
-                      INFINITY);
-        figures_check(f, "Fig. 17: shares by 9 kernels over those by Riemann sums, elongations to 8, nothing moves", errors->nine_over_riemann, 0.97,
-                      1.03);
+        figures_check(f, "Fig. 17: the same, nothing moves", mean_to_eight(errors->still[WAY_FELINE]) / mean_to_eight(errors->still[WAY_5]), 1, INFINITY);
+        figures_check(f, "Fig. 17: shares by 9 kernels over those by Riemann sums, elongations to 8, nothing moves", errors->nine_over_riemann, 0.97, 1.03);
     }
     free(errors);
     return code;
@@ -266,9 +258,9 @@ static void table_of_ways(figures_job *f, double stills[FIGURE_SCENES][2])
         for (int s = 0; s < FIGURE_SCENES; s++) {
             const figure_score *score = &f->scores[s][way_methods[w]];
             fprintf(f->page, "<td>%.4f</td><td>%.4f</td>", score->displayed[FIGURE_SHOWN], score->rmse);
-            json_array_append_new(list, json_pack("{s:s, s:o, s:o, s:o}", "scene", figure_scenes[s], "displayed_rmse",
-                                                  figures_number(score->displayed[FIGURE_SHOWN]),
-                                                  "coverage_rmse", figures_number(score->rmse), "light_kept", figures_number(score->kept)));
+            json_array_append_new(list,
+                                  json_pack("{s:s, s:o, s:o, s:o}", "scene", figure_scenes[s], "displayed_rmse", figures_number(score->displayed[FIGURE_SHOWN]),
+                                            "coverage_rmse", figures_number(score->rmse), "light_kept", figures_number(score->kept)));
         }
         fputs("</tr>\n", f->page);
         json_object_set_new(json, figure_methods[way_methods[w]].title, list);

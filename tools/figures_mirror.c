@@ -215,14 +215,13 @@ int figures_mirror(figures_job *f)
                 "slopes' mean, (c) the one at the slope that mirrors the light's centre; views 10° to 80° up.</p>\n",
                 lopsidedness(10, 20), lopsidedness(30, 60), disk_degrees);
         code = draw(f, fields);
-        figures_check(f, "Fig. 20: error at low x and high z variance over that at high x and low z", d->value[0][last] / d->value[last][0], 1,
-                      INFINITY);
+        figures_check(f, "Fig. 20: error at low x and high z variance over that at high x and low z", d->value[0][last] / d->value[last][0], 1, INFINITY);
         figures_check(f, "Fig. 20: error at both variances high over that at both low", d->value[last][last] / d->value[0][0], 1, INFINITY);
         figures_check(f, "Fig. 20: error of the light's share with the Jacobian at the mirror slope over that at the mean slope",
                       fields[2].mean / fields[1].mean, 0, 0.1);
         json_object_set_new(f->result, "fig20",
-                            json_pack("{s:o, s:o, s:o}", "density_at_mean", field_json(&fields[0]), "share_at_mean", field_json(&fields[1]),
-                                      "share_at_mirror", field_json(&fields[2])));
+                            json_pack("{s:o, s:o, s:o}", "density_at_mean", field_json(&fields[0]), "share_at_mean", field_json(&fields[1]), "share_at_mirror",
+                                      field_json(&fields[2])));
         figures_section_end(f);
     }
     free(fields);

@@ -9,20 +9,11 @@
 
 /* ---- for the makers ---- */
 
-void figures_section(figures_job *f, const char *name, const char *title)
-{
-    fprintf(f->page, "<section id=\"%s\"><h2>%s</h2>\n", name, title);
-}
+void figures_section(figures_job *f, const char *name, const char *title) { fprintf(f->page, "<section id=\"%s\"><h2>%s</h2>\n", name, title); }
 
-void figures_section_end(figures_job *f)
-{
-    fputs("</section>\n", f->page);
-}
+void figures_section_end(figures_job *f) { fputs("</section>\n", f->page); }
 
-json_t *figures_number(double value)
-{
-    return isfinite(value) ? json_real(value) : json_null();
-}
+json_t *figures_number(double value) { return isfinite(value) ? json_real(value) : json_null(); }
 
 int figures_plate(figures_job *f, svg *sheet, const char *name, const char *description, int code)
 {
@@ -118,9 +109,8 @@ static void put_podee(figures_job *f, FILE *page)
           "here have as many waves of the kinds that the paper describes, so compare orders and ratios, not single values.",
           page);
     if (f->renders.scene_count)
-        fprintf(page, " %u × %u pixels, frames %s, reference of %u × %u × %u samples a pixel.", f->compare->scenes[0].width,
-                f->compare->scenes[0].height, frames, f->request->reference.spatial_samples, f->request->reference.spatial_samples,
-                f->request->reference.time_samples);
+        fprintf(page, " %u × %u pixels, frames %s, reference of %u × %u × %u samples a pixel.", f->compare->scenes[0].width, f->compare->scenes[0].height,
+                frames, f->request->reference.spatial_samples, f->request->reference.spatial_samples, f->request->reference.time_samples);
     fputs("</p>\n", page);
 }
 

@@ -51,8 +51,8 @@ typedef struct view_text {
 #define CLOSE "camera={position: [0.8, 4, 7.2], target: [0.25, -1.3, 1], fov_y_deg: 16}"
 #define ASIDE "camera={position: [-4.6, 3.4, 4.4], target: [0.2, -0.4, 0.2], fov_y_deg: 45}"
 #define GRAZING "camera={position: [1, 1.7, 8.4], target: [0, 0, 0.5], fov_y_deg: 45}"
-#define MOVING                                                                                                                                       \
-    "camera={path: [{time: 0, position: [0.7, 4, 7.2], target: [0.2, 0, 0.4]}, {time: 100, position: [0.9, 4, 7], target: [0.4, 0, 0.4]}], "         \
+#define MOVING                                                                                                                               \
+    "camera={path: [{time: 0, position: [0.7, 4, 7.2], target: [0.2, 0, 0.4]}, {time: 100, position: [0.9, 4, 7], target: [0.4, 0, 0.4]}], " \
     "fov_y_deg: 45}"
 
 static const view_text views[REFRACTION_VIEWS] = {
@@ -159,15 +159,9 @@ static int choose(refraction_figures *r, const char *folder)
     return code;
 }
 
-const compare_scene *refraction_scene(const refraction_figures *r, refraction_view view)
-{
-    return &r->compare->scenes[r->place[view]];
-}
+const compare_scene *refraction_scene(const refraction_figures *r, refraction_view view) { return &r->compare->scenes[r->place[view]]; }
 
-size_t refraction_picture(refraction_method method)
-{
-    return (size_t)method + 1;
-}
+size_t refraction_picture(refraction_method method) { return (size_t)method + 1; }
 
 /* ---- the run ---- */
 
@@ -195,16 +189,15 @@ static int make(refraction_figures *r)
 static void put_heading(refraction_figures *r)
 {
     const figures_request *request = r->figures->request;
-    fprintf(
-        r->figures->page,
-        "<h1 id=\"liu\">Liu, Han and Fei 2020</h1>\n<p>H. Liu, H. Han, G. Fei: <i>Two-phase real-time rendering method for realistic water "
-        "refraction</i>, Virtual Reality &amp; Intelligent Hardware 2(2), 2020. Their scenes are not published: ours are a tiled pool, a shore, a "
-        "boat and a pool hall from below. <i>two-phase</i> is this library's own method; <i>Liu et al., as printed</i> is the paper's, with its "
-        "mistakes of print mended (<code>docs/refraction.md</code>). Pictures hold reflections too, all alike; errors are of what comes through the "
-        "surface, before Fresnel takes its share: RMSE of displayed colour (sRGB, 0 to 255, exposure −%d stops) over whole pixels of water, against "
-        "rays traced through the waves as they are, one through the middle of every pixel as the methods have it. Pictures of the truth take %u × %u "
-        "rays a pixel. <i>Artefacts</i> are pixels of water off by more than %d of 255 in a channel.</p>\n",
-        REFRACTION_STOPS_DOWN, request->refraction_samples, request->refraction_samples, ARTEFACT);
+    fprintf(r->figures->page,
+            "<h1 id=\"liu\">Liu, Han and Fei 2020</h1>\n<p>H. Liu, H. Han, G. Fei: <i>Two-phase real-time rendering method for realistic water "
+            "refraction</i>, Virtual Reality &amp; Intelligent Hardware 2(2), 2020. Their scenes are not published: ours are a tiled pool, a shore, a "
+            "boat and a pool hall from below. <i>two-phase</i> is this library's own method; <i>Liu et al., as printed</i> is the paper's, with its "
+            "mistakes of print mended (<code>docs/refraction.md</code>). Pictures hold reflections too, all alike; errors are of what comes through the "
+            "surface, before Fresnel takes its share: RMSE of displayed colour (sRGB, 0 to 255, exposure −%d stops) over whole pixels of water, against "
+            "rays traced through the waves as they are, one through the middle of every pixel as the methods have it. Pictures of the truth take %u × %u "
+            "rays a pixel. <i>Artefacts</i> are pixels of water off by more than %d of 255 in a channel.</p>\n",
+            REFRACTION_STOPS_DOWN, request->refraction_samples, request->refraction_samples, ARTEFACT);
 }
 
 int figures_refraction_open(figures_job *f, const char *folder)

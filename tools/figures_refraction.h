@@ -7,15 +7,47 @@
 
 /* A file with a camera, waves and triangles of its own. The last two are timed, all others drawn. */
 typedef enum refraction_view {
-    VIEW_BELOW, VIEW_BORDER, VIEW_FLAT, VIEW_WAVES, VIEW_DENSE, VIEW_SPARSE, VIEW_CALM, VIEW_ROUGH, VIEW_ROUGHER, VIEW_STEEP, VIEW_ASIDE,
-    VIEW_GRAZING, VIEW_SHORE, VIEW_HULL, VIEW_DIVER, VIEW_SPEED_16K, VIEW_SPEED_128K, REFRACTION_VIEWS
+    VIEW_BELOW,
+    VIEW_BORDER,
+    VIEW_FLAT,
+    VIEW_WAVES,
+    VIEW_DENSE,
+    VIEW_SPARSE,
+    VIEW_CALM,
+    VIEW_ROUGH,
+    VIEW_ROUGHER,
+    VIEW_STEEP,
+    VIEW_ASIDE,
+    VIEW_GRAZING,
+    VIEW_SHORE,
+    VIEW_HULL,
+    VIEW_DIVER,
+    VIEW_SPEED_16K,
+    VIEW_SPEED_128K,
+    REFRACTION_VIEWS
 } refraction_view;
 
 /* SHOWN_RAY: what methods are scored against, a ray through the middle of every pixel. From TIMED_TRUTH on: without reflections, for times. */
 typedef enum refraction_method {
-    SHOWN_TWO_PHASE, SHOWN_HYBRID, SHOWN_LIU, SHOWN_BROAD, SHOWN_NARROW, SHOWN_SCREEN_SPACE, SHOWN_DISTANCE_FIELD, SHOWN_OFF, SHOWN_RAY, SHOWN_WHOLE,
+    SHOWN_TWO_PHASE,
+    SHOWN_HYBRID,
+    SHOWN_LIU,
+    SHOWN_BROAD,
+    SHOWN_NARROW,
+    SHOWN_SCREEN_SPACE,
+    SHOWN_DISTANCE_FIELD,
+    SHOWN_OFF,
+    SHOWN_RAY,
+    SHOWN_WHOLE,
     SHOWN_WHOLE_BROAD,
-    TIMED_TRUTH, TIMED_TWO_PHASE, TIMED_HYBRID, TIMED_LIU, TIMED_SCREEN_SPACE, TIMED_DISTANCE_FIELD, TIMED_OFF, REFRACTION_METHODS
+    TIMED_TRUTH,
+    TIMED_TWO_PHASE,
+    TIMED_HYBRID,
+    TIMED_LIU,
+    TIMED_SCREEN_SPACE,
+    TIMED_DISTANCE_FIELD,
+    TIMED_OFF,
+    REFRACTION_METHODS
 } refraction_method;
 
 extern const figure_method_text refraction_methods[REFRACTION_METHODS];
@@ -103,17 +135,17 @@ void refraction_panel_mark(const refraction_figures *r, svg *sheet, const refrac
 
 /* ---- the makers; each prints its errors and returns the exit code ---- */
 
-int refraction_below(refraction_figures *r);      /* figures_refraction_phases.c: Fig. 4 */
-int refraction_border(refraction_figures *r);     /* Fig. 7 */
-int refraction_occlusion(refraction_figures *r);  /* Fig. 8 */
-int refraction_narrow(refraction_figures *r);     /* Fig. 9 */
-int refraction_flat(refraction_figures *r);       /* figures_refraction_rivals.c: Fig. 10 */
-int refraction_waves(refraction_figures *r);      /* Fig. 11 */
-int refraction_speed(refraction_figures *r);      /* figures_refraction_speed.c: Table 3 */
-int refraction_density(refraction_figures *r);    /* figures_refraction_views.c: Fig. 12 */
-int refraction_angles(refraction_figures *r);     /* Fig. 13 */
-int refraction_outdoors(refraction_figures *r);   /* Fig. 14 */
-int refraction_diver(refraction_figures *r);      /* Fig. 15 */
+int refraction_below(refraction_figures *r);     /* figures_refraction_phases.c: Fig. 4 */
+int refraction_border(refraction_figures *r);    /* Fig. 7 */
+int refraction_occlusion(refraction_figures *r); /* Fig. 8 */
+int refraction_narrow(refraction_figures *r);    /* Fig. 9 */
+int refraction_flat(refraction_figures *r);      /* figures_refraction_rivals.c: Fig. 10 */
+int refraction_waves(refraction_figures *r);     /* Fig. 11 */
+int refraction_speed(refraction_figures *r);     /* figures_refraction_speed.c: Table 3 */
+int refraction_density(refraction_figures *r);   /* figures_refraction_views.c: Fig. 12 */
+int refraction_angles(refraction_figures *r);    /* Fig. 13 */
+int refraction_outdoors(refraction_figures *r);  /* Fig. 14 */
+int refraction_diver(refraction_figures *r);     /* Fig. 15 */
 
 /* DIR/refraction.md, which standard output gets as well, and the same in figures.json. */
 int refraction_write_table(refraction_figures *r);

@@ -13,8 +13,7 @@ static svg_crop panel_crop(const refraction_figures *r, const refraction_panel *
     const compare_scene *s = refraction_scene(r, p->view);
     if (p->width == 0)
         return (svg_crop){0, 0, s->width, s->height};
-    return (svg_crop){floor(p->left * s->width), floor(p->top * s->height), fmax(floor(p->width * s->width), 1),
-                      fmax(floor(p->height * s->height), 1)};
+    return (svg_crop){floor(p->left * s->width), floor(p->top * s->height), fmax(floor(p->width * s->width), 1), fmax(floor(p->height * s->height), 1)};
 }
 
 double refraction_panel_height(const refraction_figures *r, const refraction_panel *p)

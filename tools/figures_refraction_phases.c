@@ -27,8 +27,7 @@ int refraction_below(refraction_figures *r)
                                     refraction_score_print(r, VIEW_BELOW, methods[i]).text);
         p.y = TOP + tall + BELOW;
         if (code == EXIT_CODE_OK)
-            code =
-                refraction_panel_put(r, &sheet, &p, PANEL_ARTEFACTS, refraction_picture(methods[i]), i ? "artefacts of (b)" : "artefacts of (a)", "");
+            code = refraction_panel_put(r, &sheet, &p, PANEL_ARTEFACTS, refraction_picture(methods[i]), i ? "artefacts of (b)" : "artefacts of (a)", "");
     }
     p.x = GAP + 2 * (ACROSS + GAP);
     p.y = TOP;
@@ -98,8 +97,7 @@ int refraction_border(refraction_figures *r)
                                 refraction_score_print(r, VIEW_BORDER, SHOWN_LIU).text);
     p.x += ACROSS + GAP;
     if (code == EXIT_CODE_OK)
-        code = refraction_panel_put(r, &sheet, &p, PANEL_ARTEFACTS, refraction_picture(SHOWN_LIU), "(b) its artefacts",
-                                    "red: off by more than 32 of 255");
+        code = refraction_panel_put(r, &sheet, &p, PANEL_ARTEFACTS, refraction_picture(SHOWN_LIU), "(b) its artefacts", "red: off by more than 32 of 255");
     p.x += ACROSS + GAP;
     if (code == EXIT_CODE_OK)
         code = refraction_panel_put(r, &sheet, &p, PANEL_ARTEFACTS, refraction_picture(SHOWN_TWO_PHASE), "(c) artefacts of two-phase: a guard band",
@@ -136,8 +134,7 @@ int refraction_occlusion(refraction_figures *r)
     svg sheet;
     if (!svg_start(&sheet, 3 * ACROSS + 4 * GAP, TOP + tall + 36))
         return figures_no_memory();
-    int code = refraction_panel_put(r, &sheet, &p, PANEL_PICTURE, refraction_picture(SHOWN_NARROW), "(a) the narrow phase alone",
-                                    "the whole picture: Fig. 9");
+    int code = refraction_panel_put(r, &sheet, &p, PANEL_PICTURE, refraction_picture(SHOWN_NARROW), "(a) the narrow phase alone", "the whole picture: Fig. 9");
     p.x += ACROSS + GAP;
     if (code == EXIT_CODE_OK)
         code = refraction_panel_put(r, &sheet, &p, PANEL_PICTURE, refraction_picture(SHOWN_TWO_PHASE), "(b) two-phase", "");
@@ -185,17 +182,15 @@ int refraction_narrow(refraction_figures *r)
     }
     const refraction_score *s = r->scores[VIEW_WAVES];
     figures_section(f, "liu-fig9", "Fig. 9: the narrow phase alone");
-    fprintf(
-        f->page,
-        "<p class=\"published\">Published: (a) both phases, (b) the narrow phase alone, (c) what is wrong in (b), outlines above all.</p>\n"
-        "<p>The pool with waves of slope 0.05. Artefacts are %.1f%% of the water by both phases of ours, %.1f%% by the narrow phase alone, %.1f%% by "
-        "the broad phase alone, %.1f%% by the paper's two phases as printed, whose second phase rotates the camera's ray too far to gain on the "
-        "broad phase.</p>\n",
-        100 * s[SHOWN_TWO_PHASE].artefacts, 100 * s[SHOWN_NARROW].artefacts, 100 * s[SHOWN_BROAD].artefacts, 100 * s[SHOWN_LIU].artefacts);
+    fprintf(f->page,
+            "<p class=\"published\">Published: (a) both phases, (b) the narrow phase alone, (c) what is wrong in (b), outlines above all.</p>\n"
+            "<p>The pool with waves of slope 0.05. Artefacts are %.1f%% of the water by both phases of ours, %.1f%% by the narrow phase alone, %.1f%% by "
+            "the broad phase alone, %.1f%% by the paper's two phases as printed, whose second phase rotates the camera's ray too far to gain on the "
+            "broad phase.</p>\n",
+            100 * s[SHOWN_TWO_PHASE].artefacts, 100 * s[SHOWN_NARROW].artefacts, 100 * s[SHOWN_BROAD].artefacts, 100 * s[SHOWN_LIU].artefacts);
     code = figures_plate(f, &sheet, "liu-fig9", "Both phases, the narrow phase alone, and artefacts", code);
     figures_section_end(f);
-    figures_check(f, "Liu Fig. 9: RMSE of the narrow phase alone over that of two-phase", s[SHOWN_NARROW].rmse / s[SHOWN_TWO_PHASE].rmse, 1,
-                  INFINITY);
+    figures_check(f, "Liu Fig. 9: RMSE of the narrow phase alone over that of two-phase", s[SHOWN_NARROW].rmse / s[SHOWN_TWO_PHASE].rmse, 1, INFINITY);
     figures_check(f, "Liu Fig. 9: RMSE of the broad phase alone over that of two-phase", s[SHOWN_BROAD].rmse / s[SHOWN_TWO_PHASE].rmse, 1, INFINITY);
     figures_check(f, "Liu Fig. 9: RMSE of Liu et al. as printed over that of two-phase", s[SHOWN_LIU].rmse / s[SHOWN_TWO_PHASE].rmse, 1, INFINITY);
     return code;

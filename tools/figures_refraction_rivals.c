@@ -83,8 +83,7 @@ static int make(refraction_figures *r, refraction_view view, const char *name, c
     char claim[160];
     svg sheet;
     int code = EXIT_CODE_OK;
-    if (!svg_start(&sheet, PANELS * ACROSS + (PANELS + 1) * GAP,
-                   TOP + 2 * refraction_panel_height(r, &whole) + refraction_panel_height(r, &part) + ROW + 26))
+    if (!svg_start(&sheet, PANELS * ACROSS + (PANELS + 1) * GAP, TOP + 2 * refraction_panel_height(r, &whole) + refraction_panel_height(r, &part) + ROW + 26))
         return figures_no_memory();
     for (size_t i = 0; i < PANELS && code == EXIT_CODE_OK; i++)
         code = put_column(r, &sheet, view, i);
@@ -94,8 +93,7 @@ static int make(refraction_figures *r, refraction_view view, const char *name, c
     put_table(r, view);
     figures_section_end(f);
     for (int m = SHOWN_SCREEN_SPACE; m <= SHOWN_DISTANCE_FIELD; m++) {
-        snprintf(claim, sizeof claim, "Liu %s: RMSE of two-phase over that of %s", view == VIEW_FLAT ? "Fig. 10" : "Fig. 11",
-                 refraction_methods[m].title);
+        snprintf(claim, sizeof claim, "Liu %s: RMSE of two-phase over that of %s", view == VIEW_FLAT ? "Fig. 10" : "Fig. 11", refraction_methods[m].title);
         figures_check(f, claim, s[SHOWN_TWO_PHASE].rmse / s[m].rmse, 0, 1);
     }
     snprintf(claim, sizeof claim, "Liu %s: RMSE of hybrid over that of two-phase", view == VIEW_FLAT ? "Fig. 10" : "Fig. 11");

@@ -15,34 +15,31 @@ static const refraction_view size_views[SIZES] = {VIEW_SPEED_16K, VIEW_SPEED_128
 static double published_rate(refraction_method method, int size)
 {
     switch (method) {
-    case TIMED_TRUTH: return size ? 18.33 : 55.90;
-    case TIMED_LIU: return size ? 366.82 : 362.53;
-    case TIMED_SCREEN_SPACE: return size ? 258.89 : 294.77;
-    case TIMED_DISTANCE_FIELD: return size ? 36.50 : 166.47;
-    case TIMED_OFF: return size ? 369.63 : 373.92;
-    default: return NAN;
+    case TIMED_TRUTH:
+        return size ? 18.33 : 55.90;
+    case TIMED_LIU:
+        return size ? 366.82 : 362.53;
+    case TIMED_SCREEN_SPACE:
+        return size ? 258.89 : 294.77;
+    case TIMED_DISTANCE_FIELD:
+        return size ? 36.50 : 166.47;
+    case TIMED_OFF:
+        return size ? 369.63 : 373.92;
+    default:
+        return NAN;
     }
 }
 
-static bool is_timed(const refraction_figures *r)
-{
-    return r->place[VIEW_SPEED_16K] < COMPARE_SCENES && r->place[VIEW_SPEED_128K] < COMPARE_SCENES;
-}
+static bool is_timed(const refraction_figures *r) { return r->place[VIEW_SPEED_16K] < COMPARE_SCENES && r->place[VIEW_SPEED_128K] < COMPARE_SCENES; }
 
 static const compare_result *result_of(const refraction_figures *r, refraction_method method, int size)
 {
     return &refraction_scene(r, size_views[size])->results[method];
 }
 
-static double milliseconds(const refraction_figures *r, refraction_method method, int size)
-{
-    return 1000 * result_of(r, method, size)->time.median;
-}
+static double milliseconds(const refraction_figures *r, refraction_method method, int size) { return 1000 * result_of(r, method, size)->time.median; }
 
-static double rate(const refraction_figures *r, refraction_method method, int size)
-{
-    return 1000 / milliseconds(r, method, size);
-}
+static double rate(const refraction_figures *r, refraction_method method, int size) { return 1000 / milliseconds(r, method, size); }
 
 /* ---- as text ---- */
 
@@ -59,8 +56,8 @@ static void print_scores(const refraction_figures *r, FILE *out)
                         "What comes through the surface: RMSE 0 to 255 against one ray in the same place, and against %u x %u; pixels of water off "
                         "by more than %d; SSIM, FLIP, Yee's failures.\n\n| view | refraction | RMSE | RMSE, %u x %u | artefacts, %% | SSIM | FLIP | "
                         "Yee, %% |\n|---|---|---:|---:|---:|---:|---:|---:|\n",
-                        r->figures->request->refraction_samples, r->figures->request->refraction_samples, ARTEFACT,
-                        r->figures->request->refraction_samples, r->figures->request->refraction_samples);
+                        r->figures->request->refraction_samples, r->figures->request->refraction_samples, ARTEFACT, r->figures->request->refraction_samples,
+                        r->figures->request->refraction_samples);
             any = true;
             fprintf(out, "| %s | `%s` | %.2f | %.2f | %.2f | %.4f | %.4f |", refraction_scene(r, (refraction_view)v)->name,
                     strchr(refraction_methods[m].spec, '+') + 1, s->rmse, s->many, 100 * s->artefacts, s->ssim, s->flip);
@@ -110,10 +107,10 @@ static json_t *scores_json(const refraction_figures *r)
         for (int m = 0; m < TIMED_TRUTH; m++) {
             const refraction_score *s = &r->scores[v][m];
             if (isfinite(s->rmse))
-                json_array_append_new(list, json_pack("{s:s, s:s, s:f, s:f, s:f, s:o, s:o, s:o}", "view",
-                                                      refraction_scene(r, (refraction_view)v)->name, "method", refraction_methods[m].spec, "rmse",
-                                                      s->rmse, "rmse_many_rays", s->many, "artefacts", s->artefacts, "ssim", figures_number(s->ssim),
-                                                      "flip", figures_number(s->flip), "yee", figures_number(s->yee)));
+                json_array_append_new(list,
+                                      json_pack("{s:s, s:s, s:f, s:f, s:f, s:o, s:o, s:o}", "view", refraction_scene(r, (refraction_view)v)->name, "method",
+                                                refraction_methods[m].spec, "rmse", s->rmse, "rmse_many_rays", s->many, "artefacts", s->artefacts, "ssim",
+                                                figures_number(s->ssim), "flip", figures_number(s->flip), "yee", figures_number(s->yee)));
         }
     return list;
 }
@@ -124,10 +121,10 @@ static json_t *times_json(const refraction_figures *r)
     for (int m = TIMED_TRUTH; m < REFRACTION_METHODS; m++)
         for (int i = 0; i < SIZES; i++) {
             const compare_result *result = result_of(r, (refraction_method)m, i);
-            json_array_append_new(list, json_pack("{s:s, s:s, s:o, s:o, s:o}", "view", refraction_scene(r, size_views[i])->name, "method",
-                                                  refraction_methods[m].spec, "milliseconds", figures_number(1000 * result->time.median), "bytes",
-                                                  figures_number(result->memory), "published_frames_per_second",
-                                                  figures_number(published_rate((refraction_method)m, i))));
+            json_array_append_new(list,
+                                  json_pack("{s:s, s:s, s:o, s:o, s:o}", "view", refraction_scene(r, size_views[i])->name, "method", refraction_methods[m].spec,
+                                            "milliseconds", figures_number(1000 * result->time.median), "bytes", figures_number(result->memory),
+                                            "published_frames_per_second", figures_number(published_rate((refraction_method)m, i))));
         }
     return list;
 }
@@ -142,9 +139,8 @@ int refraction_write_table(refraction_figures *r)
     json_object_set_new(f->result, "liu_scores", scores_json(r));
     if (is_timed(r))
         json_object_set_new(f->result, "liu_table3", times_json(r));
-    return compare_file_path(f->compare, "refraction.md", path)
-               ? compare_write_text(f->compare, path, f->refraction_table, strlen(f->refraction_table))
-               : EXIT_CODE_USAGE;
+    return compare_file_path(f->compare, "refraction.md", path) ? compare_write_text(f->compare, path, f->refraction_table, strlen(f->refraction_table))
+                                                                : EXIT_CODE_USAGE;
 }
 
 /* ---- in the page ---- */
@@ -209,13 +205,12 @@ int refraction_speed(refraction_figures *r)
         return EXIT_CODE_OK;
     }
     const compare_scene *s = refraction_scene(r, VIEW_SPEED_16K);
-    fprintf(
-        page,
-        "<p>Here: the pool on the CPU, %u × %u pixels, %u threads, <code>--method none</code>, median of %llu frames with a camera that moves, the "
-        "methods in turn. <i>More</i> is what a frame takes more than without refraction, which draws the objects as well; <i>of off</i> is its "
-        "frame rate over that one's; memory is what a frame takes at its peak, tables, triangles and all, in a context of its own. One ray a pixel "
-        "everywhere, the truth too.</p>\n",
-        s->width, s->height, r->compare->info.threads, (unsigned long long)r->figures->request->time_runs);
+    fprintf(page,
+            "<p>Here: the pool on the CPU, %u × %u pixels, %u threads, <code>--method none</code>, median of %llu frames with a camera that moves, the "
+            "methods in turn. <i>More</i> is what a frame takes more than without refraction, which draws the objects as well; <i>of off</i> is its "
+            "frame rate over that one's; memory is what a frame takes at its peak, tables, triangles and all, in a context of its own. One ray a pixel "
+            "everywhere, the truth too.</p>\n",
+            s->width, s->height, r->compare->info.threads, (unsigned long long)r->figures->request->time_runs);
     fputs("<table><tr><th></th><th class=\"published\">published, 16k</th><th class=\"published\">128k</th>", page);
     for (int i = 0; i < SIZES; i++)
         fprintf(page, "<th>here, %s</th><th>ms</th><th>more</th><th>of off</th><th>MiB</th>", i ? "128k" : "16k");

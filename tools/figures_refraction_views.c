@@ -49,8 +49,7 @@ int refraction_density(refraction_figures *r)
     code = figures_plate(f, &sheet, "liu-fig12", "The pool with many and few triangles, whole and split", code);
     figures_section_end(f);
     figures_check(f, "Liu Fig. 12: RMSE of the broad phase with few triangles split over that with the same ones whole", split / whole, 0, 0.5);
-    figures_check(f, "Liu Fig. 12: the same of both phases", r->scores[VIEW_SPARSE][SHOWN_TWO_PHASE].rmse / r->scores[VIEW_SPARSE][SHOWN_WHOLE].rmse,
-                  0, 1);
+    figures_check(f, "Liu Fig. 12: the same of both phases", r->scores[VIEW_SPARSE][SHOWN_TWO_PHASE].rmse / r->scores[VIEW_SPARSE][SHOWN_WHOLE].rmse, 0, 1);
     return code;
 }
 

@@ -12,9 +12,8 @@ enum { TABLE_METHODS = FIGURE_MANGATA + 1 };
 
 /* RMSE of displayed colour, simple, smooth, medium, high. */
 static const double published[TABLE_METHODS][FIGURE_SCENES] = {
-    [FIGURE_NONE] = {0.0797, 0.0299, 0.0315, 0.0778},  [FIGURE_MSAA32] = {0.0795, 0.0287, 0.0282, 0.0676},
-    [FIGURE_LEAN] = {0.0675, 0.0329, 0.0298, 0.0633},  [FIGURE_UNIFORM] = {0.0384, 0.0200, 0.0278, 0.0611},
-    [FIGURE_PIXEL] = {0.0384, 0.0192, 0.0229, 0.0610}, [FIGURE_MANGATA] = {NAN, NAN, NAN, NAN},
+    [FIGURE_NONE] = {0.0797, 0.0299, 0.0315, 0.0778},    [FIGURE_MSAA32] = {0.0795, 0.0287, 0.0282, 0.0676}, [FIGURE_LEAN] = {0.0675, 0.0329, 0.0298, 0.0633},
+    [FIGURE_UNIFORM] = {0.0384, 0.0200, 0.0278, 0.0611}, [FIGURE_PIXEL] = {0.0384, 0.0192, 0.0229, 0.0610},  [FIGURE_MANGATA] = {NAN, NAN, NAN, NAN},
 };
 
 /* A column of scores: of coverage, or of displayed colour at an exposure. */
@@ -196,10 +195,10 @@ static json_t *table_json(const figures_job *f)
             }
             const figure_score *scores = &f->scores[s][m];
             json_t *row = json_pack("{s:s, s:s, s:o, s:o, s:o}", "scene", figure_scenes[s], "method", figure_methods[m].spec, "coverage_rmse",
-                                    figures_number(f->scores[s][m].rmse), "light_kept", figures_number(f->scores[s][m].kept),
-                                    "displayed_rmse", displayed);
-            json_object_set_new(row, "displayed_far_near", json_pack("{s:[f, f], s:[f, f]}", "rmse", scores->half[0], scores->half[1], "too_bright",
-                                                                     scores->excess[0], scores->excess[1]));
+                                    figures_number(f->scores[s][m].rmse), "light_kept", figures_number(f->scores[s][m].kept), "displayed_rmse", displayed);
+            json_object_set_new(row, "displayed_far_near",
+                                json_pack("{s:[f, f], s:[f, f]}", "rmse", scores->half[0], scores->half[1], "too_bright", scores->excess[0],
+                                          scores->excess[1]));
             if (isfinite(published[m][s]))
                 json_object_set_new(row, "published_rmse", json_real(published[m][s]));
             json_array_append_new(rows, row);
@@ -219,8 +218,7 @@ static void check_table(figures_job *f)
         snprintf(claim, sizeof claim, "Table 1, %s: light that mangata keeps", figure_scenes[s]);
         figures_check(f, claim, f->scores[s][FIGURE_MANGATA].kept, 0.9, 1.1);
     }
-    figures_check(f, "Table 1: RMSE of mangata over the better of the paper's two models, mean of the scenes", over_published(f, COLUMN_COVERAGE), 0,
-                  0.75);
+    figures_check(f, "Table 1: RMSE of mangata over the better of the paper's two models, mean of the scenes", over_published(f, COLUMN_COVERAGE), 0, 0.75);
 }
 
 int figures_table1(figures_job *f)

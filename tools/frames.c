@@ -58,10 +58,7 @@ void frame_list_span(frame_list *list, uint32_t first, uint32_t last)
     list->ranges[0] = (frame_range){first, last, 1};
 }
 
-static uint32_t range_length(const frame_range *range)
-{
-    return (range->last - range->first) / range->step + 1;
-}
+static uint32_t range_length(const frame_range *range) { return (range->last - range->first) / range->step + 1; }
 
 uint64_t frame_list_length(const frame_list *list)
 {
@@ -161,7 +158,7 @@ const char *frame_path_parse(frame_path *path, const char *text)
 
 bool frame_path_print(const frame_path *path, uint32_t frame, char *text, size_t size)
 {
-    const int length = path->numbered ? snprintf(text, size, "%s%0*u%s", path->before, path->digits, frame, path->after)
-                                      : snprintf(text, size, "%s", path->before);
+    const int length =
+        path->numbered ? snprintf(text, size, "%s%0*u%s", path->before, path->digits, frame, path->after) : snprintf(text, size, "%s", path->before);
     return length >= 0 && (size_t)length < size;
 }

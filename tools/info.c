@@ -10,8 +10,7 @@
 #include "options.h"
 #include "verbs.h"
 
-static const option_table info_table = {
-    "info", "[options]", "Lists version, instruction sets, threads, libraries and file formats.", NULL, 0, NULL};
+static const option_table info_table = {"info", "[options]", "Lists version, instruction sets, threads, libraries and file formats.", NULL, 0, NULL};
 
 #if defined(__clang__)
 #define COMPILER "clang " __clang_version__
@@ -99,11 +98,10 @@ static json_t *collect(const mgt_context_info *info)
     snprintf(exr, sizeof exr, "%d.%d.%d", major, minor, patch);
     find_ffmpeg(ffmpeg, sizeof ffmpeg);
     return json_pack("{s:s, s:s, s:{s:s, s:s, s:i, s:i}, s:o, s:{s:s, s:s, s:s, s:s, s:s*}, s:[s,s,s,s,s], s:[s,s,s], s:o}", "version", mgt_version(),
-                     "compiler", COMPILER, "default", "backend", backend_name(info->backend), "isa", isa_name(info->isa), "lanes",
-                     (int)info->lanes, "threads", (int)info->threads, "instruction_sets", list_isas(), "libraries", "libfyaml",
-                     fy_library_version(), "libspng", spng_version_string(), "openexr", exr, "jansson", jansson_version_str(), "ffmpeg",
-                     ffmpeg[0] ? ffmpeg : NULL, "formats", "png", "exr", "pfm", "y4m", ffmpeg[0] ? "mp4" : "mp4 (needs ffmpeg)", "backends",
-                     "cpu", "gl", "null", "gl_devices", list_gl_devices());
+                     "compiler", COMPILER, "default", "backend", backend_name(info->backend), "isa", isa_name(info->isa), "lanes", (int)info->lanes, "threads",
+                     (int)info->threads, "instruction_sets", list_isas(), "libraries", "libfyaml", fy_library_version(), "libspng", spng_version_string(),
+                     "openexr", exr, "jansson", jansson_version_str(), "ffmpeg", ffmpeg[0] ? ffmpeg : NULL, "formats", "png", "exr", "pfm", "y4m",
+                     ffmpeg[0] ? "mp4" : "mp4 (needs ffmpeg)", "backends", "cpu", "gl", "null", "gl_devices", list_gl_devices());
 }
 
 static void print_words(const char *label, const json_t *list)
@@ -127,8 +125,8 @@ static void print_text(const json_t *all)
     json_t *device;
     json_array_foreach(json_object_get(all, "gl_devices"), i, device) printf("OpenGL device %-4zu%s\n", i, json_string_value(device));
     print_words("instruction sets", json_object_get(all, "instruction_sets"));
-    printf("%-18s%s, %d lanes, %d threads\n", "used", json_string_value(json_object_get(used, "isa")),
-           (int)json_integer_value(json_object_get(used, "lanes")), (int)json_integer_value(json_object_get(used, "threads")));
+    printf("%-18s%s, %d lanes, %d threads\n", "used", json_string_value(json_object_get(used, "isa")), (int)json_integer_value(json_object_get(used, "lanes")),
+           (int)json_integer_value(json_object_get(used, "threads")));
     json_object_foreach(libraries, name, version) printf("%-18s%s\n", name, json_string_value(version));
     if (!json_object_get(libraries, "ffmpeg"))
         printf("%-18s%s\n", "ffmpeg", "not found");

@@ -31,12 +31,6 @@ void interrupt_install(void)
     sigaction(SIGXFSZ, &ignore, NULL);
 }
 
-const volatile sig_atomic_t *interrupt_flag(void)
-{
-    return &signal_that_came;
-}
+const volatile sig_atomic_t *interrupt_flag(void) { return &signal_that_came; }
 
-int interrupt_exit_code(void)
-{
-    return 128 + (int)signal_that_came;
-}
+int interrupt_exit_code(void) { return 128 + (int)signal_that_came; }

@@ -33,8 +33,7 @@ static const char *verb_name_at(const void *unused, size_t i)
 
 static void print_help(FILE *stream)
 {
-    fputs("usage: mangata VERB [options]\n\nRenders reflections of the sun and the moon on water, anti-aliased in space and time.\n\nverbs:\n",
-          stream);
+    fputs("usage: mangata VERB [options]\n\nRenders reflections of the sun and the moon on water, anti-aliased in space and time.\n\nverbs:\n", stream);
     for (size_t i = 0; i < VERB_COUNT; i++)
         fprintf(stream, "  %-8s%s\n", verbs[i].name, verbs[i].summary);
     fputs("\noptions:\n  --version   print the version\n  -h, --help  show this help; mangata VERB --help tells about a verb\n", stream);
@@ -70,7 +69,4 @@ static int run(int argc, char **argv)
     return console_error(EXIT_CODE_USAGE, "unknown %s %s; see mangata --help", word[0] == '-' ? "option" : "verb", word);
 }
 
-int main(int argc, char **argv)
-{
-    return console_finish(run(argc, argv));
-}
+int main(int argc, char **argv) { return console_finish(run(argc, argv)); }

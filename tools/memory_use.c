@@ -32,7 +32,4 @@ double memory_use_begin(void)
     return status_bytes("VmRSS: %lf");
 }
 
-double memory_use_peak(void)
-{
-    return status_bytes("VmHWM: %lf");
-}
+double memory_use_peak(void) { return status_bytes("VmHWM: %lf"); }

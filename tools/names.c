@@ -10,22 +10,34 @@
 const char isa_words[] = "auto, scalar, sse2, avx2, avx512, neon";
 const char method_words[] = "none, ssaaN, podee-uniform, podee-pixel, mangata, reference, msaa32, lean, leadr, tokuyoshi, bruneton, fxaa, taa, tndf, adaptive";
 
-static const char *const backend_names[] = {
-    [MGT_BACKEND_CPU] = "cpu", [MGT_BACKEND_GL] = "gl", [MGT_BACKEND_AUTO] = "auto", [MGT_BACKEND_NULL] = "null"};
-static const char *const isa_names[] = {
-    [MGT_ISA_AUTO] = "auto", [MGT_ISA_SCALAR] = "scalar", [MGT_ISA_SSE2] = "sse2",
-    [MGT_ISA_AVX2] = "avx2", [MGT_ISA_AVX512] = "avx512", [MGT_ISA_NEON] = "neon"};
-static const char *const layer_names[] = {
-    [MGT_LAYER_COLOR] = "color", [MGT_LAYER_COVERAGE] = "coverage", [MGT_LAYER_MASK] = "mask",
-    [MGT_LAYER_DEPTH] = "depth", [MGT_LAYER_NORMAL] = "normal",
-    [MGT_LAYER_SAMPLES] = "samples", [MGT_LAYER_IMPORTANCE] = "importance", [MGT_LAYER_DETAIL] = "detail",
-    [MGT_LAYER_REFRACTION] = "refraction", [MGT_LAYER_REFRACTION_ERROR] = "refraction_error"};
-static const char *const method_names[] = {
-    [MGT_METHOD_NONE] = "none", [MGT_METHOD_SSAA] = "ssaa", [MGT_METHOD_PODEE_UNIFORM] = "podee-uniform",
-    [MGT_METHOD_PODEE_PIXEL] = "podee-pixel", [MGT_METHOD_MANGATA] = "mangata", [MGT_METHOD_REFERENCE] = "reference",
-    [MGT_METHOD_MSAA32] = "msaa32", [MGT_METHOD_LEAN] = "lean", [MGT_METHOD_LEADR] = "leadr", [MGT_METHOD_TOKUYOSHI] = "tokuyoshi",
-    [MGT_METHOD_BRUNETON] = "bruneton", [MGT_METHOD_FXAA] = "fxaa", [MGT_METHOD_TAA] = "taa", [MGT_METHOD_TNDF] = "tndf",
-    [MGT_METHOD_ADAPTIVE] = "adaptive"};
+static const char *const backend_names[] = {[MGT_BACKEND_CPU] = "cpu", [MGT_BACKEND_GL] = "gl", [MGT_BACKEND_AUTO] = "auto", [MGT_BACKEND_NULL] = "null"};
+static const char *const isa_names[] = {[MGT_ISA_AUTO] = "auto", [MGT_ISA_SCALAR] = "scalar", [MGT_ISA_SSE2] = "sse2",
+                                        [MGT_ISA_AVX2] = "avx2", [MGT_ISA_AVX512] = "avx512", [MGT_ISA_NEON] = "neon"};
+static const char *const layer_names[] = {[MGT_LAYER_COLOR] = "color",
+                                          [MGT_LAYER_COVERAGE] = "coverage",
+                                          [MGT_LAYER_MASK] = "mask",
+                                          [MGT_LAYER_DEPTH] = "depth",
+                                          [MGT_LAYER_NORMAL] = "normal",
+                                          [MGT_LAYER_SAMPLES] = "samples",
+                                          [MGT_LAYER_IMPORTANCE] = "importance",
+                                          [MGT_LAYER_DETAIL] = "detail",
+                                          [MGT_LAYER_REFRACTION] = "refraction",
+                                          [MGT_LAYER_REFRACTION_ERROR] = "refraction_error"};
+static const char *const method_names[] = {[MGT_METHOD_NONE] = "none",
+                                           [MGT_METHOD_SSAA] = "ssaa",
+                                           [MGT_METHOD_PODEE_UNIFORM] = "podee-uniform",
+                                           [MGT_METHOD_PODEE_PIXEL] = "podee-pixel",
+                                           [MGT_METHOD_MANGATA] = "mangata",
+                                           [MGT_METHOD_REFERENCE] = "reference",
+                                           [MGT_METHOD_MSAA32] = "msaa32",
+                                           [MGT_METHOD_LEAN] = "lean",
+                                           [MGT_METHOD_LEADR] = "leadr",
+                                           [MGT_METHOD_TOKUYOSHI] = "tokuyoshi",
+                                           [MGT_METHOD_BRUNETON] = "bruneton",
+                                           [MGT_METHOD_FXAA] = "fxaa",
+                                           [MGT_METHOD_TAA] = "taa",
+                                           [MGT_METHOD_TNDF] = "tndf",
+                                           [MGT_METHOD_ADAPTIVE] = "adaptive"};
 
 enum { MAX_SPATIAL = 1024 };
 
@@ -45,10 +57,7 @@ bool backend_from_name(const char *name, mgt_backend *backend)
     return i >= 0;
 }
 
-const char *backend_name(mgt_backend backend)
-{
-    return backend_names[backend];
-}
+const char *backend_name(mgt_backend backend) { return backend_names[backend]; }
 
 bool isa_from_name(const char *name, mgt_isa *isa)
 {
@@ -58,10 +67,7 @@ bool isa_from_name(const char *name, mgt_isa *isa)
     return i >= 0;
 }
 
-const char *isa_name(mgt_isa isa)
-{
-    return isa_names[isa];
-}
+const char *isa_name(mgt_isa isa) { return isa_names[isa]; }
 
 bool layer_from_name(const char *name, mgt_layer *layer)
 {
@@ -71,20 +77,11 @@ bool layer_from_name(const char *name, mgt_layer *layer)
     return i >= 0;
 }
 
-const char *layer_name(mgt_layer layer)
-{
-    return layer_names[layer];
-}
+const char *layer_name(mgt_layer layer) { return layer_names[layer]; }
 
-uint32_t layer_channels(mgt_layer layer)
-{
-    return layer == MGT_LAYER_COLOR || layer == MGT_LAYER_NORMAL || layer == MGT_LAYER_REFRACTION ? 3 : 1;
-}
+uint32_t layer_channels(mgt_layer layer) { return layer == MGT_LAYER_COLOR || layer == MGT_LAYER_NORMAL || layer == MGT_LAYER_REFRACTION ? 3 : 1; }
 
-bool method_takes_samples(mgt_method method)
-{
-    return method == MGT_METHOD_SSAA || method == MGT_METHOD_REFERENCE;
-}
+bool method_takes_samples(mgt_method method) { return method == MGT_METHOD_SSAA || method == MGT_METHOD_REFERENCE; }
 
 bool method_from_name(const char *name, mgt_quality *quality)
 {

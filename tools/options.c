@@ -19,15 +19,9 @@ option_reader option_reader_start(const option_table *table, console *out, int c
     return (option_reader){.table = table, .out = out, .arguments = arguments, .count = count};
 }
 
-static const option *option_at(const option_table *table, size_t i)
-{
-    return i < table->count ? &table->options[i] : &common_options[i - table->count];
-}
+static const option *option_at(const option_table *table, size_t i) { return i < table->count ? &table->options[i] : &common_options[i - table->count]; }
 
-static const char *option_name_at(const void *table, size_t i)
-{
-    return option_at(table, i)->name;
-}
+static const char *option_name_at(const void *table, size_t i) { return option_at(table, i)->name; }
 
 static void print_option(const option *o)
 {
@@ -57,10 +51,7 @@ static void print_help(const option_table *table)
         printf("\n%s\n", table->notes);
 }
 
-static size_t least(size_t a, size_t b)
-{
-    return a < b ? a : b;
-}
+static size_t least(size_t a, size_t b) { return a < b ? a : b; }
 
 /* Levenshtein's distance; long names count as far. */
 static size_t edit_distance(const char *a, const char *b)
@@ -116,10 +107,18 @@ static int found(option_reader *reader, size_t index, const char **value)
     if (index < reader->table->count)
         return (int)index;
     switch (index - reader->table->count) {
-    case COMMON_JSON: reader->out->json = true; break;
-    case COMMON_VERBOSE: reader->out->verbose = true; break;
-    case COMMON_QUIET: reader->out->quiet = true; break;
-    default: print_help(reader->table); return OPTION_HELP;
+    case COMMON_JSON:
+        reader->out->json = true;
+        break;
+    case COMMON_VERBOSE:
+        reader->out->verbose = true;
+        break;
+    case COMMON_QUIET:
+        reader->out->quiet = true;
+        break;
+    default:
+        print_help(reader->table);
+        return OPTION_HELP;
     }
     return option_reader_next(reader, value);
 }

@@ -10,15 +10,9 @@ static double share(const plot_axis *axis, double value)
     return axis->logarithmic ? log(value / axis->low) / log(axis->high / axis->low) : (value - axis->low) / (axis->high - axis->low);
 }
 
-double plot_x(const plot *p, double value)
-{
-    return p->x + p->width * share(&p->across, value);
-}
+double plot_x(const plot *p, double value) { return p->x + p->width * share(&p->across, value); }
 
-double plot_y(const plot *p, double value)
-{
-    return p->y + p->height * (1 - share(&p->up, value));
-}
+double plot_y(const plot *p, double value) { return p->y + p->height * (1 - share(&p->up, value)); }
 
 static void tick(svg *s, const plot *p, bool across, double value, bool label)
 {

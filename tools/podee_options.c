@@ -12,22 +12,19 @@ static const struct {
     const char *word;
     mgt_kernels kernels;
 } kernel_words[] = {
-    {"exact", MGT_KERNELS_EXACT}, {"1", MGT_KERNELS_1}, {"3", MGT_KERNELS_3},           {"5", MGT_KERNELS_5},
-    {"9", MGT_KERNELS_9},         {"feline", MGT_KERNELS_FELINE}, {"riemann", MGT_KERNELS_RIEMANN},
+    {"exact", MGT_KERNELS_EXACT},     {"1", MGT_KERNELS_1}, {"3", MGT_KERNELS_3}, {"5", MGT_KERNELS_5}, {"9", MGT_KERNELS_9}, {"feline", MGT_KERNELS_FELINE},
+    {"riemann", MGT_KERNELS_RIEMANN},
 };
 enum { KERNEL_WORDS = sizeof kernel_words / sizeof *kernel_words };
 
 static const option_word words[] = {
-    {"kernels", offsetof(podee_options, kernels)},        {"integral", offsetof(podee_options, integral)},
-    {"elongation", offsetof(podee_options, elongation)},  {"path-segments", offsetof(podee_options, segments)},
-    {"transition", offsetof(podee_options, transition)},  {"transition-width", offsetof(podee_options, width)},
+    {"kernels", offsetof(podee_options, kernels)},       {"integral", offsetof(podee_options, integral)},
+    {"elongation", offsetof(podee_options, elongation)}, {"path-segments", offsetof(podee_options, segments)},
+    {"transition", offsetof(podee_options, transition)}, {"transition-width", offsetof(podee_options, width)},
 };
 enum { WORDS = sizeof words / sizeof *words };
 
-const char **podee_option(podee_options *options, const char *name, size_t length)
-{
-    return option_word_find(words, WORDS, options, name, length);
-}
+const char **podee_option(podee_options *options, const char *name, size_t length) { return option_word_find(words, WORDS, options, name, length); }
 
 static bool set_kernels(const podee_options *o, mgt_quality *q, char *wrong, size_t size)
 {

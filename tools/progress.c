@@ -44,10 +44,7 @@ static void print_json_line(json_t *line)
     json_decref(line);
 }
 
-void progress_frame(progress *p, uint32_t frame)
-{
-    p->frame = frame;
-}
+void progress_frame(progress *p, uint32_t frame) { p->frame = frame; }
 
 void progress_update(progress *p, double fraction)
 {
@@ -55,12 +52,12 @@ void progress_update(progress *p, double fraction)
     if (p->mode == PROGRESS_NONE || now - p->last_shown < 0.1)
         return;
     p->last_shown = now;
-    const double all = p->work > 0 ? (p->work_done + p->work_now * fraction) / p->work
-                                   : ((double)p->frames_done + fraction) / (double)(p->frames ? p->frames : 1);
+    const double all =
+        p->work > 0 ? (p->work_done + p->work_now * fraction) / p->work : ((double)p->frames_done + fraction) / (double)(p->frames ? p->frames : 1);
     const double left = all > 0 ? (now - p->started) * (1 - all) / all : 0;
     if (p->mode == PROGRESS_JSON) {
-        print_json_line(json_pack("{s:s, s:I, s:f, s:f, s:f}", "event", "progress", "frame", (json_int_t)p->frame,
-                                  "frame_fraction", fraction, "fraction", all, "seconds_left", left));
+        print_json_line(json_pack("{s:s, s:I, s:f, s:f, s:f}", "event", "progress", "frame", (json_int_t)p->frame, "frame_fraction", fraction, "fraction", all,
+                                  "seconds_left", left));
         return;
     }
     char bar[31];
@@ -78,9 +75,8 @@ void progress_frame_done(progress *p, const char *path, double seconds)
     p->frames_done++;
     p->work_done += p->work_now;
     if (p->mode == PROGRESS_JSON)
-        print_json_line(json_pack("{s:s, s:I, s:o, s:f, s:I, s:I}", "event", "frame", "frame", (json_int_t)p->frame, "file",
-                                  console_json_text(path), "seconds", seconds, "done", (json_int_t)p->frames_done, "frames",
-                                  (json_int_t)p->frames));
+        print_json_line(json_pack("{s:s, s:I, s:o, s:f, s:I, s:I}", "event", "frame", "frame", (json_int_t)p->frame, "file", console_json_text(path), "seconds",
+                                  seconds, "done", (json_int_t)p->frames_done, "frames", (json_int_t)p->frames));
 }
 
 void progress_clear(progress *p)

@@ -21,8 +21,8 @@ typedef struct progress {
 bool progress_mode_from_name(const char *name, progress_mode *mode);
 
 progress progress_start(progress_mode mode, uint64_t frames);
-void progress_frame(progress *p, uint32_t frame);       /* a frame begins */
-void progress_update(progress *p, double fraction);     /* of that frame */
+void progress_frame(progress *p, uint32_t frame);   /* a frame begins */
+void progress_update(progress *p, double fraction); /* of that frame */
 void progress_frame_done(progress *p, const char *path, double seconds);
 void progress_clear(progress *p); /* takes the bar off the terminal, before other text or the end */
 

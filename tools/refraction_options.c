@@ -10,10 +10,15 @@
 
 const char refraction_words[] = "two-phase, hybrid, liu, broad, narrow, screen-space, distance-field, off, truth";
 
-static const char *const names[] = {
-    [MGT_REFRACTION_TWO_PHASE] = "two-phase", [MGT_REFRACTION_HYBRID] = "hybrid", [MGT_REFRACTION_LIU] = "liu",
-    [MGT_REFRACTION_BROAD] = "broad", [MGT_REFRACTION_NARROW] = "narrow", [MGT_REFRACTION_SCREEN_SPACE] = "screen-space",
-    [MGT_REFRACTION_DISTANCE_FIELD] = "distance-field", [MGT_REFRACTION_OFF] = "off", [MGT_REFRACTION_TRUTH] = "truth"};
+static const char *const names[] = {[MGT_REFRACTION_TWO_PHASE] = "two-phase",
+                                    [MGT_REFRACTION_HYBRID] = "hybrid",
+                                    [MGT_REFRACTION_LIU] = "liu",
+                                    [MGT_REFRACTION_BROAD] = "broad",
+                                    [MGT_REFRACTION_NARROW] = "narrow",
+                                    [MGT_REFRACTION_SCREEN_SPACE] = "screen-space",
+                                    [MGT_REFRACTION_DISTANCE_FIELD] = "distance-field",
+                                    [MGT_REFRACTION_OFF] = "off",
+                                    [MGT_REFRACTION_TRUTH] = "truth"};
 
 bool refraction_from_name(const char *name, size_t length, mgt_refraction *refraction)
 {
@@ -25,10 +30,7 @@ bool refraction_from_name(const char *name, size_t length, mgt_refraction *refra
     return false;
 }
 
-const char *refraction_name(mgt_refraction refraction)
-{
-    return names[refraction];
-}
+const char *refraction_name(mgt_refraction refraction) { return names[refraction]; }
 
 const char **refraction_option(refraction_options *options, const char *name, size_t length)
 {

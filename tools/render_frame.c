@@ -13,10 +13,7 @@ static mgt_format layer_format(mgt_layer layer, bool displayed)
     return layer_channels(layer) == 3 ? MGT_FORMAT_RGB32F : MGT_FORMAT_R32F;
 }
 
-static size_t pixel_bytes(mgt_format format)
-{
-    return format == MGT_FORMAT_RGB32F ? 12 : 4;
-}
+static size_t pixel_bytes(mgt_format format) { return format == MGT_FORMAT_RGB32F ? 12 : 4; }
 
 static bool fits_in_memory(double bytes)
 {
@@ -47,8 +44,7 @@ int frame_buffer_create(frame_buffer *buffer, const render_request *request, uin
     return EXIT_CODE_OK;
 fail:
     frame_buffer_free(buffer);
-    return console_error(EXIT_CODE_FAILED, "out of memory: %u x %u pixels need %.1f GB; --crop renders a part", width, height,
-                         bytes * 1e-9);
+    return console_error(EXIT_CODE_FAILED, "out of memory: %u x %u pixels need %.1f GB; --crop renders a part", width, height, bytes * 1e-9);
 }
 
 void frame_buffer_free(frame_buffer *buffer)
@@ -58,10 +54,7 @@ void frame_buffer_free(frame_buffer *buffer)
     buffer->count = 0;
 }
 
-static uint8_t to_byte(float value)
-{
-    return value > 0 ? value < 1 ? (uint8_t)(value * 255 + 0.5f) : 255 : 0;
-}
+static uint8_t to_byte(float value) { return value > 0 ? value < 1 ? (uint8_t)(value * 255 + 0.5f) : 255 : 0; }
 
 void frame_buffer_display(frame_buffer *buffer)
 {
@@ -82,8 +75,8 @@ void frame_buffer_display(frame_buffer *buffer)
     }
 }
 
-file_status frame_buffer_write(const frame_buffer *buffer, const render_request *request, const char *path,
-                               const metadata_list *metadata, const output_options *options, file_error *error)
+file_status frame_buffer_write(const frame_buffer *buffer, const render_request *request, const char *path, const metadata_list *metadata,
+                               const output_options *options, file_error *error)
 {
     picture_layer layers[LAYER_COUNT] = {0};
     if (buffer->displayed)

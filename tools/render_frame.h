@@ -21,7 +21,7 @@ void frame_buffer_free(frame_buffer *buffer);
 void frame_buffer_display(frame_buffer *buffer);
 
 /* Writes a still picture of the request's kind. */
-file_status frame_buffer_write(const frame_buffer *buffer, const render_request *request, const char *path,
-                               const metadata_list *metadata, const output_options *options, file_error *error);
+file_status frame_buffer_write(const frame_buffer *buffer, const render_request *request, const char *path, const metadata_list *metadata,
+                               const output_options *options, file_error *error);
 
 #endif

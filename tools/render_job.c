@@ -87,10 +87,9 @@ static int load_scene(render_job *job)
         return code;
     job->image = first.image;
     const mgt_image *i = &job->image;
-    if (i->crop_x >= i->width || i->crop_y >= i->height || i->crop_width > i->width - i->crop_x ||
-        i->crop_height > i->height - i->crop_y)
-        return console_error(EXIT_CODE_USAGE, "--crop %u,%u,%u,%u: it lies outside the picture of %u x %u pixels", i->crop_x, i->crop_y,
-                             i->crop_width, i->crop_height, i->width, i->height);
+    if (i->crop_x >= i->width || i->crop_y >= i->height || i->crop_width > i->width - i->crop_x || i->crop_height > i->height - i->crop_y)
+        return console_error(EXIT_CODE_USAGE, "--crop %u,%u,%u,%u: it lies outside the picture of %u x %u pixels", i->crop_x, i->crop_y, i->crop_width,
+                             i->crop_height, i->width, i->height);
     return EXIT_CODE_OK;
 }
 
@@ -102,8 +101,8 @@ static int create_context(render_job *job)
     if (job->info.backend == MGT_BACKEND_GL)
         console_detail(&job->request->out, "backend gl, %s", job->info.renderer);
     else
-        console_detail(&job->request->out, "backend %s, %s, %u lanes, %u threads", backend_name(job->info.backend), isa_name(job->info.isa),
-                       job->info.lanes, job->info.threads);
+        console_detail(&job->request->out, "backend %s, %s, %u lanes, %u threads", backend_name(job->info.backend), isa_name(job->info.isa), job->info.lanes,
+                       job->info.threads);
     return EXIT_CODE_OK;
 }
 
@@ -147,8 +146,8 @@ static int check_output(render_job *job, const char *path, const sha256_text *ha
             return file_failure(job, &error);
         if (status != FILE_MISSING && !job->request->overwrite) {
             progress_clear(&job->progress);
-            return console_error(EXIT_CODE_CANNOT_WRITE,
-                                 "%s: it exists, but was not rendered from this scene with these options; --overwrite replaces it", path);
+            return console_error(EXIT_CODE_CANNOT_WRITE, "%s: it exists, but was not rendered from this scene with these options; --overwrite replaces it",
+                                 path);
         }
     }
     if (output_file_check(path, &job->output, &error) != FILE_OK)
@@ -302,8 +301,11 @@ static int render_film(render_job *job)
         return code;
     render_record record;
     render_record_fill(&record, r, &job->info, &hash, frames, first.time, -1);
-    const video_desc desc = {.width = job->buffer.width, .height = job->buffer.height, .frames_per_second = scene_file_fps(job->scene),
-                             .metadata = &record.list, .output = job->output};
+    const video_desc desc = {.width = job->buffer.width,
+                             .height = job->buffer.height,
+                             .frames_per_second = scene_file_fps(job->scene),
+                             .metadata = &record.list,
+                             .output = job->output};
     video_writer *writer = NULL;
     file_error error;
     if (video_writer_open(&writer, path, &desc, &error) != FILE_OK)
@@ -332,19 +334,18 @@ static int report(render_job *job, double wall)
     const render_request *r = job->request;
     const double mean = job->rendered ? job->seconds / (double)job->rendered : 0;
     if (job->rendered)
-        console_note(&r->out, "%s: %" PRIu64 " frame%s of %u x %u by %s, %.1f ms each%s", r->output, job->rendered,
-                     job->rendered == 1 ? "" : "s", job->buffer.width, job->buffer.height, method_name(&r->quality).text, 1e3 * mean,
-                     job->skipped ? ", others kept" : "");
+        console_note(&r->out, "%s: %" PRIu64 " frame%s of %u x %u by %s, %.1f ms each%s", r->output, job->rendered, job->rendered == 1 ? "" : "s",
+                     job->buffer.width, job->buffer.height, method_name(&r->quality).text, 1e3 * mean, job->skipped ? ", others kept" : "");
     else
         console_note(&r->out, "%s: kept, nothing to render", r->output);
     if (!r->out.json)
         return EXIT_CODE_OK;
-    return console_print_json(json_pack(
-        "{s:s, s:o, s:s, s:i, s:i, s:I, s:I, s:{s:f, s:f, s:f}, s:f, s:s, s:s, s:i, s:O}", "version", mgt_version(), "scene", console_json_text(r->scene_path),
-        "method", method_name(&r->quality).text, "width", (int)job->buffer.width, "height", (int)job->buffer.height, "rendered",
-        (json_int_t)job->rendered, "skipped", (json_int_t)job->skipped, "seconds_per_frame", "mean", mean, "min", job->least, "max", job->most,
-        "seconds", wall, "backend", backend_name(job->info.backend), "isa", isa_name(job->info.isa), "threads", (int)job->info.threads,
-        "files", job->files));
+    return console_print_json(json_pack("{s:s, s:o, s:s, s:i, s:i, s:I, s:I, s:{s:f, s:f, s:f}, s:f, s:s, s:s, s:i, s:O}", "version", mgt_version(), "scene",
+                                        console_json_text(r->scene_path), "method", method_name(&r->quality).text, "width", (int)job->buffer.width, "height",
+                                        (int)job->buffer.height, "rendered", (json_int_t)job->rendered, "skipped", (json_int_t)job->skipped,
+                                        "seconds_per_frame", "mean", mean, "min", job->least, "max", job->most, "seconds", wall, "backend",
+                                        backend_name(job->info.backend), "isa", isa_name(job->info.isa), "threads", (int)job->info.threads, "files",
+                                        job->files));
 }
 
 static int run(render_job *job)

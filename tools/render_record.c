@@ -19,12 +19,18 @@
 static const char *format_word(picture_format format)
 {
     switch (format) {
-    case PICTURE_PNG: return "png";
-    case PICTURE_EXR: return "exr";
-    case PICTURE_PFM: return "pfm";
-    case PICTURE_MP4: return "mp4";
-    case PICTURE_Y4M: return "y4m";
-    case PICTURE_UNKNOWN: break;
+    case PICTURE_PNG:
+        return "png";
+    case PICTURE_EXR:
+        return "exr";
+    case PICTURE_PFM:
+        return "pfm";
+    case PICTURE_MP4:
+        return "mp4";
+    case PICTURE_Y4M:
+        return "y4m";
+    case PICTURE_UNKNOWN:
+        break;
     }
     return "unknown";
 }
@@ -39,8 +45,8 @@ static const char *arithmetic_word(const mgt_context_info *info)
     return info->isa == MGT_ISA_SSE2 ? "cpu without fma" : "cpu";
 }
 
-bool render_hash(const render_request *request, const char *canonical, const mgt_image *image, const mgt_context_info *info,
-                 const char *frames, sha256_text *hash)
+bool render_hash(const render_request *request, const char *canonical, const mgt_image *image, const mgt_context_info *info, const char *frames,
+                 sha256_text *hash)
 {
     const mgt_quality *q = &request->quality;
     char *text = NULL;
@@ -50,8 +56,8 @@ bool render_hash(const render_request *request, const char *canonical, const mgt
         return false;
     fprintf(stream, "mangata %s\n%s\n", mgt_version(), canonical);
     fprintf(stream, "crop %u %u %u %u\n", image->crop_x, image->crop_y, image->crop_width, image->crop_height);
-    fprintf(stream, "method %s\nsamples %u %u %" PRIu64 " %" PRIu64 "\nseed %" PRIu64 "\nndf_mean_drop %d\n", method_name(q).text,
-            q->spatial_samples, q->time_samples, q->sample_first, q->sample_count, q->seed, q->ndf_mean_drop);
+    fprintf(stream, "method %s\nsamples %u %u %" PRIu64 " %" PRIu64 "\nseed %" PRIu64 "\nndf_mean_drop %d\n", method_name(q).text, q->spatial_samples,
+            q->time_samples, q->sample_first, q->sample_count, q->seed, q->ndf_mean_drop);
     const podee_text podee = podee_options_text(q);
     if (podee.text[0])
         fprintf(stream, "podee %s\n", podee.text);
@@ -72,8 +78,7 @@ bool render_hash(const render_request *request, const char *canonical, const mgt
     return true;
 }
 
-static void add(render_record *record, const char *key, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
+static void add(render_record *record, const char *key, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
 static void add(render_record *record, const char *key, const char *format, ...)
 {
@@ -106,8 +111,8 @@ static void add_stamp(render_record *record, const mgt_context_info *info, doubl
         add(record, "render_seconds", "%.6f", seconds);
 }
 
-void render_record_fill(render_record *record, const render_request *request, const mgt_context_info *info,
-                        const sha256_text *hash, const char *frames, double time, double seconds)
+void render_record_fill(render_record *record, const render_request *request, const mgt_context_info *info, const sha256_text *hash, const char *frames,
+                        double time, double seconds)
 {
     const mgt_quality *q = &request->quality;
     record->list = (metadata_list){record->entries, 0};

@@ -12,8 +12,8 @@
 /* Hash of everything that changes pixels: version, scene, size, crop, method, samples, seed, layers, kind of file, frame.
  * Left out: threads, and instruction sets and backends that agree to the bit. `canonical` is the scene's canonical text,
  * `frames` the frame number or a film's frames. False when memory runs out. */
-bool render_hash(const render_request *request, const char *canonical, const mgt_image *image, const mgt_context_info *info,
-                 const char *frames, sha256_text *hash);
+bool render_hash(const render_request *request, const char *canonical, const mgt_image *image, const mgt_context_info *info, const char *frames,
+                 sha256_text *hash);
 
 enum { RECORD_ENTRIES = 18, RECORD_TEXT = 256 };
 
@@ -25,7 +25,7 @@ typedef struct render_record {
 } render_record;
 
 /* `seconds` below 0: not known. */
-void render_record_fill(render_record *record, const render_request *request, const mgt_context_info *info,
-                        const sha256_text *hash, const char *frames, double time, double seconds);
+void render_record_fill(render_record *record, const render_request *request, const mgt_context_info *info, const sha256_text *hash, const char *frames,
+                        double time, double seconds);
 
 #endif

@@ -32,10 +32,7 @@ typedef struct render_request {
 } render_request;
 
 /* True when the output is one file for all frames. */
-static inline bool render_is_film(const render_request *request)
-{
-    return request->format == PICTURE_MP4 || request->format == PICTURE_Y4M;
-}
+static inline bool render_is_film(const render_request *request) { return request->format == PICTURE_MP4 || request->format == PICTURE_Y4M; }
 
 /* Renders; prints errors and returns the exit code. Takes the request, since defaults are filled in from the scene. */
 int render_job_run(render_request *request);

@@ -13,12 +13,13 @@ static const option check_options[] = {
     [OPT_SET] = {"set", 0, "KEY=VALUE", "check the scene with this value changed; may be repeated"},
 };
 
-static const option_table scene_table = {
-    "scene", "check FILE... [options]\n       mangata scene schema",
-    "check: reads scene files and reports what is wrong as file:line:column: message.\n"
-    "schema: prints the JSON Schema of scene files.",
-    check_options, sizeof check_options / sizeof check_options[0],
-    "exit codes: 0 all is well, 64 usage, 65 bad scene, 66 no such file"};
+static const option_table scene_table = {"scene",
+                                         "check FILE... [options]\n       mangata scene schema",
+                                         "check: reads scene files and reports what is wrong as file:line:column: message.\n"
+                                         "schema: prints the JSON Schema of scene files.",
+                                         check_options,
+                                         sizeof check_options / sizeof check_options[0],
+                                         "exit codes: 0 all is well, 64 usage, 65 bad scene, 66 no such file"};
 
 /* What the loader cannot know, because only the library does: whether each frame can be rendered. */
 static int check_frames(const scene_file *scene, const char *path, scene_error *error)
@@ -52,8 +53,8 @@ static json_t *describe(const scene_file *scene, const char *path)
     if (!scene_file_frame(scene, 0, &first))
         return NULL;
     return json_pack("{s:o, s:b, s:o, s:i, s:i, s:i, s:f, s:f, s:I}", "file", console_json_text(path), "ok", 1, "description",
-                     console_json_text(scene_file_description(scene)), "width", (int)first.image.width, "height", (int)first.image.height,
-                     "frames", scene_file_frame_count(scene), "fps", scene_file_fps(scene), "start", scene_file_start(scene), "waves",
+                     console_json_text(scene_file_description(scene)), "width", (int)first.image.width, "height", (int)first.image.height, "frames",
+                     scene_file_frame_count(scene), "fps", scene_file_fps(scene), "start", scene_file_start(scene), "waves",
                      (json_int_t)scene_file_wave_count(scene));
 }
 
@@ -70,9 +71,9 @@ static int check_file(const console *out, const char *path, const char *const *o
         console_scene_error(&error);
     }
     if (list)
-        json_array_append_new(list, code == EXIT_CODE_OK ? describe(scene, path)
-                                                         : json_pack("{s:o, s:b, s:o}", "file", console_json_text(path), "ok", 0, "error",
-                                                                     console_json_text(error.text)));
+        json_array_append_new(list, code == EXIT_CODE_OK
+                                        ? describe(scene, path)
+                                        : json_pack("{s:o, s:b, s:o}", "file", console_json_text(path), "ok", 0, "error", console_json_text(error.text)));
     else if (code == EXIT_CODE_OK && !out->quiet)
         printf("%s: ok, %zu waves, %d frames\n", path, scene_file_wave_count(scene), scene_file_frame_count(scene));
     scene_file_free(scene);

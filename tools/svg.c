@@ -84,8 +84,8 @@ void svg_polygon(svg *s, const double *points, size_t count, const char *fill)
     fprintf(s->stream, "\" fill=\"%s\" stroke=\"#222\" stroke-width=\".4\" stroke-linejoin=\"round\"/>\n", fill);
 }
 
-bool svg_picture(svg *s, double x, double y, double width, double height, const uint8_t *png, size_t png_size, uint32_t picture_width,
-                 uint32_t picture_height, svg_crop crop)
+bool svg_picture(svg *s, double x, double y, double width, double height, const uint8_t *png, size_t png_size, uint32_t picture_width, uint32_t picture_height,
+                 svg_crop crop)
 {
     size_t length = 0;
     char *text = base64_text(png, png_size, &length);

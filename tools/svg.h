@@ -24,8 +24,7 @@ char *svg_finish(svg *s, size_t *size);
 typedef enum svg_anchor { SVG_LEFT, SVG_MIDDLE, SVG_RIGHT } svg_anchor;
 
 /* One line of text on the base line y. `style`: "" or further attributes, such as "font-weight='bold'". */
-void svg_text(svg *s, double x, double y, double size, svg_anchor anchor, const char *style, const char *format, ...)
-    __attribute__((format(printf, 7, 8)));
+void svg_text(svg *s, double x, double y, double size, svg_anchor anchor, const char *style, const char *format, ...) __attribute__((format(printf, 7, 8)));
 
 /* The same upwards, centred on (x, y). */
 void svg_text_up(svg *s, double x, double y, double size, const char *text);
@@ -45,8 +44,8 @@ typedef struct svg_crop {
 } svg_crop;
 
 /* Embeds a PNG of `picture_width` x `picture_height` pixels. False when memory runs out. */
-bool svg_picture(svg *s, double x, double y, double width, double height, const uint8_t *png, size_t png_size, uint32_t picture_width,
-                 uint32_t picture_height, svg_crop crop);
+bool svg_picture(svg *s, double x, double y, double width, double height, const uint8_t *png, size_t png_size, uint32_t picture_width, uint32_t picture_height,
+                 svg_crop crop);
 
 /* "#rrggbb" of t in [0, 1] on a ramp from dark blue by green to yellow, equal steps looking alike. */
 typedef struct svg_color {

@@ -11,25 +11,31 @@
 enum { OPT_BACKEND, OPT_METHOD, OPT_SIZE, OPT_SET, OPT_THREADS, OPT_ISA, OPT_SCRIPT, OPT_SHADERS };
 
 static const option view_options[] = {
-    [OPT_BACKEND] = {"backend", 0, "NAME", "auto (default: OpenGL where there is hardware for it, else the\n"
-                                           "CPU), cpu or gl"},
-    [OPT_METHOD] = {"method", 0, "NAME", "of side A: none, ssaaN, podee-uniform, podee-pixel, mangata\n"
-                                         "(default), reference, msaa32, lean, leadr, tokuyoshi, bruneton,\n"
-                                         "fxaa, taa or tndf"},
+    [OPT_BACKEND] = {"backend", 0, "NAME",
+                     "auto (default: OpenGL where there is hardware for it, else the\n"
+                     "CPU), cpu or gl"},
+    [OPT_METHOD] = {"method", 0, "NAME",
+                    "of side A: none, ssaaN, podee-uniform, podee-pixel, mangata\n"
+                    "(default), reference, msaa32, lean, leadr, tokuyoshi, bruneton,\n"
+                    "fxaa, taa or tndf"},
     [OPT_SIZE] = {"size", 0, "WxH", "size of the window and of the picture instead of the scene's"},
-    [OPT_SET] = {"set", 0, "KEY=VALUE", "change a value of the scene, e.g. light.elevation_deg=3;\n"
-                                        "may be repeated"},
+    [OPT_SET] = {"set", 0, "KEY=VALUE",
+                 "change a value of the scene, e.g. light.elevation_deg=3;\n"
+                 "may be repeated"},
     [OPT_THREADS] = CONTEXT_OPTION_THREADS,
     [OPT_ISA] = CONTEXT_OPTION_ISA,
     [OPT_SCRIPT] = {"script", 0, "FILE", "run a script of the viewer (docs/viewer.md)"},
-    [OPT_SHADERS] = {"shaders", 0, "DIR", "OpenGL: kernel files that replace the built-in ones, and are\n"
-                                          "read again when they change"},
+    [OPT_SHADERS] = {"shaders", 0, "DIR",
+                     "OpenGL: kernel files that replace the built-in ones, and are\n"
+                     "read again when they change"},
 };
 
-static const option_table view_table = {
-    "view", "SCENE [options]", "Opens a scene in the interactive viewer, the program mangata-viewer.", view_options,
-    sizeof view_options / sizeof view_options[0],
-    "exit codes: 0 done, 1 failed, 64 usage, 65 bad scene, 66 no such input, 69 no viewer, no display\nor no such backend"};
+static const option_table view_table = {"view",
+                                        "SCENE [options]",
+                                        "Opens a scene in the interactive viewer, the program mangata-viewer.",
+                                        view_options,
+                                        sizeof view_options / sizeof view_options[0],
+                                        "exit codes: 0 done, 1 failed, 64 usage, 65 bad scene, 66 no such input, 69 no viewer, no display\nor no such backend"};
 
 static int bad_value(size_t id, const char *value, const char *allowed)
 {
@@ -54,15 +60,22 @@ static int set_option(view_request *r, int id, const char *value)
         r->width = (uint32_t)side[0];
         r->height = (uint32_t)side[1];
         break;
-    case OPT_SET: r->overrides[r->override_count++] = value; break;
+    case OPT_SET:
+        r->overrides[r->override_count++] = value;
+        break;
     case OPT_THREADS:
     case OPT_ISA: {
         const char *allowed = context_option_set(&r->context, view_options[id].name, value);
         return allowed ? bad_value((size_t)id, value, allowed) : EXIT_CODE_OK;
     }
-    case OPT_SCRIPT: r->script = value; break;
-    case OPT_SHADERS: r->shader_folder = value; break;
-    default: break;
+    case OPT_SCRIPT:
+        r->script = value;
+        break;
+    case OPT_SHADERS:
+        r->shader_folder = value;
+        break;
+    default:
+        break;
     }
     return EXIT_CODE_OK;
 }

@@ -15,7 +15,7 @@ typedef struct view_request {
     char size_words[2][32];
     uint32_t width, height; /* of the window; 0: as the scene says */
     mgt_quality quality;
-    context_options context; /* but for the device: the window has one */
+    context_options context;   /* but for the device: the window has one */
     const char *script;        /* NULL: none */
     const char *shader_folder; /* NULL: none */
 } view_request;

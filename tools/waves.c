@@ -17,34 +17,55 @@
 
 /* The options before OPT_OUTPUT are keys of the scene's `water.spectrum`. */
 enum {
-    OPT_MODEL, OPT_WIND, OPT_WIND_HEIGHT, OPT_FETCH, OPT_DEPTH, OPT_GAMMA, OPT_DIRECTION, OPT_DIRECTIONS, OPT_SPREAD, OPT_SLOPE, OPT_SHORTEST, OPT_COUNT,
-    OPT_SEED, OPT_FILE, OPT_OUTPUT, OPT_BASE, OPT_SET, OPT_AS_SPECTRUM, OPT_OVERWRITE
+    OPT_MODEL,
+    OPT_WIND,
+    OPT_WIND_HEIGHT,
+    OPT_FETCH,
+    OPT_DEPTH,
+    OPT_GAMMA,
+    OPT_DIRECTION,
+    OPT_DIRECTIONS,
+    OPT_SPREAD,
+    OPT_SLOPE,
+    OPT_SHORTEST,
+    OPT_COUNT,
+    OPT_SEED,
+    OPT_FILE,
+    OPT_OUTPUT,
+    OPT_BASE,
+    OPT_SET,
+    OPT_AS_SPECTRUM,
+    OPT_OVERWRITE
 };
 
-static const char *const keys[OPT_OUTPUT] = {
-    [OPT_MODEL] = "model", [OPT_WIND] = "wind", [OPT_WIND_HEIGHT] = "wind_height", [OPT_FETCH] = "fetch", [OPT_DEPTH] = "depth", [OPT_GAMMA] = "gamma",
-    [OPT_DIRECTION] = "direction_deg", [OPT_DIRECTIONS] = "directions", [OPT_SPREAD] = "spread", [OPT_SLOPE] = "slope", [OPT_SHORTEST] = "shortest",
-    [OPT_COUNT] = "count", [OPT_SEED] = "seed", [OPT_FILE] = "file"};
+static const char *const keys[OPT_OUTPUT] = {[OPT_MODEL] = "model",   [OPT_WIND] = "wind",   [OPT_WIND_HEIGHT] = "wind_height", [OPT_FETCH] = "fetch",
+                                             [OPT_DEPTH] = "depth",   [OPT_GAMMA] = "gamma", [OPT_DIRECTION] = "direction_deg", [OPT_DIRECTIONS] = "directions",
+                                             [OPT_SPREAD] = "spread", [OPT_SLOPE] = "slope", [OPT_SHORTEST] = "shortest",       [OPT_COUNT] = "count",
+                                             [OPT_SEED] = "seed",     [OPT_FILE] = "file"};
 
 static const option waves_options[] = {
     [OPT_MODEL] = {"spectrum", 0, "NAME", "pierson-moskowitz, jonswap (default), tma or buoy"},
     [OPT_WIND] = {"wind", 0, "SPEED", "of the wind in m/s (default 8)"},
-    [OPT_WIND_HEIGHT] = {"wind-height", 0, "M", "height over the sea at which it blows so (default: as in the paper,\n"
-                                                "19.5 m for pierson-moskowitz, else 10 m)"},
+    [OPT_WIND_HEIGHT] = {"wind-height", 0, "M",
+                         "height over the sea at which it blows so (default: as in the paper,\n"
+                         "19.5 m for pierson-moskowitz, else 10 m)"},
     [OPT_FETCH] = {"fetch", 0, "M", "open water that the wind has crossed: jonswap, tma (default 50000)"},
     [OPT_DEPTH] = {"depth", 0, "M", "of the water (default inf; tma needs one)"},
     [OPT_GAMMA] = {"gamma", 0, "G", "how far the peak stands out: jonswap, tma (default 3.3)"},
-    [OPT_DIRECTION] = {"direction", 0, "DEG", "where the wind comes from: 0 (default) is -z, \"north\", whose waves\n"
-                                              "run towards +z; 90 is +x, \"east\""},
-    [OPT_DIRECTIONS] = {"directions", 0, "NAME", "how waves spread around it: mitsuyasu, hasselmann (default),\n"
-                                                 "donelan-banner, or fixed with --spread"},
+    [OPT_DIRECTION] = {"direction", 0, "DEG",
+                       "where the wind comes from: 0 (default) is -z, \"north\", whose waves\n"
+                       "run towards +z; 90 is +x, \"east\""},
+    [OPT_DIRECTIONS] = {"directions", 0, "NAME",
+                        "how waves spread around it: mitsuyasu, hasselmann (default),\n"
+                        "donelan-banner, or fixed with --spread"},
     [OPT_SPREAD] = {"spread", 0, "S", "of cos^2s of half the angle, for --directions fixed (default 10)"},
     [OPT_SLOPE] = {"slope", 0, "NAME", "of the short waves: spectrum (default), or cox-munk, the clean sea's"},
     [OPT_SHORTEST] = {"shortest", 0, "M", "length of the shortest wave (default 0.05; buoy: the table's end)"},
     [OPT_COUNT] = {"count", 'n', "N", "number of waves, 1 to 512 (default 64)"},
     [OPT_SEED] = {"seed", 0, "N", "another seed: another sea of the same kind (default 1)"},
-    [OPT_FILE] = {"buoy", 0, "FILE", "a measured spectrum: lines of frequency (Hz), direction (degrees,\n"
-                                     "where waves come from), density (m^2/Hz/degree); see docs/waves.md"},
+    [OPT_FILE] = {"buoy", 0, "FILE",
+                  "a measured spectrum: lines of frequency (Hz), direction (degrees,\n"
+                  "where waves come from), density (m^2/Hz/degree); see docs/waves.md"},
     [OPT_OUTPUT] = {"output", 'o', "SCENE", "scene file to write, .yaml or .yml (default: standard output)"},
     [OPT_BASE] = {"base", 0, "SCENE", "take all but the waves from this scene"},
     [OPT_SET] = {"set", 0, "KEY=VALUE", "change a value of that scene, e.g. light.body=moon; may be repeated"},
@@ -52,12 +73,13 @@ static const option waves_options[] = {
     [OPT_OVERWRITE] = {"overwrite", 0, NULL, "replace an existing file"},
 };
 
-static const option_table waves_table = {
-    "waves", "[-o SCENE] [options]",
-    "Writes a scene whose waves are drawn from a published wave spectrum, or from a buoy's.\n"
-    "--json prints the sea's statistics instead, beside their closed forms.",
-    waves_options, sizeof waves_options / sizeof waves_options[0],
-    "exit codes: 0 done, 64 usage, 65 bad scene, table or sea, 66 no such input, 73 cannot write"};
+static const option_table waves_table = {"waves",
+                                         "[-o SCENE] [options]",
+                                         "Writes a scene whose waves are drawn from a published wave spectrum, or from a buoy's.\n"
+                                         "--json prints the sea's statistics instead, beside their closed forms.",
+                                         waves_options,
+                                         sizeof waves_options / sizeof waves_options[0],
+                                         "exit codes: 0 done, 64 usage, 65 bad scene, table or sea, 66 no such input, 73 cannot write"};
 
 typedef struct waves_request {
     scene_spectrum spectrum; /* borrows its file's name */
@@ -106,7 +128,9 @@ static int set_key(waves_request *r, const scene_values *values, int id, const c
     scene_field_allowed(field, allowed, sizeof allowed);
     r->given[id] = true;
     switch (field->type) {
-    case FIELD_CHOICE: good = set_choice(field, text, place) && (id != OPT_MODEL || r->spectrum.settings.kind != SPECTRUM_NONE); break;
+    case FIELD_CHOICE:
+        good = set_choice(field, text, place) && (id != OPT_MODEL || r->spectrum.settings.kind != SPECTRUM_NONE);
+        break;
     case FIELD_COUNT:
         good = number_parse_u64(text, (uint64_t)field->max, &whole) && (double)whole >= field->min;
         if (good)
@@ -118,7 +142,9 @@ static int set_key(waves_request *r, const scene_values *values, int id, const c
         if (good)
             *(double *)place = number;
         break;
-    default: memcpy(place, &text, sizeof text); break; /* the table's name */
+    default:
+        memcpy(place, &text, sizeof text);
+        break; /* the table's name */
     }
     return good ? EXIT_CODE_OK : bad_value(id, text, id == OPT_MODEL ? "pierson-moskowitz, jonswap, tma or buoy" : allowed);
 }
@@ -128,11 +154,21 @@ static int set_option(waves_request *r, const scene_values *values, int id, cons
     if (id < OPT_OUTPUT)
         return set_key(r, values, id, text);
     switch (id) {
-    case OPT_OUTPUT: r->output = text; break;
-    case OPT_BASE: r->base = text; break;
-    case OPT_SET: r->overrides[r->override_count++] = text; break;
-    case OPT_AS_SPECTRUM: r->as_spectrum = true; break;
-    default: r->overwrite = true; break;
+    case OPT_OUTPUT:
+        r->output = text;
+        break;
+    case OPT_BASE:
+        r->base = text;
+        break;
+    case OPT_SET:
+        r->overrides[r->override_count++] = text;
+        break;
+    case OPT_AS_SPECTRUM:
+        r->as_spectrum = true;
+        break;
+    default:
+        r->overwrite = true;
+        break;
     }
     return EXIT_CODE_OK;
 }

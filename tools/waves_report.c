@@ -8,15 +8,9 @@
 
 #include "scene/spectrum_math.h"
 
-static double wavelength(const mgt_wave *wave)
-{
-    return 2 * SPECTRUM_PI / hypot(wave->a, wave->b);
-}
+static double wavelength(const mgt_wave *wave) { return 2 * SPECTRUM_PI / hypot(wave->a, wave->b); }
 
-static bool is_bent(const waves_report *r)
-{
-    return r->settings->settings.slope == SLOPE_COX_MUNK;
-}
+static bool is_bent(const waves_report *r) { return r->settings->settings.slope == SLOPE_COX_MUNK; }
 
 bool waves_report_make(waves_report *report, const scene_spectrum *settings, const scene_sea *sea, const mgt_wave *waves, size_t count)
 {
@@ -45,10 +39,7 @@ bool waves_report_make(waves_report *report, const scene_spectrum *settings, con
 
 /* ---- JSON --------------------------------------------------------------------------------------------------- */
 
-static json_t *number(double value)
-{
-    return isfinite(value) ? json_real(value) : json_null();
-}
+static json_t *number(double value) { return isfinite(value) ? json_real(value) : json_null(); }
 
 static json_t *figures(double closed_form, double clean, double spectrum, double waves)
 {

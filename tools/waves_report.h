@@ -8,9 +8,9 @@
 
 typedef struct waves_report {
     const scene_spectrum *settings;
-    wave_spectrum spectrum;    /* its table is not looked at */
-    double peak_period;        /* s */
-    double longest, shortest;  /* m, of the waves */
+    wave_spectrum spectrum;   /* its table is not looked at */
+    double peak_period;       /* s */
+    double longest, shortest; /* m, of the waves */
     size_t count;
     sea_statistics sea, waves; /* by quadrature, and of the sines */
     double height, slope;      /* closed forms; NAN where there is none */

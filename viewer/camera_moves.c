@@ -10,10 +10,7 @@ static const double steepest = 1.553; /* 89 degrees */
 static const double keyframe_gap = 1e-3;
 enum { MOST_KEYFRAMES = 10000 };
 
-static double length_of(const double v[3])
-{
-    return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-}
+static double length_of(const double v[3]) { return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
 static void cross(const double a[3], const double b[3], double out[3])
 {
@@ -106,10 +103,7 @@ void camera_keep_above(mgt_camera *camera, double height)
 
 /* ---- keyframes ---------------------------------------------------------------------------------------------- */
 
-static scene_keyframe *keyframes_of(const scene_list *path)
-{
-    return path->items;
-}
+static scene_keyframe *keyframes_of(const scene_list *path) { return path->items; }
 
 bool keyframe_record(scene_list *path, double time, const mgt_camera *camera)
 {

@@ -15,10 +15,10 @@ camera_axes camera_axes_of(const mgt_camera *camera);
 /* Sets the target to where the view meets the mean water, near enough to turn about. The picture stays the same. */
 void camera_set_pivot(mgt_camera *camera);
 
-void camera_orbit(mgt_camera *camera, double yaw, double pitch); /* about the target */
-void camera_look(mgt_camera *camera, double yaw, double pitch);  /* about the position */
+void camera_orbit(mgt_camera *camera, double yaw, double pitch);               /* about the target */
+void camera_look(mgt_camera *camera, double yaw, double pitch);                /* about the position */
 void camera_move(mgt_camera *camera, double forward, double right, double up); /* metres */
-void camera_approach(mgt_camera *camera, double factor); /* distance to the target times this */
+void camera_approach(mgt_camera *camera, double factor);                       /* distance to the target times this */
 
 /* Lifts the camera, target and all, to at least this height. */
 void camera_keep_above(mgt_camera *camera, double height);

@@ -244,10 +244,7 @@ bool control_find(const control_board *board, const char *name, control *out)
 
 /* ---- values --------------------------------------------------------------------------------------------------- */
 
-int control_width(const control *c)
-{
-    return c->field->type == FIELD_VECTOR || c->field->type == FIELD_SCALE || c->field->type == FIELD_COLOR ? 3 : 1;
-}
+int control_width(const control *c) { return c->field->type == FIELD_VECTOR || c->field->type == FIELD_SCALE || c->field->type == FIELD_COLOR ? 3 : 1; }
 
 void control_read(const control *c, double numbers[3])
 {
@@ -258,20 +255,33 @@ void control_read(const control *c, double numbers[3])
         return;
     }
     switch (c->field->type) {
-    case FIELD_COUNT: numbers[0] = *(const uint32_t *)c->value; break;
-    case FIELD_NUMBER: numbers[0] = *(const double *)c->value; break;
-    case FIELD_SHARE: numbers[0] = (double)*(const float *)c->value; break;
+    case FIELD_COUNT:
+        numbers[0] = *(const uint32_t *)c->value;
+        break;
+    case FIELD_NUMBER:
+        numbers[0] = *(const double *)c->value;
+        break;
+    case FIELD_SHARE:
+        numbers[0] = (double)*(const float *)c->value;
+        break;
     case FIELD_VECTOR:
-    case FIELD_SCALE: memcpy(numbers, c->value, 3 * sizeof *numbers); break;
+    case FIELD_SCALE:
+        memcpy(numbers, c->value, 3 * sizeof *numbers);
+        break;
     case FIELD_COLOR:
         for (int i = 0; i < 3; i++)
             numbers[i] = (double)((const float *)c->value)[i];
         break;
-    case FIELD_CHOICE: numbers[0] = *(const int *)c->value; break;
-    case FIELD_EXPOSURE: numbers[0] = ((const scene_exposure *)c->value)->stops; break;
+    case FIELD_CHOICE:
+        numbers[0] = *(const int *)c->value;
+        break;
+    case FIELD_EXPOSURE:
+        numbers[0] = ((const scene_exposure *)c->value)->stops;
+        break;
     case FIELD_TEXT:
     case FIELD_MAPPING:
-    case FIELD_LIST: break;
+    case FIELD_LIST:
+        break;
     }
 }
 
@@ -309,9 +319,15 @@ void control_write(const control_board *board, const control *c, const double nu
         return;
     }
     switch (field->type) {
-    case FIELD_COUNT: *(uint32_t *)c->value = (uint32_t)allowed(field, round(numbers[0])); break;
-    case FIELD_NUMBER: *(double *)c->value = allowed(field, numbers[0]); break;
-    case FIELD_SHARE: *(float *)c->value = (float)allowed(field, numbers[0]); break;
+    case FIELD_COUNT:
+        *(uint32_t *)c->value = (uint32_t)allowed(field, round(numbers[0]));
+        break;
+    case FIELD_NUMBER:
+        *(double *)c->value = allowed(field, numbers[0]);
+        break;
+    case FIELD_SHARE:
+        *(float *)c->value = (float)allowed(field, numbers[0]);
+        break;
     case FIELD_VECTOR:
     case FIELD_SCALE:
         for (int i = 0; i < 3; i++)
@@ -321,11 +337,16 @@ void control_write(const control_board *board, const control *c, const double nu
         for (int i = 0; i < 3; i++)
             ((float *)c->value)[i] = (float)allowed(field, numbers[i]);
         break;
-    case FIELD_CHOICE: write_choice(board, c, (int)numbers[0]); break;
-    case FIELD_EXPOSURE: *(scene_exposure *)c->value = (scene_exposure){.stops = allowed(field, numbers[0])}; break;
+    case FIELD_CHOICE:
+        write_choice(board, c, (int)numbers[0]);
+        break;
+    case FIELD_EXPOSURE:
+        *(scene_exposure *)c->value = (scene_exposure){.stops = allowed(field, numbers[0])};
+        break;
     case FIELD_TEXT:
     case FIELD_MAPPING:
-    case FIELD_LIST: break;
+    case FIELD_LIST:
+        break;
     }
 }
 

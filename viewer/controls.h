@@ -16,7 +16,7 @@ typedef struct control_board {
 
 /* How a control is best offered: a range that is useful where the allowed one is wide. */
 typedef struct control_hint {
-    const char *name;  /* list indices left out: "water.waves[].amplitude" */
+    const char *name; /* list indices left out: "water.waves[].amplitude" */
     const char *label;
     double low, high;
     bool logarithmic;

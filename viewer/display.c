@@ -36,60 +36,59 @@ static const char vertex_text[] = "#version 330 core\n"
                                   "    gl_Position = vec4(2.0 * corner - 1.0, 0.0, 1.0);\n"
                                   "}\n";
 
-static const char fragment_text[] =
-    "#version 330 core\n"
-    "uniform sampler2D side_a, side_b, palettes;\n"
-    "uniform int has_b, layer, compare, logarithmic;\n"
-    "uniform float wipe, scale;\n"
-    "uniform vec2 range;\n"
-    "uniform vec4 window;\n" /* corner and size of what is shown, in the picture */
-    "uniform vec2 pixels;\n" /* magnified: the picture's size; else 0 */
-    "in vec2 place;\n"
-    "out vec4 color;\n"
-    "const int COLOR = 0, DEPTH = 3, NORMAL = 4;\n"
-    "const int WIPE = 1, DIFFERENCE = 2;\n"
-    "vec3 palette(float share, float kind)\n"
-    "{\n"
-    "    return texture(palettes, vec2((clamp(share, 0.0, 1.0) * 255.0 + 0.5) / 256.0, (kind + 0.5) / 2.0)).rgb;\n"
-    "}\n"
-    "vec3 lean(vec3 normal)\n" /* palette_lean() */
-    "{\n"
-    "    float turn = atan(normal.x, -normal.z) / 6.2831853;\n"
-    "    vec3 hue = 0.55 + 0.45 * cos(6.2831853 * (turn + vec3(0.0, 0.33333333, 0.66666667)));\n"
-    "    return mix(vec3(0.06, 0.07, 0.09), hue, sqrt(min(length(normal.xz) / range.y, 1.0)));\n"
-    "}\n"
-    "vec3 shown(vec3 value)\n"
-    "{\n"
-    "    if (layer == COLOR)\n"
-    "        return value;\n"
-    "    if (layer == NORMAL)\n"
-    "        return dot(value, value) > 0.0 ? lean(value) : vec3(0.03);\n"
-    "    if (isinf(value.x))\n"
-    "        return vec3(0.03);\n"
-    "    if (logarithmic != 0)\n"
-    "        return palette(log(max(value.x, 1e-9) / range.x) / log(range.y / range.x), 0.0);\n"
-    "    return palette((value.x - range.x) / (range.y - range.x), 0.0);\n"
-    "}\n"
-    "vec3 difference(vec3 a, vec3 b)\n"
-    "{\n"
-    "    if (layer == COLOR || layer == NORMAL)\n"
-    "        return 0.5 + 0.5 * scale * (a - b);\n"
-    "    if (isinf(a.x) || isinf(b.x))\n"
-    "        return isinf(a.x) && isinf(b.x) ? vec3(0.03) : vec3(1.0);\n"
-    "    return palette(0.5 + 0.5 * scale * (a.x - b.x), 1.0);\n"
-    "}\n"
-    "void main()\n"
-    "{\n"
-    "    vec2 at = window.xy + place * window.zw;\n"
-    "    if (pixels.x > 0.0)\n"
-    "        at = (floor(at * pixels) + 0.5) / pixels;\n"
-    "    vec3 a = texture(side_a, at).rgb;\n"
-    "    vec3 b = has_b != 0 ? texture(side_b, at).rgb : a;\n"
-    "    if (compare == DIFFERENCE && has_b != 0)\n"
-    "        color = vec4(difference(a, b), 1.0);\n"
-    "    else\n"
-    "        color = vec4(shown(compare == WIPE && place.x >= wipe ? b : a), 1.0);\n"
-    "}\n";
+static const char fragment_text[] = "#version 330 core\n"
+                                    "uniform sampler2D side_a, side_b, palettes;\n"
+                                    "uniform int has_b, layer, compare, logarithmic;\n"
+                                    "uniform float wipe, scale;\n"
+                                    "uniform vec2 range;\n"
+                                    "uniform vec4 window;\n" /* corner and size of what is shown, in the picture */
+                                    "uniform vec2 pixels;\n" /* magnified: the picture's size; else 0 */
+                                    "in vec2 place;\n"
+                                    "out vec4 color;\n"
+                                    "const int COLOR = 0, DEPTH = 3, NORMAL = 4;\n"
+                                    "const int WIPE = 1, DIFFERENCE = 2;\n"
+                                    "vec3 palette(float share, float kind)\n"
+                                    "{\n"
+                                    "    return texture(palettes, vec2((clamp(share, 0.0, 1.0) * 255.0 + 0.5) / 256.0, (kind + 0.5) / 2.0)).rgb;\n"
+                                    "}\n"
+                                    "vec3 lean(vec3 normal)\n" /* palette_lean() */
+                                    "{\n"
+                                    "    float turn = atan(normal.x, -normal.z) / 6.2831853;\n"
+                                    "    vec3 hue = 0.55 + 0.45 * cos(6.2831853 * (turn + vec3(0.0, 0.33333333, 0.66666667)));\n"
+                                    "    return mix(vec3(0.06, 0.07, 0.09), hue, sqrt(min(length(normal.xz) / range.y, 1.0)));\n"
+                                    "}\n"
+                                    "vec3 shown(vec3 value)\n"
+                                    "{\n"
+                                    "    if (layer == COLOR)\n"
+                                    "        return value;\n"
+                                    "    if (layer == NORMAL)\n"
+                                    "        return dot(value, value) > 0.0 ? lean(value) : vec3(0.03);\n"
+                                    "    if (isinf(value.x))\n"
+                                    "        return vec3(0.03);\n"
+                                    "    if (logarithmic != 0)\n"
+                                    "        return palette(log(max(value.x, 1e-9) / range.x) / log(range.y / range.x), 0.0);\n"
+                                    "    return palette((value.x - range.x) / (range.y - range.x), 0.0);\n"
+                                    "}\n"
+                                    "vec3 difference(vec3 a, vec3 b)\n"
+                                    "{\n"
+                                    "    if (layer == COLOR || layer == NORMAL)\n"
+                                    "        return 0.5 + 0.5 * scale * (a - b);\n"
+                                    "    if (isinf(a.x) || isinf(b.x))\n"
+                                    "        return isinf(a.x) && isinf(b.x) ? vec3(0.03) : vec3(1.0);\n"
+                                    "    return palette(0.5 + 0.5 * scale * (a.x - b.x), 1.0);\n"
+                                    "}\n"
+                                    "void main()\n"
+                                    "{\n"
+                                    "    vec2 at = window.xy + place * window.zw;\n"
+                                    "    if (pixels.x > 0.0)\n"
+                                    "        at = (floor(at * pixels) + 0.5) / pixels;\n"
+                                    "    vec3 a = texture(side_a, at).rgb;\n"
+                                    "    vec3 b = has_b != 0 ? texture(side_b, at).rgb : a;\n"
+                                    "    if (compare == DIFFERENCE && has_b != 0)\n"
+                                    "        color = vec4(difference(a, b), 1.0);\n"
+                                    "    else\n"
+                                    "        color = vec4(shown(compare == WIPE && place.x >= wipe ? b : a), 1.0);\n"
+                                    "}\n";
 
 static GLuint compile(const gl_functions *gl, GLenum kind, const char *text, char *error, size_t size)
 {
@@ -243,17 +242,17 @@ GLuint display_texture(display *d, int side, mgt_layer layer, uint32_t width, ui
     gl->ActiveTexture(GL_TEXTURE0);
     if (!fits(s, layer, width, height, true)) {
         renew(d, side, layer, width, height, true);
-        gl->TexStorage2D(GL_TEXTURE_2D, 1, layer == MGT_LAYER_COLOR ? GL_RGBA8 : layer == MGT_LAYER_NORMAL ? GL_RGBA32F : GL_R32F, (GLsizei)width,
-                         (GLsizei)height);
+        gl->TexStorage2D(GL_TEXTURE_2D, 1,
+                         layer == MGT_LAYER_COLOR    ? GL_RGBA8
+                         : layer == MGT_LAYER_NORMAL ? GL_RGBA32F
+                                                     : GL_R32F,
+                         (GLsizei)width, (GLsizei)height);
     }
     s->filled = true;
     return s->texture;
 }
 
-void display_clear(display *d, int side)
-{
-    d->sides[side].filled = false;
-}
+void display_clear(display *d, int side) { d->sides[side].filled = false; }
 
 /* ---- drawing ---- */
 

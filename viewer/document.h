@@ -9,11 +9,11 @@
 #include "scene/scene_edit.h"
 
 typedef struct document {
-    const char *path;     /* of the file; borrowed */
-    scene_file *file;     /* the last good one, as it is on the disk */
-    scene_values values;  /* as changed */
-    struct stat stamp;    /* of the file when it was last read, good or bad */
-    scene_error error;    /* of that reading; kind SCENE_ERROR_NONE when it was good */
+    const char *path;             /* of the file; borrowed */
+    scene_file *file;             /* the last good one, as it is on the disk */
+    scene_values values;          /* as changed */
+    struct stat stamp;            /* of the file when it was last read, good or bad */
+    scene_error error;            /* of that reading; kind SCENE_ERROR_NONE when it was good */
     struct scene_models **former; /* those of earlier values: a rendering under way may still read them */
     size_t former_count;
 } document;

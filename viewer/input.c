@@ -52,10 +52,10 @@ typedef struct key_name {
 } key_name;
 
 static const key_name key_names[] = {
-    {"space", GLFW_KEY_SPACE, 0}, {"tab", GLFW_KEY_TAB, 0}, {"escape", GLFW_KEY_ESCAPE, 0}, {"home", GLFW_KEY_HOME, 0}, {"f1", GLFW_KEY_F1, 0},
-    {"f11", GLFW_KEY_F11, 0}, {"f12", GLFW_KEY_F12, 0}, {"?", GLFW_KEY_SLASH, GLFW_MOD_SHIFT}, {",", GLFW_KEY_COMMA, 0}, {".", GLFW_KEY_PERIOD, 0},
-    {"[", GLFW_KEY_LEFT_BRACKET, 0}, {"]", GLFW_KEY_RIGHT_BRACKET, 0}, {"-", GLFW_KEY_MINUS, 0}, {"=", GLFW_KEY_EQUAL, 0},
-    {"shift", GLFW_KEY_LEFT_SHIFT, 0},
+    {"space", GLFW_KEY_SPACE, 0}, {"tab", GLFW_KEY_TAB, 0},  {"escape", GLFW_KEY_ESCAPE, 0},    {"home", GLFW_KEY_HOME, 0},
+    {"f1", GLFW_KEY_F1, 0},       {"f11", GLFW_KEY_F11, 0},  {"f12", GLFW_KEY_F12, 0},          {"?", GLFW_KEY_SLASH, GLFW_MOD_SHIFT},
+    {",", GLFW_KEY_COMMA, 0},     {".", GLFW_KEY_PERIOD, 0}, {"[", GLFW_KEY_LEFT_BRACKET, 0},   {"]", GLFW_KEY_RIGHT_BRACKET, 0},
+    {"-", GLFW_KEY_MINUS, 0},     {"=", GLFW_KEY_EQUAL, 0},  {"shift", GLFW_KEY_LEFT_SHIFT, 0},
 };
 
 int key_from_name(const char *name, int *modifiers)
@@ -85,10 +85,7 @@ int key_from_name(const char *name, int *modifiers)
 
 /* ---- keys ---- */
 
-static void flip(int *on)
-{
-    *on = !*on;
-}
+static void flip(int *on) { *on = !*on; }
 
 static void full_screen(viewer *v)
 {
@@ -139,41 +136,81 @@ static void press(viewer *v, int key, int modifiers)
         return;
     }
     switch (key) {
-    case GLFW_KEY_F: flip(&s->move.mode); break;
-    case GLFW_KEY_R: viewer_reset_camera(v); break;
+    case GLFW_KEY_F:
+        flip(&s->move.mode);
+        break;
+    case GLFW_KEY_R:
+        viewer_reset_camera(v);
+        break;
     case GLFW_KEY_P:
         if (viewer_follows_path(v))
             viewer_free_camera(v);
         else
             s->move.path = 1;
         break;
-    case GLFW_KEY_K: record(v); break;
-    case GLFW_KEY_SPACE: flip(&s->clock.play); break;
-    case GLFW_KEY_COMMA: viewer_step_frames(v, -1); break;
-    case GLFW_KEY_PERIOD: viewer_step_frames(v, 1); break;
-    case GLFW_KEY_LEFT_BRACKET: s->clock.speed = fmax(s->clock.speed / 2, 1 / 64.0); break;
-    case GLFW_KEY_RIGHT_BRACKET: s->clock.speed = fmin(s->clock.speed * 2, 64); break;
-    case GLFW_KEY_HOME: s->clock.time = v->document.values.time.start; break;
-    case GLFW_KEY_X: s->view.compare = (s->view.compare + 1) % 3; break;
-    case GLFW_KEY_L: s->view.layer = (s->view.layer + 1) % (MGT_LAYER_NORMAL + 1); break;
-    case GLFW_KEY_MINUS: expose(v, -0.5); break;
-    case GLFW_KEY_EQUAL: expose(v, 0.5); break;
+    case GLFW_KEY_K:
+        record(v);
+        break;
+    case GLFW_KEY_SPACE:
+        flip(&s->clock.play);
+        break;
+    case GLFW_KEY_COMMA:
+        viewer_step_frames(v, -1);
+        break;
+    case GLFW_KEY_PERIOD:
+        viewer_step_frames(v, 1);
+        break;
+    case GLFW_KEY_LEFT_BRACKET:
+        s->clock.speed = fmax(s->clock.speed / 2, 1 / 64.0);
+        break;
+    case GLFW_KEY_RIGHT_BRACKET:
+        s->clock.speed = fmin(s->clock.speed * 2, 64);
+        break;
+    case GLFW_KEY_HOME:
+        s->clock.time = v->document.values.time.start;
+        break;
+    case GLFW_KEY_X:
+        s->view.compare = (s->view.compare + 1) % 3;
+        break;
+    case GLFW_KEY_L:
+        s->view.layer = (s->view.layer + 1) % (MGT_LAYER_NORMAL + 1);
+        break;
+    case GLFW_KEY_MINUS:
+        expose(v, -0.5);
+        break;
+    case GLFW_KEY_EQUAL:
+        expose(v, 0.5);
+        break;
     case GLFW_KEY_I:
         flip(&s->panel.inspector);
         if (s->inspect.x == 0 && s->inspect.y == 0) /* nothing chosen yet */
             s->inspect = (inspect_settings){v->place.width / 2, v->place.height * 2 / 3};
         break;
-    case GLFW_KEY_T: flip(&s->panel.timings); break;
-    case GLFW_KEY_C: viewer_copy_command(v); break;
-    case GLFW_KEY_F12: save_named_picture(v); break;
-    case GLFW_KEY_TAB: flip(&s->panel.shown); break;
-    case GLFW_KEY_F11: full_screen(v); break;
-    case GLFW_KEY_F1: flip(&s->panel.keys); break;
+    case GLFW_KEY_T:
+        flip(&s->panel.timings);
+        break;
+    case GLFW_KEY_C:
+        viewer_copy_command(v);
+        break;
+    case GLFW_KEY_F12:
+        save_named_picture(v);
+        break;
+    case GLFW_KEY_TAB:
+        flip(&s->panel.shown);
+        break;
+    case GLFW_KEY_F11:
+        full_screen(v);
+        break;
+    case GLFW_KEY_F1:
+        flip(&s->panel.keys);
+        break;
     case GLFW_KEY_SLASH:
         if (shift)
             flip(&s->panel.keys);
         break;
-    case GLFW_KEY_ESCAPE: s->panel.keys = 0; break;
+    case GLFW_KEY_ESCAPE:
+        s->panel.keys = 0;
+        break;
     default:
         if (key >= GLFW_KEY_1 && key <= GLFW_KEY_6)
             s->sides[shift ? SIDE_B : SIDE_A].method = key - GLFW_KEY_1;
@@ -307,10 +344,7 @@ void input_scroll(viewer *v, double amount, int modifiers)
 
 /* ---- GLFW ---- */
 
-static viewer *viewer_of(GLFWwindow *window)
-{
-    return glfwGetWindowUserPointer(window);
-}
+static viewer *viewer_of(GLFWwindow *window) { return glfwGetWindowUserPointer(window); }
 
 static void on_key(GLFWwindow *window, int key, int scancode, int action, int modifiers)
 {
@@ -324,10 +358,7 @@ static void on_button(GLFWwindow *window, int button, int action, int modifiers)
     input_button(viewer_of(window), button, action, modifiers);
 }
 
-static void on_pointer(GLFWwindow *window, double x, double y)
-{
-    input_pointer(viewer_of(window), x, y);
-}
+static void on_pointer(GLFWwindow *window, double x, double y) { input_pointer(viewer_of(window), x, y); }
 
 static void on_scroll(GLFWwindow *window, double x, double y)
 {

@@ -39,15 +39,9 @@ typedef struct plot {
 } plot;
 
 /* As seen by who looks at the light: its axis e points to the left. */
-static float plot_x(const plot *p, double e)
-{
-    return p->box.x + p->box.width / 2 - (float)((e - p->center[0]) * p->scale);
-}
+static float plot_x(const plot *p, double e) { return p->box.x + p->box.width / 2 - (float)((e - p->center[0]) * p->scale); }
 
-static float plot_y(const plot *p, double f)
-{
-    return p->box.y + p->box.height / 2 - (float)((f - p->center[1]) * p->scale);
-}
+static float plot_y(const plot *p, double f) { return p->box.y + p->box.height / 2 - (float)((f - p->center[1]) * p->scale); }
 
 /* Where the Gaussian has fallen to exp(−n²/2). */
 static void draw_ellipse(const plot *p, const double covariance[3], const double middle[2], double n, uint32_t color)

@@ -139,10 +139,14 @@ static void place_picture(viewer *v)
 static float range_end(const view_settings *s)
 {
     switch ((mgt_layer)s->layer) {
-    case MGT_LAYER_COVERAGE: return (float)s->coverage_end;
-    case MGT_LAYER_DEPTH: return (float)(fmax(s->near_depth, s->far_depth) * 1.0001); /* never the same as the lower one */
-    case MGT_LAYER_NORMAL: return (float)s->lean_end;
-    default: break;
+    case MGT_LAYER_COVERAGE:
+        return (float)s->coverage_end;
+    case MGT_LAYER_DEPTH:
+        return (float)(fmax(s->near_depth, s->far_depth) * 1.0001); /* never the same as the lower one */
+    case MGT_LAYER_NORMAL:
+        return (float)s->lean_end;
+    default:
+        break;
     }
     return 1;
 }
@@ -193,8 +197,7 @@ static bool is_busy(const viewer *v)
 {
     const bool *k = v->pointer.keys;
     const bool moves = k[0] || k[1] || k[2] || k[3] || k[4] || k[5];
-    return v->script || v->settings.clock.play || moves || v->render.reduced || seconds_now() - v->render.changed_at < 1 ||
-           v->message.until > seconds_now();
+    return v->script || v->settings.clock.play || moves || v->render.reduced || seconds_now() - v->render.changed_at < 1 || v->message.until > seconds_now();
 }
 
 static void run_frame(viewer *v)

@@ -11,10 +11,7 @@
 
 static const uint32_t white = 0xdde2eaff, faint = 0x8891a0ff, accent = 0xedc778ff, shade = 0x0a0d13c8, red = 0x5a1f1aee;
 
-static float unit_of(const viewer *v)
-{
-    return 13.5f * v->ui_scale;
-}
+static float unit_of(const viewer *v) { return 13.5f * v->ui_scale; }
 
 /* ---- divider ---- */
 
@@ -91,10 +88,7 @@ static void draw_notices(viewer *v)
 
 /* ---- legend ---- */
 
-static void tick(float x, float y, const char *text)
-{
-    ui_draw_text(UI_LAYER_BEHIND, x - ui_text_width(text) / 2, y, white, text);
-}
+static void tick(float x, float y, const char *text) { ui_draw_text(UI_LAYER_BEHIND, x - ui_text_width(text) / 2, y, white, text); }
 
 static void draw_bar(ui_rect bar, palette_kind kind)
 {
@@ -125,16 +119,21 @@ static void draw_normal_legend(ui_rect box, float unit, double end)
 static const char *layer_meaning(mgt_layer layer)
 {
     switch (layer) {
-    case MGT_LAYER_COVERAGE: return ", share that mirrors the light";
-    case MGT_LAYER_MASK: return ", share that is water";
-    case MGT_LAYER_DEPTH: return ", metres along the ray";
-    case MGT_LAYER_NORMAL: return ", horizontal part";
+    case MGT_LAYER_COVERAGE:
+        return ", share that mirrors the light";
+    case MGT_LAYER_MASK:
+        return ", share that is water";
+    case MGT_LAYER_DEPTH:
+        return ", metres along the ray";
+    case MGT_LAYER_NORMAL:
+        return ", horizontal part";
     case MGT_LAYER_SAMPLES:
     case MGT_LAYER_IMPORTANCE:
     case MGT_LAYER_DETAIL:
     case MGT_LAYER_REFRACTION:
     case MGT_LAYER_REFRACTION_ERROR:
-    case MGT_LAYER_COLOR: break;
+    case MGT_LAYER_COLOR:
+        break;
     }
     return "";
 }

@@ -10,10 +10,7 @@
 
 static const float panel_units = 23.5f, label_units = 8.2f; /* widths, in heights of the text */
 
-float panels_width(const viewer *v)
-{
-    return v->settings.panel.shown ? floorf(panel_units * 13.5f * v->ui_scale) : 0;
-}
+float panels_width(const viewer *v) { return v->settings.panel.shown ? floorf(panel_units * 13.5f * v->ui_scale) : 0; }
 
 /* ---- one control ---- */
 
@@ -156,9 +153,8 @@ static void draw_exposure(viewer *v)
 static void draw_look(viewer *v)
 {
     static const char *const light[] = {"light.body", "light.elevation_deg", "light.azimuth_deg", "light.angular_radius_deg", "light.radiance", NULL};
-    static const char *const sky[][4] = {[MGT_SKY_ATMOSPHERE] = {"sky.turbidity", "sky.night", NULL},
-                                         [MGT_SKY_GRADIENT] = {"sky.zenith", "sky.horizon", NULL},
-                                         [MGT_SKY_BLACK] = {NULL}};
+    static const char *const sky[][4] =
+        {[MGT_SKY_ATMOSPHERE] = {"sky.turbidity", "sky.night", NULL}, [MGT_SKY_GRADIENT] = {"sky.zenith", "sky.horizon", NULL}, [MGT_SKY_BLACK] = {NULL}};
     static const char *const water[] = {"water.level", "water.ior", "water.body_albedo", NULL};
     static const char *const under[] = {"water.absorption", "water.scattering", NULL}; /* for what is seen through it */
     static const char *const post[] = {"post.tone_map", "post.glare", NULL};

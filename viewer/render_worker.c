@@ -54,10 +54,7 @@ void picture_free(picture *p)
 
 /* ---- memory ---- */
 
-static uint32_t floats_of(mgt_layer layer)
-{
-    return layer == MGT_LAYER_COLOR || layer == MGT_LAYER_NORMAL ? 3 : 1;
-}
+static uint32_t floats_of(mgt_layer layer) { return layer == MGT_LAYER_COLOR || layer == MGT_LAYER_NORMAL ? 3 : 1; }
 
 static bool reserve_picture(picture *p, mgt_layer layer, uint32_t width, uint32_t height)
 {
@@ -132,10 +129,7 @@ static bool render(render_worker *w, const mgt_scene *scene, mgt_format format, 
     return status == MGT_OK;
 }
 
-static mgt_format float_format(mgt_layer layer)
-{
-    return floats_of(layer) == 3 ? MGT_FORMAT_RGB32F : MGT_FORMAT_R32F;
-}
+static mgt_format float_format(mgt_layer layer) { return floats_of(layer) == 3 ? MGT_FORMAT_RGB32F : MGT_FORMAT_R32F; }
 
 static void render_once(render_worker *w, int side)
 {
@@ -178,10 +172,7 @@ static uint64_t stratum_at(uint64_t index, uint64_t total)
 }
 
 /* Means over samples are meaningful for light and areas; depth and normal show one instant and are rendered once. */
-static bool layer_refines(mgt_layer layer)
-{
-    return layer <= MGT_LAYER_MASK;
-}
+static bool layer_refines(mgt_layer layer) { return layer <= MGT_LAYER_MASK; }
 
 static bool side_refines(const render_order *o, int side)
 {
@@ -414,7 +405,4 @@ bool render_worker_is_idle(render_worker *w)
     return idle;
 }
 
-mgt_context_info render_worker_info(const render_worker *w)
-{
-    return w->info;
-}
+mgt_context_info render_worker_info(const render_worker *w) { return w->info; }

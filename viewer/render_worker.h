@@ -8,12 +8,12 @@
 
 /* What to render: a whole frame for the sides that are wanted. */
 typedef struct render_order {
-    uint64_t serial;     /* grows from order to order */
-    mgt_scene scene;     /* its waves are copied when it is posted; its quality is not read */
+    uint64_t serial; /* grows from order to order */
+    mgt_scene scene; /* its waves are copied when it is posted; its quality is not read */
     mgt_quality quality[SIDE_COUNT];
     bool wanted[SIDE_COUNT];
     mgt_layer layer;
-    bool interruptible;  /* a newer order may stop it before it is done */
+    bool interruptible; /* a newer order may stop it before it is done */
 } render_order;
 
 /* A finished picture of one side. */
@@ -21,9 +21,9 @@ typedef struct picture {
     uint64_t serial; /* of its order */
     mgt_layer layer;
     uint32_t width, height;
-    void *pixels;    /* as display_upload() takes them; owned */
-    size_t capacity; /* bytes of `pixels` */
-    double seconds;  /* that the last rendering call took */
+    void *pixels;                    /* as display_upload() takes them; owned */
+    size_t capacity;                 /* bytes of `pixels` */
+    double seconds;                  /* that the last rendering call took */
     uint64_t samples, samples_total; /* taken and wanted; 1 and 1 for methods without samples */
 } picture;
 

@@ -23,10 +23,7 @@ static void on_log(void *user, mgt_log_level level, const char *id, const char *
         viewer_log(v, "%s [%s]", text, id);
 }
 
-static void wake(void)
-{
-    glfwPostEmptyEvent();
-}
+static void wake(void) { glfwPostEmptyEvent(); }
 
 mgt_context_desc viewer_cpu_desc(const viewer *v)
 {
@@ -121,11 +118,16 @@ static double moving_scale(const viewer *v)
 static double wanted_scale(const viewer *v, bool moving)
 {
     switch ((resolution_mode)v->settings.view.resolution) {
-    case RESOLUTION_FULL: return 1;
-    case RESOLUTION_HALF: return 1 / 2.0;
-    case RESOLUTION_THIRD: return 1 / 3.0;
-    case RESOLUTION_QUARTER: return 1 / 4.0;
-    case RESOLUTION_AUTO: break;
+    case RESOLUTION_FULL:
+        return 1;
+    case RESOLUTION_HALF:
+        return 1 / 2.0;
+    case RESOLUTION_THIRD:
+        return 1 / 3.0;
+    case RESOLUTION_QUARTER:
+        return 1 / 4.0;
+    case RESOLUTION_AUTO:
+        break;
     }
     return moving ? moving_scale(v) : 1;
 }
@@ -146,24 +148,20 @@ static bool same_quality(const mgt_quality *a, const mgt_quality *b)
            a->ndf_mean_drop == b->ndf_mean_drop;
 }
 
-static bool same_camera(const mgt_camera *a, const mgt_camera *b)
-{
-    return memcmp(a, b, sizeof *a) == 0;
-}
+static bool same_camera(const mgt_camera *a, const mgt_camera *b) { return memcmp(a, b, sizeof *a) == 0; }
 
 static bool same_light(const mgt_light *a, const mgt_light *b)
 {
-    return a->body == b->body && a->elevation_deg == b->elevation_deg && a->azimuth_deg == b->azimuth_deg &&
-           a->angular_radius_deg == b->angular_radius_deg && memcmp(a->radiance, b->radiance, sizeof a->radiance) == 0;
+    return a->body == b->body && a->elevation_deg == b->elevation_deg && a->azimuth_deg == b->azimuth_deg && a->angular_radius_deg == b->angular_radius_deg &&
+           memcmp(a->radiance, b->radiance, sizeof a->radiance) == 0;
 }
 
 static bool same_shot(const shot *a, const shot *b)
 {
     const mgt_scene *s = &a->scene, *t = &b->scene;
-    return same_camera(&s->camera, &t->camera) && s->camera_moves == t->camera_moves &&
-           (!s->camera_moves || same_camera(&s->camera_open, &t->camera_open)) && s->time == t->time && s->shutter == t->shutter &&
-           same_light(&s->light, &t->light) && memcmp(&s->sky, &t->sky, sizeof s->sky) == 0 && s->water.wave_count == t->water.wave_count &&
-           memcmp(a->waves, b->waves, s->water.wave_count * sizeof *a->waves) == 0 &&
+    return same_camera(&s->camera, &t->camera) && s->camera_moves == t->camera_moves && (!s->camera_moves || same_camera(&s->camera_open, &t->camera_open)) &&
+           s->time == t->time && s->shutter == t->shutter && same_light(&s->light, &t->light) && memcmp(&s->sky, &t->sky, sizeof s->sky) == 0 &&
+           s->water.wave_count == t->water.wave_count && memcmp(a->waves, b->waves, s->water.wave_count * sizeof *a->waves) == 0 &&
            s->water.index_of_refraction == t->water.index_of_refraction &&
            memcmp(s->water.body_albedo, t->water.body_albedo, sizeof s->water.body_albedo) == 0 && s->water.level == t->water.level &&
            memcmp(s->water.absorption, t->water.absorption, sizeof s->water.absorption) == 0 &&
@@ -179,10 +177,7 @@ static void copy_shot(shot *to, const shot *from)
     to->scene.water.waves = to->waves;
 }
 
-static bool side_refines(const mgt_quality *q)
-{
-    return q->method == MGT_METHOD_SSAA || q->method == MGT_METHOD_REFERENCE;
-}
+static bool side_refines(const mgt_quality *q) { return q->method == MGT_METHOD_SSAA || q->method == MGT_METHOD_REFERENCE; }
 
 static render_order order_of(const viewer *v)
 {
@@ -269,10 +264,7 @@ static void post(viewer *v, render_order *o)
         render_worker_post(v->render.refining, o);
 }
 
-static bool worker_is_behind(const viewer *v)
-{
-    return v->render.live && !render_worker_is_idle(v->render.live);
-}
+static bool worker_is_behind(const viewer *v) { return v->render.live && !render_worker_is_idle(v->render.live); }
 
 static void order(viewer *v)
 {

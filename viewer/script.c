@@ -50,10 +50,7 @@ void script_fail(viewer *v, const char *format, ...)
 
 /* ---- waiting ---- */
 
-void script_wait(script *s, int frames)
-{
-    s->frames_left = frames;
-}
+void script_wait(script *s, int frames) { s->frames_left = frames; }
 
 void script_settle(script *s, uint64_t samples)
 {
@@ -228,8 +225,7 @@ static window_pixels read_pixels(viewer *v)
 
 static bool same_pixels(const window_pixels *a, const window_pixels *b)
 {
-    return a->bytes && b->bytes && a->width == b->width && a->height == b->height &&
-           memcmp(a->bytes, b->bytes, (size_t)a->width * a->height * 4) == 0;
+    return a->bytes && b->bytes && a->width == b->width && a->height == b->height && memcmp(a->bytes, b->bytes, (size_t)a->width * a->height * 4) == 0;
 }
 
 static void keep_pixels(window_pixels *to, window_pixels from)
@@ -291,7 +287,9 @@ void script_after_frame(viewer *v)
     }
     window_pixels now = read_pixels(v);
     switch (what) {
-    case CAPTURE_MARK: keep_pixels(&s->mark, now); break;
+    case CAPTURE_MARK:
+        keep_pixels(&s->mark, now);
+        break;
     case CAPTURE_CHANGE:
     case CAPTURE_SAME:
         if (same_pixels(&s->mark, &now) != (what == CAPTURE_SAME))
@@ -302,8 +300,12 @@ void script_after_frame(viewer *v)
         keep_pixels(&s->before, now);
         try_other_value(v);
         break;
-    case CAPTURE_VARY_AFTER: end_vary(v, now); break;
+    case CAPTURE_VARY_AFTER:
+        end_vary(v, now);
+        break;
     case CAPTURE_NONE:
-    case CAPTURE_FILE: free(now.bytes); break;
+    case CAPTURE_FILE:
+        free(now.bytes);
+        break;
     }
 }

@@ -82,9 +82,7 @@ static void do_drag(viewer *v)
         if (!number_at(v, 1 + i, &n[i]))
             return;
     const char *button = s->words[5] ? s->words[5] : "left";
-    s->drag_button = strcmp(button, "right") == 0    ? GLFW_MOUSE_BUTTON_RIGHT
-                     : strcmp(button, "middle") == 0 ? GLFW_MOUSE_BUTTON_MIDDLE
-                                                     : GLFW_MOUSE_BUTTON_LEFT;
+    s->drag_button = strcmp(button, "right") == 0 ? GLFW_MOUSE_BUTTON_RIGHT : strcmp(button, "middle") == 0 ? GLFW_MOUSE_BUTTON_MIDDLE : GLFW_MOUSE_BUTTON_LEFT;
     for (int i = 0; i < 2; i++) {
         s->drag_from[i] = (float)n[i];
         s->drag_to[i] = (float)n[2 + i];
@@ -163,10 +161,7 @@ static void do_picture(viewer *v)
         v->script->saving = true;
 }
 
-static void do_lose_renderer(viewer *v)
-{
-    viewer_lose_gl(v, "the script took it away");
-}
+static void do_lose_renderer(viewer *v) { viewer_lose_gl(v, "the script took it away"); }
 
 static void do_command(viewer *v)
 {
@@ -229,20 +224,11 @@ static void do_expect_no_error(viewer *v)
         script_fail(v, "there is an error: %s", script_any_error(v));
 }
 
-static void do_mark(viewer *v)
-{
-    script_capture(v->script, CAPTURE_MARK);
-}
+static void do_mark(viewer *v) { script_capture(v->script, CAPTURE_MARK); }
 
-static void do_expect_change(viewer *v)
-{
-    script_capture(v->script, CAPTURE_CHANGE);
-}
+static void do_expect_change(viewer *v) { script_capture(v->script, CAPTURE_CHANGE); }
 
-static void do_expect_same(viewer *v)
-{
-    script_capture(v->script, CAPTURE_SAME);
-}
+static void do_expect_same(viewer *v) { script_capture(v->script, CAPTURE_SAME); }
 
 static void do_vary(viewer *v)
 {
@@ -281,8 +267,8 @@ static void do_inspect(viewer *v)
     if (!v->inspection.valid)
         script_fail(v, "inspect: %s", script_any_error(v));
     else
-        printf("{\"water\": %.9g, \"coverage\": %.9g, \"radiance\": [%.9g, %.9g, %.9g], \"distance\": %.9g, \"waves\": [%u, %u, %u]}\n",
-               i->water, i->coverage, i->radiance[0], i->radiance[1], i->radiance[2], i->distance, i->resolved, i->mixed, i->filtered);
+        printf("{\"water\": %.9g, \"coverage\": %.9g, \"radiance\": [%.9g, %.9g, %.9g], \"distance\": %.9g, \"waves\": [%u, %u, %u]}\n", i->water, i->coverage,
+               i->radiance[0], i->radiance[1], i->radiance[2], i->distance, i->resolved, i->mixed, i->filtered);
 }
 
 static void do_random(viewer *v)
@@ -348,15 +334,9 @@ static void do_wave(viewer *v)
         script_fail(v, "wave: allowed is add or remove INDEX");
 }
 
-static void do_revert(viewer *v)
-{
-    viewer_revert(v);
-}
+static void do_revert(viewer *v) { viewer_revert(v); }
 
-static void do_quit(viewer *v)
-{
-    v->quit = true;
-}
+static void do_quit(viewer *v) { v->quit = true; }
 
 const script_command script_commands[] = {
     {"set", 3, 3, do_set},

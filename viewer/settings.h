@@ -12,22 +12,22 @@ typedef struct side_settings {
     uint32_t spatial; /* N of N × N samples: ssaa, reference */
     uint32_t time_samples;
     uint32_t seed;
-    int ndf_mean;     /* 0 add, 1 drop: podee-pixel */
+    int ndf_mean; /* 0 add, 1 drop: podee-pixel */
 } side_settings;
 
 typedef enum resolution_mode { RESOLUTION_AUTO = 0, RESOLUTION_FULL, RESOLUTION_HALF, RESOLUTION_THIRD, RESOLUTION_QUARTER } resolution_mode;
 typedef enum frame_mode { FRAME_FILLS = 0, FRAME_AS_SCENE } frame_mode;
 
 typedef struct view_settings {
-    int compare;             /* compare_mode */
-    double wipe;             /* share of the width that shows A */
+    int compare; /* compare_mode */
+    double wipe; /* share of the width that shows A */
     double difference_scale;
-    int layer;               /* mgt_layer */
+    int layer;                    /* mgt_layer */
     double near_depth, far_depth; /* metres that the ends of the palette stand for */
     double coverage_end;          /* coverage that its upper end stands for */
     double lean_end;              /* horizontal part of a normal whose colour is full */
-    int resolution;          /* resolution_mode */
-    int frame;               /* frame_mode */
+    int resolution;               /* resolution_mode */
+    int frame;                    /* frame_mode */
     double zoom, center_x, center_y;
 } view_settings;
 

@@ -10,10 +10,7 @@
 
 /* ---- camera ---- */
 
-bool viewer_follows_path(const viewer *v)
-{
-    return v->settings.move.path && v->document.values.camera.path.count > 0;
-}
+bool viewer_follows_path(const viewer *v) { return v->settings.move.path && v->document.values.camera.path.count > 0; }
 
 static void free_from(viewer *v, const mgt_camera *camera)
 {
@@ -184,7 +181,8 @@ void viewer_poll_files(viewer *v)
 {
     const mgt_camera before = scene_file_values(v->document.file)->camera.still;
     switch (document_poll(&v->document)) {
-    case DOCUMENT_SAME: break;
+    case DOCUMENT_SAME:
+        break;
     case DOCUMENT_READ_ANEW:
         v->scene_error.text[0] = 0;
         if (!scene_camera_equal(&before, &scene_file_values(v->document.file)->camera.still))

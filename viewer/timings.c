@@ -12,10 +12,7 @@ void timing_add(timing_ring *ring, double seconds)
     ring->count += ring->count < TIMING_FRAMES;
 }
 
-float timing_at(const timing_ring *ring, int i)
-{
-    return ring->ms[(ring->next - ring->count + i + TIMING_FRAMES) % TIMING_FRAMES];
-}
+float timing_at(const timing_ring *ring, int i) { return ring->ms[(ring->next - ring->count + i + TIMING_FRAMES) % TIMING_FRAMES]; }
 
 static int compare_floats(const void *a, const void *b)
 {

@@ -21,15 +21,9 @@ const ImVec4 color_faint(0.52f, 0.57f, 0.64f, 1.0f);
 const ImVec4 color_accent(0.93f, 0.78f, 0.47f, 1.0f);
 const ImVec4 color_warning(0.96f, 0.52f, 0.42f, 1.0f);
 
-ImVec4 grey(float level, float alpha = 1.0f)
-{
-    return ImVec4(level * 0.86f, level * 0.97f, level * 1.16f, alpha);
-}
+ImVec4 grey(float level, float alpha = 1.0f) { return ImVec4(level * 0.86f, level * 0.97f, level * 1.16f, alpha); }
 
-ImVec4 accent(float alpha)
-{
-    return ImVec4(color_accent.x, color_accent.y, color_accent.z, alpha);
-}
+ImVec4 accent(float alpha) { return ImVec4(color_accent.x, color_accent.y, color_accent.z, alpha); }
 
 void set_colors(ImGuiStyle &style)
 {
@@ -91,9 +85,9 @@ void set_style(float scale)
 /* A common font of the system, else the one that ImGui brings. */
 void load_font(float scale)
 {
-    static const char *const candidates[] = {
-        "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf", "/usr/share/fonts/TTF/DejaVuSans.ttf",
-        "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf", "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf"};
+    static const char *const candidates[] = {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
+                                             "/usr/share/fonts/TTF/DejaVuSans.ttf", "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf",
+                                             "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf"};
     static const ImWchar ranges[] = {0x20, 0xff, 0x391, 0x3c9, 0x2010, 0x2026, 0x2190, 0x2193, 0x2212, 0x2212, 0x2248, 0x2265, 0};
     ImFontAtlas *atlas = ImGui::GetIO().Fonts;
     atlas->Clear();
@@ -113,17 +107,17 @@ void load_font(float scale)
     atlas->AddFontDefault(&config);
 }
 
-ImU32 packed(uint32_t rgba)
-{
-    return IM_COL32(rgba >> 24, rgba >> 16 & 255, rgba >> 8 & 255, rgba & 255);
-}
+ImU32 packed(uint32_t rgba) { return IM_COL32(rgba >> 24, rgba >> 16 & 255, rgba >> 8 & 255, rgba & 255); }
 
 ImDrawList *list_of(ui_layer layer)
 {
     switch (layer) {
-    case UI_LAYER_BEHIND: return ImGui::GetBackgroundDrawList();
-    case UI_LAYER_ABOVE: return ImGui::GetForegroundDrawList();
-    case UI_LAYER_WINDOW: break;
+    case UI_LAYER_BEHIND:
+        return ImGui::GetBackgroundDrawList();
+    case UI_LAYER_ABOVE:
+        return ImGui::GetForegroundDrawList();
+    case UI_LAYER_WINDOW:
+        break;
     }
     return ImGui::GetWindowDrawList();
 }
@@ -131,10 +125,14 @@ ImDrawList *list_of(ui_layer layer)
 const ImVec4 &tone_color(ui_tone tone)
 {
     switch (tone) {
-    case UI_TONE_FAINT: return color_faint;
-    case UI_TONE_ACCENT: return color_accent;
-    case UI_TONE_WARNING: return color_warning;
-    case UI_TONE_NORMAL: break;
+    case UI_TONE_FAINT:
+        return color_faint;
+    case UI_TONE_ACCENT:
+        return color_accent;
+    case UI_TONE_WARNING:
+        return color_warning;
+    case UI_TONE_NORMAL:
+        break;
     }
     return color_text;
 }
@@ -191,45 +189,21 @@ void ui_frame_end(void)
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }
 
-void ui_on_key(GLFWwindow *window, int key, int scancode, int action, int modifiers)
-{
-    ImGui_ImplGlfw_KeyCallback(window, key, scancode, action, modifiers);
-}
+void ui_on_key(GLFWwindow *window, int key, int scancode, int action, int modifiers) { ImGui_ImplGlfw_KeyCallback(window, key, scancode, action, modifiers); }
 
-void ui_on_character(GLFWwindow *window, unsigned character)
-{
-    ImGui_ImplGlfw_CharCallback(window, character);
-}
+void ui_on_character(GLFWwindow *window, unsigned character) { ImGui_ImplGlfw_CharCallback(window, character); }
 
-void ui_on_button(GLFWwindow *window, int button, int action, int modifiers)
-{
-    ImGui_ImplGlfw_MouseButtonCallback(window, button, action, modifiers);
-}
+void ui_on_button(GLFWwindow *window, int button, int action, int modifiers) { ImGui_ImplGlfw_MouseButtonCallback(window, button, action, modifiers); }
 
-void ui_on_scroll(GLFWwindow *window, double x, double y)
-{
-    ImGui_ImplGlfw_ScrollCallback(window, x, y);
-}
+void ui_on_scroll(GLFWwindow *window, double x, double y) { ImGui_ImplGlfw_ScrollCallback(window, x, y); }
 
-void ui_on_focus(GLFWwindow *window, int focused)
-{
-    ImGui_ImplGlfw_WindowFocusCallback(window, focused);
-}
+void ui_on_focus(GLFWwindow *window, int focused) { ImGui_ImplGlfw_WindowFocusCallback(window, focused); }
 
-void ui_on_enter(GLFWwindow *window, int entered)
-{
-    ImGui_ImplGlfw_CursorEnterCallback(window, entered);
-}
+void ui_on_enter(GLFWwindow *window, int entered) { ImGui_ImplGlfw_CursorEnterCallback(window, entered); }
 
-bool ui_takes_pointer(void)
-{
-    return ImGui::GetIO().WantCaptureMouse;
-}
+bool ui_takes_pointer(void) { return ImGui::GetIO().WantCaptureMouse; }
 
-bool ui_takes_keys(void)
-{
-    return ImGui::GetIO().WantTextInput;
-}
+bool ui_takes_keys(void) { return ImGui::GetIO().WantTextInput; }
 
 /* ---- windows ---- */
 
@@ -255,57 +229,27 @@ bool ui_panel_begin(const char *name, ui_rect place, unsigned flags)
     return open;
 }
 
-void ui_panel_end(void)
-{
-    ImGui::End();
-}
+void ui_panel_end(void) { ImGui::End(); }
 
-bool ui_child_begin(const char *name, float height)
-{
-    return ImGui::BeginChild(name, ImVec2(0, height));
-}
+bool ui_child_begin(const char *name, float height) { return ImGui::BeginChild(name, ImVec2(0, height)); }
 
-void ui_child_end(void)
-{
-    ImGui::EndChild();
-}
+void ui_child_end(void) { ImGui::EndChild(); }
 
-bool ui_header(const char *label, bool open_at_first)
-{
-    return ImGui::CollapsingHeader(label, open_at_first ? ImGuiTreeNodeFlags_DefaultOpen : 0);
-}
+bool ui_header(const char *label, bool open_at_first) { return ImGui::CollapsingHeader(label, open_at_first ? ImGuiTreeNodeFlags_DefaultOpen : 0); }
 
-bool ui_tabs_begin(const char *name)
-{
-    return ImGui::BeginTabBar(name);
-}
+bool ui_tabs_begin(const char *name) { return ImGui::BeginTabBar(name); }
 
-bool ui_tab_begin(const char *label, bool select)
-{
-    return ImGui::BeginTabItem(label, nullptr, select ? ImGuiTabItemFlags_SetSelected : 0);
-}
+bool ui_tab_begin(const char *label, bool select) { return ImGui::BeginTabItem(label, nullptr, select ? ImGuiTabItemFlags_SetSelected : 0); }
 
-void ui_tab_end(void)
-{
-    ImGui::EndTabItem();
-}
+void ui_tab_end(void) { ImGui::EndTabItem(); }
 
-void ui_tabs_end(void)
-{
-    ImGui::EndTabBar();
-}
+void ui_tabs_end(void) { ImGui::EndTabBar(); }
 
 /* ---- layout ---- */
 
-float ui_font_size(void)
-{
-    return ImGui::GetFontSize();
-}
+float ui_font_size(void) { return ImGui::GetFontSize(); }
 
-float ui_row_height(void)
-{
-    return ImGui::GetFrameHeightWithSpacing();
-}
+float ui_row_height(void) { return ImGui::GetFrameHeightWithSpacing(); }
 
 ui_rect ui_room(void)
 {
@@ -313,45 +257,21 @@ ui_rect ui_room(void)
     return {at.x, at.y, room.x, room.y};
 }
 
-void ui_same_line(float from_left)
-{
-    ImGui::SameLine(from_left);
-}
+void ui_same_line(float from_left) { ImGui::SameLine(from_left); }
 
-void ui_space(float height)
-{
-    ImGui::Dummy(ImVec2(0, height));
-}
+void ui_space(float height) { ImGui::Dummy(ImVec2(0, height)); }
 
-void ui_separator(void)
-{
-    ImGui::Separator();
-}
+void ui_separator(void) { ImGui::Separator(); }
 
-void ui_item_width(float width)
-{
-    ImGui::SetNextItemWidth(width);
-}
+void ui_item_width(float width) { ImGui::SetNextItemWidth(width); }
 
-void ui_push_id(int id)
-{
-    ImGui::PushID(id);
-}
+void ui_push_id(int id) { ImGui::PushID(id); }
 
-void ui_pop_id(void)
-{
-    ImGui::PopID();
-}
+void ui_pop_id(void) { ImGui::PopID(); }
 
-void ui_disabled_begin(bool disabled)
-{
-    ImGui::BeginDisabled(disabled);
-}
+void ui_disabled_begin(bool disabled) { ImGui::BeginDisabled(disabled); }
 
-void ui_disabled_end(void)
-{
-    ImGui::EndDisabled();
-}
+void ui_disabled_end(void) { ImGui::EndDisabled(); }
 
 void ui_tooltip(const char *text)
 {
@@ -364,10 +284,7 @@ void ui_tooltip(const char *text)
     ImGui::EndTooltip();
 }
 
-bool ui_item_held(void)
-{
-    return ImGui::IsItemActive();
-}
+bool ui_item_held(void) { return ImGui::IsItemActive(); }
 
 ui_rect ui_item_rect(void)
 {
@@ -394,15 +311,9 @@ void ui_text_wrapped(ui_tone tone, const char *text)
     ImGui::PopStyleColor();
 }
 
-bool ui_button(const char *label, float width)
-{
-    return ImGui::Button(label, ImVec2(width, 0));
-}
+bool ui_button(const char *label, float width) { return ImGui::Button(label, ImVec2(width, 0)); }
 
-bool ui_small_button(const char *label)
-{
-    return ImGui::SmallButton(label);
-}
+bool ui_small_button(const char *label) { return ImGui::SmallButton(label); }
 
 bool ui_toggle_button(const char *label, bool on, float width)
 {
@@ -418,10 +329,7 @@ bool ui_toggle_button(const char *label, bool on, float width)
     return pressed;
 }
 
-bool ui_checkbox(const char *label, bool *on)
-{
-    return ImGui::Checkbox(label, on);
-}
+bool ui_checkbox(const char *label, bool *on) { return ImGui::Checkbox(label, on); }
 
 bool ui_slider(const char *label, double *value, double min, double max, const char *format, bool logarithmic)
 {
@@ -464,25 +372,13 @@ bool ui_color(const char *label, float rgb[3], float *intensity)
     return changed;
 }
 
-bool ui_choice(const char *label, int *chosen, const char *const *names, int count)
-{
-    return ImGui::Combo(label, chosen, names, count);
-}
+bool ui_choice(const char *label, int *chosen, const char *const *names, int count) { return ImGui::Combo(label, chosen, names, count); }
 
-bool ui_selectable(const char *label, bool selected, float width)
-{
-    return ImGui::Selectable(label, selected, 0, ImVec2(width, 0));
-}
+bool ui_selectable(const char *label, bool selected, float width) { return ImGui::Selectable(label, selected, 0, ImVec2(width, 0)); }
 
-bool ui_text_field(const char *label, char *text, size_t size)
-{
-    return ImGui::InputText(label, text, size, ImGuiInputTextFlags_AutoSelectAll);
-}
+bool ui_text_field(const char *label, char *text, size_t size) { return ImGui::InputText(label, text, size, ImGuiInputTextFlags_AutoSelectAll); }
 
-void ui_clipboard(const char *text)
-{
-    ImGui::SetClipboardText(text);
-}
+void ui_clipboard(const char *text) { ImGui::SetClipboardText(text); }
 
 /* ---- drawing ---- */
 
@@ -525,32 +421,17 @@ void ui_draw_frame(ui_layer layer, ui_rect p, uint32_t color, float rounding)
     list_of(layer)->AddRect(ImVec2(p.x, p.y), ImVec2(p.x + p.width, p.y + p.height), packed(color), rounding);
 }
 
-void ui_draw_disk(ui_layer layer, float x, float y, float radius, uint32_t color)
-{
-    list_of(layer)->AddCircleFilled(ImVec2(x, y), radius, packed(color));
-}
+void ui_draw_disk(ui_layer layer, float x, float y, float radius, uint32_t color) { list_of(layer)->AddCircleFilled(ImVec2(x, y), radius, packed(color)); }
 
 void ui_draw_circle(ui_layer layer, float x, float y, float radius, uint32_t color, float thickness)
 {
     list_of(layer)->AddCircle(ImVec2(x, y), radius, packed(color), 0, thickness);
 }
 
-void ui_draw_text(ui_layer layer, float x, float y, uint32_t color, const char *text)
-{
-    list_of(layer)->AddText(ImVec2(x, y), packed(color), text);
-}
+void ui_draw_text(ui_layer layer, float x, float y, uint32_t color, const char *text) { list_of(layer)->AddText(ImVec2(x, y), packed(color), text); }
 
-float ui_text_width(const char *text)
-{
-    return ImGui::CalcTextSize(text).x;
-}
+float ui_text_width(const char *text) { return ImGui::CalcTextSize(text).x; }
 
-void ui_clip_begin(ui_layer layer, ui_rect p)
-{
-    list_of(layer)->PushClipRect(ImVec2(p.x, p.y), ImVec2(p.x + p.width, p.y + p.height));
-}
+void ui_clip_begin(ui_layer layer, ui_rect p) { list_of(layer)->PushClipRect(ImVec2(p.x, p.y), ImVec2(p.x + p.width, p.y + p.height)); }
 
-void ui_clip_end(ui_layer layer)
-{
-    list_of(layer)->PopClipRect();
-}
+void ui_clip_end(ui_layer layer) { list_of(layer)->PopClipRect(); }

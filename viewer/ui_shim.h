@@ -77,7 +77,7 @@ void ui_tabs_end(void);
 
 float ui_font_size(void);
 float ui_row_height(void);
-ui_rect ui_room(void); /* what is left of the window */
+ui_rect ui_room(void);              /* what is left of the window */
 void ui_same_line(float from_left); /* 0: right behind the last item */
 void ui_space(float height);
 void ui_separator(void);

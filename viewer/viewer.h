@@ -23,29 +23,28 @@ typedef struct shot {
 
 /* Where the picture lies in the window, window coordinates. */
 typedef struct picture_place {
-    ui_rect room;  /* what the panels leave */
-    ui_rect place; /* the picture within */
+    ui_rect room;           /* what the panels leave */
+    ui_rect place;          /* the picture within */
     uint32_t width, height; /* its full size, pixels */
 } picture_place;
 
 /* One renderer: either the CPU worker or OpenGL on the window's own context. */
 typedef struct renderers {
     render_worker *live, *refining;
-    mgt_context *gl;     /* NULL: the CPU renders */
-    mgt_context *tools;  /* of one thread, for the inspector; made when first needed */
+    mgt_context *gl;       /* NULL: the CPU renders */
+    mgt_context *tools;    /* of one thread, for the inspector; made when first needed */
     mgt_context_info info; /* of what renders the sides without samples */
     picture pictures[SIDE_COUNT];
-    uint64_t serial;          /* of the last order */
+    uint64_t serial;            /* of the last order */
     uint64_t shown[SIDE_COUNT]; /* order that each side's texture is of */
-    shot ordered;             /* what the last order showed, … */
-    render_order last;        /* … and the order itself */
-    double seconds_per_pixel; /* of live frames, smoothed */
-    double changed_at;        /* seconds_now() of the last change */
-    bool reduced;             /* the last order was below the full size */
-    bool behind;              /* what is to be seen has not been ordered yet */
-    int64_t shader_stamp;     /* of the kernel files in use; 0: the built-in ones */
+    shot ordered;               /* what the last order showed, … */
+    render_order last;          /* … and the order itself */
+    double seconds_per_pixel;   /* of live frames, smoothed */
+    double changed_at;          /* seconds_now() of the last change */
+    bool reduced;               /* the last order was below the full size */
+    bool behind;                /* what is to be seen has not been ordered yet */
+    int64_t shader_stamp;       /* of the kernel files in use; 0: the built-in ones */
 } renderers;
-
 
 typedef struct journal {
     char lines[LOG_LINES][256];
@@ -88,7 +87,7 @@ typedef struct viewer {
     renderers render;
     picture_place place;
     timings timings;
-    picture_saver *saver; /* NULL: nothing has been saved yet */
+    picture_saver *saver;           /* NULL: nothing has been saved yet */
     char progress[VIEWER_TEXT];     /* what goes on in the background; empty: nothing */
     char save_problem[VIEWER_TEXT]; /* of the last picture saved; empty: it is there */
     journal journal;
@@ -96,16 +95,16 @@ typedef struct viewer {
     pointer_state pointer;
     ui_stand_in stand_in;
     inspection inspection;
-    mgt_camera home;  /* the camera that "reset" goes back to */
+    mgt_camera home; /* the camera that "reset" goes back to */
     size_t selected_wave, selected_keyframe;
-    int open_tab;     /* page of the panel to open, from 1; 0: as it is */
+    int open_tab; /* page of the panel to open, from 1; 0: as it is */
     char save_name[VIEWER_TEXT], picture_name[VIEWER_TEXT];
     uint32_t picture_size[2]; /* of the next picture; 0: as in the window */
-    script *script;   /* NULL: none */
-    double polled_at; /* seconds_now() when the files were last looked at, … */
-    double advanced_at; /* … and when the clock last went on */
-    float ui_scale;   /* in use */
-    int windowed[4];  /* place and size to go back to from full screen */
+    script *script;           /* NULL: none */
+    double polled_at;         /* seconds_now() when the files were last looked at, … */
+    double advanced_at;       /* … and when the clock last went on */
+    float ui_scale;           /* in use */
+    int windowed[4];          /* place and size to go back to from full screen */
     bool quit;
     int exit_code;
 } viewer;

@@ -128,8 +128,8 @@ typedef struct mgt_context_info {
     mgt_isa isa;         /* what runs, never AUTO */
     uint32_t lanes;      /* pixels computed at once */
     uint32_t threads;
-    char renderer[128];  /* OpenGL: GL_RENDERER and GL_VERSION; else empty */
-    bool software;       /* OpenGL by a software rasteriser */
+    char renderer[128]; /* OpenGL: GL_RENDERER and GL_VERSION; else empty */
+    bool software;      /* OpenGL by a software rasteriser */
 } mgt_context_info;
 
 /* What the context resolved to. `info->struct_size` must be set by the caller. */
@@ -148,9 +148,9 @@ typedef struct mgt_texture mgt_texture;
 
 typedef struct mgt_mesh_desc {
     size_t struct_size;
-    const float *positions;  /* 3 a vertex, metres, within ±1e6 */
-    const float *normals;    /* 3 a vertex, of any length; NULL: those of the triangles */
-    const float *texcoords;  /* 2 a vertex, (0, 0) the top left of a texture, (1, 1) its bottom right; it repeats. NULL: all (0, 0) */
+    const float *positions; /* 3 a vertex, metres, within ±1e6 */
+    const float *normals;   /* 3 a vertex, of any length; NULL: those of the triangles */
+    const float *texcoords; /* 2 a vertex, (0, 0) the top left of a texture, (1, 1) its bottom right; it repeats. NULL: all (0, 0) */
     uint32_t vertex_count;
     const uint32_t *indices; /* 3 a triangle, below vertex_count; counter-clockwise seen from outside. Both sides are drawn */
     uint32_t triangle_count; /* 1 … MGT_MAX_TRIANGLES */
@@ -184,7 +184,7 @@ typedef struct mgt_wave {
 } mgt_wave;
 
 typedef struct mgt_image {
-    uint32_t width, height;                        /* whole image, pixels, 1 … MGT_MAX_IMAGE_SIDE */
+    uint32_t width, height;                           /* whole image, pixels, 1 … MGT_MAX_IMAGE_SIDE */
     uint32_t crop_x, crop_y, crop_width, crop_height; /* what is rendered; width or height 0: up to the edge */
 } mgt_image;
 
@@ -214,20 +214,20 @@ typedef enum mgt_sky_model {
 
 typedef struct mgt_sky {
     mgt_sky_model model;
-    float turbidity;   /* aerosol amount over clear air, [1, 10]: scales Mie scattering (atmosphere) */
-    float zenith[3];   /* kcd/m², linear sRGB (gradient) */
-    float horizon[3];  /* kcd/m², linear sRGB (gradient) */
-    float night[3];    /* kcd/m², added everywhere: airglow and stars (atmosphere) */
+    float turbidity;  /* aerosol amount over clear air, [1, 10]: scales Mie scattering (atmosphere) */
+    float zenith[3];  /* kcd/m², linear sRGB (gradient) */
+    float horizon[3]; /* kcd/m², linear sRGB (gradient) */
+    float night[3];   /* kcd/m², added everywhere: airglow and stars (atmosphere) */
 } mgt_sky;
 
 typedef struct mgt_water {
-    const mgt_wave *waves; /* wave_count of them, read during the call; NULL when wave_count is 0 (a flat mirror) */
-    size_t wave_count;     /* 0 … MGT_MAX_WAVES */
+    const mgt_wave *waves;      /* wave_count of them, read during the call; NULL when wave_count is 0 (a flat mirror) */
+    size_t wave_count;          /* 0 … MGT_MAX_WAVES */
     double index_of_refraction; /* of the water, in air: [1.0, 3.0]; 1.333 */
     double level;               /* metres: the height of the mean surface, ±1e6 */
     float absorption[3];        /* light that a metre of water absorbs, and … */
     float scattering[3];        /* … light that it scatters, 1/metre, linear sRGB, [0, 1000]. For what is seen through it: where there are objects */
-    float body_albedo[3];  /* share of the light entering the water that deep water sends up again, [0, 1], linear sRGB;
+    float body_albedo[3];       /* share of the light entering the water that deep water sends up again, [0, 1], linear sRGB;
                               shows only with a sky other than black */
 } mgt_water;
 
@@ -261,28 +261,28 @@ typedef enum mgt_tone_map { MGT_TONE_NONE = 0, MGT_TONE_REINHARD, MGT_TONE_ACES,
 
 /* How radiance becomes displayed colour; used by the 8-bit targets alone, float targets stay scene-linear. */
 typedef struct mgt_post {
-    bool auto_exposure;  /* exposure from light and sky (never from the picture, so that films do not pump) */
-    double exposure_ev;  /* stops, added to the automatic exposure or, without it, 2^ev per kcd/m² */
+    bool auto_exposure; /* exposure from light and sky (never from the picture, so that films do not pump) */
+    double exposure_ev; /* stops, added to the automatic exposure or, without it, 2^ev per kcd/m² */
     mgt_tone_map tone_map;
-    float glare;         /* share of the light that the eye scatters, [0, 1] */
+    float glare; /* share of the light that the eye scatters, [0, 1] */
 } mgt_post;
 
 typedef enum mgt_method {
-    MGT_METHOD_NONE = 0,       /* one sample at the pixel's centre at time t */
-    MGT_METHOD_SSAA,           /* spatial_samples² jittered samples × time_samples */
-    MGT_METHOD_PODEE_UNIFORM,  /* Podee et al. 2021, one covariance for the waves above the Nyquist limit (Eq. 3) */
-    MGT_METHOD_PODEE_PIXEL,    /* the same with the per-pixel covariance (Eqs. 4–7) */
-    MGT_METHOD_MANGATA,        /* this library's own model */
-    MGT_METHOD_REFERENCE,      /* brute force in double precision (CPU backend only) */
+    MGT_METHOD_NONE = 0,      /* one sample at the pixel's centre at time t */
+    MGT_METHOD_SSAA,          /* spatial_samples² jittered samples × time_samples */
+    MGT_METHOD_PODEE_UNIFORM, /* Podee et al. 2021, one covariance for the waves above the Nyquist limit (Eq. 3) */
+    MGT_METHOD_PODEE_PIXEL,   /* the same with the per-pixel covariance (Eqs. 4–7) */
+    MGT_METHOD_MANGATA,       /* this library's own model */
+    MGT_METHOD_REFERENCE,     /* brute force in double precision (CPU backend only) */
     /* Rivals, for comparison: docs/methods.md says what is theirs and what is different here. */
-    MGT_METHOD_MSAA32,         /* 32 samples of visibility, one shading */
-    MGT_METHOD_LEAN,           /* Olano and Baker 2010: a tiled map of slope moments */
-    MGT_METHOD_LEADR,          /* Dupuy et al. 2013: the same with masking and shadowing */
-    MGT_METHOD_TOKUYOSHI,      /* Tokuyoshi and Kaplanyan 2019: geometric specular anti-aliasing */
-    MGT_METHOD_BRUNETON,       /* Bruneton et al. 2010: Gaussian slopes and a point-like sun */
-    MGT_METHOD_FXAA,           /* Lottes 2009: `none`, its edges blended afterwards */
-    MGT_METHOD_TAA,            /* Karis 2014: `none` jittered over eight frames, history reprojected and clamped */
-    MGT_METHOD_TNDF,           /* after Tessari et al. 2020: one Gaussian of slopes over pixel and shutter */
+    MGT_METHOD_MSAA32,    /* 32 samples of visibility, one shading */
+    MGT_METHOD_LEAN,      /* Olano and Baker 2010: a tiled map of slope moments */
+    MGT_METHOD_LEADR,     /* Dupuy et al. 2013: the same with masking and shadowing */
+    MGT_METHOD_TOKUYOSHI, /* Tokuyoshi and Kaplanyan 2019: geometric specular anti-aliasing */
+    MGT_METHOD_BRUNETON,  /* Bruneton et al. 2010: Gaussian slopes and a point-like sun */
+    MGT_METHOD_FXAA,      /* Lottes 2009: `none`, its edges blended afterwards */
+    MGT_METHOD_TAA,       /* Karis 2014: `none` jittered over eight frames, history reprojected and clamped */
+    MGT_METHOD_TNDF,      /* after Tessari et al. 2020: one Gaussian of slopes over pixel and shutter */
     /* Samples where they show: an analytic picture first, then more of it where that one is likely to be wrong. On the CPU
        whatever the backend. */
     MGT_METHOD_ADAPTIVE
@@ -309,44 +309,44 @@ typedef enum mgt_adaptive {
 
 /* How podee-* integrates its Gaussian over the light disk and the shutter. */
 typedef enum mgt_kernels {
-    MGT_KERNELS_EXACT = 0,    /* the ellipse itself, in closed form */
-    MGT_KERNELS_1 = 1,        /* so many circular Gaussians, fitted (P1 App. C), from tables of 64 MiB that the context keeps */
+    MGT_KERNELS_EXACT = 0, /* the ellipse itself, in closed form */
+    MGT_KERNELS_1 = 1,     /* so many circular Gaussians, fitted (P1 App. C), from tables of 64 MiB that the context keeps */
     MGT_KERNELS_3 = 3,
     MGT_KERNELS_5 = 5,
     MGT_KERNELS_9 = 9,
-    MGT_KERNELS_FELINE = 32,  /* circular Gaussians placed by the formulae of McCormack et al. 1999 */
-    MGT_KERNELS_RIEMANN = 33  /* a sum over the disk when the shutter closes: P1's fallback, everywhere */
+    MGT_KERNELS_FELINE = 32, /* circular Gaussians placed by the formulae of McCormack et al. 1999 */
+    MGT_KERNELS_RIEMANN = 33 /* a sum over the disk when the shutter closes: P1's fallback, everywhere */
 } mgt_kernels;
 
 typedef struct mgt_quality {
     mgt_method method;
-    uint32_t spatial_samples; /* N of N×N strata a pixel: ssaa, reference; 1 … 1024 */
-    uint32_t time_samples;    /* M strata of the shutter: ssaa (1: the instant t), reference; 1 … 65536 */
-    uint64_t sample_first;    /* ssaa, reference: first of the N·N·M samples to take, … */
-    uint64_t sample_count;    /* … and how many; 0: all that remain. The mean over the range is returned */
-    uint64_t seed;            /* of the jitter */
-    bool ndf_mean_drop;       /* podee-pixel: leave the mean slope B out of the path (P1 Eq. 4 as printed) */
-    mgt_kernels kernels;      /* podee-*: what stands for the elliptical Gaussian on the light plane */
-    double elongation_limit;  /* podee-* with kernels: ellipses longer than this, major over minor axis, are summed without time as by
+    uint32_t spatial_samples;    /* N of N×N strata a pixel: ssaa, reference; 1 … 1024 */
+    uint32_t time_samples;       /* M strata of the shutter: ssaa (1: the instant t), reference; 1 … 65536 */
+    uint64_t sample_first;       /* ssaa, reference: first of the N·N·M samples to take, … */
+    uint64_t sample_count;       /* … and how many; 0: all that remain. The mean over the range is returned */
+    uint64_t seed;               /* of the jitter */
+    bool ndf_mean_drop;          /* podee-pixel: leave the mean slope B out of the path (P1 Eq. 4 as printed) */
+    mgt_kernels kernels;         /* podee-*: what stands for the elliptical Gaussian on the light plane */
+    double elongation_limit;     /* podee-* with kernels: ellipses longer than this, major over minor axis, are summed without time as by
                                  MGT_KERNELS_RIEMANN, 1 … 1e6; 0: as many as there are kernels (P1 §3.6), and 1e6 for 1 kernel and Feline */
-    uint32_t path_segments;   /* podee-*: straight pieces of the shutter, each with its own Gaussian, 1 … 64; 0: 1 */
-    double transition_width;  /* podee-*: cycles per pixel below the Nyquist limit of 0.5 in which waves turn from resolved to unresolved
+    uint32_t path_segments;      /* podee-*: straight pieces of the shutter, each with its own Gaussian, 1 … 64; 0: 1 */
+    double transition_width;     /* podee-*: cycles per pixel below the Nyquist limit of 0.5 in which waves turn from resolved to unresolved
                                  (Eq. 20), up to 0.5; 0: 0.3 */
-    bool transition_hard;     /* podee-*: no transition, waves turn at 0.5 cycles per pixel (Fig. 11) */
-    mgt_adaptive adaptive;    /* adaptive: the scheme; at most one of the next three says when it ends */
-    double samples;           /* adaptive: evaluations of all waves per pixel of water, on average, 1 … 4096; cells and points count as what they
+    bool transition_hard;        /* podee-*: no transition, waves turn at 0.5 cycles per pixel (Fig. 11) */
+    mgt_adaptive adaptive;       /* adaptive: the scheme; at most one of the next three says when it ends */
+    double samples;              /* adaptive: evaluations of all waves per pixel of water, on average, 1 … 4096; cells and points count as what they
                                  cost, a ray of podee, traced at both ends of the shutter, as one. 0: 8 where no other end is given */
-    double target_rmse;       /* adaptive, cells: ends where the predicted RMSE of coverage over the image is this, 1e-6 … 1; 0: none */
-    double budget_ms;         /* adaptive, cells: ends after so much time, 0.1 … 1e7. The one setting whose pixels depend on the machine; 0: none */
-    double importance_center; /* adaptive, podee: c of Eq. 1, a coverage, up to 1; 0: 0.1 */
-    double importance_width;  /* adaptive, podee: ρ of Eq. 1, 1e-6 … 1; 0: 0.04 */
+    double target_rmse;          /* adaptive, cells: ends where the predicted RMSE of coverage over the image is this, 1e-6 … 1; 0: none */
+    double budget_ms;            /* adaptive, cells: ends after so much time, 0.1 … 1e7. The one setting whose pixels depend on the machine; 0: none */
+    double importance_center;    /* adaptive, podee: c of Eq. 1, a coverage, up to 1; 0: 0.1 */
+    double importance_width;     /* adaptive, podee: ρ of Eq. 1, 1e-6 … 1; 0: 0.04 */
     double importance_threshold; /* adaptive, podee: pixels whose importance (1 at its peak) is not above it get no samples, up to 1; 0: 0.05,
                                  a little more than the importance of a pixel without light by the defaults */
     mgt_refraction refraction;
-    double tess_error;        /* two-phase, hybrid, liu, broad: pixels that a triangle bent by refraction may be off by, 0.01 … 100; 0: 0.1 */
+    double tess_error;           /* two-phase, hybrid, liu, broad: pixels that a triangle bent by refraction may be off by, 0.01 … 100; 0: 0.1 */
     uint32_t refraction_samples; /* N of N×N places of a pixel that rays of refraction go through, 1 … 64; 1 is the pixel's centre; 0: 1, and 4 for truth */
-    bool caustics;            /* light that the waves bundle on what lies under them */
-    uint64_t sample_slots;    /* adaptive, podee: M of Eq. 3, how many samples the picture gets, up to 2^32; 0: as `samples` says */
+    bool caustics;               /* light that the waves bundle on what lies under them */
+    uint64_t sample_slots;       /* adaptive, podee: M of Eq. 3, how many samples the picture gets, up to 2^32; 0: as `samples` says */
 } mgt_quality;
 
 /* Everything a frame depends on. Plain data, read during mgt_render() only. */
@@ -356,9 +356,9 @@ typedef struct mgt_scene {
     mgt_camera camera;      /* when the shutter closes */
     mgt_camera camera_open; /* when it opens; used when camera_moves */
     bool camera_moves;
-    double time;            /* seconds, when the shutter closes */
-    double shutter;         /* seconds the shutter is open, ≥ 0; light is integrated over [time − shutter, time] */
-    double frame_interval;  /* seconds since the frame before, ≥ 0; method taa alone looks back. 0: the shutter, or 1/30 where that is 0 too */
+    double time;           /* seconds, when the shutter closes */
+    double shutter;        /* seconds the shutter is open, ≥ 0; light is integrated over [time − shutter, time] */
+    double frame_interval; /* seconds since the frame before, ≥ 0; method taa alone looks back. 0: the shutter, or 1/30 where that is 0 too */
     mgt_light light;
     mgt_sky sky;
     mgt_water water;
@@ -396,10 +396,10 @@ typedef enum mgt_layer {
 } mgt_layer;
 
 typedef enum mgt_format {
-    MGT_FORMAT_R32F = 0,   /* one float: all but color and normal */
-    MGT_FORMAT_RGB32F,     /* three floats: color, normal */
-    MGT_FORMAT_RGBA32F,    /* four floats, alpha 1: color, normal */
-    MGT_FORMAT_RGBA8_SRGB  /* displayed colour with exposure, glare, tone map and sRGB transfer, alpha 255: color only */
+    MGT_FORMAT_R32F = 0,  /* one float: all but color and normal */
+    MGT_FORMAT_RGB32F,    /* three floats: color, normal */
+    MGT_FORMAT_RGBA32F,   /* four floats, alpha 1: color, normal */
+    MGT_FORMAT_RGBA8_SRGB /* displayed colour with exposure, glare, tone map and sRGB transfer, alpha 255: color only */
 } mgt_format;
 
 typedef struct mgt_target {
@@ -423,19 +423,19 @@ MGT_API mgt_status mgt_display(mgt_context *context, const mgt_scene *scene, con
 /* What method `mangata` knows of one pixel. Slopes are (∂y/∂x, ∂y/∂z). The light plane is r·L = 1, its axes as in the kernels: e horizontal, f up. */
 typedef struct mgt_pixel_info {
     size_t struct_size;
-    double water;              /* share of the pixel that is water; where it is 0 all else is 0 */
-    double coverage;           /* as the layer's */
-    double radiance[3];        /* kcd/m² */
-    double position[3];        /* of the hit, metres */
-    double distance;           /* along the ray, metres */
-    double slope_open[2];      /* mean slope when the shutter opens, … */
-    double slope_close[2];     /* … and when it closes */
-    double unresolved[3];      /* slope covariance xx, xz, zz of the waves that the pixel does not resolve */
-    double bend[3];            /* and of the resolved ones' bend over the pixel, relative to the mirror slope */
-    double mirror_slope[2];    /* the slope that mirrors the light's centre */
-    double path[2][2];         /* mean mirror ray on the light plane, at both ends of the shutter; the light's centre is (0, 0) … */
-    double light_radius;       /* … and its radius this */
-    double covariance[3];      /* of the Gaussian about the path there: ee, ef, ff */
+    double water;                       /* share of the pixel that is water; where it is 0 all else is 0 */
+    double coverage;                    /* as the layer's */
+    double radiance[3];                 /* kcd/m² */
+    double position[3];                 /* of the hit, metres */
+    double distance;                    /* along the ray, metres */
+    double slope_open[2];               /* mean slope when the shutter opens, … */
+    double slope_close[2];              /* … and when it closes */
+    double unresolved[3];               /* slope covariance xx, xz, zz of the waves that the pixel does not resolve */
+    double bend[3];                     /* and of the resolved ones' bend over the pixel, relative to the mirror slope */
+    double mirror_slope[2];             /* the slope that mirrors the light's centre */
+    double path[2][2];                  /* mean mirror ray on the light plane, at both ends of the shutter; the light's centre is (0, 0) … */
+    double light_radius;                /* … and its radius this */
+    double covariance[3];               /* of the Gaussian about the path there: ee, ef, ff */
     uint32_t resolved, mixed, filtered; /* waves of the pixel's tile by class */
 } mgt_pixel_info;
 

@@ -41,9 +41,9 @@ typedef struct mgt_gl_view {
     double view_open[16];  /* where the shutter opens; used when scene.camera_moves */
     int32_t x, y;          /* viewport in the framebuffer, pixels from its lower left corner */
     uint32_t width, height;
-    uint32_t framebuffer;  /* name of yours with a colour and a depth attachment, multisampled or not; 0: the default one */
-    bool reversed_depth;   /* nearer is greater: tested with GL_GEQUAL instead of GL_LEQUAL. Clip depth mode and depth range are yours */
-    bool draw_sky;         /* fills what lies behind the far plane with the scene's sky and light; else only water is drawn */
+    uint32_t framebuffer; /* name of yours with a colour and a depth attachment, multisampled or not; 0: the default one */
+    bool reversed_depth;  /* nearer is greater: tested with GL_GEQUAL instead of GL_LEQUAL. Clip depth mode and depth range are yours */
+    bool draw_sky;        /* fills what lies behind the far plane with the scene's sky and light; else only water is drawn */
     mgt_gl_color color;
 } mgt_gl_view;
 

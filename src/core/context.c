@@ -105,10 +105,7 @@ void mgt_context_destroy(mgt_context *context)
     free(context);
 }
 
-const char *mgt_last_error(const mgt_context *context)
-{
-    return context ? context->error : creation_error;
-}
+const char *mgt_last_error(const mgt_context *context) { return context ? context->error : creation_error; }
 
 mgt_status mgt_context_get_info(const mgt_context *context, mgt_context_info *info)
 {

@@ -11,10 +11,7 @@ mgt_gl_view mgt_gl_view_defaults(void)
     return view;
 }
 
-mgt_gl_texture mgt_gl_texture_defaults(void)
-{
-    return (mgt_gl_texture){.struct_size = sizeof(mgt_gl_texture), .layer = MGT_LAYER_COLOR};
-}
+mgt_gl_texture mgt_gl_texture_defaults(void) { return (mgt_gl_texture){.struct_size = sizeof(mgt_gl_texture), .layer = MGT_LAYER_COLOR}; }
 
 static mgt_status check_backend(mgt_context *context, const char *function)
 {
@@ -66,11 +63,10 @@ mgt_status mgt_gl_render_views(mgt_context *context, const mgt_scene *scene, con
     status = check_count(r, "render.view", "views", views, count);
     for (size_t i = 0; i < count && status == MGT_OK; i++) {
         if (views[i].struct_size != sizeof *views)
-            status = report_error(r, MGT_ERROR_ARGUMENT, "render.view", "view %zu: struct_size is %zu, this library knows %zu", i,
-                                  views[i].struct_size, sizeof *views);
+            status = report_error(r, MGT_ERROR_ARGUMENT, "render.view", "view %zu: struct_size is %zu, this library knows %zu", i, views[i].struct_size,
+                                  sizeof *views);
         else if ((int)views[i].color < 0 || (int)views[i].color > MGT_GL_COLOR_DISPLAY)
-            status = report_error(r, MGT_ERROR_ARGUMENT, "render.view", "view %zu: color is %d, which names no kind of colour", i,
-                                  (int)views[i].color);
+            status = report_error(r, MGT_ERROR_ARGUMENT, "render.view", "view %zu: color is %d, which names no kind of colour", i, (int)views[i].color);
     }
     return status == MGT_OK ? context->backend->render_views(context->state, r, scene, views, count) : status;
 }

@@ -4,35 +4,34 @@
 
 #include "core/backend.h"
 
-const char *mgt_version(void)
-{
-    return MGT_VERSION_STRING;
-}
+const char *mgt_version(void) { return MGT_VERSION_STRING; }
 
 const char *mgt_status_text(mgt_status status)
 {
     switch (status) {
-    case MGT_OK: return "ok";
-    case MGT_ERROR_ARGUMENT: return "invalid argument";
-    case MGT_ERROR_SCENE: return "invalid scene";
-    case MGT_ERROR_MEMORY: return "out of memory";
-    case MGT_ERROR_UNAVAILABLE: return "not available here";
-    case MGT_ERROR_UNSUPPORTED: return "not supported yet";
-    case MGT_ERROR_THREAD: return "a thread could not be started";
-    case MGT_CANCELLED: return "cancelled";
+    case MGT_OK:
+        return "ok";
+    case MGT_ERROR_ARGUMENT:
+        return "invalid argument";
+    case MGT_ERROR_SCENE:
+        return "invalid scene";
+    case MGT_ERROR_MEMORY:
+        return "out of memory";
+    case MGT_ERROR_UNAVAILABLE:
+        return "not available here";
+    case MGT_ERROR_UNSUPPORTED:
+        return "not supported yet";
+    case MGT_ERROR_THREAD:
+        return "a thread could not be started";
+    case MGT_CANCELLED:
+        return "cancelled";
     }
     return "unknown status";
 }
 
-mgt_context_desc mgt_context_desc_defaults(void)
-{
-    return (mgt_context_desc){.struct_size = sizeof(mgt_context_desc)};
-}
+mgt_context_desc mgt_context_desc_defaults(void) { return (mgt_context_desc){.struct_size = sizeof(mgt_context_desc)}; }
 
-mgt_target mgt_target_defaults(void)
-{
-    return (mgt_target){.struct_size = sizeof(mgt_target), .layer = MGT_LAYER_COLOR, .format = MGT_FORMAT_RGBA8_SRGB};
-}
+mgt_target mgt_target_defaults(void) { return (mgt_target){.struct_size = sizeof(mgt_target), .layer = MGT_LAYER_COLOR, .format = MGT_FORMAT_RGBA8_SRGB}; }
 
 mgt_light mgt_light_defaults(mgt_body body)
 {
@@ -56,7 +55,8 @@ mgt_scene mgt_scene_defaults(void)
         .camera_open = {.position = {0, 4, 0}, .target = {0, 3.84, -0.987}, .up = {0, 1, 0}, .fov_y_deg = 50},
         .shutter = 1.0 / 30,
         .light = mgt_light_defaults(MGT_BODY_SUN),
-        .sky = {.model = MGT_SKY_ATMOSPHERE, .turbidity = 1.8f, .zenith = {1.6f, 2.6f, 4.6f}, .horizon = {6.0f, 7.0f, 8.0f}, .night = {1.6e-7f, 1.8e-7f, 2.4e-7f}},
+        .sky =
+            {.model = MGT_SKY_ATMOSPHERE, .turbidity = 1.8f, .zenith = {1.6f, 2.6f, 4.6f}, .horizon = {6.0f, 7.0f, 8.0f}, .night = {1.6e-7f, 1.8e-7f, 2.4e-7f}},
         .water = {.index_of_refraction = 1.333,
                   .absorption = {0.264f, 0.0565f, 0.0101f},
                   .scattering = {0.0012f, 0.0019f, 0.0039f},
@@ -85,9 +85,12 @@ float samples_per_pixel(const mgt_quality *quality)
         const uint64_t all = (uint64_t)q->spatial_samples * q->spatial_samples * q->time_samples - q->sample_first;
         return (float)(q->sample_count ? q->sample_count : all);
     }
-    case MGT_METHOD_MSAA32: return 32;
-    case MGT_METHOD_TAA: return 8;
-    default: return 1;
+    case MGT_METHOD_MSAA32:
+        return 32;
+    case MGT_METHOD_TAA:
+        return 8;
+    default:
+        return 1;
     }
 }
 

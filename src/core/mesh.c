@@ -11,20 +11,11 @@
 
 static atomic_uint_fast64_t last_id;
 
-static uint64_t next_id(void)
-{
-    return atomic_fetch_add(&last_id, 1) + 1;
-}
+static uint64_t next_id(void) { return atomic_fetch_add(&last_id, 1) + 1; }
 
-mgt_mesh_desc mgt_mesh_desc_defaults(void)
-{
-    return (mgt_mesh_desc){.struct_size = sizeof(mgt_mesh_desc)};
-}
+mgt_mesh_desc mgt_mesh_desc_defaults(void) { return (mgt_mesh_desc){.struct_size = sizeof(mgt_mesh_desc)}; }
 
-mgt_texture_desc mgt_texture_desc_defaults(void)
-{
-    return (mgt_texture_desc){.struct_size = sizeof(mgt_texture_desc)};
-}
+mgt_texture_desc mgt_texture_desc_defaults(void) { return (mgt_texture_desc){.struct_size = sizeof(mgt_texture_desc)}; }
 
 /* ---- meshes ---- */
 
@@ -164,10 +155,7 @@ static uint32_t to_byte(double linear)
     return (uint32_t)(255 * v + 0.5);
 }
 
-static uint32_t side(uint32_t size, uint32_t level)
-{
-    return size >> level ? size >> level : 1;
-}
+static uint32_t side(uint32_t size, uint32_t level) { return size >> level ? size >> level : 1; }
 
 /* Texel of level `to` from those it covers in the level above; the last one of an odd side takes three. */
 static uint32_t shrunk(const mgt_texture *t, const double linear[256], uint32_t to, uint32_t x, uint32_t y)

@@ -9,7 +9,8 @@
 mgt_status validate_desc(const reporter *r, const mgt_context_desc *desc)
 {
     if (desc->struct_size != sizeof *desc)
-        return report_error(r, MGT_ERROR_ARGUMENT, "context.desc", "mgt_context_desc.struct_size is %zu, this library knows %zu", desc->struct_size, sizeof *desc);
+        return report_error(r, MGT_ERROR_ARGUMENT, "context.desc", "mgt_context_desc.struct_size is %zu, this library knows %zu", desc->struct_size,
+                            sizeof *desc);
     if ((int)desc->backend < MGT_BACKEND_CPU || (int)desc->backend > MGT_BACKEND_NULL)
         return report_error(r, MGT_ERROR_ARGUMENT, "context.desc", "mgt_context_desc.backend is %d, which names no backend", (int)desc->backend);
     if ((int)desc->isa < MGT_ISA_AUTO || (int)desc->isa > MGT_ISA_NEON)
@@ -63,8 +64,8 @@ static mgt_status check_image(const reporter *r, const mgt_image *image)
     const region area = image_region(image);
     if (image->crop_x >= image->width || image->crop_y >= image->height || area.width > image->width - image->crop_x ||
         area.height > image->height - image->crop_y)
-        return report_error(r, MGT_ERROR_SCENE, "render.scene", "image.crop %u,%u,%u,%u lies outside the image of %u x %u pixels", image->crop_x,
-                            image->crop_y, image->crop_width, image->crop_height, image->width, image->height);
+        return report_error(r, MGT_ERROR_SCENE, "render.scene", "image.crop %u,%u,%u,%u lies outside the image of %u x %u pixels", image->crop_x, image->crop_y,
+                            image->crop_width, image->crop_height, image->width, image->height);
     return MGT_OK;
 }
 
@@ -103,8 +104,8 @@ static mgt_status check_waves(const reporter *r, const mgt_water *water)
         const mgt_wave *w = &water->waves[i];
         if (!(w->amplitude >= 0 && w->amplitude <= 1000) || !(fabs(w->a) <= 1e5) || !(fabs(w->b) <= 1e5) || !(fabs(w->c) <= 1e5) || !(fabs(w->phase) <= 1e9))
             return report_error(r, MGT_ERROR_SCENE, "render.scene",
-                                "water.waves[%zu] {amplitude %g, a %g, b %g, c %g, phase %g} is out of range: amplitude 0 to 1000 m, a, b, c ±1e5, phase ±1e9", i,
-                                w->amplitude, w->a, w->b, w->c, w->phase);
+                                "water.waves[%zu] {amplitude %g, a %g, b %g, c %g, phase %g} is out of range: amplitude 0 to 1000 m, a, b, c ±1e5, phase ±1e9",
+                                i, w->amplitude, w->a, w->b, w->c, w->phase);
     }
     return MGT_OK;
 }
@@ -122,12 +123,12 @@ static mgt_status check_podee(const reporter *r, const mgt_quality *q)
     TRY(in_range(r, "quality.transition_width", q->transition_width, 0, 0.5));
     if (q->method == MGT_METHOD_PODEE_UNIFORM || q->method == MGT_METHOD_PODEE_PIXEL)
         return MGT_OK;
-    const char *field = k != MGT_KERNELS_EXACT       ? "kernels"
-                        : q->elongation_limit != 0   ? "elongation_limit"
-                        : q->path_segments > 1       ? "path_segments"
-                        : q->transition_width != 0   ? "transition_width"
-                        : q->transition_hard         ? "transition_hard"
-                                                     : NULL;
+    const char *field = k != MGT_KERNELS_EXACT     ? "kernels"
+                        : q->elongation_limit != 0 ? "elongation_limit"
+                        : q->path_segments > 1     ? "path_segments"
+                        : q->transition_width != 0 ? "transition_width"
+                        : q->transition_hard       ? "transition_hard"
+                                                   : NULL;
     if (field)
         return report_error(r, MGT_ERROR_SCENE, "render.scene", "quality.%s is for the methods podee-uniform and podee-pixel alone", field);
     return MGT_OK;
@@ -160,7 +161,9 @@ static mgt_status check_adaptive(const reporter *r, const mgt_quality *q)
         TRY(in_range(r, f->name, f->value, f->least, f->most));
         if (q->method != MGT_METHOD_ADAPTIVE || (f->scheme >= 0 && f->scheme != (int)q->adaptive))
             return report_error(r, MGT_ERROR_SCENE, "render.scene", "%s is for the method adaptive%s alone", f->name,
-                                f->scheme == podee ? ", scheme podee," : f->scheme == cells ? ", scheme cells," : "");
+                                f->scheme == podee   ? ", scheme podee,"
+                                : f->scheme == cells ? ", scheme cells,"
+                                                     : "");
     }
     if (q->adaptive != MGT_ADAPTIVE_CELLS && q->method != MGT_METHOD_ADAPTIVE)
         return report_error(r, MGT_ERROR_SCENE, "render.scene", "quality.adaptive is for the method adaptive alone");
@@ -297,10 +300,12 @@ static mgt_status validate_target(const reporter *r, const region *area, const m
         [MGT_LAYER_REFRACTION_ERROR] = 1u << MGT_FORMAT_R32F,
     };
     if (target->struct_size != sizeof *target)
-        return report_error(r, MGT_ERROR_ARGUMENT, "render.target", "target %zu: struct_size is %zu, this library knows %zu", index, target->struct_size, sizeof *target);
+        return report_error(r, MGT_ERROR_ARGUMENT, "render.target", "target %zu: struct_size is %zu, this library knows %zu", index, target->struct_size,
+                            sizeof *target);
     if ((int)target->layer < 0 || (int)target->layer > MGT_LAYER_REFRACTION_ERROR || (int)target->format < 0 || (int)target->format > MGT_FORMAT_RGBA8_SRGB ||
         !(allowed[target->layer] & 1u << target->format))
-        return report_error(r, MGT_ERROR_ARGUMENT, "render.target", "target %zu: layer %d cannot be written in format %d", index, (int)target->layer, (int)target->format);
+        return report_error(r, MGT_ERROR_ARGUMENT, "render.target", "target %zu: layer %d cannot be written in format %d", index, (int)target->layer,
+                            (int)target->format);
     if (!target->pixels)
         return report_error(r, MGT_ERROR_ARGUMENT, "render.target", "target %zu: pixels is NULL", index);
     const size_t row = format_size(target->format) * area->width;

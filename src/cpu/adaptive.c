@@ -15,10 +15,7 @@
 
 /* ---- the picture of pixels ---- */
 
-static uint8_t shape_of(float aspect_squared)
-{
-    return aspect_squared > 8 ? SHAPE_ROWS : aspect_squared < 0.125f ? SHAPE_COLUMNS : SHAPE_EVEN;
-}
+static uint8_t shape_of(float aspect_squared) { return aspect_squared > 8 ? SHAPE_ROWS : aspect_squared < 0.125f ? SHAPE_COLUMNS : SHAPE_EVEN; }
 
 static leaf leaf_from(const tile_pixels *p, const tile_detail *d, size_t i)
 {
@@ -100,8 +97,8 @@ static void plant_tile(void *argument, size_t tile, uint32_t worker)
     tile_find_guesses(a->kernels, &data, &s->close, &s->close_guess);
     if (f->moves)
         tile_find_guesses(a->kernels, &data, &s->open, &s->open_guess);
-    a->kernels->filtered(&data, a->sky, a->objects ? &a->objects[tile].light : NULL, NULL, MGT_METHOD_MANGATA, &s->close, &s->close_guess, f->moves ? &s->open : NULL,
-                         f->moves ? &s->open_guess : NULL, &s->pixels, detail);
+    a->kernels->filtered(&data, a->sky, a->objects ? &a->objects[tile].light : NULL, NULL, MGT_METHOD_MANGATA, &s->close, &s->close_guess,
+                         f->moves ? &s->open : NULL, f->moves ? &s->open_guess : NULL, &s->pixels, detail);
     const uint32_t left = (uint32_t)(tile % f->columns) * TILE_WIDTH, top = (uint32_t)(tile / f->columns) * TILE_HEIGHT;
     for (uint32_t y = 0; y < TILE_HEIGHT && top + y < p->height; y++)
         for (uint32_t x = 0; x < TILE_WIDTH && left + x < p->width; x++) {
@@ -123,9 +120,9 @@ static void plant_tile(void *argument, size_t tile, uint32_t worker)
 /* Adds what a piece of the shutter shows; of detail heights alone are its own, and those of the last piece stay. */
 static void add_part(const tile_cells *part, float share, tile_cells *sum)
 {
-    const float *const from[] = {part->pixels.red, part->pixels.green, part->pixels.blue, part->pixels.coverage, part->pixels.water,
+    const float *const from[] = {part->pixels.red,      part->pixels.green,    part->pixels.blue,   part->pixels.coverage, part->pixels.water,
                                  part->detail.variance, part->detail.contrast, part->detail.places, part->detail.aspect};
-    float *const into[] = {sum->pixels.red, sum->pixels.green, sum->pixels.blue, sum->pixels.coverage, sum->pixels.water,
+    float *const into[] = {sum->pixels.red,      sum->pixels.green,    sum->pixels.blue,   sum->pixels.coverage, sum->pixels.water,
                            sum->detail.variance, sum->detail.contrast, sum->detail.places, sum->detail.aspect};
     for (size_t k = 0; k < sizeof into / sizeof *into; k++)
         for (size_t i = 0; i < part->count; i++)
@@ -253,8 +250,8 @@ static double now(void)
 
 /* What a frame has used and may use. */
 typedef struct frame_budget {
-    double evaluations; /* in all, for a number of samples */
-    double began, end;  /* seconds, for a budget of time */
+    double evaluations;         /* in all, for a number of samples */
+    double began, end;          /* seconds, for a budget of time */
     double round_began, before; /* when the last round began, and what had been spent then */
 } frame_budget;
 

@@ -13,7 +13,7 @@ typedef struct adaptive_frame {
     const lane_kernels *kernels;
     const float *sky; /* the table of a sky_state */
     thread_pool *pool;
-    tile_scratch **scratch; /* one a worker */
+    tile_scratch **scratch;     /* one a worker */
     const tile_opened *objects; /* a tile each, in rows: what they see of objects; NULL: there are none */
     /* Asked now and then on the caller's thread with the share done; false: stop with MGT_CANCELLED. */
     bool (*keep_going)(void *argument, double fraction);

@@ -37,10 +37,7 @@ float podee_importance(const podee_rules *rules, float coverage)
     return (float)exp(-0.5 * away * away);
 }
 
-double podee_slot_place(uint64_t k, uint64_t slots, double sum)
-{
-    return ((double)k + 0.5) / (double)slots * sum;
-}
+double podee_slot_place(uint64_t k, uint64_t slots, double sum) { return ((double)k + 0.5) / (double)slots * sum; }
 
 uint64_t podee_first_slot(double place, uint64_t slots, double sum)
 {
@@ -81,10 +78,10 @@ typedef struct detail_job {
     wave_set *close, *open; /* all waves, unfiltered, at both ends of the shutter; open NULL where they are the same */
     uint32_t columns;
     size_t tiles;
-    double *before;   /* tiles + 1: sums of importance over tasks, of each tile at first, then of all tiles before it */
-    double *water;    /* pixels of water in each tile */
+    double *before; /* tiles + 1: sums of importance over tasks, of each tile at first, then of all tiles before it */
+    double *water;  /* pixels of water in each tile */
     uint64_t slots;
-    double fraction;  /* last told, on the caller's thread */
+    double fraction; /* last told, on the caller's thread */
     atomic_bool cancelled;
 } detail_job;
 

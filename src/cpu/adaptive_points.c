@@ -39,7 +39,8 @@ static void render_points(const forest *f, size_t tile, point_batch *batch, tile
     memset(&s->pixels, 0, sizeof s->pixels);
     if (objects)
         light_of_pixels(&objects[tile].light, batch->pixel, (size_t)batch->count, &s->objects.light);
-    f->a->kernels->sample(&f->a->frame->data, f->a->sky, objects ? &s->objects.light : NULL, &s->close, &s->close_guess, s->jitter_x, s->jitter_y, 1, &s->pixels);
+    f->a->kernels->sample(&f->a->frame->data, f->a->sky, objects ? &s->objects.light : NULL, &s->close, &s->close_guess, s->jitter_x, s->jitter_y, 1,
+                          &s->pixels);
     for (int i = 0; i < batch->count; i++) {
         double *sum = sums + 5 * batch->owner[i];
         sum[0] += (double)s->pixels.red[i];

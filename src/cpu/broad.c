@@ -60,8 +60,10 @@ static bool is_outside(const PictureData *picture, const float image[3][3])
     bool left = true, right = true, top = true, bottom = true, near = true;
     for (int i = 0; i < 3; i++) {
         const float x = image[i][0], y = image[i][1], z = image[i][2];
-        left &= x < z * picture->left, right &= x > z * picture->right;
-        top &= y < z * picture->top, bottom &= y > z * picture->bottom;
+        left &= x < z * picture->left;
+        right &= x > z * picture->right;
+        top &= y < z * picture->top;
+        bottom &= y > z * picture->bottom;
         near &= z < picture->least_depth;
     }
     return left || right || top || bottom || near;
@@ -145,10 +147,7 @@ static void divide(const chunk_job *job, const patch *p, size_t i, int edges)
     job->counts->splits += (size_t)divisions[edges].count - 1;
 }
 
-static int split_edges(const patch_batch *b, size_t i)
-{
-    return (b->split[0][i] > 0 ? 1 : 0) | (b->split[1][i] > 0 ? 2 : 0) | (b->split[2][i] > 0 ? 4 : 0);
-}
+static int split_edges(const patch_batch *b, size_t i) { return (b->split[0][i] > 0 ? 1 : 0) | (b->split[1][i] > 0 ? 2 : 0) | (b->split[2][i] > 0 ? 4 : 0); }
 
 /* Draws or divides the batch, which holds scratch->taken. `place`: their images are not known yet. */
 static void work_batch(const chunk_job *job, bool place)

@@ -46,9 +46,9 @@ typedef struct broad_scratch {
     patch straight_taken[PATCH_BATCH];
     int straight_layer[PATCH_BATCH];
     setup_batch setup;
-    patch_stack waiting;      /* with images */
-    patch_stack cut;          /* parts of triangles that meet the surface, without images */
-    bool failed;              /* memory was short */
+    patch_stack waiting; /* with images */
+    patch_stack cut;     /* parts of triangles that meet the surface, without images */
+    bool failed;         /* memory was short */
 } broad_scratch;
 
 /* Bins of the triangles of one chunk, in an order of their own that depends on nothing else. */

@@ -24,10 +24,10 @@ typedef struct cpu_state {
     thread_pool *pool;
     const lane_kernels *kernels;
     mgt_isa isa;
-    sky_state *sky; /* of the last frame; zeroed at first */
-    podee_tables podee; /* empty until a frame needs them */
-    lean_map *lean;     /* NULL until a frame needs it */
-    forest *adaptive;   /* NULL until a frame needs it */
+    sky_state *sky;      /* of the last frame; zeroed at first */
+    podee_tables podee;  /* empty until a frame needs them */
+    lean_map *lean;      /* NULL until a frame needs it */
+    forest *adaptive;    /* NULL until a frame needs it */
     refraction *objects; /* NULL until a frame has some */
     frame_waves *waves;
     tile_scratch **scratch; /* one a worker */
@@ -41,17 +41,22 @@ bool mgt_isa_available(mgt_isa isa)
 {
     switch (isa) {
     case MGT_ISA_AUTO:
-    case MGT_ISA_SCALAR: return true;
+    case MGT_ISA_SCALAR:
+        return true;
 #if defined(__x86_64__)
-    case MGT_ISA_SSE2: return true;
-    case MGT_ISA_AVX2: return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+    case MGT_ISA_SSE2:
+        return true;
+    case MGT_ISA_AVX2:
+        return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
     case MGT_ISA_AVX512:
         return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
                __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("fma");
 #elif defined(__aarch64__)
-    case MGT_ISA_NEON: return true;
+    case MGT_ISA_NEON:
+        return true;
 #endif
-    default: return false;
+    default:
+        return false;
     }
 }
 
@@ -59,12 +64,16 @@ static const lane_kernels *kernels_of(mgt_isa isa)
 {
     switch (isa) {
 #if defined(__x86_64__)
-    case MGT_ISA_AVX512: return &lane_kernels_16;
-    case MGT_ISA_AVX2: return &lane_kernels_8;
+    case MGT_ISA_AVX512:
+        return &lane_kernels_16;
+    case MGT_ISA_AVX2:
+        return &lane_kernels_8;
 #endif
     case MGT_ISA_SSE2:
-    case MGT_ISA_NEON: return &lane_kernels_4;
-    default: return &lane_kernels_1;
+    case MGT_ISA_NEON:
+        return &lane_kernels_4;
+    default:
+        return &lane_kernels_1;
     }
 }
 
@@ -145,18 +154,18 @@ typedef struct render_job {
     frame frame;
     tile_job tiles;
     tile_wants wants;
-    region area;      /* rendered: the crop, or the whole image where glare needs it */
-    region crop;      /* what the targets hold */
+    region area; /* rendered: the crop, or the whole image where glare needs it */
+    region crop; /* what the targets hold */
     const mgt_target *targets;
     size_t target_count;
-    float *radiance;  /* area.width × area.height × 3 for glare, or NULL */
+    float *radiance;                    /* area.width × area.height × 3 for glare, or NULL */
     uint32_t first_x, first_y, columns; /* blocks of the loop */
     uint32_t block_width, block_height;
     reference_frame *reference;
     atomic_bool cancelled;
     const frame_pass *pass; /* NULL: the picture is the whole frame */
-    double fraction;  /* done when progress was last told; the caller's thread only */
-    double last_told; /* seconds */
+    double fraction;        /* done when progress was last told; the caller's thread only */
+    double last_told;       /* seconds */
 } render_job;
 
 /* A rectangle of finished pixels in planes, wherever they come from. */
@@ -196,14 +205,28 @@ static void write_row(const render_job *job, const mgt_target *t, const pixel_pl
 {
     const size_t channels = t->format == MGT_FORMAT_RGBA32F ? 4 : 3;
     switch (t->layer) {
-    case MGT_LAYER_COVERAGE: memcpy(out, p->coverage + first, count * sizeof *out); return;
-    case MGT_LAYER_MASK: memcpy(out, p->water + first, count * sizeof *out); return;
-    case MGT_LAYER_DEPTH: memcpy(out, p->depth + first, count * sizeof *out); return;
-    case MGT_LAYER_COLOR: write_pixels(p->color, p->color_step, first, count, channels, out); return;
-    case MGT_LAYER_NORMAL: write_pixels(p->normal, p->normal_step, first, count, channels, out); return;
-    case MGT_LAYER_SAMPLES: fill_row(out, count, samples_per_pixel(&job->scene->quality)); return;
+    case MGT_LAYER_COVERAGE:
+        memcpy(out, p->coverage + first, count * sizeof *out);
+        return;
+    case MGT_LAYER_MASK:
+        memcpy(out, p->water + first, count * sizeof *out);
+        return;
+    case MGT_LAYER_DEPTH:
+        memcpy(out, p->depth + first, count * sizeof *out);
+        return;
+    case MGT_LAYER_COLOR:
+        write_pixels(p->color, p->color_step, first, count, channels, out);
+        return;
+    case MGT_LAYER_NORMAL:
+        write_pixels(p->normal, p->normal_step, first, count, channels, out);
+        return;
+    case MGT_LAYER_SAMPLES:
+        fill_row(out, count, samples_per_pixel(&job->scene->quality));
+        return;
     case MGT_LAYER_IMPORTANCE:
-    case MGT_LAYER_DETAIL: fill_row(out, count, 0); return;
+    case MGT_LAYER_DETAIL:
+        fill_row(out, count, 0);
+        return;
     case MGT_LAYER_REFRACTION_ERROR:
         if (p->error)
             memcpy(out, p->error + first, count * sizeof *out);
@@ -371,10 +394,7 @@ static bool run_loop(render_job *job, uint32_t block_width, uint32_t block_heigh
 
 /* ---- the reference ---- */
 
-static void reference_lookup(const void *user, const double direction[3], double rgb[3])
-{
-    sky_lookup(user, direction, rgb);
-}
+static void reference_lookup(const void *user, const double direction[3], double rgb[3]) { sky_lookup(user, direction, rgb); }
 
 static mgt_status make_reference(render_job *job, const reporter *r)
 {
@@ -422,8 +442,8 @@ static void run_indices(void *user, size_t count, void (*body)(void *, size_t), 
 
 static mgt_status display(render_job *job, const reporter *r)
 {
-    const mgt_status status = glare_apply(job->radiance, job->area.width, job->area.height, (size_t)job->area.width * 3, job->scene->post.glare,
-                                          run_indices, job->state->pool);
+    const mgt_status status =
+        glare_apply(job->radiance, job->area.width, job->area.height, (size_t)job->area.width * 3, job->scene->post.glare, run_indices, job->state->pool);
     if (status != MGT_OK)
         return report_error(r, status, "render.memory", "out of memory for the glare of %u x %u pixels", job->area.width, job->area.height);
     const thread_loop loop = {job->crop.height, display_row, job, NULL};
@@ -480,13 +500,9 @@ static bool wants_glare(const mgt_scene *scene, const mgt_target *targets, size_
 }
 
 /* Or only water, which a camera in it sees everywhere. */
-static bool shows_objects(const frame *f)
-{
-    return f->scene->object_count > 0 || f->under;
-}
+static bool shows_objects(const frame *f) { return f->scene->object_count > 0 || f->under; }
 
-static mgt_status render_picture(cpu_state *s, const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count,
-                                 const frame_pass *pass)
+static mgt_status render_picture(cpu_state *s, const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count, const frame_pass *pass)
 {
     mgt_status status = prepare_sky(s, r, scene);
     if (status != MGT_OK)

@@ -17,25 +17,13 @@ typedef struct vector {
     float x, y, z;
 } vector;
 
-static vector minus(vector a, vector b)
-{
-    return (vector){a.x - b.x, a.y - b.y, a.z - b.z};
-}
+static vector minus(vector a, vector b) { return (vector){a.x - b.x, a.y - b.y, a.z - b.z}; }
 
-static vector plus_scaled(vector a, vector b, float t)
-{
-    return (vector){a.x + t * b.x, a.y + t * b.y, a.z + t * b.z};
-}
+static vector plus_scaled(vector a, vector b, float t) { return (vector){a.x + t * b.x, a.y + t * b.y, a.z + t * b.z}; }
 
-static float dot(vector a, vector b)
-{
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
+static float dot(vector a, vector b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-static float clamped(float x)
-{
-    return x > 0 ? fminf(x, 1) : 0;
-}
+static float clamped(float x) { return x > 0 ? fminf(x, 1) : 0; }
 
 /* ---- a point and a triangle ---- */
 
@@ -84,10 +72,7 @@ typedef struct build_job {
     _Atomic int failed;
 } build_job;
 
-static size_t index_of(const distance_field *f, uint32_t x, uint32_t y, uint32_t z)
-{
-    return ((size_t)z * f->size[1] + y) * f->size[0] + x;
-}
+static size_t index_of(const distance_field *f, uint32_t x, uint32_t y, uint32_t z) { return ((size_t)z * f->size[1] + y) * f->size[0] + x; }
 
 typedef struct span {
     uint32_t from, to; /* to: beyond the last */
@@ -101,10 +86,7 @@ static span band_of(const distance_field *f, int axis, float least, float most)
     return (span){(uint32_t)fminf(fmaxf(from, 0), size), (uint32_t)fminf(fmaxf(to, 0), size)};
 }
 
-static span span_of(const distance_field *f, int axis, float a, float b, float c)
-{
-    return band_of(f, axis, fminf(a, fminf(b, c)), fmaxf(a, fmaxf(b, c)));
-}
+static span span_of(const distance_field *f, int axis, float a, float b, float c) { return band_of(f, axis, fminf(a, fminf(b, c)), fmaxf(a, fmaxf(b, c))); }
 
 static void enter_triangle(distance_field *f, const corners *t, int32_t triangle, span layers)
 {
@@ -278,10 +260,7 @@ void distance_field_free(distance_field *field)
     free(field);
 }
 
-size_t distance_field_bytes(const distance_field *field)
-{
-    return field ? sizeof *field + (size_t)8 * field->size[0] * field->size[1] * field->size[2] : 0;
-}
+size_t distance_field_bytes(const distance_field *field) { return field ? sizeof *field + (size_t)8 * field->size[0] * field->size[1] * field->size[2] : 0; }
 
 /* ---- rays ---- */
 
@@ -325,10 +304,7 @@ static stretch within_grid(const distance_field *f, const trace_ray *ray)
     return s;
 }
 
-static float within(float x, uint32_t size)
-{
-    return fminf(fmaxf(x, 0), (float)(size - 1));
-}
+static float within(float x, uint32_t size) { return fminf(fmaxf(x, 0), (float)(size - 1)); }
 
 static trace_hit march(const distance_field *f, const trace_ray *ray)
 {

@@ -17,8 +17,8 @@ enum {
     OCTAVES = 96,
     BUCKETS = BUCKETS_PER_OCTAVE * OCTAVES,
     BUCKET_ZERO = (127 - 80) * BUCKETS_PER_OCTAVE, /* of 2^-80 */
-    KEPT_OCTAVES = 5, /* leaves worth less than 2^-5 of what was split last are settled, … */
-    KEPT_ROUNDS = 2,  /* … after the first rounds, which take only the best */
+    KEPT_OCTAVES = 5,                              /* leaves worth less than 2^-5 of what was split last are settled, … */
+    KEPT_ROUNDS = 2,                               /* … after the first rounds, which take only the best */
 };
 static const double cost_unit = 65536; /* evaluations of all waves are counted in these parts */
 /* What a cell and a point sample cost besides their waves, in waves of a cell; measured, as is the 1.1 that a wave of a sample costs. */
@@ -57,10 +57,7 @@ void leaf_settle(const forest *f, size_t tile, const leaf *l)
 
 /* ---- what a split is worth ---- */
 
-const shutter_parts *forest_parts(const forest *f, int level)
-{
-    return &f->parts[level == 0 ? 0 : level < SHARP_LEVEL ? 1 : 2];
-}
+const shutter_parts *forest_parts(const forest *f, int level) { return &f->parts[level == 0 ? 0 : level < SHARP_LEVEL ? 1 : 2]; }
 
 /* What splits cost and are worth, after a level's cost became known: where it is not, by the nearest level above. */
 static void forest_appraise(const forest *f, forest_tile *t)
@@ -91,10 +88,7 @@ static uint16_t bucket_of(float worth)
 }
 
 /* What the model gets wrong where waves hide each other, a tenth or two of the light, over what it cannot know. */
-static float wrong_of(const leaf *l)
-{
-    return l->points > 0 ? 0 : 0.0225f * l->places * l->coverage;
-}
+static float wrong_of(const leaf *l) { return l->points > 0 ? 0 : 0.0225f * l->places * l->coverage; }
 
 /* At first as many as halve the squared error. */
 int leaf_next_points(const leaf *l)
@@ -107,10 +101,7 @@ int leaf_next_points(const leaf *l)
     return points;
 }
 
-double leaf_cost(const forest_tile *t, const leaf *l)
-{
-    return l->shape == SHAPE_POINTS ? (leaf_next_points(l) - l->points) * point_cost : t->below[l->level];
-}
+double leaf_cost(const forest_tile *t, const leaf *l) { return l->shape == SHAPE_POINTS ? (leaf_next_points(l) - l->points) * point_cost : t->below[l->level]; }
 
 /* How much of its squared error a split may save for each evaluation. Four parts of a cell show the mean of a quarter of its places each; n points
  * that of n, and get nothing wrong. */

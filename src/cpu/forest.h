@@ -47,9 +47,9 @@ typedef struct shutter_parts {
 } shutter_parts;
 
 typedef struct round_plan {
-    int bucket;     /* cells above this bucket are split, … */
-    double share;   /* … and this share of those in it */
-    int points;     /* leaves that take points: those above this bucket; they are too dear for shares */
+    int bucket;   /* cells above this bucket are split, … */
+    double share; /* … and this share of those in it */
+    int points;   /* leaves that take points: those above this bucket; they are too dear for shares */
 } round_plan;
 
 struct forest {
@@ -57,20 +57,20 @@ struct forest {
     const picture_planes *out;
     uint32_t width, height; /* that the memory is for */
     uint32_t columns, rows;
-    bool by_coverage;       /* leaves are worth what they save of the coverage's error, not of the picture's */
+    bool by_coverage; /* leaves are worth what they save of the coverage's error, not of the picture's */
     forest_tile *tiles;
-    float *weight;         /* a pixel's, squared */
-    bool moves;            /* the camera does */
-    shutter_parts parts[3]; /* of pixels, of cells and of sharp cells */
+    float *weight;                /* a pixel's, squared */
+    bool moves;                   /* the camera does */
+    shutter_parts parts[3];       /* of pixels, of cells and of sharp cells */
     wave_set *instants[INSTANTS]; /* as points see them */
-    tile_cells **cells;    /* one a worker, … */
-    tile_cells **sums;     /* … and one for the mean over the shutter's parts */
-    struct census **census; /* one a worker */
+    tile_cells **cells;           /* one a worker, … */
+    tile_cells **sums;            /* … and one for the mean over the shutter's parts */
+    struct census **census;       /* one a worker */
     size_t workers;
     round_plan plan;
-    double done, share;    /* of the budget, before this round and in it */
-    int least_bucket;      /* leaves up to this one are settled */
-    atomic_bool failed;    /* memory was short */
+    double done, share; /* of the budget, before this round and in it */
+    int least_bucket;   /* leaves up to this one are settled */
+    atomic_bool failed; /* memory was short */
 };
 
 /* ---- leaves ---- */

@@ -163,10 +163,7 @@ interval frame_shutter(const frame *f)
     return s->camera_moves ? (interval){s->time, 0} : (interval){s->time - s->shutter / 2, s->shutter / 2};
 }
 
-double wave_turns(const frame *f)
-{
-    return f->under ? 0.5 : 0;
-}
+double wave_turns(const frame *f) { return f->under ? 0.5 : 0; }
 
 static WaveData wave_data(const mgt_wave *w, double half)
 {

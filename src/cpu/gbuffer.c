@@ -10,8 +10,8 @@
 #include "cpu/triples.h"
 
 enum {
-    GUARD_LEAST = 16, /* pixels around the image, … */
-    GUARD_SHARE = 20, /* … or one in so many, whichever is more */
+    GUARD_LEAST = 16,  /* pixels around the image, … */
+    GUARD_SHARE = 20,  /* … or one in so many, whichever is more */
     IMAGE_BLOCK = 1024 /* vertices that a worker takes at a time */
 };
 
@@ -29,7 +29,7 @@ struct gbuffer_store {
     broad_scratch **scratch; /* of the workers */
     raster_tile **tiles;
     uint32_t workers;
-    uint8_t *empty; /* of all tiles of both layers: 1 where nothing has been drawn into memory that says so */
+    uint8_t *empty;       /* of all tiles of both layers: 1 where nothing has been drawn into memory that says so */
     broad_counts *counts; /* of the workers */
 };
 
@@ -78,11 +78,17 @@ static PictureData picture_data(const gbuffer_job *job, const raster_grid *grid,
     const double focal = 1 / sqrt(dot3(c->right, c->right));
     const double wide = grid->width - grid->middle_x, high = grid->height - grid->middle_y;
     return (PictureData){
-        .x_x = (float)x[0], .x_y = (float)x[1], .x_z = (float)x[2],
+        .x_x = (float)x[0],
+        .x_y = (float)x[1],
+        .x_z = (float)x[2],
         .eye_height = (float)c->position[1],
-        .y_x = (float)y[0], .y_y = (float)y[1], .y_z = (float)y[2],
+        .y_x = (float)y[0],
+        .y_y = (float)y[1],
+        .y_z = (float)y[2],
         .focal = (float)focal,
-        .z_x = (float)depth[0], .z_y = (float)depth[1], .z_z = (float)depth[2],
+        .z_x = (float)depth[0],
+        .z_y = (float)depth[1],
+        .z_z = (float)depth[2],
         .cosine_squared = (float)(focal * focal / (focal * focal + wide * wide + high * high)),
         .left = -(float)(grid->middle_x + 1),
         .right = (float)(grid->width - grid->middle_x),
@@ -281,16 +287,13 @@ static void draw_tile(void *argument, size_t index, uint32_t worker)
 
 /* ---- drawing ---- */
 
-static bool same_camera(const camera_rays *a, const camera_rays *b)
-{
-    return memcmp(a, b, sizeof *a) == 0;
-}
+static bool same_camera(const camera_rays *a, const camera_rays *b) { return memcmp(a, b, sizeof *a) == 0; }
 
 static bool is_drawn(const struct gbuffer_store *s, const world *w, const gbuffer_job *job)
 {
     return s && s->drawn && s->version == w->version && same_camera(&s->job.camera, &job->camera) && s->job.width == job->width &&
-           s->job.height == job->height && s->job.index == job->index && s->job.map == job->map && s->job.error == job->error &&
-           s->job.crest == job->crest && s->job.trough == job->trough && s->job.mirrored == job->mirrored;
+           s->job.height == job->height && s->job.index == job->index && s->job.map == job->map && s->job.error == job->error && s->job.crest == job->crest &&
+           s->job.trough == job->trough && s->job.mirrored == job->mirrored;
 }
 
 static broad_view view_of(const gbuffers *g, const world *w, const gbuffer_job *job, const raster_kernels *kernels)

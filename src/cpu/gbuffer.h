@@ -38,10 +38,10 @@ typedef struct gbuffer_job {
     uint32_t width, height; /* of the image */
     double index;           /* of refraction of the water in air */
     gbuffer_map map;
-    double error;           /* pixels that a triangle bent by the map may be off by; 0: 0.1 */
-    double trough;          /* metres beyond the mean surface that the near layer goes on for: as far as the waves may uncover it */
-    double crest;           /* metres over the mean surface that the far layer goes on for on the camera's side: as far as the waves may reach */
-    bool mirrored;          /* the far layer alone, without the insides of closed objects that the surface cuts open: of a camera that mirrors see */
+    double error;  /* pixels that a triangle bent by the map may be off by; 0: 0.1 */
+    double trough; /* metres beyond the mean surface that the near layer goes on for: as far as the waves may uncover it */
+    double crest;  /* metres over the mean surface that the far layer goes on for on the camera's side: as far as the waves may reach */
+    bool mirrored; /* the far layer alone, without the insides of closed objects that the surface cuts open: of a camera that mirrors see */
 } gbuffer_job;
 
 /* Counts of the last picture that was drawn. */
@@ -54,7 +54,7 @@ typedef struct gbuffers {
     gbuffer near, far;
     RefractData refract; /* what the kernels' true_point() and virtual_point() need */
     gbuffer_counts counts;
-    uint64_t drawn;     /* how often */
+    uint64_t drawn;              /* how often */
     struct gbuffer_store *store; /* its own: memory and what the layers were drawn from */
 } gbuffers;
 

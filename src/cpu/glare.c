@@ -33,10 +33,7 @@ static lanes load(const float *from)
     return v;
 }
 
-static void store(float *to, lanes v)
-{
-    memcpy(to, &v, sizeof v);
-}
+static void store(float *to, lanes v) { memcpy(to, &v, sizeof v); }
 
 /* Rows end with room for the fourth lane of the last pixel. */
 typedef struct level {
@@ -49,7 +46,7 @@ typedef struct level {
 typedef struct pyramid {
     size_t count;
     level levels[GLARE_MAX_LEVELS];
-    float kept;               /* share of the image that stays */
+    float kept; /* share of the image that stays */
     void *memory;
 } pyramid;
 
@@ -201,7 +198,7 @@ static void down_row(const down_job *job, size_t row)
     float *out = coarse->rgb + row * coarse->stride;
     for (size_t from = 0; from < coarse->width; from += BLOCK) {
         size_t count = coarse->width - from < BLOCK ? coarse->width - from : BLOCK;
-        float mixed[3 * (2 * BLOCK + 2) + 4]; /* fine pixels 2·from − 1 …, zero beyond the edges */
+        float mixed[3 * (2 * BLOCK + 2) + 4];                                  /* fine pixels 2·from − 1 …, zero beyond the edges */
         size_t first = from ? 2 * from - 1 : 0, last = 2 * (from + count) + 1; /* one past */
         if (last > job->fine_width) {
             last = job->fine_width;
@@ -210,8 +207,7 @@ static void down_row(const down_job *job, size_t row)
         memset(mixed, 0, 3 * sizeof(float));
         const float *s0 = source[0] + 3 * first, *s1 = source[1] + 3 * first, *s2 = source[2] + 3 * first, *s3 = source[3] + 3 * first;
         for (; i + 4 <= length; i += 4) {
-            store(mixed + offset + i, (weight[0] * load(s0 + i) + weight[1] * load(s1 + i)) +
-                                          (weight[2] * load(s2 + i) + weight[3] * load(s3 + i)));
+            store(mixed + offset + i, (weight[0] * load(s0 + i) + weight[1] * load(s1 + i)) + (weight[2] * load(s2 + i) + weight[3] * load(s3 + i)));
         }
         for (; i < length; ++i) {
             mixed[offset + i] = (weight[0] * s0[i] + weight[1] * s1[i]) + (weight[2] * s2[i] + weight[3] * s3[i]);
@@ -304,13 +300,9 @@ static void serial_for(void *user, size_t count, void (*body)(void *arg, size_t 
     }
 }
 
-static size_t tasks(size_t rows)
-{
-    return (rows + ROWS_PER_TASK - 1) / ROWS_PER_TASK;
-}
+static size_t tasks(size_t rows) { return (rows + ROWS_PER_TASK - 1) / ROWS_PER_TASK; }
 
-mgt_status glare_apply(float *rgb, size_t width, size_t height, size_t row_stride, float glare, glare_parallel_for parallel_for,
-                       void *user)
+mgt_status glare_apply(float *rgb, size_t width, size_t height, size_t row_stride, float glare, glare_parallel_for parallel_for, void *user)
 {
     pyramid p;
     memset(&p, 0, sizeof p);

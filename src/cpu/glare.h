@@ -18,8 +18,7 @@ typedef void (*glare_parallel_for)(void *user, size_t count, void (*body)(void *
  * is mirrored back). `rgb` holds height rows of width·3 floats, `row_stride` floats apart (≥ 3·width), finite and ≥ 0.
  * glare in [0, 1]; 0 leaves the image untouched. parallel_for NULL: serial. The bytes do not depend on it.
  * Allocates at most half of the image's size during the call. MGT_OK or MGT_ERROR_MEMORY (image untouched). */
-mgt_status glare_apply(float *rgb, size_t width, size_t height, size_t row_stride, float glare, glare_parallel_for parallel_for,
-                       void *user);
+mgt_status glare_apply(float *rgb, size_t width, size_t height, size_t row_stride, float glare, glare_parallel_for parallel_for, void *user);
 
 /* ---- the pyramid itself, for other machines ---- */
 

@@ -15,9 +15,6 @@ static inline uint64_t hash_of(uint64_t x)
 }
 
 /* Uniform in [0, 1). */
-static inline float hash_unit(uint64_t hash)
-{
-    return (float)(hash >> 40) * 0x1p-24f;
-}
+static inline float hash_unit(uint64_t hash) { return (float)(hash >> 40) * 0x1p-24f; }
 
 #endif

@@ -10,7 +10,10 @@
 #define MARCH_WAVE(cx, i) ((cx)->march[i])
 
 /* An element a lane for the one width that has no instruction for it. */
-#define FOUR_OF(table, at) {(table)[(at)[0]], (table)[(at)[1]], (table)[(at)[2]], (table)[(at)[3]]}
+#define FOUR_OF(table, at)                                                     \
+    {                                                                          \
+        (table)[(at)[0]], (table)[(at)[1]], (table)[(at)[2]], (table)[(at)[3]] \
+    }
 
 KERNEL vec3 SKY_TEXEL(CTX cx, real column, real row)
 {
@@ -45,10 +48,7 @@ static inline real load(const float *p)
 #endif
 }
 
-static inline void store(float *p, real r)
-{
-    __builtin_memcpy(p, &r, sizeof r);
-}
+static inline void store(float *p, real r) { __builtin_memcpy(p, &r, sizeof r); }
 
 /* Whole numbers as such. */
 static inline mask whole(real x)
@@ -111,10 +111,7 @@ static inline real lane_numbers(void)
 /* ---- light of objects ---- */
 
 /* A plane of a tile_light at the vector that cx stands for. */
-static inline real light_plane(CTX cx, size_t plane)
-{
-    return load(cx->light + plane * TILE_PIXELS);
-}
+static inline real light_plane(CTX cx, size_t plane) { return load(cx->light + plane * TILE_PIXELS); }
 
 KERNEL vec3 BODY_LIGHT(CTX cx)
 {

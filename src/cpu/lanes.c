@@ -30,7 +30,7 @@ static const float infinity = INFINITY;
 #include "cpu/lane_display.h"
 
 /* Every index of the tables is a float: the largest is 2^24 - 1. */
-_Static_assert(PODEE_SLICES * PODEE_ROWS * PODEE_COLUMNS <= 1 << 24, "indices are exact in float");
+_Static_assert(PODEE_SLICES *PODEE_ROWS *PODEE_COLUMNS <= 1 << 24, "indices are exact in float");
 
 KERNEL real SWEEP_TEXEL(CTX cx, real v, real u, real slice)
 {
@@ -38,10 +38,7 @@ KERNEL real SWEEP_TEXEL(CTX cx, real v, real u, real slice)
     return gather_floats(cx->podee->sweep, whole(real_fma(row, real_broadcast(PODEE_COLUMNS), v)));
 }
 
-KERNEL real SHARE_TEXEL(CTX cx, real r, real slice)
-{
-    return gather_floats(cx->podee->share, whole(real_fma(slice, real_broadcast(PODEE_COLUMNS), r)));
-}
+KERNEL real SHARE_TEXEL(CTX cx, real r, real slice) { return gather_floats(cx->podee->share, whole(real_fma(slice, real_broadcast(PODEE_COLUMNS), r))); }
 
 #include "kernels/cells.k"
 #include "kernels/glitter.k"
@@ -98,8 +95,8 @@ typedef struct wave_classes {
 static void classify_waves(const struct kernel_context *cx, const wave_set *set, TileView view, wave_classes *out)
 {
     for (int i = 0; i < set->view.wave_count; i += MGT_LANES) {
-        const WaveClass c = classify_wave(cx, view, load(set->turns_x + i), load(set->turns_z + i), load(set->turns_low_x + i),
-                                          load(set->turns_low_z + i), load(set->phase + i), load(set->lesser_variance + i));
+        const WaveClass c = classify_wave(cx, view, load(set->turns_x + i), load(set->turns_z + i), load(set->turns_low_x + i), load(set->turns_low_z + i),
+                                          load(set->phase + i), load(set->lesser_variance + i));
         store(out->kind + i, c.kind);
         store(out->phase + i, c.phase);
         store(out->share + i, c.share);
@@ -370,18 +367,12 @@ static void lanes_guess(const FrameData *frame, const tile_waves *tile, tile_gue
 
 /* ---- methods ---- */
 
-static inline const float *light_at(const tile_light *light, size_t i)
-{
-    return light ? &light->body[0][i] : NULL;
-}
+static inline const float *light_at(const tile_light *light, size_t i) { return light ? &light->body[0][i] : NULL; }
 
-static inline void accumulate(float *p, real value, float weight)
-{
-    store(p, load(p) + value * weight);
-}
+static inline void accumulate(float *p, real value, float weight) { store(p, load(p) + value * weight); }
 
-static void lanes_sample(const FrameData *frame, const float *sky, const tile_light *light, const tile_waves *tile, const tile_guess *guess,
-                         const float *dx, const float *dy, float weight, tile_pixels *out)
+static void lanes_sample(const FrameData *frame, const float *sky, const tile_light *light, const tile_waves *tile, const tile_guess *guess, const float *dx,
+                         const float *dy, float weight, tile_pixels *out)
 {
     struct kernel_context context = {.frame = frame, .tile = &tile->data, .waves = tile->waves, .march = tile->march, .sky = sky};
     for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
@@ -643,11 +634,10 @@ static void render_podee(const struct kernel_context *cx, const tile_light *ligh
 }
 
 static void lanes_filtered(const FrameData *frame, const float *sky, const tile_light *light, const podee_tables *podee, mgt_method method,
-                           const tile_waves *close, const tile_guess *close_guess, const tile_waves *open, const tile_guess *open_guess,
-                           tile_pixels *out, tile_detail *detail)
+                           const tile_waves *close, const tile_guess *close_guess, const tile_waves *open, const tile_guess *open_guess, tile_pixels *out,
+                           tile_detail *detail)
 {
-    const struct kernel_context context = {
-        .frame = frame, .tile = &close->data, .waves = close->waves, .march = close->march, .sky = sky, .podee = podee};
+    const struct kernel_context context = {.frame = frame, .tile = &close->data, .waves = close->waves, .march = close->march, .sky = sky, .podee = podee};
     struct kernel_context open_context = context;
     if (open)
         open_context.tile = &open->data, open_context.waves = open->waves, open_context.march = open->march;
@@ -711,6 +701,18 @@ static void lanes_display(const FrameData *frame, const float *rgb, uint8_t *rgb
 }
 
 const lane_kernels LANES_NAME(MGT_LANES) = {
-    MGT_LANES, lanes_sort, lanes_guess, lanes_sample, lanes_filtered, lanes_cells, lanes_surface, lanes_filtered_normal, lanes_display, &RIVALS_NAME(MGT_LANES),
-    &SHADE_NAME(MGT_LANES), &NARROW_NAME(MGT_LANES), &NEAR_NAME(MGT_LANES), &RASTER_NAME(MGT_LANES),
+    MGT_LANES,
+    lanes_sort,
+    lanes_guess,
+    lanes_sample,
+    lanes_filtered,
+    lanes_cells,
+    lanes_surface,
+    lanes_filtered_normal,
+    lanes_display,
+    &RIVALS_NAME(MGT_LANES),
+    &SHADE_NAME(MGT_LANES),
+    &NARROW_NAME(MGT_LANES),
+    &NEAR_NAME(MGT_LANES),
+    &RASTER_NAME(MGT_LANES),
 };

@@ -30,8 +30,8 @@ typedef struct wave_set {
     /* What sorting needs, see tile.k; room for the widest lanes, and zero there. */
     float turns_x[MGT_MAX_WAVES], turns_z[MGT_MAX_WAVES];
     float turns_low_x[MGT_MAX_WAVES], turns_low_z[MGT_MAX_WAVES]; /* what rounding to float took away */
-    float phase[MGT_MAX_WAVES];           /* turns under the camera at the interval's middle, in [-1/2, 1/2] */
-    float lesser_variance[MGT_MAX_WAVES]; /* metres², of the heights of a wave and of all smaller ones */
+    float phase[MGT_MAX_WAVES];                                   /* turns under the camera at the interval's middle, in [-1/2, 1/2] */
+    float lesser_variance[MGT_MAX_WAVES];                         /* metres², of the heights of a wave and of all smaller ones */
 } wave_set;
 
 /* The waves of a tile at one instant or over one shutter interval, for one camera. */
@@ -70,12 +70,12 @@ typedef struct tile_light {
 
 /* Cells of one tile: pixels are split evenly into view.scale_x × view.scale_y of them. */
 typedef struct tile_cells {
-    size_t count;                                   /* at most TILE_PIXELS */
-    float column[TILE_PIXELS], row[TILE_PIXELS];    /* whole numbers, in cells from the tile's first one */
-    const tile_light *light;                        /* a value a cell; NULL: no objects */
-    tile_guess guess;                               /* heights; march: 1 to march from above, 0: only where the height leads nowhere */
-    tile_detail detail;                             /* out */
-    tile_pixels pixels;                             /* out */
+    size_t count;                                /* at most TILE_PIXELS */
+    float column[TILE_PIXELS], row[TILE_PIXELS]; /* whole numbers, in cells from the tile's first one */
+    const tile_light *light;                     /* a value a cell; NULL: no objects */
+    tile_guess guess;                            /* heights; march: 1 to march from above, 0: only where the height leads nowhere */
+    tile_detail detail;                          /* out */
+    tile_pixels pixels;                          /* out */
 } tile_cells;
 
 typedef struct tile_surface {
@@ -97,13 +97,12 @@ typedef struct lane_kernels {
     void (*guess)(const FrameData *frame, const tile_waves *tile, tile_guess *guess);
     /* One sample a pixel at (x + dx, y + dy), dx and dy in pixels from its centre (NULL: 0); adds weight × result to `out`. `light`: of objects;
        NULL where there are none, here and below. */
-    void (*sample)(const FrameData *frame, const float *sky, const tile_light *light, const tile_waves *tile, const tile_guess *guess,
-                   const float *dx, const float *dy, float weight, tile_pixels *out);
+    void (*sample)(const FrameData *frame, const float *sky, const tile_light *light, const tile_waves *tile, const tile_guess *guess, const float *dx,
+                   const float *dy, float weight, tile_pixels *out);
     /* Filtered methods; `open` is NULL unless the camera moves. `podee` is read where podee-* replaces its Gaussian by kernels. `detail` is for
        method `mangata`, or NULL. */
-    void (*filtered)(const FrameData *frame, const float *sky, const tile_light *light, const podee_tables *podee, mgt_method method,
-                     const tile_waves *close, const tile_guess *close_guess, const tile_waves *open, const tile_guess *open_guess, tile_pixels *out,
-                     tile_detail *detail);
+    void (*filtered)(const FrameData *frame, const float *sky, const tile_light *light, const podee_tables *podee, mgt_method method, const tile_waves *close,
+                     const tile_guess *close_guess, const tile_waves *open, const tile_guess *open_guess, tile_pixels *out, tile_detail *detail);
     /* Cells by method `mangata`; the waves are sorted for their level. Lists are filled up to whole vectors. */
     void (*cells)(const FrameData *frame, const float *sky, const tile_waves *close, const tile_waves *open, tile_cells *cells);
     /* Depth and normal at one instant. */

@@ -65,7 +65,7 @@ typedef struct map_job {
     const lane_kernels *kernels;
     float *cosines; /* of LEAN_SIZE equal parts of a turn */
     float *columns;
-    int level;      /* that is shrunk */
+    int level; /* that is shrunk */
 } map_job;
 
 static void fill_columns(void *argument, size_t block, uint32_t worker)

@@ -28,7 +28,7 @@ typedef struct lean_waves {
 /* 246 MiB once it is filled. */
 typedef struct lean_map {
     LeanData data;
-    lean_waves waves;           /* that fill it */
+    lean_waves waves; /* that fill it */
     bool filled;
     float *slope_x, *slope_z;   /* level 0: one slope a texel, its second moments are products */
     float *levels[LEAN_LEVELS]; /* from level 1: LEAN_MOMENTS a texel */

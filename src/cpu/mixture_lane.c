@@ -9,35 +9,20 @@
 #include "precompute/atmosphere.h"
 
 /* Before the prelude takes the names of <math.h>. */
-static double log_of(double x)
-{
-    return log(x);
-}
+static double log_of(double x) { return log(x); }
 
-static double exp_of(double x)
-{
-    return exp(x);
-}
+static double exp_of(double x) { return exp(x); }
 
-static double reach_of(double e)
-{
-    return sqrt(fmax(e * e - 1, 0));
-}
+static double reach_of(double e) { return sqrt(fmax(e * e - 1, 0)); }
 
 #define MGT_LANES 1
 #include "kernels/prelude_c.h"
 
 #include "cpu/lane_access.h"
 
-KERNEL real SWEEP_TEXEL(CTX cx, real v, real u, real slice)
-{
-    return cx->podee->sweep[((size_t)slice * PODEE_ROWS + (size_t)u) * PODEE_COLUMNS + (size_t)v];
-}
+KERNEL real SWEEP_TEXEL(CTX cx, real v, real u, real slice) { return cx->podee->sweep[((size_t)slice * PODEE_ROWS + (size_t)u) * PODEE_COLUMNS + (size_t)v]; }
 
-KERNEL real SHARE_TEXEL(CTX cx, real r, real slice)
-{
-    return cx->podee->share[(size_t)slice * PODEE_COLUMNS + (size_t)r];
-}
+KERNEL real SHARE_TEXEL(CTX cx, real r, real slice) { return cx->podee->share[(size_t)slice * PODEE_COLUMNS + (size_t)r]; }
 
 #include "kernels/glitter.k"
 #include "kernels/podee_mixture.k"
@@ -60,6 +45,6 @@ double mixture_path_share(const podee_tables *tables, mgt_kernels kernels, const
 {
     const FrameData data = {.podee_kernels = (int)kernels, .podee_elongation = 1e6f, .light_radius = 1};
     const struct kernel_context cx = {.frame = &data, .podee = tables};
-    return (double)mixture_disk_path(&cx, vec2((float)from[0], (float)from[1]), vec2((float)to[0], (float)to[1]), (float)covariance[0],
-                                     (float)covariance[1], (float)covariance[2], 1);
+    return (double)mixture_disk_path(&cx, vec2((float)from[0], (float)from[1]), vec2((float)to[0], (float)to[1]), (float)covariance[0], (float)covariance[1],
+                                     (float)covariance[2], 1);
 }

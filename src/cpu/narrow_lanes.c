@@ -151,8 +151,8 @@ static WaterHit surface_of_method(const struct kernel_context *cx, WaterHit hit)
 
 static FoundPoint select_found(mask m, FoundPoint a, FoundPoint b)
 {
-    return (FoundPoint){SELECT3(m, a.position, b.position), SELECT3(m, a.direction, b.direction), SELECT(m, a.column, b.column), SELECT(m, a.row, b.row),
-                        SELECT(m, a.shown, b.shown), SELECT(m, a.after, b.after), SELECT(m, a.residual, b.residual)};
+    return (FoundPoint){SELECT3(m, a.position, b.position), SELECT3(m, a.direction, b.direction), SELECT(m, a.column, b.column),    SELECT(m, a.row, b.row),
+                        SELECT(m, a.shown, b.shown),        SELECT(m, a.after, b.after),          SELECT(m, a.residual, b.residual)};
 }
 
 static void lanes_refracted(const narrow_scene *n, const tile_offset *at, const tile_water *water, tile_ends *out)

@@ -35,10 +35,10 @@ typedef struct tile_ends {
     float spread[3][TILE_PIXELS]; /* the footprint, as in shade_hits */
     float terms[9][TILE_PIXELS];  /* Spread, for another `after`; two-phase, hybrid: where there is doubt */
     float gain[TILE_PIXELS];      /* as in shade_hits */
-    float error[TILE_PIXELS]; /* pixels; +inf: nothing is known */
-    float total[TILE_PIXELS]; /* 1 where the surface lets nothing through */
-    float doubt[TILE_PIXELS]; /* two-phase, hybrid: 1 where the pictures do not certify the answer, else 0 */
-    int32_t pixel[TILE_PIXELS]; /* of the layer, whose answer it is; −1: none's */
+    float error[TILE_PIXELS];     /* pixels; +inf: nothing is known */
+    float total[TILE_PIXELS];     /* 1 where the surface lets nothing through */
+    float doubt[TILE_PIXELS];     /* two-phase, hybrid: 1 where the pictures do not certify the answer, else 0 */
+    int32_t pixel[TILE_PIXELS];   /* of the layer, whose answer it is; −1: none's */
 } tile_ends;
 
 /* Pixel 0 of the tile within the image, and the place in every pixel that rays go through, from its centre. */

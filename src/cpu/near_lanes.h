@@ -8,8 +8,8 @@
 /* What objects in front of the water are looked up in. */
 typedef struct near_scene {
     const gbuffer *layer;
-    const uint8_t *edges; /* as near_kernels.edges sets them */
-    const float *planes;  /* of the world's triangles, as in narrow_scene */
+    const uint8_t *edges;               /* as near_kernels.edges sets them */
+    const float *planes;                /* of the world's triangles, as in narrow_scene */
     float corner[3], right[3], down[3]; /* rays of the camera */
     float foot[3];                      /* the camera, in the world's coordinates */
     float pixel_angle;
@@ -22,8 +22,8 @@ enum { NEAR_NOTHING, NEAR_INSIDE, NEAR_EDGE };
 /* In pixels within the image; others are NEAR_NOTHING. */
 typedef struct tile_near {
     uint8_t kind[TILE_PIXELS];
-    float *along;                  /* TILE_PIXELS: metres along the ray where the pixel is NEAR_INSIDE; else +inf */
-    float (*normal)[TILE_PIXELS];  /* 3 planes: unit, towards the camera; there alone */
+    float *along;                 /* TILE_PIXELS: metres along the ray where the pixel is NEAR_INSIDE; else +inf */
+    float (*normal)[TILE_PIXELS]; /* 3 planes: unit, towards the camera; there alone */
 } tile_near;
 
 struct near_kernels {

@@ -35,10 +35,7 @@ static bool reserve(void **memory, size_t *room, size_t wanted, size_t size)
 
 /* ---- clipping ---- */
 
-static double side_of(const double plane[3], const double p[3])
-{
-    return plane[0] * p[0] + plane[1] * p[1] + plane[2] * p[2];
-}
+static double side_of(const double plane[3], const double p[3]) { return plane[0] * p[0] + plane[1] * p[1] + plane[2] * p[2]; }
 
 /* What is left on the side where plane·p ≥ offset. */
 static polygon clipped(const polygon *p, const double plane[3], double offset)
@@ -167,14 +164,17 @@ static bool add_flat(raster_bins *bins, const raster_grid *grid, int layer, cons
     return set_up(corner, grid, triangle, &t, &box) && bin_triangle(bins, grid, layer, &t, &box);
 }
 
-size_t raster_bins_add(raster_bins *bins, const raster_grid *grid, int layer, const setup_batch *from, size_t i, const float image[3][3],
-                       int32_t triangle)
+size_t raster_bins_add(raster_bins *bins, const raster_grid *grid, int layer, const setup_batch *from, size_t i, const float image[3][3], int32_t triangle)
 {
     if (!(from->state[i] > 0))
         return 0;
     if (from->state[i] < 2) {
-        raster_triangle t = {.inverse_depth = from->inverse_depth[i], .slope_x = from->slope_x[i], .slope_y = from->slope_y[i], .least = from->least[i],
-                             .most = from->most[i], .triangle = triangle};
+        raster_triangle t = {.inverse_depth = from->inverse_depth[i],
+                             .slope_x = from->slope_x[i],
+                             .slope_y = from->slope_y[i],
+                             .least = from->least[i],
+                             .most = from->most[i],
+                             .triangle = triangle};
         for (int k = 0; k < 3; k++) {
             t.x[k] = (int32_t)from->x[k][i];
             t.y[k] = (int32_t)from->y[k][i];

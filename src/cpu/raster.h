@@ -33,8 +33,7 @@ typedef struct raster_bins {
 } raster_bins;
 
 /* Triangle i of a batch and its images, from which it is clipped if it reaches too far. Returns how many triangles are left of it. */
-size_t raster_bins_add(raster_bins *bins, const raster_grid *grid, int layer, const setup_batch *from, size_t i, const float image[3][3],
-                       int32_t triangle);
+size_t raster_bins_add(raster_bins *bins, const raster_grid *grid, int layer, const setup_batch *from, size_t i, const float image[3][3], int32_t triangle);
 
 /* Sorts the entries. */
 void raster_bins_sort(raster_bins *bins, const raster_grid *grid);

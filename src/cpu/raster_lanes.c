@@ -26,15 +26,9 @@ static inline real load(const float *p)
     return r;
 }
 
-static inline void store(float *p, real r)
-{
-    memcpy(p, &r, sizeof r);
-}
+static inline void store(float *p, real r) { memcpy(p, &r, sizeof r); }
 
-static inline vec3 load3(const float *const p[3], size_t i)
-{
-    return (vec3){load(p[0] + i), load(p[1] + i), load(p[2] + i)};
-}
+static inline vec3 load3(const float *const p[3], size_t i) { return (vec3){load(p[0] + i), load(p[1] + i), load(p[2] + i)}; }
 
 /* ---- points ---- */
 
@@ -56,8 +50,7 @@ static void lanes_true_points(const RefractData *refract, size_t count, const fl
     }
 }
 
-static void lanes_images(const RefractData *refract, const PictureData *picture, const float foot[2], size_t count, const float *positions,
-                         float *images)
+static void lanes_images(const RefractData *refract, const PictureData *picture, const float foot[2], size_t count, const float *positions, float *images)
 {
     const struct kernel_context cx = {.refract = refract, .picture = picture};
     for (size_t i = 0; i < count; i += MGT_LANES) {
@@ -142,10 +135,7 @@ static inline real difference_of_products(real a, real b, real c, real d)
 }
 
 /* Whether a whole number lies between two, which are in subpixels. */
-static inline mask holds_center(real low, real high)
-{
-    return floor(high * (1.0f / SUBPIXELS)) * (float)SUBPIXELS >= low;
-}
+static inline mask holds_center(real low, real high) { return floor(high * (1.0f / SUBPIXELS)) * (float)SUBPIXELS >= low; }
 
 static inline mask reaches_over(vec3 image, float least_depth)
 {
@@ -243,10 +233,7 @@ static inline mask load_ints(const int32_t *p)
     return m;
 }
 
-static inline void store_ints(int32_t *p, mask m)
-{
-    memcpy(p, &m, sizeof m);
-}
+static inline void store_ints(int32_t *p, mask m) { memcpy(p, &m, sizeof m); }
 
 /* A triangle's numbers in every lane. */
 typedef struct drawn_triangle {
@@ -279,8 +266,8 @@ static void draw_triangle(raster_tile *tile, const raster_triangle *t)
     const int32_t left = first_pixel(LEAST3(t->x), tile->x), right = last_pixel(MOST3(t->x), tile->x, tile->width);
     const int32_t top = first_pixel(LEAST3(t->y), tile->y), bottom = last_pixel(MOST3(t->y), tile->y, tile->height);
     const float corner_x = (float)t->x[0] * (1.0f / SUBPIXELS), corner_y = (float)t->y[0] * (1.0f / SUBPIXELS);
-    const drawn_triangle d = {real(t->inverse_depth), real(t->slope_x), real(t->slope_y), real(t->least), real(t->most),
-                              real_from_bits((mask){0} + t->triangle)};
+    const drawn_triangle d = {real(t->inverse_depth), real(t->slope_x), real(t->slope_y),
+                              real(t->least),         real(t->most),    real_from_bits((mask){0} + t->triangle)};
     const mask lanes = lane_counts();
     const real first_x = real_from_int(lanes) + ((float)(tile->x + left) - corner_x);
     real below = real((float)(tile->y + top) - corner_y);

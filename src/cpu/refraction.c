@@ -39,9 +39,12 @@ static gbuffer_map map_of(mgt_refraction method)
     switch (method) {
     case MGT_REFRACTION_TWO_PHASE:
     case MGT_REFRACTION_HYBRID:
-    case MGT_REFRACTION_BROAD: return GBUFFER_SAGITTAL;
-    case MGT_REFRACTION_LIU: return GBUFFER_PATH;
-    default: return GBUFFER_STRAIGHT;
+    case MGT_REFRACTION_BROAD:
+        return GBUFFER_SAGITTAL;
+    case MGT_REFRACTION_LIU:
+        return GBUFFER_PATH;
+    default:
+        return GBUFFER_STRAIGHT;
     }
 }
 
@@ -189,10 +192,7 @@ gbuffer_job refraction_mirrored_job(const frame *f)
     return job;
 }
 
-bool refraction_mirrors(const frame *f, const world *w)
-{
-    return f->under || (w->triangle_count > 0 && w->high[1] > 0);
-}
+bool refraction_mirrors(const frame *f, const world *w) { return f->under || (w->triangle_count > 0 && w->high[1] > 0); }
 
 static mgt_status draw_layers(refraction *r, thread_pool *pool)
 {
@@ -204,10 +204,7 @@ static mgt_status draw_layers(refraction *r, thread_pool *pool)
     return gbuffers_draw(&r->mirrored, r->world, &mirrored, r->kernels->raster, pool);
 }
 
-static bool traces(mgt_refraction method)
-{
-    return method == MGT_REFRACTION_HYBRID || method == MGT_REFRACTION_TRUTH;
-}
+static bool traces(mgt_refraction method) { return method == MGT_REFRACTION_HYBRID || method == MGT_REFRACTION_TRUTH; }
 
 static mgt_status prepare_trace(refraction *r, const reporter *report, thread_pool *pool)
 {
@@ -294,13 +291,10 @@ static bool prepare_opened(refraction *r, thread_pool *pool)
     return set_camera(o, pool) == MGT_OK;
 }
 
-refraction *refraction_opened(const refraction *r)
-{
-    return r->frame->scene->camera_moves && !r->truth ? r->opened : NULL;
-}
+refraction *refraction_opened(const refraction *r) { return r->frame->scene->camera_moves && !r->truth ? r->opened : NULL; }
 
-mgt_status refraction_prepare(refraction **state, const reporter *report, const frame *f, const sky_state *sky, const lane_kernels *kernels,
-                              mgt_isa isa, thread_pool *pool)
+mgt_status refraction_prepare(refraction **state, const reporter *report, const frame *f, const sky_state *sky, const lane_kernels *kernels, mgt_isa isa,
+                              thread_pool *pool)
 {
     if (!*state && !(*state = calloc(1, sizeof **state)))
         goto out_of_memory;
@@ -326,6 +320,6 @@ void refraction_tell(const refraction *r, const reporter *log)
 {
     const size_t pixels = atomic_load(&r->pixels), traced = atomic_load(&r->traced);
     report(log, MGT_LOG_DEBUG, "render.refraction", "%zu triangles; drawn: %zu near, %zu far, %zu mirrored; %zu pixels of water, %zu of them traced (%.2f%%)",
-           r->world->triangle_count, r->direct.counts.near_triangles, r->direct.counts.far_triangles,
-           r->mirrors ? r->mirrored.counts.far_triangles : (size_t)0, pixels, traced, pixels > 0 ? 100.0 * (double)traced / (double)pixels : 0.0);
+           r->world->triangle_count, r->direct.counts.near_triangles, r->direct.counts.far_triangles, r->mirrors ? r->mirrored.counts.far_triangles : (size_t)0,
+           pixels, traced, pixels > 0 ? 100.0 * (double)traced / (double)pixels : 0.0);
 }

@@ -36,16 +36,15 @@ typedef struct refraction refraction;
  * Everything that a frame with objects needs before its tiles, in *r, which is NULL at first; what depends on the objects and the camera alone stays
  * between frames. The frame, its scene and the sky must outlive the tiles. On failure the report says why.
  */
-mgt_status refraction_prepare(refraction **r, const reporter *report, const frame *f, const sky_state *sky, const lane_kernels *kernels,
-                              mgt_isa isa, thread_pool *pool);
+mgt_status refraction_prepare(refraction **r, const reporter *report, const frame *f, const sky_state *sky, const lane_kernels *kernels, mgt_isa isa,
+                              thread_pool *pool);
 void refraction_free(refraction *r); /* NULL is allowed */
 
 /* Tells the log, after a frame's tiles, what they took. */
 void refraction_tell(const refraction *r, const reporter *report);
 
 /* Objects in the tile (tile_x, tile_y). `waves` and `guess`: sorted for the tile, filtered, over frame_shutter(). One call a worker at a time. */
-void refraction_tile(refraction *r, const tile_waves *waves, const tile_guess *guess, uint32_t tile_x, uint32_t tile_y, uint32_t worker,
-                     tile_objects *out);
+void refraction_tile(refraction *r, const tile_waves *waves, const tile_guess *guess, uint32_t tile_x, uint32_t tile_y, uint32_t worker, tile_objects *out);
 
 /* What the tile saw of objects when the shutter opened. */
 typedef struct tile_opened {

@@ -25,16 +25,16 @@ struct refraction {
     size_t plane_room;         /* triangles */
     uint64_t plane_version;    /* of the world that they are of */
     shade_scene *shade;
-    trace_scene *trace;        /* NULL until a method traces */
-    distance_field *field;     /* NULL until a method marches through it */
-    refraction_truth *truth;   /* of this frame, for that method */
+    trace_scene *trace;           /* NULL until a method traces */
+    distance_field *field;        /* NULL until a method marches through it */
+    refraction_truth *truth;      /* of this frame, for that method */
     layer_marks edges, breaks[2]; /* of the near layer; of narrow.layers, where the method asks */
     narrow_scene narrow;
     near_scene near;
     const lane_kernels *kernels;
     const frame *frame;
-    camera_rays camera;        /* as it is, not mirrored */
-    bool mirrors;              /* something stands on the camera's side, or water does */
+    camera_rays camera;           /* as it is, not mirrored */
+    bool mirrors;                 /* something stands on the camera's side, or water does */
     atomic_size_t pixels, traced; /* of water, of this frame; and rays traced through them */
     /* The same where the camera is when the shutter opens, NULL until one moves: layers and `moved` are its own, the rest is lent. */
     refraction *opened;

@@ -296,8 +296,7 @@ static void see_refracted(refraction *r, const tile_waves *waves, const tile_gue
     }
 }
 
-void refraction_tile(refraction *r, const tile_waves *waves, const tile_guess *guess, uint32_t tile_x, uint32_t tile_y, uint32_t worker,
-                     tile_objects *o)
+void refraction_tile(refraction *r, const tile_waves *waves, const tile_guess *guess, uint32_t tile_x, uint32_t tile_y, uint32_t worker, tile_objects *o)
 {
     const tile_offset at = {tile_x * TILE_WIDTH, tile_y * TILE_HEIGHT, 0, 0};
     r->kernels->narrow->water(&r->frame->through, waves, guess, &at, &o->water);

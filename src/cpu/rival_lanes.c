@@ -87,10 +87,7 @@ static PixelResult sky_alone(const struct kernel_context *cx, PixelRay p)
     return result;
 }
 
-static inline const float *light_at(const tile_light *light, size_t i)
-{
-    return light ? &light->body[0][i] : NULL;
-}
+static inline const float *light_at(const tile_light *light, size_t i) { return light ? &light->body[0][i] : NULL; }
 
 static void render_points(struct kernel_context *cx, const rival_tile *tile, tile_pixels *out)
 {
@@ -105,10 +102,14 @@ static void render_points(struct kernel_context *cx, const rival_tile *tile, til
 static PixelResult filtered_result(const struct kernel_context *cx, mgt_method method, PixelRay p, SlopeState open, SlopeState close)
 {
     switch (method) {
-    case MGT_METHOD_LEADR: return leadr_result(cx, p, close);
-    case MGT_METHOD_BRUNETON: return bruneton_result(cx, p, close);
-    case MGT_METHOD_TNDF: return tndf_result(cx, p, open, close);
-    default: return lean_result(cx, p, close);
+    case MGT_METHOD_LEADR:
+        return leadr_result(cx, p, close);
+    case MGT_METHOD_BRUNETON:
+        return bruneton_result(cx, p, close);
+    case MGT_METHOD_TNDF:
+        return tndf_result(cx, p, open, close);
+    default:
+        return lean_result(cx, p, close);
     }
 }
 
@@ -133,8 +134,8 @@ static void render_filtered(struct kernel_context *cx, const struct kernel_conte
 
 static void lanes_pixels(const rival_tile *t, tile_pixels *out)
 {
-    struct kernel_context context = {
-        .frame = t->frame, .tile = &t->close->data, .waves = t->close->waves, .march = t->close->march, .sky = t->sky, .lean = t->lean};
+    struct kernel_context context =
+        {.frame = t->frame, .tile = &t->close->data, .waves = t->close->waves, .march = t->close->march, .sky = t->sky, .lean = t->lean};
     if (t->method == MGT_METHOD_MSAA32 || t->method == MGT_METHOD_TOKUYOSHI) {
         render_points(&context, t, out);
         return;
@@ -162,8 +163,7 @@ static inline HitGuess gather_guess(const tile_guess *guess, const uint16_t *lis
 
 static void lanes_temporal(const rival_tile *t, temporal_rays *rays)
 {
-    struct kernel_context cx = {
-        .frame = t->frame, .tile = &t->close->data, .waves = t->close->waves, .march = t->close->march, .sky = t->sky};
+    struct kernel_context cx = {.frame = t->frame, .tile = &t->close->data, .waves = t->close->waves, .march = t->close->march, .sky = t->sky};
     struct kernel_context open = cx;
     if (t->open)
         open.tile = &t->open->data, open.waves = t->open->waves, open.march = t->open->march;

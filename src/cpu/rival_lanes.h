@@ -10,7 +10,7 @@ typedef struct rival_tile {
     const FrameData *frame;
     const float *sky;
     const tile_light *light; /* of objects, for rays over the shutter a value a ray; NULL: there are none */
-    const lean_map *lean; /* NULL unless the method is lean or leadr */
+    const lean_map *lean;    /* NULL unless the method is lean or leadr */
     mgt_method method;
     const tile_waves *close;
     const tile_guess *close_guess;

@@ -178,12 +178,6 @@ void shade_free(shade_scene *s)
     free(s);
 }
 
-void shade_sun(const shade_scene *s, size_t count, const float *x, const float *z, float *share)
-{
-    s->kernels->sun(s, count, x, z, share);
-}
+void shade_sun(const shade_scene *s, size_t count, const float *x, const float *z, float *share) { s->kernels->sun(s, count, x, z, share); }
 
-void shade_points(const shade_scene *s, const shade_hits *hits, float *rgb)
-{
-    s->kernels->points(s, hits, rgb);
-}
+void shade_points(const shade_scene *s, const shade_hits *hits, float *rgb) { s->kernels->points(s, hits, rgb); }

@@ -159,8 +159,7 @@ static void read_objects(const shade_scene *s, const int32_t *triangle, HitTrian
         for (int k = 0; k < OBJECT_FLOATS; k++)
             v[k] = SELECT(same, real(one[k]), v[k]);
     }
-    *t = (HitTriangle){triple(v),          triple(v + 3),        triple(v + 6),          triple(v + 9),         triple(v + 12),
-                       triple(v + 15),     {v[18], v[19]},       {v[20], v[21]},         {v[22], v[23]}};
+    *t = (HitTriangle){triple(v), triple(v + 3), triple(v + 6), triple(v + 9), triple(v + 12), triple(v + 15), {v[18], v[19]}, {v[20], v[21]}, {v[22], v[23]}};
     const real *o = v + TRIANGLE_FLOATS;
     *m = (HitMaterial){triple(o), o[3], o[4], o[5], triple(o + 6), o[9], o[10], o[11], o[12], o[13]};
 }

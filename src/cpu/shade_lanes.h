@@ -23,7 +23,7 @@ struct shade_scene {
     shade_material *materials; /* an object each */
     size_t material_room;
     shadow_map *shadows;
-    MarchWave waves[MGT_MAX_WAVES]; /* where light is bundled */
+    MarchWave waves[MGT_MAX_WAVES];    /* where light is bundled */
     float linear[SHADE_TEXTURE_CODES]; /* of an sRGB code */
     const shade_kernels *kernels;
 };

@@ -14,12 +14,12 @@ typedef struct shadow_rays {
 } shadow_rays;
 
 typedef struct shadow_map {
-    uint64_t version;  /* of the world it was drawn from */
+    uint64_t version; /* of the world it was drawn from */
     shadow_rays rays;
     uint32_t columns, rows; /* 0: nothing casts shadows */
-    float left, top;   /* place of its corner, metres in the world's coordinates */
-    float texel;       /* metres */
-    float *height;     /* −inf: nothing */
+    float left, top;        /* place of its corner, metres in the world's coordinates */
+    float texel;            /* metres */
+    float *height;          /* −inf: nothing */
 } shadow_map;
 
 enum { SHADOW_SIDE = 2048 }; /* most texels a side */

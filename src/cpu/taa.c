@@ -48,15 +48,9 @@ static bool history_place(const taa_step *s, uint32_t x, uint32_t y, double at[2
     return project(&s->before, point, at) && at[0] >= 0 && at[1] >= 0 && at[0] <= s->current->width - 1 && at[1] <= s->current->height - 1;
 }
 
-static inline float smaller(float a, float b)
-{
-    return a < b ? a : b;
-}
+static inline float smaller(float a, float b) { return a < b ? a : b; }
 
-static inline float larger(float a, float b)
-{
-    return a > b ? a : b;
-}
+static inline float larger(float a, float b) { return a > b ? a : b; }
 
 /* One channel of `channels`, bilinear. */
 static float history_at(const picture_planes *p, const float *history, size_t channels, const double at[2])
@@ -106,10 +100,7 @@ void taa_blend_row(const taa_step *s, uint32_t y)
 
 /* ---- frames of the history ---- */
 
-double taa_interval(const mgt_scene *s)
-{
-    return s->frame_interval > 0 ? s->frame_interval : s->shutter > 0 ? s->shutter : 1.0 / 30;
-}
+double taa_interval(const mgt_scene *s) { return s->frame_interval > 0 ? s->frame_interval : s->shutter > 0 ? s->shutter : 1.0 / 30; }
 
 mgt_camera taa_camera(const mgt_scene *s, double share)
 {
@@ -174,15 +165,13 @@ static mgt_status render_current(const taa_history *h, int back, const picture_p
     return h->m->render(h->m->user, &scene, layers, scene.camera_moves ? 4 : 3, &pass);
 }
 
-static void blend_row(void *argument, size_t y)
-{
-    taa_blend_row(argument, (uint32_t)y);
-}
+static void blend_row(void *argument, size_t y) { taa_blend_row(argument, (uint32_t)y); }
 
 mgt_status taa_render(const picture_maker *m, const reporter *r, const mgt_scene *scene, picture_planes *out)
 {
     const taa_history h = {m, scene, taa_interval(scene)};
-    picture_planes current = picture_planes_create(out->width, out->height, MGT_METHOD_TAA), spare = picture_planes_create(out->width, out->height, MGT_METHOD_TAA);
+    picture_planes current = picture_planes_create(out->width, out->height, MGT_METHOD_TAA),
+                   spare = picture_planes_create(out->width, out->height, MGT_METHOD_TAA);
     mgt_status status = MGT_ERROR_MEMORY;
     if (!current.color || !spare.color) {
         report_error(r, status, "render.memory", "out of memory for taa on %u x %u pixels", out->width, out->height);

@@ -145,10 +145,7 @@ void thread_pool_destroy(thread_pool *pool)
     free(pool);
 }
 
-uint32_t thread_pool_size(const thread_pool *pool)
-{
-    return pool->size;
-}
+uint32_t thread_pool_size(const thread_pool *pool) { return pool->size; }
 
 static double seconds(void)
 {

@@ -37,10 +37,7 @@ static void build(tile_place place, const wave_set *set, tile_waves *waves, tile
     build_with(&place.job->frame->data, place, set, waves, guess);
 }
 
-static const tile_light *light_of(const tile_job *job, const tile_scratch *scratch)
-{
-    return job->objects ? &scratch->objects.light : NULL;
-}
+static const tile_light *light_of(const tile_job *job, const tile_scratch *scratch) { return job->objects ? &scratch->objects.light : NULL; }
 
 /* ---- point samples ---- */
 
@@ -102,8 +99,8 @@ static void render_samples(tile_place place, tile_scratch *scratch)
             if (sample % 16 == 15 && job->keep_going && !job->keep_going(job->keep_going_argument, scratch->worker))
                 return;
             jitter(place, q->seed, q->spatial_samples, sample % per_time, sample, scratch);
-            job->kernels->sample(&f->data, job->sky, light_of(job, scratch), &scratch->close, &scratch->close_guess, scratch->jitter_x, scratch->jitter_y, weight,
-                                 &scratch->pixels);
+            job->kernels->sample(&f->data, job->sky, light_of(job, scratch), &scratch->close, &scratch->close_guess, scratch->jitter_x, scratch->jitter_y,
+                                 weight, &scratch->pixels);
         }
     }
 }
@@ -185,10 +182,7 @@ static void render_segments(tile_place place, tile_scratch *scratch)
     }
 }
 
-static bool is_filtered(mgt_method method)
-{
-    return method == MGT_METHOD_MANGATA || method == MGT_METHOD_PODEE_UNIFORM || method == MGT_METHOD_PODEE_PIXEL;
-}
+static bool is_filtered(mgt_method method) { return method == MGT_METHOD_MANGATA || method == MGT_METHOD_PODEE_UNIFORM || method == MGT_METHOD_PODEE_PIXEL; }
 
 /* ---- rivals ---- */
 
@@ -199,10 +193,7 @@ static bool is_rival(mgt_method method)
 }
 
 /* Those that shade a point of the whole surface; the others know its filtered slopes. */
-static bool takes_points(mgt_method method)
-{
-    return method == MGT_METHOD_MSAA32 || method == MGT_METHOD_TOKUYOSHI;
-}
+static bool takes_points(mgt_method method) { return method == MGT_METHOD_MSAA32 || method == MGT_METHOD_TOKUYOSHI; }
 
 static void render_rival(tile_place place, tile_scratch *scratch)
 {
@@ -216,10 +207,15 @@ static void render_rival(tile_place place, tile_scratch *scratch)
         build(place, &job->waves->open, &scratch->open, &scratch->open_guess);
         share_light(scratch);
     }
-    const rival_tile tile = {&f->data,        job->sky, light_of(job, scratch),
-                             job->lean,       method,
-                             &scratch->close, &scratch->close_guess,
-                             moves ? &scratch->open : NULL, moves ? &scratch->open_guess : NULL};
+    const rival_tile tile = {&f->data,
+                             job->sky,
+                             light_of(job, scratch),
+                             job->lean,
+                             method,
+                             &scratch->close,
+                             &scratch->close_guess,
+                             moves ? &scratch->open : NULL,
+                             moves ? &scratch->open_guess : NULL};
     job->kernels->rivals->pixels(&tile, &scratch->pixels);
 }
 
@@ -267,10 +263,7 @@ static void render_pixels(tile_place place, tile_scratch *scratch)
         render_centre(place, scratch);
 }
 
-void tile_see_objects(const tile_job *job, uint32_t tile_x, uint32_t tile_y, tile_scratch *scratch)
-{
-    see_objects((tile_place){job, tile_x, tile_y}, scratch);
-}
+void tile_see_objects(const tile_job *job, uint32_t tile_x, uint32_t tile_y, tile_scratch *scratch) { see_objects((tile_place){job, tile_x, tile_y}, scratch); }
 
 void tile_render(const tile_job *job, uint32_t tile_x, uint32_t tile_y, tile_scratch *scratch)
 {

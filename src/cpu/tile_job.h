@@ -42,7 +42,7 @@ typedef struct tile_job {
     const frame *frame;
     const frame_waves *waves;
     const lane_kernels *kernels;
-    const float *sky; /* the table of a sky_state */
+    const float *sky;          /* the table of a sky_state */
     const podee_tables *podee; /* where podee-* with kernels needs them */
     tile_wants wants;
     /* Asked between the samples of a tile, on any worker; false: leave the tile unfinished. NULL: never asked. */
@@ -50,7 +50,7 @@ typedef struct tile_job {
     void *keep_going_argument;
     const struct lean_map *lean; /* filled, for methods lean and leadr; else NULL */
     refraction *objects;         /* prepared for the frame; NULL: the scene has none */
-    bool behind;               /* objects in front of the water are left out */
+    bool behind;                 /* objects in front of the water are left out */
 } tile_job;
 
 /* Fills scratch->pixels and scratch->surface for the tile (tile_x, tile_y) of the lattice. Not for the reference. */

@@ -23,27 +23,27 @@ picture_planes picture_planes_create(uint32_t width, uint32_t height, mgt_method
     return p;
 }
 
-void picture_planes_free(picture_planes *p)
-{
-    free(p->color);
-}
+void picture_planes_free(picture_planes *p) { free(p->color); }
 
-bool is_whole_frame_method(mgt_method method)
-{
-    return method == MGT_METHOD_FXAA || method == MGT_METHOD_TAA || method == MGT_METHOD_ADAPTIVE;
-}
+bool is_whole_frame_method(mgt_method method) { return method == MGT_METHOD_FXAA || method == MGT_METHOD_TAA || method == MGT_METHOD_ADAPTIVE; }
 
 /* ---- targets ---- */
 
 static const float *plane_of(const picture_planes *p, mgt_layer layer)
 {
     switch (layer) {
-    case MGT_LAYER_COLOR: return p->color;
-    case MGT_LAYER_COVERAGE: return p->coverage;
-    case MGT_LAYER_SAMPLES: return p->samples;
-    case MGT_LAYER_IMPORTANCE: return p->importance;
-    case MGT_LAYER_DETAIL: return p->detail;
-    default: return p->water;
+    case MGT_LAYER_COLOR:
+        return p->color;
+    case MGT_LAYER_COVERAGE:
+        return p->coverage;
+    case MGT_LAYER_SAMPLES:
+        return p->samples;
+    case MGT_LAYER_IMPORTANCE:
+        return p->importance;
+    case MGT_LAYER_DETAIL:
+        return p->detail;
+    default:
+        return p->water;
     }
 }
 

@@ -8,7 +8,7 @@
 
 /* One picture of several that a frame is made of. */
 typedef struct frame_pass {
-    camera_rays camera; /* instead of the scene's */
+    camera_rays camera;  /* instead of the scene's */
     double first, share; /* of the frame's progress: what is done already, and what this picture adds */
     bool behind;         /* objects in front of the water are left out */
 } frame_pass;
@@ -18,7 +18,7 @@ typedef struct picture_planes {
     uint32_t width, height;
     float *color; /* 3 floats a pixel, kcd/m² */
     float *coverage, *water;
-    float *depth; /* metres along the ray; only for taa */
+    float *depth;                         /* metres along the ray; only for taa */
     float *samples, *importance, *detail; /* only for adaptive */
 } picture_planes;
 

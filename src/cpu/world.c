@@ -24,10 +24,7 @@ typedef struct kept_world {
 
 static atomic_uint_fast64_t last_version;
 
-static kept_world *kept(world *w)
-{
-    return (kept_world *)w;
-}
+static kept_world *kept(world *w) { return (kept_world *)w; }
 
 void world_free(world *w)
 {
@@ -45,8 +42,8 @@ void world_free(world *w)
 
 size_t world_size(const world *w)
 {
-    return w ? w->vertex_count * 8 * sizeof(float) + w->triangle_count * 4 * sizeof(uint32_t) +
-                   w->object_count * (sizeof *w->objects + sizeof(object_key)) + sizeof(kept_world)
+    return w ? w->vertex_count * 8 * sizeof(float) + w->triangle_count * 4 * sizeof(uint32_t) + w->object_count * (sizeof *w->objects + sizeof(object_key)) +
+                   sizeof(kept_world)
              : 0;
 }
 

@@ -23,11 +23,11 @@ typedef struct world {
     uint64_t version; /* of the geometry, unlike that of every other world of the process: what is built for it may stay while this is the same */
     double origin[2]; /* x, z */
     size_t vertex_count, triangle_count, object_count;
-    float *positions;  /* 3 a vertex, and room for one float more, as Embree wants */
-    float *normals;    /* 3 a vertex, unit; see world_object.smooth */
-    float *texcoords;  /* 2 a vertex */
-    uint32_t *indices; /* 3 a triangle, counter-clockwise seen from outside */
-    uint32_t *object;  /* of a triangle: index into objects */
+    float *positions;      /* 3 a vertex, and room for one float more, as Embree wants */
+    float *normals;        /* 3 a vertex, unit; see world_object.smooth */
+    float *texcoords;      /* 2 a vertex */
+    uint32_t *indices;     /* 3 a triangle, counter-clockwise seen from outside */
+    uint32_t *object;      /* of a triangle: index into objects */
     world_object *objects; /* as the scene's; read from the scene of every frame, their textures live only during it */
     float low[3], high[3]; /* bounds of the vertices in use; low > high where there is nothing */
 } world;

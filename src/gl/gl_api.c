@@ -4,9 +4,9 @@
 
 const char *gl_api_load(gl_api *gl, mgt_gl_get_proc get_proc)
 {
-#define GL_LOAD(TYPE, name)                                    \
-    gl->name = (PFNGL##TYPE##PROC)get_proc("gl" #name);        \
-    if (!gl->name)                                             \
+#define GL_LOAD(TYPE, name)                             \
+    gl->name = (PFNGL##TYPE##PROC)get_proc("gl" #name); \
+    if (!gl->name)                                      \
         return "gl" #name;
     GL_FUNCTIONS(GL_LOAD)
 #undef GL_LOAD

@@ -156,16 +156,23 @@ static layer_source source_of(const gl_renderer *g, const mgt_target *target)
     if (target->format == MGT_FORMAT_RGBA8_SRGB)
         return (layer_source){&l->display, GL_RGBA, GL_UNSIGNED_BYTE};
     switch (target->layer) {
-    case MGT_LAYER_COVERAGE: return (layer_source){&l->coverage, GL_RED, GL_FLOAT};
-    case MGT_LAYER_MASK: return (layer_source){&l->water, GL_RED, GL_FLOAT};
-    case MGT_LAYER_DEPTH: return (layer_source){&l->depth, GL_RED, GL_FLOAT};
-    case MGT_LAYER_NORMAL: return (layer_source){&l->normal, channels, GL_FLOAT};
+    case MGT_LAYER_COVERAGE:
+        return (layer_source){&l->coverage, GL_RED, GL_FLOAT};
+    case MGT_LAYER_MASK:
+        return (layer_source){&l->water, GL_RED, GL_FLOAT};
+    case MGT_LAYER_DEPTH:
+        return (layer_source){&l->depth, GL_RED, GL_FLOAT};
+    case MGT_LAYER_NORMAL:
+        return (layer_source){&l->normal, channels, GL_FLOAT};
     case MGT_LAYER_SAMPLES: /* handed to the CPU */
     case MGT_LAYER_IMPORTANCE:
     case MGT_LAYER_DETAIL:
-    case MGT_LAYER_COLOR: break;
-    case MGT_LAYER_REFRACTION: return (layer_source){&g->refraction.seen.body, channels, GL_FLOAT};
-    case MGT_LAYER_REFRACTION_ERROR: return (layer_source){&g->refraction.seen.error, GL_RED, GL_FLOAT};
+    case MGT_LAYER_COLOR:
+        break;
+    case MGT_LAYER_REFRACTION:
+        return (layer_source){&g->refraction.seen.body, channels, GL_FLOAT};
+    case MGT_LAYER_REFRACTION_ERROR:
+        return (layer_source){&g->refraction.seen.error, GL_RED, GL_FLOAT};
     }
     return (layer_source){&l->color, channels, GL_FLOAT};
 }
@@ -177,20 +184,18 @@ static mgt_status read_target(gl_backend_state *s, const mgt_target *target, con
     const layer_source source = source_of(s->renderer, target);
     const size_t row = format_size(target->format) * crop->width;
     const uint32_t rows = transfer_bytes / row > 0 ? (uint32_t)(transfer_bytes / row) : 1;
-    mgt_status status = gl_buffer_reserve(gl, &s->transfer, row * (rows < crop->height ? rows : crop->height),
-                                          GL_MAP_READ_BIT | GL_CLIENT_STORAGE_BIT, r);
+    mgt_status status = gl_buffer_reserve(gl, &s->transfer, row * (rows < crop->height ? rows : crop->height), GL_MAP_READ_BIT | GL_CLIENT_STORAGE_BIT, r);
     for (uint32_t y = 0; y < crop->height && status == MGT_OK; y += rows) {
         const uint32_t count = crop->height - y < rows ? crop->height - y : rows;
         const size_t size = row * count;
         gl->BindBuffer(GL_PIXEL_PACK_BUFFER, s->transfer.name);
-        gl->GetTextureSubImage(source.image->name, 0, (GLint)(crop->x - area->x), (GLint)(crop->y - area->y + y), 0, (GLsizei)crop->width,
-                               (GLsizei)count, 1,
+        gl->GetTextureSubImage(source.image->name, 0, (GLint)(crop->x - area->x), (GLint)(crop->y - area->y + y), 0, (GLsizei)crop->width, (GLsizei)count, 1,
                                source.format, source.type, (GLsizei)s->transfer.size, NULL);
         gl->BindBuffer(GL_PIXEL_PACK_BUFFER, 0);
         const char *pixels = gl->MapNamedBufferRange(s->transfer.name, 0, (GLsizeiptr)size, GL_MAP_READ_BIT);
         if (!pixels)
-            return gl_check(gl, "readback", r) == MGT_OK ? report_error(r, MGT_ERROR_MEMORY, "gl.memory", "OpenGL cannot map %zu bytes",
-                                                                        size) : MGT_ERROR_MEMORY;
+            return gl_check(gl, "readback", r) == MGT_OK ? report_error(r, MGT_ERROR_MEMORY, "gl.memory", "OpenGL cannot map %zu bytes", size)
+                                                         : MGT_ERROR_MEMORY;
         for (uint32_t i = 0; i < count; i++)
             memcpy(target_row(target, crop, y + i), pixels + row * i, row);
         gl->UnmapNamedBuffer(s->transfer.name);
@@ -215,7 +220,8 @@ const char *gl_lacks(const mgt_scene *scene)
         if (scene->object_count > 0)
             return "refraction distance-field and truth run";
         break;
-    default: break;
+    default:
+        break;
     }
     if (scene->object_count > 0 && scene->quality.refraction == MGT_REFRACTION_LIU && scene->camera.position[1] < 0)
         return "refraction liu from under water runs";
@@ -256,8 +262,7 @@ void layer_wants_add(layer_wants *w, mgt_layer layer, bool display)
     w->display |= display;
 }
 
-mgt_status gl_layers_render(gl_backend_state *s, const reporter *r, const mgt_scene *scene, const layer_wants *wants, bool tell_progress,
-                            region *area)
+mgt_status gl_layers_render(gl_backend_state *s, const reporter *r, const mgt_scene *scene, const layer_wants *wants, bool tell_progress, region *area)
 {
     mgt_status status = gl_sky_prepare(s->renderer, scene, r);
     if (status != MGT_OK)

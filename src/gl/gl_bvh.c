@@ -57,10 +57,7 @@ enum { MOST_PARTS = 2 * PARTS * BVH_LEVELS };
 
 /* ---- boxes ---- */
 
-static box empty_box(void)
-{
-    return (box){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
-}
+static box empty_box(void) { return (box){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}}; }
 
 static void box_add(box *b, const box *other)
 {
@@ -107,10 +104,7 @@ static box box_of_items(const item *items, size_t count)
 }
 
 /* Twice the middle. */
-static float centroid(const item *i, int axis)
-{
-    return i->box.low[axis] + i->box.high[axis];
-}
+static float centroid(const item *i, int axis) { return i->box.low[axis] + i->box.high[axis]; }
 
 /* ---- where to split ---- */
 
@@ -163,10 +157,7 @@ static void fill_bins(const item *items, size_t count, bins out[3])
 }
 
 /* Leaves are visited whole. */
-static float cost_of(const box *b, size_t count)
-{
-    return box_area(b) * (float)((count + BVH_LEAF_TRIANGLES - 1) / BVH_LEAF_TRIANGLES);
-}
+static float cost_of(const box *b, size_t count) { return box_area(b) * (float)((count + BVH_LEAF_TRIANGLES - 1) / BVH_LEAF_TRIANGLES); }
 
 /* Neither side may hold more than `most`. */
 static void try_axis(const bins *b, int axis, size_t count, uint64_t most, split *best)

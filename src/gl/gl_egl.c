@@ -45,19 +45,15 @@ static bool has_extension(const char *list, const char *name)
     return false;
 }
 
-static void *open_library(void)
-{
-    return dlopen("libEGL.so.1", RTLD_NOW | RTLD_GLOBAL | RTLD_NODELETE);
-}
+static void *open_library(void) { return dlopen("libEGL.so.1", RTLD_NOW | RTLD_GLOBAL | RTLD_NODELETE); }
 
 static mgt_status load(egl_api *api, const reporter *r)
 {
     void *library = open_library();
     if (!library)
-        return report_error(r, MGT_ERROR_UNAVAILABLE, "context.backend", "OpenGL without a window needs EGL, but libEGL.so.1 cannot be opened: %s",
-                            dlerror());
-#define LOAD(name)                                                                                                                        \
-    if (!(api->name = (__typeof__(api->name))dlsym(library, "egl" #name)))                                                                \
+        return report_error(r, MGT_ERROR_UNAVAILABLE, "context.backend", "OpenGL without a window needs EGL, but libEGL.so.1 cannot be opened: %s", dlerror());
+#define LOAD(name)                                                         \
+    if (!(api->name = (__typeof__(api->name))dlsym(library, "egl" #name))) \
         return report_error(r, MGT_ERROR_UNAVAILABLE, "context.backend", "libEGL.so.1 has no egl" #name ": OpenGL without a window needs EGL 1.4");
     LOAD(GetProcAddress)
     LOAD(BindAPI)
@@ -108,8 +104,7 @@ static mgt_status open_device(gl_egl *egl, uint32_t device, const reporter *r)
 static mgt_status open_surfaceless(gl_egl *egl, uint32_t device, const reporter *r)
 {
     if (device > 0)
-        return report_error(r, MGT_ERROR_UNAVAILABLE, "context.device", "there is no OpenGL device %u: this EGL cannot list devices and has one",
-                            device);
+        return report_error(r, MGT_ERROR_UNAVAILABLE, "context.device", "there is no OpenGL device %u: this EGL cannot list devices and has one", device);
     egl->display = egl->api.GetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, (void *)EGL_DEFAULT_DISPLAY, NULL);
     if (egl->display == EGL_NO_DISPLAY || !egl->api.Initialize(egl->display, NULL, NULL))
         return report_error(r, MGT_ERROR_UNAVAILABLE, "context.backend", "EGL has no display without a window system (error 0x%x)",
@@ -135,9 +130,17 @@ static mgt_status open_display(gl_egl *egl, uint32_t device, const reporter *r)
 static EGLContext create_context(const gl_egl *egl, bool robust)
 {
     const EGLint attributes[] = {
-        EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5, EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-        robust ? EGL_CONTEXT_OPENGL_ROBUST_ACCESS : EGL_NONE, EGL_TRUE,
-        EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY, EGL_LOSE_CONTEXT_ON_RESET, EGL_NONE,
+        EGL_CONTEXT_MAJOR_VERSION,
+        4,
+        EGL_CONTEXT_MINOR_VERSION,
+        5,
+        EGL_CONTEXT_OPENGL_PROFILE_MASK,
+        EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+        robust ? EGL_CONTEXT_OPENGL_ROBUST_ACCESS : EGL_NONE,
+        EGL_TRUE,
+        EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY,
+        EGL_LOSE_CONTEXT_ON_RESET,
+        EGL_NONE,
     };
     EGLConfig config = NULL; /* EGL_NO_CONFIG_KHR */
     const char *extensions = egl->api.QueryString(egl->display, EGL_EXTENSIONS);
@@ -172,8 +175,7 @@ mgt_status gl_egl_create(gl_egl **out, uint32_t device, const reporter *r)
     egl->api.BindAPI(api);
     if (egl->context == EGL_NO_CONTEXT) {
         free(egl);
-        return report_error(r, MGT_ERROR_UNAVAILABLE, "context.gl", "OpenGL device %u has no OpenGL 4.5 core profile (EGL error 0x%x)", device,
-                            error);
+        return report_error(r, MGT_ERROR_UNAVAILABLE, "context.gl", "OpenGL device %u has no OpenGL 4.5 core profile (EGL error 0x%x)", device, error);
     }
     *out = egl;
     return MGT_OK;
@@ -190,8 +192,8 @@ void gl_egl_destroy(gl_egl *egl)
 mgt_status gl_egl_enter(const gl_egl *egl, gl_egl_scope *scope, const reporter *r)
 {
     const egl_api *api = &egl->api;
-    *scope = (gl_egl_scope){api->GetCurrentDisplay(), api->GetCurrentSurface(EGL_DRAW), api->GetCurrentSurface(EGL_READ), api->GetCurrentContext(),
-                            api->QueryAPI()};
+    *scope =
+        (gl_egl_scope){api->GetCurrentDisplay(), api->GetCurrentSurface(EGL_DRAW), api->GetCurrentSurface(EGL_READ), api->GetCurrentContext(), api->QueryAPI()};
     api->BindAPI(EGL_OPENGL_API);
     if (api->MakeCurrent(egl->display, EGL_NO_SURFACE, EGL_NO_SURFACE, egl->context))
         return MGT_OK;

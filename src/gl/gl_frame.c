@@ -40,39 +40,42 @@ typedef struct frame_run {
     uint32_t first_row, end_row, first_column, columns; /* of tiles */
     uint32_t band_rows;
     int wave_stride;
-    bool objects;   /* the scene has some, or the camera is under water */
-    GLsync behind;  /* of the last step but one told */
+    bool objects;  /* the scene has some, or the camera is under water */
+    GLsync behind; /* of the last step but one told */
     double done, steps;
 } frame_run;
 
 static shading shading_of(const mgt_quality *q)
 {
     switch (q->method) {
-    case MGT_METHOD_MANGATA: return (shading){WAVES_SHUTTER, PROGRAM_SHADE_MANGATA};
+    case MGT_METHOD_MANGATA:
+        return (shading){WAVES_SHUTTER, PROGRAM_SHADE_MANGATA};
     case MGT_METHOD_PODEE_UNIFORM:
-    case MGT_METHOD_PODEE_PIXEL: return (shading){WAVES_SHUTTER, q->kernels == MGT_KERNELS_EXACT ? PROGRAM_SHADE_PODEE : PROGRAM_SHADE_KERNELS};
-    case MGT_METHOD_TNDF: return (shading){WAVES_SHUTTER, PROGRAM_SHADE_TNDF};
-    case MGT_METHOD_LEAN: return (shading){WAVES_NOW, PROGRAM_SHADE_LEAN};
-    case MGT_METHOD_LEADR: return (shading){WAVES_NOW, PROGRAM_SHADE_LEADR};
-    case MGT_METHOD_BRUNETON: return (shading){WAVES_NOW, PROGRAM_SHADE_BRUNETON};
-    case MGT_METHOD_MSAA32: return (shading){WAVES_POINTS, PROGRAM_MSAA};
-    case MGT_METHOD_TOKUYOSHI: return (shading){WAVES_POINTS, PROGRAM_TOKUYOSHI};
-    default: return (shading){WAVES_POINTS, PROGRAM_SAMPLES};
+    case MGT_METHOD_PODEE_PIXEL:
+        return (shading){WAVES_SHUTTER, q->kernels == MGT_KERNELS_EXACT ? PROGRAM_SHADE_PODEE : PROGRAM_SHADE_KERNELS};
+    case MGT_METHOD_TNDF:
+        return (shading){WAVES_SHUTTER, PROGRAM_SHADE_TNDF};
+    case MGT_METHOD_LEAN:
+        return (shading){WAVES_NOW, PROGRAM_SHADE_LEAN};
+    case MGT_METHOD_LEADR:
+        return (shading){WAVES_NOW, PROGRAM_SHADE_LEADR};
+    case MGT_METHOD_BRUNETON:
+        return (shading){WAVES_NOW, PROGRAM_SHADE_BRUNETON};
+    case MGT_METHOD_MSAA32:
+        return (shading){WAVES_POINTS, PROGRAM_MSAA};
+    case MGT_METHOD_TOKUYOSHI:
+        return (shading){WAVES_POINTS, PROGRAM_TOKUYOSHI};
+    default:
+        return (shading){WAVES_POINTS, PROGRAM_SAMPLES};
     }
 }
 
 /* Whether tiles are needed of two cameras at once. */
-static bool needs_open(const frame_run *run)
-{
-    return run->method.waves == WAVES_SHUTTER && run->job->frame->scene->camera_moves;
-}
+static bool needs_open(const frame_run *run) { return run->method.waves == WAVES_SHUTTER && run->job->frame->scene->camera_moves; }
 
 /* ---- memory ---- */
 
-static uint32_t least(uint64_t a, uint64_t b)
-{
-    return (uint32_t)(a < b ? a : b);
-}
+static uint32_t least(uint64_t a, uint64_t b) { return (uint32_t)(a < b ? a : b); }
 
 static mgt_status reserve_tiles(frame_run *run)
 {
@@ -115,8 +118,8 @@ static mgt_status reserve_layers(const frame_run *run)
     const region *a = &job->area;
     if (a->width > g->limits.texture_side || a->height > g->limits.texture_side)
         return report_error(run->r, MGT_ERROR_UNSUPPORTED, "render.size",
-                            "%u x %u pixels are more than this OpenGL's textures hold: %u a side; render a crop or use the CPU",
-                            a->width, a->height, g->limits.texture_side);
+                            "%u x %u pixels are more than this OpenGL's textures hold: %u a side; render a crop or use the CPU", a->width, a->height,
+                            g->limits.texture_side);
     mgt_status status = MGT_OK;
     if (job->wants_pixels && job->frame->data.want_color)
         status = gl_image_reserve(&g->gl, &l->color, GL_RGBA32F, a->width, a->height, run->r);
@@ -155,13 +158,11 @@ static void upload_waves(gl_renderer *g)
     size_t offset;
     memcpy(gl_ring_allocate(&g->ring, MGT_MAX_WAVES * sizeof(WaveData), &offset), set->data, count * sizeof(WaveData));
     const bool storage = g->limits.waves_in_storage;
-    g->gl.BindBufferRange(storage ? GL_SHADER_STORAGE_BUFFER : GL_UNIFORM_BUFFER, storage ? BIND_WAVE_STORAGE : BIND_WAVES, g->ring.buffer,
-                          (GLintptr)offset,
+    g->gl.BindBufferRange(storage ? GL_SHADER_STORAGE_BUFFER : GL_UNIFORM_BUFFER, storage ? BIND_WAVE_STORAGE : BIND_WAVES, g->ring.buffer, (GLintptr)offset,
                           MGT_MAX_WAVES * sizeof(WaveData));
     SortData *sort = gl_ring_allocate(&g->ring, MGT_MAX_WAVES * sizeof(SortData), &offset);
     for (size_t i = 0; i < count; i++)
-        sort[i] = (SortData){set->turns_x[i], set->turns_z[i], set->turns_low_x[i], set->turns_low_z[i], set->phase[i], set->lesser_variance[i], 0,
-            0};
+        sort[i] = (SortData){set->turns_x[i], set->turns_z[i], set->turns_low_x[i], set->turns_low_z[i], set->phase[i], set->lesser_variance[i], 0, 0};
     g->gl.BindBufferRange(GL_SHADER_STORAGE_BUFFER, BIND_SORT, g->ring.buffer, (GLintptr)offset, MGT_MAX_WAVES * sizeof(SortData));
     gl_uniform(g, BIND_EXTRA, &set->view, sizeof set->view);
 }
@@ -452,21 +453,22 @@ static band band_at(const frame_run *run, uint32_t row)
     const gl_job *job = run->job;
     const uint32_t rows = least(run->band_rows, run->end_row - row);
     return (band){
-        .pass = {
-            .tile_x = (int)run->first_column,
-            .tile_y = (int)row,
-            .columns = (int)run->columns,
-            .rows = (int)rows,
-            .area_x = (int)job->area.x,
-            .area_y = (int)job->area.y,
-            .area_width = (int)job->area.width,
-            .area_height = (int)job->area.height,
-            .wave_count = (int)job->frame->scene->water.wave_count,
-            .wave_stride = run->wave_stride,
-            .show_background = job->background,
-            .objects = run->objects,
-            .front_shows = !job->background,
-        },
+        .pass =
+            {
+                .tile_x = (int)run->first_column,
+                .tile_y = (int)row,
+                .columns = (int)run->columns,
+                .rows = (int)rows,
+                .area_x = (int)job->area.x,
+                .area_y = (int)job->area.y,
+                .area_width = (int)job->area.width,
+                .area_height = (int)job->area.height,
+                .wave_count = (int)job->frame->scene->water.wave_count,
+                .wave_stride = run->wave_stride,
+                .show_background = job->background,
+                .objects = run->objects,
+                .front_shows = !job->background,
+            },
         .tiles = run->columns * rows,
     };
 }
@@ -519,10 +521,13 @@ static double count_steps(const mgt_quality *q)
 static mgt_status prepare_tables(const frame_run *run)
 {
     switch (run->method.program) {
-    case PROGRAM_SHADE_KERNELS: return gl_podee_prepare(run->g, run->job->frame->scene, run->r);
+    case PROGRAM_SHADE_KERNELS:
+        return gl_podee_prepare(run->g, run->job->frame->scene, run->r);
     case PROGRAM_SHADE_LEAN:
-    case PROGRAM_SHADE_LEADR: return gl_lean_prepare(run->g, run->job->frame, run->r);
-    default: return MGT_OK;
+    case PROGRAM_SHADE_LEADR:
+        return gl_lean_prepare(run->g, run->job->frame, run->r);
+    default:
+        return MGT_OK;
     }
 }
 

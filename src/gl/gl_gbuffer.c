@@ -24,8 +24,8 @@ static mgt_status reserve_layer(const gl_api *gl, gl_gbuffer *b, uint32_t width,
     gl->NamedFramebufferDrawBuffer(b->framebuffer, GL_COLOR_ATTACHMENT0);
     const GLenum state = gl->CheckNamedFramebufferStatus(b->framebuffer, GL_DRAW_FRAMEBUFFER);
     if (state != GL_FRAMEBUFFER_COMPLETE)
-        return report_error(r, MGT_ERROR_UNAVAILABLE, "gl.error", "OpenGL cannot draw into a framebuffer of formats R32I and DEPTH_COMPONENT32F (status 0x%04x)",
-                            state);
+        return report_error(r, MGT_ERROR_UNAVAILABLE, "gl.error",
+                            "OpenGL cannot draw into a framebuffer of formats R32I and DEPTH_COMPONENT32F (status 0x%04x)", state);
     return gl_check(gl, "objects", r);
 }
 
@@ -106,7 +106,9 @@ static mgt_status draw_layer(gl_renderer *g, const gl_gbuffer *layer, const gbuf
         .move_x = (float)(w->origin[0] - at[0]),
         .move_z = (float)(w->origin[1] - at[2]),
         .side = beyond ? -refract.side : refract.side,
-        .crest = (float)(!beyond ? job->trough : job->map == GBUFFER_PATH ? 0 : job->crest),
+        .crest = (float)(!beyond                    ? job->trough
+                         : job->map == GBUFFER_PATH ? 0
+                                                    : job->crest),
     };
     const bool bent = beyond && job->map != GBUFFER_STRAIGHT;
     mgt_status status = gl_ring_begin(gl, &g->ring, sizeof refract + sizeof picture + 2 * sizeof data, 4, r);
@@ -150,8 +152,8 @@ mgt_status gl_gbuffers_draw(gl_renderer *g, const gbuffer_job *job, const gbuffe
     const gbuffer shape = gbuffer_shape(job);
     if (shape.width > g->limits.texture_side || shape.height > g->limits.texture_side)
         return report_error(r, MGT_ERROR_UNSUPPORTED, "render.size",
-                            "%u x %u pixels with a band around them are more than this OpenGL's textures hold: %u a side; use the CPU", job->width,
-                            job->height, g->limits.texture_side);
+                            "%u x %u pixels with a band around them are more than this OpenGL's textures hold: %u a side; use the CPU", job->width, job->height,
+                            g->limits.texture_side);
     b->width = shape.width;
     b->height = shape.height;
     b->left = shape.left;

@@ -10,8 +10,8 @@
 struct gl_renderer;
 
 typedef struct gl_gbuffer {
-    gl_image depth;     /* DEPTH_COMPONENT32F: least_depth over metres along the view; 0: nothing */
-    gl_image triangle;  /* R32I; −1: nothing */
+    gl_image depth;    /* DEPTH_COMPONENT32F: least_depth over metres along the view; 0: nothing */
+    gl_image triangle; /* R32I; −1: nothing */
     GLuint framebuffer;
 } gl_gbuffer;
 

@@ -19,8 +19,12 @@ static int place_levels(gl_glare *p, const glare_plan *plan)
     int next = 0;
     for (size_t k = 0; k < plan->count; k++) {
         const glare_size *fine = k ? &plan->sizes[k - 1] : &plan->image, *coarse = &plan->sizes[k];
-        p->sizes[k] = (GlareData){.fine_width = (int)fine->width, .fine_height = (int)fine->height, .coarse_width = (int)coarse->width,
-                                  .coarse_height = (int)coarse->height, .across = next, .down = next + (int)coarse->width};
+        p->sizes[k] = (GlareData){.fine_width = (int)fine->width,
+                                  .fine_height = (int)fine->height,
+                                  .coarse_width = (int)coarse->width,
+                                  .coarse_height = (int)coarse->height,
+                                  .across = next,
+                                  .down = next + (int)coarse->width};
         next += (int)(coarse->width + coarse->height);
     }
     return next;

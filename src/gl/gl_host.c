@@ -15,16 +15,18 @@ static bool takes_layer(GLenum format, mgt_layer layer)
     switch (layer) {
     case MGT_LAYER_COVERAGE:
     case MGT_LAYER_MASK:
-    case MGT_LAYER_DEPTH: return format == GL_R32F || format == GL_R16F;
-    case MGT_LAYER_NORMAL: return format == GL_RGBA32F || format == GL_RGBA16F;
+    case MGT_LAYER_DEPTH:
+        return format == GL_R32F || format == GL_R16F;
+    case MGT_LAYER_NORMAL:
+        return format == GL_RGBA32F || format == GL_RGBA16F;
     case MGT_LAYER_COLOR:
-    default: break;
+    default:
+        break;
     }
     return format == GL_RGBA32F || format == GL_RGBA16F || format == GL_RGBA8;
 }
 
-static mgt_status check_texture(const gl_backend_state *s, const mgt_gl_texture *t, size_t index, const region *crop, GLenum *format,
-                                const reporter *r)
+static mgt_status check_texture(const gl_backend_state *s, const mgt_gl_texture *t, size_t index, const region *crop, GLenum *format, const reporter *r)
 {
     const gl_api *gl = &s->renderer->gl;
     static const char *const layers[] = {"color (GL_RGBA32F, GL_RGBA16F or GL_RGBA8)", "coverage (GL_R32F or GL_R16F)", "mask (GL_R32F or GL_R16F)",
@@ -35,34 +37,38 @@ static mgt_status check_texture(const gl_backend_state *s, const mgt_gl_texture 
     gl->GetTextureParameteriv(t->texture, GL_TEXTURE_TARGET, &target);
     gl->GetTextureParameteriv(t->texture, GL_TEXTURE_IMMUTABLE_FORMAT, &immutable);
     if (target != GL_TEXTURE_2D || !immutable)
-        return report_error(r, MGT_ERROR_ARGUMENT, "render.texture",
-                            "texture %zu: %u is not a GL_TEXTURE_2D with immutable storage (glTextureStorage2D)", index, t->texture);
+        return report_error(r, MGT_ERROR_ARGUMENT, "render.texture", "texture %zu: %u is not a GL_TEXTURE_2D with immutable storage (glTextureStorage2D)",
+                            index, t->texture);
     gl->GetTextureParameteriv(t->texture, GL_TEXTURE_IMMUTABLE_LEVELS, &levels);
     if (t->level < 0 || t->level >= levels)
-        return report_error(r, MGT_ERROR_ARGUMENT, "render.texture", "texture %zu: level %d does not exist; %u has %d", index, (int)t->level,
-                            t->texture, levels);
+        return report_error(r, MGT_ERROR_ARGUMENT, "render.texture", "texture %zu: level %d does not exist; %u has %d", index, (int)t->level, t->texture,
+                            levels);
     gl->GetTextureLevelParameteriv(t->texture, t->level, GL_TEXTURE_WIDTH, &width);
     gl->GetTextureLevelParameteriv(t->texture, t->level, GL_TEXTURE_HEIGHT, &height);
     gl->GetTextureLevelParameteriv(t->texture, t->level, GL_TEXTURE_INTERNAL_FORMAT, &internal);
     if ((uint32_t)width != crop->width || (uint32_t)height != crop->height)
-        return report_error(r, MGT_ERROR_ARGUMENT, "render.texture", "texture %zu: it has %d x %d texels, the scene's picture %u x %u", index, width,
-                            height, crop->width, crop->height);
+        return report_error(r, MGT_ERROR_ARGUMENT, "render.texture", "texture %zu: it has %d x %d texels, the scene's picture %u x %u", index, width, height,
+                            crop->width, crop->height);
     *format = (GLenum)internal;
     if (takes_layer(*format, t->layer))
         return MGT_OK;
-    return report_error(r, MGT_ERROR_ARGUMENT, "render.texture", "texture %zu: its format 0x%04x cannot hold layer %s", index, *format,
-                        layers[t->layer]);
+    return report_error(r, MGT_ERROR_ARGUMENT, "render.texture", "texture %zu: its format 0x%04x cannot hold layer %s", index, *format, layers[t->layer]);
 }
 
 static const gl_image *image_of(const gl_layers *l, mgt_layer layer, GLenum format)
 {
     switch (layer) {
-    case MGT_LAYER_COVERAGE: return &l->coverage;
-    case MGT_LAYER_MASK: return &l->water;
-    case MGT_LAYER_DEPTH: return &l->depth;
-    case MGT_LAYER_NORMAL: return &l->normal;
+    case MGT_LAYER_COVERAGE:
+        return &l->coverage;
+    case MGT_LAYER_MASK:
+        return &l->water;
+    case MGT_LAYER_DEPTH:
+        return &l->depth;
+    case MGT_LAYER_NORMAL:
+        return &l->normal;
     case MGT_LAYER_COLOR:
-    default: break;
+    default:
+        break;
     }
     return format == GL_RGBA8 ? &l->display : &l->color;
 }
@@ -70,8 +76,10 @@ static const gl_image *image_of(const gl_layers *l, mgt_layer layer, GLenum form
 static mgt_status copy_layer(gl_backend_state *s, const mgt_gl_texture *t, GLenum format, const region *area, const region *crop, const reporter *r)
 {
     gl_renderer *g = s->renderer;
-    const GlareData data = {.fine_width = (int)crop->width, .fine_height = (int)crop->height, .across = (int)(crop->x - area->x),
-        .down = (int)(crop->y - area->y)};
+    const GlareData data = {.fine_width = (int)crop->width,
+                            .fine_height = (int)crop->height,
+                            .across = (int)(crop->x - area->x),
+                            .down = (int)(crop->y - area->y)};
     mgt_status status = gl_ring_begin(&g->gl, &g->ring, sizeof data, 1, r);
     if (status != MGT_OK)
         return status;
@@ -158,13 +166,12 @@ typedef struct host_view {
     bool encodes;
 } host_view;
 
-static mgt_status prepare_view(const gl_backend_state *s, const mgt_scene *scene, const mgt_gl_view *view, size_t index, host_view *out,
-                               const reporter *r)
+static mgt_status prepare_view(const gl_backend_state *s, const mgt_scene *scene, const mgt_gl_view *view, size_t index, host_view *out, const reporter *r)
 {
     *out = (host_view){.view = view, .scene = *scene};
     if (view->width == 0 || view->height == 0 || view->width > MGT_MAX_IMAGE_SIDE || view->height > MGT_MAX_IMAGE_SIDE)
-        return report_error(r, MGT_ERROR_ARGUMENT, "render.view", "view %zu: %u x %u pixels; allowed is 1 to %d each way", index, view->width,
-                            view->height, MGT_MAX_IMAGE_SIDE);
+        return report_error(r, MGT_ERROR_ARGUMENT, "render.view", "view %zu: %u x %u pixels; allowed is 1 to %d each way", index, view->width, view->height,
+                            MGT_MAX_IMAGE_SIDE);
     const char *wrong = view_rays_of(view, view->view, &out->close);
     if (!wrong && scene->camera_moves)
         wrong = view_rays_of(view, view->view_open, &out->open);
@@ -213,12 +220,20 @@ static WindowData window_data(const gl_api *gl, const host_view *v)
     gl->GetFloati_v(GL_DEPTH_RANGE, 0, range);
     const bool whole = mode == GL_ZERO_TO_ONE;
     return (WindowData){
-        .ray_x = (float)c->corner[0], .ray_y = (float)c->corner[1], .ray_z = (float)c->corner[2],
+        .ray_x = (float)c->corner[0],
+        .ray_y = (float)c->corner[1],
+        .ray_z = (float)c->corner[2],
         .width = (int)view->width,
-        .right_x = (float)c->right[0], .right_y = (float)c->right[1], .right_z = (float)c->right[2],
+        .right_x = (float)c->right[0],
+        .right_y = (float)c->right[1],
+        .right_z = (float)c->right[2],
         .height = (int)view->height,
-        .down_x = (float)c->down[0], .down_y = (float)c->down[1], .down_z = (float)c->down[2],
-        .clip_depth = (float)v->close.clip_depth[0], .clip_depth_x = (float)v->close.clip_depth[1], .clip_depth_y = (float)v->close.clip_depth[2],
+        .down_x = (float)c->down[0],
+        .down_y = (float)c->down[1],
+        .down_z = (float)c->down[2],
+        .clip_depth = (float)v->close.clip_depth[0],
+        .clip_depth_x = (float)v->close.clip_depth[1],
+        .clip_depth_y = (float)v->close.clip_depth[2],
         .clip_offset = (float)v->close.clip_offset,
         .depth_scale = whole ? range[1] - range[0] : 0.5f * (range[1] - range[0]),
         .depth_offset = whole ? range[0] : 0.5f * (range[0] + range[1]),

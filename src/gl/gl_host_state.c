@@ -5,9 +5,26 @@
 /* Depth test first; it alone is used. */
 static const GLenum capabilities[CAPABILITIES] = {
     GL_DEPTH_TEST,
-    GL_CULL_FACE, GL_STENCIL_TEST, GL_RASTERIZER_DISCARD, GL_POLYGON_OFFSET_FILL, GL_SAMPLE_ALPHA_TO_COVERAGE, GL_SAMPLE_ALPHA_TO_ONE,
-    GL_SAMPLE_COVERAGE, GL_SAMPLE_MASK, GL_SAMPLE_SHADING, GL_COLOR_LOGIC_OP, GL_DEPTH_CLAMP, GL_DITHER, GL_PRIMITIVE_RESTART,
-    GL_CLIP_DISTANCE0, GL_CLIP_DISTANCE1, GL_CLIP_DISTANCE2, GL_CLIP_DISTANCE3, GL_CLIP_DISTANCE4, GL_CLIP_DISTANCE5, GL_CLIP_DISTANCE6,
+    GL_CULL_FACE,
+    GL_STENCIL_TEST,
+    GL_RASTERIZER_DISCARD,
+    GL_POLYGON_OFFSET_FILL,
+    GL_SAMPLE_ALPHA_TO_COVERAGE,
+    GL_SAMPLE_ALPHA_TO_ONE,
+    GL_SAMPLE_COVERAGE,
+    GL_SAMPLE_MASK,
+    GL_SAMPLE_SHADING,
+    GL_COLOR_LOGIC_OP,
+    GL_DEPTH_CLAMP,
+    GL_DITHER,
+    GL_PRIMITIVE_RESTART,
+    GL_CLIP_DISTANCE0,
+    GL_CLIP_DISTANCE1,
+    GL_CLIP_DISTANCE2,
+    GL_CLIP_DISTANCE3,
+    GL_CLIP_DISTANCE4,
+    GL_CLIP_DISTANCE5,
+    GL_CLIP_DISTANCE6,
     GL_CLIP_DISTANCE7,
 };
 
@@ -16,10 +33,10 @@ static const struct {
     GLenum name;
     GLint value;
 } pixel_stores[PIXEL_STORES] = {
-    {GL_PACK_SWAP_BYTES, 0}, {GL_PACK_LSB_FIRST, 0}, {GL_PACK_ROW_LENGTH, 0}, {GL_PACK_IMAGE_HEIGHT, 0}, {GL_PACK_SKIP_PIXELS, 0},
-    {GL_PACK_SKIP_ROWS, 0}, {GL_PACK_SKIP_IMAGES, 0}, {GL_PACK_ALIGNMENT, 4},
-    {GL_UNPACK_SWAP_BYTES, 0}, {GL_UNPACK_LSB_FIRST, 0}, {GL_UNPACK_ROW_LENGTH, 0}, {GL_UNPACK_IMAGE_HEIGHT, 0}, {GL_UNPACK_SKIP_PIXELS, 0},
-    {GL_UNPACK_SKIP_ROWS, 0}, {GL_UNPACK_SKIP_IMAGES, 0}, {GL_UNPACK_ALIGNMENT, 4},
+    {GL_PACK_SWAP_BYTES, 0},    {GL_PACK_LSB_FIRST, 0},   {GL_PACK_ROW_LENGTH, 0},    {GL_PACK_IMAGE_HEIGHT, 0},
+    {GL_PACK_SKIP_PIXELS, 0},   {GL_PACK_SKIP_ROWS, 0},   {GL_PACK_SKIP_IMAGES, 0},   {GL_PACK_ALIGNMENT, 4},
+    {GL_UNPACK_SWAP_BYTES, 0},  {GL_UNPACK_LSB_FIRST, 0}, {GL_UNPACK_ROW_LENGTH, 0},  {GL_UNPACK_IMAGE_HEIGHT, 0},
+    {GL_UNPACK_SKIP_PIXELS, 0}, {GL_UNPACK_SKIP_ROWS, 0}, {GL_UNPACK_SKIP_IMAGES, 0}, {GL_UNPACK_ALIGNMENT, 4},
 };
 
 /* ---- bindings ---- */
@@ -147,8 +164,7 @@ void gl_host_state_restore_drawing(const gl_api *gl, const gl_host_state *s)
     gl->PolygonMode(GL_FRONT_AND_BACK, (GLenum)s->polygon_mode[0]);
     for (GLuint i = 0; i < (GLuint)s->draw_buffers; i++)
         gl->ColorMaski(i, s->color_mask[i][0], s->color_mask[i][1], s->color_mask[i][2], s->color_mask[i][3]);
-    gl->BlendFuncSeparatei(0, (GLenum)s->blend_source_rgb, (GLenum)s->blend_destination_rgb, (GLenum)s->blend_source_alpha,
-                           (GLenum)s->blend_destination_alpha);
+    gl->BlendFuncSeparatei(0, (GLenum)s->blend_source_rgb, (GLenum)s->blend_destination_rgb, (GLenum)s->blend_source_alpha, (GLenum)s->blend_destination_alpha);
     gl->BlendEquationSeparatei(0, (GLenum)s->blend_equation_rgb, (GLenum)s->blend_equation_alpha);
 }
 

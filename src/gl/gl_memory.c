@@ -9,13 +9,20 @@
 static const char *error_text(GLenum error)
 {
     switch (error) {
-    case GL_INVALID_ENUM: return "invalid enum";
-    case GL_INVALID_VALUE: return "invalid value";
-    case GL_INVALID_OPERATION: return "invalid operation";
-    case GL_INVALID_FRAMEBUFFER_OPERATION: return "invalid framebuffer operation";
-    case GL_OUT_OF_MEMORY: return "out of memory";
-    case GL_CONTEXT_LOST: return "the context is lost";
-    default: return "unknown error";
+    case GL_INVALID_ENUM:
+        return "invalid enum";
+    case GL_INVALID_VALUE:
+        return "invalid value";
+    case GL_INVALID_OPERATION:
+        return "invalid operation";
+    case GL_INVALID_FRAMEBUFFER_OPERATION:
+        return "invalid framebuffer operation";
+    case GL_OUT_OF_MEMORY:
+        return "out of memory";
+    case GL_CONTEXT_LOST:
+        return "the context is lost";
+    default:
+        return "unknown error";
     }
 }
 
@@ -133,10 +140,7 @@ static void wait_for(const gl_api *gl, GLsync *fence)
     *fence = NULL;
 }
 
-static size_t aligned(const gl_ring *ring, size_t size)
-{
-    return (size + ring->alignment - 1) / ring->alignment * ring->alignment;
-}
+static size_t aligned(const gl_ring *ring, size_t size) { return (size + ring->alignment - 1) / ring->alignment * ring->alignment; }
 
 mgt_status gl_ring_begin(const gl_api *gl, gl_ring *ring, size_t size, size_t parts, const reporter *r)
 {

@@ -34,7 +34,7 @@ typedef struct gl_ring {
     char *map;
     size_t segment_size, alignment;
     int segment;
-    size_t used;                   /* of the segment */
+    size_t used;                  /* of the segment */
     GLsync fences[RING_SEGMENTS]; /* behind the last commands that read a segment; NULL: none */
 } gl_ring;
 

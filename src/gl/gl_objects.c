@@ -42,10 +42,7 @@ void *gl_table_map(const gl_api *gl, const gl_table *t, size_t size, const repor
     return map;
 }
 
-void gl_table_unmap(const gl_api *gl, const gl_table *t)
-{
-    gl->UnmapNamedBuffer(t->buffer.name);
-}
+void gl_table_unmap(const gl_api *gl, const gl_table *t) { gl->UnmapNamedBuffer(t->buffer.name); }
 
 /* ---- triangles ---- */
 

@@ -42,10 +42,10 @@ enum {
     UNIT_SHARE = 2,
     UNIT_LEAN_MEAN = 1,
     UNIT_LEAN_SQUARE = 2,
-    UNIT_CURRENT = 1, /* color, coverage and mask of the picture that is blended … */
-    UNIT_LUMA = 4,    /* … its luma (fxaa) … */
-    UNIT_HISTORY = 4, /* … or the same three of the history (taa) … */
-    UNIT_DEPTH = 7,   /* … where the camera moves */
+    UNIT_CURRENT = 1,  /* color, coverage and mask of the picture that is blended … */
+    UNIT_LUMA = 4,     /* … its luma (fxaa) … */
+    UNIT_HISTORY = 4,  /* … or the same three of the history (taa) … */
+    UNIT_DEPTH = 7,    /* … where the camera moves */
     UNIT_VERTICES = 1, /* objects: see objects_data.glsl */
     UNIT_INDICES,
     UNIT_OWNERS,
@@ -53,7 +53,7 @@ enum {
     UNIT_MATERIALS,
     UNIT_TEXELS,
     UNIT_SHADOWS,
-    UNIT_FAR,      /* depth and triangle */
+    UNIT_FAR, /* depth and triangle */
     UNIT_MIRRORED = UNIT_FAR + 2,
     UNIT_NEAR = UNIT_MIRRORED + 2,
     UNIT_TREE = UNIT_NEAR + 2,

@@ -44,8 +44,8 @@ static mgt_status upload(gl_renderer *g, const podee_tables *tables, const repor
     if (status != MGT_OK)
         return status;
     for (int s = 0; s < PODEE_SLICES; s++)
-        gl->TextureSubImage2D(p->sweep.name, 0, s % SLICES_ACROSS * PODEE_COLUMNS, s / SLICES_ACROSS * PODEE_ROWS, PODEE_COLUMNS, PODEE_ROWS, GL_RED,
-                              GL_FLOAT, tables->sweep + (size_t)s * PODEE_ROWS * PODEE_COLUMNS);
+        gl->TextureSubImage2D(p->sweep.name, 0, s % SLICES_ACROSS * PODEE_COLUMNS, s / SLICES_ACROSS * PODEE_ROWS, PODEE_COLUMNS, PODEE_ROWS, GL_RED, GL_FLOAT,
+                              tables->sweep + (size_t)s * PODEE_ROWS * PODEE_COLUMNS);
     gl->TextureSubImage2D(p->share.name, 0, 0, 0, PODEE_COLUMNS, PODEE_SLICES, GL_RED, GL_FLOAT, tables->share);
     return gl_check(gl, "tables", r);
 }

@@ -24,15 +24,9 @@ static int by_identity(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
-static size_t texel_count(const mgt_texture *t)
-{
-    return t->level_start[t->levels - 1] + 1; /* the last level is one texel */
-}
+static size_t texel_count(const mgt_texture *t) { return t->level_start[t->levels - 1] + 1; /* the last level is one texel */ }
 
-static bool starts_texture(const used_texture *used, size_t i)
-{
-    return i == 0 || used[i].texture->id != used[i - 1].texture->id;
-}
+static bool starts_texture(const used_texture *used, size_t i) { return i == 0 || used[i].texture->id != used[i - 1].texture->id; }
 
 /* Whether `texels` holds these already. */
 static bool are_uploaded(const gl_refraction *o, const used_texture *used, size_t count)
@@ -77,10 +71,10 @@ enum { MATERIAL_FLOATS = 16, FIRST_MATERIAL = SHADE_TEXTURE_CODES + MGT_MAX_WAVE
 static void fill_material(const shade_material *m, bool smooth, float out[MATERIAL_FLOATS])
 {
     const float values[MATERIAL_FLOATS] = {
-        m->base[0], m->base[1], m->base[2], m->alpha,
-        m->color[0], m->color[1], m->color[2], m->kind,
-        m->metallic, m->inverse_size, m->joint, smooth ? 1.0f : 0.0f,
-        m->texture_width, m->texture_height, 0, m->texture ? (float)m->texture->levels : 1.0f,
+        m->base[0],       m->base[1],        m->base[2],  m->alpha,
+        m->color[0],      m->color[1],       m->color[2], m->kind,
+        m->metallic,      m->inverse_size,   m->joint,    smooth ? 1.0f : 0.0f,
+        m->texture_width, m->texture_height, 0,           m->texture ? (float)m->texture->levels : 1.0f,
     };
     memcpy(out, values, sizeof values);
 }

@@ -29,11 +29,11 @@ typedef struct gl_seen {
 } gl_seen;
 
 typedef struct gl_refraction {
-    gl_seen seen, opened;    /* now, and while a camera moves, when the shutter opened */
+    gl_seen seen, opened; /* now, and while a camera moves, when the shutter opened */
     shade_scene *shade;
-    gl_table materials;      /* RGBA32F */
-    gl_table texels;         /* R32UI, of all textures */
-    uint64_t *textures;      /* identities of those that `texels` holds, in their order, … */
+    gl_table materials; /* RGBA32F */
+    gl_table texels;    /* R32UI, of all textures */
+    uint64_t *textures; /* identities of those that `texels` holds, in their order, … */
     size_t texture_count, texture_room;
     gl_image shadows;        /* R32F */
     shadow_rays shadow_rays; /* of the map that it holds, … */

@@ -38,15 +38,15 @@ static mgt_status read_limits(gl_renderer *g, const reporter *r)
     if (storage < 7 || shared < 16384)
         return report_error(r, MGT_ERROR_UNAVAILABLE, "context.gl",
                             "the OpenGL context has %d storage blocks and %d bytes of shared memory for compute shaders; "
-                            "7 and 16384 are needed", storage, shared);
+                            "7 and 16384 are needed",
+                            storage, shared);
     g->limits = (gl_limits){
         .texture_side = (uint32_t)texture,
         .waves_in_storage = (size_t)uniform < MGT_MAX_WAVES * sizeof(WaveData),
         .software = is_software(&g->gl),
         .table_texels = (size_t)table,
     };
-    static const char *const defines[2][2] = {{"", "#define SOFTWARE_GL\n"},
-                                               {"#define WAVES_IN_STORAGE\n", "#define WAVES_IN_STORAGE\n#define SOFTWARE_GL\n"}};
+    static const char *const defines[2][2] = {{"", "#define SOFTWARE_GL\n"}, {"#define WAVES_IN_STORAGE\n", "#define WAVES_IN_STORAGE\n#define SOFTWARE_GL\n"}};
     g->programs.defines = defines[g->limits.waves_in_storage][g->limits.software];
     return MGT_OK;
 }
@@ -68,8 +68,8 @@ mgt_status gl_renderer_create(gl_renderer **out, mgt_gl_get_proc get_proc, const
     mgt_status status = g->sky && g->waves ? MGT_OK : report_error(r, MGT_ERROR_MEMORY, "context.create", "out of memory");
     const char *missing = status == MGT_OK ? gl_api_load(&g->gl, get_proc) : NULL;
     if (missing)
-        status = report_error(r, MGT_ERROR_UNAVAILABLE, "context.gl",
-                              "the OpenGL context lacks %s; a 4.5 core context is needed, current on this thread", missing);
+        status =
+            report_error(r, MGT_ERROR_UNAVAILABLE, "context.gl", "the OpenGL context lacks %s; a 4.5 core context is needed, current on this thread", missing);
     const bool loaded = status == MGT_OK;
     if (status == MGT_OK)
         status = check_version(&g->gl, r);

@@ -16,10 +16,10 @@
 
 /* The layers of the picture on the GPU. Texel (0, 0) is the top left pixel of what is rendered. */
 typedef struct gl_layers {
-    gl_image color;              /* RGBA32F, alpha 1 */
+    gl_image color;                  /* RGBA32F, alpha 1 */
     gl_image coverage, water, depth; /* R32F */
-    gl_image normal;             /* RGBA32F, alpha 1 */
-    gl_image display;            /* RGBA8 */
+    gl_image normal;                 /* RGBA32F, alpha 1 */
+    gl_image display;                /* RGBA8 */
 } gl_layers;
 
 enum { GLARE_LEVELS = 16 };
@@ -71,12 +71,12 @@ typedef struct gl_renderer {
     gl_gbuffers gbuffers;
     gl_refraction refraction;
     const gl_host_state *host; /* during a call in a host's context, else NULL */
-    uint32_t threads;   /* for tables that the CPU makes; 0: as many as this process may use */
+    uint32_t threads;          /* for tables that the CPU makes; 0: as many as this process may use */
     GLuint sky_texture;
     GLuint vertex_array; /* empty */
-    sky_state *sky;     /* of the last frame; zeroed at first */
-    wave_set *waves;    /* of the pass being prepared */
-    const char *pass;   /* the current one's name */
+    sky_state *sky;      /* of the last frame; zeroed at first */
+    wave_set *waves;     /* of the pass being prepared */
+    const char *pass;    /* the current one's name */
 } gl_renderer;
 
 /* The current context must be the one that the functions of r->gl belong to, here and below. */
@@ -101,11 +101,11 @@ typedef struct gl_job {
     const frame *frame;
     gl_camera_at camera_at; /* for samples and parts of the shutter, and frames before */
     const void *camera_user;
-    region area;            /* of the image: what the layers get; all of it for methods that work on whole pictures */
+    region area;       /* of the image: what the layers get; all of it for methods that work on whole pictures */
     bool wants_pixels; /* color, coverage or mask */
     bool wants_depth, wants_normal;
-    bool shaded_depth;      /* the depth that the method itself finds will do: filtered ones are spared another look for point samples */
-    bool background;        /* sky behind the water */
+    bool shaded_depth;              /* the depth that the method itself finds will do: filtered ones are spared another look for point samples */
+    bool background;                /* sky behind the water */
     mgt_progress_function progress; /* NULL: none, and nothing waits */
     void *progress_user;
 } gl_job;

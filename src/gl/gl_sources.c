@@ -16,10 +16,7 @@ static const char *embedded(const char *name, size_t length)
     return NULL;
 }
 
-bool gl_text_exists(const char *name)
-{
-    return embedded(name, strlen(name)) != NULL;
-}
+bool gl_text_exists(const char *name) { return embedded(name, strlen(name)) != NULL; }
 
 static const char *text_of(const gl_replacements *replaced, const char *name)
 {

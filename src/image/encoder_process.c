@@ -25,8 +25,8 @@ extern char **environ;
 enum { WAIT_STEP_MS = 100, FIXED_ARGUMENTS = 64 };
 
 struct encoder_process {
-    pid_t pid;   /* 0: reaped */
-    int input;   /* our end of the socket that is ffmpeg's stdin */
+    pid_t pid;    /* 0: reaped */
+    int input;    /* our end of the socket that is ffmpeg's stdin */
     int messages; /* memory file that is ffmpeg's stderr */
     const char *path;
     const output_file *file;
@@ -94,14 +94,43 @@ static char *format_text(const char *format, ...)
 /* x264's result depends on its number of threads, so it is fixed; bitexact keeps times and versions of the muxer out. */
 static argument_list encoder_arguments(const encoder_desc *desc)
 {
-    static const char *const before[] = {"ffmpeg", "-nostdin", "-hide_banner", "-loglevel", "error", "-xerror", "-y",
-                                         "-f", "rawvideo", "-pix_fmt", "yuv420p", "-color_range", "tv", "-colorspace", "bt709",
-                                         "-color_primaries", "bt709", "-color_trc", "bt709"};
-    static const char *const after[] = {"-i", "pipe:0", "-map", "0:v:0", "-c:v", "libx264", "-preset", "fast", "-crf", "16",
-                                        "-pix_fmt", "yuv420p", "-threads", "4", "-x264-params", "lookahead-threads=1",
-                                        "-color_range", "tv", "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc",
-                                        "bt709", "-fflags", "+bitexact", "-flags:v", "+bitexact", "-map_metadata", "-1",
-                                        "-movflags", "+faststart+use_metadata_tags", "-f", "mp4"};
+    static const char *const before[] = {"ffmpeg", "-nostdin",         "-hide_banner", "-loglevel",  "error",        "-xerror", "-y",
+                                         "-f",     "rawvideo",         "-pix_fmt",     "yuv420p",    "-color_range", "tv",      "-colorspace",
+                                         "bt709",  "-color_primaries", "bt709",        "-color_trc", "bt709"};
+    static const char *const after[] = {"-i",
+                                        "pipe:0",
+                                        "-map",
+                                        "0:v:0",
+                                        "-c:v",
+                                        "libx264",
+                                        "-preset",
+                                        "fast",
+                                        "-crf",
+                                        "16",
+                                        "-pix_fmt",
+                                        "yuv420p",
+                                        "-threads",
+                                        "4",
+                                        "-x264-params",
+                                        "lookahead-threads=1",
+                                        "-color_range",
+                                        "tv",
+                                        "-colorspace",
+                                        "bt709",
+                                        "-color_primaries",
+                                        "bt709",
+                                        "-color_trc",
+                                        "bt709",
+                                        "-fflags",
+                                        "+bitexact",
+                                        "-flags:v",
+                                        "+bitexact",
+                                        "-map_metadata",
+                                        "-1",
+                                        "-movflags",
+                                        "+faststart+use_metadata_tags",
+                                        "-f",
+                                        "mp4"};
     size_t tags = desc->metadata ? desc->metadata->count : 0;
     argument_list list = {.capacity = FIXED_ARGUMENTS + sizeof before / sizeof *before + sizeof after / sizeof *after + 2 * tags};
     list.items = calloc(list.capacity, sizeof *list.items);
@@ -170,8 +199,7 @@ file_status encoder_process_start(encoder_process **result, const encoder_desc *
     argument_list arguments = {0};
     char *program = find_program("ffmpeg");
     if (!program)
-        return file_error_set(error, FILE_UNAVAILABLE, "%s: ffmpeg, which writes .mp4, is not on the PATH; .y4m needs none",
-                              desc->path);
+        return file_error_set(error, FILE_UNAVAILABLE, "%s: ffmpeg, which writes .mp4, is not on the PATH; .y4m needs none", desc->path);
     encoder_process *process = calloc(1, sizeof *process);
     if (!process) {
         status = file_error_errno(error, FILE_MEMORY, desc->path, NULL, ENOMEM);
@@ -186,8 +214,7 @@ file_status encoder_process_start(encoder_process **result, const encoder_desc *
         goto fail;
     }
     /* A socket, not a pipe: send() can be told not to raise SIGPIPE, so that nobody's handlers are touched. */
-    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0 ||
-        (process->messages = memfd_create("ffmpeg", MFD_CLOEXEC)) < 0) {
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0 || (process->messages = memfd_create("ffmpeg", MFD_CLOEXEC)) < 0) {
         status = file_error_errno(error, FILE_WRITE, desc->path, "cannot start ffmpeg", errno);
         goto fail;
     }

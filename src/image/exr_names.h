@@ -13,8 +13,7 @@ enum { EXR_LAYER_NAME_MAX = 64, EXR_CHANNEL_NAME_SIZE = EXR_LAYER_NAME_MAX + 4, 
 static inline bool exr_layer_name_is_valid(const char *name)
 {
     size_t length = name ? strlen(name) : 0;
-    return length >= 1 && length <= EXR_LAYER_NAME_MAX &&
-           strspn(name, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_") == length;
+    return length >= 1 && length <= EXR_LAYER_NAME_MAX && strspn(name, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_") == length;
 }
 
 /* Colour is the nameless base layer, as viewers expect; the others are "layer.component". */
@@ -30,9 +29,6 @@ static inline void exr_channel_name(char out[EXR_CHANNEL_NAME_SIZE], const char 
 }
 
 /* A prefix keeps keys apart from the names of the format's own attributes ("version", "channels", …). */
-static inline void exr_attribute_name(char out[EXR_ATTRIBUTE_NAME_SIZE], const char *key)
-{
-    snprintf(out, EXR_ATTRIBUTE_NAME_SIZE, "mangata.%s", key);
-}
+static inline void exr_attribute_name(char out[EXR_ATTRIBUTE_NAME_SIZE], const char *key) { snprintf(out, EXR_ATTRIBUTE_NAME_SIZE, "mangata.%s", key); }
 
 #endif

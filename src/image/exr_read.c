@@ -19,8 +19,7 @@ typedef struct exr_selection {
     int channels[LAYER_CHANNELS_MAX];
 } exr_selection;
 
-static int64_t source_read(exr_const_context_t context, void *user, void *bytes, uint64_t size, uint64_t offset,
-                           exr_stream_error_func_ptr_t report)
+static int64_t source_read(exr_const_context_t context, void *user, void *bytes, uint64_t size, uint64_t offset, exr_stream_error_func_ptr_t report)
 {
     (void)context;
     (void)report;
@@ -82,10 +81,7 @@ static size_t layer_length(const char *channel)
     return dot ? (size_t)(dot - channel) : 0;
 }
 
-static bool in_layer(const char *channel, const char *layer, size_t length)
-{
-    return layer_length(channel) == length && strncmp(channel, layer, length) == 0;
-}
+static bool in_layer(const char *channel, const char *layer, size_t length) { return layer_length(channel) == length && strncmp(channel, layer, length) == 0; }
 
 /* Components in the order people expect, R G B A, X Y Z; anything else after them in the file's order. */
 static int component_rank(const char *channel)
@@ -163,14 +159,12 @@ static file_status no_such_layer(const input_file *input, const exr_attr_chlist_
         int length = snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", list->entries[i].name.str);
         used += length > 0 ? (size_t)length : 0;
     }
-    return file_error_set(error, FILE_ARGUMENT, "%s: has no layer %s; its channels are: %s", input->path, layer ? layer : "color",
-                          names);
+    return file_error_set(error, FILE_ARGUMENT, "%s: has no layer %s; its channels are: %s", input->path, layer ? layer : "color", names);
 }
 
 /* ---- pixels ---- */
 
-static exr_result_t read_pixels(exr_context_t context, float_image *image, const exr_attr_chlist_t *list,
-                                const exr_selection *selection, int32_t first_y)
+static exr_result_t read_pixels(exr_context_t context, float_image *image, const exr_attr_chlist_t *list, const exr_selection *selection, int32_t first_y)
 {
     exr_decode_pipeline_t decoder = EXR_DECODE_PIPELINE_INITIALIZER;
     exr_chunk_info_t chunk;
@@ -188,14 +182,12 @@ static exr_result_t read_pixels(exr_context_t context, float_image *image, const
             code = EXR_ERR_BAD_CHUNK_LEADER;
             break;
         }
-        code = initialized ? exr_decoding_update(context, 0, &chunk, &decoder)
-                           : exr_decoding_initialize(context, 0, &chunk, &decoder);
+        code = initialized ? exr_decoding_update(context, 0, &chunk, &decoder) : exr_decoding_initialize(context, 0, &chunk, &decoder);
         for (int c = 0; c < decoder.channel_count && !code; c++)
             decoder.channels[c].decode_to_ptr = NULL;
         for (int s = 0; s < selection->count && !code; s++) {
             int index = selection->channels[s];
-            if (index >= decoder.channel_count ||
-                strcmp(decoder.channels[index].channel_name, list->entries[index].name.str) != 0) {
+            if (index >= decoder.channel_count || strcmp(decoder.channels[index].channel_name, list->entries[index].name.str) != 0) {
                 code = EXR_ERR_INCORRECT_CHUNK;
                 break;
             }

@@ -28,8 +28,7 @@ typedef struct exr_source {
     uint32_t component;
 } exr_source;
 
-static int64_t sink_write(exr_const_context_t context, void *user, const void *bytes, uint64_t size, uint64_t offset,
-                          exr_stream_error_func_ptr_t report)
+static int64_t sink_write(exr_const_context_t context, void *user, const void *bytes, uint64_t size, uint64_t offset, exr_stream_error_func_ptr_t report)
 {
     (void)context;
     (void)report;
@@ -54,8 +53,7 @@ static int list_sources(exr_source *sources, const char *path, const picture_lay
     for (size_t i = 0; i < count; i++) {
         const picture_layer *layer = &layers[i];
         if ((layer->channels != 1 && layer->channels != 3) || !exr_layer_name_is_valid(layer->name))
-            return file_error_set(error, FILE_ARGUMENT, "%s: an EXR layer has a name of letters, digits and _, and 1 or 3 channels",
-                                  path), 0;
+            return file_error_set(error, FILE_ARGUMENT, "%s: an EXR layer has a name of letters, digits and _, and 1 or 3 channels", path), 0;
         for (uint32_t c = 0; c < layer->channels; c++) {
             if (used == CHANNELS_MAX)
                 return file_error_set(error, FILE_ARGUMENT, "%s: more than %d channels", path, (int)CHANNELS_MAX), 0;
@@ -74,8 +72,7 @@ static int list_sources(exr_source *sources, const char *path, const picture_lay
     return used;
 }
 
-static exr_result_t write_header(exr_context_t context, uint32_t width, uint32_t height, const exr_source *sources, int count,
-                                 const metadata_list *metadata)
+static exr_result_t write_header(exr_context_t context, uint32_t width, uint32_t height, const exr_source *sources, int count, const metadata_list *metadata)
 {
     int part = 0;
     exr_result_t code = exr_set_longname_support(context, 1);
@@ -104,8 +101,7 @@ static const exr_source *find_source(const exr_source *sources, int count, const
 }
 
 /* Gathers a chunk's rows of every channel into the planar `band` and points the encoder there. */
-static exr_result_t gather_band(exr_encode_pipeline_t *encoder, float *band, uint32_t width, uint32_t y, int32_t rows,
-                                const exr_source *sources, int count)
+static exr_result_t gather_band(exr_encode_pipeline_t *encoder, float *band, uint32_t width, uint32_t y, int32_t rows, const exr_source *sources, int count)
 {
     for (int c = 0; c < encoder->channel_count; c++) {
         exr_coding_channel_info_t *channel = &encoder->channels[c];
@@ -128,8 +124,7 @@ static exr_result_t gather_band(exr_encode_pipeline_t *encoder, float *band, uin
     return EXR_ERR_SUCCESS;
 }
 
-static exr_result_t write_pixels(exr_context_t context, float *band, uint32_t width, uint32_t height, const exr_source *sources,
-                                 int count)
+static exr_result_t write_pixels(exr_context_t context, float *band, uint32_t width, uint32_t height, const exr_source *sources, int count)
 {
     exr_encode_pipeline_t encoder = EXR_ENCODE_PIPELINE_INITIALIZER;
     exr_chunk_info_t chunk;
@@ -152,9 +147,8 @@ static exr_result_t write_pixels(exr_context_t context, float *band, uint32_t wi
     return code;
 }
 
-file_status picture_write_exr(const char *path, uint32_t width, uint32_t height, const picture_layer *layers,
-                              size_t layer_count, const metadata_list *metadata, const output_options *options,
-                              file_error *error)
+file_status picture_write_exr(const char *path, uint32_t width, uint32_t height, const picture_layer *layers, size_t layer_count, const metadata_list *metadata,
+                              const output_options *options, file_error *error)
 {
     enum { CHUNK_ROWS_MAX = 16 }; /* of ZIP */
     exr_source sources[CHANNELS_MAX];
@@ -190,10 +184,9 @@ file_status picture_write_exr(const char *path, uint32_t width, uint32_t height,
     if (!code)
         code = finish_code;
     if (code || sink.status != FILE_OK) {
-        status = sink.status != FILE_OK ? sink.status
-                 : code == EXR_ERR_OUT_OF_MEMORY
-                     ? file_error_errno(error, FILE_MEMORY, path, NULL, ENOMEM)
-                     : file_error_set(error, FILE_WRITE, "%s: cannot encode: %s", path, exr_get_default_error_message(code));
+        status = sink.status != FILE_OK          ? sink.status
+                 : code == EXR_ERR_OUT_OF_MEMORY ? file_error_errno(error, FILE_MEMORY, path, NULL, ENOMEM)
+                                                 : file_error_set(error, FILE_WRITE, "%s: cannot encode: %s", path, exr_get_default_error_message(code));
         goto fail;
     }
     status = output_file_finish(sink.file, error);

@@ -22,8 +22,7 @@ typedef struct file_error {
 } file_error;
 
 /* Fills `error` (NULL is allowed), keeps the text to one line and returns `status`. */
-file_status file_error_set(file_error *error, file_status status, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
+file_status file_error_set(file_error *error, file_status status, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
 /* The same as "path: what: strerror(code)"; ENOMEM becomes FILE_MEMORY. `what` may be NULL. */
 file_status file_error_errno(file_error *error, file_status status, const char *path, const char *what, int code);

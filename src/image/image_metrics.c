@@ -48,8 +48,7 @@ static row_sums add_row(image_metrics *metrics, const float *a, const float *b, 
 file_status image_metrics_add(image_metrics *metrics, const float_image *a, const float_image *b, file_error *error)
 {
     if (a->width != b->width || a->height != b->height)
-        return file_error_set(error, FILE_ARGUMENT, "pictures of %ux%u and %ux%u pixels cannot be compared", a->width, a->height,
-                              b->width, b->height);
+        return file_error_set(error, FILE_ARGUMENT, "pictures of %ux%u and %ux%u pixels cannot be compared", a->width, a->height, b->width, b->height);
     if (a->channels != b->channels)
         return file_error_set(error, FILE_ARGUMENT, "pictures of %u and %u channels cannot be compared", a->channels, b->channels);
     size_t row_values = (size_t)a->width * a->channels;
@@ -64,10 +63,7 @@ file_status image_metrics_add(image_metrics *metrics, const float_image *a, cons
     return FILE_OK;
 }
 
-double image_metrics_rmse(const image_metrics *metrics)
-{
-    return metrics->values ? sqrt(metrics->sum_difference_squared / (double)metrics->values) : 0.0;
-}
+double image_metrics_rmse(const image_metrics *metrics) { return metrics->values ? sqrt(metrics->sum_difference_squared / (double)metrics->values) : 0.0; }
 
 double image_metrics_relative_rmse(const image_metrics *metrics)
 {

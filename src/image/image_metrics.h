@@ -11,13 +11,13 @@
 /* Running sums in double; start from all zero. Values (one channel of one pixel) are added in a fixed order. */
 typedef struct image_metrics {
     uint64_t frames;
-    uint64_t values;               /* finite in both: what the sums hold */
-    uint64_t equal_infinities;     /* the same infinity in both: equal, outside the sums */
+    uint64_t values;                     /* finite in both: what the sums hold */
+    uint64_t equal_infinities;           /* the same infinity in both: equal, outside the sums */
     uint64_t non_finite_a, non_finite_b; /* NaN or infinite values in A, in B */
-    uint64_t mismatches;           /* values finite in one only, of unlike infinities, or NaN in either: never equal */
+    uint64_t mismatches;                 /* values finite in one only, of unlike infinities, or NaN in either: never equal */
     double sum_a, sum_b, sum_b_squared, sum_difference_squared;
     double max_difference;
-    uint64_t max_frame;            /* where max_difference is: number of the frame added, pixel, channel */
+    uint64_t max_frame; /* where max_difference is: number of the frame added, pixel, channel */
     uint32_t max_x, max_y, max_channel;
 } image_metrics;
 

@@ -61,8 +61,7 @@ file_status metadata_check(const metadata_list *metadata, file_error *error)
     for (size_t i = 0; i < count; i++) {
         const metadata_entry *entry = &metadata->entries[i];
         if (!key_is_valid(entry->key))
-            return file_error_set(error, FILE_ARGUMENT, "metadata: key %zu must be 1 to %d characters of A-Z a-z 0-9 _ . -", i,
-                                  (int)KEY_LENGTH_MAX);
+            return file_error_set(error, FILE_ARGUMENT, "metadata: key %zu must be 1 to %d characters of A-Z a-z 0-9 _ . -", i, (int)KEY_LENGTH_MAX);
         if (!value_is_valid(entry->value))
             return file_error_set(error, FILE_ARGUMENT, "metadata: the value of %s must be UTF-8 of at most 1 MiB", entry->key);
         for (size_t j = 0; j < i; j++)
@@ -109,8 +108,7 @@ fail:
     return text;
 }
 
-file_status metadata_write_json(const char *json_path, const metadata_list *metadata, const output_options *options,
-                                file_error *error)
+file_status metadata_write_json(const char *json_path, const metadata_list *metadata, const output_options *options, file_error *error)
 {
     static const metadata_list none = {0};
     file_status status = metadata_check(metadata, error);

@@ -57,10 +57,7 @@ static const char *const names[CLIP_METRICS] = {
 const char clip_metric_words[] = "rmse, relrmse, energy, flip, hdr-flip, ssim, yee, flicker (all of its kinds), flicker-power, flicker-ratio, "
                                  "flicker-bright, flicker-glints, flicker-sizes";
 
-const char *clip_metric_name(clip_metric metric)
-{
-    return names[metric];
-}
+const char *clip_metric_name(clip_metric metric) { return names[metric]; }
 
 static uint32_t metrics_of_word(const char *word, size_t length)
 {
@@ -104,8 +101,7 @@ static file_status check_desc(const clip_metrics_desc *d, file_error *error)
     if (d->exposures > FLIP_EXPOSURES_MAX)
         return file_error_set(error, FILE_ARGUMENT, "%u exposures; allowed: 1 to %d", d->exposures, FLIP_EXPOSURES_MAX);
     if (d->fixed_exposures && !(fabs(d->first_exposure) <= 100 && fabs(d->last_exposure) <= 100 && d->first_exposure <= d->last_exposure))
-        return file_error_set(error, FILE_ARGUMENT, "exposures from %g to %g stops; allowed: -100 to 100, rising", d->first_exposure,
-                              d->last_exposure);
+        return file_error_set(error, FILE_ARGUMENT, "exposures from %g to %g stops; allowed: -100 to 100, rising", d->first_exposure, d->last_exposure);
     return FILE_OK;
 }
 
@@ -185,15 +181,9 @@ void clip_metrics_free(clip_metrics *m)
 
 /* ---- a frame ---- */
 
-static bool measures(const clip_metrics *m, clip_metric metric)
-{
-    return m->desc.metrics >> metric & 1;
-}
+static bool measures(const clip_metrics *m, clip_metric metric) { return m->desc.metrics >> metric & 1; }
 
-static const float *light_of(const clip_metrics *m, int side)
-{
-    return m->light[side] ? m->light[side] : m->values[side];
-}
+static const float *light_of(const clip_metrics *m, int side) { return m->light[side] ? m->light[side] : m->values[side]; }
 
 /* Everything that is looked at but the sums, for A (0) or B (1). */
 static void prepare_side(clip_metrics *m, const float_image *image, int side)
@@ -265,8 +255,8 @@ static void score_ssim(clip_metrics *m, float *map, clip_scores *scores)
 static void score_yee(clip_metrics *m, clip_scores *scores)
 {
     double share = 0;
-    if (m->yee_error.status == FILE_OK && yee_failures(&share, m->screen[0], m->screen[1], m->desc.width, m->desc.height, m->desc.idiff,
-                                                       &m->yee_error) == FILE_OK)
+    if (m->yee_error.status == FILE_OK &&
+        yee_failures(&share, m->screen[0], m->screen[1], m->desc.width, m->desc.height, m->desc.idiff, &m->yee_error) == FILE_OK)
         scores->values[CLIP_YEE] = share;
 }
 
@@ -329,12 +319,11 @@ static file_status check_frame(const clip_metrics *m, const float_image *image, 
 {
     if (image->width == m->desc.width && image->height == m->desc.height && image->channels == m->desc.channels)
         return FILE_OK;
-    return file_error_set(error, FILE_ARGUMENT, "a frame of %u x %u pixels and %u channels in a clip of %u x %u and %u", image->width,
-                          image->height, image->channels, m->desc.width, m->desc.height, m->desc.channels);
+    return file_error_set(error, FILE_ARGUMENT, "a frame of %u x %u pixels and %u channels in a clip of %u x %u and %u", image->width, image->height,
+                          image->channels, m->desc.width, m->desc.height, m->desc.channels);
 }
 
-file_status clip_metrics_add(clip_metrics *m, const float_image *a, const float_image *b, const clip_maps *maps, clip_frame *frame,
-                             file_error *error)
+file_status clip_metrics_add(clip_metrics *m, const float_image *a, const float_image *b, const clip_maps *maps, clip_frame *frame, file_error *error)
 {
     const clip_maps no_maps = {{NULL}};
     clip_frame result = {.scores = no_scores()};
@@ -405,15 +394,9 @@ const char *clip_metrics_missing(const clip_metrics *m, clip_metric metric)
     return metric < CLIP_FLICKER_BRIGHT ? "flicker needs two frames" : "no pixel is above the glint threshold";
 }
 
-const image_metrics *clip_metrics_sums(const clip_metrics *m)
-{
-    return &m->sums;
-}
+const image_metrics *clip_metrics_sums(const clip_metrics *m) { return &m->sums; }
 
-double clip_metrics_glint_threshold(const clip_metrics *m)
-{
-    return m->desc.glint_threshold;
-}
+double clip_metrics_glint_threshold(const clip_metrics *m) { return m->desc.glint_threshold; }
 
 void clip_metrics_flicker_maps(const clip_metrics *m, float *step_error, float *power_difference)
 {

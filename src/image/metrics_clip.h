@@ -42,17 +42,17 @@ extern const char clip_metric_words[];
 
 typedef struct clip_metrics_desc {
     uint32_t width, height;
-    uint32_t channels;        /* 1 (coverage, grey light) or 3 (colour) */
-    uint32_t metrics;         /* set of what to measure; only that costs time and memory */
-    bool srgb_encoded;        /* the values are sRGB-encoded; false: linear. RMSE, energy and flicker take values as given; the others
+    uint32_t channels;                    /* 1 (coverage, grey light) or 3 (colour) */
+    uint32_t metrics;                     /* set of what to measure; only that costs time and memory */
+    bool srgb_encoded;                    /* the values are sRGB-encoded; false: linear. RMSE, energy and flicker take values as given; the others
                                  decode or encode as their definitions ask, with white at 1 */
-    double pixels_per_degree; /* of the viewer's eye, for FLIP, above 0; 0: 67, a 0.7 m wide 4K screen at 0.7 m */
-    double glint_threshold;   /* a pixel is bright when its linear luminance (coverage) is above this; 0: above half of what a thousandth of the
+    double pixels_per_degree;             /* of the viewer's eye, for FLIP, above 0; 0: 67, a 0.7 m wide 4K screen at 0.7 m */
+    double glint_threshold;               /* a pixel is bright when its linear luminance (coverage) is above this; 0: above half of what a thousandth of the
                                  pixels of the reference's first frame exceed, so that every method is judged alike */
-    bool fixed_exposures;     /* HDR-FLIP: take the range below; false: from each frame of the reference, as its paper says */
+    bool fixed_exposures;                 /* HDR-FLIP: take the range below; false: from each frame of the reference, as its paper says */
     double first_exposure, last_exposure; /* in stops */
-    uint32_t exposures;       /* HDR-FLIP: how many, 1 … 64; 0: one a stop, at least 2. Used with either range */
-    const char *idiff;        /* OpenImageIO's idiff; NULL: the one on the PATH. Borrowed as long as the metrics live */
+    uint32_t exposures;                   /* HDR-FLIP: how many, 1 … 64; 0: one a stop, at least 2. Used with either range */
+    const char *idiff;                    /* OpenImageIO's idiff; NULL: the one on the PATH. Borrowed as long as the metrics live */
 } clip_metrics_desc;
 
 /* Bounded memory: two frames, three sums a pixel, buffers of the filters, a few bytes a frame. One thread at a time may use an object;
@@ -69,7 +69,7 @@ typedef struct clip_scores {
 } clip_scores;
 
 typedef struct clip_frame {
-    clip_scores scores; /* of this frame alone. Flicker: of the step from the frame before; counts of glints: |A − B| / max(B, 1) */
+    clip_scores scores;            /* of this frame alone. Flicker: of the step from the frame before; counts of glints: |A − B| / max(B, 1) */
     uint32_t bright[2], glints[2]; /* of A, of B; 0 unless asked for */
 } clip_frame;
 
@@ -82,8 +82,7 @@ typedef struct clip_maps {
 
 /* Adds a frame; `maps` and `frame` may be NULL. FILE_ARGUMENT where sizes or channels are not those of the description, FILE_MEMORY;
  * nothing is added then. Values that are not finite count as mismatches (clip_metrics_sums) and stand as 0 in all but the sums. */
-file_status clip_metrics_add(clip_metrics *metrics, const float_image *a, const float_image *b, const clip_maps *maps, clip_frame *frame,
-                             file_error *error);
+file_status clip_metrics_add(clip_metrics *metrics, const float_image *a, const float_image *b, const clip_maps *maps, clip_frame *frame, file_error *error);
 
 /* The clip's scores over the frames added so far, one or more; may be asked at any time. FILE_MEMORY. */
 file_status clip_metrics_scores(const clip_metrics *metrics, clip_scores *scores, file_error *error);

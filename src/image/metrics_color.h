@@ -6,15 +6,9 @@
 #include <math.h>
 
 /* IEC 61966-2-1. Beyond 0 … 1 both go on with the same curve, below 0 with the straight part. */
-static inline float color_srgb_decode(float value)
-{
-    return value <= 0.04045f ? value / 12.92f : powf((value + 0.055f) / 1.055f, 2.4f);
-}
+static inline float color_srgb_decode(float value) { return value <= 0.04045f ? value / 12.92f : powf((value + 0.055f) / 1.055f, 2.4f); }
 
-static inline float color_srgb_encode(float value)
-{
-    return value <= 0.0031308f ? value * 12.92f : 1.055f * powf(value, 1.0f / 2.4f) - 0.055f;
-}
+static inline float color_srgb_encode(float value) { return value <= 0.0031308f ? value * 12.92f : 1.055f * powf(value, 1.0f / 2.4f) - 0.055f; }
 
 /* Relative luminance Y of linear light; white has 1. Grey light is its own luminance. */
 static inline float color_luminance(const float *pixel, unsigned channels)
@@ -22,9 +16,6 @@ static inline float color_luminance(const float *pixel, unsigned channels)
     return channels == 1 ? pixel[0] : 0.2126f * pixel[0] + 0.7152f * pixel[1] + 0.0722f * pixel[2];
 }
 
-static inline float color_clamp(float value)
-{
-    return fminf(fmaxf(value, 0.0f), 1.0f);
-}
+static inline float color_clamp(float value) { return fminf(fmaxf(value, 0.0f), 1.0f); }
 
 #endif

@@ -18,10 +18,7 @@ filter_kernel filter_gaussian(double sigma, int radius)
     return kernel;
 }
 
-static ptrdiff_t clamp_index(ptrdiff_t index, uint32_t count)
-{
-    return index < 0 ? 0 : index >= (ptrdiff_t)count ? (ptrdiff_t)count - 1 : index;
-}
+static ptrdiff_t clamp_index(ptrdiff_t index, uint32_t count) { return index < 0 ? 0 : index >= (ptrdiff_t)count ? (ptrdiff_t)count - 1 : index; }
 
 /* `padded` holds a run and a radius more on both sides. */
 static void filter_run(float *restrict out, const float *restrict padded, uint32_t count, const filter_kernel *kernel)

@@ -15,7 +15,7 @@ struct flicker {
     float *previous[2];               /* the last frame of A, of B */
     double *power[2], *squared_error; /* sums over steps, per pixel, of the mean over channels */
     uint32_t *labels;
-    uint32_t *counts;                 /* COUNTS a frame */
+    uint32_t *counts; /* COUNTS a frame */
     uint64_t sizes[2][SIZE_CLASSES];
 };
 
@@ -91,8 +91,7 @@ static void join_neighbours(uint32_t *labels, uint32_t x, uint32_t y, uint32_t w
             join(labels, pixel, pixel - width - x + left);
 }
 
-uint32_t flicker_count_glints(const float *luminance, uint32_t width, uint32_t height, float threshold, uint32_t *labels,
-                              uint64_t sizes[SIZE_CLASSES])
+uint32_t flicker_count_glints(const float *luminance, uint32_t width, uint32_t height, float threshold, uint32_t *labels, uint64_t sizes[SIZE_CLASSES])
 {
     const uint32_t pixels = width * height;
     uint32_t *const size = labels + pixels;
@@ -141,10 +140,7 @@ static void add_counts(flicker *f, const flicker_input *input, flicker_step *ste
 
 /* ---- steps ---- */
 
-static double ratio_of(double a, double b)
-{
-    return b > 0 ? a / b : a > 0 ? INFINITY : 1;
-}
+static double ratio_of(double a, double b) { return b > 0 ? a / b : a > 0 ? INFINITY : 1; }
 
 static void add_step(flicker *f, const flicker_input *input, float *map, flicker_step *step)
 {

@@ -36,11 +36,11 @@ typedef struct flicker_step {
 file_status flicker_add(flicker *f, const flicker_input *input, float *map, flicker_step *step, file_error *error);
 
 typedef struct flicker_scores {
-    double error;          /* √ mean (step of A − step of B)² */
-    double power;          /* mean |power of A − power of B| */
-    double ratio;          /* mean power of A / mean power of B; 1 where both are 0 */
-    double bright, glints; /* distances of counts */
-    double sizes;          /* distance of sizes */
+    double error;               /* √ mean (step of A − step of B)² */
+    double power;               /* mean |power of A − power of B| */
+    double ratio;               /* mean power of A / mean power of B; 1 where both are 0 */
+    double bright, glints;      /* distances of counts */
+    double sizes;               /* distance of sizes */
     bool has_steps, has_glints; /* false: error, power and ratio (bright, glints and sizes) are NaN, for there is nothing to tell */
 } flicker_scores;
 
@@ -51,7 +51,6 @@ void flicker_maps(const flicker *f, float *step_error, float *power_difference);
 
 /* How many groups of pixels above `threshold`, eight neighbours joined; adds each to sizes[floor(log2(its pixels))]. `labels`: a scratch
  * of 2 · width · height. */
-uint32_t flicker_count_glints(const float *luminance, uint32_t width, uint32_t height, float threshold, uint32_t *labels,
-                              uint64_t sizes[32]);
+uint32_t flicker_count_glints(const float *luminance, uint32_t width, uint32_t height, float threshold, uint32_t *labels, uint64_t sizes[32]);
 
 #endif

@@ -32,7 +32,7 @@ typedef struct color_matrices {
 
 struct flip {
     uint32_t width, height;
-    size_t count;                           /* pixels */
+    size_t count; /* pixels */
     color_matrices matrices;
     float greatest_difference;              /* c_max: of the primaries green and blue */
     separable sensitivity[SENSITIVITIES];   /* of luminance, red-green, and blue-yellow, which is a sum of two */
@@ -46,8 +46,7 @@ struct flip {
 
 static color_matrices make_matrices(void)
 {
-    static const double xyz[3][3] = {
-        {0.4124564, 0.3575761, 0.1804375}, {0.2126729, 0.7151522, 0.0721750}, {0.0193339, 0.1191920, 0.9503041}};
+    static const double xyz[3][3] = {{0.4124564, 0.3575761, 0.1804375}, {0.2126729, 0.7151522, 0.0721750}, {0.0193339, 0.1191920, 0.9503041}};
     double m[3][3], adjugate[3][3], determinant = 0;
     color_matrices matrices;
     for (int r = 0; r < 3; r++)
@@ -76,10 +75,7 @@ static triple transform(const float m[3][3], triple v)
                     m[2][0] * v.x + m[2][1] * v.y + m[2][2] * v.z};
 }
 
-static triple clamp_triple(triple v)
-{
-    return (triple){color_clamp(v.x), color_clamp(v.y), color_clamp(v.z)};
-}
+static triple clamp_triple(triple v) { return (triple){color_clamp(v.x), color_clamp(v.y), color_clamp(v.z)}; }
 
 static float lab_curve(float t)
 {
@@ -194,7 +190,7 @@ file_status flip_create(flip **result, uint32_t width, uint32_t height, double p
         return file_error_set(error, FILE_MEMORY, "out of memory for FLIP of %u x %u pixels", width, height);
     }
     float **const places[] = {&f->planes[0][0], &f->planes[0][1], &f->planes[0][2], &f->planes[0][3], &f->planes[0][4], &f->planes[1][0],
-                              &f->planes[1][1], &f->planes[1][2], &f->planes[1][3], &f->planes[1][4], &f->opponent[0], &f->opponent[1],
+                              &f->planes[1][1], &f->planes[1][2], &f->planes[1][3], &f->planes[1][4], &f->opponent[0],  &f->opponent[1],
                               &f->opponent[2],  &f->scratch[0],   &f->scratch[1],   &f->frame_map,    &f->exposure_map};
     _Static_assert(sizeof places / sizeof places[0] == BUFFERS, "one place for every buffer");
     for (int i = 0; i < BUFFERS; i++, next += f->count)
@@ -309,8 +305,7 @@ static void compare(flip *f, flip_picture a, flip_picture b, double scale, float
     see(f, b, scale, f->planes[1]);
     float *const *const p = f->planes[0], *const *const q = f->planes[1];
     for (size_t i = 0; i < f->count; i++) {
-        const float difference = lab_difference((triple){p[PLANE_L][i], p[PLANE_A][i], p[PLANE_B][i]},
-                                                (triple){q[PLANE_L][i], q[PLANE_A][i], q[PLANE_B][i]});
+        const float difference = lab_difference((triple){p[PLANE_L][i], p[PLANE_A][i], p[PLANE_B][i]}, (triple){q[PLANE_L][i], q[PLANE_A][i], q[PLANE_B][i]});
         const float color = redistribute(difference, f->greatest_difference);
         const float edge = fabsf(p[PLANE_EDGE][i] - q[PLANE_EDGE][i]), point = fabsf(p[PLANE_POINT][i] - q[PLANE_POINT][i]);
         const float feature = fminf(powf(fmaxf(edge, point) * (float)sqrt(0.5), FEATURE_EXPONENT), 1.0f);

@@ -33,12 +33,7 @@ static float similarity(const planes *p, size_t i)
 double ssim_mean(const float *a, const float *b, uint32_t width, uint32_t height, float *map, float *buffers)
 {
     const size_t count = (size_t)width * height;
-    const planes p = {buffers,
-                      buffers + count,
-                      buffers + 2 * count,
-                      buffers + 3 * count,
-                      buffers + 4 * count,
-                      {buffers + 5 * count, buffers + 6 * count}};
+    const planes p = {buffers, buffers + count, buffers + 2 * count, buffers + 3 * count, buffers + 4 * count, {buffers + 5 * count, buffers + 6 * count}};
     filter_product(&p, a, NULL, width, height, p.mean_a);
     filter_product(&p, b, NULL, width, height, p.mean_b);
     filter_product(&p, a, a, width, height, p.square_a);

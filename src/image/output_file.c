@@ -188,15 +188,9 @@ file_status output_file_write(output_file *file, const void *bytes, size_t size,
     return status;
 }
 
-const char *output_file_temporary_path(const output_file *file)
-{
-    return file->temporary_path;
-}
+const char *output_file_temporary_path(const output_file *file) { return file->temporary_path; }
 
-int output_file_descriptor(const output_file *file)
-{
-    return file->descriptor;
-}
+int output_file_descriptor(const output_file *file) { return file->descriptor; }
 
 file_status output_file_sync(output_file *file, file_error *error)
 {

@@ -11,8 +11,7 @@
 
 #include "image/metadata_json.h"
 
-file_status paired_output_open(paired_output *output, const char *path, const metadata_list *metadata,
-                               const output_options *options, file_error *error)
+file_status paired_output_open(paired_output *output, const char *path, const metadata_list *metadata, const output_options *options, file_error *error)
 {
     *output = (paired_output){0};
     char *sidecar_path = NULL;

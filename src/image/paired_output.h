@@ -14,8 +14,7 @@ typedef struct paired_output {
 } paired_output;
 
 /* Opens both and writes the sidecar's text. On failure *output is all zero and nothing is left behind. */
-file_status paired_output_open(paired_output *output, const char *path, const metadata_list *metadata,
-                               const output_options *options, file_error *error);
+file_status paired_output_open(paired_output *output, const char *path, const metadata_list *metadata, const output_options *options, file_error *error);
 
 /* Gives both their names, the picture first: at no moment does a sidecar stand beside a picture that it does not describe.
  * *output is all zero afterwards. */

@@ -99,16 +99,16 @@ picture_format input_file_format(const input_file *input)
 file_status picture_check_size(const char *path, uint32_t width, uint32_t height, file_error *error)
 {
     if (width < 1 || height < 1 || width > PICTURE_SIDE_MAX || height > PICTURE_SIDE_MAX)
-        return file_error_set(error, FILE_ARGUMENT, "%s: size %ux%u is not within 1x1 and %dx%d", path, width, height,
-                              (int)PICTURE_SIDE_MAX, (int)PICTURE_SIDE_MAX);
+        return file_error_set(error, FILE_ARGUMENT, "%s: size %ux%u is not within 1x1 and %dx%d", path, width, height, (int)PICTURE_SIDE_MAX,
+                              (int)PICTURE_SIDE_MAX);
     return FILE_OK;
 }
 
 file_status float_image_allocate(float_image *image, const char *path, file_error *error)
 {
     if (image->width < 1 || image->height < 1 || image->width > PICTURE_SIDE_MAX || image->height > PICTURE_SIDE_MAX)
-        return file_error_set(error, FILE_BAD, "%s: size %ux%u is not within 1x1 and %dx%d", path, image->width, image->height,
-                              (int)PICTURE_SIDE_MAX, (int)PICTURE_SIDE_MAX);
+        return file_error_set(error, FILE_BAD, "%s: size %ux%u is not within 1x1 and %dx%d", path, image->width, image->height, (int)PICTURE_SIDE_MAX,
+                              (int)PICTURE_SIDE_MAX);
     size_t pixels = (size_t)image->width * image->height;
     if (pixels > SIZE_MAX / sizeof(float) / image->channels)
         return file_error_errno(error, FILE_MEMORY, path, NULL, ENOMEM);

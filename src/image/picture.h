@@ -10,14 +10,7 @@
 #include "image/metadata.h"
 #include "image/output_file.h"
 
-typedef enum picture_format {
-    PICTURE_UNKNOWN = 0,
-    PICTURE_PNG,
-    PICTURE_EXR,
-    PICTURE_PFM,
-    PICTURE_MP4,
-    PICTURE_Y4M
-} picture_format;
+typedef enum picture_format { PICTURE_UNKNOWN = 0, PICTURE_PNG, PICTURE_EXR, PICTURE_PFM, PICTURE_MP4, PICTURE_Y4M } picture_format;
 
 /* By the extension, upper or lower case. */
 picture_format picture_format_of(const char *path);
@@ -39,24 +32,22 @@ typedef struct picture_layer {
 
 /* 8-bit sRGB PNG (sRGB chunk, metadata as tEXt, or iTXt where not ASCII, no time). `rgba`: four bytes a pixel, top left first;
  * alpha is not written. `row_stride` in bytes as above. */
-file_status picture_write_png(const char *path, uint32_t width, uint32_t height, const uint8_t *rgba, ptrdiff_t row_stride,
-                              const metadata_list *metadata, const output_options *options, file_error *error);
+file_status picture_write_png(const char *path, uint32_t width, uint32_t height, const uint8_t *rgba, ptrdiff_t row_stride, const metadata_list *metadata,
+                              const output_options *options, file_error *error);
 
 /* The same with alpha. */
-file_status picture_write_png_alpha(const char *path, uint32_t width, uint32_t height, const uint8_t *rgba,
-                                    ptrdiff_t row_stride, const metadata_list *metadata, const output_options *options,
-                                    file_error *error);
+file_status picture_write_png_alpha(const char *path, uint32_t width, uint32_t height, const uint8_t *rgba, ptrdiff_t row_stride, const metadata_list *metadata,
+                                    const output_options *options, file_error *error);
 
 /* Scanline EXR, 32-bit float, ZIP. Channels by layer: color R,G,B · coverage, mask coverage.Y, mask.Y · depth depth.Z ·
  * normal normal.X,.Y,.Z · any other NAME.Y or NAME.R,.G,.B. Metadata as string attributes. Layer names must differ. */
-file_status picture_write_exr(const char *path, uint32_t width, uint32_t height, const picture_layer *layers,
-                              size_t layer_count, const metadata_list *metadata, const output_options *options,
-                              file_error *error);
+file_status picture_write_exr(const char *path, uint32_t width, uint32_t height, const picture_layer *layers, size_t layer_count, const metadata_list *metadata,
+                              const output_options *options, file_error *error);
 
 /* "Pf" (1 channel) or "PF" (3), little endian, bottom row first. Metadata go to the sidecar PATH.json, which appears after the
  * picture; with NULL none is written. */
-file_status picture_write_pfm(const char *path, uint32_t width, uint32_t height, const picture_layer *layer,
-                              const metadata_list *metadata, const output_options *options, file_error *error);
+file_status picture_write_pfm(const char *path, uint32_t width, uint32_t height, const picture_layer *layer, const metadata_list *metadata,
+                              const output_options *options, file_error *error);
 
 /* ---- reader -------------------------------------------------------------------------------------------------------- */
 

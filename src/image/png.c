@@ -55,8 +55,8 @@ static struct spng_text *texts_of(const metadata_list *metadata, uint32_t *count
     return texts;
 }
 
-static file_status write_png(const char *path, uint32_t width, uint32_t height, const uint8_t *rgba, ptrdiff_t row_stride,
-                             bool alpha, const metadata_list *metadata, const output_options *options, file_error *error)
+static file_status write_png(const char *path, uint32_t width, uint32_t height, const uint8_t *rgba, ptrdiff_t row_stride, bool alpha,
+                             const metadata_list *metadata, const output_options *options, file_error *error)
 {
     file_status status = picture_check_size(path, width, height, error);
     if (status == FILE_OK)
@@ -110,8 +110,7 @@ static file_status write_png(const char *path, uint32_t width, uint32_t height, 
         code = spng_encode_row(context, row, row_bytes);
     }
     if (code != SPNG_EOI && code != 0) {
-        status = sink.status != FILE_OK ? sink.status
-                                        : file_error_set(error, FILE_WRITE, "%s: cannot encode: %s", path, spng_strerror(code));
+        status = sink.status != FILE_OK ? sink.status : file_error_set(error, FILE_WRITE, "%s: cannot encode: %s", path, spng_strerror(code));
         goto done;
     }
     status = output_file_finish(sink.file, error);
@@ -128,15 +127,14 @@ done:
     return status;
 }
 
-file_status picture_write_png(const char *path, uint32_t width, uint32_t height, const uint8_t *rgba, ptrdiff_t row_stride,
-                              const metadata_list *metadata, const output_options *options, file_error *error)
+file_status picture_write_png(const char *path, uint32_t width, uint32_t height, const uint8_t *rgba, ptrdiff_t row_stride, const metadata_list *metadata,
+                              const output_options *options, file_error *error)
 {
     return write_png(path, width, height, rgba, row_stride, false, metadata, options, error);
 }
 
-file_status picture_write_png_alpha(const char *path, uint32_t width, uint32_t height, const uint8_t *rgba,
-                                    ptrdiff_t row_stride, const metadata_list *metadata, const output_options *options,
-                                    file_error *error)
+file_status picture_write_png_alpha(const char *path, uint32_t width, uint32_t height, const uint8_t *rgba, ptrdiff_t row_stride, const metadata_list *metadata,
+                                    const output_options *options, file_error *error)
 {
     return write_png(path, width, height, rgba, row_stride, true, metadata, options, error);
 }
@@ -148,8 +146,8 @@ static spng_ctx *decoder(const input_file *input)
     spng_ctx *context = spng_ctx_new(0);
     if (!context)
         return NULL;
-    if (spng_set_image_limits(context, PICTURE_SIDE_MAX, PICTURE_SIDE_MAX) != 0 ||
-        spng_set_chunk_limits(context, (size_t)16 << 20, (size_t)64 << 20) != 0 || spng_set_png_file(context, input->stream) != 0) {
+    if (spng_set_image_limits(context, PICTURE_SIDE_MAX, PICTURE_SIDE_MAX) != 0 || spng_set_chunk_limits(context, (size_t)16 << 20, (size_t)64 << 20) != 0 ||
+        spng_set_png_file(context, input->stream) != 0) {
         spng_ctx_free(context);
         return NULL;
     }
@@ -160,14 +158,10 @@ static file_status bad_png(const input_file *input, int code, file_error *error)
 {
     if (code == SPNG_EMEM)
         return file_error_errno(error, FILE_MEMORY, input->path, NULL, ENOMEM);
-    return file_error_set(error, FILE_BAD, "%s: is not a sound PNG: %s", input->path,
-                          code == SPNG_IO_EOF ? "it ends too early" : spng_strerror(code));
+    return file_error_set(error, FILE_BAD, "%s: is not a sound PNG: %s", input->path, code == SPNG_IO_EOF ? "it ends too early" : spng_strerror(code));
 }
 
-static uint32_t sample(const void *rgba, bool deep, size_t i)
-{
-    return deep ? ((const uint16_t *)rgba)[i] : ((const uint8_t *)rgba)[i];
-}
+static uint32_t sample(const void *rgba, bool deep, size_t i) { return deep ? ((const uint16_t *)rgba)[i] : ((const uint8_t *)rgba)[i]; }
 
 static bool is_opaque(const void *rgba, bool deep, size_t pixels)
 {

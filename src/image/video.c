@@ -39,7 +39,7 @@ static frame_rate frame_rate_of(double frames_per_second)
     if (fabs(frames_per_second - whole * 1000.0 / 1001.0) < 2e-3 && whole >= 1.0)
         return (frame_rate){(uint32_t)whole * 1000, 1001};
     uint32_t a = (uint32_t)round(frames_per_second * 1000.0), b = 1000;
-    for (uint32_t x = a, y = b; ; ) { /* greatest common divisor */
+    for (uint32_t x = a, y = b;;) { /* greatest common divisor */
         if (y == 0)
             return (frame_rate){a / x, b / x};
         uint32_t rest = x % y;
@@ -53,8 +53,7 @@ static file_status check_desc(const char *path, const video_desc *desc, picture_
     if (format != PICTURE_MP4 && format != PICTURE_Y4M)
         return file_error_set(error, FILE_ARGUMENT, "%s: a film's name must end in .mp4 or .y4m", path);
     if (!(desc->frames_per_second >= 0.01 && desc->frames_per_second <= 1000.0))
-        return file_error_set(error, FILE_ARGUMENT, "%s: %g frames per second are not within 0.01 and 1000", path,
-                              desc->frames_per_second);
+        return file_error_set(error, FILE_ARGUMENT, "%s: %g frames per second are not within 0.01 and 1000", path, desc->frames_per_second);
     if (format == PICTURE_MP4 && (desc->width > 16384 || desc->height > 16384))
         return file_error_set(error, FILE_ARGUMENT, "%s: H.264 takes sides up to 16384, not %ux%u", path, desc->width, desc->height);
     return picture_check_size(path, desc->width, desc->height, error);
@@ -63,9 +62,8 @@ static file_status check_desc(const char *path, const video_desc *desc, picture_
 static file_status write_y4m_header(video_writer *writer, frame_rate rate, file_error *error)
 {
     char header[160];
-    int length = snprintf(header, sizeof header, "YUV4MPEG2 W%u H%u F%u:%u Ip A1:1 %s XCOLORRANGE=LIMITED\n", writer->width,
-                          writer->height, rate.numerator, rate.denominator,
-                          writer->layout.full_chroma ? "C444" : "C420mpeg2 XYSCSS=420MPEG2");
+    int length = snprintf(header, sizeof header, "YUV4MPEG2 W%u H%u F%u:%u Ip A1:1 %s XCOLORRANGE=LIMITED\n", writer->width, writer->height, rate.numerator,
+                          rate.denominator, writer->layout.full_chroma ? "C444" : "C420mpeg2 XYSCSS=420MPEG2");
     return output_file_write(writer->output.file, header, (size_t)length, error);
 }
 
@@ -84,8 +82,7 @@ file_status video_writer_open(video_writer **result, const char *path, const vid
     writer->height = desc->height;
     /* 4:2:0 H.264 has even sides. */
     uint32_t odd = format == PICTURE_MP4 ? 1 : 0;
-    writer->layout = yuv_layout_of(desc->width + (desc->width & odd), desc->height + (desc->height & odd),
-                                   format == PICTURE_Y4M && desc->full_chroma);
+    writer->layout = yuv_layout_of(desc->width + (desc->width & odd), desc->height + (desc->height & odd), format == PICTURE_Y4M && desc->full_chroma);
     writer->planes = malloc(writer->layout.bytes);
     writer->path = strdup(path);
     if (!writer->planes || !writer->path) {

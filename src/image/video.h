@@ -12,9 +12,9 @@
 #include "image/output_file.h"
 
 typedef struct video_desc {
-    uint32_t width, height;    /* of the frames given; mp4 pads odd sides by repeating the last column or row */
-    double frames_per_second;  /* written as a fraction: 30 → 30/1, 29.97 → 30000/1001, else the nearest of thousandths */
-    bool full_chroma;          /* y4m only: 4:4:4 instead of 4:2:0 */
+    uint32_t width, height;        /* of the frames given; mp4 pads odd sides by repeating the last column or row */
+    double frames_per_second;      /* written as a fraction: 30 → 30/1, 29.97 → 30000/1001, else the nearest of thousandths */
+    bool full_chroma;              /* y4m only: 4:4:4 instead of 4:2:0 */
     const metadata_list *metadata; /* NULL: none, and no sidecar. Read by video_writer_open only. mp4: tags and PATH.json; y4m: PATH.json */
     output_options output;
 } video_desc;

@@ -18,10 +18,7 @@ yuv_layout yuv_layout_of(uint32_t width, uint32_t height, bool full_chroma)
 }
 
 /* Kr .2126, Kg .7152, Kb .0722 times 219/255 · 2^16; they add up to white = 235 exactly. */
-static uint8_t luma(const uint8_t *p)
-{
-    return (uint8_t)(16 + ((11966 * p[0] + 40254 * p[1] + 4064 * p[2] + (1 << 15)) >> 16));
-}
+static uint8_t luma(const uint8_t *p) { return (uint8_t)(16 + ((11966 * p[0] + 40254 * p[1] + 4064 * p[2] + (1 << 15)) >> 16)); }
 
 /* (B' − Y')/1.8556 and (R' − Y')/1.5748 times 224/255 · 2^16 of a sum over 2^shift pixels; each row adds up to 0, so that grey
  * stays grey. */
@@ -43,10 +40,7 @@ static rgb_sum add_weighted(rgb_sum sum, const uint8_t *row, uint32_t x, int32_t
     return (rgb_sum){sum.r + weight * p[0], sum.g + weight * p[1], sum.b + weight * p[2]};
 }
 
-static uint32_t at_most(uint32_t value, uint32_t limit)
-{
-    return value < limit ? value : limit;
-}
+static uint32_t at_most(uint32_t value, uint32_t limit) { return value < limit ? value : limit; }
 
 /* Sum of weight 8 around luma column 2·x between two rows. */
 static rgb_sum chroma_neighbourhood(const uint8_t *upper, const uint8_t *lower, uint32_t x, uint32_t width)
@@ -63,8 +57,7 @@ static rgb_sum chroma_neighbourhood(const uint8_t *upper, const uint8_t *lower, 
     return add_weighted(sum, lower, right, 1);
 }
 
-void yuv_from_rgba(uint8_t *planes, const yuv_layout *layout, const uint8_t *rgba, ptrdiff_t row_stride, uint32_t width,
-                   uint32_t height)
+void yuv_from_rgba(uint8_t *planes, const yuv_layout *layout, const uint8_t *rgba, ptrdiff_t row_stride, uint32_t width, uint32_t height)
 {
     size_t row_bytes = (size_t)width * 4;
     uint8_t *y_out = planes;
@@ -80,8 +73,8 @@ void yuv_from_rgba(uint8_t *planes, const yuv_layout *layout, const uint8_t *rgb
         const uint8_t *upper = picture_row(rgba, row_bytes, row_stride, at_most(step * y, height - 1));
         const uint8_t *lower = picture_row(rgba, row_bytes, row_stride, at_most(step * y + 1, height - 1));
         for (uint32_t x = 0; x < layout->chroma_width; x++) {
-            rgb_sum sum = layout->full_chroma ? add_weighted((rgb_sum){0, 0, 0}, upper, at_most(x, width - 1), 1)
-                                              : chroma_neighbourhood(upper, lower, x, width);
+            rgb_sum sum =
+                layout->full_chroma ? add_weighted((rgb_sum){0, 0, 0}, upper, at_most(x, width - 1), 1) : chroma_neighbourhood(upper, lower, x, width);
             int shift = layout->full_chroma ? 0 : 3;
             *blue_out++ = chroma_blue(sum, shift);
             *red_out++ = chroma_red(sum, shift);

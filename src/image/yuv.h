@@ -20,7 +20,6 @@ yuv_layout yuv_layout_of(uint32_t width, uint32_t height, bool full_chroma);
 /* Converts a picture of width × height RGBA pixels (row_stride as in picture.h) into planes of `layout`; a layout larger than the
  * picture repeats its last column and row. 4:2:0 chroma is sited at the left, between two rows, as MPEG-2 and H.264 have
  * it: weights 1 2 1 along the row, 1 1 down. Integers only: the same bytes everywhere. */
-void yuv_from_rgba(uint8_t *planes, const yuv_layout *layout, const uint8_t *rgba, ptrdiff_t row_stride, uint32_t width,
-                   uint32_t height);
+void yuv_from_rgba(uint8_t *planes, const yuv_layout *layout, const uint8_t *rgba, ptrdiff_t row_stride, uint32_t width, uint32_t height);
 
 #endif

@@ -68,8 +68,18 @@ typedef int mask;
 #define MGT_LIFT(x) (x)
 
 KERNEL real real_broadcast(float u) { return u; }
-KERNEL mask real_bits(real x) { mask b; memcpy(&b, &x, sizeof b); return b; }
-KERNEL real real_from_bits(mask b) { real x; memcpy(&x, &b, sizeof x); return x; }
+KERNEL mask real_bits(real x)
+{
+    mask b;
+    memcpy(&b, &x, sizeof b);
+    return b;
+}
+KERNEL real real_from_bits(mask b)
+{
+    real x;
+    memcpy(&x, &b, sizeof x);
+    return x;
+}
 KERNEL real real_from_int(mask i) { return (real)i; }
 KERNEL real real_select(mask m, real a, real b) { return m ? a : b; }
 KERNEL mask mask_not(mask m) { return !m; }
@@ -132,10 +142,7 @@ KERNEL bool all_lanes(mask m) { return vminvq_u32((uint32x4_t)m) != 0; }
 KERNEL real real_min(real a, real b) { return (real)vminq_f32((float32x4_t)a, (float32x4_t)b); }
 KERNEL real real_max(real a, real b) { return (real)vmaxq_f32((float32x4_t)a, (float32x4_t)b); }
 KERNEL real real_sqrt(real x) { return (real)vsqrtq_f32((float32x4_t)x); }
-KERNEL real real_fma(real a, real b, real c)
-{
-    return (real)vfmaq_f32((float32x4_t)c, (float32x4_t)a, (float32x4_t)b);
-}
+KERNEL real real_fma(real a, real b, real c) { return (real)vfmaq_f32((float32x4_t)c, (float32x4_t)a, (float32x4_t)b); }
 KERNEL real real_round_even(real x) { return (real)vrndnq_f32((float32x4_t)x); }
 KERNEL real real_floor(real x) { return (real)vrndmq_f32((float32x4_t)x); }
 
@@ -181,10 +188,7 @@ KERNEL float mgt_uniform_max(float a, float b) { return a > b ? a : b; }
 
 KERNEL real real_abs(real x) { return real_from_bits(real_bits(x) & 0x7fffffff); }
 
-KERNEL real real_copy_sign(real magnitude, real sign)
-{
-    return real_from_bits((real_bits(magnitude) & 0x7fffffff) | (real_bits(sign) & MGT_SIGN_BIT));
-}
+KERNEL real real_copy_sign(real magnitude, real sign) { return real_from_bits((real_bits(magnitude) & 0x7fffffff) | (real_bits(sign) & MGT_SIGN_BIT)); }
 
 #if MGT_LANES == 1 || (MGT_LANES == 4 && !defined(__aarch64__))
 /* Adding 2^23 leaves no bits below one. Neither plain C nor SSE2 has a rounding instruction; the bits are the same. */
@@ -233,17 +237,21 @@ KERNEL real flip_by_parity(real value, real parity) { return real_from_bits(real
 
 /* ---- Vectors ---- */
 
-typedef struct { real x, y; } vec2;
-typedef struct { real x, y, z; } vec3;
+typedef struct {
+    real x, y;
+} vec2;
+typedef struct {
+    real x, y, z;
+} vec3;
 
 #define vec2(x, y) ((vec2){MGT_LIFT(x), MGT_LIFT(y)})
 #define vec3(x, y, z) ((vec3){MGT_LIFT(x), MGT_LIFT(y), MGT_LIFT(z)})
 
-#define add(a, b) _Generic((a), vec2: vec2_add, vec3: vec3_add)(a, b)
-#define sub(a, b) _Generic((a), vec2: vec2_sub, vec3: vec3_sub)(a, b)
-#define scale(v, s) _Generic((v), vec2: vec2_scale, vec3: vec3_scale)(v, MGT_LIFT(s))
-#define dot(a, b) _Generic((a), vec2: vec2_dot, vec3: vec3_dot)(a, b)
-#define length_squared(v) _Generic((v), vec2: vec2_length_squared, vec3: vec3_length_squared)(v)
+#define add(a, b) _Generic((a), vec2 : vec2_add, vec3 : vec3_add)(a, b)
+#define sub(a, b) _Generic((a), vec2 : vec2_sub, vec3 : vec3_sub)(a, b)
+#define scale(v, s) _Generic((v), vec2 : vec2_scale, vec3 : vec3_scale)(v, MGT_LIFT(s))
+#define dot(a, b) _Generic((a), vec2 : vec2_dot, vec3 : vec3_dot)(a, b)
+#define length_squared(v) _Generic((v), vec2 : vec2_length_squared, vec3 : vec3_length_squared)(v)
 #define cross(a, b) vec3_cross(a, b)
 #define normalize(v) vec3_normalize(v)
 #define SELECT2(m, a, b) vec2_select(m, a, b)
@@ -254,24 +262,15 @@ KERNEL vec2 vec2_sub(vec2 a, vec2 b) { return (vec2){a.x - b.x, a.y - b.y}; }
 KERNEL vec2 vec2_scale(vec2 v, real s) { return (vec2){v.x * s, v.y * s}; }
 KERNEL real vec2_dot(vec2 a, vec2 b) { return real_fma(a.x, b.x, a.y * b.y); }
 KERNEL real vec2_length_squared(vec2 v) { return vec2_dot(v, v); }
-KERNEL vec2 vec2_select(mask m, vec2 a, vec2 b)
-{
-    return (vec2){real_select(m, a.x, b.x), real_select(m, a.y, b.y)};
-}
+KERNEL vec2 vec2_select(mask m, vec2 a, vec2 b) { return (vec2){real_select(m, a.x, b.x), real_select(m, a.y, b.y)}; }
 
 KERNEL vec3 vec3_add(vec3 a, vec3 b) { return (vec3){a.x + b.x, a.y + b.y, a.z + b.z}; }
 KERNEL vec3 vec3_sub(vec3 a, vec3 b) { return (vec3){a.x - b.x, a.y - b.y, a.z - b.z}; }
 KERNEL vec3 vec3_scale(vec3 v, real s) { return (vec3){v.x * s, v.y * s, v.z * s}; }
 KERNEL real vec3_dot(vec3 a, vec3 b) { return real_fma(a.x, b.x, real_fma(a.y, b.y, a.z * b.z)); }
 KERNEL real vec3_length_squared(vec3 v) { return vec3_dot(v, v); }
-KERNEL vec3 vec3_cross(vec3 a, vec3 b)
-{
-    return (vec3){real_fma(a.y, b.z, -(a.z * b.y)), real_fma(a.z, b.x, -(a.x * b.z)), real_fma(a.x, b.y, -(a.y * b.x))};
-}
+KERNEL vec3 vec3_cross(vec3 a, vec3 b) { return (vec3){real_fma(a.y, b.z, -(a.z * b.y)), real_fma(a.z, b.x, -(a.x * b.z)), real_fma(a.x, b.y, -(a.y * b.x))}; }
 KERNEL vec3 vec3_normalize(vec3 v) { return vec3_scale(v, 1.0f / real_sqrt(vec3_dot(v, v))); }
-KERNEL vec3 vec3_select(mask m, vec3 a, vec3 b)
-{
-    return (vec3){real_select(m, a.x, b.x), real_select(m, a.y, b.y), real_select(m, a.z, b.z)};
-}
+KERNEL vec3 vec3_select(mask m, vec3 a, vec3 b) { return (vec3){real_select(m, a.x, b.x), real_select(m, a.y, b.y), real_select(m, a.z, b.z)}; }
 
 #endif

@@ -15,10 +15,7 @@ static mgt_status null_create(void **state, const mgt_context_desc *desc, const 
     return MGT_OK;
 }
 
-static void null_destroy(void *state)
-{
-    (void)state;
-}
+static void null_destroy(void *state) { (void)state; }
 
 static mgt_status null_render(void *state, const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count)
 {

@@ -85,10 +85,7 @@ static void see_light_without_air(sky_state *state)
 
 /* ---- the table ------------------------------------------------------------------------------------------ */
 
-static float *texel(sky_state *state, int column, int row)
-{
-    return &state->table[(row * SKY_COLUMNS + column) * 3];
-}
+static float *texel(sky_state *state, int column, int row) { return &state->table[(row * SKY_COLUMNS + column) * 3]; }
 
 static void fill_gradient(sky_state *state)
 {
@@ -285,20 +282,17 @@ mgt_status sky_state_build(sky_state *state, const mgt_sky *sky, const mgt_light
     return enough ? MGT_OK : MGT_ERROR_MEMORY;
 }
 
-static bool same_colour(const float a[3], const float b[3])
-{
-    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
-}
+static bool same_colour(const float a[3], const float b[3]) { return a[0] == b[0] && a[1] == b[1] && a[2] == b[2]; }
 
 bool sky_state_same_inputs(const sky_state *state, const mgt_sky *sky, const mgt_light *light)
 {
     const mgt_sky *s = &state->sky;
     const mgt_light *l = &state->light;
-    bool placed = state->tan_radius > 0.0 && state->direction[0] * state->direction[0] + state->direction[1] * state->direction[1] +
-                                                     state->direction[2] * state->direction[2] > 0.5;
+    bool placed = state->tan_radius > 0.0 &&
+                  state->direction[0] * state->direction[0] + state->direction[1] * state->direction[1] + state->direction[2] * state->direction[2] > 0.5;
     bool same_light = l->body == light->body && l->elevation_deg == light->elevation_deg && l->azimuth_deg == light->azimuth_deg &&
                       l->angular_radius_deg == light->angular_radius_deg && same_colour(l->radiance, light->radiance);
-    bool same_sky = s->model == sky->model && s->turbidity == sky->turbidity && same_colour(s->zenith, sky->zenith) &&
-                    same_colour(s->horizon, sky->horizon) && same_colour(s->night, sky->night);
+    bool same_sky = s->model == sky->model && s->turbidity == sky->turbidity && same_colour(s->zenith, sky->zenith) && same_colour(s->horizon, sky->horizon) &&
+                    same_colour(s->night, sky->night);
     return placed && same_light && same_sky;
 }

@@ -18,7 +18,7 @@
 
 /* Plain data, 217 KiB: keep it on the heap. Radiance in kcd/m², irradiance in klx (kcd·sr/m²), linear sRGB. */
 typedef struct sky_state {
-    mgt_sky sky;     /* the inputs it was built from */
+    mgt_sky sky; /* the inputs it was built from */
     mgt_light light;
 
     double direction[3]; /* unit, to the light's centre */
@@ -29,8 +29,8 @@ typedef struct sky_state {
     /* Mean radiance of the whole disk as seen from the water: what lies below the horizon counts as zero, so this fades to 0
      * while the light sets. The part still above has light_radiance / light_visible. */
     double light_radiance[3];
-    double light_visible;       /* share of the disk's light-weighted area above the horizon, [0, 1] */
-    double light_solid_angle;   /* sr, of the whole disk */
+    double light_visible;     /* share of the disk's light-weighted area above the horizon, [0, 1] */
+    double light_solid_angle; /* sr, of the whole disk */
 
     double irradiance_light[3]; /* on the horizontal, from the disk */
     double irradiance_sky[3];   /* on the horizontal, from the table */

@@ -11,15 +11,9 @@ static const double least_deviation = 0.02, deviation_range = 400;
 /* F is needed between its columns, and at more places, to be integrated: RADII of them, up to the corner of the sweep's square. */
 enum { RADII = 2048, MAX_CHORDS = 512 };
 
-double podee_slice_deviation(int slice)
-{
-    return least_deviation * pow(deviation_range, (double)slice / (PODEE_SLICES - 1));
-}
+double podee_slice_deviation(int slice) { return least_deviation * pow(deviation_range, (double)slice / (PODEE_SLICES - 1)); }
 
-double podee_slice_reach(int slice)
-{
-    return 1 + 4 * podee_slice_deviation(slice);
-}
+double podee_slice_reach(int slice) { return 1 + 4 * podee_slice_deviation(slice); }
 
 /* ---- F ---- */
 

@@ -17,11 +17,11 @@
 #define TOP (EARTH + TOP_HEIGHT)
 #define SEA_ALBEDO 0.06
 
-#define LIGHT_ROWS 40     /* heights of the transmittance table, */
-#define LIGHT_COLUMNS 96  /* … and zenith angles above the horizon */
-#define MEAN_ROWS 16      /* heights of the mean radiance, */
-#define MEAN_BELOW 40     /* … light below the horizontal: sines −0.4 … 0 in steps of 0.01, */
-#define MEAN_ABOVE 24     /* … above: sine = (i/24)² */
+#define LIGHT_ROWS 40    /* heights of the transmittance table, */
+#define LIGHT_COLUMNS 96 /* … and zenith angles above the horizon */
+#define MEAN_ROWS 16     /* heights of the mean radiance, */
+#define MEAN_BELOW 40    /* … light below the horizontal: sines −0.4 … 0 in steps of 0.01, */
+#define MEAN_ABOVE 24    /* … above: sine = (i/24)² */
 #define MEAN_COLUMNS (MEAN_BELOW + MEAN_ABOVE + 1)
 #define VIEW_STEPS 40
 #define GATHER_STEPS 12
@@ -68,10 +68,7 @@ struct scattering_ray {
     band_values through; /* transmittance of the whole ray */
 };
 
-static double clamped(double x, double least, double most)
-{
-    return x < least ? least : x > most ? most : x;
-}
+static double clamped(double x, double least, double most) { return x < least ? least : x > most ? most : x; }
 
 /* ---- the medium ----------------------------------------------------------------------------------------- */
 
@@ -80,7 +77,7 @@ static medium medium_make(double turbidity)
     /* Air at 15 °C (Bucholtz 1995): 0.01162/km at 550 nm. Aerosol: Ångström exponent 1, single scattering albedo 0.95, as clean sea air.
      * Ozone: 300 Dobson units in a layer of triangular profile, 12 … 37 km, peak at 22 km. */
     const double aerosol_scale = 1.2;
-    const double ozone_column = 300.0 * 2.687e20;         /* molecules per m² */
+    const double ozone_column = 300.0 * 2.687e20;          /* molecules per m² */
     const double ozone_peak = ozone_column / (0.5 * 25.0); /* per m² and km */
     medium air;
     for (int b = 0; b < BANDS; ++b) {
@@ -96,28 +93,18 @@ static medium medium_make(double turbidity)
 /* Density of air over sea level's: U.S. Standard Atmosphere 1976, exponential between its nodes. */
 static double rayleigh_density(double height)
 {
-    static const double minus_log[] = {0.0,   0.509, 1.085, 1.839,  2.623,  3.412,  4.198,  4.979,  5.726,
-                                       6.430, 7.084, 7.690, 8.282,  8.920,  9.602,  10.32,  11.10,  11.93,
-                                       12.79, 13.67, 14.59, 15.46,  16.30,  17.07,  17.78}; /* every 5 km up to 120 */
+    static const double minus_log[] = {0.0,   0.509, 1.085, 1.839, 2.623, 3.412, 4.198, 4.979, 5.726, 6.430, 7.084, 7.690, 8.282,
+                                       8.920, 9.602, 10.32, 11.10, 11.93, 12.79, 13.67, 14.59, 15.46, 16.30, 17.07, 17.78}; /* every 5 km up to 120 */
     double x = clamped(height / 5.0, 0.0, 23.999);
     int i = (int)x;
     return spectrum_exp(-(minus_log[i] + (minus_log[i + 1] - minus_log[i]) * (x - i)));
 }
 
-static double aerosol_density(double height)
-{
-    return spectrum_exp(-fmax(height, 0.0) / 1.2);
-}
+static double aerosol_density(double height) { return spectrum_exp(-fmax(height, 0.0) / 1.2); }
 
-static double ozone_density(double height)
-{
-    return fmax(0.0, height < 22.0 ? (height - 12.0) / 10.0 : (37.0 - height) / 15.0);
-}
+static double ozone_density(double height) { return fmax(0.0, height < 22.0 ? (height - 12.0) / 10.0 : (37.0 - height) / 15.0); }
 
-static double rayleigh_phase(double cosine)
-{
-    return 3.0 / (16.0 * PI) * (1.0 + cosine * cosine);
-}
+static double rayleigh_phase(double cosine) { return 3.0 / (16.0 * PI) * (1.0 + cosine * cosine); }
 
 /* Cornette and Shanks 1992. */
 static double lobe_phase(double cosine, double g)
@@ -128,10 +115,7 @@ static double lobe_phase(double cosine, double g)
 
 /* Sea aerosol has large drops with a narrow lobe and small ones with a broad lobe. 32 directions cannot sample the narrow lobe
  * without noise, so the mean radiance is gathered with one milder lobe. */
-static double aerosol_phase(double cosine, bool seen)
-{
-    return seen ? 0.5 * (lobe_phase(cosine, 0.9) + lobe_phase(cosine, 0.6)) : lobe_phase(cosine, 0.45);
-}
+static double aerosol_phase(double cosine, bool seen) { return seen ? 0.5 * (lobe_phase(cosine, 0.9) + lobe_phase(cosine, 0.6)) : lobe_phase(cosine, 0.45); }
 
 /* ---- geometry ------------------------------------------------------------------------------------------- */
 
@@ -302,8 +286,7 @@ static band_values single_scattering(const scattering *air, const scattering_ray
 }
 
 /* Adds the light of a mean radiance, scattered once more and equally to all sides. */
-static void add_scattered_mean(const band_values (*mean)[MEAN_COLUMNS], const scattering_ray *ray, double sin_light, double cos_angle,
-                               band_values *sum)
+static void add_scattered_mean(const band_values (*mean)[MEAN_COLUMNS], const scattering_ray *ray, double sin_light, double cos_angle, band_values *sum)
 {
     for (int i = 0; i < ray->count; ++i) {
         const ray_step *step = &ray->steps[i];
@@ -312,8 +295,8 @@ static void add_scattered_mean(const band_values (*mean)[MEAN_COLUMNS], const sc
 }
 
 /* Adds the sea at the ray's end: lit by the light itself, or (mean not NULL) by the sky of twice that mean, as its lower half is dark. */
-static void add_ground(const scattering *air, const scattering_ray *ray, const band_values (*mean)[MEAN_COLUMNS], double sin_light,
-                       double cos_angle, band_values *sum)
+static void add_ground(const scattering *air, const scattering_ray *ray, const band_values (*mean)[MEAN_COLUMNS], double sin_light, double cos_angle,
+                       band_values *sum)
 {
     ray_step ground;
     memset(&ground, 0, sizeof ground);
@@ -343,8 +326,7 @@ static gather_direction gather_direction_make(int index)
     /* Four-point Gauss–Legendre on either side of the horizontal; azimuths are the midpoints of half a circle. */
     static const double node[4] = {0.06943184420297371, 0.33000947820757187, 0.66999052179242813, 0.93056815579702629};
     static const double weight[4] = {0.17392742256872693, 0.32607257743127307, 0.32607257743127307, 0.17392742256872693};
-    static const double azimuth_cosine[GATHER_AZIMUTHS] = {0.92387953251128674, 0.38268343236508977, -0.38268343236508977,
-                                                           -0.92387953251128674};
+    static const double azimuth_cosine[GATHER_AZIMUTHS] = {0.92387953251128674, 0.38268343236508977, -0.38268343236508977, -0.92387953251128674};
     gather_direction d;
     d.sine = index < 4 ? -node[index] : node[index - 4];
     d.cosine = sqrt(1.0 - d.sine * d.sine);
@@ -356,8 +338,8 @@ static gather_direction gather_direction_make(int index)
 /* order[to] := mean radiance of the light that order[from] scatters; from < 0: of the light itself. */
 static void gather_order(scattering *air, int from, int to, scattering_ray rays[GATHER_ZENITHS])
 {
-    band_values (*out)[MEAN_COLUMNS] = air->order[to];
-    const band_values (*source)[MEAN_COLUMNS] = from < 0 ? NULL : (const band_values (*)[MEAN_COLUMNS])air->order[from];
+    band_values(*out)[MEAN_COLUMNS] = air->order[to];
+    const band_values(*source)[MEAN_COLUMNS] = from < 0 ? NULL : (const band_values(*)[MEAN_COLUMNS])air->order[from];
     for (int row = 0; row < MEAN_ROWS; ++row) {
         double x = (double)row / (MEAN_ROWS - 1), radius = EARTH + TOP_HEIGHT * x * x;
         for (int zenith = 0; zenith < GATHER_ZENITHS; ++zenith) {
@@ -431,36 +413,26 @@ fail:
     return NULL;
 }
 
-void scattering_destroy(scattering *air)
-{
-    free(air);
-}
+void scattering_destroy(scattering *air) { free(air); }
 
 void scattering_transmittance(const scattering *air, double sin_elevation, double transmittance[SPECTRUM_BANDS])
 {
     transmittance_to_space(&air->air, EARTH, fmax(sin_elevation, 0.0), 200, transmittance);
 }
 
-scattering_ray *scattering_ray_create(void)
-{
-    return calloc(1, sizeof(scattering_ray));
-}
+scattering_ray *scattering_ray_create(void) { return calloc(1, sizeof(scattering_ray)); }
 
-void scattering_ray_destroy(scattering_ray *ray)
-{
-    free(ray);
-}
+void scattering_ray_destroy(scattering_ray *ray) { free(ray); }
 
 void scattering_ray_aim(const scattering *air, double sin_elevation, scattering_ray *ray)
 {
     aim_ray(&air->air, EARTH, fmax(sin_elevation, 0.0), VIEW_STEPS, ray);
 }
 
-void scattering_radiance(const scattering *air, const scattering_ray *ray, double sin_light, double cos_angle,
-                         double radiance[SPECTRUM_BANDS])
+void scattering_radiance(const scattering *air, const scattering_ray *ray, double sin_light, double cos_angle, double radiance[SPECTRUM_BANDS])
 {
     band_values sum = single_scattering(air, ray, sin_light, cos_angle, true);
-    add_scattered_mean((const band_values (*)[MEAN_COLUMNS])air->mean, ray, sin_light, cos_angle, &sum);
+    add_scattered_mean((const band_values(*)[MEAN_COLUMNS])air->mean, ray, sin_light, cos_angle, &sum);
     for (int b = 0; b < BANDS; ++b) {
         radiance[b] = (double)sum[b];
     }

@@ -32,7 +32,6 @@ void scattering_ray_aim(const scattering *air, double sin_elevation, scattering_
 
 /* Radiance along the ray per unit of irradiance outside the atmosphere (on a plane facing the light), 1/sr, per band.
  * sin_light: sine of the light's elevation; cos_angle: cosine of the angle between ray and light. */
-void scattering_radiance(const scattering *air, const scattering_ray *ray, double sin_light, double cos_angle,
-                         double radiance[SPECTRUM_BANDS]);
+void scattering_radiance(const scattering *air, const scattering_ray *ray, double sin_light, double cos_angle, double radiance[SPECTRUM_BANDS]);
 
 #endif

@@ -25,15 +25,15 @@ static double table_at(const double *values, size_t count, double first, double 
 
 double spectrum_sun(double nanometres)
 {
-    static const double irradiance[] = {1.10, 1.60, 1.74, 1.82, 2.05, 2.04, 1.93, 1.85, 1.87, 1.83,
-                                        1.80, 1.74, 1.68, 1.62, 1.54, 1.48, 1.42, 1.36}; /* 380 … 720 */
+    static const double irradiance[] = {1.10, 1.60, 1.74, 1.82, 2.05, 2.04, 1.93, 1.85, 1.87,
+                                        1.83, 1.80, 1.74, 1.68, 1.62, 1.54, 1.48, 1.42, 1.36}; /* 380 … 720 */
     return table_at(irradiance, sizeof irradiance / sizeof irradiance[0], 380.0, 20.0, nanometres);
 }
 
 double spectrum_ozone(double nanometres)
 {
-    static const double section[] = {0.00, 0.01, 0.03, 0.13, 0.35, 0.72, 1.22, 1.80, 2.85, 3.90,
-                                     4.62, 5.05, 3.95, 2.90, 2.05, 1.40, 0.90, 0.55}; /* 380 … 720, 1e-25 m² */
+    static const double section[] = {0.00, 0.01, 0.03, 0.13, 0.35, 0.72, 1.22, 1.80, 2.85,
+                                     3.90, 4.62, 5.05, 3.95, 2.90, 2.05, 1.40, 0.90, 0.55}; /* 380 … 720, 1e-25 m² */
     return 1e-25 * table_at(section, sizeof section / sizeof section[0], 380.0, 20.0, nanometres);
 }
 
@@ -53,8 +53,7 @@ static void observer_xyz(double nm, double xyz[3])
 
 spectrum_weights spectrum_weights_make(void)
 {
-    static const double srgb_from_xyz[3][3] = {
-        {3.2404542, -1.5371385, -0.4985314}, {-0.9692660, 1.8760108, 0.0415560}, {0.0556434, -0.2040259, 1.0572252}};
+    static const double srgb_from_xyz[3][3] = {{3.2404542, -1.5371385, -0.4985314}, {-0.9692660, 1.8760108, 0.0415560}, {0.0556434, -0.2040259, 1.0572252}};
     spectrum_weights weights;
     memset(&weights, 0, sizeof weights);
     for (int nm = 360; nm <= 780; ++nm) {
@@ -81,10 +80,7 @@ spectrum_weights spectrum_weights_make(void)
     return weights;
 }
 
-double spectrum_luminance(const double rgb[3])
-{
-    return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
-}
+double spectrum_luminance(const double rgb[3]) { return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]; }
 
 void spectrum_to_rgb(const spectrum_weights *weights, const double spectrum[SPECTRUM_BANDS], const double light[3], double rgb[3])
 {
@@ -118,9 +114,19 @@ double spectrum_exp(double x)
     double k = floor(x * 1.4426950408889634 + 0.5);
     double r = (x - k * 6.93147180369123816490e-01) - k * 1.90821492927058770002e-10;
     double sum = 1.0 / 6227020800.0;
-    static const double inverse_factorial[] = {1.0 / 479001600.0, 1.0 / 39916800.0, 1.0 / 3628800.0, 1.0 / 362880.0, 1.0 / 40320.0,
-                                               1.0 / 5040.0,      1.0 / 720.0,      1.0 / 120.0,     1.0 / 24.0,     1.0 / 6.0,
-                                               0.5,               1.0,              1.0};
+    static const double inverse_factorial[] = {1.0 / 479001600.0,
+                                               1.0 / 39916800.0,
+                                               1.0 / 3628800.0,
+                                               1.0 / 362880.0,
+                                               1.0 / 40320.0,
+                                               1.0 / 5040.0,
+                                               1.0 / 720.0,
+                                               1.0 / 120.0,
+                                               1.0 / 24.0,
+                                               1.0 / 6.0,
+                                               0.5,
+                                               1.0,
+                                               1.0};
     for (size_t i = 0; i < sizeof inverse_factorial / sizeof inverse_factorial[0]; ++i) {
         sum = sum * r + inverse_factorial[i];
     }

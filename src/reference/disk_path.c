@@ -41,10 +41,7 @@ static double chord_probability(double theta, const void *user)
     return density * half * normal_between((-half - c->mean[1]) / c->minor, (half - c->mean[1]) / c->minor);
 }
 
-static double angle_of(double along, double radius)
-{
-    return asin(fmax(-1, fmin(1, along / radius)));
-}
+static double angle_of(double along, double radius) { return asin(fmax(-1, fmin(1, along / radius))); }
 
 static double probability_in_axes(const disk_case *c)
 {
@@ -148,10 +145,7 @@ static bool segment_in_disk(const double p0[2], const double p1[2], double radiu
     return *enter < *leave;
 }
 
-static bool inside(const double p[2], double radius)
-{
-    return p[0] * p[0] + p[1] * p[1] < radius * radius;
-}
+static bool inside(const double p[2], double radius) { return p[0] * p[0] + p[1] * p[1] < radius * radius; }
 
 double light_chord_ratio(const double p0[2], const double p1[2], double radius)
 {

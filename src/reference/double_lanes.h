@@ -24,35 +24,17 @@ typedef int64_t masks __attribute__((vector_size(8 * REFERENCE_LANES))); /* per 
 typedef reals reals_memory __attribute__((may_alias));
 typedef masks masks_memory __attribute__((may_alias));
 
-static inline reals splat(double value)
-{
-    return value - (reals){0}; /* x − 0 keeps the sign of zero */
-}
+static inline reals splat(double value) { return value - (reals){0}; /* x − 0 keeps the sign of zero */ }
 
-static inline reals load(const double *from)
-{
-    return *(const reals_memory *)from;
-}
+static inline reals load(const double *from) { return *(const reals_memory *)from; }
 
-static inline void store(double *to, reals value)
-{
-    *(reals_memory *)to = value;
-}
+static inline void store(double *to, reals value) { *(reals_memory *)to = value; }
 
-static inline masks load_mask(const int64_t *from)
-{
-    return *(const masks_memory *)from;
-}
+static inline masks load_mask(const int64_t *from) { return *(const masks_memory *)from; }
 
-static inline void store_mask(int64_t *to, masks value)
-{
-    *(masks_memory *)to = value;
-}
+static inline void store_mask(int64_t *to, masks value) { *(masks_memory *)to = value; }
 
-static inline reals select_lanes(masks which, reals yes, reals no)
-{
-    return (reals)((which & (masks)yes) | (~which & (masks)no));
-}
+static inline reals select_lanes(masks which, reals yes, reals no) { return (reals)((which & (masks)yes) | (~which & (masks)no)); }
 
 static inline reals fused(reals a, reals b, reals c)
 {
@@ -82,20 +64,11 @@ static inline reals square_root(reals a)
 #endif
 }
 
-static inline reals absolute(reals a)
-{
-    return (reals)((masks)a & INT64_MAX);
-}
+static inline reals absolute(reals a) { return (reals)((masks)a & INT64_MAX); }
 
-static inline reals lesser(reals a, reals b)
-{
-    return select_lanes((masks)(a < b), a, b);
-}
+static inline reals lesser(reals a, reals b) { return select_lanes((masks)(a < b), a, b); }
 
-static inline reals greater(reals a, reals b)
-{
-    return select_lanes((masks)(a > b), a, b);
-}
+static inline reals greater(reals a, reals b) { return select_lanes((masks)(a > b), a, b); }
 
 /* Bit i is set where lane i of the mask is. */
 static inline uint32_t lane_bits(masks which)

@@ -10,10 +10,7 @@
 
 static const double pi = 3.14159265358979323846;
 
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
+static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 static void cross(const double a[3], const double b[3], double result[3])
 {
@@ -79,10 +76,7 @@ filtered_sine box_filter_sine(double phase, const double gradient[2])
 
 /* ---- camera ---- */
 
-static double blend(double from, double to, double weight)
-{
-    return from + (to - from) * weight;
-}
+static double blend(double from, double to, double weight) { return from + (to - from) * weight; }
 
 static mgt_camera camera_at(const mgt_scene *scene, double time)
 {
@@ -138,8 +132,7 @@ bool pixel_footprint(const mgt_scene *scene, double pixel_x, double pixel_y, dou
     for (int axis = 0; axis < 2; axis++) {
         const double dx = axis == 0 ? step : 0, dy = axis == 1 ? step : 0;
         double before[2], after[2];
-        if (!pixel_on_plane(scene, pixel_x - dx, pixel_y - dy, height, before) ||
-            !pixel_on_plane(scene, pixel_x + dx, pixel_y + dy, height, after))
+        if (!pixel_on_plane(scene, pixel_x - dx, pixel_y - dy, height, before) || !pixel_on_plane(scene, pixel_x + dx, pixel_y + dy, height, after))
             return false;
         for (int row = 0; row < 2; row++)
             footprint[row][axis] = (after[row] - before[row]) / (2 * step);

@@ -14,8 +14,7 @@ typedef struct water_ray {
 
 static water_point water_below(const water_ray *ray, double distance)
 {
-    return water_surface(ray->water, ray->origin[0] + distance * ray->direction[0],
-                         ray->origin[2] + distance * ray->direction[2], ray->time);
+    return water_surface(ray->water, ray->origin[0] + distance * ray->direction[0], ray->origin[2] + distance * ray->direction[2], ray->time);
 }
 
 static double height_above_water(const water_ray *ray, double distance)

@@ -15,14 +15,10 @@ static double gaussian(const double mean[2], const double covariance[3], const d
     return exp(-0.5 * (covariance[2] * x * x - 2 * covariance[1] * x * y + covariance[0] * y * y) / det) / (2 * pi * sqrt(det));
 }
 
-static double determinant(const double j[2][2])
-{
-    return j[0][0] * j[1][1] - j[0][1] * j[1][0];
-}
+static double determinant(const double j[2][2]) { return j[0][0] * j[1][1] - j[0][1] * j[1][0]; }
 
 /* The density of mirror rays at a point of the light plane: that of the one slope that sends a ray there, over the map's stretch. */
-static double mirrored_density(const double to_eye[3], const double light[3], const double e[3], const double f[3], const slope_law *law, double x,
-                               double y)
+static double mirrored_density(const double to_eye[3], const double light[3], const double e[3], const double f[3], const slope_law *law, double x, double y)
 {
     double direction[3], slope[2], j[2][2];
     for (int i = 0; i < 3; i++)
@@ -100,8 +96,7 @@ double linear_density_error(const double to_eye[3], const double light[3], const
     const double reach_x = 6 * sqrt(law->covariance[0]), reach_z = 6 * sqrt(law->covariance[2]), cell = 4 * reach_x * reach_z / (STEPS * STEPS);
     for (int row = 0; row < STEPS; row++)
         for (int column = 0; column < STEPS; column++) {
-            const double slope[2] = {law->mean[0] + reach_x * (2 * (column + 0.5) / STEPS - 1),
-                                     law->mean[1] + reach_z * (2 * (row + 0.5) / STEPS - 1)};
+            const double slope[2] = {law->mean[0] + reach_x * (2 * (column + 0.5) / STEPS - 1), law->mean[1] + reach_z * (2 * (row + 0.5) / STEPS - 1)};
             const double density = gaussian(law->mean, law->covariance, slope);
             double point[2], j[2][2], linear = 0;
             if (mirror_map(to_eye, light, slope, point) && mirror_map_jacobian(to_eye, light, slope, j))

@@ -45,15 +45,12 @@ double mixture_error(const mixture *m, double e)
     return sum;
 }
 
-double mixture_relative_error(const mixture *m, double e)
-{
-    return mixture_error(m, e) / product(2, 2 * e * e, 0);
-}
+double mixture_relative_error(const mixture *m, double e) { return mixture_error(m, e) / product(2, 2 * e * e, 0); }
 
 double mixture_error_printed(double center_weight, double center_deviation, double pair_weight, double pair_deviation, double distance, double e)
 {
     const double wa = center_weight, sa = center_deviation * center_deviation, w1 = pair_weight, s1 = pair_deviation * pair_deviation;
     const double d = distance * distance, y = e * e;
-    return wa * wa / sa + 8 * wa * w1 * exp(-d / (2 * (sa + s1))) / (sa + s1) - 4 * wa / sqrt((sa + 1) * (sa + y)) +
-           2 * w1 * w1 * (exp(-d / s1) + 1) / s1 - 8 * w1 * exp(-d / (2 * (s1 + y))) / sqrt((s1 + 1) * (s1 + y)) + 1 / e;
+    return wa * wa / sa + 8 * wa * w1 * exp(-d / (2 * (sa + s1))) / (sa + s1) - 4 * wa / sqrt((sa + 1) * (sa + y)) + 2 * w1 * w1 * (exp(-d / s1) + 1) / s1 -
+           8 * w1 * exp(-d / (2 * (s1 + y))) / sqrt((s1 + 1) * (s1 + y)) + 1 / e;
 }

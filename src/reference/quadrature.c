@@ -10,10 +10,8 @@ enum { deepest_level = 40, most_cuts = 14 };
 
 static double panel(integrand *f, const void *user, double from, double to)
 {
-    static const double node[4] = {0.18343464249564980494, 0.52553240991632898582, 0.79666647741362673959,
-                                   0.96028985649753623168};
-    static const double weight[4] = {0.36268378337836198297, 0.31370664587788728734, 0.22238103445337447054,
-                                     0.10122853629037625915};
+    static const double node[4] = {0.18343464249564980494, 0.52553240991632898582, 0.79666647741362673959, 0.96028985649753623168};
+    static const double weight[4] = {0.36268378337836198297, 0.31370664587788728734, 0.22238103445337447054, 0.10122853629037625915};
     const double middle = 0.5 * (from + to), half = 0.5 * (to - from);
     double sum = 0;
     for (int i = 0; i < 4; i++)
@@ -27,8 +25,7 @@ static double refine(integrand *f, const void *user, double from, double to, dou
     const double left = panel(f, user, from, middle), right = panel(f, user, middle, to);
     if (fabs(left + right - whole) <= tolerance || level == deepest_level)
         return left + right;
-    return refine(f, user, from, middle, left, 0.5 * tolerance, level + 1) +
-           refine(f, user, middle, to, right, 0.5 * tolerance, level + 1);
+    return refine(f, user, from, middle, left, 0.5 * tolerance, level + 1) + refine(f, user, middle, to, right, 0.5 * tolerance, level + 1);
 }
 
 double integrate(integrand *f, const void *user, double from, double to, double tolerance)
@@ -38,8 +35,7 @@ double integrate(integrand *f, const void *user, double from, double to, double 
     return refine(f, user, from, to, panel(f, user, from, to), tolerance, 0);
 }
 
-double integrate_pieces(integrand *f, const void *user, double from, double to, const double *cuts, int count,
-                        double tolerance)
+double integrate_pieces(integrand *f, const void *user, double from, double to, const double *cuts, int count, double tolerance)
 {
     double sorted[most_cuts];
     int used = 0;

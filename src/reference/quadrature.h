@@ -11,7 +11,6 @@ typedef double integrand(double x, const void *user);
 double integrate(integrand *f, const void *user, double from, double to, double tolerance);
 
 /* The same, cut first at the `count` points (any order, those outside are ignored; at most 14) where f may bend sharply. */
-double integrate_pieces(integrand *f, const void *user, double from, double to, const double *cuts, int count,
-                        double tolerance);
+double integrate_pieces(integrand *f, const void *user, double from, double to, const double *cuts, int count, double tolerance);
 
 #endif

@@ -18,9 +18,8 @@ static const long double pi = 3.14159265358979323846264338327950288L;
 /* long double, because a camera may stand at phases of 10⁷ radians. */
 static double reduced_half_turns(const mgt_wave *wave, const mgt_scene *scene)
 {
-    const long double phase = (long double)wave->a * scene->camera.position[0] +
-                              (long double)wave->b * scene->camera.position[2] + (long double)wave->c * scene->time +
-                              (long double)wave->phase;
+    const long double phase = (long double)wave->a * scene->camera.position[0] + (long double)wave->b * scene->camera.position[2] +
+                              (long double)wave->c * scene->time + (long double)wave->phase;
     return (double)remainderl(phase / pi, 2.0L);
 }
 
@@ -84,8 +83,8 @@ static lane_build pick_build(mgt_isa isa)
 {
     const lane_build scalar = {1, reference_trace_1, reference_march_1, reference_bend_1}, missing = {0};
 #if defined(__x86_64__)
-    const bool avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-                        __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl");
+    const bool avx512 =
+        __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl");
     const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
     if (isa == MGT_ISA_AVX512 || (isa == MGT_ISA_AUTO && avx512))
         return avx512 ? (lane_build){8, reference_trace_8, reference_march_8, reference_bend_8} : missing;
@@ -98,8 +97,7 @@ static lane_build pick_build(mgt_isa isa)
     return scalar;
 }
 
-mgt_status reference_frame_create(reference_frame **result, const mgt_scene *scene, const reference_sky *sky,
-                                  const reference_options *options)
+mgt_status reference_frame_create(reference_frame **result, const mgt_scene *scene, const reference_sky *sky, const reference_options *options)
 {
     *result = NULL;
     const reference_options defaults = {0};
@@ -134,15 +132,9 @@ mgt_status reference_frame_create(reference_frame **result, const mgt_scene *sce
     return MGT_OK;
 }
 
-void reference_frame_destroy(reference_frame *frame)
-{
-    free(frame);
-}
+void reference_frame_destroy(reference_frame *frame) { free(frame); }
 
-uint32_t reference_frame_lanes(const reference_frame *frame)
-{
-    return frame->lanes;
-}
+uint32_t reference_frame_lanes(const reference_frame *frame) { return frame->lanes; }
 
 /* ---- samples ---- */
 
@@ -169,8 +161,7 @@ static void jitter(uint64_t key, uint64_t index, double offset[3])
         offset[i] = ((double)(bits >> (21 * i) & 0x1fffff) + 0.5) * 0x1p-21;
 }
 
-static void place_sample(const reference_frame *frame, uint32_t x, uint32_t y, uint64_t key, uint64_t index,
-                         reference_batch *batch, uint32_t slot)
+static void place_sample(const reference_frame *frame, uint32_t x, uint32_t y, uint64_t key, uint64_t index, reference_batch *batch, uint32_t slot)
 {
     const uint64_t n = frame->scene.quality.spatial_samples, m = frame->scene.quality.time_samples;
     const uint64_t cell = index % (n * n), instant = (index / (n * n) + cell) % m;
@@ -276,14 +267,10 @@ typedef struct block {
     size_t stride;
 } block;
 
-static size_t block_offset(const block *area, uint64_t pixel)
-{
-    return (size_t)(pixel / area->width) * area->stride + (size_t)(pixel % area->width);
-}
+static size_t block_offset(const block *area, uint64_t pixel) { return (size_t)(pixel / area->width) * area->stride + (size_t)(pixel % area->width); }
 
 /* Batches run on over the pixels' borders, so that few samples a pixel still fill the lanes. */
-static void render_samples(const reference_frame *frame, const block *area, const reference_result *result,
-                           reference_batch *batch)
+static void render_samples(const reference_frame *frame, const block *area, const reference_result *result, reference_batch *batch)
 {
     const uint64_t pixels = (uint64_t)area->width * area->height, count = frame->sample_count;
     pixel_sums sums = {0};
@@ -333,8 +320,7 @@ static void store_geometry(const reference_result *result, size_t at, const refe
 }
 
 /* Depth and normal: one ray through each pixel's centre when the shutter closes. */
-static void render_geometry(const reference_frame *frame, const block *area, const reference_result *result,
-                            reference_batch *batch)
+static void render_geometry(const reference_frame *frame, const block *area, const reference_result *result, reference_batch *batch)
 {
     const uint64_t pixels = (uint64_t)area->width * area->height;
     for (uint64_t first = 0; first < pixels; first += REFERENCE_BATCH) {
@@ -350,8 +336,7 @@ static void render_geometry(const reference_frame *frame, const block *area, con
     }
 }
 
-void reference_render_block(const reference_frame *frame, uint32_t x0, uint32_t y0, uint32_t width, uint32_t height,
-                            const reference_result *result)
+void reference_render_block(const reference_frame *frame, uint32_t x0, uint32_t y0, uint32_t width, uint32_t height, const reference_result *result)
 {
     if (width == 0 || height == 0)
         return;

@@ -43,20 +43,19 @@ typedef struct reference_frame reference_frame;
 
 /* Planes of floats, the first pixel being the block's own top left one. Any pointer may be NULL. */
 typedef struct reference_result {
-    float *color;    /* 3 per pixel */
-    float *coverage; /* 1 */
-    float *mask;     /* 1: share of the samples that meet water */
-    float *depth;    /* 1: metres along the centre ray at scene.time, +inf without water */
-    float *normal;   /* 3: of the surface at that hit, (0,0,0) without water */
-    size_t row_stride; /* pixels from a row to the next; 0: the block's width */
+    float *color;          /* 3 per pixel */
+    float *coverage;       /* 1 */
+    float *mask;           /* 1: share of the samples that meet water */
+    float *depth;          /* 1: metres along the centre ray at scene.time, +inf without water */
+    float *normal;         /* 3: of the surface at that hit, (0,0,0) without water */
+    size_t row_stride;     /* pixels from a row to the next; 0: the block's width */
     uint64_t *evaluations; /* adds how often a sum of all waves was evaluated for a ray; NULL: not wanted */
 } reference_result;
 
 /* Prepares a frame; `scene` must have passed mgt_scene_check(). The scene and its waves are copied, `sky` too (but not what its
  * `user` points to); a NULL `sky` makes the colour layer black. `options` may be NULL. The caller destroys the frame.
  * MGT_ERROR_MEMORY, or MGT_ERROR_UNAVAILABLE when this processor lacks options->isa; *frame is then NULL. */
-mgt_status reference_frame_create(reference_frame **frame, const mgt_scene *scene, const reference_sky *sky,
-                                  const reference_options *options);
+mgt_status reference_frame_create(reference_frame **frame, const mgt_scene *scene, const reference_sky *sky, const reference_options *options);
 void reference_frame_destroy(reference_frame *frame);
 
 /* Samples that run side by side: 1, 4 or 8. */
@@ -64,7 +63,6 @@ uint32_t reference_frame_lanes(const reference_frame *frame);
 
 /* Renders the pixels [x0, x0 + width) × [y0, y0 + height) of the whole image, blocks of any size in any order from any number
  * of threads. Uses about 100 KiB of stack and allocates nothing. */
-void reference_render_block(const reference_frame *frame, uint32_t x0, uint32_t y0, uint32_t width, uint32_t height,
-                            const reference_result *result);
+void reference_render_block(const reference_frame *frame, uint32_t x0, uint32_t y0, uint32_t width, uint32_t height, const reference_result *result);
 
 #endif

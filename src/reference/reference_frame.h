@@ -38,7 +38,7 @@ typedef struct reference_batch {
     double slope_bound[REFERENCE_BATCH], curvature_bound[REFERENCE_BATCH]; /* of the water's height along the ray */
     double start[REFERENCE_BATCH], end[REFERENCE_BATCH];                   /* metres, of the march */
 
-    double distance[REFERENCE_BATCH]; /* metres to the first hit; +inf: none; 0: the camera is under the surface */
+    double distance[REFERENCE_BATCH];                          /* metres to the first hit; +inf: none; 0: the camera is under the surface */
     double slope_x[REFERENCE_BATCH], slope_z[REFERENCE_BATCH]; /* at the hit */
     double bend_xx[REFERENCE_BATCH], bend_xz[REFERENCE_BATCH], bend_zz[REFERENCE_BATCH]; /* second derivatives there */
 

@@ -16,8 +16,8 @@
 #define BEND NAME(reference_bend_, REFERENCE_LANES)
 
 static const double relative_tolerance = 1e-9;
-static const double least_distance = 1e-3; /* metres: the tolerance does not shrink below this distance */
-static const double far_away = 1e9;        /* metres: beyond it there is no water */
+static const double least_distance = 1e-3;     /* metres: the tolerance does not shrink below this distance */
+static const double far_away = 1e9;            /* metres: beyond it there is no water */
 static const int64_t most_evaluations = 50000; /* rays within 1e-5 of the horizontal alone get there */
 
 typedef struct lane_vector {
@@ -30,8 +30,7 @@ typedef struct lane_surface {
 
 static inline lane_vector interpolate(const double from[3], const double to[3], reals weight)
 {
-    const lane_vector result = {fused(weight, splat(to[0] - from[0]), splat(from[0])),
-                                fused(weight, splat(to[1] - from[1]), splat(from[1])),
+    const lane_vector result = {fused(weight, splat(to[0] - from[0]), splat(from[0])), fused(weight, splat(to[1] - from[1]), splat(from[1])),
                                 fused(weight, splat(to[2] - from[2]), splat(from[2]))};
     return result;
 }
@@ -81,8 +80,7 @@ static void aim_rays(const reference_frame *frame, reference_batch *batch, uint3
     const lane_vector position = interpolate(close->position, open->position, weight);
     const lane_vector target = interpolate(close->target, open->target, weight);
     const lane_vector up_hint = interpolate(close->up, open->up, weight);
-    const sine_cosine fov = sine_cosine_half_turns(
-        fused(weight, splat(open->fov_half_turns - close->fov_half_turns), splat(close->fov_half_turns)));
+    const sine_cosine fov = sine_cosine_half_turns(fused(weight, splat(open->fov_half_turns - close->fov_half_turns), splat(close->fov_half_turns)));
     const reals extent = fov.sine / fov.cosine;
 
     const lane_vector forward = normalize(subtract(target, position));
@@ -145,8 +143,7 @@ static inline reals safe_step(reals f, reals derivative, reals least, reals curv
     const reals straight = until_least + f_there / -least;
 
     const reals root = square_root(fused(derivative, derivative, 2.0 * f * curvature));
-    const reals parabola =
-        select_lanes((masks)(derivative < 0.0), 2.0 * f / (root - derivative), (root + derivative) / curvature);
+    const reals parabola = select_lanes((masks)(derivative < 0.0), 2.0 * f / (root - derivative), (root + derivative) / curvature);
     const reals step = select_lanes((masks)(f_there > 0.0), straight, parabola);
     return select_lanes((masks)(least < 0.0), step, splat(HUGE_VAL));
 }
@@ -209,8 +206,7 @@ static inline march_outcome march_step(const reference_frame *frame, march_state
     const reals s = load(state->distance);
     const reals dx = load(state->direction_x), dy = load(state->direction_y), dz = load(state->direction_z);
     march_outcome outcome;
-    outcome.water =
-        water_at(frame, fused(dx, s, load(state->origin_x)), fused(dz, s, load(state->origin_z)), load(state->time_offset));
+    outcome.water = water_at(frame, fused(dx, s, load(state->origin_x)), fused(dz, s, load(state->origin_z)), load(state->time_offset));
 
     const reals f = fused(dy, s, load(state->origin_y)) - outcome.water.height;
     const reals derivative = dy - fused(dx, outcome.water.slope_x, dz * outcome.water.slope_z);
@@ -227,8 +223,7 @@ static inline march_outcome march_step(const reference_frame *frame, march_state
     const reals middle = 0.5 * (above + below);
 
     /* Above the water: the safe step, and Newton's for the very last one. */
-    const masks nearly = is_above & (masks)(derivative < 0.0) &
-                         (masks)(step * step * load(state->curvature_bound) <= tolerance * -derivative);
+    const masks nearly = is_above & (masks)(derivative < 0.0) & (masks)(step * step * load(state->curvature_bound) <= tolerance * -derivative);
     reals next = select_lanes(nearly, newton, s + step);
     /* Below it (a bound was exceeded or rounding overshot): Newton's within the bracket, halved now and then. */
     const masks inside = (masks)(newton > above) & (masks)(newton < below) & (masks)((evaluations & 3) != 0);
@@ -239,8 +234,7 @@ static inline march_outcome march_step(const reference_frame *frame, march_state
     outcome.hit = last | (is_above & (masks)(step <= tolerance)) | (bracketed & (masks)(below - above <= tolerance)) |
                   (~is_above & (masks)(-f <= tolerance * absolute(derivative))) | (~is_above & (masks)(s == 0.0)) |
                   (exhausted & (bracketed | (masks)(dy < 0.0)));
-    outcome.miss = ~outcome.hit &
-                   (exhausted | (is_above & ~bracketed & ((masks)(next > load(state->end)) | ~(masks)(next < far_away))));
+    outcome.miss = ~outcome.hit & (exhausted | (is_above & ~bracketed & ((masks)(next > load(state->end)) | ~(masks)(next < far_away))));
 
     store(state->distance, select_lanes(outcome.hit, s, next));
     store(state->above, above);

@@ -6,10 +6,7 @@
 #include <stdbool.h>
 
 /* How the optical length grows with the place of the crossing, at `x` from the point in air and `rest` from the one in water. */
-static double growth(double above, double below, double x, double rest, double index)
-{
-    return x / hypot(above, x) - index * rest / hypot(below, rest);
-}
+static double growth(double above, double below, double x, double rest, double index) { return x / hypot(above, x) - index * rest / hypot(below, rest); }
 
 double reference_crossing(double above, double below, double across, double index)
 {
@@ -27,7 +24,4 @@ double reference_crossing(double above, double below, double across, double inde
     return early ? low : across - low;
 }
 
-double reference_air_angle(double above, double below, double across, double index)
-{
-    return atan2(reference_crossing(above, below, across, index), above);
-}
+double reference_air_angle(double above, double below, double across, double index) { return atan2(reference_crossing(above, below, across, index), above); }

@@ -39,7 +39,7 @@ typedef struct light_part {
 
 /* Where a ray meets the surface. */
 typedef struct surface_point {
-    double distance; /* +inf: it does not */
+    double distance;  /* +inf: it does not */
     double normal[3]; /* unit, towards the ray's origin */
     double bend[3];   /* of the first surface: second derivatives xx, xz, zz */
 } surface_point;
@@ -141,10 +141,7 @@ static void scale_to_unit(double a[3])
         a[i] /= length;
 }
 
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
+static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /* Next crossings of the batch's parts that are in water, or of the others. */
 static void march_side(const refraction_truth *t, truth_scratch *s, size_t count, bool wet, bool first)

@@ -18,10 +18,7 @@ bool model_fault_set(model_fault *fault, scene_error_kind kind, const char *form
     return false;
 }
 
-bool model_fault_memory(model_fault *fault)
-{
-    return model_fault_set(fault, SCENE_ERROR_MEMORY, "out of memory while reading the scene");
-}
+bool model_fault_memory(model_fault *fault) { return model_fault_set(fault, SCENE_ERROR_MEMORY, "out of memory while reading the scene"); }
 
 bool mesh_data_allocate(mesh_data *mesh, size_t vertex_count, size_t triangle_count)
 {
@@ -98,8 +95,7 @@ bool model_of_mesh(scene_model *out, const mesh_data *mesh, const char *name, mo
     const mgt_status status = mgt_mesh_create(&out->meshes[0], &desc);
     if (status != MGT_OK) {
         model_free(out);
-        return status == MGT_ERROR_MEMORY ? model_fault_memory(fault)
-                                          : model_fault_set(fault, SCENE_ERROR_BAD_SCENE, "%s: %s", name, mgt_last_error(NULL));
+        return status == MGT_ERROR_MEMORY ? model_fault_memory(fault) : model_fault_set(fault, SCENE_ERROR_BAD_SCENE, "%s: %s", name, mgt_last_error(NULL));
     }
     out->mesh_count = out->part_count = 1;
     out->parts[0] = (model_part){.mesh = out->meshes[0], .transform = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}, .material = scene_material_defaults()};

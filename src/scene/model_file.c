@@ -26,7 +26,7 @@ typedef enum mesh_format { FORMAT_UNKNOWN, FORMAT_GLTF, FORMAT_OBJ, FORMAT_PLY }
 static mesh_format format_of(const char *path)
 {
     const char *dot = strrchr(path, '.');
-    return dot == NULL                                                    ? FORMAT_UNKNOWN
+    return dot == NULL                                                     ? FORMAT_UNKNOWN
            : strcasecmp(dot, ".gltf") == 0 || strcasecmp(dot, ".glb") == 0 ? FORMAT_GLTF
            : strcasecmp(dot, ".obj") == 0                                  ? FORMAT_OBJ
            : strcasecmp(dot, ".ply") == 0                                  ? FORMAT_PLY
@@ -46,10 +46,7 @@ typedef struct file_access {
     char name[192];
 } file_access;
 
-static size_t file_read(struct aiFile *file, char *bytes, size_t size, size_t count)
-{
-    return fread(bytes, size, count, (FILE *)(void *)file->UserData);
-}
+static size_t file_read(struct aiFile *file, char *bytes, size_t size, size_t count) { return fread(bytes, size, count, (FILE *)(void *)file->UserData); }
 
 static size_t file_write(struct aiFile *file, const char *bytes, size_t size, size_t count)
 {
@@ -57,10 +54,7 @@ static size_t file_write(struct aiFile *file, const char *bytes, size_t size, si
     return 0;
 }
 
-static size_t file_tell(struct aiFile *file)
-{
-    return (size_t)ftello((FILE *)(void *)file->UserData);
-}
+static size_t file_tell(struct aiFile *file) { return (size_t)ftello((FILE *)(void *)file->UserData); }
 
 static size_t file_size(struct aiFile *file)
 {
@@ -74,10 +68,7 @@ static enum aiReturn file_seek(struct aiFile *file, size_t offset, enum aiOrigin
     return fseeko((FILE *)(void *)file->UserData, (off_t)offset, whence) == 0 ? aiReturn_SUCCESS : aiReturn_FAILURE;
 }
 
-static void file_flush(struct aiFile *file)
-{
-    (void)file;
-}
+static void file_flush(struct aiFile *file) { (void)file; }
 
 static bool is_readable(const char *path)
 {
@@ -97,8 +88,13 @@ static struct aiFile *open_file(struct aiFileIO *io, const char *path, const cha
             fclose(stream);
         return NULL;
     }
-    *file = (struct aiFile){.ReadProc = file_read, .WriteProc = file_write, .TellProc = file_tell, .FileSizeProc = file_size,
-                            .SeekProc = file_seek, .FlushProc = file_flush, .UserData = (char *)stream};
+    *file = (struct aiFile){.ReadProc = file_read,
+                            .WriteProc = file_write,
+                            .TellProc = file_tell,
+                            .FileSizeProc = file_size,
+                            .SeekProc = file_seek,
+                            .FlushProc = file_flush,
+                            .UserData = (char *)stream};
     return file;
 }
 
@@ -117,7 +113,7 @@ typedef struct model_reader {
     mesh_format format;
     scene_model *model;
     model_fault *fault;
-    uint32_t *mesh_of; /* of each of the scene's: which of the model's, or none */
+    uint32_t *mesh_of;       /* of each of the scene's: which of the model's, or none */
     mgt_material *materials; /* of each of the scene's */
     size_t part_room;
 } model_reader;
@@ -134,7 +130,8 @@ static const struct aiScene *import(const char *path, mesh_format format, model_
         return NULL;
     }
     aiSetImportPropertyInteger(store, AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-    const struct aiScene *scene = aiImportFileExWithProperties(path, aiProcess_ValidateDataStructure | aiProcess_Triangulate | aiProcess_SortByPType, &io, store);
+    const struct aiScene *scene =
+        aiImportFileExWithProperties(path, aiProcess_ValidateDataStructure | aiProcess_Triangulate | aiProcess_SortByPType, &io, store);
     aiReleasePropertyStore(store);
     if (scene == NULL) {
         char what[256];
@@ -154,10 +151,7 @@ static const struct aiScene *import(const char *path, mesh_format format, model_
 
 /* ---- materials -------------------------------------------------------------------------------------------------- */
 
-static float within(float value, float low, float high)
-{
-    return value >= low ? value <= high ? value : high : low;
-}
+static float within(float value, float low, float high) { return value >= low ? value <= high ? value : high : low; }
 
 static float number_of(const struct aiMaterial *m, const char *key, float otherwise)
 {

@@ -73,9 +73,9 @@ static ply_type type_of(const char *word)
     static const struct {
         const char *name;
         ply_type type;
-    } types[] = {{"char", TYPE_I8}, {"int8", TYPE_I8}, {"uchar", TYPE_U8}, {"uint8", TYPE_U8}, {"short", TYPE_I16}, {"int16", TYPE_I16},
-                 {"ushort", TYPE_U16}, {"uint16", TYPE_U16}, {"int", TYPE_I32}, {"int32", TYPE_I32}, {"uint", TYPE_U32}, {"uint32", TYPE_U32},
-                 {"float", TYPE_F32}, {"float32", TYPE_F32}, {"double", TYPE_F64}, {"float64", TYPE_F64}};
+    } types[] = {{"char", TYPE_I8},    {"int8", TYPE_I8},     {"uchar", TYPE_U8},   {"uint8", TYPE_U8},   {"short", TYPE_I16}, {"int16", TYPE_I16},
+                 {"ushort", TYPE_U16}, {"uint16", TYPE_U16},  {"int", TYPE_I32},    {"int32", TYPE_I32},  {"uint", TYPE_U32},  {"uint32", TYPE_U32},
+                 {"float", TYPE_F32},  {"float32", TYPE_F32}, {"double", TYPE_F64}, {"float64", TYPE_F64}};
     for (size_t i = 0; i < sizeof types / sizeof *types; i++)
         if (strcmp(word, types[i].name) == 0)
             return types[i].type;
@@ -87,8 +87,8 @@ static ply_role role_of(const ply_element *e, const char *word, bool list)
     static const struct {
         const char *name;
         ply_role role;
-    } roles[] = {{"x", ROLE_X}, {"y", ROLE_Y}, {"z", ROLE_Z}, {"nx", ROLE_NX}, {"ny", ROLE_NY}, {"nz", ROLE_NZ}, {"s", ROLE_S}, {"t", ROLE_T},
-                 {"u", ROLE_S}, {"v", ROLE_T}, {"texture_u", ROLE_S}, {"texture_v", ROLE_T}};
+    } roles[] = {{"x", ROLE_X}, {"y", ROLE_Y}, {"z", ROLE_Z}, {"nx", ROLE_NX}, {"ny", ROLE_NY},       {"nz", ROLE_NZ},
+                 {"s", ROLE_S}, {"t", ROLE_T}, {"u", ROLE_S}, {"v", ROLE_T},   {"texture_u", ROLE_S}, {"texture_v", ROLE_T}};
     if (e->is_face && list && (strcmp(word, "vertex_indices") == 0 || strcmp(word, "vertex_index") == 0))
         return ROLE_INDICES;
     for (size_t i = 0; e->is_vertex && !list && i < sizeof roles / sizeof *roles; i++)
@@ -115,7 +115,9 @@ static bool add_property(ply_reader *r, char words[5][32], int count)
     if (e == NULL || e->property_count == MAX_PROPERTIES)
         return refuse(r, "its header has a property without an element, or more than 64 of one");
     const bool list = count == 5 && strcmp(words[1], "list") == 0;
-    const ply_property p = {.type = type_of(words[list ? 3 : 1]), .count_type = list ? type_of(words[2]) : TYPE_NONE, .role = role_of(e, words[list ? 4 : 2], list)};
+    const ply_property p = {.type = type_of(words[list ? 3 : 1]),
+                            .count_type = list ? type_of(words[2]) : TYPE_NONE,
+                            .role = role_of(e, words[list ? 4 : 2], list)};
     if ((!list && count != 3) || p.type == TYPE_NONE || (list && (p.count_type == TYPE_NONE || p.count_type >= TYPE_F32)))
         return refuse(r, "its header has a property that is not understood");
     e->properties[e->property_count++] = p;
@@ -161,7 +163,7 @@ static bool read_text(ply_reader *r, double *value)
     size_t length = 0;
     while (r->at < r->end && (*r->at == ' ' || *r->at == '\t' || *r->at == '\r' || *r->at == '\n'))
         r->at++;
-    while (r->at < r->end && *r->at > ' ' && length + 1 < sizeof word)
+    while (r->at < r->end && (*r->at > ' ') && length + 1 < sizeof word)
         word[length++] = *r->at++;
     word[length] = '\0';
     char *end;
@@ -171,7 +173,8 @@ static bool read_text(ply_reader *r, double *value)
 
 static bool read_value(ply_reader *r, ply_type type, double *value)
 {
-    static const size_t sizes[] = {[TYPE_I8] = 1, [TYPE_U8] = 1, [TYPE_I16] = 2, [TYPE_U16] = 2, [TYPE_I32] = 4, [TYPE_U32] = 4, [TYPE_F32] = 4, [TYPE_F64] = 8};
+    static const size_t sizes[] =
+        {[TYPE_I8] = 1, [TYPE_U8] = 1, [TYPE_I16] = 2, [TYPE_U16] = 2, [TYPE_I32] = 4, [TYPE_U32] = 4, [TYPE_F32] = 4, [TYPE_F64] = 8};
     if (r->encoding == PLY_TEXT)
         return read_text(r, value);
     const size_t size = sizes[type];
@@ -184,15 +187,25 @@ static bool read_value(ply_reader *r, ply_type type, double *value)
     const uint32_t low = (uint32_t)bits;
     float single;
     switch (type) {
-    case TYPE_I8: *value = (int8_t)low; break;
-    case TYPE_I16: *value = (int16_t)low; break;
-    case TYPE_I32: *value = (int32_t)low; break;
+    case TYPE_I8:
+        *value = (int8_t)low;
+        break;
+    case TYPE_I16:
+        *value = (int16_t)low;
+        break;
+    case TYPE_I32:
+        *value = (int32_t)low;
+        break;
     case TYPE_F32:
         memcpy(&single, &low, sizeof single);
         *value = (double)single;
         break;
-    case TYPE_F64: memcpy(value, &bits, sizeof *value); break;
-    default: *value = (double)low; break;
+    case TYPE_F64:
+        memcpy(value, &bits, sizeof *value);
+        break;
+    default:
+        *value = (double)low;
+        break;
     }
     return true;
 }

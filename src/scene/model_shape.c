@@ -26,21 +26,12 @@ typedef struct face_sink {
     size_t vertices, triangles;
 } face_sink;
 
-static point minus(point a, point b)
-{
-    return (point){a.x - b.x, a.y - b.y, a.z - b.z};
-}
+static point minus(point a, point b) { return (point){a.x - b.x, a.y - b.y, a.z - b.z}; }
 
-static double length_of(point p)
-{
-    return sqrt(p.x * p.x + p.y * p.y + p.z * p.z);
-}
+static double length_of(point p) { return sqrt(p.x * p.x + p.y * p.y + p.z * p.z); }
 
 /* Symmetric and exact at the ends, so that an edge has the same points whichever way it is walked. */
-static double between(double a, double b, size_t i, size_t n)
-{
-    return i == 0 ? a : i == n ? b : (a * (double)(n - i) + b * (double)i) / (double)n;
-}
+static double between(double a, double b, size_t i, size_t n) { return i == 0 ? a : i == n ? b : (a * (double)(n - i) + b * (double)i) / (double)n; }
 
 /* Of one coordinate, which changes along one side at most. */
 static float place(double corner, double u, double v, size_t i, size_t columns, size_t j, size_t rows)
@@ -48,10 +39,7 @@ static float place(double corner, double u, double v, size_t i, size_t columns, 
     return (float)(u != corner ? between(corner, u, i, columns) : between(corner, v, j, rows));
 }
 
-static size_t fields_along(const face_sink *sink, double length)
-{
-    return length > sink->cell ? (size_t)ceil(length / sink->cell - 1e-9) : 1;
-}
+static size_t fields_along(const face_sink *sink, double length) { return length > sink->cell ? (size_t)ceil(length / sink->cell - 1e-9) : 1; }
 
 static void add_face(face_sink *sink, face f)
 {
@@ -182,10 +170,7 @@ static void add_pool(face_sink *sink, const scene_object *o)
 
 enum { SPHERE_ROWS = 24 };
 
-static size_t sphere_triangles(size_t rows)
-{
-    return 4 * rows * (rows - 1);
-}
+static size_t sphere_triangles(size_t rows) { return 4 * rows * (rows - 1); }
 
 /* An ellipsoid of `rows` bands with poles at top and bottom and twice as many columns; the first column stands twice, for the texture's seam. */
 static bool build_sphere(mesh_data *mesh, const scene_object *o)
@@ -229,13 +214,22 @@ static face_sink add_all(const scene_object *object, mesh_data *mesh, double cel
 {
     face_sink sink = {.mesh = mesh, .cell = cell};
     switch (object->shape) {
-    case SHAPE_PLANE: add_plane(&sink, object); break;
-    case SHAPE_BOX: add_box(&sink, object); break;
-    case SHAPE_STEPS: add_steps(&sink, object); break;
-    case SHAPE_POOL: add_pool(&sink, object); break;
+    case SHAPE_PLANE:
+        add_plane(&sink, object);
+        break;
+    case SHAPE_BOX:
+        add_box(&sink, object);
+        break;
+    case SHAPE_STEPS:
+        add_steps(&sink, object);
+        break;
+    case SHAPE_POOL:
+        add_pool(&sink, object);
+        break;
     case SHAPE_SPHERE:
     case SHAPE_FLOOR:
-    case SHAPE_MESH: break;
+    case SHAPE_MESH:
+        break;
     }
     return sink;
 }

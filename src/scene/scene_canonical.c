@@ -10,18 +10,21 @@
 enum { DOUBLE_DIGITS = 17, FLOAT_DIGITS = 9 }; /* read back as the same number */
 
 /* Adding zero turns -0 into 0, which renders the same. */
-static void write_number(FILE *stream, double value, int digits)
-{
-    fprintf(stream, " %.*g", digits, value + 0.0);
-}
+static void write_number(FILE *stream, double value, int digits) { fprintf(stream, " %.*g", digits, value + 0.0); }
 
 static void write_value(FILE *stream, const scene_field *field, const void *value)
 {
     const scene_exposure *exposure = value;
     switch (field->type) {
-    case FIELD_COUNT: fprintf(stream, " %u", *(const uint32_t *)value); break;
-    case FIELD_NUMBER: write_number(stream, *(const double *)value, DOUBLE_DIGITS); break;
-    case FIELD_SHARE: write_number(stream, (double)*(const float *)value, FLOAT_DIGITS); break;
+    case FIELD_COUNT:
+        fprintf(stream, " %u", *(const uint32_t *)value);
+        break;
+    case FIELD_NUMBER:
+        write_number(stream, *(const double *)value, DOUBLE_DIGITS);
+        break;
+    case FIELD_SHARE:
+        write_number(stream, (double)*(const float *)value, FLOAT_DIGITS);
+        break;
     case FIELD_VECTOR:
     case FIELD_SCALE:
         for (int i = 0; i < 3; i++)
@@ -31,16 +34,21 @@ static void write_value(FILE *stream, const scene_field *field, const void *valu
         for (int i = 0; i < 3; i++)
             write_number(stream, (double)((const float *)value)[i], FLOAT_DIGITS);
         break;
-    case FIELD_CHOICE: fprintf(stream, " %s", field->choices[*(const int *)value]); break;
+    case FIELD_CHOICE:
+        fprintf(stream, " %s", field->choices[*(const int *)value]);
+        break;
     case FIELD_EXPOSURE:
         if (exposure->automatic)
             fputs(" auto", stream);
         else
             write_number(stream, exposure->stops, DOUBLE_DIGITS);
         break;
-    case FIELD_LIST: fprintf(stream, " %zu", ((const scene_list *)value)->count); break;
+    case FIELD_LIST:
+        fprintf(stream, " %zu", ((const scene_list *)value)->count);
+        break;
     case FIELD_TEXT:
-    case FIELD_MAPPING: break;
+    case FIELD_MAPPING:
+        break;
     }
     fputc('\n', stream);
 }

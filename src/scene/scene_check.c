@@ -12,10 +12,7 @@ static const double MAX_PIXELS = 268435456; /* 2^28 */
 static const double MIN_KEYFRAME_GAP = 1e-6;
 
 /* The first of two nodes that is there: where a message about both of them points. */
-static const tree_node *either(const tree_node *first, const tree_node *second)
-{
-    return first != NULL ? first : second;
-}
+static const tree_node *either(const tree_node *first, const tree_node *second) { return first != NULL ? first : second; }
 
 static bool check_image(const scene_tree *tree, const mgt_image *image, scene_error *error)
 {
@@ -24,8 +21,8 @@ static bool check_image(const scene_tree *tree, const mgt_image *image, scene_er
         return true;
     const tree_node *mapping = tree_get(tree->root, "image");
     const tree_node *node = either(tree_get(mapping, "height"), tree_get(mapping, "width"));
-    return tree_error(tree, node->source, node->place, error, "image is %u x %u = %.0f pixels; allowed: width x height at most %.0f",
-                      image->width, image->height, pixels, MAX_PIXELS);
+    return tree_error(tree, node->source, node->place, error, "image is %u x %u = %.0f pixels; allowed: width x height at most %.0f", image->width,
+                      image->height, pixels, MAX_PIXELS);
 }
 
 static bool refuse_camera(const scene_tree *tree, const tree_node *node, camera_fault fault, const char *where, scene_error *error)
@@ -44,9 +41,7 @@ static const tree_node *faulty_node(const tree_node *mapping, camera_fault fault
 {
     const tree_node *up = tree_get(mapping, "up"), *target = tree_get(mapping, "target"), *position = tree_get(mapping, "position");
     /* A value from the command line was written last. */
-    const tree_node *point = position != NULL && position->source != NULL && (target == NULL || target->source == NULL)
-                                 ? position
-                                 : either(target, position);
+    const tree_node *point = position != NULL && position->source != NULL && (target == NULL || target->source == NULL) ? position : either(target, position);
     const tree_node *node = fault == CAMERA_NO_UP ? either(up, point) : point;
     return either(node, either(mapping, fallback));
 }
@@ -76,8 +71,8 @@ static bool check_keyframes(const scene_tree *tree, const scene_camera *camera, 
         const tree_node *time = tree_get(item, "time");
         if (i > 0 && !(keyframes[i].time - keyframes[i - 1].time >= MIN_KEYFRAME_GAP))
             return tree_error(tree, time->source, time->place, error,
-                              "camera.path[%zu].time is %s; allowed: later than camera.path[%zu].time, %s s, by at least 1e-6 s", i,
-                              time->text, i - 1, scene_double_text(keyframes[i - 1].time).text);
+                              "camera.path[%zu].time is %s; allowed: later than camera.path[%zu].time, %s s, by at least 1e-6 s", i, time->text, i - 1,
+                              scene_double_text(keyframes[i - 1].time).text);
         camera_fault fault = scene_camera_fault(&keyframes[i].camera);
         if (fault != CAMERA_LEGAL)
             return refuse_camera(tree, faulty_node(item, fault, path), fault, "camera.path", error);

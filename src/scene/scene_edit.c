@@ -103,17 +103,24 @@ const scene_field *scene_values_find(const scene_values *values, const char *pat
 static size_t leaf_size(const scene_field *field)
 {
     switch (field->type) {
-    case FIELD_COUNT: return sizeof(uint32_t);
-    case FIELD_NUMBER: return sizeof(double);
-    case FIELD_SHARE: return sizeof(float);
+    case FIELD_COUNT:
+        return sizeof(uint32_t);
+    case FIELD_NUMBER:
+        return sizeof(double);
+    case FIELD_SHARE:
+        return sizeof(float);
     case FIELD_VECTOR:
-    case FIELD_SCALE: return 3 * sizeof(double);
-    case FIELD_COLOR: return 3 * sizeof(float);
-    case FIELD_CHOICE: return sizeof(int);
+    case FIELD_SCALE:
+        return 3 * sizeof(double);
+    case FIELD_COLOR:
+        return 3 * sizeof(float);
+    case FIELD_CHOICE:
+        return sizeof(int);
     case FIELD_EXPOSURE:
     case FIELD_TEXT:
     case FIELD_MAPPING:
-    case FIELD_LIST: break;
+    case FIELD_LIST:
+        break;
     }
     return 0;
 }
@@ -205,11 +212,21 @@ static size_t mapping_size(const scene_field *field)
     for (const scene_field *child = field->fields; child->key != NULL; child++) {
         size_t end = child->offset;
         switch (child->type) {
-        case FIELD_EXPOSURE: end += sizeof(scene_exposure); break;
-        case FIELD_TEXT: end += sizeof(char *); break;
-        case FIELD_LIST: end += sizeof(scene_list); break;
-        case FIELD_MAPPING: end += mapping_size(child); break;
-        default: end += leaf_size(child); break;
+        case FIELD_EXPOSURE:
+            end += sizeof(scene_exposure);
+            break;
+        case FIELD_TEXT:
+            end += sizeof(char *);
+            break;
+        case FIELD_LIST:
+            end += sizeof(scene_list);
+            break;
+        case FIELD_MAPPING:
+            end += mapping_size(child);
+            break;
+        default:
+            end += leaf_size(child);
+            break;
         }
         size = end > size ? end : size;
     }
@@ -268,23 +285,29 @@ static void write_value(FILE *stream, const scene_field *field, const void *pare
     if (scene_numbers_write(stream, field, value))
         return;
     switch (field->type) {
-    case FIELD_CHOICE: fputs(field->choices[*(const int *)value], stream); break;
-    case FIELD_EXPOSURE: fputs(exposure->automatic ? "auto" : scene_double_text(exposure->stops).text, stream); break;
-    case FIELD_TEXT: write_text(stream, *(char *const *)value); break;
-    case FIELD_LIST: write_list(stream, field, parent); break;
+    case FIELD_CHOICE:
+        fputs(field->choices[*(const int *)value], stream);
+        break;
+    case FIELD_EXPOSURE:
+        fputs(exposure->automatic ? "auto" : scene_double_text(exposure->stops).text, stream);
+        break;
+    case FIELD_TEXT:
+        write_text(stream, *(char *const *)value);
+        break;
+    case FIELD_LIST:
+        write_list(stream, field, parent);
+        break;
     case FIELD_MAPPING:
         fputc('{', stream);
         write_members(stream, field, value, scene_field_at(field, defaults), write_flow_member);
         fputc('}', stream);
         break;
-    default: break;
+    default:
+        break;
     }
 }
 
-void scene_value_write(FILE *stream, const scene_field *field, const void *parent)
-{
-    write_value(stream, field, parent, parent);
-}
+void scene_value_write(FILE *stream, const scene_field *field, const void *parent) { write_value(stream, field, parent, parent); }
 
 /* ---- whole files ------------------------------------------------------------------------------------------- */
 
@@ -359,8 +382,7 @@ static bool needs_whole(const scene_field *field, const void *from, const void *
     return strcmp(field->key, "post") == 0 && ((const scene_post *)from)->exposure.automatic != ((const scene_post *)to)->exposure.automatic;
 }
 
-static bool add_differences(scene_overrides *out, const char *path, const scene_field *mapping, const void *from, const void *to,
-                            const void *defaults)
+static bool add_differences(scene_overrides *out, const char *path, const scene_field *mapping, const void *from, const void *to, const void *defaults)
 {
     for (const scene_field *field = mapping->fields; field->key != NULL; field++) {
         char name[PATH_SIZE];
@@ -394,8 +416,7 @@ static bool add_differences(scene_overrides *out, const char *path, const scene_
 static bool is_written_out(const scene_values *from, const scene_values *to)
 {
     const scene_field *water = child_field(scene_root_field(), "water", 5), *waves = child_field(water, "waves", 5);
-    return scene_water_has_sea(&from->water) && !scene_water_has_sea(&to->water) &&
-           lists_equal(waves, &from->water.sea, &to->water.waves);
+    return scene_water_has_sea(&from->water) && !scene_water_has_sea(&to->water) && lists_equal(waves, &from->water.sea, &to->water.waves);
 }
 
 bool scene_overrides_between(const scene_values *from, const scene_values *to, scene_overrides *out)

@@ -67,9 +67,9 @@ typedef struct scene_pose {
 } scene_pose;
 
 typedef struct scene_material {
-    bool given; /* stands in the file, in place of the materials of a mesh's own file */
+    bool given;        /* stands in the file, in place of the materials of a mesh's own file */
     mgt_material look; /* but for its texture */
-    char *texture; /* owned; NULL: none */
+    char *texture;     /* owned; NULL: none */
 } scene_material;
 
 typedef enum scene_shape { SHAPE_MESH, SHAPE_PLANE, SHAPE_BOX, SHAPE_SPHERE, SHAPE_STEPS, SHAPE_POOL, SHAPE_FLOOR } scene_shape;
@@ -121,16 +121,10 @@ void scene_values_free(scene_values *values);
 bool scene_values_copy(scene_values *out, const scene_values *values);
 
 /* Whether the waves are not simply the ones written out. */
-static inline bool scene_water_has_sea(const scene_water *water)
-{
-    return water->spectrum.settings.kind != SPECTRUM_NONE || water->amplitude != 1;
-}
+static inline bool scene_water_has_sea(const scene_water *water) { return water->spectrum.settings.kind != SPECTRUM_NONE || water->amplitude != 1; }
 
 /* All waves as they are rendered. Belongs to `water`. */
-static inline scene_list scene_water_all(const scene_water *water)
-{
-    return scene_water_has_sea(water) ? water->sea : water->waves;
-}
+static inline scene_list scene_water_all(const scene_water *water) { return scene_water_has_sea(water) ? water->sea : water->waves; }
 
 /* ---- the table ------------------------------------------------------------------------------------------ */
 
@@ -150,10 +144,10 @@ typedef enum field_type {
 
 typedef enum field_flags {
     FIELD_REQUIRED = 1,
-    FIELD_OPEN_MIN = 2,    /* the minimum itself is not allowed */
-    FIELD_OPEN_MAX = 4,    /* nor the maximum */
-    FIELD_NO_PIXELS = 8,   /* changes no pixel, or not as it stands: left out of the canonical text */
-    FIELD_GIVEN = 16       /* mapping: its struct begins with a bool, whether it stands in the file */
+    FIELD_OPEN_MIN = 2,  /* the minimum itself is not allowed */
+    FIELD_OPEN_MAX = 4,  /* nor the maximum */
+    FIELD_NO_PIXELS = 8, /* changes no pixel, or not as it stands: left out of the canonical text */
+    FIELD_GIVEN = 16     /* mapping: its struct begins with a bool, whether it stands in the file */
 } field_flags;
 
 typedef struct scene_field scene_field;
@@ -165,8 +159,8 @@ struct scene_field {
     double min, max;
     const char *unit; /* NULL: none */
     const char *doc;
-    const char *const *choices; /* in the enum's order, NULL-terminated */
-    const scene_field *fields;  /* ended by one without a key */
+    const char *const *choices;  /* in the enum's order, NULL-terminated */
+    const scene_field *fields;   /* ended by one without a key */
     size_t item_size, max_items; /* list */
     /* After a key was read: sets what it decides of its neighbours, which are read later. */
     void (*decide)(void *parent);
@@ -193,9 +187,6 @@ bool scene_numbers_write(FILE *stream, const scene_field *field, const void *val
 /* The text behind scene_file_canonical(). */
 char *scene_values_canonical(const scene_values *values, size_t *length);
 
-static inline const void *scene_field_at(const scene_field *field, const void *parent)
-{
-    return (const char *)parent + field->offset;
-}
+static inline const void *scene_field_at(const scene_field *field, const void *parent) { return (const char *)parent + field->offset; }
 
 #endif

@@ -98,8 +98,7 @@ scene_file *scene_file_parse_like(const scene_values *like, const char *text, si
         goto fail;
     }
     file->values = scene_values_defaults();
-    if (!scene_read(&tree, &file->values, error) || !scene_check(&tree, &file->values, error) ||
-        !scene_sea_read(&tree, &file->values.water, error))
+    if (!scene_read(&tree, &file->values, error) || !scene_check(&tree, &file->values, error) || !scene_sea_read(&tree, &file->values.water, error))
         goto fail;
     if (like != NULL && scene_objects_equal(like, &file->values))
         file->values.models = scene_models_share(like->models);
@@ -114,8 +113,7 @@ fail:
     return NULL;
 }
 
-scene_file *scene_file_parse(const char *text, size_t length, const char *name, const char *const *overrides,
-                             size_t override_count, scene_error *error)
+scene_file *scene_file_parse(const char *text, size_t length, const char *name, const char *const *overrides, size_t override_count, scene_error *error)
 {
     return scene_file_parse_like(NULL, text, length, name, overrides, override_count, error);
 }
@@ -164,10 +162,8 @@ bool scene_values_shot(const scene_values *values, double time, mgt_scene *out)
     scene.light = values->light;
     scene.sky = values->sky;
     const scene_list waves = scene_water_all(&values->water);
-    scene.water = (mgt_water){.waves = waves.items,
-                              .wave_count = waves.count,
-                              .index_of_refraction = values->water.index_of_refraction,
-                              .level = values->water.level};
+    scene.water =
+        (mgt_water){.waves = waves.items, .wave_count = waves.count, .index_of_refraction = values->water.index_of_refraction, .level = values->water.level};
     memcpy(scene.water.absorption, values->water.absorption, sizeof scene.water.absorption);
     memcpy(scene.water.scattering, values->water.scattering, sizeof scene.water.scattering);
     memcpy(scene.water.body_albedo, values->water.body_albedo, sizeof scene.water.body_albedo);
@@ -188,42 +184,18 @@ bool scene_file_frame(const scene_file *file, int frame, mgt_scene *out)
     return scene_values_shot(&file->values, file->values.time.start + frame / file->values.time.fps, out);
 }
 
-const scene_values *scene_file_values(const scene_file *file)
-{
-    return &file->values;
-}
+const scene_values *scene_file_values(const scene_file *file) { return &file->values; }
 
-const char *scene_file_path(const scene_file *file)
-{
-    return file->path;
-}
+const char *scene_file_path(const scene_file *file) { return file->path; }
 
-const char *scene_file_description(const scene_file *file)
-{
-    return file->values.description != NULL ? file->values.description : "";
-}
+const char *scene_file_description(const scene_file *file) { return file->values.description != NULL ? file->values.description : ""; }
 
-int scene_file_frame_count(const scene_file *file)
-{
-    return (int)file->values.time.frames;
-}
+int scene_file_frame_count(const scene_file *file) { return (int)file->values.time.frames; }
 
-double scene_file_fps(const scene_file *file)
-{
-    return file->values.time.fps;
-}
+double scene_file_fps(const scene_file *file) { return file->values.time.fps; }
 
-double scene_file_start(const scene_file *file)
-{
-    return file->values.time.start;
-}
+double scene_file_start(const scene_file *file) { return file->values.time.start; }
 
-size_t scene_file_wave_count(const scene_file *file)
-{
-    return scene_water_all(&file->values.water).count;
-}
+size_t scene_file_wave_count(const scene_file *file) { return scene_water_all(&file->values.water).count; }
 
-char *scene_file_canonical(const scene_file *file, size_t *length)
-{
-    return scene_values_canonical(&file->values, length);
-}
+char *scene_file_canonical(const scene_file *file, size_t *length) { return scene_values_canonical(&file->values, length); }

@@ -38,8 +38,7 @@ typedef struct scene_error {
 scene_file *scene_file_load(const char *path, const char *const *overrides, size_t override_count, scene_error *error);
 
 /* The same from memory; `name` stands for the file's name in errors and in scene_file_path(). */
-scene_file *scene_file_parse(const char *text, size_t length, const char *name, const char *const *overrides,
-                             size_t override_count, scene_error *error);
+scene_file *scene_file_parse(const char *text, size_t length, const char *name, const char *const *overrides, size_t override_count, scene_error *error);
 
 /* NULL is allowed. */
 void scene_file_free(scene_file *file);

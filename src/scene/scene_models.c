@@ -99,10 +99,7 @@ static bool refuse_fault(const models_reader *r, size_t index, const tree_node *
 }
 
 /* Room for one more in an array; NULL when memory runs out. */
-static void *grown(void *items, size_t count, size_t size)
-{
-    return realloc(items, (count + 1) * size);
-}
+static void *grown(void *items, size_t count, size_t size) { return realloc(items, (count + 1) * size); }
 
 /* A place for the model of `path` (taken over; NULL: a shape's), or the one that is there already. NULL when memory runs out. */
 static loaded_model *place_for_model(scene_models *m, char *path, bool own_materials, bool *found)
@@ -206,10 +203,14 @@ static double sine_of(double degrees)
 {
     const double turns = degrees / 360, part = 4 * (turns - floor(turns)), quarter = floor(part + 0.5), rest = (part - quarter) * SPECTRUM_PI / 2;
     switch ((int)quarter % 4) {
-    case 0: return portable_sin(rest);
-    case 1: return portable_cos(rest);
-    case 2: return -portable_sin(rest);
-    default: return -portable_cos(rest);
+    case 0:
+        return portable_sin(rest);
+    case 1:
+        return portable_cos(rest);
+    case 2:
+        return -portable_sin(rest);
+    default:
+        return -portable_cos(rest);
     }
 }
 
@@ -265,8 +266,9 @@ static bool add_parts(models_reader *r, size_t index, const tree_node *item, con
         return false;
     r->triangles += model->triangles;
     if (m->object_count + model->part_count > MGT_MAX_OBJECTS || r->triangles > MGT_MAX_TRIANGLES)
-        return tree_error(r->tree, item->source, item->place, r->error, "with objects[%zu] the scene has %zu parts of %llu triangles; allowed: at most %d of %d",
-                          index, m->object_count + model->part_count, (unsigned long long)r->triangles, MGT_MAX_OBJECTS, MGT_MAX_TRIANGLES);
+        return tree_error(r->tree, item->source, item->place, r->error,
+                          "with objects[%zu] the scene has %zu parts of %llu triangles; allowed: at most %d of %d", index, m->object_count + model->part_count,
+                          (unsigned long long)r->triangles, MGT_MAX_OBJECTS, MGT_MAX_TRIANGLES);
     if (m->object_count + model->part_count > m->object_room) {
         const size_t room = 2 * (m->object_count + model->part_count);
         mgt_object *objects = realloc(m->objects, room * sizeof *objects);

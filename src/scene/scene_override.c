@@ -53,9 +53,12 @@ static bool refuse_step(const scene_tree *tree, const char *override, const tree
 {
     const char *name = node->key != NULL ? node->key : "the item";
     switch (node->kind) {
-    case TREE_LIST: return tree_error(tree, override, node->place, error, "%s is a list; allowed: an index, as in %s[0]", name, name);
-    case TREE_MAPPING: return tree_error(tree, override, node->place, error, "%s is a mapping; allowed: a key, as in %s.key", name, name);
-    default: return tree_error(tree, override, node->place, error, "%s is a single value; allowed: %s=value", name, name);
+    case TREE_LIST:
+        return tree_error(tree, override, node->place, error, "%s is a list; allowed: an index, as in %s[0]", name, name);
+    case TREE_MAPPING:
+        return tree_error(tree, override, node->place, error, "%s is a mapping; allowed: a key, as in %s.key", name, name);
+    default:
+        return tree_error(tree, override, node->place, error, "%s is a single value; allowed: %s=value", name, name);
     }
 }
 

@@ -11,10 +11,7 @@ enum { CHANNELS = 10, HEIGHT = 1, FIELD_OF_VIEW = 9 };
 static double channel(const scene_keyframe *keyframe, int index)
 {
     const mgt_camera *camera = &keyframe->camera;
-    return index < 3   ? camera->position[index]
-           : index < 6 ? camera->target[index - 3]
-           : index < 9 ? camera->up[index - 6]
-                       : camera->fov_y_deg;
+    return index < 3 ? camera->position[index] : index < 6 ? camera->target[index - 3] : index < 9 ? camera->up[index - 6] : camera->fov_y_deg;
 }
 
 static void set_channel(mgt_camera *camera, int index, double value)

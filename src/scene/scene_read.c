@@ -27,14 +27,22 @@ static bool refuse_value(const scene_reader *reader, const scene_field *field, c
     scene_quote quote = scene_quote_text(node->text != NULL ? node->text : "", node->length);
     scene_field_allowed(field, allowed, sizeof allowed);
     switch (node->kind) {
-    case TREE_NULL: snprintf(value, sizeof value, "empty"); break;
-    case TREE_LIST: snprintf(value, sizeof value, "a list of %zu", node->count); break;
-    case TREE_MAPPING: snprintf(value, sizeof value, "a mapping"); break;
-    case TREE_SCALAR: snprintf(value, sizeof value, node->plain ? "%s" : "the text \"%s\"", quote.text); break;
+    case TREE_NULL:
+        snprintf(value, sizeof value, "empty");
+        break;
+    case TREE_LIST:
+        snprintf(value, sizeof value, "a list of %zu", node->count);
+        break;
+    case TREE_MAPPING:
+        snprintf(value, sizeof value, "a mapping");
+        break;
+    case TREE_SCALAR:
+        snprintf(value, sizeof value, node->plain ? "%s" : "the text \"%s\"", quote.text);
+        break;
     }
     bool may_go = node->kind == TREE_NULL && node->key != NULL && !(field->flags & FIELD_REQUIRED);
-    return tree_error(reader->tree, node->source, node->place, reader->error, "%s is %s; allowed: %s%s",
-                      reader->path[0] != '\0' ? reader->path : "the scene", value, allowed, may_go ? ", or no such key" : "");
+    return tree_error(reader->tree, node->source, node->place, reader->error, "%s is %s; allowed: %s%s", reader->path[0] != '\0' ? reader->path : "the scene",
+                      value, allowed, may_go ? ", or no such key" : "");
 }
 
 /* How far a key is from a known one; a known one's beginning counts as near ("elevation" for "elevation_deg"). */
@@ -60,8 +68,8 @@ static bool refuse_unknown_key(const scene_reader *reader, const scene_field *ma
             used += (size_t)snprintf(known + used, sizeof known - used, "%s%s", used > 0 ? ", " : "", field->key);
     }
     scene_quote quote = scene_quote_text(node->key, strlen(node->key));
-    return tree_error(reader->tree, node->key_source, node->key_place, reader->error, "unknown key \"%s\" in %s; %sallowed: %s",
-                      quote.text, reader->path[0] != '\0' ? reader->path : "the scene", hint, known);
+    return tree_error(reader->tree, node->key_source, node->key_place, reader->error, "unknown key \"%s\" in %s; %sallowed: %s", quote.text,
+                      reader->path[0] != '\0' ? reader->path : "the scene", hint, known);
 }
 
 static size_t path_enter(scene_reader *reader, const char *key)
@@ -78,17 +86,11 @@ static size_t path_enter_item(scene_reader *reader, size_t index)
     return length;
 }
 
-static void path_leave(scene_reader *reader, size_t length)
-{
-    reader->path[length] = '\0';
-}
+static void path_leave(scene_reader *reader, size_t length) { reader->path[length] = '\0'; }
 
 /* ---- numbers -------------------------------------------------------------------------------------------- */
 
-static const char *skip_digits(const char *text)
-{
-    return text + strspn(text, "0123456789");
-}
+static const char *skip_digits(const char *text) { return text + strspn(text, "0123456789"); }
 
 /* The numbers of YAML's core schema: decimal, 0x and 0o; strtod alone would also take "nan", "1e" or " 3". */
 static bool is_decimal(const char *text)
@@ -211,8 +213,8 @@ static bool read_list(scene_reader *reader, const scene_field *field, const tree
     if (node->kind != TREE_LIST)
         return refuse_value(reader, field, node);
     if (node->count > field->max_items)
-        return tree_error(reader->tree, node->source, node->place, reader->error, "%s has %zu items; allowed: at most %zu",
-                          reader->path, node->count, field->max_items);
+        return tree_error(reader->tree, node->source, node->place, reader->error, "%s has %zu items; allowed: at most %zu", reader->path, node->count,
+                          field->max_items);
     if (node->count == 0)
         return true;
     list->items = calloc(node->count, field->item_size);
@@ -252,24 +254,30 @@ static bool read_field(scene_reader *reader, const scene_field *field, const tre
         for (int i = 0; i < 3; i++)
             ((float *)place)[i] = (float)vector[i];
         return true;
-    case FIELD_NUMBER: return read_number(reader, field, node, place);
-    case FIELD_VECTOR: return read_vector(reader, field, node, place);
-    case FIELD_SCALE: return read_scale(reader, field, node, place);
-    case FIELD_CHOICE: return read_choice(reader, field, node, place);
-    case FIELD_EXPOSURE: return read_exposure(reader, field, node, place);
-    case FIELD_TEXT: return read_text(reader, field, node, place);
+    case FIELD_NUMBER:
+        return read_number(reader, field, node, place);
+    case FIELD_VECTOR:
+        return read_vector(reader, field, node, place);
+    case FIELD_SCALE:
+        return read_scale(reader, field, node, place);
+    case FIELD_CHOICE:
+        return read_choice(reader, field, node, place);
+    case FIELD_EXPOSURE:
+        return read_exposure(reader, field, node, place);
+    case FIELD_TEXT:
+        return read_text(reader, field, node, place);
     case FIELD_MAPPING:
         if (field->flags & FIELD_GIVEN)
             *(bool *)place = true;
         return read_mapping(reader, field, node, place);
-    case FIELD_LIST: return read_list(reader, field, node, parent);
+    case FIELD_LIST:
+        return read_list(reader, field, node, parent);
     }
     return false;
 }
 
 /* Which field each child is; refuses unknown and repeated keys, in the order of the file. */
-static bool match_keys(const scene_reader *reader, const scene_field *mapping, const tree_node *node,
-                       const tree_node *found[MAX_FIELDS])
+static bool match_keys(const scene_reader *reader, const scene_field *mapping, const tree_node *node, const tree_node *found[MAX_FIELDS])
 {
     for (const tree_node *child = node->first; child != NULL; child = child->next) {
         size_t index = 0;
@@ -279,8 +287,8 @@ static bool match_keys(const scene_reader *reader, const scene_field *mapping, c
             return refuse_unknown_key(reader, mapping, child);
         if (found[index] != NULL)
             return tree_error(reader->tree, child->key_source, child->key_place, reader->error,
-                              "key \"%s\" stands twice, first at line %d, column %d; allowed: once", child->key,
-                              found[index]->key_place.line, found[index]->key_place.column);
+                              "key \"%s\" stands twice, first at line %d, column %d; allowed: once", child->key, found[index]->key_place.line,
+                              found[index]->key_place.column);
         found[index] = child;
     }
     return true;
@@ -302,8 +310,7 @@ static bool read_mapping(scene_reader *reader, const scene_field *mapping, const
         if (found[i] == NULL && field->flags & FIELD_REQUIRED) {
             char allowed[160];
             scene_field_allowed(field, allowed, sizeof allowed);
-            return tree_error(reader->tree, node->source, node->place, reader->error, "%s is missing; required: %s: %s",
-                              reader->path, field->key, allowed);
+            return tree_error(reader->tree, node->source, node->place, reader->error, "%s is missing; required: %s: %s", reader->path, field->key, allowed);
         }
         if (found[i] != NULL) {
             if (!read_field(reader, field, found[i], values))

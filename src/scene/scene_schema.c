@@ -24,23 +24,27 @@ static void write_default(FILE *stream, const scene_field *field, const void *va
     if (scene_numbers_write(stream, field, value))
         return;
     switch (field->type) {
-    case FIELD_CHOICE: fprintf(stream, "\"%s\"", field->choices[*(const int *)value]); break;
+    case FIELD_CHOICE:
+        fprintf(stream, "\"%s\"", field->choices[*(const int *)value]);
+        break;
     case FIELD_EXPOSURE:
         if (exposure->automatic)
             fputs("\"auto\"", stream);
         else
             fputs(scene_double_text(exposure->stops).text, stream);
         break;
-    case FIELD_TEXT: fputs("\"\"", stream); break;
-    case FIELD_LIST: fputs("[]", stream); break;
-    default: break;
+    case FIELD_TEXT:
+        fputs("\"\"", stream);
+        break;
+    case FIELD_LIST:
+        fputs("[]", stream);
+        break;
+    default:
+        break;
     }
 }
 
-static bool has_default(const scene_field *field)
-{
-    return !(field->flags & FIELD_REQUIRED) && field->type != FIELD_MAPPING;
-}
+static bool has_default(const scene_field *field) { return !(field->flags & FIELD_REQUIRED) && field->type != FIELD_MAPPING; }
 
 /* ---- JSON Schema ---------------------------------------------------------------------------------------- */
 
@@ -57,9 +61,8 @@ static void write_text(FILE *stream, const char *text)
 
 static void write_range(FILE *stream, const scene_field *field)
 {
-    fprintf(stream, "\"%s\": %s, \"%s\": %s", field->flags & FIELD_OPEN_MIN ? "exclusiveMinimum" : "minimum",
-            scene_double_text(field->min).text, field->flags & FIELD_OPEN_MAX ? "exclusiveMaximum" : "maximum",
-            scene_double_text(field->max).text);
+    fprintf(stream, "\"%s\": %s, \"%s\": %s", field->flags & FIELD_OPEN_MIN ? "exclusiveMinimum" : "minimum", scene_double_text(field->min).text,
+            field->flags & FIELD_OPEN_MAX ? "exclusiveMaximum" : "maximum", scene_double_text(field->max).text);
 }
 
 static void write_number_schema(FILE *stream, const scene_field *field)
@@ -75,10 +78,7 @@ static void write_vector_schema(FILE *stream, const scene_field *field)
     write_number_schema(stream, field);
 }
 
-static void indent(FILE *stream, int depth)
-{
-    fprintf(stream, "%*s", 2 * depth, "");
-}
+static void indent(FILE *stream, int depth) { fprintf(stream, "%*s", 2 * depth, ""); }
 
 /* `values`: the struct that holds the mapping's defaults. */
 static void write_mapping_schema(FILE *stream, const scene_field *mapping, const void *values, int depth);
@@ -98,7 +98,9 @@ static void write_type_schema(FILE *stream, const scene_field *field, const void
         write_range(stream, field);
         break;
     case FIELD_VECTOR:
-    case FIELD_COLOR: write_vector_schema(stream, field); break;
+    case FIELD_COLOR:
+        write_vector_schema(stream, field);
+        break;
     case FIELD_SCALE:
         fputs("\"oneOf\": [", stream);
         write_number_schema(stream, field);
@@ -116,8 +118,12 @@ static void write_type_schema(FILE *stream, const scene_field *field, const void
         write_number_schema(stream, field);
         fputs("]", stream);
         break;
-    case FIELD_TEXT: fputs("\"type\": [\"string\", \"number\", \"boolean\"]", stream); break;
-    case FIELD_MAPPING: write_mapping_schema(stream, field, value, depth); break;
+    case FIELD_TEXT:
+        fputs("\"type\": [\"string\", \"number\", \"boolean\"]", stream);
+        break;
+    case FIELD_MAPPING:
+        write_mapping_schema(stream, field, value, depth);
+        break;
     case FIELD_LIST:
         memset(&item, 0, sizeof item);
         field->prepare(parent, &item);

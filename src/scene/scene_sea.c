@@ -55,10 +55,7 @@ bool scene_sea_open(scene_sea *sea, const scene_spectrum *settings, const char *
     return good;
 }
 
-void scene_sea_close(scene_sea *sea)
-{
-    spectrum_table_free(&sea->table);
-}
+void scene_sea_close(scene_sea *sea) { spectrum_table_free(&sea->table); }
 
 /* The waves of the spectrum, if there is one, into `waves`. */
 static bool draw_waves(const scene_spectrum *settings, const char *scene_path, mgt_wave *waves, scene_sea_fault *fault)

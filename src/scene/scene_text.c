@@ -74,10 +74,7 @@ bool scene_error_set(scene_error *error, scene_error_kind kind, const char *form
     return false;
 }
 
-bool scene_error_memory(scene_error *error)
-{
-    return scene_error_set(error, SCENE_ERROR_MEMORY, "out of memory while reading the scene");
-}
+bool scene_error_memory(scene_error *error) { return scene_error_set(error, SCENE_ERROR_MEMORY, "out of memory while reading the scene"); }
 
 scene_quote scene_quote_text(const char *text, size_t length)
 {

@@ -113,8 +113,7 @@ bool tree_error(const scene_tree *tree, const char *source, scene_place place, s
         scene_quote quote = scene_quote_text(source, strlen(source));
         return scene_error_set(error, SCENE_ERROR_BAD_SCENE, "--set %s: %s", quote.text, what);
     }
-    return scene_error_set(error, SCENE_ERROR_BAD_SCENE, "%s:%d:%d: %s", scene_file_name(tree->file_name).text,
-                           place.line, place.column, what);
+    return scene_error_set(error, SCENE_ERROR_BAD_SCENE, "%s:%d:%d: %s", scene_file_name(tree->file_name).text, place.line, place.column, what);
 }
 
 /* ---- from libfyaml's events --------------------------------------------------------------------------- */
@@ -149,10 +148,7 @@ static bool is_quoted(struct fy_event *event)
     return style == FYSS_SINGLE_QUOTED || style == FYSS_DOUBLE_QUOTED;
 }
 
-static bool awaits_key(const tree_reader *reader)
-{
-    return reader->depth > 0 && reader->open[reader->depth - 1]->kind == TREE_MAPPING && reader->key == NULL;
-}
+static bool awaits_key(const tree_reader *reader) { return reader->depth > 0 && reader->open[reader->depth - 1]->kind == TREE_MAPPING && reader->key == NULL; }
 
 static bool refuse(tree_reader *reader, scene_place place, const char *what)
 {
@@ -197,8 +193,7 @@ static bool read_scalar(tree_reader *reader, const struct fy_event_scalar_data *
         reader->key_place = place;
         return true;
     }
-    bool plain = scalar->value == NULL || fy_scalar_token_get_style(scalar->value) == FYSS_PLAIN ||
-                 fy_scalar_token_get_style(scalar->value) == FYSS_ANY;
+    bool plain = scalar->value == NULL || fy_scalar_token_get_style(scalar->value) == FYSS_PLAIN || fy_scalar_token_get_style(scalar->value) == FYSS_ANY;
     bool null = plain && (length == 0 || strcmp(copy, "~") == 0 || strcasecmp(copy, "null") == 0);
     tree_node *node = tree_add_node(reader->tree, null ? TREE_NULL : TREE_SCALAR, place, reader->source);
     if (node != NULL) {
@@ -296,11 +291,10 @@ static bool report_syntax(const tree_reader *reader, struct fy_diag *diagnostics
         const tree_node *open = reader->open[reader->depth - 1];
         bool list = open->kind == TREE_LIST;
         return tree_error(reader->tree, reader->source, place, reader->error,
-                          "not valid YAML or JSON: %s; allowed: a \"%s\" for the \"%s\" of line %d, column %d", what,
-                          list ? "]" : "}", list ? "[" : "{", open->place.line, open->place.column);
+                          "not valid YAML or JSON: %s; allowed: a \"%s\" for the \"%s\" of line %d, column %d", what, list ? "]" : "}", list ? "[" : "{",
+                          open->place.line, open->place.column);
     }
-    return tree_error(reader->tree, reader->source, place, reader->error, "not valid YAML or JSON: %s; allowed: YAML 1.2 or JSON",
-                      what);
+    return tree_error(reader->tree, reader->source, place, reader->error, "not valid YAML or JSON: %s; allowed: YAML 1.2 or JSON", what);
 }
 
 static void discard_output(struct fy_diag *diagnostics, void *user, const char *text, size_t length)

@@ -53,8 +53,7 @@ tree_node *tree_get(const tree_node *mapping, const char *key);
 tree_node *tree_at(const tree_node *list, size_t index);
 
 /* Fills *error with "file:line:column: …" or "--set key=value: …". Returns false. */
-bool tree_error(const scene_tree *tree, const char *source, scene_place place, scene_error *error, const char *format,
-                ...) SCENE_FORMAT(5, 6);
+bool tree_error(const scene_tree *tree, const char *source, scene_place place, scene_error *error, const char *format, ...) SCENE_FORMAT(5, 6);
 
 void tree_free(scene_tree *tree); /* its memory; the struct itself stays the caller's */
 

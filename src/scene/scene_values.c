@@ -17,9 +17,7 @@ scene_values scene_values_defaults(void)
         .time = {.start = 0, .fps = 30, .frames = 1, .shutter = 1},
         .light = scene.light,
         .sky = scene.sky,
-        .water = {.spectrum = {.settings = {.wind = 8, .fetch = 5e4, .gamma = 3.3, .directions = DIRECTIONS_HASSELMANN, .spread = 10},
-                               .count = 64,
-                               .seed = 1},
+        .water = {.spectrum = {.settings = {.wind = 8, .fetch = 5e4, .gamma = 3.3, .directions = DIRECTIONS_HASSELMANN, .spread = 10}, .count = 64, .seed = 1},
                   .amplitude = 1,
                   .index_of_refraction = scene.water.index_of_refraction,
                   .level = scene.water.level},
@@ -36,11 +34,8 @@ scene_values scene_values_defaults(void)
 
 mgt_material scene_material_defaults(void)
 {
-    return (mgt_material){.base_color = {0.7f, 0.7f, 0.7f},
-                          .roughness = 0.5f,
-                          .pattern_color = {0.2f, 0.2f, 0.2f},
-                          .pattern_size = 0.2f,
-                          .pattern_joint = 0.05f};
+    return (
+        mgt_material){.base_color = {0.7f, 0.7f, 0.7f}, .roughness = 0.5f, .pattern_color = {0.2f, 0.2f, 0.2f}, .pattern_size = 0.2f, .pattern_joint = 0.05f};
 }
 
 /* Frees the text and the lists that a mapping owns. */

@@ -37,10 +37,7 @@ double portable_log(double x)
     return exponent * LN2_HIGH + (exponent * LN2_LOW + 2 * s * (1 + sum));
 }
 
-double portable_pow(double x, double y)
-{
-    return x > 0 ? portable_exp(y * portable_log(x)) : 0;
-}
+double portable_pow(double x, double y) { return x > 0 ? portable_exp(y * portable_log(x)) : 0; }
 
 double portable_tanh(double x)
 {
@@ -72,12 +69,6 @@ static double turned_sin(double x, int quarters)
     return (quadrant & 2) != 0 ? -value : value;
 }
 
-double portable_sin(double x)
-{
-    return turned_sin(x, 0);
-}
+double portable_sin(double x) { return turned_sin(x, 0); }
 
-double portable_cos(double x)
-{
-    return turned_sin(x, 1);
-}
+double portable_cos(double x) { return turned_sin(x, 1); }

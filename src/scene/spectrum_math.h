@@ -8,11 +8,11 @@
 
 #define SPECTRUM_PI 3.14159265358979323846
 
-double portable_exp(double x);             /* 0 below -700; at most e^700 */
-double portable_log(double x);             /* x > 0 */
-double portable_pow(double x, double y);   /* x ≥ 0; 0 for x = 0 */
-double portable_tanh(double x);            /* x ≥ 0 */
-double portable_sin(double x);             /* |x| ≤ 1e6 */
+double portable_exp(double x);           /* 0 below -700; at most e^700 */
+double portable_log(double x);           /* x > 0 */
+double portable_pow(double x, double y); /* x ≥ 0; 0 for x = 0 */
+double portable_tanh(double x);          /* x ≥ 0 */
+double portable_sin(double x);           /* |x| ≤ 1e6 */
 double portable_cos(double x);
 
 #endif

@@ -15,10 +15,7 @@ static const double LOWEST = 0.3; /* in peaks; below it is less than e^-150 */
 
 /* ---- dispersion --------------------------------------------------------------------------------------------- */
 
-double dispersion_frequency(double wave_number, double depth)
-{
-    return sqrt(G * wave_number * (depth > 0 ? portable_tanh(wave_number * depth) : 1));
-}
+double dispersion_frequency(double wave_number, double depth) { return sqrt(G * wave_number * (depth > 0 ? portable_tanh(wave_number * depth) : 1)); }
 
 double dispersion_wave_number(double frequency, double depth)
 {
@@ -85,10 +82,7 @@ double closed_form_slope(double alpha, double peak, double high)
     return alpha / 4 * exponential_integral(1.25 * ratio * ratio * ratio * ratio);
 }
 
-cox_munk cox_munk_slopes(double wind)
-{
-    return (cox_munk){.total = 0.003 + 5.12e-3 * wind, .upwind = 3.16e-3 * wind, .crosswind = 0.003 + 1.92e-3 * wind};
-}
+cox_munk cox_munk_slopes(double wind) { return (cox_munk){.total = 0.003 + 5.12e-3 * wind, .upwind = 3.16e-3 * wind, .crosswind = 0.003 + 1.92e-3 * wind}; }
 
 /* ---- from settings ------------------------------------------------------------------------------------------ */
 
@@ -167,8 +161,9 @@ bool wave_spectrum_make(wave_spectrum *out, const spectrum_settings *settings, c
         make_jonswap(&s, s.wind_10, settings->fetch, settings->gamma);
     const double shallow = 0.7616 * G / (s.peak * s.peak); /* k d = 1 at the peak: tanh 1 */
     if (settings->kind != SPECTRUM_TMA && s.depth > 0 && s.depth < shallow)
-        return refuse(fault, "depth", "is %g m, shallow for this sea's waves, and the model one of deep water; allowed: the model tma, 0 (deep), or above %.3g m",
-                      s.depth, shallow);
+        return refuse(fault, "depth",
+                      "is %g m, shallow for this sea's waves, and the model one of deep water; allowed: the model tma, 0 (deep), or above %.3g m", s.depth,
+                      shallow);
     s.low = LOWEST * s.peak;
     s.high = dispersion_frequency(2 * SPECTRUM_PI / shortest, s.depth);
     *out = s;
@@ -224,10 +219,7 @@ double wave_spectrum_density(const wave_spectrum *s, double frequency)
 /* ---- directions --------------------------------------------------------------------------------------------- */
 
 /* cos^2s of half the angle. */
-static double half_cosine(double angle, double s)
-{
-    return portable_pow(fabs(portable_cos(angle / 2)), 2 * s);
-}
+static double half_cosine(double angle, double s) { return portable_pow(fabs(portable_cos(angle / 2)), 2 * s); }
 
 static double mitsuyasu_spread(double ratio, double wind_over_speed)
 {
@@ -263,10 +255,14 @@ double wave_spectrum_spreading(const wave_spectrum *s, double frequency, double 
         return spectrum_table_at(s->table, frequency, azimuth);
     const double ratio = frequency / s->peak, wind_over_speed = s->wind_10 * s->peak / G;
     switch (s->directions) {
-    case DIRECTIONS_MITSUYASU: return half_cosine(angle, mitsuyasu_spread(ratio, wind_over_speed));
-    case DIRECTIONS_HASSELMANN: return half_cosine(angle, hasselmann_spread(ratio, wind_over_speed));
-    case DIRECTIONS_DONELAN_BANNER: return donelan_banner(angle, ratio);
-    case DIRECTIONS_FIXED: return half_cosine(angle, s->spread);
+    case DIRECTIONS_MITSUYASU:
+        return half_cosine(angle, mitsuyasu_spread(ratio, wind_over_speed));
+    case DIRECTIONS_HASSELMANN:
+        return half_cosine(angle, hasselmann_spread(ratio, wind_over_speed));
+    case DIRECTIONS_DONELAN_BANNER:
+        return donelan_banner(angle, ratio);
+    case DIRECTIONS_FIXED:
+        return half_cosine(angle, s->spread);
     }
     return 0;
 }

@@ -44,7 +44,7 @@ typedef struct spectrum_settings {
     double gamma;         /* peak enhancement; JONSWAP, TMA */
     double direction_deg; /* where the wind comes from, 0 is -z ("north"), 90 is +x ("east") */
     spectrum_directions directions;
-    double spread;   /* s of DIRECTIONS_FIXED */
+    double spread; /* s of DIRECTIONS_FIXED */
     spectrum_slope slope;
     double shortest; /* m; 0: SPECTRUM_SHORTEST, for a table without cox-munk its own end */
 } spectrum_settings;

@@ -22,10 +22,7 @@ typedef struct frequency_grid {
     double height[CELLS + 1], slope[CELLS + 1];
 } frequency_grid;
 
-static double node_frequency(const frequency_grid *grid, double node)
-{
-    return portable_exp(grid->low + grid->step * node);
-}
+static double node_frequency(const frequency_grid *grid, double node) { return portable_exp(grid->low + grid->step * node); }
 
 /* By Simpson's rule in each cell. */
 static frequency_grid *make_grid(const wave_spectrum *spectrum)
@@ -243,8 +240,7 @@ bool spectrum_statistics(const wave_spectrum *spectrum, sea_statistics *out)
     if (grid == NULL)
         return false;
     const double slope = grid->slope[CELLS], difference = slope_difference(spectrum, grid, 0, CELLS);
-    *out = (sea_statistics){
-        .height = 4 * sqrt(grid->height[CELLS]), .slope = slope, .upwind = (slope + difference) / 2, .crosswind = (slope - difference) / 2};
+    *out = (sea_statistics){.height = 4 * sqrt(grid->height[CELLS]), .slope = slope, .upwind = (slope + difference) / 2, .crosswind = (slope - difference) / 2};
     free(grid);
     return true;
 }

@@ -32,7 +32,7 @@ typedef struct table_reader {
     scene_error *error;
     size_t room; /* points */
     int line;
-    bool begun;       /* a header or a row was read */
+    bool begun;        /* a header or a row was read */
     double per_radian; /* factor from the file's density to that per radian */
 } table_reader;
 
@@ -58,10 +58,7 @@ static bool refuse(const table_reader *r, int column, const char *format, ...)
     return scene_error_set(r->error, SCENE_ERROR_BAD_SCENE, "%s:%d:%d: %s", scene_file_name(r->name).text, r->line, column, what);
 }
 
-static bool is_separator(char c)
-{
-    return c == ' ' || c == '\t' || c == ',' || c == '\r';
-}
+static bool is_separator(char c) { return c == ' ' || c == '\t' || c == ',' || c == '\r'; }
 
 /* The words before a comment; one more than there are columns is enough to see that there are too many. */
 static size_t split(const char *line, size_t length, table_word words[COLUMNS + 1])
@@ -82,18 +79,14 @@ static size_t split(const char *line, size_t length, table_word words[COLUMNS + 
     return count;
 }
 
-static bool word_is(const table_word *word, const char *text)
-{
-    return strlen(text) == word->length && memcmp(word->text, text, word->length) == 0;
-}
+static bool word_is(const table_word *word, const char *text) { return strlen(text) == word->length && memcmp(word->text, text, word->length) == 0; }
 
 static bool read_header(table_reader *r, const table_word *words, size_t count)
 {
     const bool per_radian = count == COLUMNS && word_is(&words[DENSITY], "density_rad");
     if (count != COLUMNS || !word_is(&words[FREQUENCY], "frequency") || !word_is(&words[DIRECTION], "direction") ||
         (!per_radian && !word_is(&words[DENSITY], "density")))
-        return refuse(r, words[0].column,
-                      "these are not the names of the columns; allowed: frequency direction density, or frequency direction density_rad");
+        return refuse(r, words[0].column, "these are not the names of the columns; allowed: frequency direction density, or frequency direction density_rad");
     r->per_radian = per_radian ? 1 : 180 / SPECTRUM_PI;
     return true;
 }
@@ -155,7 +148,9 @@ static bool read_line(table_reader *r, const char *line, size_t length)
         return read_header(r, words, count);
     if (count != COLUMNS)
         return refuse(r, count > COLUMNS ? words[COLUMNS].column : words[0].column, "%s columns; allowed: frequency, direction and density, a line each",
-                      count > COLUMNS ? "more than three" : count == 1 ? "one of three" : "two of three");
+                      count > COLUMNS ? "more than three"
+                      : count == 1    ? "one of three"
+                                      : "two of three");
     for (int i = 0; i < COLUMNS; i++)
         if (!read_number(&words[i], &values[i]) || values[i] < columns[i].min || values[i] > columns[i].max) {
             const scene_quote quote = scene_quote_text(words[i].text, words[i].length);
@@ -183,8 +178,8 @@ static bool finish_row(const table_reader *r, spectrum_row *row)
     spectrum_point *points = r->table->points + row->first;
     const double hertz = row->frequency / TURN;
     if (row->count < 2)
-        return scene_error_set(r->error, SCENE_ERROR_BAD_SCENE, "%s: frequency %g Hz has one direction; allowed: at least two",
-                               scene_file_name(r->name).text, hertz);
+        return scene_error_set(r->error, SCENE_ERROR_BAD_SCENE, "%s: frequency %g Hz has one direction; allowed: at least two", scene_file_name(r->name).text,
+                               hertz);
     qsort(points, row->count, sizeof *points, compare_points);
     for (size_t i = 0; i < row->count; i++) {
         const double gap = gap_after(points, row->count, i);

@@ -21,7 +21,7 @@ typedef struct trace_hit {
 
 /* Triangles to trace against. The scene refers to the arrays, so they must stay as long as it is asked. */
 typedef struct trace_triangles {
-    size_t count;            /* 0 … MGT_MAX_TRIANGLES */
+    size_t count; /* 0 … MGT_MAX_TRIANGLES */
     size_t vertex_count;
     const float *positions;  /* 3 a vertex, and one number more that can be read */
     const uint32_t *indices; /* 3 a triangle */

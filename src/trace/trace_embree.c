@@ -15,10 +15,7 @@ struct trace_scene {
     _Atomic int64_t bytes; /* of Embree's */
 };
 
-bool trace_available(void)
-{
-    return true;
-}
+bool trace_available(void) { return true; }
 
 /* ---- building ---- */
 
@@ -47,10 +44,14 @@ static mgt_status device_error(const reporter *r, RTCDevice device)
 {
     const enum RTCError error = rtcGetDeviceError(device);
     switch (error) {
-    case RTC_ERROR_NONE: return MGT_OK;
-    case RTC_ERROR_OUT_OF_MEMORY: return report_error(r, MGT_ERROR_MEMORY, "trace.memory", "out of memory for the tree of triangles that rays are traced through");
-    case RTC_ERROR_UNSUPPORTED_CPU: return report_error(r, MGT_ERROR_UNAVAILABLE, "trace.cpu", "Embree does not run on this processor");
-    default: return report_error(r, MGT_ERROR_UNAVAILABLE, "trace.embree", "Embree fails with error %d", (int)error);
+    case RTC_ERROR_NONE:
+        return MGT_OK;
+    case RTC_ERROR_OUT_OF_MEMORY:
+        return report_error(r, MGT_ERROR_MEMORY, "trace.memory", "out of memory for the tree of triangles that rays are traced through");
+    case RTC_ERROR_UNSUPPORTED_CPU:
+        return report_error(r, MGT_ERROR_UNAVAILABLE, "trace.cpu", "Embree does not run on this processor");
+    default:
+        return report_error(r, MGT_ERROR_UNAVAILABLE, "trace.embree", "Embree fails with error %d", (int)error);
     }
 }
 
@@ -110,10 +111,7 @@ void trace_scene_free(trace_scene *scene)
     free(scene);
 }
 
-size_t trace_scene_bytes(const trace_scene *scene)
-{
-    return scene ? sizeof *scene + (size_t)atomic_load(&scene->bytes) : 0;
-}
+size_t trace_scene_bytes(const trace_scene *scene) { return scene ? sizeof *scene + (size_t)atomic_load(&scene->bytes) : 0; }
 
 /* ---- asking ---- */
 
@@ -179,10 +177,7 @@ static void fill_packet(struct RTCRay8 *packet, int valid[PACKET], const trace_r
     }
 }
 
-static double clamped(double x, double most)
-{
-    return x > 0 ? fmin(x, most) : 0;
-}
+static double clamped(double x, double most) { return x > 0 ? fmin(x, most) : 0; }
 
 /* Distance and place where the ray's line meets the triangle's plane; what rounding took beyond its edges is put back. */
 static trace_hit place_hit(const trace_triangles *t, const trace_ray *ray, uint32_t triangle, float distance)

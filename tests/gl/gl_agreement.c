@@ -28,9 +28,9 @@
 
 enum { WIDTH = 320, HEIGHT = 180, PIXELS = WIDTH * HEIGHT };
 
-static const double far_off = 5e-3;       /* a pixel off by more than this has flipped at a discontinuity: … */
-static const double most_far_off = 1e-3;  /* … this share of them may have */
-static const double largest_rms = 5e-5;   /* of the others */
+static const double far_off = 5e-3;        /* a pixel off by more than this has flipped at a discontinuity: … */
+static const double most_far_off = 1e-3;   /* … this share of them may have */
+static const double largest_rms = 5e-5;    /* of the others */
 static const double most_bytes_off = 1e-3; /* share of displayed bytes that differ by more than a step */
 
 static const struct {
@@ -84,8 +84,8 @@ static const struct {
 };
 enum { OBJECT_METHODS = sizeof object_methods / sizeof *object_methods };
 
-static const int steps_off = 2;               /* a pixel off by more displayed steps than this has flipped: another triangle, another iterate … */
-static const double most_steps_off = 2e-3;    /* … which this share of them may have */
+static const int steps_off = 2;            /* a pixel off by more displayed steps than this has flipped: another triangle, another iterate … */
+static const double most_steps_off = 2e-3; /* … which this share of them may have */
 
 typedef struct layers {
     float coverage[PIXELS], color[3 * PIXELS];
@@ -145,9 +145,8 @@ static bool print(const char *scene, const char *method, const difference *cover
 {
     const bool good = coverage->far_share <= most_far_off && coverage->rms <= largest_rms && color->far_share <= most_far_off && color->rms <= largest_rms &&
                       bytes_off <= most_bytes_off;
-    printf("%-10s %-14s %9.4f %% %9.1e %9.4f %% %9.1e %9.4f %%  %s\n", scene, method, 100 * coverage->far_share, coverage->rms,
-           100 * color->far_share, color->rms,
-           100 * bytes_off, good ? "ok" : "MISSED");
+    printf("%-10s %-14s %9.4f %% %9.1e %9.4f %% %9.1e %9.4f %%  %s\n", scene, method, 100 * coverage->far_share, coverage->rms, 100 * color->far_share,
+           color->rms, 100 * bytes_off, good ? "ok" : "MISSED");
     fflush(stdout);
     return good;
 }
@@ -246,8 +245,9 @@ int main(int count, char **arguments)
     }
     mgt_context_info info = {.struct_size = sizeof info};
     mgt_context_get_info(gl, &info);
-    printf("%s\n%d x %d pixels; pixels off by more than %g, rms of the others (limits %g %%, %.0e), displayed bytes off by more than one (limit %g %%)\n\n%-25s %22s %22s %11s\n",
-           info.renderer, WIDTH, HEIGHT, far_off, 100 * most_far_off, largest_rms, 100 * most_bytes_off, "", "coverage", "color", "bytes");
+    printf(
+        "%s\n%d x %d pixels; pixels off by more than %g, rms of the others (limits %g %%, %.0e), displayed bytes off by more than one (limit %g %%)\n\n%-25s %22s %22s %11s\n",
+        info.renderer, WIDTH, HEIGHT, far_off, 100 * most_far_off, largest_rms, 100 * most_bytes_off, "", "coverage", "color", "bytes");
     sky_state *sky = calloc(1, sizeof *sky);
     bool good = sky != NULL && count > 1;
     for (int i = 1; i < count && sky; i++)

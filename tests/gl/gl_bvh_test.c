@@ -114,10 +114,7 @@ typedef struct visit {
     size_t nodes, leaves, deepest;
 } visit;
 
-static void place_of(const uint32_t texel[4], float out[3])
-{
-    memcpy(out, texel, 3 * sizeof *out);
-}
+static void place_of(const uint32_t texel[4], float out[3]) { memcpy(out, texel, 3 * sizeof *out); }
 
 static void visit_triangle(visit *v, uint32_t triangle, const float low[3], const float high[3])
 {

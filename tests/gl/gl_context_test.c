@@ -81,10 +81,7 @@ static void automatic_choice(void **state)
 }
 
 /* A function that an old OpenGL lacks. */
-static mgt_gl_function without_compute(const char *name)
-{
-    return strcmp(name, "glDispatchCompute") == 0 ? NULL : gl_egl_get_proc(name);
-}
+static mgt_gl_function without_compute(const char *name) { return strcmp(name, "glDispatchCompute") == 0 ? NULL : gl_egl_get_proc(name); }
 
 static void incomplete_hosts_are_refused(void **state)
 {
@@ -181,8 +178,7 @@ static void crops_are_parts_of_the_whole(void **state)
         render_all(gl, &scene, &whole);
         mgt_scene crop = scene;
         crop.image.crop_x = X, crop.image.crop_y = Y, crop.image.crop_width = W, crop.image.crop_height = H;
-        const mgt_target targets[] = {sea_target(MGT_LAYER_COVERAGE, MGT_FORMAT_R32F, part, 0),
-            sea_target(MGT_LAYER_COLOR, MGT_FORMAT_RGBA8_SRGB, shown, 0)};
+        const mgt_target targets[] = {sea_target(MGT_LAYER_COVERAGE, MGT_FORMAT_R32F, part, 0), sea_target(MGT_LAYER_COLOR, MGT_FORMAT_RGBA8_SRGB, shown, 0)};
         sea_render(gl, &crop, targets, 1); /* alone: rendered as small as it is … */
         for (size_t y = 0; y < H; y++)
             assert_memory_equal(part + y * W, whole.coverage + (y + Y) * SEA_WIDTH + X, W * sizeof(float));
@@ -316,10 +312,8 @@ static void sources_can_be_replaced(void **state)
         mgt_status status;
         const char *text;
     } refused[] = {
-        {{"tone.k", broken}, MGT_ERROR_UNAVAILABLE, "tone.k:3:"},
-        {{"glitter.k", "#include \"nowhere.k\"\n"}, MGT_ERROR_UNAVAILABLE, "glitter.k"},
-        {{"no_such.k", "\n"}, MGT_ERROR_ARGUMENT, "no_such.k"},
-        {{NULL, "\n"}, MGT_ERROR_ARGUMENT, "NULL"},
+        {{"tone.k", broken}, MGT_ERROR_UNAVAILABLE, "tone.k:3:"}, {{"glitter.k", "#include \"nowhere.k\"\n"}, MGT_ERROR_UNAVAILABLE, "glitter.k"},
+        {{"no_such.k", "\n"}, MGT_ERROR_ARGUMENT, "no_such.k"},   {{NULL, "\n"}, MGT_ERROR_ARGUMENT, "NULL"},
         {{"tone.k", NULL}, MGT_ERROR_ARGUMENT, "NULL"},
     };
     for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {
@@ -333,9 +327,9 @@ static void sources_can_be_replaced(void **state)
     assert_int_equal(mgt_gl_set_sources(cpu, NULL, 0), MGT_ERROR_UNAVAILABLE);
     assert_int_equal(mgt_gl_set_sources(NULL, NULL, 0), MGT_ERROR_ARGUMENT);
 
-    const mgt_gl_source shade = {"shade.glsl",
-        "layout(local_size_x = 8, local_size_y = 8) in;\nlayout(binding = 2) writeonly uniform image2D water_image;\n"
-                                               "void main()\n{\n    TilePixel p = tile_pixel();\n    if (p.inside)\n        imageStore(water_image, p.texel, vec4(0.25));\n}\n"};
+    const mgt_gl_source shade =
+        {"shade.glsl", "layout(local_size_x = 8, local_size_y = 8) in;\nlayout(binding = 2) writeonly uniform image2D water_image;\n"
+                       "void main()\n{\n    TilePixel p = tile_pixel();\n    if (p.inside)\n        imageStore(water_image, p.texel, vec4(0.25));\n}\n"};
     assert_int_equal(mgt_gl_set_sources(gl, &shade, 1), MGT_OK);
     sea_render(gl, &scene, &target, 1);
     for (size_t i = 0; i < PIXELS; i++)
@@ -361,8 +355,8 @@ static void messages_name_the_file(void **state)
     for (int i = 0; i < source.file_count; i++)
         glitter = strcmp(source.files[i], "glitter.k") == 0 ? i : glitter;
     assert_true(glitter > 0);
-    static const char *const forms[] = {"%d:12(5): error: `x' undeclared\n", "%d(12) : error C1503: undefined variable\n", "ERROR: %d:12: 'x' : undeclared identifier\n",
-                                        "1:3(1): warning: something else\n%d:12(5): error: `x' undeclared\n"};
+    static const char *const forms[] = {"%d:12(5): error: `x' undeclared\n", "%d(12) : error C1503: undefined variable\n",
+                                        "ERROR: %d:12: 'x' : undeclared identifier\n", "1:3(1): warning: something else\n%d:12(5): error: `x' undeclared\n"};
     for (size_t i = 0; i < sizeof forms / sizeof *forms; i++) {
         char log[128], text[128];
         snprintf(log, sizeof log, forms[i], glitter);
@@ -561,11 +555,20 @@ int main(void)
         return 77;
     }
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(creation_says_what_runs),   cmocka_unit_test(automatic_choice),           cmocka_unit_test(incomplete_hosts_are_refused),
-        cmocka_unit_test(layers_are_those_of_the_cpu), cmocka_unit_test(crops_are_parts_of_the_whole), cmocka_unit_test(strides_are_kept),
-        cmocka_unit_test(sample_ranges_add_up),      cmocka_unit_test(large_pictures_are_refused), cmocka_unit_test(rendering_can_be_cancelled),
-        cmocka_unit_test(sources_can_be_replaced),   cmocka_unit_test(textures_hold_the_layers),   cmocka_unit_test(wrong_textures_are_refused),
-        cmocka_unit_test(the_threads_context_stays_current), cmocka_unit_test(messages_name_the_file),
+        cmocka_unit_test(creation_says_what_runs),
+        cmocka_unit_test(automatic_choice),
+        cmocka_unit_test(incomplete_hosts_are_refused),
+        cmocka_unit_test(layers_are_those_of_the_cpu),
+        cmocka_unit_test(crops_are_parts_of_the_whole),
+        cmocka_unit_test(strides_are_kept),
+        cmocka_unit_test(sample_ranges_add_up),
+        cmocka_unit_test(large_pictures_are_refused),
+        cmocka_unit_test(rendering_can_be_cancelled),
+        cmocka_unit_test(sources_can_be_replaced),
+        cmocka_unit_test(textures_hold_the_layers),
+        cmocka_unit_test(wrong_textures_are_refused),
+        cmocka_unit_test(the_threads_context_stays_current),
+        cmocka_unit_test(messages_name_the_file),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

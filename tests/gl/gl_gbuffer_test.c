@@ -52,10 +52,7 @@ typedef struct hit {
     int triangle;
 } hit;
 
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
+static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 static void cross(const double a[3], const double b[3], double out[3])
 {
@@ -187,10 +184,15 @@ static void layers_are_those_of_rays(void **state)
     mgt_scene scene = mgt_scene_defaults();
     scene.objects = &object;
     scene.object_count = 1;
-    const mgt_camera cameras[] = {camera_towards(-3, 3, 5, -1), camera_towards(0.2, 8, 0.1, -2), camera_towards(-7, 0.9, 3, 0), camera_towards(1, -1.5, 2, 0.15)};
+    const mgt_camera cameras[] = {camera_towards(-3, 3, 5, -1), camera_towards(0.2, 8, 0.1, -2), camera_towards(-7, 0.9, 3, 0),
+                                  camera_towards(1, -1.5, 2, 0.15)};
     for (size_t i = 0; i < sizeof cameras / sizeof *cameras; i++) {
-        gbuffer_job job = {.camera = camera_rays_of(&cameras[i], WIDTH, HEIGHT), .width = WIDTH, .height = HEIGHT, .index = index_of_water,
-                           .map = GBUFFER_SAGITTAL, .error = 0.02};
+        gbuffer_job job = {.camera = camera_rays_of(&cameras[i], WIDTH, HEIGHT),
+                           .width = WIDTH,
+                           .height = HEIGHT,
+                           .index = index_of_water,
+                           .map = GBUFFER_SAGITTAL,
+                           .error = 0.02};
         job.camera.position[0] += 100;
         job.camera.position[2] -= 50;
         mgt_status status = gl_objects_update(&g->gl, &g->objects, &scene, 1, g->limits.table_texels, &r);

@@ -34,10 +34,7 @@ static mgt_texture *checks(void)
     return texture;
 }
 
-static mgt_material material_of(float r, float g, float b)
-{
-    return (mgt_material){.base_color = {r, g, b}, .roughness = 0.5f, .pattern_size = 1};
-}
+static mgt_material material_of(float r, float g, float b) { return (mgt_material){.base_color = {r, g, b}, .roughness = 0.5f, .pattern_size = 1}; }
 
 static props make_props(void)
 {
@@ -57,7 +54,8 @@ static props make_props(void)
     }
     props p = {.box = test_mesh(corners, NULL, 8, sides, 12), .texture = checks()};
     p.floor = test_mesh(floor_points, places, (SIDE + 1) * (SIDE + 1), cells, 2 * SIDE * SIDE);
-    p.objects[0] = (mgt_object){.mesh = p.box, .transform = {{0.5, 0, 0.2, 0.3}, {0, 0.7, 0, 0}, {-0.2, 0, 0.5, -4}}, .material = material_of(0.8f, 0.3f, 0.2f)};
+    p.objects[0] =
+        (mgt_object){.mesh = p.box, .transform = {{0.5, 0, 0.2, 0.3}, {0, 0.7, 0, 0}, {-0.2, 0, 0.5, -4}}, .material = material_of(0.8f, 0.3f, 0.2f)};
     p.objects[1] = (mgt_object){.mesh = p.floor, .transform = {{1, 0, 0, 0}, {0, 1, 0, -1.2}, {0, 0, 1, -4}}, .material = material_of(1, 1, 1)};
     p.objects[1].material.texture = p.texture;
     return p;
@@ -102,14 +100,10 @@ static void objects_are_those_of_the_cpu(void **state)
         uint32_t places;
         bool caustics;
     } ways[] = {
-        {MGT_METHOD_MANGATA, MGT_REFRACTION_TWO_PHASE, 1, true},
-        {MGT_METHOD_MANGATA, MGT_REFRACTION_TWO_PHASE, 2, false},
-        {MGT_METHOD_MANGATA, MGT_REFRACTION_HYBRID, 1, false},
-        {MGT_METHOD_NONE, MGT_REFRACTION_HYBRID, 2, false},
-        {MGT_METHOD_NONE, MGT_REFRACTION_BROAD, 1, false},
-        {MGT_METHOD_PODEE_PIXEL, MGT_REFRACTION_OFF, 1, false},
-        {MGT_METHOD_BRUNETON, MGT_REFRACTION_NARROW, 1, false},
-        {MGT_METHOD_TNDF, MGT_REFRACTION_SCREEN_SPACE, 1, false},
+        {MGT_METHOD_MANGATA, MGT_REFRACTION_TWO_PHASE, 1, true}, {MGT_METHOD_MANGATA, MGT_REFRACTION_TWO_PHASE, 2, false},
+        {MGT_METHOD_MANGATA, MGT_REFRACTION_HYBRID, 1, false},   {MGT_METHOD_NONE, MGT_REFRACTION_HYBRID, 2, false},
+        {MGT_METHOD_NONE, MGT_REFRACTION_BROAD, 1, false},       {MGT_METHOD_PODEE_PIXEL, MGT_REFRACTION_OFF, 1, false},
+        {MGT_METHOD_BRUNETON, MGT_REFRACTION_NARROW, 1, false},  {MGT_METHOD_TNDF, MGT_REFRACTION_SCREEN_SPACE, 1, false},
     };
     for (int i = 0; i < 4; i++)
         for (size_t k = 0; k < sizeof ways / sizeof *ways; k++) {

@@ -88,8 +88,7 @@ static double ball_depth(const double ball[4], const ray *r)
 static double pole_depth(const double pole[5], const ray *r)
 {
     const double x = r->eye[0] - pole[0], z = r->eye[2] - pole[2];
-    const double depth = nearest_root(r->step[0] * r->step[0] + r->step[2] * r->step[2], r->step[0] * x + r->step[2] * z,
-                                      x * x + z * z - pole[3] * pole[3]);
+    const double depth = nearest_root(r->step[0] * r->step[0] + r->step[2] * r->step[2], r->step[0] * x + r->step[2] * z, x * x + z * z - pole[3] * pole[3]);
     return fabs(r->eye[1] + depth * r->step[1] - pole[1]) <= pole[4] / 2 ? depth : INFINITY;
 }
 

@@ -32,10 +32,7 @@ typedef struct picture {
 
 /* ---- drawing --------------------------------------------------------------------------------------------- */
 
-static void clean(void)
-{
-    assert_int_equal(glGetError(), GL_NO_ERROR);
-}
+static void clean(void) { assert_int_equal(glGetError(), GL_NO_ERROR); }
 
 static engine start(depth_convention depth)
 {
@@ -150,7 +147,11 @@ static void make_oracle(oracle *o)
     make_waves(waves);
     const body ball = make_ball(waves, test_time), pole = make_pole();
     const mgt_gl_view view = make_camera(DEPTH_REVERSED, (double)WIDTH / HEIGHT, test_time);
-    geometry g = {.width = WIDTH, .height = HEIGHT, .waves = waves, .wave_count = WAVES, .time = test_time,
+    geometry g = {.width = WIDTH,
+                  .height = HEIGHT,
+                  .waves = waves,
+                  .wave_count = WAVES,
+                  .time = test_time,
                   .ball = {ball.centre[0], ball.centre[1], ball.centre[2], ball.radius},
                   .pole = {pole.centre[0], pole.centre[1], pole.centre[2], pole.radius, pole.height}};
     memcpy(g.view, view.view, sizeof g.view);
@@ -256,8 +257,8 @@ static mgt_gl_view part_of(mgt_gl_view v, int x, int y, int width, int height)
     const double left = (v.projection[8] - 1) / v.projection[0], low = (v.projection[9] - 1) / v.projection[5];
     const double across = 2 / v.projection[0] / WIDTH, up = 2 / v.projection[5] / HEIGHT;
     const double near_terms[2] = {v.projection[10], v.projection[14]};
-    make_projection(v.reversed_depth ? DEPTH_REVERSED : DEPTH_STANDARD, left + x * across, left + (x + width) * across, low + y * up,
-                    low + (y + height) * up, v.projection);
+    make_projection(v.reversed_depth ? DEPTH_REVERSED : DEPTH_STANDARD, left + x * across, left + (x + width) * across, low + y * up, low + (y + height) * up,
+                    v.projection);
     v.projection[10] = near_terms[0];
     v.projection[14] = near_terms[1];
     v.x = x;
@@ -318,7 +319,8 @@ static void view_is_the_picture(void **state)
     static const float corners[] = {-6, -3, 6, 6, -3, 6, 6, 1, -14, -6, 1, -14};
     static const uint32_t halves[] = {0, 1, 2, 0, 2, 3};
     mgt_mesh *ramp = test_mesh(corners, NULL, 4, halves, 2);
-    const mgt_object object = {.mesh = ramp, .transform = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}},
+    const mgt_object object = {.mesh = ramp,
+                               .transform = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}},
                                .material = {.base_color = {0.7f, 0.5f, 0.3f}, .roughness = 0.6f, .pattern_size = 1}};
     scene.objects = &object;
     scene.object_count = 1;
@@ -430,8 +432,9 @@ static void default_framebuffer(void **state)
 {
     (void)state;
     static picture textured, surfaced;
-    static const EGLint config_wants[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_RED_SIZE,   8,
-                                          EGL_GREEN_SIZE,   8,               EGL_BLUE_SIZE,       8,              EGL_DEPTH_SIZE, 24, EGL_NONE};
+    static const EGLint config_wants[] =
+        {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_RED_SIZE, 8, EGL_GREEN_SIZE, 8, EGL_BLUE_SIZE, 8, EGL_DEPTH_SIZE, 24,
+         EGL_NONE};
     static const EGLint context_wants[] = {EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5, EGL_NONE};
     static const EGLint surface_wants[] = {EGL_WIDTH, WIDTH, EGL_HEIGHT, HEIGHT, EGL_NONE};
     const EGLDisplay display = eglGetCurrentDisplay();
@@ -473,10 +476,9 @@ static void default_framebuffer(void **state)
 /* ---- what a frame costs the host ------------------------------------------------------------------------- */
 
 /* All that a host can draw; podee-* with kernels in place of its Gaussian on its second visit. */
-static const mgt_method methods[] = {MGT_METHOD_MANGATA,       MGT_METHOD_NONE,        MGT_METHOD_SSAA,          MGT_METHOD_PODEE_UNIFORM,
-                                     MGT_METHOD_PODEE_PIXEL,   MGT_METHOD_MSAA32,      MGT_METHOD_LEAN,          MGT_METHOD_LEADR,
-                                     MGT_METHOD_TOKUYOSHI,     MGT_METHOD_BRUNETON,    MGT_METHOD_FXAA,          MGT_METHOD_TAA,
-                                     MGT_METHOD_TNDF,          MGT_METHOD_PODEE_PIXEL};
+static const mgt_method methods[] = {MGT_METHOD_MANGATA, MGT_METHOD_NONE, MGT_METHOD_SSAA,  MGT_METHOD_PODEE_UNIFORM, MGT_METHOD_PODEE_PIXEL,
+                                     MGT_METHOD_MSAA32,  MGT_METHOD_LEAN, MGT_METHOD_LEADR, MGT_METHOD_TOKUYOSHI,     MGT_METHOD_BRUNETON,
+                                     MGT_METHOD_FXAA,    MGT_METHOD_TAA,  MGT_METHOD_TNDF,  MGT_METHOD_PODEE_PIXEL};
 enum { METHODS = sizeof methods / sizeof methods[0] };
 
 static mgt_quality quality_of(int i)
@@ -682,9 +684,9 @@ static void wrong_views_are_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bodies_meet_the_water),      cmocka_unit_test(conventions_agree),        cmocka_unit_test(view_is_the_picture),
-        cmocka_unit_test(parts_make_the_whole),       cmocka_unit_test(multisampled_framebuffer), cmocka_unit_test(upper_left_origin),
-        cmocka_unit_test(default_framebuffer),        cmocka_unit_test(state_is_as_before),       cmocka_unit_test(steady_frames_cost_nothing),
+        cmocka_unit_test(bodies_meet_the_water),   cmocka_unit_test(conventions_agree),        cmocka_unit_test(view_is_the_picture),
+        cmocka_unit_test(parts_make_the_whole),    cmocka_unit_test(multisampled_framebuffer), cmocka_unit_test(upper_left_origin),
+        cmocka_unit_test(default_framebuffer),     cmocka_unit_test(state_is_as_before),       cmocka_unit_test(steady_frames_cost_nothing),
         cmocka_unit_test(wrong_views_are_refused),
     };
     engine e;

@@ -36,8 +36,7 @@ static bool same_shape(const picture_pair *p)
 {
     if (p->a.width == p->b.width && p->a.height == p->b.height && p->a.channels == p->b.channels)
         return true;
-    fprintf(stderr, "picture_check: %u x %u x %u against %u x %u x %u\n", p->a.width, p->a.height, p->a.channels, p->b.width, p->b.height,
-            p->b.channels);
+    fprintf(stderr, "picture_check: %u x %u x %u against %u x %u x %u\n", p->a.width, p->a.height, p->a.channels, p->b.width, p->b.height, p->b.channels);
     return false;
 }
 

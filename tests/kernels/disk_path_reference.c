@@ -64,8 +64,8 @@ double disk_path_by_chords(const struct disk_path_case *c, int chords)
         double angle = low + (i + 0.5) * spacing;
         double v = r * sin(angle), h = r * cos(angle);
         double mean = u0 + lean * (v - v0);
-        double share = antiderivative(h - mean, along) - antiderivative(h - mean - length, along)
-                     - antiderivative(-h - mean, along) + antiderivative(-h - mean - length, along);
+        double share = antiderivative(h - mean, along) - antiderivative(h - mean - length, along) - antiderivative(-h - mean, along) +
+                       antiderivative(-h - mean - length, along);
         sum += normal_density((v - v0) / across) / across * h * share;
     }
     return sum * spacing / length;
@@ -81,8 +81,7 @@ static double share_at(const struct disk_path_case *c, double x, double y, int c
         double angle = low + (i + 0.5) * spacing;
         double h = r * cos(angle), offset = r * sin(angle) - y;
         double mean = x + lean * offset;
-        sum += normal_density(offset / deviation) / deviation * h
-             * (normal_probability((h - mean) / rest) - normal_probability((-h - mean) / rest));
+        sum += normal_density(offset / deviation) / deviation * h * (normal_probability((h - mean) / rest) - normal_probability((-h - mean) / rest));
     }
     return sum * spacing;
 }

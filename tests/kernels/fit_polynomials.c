@@ -61,10 +61,7 @@ static wide grid_point(const struct problem *p, int i)
     return p->low + (p->high - p->low) * s;
 }
 
-static wide error_at(const struct problem *p, const wide *c, wide x)
-{
-    return p->weight(x) * (polynomial(p, c, x) - p->function(x));
-}
+static wide error_at(const struct problem *p, const wide *c, wide x) { return p->weight(x) * (polynomial(p, c, x) - p->function(x)); }
 
 /* Between two changes of the error's sign lies one extremum; a fit has count + 1 of them of equal size when it is the best. */
 static int find_extrema(const struct problem *p, const wide *c, wide *nodes)
@@ -125,10 +122,7 @@ static wide half_pi(void) { return acosl(0.0L); }
 /* Turns, z = r^2 with r in quarter turns: sin = r + r p(z), cos = 1 - z + z p(z). */
 static wide sine_turns(wide z) { return z > 1e-12L ? sinl(half_pi() * sqrtl(z)) / sqrtl(z) - 1 : half_pi() - 1; }
 static wide sine_turns_weight(wide z) { return sqrtl(z) + 1e-6L; }
-static wide cosine_turns(wide z)
-{
-    return z > 1e-7L ? (cosl(half_pi() * sqrtl(z)) - 1 + z) / z : 1 - half_pi() * half_pi() / 2;
-}
+static wide cosine_turns(wide z) { return z > 1e-7L ? (cosl(half_pi() * sqrtl(z)) - 1 + z) / z : 1 - half_pi() * half_pi() / 2; }
 static wide cosine_turns_weight(wide z) { return z * (1 - z / 2) + 1e-6L; }
 
 /* Waves, z = r^2 with r in turns: S = r p(z) = sqrt(2) sin(pi r), C = p(z) = sqrt(2) cos(pi r); sin = S C, cos = 1 - S^2. */

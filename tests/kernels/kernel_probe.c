@@ -55,6 +55,6 @@ static const char lanes_name[] = TEXT(MGT_LANES) " lanes";
 struct kernel_probe NAME(MGT_LANES)(void);
 struct kernel_probe NAME(MGT_LANES)(void)
 {
-        const int fused = MGT_LANES != 4; /* plain SSE2 has no fused multiply-add */
+    const int fused = MGT_LANES != 4; /* plain SSE2 has no fused multiply-add */
     return (struct kernel_probe){lanes_name, MGT_LANES, fused, fused, run, count_evaluations};
 }

@@ -8,26 +8,26 @@
 enum { PROBE_INPUTS = 8, PROBE_OUTPUTS = 3, PROBE_BATCH = 16 };
 
 /* What kernel_probe.k evaluates. */
-#define PROBE_FUNCTIONS(X)                                                                                  \
-    X(PROBE_SINCOS_TURNS)                                                                                   \
-    X(PROBE_SINCOS_WAVE)                                                                                    \
-    X(PROBE_SINCOS_REDUCED)                                                                                 \
-    X(PROBE_EXP2)                                                                                           \
-    X(PROBE_EXP)                                                                                            \
-    X(PROBE_LOG)                                                                                            \
-    X(PROBE_NORMAL_PDF)                                                                                     \
-    X(PROBE_NORMAL_CDF)                                                                                     \
-    X(PROBE_NORMAL_EXCESS)                                                                                  \
-    X(PROBE_CDF_ANTIDERIVATIVE)                                                                             \
-    X(PROBE_DISK_PATH)     /* p0.x p0.y p1.x p1.y sxx sxy syy radius */                                     \
-    X(PROBE_ARC_SHARE)     /* p0.x p0.y p1.x p1.y radius */                                                 \
-    X(PROBE_ROUNDING)      /* round_even, floor, abs */                                                     \
-    X(PROBE_MINMAX)        /* min, max, clamp to [-1, 1] */                                                 \
-    X(PROBE_EXPONENT)      /* pow2i(round_even(b)), exponent_of(a), mantissa_of(a) */                       \
+#define PROBE_FUNCTIONS(X)                                                                                      \
+    X(PROBE_SINCOS_TURNS)                                                                                       \
+    X(PROBE_SINCOS_WAVE)                                                                                        \
+    X(PROBE_SINCOS_REDUCED)                                                                                     \
+    X(PROBE_EXP2)                                                                                               \
+    X(PROBE_EXP)                                                                                                \
+    X(PROBE_LOG)                                                                                                \
+    X(PROBE_NORMAL_PDF)                                                                                         \
+    X(PROBE_NORMAL_CDF)                                                                                         \
+    X(PROBE_NORMAL_EXCESS)                                                                                      \
+    X(PROBE_CDF_ANTIDERIVATIVE)                                                                                 \
+    X(PROBE_DISK_PATH)     /* p0.x p0.y p1.x p1.y sxx sxy syy radius */                                         \
+    X(PROBE_ARC_SHARE)     /* p0.x p0.y p1.x p1.y radius */                                                     \
+    X(PROBE_ROUNDING)      /* round_even, floor, abs */                                                         \
+    X(PROBE_MINMAX)        /* min, max, clamp to [-1, 1] */                                                     \
+    X(PROBE_EXPONENT)      /* pow2i(round_even(b)), exponent_of(a), mantissa_of(a) */                           \
     X(PROBE_SELECT)        /* a < b ? a : b; a < b and not a < 0 or b > 1; bit 0: any lane a < b, bit 1: all */ \
-    X(PROBE_PRODUCT_ERROR) /* a b, and what rounding took from it */                                        \
-    X(PROBE_CROSS)         /* of (a b c) and (d e f) */                                                     \
-    X(PROBE_NORMALIZE)     /* of (a b c) */                                                                 \
+    X(PROBE_PRODUCT_ERROR) /* a b, and what rounding took from it */                                            \
+    X(PROBE_CROSS)         /* of (a b c) and (d e f) */                                                         \
+    X(PROBE_NORMALIZE)     /* of (a b c) */                                                                     \
     X(PROBE_VECTOR)        /* dot of (a b c) and (d e f); length_squared of (a b) + 2 (c d); the same by sub */ \
     X(PROBE_COUNT)
 

@@ -113,10 +113,7 @@ static void run(enum probe_function function, const float *const *in, float *con
             memcpy(out[k], probe.values + HEAD + (PROBE_INPUTS + k) * ROOM, count * sizeof **out);
 }
 
-static long count_evaluations(void)
-{
-    return 0;
-}
+static long count_evaluations(void) { return 0; }
 
 static bool start(void)
 {

@@ -122,8 +122,8 @@ static void test_bounds(void **state)
                 }
             }
             if (w >= widths - 2 || !(worst <= 1))
-                printf("%-9s %-19s [%g, %g]: absolute %.2e  relative %.2e  (%.2f of the bound, at %.9g)\n", probes[w].name,
-                       bound->name, bound->low, bound->high, worst_absolute, worst_relative, worst, where);
+                printf("%-9s %-19s [%g, %g]: absolute %.2e  relative %.2e  (%.2f of the bound, at %.9g)\n", probes[w].name, bound->name, bound->low,
+                       bound->high, worst_absolute, worst_relative, worst, where);
             assert_true(worst <= 1);
         }
     free(a);
@@ -159,8 +159,8 @@ static void test_words(void **state)
     struct kernel_probe probes[MOST_PROBES];
     int widths = kernel_probes(probes);
     struct arrays *a = new_arrays();
-    const float special[] = {0.0f, -0.0f, 0.5f, -0.5f, 1.5f, 2.5f, -2.5f, 0.49999997f, -0.49999997f, 8388607.5f, -8388607.5f,
-                             8388609.0f, 1e30f, -1e30f, 1e-40f, -1.0f};
+    const float special[] = {0.0f,         -0.0f,      0.5f,        -0.5f,      1.5f,  2.5f,   -2.5f,  0.49999997f,
+                             -0.49999997f, 8388607.5f, -8388607.5f, 8388609.0f, 1e30f, -1e30f, 1e-40f, -1.0f};
     uint64_t seed = 5;
     int count = 4096;
     for (int i = 0; i < count; i++)
@@ -260,7 +260,7 @@ static void random_inputs(struct arrays *a, enum probe_function function, int co
         if (function == PROBE_DISK_PATH && i % 4) {
             struct disk_path_case c = random_disk_path_case(&seed);
             double size = i % 2 ? 1 : 0.0046;
-            const double values[] = {c.start[0] * size, c.start[1] * size, c.end[0] * size, c.end[1] * size,
+            const double values[] = {c.start[0] * size,  c.start[1] * size,  c.end[0] * size,    c.end[1] * size,
                                      c.xx * size * size, c.xy * size * size, c.yy * size * size, size};
             for (int k = 0; k < 8; k++)
                 a->in[k][i] = (float)values[k];
@@ -459,23 +459,23 @@ static void test_disk_path_limits(void **state)
         float in[8];
         double low, high;
     } limits[] = {
-        {{0, 0, 0, 0, 0, 0, 0, 1}, 1 - 1e-4, 1},                           /* a point inside */
-        {{2, 0, 2, 0, 0, 0, 0, 1}, 0, 0},                                  /* a point outside */
-        {{0.9f, 0, 0.9f, 0, 0, 0, 0, 1}, 1 - 1e-4, 1},                     /* a point near the edge */
-        {{-2, 0, 2, 0, 0, 0, 0, 1}, 0.495, 0.505},                         /* a diameter of a path twice as long */
-        {{-2, 0.6f, 2, 0.6f, 0, 0, 0, 1}, 0.395, 0.405},                   /* a chord of it */
-        {{-2, 1.1f, 2, 1.1f, 0, 0, 0, 1}, 0, 0},                           /* past it */
-        {{0, 0, 0.5f, 0, 0, 0, 0, 1}, 1 - 1e-4, 1},                        /* wholly inside */
-        {{0, 0, 0, 0, 1, 0, 1, 1}, 0.39347 - 2e-4, 0.39347 + 2e-4},        /* 1 - exp(-1/2) */
-        {{0, 0, 0, 0, 1, 0, 1, 3}, 0.98889 - 2e-4, 0.98889 + 2e-4},        /* 1 - exp(-9/2) */
-        {{0, 0, 0, 0, 1, 0, 0, 1}, 0.68269 - 1e-3, 0.68269 + 1e-3},        /* rank 1: within one deviation */
-        {{0, 0, 0, 0, 1, 1, 1, 1}, 0.52050 - 1e-3, 0.52050 + 1e-3},        /* rank 1, diagonal, deviation sqrt 2 */
-        {{0, 0, 0, 0, 4, 0, 4, 1e-3f}, 1.248e-7, 1.251e-7} ,              /* R^2 / (2 sigma^2) */
-        {{0, 0, 0, 0, 1e-2f, 0, 1e-2f, 1e10f}, 1 - 1e-4, 1},                      /* a disk without end */
-        {{0, 0, 0, 0, 1, 0, 1, 0}, 0, 0},                                  /* no disk */
-        {{50, 0, 60, 0, 1, 0, 1, 1}, 0, 0},                                /* out of reach */
+        {{0, 0, 0, 0, 0, 0, 0, 1}, 1 - 1e-4, 1},                    /* a point inside */
+        {{2, 0, 2, 0, 0, 0, 0, 1}, 0, 0},                           /* a point outside */
+        {{0.9f, 0, 0.9f, 0, 0, 0, 0, 1}, 1 - 1e-4, 1},              /* a point near the edge */
+        {{-2, 0, 2, 0, 0, 0, 0, 1}, 0.495, 0.505},                  /* a diameter of a path twice as long */
+        {{-2, 0.6f, 2, 0.6f, 0, 0, 0, 1}, 0.395, 0.405},            /* a chord of it */
+        {{-2, 1.1f, 2, 1.1f, 0, 0, 0, 1}, 0, 0},                    /* past it */
+        {{0, 0, 0.5f, 0, 0, 0, 0, 1}, 1 - 1e-4, 1},                 /* wholly inside */
+        {{0, 0, 0, 0, 1, 0, 1, 1}, 0.39347 - 2e-4, 0.39347 + 2e-4}, /* 1 - exp(-1/2) */
+        {{0, 0, 0, 0, 1, 0, 1, 3}, 0.98889 - 2e-4, 0.98889 + 2e-4}, /* 1 - exp(-9/2) */
+        {{0, 0, 0, 0, 1, 0, 0, 1}, 0.68269 - 1e-3, 0.68269 + 1e-3}, /* rank 1: within one deviation */
+        {{0, 0, 0, 0, 1, 1, 1, 1}, 0.52050 - 1e-3, 0.52050 + 1e-3}, /* rank 1, diagonal, deviation sqrt 2 */
+        {{0, 0, 0, 0, 4, 0, 4, 1e-3f}, 1.248e-7, 1.251e-7},         /* R^2 / (2 sigma^2) */
+        {{0, 0, 0, 0, 1e-2f, 0, 1e-2f, 1e10f}, 1 - 1e-4, 1},        /* a disk without end */
+        {{0, 0, 0, 0, 1, 0, 1, 0}, 0, 0},                           /* no disk */
+        {{50, 0, 60, 0, 1, 0, 1, 1}, 0, 0},                         /* out of reach */
         {{1e30f, 1e30f, -1e30f, 1e20f, 1, 0, 1, 1}, 0, 1e-6},
-        {{8, 0, 9, 0, 1, 0, 1, 1}, 0, 0},                                  /* six deviations and more */
+        {{8, 0, 9, 0, 1, 0, 1, 1}, 0, 0}, /* six deviations and more */
     };
     struct kernel_probe probes[MOST_PROBES];
     int widths = kernel_probes(probes), count = sizeof limits / sizeof limits[0];
@@ -514,8 +514,8 @@ static void test_any_finite_input(void **state)
                 run(&probes[w], function, a, MAX_COUNT);
                 for (int i = 0; i < MAX_COUNT; i++) {
                     if (!(a->out[0][i] >= 0 && a->out[0][i] <= 1))
-                        print_error("%s: f(%g %g  %g %g  %g %g %g  %g) = %g\n", probes[w].name, a->in[0][i], a->in[1][i],
-                                    a->in[2][i], a->in[3][i], a->in[4][i], a->in[5][i], a->in[6][i], a->in[7][i], a->out[0][i]);
+                        print_error("%s: f(%g %g  %g %g  %g %g %g  %g) = %g\n", probes[w].name, a->in[0][i], a->in[1][i], a->in[2][i], a->in[3][i], a->in[4][i],
+                                    a->in[5][i], a->in[6][i], a->in[7][i], a->out[0][i]);
                     assert_true(a->out[0][i] >= 0 && a->out[0][i] <= 1);
                 }
             }

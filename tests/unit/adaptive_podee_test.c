@@ -354,8 +354,7 @@ static void bits_do_not_depend_on_machines(void **state)
             mgt_context_destroy(context);
         }
         for (int i = 0; i < PIXELS; i++)
-            assert_true(first.coverage[i] >= 0 && first.coverage[i] <= first.water[i] && first.water[i] <= 1 && first.detail[i] >= 0 &&
-                        first.detail[i] <= 1);
+            assert_true(first.coverage[i] >= 0 && first.coverage[i] <= first.water[i] && first.water[i] <= 1 && first.detail[i] >= 0 && first.detail[i] <= 1);
     }
 }
 

@@ -194,12 +194,9 @@ static void nothing_to_find_costs_nothing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(samples_are_those_asked_for),
-        cmocka_unit_test(more_samples_are_nearer_to_brute_force),
-        cmocka_unit_test(shutters_of_any_length_converge),
-        cmocka_unit_test(a_target_error_is_met),
-        cmocka_unit_test(history_leaves_no_trace),
-        cmocka_unit_test(nothing_to_find_costs_nothing),
+        cmocka_unit_test(samples_are_those_asked_for),     cmocka_unit_test(more_samples_are_nearer_to_brute_force),
+        cmocka_unit_test(shutters_of_any_length_converge), cmocka_unit_test(a_target_error_is_met),
+        cmocka_unit_test(history_leaves_no_trace),         cmocka_unit_test(nothing_to_find_costs_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

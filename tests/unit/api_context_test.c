@@ -209,7 +209,7 @@ static void progress_can_cancel(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(creation_refuses_nonsense), cmocka_unit_test(creation_resolves),  cmocka_unit_test(texts_are_there),
+        cmocka_unit_test(creation_refuses_nonsense), cmocka_unit_test(creation_resolves),   cmocka_unit_test(texts_are_there),
         cmocka_unit_test(render_errors_are_logged),  cmocka_unit_test(progress_can_cancel),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

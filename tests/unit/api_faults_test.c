@@ -27,15 +27,9 @@ static void *counted(void *memory)
     return memory;
 }
 
-void *__wrap_malloc(size_t size)
-{
-    return ++calls == fail_at ? NULL : counted(__real_malloc(size));
-}
+void *__wrap_malloc(size_t size) { return ++calls == fail_at ? NULL : counted(__real_malloc(size)); }
 
-void *__wrap_calloc(size_t count, size_t size)
-{
-    return ++calls == fail_at ? NULL : counted(__real_calloc(count, size));
-}
+void *__wrap_calloc(size_t count, size_t size) { return ++calls == fail_at ? NULL : counted(__real_calloc(count, size)); }
 
 void __wrap_free(void *memory)
 {

@@ -87,8 +87,8 @@ static void seeds_change_the_jitter_alone(void **state)
         render_coverage(context, &scene, a);
         scene.quality.seed = 2;
         render_coverage(context, &scene, b);
-        const bool sampled = sea_methods[m].method == MGT_METHOD_SSAA || sea_methods[m].method == MGT_METHOD_REFERENCE ||
-                             sea_methods[m].adaptive == MGT_ADAPTIVE_PODEE;
+        const bool sampled =
+            sea_methods[m].method == MGT_METHOD_SSAA || sea_methods[m].method == MGT_METHOD_REFERENCE || sea_methods[m].adaptive == MGT_ADAPTIVE_PODEE;
         assert_int_equal(memcmp(a, b, sizeof a) != 0, sampled);
     }
     mgt_context_destroy(context);
@@ -185,18 +185,42 @@ static void unusual_scenes_render(void **state)
         mgt_scene s = sea_scene(waves);
         bool dark = false;
         switch (kind) {
-        case 0: s.water.waves = NULL, s.water.wave_count = 0; break;
-        case 1: s.shutter = 0; break;
-        case 2: s.light.elevation_deg = -4, s.sky.model = MGT_SKY_ATMOSPHERE, dark = true; break;
-        case 3: s.light.elevation_deg = -90, dark = true; break;
-        case 4: s.light.elevation_deg = 90; break;
-        case 5: memset(s.light.radiance, 0, sizeof s.light.radiance), s.sky.model = MGT_SKY_BLACK; break;
-        case 6: s.camera.target[0] = 0, s.camera.target[1] = 0, s.camera.target[2] = 0, s.camera.up[1] = 0, s.camera.up[2] = -1; break;
-        case 7: s.camera.up[0] = 1, s.camera.up[1] = 0; break;
-        case 8: s.camera.target[1] = 9, s.camera.fov_y_deg = 178, dark = false; break;
-        case 9: s.camera.target[1] = 5000, s.camera.target[2] = -100; break; /* only sky */
-        case 10: s.camera.position[1] = 1e-4, s.camera.target[1] = 0; break; /* among the waves */
-        case 11: s.camera.position[1] = 1e6, s.camera.target[1] = 1e6 - 10, s.camera.target[2] = -50, s.water.index_of_refraction = 1; break;
+        case 0:
+            s.water.waves = NULL, s.water.wave_count = 0;
+            break;
+        case 1:
+            s.shutter = 0;
+            break;
+        case 2:
+            s.light.elevation_deg = -4, s.sky.model = MGT_SKY_ATMOSPHERE, dark = true;
+            break;
+        case 3:
+            s.light.elevation_deg = -90, dark = true;
+            break;
+        case 4:
+            s.light.elevation_deg = 90;
+            break;
+        case 5:
+            memset(s.light.radiance, 0, sizeof s.light.radiance), s.sky.model = MGT_SKY_BLACK;
+            break;
+        case 6:
+            s.camera.target[0] = 0, s.camera.target[1] = 0, s.camera.target[2] = 0, s.camera.up[1] = 0, s.camera.up[2] = -1;
+            break;
+        case 7:
+            s.camera.up[0] = 1, s.camera.up[1] = 0;
+            break;
+        case 8:
+            s.camera.target[1] = 9, s.camera.fov_y_deg = 178, dark = false;
+            break;
+        case 9:
+            s.camera.target[1] = 5000, s.camera.target[2] = -100;
+            break; /* only sky */
+        case 10:
+            s.camera.position[1] = 1e-4, s.camera.target[1] = 0;
+            break; /* among the waves */
+        case 11:
+            s.camera.position[1] = 1e6, s.camera.target[1] = 1e6 - 10, s.camera.target[2] = -50, s.water.index_of_refraction = 1;
+            break;
         }
         for (int m = 0; m < SEA_METHODS + SEA_RIVALS; m++) {
             sea_take_method(&s, m < SEA_METHODS ? m : 0);
@@ -208,8 +232,8 @@ static void unusual_scenes_render(void **state)
                 for (int c = 0; c < 3; c++)
                     finite = finite && rgb[3 * i + c] >= 0 && isfinite(rgb[3 * i + c]) && isfinite(normal[3 * i + c]);
                 if (!finite)
-                    fail_msg("scene %d, method %d, pixel %d: coverage %g, colour %g %g %g, normal %g %g %g", kind, (int)s.quality.method, i, (double)coverage[i],
-                             (double)rgb[3 * i], (double)rgb[3 * i + 1], (double)rgb[3 * i + 2], (double)normal[3 * i],
+                    fail_msg("scene %d, method %d, pixel %d: coverage %g, colour %g %g %g, normal %g %g %g", kind, (int)s.quality.method, i,
+                             (double)coverage[i], (double)rgb[3 * i], (double)rgb[3 * i + 1], (double)rgb[3 * i + 2], (double)normal[3 * i],
                              (double)normal[3 * i + 1], (double)normal[3 * i + 2]);
             }
         }

@@ -25,9 +25,14 @@ typedef struct sea_method {
     mgt_adaptive adaptive;
 } sea_method;
 
-static const sea_method sea_methods[] = {{MGT_METHOD_NONE, 0},    {MGT_METHOD_SSAA, 0},      {MGT_METHOD_PODEE_UNIFORM, 0},
-                                         {MGT_METHOD_PODEE_PIXEL, 0}, {MGT_METHOD_MANGATA, 0}, {MGT_METHOD_REFERENCE, 0},
-                                         {MGT_METHOD_ADAPTIVE, MGT_ADAPTIVE_PODEE}, {MGT_METHOD_ADAPTIVE, MGT_ADAPTIVE_CELLS}};
+static const sea_method sea_methods[] = {{MGT_METHOD_NONE, 0},
+                                         {MGT_METHOD_SSAA, 0},
+                                         {MGT_METHOD_PODEE_UNIFORM, 0},
+                                         {MGT_METHOD_PODEE_PIXEL, 0},
+                                         {MGT_METHOD_MANGATA, 0},
+                                         {MGT_METHOD_REFERENCE, 0},
+                                         {MGT_METHOD_ADAPTIVE, MGT_ADAPTIVE_PODEE},
+                                         {MGT_METHOD_ADAPTIVE, MGT_ADAPTIVE_CELLS}};
 enum { SEA_METHODS = sizeof sea_methods / sizeof *sea_methods };
 static const mgt_method sea_rivals[] = {MGT_METHOD_MSAA32,   MGT_METHOD_LEAN, MGT_METHOD_LEADR, MGT_METHOD_TOKUYOSHI,
                                         MGT_METHOD_BRUNETON, MGT_METHOD_FXAA, MGT_METHOD_TAA,   MGT_METHOD_TNDF};

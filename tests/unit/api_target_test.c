@@ -11,11 +11,13 @@ typedef struct layer_format {
 } layer_format;
 
 static const layer_format all_formats[] = {
-    {MGT_LAYER_COLOR, MGT_FORMAT_RGB32F, 12},   {MGT_LAYER_COLOR, MGT_FORMAT_RGBA32F, 16}, {MGT_LAYER_COLOR, MGT_FORMAT_RGBA8_SRGB, 4},
-    {MGT_LAYER_COVERAGE, MGT_FORMAT_R32F, 4},   {MGT_LAYER_MASK, MGT_FORMAT_R32F, 4},      {MGT_LAYER_DEPTH, MGT_FORMAT_R32F, 4},
-    {MGT_LAYER_NORMAL, MGT_FORMAT_RGB32F, 12},  {MGT_LAYER_NORMAL, MGT_FORMAT_RGBA32F, 16}, {MGT_LAYER_SAMPLES, MGT_FORMAT_R32F, 4},
-    {MGT_LAYER_IMPORTANCE, MGT_FORMAT_R32F, 4}, {MGT_LAYER_DETAIL, MGT_FORMAT_R32F, 4},
-    {MGT_LAYER_REFRACTION, MGT_FORMAT_RGB32F, 12}, {MGT_LAYER_REFRACTION, MGT_FORMAT_RGBA32F, 16}, {MGT_LAYER_REFRACTION_ERROR, MGT_FORMAT_R32F, 4},
+    {MGT_LAYER_COLOR, MGT_FORMAT_RGB32F, 12},       {MGT_LAYER_COLOR, MGT_FORMAT_RGBA32F, 16},
+    {MGT_LAYER_COLOR, MGT_FORMAT_RGBA8_SRGB, 4},    {MGT_LAYER_COVERAGE, MGT_FORMAT_R32F, 4},
+    {MGT_LAYER_MASK, MGT_FORMAT_R32F, 4},           {MGT_LAYER_DEPTH, MGT_FORMAT_R32F, 4},
+    {MGT_LAYER_NORMAL, MGT_FORMAT_RGB32F, 12},      {MGT_LAYER_NORMAL, MGT_FORMAT_RGBA32F, 16},
+    {MGT_LAYER_SAMPLES, MGT_FORMAT_R32F, 4},        {MGT_LAYER_IMPORTANCE, MGT_FORMAT_R32F, 4},
+    {MGT_LAYER_DETAIL, MGT_FORMAT_R32F, 4},         {MGT_LAYER_REFRACTION, MGT_FORMAT_RGB32F, 12},
+    {MGT_LAYER_REFRACTION, MGT_FORMAT_RGBA32F, 16}, {MGT_LAYER_REFRACTION_ERROR, MGT_FORMAT_R32F, 4},
 };
 enum { FORMATS = sizeof all_formats / sizeof *all_formats, PIXELS = SEA_WIDTH * SEA_HEIGHT };
 
@@ -193,8 +195,8 @@ static void threads_and_instruction_sets_do_not_count(void **state)
             render_all(context, &scene, &again);
             for (int k = 0; k < FORMATS; k++)
                 if (memcmp(again.bytes[k], first[m].bytes[k], PIXELS * all_formats[k].size) != 0)
-                    fail_msg("method %d, layer %d, format %d by %u threads of instruction set %d differs from the plain build", m,
-                             (int)all_formats[k].layer, (int)all_formats[k].format, machines[i].threads, (int)machines[i].isa);
+                    fail_msg("method %d, layer %d, format %d by %u threads of instruction set %d differs from the plain build", m, (int)all_formats[k].layer,
+                             (int)all_formats[k].format, machines[i].threads, (int)machines[i].isa);
         }
         mgt_context_destroy(context);
     }
@@ -240,7 +242,8 @@ static void layers_hold_what_they_promise(void **state)
         sea_take_method(&scene, m);
         render_all(context, &scene, &p);
         const float *rgb = (const void *)p.bytes[0], *rgba = (const void *)p.bytes[1], *coverage = (const void *)p.bytes[3];
-        const float *water = (const void *)p.bytes[4], *depth = (const void *)p.bytes[5], *normal = (const void *)p.bytes[6], *normal4 = (const void *)p.bytes[7];
+        const float *water = (const void *)p.bytes[4], *depth = (const void *)p.bytes[5], *normal = (const void *)p.bytes[6],
+                    *normal4 = (const void *)p.bytes[7];
         int lit = 0, dry = 0, wet = 0;
         for (int i = 0; i < PIXELS; i++) {
             assert_true(coverage[i] >= 0 && coverage[i] <= water[i] && water[i] >= 0 && water[i] <= 1);

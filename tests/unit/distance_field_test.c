@@ -182,7 +182,8 @@ static void odd_rays_meet_nothing(void **state)
     setup s;
     begin(&s, 1, 1);
     const trace_ray odd[] = {
-        {{0, 9, 0}, {1, 0, 0}, 0, FLT_MAX}, {{NAN, 0, 0}, {0, -1, 0}, 0, 10}, {{0, 0, 0}, {0, -1, 0}, 5, 1}, {{0, 0, 0}, {0, 0, 0}, 0, 10}, {{0, 0, 0}, {NAN, -1, 0}, 0, 10},
+        {{0, 9, 0}, {1, 0, 0}, 0, FLT_MAX}, {{NAN, 0, 0}, {0, -1, 0}, 0, 10}, {{0, 0, 0}, {0, -1, 0}, 5, 1},
+        {{0, 0, 0}, {0, 0, 0}, 0, 10},      {{0, 0, 0}, {NAN, -1, 0}, 0, 10},
     };
     for (size_t i = 0; i < sizeof odd / sizeof odd[0]; i++) {
         trace_hit hit;
@@ -195,8 +196,10 @@ static void odd_rays_meet_nothing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(distances_are_exact_near_and_never_too_far), cmocka_unit_test(marched_rays_end_near_traced_ones),
-        cmocka_unit_test(numbers_do_not_depend_on_threads),           cmocka_unit_test(memory_is_bounded),
+        cmocka_unit_test(distances_are_exact_near_and_never_too_far),
+        cmocka_unit_test(marched_rays_end_near_traced_ones),
+        cmocka_unit_test(numbers_do_not_depend_on_threads),
+        cmocka_unit_test(memory_is_bounded),
         cmocka_unit_test(odd_rays_meet_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -117,9 +117,12 @@ static void test_large_sums(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_by_hand),         cmocka_unit_test(test_frames_together),
-        cmocka_unit_test(test_non_finite),      cmocka_unit_test(test_empty_and_black),
-        cmocka_unit_test(test_unlike_pictures_are_refused), cmocka_unit_test(test_large_sums),
+        cmocka_unit_test(test_by_hand),
+        cmocka_unit_test(test_frames_together),
+        cmocka_unit_test(test_non_finite),
+        cmocka_unit_test(test_empty_and_black),
+        cmocka_unit_test(test_unlike_pictures_are_refused),
+        cmocka_unit_test(test_large_sums),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -97,7 +97,7 @@ static void test_bad_targets(void **state)
     char path[512], fifo[512];
     output_options overwrite = {.overwrite = true};
     assert_int_equal(mkfifo(in_folder(folder, "pipe", fifo), 0600), 0);
-    const char *bad[] = {"",  "/", ".", "..", folder->path, in_folder(folder, "missing/a", path), fifo, "/dev/null", "/proc/a"};
+    const char *bad[] = {"", "/", ".", "..", folder->path, in_folder(folder, "missing/a", path), fifo, "/dev/null", "/proc/a"};
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         output_file *file;
         file_error error = {0};
@@ -247,8 +247,7 @@ static void test_full_disk(void **state)
         /* A tmpfs of 64 KiB that only this process sees. */
         if (unshare(CLONE_NEWNS) != 0 && unshare(CLONE_NEWUSER | CLONE_NEWNS) != 0)
             _exit(NO_MOUNT);
-        if (mount("none", "/", NULL, MS_REC | MS_PRIVATE, NULL) != 0 ||
-            mount("tmpfs", folder->path, "tmpfs", 0, "size=64k") != 0)
+        if (mount("none", "/", NULL, MS_REC | MS_PRIVATE, NULL) != 0 || mount("tmpfs", folder->path, "tmpfs", 0, "size=64k") != 0)
             _exit(NO_MOUNT);
         int failures = write_all_formats(folder->path, "No space left on device");
         umount(folder->path);

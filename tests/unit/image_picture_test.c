@@ -10,8 +10,11 @@
 
 enum { WIDTH = 13, HEIGHT = 37 }; /* more than two chunks of EXR, no multiples of anything */
 
-static const metadata_entry test_entries[] = {
-    {"render_hash", "0123456789abcdef"}, {"version", "0.1.0"}, {"title", "m\xc3\xa5ngata"}, {"empty", ""}, {"two.lines", "a\nb"}};
+static const metadata_entry test_entries[] = {{"render_hash", "0123456789abcdef"},
+                                              {"version", "0.1.0"},
+                                              {"title", "m\xc3\xa5ngata"},
+                                              {"empty", ""},
+                                              {"two.lines", "a\nb"}};
 static const metadata_list test_metadata = {test_entries, sizeof test_entries / sizeof *test_entries};
 
 static void assert_metadata(const char *path)
@@ -82,16 +85,12 @@ static void test_png_round_trip(void **state)
     float_image_free(&image);
 
     /* A negative stride turns the picture upside down. */
-    assert_int_equal(picture_write_png(in_folder(folder, "c.png", flipped), WIDTH, HEIGHT, &rgba[HEIGHT - 1][0][0], -stride, NULL,
-                                       NULL, &error),
-                     FILE_OK);
+    assert_int_equal(picture_write_png(in_folder(folder, "c.png", flipped), WIDTH, HEIGHT, &rgba[HEIGHT - 1][0][0], -stride, NULL, NULL, &error), FILE_OK);
     assert_int_equal(picture_read(&image, flipped, NULL, &error), FILE_OK);
     assert_true(image.pixels[0] == (float)rgba[HEIGHT - 1][0][0] / 255.0f);
     float_image_free(&image);
 
-    assert_int_equal(picture_write_png_alpha(in_folder(folder, "d.png", alpha), WIDTH, HEIGHT, &rgba[0][0][0], stride,
-                                             &test_metadata, NULL, &error),
-                     FILE_OK);
+    assert_int_equal(picture_write_png_alpha(in_folder(folder, "d.png", alpha), WIDTH, HEIGHT, &rgba[0][0][0], stride, &test_metadata, NULL, &error), FILE_OK);
     assert_int_equal(picture_read(&image, alpha, NULL, &error), FILE_OK);
     assert_int_equal(image.channels, 4);
     assert_true(image.pixels[4 * WIDTH + 3] == (float)rgba[1][0][3] / 255.0f);
@@ -209,11 +208,27 @@ static void test_pfm_bad_headers(void **state)
 {
     test_folder *folder = *state;
     char path[512];
-    static const char *const bad[] = {
-        "", "P", "PF", "PF\n", "Pf\n1 1\n0.0\nabcd", "Pf\n1 1\nnan\nabcd", "Pf\n1 1\ninf\nabcd", "Pf\n0 1\n-1\n", "Pf\n1 0\n-1\n",
-        "Pf\n-1 -1\n-1\nabcd", "Pf\n99999999999999999999 1\n-1\nabcd", "Pf\n4294967297 1\n-1\nabcd", "Pf\n1 1\n-1\nabcde",
-        "Pf\n1 1\n-1\nabc", "Pf\n1000000 1000000\n-1\nabcd", "PFX\n1 1\n-1\nabcdabcdabcd", "Pf\n1 1\n-1x\nabcd", "Pf\n1 1",
-        "Pf\n0x1 1\n-1\nabcd", "Pf 1 1 -1.0000000000000000000000000000000000000000000000000000000000 abcd", "Pf\n32769 0\n-1\n"};
+    static const char *const bad[] = {"",
+                                      "P",
+                                      "PF",
+                                      "PF\n",
+                                      "Pf\n1 1\n0.0\nabcd",
+                                      "Pf\n1 1\nnan\nabcd",
+                                      "Pf\n1 1\ninf\nabcd",
+                                      "Pf\n0 1\n-1\n",
+                                      "Pf\n1 0\n-1\n",
+                                      "Pf\n-1 -1\n-1\nabcd",
+                                      "Pf\n99999999999999999999 1\n-1\nabcd",
+                                      "Pf\n4294967297 1\n-1\nabcd",
+                                      "Pf\n1 1\n-1\nabcde",
+                                      "Pf\n1 1\n-1\nabc",
+                                      "Pf\n1000000 1000000\n-1\nabcd",
+                                      "PFX\n1 1\n-1\nabcdabcdabcd",
+                                      "Pf\n1 1\n-1x\nabcd",
+                                      "Pf\n1 1",
+                                      "Pf\n0x1 1\n-1\nabcd",
+                                      "Pf 1 1 -1.0000000000000000000000000000000000000000000000000000000000 abcd",
+                                      "Pf\n32769 0\n-1\n"};
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         float_image image;
         file_error error = {0};
@@ -283,8 +298,8 @@ static void test_exr_round_trip(void **state)
         const char *layer;
         uint32_t channels;
         int single_offset, value_offset;
-    } expected[] = {{NULL, 3, -1, 0}, {"color", 3, -1, 0}, {"coverage", 1, 0, -1}, {"mask", 1, 5, -1}, {"depth", 1, 9, -1},
-                    {"normal", 3, -1, 1}, {"samples", 1, 2, -1}, {"depth.Z", 1, 9, -1}, {"R", 1, -1, 0}, {"normal.Y", 1, -1, 2}};
+    } expected[] = {{NULL, 3, -1, 0},     {"color", 3, -1, 0},   {"coverage", 1, 0, -1}, {"mask", 1, 5, -1}, {"depth", 1, 9, -1},
+                    {"normal", 3, -1, 1}, {"samples", 1, 2, -1}, {"depth.Z", 1, 9, -1},  {"R", 1, -1, 0},    {"normal.Y", 1, -1, 2}};
     for (size_t i = 0; i < sizeof expected / sizeof *expected; i++) {
         float_image image;
         file_error error;
@@ -293,8 +308,7 @@ static void test_exr_round_trip(void **state)
         assert_int_equal(image.height, HEIGHT);
         assert_int_equal(image.channels, expected[i].channels);
         for (size_t p = 0; p < WIDTH * HEIGHT; p++) {
-            const float *want = expected[i].single_offset >= 0 ? single + p + expected[i].single_offset
-                                                               : values + 4 * p + expected[i].value_offset;
+            const float *want = expected[i].single_offset >= 0 ? single + p + expected[i].single_offset : values + 4 * p + expected[i].value_offset;
             assert_memory_equal(image.pixels + p * image.channels, want, image.channels * sizeof(float));
         }
         float_image_free(&image);
@@ -343,9 +357,7 @@ static void write_foreign_exr(const char *path, exr_compression_t compression)
     int part;
     assert_int_equal(exr_start_write(&context, path, EXR_WRITE_FILE_DIRECTLY, &initializer), 0);
     assert_int_equal(exr_add_part(context, "other", EXR_STORAGE_SCANLINE, &part), 0);
-    assert_int_equal(exr_initialize_required_attr(context, 0, &display, &data, 1.0f, &center, 1.0f, EXR_LINEORDER_INCREASING_Y,
-                                                  compression),
-                     0);
+    assert_int_equal(exr_initialize_required_attr(context, 0, &display, &data, 1.0f, &center, 1.0f, EXR_LINEORDER_INCREASING_Y, compression), 0);
     exr_add_channel(context, 0, "a.half", EXR_PIXEL_HALF, EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
     exr_add_channel(context, 0, "a.real", EXR_PIXEL_FLOAT, EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
     exr_add_channel(context, 0, "a.whole", EXR_PIXEL_UINT, EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
@@ -364,9 +376,7 @@ static void write_foreign_exr(const char *path, exr_compression_t compression)
             int bytes = encoder.channels[c].bytes_per_element;
             encoder.channels[c].user_pixel_stride = bytes;
             encoder.channels[c].user_line_stride = bytes * W;
-            encoder.channels[c].encode_from_ptr = c == 0   ? (const uint8_t *)half[y]
-                                                  : c == 1 ? (const uint8_t *)real[y]
-                                                           : (const uint8_t *)whole[y];
+            encoder.channels[c].encode_from_ptr = c == 0 ? (const uint8_t *)half[y] : c == 1 ? (const uint8_t *)real[y] : (const uint8_t *)whole[y];
         }
         if (y == 0)
             assert_int_equal(exr_encoding_choose_default_routines(context, 0, &encoder), 0);
@@ -380,8 +390,7 @@ static void test_exr_of_others(void **state)
 {
     test_folder *folder = *state;
     char path[512], name[32];
-    static const exr_compression_t kinds[] = {EXR_COMPRESSION_NONE, EXR_COMPRESSION_RLE, EXR_COMPRESSION_ZIPS,
-                                              EXR_COMPRESSION_ZIP, EXR_COMPRESSION_PIZ};
+    static const exr_compression_t kinds[] = {EXR_COMPRESSION_NONE, EXR_COMPRESSION_RLE, EXR_COMPRESSION_ZIPS, EXR_COMPRESSION_ZIP, EXR_COMPRESSION_PIZ};
     for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
         snprintf(name, sizeof name, "other%zu.exr", k);
         write_foreign_exr(in_folder(folder, name, path), kinds[k]);
@@ -523,8 +532,9 @@ static void test_metadata_rules(void **state)
     char long_key[81];
     memset(long_key, 'k', 80);
     long_key[80] = '\0';
-    const metadata_entry bad[] = {{"", "v"}, {"a b", "v"}, {"a=b", "v"}, {long_key, "v"}, {NULL, "v"}, {"a", NULL}, {"a", "\xff"},
-                                  {"a", "\xc0\x80"}, {"a", "\xed\xa0\x80"}, {"a", "\xe2\x82"}, {"a", "\xf4\x90\x80\x80"}};
+    const metadata_entry bad[] =
+        {{"", "v"},         {"a b", "v"},          {"a=b", "v"},      {long_key, "v"},          {NULL, "v"}, {"a", NULL}, {"a", "\xff"},
+         {"a", "\xc0\x80"}, {"a", "\xed\xa0\x80"}, {"a", "\xe2\x82"}, {"a", "\xf4\x90\x80\x80"}};
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         metadata_list list = {&bad[i], 1};
         file_error error;
@@ -555,14 +565,22 @@ static void test_formats_by_name(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(test_png_round_trip),   IN_FOLDER(test_png_chunks),
-        IN_FOLDER(test_png_other_kinds),  IN_FOLDER(test_pfm_round_trip),
-        IN_FOLDER(test_pfm_big_endian_and_spaces), IN_FOLDER(test_pfm_bad_headers),
-        IN_FOLDER(test_pfm_replaces_its_sidecar), IN_FOLDER(test_exr_round_trip),
-        IN_FOLDER(test_exr_refuses_bad_layers), IN_FOLDER(test_exr_of_others),
-        IN_FOLDER(test_damaged_png),      IN_FOLDER(test_damaged_pfm),
-        IN_FOLDER(test_damaged_exr),      IN_FOLDER(test_unreadable_inputs),
-        IN_FOLDER(test_damaged_sidecars), cmocka_unit_test(test_metadata_rules),
+        IN_FOLDER(test_png_round_trip),
+        IN_FOLDER(test_png_chunks),
+        IN_FOLDER(test_png_other_kinds),
+        IN_FOLDER(test_pfm_round_trip),
+        IN_FOLDER(test_pfm_big_endian_and_spaces),
+        IN_FOLDER(test_pfm_bad_headers),
+        IN_FOLDER(test_pfm_replaces_its_sidecar),
+        IN_FOLDER(test_exr_round_trip),
+        IN_FOLDER(test_exr_refuses_bad_layers),
+        IN_FOLDER(test_exr_of_others),
+        IN_FOLDER(test_damaged_png),
+        IN_FOLDER(test_damaged_pfm),
+        IN_FOLDER(test_damaged_exr),
+        IN_FOLDER(test_unreadable_inputs),
+        IN_FOLDER(test_damaged_sidecars),
+        cmocka_unit_test(test_metadata_rules),
         cmocka_unit_test(test_formats_by_name),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

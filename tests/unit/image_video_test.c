@@ -15,10 +15,7 @@ enum { WIDTH = 63, HEIGHT = 35, FRAMES = 7 };
 static const metadata_entry entries[] = {{"render_hash", "abc"}, {"method", "mangata"}};
 static const metadata_list metadata = {entries, 2};
 
-static video_desc small_film(void)
-{
-    return (video_desc){.width = WIDTH, .height = HEIGHT, .frames_per_second = 30.0, .metadata = &metadata};
-}
+static video_desc small_film(void) { return (video_desc){.width = WIDTH, .height = HEIGHT, .frames_per_second = 30.0, .metadata = &metadata}; }
 
 /* A smooth coloured picture that moves. */
 static void paint(uint8_t *rgba, int width, int height, int frame)
@@ -83,7 +80,9 @@ static void test_y4m_bytes(void **state)
     assert_int_equal(video_writer_frame(writer, rgba, 0, &error), FILE_OK);
     assert_int_equal(video_writer_finish(writer, &error), FILE_OK);
     static const char expected[] = "YUV4MPEG2 W3 H1 F30000:1001 Ip A1:1 C444 XCOLORRANGE=LIMITED\nFRAME\n"
-                                   "\xeb\x10\x3f" "\x80\x80\x66" "\x80\x80\xf0"; /* BT.709: Y 235 16 63, Cb 128 128 102, Cr 128 128 240 */
+                                   "\xeb\x10\x3f"
+                                   "\x80\x80\x66"
+                                   "\x80\x80\xf0"; /* BT.709: Y 235 16 63, Cb 128 128 102, Cr 128 128 240 */
     size_t size;
     unsigned char *bytes = file_bytes(path, &size);
     assert_int_equal(size, sizeof expected - 1);
@@ -141,7 +140,8 @@ static void test_y4m_film(void **state)
         return;
     snprintf(command, sizeof command,
              "ffprobe -v error -count_frames -show_entries stream=width,height,pix_fmt,color_range,r_frame_rate,nb_read_frames -of "
-             "csv=p=0 '%s'", again);
+             "csv=p=0 '%s'",
+             again);
     first_line(command, line, sizeof line);
     assert_string_equal(line, "63,35,yuv420p,tv,30/1,7");
 }
@@ -222,12 +222,15 @@ static void test_mp4_film(void **state)
     snprintf(command, sizeof command,
              "ffprobe -v error -count_frames -show_entries "
              "stream=codec_name,width,height,pix_fmt,color_range,color_space,color_transfer,color_primaries,r_frame_rate,nb_read_"
-             "frames:format_tags=render_hash -of default=nk=1:nw=1 'file:%s' | tr '\\n' ,", path);
+             "frames:format_tags=render_hash -of default=nk=1:nw=1 'file:%s' | tr '\\n' ,",
+             path);
     first_line(command, line, sizeof line);
     assert_string_equal(line, "h264,64,36,yuv420p,tv,bt709,bt709,bt709,30/1,7,abc,");
 
-    snprintf(command, sizeof command, "ffmpeg -nostdin -v error -i 'file:%s' -vf scale=in_color_matrix=bt709:in_range=tv:out_range=pc:flags=accurate_rnd+full_chroma_int -f rawvideo -pix_fmt rgb24 'file:%s'", path,
-             in_folder(folder, "raw", raw));
+    snprintf(
+        command, sizeof command,
+        "ffmpeg -nostdin -v error -i 'file:%s' -vf scale=in_color_matrix=bt709:in_range=tv:out_range=pc:flags=accurate_rnd+full_chroma_int -f rawvideo -pix_fmt rgb24 'file:%s'",
+        path, in_folder(folder, "raw", raw));
     assert_int_equal(system(command), 0);
     size_t size;
     unsigned char *bytes = file_bytes(raw, &size);
@@ -368,8 +371,8 @@ static void test_ffmpeg_fails(void **state)
         {"#!/bin/sh\nexit 3\n", "status 3"},
         {"#!/bin/sh\nhead -c 1000 >/dev/null\nkill -9 $$\n", "signal 9"},
         {"#!/bin/sh\ncat >/dev/null\nexit 1\n", "status 1"},
-        {"#!/bin/sh\ncat >/dev/null\nexit 0\n", "incomplete"},                                       /* success, but no file */
-        {"#!/bin/sh\nfor f; do :; done\ncat >\"${f#file:}\"\nexit 0\n", "incomplete"},               /* not an mp4 */
+        {"#!/bin/sh\ncat >/dev/null\nexit 0\n", "incomplete"},                         /* success, but no file */
+        {"#!/bin/sh\nfor f; do :; done\ncat >\"${f#file:}\"\nexit 0\n", "incomplete"}, /* not an mp4 */
         {"#!/bin/sh\ncat >/dev/null\nfor f; do :; done\nprintf '\\0\\0\\0\\10moov\\0\\0\\0\\40mdat' >\"${f#file:}\"\n", "incomplete"},
         {"#!/bin/sh\ncat >/dev/null\nfor f; do :; done\nprintf '\\0\\0\\0\\10moov\\0\\0\\0\\10mdat\\0\\0\\0\\40free' >\"${f#file:}\"\n", "incomplete"},
         {"#!/bin/sh\ncat >/dev/null\nfor f; do :; done\nprintf '\\0\\0\\0\\12mdatxy\\0\\0\\0\\10moov' >\"${f#file:}\"\n", "incomplete"},
@@ -467,10 +470,10 @@ static void test_ffmpeg_hangs(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(test_y4m_bytes),      IN_FOLDER(test_y4m_chroma_site), IN_FOLDER(test_y4m_film),
-        IN_FOLDER(test_y4m_abandoned),  IN_FOLDER(test_bad_descriptions), IN_FOLDER(test_mp4_film),
-        IN_FOLDER(test_mp4_abandoned),  IN_FOLDER(test_mp4_full_disk),   IN_FOLDER(test_ffmpeg_missing),
-        IN_FOLDER(test_ffmpeg_fails),   IN_FOLDER(test_ffmpeg_stub_succeeds), IN_FOLDER(test_ffmpeg_hangs),
+        IN_FOLDER(test_y4m_bytes),     IN_FOLDER(test_y4m_chroma_site),      IN_FOLDER(test_y4m_film),
+        IN_FOLDER(test_y4m_abandoned), IN_FOLDER(test_bad_descriptions),     IN_FOLDER(test_mp4_film),
+        IN_FOLDER(test_mp4_abandoned), IN_FOLDER(test_mp4_full_disk),        IN_FOLDER(test_ffmpeg_missing),
+        IN_FOLDER(test_ffmpeg_fails),  IN_FOLDER(test_ffmpeg_stub_succeeds), IN_FOLDER(test_ffmpeg_hangs),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

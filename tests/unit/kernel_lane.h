@@ -44,15 +44,9 @@ KERNEL vec3 SKY_TEXEL(CTX cx, real column, real row)
     return vec3(t[0], t[1], t[2]);
 }
 
-KERNEL real SWEEP_TEXEL(CTX cx, real v, real u, real slice)
-{
-    return cx->podee->sweep[((size_t)slice * PODEE_ROWS + (size_t)u) * PODEE_COLUMNS + (size_t)v];
-}
+KERNEL real SWEEP_TEXEL(CTX cx, real v, real u, real slice) { return cx->podee->sweep[((size_t)slice * PODEE_ROWS + (size_t)u) * PODEE_COLUMNS + (size_t)v]; }
 
-KERNEL real SHARE_TEXEL(CTX cx, real r, real slice)
-{
-    return cx->podee->share[(size_t)slice * PODEE_COLUMNS + (size_t)r];
-}
+KERNEL real SHARE_TEXEL(CTX cx, real r, real slice) { return cx->podee->share[(size_t)slice * PODEE_COLUMNS + (size_t)r]; }
 
 #define LEAN(cx) ((cx)->lean->data)
 
@@ -131,7 +125,11 @@ static inline kernel_bench *kernel_bench_create(const mgt_scene *scene)
     b->scene = *scene;
     assert_int_equal(sky_state_build(b->sky, &b->scene.sky, &b->scene.light), MGT_OK);
     b->frame = frame_of(&b->scene, b->sky, false);
-    b->cx = (struct kernel_context){.frame = &b->frame.data, .tile = &b->tile.data, .waves = b->tile.waves, .march = b->tile.march, .sky = b->sky->table,
+    b->cx = (struct kernel_context){.frame = &b->frame.data,
+                                    .tile = &b->tile.data,
+                                    .waves = b->tile.waves,
+                                    .march = b->tile.march,
+                                    .sky = b->sky->table,
                                     .view = &b->set.view};
     return b;
 }

@@ -127,7 +127,8 @@ static void good_guesses_are_mended(void **state)
         const SampleHit hit = sample_hit(&b->cx, ray, (HitGuess){(float)(exact.water.height + off), 0, 0});
         const double length = sqrt((double)(ray.x * ray.x + ray.y * ray.y + ray.z * ray.z)), reach = exact.distance + off * length / (double)ray.y;
         const double *camera = scene.camera.position;
-        const water_point there = water_surface(&scene.water, camera[0] + (double)ray.x / length * reach, camera[2] + (double)ray.z / length * reach, scene.time);
+        const water_point there =
+            water_surface(&scene.water, camera[0] + (double)ray.x / length * reach, camera[2] + (double)ray.z / length * reach, scene.time);
         before[i] = hypot(there.slope[0] - exact.water.slope[0], there.slope[1] - exact.water.slope[1]);
         error[i] = hypot((double)hit.slope.x - exact.water.slope[0], (double)hit.slope.y - exact.water.slope[1]);
         distance[i] = fabs((double)hit.along * length - exact.distance) / exact.distance;

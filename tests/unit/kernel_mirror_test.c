@@ -37,10 +37,7 @@ static void make_case(mirror_case *c, random_state *r, double radius_deg)
     c->cx.frame = &c->frame;
 }
 
-static Mirror mirror_of(const mirror_case *c)
-{
-    return mirror_at(&c->cx, vec3((float)c->view[0], (float)c->view[1], (float)c->view[2]));
-}
+static Mirror mirror_of(const mirror_case *c) { return mirror_at(&c->cx, vec3((float)c->view[0], (float)c->view[1], (float)c->view[2])); }
 
 /* Float keeps 6e-8 of each coordinate of v + L; dividing by its y, at least sin 5° = .087 here, and the handful of operations
  * after it leave 1e-5 of slopes up to 10. */
@@ -248,12 +245,8 @@ static void two_level_weight_is_its_integral(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(mirror_slope_is_exact),
-        cmocka_unit_test(jacobian_is_that_of_the_exact_map),
-        cmocka_unit_test(linear_map_keeps_the_probability),
-        cmocka_unit_test(fresnel_is_exact),
-        cmocka_unit_test(one_level_weight_is_smiths),
-        cmocka_unit_test(two_level_weight_is_its_integral),
+        cmocka_unit_test(mirror_slope_is_exact), cmocka_unit_test(jacobian_is_that_of_the_exact_map), cmocka_unit_test(linear_map_keeps_the_probability),
+        cmocka_unit_test(fresnel_is_exact),      cmocka_unit_test(one_level_weight_is_smiths),        cmocka_unit_test(two_level_weight_is_its_integral),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,16 +9,22 @@ static const double pi = 3.14159265358979323846;
 
 static WaveData wave_of(double amplitude, double a, double b)
 {
-    return (WaveData){.turns_x = (float)(a / (2 * pi)), .turns_z = (float)(b / (2 * pi)), .amplitude = (float)amplitude,
-                      .k_x = (float)a, .k_z = (float)b, .half_variance = (float)(amplitude * amplitude / 2),
-                      .even_x = (float)(amplitude * a), .even_z = (float)(amplitude * b), .even_height = (float)amplitude,
-                      .cos_half = 1, .sin_half = 0};
+    return (WaveData){.turns_x = (float)(a / (2 * pi)),
+                      .turns_z = (float)(b / (2 * pi)),
+                      .amplitude = (float)amplitude,
+                      .k_x = (float)a,
+                      .k_z = (float)b,
+                      .half_variance = (float)(amplitude * amplitude / 2),
+                      .even_x = (float)(amplitude * a),
+                      .even_z = (float)(amplitude * b),
+                      .even_height = (float)amplitude,
+                      .cos_half = 1,
+                      .sin_half = 0};
 }
 
 static Footprint random_footprint(random_state *r)
 {
-    return (Footprint){{(float)random_range(r, -0.2, 0.2), (float)random_range(r, -0.2, 0.2)},
-                       {(float)random_range(r, -1, 1), (float)random_range(r, -1, 1)}};
+    return (Footprint){{(float)random_range(r, -0.2, 0.2), (float)random_range(r, -0.2, 0.2)}, {(float)random_range(r, -1, 1), (float)random_range(r, -1, 1)}};
 }
 
 /* Half of the phase from one edge of the pixel's parallelogram to the other, along the wave through its centre: walked, not solved. */
@@ -70,10 +76,7 @@ static void span_means(double amplitude, double phase, double half, double *mean
     *variance = second - first * first;
 }
 
-static FrameData podee_frame(bool per_pixel)
-{
-    return (FrameData){.ramp_start = 0.2f, .ramp_scale = 1 / 0.3f, .ndf_per_pixel = per_pixel, .ndf_mean = 1};
-}
+static FrameData podee_frame(bool per_pixel) { return (FrameData){.ramp_start = 0.2f, .ramp_scale = 1 / 0.3f, .ndf_per_pixel = per_pixel, .ndf_mean = 1}; }
 
 /* J − K² in float, and the short-span form A² sin²ψ h²/3 below a half span h of .15: its next term is A² h⁴/15, 3.4e-5 A², at sin ψ = 1,
  * a share h²/5 = .0045, and A² h⁴/45 where sin ψ = 0 leaves nothing else. */
@@ -145,9 +148,15 @@ static void light_point_is_the_exact_map(void **state)
         direction_of(random_range(&r, 2, 80), random_range(&r, 130, 230), view);
         direction_of(random_range(&r, 3, 80), 0, light);
         light_plane_axes(light, e, f);
-        const FrameData data = {.light_x = (float)light[0], .light_y = (float)light[1], .light_z = (float)light[2],
-                                 .axis_e_x = (float)e[0], .axis_e_y = (float)e[1], .axis_e_z = (float)e[2],
-                                 .axis_f_x = (float)f[0], .axis_f_y = (float)f[1], .axis_f_z = (float)f[2]};
+        const FrameData data = {.light_x = (float)light[0],
+                                .light_y = (float)light[1],
+                                .light_z = (float)light[2],
+                                .axis_e_x = (float)e[0],
+                                .axis_e_y = (float)e[1],
+                                .axis_e_z = (float)e[2],
+                                .axis_f_x = (float)f[0],
+                                .axis_f_y = (float)f[1],
+                                .axis_f_z = (float)f[2]};
         const struct kernel_context cx = {.frame = &data};
         const double slope[2] = {random_range(&r, -0.3, 0.3), random_range(&r, -0.3, 0.3)};
         if (!mirror_map(view, light, slope, exact) || hypot(exact[0], exact[1]) > 3 || !mirror_map_jacobian(view, light, slope, exact_jacobian))

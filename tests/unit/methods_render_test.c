@@ -68,8 +68,7 @@ enum { MOST = 97 * 54 };
 static void check_frame(mgt_context *context, const mgt_scene *scene, const char *what)
 {
     static float rgb[MOST * 3], coverage[MOST], mask[MOST];
-    const mgt_target targets[] = {sea_target(MGT_LAYER_COLOR, MGT_FORMAT_RGB32F, rgb, 0),
-                                  sea_target(MGT_LAYER_COVERAGE, MGT_FORMAT_R32F, coverage, 0),
+    const mgt_target targets[] = {sea_target(MGT_LAYER_COLOR, MGT_FORMAT_RGB32F, rgb, 0), sea_target(MGT_LAYER_COVERAGE, MGT_FORMAT_R32F, coverage, 0),
                                   sea_target(MGT_LAYER_MASK, MGT_FORMAT_R32F, mask, 0)};
     sea_render(context, scene, targets, 3);
     for (uint32_t i = 0; i < scene->image.width * scene->image.height; i++) {
@@ -130,8 +129,7 @@ enum { PIXELS = SEA_WIDTH * SEA_HEIGHT };
 
 static void render_sea(mgt_context *context, const mgt_scene *scene, float *rgb, unsigned char *shown)
 {
-    const mgt_target targets[] = {sea_target(MGT_LAYER_COLOR, MGT_FORMAT_RGB32F, rgb, 0),
-                                  sea_target(MGT_LAYER_COLOR, MGT_FORMAT_RGBA8_SRGB, shown, 0)};
+    const mgt_target targets[] = {sea_target(MGT_LAYER_COLOR, MGT_FORMAT_RGB32F, rgb, 0), sea_target(MGT_LAYER_COLOR, MGT_FORMAT_RGBA8_SRGB, shown, 0)};
     sea_render(context, scene, targets, 2);
 }
 

@@ -30,15 +30,9 @@ static void *counted(void *memory)
     return memory;
 }
 
-void *__wrap_malloc(size_t size)
-{
-    return ++calls == fail_at ? NULL : counted(__real_malloc(size));
-}
+void *__wrap_malloc(size_t size) { return ++calls == fail_at ? NULL : counted(__real_malloc(size)); }
 
-void *__wrap_calloc(size_t count, size_t size)
-{
-    return ++calls == fail_at ? NULL : counted(__real_calloc(count, size));
-}
+void *__wrap_calloc(size_t count, size_t size) { return ++calls == fail_at ? NULL : counted(__real_calloc(count, size)); }
 
 void *__wrap_realloc(void *memory, size_t size)
 {
@@ -59,7 +53,10 @@ enum { SIDE = 12, FRAMES = 70 }; /* more frames than the counts' first allocatio
 static file_status live(void)
 {
     static float pixels[2][SIDE * SIDE];
-    const clip_metrics_desc desc = {.width = SIDE, .height = SIDE, .channels = 1, .srgb_encoded = true,
+    const clip_metrics_desc desc = {.width = SIDE,
+                                    .height = SIDE,
+                                    .channels = 1,
+                                    .srgb_encoded = true,
                                     .metrics = CLIP_ALL_METRICS & ~(1u << CLIP_YEE | 1u << CLIP_HDR_FLIP)};
     clip_metrics *m = NULL;
     clip_scores scores;

@@ -24,15 +24,9 @@ static double uniform(uint32_t *seed)
     return (*seed >> 8) / 16777216.0;
 }
 
-static flip_picture grey(const float *pixels)
-{
-    return (flip_picture){pixels, 1};
-}
+static flip_picture grey(const float *pixels) { return (flip_picture){pixels, 1}; }
 
-static flip_picture colour(const float *pixels)
-{
-    return (flip_picture){pixels, 3};
-}
+static flip_picture colour(const float *pixels) { return (flip_picture){pixels, 3}; }
 
 static flip *make_flip(double pixels_per_degree)
 {
@@ -102,8 +96,7 @@ typedef struct seen {
 } seen;
 
 static const double to_xyz[3][3] = {{0.4124564, 0.3575761, 0.1804375}, {0.2126729, 0.7151522, 0.0721750}, {0.0193339, 0.1191920, 0.9503041}};
-static const double from_xyz[3][3] = {
-    {3.2404542, -1.5371385, -0.4985314}, {-0.9692660, 1.8760108, 0.0415560}, {0.0556434, -0.2040259, 1.0572252}};
+static const double from_xyz[3][3] = {{3.2404542, -1.5371385, -0.4985314}, {-0.9692660, 1.8760108, 0.0415560}, {0.0556434, -0.2040259, 1.0572252}};
 static const double white[3] = {0.9504700, 1.0000001, 1.0888300};
 
 static double near_pixel(const double *plane, int x, int y)
@@ -121,25 +114,13 @@ static double sensitivity(double dx, double dy, const double *c)
     return c[0] * sqrt(PI / c[1]) * exp(-PI * PI * d2 / c[1]) + c[2] * sqrt(PI / c[3]) * exp(-PI * PI * d2 / c[3]);
 }
 
-static double edge_along_x(double dx, double dy, const double *c)
-{
-    return -dx * exp(-(dx * dx + dy * dy) / (2 * c[0] * c[0]));
-}
+static double edge_along_x(double dx, double dy, const double *c) { return -dx * exp(-(dx * dx + dy * dy) / (2 * c[0] * c[0])); }
 
-static double edge_along_y(double dx, double dy, const double *c)
-{
-    return edge_along_x(dy, dx, c);
-}
+static double edge_along_y(double dx, double dy, const double *c) { return edge_along_x(dy, dx, c); }
 
-static double point_along_x(double dx, double dy, const double *c)
-{
-    return (dx * dx / (c[0] * c[0]) - 1) * exp(-(dx * dx + dy * dy) / (2 * c[0] * c[0]));
-}
+static double point_along_x(double dx, double dy, const double *c) { return (dx * dx / (c[0] * c[0]) - 1) * exp(-(dx * dx + dy * dy) / (2 * c[0] * c[0])); }
 
-static double point_along_y(double dx, double dy, const double *c)
-{
-    return point_along_x(dy, dx, c);
-}
+static double point_along_y(double dx, double dy, const double *c) { return point_along_x(dy, dx, c); }
 
 /* Positive weights sum to 1, negative ones to −1. */
 static double filtered(const double *plane, int x, int y, int radius, kernel_function *kernel, const double *constants)
@@ -156,10 +137,7 @@ static double filtered(const double *plane, int x, int y, int radius, kernel_fun
     return sum_above / above + (below > 0 ? sum_below / below : 0);
 }
 
-static double lab_function(double t)
-{
-    return t > 216.0 / 24389.0 ? cbrt(t) : 841.0 / 108.0 * t + 4.0 / 29.0;
-}
+static double lab_function(double t) { return t > 216.0 / 24389.0 ? cbrt(t) : 841.0 / 108.0 * t + 4.0 / 29.0; }
 
 static void light_to_hunt_lab(const double light[3], double lab[3])
 {
@@ -186,7 +164,8 @@ static void look(const float *pixels, double pixels_per_degree, seen *s)
         planes[2][i] = 200 * (relative[1] - relative[2]);
         features[i] = (planes[0][i] + 16) / 116;
     }
-    const double constants[3][5] = {{1, 0.0047, 0, 1e-5, pixels_per_degree}, {1, 0.0053, 0, 1e-5, pixels_per_degree},
+    const double constants[3][5] = {{1, 0.0047, 0, 1e-5, pixels_per_degree},
+                                    {1, 0.0053, 0, 1e-5, pixels_per_degree},
                                     {34.1, 0.04, 13.5, 0.025, pixels_per_degree}};
     const int radius = (int)ceil(3 * sqrt(0.04 / (2 * PI * PI)) * pixels_per_degree);
     const double sigma = 0.5 * 0.082 * pixels_per_degree;
@@ -201,17 +180,14 @@ static void look(const float *pixels, double pixels_per_degree, seen *s)
             for (int r = 0; r < 3; r++)
                 light[r] = fmin(fmax(from_xyz[r][0] * xyz[0] + from_xyz[r][1] * xyz[1] + from_xyz[r][2] * xyz[2], 0), 1);
             light_to_hunt_lab(light, s->lab[y * W + x]);
-            s->edge[y * W + x] = hypot(filtered(features, x, y, feature_radius, edge_along_x, &sigma),
-                                       filtered(features, x, y, feature_radius, edge_along_y, &sigma));
-            s->point[y * W + x] = hypot(filtered(features, x, y, feature_radius, point_along_x, &sigma),
-                                        filtered(features, x, y, feature_radius, point_along_y, &sigma));
+            s->edge[y * W + x] =
+                hypot(filtered(features, x, y, feature_radius, edge_along_x, &sigma), filtered(features, x, y, feature_radius, edge_along_y, &sigma));
+            s->point[y * W + x] =
+                hypot(filtered(features, x, y, feature_radius, point_along_x, &sigma), filtered(features, x, y, feature_radius, point_along_y, &sigma));
         }
 }
 
-static double hyab(const double a[3], const double b[3])
-{
-    return fabs(a[0] - b[0]) + hypot(a[1] - b[1], a[2] - b[2]);
-}
+static double hyab(const double a[3], const double b[3]) { return fabs(a[0] - b[0]) + hypot(a[1] - b[1], a[2] - b[2]); }
 
 static double expected_flip(const seen *a, const seen *b, int i)
 {
@@ -474,11 +450,16 @@ static void test_bad_arguments(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_filters_against_sums), cmocka_unit_test(test_against_equations),
-        cmocka_unit_test(test_identity_symmetry_range), cmocka_unit_test(test_constant_pictures),
-        cmocka_unit_test(test_grey_is_colour_without_hue), cmocka_unit_test(test_known_orders),
-        cmocka_unit_test(test_tone_curve), cmocka_unit_test(test_exposure_range),
-        cmocka_unit_test(test_hdr_is_the_worst_exposure), cmocka_unit_test(test_bad_arguments),
+        cmocka_unit_test(test_filters_against_sums),
+        cmocka_unit_test(test_against_equations),
+        cmocka_unit_test(test_identity_symmetry_range),
+        cmocka_unit_test(test_constant_pictures),
+        cmocka_unit_test(test_grey_is_colour_without_hue),
+        cmocka_unit_test(test_known_orders),
+        cmocka_unit_test(test_tone_curve),
+        cmocka_unit_test(test_exposure_range),
+        cmocka_unit_test(test_hdr_is_the_worst_exposure),
+        cmocka_unit_test(test_bad_arguments),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

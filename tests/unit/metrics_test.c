@@ -116,19 +116,25 @@ static void test_glints_by_hand(void **state)
     /* Three tips that meet only at the bottom; a ring and what it holds. */
     assert_int_equal(glints_in("#.#.#"
                                "#.#.#"
-                               "#####", 5, sizes), 1);
+                               "#####",
+                               5, sizes),
+                     1);
     assert_int_equal(sizes[3], 1);
     assert_int_equal(glints_in("#####"
                                "#...#"
                                "#.#.#"
                                "#...#"
-                               "#####", 5, sizes), 2);
+                               "#####",
+                               5, sizes),
+                     2);
     assert_int_equal(sizes[0] + sizes[4], 2);
     /* No join around the end of a row. */
     assert_int_equal(glints_in("...."
                                "...#"
                                "...."
-                               "#...", 4, sizes), 2);
+                               "#...",
+                               4, sizes),
+                     2);
 }
 
 static void flood(const float *luminance, bool *done, int x, int y, uint32_t *size)
@@ -434,8 +440,14 @@ static void test_fixed_exposures(void **state)
 {
     (void)state;
     static float a[PIXELS], b[PIXELS], shown_a[PIXELS], shown_b[PIXELS];
-    const clip_metrics_desc hdr = {.width = W, .height = H, .channels = 1, .metrics = 1u << CLIP_HDR_FLIP, .fixed_exposures = true,
-                                   .first_exposure = -2, .last_exposure = 4, .exposures = 1};
+    const clip_metrics_desc hdr = {.width = W,
+                                   .height = H,
+                                   .channels = 1,
+                                   .metrics = 1u << CLIP_HDR_FLIP,
+                                   .fixed_exposures = true,
+                                   .first_exposure = -2,
+                                   .last_exposure = 4,
+                                   .exposures = 1};
     const clip_metrics_desc ldr = {.width = W, .height = H, .channels = 1, .metrics = 1u << CLIP_FLIP};
     clip_metrics *m[2] = {NULL, NULL};
     clip_frame frames[2];
@@ -549,7 +561,8 @@ static void test_yee_reads_idiff(void **state)
     (void)state;
     uint64_t failures = 9;
     assert_true(yee_parse("Comparing \"a\" and \"b\"\n  8960 pixels (62.2%) over 1e-06\n"
-                          "  4589 pixels (31.8681%) failed the perceptual test\nFAILURE\n", &failures));
+                          "  4589 pixels (31.8681%) failed the perceptual test\nFAILURE\n",
+                          &failures));
     assert_int_equal(failures, 4589);
     assert_true(yee_parse("Comparing \"a\" and \"b\"\n  0 pixels (  0%) failed the perceptual test\nFAILURE\n", &failures));
     assert_int_equal(failures, 0);
@@ -610,15 +623,23 @@ static void test_yee_itself(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_ssim_by_definition), cmocka_unit_test(test_ssim_closed_forms),
-        cmocka_unit_test(test_glints_by_hand), cmocka_unit_test(test_glints_against_flooding),
-        cmocka_unit_test(test_flicker_of_identical_clips), cmocka_unit_test(test_blur_is_not_rewarded),
-        cmocka_unit_test(test_what_each_flicker_score_sees), cmocka_unit_test(test_flicker_by_hand),
+        cmocka_unit_test(test_ssim_by_definition),
+        cmocka_unit_test(test_ssim_closed_forms),
+        cmocka_unit_test(test_glints_by_hand),
+        cmocka_unit_test(test_glints_against_flooding),
+        cmocka_unit_test(test_flicker_of_identical_clips),
+        cmocka_unit_test(test_blur_is_not_rewarded),
+        cmocka_unit_test(test_what_each_flicker_score_sees),
+        cmocka_unit_test(test_flicker_by_hand),
         cmocka_unit_test(test_glint_threshold),
-        cmocka_unit_test(test_clip_gathers_its_frames), cmocka_unit_test(test_fixed_exposures),
-        cmocka_unit_test(test_values_that_are_not_finite), cmocka_unit_test(test_words),
-        cmocka_unit_test(test_bad_arguments), cmocka_unit_test(test_yee_reads_idiff),
-        cmocka_unit_test(test_yee_missing_loses_nothing_else), cmocka_unit_test(test_yee_itself),
+        cmocka_unit_test(test_clip_gathers_its_frames),
+        cmocka_unit_test(test_fixed_exposures),
+        cmocka_unit_test(test_values_that_are_not_finite),
+        cmocka_unit_test(test_words),
+        cmocka_unit_test(test_bad_arguments),
+        cmocka_unit_test(test_yee_reads_idiff),
+        cmocka_unit_test(test_yee_missing_loses_nothing_else),
+        cmocka_unit_test(test_yee_itself),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -50,10 +50,7 @@ static void triangle_normal(const mesh_data *mesh, size_t triangle, double n[3])
         n[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
 }
 
-static double length_of(const double v[3])
-{
-    return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-}
+static double length_of(const double v[3]) { return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
 /* ---- edges ------------------------------------------------------------------------------------------------------ */
 
@@ -61,10 +58,7 @@ typedef struct edge {
     float from[3], to[3];
 } edge;
 
-static int compare_edges(const void *left, const void *right)
-{
-    return memcmp(left, right, sizeof(edge));
-}
+static int compare_edges(const void *left, const void *right) { return memcmp(left, right, sizeof(edge)); }
 
 /* How many edges have no partner that runs the other way between the same two points, to the bit. */
 static size_t open_edges(const mesh_data *mesh)
@@ -283,9 +277,12 @@ static void a_floor_has_the_heights_of_its_picture(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(solids_are_closed_and_hold_their_volume), cmocka_unit_test(a_pool_has_no_cracks),
-        cmocka_unit_test(the_budget_is_kept_and_used),             cmocka_unit_test(normals_point_to_the_front),
-        cmocka_unit_test(texture_coordinates_are_metres),          cmocka_unit_test(a_floor_has_the_heights_of_its_picture),
+        cmocka_unit_test(solids_are_closed_and_hold_their_volume),
+        cmocka_unit_test(a_pool_has_no_cracks),
+        cmocka_unit_test(the_budget_is_kept_and_used),
+        cmocka_unit_test(normals_point_to_the_front),
+        cmocka_unit_test(texture_coordinates_are_metres),
+        cmocka_unit_test(a_floor_has_the_heights_of_its_picture),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -27,7 +27,7 @@ static ShadeData shade_data;
 static NarrowData narrow_data;
 static RefractData refract_data;
 static MarchWave waves[4];
-static double floor_depth; /* of the plane that the layer shows */
+static double floor_depth;                  /* of the plane that the layer shows */
 static double post_column = -1, post_depth; /* of a post before it, three columns wide */
 
 #define MGT_LANES 1
@@ -61,10 +61,7 @@ KERNEL LayerPixel LAYER(CTX cx, int layer, real column, real row) { return layer
 
 static random_state numbers;
 
-static double range(double low, double high)
-{
-    return random_range(&numbers, low, high);
-}
+static double range(double low, double high) { return random_range(&numbers, low, high); }
 
 static double dot3(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
@@ -99,10 +96,14 @@ static double square_at(double x) { return ((long long)floor(x) & 1) == 0 ? 1 : 
 static double pattern_at(int kind, double joint, double u, double v)
 {
     switch (kind) {
-    case 1: return 1 - tile_at(u, joint) * tile_at(v, joint);
-    case 2: return 0.5 * (1 - square_at(u) * square_at(v));
-    case 3: return 0.5 * (1 - square_at(u));
-    default: return 0;
+    case 1:
+        return 1 - tile_at(u, joint) * tile_at(v, joint);
+    case 2:
+        return 0.5 * (1 - square_at(u) * square_at(v));
+    case 3:
+        return 0.5 * (1 - square_at(u));
+    default:
+        return 0;
     }
 }
 
@@ -253,18 +254,30 @@ static Spread spread_of_case(const bent_case *c, const double direction[3])
     double ray[3];
     ray3(c, 0, 0, ray);
     narrow_data = (NarrowData){
-        .ratio = (float)c->ratio, .side = 1, .place = 1,
-        .depth_x = (float)c->forward[0], .depth_y = (float)c->forward[1], .depth_z = (float)c->forward[2],
-        .right_x = (float)c->right[0], .right_y = (float)c->right[1], .right_z = (float)c->right[2],
-        .down_x = (float)c->down[0], .down_y = (float)c->down[1], .down_z = (float)c->down[2],
+        .ratio = (float)c->ratio,
+        .side = 1,
+        .place = 1,
+        .depth_x = (float)c->forward[0],
+        .depth_y = (float)c->forward[1],
+        .depth_z = (float)c->forward[2],
+        .right_x = (float)c->right[0],
+        .right_y = (float)c->right[1],
+        .right_z = (float)c->right[2],
+        .down_x = (float)c->down[0],
+        .down_y = (float)c->down[1],
+        .down_z = (float)c->down[2],
     };
     double normal[3] = {-c->slope[0], 1, -c->slope[1]};
     unit3(normal);
-    const WaterHit hit = {.view = vec3((float)ray[0], (float)ray[1], (float)ray[2]), .along = (float)c->distance,
+    const WaterHit hit = {.view = vec3((float)ray[0], (float)ray[1], (float)ray[2]),
+                          .along = (float)c->distance,
                           .normal = vec3((float)normal[0], (float)normal[1], (float)normal[2])};
     const WaterVariation v = {
-        .bend_xx = (float)c->bend[0], .bend_xz = (float)c->bend[1], .bend_zz = (float)c->bend[2],
-        .path = vec2((float)c->path[0], (float)c->path[1]), .path_along = (float)c->path[2],
+        .bend_xx = (float)c->bend[0],
+        .bend_xz = (float)c->bend[1],
+        .bend_zz = (float)c->bend[2],
+        .path = vec2((float)c->path[0], (float)c->path[1]),
+        .path_along = (float)c->path[2],
         .variance_xx = (float)(c->roots[0][0] * c->roots[0][0] + c->roots[1][0] * c->roots[1][0]),
         .variance_xz = (float)(c->roots[0][0] * c->roots[0][1] + c->roots[1][0] * c->roots[1][1]),
         .variance_zz = (float)(c->roots[0][1] * c->roots[0][1] + c->roots[1][1] * c->roots[1][1]),
@@ -378,13 +391,21 @@ static void slopes_bend_the_view_to_the_light(void **state)
         unit3(e);
         for (int k = 0; k < 3; k++)
             f[k] = light[(k + 1) % 3] * e[(k + 2) % 3] - light[(k + 2) % 3] * e[(k + 1) % 3];
-        frame_data = (FrameData){.light_x = (float)light[0], .light_y = (float)light[1], .light_z = (float)light[2],
-                                 .axis_e_x = (float)e[0],    .axis_e_y = (float)e[1],    .axis_e_z = (float)e[2],
-                                 .axis_f_x = (float)f[0],    .axis_f_y = (float)f[1],    .axis_f_z = (float)f[2],
-                                 .index_of_refraction = 1 / 1.333f, .camera_under = 1};
+        frame_data = (FrameData){.light_x = (float)light[0],
+                                 .light_y = (float)light[1],
+                                 .light_z = (float)light[2],
+                                 .axis_e_x = (float)e[0],
+                                 .axis_e_y = (float)e[1],
+                                 .axis_e_z = (float)e[2],
+                                 .axis_f_x = (float)f[0],
+                                 .axis_f_y = (float)f[1],
+                                 .axis_f_z = (float)f[2],
+                                 .index_of_refraction = 1 / 1.333f,
+                                 .camera_under = 1};
         const vec3 v = vec3((float)view[0], (float)view[1], (float)view[2]);
         const Mirror m = mirror_at(NULL, v);
-        const double cosine = ((double)m.slope.x * light[0] - light[1] + (double)m.slope.y * light[2]) / sqrt(1 + pow((double)m.slope.x, 2) + pow((double)m.slope.y, 2));
+        const double cosine =
+            ((double)m.slope.x * light[0] - light[1] + (double)m.slope.y * light[2]) / sqrt(1 + pow((double)m.slope.x, 2) + pow((double)m.slope.y, 2));
         if (!(m.possible > 0) || cosine < 0.2) /* light along the surface: differences tell nothing */
             continue;
         seen++;
@@ -500,8 +521,8 @@ static void flat_water_needs_no_search(void **state)
         unit3(view);
         if (view[1] > -0.1)
             continue;
-        const WaterHit hit = {vec3((float)view[0], (float)view[1], (float)view[2]), (float)((double)narrow_data.distance / -view[1]),
-                              vec3(0.0f, 1.0f, 0.0f), (float)column, (float)row};
+        const WaterHit hit = {vec3((float)view[0], (float)view[1], (float)view[2]), (float)((double)narrow_data.distance / -view[1]), vec3(0.0f, 1.0f, 0.0f),
+                              (float)column, (float)row};
         const Bent bent = bent_at(NULL, hit.view, hit.normal);
         if (bent.total > 0 || bent.direction.y > -0.05f)
             continue;
@@ -533,8 +554,8 @@ static void waves_lead_to_the_floor(void **state)
         if (view[1] > -0.15 || !refract3(view, normal, 1 / 1.333, bent))
             continue;
         const double along = (double)narrow_data.distance / -view[1], way = floor_depth / -bent[1];
-        const WaterHit hit = {vec3((float)view[0], (float)view[1], (float)view[2]), (float)along,
-                              vec3((float)normal[0], (float)normal[1], (float)normal[2]), (float)column, (float)row};
+        const WaterHit hit = {vec3((float)view[0], (float)view[1], (float)view[2]), (float)along, vec3((float)normal[0], (float)normal[1], (float)normal[2]),
+                              (float)column, (float)row};
         const FoundPoint f = find_refracted(NULL, hit, bent_at(NULL, hit.view, hit.normal));
         if (!(f.shown > 0))
             continue;
@@ -571,8 +592,8 @@ static void rays_pass_behind_posts(void **state)
         if (view[1] > -0.15 || !(layer_pixel(column + 40 + moved, row + 30).depth < 1e30f))
             continue;
         rays++;
-        const WaterHit hit = {vec3((float)view[0], (float)view[1], (float)view[2]), (float)((double)narrow_data.distance / -view[1]),
-                              vec3(0.0f, 1.0f, 0.0f), (float)column, (float)row};
+        const WaterHit hit = {vec3((float)view[0], (float)view[1], (float)view[2]), (float)((double)narrow_data.distance / -view[1]), vec3(0.0f, 1.0f, 0.0f),
+                              (float)column, (float)row};
         const FoundPoint f = {.column = (float)(column + 40 + moved), .row = (float)(row + 30), .shown = 1};
         const double begins = 1 / ((double)hit.along * depth_of_view(view)), ends = 1 / (double)layer_pixel((double)f.column, (double)f.row).depth;
         const double halfway = begins + 0.5 * (ends - begins);
@@ -592,11 +613,9 @@ static void rays_pass_behind_posts(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(patterns_are_box_means),      cmocka_unit_test(glow_is_the_integral),
-        cmocka_unit_test(footprints_follow_the_rays),  cmocka_unit_test(spreads_turn_with_the_camera),
-        cmocka_unit_test(caustics_are_shares_of_area),
-        cmocka_unit_test(slopes_bend_the_view_to_the_light), cmocka_unit_test(rays_bend_by_snells_law),
-        cmocka_unit_test(flat_water_needs_no_search),  cmocka_unit_test(waves_lead_to_the_floor),
+        cmocka_unit_test(patterns_are_box_means),       cmocka_unit_test(glow_is_the_integral),        cmocka_unit_test(footprints_follow_the_rays),
+        cmocka_unit_test(spreads_turn_with_the_camera), cmocka_unit_test(caustics_are_shares_of_area), cmocka_unit_test(slopes_bend_the_view_to_the_light),
+        cmocka_unit_test(rays_bend_by_snells_law),      cmocka_unit_test(flat_water_needs_no_search),  cmocka_unit_test(waves_lead_to_the_floor),
         cmocka_unit_test(rays_pass_behind_posts),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

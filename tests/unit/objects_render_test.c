@@ -71,8 +71,8 @@ static int check_layer(const mgt_scene *scene, int layer, const char *what)
         const bool good = (x >= layers[layer].least && x <= layers[layer].most) || (layers[layer].endless && x == INFINITY);
         if (!good && wrong++ == 0)
             print_error("%s: method %d, refraction %d, %u x %u: %s at %u, %u is %g\n", what, scene->quality.method, scene->quality.refraction,
-                        scene->image.width, scene->image.height, layers[layer].name, i / channels % scene->image.width,
-                        i / channels / scene->image.width, (double)x);
+                        scene->image.width, scene->image.height, layers[layer].name, i / channels % scene->image.width, i / channels / scene->image.width,
+                        (double)x);
     }
     return wrong;
 }
@@ -138,23 +138,15 @@ static const struct {
     {"waves of 10 m about the camera", {"water.waves[0].amplitude=10"}},
     {"steep ripples", {"water.waves[2].amplitude=0.5"}},
     {"two millimetres wide",
-     {"objects=[{shape: pool, size: [0.002, 0.001, 0.002]}]",
-      "water.amplitude=0",
-      "camera={position: [0, 0.001, 0.001], target: [0, 0, 0], fov_y_deg: 60}"}},
+     {"objects=[{shape: pool, size: [0.002, 0.001, 0.002]}]", "water.amplitude=0", "camera={position: [0, 0.001, 0.001], target: [0, 0, 0], fov_y_deg: 60}"}},
     {"two millimetres wide, from below",
-     {"objects=[{shape: pool, size: [0.002, 0.001, 0.002]}]",
-      "water.amplitude=0",
+     {"objects=[{shape: pool, size: [0.002, 0.001, 0.002]}]", "water.amplitude=0",
       "camera={position: [0, -0.0002, 0.0003], target: [0, 0, 0], fov_y_deg: 60}"}},
-    {"ten kilometres wide",
-     {"objects=[{shape: pool, size: [10000, 1500, 10000]}]",
-      "camera={position: [0, 800, 3000], target: [0, 0, 0], fov_y_deg: 60}"}},
+    {"ten kilometres wide", {"objects=[{shape: pool, size: [10000, 1500, 10000]}]", "camera={position: [0, 800, 3000], target: [0, 0, 0], fov_y_deg: 60}"}},
     {"ten kilometres wide, close", {"objects=[{shape: pool, size: [10000, 1500, 10000]}]"}},
     {"ten kilometres wide, from below",
-     {"objects=[{shape: pool, size: [10000, 1500, 10000]}]",
-      "camera={position: [0, -3, 0], target: [0, 0, -20], fov_y_deg: 60}"}},
-    {"far from the origin",
-     {"camera={position: [900000, 2.2, 4.4], target: [900000, -0.2, 0], fov_y_deg: 55}",
-      "objects[0].position=[900000, 0, 0]"}},
+     {"objects=[{shape: pool, size: [10000, 1500, 10000]}]", "camera={position: [0, -3, 0], target: [0, 0, -20], fov_y_deg: 60}"}},
+    {"far from the origin", {"camera={position: [900000, 2.2, 4.4], target: [900000, -0.2, 0], fov_y_deg: 55}", "objects[0].position=[900000, 0, 0]"}},
     {"murky", {"water.clarity=murky"}},
     {"as black as ink", {"water.absorption=[1000, 1000, 1000]", "water.scattering=[1000, 1000, 1000]"}},
     {"at night", {"light.elevation_deg=-30"}},
@@ -230,8 +222,8 @@ static void index_one_is_straight(void **state)
             }
             assert_true(water > 300);
             if (off > water / 100)
-                fail_msg("index 1, camera %d, %s water, refraction %d: %d of %d pixels differ from those seen straight through", i % 2,
-                         i < 2 ? "flat" : "wavy", others[k], off, water);
+                fail_msg("index 1, camera %d, %s water, refraction %d: %d of %d pixels differ from those seen straight through", i % 2, i < 2 ? "flat" : "wavy",
+                         others[k], off, water);
         }
         scene_file_free(v.file);
     }
@@ -240,9 +232,9 @@ static void index_one_is_straight(void **state)
 
 /* ---- methods ---- */
 
-static const mgt_method methods[] = {MGT_METHOD_NONE,  MGT_METHOD_SSAA,      MGT_METHOD_PODEE_UNIFORM, MGT_METHOD_PODEE_PIXEL, MGT_METHOD_MANGATA,
-                                     MGT_METHOD_REFERENCE, MGT_METHOD_MSAA32, MGT_METHOD_LEAN,         MGT_METHOD_LEADR,       MGT_METHOD_TOKUYOSHI,
-                                     MGT_METHOD_BRUNETON,  MGT_METHOD_FXAA,   MGT_METHOD_TAA,          MGT_METHOD_TNDF};
+static const mgt_method methods[] = {MGT_METHOD_NONE,      MGT_METHOD_SSAA,   MGT_METHOD_PODEE_UNIFORM, MGT_METHOD_PODEE_PIXEL, MGT_METHOD_MANGATA,
+                                     MGT_METHOD_REFERENCE, MGT_METHOD_MSAA32, MGT_METHOD_LEAN,          MGT_METHOD_LEADR,       MGT_METHOD_TOKUYOSHI,
+                                     MGT_METHOD_BRUNETON,  MGT_METHOD_FXAA,   MGT_METHOD_TAA,           MGT_METHOD_TNDF};
 enum { METHODS = sizeof methods / sizeof *methods };
 
 /* Whether no pixel beside this one is water. */
@@ -349,14 +341,14 @@ static void broken_meshes_are_refused(void **state)
 static void poor_triangles_render(void **state)
 {
     (void)state;
-    static const float positions[] = {-1,   -1,    -1, 1,    -1,     -1,  0,   -1,   2,          /* a floor */
-                                      -1e6f, -5,   -9e5f, 1e6f, -5,  -9e5f, 0, -5,   1e6f,       /* a floor to the horizon */
-                                      -1e6f, 7e4f, -9e5f, 1e6f, -7e4f, -9e5f, 3, 0,  2,          /* across the surface */
-                                      0,     2,    4,  1e-7f, 2,     4,   0,   2.0000001f, 4,    /* a speck at the camera */
-                                      -1,    2.2f, 4.4f, 2,  2.2f,  4.4f, 0.5f, 2.2f, -6,        /* through the camera, edge on */
-                                      -3,    0,    0,  3,    0,      0,   0,   1e-30f, 1,        /* as thin as it can be */
-                                      -3,    0,    -1, 3,    0,      -1,  0,   0,    1,          /* in the surface */
-                                      0.4f,  2.2f, 4.4f, 0,  -1,     0,   1,   -1,   0};         /* from the camera */
+    static const float positions[] = {-1,    -1,   -1,    1,     -1,    -1,    0,    -1,         2,    /* a floor */
+                                      -1e6f, -5,   -9e5f, 1e6f,  -5,    -9e5f, 0,    -5,         1e6f, /* a floor to the horizon */
+                                      -1e6f, 7e4f, -9e5f, 1e6f,  -7e4f, -9e5f, 3,    0,          2,    /* across the surface */
+                                      0,     2,    4,     1e-7f, 2,     4,     0,    2.0000001f, 4,    /* a speck at the camera */
+                                      -1,    2.2f, 4.4f,  2,     2.2f,  4.4f,  0.5f, 2.2f,       -6,   /* through the camera, edge on */
+                                      -3,    0,    0,     3,     0,     0,     0,    1e-30f,     1,    /* as thin as it can be */
+                                      -3,    0,    -1,    3,     0,     -1,    0,    0,          1,    /* in the surface */
+                                      0.4f,  2.2f, 4.4f,  0,     -1,    0,     1,    -1,         0};   /* from the camera */
     uint32_t indices[24];
     for (uint32_t i = 0; i < 24; i++)
         indices[i] = i;
@@ -415,7 +407,7 @@ static void crops_and_long_pictures(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_refraction_ends),  cmocka_unit_test(index_one_is_straight), cmocka_unit_test(every_method_shows_objects),
+        cmocka_unit_test(every_refraction_ends),     cmocka_unit_test(index_one_is_straight), cmocka_unit_test(every_method_shows_objects),
         cmocka_unit_test(broken_meshes_are_refused), cmocka_unit_test(poor_triangles_render), cmocka_unit_test(crops_and_long_pictures),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -30,10 +30,7 @@ static int free_tables(void **state)
 
 /* ---- the fits themselves ---- */
 
-static double circle(double x, double y, double deviation)
-{
-    return exp(-(x * x + y * y) / (2 * deviation * deviation)) / (2 * pi * deviation * deviation);
-}
+static double circle(double x, double y, double deviation) { return exp(-(x * x + y * y) / (2 * deviation * deviation)) / (2 * pi * deviation * deviation); }
 
 /* ‖ellipse − mixture‖ / ‖ellipse‖ by the midpoint rule on a grid over the plane. */
 static double relative_l2(int kernels, double e)
@@ -138,8 +135,11 @@ static const struct {
     mgt_kernels kernels;
     const char *name;
     double bound; /* of the rms; 0: none */
-} kinds[KINDS] = {{MGT_KERNELS_1, "1 kernel", 0.045}, {MGT_KERNELS_3, "3 kernels", 0.0145}, {MGT_KERNELS_5, "5 kernels", 0.0075},
-                  {MGT_KERNELS_9, "9 kernels", 0.0028}, {MGT_KERNELS_FELINE, "Feline", 0}};
+} kinds[KINDS] = {{MGT_KERNELS_1, "1 kernel", 0.045},
+                  {MGT_KERNELS_3, "3 kernels", 0.0145},
+                  {MGT_KERNELS_5, "5 kernels", 0.0075},
+                  {MGT_KERNELS_9, "9 kernels", 0.0028},
+                  {MGT_KERNELS_FELINE, "Feline", 0}};
 
 /* Root mean square errors of CASES paths. */
 static void measure_kinds(double widest, double rms[KINDS])
@@ -160,7 +160,8 @@ static void measure_kinds(double widest, double rms[KINDS])
     }
     for (int k = 0; k < KINDS; k++) {
         rms[k] = sqrt(squares[k]);
-        print_message("  minor up to %g, %-9s rms %.5f, largest %.4f, sum over the exact one's %.4f\n", widest, kinds[k].name, rms[k], worst[k], sum[k] / exact);
+        print_message("  minor up to %g, %-9s rms %.5f, largest %.4f, sum over the exact one's %.4f\n", widest, kinds[k].name, rms[k], worst[k],
+                      sum[k] / exact);
     }
 }
 
@@ -227,8 +228,8 @@ static void extremes_are_shares(void **state)
         const FrameData data = {.podee_kernels = (int)every[i % 6], .podee_elongation = i % 2 ? 1e6f : 9};
         const struct kernel_context cx = {.frame = &data, .podee = &tables};
         const float from[2] = {(float)(away * random_range(&r, -1, 1)), (float)(away * random_range(&r, -1, 1))};
-        const float share = mixture_disk_path(&cx, vec2(from[0], from[1]), vec2((float)((double)from[0] + step), (float)((double)from[1] - step / 3)), (float)xx,
-                                              (float)xy, (float)yy, (float)radius);
+        const float share = mixture_disk_path(&cx, vec2(from[0], from[1]), vec2((float)((double)from[0] + step), (float)((double)from[1] - step / 3)),
+                                              (float)xx, (float)xy, (float)yy, (float)radius);
         assert_true(share >= 0 && share <= 1);
     }
 }
@@ -236,12 +237,8 @@ static void extremes_are_shares(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(fits_are_near_the_ellipse),
-        cmocka_unit_test(fits_are_smooth),
-        cmocka_unit_test(mixtures_stand_for_the_ellipse),
-        cmocka_unit_test(still_surfaces_and_riemann_sums),
-        cmocka_unit_test(long_ellipses_fall_back),
-        cmocka_unit_test(extremes_are_shares),
+        cmocka_unit_test(fits_are_near_the_ellipse),       cmocka_unit_test(fits_are_smooth),         cmocka_unit_test(mixtures_stand_for_the_ellipse),
+        cmocka_unit_test(still_surfaces_and_riemann_sums), cmocka_unit_test(long_ellipses_fall_back), cmocka_unit_test(extremes_are_shares),
     };
     return cmocka_run_group_tests(tests, make_tables, free_tables);
 }

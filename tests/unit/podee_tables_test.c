@@ -66,10 +66,7 @@ static double random_coordinate(random_state *r, double deviation)
     return random_unit(r) < 0.5 ? c : -c;
 }
 
-static double random_deviation(random_state *r)
-{
-    return 0.02 * pow(400, random_unit(r));
-}
+static double random_deviation(random_state *r) { return 0.02 * pow(400, random_unit(r)); }
 
 static void texels_are_the_integrals(void **state)
 {

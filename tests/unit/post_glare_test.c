@@ -27,10 +27,7 @@ static image image_make(size_t width, size_t height)
     return i;
 }
 
-static float *pixel(const image *i, size_t x, size_t y)
-{
-    return &i->rgb[y * i->stride + 3 * x];
-}
+static float *pixel(const image *i, size_t x, size_t y) { return &i->rgb[y * i->stride + 3 * x]; }
 
 static void fill_noise(image *i, unsigned seed)
 {
@@ -53,10 +50,7 @@ static double channel_sum(const image *i, int c)
     return sum;
 }
 
-static void apply(image *i, float glare)
-{
-    assert_int_equal(glare_apply(i->rgb, i->width, i->height, i->stride, glare, NULL, NULL), MGT_OK);
-}
+static void apply(image *i, float glare) { assert_int_equal(glare_apply(i->rgb, i->width, i->height, i->stride, glare, NULL, NULL), MGT_OK); }
 
 static void the_sum_stays_for_every_size(void **unused)
 {

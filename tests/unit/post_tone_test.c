@@ -13,10 +13,7 @@
 #include "cpu/kernel_data.h"
 #include "mangata/mangata.h"
 
-static double double_pow(double x, double y)
-{
-    return pow(x, y);
-}
+static double double_pow(double x, double y) { return pow(x, y); }
 
 #pragma GCC diagnostic ignored "-Wunused-parameter" /* the dialect hands cx to every function */
 #define MGT_LANES 1
@@ -37,10 +34,7 @@ static vec3 shown(double exposure, double r, double g, double b, int tone_map)
     return display_color(&cx, vec3((float)r, (float)g, (float)b), tone_map);
 }
 
-static double decode(double code)
-{
-    return code <= 0.04045 ? code / 12.92 : double_pow((code + 0.055) / 1.055, 2.4);
-}
+static double decode(double code) { return code <= 0.04045 ? code / 12.92 : double_pow((code + 0.055) / 1.055, 2.4); }
 
 static void encoding_is_srgb(void **unused)
 {
@@ -63,7 +57,7 @@ static void greys_rise_from_black_to_white(void **unused)
         for (double stops = -14; stops < 14; stops += 1.0 / 16) {
             double x = exp2(stops);
             vec3 c = shown(1, x, x, x, map);
-            assert_true(c.x >= before - 1e-6); /* rounding alone may take it back */
+            assert_true(c.x >= before - 1e-6);                             /* rounding alone may take it back */
             assert_true(fabs(c.x - c.y) < 3e-3 && fabs(c.x - c.z) < 3e-3); /* grey stays grey */
             if (stops > -8 && stops < 2) {
                 assert_true(map == MGT_TONE_NONE && stops > 0 ? true : c.x > before + 1e-4);

@@ -18,9 +18,6 @@ static inline double random_unit(random_state *r)
     return (double)((x ^ (x >> 31)) >> 11) * 0x1p-53;
 }
 
-static inline double random_range(random_state *r, double low, double high)
-{
-    return low + (high - low) * random_unit(r);
-}
+static inline double random_range(random_state *r, double low, double high) { return low + (high - low) * random_unit(r); }
 
 #endif

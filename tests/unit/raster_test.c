@@ -64,8 +64,12 @@ static bool set_up_one(const raster_kernels *kernels, const float a[3], const fl
         for (int k = 0; k < 3; k++)
             batch.image[i][k][0] = corner[i][k];
     kernels->setups(&open_picture, &batch, &out);
-    *t = (raster_triangle){.inverse_depth = out.inverse_depth[0], .slope_x = out.slope_x[0], .slope_y = out.slope_y[0], .least = out.least[0],
-                           .most = out.most[0], .triangle = 7};
+    *t = (raster_triangle){.inverse_depth = out.inverse_depth[0],
+                           .slope_x = out.slope_x[0],
+                           .slope_y = out.slope_y[0],
+                           .least = out.least[0],
+                           .most = out.most[0],
+                           .triangle = 7};
     for (int k = 0; k < 3; k++)
         t->x[k] = (int32_t)out.x[k][0], t->y[k] = (int32_t)out.y[k][0];
     return out.state[0] > 0;
@@ -149,17 +153,15 @@ static gbuffer_job job_of(const mgt_scene *scene, gbuffer_map map)
                          .map = map};
 }
 
-static size_t pixels_of(const gbuffers *g)
-{
-    return (size_t)g->near.width * g->near.height;
-}
+static size_t pixels_of(const gbuffers *g) { return (size_t)g->near.width * g->near.height; }
 
 /* A wall through the waterline that fills the view: every pixel belongs to one layer. */
 static void test_waterline(void **state)
 {
     (void)state;
     static const double cameras[][2][3] = {
-        {{0, 2, 3}, {0, -0.5, -3}}, {{1, 0.3, 3}, {0, 0, -3}}, {{0, -8, 0}, {0, 0.5, -3}}, {{1, -6, -0.5}, {0, 0, -3}}, {{0, 1e-6, 3}, {0, 0, -3}}, {{0, 0, 3}, {0, 0, -3}},
+        {{0, 2, 3}, {0, -0.5, -3}},  {{1, 0.3, 3}, {0, 0, -3}},  {{0, -8, 0}, {0, 0.5, -3}},
+        {{1, -6, -0.5}, {0, 0, -3}}, {{0, 1e-6, 3}, {0, 0, -3}}, {{0, 0, 3}, {0, 0, -3}},
     };
     const float wall[] = {-60, -90, -3, 60, -70, -3.2f, 60, 80, -3, -60, 90, -3};
     const float narrow[] = {-5, -90, -3, 5, -70, -3.2f, 5, 80, -3, -5, 90, -3}; /* meets the surface within Snell's window */

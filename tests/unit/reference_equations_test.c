@@ -28,15 +28,9 @@ static double next_number(uint64_t *state)
     return (double)(*state >> 11) * 0x1p-53;
 }
 
-static double between(uint64_t *state, double low, double high)
-{
-    return low + (high - low) * next_number(state);
-}
+static double between(uint64_t *state, double low, double high) { return low + (high - low) * next_number(state); }
 
-static double dot3(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
+static double dot3(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 static void direction_from(double elevation, double azimuth, double d[3])
 {
@@ -76,10 +70,7 @@ static void water_derivatives_are_those_of_its_height(void **unused)
     const water_point at = water_surface(&water, x, z, t);
     const water_point east = water_surface(&water, x + h, z, t), west = water_surface(&water, x - h, z, t);
     const water_point south = water_surface(&water, x, z + h, t), north = water_surface(&water, x, z - h, t);
-    assert_near(at.height,
-                0.3 * sin(0.7 * x - 0.4 * z + 1.1 * t + 0.2) + 0.05 * sin(-3 * x + 5 * z - 4 * t + 2) +
-                    0.1 * sin(2 * z + 3 * t + 1),
-                1e-13);
+    assert_near(at.height, 0.3 * sin(0.7 * x - 0.4 * z + 1.1 * t + 0.2) + 0.05 * sin(-3 * x + 5 * z - 4 * t + 2) + 0.1 * sin(2 * z + 3 * t + 1), 1e-13);
     assert_near((east.height - west.height) / (2 * h), at.slope[0], 1e-8);
     assert_near((south.height - north.height) / (2 * h), at.slope[1], 1e-8);
     assert_near((east.slope[0] - west.slope[0]) / (2 * h), at.hessian[0], 1e-7);
@@ -87,10 +78,7 @@ static void water_derivatives_are_those_of_its_height(void **unused)
     assert_near((south.slope[1] - north.slope[1]) / (2 * h), at.hessian[2], 1e-7);
 }
 
-static double sinc_half(double g)
-{
-    return g == 0 ? 1 : sin(0.5 * g) / (0.5 * g);
-}
+static double sinc_half(double g) { return g == 0 ? 1 : sin(0.5 * g) / (0.5 * g); }
 
 static void box_filter_meets_its_closed_form(void **unused)
 {
@@ -220,11 +208,9 @@ static void mirror_map_has_the_derived_jacobian(void **unused)
             for (int k = 0; k < 3; k++)
                 m[k] = -h[1] * ((k == 2 * axis) - h[k] * h[2 * axis]);
             for (int row = 0; row < 2; row++)
-                assert_near(jacobian[row][axis],
-                            2 * (dot3(eye, m) * dot3(axes[row], h) + dot3(h, eye) * dot3(axes[row], m)), 1e-6);
+                assert_near(jacobian[row][axis], 2 * (dot3(eye, m) * dot3(axes[row], h) + dot3(h, eye) * dot3(axes[row], m)), 1e-6);
         }
-        assert_near(fabs(jacobian[0][0] * jacobian[1][1] - jacobian[0][1] * jacobian[1][0]), 4 * dot3(h, eye) * h[1] * h[1] * h[1],
-                    1e-6);
+        assert_near(fabs(jacobian[0][0] * jacobian[1][1] - jacobian[0][1] * jacobian[1][0]), 4 * dot3(h, eye) * h[1] * h[1] * h[1], 1e-6);
     }
     double away[2];
     const double eye[3] = {0, 1, 0}, light[3] = {0.6, -0.8, 0}, flat[2] = {0, 0};
@@ -244,10 +230,7 @@ static void fresnel_meets_its_known_values(void **unused)
     assert_near(fresnel_dielectric(0.5, n), 0.0594, 1e-3); /* 60°: about 6 % */
 }
 
-static double limb_ring(double r, const void *user)
-{
-    return 2 * r * limb_profile(*(const double *)user, r);
-}
+static double limb_ring(double r, const void *user) { return 2 * r * limb_profile(*(const double *)user, r); }
 
 static void limb_darkening_keeps_the_mean(void **unused)
 {
@@ -263,8 +246,7 @@ static void visible_weight_meets_its_closed_form(void **unused)
     const double means[] = {0.3, 0.02, 0, -0.1, 1}, deviations[] = {0.05, 0.1, 0.2, 0.1, 1e-3};
     for (int i = 0; i < 5; i++) {
         const double t = means[i] / deviations[i];
-        const double expected =
-            means[i] * 0.5 * erfc(-t / sqrt(2)) + deviations[i] * exp(-0.5 * t * t) / sqrt(2 * pi);
+        const double expected = means[i] * 0.5 * erfc(-t / sqrt(2)) + deviations[i] * exp(-0.5 * t * t) / sqrt(2 * pi);
         assert_near(mean_visible_weight(means[i], deviations[i]), expected, 1e-12);
     }
     assert_true(mean_visible_weight(0.25, 0) == 0.25 && mean_visible_weight(-1, 0) == 0);

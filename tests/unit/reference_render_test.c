@@ -104,10 +104,7 @@ static picture picture_create(uint32_t width, uint32_t height)
     return p;
 }
 
-static void picture_free(picture *p)
-{
-    free(p->color);
-}
+static void picture_free(picture *p) { free(p->color); }
 
 static reference_result picture_part(picture *p, uint32_t x, uint32_t y)
 {
@@ -144,15 +141,9 @@ static picture render_geometry(const mgt_scene *scene, const reference_options *
     return p;
 }
 
-static size_t picture_pixels(const picture *p)
-{
-    return (size_t)p->width * p->height;
-}
+static size_t picture_pixels(const picture *p) { return (size_t)p->width * p->height; }
 
-static void assert_same_bytes(const picture *a, const picture *b)
-{
-    assert_memory_equal(a->color, b->color, 9 * picture_pixels(a) * sizeof(float));
-}
+static void assert_same_bytes(const picture *a, const picture *b) { assert_memory_equal(a->color, b->color, 9 * picture_pixels(a) * sizeof(float)); }
 
 static double sum_of(const float *plane, size_t pixels)
 {
@@ -232,7 +223,7 @@ static void flat_mirror_reflects_as_a_dielectric(void **unused)
             assert_near(p.color[3 * i + 1], 2 * mean + 0.5 * (1 - mean), 0.004);
             assert_near(p.color[3 * i + 2], 2 * mean + (1 - mean), 0.004);
         }
-    assert_near(p.color[0], 2, 1e-6); /* sky */
+    assert_near(p.color[0], 2, 1e-6);                         /* sky */
     assert_true(sum_of(p.coverage, picture_pixels(&p)) == 0); /* the light has set */
     picture_free(&p);
 }
@@ -295,8 +286,7 @@ static void one_long_wave_meets_a_dense_integral(void **unused)
                 camera_ray(&scene, px, py, time, origin, d);
                 const water_hit hit = first_hit_brute_force(&scene, px, py, time);
                 const double to_eye[3] = {-d[0], -d[1], -d[2]};
-                covered += hit.hit && mirror_map(to_eye, light, hit.water.slope, point) &&
-                           hypot(point[0], point[1]) < tan(5 * pi / 180);
+                covered += hit.hit && mirror_map(to_eye, light, hit.water.slope, point) && hypot(point[0], point[1]) < tan(5 * pi / 180);
             }
             assert_near(value, covered / 3600.0, 0.01);
         }
@@ -575,8 +565,7 @@ static void moving_camera_is_the_mean_of_still_ones(void **unused)
     for (int k = 0; k < 16; k++) {
         const double weight = (k + 0.5) / 16;
         for (int i = 0; i < 3; i++) {
-            still.camera.position[i] =
-                scene.camera.position[i] + weight * (scene.camera_open.position[i] - scene.camera.position[i]);
+            still.camera.position[i] = scene.camera.position[i] + weight * (scene.camera_open.position[i] - scene.camera.position[i]);
             still.camera.target[i] = scene.camera.target[i] + weight * (scene.camera_open.target[i] - scene.camera.target[i]);
         }
         still.camera.fov_y_deg = scene.camera.fov_y_deg + weight * (40 - scene.camera.fov_y_deg);

@@ -50,10 +50,7 @@ static void fill_grid(points *p, double height)
     }
 }
 
-static double across_of(float p[3][ROOM], int i)
-{
-    return hypot((double)p[0][i], (double)p[2][i]);
-}
+static double across_of(float p[3][ROOM], int i) { return hypot((double)p[0][i], (double)p[2][i]); }
 
 /* Radians between the vertical and the path's ray on the camera's side. */
 static double exact_angle(double height, double far, double across, double index)
@@ -93,10 +90,7 @@ static void test_angle(void **state)
     free(p);
 }
 
-static bool runs(uint32_t lanes)
-{
-    return lanes <= 4 || (lanes == 8 ? mgt_isa_available(MGT_ISA_AVX2) : mgt_isa_available(MGT_ISA_AVX512));
-}
+static bool runs(uint32_t lanes) { return lanes <= 4 || (lanes == 8 ? mgt_isa_available(MGT_ISA_AVX2) : mgt_isa_available(MGT_ISA_AVX512)); }
 
 static void test_lanes_agree(void **state)
 {
@@ -219,7 +213,7 @@ static void test_special_places(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_angle),   cmocka_unit_test(test_lanes_agree),    cmocka_unit_test(test_inverse),
+        cmocka_unit_test(test_angle),    cmocka_unit_test(test_lanes_agree),    cmocka_unit_test(test_inverse),
         cmocka_unit_test(test_monotone), cmocka_unit_test(test_special_places),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

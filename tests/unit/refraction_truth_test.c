@@ -29,11 +29,11 @@ static void tell(const shade_scene *user, const shade_hits *h, float *rgb)
     for (size_t i = 0; i < h->count; i++) {
         const float lengths[3] = {h->before[i], h->after[i], h->water[i]};
         for (int k = 0; k < 3; k++)
-            rgb[3 * i + (size_t)k] = what == TOLD_ONE ? 1
-                                     : what == TOLD_POSITION ? (h->triangle[i] >= 0 ? h->position[k][i] : NAN)
+            rgb[3 * i + (size_t)k] = what == TOLD_ONE         ? 1
+                                     : what == TOLD_POSITION  ? (h->triangle[i] >= 0 ? h->position[k][i] : NAN)
                                      : what == TOLD_DIRECTION ? h->direction[k][i]
-                                     : what == TOLD_GAIN ? h->gain[i]
-                                     : what == TOLD_SPREAD ? h->spread[k][i]
+                                     : what == TOLD_GAIN      ? h->gain[i]
+                                     : what == TOLD_SPREAD    ? h->spread[k][i]
                                                               : lengths[k];
     }
 }
@@ -76,7 +76,8 @@ static void end(setup *s)
 static refraction_truth *truth_of(const setup *s, const answer_kind *what, mgt_isa isa, uint32_t workers)
 {
     refraction_truth *truth;
-    const truth_job job = {&s->scene, camera_rays_of(&s->scene.camera, WIDTH, HEIGHT), s->world, s->trace, tell, (const shade_scene *)(const void *)what, isa, workers};
+    const truth_job job = {&s->scene, camera_rays_of(&s->scene.camera, WIDTH, HEIGHT), s->world, s->trace,
+                           tell,      (const shade_scene *)(const void *)what,         isa,      workers};
     assert_int_equal(refraction_truth_create(&truth, &job), MGT_OK);
     return truth;
 }
@@ -397,8 +398,7 @@ static void shares_add_up(void **state)
             for (uint32_t x = 0; x < WIDTH; x++) {
                 const answer a = answer_at(ones, x, y);
                 assert_true(a.water == 0 || a.water == 1);
-                assert_true(a.water == 0 ? a.through[0] == 0 && a.mirrored[0] == 0
-                                         : fabs(a.through[0] - 1) < 0.006 && fabs(a.mirrored[0] - 1) < 0.006);
+                assert_true(a.water == 0 ? a.through[0] == 0 && a.mirrored[0] == 0 : fabs(a.through[0] - 1) < 0.006 && fabs(a.mirrored[0] - 1) < 0.006);
             }
         free(ones);
         end(&s);
@@ -450,11 +450,14 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(flat_water_shows_a_floor_where_snell_says),
-        cmocka_unit_test(radiance_keeps_the_power_of_a_bundle), cmocka_unit_test(snells_window_ends_at_its_angle),
-        cmocka_unit_test(waves_bend_rays_at_their_first_hit),        cmocka_unit_test(footprints_follow_the_rays),
+        cmocka_unit_test(radiance_keeps_the_power_of_a_bundle),
+        cmocka_unit_test(snells_window_ends_at_its_angle),
+        cmocka_unit_test(waves_bend_rays_at_their_first_hit),
+        cmocka_unit_test(footprints_follow_the_rays),
         cmocka_unit_test(waves_bend_rays_from_below),
         cmocka_unit_test(shares_add_up),
-        cmocka_unit_test(bits_depend_on_the_tile_alone),             cmocka_unit_test(samples_fill_the_pixel),
+        cmocka_unit_test(bits_depend_on_the_tile_alone),
+        cmocka_unit_test(samples_fill_the_pixel),
     };
     if (!trace_available()) {
         print_message("skipped: this build traces no rays\n");

@@ -6,8 +6,11 @@
 
 static SlopeState random_state_of_slopes(random_state *r)
 {
-    SlopeState s = {.view = vec3(0, 0.3f, 0.95394f), .variance_xx = (float)random_range(r, 0, 0.01), .variance_zz = (float)random_range(r, 0, 0.01),
-                    .bend_xx = (float)random_range(r, 0, 0.01), .bend_zz = (float)random_range(r, 0, 0.01)};
+    SlopeState s = {.view = vec3(0, 0.3f, 0.95394f),
+                    .variance_xx = (float)random_range(r, 0, 0.01),
+                    .variance_zz = (float)random_range(r, 0, 0.01),
+                    .bend_xx = (float)random_range(r, 0, 0.01),
+                    .bend_zz = (float)random_range(r, 0, 0.01)};
     s.open = vec2((float)random_range(r, -0.3, 0.3), (float)random_range(r, -0.3, 0.3));
     s.close = vec2((float)random_range(r, -0.3, 0.3), (float)random_range(r, -0.3, 0.3));
     s.mirror.slope = vec2((float)random_range(r, -0.3, 0.3), (float)random_range(r, -0.3, 0.3));

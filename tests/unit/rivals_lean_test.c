@@ -113,8 +113,7 @@ static void levels_hold_the_covariance_that_they_filter(void **state)
             off = fmax(off, fabs(ours[m] - exact[m]) / (whole[0] + whole[2]));
             worst = fmax(worst, fabs(kept[m] - whole[m]) / (whole[0] + whole[2]));
         }
-        print_message("  level %2d: covariance %.6f %.6f %.6f, of the waves %.6f %.6f %.6f\n", level, ours[0], ours[1], ours[2], exact[0],
-                      exact[1], exact[2]);
+        print_message("  level %2d: covariance %.6f %.6f %.6f, of the waves %.6f %.6f %.6f\n", level, ours[0], ours[1], ours[2], exact[0], exact[1], exact[2]);
         expect_below("off, over the whole variance", off, 1e-4);
     }
     expect_below("variance that any level loses", worst, 1e-4);

@@ -41,12 +41,12 @@ static void assert_same_values(const scene_values *left, const scene_values *rig
 static const char *const scenes[] = {
     "mangata: 1\n",
     ("mangata: 1\ndescription: \"quotes \\\" and\\nlines\"\nimage: {width: 64}\ncamera: {position: [1, 2, 3], target: [0, 1, 0.1], fov_y_deg: 33.3}\n"
-    "light: {body: moon, elevation_deg: 3}\nsky: {model: gradient, zenith: [0.1, 0.2, 0.3]}\n"
-    "water: {waves: [{amplitude: 0.1, a: 1, b: 2, c: -3.1}, {amplitude: 0.2, a: -1, b: 0.3333333333333333, c: 4, phase: 1e-3}], ior: 1.4}\n"
-    "post: {exposure: -3.5, tone_map: none}\n"),
+     "light: {body: moon, elevation_deg: 3}\nsky: {model: gradient, zenith: [0.1, 0.2, 0.3]}\n"
+     "water: {waves: [{amplitude: 0.1, a: 1, b: 2, c: -3.1}, {amplitude: 0.2, a: -1, b: 0.3333333333333333, c: 4, phase: 1e-3}], ior: 1.4}\n"
+     "post: {exposure: -3.5, tone_map: none}\n"),
     "mangata: 1\nlight: {body: sun, angular_radius_deg: 0.2590}\npost: {exposure: auto, exposure_offset: 1.25, glare: 0}\n",
     ("mangata: 1\ntime: {start: 1, fps: 23.976, frames: 12, shutter: 0.5}\ncamera:\n  fov_y_deg: 40\n  path:\n"
-    "    - {time: 0, position: [0, 2, 0], target: [0, 1.8, -5]}\n    - {time: 2.5, position: [3, 4, -2], target: [1, 3.5, -8], fov_y_deg: 30}\n"),
+     "    - {time: 0, position: [0, 2, 0], target: [0, 1.8, -5]}\n    - {time: 2.5, position: [3, 4, -2], target: [1, 3.5, -8], fov_y_deg: 30}\n"),
     "mangata: 1\nwater: {waves: [{amplitude: 0.1, a: 1, b: 2, c: -3.1}]}\n",
     "mangata: 1\nwater: {waves: [{amplitude: 0.1, a: 1, b: 2, c: -3.1}], spectrum: {model: tma, wind: 7, depth: 5, count: 9, seed: 4}}\n",
     "mangata: 1\nwater: {spectrum: {model: pierson-moskowitz, directions: fixed, spread: 4, slope: cox-munk}, ior: 1.4}\n",
@@ -118,8 +118,8 @@ static void paths_find_their_values(void **state)
     assert_ptr_equal(at, &((const mgt_wave *)values->water.waves.items)[1].a);
     assert_non_null(scene_values_find(values, "camera.position", &at));
     assert_ptr_equal(at, values->camera.still.position);
-    static const char *const none[] = {"", "wave", "water.waves[2].a", "water.waves[x].a", "water.waves[0]",
-                                       "camera.position.x", "camera..up", "light.", ".light"};
+    static const char *const none[] = {"",       "wave",  "water.waves[2].a", "water.waves[x].a", "water.waves[0]", "camera.position.x", "camera..up",
+                                       "light.", ".light"};
     for (size_t i = 0; i < sizeof none / sizeof none[0]; i++)
         assert_null(scene_values_find(values, none[i], &at));
     scene_file_free(file);

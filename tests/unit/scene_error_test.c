@@ -38,10 +38,7 @@ static scene_error refused_bytes(const char *text, size_t length, const char *ov
     return error;
 }
 
-static scene_error refused(const char *text, const char *override)
-{
-    return refused_bytes(text, strlen(text), override);
-}
+static scene_error refused(const char *text, const char *override) { return refused_bytes(text, strlen(text), override); }
 
 static void assert_error(scene_error error, scene_error_kind kind, const char *expected)
 {
@@ -67,8 +64,7 @@ static void messages_say_what_where_and_what_is_allowed(void **state)
         {"mangata: 1\nsky: *dusk\n", "s.yaml:2:6: aliases (*name) are not supported; allowed: the value written out"},
         {"mangata: !!int 1\n", "s.yaml:1:16: tags (!type) are not supported; allowed: a plain value"},
         {"? [mangata]\n: 1\n", "s.yaml:1:3: a list or mapping stands as a key; allowed: a plain word"},
-        {"mangata: 1\ndescription: caf\xe9\n",
-         "s.yaml:2:17: not a text file: a byte that is not printable UTF-8; allowed: YAML or JSON in UTF-8"},
+        {"mangata: 1\ndescription: caf\xe9\n", "s.yaml:2:17: not a text file: a byte that is not printable UTF-8; allowed: YAML or JSON in UTF-8"},
         {"{\"mangata\": 1, \"description\": \"\\u0000\"}", "s.yaml:1:31: a text holds a NUL character; allowed: any other"},
         /* keys */
         {"mangata: 1\nligth: {}\n",
@@ -79,48 +75,39 @@ static void messages_say_what_where_and_what_is_allowed(void **state)
          "angular_radius_deg, radiance"},
         {"mangata: 1\nwater: {waves: [{amplitude: 1, a: 1, b: 1, c: 1, wibble: 2}]}\n",
          "s.yaml:2:50: unknown key \"wibble\" in water.waves[0]; allowed: amplitude, a, b, c, phase"},
-        {"mangata: 1\nlight:\n  body: sun\n  body: moon\n",
-         "s.yaml:4:3: key \"body\" stands twice, first at line 3, column 3; allowed: once"},
+        {"mangata: 1\nlight:\n  body: sun\n  body: moon\n", "s.yaml:4:3: key \"body\" stands twice, first at line 3, column 3; allowed: once"},
         {"light: {}\n", "s.yaml:1:1: mangata is missing; required: mangata: 1"},
         {"mangata: 2\n", "s.yaml:1:10: mangata is 2; allowed: 1"},
-        {"mangata: 1\nwater: {waves: [{a: 1, b: 1, c: 1}]}\n",
-         "s.yaml:2:17: water.waves[0].amplitude is missing; required: amplitude: a number, 0 to 1000 m"},
+        {"mangata: 1\nwater: {waves: [{a: 1, b: 1, c: 1}]}\n", "s.yaml:2:17: water.waves[0].amplitude is missing; required: amplitude: a number, 0 to 1000 m"},
         /* types */
         {"- mangata\n", "s.yaml:1:1: the scene is a list of 1; allowed: a mapping {key: value, ...}"},
         {"mangata: 1\nlight: sun\n", "s.yaml:2:8: light is sun; allowed: a mapping {key: value, ...}"},
         {"mangata: 1\nlight:\n", "s.yaml:2:1: light is empty; allowed: a mapping {key: value, ...}, or no such key"},
-        {"mangata: 1\nlight: {elevation_deg: high}\n",
-         "s.yaml:2:24: light.elevation_deg is high; allowed: a number, -90 to 90 degrees"},
-        {"mangata: 1\nlight: {elevation_deg: \"3\"}\n",
-         "s.yaml:2:24: light.elevation_deg is the text \"3\"; allowed: a number, -90 to 90 degrees"},
+        {"mangata: 1\nlight: {elevation_deg: high}\n", "s.yaml:2:24: light.elevation_deg is high; allowed: a number, -90 to 90 degrees"},
+        {"mangata: 1\nlight: {elevation_deg: \"3\"}\n", "s.yaml:2:24: light.elevation_deg is the text \"3\"; allowed: a number, -90 to 90 degrees"},
         {"{\"mangata\": 1,\n \"lihgt\": 3}",
          "s.yaml:2:2: unknown key \"lihgt\" in the scene; did you mean \"light\"? allowed: mangata, description, image, camera, time, "
          "light, sky, water, objects, post"},
         {"{\"mangata\": 1,\n \"description\": \"\\u00e9\", \"light\": 'x'}", "s.yaml:2:36: light is the text \"x\"; allowed: a mapping {key: value, ...}"},
-        {"mangata: 1\nlight: {elevation_deg: [3]}\n",
-         "s.yaml:2:24: light.elevation_deg is a list of 1; allowed: a number, -90 to 90 degrees"},
+        {"mangata: 1\nlight: {elevation_deg: [3]}\n", "s.yaml:2:24: light.elevation_deg is a list of 1; allowed: a number, -90 to 90 degrees"},
         {"mangata: 1\nlight: {body: star}\n", "s.yaml:2:15: light.body is star; allowed: one of sun, moon"},
         {"mangata: 1\npost: {exposure: bright}\n", "s.yaml:2:18: post.exposure is bright; allowed: auto or a number, -60 to 60 stops"},
         {"mangata: 1\nlight: {radiance: [1, 2]}\n",
          "s.yaml:2:19: light.radiance is a list of 2; allowed: a list of 3 numbers [r, g, b], each 0 to 1e12 kcd/m²"},
-        {"mangata: 1\nlight: {radiance: [1, 2, red]}\n",
-         "s.yaml:2:26: light.radiance[2] is red; allowed: a number, 0 to 1e12 kcd/m²"},
+        {"mangata: 1\nlight: {radiance: [1, 2, red]}\n", "s.yaml:2:26: light.radiance[2] is red; allowed: a number, 0 to 1e12 kcd/m²"},
         {"mangata: 1\nwater: {waves: {a: 1}}\n", "s.yaml:2:16: water.waves is a mapping; allowed: a list of at most 512 mappings"},
         {"mangata: 1\ndescription: [a]\n", "s.yaml:2:14: description is a list of 1; allowed: text"},
         /* ranges */
-        {"mangata: 1\nlight: {elevation_deg: .nan}\n",
-         "s.yaml:2:24: light.elevation_deg is .nan; allowed: a number, -90 to 90 degrees"},
+        {"mangata: 1\nlight: {elevation_deg: .nan}\n", "s.yaml:2:24: light.elevation_deg is .nan; allowed: a number, -90 to 90 degrees"},
         {"mangata: 1\ntime: {start: -.inf}\n", "s.yaml:2:15: time.start is -.inf; allowed: a number, -1e8 to 1e8 s"},
         {"mangata: 1\ntime: {start: 1e999}\n", "s.yaml:2:15: time.start is 1e999; allowed: a number, -1e8 to 1e8 s"},
         {"mangata: 1\nimage: {width: 0}\n", "s.yaml:2:16: image.width is 0; allowed: a whole number, 1 to 32768 pixels"},
         {"mangata: 1\nimage: {height: -720}\n", "s.yaml:2:17: image.height is -720; allowed: a whole number, 1 to 32768 pixels"},
         {"mangata: 1\nimage: {width: 12.5}\n", "s.yaml:2:16: image.width is 12.5; allowed: a whole number, 1 to 32768 pixels"},
-        {"mangata: 1\nimage: {width: 100000, height: 100000}\n",
-         "s.yaml:2:16: image.width is 100000; allowed: a whole number, 1 to 32768 pixels"},
+        {"mangata: 1\nimage: {width: 100000, height: 100000}\n", "s.yaml:2:16: image.width is 100000; allowed: a whole number, 1 to 32768 pixels"},
         {"mangata: 1\nimage: {width: 32768, height: 32768}\n",
          "s.yaml:2:31: image is 32768 x 32768 = 1073741824 pixels; allowed: width x height at most 268435456"},
-        {"mangata: 1\ncamera: {fov_y_deg: 179}\n",
-         "s.yaml:2:21: camera.fov_y_deg is 179; allowed: a number, above 0 and below 179 degrees"},
+        {"mangata: 1\ncamera: {fov_y_deg: 179}\n", "s.yaml:2:21: camera.fov_y_deg is 179; allowed: a number, above 0 and below 179 degrees"},
         {"mangata: 1\ntime: {shutter: -1}\n", "s.yaml:2:17: time.shutter is -1; allowed: a number, 0 to 1000 frames"},
         /* cameras */
         {"mangata: 1\ncamera: {position: [0, 5, 0], target: [0, 5, 0]}\n",
@@ -174,8 +161,19 @@ static void override_messages_name_the_option(void **state)
         snprintf(expected, sizeof expected, "--set %s: %s", cases[i].override, cases[i].message);
         assert_error(refused(text, cases[i].override), SCENE_ERROR_BAD_SCENE, expected);
     }
-    static const char *const malformed[] = {"", "=", "=3", "light", "light.=3", ".light=3", "a..b=3", "[0]=3", "water.waves[]=3",
-                                            "water.waves[-1]=3", "water.waves[0=3", "water.waves[99999999999]=3", "li ght=3"};
+    static const char *const malformed[] = {"",
+                                            "=",
+                                            "=3",
+                                            "light",
+                                            "light.=3",
+                                            ".light=3",
+                                            "a..b=3",
+                                            "[0]=3",
+                                            "water.waves[]=3",
+                                            "water.waves[-1]=3",
+                                            "water.waves[0=3",
+                                            "water.waves[99999999999]=3",
+                                            "li ght=3"};
     for (size_t i = 0; i < COUNT(malformed); i++) {
         char expected[512];
         snprintf(expected, sizeof expected,
@@ -202,12 +200,9 @@ static void files_that_cannot_be_read(void **state)
     (void)state;
     assert_error(load_fails("/nowhere/at/all.yaml"), SCENE_ERROR_MISSING_INPUT,
                  "/nowhere/at/all.yaml: No such file or directory; allowed: a YAML or JSON file of at most 16 MiB");
-    assert_error(load_fails("/tmp"), SCENE_ERROR_MISSING_INPUT,
-                 "/tmp: is a directory; allowed: a YAML or JSON file of at most 16 MiB");
-    assert_error(load_fails(""), SCENE_ERROR_MISSING_INPUT,
-                 "the scene's file name is empty; allowed: the path of a YAML or JSON file");
-    assert_error(load_fails("/dev/zero"), SCENE_ERROR_BAD_SCENE,
-                 "/dev/zero: is larger than 16 MiB; allowed: a YAML or JSON file of at most 16 MiB");
+    assert_error(load_fails("/tmp"), SCENE_ERROR_MISSING_INPUT, "/tmp: is a directory; allowed: a YAML or JSON file of at most 16 MiB");
+    assert_error(load_fails(""), SCENE_ERROR_MISSING_INPUT, "the scene's file name is empty; allowed: the path of a YAML or JSON file");
+    assert_error(load_fails("/dev/zero"), SCENE_ERROR_BAD_SCENE, "/dev/zero: is larger than 16 MiB; allowed: a YAML or JSON file of at most 16 MiB");
     assert_error(load_fails("/nowhere/new\nline"), SCENE_ERROR_MISSING_INPUT,
                  "/nowhere/new?line: No such file or directory; allowed: a YAML or JSON file of at most 16 MiB");
     char long_name[5000];

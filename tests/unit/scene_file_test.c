@@ -45,15 +45,9 @@ static mgt_scene frame_of(const scene_file *file, int frame)
     return scene;
 }
 
-static void assert_vector(const double vector[3], double x, double y, double z)
-{
-    assert_true(vector[0] == x && vector[1] == y && vector[2] == z);
-}
+static void assert_vector(const double vector[3], double x, double y, double z) { assert_true(vector[0] == x && vector[1] == y && vector[2] == z); }
 
-static void assert_color(const float color[3], float r, float g, float b)
-{
-    assert_true(color[0] == r && color[1] == g && color[2] == b);
-}
+static void assert_color(const float color[3], float r, float g, float b) { assert_true(color[0] == r && color[1] == g && color[2] == b); }
 
 static void smallest_file_has_every_default(void **state)
 {
@@ -139,7 +133,7 @@ static void standard_scenes_load(void **state)
         size_t waves;
         double position_y, angular_radius, elevation;
     } scenes[] = {
-        {"simple", 5, 4, 2, 18}, {"smooth", 64, 4, 2, 18}, {"medium", 48, 4, 2, 18}, {"high", 32, 4, 2, 18},
+        {"simple", 5, 4, 2, 18},      {"smooth", 64, 4, 2, 18},        {"medium", 48, 4, 2, 18},     {"high", 32, 4, 2, 18},
         {"sunset", 64, 6, 0.2665, 7}, {"moonlit", 48, 12, 0.2590, 35}, {"rough", 64, 6, 0.2665, 12},
     };
     for (size_t i = 0; i < COUNT(scenes); i++) {
@@ -200,9 +194,9 @@ static void overrides_replace_add_and_append(void **state)
 {
     (void)state;
     static const char *const overrides[] = {
-        "light.elevation_deg=3",      "light.body=moon",  "water.waves[1].amplitude=.1",
-        "camera.position=[0, 9, 1]",  "camera.up[0]=0",   "water.waves[2]={amplitude: 1, a: 1, b: 1, c: 1}",
-        "sky={model: black}",         "image.width=0x10", "image.width=64",
+        "light.elevation_deg=3",     "light.body=moon",  "water.waves[1].amplitude=.1",
+        "camera.position=[0, 9, 1]", "camera.up[0]=0",   "water.waves[2]={amplitude: 1, a: 1, b: 1, c: 1}",
+        "sky={model: black}",        "image.width=0x10", "image.width=64",
         "description='a=b'",
     };
     scene_file *file = load(DATA "full.yaml", overrides, COUNT(overrides));
@@ -335,20 +329,40 @@ static void canonical_text_knows_values_not_spelling(void **state)
     assert_true(same_canonical(base, NULL, base, "time.frames=900"));
     assert_true(same_canonical(base, NULL, base, "image.width=1280"));
     static const char *const changes[] = {
-        "image.width=1281", "image.height=1", "camera.position=[0, 4.000000000000001, 0]", "camera.target=[0, 0, -1]",
-        "camera.up=[0.1, 1, 0]", "camera.fov_y_deg=50.5", "time.start=1e-9", "time.fps=30.001", "time.shutter=0",
-        "light.body=moon", "light.elevation_deg=3.0000000000000004", "light.azimuth_deg=1", "light.angular_radius_deg=1",
-        "light.radiance=[0, 0, 0]", "sky.model=black", "sky.turbidity=1.5", "sky.zenith=[0, 0, 0]", "sky.horizon=[0, 0, 0]",
-        "sky.night=[0, 0, 0]", "water.waves=[{amplitude: 0, a: 0, b: 0, c: 0}]", "water.ior=1.34", "water.body_albedo=[0, 0, 0]",
-        "post.exposure=0", "post.exposure_offset=1", "post.tone_map=none", "post.glare=0.5",
+        "image.width=1281",
+        "image.height=1",
+        "camera.position=[0, 4.000000000000001, 0]",
+        "camera.target=[0, 0, -1]",
+        "camera.up=[0.1, 1, 0]",
+        "camera.fov_y_deg=50.5",
+        "time.start=1e-9",
+        "time.fps=30.001",
+        "time.shutter=0",
+        "light.body=moon",
+        "light.elevation_deg=3.0000000000000004",
+        "light.azimuth_deg=1",
+        "light.angular_radius_deg=1",
+        "light.radiance=[0, 0, 0]",
+        "sky.model=black",
+        "sky.turbidity=1.5",
+        "sky.zenith=[0, 0, 0]",
+        "sky.horizon=[0, 0, 0]",
+        "sky.night=[0, 0, 0]",
+        "water.waves=[{amplitude: 0, a: 0, b: 0, c: 0}]",
+        "water.ior=1.34",
+        "water.body_albedo=[0, 0, 0]",
+        "post.exposure=0",
+        "post.exposure_offset=1",
+        "post.tone_map=none",
+        "post.glare=0.5",
         "camera.path=[{time: 0, position: [0, 1, 0], target: [0, 1, -1]}]",
     };
     for (size_t i = 0; i < COUNT(changes); i++)
         if (same_canonical(base, NULL, base, changes[i]))
             fail_msg("%s does not change the canonical text", changes[i]);
     static const char waves[] = "mangata: 1\nwater: {waves: [{amplitude: 1, a: 1, b: 1, c: 1}, {amplitude: 2, a: 1, b: 1, c: 1}]}";
-    static const char *const wave_changes[] = {"water.waves[1].amplitude=3", "water.waves[1].a=3", "water.waves[0].b=3",
-                                               "water.waves[1].c=3", "water.waves[0].phase=3"};
+    static const char *const wave_changes[] = {"water.waves[1].amplitude=3", "water.waves[1].a=3", "water.waves[0].b=3", "water.waves[1].c=3",
+                                               "water.waves[0].phase=3"};
     for (size_t i = 0; i < COUNT(wave_changes); i++)
         if (same_canonical(waves, NULL, waves, wave_changes[i]))
             fail_msg("%s does not change the canonical text", wave_changes[i]);

@@ -12,10 +12,7 @@
 
 /* assimp loses a buffer of some damaged files. Called by LeakSanitizer, where there is one. */
 __attribute__((visibility("default"))) const char *__lsan_default_suppressions(void);
-const char *__lsan_default_suppressions(void)
-{
-    return "leak:libassimp";
-}
+const char *__lsan_default_suppressions(void) { return "leak:libassimp"; }
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
@@ -45,18 +42,18 @@ static void put(const test_folder *folder, const char *name, const char *text)
 static void put_jpeg(const test_folder *folder)
 {
     char path[512];
-    static const uint8_t bytes[] = {
-        0xff, 0xd8, 0xff, 0xe0, 0x00, 0x10, 0x4a, 0x46, 0x49, 0x46, 0x00, 0x01, 0x02, 0x00, 0x00, 0x01, 0x00, 0x01, 0x00, 0x00, 0xff, 0xfe,
-        0x00, 0x10, 0x4c, 0x61, 0x76, 0x63, 0x35, 0x39, 0x2e, 0x33, 0x37, 0x2e, 0x31, 0x30, 0x30, 0x00, 0xff, 0xdb, 0x00, 0x43, 0x00, 0x08,
-        0x04, 0x04, 0x04, 0x04, 0x04, 0x05, 0x05, 0x05, 0x05, 0x05, 0x05, 0x06, 0x06, 0x06, 0x06, 0x06, 0x06, 0x06, 0x06, 0x06, 0x06, 0x06,
-        0x06, 0x06, 0x07, 0x07, 0x07, 0x08, 0x08, 0x08, 0x07, 0x07, 0x07, 0x06, 0x06, 0x07, 0x07, 0x08, 0x08, 0x08, 0x08, 0x09, 0x09, 0x09,
-        0x08, 0x08, 0x08, 0x08, 0x09, 0x09, 0x0a, 0x0a, 0x0a, 0x0c, 0x0c, 0x0b, 0x0b, 0x0e, 0x0e, 0x0e, 0x11, 0x11, 0x14, 0xff, 0xc4, 0x00,
-        0x4d, 0x00, 0x01, 0x01, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x06, 0x01, 0x01,
-        0x01, 0x01, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x06, 0x07, 0x10, 0x01, 0x00, 0x00,
-        0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x11, 0x01, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00,
-        0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0xff, 0xc0, 0x00, 0x11, 0x08, 0x00, 0x08, 0x00, 0x08, 0x03, 0x01, 0x12,
-        0x00, 0x02, 0x12, 0x00, 0x03, 0x12, 0x00, 0xff, 0xda, 0x00, 0x0c, 0x03, 0x01, 0x00, 0x02, 0x11, 0x03, 0x11, 0x00, 0x3f, 0x00, 0x8d,
-        0x13, 0x83, 0x51, 0x1f, 0xff, 0xd9};
+    static const uint8_t bytes[] = {0xff, 0xd8, 0xff, 0xe0, 0x00, 0x10, 0x4a, 0x46, 0x49, 0x46, 0x00, 0x01, 0x02, 0x00, 0x00, 0x01, 0x00, 0x01, 0x00,
+                                    0x00, 0xff, 0xfe, 0x00, 0x10, 0x4c, 0x61, 0x76, 0x63, 0x35, 0x39, 0x2e, 0x33, 0x37, 0x2e, 0x31, 0x30, 0x30, 0x00,
+                                    0xff, 0xdb, 0x00, 0x43, 0x00, 0x08, 0x04, 0x04, 0x04, 0x04, 0x04, 0x05, 0x05, 0x05, 0x05, 0x05, 0x05, 0x06, 0x06,
+                                    0x06, 0x06, 0x06, 0x06, 0x06, 0x06, 0x06, 0x06, 0x06, 0x06, 0x06, 0x07, 0x07, 0x07, 0x08, 0x08, 0x08, 0x07, 0x07,
+                                    0x07, 0x06, 0x06, 0x07, 0x07, 0x08, 0x08, 0x08, 0x08, 0x09, 0x09, 0x09, 0x08, 0x08, 0x08, 0x08, 0x09, 0x09, 0x0a,
+                                    0x0a, 0x0a, 0x0c, 0x0c, 0x0b, 0x0b, 0x0e, 0x0e, 0x0e, 0x11, 0x11, 0x14, 0xff, 0xc4, 0x00, 0x4d, 0x00, 0x01, 0x01,
+                                    0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x06, 0x01, 0x01, 0x01,
+                                    0x01, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x06, 0x07, 0x10, 0x01,
+                                    0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x11, 0x01, 0x00,
+                                    0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0xff, 0xc0, 0x00, 0x11,
+                                    0x08, 0x00, 0x08, 0x00, 0x08, 0x03, 0x01, 0x12, 0x00, 0x02, 0x12, 0x00, 0x03, 0x12, 0x00, 0xff, 0xda, 0x00, 0x0c,
+                                    0x03, 0x01, 0x00, 0x02, 0x11, 0x03, 0x11, 0x00, 0x3f, 0x00, 0x8d, 0x13, 0x83, 0x51, 0x1f, 0xff, 0xd9};
     write_bytes(in_folder(folder, "red.jpg", path), bytes, sizeof bytes);
 }
 
@@ -117,7 +114,8 @@ static void assert_transform(const mgt_object *object, const double expected[12]
 static void water_keys_are_read(void **state)
 {
     const test_folder *folder = *state;
-    scene_file *file = load(folder, "  []\nwater: {level: -2.5, clarity: murky, absorption: [1, 2, 3], amplitude: 3, waves: [{amplitude: 0.5, a: 1, b: 2, c: 3}]}\n");
+    scene_file *file =
+        load(folder, "  []\nwater: {level: -2.5, clarity: murky, absorption: [1, 2, 3], amplitude: 3, waves: [{amplitude: 0.5, a: 1, b: 2, c: 3}]}\n");
     mgt_scene scene = scene_of(file);
     assert_true(scene.water.level == -2.5);
     assert_true(scene.water.absorption[0] == 1 && scene.water.absorption[2] == 3);
@@ -180,9 +178,10 @@ static void places_are_scaled_turned_and_moved(void **state)
 static void materials_are_read(void **state)
 {
     const test_folder *folder = *state;
-    scene_file *file = load(folder, "  - shape: plane\n    name: ground\n    material: {base_color: [0.1, 0.2, 0.3], roughness: 0.25, metallic: 1, pattern: checker,\n"
-                                    "      pattern_color: [1, 0, 1], pattern_size: 0.5, pattern_joint: 0.125, texture: dots.png}\n"
-                                    "  - shape: sphere\n    material: {texture: dots.png}\n  - shape: pool\n  - shape: box\n    material: {texture: red.jpg}\n");
+    scene_file *file =
+        load(folder, "  - shape: plane\n    name: ground\n    material: {base_color: [0.1, 0.2, 0.3], roughness: 0.25, metallic: 1, pattern: checker,\n"
+                     "      pattern_color: [1, 0, 1], pattern_size: 0.5, pattern_joint: 0.125, texture: dots.png}\n"
+                     "  - shape: sphere\n    material: {texture: dots.png}\n  - shape: pool\n  - shape: box\n    material: {texture: red.jpg}\n");
     const mgt_scene scene = scene_of(file);
     const mgt_material *m = &scene.objects[0].material;
     assert_true(m->base_color[0] == 0.1f && m->base_color[2] == 0.3f && m->roughness == 0.25f && m->metallic == 1);
@@ -198,8 +197,10 @@ static void materials_are_read(void **state)
 static void meshes_of_every_format(void **state)
 {
     const test_folder *folder = *state;
-    scene_file *file = load(folder, "  - mesh: cube.obj\n    instances: [{position: [9, 0, 0]}]\n  - mesh: triangle.ply\n    scale: 3\n  - mesh: nodes.gltf\n    position: [10, 0, 0]\n"
-                                    "  - mesh: cube.obj\n    material: {roughness: 0.9}\n");
+    scene_file *file = load(
+        folder,
+        "  - mesh: cube.obj\n    instances: [{position: [9, 0, 0]}]\n  - mesh: triangle.ply\n    scale: 3\n  - mesh: nodes.gltf\n    position: [10, 0, 0]\n"
+        "  - mesh: cube.obj\n    material: {roughness: 0.9}\n");
     const mgt_scene scene = scene_of(file);
     assert_int_equal(scene.object_count, 6);
     /* OBJ: the file's own material and picture; the second use has the scene's. */
@@ -270,7 +271,8 @@ static void the_render_hash_knows_what_files_hold(void **state)
     assert_canonical(folder, "  - {mesh: cube.obj}\n", "  - {mesh: ./cube.obj, shape: mesh}\n", true);
     assert_canonical(folder, "  - {mesh: cube.obj}\n", "  - {mesh: cube.obj, material: {}}\n", false);
     assert_canonical(folder, "  []\nwater: {clarity: clear}\n", "  []\nwater: {clarity: murky}\n", false);
-    assert_canonical(folder, "  []\nwater: {amplitude: 2, waves: [{amplitude: 1, a: 1, b: 1, c: 1}]}\n", "  []\nwater: {waves: [{amplitude: 2, a: 1, b: 1, c: 1}]}\n", true);
+    assert_canonical(folder, "  []\nwater: {amplitude: 2, waves: [{amplitude: 1, a: 1, b: 1, c: 1}]}\n",
+                     "  []\nwater: {waves: [{amplitude: 2, a: 1, b: 1, c: 1}]}\n", true);
     /* Other bytes under the same name. */
     static const struct {
         const char *objects, *name, *text;
@@ -301,7 +303,9 @@ static void the_render_hash_knows_what_files_hold(void **state)
     }
     char *before = canonical_of(folder, "  - {shape: box, material: {texture: dots.png}}\n"), path[512];
     file_error error;
-    assert_int_equal(picture_write_png(in_folder(folder, "dots.png", path), 1, 1, (const uint8_t[]){1, 2, 3, 255}, 0, NULL, &(output_options){.overwrite = true}, &error), FILE_OK);
+    assert_int_equal(picture_write_png(in_folder(folder, "dots.png", path), 1, 1, (const uint8_t[]){1, 2, 3, 255}, 0, NULL,
+                                       &(output_options){.overwrite = true}, &error),
+                     FILE_OK);
     char *after = canonical_of(folder, "  - {shape: box, material: {texture: dots.png}}\n");
     assert_string_not_equal(before, after);
     put_dots(folder);
@@ -357,20 +361,26 @@ static void errors_say_what_where_and_what_is_allowed(void **state)
     put(folder, "empty.ply", "");
     put(folder, "garbage.glb", "\x01\x02\x03 this is no mesh");
     put(folder, "cut.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n");
-    put(folder, "points.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n1 0 0\n0 1 0\n");
-    put(folder, "flat.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
-                            "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n2 0 0\n3 0 1 2\n");
-    put(folder, "nan.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
-                           "property list uchar int vertex_indices\nend_header\n0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n");
-    put(folder, "far.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
-                           "property list uchar int vertex_indices\nend_header\n0 0 0\n1e9 0 0\n0 1 0\n3 0 1 2\n");
-    put(folder, "index.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
-                             "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 99999\n");
+    put(folder, "points.ply",
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n1 0 0\n0 1 0\n");
+    put(folder, "flat.ply",
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+        "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n2 0 0\n3 0 1 2\n");
+    put(folder, "nan.ply",
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+        "property list uchar int vertex_indices\nend_header\n0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n");
+    put(folder, "far.ply",
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+        "property list uchar int vertex_indices\nend_header\n0 0 0\n1e9 0 0\n0 1 0\n3 0 1 2\n");
+    put(folder, "index.ply",
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+        "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 99999\n");
     char nobin[sizeof nodes_gltf];
     memcpy(nobin, nodes_gltf, sizeof nobin);
     strcpy(strstr(nobin, "data:"), "nobin.bin\"}]}\n");
     put(folder, "nobin.gltf", nobin);
-    put(folder, "cycle.gltf", "{\"asset\": {\"version\": \"2.0\"}, \"scene\": 0, \"scenes\": [{\"nodes\": [0]}], \"nodes\": [{\"children\": [1]}, {\"children\": [0]}]}");
+    put(folder, "cycle.gltf",
+        "{\"asset\": {\"version\": \"2.0\"}, \"scene\": 0, \"scenes\": [{\"nodes\": [0]}], \"nodes\": [{\"children\": [1]}, {\"children\": [0]}]}");
     put(folder, "flatten.gltf", "{\"asset\": {\"version\": \"2.0\"}}");
     put(folder, "jpeg.png", "\xff\xd8\xff\xe0 JFIF and so on, for as long as such files are");
     put(folder, "gif.png", "GIF89a and so on, for as long as such files are");
@@ -383,7 +393,8 @@ static void errors_say_what_where_and_what_is_allowed(void **state)
         scene_error_kind kind;
         const char *message; /* a part; before it stands the folder */
     } cases[] = {
-        {"  - {}\n", SCENE_ERROR_BAD_SCENE, "/s.yaml:3:5: objects[0].mesh and shape are missing; allowed: the path of a .gltf, .glb, .obj or .ply file, or a shape"},
+        {"  - {}\n", SCENE_ERROR_BAD_SCENE,
+         "/s.yaml:3:5: objects[0].mesh and shape are missing; allowed: the path of a .gltf, .glb, .obj or .ply file, or a shape"},
         {"  - {mesh: cube.obj, shape: box}\n", SCENE_ERROR_BAD_SCENE, "/s.yaml:3:6: objects[0].mesh stands beside a shape; allowed: one of them"},
         {"  - {shape: cone}\n", SCENE_ERROR_BAD_SCENE, "/s.yaml:3:13: objects[0].shape is cone; allowed: one of mesh, plane, box, sphere, steps, pool, floor"},
         {"  - {shape: box, rim_width: 1}\n", SCENE_ERROR_BAD_SCENE, "/s.yaml:3:18: objects[0].rim_width is of a pool; allowed: with shape: pool"},
@@ -391,11 +402,15 @@ static void errors_say_what_where_and_what_is_allowed(void **state)
         {"  - {shape: pool, count: 3}\n", SCENE_ERROR_BAD_SCENE, "objects[0].count is a number of steps; allowed: with shape: steps"},
         {"  - {mesh: cube.obj, size: [1, 1, 1]}\n", SCENE_ERROR_BAD_SCENE, "objects[0].size is for shapes; allowed: with a mesh, scale"},
         {"  - {shape: floor}\n", SCENE_ERROR_BAD_SCENE, "objects[0].heights is missing; allowed: the path of a grey PNG or a PFM, from the scene's folder"},
-        {"  - {shape: box, scale: 0}\n", SCENE_ERROR_BAD_SCENE, "/s.yaml:3:25: objects[0].scale is 0; allowed: a number, or a list of 3 numbers [x, y, z], each 1e-6 to 1e6"},
-        {"  - {shape: box, scale: [1, 2]}\n", SCENE_ERROR_BAD_SCENE, "objects[0].scale is a list of 2; allowed: a number, or a list of 3 numbers [x, y, z], each 1e-6 to 1e6"},
+        {"  - {shape: box, scale: 0}\n", SCENE_ERROR_BAD_SCENE,
+         "/s.yaml:3:25: objects[0].scale is 0; allowed: a number, or a list of 3 numbers [x, y, z], each 1e-6 to 1e6"},
+        {"  - {shape: box, scale: [1, 2]}\n", SCENE_ERROR_BAD_SCENE,
+         "objects[0].scale is a list of 2; allowed: a number, or a list of 3 numbers [x, y, z], each 1e-6 to 1e6"},
         {"  - {shape: box, material: {roughness: 0}}\n", SCENE_ERROR_BAD_SCENE, "objects[0].material.roughness is 0; allowed: a number, 0.02 to 1"},
-        {"  - {shape: box, instances: [{positon: [0, 0, 0]}]}\n", SCENE_ERROR_BAD_SCENE, "unknown key \"positon\" in objects[0].instances[0]; did you mean \"position\"? allowed: position, rotation_deg, scale"},
-        {"  - {shape: box, size: [1e5, 1, 1], scale: 1e3}\n", SCENE_ERROR_BAD_SCENE, "/s.yaml:3:5: objects[0] reaches as far as 5e+07 m; allowed: 2e6 m from the origin"},
+        {"  - {shape: box, instances: [{positon: [0, 0, 0]}]}\n", SCENE_ERROR_BAD_SCENE,
+         "unknown key \"positon\" in objects[0].instances[0]; did you mean \"position\"? allowed: position, rotation_deg, scale"},
+        {"  - {shape: box, size: [1e5, 1, 1], scale: 1e3}\n", SCENE_ERROR_BAD_SCENE,
+         "/s.yaml:3:5: objects[0] reaches as far as 5e+07 m; allowed: 2e6 m from the origin"},
         {"  - {mesh: nowhere.ply}\n", SCENE_ERROR_MISSING_INPUT, "/s.yaml:3:12: objects[0].mesh: "},
         {"  - {mesh: nowhere.ply}\n", SCENE_ERROR_MISSING_INPUT, "/nowhere.ply: No such file or directory ("},
         {"  - {mesh: .}\n", SCENE_ERROR_BAD_SCENE, "has another extension; allowed: "},
@@ -413,11 +428,13 @@ static void errors_say_what_where_and_what_is_allowed(void **state)
         {"  - {mesh: cycle.gltf}\n", SCENE_ERROR_BAD_SCENE, "/cycle.gltf: "},
         {"  - {mesh: flatten.gltf}\n", SCENE_ERROR_BAD_SCENE, "/flatten.gltf: "},
         {"  - {shape: box, material: {texture: nowhere.png}}\n", SCENE_ERROR_MISSING_INPUT, "/s.yaml:3:38: objects[0].material.texture: "},
-        {"  - {shape: box, material: {texture: jpeg.png}}\n", SCENE_ERROR_BAD_SCENE, "/jpeg.png: is not a sound JPEG; allowed: a PNG or JPEG picture of at most 16384 x 16384 pixels"},
+        {"  - {shape: box, material: {texture: jpeg.png}}\n", SCENE_ERROR_BAD_SCENE,
+         "/jpeg.png: is not a sound JPEG; allowed: a PNG or JPEG picture of at most 16384 x 16384 pixels"},
         {"  - {shape: box, material: {texture: gif.png}}\n", SCENE_ERROR_BAD_SCENE, "/gif.png: is neither PNG nor JPEG; allowed: a PNG or JPEG"},
         {"  - {shape: box, material: {texture: pipe.png}}\n", SCENE_ERROR_BAD_SCENE, "/pipe.png: is no regular file; allowed: "},
         {"  - {shape: floor, heights: nowhere.png}\n", SCENE_ERROR_MISSING_INPUT, "/s.yaml:3:29: objects[0].heights: "},
-        {"  - {shape: floor, heights: dots.png}\n", SCENE_ERROR_BAD_SCENE, "/dots.png: has colours or an alpha channel; allowed: a grey PNG or PFM of at least 2 x 2 pixels"},
+        {"  - {shape: floor, heights: dots.png}\n", SCENE_ERROR_BAD_SCENE,
+         "/dots.png: has colours or an alpha channel; allowed: a grey PNG or PFM of at least 2 x 2 pixels"},
         {"  - {shape: floor, heights: nan.pfm}\n", SCENE_ERROR_BAD_SCENE, "/nan.pfm: is too small; allowed: a grey PNG or PFM of at least 2 x 2 pixels"},
         {"  - {shape: sphere, triangles: 4194304, instances: [{}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}]}\n", SCENE_ERROR_BAD_SCENE,
          "allowed: at most 65536 of 67108864"},

@@ -179,11 +179,14 @@ static void the_library_takes_every_end(void **state)
 {
     (void)state;
     static const char *const overrides[] = {
-        "time={start: 1e8, fps: 0.01, frames: 1000000, shutter: 1000}", "light.angular_radius_deg=0.0001", "light.radiance=[1e12, 0, 1e12]",
+        "time={start: 1e8, fps: 0.01, frames: 1000000, shutter: 1000}",
+        "light.angular_radius_deg=0.0001",
+        "light.radiance=[1e12, 0, 1e12]",
         "sky={turbidity: 10, zenith: [1e9, 1e9, 1e9], horizon: [0, 0, 0], night: [1e9, 0, 0]}",
         "water={ior: 3, body_albedo: [1, 1, 1], waves: [{amplitude: 1000, a: -1e5, b: 1e5, c: 1e5, phase: -1e9}]}",
         "camera={position: [1e9, 1e9, -1e9], target: [-1e9, -1e9, 1e9], up: [1e9, 1e9, 0], fov_y_deg: 178.999}",
-        "post={exposure: -60, glare: 1}", "post={exposure_offset: 60, glare: 0}",
+        "post={exposure: -60, glare: 1}",
+        "post={exposure_offset: 60, glare: 0}",
     };
     mgt_context *context = NULL;
     mgt_context_desc desc = mgt_context_desc_defaults();
@@ -206,9 +209,8 @@ static void the_library_takes_every_end(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_schema_in_docs_is_this_one), cmocka_unit_test(the_table_in_docs_is_this_one),
-        cmocka_unit_test(the_examples_in_docs_load),      cmocka_unit_test(the_reader_keeps_every_range),
-        cmocka_unit_test(the_library_takes_every_end),
+        cmocka_unit_test(the_schema_in_docs_is_this_one), cmocka_unit_test(the_table_in_docs_is_this_one), cmocka_unit_test(the_examples_in_docs_load),
+        cmocka_unit_test(the_reader_keeps_every_range),   cmocka_unit_test(the_library_takes_every_end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

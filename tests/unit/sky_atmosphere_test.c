@@ -18,10 +18,7 @@
 
 #define PI 3.14159265358979323846
 
-static mgt_sky clear_sky(void)
-{
-    return (mgt_sky){.model = MGT_SKY_ATMOSPHERE, .turbidity = 2.0f, .zenith = {1, 2, 4}, .horizon = {6, 7, 8}};
-}
+static mgt_sky clear_sky(void) { return (mgt_sky){.model = MGT_SKY_ATMOSPHERE, .turbidity = 2.0f, .zenith = {1, 2, 4}, .horizon = {6, 7, 8}}; }
 
 static mgt_light sun_at(double elevation)
 {
@@ -63,14 +60,13 @@ static void illuminance_is_that_of_a_clear_day_and_dusk(void **unused)
     static const struct {
         double elevation, normal_low, normal_high, global_low, global_high;
     } known[] = {
-        {60, 85, 112, 85, 112},  {30, 65, 95, 40, 60},       {18, 45, 78, 20, 36},       {7, 12, 38, 5, 12},
-        {0, 0, 0.5, 0.35, 1.3},  {-6, 0, 0, 1.5e-3, 6e-3},   {-12, 0, 0, 2e-6, 2e-5},
+        {60, 85, 112, 85, 112}, {30, 65, 95, 40, 60},     {18, 45, 78, 20, 36},    {7, 12, 38, 5, 12},
+        {0, 0, 0.5, 0.35, 1.3}, {-6, 0, 0, 1.5e-3, 6e-3}, {-12, 0, 0, 2e-6, 2e-5},
     };
     for (size_t i = 0; i < sizeof known / sizeof known[0]; ++i) {
         sky_state *s = build(clear_sky(), sun_at(known[i].elevation));
         assert_between(spectrum_luminance(s->light_radiance) * s->light_solid_angle, known[i].normal_low, known[i].normal_high);
-        assert_between(spectrum_luminance(s->irradiance_light) + spectrum_luminance(s->irradiance_sky), known[i].global_low,
-                       known[i].global_high);
+        assert_between(spectrum_luminance(s->irradiance_light) + spectrum_luminance(s->irradiance_sky), known[i].global_low, known[i].global_high);
         free(s);
     }
 }

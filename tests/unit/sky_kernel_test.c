@@ -14,10 +14,7 @@
 #include "cpu/kernel_data.h"
 #include "precompute/atmosphere.h"
 
-static double double_sqrt(double x)
-{
-    return sqrt(x);
-}
+static double double_sqrt(double x) { return sqrt(x); }
 
 #pragma GCC diagnostic ignored "-Wunused-parameter" /* the dialect hands cx to every function */
 #define MGT_LANES 1

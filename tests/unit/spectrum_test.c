@@ -444,10 +444,7 @@ static void bad_tables_say_where(void **state)
 
 /* ---- scenes ------------------------------------------------------------------------------------------------- */
 
-static scene_file *parse_scene(const char *text, scene_error *error)
-{
-    return scene_file_parse(text, strlen(text), "sea.yaml", NULL, 0, error);
-}
+static scene_file *parse_scene(const char *text, scene_error *error) { return scene_file_parse(text, strlen(text), "sea.yaml", NULL, 0, error); }
 
 static void a_spectrum_is_its_waves_written_out(void **state)
 {

@@ -60,8 +60,10 @@ typedef struct setting {
 static void draw_pool(setting *s, const char *camera, int triangles, double error)
 {
     char text[512];
-    const int length = snprintf(text, sizeof text, "mangata: 1\nimage: {width: 640, height: 360}\ncamera: %s\nobjects: [{shape: pool, size: [6, 2, 12], "
-                                "rim_height: 0.15, rim_width: 0.4, triangles: %d}]\n", camera, triangles);
+    const int length = snprintf(text, sizeof text,
+                                "mangata: 1\nimage: {width: 640, height: 360}\ncamera: %s\nobjects: [{shape: pool, size: [6, 2, 12], "
+                                "rim_height: 0.15, rim_width: 0.4, triangles: %d}]\n",
+                                camera, triangles);
     scene_error e;
     memset(s, 0, sizeof *s);
     s->file = scene_file_parse(text, (size_t)length, "pool", NULL, 0, &e);
@@ -71,7 +73,11 @@ static void draw_pool(setting *s, const char *camera, int triangles, double erro
     s->pool = thread_pool_create(1);
     assert_int_equal(world_update(&s->world, &s->scene, s->pool), MGT_OK);
     s->job = (gbuffer_job){.camera = camera_rays_of(&s->scene.camera, s->scene.image.width, s->scene.image.height),
-                           .width = s->scene.image.width, .height = s->scene.image.height, .index = 1.333, .map = GBUFFER_SAGITTAL, .error = error};
+                           .width = s->scene.image.width,
+                           .height = s->scene.image.height,
+                           .index = 1.333,
+                           .map = GBUFFER_SAGITTAL,
+                           .error = error};
     raster_kernels recording = raster_kernels_1;
     recording.setups = record_setups;
     drawn.count = 0;
@@ -245,8 +251,8 @@ static void test_no_cracks(void **state)
     for (int e = 0; e < 4; e++)
         for (int turn = 0; turn < 8; turn++) {
             char camera[160];
-            snprintf(camera, sizeof camera, "{position: [%g, %g, %g], target: [%g, -1.5, %g], fov_y_deg: 50}", 2 * sin(turn), 0.4 + 0.3 * turn,
-                     4 * cos(turn), -1.5 * cos(2 * turn), -1.2 + 0.1 * turn);
+            snprintf(camera, sizeof camera, "{position: [%g, %g, %g], target: [%g, -1.5, %g], fov_y_deg: 50}", 2 * sin(turn), 0.4 + 0.3 * turn, 4 * cos(turn),
+                     -1.5 * cos(2 * turn), -1.2 + 0.1 * turn);
             setting s;
             draw_pool(&s, camera, turn % 2 ? 12 : 2000, errors[e]);
             const gbuffer *g = &s.layers.far;

@@ -265,8 +265,8 @@ static void nothing_and_odd_rays_meet_nothing(void **state)
     static float corners[9 * TRIANGLES + 1];
     random_triangles(corners, TRIANGLES, 3);
     const trace_ray odd[] = {
-        {{0, 0, 0}, {0, 0, 0}, 0, 10}, {{NAN, 0, 0}, {1, 0, 0}, 0, 10}, {{0, 0, 0}, {INFINITY, 0, 0}, 0, 10}, {{0, 0, 0}, {1, 0, 0}, 10, 1},
-        {{0, 0, 0}, {1, 0, 0}, 0, NAN},
+        {{0, 0, 0}, {0, 0, 0}, 0, 10}, {{NAN, 0, 0}, {1, 0, 0}, 0, 10}, {{0, 0, 0}, {INFINITY, 0, 0}, 0, 10},
+        {{0, 0, 0}, {1, 0, 0}, 10, 1}, {{0, 0, 0}, {1, 0, 0}, 0, NAN},
     };
     enum { ODD = sizeof odd / sizeof odd[0] };
     trace_hit hits[ODD];

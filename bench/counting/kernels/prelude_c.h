@@ -54,8 +54,18 @@ static inline mask operator>=(real a, real b) { return MGT_COUNTED(other, a.v >=
 static inline mask operator==(real a, real b) { return MGT_COUNTED(other, a.v == b.v); }
 static inline mask operator!=(real a, real b) { return MGT_COUNTED(other, a.v != b.v); }
 
-KERNEL mask bits_of(real x) { mask b; memcpy(&b, &x.v, sizeof b); return b; }
-KERNEL real from_bits(mask b) { float x; memcpy(&x, &b, sizeof x); return x; }
+KERNEL mask bits_of(real x)
+{
+    mask b;
+    memcpy(&b, &x.v, sizeof b);
+    return b;
+}
+KERNEL real from_bits(mask b)
+{
+    float x;
+    memcpy(&x, &b, sizeof x);
+    return x;
+}
 
 KERNEL real real_broadcast(float u) { return u; }
 KERNEL mask real_bits(real x) { return bits_of(x); }
@@ -115,8 +125,12 @@ KERNEL Nearest nearest(real x, float factor) { return real_nearest(x, factor, MG
 KERNEL Nearest nearest_even(real x, float factor) { return real_nearest(x, factor, 2.0f * MGT_ROUNDER); }
 KERNEL real flip_by_parity(real value, real parity) { return MGT_COUNTED(other, real_from_bits(real_bits(value) ^ real_bits(parity))); }
 
-struct vec2 { real x, y; };
-struct vec3 { real x, y, z; };
+struct vec2 {
+    real x, y;
+};
+struct vec3 {
+    real x, y, z;
+};
 
 #define vec2(x, y) (vec2{real(x), real(y)})
 #define vec3(x, y, z) (vec3{real(x), real(y), real(z)})
@@ -131,15 +145,9 @@ KERNEL real dot(vec2 a, vec2 b) { return fma(a.x, b.x, a.y * b.y); }
 KERNEL real dot(vec3 a, vec3 b) { return fma(a.x, b.x, fma(a.y, b.y, a.z * b.z)); }
 KERNEL real length_squared(vec2 v) { return dot(v, v); }
 KERNEL real length_squared(vec3 v) { return dot(v, v); }
-KERNEL vec3 cross(vec3 a, vec3 b)
-{
-    return vec3(fma(a.y, b.z, -(a.z * b.y)), fma(a.z, b.x, -(a.x * b.z)), fma(a.x, b.y, -(a.y * b.x)));
-}
+KERNEL vec3 cross(vec3 a, vec3 b) { return vec3(fma(a.y, b.z, -(a.z * b.y)), fma(a.z, b.x, -(a.x * b.z)), fma(a.x, b.y, -(a.y * b.x))); }
 KERNEL vec3 normalize(vec3 v) { return scale(v, real(1.0f) / sqrt(dot(v, v))); }
 KERNEL vec2 SELECT2(mask m, vec2 a, vec2 b) { return vec2(real_select(m, a.x, b.x), real_select(m, a.y, b.y)); }
-KERNEL vec3 SELECT3(mask m, vec3 a, vec3 b)
-{
-    return vec3(real_select(m, a.x, b.x), real_select(m, a.y, b.y), real_select(m, a.z, b.z));
-}
+KERNEL vec3 SELECT3(mask m, vec3 a, vec3 b) { return vec3(real_select(m, a.x, b.x), real_select(m, a.y, b.y), real_select(m, a.z, b.z)); }
 
 #endif

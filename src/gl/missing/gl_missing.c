@@ -5,12 +5,10 @@
 static mgt_status missing_create(void **state, const mgt_context_desc *desc, const reporter *r, mgt_context_info *info)
 {
     (void)state, (void)desc, (void)info;
-    return report_error(r, MGT_ERROR_UNAVAILABLE, "context.backend", "this build has no OpenGL backend (libegl-dev or libgl-dev was missing); use the CPU backend");
+    return report_error(r, MGT_ERROR_UNAVAILABLE, "context.backend",
+                        "this build has no OpenGL backend (libegl-dev or libgl-dev was missing); use the CPU backend");
 }
 
-static void missing_destroy(void *state)
-{
-    (void)state;
-}
+static void missing_destroy(void *state) { (void)state; }
 
 const backend_functions gl_backend = {.create = missing_create, .destroy = missing_destroy};

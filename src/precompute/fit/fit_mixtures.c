@@ -140,10 +140,7 @@ typedef struct curves {
     double coefficient[MAX_UNKNOWNS];
 } curves;
 
-static double grid_log(int g)
-{
-    return log(longest) * g / (GRID - 1);
-}
+static double grid_log(int g) { return log(longest) * g / (GRID - 1); }
 
 static double curve(const curves *c, int parameter, int member, double x)
 {

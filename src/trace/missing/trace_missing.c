@@ -4,10 +4,7 @@
 
 #include <math.h>
 
-bool trace_available(void)
-{
-    return false;
-}
+bool trace_available(void) { return false; }
 
 mgt_status trace_scene_update(trace_scene **scene, const trace_triangles *triangles, uint32_t threads, const reporter *r)
 {
@@ -17,10 +14,7 @@ mgt_status trace_scene_update(trace_scene **scene, const trace_triangles *triang
     return report_error(r, MGT_ERROR_UNAVAILABLE, "trace.missing", "this build cannot trace rays: Embree was not found when it was made");
 }
 
-void trace_scene_free(trace_scene *scene)
-{
-    (void)scene;
-}
+void trace_scene_free(trace_scene *scene) { (void)scene; }
 
 size_t trace_scene_bytes(const trace_scene *scene)
 {
