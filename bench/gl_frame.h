@@ -3,7 +3,7 @@
 #ifndef MANGATA_BENCH_GL_FRAME_H
 #define MANGATA_BENCH_GL_FRAME_H
 
-#include "mangata/mangata_gl.h"
+#include "mangata/gl.h"
 
 enum { GL_FRAME_PASSES = 16 };
 

@@ -7,7 +7,7 @@
  *   --depth standard|reversed|infinite-reversed  --size WxH
  */
 #include "headless_gl.h"
-#include <mangata/mangata_gl.h>
+#include <mangata/gl.h>
 #include <math.h>
 #include <spng.h>
 #include <stdlib.h>

@@ -3,7 +3,7 @@
 #ifndef MANGATA_VIEWER_TIMINGS_H
 #define MANGATA_VIEWER_TIMINGS_H
 
-#include "mangata/mangata_gl.h"
+#include "mangata/gl.h"
 
 enum { TIMING_FRAMES = 120, PASS_COUNT = 12 };
 

@@ -4,7 +4,7 @@
 #define MANGATA_VIEWER_VIEWER_H
 
 #include "controls.h"
-#include "mangata/mangata_gl.h"
+#include "mangata/gl.h"
 #include "picture_saver.h"
 #include "render_worker.h"
 #include "timings.h"

@@ -6,7 +6,7 @@
 #ifndef MANGATA_CORE_BACKEND_H
 #define MANGATA_CORE_BACKEND_H
 
-#include "mangata/mangata_gl.h"
+#include "mangata/gl.h"
 
 /* Where a backend reports: the log of the context and the text of mgt_last_error(). */
 typedef struct reporter {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * The functions of mangata_gl.h: checks of their arguments, then the backend. */
+ * The functions of mangata/gl.h: checks of their arguments, then the backend. */
 #include "core/context.h"
 #include "core/validate.h"
 

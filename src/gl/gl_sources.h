@@ -10,7 +10,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "mangata/mangata_gl.h"
+#include "mangata/gl.h"
 
 typedef struct gl_text {
     const char *name, *text;

@@ -4,7 +4,7 @@
 #define MANGATA_GL_GL_TIMERS_H
 
 #include "gl/gl_api.h"
-#include "mangata/mangata_gl.h"
+#include "mangata/gl.h"
 
 enum { TIMER_FRAMES = 4, TIMER_INTERVALS = 48, TIMER_NAMES = 16 };
 

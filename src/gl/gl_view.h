@@ -4,7 +4,7 @@
 #define MANGATA_GL_GL_VIEW_H
 
 #include "cpu/frame.h"
-#include "mangata/mangata_gl.h"
+#include "mangata/gl.h"
 
 /* A view's rays; 1 of their `along` is 1 of clip space's w. */
 typedef struct view_rays {

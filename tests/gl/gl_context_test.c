@@ -10,7 +10,7 @@
 #include "gl/gl_api.h"
 #include "gl/gl_egl.h"
 #include "gl/gl_sources.h"
-#include "mangata/mangata_gl.h"
+#include "mangata/gl.h"
 
 typedef struct log_record {
     int count;

@@ -6,7 +6,7 @@
 
 #include "gl/gl_api.h"
 #include "gl/gl_egl.h"
-#include "mangata/mangata_gl.h"
+#include "mangata/gl.h"
 #include "trace/trace.h"
 #include "unit/test_mesh.h"
 

@@ -17,10 +17,10 @@
  *   Memory      buffers grow with the largest frame and the number of waves seen; a steady loop allocates nothing.
  *   Threads     as your OpenGL context: one at a time.
  */
-#ifndef MANGATA_MANGATA_GL_H
-#define MANGATA_MANGATA_GL_H
+#ifndef MANGATA_GL_H
+#define MANGATA_GL_H
 
-#include "mangata/mangata.h"
+#include "mangata/render.h"
 
 #ifdef __cplusplus
 extern "C" {

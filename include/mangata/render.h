@@ -1,0 +1,160 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Contexts, targets and the calls that render and inspect frames. */
+#ifndef MANGATA_RENDER_H
+#define MANGATA_RENDER_H
+
+#include "mangata/scene.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- context ------------------------------------------------------------------------------------------ */
+
+typedef enum mgt_backend {
+    MGT_BACKEND_CPU = 0,
+    MGT_BACKEND_GL = 1,
+    MGT_BACKEND_AUTO = 2, /* hardware GL where there is one, else the CPU */
+    MGT_BACKEND_NULL = 3  /* checks arguments and fills targets with zero: for tests of a host's own code */
+} mgt_backend;
+
+typedef enum mgt_isa {
+    MGT_ISA_AUTO = 0, /* the best that this processor runs */
+    MGT_ISA_SCALAR,   /* one lane, the plain reference */
+    MGT_ISA_SSE2,     /* four lanes without fma: compatible, but not bit-identical to the others */
+    MGT_ISA_AVX2,     /* eight lanes, AVX2 + FMA */
+    MGT_ISA_AVX512,   /* sixteen lanes, AVX-512 F, DQ, BW, VL */
+    MGT_ISA_NEON      /* four lanes */
+} mgt_isa;
+
+typedef enum mgt_log_level { MGT_LOG_DEBUG, MGT_LOG_INFO, MGT_LOG_WARNING, MGT_LOG_ERROR } mgt_log_level;
+
+/* One log message. `id` is stable between versions ("render.scene", …) so that tests may assert on it; `text` is for
+ * people. Both live only during the call. May be called from the thread inside an mgt_ function only. */
+typedef void (*mgt_log_function)(void *user, mgt_log_level level, const char *id, const char *text);
+
+/* Called from the rendering thread several times a second while mgt_render() runs; fraction in [0, 1].
+ * Return false to stop: mgt_render() then returns MGT_CANCELLED. */
+typedef bool (*mgt_progress_function)(void *user, double fraction);
+
+/* Address of an OpenGL function, NULL where there is none: eglGetProcAddress and glfwGetProcAddress have this type. */
+typedef void (*mgt_gl_function)(void);
+typedef mgt_gl_function (*mgt_gl_get_proc)(const char *name);
+
+typedef struct mgt_context_desc {
+    size_t struct_size;
+    mgt_backend backend;
+    mgt_isa isa;          /* highest instruction set to use; a missing one fails with MGT_ERROR_UNAVAILABLE */
+    uint32_t threads;     /* 0: as many as the CPUs this process may use (affinity and cgroup quota); at most 1024 */
+    mgt_log_function log; /* NULL: silent */
+    void *log_user;
+    mgt_progress_function progress; /* NULL: none */
+    void *progress_user;
+    mgt_gl_get_proc gl_get_proc; /* OpenGL: functions of the context that is current on this thread, used instead of one of its own (mangata/gl.h);
+                                    NULL: a context of its own without a window, through EGL */
+    uint32_t gl_device;          /* OpenGL of its own: which EGL device, counted from 0 */
+} mgt_context_desc;
+
+typedef struct mgt_context mgt_context;
+
+MGT_API mgt_context_desc mgt_context_desc_defaults(void);
+
+/* Creates a context with its threads. `desc` may be NULL (all defaults). On failure *context is NULL and the status says why;
+ * mgt_last_error(NULL) gives the detail (per thread). The caller owns the context and destroys it. */
+MGT_API mgt_status mgt_context_create(mgt_context **context, const mgt_context_desc *desc);
+
+/* Frees the context and joins its threads. NULL is allowed. */
+MGT_API void mgt_context_destroy(mgt_context *context);
+
+/* Detail of the last failure on this context (NULL: of the last failed mgt_context_create on this thread). Never NULL; valid until the next call. */
+MGT_API const char *mgt_last_error(const mgt_context *context);
+
+typedef struct mgt_context_info {
+    size_t struct_size;
+    mgt_backend backend; /* what runs, never AUTO */
+    mgt_isa isa;         /* what runs, never AUTO */
+    uint32_t lanes;      /* pixels computed at once */
+    uint32_t threads;
+    char renderer[128]; /* OpenGL: GL_RENDERER and GL_VERSION; else empty */
+    bool software;      /* OpenGL by a software rasteriser */
+} mgt_context_info;
+
+/* What the context resolved to. `info->struct_size` must be set by the caller. */
+MGT_API mgt_status mgt_context_get_info(const mgt_context *context, mgt_context_info *info);
+
+/* Whether this build and this processor run `isa` (AUTO: always). */
+MGT_API bool mgt_isa_available(mgt_isa isa);
+
+/* ---- targets and rendering ------------------------------------------------------------------------------ */
+
+typedef enum mgt_layer {
+    MGT_LAYER_COLOR = 0, /* 3 channels: radiance in kcd/m², or displayed colour in 8-bit formats */
+    MGT_LAYER_COVERAGE,  /* 1: share of pixel area × shutter time whose mirror ray meets the light, [0, 1] (P1 Eq. 17 / L_l) */
+    MGT_LAYER_MASK,      /* 1: share of the pixel that is water */
+    MGT_LAYER_DEPTH,     /* 1: metres along the ray to the first hit at time t; +inf where there is no water */
+    MGT_LAYER_NORMAL,    /* 3: world space unit normal, the mean shading normal at time t; (0,0,0) where no water */
+    /* What a method spent and why; not in textures and views of OpenGL. */
+    MGT_LAYER_SAMPLES,    /* 1: samples of the pixel; for adaptive evaluations of all waves (see mgt_quality.samples) */
+    MGT_LAYER_IMPORTANCE, /* 1: adaptive: what samples are given for, of the analytic picture; cells: predicted error of its coverage, podee: Eq. 1
+                             where it is above the threshold. Others: 0 */
+    MGT_LAYER_DETAIL,     /* 1: adaptive: coverage of the added samples alone, 0 where there are none. Others: 0 */
+    /* Scenes with objects; not in textures and views of OpenGL. Elsewhere 0. */
+    MGT_LAYER_REFRACTION,      /* 3: radiance that comes through the water's surface, before Fresnel's share of it is taken; 0 where no water */
+    MGT_LAYER_REFRACTION_ERROR /* 1: pixels by which what is shown may be beside what the refracted ray meets; +inf where it is not known at all */
+} mgt_layer;
+
+typedef enum mgt_format {
+    MGT_FORMAT_R32F = 0,  /* one float: all but color and normal */
+    MGT_FORMAT_RGB32F,    /* three floats: color, normal */
+    MGT_FORMAT_RGBA32F,   /* four floats, alpha 1: color, normal */
+    MGT_FORMAT_RGBA8_SRGB /* displayed colour with exposure, glare, tone map and sRGB transfer, alpha 255: color only */
+} mgt_format;
+
+typedef struct mgt_target {
+    size_t struct_size;
+    mgt_layer layer;
+    mgt_format format;
+    void *pixels;         /* the caller's memory: top left pixel of the crop */
+    ptrdiff_t row_stride; /* bytes from a row to the next one below; negative for bottom-up; 0: tightly packed */
+} mgt_target;
+
+MGT_API mgt_target mgt_target_defaults(void);
+
+/* Checks a scene as mgt_render() would, without rendering. The detail of an error is in mgt_last_error(context). */
+MGT_API mgt_status mgt_scene_check(mgt_context *context, const mgt_scene *scene);
+
+/* Renders one frame into `count` targets (1 … 16). Blocks until done. The same scene gives the same bytes. */
+MGT_API mgt_status mgt_render(mgt_context *context, const mgt_scene *scene, const mgt_target *targets, size_t count);
+
+/* Displayed colour of radiance that the caller holds, as mgt_render() makes it for scene.post: exposure, glare, tone map and sRGB, on the CPU whatever
+ * the backend. For means over several sample ranges. `radiance`: the whole image, 3 floats a pixel, tightly packed, finite and ≥ 0.
+ * `target`: MGT_LAYER_COLOR in MGT_FORMAT_RGBA8_SRGB, of the crop. */
+MGT_API mgt_status mgt_display(mgt_context *context, const mgt_scene *scene, const float *radiance, const mgt_target *target);
+
+/* What method `mangata` knows of one pixel. Slopes are (∂y/∂x, ∂y/∂z). The light plane is r·L = 1, its axes as in the kernels: e horizontal, f up. */
+typedef struct mgt_pixel_info {
+    size_t struct_size;
+    double water;                       /* share of the pixel that is water; where it is 0 all else is 0 */
+    double coverage;                    /* as the layer's */
+    double radiance[3];                 /* kcd/m² */
+    double position[3];                 /* of the hit, metres */
+    double distance;                    /* along the ray, metres */
+    double slope_open[2];               /* mean slope when the shutter opens, … */
+    double slope_close[2];              /* … and when it closes */
+    double unresolved[3];               /* slope covariance xx, xz, zz of the waves that the pixel does not resolve */
+    double bend[3];                     /* and of the resolved ones' bend over the pixel, relative to the mirror slope */
+    double mirror_slope[2];             /* the slope that mirrors the light's centre */
+    double path[2][2];                  /* mean mirror ray on the light plane, at both ends of the shutter; the light's centre is (0, 0) … */
+    double light_radius;                /* … and its radius this */
+    double covariance[3];               /* of the Gaussian about the path there: ee, ef, ff */
+    uint32_t resolved, mixed, filtered; /* waves of the pixel's tile by class */
+} mgt_pixel_info;
+
+/* Computes the pixel (x, y) of the whole image on the CPU, whatever the backend and the scene's method. `info->struct_size` must be set by the caller. */
+MGT_API mgt_status mgt_inspect_pixel(mgt_context *context, const mgt_scene *scene, uint32_t x, uint32_t y, mgt_pixel_info *info);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,189 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Everything a frame depends on: image, camera, light, sky, water, objects, display and quality. */
+#ifndef MANGATA_SCENE_H
+#define MANGATA_SCENE_H
+
+#include "mangata/objects.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* One sine wave of P1 Eq. 1: y += amplitude · sin(a·x + b·z + c·t + phase). */
+typedef struct mgt_wave {
+    double amplitude; /* metres, ≥ 0 */
+    double a, b;      /* wave vector, radians per metre */
+    double c;         /* radians per second */
+    double phase;     /* radians */
+} mgt_wave;
+
+typedef struct mgt_image {
+    uint32_t width, height;                           /* whole image, pixels, 1 … MGT_MAX_IMAGE_SIDE */
+    uint32_t crop_x, crop_y, crop_width, crop_height; /* what is rendered; width or height 0: up to the edge */
+} mgt_image;
+
+typedef struct mgt_camera {
+    double position[3]; /* metres; under water where it is below water.level */
+    double target[3];   /* a point in front; must differ from position */
+    double up[3];       /* must not be parallel to the view */
+    double fov_y_deg;   /* vertical field of view, (0, 179) */
+} mgt_camera;
+
+typedef enum mgt_body { MGT_BODY_SUN = 0, MGT_BODY_MOON = 1 } mgt_body;
+
+/* One spherical light at infinity. Direction to it: (sin az·cos el, sin el, −cos az·cos el). */
+typedef struct mgt_light {
+    mgt_body body;             /* kind of sky around it, limb darkening */
+    double elevation_deg;      /* [−90, 90]; below 0 no direct light meets the water */
+    double azimuth_deg;        /* any */
+    double angular_radius_deg; /* (0, 20] */
+    float radiance[3];         /* kcd/m², linear sRGB, ≥ 0; with MGT_SKY_ATMOSPHERE as seen outside the atmosphere */
+} mgt_light;
+
+typedef enum mgt_sky_model {
+    MGT_SKY_ATMOSPHERE = 0, /* precomputed Rayleigh, Mie and ozone scattering of the light, day to night */
+    MGT_SKY_GRADIENT = 1,   /* horizon to zenith */
+    MGT_SKY_BLACK = 2       /* the papers' experiments: only the glitter */
+} mgt_sky_model;
+
+typedef struct mgt_sky {
+    mgt_sky_model model;
+    float turbidity;  /* aerosol amount over clear air, [1, 10]: scales Mie scattering (atmosphere) */
+    float zenith[3];  /* kcd/m², linear sRGB (gradient) */
+    float horizon[3]; /* kcd/m², linear sRGB (gradient) */
+    float night[3];   /* kcd/m², added everywhere: airglow and stars (atmosphere) */
+} mgt_sky;
+
+typedef struct mgt_water {
+    const mgt_wave *waves;      /* wave_count of them, read during the call; NULL when wave_count is 0 (a flat mirror) */
+    size_t wave_count;          /* 0 … MGT_MAX_WAVES */
+    double index_of_refraction; /* of the water, in air: [1.0, 3.0]; 1.333 */
+    double level;               /* metres: the height of the mean surface, ±1e6 */
+    float absorption[3];        /* light that a metre of water absorbs, and … */
+    float scattering[3];        /* … light that it scatters, 1/metre, linear sRGB, [0, 1000]. For what is seen through it: where there are objects */
+    float body_albedo[3];       /* share of the light entering the water that deep water sends up again, [0, 1], linear sRGB;
+                              shows only with a sky other than black */
+} mgt_water;
+
+typedef enum mgt_tone_map { MGT_TONE_NONE = 0, MGT_TONE_REINHARD, MGT_TONE_ACES, MGT_TONE_AGX } mgt_tone_map;
+
+/* How radiance becomes displayed colour; used by the 8-bit targets alone, float targets stay scene-linear. */
+typedef struct mgt_post {
+    bool auto_exposure; /* exposure from light and sky (never from the picture, so that films do not pump) */
+    double exposure_ev; /* stops, added to the automatic exposure or, without it, 2^ev per kcd/m² */
+    mgt_tone_map tone_map;
+    float glare; /* share of the light that the eye scatters, [0, 1] */
+} mgt_post;
+
+typedef enum mgt_method {
+    MGT_METHOD_NONE = 0,      /* one sample at the pixel's centre at time t */
+    MGT_METHOD_SSAA,          /* spatial_samples² jittered samples × time_samples */
+    MGT_METHOD_PODEE_UNIFORM, /* Podee et al. 2021, one covariance for the waves above the Nyquist limit (Eq. 3) */
+    MGT_METHOD_PODEE_PIXEL,   /* the same with the per-pixel covariance (Eqs. 4–7) */
+    MGT_METHOD_MANGATA,       /* this library's own model */
+    MGT_METHOD_REFERENCE,     /* brute force in double precision (CPU backend only) */
+    /* Rivals, for comparison: docs/methods.md says what is theirs and what is different here. */
+    MGT_METHOD_MSAA32,    /* 32 samples of visibility, one shading */
+    MGT_METHOD_LEAN,      /* Olano and Baker 2010: a tiled map of slope moments */
+    MGT_METHOD_LEADR,     /* Dupuy et al. 2013: the same with masking and shadowing */
+    MGT_METHOD_TOKUYOSHI, /* Tokuyoshi and Kaplanyan 2019: geometric specular anti-aliasing */
+    MGT_METHOD_BRUNETON,  /* Bruneton et al. 2010: Gaussian slopes and a point-like sun */
+    MGT_METHOD_FXAA,      /* Lottes 2009: `none`, its edges blended afterwards */
+    MGT_METHOD_TAA,       /* Karis 2014: `none` jittered over eight frames, history reprojected and clamped */
+    MGT_METHOD_TNDF,      /* after Tessari et al. 2020: one Gaussian of slopes over pixel and shutter */
+    /* Samples where they show: an analytic picture first, then more of it where that one is likely to be wrong. On the CPU
+       whatever the backend. */
+    MGT_METHOD_ADAPTIVE
+} mgt_method;
+
+/* How what lies on the other side of the surface is found: scenes with objects. docs/refraction.md says what is whose. */
+typedef enum mgt_refraction {
+    MGT_REFRACTION_TWO_PHASE = 0,  /* this library's own: Liu et al. 2020 in true space, with the waves' heights, iterated */
+    MGT_REFRACTION_HYBRID,         /* the same, and rays are traced where it is uncertain */
+    MGT_REFRACTION_LIU,            /* Liu et al. 2020: both phases as printed, mistakes of print mended */
+    MGT_REFRACTION_BROAD,          /* its broad phase alone: a flat surface */
+    MGT_REFRACTION_NARROW,         /* its narrow phase alone */
+    MGT_REFRACTION_SCREEN_SPACE,   /* McGuire and Mara 2014: rays marched through the depth buffer */
+    MGT_REFRACTION_DISTANCE_FIELD, /* Rodgman and Chen 2001: rays marched through voxels of distances */
+    MGT_REFRACTION_OFF,            /* straight through */
+    MGT_REFRACTION_TRUTH           /* rays traced through the waves as they are, many a pixel (CPU backend only) */
+} mgt_refraction;
+
+/* How method adaptive finds the pixels that need more, and what it gives them. */
+typedef enum mgt_adaptive {
+    MGT_ADAPTIVE_CELLS = 0, /* pixels of method mangata, split into four again and again where the predicted error is largest */
+    MGT_ADAPTIVE_PODEE = 1  /* Podee et al., Adaptive Supersampling: samples in proportion to an importance of the approximate picture */
+} mgt_adaptive;
+
+/* How podee-* integrates its Gaussian over the light disk and the shutter. */
+typedef enum mgt_kernels {
+    MGT_KERNELS_EXACT = 0, /* the ellipse itself, in closed form */
+    MGT_KERNELS_1 = 1,     /* so many circular Gaussians, fitted (P1 App. C), from tables of 64 MiB that the context keeps */
+    MGT_KERNELS_3 = 3,
+    MGT_KERNELS_5 = 5,
+    MGT_KERNELS_9 = 9,
+    MGT_KERNELS_FELINE = 32, /* circular Gaussians placed by the formulae of McCormack et al. 1999 */
+    MGT_KERNELS_RIEMANN = 33 /* a sum over the disk when the shutter closes: P1's fallback, everywhere */
+} mgt_kernels;
+
+typedef struct mgt_quality {
+    mgt_method method;
+    uint32_t spatial_samples;    /* N of N×N strata a pixel: ssaa, reference; 1 … 1024 */
+    uint32_t time_samples;       /* M strata of the shutter: ssaa (1: the instant t), reference; 1 … 65536 */
+    uint64_t sample_first;       /* ssaa, reference: first of the N·N·M samples to take, … */
+    uint64_t sample_count;       /* … and how many; 0: all that remain. The mean over the range is returned */
+    uint64_t seed;               /* of the jitter */
+    bool ndf_mean_drop;          /* podee-pixel: leave the mean slope B out of the path (P1 Eq. 4 as printed) */
+    mgt_kernels kernels;         /* podee-*: what stands for the elliptical Gaussian on the light plane */
+    double elongation_limit;     /* podee-* with kernels: ellipses longer than this, major over minor axis, are summed without time as by
+                                 MGT_KERNELS_RIEMANN, 1 … 1e6; 0: as many as there are kernels (P1 §3.6), and 1e6 for 1 kernel and Feline */
+    uint32_t path_segments;      /* podee-*: straight pieces of the shutter, each with its own Gaussian, 1 … 64; 0: 1 */
+    double transition_width;     /* podee-*: cycles per pixel below the Nyquist limit of 0.5 in which waves turn from resolved to unresolved
+                                 (Eq. 20), up to 0.5; 0: 0.3 */
+    bool transition_hard;        /* podee-*: no transition, waves turn at 0.5 cycles per pixel (Fig. 11) */
+    mgt_adaptive adaptive;       /* adaptive: the scheme; at most one of the next three says when it ends */
+    double samples;              /* adaptive: evaluations of all waves per pixel of water, on average, 1 … 4096; cells and points count as what they
+                                 cost, a ray of podee, traced at both ends of the shutter, as one. 0: 8 where no other end is given */
+    double target_rmse;          /* adaptive, cells: ends where the predicted RMSE of coverage over the image is this, 1e-6 … 1; 0: none */
+    double budget_ms;            /* adaptive, cells: ends after so much time, 0.1 … 1e7. The one setting whose pixels depend on the machine; 0: none */
+    double importance_center;    /* adaptive, podee: c of Eq. 1, a coverage, up to 1; 0: 0.1 */
+    double importance_width;     /* adaptive, podee: ρ of Eq. 1, 1e-6 … 1; 0: 0.04 */
+    double importance_threshold; /* adaptive, podee: pixels whose importance (1 at its peak) is not above it get no samples, up to 1; 0: 0.05,
+                                 a little more than the importance of a pixel without light by the defaults */
+    mgt_refraction refraction;
+    double tess_error;           /* two-phase, hybrid, liu, broad: pixels that a triangle bent by refraction may be off by, 0.01 … 100; 0: 0.1 */
+    uint32_t refraction_samples; /* N of N×N places of a pixel that rays of refraction go through, 1 … 64; 1 is the pixel's centre; 0: 1, and 4 for truth */
+    bool caustics;               /* light that the waves bundle on what lies under them */
+    uint64_t sample_slots;       /* adaptive, podee: M of Eq. 3, how many samples the picture gets, up to 2^32; 0: as `samples` says */
+} mgt_quality;
+
+/* Everything a frame depends on. Plain data, read during mgt_render() only. */
+typedef struct mgt_scene {
+    size_t struct_size;
+    mgt_image image;
+    mgt_camera camera;      /* when the shutter closes */
+    mgt_camera camera_open; /* when it opens; used when camera_moves */
+    bool camera_moves;
+    double time;           /* seconds, when the shutter closes */
+    double shutter;        /* seconds the shutter is open, ≥ 0; light is integrated over [time − shutter, time] */
+    double frame_interval; /* seconds since the frame before, ≥ 0; method taa alone looks back. 0: the shutter, or 1/30 where that is 0 too */
+    mgt_light light;
+    mgt_sky sky;
+    mgt_water water;
+    const mgt_object *objects; /* object_count of them, read during the call; NULL when there are none */
+    size_t object_count;       /* 0 … MGT_MAX_OBJECTS */
+    mgt_post post;
+    mgt_quality quality;
+} mgt_scene;
+
+/* A 1280×720 noon view of a flat sea without waves by the default method: every field legal. */
+MGT_API mgt_scene mgt_scene_defaults(void);
+
+/* Radius (degrees), radiance outside the atmosphere and limb of a body, placed at elevation 30°, azimuth 0. */
+MGT_API mgt_light mgt_light_defaults(mgt_body body);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
