@@ -9,6 +9,7 @@
 
 #include "numbers.h"
 #include "option_words.h"
+#include "params/methods.h"
 
 static const option_word words[] = {
     {"adaptive", offsetof(adaptive_options, scheme)},        {"slots", offsetof(adaptive_options, slots)},
@@ -58,7 +59,7 @@ bool adaptive_options_apply(const adaptive_options *given, mgt_quality *quality,
     mgt_quality *q = quality;
     if (!option_word_given(words, WORDS, given))
         return true;
-    if (q->method != MGT_METHOD_ADAPTIVE)
+    if (!method_takes(q->method, METHOD_TAKES_ADAPTIVE))
         return snprintf(wrong, size, "--adaptive, --samples, --target-rmse, --budget-ms, --importance-… and --slots: only method adaptive takes them"), false;
     if (given->scheme) {
         if (strcmp(given->scheme, "cells") != 0 && strcmp(given->scheme, "podee") != 0)
@@ -80,7 +81,7 @@ adaptive_text adaptive_options_text(const mgt_quality *quality)
 {
     const mgt_quality *q = quality;
     adaptive_text out = {""};
-    if (q->method != MGT_METHOD_ADAPTIVE)
+    if (!method_takes(q->method, METHOD_TAKES_ADAPTIVE))
         return out;
     if (q->adaptive == MGT_ADAPTIVE_PODEE)
         snprintf(out.text, sizeof out.text, "podee samples %s slots %" PRIu64 " center %s width %s threshold %s", number_print(q->samples).text,

@@ -140,7 +140,7 @@ static int add_methods(bench *b)
         b->count++;
         p += length + (p[length] == ',');
     }
-    return b->count ? EXIT_CODE_OK : bad_value(OPT_METHODS, b->request->methods, method_words);
+    return b->count ? EXIT_CODE_OK : bad_value(OPT_METHODS, b->request->methods, method_names().text);
 }
 
 static bool keep_going(void *user, double fraction)

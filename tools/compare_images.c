@@ -9,6 +9,7 @@
 #include "compare_job.h"
 #include "compare_tables.h"
 #include "interrupt.h"
+#include "params/methods.h"
 #include "render_frame.h"
 #include "render_record.h"
 
@@ -71,7 +72,7 @@ static int make_folders(compare_job *job)
 static double picture_work(const compare_job *job, const compare_scene *scene, size_t picture)
 {
     const mgt_quality *quality = compare_picture_quality(job, scene, picture);
-    const double each = quality->method == MGT_METHOD_SSAA ? 1 : 4; /* double precision, or a filter's integral */
+    const double each = method_of(quality->method)->way == METHOD_SAMPLES ? 1 : 4; /* double precision, or a filter's integral */
     return each * (double)compare_samples(quality) * scene->width * scene->height;
 }
 

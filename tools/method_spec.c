@@ -26,18 +26,18 @@ static bool set_number(const char *value, uint64_t limit, uint32_t *number)
 
 static bool set_spatial(mgt_quality *quality, const char *value)
 {
-    return quality->method == MGT_METHOD_REFERENCE && set_number(value, 1024, &quality->spatial_samples);
+    return method_takes(quality->method, METHOD_TAKES_STRATA) && set_number(value, 1024, &quality->spatial_samples);
 }
 
 static bool set_time(mgt_quality *quality, const char *value)
 {
-    return method_takes_samples(quality->method) && set_number(value, 65536, &quality->time_samples);
+    return method_takes(quality->method, METHOD_TAKES_TIMES) && set_number(value, 65536, &quality->time_samples);
 }
 
 static bool set_ndf_mean(mgt_quality *quality, const char *value)
 {
     const bool drop = strcmp(value, "drop") == 0;
-    if (quality->method != MGT_METHOD_PODEE_PIXEL || (!drop && strcmp(value, "add") != 0))
+    if (!method_takes(quality->method, METHOD_TAKES_NDF_MEAN) || (!drop && strcmp(value, "add") != 0))
         return false;
     quality->ndf_mean_drop = drop;
     return true;
@@ -126,7 +126,7 @@ bool method_spec_parse(method_spec *spec, const char *text, size_t length, char 
         given.refraction.method = refraction;
     }
     if (!method_from_name(words, &spec->quality))
-        return fail(wrong, wrong_size, "unknown method %s; allowed are %s", words, method_words);
+        return fail(wrong, wrong_size, "unknown method %s; allowed are %s", words, method_names().text);
     snprintf(spec->options, sizeof spec->options, "--method %s%s%s", words, refraction ? " --refraction " : "", refraction ? refraction : "");
     print_file_name(spec);
     while (rest) {

@@ -2,13 +2,9 @@
 /* Words of the command line and of metadata. */
 #include "names.h"
 
-#include <stdio.h>
 #include <string.h>
 
-#include "numbers.h"
-
 const char isa_words[] = "auto, scalar, sse2, avx2, avx512, neon";
-const char method_words[] = "none, ssaaN, podee-uniform, podee-pixel, mangata, reference, msaa32, lean, leadr, tokuyoshi, bruneton, fxaa, taa, tndf, adaptive";
 
 static const char *const backend_names[] = {[MGT_BACKEND_CPU] = "cpu", [MGT_BACKEND_GL] = "gl", [MGT_BACKEND_AUTO] = "auto", [MGT_BACKEND_NULL] = "null"};
 static const char *const isa_names[] = {[MGT_ISA_AUTO] = "auto", [MGT_ISA_SCALAR] = "scalar", [MGT_ISA_SSE2] = "sse2",
@@ -23,23 +19,6 @@ static const char *const layer_names[] = {[MGT_LAYER_COLOR] = "color",
                                           [MGT_LAYER_DETAIL] = "detail",
                                           [MGT_LAYER_REFRACTION] = "refraction",
                                           [MGT_LAYER_REFRACTION_ERROR] = "refraction_error"};
-static const char *const method_names[] = {[MGT_METHOD_NONE] = "none",
-                                           [MGT_METHOD_SSAA] = "ssaa",
-                                           [MGT_METHOD_PODEE_UNIFORM] = "podee-uniform",
-                                           [MGT_METHOD_PODEE_PIXEL] = "podee-pixel",
-                                           [MGT_METHOD_MANGATA] = "mangata",
-                                           [MGT_METHOD_REFERENCE] = "reference",
-                                           [MGT_METHOD_MSAA32] = "msaa32",
-                                           [MGT_METHOD_LEAN] = "lean",
-                                           [MGT_METHOD_LEADR] = "leadr",
-                                           [MGT_METHOD_TOKUYOSHI] = "tokuyoshi",
-                                           [MGT_METHOD_BRUNETON] = "bruneton",
-                                           [MGT_METHOD_FXAA] = "fxaa",
-                                           [MGT_METHOD_TAA] = "taa",
-                                           [MGT_METHOD_TNDF] = "tndf",
-                                           [MGT_METHOD_ADAPTIVE] = "adaptive"};
-
-enum { MAX_SPATIAL = 1024 };
 
 static int find(const char *name, const char *const *names, int count)
 {
@@ -80,38 +59,3 @@ bool layer_from_name(const char *name, mgt_layer *layer)
 const char *layer_name(mgt_layer layer) { return layer_names[layer]; }
 
 uint32_t layer_channels(mgt_layer layer) { return layer == MGT_LAYER_COLOR || layer == MGT_LAYER_NORMAL || layer == MGT_LAYER_REFRACTION ? 3 : 1; }
-
-bool method_takes_samples(mgt_method method) { return method == MGT_METHOD_SSAA || method == MGT_METHOD_REFERENCE; }
-
-bool method_from_name(const char *name, mgt_quality *quality)
-{
-    uint64_t spatial = 1;
-    uint32_t time = 1;
-    mgt_method method;
-    if (strncmp(name, "ssaa", 4) == 0) {
-        if (!number_parse_u64(name + 4, MAX_SPATIAL, &spatial) || spatial == 0)
-            return false;
-        method = MGT_METHOD_SSAA;
-    } else {
-        const int i = find(name, method_names, MGT_METHOD_ADAPTIVE + 1);
-        if (i < 0)
-            return false;
-        method = (mgt_method)i;
-        if (method == MGT_METHOD_REFERENCE)
-            spatial = time = 8;
-    }
-    quality->method = method;
-    quality->spatial_samples = (uint32_t)spatial;
-    quality->time_samples = time;
-    return true;
-}
-
-method_text method_name(const mgt_quality *quality)
-{
-    method_text out;
-    if (quality->method == MGT_METHOD_SSAA)
-        snprintf(out.text, sizeof out.text, "ssaa%u", quality->spatial_samples);
-    else
-        snprintf(out.text, sizeof out.text, "%s", method_names[quality->method]);
-    return out;
-}

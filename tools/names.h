@@ -3,9 +3,7 @@
 #ifndef MANGATA_TOOLS_NAMES_H
 #define MANGATA_TOOLS_NAMES_H
 
-#include <stdbool.h>
-
-#include "mangata/mangata.h"
+#include "params/methods.h"
 
 /* Each returns false for a word it does not know; the _words texts say what is allowed. */
 bool backend_from_name(const char *name, mgt_backend *backend);
@@ -19,15 +17,5 @@ bool layer_from_name(const char *name, mgt_layer *layer);
 const char *layer_name(mgt_layer layer);
 uint32_t layer_channels(mgt_layer layer);
 enum { LAYER_COUNT = MGT_LAYER_REFRACTION_ERROR + 1 };
-
-/* "ssaa4" and the like set spatial_samples; "reference" sets its default of 8×8×8; the rest take one sample. */
-bool method_from_name(const char *name, mgt_quality *quality);
-bool method_takes_samples(mgt_method method);
-extern const char method_words[];
-
-typedef struct method_text {
-    char text[24];
-} method_text;
-method_text method_name(const mgt_quality *quality);
 
 #endif

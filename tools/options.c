@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "params/methods.h"
+
 static const option common_options[] = {
     {"json", 0, NULL, "print the result as JSON on standard output"},
     {"verbose", 'v', NULL, "say more on standard error"},
@@ -42,11 +44,25 @@ static void print_option(const option *o)
     putchar('\n');
 }
 
+static void print_methods(void)
+{
+    printf("\nmethods:\n");
+    for (size_t i = 0; i < method_count; i++) {
+        const method_row *row = method_of((mgt_method)i);
+        char name[32];
+        snprintf(name, sizeof name, "%s%s", row->properties.name, row->numbered ? "N" : "");
+        printf("  %-15s %s\n", name, row->properties.description);
+    }
+}
+
 static void print_help(const option_table *table)
 {
     printf("usage: mangata %s %s\n\n%s\n\noptions:\n", table->verb, table->usage, table->summary);
     for (size_t i = 0; i < table->count + COMMON_COUNT; i++)
         print_option(option_at(table, i));
+    for (size_t i = 0; i < table->count; i++)
+        if (table->options[i].value && strcmp(table->options[i].value, OPTION_VALUE_METHOD) == 0)
+            print_methods();
     if (table->notes)
         printf("\n%s\n", table->notes);
 }

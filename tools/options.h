@@ -7,6 +7,9 @@
 
 #include "console.h"
 
+/* What the help calls the value of an option that names a method: it lists them. */
+#define OPTION_VALUE_METHOD "METHOD"
+
 typedef struct option {
     const char *name;  /* without the dashes */
     char letter;       /* 0: none */

@@ -7,6 +7,7 @@
 
 #include "numbers.h"
 #include "option_words.h"
+#include "params/methods.h"
 
 static const struct {
     const char *word;
@@ -55,7 +56,7 @@ bool podee_options_apply(const podee_options *given, mgt_quality *quality, char 
     uint64_t n;
     if (!name)
         return true;
-    if (q->method != MGT_METHOD_PODEE_UNIFORM && q->method != MGT_METHOD_PODEE_PIXEL)
+    if (!method_takes(q->method, METHOD_TAKES_PODEE))
         return snprintf(wrong, size, "--%s: only the methods podee-uniform and podee-pixel take it", name), false;
     if (!set_kernels(given, q, wrong, size))
         return false;

@@ -61,10 +61,7 @@ static const option render_options[] = {
                     "scene for a film or a numbered name, else frame 0)"},
     [OPT_SIZE] = {"size", 0, "WxH", "size in pixels instead of the scene's"},
     [OPT_CROP] = {"crop", 0, "X,Y,W,H", "render this rectangle of the picture alone"},
-    [OPT_METHOD] = {"method", 0, "NAME",
-                    "none, ssaaN, podee-uniform, podee-pixel, mangata (default),\n"
-                    "adaptive, reference, or a rival: msaa32, lean, leadr, tokuyoshi,\n"
-                    "bruneton, fxaa, taa, tndf"},
+    [OPT_METHOD] = {"method", 0, OPTION_VALUE_METHOD, "how pixels are filtered: one of the methods below (default mangata)"},
     [OPT_SPATIAL] = {"spatial", 0, "N", "reference: NxN samples a pixel for each time sample (default 8)"},
     [OPT_TIME] = {"time-samples", 0, "M", "reference, ssaaN: samples of the open shutter (default 8; 1)"},
     [OPT_RANGE] = {"samples-range", 0, "FIRST,COUNT", "reference, ssaaN: take only these of the NxNxM samples"},
@@ -171,13 +168,13 @@ typedef struct sample_options {
 static int set_samples(mgt_quality *q, const sample_options *given)
 {
     uint64_t n;
-    if (given->spatial && q->method != MGT_METHOD_REFERENCE)
+    if (given->spatial && !method_takes(q->method, METHOD_TAKES_STRATA))
         return console_error(EXIT_CODE_USAGE, "--spatial %s: only --method reference takes it%s", given->spatial,
-                             q->method == MGT_METHOD_SSAA ? "; write the number into ssaaN" : "");
-    if ((given->time || given->range) && !method_takes_samples(q->method))
+                             method_of(q->method)->numbered ? "; write the number into ssaaN" : "");
+    if ((given->time || given->range) && !method_takes(q->method, METHOD_TAKES_TIMES))
         return console_error(EXIT_CODE_USAGE, "--%s: method %s takes one sample; only reference and ssaaN take more",
                              given->time ? "time-samples" : "samples-range", method_name(q).text);
-    if (given->ndf_mean && q->method != MGT_METHOD_PODEE_PIXEL)
+    if (given->ndf_mean && !method_takes(q->method, METHOD_TAKES_NDF_MEAN))
         return console_error(EXIT_CODE_USAGE, "--ndf-mean: only --method podee-pixel takes it");
     if (given->spatial) {
         if (!number_parse_u64(given->spatial, 1024, &n) || n == 0)
@@ -231,7 +228,7 @@ static int set_option(render_request *r, int id, const char *value, sample_optio
         break;
     case OPT_METHOD:
         if (!method_from_name(value, &r->quality))
-            return bad_value(OPT_METHOD, value, method_words);
+            return bad_value(OPT_METHOD, value, method_names().text);
         break;
     case OPT_SPATIAL:
         samples->spatial = value;

@@ -14,10 +14,7 @@ static const option view_options[] = {
     [OPT_BACKEND] = {"backend", 0, "NAME",
                      "auto (default: OpenGL where there is hardware for it, else the\n"
                      "CPU), cpu or gl"},
-    [OPT_METHOD] = {"method", 0, "NAME",
-                    "of side A: none, ssaaN, podee-uniform, podee-pixel, mangata\n"
-                    "(default), reference, msaa32, lean, leadr, tokuyoshi, bruneton,\n"
-                    "fxaa, taa or tndf"},
+    [OPT_METHOD] = {"method", 0, OPTION_VALUE_METHOD, "of side A: one of the methods below (default mangata)"},
     [OPT_SIZE] = {"size", 0, "WxH", "size of the window and of the picture instead of the scene's"},
     [OPT_SET] = {"set", 0, "KEY=VALUE",
                  "change a value of the scene, e.g. light.elevation_deg=3;\n"
@@ -52,7 +49,7 @@ static int set_option(view_request *r, int id, const char *value)
         break;
     case OPT_METHOD:
         if (!method_from_name(value, &r->quality))
-            return bad_value(OPT_METHOD, value, method_words);
+            return bad_value(OPT_METHOD, value, method_names().text);
         break;
     case OPT_SIZE:
         if (!number_parse_list(value, 'x', MGT_MAX_IMAGE_SIDE, 2, side) || side[0] == 0 || side[1] == 0)

@@ -9,6 +9,7 @@
 
 #include "interrupt.h"
 #include "panels.h"
+#include "params/methods.h"
 #include "progress.h"
 
 static const double poll_interval = 0.2, idle_wait = 0.1, script_frame = 1 / 60.0;
@@ -247,7 +248,7 @@ static bool open_scene(viewer *v)
     }
     side_settings *a = &v->settings.sides[SIDE_A];
     a->method = (int)r->quality.method;
-    if (method_takes_samples(r->quality.method)) {
+    if (method_takes(r->quality.method, METHOD_TAKES_TIMES)) {
         a->spatial = r->quality.spatial_samples;
         a->time_samples = r->quality.time_samples;
     }

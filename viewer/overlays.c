@@ -7,6 +7,7 @@
 
 #include "palette.h"
 #include "panels.h"
+#include "params/methods.h"
 #include "progress.h"
 
 static const uint32_t white = 0xdde2eaff, faint = 0x8891a0ff, accent = 0xedc778ff, shade = 0x0a0d13c8, red = 0x5a1f1aee;
@@ -27,7 +28,7 @@ static void side_label(const viewer *v, int side, char *text, size_t size)
     const mgt_quality q = side_quality(&v->settings.sides[side]);
     const picture *p = &v->render.pictures[side];
     const int used = snprintf(text, size, "%c  %s", side == SIDE_A ? 'A' : 'B', method_name(&q).text);
-    if (method_takes_samples(q.method) && p->samples < p->samples_total)
+    if (method_takes(q.method, METHOD_TAKES_TIMES) && p->samples < p->samples_total)
         snprintf(text + used, size - (size_t)used, "  %.0f%%", 100.0 * (double)p->samples / (double)p->samples_total);
 }
 

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "camera_moves.h"
+#include "params/methods.h"
 
 static const float panel_units = 23.5f, label_units = 8.2f; /* widths, in heights of the text */
 
@@ -102,11 +103,11 @@ static void draw_side(viewer *v, int side)
     char name[32], text[64];
     snprintf(name, sizeof name, "%s.method", letter);
     panel_control(v, name);
-    if (s->method == MGT_METHOD_PODEE_PIXEL) {
+    if (method_takes((mgt_method)s->method, METHOD_TAKES_NDF_MEAN)) {
         snprintf(name, sizeof name, "%s.ndf_mean", letter);
         panel_control(v, name);
     }
-    if (!method_takes_samples((mgt_method)s->method))
+    if (!method_takes((mgt_method)s->method, METHOD_TAKES_TIMES))
         return;
     static const char *const fields[] = {"spatial", "time_samples", "seed"};
     for (int i = 0; i < 3; i++) {

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "progress.h"
+#include "params/methods.h"
 
 enum { ERROR_SIZE = 512 };
 
@@ -174,11 +175,7 @@ static uint64_t stratum_at(uint64_t index, uint64_t total)
 /* Means over samples are meaningful for light and areas; depth and normal show one instant and are rendered once. */
 static bool layer_refines(mgt_layer layer) { return layer <= MGT_LAYER_MASK; }
 
-static bool side_refines(const render_order *o, int side)
-{
-    const mgt_method m = o->quality[side].method;
-    return o->wanted[side] && (m == MGT_METHOD_SSAA || m == MGT_METHOD_REFERENCE);
-}
+static bool side_refines(const render_order *o, int side) { return o->wanted[side] && method_takes(o->quality[side].method, METHOD_TAKES_TIMES); }
 
 static bool begin_refinement(render_worker *w, int side)
 {

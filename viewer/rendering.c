@@ -9,6 +9,7 @@
 #include <sys/stat.h>
 
 #include "progress.h"
+#include "params/methods.h"
 #include "viewer.h"
 
 /* Frames a second that moving pictures hold, how long after the last change they count as still, and how small they may get. */
@@ -177,7 +178,7 @@ static void copy_shot(shot *to, const shot *from)
     to->scene.water.waves = to->waves;
 }
 
-static bool side_refines(const mgt_quality *q) { return q->method == MGT_METHOD_SSAA || q->method == MGT_METHOD_REFERENCE; }
+static bool side_refines(const mgt_quality *q) { return method_takes(q->method, METHOD_TAKES_TIMES); }
 
 static render_order order_of(const viewer *v)
 {

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "image/picture.h"
+#include "params/methods.h"
 #include "viewer.h"
 
 /* ---- the command ---- */
@@ -30,11 +31,11 @@ static void write_word(FILE *stream, const char *word)
 static void write_method(FILE *stream, const mgt_quality *q)
 {
     fprintf(stream, " --method %s", method_name(q).text);
-    if (q->method == MGT_METHOD_REFERENCE)
+    if (method_takes(q->method, METHOD_TAKES_STRATA))
         fprintf(stream, " --spatial %u", q->spatial_samples);
-    if (method_takes_samples(q->method))
+    if (method_takes(q->method, METHOD_TAKES_TIMES))
         fprintf(stream, " --time-samples %u --seed %llu", q->time_samples, (unsigned long long)q->seed);
-    if (q->method == MGT_METHOD_PODEE_PIXEL && q->ndf_mean_drop)
+    if (method_takes(q->method, METHOD_TAKES_NDF_MEAN) && q->ndf_mean_drop)
         fputs(" --ndf-mean drop", stream);
 }
 

@@ -2,8 +2,9 @@
  * The table of the viewer's own settings. */
 #include "settings.h"
 
-const char *const method_choices[] = {"none",  "ssaa",      "podee-uniform", "podee-pixel", "mangata", "reference", "msaa32",   "lean",
-                                      "leadr", "tokuyoshi", "bruneton",      "fxaa",        "taa",     "tndf",      "adaptive", NULL};
+#include "params/methods.h"
+
+static const char *method_choices[METHOD_SLOTS + 1]; /* in the order of mgt_method; filled by settings_root_field() */
 const char *const layer_choices[] = {"color", "coverage", "mask", "depth", "normal", NULL};
 static const char *const switch_choices[] = {"off", "on", NULL};
 static const char *const mean_choices[] = {"add", "drop", NULL};
@@ -94,7 +95,12 @@ static const scene_field fields[] =
 
 static const scene_field root_field = {"", FIELD_MAPPING, 0, 0, NO_RANGE, NULL, .doc = "settings of the viewer", .fields = fields};
 
-const scene_field *settings_root_field(void) { return &root_field; }
+const scene_field *settings_root_field(void)
+{
+    for (size_t i = 0; i < method_count; i++)
+        method_choices[i] = method_of((mgt_method)i)->properties.name;
+    return &root_field;
+}
 
 bool field_is_switch(const scene_field *field) { return field->choices == switch_choices; }
 

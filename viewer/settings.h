@@ -79,8 +79,7 @@ const scene_field *settings_root_field(void);
 /* Whether a field is such a one. */
 bool field_is_switch(const scene_field *field);
 
-extern const char *const method_choices[]; /* in the order of mgt_method */
-extern const char *const layer_choices[];  /* in the order of mgt_layer */
+extern const char *const layer_choices[]; /* in the order of mgt_layer */
 
 mgt_quality side_quality(const side_settings *side);
 

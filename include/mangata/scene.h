@@ -97,6 +97,27 @@ typedef enum mgt_method {
     MGT_METHOD_ADAPTIVE
 } mgt_method;
 
+/* The waves that a method shades from. */
+typedef enum mgt_method_waves {
+    MGT_WAVES_POINT = 0, /* all waves at single instants, as point samples meet them */
+    MGT_WAVES_INSTANT,   /* at the instant t: those that a pixel resolves, and the slope statistics of the others */
+    MGT_WAVES_SHUTTER    /* the same at both ends of the open shutter */
+} mgt_method_waves;
+
+/* What can be said of a method without rendering. */
+typedef struct mgt_method_properties {
+    size_t struct_size;
+    const char *name;        /* as commands and files spell it, without the number of ssaaN; static, as the description */
+    const char *description; /* one line */
+    mgt_method_waves waves;
+    uint32_t backends; /* bits 1 << mgt_backend that run it; an OpenGL context renders the others on the CPU */
+    uint32_t layers;   /* bits 1 << mgt_layer that it computes; the others are written as constants */
+} mgt_method_properties;
+
+/* Fills the first `size` bytes of `properties`; `size` is sizeof *properties as the caller knows it and becomes its struct_size.
+ * MGT_ERROR_ARGUMENT: the library knows no such method. Methods are numbered from 0 without gaps. */
+MGT_API mgt_status mgt_method_info(mgt_method method, mgt_method_properties *properties, size_t size);
+
 /* How what lies on the other side of the surface is found: scenes with objects. docs/refraction.md says what is whose. */
 typedef enum mgt_refraction {
     MGT_REFRACTION_TWO_PHASE = 0,  /* this library's own: Liu et al. 2020 in true space, with the waves' heights, iterated */

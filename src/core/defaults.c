@@ -3,6 +3,7 @@
 #include <stddef.h>
 
 #include "core/backend.h"
+#include "params/methods.h"
 
 const char *mgt_version(void) { return MGT_VERSION_STRING; }
 
@@ -79,19 +80,12 @@ region image_region(const mgt_image *image)
 float samples_per_pixel(const mgt_quality *quality)
 {
     const mgt_quality *q = quality;
-    switch (q->method) {
-    case MGT_METHOD_SSAA:
-    case MGT_METHOD_REFERENCE: {
-        const uint64_t all = (uint64_t)q->spatial_samples * q->spatial_samples * q->time_samples - q->sample_first;
-        return (float)(q->sample_count ? q->sample_count : all);
+    if (!method_takes(q->method, METHOD_TAKES_TIMES)) {
+        const uint32_t samples = method_of(q->method)->samples;
+        return samples ? (float)samples : 1;
     }
-    case MGT_METHOD_MSAA32:
-        return 32;
-    case MGT_METHOD_TAA:
-        return 8;
-    default:
-        return 1;
-    }
+    const uint64_t all = (uint64_t)q->spatial_samples * q->spatial_samples * q->time_samples - q->sample_first;
+    return (float)(q->sample_count ? q->sample_count : all);
 }
 
 size_t format_size(mgt_format format)

@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "core/mesh.h"
+#include "params/methods.h"
 
 mgt_status validate_desc(const reporter *r, const mgt_context_desc *desc)
 {
@@ -121,7 +122,7 @@ static mgt_status check_podee(const reporter *r, const mgt_quality *q)
         TRY(in_range(r, "quality.elongation_limit", q->elongation_limit, 1, 1e6));
     TRY(in_range(r, "quality.path_segments", q->path_segments, 0, 64));
     TRY(in_range(r, "quality.transition_width", q->transition_width, 0, 0.5));
-    if (q->method == MGT_METHOD_PODEE_UNIFORM || q->method == MGT_METHOD_PODEE_PIXEL)
+    if (method_takes(q->method, METHOD_TAKES_PODEE))
         return MGT_OK;
     const char *field = k != MGT_KERNELS_EXACT     ? "kernels"
                         : q->elongation_limit != 0 ? "elongation_limit"
@@ -159,13 +160,13 @@ static mgt_status check_adaptive(const reporter *r, const mgt_quality *q)
         if (f->value == 0)
             continue;
         TRY(in_range(r, f->name, f->value, f->least, f->most));
-        if (q->method != MGT_METHOD_ADAPTIVE || (f->scheme >= 0 && f->scheme != (int)q->adaptive))
+        if (!method_takes(q->method, METHOD_TAKES_ADAPTIVE) || (f->scheme >= 0 && f->scheme != (int)q->adaptive))
             return report_error(r, MGT_ERROR_SCENE, "render.scene", "%s is for the method adaptive%s alone", f->name,
                                 f->scheme == podee   ? ", scheme podee,"
                                 : f->scheme == cells ? ", scheme cells,"
                                                      : "");
     }
-    if (q->adaptive != MGT_ADAPTIVE_CELLS && q->method != MGT_METHOD_ADAPTIVE)
+    if (q->adaptive != MGT_ADAPTIVE_CELLS && !method_takes(q->method, METHOD_TAKES_ADAPTIVE))
         return report_error(r, MGT_ERROR_SCENE, "render.scene", "quality.adaptive is for the method adaptive alone");
     if ((q->samples != 0) + (q->target_rmse != 0) + (q->budget_ms != 0) + (q->sample_slots != 0) > 1)
         return report_error(r, MGT_ERROR_SCENE, "render.scene",
@@ -272,7 +273,7 @@ mgt_status validate_scene(const reporter *r, const mgt_scene *scene)
     TRY(in_range(r, "post.glare", (double)scene->post.glare, 0, 1));
 
     const mgt_quality *q = &scene->quality;
-    TRY(enum_range(r, "quality.method", (int)q->method, MGT_METHOD_ADAPTIVE));
+    TRY(enum_range(r, "quality.method", (int)q->method, (int)method_count - 1));
     TRY(in_range(r, "quality.spatial_samples", q->spatial_samples, 1, 1024));
     TRY(in_range(r, "quality.time_samples", q->time_samples, 1, 65536));
     TRY(check_podee(r, q));
