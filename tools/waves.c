@@ -92,7 +92,7 @@ typedef struct waves_request {
 
 /* ---- the command line --------------------------------------------------------------------------------------- */
 
-static const scene_field *spectrum_field(const scene_values *values, const char *key, const void **place)
+static const field_row *spectrum_field(const scene_values *values, const char *key, const void **place)
 {
     char path[64];
     snprintf(path, sizeof path, "water.spectrum.%s", key);
@@ -105,27 +105,19 @@ static int bad_value(int id, const char *value, const char *allowed)
 }
 
 /* The name of a choice into *place. */
-static bool set_choice(const scene_field *field, const char *text, int *place)
-{
-    for (int i = 0; field->choices[i] != NULL; i++)
-        if (strcmp(field->choices[i], text) == 0) {
-            *place = i;
-            return true;
-        }
-    return false;
-}
+static bool set_choice(const field_row *field, const char *text, int *place) { return field_parse(field, text, place); }
 
 /* One key of the spectrum, with the checks of the scene format. */
 static int set_key(waves_request *r, const scene_values *values, int id, const char *text)
 {
     const void *unused;
-    const scene_field *field = spectrum_field(values, keys[id], &unused);
+    const field_row *field = spectrum_field(values, keys[id], &unused);
     void *place = (char *)&r->spectrum + field->offset;
     char allowed[160];
     double number;
     uint64_t whole;
     bool good = true;
-    scene_field_allowed(field, allowed, sizeof allowed);
+    field_allowed(field, allowed, sizeof allowed);
     r->given[id] = true;
     switch (field->type) {
     case FIELD_CHOICE:
@@ -138,7 +130,7 @@ static int set_key(waves_request *r, const scene_values *values, int id, const c
         break;
     case FIELD_NUMBER:
         number = 0;
-        good = (id == OPT_DEPTH && strcmp(text, "inf") == 0) || (number_parse_double(text, &number) && scene_field_in_range(field, number));
+        good = (id == OPT_DEPTH && strcmp(text, "inf") == 0) || (number_parse_double(text, &number) && field_in_range(field, number));
         if (good)
             *(double *)place = number;
         break;

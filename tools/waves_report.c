@@ -49,7 +49,7 @@ static json_t *figures(double closed_form, double clean, double spectrum, double
 
 static const char *choice_name(const char *key, int choice)
 {
-    const scene_field *field = scene_root_field()->fields;
+    const field_row *field = scene_root_field()->fields;
     const char *const path[] = {"water", "spectrum", key};
     for (size_t i = 0; i < 3; field = ++i < 3 ? field->fields : field)
         while (strcmp(field->key, path[i]) != 0)

@@ -123,7 +123,7 @@ static bool is_left_out(const char *name)
            strncmp(name, "objects", 7) == 0;
 }
 
-static bool is_control(const scene_field *field)
+static bool is_control(const field_row *field)
 {
     return field->type != FIELD_MAPPING && field->type != FIELD_LIST && field->type != FIELD_TEXT && field->min <= field->max &&
            !(field->type == FIELD_COUNT && field->min == field->max);
@@ -135,7 +135,7 @@ typedef struct control_sink {
     bool of_scene;
 } control_sink;
 
-static void add(control_sink *sink, const char *name, const scene_field *field, void *value, mgt_wave *wave)
+static void add(control_sink *sink, const char *name, const field_row *field, void *value, mgt_wave *wave)
 {
     if (sink->items) {
         control *c = &sink->items[sink->count];
@@ -146,9 +146,9 @@ static void add(control_sink *sink, const char *name, const scene_field *field, 
     sink->count++;
 }
 
-static void walk(control_sink *sink, const char *path, const scene_field *mapping, void *values)
+static void walk(control_sink *sink, const char *path, const field_row *mapping, void *values)
 {
-    for (const scene_field *field = mapping->fields; field->key; field++) {
+    for (const field_row *field = mapping->fields; field->key; field++) {
         char name[64];
         void *value = (char *)values + field->offset;
         snprintf(name, sizeof name, "%.40s%s%s", path, path[0] ? "." : "", field->key);
@@ -166,7 +166,7 @@ static void walk(control_sink *sink, const char *path, const scene_field *mappin
             void *at = (char *)list->items + i * field->item_size;
             snprintf(item, sizeof item, "%.40s[%zu]", name, i);
             walk(sink, item, field, at);
-            for (const scene_field *f = wave_shape_fields; f->key && strcmp(name, "water.waves") == 0; f++) {
+            for (const field_row *f = wave_shape_fields; f->key && strcmp(name, "water.waves") == 0; f++) {
                 snprintf(shape, sizeof shape, "%s.%s", item, f->key);
                 add(sink, shape, f, NULL, at);
             }
@@ -191,13 +191,13 @@ control *control_list(const control_board *board, size_t *count)
 }
 
 /* Follows a path of words through mappings; NULL where it leads nowhere. */
-static const scene_field *find_setting(settings *s, const char *path, void **value)
+static const field_row *find_setting(settings *s, const char *path, void **value)
 {
-    const scene_field *field = settings_root_field();
+    const field_row *field = settings_root_field();
     char *at = (char *)s;
     while (*path) {
         const size_t length = strcspn(path, ".");
-        const scene_field *child = field->fields;
+        const field_row *child = field->fields;
         while (child && child->key && (strlen(child->key) != length || memcmp(child->key, path, length) != 0))
             child++;
         if (!child || !child->key)
@@ -210,14 +210,14 @@ static const scene_field *find_setting(settings *s, const char *path, void **val
     return field;
 }
 
-static const scene_field *find_shape(const control_board *board, const char *name, mgt_wave **wave)
+static const field_row *find_shape(const control_board *board, const char *name, mgt_wave **wave)
 {
     const scene_list *waves = &board->document->values.water.waves;
     size_t index;
     int used = 0;
     if (sscanf(name, "water.waves[%zu].%n", &index, &used) != 1 || used == 0 || index >= waves->count)
         return NULL;
-    for (const scene_field *field = wave_shape_fields; field->key; field++)
+    for (const field_row *field = wave_shape_fields; field->key; field++)
         if (strcmp(field->key, name + used) == 0) {
             *wave = (mgt_wave *)waves->items + index;
             return field;
@@ -272,8 +272,12 @@ void control_read(const control *c, double numbers[3])
         for (int i = 0; i < 3; i++)
             numbers[i] = (double)((const float *)c->value)[i];
         break;
+    case FIELD_LARGE:
+        numbers[0] = (double)*(const uint64_t *)c->value;
+        break;
     case FIELD_CHOICE:
-        numbers[0] = *(const int *)c->value;
+    case FIELD_SWITCH:
+        numbers[0] = field_place(c->field, c->value);
         break;
     case FIELD_EXPOSURE:
         numbers[0] = ((const scene_exposure *)c->value)->stops;
@@ -285,7 +289,7 @@ void control_read(const control *c, double numbers[3])
     }
 }
 
-static double allowed(const scene_field *field, double number)
+static double allowed(const field_row *field, double number)
 {
     const double margin = 1e-3;
     const double low = field->flags & FIELD_OPEN_MIN ? field->min + margin : field->min;
@@ -295,10 +299,8 @@ static double allowed(const scene_field *field, double number)
 
 static void write_choice(const control_board *board, const control *c, int choice)
 {
-    int count = 0;
-    while (c->field->choices[count])
-        count++;
-    *(int *)c->value = choice < 0 ? 0 : choice < count ? choice : count - 1;
+    const int count = field_word_count(c->field);
+    field_choose(c->field, choice < 0 ? 0 : choice < count ? choice : count - 1, c->value);
     mgt_light *light = &board->document->values.light;
     if (c->value != (void *)&light->body)
         return;
@@ -311,7 +313,7 @@ static void write_choice(const control_board *board, const control *c, int choic
 
 void control_write(const control_board *board, const control *c, const double numbers[3])
 {
-    const scene_field *field = c->field;
+    const field_row *field = c->field;
     if (c->wave) {
         wave_shape shape = wave_shape_of(c->wave);
         *(double *)(void *)((char *)&shape + field->offset) = allowed(field, numbers[0]);
@@ -337,7 +339,11 @@ void control_write(const control_board *board, const control *c, const double nu
         for (int i = 0; i < 3; i++)
             ((float *)c->value)[i] = (float)allowed(field, numbers[i]);
         break;
+    case FIELD_LARGE:
+        *(uint64_t *)c->value = (uint64_t)allowed(field, round(numbers[0]));
+        break;
     case FIELD_CHOICE:
+    case FIELD_SWITCH:
         write_choice(board, c, (int)numbers[0]);
         break;
     case FIELD_EXPOSURE:
@@ -357,42 +363,32 @@ control_text control_print(const control *c)
     control_text out = {""};
     double n[3];
     control_read(c, n);
-    if (c->field->type == FIELD_CHOICE)
-        snprintf(out.text, sizeof out.text, "%s", c->field->choices[(int)n[0]]);
+    if (c->field->choices)
+        snprintf(out.text, sizeof out.text, "%s", field_word(c->field, (int)n[0]));
     else if (c->field->type == FIELD_EXPOSURE && ((const scene_exposure *)c->value)->automatic)
         snprintf(out.text, sizeof out.text, "auto");
     else if (control_width(c) == 3)
-        snprintf(out.text, sizeof out.text, "[%s, %s, %s]", scene_double_text(n[0]).text, scene_double_text(n[1]).text, scene_double_text(n[2]).text);
+        snprintf(out.text, sizeof out.text, "[%s, %s, %s]", double_text(n[0]).text, double_text(n[1]).text, double_text(n[2]).text);
     else
-        snprintf(out.text, sizeof out.text, "%s", c->field->type == FIELD_SHARE ? scene_float_text((float)n[0]).text : scene_double_text(n[0]).text);
+        snprintf(out.text, sizeof out.text, "%s", c->field->type == FIELD_SHARE ? float_text((float)n[0]).text : double_text(n[0]).text);
     return out;
 }
 
 static bool refuse(const control *c, const char *text, char *error, size_t size)
 {
     char words[160];
-    scene_field_allowed(c->field, words, sizeof words);
+    field_allowed(c->field, words, sizeof words);
     snprintf(error, size, "%s=%s: allowed is %s", c->name, scene_quote_text(text, strlen(text)).text, words);
     return false;
 }
 
-static bool parse_choice(const scene_field *field, const char *text, double *number)
+static bool parse_number(const field_row *field, const char *text, double *number)
 {
-    for (int i = 0; field->choices[i]; i++)
-        if (strcmp(text, field->choices[i]) == 0) {
-            *number = i;
-            return true;
-        }
-    return false;
-}
-
-static bool parse_number(const scene_field *field, const char *text, double *number)
-{
-    return number_parse_double(text, number) && scene_field_in_range(field, *number) && (field->type != FIELD_COUNT || *number == floor(*number));
+    return number_parse_double(text, number) && field_in_range(field, *number);
 }
 
 /* "[x, y, z]" */
-static bool parse_three(const scene_field *field, const char *text, double numbers[3])
+static bool parse_three(const field_row *field, const char *text, double numbers[3])
 {
     char words[3][40];
     int end = 0;
@@ -406,8 +402,12 @@ static bool parse_three(const scene_field *field, const char *text, double numbe
 
 static bool parse(const control *c, const char *text, double numbers[3])
 {
-    if (c->field->type == FIELD_CHOICE)
-        return parse_choice(c->field, text, &numbers[0]);
+    int choice[2]; /* room for a switch or a choice */
+    if (c->field->choices) {
+        const bool good = field_parse(c->field, text, choice);
+        numbers[0] = good ? field_place(c->field, choice) : 0;
+        return good;
+    }
     return control_width(c) == 3 ? parse_three(c->field, text, numbers) : parse_number(c->field, text, &numbers[0]);
 }
 
@@ -459,7 +459,7 @@ static double random_number(const control *c, uint64_t *state)
     const double low = h ? fmax(h->low, c->field->min) : c->field->min, high = h ? fmin(h->high, c->field->max) : c->field->max;
     const double share = random_share(state);
     double number = h && h->logarithmic ? low * pow(high / low, share) : low + (high - low) * share;
-    if (c->field->type == FIELD_COUNT)
+    if (c->field->type == FIELD_COUNT || c->field->type == FIELD_LARGE)
         number = round(number);
     return allowed(c->field, number);
 }
@@ -467,12 +467,10 @@ static double random_number(const control *c, uint64_t *state)
 control_text control_random(const control *c, uint64_t *state)
 {
     control_text out = {""};
-    if (c->field->type == FIELD_CHOICE) {
-        int count = 0;
-        while (c->field->choices[count])
-            count++;
-        const int now = *(const int *)c->value, other = (now + 1 + (int)(random_share(state) * (count - 1))) % count;
-        snprintf(out.text, sizeof out.text, "%s", c->field->choices[other]);
+    if (c->field->choices) {
+        const int count = field_word_count(c->field);
+        const int now = field_place(c->field, c->value), other = (now + 1 + (int)(random_share(state) * (count - 1))) % count;
+        snprintf(out.text, sizeof out.text, "%s", field_word(c->field, other));
         return out;
     }
     double n[3];

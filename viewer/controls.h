@@ -25,7 +25,7 @@ typedef struct control_hint {
 
 typedef struct control {
     char name[64];
-    const scene_field *field;
+    const field_row *field;
     void *value;              /* in the document or the settings; of a wave's shape: NULL */
     mgt_wave *wave;           /* of a wave's shape */
     const control_hint *hint; /* NULL: none */

@@ -18,7 +18,7 @@ float panels_width(const viewer *v) { return v->settings.panel.shown ? floorf(pa
 static void explain(const control *c)
 {
     char text[512], range[128];
-    scene_field_allowed(c->field, range, sizeof range);
+    field_allowed(c->field, range, sizeof range);
     snprintf(text, sizeof text, "%s\n%s: %s", c->field->doc, c->name, range);
     ui_tooltip(text);
 }
@@ -39,10 +39,11 @@ static bool draw_choice(const control *c, const char *label, double *number)
         *number = on;
         return changed;
     }
+    const char *words[64];
     int count = 0, chosen = (int)*number;
-    while (c->field->choices[count])
-        count++;
-    const bool changed = ui_choice(label, &chosen, c->field->choices, count);
+    for (; count < 64 && field_word(c->field, count); count++)
+        words[count] = field_word(c->field, count);
+    const bool changed = ui_choice(label, &chosen, words, count);
     *number = chosen;
     return changed;
 }
@@ -80,7 +81,7 @@ bool panel_control(viewer *v, const char *name)
     snprintf(label, sizeof label, "%.30s##%.60s", c.hint ? c.hint->label : c.field->key, name);
     control_read(&c, n);
     ui_item_width(-label_units * ui_font_size());
-    const bool changed = c.field->type == FIELD_CHOICE ? draw_choice(&c, label, n) : draw_numbers(&c, label, n);
+    const bool changed = c.field->choices ? draw_choice(&c, label, n) : draw_numbers(&c, label, n);
     explain(&c);
     if (changed)
         control_write(&v->board, &c, n);

@@ -4,7 +4,6 @@
 
 #include "params/methods.h"
 
-static const char *method_choices[METHOD_SLOTS + 1]; /* in the order of mgt_method; filled by settings_root_field() */
 const char *const layer_choices[] = {"color", "coverage", "mask", "depth", "normal", NULL};
 static const char *const switch_choices[] = {"off", "on", NULL};
 static const char *const mean_choices[] = {"add", "drop", NULL};
@@ -16,8 +15,9 @@ static const char *const move_choices[] = {"orbit", "fly", NULL};
 #define NO_RANGE 0, 0
 #define SWITCH(type, member, text) FIELD_CHOICE, offsetof(type, member), 0, NO_RANGE, NULL, .doc = text, .choices = switch_choices
 
-static const scene_field side_fields[] =
-    {{"method", FIELD_CHOICE, offsetof(side_settings, method), 0, NO_RANGE, NULL, .doc = "how this side is rendered", .choices = method_choices},
+static const field_row side_fields[] =
+    {{"method", FIELD_CHOICE, offsetof(side_settings, method), 0, NO_RANGE, NULL, .doc = "how this side is rendered",
+      .choices = &method_rows[0].properties.name, .choice_stride = sizeof(method_row)},
      {"spatial", FIELD_COUNT, offsetof(side_settings, spatial), 0, 1, 1024, NULL, .doc = "N of N x N samples a pixel (ssaa, reference)"},
      {"time_samples", FIELD_COUNT, offsetof(side_settings, time_samples), 0, 1, 65536, NULL, .doc = "samples of the open shutter (ssaa, reference)"},
      {"seed", FIELD_COUNT, offsetof(side_settings, seed), 0, 0, 4294967295.0, NULL, .doc = "of the samples' jitter (ssaa, reference)"},
@@ -25,7 +25,7 @@ static const scene_field side_fields[] =
       .doc = "the mean slope of the filtered waves (podee-pixel): added, or left out as printed", .choices = mean_choices},
      {0}};
 
-static const scene_field view_fields[] =
+static const field_row view_fields[] =
     {{"compare", FIELD_CHOICE, offsetof(view_settings, compare), 0, NO_RANGE, NULL, .doc = "side A alone, A and B left and right of a divider, or A - B",
       .choices = compare_choices},
      {"wipe", FIELD_NUMBER, offsetof(view_settings, wipe), 0, 0, 1, NULL, .doc = "place of the divider, as a share of the width"},
@@ -45,44 +45,44 @@ static const scene_field view_fields[] =
      {"center_y", FIELD_NUMBER, offsetof(view_settings, center_y), 0, 0, 1, NULL, .doc = "the same, of the height"},
      {0}};
 
-static const scene_field clock_fields[] = {{"time", FIELD_NUMBER, offsetof(clock_settings, time), 0, -1e8, 1e8, "s",
-                                            .doc = "the scene's time when the shutter closes"},
-                                           {"play", SWITCH(clock_settings, play, "time runs")},
-                                           {"speed", FIELD_NUMBER, offsetof(clock_settings, speed), 0, -100, 100, NULL,
-                                            .doc = "scene seconds a second; below 1 slow motion, below 0 backwards"},
-                                           {"loop", SWITCH(clock_settings, loop, "time goes round over the scene's frames")},
+static const field_row clock_fields[] = {{"time", FIELD_NUMBER, offsetof(clock_settings, time), 0, -1e8, 1e8, "s",
+                                          .doc = "the scene's time when the shutter closes"},
+                                         {"play", SWITCH(clock_settings, play, "time runs")},
+                                         {"speed", FIELD_NUMBER, offsetof(clock_settings, speed), 0, -100, 100, NULL,
+                                          .doc = "scene seconds a second; below 1 slow motion, below 0 backwards"},
+                                         {"loop", SWITCH(clock_settings, loop, "time goes round over the scene's frames")},
+                                         {0}};
+
+static const field_row wave_fields[] = {{"amplitude", FIELD_NUMBER, offsetof(wave_settings, amplitude), 0, 0, 100, NULL,
+                                         .doc = "factor on the height of all waves"},
+                                        {"count", FIELD_COUNT, offsetof(wave_settings, count), 0, 0, MGT_MAX_WAVES, NULL,
+                                         .doc = "how many of the scene's waves are used, from the first"},
+                                        {0}};
+
+static const field_row move_fields[] = {{"mode", FIELD_CHOICE, offsetof(move_settings, mode), 0, NO_RANGE, NULL,
+                                         .doc = "dragging turns the camera about its target, or its view", .choices = move_choices},
+                                        {"path", SWITCH(move_settings, path, "the camera follows the keyframes")},
+                                        {"speed", FIELD_NUMBER, offsetof(move_settings, speed), 0, 0.01, 1e5, "m/s", .doc = "of the keys W A S D Q E"},
+                                        {"clearance", FIELD_NUMBER, offsetof(move_settings, clearance), 0, 0.01, 1000, "m",
+                                         .doc = "the camera is kept this far above the water under it"},
+                                        {0}};
+
+static const field_row panel_fields[] = {{"shown", SWITCH(panel_settings, shown, "the panel of controls")},
+                                         {"timings", SWITCH(panel_settings, timings, "times of frames and passes")},
+                                         {"inspector", SWITCH(panel_settings, inspector, "what is known of one pixel")},
+                                         {"keys", SWITCH(panel_settings, keys, "the list of keys")},
+                                         {"legend", SWITCH(panel_settings, legend, "what false colours stand for")},
+                                         {"log", SWITCH(panel_settings, log, "messages")},
+                                         {"scale", FIELD_NUMBER, offsetof(panel_settings, scale), 0, 0.5, 4, NULL, .doc = "size of text and controls"},
+                                         {0}};
+
+static const field_row inspect_fields[] = {{"x", FIELD_COUNT, offsetof(inspect_settings, x), 0, 0, MGT_MAX_IMAGE_SIDE - 1, "pixels",
+                                            .doc = "column of the inspected pixel"},
+                                           {"y", FIELD_COUNT, offsetof(inspect_settings, y), 0, 0, MGT_MAX_IMAGE_SIDE - 1, "pixels",
+                                            .doc = "row of the inspected pixel"},
                                            {0}};
 
-static const scene_field wave_fields[] = {{"amplitude", FIELD_NUMBER, offsetof(wave_settings, amplitude), 0, 0, 100, NULL,
-                                           .doc = "factor on the height of all waves"},
-                                          {"count", FIELD_COUNT, offsetof(wave_settings, count), 0, 0, MGT_MAX_WAVES, NULL,
-                                           .doc = "how many of the scene's waves are used, from the first"},
-                                          {0}};
-
-static const scene_field move_fields[] = {{"mode", FIELD_CHOICE, offsetof(move_settings, mode), 0, NO_RANGE, NULL,
-                                           .doc = "dragging turns the camera about its target, or its view", .choices = move_choices},
-                                          {"path", SWITCH(move_settings, path, "the camera follows the keyframes")},
-                                          {"speed", FIELD_NUMBER, offsetof(move_settings, speed), 0, 0.01, 1e5, "m/s", .doc = "of the keys W A S D Q E"},
-                                          {"clearance", FIELD_NUMBER, offsetof(move_settings, clearance), 0, 0.01, 1000, "m",
-                                           .doc = "the camera is kept this far above the water under it"},
-                                          {0}};
-
-static const scene_field panel_fields[] = {{"shown", SWITCH(panel_settings, shown, "the panel of controls")},
-                                           {"timings", SWITCH(panel_settings, timings, "times of frames and passes")},
-                                           {"inspector", SWITCH(panel_settings, inspector, "what is known of one pixel")},
-                                           {"keys", SWITCH(panel_settings, keys, "the list of keys")},
-                                           {"legend", SWITCH(panel_settings, legend, "what false colours stand for")},
-                                           {"log", SWITCH(panel_settings, log, "messages")},
-                                           {"scale", FIELD_NUMBER, offsetof(panel_settings, scale), 0, 0.5, 4, NULL, .doc = "size of text and controls"},
-                                           {0}};
-
-static const scene_field inspect_fields[] = {{"x", FIELD_COUNT, offsetof(inspect_settings, x), 0, 0, MGT_MAX_IMAGE_SIDE - 1, "pixels",
-                                              .doc = "column of the inspected pixel"},
-                                             {"y", FIELD_COUNT, offsetof(inspect_settings, y), 0, 0, MGT_MAX_IMAGE_SIDE - 1, "pixels",
-                                              .doc = "row of the inspected pixel"},
-                                             {0}};
-
-static const scene_field fields[] =
+static const field_row fields[] =
     {{"a", FIELD_MAPPING, offsetof(settings, sides[SIDE_A]), 0, NO_RANGE, NULL, .doc = "side A", .fields = side_fields},
      {"b", FIELD_MAPPING, offsetof(settings, sides[SIDE_B]), 0, NO_RANGE, NULL, .doc = "side B", .fields = side_fields},
      {"view", FIELD_MAPPING, offsetof(settings, view), 0, NO_RANGE, NULL, .doc = "the picture", .fields = view_fields},
@@ -93,16 +93,11 @@ static const scene_field fields[] =
      {"inspect", FIELD_MAPPING, offsetof(settings, inspect), 0, NO_RANGE, NULL, .doc = "the pixel looked into", .fields = inspect_fields},
      {0}};
 
-static const scene_field root_field = {"", FIELD_MAPPING, 0, 0, NO_RANGE, NULL, .doc = "settings of the viewer", .fields = fields};
+static const field_row root_field = {"", FIELD_MAPPING, 0, 0, NO_RANGE, NULL, .doc = "settings of the viewer", .fields = fields};
 
-const scene_field *settings_root_field(void)
-{
-    for (size_t i = 0; i < method_count; i++)
-        method_choices[i] = method_of((mgt_method)i)->properties.name;
-    return &root_field;
-}
+const field_row *settings_root_field(void) { return &root_field; }
 
-bool field_is_switch(const scene_field *field) { return field->choices == switch_choices; }
+bool field_is_switch(const field_row *field) { return field->choices == switch_choices; }
 
 settings settings_defaults(void)
 {

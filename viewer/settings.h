@@ -74,10 +74,10 @@ typedef struct settings {
 settings settings_defaults(void);
 
 /* A mapping whose struct is settings. "off, on" stands for what is true or false. */
-const scene_field *settings_root_field(void);
+const field_row *settings_root_field(void);
 
 /* Whether a field is such a one. */
-bool field_is_switch(const scene_field *field);
+bool field_is_switch(const field_row *field);
 
 extern const char *const layer_choices[]; /* in the order of mgt_layer */
 

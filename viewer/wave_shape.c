@@ -8,12 +8,11 @@ static const double pi = 3.14159265358979323846;
 static const double longest = 1e5, shortest = 1e-4;
 static const double gravity = 9.81;
 
-const scene_field wave_shape_fields[] = {{"wavelength", FIELD_NUMBER, offsetof(wave_shape, wavelength), 0, 1e-4, 1e5, "m", .doc = "from crest to crest"},
-                                         {"direction_deg", FIELD_NUMBER, offsetof(wave_shape, direction_deg), 0, -180, 180, "degrees",
-                                          .doc = "where crests travel to: 0 is -z, 90 is +x"},
-                                         {"speed", FIELD_NUMBER, offsetof(wave_shape, speed), 0, -1000, 1000, "m/s",
-                                          .doc = "of the crests, along the direction"},
-                                         {0}};
+const field_row wave_shape_fields[] = {{"wavelength", FIELD_NUMBER, offsetof(wave_shape, wavelength), 0, 1e-4, 1e5, "m", .doc = "from crest to crest"},
+                                       {"direction_deg", FIELD_NUMBER, offsetof(wave_shape, direction_deg), 0, -180, 180, "degrees",
+                                        .doc = "where crests travel to: 0 is -z, 90 is +x"},
+                                       {"speed", FIELD_NUMBER, offsetof(wave_shape, speed), 0, -1000, 1000, "m/s", .doc = "of the crests, along the direction"},
+                                       {0}};
 
 wave_shape wave_shape_of(const mgt_wave *wave)
 {

@@ -16,7 +16,7 @@ wave_shape wave_shape_of(const mgt_wave *wave);
 void wave_set_shape(mgt_wave *wave, const wave_shape *shape);
 
 /* The fields of a wave_shape, ended by one without a key. */
-extern const scene_field wave_shape_fields[];
+extern const field_row wave_shape_fields[];
 
 /* A wave of deep water at its natural speed, a little unlike the ones before it. */
 mgt_wave wave_new(size_t index);

@@ -5,7 +5,7 @@
 #include <math.h>
 
 #include "core/mesh.h"
-#include "params/methods.h"
+#include "params/options.h"
 
 mgt_status validate_desc(const reporter *r, const mgt_context_desc *desc)
 {
@@ -111,75 +111,36 @@ static mgt_status check_waves(const reporter *r, const mgt_water *water)
     return MGT_OK;
 }
 
-static mgt_status check_podee(const reporter *r, const mgt_quality *q)
+/* A struct of the scene against its rows. */
+static mgt_status check_rows(const reporter *r, const char *object, const field_row *fields, const void *values)
 {
-    const int k = (int)q->kernels;
-    if (k != MGT_KERNELS_EXACT && k != MGT_KERNELS_1 && k != MGT_KERNELS_3 && k != MGT_KERNELS_5 && k != MGT_KERNELS_9 && k != MGT_KERNELS_FELINE &&
-        k != MGT_KERNELS_RIEMANN)
-        return report_error(r, MGT_ERROR_SCENE, "render.scene", "quality.kernels is %d; allowed is 0 (exact), 1, 3, 5, 9, %d (Feline) and %d (Riemann)", k,
-                            MGT_KERNELS_FELINE, MGT_KERNELS_RIEMANN);
-    if (q->elongation_limit != 0)
-        TRY(in_range(r, "quality.elongation_limit", q->elongation_limit, 1, 1e6));
-    TRY(in_range(r, "quality.path_segments", q->path_segments, 0, 64));
-    TRY(in_range(r, "quality.transition_width", q->transition_width, 0, 0.5));
-    if (method_takes(q->method, METHOD_TAKES_PODEE))
-        return MGT_OK;
-    const char *field = k != MGT_KERNELS_EXACT     ? "kernels"
-                        : q->elongation_limit != 0 ? "elongation_limit"
-                        : q->path_segments > 1     ? "path_segments"
-                        : q->transition_width != 0 ? "transition_width"
-                        : q->transition_hard       ? "transition_hard"
-                                                   : NULL;
-    if (field)
-        return report_error(r, MGT_ERROR_SCENE, "render.scene", "quality.%s is for the methods podee-uniform and podee-pixel alone", field);
-    return MGT_OK;
-}
-
-/* A number that is 0 or in a range, for method adaptive with one scheme (or either, -1). */
-typedef struct adaptive_field {
-    const char *name;
-    double value, least, most;
-    int scheme;
-} adaptive_field;
-
-static mgt_status check_adaptive(const reporter *r, const mgt_quality *q)
-{
-    const int cells = MGT_ADAPTIVE_CELLS, podee = MGT_ADAPTIVE_PODEE;
-    const adaptive_field fields[] = {
-        {"quality.samples", q->samples, 1, 4096, -1},
-        {"quality.target_rmse", q->target_rmse, 1e-6, 1, cells},
-        {"quality.budget_ms", q->budget_ms, 0.1, 1e7, cells},
-        {"quality.importance_center", q->importance_center, 0, 1, podee},
-        {"quality.importance_width", q->importance_width, 1e-6, 1, podee},
-        {"quality.importance_threshold", q->importance_threshold, 0, 1, podee},
-        {"quality.sample_slots", (double)q->sample_slots, 1, 4294967296.0, podee},
-    };
-    TRY(enum_range(r, "quality.adaptive", (int)q->adaptive, MGT_ADAPTIVE_PODEE));
-    for (size_t i = 0; i < sizeof fields / sizeof *fields; i++) {
-        const adaptive_field *f = &fields[i];
-        if (f->value == 0)
-            continue;
-        TRY(in_range(r, f->name, f->value, f->least, f->most));
-        if (!method_takes(q->method, METHOD_TAKES_ADAPTIVE) || (f->scheme >= 0 && f->scheme != (int)q->adaptive))
-            return report_error(r, MGT_ERROR_SCENE, "render.scene", "%s is for the method adaptive%s alone", f->name,
-                                f->scheme == podee   ? ", scheme podee,"
-                                : f->scheme == cells ? ", scheme cells,"
-                                                     : "");
+    for (const field_row *field = fields; field->key; field++) {
+        const void *value = field_at(field, values);
+        const char *name = field->member ? field->member : field->key;
+        char words[160];
+        if (!field_is_legal(field, value)) {
+            field_allowed(field, words, sizeof words);
+            return report_error(r, MGT_ERROR_SCENE, "render.scene", "%s.%s is %s; allowed is %s", object, name, field_print(field, value).text, words);
+        }
+        if (option_is_set(field, values) && !field_applies(fields, field, values, true)) {
+            field_conditions(fields, field, words, sizeof words);
+            return report_error(r, MGT_ERROR_SCENE, "render.scene", "%s.%s is for %s alone", object, name, words);
+        }
     }
-    if (q->adaptive != MGT_ADAPTIVE_CELLS && !method_takes(q->method, METHOD_TAKES_ADAPTIVE))
-        return report_error(r, MGT_ERROR_SCENE, "render.scene", "quality.adaptive is for the method adaptive alone");
-    if ((q->samples != 0) + (q->target_rmse != 0) + (q->budget_ms != 0) + (q->sample_slots != 0) > 1)
-        return report_error(r, MGT_ERROR_SCENE, "render.scene",
-                            "quality.samples, target_rmse, budget_ms and sample_slots each say how much to sample; at most one may be set");
     return MGT_OK;
 }
 
-static mgt_status check_refraction(const reporter *r, const mgt_quality *q)
+static mgt_status check_quality(const reporter *r, const mgt_quality *q)
 {
-    TRY(enum_range(r, "quality.refraction", (int)q->refraction, MGT_REFRACTION_TRUTH));
-    if (q->tess_error != 0)
-        TRY(in_range(r, "quality.tess_error", q->tess_error, 0.01, 100));
-    return in_range(r, "quality.refraction_samples", q->refraction_samples, 0, 64);
+    char wrong[160];
+    TRY(check_rows(r, "quality", quality_fields, q));
+    if (quality_conflict(q, wrong, sizeof wrong))
+        return report_error(r, MGT_ERROR_SCENE, "render.scene", "quality: %s", wrong);
+    const uint64_t samples = (uint64_t)q->spatial_samples * q->spatial_samples * q->time_samples;
+    if (q->sample_first >= samples || q->sample_count > samples - q->sample_first)
+        return report_error(r, MGT_ERROR_SCENE, "render.scene", "quality.sample_first %llu and sample_count %llu lie outside the %llu samples of a pixel",
+                            (unsigned long long)q->sample_first, (unsigned long long)q->sample_count, (unsigned long long)samples);
+    return MGT_OK;
 }
 
 /* A field of objects[index]. */
@@ -268,22 +229,8 @@ mgt_status validate_scene(const reporter *r, const mgt_scene *scene)
     TRY(check_color(r, "water.scattering", scene->water.scattering, 1000));
     TRY(check_objects(r, scene));
 
-    TRY(enum_range(r, "post.tone_map", (int)scene->post.tone_map, MGT_TONE_AGX));
-    TRY(in_range(r, "post.exposure_ev", scene->post.exposure_ev, -60, 60));
-    TRY(in_range(r, "post.glare", (double)scene->post.glare, 0, 1));
-
-    const mgt_quality *q = &scene->quality;
-    TRY(enum_range(r, "quality.method", (int)q->method, (int)method_count - 1));
-    TRY(in_range(r, "quality.spatial_samples", q->spatial_samples, 1, 1024));
-    TRY(in_range(r, "quality.time_samples", q->time_samples, 1, 65536));
-    TRY(check_podee(r, q));
-    TRY(check_adaptive(r, q));
-    TRY(check_refraction(r, q));
-    const uint64_t samples = (uint64_t)q->spatial_samples * q->spatial_samples * q->time_samples;
-    if (q->sample_first >= samples || q->sample_count > samples - q->sample_first)
-        return report_error(r, MGT_ERROR_SCENE, "render.scene", "quality.sample_first %llu and sample_count %llu lie outside the %llu samples of a pixel",
-                            (unsigned long long)q->sample_first, (unsigned long long)q->sample_count, (unsigned long long)samples);
-    return MGT_OK;
+    TRY(check_rows(r, "post", post_fields, &scene->post));
+    return check_quality(r, &scene->quality);
 }
 
 static mgt_status validate_target(const reporter *r, const region *area, const mgt_target *target, size_t index)

@@ -13,7 +13,7 @@
 #define CPU (1u << MGT_BACKEND_CPU)
 #define CPU_AND_GL (CPU | 1u << MGT_BACKEND_GL)
 
-static const method_row rows[] =
+const method_row method_rows[] =
     {
         [MGT_METHOD_NONE] =
             {
@@ -127,14 +127,15 @@ static const method_row rows[] =
                 .pass = METHOD_PASS_ADAPTIVE,
                 .takes = METHOD_TAKES_ADAPTIVE,
             },
+        {.properties = {.name = NULL}}, /* the end */
 };
 
-const size_t method_count = sizeof rows / sizeof *rows;
-_Static_assert(sizeof rows / sizeof *rows <= METHOD_SLOTS, "arrays by method have room for all");
+const size_t method_count = sizeof method_rows / sizeof *method_rows - 1;
+_Static_assert(sizeof method_rows / sizeof *method_rows - 1 <= METHOD_SLOTS, "arrays by method have room for all");
 
-const method_row *method_of(mgt_method method) { return &rows[method]; }
+const method_row *method_of(mgt_method method) { return &method_rows[method]; }
 
-bool method_takes(mgt_method method, uint32_t options) { return rows[method].takes & options; }
+bool method_takes(mgt_method method, uint32_t options) { return method_rows[method].takes & options; }
 
 enum { MOST_STRATA = 1024 };
 
@@ -152,7 +153,7 @@ static uint32_t number_behind(const char *name, size_t length)
 bool method_from_name(const char *name, mgt_quality *quality)
 {
     for (size_t i = 0; i < method_count; i++) {
-        const method_row *row = &rows[i];
+        const method_row *row = &method_rows[i];
         const size_t length = strlen(row->properties.name);
         if (strncmp(name, row->properties.name, length) != 0)
             continue;
@@ -169,7 +170,7 @@ bool method_from_name(const char *name, mgt_quality *quality)
 
 method_text method_name(const mgt_quality *quality)
 {
-    const method_row *row = &rows[quality->method];
+    const method_row *row = &method_rows[quality->method];
     method_text out;
     if (row->numbered)
         snprintf(out.text, sizeof out.text, "%s%u", row->properties.name, quality->spatial_samples);
@@ -183,6 +184,7 @@ method_names_text method_names(void)
     method_names_text out;
     size_t used = 0;
     for (size_t i = 0; i < method_count; i++)
-        used += (size_t)snprintf(out.text + used, sizeof out.text - used, "%s%s%s", i ? ", " : "", rows[i].properties.name, rows[i].numbered ? "N" : "");
+        used += (size_t)snprintf(out.text + used, sizeof out.text - used, "%s%s%s", i ? ", " : "", method_rows[i].properties.name,
+                                 method_rows[i].numbered ? "N" : "");
     return out;
 }

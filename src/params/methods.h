@@ -55,6 +55,7 @@ typedef struct method_row {
 
 enum { METHOD_SLOTS = 32 }; /* room for rows in arrays by method */
 
+extern const method_row method_rows[]; /* by mgt_method, ended by one without a name */
 extern const size_t method_count;
 const method_row *method_of(mgt_method method);
 bool method_takes(mgt_method method, uint32_t options); /* any of METHOD_TAKES_… */

@@ -12,7 +12,7 @@ enum { DOUBLE_DIGITS = 17, FLOAT_DIGITS = 9 }; /* read back as the same number *
 /* Adding zero turns -0 into 0, which renders the same. */
 static void write_number(FILE *stream, double value, int digits) { fprintf(stream, " %.*g", digits, value + 0.0); }
 
-static void write_value(FILE *stream, const scene_field *field, const void *value)
+static void write_value(FILE *stream, const field_row *field, const void *value)
 {
     const scene_exposure *exposure = value;
     switch (field->type) {
@@ -34,8 +34,10 @@ static void write_value(FILE *stream, const scene_field *field, const void *valu
         for (int i = 0; i < 3; i++)
             write_number(stream, (double)((const float *)value)[i], FLOAT_DIGITS);
         break;
+    case FIELD_LARGE:
     case FIELD_CHOICE:
-        fprintf(stream, " %s", field->choices[*(const int *)value]);
+    case FIELD_SWITCH:
+        fprintf(stream, " %s", field_print(field, value).text);
         break;
     case FIELD_EXPOSURE:
         if (exposure->automatic)
@@ -53,10 +55,10 @@ static void write_value(FILE *stream, const scene_field *field, const void *valu
     fputc('\n', stream);
 }
 
-static void write_fields(FILE *stream, const char *path, const scene_field *mapping, const void *values)
+static void write_fields(FILE *stream, const char *path, const field_row *mapping, const void *values)
 {
-    for (const scene_field *field = mapping->fields; field->key != NULL; field++) {
-        const void *value = scene_field_at(field, values);
+    for (const field_row *field = mapping->fields; field->key != NULL; field++) {
+        const void *value = field_at(field, values);
         char name[64];
         snprintf(name, sizeof name, "%s%s%s", path, path[0] != '\0' ? "." : "", field->key);
         if (field->flags & FIELD_NO_PIXELS)

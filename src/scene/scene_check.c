@@ -72,7 +72,7 @@ static bool check_keyframes(const scene_tree *tree, const scene_camera *camera, 
         if (i > 0 && !(keyframes[i].time - keyframes[i - 1].time >= MIN_KEYFRAME_GAP))
             return tree_error(tree, time->source, time->place, error,
                               "camera.path[%zu].time is %s; allowed: later than camera.path[%zu].time, %s s, by at least 1e-6 s", i, time->text, i - 1,
-                              scene_double_text(keyframes[i - 1].time).text);
+                              double_text(keyframes[i - 1].time).text);
         camera_fault fault = scene_camera_fault(&keyframes[i].camera);
         if (fault != CAMERA_LEGAL)
             return refuse_camera(tree, faulty_node(item, fault, path), fault, "camera.path", error);
@@ -92,7 +92,7 @@ static bool check_path(const scene_tree *tree, const scene_values *values, const
             camera_fault fault = scene_camera_fault(&camera);
             if (fault != CAMERA_LEGAL) {
                 char where[96];
-                snprintf(where, sizeof where, "camera.path at %s s (frame %u)", scene_double_text(times[i]).text, frame);
+                snprintf(where, sizeof where, "camera.path at %s s (frame %u)", double_text(times[i]).text, frame);
                 return refuse_camera(tree, path, fault, where, error);
             }
         }

@@ -59,24 +59,24 @@ bool scene_values_fix_files(scene_values *values, const char *scene_path)
 
 /* ---- paths ------------------------------------------------------------------------------------------------- */
 
-static const scene_field *child_field(const scene_field *field, const char *word, size_t length)
+static const field_row *child_field(const field_row *field, const char *word, size_t length)
 {
-    for (const scene_field *child = field->fields; child != NULL && child->key != NULL; child++)
+    for (const field_row *child = field->fields; child != NULL && child->key != NULL; child++)
         if (strlen(child->key) == length && memcmp(child->key, word, length) == 0)
             return child;
     return NULL;
 }
 
-const scene_field *scene_values_find(const scene_values *values, const char *path, const void **value)
+const field_row *scene_values_find(const scene_values *values, const char *path, const void **value)
 {
-    const scene_field *field = scene_root_field();
+    const field_row *field = scene_root_field();
     const void *at = values;
     for (const char *p = path;;) {
         const size_t length = strcspn(p, ".[");
         field = child_field(field, p, length);
         if (field == NULL)
             return NULL;
-        at = scene_field_at(field, at);
+        at = field_at(field, at);
         p += length;
         if (*p == '[' && field->type == FIELD_LIST) {
             char *end;
@@ -99,35 +99,9 @@ const scene_field *scene_values_find(const scene_values *values, const char *pat
 
 /* ---- values as text ---------------------------------------------------------------------------------------- */
 
-/* The size of a leaf in its struct. */
-static size_t leaf_size(const scene_field *field)
-{
-    switch (field->type) {
-    case FIELD_COUNT:
-        return sizeof(uint32_t);
-    case FIELD_NUMBER:
-        return sizeof(double);
-    case FIELD_SHARE:
-        return sizeof(float);
-    case FIELD_VECTOR:
-    case FIELD_SCALE:
-        return 3 * sizeof(double);
-    case FIELD_COLOR:
-        return 3 * sizeof(float);
-    case FIELD_CHOICE:
-        return sizeof(int);
-    case FIELD_EXPOSURE:
-    case FIELD_TEXT:
-    case FIELD_MAPPING:
-    case FIELD_LIST:
-        break;
-    }
-    return 0;
-}
+static bool mappings_equal(const field_row *mapping, const void *left, const void *right);
 
-static bool mappings_equal(const scene_field *mapping, const void *left, const void *right);
-
-static bool lists_equal(const scene_field *field, const scene_list *left, const scene_list *right)
+static bool lists_equal(const field_row *field, const scene_list *left, const scene_list *right)
 {
     bool equal = left->count == right->count;
     for (size_t i = 0; equal && i < left->count; i++)
@@ -136,9 +110,9 @@ static bool lists_equal(const scene_field *field, const scene_list *left, const 
 }
 
 /* Of the same field in two parents. */
-static bool values_equal(const scene_field *field, const void *left_parent, const void *right_parent)
+static bool values_equal(const field_row *field, const void *left_parent, const void *right_parent)
 {
-    const void *left = scene_field_at(field, left_parent), *right = scene_field_at(field, right_parent);
+    const void *left = field_at(field, left_parent), *right = field_at(field, right_parent);
     if (field->type == FIELD_MAPPING)
         return !(field->flags & FIELD_GIVEN && *(const bool *)left != *(const bool *)right) && mappings_equal(field, left, right);
     if (field->type == FIELD_LIST)
@@ -151,20 +125,20 @@ static bool values_equal(const scene_field *field, const void *left_parent, cons
         const scene_exposure *a = left, *b = right;
         return a->automatic == b->automatic && (a->automatic || a->stops == b->stops);
     }
-    return memcmp(left, right, leaf_size(field)) == 0;
+    return memcmp(left, right, field_size(field)) == 0;
 }
 
-static bool mappings_equal(const scene_field *mapping, const void *left, const void *right)
+static bool mappings_equal(const field_row *mapping, const void *left, const void *right)
 {
     bool equal = true;
-    for (const scene_field *field = mapping->fields; equal && field->key != NULL; field++)
+    for (const field_row *field = mapping->fields; equal && field->key != NULL; field++)
         equal = values_equal(field, left, right);
     return equal;
 }
 
 bool scene_objects_equal(const scene_values *left, const scene_values *right)
 {
-    const scene_field *objects = child_field(scene_root_field(), "objects", 7);
+    const field_row *objects = child_field(scene_root_field(), "objects", 7);
     return lists_equal(objects, &left->objects, &right->objects);
 }
 
@@ -185,7 +159,7 @@ static void write_text(FILE *stream, const char *text)
 
 /* Keys that another one excludes are not written: position and target beside a path, the offset beside an exposure that is a number, what a
  * spectrum that is none is like. */
-static bool is_excluded(const scene_field *mapping, const scene_field *field, const void *parent)
+static bool is_excluded(const field_row *mapping, const field_row *field, const void *parent)
 {
     if (strcmp(mapping->key, "camera") == 0) {
         const scene_camera *camera = parent;
@@ -206,10 +180,10 @@ typedef union any_mapping {
     scene_object object;
 } any_mapping;
 
-static size_t mapping_size(const scene_field *field)
+static size_t mapping_size(const field_row *field)
 {
     size_t size = 0;
-    for (const scene_field *child = field->fields; child->key != NULL; child++) {
+    for (const field_row *child = field->fields; child->key != NULL; child++) {
         size_t end = child->offset;
         switch (child->type) {
         case FIELD_EXPOSURE:
@@ -225,7 +199,7 @@ static size_t mapping_size(const scene_field *field)
             end += mapping_size(child);
             break;
         default:
-            end += leaf_size(child);
+            end += field_size(child);
             break;
         }
         size = end > size ? end : size;
@@ -234,17 +208,17 @@ static size_t mapping_size(const scene_field *field)
 }
 
 /* `defaults`: the struct that holds the default, as `parent` holds the value. */
-typedef void (*member_writer)(FILE *stream, const scene_field *field, const void *parent, const void *defaults, bool first);
+typedef void (*member_writer)(FILE *stream, const field_row *field, const void *parent, const void *defaults, bool first);
 
-static void write_value(FILE *stream, const scene_field *field, const void *parent, const void *defaults);
+static void write_value(FILE *stream, const field_row *field, const void *parent, const void *defaults);
 
 /* Calls `write` for each member of the mapping at `at` that is not at its default; `defaults` are those of the mapping. */
-static void write_members(FILE *stream, const scene_field *mapping, const void *at, const void *defaults, member_writer write)
+static void write_members(FILE *stream, const field_row *mapping, const void *at, const void *defaults, member_writer write)
 {
     any_mapping expected;
     memcpy(&expected, defaults, mapping_size(mapping));
     bool first = true;
-    for (const scene_field *field = mapping->fields; field->key != NULL; field++) {
+    for (const field_row *field = mapping->fields; field->key != NULL; field++) {
         if (is_excluded(mapping, field, at))
             continue;
         if ((field->flags & FIELD_REQUIRED) || !values_equal(field, at, &expected)) {
@@ -252,21 +226,21 @@ static void write_members(FILE *stream, const scene_field *mapping, const void *
             first = false;
         }
         if (field->decide != NULL) {
-            memcpy((char *)&expected + field->offset, scene_field_at(field, at), leaf_size(field));
+            memcpy((char *)&expected + field->offset, field_at(field, at), field_size(field));
             field->decide(&expected);
         }
     }
 }
 
-static void write_flow_member(FILE *stream, const scene_field *field, const void *parent, const void *defaults, bool first)
+static void write_flow_member(FILE *stream, const field_row *field, const void *parent, const void *defaults, bool first)
 {
     fprintf(stream, "%s%s: ", first ? "" : ", ", field->key);
     write_value(stream, field, parent, defaults);
 }
 
-static void write_list(FILE *stream, const scene_field *field, const void *parent)
+static void write_list(FILE *stream, const field_row *field, const void *parent)
 {
-    const scene_list *list = scene_field_at(field, parent);
+    const scene_list *list = field_at(field, parent);
     fputc('[', stream);
     for (size_t i = 0; i < list->count; i++) {
         any_mapping item;
@@ -278,18 +252,19 @@ static void write_list(FILE *stream, const scene_field *field, const void *paren
     fputc(']', stream);
 }
 
-static void write_value(FILE *stream, const scene_field *field, const void *parent, const void *defaults)
+static void write_value(FILE *stream, const field_row *field, const void *parent, const void *defaults)
 {
-    const void *value = scene_field_at(field, parent);
+    const void *value = field_at(field, parent);
     const scene_exposure *exposure = value;
-    if (scene_numbers_write(stream, field, value))
+    if (field_numbers_write(stream, field, value))
         return;
     switch (field->type) {
     case FIELD_CHOICE:
-        fputs(field->choices[*(const int *)value], stream);
+    case FIELD_SWITCH:
+        fputs(field_print(field, value).text, stream);
         break;
     case FIELD_EXPOSURE:
-        fputs(exposure->automatic ? "auto" : scene_double_text(exposure->stops).text, stream);
+        fputs(exposure->automatic ? "auto" : double_text(exposure->stops).text, stream);
         break;
     case FIELD_TEXT:
         write_text(stream, *(char *const *)value);
@@ -299,7 +274,7 @@ static void write_value(FILE *stream, const scene_field *field, const void *pare
         break;
     case FIELD_MAPPING:
         fputc('{', stream);
-        write_members(stream, field, value, scene_field_at(field, defaults), write_flow_member);
+        write_members(stream, field, value, field_at(field, defaults), write_flow_member);
         fputc('}', stream);
         break;
     default:
@@ -307,11 +282,11 @@ static void write_value(FILE *stream, const scene_field *field, const void *pare
     }
 }
 
-void scene_value_write(FILE *stream, const scene_field *field, const void *parent) { write_value(stream, field, parent, parent); }
+void scene_value_write(FILE *stream, const field_row *field, const void *parent) { write_value(stream, field, parent, parent); }
 
 /* ---- whole files ------------------------------------------------------------------------------------------- */
 
-static void write_inner_member(FILE *stream, const scene_field *field, const void *parent, const void *defaults, bool first)
+static void write_inner_member(FILE *stream, const field_row *field, const void *parent, const void *defaults, bool first)
 {
     (void)first;
     if (field->type != FIELD_LIST) {
@@ -320,7 +295,7 @@ static void write_inner_member(FILE *stream, const scene_field *field, const voi
         fputc('\n', stream);
         return;
     }
-    const scene_list *list = scene_field_at(field, parent);
+    const scene_list *list = field_at(field, parent);
     fprintf(stream, "  %s:%s\n", field->key, list->count == 0 ? " []" : "");
     for (size_t i = 0; i < list->count; i++) {
         any_mapping item;
@@ -331,7 +306,7 @@ static void write_inner_member(FILE *stream, const scene_field *field, const voi
     }
 }
 
-static void write_outer_member(FILE *stream, const scene_field *field, const void *parent, const void *defaults, bool first)
+static void write_outer_member(FILE *stream, const field_row *field, const void *parent, const void *defaults, bool first)
 {
     (void)first;
     fprintf(stream, "%s:", field->key);
@@ -342,7 +317,7 @@ static void write_outer_member(FILE *stream, const scene_field *field, const voi
         return;
     }
     fputc('\n', stream);
-    write_members(stream, field, scene_field_at(field, parent), scene_field_at(field, defaults), write_inner_member);
+    write_members(stream, field, field_at(field, parent), field_at(field, defaults), write_inner_member);
 }
 
 bool scene_values_write(FILE *stream, const scene_values *values)
@@ -354,7 +329,7 @@ bool scene_values_write(FILE *stream, const scene_values *values)
 
 /* ---- words ------------------------------------------------------------------------------------------------- */
 
-static bool add_word(scene_overrides *out, const char *path, const scene_field *field, const void *parent, const void *defaults)
+static bool add_word(scene_overrides *out, const char *path, const field_row *field, const void *parent, const void *defaults)
 {
     char **words = realloc(out->words, (out->count + 1) * sizeof *words);
     if (words == NULL)
@@ -373,7 +348,7 @@ static bool add_word(scene_overrides *out, const char *path, const scene_field *
 }
 
 /* Where single members would leave a file that contradicts itself, or defaults that another key decides, the whole mapping is written. */
-static bool needs_whole(const scene_field *field, const void *from, const void *to)
+static bool needs_whole(const field_row *field, const void *from, const void *to)
 {
     if (strcmp(field->key, "camera") == 0)
         return ((const scene_camera *)from)->path.count == 0 && ((const scene_camera *)to)->path.count > 0;
@@ -382,18 +357,18 @@ static bool needs_whole(const scene_field *field, const void *from, const void *
     return strcmp(field->key, "post") == 0 && ((const scene_post *)from)->exposure.automatic != ((const scene_post *)to)->exposure.automatic;
 }
 
-static bool add_differences(scene_overrides *out, const char *path, const scene_field *mapping, const void *from, const void *to, const void *defaults)
+static bool add_differences(scene_overrides *out, const char *path, const field_row *mapping, const void *from, const void *to, const void *defaults)
 {
-    for (const scene_field *field = mapping->fields; field->key != NULL; field++) {
+    for (const field_row *field = mapping->fields; field->key != NULL; field++) {
         char name[PATH_SIZE];
         snprintf(name, sizeof name, "%s%s%s", path, path[0] != '\0' ? "." : "", field->key);
         if (values_equal(field, from, to) || is_excluded(mapping, field, to))
             continue;
-        const void *left = scene_field_at(field, from), *right = scene_field_at(field, to);
+        const void *left = field_at(field, from), *right = field_at(field, to);
         const scene_list *left_list = left, *right_list = right;
         bool good = true;
         if (field->type == FIELD_MAPPING && !needs_whole(field, left, right)) {
-            good = add_differences(out, name, field, left, right, scene_field_at(field, defaults));
+            good = add_differences(out, name, field, left, right, field_at(field, defaults));
         } else if (field->type == FIELD_LIST && left_list->count == right_list->count) {
             for (size_t i = 0; good && i < left_list->count; i++) {
                 char item[PATH_SIZE];
@@ -415,7 +390,7 @@ static bool add_differences(scene_overrides *out, const char *path, const scene_
 /* Whether `to` holds the waves of `from` written out, all that its spectrum made. */
 static bool is_written_out(const scene_values *from, const scene_values *to)
 {
-    const scene_field *water = child_field(scene_root_field(), "water", 5), *waves = child_field(water, "waves", 5);
+    const field_row *water = child_field(scene_root_field(), "water", 5), *waves = child_field(water, "waves", 5);
     return scene_water_has_sea(&from->water) && !scene_water_has_sea(&to->water) && lists_equal(waves, &from->water.sea, &to->water.waves);
 }
 

@@ -30,11 +30,11 @@ bool scene_objects_equal(const scene_values *left, const scene_values *right);
 
 /* The field that a path such as "light.elevation_deg", "water.waves[2].a" or "camera.path" names, and where `values` hold it. NULL where
  * there is none, or no such item. */
-const scene_field *scene_values_find(const scene_values *values, const char *path, const void **value);
+const field_row *scene_values_find(const scene_values *values, const char *path, const void **value);
 
 /* Writes a single value or a list as YAML and `--set` read it: "3", "[0, 4, 0]", "sun", "[{a: 1, b: 2}]". `parent`: the struct that holds
  * the value. */
-void scene_value_write(FILE *stream, const scene_field *field, const void *parent);
+void scene_value_write(FILE *stream, const field_row *field, const void *parent);
 
 /* A whole scene file that reads back as the same values. False on a write error. */
 bool scene_values_write(FILE *stream, const scene_values *values);

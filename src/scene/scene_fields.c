@@ -4,6 +4,8 @@
  */
 #include "scene/scene_fields.h"
 
+#include "params/options.h"
+
 #include <stdio.h>
 #include <string.h>
 
@@ -21,7 +23,6 @@ static const char *const spectrum_slopes[] = {"spectrum", "cox-munk", NULL};
 static const char *const clarities[] = {"pure", "clear", "coastal", "murky", NULL};
 static const char *const shapes[] = {"mesh", "plane", "box", "sphere", "steps", "pool", "floor", NULL};
 static const char *const patterns[] = {"none", "tiles", "checker", "stripes", NULL};
-static const char *const tone_maps[] = {"none", "reinhard", "aces", "agx", NULL};
 
 static void decide_body(void *parent)
 {
@@ -68,9 +69,9 @@ static void prepare_object(const void *parent, void *item)
     prepare_pose(parent, &object->pose);
 }
 
-static const scene_field image_fields[] = {{"width", FIELD_COUNT, offsetof(mgt_image, width), 0, SIDE, "pixels", .doc = "width of the whole image"},
-                                           {"height", FIELD_COUNT, offsetof(mgt_image, height), 0, SIDE, "pixels", .doc = "height of the whole image"},
-                                           {0}};
+static const field_row image_fields[] = {{"width", FIELD_COUNT, offsetof(mgt_image, width), 0, SIDE, "pixels", .doc = "width of the whole image"},
+                                         {"height", FIELD_COUNT, offsetof(mgt_image, height), 0, SIDE, "pixels", .doc = "height of the whole image"},
+                                         {0}};
 
 /* The rows of an mgt_camera inside a struct: a still camera and a keyframe share them. */
 #define POSE(type, member, required)                                                                                                                     \
@@ -87,28 +88,27 @@ static const scene_field image_fields[] = {{"width", FIELD_COUNT, offsetof(mgt_i
         "fov_y_deg", FIELD_NUMBER, offsetof(type, member.fov_y_deg), FIELD_OPEN_MIN | FIELD_OPEN_MAX, 0, 179, "degrees", .doc = "vertical field of view" \
     }
 
-static const scene_field keyframe_fields[] = {{"time", FIELD_NUMBER, offsetof(scene_keyframe, time), FIELD_REQUIRED, ANYWHERE, "s",
-                                               .doc = "scene time, on the clock of time.start; each later than the one before"},
-                                              POSE(scene_keyframe, camera, FIELD_REQUIRED),
-                                              {0}};
+static const field_row keyframe_fields[] = {{"time", FIELD_NUMBER, offsetof(scene_keyframe, time), FIELD_REQUIRED, ANYWHERE, "s",
+                                             .doc = "scene time, on the clock of time.start; each later than the one before"},
+                                            POSE(scene_keyframe, camera, FIELD_REQUIRED),
+                                            {0}};
 
-static const scene_field camera_fields[] =
+static const field_row camera_fields[] =
     {POSE(scene_camera, still, 0),
      {"path", FIELD_LIST, offsetof(scene_camera, path), 0, NO_RANGE, NULL,
       .doc = "keyframes of a moving camera, in place of position and target; up and fov_y_deg are then the keyframes' defaults", .fields = keyframe_fields,
       .item_size = sizeof(scene_keyframe), .max_items = 10000, .prepare = prepare_keyframe},
      {0}};
 
-static const scene_field time_fields[] = {{"start", FIELD_NUMBER, offsetof(scene_clock, start), 0, -1e8, 1e8, "s", .doc = "scene time of frame 0"},
-                                          {"fps", FIELD_NUMBER, offsetof(scene_clock, fps), 0, 0.01, 1000, "frames/s",
-                                           .doc = "frames a second; frame f shows start + f/fps"},
-                                          {"frames", FIELD_COUNT, offsetof(scene_clock, frames), FIELD_NO_PIXELS, 1, 1000000, NULL,
-                                           .doc = "length of the film"},
-                                          {"shutter", FIELD_NUMBER, offsetof(scene_clock, shutter), 0, 0, 1000, "frames",
-                                           .doc = "how long light is gathered before a frame's time, as a share of 1/fps; 0: an instant"},
-                                          {0}};
+static const field_row time_fields[] = {{"start", FIELD_NUMBER, offsetof(scene_clock, start), 0, -1e8, 1e8, "s", .doc = "scene time of frame 0"},
+                                        {"fps", FIELD_NUMBER, offsetof(scene_clock, fps), 0, 0.01, 1000, "frames/s",
+                                         .doc = "frames a second; frame f shows start + f/fps"},
+                                        {"frames", FIELD_COUNT, offsetof(scene_clock, frames), FIELD_NO_PIXELS, 1, 1000000, NULL, .doc = "length of the film"},
+                                        {"shutter", FIELD_NUMBER, offsetof(scene_clock, shutter), 0, 0, 1000, "frames",
+                                         .doc = "how long light is gathered before a frame's time, as a share of 1/fps; 0: an instant"},
+                                        {0}};
 
-static const scene_field light_fields[] =
+static const field_row light_fields[] =
     {{"body", FIELD_CHOICE, offsetof(mgt_light, body), 0, NO_RANGE, NULL,
       .doc = "kind of light: sets the defaults of angular_radius_deg and radiance, and the limb darkening", .choices = bodies, .decide = decide_body},
      {"elevation_deg", FIELD_NUMBER, offsetof(mgt_light, elevation_deg), 0, -90, 90, "degrees",
@@ -119,7 +119,7 @@ static const scene_field light_fields[] =
       .doc = "linear sRGB; with the atmosphere sky as seen outside the atmosphere"},
      {0}};
 
-static const scene_field sky_fields[] =
+static const field_row sky_fields[] =
     {{"model", FIELD_CHOICE, offsetof(mgt_sky, model), 0, NO_RANGE, NULL,
       .doc = "atmosphere: scattering, day to night; gradient: horizon to zenith; black: only the glitter", .choices = sky_models},
      {"turbidity", FIELD_SHARE, offsetof(mgt_sky, turbidity), 0, 1, 10, NULL, .doc = "aerosol amount over clear air (atmosphere)"},
@@ -128,15 +128,15 @@ static const scene_field sky_fields[] =
      {"night", FIELD_COLOR, offsetof(mgt_sky, night), 0, 0, 1e9, "kcd/m²", .doc = "linear sRGB, airglow and stars, added everywhere (atmosphere)"},
      {0}};
 
-static const scene_field wave_fields[] = {{"amplitude", FIELD_NUMBER, offsetof(mgt_wave, amplitude), FIELD_REQUIRED, 0, 1000, "m",
-                                           .doc = "height of the crest over the mean surface"},
-                                          {"a", FIELD_NUMBER, offsetof(mgt_wave, a), FIELD_REQUIRED, -1e5, 1e5, "rad/m", .doc = "wave vector along x"},
-                                          {"b", FIELD_NUMBER, offsetof(mgt_wave, b), FIELD_REQUIRED, -1e5, 1e5, "rad/m", .doc = "wave vector along z"},
-                                          {"c", FIELD_NUMBER, offsetof(mgt_wave, c), FIELD_REQUIRED, -1e5, 1e5, "rad/s", .doc = "angular speed"},
-                                          {"phase", FIELD_NUMBER, offsetof(mgt_wave, phase), 0, ANYWHERE, "rad", .doc = "phase at x = z = 0, time 0"},
-                                          {0}};
+static const field_row wave_fields[] = {{"amplitude", FIELD_NUMBER, offsetof(mgt_wave, amplitude), FIELD_REQUIRED, 0, 1000, "m",
+                                         .doc = "height of the crest over the mean surface"},
+                                        {"a", FIELD_NUMBER, offsetof(mgt_wave, a), FIELD_REQUIRED, -1e5, 1e5, "rad/m", .doc = "wave vector along x"},
+                                        {"b", FIELD_NUMBER, offsetof(mgt_wave, b), FIELD_REQUIRED, -1e5, 1e5, "rad/m", .doc = "wave vector along z"},
+                                        {"c", FIELD_NUMBER, offsetof(mgt_wave, c), FIELD_REQUIRED, -1e5, 1e5, "rad/s", .doc = "angular speed"},
+                                        {"phase", FIELD_NUMBER, offsetof(mgt_wave, phase), 0, ANYWHERE, "rad", .doc = "phase at x = z = 0, time 0"},
+                                        {0}};
 
-static const scene_field spectrum_fields[] =
+static const field_row spectrum_fields[] =
     {{"model", FIELD_CHOICE, offsetof(scene_spectrum, settings.kind), 0, NO_RANGE, NULL, .doc = "which sea; none: no further waves; buoy: the table in file",
       .choices = spectrum_kinds},
      {"wind", FIELD_NUMBER, offsetof(scene_spectrum, settings.wind), 0, 0.5, 75, "m/s", .doc = "speed of the wind"},
@@ -160,25 +160,25 @@ static const scene_field spectrum_fields[] =
      {"file", FIELD_TEXT, offsetof(scene_spectrum, file), 0, NO_RANGE, NULL, .doc = "table of a buoy, from the scene's folder (see waves.md)"},
      {0}};
 
-static const scene_field water_fields[] = {{"waves", FIELD_LIST, offsetof(scene_water, waves), 0, NO_RANGE, NULL,
-                                            .doc = "each adds amplitude·sin(a·x + b·z + c·t + phase) to the height; none: a flat mirror", .fields = wave_fields,
-                                            .item_size = sizeof(mgt_wave), .max_items = MGT_MAX_WAVES, .prepare = prepare_wave},
-                                           {"spectrum", FIELD_MAPPING, offsetof(scene_water, spectrum), FIELD_NO_PIXELS, NO_RANGE, NULL,
-                                            .doc = "waves drawn from a wind's or a buoy's spectrum, beside those of waves", .fields = spectrum_fields},
-                                           {"amplitude", FIELD_NUMBER, offsetof(scene_water, amplitude), FIELD_NO_PIXELS, 0, 1000, NULL,
-                                            .doc = "factor on the heights of all waves, those of the spectrum too; 0: a flat mirror"},
-                                           {"level", FIELD_NUMBER, offsetof(scene_water, level), 0, -1e6, 1e6, "m", .doc = "height of the mean surface"},
-                                           {"ior", FIELD_NUMBER, offsetof(scene_water, index_of_refraction), 0, 1, 3, NULL, .doc = "index of refraction"},
-                                           {"clarity", FIELD_CHOICE, offsetof(scene_water, clarity), FIELD_NO_PIXELS, NO_RANGE, NULL,
-                                            .doc = "sets the defaults of absorption and scattering: a clean pool, clear ocean, a coast, a harbour",
-                                            .choices = clarities, .decide = decide_clarity},
-                                           {"absorption", FIELD_COLOR, offsetof(scene_water, absorption), 0, 0, 1000, "1/m",
-                                            .doc = "light that a metre of water absorbs, linear sRGB; for what is seen through it"},
-                                           {"scattering", FIELD_COLOR, offsetof(scene_water, scattering), 0, 0, 1000, "1/m",
-                                            .doc = "light that a metre of water scatters, linear sRGB; for what is seen through it"},
-                                           {"body_albedo", FIELD_COLOR, offsetof(scene_water, body_albedo), 0, 0, 1, NULL,
-                                            .doc = "share of the light entering the water that deep water sends up again, linear sRGB"},
-                                           {0}};
+static const field_row water_fields[] = {{"waves", FIELD_LIST, offsetof(scene_water, waves), 0, NO_RANGE, NULL,
+                                          .doc = "each adds amplitude·sin(a·x + b·z + c·t + phase) to the height; none: a flat mirror", .fields = wave_fields,
+                                          .item_size = sizeof(mgt_wave), .max_items = MGT_MAX_WAVES, .prepare = prepare_wave},
+                                         {"spectrum", FIELD_MAPPING, offsetof(scene_water, spectrum), FIELD_NO_PIXELS, NO_RANGE, NULL,
+                                          .doc = "waves drawn from a wind's or a buoy's spectrum, beside those of waves", .fields = spectrum_fields},
+                                         {"amplitude", FIELD_NUMBER, offsetof(scene_water, amplitude), FIELD_NO_PIXELS, 0, 1000, NULL,
+                                          .doc = "factor on the heights of all waves, those of the spectrum too; 0: a flat mirror"},
+                                         {"level", FIELD_NUMBER, offsetof(scene_water, level), 0, -1e6, 1e6, "m", .doc = "height of the mean surface"},
+                                         {"ior", FIELD_NUMBER, offsetof(scene_water, index_of_refraction), 0, 1, 3, NULL, .doc = "index of refraction"},
+                                         {"clarity", FIELD_CHOICE, offsetof(scene_water, clarity), FIELD_NO_PIXELS, NO_RANGE, NULL,
+                                          .doc = "sets the defaults of absorption and scattering: a clean pool, clear ocean, a coast, a harbour",
+                                          .choices = clarities, .decide = decide_clarity},
+                                         {"absorption", FIELD_COLOR, offsetof(scene_water, absorption), 0, 0, 1000, "1/m",
+                                          .doc = "light that a metre of water absorbs, linear sRGB; for what is seen through it"},
+                                         {"scattering", FIELD_COLOR, offsetof(scene_water, scattering), 0, 0, 1000, "1/m",
+                                          .doc = "light that a metre of water scatters, linear sRGB; for what is seen through it"},
+                                         {"body_albedo", FIELD_COLOR, offsetof(scene_water, body_albedo), 0, 0, 1, NULL,
+                                          .doc = "share of the light entering the water that deep water sends up again, linear sRGB"},
+                                         {0}};
 
 /* The rows of a scene_pose inside a struct: an object and its instances share them. */
 #define PLACE(type, member)                                                                                                                              \
@@ -195,13 +195,13 @@ static const scene_field water_fields[] = {{"waves", FIELD_LIST, offsetof(scene_
         "scale", FIELD_SCALE, offsetof(type, member) + offsetof(scene_pose, scale), 0, 1e-6, 1e6, NULL, .doc = "factor on the size, before it is turned" \
     }
 
-static const scene_field instance_fields[] = {PLACE(
-                                                  struct { scene_pose pose; }, pose),
-                                              {0}};
+static const field_row instance_fields[] = {PLACE(
+                                                struct { scene_pose pose; }, pose),
+                                            {0}};
 
 #define LOOK(member) offsetof(scene_material, look.member)
 
-static const scene_field material_fields[] =
+static const field_row material_fields[] =
     {{"base_color", FIELD_COLOR, LOOK(base_color), 0, 0, 1, NULL, .doc = "linear sRGB, times the texture"},
      {"roughness", FIELD_SHARE, LOOK(roughness), 0, 0.02, 1, NULL, .doc = "of the gloss (GGX, alpha is its square)"},
      {"metallic", FIELD_SHARE, LOOK(metallic), 0, 0, 1, NULL, .doc = "1: a metal; 0: mirrors 4% at normal incidence and is diffuse below"},
@@ -215,7 +215,7 @@ static const scene_field material_fields[] =
      {"pattern_joint", FIELD_SHARE, LOOK(pattern_joint), 0, 0, 0.999, NULL, .doc = "width of a joint as a share of a tile"},
      {0}};
 
-static const scene_field object_fields[] =
+static const field_row object_fields[] =
     {{"name", FIELD_TEXT, offsetof(scene_object, name), FIELD_NO_PIXELS, NO_RANGE, NULL, .doc = "free text"},
      {"mesh", FIELD_TEXT, offsetof(scene_object, mesh), FIELD_NO_PIXELS, NO_RANGE, NULL,
       .doc = "file of triangles (.gltf, .glb, .obj, .ply), from the scene's folder; this or shape"},
@@ -237,16 +237,14 @@ static const scene_field object_fields[] =
       .doc = "what it is made of; replaces the materials of a mesh's file", .fields = material_fields},
      {0}};
 
-static const scene_field post_fields[] = {{"exposure", FIELD_EXPOSURE, offsetof(scene_post, exposure), 0, -60, 60, "stops",
-                                           .doc = "auto: from light and sky, the same for a whole film; a number: 2^exposure per kcd/m²"},
-                                          {"exposure_offset", FIELD_NUMBER, offsetof(scene_post, exposure_offset), 0, -60, 60, "stops",
-                                           .doc = "added to the automatic exposure"},
-                                          {"tone_map", FIELD_CHOICE, offsetof(scene_post, tone_map), 0, NO_RANGE, NULL,
-                                           .doc = "how radiance becomes displayed colour", .choices = tone_maps},
-                                          {"glare", FIELD_SHARE, offsetof(scene_post, glare), 0, 0, 1, NULL, .doc = "share of the light that the eye scatters"},
-                                          {0}};
+static const field_row scene_post_fields[] = {{"exposure", FIELD_EXPOSURE, offsetof(scene_post, exposure), 0, EXPOSURE_RANGE,
+                                               .doc = "auto: from light and sky, the same for a whole film; a number: 2^exposure per kcd/m²"},
+                                              {"exposure_offset", FIELD_NUMBER, offsetof(scene_post, exposure_offset), 0, EXPOSURE_RANGE,
+                                               .doc = "added to the automatic exposure"},
+                                              POST_ROWS(scene_post),
+                                              {0}};
 
-static const scene_field scene_fields[] =
+static const field_row scene_fields[] =
     {{"mangata", FIELD_COUNT, offsetof(scene_values, version), FIELD_REQUIRED, VERSION, NULL, .doc = "version of the format"},
      {"description", FIELD_TEXT, offsetof(scene_values, description), FIELD_NO_PIXELS, NO_RANGE, NULL, .doc = "free text"},
      {"image", FIELD_MAPPING, offsetof(scene_values, image), 0, NO_RANGE, NULL, .doc = "the picture", .fields = image_fields},
@@ -257,106 +255,9 @@ static const scene_field scene_fields[] =
      {"water", FIELD_MAPPING, offsetof(scene_values, water), 0, NO_RANGE, NULL, .doc = "the surface and what is under it", .fields = water_fields},
      {"objects", FIELD_LIST, offsetof(scene_values, objects), 0, NO_RANGE, NULL, .doc = "what stands in and around the water", .fields = object_fields,
       .item_size = sizeof(scene_object), .max_items = 10000, .prepare = prepare_object},
-     {"post", FIELD_MAPPING, offsetof(scene_values, post), 0, NO_RANGE, NULL, .doc = "from radiance to 8-bit pictures", .fields = post_fields},
+     {"post", FIELD_MAPPING, offsetof(scene_values, post), 0, NO_RANGE, NULL, .doc = "from radiance to 8-bit pictures", .fields = scene_post_fields},
      {0}};
 
-static const scene_field root_field = {"", FIELD_MAPPING, 0, 0, NO_RANGE, NULL, .doc = "a scene of Mangata", .fields = scene_fields};
+static const field_row root_field = {"", FIELD_MAPPING, 0, 0, NO_RANGE, NULL, .doc = "a scene of Mangata", .fields = scene_fields};
 
-const scene_field *scene_root_field(void) { return &root_field; }
-
-bool scene_numbers_write(FILE *stream, const scene_field *field, const void *value)
-{
-    const double *scales = value;
-    switch (field->type) {
-    case FIELD_COUNT:
-        fprintf(stream, "%u", *(const uint32_t *)value);
-        return true;
-    case FIELD_NUMBER:
-        fputs(scene_double_text(*(const double *)value).text, stream);
-        return true;
-    case FIELD_SHARE:
-        fputs(scene_float_text(*(const float *)value).text, stream);
-        return true;
-    case FIELD_SCALE:
-        if (scales[0] == scales[1] && scales[0] == scales[2]) {
-            fputs(scene_double_text(scales[0]).text, stream);
-            return true;
-        }
-        /* fall through */
-    case FIELD_VECTOR:
-    case FIELD_COLOR:
-        for (int i = 0; i < 3; i++) {
-            const scene_number_text number =
-                field->type != FIELD_COLOR ? scene_double_text(((const double *)value)[i]) : scene_float_text(((const float *)value)[i]);
-            fprintf(stream, "%s%s", i == 0 ? "[" : ", ", number.text);
-        }
-        fputc(']', stream);
-        return true;
-    default:
-        return false;
-    }
-}
-
-bool scene_field_in_range(const scene_field *field, double value)
-{
-    bool above = field->flags & FIELD_OPEN_MIN ? value > field->min : value >= field->min;
-    bool below = field->flags & FIELD_OPEN_MAX ? value < field->max : value <= field->max;
-    return above && below;
-}
-
-void scene_field_range(const scene_field *field, bool with_unit, char *out, size_t size)
-{
-    scene_number_text low = scene_double_text(field->min), high = scene_double_text(field->max);
-    const char *min = low.text, *max = high.text;
-    const char *space = with_unit && field->unit != NULL ? " " : "";
-    const char *unit = with_unit && field->unit != NULL ? field->unit : "";
-    if (field->min == field->max)
-        snprintf(out, size, "%s", min);
-    else if (field->flags & (FIELD_OPEN_MIN | FIELD_OPEN_MAX))
-        snprintf(out, size, "%s %s and %s %s%s%s", field->flags & FIELD_OPEN_MIN ? "above" : "at least", min,
-                 field->flags & FIELD_OPEN_MAX ? "below" : "at most", max, space, unit);
-    else
-        snprintf(out, size, "%s to %s%s%s", min, max, space, unit);
-}
-
-void scene_field_allowed(const scene_field *field, char *out, size_t size)
-{
-    char range[96];
-    scene_field_range(field, true, range, sizeof range);
-    size_t used;
-    switch (field->type) {
-    case FIELD_COUNT:
-        snprintf(out, size, field->min == field->max ? "%s" : "a whole number, %s", range);
-        break;
-    case FIELD_NUMBER:
-    case FIELD_SHARE:
-        snprintf(out, size, "a number, %s", range);
-        break;
-    case FIELD_VECTOR:
-        snprintf(out, size, "a list of 3 numbers [x, y, z], each %s", range);
-        break;
-    case FIELD_SCALE:
-        snprintf(out, size, "a number, or a list of 3 numbers [x, y, z], each %s", range);
-        break;
-    case FIELD_COLOR:
-        snprintf(out, size, "a list of 3 numbers [r, g, b], each %s", range);
-        break;
-    case FIELD_EXPOSURE:
-        snprintf(out, size, "auto or a number, %s", range);
-        break;
-    case FIELD_TEXT:
-        snprintf(out, size, "text");
-        break;
-    case FIELD_CHOICE:
-        used = (size_t)snprintf(out, size, "one of");
-        for (size_t i = 0; field->choices[i] != NULL && used < size; i++)
-            used += (size_t)snprintf(out + used, size - used, "%s %s", i > 0 ? "," : "", field->choices[i]);
-        break;
-    case FIELD_MAPPING:
-        snprintf(out, size, "a mapping {key: value, ...}");
-        break;
-    case FIELD_LIST:
-        snprintf(out, size, "a list of at most %zu mappings", field->max_items);
-        break;
-    }
-}
+const field_row *scene_root_field(void) { return &root_field; }

@@ -11,6 +11,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
+#include "params/field.h"
 #include "scene/scene_text.h"
 #include "scene/spectrum_model.h"
 
@@ -128,65 +129,12 @@ static inline scene_list scene_water_all(const scene_water *water) { return scen
 
 /* ---- the table ------------------------------------------------------------------------------------------ */
 
-typedef enum field_type {
-    FIELD_COUNT,    /* uint32_t */
-    FIELD_NUMBER,   /* double */
-    FIELD_SHARE,    /* float */
-    FIELD_VECTOR,   /* double[3] */
-    FIELD_SCALE,    /* double[3]: one number for all, or three */
-    FIELD_COLOR,    /* float[3] */
-    FIELD_CHOICE,   /* int, one of `choices` by name */
-    FIELD_EXPOSURE, /* scene_exposure: "auto" or a number */
-    FIELD_TEXT,     /* char * */
-    FIELD_MAPPING,  /* `fields` inside */
-    FIELD_LIST      /* scene_list of mappings with `fields` inside */
-} field_type;
-
-typedef enum field_flags {
-    FIELD_REQUIRED = 1,
-    FIELD_OPEN_MIN = 2,  /* the minimum itself is not allowed */
-    FIELD_OPEN_MAX = 4,  /* nor the maximum */
-    FIELD_NO_PIXELS = 8, /* changes no pixel, or not as it stands: left out of the canonical text */
-    FIELD_GIVEN = 16     /* mapping: its struct begins with a bool, whether it stands in the file */
-} field_flags;
-
-typedef struct scene_field scene_field;
-struct scene_field {
-    const char *key;
-    field_type type;
-    size_t offset; /* in the parent's struct */
-    unsigned flags;
-    double min, max;
-    const char *unit; /* NULL: none */
-    const char *doc;
-    const char *const *choices;  /* in the enum's order, NULL-terminated */
-    const scene_field *fields;   /* ended by one without a key */
-    size_t item_size, max_items; /* list */
-    /* After a key was read: sets what it decides of its neighbours, which are read later. */
-    void (*decide)(void *parent);
-    /* Before a list item is read: its defaults, from the struct that holds the list. */
-    void (*prepare)(const void *parent, void *item);
-};
-
 enum { SCENE_SHAPE_TRIANGLES = 4194304 }; /* of a built-in shape */
 
 /* The format: a mapping whose struct is scene_values. */
-const scene_field *scene_root_field(void);
-
-/* "-90 to 90 degrees", "above 0 and below 179 degrees", "one of sun, moon", …: what a message allows. `out` is cut to size. */
-void scene_field_allowed(const scene_field *field, char *out, size_t size);
-
-/* Only the range and, if wanted, the unit of a number: "-90 to 90". */
-void scene_field_range(const scene_field *field, bool with_unit, char *out, size_t size);
-
-bool scene_field_in_range(const scene_field *field, double value);
-
-/* Writes the value of a field of numbers as JSON, which is YAML too: "30", "[0, 4, 0]". False for fields of other types. */
-bool scene_numbers_write(FILE *stream, const scene_field *field, const void *value);
+const field_row *scene_root_field(void);
 
 /* The text behind scene_file_canonical(). */
 char *scene_values_canonical(const scene_values *values, size_t *length);
-
-static inline const void *scene_field_at(const scene_field *field, const void *parent) { return (const char *)parent + field->offset; }
 
 #endif

@@ -4,13 +4,11 @@
  */
 #include "scene/scene_read.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
-enum { MAX_FIELDS = 32 };
+enum { MAX_FIELDS = 64 };
 
 typedef struct scene_reader {
     const scene_tree *tree;
@@ -21,11 +19,11 @@ typedef struct scene_reader {
 /* ---- messages ------------------------------------------------------------------------------------------- */
 
 /* "elevation_deg is …; allowed: …": the one shape of all messages about values. */
-static bool refuse_value(const scene_reader *reader, const scene_field *field, const tree_node *node)
+static bool refuse_value(const scene_reader *reader, const field_row *field, const tree_node *node)
 {
     char allowed[160], value[128];
     scene_quote quote = scene_quote_text(node->text != NULL ? node->text : "", node->length);
-    scene_field_allowed(field, allowed, sizeof allowed);
+    field_allowed(field, allowed, sizeof allowed);
     switch (node->kind) {
     case TREE_NULL:
         snprintf(value, sizeof value, "empty");
@@ -54,11 +52,11 @@ static size_t key_distance(const char *key, const char *known)
     return 2 * distance < strlen(known) ? distance : SIZE_MAX;
 }
 
-static bool refuse_unknown_key(const scene_reader *reader, const scene_field *mapping, const tree_node *node)
+static bool refuse_unknown_key(const scene_reader *reader, const field_row *mapping, const tree_node *node)
 {
     char known[320] = "", hint[64] = "";
     size_t nearest = 3, used = 0; /* further than two edits is no slip of the finger */
-    for (const scene_field *field = mapping->fields; field->key != NULL; field++) {
+    for (const field_row *field = mapping->fields; field->key != NULL; field++) {
         size_t distance = key_distance(node->key, field->key);
         if (distance < nearest) {
             nearest = distance;
@@ -90,67 +88,19 @@ static void path_leave(scene_reader *reader, size_t length) { reader->path[lengt
 
 /* ---- numbers -------------------------------------------------------------------------------------------- */
 
-static const char *skip_digits(const char *text) { return text + strspn(text, "0123456789"); }
-
-/* The numbers of YAML's core schema: decimal, 0x and 0o; strtod alone would also take "nan", "1e" or " 3". */
-static bool is_decimal(const char *text)
-{
-    text += *text == '-' || *text == '+';
-    const char *whole = skip_digits(text), *end = whole;
-    bool digits = whole > text;
-    if (*end == '.') {
-        const char *fraction = skip_digits(end + 1);
-        digits |= fraction > end + 1;
-        end = fraction;
-    }
-    if (digits && (*end == 'e' || *end == 'E')) {
-        const char *exponent = end + 1 + (end[1] == '-' || end[1] == '+');
-        end = skip_digits(exponent);
-        digits = end > exponent;
-    }
-    return digits && *end == '\0';
-}
-
-/* False where the scalar is no number at all; infinities and NaN come out as such and fail every range. */
-static bool node_number(const tree_node *node, double *value)
-{
-    if (node->kind != TREE_SCALAR || !node->plain)
-        return false;
-    const char *text = node->text;
-    const char *unsigned_text = text + (*text == '-' || *text == '+');
-    if (is_decimal(text)) {
-        *value = strtod(text, NULL);
-        return true;
-    }
-    if (strcasecmp(unsigned_text, ".inf") == 0 || strcasecmp(text, ".nan") == 0) {
-        *value = NAN;
-        return true;
-    }
-    bool hexadecimal = text[0] == '0' && text[1] == 'x', octal = text[0] == '0' && text[1] == 'o';
-    const char *digits = hexadecimal ? "0123456789abcdefABCDEF" : "01234567";
-    if ((!hexadecimal && !octal) || node->length < 3 || node->length > 18 || strspn(text + 2, digits) != node->length - 2)
-        return false;
-    *value = (double)strtoull(text + 2, NULL, hexadecimal ? 16 : 8);
-    return true;
-}
-
 /* A number in the field's range. */
-static bool read_number(const scene_reader *reader, const scene_field *field, const tree_node *node, double *value)
+static bool read_number(const scene_reader *reader, const field_row *field, const tree_node *node, double *value)
 {
-    if (!node_number(node, value) || !isfinite(*value) || !scene_field_in_range(field, *value))
-        return refuse_value(reader, field, node);
-    if (field->type == FIELD_COUNT && *value != floor(*value))
-        return refuse_value(reader, field, node);
-    return true;
+    return (node->kind == TREE_SCALAR && node->plain && number_read(node->text, value) && field_in_range(field, *value)) || refuse_value(reader, field, node);
 }
 
 /* ---- values --------------------------------------------------------------------------------------------- */
 
-static bool read_vector(scene_reader *reader, const scene_field *field, const tree_node *node, double vector[3])
+static bool read_vector(scene_reader *reader, const field_row *field, const tree_node *node, double vector[3])
 {
     if (node->kind != TREE_LIST || node->count != 3)
         return refuse_value(reader, field, node);
-    scene_field component = *field;
+    field_row component = *field;
     component.type = FIELD_NUMBER;
     const tree_node *item = node->first;
     for (size_t i = 0; i < 3; i++, item = item->next) {
@@ -162,7 +112,7 @@ static bool read_vector(scene_reader *reader, const scene_field *field, const tr
     return true;
 }
 
-static bool read_scale(scene_reader *reader, const scene_field *field, const tree_node *node, double scale[3])
+static bool read_scale(scene_reader *reader, const field_row *field, const tree_node *node, double scale[3])
 {
     if (node->kind == TREE_LIST)
         return read_vector(reader, field, node, scale);
@@ -172,18 +122,13 @@ static bool read_scale(scene_reader *reader, const scene_field *field, const tre
     return true;
 }
 
-static bool read_choice(const scene_reader *reader, const scene_field *field, const tree_node *node, int *choice)
+/* A single number, choice or switch. Words may be quoted, numbers not. */
+static bool read_single(const scene_reader *reader, const field_row *field, const tree_node *node, void *value)
 {
-    if (node->kind == TREE_SCALAR)
-        for (int i = 0; field->choices[i] != NULL; i++)
-            if (strcmp(node->text, field->choices[i]) == 0) {
-                *choice = i;
-                return true;
-            }
-    return refuse_value(reader, field, node);
+    return (node->kind == TREE_SCALAR && (node->plain || field->choices) && field_parse(field, node->text, value)) || refuse_value(reader, field, node);
 }
 
-static bool read_text(const scene_reader *reader, const scene_field *field, const tree_node *node, char **text)
+static bool read_text(const scene_reader *reader, const field_row *field, const tree_node *node, char **text)
 {
     if (node->kind != TREE_SCALAR)
         return refuse_value(reader, field, node);
@@ -195,7 +140,7 @@ static bool read_text(const scene_reader *reader, const scene_field *field, cons
     return true;
 }
 
-static bool read_exposure(const scene_reader *reader, const scene_field *field, const tree_node *node, scene_exposure *exposure)
+static bool read_exposure(const scene_reader *reader, const field_row *field, const tree_node *node, scene_exposure *exposure)
 {
     if (node->kind == TREE_SCALAR && strcmp(node->text, "auto") == 0) {
         *exposure = (scene_exposure){.automatic = true};
@@ -205,9 +150,9 @@ static bool read_exposure(const scene_reader *reader, const scene_field *field, 
     return read_number(reader, field, node, &exposure->stops);
 }
 
-static bool read_mapping(scene_reader *reader, const scene_field *field, const tree_node *node, void *values);
+static bool read_mapping(scene_reader *reader, const field_row *field, const tree_node *node, void *values);
 
-static bool read_list(scene_reader *reader, const scene_field *field, const tree_node *node, void *parent)
+static bool read_list(scene_reader *reader, const field_row *field, const tree_node *node, void *parent)
 {
     scene_list *list = (scene_list *)((char *)parent + field->offset);
     if (node->kind != TREE_LIST)
@@ -233,35 +178,28 @@ static bool read_list(scene_reader *reader, const scene_field *field, const tree
     return true;
 }
 
-static bool read_field(scene_reader *reader, const scene_field *field, const tree_node *node, void *parent)
+static bool read_field(scene_reader *reader, const field_row *field, const tree_node *node, void *parent)
 {
     void *place = (char *)parent + field->offset;
-    double number, vector[3];
+    double vector[3];
     switch (field->type) {
     case FIELD_COUNT:
-        if (!read_number(reader, field, node, &number))
-            return false;
-        *(uint32_t *)place = (uint32_t)number;
-        return true;
+    case FIELD_LARGE:
+    case FIELD_NUMBER:
     case FIELD_SHARE:
-        if (!read_number(reader, field, node, &number))
-            return false;
-        *(float *)place = (float)number;
-        return true;
+    case FIELD_CHOICE:
+    case FIELD_SWITCH:
+        return read_single(reader, field, node, place);
     case FIELD_COLOR:
         if (!read_vector(reader, field, node, vector))
             return false;
         for (int i = 0; i < 3; i++)
             ((float *)place)[i] = (float)vector[i];
         return true;
-    case FIELD_NUMBER:
-        return read_number(reader, field, node, place);
     case FIELD_VECTOR:
         return read_vector(reader, field, node, place);
     case FIELD_SCALE:
         return read_scale(reader, field, node, place);
-    case FIELD_CHOICE:
-        return read_choice(reader, field, node, place);
     case FIELD_EXPOSURE:
         return read_exposure(reader, field, node, place);
     case FIELD_TEXT:
@@ -277,7 +215,7 @@ static bool read_field(scene_reader *reader, const scene_field *field, const tre
 }
 
 /* Which field each child is; refuses unknown and repeated keys, in the order of the file. */
-static bool match_keys(const scene_reader *reader, const scene_field *mapping, const tree_node *node, const tree_node *found[MAX_FIELDS])
+static bool match_keys(const scene_reader *reader, const field_row *mapping, const tree_node *node, const tree_node *found[MAX_FIELDS])
 {
     for (const tree_node *child = node->first; child != NULL; child = child->next) {
         size_t index = 0;
@@ -294,22 +232,22 @@ static bool match_keys(const scene_reader *reader, const scene_field *mapping, c
     return true;
 }
 
-static bool read_mapping(scene_reader *reader, const scene_field *mapping, const tree_node *node, void *values)
+static bool read_mapping(scene_reader *reader, const field_row *mapping, const tree_node *node, void *values)
 {
     const tree_node *found[MAX_FIELDS] = {0};
     if (node->kind != TREE_MAPPING) {
-        scene_field item = *mapping;
+        field_row item = *mapping;
         item.type = FIELD_MAPPING;
         return refuse_value(reader, &item, node);
     }
     if (!match_keys(reader, mapping, node, found))
         return false;
     for (size_t i = 0; mapping->fields[i].key != NULL; i++) {
-        const scene_field *field = &mapping->fields[i];
+        const field_row *field = &mapping->fields[i];
         size_t length = path_enter(reader, field->key);
         if (found[i] == NULL && field->flags & FIELD_REQUIRED) {
             char allowed[160];
-            scene_field_allowed(field, allowed, sizeof allowed);
+            field_allowed(field, allowed, sizeof allowed);
             return tree_error(reader->tree, node->source, node->place, reader->error, "%s is missing; required: %s: %s", reader->path, field->key, allowed);
         }
         if (found[i] != NULL) {

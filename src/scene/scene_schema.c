@@ -18,20 +18,21 @@ typedef union scene_list_item {
 /* ---- defaults ------------------------------------------------------------------------------------------- */
 
 /* A field's default as JSON, which is YAML too: "30", "[0, 4, 0]", "\"sun\"". Empty where it has none. */
-static void write_default(FILE *stream, const scene_field *field, const void *value)
+static void write_default(FILE *stream, const field_row *field, const void *value)
 {
     const scene_exposure *exposure = value;
-    if (scene_numbers_write(stream, field, value))
+    if (field_numbers_write(stream, field, value))
         return;
     switch (field->type) {
     case FIELD_CHOICE:
-        fprintf(stream, "\"%s\"", field->choices[*(const int *)value]);
+    case FIELD_SWITCH:
+        fprintf(stream, "\"%s\"", field_print(field, value).text);
         break;
     case FIELD_EXPOSURE:
         if (exposure->automatic)
             fputs("\"auto\"", stream);
         else
-            fputs(scene_double_text(exposure->stops).text, stream);
+            fputs(double_text(exposure->stops).text, stream);
         break;
     case FIELD_TEXT:
         fputs("\"\"", stream);
@@ -44,7 +45,7 @@ static void write_default(FILE *stream, const scene_field *field, const void *va
     }
 }
 
-static bool has_default(const scene_field *field) { return !(field->flags & FIELD_REQUIRED) && field->type != FIELD_MAPPING; }
+static bool has_default(const field_row *field) { return !(field->flags & FIELD_REQUIRED) && field->type != FIELD_MAPPING; }
 
 /* ---- JSON Schema ---------------------------------------------------------------------------------------- */
 
@@ -59,20 +60,22 @@ static void write_text(FILE *stream, const char *text)
     fputc('"', stream);
 }
 
-static void write_range(FILE *stream, const scene_field *field)
+static const char *type_word(const field_row *field) { return field->type == FIELD_COUNT || field->type == FIELD_LARGE ? "integer" : "number"; }
+
+static void write_range(FILE *stream, const field_row *field)
 {
-    fprintf(stream, "\"%s\": %s, \"%s\": %s", field->flags & FIELD_OPEN_MIN ? "exclusiveMinimum" : "minimum", scene_double_text(field->min).text,
-            field->flags & FIELD_OPEN_MAX ? "exclusiveMaximum" : "maximum", scene_double_text(field->max).text);
+    fprintf(stream, "\"%s\": %s, \"%s\": %s", field->flags & FIELD_OPEN_MIN ? "exclusiveMinimum" : "minimum", double_text(field->min).text,
+            field->flags & FIELD_OPEN_MAX ? "exclusiveMaximum" : "maximum", double_text(field->max).text);
 }
 
-static void write_number_schema(FILE *stream, const scene_field *field)
+static void write_number_schema(FILE *stream, const field_row *field)
 {
-    fprintf(stream, "{\"type\": \"%s\", ", field->type == FIELD_COUNT ? "integer" : "number");
+    fprintf(stream, "{\"type\": \"%s\", ", type_word(field));
     write_range(stream, field);
     fputs("}", stream);
 }
 
-static void write_vector_schema(FILE *stream, const scene_field *field)
+static void write_vector_schema(FILE *stream, const field_row *field)
 {
     fputs("\"type\": \"array\", \"minItems\": 3, \"maxItems\": 3, \"items\": ", stream);
     write_number_schema(stream, field);
@@ -81,20 +84,28 @@ static void write_vector_schema(FILE *stream, const scene_field *field)
 static void indent(FILE *stream, int depth) { fprintf(stream, "%*s", 2 * depth, ""); }
 
 /* `values`: the struct that holds the mapping's defaults. */
-static void write_mapping_schema(FILE *stream, const scene_field *mapping, const void *values, int depth);
+static void write_mapping_schema(FILE *stream, const field_row *mapping, const void *values, int depth);
 
-static void write_type_schema(FILE *stream, const scene_field *field, const void *value, const void *parent, int depth)
+static void write_type_schema(FILE *stream, const field_row *field, const void *value, const void *parent, int depth)
 {
     scene_list_item item;
+    double number;
     switch (field->type) {
     case FIELD_COUNT:
+    case FIELD_LARGE:
     case FIELD_NUMBER:
     case FIELD_SHARE:
         if (field->min == field->max) {
-            fprintf(stream, "\"const\": %s", scene_double_text(field->min).text);
+            fprintf(stream, "\"const\": %s", double_text(field->min).text);
             break;
         }
-        fprintf(stream, "\"type\": \"%s\", ", field->type == FIELD_COUNT ? "integer" : "number");
+        if (field->flags & FIELD_OR_ZERO && field->min > 0) {
+            fputs("\"oneOf\": [{\"const\": 0}, ", stream);
+            write_number_schema(stream, field);
+            fputs("]", stream);
+            break;
+        }
+        fprintf(stream, "\"type\": \"%s\", ", type_word(field));
         write_range(stream, field);
         break;
     case FIELD_VECTOR:
@@ -109,9 +120,13 @@ static void write_type_schema(FILE *stream, const scene_field *field, const void
         fputs("}]", stream);
         break;
     case FIELD_CHOICE:
-        for (size_t i = 0; field->choices[i] != NULL; i++)
-            fprintf(stream, "%s\"%s\"", i == 0 ? "\"enum\": [" : ", ", field->choices[i]);
-        fputs("]", stream);
+    case FIELD_SWITCH:
+        for (int i = 0; field_word(field, i) != NULL; i++) {
+            fprintf(stream, "%s\"%s\"", i == 0 ? "\"enum\": [" : ", ", field_word(field, i));
+            if (number_read(field_word(field, i), &number)) /* YAML and JSON may leave the quotes out */
+                fprintf(stream, ", %s", field_word(field, i));
+        }
+        fputs(field->type == FIELD_SWITCH ? ", false, true]" : "]", stream);
         break;
     case FIELD_EXPOSURE:
         fputs("\"oneOf\": [{\"const\": \"auto\"}, ", stream);
@@ -139,11 +154,11 @@ static void write_type_schema(FILE *stream, const scene_field *field, const void
     }
 }
 
-static void write_mapping_schema(FILE *stream, const scene_field *mapping, const void *values, int depth)
+static void write_mapping_schema(FILE *stream, const field_row *mapping, const void *values, int depth)
 {
     const char *separator = " \"required\": [";
     fputs("\"type\": \"object\", \"additionalProperties\": false,", stream);
-    for (const scene_field *field = mapping->fields; field->key != NULL; field++)
+    for (const field_row *field = mapping->fields; field->key != NULL; field++)
         if (field->flags & FIELD_REQUIRED) {
             fprintf(stream, "%s\"%s\"", separator, field->key);
             separator = ", ";
@@ -151,8 +166,8 @@ static void write_mapping_schema(FILE *stream, const scene_field *mapping, const
     fputs(separator[0] == ',' ? "],\n" : "\n", stream);
     indent(stream, depth);
     fputs("\"properties\": {\n", stream);
-    for (const scene_field *field = mapping->fields; field->key != NULL; field++) {
-        const void *value = scene_field_at(field, values);
+    for (const field_row *field = mapping->fields; field->key != NULL; field++) {
+        const void *value = field_at(field, values);
         indent(stream, depth + 1);
         fprintf(stream, "\"%s\": {\n", field->key);
         indent(stream, depth + 2);
@@ -189,18 +204,18 @@ bool scene_schema_write(FILE *stream)
 
 /* ---- tables of the documentation ------------------------------------------------------------------------- */
 
-static void write_table(FILE *stream, const char *path, const scene_field *mapping, const void *values)
+static void write_table(FILE *stream, const char *path, const field_row *mapping, const void *values)
 {
     scene_list_item item;
-    for (const scene_field *field = mapping->fields; field->key != NULL; field++) {
-        const void *value = scene_field_at(field, values);
+    for (const field_row *field = mapping->fields; field->key != NULL; field++) {
+        const void *value = field_at(field, values);
         char name[64], allowed[160];
         snprintf(name, sizeof name, "%s%s%s", path, path[0] != '\0' ? "." : "", field->key);
         if (field->type == FIELD_MAPPING) {
             write_table(stream, name, field, value);
             continue;
         }
-        scene_field_allowed(field, allowed, sizeof allowed);
+        field_allowed(field, allowed, sizeof allowed);
         fprintf(stream, "| `%s` | %s | ", name, allowed);
         if (has_default(field)) {
             fputs("`", stream);

@@ -109,7 +109,7 @@ static bool check_heights(const scene_tree *tree, const scene_water *water, scen
             const tree_node *mapping = tree_get(tree->root, "water"), *node = tree_get(mapping, "amplitude");
             node = node != NULL ? node : mapping;
             return tree_error(tree, node->source, node->place, error, "water.amplitude is %s, which makes a wave of %s m; allowed: waves of at most 1000 m",
-                              scene_double_text(water->amplitude).text, scene_double_text(waves[i].amplitude).text);
+                              double_text(water->amplitude).text, double_text(waves[i].amplitude).text);
         }
     return true;
 }

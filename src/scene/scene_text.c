@@ -101,45 +101,6 @@ scene_name scene_file_name(const char *path)
     return name;
 }
 
-/* "1e+09" to "1e9": what people write, and JSON and YAML read. */
-static void shorten_exponent(char *text)
-{
-    char *exponent = strchr(text, 'e');
-    if (exponent == NULL)
-        return;
-    char *to = exponent + 1, *from = to;
-    if (*from == '-')
-        to++;
-    from++; /* printf always writes a sign */
-    while (*from == '0')
-        from++;
-    memmove(to, from, strlen(from) + 1);
-}
-
-scene_number_text scene_double_text(double value)
-{
-    scene_number_text number;
-    for (int digits = 6; digits <= 17; digits++) {
-        snprintf(number.text, sizeof number.text, "%.*g", digits, value);
-        if (strtod(number.text, NULL) == value)
-            break;
-    }
-    shorten_exponent(number.text);
-    return number;
-}
-
-scene_number_text scene_float_text(float value)
-{
-    scene_number_text number;
-    for (int digits = 6; digits <= 9; digits++) {
-        snprintf(number.text, sizeof number.text, "%.*g", digits, (double)value);
-        if (strtof(number.text, NULL) == value)
-            break;
-    }
-    shorten_exponent(number.text);
-    return number;
-}
-
 bool scene_text_is_clean(const char *text, size_t length, scene_place *place)
 {
     scene_place here = {1, 1};

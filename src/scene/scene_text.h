@@ -23,11 +23,6 @@ typedef struct scene_name {
     char text[192];
 } scene_name;
 
-/* A number as a person would write it. */
-typedef struct scene_number_text {
-    char text[40];
-} scene_number_text;
-
 /* Where in a file: from 1, columns in characters. */
 typedef struct scene_place {
     int line, column;
@@ -43,10 +38,6 @@ bool scene_error_memory(scene_error *error);
 scene_quote scene_quote_text(const char *text, size_t length);
 
 scene_name scene_file_name(const char *path);
-
-/* The fewest digits that read back as the same double (or the same float). */
-scene_number_text scene_double_text(double value);
-scene_number_text scene_float_text(float value);
 
 /* Whether the bytes are UTF-8 without control characters other than tab and line ends; *place is the
  * first bad one, or the end of the text. */

@@ -39,9 +39,9 @@ mgt_material scene_material_defaults(void)
 }
 
 /* Frees the text and the lists that a mapping owns. */
-static void free_members(const scene_field *mapping, void *values)
+static void free_members(const field_row *mapping, void *values)
 {
-    for (const scene_field *field = mapping->fields; field->key != NULL; field++) {
+    for (const field_row *field = mapping->fields; field->key != NULL; field++) {
         void *at = (char *)values + field->offset;
         if (field->type == FIELD_TEXT) {
             char **text = at;
@@ -60,10 +60,10 @@ static void free_members(const scene_field *mapping, void *values)
 }
 
 /* Replaces borrowed text and lists by copies. When memory runs out what is not copied is empty: false, but fit to be freed. */
-static bool copy_members(const scene_field *mapping, void *values)
+static bool copy_members(const field_row *mapping, void *values)
 {
     bool good = true;
-    for (const scene_field *field = mapping->fields; field->key != NULL; field++) {
+    for (const field_row *field = mapping->fields; field->key != NULL; field++) {
         void *at = (char *)values + field->offset;
         if (field->type == FIELD_TEXT) {
             char **text = at;

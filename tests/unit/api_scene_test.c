@@ -267,11 +267,11 @@ static void quality_is_checked(void **state)
 static void podee_is_checked(void **state)
 {
     api_state *a = *state;
-    REFUSE_AS(MGT_ERROR_SCENE, quality.kernels, MGT_KERNELS_9, "podee-uniform and podee-pixel alone");
-    REFUSE_AS(MGT_ERROR_SCENE, quality.path_segments, 2, "podee-uniform and podee-pixel alone");
-    REFUSE_AS(MGT_ERROR_SCENE, quality.transition_hard, true, "podee-uniform and podee-pixel alone");
-    REFUSE_AS(MGT_ERROR_SCENE, quality.transition_width, 0.2, "podee-uniform and podee-pixel alone");
-    REFUSE_AS(MGT_ERROR_SCENE, quality.elongation_limit, 9, "podee-uniform and podee-pixel alone");
+    REFUSE_AS(MGT_ERROR_SCENE, quality.kernels, MGT_KERNELS_9, "podee-uniform or podee-pixel");
+    REFUSE_AS(MGT_ERROR_SCENE, quality.path_segments, 2, "podee-uniform or podee-pixel");
+    REFUSE_AS(MGT_ERROR_SCENE, quality.transition_hard, true, "podee-uniform or podee-pixel");
+    REFUSE_AS(MGT_ERROR_SCENE, quality.transition_width, 0.2, "podee-uniform or podee-pixel");
+    REFUSE_AS(MGT_ERROR_SCENE, quality.elongation_limit, 9, "podee-uniform or podee-pixel");
     a->scene.quality.method = MGT_METHOD_PODEE_PIXEL;
     REFUSE(quality.kernels, (mgt_kernels)2);
     REFUSE(quality.kernels, (mgt_kernels)-1);

@@ -131,7 +131,7 @@ static bool loads(const char *override)
     return file != NULL;
 }
 
-static void check_end(const char *name, const scene_field *field, double value, bool allowed)
+static void check_end(const char *name, const field_row *field, double value, bool allowed)
 {
     static const char *const shapes[] = {"%s=%.17g", "%s=[%.17g, 1, 0.5]", "%s=[0.5, 1, %.17g]"};
     bool scale = field->type == FIELD_SCALE, vector = field->type == FIELD_VECTOR || field->type == FIELD_COLOR;
@@ -143,9 +143,9 @@ static void check_end(const char *name, const scene_field *field, double value, 
     }
 }
 
-static void check_ranges(const char *path, const scene_field *mapping, size_t *checked)
+static void check_ranges(const char *path, const field_row *mapping, size_t *checked)
 {
-    for (const scene_field *field = mapping->fields; field->key != NULL; field++) {
+    for (const field_row *field = mapping->fields; field->key != NULL; field++) {
         char name[64];
         snprintf(name, sizeof name, "%s%s%s", path, path[0] != '\0' ? "." : "", field->key);
         if (field->type == FIELD_MAPPING) {

@@ -234,8 +234,8 @@ static void every_value_of_the_scene_is_a_control(void **state)
     settings s = settings_defaults();
     const control_board board = {&d, &s};
     control c;
-    for (const scene_field *part = scene_root_field()->fields; part->key; part++)
-        for (const scene_field *field = part->fields; part->type == FIELD_MAPPING && field->key; field++) {
+    for (const field_row *part = scene_root_field()->fields; part->key; part++)
+        for (const field_row *field = part->fields; part->type == FIELD_MAPPING && field->key; field++) {
             char name[96];
             snprintf(name, sizeof name, "%s.%s", part->key, field->key);
             /* The document holds what these two have made: waves and coefficients. */

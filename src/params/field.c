@@ -1,0 +1,360 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Ranges, texts and comparisons of single rows.
+ */
+#include "params/field.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+/* "1e+09" to "1e9": what people write, and JSON and YAML read. */
+static void shorten_exponent(char *text)
+{
+    char *exponent = strchr(text, 'e');
+    if (exponent == NULL)
+        return;
+    char *to = exponent + 1, *from = to;
+    if (*from == '-')
+        to++;
+    from++; /* printf always writes a sign */
+    while (*from == '0')
+        from++;
+    memmove(to, from, strlen(from) + 1);
+}
+
+short_number double_text(double value)
+{
+    short_number number;
+    for (int digits = 6; digits <= 17; digits++) {
+        snprintf(number.text, sizeof number.text, "%.*g", digits, value);
+        if (strtod(number.text, NULL) == value)
+            break;
+    }
+    shorten_exponent(number.text);
+    return number;
+}
+
+short_number float_text(float value)
+{
+    short_number number;
+    for (int digits = 6; digits <= 9; digits++) {
+        snprintf(number.text, sizeof number.text, "%.*g", digits, (double)value);
+        if (strtof(number.text, NULL) == value)
+            break;
+    }
+    shorten_exponent(number.text);
+    return number;
+}
+
+static const char *skip_digits(const char *text) { return text + strspn(text, "0123456789"); }
+
+/* strtod alone would also take "nan", "1e" or " 3". */
+static bool is_decimal(const char *text)
+{
+    text += *text == '-' || *text == '+';
+    const char *whole = skip_digits(text), *end = whole;
+    bool digits = whole > text;
+    if (*end == '.') {
+        const char *fraction = skip_digits(end + 1);
+        digits |= fraction > end + 1;
+        end = fraction;
+    }
+    if (digits && (*end == 'e' || *end == 'E')) {
+        const char *exponent = end + 1 + (end[1] == '-' || end[1] == '+');
+        end = skip_digits(exponent);
+        digits = end > exponent;
+    }
+    return digits && *end == '\0';
+}
+
+bool number_read(const char *text, double *value)
+{
+    const size_t length = strlen(text);
+    if (is_decimal(text)) {
+        *value = strtod(text, NULL);
+        return true;
+    }
+    if (strcasecmp(text + (*text == '-' || *text == '+'), ".inf") == 0 || strcasecmp(text, ".nan") == 0) {
+        *value = NAN;
+        return true;
+    }
+    const bool hexadecimal = text[0] == '0' && text[1] == 'x', octal = text[0] == '0' && text[1] == 'o';
+    const char *digits = hexadecimal ? "0123456789abcdefABCDEF" : "01234567";
+    if ((!hexadecimal && !octal) || length < 3 || length > 18 || strspn(text + 2, digits) != length - 2)
+        return false;
+    *value = (double)strtoull(text + 2, NULL, hexadecimal ? 16 : 8);
+    return true;
+}
+
+/* ---- single values ---------------------------------------------------------------------------------------- */
+
+size_t field_size(const field_row *field)
+{
+    switch (field->type) {
+    case FIELD_COUNT:
+        return sizeof(uint32_t);
+    case FIELD_LARGE:
+        return sizeof(uint64_t);
+    case FIELD_NUMBER:
+        return sizeof(double);
+    case FIELD_SHARE:
+        return sizeof(float);
+    case FIELD_VECTOR:
+    case FIELD_SCALE:
+        return 3 * sizeof(double);
+    case FIELD_COLOR:
+        return 3 * sizeof(float);
+    case FIELD_CHOICE:
+        return sizeof(int);
+    case FIELD_SWITCH:
+        return sizeof(bool);
+    case FIELD_TEXT:
+    case FIELD_EXPOSURE:
+    case FIELD_MAPPING:
+    case FIELD_LIST:
+        break;
+    }
+    return 0;
+}
+
+int field_place(const field_row *field, const void *value)
+{
+    const int number = field->type == FIELD_SWITCH ? *(const bool *)value : *(const int *)value;
+    for (int i = 0; field_word(field, i); i++)
+        if ((field->values ? field->values[i] : i) == number)
+            return i;
+    return -1;
+}
+
+int field_word_count(const field_row *field)
+{
+    int count = 0;
+    while (field_word(field, count))
+        count++;
+    return count;
+}
+
+void field_choose(const field_row *field, int place, void *value)
+{
+    if (field->type == FIELD_SWITCH)
+        *(bool *)value = place != 0;
+    else
+        *(int *)value = field->values ? field->values[place] : place;
+}
+
+/* Whole numbers keep all their digits. */
+static bool parse_large(const field_row *field, const char *text, uint64_t *value)
+{
+    double number;
+    char *end;
+    if (!number_read(text, &number) || !field_in_range(field, number))
+        return false;
+    const bool exact = text[0] && text[strspn(text, "0123456789")] == 0;
+    *value = exact ? strtoull(text, &end, 10) : (uint64_t)number;
+    /* The nearest double to 2^64 - 1 is 2^64. */
+    return exact ? strlen(text) < 20 || (strlen(text) == 20 && strcmp(text, "18446744073709551615") <= 0) : number < 18446744073709551616.0;
+}
+
+bool field_parse(const field_row *field, const char *text, void *value)
+{
+    static const char *const truth[] = {"false", "true"};
+    double number;
+    uint64_t large;
+    switch (field->type) {
+    case FIELD_CHOICE:
+    case FIELD_SWITCH:
+        for (int i = 0; field_word(field, i); i++)
+            if (strcmp(text, field_word(field, i)) == 0 || (field->type == FIELD_SWITCH && strcmp(text, truth[i]) == 0)) {
+                field_choose(field, i, value);
+                return true;
+            }
+        return false;
+    case FIELD_LARGE:
+        if (!parse_large(field, text, &large))
+            return false;
+        *(uint64_t *)value = large;
+        return true;
+    case FIELD_COUNT:
+    case FIELD_NUMBER:
+    case FIELD_SHARE:
+        if (!number_read(text, &number) || !field_in_range(field, number))
+            return false;
+        if (field->type == FIELD_COUNT)
+            *(uint32_t *)value = (uint32_t)number;
+        else if (field->type == FIELD_NUMBER)
+            *(double *)value = number;
+        else
+            *(float *)value = (float)number;
+        return true;
+    default:
+        return false;
+    }
+}
+
+static double number_at(const field_row *field, const void *value)
+{
+    return field->type == FIELD_COUNT   ? *(const uint32_t *)value
+           : field->type == FIELD_LARGE ? (double)*(const uint64_t *)value
+           : field->type == FIELD_SHARE ? (double)*(const float *)value
+                                        : *(const double *)value;
+}
+
+bool field_is_legal(const field_row *field, const void *value)
+{
+    return field->type == FIELD_CHOICE ? field_place(field, value) >= 0 : field->type == FIELD_SWITCH || field_in_range(field, number_at(field, value));
+}
+
+short_number field_print(const field_row *field, const void *value)
+{
+    short_number out;
+    if (field->type == FIELD_CHOICE || field->type == FIELD_SWITCH) {
+        const int place = field_place(field, value);
+        snprintf(out.text, sizeof out.text, "%s", place >= 0 ? field_word(field, place) : "");
+        if (place < 0)
+            snprintf(out.text, sizeof out.text, "%d", *(const int *)value);
+        return out;
+    }
+    if (field->type == FIELD_SHARE)
+        return float_text(*(const float *)value);
+    if (field->type != FIELD_LARGE)
+        return double_text(number_at(field, value));
+    snprintf(out.text, sizeof out.text, "%llu", (unsigned long long)*(const uint64_t *)value);
+    return out;
+}
+
+/* ---- conditions --------------------------------------------------------------------------------------------- */
+
+enum { CONDITIONS = sizeof((field_row *)0)->when / sizeof *((field_row *)0)->when };
+
+const field_row *field_find(const field_row *fields, const char *key, size_t length)
+{
+    for (const field_row *field = fields; field && field->key; field++)
+        if (strlen(field->key) == length && memcmp(field->key, key, length) == 0)
+            return field;
+    return NULL;
+}
+
+bool field_applies(const field_row *fields, const field_row *field, const void *parent, bool tolerant)
+{
+    for (int i = 0; i < CONDITIONS && field->when[i].key; i++) {
+        const field_row *other = field_find(fields, field->when[i].key, strlen(field->when[i].key));
+        const int place = field_place(other, field_at(other, parent));
+        if (!(tolerant && field->when[i].tolerated) && (place < 0 || !(field->when[i].choices >> place & 1)))
+            return false;
+    }
+    return true;
+}
+
+void field_conditions(const field_row *fields, const field_row *field, char *out, size_t size)
+{
+    size_t used = 0;
+    out[0] = 0;
+    for (int i = 0; i < CONDITIONS && field->when[i].key; i++) {
+        const field_row *other = field_find(fields, field->when[i].key, strlen(field->when[i].key));
+        uint64_t left = field->when[i].choices;
+        used += (size_t)snprintf(out + used, size - used, "%s%s", i ? " and " : "", other->key);
+        for (int k = 0, first = 1; left && used < size; k++, left >>= 1)
+            if (left & 1) {
+                used += (size_t)snprintf(out + used, size - used, "%s%s", first ? " " : left == 1 ? " or " : ", ", field_word(other, k));
+                first = 0;
+            }
+    }
+}
+
+bool field_numbers_write(FILE *stream, const field_row *field, const void *value)
+{
+    const double *scales = value;
+    switch (field->type) {
+    case FIELD_COUNT:
+    case FIELD_LARGE:
+    case FIELD_NUMBER:
+    case FIELD_SHARE:
+        fputs(field_print(field, value).text, stream);
+        return true;
+    case FIELD_SCALE:
+        if (scales[0] == scales[1] && scales[0] == scales[2]) {
+            fputs(double_text(scales[0]).text, stream);
+            return true;
+        }
+        /* fall through */
+    case FIELD_VECTOR:
+    case FIELD_COLOR:
+        for (int i = 0; i < 3; i++) {
+            const short_number number = field->type != FIELD_COLOR ? double_text(((const double *)value)[i]) : float_text(((const float *)value)[i]);
+            fprintf(stream, "%s%s", i == 0 ? "[" : ", ", number.text);
+        }
+        fputc(']', stream);
+        return true;
+    default:
+        return false;
+    }
+}
+
+bool field_in_range(const field_row *field, double value)
+{
+    const bool above = field->flags & FIELD_OPEN_MIN ? value > field->min : value >= field->min;
+    const bool below = field->flags & FIELD_OPEN_MAX ? value < field->max : value <= field->max;
+    const bool whole = (field->type != FIELD_COUNT && field->type != FIELD_LARGE) || value == floor(value);
+    return whole && ((above && below) || (value == 0 && field->flags & FIELD_OR_ZERO));
+}
+
+void field_range(const field_row *field, bool with_unit, char *out, size_t size)
+{
+    short_number low = double_text(field->min), high = double_text(field->max);
+    const char *min = low.text, *max = high.text;
+    const char *space = with_unit && field->unit != NULL ? " " : "";
+    const char *unit = with_unit && field->unit != NULL ? field->unit : "";
+    if (field->min == field->max)
+        snprintf(out, size, "%s", min);
+    else if (field->flags & (FIELD_OPEN_MIN | FIELD_OPEN_MAX))
+        snprintf(out, size, "%s %s and %s %s%s%s", field->flags & FIELD_OPEN_MIN ? "above" : "at least", min,
+                 field->flags & FIELD_OPEN_MAX ? "below" : "at most", max, space, unit);
+    else
+        snprintf(out, size, "%s%s to %s%s%s", field->flags & FIELD_OR_ZERO && field->min > 0 ? "0 or " : "", min, max, space, unit);
+}
+
+void field_allowed(const field_row *field, char *out, size_t size)
+{
+    char range[96];
+    field_range(field, true, range, sizeof range);
+    size_t used;
+    switch (field->type) {
+    case FIELD_COUNT:
+    case FIELD_LARGE:
+        snprintf(out, size, field->min == field->max ? "%s" : "a whole number, %s", range);
+        break;
+    case FIELD_NUMBER:
+    case FIELD_SHARE:
+        snprintf(out, size, "a number, %s", range);
+        break;
+    case FIELD_VECTOR:
+        snprintf(out, size, "a list of 3 numbers [x, y, z], each %s", range);
+        break;
+    case FIELD_SCALE:
+        snprintf(out, size, "a number, or a list of 3 numbers [x, y, z], each %s", range);
+        break;
+    case FIELD_COLOR:
+        snprintf(out, size, "a list of 3 numbers [r, g, b], each %s", range);
+        break;
+    case FIELD_EXPOSURE:
+        snprintf(out, size, "auto or a number, %s", range);
+        break;
+    case FIELD_TEXT:
+        snprintf(out, size, "text");
+        break;
+    case FIELD_CHOICE:
+    case FIELD_SWITCH:
+        used = (size_t)snprintf(out, size, "one of");
+        for (int i = 0; field_word(field, i) != NULL && used < size; i++)
+            used += (size_t)snprintf(out + used, size - used, "%s %s", i > 0 ? "," : "", field_word(field, i));
+        break;
+    case FIELD_MAPPING:
+        snprintf(out, size, "a mapping {key: value, ...}");
+        break;
+    case FIELD_LIST:
+        snprintf(out, size, "a list of at most %zu mappings", field->max_items);
+        break;
+    }
+}

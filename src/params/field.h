@@ -1,0 +1,129 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * One row a value: key, type, range, unit, meaning. Tables of such rows describe the options of quality, the scene format and the viewer's
+ * settings; validation, command lines, files, hashes, the JSON Schema and the documentation walk them.
+ */
+#ifndef MANGATA_PARAMS_FIELD_H
+#define MANGATA_PARAMS_FIELD_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+/* A number as a person would write it. */
+typedef struct short_number {
+    char text[40];
+} short_number;
+
+/* The fewest digits that read back as the same double (or the same float). */
+short_number double_text(double value);
+short_number float_text(float value);
+
+/* A number of YAML's core schema and nothing beside it: decimal, 0x and 0o; infinities and NaN come out as NaN, which fails every range. */
+bool number_read(const char *text, double *value);
+
+typedef enum field_type {
+    FIELD_COUNT,    /* uint32_t */
+    FIELD_LARGE,    /* uint64_t */
+    FIELD_NUMBER,   /* double */
+    FIELD_SHARE,    /* float */
+    FIELD_VECTOR,   /* double[3] */
+    FIELD_SCALE,    /* double[3]: one number for all, or three */
+    FIELD_COLOR,    /* float[3] */
+    FIELD_CHOICE,   /* int, one of `choices` by name */
+    FIELD_SWITCH,   /* bool: false by the name choices[0], true by choices[1] */
+    FIELD_EXPOSURE, /* scene_exposure: "auto" or a number */
+    FIELD_TEXT,     /* char * */
+    FIELD_MAPPING,  /* `fields` inside */
+    FIELD_LIST      /* scene_list of mappings with `fields` inside */
+} field_type;
+
+typedef enum field_flags {
+    FIELD_REQUIRED = 1,
+    FIELD_OPEN_MIN = 2,  /* the minimum itself is not allowed */
+    FIELD_OPEN_MAX = 4,  /* nor the maximum */
+    FIELD_NO_PIXELS = 8, /* changes no pixel, or not as it stands: left out of the canonical text */
+    FIELD_GIVEN = 16,    /* mapping: its struct begins with a bool, whether it stands in the file */
+    FIELD_OR_ZERO = 32,  /* besides the range 0 is allowed, which stands for the default in `absent` */
+    FIELD_TOLERATED = 64 /* the API ignores it where its conditions do not hold; the command line refuses it there */
+} field_flags;
+
+/* A row counts only while another choice of the same struct is one of some. */
+typedef struct field_condition {
+    const char *key;  /* of the row of that choice; NULL: no condition */
+    uint64_t choices; /* one bit each, by place in its `choices` */
+    bool tolerated;   /* elsewhere the API ignores the row; else it refuses it */
+} field_condition;
+
+typedef struct field_row field_row;
+struct field_row {
+    const char *key;
+    field_type type;
+    size_t offset; /* in the parent's struct */
+    unsigned flags;
+    double min, max;
+    const char *unit; /* NULL: none */
+    const char *doc;
+    const char *const *choices;  /* in the enum's order, NULL-terminated; read them by field_word() */
+    size_t choice_stride;        /* bytes from one to the next, where they are members of rows; 0: none lie between */
+    const int *values;           /* what each choice stands for; NULL: its place in `choices` */
+    double preset;               /* options: the default */
+    const char *absent;          /* options: what 0 or nothing stands for, for the help; NULL: the preset says it */
+    const char *member;          /* options: name in the API; NULL: the key */
+    const char *label;           /* options: what help calls the value; NULL: by type */
+    field_condition when[3];     /* all must hold */
+    int alternative;             /* options: at most one of those with the same number is set; 0: none */
+    const field_row *fields;     /* ended by one without a key */
+    size_t item_size, max_items; /* list */
+    /* After a key was read: sets what it decides of its neighbours, which are read later. */
+    void (*decide)(void *parent);
+    /* Before a list item is read: its defaults, from the struct that holds the list. */
+    void (*prepare)(const void *parent, void *item);
+};
+
+/* "-90 to 90 degrees", "above 0 and below 179 degrees", "one of sun, moon", …: what a message allows. `out` is cut to size. */
+void field_allowed(const field_row *field, char *out, size_t size);
+
+/* Only the range and, if wanted, the unit of a number: "-90 to 90". */
+void field_range(const field_row *field, bool with_unit, char *out, size_t size);
+
+bool field_in_range(const field_row *field, double value);
+
+/* Reads a single number, choice or switch. False, with nothing written, where it is not allowed. */
+bool field_parse(const field_row *field, const char *text, void *value);
+
+/* Whether a value in memory is allowed. */
+bool field_is_legal(const field_row *field, const void *value);
+
+/* The place of a choice or switch in `choices`; -1: it is none of them. */
+int field_place(const field_row *field, const void *value);
+void field_choose(const field_row *field, int place, void *value);
+
+/* Bytes of a value that holds no other; 0 for the rest: text, lists, mappings, exposures. */
+size_t field_size(const field_row *field);
+
+/* A number, choice or switch as text that reads back as the same value: "30", "sun". */
+short_number field_print(const field_row *field, const void *value);
+
+/* Whether the conditions of a row hold; `tolerant`: those that are not tolerated. `fields`: the table that it belongs to. */
+bool field_applies(const field_row *fields, const field_row *field, const void *parent, bool tolerant);
+
+/* The conditions in words: "method podee-uniform or podee-pixel". Empty where there are none. */
+void field_conditions(const field_row *fields, const field_row *field, char *out, size_t size);
+
+const field_row *field_find(const field_row *fields, const char *key, size_t length);
+
+/* Writes the value of a field of numbers as JSON, which is YAML too: "30", "[0, 4, 0]". False for fields of other types. */
+bool field_numbers_write(FILE *stream, const field_row *field, const void *value);
+
+/* A choice's name by its place; NULL behind the last. */
+static inline const char *field_word(const field_row *field, int place)
+{
+    return *(const char *const *)(const void *)((const char *)field->choices + (size_t)place * (field->choice_stride ? field->choice_stride : sizeof(char *)));
+}
+int field_word_count(const field_row *field);
+
+static inline const void *field_at(const field_row *field, const void *parent) { return (const char *)parent + field->offset; }
+
+#endif

@@ -1,0 +1,161 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The options of quality: one row each.
+ */
+#include "params/options.h"
+
+#include <assert.h>
+#include <string.h>
+
+#include "params/methods.h"
+
+const char *const tone_map_choices[] = {"none", "reinhard", "aces", "agx", NULL};
+static const char *const mean_words[] = {"add", "drop", NULL};
+static const char *const kernel_words[] = {"exact", "1", "3", "5", "9", "feline", "riemann", NULL};
+static const int kernel_values[] = {MGT_KERNELS_EXACT, MGT_KERNELS_1, MGT_KERNELS_3, MGT_KERNELS_5, MGT_KERNELS_9, MGT_KERNELS_FELINE, MGT_KERNELS_RIEMANN};
+static const char *const transition_words[] = {"soft", "hard", NULL};
+static const char *const adaptive_words[] = {"cells", "podee", NULL};
+static const char *const refraction_words[] = {"two-phase", "hybrid", "liu", "broad", "narrow", "screen-space", "distance-field", "off", "truth", NULL};
+static const char *const switch_words[] = {"off", "on", NULL};
+
+/* A method brings its numbers of samples along. */
+static void decide_method(void *parent)
+{
+    mgt_quality *q = parent;
+    const method_row *row = method_of(q->method);
+    q->spatial_samples = row->spatial ? row->spatial : 1;
+    q->time_samples = row->time ? row->time : 1;
+}
+
+#define MEMBER(name) offsetof(mgt_quality, name)
+#define LARGEST 18446744073709551615.0
+#define ONE(place) (UINT64_C(1) << (place))
+#define SAMPLED "method", ONE(MGT_METHOD_SSAA) | ONE(MGT_METHOD_REFERENCE), true
+#define PODEE "method", ONE(MGT_METHOD_PODEE_UNIFORM) | ONE(MGT_METHOD_PODEE_PIXEL)
+#define ADAPTIVE "method", ONE(MGT_METHOD_ADAPTIVE)
+#define ALONG "adaptive", ONE(MGT_ADAPTIVE_PODEE)
+#define BY_CELLS "adaptive", ONE(MGT_ADAPTIVE_CELLS)
+#define BENDING "refraction", ONE(MGT_REFRACTION_TWO_PHASE) | ONE(MGT_REFRACTION_HYBRID) | ONE(MGT_REFRACTION_LIU) | ONE(MGT_REFRACTION_BROAD), true
+enum { HOW_MUCH = 1 }; /* alternatives: each says how much to sample */
+
+const field_row quality_fields[] =
+    {{"method", FIELD_CHOICE, MEMBER(method), .doc = "how waves smaller than a pixel and the open shutter are averaged",
+      .choices = &method_rows[0].properties.name, .choice_stride = sizeof(method_row), .preset = MGT_METHOD_MANGATA, .label = "NAME", .decide = decide_method},
+     {"spatial", FIELD_COUNT, MEMBER(spatial_samples), 0, 1, 1024, NULL, .doc = "N of N x N samples a pixel for each time sample", .preset = 1,
+      .absent = "8 for reference, 1 for ssaa", .member = "spatial_samples", .when = {{SAMPLED}}},
+     {"time_samples", FIELD_COUNT, MEMBER(time_samples), 0, 1, 65536, NULL, .doc = "samples of the open shutter", .preset = 1,
+      .absent = "8 for reference, 1 for ssaa", .label = "M", .when = {{SAMPLED}}},
+     {"sample_first", FIELD_LARGE, MEMBER(sample_first), 0, 0, LARGEST, NULL, .doc = "first of the samples that are taken", .when = {{SAMPLED}}},
+     {"sample_count", FIELD_LARGE, MEMBER(sample_count), 0, 0, LARGEST, NULL, .doc = "how many samples are taken", .absent = "all that remain",
+      .when = {{SAMPLED}}},
+     {"seed", FIELD_LARGE, MEMBER(seed), 0, 0, LARGEST, NULL, .doc = "seed of the jitter"},
+     {"ndf_mean", FIELD_SWITCH, MEMBER(ndf_mean_drop), 0, .doc = "add the mean slope of the filtered waves, or drop it as printed in the paper",
+      .choices = mean_words, .member = "ndf_mean_drop", .when = {{"method", ONE(MGT_METHOD_PODEE_PIXEL), true}}},
+     {"kernels", FIELD_CHOICE, MEMBER(kernels),
+      .doc = "what stands for the elliptical Gaussian: itself, so many circular ones, feline's, or a sum over the disk", .choices = kernel_words,
+      .values = kernel_values, .label = "K", .when = {{PODEE}}},
+     {"elongation", FIELD_NUMBER, MEMBER(elongation_limit), FIELD_OR_ZERO, 1, 1e6, NULL, .doc = "ellipses longer than this are summed as by riemann",
+      .absent = "the number of kernels; 1 and feline: never", .member = "elongation_limit", .label = "E", .when = {{PODEE}, {"kernels", 0x3e, true}}},
+     {"path_segments", FIELD_COUNT, MEMBER(path_segments), FIELD_OR_ZERO, 1, 64, NULL, .doc = "straight pieces of the open shutter", .absent = "1",
+      .when = {{PODEE}}},
+     {"transition", FIELD_SWITCH, MEMBER(transition_hard), .doc = "waves turn from resolved to unresolved softly or hard", .choices = transition_words,
+      .member = "transition_hard", .label = "T", .when = {{PODEE}}},
+     {"transition_width", FIELD_NUMBER, MEMBER(transition_width), 0, 0, 0.5, "cycles/pixel", .doc = "width of a soft transition", .absent = "0.3", .label = "W",
+      .when = {{PODEE}, {"transition", 1, true}}},
+     {"adaptive", FIELD_CHOICE, MEMBER(adaptive), .doc = "how pixels that need more samples are found: cells, or as Podee et al. do", .choices = adaptive_words,
+      .label = "SCHEME", .when = {{ADAPTIVE}}},
+     {"samples", FIELD_NUMBER, MEMBER(samples), FIELD_OR_ZERO, 1, 4096, NULL, .doc = "evaluations of all waves per pixel of water, on average", .absent = "8",
+      .label = "N", .when = {{ADAPTIVE}}, .alternative = HOW_MUCH},
+     {"target_rmse", FIELD_NUMBER, MEMBER(target_rmse), FIELD_OR_ZERO, 1e-6, 1, NULL, .doc = "sample until the predicted error of coverage is this",
+      .absent = "as samples says", .label = "E", .when = {{ADAPTIVE}, {BY_CELLS}}, .alternative = HOW_MUCH},
+     {"budget_ms", FIELD_NUMBER, MEMBER(budget_ms), FIELD_OR_ZERO, 0.1, 1e7, "ms",
+      .doc = "sample until a frame has taken so long; the pixels then depend on the machine", .absent = "as samples says", .label = "T",
+      .when = {{ADAPTIVE}, {BY_CELLS}}, .alternative = HOW_MUCH},
+     {"importance_center", FIELD_NUMBER, MEMBER(importance_center), 0, 0, 1, NULL, .doc = "coverage that is most important", .absent = "0.1", .label = "C",
+      .when = {{ADAPTIVE}, {ALONG}}},
+     {"importance_width", FIELD_NUMBER, MEMBER(importance_width), FIELD_OR_ZERO, 1e-6, 1, NULL, .doc = "deviation of the importance", .absent = "0.04",
+      .label = "R", .when = {{ADAPTIVE}, {ALONG}}},
+     {"importance_threshold", FIELD_NUMBER, MEMBER(importance_threshold), 0, 0, 1, NULL, .doc = "importance below which no samples are taken", .absent = "0.05",
+      .label = "V", .when = {{ADAPTIVE}, {ALONG}}},
+     {"slots", FIELD_LARGE, MEMBER(sample_slots), FIELD_OR_ZERO, 1, 4294967296.0, NULL, .doc = "samples of the whole picture", .absent = "as samples says",
+      .member = "sample_slots", .label = "M", .when = {{ADAPTIVE}, {ALONG}}, .alternative = HOW_MUCH},
+     {"refraction", FIELD_CHOICE, MEMBER(refraction), .doc = "how what lies behind the surface is found", .choices = refraction_words, .label = "NAME"},
+     {"tess_error", FIELD_NUMBER, MEMBER(tess_error), FIELD_OR_ZERO, 0.01, 100, "pixels", .doc = "how far a bent triangle may be off", .absent = "0.1",
+      .label = "PX", .when = {{BENDING}}},
+     {"refraction_samples", FIELD_COUNT, MEMBER(refraction_samples), FIELD_OR_ZERO, 1, 64, NULL, .doc = "N of N x N refracted rays a pixel",
+      .absent = "1, and 4 for truth"},
+     {"caustics", FIELD_SWITCH, MEMBER(caustics), .doc = "light that the waves bundle on what lies under them", .choices = switch_words},
+     {0}};
+static_assert(sizeof quality_fields / sizeof *quality_fields == QUALITY_ROWS + 1, "QUALITY_ROWS");
+
+const field_row post_fields[] = {{"exposure_ev", FIELD_NUMBER, offsetof(mgt_post, exposure_ev), 0, EXPOSURE_RANGE,
+                                  .doc = "exposure, or added to the automatic one"},
+                                 POST_ROWS(mgt_post),
+                                 {0}};
+
+static void reset(const field_row *field, void *values)
+{
+    void *value = (char *)values + field->offset;
+    const double preset = field->preset;
+    if (field->type == FIELD_COUNT)
+        *(uint32_t *)value = (uint32_t)preset;
+    else if (field->type == FIELD_CHOICE)
+        *(int *)value = (int)preset;
+    else if (field->type == FIELD_NUMBER)
+        *(double *)value = preset;
+    else if (field->type == FIELD_SHARE)
+        *(float *)value = (float)preset;
+    else
+        memset(value, 0, field_size(field));
+}
+
+mgt_quality quality_defaults(void)
+{
+    mgt_quality q;
+    memset(&q, 0, sizeof q);
+    for (const field_row *field = quality_fields; field->key; field++)
+        reset(field, &q);
+    return q;
+}
+
+bool quality_equal(const mgt_quality *a, const mgt_quality *b)
+{
+    for (const field_row *field = quality_fields; field->key; field++)
+        if (memcmp(field_at(field, a), field_at(field, b), field_size(field)) != 0)
+            return false;
+    return true;
+}
+
+bool option_is_set(const field_row *field, const void *values)
+{
+    union {
+        mgt_quality quality;
+        mgt_post post;
+    } defaults;
+    reset(field, &defaults);
+    return memcmp(field_at(field, values), field_at(field, &defaults), field_size(field)) != 0;
+}
+
+mgt_quality quality_restricted(const mgt_quality *quality)
+{
+    mgt_quality q = *quality;
+    for (const field_row *field = quality_fields; field->key; field++)
+        if (!field_applies(quality_fields, field, &q, false))
+            reset(field, &q);
+    return q;
+}
+
+bool quality_conflict(const mgt_quality *quality, char *wrong, size_t size)
+{
+    const field_row *first = NULL;
+    for (const field_row *field = quality_fields; field->key; field++) {
+        if (!field->alternative || !option_is_set(field, quality))
+            continue;
+        if (first && first->alternative == field->alternative) {
+            snprintf(wrong, size, "%s and %s exclude each other", first->key, field->key);
+            return true;
+        }
+        first = field;
+    }
+    return false;
+}

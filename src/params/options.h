@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The options of quality, one row each, and what concerns several of them at once.
+ */
+#ifndef MANGATA_PARAMS_OPTIONS_H
+#define MANGATA_PARAMS_OPTIONS_H
+
+#include "mangata/mangata.h"
+#include "params/field.h"
+
+/* Rows of an mgt_quality, ended by one without a key. A flag of the command line is a key with dashes. */
+extern const field_row quality_fields[];
+enum { QUALITY_ROWS = 24 };
+
+extern const char *const tone_map_choices[];
+
+/* Rows of what mgt_post and the scene format have in common, for a struct with members of these names. */
+#define POST_ROWS(type)                                                                                                                \
+    {"tone_map", FIELD_CHOICE, offsetof(type, tone_map), .doc = "how radiance becomes displayed colour", .choices = tone_map_choices}, \
+    {                                                                                                                                  \
+        "glare", FIELD_SHARE, offsetof(type, glare), 0, 0, 1, NULL, .doc = "share of the light that the eye scatters"                  \
+    }
+#define EXPOSURE_RANGE -60, 60, "stops"
+
+/* Rows of an mgt_post. */
+extern const field_row post_fields[];
+
+mgt_quality quality_defaults(void);
+
+/* Compares option by option. */
+bool quality_equal(const mgt_quality *a, const mgt_quality *b);
+
+/* Whether an option of an mgt_quality or mgt_post is not at its default. */
+bool option_is_set(const field_row *field, const void *values);
+
+/* Options whose conditions do not hold go back to their defaults: for a base whose method is chosen elsewhere. */
+mgt_quality quality_restricted(const mgt_quality *quality);
+
+/* What is wrong with options together: "samples and target_rmse exclude each other". False: nothing is. */
+bool quality_conflict(const mgt_quality *quality, char *wrong, size_t size);
+
+#endif
