@@ -36,7 +36,8 @@ typedef struct bench {
 
 static mgt_context *context_of(mgt_isa isa, uint32_t threads)
 {
-    mgt_context_desc desc = mgt_context_desc_defaults();
+    mgt_context_desc desc;
+    mgt_context_desc_init(&desc, sizeof desc);
     desc.isa = isa;
     desc.threads = threads;
     mgt_context *context = NULL;
@@ -55,7 +56,8 @@ static frame_case *add_case(bench *b, mgt_context *context, const mgt_scene *sce
 
 static bool render(const bench *b, const frame_case *c, mgt_layer layer)
 {
-    mgt_target target = mgt_target_defaults();
+    mgt_target target;
+    mgt_target_init(&target, sizeof target);
     target.layer = layer;
     target.format = layer == MGT_LAYER_COLOR ? MGT_FORMAT_RGB32F : MGT_FORMAT_R32F;
     target.pixels = b->pixels;

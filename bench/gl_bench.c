@@ -176,7 +176,8 @@ static bool bench_rate(const bench *b)
 
 static int start(bench *b, uint32_t device)
 {
-    mgt_context_desc desc = mgt_context_desc_defaults();
+    mgt_context_desc desc;
+    mgt_context_desc_init(&desc, sizeof desc);
     desc.threads = CPU_THREADS;
     b->info.struct_size = b->cpu_info.struct_size = sizeof(mgt_context_info);
     if (mgt_context_create(&b->cpu, &desc) != MGT_OK)

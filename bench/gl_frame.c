@@ -9,7 +9,8 @@
 
 bool frame_render(mgt_context *context, const mgt_scene *scene, float *pixels)
 {
-    mgt_target target = mgt_target_defaults();
+    mgt_target target;
+    mgt_target_init(&target, sizeof target);
     target.format = MGT_FORMAT_RGB32F;
     target.pixels = pixels;
     if (mgt_render(context, scene, &target, 1) == MGT_OK)

@@ -222,7 +222,8 @@ static bool bench_trees(bool quick)
 
 static int start(bench *b, uint32_t device)
 {
-    mgt_context_desc desc = mgt_context_desc_defaults();
+    mgt_context_desc desc;
+    mgt_context_desc_init(&desc, sizeof desc);
     desc.backend = MGT_BACKEND_GL;
     desc.gl_device = device;
     if (mgt_context_create(&b->frame.gl, &desc) != MGT_OK) {

@@ -40,11 +40,13 @@ static bool print_counts(const bench_scene *scene, stage_count *count)
 /* Seconds of a frame by the library itself. */
 static bool time_frame(const mgt_scene *scene, mgt_isa isa, uint32_t threads, int runs, timing *out)
 {
-    mgt_context_desc desc = mgt_context_desc_defaults();
+    mgt_context_desc desc;
+    mgt_context_desc_init(&desc, sizeof desc);
     desc.isa = isa;
     desc.threads = threads;
     mgt_context *context = NULL;
-    mgt_target target = mgt_target_defaults();
+    mgt_target target;
+    mgt_target_init(&target, sizeof target);
     target.format = MGT_FORMAT_RGB32F;
     target.pixels = calloc((size_t)scene->image.width * scene->image.height, 12);
     double seconds[RUNS];

@@ -33,7 +33,8 @@ static void make_waves(mgt_wave waves[WAVES])
 /* A low sun over those waves. The library reads neither image nor camera of the scene here: views bring their own. */
 static mgt_scene make_scene(const mgt_wave waves[WAVES], double time)
 {
-    mgt_scene scene = mgt_scene_defaults();
+    mgt_scene scene;
+    mgt_scene_init(&scene, sizeof scene);
     scene.time = time;
     scene.shutter = 1 / 60.0;
     scene.light.elevation_deg = 14;
@@ -109,7 +110,8 @@ static void multiply(const double a[16], const double b[16], float out[16])
 /* The camera drifts about the ball; what it sees is `aspect` as wide as high. */
 static mgt_gl_view make_camera(depth_convention depth, double aspect, double time)
 {
-    mgt_gl_view v = mgt_gl_view_defaults();
+    mgt_gl_view v;
+    mgt_gl_view_init(&v, sizeof v);
     const double eye[3] = {0.6 * sin(0.3 * time), 2.2, 7}, top = tan(pi / 8);
     make_view(eye, 0.05 * sin(0.2 * time), 0.2, v.view);
     make_projection(depth, -aspect * top, aspect * top, -top, top, v.projection);
@@ -204,7 +206,8 @@ static mgt_status engine_start(engine *e, depth_convention depth, uint32_t width
     glDepthFunc(depth == DEPTH_STANDARD ? GL_LESS : GL_GREATER);
     glEnable(GL_DEPTH_TEST);
 
-    mgt_context_desc desc = mgt_context_desc_defaults();
+    mgt_context_desc desc;
+    mgt_context_desc_init(&desc, sizeof desc);
     desc.backend = MGT_BACKEND_GL;
     desc.gl_get_proc = get_proc;
     desc.log = print_log;

@@ -16,7 +16,8 @@ static mgt_wave wave(double length, double steepness, double heading)
 int main(int argc, char **argv)
 {
     const mgt_wave waves[] = {wave(9.0, 0.06, 0.3), wave(2.3, 0.05, -0.5), wave(0.4, 0.04, 0.9)};
-    mgt_scene scene = mgt_scene_defaults();
+    mgt_scene scene;
+    mgt_scene_init(&scene, sizeof scene);
     scene.image.width = 640;
     scene.image.height = 360;
     scene.light.elevation_deg = 12;
@@ -24,7 +25,8 @@ int main(int argc, char **argv)
     scene.water.waves = waves;
     scene.water.wave_count = sizeof waves / sizeof waves[0];
 
-    mgt_target target = mgt_target_defaults(); /* displayed colour, 8 bits, tightly packed */
+    mgt_target target; /* displayed colour, 8 bits, tightly packed */
+    mgt_target_init(&target, sizeof target);
     const size_t pixels = (size_t)scene.image.width * scene.image.height;
     unsigned char *rgba = target.pixels = malloc(4 * pixels);
     mgt_context *context = NULL;

@@ -176,7 +176,7 @@ static int prepare(bench *b)
         return console_error(EXIT_CODE_BAD_INPUT, "%s: the camera of frame 0 is not a legal one", r->scene_path);
     b->width = first.image.width;
     b->height = first.image.height;
-    b->target = mgt_target_defaults();
+    mgt_target_init(&b->target, sizeof b->target);
     b->target.format = r->display ? MGT_FORMAT_RGBA8_SRGB : MGT_FORMAT_RGB32F;
     b->target.pixels = calloc((size_t)b->width * b->height, r->display ? 4 : 12);
     return b->target.pixels ? EXIT_CODE_OK : console_error(EXIT_CODE_FAILED, "out of memory");

@@ -286,7 +286,7 @@ int verb_compare(int count, char **arguments)
     request->overrides = overrides;
     request->arguments = arguments;
     request->argument_count = count;
-    request->reference = mgt_scene_defaults().quality;
+    mgt_quality_init(&request->reference, sizeof request->reference);
     method_from_name("reference", &request->reference);
     request->metrics = CLIP_ALL_METRICS;
     request->time_runs = 5;

@@ -95,7 +95,8 @@ static int display(compare_job *job, const compare_scene *scene, size_t frame, c
     mgt_scene view;
     if (!compare_frame_scene(job, scene, COMPARE_REFERENCE, frame, &view))
         return EXIT_CODE_BAD_INPUT;
-    mgt_target target = mgt_target_defaults();
+    mgt_target target;
+    mgt_target_init(&target, sizeof target);
     target.layer = MGT_LAYER_COLOR;
     target.format = MGT_FORMAT_RGBA8_SRGB;
     uint8_t *bytes = calloc(pixels, 4);

@@ -29,7 +29,8 @@ const char *context_option_set(context_options *options, const char *name, const
 int context_open(const context_options *options, const console *out, mgt_progress_function progress, void *progress_user, mgt_context **context,
                  mgt_context_info *info)
 {
-    mgt_context_desc desc = mgt_context_desc_defaults();
+    mgt_context_desc desc;
+    mgt_context_desc_init(&desc, sizeof desc);
     desc.backend = options->backend;
     desc.gl_device = options->gl_device;
     desc.isa = options->isa;

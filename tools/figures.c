@@ -206,7 +206,7 @@ int verb_figures(int count, char **arguments)
     request->arguments = arguments;
     request->argument_count = count;
     request->wanted = (1u << FIGURES) - 1;
-    request->reference = mgt_scene_defaults().quality;
+    mgt_quality_init(&request->reference, sizeof request->reference);
     method_from_name("reference", &request->reference);
     request->reference.spatial_samples = 16;
     /* Not the methods' seed: else one that jitters would share the reference's samples. */

@@ -131,7 +131,8 @@ int figures_display(compare_job *job, size_t scene, size_t picture, size_t frame
     if (picture_read(&light, path, "color", &error) != FILE_OK)
         return compare_file_failure(job, &error);
     view.post.exposure_ev += stops;
-    mgt_target target = mgt_target_defaults();
+    mgt_target target;
+    mgt_target_init(&target, sizeof target);
     target.layer = MGT_LAYER_COLOR;
     target.format = MGT_FORMAT_RGBA8_SRGB;
     target.pixels = *rgba = calloc((size_t)light.width * light.height, 4);

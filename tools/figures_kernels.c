@@ -182,7 +182,8 @@ static int still_sums(figures_job *f, size_t scene, double sums[2])
     float *coverage = calloc(pixels, sizeof *coverage);
     if (!coverage)
         return figures_no_memory();
-    mgt_target target = mgt_target_defaults();
+    mgt_target target;
+    mgt_target_init(&target, sizeof target);
     target.layer = MGT_LAYER_COVERAGE;
     target.format = MGT_FORMAT_R32F;
     target.pixels = coverage;

@@ -203,9 +203,10 @@ static int render_view(figures_job *f, size_t scene, uint32_t width, uint32_t he
         return EXIT_CODE_BAD_INPUT;
     view.image = (mgt_image){.width = width, .height = height};
     view.sky.model = MGT_SKY_ATMOSPHERE;
-    view.quality = mgt_scene_defaults().quality;
+    mgt_quality_init(&view.quality, sizeof view.quality);
     view.quality.method = MGT_METHOD_MANGATA;
-    mgt_target target = mgt_target_defaults();
+    mgt_target target;
+    mgt_target_init(&target, sizeof target);
     target.layer = MGT_LAYER_COLOR;
     target.format = MGT_FORMAT_RGBA8_SRGB;
     target.pixels = rgba;

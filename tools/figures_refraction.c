@@ -135,14 +135,13 @@ static int choose(refraction_figures *r, const char *folder)
                            .folder = request->folder,
                            .overrides = request->overrides,
                            .override_count = request->override_count,
-                           .reference = mgt_scene_defaults().quality,
                            .layers = {MGT_LAYER_REFRACTION, MGT_LAYER_MASK},
                            .layer_count = 2,
                            .time_runs = request->time_runs,
                            .memory = true,
                            .context = request->context,
                            .progress = request->progress};
-    c->reference.method = MGT_METHOD_MANGATA;
+    mgt_quality_init(&c->reference, sizeof c->reference);
     c->reference.refraction_samples = request->refraction_samples;
     const uint32_t first = frame_list_at(&request->frames, 0);
     frame_list_span(&c->frames, first, first);

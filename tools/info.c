@@ -76,7 +76,8 @@ static json_t *list_gl_devices(void)
     json_t *list = json_array();
     for (uint32_t device = 0; list && device < 64; device++) {
         refusal refused = {""};
-        mgt_context_desc desc = mgt_context_desc_defaults();
+        mgt_context_desc desc;
+        mgt_context_desc_init(&desc, sizeof desc);
         desc.backend = MGT_BACKEND_GL;
         desc.gl_device = device;
         desc.log = keep_refusal;

@@ -107,7 +107,8 @@ static void print_file_name(method_spec *spec)
 
 bool method_spec_parse(method_spec *spec, const char *text, size_t length, char *wrong, size_t wrong_size)
 {
-    *spec = (method_spec){.quality = mgt_scene_defaults().quality};
+    *spec = (method_spec){0};
+    mgt_quality_init(&spec->quality, sizeof spec->quality);
     if (length >= sizeof spec->name)
         return fail(wrong, wrong_size, "%.*s…: the name is too long", 32, text);
     memcpy(spec->name, text, length);

@@ -356,7 +356,7 @@ int verb_render(int count, char **arguments)
         goto done;
     }
     request->overrides = overrides;
-    request->quality = mgt_scene_defaults().quality;
+    mgt_quality_init(&request->quality, sizeof request->quality);
     method_from_name("mangata", &request->quality);
     progress_mode_from_name("auto", &request->progress);
     code = read_command_line(request, count, arguments, size);

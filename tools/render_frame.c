@@ -33,7 +33,7 @@ int frame_buffer_create(frame_buffer *buffer, const render_request *request, uin
         goto fail;
     for (size_t i = 0; i < request->layer_count; i++) {
         mgt_target *target = &buffer->targets[buffer->count];
-        *target = mgt_target_defaults();
+        mgt_target_init(target, sizeof *target);
         target->layer = request->layers[i];
         target->format = layer_format(target->layer, buffer->displayed);
         target->pixels = calloc((size_t)width * height, pixel_bytes(target->format));

@@ -24,7 +24,8 @@ static const option_table scene_table = {"scene",
 /* What the loader cannot know, because only the library does: whether each frame can be rendered. */
 static int check_frames(const scene_file *scene, const char *path, scene_error *error)
 {
-    mgt_context_desc desc = mgt_context_desc_defaults();
+    mgt_context_desc desc;
+    mgt_context_desc_init(&desc, sizeof desc);
     desc.backend = MGT_BACKEND_NULL;
     mgt_context *context = NULL;
     mgt_status status = mgt_context_create(&context, &desc);

@@ -80,7 +80,8 @@ static int set_option(view_request *r, int id, const char *value)
 int view_request_read(view_request *request, int count, char **arguments)
 {
     view_request *r = request;
-    *r = (view_request){.context.backend = MGT_BACKEND_AUTO, .quality = mgt_scene_defaults().quality};
+    *r = (view_request){.context.backend = MGT_BACKEND_AUTO};
+    mgt_quality_init(&r->quality, sizeof r->quality);
     method_from_name("mangata", &r->quality);
     /* Each --set takes a word of the command line; two more hold the size. */
     r->overrides = calloc((size_t)count + 2, sizeof *r->overrides);

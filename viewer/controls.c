@@ -306,7 +306,7 @@ static void write_choice(const control_board *board, const control *c, int choic
         return;
     /* Another body brings its own radius and radiance; it stays where it is. */
     const mgt_light old = *light;
-    *light = mgt_light_defaults(old.body);
+    mgt_light_init(light, old.body);
     light->elevation_deg = old.elevation_deg;
     light->azimuth_deg = old.azimuth_deg;
 }

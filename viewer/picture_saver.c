@@ -42,7 +42,7 @@ static bool write_exr(mgt_context *context, const mgt_scene *scene, const char *
     bool good = memory != NULL;
     for (int i = 0; i < EXR_LAYERS && good; i++) {
         const uint32_t channels = layer_channels((mgt_layer)i);
-        targets[i] = mgt_target_defaults();
+        mgt_target_init(&targets[i], sizeof targets[i]);
         targets[i].layer = (mgt_layer)i;
         targets[i].format = channels == 3 ? MGT_FORMAT_RGB32F : MGT_FORMAT_R32F;
         targets[i].pixels = next;
@@ -65,7 +65,8 @@ static bool write_exr(mgt_context *context, const mgt_scene *scene, const char *
 
 static bool write_png(mgt_context *context, const mgt_scene *scene, const char *path, const output_options *options, char *error, size_t error_size)
 {
-    mgt_target target = mgt_target_defaults();
+    mgt_target target;
+    mgt_target_init(&target, sizeof target);
     file_error problem = {0};
     bool good = (target.pixels = malloc((size_t)scene->image.width * scene->image.height * 4)) != NULL;
     if (!good)

@@ -120,7 +120,8 @@ static void publish(render_worker *w, int side)
 /* Renders into `pixels`; false when there is nothing to show: cancelled, or failed (told). */
 static bool render(render_worker *w, const mgt_scene *scene, mgt_format format, void *pixels)
 {
-    mgt_target target = mgt_target_defaults();
+    mgt_target target;
+    mgt_target_init(&target, sizeof target);
     target.layer = w->current.layer;
     target.format = format;
     target.pixels = pixels;
@@ -223,7 +224,8 @@ static bool refine(render_worker *w, int side)
         return false;
     }
     if (o->layer == MGT_LAYER_COLOR) {
-        mgt_target target = mgt_target_defaults();
+        mgt_target target;
+        mgt_target_init(&target, sizeof target);
         target.pixels = p->pixels;
         const mgt_status status = mgt_display(w->context, &scene, a->mean, &target);
         if (status != MGT_OK) {

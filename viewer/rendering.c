@@ -28,7 +28,8 @@ static void wake(void) { glfwPostEmptyEvent(); }
 
 mgt_context_desc viewer_cpu_desc(const viewer *v)
 {
-    mgt_context_desc desc = mgt_context_desc_defaults();
+    mgt_context_desc desc;
+    mgt_context_desc_init(&desc, sizeof desc);
     desc.isa = v->request->context.isa;
     desc.threads = v->request->context.threads;
     return desc;
@@ -226,7 +227,8 @@ static void render_gl(viewer *v, const render_order *o)
         if (!o->wanted[side] || side_refines(&o->quality[side]))
             continue;
         mgt_scene scene = o->scene;
-        mgt_gl_texture texture = mgt_gl_texture_defaults();
+        mgt_gl_texture texture;
+        mgt_gl_texture_init(&texture, sizeof texture);
         scene.quality = o->quality[side];
         texture.layer = o->layer;
         texture.texture = display_texture(v->display, side, o->layer, scene.image.width, scene.image.height);

@@ -121,7 +121,8 @@ settings settings_defaults(void)
 
 mgt_quality side_quality(const side_settings *side)
 {
-    mgt_quality q = mgt_scene_defaults().quality;
+    mgt_quality q;
+    mgt_quality_init(&q, sizeof q);
     q.method = (mgt_method)side->method;
     q.spatial_samples = side->spatial;
     q.time_samples = side->time_samples;

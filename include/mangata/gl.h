@@ -42,13 +42,14 @@ typedef struct mgt_gl_view {
     int32_t x, y;          /* viewport in the framebuffer, pixels from its lower left corner */
     uint32_t width, height;
     uint32_t framebuffer; /* name of yours with a colour and a depth attachment, multisampled or not; 0: the default one */
-    bool reversed_depth;  /* nearer is greater: tested with GL_GEQUAL instead of GL_LEQUAL. Clip depth mode and depth range are yours */
-    bool draw_sky;        /* fills what lies behind the far plane with the scene's sky and light; else only water is drawn */
     mgt_gl_color color;
+    bool reversed_depth; /* nearer is greater: tested with GL_GEQUAL instead of GL_LEQUAL. Clip depth mode and depth range are yours */
+    bool draw_sky;       /* fills what lies behind the far plane with the scene's sky and light; else only water is drawn */
+    uint8_t reserved[6]; /* 0 */
 } mgt_gl_view;
 
 /* Identity matrices, the default framebuffer, radiance; viewport empty. */
-MGT_API mgt_gl_view mgt_gl_view_defaults(void);
+MGT_API void mgt_gl_view_init(mgt_gl_view *view, size_t size);
 
 /* Draws the water of `scene` into `count` views (1 … 16). Water is tested against your depth buffer and writes its own depth, that of the waves
  * which a pixel resolves; the pixels of the horizon blend into what your framebuffer holds. Methods: all but MGT_METHOD_REFERENCE and
@@ -63,10 +64,12 @@ typedef struct mgt_gl_texture {
     size_t struct_size;
     mgt_layer layer;
     uint32_t texture;
-    int32_t level;
+    int32_t level;     /* of mipmaps */
+    uint32_t reserved; /* 0 */
 } mgt_gl_texture;
 
-MGT_API mgt_gl_texture mgt_gl_texture_defaults(void);
+/* The layer color, level 0; no texture yet. */
+MGT_API void mgt_gl_texture_init(mgt_gl_texture *texture, size_t size);
 
 /* Renders one frame into `count` textures (1 … 16) without waiting for it. Methods as for views. */
 MGT_API mgt_status mgt_gl_render_textures(mgt_context *context, const mgt_scene *scene, const mgt_gl_texture *textures, size_t count);

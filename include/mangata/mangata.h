@@ -2,15 +2,17 @@
  *
  * Mangata: reflections of the sun and the moon on water, anti-aliased in space and time.
  *
- * In one breath: create a context, fill a scene from mgt_scene_defaults(), point one or more targets at
- * your memory, call mgt_render().
+ * In one breath: create a context, initialise a scene and change what you like, point one or more targets at your memory, call mgt_render().
  *
  * Conventions of every function here
  *   Units       metres, seconds, degrees where the name says so and radians elsewhere; luminance in kcd/m².
  *   Axes        right-handed, y up. The mean water surface is y = 0. Azimuth 0 is -z ("north"), 90 is +x ("east").
  *   Pixels      (0,0) is the top left pixel; +x of the image is cross(forward, up).
- *   Structs     every public struct begins with `struct_size`. Fill structs with their mgt_*_defaults()
- *               function, which also sets it; a struct whose size this library does not know is refused.
+ *   Structs     a struct that begins with `struct_size` is initialised by its mgt_*_init(&x, sizeof x), which writes no more than
+ *               that; one that a function only fills needs nothing but struct_size = sizeof. Later versions add members at the
+ *               end. A program that was built with an earlier header keeps working: what its structs lack has its default. With
+ *               a later header, members that this library does not know must stay as initialised. Elements of an array have the
+ *               same size. Structs without struct_size never change.
  *   Errors      functions return an mgt_status; mgt_last_error() and the log say what was wrong. After a
  *               failure no object has changed; pixels of the targets may have been written in part.
  *   Threads     a context is used by one thread at a time; different contexts are independent.

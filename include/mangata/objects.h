@@ -18,12 +18,12 @@ typedef struct mgt_texture mgt_texture;
 
 typedef struct mgt_mesh_desc {
     size_t struct_size;
-    const float *positions; /* 3 a vertex, metres, within ±1e6 */
-    const float *normals;   /* 3 a vertex, of any length; NULL: those of the triangles */
-    const float *texcoords; /* 2 a vertex, (0, 0) the top left of a texture, (1, 1) its bottom right; it repeats. NULL: all (0, 0) */
-    uint32_t vertex_count;
-    const uint32_t *indices; /* 3 a triangle, below vertex_count; counter-clockwise seen from outside. Both sides are drawn */
+    const float *positions;  /* 3 a vertex, metres, within ±1e6 */
+    const float *normals;    /* 3 a vertex, of any length; NULL: those of the triangles */
+    const float *texcoords;  /* 2 a vertex, (0, 0) the top left of a texture, (1, 1) its bottom right; it repeats. NULL: all (0, 0) */
+    uint32_t vertex_count;   /* at least 1 */
     uint32_t triangle_count; /* 1 … MGT_MAX_TRIANGLES */
+    const uint32_t *indices; /* 3 a triangle, below vertex_count; counter-clockwise seen from outside. Both sides are drawn */
 } mgt_mesh_desc;
 
 typedef struct mgt_texture_desc {
@@ -33,8 +33,9 @@ typedef struct mgt_texture_desc {
     ptrdiff_t row_stride;   /* bytes from a row to the next one; 0: tightly packed */
 } mgt_texture_desc;
 
-MGT_API mgt_mesh_desc mgt_mesh_desc_defaults(void);
-MGT_API mgt_texture_desc mgt_texture_desc_defaults(void);
+/* No triangles; no pixels. */
+MGT_API void mgt_mesh_desc_init(mgt_mesh_desc *desc, size_t size);
+MGT_API void mgt_texture_desc_init(mgt_texture_desc *desc, size_t size);
 
 /* Copies what the description points to. On failure *mesh is NULL, the status says why and mgt_last_error(NULL) gives the detail. Triangles without
  * area are dropped; it is an error if none is left, or if a number is not finite. The caller owns the result and destroys it. */

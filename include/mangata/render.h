@@ -47,27 +47,29 @@ typedef struct mgt_context_desc {
     mgt_backend backend;
     mgt_isa isa;          /* highest instruction set to use; a missing one fails with MGT_ERROR_UNAVAILABLE */
     uint32_t threads;     /* 0: as many as the CPUs this process may use (affinity and cgroup quota); at most 1024 */
+    uint32_t gl_device;   /* OpenGL of its own: which EGL device, counted from 0 */
     mgt_log_function log; /* NULL: silent */
     void *log_user;
     mgt_progress_function progress; /* NULL: none */
     void *progress_user;
     mgt_gl_get_proc gl_get_proc; /* OpenGL: functions of the context that is current on this thread, used instead of one of its own (mangata/gl.h);
                                     NULL: a context of its own without a window, through EGL */
-    uint32_t gl_device;          /* OpenGL of its own: which EGL device, counted from 0 */
 } mgt_context_desc;
 
 typedef struct mgt_context mgt_context;
 
-MGT_API mgt_context_desc mgt_context_desc_defaults(void);
+/* The CPU, all its threads and lanes, no callbacks. */
+MGT_API void mgt_context_desc_init(mgt_context_desc *desc, size_t size);
 
 /* Creates a context with its threads. `desc` may be NULL (all defaults). On failure *context is NULL and the status says why;
- * mgt_last_error(NULL) gives the detail (per thread). The caller owns the context and destroys it. */
+ * mgt_last_error(NULL) gives the detail. The caller owns the context and destroys it. */
 MGT_API mgt_status mgt_context_create(mgt_context **context, const mgt_context_desc *desc);
 
 /* Frees the context and joins its threads. NULL is allowed. */
 MGT_API void mgt_context_destroy(mgt_context *context);
 
-/* Detail of the last failure on this context (NULL: of the last failed mgt_context_create on this thread). Never NULL; valid until the next call. */
+/* Detail of the last failure on this context; NULL: of the last mgt_context_create(), mgt_mesh_create() or mgt_texture_create() on this thread, empty
+ * where that succeeded. Never NULL; valid until the next such call. A function that gets NULL for its context only returns MGT_ERROR_ARGUMENT. */
 MGT_API const char *mgt_last_error(const mgt_context *context);
 
 typedef struct mgt_context_info {
@@ -119,7 +121,8 @@ typedef struct mgt_target {
     ptrdiff_t row_stride; /* bytes from a row to the next one below; negative for bottom-up; 0: tightly packed */
 } mgt_target;
 
-MGT_API mgt_target mgt_target_defaults(void);
+/* Displayed colour, 8 bits, tightly packed; no pixels yet. */
+MGT_API void mgt_target_init(mgt_target *target, size_t size);
 
 /* Checks a scene as mgt_render() would, without rendering. The detail of an error is in mgt_last_error(context). */
 MGT_API mgt_status mgt_scene_check(mgt_context *context, const mgt_scene *scene);

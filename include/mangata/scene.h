@@ -195,14 +195,17 @@ typedef struct mgt_scene {
     const mgt_object *objects; /* object_count of them, read during the call; NULL when there are none */
     size_t object_count;       /* 0 … MGT_MAX_OBJECTS */
     mgt_post post;
-    mgt_quality quality;
+    mgt_quality quality; /* the last member, so that it may grow at its end with the scene; the structs above never change */
 } mgt_scene;
 
 /* A 1280×720 noon view of a flat sea without waves by the default method: every field legal. */
-MGT_API mgt_scene mgt_scene_defaults(void);
+MGT_API void mgt_scene_init(mgt_scene *scene, size_t size);
+
+/* The default method. `size` is sizeof(mgt_quality), as with structs that begin with their size. */
+MGT_API void mgt_quality_init(mgt_quality *quality, size_t size);
 
 /* Radius (degrees), radiance outside the atmosphere and limb of a body, placed at elevation 30°, azimuth 0. */
-MGT_API mgt_light mgt_light_defaults(mgt_body body);
+MGT_API void mgt_light_init(mgt_light *light, mgt_body body);
 
 #ifdef __cplusplus
 }

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "core/context.h"
+#include "core/structs.h"
 #include "core/validate.h"
 
 /* Where creation reports, since there is no context to hold the text yet. */
@@ -66,28 +67,30 @@ static mgt_status create_auto(mgt_context *c, const mgt_context_desc *desc, cons
 
 mgt_status mgt_context_create(mgt_context **context, const mgt_context_desc *desc)
 {
-    const mgt_context_desc defaults = mgt_context_desc_defaults();
-    if (!desc)
-        desc = &defaults;
-    creation_error[0] = 0;
-    reporter early = {desc->struct_size == sizeof *desc ? desc->log : NULL, desc->log_user, creation_error};
+    reporter early = creation_reporter();
+    mgt_context_desc own;
+    if (context)
+        *context = NULL;
+    mgt_status status = struct_take(&early, &context_desc_kind, &own, desc ? desc : context_desc_kind.defaults, 1);
+    if (status != MGT_OK)
+        return status;
+    early.log = own.log, early.log_user = own.log_user;
     if (!context)
         return report_error(&early, MGT_ERROR_ARGUMENT, "context.create", "mgt_context_create: the pointer to fill is NULL");
-    *context = NULL;
-    mgt_status status = validate_desc(&early, desc);
+    status = validate_desc(&early, &own);
     if (status != MGT_OK)
         return status;
 
     mgt_context *c = calloc(1, sizeof *c);
     if (!c)
         return report_error(&early, MGT_ERROR_MEMORY, "context.create", "out of memory");
-    c->report = (reporter){desc->log, desc->log_user, c->error};
-    c->backend = desc->backend == MGT_BACKEND_NULL ? &null_backend : desc->backend == MGT_BACKEND_GL ? &gl_backend : &cpu_backend;
+    c->report = (reporter){own.log, own.log_user, c->error};
+    c->backend = own.backend == MGT_BACKEND_NULL ? &null_backend : own.backend == MGT_BACKEND_GL ? &gl_backend : &cpu_backend;
     c->info.struct_size = sizeof c->info;
-    if (desc->backend == MGT_BACKEND_AUTO)
-        status = create_auto(c, desc, &early);
+    if (own.backend == MGT_BACKEND_AUTO)
+        status = create_auto(c, &own, &early);
     else
-        status = c->backend->create(&c->state, desc, &early, &c->info);
+        status = c->backend->create(&c->state, &own, &early, &c->info);
     if (status != MGT_OK) {
         free(c);
         return status;
@@ -109,10 +112,7 @@ const char *mgt_last_error(const mgt_context *context) { return context ? contex
 
 mgt_status mgt_context_get_info(const mgt_context *context, mgt_context_info *info)
 {
-    if (!context || !info || info->struct_size != sizeof *info)
-        return MGT_ERROR_ARGUMENT;
-    *info = context->info;
-    return MGT_OK;
+    return context ? struct_give(&context->report, &context_info_kind, &context->info, info) : MGT_ERROR_ARGUMENT;
 }
 
 mgt_status mgt_scene_check(mgt_context *context, const mgt_scene *scene)
@@ -120,17 +120,16 @@ mgt_status mgt_scene_check(mgt_context *context, const mgt_scene *scene)
     if (!context)
         return MGT_ERROR_ARGUMENT;
     context->error[0] = 0;
-    return validate_scene(&context->report, scene);
+    mgt_scene own;
+    return scene_take(&context->report, &own, scene);
 }
 
-mgt_scene scene_at_sea_level(const mgt_scene *scene)
+void scene_to_sea_level(mgt_scene *own)
 {
-    mgt_scene s = *scene;
-    s.camera.position[1] -= s.water.level;
-    s.camera.target[1] -= s.water.level;
-    s.camera_open.position[1] -= s.water.level;
-    s.camera_open.target[1] -= s.water.level;
-    return s;
+    own->camera.position[1] -= own->water.level;
+    own->camera.target[1] -= own->water.level;
+    own->camera_open.position[1] -= own->water.level;
+    own->camera_open.target[1] -= own->water.level;
 }
 
 mgt_status mgt_render(mgt_context *context, const mgt_scene *scene, const mgt_target *targets, size_t count)
@@ -138,11 +137,13 @@ mgt_status mgt_render(mgt_context *context, const mgt_scene *scene, const mgt_ta
     if (!context)
         return MGT_ERROR_ARGUMENT;
     context->error[0] = 0;
-    mgt_status status = validate_scene(&context->report, scene);
+    mgt_scene own;
+    mgt_target own_targets[MOST_TARGETS];
+    mgt_status status = scene_take(&context->report, &own, scene);
     if (status == MGT_OK)
-        status = validate_targets(&context->report, scene, targets, count);
+        status = targets_take(&context->report, &own, own_targets, targets, count);
     if (status != MGT_OK)
         return status;
-    const mgt_scene ours = scene_at_sea_level(scene);
-    return context->backend->render(context->state, &context->report, &ours, targets, count);
+    scene_to_sea_level(&own);
+    return context->backend->render(context->state, &context->report, &own, own_targets, count);
 }

@@ -17,8 +17,8 @@ struct mgt_context {
 /* For what is created without a context: the text of mgt_last_error(NULL), emptied. */
 reporter creation_reporter(void);
 
-/* The scene with the mean surface at y = 0, as backends see it: its cameras are moved. Objects stay where they are, so who reads them
+/* Moves a scene's cameras so that the mean surface is at y = 0, as backends expect it. Objects stay where they are, so who reads them
  * takes water.level off. */
-mgt_scene scene_at_sea_level(const mgt_scene *scene);
+void scene_to_sea_level(mgt_scene *own);
 
 #endif

@@ -8,21 +8,16 @@
 #include <string.h>
 
 #include "core/context.h"
+#include "core/structs.h"
 
 static atomic_uint_fast64_t last_id;
 
 static uint64_t next_id(void) { return atomic_fetch_add(&last_id, 1) + 1; }
 
-mgt_mesh_desc mgt_mesh_desc_defaults(void) { return (mgt_mesh_desc){.struct_size = sizeof(mgt_mesh_desc)}; }
-
-mgt_texture_desc mgt_texture_desc_defaults(void) { return (mgt_texture_desc){.struct_size = sizeof(mgt_texture_desc)}; }
-
 /* ---- meshes ---- */
 
 static mgt_status check_mesh(const reporter *r, const mgt_mesh_desc *d)
 {
-    if (d->struct_size != sizeof *d)
-        return report_error(r, MGT_ERROR_ARGUMENT, "mesh.desc", "mgt_mesh_desc.struct_size is %zu, this library knows %zu", d->struct_size, sizeof *d);
     if (!d->positions || d->vertex_count == 0)
         return report_error(r, MGT_ERROR_ARGUMENT, "mesh.desc", "the mesh has no vertices");
     if (!d->indices || d->triangle_count == 0)
@@ -99,27 +94,30 @@ static void keep_triangles(mgt_mesh *m, const mgt_mesh_desc *d)
 mgt_status mgt_mesh_create(mgt_mesh **mesh, const mgt_mesh_desc *desc)
 {
     const reporter r = creation_reporter();
-    if (!mesh || !desc)
-        return report_error(&r, MGT_ERROR_ARGUMENT, "mesh.create", "mgt_mesh_create: a pointer is NULL");
+    mgt_mesh_desc own;
+    if (!mesh)
+        return report_error(&r, MGT_ERROR_ARGUMENT, "mesh.create", "mgt_mesh_create: the pointer to fill is NULL");
     *mesh = NULL;
-    const mgt_status status = check_mesh(&r, desc);
+    mgt_status status = struct_take(&r, &mesh_desc_kind, &own, desc, 1);
+    if (status == MGT_OK)
+        status = check_mesh(&r, &own);
     if (status != MGT_OK)
         return status;
     mgt_mesh *m = calloc(1, sizeof *m);
     if (!m)
         goto out_of_memory;
     m->id = next_id();
-    m->vertex_count = desc->vertex_count;
-    m->positions = copy_of(desc->positions, desc->vertex_count, 3 * sizeof *m->positions);
-    m->normals = copy_of(desc->normals, desc->vertex_count, 3 * sizeof *m->normals);
-    m->texcoords = copy_of(desc->texcoords, desc->vertex_count, 2 * sizeof *m->texcoords);
-    m->indices = malloc(desc->triangle_count * 3 * sizeof *m->indices);
-    if (!m->positions || !m->indices || (desc->normals && !m->normals) || (desc->texcoords && !m->texcoords))
+    m->vertex_count = own.vertex_count;
+    m->positions = copy_of(own.positions, own.vertex_count, 3 * sizeof *m->positions);
+    m->normals = copy_of(own.normals, own.vertex_count, 3 * sizeof *m->normals);
+    m->texcoords = copy_of(own.texcoords, own.vertex_count, 2 * sizeof *m->texcoords);
+    m->indices = malloc(own.triangle_count * 3 * sizeof *m->indices);
+    if (!m->positions || !m->indices || (own.normals && !m->normals) || (own.texcoords && !m->texcoords))
         goto out_of_memory;
-    keep_triangles(m, desc);
+    keep_triangles(m, &own);
     if (m->triangle_count == 0) {
         mgt_mesh_destroy(m);
-        return report_error(&r, MGT_ERROR_ARGUMENT, "mesh.create", "none of the mesh's %u triangles has an area", desc->triangle_count);
+        return report_error(&r, MGT_ERROR_ARGUMENT, "mesh.create", "none of the mesh's %u triangles has an area", own.triangle_count);
     }
     if (m->normals)
         normalize_all(m->normals, m->vertex_count);
@@ -127,7 +125,7 @@ mgt_status mgt_mesh_create(mgt_mesh **mesh, const mgt_mesh_desc *desc)
     return MGT_OK;
 out_of_memory:
     mgt_mesh_destroy(m);
-    return report_error(&r, MGT_ERROR_MEMORY, "mesh.create", "out of memory for a mesh of %u triangles", desc->triangle_count);
+    return report_error(&r, MGT_ERROR_MEMORY, "mesh.create", "out of memory for a mesh of %u triangles", own.triangle_count);
 }
 
 void mgt_mesh_destroy(mgt_mesh *mesh)
@@ -187,8 +185,6 @@ static void fill_levels(mgt_texture *t)
 
 static mgt_status check_texture(const reporter *r, const mgt_texture_desc *d)
 {
-    if (d->struct_size != sizeof *d)
-        return report_error(r, MGT_ERROR_ARGUMENT, "texture.desc", "mgt_texture_desc.struct_size is %zu, this library knows %zu", d->struct_size, sizeof *d);
     if (d->width < 1 || d->width > 16384 || d->height < 1 || d->height > 16384)
         return report_error(r, MGT_ERROR_ARGUMENT, "texture.desc", "the texture is %u x %u pixels; allowed is 1 to 16384 a side", d->width, d->height);
     const ptrdiff_t stride = d->row_stride;
@@ -200,18 +196,21 @@ static mgt_status check_texture(const reporter *r, const mgt_texture_desc *d)
 mgt_status mgt_texture_create(mgt_texture **texture, const mgt_texture_desc *desc)
 {
     const reporter r = creation_reporter();
-    if (!texture || !desc)
-        return report_error(&r, MGT_ERROR_ARGUMENT, "texture.create", "mgt_texture_create: a pointer is NULL");
+    mgt_texture_desc own;
+    if (!texture)
+        return report_error(&r, MGT_ERROR_ARGUMENT, "texture.create", "mgt_texture_create: the pointer to fill is NULL");
     *texture = NULL;
-    const mgt_status status = check_texture(&r, desc);
+    mgt_status status = struct_take(&r, &texture_desc_kind, &own, desc, 1);
+    if (status == MGT_OK)
+        status = check_texture(&r, &own);
     if (status != MGT_OK)
         return status;
     mgt_texture *t = calloc(1, sizeof *t);
     size_t count = 0;
     if (t) {
         t->id = next_id();
-        t->width = desc->width;
-        t->height = desc->height;
+        t->width = own.width;
+        t->height = own.height;
         do {
             t->level_start[t->levels] = count;
             count += (size_t)side(t->width, t->levels) * side(t->height, t->levels);
@@ -221,10 +220,10 @@ mgt_status mgt_texture_create(mgt_texture **texture, const mgt_texture_desc *des
     }
     if (!t || !t->texels) {
         mgt_texture_destroy(t);
-        return report_error(&r, MGT_ERROR_MEMORY, "texture.create", "out of memory for a texture of %u x %u pixels", desc->width, desc->height);
+        return report_error(&r, MGT_ERROR_MEMORY, "texture.create", "out of memory for a texture of %u x %u pixels", own.width, own.height);
     }
     for (uint32_t y = 0; y < t->height; y++) {
-        const uint8_t *row = desc->pixels + (desc->row_stride ? desc->row_stride : 4 * (ptrdiff_t)t->width) * (ptrdiff_t)y;
+        const uint8_t *row = own.pixels + (own.row_stride ? own.row_stride : 4 * (ptrdiff_t)t->width) * (ptrdiff_t)y;
         for (uint32_t x = 0; x < t->width; x++)
             t->texels[(size_t)y * t->width + x] = row[4 * x] | (uint32_t)row[4 * x + 1] << 8 | (uint32_t)row[4 * x + 2] << 16 | 255u << 24;
     }

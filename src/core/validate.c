@@ -9,9 +9,6 @@
 
 mgt_status validate_desc(const reporter *r, const mgt_context_desc *desc)
 {
-    if (desc->struct_size != sizeof *desc)
-        return report_error(r, MGT_ERROR_ARGUMENT, "context.desc", "mgt_context_desc.struct_size is %zu, this library knows %zu", desc->struct_size,
-                            sizeof *desc);
     if ((int)desc->backend < MGT_BACKEND_CPU || (int)desc->backend > MGT_BACKEND_NULL)
         return report_error(r, MGT_ERROR_ARGUMENT, "context.desc", "mgt_context_desc.backend is %d, which names no backend", (int)desc->backend);
     if ((int)desc->isa < MGT_ISA_AUTO || (int)desc->isa > MGT_ISA_NEON)
@@ -190,17 +187,11 @@ static mgt_status check_objects(const reporter *r, const mgt_scene *scene)
     if (triangles > MGT_MAX_TRIANGLES)
         return report_error(r, MGT_ERROR_SCENE, "render.scene", "the scene has %llu triangles; at most %d are allowed", (unsigned long long)triangles,
                             MGT_MAX_TRIANGLES);
-    if (triangles > 0)
-        return MGT_OK;
     return MGT_OK;
 }
 
 mgt_status validate_scene(const reporter *r, const mgt_scene *scene)
 {
-    if (!scene)
-        return report_error(r, MGT_ERROR_ARGUMENT, "render.scene", "the scene is NULL");
-    if (scene->struct_size != sizeof *scene)
-        return report_error(r, MGT_ERROR_ARGUMENT, "render.scene", "mgt_scene.struct_size is %zu, this library knows %zu", scene->struct_size, sizeof *scene);
     TRY(check_image(r, &scene->image));
     TRY(check_camera(r, "camera", &scene->camera));
     if (scene->camera_moves)
@@ -247,9 +238,6 @@ static mgt_status validate_target(const reporter *r, const region *area, const m
         [MGT_LAYER_REFRACTION] = 1u << MGT_FORMAT_RGB32F | 1u << MGT_FORMAT_RGBA32F,
         [MGT_LAYER_REFRACTION_ERROR] = 1u << MGT_FORMAT_R32F,
     };
-    if (target->struct_size != sizeof *target)
-        return report_error(r, MGT_ERROR_ARGUMENT, "render.target", "target %zu: struct_size is %zu, this library knows %zu", index, target->struct_size,
-                            sizeof *target);
     if ((int)target->layer < 0 || (int)target->layer > MGT_LAYER_REFRACTION_ERROR || (int)target->format < 0 || (int)target->format > MGT_FORMAT_RGBA8_SRGB ||
         !(allowed[target->layer] & 1u << target->format))
         return report_error(r, MGT_ERROR_ARGUMENT, "render.target", "target %zu: layer %d cannot be written in format %d", index, (int)target->layer,
@@ -267,8 +255,6 @@ static mgt_status validate_target(const reporter *r, const region *area, const m
 
 mgt_status validate_targets(const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count)
 {
-    if (!targets || count == 0 || count > 16)
-        return report_error(r, MGT_ERROR_ARGUMENT, "render.target", "%zu targets; allowed is 1 to 16 and a pointer to them", count);
     const region area = image_region(&scene->image);
     for (size_t i = 0; i < count; i++)
         TRY(validate_target(r, &area, &targets[i], i));

@@ -184,7 +184,7 @@ static mgt_status prepare_view(const gl_backend_state *s, const mgt_scene *scene
     const mgt_status status = validate_scene(r, &out->scene);
     if (status != MGT_OK)
         return status;
-    out->scene = scene_at_sea_level(&out->scene);
+    scene_to_sea_level(&out->scene);
     out->close.rays.position[1] -= scene->water.level;
     out->open.rays.position[1] -= scene->water.level;
     if (gl_lacks(&out->scene))

@@ -85,7 +85,8 @@ bool model_of_mesh(scene_model *out, const mesh_data *mesh, const char *name, mo
         model_free(out);
         return model_fault_memory(fault);
     }
-    mgt_mesh_desc desc = mgt_mesh_desc_defaults();
+    mgt_mesh_desc desc;
+    mgt_mesh_desc_init(&desc, sizeof desc);
     desc.positions = mesh->positions;
     desc.normals = mesh->normals;
     desc.texcoords = mesh->texcoords;

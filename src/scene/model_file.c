@@ -288,7 +288,8 @@ static bool read_mesh(model_reader *r, unsigned index)
     mesh_data data;
     bool good = convert(r, mesh, &data) || model_fault_memory(r->fault);
     if (good) {
-        mgt_mesh_desc desc = mgt_mesh_desc_defaults();
+        mgt_mesh_desc desc;
+        mgt_mesh_desc_init(&desc, sizeof desc);
         desc.positions = data.positions;
         desc.normals = mesh->mNormals != NULL ? (const float *)mesh->mNormals : data.normals;
         desc.texcoords = data.texcoords;

@@ -95,7 +95,8 @@ done:
 mgt_texture *texture_parse(const void *bytes, size_t length, const char *name, uint64_t *hash, model_fault *fault)
 {
     mgt_texture *texture = NULL;
-    mgt_texture_desc desc = mgt_texture_desc_defaults();
+    mgt_texture_desc desc;
+    mgt_texture_desc_init(&desc, sizeof desc);
     const bool is_jpeg = length > 3 && memcmp(bytes, "\xff\xd8\xff", 3) == 0;
     const decoded picture = is_jpeg ? decode_jpeg(bytes, length, name, fault) : decode_png(bytes, length, name, fault);
     if (picture.pixels == NULL)

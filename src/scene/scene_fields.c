@@ -27,7 +27,7 @@ static const char *const patterns[] = {"none", "tiles", "checker", "stripes", NU
 static void decide_body(void *parent)
 {
     mgt_light *light = parent;
-    *light = mgt_light_defaults(light->body);
+    mgt_light_init(light, light->body);
 }
 
 static void prepare_keyframe(const void *parent, void *item)

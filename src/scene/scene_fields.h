@@ -113,7 +113,7 @@ typedef struct scene_values {
     struct scene_models *models; /* not of the format: what the objects are made of, shared by copies; NULL: none, or not loaded */
 } scene_values;
 
-/* What mgt_scene_defaults() and the format's own defaults say. */
+/* What mgt_scene_init() and the format's own defaults say. */
 scene_values scene_values_defaults(void);
 mgt_material scene_material_defaults(void);
 void scene_values_free(scene_values *values);

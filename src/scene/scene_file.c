@@ -148,7 +148,8 @@ void scene_file_free(scene_file *file)
 
 bool scene_values_shot(const scene_values *values, double time, mgt_scene *out)
 {
-    mgt_scene scene = mgt_scene_defaults();
+    mgt_scene scene;
+    mgt_scene_init(&scene, sizeof scene);
     scene.image.width = values->image.width;
     scene.image.height = values->image.height;
     scene.time = time;

@@ -44,7 +44,7 @@ scene_file *scene_file_parse(const char *text, size_t length, const char *name, 
 void scene_file_free(scene_file *file);
 
 /* The scene as frame `frame` shows it: time = start + frame / fps when the shutter closes, shutter in seconds, camera
- * (and camera_open) from the keyframes where there are some; quality and the crop as in mgt_scene_defaults().
+ * (and camera_open) from the keyframes where there are some; quality and the crop as in mgt_scene_init().
  * out->water.waves and out->objects point into `file` and live as long. Frames from the count on are legal too: the
  * clock runs on, and a camera path's end is where the camera rests. Returns false, with *out untouched, when frame is negative or has no legal camera. */
 bool scene_file_frame(const scene_file *file, int frame, mgt_scene *out);

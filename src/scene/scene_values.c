@@ -9,7 +9,8 @@
 
 scene_values scene_values_defaults(void)
 {
-    const mgt_scene scene = mgt_scene_defaults();
+    mgt_scene scene;
+    mgt_scene_init(&scene, sizeof scene);
     scene_values values = {
         .version = 1,
         .image = scene.image,

@@ -119,7 +119,9 @@ static difference compare(const float *a, const float *b, size_t count, size_t c
 
 static bool render(mgt_context *context, const mgt_scene *scene, layers *out)
 {
-    mgt_target targets[3] = {mgt_target_defaults(), mgt_target_defaults(), mgt_target_defaults()};
+    mgt_target targets[3];
+    for (int i = 0; i < 3; i++)
+        mgt_target_init(&targets[i], sizeof *targets);
     targets[0].layer = MGT_LAYER_COVERAGE, targets[0].format = MGT_FORMAT_R32F, targets[0].pixels = out->coverage;
     targets[1].format = MGT_FORMAT_RGB32F, targets[1].pixels = out->color;
     targets[2].pixels = out->shown;
@@ -153,7 +155,8 @@ static bool print(const char *scene, const char *method, const difference *cover
 
 static bool render_bytes(mgt_context *context, const mgt_scene *scene, unsigned char *shown)
 {
-    mgt_target target = mgt_target_defaults();
+    mgt_target target;
+    mgt_target_init(&target, sizeof target);
     target.pixels = shown;
     if (mgt_render(context, scene, &target, 1) == MGT_OK)
         return true;
@@ -168,7 +171,7 @@ static bool compare_objects(mgt_context *cpu, mgt_context *gl, const char *label
     for (int m = 0; m < OBJECT_METHODS; m++) {
         if (object_methods[m].refraction == MGT_REFRACTION_HYBRID && !trace_available()) /* by the CPU */
             continue;
-        scene->quality = mgt_scene_defaults().quality;
+        mgt_quality_init(&scene->quality, sizeof scene->quality);
         scene->quality.method = object_methods[m].method;
         scene->quality.refraction = object_methods[m].refraction;
         scene->quality.spatial_samples = 2;
@@ -231,7 +234,8 @@ static bool compare_scene(mgt_context *cpu, mgt_context *gl, const char *path, s
 
 int main(int count, char **arguments)
 {
-    mgt_context_desc desc = mgt_context_desc_defaults();
+    mgt_context_desc desc;
+    mgt_context_desc_init(&desc, sizeof desc);
     mgt_context *cpu = NULL, *gl = NULL;
     desc.backend = MGT_BACKEND_GL;
     const mgt_status status = mgt_context_create(&gl, &desc);

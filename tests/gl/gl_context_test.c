@@ -40,7 +40,8 @@ static void creation_says_what_runs(void **state)
 {
     (void)state;
     log_record log = {0};
-    mgt_context_desc desc = mgt_context_desc_defaults();
+    mgt_context_desc desc;
+    mgt_context_desc_init(&desc, sizeof desc);
     desc.backend = MGT_BACKEND_GL;
     desc.log = keep_log;
     desc.log_user = &log;
@@ -68,7 +69,8 @@ static void automatic_choice(void **state)
     const bool software = info_of(gl).software;
     mgt_context_destroy(gl);
     log_record log = {0};
-    mgt_context_desc desc = mgt_context_desc_defaults();
+    mgt_context_desc desc;
+    mgt_context_desc_init(&desc, sizeof desc);
     desc.backend = MGT_BACKEND_AUTO;
     desc.log = keep_log;
     desc.log_user = &log;
@@ -86,7 +88,8 @@ static mgt_gl_function without_compute(const char *name) { return strcmp(name, "
 static void incomplete_hosts_are_refused(void **state)
 {
     (void)state;
-    mgt_context_desc desc = mgt_context_desc_defaults();
+    mgt_context_desc desc;
+    mgt_context_desc_init(&desc, sizeof desc);
     desc.backend = MGT_BACKEND_GL;
     desc.gl_get_proc = without_compute;
     mgt_context *context = NULL;
@@ -274,7 +277,8 @@ static void rendering_can_be_cancelled(void **state)
     (void)state;
     static float pixels[PIXELS];
     int calls = 0;
-    mgt_context_desc desc = mgt_context_desc_defaults();
+    mgt_context_desc desc;
+    mgt_context_desc_init(&desc, sizeof desc);
     desc.backend = MGT_BACKEND_GL;
     desc.progress = stop_at_once;
     desc.progress_user = &calls;
@@ -397,7 +401,8 @@ static void host_stop(host *h)
 
 static mgt_context *host_context(void)
 {
-    mgt_context_desc desc = mgt_context_desc_defaults();
+    mgt_context_desc desc;
+    mgt_context_desc_init(&desc, sizeof desc);
     desc.backend = MGT_BACKEND_GL;
     desc.gl_get_proc = gl_egl_get_proc;
     mgt_context *context = NULL;
@@ -408,7 +413,8 @@ static mgt_context *host_context(void)
 
 static mgt_gl_texture host_texture(const host *h, mgt_layer layer, GLenum format, int width, int height)
 {
-    mgt_gl_texture t = mgt_gl_texture_defaults();
+    mgt_gl_texture t;
+    mgt_gl_texture_init(&t, sizeof t);
     t.layer = layer;
     h->gl.CreateTextures(GL_TEXTURE_2D, 1, &t.texture);
     h->gl.TextureStorage2D(t.texture, 1, format, width, height);
@@ -531,8 +537,10 @@ static void the_threads_context_stays_current(void **state)
     const mgt_target target = sea_target(MGT_LAYER_MASK, MGT_FORMAT_R32F, pixels, 0);
     sea_render(own, &scene, &target, 1);
     assert_ptr_equal(current(), before);
-    const mgt_gl_texture texture = mgt_gl_texture_defaults();
-    const mgt_gl_view view = mgt_gl_view_defaults();
+    mgt_gl_texture texture;
+    mgt_gl_texture_init(&texture, sizeof texture);
+    mgt_gl_view view;
+    mgt_gl_view_init(&view, sizeof view);
     assert_int_equal(mgt_gl_render_textures(own, &scene, &texture, 1), MGT_ERROR_ARGUMENT);
     assert_int_equal(mgt_gl_render_views(own, &scene, &view, 1), MGT_ERROR_ARGUMENT);
     assert_int_equal(mgt_gl_set_sources(own, NULL, 0), MGT_OK);
@@ -545,7 +553,8 @@ static void the_threads_context_stays_current(void **state)
 
 int main(void)
 {
-    mgt_context_desc desc = mgt_context_desc_defaults();
+    mgt_context_desc desc;
+    mgt_context_desc_init(&desc, sizeof desc);
     desc.backend = MGT_BACKEND_GL;
     mgt_context *context = NULL;
     const mgt_status status = mgt_context_create(&context, &desc);

@@ -113,7 +113,9 @@ static hit far_truth(const world *w, const camera_rays *c, const double ray[3])
 
 static mgt_camera camera_towards(double x, double y, double z, double target_y)
 {
-    mgt_camera camera = mgt_scene_defaults().camera;
+    mgt_scene defaults;
+    mgt_scene_init(&defaults, sizeof defaults);
+    mgt_camera camera = defaults.camera;
     const double position[3] = {x, y, z}, target[3] = {0.3, target_y, -0.2};
     for (int k = 0; k < 3; k++)
         camera.position[k] = position[k], camera.target[k] = target[k];
@@ -181,7 +183,8 @@ static void layers_are_those_of_rays(void **state)
     gbuffers cpu = {0};
     assert_int_equal(gl_renderer_create(&g, gl_egl_get_proc, &r), MGT_OK);
     mgt_object object = {.mesh = pool_mesh(), .transform = {{1, 0, 0, 100}, {0, 1, 0, 0}, {0, 0, 1, -50}}};
-    mgt_scene scene = mgt_scene_defaults();
+    mgt_scene scene;
+    mgt_scene_init(&scene, sizeof scene);
     scene.objects = &object;
     scene.object_count = 1;
     const mgt_camera cameras[] = {camera_towards(-3, 3, 5, -1), camera_towards(0.2, 8, 0.1, -2), camera_towards(-7, 0.9, 3, 0),

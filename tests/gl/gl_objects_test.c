@@ -26,7 +26,8 @@ static mgt_texture *checks(void)
     for (int i = 0; i < TEXTURE_SIDE * TEXTURE_SIDE; i++)
         for (int k = 0; k < 3; k++)
             pixels[4 * i + k] = (uint8_t)((i / TEXTURE_SIDE / 4 + i % TEXTURE_SIDE / 4) % 2 ? 230 - 60 * k : 40 + 20 * k);
-    mgt_texture_desc desc = mgt_texture_desc_defaults();
+    mgt_texture_desc desc;
+    mgt_texture_desc_init(&desc, sizeof desc);
     desc.width = desc.height = TEXTURE_SIDE;
     desc.pixels = pixels;
     mgt_texture *texture = NULL;
@@ -187,12 +188,14 @@ static void textures_hold_objects(void **state)
     assert_int_equal(gl_egl_create(&egl, 0, &r), MGT_OK);
     assert_int_equal(gl_egl_enter(egl, &scope, &r), MGT_OK);
     assert_null(gl_api_load(&gl, gl_egl_get_proc));
-    mgt_context_desc desc = mgt_context_desc_defaults();
+    mgt_context_desc desc;
+    mgt_context_desc_init(&desc, sizeof desc);
     desc.backend = MGT_BACKEND_GL;
     desc.gl_get_proc = gl_egl_get_proc;
     mgt_context *context = NULL;
     assert_int_equal(mgt_context_create(&context, &desc), MGT_OK);
-    mgt_gl_texture texture = mgt_gl_texture_defaults();
+    mgt_gl_texture texture;
+    mgt_gl_texture_init(&texture, sizeof texture);
     gl.CreateTextures(GL_TEXTURE_2D, 1, &texture.texture);
     gl.TextureStorage2D(texture.texture, 1, GL_RGBA32F, SEA_WIDTH, SEA_HEIGHT);
     gl.Enable(GL_SCISSOR_TEST); /* of the host, in nobody's way */
@@ -220,7 +223,8 @@ static void textures_hold_objects(void **state)
 
 int main(void)
 {
-    mgt_context_desc desc = mgt_context_desc_defaults();
+    mgt_context_desc desc;
+    mgt_context_desc_init(&desc, sizeof desc);
     desc.backend = MGT_BACKEND_GL;
     mgt_context *context = NULL;
     if (mgt_context_create(&context, &desc) == MGT_ERROR_UNAVAILABLE) {

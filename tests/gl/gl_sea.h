@@ -9,7 +9,8 @@ enum { PIXELS = SEA_WIDTH * SEA_HEIGHT };
 
 static inline mgt_context *gl_context(void)
 {
-    mgt_context_desc desc = mgt_context_desc_defaults();
+    mgt_context_desc desc;
+    mgt_context_desc_init(&desc, sizeof desc);
     desc.backend = MGT_BACKEND_GL;
     mgt_context *context = NULL;
     if (mgt_context_create(&context, &desc) != MGT_OK)

@@ -144,7 +144,8 @@ static const world *place(setup *s, const mgt_mesh *mesh, size_t count)
 {
     static mgt_object objects[4];
     const reporter r = {.error = s->error};
-    mgt_scene scene = mgt_scene_defaults();
+    mgt_scene scene;
+    mgt_scene_init(&scene, sizeof scene);
     for (size_t i = 0; i < count; i++)
         objects[i] = (mgt_object){.mesh = (mgt_mesh *)mesh, .transform = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
     scene.objects = objects;

@@ -289,7 +289,8 @@ static void compare_view(const mgt_scene *drawn_scene, int divisor)
         scene.camera.up[i] = row[1];
     }
     mgt_context *cpu;
-    mgt_target target = mgt_target_defaults();
+    mgt_target target;
+    mgt_target_init(&target, sizeof target);
     target.pixels = rendered.rgba[HEIGHT - 1];
     target.row_stride = -(ptrdiff_t)sizeof rendered.rgba[0];
     assert_int_equal(mgt_context_create(&cpu, NULL), MGT_OK);

@@ -30,7 +30,8 @@ static void importance_is_the_papers_gaussian(void **state)
 static void defaults_ignore_dark_pixels(void **state)
 {
     (void)state;
-    const mgt_quality quality = mgt_scene_defaults().quality;
+    mgt_quality quality;
+    mgt_quality_init(&quality, sizeof quality);
     const podee_rules rules = podee_rules_of(&quality);
     assert_true(rules.center == 0.1 && rules.width == 0.04);
     assert_true((double)podee_importance(&rules, 0) > 0.043 && (double)podee_importance(&rules, 0) < rules.threshold);
@@ -104,7 +105,8 @@ static void searches_end_where_they_must(void **state)
 static void slots_follow_the_water(void **state)
 {
     (void)state;
-    mgt_quality q = mgt_scene_defaults().quality;
+    mgt_quality q;
+    mgt_quality_init(&q, sizeof q);
     assert_true(podee_slots_of(&q, 1000) == 8000 && podee_slots_of(&q, 0) == 1);
     q.samples = 2.5;
     assert_true(podee_slots_of(&q, 1000) == 2500);
@@ -291,12 +293,12 @@ static void many_samples_reach_the_reference(void **state)
         p->scene.camera_open = p->scene.camera;
         p->scene.camera_open.position[0] -= 0.05;
         p->scene.camera_open.target[0] -= 0.05;
-        p->scene.quality = mgt_scene_defaults().quality;
+        mgt_quality_init(&p->scene.quality, sizeof p->scene.quality);
         p->scene.quality.method = MGT_METHOD_REFERENCE;
         p->scene.quality.spatial_samples = 12;
         p->scene.quality.time_samples = 8;
         render_layers(context, &p->scene, truth);
-        p->scene.quality = mgt_scene_defaults().quality;
+        mgt_quality_init(&p->scene.quality, sizeof p->scene.quality);
         p->scene.quality.method = MGT_METHOD_ADAPTIVE;
         p->scene.quality.adaptive = MGT_ADAPTIVE_PODEE;
         p->scene.quality.importance_width = 1;
@@ -369,7 +371,8 @@ static bool stop(void *user, double fraction)
 static void a_long_picture_can_be_cancelled(void **state)
 {
     (void)state;
-    mgt_context_desc desc = mgt_context_desc_defaults();
+    mgt_context_desc desc;
+    mgt_context_desc_init(&desc, sizeof desc);
     double last = 0;
     desc.threads = 2;
     desc.progress = stop;

@@ -48,7 +48,7 @@ static mgt_scene glitter_scene(mgt_wave waves[SEA_WAVES], mgt_method method)
 static void render_truth(mgt_context *context, const mgt_scene *like, layers *truth)
 {
     mgt_scene scene = *like;
-    scene.quality = mgt_scene_defaults().quality;
+    mgt_quality_init(&scene.quality, sizeof scene.quality);
     scene.quality.method = MGT_METHOD_REFERENCE;
     scene.quality.spatial_samples = 16;
     scene.quality.time_samples = 8;

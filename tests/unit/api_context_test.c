@@ -23,7 +23,8 @@ static void creation_refuses_nonsense(void **state)
 {
     (void)state;
     log_record log = {0};
-    mgt_context_desc good = mgt_context_desc_defaults();
+    mgt_context_desc good;
+    mgt_context_desc_init(&good, sizeof good);
     good.log = keep_log;
     good.log_user = &log;
     assert_int_equal(mgt_context_create(NULL, &good), MGT_ERROR_ARGUMENT);
@@ -37,7 +38,7 @@ static void creation_refuses_nonsense(void **state)
         const char *text, *id;
     } cases[] = {
         {{.struct_size = 0}, MGT_ERROR_ARGUMENT, "struct_size", NULL},
-        {{.struct_size = sizeof good + 8, .log = keep_log, .log_user = &log}, MGT_ERROR_ARGUMENT, "struct_size", NULL}, /* may not be called */
+        {{.struct_size = sizeof good - 8, .log = keep_log, .log_user = &log}, MGT_ERROR_ARGUMENT, "struct_size", NULL}, /* may not be called */
         {{.struct_size = sizeof good, .backend = (mgt_backend)4, .log = keep_log, .log_user = &log}, MGT_ERROR_ARGUMENT, "backend", "context.desc"},
         {{.struct_size = sizeof good, .backend = (mgt_backend)-1, .log = keep_log, .log_user = &log}, MGT_ERROR_ARGUMENT, "backend", "context.desc"},
         {{.struct_size = sizeof good, .isa = (mgt_isa)6, .log = keep_log, .log_user = &log}, MGT_ERROR_ARGUMENT, "isa", "context.desc"},
@@ -92,7 +93,8 @@ static void creation_resolves(void **state)
     mgt_context_destroy(NULL);
 
     log_record log = {0};
-    mgt_context_desc desc = mgt_context_desc_defaults();
+    mgt_context_desc desc;
+    mgt_context_desc_init(&desc, sizeof desc);
     desc.backend = MGT_BACKEND_AUTO;
     desc.isa = MGT_ISA_SCALAR;
     desc.threads = 7;
@@ -125,7 +127,8 @@ static void render_errors_are_logged(void **state)
 {
     (void)state;
     log_record log = {0};
-    mgt_context_desc desc = mgt_context_desc_defaults();
+    mgt_context_desc desc;
+    mgt_context_desc_init(&desc, sizeof desc);
     desc.log = keep_log;
     desc.log_user = &log;
     desc.threads = 1;
@@ -173,7 +176,8 @@ static void progress_can_cancel(void **state)
     static float pixels[SEA_WIDTH * SEA_HEIGHT], before[SEA_WIDTH * SEA_HEIGHT];
     log_record log = {0};
     progress_record progress = {.in_order = true};
-    mgt_context_desc desc = mgt_context_desc_defaults();
+    mgt_context_desc desc;
+    mgt_context_desc_init(&desc, sizeof desc);
     desc.threads = 2;
     desc.log = keep_log;
     desc.log_user = &log;

@@ -51,7 +51,8 @@ static mgt_status whole_life(int which)
     mgt_wave waves[SEA_WAVES];
     mgt_scene scene = sea_scene(waves);
     scene.sky.model = MGT_SKY_ATMOSPHERE;
-    mgt_context_desc desc = mgt_context_desc_defaults();
+    mgt_context_desc desc;
+    mgt_context_desc_init(&desc, sizeof desc);
     desc.threads = 3;
     mgt_context *context = NULL;
     mgt_status status = mgt_context_create(&context, &desc);
@@ -88,7 +89,8 @@ static mgt_status life_of_rivals(int which)
     static const mgt_method methods[] = {MGT_METHOD_LEAN, MGT_METHOD_FXAA, MGT_METHOD_TAA, MGT_METHOD_ADAPTIVE};
     mgt_wave waves[SEA_WAVES];
     mgt_scene scene = sea_scene(waves);
-    mgt_context_desc desc = mgt_context_desc_defaults();
+    mgt_context_desc desc;
+    mgt_context_desc_init(&desc, sizeof desc);
     desc.threads = 2;
     mgt_context *context = NULL;
     mgt_status status = mgt_context_create(&context, &desc), first = status;

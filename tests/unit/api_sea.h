@@ -45,7 +45,8 @@ static inline mgt_scene sea_scene(mgt_wave waves[SEA_WAVES])
         const double k = 0.3 * pow(200, i / (SEA_WAVES - 1.0)), direction = 2.4 * i;
         waves[i] = (mgt_wave){0.04 / k, k * cos(direction), k * sin(direction), -sqrt(9.81 * k), 1.7 * i};
     }
-    mgt_scene s = mgt_scene_defaults();
+    mgt_scene s;
+    mgt_scene_init(&s, sizeof s);
     s.image = (mgt_image){.width = SEA_WIDTH, .height = SEA_HEIGHT};
     s.time = 3;
     s.light.elevation_deg = 15;
@@ -66,7 +67,8 @@ static inline void sea_take_method(mgt_scene *scene, int m)
 
 static inline mgt_context *sea_context(uint32_t threads, mgt_isa isa)
 {
-    mgt_context_desc desc = mgt_context_desc_defaults();
+    mgt_context_desc desc;
+    mgt_context_desc_init(&desc, sizeof desc);
     desc.threads = threads;
     desc.isa = isa;
     mgt_context *context = NULL;
@@ -77,7 +79,8 @@ static inline mgt_context *sea_context(uint32_t threads, mgt_isa isa)
 
 static inline mgt_target sea_target(mgt_layer layer, mgt_format format, void *pixels, ptrdiff_t row_stride)
 {
-    mgt_target t = mgt_target_defaults();
+    mgt_target t;
+    mgt_target_init(&t, sizeof t);
     t.layer = layer;
     t.format = format;
     t.pixels = pixels;

@@ -126,7 +126,8 @@ static void null_backend_fills_rows_alone(void **state)
     (void)state;
     mgt_wave waves[SEA_WAVES];
     const mgt_scene scene = sea_scene(waves);
-    mgt_context_desc desc = mgt_context_desc_defaults();
+    mgt_context_desc desc;
+    mgt_context_desc_init(&desc, sizeof desc);
     desc.backend = MGT_BACKEND_NULL;
     mgt_context *context = NULL;
     assert_int_equal(mgt_context_create(&context, &desc), MGT_OK);

@@ -56,7 +56,8 @@ typedef struct setup {
 static void begin(setup *s, uint32_t threads, double scale)
 {
     *s = (setup){.mesh = ball(), .pool = thread_pool_create(threads)};
-    mgt_scene scene = mgt_scene_defaults();
+    mgt_scene scene;
+    mgt_scene_init(&scene, sizeof scene);
     const mgt_object object = {.mesh = s->mesh, .transform = {{scale, 0, 0, 0}, {0, scale, 0, -2}, {0, 0, scale, 0}}};
     scene.objects = &object;
     scene.object_count = 1;

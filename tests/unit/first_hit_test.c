@@ -36,7 +36,8 @@ static void render_depth(mgt_scene scene, mgt_method method, float *depth)
     mgt_context *context = NULL;
     assert_int_equal(mgt_context_create(&context, NULL), MGT_OK);
     scene.quality = (mgt_quality){.method = method, .spatial_samples = 1, .time_samples = 1};
-    mgt_target target = mgt_target_defaults();
+    mgt_target target;
+    mgt_target_init(&target, sizeof target);
     target.layer = MGT_LAYER_DEPTH;
     target.format = MGT_FORMAT_R32F;
     target.pixels = depth;

@@ -20,7 +20,8 @@ static const double pi = 3.14159265358979323846;
 static mgt_context *make_context(mgt_backend backend)
 {
     mgt_context *context = NULL;
-    mgt_context_desc desc = mgt_context_desc_defaults();
+    mgt_context_desc desc;
+    mgt_context_desc_init(&desc, sizeof desc);
     desc.backend = backend;
     assert_int_equal(mgt_context_create(&context, &desc), MGT_OK);
     return context;
@@ -28,7 +29,8 @@ static mgt_context *make_context(mgt_backend backend)
 
 static void render(mgt_context *context, const mgt_scene *scene, mgt_layer layer, mgt_format format, void *pixels)
 {
-    mgt_target target = mgt_target_defaults();
+    mgt_target target;
+    mgt_target_init(&target, sizeof target);
     target.layer = layer;
     target.format = format;
     target.pixels = pixels;
@@ -100,7 +102,8 @@ static const mgt_wave long_waves[] = {{0.05, 1.1, 0.4, -3.2, 0.3}, {0.03, -0.5, 
 
 static mgt_scene calm_scene(void)
 {
-    mgt_scene scene = mgt_scene_defaults();
+    mgt_scene scene;
+    mgt_scene_init(&scene, sizeof scene);
     scene.image.width = WIDTH;
     scene.image.height = HEIGHT;
     scene.camera.position[1] = 2;
@@ -231,7 +234,8 @@ static void displayed_radiance_is_what_render_displays(void **state)
     static float radiance[PIXELS * 3];
     static uint8_t rendered[PIXELS * 4], shown[PIXELS * 4];
     mgt_scene scene = calm_scene();
-    mgt_target target = mgt_target_defaults();
+    mgt_target target;
+    mgt_target_init(&target, sizeof target);
     for (int glare = 0; glare < 2; glare++) {
         scene.post.glare = glare ? 0.1f : 0;
         render(context, &scene, MGT_LAYER_COLOR, MGT_FORMAT_RGB32F, radiance);

@@ -171,7 +171,8 @@ static inline void random_waves(random_state *r, mgt_wave *waves, size_t count, 
 
 static inline mgt_scene black_scene(uint32_t width, uint32_t height, const mgt_wave *waves, size_t count)
 {
-    mgt_scene s = mgt_scene_defaults();
+    mgt_scene s;
+    mgt_scene_init(&s, sizeof s);
     s.image = (mgt_image){.width = width, .height = height};
     s.sky.model = MGT_SKY_BLACK;
     s.time = 10;

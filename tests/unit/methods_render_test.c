@@ -39,7 +39,8 @@ enum { METHODS = sizeof methods / sizeof *methods, RIVALS = 8 };
 static mgt_quality quality_of(int method)
 {
     const mgt_quality *q = &methods[method].quality;
-    mgt_quality quality = mgt_scene_defaults().quality;
+    mgt_quality quality;
+    mgt_quality_init(&quality, sizeof quality);
     quality.method = q->method;
     quality.spatial_samples = q->spatial_samples ? q->spatial_samples : 1;
     quality.time_samples = q->time_samples ? q->time_samples : 1;

@@ -489,7 +489,8 @@ static LayerPixel layer_pixel(double column, double row)
 
 static void set_view(bool under, double height, double pitch)
 {
-    mgt_scene scene = mgt_scene_defaults();
+    mgt_scene scene;
+    mgt_scene_init(&scene, sizeof scene);
     static mgt_scene kept;
     scene.image = (mgt_image){.width = WIDTH, .height = HEIGHT};
     scene.camera = (mgt_camera){{0, height, 0}, {0.3, height - sin(pitch), -cos(pitch)}, {0, 1, 0}, 45};

@@ -298,7 +298,8 @@ static void every_method_shows_objects(void **state)
 
 static mgt_status make(mgt_mesh **mesh, const float *positions, uint32_t vertices, const uint32_t *indices, uint32_t triangles)
 {
-    mgt_mesh_desc desc = mgt_mesh_desc_defaults();
+    mgt_mesh_desc desc;
+    mgt_mesh_desc_init(&desc, sizeof desc);
     desc.positions = positions;
     desc.vertex_count = vertices;
     desc.indices = indices;
@@ -329,7 +330,8 @@ static void broken_meshes_are_refused(void **state)
     for (int i = 0; i < 9; i++) { /* normals, too */
         float normals[9] = {0, 1, 0, 0, 1, 0, 0, 1, 0};
         normals[i] = NAN;
-        mgt_mesh_desc desc = mgt_mesh_desc_defaults();
+        mgt_mesh_desc desc;
+        mgt_mesh_desc_init(&desc, sizeof desc);
         desc.positions = good, desc.vertex_count = 3, desc.indices = indices, desc.triangle_count = 1;
         desc.normals = normals;
         assert_int_not_equal(mgt_mesh_create(&mesh, &desc), MGT_OK);

@@ -136,7 +136,7 @@ static void make_scene(quad_scene *s, const float *positions, uint32_t vertices,
 {
     s->mesh = test_mesh(positions, NULL, vertices, indices, triangles);
     s->object = (mgt_object){.mesh = s->mesh, .transform = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
-    s->scene = mgt_scene_defaults();
+    mgt_scene_init(&s->scene, sizeof s->scene);
     s->scene.image = (mgt_image){.width = 320, .height = 180};
     memcpy(s->scene.camera.position, position, sizeof s->scene.camera.position);
     memcpy(s->scene.camera.target, target, sizeof s->scene.camera.target);

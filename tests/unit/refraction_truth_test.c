@@ -50,7 +50,8 @@ typedef struct setup {
 /* One horizontal square of 400 × 400 m at a height over the mean surface. */
 static void begin(setup *s, double camera_height, double plane_height)
 {
-    *s = (setup){.scene = mgt_scene_defaults(), .pool = thread_pool_create(1)};
+    *s = (setup){.pool = thread_pool_create(1)};
+    mgt_scene_init(&s->scene, sizeof s->scene);
     static const float positions[] = {-200, 0, -200, 200, 0, -200, 200, 0, 200, -200, 0, 200};
     static const uint32_t indices[] = {0, 2, 1, 0, 3, 2};
     s->mesh = test_mesh(positions, NULL, 4, indices, 2);

@@ -154,7 +154,9 @@ static void history_follows_the_camera(void **state)
 {
     (void)state;
     picture_planes current = planes(), history = planes(), out = planes();
-    mgt_camera camera = mgt_scene_defaults().camera;
+    mgt_scene defaults;
+    mgt_scene_init(&defaults, sizeof defaults);
+    mgt_camera camera = defaults.camera;
     camera.target[1] = 2;
     taa_step step = {.current = &current, .history = &history, .out = &out, .frames = 1000000};
     step.now = camera_rays_of(&camera, WIDTH, HEIGHT);

@@ -53,7 +53,8 @@ static void smallest_file_has_every_default(void **state)
 {
     (void)state;
     scene_file *file = parse("mangata: 1", NULL, 0);
-    mgt_scene scene = frame_of(file, 0), defaults = mgt_scene_defaults();
+    mgt_scene scene = frame_of(file, 0), defaults;
+    mgt_scene_init(&defaults, sizeof defaults);
     assert_int_equal(scene.struct_size, sizeof scene);
     assert_int_equal(scene.image.width, 1280);
     assert_int_equal(scene.image.height, 720);
@@ -181,7 +182,8 @@ static void unusual_scenes_are_legal(void **state)
 static void body_sets_the_defaults_of_the_light(void **state)
 {
     (void)state;
-    const mgt_light moon = mgt_light_defaults(MGT_BODY_MOON);
+    mgt_light moon;
+    mgt_light_init(&moon, MGT_BODY_MOON);
     scene_file *file = parse("mangata: 1\nlight: {elevation_deg: 4, body: moon}", NULL, 0);
     mgt_scene scene = frame_of(file, 0);
     assert_true(scene.light.elevation_deg == 4);
@@ -200,7 +202,8 @@ static void overrides_replace_add_and_append(void **state)
         "description='a=b'",
     };
     scene_file *file = load(DATA "full.yaml", overrides, COUNT(overrides));
-    mgt_scene scene = frame_of(file, 0), defaults = mgt_scene_defaults();
+    mgt_scene scene = frame_of(file, 0), defaults;
+    mgt_scene_init(&defaults, sizeof defaults);
     assert_true(scene.light.elevation_deg == 3 && scene.light.azimuth_deg == -20);
     assert_int_equal(scene.light.body, MGT_BODY_MOON);
     assert_true(scene.water.waves[0].amplitude == 0.02 && scene.water.waves[1].amplitude == 0.1);
@@ -217,7 +220,7 @@ static void overrides_replace_add_and_append(void **state)
     static const char *const from_nothing[] = {"light.body=moon", "water.waves[0]={amplitude: .1, a: 1, b: 0, c: 1}", "time.frames=3"};
     file = parse("mangata: 1", from_nothing, COUNT(from_nothing));
     scene = frame_of(file, 2);
-    assert_true(scene.light.angular_radius_deg == mgt_light_defaults(MGT_BODY_MOON).angular_radius_deg);
+    assert_true(scene.light.angular_radius_deg == 0.2590);
     assert_int_equal(scene.water.wave_count, 1);
     assert_int_equal(scene_file_frame_count(file), 3);
     scene_file_free(file);

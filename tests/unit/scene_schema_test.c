@@ -189,7 +189,8 @@ static void the_library_takes_every_end(void **state)
         "post={exposure_offset: 60, glare: 0}",
     };
     mgt_context *context = NULL;
-    mgt_context_desc desc = mgt_context_desc_defaults();
+    mgt_context_desc desc;
+    mgt_context_desc_init(&desc, sizeof desc);
     desc.backend = MGT_BACKEND_NULL;
     assert_int_equal(mgt_context_create(&context, &desc), MGT_OK);
     for (size_t i = 0; i < sizeof overrides / sizeof overrides[0]; i++) {

@@ -8,7 +8,8 @@
 /* `texcoords` may be NULL. */
 static inline mgt_mesh *test_mesh(const float *positions, const float *texcoords, uint32_t vertices, const uint32_t *indices, uint32_t triangles)
 {
-    mgt_mesh_desc desc = mgt_mesh_desc_defaults();
+    mgt_mesh_desc desc;
+    mgt_mesh_desc_init(&desc, sizeof desc);
     desc.positions = positions;
     desc.texcoords = texcoords;
     desc.vertex_count = vertices;

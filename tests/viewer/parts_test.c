@@ -260,7 +260,7 @@ static void another_body_brings_its_own_light(void **state)
     const control_board board = {&d, &s};
     char error[256];
     assert_true(control_set(&board, "light.body", "moon", error, sizeof error));
-    assert_true(d.values.light.angular_radius_deg == mgt_light_defaults(MGT_BODY_MOON).angular_radius_deg);
+    assert_true(d.values.light.angular_radius_deg == 0.2590);
     assert_true(d.values.light.elevation_deg == 10 && d.values.light.azimuth_deg == 5);
     document_close(&d);
 }
