@@ -8,13 +8,13 @@
 #include "operation_count.h"
 
 extern "C" {
-#include "cpu/kernel_data.h"
+#include "frame/kernel_data.h"
 }
 
-#include "kernels/prelude_c.h"
+#include "kernels/common/prelude_c.h"
 
 #define REFRACT(cx) (*(cx)->refract)
-#include "kernels/refract_point.k"
+#include "kernels/refraction/refract_point.k"
 
 extern "C" void counting_virtual_points(const RefractData *refract, size_t count, const float *const in[3]);
 

@@ -2,7 +2,7 @@
  * Independent chains of fma in registers, compiled once per lane width with the kernels' own prelude. */
 #include "fma_peak.h"
 
-#include "kernels/prelude_c.h"
+#include "kernels/common/prelude_c.h"
 
 #define ROUNDS_NAME_(n) fma_rounds_##n
 #define ROUNDS_NAME(n) ROUNDS_NAME_(n)

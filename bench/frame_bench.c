@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include "bench_scene.h"
-#include "names.h"
+#include "cli/common/names.h"
 #include "timing.h"
 
 enum { CASE_LIMIT = 16, RUN_LIMIT = 31, THREADS = 2 };

@@ -10,7 +10,7 @@
 
 #include "bench_scene.h"
 #include "frame_cases.h"
-#include "names.h"
+#include "cli/common/names.h"
 #include "tile_frame.h"
 #include "timing.h"
 

@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-#include "precompute/atmosphere.h"
+#include "frame/atmosphere.h"
 
 #define CASES_NAME_(n) frame_cases_##n
 #define CASES_NAME(n) CASES_NAME_(n)
@@ -14,9 +14,9 @@ static disk_path_cases *kept;
 static size_t evaluations;
 #define TALLY(live) ((void)evaluations++)
 
-#include "kernels/prelude_c.h"
+#include "kernels/common/prelude_c.h"
 
-#include "kernels/disk_path.k"
+#include "kernels/common/disk_path.k"
 
 static real keeping_disk_path(CTX cx, vec2 p0, vec2 p1, real sxx, real sxy, real syy, real radius)
 {

@@ -12,7 +12,7 @@
 #include "bench_scene.h"
 #include "gl_frame.h"
 #include "gl_peak.h"
-#include "names.h"
+#include "cli/common/names.h"
 #include "operation_frame.h"
 #include "timing.h"
 

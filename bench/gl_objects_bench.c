@@ -12,7 +12,7 @@
 #include <string.h>
 #include <time.h>
 
-#include "core/mesh.h"
+#include "frame/mesh.h"
 #include "gl/gl_bvh.h"
 #include "gl_frame.h"
 #include "scene/scene_file.h"

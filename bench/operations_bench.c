@@ -11,7 +11,7 @@
 
 #include "bench_scene.h"
 #include "fma_peak.h"
-#include "names.h"
+#include "cli/common/names.h"
 #include "operation_frame.h"
 #include "timing.h"
 

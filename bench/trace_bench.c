@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cpu/thread_pool.h"
+#include "base/thread_pool.h"
 #include "timing.h"
 #include "trace/trace.h"
 

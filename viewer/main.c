@@ -7,10 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "interrupt.h"
-#include "panels.h"
+#include "cli/common/interrupt.h"
+#include "viewer/app/panels.h"
 #include "params/methods.h"
-#include "progress.h"
+#include "cli/common/progress.h"
 
 static const double poll_interval = 0.2, idle_wait = 0.1, script_frame = 1 / 60.0;
 

@@ -3,9 +3,9 @@
 #ifndef MANGATA_CPU_ADAPTIVE_H
 #define MANGATA_CPU_ADAPTIVE_H
 
-#include "cpu/thread_pool.h"
+#include "base/thread_pool.h"
 #include "cpu/tile_job.h"
-#include "cpu/whole_frame.h"
+#include "frame/whole_frame.h"
 
 /* One frame; the scene asks for no crop. */
 typedef struct adaptive_frame {

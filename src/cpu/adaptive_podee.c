@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cpu/hash.h"
+#include "base/hash.h"
 #include "cpu/rival_lanes.h"
 
 /* ---- the paper's equations ---- */

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cpu/triples.h"
+#include "base/triples.h"
 
 enum {
     MOST_SPLITS = 14, /* of a triangle's edges one after the other; edges in sight get too short for more long before */

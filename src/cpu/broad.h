@@ -4,7 +4,7 @@
 #define MANGATA_CPU_BROAD_H
 
 #include "cpu/raster.h"
-#include "cpu/world.h"
+#include "frame/world.h"
 
 enum { BROAD_CHUNK = 1024 }; /* triangles of the world that are worked on at a time */
 

@@ -7,17 +7,17 @@
 #include <string.h>
 #include <time.h>
 
-#include "core/backend.h"
+#include "frame/backend.h"
 #include "cpu/adaptive.h"
 #include "cpu/adaptive_podee.h"
-#include "cpu/frame.h"
+#include "frame/frame.h"
 #include "cpu/glare.h"
 #include "cpu/inspect.h"
 #include "cpu/lean_map.h"
 #include "cpu/rival_lanes.h"
-#include "cpu/thread_pool.h"
+#include "base/thread_pool.h"
 #include "cpu/tile_job.h"
-#include "cpu/whole_frame.h"
+#include "frame/whole_frame.h"
 #include "reference/reference.h"
 
 typedef struct cpu_state {

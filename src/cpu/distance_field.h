@@ -3,8 +3,8 @@
 #ifndef MANGATA_CPU_DISTANCE_FIELD_H
 #define MANGATA_CPU_DISTANCE_FIELD_H
 
-#include "cpu/thread_pool.h"
-#include "cpu/world.h"
+#include "base/thread_pool.h"
+#include "frame/world.h"
 #include "trace/trace.h"
 
 /* The side of a voxel, metres, and what all of them may take; where they would take more they are larger. */

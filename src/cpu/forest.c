@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cpu/hash.h"
+#include "base/hash.h"
 
 enum {
     SHARP_LEVEL = 5,    /* from which cells see glints so sharp that the bend of a path shows */

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "cpu/broad.h"
-#include "cpu/triples.h"
+#include "base/triples.h"
 
 enum {
     GUARD_LEAST = 16,  /* pixels around the image, … */

@@ -8,9 +8,9 @@
 #ifndef MANGATA_CPU_GBUFFER_H
 #define MANGATA_CPU_GBUFFER_H
 
-#include "cpu/frame.h"
-#include "cpu/thread_pool.h"
-#include "cpu/world.h"
+#include "frame/frame.h"
+#include "base/thread_pool.h"
+#include "frame/world.h"
 
 /*
  * What is seen first through every pixel's centre. Pixel (x, y) of the image is element (top + y) · width + left + x; both layers of a picture

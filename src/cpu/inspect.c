@@ -5,13 +5,13 @@
 #include <math.h>
 #include <string.h>
 
-#include "precompute/atmosphere.h"
+#include "frame/atmosphere.h"
 
 #define MGT_LANES 1
-#include "kernels/prelude_c.h"
+#include "kernels/common/prelude_c.h"
 
 #include "cpu/lane_access.h"
-#include "kernels/glitter.k"
+#include "kernels/glitter/glitter.k"
 
 /* The pixel within its tile. */
 typedef struct tile_pixel {

@@ -3,7 +3,7 @@
 #ifndef MANGATA_CPU_LANE_DISPLAY_H
 #define MANGATA_CPU_LANE_DISPLAY_H
 
-#include "kernels/tone.k"
+#include "kernels/display/tone.k"
 
 /* Of the first `count` pixels of 3 floats each, at most MGT_LANES; the other lanes show black. */
 static inline vec3 displayed_lanes(const struct kernel_context *cx, const float *rgb, size_t count)

@@ -8,7 +8,7 @@
 
 #include "cpu/raster_lanes.h"
 #include "cpu/rival_lanes.h"
-#include "precompute/atmosphere.h"
+#include "frame/atmosphere.h"
 
 #define LANES_NAME_(n) lane_kernels_##n
 #define LANES_NAME(n) LANES_NAME_(n)
@@ -24,7 +24,7 @@
 #define NEAR_NAME(n) NEAR_NAME_(n)
 static const float infinity = INFINITY;
 
-#include "kernels/prelude_c.h"
+#include "kernels/common/prelude_c.h"
 
 #include "cpu/lane_access.h"
 #include "cpu/lane_display.h"
@@ -40,13 +40,13 @@ KERNEL real SWEEP_TEXEL(CTX cx, real v, real u, real slice)
 
 KERNEL real SHARE_TEXEL(CTX cx, real r, real slice) { return gather_floats(cx->podee->share, whole(real_fma(slice, real_broadcast(PODEE_COLUMNS), r))); }
 
-#include "kernels/cells.k"
-#include "kernels/glitter.k"
-#include "kernels/lattice.k"
-#include "kernels/podee.k"
-#include "kernels/podee_mixture.k"
-#include "kernels/sample.k"
-#include "kernels/tile.k"
+#include "kernels/adaptive/cells.k"
+#include "kernels/glitter/glitter.k"
+#include "kernels/glitter/lattice.k"
+#include "kernels/baselines/podee.k"
+#include "kernels/baselines/podee_mixture.k"
+#include "kernels/glitter/sample.k"
+#include "kernels/waves/tile.k"
 
 static inline HitGuess load_guess(const tile_guess *guess, size_t i)
 {

@@ -7,7 +7,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "cpu/kernel_data.h"
+#include "frame/kernel_data.h"
 #include "mangata/mangata.h"
 
 /* Tiles of one fixed lattice of the whole image, whatever the crop; nodes of the hit lattice lie on their edges too. */

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cpu/frame.h"
+#include "frame/frame.h"
 #include "cpu/rival_lanes.h"
 
 static const double turn = 6.28318530717958647692;

@@ -4,7 +4,7 @@
 #define MANGATA_CPU_LEAN_MAP_H
 
 #include "cpu/lanes.h"
-#include "cpu/thread_pool.h"
+#include "base/thread_pool.h"
 
 struct frame; /* cpu/frame.h */
 

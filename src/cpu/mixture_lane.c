@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "cpu/lanes.h"
-#include "precompute/atmosphere.h"
+#include "frame/atmosphere.h"
 
 /* Before the prelude takes the names of <math.h>. */
 static double log_of(double x) { return log(x); }
@@ -16,7 +16,7 @@ static double exp_of(double x) { return exp(x); }
 static double reach_of(double e) { return sqrt(fmax(e * e - 1, 0)); }
 
 #define MGT_LANES 1
-#include "kernels/prelude_c.h"
+#include "kernels/common/prelude_c.h"
 
 #include "cpu/lane_access.h"
 
@@ -24,8 +24,8 @@ KERNEL real SWEEP_TEXEL(CTX cx, real v, real u, real slice) { return cx->podee->
 
 KERNEL real SHARE_TEXEL(CTX cx, real r, real slice) { return cx->podee->share[(size_t)slice * PODEE_COLUMNS + (size_t)r]; }
 
-#include "kernels/glitter.k"
-#include "kernels/podee_mixture.k"
+#include "kernels/glitter/glitter.k"
+#include "kernels/baselines/podee_mixture.k"
 
 mixture mixture_fitted(int kernels, double e)
 {

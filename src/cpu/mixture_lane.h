@@ -4,7 +4,7 @@
 #define MANGATA_CPU_MIXTURE_LANE_H
 
 #include "mangata/mangata.h"
-#include "precompute/podee_tables.h"
+#include "frame/podee_tables.h"
 #include "reference/mixture.h"
 
 /* `kernels` (1, 3, 5 or 9) circular Gaussians fitted to an ellipse of deviations 1 and e, 1 ≤ e ≤ 9, as mixture_fits.k has them. */

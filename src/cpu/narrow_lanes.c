@@ -7,22 +7,22 @@
 #include <math.h>
 #include <string.h>
 
-#include "precompute/atmosphere.h"
+#include "frame/atmosphere.h"
 
 #define LANES_NAME_(n) narrow_kernels_##n
 #define LANES_NAME(n) LANES_NAME_(n)
 static const float infinity = INFINITY;
 
-#include "kernels/prelude_c.h"
+#include "kernels/common/prelude_c.h"
 
 #include "cpu/lane_access.h"
 
 #define REFRACT(cx) ((cx)->narrow->refract)
 #define NARROW(cx) ((cx)->narrow->data)
 
-#include "kernels/glitter.k"
+#include "kernels/glitter/glitter.k"
 
-#include "kernels/layer.k"
+#include "kernels/refraction/layer.k"
 
 KERNEL LayerPixel LAYER(CTX cx, int layer, real column, real row)
 {
@@ -40,7 +40,7 @@ KERNEL LayerPixel LAYER(CTX cx, int layer, real column, real row)
     return p;
 }
 
-#include "kernels/water_seen.k"
+#include "kernels/refraction/water_seen.k"
 
 static void store_vector(float (*planes)[TILE_PIXELS], size_t i, vec3 v)
 {

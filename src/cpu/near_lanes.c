@@ -7,14 +7,14 @@
 #include <math.h>
 #include <string.h>
 
-#include "precompute/atmosphere.h"
+#include "frame/atmosphere.h"
 
 #define LANES_NAME_(n) near_kernels_##n
 #define LANES_NAME(n) LANES_NAME_(n)
 
 static const float infinity = INFINITY;
 
-#include "kernels/prelude_c.h"
+#include "kernels/common/prelude_c.h"
 
 #include "cpu/lane_access.h"
 

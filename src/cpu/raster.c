@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cpu/triples.h"
+#include "base/triples.h"
 
 static const double coordinate_limit = COORDINATE_LIMIT;
 

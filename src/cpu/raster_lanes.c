@@ -7,17 +7,17 @@
 #include <math.h>
 #include <string.h>
 
-#include "cpu/triples.h"
+#include "base/triples.h"
 
 #define LANES_NAME_(n) raster_kernels_##n
 #define LANES_NAME(n) LANES_NAME_(n)
 static const float infinity = INFINITY;
 
-#include "kernels/prelude_c.h"
+#include "kernels/common/prelude_c.h"
 
 #define REFRACT(cx) (*(cx)->refract)
 #define PICTURE(cx) (*(cx)->picture)
-#include "kernels/refract_patch.k"
+#include "kernels/refraction/refract_patch.k"
 
 static inline real load(const float *p)
 {

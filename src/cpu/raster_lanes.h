@@ -6,7 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "cpu/kernel_data.h"
+#include "frame/kernel_data.h"
 
 enum {
     PATCH_BATCH = 64,

@@ -3,10 +3,10 @@
 #ifndef MANGATA_CPU_REFRACTION_H
 #define MANGATA_CPU_REFRACTION_H
 
-#include "core/backend.h"
+#include "frame/backend.h"
 #include "cpu/narrow_lanes.h"
 #include "cpu/shade.h"
-#include "reference/refraction_truth.h"
+#include "cpu/refraction_truth.h"
 
 /* What objects are to the pixels of a tile. */
 typedef struct tile_objects {

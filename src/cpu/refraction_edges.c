@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "cpu/refraction_state.h"
-#include "cpu/triples.h"
+#include "base/triples.h"
 
 refraction_facet refraction_facet_of(const refraction *r, int32_t triangle, const double from[3])
 {

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "cpu/refraction_state.h"
-#include "cpu/triples.h"
+#include "base/triples.h"
 
 enum { PLACES = 8 };
 

@@ -8,7 +8,7 @@
 #include "cpu/distance_field.h"
 #include "cpu/near_lanes.h"
 #include "cpu/refraction.h"
-#include "reference/refraction_truth.h"
+#include "cpu/refraction_truth.h"
 #include "trace/trace.h"
 
 /* A byte a pixel of a layer. */

@@ -4,12 +4,12 @@
  * Whatever the width, a pixel sees the same operations in the same order: the bits do not depend on it. */
 #include "cpu/rival_lanes.h"
 
-#include "precompute/atmosphere.h"
+#include "frame/atmosphere.h"
 
 #define LANES_NAME_(n) rival_kernels_##n
 #define LANES_NAME(n) LANES_NAME_(n)
 
-#include "kernels/prelude_c.h"
+#include "kernels/common/prelude_c.h"
 
 #include "cpu/lane_access.h"
 #include "cpu/lane_display.h"
@@ -56,12 +56,12 @@ KERNEL vec3 LEAN_SQUARE(CTX cx, real level, real column, real row)
     return (vec3){load(square[0]), load(square[1]), load(square[2])};
 }
 
-#include "kernels/bruneton.k"
-#include "kernels/leadr.k"
-#include "kernels/msaa.k"
-#include "kernels/temporal_ray.k"
-#include "kernels/tndf.k"
-#include "kernels/tokuyoshi.k"
+#include "kernels/baselines/bruneton.k"
+#include "kernels/baselines/leadr.k"
+#include "kernels/baselines/msaa.k"
+#include "kernels/adaptive/temporal_ray.k"
+#include "kernels/baselines/tndf.k"
+#include "kernels/baselines/tokuyoshi.k"
 
 /* ---- pixels ---- */
 

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/mesh.h"
+#include "frame/mesh.h"
 #include "cpu/shade_lanes.h"
 
 /* Fresnel's reflectance into a medium of index n, for unpolarised light. */

@@ -3,8 +3,8 @@
 #ifndef MANGATA_CPU_SHADE_H
 #define MANGATA_CPU_SHADE_H
 
-#include "cpu/frame.h"
-#include "cpu/world.h"
+#include "frame/frame.h"
+#include "frame/world.h"
 
 /*
  * Where rays of a camera have ended. Every pointer leads to `count` numbers.

@@ -7,8 +7,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "core/mesh.h"
-#include "precompute/atmosphere.h"
+#include "frame/mesh.h"
+#include "frame/atmosphere.h"
 
 #define LANES_NAME_(n) shade_kernels_##n
 #define LANES_NAME(n) LANES_NAME_(n)
@@ -58,7 +58,7 @@ static texture_color trilinear(const shade_scene *s, const mgt_texture *t, float
 
 /* ---- what kernels read ---- */
 
-#include "kernels/prelude_c.h"
+#include "kernels/common/prelude_c.h"
 
 #include "cpu/lane_access.h"
 
@@ -77,7 +77,7 @@ KERNEL vec3 TEXTURE(CTX cx, real texture, real u, real v, real level)
     return (vec3){load(rgb[0]), load(rgb[1]), load(rgb[2])};
 }
 
-#include "kernels/sky.k"
+#include "kernels/sky/sky.k"
 
 /* Four texels about the ray's place, each lit or not. */
 KERNEL real SUN_SHARE(CTX cx, vec3 position)
@@ -104,7 +104,7 @@ KERNEL real SUN_SHARE(CTX cx, vec3 position)
     return fma(down, bottom - top, top);
 }
 
-#include "kernels/material.k"
+#include "kernels/refraction/material.k"
 
 /* ---- hits ---- */
 

@@ -4,7 +4,7 @@
 #define MANGATA_CPU_SHADE_LANES_H
 
 #include "cpu/shade.h"
-#include "cpu/shadow_map.h"
+#include "frame/shadow_map.h"
 
 enum { SHADE_TEXTURE_CODES = 256 };
 

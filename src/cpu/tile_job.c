@@ -2,7 +2,7 @@
  * One tile of a frame by any method, into the worker's own planes. */
 #include "cpu/tile_job.h"
 
-#include "cpu/hash.h"
+#include "base/hash.h"
 #include "cpu/rival_lanes.h"
 
 #include <math.h>

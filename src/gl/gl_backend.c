@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "cpu/tile_job.h"
-#include "cpu/whole_frame.h"
+#include "frame/whole_frame.h"
 
 /* ---- contexts ---- */
 

@@ -3,8 +3,8 @@
 #ifndef MANGATA_GL_GL_BVH_H
 #define MANGATA_GL_GL_BVH_H
 
-#include "core/backend.h"
-#include "cpu/world.h"
+#include "frame/backend.h"
+#include "frame/world.h"
 
 /*
  * One list of texels of four numbers: nodes of four texels, the root first, then leaves of one. A node:

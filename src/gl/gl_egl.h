@@ -3,7 +3,7 @@
 #ifndef MANGATA_GL_GL_EGL_H
 #define MANGATA_GL_GL_EGL_H
 
-#include "core/backend.h"
+#include "frame/backend.h"
 
 typedef struct gl_egl gl_egl;
 

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "cpu/tile_job.h"
-#include "cpu/whole_frame.h"
+#include "frame/whole_frame.h"
 #include "gl/gl_renderer.h"
 
 /* Memory of a band's lists of waves, unless a single row of tiles needs more. */

@@ -2,8 +2,8 @@
  * Rendering into textures and framebuffers of the host. */
 #include <math.h>
 
-#include "core/context.h"
-#include "core/validate.h"
+#include "api/context.h"
+#include "api/validate.h"
 #include "gl/gl_backend.h"
 #include "gl/gl_view.h"
 

@@ -3,7 +3,7 @@
 #ifndef MANGATA_GL_GL_MEMORY_H
 #define MANGATA_GL_GL_MEMORY_H
 
-#include "core/backend.h"
+#include "frame/backend.h"
 #include "gl/gl_api.h"
 
 typedef struct gl_buffer {

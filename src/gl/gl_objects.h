@@ -3,7 +3,7 @@
 #ifndef MANGATA_GL_GL_OBJECTS_H
 #define MANGATA_GL_GL_OBJECTS_H
 
-#include "cpu/world.h"
+#include "frame/world.h"
 #include "gl/gl_memory.h"
 
 /* A buffer whose elements shaders fetch. */

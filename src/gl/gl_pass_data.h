@@ -3,7 +3,7 @@
 #ifndef MANGATA_GL_GL_PASS_DATA_H
 #define MANGATA_GL_GL_PASS_DATA_H
 
-#include "cpu/kernel_data.h"
+#include "frame/kernel_data.h"
 
 #define STRUCT(name)          \
     typedef struct name name; \

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * The tables of podee-* with kernels on the GPU. */
-#include "cpu/thread_pool.h"
+#include "base/thread_pool.h"
 #include "gl/gl_renderer.h"
 
 /* The slices of the sweep stand side by side in one texture, so many a row. */

@@ -3,7 +3,7 @@
 #ifndef MANGATA_GL_GL_PROGRAMS_H
 #define MANGATA_GL_GL_PROGRAMS_H
 
-#include "core/backend.h"
+#include "frame/backend.h"
 #include "gl/gl_api.h"
 #include "gl/gl_sources.h"
 

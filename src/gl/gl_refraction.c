@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/mesh.h"
+#include "frame/mesh.h"
 #include "cpu/refraction_data.h"
 #include "cpu/shade_lanes.h"
 #include "gl/gl_renderer.h"

@@ -3,9 +3,9 @@
 #ifndef MANGATA_GL_GL_REFRACTION_H
 #define MANGATA_GL_GL_REFRACTION_H
 
-#include "cpu/frame.h"
+#include "frame/frame.h"
 #include "cpu/shade.h"
-#include "cpu/shadow_map.h"
+#include "frame/shadow_map.h"
 #include "gl/gl_memory.h"
 #include "gl/gl_objects.h"
 #include "gl/gl_pass_data.h"

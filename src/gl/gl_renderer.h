@@ -3,7 +3,7 @@
 #ifndef MANGATA_GL_GL_RENDERER_H
 #define MANGATA_GL_GL_RENDERER_H
 
-#include "cpu/frame.h"
+#include "frame/frame.h"
 #include "cpu/lean_map.h"
 #include "gl/gl_gbuffer.h"
 #include "gl/gl_host_state.h"

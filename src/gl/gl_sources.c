@@ -84,13 +84,16 @@ static void append_line_mark(gl_source *s, int line, int file)
     append(s, mark, (size_t)snprintf(mark, sizeof mark, "#line %d %d\n", line, file));
 }
 
-/* The name between the quotes of an #include; NULL for other lines. */
+/* The file's name, without its folders, between the quotes of an #include; NULL for other lines. */
 static const char *included(const char *line, size_t length, size_t *name_length)
 {
     static const char word[] = "#include \"";
     if (length < sizeof word || memcmp(line, word, sizeof word - 1) != 0)
         return NULL;
     const char *name = line + sizeof word - 1, *end = memchr(name, '"', (size_t)(line + length - name));
+    for (const char *at = name; end && at < end; at++)
+        if (*at == '/')
+            name = at + 1;
     *name_length = end ? (size_t)(end - name) : 0;
     return end ? name : NULL;
 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * The texts of kernels and passes, and how they become one GLSL source.
  *
- * They are embedded in the library by scripts/embed_text. `#include "name"` is replaced by that text where it first occurs and dropped after that;
- * `#line LINE NUMBER` marks every change of file, so that a compiler's message leads back to it. */
+ * They are embedded in the library by scripts/embed_text. `#include "folder/name"` is replaced by the text of that name, whatever its folder, where it
+ * first occurs and dropped after that; `#line LINE NUMBER` marks every change of file, so that a compiler's message leads back to it. */
 #ifndef MANGATA_GL_GL_SOURCES_H
 #define MANGATA_GL_GL_SOURCES_H
 

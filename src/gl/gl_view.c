@@ -9,7 +9,7 @@
 
 #include <math.h>
 
-#include "cpu/triples.h"
+#include "base/triples.h"
 
 static void row_of(const double matrix[16], int row, double out[4])
 {

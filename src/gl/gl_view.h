@@ -3,7 +3,7 @@
 #ifndef MANGATA_GL_GL_VIEW_H
 #define MANGATA_GL_GL_VIEW_H
 
-#include "cpu/frame.h"
+#include "frame/frame.h"
 #include "mangata/gl.h"
 
 /* A view's rays; 1 of their `along` is 1 of clip space's w. */

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * Methods that work on whole pictures of method `none`, on the GPU: fxaa on one, taa on several. */
-#include "cpu/whole_frame.h"
+#include "frame/whole_frame.h"
 
-#include "cpu/triples.h"
+#include "base/triples.h"
 #include "gl/gl_renderer.h"
 
 /* ---- the pictures of `none` ---- */

@@ -2,7 +2,7 @@
  * The null backend: takes every checked call and fills the targets with zero, so that a host can test its own side of the API. */
 #include <string.h>
 
-#include "core/backend.h"
+#include "frame/backend.h"
 
 static mgt_status null_create(void **state, const mgt_context_desc *desc, const reporter *r, mgt_context_info *info)
 {

@@ -8,18 +8,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cpu/kernel_data.h"
-#include "precompute/atmosphere.h"
+#include "frame/kernel_data.h"
+#include "frame/atmosphere.h"
 #include "scene/scene_file.h"
 #include "trace/trace.h"
 
 #pragma GCC diagnostic ignored "-Wunused-parameter" /* the dialect hands cx to every function */
 #define MGT_LANES 1
-#include "kernels/prelude_c.h"
+#include "kernels/common/prelude_c.h"
 
 #define FRAME(cx) (*(cx)->frame)
 
-#include "kernels/tone.k"
+#include "kernels/display/tone.k"
 
 #undef sqrt
 #undef abs

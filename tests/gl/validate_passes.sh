@@ -7,7 +7,7 @@ source=$1
 command -v glslangValidator >/dev/null 2>&1 || { echo "glslangValidator is not installed"; exit 77; }
 work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
-cp "$source"/src/kernels/*.k "$source"/src/gl/shaders/* "$work" || exit 1
+cp "$source"/src/gl/shaders/* "$work" || exit 1
 failed=0
 
 check() { # file, what to define

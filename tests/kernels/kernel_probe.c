@@ -7,9 +7,9 @@ static long evaluations;
 #define TALLY(live) (evaluations += (live) ? 1 : 0)
 #endif
 
-#include "kernels/prelude_c.h"
-#include "kernels/math.k"
-#include "kernels/disk_path.k"
+#include "kernels/common/prelude_c.h"
+#include "kernels/common/math.k"
+#include "kernels/common/disk_path.k"
 #include "kernel_probe.k"
 
 #define NAME_(n) kernel_probe_##n

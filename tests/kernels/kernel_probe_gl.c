@@ -43,8 +43,8 @@ static void fail(const char *what, const char *detail)
 /* The kernels with all includes, by the command that also makes the installed ones. */
 static char *kernel_text(void)
 {
-    static const char command[] = MGT_SOURCE_DIR "/scripts/kernel_glsl '450 core' " MGT_SOURCE_DIR "/src/kernels/prelude_glsl.k " MGT_SOURCE_DIR
-                                                 "/src/kernels/disk_path.k " MGT_SOURCE_DIR "/tests/kernels/kernel_probe.k";
+    static const char command[] = MGT_SOURCE_DIR "/scripts/kernel_glsl '450 core' " MGT_SOURCE_DIR "/src/kernels/common/prelude_glsl.k " MGT_SOURCE_DIR
+                                                 "/src/kernels/common/disk_path.k " MGT_SOURCE_DIR "/tests/kernels/kernel_probe.k";
     const size_t room = 1 << 20;
     char *text = calloc(room, 1);
     FILE *pipe = text ? popen(command, "r") : NULL;

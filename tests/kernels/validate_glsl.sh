@@ -13,12 +13,12 @@ failed=0
 check() { # name, version line, extension, epilogue, kernel
     more=
     case $1 in
-    lean | leadr) more=$kernels/lean_accessors_glsl.k ;;
-    refract_*) more=$kernels/refract_accessors_glsl.k ;;
-    caustic | footprint | material | narrow | spread | water_path | water_seen) more="$kernels/refract_accessors_glsl.k $kernels/narrow_types.k $kernels/shade_types.k $kernels/layer.k $work/object_accessors.glsl" ;;
+    lean | leadr) more=$kernels/baselines/lean_accessors_glsl.k ;;
+    refract_*) more=$kernels/refraction/refract_accessors_glsl.k ;;
+    caustic | footprint | material | narrow | spread | water_path | water_seen) more="$kernels/refraction/refract_accessors_glsl.k $kernels/refraction/narrow_types.k $kernels/refraction/shade_types.k $kernels/refraction/layer.k $work/object_accessors.glsl" ;;
     esac
     # shellcheck disable=SC2086 # nothing where there is none
-    "$source/scripts/kernel_glsl" "$2" "$kernels/prelude_glsl.k" "$kernels/accessors_glsl.k" $more "$5" >"$work/$1.$3" || { failed=1; return; }
+    "$source/scripts/kernel_glsl" "$2" "$kernels/common/prelude_glsl.k" "$kernels/common/accessors_glsl.k" $more "$5" >"$work/$1.$3" || { failed=1; return; }
     printf '%s\n' "$4" >>"$work/$1.$3"
     if ! glslangValidator "$work/$1.$3" >"$work/log" 2>&1; then
         failed=1
@@ -40,7 +40,7 @@ float SUN_SHARE(int cx, vec3 position);
 GLSL
 
 count=0
-for kernel in "$kernels"/*.k; do
+for kernel in "$kernels"/*/*.k; do
     name=$(basename "$kernel" .k)
     case $name in prelude_glsl | accessors_glsl | *_accessors_glsl) continue ;; esac
     count=$((count + 1))
@@ -50,9 +50,8 @@ done
 echo "$count kernel files, each as GLSL 4.50 and GLSL ES 3.00"
 
 # The check itself must be able to fail, and say where.
-printf '/* broken */\n#include "math.k"\nKERNEL real broken(CTX cx, real x) { return x +; }\n' >"$work/broken.k"
-cp "$kernels/math.k" "$work/math.k"
-"$source/scripts/kernel_glsl" "450 core" "$kernels/prelude_glsl.k" "$work/broken.k" >"$work/broken.comp" || failed=1
+printf '/* broken */\n#include "kernels/common/math.k"\nKERNEL real broken(CTX cx, real x) { return x +; }\n' >"$work/broken.k"
+"$source/scripts/kernel_glsl" "450 core" "$kernels/common/prelude_glsl.k" "$work/broken.k" >"$work/broken.comp" || failed=1
 if glslangValidator "$work/broken.comp" >"$work/log" 2>&1 || ! grep -q 'ERROR: 2:3:' "$work/log"; then
     echo "FAILED: a broken kernel was not reported at its own line"
     cat "$work/log"

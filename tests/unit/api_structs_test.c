@@ -10,7 +10,7 @@
 #include <cmocka.h>
 
 #include "api_sea.h"
-#include "core/structs.h"
+#include "api/structs.h"
 
 /* A struct in its second version, which added `second` and `third`; and as the first and a later one have it. */
 typedef struct now {

@@ -17,15 +17,15 @@
 
 #include <cmocka.h>
 
-#include "cpu/frame.h"
+#include "frame/frame.h"
 #include "cpu/lean_map.h"
-#include "precompute/atmosphere.h"
+#include "frame/atmosphere.h"
 #include "reference/equations.h"
 #include "unit/random_numbers.h"
 
 #pragma GCC diagnostic ignored "-Wunused-parameter" /* the dialect hands cx to every function */
 #define MGT_LANES 1
-#include "kernels/prelude_c.h"
+#include "kernels/common/prelude_c.h"
 
 #define FRAME(cx) (*(cx)->frame)
 #define TILE(cx) (*(cx)->tile)
@@ -67,16 +67,16 @@ KERNEL vec3 LEAN_SQUARE(CTX cx, real level, real column, real row)
 }
 
 #define light_direction kernel_light_direction /* the oracle has one of its own */
-#include "kernels/glitter.k"
-#include "kernels/podee.k"
-#include "kernels/podee_mixture.k"
-#include "kernels/bruneton.k"
-#include "kernels/leadr.k"
-#include "kernels/msaa.k"
-#include "kernels/sample.k"
-#include "kernels/temporal_ray.k"
-#include "kernels/tndf.k"
-#include "kernels/tokuyoshi.k"
+#include "kernels/glitter/glitter.k"
+#include "kernels/baselines/podee.k"
+#include "kernels/baselines/podee_mixture.k"
+#include "kernels/baselines/bruneton.k"
+#include "kernels/baselines/leadr.k"
+#include "kernels/baselines/msaa.k"
+#include "kernels/glitter/sample.k"
+#include "kernels/adaptive/temporal_ray.k"
+#include "kernels/baselines/tndf.k"
+#include "kernels/baselines/tokuyoshi.k"
 #undef light_direction
 
 #include "unit/kernel_words_off.h"

@@ -31,7 +31,7 @@ static double floor_depth;                  /* of the plane that the layer shows
 static double post_column = -1, post_depth; /* of a post before it, three columns wide */
 
 #define MGT_LANES 1
-#include "kernels/prelude_c.h"
+#include "kernels/common/prelude_c.h"
 
 #define FRAME(cx) frame_data
 #define SHADE(cx) shade_data
@@ -42,14 +42,14 @@ static double post_column = -1, post_depth; /* of a post before it, three column
 KERNEL vec3 TEXTURE(CTX cx, real texture, real u, real v, real level) { return vec3(texture, u, v * level); }
 KERNEL real SUN_SHARE(CTX cx, vec3 position) { return 1.0f; }
 
-#include "kernels/layer.k"
+#include "kernels/refraction/layer.k"
 
 static LayerPixel layer_pixel(double column, double row);
 KERNEL LayerPixel LAYER(CTX cx, int layer, real column, real row) { return layer_pixel((double)column, (double)row); }
 
-#include "kernels/material.k"
-#include "kernels/mirror.k"
-#include "kernels/spread.k"
+#include "kernels/refraction/material.k"
+#include "kernels/common/mirror.k"
+#include "kernels/refraction/spread.k"
 
 #include "unit/kernel_words_off.h"
 #undef dot

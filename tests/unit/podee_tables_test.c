@@ -6,8 +6,8 @@
 
 #include <time.h>
 
-#include "cpu/thread_pool.h"
-#include "precompute/podee_tables.h"
+#include "base/thread_pool.h"
+#include "frame/podee_tables.h"
 
 static podee_tables tables;
 

@@ -10,18 +10,18 @@
 
 #include <cmocka.h>
 
-#include "cpu/kernel_data.h"
+#include "frame/kernel_data.h"
 #include "mangata/mangata.h"
 
 static double double_pow(double x, double y) { return pow(x, y); }
 
 #pragma GCC diagnostic ignored "-Wunused-parameter" /* the dialect hands cx to every function */
 #define MGT_LANES 1
-#include "kernels/prelude_c.h"
+#include "kernels/common/prelude_c.h"
 
 #define FRAME(cx) (*(cx)->frame)
 
-#include "kernels/tone.k"
+#include "kernels/display/tone.k"
 
 #include "unit/kernel_words_off.h"
 

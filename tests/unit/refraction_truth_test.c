@@ -12,7 +12,7 @@
 #include <cmocka.h>
 
 #include "reference/equations.h"
-#include "reference/refraction_truth.h"
+#include "cpu/refraction_truth.h"
 #include "unit/test_mesh.h"
 
 enum { WIDTH = 64, HEIGHT = 32, COLUMNS = WIDTH / TILE_WIDTH, ROWS = HEIGHT / TILE_HEIGHT };

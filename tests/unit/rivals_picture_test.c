@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-#include "cpu/whole_frame.h"
+#include "frame/whole_frame.h"
 
 enum { WIDTH = 48, HEIGHT = 32, PIXELS = WIDTH * HEIGHT };
 

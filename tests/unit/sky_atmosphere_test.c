@@ -12,9 +12,9 @@
 
 #include <cmocka.h>
 
-#include "precompute/atmosphere.h"
-#include "precompute/scattering.h"
-#include "precompute/spectrum.h"
+#include "frame/atmosphere.h"
+#include "frame/scattering.h"
+#include "frame/spectrum.h"
 
 #define PI 3.14159265358979323846
 

@@ -11,14 +11,14 @@
 
 #include <cmocka.h>
 
-#include "cpu/kernel_data.h"
-#include "precompute/atmosphere.h"
+#include "frame/kernel_data.h"
+#include "frame/atmosphere.h"
 
 static double double_sqrt(double x) { return sqrt(x); }
 
 #pragma GCC diagnostic ignored "-Wunused-parameter" /* the dialect hands cx to every function */
 #define MGT_LANES 1
-#include "kernels/prelude_c.h"
+#include "kernels/common/prelude_c.h"
 
 #define FRAME(cx) (*(cx)->frame)
 #define SKY_TEXEL(cx, column, row) sky_texel(cx, column, row)
@@ -29,7 +29,7 @@ KERNEL vec3 sky_texel(CTX cx, real column, real row)
     return vec3(t[0], t[1], t[2]);
 }
 
-#include "kernels/sky.k"
+#include "kernels/sky/sky.k"
 
 #include "unit/kernel_words_off.h"
 

@@ -35,7 +35,7 @@ set view.compare off
 END
 { sed 's/X-/cpu-/' common.txt; echo quit; } | drive "$scene" --size 240x150
 mkdir kernels
-cp "$SOURCE/src/kernels/tone.k" kernels/tone.k
+cp "$SOURCE/src/kernels/display/tone.k" kernels/tone.k
 sed '0,/^KERNEL/s//KERNEL nonsense;\nKERNEL/' kernels/tone.k >broken.k
 sed 's/^KERNEL vec3 display_color/KERNEL vec3 unused_color(CTX cx, vec3 c) { return c; }\n&/' kernels/tone.k >other.k
 {

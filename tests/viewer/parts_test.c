@@ -13,9 +13,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "camera_moves.h"
-#include "controls.h"
-#include "palette.h"
+#include "viewer/scene/camera_moves.h"
+#include "viewer/ui/controls.h"
+#include "viewer/picture/palette.h"
 
 static const char scene_text[] = "mangata: 1\n"
                                  "# a comment\n"

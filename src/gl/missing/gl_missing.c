@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * Stands in for the OpenGL backend where its headers were not found. */
-#include "core/backend.h"
+#include "frame/backend.h"
 
 static mgt_status missing_create(void **state, const mgt_context_desc *desc, const reporter *r, mgt_context_info *info)
 {

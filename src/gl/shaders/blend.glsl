@@ -2,7 +2,7 @@
  *
  * What methods that work on whole pictures read and write: color, coverage and mask of the current picture, and those of their own.
  */
-#include "prelude_glsl.k"
+#include "kernels/common/prelude_glsl.k"
 #include "pass_data.k"
 
 layout(std140, binding = 3) uniform BlendBlock { BlendData blend_data; };

@@ -2,8 +2,8 @@
  *
  * How a layer of objects is drawn. The framebuffer's depth is the least depth over that of the point; its lowest row is the picture's top one.
  */
-#include "prelude_glsl.k"
-#include "refract_types.k"
+#include "kernels/common/prelude_glsl.k"
+#include "kernels/refraction/refract_types.k"
 #include "pass_data.k"
 
 layout(std140, binding = 0) uniform RefractBlock { RefractData refract_data; };
@@ -12,7 +12,7 @@ layout(std140, binding = 3) uniform GbufferBlock { GbufferData gbuffer_data; };
 #define REFRACT(cx) refract_data
 #define PICTURE(cx) picture_data
 
-#include "refract_patch.k"
+#include "kernels/refraction/refract_patch.k"
 
 
 /* Clip space of an image. */

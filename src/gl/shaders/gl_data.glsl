@@ -2,8 +2,8 @@
  *
  * Where the kernels find their data in the compute passes. A band's tiles stand in storage buffers; tile_slot says which one is meant.
  */
-#include "prelude_glsl.k"
-#include "types.k"
+#include "kernels/common/prelude_glsl.k"
+#include "kernels/common/types.k"
 #include "pass_data.k"
 
 layout(std140, binding = 0) uniform FrameBlock { FrameData frame_data; };

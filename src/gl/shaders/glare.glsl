@@ -2,7 +2,7 @@
  *
  * The pyramid of src/cpu/glare.c: D takes a level to the next coarser one, U back.
  */
-#include "prelude_glsl.k"
+#include "kernels/common/prelude_glsl.k"
 #include "pass_data.k"
 
 layout(std140, binding = 3) uniform GlareBlock { GlareData glare_data; };

@@ -3,7 +3,7 @@
  * The lattice of first hits of a tile, and what a pixel guesses from the four nodes about it.
  */
 #include "gl_data.glsl"
-#include "lattice.k"
+#include "kernels/glitter/lattice.k"
 
 const int NODE_STEP_X = 8;
 const int NODE_STEP_Y = 4;

@@ -2,7 +2,7 @@
  *
  * The map of slope moments. Of level 0 only slopes are kept: its moments are their products.
  */
-#include "lean_types.k"
+#include "kernels/baselines/lean_types.k"
 
 layout(std140, binding = 3) uniform LeanBlock { LeanData lean_data; };
 layout(binding = 1) uniform sampler2D mean_texture;

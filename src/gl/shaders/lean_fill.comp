@@ -3,9 +3,9 @@
  * Level 0 of the map of slope moments. An invocation makes some rows of one column: a wave costs it the sine and cosine of two phases, and
  * from row to row a rotation.
  */
-#include "prelude_glsl.k"
+#include "kernels/common/prelude_glsl.k"
 #include "pass_data.k"
-#include "math.k"
+#include "kernels/common/math.k"
 
 layout(std140, binding = 3) uniform LeanPassBlock { LeanPass lean_pass; };
 layout(std140, binding = 1) uniform LeanWaveBlock { LeanWave lean_waves[512]; };

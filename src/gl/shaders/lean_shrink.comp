@@ -2,7 +2,7 @@
  *
  * The next coarser level of the map of slope moments.
  */
-#include "prelude_glsl.k"
+#include "kernels/common/prelude_glsl.k"
 #include "pass_data.k"
 
 layout(std140, binding = 3) uniform LeanPassBlock { LeanPass lean_pass; };

@@ -3,12 +3,12 @@
  * Luma of the picture as it is displayed, before glare: what method `fxaa` looks for edges in.
  */
 #include "glare.glsl"
-#include "types.k"
+#include "kernels/common/types.k"
 
 layout(std140, binding = 0) uniform FrameBlock { FrameData frame_data; };
 #define FRAME(cx) frame_data
 
-#include "tone.k"
+#include "kernels/display/tone.k"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 0) writeonly uniform image2D luma_image;

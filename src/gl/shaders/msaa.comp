@@ -4,6 +4,6 @@
  */
 #define EXACT_FMA
 #include "lattice_data.glsl"
-#include "msaa.k"
+#include "kernels/baselines/msaa.k"
 #define point_pixel msaa_pixel
 #include "points.glsl"

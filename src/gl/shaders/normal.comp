@@ -4,7 +4,7 @@
  */
 #define SHARED_WAVES
 #include "lattice_data.glsl"
-#include "glitter.k"
+#include "kernels/glitter/glitter.k"
 #include "normal.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;

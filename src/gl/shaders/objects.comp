@@ -6,7 +6,7 @@
 #define OBJECTS_PASS
 #define LISTS_GROW
 #include "lattice_data.glsl"
-#include "glitter.k"
+#include "kernels/glitter/glitter.k"
 #include "objects_water.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;

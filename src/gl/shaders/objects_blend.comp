@@ -2,7 +2,7 @@
  *
  * The mean of what a band's pixels see of objects at both ends of the shutter, where the camera moves.
  */
-#include "prelude_glsl.k"
+#include "kernels/common/prelude_glsl.k"
 #include "pass_data.k"
 
 layout(std140, binding = 2) uniform PassBlock { PassData pass_data; };

@@ -2,7 +2,7 @@
  *
  * Objects in front of water and sky, over the layers of a band.
  */
-#include "prelude_glsl.k"
+#include "kernels/common/prelude_glsl.k"
 #include "pass_data.k"
 
 layout(std140, binding = 2) uniform PassBlock { PassData pass_data; };

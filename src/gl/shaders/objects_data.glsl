@@ -2,10 +2,10 @@
  *
  * Where the kernels that look for objects and shade them find their data.
  */
-#include "refract_types.k"
-#include "narrow_types.k"
-#include "shade_types.k"
-#include "layer.k"
+#include "kernels/refraction/refract_types.k"
+#include "kernels/refraction/narrow_types.k"
+#include "kernels/refraction/shade_types.k"
+#include "kernels/refraction/layer.k"
 
 layout(std140, binding = 3) uniform ObjectsBlock {
     RefractData refract_data;

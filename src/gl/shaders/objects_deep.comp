@@ -5,10 +5,10 @@
 #define OBJECTS_PASS
 #include "gl_data.glsl"
 #include "objects_pixel.glsl"
-#include "sky.k"
+#include "kernels/sky/sky.k"
 #undef MARCH_WAVE
 #define MARCH_WAVE(cx, i) caustic_wave(i)
-#include "material.k"
+#include "kernels/refraction/material.k"
 
 layout(local_size_x = 64) in;
 layout(binding = 6) writeonly uniform image2D deep_image;

@@ -4,7 +4,7 @@
  * the number of a pixel in the band: tile · 512 + row · 32 + column.
  */
 #include "objects_data.glsl"
-#include "spread.k"
+#include "kernels/refraction/spread.k"
 
 #define INFINITY uintBitsToFloat(0x7f800000u)
 

@@ -6,7 +6,7 @@
 #define SHARED_WAVES
 #define OBJECTS_PASS
 #include "lattice_data.glsl"
-#include "glitter.k"
+#include "kernels/glitter/glitter.k"
 #include "objects_water.glsl"
 #include "objects_through.glsl"
 #include "objects_tracing.glsl"

@@ -3,10 +3,10 @@
  * Rays that end on objects or nowhere, and their light.
  */
 #include "objects_pixel.glsl"
-#include "sky.k"
+#include "kernels/sky/sky.k"
 #undef MARCH_WAVE
 #define MARCH_WAVE(cx, i) caustic_wave(i)
-#include "material.k"
+#include "kernels/refraction/material.k"
 
 /* Radiance at the camera over that behind the surface; `total`: it is mirrored there. */
 float gain_behind(bool total)

@@ -3,7 +3,7 @@
  * The filtered surface in a pixel.
  */
 #include "objects_pixel.glsl"
-#include "water_seen.k"
+#include "kernels/refraction/water_seen.k"
 
 /* Through a place of the pixel, from its centre. */
 PixelWater water_at(TilePixel where, vec2 place)

@@ -4,7 +4,7 @@
  */
 #define EXACT_FMA
 #include "lattice_data.glsl"
-#include "sample.k"
+#include "kernels/glitter/sample.k"
 #include "jitter.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -4,7 +4,7 @@
  */
 #define SHARED_WAVES
 #include "lattice_data.glsl"
-#include "bruneton.k"
+#include "kernels/baselines/bruneton.k"
 #define METHOD_STATE SlopeState
 #define method_state slope_state
 #define method_result(cx, p, open, close) bruneton_result(cx, p, close)

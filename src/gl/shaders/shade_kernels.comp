@@ -16,7 +16,7 @@ float SWEEP_TEXEL(int cx, float v, float u, float slice)
 
 float SHARE_TEXEL(int cx, float r, float slice) { return texelFetch(share_texture, ivec2(int(r), int(slice)), 0).r; }
 
-#include "podee_mixture.k"
+#include "kernels/baselines/podee_mixture.k"
 #define METHOD_STATE PodeeState
 #define method_state podee_state
 #define method_result(cx, p, open, close) podee_result_of(cx, p, open, close, podee_mixture_coverage(cx, open, close))

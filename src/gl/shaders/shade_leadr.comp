@@ -5,7 +5,7 @@
 #define SHARED_WAVES
 #include "lattice_data.glsl"
 #include "lean_data.glsl"
-#include "leadr.k"
+#include "kernels/baselines/leadr.k"
 #define METHOD_STATE SlopeState
 #define method_state slope_state
 #define method_result(cx, p, open, close) leadr_result(cx, p, close)

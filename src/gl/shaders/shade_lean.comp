@@ -5,7 +5,7 @@
 #define SHARED_WAVES
 #include "lattice_data.glsl"
 #include "lean_data.glsl"
-#include "lean.k"
+#include "kernels/baselines/lean.k"
 #define METHOD_STATE SlopeState
 #define method_state slope_state
 #define method_result(cx, p, open, close) lean_result(cx, p, close)

@@ -4,7 +4,7 @@
  */
 #define SHARED_WAVES
 #include "lattice_data.glsl"
-#include "glitter.k"
+#include "kernels/glitter/glitter.k"
 #define METHOD_STATE SlopeState
 #define method_state slope_state
 #define method_result glitter_result

@@ -4,7 +4,7 @@
  */
 #define SHARED_WAVES
 #include "lattice_data.glsl"
-#include "tndf.k"
+#include "kernels/baselines/tndf.k"
 #define METHOD_STATE SlopeState
 #define method_state slope_state
 #define method_result(cx, p, open, close) tndf_result(cx, p, open, close)

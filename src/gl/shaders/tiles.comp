@@ -11,7 +11,7 @@ layout(std140, binding = 3) uniform ViewBlock { ViewData view_data; };
 layout(std430, binding = 5) readonly buffer SortBlock { SortData sort_data[]; };
 #define VIEW(cx) view_data
 
-#include "tile.k"
+#include "kernels/waves/tile.k"
 
 const int LANES = 64;
 layout(local_size_x = 64) in;

@@ -4,6 +4,6 @@
  */
 #define EXACT_FMA
 #include "lattice_data.glsl"
-#include "tokuyoshi.k"
+#include "kernels/baselines/tokuyoshi.k"
 #define point_pixel tokuyoshi_pixel
 #include "points.glsl"

@@ -2,15 +2,15 @@
  *
  * The layers of a view into the host's framebuffer: premultiplied colour and the depth of the first hit.
  */
-#include "prelude_glsl.k"
-#include "types.k"
+#include "kernels/common/prelude_glsl.k"
+#include "kernels/common/types.k"
 #include "pass_data.k"
 
 layout(std140, binding = 0) uniform FrameBlock { FrameData frame_data; };
 layout(std140, binding = 3) uniform WindowBlock { WindowData window_data; };
 #define FRAME(cx) frame_data
 
-#include "tone.k"
+#include "kernels/display/tone.k"
 
 layout(binding = 1) uniform sampler2D color_texture;
 layout(binding = 2) uniform sampler2D water_texture;

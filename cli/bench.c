@@ -1,0 +1,344 @@
+/* SPDX-License-Identifier: MIT */
+/* `mangata bench`: time per frame of several methods, measured in turn so that all see the same machine. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/common/context_options.h"
+#include "cli/common/interrupt.h"
+#include "cli/common/memory_use.h"
+#include "cli/common/method_spec.h"
+#include "cli/common/names.h"
+#include "cli/common/numbers.h"
+#include "cli/common/options.h"
+#include "cli/common/progress.h"
+#include "cli/common/verbs.h"
+
+enum { OPT_METHODS, OPT_SIZE, OPT_FRAMES, OPT_REPEAT, OPT_BACKEND, OPT_GL_DEVICE, OPT_THREADS, OPT_ISA, OPT_SET, OPT_DISPLAY, OPT_MEMORY };
+
+static const option bench_options[] = {
+    [OPT_METHODS] = {"methods", 0, "LIST", "methods to measure, with options if wanted:\nadaptive:samples=4, none+hybrid (default none,podee-pixel,mangata)"},
+    [OPT_SIZE] = {"size", 0, "WxH", "size in pixels instead of the scene's"},
+    [OPT_FRAMES] = {"frames", 0, "N", "measure frames 0 to N-1 (default 3)"},
+    [OPT_REPEAT] = {"repeat", 0, "R", "measure each of them R times (default 5)"},
+    [OPT_BACKEND] = {"backend", 0, "NAME", "cpu (default), gl or auto"},
+    [OPT_GL_DEVICE] = CONTEXT_OPTION_GL_DEVICE,
+    [OPT_THREADS] = CONTEXT_OPTION_THREADS,
+    [OPT_ISA] = CONTEXT_OPTION_ISA,
+    [OPT_SET] = {"set", 0, "KEY=VALUE", "change a value of the scene; may be repeated"},
+    [OPT_DISPLAY] = {"display", 0, NULL, "make displayed colours: with exposure, glare and tone mapping"},
+    [OPT_MEMORY] = {"memory", 0, NULL, "also measure the memory that a frame takes at its peak, in a\ncontext of its own for every method"},
+};
+
+static const option_table bench_table = {"bench",
+                                         "SCENE [options]",
+                                         "Renders in memory, without output: scene-linear colour, or with --display what a picture shows.\n"
+                                         "The methods take turns, so that a change of the machine's pace meets all of them.",
+                                         bench_options,
+                                         sizeof bench_options / sizeof bench_options[0],
+                                         NULL};
+
+enum { METHOD_LIMIT = 16 };
+
+typedef struct bench_request {
+    console out;
+    const char *scene_path, *methods;
+    const char **overrides;
+    size_t override_count;
+    uint64_t frames, repeat;
+    context_options context;
+    bool display, memory;
+} bench_request;
+
+typedef struct bench_method {
+    method_spec spec;
+    mgt_context *context; /* of its own: what one has drawn must not spare another the work */
+    double *seconds;      /* frames × repeat */
+    double memory;        /* bytes at the peak; NaN: not known */
+} bench_method;
+
+typedef struct bench {
+    const bench_request *request;
+    scene_file *scene;
+    mgt_context_info info;
+    mgt_target target;
+    uint32_t width, height;
+    size_t count;
+    bench_method methods[METHOD_LIMIT];
+} bench;
+
+static int bad_value(size_t id, const char *value, const char *allowed)
+{
+    return console_error(EXIT_CODE_USAGE, "--%s %s: allowed is %s", bench_options[id].name, value, allowed);
+}
+
+static int set_option(bench_request *r, int id, const char *value, char size[2][32])
+{
+    uint64_t side[2];
+    switch (id) {
+    case OPT_METHODS:
+        r->methods = value;
+        break;
+    case OPT_SIZE:
+        if (!number_parse_list(value, 'x', MGT_MAX_IMAGE_SIDE, 2, side) || side[0] == 0 || side[1] == 0)
+            return bad_value(OPT_SIZE, value, "WxH, each from 1 to 32768 pixels, such as 1280x720");
+        snprintf(size[0], 32, "image.width=%u", (unsigned)side[0]);
+        snprintf(size[1], 32, "image.height=%u", (unsigned)side[1]);
+        break;
+    case OPT_FRAMES:
+        if (!number_parse_u64(value, 1000000, &r->frames) || r->frames == 0)
+            return bad_value(OPT_FRAMES, value, "a number from 1 to 1000000");
+        break;
+    case OPT_REPEAT:
+        if (!number_parse_u64(value, 1000, &r->repeat) || r->repeat == 0)
+            return bad_value(OPT_REPEAT, value, "a number from 1 to 1000");
+        break;
+    case OPT_BACKEND:
+        if (!backend_from_name(value, &r->context.backend) || r->context.backend == MGT_BACKEND_NULL)
+            return bad_value(OPT_BACKEND, value, "cpu, gl or auto");
+        break;
+    case OPT_GL_DEVICE:
+    case OPT_THREADS:
+    case OPT_ISA: {
+        const char *allowed = context_option_set(&r->context, bench_options[id].name, value);
+        return allowed ? bad_value((size_t)id, value, allowed) : EXIT_CODE_OK;
+    }
+    case OPT_SET:
+        r->overrides[r->override_count++] = value;
+        break;
+    case OPT_DISPLAY:
+        r->display = true;
+        break;
+    case OPT_MEMORY:
+        r->memory = true;
+        break;
+    case OPTION_OPERAND:
+        if (r->scene_path)
+            return console_error(EXIT_CODE_USAGE, "one scene at a time: %s and %s are given", r->scene_path, value);
+        r->scene_path = value;
+        break;
+    default:
+        break;
+    }
+    return EXIT_CODE_OK;
+}
+
+static int add_methods(bench *b)
+{
+    for (const char *p = b->request->methods; *p;) {
+        const size_t length = strcspn(p, ",");
+        char wrong[300];
+        if (b->count == METHOD_LIMIT)
+            return console_error(EXIT_CODE_USAGE, "--methods: at most %d are allowed", METHOD_LIMIT);
+        bench_method *method = &b->methods[b->count];
+        if (!method_spec_parse(&method->spec, p, length, wrong, sizeof wrong))
+            return console_error(EXIT_CODE_USAGE, "--methods: %s", wrong);
+        method->seconds = calloc((size_t)(b->request->frames * b->request->repeat), sizeof *method->seconds);
+        if (!method->seconds)
+            return console_error(EXIT_CODE_FAILED, "out of memory");
+        method->memory = NAN;
+        b->count++;
+        p += length + (p[length] == ',');
+    }
+    return b->count ? EXIT_CODE_OK : bad_value(OPT_METHODS, b->request->methods, method_names().text);
+}
+
+static bool keep_going(void *user, double fraction)
+{
+    (void)user, (void)fraction;
+    return *interrupt_flag() == 0;
+}
+
+static int open_context(bench *b, bench_method *method)
+{
+    return context_open(&b->request->context, &b->request->out, keep_going, NULL, &method->context, &b->info);
+}
+
+static void close_context(bench_method *method)
+{
+    mgt_context_destroy(method->context);
+    method->context = NULL;
+}
+
+/* Up to the contexts. */
+static int prepare(bench *b)
+{
+    const bench_request *r = b->request;
+    scene_error error;
+    const int code = add_methods(b);
+    if (code != EXIT_CODE_OK)
+        return code;
+    b->scene = scene_file_load(r->scene_path, r->overrides, r->override_count, &error);
+    if (!b->scene)
+        return console_scene_error(&error);
+    mgt_scene first;
+    if (!scene_file_frame(b->scene, 0, &first))
+        return console_error(EXIT_CODE_BAD_INPUT, "%s: the camera of frame 0 is not a legal one", r->scene_path);
+    b->width = first.image.width;
+    b->height = first.image.height;
+    mgt_target_init(&b->target, sizeof b->target);
+    b->target.format = r->display ? MGT_FORMAT_RGBA8_SRGB : MGT_FORMAT_RGB32F;
+    b->target.pixels = calloc((size_t)b->width * b->height, r->display ? 4 : 12);
+    return b->target.pixels ? EXIT_CODE_OK : console_error(EXIT_CODE_FAILED, "out of memory");
+}
+
+static int render_once(bench *b, const bench_method *method, uint64_t frame, double *seconds)
+{
+    mgt_scene scene;
+    if (!scene_file_frame(b->scene, (int)frame, &scene))
+        return console_error(EXIT_CODE_BAD_INPUT, "%s: the camera of frame %d is not a legal one", b->request->scene_path, (int)frame);
+    scene.quality = method->spec.quality;
+    const double start = seconds_now();
+    const mgt_status status = mgt_render(method->context, &scene, &b->target, 1);
+    *seconds = seconds_now() - start;
+    if (status == MGT_CANCELLED || *interrupt_flag())
+        return interrupt_exit_code();
+    return status == MGT_OK ? EXIT_CODE_OK : console_library_error(method->context, status);
+}
+
+static int measure_memory(bench *b)
+{
+    double unused;
+    memset(b->target.pixels, 0, (size_t)b->width * b->height * (b->request->display ? 4 : 12)); /* theirs is no method's */
+    for (size_t m = 0; m < b->count; m++) {
+        const double before = memory_use_begin();
+        int code = open_context(b, &b->methods[m]);
+        if (code == EXIT_CODE_OK)
+            code = render_once(b, &b->methods[m], 0, &unused);
+        b->methods[m].memory = memory_use_peak() - before;
+        close_context(&b->methods[m]);
+        if (code != EXIT_CODE_OK)
+            return code;
+    }
+    return EXIT_CODE_OK;
+}
+
+static int measure(bench *b)
+{
+    const uint64_t runs = b->request->frames * b->request->repeat;
+    double unused;
+    /* Tables are built and memory is touched by the first frame, which does not count. */
+    for (size_t m = 0; m < b->count; m++) {
+        int code = open_context(b, &b->methods[m]);
+        if (code == EXIT_CODE_OK)
+            code = render_once(b, &b->methods[m], 0, &unused);
+        if (code != EXIT_CODE_OK)
+            return code;
+    }
+    for (uint64_t i = 0; i < runs; i++)
+        for (size_t m = 0; m < b->count; m++) {
+            const int code = render_once(b, &b->methods[m], i % b->request->frames, &b->methods[m].seconds[i]);
+            if (code != EXIT_CODE_OK)
+                return code;
+        }
+    return EXIT_CODE_OK;
+}
+
+static int ascending(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static int print_report(bench *b)
+{
+    const size_t runs = (size_t)(b->request->frames * b->request->repeat);
+    const double megapixels = 1e-6 * b->width * b->height;
+    json_t *list = b->request->out.json ? json_array() : NULL;
+    int width = 15;
+    for (size_t m = 0; m < b->count; m++) {
+        const int length = (int)strlen(b->methods[m].spec.name);
+        width = length >= width ? length + 1 : width;
+    }
+    if (!list) {
+        printf("%s, %u x %u, ", b->request->scene_path, b->width, b->height);
+        if (b->info.backend == MGT_BACKEND_GL)
+            printf("%s, ", b->info.renderer);
+        else
+            printf("%s, %u lanes, %u threads, ", isa_name(b->info.isa), b->info.lanes, b->info.threads);
+        printf("%zu frames each\n%-*s%10s%10s%10s%10s%10s%s\n", runs, width, "method", "median ms", "min ms", "max ms", "fps", "Mpixel/s",
+               b->request->memory ? "       MiB" : "");
+    }
+    for (size_t m = 0; m < b->count; m++) {
+        double *s = b->methods[m].seconds;
+        qsort(s, runs, sizeof *s, ascending);
+        const double median = 0.5 * (s[(runs - 1) / 2] + s[runs / 2]);
+        const char *name = b->methods[m].spec.name;
+        const double memory = b->methods[m].memory;
+        json_t *bytes = list && isfinite(memory) ? json_integer((json_int_t)memory) : NULL;
+        if (list)
+            json_array_append_new(list, json_pack("{s:s, s:f, s:f, s:f, s:f, s:f, s:o*}", "method", name, "median_ms", 1e3 * median, "min_ms", 1e3 * s[0],
+                                                  "max_ms", 1e3 * s[runs - 1], "fps", 1 / fmax(median, 1e-9), "mpixel_per_s", megapixels / fmax(median, 1e-9),
+                                                  "memory_bytes", bytes));
+        else
+            printf("%-*s%10.2f%10.2f%10.2f%10.1f%10.1f", width, name, 1e3 * median, 1e3 * s[0], 1e3 * s[runs - 1], 1 / fmax(median, 1e-9),
+                   megapixels / fmax(median, 1e-9));
+        if (!list && isfinite(memory))
+            printf("%10.1f", memory / 1048576);
+        if (!list)
+            puts(b->request->memory && !isfinite(memory) ? "         -" : "");
+    }
+    if (!list)
+        return EXIT_CODE_OK;
+    return console_print_json(json_pack("{s:s, s:o, s:i, s:i, s:s, s:s, s:s, s:i, s:i, s:I, s:b, s:o}", "version", mgt_version(), "scene",
+                                        console_json_text(b->request->scene_path), "width", (int)b->width, "height", (int)b->height, "backend",
+                                        backend_name(b->info.backend), "renderer", b->info.renderer, "isa", isa_name(b->info.isa), "lanes", (int)b->info.lanes,
+                                        "threads", (int)b->info.threads, "runs", (json_int_t)runs, "display", b->request->display, "methods", list));
+}
+
+static int run(const bench_request *request)
+{
+    bench b = {.request = request};
+    interrupt_install();
+    int code = prepare(&b);
+    if (code == EXIT_CODE_OK && request->memory)
+        code = measure_memory(&b);
+    if (code == EXIT_CODE_OK)
+        code = measure(&b);
+    if (code == EXIT_CODE_OK)
+        code = print_report(&b);
+    free(b.target.pixels);
+    for (size_t m = 0; m < b.count; m++) {
+        close_context(&b.methods[m]);
+        free(b.methods[m].seconds);
+    }
+    scene_file_free(b.scene);
+    return code;
+}
+
+static int read_command_line(bench_request *r, int count, char **arguments, char size[2][32])
+{
+    option_reader reader = option_reader_start(&bench_table, &r->out, count, arguments);
+    const char *value = NULL;
+    int id;
+    while ((id = option_reader_next(&reader, &value)) != OPTION_END) {
+        if (id == OPTION_HELP)
+            return -1;
+        if (id == OPTION_ERROR)
+            return EXIT_CODE_USAGE;
+        const int code = set_option(r, id, value, size);
+        if (code != EXIT_CODE_OK)
+            return code;
+    }
+    if (!r->scene_path)
+        return console_error(EXIT_CODE_USAGE, "no scene given; see mangata bench --help");
+    if (size[0][0]) {
+        r->overrides[r->override_count++] = size[0];
+        r->overrides[r->override_count++] = size[1];
+    }
+    return EXIT_CODE_OK;
+}
+
+int verb_bench(int count, char **arguments)
+{
+    char size[2][32] = {{0}};
+    const char **overrides = calloc((size_t)count + 2, sizeof *overrides);
+    if (!overrides)
+        return console_error(EXIT_CODE_FAILED, "out of memory");
+    bench_request request = {.methods = "none,podee-pixel,mangata", .overrides = overrides, .frames = 3, .repeat = 5};
+    int code = read_command_line(&request, count, arguments, size);
+    if (code == EXIT_CODE_OK)
+        code = run(&request);
+    free(overrides);
+    return code < 0 ? EXIT_CODE_OK : code;
+}

@@ -1,0 +1,173 @@
+/* SPDX-License-Identifier: MIT */
+/* One-line messages and their exit codes. */
+#include "cli/common/console.h"
+
+#include <errno.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A file's name may hold anything; a message stays one line and sends nothing odd to a terminal. */
+static void print_line(const char *prefix, const char *format, va_list arguments)
+{
+    char text[2048];
+    vsnprintf(text, sizeof text, format, arguments);
+    for (char *p = text; *p; p++)
+        if ((unsigned char)*p < 0x20 || *p == 0x7f)
+            *p = '?';
+    fprintf(stderr, "%s%s\n", prefix, text);
+}
+
+int console_error(int code, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    print_line("mangata: ", format, arguments);
+    va_end(arguments);
+    return code;
+}
+
+void console_note(const console *out, const char *format, ...)
+{
+    if (out->quiet)
+        return;
+    va_list arguments;
+    va_start(arguments, format);
+    print_line("", format, arguments);
+    va_end(arguments);
+}
+
+void console_detail(const console *out, const char *format, ...)
+{
+    if (!out->verbose || out->quiet)
+        return;
+    va_list arguments;
+    va_start(arguments, format);
+    print_line("", format, arguments);
+    va_end(arguments);
+}
+
+int console_file_error(const file_error *error)
+{
+    int code = EXIT_CODE_FAILED;
+    switch (error->status) {
+    case FILE_ARGUMENT:
+        code = EXIT_CODE_USAGE;
+        break;
+    case FILE_MISSING:
+        code = EXIT_CODE_NO_INPUT;
+        break;
+    case FILE_BAD:
+        code = EXIT_CODE_BAD_INPUT;
+        break;
+    case FILE_EXISTS:
+    case FILE_WRITE:
+        code = EXIT_CODE_CANNOT_WRITE;
+        break;
+    case FILE_UNAVAILABLE:
+        code = EXIT_CODE_UNAVAILABLE;
+        break;
+    case FILE_OK:
+    case FILE_MEMORY:
+    case FILE_CANCELLED:
+        break;
+    }
+    return console_error(code, "%s%s", error->text, error->status == FILE_EXISTS ? "; --overwrite replaces it" : "");
+}
+
+int exit_code_of_scene_error(scene_error_kind kind)
+{
+    switch (kind) {
+    case SCENE_ERROR_NONE:
+        return EXIT_CODE_OK;
+    case SCENE_ERROR_MISSING_INPUT:
+        return EXIT_CODE_NO_INPUT;
+    case SCENE_ERROR_BAD_SCENE:
+        return EXIT_CODE_BAD_INPUT;
+    case SCENE_ERROR_BAD_OVERRIDE:
+        return EXIT_CODE_USAGE;
+    case SCENE_ERROR_MEMORY:
+        break;
+    }
+    return EXIT_CODE_FAILED;
+}
+
+int console_scene_error(const scene_error *error)
+{
+    const int code = exit_code_of_scene_error(error->kind);
+    if (error->kind != SCENE_ERROR_BAD_SCENE)
+        return console_error(code, "%s", error->text);
+    /* Editors jump to lines that begin with "file:line:column:". */
+    static const console loud = {0};
+    console_note(&loud, "%s", error->text);
+    return code;
+}
+
+int exit_code_of_status(mgt_status status)
+{
+    switch (status) {
+    case MGT_OK:
+        return EXIT_CODE_OK;
+    case MGT_ERROR_SCENE:
+        return EXIT_CODE_BAD_INPUT;
+    case MGT_ERROR_UNAVAILABLE:
+    case MGT_ERROR_UNSUPPORTED:
+        return EXIT_CODE_UNAVAILABLE;
+    case MGT_ERROR_ARGUMENT:
+    case MGT_ERROR_MEMORY:
+    case MGT_ERROR_THREAD:
+    case MGT_CANCELLED:
+        break;
+    }
+    return EXIT_CODE_FAILED;
+}
+
+int console_library_error(const mgt_context *context, mgt_status status)
+{
+    const char *detail = mgt_last_error(context);
+    return console_error(exit_code_of_status(status), "%s", detail[0] ? detail : mgt_status_text(status));
+}
+
+void console_log(void *user, mgt_log_level level, const char *id, const char *text)
+{
+    const console *out = user;
+    if (level == MGT_LOG_WARNING)
+        console_note(out, "mangata: warning: %s [%s]", text, id);
+    else if (level != MGT_LOG_ERROR)
+        console_detail(out, "mangata: %s [%s]", text, id);
+}
+
+json_t *console_json_text(const char *text)
+{
+    json_t *string = json_string(text);
+    char *copy = string ? NULL : strdup(text);
+    if (!copy)
+        return string;
+    for (char *p = copy; *p; p++)
+        if ((unsigned char)*p >= 0x80)
+            *p = '?';
+    string = json_string(copy);
+    free(copy);
+    return string;
+}
+
+int console_print_json(json_t *value)
+{
+    if (!value)
+        return console_error(EXIT_CODE_FAILED, "out of memory");
+    const int failed = json_dumpf(value, stdout, JSON_INDENT(2) | JSON_PRESERVE_ORDER | JSON_REAL_PRECISION(12));
+    json_decref(value);
+    putchar('\n');
+    return failed ? EXIT_CODE_CANNOT_WRITE : EXIT_CODE_OK;
+}
+
+int console_finish(int code)
+{
+    errno = 0;
+    if (fflush(stdout) == 0 && !ferror(stdout))
+        return code;
+    const int error = errno;
+    console_error(0, "standard output: %s", error ? strerror(error) : "write error");
+    return code == EXIT_CODE_OK ? EXIT_CODE_CANNOT_WRITE : code;
+}

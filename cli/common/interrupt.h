@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: MIT */
+/* SIGINT, SIGTERM and SIGHUP as a flag, so that work stops at a clean place. */
+#ifndef MANGATA_CLI_COMMON_INTERRUPT_H
+#define MANGATA_CLI_COMMON_INTERRUPT_H
+
+#include <signal.h>
+
+/* Installs the handlers; a signal that the parent set to be ignored (nohup) stays ignored. SIGPIPE becomes a write error. */
+void interrupt_install(void);
+
+/* The flag: 0, or the signal that came. */
+const volatile sig_atomic_t *interrupt_flag(void);
+
+/* 128 + the signal that came. */
+int interrupt_exit_code(void);
+
+#endif

@@ -1,0 +1,15 @@
+/* SPDX-License-Identifier: MIT */
+/* Text and bytes as they stand in HTML and SVG. */
+#ifndef MANGATA_CLI_COMMON_MARKUP_H
+#define MANGATA_CLI_COMMON_MARKUP_H
+
+#include <stdint.h>
+#include <stdio.h>
+
+/* Writes text as it may stand between tags and in attributes. */
+void markup_escape(FILE *stream, const char *text);
+
+/* The bytes in base64; the caller frees it, NULL when memory runs out. */
+char *base64_text(const uint8_t *bytes, size_t size, size_t *length);
+
+#endif

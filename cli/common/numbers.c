@@ -1,0 +1,75 @@
+/* SPDX-License-Identifier: MIT */
+/* Strict reading and exact printing of numbers. */
+#include "cli/common/numbers.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Reads digits from *text and moves it behind them. */
+static bool read_digits(const char **text, uint64_t limit, uint64_t *number)
+{
+    const char *p = *text;
+    uint64_t value = 0;
+    if (*p < '0' || *p > '9')
+        return false;
+    for (; *p >= '0' && *p <= '9'; p++) {
+        const uint64_t digit = (uint64_t)(*p - '0');
+        if (value > (UINT64_MAX - digit) / 10)
+            return false;
+        value = value * 10 + digit;
+    }
+    if (value > limit)
+        return false;
+    *number = value;
+    *text = p;
+    return true;
+}
+
+bool number_parse_u64(const char *text, uint64_t limit, uint64_t *number)
+{
+    uint64_t value;
+    if (!read_digits(&text, limit, &value) || *text)
+        return false;
+    *number = value;
+    return true;
+}
+
+bool number_parse_list(const char *text, char separator, uint64_t limit, size_t count, uint64_t *numbers)
+{
+    uint64_t values[4];
+    for (size_t i = 0; i < count; i++) {
+        if (i > 0 && *text++ != separator)
+            return false;
+        if (!read_digits(&text, limit, &values[i]))
+            return false;
+    }
+    if (*text)
+        return false;
+    memcpy(numbers, values, count * sizeof *numbers);
+    return true;
+}
+
+bool number_parse_double(const char *text, double *number)
+{
+    if (!*text || text[strspn(text, "+-.0123456789eE")])
+        return false;
+    char *end;
+    const double value = strtod(text, &end);
+    if (*end || !isfinite(value))
+        return false;
+    *number = value;
+    return true;
+}
+
+number_text number_print(double number)
+{
+    number_text out;
+    for (int digits = 6; digits <= 17; digits++) {
+        snprintf(out.text, sizeof out.text, "%.*g", digits, number);
+        if (strtod(out.text, NULL) == number)
+            break;
+    }
+    return out;
+}

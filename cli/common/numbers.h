@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: MIT */
+/* Strict numbers from the command line: the whole text or nothing, never wrapped around. */
+#ifndef MANGATA_CLI_COMMON_NUMBERS_H
+#define MANGATA_CLI_COMMON_NUMBERS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* Decimal digits only, at most `limit`. */
+bool number_parse_u64(const char *text, uint64_t limit, uint64_t *number);
+
+/* Exactly `count` such numbers (at most 4), separated by `separator`. */
+bool number_parse_list(const char *text, char separator, uint64_t limit, size_t count, uint64_t *numbers);
+
+/* A finite decimal number. */
+bool number_parse_double(const char *text, double *number);
+
+/* The shortest text that reads back as the same number. */
+typedef struct number_text {
+    char text[32];
+} number_text;
+number_text number_print(double number);
+
+#endif

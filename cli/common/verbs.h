@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: MIT */
+/* The verbs of the command, one file each. */
+#ifndef MANGATA_CLI_COMMON_VERBS_H
+#define MANGATA_CLI_COMMON_VERBS_H
+
+/* Each takes the words after its name and returns the exit code. */
+int verb_render(int count, char **arguments);
+int verb_diff(int count, char **arguments);
+int verb_compare(int count, char **arguments);
+int verb_figures(int count, char **arguments);
+int verb_scene(int count, char **arguments);
+int verb_waves(int count, char **arguments);
+int verb_bench(int count, char **arguments);
+int verb_info(int count, char **arguments);
+int verb_view(int count, char **arguments);
+
+#endif

@@ -1,0 +1,69 @@
+/* SPDX-License-Identifier: MIT */
+/* Commands as text. */
+#include "cli/compare/compare_command.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/common/memory_text.h"
+#include "cli/common/names.h"
+
+static void put_word(FILE *stream, const char *word)
+{
+    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
+    putc(' ', stream);
+    if (word[0] && !word[strspn(word, plain)]) {
+        fputs(word, stream);
+        return;
+    }
+    putc('\'', stream);
+    for (; *word; word++)
+        if (*word == '\'')
+            fputs("'\\''", stream);
+        else
+            putc(*word, stream);
+    putc('\'', stream);
+}
+
+char *compare_command(const compare_job *job)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *stream = open_memstream(&text, &size);
+    if (!stream)
+        return NULL;
+    fputs("mangata compare", stream);
+    for (int i = 0; i < job->request->argument_count; i++)
+        put_word(stream, job->request->arguments[i]);
+    return memory_text_finish(stream, &text);
+}
+
+char *compare_picture_command(const compare_job *job, const compare_scene *scene, size_t picture)
+{
+    const compare_request *r = job->request;
+    const mgt_quality *q = compare_picture_quality(job, scene, picture);
+    char *text = NULL, frames[240];
+    size_t size = 0;
+    FILE *stream = open_memstream(&text, &size);
+    if (!stream)
+        return NULL;
+    frame_list_print(&r->frames, frames, sizeof frames);
+    fputs("mangata render", stream);
+    put_word(stream, scene->path);
+    fprintf(stream, " -o %s_%%04d.exr --layer color --layer coverage --frames %s", picture == COMPARE_REFERENCE ? "reference" : r->methods[picture - 1].file,
+            frames);
+    if (picture == COMPARE_REFERENCE)
+        fprintf(stream, " --method reference --spatial %u --time-samples %u%s", q->spatial_samples, q->time_samples,
+                q->refraction == MGT_REFRACTION_TRUTH ? " --refraction truth" : "");
+    else
+        fprintf(stream, " %s", r->methods[picture - 1].options);
+    if (q->seed)
+        fprintf(stream, " --seed %llu", (unsigned long long)q->seed);
+    for (size_t i = 0; i < r->override_count; i++) {
+        fputs(" --set", stream);
+        put_word(stream, r->overrides[i]);
+    }
+    if (r->context.backend != MGT_BACKEND_CPU)
+        fprintf(stream, " --backend %s", backend_name(r->context.backend));
+    return memory_text_finish(stream, &text);
+}

@@ -1,0 +1,193 @@
+/* SPDX-License-Identifier: MIT */
+/* The pictures of a comparison: one EXR a scene, method and frame with coverage and colour, kept under their render hashes. */
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "cli/compare/compare_job.h"
+#include "cli/compare/compare_tables.h"
+#include "cli/common/interrupt.h"
+#include "params/methods.h"
+#include "cli/render/render_frame.h"
+#include "cli/render/render_record.h"
+
+static const char seconds_key[] = "render_seconds";
+
+/* The `mangata render` that would make the same file. */
+static render_request picture_request(const compare_job *job, const compare_scene *scene, size_t picture)
+{
+    render_request request = {.scene_path = scene->path,
+                              .format = PICTURE_EXR,
+                              .quality = *compare_picture_quality(job, scene, picture),
+                              .layers = {MGT_LAYER_COLOR, MGT_LAYER_COVERAGE},
+                              .layer_count = 2};
+    for (size_t i = 0; i < job->request->layer_count; i++)
+        request.layers[request.layer_count++] = job->request->layers[i];
+    return request;
+}
+
+static int hash_picture(const compare_job *job, const compare_scene *scene, size_t picture, size_t frame, sha256_text *hash)
+{
+    const render_request request = picture_request(job, scene, picture);
+    const mgt_image image = {.width = scene->width, .height = scene->height, .crop_width = scene->width, .crop_height = scene->height};
+    char number[16];
+    snprintf(number, sizeof number, "%u", compare_frame_number(job, frame));
+    return render_hash(&request, scene->canonical, &image, &job->info, number, hash) ? EXIT_CODE_OK : console_error(EXIT_CODE_FAILED, "out of memory");
+}
+
+/* Whether the file is there as these options would make it. What is there and different is rendered anew: the folder is ours. */
+static bool picture_is_kept(const char *path, const sha256_text *hash)
+{
+    char *recorded = NULL;
+    file_error error;
+    const bool kept = metadata_read(path, RENDER_HASH_KEY, &recorded, &error) == FILE_OK && recorded && strcmp(recorded, hash->text) == 0;
+    free(recorded);
+    return kept;
+}
+
+static int make_folder(compare_job *job, const char *name)
+{
+    char path[COMPARE_PATH];
+    if (!compare_file_path(job, name, path))
+        return EXIT_CODE_USAGE;
+    if (mkdir(path, 0777) != 0 && errno != EEXIST)
+        return console_error(EXIT_CODE_CANNOT_WRITE, "%s: cannot make this folder: %s", path, strerror(errno));
+    return EXIT_CODE_OK;
+}
+
+static int make_folders(compare_job *job)
+{
+    int code = make_folder(job, "frames");
+    for (size_t s = 0; s < job->request->scene_count && code == EXIT_CODE_OK; s++) {
+        char name[80];
+        snprintf(name, sizeof name, "frames/%s", job->scenes[s].name);
+        code = make_folder(job, name);
+    }
+    return code;
+}
+
+/* About how long the picture takes: for the time left. */
+static double picture_work(const compare_job *job, const compare_scene *scene, size_t picture)
+{
+    const mgt_quality *quality = compare_picture_quality(job, scene, picture);
+    const double each = method_of(quality->method)->way == METHOD_SAMPLES ? 1 : 4; /* double precision, or a filter's integral */
+    return each * (double)compare_samples(quality) * scene->width * scene->height;
+}
+
+static int render_picture(compare_job *job, frame_buffer *buffer, const compare_scene *scene, size_t picture, size_t frame)
+{
+    char path[COMPARE_PATH], number[16];
+    sha256_text hash;
+    mgt_scene view;
+    if (!compare_picture_path(job, scene, picture, frame, path) || !compare_frame_scene(job, scene, picture, frame, &view))
+        return EXIT_CODE_BAD_INPUT;
+    int code = hash_picture(job, scene, picture, frame, &hash);
+    if (code != EXIT_CODE_OK)
+        return code;
+    progress_frame(&job->progress, compare_frame_number(job, frame));
+    job->progress.work_now = picture_work(job, scene, picture);
+    const double start = seconds_now();
+    const mgt_status status = mgt_render(job->context, &view, buffer->targets, buffer->count);
+    const double seconds = seconds_now() - start;
+    if (status == MGT_CANCELLED || *interrupt_flag())
+        return compare_stopped(job);
+    if (status != MGT_OK) {
+        progress_clear(&job->progress);
+        return console_error(exit_code_of_status(status), "%s: frame %u by %s: %s", scene->path, compare_frame_number(job, frame),
+                             compare_picture_name(job, picture), mgt_last_error(job->context));
+    }
+    const render_request request = picture_request(job, scene, picture);
+    render_record record;
+    file_error error;
+    snprintf(number, sizeof number, "%u", compare_frame_number(job, frame));
+    render_record_fill(&record, &request, &job->info, &hash, number, view.time, seconds);
+    const size_t last = record.list.count;
+    if (last < RECORD_ENTRIES) {
+        snprintf(record.values[last], RECORD_TEXT, "%.6f", seconds);
+        record.entries[last] = (metadata_entry){seconds_key, record.values[last]};
+        record.list.count++;
+    }
+    if (frame_buffer_write(buffer, &request, path, &record.list, &job->output, &error) != FILE_OK)
+        return compare_file_failure(job, &error);
+    job->rendered++;
+    progress_frame_done(&job->progress, path, seconds);
+    return EXIT_CODE_OK;
+}
+
+/* Marks what is kept in `kept` (frames × pictures) and counts the rest. */
+static int look_for_kept(compare_job *job, const compare_scene *scene, bool *kept, uint64_t *missing, double *work)
+{
+    const size_t pictures = job->request->method_count + 1;
+    for (size_t i = 0; i < job->frame_count * pictures; i++) {
+        char path[COMPARE_PATH];
+        sha256_text hash;
+        if (!compare_draws(scene, i % pictures) || scene->view->only_timed) {
+            kept[i] = true;
+            continue;
+        }
+        if (!compare_picture_path(job, scene, i % pictures, i / pictures, path))
+            return EXIT_CODE_USAGE;
+        const int code = hash_picture(job, scene, i % pictures, i / pictures, &hash);
+        if (code != EXIT_CODE_OK)
+            return code;
+        kept[i] = picture_is_kept(path, &hash);
+        *missing += !kept[i];
+        *work += kept[i] ? 0 : picture_work(job, scene, i % pictures);
+        job->kept += kept[i];
+    }
+    return EXIT_CODE_OK;
+}
+
+static int render_scene(compare_job *job, const compare_scene *scene, const bool *kept)
+{
+    const size_t pictures = job->request->method_count + 1;
+    const render_request request = picture_request(job, scene, COMPARE_REFERENCE);
+    frame_buffer buffer;
+    int code = frame_buffer_create(&buffer, &request, scene->width, scene->height);
+    /* Frame by frame, so that each step holds as much of the reference's work and the time left is told well. */
+    for (size_t i = 0; i < job->frame_count * pictures && code == EXIT_CODE_OK; i++) {
+        if (*interrupt_flag())
+            code = compare_stopped(job);
+        else if (!kept[i])
+            code = render_picture(job, &buffer, scene, i % pictures, i / pictures);
+    }
+    frame_buffer_free(&buffer);
+    return code;
+}
+
+/* From the records, so that a run that rendered nothing knows it as well. */
+static void read_reference_seconds(compare_job *job, compare_scene *scene)
+{
+    double sum = 0;
+    for (size_t frame = 0; frame < job->frame_count; frame++) {
+        char path[COMPARE_PATH], *value = NULL;
+        file_error error;
+        if (!compare_picture_path(job, scene, COMPARE_REFERENCE, frame, path) || metadata_read(path, seconds_key, &value, &error) != FILE_OK)
+            value = NULL;
+        sum += value ? strtod(value, NULL) : NAN;
+        free(value);
+    }
+    scene->reference_seconds = sum / (double)job->frame_count;
+}
+
+int compare_render(compare_job *job)
+{
+    const size_t scenes = job->request->scene_count, each = job->frame_count * (job->request->method_count + 1);
+    uint64_t missing = 0;
+    double work = 0;
+    bool *kept = calloc(scenes * each, sizeof *kept);
+    int code = kept ? make_folders(job) : console_error(EXIT_CODE_FAILED, "out of memory");
+    for (size_t s = 0; s < scenes && code == EXIT_CODE_OK; s++)
+        code = look_for_kept(job, &job->scenes[s], kept + s * each, &missing, &work);
+    job->progress = progress_start(job->request->progress, missing);
+    job->progress.work = work;
+    for (size_t s = 0; s < scenes && code == EXIT_CODE_OK; s++)
+        code = render_scene(job, &job->scenes[s], kept + s * each);
+    progress_clear(&job->progress);
+    for (size_t s = 0; s < scenes && code == EXIT_CODE_OK; s++)
+        read_reference_seconds(job, &job->scenes[s]);
+    free(kept);
+    return code;
+}

@@ -1,0 +1,322 @@
+/* SPDX-License-Identifier: MIT */
+/* One comparison from loading the scenes to the last gate: checks everything that can be checked first. */
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "cli/compare/compare_page.h"
+#include "cli/compare/compare_scores.h"
+#include "cli/compare/compare_tables.h"
+#include "cli/common/interrupt.h"
+#include "cli/common/names.h"
+
+const char *compare_picture_name(const compare_job *job, size_t picture)
+{
+    return picture == COMPARE_REFERENCE ? "reference" : job->request->methods[picture - 1].name;
+}
+
+const mgt_quality *compare_picture_quality(const compare_job *job, const compare_scene *scene, size_t picture)
+{
+    return picture == COMPARE_REFERENCE ? &scene->reference : &job->request->methods[picture - 1].quality;
+}
+
+uint32_t compare_frame_number(const compare_job *job, size_t frame) { return frame_list_at(&job->request->frames, frame); }
+
+bool compare_file_path(const compare_job *job, const char *name, char path[COMPARE_PATH])
+{
+    const int length = snprintf(path, COMPARE_PATH, "%s/%s", job->request->folder, name);
+    if (length > 0 && length < COMPARE_PATH)
+        return true;
+    console_error(0, "%s: the path is too long", job->request->folder);
+    return false;
+}
+
+bool compare_picture_path(const compare_job *job, const compare_scene *scene, size_t picture, size_t frame, char path[COMPARE_PATH])
+{
+    const char *file = picture == COMPARE_REFERENCE ? "reference" : job->request->methods[picture - 1].file;
+    char name[METHOD_SPEC_TEXT + 96];
+    snprintf(name, sizeof name, "frames/%s/%s_%04u.exr", scene->name, file, compare_frame_number(job, frame));
+    return compare_file_path(job, name, path);
+}
+
+bool compare_draws(const compare_scene *scene, size_t picture)
+{
+    return picture == COMPARE_REFERENCE || scene->view->methods == 0 || (scene->view->methods >> (picture - 1) & 1);
+}
+
+bool compare_number_scene(const compare_job *job, const compare_scene *scene, size_t picture, uint32_t number, mgt_scene *out)
+{
+    if (!scene_file_frame(scene->file, (int)number, out)) {
+        console_error(0, "%s: the camera of frame %u is not a legal one", scene->path, number);
+        return false;
+    }
+    out->quality = *compare_picture_quality(job, scene, picture);
+    return true;
+}
+
+bool compare_frame_scene(const compare_job *job, const compare_scene *scene, size_t picture, size_t frame, mgt_scene *out)
+{
+    return compare_number_scene(job, scene, picture, compare_frame_number(job, frame), out);
+}
+
+int compare_stopped(compare_job *job)
+{
+    progress_clear(&job->progress);
+    console_note(&job->request->out, "mangata: stopped; the same command goes on from here");
+    return interrupt_exit_code();
+}
+
+int compare_file_failure(compare_job *job, const file_error *error)
+{
+    progress_clear(&job->progress);
+    return error->status == FILE_CANCELLED ? compare_stopped(job) : console_file_error(error);
+}
+
+int compare_write_text(compare_job *job, const char *path, const char *text, size_t size)
+{
+    output_file *file = NULL;
+    file_error error;
+    if (output_file_open(&file, path, &job->output, &error) != FILE_OK)
+        return compare_file_failure(job, &error);
+    if (output_file_write(file, text, size, &error) != FILE_OK) {
+        output_file_abort(file);
+        return compare_file_failure(job, &error);
+    }
+    return output_file_finish(file, &error) == FILE_OK ? EXIT_CODE_OK : compare_file_failure(job, &error);
+}
+
+/* ---- before the first pixel ---------------------------------------------------------------------------- */
+
+static bool on_progress(void *user, double fraction)
+{
+    compare_job *job = user;
+    progress_update(&job->progress, fraction);
+    return *interrupt_flag() == 0;
+}
+
+/* "scenes/high.json" is "high"; a second one "high-2". */
+static void name_scene(compare_job *job, size_t index)
+{
+    compare_scene *scene = &job->scenes[index];
+    const char *path = scene->view->name ? scene->view->name : scene->path;
+    const char *slash = strrchr(path, '/'), *start = slash ? slash + 1 : path, *dot = strrchr(start, '.');
+    const size_t length = dot && dot > start ? (size_t)(dot - start) : strlen(start);
+    char base[48];
+    snprintf(base, sizeof base, "%.*s", (int)(length < sizeof base ? length : sizeof base - 1), start);
+    for (char *p = base; *p; p++)
+        if (!((*p >= 'a' && *p <= 'z') || (*p >= 'A' && *p <= 'Z') || (*p >= '0' && *p <= '9') || *p == '-'))
+            *p = '_';
+    snprintf(scene->name, sizeof scene->name, "%s", base[0] ? base : "scene");
+    for (unsigned number = 2;; number++) {
+        size_t i = 0;
+        while (i < index && strcmp(job->scenes[i].name, scene->name) != 0)
+            i++;
+        if (i == index)
+            return;
+        snprintf(scene->name, sizeof scene->name, "%s-%u", base, number);
+    }
+}
+
+/* With the overrides of the request and of the view. */
+static scene_file *load_file(const compare_job *job, const compare_scene *scene, scene_error *error)
+{
+    const compare_request *r = job->request;
+    const compare_view *view = scene->view;
+    const char **all = calloc(r->override_count + view->override_count + 1, sizeof *all);
+    if (!all) {
+        *error = (scene_error){SCENE_ERROR_MEMORY, "out of memory"};
+        return NULL;
+    }
+    for (size_t i = 0; i < r->override_count; i++)
+        all[i] = r->overrides[i];
+    for (size_t i = 0; i < view->override_count; i++)
+        all[r->override_count + i] = view->overrides[i];
+    scene_file *file = scene_file_load(scene->path, all, r->override_count + view->override_count, error);
+    free(all);
+    return file;
+}
+
+static int load_scene(compare_job *job, size_t index)
+{
+    const compare_request *r = job->request;
+    compare_scene *scene = &job->scenes[index];
+    scene_error error;
+    mgt_scene first;
+    scene->path = r->scene_paths[index];
+    scene->view = &r->views[index];
+    scene->reference = r->reference;
+    scene->reference_seconds = NAN;
+    name_scene(job, index);
+    scene->file = load_file(job, scene, &error);
+    if (!scene->file)
+        return console_scene_error(&error);
+    scene->canonical = scene_file_canonical(scene->file, NULL);
+    scene->results = calloc(r->method_count, sizeof *scene->results);
+    if (!scene->canonical || !scene->results)
+        return console_error(EXIT_CODE_FAILED, "out of memory");
+    if (!compare_frame_scene(job, scene, COMPARE_REFERENCE, 0, &first))
+        return EXIT_CODE_BAD_INPUT;
+    scene->width = first.image.width;
+    scene->height = first.image.height;
+    scene->black_sky = first.sky.model == MGT_SKY_BLACK;
+    if (first.object_count > 0)
+        scene->reference.refraction = MGT_REFRACTION_TRUTH;
+    const compare_scene *other = &job->scenes[0];
+    if (r->gate_count && (scene->width != other->width || scene->height != other->height))
+        return console_error(EXIT_CODE_USAGE, "%s has %u x %u pixels, %s has %u x %u; a limit scores all scenes as one clip, so give --size", other->path,
+                             other->width, other->height, scene->path, scene->width, scene->height);
+    return EXIT_CODE_OK;
+}
+
+/* Every frame of every method, so that an hour of rendering does not end at a bad one. */
+static int check_scene(compare_job *job, const compare_scene *scene)
+{
+    for (size_t frame = 0; frame < job->frame_count; frame++)
+        for (size_t picture = 0; picture <= job->request->method_count; picture++) {
+            mgt_scene view;
+            if (!compare_draws(scene, picture))
+                continue;
+            if (!compare_frame_scene(job, scene, picture, frame, &view))
+                return EXIT_CODE_BAD_INPUT;
+            const mgt_status status = mgt_scene_check(job->context, &view);
+            if (status != MGT_OK)
+                return console_error(exit_code_of_status(status), "%s: frame %u by %s: %s", scene->path, compare_frame_number(job, frame),
+                                     compare_picture_name(job, picture), mgt_last_error(job->context));
+            if (*interrupt_flag())
+                return compare_stopped(job);
+        }
+    return EXIT_CODE_OK;
+}
+
+/* Makes the folder, in which `page` must be writable. */
+static int make_report_folder(compare_job *job, const char *page)
+{
+    const char *folder = job->request->folder;
+    struct stat state;
+    char path[COMPARE_PATH];
+    file_error error;
+    if (mkdir(folder, 0777) != 0 && errno != EEXIST)
+        return console_error(EXIT_CODE_CANNOT_WRITE, "%s: cannot make this folder: %s", folder, strerror(errno));
+    if (stat(folder, &state) != 0)
+        return console_error(EXIT_CODE_CANNOT_WRITE, "%s: %s", folder, strerror(errno));
+    if (!S_ISDIR(state.st_mode))
+        return console_error(EXIT_CODE_CANNOT_WRITE, "%s: it is not a folder", folder);
+    if (!compare_file_path(job, page, path))
+        return EXIT_CODE_USAGE;
+    return output_file_check(path, &job->output, &error) == FILE_OK ? EXIT_CODE_OK : compare_file_failure(job, &error);
+}
+
+/* ---- the end -------------------------------------------------------------------------------------------- */
+
+typedef struct report_text {
+    const char *name;
+    char *(*print)(const compare_job *job, size_t *size); /* NULL: out of memory */
+} report_text;
+
+static const report_text report_texts[] = {{"report.json", compare_json_text}, {"report.csv", compare_csv_text}, {"report.tex", compare_tex_text}};
+
+static int write_reports(compare_job *job)
+{
+    int code = EXIT_CODE_OK;
+    for (size_t i = 0; i < sizeof report_texts / sizeof report_texts[0] && code == EXIT_CODE_OK; i++) {
+        char path[COMPARE_PATH];
+        size_t size = 0;
+        if (!compare_file_path(job, report_texts[i].name, path))
+            return EXIT_CODE_USAGE;
+        char *text = report_texts[i].print(job, &size);
+        code = text ? compare_write_text(job, path, text, size) : console_error(EXIT_CODE_FAILED, "out of memory");
+        free(text);
+    }
+    return code == EXIT_CODE_OK ? compare_page_write(job) : code;
+}
+
+static int check_gates(const compare_job *job)
+{
+    int code = EXIT_CODE_OK;
+    for (size_t i = 0; i < job->request->gate_count; i++) {
+        const compare_gate *gate = &job->request->gates[i];
+        const double value = compare_gate_value(job, gate);
+        if (!(value <= gate->limit))
+            code = console_error(EXIT_CODE_DIFFERENT, "%s: %s of coverage %g is above %g", job->request->methods[gate->method].name,
+                                 gate->flicker ? "flicker" : "RMSE", value, gate->limit);
+    }
+    return code;
+}
+
+static int print_end(const compare_job *job)
+{
+    const compare_request *r = job->request;
+    console_note(&r->out, "%s/report.html: %zu scene%s, %zu methods, %zu frames; %llu pictures rendered, %llu kept", r->folder, r->scene_count,
+                 r->scene_count == 1 ? "" : "s", r->method_count, job->frame_count, (unsigned long long)job->rendered, (unsigned long long)job->kept);
+    for (size_t c = 0; c < score_column_count; c++) {
+        const char *missing = score_wanted(r, &score_columns[c]) ? score_missing(job, &score_columns[c]) : NULL;
+        if (missing)
+            console_note(&r->out, "mangata: warning: %s is unavailable: %s", score_columns[c].title, missing);
+    }
+    if (!r->out.json)
+        return EXIT_CODE_OK;
+    json_t *report = compare_result_json(job);
+    if (report)
+        json_object_set_new(report, "run",
+                            json_pack("{s:o, s:I, s:I}", "folder", console_json_text(r->folder), "rendered", (json_int_t)job->rendered, "kept",
+                                      (json_int_t)job->kept));
+    return console_print_json(report);
+}
+
+int compare_open(compare_job *job, const compare_request *request, const char *page)
+{
+    int code = EXIT_CODE_OK;
+    interrupt_install();
+    job->request = request;
+    job->frame_count = (size_t)frame_list_length(&request->frames);
+    job->output = (output_options){.overwrite = true, .cancel = interrupt_flag()};
+    for (size_t s = 0; s < request->scene_count && code == EXIT_CODE_OK; s++)
+        code = load_scene(job, s);
+    if (code == EXIT_CODE_OK)
+        code = context_open(&request->context, &request->out, on_progress, job, &job->context, &job->info);
+    for (size_t s = 0; s < request->scene_count && code == EXIT_CODE_OK; s++)
+        code = check_scene(job, &job->scenes[s]);
+    return code == EXIT_CODE_OK ? make_report_folder(job, page) : code;
+}
+
+static void free_scene(compare_scene *scene, size_t methods)
+{
+    for (size_t m = 0; scene->results && m < methods; m++)
+        for (int k = 0; k < COMPARE_KINDS; k++)
+            free(scene->results[m].frames[k]);
+    free(scene->results);
+    free(scene->canonical);
+    scene_file_free(scene->file);
+}
+
+void compare_close(compare_job *job)
+{
+    for (size_t s = 0; s < job->request->scene_count; s++)
+        free_scene(&job->scenes[s], job->request->method_count);
+    mgt_context_destroy(job->context);
+}
+
+int compare_run(const compare_request *request)
+{
+    compare_job *job = calloc(1, sizeof *job);
+    if (!job)
+        return console_error(EXIT_CODE_FAILED, "out of memory");
+    int code = compare_open(job, request, "report.html");
+    if (code == EXIT_CODE_OK)
+        code = compare_render(job);
+    if (code == EXIT_CODE_OK)
+        code = compare_time_methods(job);
+    if (code == EXIT_CODE_OK)
+        code = compare_measure(job);
+    if (code == EXIT_CODE_OK)
+        code = write_reports(job);
+    if (code == EXIT_CODE_OK)
+        code = print_end(job);
+    if (code == EXIT_CODE_OK)
+        code = check_gates(job);
+    compare_close(job);
+    free(job);
+    return code;
+}

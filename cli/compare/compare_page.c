@@ -1,0 +1,377 @@
+/* SPDX-License-Identifier: MIT */
+/* The page: a template whose {{marks}} are replaced by style, script, table, data and pictures. */
+#include "cli/compare/compare_page.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/compare/compare_pixels.h"
+#include "cli/compare/compare_scores.h"
+#include "cli/compare/compare_tables.h"
+#include "cli/common/markup.h"
+
+/* How the page shows a scene. */
+typedef struct scene_light {
+    float scale;              /* stored = radiance × scale, a power of two, so that the sun fits into half floats */
+    double exposure;          /* of colour: stops that bring the reference's mean to a middle grey */
+    double coverage_exposure; /* stops that bring all but a few pixels of its coverage below white */
+} scene_light;
+
+typedef struct page {
+    compare_job *job;
+    scene_light light[COMPARE_SCENES];
+    size_t shown; /* frames whose pictures are in the page */
+    char *pictures;
+    size_t picture_size;
+} page;
+
+static const char *text_named(const char *name)
+{
+    for (size_t i = 0; i < page_text_count; i++)
+        if (strcmp(page_texts[i].name, name) == 0)
+            return page_texts[i].text;
+    return "";
+}
+
+/* ---- pictures -------------------------------------------------------------------------------------------- */
+
+static int read_layer(compare_job *job, const compare_scene *scene, size_t picture, size_t frame, const char *layer, float_image *image)
+{
+    char path[COMPARE_PATH];
+    file_error error;
+    if (!compare_picture_path(job, scene, picture, frame, path))
+        return EXIT_CODE_USAGE;
+    return picture_read(image, path, layer, &error) == FILE_OK ? EXIT_CODE_OK : compare_file_failure(job, &error);
+}
+
+static int measure_light(compare_job *job, const compare_scene *scene, scene_light *light)
+{
+    float most = 0;
+    double sum = 0;
+    for (size_t frame = 0; frame < job->frame_count; frame++)
+        for (size_t picture = 0; picture <= job->request->method_count; picture++) {
+            float_image image;
+            const int code = read_layer(job, scene, picture, frame, "color", &image);
+            if (code != EXIT_CODE_OK)
+                return code;
+            const size_t count = (size_t)image.width * image.height * image.channels;
+            for (size_t i = 0; i < count; i++) {
+                most = fmaxf(most, image.pixels[i]);
+                /* A logarithm's mean: a few glints must not decide. */
+                if (picture == COMPARE_REFERENCE && frame == 0)
+                    sum += log2(fmax(image.pixels[i], 1e-6)) / (double)count;
+            }
+            float_image_free(&image);
+        }
+    light->scale = most > 65504 && isfinite(most) ? exp2f(-ceilf(log2f(most / 65504))) : 1;
+    light->exposure = round(10 * (log2(0.18) - sum)) / 10;
+    return EXIT_CODE_OK;
+}
+
+static int ascending(const void *a, const void *b)
+{
+    const float x = *(const float *)a, y = *(const float *)b;
+    return (x > y) - (x < y);
+}
+
+static int measure_coverage(compare_job *job, const compare_scene *scene, scene_light *light)
+{
+    float_image image;
+    const int code = read_layer(job, scene, COMPARE_REFERENCE, 0, "coverage", &image);
+    if (code != EXIT_CODE_OK)
+        return code;
+    const size_t count = (size_t)image.width * image.height;
+    qsort(image.pixels, count, sizeof *image.pixels, ascending);
+    const double high = image.pixels[(size_t)(0.998 * (double)(count - 1))];
+    light->coverage_exposure = fmin(fmax(round(-2 * log2(fmax(high, 1e-4))) / 2, 0), 8);
+    float_image_free(&image);
+    return EXIT_CODE_OK;
+}
+
+static int put_picture(const page *p, FILE *stream, size_t s, size_t picture, size_t frame, const char *layer, float scale)
+{
+    float_image image;
+    size_t length = 0;
+    const int code = read_layer(p->job, &p->job->scenes[s], picture, frame, layer, &image);
+    if (code != EXIT_CODE_OK)
+        return code;
+    char *text = pixels_pack(&image, scale, &length);
+    float_image_free(&image);
+    if (!text)
+        return console_error(EXIT_CODE_FAILED, "out of memory");
+    fprintf(stream, "<script type=\"text/plain\" id=\"%s-%zu-%zu-%zu\">", layer, s, picture, frame);
+    fwrite(text, 1, length, stream);
+    fputs("</script>\n", stream);
+    free(text);
+    return EXIT_CODE_OK;
+}
+
+static int put_frame(const page *p, FILE *stream, size_t frame)
+{
+    int code = EXIT_CODE_OK;
+    for (size_t s = 0; s < p->job->request->scene_count; s++)
+        for (size_t picture = 0; picture <= p->job->request->method_count && code == EXIT_CODE_OK; picture++) {
+            code = put_picture(p, stream, s, picture, frame, "coverage", 1);
+            if (code == EXIT_CODE_OK && !p->job->scenes[s].black_sky)
+                code = put_picture(p, stream, s, picture, frame, "color", p->light[s].scale);
+        }
+    return code;
+}
+
+/* As many frames as the page may hold, at least the first. */
+static int pack_pictures(page *p)
+{
+    int code = EXIT_CODE_OK;
+    FILE *stream = open_memstream(&p->pictures, &p->picture_size);
+    if (!stream)
+        return console_error(EXIT_CODE_FAILED, "out of memory");
+    while (p->shown < p->job->frame_count && code == EXIT_CODE_OK) {
+        char *text = NULL;
+        size_t size = 0;
+        FILE *part = open_memstream(&text, &size);
+        code = part ? put_frame(p, part, p->shown) : console_error(EXIT_CODE_FAILED, "out of memory");
+        if (part && fclose(part) != 0 && code == EXIT_CODE_OK)
+            code = console_error(EXIT_CODE_FAILED, "out of memory");
+        fflush(stream);
+        const bool fits = p->picture_size + size <= p->job->request->picture_bytes;
+        if (code == EXIT_CODE_OK && !fits && p->shown == 0)
+            console_note(&p->job->request->out, "mangata: warning: the pictures of one frame take %.1f MB of the page; --size makes them smaller",
+                         1e-6 * (double)size);
+        if (code == EXIT_CODE_OK && (fits || p->shown == 0)) {
+            fwrite(text, 1, size, stream);
+            p->shown++;
+        }
+        free(text);
+        if (!fits)
+            break;
+    }
+    if (fclose(stream) != 0 && code == EXIT_CODE_OK)
+        code = console_error(EXIT_CODE_FAILED, "out of memory");
+    if (code == EXIT_CODE_OK && p->shown < p->job->frame_count)
+        console_note(&p->job->request->out, "the page shows the first %zu of %zu frames; --picture-mb allows more", p->shown, p->job->frame_count);
+    return code;
+}
+
+/* ---- the table ------------------------------------------------------------------------------------------- */
+
+/* Digits behind the point that keep two or more that count. */
+static int score_digits(double value)
+{
+    const double size = fabs(value);
+    return size == 0 || size >= 0.1 ? (size < 100 ? 4 : 1) : size >= 0.01 ? 5 : size >= 1e-3 ? 6 : 7;
+}
+
+static void put_number(FILE *stream, double value, bool best, const char *class_name, int digits)
+{
+    if (isfinite(value))
+        fprintf(stream, "<td class=\"%s%s\" data-value=\"%.9g\">%.*f</td>", class_name, best ? " best" : "", value, digits, value);
+    else
+        fprintf(stream, "<td class=\"%s\">–</td>", class_name);
+}
+
+/* Distance of the method's score from a perfect one; NaN becomes infinity. */
+static double distance(const compare_job *job, const compare_scene *scene, size_t method, const score_column *column)
+{
+    const double score = scene ? score_of(&scene->results[method], column) : score_mean(job, method, column);
+    return isfinite(score) ? fabs(score - column->best) : INFINITY;
+}
+
+static bool is_best(const compare_job *job, const compare_scene *scene, size_t method, const score_column *column)
+{
+    const double own = distance(job, scene, method, column);
+    bool beaten = false, beats = false;
+    for (size_t m = 0; m < job->request->method_count; m++) {
+        const double other = distance(job, scene, m, column);
+        beaten = beaten || other < own;
+        beats = beats || other > own;
+    }
+    return beats && !beaten;
+}
+
+/* `scene` NULL: the means over all scenes. */
+static void put_row(FILE *stream, const compare_job *job, const compare_scene *scene, size_t index, size_t method)
+{
+    const method_spec *spec = &job->request->methods[method];
+    compare_time time = {0};
+    for (size_t s = 0; s < job->request->scene_count; s++) {
+        const compare_time *t = &job->scenes[s].results[method].time;
+        const double share = 1 / (double)job->request->scene_count;
+        time = (compare_time){time.median + share * t->median, time.least + share * t->least, time.most + share * t->most};
+    }
+    if (scene)
+        time = scene->results[method].time;
+    fprintf(stream, "<tr data-scene=\"%d\" data-method=\"%zu\"><td class=\"scene\">%s</td><th scope=\"row\">", scene ? (int)index : -1, method,
+            scene ? scene->name : "mean");
+    markup_escape(stream, spec->name);
+    fputs("</th>", stream);
+    put_number(stream, (double)compare_samples(&spec->quality), false, "samples", 0);
+    put_number(stream, 1e3 * time.median, false, "time", 1);
+    if (isfinite(time.least))
+        fprintf(stream, "<td class=\"spread\" data-value=\"%.9g\">%.1f–%.1f</td>", 1e3 * (time.most - time.least), 1e3 * time.least, 1e3 * time.most);
+    else
+        fputs("<td class=\"spread\">–</td>", stream);
+    for (size_t c = 0; c < score_column_count; c++) {
+        const score_column *column = &score_columns[c];
+        if (score_wanted(job->request, column))
+            put_number(stream, scene ? score_of(&scene->results[method], column) : score_mean(job, method, column), is_best(job, scene, method, column),
+                       column->main ? "score" : "score minor",
+                       score_digits(scene ? score_of(&scene->results[method], column) : score_mean(job, method, column)));
+    }
+    fputs("</tr>\n", stream);
+}
+
+static void put_table(FILE *stream, const compare_job *job)
+{
+    const compare_request *r = job->request;
+    fputs("<thead><tr><th scope=\"col\">scene</th><th scope=\"col\">method</th><th scope=\"col\" title=\"shaded samples a pixel\">samples</th>"
+          "<th scope=\"col\" title=\"milliseconds a frame, median of the timed runs\">time, ms</th>"
+          "<th scope=\"col\" title=\"least and most of the timed runs\">least–most</th>",
+          stream);
+    for (size_t c = 0; c < score_column_count; c++) {
+        const score_column *column = &score_columns[c];
+        if (!score_wanted(r, column))
+            continue;
+        fprintf(stream, "<th scope=\"col\"%s title=\"", column->main ? "" : " class=\"minor\"");
+        markup_escape(stream, column->help);
+        if (job->missing[column->kind][column->metric][0]) {
+            fputs(" (a dash: ", stream);
+            markup_escape(stream, job->missing[column->kind][column->metric]);
+            putc(')', stream);
+        }
+        fputs("\">", stream);
+        markup_escape(stream, column->title);
+        fputs("</th>", stream);
+    }
+    fputs("</tr></thead>\n<tbody>\n", stream);
+    for (size_t s = 0; s < r->scene_count; s++)
+        for (size_t m = 0; m < r->method_count; m++)
+            put_row(stream, job, &job->scenes[s], s, m);
+    for (size_t m = 0; m < r->method_count && r->scene_count > 1; m++)
+        put_row(stream, job, NULL, 0, m);
+    fputs("</tbody>", stream);
+}
+
+/* ---- everything ------------------------------------------------------------------------------------------ */
+
+static json_t *page_json(const page *p)
+{
+    json_t *report = compare_result_json(p->job), *scene;
+    size_t s;
+    json_array_foreach(json_object_get(report, "scenes"), s, scene)
+    {
+        json_t *layers = json_pack("[{s:s, s:i, s:f, s:f}]", "name", "coverage", "channels", 1, "scale", 1.0, "exposure", p->light[s].coverage_exposure);
+        if (!p->job->scenes[s].black_sky)
+            json_array_append_new(layers, json_pack("{s:s, s:i, s:f, s:f}", "name", "color", "channels", 3, "scale", (double)p->light[s].scale, "exposure",
+                                                    p->light[s].exposure));
+        json_object_set_new(scene, "layers", layers);
+    }
+    if (report)
+        json_object_set_new(report, "shown", json_integer((json_int_t)p->shown));
+    return report;
+}
+
+/* A name in the data must not end the element that holds them. */
+static int put_data(FILE *stream, const page *p)
+{
+    json_t *report = page_json(p);
+    char *text = report ? json_dumps(report, JSON_COMPACT | JSON_PRESERVE_ORDER | JSON_REAL_PRECISION(7)) : NULL;
+    json_decref(report);
+    if (!text)
+        return console_error(EXIT_CODE_FAILED, "out of memory");
+    for (const char *c = text; *c; c++)
+        if (*c == '<')
+            fputs("\\u003c", stream);
+        else
+            putc(*c, stream);
+    free(text);
+    return EXIT_CODE_OK;
+}
+
+static void put_scripts(FILE *stream)
+{
+    for (size_t i = 0; i < page_text_count; i++) {
+        const size_t length = strlen(page_texts[i].name);
+        if (length > 3 && strcmp(page_texts[i].name + length - 3, ".js") == 0)
+            fputs(page_texts[i].text, stream);
+    }
+}
+
+static void put_summary(FILE *stream, const compare_job *job)
+{
+    const compare_request *r = job->request;
+    char frames[240];
+    frame_list_print(&r->frames, frames, sizeof frames);
+    fprintf(stream, "%zu scene%s, %zu method%s, frame%s %s. Every figure compares whole frames with a reference of %llu jittered samples a pixel.",
+            r->scene_count, r->scene_count == 1 ? "" : "s", r->method_count, r->method_count == 1 ? "" : "s", job->frame_count == 1 ? "" : "s", frames,
+            (unsigned long long)compare_samples(&r->reference));
+    if (r->time_runs)
+        fprintf(stream, " Times are medians of %llu runs on %s.", (unsigned long long)r->time_runs, job->info.backend == MGT_BACKEND_GL ? "OpenGL" : "the CPU");
+}
+
+static int put_mark(FILE *stream, const page *p, const char *mark, size_t length)
+{
+    if (strncmp(mark, "style", length) == 0)
+        fputs(text_named("page.css"), stream);
+    else if (strncmp(mark, "summary", length) == 0)
+        put_summary(stream, p->job);
+    else if (strncmp(mark, "table", length) == 0)
+        put_table(stream, p->job);
+    else if (strncmp(mark, "data", length) == 0)
+        return put_data(stream, p);
+    else if (strncmp(mark, "pictures", length) == 0)
+        fwrite(p->pictures, 1, p->picture_size, stream);
+    else if (strncmp(mark, "script", length) == 0)
+        put_scripts(stream);
+    else if (strncmp(mark, "version", length) == 0)
+        fputs(mgt_version(), stream);
+    return EXIT_CODE_OK;
+}
+
+static int put_page(FILE *stream, const page *p)
+{
+    const char *text = text_named("page.html");
+    for (;;) {
+        const char *mark = strstr(text, "{{"), *end = mark ? strstr(mark, "}}") : NULL;
+        if (!end) {
+            fputs(text, stream);
+            return EXIT_CODE_OK;
+        }
+        fwrite(text, 1, (size_t)(mark - text), stream);
+        const int code = put_mark(stream, p, mark + 2, (size_t)(end - mark - 2));
+        if (code != EXIT_CODE_OK)
+            return code;
+        text = end + 2;
+    }
+}
+
+int compare_page_write(compare_job *job)
+{
+    char path[COMPARE_PATH], *text = NULL;
+    size_t size = 0;
+    page *p = calloc(1, sizeof *p);
+    FILE *stream = NULL;
+    int code = p ? EXIT_CODE_OK : console_error(EXIT_CODE_FAILED, "out of memory");
+    if (code == EXIT_CODE_OK)
+        p->job = job;
+    for (size_t s = 0; code == EXIT_CODE_OK && s < job->request->scene_count; s++) {
+        code = measure_coverage(job, &job->scenes[s], &p->light[s]);
+        if (code == EXIT_CODE_OK && !job->scenes[s].black_sky)
+            code = measure_light(job, &job->scenes[s], &p->light[s]);
+    }
+    if (code == EXIT_CODE_OK)
+        code = pack_pictures(p);
+    if (code == EXIT_CODE_OK && !(stream = open_memstream(&text, &size)))
+        code = console_error(EXIT_CODE_FAILED, "out of memory");
+    if (code == EXIT_CODE_OK)
+        code = put_page(stream, p);
+    if (stream && fclose(stream) != 0 && code == EXIT_CODE_OK)
+        code = console_error(EXIT_CODE_FAILED, "out of memory");
+    if (code == EXIT_CODE_OK && compare_file_path(job, "report.html", path))
+        code = compare_write_text(job, path, text, size);
+    free(text);
+    if (p)
+        free(p->pictures);
+    free(p);
+    return code;
+}

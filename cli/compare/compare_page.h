@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: MIT */
+/* report.html: the whole comparison in one file, from the texts of tools/report. */
+#ifndef MANGATA_CLI_COMPARE_COMPARE_PAGE_H
+#define MANGATA_CLI_COMPARE_COMPARE_PAGE_H
+
+#include "cli/compare/compare_job.h"
+
+/* The files of tools/report, as scripts/embed_text stores them. */
+typedef struct page_text {
+    const char *name, *text;
+} page_text;
+extern const page_text page_texts[];
+extern const size_t page_text_count;
+
+/* Writes DIR/report.html; prints errors and returns the exit code. */
+int compare_page_write(compare_job *job);
+
+#endif

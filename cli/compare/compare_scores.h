@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: MIT */
+/* The columns of a comparison: which metric of which kind of picture, and how it is called. */
+#ifndef MANGATA_CLI_COMPARE_COMPARE_SCORES_H
+#define MANGATA_CLI_COMPARE_COMPARE_SCORES_H
+
+#include "cli/compare/compare_job.h"
+
+typedef struct score_column {
+    compare_kind kind;
+    clip_metric metric;
+    const char *key, *title, *help;
+    double best; /* the value of a perfect method */
+    bool main;   /* among those that a first look needs */
+} score_column;
+
+extern const score_column score_columns[];
+extern const size_t score_column_count;
+
+/* Whether the request asks for the column. */
+bool score_wanted(const compare_request *request, const score_column *column);
+
+double score_of(const compare_result *result, const score_column *column);
+double score_of_frame(const compare_result *result, const score_column *column, size_t frame);
+
+/* Why no method has a score on any scene; NULL where one has. */
+const char *score_missing(const compare_job *job, const score_column *column);
+
+/* Mean over the scenes; NaN where one has none. */
+double score_mean(const compare_job *job, size_t method, const score_column *column);
+
+/* Root mean square over the scenes, of RMSE and flicker: the score of all frames as one clip, for scenes of one size. */
+double score_pooled(const compare_job *job, size_t method, const score_column *column);
+
+#endif

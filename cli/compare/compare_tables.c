@@ -1,0 +1,257 @@
+/* SPDX-License-Identifier: MIT */
+/* The results of a comparison as JSON, CSV and LaTeX. */
+#include "cli/compare/compare_tables.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/compare/compare_command.h"
+#include "cli/compare/compare_scores.h"
+#include "cli/common/memory_text.h"
+#include "cli/common/names.h"
+
+uint64_t compare_samples(const mgt_quality *quality) { return (uint64_t)quality->spatial_samples * quality->spatial_samples * quality->time_samples; }
+
+double compare_gate_value(const compare_job *job, const compare_gate *gate)
+{
+    for (size_t c = 0; c < score_column_count; c++)
+        if (score_columns[c].kind == KIND_COVERAGE && score_columns[c].metric == (gate->flicker ? CLIP_FLICKER : CLIP_RMSE))
+            return score_pooled(job, gate->method, &score_columns[c]);
+    return NAN;
+}
+
+/* ---- JSON ------------------------------------------------------------------------------------------------ */
+
+/* JSON has no infinity and no NaN: null. */
+static json_t *number(double value) { return isfinite(value) ? json_real(value) : json_null(); }
+
+static json_t *owned_text(char *text)
+{
+    json_t *value = text ? console_json_text(text) : NULL;
+    free(text);
+    return value;
+}
+
+static json_t *time_json(const compare_time *time)
+{
+    return json_pack("{s:o, s:o, s:o}", "median", number(1e3 * time->median), "least", number(1e3 * time->least), "most", number(1e3 * time->most));
+}
+
+static json_t *columns_json(const compare_job *job)
+{
+    json_t *list = json_array();
+    for (size_t c = 0; c < score_column_count; c++) {
+        const score_column *column = &score_columns[c];
+        if (!score_wanted(job->request, column))
+            continue;
+        const char *missing = score_missing(job, column);
+        json_t *entry = json_pack("{s:s, s:s, s:s, s:f, s:b}", "key", column->key, "title", column->title, "help", column->help, "best", column->best, "main",
+                                  column->main);
+        if (missing)
+            json_object_set_new(entry, "unavailable", console_json_text(missing));
+        json_array_append_new(list, entry);
+    }
+    return list;
+}
+
+static json_t *method_json(const compare_job *job, const compare_scene *scene, size_t method)
+{
+    const method_spec *spec = &job->request->methods[method];
+    const compare_result *result = &scene->results[method];
+    json_t *scores = json_object(), *frames = json_object();
+    for (size_t c = 0; c < score_column_count; c++) {
+        const score_column *column = &score_columns[c];
+        if (!score_wanted(job->request, column))
+            continue;
+        json_t *list = json_array();
+        for (size_t f = 0; f < job->frame_count; f++)
+            json_array_append_new(list, number(score_of_frame(result, column, f)));
+        json_object_set_new(scores, column->key, number(score_of(result, column)));
+        json_object_set_new(frames, column->key, list);
+    }
+    return json_pack("{s:s, s:I, s:o, s:o, s:o, s:o}", "method", spec->name, "samples", (json_int_t)compare_samples(&spec->quality), "time_ms",
+                     time_json(&result->time), "scores", scores, "frames", frames, "command", owned_text(compare_picture_command(job, scene, method + 1)));
+}
+
+static json_t *scene_json(const compare_job *job, const compare_scene *scene)
+{
+    json_t *methods = json_array();
+    for (size_t m = 0; m < job->request->method_count; m++)
+        json_array_append_new(methods, method_json(job, scene, m));
+    json_t *reference = json_pack("{s:o, s:o}", "time_ms", number(1e3 * scene->reference_seconds), "command",
+                                  owned_text(compare_picture_command(job, scene, COMPARE_REFERENCE)));
+    return json_pack("{s:s, s:o, s:o, s:i, s:i, s:o, s:o}", "name", scene->name, "path", console_json_text(scene->path), "description",
+                     console_json_text(scene_file_description(scene->file)), "width", (int)scene->width, "height", (int)scene->height, "reference", reference,
+                     "methods", methods);
+}
+
+/* Means over the scenes. */
+static json_t *all_json(const compare_job *job)
+{
+    json_t *list = json_array();
+    for (size_t m = 0; m < job->request->method_count; m++) {
+        json_t *scores = json_object();
+        for (size_t c = 0; c < score_column_count; c++)
+            if (score_wanted(job->request, &score_columns[c]))
+                json_object_set_new(scores, score_columns[c].key, number(score_mean(job, m, &score_columns[c])));
+        json_array_append_new(list, json_pack("{s:s, s:o}", "method", job->request->methods[m].name, "scores", scores));
+    }
+    return list;
+}
+
+static json_t *gates_json(const compare_job *job)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; i < job->request->gate_count; i++) {
+        const compare_gate *gate = &job->request->gates[i];
+        const double value = compare_gate_value(job, gate);
+        json_array_append_new(list, json_pack("{s:s, s:s, s:f, s:o, s:b}", "gate", gate->flicker ? "max-flicker" : "max-rmse", "method",
+                                              job->request->methods[gate->method].name, "limit", gate->limit, "value", number(value), "passed",
+                                              value <= gate->limit));
+    }
+    return list;
+}
+
+json_t *compare_result_json(const compare_job *job)
+{
+    const compare_request *r = job->request;
+    json_t *frames = json_array(), *scenes = json_array();
+    for (size_t f = 0; f < job->frame_count; f++)
+        json_array_append_new(frames, json_integer(compare_frame_number(job, f)));
+    for (size_t s = 0; s < r->scene_count; s++)
+        json_array_append_new(scenes, scene_json(job, &job->scenes[s]));
+    json_t *reference = json_pack("{s:i, s:i, s:I, s:I}", "spatial", (int)r->reference.spatial_samples, "time_samples", (int)r->reference.time_samples,
+                                  "samples", (json_int_t)compare_samples(&r->reference), "seed", (json_int_t)r->reference.seed);
+    return json_pack("{s:i, s:s, s:o, s:s, s:s, s:s, s:i, s:I, s:o, s:o, s:o, s:o, s:o, s:o}", "mangata_comparison", 1, "version", mgt_version(), "command",
+                     owned_text(compare_command(job)), "backend", backend_name(job->info.backend), "renderer", job->info.renderer, "isa",
+                     isa_name(job->info.isa), "threads", (int)job->info.threads, "time_runs", (json_int_t)r->time_runs, "frames", frames, "reference",
+                     reference, "columns", columns_json(job), "scenes", scenes, "all", all_json(job), "gates", gates_json(job));
+}
+
+char *compare_json_text(const compare_job *job, size_t *size)
+{
+    json_t *report = compare_result_json(job);
+    char *text = report ? json_dumps(report, JSON_INDENT(1) | JSON_PRESERVE_ORDER | JSON_REAL_PRECISION(9)) : NULL;
+    json_decref(report);
+    *size = text ? strlen(text) : 0;
+    return text;
+}
+
+/* ---- CSV ------------------------------------------------------------------------------------------------- */
+
+static void csv_number(FILE *stream, double value)
+{
+    if (isfinite(value))
+        fprintf(stream, ",%.9g", value);
+    else
+        putc(',', stream);
+}
+
+char *compare_csv_text(const compare_job *job, size_t *size)
+{
+    const compare_request *r = job->request;
+    char *text = NULL;
+    FILE *stream = open_memstream(&text, size);
+    if (!stream)
+        return NULL;
+    fputs("scene,method,samples,median_ms,least_ms,most_ms", stream);
+    for (size_t c = 0; c < score_column_count; c++)
+        if (score_wanted(r, &score_columns[c]))
+            fprintf(stream, ",%s", score_columns[c].key);
+    putc('\n', stream);
+    for (size_t s = 0; s < r->scene_count; s++)
+        for (size_t m = 0; m < r->method_count; m++) {
+            const compare_result *result = &job->scenes[s].results[m];
+            fprintf(stream, "%s,%s,%llu", job->scenes[s].name, r->methods[m].name, (unsigned long long)compare_samples(&r->methods[m].quality));
+            csv_number(stream, 1e3 * result->time.median);
+            csv_number(stream, 1e3 * result->time.least);
+            csv_number(stream, 1e3 * result->time.most);
+            for (size_t c = 0; c < score_column_count; c++)
+                if (score_wanted(r, &score_columns[c]))
+                    csv_number(stream, score_of(result, &score_columns[c]));
+            putc('\n', stream);
+        }
+    return memory_text_finish(stream, &text);
+}
+
+/* ---- LaTeX ----------------------------------------------------------------------------------------------- */
+
+/* Scene and method names hold [A-Za-z0-9_:=.-] alone. */
+static void tex_name(FILE *stream, const char *name)
+{
+    for (; *name; name++)
+        fprintf(stream, *name == '_' ? "\\_" : "%c", *name);
+}
+
+static bool tex_column(const compare_job *job, const score_column *column)
+{
+    return column->main && score_wanted(job->request, column) && !score_missing(job, column);
+}
+
+/* Nearest to the best value among the methods; such a number is set in bold. */
+static double least_distance(const compare_job *job, const compare_scene *scene, const score_column *column)
+{
+    double least = INFINITY;
+    for (size_t m = 0; m < job->request->method_count; m++)
+        least = fmin(least, fabs(score_of(&scene->results[m], column) - column->best));
+    return least;
+}
+
+static void tex_row(FILE *stream, const compare_job *job, const compare_scene *scene, size_t method)
+{
+    const compare_result *result = &scene->results[method];
+    fputs("  ", stream);
+    tex_name(stream, job->request->methods[method].name);
+    fprintf(stream, isfinite(result->time.median) ? " & %.2f" : " & --", 1e3 * result->time.median);
+    for (size_t c = 0; c < score_column_count; c++) {
+        const score_column *column = &score_columns[c];
+        if (!tex_column(job, column))
+            continue;
+        const double score = score_of(result, column);
+        if (!isfinite(score))
+            fputs(" & --", stream);
+        else if (fabs(score - column->best) <= least_distance(job, scene, column))
+            fprintf(stream, " & \\textbf{%.4f}", score);
+        else
+            fprintf(stream, " & %.4f", score);
+    }
+    fputs(" \\\\\n", stream);
+}
+
+char *compare_tex_text(const compare_job *job, size_t *size)
+{
+    const compare_request *r = job->request;
+    size_t columns = 0;
+    char *text = NULL, *command = compare_command(job);
+    FILE *stream = open_memstream(&text, size);
+    if (!stream || !command) {
+        if (stream)
+            fclose(stream);
+        free(text);
+        free(command);
+        return NULL;
+    }
+    for (size_t c = 0; c < score_column_count; c++)
+        columns += tex_column(job, &score_columns[c]);
+    fprintf(stream, "%% %s\n%% Needs \\usepackage{booktabs}. Against a reference of %llu samples a pixel, %zu frames; the best of each scene is bold.\n",
+            command, (unsigned long long)compare_samples(&r->reference), job->frame_count);
+    fputs("\\begin{tabular}{lr", stream);
+    for (size_t c = 0; c < columns; c++)
+        putc('r', stream);
+    fputs("}\n\\toprule\nMethod & ms", stream);
+    for (size_t c = 0; c < score_column_count; c++)
+        if (tex_column(job, &score_columns[c]))
+            fprintf(stream, " & %s", score_columns[c].title);
+    fputs(" \\\\\n", stream);
+    for (size_t s = 0; s < r->scene_count; s++) {
+        fprintf(stream, "\\midrule\n\\multicolumn{%zu}{l}{\\textit{", columns + 2);
+        tex_name(stream, job->scenes[s].name);
+        fputs("}} \\\\\n", stream);
+        for (size_t m = 0; m < r->method_count; m++)
+            tex_row(stream, job, &job->scenes[s], m);
+    }
+    fputs("\\bottomrule\n\\end{tabular}\n", stream);
+    free(command);
+    return memory_text_finish(stream, &text);
+}

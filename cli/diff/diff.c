@@ -1,0 +1,305 @@
+/* SPDX-License-Identifier: MIT */
+/* `mangata diff A B`: errors of a picture against another, or of two series scored as one clip. */
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/diff/diff_metrics.h"
+#include "cli/diff/diff_prepare.h"
+#include "cli/common/frames.h"
+#include "image/image_metrics.h"
+#include "cli/common/numbers.h"
+#include "cli/common/options.h"
+#include "cli/common/verbs.h"
+
+enum { OPT_FRAMES, OPT_LAYER, OPT_MAX_RMSE, OPT_FLICKER, OPT_METRICS, OPT_ENCODING, OPT_PIXELS_PER_DEGREE, OPT_GLINT_THRESHOLD, OPT_DISPLAY, OPT_MASK };
+
+static const option diff_options[] = {
+    [OPT_FRAMES] = {"frames", 0, "LIST", "frames to compare when A and B are numbered names"},
+    [OPT_LAYER] = {"layer", 0, "NAME", "layer of .exr pictures (default color, or the only one)"},
+    [OPT_MAX_RMSE] = {"max-rmse", 0, "X", "exit with 2 when the RMSE is above X or values are not comparable"},
+    [OPT_FLICKER] = {"flicker", 0, NULL,
+                     "compare the differences from frame to frame: the RMS of\n"
+                     "(A[n+1] - A[n]) - (B[n+1] - B[n])"},
+    [OPT_METRICS] = {"metrics", 0, "LIST",
+                     "also measure: flip, hdr-flip, ssim, yee (by idiff), flicker, and rmse,\n"
+                     "relrmse, energy, which are always there; B is the reference"},
+    [OPT_ENCODING] = {"encoding", 0, "E", "of the values, for --metrics: linear or srgb (default srgb for .png)"},
+    [OPT_PIXELS_PER_DEGREE] = {"pixels-per-degree", 0, "X", "of the viewer's eye, for FLIP, 4 to 400 (default 67)"},
+    [OPT_GLINT_THRESHOLD] = {"glint-threshold", 0, "X",
+                             "luminance above which a pixel is a glint, for flicker (default:\n"
+                             "half of what a thousandth of B's first frame exceed)"},
+    [OPT_DISPLAY] = {"display", 0, "EV",
+                     "first make displayed values of linear light: times 2^EV, clamped,\n"
+                     "sRGB-encoded, 0 to 1"},
+    [OPT_MASK] = {"mask", 0, "M",
+                  "count only the pixels that are 1 in this picture of one channel\n"
+                  "(or clip of such); the others are black in A and B"},
+};
+
+static const option_table diff_table = {"diff",
+                                        "A B [options]",
+                                        "Measures how far A is from B (.png, .exr, .pfm): RMSE, relative RMSE (by the RMS of B),\n"
+                                        "mean ratio (A / B) and the largest difference, over whole pictures. Numbered names\n"
+                                        "(frame_%04d.pfm or frame_####.pfm) are read as clips and scored together.",
+                                        diff_options,
+                                        sizeof diff_options / sizeof diff_options[0],
+                                        "exit codes: 0 done, 1 sizes or channels differ, 2 above --max-rmse, 64 usage, 65 bad picture,\n"
+                                        "66 no such picture"};
+
+typedef struct diff_request {
+    console out;
+    const char *paths[2], *layer;
+    frame_path names[2];
+    bool frames_given, gated, flicker;
+    frame_list frames;
+    double max_rmse;
+    diff_metrics metrics;
+    diff_prepare prepare;
+    bool encoding_given;
+} diff_request;
+
+static int set_option(diff_request *r, int id, const char *value)
+{
+    const char *wrong;
+    switch (id) {
+    case OPT_FRAMES:
+        if ((wrong = frame_list_parse(&r->frames, value)))
+            return console_error(EXIT_CODE_USAGE, "--frames %s: %s", value, wrong);
+        r->frames_given = true;
+        break;
+    case OPT_LAYER:
+        r->layer = value;
+        break;
+    case OPT_MAX_RMSE:
+        if (!number_parse_double(value, &r->max_rmse) || r->max_rmse < 0)
+            return console_error(EXIT_CODE_USAGE, "--max-rmse %s: allowed is a number from 0", value);
+        r->gated = true;
+        break;
+    case OPT_FLICKER:
+        r->flicker = true;
+        break;
+    case OPT_METRICS:
+        if (!clip_metrics_parse(value, &r->metrics.wanted.metrics))
+            return console_error(EXIT_CODE_USAGE, "--metrics %s: allowed are %s, separated by commas", value, clip_metric_words);
+        break;
+    case OPT_ENCODING:
+        r->encoding_given = true;
+        r->metrics.wanted.srgb_encoded = strcmp(value, "srgb") == 0;
+        if (!r->metrics.wanted.srgb_encoded && strcmp(value, "linear") != 0)
+            return console_error(EXIT_CODE_USAGE, "--encoding %s: allowed are linear and srgb", value);
+        break;
+    case OPT_PIXELS_PER_DEGREE:
+        if (!number_parse_double(value, &r->metrics.wanted.pixels_per_degree) || r->metrics.wanted.pixels_per_degree < 4 ||
+            r->metrics.wanted.pixels_per_degree > 400)
+            return console_error(EXIT_CODE_USAGE, "--pixels-per-degree %s: allowed is a number from 4 to 400", value);
+        break;
+    case OPT_GLINT_THRESHOLD:
+        if (!number_parse_double(value, &r->metrics.wanted.glint_threshold) || !(r->metrics.wanted.glint_threshold > 0))
+            return console_error(EXIT_CODE_USAGE, "--glint-threshold %s: allowed is a number above 0", value);
+        break;
+    case OPT_DISPLAY:
+        r->prepare.displayed = true;
+        if (!number_parse_double(value, &r->prepare.exposure) || !(fabs(r->prepare.exposure) <= 100))
+            return console_error(EXIT_CODE_USAGE, "--display %s: allowed is a number of stops from -100 to 100", value);
+        break;
+    case OPT_MASK:
+        r->prepare.mask = value;
+        break;
+    case OPTION_OPERAND:
+        if (r->paths[1])
+            return console_error(EXIT_CODE_USAGE, "two pictures are compared; %s is one more", value);
+        r->paths[r->paths[0] ? 1 : 0] = value;
+        break;
+    default:
+        break;
+    }
+    return EXIT_CODE_OK;
+}
+
+/* PNG holds sRGB-encoded values, the others light. */
+static int check_metrics(diff_request *r)
+{
+    if (r->flicker)
+        return console_error(EXIT_CODE_USAGE, "--flicker compares differences and goes with no --metrics; --metrics flicker measures both");
+    const bool png[2] = {picture_format_of(r->paths[0]) == PICTURE_PNG, picture_format_of(r->paths[1]) == PICTURE_PNG};
+    if (r->prepare.displayed)
+        r->metrics.wanted.srgb_encoded = true;
+    if (r->encoding_given || r->prepare.displayed)
+        return EXIT_CODE_OK;
+    if (png[0] != png[1])
+        return console_error(EXIT_CODE_USAGE, "%s and %s hold values of unlike encoding; --encoding says how to take both", r->paths[0], r->paths[1]);
+    r->metrics.wanted.srgb_encoded = png[0];
+    return EXIT_CODE_OK;
+}
+
+static int check_request(diff_request *r)
+{
+    if (!r->paths[1])
+        return console_error(EXIT_CODE_USAGE, "two pictures are needed: mangata diff A B");
+    for (int i = 0; i < 2; i++) {
+        const char *wrong = frame_path_parse(&r->names[i], r->paths[i]);
+        if (wrong)
+            return console_error(EXIT_CODE_USAGE, "%s: %s", r->paths[i], wrong);
+    }
+    const char *wrong = r->prepare.mask ? frame_path_parse(&r->prepare.mask_name, r->prepare.mask) : NULL;
+    if (wrong)
+        return console_error(EXIT_CODE_USAGE, "--mask %s: %s", r->prepare.mask, wrong);
+    if (r->prepare.displayed && r->encoding_given)
+        return console_error(EXIT_CODE_USAGE, "--display makes sRGB-encoded values; leave --encoding out");
+    if (r->names[0].numbered != r->names[1].numbered)
+        return console_error(EXIT_CODE_USAGE, "%s and %s: number both names or neither", r->paths[0], r->paths[1]);
+    if (r->names[0].numbered && !r->frames_given)
+        return console_error(EXIT_CODE_USAGE, "numbered names need --frames, such as --frames 0-59");
+    if (!r->names[0].numbered && r->frames_given)
+        return console_error(EXIT_CODE_USAGE, "--frames needs numbered names, such as frame_%%04d.pfm");
+    if (!r->frames_given)
+        frame_list_span(&r->frames, 0, 0);
+    if (r->flicker && frame_list_length(&r->frames) < 2)
+        return console_error(EXIT_CODE_USAGE, "--flicker needs numbered names and at least two frames");
+    return r->metrics.wanted.metrics ? check_metrics(r) : EXIT_CODE_OK;
+}
+
+static int read_pair(const diff_request *r, uint32_t frame, float_image pair[2])
+{
+    for (int i = 0; i < 2; i++) {
+        char path[sizeof r->names[i].before + 64 + sizeof r->names[i].after];
+        file_error error;
+        if (!frame_path_print(&r->names[i], frame, path, sizeof path))
+            return console_error(EXIT_CODE_USAGE, "%s: the path is too long", r->paths[i]);
+        if (picture_read(&pair[i], path, r->layer, &error) != FILE_OK)
+            return console_file_error(&error);
+    }
+    const float_image *a = &pair[0], *b = &pair[1];
+    if (a->width != b->width || a->height != b->height || a->channels != b->channels)
+        return console_error(EXIT_CODE_FAILED, "%s has %u x %u pixels of %u channel%s, %s has %u x %u of %u; they must agree", r->paths[0], a->width, a->height,
+                             a->channels, a->channels == 1 ? "" : "s", r->paths[1], b->width, b->height, b->channels);
+    return EXIT_CODE_OK;
+}
+
+/* image := next − image. */
+static void to_difference(float_image *image, const float_image *next)
+{
+    const size_t count = (size_t)image->width * image->height * image->channels;
+    for (size_t i = 0; i < count; i++)
+        image->pixels[i] = next->pixels[i] - image->pixels[i];
+}
+
+static void free_pair(float_image pair[2])
+{
+    float_image_free(&pair[0]);
+    float_image_free(&pair[1]);
+}
+
+static int add_frame(const diff_request *r, float_image pair[2], float_image previous[2], image_metrics *metrics)
+{
+    file_error error;
+    if (!r->flicker)
+        return image_metrics_add(metrics, &pair[0], &pair[1], &error) == FILE_OK ? EXIT_CODE_OK : console_file_error(&error);
+    if (!previous[0].pixels)
+        return EXIT_CODE_OK;
+    if (previous[0].width != pair[0].width || previous[0].height != pair[0].height || previous[0].channels != pair[0].channels)
+        return console_error(EXIT_CODE_FAILED, "the frames of %s do not all have the same size", r->paths[0]);
+    to_difference(&previous[0], &pair[0]);
+    to_difference(&previous[1], &pair[1]);
+    return image_metrics_add(metrics, &previous[0], &previous[1], &error) == FILE_OK ? EXIT_CODE_OK : console_file_error(&error);
+}
+
+static int measure(diff_request *r, image_metrics *metrics)
+{
+    float_image previous[2] = {{0}};
+    int code = EXIT_CODE_OK;
+    const uint64_t count = frame_list_length(&r->frames);
+    uint64_t left_out = 0, counted = 0;
+    for (uint64_t i = 0; i < count && code == EXIT_CODE_OK; i++) {
+        float_image pair[2] = {{0}};
+        code = read_pair(r, frame_list_at(&r->frames, i), pair);
+        if (code == EXIT_CODE_OK)
+            code = diff_prepare_pair(&r->prepare, frame_list_at(&r->frames, i), pair, &left_out);
+        if (code == EXIT_CODE_OK)
+            code = add_frame(r, pair, previous, metrics);
+        if (code == EXIT_CODE_OK && metrics->frames > counted) {
+            metrics->values -= left_out * pair[0].channels; /* black in both: the sums hold nothing of them */
+            counted = metrics->frames;
+        }
+        if (code == EXIT_CODE_OK)
+            code = diff_metrics_add(&r->metrics, frame_list_at(&r->frames, i), &pair[0], &pair[1]);
+        free_pair(previous);
+        previous[0] = pair[0];
+        previous[1] = pair[1];
+    }
+    free_pair(previous);
+    return code;
+}
+
+/* JSON has no infinity: null. */
+static json_t *json_number(double number) { return isfinite(number) ? json_real(number) : json_null(); }
+
+static int print_report(diff_request *r, const image_metrics *m)
+{
+    const double rmse = image_metrics_rmse(m), relative = image_metrics_relative_rmse(m), ratio = image_metrics_mean_ratio(m);
+    const uint32_t frame = frame_list_at(&r->frames, m->max_frame + (r->flicker ? 1 : 0));
+    if (r->out.json) {
+        json_t *report =
+            json_pack("{s:o, s:o, s:b, s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:{s:o, s:I, s:i, s:i, s:i}, s:I, s:I}", "a", console_json_text(r->paths[0]), "b",
+                      console_json_text(r->paths[1]), "flicker", r->flicker, "frames", (json_int_t)m->frames, "values", (json_int_t)m->values, "rmse",
+                      json_number(rmse), "relative_rmse", json_number(relative), "mean_ratio", json_number(ratio), "mean_a",
+                      json_number(m->values ? m->sum_a / (double)m->values : 0), "mean_b", json_number(m->values ? m->sum_b / (double)m->values : 0), "maximum",
+                      "difference", json_number(m->max_difference), "frame", (json_int_t)frame, "x", (int)m->max_x, "y", (int)m->max_y, "channel",
+                      (int)m->max_channel, "equal_infinities", (json_int_t)m->equal_infinities, "mismatches", (json_int_t)m->mismatches);
+        if (report && r->gated)
+            json_object_set_new(report, "max_rmse", json_real(r->max_rmse));
+        const int code = report ? diff_metrics_report(&r->metrics, report) : EXIT_CODE_OK;
+        if (code != EXIT_CODE_OK) {
+            json_decref(report);
+            return code;
+        }
+        return console_print_json(report);
+    }
+    printf("%-15s%" PRIu64 "\n", r->flicker ? "frame steps" : "frames", m->frames);
+    printf("%-15s%.6g\n%-15s%.6g\n%-15s%.6g\n", r->flicker ? "flicker" : "rmse", rmse, "relative rmse", relative, "mean ratio", ratio);
+    printf("%-15s%.6g at x %u, y %u, channel %u", "maximum", m->max_difference, m->max_x, m->max_y, m->max_channel);
+    if (r->frames_given)
+        printf(", frame %u", frame);
+    putchar('\n');
+    if (m->mismatches)
+        printf("%-15s%" PRIu64 " values are infinite or not a number in one picture\n", "mismatches", m->mismatches);
+    return diff_metrics_print(&r->metrics);
+}
+
+static int run(diff_request *r, int count, char **arguments)
+{
+    option_reader reader = option_reader_start(&diff_table, &r->out, count, arguments);
+    const char *value = NULL;
+    int id, code;
+    while ((id = option_reader_next(&reader, &value)) != OPTION_END) {
+        if (id == OPTION_HELP)
+            return EXIT_CODE_OK;
+        if (id == OPTION_ERROR)
+            return EXIT_CODE_USAGE;
+        if ((code = set_option(r, id, value)) != EXIT_CODE_OK)
+            return code;
+    }
+    image_metrics metrics = {0};
+    if ((code = check_request(r)) != EXIT_CODE_OK || (code = measure(r, &metrics)) != EXIT_CODE_OK)
+        return code;
+    if (!(r->out.quiet && !r->out.json) && (code = print_report(r, &metrics)) != EXIT_CODE_OK)
+        return code;
+    const double rmse = image_metrics_rmse(&metrics);
+    if (r->gated && (!(rmse <= r->max_rmse) || metrics.mismatches > 0))
+        return console_error(EXIT_CODE_DIFFERENT, "%s against %s: RMSE %g is above %g%s", r->paths[0], r->paths[1], rmse, r->max_rmse,
+                             metrics.mismatches ? ", or values are not comparable" : "");
+    return EXIT_CODE_OK;
+}
+
+int verb_diff(int count, char **arguments)
+{
+    diff_request *request = calloc(1, sizeof *request);
+    if (!request)
+        return console_error(EXIT_CODE_FAILED, "out of memory");
+    const int code = run(request, count, arguments);
+    diff_metrics_free(&request->metrics);
+    free(request);
+    return code;
+}

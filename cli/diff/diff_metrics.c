@@ -1,0 +1,114 @@
+/* SPDX-License-Identifier: MIT */
+/* Feeds `mangata diff`'s frames to the metrics of clips and prints their scores. */
+#include "cli/diff/diff_metrics.h"
+
+#include <math.h>
+#include <stdio.h>
+
+/* JSON keys are words of their own: "hdr_flip" where the command line says "hdr-flip". */
+static const char *json_key(clip_metric metric)
+{
+    static const char *const keys[CLIP_METRICS] = {
+        [CLIP_RMSE] = "rmse",
+        [CLIP_RELATIVE_RMSE] = "relative_rmse",
+        [CLIP_ENERGY] = "energy",
+        [CLIP_FLIP] = "flip",
+        [CLIP_HDR_FLIP] = "hdr_flip",
+        [CLIP_SSIM] = "ssim",
+        [CLIP_YEE] = "yee",
+        [CLIP_FLICKER] = "flicker",
+        [CLIP_FLICKER_POWER] = "flicker_power",
+        [CLIP_FLICKER_RATIO] = "flicker_ratio",
+        [CLIP_FLICKER_BRIGHT] = "flicker_bright",
+        [CLIP_FLICKER_GLINTS] = "flicker_glints",
+        [CLIP_FLICKER_SIZES] = "flicker_sizes",
+    };
+    return keys[metric];
+}
+
+static bool is_wanted(const diff_metrics *m, int metric) { return m->wanted.metrics >> metric & 1; }
+
+/* JSON has neither infinity nor NaN: null. */
+static json_t *scores_to_json(const diff_metrics *m, const clip_scores *scores)
+{
+    json_t *object = json_object();
+    for (int i = 0; i < CLIP_METRICS; i++)
+        if (is_wanted(m, i))
+            json_object_set_new(object, json_key((clip_metric)i), isfinite(scores->values[i]) ? json_real(scores->values[i]) : json_null());
+    return object;
+}
+
+int diff_metrics_add(diff_metrics *m, uint32_t frame, const float_image *a, const float_image *b)
+{
+    clip_frame result;
+    file_error error;
+    if (!m->wanted.metrics)
+        return EXIT_CODE_OK;
+    if (!m->clip) {
+        m->wanted.width = a->width;
+        m->wanted.height = a->height;
+        m->wanted.channels = a->channels;
+        if (clip_metrics_create(&m->clip, &m->wanted, &error) != FILE_OK)
+            return console_file_error(&error);
+        m->per_frame = json_array();
+    }
+    if (clip_metrics_add(m->clip, a, b, NULL, &result, &error) != FILE_OK)
+        return error.status == FILE_ARGUMENT ? console_error(EXIT_CODE_FAILED, "%s", error.text) : console_file_error(&error);
+    json_t *object = scores_to_json(m, &result.scores);
+    json_object_set_new(object, "frame", json_integer(frame));
+    if (json_array_append_new(m->per_frame, object) != 0)
+        return console_error(EXIT_CODE_FAILED, "out of memory");
+    return EXIT_CODE_OK;
+}
+
+static int get_scores(const diff_metrics *m, clip_scores *scores)
+{
+    file_error error;
+    return clip_metrics_scores(m->clip, scores, &error) == FILE_OK ? EXIT_CODE_OK : console_file_error(&error);
+}
+
+int diff_metrics_report(diff_metrics *m, json_t *report)
+{
+    clip_scores scores;
+    if (!m->clip)
+        return EXIT_CODE_OK;
+    const int code = get_scores(m, &scores);
+    if (code != EXIT_CODE_OK)
+        return code;
+    json_t *reasons = json_object();
+    for (int i = 0; i < CLIP_METRICS; i++) {
+        const char *missing = clip_metrics_missing(m->clip, (clip_metric)i);
+        if (missing)
+            json_object_set_new(reasons, json_key((clip_metric)i), console_json_text(missing));
+    }
+    json_object_set_new(report, "metrics", scores_to_json(m, &scores));
+    json_object_set_new(report, "unavailable", reasons);
+    json_object_set_new(report, "per_frame", m->per_frame);
+    if (clip_metrics_glint_threshold(m->clip) > 0)
+        json_object_set_new(report, "glint_threshold", json_real(clip_metrics_glint_threshold(m->clip)));
+    m->per_frame = NULL;
+    return EXIT_CODE_OK;
+}
+
+int diff_metrics_print(const diff_metrics *m)
+{
+    clip_scores scores;
+    if (!m->clip)
+        return EXIT_CODE_OK;
+    const int code = get_scores(m, &scores);
+    for (int i = CLIP_FLIP; i < CLIP_METRICS && code == EXIT_CODE_OK; i++) {
+        const char *missing = clip_metrics_missing(m->clip, (clip_metric)i);
+        if (missing)
+            printf("%-15sunavailable: %s\n", clip_metric_name((clip_metric)i), missing);
+        else if (is_wanted(m, i))
+            printf("%-15s%.6g\n", clip_metric_name((clip_metric)i), scores.values[i]);
+    }
+    return code;
+}
+
+void diff_metrics_free(diff_metrics *m)
+{
+    clip_metrics_free(m->clip);
+    json_decref(m->per_frame);
+    *m = (diff_metrics){{0}, NULL, NULL};
+}

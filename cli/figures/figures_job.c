@@ -1,0 +1,361 @@
+/* SPDX-License-Identifier: MIT */
+/* From the request to the page: which pictures are needed, who makes which figure, and what every figure shares. */
+#include "cli/figures/figures_job.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "cli/figures/figures_refraction.h"
+#include "cli/common/interrupt.h"
+
+const char *const figure_scenes[FIGURE_SCENES] = {"simple", "smooth", "medium", "high"};
+
+const double figure_stops[FIGURE_EXPOSURES] = {0, 4, 8, 12};
+
+const figure_method_text figure_methods[FIGURE_METHODS] = {
+    [FIGURE_NONE] = {"none", "no AA"},
+    [FIGURE_MSAA32] = {"msaa32", "32x MSAA"},
+    [FIGURE_LEAN] = {"lean", "LEAN"},
+    [FIGURE_UNIFORM] = {"podee-uniform:kernels=9", "Podee et al., uniform"},
+    [FIGURE_PIXEL] = {"podee-pixel:kernels=9", "Podee et al., per pixel"},
+    [FIGURE_MANGATA] = {"mangata", "mangata"},
+    [FIGURE_KERNELS_1] = {"podee-pixel:kernels=1:elongation=1e6", "1 kernel"},
+    [FIGURE_KERNELS_3] = {"podee-pixel:kernels=3:elongation=1e6", "3 kernels"},
+    [FIGURE_KERNELS_5] = {"podee-pixel:kernels=5:elongation=1e6", "5 kernels"},
+    [FIGURE_KERNELS_9] = {"podee-pixel:kernels=9:elongation=1e6", "9 kernels"},
+    [FIGURE_FELINE] = {"podee-pixel:kernels=feline", "Feline"},
+    [FIGURE_RIEMANN] = {"podee-pixel:kernels=riemann", "convolution (Riemann)"},
+    [FIGURE_HARD] = {"podee-uniform:kernels=9:transition=hard", "without transition"},
+};
+
+bool figure_wanted(const figures_job *f, figure_id id) { return (f->request->wanted >> id & 1) != 0; }
+
+bool figures_podee_wanted(const figures_job *f) { return (f->request->wanted & ((1u << FIGURES_PODEE) - 1)) != 0; }
+
+bool figures_liu_wanted(const figures_job *f) { return f->request->wanted >> FIGURES_PODEE != 0; }
+
+int figures_no_memory(void) { return console_error(EXIT_CODE_FAILED, "out of memory"); }
+
+/* ---- which pictures ---- */
+
+static bool method_wanted(const figures_job *f, figure_method method)
+{
+    const uint32_t wanted = f->request->wanted;
+    const uint32_t six = 1u << FIGURE_TABLE1 | 1u << FIGURE_13 | 1u << FIGURE_14 | 1u << FIGURE_15 | 1u << FIGURE_16 | 1u << FIGURE_18;
+    if (method == FIGURE_HARD)
+        return figure_wanted(f, FIGURE_11);
+    if (method >= FIGURE_KERNELS_1)
+        return figure_wanted(f, FIGURE_17);
+    return (wanted & six) || (figure_wanted(f, FIGURE_11) && (method == FIGURE_UNIFORM || method == FIGURE_MANGATA));
+}
+
+/* True when `folder` holds the scenes. */
+static bool try_scenes(figures_job *f, const char *folder)
+{
+    for (int i = 0; i < FIGURE_SCENES; i++)
+        if ((size_t)snprintf(f->scene_paths[i], sizeof f->scene_paths[i], "%s/%s.json", folder, figure_scenes[i]) >= sizeof f->scene_paths[i])
+            return false;
+    if (access(f->scene_paths[0], R_OK) != 0)
+        return false;
+    return (size_t)snprintf(f->folder, sizeof f->folder, "%s", folder) < sizeof f->folder;
+}
+
+/* Here, beside a build folder, or where they are installed. */
+static int find_scenes(figures_job *f)
+{
+    static const char *const places[] = {"../scenes", "../share/mangata/scenes"};
+    const char *given = f->request->scenes;
+    if (given)
+        return try_scenes(f, given) ? EXIT_CODE_OK : console_error(EXIT_CODE_NO_INPUT, "--scenes %s: it holds no simple.json", given);
+    if (try_scenes(f, "scenes"))
+        return EXIT_CODE_OK;
+    char program[4096], folder[4200];
+    const ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
+    program[length > 0 ? length : 0] = 0;
+    char *slash = strrchr(program, '/');
+    for (size_t i = 0; slash && i < sizeof places / sizeof places[0]; i++) {
+        snprintf(folder, sizeof folder, "%.*s/%s", (int)(slash - program), program, places[i]);
+        if (try_scenes(f, folder))
+            return EXIT_CODE_OK;
+    }
+    return console_error(EXIT_CODE_NO_INPUT, "the standard scenes are not here; --scenes DIR says where they are");
+}
+
+static int choose_pictures(figures_job *f)
+{
+    const figures_request *r = f->request;
+    compare_request *c = &f->renders;
+    *c = (compare_request){.out = r->out,
+                           .folder = r->folder,
+                           .overrides = r->overrides,
+                           .override_count = r->override_count,
+                           .reference = r->reference,
+                           .frames = r->frames,
+                           .time_runs = r->time_runs,
+                           .context = r->context,
+                           .progress = r->progress};
+    for (int m = 0; m < FIGURE_METHODS; m++) {
+        char wrong[512];
+        if (!method_wanted(f, (figure_method)m))
+            continue;
+        if (!method_spec_parse(&c->methods[c->method_count], figure_methods[m].spec, strlen(figure_methods[m].spec), wrong, sizeof wrong))
+            return console_error(EXIT_CODE_FAILED, "%s", wrong);
+        f->picture[m] = ++c->method_count;
+    }
+    const bool scenes = c->method_count > 0 || figure_wanted(f, FIGURE_12);
+    const int code = scenes || figures_liu_wanted(f) ? find_scenes(f) : EXIT_CODE_OK;
+    if (!scenes || code != EXIT_CODE_OK)
+        return code;
+    for (int i = 0; i < FIGURE_SCENES; i++)
+        c->scene_paths[i] = f->scene_paths[i];
+    c->scene_count = FIGURE_SCENES;
+    return EXIT_CODE_OK;
+}
+
+/* ---- pictures for the makers ---- */
+
+int figures_display(compare_job *job, size_t scene, size_t picture, size_t frame, double stops, uint8_t **rgba)
+{
+    const compare_scene *s = &job->scenes[scene];
+    char path[COMPARE_PATH];
+    file_error error;
+    float_image light = {0};
+    mgt_scene view;
+    *rgba = NULL;
+    if (!compare_picture_path(job, s, picture, frame, path) || !compare_frame_scene(job, s, picture, frame, &view))
+        return EXIT_CODE_USAGE;
+    if (picture_read(&light, path, "color", &error) != FILE_OK)
+        return compare_file_failure(job, &error);
+    view.post.exposure_ev += stops;
+    mgt_target target;
+    mgt_target_init(&target, sizeof target);
+    target.layer = MGT_LAYER_COLOR;
+    target.format = MGT_FORMAT_RGBA8_SRGB;
+    target.pixels = *rgba = calloc((size_t)light.width * light.height, 4);
+    int code = *rgba ? EXIT_CODE_OK : figures_no_memory();
+    if (code == EXIT_CODE_OK) {
+        const mgt_status status = mgt_display(job->context, &view, light.pixels, &target);
+        if (status != MGT_OK)
+            code = *interrupt_flag() ? compare_stopped(job) : console_library_error(job->context, status);
+    }
+    float_image_free(&light);
+    if (code != EXIT_CODE_OK) {
+        free(*rgba);
+        *rgba = NULL;
+    }
+    return code;
+}
+
+/* A file that was just written. */
+static uint8_t *read_whole(const char *path, size_t *size)
+{
+    FILE *file = fopen(path, "rb");
+    uint8_t *bytes = NULL;
+    *size = 0;
+    if (!file)
+        return NULL;
+    if (fseek(file, 0, SEEK_END) == 0) {
+        const long length = ftell(file);
+        bytes = length > 0 ? malloc((size_t)length) : NULL;
+        rewind(file);
+        if (bytes && fread(bytes, 1, (size_t)length, file) == (size_t)length)
+            *size = (size_t)length;
+    }
+    fclose(file);
+    if (*size)
+        return bytes;
+    free(bytes);
+    return NULL;
+}
+
+int figures_embed(figures_job *f, svg *sheet, const char *name, const uint8_t *rgba, uint32_t width, uint32_t height, svg_crop crop, double x, double y,
+                  double shown_width, double shown_height)
+{
+    char path[COMPARE_PATH], file[128];
+    file_error error;
+    snprintf(file, sizeof file, "pictures/%s.png", name);
+    if (!compare_file_path(f->compare, file, path))
+        return EXIT_CODE_USAGE;
+    if (picture_write_png(path, width, height, rgba, 0, NULL, &f->compare->output, &error) != FILE_OK)
+        return compare_file_failure(f->compare, &error);
+    size_t size = 0;
+    uint8_t *png = read_whole(path, &size);
+    if (!png)
+        return console_error(EXIT_CODE_FAILED, "%s: it cannot be read back", path);
+    const bool done = svg_picture(sheet, x, y, shown_width, shown_height, png, size, width, height, crop);
+    free(png);
+    return done ? EXIT_CODE_OK : figures_no_memory();
+}
+
+svg_crop figures_glitter_crop(uint32_t width, uint32_t height)
+{
+    const double w = floor(width * 0.34), h = floor(height * 0.68);
+    return (svg_crop){floor((width - w) / 2), floor(height * 0.3), w, h};
+}
+
+void figures_steps(figures_job *f, uint64_t steps) { f->compare->progress = progress_start(f->request->progress, steps); }
+
+int figures_step(figures_job *f)
+{
+    if (*interrupt_flag())
+        return compare_stopped(f->compare);
+    f->compare->progress.frames_done++;
+    progress_update(&f->compare->progress, 0);
+    return EXIT_CODE_OK;
+}
+
+/* ---- the run ---- */
+
+static int make_figures(figures_job *f)
+{
+    int code = EXIT_CODE_OK;
+    if (figure_wanted(f, FIGURE_TABLE1))
+        code = figures_table1(f);
+    if (code == EXIT_CODE_OK && figure_wanted(f, FIGURE_11))
+        code = figures_transition(f);
+    if (code == EXIT_CODE_OK && figure_wanted(f, FIGURE_12))
+        code = figures_scene_views(f);
+    for (int s = 0; s < FIGURE_SCENES && code == EXIT_CODE_OK; s++)
+        if (figure_wanted(f, (figure_id)(FIGURE_13 + s)))
+            code = figures_glitter(f, (size_t)s);
+    if (code == EXIT_CODE_OK && figure_wanted(f, FIGURE_17))
+        code = figures_kernels(f);
+    if (code == EXIT_CODE_OK && figure_wanted(f, FIGURE_18))
+        code = figures_bars(f);
+    if (code == EXIT_CODE_OK && figure_wanted(f, FIGURE_20))
+        code = figures_mirror(f);
+    if (code == EXIT_CODE_OK && figure_wanted(f, FIGURE_21))
+        code = figures_fits(f);
+    progress_clear(&f->compare->progress);
+    return code;
+}
+
+static int make_page(figures_job *f)
+{
+    char *sections = NULL;
+    size_t size = 0;
+    f->page = open_memstream(&sections, &size);
+    if (!f->page)
+        return figures_no_memory();
+    int code = make_figures(f);
+    if (code == EXIT_CODE_OK && f->refraction)
+        code = figures_refraction(f);
+    const bool failed = ferror(f->page) != 0;
+    if ((fclose(f->page) != 0 || failed) && code == EXIT_CODE_OK)
+        code = figures_no_memory();
+    if (code == EXIT_CODE_OK)
+        code = figures_write_page(f, sections);
+    free(sections);
+    return code;
+}
+
+static int make_pictures_folder(figures_job *f)
+{
+    char path[COMPARE_PATH];
+    if (!compare_file_path(f->compare, "pictures", path))
+        return EXIT_CODE_USAGE;
+    if (mkdir(path, 0777) != 0 && errno != EEXIST)
+        return console_error(EXIT_CODE_CANNOT_WRITE, "%s: cannot make this folder: %s", path, strerror(errno));
+    return EXIT_CODE_OK;
+}
+
+static int print_tables(figures_job *f)
+{
+    char *table = figure_wanted(f, FIGURE_TABLE1) ? figures_table1_text(f) : NULL;
+    if (!table && figure_wanted(f, FIGURE_TABLE1))
+        return figures_no_memory();
+    if (table)
+        fputs(table, stdout);
+    if (table && f->refraction_table)
+        fputc('\n', stdout);
+    if (f->refraction_table)
+        fputs(f->refraction_table, stdout);
+    free(table);
+    return EXIT_CODE_OK;
+}
+
+/* figures.json, and what standard output is for. */
+static int print_end(figures_job *f)
+{
+    const figures_request *r = f->request;
+    char path[COMPARE_PATH];
+    json_object_set(f->result, "claims", f->checks);
+    char *text = json_dumps(f->result, JSON_INDENT(1) | JSON_PRESERVE_ORDER | JSON_REAL_PRECISION(9));
+    if (!text)
+        return figures_no_memory();
+    int code = compare_file_path(f->compare, "figures.json", path) ? compare_write_text(f->compare, path, text, strlen(text)) : EXIT_CODE_USAGE;
+    free(text);
+    if (code != EXIT_CODE_OK)
+        return code;
+    console_note(&r->out, "%s/index.html: %llu pictures rendered, %llu kept", r->folder, (unsigned long long)f->compare->rendered,
+                 (unsigned long long)f->compare->kept);
+    size_t i;
+    json_t *check;
+    json_array_foreach(f->checks, i, check) if (!json_is_true(json_object_get(check, "holds")))
+        console_note(&r->out, "this claim does not hold: %s (%.4g)", json_string_value(json_object_get(check, "claim")),
+                     json_number_value(json_object_get(check, "value")));
+    if (r->out.json) {
+        json_object_set_new(f->result, "run",
+                            json_pack("{s:o, s:I, s:I}", "folder", console_json_text(r->folder), "rendered", (json_int_t)f->compare->rendered, "kept",
+                                      (json_int_t)f->compare->kept));
+        code = console_print_json(json_incref(f->result));
+    } else {
+        code = print_tables(f);
+    }
+    if (code == EXIT_CODE_OK && r->check && f->failed)
+        code = console_error(EXIT_CODE_DIFFERENT, "%u of %zu claims do not hold", f->failed, json_array_size(f->checks));
+    return code;
+}
+
+static int run(figures_job *f)
+{
+    int code = choose_pictures(f);
+    if (code != EXIT_CODE_OK)
+        return code;
+    code = compare_open(f->compare, &f->renders, "index.html");
+    /* Before the first picture of either part, so that hours of rendering do not end at a bad scene. */
+    if (code == EXIT_CODE_OK && figures_liu_wanted(f))
+        code = figures_refraction_open(f, f->folder);
+    if (code == EXIT_CODE_OK)
+        code = make_pictures_folder(f);
+    if (code == EXIT_CODE_OK && f->renders.method_count)
+        code = compare_render(f->compare);
+    if (code == EXIT_CODE_OK && f->renders.method_count)
+        code = compare_time_methods(f->compare);
+    if (code == EXIT_CODE_OK && f->renders.method_count)
+        code = figures_measure(f);
+    if (code == EXIT_CODE_OK)
+        code = make_page(f);
+    if (code == EXIT_CODE_OK)
+        code = print_end(f);
+    figures_refraction_close(f);
+    compare_close(f->compare);
+    return code;
+}
+
+int figures_run(const figures_request *request)
+{
+    figures_job *f = calloc(1, sizeof *f);
+    compare_job *compare = calloc(1, sizeof *compare);
+    int code = EXIT_CODE_FAILED;
+    if (!f || !compare) {
+        figures_no_memory();
+        goto done;
+    }
+    f->request = request;
+    f->compare = compare;
+    f->checks = json_array();
+    f->result = json_pack("{s:s}", "version", mgt_version());
+    code = f->checks && f->result ? run(f) : figures_no_memory();
+    json_decref(f->checks);
+    json_decref(f->result);
+    free(f->refraction_table);
+done:
+    free(compare);
+    free(f);
+    return code;
+}

@@ -1,0 +1,389 @@
+/* SPDX-License-Identifier: MIT */
+/* One render from loading the scene to the last file: checks everything that can be checked first, then renders frame by frame. */
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "image/video.h"
+#include "cli/common/interrupt.h"
+#include "cli/render/render_frame.h"
+#include "cli/render/render_record.h"
+
+typedef struct render_job {
+    render_request *request;
+    scene_file *scene;
+    char *canonical;
+    mgt_context *context;
+    mgt_context_info info;
+    frame_buffer buffer;
+    mgt_image image; /* of every frame, with the crop */
+    output_options output;
+    progress progress;
+    uint64_t rendered, skipped;
+    double seconds, least, most; /* of rendering alone */
+    json_t *files;               /* with --json */
+} render_job;
+
+enum { PATH_SIZE = 4600, FRAMES_TEXT = 240 };
+
+static int stopped(const render_job *job)
+{
+    console_note(&job->request->out, "mangata: stopped; nothing unfinished was left behind");
+    return interrupt_exit_code();
+}
+
+static int file_failure(render_job *job, const file_error *error)
+{
+    progress_clear(&job->progress);
+    return error->status == FILE_CANCELLED ? stopped(job) : console_file_error(error);
+}
+
+static bool on_progress(void *user, double fraction)
+{
+    render_job *job = user;
+    progress_update(&job->progress, fraction);
+    return *interrupt_flag() == 0;
+}
+
+/* ---- before the first pixel ---------------------------------------------------------------------------- */
+
+static int frame_scene(const render_job *job, uint32_t frame, mgt_scene *scene)
+{
+    if (!scene_file_frame(job->scene, (int)frame, scene))
+        return console_error(EXIT_CODE_BAD_INPUT, "%s: the camera of frame %u is not a legal one", job->request->scene_path, frame);
+    if (job->request->crop_given) {
+        const uint64_t *crop = job->request->crop;
+        scene->image.crop_x = (uint32_t)crop[0];
+        scene->image.crop_y = (uint32_t)crop[1];
+        scene->image.crop_width = (uint32_t)crop[2];
+        scene->image.crop_height = (uint32_t)crop[3];
+    } else {
+        scene->image.crop_x = scene->image.crop_y = 0;
+        scene->image.crop_width = scene->image.width;
+        scene->image.crop_height = scene->image.height;
+    }
+    scene->quality = job->request->quality;
+    return EXIT_CODE_OK;
+}
+
+static int load_scene(render_job *job)
+{
+    render_request *r = job->request;
+    scene_error error;
+    job->scene = scene_file_load(r->scene_path, r->overrides, r->override_count, &error);
+    if (!job->scene)
+        return console_scene_error(&error);
+    job->canonical = scene_file_canonical(job->scene, NULL);
+    if (!job->canonical)
+        return console_error(EXIT_CODE_FAILED, "out of memory");
+    if (!r->frames_given) {
+        const bool one = !render_is_film(r) && !r->path.numbered;
+        frame_list_span(&r->frames, 0, one ? 0 : (uint32_t)scene_file_frame_count(job->scene) - 1);
+    }
+    mgt_scene first;
+    const int code = frame_scene(job, frame_list_at(&r->frames, 0), &first);
+    if (code != EXIT_CODE_OK)
+        return code;
+    job->image = first.image;
+    const mgt_image *i = &job->image;
+    if (i->crop_x >= i->width || i->crop_y >= i->height || i->crop_width > i->width - i->crop_x || i->crop_height > i->height - i->crop_y)
+        return console_error(EXIT_CODE_USAGE, "--crop %u,%u,%u,%u: it lies outside the picture of %u x %u pixels", i->crop_x, i->crop_y, i->crop_width,
+                             i->crop_height, i->width, i->height);
+    return EXIT_CODE_OK;
+}
+
+static int create_context(render_job *job)
+{
+    const int code = context_open(&job->request->context, &job->request->out, on_progress, job, &job->context, &job->info);
+    if (code != EXIT_CODE_OK)
+        return code;
+    if (job->info.backend == MGT_BACKEND_GL)
+        console_detail(&job->request->out, "backend gl, %s", job->info.renderer);
+    else
+        console_detail(&job->request->out, "backend %s, %s, %u lanes, %u threads", backend_name(job->info.backend), isa_name(job->info.isa), job->info.lanes,
+                       job->info.threads);
+    return EXIT_CODE_OK;
+}
+
+/* All frames, so that an hour of rendering does not end at a bad one. */
+static int check_frames(render_job *job)
+{
+    const render_request *r = job->request;
+    const uint64_t count = frame_list_length(&r->frames);
+    for (uint64_t i = 0; i < count; i++) {
+        const uint32_t frame = frame_list_at(&r->frames, i);
+        mgt_scene scene;
+        const int code = frame_scene(job, frame, &scene);
+        if (code != EXIT_CODE_OK)
+            return code;
+        const mgt_status status = mgt_scene_check(job->context, &scene);
+        if (status == MGT_ERROR_SCENE || status == MGT_ERROR_UNSUPPORTED)
+            return console_error(EXIT_CODE_BAD_INPUT, "%s: frame %u: %s", r->scene_path, frame, mgt_last_error(job->context));
+        if (status != MGT_OK)
+            return console_library_error(job->context, status);
+        if (*interrupt_flag())
+            return stopped(job);
+    }
+    return EXIT_CODE_OK;
+}
+
+/* Whether `path` is there already as these options would make it (*skip), or may be written; else the error.
+ * The hash is read with --skip-existing only. */
+static int check_output(render_job *job, const char *path, const sha256_text *hash, bool *skip)
+{
+    file_error error;
+    *skip = false;
+    if (job->request->skip_existing) {
+        char *recorded = NULL;
+        const file_status status = metadata_read(path, RENDER_HASH_KEY, &recorded, &error);
+        *skip = status == FILE_OK && recorded && strcmp(recorded, hash->text) == 0;
+        const bool same = *skip;
+        free(recorded);
+        if (same)
+            return EXIT_CODE_OK;
+        if (status == FILE_MEMORY)
+            return file_failure(job, &error);
+        if (status != FILE_MISSING && !job->request->overwrite) {
+            progress_clear(&job->progress);
+            return console_error(EXIT_CODE_CANNOT_WRITE, "%s: it exists, but was not rendered from this scene with these options; --overwrite replaces it",
+                                 path);
+        }
+    }
+    if (output_file_check(path, &job->output, &error) != FILE_OK)
+        return file_failure(job, &error);
+    return EXIT_CODE_OK;
+}
+
+static int print_path(const render_job *job, uint32_t frame, char path[PATH_SIZE])
+{
+    if (!frame_path_print(&job->request->path, frame, path, PATH_SIZE))
+        return console_error(EXIT_CODE_USAGE, "-o %s: the path is too long", job->request->output);
+    return EXIT_CODE_OK;
+}
+
+/* Writes the frame as text into `number`. */
+static int hash_frame(const render_job *job, uint32_t frame, char number[16], sha256_text *hash)
+{
+    snprintf(number, 16, "%u", frame);
+    if (!render_hash(job->request, job->canonical, &job->image, &job->info, number, hash))
+        return console_error(EXIT_CODE_FAILED, "out of memory");
+    return EXIT_CODE_OK;
+}
+
+static int check_stills(render_job *job)
+{
+    const uint64_t count = frame_list_length(&job->request->frames);
+    for (uint64_t i = 0; i < count; i++) {
+        const uint32_t frame = frame_list_at(&job->request->frames, i);
+        char path[PATH_SIZE], number[16];
+        sha256_text hash;
+        bool skip;
+        int code = print_path(job, frame, path);
+        if (code == EXIT_CODE_OK && job->request->skip_existing)
+            code = hash_frame(job, frame, number, &hash);
+        if (code == EXIT_CODE_OK)
+            code = check_output(job, path, &hash, &skip);
+        if (code != EXIT_CODE_OK)
+            return code;
+    }
+    return EXIT_CODE_OK;
+}
+
+/* ---- rendering ----------------------------------------------------------------------------------------- */
+
+static int render_frame(render_job *job, uint32_t frame, double *time, double *seconds)
+{
+    mgt_scene scene;
+    const int code = frame_scene(job, frame, &scene);
+    if (code != EXIT_CODE_OK)
+        return code;
+    progress_frame(&job->progress, frame);
+    const double start = seconds_now();
+    const mgt_status status = mgt_render(job->context, &scene, job->buffer.targets, job->buffer.count);
+    *seconds = seconds_now() - start;
+    *time = scene.time;
+    if (status != MGT_OK || *interrupt_flag())
+        progress_clear(&job->progress);
+    if (status == MGT_CANCELLED || *interrupt_flag())
+        return stopped(job);
+    if (status != MGT_OK)
+        return console_error(exit_code_of_status(status), "frame %u: %s", frame, mgt_last_error(job->context));
+    if (job->buffer.displayed)
+        frame_buffer_display(&job->buffer);
+    job->seconds += *seconds;
+    job->least = job->rendered == 0 || *seconds < job->least ? *seconds : job->least;
+    job->most = *seconds > job->most ? *seconds : job->most;
+    job->rendered++;
+    return EXIT_CODE_OK;
+}
+
+static void list_file(render_job *job, const char *path, const char *frames, const sha256_text *hash, bool skipped)
+{
+    if (job->files)
+        json_array_append_new(job->files, json_pack("{s:o, s:s, s:s, s:b}", "path", console_json_text(path), render_is_film(job->request) ? "frames" : "frame",
+                                                    frames, RENDER_HASH_KEY, hash->text, "skipped", skipped));
+    job->skipped += skipped;
+    if (skipped)
+        console_detail(&job->request->out, "%s: kept", path);
+}
+
+static int render_still(render_job *job, uint32_t frame)
+{
+    char path[PATH_SIZE], number[16];
+    sha256_text hash;
+    bool skip = false;
+    /* Asked again here: another machine of a farm may have finished it meanwhile. */
+    int code = print_path(job, frame, path);
+    if (code == EXIT_CODE_OK)
+        code = hash_frame(job, frame, number, &hash);
+    if (code == EXIT_CODE_OK)
+        code = check_output(job, path, &hash, &skip);
+    if (code != EXIT_CODE_OK)
+        return code;
+    double time, seconds = 0;
+    if (!skip) {
+        code = render_frame(job, frame, &time, &seconds);
+        if (code != EXIT_CODE_OK)
+            return code;
+        render_record record;
+        file_error error;
+        render_record_fill(&record, job->request, &job->info, &hash, number, time, seconds);
+        file_status status = frame_buffer_write(&job->buffer, job->request, path, &record.list, &job->output, &error);
+        if (status == FILE_EXISTS && job->request->skip_existing) {
+            code = check_output(job, path, &hash, &skip);
+            if (code != EXIT_CODE_OK || skip)
+                status = FILE_OK;
+        }
+        if (status != FILE_OK)
+            return file_failure(job, &error);
+        if (code != EXIT_CODE_OK)
+            return code;
+    }
+    list_file(job, path, number, &hash, skip);
+    progress_frame_done(&job->progress, path, seconds);
+    return EXIT_CODE_OK;
+}
+
+static int render_stills(render_job *job)
+{
+    const uint64_t count = frame_list_length(&job->request->frames);
+    for (uint64_t i = 0; i < count; i++) {
+        const int code = *interrupt_flag() ? stopped(job) : render_still(job, frame_list_at(&job->request->frames, i));
+        if (code != EXIT_CODE_OK)
+            return code;
+    }
+    return EXIT_CODE_OK;
+}
+
+static int render_film(render_job *job)
+{
+    const render_request *r = job->request;
+    const uint64_t count = frame_list_length(&r->frames);
+    const char *path = r->path.before;
+    char frames[FRAMES_TEXT];
+    frame_list_print(&r->frames, frames, sizeof frames);
+    /* The hash sees every range, the metadata a text that fits. */
+    sha256_text hash = sha256(r->frames.ranges, r->frames.count * sizeof r->frames.ranges[0]);
+    if (!render_hash(r, job->canonical, &job->image, &job->info, hash.text, &hash))
+        return console_error(EXIT_CODE_FAILED, "out of memory");
+    bool skip = false;
+    int code = check_output(job, path, &hash, &skip);
+    if (code != EXIT_CODE_OK)
+        return code;
+    if (skip) {
+        list_file(job, path, frames, &hash, true);
+        return EXIT_CODE_OK;
+    }
+    mgt_scene first;
+    code = frame_scene(job, frame_list_at(&r->frames, 0), &first);
+    if (code != EXIT_CODE_OK)
+        return code;
+    render_record record;
+    render_record_fill(&record, r, &job->info, &hash, frames, first.time, -1);
+    const video_desc desc = {.width = job->buffer.width,
+                             .height = job->buffer.height,
+                             .frames_per_second = scene_file_fps(job->scene),
+                             .metadata = &record.list,
+                             .output = job->output};
+    video_writer *writer = NULL;
+    file_error error;
+    if (video_writer_open(&writer, path, &desc, &error) != FILE_OK)
+        return file_failure(job, &error);
+    for (uint64_t i = 0; i < count; i++) {
+        double time, seconds;
+        code = render_frame(job, frame_list_at(&r->frames, i), &time, &seconds);
+        if (code == EXIT_CODE_OK && video_writer_frame(writer, job->buffer.targets[0].pixels, 0, &error) != FILE_OK)
+            code = file_failure(job, &error);
+        if (code != EXIT_CODE_OK) {
+            video_writer_abort(writer);
+            return code;
+        }
+        progress_frame_done(&job->progress, path, seconds);
+    }
+    if (video_writer_finish(writer, &error) != FILE_OK)
+        return file_failure(job, &error);
+    list_file(job, path, frames, &hash, false);
+    return EXIT_CODE_OK;
+}
+
+/* ---- the end -------------------------------------------------------------------------------------------- */
+
+static int report(render_job *job, double wall)
+{
+    const render_request *r = job->request;
+    const double mean = job->rendered ? job->seconds / (double)job->rendered : 0;
+    if (job->rendered)
+        console_note(&r->out, "%s: %" PRIu64 " frame%s of %u x %u by %s, %.1f ms each%s", r->output, job->rendered, job->rendered == 1 ? "" : "s",
+                     job->buffer.width, job->buffer.height, method_name(&r->quality).text, 1e3 * mean, job->skipped ? ", others kept" : "");
+    else
+        console_note(&r->out, "%s: kept, nothing to render", r->output);
+    if (!r->out.json)
+        return EXIT_CODE_OK;
+    return console_print_json(json_pack("{s:s, s:o, s:s, s:i, s:i, s:I, s:I, s:{s:f, s:f, s:f}, s:f, s:s, s:s, s:i, s:O}", "version", mgt_version(), "scene",
+                                        console_json_text(r->scene_path), "method", method_name(&r->quality).text, "width", (int)job->buffer.width, "height",
+                                        (int)job->buffer.height, "rendered", (json_int_t)job->rendered, "skipped", (json_int_t)job->skipped,
+                                        "seconds_per_frame", "mean", mean, "min", job->least, "max", job->most, "seconds", wall, "backend",
+                                        backend_name(job->info.backend), "isa", isa_name(job->info.isa), "threads", (int)job->info.threads, "files",
+                                        job->files));
+}
+
+static int run(render_job *job)
+{
+    const double start = seconds_now();
+    int code = load_scene(job);
+    if (code == EXIT_CODE_OK)
+        code = create_context(job);
+    if (code == EXIT_CODE_OK)
+        code = check_frames(job);
+    if (code == EXIT_CODE_OK && !render_is_film(job->request))
+        code = check_stills(job);
+    if (code == EXIT_CODE_OK)
+        code = frame_buffer_create(&job->buffer, job->request, job->image.crop_width, job->image.crop_height);
+    if (code != EXIT_CODE_OK)
+        return code;
+    job->progress = progress_start(job->request->progress, frame_list_length(&job->request->frames));
+    code = render_is_film(job->request) ? render_film(job) : render_stills(job);
+    progress_clear(&job->progress);
+    return code == EXIT_CODE_OK ? report(job, seconds_now() - start) : code;
+}
+
+int render_job_run(render_request *request)
+{
+    render_job *job = calloc(1, sizeof *job);
+    if (!job)
+        return console_error(EXIT_CODE_FAILED, "out of memory");
+    interrupt_install();
+    job->request = request;
+    job->output = (output_options){.overwrite = request->overwrite, .cancel = interrupt_flag()};
+    if (request->out.json)
+        job->files = json_array();
+    const int code = run(job);
+    json_decref(job->files);
+    frame_buffer_free(&job->buffer);
+    mgt_context_destroy(job->context);
+    free(job->canonical);
+    scene_file_free(job->scene);
+    free(job);
+    return code;
+}

@@ -1,0 +1,139 @@
+/* SPDX-License-Identifier: MIT */
+/* Render hashes and metadata. */
+#include "cli/render/render_record.h"
+
+#include <inttypes.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "cli/common/adaptive_options.h"
+#include "cli/common/memory_text.h"
+#include "cli/common/numbers.h"
+#include "cli/common/podee_options.h"
+#include "cli/common/refraction_options.h"
+
+static const char *format_word(picture_format format)
+{
+    switch (format) {
+    case PICTURE_PNG:
+        return "png";
+    case PICTURE_EXR:
+        return "exr";
+    case PICTURE_PFM:
+        return "pfm";
+    case PICTURE_MP4:
+        return "mp4";
+    case PICTURE_Y4M:
+        return "y4m";
+    case PICTURE_UNKNOWN:
+        break;
+    }
+    return "unknown";
+}
+
+/* Which group of builds that agree to the bit has rendered. */
+static const char *arithmetic_word(const mgt_context_info *info)
+{
+    if (info->backend == MGT_BACKEND_GL)
+        return info->renderer;
+    if (info->backend != MGT_BACKEND_CPU)
+        return backend_name(info->backend);
+    return info->isa == MGT_ISA_SSE2 ? "cpu without fma" : "cpu";
+}
+
+bool render_hash(const render_request *request, const char *canonical, const mgt_image *image, const mgt_context_info *info, const char *frames,
+                 sha256_text *hash)
+{
+    const mgt_quality *q = &request->quality;
+    char *text = NULL;
+    size_t size = 0;
+    FILE *stream = open_memstream(&text, &size);
+    if (!stream)
+        return false;
+    fprintf(stream, "mangata %s\n%s\n", mgt_version(), canonical);
+    fprintf(stream, "crop %u %u %u %u\n", image->crop_x, image->crop_y, image->crop_width, image->crop_height);
+    fprintf(stream, "method %s\nsamples %u %u %" PRIu64 " %" PRIu64 "\nseed %" PRIu64 "\nndf_mean_drop %d\n", method_name(q).text, q->spatial_samples,
+            q->time_samples, q->sample_first, q->sample_count, q->seed, q->ndf_mean_drop);
+    const podee_text podee = podee_options_text(q);
+    if (podee.text[0])
+        fprintf(stream, "podee %s\n", podee.text);
+    const adaptive_text adaptive = adaptive_options_text(q);
+    if (adaptive.text[0])
+        fprintf(stream, "adaptive %s\n", adaptive.text);
+    const refraction_text refraction = refraction_options_text(q);
+    if (refraction.text[0])
+        fprintf(stream, "refraction %s\n", refraction.text);
+    fprintf(stream, "arithmetic %s\nformat %s\nlayers", arithmetic_word(info), format_word(request->format));
+    for (size_t i = 0; i < request->layer_count; i++)
+        fprintf(stream, " %s", layer_name(request->layers[i]));
+    fprintf(stream, "\nframes %s\n", frames);
+    if (!memory_text_finish(stream, &text))
+        return false;
+    *hash = sha256(text, size);
+    free(text);
+    return true;
+}
+
+static void add(render_record *record, const char *key, const char *format, ...) __attribute__((format(printf, 3, 4)));
+
+static void add(render_record *record, const char *key, const char *format, ...)
+{
+    if (record->list.count == RECORD_ENTRIES)
+        return;
+    const size_t i = record->list.count++;
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(record->values[i], RECORD_TEXT, format, arguments);
+    va_end(arguments);
+    record->entries[i] = (metadata_entry){key, record->values[i]};
+}
+
+static void add_stamp(render_record *record, const mgt_context_info *info, double seconds)
+{
+    char host[128] = "unknown", date[32] = "unknown";
+    gethostname(host, sizeof host - 1);
+    const time_t now = time(NULL);
+    struct tm utc;
+    if (gmtime_r(&now, &utc))
+        strftime(date, sizeof date, "%Y-%m-%dT%H:%M:%SZ", &utc);
+    add(record, "host", "%s", host);
+    add(record, "threads", "%u", info->threads);
+    if (info->backend == MGT_BACKEND_GL)
+        add(record, "renderer", "%s", info->renderer);
+    else
+        add(record, "isa", "%s", isa_name(info->isa));
+    add(record, "rendered_at", "%s", date);
+    if (seconds >= 0)
+        add(record, "render_seconds", "%.6f", seconds);
+}
+
+void render_record_fill(render_record *record, const render_request *request, const mgt_context_info *info, const sha256_text *hash, const char *frames,
+                        double time, double seconds)
+{
+    const mgt_quality *q = &request->quality;
+    record->list = (metadata_list){record->entries, 0};
+    add(record, "mangata_version", "%s", mgt_version());
+    add(record, RENDER_HASH_KEY, "%s", hash->text);
+    add(record, "method", "%s", method_name(q).text);
+    const podee_text podee = podee_options_text(q);
+    if (podee.text[0])
+        add(record, "method_options", "%s", podee.text);
+    const adaptive_text adaptive = adaptive_options_text(q);
+    if (adaptive.text[0])
+        add(record, "method_options", "%s", adaptive.text);
+    const refraction_text refraction = refraction_options_text(q);
+    if (refraction.text[0])
+        add(record, "refraction", "%s", refraction.text);
+    add(record, render_is_film(request) ? "frames" : "frame", "%s", frames);
+    add(record, "time", "%s", number_print(time).text);
+    add(record, "samples", "%" PRIu64, (uint64_t)q->spatial_samples * q->spatial_samples * q->time_samples);
+    if (q->sample_count)
+        add(record, "samples_range", "%" PRIu64 ",%" PRIu64, q->sample_first, q->sample_count);
+    add(record, "seed", "%" PRIu64, q->seed);
+    if (request->stamp)
+        add_stamp(record, info, seconds);
+}

@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: MIT */
+/* What one `mangata render` was asked to do. */
+#ifndef MANGATA_CLI_RENDER_RENDER_REQUEST_H
+#define MANGATA_CLI_RENDER_RENDER_REQUEST_H
+
+#include "cli/common/console.h"
+#include "cli/common/context_options.h"
+#include "cli/common/frames.h"
+#include "image/picture.h"
+#include "cli/common/names.h"
+#include "cli/common/progress.h"
+
+typedef struct render_request {
+    console out;
+    const char *scene_path;
+    const char *output;
+    picture_format format; /* of output */
+    frame_path path;       /* the same output, taken apart */
+
+    const char **overrides; /* --set and --size, in order; owned by the caller */
+    size_t override_count;
+    bool frames_given, crop_given;
+    frame_list frames;
+    uint64_t crop[4]; /* x, y, width, height */
+    mgt_quality quality;
+    context_options context;
+    mgt_layer layers[LAYER_COUNT];
+    size_t layer_count;
+
+    bool overwrite, skip_existing, stamp;
+    progress_mode progress;
+} render_request;
+
+/* True when the output is one file for all frames. */
+static inline bool render_is_film(const render_request *request) { return request->format == PICTURE_MP4 || request->format == PICTURE_Y4M; }
+
+/* Renders; prints errors and returns the exit code. Takes the request, since defaults are filled in from the scene. */
+int render_job_run(render_request *request);
+
+#endif

@@ -1,0 +1,139 @@
+/* SPDX-License-Identifier: MIT */
+/* `mangata scene check FILE…` and `mangata scene schema`. */
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/common/options.h"
+#include "cli/common/verbs.h"
+
+enum { OPT_SET };
+
+static const option check_options[] = {
+    [OPT_SET] = {"set", 0, "KEY=VALUE", "check the scene with this value changed; may be repeated"},
+};
+
+static const option_table scene_table = {"scene",
+                                         "check FILE... [options]\n       mangata scene schema",
+                                         "check: reads scene files and reports what is wrong as file:line:column: message.\n"
+                                         "schema: prints the JSON Schema of scene files.",
+                                         check_options,
+                                         sizeof check_options / sizeof check_options[0],
+                                         "exit codes: 0 all is well, 64 usage, 65 bad scene, 66 no such file"};
+
+/* What the loader cannot know, because only the library does: whether each frame can be rendered. */
+static int check_frames(const scene_file *scene, const char *path, scene_error *error)
+{
+    mgt_context_desc desc;
+    mgt_context_desc_init(&desc, sizeof desc);
+    desc.backend = MGT_BACKEND_NULL;
+    mgt_context *context = NULL;
+    mgt_status status = mgt_context_create(&context, &desc);
+    if (status != MGT_OK) {
+        snprintf(error->text, sizeof error->text, "%s", mgt_last_error(NULL));
+        return exit_code_of_status(status);
+    }
+    int code = EXIT_CODE_OK;
+    for (int frame = 0; frame < scene_file_frame_count(scene) && code == EXIT_CODE_OK; frame++) {
+        mgt_scene one;
+        if (!scene_file_frame(scene, frame, &one)) {
+            snprintf(error->text, sizeof error->text, "%.300s: the camera of frame %d is not a legal one", path, frame);
+            code = EXIT_CODE_BAD_INPUT;
+        } else if ((status = mgt_scene_check(context, &one)) != MGT_OK) {
+            snprintf(error->text, sizeof error->text, "%.200s: frame %d: %.280s", path, frame, mgt_last_error(context));
+            code = EXIT_CODE_BAD_INPUT;
+        }
+    }
+    mgt_context_destroy(context);
+    return code;
+}
+
+static json_t *describe(const scene_file *scene, const char *path)
+{
+    mgt_scene first;
+    if (!scene_file_frame(scene, 0, &first))
+        return NULL;
+    return json_pack("{s:o, s:b, s:o, s:i, s:i, s:i, s:f, s:f, s:I}", "file", console_json_text(path), "ok", 1, "description",
+                     console_json_text(scene_file_description(scene)), "width", (int)first.image.width, "height", (int)first.image.height, "frames",
+                     scene_file_frame_count(scene), "fps", scene_file_fps(scene), "start", scene_file_start(scene), "waves",
+                     (json_int_t)scene_file_wave_count(scene));
+}
+
+static int check_file(const console *out, const char *path, const char *const *overrides, size_t override_count, json_t *list)
+{
+    scene_error error = {0};
+    scene_file *scene = scene_file_load(path, overrides, override_count, &error);
+    int code = EXIT_CODE_OK;
+    if (!scene) {
+        console_scene_error(&error);
+        code = exit_code_of_scene_error(error.kind);
+    } else if ((code = check_frames(scene, path, &error)) != EXIT_CODE_OK) {
+        error.kind = SCENE_ERROR_BAD_SCENE;
+        console_scene_error(&error);
+    }
+    if (list)
+        json_array_append_new(list, code == EXIT_CODE_OK
+                                        ? describe(scene, path)
+                                        : json_pack("{s:o, s:b, s:o}", "file", console_json_text(path), "ok", 0, "error", console_json_text(error.text)));
+    else if (code == EXIT_CODE_OK && !out->quiet)
+        printf("%s: ok, %zu waves, %d frames\n", path, scene_file_wave_count(scene), scene_file_frame_count(scene));
+    scene_file_free(scene);
+    return code;
+}
+
+static int check_files(const console *out, const char *const *paths, size_t count, const char *const *overrides, size_t override_count)
+{
+    json_t *list = out->json ? json_array() : NULL;
+    int code = EXIT_CODE_OK;
+    for (size_t i = 0; i < count; i++) {
+        const int one = check_file(out, paths[i], overrides, override_count, list);
+        if (code == EXIT_CODE_OK)
+            code = one;
+    }
+    const int printed = out->json ? console_print_json(list) : EXIT_CODE_OK;
+    return code == EXIT_CODE_OK ? printed : code;
+}
+
+static int print_schema(void)
+{
+    if (scene_schema_write(stdout))
+        return EXIT_CODE_OK;
+    return console_error(EXIT_CODE_CANNOT_WRITE, "standard output: %s", strerror(errno));
+}
+
+/* `words` and `overrides` have room for every argument. */
+static int run(int count, char **arguments, const char **words, const char **overrides)
+{
+    console out = {0};
+    option_reader reader = option_reader_start(&scene_table, &out, count, arguments);
+    size_t word_count = 0, override_count = 0;
+    const char *value = NULL;
+    int id;
+    while ((id = option_reader_next(&reader, &value)) != OPTION_END) {
+        if (id == OPTION_HELP)
+            return EXIT_CODE_OK;
+        if (id == OPTION_ERROR)
+            return EXIT_CODE_USAGE;
+        if (id == OPT_SET)
+            overrides[override_count++] = value;
+        else
+            words[word_count++] = value;
+    }
+    if (word_count == 1 && strcmp(words[0], "schema") == 0)
+        return print_schema();
+    if (word_count == 0 || strcmp(words[0], "check") != 0)
+        return console_error(EXIT_CODE_USAGE, "mangata scene takes check FILE or schema; see mangata scene --help");
+    if (word_count == 1)
+        return console_error(EXIT_CODE_USAGE, "no scene given: mangata scene check FILE");
+    return check_files(&out, words + 1, word_count - 1, overrides, override_count);
+}
+
+int verb_scene(int count, char **arguments)
+{
+    const char **words = calloc((size_t)count + 1, sizeof *words);
+    const char **overrides = calloc((size_t)count + 1, sizeof *overrides);
+    const int code = words && overrides ? run(count, arguments, words, overrides) : console_error(EXIT_CODE_FAILED, "out of memory");
+    free(overrides);
+    free(words);
+    return code;
+}

@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: MIT */
+/* What one `mangata view` was asked to do; the command checks it, the viewer does it. */
+#ifndef MANGATA_CLI_VIEW_REQUEST_H
+#define MANGATA_CLI_VIEW_REQUEST_H
+
+#include "cli/common/console.h"
+#include "cli/common/context_options.h"
+#include "cli/common/names.h"
+
+typedef struct view_request {
+    console out;
+    const char *scene_path;
+    const char **overrides; /* --set and --size, in order; owned */
+    size_t override_count;
+    char size_words[2][32];
+    uint32_t width, height; /* of the window; 0: as the scene says */
+    mgt_quality quality;
+    context_options context;   /* but for the device: the window has one */
+    const char *script;        /* NULL: none */
+    const char *shader_folder; /* NULL: none */
+} view_request;
+
+/* Reads the words behind "view". An exit code, or -1 when the help was printed and there is nothing more to do. Free in every case. */
+int view_request_read(view_request *request, int count, char **arguments);
+void view_request_free(view_request *request);
+
+#endif

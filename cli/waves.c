@@ -1,0 +1,381 @@
+/* SPDX-License-Identifier: MIT */
+/* `mangata waves`: a scene from a wind's or a buoy's wave spectrum. */
+#include <errno.h>
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "image/output_file.h"
+#include "cli/common/numbers.h"
+#include "cli/common/options.h"
+#include "scene/scene_edit.h"
+#include "scene/scene_sea.h"
+#include "cli/common/verbs.h"
+#include "cli/waves_report.h"
+
+/* The options before OPT_OUTPUT are keys of the scene's `water.spectrum`. */
+enum {
+    OPT_MODEL,
+    OPT_WIND,
+    OPT_WIND_HEIGHT,
+    OPT_FETCH,
+    OPT_DEPTH,
+    OPT_GAMMA,
+    OPT_DIRECTION,
+    OPT_DIRECTIONS,
+    OPT_SPREAD,
+    OPT_SLOPE,
+    OPT_SHORTEST,
+    OPT_COUNT,
+    OPT_SEED,
+    OPT_FILE,
+    OPT_OUTPUT,
+    OPT_BASE,
+    OPT_SET,
+    OPT_AS_SPECTRUM,
+    OPT_OVERWRITE
+};
+
+static const char *const keys[OPT_OUTPUT] = {[OPT_MODEL] = "model",   [OPT_WIND] = "wind",   [OPT_WIND_HEIGHT] = "wind_height", [OPT_FETCH] = "fetch",
+                                             [OPT_DEPTH] = "depth",   [OPT_GAMMA] = "gamma", [OPT_DIRECTION] = "direction_deg", [OPT_DIRECTIONS] = "directions",
+                                             [OPT_SPREAD] = "spread", [OPT_SLOPE] = "slope", [OPT_SHORTEST] = "shortest",       [OPT_COUNT] = "count",
+                                             [OPT_SEED] = "seed",     [OPT_FILE] = "file"};
+
+static const option waves_options[] = {
+    [OPT_MODEL] = {"spectrum", 0, "NAME", "pierson-moskowitz, jonswap (default), tma or buoy"},
+    [OPT_WIND] = {"wind", 0, "SPEED", "of the wind in m/s (default 8)"},
+    [OPT_WIND_HEIGHT] = {"wind-height", 0, "M",
+                         "height over the sea at which it blows so (default: as in the paper,\n"
+                         "19.5 m for pierson-moskowitz, else 10 m)"},
+    [OPT_FETCH] = {"fetch", 0, "M", "open water that the wind has crossed: jonswap, tma (default 50000)"},
+    [OPT_DEPTH] = {"depth", 0, "M", "of the water (default inf; tma needs one)"},
+    [OPT_GAMMA] = {"gamma", 0, "G", "how far the peak stands out: jonswap, tma (default 3.3)"},
+    [OPT_DIRECTION] = {"direction", 0, "DEG",
+                       "where the wind comes from: 0 (default) is -z, \"north\", whose waves\n"
+                       "run towards +z; 90 is +x, \"east\""},
+    [OPT_DIRECTIONS] = {"directions", 0, "NAME",
+                        "how waves spread around it: mitsuyasu, hasselmann (default),\n"
+                        "donelan-banner, or fixed with --spread"},
+    [OPT_SPREAD] = {"spread", 0, "S", "of cos^2s of half the angle, for --directions fixed (default 10)"},
+    [OPT_SLOPE] = {"slope", 0, "NAME", "of the short waves: spectrum (default), or cox-munk, the clean sea's"},
+    [OPT_SHORTEST] = {"shortest", 0, "M", "length of the shortest wave (default 0.05; buoy: the table's end)"},
+    [OPT_COUNT] = {"count", 'n', "N", "number of waves, 1 to 512 (default 64)"},
+    [OPT_SEED] = {"seed", 0, "N", "another seed: another sea of the same kind (default 1)"},
+    [OPT_FILE] = {"buoy", 0, "FILE",
+                  "a measured spectrum: lines of frequency (Hz), direction (degrees,\n"
+                  "where waves come from), density (m^2/Hz/degree); see docs/waves.md"},
+    [OPT_OUTPUT] = {"output", 'o', "SCENE", "scene file to write, .yaml or .yml (default: standard output)"},
+    [OPT_BASE] = {"base", 0, "SCENE", "take all but the waves from this scene"},
+    [OPT_SET] = {"set", 0, "KEY=VALUE", "change a value of that scene, e.g. light.body=moon; may be repeated"},
+    [OPT_AS_SPECTRUM] = {"as-spectrum", 0, NULL, "write the key water.spectrum instead of single waves"},
+    [OPT_OVERWRITE] = {"overwrite", 0, NULL, "replace an existing file"},
+};
+
+static const option_table waves_table = {"waves",
+                                         "[-o SCENE] [options]",
+                                         "Writes a scene whose waves are drawn from a published wave spectrum, or from a buoy's.\n"
+                                         "--json prints the sea's statistics instead, beside their closed forms.",
+                                         waves_options,
+                                         sizeof waves_options / sizeof waves_options[0],
+                                         "exit codes: 0 done, 64 usage, 65 bad scene, table or sea, 66 no such input, 73 cannot write"};
+
+typedef struct waves_request {
+    scene_spectrum spectrum; /* borrows its file's name */
+    bool given[OPT_OUTPUT];
+    const char *output, *base;
+    const char **overrides; /* room for every argument */
+    size_t override_count;
+    bool as_spectrum, overwrite;
+} waves_request;
+
+/* ---- the command line --------------------------------------------------------------------------------------- */
+
+static const field_row *spectrum_field(const scene_values *values, const char *key, const void **place)
+{
+    char path[64];
+    snprintf(path, sizeof path, "water.spectrum.%s", key);
+    return scene_values_find(values, path, place);
+}
+
+static int bad_value(int id, const char *value, const char *allowed)
+{
+    return console_error(EXIT_CODE_USAGE, "--%s %s: allowed is %s", waves_options[id].name, value, allowed);
+}
+
+/* The name of a choice into *place. */
+static bool set_choice(const field_row *field, const char *text, int *place) { return field_parse(field, text, place); }
+
+/* One key of the spectrum, with the checks of the scene format. */
+static int set_key(waves_request *r, const scene_values *values, int id, const char *text)
+{
+    const void *unused;
+    const field_row *field = spectrum_field(values, keys[id], &unused);
+    void *place = (char *)&r->spectrum + field->offset;
+    char allowed[160];
+    double number;
+    uint64_t whole;
+    bool good = true;
+    field_allowed(field, allowed, sizeof allowed);
+    r->given[id] = true;
+    switch (field->type) {
+    case FIELD_CHOICE:
+        good = set_choice(field, text, place) && (id != OPT_MODEL || r->spectrum.settings.kind != SPECTRUM_NONE);
+        break;
+    case FIELD_COUNT:
+        good = number_parse_u64(text, (uint64_t)field->max, &whole) && (double)whole >= field->min;
+        if (good)
+            *(uint32_t *)place = (uint32_t)whole;
+        break;
+    case FIELD_NUMBER:
+        number = 0;
+        good = (id == OPT_DEPTH && strcmp(text, "inf") == 0) || (number_parse_double(text, &number) && field_in_range(field, number));
+        if (good)
+            *(double *)place = number;
+        break;
+    default:
+        memcpy(place, &text, sizeof text);
+        break; /* the table's name */
+    }
+    return good ? EXIT_CODE_OK : bad_value(id, text, id == OPT_MODEL ? "pierson-moskowitz, jonswap, tma or buoy" : allowed);
+}
+
+static int set_option(waves_request *r, const scene_values *values, int id, const char *text)
+{
+    if (id < OPT_OUTPUT)
+        return set_key(r, values, id, text);
+    switch (id) {
+    case OPT_OUTPUT:
+        r->output = text;
+        break;
+    case OPT_BASE:
+        r->base = text;
+        break;
+    case OPT_SET:
+        r->overrides[r->override_count++] = text;
+        break;
+    case OPT_AS_SPECTRUM:
+        r->as_spectrum = true;
+        break;
+    default:
+        r->overwrite = true;
+        break;
+    }
+    return EXIT_CODE_OK;
+}
+
+/* What contradicts itself, and what would be left unused without a word. */
+static int check_request(waves_request *r, const console *out)
+{
+    static const int fetched[] = {OPT_FETCH, OPT_GAMMA}, windy[] = {OPT_WIND, OPT_WIND_HEIGHT}, directed[] = {OPT_DIRECTION, OPT_DIRECTIONS, OPT_SPREAD};
+    spectrum_settings *s = &r->spectrum.settings;
+    if (r->given[OPT_FILE] && !r->given[OPT_MODEL])
+        s->kind = SPECTRUM_BUOY;
+    if (r->given[OPT_FILE] && s->kind != SPECTRUM_BUOY)
+        return console_error(EXIT_CODE_USAGE, "--buoy is for --spectrum buoy alone");
+    if (s->kind == SPECTRUM_BUOY && !r->given[OPT_FILE])
+        return console_error(EXIT_CODE_USAGE, "--spectrum buoy needs --buoy FILE");
+    if (s->kind == SPECTRUM_TMA && !(s->depth > 0))
+        return console_error(EXIT_CODE_USAGE, "--spectrum tma needs --depth M, above 0 and at most 12000");
+    const char *name = r->output ? strrchr(r->output, '.') : NULL;
+    if (r->output && (!name || (strcmp(name, ".yaml") != 0 && strcmp(name, ".yml") != 0)))
+        return console_error(EXIT_CODE_USAGE, "%s: allowed is a name that ends in .yaml or .yml", r->output);
+    const bool fetch = s->kind == SPECTRUM_JONSWAP || s->kind == SPECTRUM_TMA, buoy = s->kind == SPECTRUM_BUOY;
+    for (size_t i = 0; i < 2; i++) {
+        if (r->given[fetched[i]] && !fetch)
+            console_note(out, "--%s changes nothing: it is for jonswap and tma", waves_options[fetched[i]].name);
+        if (r->given[windy[i]] && buoy && s->slope != SLOPE_COX_MUNK)
+            console_note(out, "--%s changes nothing: of a measured sea only --slope cox-munk asks for a wind", waves_options[windy[i]].name);
+    }
+    for (size_t i = 0; i < 3; i++)
+        if (r->given[directed[i]] && buoy)
+            console_note(out, "--%s changes nothing: a table has its own directions", waves_options[directed[i]].name);
+    if (r->given[OPT_SPREAD] && !buoy && s->directions != DIRECTIONS_FIXED)
+        console_note(out, "--spread changes nothing: it is for --directions fixed");
+    return EXIT_CODE_OK;
+}
+
+/* ---- the scene ---------------------------------------------------------------------------------------------- */
+
+/* A low sun straight ahead and two seconds of film; the camera's height is for the sea to say. */
+static const char base_text[] = "mangata: 1\ntime: {fps: 30, frames: 60}\nlight: {elevation_deg: 12}\n";
+
+/* Above the crests, looking 7 degrees down. */
+static void place_camera(scene_values *values, double wave_height)
+{
+    mgt_camera *camera = &values->camera.still;
+    const double height = fmax(3, ceil(2 * (1 + 1.5 * wave_height)) / 2);
+    camera->position[1] = height;
+    camera->target[1] = height - 0.123;
+    camera->target[2] = -1;
+}
+
+/* The base with overrides, without its waves. */
+static int load_base(const waves_request *r, scene_values *values)
+{
+    scene_error error = {0};
+    scene_file *file = r->base ? scene_file_load(r->base, r->overrides, r->override_count, &error)
+                               : scene_file_parse(base_text, sizeof base_text - 1, "the scene", r->overrides, r->override_count, &error);
+    if (!file) {
+        console_scene_error(&error);
+        return exit_code_of_scene_error(error.kind);
+    }
+    const bool copied = scene_values_copy(values, scene_file_values(file));
+    scene_file_free(file);
+    if (!copied)
+        return console_error(EXIT_CODE_FAILED, "out of memory");
+    free(values->water.waves.items);
+    free(values->water.sea.items);
+    free(values->water.spectrum.file);
+    values->water.waves = values->water.sea = (scene_list){0};
+    values->water.spectrum = (scene_spectrum){0};
+    return EXIT_CODE_OK;
+}
+
+static bool names_camera(const waves_request *r)
+{
+    for (size_t i = 0; i < r->override_count; i++)
+        if (strncmp(r->overrides[i], "camera", 6) == 0)
+            return true;
+    return false;
+}
+
+/* The table's name as the scene must write it, seen from the scene's folder. NULL when memory runs out. */
+static char *table_name(const waves_request *r)
+{
+    const bool elsewhere = r->as_spectrum && r->output && strchr(r->output, '/') && r->spectrum.file[0] != '/';
+    char *name = elsewhere ? realpath(r->spectrum.file, NULL) : NULL;
+    return name ? name : strdup(r->spectrum.file);
+}
+
+static int write_scene(const waves_request *r, const scene_values *values)
+{
+    const output_options options = {.overwrite = r->overwrite};
+    output_file *file = NULL;
+    file_error error;
+    char *text = NULL;
+    size_t size = 0;
+    FILE *stream = open_memstream(&text, &size);
+    bool good = stream && scene_values_write(stream, values);
+    if (stream)
+        good = fclose(stream) == 0 && good;
+    int code = good ? EXIT_CODE_OK : console_error(EXIT_CODE_FAILED, "out of memory");
+    if (good && !r->output) {
+        fwrite(text, 1, size, stdout);
+    } else if (good) {
+        file_status status = output_file_open(&file, r->output, &options, &error);
+        if (status == FILE_OK && (status = output_file_write(file, text, size, &error)) != FILE_OK)
+            output_file_abort(file);
+        else if (status == FILE_OK)
+            status = output_file_finish(file, &error);
+        if (status != FILE_OK)
+            code = console_file_error(&error);
+    }
+    free(text);
+    return code;
+}
+
+/* What a key of the format is called on the command line. */
+static const char *option_of_key(const char *key)
+{
+    for (int i = 0; i < OPT_OUTPUT; i++)
+        if (strcmp(keys[i], key) == 0)
+            return waves_options[i].name;
+    return key;
+}
+
+static int refuse_sea(const scene_sea_fault *fault)
+{
+    if (fault->setting.key)
+        return console_error(EXIT_CODE_BAD_INPUT, "--%s %s", option_of_key(fault->setting.key), fault->setting.text);
+    console_scene_error(&fault->error);
+    return exit_code_of_scene_error(fault->error.kind);
+}
+
+/* The growth with fetch ends where the sea is fully developed. */
+static void warn_of_fetch(const waves_request *r, const wave_spectrum *spectrum, const console *out)
+{
+    const bool fetch = spectrum->kind == SPECTRUM_JONSWAP || spectrum->kind == SPECTRUM_TMA;
+    const double developed = 0.877 * SPECTRUM_GRAVITY / wind_at_height(spectrum->wind_10, 10, 19.5);
+    if (fetch && spectrum->peak < developed)
+        console_note(out, "a fetch of %g km is more than this wind needs for a fully developed sea: pierson-moskowitz fits better",
+                     r->spectrum.settings.fetch / 1000);
+}
+
+static int make_scene(const waves_request *r, scene_values *values, const console *out)
+{
+    static const char here[] = "";
+    scene_sea_fault fault;
+    scene_sea sea;
+    waves_report report;
+    values->water.spectrum = r->spectrum;
+    values->water.spectrum.file = r->given[OPT_FILE] ? strdup(r->spectrum.file) : NULL;
+    if (r->given[OPT_FILE] && !values->water.spectrum.file)
+        return console_error(EXIT_CODE_FAILED, "out of memory");
+    if (!scene_sea_open(&sea, &values->water.spectrum, here, &fault))
+        return refuse_sea(&fault);
+    warn_of_fetch(r, &sea.spectrum, out);
+    int code = scene_sea_fill(&values->water, here, &fault) ? EXIT_CODE_OK : refuse_sea(&fault);
+    const scene_list waves = scene_water_all(&values->water);
+    if (code == EXIT_CODE_OK && !waves_report_make(&report, &r->spectrum, &sea, waves.items, waves.count))
+        code = console_error(EXIT_CODE_FAILED, "out of memory");
+    scene_sea_close(&sea);
+    if (code != EXIT_CODE_OK)
+        return code;
+    if (!r->base && !names_camera(r))
+        place_camera(values, report.waves.height);
+    if (!values->description)
+        values->description = strdup(waves_report_title(&report).text);
+    if (!r->as_spectrum)
+        scene_values_write_out_sea(values);
+    if (values->water.spectrum.file) {
+        free(values->water.spectrum.file);
+        values->water.spectrum.file = r->as_spectrum ? table_name(r) : NULL;
+    }
+    if (!out->json || r->output)
+        code = write_scene(r, values);
+    if (code != EXIT_CODE_OK)
+        return code;
+    if (out->json)
+        return console_print_json(waves_report_json(&report, r->output));
+    waves_report_print(&report, out);
+    return EXIT_CODE_OK;
+}
+
+/* ---- the verb ----------------------------------------------------------------------------------------------- */
+
+static int run(int count, char **arguments, waves_request *r)
+{
+    console out = {0};
+    option_reader reader = option_reader_start(&waves_table, &out, count, arguments);
+    scene_values values = scene_values_defaults();
+    const char *text = NULL;
+    int id, code = EXIT_CODE_OK;
+    r->spectrum = values.water.spectrum;
+    r->spectrum.settings.kind = SPECTRUM_JONSWAP;
+    while (code == EXIT_CODE_OK && (id = option_reader_next(&reader, &text)) != OPTION_END) {
+        if (id == OPTION_HELP)
+            return EXIT_CODE_OK;
+        if (id == OPTION_ERROR)
+            return EXIT_CODE_USAGE;
+        code = id == OPTION_OPERAND ? console_error(EXIT_CODE_USAGE, "%s: mangata waves takes options alone; a scene to start from is --base SCENE", text)
+                                    : set_option(r, &values, id, text);
+    }
+    if (code == EXIT_CODE_OK)
+        code = check_request(r, &out);
+    if (code == EXIT_CODE_OK)
+        code = load_base(r, &values);
+    if (code == EXIT_CODE_OK)
+        code = make_scene(r, &values, &out);
+    scene_values_free(&values);
+    return code;
+}
+
+int verb_waves(int count, char **arguments)
+{
+    waves_request request = {.overrides = calloc((size_t)count + 1, sizeof *request.overrides)};
+    const int code = request.overrides ? run(count, arguments, &request) : console_error(EXIT_CODE_FAILED, "out of memory");
+    free(request.overrides);
+    return code;
+}

@@ -1,0 +1,149 @@
+/* SPDX-License-Identifier: MIT
+ * Contexts: creation, what they resolved to, errors, and the one rendering call. */
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "api/context.h"
+#include "api/structs.h"
+#include "api/validate.h"
+
+/* Where creation reports, since there is no context to hold the text yet. */
+static _Thread_local char creation_error[REPORTER_TEXT];
+
+reporter creation_reporter(void)
+{
+    creation_error[0] = 0;
+    return (reporter){.error = creation_error};
+}
+
+static void send(const reporter *r, mgt_log_level level, const char *id, const char *text)
+{
+    if (r->log)
+        r->log(r->log_user, level, id, text);
+}
+
+void report(const reporter *r, mgt_log_level level, const char *id, const char *format, ...)
+{
+    char text[REPORTER_TEXT];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    send(r, level, id, text);
+}
+
+mgt_status report_error(const reporter *r, mgt_status status, const char *id, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(r->error, REPORTER_TEXT, format, arguments);
+    va_end(arguments);
+    send(r, MGT_LOG_ERROR, id, r->error);
+    return status;
+}
+
+/* AUTO: OpenGL by hardware, else the CPU. Says which and why. */
+static mgt_status create_auto(mgt_context *c, const mgt_context_desc *desc, const reporter *r)
+{
+    const reporter quiet = {.error = r->error};
+    mgt_status status = gl_backend.create(&c->state, desc, &quiet, &c->info);
+    if (status == MGT_OK && !c->info.software) {
+        c->backend = &gl_backend;
+        report(r, MGT_LOG_INFO, "context.backend", "%s renders", c->info.renderer);
+        return MGT_OK;
+    }
+    if (status == MGT_OK) {
+        gl_backend.destroy(c->state);
+        report(r, MGT_LOG_INFO, "context.backend", "the CPU renders: OpenGL here is software itself (%s)", c->info.renderer);
+    } else {
+        report(r, MGT_LOG_INFO, "context.backend", "the CPU renders: %s", r->error);
+    }
+    r->error[0] = 0;
+    c->state = NULL;
+    c->info = (mgt_context_info){.struct_size = sizeof c->info};
+    return cpu_backend.create(&c->state, desc, r, &c->info);
+}
+
+mgt_status mgt_context_create(mgt_context **context, const mgt_context_desc *desc)
+{
+    reporter early = creation_reporter();
+    mgt_context_desc own;
+    if (context)
+        *context = NULL;
+    mgt_status status = struct_take(&early, &context_desc_kind, &own, desc ? desc : context_desc_kind.defaults, 1);
+    if (status != MGT_OK)
+        return status;
+    early.log = own.log, early.log_user = own.log_user;
+    if (!context)
+        return report_error(&early, MGT_ERROR_ARGUMENT, "context.create", "mgt_context_create: the pointer to fill is NULL");
+    status = validate_desc(&early, &own);
+    if (status != MGT_OK)
+        return status;
+
+    mgt_context *c = calloc(1, sizeof *c);
+    if (!c)
+        return report_error(&early, MGT_ERROR_MEMORY, "context.create", "out of memory");
+    c->report = (reporter){own.log, own.log_user, c->error};
+    c->backend = own.backend == MGT_BACKEND_NULL ? &null_backend : own.backend == MGT_BACKEND_GL ? &gl_backend : &cpu_backend;
+    c->info.struct_size = sizeof c->info;
+    if (own.backend == MGT_BACKEND_AUTO)
+        status = create_auto(c, &own, &early);
+    else
+        status = c->backend->create(&c->state, &own, &early, &c->info);
+    if (status != MGT_OK) {
+        free(c);
+        return status;
+    }
+    *context = c;
+    return MGT_OK;
+}
+
+void mgt_context_destroy(mgt_context *context)
+{
+    if (!context)
+        return;
+    context->backend->destroy(context->state);
+    cpu_backend.destroy(context->cpu);
+    free(context);
+}
+
+const char *mgt_last_error(const mgt_context *context) { return context ? context->error : creation_error; }
+
+mgt_status mgt_context_get_info(const mgt_context *context, mgt_context_info *info)
+{
+    return context ? struct_give(&context->report, &context_info_kind, &context->info, info) : MGT_ERROR_ARGUMENT;
+}
+
+mgt_status mgt_scene_check(mgt_context *context, const mgt_scene *scene)
+{
+    if (!context)
+        return MGT_ERROR_ARGUMENT;
+    context->error[0] = 0;
+    mgt_scene own;
+    return scene_take(&context->report, &own, scene);
+}
+
+void scene_to_sea_level(mgt_scene *own)
+{
+    own->camera.position[1] -= own->water.level;
+    own->camera.target[1] -= own->water.level;
+    own->camera_open.position[1] -= own->water.level;
+    own->camera_open.target[1] -= own->water.level;
+}
+
+mgt_status mgt_render(mgt_context *context, const mgt_scene *scene, const mgt_target *targets, size_t count)
+{
+    if (!context)
+        return MGT_ERROR_ARGUMENT;
+    context->error[0] = 0;
+    mgt_scene own;
+    mgt_target own_targets[MOST_TARGETS];
+    mgt_status status = scene_take(&context->report, &own, scene);
+    if (status == MGT_OK)
+        status = targets_take(&context->report, &own, own_targets, targets, count);
+    if (status != MGT_OK)
+        return status;
+    scene_to_sea_level(&own);
+    return context->backend->render(context->state, &context->report, &own, own_targets, count);
+}

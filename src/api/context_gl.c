@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: MIT
+ * The functions of mangata/gl.h: checks of their arguments, then the backend. */
+#include "api/context.h"
+#include "api/structs.h"
+
+static mgt_status check_backend(mgt_context *context, const char *function)
+{
+    if (!context)
+        return MGT_ERROR_ARGUMENT;
+    context->error[0] = 0;
+    if (context->backend->render_views)
+        return MGT_OK;
+    return report_error(&context->report, MGT_ERROR_UNAVAILABLE, "gl.context", "%s needs a context of the OpenGL backend", function);
+}
+
+mgt_status mgt_gl_render_textures(mgt_context *context, const mgt_scene *scene, const mgt_gl_texture *textures, size_t count)
+{
+    mgt_status status = check_backend(context, "mgt_gl_render_textures");
+    if (status != MGT_OK)
+        return status;
+    const reporter *r = &context->report;
+    mgt_scene own;
+    mgt_gl_texture own_textures[MOST_TARGETS];
+    status = scene_take(r, &own, scene);
+    if (status == MGT_OK)
+        status = struct_take(r, &gl_texture_kind, own_textures, textures, count);
+    for (size_t i = 0; i < count && status == MGT_OK; i++)
+        if ((int)own_textures[i].layer < 0 || (int)own_textures[i].layer > MGT_LAYER_NORMAL)
+            status = report_error(r, MGT_ERROR_ARGUMENT, "render.texture", "texture %zu: layer %d does not exist", i, (int)own_textures[i].layer);
+    if (status != MGT_OK)
+        return status;
+    scene_to_sea_level(&own);
+    return context->backend->render_textures(context->state, r, &own, own_textures, count);
+}
+
+mgt_status mgt_gl_render_views(mgt_context *context, const mgt_scene *scene, const mgt_gl_view *views, size_t count)
+{
+    mgt_status status = check_backend(context, "mgt_gl_render_views");
+    if (status != MGT_OK)
+        return status;
+    const reporter *r = &context->report;
+    mgt_scene own;
+    mgt_gl_view own_views[MOST_TARGETS];
+    status = struct_take(r, &scene_kind, &own, scene, 1);
+    if (status == MGT_OK)
+        status = struct_take(r, &gl_view_kind, own_views, views, count);
+    for (size_t i = 0; i < count && status == MGT_OK; i++)
+        if ((int)own_views[i].color < 0 || (int)own_views[i].color > MGT_GL_COLOR_DISPLAY)
+            status = report_error(r, MGT_ERROR_ARGUMENT, "render.view", "view %zu: color is %d, which names no kind of colour", i, (int)own_views[i].color);
+    return status == MGT_OK ? context->backend->render_views(context->state, r, &own, own_views, count) : status;
+}
+
+size_t mgt_gl_get_timings(const mgt_context *context, mgt_gl_timing *timings, size_t capacity)
+{
+    if (!context || !context->backend->get_timings)
+        return 0;
+    return context->backend->get_timings(context->state, timings, timings ? capacity : 0);
+}
+
+mgt_status mgt_gl_set_sources(mgt_context *context, const mgt_gl_source *sources, size_t count)
+{
+    mgt_status status = check_backend(context, "mgt_gl_set_sources");
+    if (status != MGT_OK)
+        return status;
+    const reporter *r = &context->report;
+    if (count > 0 && !sources)
+        return report_error(r, MGT_ERROR_ARGUMENT, "gl.sources", "sources is NULL although count is %zu", count);
+    for (size_t i = 0; i < count; i++)
+        if (!sources[i].name || !sources[i].text)
+            return report_error(r, MGT_ERROR_ARGUMENT, "gl.sources", "source %zu: name or text is NULL", i);
+    return context->backend->set_sources(context->state, r, sources, count);
+}

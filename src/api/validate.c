@@ -1,0 +1,262 @@
+/* SPDX-License-Identifier: MIT
+ * Checks of scenes and targets, done once, before any backend sees them. */
+#include "api/validate.h"
+
+#include <math.h>
+
+#include "frame/mesh.h"
+#include "params/options.h"
+
+mgt_status validate_desc(const reporter *r, const mgt_context_desc *desc)
+{
+    if ((int)desc->backend < MGT_BACKEND_CPU || (int)desc->backend > MGT_BACKEND_NULL)
+        return report_error(r, MGT_ERROR_ARGUMENT, "context.desc", "mgt_context_desc.backend is %d, which names no backend", (int)desc->backend);
+    if ((int)desc->isa < MGT_ISA_AUTO || (int)desc->isa > MGT_ISA_NEON)
+        return report_error(r, MGT_ERROR_ARGUMENT, "context.desc", "mgt_context_desc.isa is %d, which names no instruction set", (int)desc->isa);
+    if (desc->threads > 1024)
+        return report_error(r, MGT_ERROR_ARGUMENT, "context.desc", "mgt_context_desc.threads is %u, at most 1024 are allowed", desc->threads);
+    return MGT_OK;
+}
+
+static mgt_status in_range(const reporter *r, const char *field, double value, double low, double high)
+{
+    if (value >= low && value <= high)
+        return MGT_OK;
+    return report_error(r, MGT_ERROR_SCENE, "render.scene", "%s is %g; allowed is %g to %g", field, value, low, high);
+}
+
+static mgt_status enum_range(const reporter *r, const char *field, int value, int last)
+{
+    if (value >= 0 && value <= last)
+        return MGT_OK;
+    return report_error(r, MGT_ERROR_SCENE, "render.scene", "%s is %d; allowed is 0 to %d", field, value, last);
+}
+
+static mgt_status check_vector(const reporter *r, const char *object, const char *field, const double v[3])
+{
+    for (int i = 0; i < 3; i++)
+        if (!(fabs(v[i]) <= 1e9))
+            return report_error(r, MGT_ERROR_SCENE, "render.scene", "%s.%s[%d] is %g; allowed is -1e9 to 1e9", object, field, i, v[i]);
+    return MGT_OK;
+}
+
+static mgt_status check_color(const reporter *r, const char *field, const float v[3], double high)
+{
+    for (int i = 0; i < 3; i++)
+        if (!(v[i] >= 0 && v[i] <= high))
+            return report_error(r, MGT_ERROR_SCENE, "render.scene", "%s[%d] is %g; allowed is 0 to %g", field, i, (double)v[i], high);
+    return MGT_OK;
+}
+
+#define TRY(call)                    \
+    do {                             \
+        mgt_status status_ = (call); \
+        if (status_ != MGT_OK)       \
+            return status_;          \
+    } while (0)
+
+static mgt_status check_image(const reporter *r, const mgt_image *image)
+{
+    TRY(in_range(r, "image.width", image->width, 1, MGT_MAX_IMAGE_SIDE));
+    TRY(in_range(r, "image.height", image->height, 1, MGT_MAX_IMAGE_SIDE));
+    const region area = image_region(image);
+    if (image->crop_x >= image->width || image->crop_y >= image->height || area.width > image->width - image->crop_x ||
+        area.height > image->height - image->crop_y)
+        return report_error(r, MGT_ERROR_SCENE, "render.scene", "image.crop %u,%u,%u,%u lies outside the image of %u x %u pixels", image->crop_x, image->crop_y,
+                            image->crop_width, image->crop_height, image->width, image->height);
+    return MGT_OK;
+}
+
+static mgt_status check_camera(const reporter *r, const char *name, const mgt_camera *camera)
+{
+    TRY(check_vector(r, name, "position", camera->position));
+    TRY(check_vector(r, name, "target", camera->target));
+    TRY(check_vector(r, name, "up", camera->up));
+    if (!(camera->fov_y_deg > 0 && camera->fov_y_deg < 179))
+        return report_error(r, MGT_ERROR_SCENE, "render.scene", "%s.fov_y_deg is %g; allowed is more than 0 and less than 179", name, camera->fov_y_deg);
+    double f[3], length = 0, up_length = 0, cross_length = 0;
+    for (int i = 0; i < 3; i++) {
+        f[i] = camera->target[i] - camera->position[i];
+        length += f[i] * f[i];
+        up_length += camera->up[i] * camera->up[i];
+    }
+    if (!(length > 1e-18))
+        return report_error(r, MGT_ERROR_SCENE, "render.scene", "%s.target equals its position; it must be a point in front of the camera", name);
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        const double c = f[j] * camera->up[k] - f[k] * camera->up[j];
+        cross_length += c * c;
+    }
+    if (!(cross_length > 1e-12 * length * up_length) || !(up_length > 1e-18))
+        return report_error(r, MGT_ERROR_SCENE, "render.scene", "%s.up is zero or parallel to the view; it must point across it", name);
+    return MGT_OK;
+}
+
+static mgt_status check_waves(const reporter *r, const mgt_water *water)
+{
+    if (water->wave_count > MGT_MAX_WAVES)
+        return report_error(r, MGT_ERROR_SCENE, "render.scene", "water.waves has %zu waves; at most %d are allowed", water->wave_count, MGT_MAX_WAVES);
+    if (water->wave_count > 0 && !water->waves)
+        return report_error(r, MGT_ERROR_ARGUMENT, "render.scene", "water.waves is NULL although water.wave_count is %zu", water->wave_count);
+    for (size_t i = 0; i < water->wave_count; i++) {
+        const mgt_wave *w = &water->waves[i];
+        if (!(w->amplitude >= 0 && w->amplitude <= 1000) || !(fabs(w->a) <= 1e5) || !(fabs(w->b) <= 1e5) || !(fabs(w->c) <= 1e5) || !(fabs(w->phase) <= 1e9))
+            return report_error(r, MGT_ERROR_SCENE, "render.scene",
+                                "water.waves[%zu] {amplitude %g, a %g, b %g, c %g, phase %g} is out of range: amplitude 0 to 1000 m, a, b, c ±1e5, phase ±1e9",
+                                i, w->amplitude, w->a, w->b, w->c, w->phase);
+    }
+    return MGT_OK;
+}
+
+/* A struct of the scene against its rows. */
+static mgt_status check_rows(const reporter *r, const char *object, const field_row *fields, const void *values)
+{
+    for (const field_row *field = fields; field->key; field++) {
+        const void *value = field_at(field, values);
+        const char *name = field->member ? field->member : field->key;
+        char words[160];
+        if (!field_is_legal(field, value)) {
+            field_allowed(field, words, sizeof words);
+            return report_error(r, MGT_ERROR_SCENE, "render.scene", "%s.%s is %s; allowed is %s", object, name, field_print(field, value).text, words);
+        }
+        if (option_is_set(field, values) && !field_applies(fields, field, values, true)) {
+            field_conditions(fields, field, words, sizeof words);
+            return report_error(r, MGT_ERROR_SCENE, "render.scene", "%s.%s is for %s alone", object, name, words);
+        }
+    }
+    return MGT_OK;
+}
+
+static mgt_status check_quality(const reporter *r, const mgt_quality *q)
+{
+    char wrong[160];
+    TRY(check_rows(r, "quality", quality_fields, q));
+    if (quality_conflict(q, wrong, sizeof wrong))
+        return report_error(r, MGT_ERROR_SCENE, "render.scene", "quality: %s", wrong);
+    const uint64_t samples = (uint64_t)q->spatial_samples * q->spatial_samples * q->time_samples;
+    if (q->sample_first >= samples || q->sample_count > samples - q->sample_first)
+        return report_error(r, MGT_ERROR_SCENE, "render.scene", "quality.sample_first %llu and sample_count %llu lie outside the %llu samples of a pixel",
+                            (unsigned long long)q->sample_first, (unsigned long long)q->sample_count, (unsigned long long)samples);
+    return MGT_OK;
+}
+
+/* A field of objects[index]. */
+static mgt_status object_range(const reporter *r, size_t index, const char *field, double value, double low, double high)
+{
+    if (value >= low && value <= high)
+        return MGT_OK;
+    return report_error(r, MGT_ERROR_SCENE, "render.scene", "objects[%zu].%s is %g; allowed is %g to %g", index, field, value, low, high);
+}
+
+static mgt_status check_material(const reporter *r, size_t index, const mgt_material *m)
+{
+    for (int i = 0; i < 3; i++) {
+        TRY(object_range(r, index, "material.base_color", (double)m->base_color[i], 0, 1));
+        TRY(object_range(r, index, "material.pattern_color", (double)m->pattern_color[i], 0, 1));
+    }
+    TRY(object_range(r, index, "material.roughness", (double)m->roughness, (double)0.02f, 1));
+    TRY(object_range(r, index, "material.metallic", (double)m->metallic, 0, 1));
+    TRY(object_range(r, index, "material.pattern", (int)m->pattern, 0, MGT_PATTERN_STRIPES));
+    if (m->pattern == MGT_PATTERN_NONE)
+        return MGT_OK;
+    TRY(object_range(r, index, "material.pattern_joint", (double)m->pattern_joint, 0, 0.999));
+    return object_range(r, index, "material.pattern_size", (double)m->pattern_size, 1e-4, 1e6);
+}
+
+static mgt_status check_objects(const reporter *r, const mgt_scene *scene)
+{
+    uint64_t triangles = 0;
+    if (scene->object_count > MGT_MAX_OBJECTS)
+        return report_error(r, MGT_ERROR_SCENE, "render.scene", "the scene has %zu objects; at most %d are allowed", scene->object_count, MGT_MAX_OBJECTS);
+    if (scene->object_count > 0 && !scene->objects)
+        return report_error(r, MGT_ERROR_ARGUMENT, "render.scene", "objects is NULL although object_count is %zu", scene->object_count);
+    for (size_t i = 0; i < scene->object_count; i++) {
+        const mgt_object *o = &scene->objects[i];
+        if (!o->mesh)
+            return report_error(r, MGT_ERROR_ARGUMENT, "render.scene", "objects[%zu].mesh is NULL", i);
+        for (int k = 0; k < 12; k++)
+            TRY(object_range(r, i, "transform", o->transform[k / 4][k % 4], -1e6, 1e6));
+        const double(*t)[4] = o->transform;
+        const double volume = t[0][0] * (t[1][1] * t[2][2] - t[1][2] * t[2][1]) - t[0][1] * (t[1][0] * t[2][2] - t[1][2] * t[2][0]) +
+                              t[0][2] * (t[1][0] * t[2][1] - t[1][1] * t[2][0]);
+        if (!(fabs(volume) > 1e-24))
+            return report_error(r, MGT_ERROR_SCENE, "render.scene", "objects[%zu].transform flattens the mesh; its determinant is %g", i, volume);
+        TRY(check_material(r, i, &o->material));
+        triangles += o->mesh->triangle_count;
+    }
+    if (triangles > MGT_MAX_TRIANGLES)
+        return report_error(r, MGT_ERROR_SCENE, "render.scene", "the scene has %llu triangles; at most %d are allowed", (unsigned long long)triangles,
+                            MGT_MAX_TRIANGLES);
+    return MGT_OK;
+}
+
+mgt_status validate_scene(const reporter *r, const mgt_scene *scene)
+{
+    TRY(check_image(r, &scene->image));
+    TRY(check_camera(r, "camera", &scene->camera));
+    if (scene->camera_moves)
+        TRY(check_camera(r, "camera_open", &scene->camera_open));
+    TRY(in_range(r, "time", scene->time, -1e9, 1e9));
+    TRY(in_range(r, "shutter", scene->shutter, 0, 1e6));
+    TRY(in_range(r, "frame_interval", scene->frame_interval, 0, 1e6));
+
+    TRY(enum_range(r, "light.body", (int)scene->light.body, MGT_BODY_MOON));
+    TRY(in_range(r, "light.elevation_deg", scene->light.elevation_deg, -90, 90));
+    TRY(in_range(r, "light.azimuth_deg", scene->light.azimuth_deg, -1e6, 1e6));
+    TRY(in_range(r, "light.angular_radius_deg", scene->light.angular_radius_deg, 1e-4, 20));
+    TRY(check_color(r, "light.radiance", scene->light.radiance, 1e12));
+
+    TRY(enum_range(r, "sky.model", (int)scene->sky.model, MGT_SKY_BLACK));
+    TRY(in_range(r, "sky.turbidity", (double)scene->sky.turbidity, 1, 10));
+    TRY(check_color(r, "sky.zenith", scene->sky.zenith, 1e9));
+    TRY(check_color(r, "sky.horizon", scene->sky.horizon, 1e9));
+    TRY(check_color(r, "sky.night", scene->sky.night, 1e9));
+
+    TRY(check_waves(r, &scene->water));
+    TRY(in_range(r, "water.index_of_refraction", scene->water.index_of_refraction, 1, 3));
+    TRY(check_color(r, "water.body_albedo", scene->water.body_albedo, 1));
+    TRY(in_range(r, "water.level", scene->water.level, -1e6, 1e6));
+    TRY(check_color(r, "water.absorption", scene->water.absorption, 1000));
+    TRY(check_color(r, "water.scattering", scene->water.scattering, 1000));
+    TRY(check_objects(r, scene));
+
+    TRY(check_rows(r, "post", post_fields, &scene->post));
+    return check_quality(r, &scene->quality);
+}
+
+static mgt_status validate_target(const reporter *r, const region *area, const mgt_target *target, size_t index)
+{
+    static const unsigned allowed[] = {
+        [MGT_LAYER_COLOR] = 1u << MGT_FORMAT_RGB32F | 1u << MGT_FORMAT_RGBA32F | 1u << MGT_FORMAT_RGBA8_SRGB,
+        [MGT_LAYER_COVERAGE] = 1u << MGT_FORMAT_R32F,
+        [MGT_LAYER_MASK] = 1u << MGT_FORMAT_R32F,
+        [MGT_LAYER_DEPTH] = 1u << MGT_FORMAT_R32F,
+        [MGT_LAYER_NORMAL] = 1u << MGT_FORMAT_RGB32F | 1u << MGT_FORMAT_RGBA32F,
+        [MGT_LAYER_SAMPLES] = 1u << MGT_FORMAT_R32F,
+        [MGT_LAYER_IMPORTANCE] = 1u << MGT_FORMAT_R32F,
+        [MGT_LAYER_DETAIL] = 1u << MGT_FORMAT_R32F,
+        [MGT_LAYER_REFRACTION] = 1u << MGT_FORMAT_RGB32F | 1u << MGT_FORMAT_RGBA32F,
+        [MGT_LAYER_REFRACTION_ERROR] = 1u << MGT_FORMAT_R32F,
+    };
+    if ((int)target->layer < 0 || (int)target->layer > MGT_LAYER_REFRACTION_ERROR || (int)target->format < 0 || (int)target->format > MGT_FORMAT_RGBA8_SRGB ||
+        !(allowed[target->layer] & 1u << target->format))
+        return report_error(r, MGT_ERROR_ARGUMENT, "render.target", "target %zu: layer %d cannot be written in format %d", index, (int)target->layer,
+                            (int)target->format);
+    if (!target->pixels)
+        return report_error(r, MGT_ERROR_ARGUMENT, "render.target", "target %zu: pixels is NULL", index);
+    const size_t row = format_size(target->format) * area->width;
+    const ptrdiff_t stride = target->row_stride;
+    if (stride != 0 && (size_t)(stride < 0 ? -stride : stride) < row)
+        return report_error(r, MGT_ERROR_ARGUMENT, "render.target", "target %zu: row_stride %td is shorter than a row of %zu bytes", index, stride, row);
+    if (target->format != MGT_FORMAT_RGBA8_SRGB && ((uintptr_t)target->pixels % sizeof(float) != 0 || stride % (ptrdiff_t)sizeof(float) != 0))
+        return report_error(r, MGT_ERROR_ARGUMENT, "render.target", "target %zu: pixels and row_stride of a float format must be multiples of 4", index);
+    return MGT_OK;
+}
+
+mgt_status validate_targets(const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count)
+{
+    const region area = image_region(&scene->image);
+    for (size_t i = 0; i < count; i++)
+        TRY(validate_target(r, &area, &targets[i], i));
+    return MGT_OK;
+}

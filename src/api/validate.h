@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: MIT
+ * Checks of scenes and targets, done once, before any backend sees them. */
+#ifndef MANGATA_API_VALIDATE_H
+#define MANGATA_API_VALIDATE_H
+
+#include "frame/backend.h"
+
+mgt_status validate_desc(const reporter *r, const mgt_context_desc *desc);
+mgt_status validate_scene(const reporter *r, const mgt_scene *scene);
+mgt_status validate_targets(const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count);
+
+#endif

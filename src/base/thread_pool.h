@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: MIT
+ * A fixed set of threads that share the indices of a loop. */
+#ifndef MANGATA_BASE_THREAD_POOL_H
+#define MANGATA_BASE_THREAD_POOL_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct thread_pool thread_pool;
+
+/* CPUs that this process may use: its affinity mask, cut by the cgroup's quota; at least 1. */
+uint32_t thread_pool_usable_cpus(void);
+
+/* `threads` counts the caller, which works too. NULL when memory or threads are short. */
+thread_pool *thread_pool_create(uint32_t threads);
+void thread_pool_destroy(thread_pool *pool);
+uint32_t thread_pool_size(const thread_pool *pool);
+
+typedef struct thread_loop {
+    size_t count;
+    /* Called once for every index below count, on any thread; `worker` is below thread_pool_size(). */
+    void (*body)(void *argument, size_t index, uint32_t worker);
+    void *argument;
+    /* Called now and then on the caller's thread with the share done; false stops the loop early. NULL: never. */
+    bool (*progress)(void *argument, double fraction);
+} thread_loop;
+
+/* Runs the loop; false when progress stopped it. */
+bool thread_pool_run(thread_pool *pool, const thread_loop *loop);
+
+#endif

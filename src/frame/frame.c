@@ -1,0 +1,263 @@
+/* SPDX-License-Identifier: MIT
+ * From a scene in double precision to the uniform floats of a frame and of its tiles. */
+#include "frame/frame.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/triples.h"
+
+static const double pi = 3.14159265358979323846;
+
+camera_rays camera_rays_of(const mgt_camera *camera, uint32_t width, uint32_t height)
+{
+    camera_rays rays;
+    double forward[3], right[3], up[3];
+    for (int i = 0; i < 3; i++) {
+        rays.position[i] = camera->position[i];
+        forward[i] = camera->target[i] - camera->position[i];
+    }
+    normalize3(forward);
+    cross3(forward, camera->up, right);
+    normalize3(right);
+    cross3(right, forward, up);
+    const double pixel = 2 * tan(camera->fov_y_deg * pi / 360) / height;
+    for (int i = 0; i < 3; i++) {
+        rays.right[i] = right[i] * pixel;
+        rays.down[i] = -up[i] * pixel;
+        rays.corner[i] = forward[i] + rays.right[i] * (0.5 - 0.5 * width) + rays.down[i] * (0.5 - 0.5 * height);
+    }
+    return rays;
+}
+
+camera_rays mirrored_rays(const camera_rays *rays)
+{
+    camera_rays m = *rays;
+    m.position[1] = -m.position[1];
+    m.corner[1] = -m.corner[1];
+    m.right[1] = -m.right[1];
+    m.down[1] = -m.down[1];
+    return m;
+}
+
+/* A camera on the surface, or beyond it while another of its frame is not, is moved a little way off. */
+camera_rays rays_above(const frame *f, const camera_rays *rays)
+{
+    camera_rays above = f->under ? mirrored_rays(rays) : *rays;
+    above.position[1] = fmax(above.position[1], 1e-4);
+    return above;
+}
+
+static void light_axes(const double light[3], FrameData *d)
+{
+    const double up[3] = {0, 1, 0}, north[3] = {0, 0, -1};
+    double e[3], f[3];
+    cross3(fabs(light[1]) < 0.999 ? up : north, light, e);
+    normalize3(e);
+    cross3(light, e, f);
+    d->axis_e_x = (float)e[0], d->axis_e_y = (float)e[1], d->axis_e_z = (float)e[2];
+    d->axis_f_x = (float)f[0], d->axis_f_y = (float)f[1], d->axis_f_z = (float)f[2];
+}
+
+/* Which ellipses fall back to Riemann sums: P1 §3.6 has "the minor axis multiplied by the number of circular kernels"; one circle is no
+ * mixture, and Feline has a number of its own for every ellipse. */
+static double elongation_limit(const mgt_quality *q)
+{
+    if (q->elongation_limit != 0)
+        return q->elongation_limit;
+    return q->kernels == MGT_KERNELS_1 || q->kernels == MGT_KERNELS_FELINE ? 1e6 : (double)q->kernels;
+}
+
+/* Where waves turn from resolved to unresolved: P1's linear ramp, or ours, chosen by error and flicker on the standard scenes. */
+static void set_method(frame *f)
+{
+    const mgt_quality *q = &f->scene->quality;
+    const bool podee = q->method == MGT_METHOD_PODEE_UNIFORM || q->method == MGT_METHOD_PODEE_PIXEL;
+    const bool keep = q->method == MGT_METHOD_PODEE_PIXEL; /* unresolved waves stay mixed ones: their phase matters */
+    const double width = q->transition_hard ? 0 : q->transition_width != 0 ? q->transition_width : 0.3;
+    const bool bruneton = q->method == MGT_METHOD_BRUNETON; /* 2.5 to 1 pixels a wavelength, see bruneton.k */
+    const double end = podee ? 0.5 : bruneton ? 1.0 : 1.2, start = podee ? end - width : bruneton ? 0.4 : 0.1; /* cycles per pixel */
+    FrameData *d = &f->data;
+    d->ramp_start = (float)start;
+    d->ramp_scale = (float)(podee ? width > 0 ? 1 / width : 1e9 : 1 / (end * end));
+    d->sort_start = (float)(start * start);
+    d->sort_end = keep ? 1e30f : (float)(end * end);
+    d->sort_shares = podee || bruneton ? 0 : 1;
+    d->ndf_per_pixel = keep;
+    d->ndf_mean = keep && !q->ndf_mean_drop ? 1 : 0;
+    d->podee_kernels = (int)q->kernels;
+    d->podee_elongation = (float)elongation_limit(q);
+}
+
+/* What is seen through the surface does not depend on how its reflections are drawn. Of the waves a pixel sees those that face it, which are shorter on
+ * the screen than they are along the mean surface: more of them count as resolved. The end is chosen by error and flicker on far floors. */
+static void set_through(frame *f)
+{
+    const double start = 0.1, end = 1.6; /* cycles per pixel */
+    FrameData *d = &f->through;
+    *d = f->data;
+    d->ramp_start = (float)start;
+    d->ramp_scale = (float)(1 / (end * end));
+    d->sort_start = (float)(start * start);
+    d->sort_end = (float)(end * end);
+    d->sort_shares = 1;
+    d->ndf_per_pixel = d->ndf_mean = 0;
+}
+
+static void order_waves(const mgt_water *water, uint16_t *order)
+{
+    for (size_t i = 0; i < water->wave_count; i++) {
+        size_t at = i;
+        for (; at > 0 && water->waves[order[at - 1]].amplitude < water->waves[i].amplitude; at--)
+            order[at] = order[at - 1];
+        order[at] = (uint16_t)i;
+    }
+}
+
+frame frame_of(const mgt_scene *scene, const sky_state *sky, bool want_color)
+{
+    frame f = {.scene = scene, .under = scene->camera.position[1] < 0};
+    FrameData *d = &f.data;
+    d->light_x = (float)sky->direction[0];
+    d->light_y = (float)(f.under ? -sky->direction[1] : sky->direction[1]);
+    d->light_z = (float)sky->direction[2];
+    d->light_radius = (float)sky->tan_radius;
+    d->light_azimuth_x = (float)sky->azimuth[0];
+    d->light_azimuth_z = (float)sky->azimuth[1];
+    d->limb = (float)sky->limb;
+    d->light_visible = scene->light.elevation_deg >= 0 ? 1 : 0;
+    d->light_radiance_r = (float)sky->light_radiance[0];
+    d->light_radiance_g = (float)sky->light_radiance[1];
+    d->light_radiance_b = (float)sky->light_radiance[2];
+    d->index_of_refraction = (float)(f.under ? 1 / scene->water.index_of_refraction : scene->water.index_of_refraction);
+    d->camera_under = f.under;
+    const double light[3] = {sky->direction[0], f.under ? -sky->direction[1] : sky->direction[1], sky->direction[2]};
+    light_axes(light, d);
+    double body[3];
+    sky_body_radiance(sky, &scene->water, body);
+    d->body_r = (float)body[0];
+    d->body_g = (float)body[1];
+    d->body_b = (float)body[2];
+    const double ev = scene->post.exposure_ev + (scene->post.auto_exposure ? sky->exposure_ev : 0);
+    d->exposure = (float)exp2(ev);
+    d->tone_map = (int)scene->post.tone_map;
+    d->slope_floor = 1e-9f;
+    d->pixel_angle = (float)(2 * tan(scene->camera.fov_y_deg * pi / 360) / scene->image.height);
+    d->want_color = want_color;
+    d->sky_black = scene->sky.model == MGT_SKY_BLACK && scene->object_count == 0; /* what objects shine still shows */
+    set_method(&f);
+    set_through(&f);
+    order_waves(&scene->water, f.order);
+    const camera_rays close = camera_rays_of(&scene->camera, scene->image.width, scene->image.height);
+    f.close = rays_above(&f, &close);
+    const camera_rays open = scene->camera_moves ? camera_rays_of(&scene->camera_open, scene->image.width, scene->image.height) : close;
+    f.open = rays_above(&f, &open);
+    return f;
+}
+
+/* ---- waves of an interval ---- */
+
+interval frame_shutter(const frame *f)
+{
+    const mgt_scene *s = f->scene;
+    return s->camera_moves ? (interval){s->time, 0} : (interval){s->time - s->shutter / 2, s->shutter / 2};
+}
+
+double wave_turns(const frame *f) { return f->under ? 0.5 : 0; }
+
+static WaveData wave_data(const mgt_wave *w, double half)
+{
+    const double cos_half = cos(w->c * half), sin_half = sin(w->c * half);
+    const double squared = w->a * w->a + w->b * w->b, A = w->amplitude;
+    const double octave = squared > 0 ? 0.5 * log2(squared) : 0;
+    return (WaveData){
+        .turns_x = (float)(w->a / (2 * pi)),
+        .turns_z = (float)(w->b / (2 * pi)),
+        .amplitude = (float)A,
+        .even_x = (float)(A * w->a * cos_half),
+        .even_z = (float)(A * w->b * cos_half),
+        .odd_x = (float)(A * w->a * sin_half),
+        .odd_z = (float)(A * w->b * sin_half),
+        .bend_xx = (float)(-A * w->a * w->a),
+        .bend_xz = (float)(-A * w->a * w->b),
+        .bend_zz = (float)(-A * w->b * w->b),
+        .even_height = (float)(A * cos_half),
+        .k_x = (float)w->a,
+        .k_z = (float)w->b,
+        .half_variance = (float)(A * A / 2),
+        .odd_height = (float)(A * sin_half),
+        .cos_half = (float)cos_half,
+        .sin_half = (float)sin_half,
+        .octave_mass = (float)(A * A * squared / 2 * octave),
+        .octave_sq_mass = (float)(A * A * squared / 2 * octave * octave),
+        .variance_xx = (float)(A * A / 2 * w->a * w->a),
+        .variance_xz = (float)(A * A / 2 * w->a * w->b),
+        .variance_zz = (float)(A * A / 2 * w->b * w->b),
+    };
+}
+
+static ViewData view_data(const camera_rays *camera)
+{
+    return (ViewData){
+        .corner_x = (float)camera->corner[0],
+        .corner_y = (float)camera->corner[1],
+        .corner_z = (float)camera->corner[2],
+        .camera_height = (float)camera->position[1],
+        .right_x = (float)camera->right[0],
+        .right_y = (float)camera->right[1],
+        .right_z = (float)camera->right[2],
+        .down_x = (float)camera->down[0],
+        .down_y = (float)camera->down[1],
+        .down_z = (float)camera->down[2],
+    };
+}
+
+void wave_set_build(const frame *f, const camera_rays *camera, interval time, bool filter, wave_set *set)
+{
+    const mgt_water *water = &f->scene->water;
+    double variance = 0, slope_variance = 0;
+    for (size_t i = water->wave_count; i-- > 0;) { /* from the smallest, for lesser_variance */
+        const mgt_wave *w = &water->waves[f->order[i]];
+        const double turns_x = w->a / (2 * pi), turns_z = w->b / (2 * pi);
+        set->data[i] = wave_data(w, time.half);
+        set->turns_x[i] = (float)turns_x;
+        set->turns_z[i] = (float)turns_z;
+        set->turns_low_x[i] = (float)(turns_x - (double)set->turns_x[i]);
+        set->turns_low_z[i] = (float)(turns_z - (double)set->turns_z[i]);
+        const double phase = turns_x * camera->position[0] + turns_z * camera->position[2] + (w->c * time.middle + w->phase) / (2 * pi) + wave_turns(f);
+        set->phase[i] = (float)(phase - rint(phase));
+        variance += w->amplitude * w->amplitude / 2;
+        slope_variance += w->amplitude * w->amplitude * (w->a * w->a + w->b * w->b) / 2;
+        set->lesser_variance[i] = (float)variance;
+    }
+    set->view = view_data(camera);
+    set->view.displacement = (float)(4 * sqrt(variance));
+    set->view.slope_deviation = (float)sqrt(slope_variance);
+    set->view.wave_count = (int)water->wave_count;
+    set->view.filter_waves = filter;
+    set->view.scale_x = set->view.scale_y = 1;
+}
+
+/* ---- tiles ---- */
+
+bool tile_sees_water(const tile_waves *tile)
+{
+    const TileData *d = &tile->data;
+    if (d->camera_height < d->march_bound)
+        return true;
+    const float width = TILE_WIDTH, height = TILE_HEIGHT;
+    const float steep = fabsf(d->right_y) + fabsf(d->down_y); /* a pixel's margin for partly covered ones */
+    float least = d->ray_y;
+    least = fminf(least, d->ray_y + width * d->right_y);
+    least = fminf(least, d->ray_y + height * d->down_y);
+    least = fminf(least, d->ray_y + width * d->right_y + height * d->down_y);
+    return least < steep;
+}
+
+void tile_find_guesses(const lane_kernels *kernels, const FrameData *data, const tile_waves *tile, tile_guess *guess)
+{
+    if (tile_sees_water(tile))
+        kernels->guess(data, tile, guess);
+    else
+        memset(guess, 0, sizeof *guess);
+}

@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: MIT
+ * From a scene in double precision to the uniform floats of a frame and of its tiles. */
+#ifndef MANGATA_FRAME_FRAME_H
+#define MANGATA_FRAME_FRAME_H
+
+#include "cpu/lanes.h"
+#include "frame/atmosphere.h"
+
+/* A camera as rays: the ray of pixel (x, y) is corner + x·right + y·down for pixel centres at whole numbers. */
+typedef struct camera_rays {
+    double position[3];
+    double corner[3], right[3], down[3];
+} camera_rays;
+
+typedef struct frame {
+    FrameData data;    /* of the methods that draw what the surface mirrors, … */
+    FrameData through; /* … and of what is seen through it in scenes with objects: other waves count as resolved */
+    const mgt_scene *scene;
+    camera_rays close, open;       /* cameras when the shutter closes and opens, on the upper side of what is called the water; see `under` */
+    bool under;                    /* the camera is under water: cameras, light and waves are mirrored at the mean surface */
+    uint16_t order[MGT_MAX_WAVES]; /* of the scene's waves by falling amplitude */
+} frame;
+
+camera_rays camera_rays_of(const mgt_camera *camera, uint32_t width, uint32_t height);
+
+/* The same, mirrored at the mean surface y = 0. */
+camera_rays mirrored_rays(const camera_rays *rays);
+
+/* A camera as a frame takes it: above the surface, if need be mirrored or moved off it. */
+camera_rays rays_above(const frame *f, const camera_rays *rays);
+
+/* `sky` must have been built from the scene; the scene must outlive the frame. */
+frame frame_of(const mgt_scene *scene, const sky_state *sky, bool want_color);
+
+/* Turns to be added to every wave's phase: half of one turns the surface over. */
+double wave_turns(const frame *f);
+
+/* The middle of an interval of time and half of its length. */
+typedef struct interval {
+    double middle, half;
+} interval;
+
+/* While the shutter is open, or the instant t where the camera moves: its other end is a camera of its own then. */
+interval frame_shutter(const frame *f);
+
+/* Places the frame's waves before a camera. `filter` false: every wave is resolved (point samples). */
+void wave_set_build(const frame *f, const camera_rays *camera, interval time, bool filter, wave_set *set);
+
+/* Whether any pixel of the tile can see water. */
+bool tile_sees_water(const tile_waves *tile);
+
+/* The guesses of its pixels; zero where none does. */
+void tile_find_guesses(const lane_kernels *kernels, const FrameData *data, const tile_waves *tile, tile_guess *guess);
+
+#endif

@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: MIT
+ * Meshes and textures as backends read them. */
+#ifndef MANGATA_FRAME_MESH_H
+#define MANGATA_FRAME_MESH_H
+
+#include "mangata/mangata.h"
+
+struct mgt_mesh {
+    uint64_t id; /* of this process, never used again */
+    uint32_t vertex_count, triangle_count;
+    float *positions;      /* 3 a vertex */
+    float *normals;        /* 3 a vertex, unit; NULL: those of the triangles */
+    float *texcoords;      /* 2 a vertex; NULL: none */
+    uint32_t *indices;     /* 3 a triangle */
+    float low[3], high[3]; /* bounds of the vertices in use */
+};
+
+enum { TEXTURE_LEVELS = 15 };
+
+struct mgt_texture {
+    uint64_t id;
+    uint32_t width, height;
+    uint32_t levels;                    /* down to 1 × 1: level l has max(1, size >> l) texels a side */
+    size_t level_start[TEXTURE_LEVELS]; /* first texel of each in `texels` */
+    uint32_t *texels;                   /* RGBA, 8 bits each, red lowest; sRGB, averaged in linear light */
+};
+
+#endif

@@ -1,0 +1,150 @@
+/* SPDX-License-Identifier: MIT
+ * Which points of a world the light's centre sees. */
+#include "frame/shadow_map.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A vertex as the light sees it: place in texels, and height. */
+typedef struct light_point {
+    double u, v, y;
+} light_point;
+
+static light_point place_of(const shadow_rays *rays, const double p[3])
+{
+    const double *lean = p[1] >= 0 ? rays->air : rays->water;
+    return (light_point){p[0] - lean[0] * p[1], p[2] - lean[1] * p[1], p[1]};
+}
+
+void shadow_map_free(shadow_map *m)
+{
+    if (m)
+        free(m->height);
+    free(m);
+}
+
+/* The box of places that the world's bounds have; heights between are convex in each medium, so corners and the waterline suffice. */
+static void place_map(shadow_map *m, const world *w)
+{
+    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    for (int corner = 0; corner < 12; corner++) {
+        const double y = corner < 4 ? (double)w->low[1] : corner < 8 ? (double)w->high[1] : 0;
+        const double p[3] = {(double)(corner & 1 ? w->high[0] : w->low[0]), y, (double)(corner & 2 ? w->high[2] : w->low[2])};
+        const light_point at = place_of(&m->rays, p);
+        low[0] = fmin(low[0], at.u), high[0] = fmax(high[0], at.u);
+        low[1] = fmin(low[1], at.v), high[1] = fmax(high[1], at.v);
+    }
+    const double size = fmax(fmax(high[0] - low[0], high[1] - low[1]), 1e-3);
+    m->texel = (float)(size / (SHADOW_SIDE - 4));
+    m->left = (float)(low[0] - 2 * (double)m->texel);
+    m->top = (float)(low[1] - 2 * (double)m->texel);
+    m->columns = (uint32_t)((high[0] - low[0]) / (double)m->texel) + 4;
+    m->rows = (uint32_t)((high[1] - low[1]) / (double)m->texel) + 4;
+}
+
+/* Texel centres within the triangle get its height there, if it is greater. */
+static void draw_triangle(shadow_map *m, const light_point corner[3])
+{
+    const light_point *a = &corner[0], *b = &corner[1], *c = &corner[2];
+    const double bu = b->u - a->u, bv = b->v - a->v, cu = c->u - a->u, cv = c->v - a->v, det = bu * cv - bv * cu;
+    if (!(fabs(det) > 1e-12))
+        return;
+    const double low = fmin(fmin(a->v, b->v), c->v), high = fmax(fmax(a->v, b->v), c->v);
+    const double first = ceil(fmax(low - 0.5, 0)), last = floor(fmin(high - 0.5, (double)m->rows - 1));
+    for (double row = first; row <= last; row++) {
+        /* The span of the row: where all three edges hold it. */
+        const double v = row + 0.5;
+        double from = INFINITY, to = -INFINITY;
+        for (int i = 0; i < 3; i++) {
+            const light_point *p = &corner[i], *q = &corner[(i + 1) % 3];
+            if ((p->v <= v) == (q->v <= v))
+                continue;
+            const double u = p->u + (v - p->v) / (q->v - p->v) * (q->u - p->u);
+            from = fmin(from, u), to = fmax(to, u);
+        }
+        const double left = ceil(fmax(from - 0.5, 0)), right = floor(fmin(to - 0.5, (double)m->columns - 1));
+        float *texels = m->height + (size_t)row * m->columns;
+        for (double column = left; column <= right; column++) {
+            const double du = column + 0.5 - a->u, dv = v - a->v;
+            const double s = (du * cv - dv * cu) / det, t = (bu * dv - bv * du) / det;
+            const float y = (float)(a->y + s * (b->y - a->y) + t * (c->y - a->y));
+            float *texel = &texels[(size_t)column];
+            *texel = y > *texel ? y : *texel;
+        }
+    }
+}
+
+static void draw_points(shadow_map *m, const double (*points)[3], size_t count)
+{
+    light_point seen[4];
+    for (size_t i = 0; i < count; i++) {
+        seen[i] = place_of(&m->rays, points[i]);
+        seen[i].u = (seen[i].u - (double)m->left) / (double)m->texel;
+        seen[i].v = (seen[i].v - (double)m->top) / (double)m->texel;
+    }
+    for (size_t i = 2; i < count; i++) {
+        const light_point corner[3] = {seen[0], seen[i - 1], seen[i]};
+        draw_triangle(m, corner);
+    }
+}
+
+/* The part of a triangle on one side of the surface, where the light's rays are straight. */
+static void draw_side(shadow_map *m, const double p[3][3], double side)
+{
+    double part[4][3];
+    size_t count = 0;
+    for (int i = 0; i < 3; i++) {
+        const double *a = p[i], *b = p[(i + 1) % 3];
+        if (a[1] * side >= 0)
+            memcpy(part[count++], a, sizeof *part);
+        if ((a[1] * side > 0 && b[1] * side < 0) || (a[1] * side < 0 && b[1] * side > 0)) {
+            const double s = a[1] / (a[1] - b[1]);
+            part[count][0] = a[0] + s * (b[0] - a[0]);
+            part[count][1] = 0;
+            part[count++][2] = a[2] + s * (b[2] - a[2]);
+        }
+    }
+    draw_points(m, (const double(*)[3])part, count);
+}
+
+static void draw_world(shadow_map *m, const world *w)
+{
+    for (size_t t = 0; t < w->triangle_count; t++) {
+        double p[3][3];
+        for (int c = 0; c < 3; c++)
+            for (int k = 0; k < 3; k++)
+                p[c][k] = (double)w->positions[3 * (size_t)w->indices[3 * t + (size_t)c] + (size_t)k];
+        const bool above = p[0][1] > 0 || p[1][1] > 0 || p[2][1] > 0, below = p[0][1] < 0 || p[1][1] < 0 || p[2][1] < 0;
+        if (above || !below)
+            draw_side(m, (const double(*)[3])p, 1);
+        if (below)
+            draw_side(m, (const double(*)[3])p, -1);
+    }
+}
+
+mgt_status shadow_map_update(shadow_map **map, const world *w, const shadow_rays *rays)
+{
+    if (*map && (*map)->version == w->version && memcmp(&(*map)->rays, rays, sizeof *rays) == 0)
+        return MGT_OK;
+    shadow_map_free(*map);
+    shadow_map *m = *map = calloc(1, sizeof *m);
+    if (!m)
+        return MGT_ERROR_MEMORY;
+    m->version = w->version;
+    m->rays = *rays;
+    if (w->triangle_count == 0)
+        return MGT_OK;
+    place_map(m, w);
+    const size_t count = (size_t)m->columns * m->rows;
+    m->height = malloc(count * sizeof *m->height);
+    if (!m->height) {
+        shadow_map_free(m);
+        *map = NULL;
+        return MGT_ERROR_MEMORY;
+    }
+    for (size_t i = 0; i < count; i++)
+        m->height[i] = -INFINITY;
+    draw_world(m, w);
+    return MGT_OK;
+}

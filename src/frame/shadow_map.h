@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: MIT
+ * Which points of a world the light's centre sees: the highest object along each of its rays, which are bent by the flat mean surface. */
+#ifndef MANGATA_FRAME_SHADOW_MAP_H
+#define MANGATA_FRAME_SHADOW_MAP_H
+
+#include "frame/world.h"
+
+/*
+ * A ray of the light meets the mean surface at (x, z) − lean · y, where lean is ∂(x, z)/∂y along the ray in air or, for y below 0, in water: this
+ * place names the ray. A texel holds the greatest height of any object there.
+ */
+typedef struct shadow_rays {
+    double air[2], water[2]; /* lean */
+} shadow_rays;
+
+typedef struct shadow_map {
+    uint64_t version; /* of the world it was drawn from */
+    shadow_rays rays;
+    uint32_t columns, rows; /* 0: nothing casts shadows */
+    float left, top;        /* place of its corner, metres in the world's coordinates */
+    float texel;            /* metres */
+    float *height;          /* −inf: nothing */
+} shadow_map;
+
+enum { SHADOW_SIDE = 2048 }; /* most texels a side */
+
+/* *m is NULL at first; what it holds stays while the world's version and the rays are the same. MGT_ERROR_MEMORY leaves none. */
+mgt_status shadow_map_update(shadow_map **m, const world *w, const shadow_rays *rays);
+void shadow_map_free(shadow_map *m); /* NULL is allowed */
+
+#endif

@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: MIT
+ * All objects of a scene as one indexed list of triangles, kept between frames. */
+#ifndef MANGATA_FRAME_WORLD_H
+#define MANGATA_FRAME_WORLD_H
+
+#include "base/thread_pool.h"
+#include "mangata/mangata.h"
+
+/* What the triangles of one object share; world.objects are in the scene's order. */
+typedef struct world_object {
+    mgt_material material;
+    uint32_t first_triangle, triangle_count;
+    bool smooth; /* the mesh has normals of its own; else its triangles are flat and `normals` holds zeros */
+    bool cut;    /* closed, and the mean surface cuts it */
+} world_object;
+
+/*
+ * Positions are metres from world.origin, a horizontal point that depends on the objects alone, and from the mean surface: y is the height above
+ * it. The point under a camera at c is (c[0] − origin[0], c[2] − origin[1]). 32 bytes a vertex and 16 a triangle: at most 112 bytes a triangle,
+ * about 32 where most vertices are shared.
+ */
+typedef struct world {
+    uint64_t version; /* of the geometry, unlike that of every other world of the process: what is built for it may stay while this is the same */
+    double origin[2]; /* x, z */
+    size_t vertex_count, triangle_count, object_count;
+    float *positions;      /* 3 a vertex, and room for one float more, as Embree wants */
+    float *normals;        /* 3 a vertex, unit; see world_object.smooth */
+    float *texcoords;      /* 2 a vertex */
+    uint32_t *indices;     /* 3 a triangle, counter-clockwise seen from outside */
+    uint32_t *object;      /* of a triangle: index into objects */
+    world_object *objects; /* as the scene's; read from the scene of every frame, their textures live only during it */
+    float low[3], high[3]; /* bounds of the vertices in use; low > high where there is nothing */
+} world;
+
+/*
+ * The scene's objects in *w, which is NULL at first. What is there stays, with its version, while meshes, transforms and water.level are the same;
+ * materials are read anew. MGT_ERROR_MEMORY leaves *w NULL.
+ */
+mgt_status world_update(world **w, const mgt_scene *scene, thread_pool *pool);
+void world_free(world *w); /* NULL is allowed */
+
+/* Bytes that the world holds. */
+size_t world_size(const world *w);
+
+#endif

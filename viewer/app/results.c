@@ -1,0 +1,192 @@
+/* SPDX-License-Identifier: MIT
+ * What leaves the viewer: pictures, scene files, the command that gives the same frame. */
+#include <GLFW/glfw3.h>
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "image/picture.h"
+#include "params/methods.h"
+#include "viewer/app/viewer.h"
+
+/* ---- the command ---- */
+
+/* A word for a POSIX shell. */
+static void write_word(FILE *stream, const char *word)
+{
+    static const char plain[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_./:=,+@%-";
+    if (word[0] && word[strspn(word, plain)] == 0) {
+        fputs(word, stream);
+        return;
+    }
+    fputc('\'', stream);
+    for (const char *p = word; *p; p++)
+        if (*p == '\'')
+            fputs("'\\''", stream);
+        else
+            fputc(*p, stream);
+    fputc('\'', stream);
+}
+
+static void write_method(FILE *stream, const mgt_quality *q)
+{
+    fprintf(stream, " --method %s", method_name(q).text);
+    if (method_takes(q->method, METHOD_TAKES_STRATA))
+        fprintf(stream, " --spatial %u", q->spatial_samples);
+    if (method_takes(q->method, METHOD_TAKES_TIMES))
+        fprintf(stream, " --time-samples %u --seed %llu", q->time_samples, (unsigned long long)q->seed);
+    if (method_takes(q->method, METHOD_TAKES_NDF_MEAN) && q->ndf_mean_drop)
+        fputs(" --ndf-mean drop", stream);
+}
+
+char *viewer_command(const viewer *v)
+{
+    const mgt_quality q = side_quality(&v->settings.sides[SIDE_A]);
+    scene_values values;
+    scene_overrides words = {0};
+    char *text = NULL;
+    size_t size = 0;
+    if (!viewer_frame_values(v, v->place.width, v->place.height, &values))
+        return NULL;
+    FILE *stream = scene_overrides_between(scene_file_values(v->document.file), &values, &words) ? open_memstream(&text, &size) : NULL;
+    if (stream) {
+        fputs("mangata render ", stream);
+        write_word(stream, v->document.path);
+        fputs(" -o frame.png --frames 0", stream);
+        write_method(stream, &q);
+        if (v->settings.view.layer != MGT_LAYER_COLOR && v->settings.view.layer != MGT_LAYER_DEPTH)
+            fprintf(stream, " --layer %s", layer_choices[v->settings.view.layer]);
+        for (size_t i = 0; i < words.count; i++) {
+            fputs(" --set ", stream);
+            write_word(stream, words.words[i]);
+        }
+        if (fclose(stream) != 0) {
+            free(text);
+            text = NULL;
+        }
+    }
+    scene_overrides_free(&words);
+    scene_values_free(&values);
+    return text;
+}
+
+void viewer_copy_command(viewer *v)
+{
+    char *text = viewer_command(v);
+    if (!text) {
+        viewer_tell(v, true, "out of memory");
+        return;
+    }
+    ui_clipboard(text);
+    viewer_log(v, "%s", text);
+    viewer_tell(v, false, "the command that renders this frame is in the clipboard");
+    free(text);
+}
+
+/* ---- pictures ---- */
+
+bool viewer_save_picture(viewer *v, const char *path, uint32_t width, uint32_t height, char *error, size_t error_size)
+{
+    shot now;
+    if (!v->saver) {
+        const mgt_context_desc desc = viewer_cpu_desc(v);
+        v->saver = picture_saver_create(&desc, glfwPostEmptyEvent);
+    }
+    if (!v->saver || !viewer_take_shot(v, &now)) {
+        snprintf(error, error_size, "%s", v->saver ? v->scene_error.text : "out of memory");
+        return false;
+    }
+    now.scene.image = (mgt_image){.width = width ? width : v->place.width, .height = height ? height : v->place.height};
+    now.scene.quality = side_quality(&v->settings.sides[SIDE_A]);
+    return picture_saver_start(v->saver, &now.scene, path, error, error_size);
+}
+
+bool viewer_watch_saver(viewer *v)
+{
+    char text[VIEWER_TEXT] = "";
+    double share = 0;
+    const picture_saver_state state = v->saver ? picture_saver_poll(v->saver, text, sizeof text, &share) : SAVER_IDLE;
+    if (state == SAVER_SAVED)
+        viewer_tell(v, false, "saved %s", text);
+    if (state == SAVER_FAILED)
+        viewer_tell(v, true, "%s", text);
+    if (state == SAVER_SAVED || state == SAVER_FAILED)
+        snprintf(v->save_problem, sizeof v->save_problem, "%s", state == SAVER_FAILED ? text : "");
+    if (state == SAVER_BUSY)
+        snprintf(v->progress, sizeof v->progress, "saving %.200s, %.0f%%", text, 100 * share);
+    else
+        v->progress[0] = 0;
+    return state == SAVER_BUSY;
+}
+
+uint8_t *viewer_read_window(const viewer *v, uint32_t *width, uint32_t *height)
+{
+    const gl_functions *gl = &v->gl_functions;
+    int w, h;
+    glfwGetFramebufferSize(v->window, &w, &h);
+    uint8_t *pixels = malloc((size_t)w * (size_t)h * 4), *row = malloc((size_t)w * 4);
+    if (pixels && row) {
+        const size_t stride = (size_t)w * 4;
+        gl->PixelStorei(GL_PACK_ALIGNMENT, 4);
+        gl->ReadPixels(0, 0, w, h, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
+        for (size_t y = 0; y < (size_t)h / 2; y++) {
+            uint8_t *top = pixels + y * stride, *bottom = pixels + ((size_t)h - 1 - y) * stride;
+            memcpy(row, top, stride);
+            memcpy(top, bottom, stride);
+            memcpy(bottom, row, stride);
+        }
+        *width = (uint32_t)w;
+        *height = (uint32_t)h;
+    } else {
+        free(pixels);
+        pixels = NULL;
+    }
+    free(row);
+    return pixels;
+}
+
+bool viewer_save_window(const viewer *v, const char *path, char *error, size_t error_size)
+{
+    const output_options options = {.overwrite = true};
+    file_error problem = {.text = "out of memory"};
+    uint32_t width = 0, height = 0;
+    uint8_t *pixels = viewer_read_window(v, &width, &height);
+    const bool good = pixels && picture_write_png(path, width, height, pixels, 0, NULL, &options, &problem) == FILE_OK;
+    if (!good)
+        snprintf(error, error_size, "%s", problem.text);
+    free(pixels);
+    return good;
+}
+
+/* ---- scenes ---- */
+
+bool viewer_save_scene(viewer *v, const char *path, char *error, size_t error_size)
+{
+    scene_values values;
+    file_error problem = {0};
+    const mgt_image *image = &v->document.values.image;
+    if (!viewer_frame_values(v, image->width, image->height, &values)) {
+        snprintf(error, error_size, "out of memory");
+        return false;
+    }
+    /* The film keeps its start and its path, wherever the clock and the camera are. */
+    values.time.start = v->document.values.time.start;
+    bool good = true;
+    if (values.camera.path.count == 0 && v->document.values.camera.path.count > 0) {
+        const scene_list *path_list = &v->document.values.camera.path;
+        const size_t size = path_list->count * sizeof(scene_keyframe);
+        values.camera.path.items = malloc(size);
+        if ((good = values.camera.path.items != NULL)) {
+            memcpy(values.camera.path.items, path_list->items, size);
+            values.camera.path.count = path_list->count;
+        } else {
+            snprintf(error, error_size, "out of memory");
+        }
+    }
+    if (good && document_save(&values, path, false, &problem) != FILE_OK) {
+        snprintf(error, error_size, "%s%s", problem.text, problem.status == FILE_EXISTS ? "; choose another name" : "");
+        good = false;
+    }
+    scene_values_free(&values);
+    return good;
+}

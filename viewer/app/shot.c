@@ -1,0 +1,198 @@
+/* SPDX-License-Identifier: MIT
+ * The scene of the moment: document, settings, clock and camera put together. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "viewer/scene/camera_moves.h"
+#include "scene/scene_path.h"
+#include "viewer/app/viewer.h"
+
+/* ---- camera ---- */
+
+bool viewer_follows_path(const viewer *v) { return v->settings.move.path && v->document.values.camera.path.count > 0; }
+
+static void free_from(viewer *v, const mgt_camera *camera)
+{
+    v->document.values.camera.still = *camera;
+    v->settings.move.path = 0;
+}
+
+mgt_camera *viewer_free_camera(viewer *v)
+{
+    if (viewer_follows_path(v)) {
+        const mgt_camera camera = scene_camera_at(&v->document.values.camera, v->settings.clock.time);
+        free_from(v, &camera);
+    }
+    return &v->document.values.camera.still;
+}
+
+void viewer_reset_camera(viewer *v)
+{
+    v->document.values.camera.still = v->home;
+    v->settings.move.path = 1;
+    v->settings.view.zoom = 1;
+    v->settings.view.center_x = v->settings.view.center_y = 0.5;
+}
+
+void viewer_revert(viewer *v)
+{
+    if (!document_revert(&v->document)) {
+        viewer_tell(v, true, "out of memory");
+        return;
+    }
+    v->settings.waves = settings_defaults().waves;
+    v->home = v->document.values.camera.still;
+    viewer_reset_camera(v);
+    viewer_tell(v, false, "back to %s", v->document.path);
+}
+
+/* A camera in the air does not sink into the waves; one that is under water stays there. */
+static void keep_camera_above(viewer *v)
+{
+    mgt_camera *camera = &v->document.values.camera.still;
+    const scene_list *list = &v->document.values.water.waves;
+    const wave_settings *w = &v->settings.waves;
+    const double level = v->document.values.water.level;
+    if (viewer_follows_path(v) || camera->position[1] < level)
+        return;
+    const size_t count = list->count < w->count ? list->count : w->count;
+    const double wave = w->amplitude * wave_height(list->items, count, camera->position[0], camera->position[2], v->settings.clock.time);
+    camera_keep_above(camera, level + fmax(wave, 0) + v->settings.move.clearance);
+}
+
+/* ---- waves ---- */
+
+void wave_add(viewer *v)
+{
+    scene_list *list = &v->document.values.water.waves;
+    mgt_wave *items = list->count < MGT_MAX_WAVES ? realloc(list->items, (list->count + 1) * sizeof *items) : NULL;
+    if (!items) {
+        viewer_tell(v, true, "%s", list->count < MGT_MAX_WAVES ? "out of memory" : "no further wave fits: 512 are allowed");
+        return;
+    }
+    items[list->count] = wave_new(list->count);
+    v->selected_wave = list->count;
+    *list = (scene_list){items, list->count + 1};
+}
+
+void wave_remove(viewer *v, size_t index)
+{
+    scene_list *list = &v->document.values.water.waves;
+    mgt_wave *items = list->items;
+    if (index >= list->count)
+        return;
+    memmove(items + index, items + index + 1, (list->count - index - 1) * sizeof *items);
+    if (--list->count == 0) {
+        free(items);
+        list->items = NULL;
+    }
+    if (v->selected_wave > 0 && v->selected_wave >= list->count)
+        v->selected_wave--;
+}
+
+/* ---- the shot ---- */
+
+static size_t take_waves(const viewer *v, mgt_wave *waves)
+{
+    const scene_list *list = &v->document.values.water.waves;
+    const size_t count = list->count < v->settings.waves.count ? list->count : v->settings.waves.count;
+    if (count > 0)
+        memcpy(waves, list->items, count * sizeof *waves);
+    for (size_t i = 0; i < count; i++)
+        waves[i].amplitude = fmin(waves[i].amplitude * v->settings.waves.amplitude, 1000);
+    return count;
+}
+
+bool viewer_take_shot(viewer *v, shot *out)
+{
+    scene_values values = v->document.values; /* borrows the lists */
+    if (!viewer_follows_path(v))
+        values.camera.path = (scene_list){0};
+    if (!scene_values_shot(&values, v->settings.clock.time, &out->scene)) {
+        snprintf(v->scene_error.text, sizeof v->scene_error.text, "the camera looks along its own up direction, or at its own place");
+        v->scene_error.is_error = true;
+        return false;
+    }
+    if (v->document.error.kind == SCENE_ERROR_NONE)
+        v->scene_error.text[0] = 0;
+    out->scene.water.wave_count = take_waves(v, out->waves);
+    out->scene.water.waves = out->waves;
+    return true;
+}
+
+bool viewer_frame_values(const viewer *v, uint32_t width, uint32_t height, scene_values *out)
+{
+    if (!scene_values_copy(out, &v->document.values))
+        return false;
+    out->image.width = width;
+    out->image.height = height;
+    if (v->settings.clock.time != out->time.start)
+        out->time.start = v->settings.clock.time;
+    if (!viewer_follows_path(v) && out->camera.path.count > 0) {
+        free(out->camera.path.items);
+        out->camera.path = (scene_list){0};
+    }
+    if (v->settings.waves.amplitude != 1 || v->settings.waves.count < out->water.waves.count)
+        out->water.waves.count = take_waves(v, out->water.waves.items);
+    return true;
+}
+
+/* ---- clock ---- */
+
+static void run_clock(viewer *v, double seconds)
+{
+    clock_settings *clock = &v->settings.clock;
+    const scene_clock *film = &v->document.values.time;
+    const double length = film->frames / film->fps;
+    if (!clock->play)
+        return;
+    clock->time += seconds * clock->speed;
+    if (clock->loop && (clock->time >= film->start + length || clock->time < film->start)) {
+        clock->time = film->start + fmod(clock->time - film->start, length);
+        clock->time += clock->time < film->start ? length : 0;
+    }
+    clock->time = fmin(fmax(clock->time, -1e8), 1e8);
+}
+
+void viewer_step_frames(viewer *v, int frames)
+{
+    clock_settings *clock = &v->settings.clock;
+    const scene_clock *film = &v->document.values.time;
+    const double frame = round((clock->time - film->start) * film->fps) + frames;
+    clock->play = 0;
+    clock->time = film->start + frame / film->fps;
+}
+
+void viewer_advance(viewer *v, double seconds)
+{
+    const bool *k = v->pointer.keys;
+    const double step = v->settings.move.speed * seconds * (v->pointer.fast ? 5 : 1);
+    const double forward = k[0] - k[2], right = k[3] - k[1], up = k[5] - k[4];
+    run_clock(v, seconds);
+    if (forward != 0 || right != 0 || up != 0)
+        camera_move(viewer_free_camera(v), forward * step, right * step, up * step);
+    keep_camera_above(v);
+}
+
+/* ---- files ---- */
+
+void viewer_poll_files(viewer *v)
+{
+    const mgt_camera before = scene_file_values(v->document.file)->camera.still;
+    switch (document_poll(&v->document)) {
+    case DOCUMENT_SAME:
+        break;
+    case DOCUMENT_READ_ANEW:
+        v->scene_error.text[0] = 0;
+        if (!scene_camera_equal(&before, &scene_file_values(v->document.file)->camera.still))
+            v->home = scene_file_values(v->document.file)->camera.still;
+        viewer_tell(v, false, "%s: read again", v->document.path);
+        break;
+    case DOCUMENT_BROKEN:
+        snprintf(v->scene_error.text, sizeof v->scene_error.text, "%s", v->document.error.text);
+        v->scene_error.is_error = true;
+        viewer_log(v, "%s", v->document.error.text);
+        break;
+    }
+}

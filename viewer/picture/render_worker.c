@@ -1,0 +1,407 @@
+/* SPDX-License-Identifier: MIT
+ * The rendering thread: a mailbox for orders, a slot for the pictures of each side. */
+#define _POSIX_C_SOURCE 200809L
+#include "viewer/picture/render_worker.h"
+
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/common/progress.h"
+#include "params/methods.h"
+
+enum { ERROR_SIZE = 512 };
+
+/* Sums over the samples taken so far. */
+typedef struct accumulation {
+    double *sums;
+    float *sample, *mean; /* floats: 3 or 1 a pixel */
+    size_t capacity;      /* of each, numbers */
+    uint64_t taken, total;
+} accumulation;
+
+struct render_worker {
+    pthread_t thread;
+    bool started, refines;
+    void (*wake)(void);
+    mgt_context *context;
+    mgt_context_info info;
+
+    pthread_mutex_t lock; /* over what follows */
+    pthread_cond_t posted;
+    bool quit, has_order, busy;
+    render_order order;
+    mgt_wave waves[MGT_MAX_WAVES];
+    picture ready[SIDE_COUNT];
+    bool is_ready[SIDE_COUNT];
+    char error[ERROR_SIZE];
+
+    atomic_bool stop; /* the call under way is to end */
+
+    /* of the thread alone */
+    render_order current;
+    mgt_wave current_waves[MGT_MAX_WAVES];
+    picture drawn[SIDE_COUNT];
+    accumulation sums[SIDE_COUNT];
+};
+
+void picture_free(picture *p)
+{
+    free(p->pixels);
+    *p = (picture){0};
+}
+
+/* ---- memory ---- */
+
+static uint32_t floats_of(mgt_layer layer) { return layer == MGT_LAYER_COLOR || layer == MGT_LAYER_NORMAL ? 3 : 1; }
+
+static bool reserve_picture(picture *p, mgt_layer layer, uint32_t width, uint32_t height)
+{
+    const size_t bytes = (size_t)width * height * (layer == MGT_LAYER_COLOR ? 4 : sizeof(float) * floats_of(layer));
+    if (bytes > p->capacity) {
+        free(p->pixels);
+        p->pixels = malloc(bytes);
+        p->capacity = p->pixels ? bytes : 0;
+    }
+    p->layer = layer;
+    p->width = width;
+    p->height = height;
+    return p->pixels != NULL;
+}
+
+static void free_accumulation(accumulation *a)
+{
+    free(a->sums);
+    free(a->sample);
+    free(a->mean);
+    *a = (accumulation){0};
+}
+
+static bool reserve_accumulation(accumulation *a, size_t count)
+{
+    if (count > a->capacity) {
+        free_accumulation(a);
+        a->sums = malloc(count * sizeof *a->sums);
+        a->sample = malloc(count * sizeof *a->sample);
+        a->mean = malloc(count * sizeof *a->mean);
+        if (!a->sums || !a->sample || !a->mean) {
+            free_accumulation(a);
+            return false;
+        }
+        a->capacity = count;
+    }
+    memset(a->sums, 0, count * sizeof *a->sums);
+    return true;
+}
+
+/* ---- one side ---- */
+
+static void fail(render_worker *w, const char *text)
+{
+    pthread_mutex_lock(&w->lock);
+    snprintf(w->error, sizeof w->error, "%s", text);
+    pthread_mutex_unlock(&w->lock);
+    w->wake();
+}
+
+static void publish(render_worker *w, int side)
+{
+    pthread_mutex_lock(&w->lock);
+    const picture old = w->ready[side];
+    w->ready[side] = w->drawn[side];
+    w->drawn[side] = old;
+    w->is_ready[side] = true;
+    pthread_mutex_unlock(&w->lock);
+    w->wake();
+}
+
+/* Renders into `pixels`; false when there is nothing to show: cancelled, or failed (told). */
+static bool render(render_worker *w, const mgt_scene *scene, mgt_format format, void *pixels)
+{
+    mgt_target target;
+    mgt_target_init(&target, sizeof target);
+    target.layer = w->current.layer;
+    target.format = format;
+    target.pixels = pixels;
+    const mgt_status status = mgt_render(w->context, scene, &target, 1);
+    if (status != MGT_OK && status != MGT_CANCELLED)
+        fail(w, mgt_last_error(w->context));
+    return status == MGT_OK;
+}
+
+static mgt_format float_format(mgt_layer layer) { return floats_of(layer) == 3 ? MGT_FORMAT_RGB32F : MGT_FORMAT_R32F; }
+
+static void render_once(render_worker *w, int side)
+{
+    const render_order *o = &w->current;
+    picture *p = &w->drawn[side];
+    mgt_scene scene = o->scene;
+    scene.quality = o->quality[side];
+    if (!reserve_picture(p, o->layer, scene.image.width, scene.image.height)) {
+        fail(w, "out of memory");
+        return;
+    }
+    const double start = seconds_now();
+    if (!render(w, &scene, o->layer == MGT_LAYER_COLOR ? MGT_FORMAT_RGBA8_SRGB : float_format(o->layer), p->pixels))
+        return;
+    p->serial = o->serial;
+    p->seconds = seconds_now() - start;
+    p->samples = p->samples_total = 1;
+    publish(w, side);
+}
+
+/* ---- refinement ---- */
+
+static uint64_t common_divisor(uint64_t a, uint64_t b)
+{
+    while (b) {
+        const uint64_t rest = a % b;
+        a = b;
+        b = rest;
+    }
+    return a;
+}
+
+/* Strata in an order that fills the pixel and the shutter evenly from the start: steps of about the golden section. */
+static uint64_t stratum_at(uint64_t index, uint64_t total)
+{
+    uint64_t step = (uint64_t)((double)total * 0.6180339887498949) | 1;
+    while (common_divisor(step, total) != 1)
+        step += 2;
+    return (uint64_t)((unsigned __int128)index * step % total);
+}
+
+/* Means over samples are meaningful for light and areas; depth and normal show one instant and are rendered once. */
+static bool layer_refines(mgt_layer layer) { return layer <= MGT_LAYER_MASK; }
+
+static bool side_refines(const render_order *o, int side) { return o->wanted[side] && method_takes(o->quality[side].method, METHOD_TAKES_TIMES); }
+
+static bool begin_refinement(render_worker *w, int side)
+{
+    const render_order *o = &w->current;
+    const mgt_quality *q = &o->quality[side];
+    accumulation *a = &w->sums[side];
+    const size_t count = (size_t)o->scene.image.width * o->scene.image.height * floats_of(o->layer);
+    if (!reserve_accumulation(a, count)) {
+        fail(w, "out of memory");
+        return false;
+    }
+    a->taken = 0;
+    a->total = layer_refines(o->layer) ? (uint64_t)q->spatial_samples * q->spatial_samples * q->time_samples : 1;
+    return true;
+}
+
+static void add_sample(accumulation *a, size_t count)
+{
+    a->taken++;
+    for (size_t i = 0; i < count; i++) {
+        a->sums[i] += (double)a->sample[i];
+        a->mean[i] = (float)(a->sums[i] / (double)a->taken);
+    }
+}
+
+/* One more sample of one side; false when the side is to be left alone. */
+static bool refine(render_worker *w, int side)
+{
+    const render_order *o = &w->current;
+    accumulation *a = &w->sums[side];
+    picture *p = &w->drawn[side];
+    mgt_scene scene = o->scene;
+    const size_t count = (size_t)scene.image.width * scene.image.height * floats_of(o->layer);
+    const double start = seconds_now();
+    scene.quality = o->quality[side];
+    if (layer_refines(o->layer)) {
+        scene.quality.sample_first = stratum_at(a->taken, a->total);
+        scene.quality.sample_count = 1;
+    }
+    if (!render(w, &scene, float_format(o->layer), a->sample))
+        return false;
+    add_sample(a, count);
+    if (!reserve_picture(p, o->layer, scene.image.width, scene.image.height)) {
+        fail(w, "out of memory");
+        return false;
+    }
+    if (o->layer == MGT_LAYER_COLOR) {
+        mgt_target target;
+        mgt_target_init(&target, sizeof target);
+        target.pixels = p->pixels;
+        const mgt_status status = mgt_display(w->context, &scene, a->mean, &target);
+        if (status != MGT_OK) {
+            fail(w, mgt_last_error(w->context));
+            return false;
+        }
+    } else {
+        memcpy(p->pixels, a->mean, count * sizeof *a->mean);
+    }
+    p->serial = o->serial;
+    p->seconds = seconds_now() - start;
+    p->samples = a->taken;
+    p->samples_total = a->total;
+    publish(w, side);
+    return true;
+}
+
+static bool has_newer_order(render_worker *w)
+{
+    pthread_mutex_lock(&w->lock);
+    const bool newer = w->has_order || w->quit;
+    pthread_mutex_unlock(&w->lock);
+    return newer;
+}
+
+/* Sides take turns. The first sample of each is finished whatever comes, so that something is seen while things move. */
+static void run_refinement(render_worker *w)
+{
+    bool going[SIDE_COUNT];
+    for (int side = 0; side < SIDE_COUNT; side++)
+        going[side] = side_refines(&w->current, side) && begin_refinement(w, side);
+    for (bool any = true, first = true; any && (first || !has_newer_order(w)); first = false) {
+        any = false;
+        for (int side = 0; side < SIDE_COUNT; side++) {
+            if (!going[side] || (!first && has_newer_order(w)))
+                continue;
+            going[side] = refine(w, side) && w->sums[side].taken < w->sums[side].total;
+            any |= going[side];
+        }
+    }
+}
+
+/* ---- the thread ---- */
+
+static void *run(void *argument)
+{
+    render_worker *w = argument;
+    pthread_mutex_lock(&w->lock);
+    while (!w->quit) {
+        if (!w->has_order) {
+            w->busy = false;
+            pthread_cond_wait(&w->posted, &w->lock);
+            continue;
+        }
+        w->current = w->order;
+        memcpy(w->current_waves, w->waves, w->order.scene.water.wave_count * sizeof *w->waves);
+        w->current.scene.water.waves = w->current_waves;
+        w->has_order = false;
+        w->busy = true;
+        atomic_store(&w->stop, false);
+        pthread_mutex_unlock(&w->lock);
+        if (w->refines)
+            run_refinement(w);
+        else
+            for (int side = 0; side < SIDE_COUNT; side++)
+                if (w->current.wanted[side] && !side_refines(&w->current, side))
+                    render_once(w, side);
+        pthread_mutex_lock(&w->lock);
+    }
+    pthread_mutex_unlock(&w->lock);
+    return NULL;
+}
+
+static bool on_progress(void *user, double fraction)
+{
+    (void)fraction;
+    const render_worker *w = user;
+    return !atomic_load(&w->stop);
+}
+
+render_worker *render_worker_create(const mgt_context_desc *desc, bool refines, void (*wake)(void), char *error, size_t error_size)
+{
+    render_worker *w = calloc(1, sizeof *w);
+    if (!w) {
+        snprintf(error, error_size, "out of memory");
+        return NULL;
+    }
+    w->refines = refines;
+    w->wake = wake;
+    pthread_mutex_init(&w->lock, NULL);
+    pthread_cond_init(&w->posted, NULL);
+    mgt_context_desc own = *desc;
+    own.progress = on_progress;
+    own.progress_user = w;
+    const mgt_status status = mgt_context_create(&w->context, &own);
+    if (status == MGT_OK) {
+        w->info.struct_size = sizeof w->info;
+        mgt_context_get_info(w->context, &w->info);
+        w->started = pthread_create(&w->thread, NULL, run, w) == 0;
+    }
+    if (w->started)
+        return w;
+    snprintf(error, error_size, "%s", status == MGT_OK ? "the rendering thread cannot be started" : mgt_last_error(NULL));
+    render_worker_destroy(w);
+    return NULL;
+}
+
+void render_worker_destroy(render_worker *w)
+{
+    if (!w)
+        return;
+    pthread_mutex_lock(&w->lock);
+    w->quit = true;
+    atomic_store(&w->stop, true);
+    pthread_cond_signal(&w->posted);
+    pthread_mutex_unlock(&w->lock);
+    if (w->started)
+        pthread_join(w->thread, NULL);
+    mgt_context_destroy(w->context);
+    for (int side = 0; side < SIDE_COUNT; side++) {
+        picture_free(&w->ready[side]);
+        picture_free(&w->drawn[side]);
+        free_accumulation(&w->sums[side]);
+    }
+    pthread_cond_destroy(&w->posted);
+    pthread_mutex_destroy(&w->lock);
+    free(w);
+}
+
+/* ---- from the other side ---- */
+
+void render_worker_post(render_worker *w, const render_order *order)
+{
+    pthread_mutex_lock(&w->lock);
+    if (w->busy && w->current.interruptible)
+        atomic_store(&w->stop, true);
+    w->order = *order;
+    memcpy(w->waves, order->scene.water.waves, order->scene.water.wave_count * sizeof *w->waves);
+    w->has_order = true;
+    pthread_cond_signal(&w->posted);
+    pthread_mutex_unlock(&w->lock);
+}
+
+bool render_worker_take(render_worker *w, int side, picture *p)
+{
+    pthread_mutex_lock(&w->lock);
+    const bool ready = w->is_ready[side];
+    if (ready) {
+        const picture old = *p;
+        *p = w->ready[side];
+        w->ready[side] = old;
+        w->is_ready[side] = false;
+    }
+    pthread_mutex_unlock(&w->lock);
+    return ready;
+}
+
+bool render_worker_take_error(render_worker *w, char *text, size_t size)
+{
+    pthread_mutex_lock(&w->lock);
+    const bool failed = w->error[0] != 0;
+    if (failed)
+        snprintf(text, size, "%s", w->error);
+    w->error[0] = 0;
+    pthread_mutex_unlock(&w->lock);
+    return failed;
+}
+
+bool render_worker_is_idle(render_worker *w)
+{
+    pthread_mutex_lock(&w->lock);
+    bool idle = !w->has_order && !w->busy && !w->error[0];
+    for (int side = 0; side < SIDE_COUNT; side++)
+        idle &= !w->is_ready[side];
+    pthread_mutex_unlock(&w->lock);
+    return idle;
+}
+
+mgt_context_info render_worker_info(const render_worker *w) { return w->info; }

@@ -1,0 +1,268 @@
+/* SPDX-License-Identifier: MIT
+ * The scene in work. */
+#define _POSIX_C_SOURCE 200809L
+#include "viewer/scene/document.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "image/output_file.h"
+#include "scene/scene_models.h"
+
+static bool values_of_words(const scene_values *base, const char *const *words, size_t count, scene_values *out, scene_error *error);
+
+/* The values of a file with its spectrum as single waves: those are what the viewer changes. It may be saved to another folder. */
+static bool copy_values(scene_values *out, const scene_file *file)
+{
+    if (!scene_values_copy(out, scene_file_values(file)))
+        return false;
+    scene_values_write_out_sea(out);
+    if (scene_values_fix_files(out, scene_file_path(file)))
+        return true;
+    scene_values_free(out);
+    return false;
+}
+
+/* ---- opening ------------------------------------------------------------------------------------------------ */
+
+static bool same_stamp(const struct stat *a, const struct stat *b)
+{
+    return a->st_mtim.tv_sec == b->st_mtim.tv_sec && a->st_mtim.tv_nsec == b->st_mtim.tv_nsec && a->st_size == b->st_size && a->st_ino == b->st_ino;
+}
+
+bool document_open(document *d, const char *path, const char *const *words, size_t count, scene_error *error)
+{
+    *d = (document){.path = path};
+    if (stat(path, &d->stamp) != 0)
+        d->stamp = (struct stat){0};
+    scene_file *changed = scene_file_load(path, words, count, error);
+    if (!changed)
+        return false;
+    d->file = scene_file_load(path, NULL, 0, error);
+    /* A file may be good only with what the words change. */
+    if (!d->file) {
+        d->file = changed;
+        changed = NULL;
+    }
+    if (copy_values(&d->values, changed ? changed : d->file)) {
+        scene_file_free(changed);
+        *error = (scene_error){0};
+        return true;
+    }
+    scene_file_free(changed);
+    document_close(d);
+    return scene_error_memory(error);
+}
+
+void document_close(document *d)
+{
+    for (size_t i = 0; i < d->former_count; i++)
+        scene_models_release(d->former[i]);
+    free(d->former);
+    scene_values_free(&d->values);
+    scene_file_free(d->file);
+    *d = (document){0};
+}
+
+/* Lets models live as long as the document does; where memory runs out, for ever. */
+static void keep_models(document *d)
+{
+    if (!d->values.models)
+        return;
+    scene_models *models = scene_models_share(d->values.models);
+    scene_models **former = realloc(d->former, (d->former_count + 1) * sizeof *former);
+    if (!former)
+        return;
+    d->former = former;
+    former[d->former_count++] = models;
+}
+
+void document_replace(document *d, scene_values *values)
+{
+    if (d->values.models != values->models)
+        keep_models(d);
+    scene_values_free(&d->values);
+    d->values = *values;
+    *values = (scene_values){0};
+}
+
+bool document_revert(document *d)
+{
+    scene_values values;
+    if (!copy_values(&values, d->file))
+        return false;
+    document_replace(d, &values);
+    return true;
+}
+
+/* ---- changes as words --------------------------------------------------------------------------------------- */
+
+static char *text_of_values(const scene_values *values, size_t *size)
+{
+    char *text = NULL;
+    FILE *stream = open_memstream(&text, size);
+    if (!stream)
+        return NULL;
+    const bool good = scene_values_write(stream, values);
+    if (fclose(stream) == 0 && good)
+        return text;
+    free(text);
+    return NULL;
+}
+
+/* A file has a path or a still camera; in work there are both, one of them in use. */
+static scene_values without_still_camera(const scene_values *values)
+{
+    scene_values plain = *values; /* borrows */
+    plain.camera.still = scene_values_defaults().camera.still;
+    plain.camera.still.fov_y_deg = values->camera.still.fov_y_deg;
+    memcpy(plain.camera.still.up, values->camera.still.up, sizeof plain.camera.still.up);
+    return plain;
+}
+
+static bool values_of_words(const scene_values *base, const char *const *words, size_t count, scene_values *out, scene_error *error)
+{
+    size_t size = 0;
+    bool gets_path = false;
+    for (size_t i = 0; i < count; i++)
+        gets_path |= strncmp(words[i], "camera.path", 11) == 0;
+    const scene_values plain = gets_path ? without_still_camera(base) : *base;
+    char *text = text_of_values(&plain, &size);
+    if (!text)
+        return scene_error_memory(error);
+    scene_file *file = scene_file_parse_like(base, text, size, "the scene", words, count, error);
+    free(text);
+    if (!file)
+        return false;
+    const bool good = copy_values(out, file) || scene_error_memory(error);
+    scene_file_free(file);
+    if (good && (gets_path || out->camera.path.count > 0)) {
+        memcpy(out->camera.still.position, base->camera.still.position, sizeof out->camera.still.position);
+        memcpy(out->camera.still.target, base->camera.still.target, sizeof out->camera.still.target);
+    }
+    return good;
+}
+
+bool document_set(document *d, const char *word, scene_error *error)
+{
+    scene_values values;
+    if (!values_of_words(&d->values, &word, 1, &values, error))
+        return false;
+    document_replace(d, &values);
+    return true;
+}
+
+/* ---- the file on the disk ------------------------------------------------------------------------------------ */
+
+static bool same_key(const char *a, const char *b)
+{
+    const size_t length = strcspn(a, "=");
+    return length == strcspn(b, "=") && memcmp(a, b, length) == 0;
+}
+
+/* Leaves out the words whose keys the others have too; what is in brackets or braces counts as a whole. */
+static size_t without_keys_of(const scene_overrides *words, const scene_overrides *others, const char **out)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < words->count; i++) {
+        bool taken = false;
+        for (size_t j = 0; j < others->count; j++)
+            taken |= same_key(words->words[i], others->words[j]);
+        if (!taken)
+            out[count++] = words->words[i];
+    }
+    return count;
+}
+
+/* The new file with the changes that the user had made to the old one. */
+static bool merge(document *d, const scene_file *fresh, scene_values *out)
+{
+    scene_overrides mine = {0}, theirs = {0};
+    scene_values old, new = {0};
+    const char **words = NULL;
+    bool good = copy_values(&old, d->file) && copy_values(&new, fresh) && scene_overrides_between(&old, &d->values, &mine) &&
+                scene_overrides_between(&old, &new, &theirs);
+    if (good)
+        words = calloc(mine.count + 1, sizeof *words);
+    if (words)
+        good = values_of_words(&new, words, without_keys_of(&mine, &theirs, words), out, NULL);
+    /* Changes that no longer fit are given up. */
+    if (!words || !good)
+        good = copy_values(out, fresh);
+    scene_values_free(&old);
+    scene_values_free(&new);
+    free(words);
+    scene_overrides_free(&mine);
+    scene_overrides_free(&theirs);
+    return good;
+}
+
+document_news document_poll(document *d)
+{
+    struct stat stamp;
+    scene_values values;
+    if (stat(d->path, &stamp) != 0 || same_stamp(&stamp, &d->stamp))
+        return DOCUMENT_SAME;
+    d->stamp = stamp;
+    scene_file *fresh = scene_file_load(d->path, NULL, 0, &d->error);
+    if (!fresh)
+        return DOCUMENT_BROKEN;
+    if (!merge(d, fresh, &values)) {
+        scene_file_free(fresh);
+        scene_error_memory(&d->error);
+        return DOCUMENT_BROKEN;
+    }
+    document_replace(d, &values);
+    scene_file_free(d->file);
+    d->file = fresh;
+    d->error = (scene_error){0};
+    return DOCUMENT_READ_ANEW;
+}
+
+/* ---- saving -------------------------------------------------------------------------------------------------- */
+
+void document_save_name(const document *d, char *name, size_t size)
+{
+    const char *slash = strrchr(d->path, '/');
+    const char *dot = strrchr(slash ? slash : d->path, '.');
+    const size_t length = dot ? (size_t)(dot - d->path) : strlen(d->path);
+    const bool edited = length > 7 && strncmp(d->path + length - 7, "-edited", 7) == 0;
+    snprintf(name, size, "%.*s%s.yaml", (int)length, d->path, edited ? "" : "-edited");
+}
+
+/* Whether the text reads back as the same pictures. */
+static bool reads_back(const char *text, size_t size, const scene_values *values, file_error *error)
+{
+    scene_error problem = {0};
+    scene_file *file = scene_file_parse_like(values, text, size, "the scene", NULL, 0, &problem);
+    char *expected = file ? scene_values_canonical(values, NULL) : NULL, *found = file ? scene_file_canonical(file, NULL) : NULL;
+    const bool same = expected && found && strcmp(expected, found) == 0;
+    if (!same)
+        file_error_set(error, FILE_ARGUMENT, "%s", file ? "the scene does not read back as it is" : problem.text);
+    free(expected);
+    free(found);
+    scene_file_free(file);
+    return same;
+}
+
+file_status document_save(const scene_values *values, const char *path, bool overwrite, file_error *error)
+{
+    const output_options options = {.overwrite = overwrite};
+    output_file *out = NULL;
+    size_t size = 0;
+    char *text = text_of_values(values, &size);
+    if (!text)
+        return file_error_set(error, FILE_MEMORY, "out of memory");
+    file_status status = reads_back(text, size, values, error) ? FILE_OK : FILE_ARGUMENT;
+    if (status == FILE_OK)
+        status = output_file_open(&out, path, &options, error);
+    if (status == FILE_OK) {
+        status = output_file_write(out, text, size, error);
+        if (status == FILE_OK)
+            status = output_file_finish(out, error);
+        else
+            output_file_abort(out);
+    }
+    free(text);
+    return status;
+}

@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: MIT
+ * The scene in work: loaded, watched, changed, saved. What is changed is measured against the file. */
+#ifndef MANGATA_VIEWER_SCENE_DOCUMENT_H
+#define MANGATA_VIEWER_SCENE_DOCUMENT_H
+
+#include <sys/stat.h>
+
+#include "image/file_error.h"
+#include "scene/scene_edit.h"
+
+typedef struct document {
+    const char *path;             /* of the file; borrowed */
+    scene_file *file;             /* the last good one, as it is on the disk */
+    scene_values values;          /* as changed */
+    struct stat stamp;            /* of the file when it was last read, good or bad */
+    scene_error error;            /* of that reading; kind SCENE_ERROR_NONE when it was good */
+    struct scene_models **former; /* those of earlier values: a rendering under way may still read them */
+    size_t former_count;
+} document;
+
+/* Reads `path`, then changes it by `words` ("key=value"). False with the reason in *error; *d is then empty. */
+bool document_open(document *d, const char *path, const char *const *words, size_t count, scene_error *error);
+void document_close(document *d);
+
+typedef enum document_news { DOCUMENT_SAME, DOCUMENT_READ_ANEW, DOCUMENT_BROKEN } document_news;
+
+/* Reads the file again if it has changed on the disk. What has changed in the file wins over what was changed here, which else stays. A
+ * broken file changes nothing but `error`. */
+document_news document_poll(document *d);
+
+/* Takes back every change. False when memory runs out. */
+bool document_revert(document *d);
+
+/* Changes one value as `--set key=value` does, every check included. False with the reason in *error and nothing changed. */
+bool document_set(document *d, const char *word, scene_error *error);
+
+/* Puts other values in place; takes over what they own. */
+void document_replace(document *d, scene_values *values);
+
+/* Writes `values` as a scene file to `path`, whole or not at all, after reading it back in memory. */
+file_status document_save(const scene_values *values, const char *path, bool overwrite, file_error *error);
+
+/* "FOLDER/NAME-edited.yaml" for the file "FOLDER/NAME.ext". */
+void document_save_name(const document *d, char *name, size_t size);
+
+#endif

@@ -1,0 +1,86 @@
+/* SPDX-License-Identifier: MIT
+ * What the viewer can be set to beside the scene: one plain struct, described by a table of the same kind as the scene format's. */
+#ifndef MANGATA_VIEWER_SCENE_SETTINGS_H
+#define MANGATA_VIEWER_SCENE_SETTINGS_H
+
+#include "viewer/picture/display.h"
+#include "scene/scene_fields.h"
+
+/* How a side is rendered. */
+typedef struct side_settings {
+    int method;       /* mgt_method */
+    uint32_t spatial; /* N of N × N samples: ssaa, reference */
+    uint32_t time_samples;
+    uint32_t seed;
+    int ndf_mean; /* 0 add, 1 drop: podee-pixel */
+} side_settings;
+
+typedef enum resolution_mode { RESOLUTION_AUTO = 0, RESOLUTION_FULL, RESOLUTION_HALF, RESOLUTION_THIRD, RESOLUTION_QUARTER } resolution_mode;
+typedef enum frame_mode { FRAME_FILLS = 0, FRAME_AS_SCENE } frame_mode;
+
+typedef struct view_settings {
+    int compare; /* compare_mode */
+    double wipe; /* share of the width that shows A */
+    double difference_scale;
+    int layer;                    /* mgt_layer */
+    double near_depth, far_depth; /* metres that the ends of the palette stand for */
+    double coverage_end;          /* coverage that its upper end stands for */
+    double lean_end;              /* horizontal part of a normal whose colour is full */
+    int resolution;               /* resolution_mode */
+    int frame;                    /* frame_mode */
+    double zoom, center_x, center_y;
+} view_settings;
+
+typedef struct clock_settings {
+    double time;  /* seconds of the scene's clock, when the shutter closes */
+    int play;     /* off, on */
+    double speed; /* scene seconds a second; negative runs back */
+    int loop;     /* over the scene's frames: off, on */
+} clock_settings;
+
+typedef struct wave_settings {
+    double amplitude; /* factor on every wave's */
+    uint32_t count;   /* how many of the scene's waves are used, the first ones */
+} wave_settings;
+
+typedef enum move_mode { MOVE_ORBIT = 0, MOVE_FLY } move_mode;
+
+typedef struct move_settings {
+    int mode;         /* move_mode */
+    int path;         /* the camera follows camera.path: off, on */
+    double speed;     /* metres a second */
+    double clearance; /* metres that the camera stays above the water at its place */
+} move_settings;
+
+typedef struct panel_settings {
+    int shown, timings, inspector, keys, legend, log; /* off, on */
+    double scale;                                     /* of text and controls */
+} panel_settings;
+
+typedef struct inspect_settings {
+    uint32_t x, y; /* pixel of the picture */
+} inspect_settings;
+
+typedef struct settings {
+    side_settings sides[SIDE_COUNT];
+    view_settings view;
+    clock_settings clock;
+    wave_settings waves;
+    move_settings move;
+    panel_settings panel;
+    inspect_settings inspect;
+} settings;
+
+settings settings_defaults(void);
+
+/* A mapping whose struct is settings. "off, on" stands for what is true or false. */
+const field_row *settings_root_field(void);
+
+/* Whether a field is such a one. */
+bool field_is_switch(const field_row *field);
+
+extern const char *const layer_choices[]; /* in the order of mgt_layer */
+
+mgt_quality side_quality(const side_settings *side);
+
+#endif

@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: MIT
+ * Waves as people think of them. */
+#include "viewer/scene/wave_shape.h"
+
+#include <math.h>
+
+static const double pi = 3.14159265358979323846;
+static const double longest = 1e5, shortest = 1e-4;
+static const double gravity = 9.81;
+
+const field_row wave_shape_fields[] = {{"wavelength", FIELD_NUMBER, offsetof(wave_shape, wavelength), 0, 1e-4, 1e5, "m", .doc = "from crest to crest"},
+                                       {"direction_deg", FIELD_NUMBER, offsetof(wave_shape, direction_deg), 0, -180, 180, "degrees",
+                                        .doc = "where crests travel to: 0 is -z, 90 is +x"},
+                                       {"speed", FIELD_NUMBER, offsetof(wave_shape, speed), 0, -1000, 1000, "m/s", .doc = "of the crests, along the direction"},
+                                       {0}};
+
+wave_shape wave_shape_of(const mgt_wave *wave)
+{
+    const double k = hypot(wave->a, wave->b);
+    if (!(k > 2 * pi / longest))
+        return (wave_shape){longest, 0, 0};
+    return (wave_shape){fmax(2 * pi / k, shortest), atan2(wave->a, -wave->b) * 180 / pi, -wave->c / k};
+}
+
+void wave_set_shape(mgt_wave *wave, const wave_shape *shape)
+{
+    const double k = 2 * pi / fmin(fmax(shape->wavelength, shortest), longest), angle = shape->direction_deg * pi / 180;
+    wave->a = k * sin(angle);
+    wave->b = -k * cos(angle);
+    wave->c = fmin(fmax(-shape->speed * k, -1e5), 1e5);
+}
+
+mgt_wave wave_new(size_t index)
+{
+    const double golden = 0.6180339887498949, share = fmod((double)(index + 1) * golden, 1);
+    const double length = 0.5 * pow(8, share);
+    const wave_shape shape = {length, 80 * (fmod(share * 7, 1) - 0.5), sqrt(gravity * length / (2 * pi))};
+    mgt_wave wave = {.amplitude = 0.008 * length, .phase = 2 * pi * fmod(share * 5, 1)};
+    wave_set_shape(&wave, &shape);
+    return wave;
+}
+
+double wave_height(const mgt_wave *waves, size_t count, double x, double z, double time)
+{
+    double height = 0;
+    for (size_t i = 0; i < count; i++)
+        height += waves[i].amplitude * sin(waves[i].a * x + waves[i].b * z + waves[i].c * time + waves[i].phase);
+    return height;
+}

@@ -1,0 +1,311 @@
+/* SPDX-License-Identifier: MIT
+ * Scripts: one command a line, in the order of the file; what waits lets frames go by. */
+#include <GLFW/glfw3.h>
+
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/common/progress.h"
+#include "viewer/script/script_state.h"
+
+enum { VARY_TRIES = 6 };
+
+script *script_open(const char *path)
+{
+    script *s = calloc(1, sizeof *s);
+    if (!s)
+        return NULL;
+    s->path = path;
+    s->chance = 1;
+    s->stream = strcmp(path, "-") == 0 ? stdin : fopen(path, "r");
+    if (s->stream)
+        return s;
+    free(s);
+    return NULL;
+}
+
+void script_close(script *s)
+{
+    if (!s)
+        return;
+    if (s->stream != stdin)
+        fclose(s->stream);
+    free(s->mark.bytes);
+    free(s->before.bytes);
+    free(s);
+}
+
+void script_fail(viewer *v, const char *format, ...)
+{
+    char text[1024];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    fprintf(stderr, "%s:%d: %s\n", v->script->path, v->script->line, text);
+    v->exit_code = 1;
+    v->quit = true;
+}
+
+/* ---- waiting ---- */
+
+void script_wait(script *s, int frames) { s->frames_left = frames; }
+
+void script_settle(script *s, uint64_t samples)
+{
+    s->frames_left = 2;
+    s->settling = true;
+    s->samples = samples;
+    s->give_up_at = seconds_now() + 120;
+}
+
+void script_capture(script *s, capture what)
+{
+    script_settle(s, 1);
+    s->capture = what;
+}
+
+/* ---- words ---- */
+
+/* Takes the next word of at most so many; the last one is the rest of the line. */
+static void split(script *s, int most)
+{
+    char *p = s->text;
+    s->count = 0;
+    while (s->count < most) {
+        p += strspn(p, " \t");
+        if (!*p)
+            break;
+        s->words[s->count++] = p;
+        if (s->count == most)
+            break;
+        p += strcspn(p, " \t");
+        if (*p)
+            *p++ = 0;
+    }
+    for (int i = s->count; i <= WORDS; i++)
+        s->words[i] = NULL;
+}
+
+/* ---- going on ---- */
+
+static bool read_line(script *s)
+{
+    while (fgets(s->text, sizeof s->text, s->stream)) {
+        s->line++;
+        s->text[strcspn(s->text, "\r\n")] = 0;
+        if (s->text[strspn(s->text, " \t")] && s->text[strspn(s->text, " \t")] != '#')
+            return true;
+    }
+    return false;
+}
+
+static void run_line(viewer *v)
+{
+    script *s = v->script;
+    const char *start = s->text + strspn(s->text, " \t");
+    const size_t length = strcspn(start, " \t");
+    for (size_t i = 0; i < script_command_count; i++) {
+        const script_command *c = &script_commands[i];
+        if (strlen(c->name) != length || memcmp(c->name, start, length) != 0)
+            continue;
+        split(s, c->most);
+        if (s->count < c->least)
+            script_fail(v, "%s: %d words more are needed", c->name, c->least - s->count);
+        else
+            c->run(v);
+        return;
+    }
+    script_fail(v, "unknown command %.*s", (int)length, start);
+}
+
+static void step_drag(viewer *v)
+{
+    script *s = v->script;
+    const double share = s->drag_at <= 1 ? 0 : s->drag_at - 1 < s->drag_frames ? (double)(s->drag_at - 1) / s->drag_frames : 1;
+    const double x = (double)s->drag_from[0] + share * (double)(s->drag_to[0] - s->drag_from[0]);
+    const double y = (double)s->drag_from[1] + share * (double)(s->drag_to[1] - s->drag_from[1]);
+    v->stand_in.x = (float)x;
+    v->stand_in.y = (float)y;
+    input_pointer(v, x, y);
+    /* The first frame lets the panels see the pointer; the button goes down in the second. */
+    if (s->drag_at == 1) {
+        v->stand_in.down[s->drag_button] = true;
+        input_button(v, s->drag_button, GLFW_PRESS, 0);
+    }
+    if (s->drag_at > s->drag_frames) {
+        v->stand_in.down[s->drag_button] = false;
+        input_button(v, s->drag_button, GLFW_RELEASE, 0);
+        s->dragging = false;
+    }
+    s->drag_at++;
+}
+
+static void step_random(viewer *v)
+{
+    script *s = v->script;
+    char error[VIEWER_TEXT];
+    size_t count;
+    control *list = control_list(&v->board, &count);
+    if (!list)
+        return;
+    const size_t length = strlen(s->spared);
+    const control *c;
+    do
+        c = &list[(size_t)(random_share(&s->chance) * (double)count)];
+    while (length > 0 && strncmp(c->name, s->spared, length) == 0);
+    const control_text value = control_random(c, &s->chance);
+    /* Some values exclude each other; what matters is that a refusal leaves things as they were. */
+    if (!control_set(&v->board, c->name, value.text, error, sizeof error))
+        viewer_log(v, "refused: %s", error);
+    free(list);
+    s->random_left--;
+    script_wait(s, 1);
+}
+
+static bool is_waiting(viewer *v)
+{
+    script *s = v->script;
+    if (s->held_left > 0 && --s->held_left == 0)
+        input_key(v, s->held_key, GLFW_RELEASE, s->held_modifiers);
+    if (s->frames_left > 0) {
+        s->frames_left--;
+        return true;
+    }
+    if (s->saving && viewer_watch_saver(v))
+        return true;
+    if (s->saving && v->save_problem[0])
+        script_fail(v, "%s", v->save_problem);
+    s->saving = false;
+    if (s->settling && !viewer_is_settled(v, s->samples)) {
+        if (seconds_now() > s->give_up_at)
+            script_fail(v, "the picture is not done after two minutes");
+        return true;
+    }
+    s->settling = false;
+    if (s->waiting_reload && s->words[0] && strcmp(s->words[0], "wait-reload") == 0) {
+        const struct stat *a = &s->reload_stamp, *b = &v->document.stamp;
+        if (a->st_mtim.tv_sec == b->st_mtim.tv_sec && a->st_mtim.tv_nsec == b->st_mtim.tv_nsec && a->st_size == b->st_size) {
+            if (seconds_now() > s->give_up_at)
+                script_fail(v, "the scene has not been read again");
+            return true;
+        }
+        s->waiting_reload = false;
+    }
+    return s->capture != CAPTURE_NONE; /* until the frame is drawn */
+}
+
+void script_step(viewer *v)
+{
+    script *s = v->script;
+    v->stand_in.active = true;
+    if (s->dragging)
+        step_drag(v);
+    while (!v->quit && !is_waiting(v)) {
+        if (s->random_left > 0)
+            step_random(v);
+        else if (read_line(s))
+            run_line(v);
+        else
+            v->quit = true;
+    }
+}
+
+/* ---- pixels ---- */
+
+static window_pixels read_pixels(viewer *v)
+{
+    window_pixels p = {0};
+    p.bytes = viewer_read_window(v, &p.width, &p.height);
+    if (!p.bytes)
+        script_fail(v, "the window's pixels cannot be read");
+    return p;
+}
+
+static bool same_pixels(const window_pixels *a, const window_pixels *b)
+{
+    return a->bytes && b->bytes && a->width == b->width && a->height == b->height && memcmp(a->bytes, b->bytes, (size_t)a->width * a->height * 4) == 0;
+}
+
+static void keep_pixels(window_pixels *to, window_pixels from)
+{
+    free(to->bytes);
+    *to = from;
+}
+
+static void set_varied(viewer *v, const char *value)
+{
+    char error[VIEWER_TEXT];
+    if (!control_set(&v->board, v->script->vary_name, value, error, sizeof error))
+        viewer_log(v, "refused: %s", error);
+}
+
+static void try_other_value(viewer *v)
+{
+    script *s = v->script;
+    control c;
+    if (!control_find(&v->board, s->vary_name, &c))
+        return;
+    set_varied(v, control_random(&c, &s->chance).text);
+    s->vary_tries++;
+    script_capture(s, CAPTURE_VARY_AFTER);
+}
+
+static void end_vary(viewer *v, window_pixels now)
+{
+    script *s = v->script;
+    const bool same = same_pixels(&s->before, &now);
+    free(now.bytes);
+    set_varied(v, s->vary_value);
+    if (!same)
+        return;
+    if (s->vary_tries < VARY_TRIES)
+        try_other_value(v);
+    else
+        script_fail(v, "%s: no value changes what is seen", s->vary_name);
+}
+
+void script_after_frame(viewer *v)
+{
+    script *s = v->script;
+    char error[VIEWER_TEXT];
+    const GLenum gl_error = v->gl_functions.GetError();
+    if (gl_error != GL_NO_ERROR) {
+        script_fail(v, "OpenGL error 0x%04x", gl_error);
+        return;
+    }
+    if (s->capture == CAPTURE_NONE || s->frames_left > 0 || (s->settling && !viewer_is_settled(v, s->samples)))
+        return;
+    const capture what = s->capture;
+    s->capture = CAPTURE_NONE;
+    s->settling = false;
+    if (what == CAPTURE_FILE) {
+        if (!viewer_save_window(v, s->file, error, sizeof error))
+            script_fail(v, "%s", error);
+        return;
+    }
+    window_pixels now = read_pixels(v);
+    switch (what) {
+    case CAPTURE_MARK:
+        keep_pixels(&s->mark, now);
+        break;
+    case CAPTURE_CHANGE:
+    case CAPTURE_SAME:
+        if (same_pixels(&s->mark, &now) != (what == CAPTURE_SAME))
+            script_fail(v, what == CAPTURE_SAME ? "the window looks other than at the mark" : "the window looks as at the mark");
+        free(now.bytes);
+        break;
+    case CAPTURE_VARY_BEFORE:
+        keep_pixels(&s->before, now);
+        try_other_value(v);
+        break;
+    case CAPTURE_VARY_AFTER:
+        end_vary(v, now);
+        break;
+    case CAPTURE_NONE:
+    case CAPTURE_FILE:
+        free(now.bytes);
+        break;
+    }
+}

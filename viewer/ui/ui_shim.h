@@ -1,0 +1,133 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Dear ImGui for C, as far as the viewer needs it. ui_shim.cpp behind it is the only C++ of this repository's programs.
+ *
+ * Places and sizes are in window coordinates, y down; colours are 0xRRGGBBAA. Labels hide what follows "##". Everything between
+ * ui_frame_begin() and ui_frame_end(), on the thread of the window's OpenGL context.
+ */
+#ifndef MANGATA_VIEWER_UI_UI_SHIM_H
+#define MANGATA_VIEWER_UI_UI_SHIM_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+struct GLFWwindow;
+
+typedef struct ui_rect {
+    float x, y, width, height;
+} ui_rect;
+
+/* ---- life and frames ---- */
+
+/* Starts on a window whose OpenGL context is current. */
+bool ui_create(struct GLFWwindow *window);
+void ui_destroy(void);
+
+/* Sizes of text and of everything around it; 1 suits a screen of 96 dots an inch. Before a frame begins. */
+void ui_set_scale(float scale);
+
+/* A pointer and a clock that stand in for the real ones, so that a script's runs repeat. */
+typedef struct ui_stand_in {
+    bool active;
+    float x, y;
+    bool down[3];
+    float seconds; /* since the last frame */
+} ui_stand_in;
+
+void ui_frame_begin(const ui_stand_in *stand_in);
+void ui_frame_end(void); /* draws into the current framebuffer */
+
+/* What GLFW's callbacks have to hand on. */
+void ui_on_key(struct GLFWwindow *window, int key, int scancode, int action, int modifiers);
+void ui_on_character(struct GLFWwindow *window, unsigned character);
+void ui_on_button(struct GLFWwindow *window, int button, int action, int modifiers);
+void ui_on_scroll(struct GLFWwindow *window, double x, double y);
+void ui_on_focus(struct GLFWwindow *window, int focused);
+void ui_on_enter(struct GLFWwindow *window, int entered);
+
+bool ui_takes_pointer(void); /* the pointer is over or holds a control */
+bool ui_takes_keys(void);    /* text is being typed */
+
+/* ---- windows ---- */
+
+typedef enum ui_panel_flags {
+    UI_PANEL_PLAIN = 0,
+    UI_PANEL_SCROLLS = 1,
+    UI_PANEL_GLASS = 2,    /* see-through */
+    UI_PANEL_FITS = 4,     /* its height follows its content; ui_rect.height is not read */
+    UI_PANEL_UNTOUCHED = 8 /* takes no input */
+} ui_panel_flags;
+
+bool ui_panel_begin(const char *name, ui_rect place, unsigned flags);
+void ui_panel_end(void); /* also when begin returned false */
+bool ui_child_begin(const char *name, float height);
+void ui_child_end(void);
+bool ui_header(const char *label, bool open_at_first);
+bool ui_tabs_begin(const char *name);
+bool ui_tab_begin(const char *label, bool select); /* select: make it the open one */
+void ui_tab_end(void);
+void ui_tabs_end(void);
+
+/* ---- layout ---- */
+
+float ui_font_size(void);
+float ui_row_height(void);
+ui_rect ui_room(void);              /* what is left of the window */
+void ui_same_line(float from_left); /* 0: right behind the last item */
+void ui_space(float height);
+void ui_separator(void);
+void ui_item_width(float width); /* of the next item */
+void ui_push_id(int id);
+void ui_pop_id(void);
+void ui_disabled_begin(bool disabled);
+void ui_disabled_end(void);
+void ui_tooltip(const char *text); /* of the last item, while the pointer rests on it */
+bool ui_item_held(void);
+ui_rect ui_item_rect(void);
+
+/* ---- items: each returns true when the user has changed or pressed it ---- */
+
+typedef enum ui_tone { UI_TONE_NORMAL, UI_TONE_FAINT, UI_TONE_ACCENT, UI_TONE_WARNING } ui_tone;
+
+void ui_text(ui_tone tone, const char *text);
+void ui_text_wrapped(ui_tone tone, const char *text);
+bool ui_button(const char *label, float width); /* width 0: as the label needs */
+bool ui_small_button(const char *label);
+bool ui_toggle_button(const char *label, bool on, float width);
+bool ui_checkbox(const char *label, bool *on);
+bool ui_slider(const char *label, double *value, double min, double max, const char *format, bool logarithmic);
+bool ui_slider_count(const char *label, uint32_t *value, uint32_t min, uint32_t max, bool logarithmic);
+bool ui_drag(const char *label, double *values, int count, double step, double min, double max, const char *format);
+bool ui_color(const char *label, float rgb[3], float *intensity);
+bool ui_choice(const char *label, int *chosen, const char *const *names, int count);
+bool ui_selectable(const char *label, bool selected, float width);
+bool ui_text_field(const char *label, char *text, size_t size);
+void ui_clipboard(const char *text);
+
+/* ---- drawing ---- */
+
+typedef enum ui_layer { UI_LAYER_WINDOW, UI_LAYER_BEHIND, UI_LAYER_ABOVE } ui_layer; /* in this window, behind all windows, above all */
+
+/* An empty item to draw on, as wide as there is room. */
+ui_rect ui_canvas(const char *name, float height);
+bool ui_canvas_held(float *x, float *y); /* the last canvas is pressed; where, from 0 to 1 */
+void ui_draw_line(ui_layer layer, float x0, float y0, float x1, float y1, uint32_t color, float thickness);
+void ui_draw_polyline(ui_layer layer, const float *points, int count, uint32_t color, float thickness, bool closed);
+void ui_draw_box(ui_layer layer, ui_rect place, uint32_t color, float rounding);
+void ui_draw_frame(ui_layer layer, ui_rect place, uint32_t color, float rounding);
+void ui_draw_disk(ui_layer layer, float x, float y, float radius, uint32_t color);
+void ui_draw_circle(ui_layer layer, float x, float y, float radius, uint32_t color, float thickness);
+void ui_draw_text(ui_layer layer, float x, float y, uint32_t color, const char *text);
+float ui_text_width(const char *text);
+void ui_clip_begin(ui_layer layer, ui_rect place);
+void ui_clip_end(ui_layer layer);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
