@@ -41,7 +41,7 @@ bool bench_scene_extend(bench_scene *scene, uint32_t count)
     double least = INFINITY, most = 0, variance = 0;
     for (size_t i = 0; i < water->wave_count; i++) {
         const mgt_wave *w = &water->waves[i];
-        const double k = hypot(w->a, w->b);
+        const double k = hypot(w->kx, w->kz);
         least = fmin(least, k);
         most = fmax(most, k);
         variance += w->amplitude * w->amplitude * k * k / 2;
@@ -54,9 +54,9 @@ bool bench_scene_extend(bench_scene *scene, uint32_t count)
     for (uint32_t i = 0; i < count; i++) {
         const double k = least * exp2(octaves * (i + unit(3 * i)) / count), angle = (unit(3 * i + 1) - 0.5) * 160 * pi / 180;
         waves[i].amplitude = sqrt(2 * wave_variance) / k;
-        waves[i].a = k * sin(angle);
-        waves[i].b = k * cos(angle);
-        waves[i].c = -sqrt(9.81 * k);
+        waves[i].kx = k * sin(angle);
+        waves[i].kz = k * cos(angle);
+        waves[i].omega = -sqrt(9.81 * k);
         waves[i].phase = 2 * pi * unit(3 * i + 2);
     }
     free(scene->waves);

@@ -8,7 +8,7 @@
 
 #include "scene/spectrum_math.h"
 
-static double wavelength(const mgt_wave *wave) { return 2 * SPECTRUM_PI / hypot(wave->a, wave->b); }
+static double wavelength(const mgt_wave *wave) { return 2 * SPECTRUM_PI / hypot(wave->kx, wave->kz); }
 
 static bool is_bent(const waves_report *r) { return r->settings->settings.slope == SLOPE_COX_MUNK; }
 

@@ -55,7 +55,7 @@ static body make_ball(const mgt_wave waves[WAVES], double time)
 {
     body ball = {.centre = {-0.4, 0.25, 0}, .radius = 1.1, .color = {0.85f, 0.25f, 0.05f}};
     for (int i = 0; i < WAVES / 4; i++)
-        ball.centre[1] += waves[i].amplitude * sin(waves[i].a * ball.centre[0] + waves[i].b * ball.centre[2] + waves[i].c * time + waves[i].phase);
+        ball.centre[1] += waves[i].amplitude * sin(waves[i].kx * ball.centre[0] + waves[i].kz * ball.centre[2] + waves[i].omega * time + waves[i].phase);
     return ball;
 }
 

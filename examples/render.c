@@ -10,7 +10,7 @@
 static mgt_wave wave(double length, double steepness, double heading)
 {
     const double k = 2 * 3.14159265358979 / length;
-    return (mgt_wave){.amplitude = steepness / k, .a = k * sin(heading), .b = -k * cos(heading), .c = -sqrt(9.81 * k)};
+    return (mgt_wave){.amplitude = steepness / k, .kx = k * sin(heading), .kz = -k * cos(heading), .omega = -sqrt(9.81 * k)};
 }
 
 int main(int argc, char **argv)

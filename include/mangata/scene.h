@@ -10,12 +10,13 @@
 extern "C" {
 #endif
 
-/* One sine wave of P1 Eq. 1: y += amplitude · sin(a·x + b·z + c·t + phase). */
+/* One sine wave, which raises the water by amplitude · sin(kx·x + kz·z + omega·t + phase). It travels against (kx, kz) where omega is positive.
+ * Scene files and P1 Eq. 1 call kx, kz and omega a, b and c. */
 typedef struct mgt_wave {
-    double amplitude; /* metres, ≥ 0 */
-    double a, b;      /* wave vector, radians per metre */
-    double c;         /* radians per second */
-    double phase;     /* radians */
+    double amplitude; /* metres, 0 … 1000 */
+    double kx, kz;    /* wave vector, radians per metre, ±1e5 */
+    double omega;     /* angular frequency, radians per second, ±1e5 */
+    double phase;     /* radians, ±1e9 */
 } mgt_wave;
 
 typedef struct mgt_image {

@@ -100,10 +100,12 @@ static mgt_status check_waves(const reporter *r, const mgt_water *water)
         return report_error(r, MGT_ERROR_ARGUMENT, "render.scene", "water.waves is NULL although water.wave_count is %zu", water->wave_count);
     for (size_t i = 0; i < water->wave_count; i++) {
         const mgt_wave *w = &water->waves[i];
-        if (!(w->amplitude >= 0 && w->amplitude <= 1000) || !(fabs(w->a) <= 1e5) || !(fabs(w->b) <= 1e5) || !(fabs(w->c) <= 1e5) || !(fabs(w->phase) <= 1e9))
-            return report_error(r, MGT_ERROR_SCENE, "render.scene",
-                                "water.waves[%zu] {amplitude %g, a %g, b %g, c %g, phase %g} is out of range: amplitude 0 to 1000 m, a, b, c ±1e5, phase ±1e9",
-                                i, w->amplitude, w->a, w->b, w->c, w->phase);
+        if (!(w->amplitude >= 0 && w->amplitude <= 1000) || !(fabs(w->kx) <= 1e5) || !(fabs(w->kz) <= 1e5) || !(fabs(w->omega) <= 1e5) ||
+            !(fabs(w->phase) <= 1e9))
+            return report_error(
+                r, MGT_ERROR_SCENE, "render.scene",
+                "water.waves[%zu] {amplitude %g, kx %g, kz %g, omega %g, phase %g} is out of range: amplitude 0 to 1000 m, kx, kz, omega ±1e5, phase ±1e9", i,
+                w->amplitude, w->kx, w->kz, w->omega, w->phase);
     }
     return MGT_OK;
 }

@@ -316,8 +316,8 @@ static double path_bend(const forest *f, int parts)
     double sum = 0;
     for (size_t i = 0; i < s->water.wave_count; i++) {
         const mgt_wave *w = &s->water.waves[i];
-        const double away = 1 - cos(fmin(fabs(w->c) * s->shutter / 2 / parts, 3.14159265358979323846));
-        sum += w->amplitude * w->amplitude * (w->a * w->a + w->b * w->b) / 2 * away * away;
+        const double away = 1 - cos(fmin(fabs(w->omega) * s->shutter / 2 / parts, 3.14159265358979323846));
+        sum += w->amplitude * w->amplitude * (w->kx * w->kx + w->kz * w->kz) / 2 * away * away;
     }
     return sqrt(sum) / (0.5 * (double)f->a->frame->data.light_radius);
 }

@@ -49,9 +49,9 @@ static void find_hit(const frame *f, tile_pixel at, const tile_guess *guess, mgt
         double gap = c->position[1] + along * ray[1], closing = ray[1];
         for (size_t i = 0; i < water->wave_count; i++) {
             const mgt_wave *w = &water->waves[i];
-            const double phase = w->a * px + w->b * pz + w->c * f->scene->time + w->phase;
+            const double phase = w->kx * px + w->kz * pz + w->omega * f->scene->time + w->phase;
             gap -= w->amplitude * sin(phase);
-            closing -= w->amplitude * (w->a * ray[0] + w->b * ray[2]) * cos(phase);
+            closing -= w->amplitude * (w->kx * ray[0] + w->kz * ray[2]) * cos(phase);
         }
         const double move = gap / fmin(closing, 0.25 * ray[1]);
         along -= fmin(fmax(move, -0.1 * along), 0.1 * along);

@@ -18,7 +18,7 @@ static double map_period(const mgt_water *water)
     double least = HUGE_VAL, most = 0;
     for (size_t i = 0; i < water->wave_count; i++) {
         const mgt_wave *w = &water->waves[i];
-        const double k = hypot(w->a, w->b);
+        const double k = hypot(w->kx, w->kz);
         if (w->amplitude > 0 && k > 0)
             least = fmin(least, k), most = fmax(most, k);
     }
@@ -33,19 +33,19 @@ LeanData lean_snap_waves(const frame *f, lean_waves *out)
     *out = (lean_waves){0};
     for (size_t i = 0; i < s->water.wave_count; i++) {
         const mgt_wave *w = &s->water.waves[i];
-        const double across = rint(w->a * period / turn), down = rint(w->b * period / turn), variance = w->amplitude * w->amplitude / 2;
+        const double across = rint(w->kx * period / turn), down = rint(w->kz * period / turn), variance = w->amplitude * w->amplitude / 2;
         if (hypot(across, down) > limit) {
-            xx += variance * w->a * w->a;
-            xz += variance * w->a * w->b;
-            zz += variance * w->b * w->b;
+            xx += variance * w->kx * w->kx;
+            xz += variance * w->kx * w->kz;
+            zz += variance * w->kz * w->kz;
             continue;
         }
         const size_t at = out->count++;
         out->across[at] = (int)across;
         out->down[at] = (int)down;
-        out->turns[at] = (w->a * f->close.position[0] + w->b * f->close.position[2] + w->c * s->time + w->phase) / turn + wave_turns(f);
-        out->slope_x[at] = (float)(w->amplitude * w->a);
-        out->slope_z[at] = (float)(w->amplitude * w->b);
+        out->turns[at] = (w->kx * f->close.position[0] + w->kz * f->close.position[2] + w->omega * s->time + w->phase) / turn + wave_turns(f);
+        out->slope_x[at] = (float)(w->amplitude * w->kx);
+        out->slope_z[at] = (float)(w->amplitude * w->kz);
     }
     return (LeanData){
         .texels_per_metre = (float)(LEAN_SIZE / period),

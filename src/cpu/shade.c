@@ -92,8 +92,8 @@ static void set_waves(shade_scene *s, const frame *f, const world *w, const sky_
     s->data.sun_radius = (float)sky->tan_radius;
     for (size_t i = 0; i < water->wave_count && gathers; i++) {
         const mgt_wave *wave = &water->waves[i];
-        const double phase = (wave->a * w->origin[0] + wave->b * w->origin[1] + wave->c * f->scene->time + wave->phase) / turn;
-        s->waves[i] = (MarchWave){(float)(wave->a / turn), (float)(wave->b / turn), (float)(phase - rint(phase)), (float)wave->amplitude};
+        const double phase = (wave->kx * w->origin[0] + wave->kz * w->origin[1] + wave->omega * f->scene->time + wave->phase) / turn;
+        s->waves[i] = (MarchWave){(float)(wave->kx / turn), (float)(wave->kz / turn), (float)(phase - rint(phase)), (float)wave->amplitude};
     }
 }
 

@@ -167,32 +167,32 @@ double wave_turns(const frame *f) { return f->under ? 0.5 : 0; }
 
 static WaveData wave_data(const mgt_wave *w, double half)
 {
-    const double cos_half = cos(w->c * half), sin_half = sin(w->c * half);
-    const double squared = w->a * w->a + w->b * w->b, A = w->amplitude;
+    const double cos_half = cos(w->omega * half), sin_half = sin(w->omega * half);
+    const double squared = w->kx * w->kx + w->kz * w->kz, A = w->amplitude;
     const double octave = squared > 0 ? 0.5 * log2(squared) : 0;
     return (WaveData){
-        .turns_x = (float)(w->a / (2 * pi)),
-        .turns_z = (float)(w->b / (2 * pi)),
+        .turns_x = (float)(w->kx / (2 * pi)),
+        .turns_z = (float)(w->kz / (2 * pi)),
         .amplitude = (float)A,
-        .even_x = (float)(A * w->a * cos_half),
-        .even_z = (float)(A * w->b * cos_half),
-        .odd_x = (float)(A * w->a * sin_half),
-        .odd_z = (float)(A * w->b * sin_half),
-        .bend_xx = (float)(-A * w->a * w->a),
-        .bend_xz = (float)(-A * w->a * w->b),
-        .bend_zz = (float)(-A * w->b * w->b),
+        .even_x = (float)(A * w->kx * cos_half),
+        .even_z = (float)(A * w->kz * cos_half),
+        .odd_x = (float)(A * w->kx * sin_half),
+        .odd_z = (float)(A * w->kz * sin_half),
+        .bend_xx = (float)(-A * w->kx * w->kx),
+        .bend_xz = (float)(-A * w->kx * w->kz),
+        .bend_zz = (float)(-A * w->kz * w->kz),
         .even_height = (float)(A * cos_half),
-        .k_x = (float)w->a,
-        .k_z = (float)w->b,
+        .k_x = (float)w->kx,
+        .k_z = (float)w->kz,
         .half_variance = (float)(A * A / 2),
         .odd_height = (float)(A * sin_half),
         .cos_half = (float)cos_half,
         .sin_half = (float)sin_half,
         .octave_mass = (float)(A * A * squared / 2 * octave),
         .octave_sq_mass = (float)(A * A * squared / 2 * octave * octave),
-        .variance_xx = (float)(A * A / 2 * w->a * w->a),
-        .variance_xz = (float)(A * A / 2 * w->a * w->b),
-        .variance_zz = (float)(A * A / 2 * w->b * w->b),
+        .variance_xx = (float)(A * A / 2 * w->kx * w->kx),
+        .variance_xz = (float)(A * A / 2 * w->kx * w->kz),
+        .variance_zz = (float)(A * A / 2 * w->kz * w->kz),
     };
 }
 
@@ -218,16 +218,16 @@ void wave_set_build(const frame *f, const camera_rays *camera, interval time, bo
     double variance = 0, slope_variance = 0;
     for (size_t i = water->wave_count; i-- > 0;) { /* from the smallest, for lesser_variance */
         const mgt_wave *w = &water->waves[f->order[i]];
-        const double turns_x = w->a / (2 * pi), turns_z = w->b / (2 * pi);
+        const double turns_x = w->kx / (2 * pi), turns_z = w->kz / (2 * pi);
         set->data[i] = wave_data(w, time.half);
         set->turns_x[i] = (float)turns_x;
         set->turns_z[i] = (float)turns_z;
         set->turns_low_x[i] = (float)(turns_x - (double)set->turns_x[i]);
         set->turns_low_z[i] = (float)(turns_z - (double)set->turns_z[i]);
-        const double phase = turns_x * camera->position[0] + turns_z * camera->position[2] + (w->c * time.middle + w->phase) / (2 * pi) + wave_turns(f);
+        const double phase = turns_x * camera->position[0] + turns_z * camera->position[2] + (w->omega * time.middle + w->phase) / (2 * pi) + wave_turns(f);
         set->phase[i] = (float)(phase - rint(phase));
         variance += w->amplitude * w->amplitude / 2;
-        slope_variance += w->amplitude * w->amplitude * (w->a * w->a + w->b * w->b) / 2;
+        slope_variance += w->amplitude * w->amplitude * (w->kx * w->kx + w->kz * w->kz) / 2;
         set->lesser_variance[i] = (float)variance;
     }
     set->view = view_data(camera);

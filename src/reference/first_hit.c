@@ -52,7 +52,7 @@ water_hit first_hit_brute_force(const mgt_scene *scene, double pixel_x, double p
     for (size_t i = 0; i < scene->water.wave_count; i++) {
         const mgt_wave *wave = &scene->water.waves[i];
         crest += fabs(wave->amplitude);
-        steepest += fabs(wave->amplitude * (wave->a * ray.direction[0] + wave->b * ray.direction[2]));
+        steepest += fabs(wave->amplitude * (wave->kx * ray.direction[0] + wave->kz * ray.direction[2]));
     }
     const double fall = steepest - ray.direction[1]; /* the fastest loss of height over the water */
     double distance = 0;

@@ -18,8 +18,8 @@ static const long double pi = 3.14159265358979323846264338327950288L;
 /* long double, because a camera may stand at phases of 10⁷ radians. */
 static double reduced_half_turns(const mgt_wave *wave, const mgt_scene *scene)
 {
-    const long double phase = (long double)wave->a * scene->camera.position[0] + (long double)wave->b * scene->camera.position[2] +
-                              (long double)wave->c * scene->time + (long double)wave->phase;
+    const long double phase = (long double)wave->kx * scene->camera.position[0] + (long double)wave->kz * scene->camera.position[2] +
+                              (long double)wave->omega * scene->time + (long double)wave->phase;
     return (double)remainderl(phase / pi, 2.0L);
 }
 
@@ -43,13 +43,13 @@ static void set_waves(reference_frame *frame, const mgt_scene *scene)
         const mgt_wave *from = &scene->water.waves[i];
         reference_wave *to = &frame->waves[i];
         to->amplitude = from->amplitude;
-        to->a = from->a;
-        to->b = from->b;
-        to->amplitude_a = from->amplitude * from->a;
-        to->amplitude_b = from->amplitude * from->b;
-        to->half_turns_a = (double)(from->a / pi);
-        to->half_turns_b = (double)(from->b / pi);
-        to->half_turns_c = (double)(from->c / pi);
+        to->a = from->kx;
+        to->b = from->kz;
+        to->amplitude_a = from->amplitude * from->kx;
+        to->amplitude_b = from->amplitude * from->kz;
+        to->half_turns_a = (double)(from->kx / pi);
+        to->half_turns_b = (double)(from->kz / pi);
+        to->half_turns_c = (double)(from->omega / pi);
         to->phase = reduced_half_turns(from, scene);
         sum += fabs(from->amplitude);
         square += from->amplitude * from->amplitude;

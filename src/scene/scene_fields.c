@@ -130,9 +130,9 @@ static const field_row sky_fields[] =
 
 static const field_row wave_fields[] = {{"amplitude", FIELD_NUMBER, offsetof(mgt_wave, amplitude), FIELD_REQUIRED, 0, 1000, "m",
                                          .doc = "height of the crest over the mean surface"},
-                                        {"a", FIELD_NUMBER, offsetof(mgt_wave, a), FIELD_REQUIRED, -1e5, 1e5, "rad/m", .doc = "wave vector along x"},
-                                        {"b", FIELD_NUMBER, offsetof(mgt_wave, b), FIELD_REQUIRED, -1e5, 1e5, "rad/m", .doc = "wave vector along z"},
-                                        {"c", FIELD_NUMBER, offsetof(mgt_wave, c), FIELD_REQUIRED, -1e5, 1e5, "rad/s", .doc = "angular speed"},
+                                        {"a", FIELD_NUMBER, offsetof(mgt_wave, kx), FIELD_REQUIRED, -1e5, 1e5, "rad/m", .doc = "wave vector along x"},
+                                        {"b", FIELD_NUMBER, offsetof(mgt_wave, kz), FIELD_REQUIRED, -1e5, 1e5, "rad/m", .doc = "wave vector along z"},
+                                        {"c", FIELD_NUMBER, offsetof(mgt_wave, omega), FIELD_REQUIRED, -1e5, 1e5, "rad/s", .doc = "angular speed"},
                                         {"phase", FIELD_NUMBER, offsetof(mgt_wave, phase), 0, ANYWHERE, "rad", .doc = "phase at x = z = 0, time 0"},
                                         {0}};
 

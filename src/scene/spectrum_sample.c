@@ -199,9 +199,9 @@ static mgt_wave make_wave(const wave_spectrum *spectrum, double height_variance,
     const double k = sqrt(slope_variance / height_variance), frequency = dispersion_frequency(k, spectrum->depth);
     const double azimuth = direction_quantile(spectrum, frequency, direction_share);
     return (mgt_wave){.amplitude = seven_digits(sqrt(2 * height_variance)),
-                      .a = seven_digits(k * portable_sin(azimuth)),
-                      .b = seven_digits(-k * portable_cos(azimuth)),
-                      .c = seven_digits(-frequency),
+                      .kx = seven_digits(k * portable_sin(azimuth)),
+                      .kz = seven_digits(-k * portable_cos(azimuth)),
+                      .omega = seven_digits(-frequency),
                       .phase = seven_digits(phase)};
 }
 
@@ -251,7 +251,7 @@ sea_statistics waves_statistics(const mgt_wave *waves, size_t count, double azim
     double height = 0, upwind = 0, crosswind = 0;
     for (size_t i = 0; i < count; i++) {
         const mgt_wave *w = &waves[i];
-        const double variance = w->amplitude * w->amplitude / 2, along = w->a * x + w->b * z, across = w->a * z - w->b * x;
+        const double variance = w->amplitude * w->amplitude / 2, along = w->kx * x + w->kz * z, across = w->kx * z - w->kz * x;
         height += variance;
         upwind += variance * along * along;
         crosswind += variance * across * across;

@@ -28,7 +28,7 @@ static double gap_at(const geometry *g, const ray *r, double along)
     double gap = r->eye[1] + along * r->step[1];
     for (size_t i = 0; i < g->wave_count; i++) {
         const mgt_wave *w = &g->waves[i];
-        gap -= w->amplitude * sin(w->a * x + w->b * z + w->c * g->time + w->phase);
+        gap -= w->amplitude * sin(w->kx * x + w->kz * z + w->omega * g->time + w->phase);
     }
     return gap;
 }
@@ -39,7 +39,7 @@ static double water_depth(const geometry *g, const ray *r)
     double height = 0, slope = 0;
     for (size_t i = 0; i < g->wave_count; i++) {
         height += g->waves[i].amplitude;
-        slope += g->waves[i].amplitude * hypot(g->waves[i].a, g->waves[i].b);
+        slope += g->waves[i].amplitude * hypot(g->waves[i].kx, g->waves[i].kz);
     }
     if (r->step[1] >= 0)
         return INFINITY;

@@ -211,8 +211,8 @@ static double finest_frequency(const mgt_scene *scene, int x, int y)
     }
     for (size_t w = 0; w < scene->water.wave_count; w++) {
         const mgt_wave *v = &scene->water.waves[w];
-        const double right = (v->a * (at[1][0] - at[0][0]) + v->b * (at[1][1] - at[0][1])) / step;
-        const double down = (v->a * (at[2][0] - at[0][0]) + v->b * (at[2][1] - at[0][1])) / step;
+        const double right = (v->kx * (at[1][0] - at[0][0]) + v->kz * (at[1][1] - at[0][1])) / step;
+        const double down = (v->kx * (at[2][0] - at[0][0]) + v->kz * (at[2][1] - at[0][1])) / step;
         most = fmax(most, hypot(right, down) / (2 * 3.14159265358979323846));
     }
     return most;

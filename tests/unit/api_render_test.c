@@ -99,7 +99,7 @@ static mgt_scene shifted(mgt_scene scene, mgt_wave waves[SEA_WAVES], double x, d
 {
     for (size_t i = 0; i < scene.water.wave_count; i++) {
         waves[i] = scene.water.waves[i];
-        waves[i].phase -= waves[i].a * x + waves[i].b * z;
+        waves[i].phase -= waves[i].kx * x + waves[i].kz * z;
     }
     scene.water.waves = waves;
     mgt_camera *cameras[2] = {&scene.camera, &scene.camera_open};

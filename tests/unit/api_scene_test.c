@@ -235,7 +235,7 @@ static void water_is_checked(void **state)
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++)
         for (size_t member = 0; member < 5; member++) {
             const mgt_wave kept = a->waves[1];
-            double values[5] = {kept.amplitude, kept.a, kept.b, kept.c, kept.phase};
+            double values[5] = {kept.amplitude, kept.kx, kept.kz, kept.omega, kept.phase};
             values[member] = bad[k];
             a->waves[1] = (mgt_wave){values[0], values[1], values[2], values[3], values[4]};
             expect(a, &a->scene, MGT_ERROR_SCENE, "water.waves[1]");

@@ -124,7 +124,7 @@ static double height_at(const mgt_scene *scene, double x, double z)
     double height = 0;
     for (size_t i = 0; i < scene->water.wave_count; i++) {
         const mgt_wave *w = &scene->water.waves[i];
-        height += w->amplitude * sin(w->a * x + w->b * z + w->c * scene->time + w->phase);
+        height += w->amplitude * sin(w->kx * x + w->kz * z + w->omega * scene->time + w->phase);
     }
     return height;
 }

@@ -263,8 +263,8 @@ static void unresolved_sea_mirrors_its_probability(void **state)
     random_state r = {23};
     random_waves(&r, waves, COUNT, 0.0005, 0.0006, 0.15);
     for (int i = 0; i < COUNT; i++) { /* they run along the view, and x and z vary together */
-        const double k = hypot(waves[i].a, waves[i].b), direction = -0.8 + random_range(&r, -0.7, 0.7);
-        waves[i].a = k * cos(direction), waves[i].b = k * sin(direction);
+        const double k = hypot(waves[i].kx, waves[i].kz), direction = -0.8 + random_range(&r, -0.7, 0.7);
+        waves[i].kx = k * cos(direction), waves[i].kz = k * sin(direction);
     }
     mgt_scene scene = black_scene(WIDTH, HEIGHT, waves, COUNT);
     scene.camera.target[0] = 0.8;
@@ -275,7 +275,7 @@ static void unresolved_sea_mirrors_its_probability(void **state)
     double cov[3] = {0};
     for (int i = 0; i < COUNT; i++) {
         const double half = waves[i].amplitude * waves[i].amplitude / 2;
-        cov[0] += half * waves[i].a * waves[i].a, cov[1] += half * waves[i].a * waves[i].b, cov[2] += half * waves[i].b * waves[i].b;
+        cov[0] += half * waves[i].kx * waves[i].kx, cov[1] += half * waves[i].kx * waves[i].kz, cov[2] += half * waves[i].kz * waves[i].kz;
     }
     static double error[WIDTH * HEIGHT];
     size_t count = 0;

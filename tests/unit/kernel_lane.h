@@ -162,9 +162,9 @@ static inline void random_waves(random_state *r, mgt_wave *waves, size_t count, 
         const double length = shortest * pow(longest / shortest, random_unit(r)), k = 2 * 3.14159265358979323846 / length;
         const double direction = random_range(r, -3.2, 3.2);
         waves[i] = (mgt_wave){.amplitude = slope_rms * sqrt(2.0 / (double)count) / k,
-                              .a = k * cos(direction),
-                              .b = k * sin(direction),
-                              .c = -sqrt(9.81 * k),
+                              .kx = k * cos(direction),
+                              .kz = k * sin(direction),
+                              .omega = -sqrt(9.81 * k),
                               .phase = random_range(r, 0, 6.3)};
     }
 }

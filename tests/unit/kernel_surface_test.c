@@ -20,10 +20,10 @@ static bounds float_bounds(const mgt_scene *scene, double x, double z)
     bounds b = {1e-9, 1e-9, 1e-9};
     for (size_t i = 0; i < scene->water.wave_count; i++) {
         const mgt_wave *w = &scene->water.waves[i];
-        const double turns = (fabs(w->a * x) + fabs(w->b * z)) / (2 * pi);
+        const double turns = (fabs(w->kx * x) + fabs(w->kz * z)) / (2 * pi);
         const double rounding = 2 * pi * 0x1p-24 * (4 * turns + 1) + (double)scene->water.wave_count * 0x1p-24;
         const double sine = rounding + 1.2e-5, cosine = rounding + 3.5e-6;
-        const double k = hypot(w->a, w->b);
+        const double k = hypot(w->kx, w->kz);
         b.height += w->amplitude * sine;
         b.slope += w->amplitude * k * cosine;
         b.bend += w->amplitude * k * k * sine;
@@ -127,7 +127,7 @@ static void shutter_ends_come_by_rotation(void **state)
 /* One wave of a given frequency, seen straight from above: a footprint of one metre a pixel. */
 static kernel_bench *one_wave_bench(mgt_wave *wave, double frequency, bool mixed)
 {
-    *wave = (mgt_wave){.amplitude = 0.01, .a = 2 * pi * frequency * 0.8, .b = 2 * pi * frequency * 0.6, .phase = 0.4};
+    *wave = (mgt_wave){.amplitude = 0.01, .kx = 2 * pi * frequency * 0.8, .kz = 2 * pi * frequency * 0.6, .phase = 0.4};
     mgt_scene scene = black_scene(64, 64, wave, 1);
     scene.shutter = 0;
     scene.time = 0;
@@ -197,7 +197,7 @@ static void split_follows_the_box_filter(void **state)
         const variance_split v = split_of(b, &wave, frequency);
         double mean = 0, spread = 0;
         for (int j = 0; j < 32; j++) {
-            const filtered_sine s = box_filter_sine(2 * pi * j / 32.0, (double[]){wave.a, wave.b});
+            const filtered_sine s = box_filter_sine(2 * pi * j / 32.0, (double[]){wave.kx, wave.kz});
             mean += 2 * s.mean_cosine * s.mean_cosine / 32;
             spread += 2 * s.variance_cosine / 32;
         }
@@ -238,7 +238,7 @@ static void tiles_sort_without_loss(void **state)
     const mgt_scene scene = black_scene(640, 360, waves, WAVES);
     double whole = 0;
     for (int i = 0; i < WAVES; i++)
-        whole += waves[i].amplitude * waves[i].amplitude * (waves[i].a * waves[i].a + waves[i].b * waves[i].b) / 2;
+        whole += waves[i].amplitude * waves[i].amplitude * (waves[i].kx * waves[i].kx + waves[i].kz * waves[i].kz) / 2;
     kernel_bench *b = kernel_bench_create(&scene);
     double lost = 0, share_error = 0;
     int resolved = 0, mixed = 0, filtered = 0;

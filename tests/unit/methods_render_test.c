@@ -92,7 +92,7 @@ static void check_scene(mgt_context *context, mgt_scene *scene, const char *name
         mgt_wave waves[MGT_MAX_WAVES];
         memcpy(waves, scene->water.waves, scene->water.wave_count * sizeof *waves);
         for (size_t i = 0; still && i < scene->water.wave_count; i++)
-            waves[i].c = 0;
+            waves[i].omega = 0;
         mgt_scene s = *scene;
         s.water.waves = waves;
         for (int k = 0; k < 15; k++)
@@ -217,7 +217,7 @@ static void taa_of_a_still_sea_is_a_mean(void **state)
     mgt_wave waves[SEA_WAVES];
     mgt_scene scene = sea_scene(waves);
     for (int i = 0; i < SEA_WAVES; i++)
-        waves[i].c = 0, waves[i].amplitude *= i < 5 ? 0.5 : 0;
+        waves[i].omega = 0, waves[i].amplitude *= i < 5 ? 0.5 : 0;
     scene.light.radiance[0] = scene.light.radiance[1] = scene.light.radiance[2] = 0;
     mgt_context *context = sea_context(2, MGT_ISA_AUTO);
     const struct {

@@ -435,7 +435,7 @@ static void far_origin_shows_the_same_sea(void **unused)
     const double x = 1e5, z = -7e4;
     for (int i = 0; i < 32; i++) {
         shifted[i] = waves[i];
-        const long double phase = waves[i].phase - (long double)waves[i].a * x - (long double)waves[i].b * z;
+        const long double phase = waves[i].phase - (long double)waves[i].kx * x - (long double)waves[i].kz * z;
         shifted[i].phase = (double)remainderl(phase, 6.283185307179586476925286766559L);
     }
     scene.water.waves = shifted;
@@ -547,7 +547,7 @@ static void moving_camera_is_the_mean_of_still_ones(void **unused)
     mgt_wave waves[6];
     rough_waves(waves, 6, 0.1);
     for (int i = 0; i < 6; i++)
-        waves[i].c = 0; /* only the camera moves */
+        waves[i].omega = 0; /* only the camera moves */
     mgt_scene scene = flat_scene(48, 27), still = scene;
     scene.water.waves = waves;
     scene.water.wave_count = 6;

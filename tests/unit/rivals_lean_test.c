@@ -49,9 +49,9 @@ static void waves_are_snapped_by_half_a_period_at_most(void **state)
     double worst = 0, shortest = 1e9, longest = 0;
     assert_int_equal(s->map->waves.count, WAVES);
     for (int i = 0; i < WAVES; i++) {
-        worst = fmax(worst, fabs(s->waves[i].a * period / turn - s->map->waves.across[i]));
-        worst = fmax(worst, fabs(s->waves[i].b * period / turn - s->map->waves.down[i]));
-        const double length = turn / hypot(s->waves[i].a, s->waves[i].b);
+        worst = fmax(worst, fabs(s->waves[i].kx * period / turn - s->map->waves.across[i]));
+        worst = fmax(worst, fabs(s->waves[i].kz * period / turn - s->map->waves.down[i]));
+        const double length = turn / hypot(s->waves[i].kx, s->waves[i].kz);
         shortest = fmin(shortest, length), longest = fmax(longest, length);
     }
     print_message("  map of %.1f m, %.3f m a texel, waves of %.2f to %.2f m\n", period, period / LEAN_SIZE, shortest, longest);
@@ -69,9 +69,9 @@ static void texels_are_the_snapped_waves(void **state)
         double sx = 0, sz = 0;
         for (int i = 0; i < WAVES; i++) {
             const mgt_wave *w = &s->waves[i];
-            const double phase = w->c * s->bench->scene.time + w->phase;
+            const double phase = w->omega * s->bench->scene.time + w->phase;
             const double c = cos(phase + turn * (s->map->waves.across[i] * (double)x + s->map->waves.down[i] * (double)z) / LEAN_SIZE);
-            sx += w->amplitude * w->a * c, sz += w->amplitude * w->b * c;
+            sx += w->amplitude * w->kx * c, sz += w->amplitude * w->kz * c;
         }
         worst = fmax(worst, hypot((double)s->map->slope_x[z * LEAN_SIZE + x] - sx, (double)s->map->slope_z[z * LEAN_SIZE + x] - sz));
     }
@@ -102,7 +102,7 @@ static void levels_hold_the_covariance_that_they_filter(void **state)
         for (int i = 0; i < WAVES; i++) {
             const mgt_wave *w = &s->waves[i];
             const double d = dirichlet(s->map->waves.across[i], 1 << level) * dirichlet(s->map->waves.down[i], 1 << level);
-            const double k[3] = {w->a * w->a, w->a * w->b, w->b * w->b};
+            const double k[3] = {w->kx * w->kx, w->kx * w->kz, w->kz * w->kz};
             for (int m = 0; m < 3; m++) {
                 exact[m] += w->amplitude * w->amplitude / 2 * k[m] * (1 - d * d);
                 whole[m] += w->amplitude * w->amplitude / 2 * k[m];
@@ -125,8 +125,8 @@ static void looked_up_moments_are_unbiased(void **state)
     random_state r = {11};
     double xx = 0, zz = 0;
     for (int i = 0; i < WAVES; i++) {
-        xx += pow(s->waves[i].amplitude * s->waves[i].a, 2) / 2;
-        zz += pow(s->waves[i].amplitude * s->waves[i].b, 2) / 2;
+        xx += pow(s->waves[i].amplitude * s->waves[i].kx, 2) / 2;
+        zz += pow(s->waves[i].amplitude * s->waves[i].kz, 2) / 2;
     }
     for (int kind = 0; kind < 4; kind++) {
         /* A pixel from 2 cm to 6 m long, up to 20 times as long as wide, in any direction. */

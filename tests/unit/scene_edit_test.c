@@ -115,7 +115,7 @@ static void paths_find_their_values(void **state)
     const scene_values *values = scene_file_values(file);
     const void *at = NULL;
     assert_non_null(scene_values_find(values, "water.waves[1].a", &at));
-    assert_ptr_equal(at, &((const mgt_wave *)values->water.waves.items)[1].a);
+    assert_ptr_equal(at, &((const mgt_wave *)values->water.waves.items)[1].kx);
     assert_non_null(scene_values_find(values, "camera.position", &at));
     assert_ptr_equal(at, values->camera.still.position);
     static const char *const none[] = {"",       "wave",  "water.waves[2].a", "water.waves[x].a", "water.waves[0]", "camera.position.x", "camera..up",

@@ -115,8 +115,8 @@ static void every_key_is_read(void **state)
     assert_int_equal(scene.water.wave_count, 2);
     assert_int_equal(scene_file_wave_count(file), 2);
     const mgt_wave *waves = scene.water.waves;
-    assert_true(waves[0].amplitude == 0.02 && waves[0].a == 1.5 && waves[0].b == 0.3 && waves[0].c == -3.8 && waves[0].phase == 0.7);
-    assert_true(waves[1].amplitude == 0.01 && waves[1].a == -2 && waves[1].b == 0.5 && waves[1].c == 4 && waves[1].phase == 0);
+    assert_true(waves[0].amplitude == 0.02 && waves[0].kx == 1.5 && waves[0].kz == 0.3 && waves[0].omega == -3.8 && waves[0].phase == 0.7);
+    assert_true(waves[1].amplitude == 0.01 && waves[1].kx == -2 && waves[1].kz == 0.5 && waves[1].omega == 4 && waves[1].phase == 0);
     assert_true(scene.water.index_of_refraction == 1.34);
     assert_color(scene.water.body_albedo, 0.1f, 0.2f, 0.3f);
     assert_false(scene.post.auto_exposure);
@@ -207,7 +207,7 @@ static void overrides_replace_add_and_append(void **state)
     assert_true(scene.light.elevation_deg == 3 && scene.light.azimuth_deg == -20);
     assert_int_equal(scene.light.body, MGT_BODY_MOON);
     assert_true(scene.water.waves[0].amplitude == 0.02 && scene.water.waves[1].amplitude == 0.1);
-    assert_true(scene.water.waves[1].a == -2);
+    assert_true(scene.water.waves[1].kx == -2);
     assert_int_equal(scene.water.wave_count, 3);
     assert_vector(scene.camera.position, 0, 9, 1);
     assert_vector(scene.camera.up, 0, 1, 0);

@@ -147,7 +147,7 @@ static void water_keys_are_read(void **state)
     mgt_scene other = scene_of(twice);
     assert_int_equal(other.water.wave_count, 9);
     for (int i = 0; i < 9; i++)
-        assert_true(other.water.waves[i].amplitude == 2 * scene.water.waves[i].amplitude && other.water.waves[i].a == scene.water.waves[i].a);
+        assert_true(other.water.waves[i].amplitude == 2 * scene.water.waves[i].amplitude && other.water.waves[i].kx == scene.water.waves[i].kx);
     scene_file_free(file);
     scene_file_free(twice);
     scene_error error;

@@ -261,10 +261,10 @@ static void waves_have_the_variances_of_their_spectrum(void **state)
             if (counts[i] >= 16)
                 assert_near(found.upwind, wanted.upwind, counts[i] >= 64 ? 0.03 : 0.2);
             for (size_t w = 0; w < counts[i]; w++) {
-                const double k = hypot(waves[w].a, waves[w].b);
-                assert_near(waves[w].c, -dispersion_frequency(k, depth), 1e-6);
+                const double k = hypot(waves[w].kx, waves[w].kz);
+                assert_near(waves[w].omega, -dispersion_frequency(k, depth), 1e-6);
                 assert_true(waves[w].amplitude > 0 && k <= dispersion_wave_number(s.high, depth) * 1.000001);
-                assert_true(w == 0 || k >= hypot(waves[w - 1].a, waves[w - 1].b));
+                assert_true(w == 0 || k >= hypot(waves[w - 1].kx, waves[w - 1].kz));
                 assert_true(waves[w].phase >= 0 && waves[w].phase <= 6.2831854);
             }
         }
@@ -283,10 +283,10 @@ static void waves_run_with_the_wind(void **state)
         assert_true(spectrum_sample(&s, 1, 256, waves));
         double x = 0, z = 0;
         for (size_t w = 0; w < 256; w++) {
-            const double variance = waves[w].amplitude * waves[w].amplitude / 2, k = hypot(waves[w].a, waves[w].b);
-            assert_true(waves[w].c < 0);
-            x += variance * waves[w].a / k;
-            z += variance * waves[w].b / k;
+            const double variance = waves[w].amplitude * waves[w].amplitude / 2, k = hypot(waves[w].kx, waves[w].kz);
+            assert_true(waves[w].omega < 0);
+            x += variance * waves[w].kx / k;
+            z += variance * waves[w].kz / k;
         }
         const double length = hypot(x, z);
         assert_true(x / length * winds[i][1] + z / length * winds[i][2] > 0.99);
@@ -302,7 +302,7 @@ static void seeds_make_other_seas_of_the_same_kind(void **state)
     assert_true(spectrum_sample(&s, 1, 64, one) && spectrum_sample(&s, 1, 64, again) && spectrum_sample(&s, 2, 64, other));
     assert_memory_equal(one, again, sizeof one);
     for (int i = 0; i < 64; i++)
-        assert_true(one[i].amplitude == other[i].amplitude && one[i].phase != other[i].phase && one[i].a != other[i].a);
+        assert_true(one[i].amplitude == other[i].amplitude && one[i].phase != other[i].phase && one[i].kx != other[i].kx);
 }
 
 static void cox_and_munk_are_met(void **state)
@@ -378,7 +378,7 @@ static void a_table_is_integrated_by_trapezia(void **state)
     mgt_wave waves[64];
     assert_true(spectrum_sample(&s, 1, 64, waves));
     assert_near(waves_statistics(waves, 64, s.downwind).height, 4 * sqrt(variance), 1e-5);
-    assert_true(waves[0].a > 0 && fabs(waves[0].b) < waves[0].a); /* the swell runs east */
+    assert_true(waves[0].kx > 0 && fabs(waves[0].kz) < waves[0].kx); /* the swell runs east */
 
     /* With a shorter wave the table gets a tail of ω⁻⁵, with cox-munk one that meets it. */
     settings.shortest = 0.1;

@@ -330,7 +330,7 @@ static void waves_have_shapes(void **state)
         mgt_wave w = wave_new(i), again = w;
         const wave_shape shape = wave_shape_of(&w);
         wave_set_shape(&again, &shape);
-        assert_true(fabs(again.a - w.a) < 1e-9 && fabs(again.b - w.b) < 1e-9 && fabs(again.c - w.c) < 1e-9);
+        assert_true(fabs(again.kx - w.kx) < 1e-9 && fabs(again.kz - w.kz) < 1e-9 && fabs(again.omega - w.omega) < 1e-9);
         assert_true(shape.speed > 0);
         /* Crests travel where the shape says. */
         const double angle = shape.direction_deg * 3.14159265358979 / 180, t = 0.37, way = shape.speed * t;

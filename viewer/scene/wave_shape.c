@@ -16,18 +16,18 @@ const field_row wave_shape_fields[] = {{"wavelength", FIELD_NUMBER, offsetof(wav
 
 wave_shape wave_shape_of(const mgt_wave *wave)
 {
-    const double k = hypot(wave->a, wave->b);
+    const double k = hypot(wave->kx, wave->kz);
     if (!(k > 2 * pi / longest))
         return (wave_shape){longest, 0, 0};
-    return (wave_shape){fmax(2 * pi / k, shortest), atan2(wave->a, -wave->b) * 180 / pi, -wave->c / k};
+    return (wave_shape){fmax(2 * pi / k, shortest), atan2(wave->kx, -wave->kz) * 180 / pi, -wave->omega / k};
 }
 
 void wave_set_shape(mgt_wave *wave, const wave_shape *shape)
 {
     const double k = 2 * pi / fmin(fmax(shape->wavelength, shortest), longest), angle = shape->direction_deg * pi / 180;
-    wave->a = k * sin(angle);
-    wave->b = -k * cos(angle);
-    wave->c = fmin(fmax(-shape->speed * k, -1e5), 1e5);
+    wave->kx = k * sin(angle);
+    wave->kz = -k * cos(angle);
+    wave->omega = fmin(fmax(-shape->speed * k, -1e5), 1e5);
 }
 
 mgt_wave wave_new(size_t index)
@@ -44,6 +44,6 @@ double wave_height(const mgt_wave *waves, size_t count, double x, double z, doub
 {
     double height = 0;
     for (size_t i = 0; i < count; i++)
-        height += waves[i].amplitude * sin(waves[i].a * x + waves[i].b * z + waves[i].c * time + waves[i].phase);
+        height += waves[i].amplitude * sin(waves[i].kx * x + waves[i].kz * z + waves[i].omega * time + waves[i].phase);
     return height;
 }
