@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: MIT
-# A thin front of CMake: `make` builds the command build/mangata, `make demo` and `make check` start from nothing.
+# A thin front of CMake: `make` builds the libraries, the command build/mangata and the viewer; `make demo`, `make test` (a few minutes) and `make check`
+# (everything) start from nothing.
 
-.PHONY: all setup demo check bench bench-gpu install clean
+.PHONY: all setup demo test check bench bench-gpu install clean
 
 all:
 	[ -f build/build.ninja ] || cmake --preset release
-	cmake --build build
+	cmake --build build --target products
 
 setup:
 	scripts/setup
@@ -16,13 +17,18 @@ demo: setup
 	cmake --build build --target mangata
 	scripts/demo
 
+test: setup
+	scripts/check --quick
+
 check: setup
 	scripts/check
 
 bench: all
+	cmake --build build --target benchmarks
 	scripts/bench
 
 bench-gpu: all
+	cmake --build build --target benchmarks
 	scripts/bench_gpu
 
 install: all
