@@ -36,7 +36,7 @@ static const option_table bench_table = {"bench",
                                          "The methods take turns, so that a change of the machine's pace meets all of them.",
                                          bench_options,
                                          sizeof bench_options / sizeof bench_options[0],
-                                         NULL};
+                                         .notes = NULL};
 
 enum { METHOD_LIMIT = 16 };
 
@@ -172,6 +172,13 @@ static int prepare(bench *b)
     if (!b->scene)
         return console_scene_error(&error);
     mgt_scene first;
+    const mgt_quality base = scene_file_quality(b->scene);
+    for (size_t i = 0; i < b->count; i++) {
+        char wrong[600];
+        method_spec *spec = &b->methods[i].spec;
+        if (!quality_options_apply(&spec->given, &base, &spec->quality, wrong, sizeof wrong))
+            return console_error(EXIT_CODE_USAGE, "%s: %s", spec->name, wrong);
+    }
     if (!scene_file_frame(b->scene, 0, &first))
         return console_error(EXIT_CODE_BAD_INPUT, "%s: the camera of frame 0 is not a legal one", r->scene_path);
     b->width = first.image.width;

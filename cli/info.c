@@ -10,7 +10,7 @@
 #include "cli/common/options.h"
 #include "cli/common/verbs.h"
 
-static const option_table info_table = {"info", "[options]", "Lists version, instruction sets, threads, libraries and file formats.", NULL, 0, NULL};
+static const option_table info_table = {"info", "[options]", "Lists version, instruction sets, threads, libraries and file formats.", .options = NULL};
 
 #if defined(__clang__)
 #define COMPILER "clang " __clang_version__

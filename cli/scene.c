@@ -19,7 +19,7 @@ static const option_table scene_table = {"scene",
                                          "schema: prints the JSON Schema of scene files.",
                                          check_options,
                                          sizeof check_options / sizeof check_options[0],
-                                         "exit codes: 0 all is well, 64 usage, 65 bad scene, 66 no such file"};
+                                         .notes = "exit codes: 0 all is well, 64 usage, 65 bad scene, 66 no such file"};
 
 /* What the loader cannot know, because only the library does: whether each frame can be rendered. */
 static int check_frames(const scene_file *scene, const char *path, scene_error *error)

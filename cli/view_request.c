@@ -27,12 +27,13 @@ static const option view_options[] = {
                      "read again when they change"},
 };
 
-static const option_table view_table = {"view",
-                                        "SCENE [options]",
-                                        "Opens a scene in the interactive viewer, the program mangata-viewer.",
-                                        view_options,
-                                        sizeof view_options / sizeof view_options[0],
-                                        "exit codes: 0 done, 1 failed, 64 usage, 65 bad scene, 66 no such input, 69 no viewer, no display\nor no such backend"};
+static const option_table view_table =
+    {"view",
+     "SCENE [options]",
+     "Opens a scene in the interactive viewer, the program mangata-viewer.",
+     view_options,
+     sizeof view_options / sizeof view_options[0],
+     .notes = "exit codes: 0 done, 1 failed, 64 usage, 65 bad scene, 66 no such input, 69 no viewer, no display\nor no such backend"};
 
 static int bad_value(size_t id, const char *value, const char *allowed)
 {

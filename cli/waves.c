@@ -79,7 +79,7 @@ static const option_table waves_table = {"waves",
                                          "--json prints the sea's statistics instead, beside their closed forms.",
                                          waves_options,
                                          sizeof waves_options / sizeof waves_options[0],
-                                         "exit codes: 0 done, 64 usage, 65 bad scene, table or sea, 66 no such input, 73 cannot write"};
+                                         .notes = "exit codes: 0 done, 64 usage, 65 bad scene, table or sea, 66 no such input, 73 cannot write"};
 
 typedef struct waves_request {
     scene_spectrum spectrum; /* borrows its file's name */

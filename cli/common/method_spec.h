@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "mangata/mangata.h"
+#include "cli/common/quality_options.h"
 
 enum { METHOD_SPEC_TEXT = 96 };
 
@@ -16,7 +16,8 @@ typedef struct method_spec {
     char name[METHOD_SPEC_TEXT];        /* as it was given */
     char file[METHOD_SPEC_TEXT];        /* the same as a part of a file's name: [a-z0-9.-]+ */
     char options[2 * METHOD_SPEC_TEXT]; /* the same as words of `mangata render`: "--method podee-pixel --ndf-mean drop" */
-    mgt_quality quality;
+    quality_options given;
+    mgt_quality quality; /* with defaults for what is not given; a scene may say otherwise */
 } method_spec;
 
 /* Reads `length` characters of `text`. On failure returns false with one line in `wrong`: what is wrong, what is allowed. */

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "params/methods.h"
+#include "params/options.h"
 
 static const option common_options[] = {
     {"json", 0, NULL, "print the result as JSON on standard output"},
@@ -21,9 +22,41 @@ option_reader option_reader_start(const option_table *table, console *out, int c
     return (option_reader){.table = table, .out = out, .arguments = arguments, .count = count};
 }
 
-static const option *option_at(const option_table *table, size_t i) { return i < table->count ? &table->options[i] : &common_options[i - table->count]; }
+/* The verb's own options, those of every verb, and those of quality. */
+static size_t option_total(const option_table *table) { return table->count + COMMON_COUNT + (table->quality ? QUALITY_ROWS : 0); }
 
-static const char *option_name_at(const void *table, size_t i) { return option_at(table, i)->name; }
+/* What the help calls a value of an option. */
+static const char *value_word(const field_row *field, char *room, size_t size)
+{
+    if (field->label)
+        return field->label;
+    if (field->choices && field_word_count(field) == 2) {
+        snprintf(room, size, "%s|%s", field_word(field, 0), field_word(field, 1));
+        return room;
+    }
+    return field->choices ? "NAME" : field->type == FIELD_COUNT || field->type == FIELD_LARGE ? "N" : "X";
+}
+
+/* Its name may hold '_' in place of '-'. */
+static option option_at(const option_table *table, size_t i)
+{
+    if (i < table->count)
+        return table->options[i];
+    if (i < table->count + COMMON_COUNT)
+        return common_options[i - table->count];
+    const field_row *field = &quality_fields[i - table->count - COMMON_COUNT];
+    return (option){.name = field->flags & FIELD_NO_FLAG ? "" : field->key, .value = "VALUE"};
+}
+
+static const char *option_name_at(const void *table, size_t i) { return option_at(table, i).name; }
+
+static bool is_named(const char *name, const char *text, size_t length)
+{
+    for (size_t i = 0; i < length; i++)
+        if (text[i] != name[i] && !(text[i] == '-' && name[i] == '_'))
+            return false;
+    return length > 0 && name[length] == 0;
+}
 
 static void print_option(const option *o)
 {
@@ -44,6 +77,40 @@ static void print_option(const option *o)
     putchar('\n');
 }
 
+/* The words of `text` in lines of at most 64 characters. */
+static void wrap(const char *text, char *out)
+{
+    enum { WIDTH = 64 };
+    size_t column = 0;
+    while (*text) {
+        const size_t length = strcspn(text, " ");
+        if (column > 0)
+            *out++ = column + 1 + length > WIDTH ? '\n' : ' ';
+        column = column + 1 + length > WIDTH ? length : column + (column > 0) + length;
+        memcpy(out, text, length);
+        out += length;
+        text += length + strspn(text + length, " ");
+    }
+    *out = 0;
+}
+
+static void print_quality(void)
+{
+    printf("\noptions of quality, which are also keys of a scene's quality:\n");
+    for (const field_row *field = quality_fields; field->key; field++) {
+        char room[64], allowed[160], when[160], text[640], lines[640];
+        if (field->flags & FIELD_NO_FLAG)
+            continue;
+        field_allowed(field, allowed, sizeof allowed);
+        field_conditions(quality_fields, field, when, sizeof when);
+        const mgt_quality defaults = quality_defaults();
+        const short_number preset = field_print(field, field_at(field, &defaults));
+        snprintf(text, sizeof text, "%s: %s (default %s%s%s)", field->doc, allowed, field->absent ? field->absent : preset.text, when[0] ? "; for " : "", when);
+        wrap(text, lines);
+        print_option(&(option){.name = option_flag_of(field).text + 2, .value = value_word(field, room, sizeof room), .help = lines});
+    }
+}
+
 static void print_methods(void)
 {
     printf("\nmethods:\n");
@@ -58,8 +125,12 @@ static void print_methods(void)
 static void print_help(const option_table *table)
 {
     printf("usage: mangata %s %s\n\n%s\n\noptions:\n", table->verb, table->usage, table->summary);
-    for (size_t i = 0; i < table->count + COMMON_COUNT; i++)
-        print_option(option_at(table, i));
+    for (size_t i = 0; i < table->count + COMMON_COUNT; i++) {
+        const option o = option_at(table, i);
+        print_option(&o);
+    }
+    if (table->quality)
+        print_quality();
     for (size_t i = 0; i < table->count; i++)
         if (table->options[i].value && strcmp(table->options[i].value, OPTION_VALUE_METHOD) == 0)
             print_methods();
@@ -109,7 +180,7 @@ static int unknown_option(const option_reader *reader, const char *text)
     char name[64];
     snprintf(name, sizeof name, "%.*s", (int)least(strcspn(text, "="), sizeof name - 1), text);
     const char *dashes = strncmp(name, "--", 2) == 0 ? name + 2 : name + 1;
-    const char *near = nearest_name(dashes, reader->table, reader->table->count + COMMON_COUNT, option_name_at);
+    const char *near = nearest_name(dashes, reader->table, option_total(reader->table), option_name_at);
     if (near)
         console_error(0, "unknown option %s; did you mean --%s?", name, near);
     else
@@ -122,6 +193,8 @@ static int found(option_reader *reader, size_t index, const char **value)
 {
     if (index < reader->table->count)
         return (int)index;
+    if (index >= reader->table->count + COMMON_COUNT)
+        return OPTION_QUALITY + (int)(index - reader->table->count - COMMON_COUNT);
     switch (index - reader->table->count) {
     case COMMON_JSON:
         reader->out->json = true;
@@ -158,7 +231,7 @@ int option_reader_next(option_reader *reader, const char **value)
     if (reader->next >= reader->count)
         return OPTION_END;
     const char *text = reader->arguments[reader->next++];
-    const size_t total = reader->table->count + COMMON_COUNT;
+    const size_t total = option_total(reader->table);
     if (reader->operands_only || text[0] != '-' || text[1] == 0) {
         *value = text;
         return OPTION_OPERAND;
@@ -169,17 +242,17 @@ int option_reader_next(option_reader *reader, const char **value)
     }
     if (text[1] != '-') {
         for (size_t i = 0; i < total; i++) {
-            const option *o = option_at(reader->table, i);
-            if (o->letter && o->letter == text[1])
-                return take_value(reader, o, i, text[2] ? text + 2 : NULL, value);
+            const option o = option_at(reader->table, i);
+            if (o.letter && o.letter == text[1])
+                return take_value(reader, &o, i, text[2] ? text + 2 : NULL, value);
         }
         return unknown_option(reader, text);
     }
     const size_t length = strcspn(text + 2, "=");
     for (size_t i = 0; i < total; i++) {
-        const option *o = option_at(reader->table, i);
-        if (strlen(o->name) == length && strncmp(o->name, text + 2, length) == 0)
-            return take_value(reader, o, i, text[2 + length] ? text + 3 + length : NULL, value);
+        const option o = option_at(reader->table, i);
+        if (is_named(o.name, text + 2, length))
+            return take_value(reader, &o, i, text[2 + length] ? text + 3 + length : NULL, value);
     }
     return unknown_option(reader, text);
 }

@@ -25,6 +25,7 @@ typedef struct option_table {
     const option *options;
     size_t count;
     const char *notes; /* printed below the options; may be NULL */
+    bool quality;      /* it takes the options of quality as well */
 } option_table;
 
 typedef struct option_reader {
@@ -36,6 +37,9 @@ typedef struct option_reader {
 } option_reader;
 
 enum { OPTION_END = -1, OPTION_OPERAND = -2, OPTION_ERROR = -3, OPTION_HELP = -4 };
+
+/* Options of quality come as OPTION_QUALITY + their place in quality_fields. */
+enum { OPTION_QUALITY = 1000 };
 
 /* `arguments` are those after the verb. */
 option_reader option_reader_start(const option_table *table, console *out, int count, char **arguments);

@@ -68,8 +68,8 @@ static const option_table compare_table = {"compare",
                                            "Pictures are kept in DIR/frames: the same command again goes on where it was stopped.",
                                            compare_options,
                                            sizeof compare_options / sizeof compare_options[0],
-                                           "exit codes: 0 done, 2 above a limit, 64 usage, 65 bad scene, 66 no such scene, 69 not available,\n"
-                                           "73 cannot write, 130 and 143 stopped by a signal"};
+                                           .notes = "exit codes: 0 done, 2 above a limit, 64 usage, 65 bad scene, 66 no such scene, 69 not available,\n"
+                                                    "73 cannot write, 130 and 143 stopped by a signal"};
 
 /* What must wait until the methods are known. */
 typedef struct late_options {
@@ -94,12 +94,10 @@ static int set_number(size_t id, const char *value, uint64_t least, uint64_t mos
                          (unsigned long long)most);
 }
 
-static int set_number32(size_t id, const char *value, uint64_t least, uint64_t most, uint32_t *number)
+static int set_count(size_t id, const char *value, uint32_t *count)
 {
-    uint64_t n = 0;
-    const int code = set_number(id, value, least, most, &n);
-    *number = (uint32_t)n;
-    return code;
+    char wrong[240];
+    return quality_count_read(compare_options[id].name, value, count, wrong, sizeof wrong) ? EXIT_CODE_OK : console_error(EXIT_CODE_USAGE, "%s", wrong);
 }
 
 static int set_size(const char *value, char size[2][32])
@@ -148,9 +146,9 @@ static int set_option(compare_request *r, int id, const char *value, late_option
     case OPT_SIZE:
         return set_size(value, late->size);
     case OPT_SPATIAL:
-        return set_number32(OPT_SPATIAL, value, 1, 1024, &r->reference.spatial_samples);
+        return set_count(OPT_SPATIAL, value, &r->reference.spatial_samples);
     case OPT_TIME:
-        return set_number32(OPT_TIME, value, 1, 65536, &r->reference.time_samples);
+        return set_count(OPT_TIME, value, &r->reference.time_samples);
     case OPT_SET:
         r->overrides[r->override_count++] = value;
         break;

@@ -41,7 +41,7 @@ char *compare_command(const compare_job *job)
 char *compare_picture_command(const compare_job *job, const compare_scene *scene, size_t picture)
 {
     const compare_request *r = job->request;
-    const mgt_quality *q = compare_picture_quality(job, scene, picture);
+    const mgt_quality *q = compare_picture_quality(scene, picture);
     char *text = NULL, frames[240];
     size_t size = 0;
     FILE *stream = open_memstream(&text, &size);

@@ -20,7 +20,7 @@ static render_request picture_request(const compare_job *job, const compare_scen
 {
     render_request request = {.scene_path = scene->path,
                               .format = PICTURE_EXR,
-                              .quality = *compare_picture_quality(job, scene, picture),
+                              .quality = *compare_picture_quality(scene, picture),
                               .layers = {MGT_LAYER_COLOR, MGT_LAYER_COVERAGE},
                               .layer_count = 2};
     for (size_t i = 0; i < job->request->layer_count; i++)
@@ -69,9 +69,9 @@ static int make_folders(compare_job *job)
 }
 
 /* About how long the picture takes: for the time left. */
-static double picture_work(const compare_job *job, const compare_scene *scene, size_t picture)
+static double picture_work(const compare_scene *scene, size_t picture)
 {
-    const mgt_quality *quality = compare_picture_quality(job, scene, picture);
+    const mgt_quality *quality = compare_picture_quality(scene, picture);
     const double each = method_of(quality->method)->way == METHOD_SAMPLES ? 1 : 4; /* double precision, or a filter's integral */
     return each * (double)compare_samples(quality) * scene->width * scene->height;
 }
@@ -87,7 +87,7 @@ static int render_picture(compare_job *job, frame_buffer *buffer, const compare_
     if (code != EXIT_CODE_OK)
         return code;
     progress_frame(&job->progress, compare_frame_number(job, frame));
-    job->progress.work_now = picture_work(job, scene, picture);
+    job->progress.work_now = picture_work(scene, picture);
     const double start = seconds_now();
     const mgt_status status = mgt_render(job->context, &view, buffer->targets, buffer->count);
     const double seconds = seconds_now() - start;
@@ -134,7 +134,7 @@ static int look_for_kept(compare_job *job, const compare_scene *scene, bool *kep
             return code;
         kept[i] = picture_is_kept(path, &hash);
         *missing += !kept[i];
-        *work += kept[i] ? 0 : picture_work(job, scene, i % pictures);
+        *work += kept[i] ? 0 : picture_work(scene, i % pictures);
         job->kept += kept[i];
     }
     return EXIT_CODE_OK;

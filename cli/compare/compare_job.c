@@ -17,9 +17,9 @@ const char *compare_picture_name(const compare_job *job, size_t picture)
     return picture == COMPARE_REFERENCE ? "reference" : job->request->methods[picture - 1].name;
 }
 
-const mgt_quality *compare_picture_quality(const compare_job *job, const compare_scene *scene, size_t picture)
+const mgt_quality *compare_picture_quality(const compare_scene *scene, size_t picture)
 {
-    return picture == COMPARE_REFERENCE ? &scene->reference : &job->request->methods[picture - 1].quality;
+    return picture == COMPARE_REFERENCE ? &scene->reference : &scene->methods[picture - 1];
 }
 
 uint32_t compare_frame_number(const compare_job *job, size_t frame) { return frame_list_at(&job->request->frames, frame); }
@@ -46,19 +46,19 @@ bool compare_draws(const compare_scene *scene, size_t picture)
     return picture == COMPARE_REFERENCE || scene->view->methods == 0 || (scene->view->methods >> (picture - 1) & 1);
 }
 
-bool compare_number_scene(const compare_job *job, const compare_scene *scene, size_t picture, uint32_t number, mgt_scene *out)
+bool compare_number_scene(const compare_scene *scene, size_t picture, uint32_t number, mgt_scene *out)
 {
     if (!scene_file_frame(scene->file, (int)number, out)) {
         console_error(0, "%s: the camera of frame %u is not a legal one", scene->path, number);
         return false;
     }
-    out->quality = *compare_picture_quality(job, scene, picture);
+    out->quality = *compare_picture_quality(scene, picture);
     return true;
 }
 
 bool compare_frame_scene(const compare_job *job, const compare_scene *scene, size_t picture, size_t frame, mgt_scene *out)
 {
-    return compare_number_scene(job, scene, picture, compare_frame_number(job, frame), out);
+    return compare_number_scene(scene, picture, compare_frame_number(job, frame), out);
 }
 
 int compare_stopped(compare_job *job)
@@ -138,6 +138,26 @@ static scene_file *load_file(const compare_job *job, const compare_scene *scene,
     return file;
 }
 
+/* What the scene asks for and a method takes, unless the request says otherwise. */
+static int set_qualities(const compare_job *job, compare_scene *scene)
+{
+    const compare_request *r = job->request;
+    const mgt_quality base = scene_file_quality(scene->file);
+    mgt_quality reference = base;
+    char wrong[600];
+    reference.method = r->reference.method;
+    reference.spatial_samples = r->reference.spatial_samples;
+    reference.time_samples = r->reference.time_samples;
+    reference.seed = r->reference.seed;
+    scene->reference = quality_restricted(&reference);
+    for (size_t m = 0; m < r->method_count; m++) {
+        if (!quality_options_apply(&r->methods[m].given, &base, &scene->methods[m], wrong, sizeof wrong))
+            return console_error(EXIT_CODE_USAGE, "%s: %s: %s", scene->path, r->methods[m].name, wrong);
+        scene->methods[m].seed = r->methods[m].quality.seed;
+    }
+    return EXIT_CODE_OK;
+}
+
 static int load_scene(compare_job *job, size_t index)
 {
     const compare_request *r = job->request;
@@ -146,7 +166,6 @@ static int load_scene(compare_job *job, size_t index)
     mgt_scene first;
     scene->path = r->scene_paths[index];
     scene->view = &r->views[index];
-    scene->reference = r->reference;
     scene->reference_seconds = NAN;
     name_scene(job, index);
     scene->file = load_file(job, scene, &error);
@@ -154,8 +173,12 @@ static int load_scene(compare_job *job, size_t index)
         return console_scene_error(&error);
     scene->canonical = scene_file_canonical(scene->file, NULL);
     scene->results = calloc(r->method_count, sizeof *scene->results);
-    if (!scene->canonical || !scene->results)
+    scene->methods = calloc(r->method_count, sizeof *scene->methods);
+    if (!scene->canonical || !scene->results || !scene->methods)
         return console_error(EXIT_CODE_FAILED, "out of memory");
+    const int code = set_qualities(job, scene);
+    if (code != EXIT_CODE_OK)
+        return code;
     if (!compare_frame_scene(job, scene, COMPARE_REFERENCE, 0, &first))
         return EXIT_CODE_BAD_INPUT;
     scene->width = first.image.width;
@@ -287,6 +310,7 @@ static void free_scene(compare_scene *scene, size_t methods)
         for (int k = 0; k < COMPARE_KINDS; k++)
             free(scene->results[m].frames[k]);
     free(scene->results);
+    free(scene->methods);
     free(scene->canonical);
     scene_file_free(scene->file);
 }

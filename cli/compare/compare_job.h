@@ -35,6 +35,7 @@ typedef struct compare_scene {
     scene_file *file;
     char *canonical;
     uint32_t width, height;
+    mgt_quality *methods;     /* one a method: the request's, over the scene's quality */
     mgt_quality reference;    /* the request's; objects are seen through the waves as they are */
     bool black_sky;           /* colour tells nothing that coverage does not */
     double reference_seconds; /* of a frame, on average; NaN: not known */
@@ -59,7 +60,7 @@ enum { COMPARE_PATH = 4600 };
 enum { COMPARE_REFERENCE = 0 };
 
 const char *compare_picture_name(const compare_job *job, size_t picture);
-const mgt_quality *compare_picture_quality(const compare_job *job, const compare_scene *scene, size_t picture);
+const mgt_quality *compare_picture_quality(const compare_scene *scene, size_t picture);
 uint32_t compare_frame_number(const compare_job *job, size_t frame);
 
 /* Where the picture is kept, and a file DIR/NAME of the report. False, with the error printed, when the path is too long. */
@@ -71,7 +72,7 @@ bool compare_draws(const compare_scene *scene, size_t picture);
 
 /* The frame as the picture shows it, by its place in the list or by its number. False, with the error printed, when its camera is not a legal one. */
 bool compare_frame_scene(const compare_job *job, const compare_scene *scene, size_t picture, size_t frame, mgt_scene *out);
-bool compare_number_scene(const compare_job *job, const compare_scene *scene, size_t picture, uint32_t number, mgt_scene *out);
+bool compare_number_scene(const compare_scene *scene, size_t picture, uint32_t number, mgt_scene *out);
 
 /* Prints and returns the exit codes of a failed file and of a signal. */
 int compare_file_failure(compare_job *job, const file_error *error);

@@ -43,8 +43,10 @@ static bool times_key(const compare_job *job, const compare_scene *scene, sha256
     if (r->memory)
         fputs("memory\n", stream);
     for (size_t m = 0; m < r->method_count; m++)
-        if (is_timed(scene, m))
+        if (is_timed(scene, m)) {
             fprintf(stream, "%s seed %llu\n", r->methods[m].name, (unsigned long long)r->methods[m].quality.seed);
+            quality_write(stream, &scene->methods[m], "%s %s\n");
+        }
     if (!memory_text_finish(stream, &text))
         return false;
     *key = sha256(text, size);
@@ -123,7 +125,7 @@ static int time_once(compare_job *job, const compare_scene *scene, size_t method
 {
     const uint32_t number = compare_frame_number(job, 0) + (scene->view->only_timed ? (uint32_t)run : 0);
     mgt_scene view;
-    if (!compare_number_scene(job, scene, method + 1, number, &view))
+    if (!compare_number_scene(scene, method + 1, number, &view))
         return EXIT_CODE_BAD_INPUT;
     progress_frame(&job->progress, number);
     const int code = render_once(job, job->context, &view, target, seconds);

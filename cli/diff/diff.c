@@ -45,8 +45,8 @@ static const option_table diff_table = {"diff",
                                         "(frame_%04d.pfm or frame_####.pfm) are read as clips and scored together.",
                                         diff_options,
                                         sizeof diff_options / sizeof diff_options[0],
-                                        "exit codes: 0 done, 1 sizes or channels differ, 2 above --max-rmse, 64 usage, 65 bad picture,\n"
-                                        "66 no such picture"};
+                                        .notes = "exit codes: 0 done, 1 sizes or channels differ, 2 above --max-rmse, 64 usage, 65 bad picture,\n"
+                                                 "66 no such picture"};
 
 typedef struct diff_request {
     console out;

@@ -7,6 +7,7 @@
 #include "cli/common/names.h"
 #include "cli/common/numbers.h"
 #include "cli/common/options.h"
+#include "cli/common/quality_options.h"
 #include "cli/common/verbs.h"
 
 enum {
@@ -59,8 +60,8 @@ static const option_table figures_table = {"figures",
                                            "--json everything measured.",
                                            figures_options,
                                            sizeof figures_options / sizeof figures_options[0],
-                                           "exit codes: 0 done, 2 a claim does not hold (--check), 64 usage, 65 bad scene, 66 no such scene,\n"
-                                           "69 not available, 73 cannot write, 130 and 143 stopped by a signal"};
+                                           .notes = "exit codes: 0 done, 2 a claim does not hold (--check), 64 usage, 65 bad scene, 66 no such scene,\n"
+                                                    "69 not available, 73 cannot write, 130 and 143 stopped by a signal"};
 
 static const char *const figure_words[FIGURES] = {"table1", "11",         "12",     "13",     "14",     "15",    "16",    "17",
                                                   "18",     "20",         "21",     "liu-4",  "liu-7",  "liu-8", "liu-9", "liu-10",
@@ -98,12 +99,10 @@ static int set_number(size_t id, const char *value, uint64_t least, uint64_t mos
                          (unsigned long long)most);
 }
 
-static int set_samples(size_t id, const char *value, uint64_t most, uint32_t *samples)
+static int set_count(size_t id, const char *value, uint32_t *count)
 {
-    uint64_t number = 0;
-    const int code = set_number(id, value, 1, most, &number);
-    *samples = (uint32_t)number;
-    return code;
+    char wrong[240];
+    return quality_count_read(figures_options[id].name, value, count, wrong, sizeof wrong) ? EXIT_CODE_OK : console_error(EXIT_CODE_USAGE, "%s", wrong);
 }
 
 static int set_size(const char *value, char size[2][32])
@@ -136,11 +135,11 @@ static int set_option(figures_request *r, int id, const char *value, char size[2
         r->size_given = true;
         return set_size(value, size);
     case OPT_SPATIAL:
-        return set_samples(OPT_SPATIAL, value, 1024, &r->reference.spatial_samples);
+        return set_count(OPT_SPATIAL, value, &r->reference.spatial_samples);
     case OPT_TIME:
-        return set_samples(OPT_TIME, value, 65536, &r->reference.time_samples);
+        return set_count(OPT_TIME, value, &r->reference.time_samples);
     case OPT_RAYS:
-        return set_samples(OPT_RAYS, value, 64, &r->refraction_samples);
+        return set_count(OPT_RAYS, value, &r->refraction_samples);
     case OPT_SCENES:
         r->scenes = value;
         break;

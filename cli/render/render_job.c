@@ -77,6 +77,10 @@ static int load_scene(render_job *job)
     job->canonical = scene_file_canonical(job->scene, NULL);
     if (!job->canonical)
         return console_error(EXIT_CODE_FAILED, "out of memory");
+    char wrong[600];
+    const mgt_quality base = scene_file_quality(job->scene);
+    if (!quality_options_apply(&r->options, &base, &r->quality, wrong, sizeof wrong))
+        return console_error(EXIT_CODE_USAGE, "%s", wrong);
     if (!r->frames_given) {
         const bool one = !render_is_film(r) && !r->path.numbered;
         frame_list_span(&r->frames, 0, one ? 0 : (uint32_t)scene_file_frame_count(job->scene) - 1);

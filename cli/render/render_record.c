@@ -10,11 +10,8 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "cli/common/adaptive_options.h"
 #include "cli/common/memory_text.h"
 #include "cli/common/numbers.h"
-#include "cli/common/podee_options.h"
-#include "cli/common/refraction_options.h"
 
 static const char *format_word(picture_format format)
 {
@@ -58,15 +55,7 @@ bool render_hash(const render_request *request, const char *canonical, const mgt
     fprintf(stream, "crop %u %u %u %u\n", image->crop_x, image->crop_y, image->crop_width, image->crop_height);
     fprintf(stream, "method %s\nsamples %u %u %" PRIu64 " %" PRIu64 "\nseed %" PRIu64 "\nndf_mean_drop %d\n", method_name(q).text, q->spatial_samples,
             q->time_samples, q->sample_first, q->sample_count, q->seed, q->ndf_mean_drop);
-    const podee_text podee = podee_options_text(q);
-    if (podee.text[0])
-        fprintf(stream, "podee %s\n", podee.text);
-    const adaptive_text adaptive = adaptive_options_text(q);
-    if (adaptive.text[0])
-        fprintf(stream, "adaptive %s\n", adaptive.text);
-    const refraction_text refraction = refraction_options_text(q);
-    if (refraction.text[0])
-        fprintf(stream, "refraction %s\n", refraction.text);
+    quality_write(stream, q, "option %s %s\n");
     fprintf(stream, "arithmetic %s\nformat %s\nlayers", arithmetic_word(info), format_word(request->format));
     for (size_t i = 0; i < request->layer_count; i++)
         fprintf(stream, " %s", layer_name(request->layers[i]));
@@ -119,15 +108,16 @@ void render_record_fill(render_record *record, const render_request *request, co
     add(record, "mangata_version", "%s", mgt_version());
     add(record, RENDER_HASH_KEY, "%s", hash->text);
     add(record, "method", "%s", method_name(q).text);
-    const podee_text podee = podee_options_text(q);
-    if (podee.text[0])
-        add(record, "method_options", "%s", podee.text);
-    const adaptive_text adaptive = adaptive_options_text(q);
-    if (adaptive.text[0])
-        add(record, "method_options", "%s", adaptive.text);
-    const refraction_text refraction = refraction_options_text(q);
-    if (refraction.text[0])
-        add(record, "refraction", "%s", refraction.text);
+    char options[RECORD_TEXT] = "";
+    FILE *stream = fmemopen(options, sizeof options, "w");
+    if (stream) {
+        quality_write(stream, q, "%s %s ");
+        fclose(stream);
+    }
+    if (options[0])
+        add(record, "method_options", "%.*s", (int)strlen(options) - 1, options);
+    if (q->refraction != MGT_REFRACTION_TWO_PHASE)
+        add(record, "refraction", "%s", field_print(field_find(quality_fields, "refraction", 10), &q->refraction).text);
     add(record, render_is_film(request) ? "frames" : "frame", "%s", frames);
     add(record, "time", "%s", number_print(time).text);
     add(record, "samples", "%" PRIu64, (uint64_t)q->spatial_samples * q->spatial_samples * q->time_samples);

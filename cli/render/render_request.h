@@ -9,6 +9,7 @@
 #include "image/picture.h"
 #include "cli/common/names.h"
 #include "cli/common/progress.h"
+#include "cli/common/quality_options.h"
 
 typedef struct render_request {
     console out;
@@ -21,8 +22,9 @@ typedef struct render_request {
     size_t override_count;
     bool frames_given, crop_given;
     frame_list frames;
-    uint64_t crop[4]; /* x, y, width, height */
-    mgt_quality quality;
+    uint64_t crop[4];        /* x, y, width, height */
+    quality_options options; /* of quality, as given */
+    mgt_quality quality;     /* with those of the scene, once it is loaded */
     context_options context;
     mgt_layer layers[LAYER_COUNT];
     size_t layer_count;

@@ -116,7 +116,7 @@ static mgt_status check_rows(const reporter *r, const char *object, const field_
     for (const field_row *field = fields; field->key; field++) {
         const void *value = field_at(field, values);
         const char *name = field->member ? field->member : field->key;
-        char words[160];
+        char words[240];
         if (!field_is_legal(field, value)) {
             field_allowed(field, words, sizeof words);
             return report_error(r, MGT_ERROR_SCENE, "render.scene", "%s.%s is %s; allowed is %s", object, name, field_print(field, value).text, words);

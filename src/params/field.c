@@ -263,6 +263,14 @@ void field_conditions(const field_row *fields, const field_row *field, char *out
     }
 }
 
+void field_meaning(const field_row *fields, const field_row *field, char *out, size_t size)
+{
+    char when[160];
+    field_conditions(fields, field, when, sizeof when);
+    snprintf(out, size, "%s%s%s%s%s%s", field->doc, when[0] ? " (" : "", when, when[0] ? ")" : "", field->absent ? "; by default " : "",
+             field->absent ? field->absent : "");
+}
+
 bool field_numbers_write(FILE *stream, const field_row *field, const void *value)
 {
     const double *scales = value;

@@ -46,7 +46,7 @@ typedef enum field_flags {
     FIELD_NO_PIXELS = 8, /* changes no pixel, or not as it stands: left out of the canonical text */
     FIELD_GIVEN = 16,    /* mapping: its struct begins with a bool, whether it stands in the file */
     FIELD_OR_ZERO = 32,  /* besides the range 0 is allowed, which stands for the default in `absent` */
-    FIELD_TOLERATED = 64 /* the API ignores it where its conditions do not hold; the command line refuses it there */
+    FIELD_NO_FLAG = 64   /* an option whose flag on the command line, if there is one, is no plain value */
 } field_flags;
 
 /* A row counts only while another choice of the same struct is one of some. */
@@ -111,6 +111,9 @@ bool field_applies(const field_row *fields, const field_row *field, const void *
 
 /* The conditions in words: "method podee-uniform or podee-pixel". Empty where there are none. */
 void field_conditions(const field_row *fields, const field_row *field, char *out, size_t size);
+
+/* What a row means, what stands in its place where it is not given, and its conditions, as one line. */
+void field_meaning(const field_row *fields, const field_row *field, char *out, size_t size);
 
 const field_row *field_find(const field_row *fields, const char *key, size_t length);
 

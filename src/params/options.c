@@ -23,7 +23,7 @@ static void decide_method(void *parent)
 {
     mgt_quality *q = parent;
     const method_row *row = method_of(q->method);
-    q->spatial_samples = row->spatial ? row->spatial : 1;
+    q->spatial_samples = row->spatial ? row->spatial : 4;
     q->time_samples = row->time ? row->time : 1;
 }
 
@@ -39,14 +39,14 @@ static void decide_method(void *parent)
 enum { HOW_MUCH = 1 }; /* alternatives: each says how much to sample */
 
 const field_row quality_fields[] =
-    {{"method", FIELD_CHOICE, MEMBER(method), .doc = "how waves smaller than a pixel and the open shutter are averaged",
+    {{"method", FIELD_CHOICE, MEMBER(method), FIELD_NO_FLAG, .doc = "how waves smaller than a pixel and the open shutter are averaged",
       .choices = &method_rows[0].properties.name, .choice_stride = sizeof(method_row), .preset = MGT_METHOD_MANGATA, .label = "NAME", .decide = decide_method},
-     {"spatial", FIELD_COUNT, MEMBER(spatial_samples), 0, 1, 1024, NULL, .doc = "N of N x N samples a pixel for each time sample", .preset = 1,
-      .absent = "8 for reference, 1 for ssaa", .member = "spatial_samples", .when = {{SAMPLED}}},
+     {"spatial", FIELD_COUNT, MEMBER(spatial_samples), 0, 1, 1024, NULL, .doc = "N of N x N samples a pixel for each time sample", .preset = 4,
+      .absent = "8 for reference, 4 for ssaa", .member = "spatial_samples", .when = {{SAMPLED}}},
      {"time_samples", FIELD_COUNT, MEMBER(time_samples), 0, 1, 65536, NULL, .doc = "samples of the open shutter", .preset = 1,
       .absent = "8 for reference, 1 for ssaa", .label = "M", .when = {{SAMPLED}}},
-     {"sample_first", FIELD_LARGE, MEMBER(sample_first), 0, 0, LARGEST, NULL, .doc = "first of the samples that are taken", .when = {{SAMPLED}}},
-     {"sample_count", FIELD_LARGE, MEMBER(sample_count), 0, 0, LARGEST, NULL, .doc = "how many samples are taken", .absent = "all that remain",
+     {"sample_first", FIELD_LARGE, MEMBER(sample_first), FIELD_NO_FLAG, 0, LARGEST, NULL, .doc = "first of the samples that are taken", .when = {{SAMPLED}}},
+     {"sample_count", FIELD_LARGE, MEMBER(sample_count), FIELD_NO_FLAG, 0, LARGEST, NULL, .doc = "how many samples are taken", .absent = "all that remain",
       .when = {{SAMPLED}}},
      {"seed", FIELD_LARGE, MEMBER(seed), 0, 0, LARGEST, NULL, .doc = "seed of the jitter"},
      {"ndf_mean", FIELD_SWITCH, MEMBER(ndf_mean_drop), 0, .doc = "add the mean slope of the filtered waves, or drop it as printed in the paper",
@@ -145,17 +145,115 @@ mgt_quality quality_restricted(const mgt_quality *quality)
     return q;
 }
 
-bool quality_conflict(const mgt_quality *quality, char *wrong, size_t size)
+void quality_write(FILE *stream, const mgt_quality *q, const char *format)
+{
+    static const char *const apart[] = {"method", "spatial", "time_samples", "sample_first", "sample_count", "seed"};
+    for (const field_row *field = quality_fields; field->key; field++) {
+        bool written = option_is_set(field, q);
+        for (size_t i = 0; i < sizeof apart / sizeof *apart; i++)
+            written &= strcmp(field->key, apart[i]) != 0;
+        if (written)
+            fprintf(stream, format, field->key, field_print(field, field_at(field, q)).text);
+    }
+}
+
+/* Alternatives that are set; of a choice: that are chosen, though it be the default. */
+static bool find_conflict(const mgt_quality *quality, const quality_choice *choice, char *wrong, size_t size)
 {
     const field_row *first = NULL;
     for (const field_row *field = quality_fields; field->key; field++) {
-        if (!field->alternative || !option_is_set(field, quality))
+        if (!field->alternative || !(choice ? quality_is_chosen(choice, field) : option_is_set(field, quality)))
             continue;
         if (first && first->alternative == field->alternative) {
-            snprintf(wrong, size, "%s and %s exclude each other", first->key, field->key);
+            snprintf(wrong, size, "%s and %s exclude each other: each says how much to sample", first->key, field->key);
             return true;
         }
         first = field;
     }
     return false;
+}
+
+bool quality_conflict(const mgt_quality *quality, char *wrong, size_t size) { return find_conflict(quality, NULL, wrong, size); }
+
+/* ---- choices ------------------------------------------------------------------------------------------------- */
+
+quality_choice quality_choice_none(void) { return (quality_choice){.values = quality_defaults()}; }
+
+static uint64_t bit_of(const field_row *field) { return ONE(field - quality_fields); }
+
+bool quality_is_chosen(const quality_choice *choice, const field_row *field) { return choice->rows & bit_of(field); }
+
+/* The default written out is the default: one picture has one hash. */
+static void simplify(const field_row *field, void *values)
+{
+    double number, written;
+    if (field->flags & FIELD_OR_ZERO && field->absent && number_read(field->absent, &number) &&
+        number_read(field_print(field, field_at(field, values)).text, &written) && written == number)
+        reset(field, values);
+}
+
+bool quality_choose(quality_choice *choice, const field_row *field, const char *text)
+{
+    mgt_quality *q = &choice->values;
+    if (field == quality_fields) {
+        mgt_quality method = *q;
+        if (!method_from_name(text, &method))
+            return false;
+        q->method = method.method;
+        if (!quality_is_chosen(choice, field_find(quality_fields, "spatial", 7)))
+            q->spatial_samples = method.spatial_samples;
+        if (!quality_is_chosen(choice, field_find(quality_fields, "time_samples", 12)))
+            q->time_samples = method.time_samples;
+    } else if (!field_parse(field, text, (char *)q + field->offset)) {
+        return false;
+    }
+    simplify(field, q);
+    choice->rows |= bit_of(field);
+    return true;
+}
+
+/* The others of its alternatives back to their defaults. */
+static void clear_alternatives(const field_row *field, mgt_quality *q)
+{
+    for (const field_row *other = quality_fields; other->key; other++)
+        if (field->alternative && other != field && other->alternative == field->alternative)
+            reset(other, q);
+}
+
+option_flag option_flag_of(const field_row *field)
+{
+    option_flag flag;
+    snprintf(flag.text, sizeof flag.text, "--%s", field->key);
+    for (char *p = flag.text; *p; p++)
+        if (*p == '_')
+            *p = '-';
+    return flag;
+}
+
+bool quality_apply(const quality_choice *choice, const mgt_quality *base, mgt_quality *out, char *wrong, size_t size)
+{
+    mgt_quality q = *base;
+    char words[160];
+    if (find_conflict(NULL, choice, wrong, size))
+        return false;
+    if (quality_is_chosen(choice, quality_fields)) {
+        q.spatial_samples = choice->values.spatial_samples;
+        q.time_samples = choice->values.time_samples;
+    }
+    for (const field_row *field = quality_fields; field->key; field++)
+        if (quality_is_chosen(choice, field)) {
+            clear_alternatives(field, &q);
+            memcpy((char *)&q + field->offset, field_at(field, &choice->values), field_size(field));
+        }
+    for (const field_row *field = quality_fields; field->key; field++)
+        if (quality_is_chosen(choice, field) && !field_applies(quality_fields, field, &q, false)) {
+            field_conditions(quality_fields, field, words, sizeof words);
+            snprintf(wrong, size, "%s: it is for %s alone", option_flag_of(field).text, words);
+            return false;
+        }
+    *out = quality_restricted(&q);
+    /* Methods without samples of their own take one; records and hashes say so. */
+    if (!field_applies(quality_fields, field_find(quality_fields, "spatial", 7), out, false))
+        out->spatial_samples = out->time_samples = 1;
+    return true;
 }

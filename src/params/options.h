@@ -36,6 +36,31 @@ bool option_is_set(const field_row *field, const void *values);
 /* Options whose conditions do not hold go back to their defaults: for a base whose method is chosen elsewhere. */
 mgt_quality quality_restricted(const mgt_quality *quality);
 
+/* Options that somebody chose, apart from the defaults of all others. */
+typedef struct quality_choice {
+    mgt_quality values;
+    uint64_t rows; /* one bit each, by place in quality_fields */
+} quality_choice;
+
+quality_choice quality_choice_none(void);
+
+/* Reads an option. False, with nothing changed, where the value is not allowed. */
+bool quality_choose(quality_choice *choice, const field_row *field, const char *text);
+bool quality_is_chosen(const quality_choice *choice, const field_row *field);
+
+/* `base` with what was chosen in its place; what the method then does not take goes back to its default. False, with one line in `wrong`, where
+ * a chosen option does not apply, or where chosen ones exclude each other. */
+bool quality_apply(const quality_choice *choice, const mgt_quality *base, mgt_quality *out, char *wrong, size_t size);
+
+/* A key as a flag of the command line: "--time-samples". */
+typedef struct option_flag {
+    char text[40];
+} option_flag;
+option_flag option_flag_of(const field_row *field);
+
+/* Key and value, by `format`, of each option that is not at its default, but for method, samples and seed. For hashes and metadata. */
+void quality_write(FILE *stream, const mgt_quality *q, const char *format) __attribute__((format(printf, 3, 0)));
+
 /* What is wrong with options together: "samples and target_rmse exclude each other". False: nothing is. */
 bool quality_conflict(const mgt_quality *quality, char *wrong, size_t size);
 

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "params/options.h"
 #include "scene/scene_path.h"
 #include "scene/scene_read.h"
 
@@ -109,6 +110,13 @@ static bool check_exposure(const scene_tree *tree, const scene_values *values, s
                       "post.exposure_offset stands beside an exposure that is a number; allowed: only with exposure: auto");
 }
 
+static bool check_quality(const scene_tree *tree, const mgt_quality *quality, scene_error *error)
+{
+    char wrong[160];
+    const tree_node *node = tree_get(tree->root, "quality");
+    return node == NULL || !quality_conflict(quality, wrong, sizeof wrong) || tree_error(tree, node->source, node->place, error, "quality: %s", wrong);
+}
+
 bool scene_check(const scene_tree *tree, const scene_values *values, scene_error *error)
 {
     const tree_node *path = tree_get(tree_get(tree->root, "camera"), "path");
@@ -116,5 +124,5 @@ bool scene_check(const scene_tree *tree, const scene_values *values, scene_error
     return check_image(tree, &values->image, error) &&
            (moves ? check_keyframes(tree, &values->camera, path, error) && check_path(tree, values, path, error)
                   : check_still_camera(tree, &values->camera, error)) &&
-           check_exposure(tree, values, error);
+           check_exposure(tree, values, error) && check_quality(tree, &values->quality, error);
 }

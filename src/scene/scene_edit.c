@@ -178,6 +178,7 @@ typedef union any_mapping {
     mgt_wave wave;
     mgt_light light;
     scene_object object;
+    mgt_quality quality;
 } any_mapping;
 
 static size_t mapping_size(const field_row *field)

@@ -256,6 +256,8 @@ static const field_row scene_fields[] =
      {"objects", FIELD_LIST, offsetof(scene_values, objects), 0, NO_RANGE, NULL, .doc = "what stands in and around the water", .fields = object_fields,
       .item_size = sizeof(scene_object), .max_items = 10000, .prepare = prepare_object},
      {"post", FIELD_MAPPING, offsetof(scene_values, post), 0, NO_RANGE, NULL, .doc = "from radiance to 8-bit pictures", .fields = scene_post_fields},
+     {"quality", FIELD_MAPPING, offsetof(scene_values, quality), FIELD_NO_PIXELS, NO_RANGE, NULL, .doc = "how it is rendered; the command line overrides it",
+      .fields = quality_fields},
      {0}};
 
 static const field_row root_field = {"", FIELD_MAPPING, 0, 0, NO_RANGE, NULL, .doc = "a scene of Mangata", .fields = scene_fields};

@@ -110,6 +110,7 @@ typedef struct scene_values {
     scene_water water;
     scene_list objects; /* of scene_object */
     scene_post post;
+    mgt_quality quality;         /* with options that its method does not take: another may */
     struct scene_models *models; /* not of the format: what the objects are made of, shared by copies; NULL: none, or not loaded */
 } scene_values;
 

@@ -9,6 +9,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "params/options.h"
 #include "scene/scene_edit.h"
 #include "scene/scene_models.h"
 #include "scene/scene_path.h"
@@ -174,6 +175,7 @@ bool scene_values_shot(const scene_values *values, double time, mgt_scene *out)
                             .exposure_ev = exposure->automatic ? values->post.exposure_offset : exposure->stops,
                             .tone_map = values->post.tone_map,
                             .glare = values->post.glare};
+    scene.quality = quality_restricted(&values->quality);
     *out = scene;
     return true;
 }
@@ -198,5 +200,7 @@ double scene_file_fps(const scene_file *file) { return file->values.time.fps; }
 double scene_file_start(const scene_file *file) { return file->values.time.start; }
 
 size_t scene_file_wave_count(const scene_file *file) { return scene_water_all(&file->values.water).count; }
+
+mgt_quality scene_file_quality(const scene_file *file) { return file->values.quality; }
 
 char *scene_file_canonical(const scene_file *file, size_t *length) { return scene_values_canonical(&file->values, length); }

@@ -44,7 +44,8 @@ scene_file *scene_file_parse(const char *text, size_t length, const char *name, 
 void scene_file_free(scene_file *file);
 
 /* The scene as frame `frame` shows it: time = start + frame / fps when the shutter closes, shutter in seconds, camera
- * (and camera_open) from the keyframes where there are some; quality and the crop as in mgt_scene_init().
+ * (and camera_open) from the keyframes where there are some; quality as far as its method takes it, the crop as in
+ * mgt_scene_init().
  * out->water.waves and out->objects point into `file` and live as long. Frames from the count on are legal too: the
  * clock runs on, and a camera path's end is where the camera rests. Returns false, with *out untouched, when frame is negative or has no legal camera. */
 bool scene_file_frame(const scene_file *file, int frame, mgt_scene *out);
@@ -56,9 +57,12 @@ double scene_file_fps(const scene_file *file);              /* > 0, may be fract
 double scene_file_start(const scene_file *file);            /* seconds, the time of frame 0 */
 size_t scene_file_wave_count(const scene_file *file);       /* 0 … MGT_MAX_WAVES */
 
+/* The key `quality`, with defaults for what is not given. It may hold options that its method does not take: for a method chosen elsewhere. */
+mgt_quality scene_file_quality(const scene_file *file);
+
 /* Every effective value that can change a pixel, after defaults and overrides, one "key value" a line in a fixed order
  * with exact numbers: the same text for the same pictures, whatever the file's spelling, for the render hash.
- * `description` and `time.frames` are left out. NUL-terminated, its length in *length (may be NULL); the caller frees
+ * `description`, `time.frames` and `quality` are left out. NUL-terminated, its length in *length (may be NULL); the caller frees
  * it with free(). NULL when memory runs out. */
 char *scene_file_canonical(const scene_file *file, size_t *length);
 

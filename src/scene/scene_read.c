@@ -21,7 +21,7 @@ typedef struct scene_reader {
 /* "elevation_deg is …; allowed: …": the one shape of all messages about values. */
 static bool refuse_value(const scene_reader *reader, const field_row *field, const tree_node *node)
 {
-    char allowed[160], value[128];
+    char allowed[240], value[128];
     scene_quote quote = scene_quote_text(node->text != NULL ? node->text : "", node->length);
     field_allowed(field, allowed, sizeof allowed);
     switch (node->kind) {
@@ -246,7 +246,7 @@ static bool read_mapping(scene_reader *reader, const field_row *mapping, const t
         const field_row *field = &mapping->fields[i];
         size_t length = path_enter(reader, field->key);
         if (found[i] == NULL && field->flags & FIELD_REQUIRED) {
-            char allowed[160];
+            char allowed[240];
             field_allowed(field, allowed, sizeof allowed);
             return tree_error(reader->tree, node->source, node->place, reader->error, "%s is missing; required: %s: %s", reader->path, field->key, allowed);
         }

@@ -172,8 +172,9 @@ static void write_mapping_schema(FILE *stream, const field_row *mapping, const v
         fprintf(stream, "\"%s\": {\n", field->key);
         indent(stream, depth + 2);
         fputs("\"description\": ", stream);
-        char text[512];
-        snprintf(text, sizeof text, "%s%s%s%s", field->doc, field->unit != NULL ? " [" : "", field->unit != NULL ? field->unit : "",
+        char text[512], meaning[400];
+        field_meaning(mapping->fields, field, meaning, sizeof meaning);
+        snprintf(text, sizeof text, "%s%s%s%s", meaning, field->unit != NULL ? " [" : "", field->unit != NULL ? field->unit : "",
                  field->unit != NULL ? "]" : "");
         write_text(stream, text);
         fputs(",\n", stream);
@@ -209,7 +210,7 @@ static void write_table(FILE *stream, const char *path, const field_row *mapping
     scene_list_item item;
     for (const field_row *field = mapping->fields; field->key != NULL; field++) {
         const void *value = field_at(field, values);
-        char name[64], allowed[160];
+        char name[64], allowed[200], meaning[400];
         snprintf(name, sizeof name, "%s%s%s", path, path[0] != '\0' ? "." : "", field->key);
         if (field->type == FIELD_MAPPING) {
             write_table(stream, name, field, value);
@@ -224,7 +225,8 @@ static void write_table(FILE *stream, const char *path, const field_row *mapping
         } else {
             fputs("required", stream);
         }
-        fprintf(stream, " | %s |\n", field->doc);
+        field_meaning(mapping->fields, field, meaning, sizeof meaning);
+        fprintf(stream, " | %s |\n", meaning);
         if (field->type == FIELD_LIST) {
             memset(&item, 0, sizeof item);
             field->prepare(values, &item);

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "params/options.h"
 #include "scene/scene_models.h"
 
 scene_values scene_values_defaults(void)
@@ -26,6 +27,7 @@ scene_values scene_values_defaults(void)
                  .exposure_offset = scene.post.auto_exposure ? scene.post.exposure_ev : 0,
                  .tone_map = scene.post.tone_map,
                  .glare = scene.post.glare},
+        .quality = quality_defaults(),
     };
     memcpy(values.water.absorption, scene.water.absorption, sizeof values.water.absorption);
     memcpy(values.water.scattering, scene.water.scattering, sizeof values.water.scattering);

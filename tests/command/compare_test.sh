@@ -117,9 +117,9 @@ expect 64 'unknown method mirror; allowed are none' compare "$simple" -o x --met
 expect 64 'refraction' compare "$simple" -o x --methods mangata+refraction
 expect 64 'none is given twice' compare "$simple" -o x --methods none,mangata,none
 expect 64 'the reference is always rendered' compare "$simple" -o x --methods reference
-expect 64 'ndf-mean is for podee-pixel' compare "$simple" -o x --methods mangata:ndf-mean=drop
+expect 64 'ndf-mean: it is for method podee-pixel alone' compare "$simple" -o x --methods mangata:ndf-mean=drop
 expect 64 'unknown option kernel;' compare "$simple" -o x --methods podee-pixel:kernel=3
-expect 64 'only the methods podee-uniform and podee-pixel take it' compare "$simple" -o x --methods mangata:kernels=3
+expect 64 'for method podee-uniform or podee-pixel' compare "$simple" -o x --methods mangata:kernels=3
 expect 64 'METHOD=X' compare "$simple" -o x --max-rmse 0.1
 expect 64 'lean is not one of the methods compared' compare "$simple" -o x --max-rmse lean=0.1
 expect 64 'needs at least two frames' compare "$simple" -o x --frames 3 --max-flicker mangata=0.1

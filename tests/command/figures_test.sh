@@ -112,9 +112,9 @@ expect 64 'figures takes no scene' figures -o x scene.json
 expect 64 '\-\-only 10: allowed is a list of table1, 11' figures -o x --only 10
 expect 64 'allowed' figures -o x --only 11,,12
 expect 64 'liu-15, liu-table3' figures -o x --only liu-5
-expect 64 'allowed is a number from 1' figures -o x --refraction-samples 0
+expect 64 'allowed is a whole number, 1 to 64' figures -o x --refraction-samples 0
 expect 64 'each from 16 to' figures -o x --size 8x8
-expect 64 'allowed is a number from 1' figures -o x --spatial 0
+expect 64 'allowed is a whole number, 1 to 1024' figures -o x --spatial 0
 expect 66 'it holds no simple.json' figures -o x --scenes "$work"
 echo '{"mangata": 1, "light": {"elevation_deg": 99}}' >simple.json
 cp simple.json smooth.json && cp simple.json medium.json && cp simple.json high.json

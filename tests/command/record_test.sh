@@ -52,7 +52,7 @@ hash_of --stamp >/dev/null
 [[ -n $(value host) && -n $(value threads) && -n $(value isa) ]] || fail "--stamp records nothing"
 
 hash_of --method podee-pixel --kernels 9 --path-segments 2 >/dev/null
-[[ $(value method_options) == 'kernels 9 elongation 0 segments 2 transition soft 0' ]] || fail "options in the sidecar: $(cat hash.pfm.json)"
+[[ $(value method_options) == 'kernels 9 path_segments 2' ]] || fail "options in the sidecar: $(cat hash.pfm.json)"
 
 # Nothing is rendered again when it is there; anything else is refused.
 works render "$simple" -o s_##.png --frames 0-3 "${small[@]}" "${null[@]}" --quiet

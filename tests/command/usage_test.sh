@@ -51,67 +51,67 @@ bad isa sse9 'auto, scalar'
 bad backend cuda 'cpu, gl'
 bad layer colour 'color, coverage'
 bad progress yes 'auto, json or none'
-bad spatial 8 'only --method reference'
-bad time-samples 8 'takes one sample'
+bad spatial 8 'for method ssaa or reference alone'
+bad time-samples 8 'for method ssaa or reference alone'
 bad samples-range 0,4 'takes one sample'
 bad ndf-mean drop 'podee-pixel'
 bad set nonsense 'nonsense'
 for value in 0,0 512,1 0,513 1 0,-1 18446744073709551615,2; do
-    expect 64 "samples-range $value: .*512 samples" render "$simple" -o a.png --method reference --samples-range "$value"
+    expect 64 "samples-range $value: allowed is FIRST,COUNT (with COUNT at least 1|within the 512 samples)" render "$simple" -o a.png --method reference --samples-range "$value"
 done
 expect 64 'ssaaN' render "$simple" -o a.png --method ssaa4 --spatial 2
-expect 64 '--ndf-mean maybe: allowed is add or drop' render "$simple" -o a.png --method podee-pixel --ndf-mean maybe
+expect 64 '--ndf-mean maybe: allowed is one of add, drop' render "$simple" -o a.png --method podee-pixel --ndf-mean maybe
 
-for option in 'kernels 9' 'integral exact' 'elongation 9' 'path-segments 2' 'transition hard' 'transition-width 0.2'; do
-    expect 64 'only the methods podee-uniform and podee-pixel take it' render "$simple" -o a.png --$option
+for option in 'kernels 9' 'integral kernels' 'elongation 9' 'path-segments 2' 'transition hard' 'transition-width 0.2'; do
+    expect 64 'for method podee-uniform or podee-pixel' render "$simple" -o a.png --$option
 done
 podee() { expect 64 "$1" render "$simple" -o a.png --method podee-pixel "${@:2}"; }
-podee '--kernels 2: allowed is 1, 3, 5, 9, feline, riemann or exact' --kernels 2
+podee '--kernels 2: allowed is one of exact, 1, 3, 5, 9, feline, riemann' --kernels 2
 podee '--integral table: allowed is exact or kernels' --integral table
 podee 'contradict' --kernels 9 --integral exact
-podee '--elongation 0: allowed is a number from 1' --kernels 9 --elongation 0
-podee '--elongation: it is for --kernels 1, 3, 5, 9 and feline' --kernels riemann --elongation 5
-podee '--path-segments 65: allowed is a number from 1 to 64' --path-segments 65
-podee '--transition smooth: allowed is soft or hard' --transition smooth
-podee '--transition-width 0: allowed is more than 0' --transition-width 0
-podee 'a hard transition has none' --transition hard --transition-width 0.2
+podee '--elongation 0.9: allowed is a number, 0 or 1 to 1e6' --kernels 9 --elongation 0.9
+podee '--elongation: it is for .* kernels 1, 3, 5, 9 or feline alone' --kernels riemann --elongation 5
+podee '--path-segments 65: allowed is a whole number, 0 or 1 to 64' --path-segments 65
+podee '--transition smooth: allowed is one of soft, hard' --transition smooth
+podee '--transition-width 0.6: allowed is a number, 0 to 0.5' --transition-width 0.6
+podee 'transition soft alone' --transition hard --transition-width 0.2
 
 for option in 'adaptive podee' 'samples 4' 'target-rmse 0.01' 'budget-ms 10' 'slots 1000' 'importance-center 0.1' 'importance-width 0.1' \
     'importance-threshold 0.1'; do
     for method in mangata none podee-uniform ssaa2; do
-        expect 64 'only method adaptive takes them' render "$simple" -o a.png --method $method --$option
+        expect 64 'it is for method adaptive' render "$simple" -o a.png --method $method --$option
     done
 done
 adaptive() { expect 64 "$1" render "$simple" -o a.png --method adaptive "${@:2}"; }
-adaptive '--adaptive both: allowed is cells or podee' --adaptive both
-for value in 0 -1 0.5 1e9 4097 nan inf '' x; do
-    adaptive "--samples $value: allowed is a number from 1 to 4096" --samples "$value"
-    adaptive "--samples $value: allowed is a number from 1 to 4096" --adaptive podee --samples "$value"
+adaptive '--adaptive both: allowed is one of cells, podee' --adaptive both
+for value in -1 0.5 1e9 4097 nan inf '' x; do
+    adaptive "--samples $value: allowed is a number, 0 or 1 to 4096" --samples "$value"
+    adaptive "--samples $value: allowed is a number, 0 or 1 to 4096" --adaptive podee --samples "$value"
 done
-for value in 0 -0.1 2 nan; do
-    adaptive "--target-rmse $value: allowed is a number from 1e-06 to 1" --target-rmse "$value"
-    adaptive "--importance-center $value: allowed is a number from 1e-06 to 1" --adaptive podee --importance-center "$value"
-    adaptive "--importance-width $value: allowed is a number from 1e-06 to 1" --adaptive podee --importance-width "$value"
-    adaptive "--importance-threshold $value: allowed is a number from 1e-06 to 1" --adaptive podee --importance-threshold "$value"
+for value in -0.1 2 nan; do
+    adaptive "--target-rmse $value: allowed is a number, 0 or 1e-6 to 1" --target-rmse "$value"
+    adaptive "--importance-center $value: allowed is a number, 0 to 1" --adaptive podee --importance-center "$value"
+    adaptive "--importance-width $value: allowed is a number, 0 or 1e-6 to 1" --adaptive podee --importance-width "$value"
+    adaptive "--importance-threshold $value: allowed is a number, 0 to 1" --adaptive podee --importance-threshold "$value"
 done
-for value in 0 -5 1e9; do
-    adaptive "--budget-ms $value: allowed is a number from 0.1 to 1e\+07" --budget-ms "$value"
+for value in 0.05 -5 1e9; do
+    adaptive "--budget-ms $value: allowed is a number, 0 or 0.1 to 1e7 ms" --budget-ms "$value"
 done
-for value in 0 -1 4294967297 1.5 1e6 18446744073709551617; do
-    adaptive "--slots $value: allowed is a number from 1 to 4294967296" --adaptive podee --slots "$value"
+for value in -1 4294967297 1.5 18446744073709551617; do
+    adaptive "--slots $value: allowed is a whole number, 0 or 1 to 4294967296" --adaptive podee --slots "$value"
 done
 for both in '--samples 8 --target-rmse 0.01' '--samples 8 --budget-ms 10' '--target-rmse 0.01 --budget-ms 10' \
     '--adaptive podee --samples 8 --slots 1000'; do
     # shellcheck disable=SC2086 # options are words
-    adaptive 'each say how much to sample; give one' $both
+    adaptive 'each says how much to sample' $both
 done
-adaptive '--slots: it is for --adaptive podee' --slots 1000
-adaptive '--slots: it is for --adaptive podee' --adaptive cells --slots 1000
+adaptive '--slots: it is for method adaptive and adaptive podee alone' --slots 1000
+adaptive '--slots: it is for method adaptive and adaptive podee alone' --adaptive cells --slots 1000
 for option in 'target-rmse 0.01' 'budget-ms 10'; do
-    adaptive "--${option% *}: it is for --adaptive cells" --adaptive podee --$option
+    adaptive "--${option% *}: it is for method adaptive and adaptive cells alone" --adaptive podee --$option
 done
 for option in 'importance-center 0.1' 'importance-width 0.1' 'importance-threshold 0.1'; do
-    adaptive "--${option% *}: it is for --adaptive podee" --$option
+    adaptive "--${option% *}: it is for method adaptive and adaptive podee alone" --$option
 done
 
 expect 64 'unknown kind of file; allowed are .png .exr .pfm .mp4 .y4m' render "$simple" -o a.jpg
@@ -139,8 +139,8 @@ expect 64 'takes check FILE or schema' "$MANGATA" scene
 expect 64 'takes check FILE or schema' "$MANGATA" scene chekc "$simple"
 expect 64 'no scene given' "$MANGATA" scene check
 expect 64 'unknown method fast; allowed are none, ssaaN' "$MANGATA" bench "$simple" --methods none,fast
-expect 64 'none\+mirror: unknown refraction mirror; allowed after the \+ are two-phase, hybrid' "$MANGATA" bench "$simple" --methods none+mirror
-expect 64 'it is for --refraction two-phase' "$MANGATA" bench "$simple" --methods none+off:tess-error=1
+expect 64 'none\+mirror: --refraction mirror: allowed is one of two-phase, hybrid' "$MANGATA" bench "$simple" --methods none+mirror
+expect 64 'it is for refraction two-phase' "$MANGATA" bench "$simple" --methods none+off:tess-error=1
 expect 64 'unknown option refraction;' "$MANGATA" bench "$simple" --methods none:refraction=off
 expect 64 'info takes no' "$MANGATA" info now
 cp "$MANGATA" alone # the viewer is looked for beside the command first

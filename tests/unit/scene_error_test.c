@@ -69,7 +69,7 @@ static void messages_say_what_where_and_what_is_allowed(void **state)
         /* keys */
         {"mangata: 1\nligth: {}\n",
          "s.yaml:2:1: unknown key \"ligth\" in the scene; did you mean \"light\"? allowed: mangata, description, image, camera, time, "
-         "light, sky, water, objects, post"},
+         "light, sky, water, objects, post, quality"},
         {"mangata: 1\nlight: {elevation: 3}\n",
          "s.yaml:2:9: unknown key \"elevation\" in light; did you mean \"elevation_deg\"? allowed: body, elevation_deg, azimuth_deg, "
          "angular_radius_deg, radiance"},
@@ -87,7 +87,7 @@ static void messages_say_what_where_and_what_is_allowed(void **state)
         {"mangata: 1\nlight: {elevation_deg: \"3\"}\n", "s.yaml:2:24: light.elevation_deg is the text \"3\"; allowed: a number, -90 to 90 degrees"},
         {"{\"mangata\": 1,\n \"lihgt\": 3}",
          "s.yaml:2:2: unknown key \"lihgt\" in the scene; did you mean \"light\"? allowed: mangata, description, image, camera, time, "
-         "light, sky, water, objects, post"},
+         "light, sky, water, objects, post, quality"},
         {"{\"mangata\": 1,\n \"description\": \"\\u00e9\", \"light\": 'x'}", "s.yaml:2:36: light is the text \"x\"; allowed: a mapping {key: value, ...}"},
         {"mangata: 1\nlight: {elevation_deg: [3]}\n", "s.yaml:2:24: light.elevation_deg is a list of 1; allowed: a number, -90 to 90 degrees"},
         {"mangata: 1\nlight: {body: star}\n", "s.yaml:2:15: light.body is star; allowed: one of sun, moon"},
@@ -143,7 +143,7 @@ static void override_messages_name_the_option(void **state)
         {"light.elevation_deg=95", "light.elevation_deg is 95; allowed: a number, -90 to 90 degrees"},
         {"light.elevation_deg=", "light.elevation_deg is empty; allowed: a number, -90 to 90 degrees, or no such key"},
         {"ligth.body=sun", "unknown key \"ligth\" in the scene; did you mean \"light\"? allowed: mangata, description, image, camera, "
-                           "time, light, sky, water, objects, post"},
+                           "time, light, sky, water, objects, post, quality"},
         {"light=3", "light is 3; allowed: a mapping {key: value, ...}"},
         {"light.body.x=3", "body is a single value; allowed: body=value"},
         {"light[0]=3", "light is a mapping; allowed: a key, as in light.key"},

@@ -154,11 +154,14 @@ static void check_ranges(const char *path, const field_row *mapping, size_t *che
             char item[72];
             snprintf(item, sizeof item, "%s[0]", name);
             check_ranges(item, field, checked);
-        } else if (field->type != FIELD_TEXT && field->type != FIELD_CHOICE) {
+        } else if (field->type != FIELD_TEXT && !field->choices) {
             double step = field->type == FIELD_COUNT ? 1 : 0;
+            if (field->max > 1e19) /* the nearest double to 2^64 - 1 is beyond it */
+                continue;
             check_end(name, field, field->min, !(field->flags & FIELD_OPEN_MIN));
             check_end(name, field, field->max, !(field->flags & FIELD_OPEN_MAX));
-            check_end(name, field, step > 0 ? field->min - step : nextafter(field->min, -INFINITY), false);
+            if (!(field->flags & FIELD_OR_ZERO) || field->min - step != 0)
+                check_end(name, field, step > 0 ? field->min - step : nextafter(field->min, -INFINITY), false);
             check_end(name, field, step > 0 ? field->max + step : nextafter(field->max, INFINITY), false);
             check_end(name, field, NAN, false);
             ++*checked;

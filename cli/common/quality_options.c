@@ -1,0 +1,99 @@
+/* SPDX-License-Identifier: MIT */
+/* Options of quality on the command line. */
+#include "cli/common/quality_options.h"
+
+#include <string.h>
+
+#include "cli/common/numbers.h"
+#include "params/methods.h"
+
+quality_options quality_options_none(void) { return (quality_options){.choice = quality_choice_none()}; }
+
+static bool is(const char *name, size_t length, const char *known) { return strlen(known) == length && strncmp(name, known, length) == 0; }
+
+static bool set_integral(quality_options *o, const char *value, char *wrong, size_t size)
+{
+    o->integral = strcmp(value, "exact") == 0 ? 1 : strcmp(value, "kernels") == 0 ? 2 : 0;
+    return o->integral || (snprintf(wrong, size, "--integral %s: allowed is exact or kernels", value), false);
+}
+
+static bool set_range(quality_options *o, const char *value, char *wrong, size_t size)
+{
+    uint64_t range[2];
+    o->range_given = number_parse_list(value, ',', UINT64_MAX, 2, range) && range[1] > 0;
+    if (!o->range_given)
+        return snprintf(wrong, size, "--samples-range %s: allowed is FIRST,COUNT with COUNT at least 1", value), false;
+    o->choice.values.sample_first = range[0];
+    o->choice.values.sample_count = range[1];
+    return true;
+}
+
+/* The row of the option of this name; NULL: there is none. */
+static const field_row *row_of(const char *name, size_t length)
+{
+    char key[40];
+    for (size_t i = 0; i < length && i < sizeof key; i++)
+        key[i] = name[i] == '-' ? '_' : name[i];
+    return length < sizeof key ? field_find(quality_fields, key, length) : NULL;
+}
+
+bool quality_count_read(const char *name, const char *value, uint32_t *count, char *wrong, size_t size)
+{
+    char allowed[160];
+    field_row row = *row_of(name, strlen(name));
+    row.flags = 0;
+    field_allowed(&row, allowed, sizeof allowed);
+    return field_parse(&row, value, count) || (snprintf(wrong, size, "--%s %s: allowed is %s", name, value, allowed), false);
+}
+
+bool quality_option_set(quality_options *options, const char *name, size_t length, const char *value, bool *known, char *wrong, size_t size)
+{
+    char allowed[160];
+    *known = true;
+    if (is(name, length, "integral"))
+        return set_integral(options, value, wrong, size);
+    if (is(name, length, "samples-range"))
+        return set_range(options, value, wrong, size);
+    const field_row *field = row_of(name, length);
+    *known = field && (field == quality_fields || !(field->flags & FIELD_NO_FLAG));
+    if (!*known)
+        return false;
+    if (quality_choose(&options->choice, field, value)) {
+        if (field == quality_fields)
+            options->number_in_name = method_of(options->choice.values.method)->numbered;
+        return true;
+    }
+    field_allowed(field, allowed, sizeof allowed);
+    snprintf(wrong, size, "%s %s: allowed is %s", option_flag_of(field).text, value, field == quality_fields ? method_names().text : allowed);
+    return false;
+}
+
+bool quality_options_apply(const quality_options *options, const mgt_quality *base, mgt_quality *out, char *wrong, size_t size)
+{
+    quality_options o = *options;
+    mgt_quality *q = &o.choice.values;
+    const field_row *kernels = field_find(quality_fields, "kernels", 7), *spatial = field_find(quality_fields, "spatial", 7);
+    if (o.integral && quality_is_chosen(&o.choice, kernels)) {
+        if ((o.integral == 1) != (q->kernels == MGT_KERNELS_EXACT))
+            return snprintf(wrong, size, "--integral and --kernels contradict each other"), false;
+    } else if (o.integral) {
+        quality_choose(&o.choice, kernels, o.integral == 1 ? "exact" : "9");
+    }
+    if (o.number_in_name && quality_is_chosen(&o.choice, spatial))
+        return snprintf(wrong, size, "--spatial: write the number into ssaaN"), false;
+    if (!quality_apply(&o.choice, base, out, wrong, size))
+        return false;
+    if (!o.range_given)
+        return true;
+    const uint64_t total = (uint64_t)out->spatial_samples * out->spatial_samples * out->time_samples;
+    if (!field_applies(quality_fields, spatial, out, false))
+        return snprintf(wrong, size, "--samples-range: method %s takes one sample", method_name(out).text), false;
+    if (q->sample_first >= total || q->sample_count > total - q->sample_first)
+        return snprintf(wrong, size, "--samples-range %llu,%llu: allowed is FIRST,COUNT within the %llu samples of a pixel",
+                        (unsigned long long)q->sample_first, (unsigned long long)q->sample_count, (unsigned long long)total),
+               false;
+    /* The whole range is the same picture as no range. */
+    out->sample_first = q->sample_first;
+    out->sample_count = q->sample_count == total ? 0 : q->sample_count;
+    return true;
+}
