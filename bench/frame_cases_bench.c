@@ -95,7 +95,8 @@ static void time_stages(const tile_frame *f, const frame_cases_kernels *w, tile_
         t[3] = seconds_now();
         w->run_stage(STAGE_COVERAGE, &f->frame.data, f->sky->table, &s->close, &s->close_guess, &s->pixels);
         t[4] = seconds_now();
-        w->kernels->filtered(&f->frame.data, f->sky->table, NULL, NULL, MGT_METHOD_MANGATA, &s->close, &s->close_guess, NULL, NULL, &s->pixels, NULL);
+        const method_tile shaded = {.frame = &f->frame.data, .sky = f->sky->table, .close = &s->close, .close_guess = &s->close_guess};
+        w->kernels->method(MGT_METHOD_MANGATA, &shaded, &s->pixels);
         t[5] = seconds_now();
         for (int k = 0; k < TIMES; k++)
             seconds[k] += t[k + 1] - t[k];

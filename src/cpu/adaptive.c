@@ -97,8 +97,15 @@ static void plant_tile(void *argument, size_t tile, uint32_t worker)
     tile_find_guesses(a->kernels, &data, &s->close, &s->close_guess);
     if (f->moves)
         tile_find_guesses(a->kernels, &data, &s->open, &s->open_guess);
-    a->kernels->filtered(&data, a->sky, a->objects ? &a->objects[tile].light : NULL, NULL, MGT_METHOD_MANGATA, &s->close, &s->close_guess,
-                         f->moves ? &s->open : NULL, f->moves ? &s->open_guess : NULL, &s->pixels, detail);
+    const method_tile shaded = {.frame = &data,
+                                .sky = a->sky,
+                                .light = a->objects ? &a->objects[tile].light : NULL,
+                                .close = &s->close,
+                                .close_guess = &s->close_guess,
+                                .open = f->moves ? &s->open : NULL,
+                                .open_guess = &s->open_guess,
+                                .detail = detail};
+    a->kernels->method(MGT_METHOD_MANGATA, &shaded, &s->pixels);
     const uint32_t left = (uint32_t)(tile % f->columns) * TILE_WIDTH, top = (uint32_t)(tile / f->columns) * TILE_HEIGHT;
     for (uint32_t y = 0; y < TILE_HEIGHT && top + y < p->height; y++)
         for (uint32_t x = 0; x < TILE_WIDTH && left + x < p->width; x++) {

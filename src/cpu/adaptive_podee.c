@@ -211,13 +211,13 @@ static bool take_samples(detail_job *job, size_t tile, const tile_tasks *tasks, 
 {
     const adaptive_frame *a = job->a;
     tile_scratch *s = a->scratch[worker];
-    const rival_tile t = {.frame = &a->frame->data,
-                          .sky = a->sky,
-                          .light = a->objects ? &s->objects.light : NULL,
-                          .close = &s->close,
-                          .close_guess = &s->close_guess,
-                          .open = job->open ? &s->open : NULL,
-                          .open_guess = job->open ? &s->open_guess : NULL};
+    const method_tile t = {.frame = &a->frame->data,
+                           .sky = a->sky,
+                           .light = a->objects ? &s->objects.light : NULL,
+                           .close = &s->close,
+                           .close_guess = &s->close_guess,
+                           .open = job->open ? &s->open : NULL,
+                           .open_guess = job->open ? &s->open_guess : NULL};
     const tile_corner corner = corner_of(job, tile);
     temporal_rays rays;
     uint64_t batches = 0;
@@ -283,7 +283,7 @@ static void sample_tile(void *argument, size_t tile, uint32_t worker)
         see_tile(job, tile, job->open, &s->open, &s->open_guess);
     if (!take_samples(job, tile, &tasks, first, end, worker, &sums))
         return;
-    const rival_tile t = {.frame = &a->frame->data, .close = &s->close};
+    const method_tile t = {.frame = &a->frame->data, .close = &s->close};
     a->kernels->rivals->frequencies(&t, job->close, frequencies);
     blend_tile(job, tile, &tasks, &sums, frequencies);
 }

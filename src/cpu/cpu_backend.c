@@ -465,7 +465,8 @@ static mgt_status prepare_sky(cpu_state *s, const reporter *r, const mgt_scene *
 static mgt_status prepare_podee(cpu_state *s, const reporter *r, const mgt_scene *scene)
 {
     const mgt_kernels k = scene->quality.kernels;
-    if (k == MGT_KERNELS_EXACT || k == MGT_KERNELS_RIEMANN || s->podee.sweep || podee_tables_build(&s->podee, run_indices, s->pool))
+    if (!(method_of(scene->quality.method)->tables & METHOD_PODEE_TABLES) || k == MGT_KERNELS_EXACT || k == MGT_KERNELS_RIEMANN || s->podee.sweep ||
+        podee_tables_build(&s->podee, run_indices, s->pool))
         return MGT_OK;
     return report_error(r, MGT_ERROR_MEMORY, "render.memory", "out of memory for the 64 MiB of tables that quality.kernels needs");
 }
@@ -473,8 +474,7 @@ static mgt_status prepare_podee(cpu_state *s, const reporter *r, const mgt_scene
 /* Every frame has waves of its own. */
 static mgt_status prepare_lean(cpu_state *s, const reporter *r, const frame *f)
 {
-    const mgt_method method = f->scene->quality.method;
-    if (method != MGT_METHOD_LEAN && method != MGT_METHOD_LEADR)
+    if (!(method_of(f->scene->quality.method)->tables & METHOD_LEAN_MAP))
         return MGT_OK;
     if (!s->lean)
         s->lean = calloc(1, sizeof *s->lean);
@@ -527,7 +527,7 @@ static mgt_status render_picture(cpu_state *s, const reporter *r, const mgt_scen
             return report_error(r, MGT_ERROR_MEMORY, "render.memory", "out of memory for %u x %u pixels", job.area.width, job.area.height);
     }
     bool finished = false;
-    if (scene->quality.method == MGT_METHOD_REFERENCE) {
+    if (method_of(scene->quality.method)->way == METHOD_REFERENCE) {
         status = make_reference(&job, r);
         if (status == MGT_OK) {
             const uint32_t width = reference_block_width(&scene->quality);
@@ -714,10 +714,11 @@ static mgt_status adapt_picture(void *user, const mgt_scene *scene, const pictur
 
 static mgt_status cpu_render(void *state, const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count)
 {
-    const mgt_method method = scene->quality.method;
-    if ((scene->object_count > 0 || scene->camera.position[1] < 0) && method == MGT_METHOD_REFERENCE)
-        return report_error(r, MGT_ERROR_UNSUPPORTED, "render.method", "method reference does not draw objects or cameras under water yet; ssaa does");
-    if (!is_whole_frame_method(scene->quality.method))
+    const method_row *row = method_of(scene->quality.method);
+    if ((scene->object_count > 0 || scene->camera.position[1] < 0) && !(row->properties.layers & 1u << MGT_LAYER_REFRACTION))
+        return report_error(r, MGT_ERROR_UNSUPPORTED, "render.method", "method %s does not draw objects or cameras under water yet; ssaa does",
+                            row->properties.name);
+    if (row->way != METHOD_PASS)
         return render_picture(state, r, scene, targets, count, NULL);
     picture_user user = {state, r};
     const picture_maker maker = {&user, make_picture, show_picture, luma_of_picture, run_rows, adapt_picture};

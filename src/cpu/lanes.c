@@ -5,6 +5,7 @@
 #include "cpu/lanes.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "cpu/raster_lanes.h"
 #include "cpu/rival_lanes.h"
@@ -611,41 +612,67 @@ static void lanes_cells(const FrameData *frame, const float *sky, const tile_wav
     render_glitter(&cx, cells->light, places, &cells->guess, open ? &before : NULL, &cells->guess, &cells->pixels, &cells->detail);
 }
 
-static void render_podee(const struct kernel_context *cx, const tile_light *light, const tile_guess *guess, const struct kernel_context *open,
-                         const tile_guess *open_guess, tile_pixels *out)
+static struct kernel_context context_of(const method_tile *t, const tile_waves *waves)
 {
-    struct kernel_context here = *cx;
+    return (struct kernel_context){.frame = t->frame,
+                                   .tile = &waves->data,
+                                   .waves = waves->waves,
+                                   .march = waves->march,
+                                   .sky = t->sky,
+                                   .podee = t->podee,
+                                   .lean = t->lean};
+}
+
+static void mangata_pixels(const method_tile *t, tile_pixels *out)
+{
+    const struct kernel_context close = context_of(t, t->close), open = t->open ? context_of(t, t->open) : close;
+    pixel_grid grid;
+    render_glitter(&close, t->light, all_pixels(&grid), t->close_guess, t->open ? &open : NULL, t->open_guess, out, t->detail);
+}
+
+static void podee_pixels(const method_tile *t, tile_pixels *out)
+{
+    struct kernel_context cx = context_of(t, t->close);
+    const struct kernel_context open = t->open ? context_of(t, t->open) : cx;
     for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
         const real column = lane_numbers() + (float)(i % TILE_WIDTH), row = real_broadcast((float)(i / TILE_WIDTH));
-        const PixelRay p = pixel_ray_filtered(cx, column, row);
+        const PixelRay p = pixel_ray_filtered(&cx, column, row);
+        cx.light = light_at(t->light, i);
         if (!any_lane(p.water > real(0.0f))) {
-            here.light = light_at(light, i);
-            store_pixels(out, i, nothing_but_sky(&here, p));
+            store_pixels(out, i, nothing_but_sky(&cx, p));
             continue;
         }
-        const PodeeState state = podee_state(cx, p.ray, load_guess(guess, i));
+        const PodeeState state = podee_state(&cx, p.ray, load_guess(t->close_guess, i));
         PodeeState before = state;
-        if (open)
-            before = podee_state(open, pixel_ray_filtered(open, column, row).ray, load_guess(open_guess, i));
-        const real coverage = FRAME(cx).podee_kernels == 0 ? podee_coverage(cx, before, state) : podee_mixture_coverage(cx, before, state);
-        here.light = light_at(light, i);
-        store_pixels(out, i, podee_result_of(&here, p, before, state, coverage));
+        if (t->open)
+            before = podee_state(&open, pixel_ray_filtered(&open, column, row).ray, load_guess(t->open_guess, i));
+        const real coverage = FRAME(&cx).podee_kernels == 0 ? podee_coverage(&cx, before, state) : podee_mixture_coverage(&cx, before, state);
+        store_pixels(out, i, podee_result_of(&cx, p, before, state, coverage));
     }
 }
 
-static void lanes_filtered(const FrameData *frame, const float *sky, const tile_light *light, const podee_tables *podee, mgt_method method,
-                           const tile_waves *close, const tile_guess *close_guess, const tile_waves *open, const tile_guess *open_guess, tile_pixels *out,
-                           tile_detail *detail)
+static void none_pixels(const method_tile *t, tile_pixels *out)
 {
-    const struct kernel_context context = {.frame = frame, .tile = &close->data, .waves = close->waves, .march = close->march, .sky = sky, .podee = podee};
-    struct kernel_context open_context = context;
-    if (open)
-        open_context.tile = &open->data, open_context.waves = open->waves, open_context.march = open->march;
-    if (method == MGT_METHOD_MANGATA) {
-        pixel_grid grid;
-        render_glitter(&context, light, all_pixels(&grid), close_guess, open ? &open_context : NULL, open_guess, out, detail);
-    } else {
-        render_podee(&context, light, close_guess, open ? &open_context : NULL, open_guess, out);
+    memset(out, 0, sizeof *out);
+    lanes_sample(t->frame, t->sky, t->light, t->close, t->close_guess, NULL, NULL, 1, out);
+}
+
+/* Baselines are compiled apart. */
+static void lanes_method(mgt_method method, const method_tile *tile, tile_pixels *out)
+{
+    switch (method) {
+    case MGT_METHOD_NONE:
+        none_pixels(tile, out);
+        break;
+    case MGT_METHOD_MANGATA:
+        mangata_pixels(tile, out);
+        break;
+    case MGT_METHOD_PODEE_UNIFORM:
+    case MGT_METHOD_PODEE_PIXEL:
+        podee_pixels(tile, out);
+        break;
+    default:
+        RIVALS_NAME(MGT_LANES).pixels(method, tile, out);
     }
 }
 
@@ -705,7 +732,7 @@ const lane_kernels LANES_NAME(MGT_LANES) = {
     lanes_sort,
     lanes_guess,
     lanes_sample,
-    lanes_filtered,
+    lanes_method,
     lanes_cells,
     lanes_surface,
     lanes_filtered_normal,

@@ -68,6 +68,22 @@ typedef struct tile_light {
     float deep[3][TILE_PIXELS];     /* under water: what shines where no surface is */
 } tile_light;
 
+typedef struct lean_map lean_map; /* cpu/lean_map.h */
+
+/* What a method shades the pixels of a tile from. */
+typedef struct method_tile {
+    const FrameData *frame;
+    const float *sky;
+    const tile_light *light;   /* of objects, for rays over the shutter a value a ray; NULL: there are none */
+    const podee_tables *podee; /* where podee-* replaces its Gaussian by kernels */
+    const lean_map *lean;      /* of methods lean and leadr */
+    const tile_waves *close;
+    const tile_guess *close_guess;
+    const tile_waves *open; /* NULL unless the camera moves and the method counts the shutter; for rays over the shutter, unless this is 0 */
+    const tile_guess *open_guess;
+    tile_detail *detail; /* out, of method mangata; NULL: not wanted */
+} method_tile;
+
 /* Cells of one tile: pixels are split evenly into view.scale_x × view.scale_y of them. */
 typedef struct tile_cells {
     size_t count;                                /* at most TILE_PIXELS */
@@ -99,10 +115,8 @@ typedef struct lane_kernels {
        NULL where there are none, here and below. */
     void (*sample)(const FrameData *frame, const float *sky, const tile_light *light, const tile_waves *tile, const tile_guess *guess, const float *dx,
                    const float *dy, float weight, tile_pixels *out);
-    /* Filtered methods; `open` is NULL unless the camera moves. `podee` is read where podee-* replaces its Gaussian by kernels. `detail` is for
-       method `mangata`, or NULL. */
-    void (*filtered)(const FrameData *frame, const float *sky, const tile_light *light, const podee_tables *podee, mgt_method method, const tile_waves *close,
-                     const tile_guess *close_guess, const tile_waves *open, const tile_guess *open_guess, tile_pixels *out, tile_detail *detail);
+    /* Methods that shade each pixel once: METHOD_CENTRE and METHOD_FILTERED. */
+    void (*method)(mgt_method method, const method_tile *tile, tile_pixels *out);
     /* Cells by method `mangata`; the waves are sorted for their level. Lists are filled up to whole vectors. */
     void (*cells)(const FrameData *frame, const float *sky, const tile_waves *close, const tile_waves *open, tile_cells *cells);
     /* Depth and normal at one instant. */

@@ -26,13 +26,13 @@ typedef struct lean_waves {
 } lean_waves;
 
 /* 246 MiB once it is filled. */
-typedef struct lean_map {
+struct lean_map {
     LeanData data;
     lean_waves waves; /* that fill it */
     bool filled;
     float *slope_x, *slope_z;   /* level 0: one slope a texel, its second moments are products */
     float *levels[LEAN_LEVELS]; /* from level 1: LEAN_MOMENTS a texel */
-} lean_map;
+};
 
 /* A wave's phase at the beginning of LEAN_ROWS rows. */
 typedef struct lean_phase {

@@ -5,6 +5,7 @@
 #include "cpu/rival_lanes.h"
 
 #include "frame/atmosphere.h"
+#include "params/methods.h"
 
 #define LANES_NAME_(n) rival_kernels_##n
 #define LANES_NAME(n) LANES_NAME_(n)
@@ -89,61 +90,64 @@ static PixelResult sky_alone(const struct kernel_context *cx, PixelRay p)
 
 static inline const float *light_at(const tile_light *light, size_t i) { return light ? &light->body[0][i] : NULL; }
 
-static void render_points(struct kernel_context *cx, const rival_tile *tile, tile_pixels *out)
+static struct kernel_context context_of(const method_tile *t, const tile_waves *waves)
 {
+    return (struct kernel_context){.frame = t->frame, .tile = &waves->data, .waves = waves->waves, .march = waves->march, .sky = t->sky, .lean = t->lean};
+}
+
+/* Shades a point of the surface with all its waves. */
+typedef PixelResult point_method(CTX cx, real column, real row, HitGuess guess);
+
+static void point_pixels(point_method *shade, const method_tile *t, tile_pixels *out)
+{
+    struct kernel_context cx = context_of(t, t->close);
     for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
-        const real column = lane_numbers() + (float)(i % TILE_WIDTH), row = real((float)(i / TILE_WIDTH));
-        const HitGuess guess = load_guess(tile->close_guess, i);
-        cx->light = light_at(tile->light, i);
-        store_result(out, i, tile->method == MGT_METHOD_MSAA32 ? msaa_pixel(cx, column, row, guess) : tokuyoshi_pixel(cx, column, row, guess));
+        cx.light = light_at(t->light, i);
+        store_result(out, i, shade(&cx, lane_numbers() + (float)(i % TILE_WIDTH), real((float)(i / TILE_WIDTH)), load_guess(t->close_guess, i)));
     }
 }
 
-static PixelResult filtered_result(const struct kernel_context *cx, mgt_method method, PixelRay p, SlopeState open, SlopeState close)
-{
-    switch (method) {
-    case MGT_METHOD_LEADR:
-        return leadr_result(cx, p, close);
-    case MGT_METHOD_BRUNETON:
-        return bruneton_result(cx, p, close);
-    case MGT_METHOD_TNDF:
-        return tndf_result(cx, p, open, close);
-    default:
-        return lean_result(cx, p, close);
-    }
-}
+/* Shades a pixel from its slopes; `open` is `close` unless the camera moves. */
+typedef PixelResult slope_method(CTX cx, PixelRay p, SlopeState open, SlopeState close);
 
-static void render_filtered(struct kernel_context *cx, const struct kernel_context *open, const rival_tile *tile, tile_pixels *out)
+static void slope_pixels(slope_method *shade, const method_tile *t, tile_pixels *out)
 {
+    struct kernel_context cx = context_of(t, t->close);
+    const struct kernel_context open = t->open ? context_of(t, t->open) : cx;
     for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
         const real column = lane_numbers() + (float)(i % TILE_WIDTH), row = real((float)(i / TILE_WIDTH));
-        const PixelRay p = pixel_ray_filtered(cx, column, row);
+        const PixelRay p = pixel_ray_filtered(&cx, column, row);
+        cx.light = light_at(t->light, i);
         if (!any_lane(p.water > real(0.0f))) {
-            cx->light = light_at(tile->light, i);
-            store_result(out, i, sky_alone(cx, p));
+            store_result(out, i, sky_alone(&cx, p));
             continue;
         }
-        const SlopeState close = slope_state(cx, p.ray, load_guess(tile->close_guess, i));
+        const SlopeState close = slope_state(&cx, p.ray, load_guess(t->close_guess, i));
         SlopeState before = close;
-        if (open)
-            before = slope_state(open, pixel_ray_filtered(open, column, row).ray, load_guess(tile->open_guess, i));
-        cx->light = light_at(tile->light, i);
-        store_result(out, i, filtered_result(cx, tile->method, p, before, close));
+        if (t->open)
+            before = slope_state(&open, pixel_ray_filtered(&open, column, row).ray, load_guess(t->open_guess, i));
+        store_result(out, i, shade(&cx, p, before, close));
     }
 }
 
-static void lanes_pixels(const rival_tile *t, tile_pixels *out)
+/* The kernels' entry points by method. */
+static point_method *const point_methods[METHOD_SLOTS] = {
+    [MGT_METHOD_MSAA32] = msaa_pixel,
+    [MGT_METHOD_TOKUYOSHI] = tokuyoshi_pixel,
+};
+static slope_method *const slope_methods[METHOD_SLOTS] = {
+    [MGT_METHOD_LEAN] = lean_result,
+    [MGT_METHOD_LEADR] = leadr_result,
+    [MGT_METHOD_BRUNETON] = bruneton_result,
+    [MGT_METHOD_TNDF] = tndf_result,
+};
+
+static void lanes_pixels(mgt_method method, const method_tile *t, tile_pixels *out)
 {
-    struct kernel_context context =
-        {.frame = t->frame, .tile = &t->close->data, .waves = t->close->waves, .march = t->close->march, .sky = t->sky, .lean = t->lean};
-    if (t->method == MGT_METHOD_MSAA32 || t->method == MGT_METHOD_TOKUYOSHI) {
-        render_points(&context, t, out);
-        return;
-    }
-    struct kernel_context open = context;
-    if (t->open)
-        open.tile = &t->open->data, open.waves = t->open->waves, open.march = t->open->march;
-    render_filtered(&context, t->open ? &open : NULL, t, out);
+    if (point_methods[method])
+        point_pixels(point_methods[method], t, out);
+    else
+        slope_pixels(slope_methods[method], t, out);
 }
 
 /* ---- rays over the shutter ---- */
@@ -161,7 +165,7 @@ static inline HitGuess gather_guess(const tile_guess *guess, const uint16_t *lis
     return (HitGuess){gather(guess->height, list), gather(guess->from, list), gather(guess->march, list)};
 }
 
-static void lanes_temporal(const rival_tile *t, temporal_rays *rays)
+static void lanes_temporal(const method_tile *t, temporal_rays *rays)
 {
     struct kernel_context cx = {.frame = t->frame, .tile = &t->close->data, .waves = t->close->waves, .march = t->close->march, .sky = t->sky};
     struct kernel_context open = cx;
@@ -185,7 +189,7 @@ static void lanes_temporal(const rival_tile *t, temporal_rays *rays)
 }
 
 /* On the mean surface; waves without height count for nothing. */
-static void lanes_frequencies(const rival_tile *t, const wave_set *waves, float *most)
+static void lanes_frequencies(const method_tile *t, const wave_set *waves, float *most)
 {
     const struct kernel_context cx = {.frame = t->frame, .tile = &t->close->data};
     int count = waves->view.wave_count;

@@ -5,19 +5,6 @@
 
 #include "cpu/lean_map.h"
 
-/* What the pixels of a tile are rendered from. */
-typedef struct rival_tile {
-    const FrameData *frame;
-    const float *sky;
-    const tile_light *light; /* of objects, for rays over the shutter a value a ray; NULL: there are none */
-    const lean_map *lean;    /* NULL unless the method is lean or leadr */
-    mgt_method method;
-    const tile_waves *close;
-    const tile_guess *close_guess;
-    const tile_waves *open; /* NULL unless the camera moves and the method counts the shutter; for rays over the shutter, unless this is 0 */
-    const tile_guess *open_guess;
-} rival_tile;
-
 /* Rays through the pixels of a tile that are traced when the shutter opens and when it closes, see temporal_ray.k. */
 typedef struct temporal_rays {
     size_t count;                                /* at most TILE_PIXELS */
@@ -27,10 +14,10 @@ typedef struct temporal_rays {
 } temporal_rays;
 
 struct rival_kernels {
-    void (*pixels)(const rival_tile *tile, tile_pixels *out);
-    void (*temporal)(const rival_tile *tile, temporal_rays *rays);
+    void (*pixels)(mgt_method method, const method_tile *tile, tile_pixels *out);
+    void (*temporal)(const method_tile *tile, temporal_rays *rays);
     /* The largest frequency among the waves in each pixel of a tile, cycles per pixel; 0 where there is no water. */
-    void (*frequencies)(const rival_tile *tile, const wave_set *waves, float *most);
+    void (*frequencies)(const method_tile *tile, const wave_set *waves, float *most);
     /* LEAN_ROWS rows of the map's level 0; a phase per wave. */
     void (*lean_rows)(const lean_waves *waves, const lean_phase *phases, float *slope_x, float *slope_z);
     /* Luma, [0, 1], of `count` displayed pixels of 3 floats. */

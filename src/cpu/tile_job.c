@@ -3,7 +3,7 @@
 #include "cpu/tile_job.h"
 
 #include "base/hash.h"
-#include "cpu/rival_lanes.h"
+#include "params/methods.h"
 
 #include <math.h>
 #include <string.h>
@@ -105,15 +105,7 @@ static void render_samples(tile_place place, tile_scratch *scratch)
     }
 }
 
-static void render_centre(tile_place place, tile_scratch *scratch)
-{
-    const tile_job *job = place.job;
-    build(place, &job->waves->samples, &scratch->close, &scratch->close_guess);
-    memset(&scratch->pixels, 0, sizeof scratch->pixels);
-    job->kernels->sample(&job->frame->data, job->sky, light_of(job, scratch), &scratch->close, &scratch->close_guess, NULL, NULL, 1, &scratch->pixels);
-}
-
-/* ---- filtered methods ---- */
+/* ---- one shading a pixel ---- */
 
 /* Light that slopes reach at one end of the shutter is on their path at the other one, too. */
 static void share_light(tile_scratch *scratch)
@@ -122,23 +114,38 @@ static void share_light(tile_scratch *scratch)
     scratch->close.data.light_reach = scratch->open.data.light_reach = reach;
 }
 
-static void run_filtered(const tile_job *job, bool moves, tile_scratch *scratch, tile_pixels *out)
+static void shade_pixels(const tile_job *job, bool moves, tile_scratch *scratch, tile_pixels *out)
 {
-    const frame *f = job->frame;
-    job->kernels->filtered(&f->data, job->sky, light_of(job, scratch), job->podee, f->scene->quality.method, &scratch->close, &scratch->close_guess,
-                           moves ? &scratch->open : NULL, moves ? &scratch->open_guess : NULL, out, NULL);
+    const method_tile tile = {.frame = &job->frame->data,
+                              .sky = job->sky,
+                              .light = light_of(job, scratch),
+                              .podee = job->podee,
+                              .lean = job->lean,
+                              .close = &scratch->close,
+                              .close_guess = &scratch->close_guess,
+                              .open = moves ? &scratch->open : NULL,
+                              .open_guess = &scratch->open_guess};
+    job->kernels->method(job->frame->scene->quality.method, &tile, out);
 }
 
-static void render_filtered(tile_place place, tile_scratch *scratch)
+static const wave_set *waves_of(const tile_job *job)
+{
+    const mgt_method_waves waves = method_of(job->frame->scene->quality.method)->properties.waves;
+    return waves == MGT_WAVES_POINT ? &job->waves->samples : waves == MGT_WAVES_INSTANT ? &job->waves->now : &job->waves->shutter;
+}
+
+/* One shading a pixel. */
+static void render_shaded(tile_place place, tile_scratch *scratch)
 {
     const tile_job *job = place.job;
-    const bool moves = job->frame->scene->camera_moves;
-    build(place, &job->waves->shutter, &scratch->close, &scratch->close_guess);
+    const wave_set *waves = waves_of(job);
+    const bool moves = waves == &job->waves->shutter && job->frame->scene->camera_moves;
+    build(place, waves, &scratch->close, &scratch->close_guess);
     if (moves) {
         build(place, &job->waves->open, &scratch->open, &scratch->open_guess);
         share_light(scratch);
     }
-    run_filtered(job, moves, scratch, &scratch->pixels);
+    shade_pixels(job, moves, scratch, &scratch->pixels);
 }
 
 /* One of the parts the shutter is cut into, between two shares of it. */
@@ -170,7 +177,7 @@ static void render_segments(tile_place place, tile_scratch *scratch)
         if (job->keep_going && !job->keep_going(job->keep_going_argument, scratch->worker))
             return;
         build_segment(place, (double)i / count, (double)(i + 1) / count, scratch);
-        run_filtered(job, job->frame->scene->camera_moves, scratch, &part);
+        shade_pixels(job, job->frame->scene->camera_moves, scratch, &part);
         const float weight = 1.0f / (float)count;
         for (size_t p = 0; p < TILE_PIXELS; p++) {
             sum->red[p] += weight * part.red[p];
@@ -182,51 +189,13 @@ static void render_segments(tile_place place, tile_scratch *scratch)
     }
 }
 
-static bool is_filtered(mgt_method method) { return method == MGT_METHOD_MANGATA || method == MGT_METHOD_PODEE_UNIFORM || method == MGT_METHOD_PODEE_PIXEL; }
-
-/* ---- rivals ---- */
-
-static bool is_rival(mgt_method method)
-{
-    return method == MGT_METHOD_MSAA32 || method == MGT_METHOD_TOKUYOSHI || method == MGT_METHOD_LEAN || method == MGT_METHOD_LEADR ||
-           method == MGT_METHOD_BRUNETON || method == MGT_METHOD_TNDF;
-}
-
-/* Those that shade a point of the whole surface; the others know its filtered slopes. */
-static bool takes_points(mgt_method method) { return method == MGT_METHOD_MSAA32 || method == MGT_METHOD_TOKUYOSHI; }
-
-static void render_rival(tile_place place, tile_scratch *scratch)
-{
-    const tile_job *job = place.job;
-    const frame *f = job->frame;
-    const mgt_method method = f->scene->quality.method;
-    const bool moves = method == MGT_METHOD_TNDF && f->scene->camera_moves;
-    const wave_set *waves = takes_points(method) ? &job->waves->samples : method == MGT_METHOD_TNDF ? &job->waves->shutter : &job->waves->now;
-    build(place, waves, &scratch->close, &scratch->close_guess);
-    if (moves) {
-        build(place, &job->waves->open, &scratch->open, &scratch->open_guess);
-        share_light(scratch);
-    }
-    const rival_tile tile = {&f->data,
-                             job->sky,
-                             light_of(job, scratch),
-                             job->lean,
-                             method,
-                             &scratch->close,
-                             &scratch->close_guess,
-                             moves ? &scratch->open : NULL,
-                             moves ? &scratch->open_guess : NULL};
-    job->kernels->rivals->pixels(&tile, &scratch->pixels);
-}
-
 static void render_surface(tile_place place, tile_scratch *scratch)
 {
     const tile_job *job = place.job;
     const frame *f = job->frame;
     build(place, &job->waves->samples, &scratch->close, &scratch->close_guess);
     job->kernels->surface(&f->data, &scratch->close, &scratch->close_guess, &scratch->surface);
-    const mgt_method method = f->scene->quality.method;
-    if (!is_filtered(method) && (!is_rival(method) || takes_points(method)))
+    if (waves_of(job) == &job->waves->samples)
         return;
     build(place, &job->waves->now, &scratch->close, &scratch->close_guess);
     job->kernels->filtered_normal(&f->data, &scratch->close, &scratch->close_guess, &scratch->surface);
@@ -251,16 +220,12 @@ static void see_objects(tile_place place, tile_scratch *scratch)
 static void render_pixels(tile_place place, tile_scratch *scratch)
 {
     const mgt_quality *q = &place.job->frame->scene->quality;
-    if (is_filtered(q->method) && q->path_segments > 1)
-        render_segments(place, scratch);
-    else if (is_filtered(q->method))
-        render_filtered(place, scratch);
-    else if (is_rival(q->method))
-        render_rival(place, scratch);
-    else if (q->method == MGT_METHOD_SSAA)
+    if (method_of(q->method)->way == METHOD_SAMPLES)
         render_samples(place, scratch);
+    else if (q->path_segments > 1)
+        render_segments(place, scratch);
     else
-        render_centre(place, scratch);
+        render_shaded(place, scratch);
 }
 
 void tile_see_objects(const tile_job *job, uint32_t tile_x, uint32_t tile_y, tile_scratch *scratch) { see_objects((tile_place){job, tile_x, tile_y}, scratch); }

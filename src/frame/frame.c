@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/triples.h"
+#include "params/methods.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -72,10 +73,10 @@ static double elongation_limit(const mgt_quality *q)
 static void set_method(frame *f)
 {
     const mgt_quality *q = &f->scene->quality;
-    const bool podee = q->method == MGT_METHOD_PODEE_UNIFORM || q->method == MGT_METHOD_PODEE_PIXEL;
-    const bool keep = q->method == MGT_METHOD_PODEE_PIXEL; /* unresolved waves stay mixed ones: their phase matters */
+    const method_row *row = method_of(q->method);
+    const bool podee = row->transition == TRANSITION_PODEE, keep = row->keeps_phases;
     const double width = q->transition_hard ? 0 : q->transition_width != 0 ? q->transition_width : 0.3;
-    const bool bruneton = q->method == MGT_METHOD_BRUNETON; /* 2.5 to 1 pixels a wavelength, see bruneton.k */
+    const bool bruneton = row->transition == TRANSITION_BRUNETON; /* 2.5 to 1 pixels a wavelength, see bruneton.k */
     const double end = podee ? 0.5 : bruneton ? 1.0 : 1.2, start = podee ? end - width : bruneton ? 0.4 : 0.1; /* cycles per pixel */
     FrameData *d = &f->data;
     d->ramp_start = (float)start;

@@ -143,7 +143,7 @@ static void fxaa_row(void *argument, size_t y)
 mgt_status fxaa_render(const picture_maker *m, const reporter *r, const mgt_scene *scene, picture_planes *out)
 {
     const size_t pixels = (size_t)out->width * out->height;
-    picture_planes in = picture_planes_create(out->width, out->height, MGT_METHOD_FXAA);
+    picture_planes in = picture_planes_create(out->width, out->height, METHOD_PASS_FXAA);
     fxaa_job job = {&in, out, malloc(pixels * sizeof(float))};
     mgt_status status = MGT_ERROR_MEMORY;
     if (!in.color || !job.luma) {

@@ -170,8 +170,8 @@ static void blend_row(void *argument, size_t y) { taa_blend_row(argument, (uint3
 mgt_status taa_render(const picture_maker *m, const reporter *r, const mgt_scene *scene, picture_planes *out)
 {
     const taa_history h = {m, scene, taa_interval(scene)};
-    picture_planes current = picture_planes_create(out->width, out->height, MGT_METHOD_TAA),
-                   spare = picture_planes_create(out->width, out->height, MGT_METHOD_TAA);
+    picture_planes current = picture_planes_create(out->width, out->height, METHOD_PASS_TAA),
+                   spare = picture_planes_create(out->width, out->height, METHOD_PASS_TAA);
     mgt_status status = MGT_ERROR_MEMORY;
     if (!current.color || !spare.color) {
         report_error(r, status, "render.memory", "out of memory for taa on %u x %u pixels", out->width, out->height);

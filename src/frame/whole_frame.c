@@ -5,17 +5,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-picture_planes picture_planes_create(uint32_t width, uint32_t height, mgt_method method)
+picture_planes picture_planes_create(uint32_t width, uint32_t height, method_pass pass)
 {
-    const size_t pixels = (size_t)width * height, extra = method == MGT_METHOD_TAA ? 1 : method == MGT_METHOD_ADAPTIVE ? 3 : 0;
+    const size_t pixels = (size_t)width * height, extra = pass == METHOD_PASS_TAA ? 1 : pass == METHOD_PASS_ADAPTIVE ? 3 : 0;
     picture_planes p = {.width = width, .height = height, .color = calloc(pixels * (5 + extra), sizeof(float))};
     if (!p.color)
         return p;
     p.coverage = p.color + 3 * pixels;
     p.water = p.coverage + pixels;
-    if (method == MGT_METHOD_TAA)
+    if (pass == METHOD_PASS_TAA)
         p.depth = p.water + pixels;
-    if (method == MGT_METHOD_ADAPTIVE) {
+    if (pass == METHOD_PASS_ADAPTIVE) {
         p.samples = p.water + pixels;
         p.importance = p.samples + pixels;
         p.detail = p.importance + pixels;
@@ -24,8 +24,6 @@ picture_planes picture_planes_create(uint32_t width, uint32_t height, mgt_method
 }
 
 void picture_planes_free(picture_planes *p) { free(p->color); }
-
-bool is_whole_frame_method(mgt_method method) { return method == MGT_METHOD_FXAA || method == MGT_METHOD_TAA || method == MGT_METHOD_ADAPTIVE; }
 
 /* ---- targets ---- */
 
@@ -113,11 +111,11 @@ static mgt_scene plain_scene(const mgt_scene *scene, mgt_method method)
     return plain;
 }
 
-/* Depth, normal and what is seen through the surface are those of `none` or, for adaptive, of `mangata`; `share` of the progress is theirs. */
+/* Depth, normal and what is seen through the surface are those of the pass's base; `share` of the progress is theirs. */
 static mgt_status render_surface(const picture_maker *m, const mgt_scene *scene, const mgt_target *targets, size_t count, double share)
 {
     const frame_pass pass = {camera_rays_of(&scene->camera, scene->image.width, scene->image.height), 0, share, false};
-    mgt_scene plain = plain_scene(scene, scene->quality.method == MGT_METHOD_ADAPTIVE ? MGT_METHOD_MANGATA : MGT_METHOD_NONE);
+    mgt_scene plain = plain_scene(scene, method_of(scene->quality.method)->base);
     plain.image = scene->image;
     mgt_status status = MGT_OK;
     for (size_t i = 0; i < count && status == MGT_OK; i++)
@@ -134,17 +132,17 @@ mgt_status whole_frame_render(const picture_maker *m, const reporter *r, const m
     const mgt_status status = render_surface(m, scene, targets, count, pixels ? 0 : 1);
     if (status != MGT_OK || pixels == 0)
         return status;
-    const mgt_method method = scene->quality.method;
-    mgt_scene whole = plain_scene(scene, method == MGT_METHOD_ADAPTIVE ? method : MGT_METHOD_NONE);
-    picture_planes p = picture_planes_create(whole.image.width, whole.image.height, method);
+    const method_row *row = method_of(scene->quality.method);
+    mgt_scene whole = plain_scene(scene, row->base);
+    picture_planes p = picture_planes_create(whole.image.width, whole.image.height, row->pass);
     mgt_status done = MGT_OK;
     if (!p.color)
         done = report_error(r, MGT_ERROR_MEMORY, "render.memory", "out of memory for %u x %u pixels", whole.image.width, whole.image.height);
-    else if (method == MGT_METHOD_ADAPTIVE) {
+    else if (row->pass == METHOD_PASS_ADAPTIVE) {
         whole.quality = scene->quality;
         done = m->adapt(m->user, &whole, &p);
     } else {
-        done = method == MGT_METHOD_FXAA ? fxaa_render(m, r, &whole, &p) : taa_render(m, r, &whole, &p);
+        done = row->pass == METHOD_PASS_FXAA ? fxaa_render(m, r, &whole, &p) : taa_render(m, r, &whole, &p);
     }
     if (done == MGT_OK)
         done = write_targets(m, scene, targets, count, &p);

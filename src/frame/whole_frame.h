@@ -5,6 +5,7 @@
 
 #include "frame/backend.h"
 #include "frame/frame.h"
+#include "params/methods.h"
 
 /* One picture of several that a frame is made of. */
 typedef struct frame_pass {
@@ -23,7 +24,7 @@ typedef struct picture_planes {
 } picture_planes;
 
 /* Zeroed; color NULL where memory is short. */
-picture_planes picture_planes_create(uint32_t width, uint32_t height, mgt_method method);
+picture_planes picture_planes_create(uint32_t width, uint32_t height, method_pass pass);
 void picture_planes_free(picture_planes *p);
 
 /* What the backend offers. */
@@ -39,12 +40,10 @@ typedef struct picture_maker {
     mgt_status (*adapt)(void *user, const mgt_scene *scene, const picture_planes *out);
 } picture_maker;
 
-bool is_whole_frame_method(mgt_method method);
-
 /* Defaults of a method, with the seed and the refraction of `q`. */
 mgt_quality plain_quality(const mgt_quality *q, mgt_method method);
 
-/* Renders a scene whose method is fxaa, taa or adaptive. */
+/* Renders a scene whose method is a METHOD_PASS. */
 mgt_status whole_frame_render(const picture_maker *m, const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count);
 
 /* ---- its two methods: `scene` asks for `none` and for no crop ---- */

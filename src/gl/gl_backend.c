@@ -211,9 +211,8 @@ enum { MOST_PLACES = 4 };
 
 const char *gl_lacks(const mgt_scene *scene)
 {
-    const mgt_method method = scene->quality.method;
-    if (method == MGT_METHOD_REFERENCE || method == MGT_METHOD_ADAPTIVE)
-        return "methods reference and adaptive run";
+    if (!(method_of(scene->quality.method)->properties.backends & 1u << MGT_BACKEND_GL))
+        return "the method runs";
     switch (scene->quality.refraction) {
     case MGT_REFRACTION_DISTANCE_FIELD:
     case MGT_REFRACTION_TRUTH:
@@ -269,7 +268,7 @@ mgt_status gl_layers_render(gl_backend_state *s, const reporter *r, const mgt_sc
         return status;
     const frame f = frame_of(scene, s->renderer->sky, wants->color);
     *area = image_region(&scene->image);
-    if ((wants->display && scene->post.glare > 0) || is_whole_frame_method(scene->quality.method))
+    if ((wants->display && scene->post.glare > 0) || method_of(scene->quality.method)->way == METHOD_PASS)
         *area = (region){0, 0, scene->image.width, scene->image.height};
     const gl_job job = {
         .frame = &f,
@@ -304,7 +303,7 @@ static mgt_status render_entered(gl_backend_state *s, const reporter *r, const m
 static bool gl_knows_layer(const mgt_scene *scene, mgt_layer layer)
 {
     if (layer == MGT_LAYER_REFRACTION || layer == MGT_LAYER_REFRACTION_ERROR)
-        return scene->object_count > 0 && !scene->camera_moves && !is_whole_frame_method(scene->quality.method);
+        return scene->object_count > 0 && !scene->camera_moves && method_of(scene->quality.method)->way != METHOD_PASS;
     return layer <= MGT_LAYER_NORMAL;
 }
 

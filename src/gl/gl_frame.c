@@ -20,23 +20,13 @@ typedef struct band {
     uint32_t tiles; /* of one camera */
 } band;
 
-/* The waves that a method shades from. */
-typedef enum wave_choice {
-    WAVES_POINTS,  /* of the instant t, as point samples see them */
-    WAVES_NOW,     /* of the instant t, filtered */
-    WAVES_SHUTTER, /* over the shutter, filtered */
-} wave_choice;
-
-typedef struct shading {
-    wave_choice waves;
-    gl_program program;
-} shading;
-
 typedef struct frame_run {
     gl_renderer *g;
     const gl_job *job;
     const reporter *r;
-    shading method;
+    const method_row *method;
+    mgt_method_waves waves;
+    gl_program program;
     uint32_t first_row, end_row, first_column, columns; /* of tiles */
     uint32_t band_rows;
     int wave_stride;
@@ -45,33 +35,8 @@ typedef struct frame_run {
     double done, steps;
 } frame_run;
 
-static shading shading_of(const mgt_quality *q)
-{
-    switch (q->method) {
-    case MGT_METHOD_MANGATA:
-        return (shading){WAVES_SHUTTER, PROGRAM_SHADE_MANGATA};
-    case MGT_METHOD_PODEE_UNIFORM:
-    case MGT_METHOD_PODEE_PIXEL:
-        return (shading){WAVES_SHUTTER, q->kernels == MGT_KERNELS_EXACT ? PROGRAM_SHADE_PODEE : PROGRAM_SHADE_KERNELS};
-    case MGT_METHOD_TNDF:
-        return (shading){WAVES_SHUTTER, PROGRAM_SHADE_TNDF};
-    case MGT_METHOD_LEAN:
-        return (shading){WAVES_NOW, PROGRAM_SHADE_LEAN};
-    case MGT_METHOD_LEADR:
-        return (shading){WAVES_NOW, PROGRAM_SHADE_LEADR};
-    case MGT_METHOD_BRUNETON:
-        return (shading){WAVES_NOW, PROGRAM_SHADE_BRUNETON};
-    case MGT_METHOD_MSAA32:
-        return (shading){WAVES_POINTS, PROGRAM_MSAA};
-    case MGT_METHOD_TOKUYOSHI:
-        return (shading){WAVES_POINTS, PROGRAM_TOKUYOSHI};
-    default:
-        return (shading){WAVES_POINTS, PROGRAM_SAMPLES};
-    }
-}
-
 /* Whether tiles are needed of two cameras at once. */
-static bool needs_open(const frame_run *run) { return run->method.waves == WAVES_SHUTTER && run->job->frame->scene->camera_moves; }
+static bool needs_open(const frame_run *run) { return run->waves == MGT_WAVES_SHUTTER && run->job->frame->scene->camera_moves; }
 
 /* ---- memory ---- */
 
@@ -229,13 +194,19 @@ static void bind_layers(const gl_renderer *g)
     g->gl.BindSampler(UNIT_SKY, 0);
 }
 
-static void bind_tables(gl_renderer *g, gl_program program)
+/* Whether podee's tables stand for its closed form. */
+static bool uses_podee_tables(const frame_run *run)
 {
-    gl_refraction_bind_light(g);
-    if (program == PROGRAM_SHADE_KERNELS)
-        gl_podee_bind(g);
-    if (program == PROGRAM_SHADE_LEAN || program == PROGRAM_SHADE_LEADR)
-        gl_lean_bind(g);
+    return run->method->tables & METHOD_PODEE_TABLES && run->job->frame->scene->quality.kernels != MGT_KERNELS_EXACT;
+}
+
+static void bind_tables(const frame_run *run)
+{
+    gl_refraction_bind_light(run->g);
+    if (uses_podee_tables(run))
+        gl_podee_bind(run->g);
+    if (run->method->tables & METHOD_LEAN_MAP)
+        gl_lean_bind(run->g);
 }
 
 /* A program over the pixels of the band. */
@@ -247,7 +218,10 @@ static mgt_status run_pixels(const frame_run *run, const PassData *pass, const c
     if (status == MGT_OK) {
         gl_uniform(g, BIND_PASS, pass, sizeof *pass);
         bind_layers(g);
-        bind_tables(g, program);
+        if (program == run->program)
+            bind_tables(run);
+        else
+            gl_refraction_bind_light(g);
         g->gl.DispatchCompute((GLuint)pass->columns * 4, (GLuint)pass->rows * 2, 1);
         g->gl.MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
     }
@@ -309,7 +283,7 @@ static mgt_status render_filtered(frame_run *run, const band *b)
     const uint32_t parts = q->path_segments > 1 ? q->path_segments : 1;
     mgt_status status = MGT_OK;
     for (uint32_t i = 0; i < parts && status == MGT_OK; i++) {
-        const double from = run->method.waves == WAVES_NOW ? 1 : (double)i / parts;
+        const double from = run->waves == MGT_WAVES_INSTANT ? 1 : (double)i / parts;
         status = prepare_part(run, b, from, (double)(i + 1) / parts);
         PassData pass = b->pass;
         pass.clear = i == 0;
@@ -317,7 +291,7 @@ static mgt_status render_filtered(frame_run *run, const band *b)
         pass.write_depth = run->job->shaded_depth && i + 1 == parts;
         pass.open_slots = needs_open(run) ? (int)b->tiles : 0;
         if (status == MGT_OK)
-            status = run_pixels(run, &pass, "shade", run->method.program);
+            status = run_pixels(run, &pass, "shade", run->program);
         if (status == MGT_OK)
             status = step_done(run, 1);
     }
@@ -334,7 +308,7 @@ static mgt_status render_centre(frame_run *run, const band *b)
     pass.weight = 1;
     pass.strata = 1;
     if (status == MGT_OK)
-        status = run_pixels(run, &pass, "samples", run->method.program);
+        status = run_pixels(run, &pass, "samples", run->program);
     return status == MGT_OK ? step_done(run, 1) : status;
 }
 
@@ -368,7 +342,7 @@ static mgt_status run_samples(frame_run *run, const band *b, uint64_t from, uint
         if (status == MGT_OK)
             status = gl_ring_begin(&run->g->gl, &run->g->ring, sizeof pass, 1, run->r);
         if (status == MGT_OK)
-            status = run_pixels(run, &pass, "samples", PROGRAM_SAMPLES);
+            status = run_pixels(run, &pass, "samples", run->program);
         from += count;
         if (status == MGT_OK)
             status = step_done(run, (double)count);
@@ -409,7 +383,7 @@ static mgt_status render_surface(frame_run *run, const band *b, bool ready)
     }
     if (status == MGT_OK)
         status = run_pixels(run, &b->pass, "surface", PROGRAM_SURFACE);
-    if (status != MGT_OK || !run->job->wants_normal || run->method.waves == WAVES_POINTS)
+    if (status != MGT_OK || !run->job->wants_normal || run->waves == MGT_WAVES_POINT)
         return status;
     wave_set_build(f, &f->close, now, true, run->g->waves);
     status = prepare_set(run, b);
@@ -477,17 +451,17 @@ static mgt_status render_band(frame_run *run, uint32_t row)
 {
     const gl_job *job = run->job;
     const frame *f = job->frame;
-    const mgt_method method = f->scene->quality.method;
+    const bool samples = run->method->way == METHOD_SAMPLES;
     const band b = band_at(run, row);
     mgt_status status = run->objects ? see_objects(run, &b, &f->close, frame_shutter(f)) : MGT_OK;
     if (status == MGT_OK && run->objects && f->scene->camera_moves)
         status = gl_refraction_blend(run->g, &b.pass, run->r);
-    const bool points = run->method.waves == WAVES_POINTS;
+    const bool points = run->waves == MGT_WAVES_POINT;
     if (status == MGT_OK && job->wants_pixels)
-        status = !points ? render_filtered(run, &b) : method == MGT_METHOD_SSAA ? render_samples(run, &b) : render_centre(run, &b);
+        status = !points ? render_filtered(run, &b) : samples ? render_samples(run, &b) : render_centre(run, &b);
     const bool depth = job->wants_depth && (points || !job->shaded_depth);
     if (status == MGT_OK && (depth || job->wants_normal))
-        status = render_surface(run, &b, job->wants_pixels && points && method != MGT_METHOD_SSAA);
+        status = render_surface(run, &b, job->wants_pixels && points && !samples);
     return status == MGT_OK && run->objects ? put_objects_in_front(run, &b) : status;
 }
 
@@ -513,30 +487,27 @@ static mgt_status prepare_objects(const frame_run *run)
 static double count_steps(const mgt_quality *q)
 {
     const uint64_t all = (uint64_t)q->spatial_samples * q->spatial_samples * q->time_samples - q->sample_first;
-    if (q->method == MGT_METHOD_SSAA)
+    if (method_of(q->method)->way == METHOD_SAMPLES)
         return (double)(q->sample_count ? q->sample_count : all);
     return q->path_segments > 1 ? q->path_segments : 1;
 }
 
 static mgt_status prepare_tables(const frame_run *run)
 {
-    switch (run->method.program) {
-    case PROGRAM_SHADE_KERNELS:
+    if (uses_podee_tables(run))
         return gl_podee_prepare(run->g, run->job->frame->scene, run->r);
-    case PROGRAM_SHADE_LEAN:
-    case PROGRAM_SHADE_LEADR:
-        return gl_lean_prepare(run->g, run->job->frame, run->r);
-    default:
-        return MGT_OK;
-    }
+    return run->method->tables & METHOD_LEAN_MAP ? gl_lean_prepare(run->g, run->job->frame, run->r) : MGT_OK;
 }
 
 mgt_status gl_frame_render(gl_renderer *g, const gl_job *job, const reporter *r)
 {
     const mgt_quality *q = &job->frame->scene->quality;
-    if (is_whole_frame_method(q->method))
+    const method_row *method = method_of(q->method);
+    if (method->way == METHOD_PASS)
         return gl_whole_frame_render(g, job, r);
-    frame_run run = {.g = g, .job = job, .r = r, .method = shading_of(q), .objects = job->frame->scene->object_count > 0 || job->frame->under};
+    frame_run run =
+        {.g = g, .job = job, .r = r, .method = method, .waves = method->properties.waves, .objects = job->frame->scene->object_count > 0 || job->frame->under};
+    run.program = gl_method_program(q->method, uses_podee_tables(&run));
     mgt_status status = reserve_layers(&run);
     if (status == MGT_OK)
         status = reserve_tiles(&run);

@@ -12,21 +12,13 @@ static const GLenum stage_kinds[STAGES] = {GL_VERTEX_SHADER, GL_FRAGMENT_SHADER,
 /* A compute shader, or a vertex and a fragment shader with or without tessellation: NAME.vert, NAME.frag, NAME.tesc, NAME.tese. */
 typedef struct program_text {
     const char *name, *compute, *stages[STAGES];
+    const method_row *method; /* whose shader it is, or NULL */
+    const char *kernel, *result;
 } program_text;
 
-static const program_text program_texts[PROGRAM_COUNT] = {
+static const program_text program_texts[PROGRAM_METHODS] = {
     [PROGRAM_TILES] = {"tiles", "tiles.comp", {NULL}},
     [PROGRAM_NODES] = {"nodes", "nodes.comp", {NULL}},
-    [PROGRAM_SHADE_MANGATA] = {"shade", "shade_mangata.comp", {NULL}},
-    [PROGRAM_SHADE_PODEE] = {"shade", "shade_podee.comp", {NULL}},
-    [PROGRAM_SHADE_KERNELS] = {"shade", "shade_kernels.comp", {NULL}},
-    [PROGRAM_SHADE_LEAN] = {"shade", "shade_lean.comp", {NULL}},
-    [PROGRAM_SHADE_LEADR] = {"shade", "shade_leadr.comp", {NULL}},
-    [PROGRAM_SHADE_BRUNETON] = {"shade", "shade_bruneton.comp", {NULL}},
-    [PROGRAM_SHADE_TNDF] = {"shade", "shade_tndf.comp", {NULL}},
-    [PROGRAM_SAMPLES] = {"samples", "samples.comp", {NULL}},
-    [PROGRAM_MSAA] = {"samples", "msaa.comp", {NULL}},
-    [PROGRAM_TOKUYOSHI] = {"samples", "tokuyoshi.comp", {NULL}},
     [PROGRAM_SURFACE] = {"surface", "surface.comp", {NULL}},
     [PROGRAM_NORMAL] = {"normal", "normal.comp", {NULL}},
     [PROGRAM_LEAN_FILL] = {"lean", "lean_fill.comp", {NULL}},
@@ -54,6 +46,58 @@ static const program_text program_texts[PROGRAM_COUNT] = {
 
 enum { LOG_SIZE = 4096 };
 
+/* ---- programs of methods ---- */
+
+static const method_shader *shader_at(int slot)
+{
+    const size_t method = (size_t)slot % METHOD_SLOTS;
+    if (method >= method_count)
+        return NULL;
+    const method_row *row = method_of((mgt_method)method);
+    return slot < METHOD_SLOTS ? row->shader : row->with_tables;
+}
+
+gl_program gl_method_program(mgt_method method, bool tables)
+{
+    const int first = tables ? METHOD_SLOTS : 0;
+    int slot = first;
+    while (shader_at(slot) != shader_at(first + (int)method))
+        slot++;
+    return (gl_program)(PROGRAM_METHODS + slot);
+}
+
+/* Empty where there is no such program. */
+static program_text text_of(gl_program which)
+{
+    if (which < PROGRAM_METHODS)
+        return program_texts[which];
+    const int slot = (int)which - PROGRAM_METHODS;
+    const mgt_method method = (mgt_method)(slot % METHOD_SLOTS);
+    const method_shader *shader = shader_at(slot);
+    if (!shader || gl_method_program(method, slot >= METHOD_SLOTS) != which)
+        return (program_text){0};
+    const method_row *row = method_of(method);
+    return (program_text){.name = row->properties.name, .compute = shader->pass, .method = row, .kernel = shader->kernel, .result = shader->result};
+}
+
+/* What the texts of a program are assembled behind. */
+typedef struct define_text {
+    char text[256];
+} define_text;
+
+static define_text defines_of(const gl_programs *p, const program_text *t)
+{
+    define_text d;
+    int used = snprintf(d.text, sizeof d.text, "%s", p->defines ? p->defines : "");
+    if (t->result)
+        used += snprintf(d.text + used, sizeof d.text - (size_t)used, "#define method_result %s\n", t->result);
+    if (t->method && t->method->tables & METHOD_LEAN_MAP)
+        snprintf(d.text + used, sizeof d.text - (size_t)used, "#define LEAN_MAP\n");
+    return d;
+}
+
+/* ---- building ---- */
+
 static mgt_status explain(const gl_source *source, const char *program, const char *log, const reporter *r)
 {
     char text[REPORTER_TEXT];
@@ -64,7 +108,7 @@ static mgt_status explain(const gl_source *source, const char *program, const ch
 
 /* The assembled stages of a program. */
 typedef struct program_source {
-    const program_text *text;
+    program_text text;
     gl_source stages[STAGES];
     GLenum kinds[STAGES];
     int count;
@@ -72,14 +116,15 @@ typedef struct program_source {
 
 static mgt_status assemble(const gl_programs *p, const gl_replacements *replaced, gl_program which, program_source *out, const reporter *r)
 {
-    const program_text *t = &program_texts[which];
-    *out = (program_source){.text = t};
+    *out = (program_source){.text = text_of(which)};
+    const program_text *t = &out->text;
+    const define_text defines = defines_of(p, t);
     const char *const *files = t->compute ? &t->compute : t->stages;
     const int most = t->compute ? 1 : STAGES;
     while (out->count < most && files[out->count]) {
         out->kinds[out->count] = t->compute ? GL_COMPUTE_SHADER : stage_kinds[out->count];
         gl_source *s = &out->stages[out->count++];
-        if (gl_source_assemble(s, replaced, files[out->count - 1], p->defines ? p->defines : ""))
+        if (gl_source_assemble(s, replaced, files[out->count - 1], t->kernel, defines.text))
             continue;
         return s->out_of_memory ? report_error(r, MGT_ERROR_MEMORY, "gl.shader", "out of memory for the text of %s", files[out->count - 1])
                                 : report_error(r, MGT_ERROR_UNAVAILABLE, "gl.shader", "%s: it includes a file that does not exist", s->missing);
@@ -102,7 +147,7 @@ static mgt_status compile(const gl_api *gl, GLuint program, const program_source
     } else {
         char log[LOG_SIZE] = "";
         gl->GetShaderInfoLog(shader, sizeof log, NULL, log);
-        status = explain(&s->stages[stage], s->text->name, log, r);
+        status = explain(&s->stages[stage], s->text.name, log, r);
     }
     gl->DeleteShader(shader); /* lives on while attached */
     return status;
@@ -117,7 +162,7 @@ static mgt_status link(const gl_api *gl, GLuint program, const program_source *s
         return MGT_OK;
     char log[LOG_SIZE] = "";
     gl->GetProgramInfoLog(program, sizeof log, NULL, log);
-    return explain(&s->stages[0], s->text->name, log, r);
+    return explain(&s->stages[0], s->text.name, log, r);
 }
 
 /* Builds a program, or takes p's own where its text is the same. */
@@ -131,7 +176,7 @@ static mgt_status build(const gl_programs *p, const gl_replacements *replaced, g
         *hash = *hash * 31 + gl_source_hash(&s.stages[i]);
     if (status == MGT_OK && p->names[which] && p->hashes[which] == *hash) {
         *out = p->names[which];
-    } else if (status == MGT_OK) {
+    } else if (status == MGT_OK && s.count > 0) {
         const GLuint program = p->gl->CreateProgram();
         for (int i = 0; i < s.count && status == MGT_OK; i++)
             status = compile(p->gl, program, &s, i, r);

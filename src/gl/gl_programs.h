@@ -6,20 +6,11 @@
 #include "frame/backend.h"
 #include "gl/gl_api.h"
 #include "gl/gl_sources.h"
+#include "params/methods.h"
 
 typedef enum gl_program {
-    PROGRAM_TILES = 0, /* waves of each tile, sorted */
-    PROGRAM_NODES,     /* first hits of the tiles' lattices */
-    PROGRAM_SHADE_MANGATA,
-    PROGRAM_SHADE_PODEE,
-    PROGRAM_SHADE_KERNELS, /* podee-* with kernels from tables */
-    PROGRAM_SHADE_LEAN,
-    PROGRAM_SHADE_LEADR,
-    PROGRAM_SHADE_BRUNETON,
-    PROGRAM_SHADE_TNDF,
-    PROGRAM_SAMPLES, /* point samples: none, ssaa */
-    PROGRAM_MSAA,
-    PROGRAM_TOKUYOSHI,
+    PROGRAM_TILES = 0,   /* waves of each tile, sorted */
+    PROGRAM_NODES,       /* first hits of the tiles' lattices */
     PROGRAM_SURFACE,     /* depth and normal at an instant */
     PROGRAM_NORMAL,      /* the filtered methods' mean shading normal */
     PROGRAM_LEAN_FILL,   /* the map of slope moments, level 0 … */
@@ -43,8 +34,12 @@ typedef enum gl_program {
     PROGRAM_OBJECTS_DEEP,     /* or only water */
     PROGRAM_OBJECTS_BLEND,    /* both ends of the shutter */
     PROGRAM_OBJECTS_COMPOSE,  /* what is in front over the layers */
-    PROGRAM_COUNT
+    PROGRAM_METHODS,          /* first of the methods' own */
+    PROGRAM_COUNT = PROGRAM_METHODS + 2 * METHOD_SLOTS
 } gl_program;
+
+/* That shades pixels by a method, from tables or without. Methods whose rows name the same shader share it. */
+gl_program gl_method_program(mgt_method method, bool tables);
 
 typedef struct gl_programs {
     const gl_api *gl;

@@ -117,7 +117,9 @@ static void append_file(gl_source *s, const gl_replacements *replaced, const cha
         size_t name_length = 0;
         const char *inner = included(at, length, &name_length);
         if (inner) {
-            const char *known = embedded(inner, name_length);
+            static const char method[] = "method.k";
+            const bool is_method = s->kernel && name_length == sizeof method - 1 && memcmp(inner, method, name_length) == 0;
+            const char *known = is_method ? embedded(s->kernel, strlen(s->kernel)) : embedded(inner, name_length);
             if (known) {
                 append_file(s, replaced, known);
                 append_line_mark(s, line + 1, id);
@@ -133,10 +135,10 @@ static void append_file(gl_source *s, const gl_replacements *replaced, const cha
     }
 }
 
-bool gl_source_assemble(gl_source *out, const gl_replacements *replaced, const char *main, const char *defines)
+bool gl_source_assemble(gl_source *out, const gl_replacements *replaced, const char *main, const char *kernel, const char *defines)
 {
     static const char version[] = "#version 450 core\n";
-    *out = (gl_source){.file_count = 1, .files = {"defines"}};
+    *out = (gl_source){.file_count = 1, .files = {"defines"}, .kernel = kernel};
     append(out, version, sizeof version - 1);
     append(out, defines, strlen(defines));
     append_file(out, replaced, main);

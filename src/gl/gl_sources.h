@@ -40,12 +40,14 @@ typedef struct gl_source {
     size_t length, capacity;
     const char *files[MAX_FILES]; /* [0] is what stands before the first file */
     int file_count;
+    const char *kernel;  /* of a method, or NULL */
     const char *missing; /* name of a file that was asked for and is not there, else NULL */
     bool out_of_memory;
 } gl_source;
 
-/* Assembles the text `main` behind "#version 450 core" and `defines` (whole lines). Free with gl_source_free() even after a failure. */
-bool gl_source_assemble(gl_source *out, const gl_replacements *replaced, const char *main, const char *defines);
+/* Assembles the text `main` behind "#version 450 core" and `defines` (whole lines). `kernel`: what #include "method.k" stands for, or NULL. Free with
+ * gl_source_free() even after a failure. */
+bool gl_source_assemble(gl_source *out, const gl_replacements *replaced, const char *main, const char *kernel, const char *defines);
 void gl_source_free(gl_source *s);
 
 /* A number that differs, but for one case in 10^19, where the text does. */

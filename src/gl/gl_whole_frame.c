@@ -16,7 +16,7 @@ typedef struct none_frame {
 static void none_frame_of(const frame *f, none_frame *out)
 {
     out->scene = *f->scene;
-    out->scene.quality.method = MGT_METHOD_NONE;
+    out->scene.quality.method = method_of(f->scene->quality.method)->base;
     out->frame = *f;
     out->frame.scene = &out->scene;
 }
@@ -255,7 +255,7 @@ mgt_status gl_whole_frame_render(gl_renderer *g, const gl_job *job, const report
 {
     if (!job->wants_pixels)
         return render_surface(g, job, 1, r);
-    if (job->frame->scene->quality.method == MGT_METHOD_FXAA)
+    if (method_of(job->frame->scene->quality.method)->pass == METHOD_PASS_FXAA)
         return render_fxaa(g, job, r);
     const mgt_status status = render_taa(g, job, r);
     return status == MGT_OK && (job->wants_depth || job->wants_normal) ? render_surface(g, job, 0, r) : status;

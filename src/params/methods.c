@@ -13,13 +13,16 @@
 #define CPU (1u << MGT_BACKEND_CPU)
 #define CPU_AND_GL (CPU | 1u << MGT_BACKEND_GL)
 
+static const method_shader samples_shader = {.pass = "samples.comp"}, podee_shader = {.pass = "shade_podee.comp"},
+                           podee_tables_shader = {.pass = "shade_kernels.comp"};
+
 const method_row method_rows[] =
     {
         [MGT_METHOD_NONE] =
             {
                 .properties = {0, "none", "one sample at the pixel's centre", MGT_WAVES_POINT, CPU_AND_GL, LAYERS},
                 .way = METHOD_CENTRE,
-                .shader.pass = "samples.comp",
+                .shader = &samples_shader,
             },
         [MGT_METHOD_SSAA] =
             {
@@ -27,7 +30,7 @@ const method_row method_rows[] =
                 .way = METHOD_SAMPLES,
                 .takes = METHOD_TAKES_TIMES,
                 .numbered = true,
-                .shader.pass = "samples.comp",
+                .shader = &samples_shader,
             },
         [MGT_METHOD_PODEE_UNIFORM] =
             {
@@ -36,8 +39,8 @@ const method_row method_rows[] =
                 .transition = TRANSITION_PODEE,
                 .tables = METHOD_PODEE_TABLES,
                 .takes = METHOD_TAKES_PODEE,
-                .shader.pass = "shade_podee.comp",
-                .with_tables.pass = "shade_kernels.comp",
+                .shader = &podee_shader,
+                .with_tables = &podee_tables_shader,
             },
         [MGT_METHOD_PODEE_PIXEL] =
             {
@@ -47,14 +50,14 @@ const method_row method_rows[] =
                 .keeps_phases = true,
                 .tables = METHOD_PODEE_TABLES,
                 .takes = METHOD_TAKES_PODEE | METHOD_TAKES_NDF_MEAN,
-                .shader.pass = "shade_podee.comp",
-                .with_tables.pass = "shade_kernels.comp",
+                .shader = &podee_shader,
+                .with_tables = &podee_tables_shader,
             },
         [MGT_METHOD_MANGATA] =
             {
                 .properties = {0, "mangata", "this library's own closed form", MGT_WAVES_SHUTTER, CPU_AND_GL, LAYERS},
                 .way = METHOD_FILTERED,
-                .shader = {"shade_slopes.comp", "glitter.k", "glitter_result"},
+                .shader = &(const method_shader){"shade_slopes.comp", "glitter.k", "glitter_result"},
             },
         [MGT_METHOD_REFERENCE] =
             {
@@ -69,34 +72,34 @@ const method_row method_rows[] =
                 .properties = {0, "msaa32", "32 samples of visibility, one shading", MGT_WAVES_POINT, CPU_AND_GL, LAYERS},
                 .way = METHOD_CENTRE,
                 .samples = 32,
-                .shader = {"shade_point.comp", "msaa.k", "msaa_pixel"},
+                .shader = &(const method_shader){"shade_point.comp", "msaa.k", "msaa_pixel"},
             },
         [MGT_METHOD_LEAN] =
             {
                 .properties = {0, "lean", "Olano and Baker 2010: a tiled map of slope moments", MGT_WAVES_INSTANT, CPU_AND_GL, LAYERS},
                 .way = METHOD_FILTERED,
                 .tables = METHOD_LEAN_MAP,
-                .shader = {"shade_slopes.comp", "lean.k", "lean_result"},
+                .shader = &(const method_shader){"shade_slopes.comp", "lean.k", "lean_result"},
             },
         [MGT_METHOD_LEADR] =
             {
                 .properties = {0, "leadr", "Dupuy et al. 2013: lean with masking and shadowing", MGT_WAVES_INSTANT, CPU_AND_GL, LAYERS},
                 .way = METHOD_FILTERED,
                 .tables = METHOD_LEAN_MAP,
-                .shader = {"shade_slopes.comp", "leadr.k", "leadr_result"},
+                .shader = &(const method_shader){"shade_slopes.comp", "leadr.k", "leadr_result"},
             },
         [MGT_METHOD_TOKUYOSHI] =
             {
                 .properties = {0, "tokuyoshi", "Tokuyoshi and Kaplanyan 2019: geometric specular anti-aliasing", MGT_WAVES_POINT, CPU_AND_GL, LAYERS},
                 .way = METHOD_CENTRE,
-                .shader = {"shade_point.comp", "tokuyoshi.k", "tokuyoshi_pixel"},
+                .shader = &(const method_shader){"shade_point.comp", "tokuyoshi.k", "tokuyoshi_pixel"},
             },
         [MGT_METHOD_BRUNETON] =
             {
                 .properties = {0, "bruneton", "Bruneton et al. 2010: Gaussian slopes and a point-like sun", MGT_WAVES_INSTANT, CPU_AND_GL, LAYERS},
                 .way = METHOD_FILTERED,
                 .transition = TRANSITION_BRUNETON,
-                .shader = {"shade_slopes.comp", "bruneton.k", "bruneton_result"},
+                .shader = &(const method_shader){"shade_slopes.comp", "bruneton.k", "bruneton_result"},
             },
         [MGT_METHOD_FXAA] =
             {
@@ -117,7 +120,7 @@ const method_row method_rows[] =
             {
                 .properties = {0, "tndf", "after Tessari et al. 2020: one Gaussian of slopes over pixel and shutter", MGT_WAVES_SHUTTER, CPU_AND_GL, LAYERS},
                 .way = METHOD_FILTERED,
-                .shader = {"shade_slopes.comp", "tndf.k", "tndf_result"},
+                .shader = &(const method_shader){"shade_slopes.comp", "tndf.k", "tndf_result"},
             },
         [MGT_METHOD_ADAPTIVE] =
             {

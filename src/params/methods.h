@@ -43,14 +43,14 @@ typedef struct method_row {
     mgt_method base; /* of METHOD_PASS: of its pictures, and of what it does not change */
     method_pass pass;
     method_transition transition;
-    bool keeps_phases;         /* unresolved waves count one by one, not as a sum */
-    uint32_t tables;           /* METHOD_LEAN_MAP … */
-    uint32_t takes;            /* METHOD_TAKES_… */
-    bool numbered;             /* the name is followed by the number of strata along a side, as in ssaa4 */
-    uint32_t spatial, time;    /* samples by default; 0: 1 */
-    uint32_t samples;          /* layer `samples`, unless strata decide; 0: 1 */
-    method_shader shader;      /* OpenGL; the CPU has entry points by method */
-    method_shader with_tables; /* instead, where quality.kernels asks for tables */
+    bool keeps_phases;                /* unresolved waves count one by one, not as a sum */
+    uint32_t tables;                  /* METHOD_LEAN_MAP … */
+    uint32_t takes;                   /* METHOD_TAKES_… */
+    bool numbered;                    /* the name is followed by the number of strata along a side, as in ssaa4 */
+    uint32_t spatial, time;           /* samples by default; 0: 1 */
+    uint32_t samples;                 /* layer `samples`, unless strata decide; 0: 1 */
+    const method_shader *shader;      /* OpenGL; rows that point to the same one share a program. The CPU has entry points by method */
+    const method_shader *with_tables; /* instead, where quality.kernels asks for tables; NULL: none */
 } method_row;
 
 enum { METHOD_SLOTS = 32 }; /* room for rows in arrays by method */

@@ -78,7 +78,7 @@ static float noise(uint32_t i)
 
 static picture_planes planes(void)
 {
-    picture_planes p = picture_planes_create(WIDTH, HEIGHT, MGT_METHOD_TAA);
+    picture_planes p = picture_planes_create(WIDTH, HEIGHT, METHOD_PASS_TAA);
     assert_non_null(p.color);
     return p;
 }

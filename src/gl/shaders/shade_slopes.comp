@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT
  *
- * Method `lean`.
+ * Methods that shade a pixel from its slopes. Assembled once a method: method.k is its kernel, method_result the kernel's function.
  */
 #define SHARED_WAVES
 #include "lattice_data.glsl"
+#ifdef LEAN_MAP
 #include "lean_data.glsl"
-#include "kernels/baselines/lean.k"
+#endif
+#include "method.k"
 #define METHOD_STATE SlopeState
 #define method_state slope_state
-#define method_result(cx, p, open, close) lean_result(cx, p, close)
 #include "shade.glsl"
