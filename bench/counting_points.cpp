@@ -5,6 +5,7 @@
 
 #include <stddef.h>
 
+#include "cpu/kernel_context.h"
 #include "operation_count.h"
 
 extern "C" {

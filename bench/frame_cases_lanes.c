@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * The kernels of src/cpu/lanes.c rebuilt so that a frame's calls of the disk-path integral are kept, and stages can be timed.
  * Compiled once per lane width, with lane_kernels_N renamed. */
+#include "cpu/kernel_context.h"
 #include "frame_cases.h"
 
 #include <math.h>

@@ -68,10 +68,10 @@ typedef struct frame_time {
     double seconds, processor;
 } frame_time;
 
-static bool time_way(const bench *b, scene_file *file, int frame, mgt_method method, mgt_refraction refraction, frame_time *out)
+static bool time_way(const bench *b, scene_file *file, uint32_t number, mgt_method method, mgt_refraction refraction, frame_time *out)
 {
     mgt_scene scene;
-    if (!scene_file_frame(file, (uint32_t)frame, &scene))
+    if (!scene_file_frame(file, number, &scene))
         return false;
     scene.quality.method = method;
     scene.quality.refraction = refraction;

@@ -1,47 +1,11 @@
 /* SPDX-License-Identifier: MIT
  * Contexts: creation, what they resolved to, errors, and the one rendering call. */
-#include <stdarg.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 #include "api/context.h"
 #include "api/structs.h"
 #include "api/validate.h"
-
-/* Where creation reports, since there is no context to hold the text yet. */
-static _Thread_local char creation_error[REPORTER_TEXT];
-
-reporter creation_reporter(void)
-{
-    creation_error[0] = 0;
-    return (reporter){.error = creation_error};
-}
-
-static void send(const reporter *r, mgt_log_level level, const char *id, const char *text)
-{
-    if (r->log)
-        r->log(r->log_user, level, id, text);
-}
-
-void report(const reporter *r, mgt_log_level level, const char *id, const char *format, ...)
-{
-    char text[REPORTER_TEXT];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
-    send(r, level, id, text);
-}
-
-mgt_status report_error(const reporter *r, mgt_status status, const char *id, const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(r->error, REPORTER_TEXT, format, arguments);
-    va_end(arguments);
-    send(r, MGT_LOG_ERROR, id, r->error);
-    return status;
-}
+#include "frame/targets.h"
 
 /* AUTO: OpenGL by hardware, else the CPU. Says which and why. */
 static mgt_status create_auto(mgt_context *c, const mgt_context_desc *desc, const reporter *r)
@@ -108,7 +72,7 @@ void mgt_context_destroy(mgt_context *context)
     free(context);
 }
 
-const char *mgt_last_error(const mgt_context *context) { return context ? context->error : creation_error; }
+const char *mgt_last_error(const mgt_context *context) { return context ? context->error : creation_error_text(); }
 
 mgt_status mgt_context_get_info(const mgt_context *context, mgt_context_info *info)
 {
@@ -122,14 +86,6 @@ mgt_status mgt_scene_check(mgt_context *context, const mgt_scene *scene)
     context->error[0] = 0;
     mgt_scene own;
     return scene_take(&context->report, &own, scene);
-}
-
-void scene_to_sea_level(mgt_scene *own)
-{
-    own->camera.position[1] -= own->water.level;
-    own->camera.target[1] -= own->water.level;
-    own->camera_open.position[1] -= own->water.level;
-    own->camera_open.target[1] -= own->water.level;
 }
 
 mgt_status mgt_render(mgt_context *context, const mgt_scene *scene, const mgt_target *targets, size_t count)

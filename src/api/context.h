@@ -14,11 +14,4 @@ struct mgt_context {
     char error[REPORTER_TEXT];
 };
 
-/* For what is created without a context: the text of mgt_last_error(NULL), emptied. */
-reporter creation_reporter(void);
-
-/* Moves a scene's cameras so that the mean surface is at y = 0, as backends expect it. Objects stay where they are, so who reads them
- * takes water.level off. */
-void scene_to_sea_level(mgt_scene *own);
-
 #endif

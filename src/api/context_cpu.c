@@ -2,6 +2,7 @@
  * What only the CPU does, whatever a context renders with. */
 #include "api/context.h"
 #include "api/structs.h"
+#include "frame/targets.h"
 
 /* The CPU backend's state: the context's own, or a second one of a single thread beside another backend. */
 static mgt_status cpu_state(mgt_context *context, void **state)

@@ -2,6 +2,8 @@
  * The functions of mangata/gl.h: checks of their arguments, then the backend. */
 #include "api/context.h"
 #include "api/structs.h"
+#include "api/validate.h"
+#include "frame/targets.h"
 
 static mgt_status check_backend(mgt_context *context, const char *function)
 {
@@ -33,6 +35,30 @@ mgt_status mgt_gl_render_textures(mgt_context *context, const mgt_scene *scene, 
     return context->backend->render_textures(context->state, r, &own, own_textures, count);
 }
 
+/* `out->view` has been set. */
+static mgt_status check_view(const reporter *r, const mgt_scene *scene, size_t index, checked_view *out)
+{
+    const mgt_gl_view *view = out->view;
+    if (view->width == 0 || view->height == 0 || view->width > MGT_MAX_IMAGE_SIDE || view->height > MGT_MAX_IMAGE_SIDE)
+        return report_error(r, MGT_ERROR_ARGUMENT, "render.view", "view %zu: %u x %u pixels; allowed is 1 to %d each way", index, view->width, view->height,
+                            MGT_MAX_IMAGE_SIDE);
+    const char *wrong = view_rays_of(view, view->view, &out->close);
+    if (!wrong && scene->camera_moves)
+        wrong = view_rays_of(view, view->view_open, &out->open);
+    if (wrong)
+        return report_error(r, MGT_ERROR_ARGUMENT, "render.view", "view %zu: %s", index, wrong);
+    out->scene = *scene;
+    out->scene.image = (mgt_image){.width = view->width, .height = view->height};
+    out->scene.camera = view_camera(&out->close.rays, view->width, view->height);
+    if (scene->camera_moves)
+        out->scene.camera_open = view_camera(&out->open.rays, view->width, view->height);
+    const mgt_status status = validate_scene(r, &out->scene);
+    scene_to_sea_level(&out->scene);
+    out->close.rays.position[1] -= scene->water.level;
+    out->open.rays.position[1] -= scene->water.level;
+    return status;
+}
+
 mgt_status mgt_gl_render_views(mgt_context *context, const mgt_scene *scene, const mgt_gl_view *views, size_t count)
 {
     mgt_status status = check_backend(context, "mgt_gl_render_views");
@@ -47,7 +73,12 @@ mgt_status mgt_gl_render_views(mgt_context *context, const mgt_scene *scene, con
     for (size_t i = 0; i < count && status == MGT_OK; i++)
         if ((int)own_views[i].color < 0 || (int)own_views[i].color > MGT_GL_COLOR_DISPLAY)
             status = report_error(r, MGT_ERROR_ARGUMENT, "render.view", "view %zu: color is %d, which names no kind of colour", i, (int)own_views[i].color);
-    return status == MGT_OK ? context->backend->render_views(context->state, r, &own, own_views, count) : status;
+    checked_view checked[MOST_TARGETS];
+    for (size_t i = 0; i < count && status == MGT_OK; i++) {
+        checked[i] = (checked_view){.view = &own_views[i]};
+        status = check_view(r, &own, i, &checked[i]);
+    }
+    return status == MGT_OK ? context->backend->render_views(context->state, r, checked, count) : status;
 }
 
 size_t mgt_gl_get_timings(const mgt_context *context, mgt_gl_timing *timings, size_t capacity)

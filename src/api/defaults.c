@@ -1,9 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Texts, and small facts about images and formats. */
-#include <stddef.h>
-
-#include "frame/backend.h"
-#include "params/methods.h"
+ * The version and the texts of states. */
+#include "mangata/mangata.h"
 
 const char *mgt_version(void) { return MGT_VERSION_STRING; }
 
@@ -28,37 +25,4 @@ const char *mgt_status_text(mgt_status status)
         return "cancelled";
     }
     return "unknown status";
-}
-
-region image_region(const mgt_image *image)
-{
-    region area = {image->crop_x, image->crop_y, image->crop_width, image->crop_height};
-    if (area.width == 0)
-        area.width = image->width > area.x ? image->width - area.x : 0;
-    if (area.height == 0)
-        area.height = image->height > area.y ? image->height - area.y : 0;
-    return area;
-}
-
-float samples_per_pixel(const mgt_quality *quality)
-{
-    const mgt_quality *q = quality;
-    if (!method_takes(q->method, METHOD_TAKES_TIMES)) {
-        const uint32_t samples = method_of(q->method)->samples;
-        return samples ? (float)samples : 1;
-    }
-    const uint64_t all = (uint64_t)q->spatial_samples * q->spatial_samples * q->time_samples - q->sample_first;
-    return (float)(q->sample_count ? q->sample_count : all);
-}
-
-size_t format_size(mgt_format format)
-{
-    static const size_t sizes[] = {[MGT_FORMAT_R32F] = 4, [MGT_FORMAT_RGB32F] = 12, [MGT_FORMAT_RGBA32F] = 16, [MGT_FORMAT_RGBA8_SRGB] = 4};
-    return sizes[format];
-}
-
-void *target_row(const mgt_target *target, const region *area, uint32_t row)
-{
-    const ptrdiff_t stride = target->row_stride ? target->row_stride : (ptrdiff_t)(format_size(target->format) * area->width);
-    return (char *)target->pixels + stride * (ptrdiff_t)row;
 }

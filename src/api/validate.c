@@ -6,6 +6,7 @@
 
 #include "frame/mesh.h"
 #include "params/options.h"
+#include "frame/targets.h"
 
 mgt_status validate_desc(const reporter *r, const mgt_context_desc *desc)
 {

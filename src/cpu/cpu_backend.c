@@ -19,6 +19,7 @@
 #include "cpu/tile_job.h"
 #include "frame/whole_frame.h"
 #include "reference/reference.h"
+#include "frame/targets.h"
 
 typedef struct cpu_state {
     thread_pool *pool;

@@ -8,41 +8,10 @@
 #ifndef MANGATA_CPU_GBUFFER_H
 #define MANGATA_CPU_GBUFFER_H
 
-#include "frame/frame.h"
+#include "cpu/raster_lanes.h"
+#include "frame/gbuffer_job.h"
 #include "base/thread_pool.h"
 #include "frame/world.h"
-
-/*
- * What is seen first through every pixel's centre. Pixel (x, y) of the image is element (top + y) · width + left + x; both layers of a picture
- * have the same shape. The virtual image of what is seen stands at camera + depth · ray, where ray = corner + x · right + y · down of camera_rays
- * (not normalised: depth counts along the view). Its true position is true_point() of kernels/refract_point.k, from that alone; the triangle
- * gives the rest.
- */
-typedef struct gbuffer {
-    uint32_t width, height; /* guard band included; the width is a multiple of 16 */
-    uint32_t left, top;
-    float *depth;      /* metres along the view; +inf: nothing */
-    int32_t *triangle; /* of the world; −1: nothing */
-} gbuffer;
-
-/* Where far triangles are drawn. */
-typedef enum gbuffer_map {
-    GBUFFER_STRAIGHT, /* where they are, as if there were no water: off, narrow, screen-space */
-    GBUFFER_SAGITTAL, /* at their sagittal images: two-phase, hybrid, broad */
-    GBUFFER_PATH      /* along the camera's ray at the length of the refracted path: liu */
-} gbuffer_map;
-
-/* What the layers depend on, beside the world. */
-typedef struct gbuffer_job {
-    camera_rays camera;     /* position[1] is its height above the mean surface; 0 counts as above */
-    uint32_t width, height; /* of the image */
-    double index;           /* of refraction of the water in air */
-    gbuffer_map map;
-    double error;  /* pixels that a triangle bent by the map may be off by; 0: 0.1 */
-    double trough; /* metres beyond the mean surface that the near layer goes on for: as far as the waves may uncover it */
-    double crest;  /* metres over the mean surface that the far layer goes on for on the camera's side: as far as the waves may reach */
-    bool mirrored; /* the far layer alone, without the insides of closed objects that the surface cuts open: of a camera that mirrors see */
-} gbuffer_job;
 
 /* Counts of the last picture that was drawn. */
 typedef struct gbuffer_counts {
@@ -64,10 +33,5 @@ typedef struct gbuffers {
  */
 mgt_status gbuffers_draw(gbuffers *g, const world *w, const gbuffer_job *job, const raster_kernels *kernels, thread_pool *pool);
 void gbuffers_free(gbuffers *g);
-
-/* For whom draws elsewhere: a layer's shape without its memory, and the uniform numbers of the map and of the picture. */
-gbuffer gbuffer_shape(const gbuffer_job *job);
-RefractData refract_data_of(double camera_height, double index, gbuffer_map map);
-PictureData gbuffer_picture(const gbuffer_job *job);
 
 #endif

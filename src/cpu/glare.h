@@ -5,9 +5,7 @@
 #ifndef MANGATA_CPU_GLARE_H
 #define MANGATA_CPU_GLARE_H
 
-#include <stdbool.h>
-#include <stddef.h>
-
+#include "frame/glare_plan.h"
 #include "mangata/mangata.h"
 
 /* Runs body(arg, 0) … body(arg, count − 1), in any order and on any threads, and returns when all are done. */
@@ -19,29 +17,5 @@ typedef void (*glare_parallel_for)(void *user, size_t count, void (*body)(void *
  * glare in [0, 1]; 0 leaves the image untouched. parallel_for NULL: serial. The bytes do not depend on it.
  * Allocates at most half of the image's size during the call. MGT_OK or MGT_ERROR_MEMORY (image untouched). */
 mgt_status glare_apply(float *rgb, size_t width, size_t height, size_t row_stride, float glare, glare_parallel_for parallel_for, void *user);
-
-/* ---- the pyramid itself, for other machines ---- */
-
-enum { GLARE_MAX_LEVELS = 16 };
-
-typedef struct glare_size {
-    size_t width, height;
-} glare_size;
-
-/* The levels of a picture's pyramid; sizes[0] has half of the image's size. No levels: no glare. */
-typedef struct glare_plan {
-    glare_size image;
-    size_t count;
-    glare_size sizes[GLARE_MAX_LEVELS];
-} glare_plan;
-
-glare_plan glare_plan_of(size_t width, size_t height);
-
-/* Share of the light that each level spreads, for glare in [0, 1]; returns the share that stays. */
-float glare_plan_shares(const glare_plan *plan, float glare, float shares[GLARE_MAX_LEVELS]);
-
-/* For each level four weights a column, then four a row, on the finer pixels 2i − 1 … 2i + 2: 4·Σ(width + height) floats. False without
- * memory. */
-bool glare_plan_weights(const glare_plan *plan, float *weights);
 
 #endif

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * One pixel through the kernels in one lane: the same bits as the frame's, and what lies between. */
+#include "cpu/kernel_context.h"
 #include "cpu/inspect.h"
 
 #include <math.h>

@@ -2,6 +2,7 @@
  * The kernels over the pixels of a tile, compiled once per lane width (MGT_LANES).
  *
  * Whatever the width, a pixel sees the same operations in the same order: the bits do not depend on it. */
+#include "cpu/kernel_context.h"
 #include "cpu/lanes.h"
 
 #include <math.h>

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * podee_mixture.k in one lane. */
+#include "cpu/kernel_context.h"
 #include "cpu/mixture_lane.h"
 
 #include <math.h>

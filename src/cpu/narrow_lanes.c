@@ -2,6 +2,7 @@
  * The narrow phase of refraction over the pixels of a tile, compiled once per lane width (MGT_LANES).
  *
  * Whatever the width, a pixel sees the same operations in the same order: the bits do not depend on it. */
+#include "cpu/kernel_context.h"
 #include "cpu/narrow_lanes.h"
 
 #include <math.h>

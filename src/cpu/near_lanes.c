@@ -2,6 +2,7 @@
  * Edges of layers, and what the near one shows between them, compiled once per lane width (MGT_LANES).
  *
  * Whatever the width, a pixel sees the same operations in the same order: the bits do not depend on it. */
+#include "cpu/kernel_context.h"
 #include "cpu/near_lanes.h"
 
 #include <math.h>

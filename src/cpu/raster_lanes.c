@@ -2,6 +2,7 @@
  * Points, triangles and pixels of G-buffers in lanes, compiled once per lane width (MGT_LANES).
  *
  * Whatever the width, a point, an edge or a pixel sees the same operations in the same order: the bits do not depend on it. */
+#include "cpu/kernel_context.h"
 #include "cpu/raster_lanes.h"
 
 #include <math.h>

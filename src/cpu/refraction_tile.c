@@ -28,7 +28,7 @@ void refraction_shade(const refraction *r, tile_objects *o, size_t count)
         .spread = {e->spread[0], e->spread[1], e->spread[2]},
         .gain = e->gain,
     };
-    shade_points(r->shade, &hits, o->rgb);
+    r->kernels->shade->points(r->shade, &hits, o->rgb);
 }
 
 void refraction_shade_listed(const refraction *r, tile_objects *o, size_t count)
@@ -88,7 +88,7 @@ static void see_light(const refraction *r, tile_objects *o)
         x[i] = seen ? foot_x + o->water.along[i] * o->water.view[0][i] : foot_x;
         z[i] = seen ? foot_z + o->water.along[i] * o->water.view[2][i] : foot_z;
     }
-    shade_sun(r->shade, TILE_PIXELS, x, z, lit);
+    r->kernels->shade->sun(r->shade, TILE_PIXELS, x, z, lit);
     for (size_t i = 0; i < TILE_PIXELS; i++)
         for (int k = 0; k < 3; k++) {
             const double way = c->position[1] < 0 && o->water.share[i] > 0 ? (double)o->water.along[i] : 0;

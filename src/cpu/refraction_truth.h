@@ -23,7 +23,7 @@ typedef struct truth_job {
     camera_rays camera;     /* at scene.time. position[1] < 0: under water. Unless it moves samples are spread over the shutter, one is of its middle */
     const world *world;
     const trace_scene *trace; /* of that world */
-    /* Radiance of what rays end at: shade_points(). `user` is its scene. */
+    /* Radiance of what rays end at: points() of the shading kernels. `user` is its scene. */
     void (*shade)(const shade_scene *user, const shade_hits *hits, float *rgb);
     const shade_scene *user;
     mgt_isa isa; /* any gives the same bits */

@@ -2,6 +2,7 @@
  * The kernels of the rival methods over the pixels of a tile, compiled once per lane width (MGT_LANES).
  *
  * Whatever the width, a pixel sees the same operations in the same order: the bits do not depend on it. */
+#include "cpu/kernel_context.h"
 #include "cpu/rival_lanes.h"
 
 #include "frame/atmosphere.h"

@@ -3,8 +3,7 @@
 #ifndef MANGATA_CPU_SHADE_H
 #define MANGATA_CPU_SHADE_H
 
-#include "frame/frame.h"
-#include "frame/world.h"
+#include "frame/shade_scene.h"
 
 /*
  * Where rays of a camera have ended. Every pointer leads to `count` numbers.
@@ -21,20 +20,13 @@ typedef struct shade_hits {
     const float *gain;         /* radiance at the camera over that at the end: its index of refraction over the end's, squared; NULL: 1 */
 } shade_hits;
 
-typedef struct shade_scene shade_scene;
-
-/*
- * What shading needs beside the hits, in *s, which is NULL at first: the light under water and in the shade, where objects cast shadows, and
- * materials. Shadows stay while the world's version and the light are the same. The world, the frame and the sky must outlive its use.
- */
-mgt_status shade_update(shade_scene **s, const world *w, const frame *f, const sky_state *sky, const shade_kernels *kernels);
-void shade_free(shade_scene *s); /* NULL is allowed */
-
-/* Radiance that arrives at the near end of each ray, kcd/m²: 3 floats a hit; what the water on the way takes and adds is counted, Fresnel's share at
- * its surface is not, nor is the light's disk in the sky. The bits depend on the hit alone. Any number of threads at once. */
-void shade_points(const shade_scene *s, const shade_hits *hits, float *rgb);
-
-/* Share of the light's disk that no object hides from points of the mean surface, (x, 0, z) in the world's coordinates. */
-void shade_sun(const shade_scene *s, size_t count, const float *x, const float *z, float *share);
+/* Compiled once per lane width. */
+typedef struct shade_kernels {
+    /* Radiance that arrives at the near end of each ray, kcd/m²: 3 floats a hit. What the water on the way takes and adds is counted; Fresnel's share at
+       its surface and the light's disk in the sky are not. The bits depend on the hit alone. Any number of threads at once. */
+    void (*points)(const shade_scene *s, const shade_hits *hits, float *rgb);
+    /* Share of the light's disk that no object hides from points of the mean surface, (x, 0, z) in the world's coordinates. */
+    void (*sun)(const shade_scene *s, size_t count, const float *x, const float *z, float *share);
+} shade_kernels;
 
 #endif

@@ -2,7 +2,8 @@
  * Points of objects shaded in lanes, compiled once per lane width (MGT_LANES).
  *
  * Whatever the width, a point sees the same operations in the same order: the bits do not depend on it. */
-#include "cpu/shade_lanes.h"
+#include "cpu/kernel_context.h"
+#include "cpu/shade.h"
 
 #include <math.h>
 #include <string.h>

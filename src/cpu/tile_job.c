@@ -8,15 +8,26 @@
 #include <math.h>
 #include <string.h>
 
-void frame_waves_build(const frame *f, frame_waves *waves)
+bool tile_sees_water(const tile_waves *tile)
 {
-    const mgt_scene *s = f->scene;
-    const interval now = {s->time, 0};
-    wave_set_build(f, &f->close, now, false, &waves->samples);
-    wave_set_build(f, &f->close, now, true, &waves->now);
-    wave_set_build(f, &f->close, frame_shutter(f), true, &waves->shutter);
-    if (s->camera_moves)
-        wave_set_build(f, &f->open, (interval){s->time - s->shutter, 0}, true, &waves->open);
+    const TileData *d = &tile->data;
+    if (d->camera_height < d->march_bound)
+        return true;
+    const float width = TILE_WIDTH, height = TILE_HEIGHT;
+    const float steep = fabsf(d->right_y) + fabsf(d->down_y); /* a pixel's margin for partly covered ones */
+    float least = d->ray_y;
+    least = fminf(least, d->ray_y + width * d->right_y);
+    least = fminf(least, d->ray_y + height * d->down_y);
+    least = fminf(least, d->ray_y + width * d->right_y + height * d->down_y);
+    return least < steep;
+}
+
+void tile_find_guesses(const lane_kernels *kernels, const FrameData *data, const tile_waves *tile, tile_guess *guess)
+{
+    if (tile_sees_water(tile))
+        kernels->guess(data, tile, guess);
+    else
+        memset(guess, 0, sizeof *guess);
 }
 
 /* A tile of the lattice on its way. */
@@ -40,27 +51,6 @@ static void build(tile_place place, const wave_set *set, tile_waves *waves, tile
 static const tile_light *light_of(const tile_job *job, const tile_scratch *scratch) { return job->objects ? &scratch->objects.light : NULL; }
 
 /* ---- point samples ---- */
-
-double time_share(const mgt_quality *q, uint64_t m)
-{
-    return q->time_samples == 1 ? 1 : ((double)m + (double)hash_unit(hash_of(q->seed ^ hash_of(~m)))) / q->time_samples;
-}
-
-camera_rays camera_at(const frame *f, double share)
-{
-    const mgt_scene *s = f->scene;
-    if (!s->camera_moves)
-        return f->close;
-    mgt_camera camera = s->camera;
-    for (int i = 0; i < 3; i++) {
-        camera.position[i] = s->camera_open.position[i] + share * (s->camera.position[i] - s->camera_open.position[i]);
-        camera.target[i] = s->camera_open.target[i] + share * (s->camera.target[i] - s->camera_open.target[i]);
-        camera.up[i] = s->camera_open.up[i] + share * (s->camera.up[i] - s->camera_open.up[i]);
-    }
-    camera.fov_y_deg = s->camera_open.fov_y_deg + share * (s->camera.fov_y_deg - s->camera_open.fov_y_deg);
-    const camera_rays rays = camera_rays_of(&camera, s->image.width, s->image.height);
-    return rays_above(f, &rays);
-}
 
 /* A jittered place in stratum `index` of n × n for every pixel of the tile. */
 static void jitter(tile_place place, uint64_t seed, uint32_t n, uint64_t index, uint64_t sample, tile_scratch *scratch)

@@ -4,6 +4,7 @@
 #define MANGATA_CPU_TILE_JOB_H
 
 #include "cpu/refraction.h"
+#include "frame/frame_waves.h"
 
 /* What a worker needs while it renders a tile; about 450 KiB. */
 typedef struct tile_scratch {
@@ -17,20 +18,6 @@ typedef struct tile_scratch {
     tile_objects objects; /* where there are some, … */
     tile_opened opened;   /* … and the camera moves */
 } tile_scratch;
-
-/* The waves of a frame, shared by its tiles. */
-typedef struct frame_waves {
-    wave_set samples; /* the instant t, as point samples see it */
-    wave_set now;     /* the instant t, filtered */
-    wave_set shutter; /* over the shutter; the instant t where the camera moves … */
-    wave_set open;    /* … and then the instant the shutter opens, at the camera's place of that time */
-} frame_waves;
-
-void frame_waves_build(const frame *f, frame_waves *waves);
-
-/* Where in the shutter, from its opening (0) to its closing (1), ssaa's time sample `m` lies, and the camera there. */
-double time_share(const mgt_quality *q, uint64_t m);
-camera_rays camera_at(const frame *f, double share);
 
 typedef struct tile_wants {
     bool pixels;  /* color, coverage or mask */
@@ -52,6 +39,12 @@ typedef struct tile_job {
     refraction *objects;         /* prepared for the frame; NULL: the scene has none */
     bool behind;                 /* objects in front of the water are left out */
 } tile_job;
+
+/* Whether any pixel of the tile can see water. */
+bool tile_sees_water(const tile_waves *tile);
+
+/* The guesses of its pixels; zero where none does. */
+void tile_find_guesses(const lane_kernels *kernels, const FrameData *data, const tile_waves *tile, tile_guess *guess);
 
 /* Fills scratch->pixels and scratch->surface for the tile (tile_x, tile_y) of the lattice. Not for the reference. */
 void tile_render(const tile_job *job, uint32_t tile_x, uint32_t tile_y, tile_scratch *scratch);

@@ -3,7 +3,6 @@
 #include "frame/frame.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "base/triples.h"
 #include "params/methods.h"
@@ -237,28 +236,4 @@ void wave_set_build(const frame *f, const camera_rays *camera, interval time, bo
     set->view.wave_count = (int)water->wave_count;
     set->view.filter_waves = filter;
     set->view.scale_x = set->view.scale_y = 1;
-}
-
-/* ---- tiles ---- */
-
-bool tile_sees_water(const tile_waves *tile)
-{
-    const TileData *d = &tile->data;
-    if (d->camera_height < d->march_bound)
-        return true;
-    const float width = TILE_WIDTH, height = TILE_HEIGHT;
-    const float steep = fabsf(d->right_y) + fabsf(d->down_y); /* a pixel's margin for partly covered ones */
-    float least = d->ray_y;
-    least = fminf(least, d->ray_y + width * d->right_y);
-    least = fminf(least, d->ray_y + height * d->down_y);
-    least = fminf(least, d->ray_y + width * d->right_y + height * d->down_y);
-    return least < steep;
-}
-
-void tile_find_guesses(const lane_kernels *kernels, const FrameData *data, const tile_waves *tile, tile_guess *guess)
-{
-    if (tile_sees_water(tile))
-        kernels->guess(data, tile, guess);
-    else
-        memset(guess, 0, sizeof *guess);
 }

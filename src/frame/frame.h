@@ -3,8 +3,8 @@
 #ifndef MANGATA_FRAME_FRAME_H
 #define MANGATA_FRAME_FRAME_H
 
-#include "cpu/lanes.h"
 #include "frame/atmosphere.h"
+#include "frame/tiles.h"
 
 /* A camera as rays: the ray of pixel (x, y) is corner + x·right + y·down for pixel centres at whole numbers. */
 typedef struct camera_rays {
@@ -45,11 +45,5 @@ interval frame_shutter(const frame *f);
 
 /* Places the frame's waves before a camera. `filter` false: every wave is resolved (point samples). */
 void wave_set_build(const frame *f, const camera_rays *camera, interval time, bool filter, wave_set *set);
-
-/* Whether any pixel of the tile can see water. */
-bool tile_sees_water(const tile_waves *tile);
-
-/* The guesses of its pixels; zero where none does. */
-void tile_find_guesses(const lane_kernels *kernels, const FrameData *data, const tile_waves *tile, tile_guess *guess);
 
 #endif

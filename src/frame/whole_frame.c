@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * Methods that work on whole pictures: fxaa on one of method `none`, taa on several, adaptive on its own. */
 #include "frame/whole_frame.h"
+#include "frame/targets.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -6,7 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cpu/tile_job.h"
+#include "frame/frame_waves.h"
+#include "frame/targets.h"
 #include "frame/whole_frame.h"
 
 /* ---- contexts ---- */

@@ -6,6 +6,7 @@
 #include "gl/gl_egl.h"
 #include "gl/gl_host_state.h"
 #include "gl/gl_renderer.h"
+#include "frame/targets.h"
 
 typedef struct gl_backend_state {
     gl_egl *egl; /* the context of our own; NULL in the host's */
@@ -43,6 +44,6 @@ void layer_wants_add(layer_wants *w, mgt_layer layer, bool display);
 mgt_status gl_layers_render(gl_backend_state *s, const reporter *r, const mgt_scene *scene, const layer_wants *wants, bool tell_progress, region *area);
 
 mgt_status gl_render_textures(void *state, const reporter *r, const mgt_scene *scene, const mgt_gl_texture *textures, size_t count);
-mgt_status gl_render_views(void *state, const reporter *r, const mgt_scene *scene, const mgt_gl_view *views, size_t count);
+mgt_status gl_render_views(void *state, const reporter *r, const checked_view *views, size_t count);
 
 #endif

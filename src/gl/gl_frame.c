@@ -5,7 +5,8 @@
  * marched, and then a method shades the band's pixels. The next set takes the same memory. */
 #include <string.h>
 
-#include "cpu/tile_job.h"
+#include "frame/frame_waves.h"
+#include "frame/targets.h"
 #include "frame/whole_frame.h"
 #include "gl/gl_renderer.h"
 

@@ -3,7 +3,7 @@
 #ifndef MANGATA_GL_GL_GBUFFER_H
 #define MANGATA_GL_GL_GBUFFER_H
 
-#include "cpu/gbuffer.h"
+#include "frame/gbuffer_job.h"
 #include "gl/gl_memory.h"
 #include "gl/gl_objects.h"
 

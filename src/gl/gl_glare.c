@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * Glare and display on the GPU; the pyramid's sizes and weights are those of src/cpu/glare.c. */
-#include "cpu/glare.h"
+#include "frame/glare_plan.h"
 #include "gl/gl_renderer.h"
+#include "frame/targets.h"
 
 #include <stdlib.h>
 

@@ -2,10 +2,8 @@
  * Rendering into textures and framebuffers of the host. */
 #include <math.h>
 
-#include "api/context.h"
-#include "api/validate.h"
 #include "gl/gl_backend.h"
-#include "gl/gl_view.h"
+#include "frame/targets.h"
 
 /* ---- textures ---- */
 
@@ -158,40 +156,6 @@ static mgt_status check_framebuffer(const gl_api *gl, GLuint name, size_t index,
     return MGT_OK;
 }
 
-/* A checked view. */
-typedef struct host_view {
-    const mgt_gl_view *view;
-    view_rays close, open;
-    mgt_scene scene; /* with the view's size and camera */
-    bool encodes;
-} host_view;
-
-static mgt_status prepare_view(const gl_backend_state *s, const mgt_scene *scene, const mgt_gl_view *view, size_t index, host_view *out, const reporter *r)
-{
-    *out = (host_view){.view = view, .scene = *scene};
-    if (view->width == 0 || view->height == 0 || view->width > MGT_MAX_IMAGE_SIDE || view->height > MGT_MAX_IMAGE_SIDE)
-        return report_error(r, MGT_ERROR_ARGUMENT, "render.view", "view %zu: %u x %u pixels; allowed is 1 to %d each way", index, view->width, view->height,
-                            MGT_MAX_IMAGE_SIDE);
-    const char *wrong = view_rays_of(view, view->view, &out->close);
-    if (!wrong && scene->camera_moves)
-        wrong = view_rays_of(view, view->view_open, &out->open);
-    if (wrong)
-        return report_error(r, MGT_ERROR_ARGUMENT, "render.view", "view %zu: %s", index, wrong);
-    out->scene.image = (mgt_image){.width = view->width, .height = view->height};
-    out->scene.camera = view_camera(&out->close.rays, view->width, view->height);
-    if (scene->camera_moves)
-        out->scene.camera_open = view_camera(&out->open.rays, view->width, view->height);
-    const mgt_status status = validate_scene(r, &out->scene);
-    if (status != MGT_OK)
-        return status;
-    scene_to_sea_level(&out->scene);
-    out->close.rays.position[1] -= scene->water.level;
-    out->open.rays.position[1] -= scene->water.level;
-    if (gl_lacks(&out->scene))
-        return report_error(r, MGT_ERROR_UNSUPPORTED, "render.view", "%s on the CPU alone: use mgt_render()", gl_lacks(&out->scene));
-    return check_framebuffer(&s->renderer->gl, view->framebuffer, index, &out->encodes, r);
-}
-
 /* Between the two ends of the shutter, and before, rays and place move evenly; never through the water. */
 static camera_rays view_camera_at(const void *user, double share)
 {
@@ -210,7 +174,7 @@ static camera_rays view_camera_at(const void *user, double share)
     return c;
 }
 
-static WindowData window_data(const gl_api *gl, const host_view *v)
+static WindowData window_data(const gl_api *gl, const checked_view *v, bool encodes)
 {
     const mgt_gl_view *view = v->view;
     const camera_rays *c = &v->close.rays;
@@ -241,7 +205,7 @@ static WindowData window_data(const gl_api *gl, const host_view *v)
         .depth_high = range[0] < range[1] ? range[1] : range[0],
         .draw_sky = view->draw_sky,
         .color = (int)view->color,
-        .encodes = v->encodes,
+        .encodes = encodes,
     };
 }
 
@@ -260,11 +224,11 @@ static void set_drawing(const gl_backend_state *s, const mgt_gl_view *view, cons
     gl->BlendEquationSeparatei(0, GL_FUNC_ADD, GL_FUNC_ADD);
 }
 
-static mgt_status draw_layers(gl_backend_state *s, const host_view *v, const frame *f, const gl_host_state *host, const reporter *r)
+static mgt_status draw_layers(gl_backend_state *s, const checked_view *v, bool encodes, const frame *f, const gl_host_state *host, const reporter *r)
 {
     gl_renderer *g = s->renderer;
     const gl_api *gl = &g->gl;
-    const WindowData window = window_data(gl, v);
+    const WindowData window = window_data(gl, v, encodes);
     mgt_status status = gl_ring_begin(gl, &g->ring, sizeof window + sizeof f->data, 2, r);
     if (status != MGT_OK)
         return status;
@@ -285,10 +249,15 @@ static mgt_status draw_layers(gl_backend_state *s, const host_view *v, const fra
     return status == MGT_OK ? ended : status;
 }
 
-static mgt_status render_view(gl_backend_state *s, const host_view *v, const gl_host_state *host, const reporter *r)
+static mgt_status render_view(gl_backend_state *s, const checked_view *v, size_t index, const gl_host_state *host, const reporter *r)
 {
     const mgt_gl_view *view = v->view;
-    mgt_status status = gl_sky_prepare(s->renderer, &v->scene, r);
+    bool encodes = false;
+    if (gl_lacks(&v->scene))
+        return report_error(r, MGT_ERROR_UNSUPPORTED, "render.view", "%s on the CPU alone: use mgt_render()", gl_lacks(&v->scene));
+    mgt_status status = check_framebuffer(&s->renderer->gl, view->framebuffer, index, &encodes, r);
+    if (status == MGT_OK)
+        status = gl_sky_prepare(s->renderer, &v->scene, r);
     if (status != MGT_OK)
         return status;
     frame f = frame_of(&v->scene, s->renderer->sky, true);
@@ -306,10 +275,10 @@ static mgt_status render_view(gl_backend_state *s, const host_view *v, const gl_
         .background = view->draw_sky,
     };
     status = gl_frame_render(s->renderer, &job, r);
-    return status == MGT_OK ? draw_layers(s, v, &f, host, r) : status;
+    return status == MGT_OK ? draw_layers(s, v, encodes, &f, host, r) : status;
 }
 
-mgt_status gl_render_views(void *state, const reporter *r, const mgt_scene *scene, const mgt_gl_view *views, size_t count)
+mgt_status gl_render_views(void *state, const reporter *r, const checked_view *views, size_t count)
 {
     gl_backend_state *s = state;
     if (s->egl)
@@ -318,11 +287,7 @@ mgt_status gl_render_views(void *state, const reporter *r, const mgt_scene *scen
     mgt_status status = gl_enter(s, &scope, r);
     if (status != MGT_OK)
         return status;
-    for (size_t i = 0; i < count && status == MGT_OK; i++) {
-        host_view view;
-        status = prepare_view(s, scene, &views[i], i, &view, r);
-        if (status == MGT_OK)
-            status = render_view(s, &view, &scope.host, r);
-    }
+    for (size_t i = 0; i < count && status == MGT_OK; i++)
+        status = render_view(s, &views[i], i, &scope.host, r);
     return gl_leave(s, &scope, status, r);
 }

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "cpu/refraction_data.h"
+#include "frame/refraction_data.h"
 #include "gl/gl_bvh.h"
 
 /* ---- tables ---- */

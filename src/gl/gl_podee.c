@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * The tables of podee-* with kernels on the GPU. */
+#include "frame/podee_tables.h"
 #include "base/thread_pool.h"
 #include "gl/gl_renderer.h"
 

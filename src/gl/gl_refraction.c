@@ -6,9 +6,9 @@
 #include <string.h>
 
 #include "frame/mesh.h"
-#include "cpu/refraction_data.h"
-#include "cpu/shade_lanes.h"
+#include "frame/refraction_data.h"
 #include "gl/gl_renderer.h"
+#include "frame/targets.h"
 
 /* ---- textures ---- */
 
@@ -181,7 +181,7 @@ mgt_status gl_refraction_prepare(gl_renderer *g, const frame *f, const region *a
     if (status != MGT_OK)
         return status;
     const world *w = g->objects.world;
-    if (shade_update(&o->shade, w, f, g->sky, NULL) != MGT_OK)
+    if (shade_update(&o->shade, w, f, g->sky) != MGT_OK)
         return report_error(r, MGT_ERROR_MEMORY, "render.memory", "out of memory for the scene's objects");
     const gbuffer_job direct = refraction_job(f), mirrored = refraction_mirrored_job(f);
     const bool mirrors = refraction_mirrors(f, w);

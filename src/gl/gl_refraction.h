@@ -4,11 +4,12 @@
 #define MANGATA_GL_GL_REFRACTION_H
 
 #include "frame/frame.h"
-#include "cpu/shade.h"
+#include "frame/shade_scene.h"
 #include "frame/shadow_map.h"
 #include "gl/gl_memory.h"
 #include "gl/gl_objects.h"
 #include "gl/gl_pass_data.h"
+#include "frame/targets.h"
 
 struct gl_renderer;
 

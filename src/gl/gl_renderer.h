@@ -4,7 +4,7 @@
 #define MANGATA_GL_GL_RENDERER_H
 
 #include "frame/frame.h"
-#include "cpu/lean_map.h"
+#include "frame/lean_waves.h"
 #include "gl/gl_gbuffer.h"
 #include "gl/gl_host_state.h"
 #include "gl/gl_memory.h"
@@ -13,6 +13,7 @@
 #include "gl/gl_programs.h"
 #include "gl/gl_refraction.h"
 #include "gl/gl_timers.h"
+#include "frame/targets.h"
 
 /* The layers of the picture on the GPU. Texel (0, 0) is the top left pixel of what is rendered. */
 typedef struct gl_layers {

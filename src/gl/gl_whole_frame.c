@@ -4,6 +4,7 @@
 
 #include "base/triples.h"
 #include "gl/gl_renderer.h"
+#include "frame/targets.h"
 
 /* ---- the pictures of `none` ---- */
 

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "frame/backend.h"
+#include "frame/targets.h"
 
 static mgt_status null_create(void **state, const mgt_context_desc *desc, const reporter *r, mgt_context_info *info)
 {

@@ -6,7 +6,7 @@
 #ifndef MANGATA_TRACE_TRACE_H
 #define MANGATA_TRACE_TRACE_H
 
-#include "frame/backend.h"
+#include "base/report.h"
 
 typedef struct trace_ray {
     float origin[3], direction[3]; /* in the triangles' coordinates; the direction has any length … */

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cpu/kernel_context.h"
 #include "frame/kernel_data.h"
 #include "frame/atmosphere.h"
 #include "scene/scene_file.h"

@@ -12,6 +12,7 @@
 #include <cmocka.h>
 
 #include "cpu/raster_lanes.h"
+#include "cpu/gbuffer.h"
 #include "gl/gl_egl.h"
 #include "gl/gl_renderer.h"
 #include "unit/test_mesh.h"

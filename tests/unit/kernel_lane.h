@@ -17,6 +17,7 @@
 
 #include <cmocka.h>
 
+#include "cpu/kernel_context.h"
 #include "frame/frame.h"
 #include "cpu/lean_map.h"
 #include "frame/atmosphere.h"

@@ -11,9 +11,11 @@
 
 #include <cmocka.h>
 
+#include "cpu/kernel_context.h"
 #include "cpu/gbuffer.h"
 #include "cpu/narrow_lanes.h"
-#include "cpu/refraction_data.h"
+#include "cpu/gbuffer.h"
+#include "frame/refraction_data.h"
 #include "unit/random_numbers.h"
 
 #pragma GCC diagnostic ignored "-Wunused-parameter" /* the dialect hands cx to every function */

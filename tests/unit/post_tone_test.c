@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "cpu/kernel_context.h"
 #include "frame/kernel_data.h"
 #include "mangata/mangata.h"
 

@@ -11,6 +11,7 @@
 
 #include <cmocka.h>
 
+#include "cpu/kernel_context.h"
 #include "frame/kernel_data.h"
 #include "frame/atmosphere.h"
 

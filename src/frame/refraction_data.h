@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT
- * What refraction draws and looks for, for whom does so elsewhere. */
-#ifndef MANGATA_CPU_REFRACTION_DATA_H
-#define MANGATA_CPU_REFRACTION_DATA_H
+ * Jobs and uniform numbers of the refraction passes, shared by both backends. */
+#ifndef MANGATA_FRAME_REFRACTION_DATA_H
+#define MANGATA_FRAME_REFRACTION_DATA_H
 
-#include "cpu/gbuffer.h"
+#include "frame/gbuffer_job.h"
+#include "frame/world.h"
 
 /* The layers of the camera, and those of its mirror image, whose far one is what the surface mirrors. */
 gbuffer_job refraction_job(const frame *f);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * A host's matrices as the rays and depths of pixels. */
-#ifndef MANGATA_GL_GL_VIEW_H
-#define MANGATA_GL_GL_VIEW_H
+#ifndef MANGATA_FRAME_VIEW_RAYS_H
+#define MANGATA_FRAME_VIEW_RAYS_H
 
 #include "frame/frame.h"
 #include "mangata/gl.h"
@@ -21,5 +21,12 @@ mgt_camera view_camera(const camera_rays *rays, uint32_t width, uint32_t height)
 
 /* Radians that a pixel spans where the view meets the plane of its pixels at right angles: the same for all parts of a view. */
 double view_pixel_angle(const camera_rays *rays);
+
+/* A view that has been checked. */
+typedef struct checked_view {
+    const mgt_gl_view *view;
+    view_rays close, open; /* when the shutter closes and opens; the mean surface is at y = 0 */
+    mgt_scene scene;       /* with the view's size and camera, at sea level */
+} checked_view;
 
 #endif

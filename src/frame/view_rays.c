@@ -5,7 +5,7 @@
  * For clip coordinates (x, y, z, w) = P·e of an eye-space point e, the rows 0, 1 and 3 of a perspective P have no constant part: the eye
  * stands at their common zero. Then e = w·A⁻¹·(x/w, y/w, 1) with A the 3×3 matrix of these rows. So a pixel's ray is affine in the pixel,
  * also off-centre or jittered, and w counts along it; row 2 alone makes the depth, whatever its near and far planes. */
-#include "gl/gl_view.h"
+#include "frame/view_rays.h"
 
 #include <math.h>
 

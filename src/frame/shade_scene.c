@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: MIT
  * What shading needs beside the hits: light in air and in water, materials, shadows. */
-#include "cpu/shade.h"
+#include "frame/shade_scene.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "frame/mesh.h"
-#include "cpu/shade_lanes.h"
 
 /* Fresnel's reflectance into a medium of index n, for unpolarised light. */
 static double fresnel(double cosine, double n)
@@ -147,7 +146,7 @@ static void fill_codes(shade_scene *s)
     }
 }
 
-mgt_status shade_update(shade_scene **scene, const world *w, const frame *f, const sky_state *sky, const shade_kernels *kernels)
+mgt_status shade_update(shade_scene **scene, const world *w, const frame *f, const sky_state *sky)
 {
     if (!*scene) {
         if (!(*scene = calloc(1, sizeof **scene)))
@@ -158,7 +157,6 @@ mgt_status shade_update(shade_scene **scene, const world *w, const frame *f, con
     s->frame = f->data;
     s->sky = sky->table;
     s->world = w;
-    s->kernels = kernels;
     const shadow_rays rays = rays_of(sky->direction, f->scene->water.index_of_refraction);
     if (!set_materials(s, w) || shadow_map_update(&s->shadows, w, &rays) != MGT_OK)
         return MGT_ERROR_MEMORY;
@@ -177,7 +175,3 @@ void shade_free(shade_scene *s)
     free(s->materials);
     free(s);
 }
-
-void shade_sun(const shade_scene *s, size_t count, const float *x, const float *z, float *share) { s->kernels->sun(s, count, x, z, share); }
-
-void shade_points(const shade_scene *s, const shade_hits *hits, float *rgb) { s->kernels->points(s, hits, rgb); }

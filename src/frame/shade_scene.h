@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT
- * The functions of shading that are compiled once per lane width, and what they read. */
-#ifndef MANGATA_CPU_SHADE_LANES_H
-#define MANGATA_CPU_SHADE_LANES_H
+ * What shading needs beside the points: light in air and in water, materials, shadows. */
+#ifndef MANGATA_FRAME_SHADE_SCENE_H
+#define MANGATA_FRAME_SHADE_SCENE_H
 
-#include "cpu/shade.h"
+#include "frame/frame.h"
 #include "frame/shadow_map.h"
+#include "frame/world.h"
 
 enum { SHADE_TEXTURE_CODES = 256 };
 
@@ -15,7 +16,7 @@ typedef struct shade_material {
     const mgt_texture *texture; /* NULL: none */
 } shade_material;
 
-struct shade_scene {
+typedef struct shade_scene {
     ShadeData data;
     FrameData frame;
     const float *sky;
@@ -25,12 +26,12 @@ struct shade_scene {
     shadow_map *shadows;
     MarchWave waves[MGT_MAX_WAVES];    /* where light is bundled */
     float linear[SHADE_TEXTURE_CODES]; /* of an sRGB code */
-    const shade_kernels *kernels;
-};
+} shade_scene;
 
-struct shade_kernels {
-    void (*points)(const shade_scene *s, const shade_hits *hits, float *rgb);
-    void (*sun)(const shade_scene *s, size_t count, const float *x, const float *z, float *share);
-};
+/*
+ * Fills *s, which is NULL at first. Shadows stay while the world's version and the light are the same. The world, the frame and the sky must outlive its use.
+ */
+mgt_status shade_update(shade_scene **s, const world *w, const frame *f, const sky_state *sky);
+void shade_free(shade_scene *s); /* NULL is allowed */
 
 #endif

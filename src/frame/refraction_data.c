@@ -1,0 +1,146 @@
+/* SPDX-License-Identifier: MIT
+ * Jobs and uniform numbers of the refraction passes, shared by both backends. */
+#include "frame/refraction_data.h"
+
+#include <math.h>
+
+static gbuffer_map map_of(mgt_refraction method)
+{
+    switch (method) {
+    case MGT_REFRACTION_TWO_PHASE:
+    case MGT_REFRACTION_HYBRID:
+    case MGT_REFRACTION_BROAD:
+        return GBUFFER_SAGITTAL;
+    case MGT_REFRACTION_LIU:
+        return GBUFFER_PATH;
+    default:
+        return GBUFFER_STRAIGHT;
+    }
+}
+
+/* What the waves seldom rise above the mean surface by: four deviations, or their sum where that is less. */
+static double crest_of(const mgt_water *water)
+{
+    double sum = 0, variance = 0;
+    for (size_t i = 0; i < water->wave_count; i++) {
+        sum += water->waves[i].amplitude;
+        variance += water->waves[i].amplitude * water->waves[i].amplitude / 2;
+    }
+    return fmin(sum, 4 * sqrt(variance));
+}
+
+void refraction_plane(const world *w, size_t triangle, float plane[4])
+{
+    const float *p[3];
+    double a[3], b[3], n[3];
+    for (size_t c = 0; c < 3; c++)
+        p[c] = w->positions + 3 * (size_t)w->indices[3 * triangle + c];
+    for (int k = 0; k < 3; k++) {
+        a[k] = (double)p[1][k] - (double)p[0][k];
+        b[k] = (double)p[2][k] - (double)p[0][k];
+    }
+    for (int k = 0; k < 3; k++)
+        n[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+    const double length = fmax(sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]), 1e-30);
+    double level = 0;
+    for (int k = 0; k < 3; k++) {
+        plane[k] = (float)(n[k] / length);
+        level += n[k] / length * (double)p[0][k];
+    }
+    plane[3] = (float)level;
+}
+
+/* The matrix whose columns are three vectors, inverted. */
+static void invert(const double right[3], const double down[3], const double corner[3], double rows[3][3])
+{
+    const double *columns[3] = {right, down, corner};
+    double det = 0;
+    for (int i = 0; i < 3; i++) {
+        const double *a = columns[(i + 1) % 3], *b = columns[(i + 2) % 3];
+        for (int k = 0; k < 3; k++)
+            rows[i][k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+    }
+    for (int k = 0; k < 3; k++)
+        det += rows[0][k] * right[k];
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++)
+            rows[i][k] /= det;
+}
+
+NarrowData refraction_narrow_data(const frame *f, const world *w, const gbuffer *layer)
+{
+    const camera_rays *c = &f->close;
+    const double n = f->scene->water.index_of_refraction;
+    double rows[3][3];
+    invert(c->right, c->down, c->corner, rows);
+    return (NarrowData){
+        .column_x = (float)rows[0][0],
+        .column_y = (float)rows[0][1],
+        .column_z = (float)rows[0][2],
+        .distance = (float)c->position[1],
+        .row_x = (float)rows[1][0],
+        .row_y = (float)rows[1][1],
+        .row_z = (float)rows[1][2],
+        .side = f->under ? -1 : 1,
+        .depth_x = (float)rows[2][0],
+        .depth_y = (float)rows[2][1],
+        .depth_z = (float)rows[2][2],
+        .ratio = (float)(f->under ? n : 1 / n),
+        .corner_x = (float)c->corner[0],
+        .corner_y = (float)c->corner[1],
+        .corner_z = (float)c->corner[2],
+        .focal = 1 / f->data.pixel_angle,
+        .right_x = (float)c->right[0],
+        .right_y = (float)c->right[1],
+        .right_z = (float)c->right[2],
+        .left = (float)layer->left,
+        .down_x = (float)c->down[0],
+        .down_y = (float)c->down[1],
+        .down_z = (float)c->down[2],
+        .top = (float)layer->top,
+        .columns = (float)layer->width,
+        .rows = (float)layer->height,
+        .foot_x = (float)(c->position[0] - w->origin[0]),
+        .foot_z = (float)(c->position[2] - w->origin[1]),
+        .method = (int)f->scene->quality.refraction,
+        .thickness = 0.5f,
+        .stride = 2,
+        .place = 1.0f / (float)(f->scene->quality.refraction_samples ? f->scene->quality.refraction_samples : 1),
+        .low_x = (float)(w->low[0] + w->origin[0] - c->position[0]) - 1e-3f,
+        .low_y = (f->under ? -w->high[1] : w->low[1]) - 1e-3f,
+        .low_z = (float)(w->low[2] + w->origin[1] - c->position[2]) - 1e-3f,
+        .high_x = (float)(w->high[0] + w->origin[0] - c->position[0]) + 1e-3f,
+        .high_y = (f->under ? -w->low[1] : w->high[1]) + 1e-3f,
+        .high_z = (float)(w->high[2] + w->origin[1] - c->position[2]) + 1e-3f,
+    };
+}
+
+gbuffer_job refraction_job(const frame *f)
+{
+    const mgt_scene *scene = f->scene;
+    /* Pictures are rounded to parts of pixels: they overlap at the waterline, and the water itself says what is in front. */
+    const double reach = fmax(crest_of(&scene->water), 0.002);
+    return (gbuffer_job){
+        .camera = f->under ? mirrored_rays(&f->close) : f->close,
+        .width = scene->image.width,
+        .height = scene->image.height,
+        .index = scene->water.index_of_refraction,
+        .map = map_of(scene->quality.refraction),
+        .error = scene->quality.tess_error,
+        .trough = reach,
+        .crest = reach,
+    };
+}
+
+gbuffer_job refraction_mirrored_job(const frame *f)
+{
+    gbuffer_job job = refraction_job(f);
+    job.camera = mirrored_rays(&job.camera);
+    job.map = GBUFFER_STRAIGHT;
+    job.trough = 0;
+    job.mirrored = true;
+    job.crest *= 0.5; /* few waves reach as far as all of them together could: below, the surface would mostly hide what is shown */
+    return job;
+}
+
+bool refraction_mirrors(const frame *f, const world *w) { return f->under || (w->triangle_count > 0 && w->high[1] > 0); }
