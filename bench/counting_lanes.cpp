@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// src/cpu/lanes.c once more, over reals that count what is done with them: see counting/kernels/prelude_c.h.
+// src/cpu/lanes.c once more, over reals that count what is done with them: see counting/kernels/common/prelude_c.h.
 #define MGT_LANES 1
 #define lane_kernels_1 counting_lane_kernels
 #define _Static_assert static_assert

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// src/kernels/refract_point.k over reals that count what is done with them: see counting/kernels/prelude_c.h.
+// src/kernels/refraction/refract_point.k over reals that count what is done with them: see counting/kernels/common/prelude_c.h.
 #define MGT_LANES 1
 #define _Static_assert static_assert
 

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* report.html: the whole comparison in one file, from the texts of tools/report. */
+/* report.html: the whole comparison in one file, from the texts of cli/compare/page. */
 #ifndef MANGATA_CLI_COMPARE_COMPARE_PAGE_H
 #define MANGATA_CLI_COMPARE_COMPARE_PAGE_H
 
 #include "cli/compare/compare_job.h"
 
-/* The files of tools/report, as scripts/embed_text stores them. */
+/* The files of cli/compare/page, as scripts/embed_text stores them. */
 typedef struct page_text {
     const char *name, *text;
 } page_text;

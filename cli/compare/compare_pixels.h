@@ -8,7 +8,7 @@
 
 #include "image/picture.h"
 
-/* Base64 of a zlib stream of half floats times `scale`; tools/report/1-pixels.js is its reader. Per channel (of three: G, R − G, B − G,
+/* Base64 of a zlib stream of half floats times `scale`; cli/compare/page/1-pixels.js is its reader. Per channel (of three: G, R − G, B − G,
  * differences of the bits modulo 2¹⁶) each pixel's bits minus those of its left neighbour (of the one above in the first column), modulo
  * 2¹⁶; first the high bytes of all, then the low ones. The caller frees the text; NULL when memory runs out. */
 char *pixels_pack(const float_image *image, float scale, size_t *length);

@@ -2,7 +2,7 @@
  * What a camera sees of the objects, apart on its own side of the mean surface and on the other one.
  *
  * On the other side, the far layer, every triangle is drawn where refraction by the flat mean surface shows it: its points are moved to their
- * virtual images (kernels/refract_point.k), which lie on straight rays of the camera. Triangles are cut at the mean surface, split where the
+ * virtual images (kernels/refraction/refract_point.k), which lie on straight rays of the camera. Triangles are cut at the mean surface, split where the
  * map bends them, and drawn into a picture with a guard band around it.
  */
 #ifndef MANGATA_CPU_GBUFFER_H

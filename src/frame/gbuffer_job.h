@@ -8,7 +8,7 @@
 /*
  * What is seen first through every pixel's centre. Pixel (x, y) of the image is element (top + y) · width + left + x; both layers of a picture
  * have the same shape. The virtual image of what is seen stands at camera + depth · ray, where ray = corner + x · right + y · down of camera_rays
- * (not normalised: depth counts along the view). Its true position is true_point() of kernels/refract_point.k, from that alone; the triangle
+ * (not normalised: depth counts along the view). Its true position is true_point() of kernels/refraction/refract_point.k, from that alone; the triangle
  * gives the rest.
  */
 typedef struct gbuffer {

@@ -17,7 +17,7 @@ typedef enum method_way {
 
 typedef enum method_pass { METHOD_PASS_NONE = 0, METHOD_PASS_FXAA, METHOD_PASS_TAA, METHOD_PASS_ADAPTIVE, METHOD_PASSES } method_pass;
 
-/* Where waves turn from resolved to unresolved; src/cpu/frame.c has the numbers. */
+/* Where waves turn from resolved to unresolved; src/frame/frame.c has the numbers. */
 typedef enum method_transition { TRANSITION_MANGATA = 0, TRANSITION_PODEE, TRANSITION_BRUNETON } method_transition;
 
 /* Bits: tables that are made before pixels are. */

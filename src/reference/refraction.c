@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Refraction by a flat surface in double precision: the oracle of kernels/refract_point.k. */
+ * Refraction by a flat surface in double precision: the oracle of kernels/refraction/refract_point.k. */
 #include "reference/refraction.h"
 
 #include <math.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Prints the polynomial coefficients of src/kernels/math.k and disk_path.k with the error each has before rounding to float.
+ * Prints the polynomial coefficients of src/kernels/common/math.k and disk_path.k with the error each has before rounding to float.
  *
  * Every function of math.k is g(p(x)): p a polynomial, g a power or nothing. Remez's exchange on a fine grid finds the p with
  * the smallest largest weighted error. In sincos_turns the coefficients' last bits were then chosen for the smallest error in float.

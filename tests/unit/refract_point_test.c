@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Points seen through a flat surface (kernels/refract_point.k) in lanes, against Fermat's least path in double precision. */
+ * Points seen through a flat surface (kernels/refraction/refract_point.k) in lanes, against Fermat's least path in double precision. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Fits mixtures of circular Gaussians to an elongated one (Podee et al. 2021, Appendix C) and prints src/kernels/mixture_fits.k.
+ * Fits mixtures of circular Gaussians to an elongated one (Podee et al. 2021, Appendix C) and prints src/kernels/baselines/mixture_fits.k.
  *
  *   ninja fit_mixtures && ./fit_mixtures > mixture_fits.k
  *
@@ -308,7 +308,7 @@ int main(void)
     }
     printf("/* SPDX-License-Identifier: MIT\n"
            " *\n"
-           " * Made by `ninja fit_mixtures && ./fit_mixtures > mixture_fits.k` (src/precompute/fit/fit_mixtures.c); not to be edited.\n"
+           " * Made by `ninja fit_mixtures && ./fit_mixtures > mixture_fits.k` (src/frame/fit/fit_mixtures.c); not to be edited.\n"
            " *\n"
            " * Members of the mixtures of 1, 3, 5 and 9 circular Gaussians that stand for an elliptical one of deviations 1 and e, 1 <= e <= 9\n"
            " * (Podee et al. 2021, Appendix C), as polynomials in x = log e. Member 0 is the centre, each other one a pair.\n"

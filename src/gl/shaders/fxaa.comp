@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Method `fxaa`, as src/cpu/fxaa.c has it: finds edges in the displayed picture of method `none` and reads every pixel a little across its edge.
+ * Method `fxaa`, as src/frame/fxaa.c has it: finds edges in the displayed picture of method `none` and reads every pixel a little across its edge.
  */
 #include "blend.glsl"
 

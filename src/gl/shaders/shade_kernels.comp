@@ -4,7 +4,7 @@
  */
 #include "lattice_data.glsl"
 
-/* src/precompute/podee_tables.h; the slices of the sweep stand side by side, eight a row. */
+/* src/frame/podee_tables.h; the slices of the sweep stand side by side, eight a row. */
 layout(binding = 1) uniform sampler2D sweep_texture;
 layout(binding = 2) uniform sampler2D share_texture;
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * One frame of method `taa`, as src/cpu/taa.c has it: the picture is blended into a history that follows the camera and is clamped to what
+ * One frame of method `taa`, as src/frame/taa.c has it: the picture is blended into a history that follows the camera and is clamped to what
  * the pixel's neighbours show now.
  */
 #include "blend.glsl"
