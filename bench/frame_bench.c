@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include "bench_scene.h"
-#include "cli/common/names.h"
+#include "params/methods.h"
 #include "timing.h"
 
 enum { CASE_LIMIT = 16, RUN_LIMIT = 31, THREADS = 2 };
@@ -123,7 +123,7 @@ static bool bench_methods(bench *b, const bench_scene *smooth)
            b->height, b->info.threads);
     print_head("instruction set");
     for (size_t i = 0; i < b->case_count; i++)
-        print_case(isa_name(b->info.isa), &b->cases[i]);
+        print_case(mgt_isa_name(b->info.isa), &b->cases[i]);
     const frame_case *none = &b->cases[0], *mangata = &b->cases[4];
     const double water = water_pixels(b, mangata), each = mangata->time.median / (water * (double)smooth->scene.water.wave_count);
     const bool judged = b->info.isa == MGT_ISA_AVX512;
@@ -153,7 +153,7 @@ static bool bench_isas(bench *b, const bench_scene *smooth)
                 add_case(b, context, &smooth->scene, methods[m]);
         done = context && measure(b, isas[i] == MGT_ISA_SCALAR ? 1 : isas[i] == MGT_ISA_AVX2 ? 5 : 3);
         for (size_t c = 0; c < b->case_count && done; c++)
-            print_case(isa_name(isas[i]), &b->cases[c]);
+            print_case(mgt_isa_name(isas[i]), &b->cases[c]);
         mgt_context_destroy(context);
     }
     printf("\n");

@@ -10,7 +10,6 @@
 
 #include "bench_scene.h"
 #include "frame_cases.h"
-#include "cli/common/names.h"
 #include "tile_frame.h"
 #include "timing.h"
 
@@ -68,7 +67,7 @@ static bool bench_integral(const bench_scene *scene, tile_frame *f, tile_scratch
         w->cases->keep(NULL);
         const double seconds = cases.count ? replay_time(w, &cases, &sink) : 0;
         const double reached = (double)(cases.in_reach ? cases.in_reach : 1);
-        printf("| %s | %s, %u | %zu | %.1f %% | %.2f | %.1f | %.2f | %.2f |\n", scene->name, isa_name(w->isa), lanes, cases.calls,
+        printf("| %s | %s, %u | %zu | %.1f %% | %.2f | %.1f | %.2f | %.2f |\n", scene->name, mgt_isa_name(w->isa), lanes, cases.calls,
                100.0 * (double)cases.in_reach / (double)(cases.calls ? cases.calls : 1), (double)cases.evaluations / reached, 1e9 * seconds / reached,
                1e9 * seconds / reached / lanes, 1e3 * seconds);
         free(cases.values);
@@ -117,7 +116,7 @@ static void bench_stages(const bench_scene *scene, const tile_frame *f, tile_scr
     }
     for (int k = 0; k < TIMES; k++)
         medians[k] = 1e3 * timing_of(samples[k], RUNS).median;
-    printf("| %s, %zu waves | %s | %.2f | %.2f | %.2f | %.2f | %.2f | %.2f |\n", scene->name, scene->scene.water.wave_count, isa_name(w->isa),
+    printf("| %s, %zu waves | %s | %.2f | %.2f | %.2f | %.2f | %.2f | %.2f |\n", scene->name, scene->scene.water.wave_count, mgt_isa_name(w->isa),
            medians[TIME_LISTS], medians[TIME_LATTICE], medians[TIME_SURFACE], medians[TIME_COVERAGE] - medians[TIME_SURFACE],
            medians[TIME_ALL] - medians[TIME_COVERAGE], medians[TIME_LISTS] + medians[TIME_LATTICE] + medians[TIME_ALL]);
 }

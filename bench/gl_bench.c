@@ -12,8 +12,8 @@
 #include "bench_scene.h"
 #include "gl_frame.h"
 #include "gl_peak.h"
-#include "cli/common/names.h"
 #include "operation_frame.h"
+#include "params/methods.h"
 #include "timing.h"
 
 enum { RUN_LIMIT = 9, PAIRS = 5, METHODS = 5, SIZES = 3, CPU_THREADS = 2 };
@@ -146,7 +146,7 @@ static bool bench_cpu(bench *b)
         return false;
     const timing tg = timing_of(gl, (size_t)runs), tc = timing_of(cpu, (size_t)runs), tr = timing_of(ratio, (size_t)runs);
     printf("## Against the CPU backend\n\n`mangata`, scene `smooth`, %s: OpenGL %.2f ms, the CPU backend (%s, %u threads) %.2f ms.\n\n",
-           b->quick ? "64 × 36" : "1280 × 720", 1e3 * tg.median, isa_name(b->cpu_info.isa), b->cpu_info.threads, 1e3 * tc.median);
+           b->quick ? "64 × 36" : "1280 × 720", 1e3 * tg.median, mgt_isa_name(b->cpu_info.isa), b->cpu_info.threads, 1e3 * tc.median);
     printf("| figure | measured | least – most | limit | |\n|---|---:|---:|---:|---|\n");
     printf("| OpenGL's time / the CPU backend's | %.2f | %.2f – %.2f | %s | %s |\n\n", tr.median, tr.least, tr.most,
            b->frame.software ? "≥ 8 by a software rasteriser" : "", b->frame.software ? verdict(tr.median >= goal_cpu) : "");

@@ -11,7 +11,6 @@
 
 #include "bench_scene.h"
 #include "fma_peak.h"
-#include "cli/common/names.h"
 #include "operation_frame.h"
 #include "timing.h"
 
@@ -100,8 +99,8 @@ int main(int argc, char **argv)
             const double after = fma_peak(isas[i].run, isas[i].lanes, (int)threads, quick ? 0.001 : 0.2);
             const double peak = before > after ? before : after, rate = flops(&count.all) / t.median;
             if (done)
-                printf("| %s | %u | %.1f | %.2f (%.2f – %.2f) | %.1f | %.1f %% |\n", isa_name(isas[i].isa), threads, 1e-9 * peak, 1e3 * t.median, 1e3 * t.least,
-                       1e3 * t.most, 1e-9 * rate, 100 * rate / peak);
+                printf("| %s | %u | %.1f | %.2f (%.2f – %.2f) | %.1f | %.1f %% |\n", mgt_isa_name(isas[i].isa), threads, 1e-9 * peak, 1e3 * t.median,
+                       1e3 * t.least, 1e3 * t.most, 1e-9 * rate, 100 * rate / peak);
         }
     printf("\n");
     bench_scene_free(&smooth);

@@ -8,11 +8,11 @@
 #include "cli/common/interrupt.h"
 #include "cli/common/memory_use.h"
 #include "cli/common/method_spec.h"
-#include "cli/common/names.h"
 #include "cli/common/numbers.h"
 #include "cli/common/options.h"
 #include "cli/common/progress.h"
 #include "cli/common/verbs.h"
+#include "params/methods.h"
 
 enum { OPT_METHODS, OPT_SIZE, OPT_FRAMES, OPT_REPEAT, OPT_BACKEND, OPT_GL_DEVICE, OPT_THREADS, OPT_ISA, OPT_SET, OPT_DISPLAY, OPT_MEMORY };
 
@@ -94,7 +94,7 @@ static int set_option(bench_request *r, int id, const char *value, char size[2][
             return bad_value(OPT_REPEAT, value, "a number from 1 to 1000");
         break;
     case OPT_BACKEND:
-        if (!backend_from_name(value, &r->context.backend) || r->context.backend == MGT_BACKEND_NULL)
+        if (!mgt_backend_from_name(value, &r->context.backend) || r->context.backend == MGT_BACKEND_NULL)
             return bad_value(OPT_BACKEND, value, "cpu, gl or auto");
         break;
     case OPT_GL_DEVICE:
@@ -262,7 +262,7 @@ static int print_report(bench *b)
         if (b->info.backend == MGT_BACKEND_GL)
             printf("%s, ", b->info.renderer);
         else
-            printf("%s, %u lanes, %u threads, ", isa_name(b->info.isa), b->info.lanes, b->info.threads);
+            printf("%s, %u lanes, %u threads, ", mgt_isa_name(b->info.isa), b->info.lanes, b->info.threads);
         printf("%zu frames each\n%-*s%10s%10s%10s%10s%10s%s\n", runs, width, "method", "median ms", "min ms", "max ms", "fps", "Mpixel/s",
                b->request->memory ? "       MiB" : "");
     }
@@ -289,8 +289,9 @@ static int print_report(bench *b)
         return EXIT_CODE_OK;
     return console_print_json(json_pack("{s:s, s:o, s:i, s:i, s:s, s:s, s:s, s:i, s:i, s:I, s:b, s:o}", "version", mgt_version(), "scene",
                                         console_json_text(b->request->scene_path), "width", (int)b->width, "height", (int)b->height, "backend",
-                                        backend_name(b->info.backend), "renderer", b->info.renderer, "isa", isa_name(b->info.isa), "lanes", (int)b->info.lanes,
-                                        "threads", (int)b->info.threads, "runs", (json_int_t)runs, "display", b->request->display, "methods", list));
+                                        mgt_backend_name(b->info.backend), "renderer", b->info.renderer, "isa", mgt_isa_name(b->info.isa), "lanes",
+                                        (int)b->info.lanes, "threads", (int)b->info.threads, "runs", (json_int_t)runs, "display", b->request->display,
+                                        "methods", list));
 }
 
 static int run(const bench_request *request)

@@ -6,7 +6,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/common/names.h"
 #include "cli/common/options.h"
 #include "cli/common/verbs.h"
 
@@ -44,7 +43,7 @@ static json_t *list_isas(void)
     json_t *list = json_array();
     for (int i = MGT_ISA_SCALAR; list && i <= MGT_ISA_NEON; i++)
         if (mgt_isa_available((mgt_isa)i))
-            json_array_append_new(list, json_string(isa_name((mgt_isa)i)));
+            json_array_append_new(list, json_string(mgt_isa_name((mgt_isa)i)));
     return list;
 }
 
@@ -108,10 +107,11 @@ static json_t *collect(const mgt_context_info *info)
     snprintf(exr, sizeof exr, "%d.%d.%d", major, minor, patch);
     find_ffmpeg(ffmpeg, sizeof ffmpeg);
     return json_pack("{s:s, s:s, s:{s:s, s:s, s:i, s:i}, s:o, s:{s:s, s:s, s:s, s:s, s:s*}, s:[s,s,s,s,s], s:[s,s,s], s:o, s:o}", "version", mgt_version(),
-                     "compiler", COMPILER, "default", "backend", backend_name(info->backend), "isa", isa_name(info->isa), "lanes", (int)info->lanes, "threads",
-                     (int)info->threads, "instruction_sets", list_isas(), "libraries", "libfyaml", fy_library_version(), "libspng", spng_version_string(),
-                     "openexr", exr, "jansson", jansson_version_str(), "ffmpeg", ffmpeg[0] ? ffmpeg : NULL, "formats", "png", "exr", "pfm", "y4m",
-                     ffmpeg[0] ? "mp4" : "mp4 (needs ffmpeg)", "backends", "cpu", "gl", "null", "gl_devices", list_gl_devices(), "methods", list_methods());
+                     "compiler", COMPILER, "default", "backend", mgt_backend_name(info->backend), "isa", mgt_isa_name(info->isa), "lanes", (int)info->lanes,
+                     "threads", (int)info->threads, "instruction_sets", list_isas(), "libraries", "libfyaml", fy_library_version(), "libspng",
+                     spng_version_string(), "openexr", exr, "jansson", jansson_version_str(), "ffmpeg", ffmpeg[0] ? ffmpeg : NULL, "formats", "png", "exr",
+                     "pfm", "y4m", ffmpeg[0] ? "mp4" : "mp4 (needs ffmpeg)", "backends", "cpu", "gl", "null", "gl_devices", list_gl_devices(), "methods",
+                     list_methods());
 }
 
 static void print_words(const char *label, const json_t *list)

@@ -7,6 +7,7 @@
 
 #include "cli/common/numbers.h"
 #include "cli/common/options.h"
+#include "params/methods.h"
 
 enum { OPT_BACKEND, OPT_METHOD, OPT_SIZE, OPT_SET, OPT_THREADS, OPT_ISA, OPT_SCRIPT, OPT_SHADERS };
 
@@ -45,7 +46,7 @@ static int set_option(view_request *r, int id, const char *value)
     uint64_t side[2];
     switch (id) {
     case OPT_BACKEND:
-        if (!backend_from_name(value, &r->context.backend) || r->context.backend == MGT_BACKEND_NULL)
+        if (!mgt_backend_from_name(value, &r->context.backend) || r->context.backend == MGT_BACKEND_NULL)
             return bad_value(OPT_BACKEND, value, "auto, cpu or gl");
         break;
     case OPT_METHOD:

@@ -5,7 +5,6 @@
 
 #include "cli/common/console.h"
 #include "cli/common/context_options.h"
-#include "cli/common/names.h"
 
 typedef struct view_request {
     console out;

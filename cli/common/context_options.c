@@ -4,16 +4,19 @@
 
 #include <string.h>
 
-#include "cli/common/names.h"
+#include "params/names.h"
 #include "cli/common/numbers.h"
 
 const char *context_option_set(context_options *options, const char *name, const char *value)
 {
     uint64_t n = 0;
     if (strcmp(name, "backend") == 0)
-        return backend_from_name(value, &options->backend) ? NULL : "cpu, gl, auto or null";
-    if (strcmp(name, "isa") == 0)
-        return isa_from_name(value, &options->isa) ? NULL : isa_words;
+        return mgt_backend_from_name(value, &options->backend) ? NULL : "cpu, gl, auto or null";
+    if (strcmp(name, "isa") == 0) {
+        static names_text allowed;
+        allowed = names_list(isa_names);
+        return mgt_isa_from_name(value, &options->isa) ? NULL : allowed.text;
+    }
     if (strcmp(name, "gl-device") == 0) {
         if (!number_parse_u64(value, 1023, &n))
             return "a number from 0 to 1023";

@@ -6,8 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/common/names.h"
 #include "cli/common/numbers.h"
+#include "params/methods.h"
 
 static bool fail(char *wrong, size_t size, const char *format, ...) __attribute__((format(printf, 3, 4)));
 

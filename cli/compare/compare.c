@@ -5,10 +5,10 @@
 
 #include "cli/compare/compare_request.h"
 #include "image/metrics_clip.h"
-#include "cli/common/names.h"
 #include "cli/common/numbers.h"
 #include "cli/common/options.h"
 #include "cli/common/verbs.h"
+#include "params/methods.h"
 
 enum {
     OPT_OUTPUT,

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "cli/common/memory_text.h"
-#include "cli/common/names.h"
 
 static void put_word(FILE *stream, const char *word)
 {
@@ -64,6 +63,6 @@ char *compare_picture_command(const compare_job *job, const compare_scene *scene
         put_word(stream, r->overrides[i]);
     }
     if (r->context.backend != MGT_BACKEND_CPU)
-        fprintf(stream, " --backend %s", backend_name(r->context.backend));
+        fprintf(stream, " --backend %s", mgt_backend_name(r->context.backend));
     return memory_text_finish(stream, &text);
 }

@@ -10,7 +10,6 @@
 #include "cli/compare/compare_scores.h"
 #include "cli/compare/compare_tables.h"
 #include "cli/common/interrupt.h"
-#include "cli/common/names.h"
 
 const char *compare_picture_name(const compare_job *job, size_t picture)
 {

@@ -7,7 +7,7 @@
 #include "cli/common/context_options.h"
 #include "cli/common/frames.h"
 #include "cli/common/method_spec.h"
-#include "cli/common/names.h"
+#include "params/names.h"
 #include "cli/common/progress.h"
 
 enum { COMPARE_METHODS = 32, COMPARE_SCENES = 64, COMPARE_GATES = 64 };

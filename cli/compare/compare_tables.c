@@ -9,7 +9,6 @@
 #include "cli/compare/compare_command.h"
 #include "cli/compare/compare_scores.h"
 #include "cli/common/memory_text.h"
-#include "cli/common/names.h"
 
 uint64_t compare_samples(const mgt_quality *quality) { return (uint64_t)quality->spatial_samples * quality->spatial_samples * quality->time_samples; }
 
@@ -124,8 +123,8 @@ json_t *compare_result_json(const compare_job *job)
     json_t *reference = json_pack("{s:i, s:i, s:I, s:I}", "spatial", (int)r->reference.spatial_samples, "time_samples", (int)r->reference.time_samples,
                                   "samples", (json_int_t)compare_samples(&r->reference), "seed", (json_int_t)r->reference.seed);
     return json_pack("{s:i, s:s, s:o, s:s, s:s, s:s, s:i, s:I, s:o, s:o, s:o, s:o, s:o, s:o}", "mangata_comparison", 1, "version", mgt_version(), "command",
-                     owned_text(compare_command(job)), "backend", backend_name(job->info.backend), "renderer", job->info.renderer, "isa",
-                     isa_name(job->info.isa), "threads", (int)job->info.threads, "time_runs", (json_int_t)r->time_runs, "frames", frames, "reference",
+                     owned_text(compare_command(job)), "backend", mgt_backend_name(job->info.backend), "renderer", job->info.renderer, "isa",
+                     mgt_isa_name(job->info.isa), "threads", (int)job->info.threads, "time_runs", (json_int_t)r->time_runs, "frames", frames, "reference",
                      reference, "columns", columns_json(job), "scenes", scenes, "all", all_json(job), "gates", gates_json(job));
 }
 

@@ -4,11 +4,11 @@
 #include <string.h>
 
 #include "cli/figures/figures_request.h"
-#include "cli/common/names.h"
 #include "cli/common/numbers.h"
 #include "cli/common/options.h"
 #include "cli/common/quality_options.h"
 #include "cli/common/verbs.h"
+#include "params/methods.h"
 
 enum {
     OPT_OUTPUT,

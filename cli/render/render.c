@@ -91,8 +91,8 @@ static int add_layer(render_request *r, const char *value)
 {
     mgt_layer layer = MGT_LAYER_COLOR;
     const bool all = strcmp(value, "all") == 0;
-    if (!all && !layer_from_name(value, &layer))
-        return bad_value(OPT_LAYER, value, "color, coverage, mask, depth, normal, samples, importance, detail, refraction, refraction_error or all");
+    if (!all && !mgt_layer_from_name(value, &layer))
+        return console_error(EXIT_CODE_USAGE, "--layer %s: allowed is %s or all", value, names_list(layer_names).text);
     bool wanted[LAYER_COUNT] = {false};
     for (size_t i = 0; i < r->layer_count; i++)
         wanted[r->layers[i]] = true;

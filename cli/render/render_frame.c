@@ -10,7 +10,7 @@ static mgt_format layer_format(mgt_layer layer, bool displayed)
 {
     if (layer == MGT_LAYER_COLOR && displayed)
         return MGT_FORMAT_RGBA8_SRGB;
-    return layer_channels(layer) == 3 ? MGT_FORMAT_RGB32F : MGT_FORMAT_R32F;
+    return mgt_layer_channels(layer) == 3 ? MGT_FORMAT_RGB32F : MGT_FORMAT_R32F;
 }
 
 static size_t pixel_bytes(mgt_format format) { return format == MGT_FORMAT_RGB32F ? 12 : 4; }
@@ -82,8 +82,8 @@ file_status frame_buffer_write(const frame_buffer *buffer, const render_request 
     if (buffer->displayed)
         return picture_write_png(path, buffer->width, buffer->height, buffer->targets[0].pixels, 0, metadata, options, error);
     for (size_t i = 0; i < buffer->count; i++)
-        layers[i] = (picture_layer){.name = layer_name(buffer->targets[i].layer),
-                                    .channels = layer_channels(buffer->targets[i].layer),
+        layers[i] = (picture_layer){.name = mgt_layer_name(buffer->targets[i].layer),
+                                    .channels = mgt_layer_channels(buffer->targets[i].layer),
                                     .pixels = buffer->targets[i].pixels};
     if (request->format == PICTURE_PFM)
         return picture_write_pfm(path, buffer->width, buffer->height, &layers[0], metadata, options, error);

@@ -9,6 +9,7 @@
 #include "cli/common/interrupt.h"
 #include "cli/render/render_frame.h"
 #include "cli/render/render_record.h"
+#include "params/methods.h"
 
 typedef struct render_job {
     render_request *request;
@@ -105,8 +106,8 @@ static int create_context(render_job *job)
     if (job->info.backend == MGT_BACKEND_GL)
         console_detail(&job->request->out, "backend gl, %s", job->info.renderer);
     else
-        console_detail(&job->request->out, "backend %s, %s, %u lanes, %u threads", backend_name(job->info.backend), isa_name(job->info.isa), job->info.lanes,
-                       job->info.threads);
+        console_detail(&job->request->out, "backend %s, %s, %u lanes, %u threads", mgt_backend_name(job->info.backend), mgt_isa_name(job->info.isa),
+                       job->info.lanes, job->info.threads);
     return EXIT_CODE_OK;
 }
 
@@ -348,7 +349,7 @@ static int report(render_job *job, double wall)
                                         console_json_text(r->scene_path), "method", method_name(&r->quality).text, "width", (int)job->buffer.width, "height",
                                         (int)job->buffer.height, "rendered", (json_int_t)job->rendered, "skipped", (json_int_t)job->skipped,
                                         "seconds_per_frame", "mean", mean, "min", job->least, "max", job->most, "seconds", wall, "backend",
-                                        backend_name(job->info.backend), "isa", isa_name(job->info.isa), "threads", (int)job->info.threads, "files",
+                                        mgt_backend_name(job->info.backend), "isa", mgt_isa_name(job->info.isa), "threads", (int)job->info.threads, "files",
                                         job->files));
 }
 

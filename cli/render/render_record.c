@@ -12,6 +12,7 @@
 
 #include "cli/common/memory_text.h"
 #include "cli/common/numbers.h"
+#include "params/methods.h"
 
 static const char *format_word(picture_format format)
 {
@@ -38,7 +39,7 @@ static const char *arithmetic_word(const mgt_context_info *info)
     if (info->backend == MGT_BACKEND_GL)
         return info->renderer;
     if (info->backend != MGT_BACKEND_CPU)
-        return backend_name(info->backend);
+        return mgt_backend_name(info->backend);
     return info->isa == MGT_ISA_SSE2 ? "cpu without fma" : "cpu";
 }
 
@@ -58,7 +59,7 @@ bool render_hash(const render_request *request, const char *canonical, const mgt
     quality_write(stream, q, "option %s %s\n");
     fprintf(stream, "arithmetic %s\nformat %s\nlayers", arithmetic_word(info), format_word(request->format));
     for (size_t i = 0; i < request->layer_count; i++)
-        fprintf(stream, " %s", layer_name(request->layers[i]));
+        fprintf(stream, " %s", mgt_layer_name(request->layers[i]));
     fprintf(stream, "\nframes %s\n", frames);
     if (!memory_text_finish(stream, &text))
         return false;
@@ -94,7 +95,7 @@ static void add_stamp(render_record *record, const mgt_context_info *info, doubl
     if (info->backend == MGT_BACKEND_GL)
         add(record, "renderer", "%s", info->renderer);
     else
-        add(record, "isa", "%s", isa_name(info->isa));
+        add(record, "isa", "%s", mgt_isa_name(info->isa));
     add(record, "rendered_at", "%s", date);
     if (seconds >= 0)
         add(record, "render_seconds", "%.6f", seconds);

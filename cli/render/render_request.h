@@ -7,7 +7,7 @@
 #include "cli/common/context_options.h"
 #include "cli/common/frames.h"
 #include "image/picture.h"
-#include "cli/common/names.h"
+#include "params/names.h"
 #include "cli/common/progress.h"
 #include "cli/common/quality_options.h"
 

@@ -40,6 +40,12 @@ typedef enum mgt_status {
     MGT_CANCELLED          /* the progress callback asked to stop */
 } mgt_status;
 
+/* The names of enums and back, here and in the other headers: mgt_x_name() gives the word that commands and files use, static, or NULL for what is no
+ * value of the enum; values count up from 0 (but mgt_kernels), so that the first NULL ends a list. mgt_x_from_name() returns false, and writes nothing,
+ * where there is no such name. */
+MGT_API const char *mgt_status_name(mgt_status status);
+MGT_API bool mgt_status_from_name(const char *name, mgt_status *status);
+
 /* Lower-case English text for a status; never NULL. */
 MGT_API const char *mgt_status_text(mgt_status status);
 

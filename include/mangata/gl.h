@@ -33,6 +33,9 @@ typedef enum mgt_gl_color {
                                   (an sRGB format with GL_FRAMEBUFFER_SRGB enabled); without glare */
 } mgt_gl_color;
 
+MGT_API const char *mgt_gl_color_name(mgt_gl_color color);
+MGT_API bool mgt_gl_color_from_name(const char *name, mgt_gl_color *color);
+
 /* A view of a frame: a camera by its matrices, and where it is drawn. scene.camera and scene.image are not read. */
 typedef struct mgt_gl_view {
     size_t struct_size;

@@ -51,6 +51,9 @@ typedef enum mgt_pattern {
     MGT_PATTERN_STRIPES = 3  /* bands of two colours across the first texture coordinate */
 } mgt_pattern;
 
+MGT_API const char *mgt_pattern_name(mgt_pattern pattern);
+MGT_API bool mgt_pattern_from_name(const char *name, mgt_pattern *pattern);
+
 /* What a surface is made of: diffuse (Lambert) and glossy (GGX). Colours are linear sRGB in [0, 1]. */
 typedef struct mgt_material {
     float base_color[3];

@@ -30,6 +30,13 @@ typedef enum mgt_isa {
 
 typedef enum mgt_log_level { MGT_LOG_DEBUG, MGT_LOG_INFO, MGT_LOG_WARNING, MGT_LOG_ERROR } mgt_log_level;
 
+MGT_API const char *mgt_backend_name(mgt_backend backend);
+MGT_API const char *mgt_isa_name(mgt_isa isa);
+MGT_API const char *mgt_log_level_name(mgt_log_level level);
+MGT_API bool mgt_backend_from_name(const char *name, mgt_backend *backend);
+MGT_API bool mgt_isa_from_name(const char *name, mgt_isa *isa);
+MGT_API bool mgt_log_level_from_name(const char *name, mgt_log_level *level);
+
 /* One log message. `id` is stable between versions ("render.scene", …) so that tests may assert on it; `text` is for
  * people. Both live only during the call. May be called from the thread inside an mgt_ function only. */
 typedef void (*mgt_log_function)(void *user, mgt_log_level level, const char *id, const char *text);
@@ -112,6 +119,14 @@ typedef enum mgt_format {
     MGT_FORMAT_RGBA32F,   /* four floats, alpha 1: color, normal */
     MGT_FORMAT_RGBA8_SRGB /* displayed colour with exposure, glare, tone map and sRGB transfer, alpha 255: color only */
 } mgt_format;
+
+MGT_API const char *mgt_layer_name(mgt_layer layer);
+MGT_API const char *mgt_format_name(mgt_format format);
+MGT_API bool mgt_layer_from_name(const char *name, mgt_layer *layer);
+MGT_API bool mgt_format_from_name(const char *name, mgt_format *format);
+
+/* 3 or 1; 0: no such layer. */
+MGT_API uint32_t mgt_layer_channels(mgt_layer layer);
 
 typedef struct mgt_target {
     size_t struct_size;

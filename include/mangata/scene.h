@@ -115,8 +115,8 @@ typedef struct mgt_method_properties {
     uint32_t layers;   /* bits 1 << mgt_layer that it computes; the others are written as constants */
 } mgt_method_properties;
 
-/* Fills the first `size` bytes of `properties`; `size` is sizeof *properties as the caller knows it and becomes its struct_size.
- * MGT_ERROR_ARGUMENT: the library knows no such method. Methods are numbered from 0 without gaps. */
+/* Fills `properties`; `size` is sizeof *properties, which becomes its struct_size. MGT_ERROR_ARGUMENT: the library knows no such method. Methods are
+ * numbered from 0 without gaps. Any thread. */
 MGT_API mgt_status mgt_method_info(mgt_method method, mgt_method_properties *properties, size_t size);
 
 /* How what lies on the other side of the surface is found: scenes with objects. docs/refraction.md says what is whose. */
@@ -148,6 +148,23 @@ typedef enum mgt_kernels {
     MGT_KERNELS_FELINE = 32, /* circular Gaussians placed by the formulae of McCormack et al. 1999 */
     MGT_KERNELS_RIEMANN = 33 /* a sum over the disk when the shutter closes: P1's fallback, everywhere */
 } mgt_kernels;
+
+MGT_API const char *mgt_body_name(mgt_body body);
+MGT_API const char *mgt_sky_model_name(mgt_sky_model model);
+MGT_API const char *mgt_tone_map_name(mgt_tone_map tone_map);
+MGT_API const char *mgt_method_name(mgt_method method);
+MGT_API const char *mgt_method_waves_name(mgt_method_waves waves);
+MGT_API const char *mgt_refraction_name(mgt_refraction refraction);
+MGT_API const char *mgt_adaptive_name(mgt_adaptive adaptive);
+MGT_API const char *mgt_kernels_name(mgt_kernels kernels);
+MGT_API bool mgt_body_from_name(const char *name, mgt_body *body);
+MGT_API bool mgt_sky_model_from_name(const char *name, mgt_sky_model *model);
+MGT_API bool mgt_tone_map_from_name(const char *name, mgt_tone_map *tone_map);
+MGT_API bool mgt_method_from_name(const char *name, mgt_method *method);
+MGT_API bool mgt_method_waves_from_name(const char *name, mgt_method_waves *waves);
+MGT_API bool mgt_refraction_from_name(const char *name, mgt_refraction *refraction);
+MGT_API bool mgt_adaptive_from_name(const char *name, mgt_adaptive *adaptive);
+MGT_API bool mgt_kernels_from_name(const char *name, mgt_kernels *kernels);
 
 typedef struct mgt_quality {
     mgt_method method;

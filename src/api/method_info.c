@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT
  * The rows of the methods, made public. */
-#include <string.h>
-
+#include "api/context.h"
+#include "api/structs.h"
 #include "params/methods.h"
 
 mgt_status mgt_method_info(mgt_method method, mgt_method_properties *properties, size_t size)
 {
-    if ((size_t)method >= method_count || !properties || size < sizeof properties->struct_size || size > sizeof *properties)
-        return MGT_ERROR_ARGUMENT;
-    mgt_method_properties known = method_of(method)->properties;
-    known.struct_size = size;
-    memcpy(properties, &known, size);
-    return MGT_OK;
+    const reporter r = creation_reporter();
+    if ((size_t)method >= method_count)
+        return report_error(&r, MGT_ERROR_ARGUMENT, "method.info", "there is no method %d", (int)method);
+    if (properties && size >= sizeof size)
+        properties->struct_size = size;
+    return struct_give(&r, &method_properties_kind, &method_of(method)->properties, size >= sizeof size ? properties : NULL);
 }

@@ -62,6 +62,7 @@ FIXED(mgt_gl_source, 16);
 
 const struct_kind context_desc_kind = KIND(mgt_context_desc, "context.desc", 1, gl_get_proc);
 const struct_kind context_info_kind = KIND(mgt_context_info, "context.info", 1, software);
+const struct_kind method_properties_kind = KIND(mgt_method_properties, "method.info", 1, layers);
 const struct_kind mesh_desc_kind = KIND(mgt_mesh_desc, "mesh.desc", 1, indices);
 const struct_kind texture_desc_kind = KIND(mgt_texture_desc, "texture.desc", 1, row_stride);
 const struct_kind target_kind = KIND(mgt_target, "render.target", MOST_TARGETS, row_stride, .layer = MGT_LAYER_COLOR, .format = MGT_FORMAT_RGBA8_SRGB);

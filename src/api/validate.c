@@ -227,22 +227,23 @@ mgt_status validate_scene(const reporter *r, const mgt_scene *scene)
     return check_quality(r, &scene->quality);
 }
 
+static bool layer_takes(mgt_layer layer, mgt_format format)
+{
+    switch (format) {
+    case MGT_FORMAT_R32F:
+        return mgt_layer_channels(layer) == 1;
+    case MGT_FORMAT_RGB32F:
+    case MGT_FORMAT_RGBA32F:
+        return mgt_layer_channels(layer) == 3;
+    case MGT_FORMAT_RGBA8_SRGB:
+        return layer == MGT_LAYER_COLOR;
+    }
+    return false;
+}
+
 static mgt_status validate_target(const reporter *r, const region *area, const mgt_target *target, size_t index)
 {
-    static const unsigned allowed[] = {
-        [MGT_LAYER_COLOR] = 1u << MGT_FORMAT_RGB32F | 1u << MGT_FORMAT_RGBA32F | 1u << MGT_FORMAT_RGBA8_SRGB,
-        [MGT_LAYER_COVERAGE] = 1u << MGT_FORMAT_R32F,
-        [MGT_LAYER_MASK] = 1u << MGT_FORMAT_R32F,
-        [MGT_LAYER_DEPTH] = 1u << MGT_FORMAT_R32F,
-        [MGT_LAYER_NORMAL] = 1u << MGT_FORMAT_RGB32F | 1u << MGT_FORMAT_RGBA32F,
-        [MGT_LAYER_SAMPLES] = 1u << MGT_FORMAT_R32F,
-        [MGT_LAYER_IMPORTANCE] = 1u << MGT_FORMAT_R32F,
-        [MGT_LAYER_DETAIL] = 1u << MGT_FORMAT_R32F,
-        [MGT_LAYER_REFRACTION] = 1u << MGT_FORMAT_RGB32F | 1u << MGT_FORMAT_RGBA32F,
-        [MGT_LAYER_REFRACTION_ERROR] = 1u << MGT_FORMAT_R32F,
-    };
-    if ((int)target->layer < 0 || (int)target->layer > MGT_LAYER_REFRACTION_ERROR || (int)target->format < 0 || (int)target->format > MGT_FORMAT_RGBA8_SRGB ||
-        !(allowed[target->layer] & 1u << target->format))
+    if (!layer_takes(target->layer, target->format))
         return report_error(r, MGT_ERROR_ARGUMENT, "render.target", "target %zu: layer %d cannot be written in format %d", index, (int)target->layer,
                             (int)target->format);
     if (!target->pixels)

@@ -8,14 +8,10 @@
 #include <string.h>
 
 #include "params/methods.h"
+#include "params/names.h"
 
-const char *const tone_map_choices[] = {"none", "reinhard", "aces", "agx", NULL};
 static const char *const mean_words[] = {"add", "drop", NULL};
-static const char *const kernel_words[] = {"exact", "1", "3", "5", "9", "feline", "riemann", NULL};
-static const int kernel_values[] = {MGT_KERNELS_EXACT, MGT_KERNELS_1, MGT_KERNELS_3, MGT_KERNELS_5, MGT_KERNELS_9, MGT_KERNELS_FELINE, MGT_KERNELS_RIEMANN};
 static const char *const transition_words[] = {"soft", "hard", NULL};
-static const char *const adaptive_words[] = {"cells", "podee", NULL};
-static const char *const refraction_words[] = {"two-phase", "hybrid", "liu", "broad", "narrow", "screen-space", "distance-field", "off", "truth", NULL};
 static const char *const switch_words[] = {"off", "on", NULL};
 
 /* A method brings its numbers of samples along. */
@@ -52,8 +48,8 @@ const field_row quality_fields[] =
      {"ndf_mean", FIELD_SWITCH, MEMBER(ndf_mean_drop), 0, .doc = "add the mean slope of the filtered waves, or drop it as printed in the paper",
       .choices = mean_words, .member = "ndf_mean_drop", .when = {{"method", ONE(MGT_METHOD_PODEE_PIXEL), true}}},
      {"kernels", FIELD_CHOICE, MEMBER(kernels),
-      .doc = "what stands for the elliptical Gaussian: itself, so many circular ones, feline's, or a sum over the disk", .choices = kernel_words,
-      .values = kernel_values, .label = "K", .when = {{PODEE}}},
+      .doc = "what stands for the elliptical Gaussian: itself, so many circular ones, feline's, or a sum over the disk", .choices = kernels_names,
+      .values = kernels_values, .label = "K", .when = {{PODEE}}},
      {"elongation", FIELD_NUMBER, MEMBER(elongation_limit), FIELD_OR_ZERO, 1, 1e6, NULL, .doc = "ellipses longer than this are summed as by riemann",
       .absent = "the number of kernels; 1 and feline: never", .member = "elongation_limit", .label = "E", .when = {{PODEE}, {"kernels", 0x3e, true}}},
      {"path_segments", FIELD_COUNT, MEMBER(path_segments), FIELD_OR_ZERO, 1, 64, NULL, .doc = "straight pieces of the open shutter", .absent = "1",
@@ -62,7 +58,7 @@ const field_row quality_fields[] =
       .member = "transition_hard", .label = "T", .when = {{PODEE}}},
      {"transition_width", FIELD_NUMBER, MEMBER(transition_width), 0, 0, 0.5, "cycles/pixel", .doc = "width of a soft transition", .absent = "0.3", .label = "W",
       .when = {{PODEE}, {"transition", 1, true}}},
-     {"adaptive", FIELD_CHOICE, MEMBER(adaptive), .doc = "how pixels that need more samples are found: cells, or as Podee et al. do", .choices = adaptive_words,
+     {"adaptive", FIELD_CHOICE, MEMBER(adaptive), .doc = "how pixels that need more samples are found: cells, or as Podee et al. do", .choices = adaptive_names,
       .label = "SCHEME", .when = {{ADAPTIVE}}},
      {"samples", FIELD_NUMBER, MEMBER(samples), FIELD_OR_ZERO, 1, 4096, NULL, .doc = "evaluations of all waves per pixel of water, on average", .absent = "8",
       .label = "N", .when = {{ADAPTIVE}}, .alternative = HOW_MUCH},
@@ -79,7 +75,7 @@ const field_row quality_fields[] =
       .label = "V", .when = {{ADAPTIVE}, {ALONG}}},
      {"slots", FIELD_LARGE, MEMBER(sample_slots), FIELD_OR_ZERO, 1, 4294967296.0, NULL, .doc = "samples of the whole picture", .absent = "as samples says",
       .member = "sample_slots", .label = "M", .when = {{ADAPTIVE}, {ALONG}}, .alternative = HOW_MUCH},
-     {"refraction", FIELD_CHOICE, MEMBER(refraction), .doc = "how what lies behind the surface is found", .choices = refraction_words, .label = "NAME"},
+     {"refraction", FIELD_CHOICE, MEMBER(refraction), .doc = "how what lies behind the surface is found", .choices = refraction_names, .label = "NAME"},
      {"tess_error", FIELD_NUMBER, MEMBER(tess_error), FIELD_OR_ZERO, 0.01, 100, "pixels", .doc = "how far a bent triangle may be off", .absent = "0.1",
       .label = "PX", .when = {{BENDING}}},
      {"refraction_samples", FIELD_COUNT, MEMBER(refraction_samples), FIELD_OR_ZERO, 1, 64, NULL, .doc = "N of N x N refracted rays a pixel",

@@ -7,18 +7,17 @@
 
 #include "mangata/mangata.h"
 #include "params/field.h"
+#include "params/names.h"
 
 /* Rows of an mgt_quality, ended by one without a key. A flag of the command line is a key with dashes. */
 extern const field_row quality_fields[];
 enum { QUALITY_ROWS = 24 };
 
-extern const char *const tone_map_choices[];
-
 /* Rows of what mgt_post and the scene format have in common, for a struct with members of these names. */
-#define POST_ROWS(type)                                                                                                                \
-    {"tone_map", FIELD_CHOICE, offsetof(type, tone_map), .doc = "how radiance becomes displayed colour", .choices = tone_map_choices}, \
-    {                                                                                                                                  \
-        "glare", FIELD_SHARE, offsetof(type, glare), 0, 0, 1, NULL, .doc = "share of the light that the eye scatters"                  \
+#define POST_ROWS(type)                                                                                                              \
+    {"tone_map", FIELD_CHOICE, offsetof(type, tone_map), .doc = "how radiance becomes displayed colour", .choices = tone_map_names}, \
+    {                                                                                                                                \
+        "glare", FIELD_SHARE, offsetof(type, glare), 0, 0, 1, NULL, .doc = "share of the light that the eye scatters"                \
     }
 #define EXPOSURE_RANGE -60, 60, "stops"
 

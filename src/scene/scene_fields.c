@@ -15,14 +15,11 @@
 #define ANYWHERE -1e9, 1e9
 #define NO_RANGE 0, 0
 
-static const char *const bodies[] = {"sun", "moon", NULL};
-static const char *const sky_models[] = {"atmosphere", "gradient", "black", NULL};
 static const char *const spectrum_kinds[] = {"none", "pierson-moskowitz", "jonswap", "tma", "buoy", NULL};
 static const char *const spectrum_spreadings[] = {"mitsuyasu", "hasselmann", "donelan-banner", "fixed", NULL};
 static const char *const spectrum_slopes[] = {"spectrum", "cox-munk", NULL};
 static const char *const clarities[] = {"pure", "clear", "coastal", "murky", NULL};
 static const char *const shapes[] = {"mesh", "plane", "box", "sphere", "steps", "pool", "floor", NULL};
-static const char *const patterns[] = {"none", "tiles", "checker", "stripes", NULL};
 
 static void decide_body(void *parent)
 {
@@ -110,7 +107,7 @@ static const field_row time_fields[] = {{"start", FIELD_NUMBER, offsetof(scene_c
 
 static const field_row light_fields[] =
     {{"body", FIELD_CHOICE, offsetof(mgt_light, body), 0, NO_RANGE, NULL,
-      .doc = "kind of light: sets the defaults of angular_radius_deg and radiance, and the limb darkening", .choices = bodies, .decide = decide_body},
+      .doc = "kind of light: sets the defaults of angular_radius_deg and radiance, and the limb darkening", .choices = body_names, .decide = decide_body},
      {"elevation_deg", FIELD_NUMBER, offsetof(mgt_light, elevation_deg), 0, -90, 90, "degrees",
       .doc = "height over the horizon; below 0 no direct light meets the water"},
      {"azimuth_deg", FIELD_NUMBER, offsetof(mgt_light, azimuth_deg), 0, -1e6, 1e6, "degrees", .doc = "0 is -z (\"north\"), 90 is +x (\"east\")"},
@@ -121,7 +118,7 @@ static const field_row light_fields[] =
 
 static const field_row sky_fields[] =
     {{"model", FIELD_CHOICE, offsetof(mgt_sky, model), 0, NO_RANGE, NULL,
-      .doc = "atmosphere: scattering, day to night; gradient: horizon to zenith; black: only the glitter", .choices = sky_models},
+      .doc = "atmosphere: scattering, day to night; gradient: horizon to zenith; black: only the glitter", .choices = sky_model_names},
      {"turbidity", FIELD_SHARE, offsetof(mgt_sky, turbidity), 0, 1, 10, NULL, .doc = "aerosol amount over clear air (atmosphere)"},
      {"zenith", FIELD_COLOR, offsetof(mgt_sky, zenith), 0, 0, 1e9, "kcd/m²", .doc = "linear sRGB, straight up (gradient)"},
      {"horizon", FIELD_COLOR, offsetof(mgt_sky, horizon), 0, 0, 1e9, "kcd/m²", .doc = "linear sRGB, at the horizon (gradient)"},
@@ -208,7 +205,7 @@ static const field_row material_fields[] =
      {"texture", FIELD_TEXT, offsetof(scene_material, texture), FIELD_NO_PIXELS, NO_RANGE, NULL,
       .doc = "PNG or JPEG picture, from the scene's folder; on shapes it repeats each metre"},
      {"pattern", FIELD_CHOICE, LOOK(pattern), 0, NO_RANGE, NULL,
-      .doc = "puts pattern_color on the joints between tiles, every other field or every other stripe", .choices = patterns},
+      .doc = "puts pattern_color on the joints between tiles, every other field or every other stripe", .choices = pattern_names},
      {"pattern_color", FIELD_COLOR, LOOK(pattern_color), 0, 0, 1, NULL, .doc = "linear sRGB"},
      {"pattern_size", FIELD_SHARE, LOOK(pattern_size), 0, 1e-4, 1e6, NULL,
       .doc = "side of a tile, field or stripe in texture coordinates, which are metres on shapes"},

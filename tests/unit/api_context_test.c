@@ -122,6 +122,49 @@ static void texts_are_there(void **state)
     assert_string_equal(MGT_VERSION_STRING, version);
 }
 
+/* Every value has a name of its own that leads back to it, and the first value without one ends the enum. */
+#define NAMES(type, count)                                                                                               \
+    do {                                                                                                                 \
+        type value = (type)1;                                                                                            \
+        assert_false(type##_from_name("", &value) || type##_from_name(NULL, &value) || type##_from_name("SUN", &value)); \
+        assert_int_equal(value, 1);                                                                                      \
+        assert_true(!type##_name((type)(count)) && !type##_name((type)-1));                                              \
+        for (int i = 0; i < (count); i++)                                                                                \
+            assert_true(type##_from_name(type##_name((type)i), &value) && (int)value == i);                              \
+    } while (0)
+
+static void enums_have_names_and_back(void **state)
+{
+    (void)state;
+    NAMES(mgt_status, MGT_CANCELLED + 1);
+    NAMES(mgt_backend, MGT_BACKEND_NULL + 1);
+    NAMES(mgt_isa, MGT_ISA_NEON + 1);
+    NAMES(mgt_log_level, MGT_LOG_ERROR + 1);
+    NAMES(mgt_layer, MGT_LAYER_REFRACTION_ERROR + 1);
+    NAMES(mgt_format, MGT_FORMAT_RGBA8_SRGB + 1);
+    NAMES(mgt_body, MGT_BODY_MOON + 1);
+    NAMES(mgt_sky_model, MGT_SKY_BLACK + 1);
+    NAMES(mgt_tone_map, MGT_TONE_AGX + 1);
+    NAMES(mgt_method_waves, MGT_WAVES_SHUTTER + 1);
+    NAMES(mgt_refraction, MGT_REFRACTION_TRUTH + 1);
+    NAMES(mgt_adaptive, MGT_ADAPTIVE_PODEE + 1);
+    NAMES(mgt_pattern, MGT_PATTERN_STRIPES + 1);
+    NAMES(mgt_gl_color, MGT_GL_COLOR_DISPLAY + 1);
+    mgt_method_properties p;
+    int methods = 0;
+    for (; mgt_method_info((mgt_method)methods, &p, sizeof p) == MGT_OK; methods++)
+        assert_true(mgt_method_name((mgt_method)methods) == p.name);
+    NAMES(mgt_method, methods);
+    static const mgt_kernels kernels[] = {MGT_KERNELS_EXACT, MGT_KERNELS_1,      MGT_KERNELS_3,      MGT_KERNELS_5,
+                                          MGT_KERNELS_9,     MGT_KERNELS_FELINE, MGT_KERNELS_RIEMANN};
+    for (size_t i = 0; i < sizeof kernels / sizeof *kernels; i++) {
+        mgt_kernels value;
+        assert_true(mgt_kernels_from_name(mgt_kernels_name(kernels[i]), &value) && value == kernels[i]);
+    }
+    assert_null(mgt_kernels_name((mgt_kernels)2));
+    assert_true(mgt_layer_channels(MGT_LAYER_NORMAL) == 3 && mgt_layer_channels(MGT_LAYER_DEPTH) == 1 && mgt_layer_channels((mgt_layer)99) == 0);
+}
+
 /* Errors are logged once, under a stable id, with the text of mgt_last_error(); the next success clears it. */
 static void render_errors_are_logged(void **state)
 {
@@ -213,8 +256,8 @@ static void progress_can_cancel(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(creation_refuses_nonsense), cmocka_unit_test(creation_resolves),   cmocka_unit_test(texts_are_there),
-        cmocka_unit_test(render_errors_are_logged),  cmocka_unit_test(progress_can_cancel),
+        cmocka_unit_test(creation_refuses_nonsense), cmocka_unit_test(creation_resolves),        cmocka_unit_test(texts_are_there),
+        cmocka_unit_test(enums_have_names_and_back), cmocka_unit_test(render_errors_are_logged), cmocka_unit_test(progress_can_cancel),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

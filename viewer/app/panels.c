@@ -360,7 +360,7 @@ static void draw_renderer(const viewer *v)
     if (v->render.gl)
         snprintf(text, sizeof text, "%u x %u, OpenGL, %.40s", image->width, image->height, info->renderer);
     else
-        snprintf(text, sizeof text, "%u x %u, CPU, %s, %u threads", image->width, image->height, isa_name(info->isa), info->threads);
+        snprintf(text, sizeof text, "%u x %u, CPU, %s, %u threads", image->width, image->height, mgt_isa_name(info->isa), info->threads);
     ui_text(UI_TONE_FAINT, text);
 }
 

@@ -9,7 +9,6 @@
 #include <string.h>
 
 #include "image/picture.h"
-#include "cli/common/names.h"
 
 enum { PATH_SIZE = 512, ERROR_SIZE = 512 };
 
@@ -41,12 +40,12 @@ static bool write_exr(mgt_context *context, const mgt_scene *scene, const char *
     file_error problem = {0};
     bool good = memory != NULL;
     for (int i = 0; i < EXR_LAYERS && good; i++) {
-        const uint32_t channels = layer_channels((mgt_layer)i);
+        const uint32_t channels = mgt_layer_channels((mgt_layer)i);
         mgt_target_init(&targets[i], sizeof targets[i]);
         targets[i].layer = (mgt_layer)i;
         targets[i].format = channels == 3 ? MGT_FORMAT_RGB32F : MGT_FORMAT_R32F;
         targets[i].pixels = next;
-        layers[i] = (picture_layer){.name = layer_name((mgt_layer)i), .channels = channels, .pixels = next};
+        layers[i] = (picture_layer){.name = mgt_layer_name((mgt_layer)i), .channels = channels, .pixels = next};
         next += channels * pixels;
     }
     if (!good)
