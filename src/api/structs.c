@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "api/validate.h"
+#include "params/scene_rows.h"
 
 /* ---- kinds ---- */
 
@@ -39,18 +40,6 @@ FIXED(mgt_post, 24);
 FIXED(mgt_gl_timing, 16);
 FIXED(mgt_gl_source, 16);
 
-#define SUN                                                                                                                \
-    {                                                                                                                      \
-        .body = MGT_BODY_SUN, .elevation_deg = 30, .angular_radius_deg = 0.2665, .radiance = { 1.98e6f, 1.88e6f, 1.80e6f } \
-    }
-#define MOON                                                                                                         \
-    {                                                                                                                \
-        .body = MGT_BODY_MOON, .elevation_deg = 30, .angular_radius_deg = 0.2590, .radiance = { 3.75f, 3.45f, 3.0f } \
-    }
-#define QUALITY                                                               \
-    {                                                                         \
-        .method = MGT_METHOD_MANGATA, .spatial_samples = 4, .time_samples = 1 \
-    }
 #define CAMERA                                                                               \
     {                                                                                        \
         .position = {0, 4, 0}, .target = {0, 3.84, -0.987}, .up = {0, 1, 0}, .fov_y_deg = 50 \
@@ -70,7 +59,7 @@ const struct_kind pixel_info_kind = KIND(mgt_pixel_info, "inspect.info", 1, filt
 const struct_kind gl_view_kind = KIND(mgt_gl_view, "render.view", MOST_TARGETS, reserved, .view = IDENTITY, .projection = IDENTITY, .view_open = IDENTITY);
 const struct_kind gl_texture_kind = KIND(mgt_gl_texture, "render.texture", MOST_TARGETS, reserved);
 const struct_kind scene_kind = KIND(mgt_scene, "render.scene", 1, quality.sample_slots, .image = {.width = 1280, .height = 720}, .camera = CAMERA,
-                                    .camera_open = CAMERA, .shutter = 1.0 / 30, .light = SUN,
+                                    .camera_open = CAMERA, .shutter = 1.0 / 30,
                                     .sky = {.model = MGT_SKY_ATMOSPHERE,
                                             .turbidity = 1.8f,
                                             .zenith = {1.6f, 2.6f, 4.6f},
@@ -80,7 +69,7 @@ const struct_kind scene_kind = KIND(mgt_scene, "render.scene", 1, quality.sample
                                               .absorption = {0.264f, 0.0565f, 0.0101f},
                                               .scattering = {0.0012f, 0.0019f, 0.0039f},
                                               .body_albedo = {0.006f, 0.022f, 0.030f}},
-                                    .post = {.auto_exposure = true, .tone_map = MGT_TONE_AGX, .glare = 0.03f}, .quality = QUALITY);
+                                    .post = {.auto_exposure = true, .tone_map = MGT_TONE_AGX, .glare = 0.03f});
 
 /* ---- initialising ---- */
 
@@ -102,23 +91,32 @@ static void init(const struct_kind *kind, void *theirs, size_t size)
 void mgt_context_desc_init(mgt_context_desc *desc, size_t size) { init(&context_desc_kind, desc, size); }
 void mgt_mesh_desc_init(mgt_mesh_desc *desc, size_t size) { init(&mesh_desc_kind, desc, size); }
 void mgt_texture_desc_init(mgt_texture_desc *desc, size_t size) { init(&texture_desc_kind, desc, size); }
-void mgt_scene_init(mgt_scene *scene, size_t size) { init(&scene_kind, scene, size); }
+
+void mgt_scene_init(mgt_scene *scene, size_t size)
+{
+    init(&scene_kind, scene, size);
+    if (!scene || size < offsetof(mgt_scene, quality))
+        return;
+    const mgt_quality quality = quality_defaults();
+    scene->light = light_defaults[MGT_BODY_SUN];
+    fill(&scene->quality, size - offsetof(mgt_scene, quality), &quality, sizeof quality);
+}
+
 void mgt_target_init(mgt_target *target, size_t size) { init(&target_kind, target, size); }
 void mgt_gl_view_init(mgt_gl_view *view, size_t size) { init(&gl_view_kind, view, size); }
 void mgt_gl_texture_init(mgt_gl_texture *texture, size_t size) { init(&gl_texture_kind, texture, size); }
 
 void mgt_quality_init(mgt_quality *quality, size_t size)
 {
-    const mgt_quality defaults = QUALITY;
+    const mgt_quality defaults = quality_defaults();
     if (quality)
         fill(quality, size, &defaults, sizeof defaults);
 }
 
 void mgt_light_init(mgt_light *light, mgt_body body)
 {
-    static const mgt_light lights[] = {SUN, MOON};
     if (light)
-        *light = lights[body == MGT_BODY_MOON];
+        *light = light_defaults[body == MGT_BODY_MOON];
 }
 
 /* ---- reading and filling ---- */

@@ -5,8 +5,8 @@
 #include <math.h>
 
 #include "frame/mesh.h"
-#include "params/options.h"
 #include "frame/targets.h"
+#include "params/scene_rows.h"
 
 mgt_status validate_desc(const reporter *r, const mgt_context_desc *desc)
 {
@@ -19,36 +19,6 @@ mgt_status validate_desc(const reporter *r, const mgt_context_desc *desc)
     return MGT_OK;
 }
 
-static mgt_status in_range(const reporter *r, const char *field, double value, double low, double high)
-{
-    if (value >= low && value <= high)
-        return MGT_OK;
-    return report_error(r, MGT_ERROR_SCENE, "render.scene", "%s is %g; allowed is %g to %g", field, value, low, high);
-}
-
-static mgt_status enum_range(const reporter *r, const char *field, int value, int last)
-{
-    if (value >= 0 && value <= last)
-        return MGT_OK;
-    return report_error(r, MGT_ERROR_SCENE, "render.scene", "%s is %d; allowed is 0 to %d", field, value, last);
-}
-
-static mgt_status check_vector(const reporter *r, const char *object, const char *field, const double v[3])
-{
-    for (int i = 0; i < 3; i++)
-        if (!(fabs(v[i]) <= 1e9))
-            return report_error(r, MGT_ERROR_SCENE, "render.scene", "%s.%s[%d] is %g; allowed is -1e9 to 1e9", object, field, i, v[i]);
-    return MGT_OK;
-}
-
-static mgt_status check_color(const reporter *r, const char *field, const float v[3], double high)
-{
-    for (int i = 0; i < 3; i++)
-        if (!(v[i] >= 0 && v[i] <= high))
-            return report_error(r, MGT_ERROR_SCENE, "render.scene", "%s[%d] is %g; allowed is 0 to %g", field, i, (double)v[i], high);
-    return MGT_OK;
-}
-
 #define TRY(call)                    \
     do {                             \
         mgt_status status_ = (call); \
@@ -56,10 +26,33 @@ static mgt_status check_color(const reporter *r, const char *field, const float 
             return status_;          \
     } while (0)
 
+/* A struct of the scene against its rows; `path` is its name and a point. */
+static mgt_status check_rows(const reporter *r, const char *path, const field_row *fields, const void *values)
+{
+    for (const field_row *field = fields; field->key; field++) {
+        const void *value = field_at(field, values);
+        const char *name = field->member ? field->member : field->key;
+        char words[240];
+        if (field->type == FIELD_MAPPING) {
+            snprintf(words, sizeof words, "%s%s.", path, name);
+            TRY(check_rows(r, words, field->fields, value));
+            continue;
+        }
+        if (!field_is_legal(field, value)) {
+            field_allowed(field, words, sizeof words);
+            return report_error(r, MGT_ERROR_SCENE, "render.scene", "%s%s is %s; allowed is %s", path, name, field_print(field, value).text, words);
+        }
+        if (field->when[0].key && option_is_set(field, values) && !field_applies(fields, field, values, true)) {
+            field_conditions(fields, field, words, sizeof words);
+            return report_error(r, MGT_ERROR_SCENE, "render.scene", "%s%s is for %s alone", path, name, words);
+        }
+    }
+    return MGT_OK;
+}
+
 static mgt_status check_image(const reporter *r, const mgt_image *image)
 {
-    TRY(in_range(r, "image.width", image->width, 1, MGT_MAX_IMAGE_SIDE));
-    TRY(in_range(r, "image.height", image->height, 1, MGT_MAX_IMAGE_SIDE));
+    TRY(check_rows(r, "image.", image_rows, image));
     const region area = image_region(image);
     if (image->crop_x >= image->width || image->crop_y >= image->height || area.width > image->width - image->crop_x ||
         area.height > image->height - image->crop_y)
@@ -70,11 +63,6 @@ static mgt_status check_image(const reporter *r, const mgt_image *image)
 
 static mgt_status check_camera(const reporter *r, const char *name, const mgt_camera *camera)
 {
-    TRY(check_vector(r, name, "position", camera->position));
-    TRY(check_vector(r, name, "target", camera->target));
-    TRY(check_vector(r, name, "up", camera->up));
-    if (!(camera->fov_y_deg > 0 && camera->fov_y_deg < 179))
-        return report_error(r, MGT_ERROR_SCENE, "render.scene", "%s.fov_y_deg is %g; allowed is more than 0 and less than 179", name, camera->fov_y_deg);
     double f[3], length = 0, up_length = 0, cross_length = 0;
     for (int i = 0; i < 3; i++) {
         f[i] = camera->target[i] - camera->position[i];
@@ -100,32 +88,9 @@ static mgt_status check_waves(const reporter *r, const mgt_water *water)
     if (water->wave_count > 0 && !water->waves)
         return report_error(r, MGT_ERROR_ARGUMENT, "render.scene", "water.waves is NULL although water.wave_count is %zu", water->wave_count);
     for (size_t i = 0; i < water->wave_count; i++) {
-        const mgt_wave *w = &water->waves[i];
-        if (!(w->amplitude >= 0 && w->amplitude <= 1000) || !(fabs(w->kx) <= 1e5) || !(fabs(w->kz) <= 1e5) || !(fabs(w->omega) <= 1e5) ||
-            !(fabs(w->phase) <= 1e9))
-            return report_error(
-                r, MGT_ERROR_SCENE, "render.scene",
-                "water.waves[%zu] {amplitude %g, kx %g, kz %g, omega %g, phase %g} is out of range: amplitude 0 to 1000 m, kx, kz, omega ±1e5, phase ±1e9", i,
-                w->amplitude, w->kx, w->kz, w->omega, w->phase);
-    }
-    return MGT_OK;
-}
-
-/* A struct of the scene against its rows. */
-static mgt_status check_rows(const reporter *r, const char *object, const field_row *fields, const void *values)
-{
-    for (const field_row *field = fields; field->key; field++) {
-        const void *value = field_at(field, values);
-        const char *name = field->member ? field->member : field->key;
-        char words[240];
-        if (!field_is_legal(field, value)) {
-            field_allowed(field, words, sizeof words);
-            return report_error(r, MGT_ERROR_SCENE, "render.scene", "%s.%s is %s; allowed is %s", object, name, field_print(field, value).text, words);
-        }
-        if (option_is_set(field, values) && !field_applies(fields, field, values, true)) {
-            field_conditions(fields, field, words, sizeof words);
-            return report_error(r, MGT_ERROR_SCENE, "render.scene", "%s.%s is for %s alone", object, name, words);
-        }
+        char name[40];
+        snprintf(name, sizeof name, "water.waves[%zu].", i);
+        TRY(check_rows(r, name, wave_rows, &water->waves[i]));
     }
     return MGT_OK;
 }
@@ -133,7 +98,6 @@ static mgt_status check_rows(const reporter *r, const char *object, const field_
 static mgt_status check_quality(const reporter *r, const mgt_quality *q)
 {
     char wrong[160];
-    TRY(check_rows(r, "quality", quality_fields, q));
     if (quality_conflict(q, wrong, sizeof wrong))
         return report_error(r, MGT_ERROR_SCENE, "render.scene", "quality: %s", wrong);
     const uint64_t samples = (uint64_t)q->spatial_samples * q->spatial_samples * q->time_samples;
@@ -196,34 +160,14 @@ static mgt_status check_objects(const reporter *r, const mgt_scene *scene)
 mgt_status validate_scene(const reporter *r, const mgt_scene *scene)
 {
     TRY(check_image(r, &scene->image));
+    TRY(check_rows(r, "", scene_rows, scene));
     TRY(check_camera(r, "camera", &scene->camera));
-    if (scene->camera_moves)
+    if (scene->camera_moves) {
+        TRY(check_rows(r, "camera_open.", camera_rows, &scene->camera_open));
         TRY(check_camera(r, "camera_open", &scene->camera_open));
-    TRY(in_range(r, "time", scene->time, -1e9, 1e9));
-    TRY(in_range(r, "shutter", scene->shutter, 0, 1e6));
-    TRY(in_range(r, "frame_interval", scene->frame_interval, 0, 1e6));
-
-    TRY(enum_range(r, "light.body", (int)scene->light.body, MGT_BODY_MOON));
-    TRY(in_range(r, "light.elevation_deg", scene->light.elevation_deg, -90, 90));
-    TRY(in_range(r, "light.azimuth_deg", scene->light.azimuth_deg, -1e6, 1e6));
-    TRY(in_range(r, "light.angular_radius_deg", scene->light.angular_radius_deg, 1e-4, 20));
-    TRY(check_color(r, "light.radiance", scene->light.radiance, 1e12));
-
-    TRY(enum_range(r, "sky.model", (int)scene->sky.model, MGT_SKY_BLACK));
-    TRY(in_range(r, "sky.turbidity", (double)scene->sky.turbidity, 1, 10));
-    TRY(check_color(r, "sky.zenith", scene->sky.zenith, 1e9));
-    TRY(check_color(r, "sky.horizon", scene->sky.horizon, 1e9));
-    TRY(check_color(r, "sky.night", scene->sky.night, 1e9));
-
+    }
     TRY(check_waves(r, &scene->water));
-    TRY(in_range(r, "water.index_of_refraction", scene->water.index_of_refraction, 1, 3));
-    TRY(check_color(r, "water.body_albedo", scene->water.body_albedo, 1));
-    TRY(in_range(r, "water.level", scene->water.level, -1e6, 1e6));
-    TRY(check_color(r, "water.absorption", scene->water.absorption, 1000));
-    TRY(check_color(r, "water.scattering", scene->water.scattering, 1000));
     TRY(check_objects(r, scene));
-
-    TRY(check_rows(r, "post", post_fields, &scene->post));
     return check_quality(r, &scene->quality);
 }
 

@@ -201,9 +201,31 @@ static double number_at(const field_row *field, const void *value)
                                         : *(const double *)value;
 }
 
+static double component(const field_row *field, const void *value, int i)
+{
+    return field->type == FIELD_COLOR ? (double)((const float *)value)[i] : ((const double *)value)[i];
+}
+
+static bool is_triple(const field_row *field) { return field->type == FIELD_VECTOR || field->type == FIELD_SCALE || field->type == FIELD_COLOR; }
+
 bool field_is_legal(const field_row *field, const void *value)
 {
-    return field->type == FIELD_CHOICE ? field_place(field, value) >= 0 : field->type == FIELD_SWITCH || field_in_range(field, number_at(field, value));
+    bool legal = true;
+    if (field->choices)
+        return field_place(field, value) >= 0;
+    for (int i = 0; i < 3 && is_triple(field); i++)
+        legal &= field_in_range(field, component(field, value, i));
+    return is_triple(field) ? legal : field_in_range(field, number_at(field, value));
+}
+
+bool fields_equal(const field_row *fields, const void *a, const void *b)
+{
+    for (const field_row *field = fields; field->key; field++) {
+        const void *left = field_at(field, a), *right = field_at(field, b);
+        if (field->type == FIELD_MAPPING ? !fields_equal(field->fields, left, right) : memcmp(left, right, field_size(field)) != 0)
+            return false;
+    }
+    return true;
 }
 
 short_number field_print(const field_row *field, const void *value)
@@ -214,6 +236,10 @@ short_number field_print(const field_row *field, const void *value)
         snprintf(out.text, sizeof out.text, "%s", place >= 0 ? field_word(field, place) : "");
         if (place < 0)
             snprintf(out.text, sizeof out.text, "%d", *(const int *)value);
+        return out;
+    }
+    if (is_triple(field)) {
+        snprintf(out.text, sizeof out.text, "[%g, %g, %g]", component(field, value, 0), component(field, value, 1), component(field, value, 2));
         return out;
     }
     if (field->type == FIELD_SHARE)

@@ -13,7 +13,7 @@
 
 /* A number as a person would write it. */
 typedef struct short_number {
-    char text[40];
+    char text[64];
 } short_number;
 
 /* The fewest digits that read back as the same double (or the same float). */
@@ -96,6 +96,9 @@ bool field_parse(const field_row *field, const char *text, void *value);
 /* Whether a value in memory is allowed. */
 bool field_is_legal(const field_row *field, const void *value);
 
+/* Compares structs row by row. They hold neither text nor lists. */
+bool fields_equal(const field_row *fields, const void *a, const void *b);
+
 /* The place of a choice or switch in `choices`; -1: it is none of them. */
 int field_place(const field_row *field, const void *value);
 void field_choose(const field_row *field, int place, void *value);
@@ -103,7 +106,7 @@ void field_choose(const field_row *field, int place, void *value);
 /* Bytes of a value that holds no other; 0 for the rest: text, lists, mappings, exposures. */
 size_t field_size(const field_row *field);
 
-/* A number, choice or switch as text that reads back as the same value: "30", "sun". */
+/* A number, choice or switch as text that reads back as the same value: "30", "sun". Three numbers for a message: "[0, 4, 0]". */
 short_number field_print(const field_row *field, const void *value);
 
 /* Whether the conditions of a row hold; `tolerant`: those that are not tolerated. `fields`: the table that it belongs to. */

@@ -114,22 +114,11 @@ mgt_quality quality_defaults(void)
     return q;
 }
 
-bool quality_equal(const mgt_quality *a, const mgt_quality *b)
+bool option_is_set(const field_row *field, const mgt_quality *quality)
 {
-    for (const field_row *field = quality_fields; field->key; field++)
-        if (memcmp(field_at(field, a), field_at(field, b), field_size(field)) != 0)
-            return false;
-    return true;
-}
-
-bool option_is_set(const field_row *field, const void *values)
-{
-    union {
-        mgt_quality quality;
-        mgt_post post;
-    } defaults;
+    mgt_quality defaults = *quality;
     reset(field, &defaults);
-    return memcmp(field_at(field, values), field_at(field, &defaults), field_size(field)) != 0;
+    return memcmp(field_at(field, quality), field_at(field, &defaults), field_size(field)) != 0;
 }
 
 mgt_quality quality_restricted(const mgt_quality *quality)

@@ -26,11 +26,8 @@ extern const field_row post_fields[];
 
 mgt_quality quality_defaults(void);
 
-/* Compares option by option. */
-bool quality_equal(const mgt_quality *a, const mgt_quality *b);
-
-/* Whether an option of an mgt_quality or mgt_post is not at its default. */
-bool option_is_set(const field_row *field, const void *values);
+/* Whether an option is not at its default. */
+bool option_is_set(const field_row *field, const mgt_quality *quality);
 
 /* Options whose conditions do not hold go back to their defaults: for a base whose method is chosen elsewhere. */
 mgt_quality quality_restricted(const mgt_quality *quality);

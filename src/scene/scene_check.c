@@ -92,7 +92,7 @@ static bool check_path(const scene_tree *tree, const scene_values *values, const
             mgt_camera camera = scene_camera_at(&values->camera, times[i]);
             camera_fault fault = scene_camera_fault(&camera);
             if (fault != CAMERA_LEGAL) {
-                char where[96];
+                char where[128];
                 snprintf(where, sizeof where, "camera.path at %s s (frame %u)", double_text(times[i]).text, frame);
                 return refuse_camera(tree, path, fault, where, error);
             }

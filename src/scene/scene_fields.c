@@ -4,15 +4,13 @@
  */
 #include "scene/scene_fields.h"
 
-#include "params/options.h"
+#include "params/scene_rows.h"
 
 #include <stdio.h>
 #include <string.h>
 
 /* The ranges are the library's own where it has them, so that a file which loads also renders. */
 #define VERSION 1, 1
-#define SIDE 1, MGT_MAX_IMAGE_SIDE
-#define ANYWHERE -1e9, 1e9
 #define NO_RANGE 0, 0
 
 static const char *const spectrum_kinds[] = {"none", "pierson-moskowitz", "jonswap", "tma", "buoy", NULL};
@@ -20,12 +18,6 @@ static const char *const spectrum_spreadings[] = {"mitsuyasu", "hasselmann", "do
 static const char *const spectrum_slopes[] = {"spectrum", "cox-munk", NULL};
 static const char *const clarities[] = {"pure", "clear", "coastal", "murky", NULL};
 static const char *const shapes[] = {"mesh", "plane", "box", "sphere", "steps", "pool", "floor", NULL};
-
-static void decide_body(void *parent)
-{
-    mgt_light *light = parent;
-    mgt_light_init(light, light->body);
-}
 
 static void prepare_keyframe(const void *parent, void *item)
 {
@@ -66,32 +58,13 @@ static void prepare_object(const void *parent, void *item)
     prepare_pose(parent, &object->pose);
 }
 
-static const field_row image_fields[] = {{"width", FIELD_COUNT, offsetof(mgt_image, width), 0, SIDE, "pixels", .doc = "width of the whole image"},
-                                         {"height", FIELD_COUNT, offsetof(mgt_image, height), 0, SIDE, "pixels", .doc = "height of the whole image"},
-                                         {0}};
-
-/* The rows of an mgt_camera inside a struct: a still camera and a keyframe share them. */
-#define POSE(type, member, required)                                                                                                                     \
-    {"position",                                                                                                                                         \
-     FIELD_VECTOR,                                                                                                                                       \
-     offsetof(type, member.position),                                                                                                                    \
-     (required),                                                                                                                                         \
-     ANYWHERE,                                                                                                                                           \
-     "m",                                                                                                                                                \
-     .doc = "where the camera stands; under water where its y is below water.level"},                                                                    \
-        {"target", FIELD_VECTOR, offsetof(type, member.target), (required), ANYWHERE, "m", .doc = "a point in the middle of the picture"},               \
-        {"up", FIELD_VECTOR, offsetof(type, member.up), 0, ANYWHERE, NULL, .doc = "a direction that is up in the picture, not parallel to the view"},    \
-    {                                                                                                                                                    \
-        "fov_y_deg", FIELD_NUMBER, offsetof(type, member.fov_y_deg), FIELD_OPEN_MIN | FIELD_OPEN_MAX, 0, 179, "degrees", .doc = "vertical field of view" \
-    }
-
-static const field_row keyframe_fields[] = {{"time", FIELD_NUMBER, offsetof(scene_keyframe, time), FIELD_REQUIRED, ANYWHERE, "s",
+static const field_row keyframe_fields[] = {{"time", FIELD_NUMBER, offsetof(scene_keyframe, time), FIELD_REQUIRED, FIELD_ANYWHERE, "s",
                                              .doc = "scene time, on the clock of time.start; each later than the one before"},
-                                            POSE(scene_keyframe, camera, FIELD_REQUIRED),
+                                            CAMERA_ROWS(scene_keyframe, camera, FIELD_REQUIRED),
                                             {0}};
 
 static const field_row camera_fields[] =
-    {POSE(scene_camera, still, 0),
+    {CAMERA_ROWS(scene_camera, still, 0),
      {"path", FIELD_LIST, offsetof(scene_camera, path), 0, NO_RANGE, NULL,
       .doc = "keyframes of a moving camera, in place of position and target; up and fov_y_deg are then the keyframes' defaults", .fields = keyframe_fields,
       .item_size = sizeof(scene_keyframe), .max_items = 10000, .prepare = prepare_keyframe},
@@ -103,34 +76,6 @@ static const field_row time_fields[] = {{"start", FIELD_NUMBER, offsetof(scene_c
                                         {"frames", FIELD_COUNT, offsetof(scene_clock, frames), FIELD_NO_PIXELS, 1, 1000000, NULL, .doc = "length of the film"},
                                         {"shutter", FIELD_NUMBER, offsetof(scene_clock, shutter), 0, 0, 1000, "frames",
                                          .doc = "how long light is gathered before a frame's time, as a share of 1/fps; 0: an instant"},
-                                        {0}};
-
-static const field_row light_fields[] =
-    {{"body", FIELD_CHOICE, offsetof(mgt_light, body), 0, NO_RANGE, NULL,
-      .doc = "kind of light: sets the defaults of angular_radius_deg and radiance, and the limb darkening", .choices = body_names, .decide = decide_body},
-     {"elevation_deg", FIELD_NUMBER, offsetof(mgt_light, elevation_deg), 0, -90, 90, "degrees",
-      .doc = "height over the horizon; below 0 no direct light meets the water"},
-     {"azimuth_deg", FIELD_NUMBER, offsetof(mgt_light, azimuth_deg), 0, -1e6, 1e6, "degrees", .doc = "0 is -z (\"north\"), 90 is +x (\"east\")"},
-     {"angular_radius_deg", FIELD_NUMBER, offsetof(mgt_light, angular_radius_deg), 0, 1e-4, 20, "degrees", .doc = "radius of the disk in the sky"},
-     {"radiance", FIELD_COLOR, offsetof(mgt_light, radiance), 0, 0, 1e12, "kcd/m²",
-      .doc = "linear sRGB; with the atmosphere sky as seen outside the atmosphere"},
-     {0}};
-
-static const field_row sky_fields[] =
-    {{"model", FIELD_CHOICE, offsetof(mgt_sky, model), 0, NO_RANGE, NULL,
-      .doc = "atmosphere: scattering, day to night; gradient: horizon to zenith; black: only the glitter", .choices = sky_model_names},
-     {"turbidity", FIELD_SHARE, offsetof(mgt_sky, turbidity), 0, 1, 10, NULL, .doc = "aerosol amount over clear air (atmosphere)"},
-     {"zenith", FIELD_COLOR, offsetof(mgt_sky, zenith), 0, 0, 1e9, "kcd/m²", .doc = "linear sRGB, straight up (gradient)"},
-     {"horizon", FIELD_COLOR, offsetof(mgt_sky, horizon), 0, 0, 1e9, "kcd/m²", .doc = "linear sRGB, at the horizon (gradient)"},
-     {"night", FIELD_COLOR, offsetof(mgt_sky, night), 0, 0, 1e9, "kcd/m²", .doc = "linear sRGB, airglow and stars, added everywhere (atmosphere)"},
-     {0}};
-
-static const field_row wave_fields[] = {{"amplitude", FIELD_NUMBER, offsetof(mgt_wave, amplitude), FIELD_REQUIRED, 0, 1000, "m",
-                                         .doc = "height of the crest over the mean surface"},
-                                        {"a", FIELD_NUMBER, offsetof(mgt_wave, kx), FIELD_REQUIRED, -1e5, 1e5, "rad/m", .doc = "wave vector along x"},
-                                        {"b", FIELD_NUMBER, offsetof(mgt_wave, kz), FIELD_REQUIRED, -1e5, 1e5, "rad/m", .doc = "wave vector along z"},
-                                        {"c", FIELD_NUMBER, offsetof(mgt_wave, omega), FIELD_REQUIRED, -1e5, 1e5, "rad/s", .doc = "angular speed"},
-                                        {"phase", FIELD_NUMBER, offsetof(mgt_wave, phase), 0, ANYWHERE, "rad", .doc = "phase at x = z = 0, time 0"},
                                         {0}};
 
 static const field_row spectrum_fields[] =
@@ -158,23 +103,17 @@ static const field_row spectrum_fields[] =
      {0}};
 
 static const field_row water_fields[] = {{"waves", FIELD_LIST, offsetof(scene_water, waves), 0, NO_RANGE, NULL,
-                                          .doc = "each adds amplitude·sin(a·x + b·z + c·t + phase) to the height; none: a flat mirror", .fields = wave_fields,
+                                          .doc = "each adds amplitude·sin(a·x + b·z + c·t + phase) to the height; none: a flat mirror", .fields = wave_rows,
                                           .item_size = sizeof(mgt_wave), .max_items = MGT_MAX_WAVES, .prepare = prepare_wave},
                                          {"spectrum", FIELD_MAPPING, offsetof(scene_water, spectrum), FIELD_NO_PIXELS, NO_RANGE, NULL,
                                           .doc = "waves drawn from a wind's or a buoy's spectrum, beside those of waves", .fields = spectrum_fields},
                                          {"amplitude", FIELD_NUMBER, offsetof(scene_water, amplitude), FIELD_NO_PIXELS, 0, 1000, NULL,
                                           .doc = "factor on the heights of all waves, those of the spectrum too; 0: a flat mirror"},
-                                         {"level", FIELD_NUMBER, offsetof(scene_water, level), 0, -1e6, 1e6, "m", .doc = "height of the mean surface"},
-                                         {"ior", FIELD_NUMBER, offsetof(scene_water, index_of_refraction), 0, 1, 3, NULL, .doc = "index of refraction"},
+                                         WATER_BODY_ROWS(scene_water),
                                          {"clarity", FIELD_CHOICE, offsetof(scene_water, clarity), FIELD_NO_PIXELS, NO_RANGE, NULL,
                                           .doc = "sets the defaults of absorption and scattering: a clean pool, clear ocean, a coast, a harbour",
                                           .choices = clarities, .decide = decide_clarity},
-                                         {"absorption", FIELD_COLOR, offsetof(scene_water, absorption), 0, 0, 1000, "1/m",
-                                          .doc = "light that a metre of water absorbs, linear sRGB; for what is seen through it"},
-                                         {"scattering", FIELD_COLOR, offsetof(scene_water, scattering), 0, 0, 1000, "1/m",
-                                          .doc = "light that a metre of water scatters, linear sRGB; for what is seen through it"},
-                                         {"body_albedo", FIELD_COLOR, offsetof(scene_water, body_albedo), 0, 0, 1, NULL,
-                                          .doc = "share of the light entering the water that deep water sends up again, linear sRGB"},
+                                         WATER_COLOR_ROWS(scene_water),
                                          {0}};
 
 /* The rows of a scene_pose inside a struct: an object and its instances share them. */
@@ -244,11 +183,11 @@ static const field_row scene_post_fields[] = {{"exposure", FIELD_EXPOSURE, offse
 static const field_row scene_fields[] =
     {{"mangata", FIELD_COUNT, offsetof(scene_values, version), FIELD_REQUIRED, VERSION, NULL, .doc = "version of the format"},
      {"description", FIELD_TEXT, offsetof(scene_values, description), FIELD_NO_PIXELS, NO_RANGE, NULL, .doc = "free text"},
-     {"image", FIELD_MAPPING, offsetof(scene_values, image), 0, NO_RANGE, NULL, .doc = "the picture", .fields = image_fields},
+     {"image", FIELD_MAPPING, offsetof(scene_values, image), 0, NO_RANGE, NULL, .doc = "the picture", .fields = image_rows},
      {"camera", FIELD_MAPPING, offsetof(scene_values, camera), 0, NO_RANGE, NULL, .doc = "the view", .fields = camera_fields},
      {"time", FIELD_MAPPING, offsetof(scene_values, time), 0, NO_RANGE, NULL, .doc = "the clock", .fields = time_fields},
-     {"light", FIELD_MAPPING, offsetof(scene_values, light), 0, NO_RANGE, NULL, .doc = "the sun or the moon", .fields = light_fields},
-     {"sky", FIELD_MAPPING, offsetof(scene_values, sky), 0, NO_RANGE, NULL, .doc = "what the water mirrors", .fields = sky_fields},
+     {"light", FIELD_MAPPING, offsetof(scene_values, light), 0, NO_RANGE, NULL, .doc = "the sun or the moon", .fields = light_rows},
+     {"sky", FIELD_MAPPING, offsetof(scene_values, sky), 0, NO_RANGE, NULL, .doc = "what the water mirrors", .fields = sky_rows},
      {"water", FIELD_MAPPING, offsetof(scene_values, water), 0, NO_RANGE, NULL, .doc = "the surface and what is under it", .fields = water_fields},
      {"objects", FIELD_LIST, offsetof(scene_values, objects), 0, NO_RANGE, NULL, .doc = "what stands in and around the water", .fields = object_fields,
       .item_size = sizeof(scene_object), .max_items = 10000, .prepare = prepare_object},

@@ -40,7 +40,7 @@ control *control_list(const control_board *board, size_t *count);
 
 /* The value as text, as control_set() and `--set` read it. */
 typedef struct control_text {
-    char text[160];
+    char text[224];
 } control_text;
 control_text control_print(const control *c);
 

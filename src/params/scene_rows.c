@@ -1,0 +1,78 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The values of an mgt_scene, one row each.
+ */
+#include "params/scene_rows.h"
+
+#include "params/names.h"
+
+#define NO_RANGE 0, 0
+
+static const char *const switch_words[] = {"off", "on", NULL};
+
+const mgt_light light_defaults[] =
+    {[MGT_BODY_SUN] = {.body = MGT_BODY_SUN, .elevation_deg = 30, .angular_radius_deg = 0.2665, .radiance = {1.98e6f, 1.88e6f, 1.80e6f}},
+     [MGT_BODY_MOON] = {.body = MGT_BODY_MOON, .elevation_deg = 30, .angular_radius_deg = 0.2590, .radiance = {3.75f, 3.45f, 3.0f}}};
+
+static void decide_body(void *parent)
+{
+    mgt_light *light = parent;
+    *light = light_defaults[light->body];
+}
+
+const field_row image_rows[] = {{"width", FIELD_COUNT, offsetof(mgt_image, width), 0, 1, MGT_MAX_IMAGE_SIDE, "pixels", .doc = "width of the whole image"},
+                                {"height", FIELD_COUNT, offsetof(mgt_image, height), 0, 1, MGT_MAX_IMAGE_SIDE, "pixels", .doc = "height of the whole image"},
+                                {0}};
+
+const field_row light_rows[] =
+    {{"body", FIELD_CHOICE, offsetof(mgt_light, body), 0, NO_RANGE, NULL,
+      .doc = "kind of light: sets the defaults of angular_radius_deg and radiance, and the limb darkening", .choices = body_names, .decide = decide_body},
+     {"elevation_deg", FIELD_NUMBER, offsetof(mgt_light, elevation_deg), 0, -90, 90, "degrees",
+      .doc = "height over the horizon; below 0 no direct light meets the water"},
+     {"azimuth_deg", FIELD_NUMBER, offsetof(mgt_light, azimuth_deg), 0, -1e6, 1e6, "degrees", .doc = "0 is -z (\"north\"), 90 is +x (\"east\")"},
+     {"angular_radius_deg", FIELD_NUMBER, offsetof(mgt_light, angular_radius_deg), 0, 1e-4, 20, "degrees", .doc = "radius of the disk in the sky"},
+     {"radiance", FIELD_COLOR, offsetof(mgt_light, radiance), 0, 0, 1e12, "kcd/m²",
+      .doc = "linear sRGB; with the atmosphere sky as seen outside the atmosphere"},
+     {0}};
+
+const field_row sky_rows[] = {{"model", FIELD_CHOICE, offsetof(mgt_sky, model), 0, NO_RANGE, NULL,
+                               .doc = "atmosphere: scattering, day to night; gradient: horizon to zenith; black: only the glitter", .choices = sky_model_names},
+                              {"turbidity", FIELD_SHARE, offsetof(mgt_sky, turbidity), 0, 1, 10, NULL, .doc = "aerosol amount over clear air (atmosphere)"},
+                              {"zenith", FIELD_COLOR, offsetof(mgt_sky, zenith), 0, 0, 1e9, "kcd/m²", .doc = "linear sRGB, straight up (gradient)"},
+                              {"horizon", FIELD_COLOR, offsetof(mgt_sky, horizon), 0, 0, 1e9, "kcd/m²", .doc = "linear sRGB, at the horizon (gradient)"},
+                              {"night", FIELD_COLOR, offsetof(mgt_sky, night), 0, 0, 1e9, "kcd/m²",
+                               .doc = "linear sRGB, airglow and stars, added everywhere (atmosphere)"},
+                              {0}};
+
+const field_row wave_rows[] = {{"amplitude", FIELD_NUMBER, offsetof(mgt_wave, amplitude), FIELD_REQUIRED, 0, 1000, "m",
+                                .doc = "height of the crest over the mean surface"},
+                               {"a", FIELD_NUMBER, offsetof(mgt_wave, kx), FIELD_REQUIRED, -1e5, 1e5, "rad/m", .doc = "wave vector along x", .member = "kx"},
+                               {"b", FIELD_NUMBER, offsetof(mgt_wave, kz), FIELD_REQUIRED, -1e5, 1e5, "rad/m", .doc = "wave vector along z", .member = "kz"},
+                               {"c", FIELD_NUMBER, offsetof(mgt_wave, omega), FIELD_REQUIRED, -1e5, 1e5, "rad/s", .doc = "angular speed", .member = "omega"},
+                               {"phase", FIELD_NUMBER, offsetof(mgt_wave, phase), 0, FIELD_ANYWHERE, "rad", .doc = "phase at x = z = 0, time 0"},
+                               {0}};
+
+typedef struct camera_place {
+    mgt_camera camera;
+} camera_place;
+
+const field_row camera_rows[] = {CAMERA_ROWS(camera_place, camera, 0), {0}};
+
+static const field_row water_rows[] = {WATER_BODY_ROWS(mgt_water), WATER_COLOR_ROWS(mgt_water), {0}};
+
+#define PART(member, rows, text)                                                                            \
+    {                                                                                                       \
+#member, FIELD_MAPPING, offsetof(mgt_scene, member), 0, NO_RANGE, NULL, .doc = text, .fields = rows \
+    }
+
+const field_row scene_rows[] = {PART(camera, camera_rows, "when the shutter closes"),
+                                {"camera_moves", FIELD_SWITCH, offsetof(mgt_scene, camera_moves), .doc = "whether camera_open counts", .choices = switch_words},
+                                {"time", FIELD_NUMBER, offsetof(mgt_scene, time), 0, FIELD_ANYWHERE, "s", .doc = "when the shutter closes"},
+                                {"shutter", FIELD_NUMBER, offsetof(mgt_scene, shutter), 0, 0, 1e6, "s", .doc = "how long the shutter is open"},
+                                {"frame_interval", FIELD_NUMBER, offsetof(mgt_scene, frame_interval), 0, 0, 1e6, "s", .doc = "since the frame before"},
+                                PART(light, light_rows, "the sun or the moon"),
+                                PART(sky, sky_rows, "what the water mirrors"),
+                                PART(water, water_rows, "the surface and what is under it"),
+                                PART(post, post_fields, "from radiance to displayed colour"),
+                                PART(quality, quality_fields, "how it is rendered"),
+                                {0}};

@@ -1,0 +1,67 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The values of an mgt_scene, one row each: their ranges for the API and scene files, and what a change of a scene is.
+ */
+#ifndef MANGATA_PARAMS_SCENE_ROWS_H
+#define MANGATA_PARAMS_SCENE_ROWS_H
+
+#include "params/options.h"
+
+#define FIELD_ANYWHERE -1e9, 1e9
+
+/* Rows of an mgt_camera, of which `member` of a struct is one. */
+#define CAMERA_ROWS(type, member, required)                                                                                                                 \
+    {"position",                                                                                                                                            \
+     FIELD_VECTOR,                                                                                                                                          \
+     offsetof(type, member.position),                                                                                                                       \
+     (required),                                                                                                                                            \
+     FIELD_ANYWHERE,                                                                                                                                        \
+     "m",                                                                                                                                                   \
+     .doc = "where the camera stands; under water where its y is below water.level"},                                                                       \
+        {"target", FIELD_VECTOR, offsetof(type, member.target), (required), FIELD_ANYWHERE, "m", .doc = "a point in the middle of the picture"},            \
+        {"up", FIELD_VECTOR, offsetof(type, member.up), 0, FIELD_ANYWHERE, NULL, .doc = "a direction that is up in the picture, not parallel to the view"}, \
+    {                                                                                                                                                       \
+        "fov_y_deg", FIELD_NUMBER, offsetof(type, member.fov_y_deg), FIELD_OPEN_MIN | FIELD_OPEN_MAX, 0, 179, "degrees", .doc = "vertical field of view"    \
+    }
+
+/* Rows of what mgt_water and the scene format have in common, for a struct with members of these names. */
+#define WATER_BODY_ROWS(type)                                                                                                                  \
+    {"level", FIELD_NUMBER, offsetof(type, level), 0, -1e6, 1e6, "m", .doc = "height of the mean surface"},                                    \
+    {                                                                                                                                          \
+        "ior", FIELD_NUMBER, offsetof(type, index_of_refraction), 0, 1, 3, NULL, .doc = "index of refraction", .member = "index_of_refraction" \
+    }
+#define WATER_COLOR_ROWS(type)                                                                         \
+    {"absorption",                                                                                     \
+     FIELD_COLOR,                                                                                      \
+     offsetof(type, absorption),                                                                       \
+     0,                                                                                                \
+     0,                                                                                                \
+     1000,                                                                                             \
+     "1/m",                                                                                            \
+     .doc = "light that a metre of water absorbs, linear sRGB; for what is seen through it"},          \
+        {"scattering",                                                                                 \
+         FIELD_COLOR,                                                                                  \
+         offsetof(type, scattering),                                                                   \
+         0,                                                                                            \
+         0,                                                                                            \
+         1000,                                                                                         \
+         "1/m",                                                                                        \
+         .doc = "light that a metre of water scatters, linear sRGB; for what is seen through it"},     \
+    {                                                                                                  \
+        "body_albedo", FIELD_COLOR, offsetof(type, body_albedo), 0, 0, 1, NULL,                        \
+            .doc = "share of the light entering the water that deep water sends up again, linear sRGB" \
+    }
+
+/* What a body brings along, by mgt_body; at elevation 30°, azimuth 0. */
+extern const mgt_light light_defaults[];
+
+extern const field_row image_rows[];  /* of an mgt_image, but for its crop */
+extern const field_row light_rows[];  /* of an mgt_light */
+extern const field_row sky_rows[];    /* of an mgt_sky */
+extern const field_row wave_rows[];   /* of an mgt_wave */
+extern const field_row camera_rows[]; /* of an mgt_camera */
+
+/* Rows of an mgt_scene, but for its image, camera_open, waves and objects. */
+extern const field_row scene_rows[];
+
+#endif
