@@ -34,7 +34,7 @@ const figure_method_text refraction_methods[REFRACTION_METHODS] = {
 
 enum {
     OURS = METHOD(TWO_PHASE) | METHOD(RAY),
-    RIVALS = OURS | METHOD(SCREEN_SPACE) | METHOD(OFF),
+    BASELINES = OURS | METHOD(SCREEN_SPACE) | METHOD(OFF),
     WHOLE = OURS | METHOD(BROAD) | METHOD(WHOLE) | METHOD(WHOLE_BROAD),
     ALL_SHOWN = METHOD(WHOLE) - 1,
     ALL_TIMED = ((1u << REFRACTION_METHODS) - 1) & ~((1u << TIMED_TRUTH) - 1)
@@ -56,7 +56,7 @@ typedef struct view_text {
     "fov_y_deg: 45}"
 
 static const view_text views[REFRACTION_VIEWS] = {
-    [VIEW_BELOW] = {"diver-upwards", "diver", FIGURE(4), RIVALS | METHOD(HYBRID), {UPWARDS}},
+    [VIEW_BELOW] = {"diver-upwards", "diver", FIGURE(4), BASELINES | METHOD(HYBRID), {UPWARDS}},
     [VIEW_BORDER] = {"pool-border", "pool", FIGURE(7), OURS | METHOD(LIU), {STEEP, "water.amplitude=2"}},
     [VIEW_FLAT] = {"pool-flat", "pool", FIGURE(10), ALL_SHOWN, {"water.amplitude=0"}},
     [VIEW_WAVES] = {"pool-waves", "pool", FIGURE(8) | FIGURE(9) | FIGURE(11) | FIGURE(13), ALL_SHOWN, {NULL}},
@@ -68,9 +68,9 @@ static const view_text views[REFRACTION_VIEWS] = {
     [VIEW_STEEP] = {"pool-steep", "pool", FIGURE(13), OURS, {STEEP, "water.amplitude=2"}},
     [VIEW_ASIDE] = {"pool-aside", "pool", FIGURE(13), OURS, {ASIDE, "water.amplitude=2"}},
     [VIEW_GRAZING] = {"pool-grazing", "pool", FIGURE(13), OURS, {GRAZING, "water.amplitude=2"}},
-    [VIEW_SHORE] = {"shore", "shore", FIGURE(14), RIVALS, {NULL}},
-    [VIEW_HULL] = {"hull", "hull", FIGURE(14), RIVALS, {NULL}},
-    [VIEW_DIVER] = {"diver", "diver", FIGURE(15), RIVALS, {NULL}},
+    [VIEW_SHORE] = {"shore", "shore", FIGURE(14), BASELINES, {NULL}},
+    [VIEW_HULL] = {"hull", "hull", FIGURE(14), BASELINES, {NULL}},
+    [VIEW_DIVER] = {"diver", "diver", FIGURE(15), BASELINES, {NULL}},
     [VIEW_SPEED_16K] = {"pool-16k", "pool", FIGURE(TABLE3), ALL_TIMED, {MOVING, "objects[0].triangles=15000", "time.shutter=0"}},
     [VIEW_SPEED_128K] = {"pool-128k", "pool", FIGURE(TABLE3), ALL_TIMED, {MOVING, "objects[0].triangles=127000", "time.shutter=0"}},
 };

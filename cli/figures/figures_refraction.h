@@ -139,7 +139,7 @@ int refraction_below(refraction_figures *r);     /* figures_refraction_phases.c:
 int refraction_border(refraction_figures *r);    /* Fig. 7 */
 int refraction_occlusion(refraction_figures *r); /* Fig. 8 */
 int refraction_narrow(refraction_figures *r);    /* Fig. 9 */
-int refraction_flat(refraction_figures *r);      /* figures_refraction_rivals.c: Fig. 10 */
+int refraction_flat(refraction_figures *r);      /* figures_refraction_baselines.c: Fig. 10 */
 int refraction_waves(refraction_figures *r);     /* Fig. 11 */
 int refraction_speed(refraction_figures *r);     /* figures_refraction_speed.c: Table 3 */
 int refraction_density(refraction_figures *r);   /* figures_refraction_views.c: Fig. 12 */

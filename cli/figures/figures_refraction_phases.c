@@ -42,7 +42,7 @@ int refraction_below(refraction_figures *r)
           "bend far, and most of the world above lies outside of the picture.</p>\n"
           "<p>Our pool hall from below. All that is above shows inside Snell's window, 48.6° about the vertical; outside of it the surface mirrors "
           "the pool. Screen space loses what straight lines of sight do not show, at the picture's borders above all, and finds sky there. It is "
-          "less wrong here than the paper has it: our rival has what lies beyond the surface in a buffer of its own, which one depth buffer of a "
+          "less wrong here than the paper has it: our baseline has what lies beyond the surface in a buffer of its own, which one depth buffer of a "
           "game does not hold. Other errors stand at the window's rim, where rays lie flat.</p>\n",
           f->page);
     code = figures_plate(f, &sheet, "liu-fig4", "The pool hall from under the water by two methods, with their artefacts", code);

@@ -175,16 +175,16 @@ static double quickest_ratio(const refraction_figures *r, refraction_method meth
 
 static void check(refraction_figures *r)
 {
-    static const refraction_method rivals[] = {TIMED_TRUTH, TIMED_SCREEN_SPACE, TIMED_DISTANCE_FIELD};
+    static const refraction_method baselines[] = {TIMED_TRUTH, TIMED_SCREEN_SPACE, TIMED_DISTANCE_FIELD};
     for (int i = 0; i < SIZES; i++) {
         char claim[128];
         double least = INFINITY;
-        for (size_t m = 0; m < sizeof rivals / sizeof *rivals; m++)
-            least = fmin(least, quickest_ratio(r, TIMED_TWO_PHASE, i, rivals[m], i));
+        for (size_t m = 0; m < sizeof baselines / sizeof *baselines; m++)
+            least = fmin(least, quickest_ratio(r, TIMED_TWO_PHASE, i, baselines[m], i));
         snprintf(claim, sizeof claim, "Liu Table 3, %s: frame rate of two-phase over that without refraction", i ? "128k" : "16k");
         figures_check(r->figures, claim, quickest_ratio(r, TIMED_TWO_PHASE, i, TIMED_OFF, i), 0.7, INFINITY);
         /* A few frames on a machine with other work tell no less. */
-        snprintf(claim, sizeof claim, "Liu Table 3, %s: frame rate of two-phase over that of the fastest rival", i ? "128k" : "16k");
+        snprintf(claim, sizeof claim, "Liu Table 3, %s: frame rate of two-phase over that of the fastest baseline", i ? "128k" : "16k");
         figures_check(r->figures, claim, least, 0.95, INFINITY);
     }
     figures_check(r->figures, "Liu Table 3: frame rate of two-phase at 128k triangles over that at 16k",

@@ -210,11 +210,11 @@ static void check_table(figures_job *f)
 {
     for (int s = 0; s < FIGURE_SCENES; s++) {
         char claim[96];
-        double rival = INFINITY;
+        double baseline = INFINITY;
         for (int m = 0; m < FIGURE_MANGATA; m++)
-            rival = fmin(rival, f->scores[s][m].rmse);
+            baseline = fmin(baseline, f->scores[s][m].rmse);
         snprintf(claim, sizeof claim, "Table 1, %s: RMSE of coverage of mangata over the best of the others", figure_scenes[s]);
-        figures_check(f, claim, f->scores[s][FIGURE_MANGATA].rmse / rival, 0, 1);
+        figures_check(f, claim, f->scores[s][FIGURE_MANGATA].rmse / baseline, 0, 1);
         snprintf(claim, sizeof claim, "Table 1, %s: light that mangata keeps", figure_scenes[s]);
         figures_check(f, claim, f->scores[s][FIGURE_MANGATA].kept, 0.9, 1.1);
     }

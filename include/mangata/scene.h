@@ -84,7 +84,7 @@ typedef enum mgt_method {
     MGT_METHOD_PODEE_PIXEL,   /* the same with the per-pixel covariance (Eqs. 4–7) */
     MGT_METHOD_MANGATA,       /* this library's own model */
     MGT_METHOD_REFERENCE,     /* brute force in double precision (CPU backend only) */
-    /* Rivals, for comparison: docs/methods.md says what is theirs and what is different here. */
+    /* Baselines, for comparison: docs/methods.md says what is theirs and what is different here. */
     MGT_METHOD_MSAA32,    /* 32 samples of visibility, one shading */
     MGT_METHOD_LEAN,      /* Olano and Baker 2010: a tiled map of slope moments */
     MGT_METHOD_LEADR,     /* Dupuy et al. 2013: the same with masking and shadowing */

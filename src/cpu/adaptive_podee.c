@@ -14,7 +14,7 @@
 #include <string.h>
 
 #include "base/hash.h"
-#include "cpu/rival_lanes.h"
+#include "cpu/baseline_lanes.h"
 
 /* ---- the paper's equations ---- */
 
@@ -228,7 +228,7 @@ static bool take_samples(detail_job *job, size_t tile, const tile_tasks *tasks, 
         }
         if (a->objects)
             light_of_pixels(&a->objects[tile].light, rays.pixel, rays.count, &s->objects.light);
-        a->kernels->rivals->temporal(&t, &rays);
+        a->kernels->baselines->temporal(&t, &rays);
         add_results(&rays, sums);
         if (++batches % BATCHES_BETWEEN_WORDS == 0 && worker == 0 && a->keep_going)
             told(job, job->fraction);
@@ -284,7 +284,7 @@ static void sample_tile(void *argument, size_t tile, uint32_t worker)
     if (!take_samples(job, tile, &tasks, first, end, worker, &sums))
         return;
     const method_tile t = {.frame = &a->frame->data, .close = &s->close};
-    a->kernels->rivals->frequencies(&t, job->close, frequencies);
+    a->kernels->baselines->frequencies(&t, job->close, frequencies);
     blend_tile(job, tile, &tasks, &sums, frequencies);
 }
 

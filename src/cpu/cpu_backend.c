@@ -14,7 +14,7 @@
 #include "cpu/glare.h"
 #include "cpu/inspect.h"
 #include "cpu/lean_map.h"
-#include "cpu/rival_lanes.h"
+#include "cpu/baseline_lanes.h"
 #include "base/thread_pool.h"
 #include "cpu/tile_job.h"
 #include "frame/whole_frame.h"
@@ -594,7 +594,7 @@ typedef struct luma_job {
 static void luma_row(void *argument, size_t y)
 {
     const luma_job *job = argument;
-    job->kernels->rivals->luma(job->frame, job->radiance + 3 * y * job->width, job->luma + y * job->width, job->width);
+    job->kernels->baselines->luma(job->frame, job->radiance + 3 * y * job->width, job->luma + y * job->width, job->width);
 }
 
 static mgt_status luma_of_picture(void *user, const mgt_scene *scene, const float *radiance, float *luma)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Rays marched through voxels of distances, after D. Rodgman and M. Chen, Refraction in Discrete Ray Tracing, Volume Graphics 2001: a rival. */
+ * Rays marched through voxels of distances, after D. Rodgman and M. Chen, Refraction in Discrete Ray Tracing, Volume Graphics 2001: a baseline. */
 #ifndef MANGATA_CPU_DISTANCE_FIELD_H
 #define MANGATA_CPU_DISTANCE_FIELD_H
 

@@ -9,13 +9,13 @@
 #include <string.h>
 
 #include "cpu/raster_lanes.h"
-#include "cpu/rival_lanes.h"
+#include "cpu/baseline_lanes.h"
 #include "frame/atmosphere.h"
 
 #define LANES_NAME_(n) lane_kernels_##n
 #define LANES_NAME(n) LANES_NAME_(n)
-#define RIVALS_NAME_(n) rival_kernels_##n
-#define RIVALS_NAME(n) RIVALS_NAME_(n)
+#define BASELINES_NAME_(n) baseline_kernels_##n
+#define BASELINES_NAME(n) BASELINES_NAME_(n)
 #define RASTER_NAME_(n) raster_kernels_##n
 #define RASTER_NAME(n) RASTER_NAME_(n)
 #define SHADE_NAME_(n) shade_kernels_##n
@@ -673,7 +673,7 @@ static void lanes_method(mgt_method method, const method_tile *tile, tile_pixels
         podee_pixels(tile, out);
         break;
     default:
-        RIVALS_NAME(MGT_LANES).pixels(method, tile, out);
+        BASELINES_NAME(MGT_LANES).pixels(method, tile, out);
     }
 }
 
@@ -738,7 +738,7 @@ const lane_kernels LANES_NAME(MGT_LANES) = {
     lanes_surface,
     lanes_filtered_normal,
     lanes_display,
-    &RIVALS_NAME(MGT_LANES),
+    &BASELINES_NAME(MGT_LANES),
     &SHADE_NAME(MGT_LANES),
     &NARROW_NAME(MGT_LANES),
     &NEAR_NAME(MGT_LANES),

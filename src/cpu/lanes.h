@@ -76,11 +76,11 @@ typedef struct tile_surface {
     float normal_x[TILE_PIXELS], normal_y[TILE_PIXELS], normal_z[TILE_PIXELS];
 } tile_surface;
 
-typedef struct shade_kernels shade_kernels;   /* cpu/shade.h */
-typedef struct narrow_kernels narrow_kernels; /* cpu/narrow_lanes.h */
-typedef struct near_kernels near_kernels;     /* cpu/near_lanes.h */
-typedef struct rival_kernels rival_kernels;   /* cpu/rival_lanes.h */
-typedef struct raster_kernels raster_kernels; /* cpu/raster_lanes.h */
+typedef struct shade_kernels shade_kernels;       /* cpu/shade.h */
+typedef struct narrow_kernels narrow_kernels;     /* cpu/narrow_lanes.h */
+typedef struct near_kernels near_kernels;         /* cpu/near_lanes.h */
+typedef struct baseline_kernels baseline_kernels; /* cpu/baseline_lanes.h */
+typedef struct raster_kernels raster_kernels;     /* cpu/raster_lanes.h */
 
 typedef struct lane_kernels {
     uint32_t lanes;
@@ -102,7 +102,7 @@ typedef struct lane_kernels {
     void (*filtered_normal)(const FrameData *frame, const tile_waves *tile, const tile_guess *guess, tile_surface *out);
     /* Displayed colour: `count` pixels of 3 floats to 4 bytes. */
     void (*display)(const FrameData *frame, const float *rgb, uint8_t *rgba, size_t count);
-    const rival_kernels *rivals;
+    const baseline_kernels *baselines;
     const shade_kernels *shade;
     const narrow_kernels *narrow;
     const near_kernels *near;

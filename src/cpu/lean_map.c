@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "frame/frame.h"
-#include "cpu/rival_lanes.h"
+#include "cpu/baseline_lanes.h"
 
 static const double turn = 6.28318530717958647692;
 
@@ -50,7 +50,7 @@ static void fill_rows(void *argument, size_t index, uint32_t worker)
             phases[i].minus_sine[r] = (float)-sin(angle);
         }
     const size_t first = index * LEAN_ROWS * LEAN_SIZE;
-    job->kernels->rivals->lean_rows(waves, phases, job->map->slope_x + first, job->map->slope_z + first);
+    job->kernels->baselines->lean_rows(waves, phases, job->map->slope_x + first, job->map->slope_z + first);
 }
 
 /* ---- mip levels ---- */

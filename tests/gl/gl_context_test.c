@@ -120,7 +120,7 @@ static void expect_same_layers(const layers *a, const layers *b)
 }
 
 /* Every method; podee-* also with kernels and a path of several pieces. */
-enum { QUALITIES = SEA_METHODS + SEA_RIVALS + 3 };
+enum { QUALITIES = SEA_METHODS + SEA_BASELINES + 3 };
 
 static mgt_quality quality_of(const mgt_scene *scene, int i)
 {
@@ -129,12 +129,12 @@ static mgt_quality quality_of(const mgt_scene *scene, int i)
     if (i < SEA_METHODS) {
         q.method = sea_methods[i].method;
         q.adaptive = sea_methods[i].adaptive;
-    } else if (i < SEA_METHODS + SEA_RIVALS) {
-        q.method = sea_rivals[i - SEA_METHODS];
+    } else if (i < SEA_METHODS + SEA_BASELINES) {
+        q.method = sea_baselines[i - SEA_METHODS];
     } else {
         q.method = i % 2 ? MGT_METHOD_PODEE_UNIFORM : MGT_METHOD_PODEE_PIXEL;
-        q.kernels = kernels[i - SEA_METHODS - SEA_RIVALS];
-        q.path_segments = (uint32_t)(i - SEA_METHODS - SEA_RIVALS + 1);
+        q.kernels = kernels[i - SEA_METHODS - SEA_BASELINES];
+        q.path_segments = (uint32_t)(i - SEA_METHODS - SEA_BASELINES + 1);
     }
     return q;
 }

@@ -84,7 +84,7 @@ static mgt_status whole_life(int which)
 }
 
 /* The methods that allocate on their own: a map, and whole pictures. A frame that failed renders when it is asked for again. */
-static mgt_status life_of_rivals(int which)
+static mgt_status life_of_baselines(int which)
 {
     static const mgt_method methods[] = {MGT_METHOD_LEAN, MGT_METHOD_FXAA, MGT_METHOD_TAA, MGT_METHOD_ADAPTIVE};
     mgt_wave waves[SEA_WAVES];
@@ -143,10 +143,10 @@ static void allocations_may_fail(void **state)
     fail_each_allocation(whole_life);
 }
 
-static void allocations_of_rivals_may_fail(void **state)
+static void allocations_of_baselines_may_fail(void **state)
 {
     (void)state;
-    fail_each_allocation(life_of_rivals);
+    fail_each_allocation(life_of_baselines);
 }
 
 /* The tables that a context makes when podee-* first asks for kernels. */
@@ -195,7 +195,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(allocations_may_fail),
-        cmocka_unit_test(allocations_of_rivals_may_fail),
+        cmocka_unit_test(allocations_of_baselines_may_fail),
         cmocka_unit_test(tables_may_fail),
         cmocka_unit_test(threads_may_fail),
     };

@@ -222,10 +222,10 @@ static void unusual_scenes_render(void **state)
             s.camera.position[1] = 1e6, s.camera.target[1] = 1e6 - 10, s.camera.target[2] = -50, s.water.index_of_refraction = 1;
             break;
         }
-        for (int m = 0; m < SEA_METHODS + SEA_RIVALS; m++) {
+        for (int m = 0; m < SEA_METHODS + SEA_BASELINES; m++) {
             sea_take_method(&s, m < SEA_METHODS ? m : 0);
             if (m >= SEA_METHODS)
-                s.quality.method = sea_rivals[m - SEA_METHODS];
+                s.quality.method = sea_baselines[m - SEA_METHODS];
             sea_render(context, &s, targets, 4);
             for (int i = 0; i < PIXELS; i++) {
                 bool finite = coverage[i] >= 0 && coverage[i] <= 1 && !(dark && coverage[i] > 0);

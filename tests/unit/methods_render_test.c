@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
  * Every method through the API: on every standard scene, in several sizes, on moving and still water, under lights from 0.05° to
- * 10°; the rivals' bytes for any threads, lanes and crop; and the light that each method keeps.
+ * 10°; the baselines' bytes for any threads, lanes and crop; and the light that each method keeps.
  */
 #include "unit/api_sea.h"
 
@@ -33,8 +33,8 @@ static const struct {
     {{.method = MGT_METHOD_ADAPTIVE, .adaptive = MGT_ADAPTIVE_PODEE, .samples = 4}, "adaptive, podee", 0.5, 1.3},
     {{.method = MGT_METHOD_REFERENCE, .spatial_samples = 2, .time_samples = 2}, "reference, 8 samples", 0.93, 1.07}, /* its own noise is 2% */
 };
-/* The first ones are the rivals. */
-enum { METHODS = sizeof methods / sizeof *methods, RIVALS = 8 };
+/* The first ones are the baselines. */
+enum { METHODS = sizeof methods / sizeof *methods, BASELINES = 8 };
 
 static mgt_quality quality_of(int method)
 {
@@ -149,7 +149,7 @@ static void threads_lanes_and_crops_change_nothing(void **state)
         mgt_context *contexts[3] = {NULL};
         for (int i = 0; i < 3; i++)
             contexts[i] = mgt_isa_available(sets[i]) ? sea_context(1, sets[i]) : NULL;
-        for (int m = 0; m < RIVALS; m++) {
+        for (int m = 0; m < BASELINES; m++) {
             scene.quality = quality_of(m);
             scene.image = (mgt_image){.width = SEA_WIDTH, .height = SEA_HEIGHT};
             render_sea(first, &scene, whole, shown);

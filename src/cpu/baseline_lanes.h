@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * The rival methods' functions that are compiled once per lane width. */
-#ifndef MANGATA_CPU_RIVAL_LANES_H
-#define MANGATA_CPU_RIVAL_LANES_H
+ * The baseline methods' functions that are compiled once per lane width. */
+#ifndef MANGATA_CPU_BASELINE_LANES_H
+#define MANGATA_CPU_BASELINE_LANES_H
 
 #include "cpu/lean_map.h"
 
@@ -13,7 +13,7 @@ typedef struct temporal_rays {
     tile_pixels pixels;                          /* out, a value a ray; lists are filled up to whole vectors */
 } temporal_rays;
 
-struct rival_kernels {
+struct baseline_kernels {
     void (*pixels)(mgt_method method, const method_tile *tile, tile_pixels *out);
     void (*temporal)(const method_tile *tile, temporal_rays *rays);
     /* The largest frequency among the waves in each pixel of a tile, cycles per pixel; 0 where there is no water. */
@@ -24,11 +24,11 @@ struct rival_kernels {
     void (*luma)(const FrameData *frame, const float *rgb, float *luma, size_t count);
 };
 
-extern const rival_kernels rival_kernels_1;
-extern const rival_kernels rival_kernels_4;
+extern const baseline_kernels baseline_kernels_1;
+extern const baseline_kernels baseline_kernels_4;
 #if defined(__x86_64__)
-extern const rival_kernels rival_kernels_8;
-extern const rival_kernels rival_kernels_16;
+extern const baseline_kernels baseline_kernels_8;
+extern const baseline_kernels baseline_kernels_16;
 #endif
 
 #endif

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT
- * The kernels of the rival methods over the pixels of a tile, compiled once per lane width (MGT_LANES).
+ * The kernels of the baseline methods over the pixels of a tile, compiled once per lane width (MGT_LANES).
  *
  * Whatever the width, a pixel sees the same operations in the same order: the bits do not depend on it. */
+#include "cpu/baseline_lanes.h"
 #include "cpu/kernel_context.h"
-#include "cpu/rival_lanes.h"
 
 #include "frame/atmosphere.h"
 #include "params/methods.h"
 
-#define LANES_NAME_(n) rival_kernels_##n
+#define LANES_NAME_(n) baseline_kernels_##n
 #define LANES_NAME(n) LANES_NAME_(n)
 
 #include "kernels/common/prelude_c.h"
@@ -246,4 +246,4 @@ static void lanes_luma(const FrameData *frame, const float *rgb, float *luma, si
     }
 }
 
-const rival_kernels LANES_NAME(MGT_LANES) = {lanes_pixels, lanes_temporal, lanes_frequencies, lanes_lean_rows, lanes_luma};
+const baseline_kernels LANES_NAME(MGT_LANES) = {lanes_pixels, lanes_temporal, lanes_frequencies, lanes_lean_rows, lanes_luma};
