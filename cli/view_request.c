@@ -4,6 +4,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "cli/common/numbers.h"
 #include "cli/common/options.h"
@@ -34,11 +35,19 @@ static const option_table view_table =
      "Opens a scene in the interactive viewer, the program mangata-viewer.",
      view_options,
      sizeof view_options / sizeof view_options[0],
-     .notes = "exit codes: 0 done, 1 failed, 64 usage, 65 bad scene, 66 no such input, 69 no viewer, no display\nor no such backend"};
+     .notes = "exit codes: 0 done, 1 failed, 64 usage, 65 bad scene, 66 no such input, 69 no viewer, no display\nor no such backend",
+     .quality = true};
 
 static int bad_value(size_t id, const char *value, const char *allowed)
 {
     return console_error(EXIT_CODE_USAGE, "--%s %s: allowed is %s", view_options[id].name, value, allowed);
+}
+
+static int set_quality(view_request *r, const char *name, const char *value)
+{
+    char wrong[600];
+    bool known;
+    return quality_option_set(&r->quality, name, strlen(name), value, &known, wrong, sizeof wrong) ? EXIT_CODE_OK : console_error(EXIT_CODE_USAGE, "%s", wrong);
 }
 
 static int set_option(view_request *r, int id, const char *value)
@@ -50,9 +59,7 @@ static int set_option(view_request *r, int id, const char *value)
             return bad_value(OPT_BACKEND, value, "auto, cpu or gl");
         break;
     case OPT_METHOD:
-        if (!method_from_name(value, &r->quality))
-            return bad_value(OPT_METHOD, value, method_names().text);
-        break;
+        return set_quality(r, view_options[id].name, value);
     case OPT_SIZE:
         if (!number_parse_list(value, 'x', MGT_MAX_IMAGE_SIDE, 2, side) || side[0] == 0 || side[1] == 0)
             return bad_value(OPT_SIZE, value, "WxH, each from 1 to 32768 pixels, such as 1280x720");
@@ -74,7 +81,7 @@ static int set_option(view_request *r, int id, const char *value)
         r->shader_folder = value;
         break;
     default:
-        break;
+        return set_quality(r, quality_fields[id - OPTION_QUALITY].key, value);
     }
     return EXIT_CODE_OK;
 }
@@ -82,9 +89,7 @@ static int set_option(view_request *r, int id, const char *value)
 int view_request_read(view_request *request, int count, char **arguments)
 {
     view_request *r = request;
-    *r = (view_request){.context.backend = MGT_BACKEND_AUTO};
-    mgt_quality_init(&r->quality, sizeof r->quality);
-    method_from_name("mangata", &r->quality);
+    *r = (view_request){.context.backend = MGT_BACKEND_AUTO, .quality = quality_options_none()};
     /* Each --set takes a word of the command line; two more hold the size. */
     r->overrides = calloc((size_t)count + 2, sizeof *r->overrides);
     if (!r->overrides)

@@ -5,6 +5,7 @@
 
 #include "cli/common/console.h"
 #include "cli/common/context_options.h"
+#include "cli/common/quality_options.h"
 
 typedef struct view_request {
     console out;
@@ -12,8 +13,8 @@ typedef struct view_request {
     const char **overrides; /* --set and --size, in order; owned */
     size_t override_count;
     char size_words[2][32];
-    uint32_t width, height; /* of the window; 0: as the scene says */
-    mgt_quality quality;
+    uint32_t width, height;    /* of the window; 0: as the scene says */
+    quality_options quality;   /* of side A */
     context_options context;   /* but for the device: the window has one */
     const char *script;        /* NULL: none */
     const char *shader_folder; /* NULL: none */

@@ -246,12 +246,16 @@ static bool open_scene(viewer *v)
         v->exit_code = console_scene_error(&error);
         return false;
     }
-    side_settings *a = &v->settings.sides[SIDE_A];
-    a->method = (int)r->quality.method;
-    if (method_takes(r->quality.method, METHOD_TAKES_TIMES)) {
-        a->spatial = r->quality.spatial_samples;
-        a->time_samples = r->quality.time_samples;
+    char wrong[600];
+    const mgt_quality base = scene_file_quality(v->document.file);
+    mgt_quality *a = &v->settings.sides[SIDE_A];
+    const uint32_t spatial = a->spatial_samples;
+    if (!quality_options_apply(&r->quality, &base, a, wrong, sizeof wrong)) {
+        v->exit_code = console_error(EXIT_CODE_USAGE, "%s", wrong);
+        return false;
     }
+    if (!method_is_sampled(a->method)) /* for the moment that it is chosen */
+        a->spatial_samples = spatial;
     v->board = (control_board){&v->document, &v->settings};
     v->settings.clock.time = v->document.values.time.start;
     v->home = v->document.values.camera.still;

@@ -95,6 +95,9 @@ typedef struct mgt_gl_source {
 
 MGT_API mgt_status mgt_gl_set_sources(mgt_context *context, const mgt_gl_source *sources, size_t count);
 
+/* The names of all texts that mgt_gl_set_sources() can replace, by number from 0; NULL behind the last. */
+MGT_API const char *mgt_gl_source_name(size_t index);
+
 #ifdef __cplusplus
 }
 #endif

@@ -17,7 +17,7 @@ region image_region(const mgt_image *image)
 float samples_per_pixel(const mgt_quality *quality)
 {
     const mgt_quality *q = quality;
-    if (!method_takes(q->method, METHOD_TAKES_TIMES)) {
+    if (!method_is_sampled(q->method)) {
         const uint32_t samples = method_of(q->method)->samples;
         return samples ? (float)samples : 1;
     }

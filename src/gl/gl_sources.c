@@ -16,6 +16,8 @@ static const char *embedded(const char *name, size_t length)
     return NULL;
 }
 
+const char *mgt_gl_source_name(size_t index) { return index < gl_text_count ? gl_texts[index].name : NULL; }
+
 bool gl_text_exists(const char *name) { return embedded(name, strlen(name)) != NULL; }
 
 static const char *text_of(const gl_replacements *replaced, const char *name)

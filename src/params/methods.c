@@ -28,7 +28,6 @@ const method_row method_rows[] =
             {
                 .properties = {0, "ssaa", "N x N jittered samples", MGT_WAVES_POINT, CPU_AND_GL, LAYERS},
                 .way = METHOD_SAMPLES,
-                .takes = METHOD_TAKES_TIMES,
                 .numbered = true,
                 .shader = &samples_shader,
             },
@@ -38,7 +37,6 @@ const method_row method_rows[] =
                 .way = METHOD_FILTERED,
                 .transition = TRANSITION_PODEE,
                 .tables = METHOD_PODEE_TABLES,
-                .takes = METHOD_TAKES_PODEE,
                 .shader = &podee_shader,
                 .with_tables = &podee_tables_shader,
             },
@@ -49,7 +47,6 @@ const method_row method_rows[] =
                 .transition = TRANSITION_PODEE,
                 .keeps_phases = true,
                 .tables = METHOD_PODEE_TABLES,
-                .takes = METHOD_TAKES_PODEE | METHOD_TAKES_NDF_MEAN,
                 .shader = &podee_shader,
                 .with_tables = &podee_tables_shader,
             },
@@ -63,7 +60,6 @@ const method_row method_rows[] =
             {
                 .properties = {0, "reference", "brute force in double precision", MGT_WAVES_POINT, CPU, LAYERS_WATER},
                 .way = METHOD_REFERENCE,
-                .takes = METHOD_TAKES_STRATA | METHOD_TAKES_TIMES,
                 .spatial = 8,
                 .time = 8,
             },
@@ -128,7 +124,6 @@ const method_row method_rows[] =
                 .way = METHOD_PASS,
                 .base = MGT_METHOD_MANGATA,
                 .pass = METHOD_PASS_ADAPTIVE,
-                .takes = METHOD_TAKES_ADAPTIVE,
             },
         {.properties = {.name = NULL}}, /* the end */
 };
@@ -138,7 +133,7 @@ _Static_assert(sizeof method_rows / sizeof *method_rows - 1 <= METHOD_SLOTS, "ar
 
 const method_row *method_of(mgt_method method) { return &method_rows[method]; }
 
-bool method_takes(mgt_method method, uint32_t options) { return method_rows[method].takes & options; }
+bool method_is_sampled(mgt_method method) { return method_rows[method].way == METHOD_SAMPLES || method_rows[method].way == METHOD_REFERENCE; }
 
 enum { MOST_STRATA = 1024 };
 

@@ -23,15 +23,6 @@ typedef enum method_transition { TRANSITION_MANGATA = 0, TRANSITION_PODEE, TRANS
 /* Bits: tables that are made before pixels are. */
 enum { METHOD_LEAN_MAP = 1, METHOD_PODEE_TABLES = 2 };
 
-/* Bits: groups of options, as the command names them. */
-enum {
-    METHOD_TAKES_STRATA = 1,   /* --spatial */
-    METHOD_TAKES_TIMES = 2,    /* --time-samples, --samples-range */
-    METHOD_TAKES_PODEE = 4,    /* --kernels … --transition-width */
-    METHOD_TAKES_NDF_MEAN = 8, /* --ndf-mean */
-    METHOD_TAKES_ADAPTIVE = 16 /* --adaptive … --slots */
-};
-
 /* A compute shader. `kernel` is what the line #include "method.k" in it stands for, and `result` the kernel's function. */
 typedef struct method_shader {
     const char *pass, *kernel, *result;
@@ -45,7 +36,6 @@ typedef struct method_row {
     method_transition transition;
     bool keeps_phases;                /* unresolved waves count one by one, not as a sum */
     uint32_t tables;                  /* METHOD_LEAN_MAP … */
-    uint32_t takes;                   /* METHOD_TAKES_… */
     bool numbered;                    /* the name is followed by the number of strata along a side, as in ssaa4 */
     uint32_t spatial, time;           /* samples by default; 0: 1 */
     uint32_t samples;                 /* layer `samples`, unless strata decide; 0: 1 */
@@ -58,7 +48,8 @@ enum { METHOD_SLOTS = 32 }; /* room for rows in arrays by method */
 extern const method_row method_rows[]; /* by mgt_method, ended by one without a name */
 extern const size_t method_count;
 const method_row *method_of(mgt_method method);
-bool method_takes(mgt_method method, uint32_t options); /* any of METHOD_TAKES_… */
+/* Whether it takes samples by pixel and shutter: the options of ssaa. */
+bool method_is_sampled(mgt_method method);
 
 /* A name such as "mangata" or "ssaa4", with the method's default numbers of samples; false: there is none. */
 bool method_from_name(const char *name, mgt_quality *quality);

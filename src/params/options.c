@@ -75,12 +75,13 @@ const field_row quality_fields[] =
       .label = "V", .when = {{ADAPTIVE}, {ALONG}}},
      {"slots", FIELD_LARGE, MEMBER(sample_slots), FIELD_OR_ZERO, 1, 4294967296.0, NULL, .doc = "samples of the whole picture", .absent = "as samples says",
       .member = "sample_slots", .label = "M", .when = {{ADAPTIVE}, {ALONG}}, .alternative = HOW_MUCH},
-     {"refraction", FIELD_CHOICE, MEMBER(refraction), .doc = "how what lies behind the surface is found", .choices = refraction_names, .label = "NAME"},
-     {"tess_error", FIELD_NUMBER, MEMBER(tess_error), FIELD_OR_ZERO, 0.01, 100, "pixels", .doc = "how far a bent triangle may be off", .absent = "0.1",
-      .label = "PX", .when = {{BENDING}}},
-     {"refraction_samples", FIELD_COUNT, MEMBER(refraction_samples), FIELD_OR_ZERO, 1, 64, NULL, .doc = "N of N x N refracted rays a pixel",
+     {"refraction", FIELD_CHOICE, MEMBER(refraction), FIELD_OBJECTS, .doc = "how what lies behind the surface is found", .choices = refraction_names,
+      .label = "NAME"},
+     {"tess_error", FIELD_NUMBER, MEMBER(tess_error), FIELD_OBJECTS | FIELD_OR_ZERO, 0.01, 100, "pixels", .doc = "how far a bent triangle may be off",
+      .absent = "0.1", .label = "PX", .when = {{BENDING}}},
+     {"refraction_samples", FIELD_COUNT, MEMBER(refraction_samples), FIELD_OBJECTS | FIELD_OR_ZERO, 1, 64, NULL, .doc = "N of N x N refracted rays a pixel",
       .absent = "1, and 4 for truth"},
-     {"caustics", FIELD_SWITCH, MEMBER(caustics), .doc = "light that the waves bundle on what lies under them", .choices = switch_words},
+     {"caustics", FIELD_SWITCH, MEMBER(caustics), FIELD_OBJECTS, .doc = "light that the waves bundle on what lies under them", .choices = switch_words},
      {0}};
 static_assert(sizeof quality_fields / sizeof *quality_fields == QUALITY_ROWS + 1, "QUALITY_ROWS");
 
@@ -197,8 +198,7 @@ bool quality_choose(quality_choice *choice, const field_row *field, const char *
     return true;
 }
 
-/* The others of its alternatives back to their defaults. */
-static void clear_alternatives(const field_row *field, mgt_quality *q)
+void quality_drop_alternatives(const field_row *field, mgt_quality *q)
 {
     for (const field_row *other = quality_fields; other->key; other++)
         if (field->alternative && other != field && other->alternative == field->alternative)
@@ -227,7 +227,7 @@ bool quality_apply(const quality_choice *choice, const mgt_quality *base, mgt_qu
     }
     for (const field_row *field = quality_fields; field->key; field++)
         if (quality_is_chosen(choice, field)) {
-            clear_alternatives(field, &q);
+            quality_drop_alternatives(field, &q);
             memcpy((char *)&q + field->offset, field_at(field, &choice->values), field_size(field));
         }
     for (const field_row *field = quality_fields; field->key; field++)

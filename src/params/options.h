@@ -48,6 +48,9 @@ bool quality_is_chosen(const quality_choice *choice, const field_row *field);
  * a chosen option does not apply, or where chosen ones exclude each other. */
 bool quality_apply(const quality_choice *choice, const mgt_quality *base, mgt_quality *out, char *wrong, size_t size);
 
+/* Puts the alternatives of an option back to their defaults. */
+void quality_drop_alternatives(const field_row *field, mgt_quality *q);
+
 /* A key as a flag of the command line: "--time-samples". */
 typedef struct option_flag {
     char text[40];

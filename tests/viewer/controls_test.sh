@@ -77,7 +77,20 @@ pattern() { grep -E "$1" all.txt; }
     vary view.lean_end
     echo 'set view.layer color'
     echo 'set a.method podee-pixel'
-    vary a.ndf_mean
+    vary a.ndf_mean a.kernels a.transition a.path_segments
+    echo 'set a.transition soft'
+    vary a.transition_width
+    echo 'set a.method adaptive'
+    vary a.adaptive
+    echo 'set a.adaptive cells'
+    vary a.samples a.target_rmse
+    echo 'set a.samples 4'
+    echo 'set a.adaptive podee'
+    vary a.importance_center a.importance_width a.importance_threshold a.slots
+    # what shows with objects, for long ellipses, or as the machine has it
+    printf 'a.%s\n' refraction tess_error refraction_samples caustics elongation budget_ms >>varied.txt
+    # side B has the same rows
+    pattern '^b\.' | grep -v 'method\|ndf_mean\|spatial\|seed\|time_samples' >>varied.txt
     echo 'set a.method ssaa'
     echo 'set a.time_samples 4'
     vary a.spatial a.seed

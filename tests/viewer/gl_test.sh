@@ -34,19 +34,19 @@ screenshot X-wipe.png
 set view.compare off
 END
 { sed 's/X-/cpu-/' common.txt; echo quit; } | drive "$scene" --size 240x150
-mkdir kernels
-cp "$SOURCE/src/kernels/display/tone.k" kernels/tone.k
-sed '0,/^KERNEL/s//KERNEL nonsense;\nKERNEL/' kernels/tone.k >broken.k
-sed 's/^KERNEL vec3 display_color/KERNEL vec3 unused_color(CTX cx, vec3 c) { return c; }\n&/' kernels/tone.k >other.k
+mkdir -p kernels/display
+cp "$SOURCE/src/kernels/display/tone.k" kernels/display/tone.k
+sed '0,/^KERNEL/s//KERNEL nonsense;\nKERNEL/' kernels/display/tone.k >broken.k
+sed 's/^KERNEL vec3 display_color/KERNEL vec3 unused_color(CTX cx, vec3 c) { return c; }\n&/' kernels/display/tone.k >other.k
 {
     sed 's/X-/gl-/' common.txt
     cat <<'END'
 mark
-copy broken.k kernels/tone.k
+copy broken.k kernels/display/tone.k
 frames 10
 expect-error tone.k:
 screenshot banner.png
-copy other.k kernels/tone.k
+copy other.k kernels/display/tone.k
 frames 10
 expect-no-error
 expect-same

@@ -196,7 +196,7 @@ static void every_control_reads_back_and_keeps_to_its_range(void **state)
         double before[3], after[3];
         assert_true(control_find(&board, list[i].name, &c));
         assert_ptr_equal(c.value, list[i].value);
-        if (c.hint == NULL)
+        if (c.hint == NULL && c.name[1] != '.') /* an option of a side may have its row alone */
             fail_msg("%s has no hint", c.name);
         control_read(&c, before);
         const control_text text = control_print(&c);

@@ -25,10 +25,10 @@ static void draw_label(float x, float y, const char *text, float unit)
 
 static void side_label(const viewer *v, int side, char *text, size_t size)
 {
-    const mgt_quality q = side_quality(&v->settings.sides[side]);
+    const mgt_quality q = quality_restricted(&v->settings.sides[side]);
     const picture *p = &v->render.pictures[side];
     const int used = snprintf(text, size, "%c  %s", side == SIDE_A ? 'A' : 'B', method_name(&q).text);
-    if (method_takes(q.method, METHOD_TAKES_TIMES) && p->samples < p->samples_total)
+    if (method_is_sampled(q.method) && p->samples < p->samples_total)
         snprintf(text + used, size - (size_t)used, "  %.0f%%", 100.0 * (double)p->samples / (double)p->samples_total);
 }
 

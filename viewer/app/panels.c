@@ -8,6 +8,7 @@
 
 #include "viewer/scene/camera_moves.h"
 #include "params/methods.h"
+#include "params/options.h"
 
 static const float panel_units = 23.5f, label_units = 8.2f; /* widths, in heights of the text */
 
@@ -62,7 +63,7 @@ static bool draw_numbers(const control *c, const char *label, double n[3])
     }
     if (c->field->type == FIELD_VECTOR)
         return ui_drag(label, n, 3, (high - low) * 2e-4, c->field->min, c->field->max, format_of(c, room, sizeof room));
-    if (c->field->type == FIELD_COUNT) {
+    if ((c->field->type == FIELD_COUNT || (c->field->type == FIELD_LARGE && c->hint))) {
         uint32_t whole = (uint32_t)n[0];
         const bool changed = ui_slider_count(label, &whole, (uint32_t)low, (uint32_t)high, h && h->logarithmic);
         n[0] = whole;
@@ -98,23 +99,19 @@ static void draw_controls(viewer *v, const char *const *names)
 
 static void draw_side(viewer *v, int side)
 {
-    const char *letter = side == SIDE_A ? "a" : "b";
-    const side_settings *s = &v->settings.sides[side];
+    const char letter = side == SIDE_A ? 'a' : 'b';
+    const mgt_quality *q = &v->settings.sides[side];
     const picture *p = &v->render.pictures[side];
-    char name[32], text[64];
-    snprintf(name, sizeof name, "%s.method", letter);
-    panel_control(v, name);
-    if (method_takes((mgt_method)s->method, METHOD_TAKES_NDF_MEAN)) {
-        snprintf(name, sizeof name, "%s.ndf_mean", letter);
-        panel_control(v, name);
+    char name[64], text[64];
+    for (const field_row *field = quality_fields; field->key; field++) {
+        /* The jitter's seed matters to few methods. */
+        const bool jitters = method_is_sampled(q->method) || q->method == MGT_METHOD_ADAPTIVE || strcmp(field->key, "seed") != 0;
+        snprintf(name, sizeof name, "%c.%s", letter, field->key);
+        if (jitters && field_applies(quality_fields, field, q, false) && (!(field->flags & FIELD_OBJECTS) || v->document.values.objects.count > 0))
+            panel_control(v, name);
     }
-    if (!method_takes((mgt_method)s->method, METHOD_TAKES_TIMES))
+    if (!method_is_sampled(q->method))
         return;
-    static const char *const fields[] = {"spatial", "time_samples", "seed"};
-    for (int i = 0; i < 3; i++) {
-        snprintf(name, sizeof name, "%s.%s", letter, fields[i]);
-        panel_control(v, name);
-    }
     snprintf(text, sizeof text, "%llu of %llu samples", (unsigned long long)p->samples, (unsigned long long)p->samples_total);
     ui_text(UI_TONE_FAINT, text);
 }

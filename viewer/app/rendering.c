@@ -10,6 +10,7 @@
 
 #include "cli/common/progress.h"
 #include "params/methods.h"
+#include "params/scene_rows.h"
 #include "viewer/app/viewer.h"
 
 /* Frames a second that moving pictures hold, how long after the last change they count as still, and how small they may get. */
@@ -144,32 +145,14 @@ static uint32_t scaled(uint32_t side, double scale)
 
 /* ---- orders ---- */
 
-static bool same_quality(const mgt_quality *a, const mgt_quality *b)
-{
-    return a->method == b->method && a->spatial_samples == b->spatial_samples && a->time_samples == b->time_samples && a->seed == b->seed &&
-           a->ndf_mean_drop == b->ndf_mean_drop;
-}
-
-static bool same_camera(const mgt_camera *a, const mgt_camera *b) { return memcmp(a, b, sizeof *a) == 0; }
-
-static bool same_light(const mgt_light *a, const mgt_light *b)
-{
-    return a->body == b->body && a->elevation_deg == b->elevation_deg && a->azimuth_deg == b->azimuth_deg && a->angular_radius_deg == b->angular_radius_deg &&
-           memcmp(a->radiance, b->radiance, sizeof a->radiance) == 0;
-}
-
 static bool same_shot(const shot *a, const shot *b)
 {
     const mgt_scene *s = &a->scene, *t = &b->scene;
-    return same_camera(&s->camera, &t->camera) && s->camera_moves == t->camera_moves && (!s->camera_moves || same_camera(&s->camera_open, &t->camera_open)) &&
-           s->time == t->time && s->shutter == t->shutter && same_light(&s->light, &t->light) && memcmp(&s->sky, &t->sky, sizeof s->sky) == 0 &&
-           s->water.wave_count == t->water.wave_count && memcmp(a->waves, b->waves, s->water.wave_count * sizeof *a->waves) == 0 &&
-           s->water.index_of_refraction == t->water.index_of_refraction &&
-           memcmp(s->water.body_albedo, t->water.body_albedo, sizeof s->water.body_albedo) == 0 && s->water.level == t->water.level &&
-           memcmp(s->water.absorption, t->water.absorption, sizeof s->water.absorption) == 0 &&
-           memcmp(s->water.scattering, t->water.scattering, sizeof s->water.scattering) == 0 && s->objects == t->objects &&
-           s->post.auto_exposure == t->post.auto_exposure && s->post.exposure_ev == t->post.exposure_ev && s->post.tone_map == t->post.tone_map &&
-           s->post.glare == t->post.glare;
+    bool same = fields_equal(scene_rows, s, t) && (!s->camera_moves || fields_equal(camera_rows, &s->camera_open, &t->camera_open)) &&
+                s->post.auto_exposure == t->post.auto_exposure && s->objects == t->objects && s->water.wave_count == t->water.wave_count;
+    for (size_t i = 0; i < s->water.wave_count && same; i++)
+        same = fields_equal(wave_rows, &a->waves[i], &b->waves[i]);
+    return same;
 }
 
 static void copy_shot(shot *to, const shot *from)
@@ -179,7 +162,7 @@ static void copy_shot(shot *to, const shot *from)
     to->scene.water.waves = to->waves;
 }
 
-static bool side_refines(const mgt_quality *q) { return method_takes(q->method, METHOD_TAKES_TIMES); }
+static bool side_refines(const mgt_quality *q) { return method_is_sampled(q->method); }
 
 static render_order order_of(const viewer *v)
 {
@@ -187,7 +170,7 @@ static render_order order_of(const viewer *v)
     o.wanted[SIDE_A] = true;
     o.wanted[SIDE_B] = v->settings.view.compare != COMPARE_OFF;
     for (int side = 0; side < SIDE_COUNT; side++)
-        o.quality[side] = side_quality(&v->settings.sides[side]);
+        o.quality[side] = quality_restricted(&v->settings.sides[side]);
     return o;
 }
 
@@ -196,7 +179,7 @@ static bool same_wishes(const render_order *a, const render_order *b)
 {
     bool same = a->layer == b->layer && a->wanted[SIDE_B] == b->wanted[SIDE_B];
     for (int side = 0; side < SIDE_COUNT; side++)
-        same &= !a->wanted[side] || same_quality(&a->quality[side], &b->quality[side]);
+        same &= !a->wanted[side] || fields_equal(quality_fields, &a->quality[side], &b->quality[side]);
     return same;
 }
 
@@ -325,8 +308,6 @@ static void take(viewer *v, render_worker *w, bool refines)
 
 /* ---- kernel files of --shaders ---- */
 
-enum { MOST_SOURCES = 32 };
-
 static char *read_text(const char *path)
 {
     FILE *stream = fopen(path, "rb");
@@ -343,59 +324,95 @@ static char *read_text(const char *path)
     return text;
 }
 
-static bool is_kernel(const char *name)
+/* Files of the folder that stand in for texts of the library, and a number that differs once one of them changes. */
+typedef struct shader_files {
+    mgt_gl_source *sources; /* room for all that the library has; their texts are read when they are needed */
+    char (*paths)[1024];
+    size_t count, room;
+    int64_t stamp;
+} shader_files;
+
+static const char *library_name(const char *name)
 {
-    const size_t length = strlen(name);
-    return length > 2 && length < 60 && strcmp(name + length - 2, ".k") == 0;
+    const char *known;
+    for (size_t i = 0; (known = mgt_gl_source_name(i)); i++)
+        if (strcmp(known, name) == 0)
+            return known;
+    return NULL;
 }
 
-void viewer_poll_shaders(viewer *v)
+static void add_shader_file(shader_files *f, const char *path, const char *name, const struct stat *status)
 {
-    const char *folder = v->request->shader_folder;
-    mgt_gl_source sources[MOST_SOURCES];
-    char names[MOST_SOURCES][64], *texts[MOST_SOURCES];
-    size_t count = 0;
-    int64_t stamp = 1;
-    DIR *listing = folder && v->render.gl ? opendir(folder) : NULL;
-    if (!listing)
+    const char *known = library_name(name);
+    for (size_t i = 0; i < f->count; i++)
+        if (known == f->sources[i].name)
+            known = NULL;
+    if (!known || f->count == f->room)
         return;
-    for (struct dirent *entry; (entry = readdir(listing)) && count < MOST_SOURCES;) {
+    f->sources[f->count] = (mgt_gl_source){.name = known};
+    snprintf(f->paths[f->count++], sizeof *f->paths, "%s", path);
+    f->stamp = f->stamp * 31 + (int64_t)status->st_mtim.tv_sec * 1000003 + status->st_mtim.tv_nsec + status->st_size;
+}
+
+/* In the order of their names, so that the same files give the same stamp; of two files of one name the first counts. */
+static void find_shader_files(shader_files *f, const char *folder, int depth)
+{
+    struct dirent **entries = NULL;
+    const int count = depth < 8 ? scandir(folder, &entries, NULL, alphasort) : 0;
+    for (int i = 0; i < count; i++) {
         char path[1024];
         struct stat status;
-        if (!is_kernel(entry->d_name))
-            continue;
-        snprintf(path, sizeof path, "%.900s/%.60s", folder, entry->d_name);
-        if (stat(path, &status) != 0)
-            continue;
-        stamp += (int64_t)status.st_mtim.tv_sec * 1000003 + status.st_mtim.tv_nsec + status.st_size;
-        snprintf(names[count], sizeof names[count], "%.60s", entry->d_name);
-        texts[count] = NULL;
-        count++;
+        snprintf(path, sizeof path, "%.760s/%.255s", folder, entries[i]->d_name);
+        if (entries[i]->d_name[0] != '.' && stat(path, &status) == 0) {
+            if (S_ISDIR(status.st_mode))
+                find_shader_files(f, path, depth + 1);
+            else
+                add_shader_file(f, path, entries[i]->d_name, &status);
+        }
+        free(entries[i]);
     }
-    closedir(listing);
-    if (stamp == v->render.shader_stamp)
-        return;
-    v->render.shader_stamp = stamp;
+    free(entries);
+}
+
+static void use_shader_files(viewer *v, shader_files *f)
+{
     size_t good = 0;
-    for (size_t i = 0; i < count; i++) {
-        char path[1024];
-        snprintf(path, sizeof path, "%.900s/%.60s", folder, names[i]);
-        texts[i] = read_text(path);
-        if (texts[i])
-            sources[good++] = (mgt_gl_source){names[i], texts[i]};
+    for (size_t i = 0; i < f->count; i++) {
+        char *text = read_text(f->paths[i]);
+        if (text)
+            f->sources[good++] = (mgt_gl_source){f->sources[i].name, text};
     }
-    const mgt_status status = mgt_gl_set_sources(v->render.gl, sources, good);
-    for (size_t i = 0; i < count; i++)
-        free(texts[i]);
+    const mgt_status status = mgt_gl_set_sources(v->render.gl, f->sources, good);
+    for (size_t i = 0; i < good; i++)
+        free((char *)f->sources[i].text);
     if (status == MGT_OK) {
         v->shader_error.text[0] = 0;
         v->render.last.serial = 0;
-        viewer_tell(v, false, "%s: %zu kernel files in use", folder, good);
+        viewer_tell(v, false, "%s: %zu shader files in use", v->request->shader_folder, good);
     } else {
         snprintf(v->shader_error.text, sizeof v->shader_error.text, "%s", mgt_last_error(v->render.gl));
         v->shader_error.is_error = true;
         viewer_log(v, "%s", v->shader_error.text);
     }
+}
+
+void viewer_poll_shaders(viewer *v)
+{
+    shader_files f = {.stamp = 1};
+    if (!v->request->shader_folder || !v->render.gl)
+        return;
+    while (mgt_gl_source_name(f.room))
+        f.room++;
+    f.sources = calloc(f.room + 1, sizeof *f.sources);
+    f.paths = calloc(f.room + 1, sizeof *f.paths);
+    if (f.sources && f.paths)
+        find_shader_files(&f, v->request->shader_folder, 0);
+    if (f.sources && f.paths && f.stamp != v->render.shader_stamp) {
+        v->render.shader_stamp = f.stamp;
+        use_shader_files(v, &f);
+    }
+    free(f.sources);
+    free(f.paths);
 }
 
 /* ---- every frame ---- */

@@ -7,6 +7,7 @@
 
 #include "image/picture.h"
 #include "params/methods.h"
+#include "params/options.h"
 #include "viewer/app/viewer.h"
 
 /* ---- the command ---- */
@@ -28,20 +29,27 @@ static void write_word(FILE *stream, const char *word)
     fputc('\'', stream);
 }
 
-static void write_method(FILE *stream, const mgt_quality *q)
+/* What side A does otherwise than the scene's own quality by the same method. */
+static void write_method(FILE *stream, const viewer *v, const mgt_quality *q)
 {
+    quality_choice method = quality_choice_none();
+    const mgt_quality base = scene_file_quality(v->document.file);
+    mgt_quality given;
+    char unused[200];
     fprintf(stream, " --method %s", method_name(q).text);
-    if (method_takes(q->method, METHOD_TAKES_STRATA))
-        fprintf(stream, " --spatial %u", q->spatial_samples);
-    if (method_takes(q->method, METHOD_TAKES_TIMES))
-        fprintf(stream, " --time-samples %u --seed %llu", q->time_samples, (unsigned long long)q->seed);
-    if (method_takes(q->method, METHOD_TAKES_NDF_MEAN) && q->ndf_mean_drop)
-        fputs(" --ndf-mean drop", stream);
+    quality_choose(&method, quality_fields, method_name(q).text);
+    if (!quality_apply(&method, &base, &given, unused, sizeof unused))
+        return;
+    for (const field_row *field = quality_fields; field->key; field++) {
+        const void *value = field_at(field, q);
+        if (!(field->flags & FIELD_NO_FLAG) && field_applies(quality_fields, field, q, false) && memcmp(value, field_at(field, &given), field_size(field)) != 0)
+            fprintf(stream, " %s %s", option_flag_of(field).text, field_print(field, value).text);
+    }
 }
 
 char *viewer_command(const viewer *v)
 {
-    const mgt_quality q = side_quality(&v->settings.sides[SIDE_A]);
+    const mgt_quality q = quality_restricted(&v->settings.sides[SIDE_A]);
     scene_values values;
     scene_overrides words = {0};
     char *text = NULL;
@@ -53,7 +61,7 @@ char *viewer_command(const viewer *v)
         fputs("mangata render ", stream);
         write_word(stream, v->document.path);
         fputs(" -o frame.png --frames 0", stream);
-        write_method(stream, &q);
+        write_method(stream, v, &q);
         if (v->settings.view.layer != MGT_LAYER_COLOR && v->settings.view.layer != MGT_LAYER_DEPTH)
             fprintf(stream, " --layer %s", layer_choices[v->settings.view.layer]);
         for (size_t i = 0; i < words.count; i++) {
@@ -97,7 +105,7 @@ bool viewer_save_picture(viewer *v, const char *path, uint32_t width, uint32_t h
         return false;
     }
     now.scene.image = (mgt_image){.width = width ? width : v->place.width, .height = height ? height : v->place.height};
-    now.scene.quality = side_quality(&v->settings.sides[SIDE_A]);
+    now.scene.quality = quality_restricted(&v->settings.sides[SIDE_A]);
     return picture_saver_start(v->saver, &now.scene, path, error, error_size);
 }
 

@@ -176,7 +176,7 @@ static uint64_t stratum_at(uint64_t index, uint64_t total)
 /* Means over samples are meaningful for light and areas; depth and normal show one instant and are rendered once. */
 static bool layer_refines(mgt_layer layer) { return layer <= MGT_LAYER_MASK; }
 
-static bool side_refines(const render_order *o, int side) { return o->wanted[side] && method_takes(o->quality[side].method, METHOD_TAKES_TIMES); }
+static bool side_refines(const render_order *o, int side) { return o->wanted[side] && method_is_sampled(o->quality[side].method); }
 
 static bool begin_refinement(render_worker *w, int side)
 {

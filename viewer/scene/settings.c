@@ -2,11 +2,13 @@
  * The table of the viewer's own settings. */
 #include "viewer/scene/settings.h"
 
+#include <string.h>
+
 #include "params/methods.h"
+#include "params/options.h"
 
 const char *const layer_choices[] = {"color", "coverage", "mask", "depth", "normal", NULL};
 static const char *const switch_choices[] = {"off", "on", NULL};
-static const char *const mean_choices[] = {"add", "drop", NULL};
 static const char *const compare_choices[] = {"off", "wipe", "difference", NULL};
 static const char *const resolution_choices[] = {"auto", "full", "half", "third", "quarter", NULL};
 static const char *const frame_choices[] = {"fill", "scene", NULL};
@@ -14,16 +16,6 @@ static const char *const move_choices[] = {"orbit", "fly", NULL};
 
 #define NO_RANGE 0, 0
 #define SWITCH(type, member, text) FIELD_CHOICE, offsetof(type, member), 0, NO_RANGE, NULL, .doc = text, .choices = switch_choices
-
-static const field_row side_fields[] =
-    {{"method", FIELD_CHOICE, offsetof(side_settings, method), 0, NO_RANGE, NULL, .doc = "how this side is rendered",
-      .choices = &method_rows[0].properties.name, .choice_stride = sizeof(method_row)},
-     {"spatial", FIELD_COUNT, offsetof(side_settings, spatial), 0, 1, 1024, NULL, .doc = "N of N x N samples a pixel (ssaa, reference)"},
-     {"time_samples", FIELD_COUNT, offsetof(side_settings, time_samples), 0, 1, 65536, NULL, .doc = "samples of the open shutter (ssaa, reference)"},
-     {"seed", FIELD_COUNT, offsetof(side_settings, seed), 0, 0, 4294967295.0, NULL, .doc = "of the samples' jitter (ssaa, reference)"},
-     {"ndf_mean", FIELD_CHOICE, offsetof(side_settings, ndf_mean), 0, NO_RANGE, NULL,
-      .doc = "the mean slope of the filtered waves (podee-pixel): added, or left out as printed", .choices = mean_choices},
-     {0}};
 
 static const field_row view_fields[] =
     {{"compare", FIELD_CHOICE, offsetof(view_settings, compare), 0, NO_RANGE, NULL, .doc = "side A alone, A and B left and right of a divider, or A - B",
@@ -83,8 +75,8 @@ static const field_row inspect_fields[] = {{"x", FIELD_COUNT, offsetof(inspect_s
                                            {0}};
 
 static const field_row fields[] =
-    {{"a", FIELD_MAPPING, offsetof(settings, sides[SIDE_A]), 0, NO_RANGE, NULL, .doc = "side A", .fields = side_fields},
-     {"b", FIELD_MAPPING, offsetof(settings, sides[SIDE_B]), 0, NO_RANGE, NULL, .doc = "side B", .fields = side_fields},
+    {{"a", FIELD_MAPPING, offsetof(settings, sides[SIDE_A]), 0, NO_RANGE, NULL, .doc = "side A", .fields = quality_fields},
+     {"b", FIELD_MAPPING, offsetof(settings, sides[SIDE_B]), 0, NO_RANGE, NULL, .doc = "side B", .fields = quality_fields},
      {"view", FIELD_MAPPING, offsetof(settings, view), 0, NO_RANGE, NULL, .doc = "the picture", .fields = view_fields},
      {"clock", FIELD_MAPPING, offsetof(settings, clock), 0, NO_RANGE, NULL, .doc = "the time shown", .fields = clock_fields},
      {"waves", FIELD_MAPPING, offsetof(settings, waves), 0, NO_RANGE, NULL, .doc = "all waves at once", .fields = wave_fields},
@@ -97,12 +89,14 @@ static const field_row root_field = {"", FIELD_MAPPING, 0, 0, NO_RANGE, NULL, .d
 
 const field_row *settings_root_field(void) { return &root_field; }
 
-bool field_is_switch(const field_row *field) { return field->choices == switch_choices; }
+bool field_is_switch(const field_row *field) { return field->choices && strcmp(field_word(field, 0), "off") == 0 && strcmp(field_word(field, 1), "on") == 0; }
 
 settings settings_defaults(void)
 {
+    mgt_quality a = quality_defaults(), b = a;
+    method_from_name("reference", &b);
     return (settings){
-        .sides = {{.method = MGT_METHOD_MANGATA, .spatial = 4, .time_samples = 1}, {.method = MGT_METHOD_REFERENCE, .spatial = 8, .time_samples = 8}},
+        .sides = {a, b},
         .view = {.wipe = 0.5,
                  .difference_scale = 4,
                  .near_depth = 1,
@@ -117,16 +111,4 @@ settings settings_defaults(void)
         .move = {.path = 1, .speed = 4, .clearance = 0.3},
         .panel = {.shown = 1, .legend = 1, .scale = 1},
     };
-}
-
-mgt_quality side_quality(const side_settings *side)
-{
-    mgt_quality q;
-    mgt_quality_init(&q, sizeof q);
-    q.method = (mgt_method)side->method;
-    q.spatial_samples = side->spatial;
-    q.time_samples = side->time_samples;
-    q.seed = side->seed;
-    q.ndf_mean_drop = side->ndf_mean != 0;
-    return q;
 }

@@ -6,15 +6,6 @@
 #include "viewer/picture/display.h"
 #include "scene/scene_fields.h"
 
-/* How a side is rendered. */
-typedef struct side_settings {
-    int method;       /* mgt_method */
-    uint32_t spatial; /* N of N × N samples: ssaa, reference */
-    uint32_t time_samples;
-    uint32_t seed;
-    int ndf_mean; /* 0 add, 1 drop: podee-pixel */
-} side_settings;
-
 typedef enum resolution_mode { RESOLUTION_AUTO = 0, RESOLUTION_FULL, RESOLUTION_HALF, RESOLUTION_THIRD, RESOLUTION_QUARTER } resolution_mode;
 typedef enum frame_mode { FRAME_FILLS = 0, FRAME_AS_SCENE } frame_mode;
 
@@ -62,7 +53,7 @@ typedef struct inspect_settings {
 } inspect_settings;
 
 typedef struct settings {
-    side_settings sides[SIDE_COUNT];
+    mgt_quality sides[SIDE_COUNT]; /* with options that their methods do not take: another may */
     view_settings view;
     clock_settings clock;
     wave_settings waves;
@@ -80,7 +71,5 @@ const field_row *settings_root_field(void);
 bool field_is_switch(const field_row *field);
 
 extern const char *const layer_choices[]; /* in the order of mgt_layer */
-
-mgt_quality side_quality(const side_settings *side);
 
 #endif

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "cli/common/numbers.h"
+#include "params/options.h"
 
 static const control_hint hints[] = {
     {"image.width", "width", 64, 3840, true, "%.0f px"},
@@ -55,13 +56,17 @@ static const control_hint hints[] = {
     {"a.method", "A", 0, 0, false, NULL},
     {"b.method", "B", 0, 0, false, NULL},
     {"a.spatial", "samples N x N", 1, 32, false, NULL},
-    {"b.spatial", "samples N x N", 1, 32, false, NULL},
     {"a.time_samples", "time samples", 1, 64, true, NULL},
-    {"b.time_samples", "time samples", 1, 64, true, NULL},
     {"a.seed", "seed", 0, 100, false, NULL},
-    {"b.seed", "seed", 0, 100, false, NULL},
     {"a.ndf_mean", "NDF mean", 0, 0, false, NULL},
-    {"b.ndf_mean", "NDF mean", 0, 0, false, NULL},
+    {"a.elongation", "elongation to", 0, 100, false, NULL},
+    {"a.path_segments", "path segments", 0, 16, false, NULL},
+    {"a.samples", "samples", 0, 64, false, NULL},
+    {"a.budget_ms", "budget", 0, 1000, false, "%.0f ms"},
+    {"a.slots", "samples in all", 0, 1e7, false, NULL},
+    {"a.target_rmse", "predicted RMSE", 0, 0.1, false, "%.4f"},
+    {"a.tess_error", "triangles off by", 0, 4, false, "%.2f px"},
+    {"a.refraction_samples", "rays N x N", 0, 8, false, NULL},
     {"view.compare", "compare", 0, 0, false, NULL},
     {"view.wipe", "divider", 0, 1, false, "%.3f"},
     {"view.difference_scale", "A - B times", 0.5, 64, true, "%.2f"},
@@ -109,18 +114,23 @@ static const control_hint *hint_of(const char *name)
             while (p[1] >= '0' && p[1] <= '9')
                 p++;
     plain[used] = 0;
-    for (size_t i = 0; i < sizeof hints / sizeof hints[0]; i++)
-        if (strcmp(hints[i].name, plain) == 0)
-            return &hints[i];
+    for (int pass = 0; pass < 2; pass++) {
+        for (size_t i = 0; i < sizeof hints / sizeof hints[0]; i++)
+            if (strcmp(hints[i].name, plain) == 0)
+                return &hints[i];
+        if (strncmp(plain, "b.", 2) == 0) /* as side A's */
+            plain[0] = 'a';
+    }
     return NULL;
 }
 
-/* The document holds a spectrum's waves times the factor, so their settings change nothing any more; nor does a named clarity, whose numbers it
+/* Samples are taken in turn while a side refines.
+ * The document holds a spectrum's waves times the factor, so their settings change nothing any more; nor does a named clarity, whose numbers it
  * holds. Objects are built when the file is read. Each side has a quality of its own. */
 static bool is_left_out(const char *name)
 {
     return strncmp(name, "water.spectrum", 14) == 0 || strcmp(name, "water.amplitude") == 0 || strcmp(name, "water.clarity") == 0 ||
-           strncmp(name, "objects", 7) == 0 || strncmp(name, "quality", 7) == 0;
+           strncmp(name, "objects", 7) == 0 || strncmp(name, "quality", 7) == 0 || strncmp(name + 1, ".sample_", 8) == 0;
 }
 
 static bool is_control(const field_row *field)
@@ -292,9 +302,19 @@ void control_read(const control *c, double numbers[3])
 static double allowed(const field_row *field, double number)
 {
     const double margin = 1e-3;
+    if (field->flags & FIELD_OR_ZERO && number < field->min)
+        return number < field->min / 2 ? 0 : field->min;
     const double low = field->flags & FIELD_OPEN_MIN ? field->min + margin : field->min;
     const double high = field->flags & FIELD_OPEN_MAX ? field->max - margin : field->max;
     return number >= low ? number <= high ? number : high : low;
+}
+
+/* An option that excludes others takes their place. */
+static void leave_one_alternative(const control_board *board, const control *c)
+{
+    for (int side = 0; side < SIDE_COUNT && c->field->alternative; side++)
+        if ((char *)&board->settings->sides[side] + c->field->offset == (char *)c->value)
+            quality_drop_alternatives(c->field, &board->settings->sides[side]);
 }
 
 static void write_choice(const control_board *board, const control *c, int choice)
@@ -314,6 +334,7 @@ static void write_choice(const control_board *board, const control *c, int choic
 void control_write(const control_board *board, const control *c, const double numbers[3])
 {
     const field_row *field = c->field;
+    leave_one_alternative(board, c);
     if (c->wave) {
         wave_shape shape = wave_shape_of(c->wave);
         *(double *)(void *)((char *)&shape + field->offset) = allowed(field, numbers[0]);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * Stands in for the OpenGL backend where its headers were not found. */
 #include "frame/backend.h"
+#include "mangata/gl.h"
 
 static mgt_status missing_create(void **state, const mgt_context_desc *desc, const reporter *r, mgt_context_info *info)
 {
@@ -12,3 +13,9 @@ static mgt_status missing_create(void **state, const mgt_context_desc *desc, con
 static void missing_destroy(void *state) { (void)state; }
 
 const backend_functions gl_backend = {.create = missing_create, .destroy = missing_destroy};
+
+const char *mgt_gl_source_name(size_t index)
+{
+    (void)index;
+    return NULL;
+}
