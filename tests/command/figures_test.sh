@@ -43,11 +43,13 @@ ours=$(awk -F' *\\| *' '$2 == "pool-waves" && $3 == "`off`" { print $4 }' all/re
 awk -v a="$ours" -v b="$(json rmse)" 'BEGIN { exit !(a > 0 && (a - 255 * b) * (a - 255 * b) < 1e-4) }' || fail "RMSE $ours, mangata diff says 255 times $(json rmse)"
 
 # Nothing is rendered twice, and everything comes out the same.
-cp -r all before
-expect 0 '0 pictures rendered, 187 kept' figures -o all "${tiny[@]}"
-{ cat all/table1.md; echo; cat all/refraction.md; } >tables.txt
-grep -q '^| `mangata` |' stdout.txt && same stdout.txt tables.txt
-for file in "${plates[@]}" all/table1.csv all/refraction.md all/pictures/high-mangata.png; do same "$file" "before/${file#all/}"; done
+if [[ -z ${SANITIZED:-} ]]; then
+    cp -r all before
+    expect 0 '0 pictures rendered, 187 kept' figures -o all "${tiny[@]}"
+    { cat all/table1.md; echo; cat all/refraction.md; } >tables.txt
+    grep -q '^| `mangata` |' stdout.txt && same stdout.txt tables.txt
+    for file in "${plates[@]}" all/table1.csv all/refraction.md all/pictures/high-mangata.png; do same "$file" "before/${file#all/}"; done
+fi
 
 # A part alone: only its pictures; what needs no scene renders nothing.
 expect 0 '16 pictures rendered, 0 kept' figures -o transition --only 11 --size 32x18 --spatial 1 --time-samples 1 --frames 0 --time-runs 0
@@ -68,7 +70,9 @@ exists fits/fig21.svg
 [[ ! -s stdout.txt ]] || fail "a plate is no data: $(head -c 200 stdout.txt)"
 
 # Killed without warning, it goes on.
-slow=(--only table1 --size 64x36 --spatial 8 --time-samples 4 --frames 0-1 --time-runs 0 --progress json --quiet)
+spatial=8
+[[ -z ${SANITIZED:-} ]] || spatial=4
+slow=(--only table1 --size 64x36 --spatial $spatial --time-samples 4 --frames 0-1 --time-runs 0 --progress json --quiet)
 : >killed.txt
 "$MANGATA" figures --scenes "$SOURCE/scenes" -o k "${slow[@]}" 2>killed.txt >/dev/null &
 process=$!

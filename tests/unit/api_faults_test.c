@@ -89,6 +89,7 @@ static mgt_status life_of_baselines(int which)
     static const mgt_method methods[] = {MGT_METHOD_LEAN, MGT_METHOD_FXAA, MGT_METHOD_TAA, MGT_METHOD_ADAPTIVE};
     mgt_wave waves[SEA_WAVES];
     mgt_scene scene = sea_scene(waves);
+    scene.image = (mgt_image){.width = 24, .height = 16};
     mgt_context_desc desc;
     mgt_context_desc_init(&desc, sizeof desc);
     desc.threads = 2;
