@@ -203,7 +203,7 @@ static void lanes_frequencies(const method_tile *t, const wave_set *waves, float
         const Footprint f = footprint_at(&cx, p.ray, real(TILE(&cx).camera_height) / fall);
         real squared = real(0.0f);
         for (int w = 0; w < count; w++)
-            squared = max(squared, frequency_squared(&cx, f, waves->turns_x[w], waves->turns_z[w]));
+            squared = max(squared, wave_frequency(&cx, f, waves->data[w]));
         store(most + i, SELECT(water, sqrt(squared), real(0.0f)));
     }
 }

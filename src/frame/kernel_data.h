@@ -7,6 +7,7 @@
     typedef struct name name; \
     struct name
 #include "kernels/common/types.k"
+#include "kernels/waves/sines_types.k"
 #include "kernels/baselines/lean_types.k"
 #include "kernels/refraction/refract_types.k"
 #include "kernels/refraction/narrow_types.k"

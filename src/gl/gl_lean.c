@@ -44,8 +44,8 @@ static void upload_waves(gl_renderer *g)
     size_t offset;
     LeanWave *out = gl_ring_allocate(&g->ring, MGT_MAX_WAVES * sizeof *out, &offset);
     for (size_t i = 0; i < waves->count; i++)
-        out[i] = (LeanWave){.across = waves->across[i],
-                            .down = waves->down[i],
+        out[i] = (LeanWave){.periods_x = waves->across[i],
+                            .periods_z = waves->down[i],
                             .turns = (float)(waves->turns[i] - rint(waves->turns[i])),
                             .slope_x = waves->slope_x[i],
                             .slope_z = waves->slope_z[i]};

@@ -259,7 +259,7 @@ static void tiles_sort_without_loss(void **state)
                 continue;
             const Footprint p = footprint_at(&b->cx, ray, d->camera_height / -ray.y);
             for (int i = 0; i < d->resolved_count; i++) {
-                const real frequency = frequency_squared(&b->cx, p, b->tile.waves[i].turns_x, b->tile.waves[i].turns_z);
+                const real frequency = wave_frequency(&b->cx, p, b->tile.waves[i]);
                 share_error = fmax(share_error, fabs(listed_share(&b->tile.waves[i]) - (double)resolved_share(&b->cx, frequency)));
             }
         }

@@ -4,6 +4,7 @@
  */
 #include "kernels/common/prelude_glsl.k"
 #include "kernels/common/types.k"
+#include "kernels/waves/sines_types.k"
 #include "pass_data.k"
 
 layout(std140, binding = 0) uniform FrameBlock { FrameData frame_data; };
@@ -26,30 +27,23 @@ layout(binding = 0) uniform sampler2D sky_texture;
 int tile_slot = 0;
 ivec2 layer_texel = ivec2(0); /* the pixel's */
 
-/* A wave of the tile: the frame's, with the tile's phase and share. */
-WaveData wave_of_tile(int i)
-{
-    TileWave entry = tile_waves[tile_slot * pass_data.wave_stride + i];
-    WaveData w = wave_data[entry.index];
-    w.phase = entry.phase;
-#ifdef SHARED_WAVES
-    w.even_x *= entry.share;
-    w.even_z *= entry.share;
-    w.odd_x *= entry.share;
-    w.odd_z *= entry.share;
-    w.bend_xx *= entry.share;
-    w.bend_xz *= entry.share;
-    w.bend_zz *= entry.share;
-    w.even_height *= entry.share;
-    w.odd_height *= entry.share;
-#endif
-    return w;
-}
-
 #define FRAME(cx) frame_data
 #define TILE(cx) tile_data[tile_slot]
 #define WAVE(cx, i) wave_of_tile(i)
 #define MARCH_WAVE(cx, i) march_waves[tile_slot * pass_data.wave_stride + i]
+
+#include "kernels/waves/sines.k"
+
+/* A wave of the tile: the frame's, with the tile's phase and share. */
+WaveData wave_of_tile(int i)
+{
+    TileWave entry = tile_waves[tile_slot * pass_data.wave_stride + i];
+    WaveData w = wave_placed(0, wave_data[entry.index], entry.turns);
+#ifdef SHARED_WAVES
+    w = wave_shared(0, w, entry.share);
+#endif
+    return w;
+}
 
 vec3 SKY_TEXEL(int cx, float column, float row) { return texelFetch(sky_texture, ivec2(int(column), int(row)), 0).rgb; }
 

@@ -27,8 +27,8 @@ void main()
         slopes[r] = vec2(0.0f);
     for (int i = 0; i < lean_pass.wave_count; i++) {
         LeanWave w = lean_waves[i];
-        SinCos t = sincos_turns(0, w.turns + turns_of(w.across * column + w.down * first_row));
-        SinCos row = sincos_turns(0, turns_of(w.down));
+        SinCos t = sincos_turns(0, w.turns + turns_of(w.periods_x * column + w.periods_z * first_row));
+        SinCos row = sincos_turns(0, turns_of(w.periods_z));
         for (int r = 0; r < ROWS; r++) {
             slopes[r] += t.c * vec2(w.slope_x, w.slope_z);
             float sine = fma(t.s, row.c, t.c * row.s);
