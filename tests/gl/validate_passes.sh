@@ -22,12 +22,27 @@ check() { # file, what to define
 }
 
 count=0
-for pass in "$work"/*.comp "$work"/*.vert "$work"/*.frag "$work"/*.tesc "$work"/*.tese; do
+each_way() { # file, what to define
     count=$((count + 1))
-    check "$pass" ""
-    check "$pass" "#define WAVES_IN_STORAGE"
-    check "$pass" "#define SOFTWARE_GL"
+    check "$1" "$2"
+    check "$1" "$2
+#define WAVES_IN_STORAGE"
+    check "$1" "$2
+#define SOFTWARE_GL"
+}
+for pass in "$work"/*.comp "$work"/*.vert "$work"/*.frag "$work"/*.tesc "$work"/*.tese; do
+    grep -q '"method\.k"' "$pass" || each_way "$pass" ""
 done
+# Passes that are assembled once a method: {PASS, KERNEL, RESULT} in the rows of the methods.
+rows=$(grep -oE '\{"[a-z_]+\.comp", "[a-z_]+\.k", "[a-z_]+"\}' "$source/src/params/methods.c" | tr -d '{}",')
+while read -r pass kernel result; do
+    echo "#include \"kernels/$(cd "$source/src/kernels" && find . -name "$kernel" | sed 's,^\./,,')\"" >"$work/method.k"
+    case $kernel in lean.k | leadr.k) map="#define LEAN_MAP" ;; *) map= ;; esac
+    each_way "$work/$pass" "#define method_result $result
+$map"
+done <<END
+$rows
+END
 echo "$count passes, each with the waves in a uniform block, in a storage buffer, and for software"
 [ $count -ge 12 ] || failed=1
 exit $failed

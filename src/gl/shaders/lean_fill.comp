@@ -5,6 +5,7 @@
  */
 #include "kernels/common/prelude_glsl.k"
 #include "pass_data.k"
+#include "kernels/waves/sines_types.k"
 #include "kernels/common/math.k"
 
 layout(std140, binding = 3) uniform LeanPassBlock { LeanPass lean_pass; };
