@@ -497,7 +497,7 @@ static void state_is_as_before(void **state)
     make_waves(waves);
     mgt_scene scene = make_scene(waves, test_time);
     engine e = start(DEPTH_REVERSED);
-    for (int i = 0; i < METHODS; i++) {
+    for (int i = 0; i < METHODS; i += 1 + MGT_SANITIZED) {
         scene.quality = quality_of(i);
         scene.quality.spatial_samples = 2;
         for (int color = i == 0 ? MGT_GL_COLOR_RADIANCE : MGT_GL_COLOR_DISPLAY; color <= MGT_GL_COLOR_DISPLAY; color++) {

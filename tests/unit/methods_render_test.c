@@ -64,7 +64,7 @@ static scene_file *load(const char *name, mgt_scene *scene)
 
 /* ---- every scene ---- */
 
-enum { MOST = 97 * 54 };
+enum { MOST = 65 * 37 };
 
 static void check_frame(mgt_context *context, const mgt_scene *scene, const char *what)
 {
@@ -87,7 +87,7 @@ static void check_frame(mgt_context *context, const mgt_scene *scene, const char
 static void check_scene(mgt_context *context, mgt_scene *scene, const char *name, int *frames)
 {
     static const double radii[] = {0.05, 0.27, 1, 3, 10};
-    static const uint32_t sizes[][2] = {{96, 54}, {33, 47}, {1, 1}};
+    static const uint32_t sizes[][2] = {{65, 37}, {33, 47}, {1, 1}};
     for (int still = 0; still < 2; still++) {
         mgt_wave waves[MGT_MAX_WAVES];
         memcpy(waves, scene->water.waves, scene->water.wave_count * sizeof *waves);
