@@ -142,6 +142,12 @@ MGT_API void mgt_target_init(mgt_target *target, size_t size);
 /* Checks a scene as mgt_render() would, without rendering. The detail of an error is in mgt_last_error(context). */
 MGT_API mgt_status mgt_scene_check(mgt_context *context, const mgt_scene *scene);
 
+/* Whether `backend` itself renders a layer of the scene as it stands, its method, refraction, objects and camera; false also for scenes that are not
+ * valid. mgt_render() of an OpenGL context renders the rest on the CPU, with the same pixels as a CPU context, and says so in the log once a method
+ * ("render.cpu": a warning, or for MGT_BACKEND_AUTO an information); views and textures refuse it. AUTO: whether either does. Whether a context of
+ * the backend can be created here, only mgt_context_create() knows. Any thread. */
+MGT_API bool mgt_supports(mgt_backend backend, const mgt_scene *scene, mgt_layer layer);
+
 /* Renders one frame into `count` targets (1 … 16). Blocks until done. The same scene gives the same bytes. */
 MGT_API mgt_status mgt_render(mgt_context *context, const mgt_scene *scene, const mgt_target *targets, size_t count);
 

@@ -4,6 +4,7 @@
 
 #include "api/context.h"
 #include "api/structs.h"
+#include "api/supports.h"
 #include "api/validate.h"
 #include "frame/targets.h"
 
@@ -48,6 +49,7 @@ mgt_status mgt_context_create(mgt_context **context, const mgt_context_desc *des
     mgt_context *c = calloc(1, sizeof *c);
     if (!c)
         return report_error(&early, MGT_ERROR_MEMORY, "context.create", "out of memory");
+    c->desc = own;
     c->report = (reporter){own.log, own.log_user, c->error};
     c->backend = own.backend == MGT_BACKEND_NULL ? &null_backend : own.backend == MGT_BACKEND_GL ? &gl_backend : &cpu_backend;
     c->info.struct_size = sizeof c->info;
@@ -88,6 +90,19 @@ mgt_status mgt_scene_check(mgt_context *context, const mgt_scene *scene)
     return scene_take(&context->report, &own, scene);
 }
 
+/* On the CPU what OpenGL lacks, which the log says once a method: a warning where OpenGL was asked for by name. */
+static mgt_status render_instead(mgt_context *context, const mgt_scene *own, const mgt_target *targets, size_t count, const char *lacks)
+{
+    void *state = NULL;
+    const uint32_t method = 1u << own->quality.method;
+    if (!(context->told_of_cpu & method))
+        report(&context->report, context->desc.backend == MGT_BACKEND_AUTO ? MGT_LOG_INFO : MGT_LOG_WARNING, "render.cpu",
+               "the CPU renders this frame by method %s: %s on the CPU alone", mgt_method_name(own->quality.method), lacks);
+    context->told_of_cpu |= method;
+    const mgt_status status = cpu_state(context, &state);
+    return status == MGT_OK ? cpu_backend.render(state, &context->report, own, targets, count) : status;
+}
+
 mgt_status mgt_render(mgt_context *context, const mgt_scene *scene, const mgt_target *targets, size_t count)
 {
     if (!context)
@@ -101,5 +116,9 @@ mgt_status mgt_render(mgt_context *context, const mgt_scene *scene, const mgt_ta
     if (status != MGT_OK)
         return status;
     scene_to_sea_level(&own);
-    return context->backend->render(context->state, &context->report, &own, own_targets, count);
+    const char *lacks = NULL;
+    for (size_t i = 0; i < count && !lacks && context->backend == &gl_backend; i++)
+        lacks = gl_lacks_layer(&own, own_targets[i].layer);
+    return lacks ? render_instead(context, &own, own_targets, count, lacks)
+                 : context->backend->render(context->state, &context->report, &own, own_targets, count);
 }

@@ -10,8 +10,13 @@ struct mgt_context {
     void *state;
     reporter report;
     mgt_context_info info;
-    void *cpu; /* made when first needed: the state of cpu_backend for what only the CPU does */
+    mgt_context_desc desc;
+    void *cpu;            /* made when first needed: the state of cpu_backend for what only the CPU does */
+    uint32_t told_of_cpu; /* bits by method: the log has said that the CPU renders it instead of OpenGL */
     char error[REPORTER_TEXT];
 };
+
+/* The CPU backend's state: the context's own, or a second one beside another backend. */
+mgt_status cpu_state(mgt_context *context, void **state);
 
 #endif

@@ -4,8 +4,7 @@
 #include "api/structs.h"
 #include "frame/targets.h"
 
-/* The CPU backend's state: the context's own, or a second one of a single thread beside another backend. */
-static mgt_status cpu_state(mgt_context *context, void **state)
+mgt_status cpu_state(mgt_context *context, void **state)
 {
     if (context->backend == &cpu_backend) {
         *state = context->state;
@@ -13,9 +12,8 @@ static mgt_status cpu_state(mgt_context *context, void **state)
     }
     mgt_status status = MGT_OK;
     if (!context->cpu) {
-        const mgt_context_desc desc = {.struct_size = sizeof desc, .threads = 1};
         mgt_context_info unused = {0};
-        status = cpu_backend.create(&context->cpu, &desc, &context->report, &unused);
+        status = cpu_backend.create(&context->cpu, &context->desc, &context->report, &unused);
     }
     *state = context->cpu;
     return status;

@@ -2,6 +2,7 @@
  * The functions of mangata/gl.h: checks of their arguments, then the backend. */
 #include "api/context.h"
 #include "api/structs.h"
+#include "api/supports.h"
 #include "api/validate.h"
 #include "frame/targets.h"
 
@@ -32,6 +33,8 @@ mgt_status mgt_gl_render_textures(mgt_context *context, const mgt_scene *scene, 
     if (status != MGT_OK)
         return status;
     scene_to_sea_level(&own);
+    if (gl_lacks(&own))
+        return report_error(r, MGT_ERROR_UNSUPPORTED, "render.texture", "%s on the CPU alone: use mgt_render()", gl_lacks(&own));
     return context->backend->render_textures(context->state, r, &own, own_textures, count);
 }
 
@@ -56,6 +59,8 @@ static mgt_status check_view(const reporter *r, const mgt_scene *scene, size_t i
     scene_to_sea_level(&out->scene);
     out->close.rays.position[1] -= scene->water.level;
     out->open.rays.position[1] -= scene->water.level;
+    if (status == MGT_OK && gl_lacks(&out->scene))
+        return report_error(r, MGT_ERROR_UNSUPPORTED, "render.view", "%s on the CPU alone: use mgt_render()", gl_lacks(&out->scene));
     return status;
 }
 

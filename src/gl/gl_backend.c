@@ -89,8 +89,6 @@ static void gl_destroy(void *state)
             gl_egl_leave(s->egl, &scope.egl);
     }
     gl_egl_destroy(s->egl);
-    if (s->cpu)
-        cpu_backend.destroy(s->cpu);
     free(s);
 }
 
@@ -207,42 +205,6 @@ static mgt_status read_target(gl_backend_state *s, const mgt_target *target, con
 
 /* ---- mgt_render ---- */
 
-/* More rays of refraction a pixel, along a side, would keep the GPU busy for too long at once. */
-enum { MOST_PLACES = 4 };
-
-const char *gl_lacks(const mgt_scene *scene)
-{
-    if (!(method_of(scene->quality.method)->properties.backends & 1u << MGT_BACKEND_GL))
-        return "the method runs";
-    switch (scene->quality.refraction) {
-    case MGT_REFRACTION_DISTANCE_FIELD:
-    case MGT_REFRACTION_TRUTH:
-        if (scene->object_count > 0)
-            return "refraction distance-field and truth run";
-        break;
-    default:
-        break;
-    }
-    if (scene->object_count > 0 && scene->quality.refraction == MGT_REFRACTION_LIU && scene->camera.position[1] < 0)
-        return "refraction liu from under water runs";
-    if (scene->object_count > 0 && scene->quality.refraction_samples > MOST_PLACES)
-        return "more than 4 x 4 samples of refraction a pixel run";
-    return NULL;
-}
-
-static mgt_status render_by_cpu(gl_backend_state *s, const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count)
-{
-    if (!s->cpu) {
-        mgt_context_info info;
-        mgt_context_desc desc = s->desc;
-        desc.backend = MGT_BACKEND_CPU;
-        const mgt_status status = cpu_backend.create(&s->cpu, &desc, r, &info);
-        if (status != MGT_OK)
-            return status;
-    }
-    return cpu_backend.render(s->cpu, r, scene, targets, count);
-}
-
 static camera_rays scene_camera_at(const void *user, double share)
 {
     const frame *f = user;
@@ -300,22 +262,9 @@ static mgt_status render_entered(gl_backend_state *s, const reporter *r, const m
     return status;
 }
 
-/* Of a moving camera's refraction only the mean over the shutter is kept, which its layers are not. */
-static bool gl_knows_layer(const mgt_scene *scene, mgt_layer layer)
-{
-    if (layer == MGT_LAYER_REFRACTION || layer == MGT_LAYER_REFRACTION_ERROR)
-        return scene->object_count > 0 && !scene->camera_moves && method_of(scene->quality.method)->way != METHOD_PASS;
-    return layer <= MGT_LAYER_NORMAL;
-}
-
 static mgt_status gl_render(void *state, const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count)
 {
     gl_backend_state *s = state;
-    bool renders = !gl_lacks(scene);
-    for (size_t i = 0; i < count; i++)
-        renders &= gl_knows_layer(scene, targets[i].layer);
-    if (!renders)
-        return render_by_cpu(s, r, scene, targets, count);
     gl_scope scope;
     mgt_status status = gl_enter(s, &scope, r);
     if (status != MGT_OK)

@@ -14,7 +14,6 @@ typedef struct gl_backend_state {
     gl_buffer transfer;
     mgt_context_desc desc;
     reporter report; /* for messages of OpenGL's own */
-    void *cpu;       /* state of the CPU backend for what the shaders do not know; NULL until it is needed */
 } gl_backend_state;
 
 /* What a call puts back at its end. */
@@ -27,10 +26,6 @@ mgt_status gl_enter(gl_backend_state *s, gl_scope *scope, const reporter *r);
 
 /* Returns `status`, or what OpenGL has to say where that is MGT_OK. */
 mgt_status gl_leave(gl_backend_state *s, const gl_scope *scope, mgt_status status, const reporter *r);
-
-/* NULL where the shaders know all of a scene, else what runs on the CPU alone. Left to it are the reference, for its double precision, adaptive, which
- * asks after each round where the next samples go, and what lies under water. */
-const char *gl_lacks(const mgt_scene *scene);
 
 /* What a call asks for. */
 typedef struct layer_wants {

@@ -120,8 +120,6 @@ mgt_status gl_render_textures(void *state, const reporter *r, const mgt_scene *s
     gl_backend_state *s = state;
     if (s->egl)
         return report_error(r, MGT_ERROR_ARGUMENT, "render.texture", "this context has no host: create it with mgt_context_desc.gl_get_proc");
-    if (gl_lacks(scene))
-        return report_error(r, MGT_ERROR_UNSUPPORTED, "render.texture", "%s on the CPU alone: use mgt_render()", gl_lacks(scene));
     gl_scope scope;
     mgt_status status = gl_enter(s, &scope, r);
     if (status != MGT_OK)
@@ -253,8 +251,6 @@ static mgt_status render_view(gl_backend_state *s, const checked_view *v, size_t
 {
     const mgt_gl_view *view = v->view;
     bool encodes = false;
-    if (gl_lacks(&v->scene))
-        return report_error(r, MGT_ERROR_UNSUPPORTED, "render.view", "%s on the CPU alone: use mgt_render()", gl_lacks(&v->scene));
     mgt_status status = check_framebuffer(&s->renderer->gl, view->framebuffer, index, &encodes, r);
     if (status == MGT_OK)
         status = gl_sky_prepare(s->renderer, &v->scene, r);

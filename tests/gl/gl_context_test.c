@@ -61,6 +61,42 @@ static void creation_says_what_runs(void **state)
     assert_non_null(strstr(mgt_last_error(NULL), "there is no OpenGL device 1000"));
 }
 
+/* What OpenGL does not render comes from the CPU, which the log says once a method; mgt_supports() knows it before. */
+static void the_cpus_frames_are_announced(void **state)
+{
+    (void)state;
+    static float samples[SEA_WIDTH * SEA_HEIGHT];
+    log_record log = {0};
+    mgt_context_desc desc;
+    mgt_context_desc_init(&desc, sizeof desc);
+    desc.backend = MGT_BACKEND_GL;
+    desc.log = keep_log;
+    desc.log_user = &log;
+    mgt_context *context = NULL;
+    assert_int_equal(mgt_context_create(&context, &desc), MGT_OK);
+    mgt_wave waves[SEA_WAVES];
+    mgt_scene scene = sea_scene(waves);
+    const mgt_target target = sea_target(MGT_LAYER_COVERAGE, MGT_FORMAT_R32F, samples, 0), spent = sea_target(MGT_LAYER_SAMPLES, MGT_FORMAT_R32F, samples, 0);
+    const struct {
+        mgt_method method;
+        const mgt_target *target;
+        bool gl, announced;
+    } cases[] = {{MGT_METHOD_NONE, &target, true, false},     {MGT_METHOD_NONE, &spent, false, true},       {MGT_METHOD_NONE, &spent, false, false},
+                 {MGT_METHOD_ADAPTIVE, &target, false, true}, {MGT_METHOD_ADAPTIVE, &target, false, false}, {MGT_METHOD_NONE, &target, true, false}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        scene.quality.method = cases[i].method;
+        log.ids[0] = 0;
+        assert_int_equal(mgt_supports(MGT_BACKEND_GL, &scene, cases[i].target->layer), cases[i].gl);
+        assert_true(mgt_supports(MGT_BACKEND_CPU, &scene, cases[i].target->layer) && mgt_supports(MGT_BACKEND_AUTO, &scene, cases[i].target->layer));
+        sea_render(context, &scene, cases[i].target, 1);
+        assert_int_equal(strstr(log.ids, "render.cpu") != NULL, cases[i].announced);
+    }
+    assert_false(mgt_supports(MGT_BACKEND_CPU, &scene, (mgt_layer)99) || mgt_supports((mgt_backend)9, &scene, MGT_LAYER_COLOR));
+    scene.image.width = 0;
+    assert_false(mgt_supports(MGT_BACKEND_CPU, &scene, MGT_LAYER_COLOR) || mgt_supports(MGT_BACKEND_CPU, NULL, MGT_LAYER_COLOR));
+    mgt_context_destroy(context);
+}
+
 /* AUTO takes OpenGL by hardware only, and says what it took. */
 static void automatic_choice(void **state)
 {
@@ -566,6 +602,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(creation_says_what_runs),
         cmocka_unit_test(automatic_choice),
+        cmocka_unit_test(the_cpus_frames_are_announced),
         cmocka_unit_test(incomplete_hosts_are_refused),
         cmocka_unit_test(layers_are_those_of_the_cpu),
         cmocka_unit_test(crops_are_parts_of_the_whole),

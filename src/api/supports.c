@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: MIT
+ * What runs where. */
+#include "api/supports.h"
+
+#include "api/structs.h"
+#include "frame/backend.h"
+#include "frame/targets.h"
+#include "params/methods.h"
+#include "trace/trace.h"
+
+enum { MOST_PLACES = 4 }; /* rays of refraction along a side of a pixel, on OpenGL */
+
+const char *gl_lacks(const mgt_scene *scene)
+{
+    const mgt_refraction refraction = scene->quality.refraction;
+    if (!(method_of(scene->quality.method)->properties.backends & 1u << MGT_BACKEND_GL))
+        return "the method runs";
+    if (scene->object_count == 0)
+        return NULL;
+    if (refraction == MGT_REFRACTION_DISTANCE_FIELD || refraction == MGT_REFRACTION_TRUTH)
+        return "refraction distance-field and truth run";
+    if (refraction == MGT_REFRACTION_LIU && scene->camera.position[1] < 0)
+        return "refraction liu from under water runs";
+    return scene->quality.refraction_samples > MOST_PLACES ? "more than 4 x 4 samples of refraction a pixel run" : NULL;
+}
+
+const char *gl_lacks_layer(const mgt_scene *scene, mgt_layer layer)
+{
+    /* Of a moving camera's refraction only the mean over the shutter is kept, which its layers are not. */
+    const bool refraction = scene->object_count > 0 && !scene->camera_moves && method_of(scene->quality.method)->way != METHOD_PASS;
+    if (layer <= MGT_LAYER_NORMAL || (refraction && (layer == MGT_LAYER_REFRACTION || layer == MGT_LAYER_REFRACTION_ERROR)))
+        return gl_lacks(scene);
+    return "a layer that was asked for runs";
+}
+
+bool mgt_supports(mgt_backend backend, const mgt_scene *scene, mgt_layer layer)
+{
+    const reporter r = creation_reporter();
+    mgt_scene own;
+    if (scene_take(&r, &own, scene) != MGT_OK || mgt_layer_channels(layer) == 0)
+        return false;
+    scene_to_sea_level(&own);
+    const bool traces = own.object_count > 0 && (own.quality.refraction == MGT_REFRACTION_HYBRID || own.quality.refraction == MGT_REFRACTION_TRUTH);
+    const bool gl = gl_backend.render && !gl_lacks_layer(&own, layer), cpu = !traces || trace_available();
+    switch (backend) {
+    case MGT_BACKEND_CPU:
+        return cpu;
+    case MGT_BACKEND_GL:
+        return gl;
+    case MGT_BACKEND_AUTO:
+        return gl || cpu;
+    case MGT_BACKEND_NULL:
+        return true;
+    }
+    return false;
+}
