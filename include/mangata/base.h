@@ -8,8 +8,13 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#if defined(_WIN32)
+/* Windows: define MGT_STATIC where the static library is used; pkg-config --static and the CMake target mangata::mangata_static do. */
+#if defined(_WIN32) && defined(MGT_STATIC)
 #define MGT_API
+#elif defined(_WIN32) && defined(MGT_BUILDING) /* the library itself */
+#define MGT_API __declspec(dllexport)
+#elif defined(_WIN32)
+#define MGT_API __declspec(dllimport)
 #else
 #define MGT_API __attribute__((visibility("default")))
 #endif

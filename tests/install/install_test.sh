@@ -42,7 +42,7 @@ nm -D --defined-only "$library" | awk '{ print $3 }' | grep -v '^_' | sort >"$wo
 grep -Eho '^MGT_API [^(]*\(' "$prefix"/include/mangata/*.h | grep -Eo 'mgt_[a-z0-9_]+\(' | tr -d '(' | sort >"$work/declared"
 [[ -s $work/declared ]] || die "no declarations found"
 diff "$work/declared" "$work/exported" || die "exported symbols are not the declared ones"
-objdump -p "$library" | grep -Eq 'SONAME +libmangata\.so\.[0-9]+$' || die "no soname"
+objdump -p "$library" | grep -Eq 'SONAME +libmangata\.so\.0\.1$' || die "no soname"
 
 # By pkg-config.
 export PKG_CONFIG_PATH=$folder/pkgconfig
@@ -52,7 +52,27 @@ LD_LIBRARY_PATH=$folder "$work/by_pkgconfig" "$work/a.ppm"
 (($(stat -c %s "$work/a.ppm") == 15 + 640 * 360 * 3)) || die "the example's picture is short"
 (($(tail -c +16 "$work/a.ppm" | od -An -v -tu1 -w3 | sort -u | wc -l) > 100)) || die "the example's picture is blank"
 
-# By CMake.
+# The static one, which has no other global symbol than the public interface either.
+nm -g --defined-only "$folder/libmangata.a" | awk 'NF == 3 { print $3 }' | sort | diff "$work/declared" - || die "global symbols of libmangata.a"
+"$cc" -std=c17 "${flags[@]}" "$source/examples/render.c" $(pkg-config --static --cflags --libs mangata | sed 's/-lmangata/-l:libmangata.a/') -o "$work/static"
+"$work/static" "$work/static.ppm"
+cmp "$work/a.ppm" "$work/static.ppm" || die "the static library draws something else"
+
+# Programs that were built with the header of 0.1, whose scene ends with sample_slots, and with a later one, whose scene is larger.
+for version in earlier later; do
+    mkdir -p "$work/$version"
+    cp -r "$prefix/include/mangata" "$work/$version"
+    if [[ $version == earlier ]]; then
+        sed -i '/sample_slots;/,/} mgt_quality;/ { /sample_slots;/b; /} mgt_quality;/b; d }' "$work/$version/mangata/scene.h"
+    else
+        sed -i 's/^} mgt_quality;/double added[2]; &/' "$work/$version/mangata/scene.h"
+    fi
+    "$cc" -std=c17 "${flags[@]}" -I "$work/$version" "$source/examples/render.c" -L "$folder" -lmangata -lm -o "$work/$version/render"
+    LD_LIBRARY_PATH=$folder "$work/$version/render" "$work/$version.ppm"
+    cmp "$work/a.ppm" "$work/$version.ppm" || die "a program that was built with an $version header draws something else"
+done
+
+# By CMake, linked with either.
 mkdir "$work/user"
 cp "$source/examples/render.c" "$work/user"
 cat >"$work/user/CMakeLists.txt" <<'END'
@@ -61,9 +81,13 @@ project(user C)
 find_package(mangata 0.1 REQUIRED)
 add_executable(user render.c)
 target_link_libraries(user PRIVATE mangata::mangata m)
+add_executable(user_static render.c)
+target_link_libraries(user_static PRIVATE mangata::mangata_static m)
 END
 "$cmake" -S "$work/user" -B "$work/user/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_C_COMPILER="$cc" -DCMAKE_C_FLAGS="${flags[*]}" \
     >"$work/user.log" 2>&1 && "$cmake" --build "$work/user/build" >>"$work/user.log" 2>&1 || die "$(cat "$work/user.log")"
 "$work/user/build/user" "$work/b.ppm"
 cmp "$work/a.ppm" "$work/b.ppm" || die "two builds of the example differ"
+"$work/user/build/user_static" "$work/c.ppm"
+cmp "$work/a.ppm" "$work/c.ppm" || die "the static build of the example differs"
 ! "$work/user/build/user" "$work/no/such/folder.ppm" || die "the example hides a failure"
