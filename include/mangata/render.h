@@ -164,13 +164,13 @@ typedef struct mgt_pixel_info {
     double radiance[3];                 /* kcd/m² */
     double position[3];                 /* of the hit, metres */
     double distance;                    /* along the ray, metres */
-    double slope_open[2];               /* mean slope when the shutter opens, … */
-    double slope_close[2];              /* … and when it closes */
+    double slope_open[2];               /* mean slope when the shutter opens */
+    double slope_close[2];              /* mean slope when it closes */
     double unresolved[3];               /* slope covariance xx, xz, zz of the waves that the pixel does not resolve */
-    double bend[3];                     /* and of the resolved ones' bend over the pixel, relative to the mirror slope */
+    double bend[3];                     /* slope covariance of the resolved waves' curvature over the pixel, relative to the mirror slope */
     double mirror_slope[2];             /* the slope that mirrors the light's centre */
-    double path[2][2];                  /* mean mirror ray on the light plane, at both ends of the shutter; the light's centre is (0, 0) … */
-    double light_radius;                /* … and its radius this */
+    double path[2][2];                  /* mean mirror ray on the light plane, at both ends of the shutter; the light's centre is (0, 0) */
+    double light_radius;                /* of the light on that plane */
     double covariance[3];               /* of the Gaussian about the path there: ee, ef, ff */
     uint32_t resolved, mixed, filtered; /* waves of the pixel's tile by class */
 } mgt_pixel_info;

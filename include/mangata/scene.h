@@ -19,14 +19,16 @@ typedef struct mgt_wave {
     double phase;     /* radians, ±1e9 */
 } mgt_wave;
 
+/* The picture, and the part of it that is rendered. */
 typedef struct mgt_image {
-    uint32_t width, height;                           /* whole image, pixels, 1 … MGT_MAX_IMAGE_SIDE */
-    uint32_t crop_x, crop_y, crop_width, crop_height; /* what is rendered; width or height 0: up to the edge */
+    uint32_t width, height;                           /* of the whole image, pixels, 1 … MGT_MAX_IMAGE_SIDE */
+    uint32_t crop_x, crop_y, crop_width, crop_height; /* the part, within the image; crop_width or crop_height 0: up to the edge */
 } mgt_image;
 
+/* A pinhole camera. Coordinates are within ±1e9. */
 typedef struct mgt_camera {
     double position[3]; /* metres; under water where it is below water.level */
-    double target[3];   /* a point in front; must differ from position */
+    double target[3];   /* metres; a point in front, which must differ from position */
     double up[3];       /* must not be parallel to the view */
     double fov_y_deg;   /* vertical field of view, (0, 179) */
 } mgt_camera;
@@ -37,9 +39,9 @@ typedef enum mgt_body { MGT_BODY_SUN = 0, MGT_BODY_MOON = 1 } mgt_body;
 typedef struct mgt_light {
     mgt_body body;             /* kind of sky around it, limb darkening */
     double elevation_deg;      /* [−90, 90]; below 0 no direct light meets the water */
-    double azimuth_deg;        /* any */
-    double angular_radius_deg; /* (0, 20] */
-    float radiance[3];         /* kcd/m², linear sRGB, ≥ 0; with MGT_SKY_ATMOSPHERE as seen outside the atmosphere */
+    double azimuth_deg;        /* ±1e6 */
+    double angular_radius_deg; /* [1e-4, 20] */
+    float radiance[3];         /* kcd/m², linear sRGB, [0, 1e12]; with MGT_SKY_ATMOSPHERE as seen outside the atmosphere */
 } mgt_light;
 
 typedef enum mgt_sky_model {
@@ -48,6 +50,7 @@ typedef enum mgt_sky_model {
     MGT_SKY_BLACK = 2       /* the papers' experiments: only the glitter */
 } mgt_sky_model;
 
+/* The sky around the light. Luminances are [0, 1e9]. */
 typedef struct mgt_sky {
     mgt_sky_model model;
     float turbidity;  /* aerosol amount over clear air, [1, 10]: scales Mie scattering (atmosphere) */
@@ -56,15 +59,15 @@ typedef struct mgt_sky {
     float night[3];   /* kcd/m², added everywhere: airglow and stars (atmosphere) */
 } mgt_sky;
 
+/* The surface and what it is made of. Absorption and scattering dim what is seen through water: scenes with objects. */
 typedef struct mgt_water {
-    const mgt_wave *waves;      /* wave_count of them, read during the call; NULL when wave_count is 0 (a flat mirror) */
+    const mgt_wave *waves;      /* wave_count of them, the caller's, read during the call; NULL where wave_count is 0 (a flat mirror) */
     size_t wave_count;          /* 0 … MGT_MAX_WAVES */
-    double index_of_refraction; /* of the water, in air: [1.0, 3.0]; 1.333 */
+    double index_of_refraction; /* of water in air, [1, 3]; 1.333 */
     double level;               /* metres: the height of the mean surface, ±1e6 */
-    float absorption[3];        /* light that a metre of water absorbs, and … */
-    float scattering[3];        /* … light that it scatters, 1/metre, linear sRGB, [0, 1000]. For what is seen through it: where there are objects */
-    float body_albedo[3];       /* share of the light entering the water that deep water sends up again, [0, 1], linear sRGB;
-                              shows only with a sky other than black */
+    float absorption[3];        /* absorption coefficient, 1/metre, linear sRGB, [0, 1000] */
+    float scattering[3];        /* scattering coefficient, 1/metre, linear sRGB, [0, 1000] */
+    float body_albedo[3];       /* fraction of the light entering deep water that it sends up again, linear sRGB, [0, 1]; not with a black sky */
 } mgt_water;
 
 typedef enum mgt_tone_map { MGT_TONE_NONE = 0, MGT_TONE_REINHARD, MGT_TONE_ACES, MGT_TONE_AGX } mgt_tone_map;
@@ -72,9 +75,9 @@ typedef enum mgt_tone_map { MGT_TONE_NONE = 0, MGT_TONE_REINHARD, MGT_TONE_ACES,
 /* How radiance becomes displayed colour; used by the 8-bit targets alone, float targets stay scene-linear. */
 typedef struct mgt_post {
     bool auto_exposure; /* exposure from light and sky (never from the picture, so that films do not pump) */
-    double exposure_ev; /* stops, added to the automatic exposure or, without it, 2^ev per kcd/m² */
+    double exposure_ev; /* stops, ±60: added to the automatic exposure or, without it, 2^ev per kcd/m² */
     mgt_tone_map tone_map;
-    float glare; /* share of the light that the eye scatters, [0, 1] */
+    float glare; /* fraction of the light that the eye scatters, [0, 1] */
 } mgt_post;
 
 typedef enum mgt_method {
@@ -166,12 +169,13 @@ MGT_API bool mgt_refraction_from_name(const char *name, mgt_refraction *refracti
 MGT_API bool mgt_adaptive_from_name(const char *name, mgt_adaptive *adaptive);
 MGT_API bool mgt_kernels_from_name(const char *name, mgt_kernels *kernels);
 
+/* How much work goes into which approximation. The words before a colon are the methods or ways of refraction that read a member. */
 typedef struct mgt_quality {
     mgt_method method;
     uint32_t spatial_samples;    /* N of N×N strata a pixel: ssaa, reference; 1 … 1024 */
     uint32_t time_samples;       /* M strata of the shutter: ssaa (1: the instant t), reference; 1 … 65536 */
-    uint64_t sample_first;       /* ssaa, reference: first of the N·N·M samples to take, … */
-    uint64_t sample_count;       /* … and how many; 0: all that remain. The mean over the range is returned */
+    uint64_t sample_first;       /* ssaa, reference: first of the N·N·M samples to take; the mean of those that are taken is returned */
+    uint64_t sample_count;       /* ssaa, reference: how many samples to take; 0: all that remain */
     uint64_t seed;               /* of the jitter */
     bool ndf_mean_drop;          /* podee-pixel: leave the mean slope B out of the path (P1 Eq. 4 as printed) */
     mgt_kernels kernels;         /* podee-*: what stands for the elliptical Gaussian on the light plane */
