@@ -25,7 +25,7 @@ int marched_waves(vec3 ray)
 {
     Footprint pixel = footprint_at(0, ray, tile.camera_height / -ray.y);
     int count = 0;
-    while (count < tile.mixed_count && frequency_squared(0, pixel, waves[count].turns_x, waves[count].turns_z) < 0.0625)
+    while (count < tile.mixed_count && wave_frequency(0, pixel, waves[count]) < 0.0625)
         count++;
     return count;
 }
