@@ -199,6 +199,13 @@ typedef struct mgt_quality {
     uint32_t refraction_samples; /* N of N×N places of a pixel that rays of refraction go through, 1 … 64; 1 is the pixel's centre; 0: 1, and 4 for truth */
     bool caustics;               /* light that the waves bundle on what lies under them */
     uint64_t sample_slots;       /* adaptive, podee: M of Eq. 3, how many samples the picture gets, up to 2^32; 0: as `samples` says */
+    /* Options of single methods, and room for those of later versions, zero: 16 in all. */
+#define MGT_METHOD_OPTION(name, method, least, most, preset, meaning) double name;
+#include "mangata/method_options.h"
+    double method_option_room[16
+#define MGT_METHOD_OPTION(name, method, least, most, preset, meaning) -1
+#include "mangata/method_options.h"
+    ];
 } mgt_quality;
 
 /* Everything a frame depends on. Plain data, read during mgt_render() only. */

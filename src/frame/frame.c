@@ -87,6 +87,8 @@ static void set_method(frame *f)
     d->ndf_mean = keep && !q->ndf_mean_drop ? 1 : 0;
     d->podee_kernels = (int)q->kernels;
     d->podee_elongation = (float)elongation_limit(q);
+#define MGT_METHOD_OPTION(name, method, least, most, preset, meaning) d->name = (float)q->name;
+#include "mangata/method_options.h"
 }
 
 /* What is seen through the surface does not depend on how its reflections are drawn. Of the waves a pixel sees those that face it, which are shorter on

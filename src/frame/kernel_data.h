@@ -6,6 +6,9 @@
 #define STRUCT(name)          \
     typedef struct name name; \
     struct name
+/* The end of a struct whose size is a multiple of 16, as std140 rounds it up. */
+#define STD140 __attribute__((aligned(16)))
+#define MGT_METHOD_OPTION(name, method, least, most, preset, meaning) float name;
 #include "kernels/common/types.k"
 #include "kernels/waves/sines_types.k"
 #include "kernels/baselines/lean_types.k"
@@ -13,6 +16,7 @@
 #include "kernels/refraction/narrow_types.k"
 #include "kernels/refraction/shade_types.k"
 #undef STRUCT
+#undef STD140
 
 _Static_assert(sizeof(FrameData) % 16 == 0, "std140 layout");
 _Static_assert(sizeof(TileData) % 16 == 0, "std140 layout");

@@ -82,6 +82,9 @@ const field_row quality_fields[] =
      {"refraction_samples", FIELD_COUNT, MEMBER(refraction_samples), FIELD_OBJECTS | FIELD_OR_ZERO, 1, 64, NULL, .doc = "N of N x N refracted rays a pixel",
       .absent = "1, and 4 for truth"},
      {"caustics", FIELD_SWITCH, MEMBER(caustics), FIELD_OBJECTS, .doc = "light that the waves bundle on what lies under them", .choices = switch_words},
+#define MGT_METHOD_OPTION(name, method_, least, most, preset_, meaning) \
+    {#name, FIELD_NUMBER, MEMBER(name), 0, least, most, NULL, .doc = #meaning, .preset = preset_, .when = {{"method", ONE(method_)}}},
+#include "mangata/method_options.h"
      {0}};
 static_assert(sizeof quality_fields / sizeof *quality_fields == QUALITY_ROWS + 1, "QUALITY_ROWS");
 

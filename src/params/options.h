@@ -11,7 +11,11 @@
 
 /* Rows of an mgt_quality, ended by one without a key. A flag of the command line is a key with dashes. */
 extern const field_row quality_fields[];
-enum { QUALITY_ROWS = 24 };
+enum {
+    QUALITY_ROWS = 24
+#define MGT_METHOD_OPTION(name, method, least, most, preset, meaning) +1
+#include "mangata/method_options.h"
+};
 
 /* Rows of what mgt_post and the scene format have in common, for a struct with members of these names. */
 #define POST_ROWS(type)                                                                                                              \

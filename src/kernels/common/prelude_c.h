@@ -47,6 +47,9 @@
 #define STRUCT(name)          \
     typedef struct name name; \
     struct name
+/* The end of a struct whose size is a multiple of 16, as std140 rounds it up. */
+#define STD140 __attribute__((aligned(16)))
+#define MGT_METHOD_OPTION(name, method, least, most, preset, meaning) float name;
 
 struct kernel_context;
 

@@ -23,6 +23,8 @@
 #define STRUCT(name)          \
     typedef struct name name; \
     struct name
+#define STD140 __attribute__((aligned(16)))
+#define MGT_METHOD_OPTION(name, method, least, most, preset, meaning) float name;
 
 struct kernel_context;
 

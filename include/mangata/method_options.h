@@ -1,0 +1,15 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Options of single methods that kernels read as they stand: one line each, from which follow the member of mgt_quality (a double), the member of the
+ * kernels' FrameData (a float), and the row that command lines, scene files, hashes and the viewer read. A template, for C and GLSL: define
+ * MGT_METHOD_OPTION(name, method, least, most, preset, meaning) before including it. New lines go to the end. Meanings hold neither commas nor
+ * quotes.
+ */
+#ifndef MGT_METHOD_OPTION
+#define MGT_METHOD_OPTION(name, method, least, most, preset, meaning)
+#endif
+
+/* clang-format off */
+/* clang-format on */
+
+#undef MGT_METHOD_OPTION
