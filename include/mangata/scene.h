@@ -98,7 +98,8 @@ typedef enum mgt_method {
     MGT_METHOD_TNDF,      /* after Tessari et al. 2020: one Gaussian of slopes over pixel and shutter */
     /* Samples where they show: an analytic picture first, then more of it where that one is likely to be wrong. On the CPU
        whatever the backend. */
-    MGT_METHOD_ADAPTIVE
+    MGT_METHOD_ADAPTIVE,
+    MGT_METHOD_GGX_MOMENTS /* what engines do: GGX of the footprint's slope moments, the light by a representative point (Karis 2013) */
 } mgt_method;
 
 /* The waves that a method shades from. */

@@ -59,6 +59,7 @@ KERNEL vec3 LEAN_SQUARE(CTX cx, real level, real column, real row)
 }
 
 #include "kernels/baselines/bruneton.k"
+#include "kernels/baselines/ggx_moments.k"
 #include "kernels/baselines/leadr.k"
 #include "kernels/baselines/msaa.k"
 #include "kernels/adaptive/temporal_ray.k"
@@ -141,6 +142,7 @@ static slope_method *const slope_methods[METHOD_SLOTS] = {
     [MGT_METHOD_LEADR] = leadr_result,
     [MGT_METHOD_BRUNETON] = bruneton_result,
     [MGT_METHOD_TNDF] = tndf_result,
+    [MGT_METHOD_GGX_MOMENTS] = ggx_moments_result,
 };
 
 static void lanes_pixels(mgt_method method, const method_tile *t, tile_pixels *out)

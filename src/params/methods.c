@@ -125,6 +125,13 @@ const method_row method_rows[] =
                 .base = MGT_METHOD_MANGATA,
                 .pass = METHOD_PASS_ADAPTIVE,
             },
+        [MGT_METHOD_GGX_MOMENTS] =
+            {
+                .properties = {0, "ggx-moments", "GGX of the slopes' moments and a representative point of the light, as in engines", MGT_WAVES_INSTANT,
+                               CPU_AND_GL, LAYERS},
+                .way = METHOD_FILTERED,
+                .shader = &(const method_shader){"shade_slopes.comp", "ggx_moments.k", "ggx_moments_result"},
+            },
         {.properties = {.name = NULL}}, /* the end */
 };
 

@@ -49,6 +49,7 @@ static const struct {
     {"tokuyoshi", {.method = MGT_METHOD_TOKUYOSHI, .spatial_samples = 1, .time_samples = 1}},
     {"bruneton", {.method = MGT_METHOD_BRUNETON, .spatial_samples = 1, .time_samples = 1}},
     {"tndf", {.method = MGT_METHOD_TNDF, .spatial_samples = 1, .time_samples = 1}},
+    {"ggx-moments", {.method = MGT_METHOD_GGX_MOMENTS, .spatial_samples = 1, .time_samples = 1}},
     {"fxaa", {.method = MGT_METHOD_FXAA, .spatial_samples = 1, .time_samples = 1}},
     {"taa", {.method = MGT_METHOD_TAA, .spatial_samples = 1, .time_samples = 1}},
     {"ssaa2 x 3", {.method = MGT_METHOD_SSAA, .spatial_samples = 2, .time_samples = 3, .seed = 7}},

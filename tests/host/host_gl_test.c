@@ -479,7 +479,7 @@ static void default_framebuffer(void **state)
 /* All that a host can draw; podee-* with kernels in place of its Gaussian on its second visit. */
 static const mgt_method methods[] = {MGT_METHOD_MANGATA, MGT_METHOD_NONE, MGT_METHOD_SSAA,  MGT_METHOD_PODEE_UNIFORM, MGT_METHOD_PODEE_PIXEL,
                                      MGT_METHOD_MSAA32,  MGT_METHOD_LEAN, MGT_METHOD_LEADR, MGT_METHOD_TOKUYOSHI,     MGT_METHOD_BRUNETON,
-                                     MGT_METHOD_FXAA,    MGT_METHOD_TAA,  MGT_METHOD_TNDF,  MGT_METHOD_PODEE_PIXEL};
+                                     MGT_METHOD_FXAA,    MGT_METHOD_TAA,  MGT_METHOD_TNDF,  MGT_METHOD_GGX_MOMENTS,   MGT_METHOD_PODEE_PIXEL};
 enum { METHODS = sizeof methods / sizeof methods[0] };
 
 static mgt_quality quality_of(int i)

@@ -34,8 +34,8 @@ static const sea_method sea_methods[] = {{MGT_METHOD_NONE, 0},
                                          {MGT_METHOD_ADAPTIVE, MGT_ADAPTIVE_PODEE},
                                          {MGT_METHOD_ADAPTIVE, MGT_ADAPTIVE_CELLS}};
 enum { SEA_METHODS = sizeof sea_methods / sizeof *sea_methods };
-static const mgt_method sea_baselines[] = {MGT_METHOD_MSAA32,   MGT_METHOD_LEAN, MGT_METHOD_LEADR, MGT_METHOD_TOKUYOSHI,
-                                           MGT_METHOD_BRUNETON, MGT_METHOD_FXAA, MGT_METHOD_TAA,   MGT_METHOD_TNDF};
+static const mgt_method sea_baselines[] = {MGT_METHOD_MSAA32, MGT_METHOD_LEAN, MGT_METHOD_LEADR, MGT_METHOD_TOKUYOSHI,  MGT_METHOD_BRUNETON,
+                                           MGT_METHOD_FXAA,   MGT_METHOD_TAA,  MGT_METHOD_TNDF,  MGT_METHOD_GGX_MOMENTS};
 enum { SEA_BASELINES = sizeof sea_baselines / sizeof *sea_baselines };
 
 /* Twelve waves from 20 m to 10 cm under a large sun: glitter in most pixels of its road. */

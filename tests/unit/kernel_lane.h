@@ -72,6 +72,7 @@ KERNEL vec3 LEAN_SQUARE(CTX cx, real level, real column, real row)
 #include "kernels/baselines/podee.k"
 #include "kernels/baselines/podee_mixture.k"
 #include "kernels/baselines/bruneton.k"
+#include "kernels/baselines/ggx_moments.k"
 #include "kernels/baselines/leadr.k"
 #include "kernels/baselines/msaa.k"
 #include "kernels/glitter/sample.k"

@@ -19,6 +19,7 @@ static const struct {
     {{.method = MGT_METHOD_TOKUYOSHI}, "tokuyoshi", 0.6, 1.05},
     {{.method = MGT_METHOD_BRUNETON}, "bruneton", 0.4, 1.1},
     {{.method = MGT_METHOD_TNDF}, "tndf", 0.65, 0.95},
+    {{.method = MGT_METHOD_GGX_MOMENTS}, "ggx-moments", 0.6, 1.1},
     {{.method = MGT_METHOD_FXAA}, "fxaa", 0.2, 1.0},
     {{.method = MGT_METHOD_TAA}, "taa", 0.1, 1.0},
     {{.method = MGT_METHOD_NONE}, "none", 0.8, 1.3},
@@ -34,7 +35,7 @@ static const struct {
     {{.method = MGT_METHOD_REFERENCE, .spatial_samples = 2, .time_samples = 2}, "reference, 8 samples", 0.93, 1.07}, /* its own noise is 2% */
 };
 /* The first ones are the baselines. */
-enum { METHODS = sizeof methods / sizeof *methods, BASELINES = 8 };
+enum { METHODS = sizeof methods / sizeof *methods, BASELINES = 9 };
 
 static mgt_quality quality_of(int method)
 {

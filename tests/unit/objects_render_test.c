@@ -234,7 +234,7 @@ static void index_one_is_straight(void **state)
 
 static const mgt_method methods[] = {MGT_METHOD_NONE,      MGT_METHOD_SSAA,   MGT_METHOD_PODEE_UNIFORM, MGT_METHOD_PODEE_PIXEL, MGT_METHOD_MANGATA,
                                      MGT_METHOD_REFERENCE, MGT_METHOD_MSAA32, MGT_METHOD_LEAN,          MGT_METHOD_LEADR,       MGT_METHOD_TOKUYOSHI,
-                                     MGT_METHOD_BRUNETON,  MGT_METHOD_FXAA,   MGT_METHOD_TAA,           MGT_METHOD_TNDF};
+                                     MGT_METHOD_BRUNETON,  MGT_METHOD_FXAA,   MGT_METHOD_TAA,           MGT_METHOD_TNDF,        MGT_METHOD_GGX_MOMENTS};
 enum { METHODS = sizeof methods / sizeof *methods };
 
 /* Whether no pixel beside this one is water. */
