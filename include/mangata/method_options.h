@@ -10,6 +10,7 @@
 #endif
 
 /* clang-format off */
+MGT_METHOD_OPTION(roughness_floor, MGT_METHOD_GGX_MOMENTS, 0, 1, 0, least GGX alpha along any direction)
 /* clang-format on */
 
 #undef MGT_METHOD_OPTION

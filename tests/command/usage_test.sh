@@ -76,6 +76,8 @@ podee '--transition smooth: allowed is one of soft, hard' --transition smooth
 podee '--transition-width 0.6: allowed is a number, 0 to 0.5' --transition-width 0.6
 podee 'transition soft alone' --transition hard --transition-width 0.2
 
+bad roughness-floor 0.1 'for method ggx-moments alone'
+expect 64 '--roughness-floor 2: allowed is a number, 0 to 1' render "$simple" -o a.png --method ggx-moments --roughness-floor 2
 for option in 'adaptive podee' 'samples 4' 'target-rmse 0.01' 'budget-ms 10' 'slots 1000' 'importance-center 0.1' 'importance-width 0.1' \
     'importance-threshold 0.1'; do
     for method in mangata none podee-uniform ssaa2; do

@@ -133,9 +133,31 @@ static void still_water_is_a_mirror(void **state)
     kernel_bench_destroy(b);
 }
 
+/* Thin distributions are widened along their narrow axis alone, broad ones not at all. */
+static void roughness_has_a_floor(void **state)
+{
+    (void)state;
+    kernel_bench *b = bench_of(30, 1);
+    const double angle = 0.6, alpha[2] = {0.2, 0.01}, floor = 0.05;
+    for (int floored = 0; floored < 2; floored++) {
+        b->frame.data.roughness_floor = floored ? (float)floor : 0;
+        const double major = alpha[0] * alpha[0], minor = alpha[1] * alpha[1], least = floored ? floor * floor : minor;
+        const double c = cos(angle), s = sin(angle);
+        const SlopeGaussian g = {vec2(0, 0), (float)(0.5 * (major * c * c + minor * s * s)), (float)(0.5 * (major - minor) * c * s),
+                                 (float)(0.5 * (major * s * s + minor * c * c))};
+        const GgxSlopes out = ggx_slopes(&b->cx, g);
+        const double exact[3] = {major * c * c + least * s * s, (major - least) * c * s, major * s * s + least * c * c};
+        expect_below("A, off by", fmax(fabs((double)out.xx - exact[0]), fmax(fabs((double)out.xz - exact[1]), fabs((double)out.zz - exact[2]))), 1e-7);
+    }
+    b->frame.data.roughness_floor = 0.5f;
+    const GgxSlopes round = ggx_slopes(&b->cx, (SlopeGaussian){vec2(0, 0), 0, 0, 0});
+    expect_below("of a mirror, alpha off by", fabs(sqrt((double)round.xx) - 0.5) + fabs((double)round.xz) + fabs(sqrt((double)round.zz) - 0.5), 1e-6);
+    kernel_bench_destroy(b);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(kernel_is_the_engines_product), cmocka_unit_test(no_light_is_added),
-                                       cmocka_unit_test(still_water_is_a_mirror)};
+                                       cmocka_unit_test(still_water_is_a_mirror), cmocka_unit_test(roughness_has_a_floor)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
