@@ -79,7 +79,7 @@ static void print_points(bool quick)
         if (!mgt_isa_available(isas[i].isa))
             continue;
         for (int below = 0; below < 2; below++) {
-            const RefractData refract = refract_data_of(below ? -1.5 : 1.5, 1.333, GBUFFER_SAGITTAL);
+            const RefractData refract = refract_data_of(below ? -1.5 : 1.5, 1.333, MAP_SAGITTAL);
             fill_points(points, refract.side);
             operations_done = (operation_count){0};
             counting_virtual_points(&refract, POINTS, in);
@@ -99,14 +99,14 @@ typedef struct pool_case {
     const char *name;
     double position[3], target[3];
     int triangles;
-    gbuffer_map map;
+    int map;
 } pool_case;
 
 static const pool_case cases[] = {
-    {"coarse basin, split", {0.8, 4, 7.2}, {0.3, 0, 0.4}, 12, GBUFFER_SAGITTAL},    {"above", {0.8, 4, 7.2}, {0.3, 0, 0.4}, 16000, GBUFFER_SAGITTAL},
-    {"above, unrefracted", {0.8, 4, 7.2}, {0.3, 0, 0.4}, 16000, GBUFFER_STRAIGHT},  {"above", {0.8, 4, 7.2}, {0.3, 0, 0.4}, 128000, GBUFFER_SAGITTAL},
-    {"above, unrefracted", {0.8, 4, 7.2}, {0.3, 0, 0.4}, 128000, GBUFFER_STRAIGHT}, {"grazing", {0.5, 0.6, 7.5}, {0.2, -0.3, 0}, 128000, GBUFFER_SAGITTAL},
-    {"under water", {0.8, -1.5, 4}, {0.3, 0.3, 2}, 128000, GBUFFER_SAGITTAL},
+    {"coarse basin, split", {0.8, 4, 7.2}, {0.3, 0, 0.4}, 12, MAP_SAGITTAL},    {"above", {0.8, 4, 7.2}, {0.3, 0, 0.4}, 16000, MAP_SAGITTAL},
+    {"above, unrefracted", {0.8, 4, 7.2}, {0.3, 0, 0.4}, 16000, MAP_STRAIGHT},  {"above", {0.8, 4, 7.2}, {0.3, 0, 0.4}, 128000, MAP_SAGITTAL},
+    {"above, unrefracted", {0.8, 4, 7.2}, {0.3, 0, 0.4}, 128000, MAP_STRAIGHT}, {"grazing", {0.5, 0.6, 7.5}, {0.2, -0.3, 0}, 128000, MAP_SAGITTAL},
+    {"under water", {0.8, -1.5, 4}, {0.3, 0.3, 2}, 128000, MAP_SAGITTAL},
 };
 enum { CASES = sizeof cases / sizeof *cases };
 

@@ -224,7 +224,7 @@ static void draw_near(const chunk_job *job, const part *p, int32_t triangle)
     static const float here[2] = {0, 0};
     const broad_view *view = job->view;
     RefractData straight = view->refract;
-    straight.map = 0;
+    straight.map = MAP_STRAIGHT;
     float image[MOST_CORNERS][4];
     view->kernels->images(&straight, &view->picture, here, (size_t)p->count, p->corner[0], image[0]);
     for (int i = 1; i + 1 < p->count; i++) {
@@ -324,7 +324,7 @@ static void take_triangle(const chunk_job *job, size_t index)
     if (view->mirrored && (MOST3(far) <= -view->crest || shows_inside(view, &p)))
         return;
     if (LEAST3(far) >= 0) {
-        if (view->refract.map == 0)
+        if (view->refract.map == MAP_STRAIGHT)
             take_straight(job, FAR_LAYER, &p);
         else
             take_patch(job, &p);

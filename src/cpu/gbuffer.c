@@ -220,7 +220,7 @@ static broad_view view_of(const gbuffers *g, const world *w, const gbuffer_job *
     view.picture = gbuffer_picture(job);
     view.foot[0] = (float)(job->camera.position[0] - w->origin[0]);
     view.foot[1] = (float)(job->camera.position[2] - w->origin[1]);
-    view.crest = job->map == GBUFFER_PATH ? 0 : (float)job->crest;
+    view.crest = job->map == MAP_PATH ? 0 : (float)job->crest;
     view.trough = (float)job->trough;
     view.mirrored = job->mirrored;
     return view;

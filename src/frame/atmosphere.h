@@ -9,12 +9,11 @@
 #include <stdbool.h>
 
 #include "mangata/mangata.h"
+#include "kernels/common/constants.h"
 
 /* Columns run over the azimuth φ from the light, u = sin(φ/2); rows over height, v = sqrt(direction.y). The nodes lie at
  * u = column/(SKY_COLUMNS − 1), v = row/(SKY_ROWS − 1): the table's edges are the horizon, the zenith and the two half
- * planes through the light. src/kernels/sky/sky.k repeats both sizes. */
-#define SKY_COLUMNS 192
-#define SKY_ROWS 96
+ * planes through the light. */
 
 /* Plain data, 217 KiB: keep it on the heap. Radiance in kcd/m², irradiance in klx (kcd·sr/m²), linear sRGB. */
 typedef struct sky_state {

@@ -11,7 +11,7 @@ enum {
     GUARD_SHARE = 20, /* … or one in so many, whichever is more */
 };
 
-RefractData refract_data_of(double camera_height, double index, gbuffer_map map)
+RefractData refract_data_of(double camera_height, double index, int map)
 {
     const double n = fmax(index, 1), excess = n * n - 1, critical = excess > 0 ? 1 / sqrt(excess) : 0;
     return (RefractData){
@@ -24,7 +24,7 @@ RefractData refract_data_of(double camera_height, double index, gbuffer_map map)
         .excess_root = (float)sqrt(excess),
         .critical = (float)critical,
         .critical_low = (float)(critical - (double)(float)critical),
-        .map = (int)map,
+        .map = map,
     };
 }
 

@@ -18,23 +18,16 @@ typedef struct gbuffer {
     int32_t *triangle; /* of the world; −1: nothing */
 } gbuffer;
 
-/* Where far triangles are drawn. */
-typedef enum gbuffer_map {
-    GBUFFER_STRAIGHT, /* where they are, as if there were no water: off, narrow, screen-space */
-    GBUFFER_SAGITTAL, /* at their sagittal images: two-phase, hybrid, broad */
-    GBUFFER_PATH      /* along the camera's ray at the length of the refracted path: liu */
-} gbuffer_map;
-
 /* What the layers depend on, beside the world. */
 typedef struct gbuffer_job {
     camera_rays camera;     /* position[1] is its height above the mean surface; 0 counts as above */
     uint32_t width, height; /* of the image */
     double index;           /* of refraction of the water in air */
-    gbuffer_map map;
-    double error;  /* pixels that a triangle bent by the map may be off by; 0: 0.1 */
-    double trough; /* metres beyond the mean surface that the near layer goes on for: as far as the waves may uncover it */
-    double crest;  /* metres over the mean surface that the far layer goes on for on the camera's side: as far as the waves may reach */
-    bool mirrored; /* the far layer alone, without the insides of closed objects that the surface cuts open: of a camera that mirrors see */
+    int map;                /* where far triangles are drawn: MAP_… of constants.h */
+    double error;           /* pixels that a triangle bent by the map may be off by; 0: 0.1 */
+    double trough;          /* metres beyond the mean surface that the near layer goes on for: as far as the waves may uncover it */
+    double crest;           /* metres over the mean surface that the far layer goes on for on the camera's side: as far as the waves may reach */
+    bool mirrored;          /* the far layer alone, without the insides of closed objects that the surface cuts open: of a camera that mirrors see */
 } gbuffer_job;
 
 /* Triangles are cut off nearer to the camera than this, metres along the view. */
@@ -42,7 +35,7 @@ typedef struct gbuffer_job {
 
 /* A layer's shape without its memory, and the uniform numbers of the map and of the picture. */
 gbuffer gbuffer_shape(const gbuffer_job *job);
-RefractData refract_data_of(double camera_height, double index, gbuffer_map map);
+RefractData refract_data_of(double camera_height, double index, int map);
 PictureData gbuffer_picture(const gbuffer_job *job);
 
 #endif

@@ -3,6 +3,8 @@
 #ifndef MANGATA_FRAME_KERNEL_DATA_H
 #define MANGATA_FRAME_KERNEL_DATA_H
 
+#include "kernels/common/constants.h"
+
 #define STRUCT(name)          \
     typedef struct name name; \
     struct name

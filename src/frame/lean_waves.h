@@ -4,11 +4,11 @@
 #define MANGATA_FRAME_LEAN_WAVES_H
 
 #include "frame/tiles.h"
+#include "kernels/common/constants.h"
 
 struct frame; /* frame/frame.h */
 
 enum {
-    LEAN_SIZE = 4096,
     LEAN_LEVELS = 13,
     LEAN_MOMENTS = 5, /* mean x, z; second moments xx, xz, zz */
     LEAN_BLOCK = 16,  /* columns side by side in lean_waves.columns */

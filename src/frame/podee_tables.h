@@ -3,12 +3,12 @@
 #ifndef MANGATA_FRAME_PODEE_TABLES_H
 #define MANGATA_FRAME_PODEE_TABLES_H
 
+#include "kernels/common/constants.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 
 /* Lengths are in units of the disk's radius, so that one pair of tables serves every light. */
-enum { PODEE_COLUMNS = 512, PODEE_ROWS = 512, PODEE_SLICES = 64 };
-
 /* Slice s is for the standard deviation .02 · 400^(s/63), .02 to 8, and reaches 1 + 4 deviations from the disk's centre.
  *   share  F(r): the part of a Gaussian at distance r that lies in the disk; column c is r = reach · c/511.
  *   sweep  S(u, v) = ∫ F(√(u'² + v²)) du' from 0 to u (Eq. 18 less its value at u = 0, in which it is odd); column v, row u ≥ 0, as above.

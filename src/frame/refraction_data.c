@@ -4,17 +4,17 @@
 
 #include <math.h>
 
-static gbuffer_map map_of(mgt_refraction method)
+static int map_of(mgt_refraction method)
 {
     switch (method) {
     case MGT_REFRACTION_TWO_PHASE:
     case MGT_REFRACTION_HYBRID:
     case MGT_REFRACTION_BROAD:
-        return GBUFFER_SAGITTAL;
+        return MAP_SAGITTAL;
     case MGT_REFRACTION_LIU:
-        return GBUFFER_PATH;
+        return MAP_PATH;
     default:
-        return GBUFFER_STRAIGHT;
+        return MAP_STRAIGHT;
     }
 }
 
@@ -136,7 +136,7 @@ gbuffer_job refraction_mirrored_job(const frame *f)
 {
     gbuffer_job job = refraction_job(f);
     job.camera = mirrored_rays(&job.camera);
-    job.map = GBUFFER_STRAIGHT;
+    job.map = MAP_STRAIGHT;
     job.trough = 0;
     job.mirrored = true;
     job.crest *= 0.5; /* few waves reach as far as all of them together could: below, the surface would mostly hide what is shown */

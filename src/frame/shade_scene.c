@@ -140,7 +140,7 @@ static bool set_materials(shade_scene *s, const world *w)
 
 static void fill_codes(shade_scene *s)
 {
-    for (int i = 0; i < SHADE_TEXTURE_CODES; i++) {
+    for (int i = 0; i < TEXTURE_CODES; i++) {
         const double c = i / 255.0;
         s->linear[i] = (float)(c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4));
     }

@@ -7,8 +7,6 @@
 #include "frame/shadow_map.h"
 #include "frame/world.h"
 
-enum { SHADE_TEXTURE_CODES = 256 };
-
 /* An object's material as kernels take it, see HitMaterial in material.k. */
 typedef struct shade_material {
     float base[3], alpha, metallic, kind, color[3], inverse_size, joint;
@@ -24,8 +22,8 @@ typedef struct shade_scene {
     shade_material *materials; /* an object each */
     size_t material_room;
     shadow_map *shadows;
-    MarchWave waves[MGT_MAX_WAVES];    /* where light is bundled */
-    float linear[SHADE_TEXTURE_CODES]; /* of an sRGB code */
+    MarchWave waves[MGT_MAX_WAVES]; /* where light is bundled */
+    float linear[TEXTURE_CODES];    /* of an sRGB code */
 } shade_scene;
 
 /*

@@ -6,18 +6,8 @@
 #include "frame/kernel_data.h"
 #include "mangata/mangata.h"
 
-/* Tiles of one fixed lattice of the whole image, whatever the crop; nodes of the hit lattice lie on their edges too. */
-enum {
-    TILE_WIDTH = 32,
-    TILE_HEIGHT = 16,
-    TILE_PIXELS = TILE_WIDTH * TILE_HEIGHT,
-    NODE_STEP_X = 8, /* the water is foreshortened down the screen, seldom across */
-    NODE_STEP_Y = 4,
-    NODE_COLUMNS = TILE_WIDTH / NODE_STEP_X + 1,
-    NODE_ROWS = TILE_HEIGHT / NODE_STEP_Y + 1,
-    NODE_COUNT = NODE_COLUMNS * NODE_ROWS,
-    NODE_PADDED = (NODE_COUNT + 15) / 16 * 16,
-};
+/* Nodes of a tile, filled up to whole vectors of any width. */
+enum { NODE_PADDED = (NODE_COUNT + 15) / 16 * 16 };
 
 /* The waves over an interval as a camera meets them: what is the same for every tile. Sorted by amplitude, the largest first. */
 typedef struct wave_set {

@@ -5,6 +5,7 @@
 
 #include "frame/backend.h"
 #include "frame/world.h"
+#include "kernels/common/constants.h"
 
 /*
  * One list of texels of four numbers: nodes of four texels, the root first, then leaves of one. A node:
@@ -13,9 +14,6 @@
  * BVH_LEAF + the texel of a leaf: up to four triangles in rising order, then BVH_NOTHING. There is a root always, if need be of empty leaves.
  * No path from the root passes through more than BVH_LEVELS nodes, so that a walk that puts off one child a node needs room for as many.
  */
-enum { BVH_LEVELS = 32, BVH_LEAF_TRIANGLES = 4, BVH_NODE_TEXELS = 4 };
-#define BVH_LEAF 0x80000000u
-#define BVH_NOTHING 0xffffffffu
 
 typedef struct gl_bvh {
     size_t node_count, leaf_count, texel_count;

@@ -223,7 +223,7 @@ static mgt_status run_pixels(const frame_run *run, const PassData *pass, const c
             bind_tables(run);
         else
             gl_refraction_bind_light(g);
-        g->gl.DispatchCompute((GLuint)pass->columns * 4, (GLuint)pass->rows * 2, 1);
+        g->gl.DispatchCompute((GLuint)pass->columns * TILE_GROUPS_X, (GLuint)pass->rows * TILE_GROUPS_Y, 1);
         g->gl.MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
     }
     const mgt_status ended = gl_pass_end(g, run->r);
@@ -416,7 +416,7 @@ static mgt_status put_objects_in_front(const frame_run *run, const band *b)
         gl_uniform(g, BIND_PASS, &b->pass, sizeof b->pass);
         bind_layers(g);
         gl_refraction_bind_front(g);
-        g->gl.DispatchCompute((GLuint)b->pass.columns * 4, (GLuint)b->pass.rows * 2, 1);
+        g->gl.DispatchCompute((GLuint)b->pass.columns * TILE_GROUPS_X, (GLuint)b->pass.rows * TILE_GROUPS_Y, 1);
         g->gl.MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
     }
     const mgt_status ended = gl_pass_end(g, run->r);

@@ -106,11 +106,11 @@ static mgt_status draw_layer(gl_renderer *g, const gl_gbuffer *layer, const gbuf
         .move_x = (float)(w->origin[0] - at[0]),
         .move_z = (float)(w->origin[1] - at[2]),
         .side = beyond ? -refract.side : refract.side,
-        .crest = (float)(!beyond                    ? job->trough
-                         : job->map == GBUFFER_PATH ? 0
-                                                    : job->crest),
+        .crest = (float)(!beyond                ? job->trough
+                         : job->map == MAP_PATH ? 0
+                                                : job->crest),
     };
-    const bool bent = beyond && job->map != GBUFFER_STRAIGHT;
+    const bool bent = beyond && job->map != MAP_STRAIGHT;
     mgt_status status = gl_ring_begin(gl, &g->ring, sizeof refract + sizeof picture + 2 * sizeof data, 4, r);
     if (status == MGT_OK)
         status = gl_use(g, bent ? PROGRAM_GBUFFER_BENT : PROGRAM_GBUFFER, r);

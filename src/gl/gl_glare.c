@@ -74,7 +74,7 @@ static mgt_status dispatch(gl_renderer *g, gl_program program, const GlareData *
     if (status != MGT_OK)
         return status;
     gl_uniform(g, BIND_EXTRA, data, sizeof *data);
-    g->gl.DispatchCompute((GLuint)(width + 7) / 8, (GLuint)(height + 7) / 8, 1);
+    g->gl.DispatchCompute((GLuint)(width + GROUP_SIDE - 1) / GROUP_SIDE, (GLuint)(height + GROUP_SIDE - 1) / GROUP_SIDE, 1);
     g->gl.MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
     return MGT_OK;
 }

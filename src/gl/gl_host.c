@@ -88,7 +88,7 @@ static mgt_status copy_layer(gl_backend_state *s, const mgt_gl_texture *t, GLenu
         g->gl.BindTextureUnit(UNIT_FINE, image_of(&g->layers, t->layer, format)->name);
         g->gl.BindSampler(UNIT_FINE, 0);
         g->gl.BindImageTexture(0, t->texture, t->level, GL_FALSE, 0, GL_WRITE_ONLY, format);
-        g->gl.DispatchCompute((crop->width + 7) / 8, (crop->height + 7) / 8, 1);
+        g->gl.DispatchCompute((crop->width + GROUP_SIDE - 1) / GROUP_SIDE, (crop->height + GROUP_SIDE - 1) / GROUP_SIDE, 1);
     }
     const mgt_status ended = gl_pass_end(g, r);
     return status == MGT_OK ? ended : status;

@@ -65,7 +65,7 @@ static mgt_status run_level(gl_renderer *g, int level, const reporter *r)
         gl->DispatchCompute(LEAN_SIZE / FILL_COLUMNS, LEAN_SIZE / FILL_ROWS, 1);
     } else {
         gl->BindImageTexture(1, g->lean.square, level - 1, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA32F);
-        const GLuint groups = (GLuint)((LEAN_SIZE >> level) + 7) / 8;
+        const GLuint groups = (GLuint)((LEAN_SIZE >> level) + GROUP_SIDE - 1) / GROUP_SIDE;
         gl->DispatchCompute(groups, groups, 1);
     }
     gl->MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);

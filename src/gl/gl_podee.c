@@ -5,7 +5,7 @@
 #include "gl/gl_renderer.h"
 
 /* The slices of the sweep stand side by side in one texture, so many a row. */
-enum { SLICES_ACROSS = 8, SLICES_DOWN = PODEE_SLICES / SLICES_ACROSS };
+enum { SLICES_ACROSS = PODEE_SLICES_ACROSS, SLICES_DOWN = PODEE_SLICES / SLICES_ACROSS };
 
 typedef struct slice_loop {
     void (*body)(void *, size_t);

@@ -66,7 +66,7 @@ static mgt_status upload_textures(const gl_api *gl, gl_refraction *o, const used
 /* ---- materials ---- */
 
 /* The table begins with linear values of codes and the waves that make caustics. */
-enum { MATERIAL_FLOATS = 16, FIRST_MATERIAL = SHADE_TEXTURE_CODES + MGT_MAX_WAVES * sizeof(MarchWave) / sizeof(float) };
+enum { MATERIAL_FLOATS = 4 * MATERIAL_TEXELS, FIRST_MATERIAL = TEXTURE_CODES + MAX_WAVES * sizeof(MarchWave) / sizeof(float) };
 
 static void fill_material(const shade_material *m, bool smooth, float out[MATERIAL_FLOATS])
 {
@@ -89,7 +89,7 @@ static mgt_status upload_materials(const gl_api *gl, gl_refraction *o, const wor
     if (!map)
         return status == MGT_OK ? MGT_ERROR_MEMORY : status;
     memcpy(map, s->linear, sizeof s->linear);
-    memcpy(map + SHADE_TEXTURE_CODES, s->waves, sizeof s->waves);
+    memcpy(map + TEXTURE_CODES, s->waves, sizeof s->waves);
     float *materials = map + FIRST_MATERIAL;
     for (size_t i = 0; i < w->object_count; i++)
         fill_material(&s->materials[i], w->objects[i].smooth, materials + MATERIAL_FLOATS * i);
@@ -239,9 +239,6 @@ static void bind_all(gl_renderer *g)
 
 /* ---- the passes over a band ---- */
 
-/* As in objects_pixel.glsl. */
-enum { LIST_FRONT, LIST_EDGES, LIST_THROUGH, LIST_DEEP, LIST_TRACED, LISTS, WATER_FLOATS = 18 };
-
 typedef struct list_head {
     uint32_t groups[3], count;
 } list_head;
@@ -280,7 +277,7 @@ static mgt_status over_pixels(gl_renderer *g, gl_program program, const PassData
 {
     const mgt_status status = gl_use(g, program, r);
     if (status == MGT_OK)
-        g->gl.DispatchCompute((GLuint)pass->columns * 4, (GLuint)pass->rows * 2, 1);
+        g->gl.DispatchCompute((GLuint)pass->columns * TILE_GROUPS_X, (GLuint)pass->rows * TILE_GROUPS_Y, 1);
     return status;
 }
 
@@ -356,7 +353,7 @@ mgt_status gl_refraction_blend(gl_renderer *g, const PassData *pass, const repor
             bind_texture(&g->gl, 1 + i, images[i]->name);
         bind_images(g, GL_READ_WRITE);
         gl_uniform(g, BIND_PASS, pass, sizeof *pass);
-        g->gl.DispatchCompute((GLuint)pass->columns * 4, (GLuint)pass->rows * 2, 1);
+        g->gl.DispatchCompute((GLuint)pass->columns * TILE_GROUPS_X, (GLuint)pass->rows * TILE_GROUPS_Y, 1);
         g->gl.MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
     }
     const mgt_status ended = gl_pass_end(g, r);

@@ -85,7 +85,7 @@ static mgt_status blend(gl_renderer *g, gl_program program, const BlendData *dat
         gl->BindImageTexture(IMAGE_COLOR, out->color.name, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA32F);
         gl->BindImageTexture(IMAGE_COVERAGE, out->coverage.name, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_R32F);
         gl->BindImageTexture(IMAGE_WATER, out->water.name, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_R32F);
-        gl->DispatchCompute((GLuint)(data->width + 7) / 8, (GLuint)(data->height + 7) / 8, 1);
+        gl->DispatchCompute((GLuint)(data->width + GROUP_SIDE - 1) / GROUP_SIDE, (GLuint)(data->height + GROUP_SIDE - 1) / GROUP_SIDE, 1);
         gl->MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
     }
     const mgt_status ended = gl_pass_end(g, r);
@@ -125,7 +125,7 @@ static mgt_status make_luma(gl_renderer *g, const frame *f, const region *area, 
         gl->BindTextureUnit(UNIT_FINE, g->layers.color.name);
         gl->BindSampler(UNIT_FINE, 0);
         gl->BindImageTexture(0, g->luma.name, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_R32F);
-        gl->DispatchCompute((area->width + 7) / 8, (area->height + 7) / 8, 1);
+        gl->DispatchCompute((area->width + GROUP_SIDE - 1) / GROUP_SIDE, (area->height + GROUP_SIDE - 1) / GROUP_SIDE, 1);
         gl->MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
     }
     const mgt_status ended = gl_pass_end(g, r);

@@ -195,7 +195,7 @@ static void layers_are_those_of_rays(void **state)
                            .width = WIDTH,
                            .height = HEIGHT,
                            .index = index_of_water,
-                           .map = GBUFFER_SAGITTAL,
+                           .map = MAP_SAGITTAL,
                            .error = 0.02};
         job.camera.position[0] += 100;
         job.camera.position[2] -= 50;

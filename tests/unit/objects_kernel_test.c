@@ -504,7 +504,7 @@ static void set_view(bool under, double height, double pitch)
     const world nothing = {.low = {-1e3f, -1e3f, -1e3f}, .high = {1e3f, 1e3f, 1e3f}};
     narrow_data = refraction_narrow_data(&f, &nothing, &layer);
     narrow_data.method = 0;
-    refract_data = refract_data_of(under ? -height : height, 1.333, GBUFFER_SAGITTAL);
+    refract_data = refract_data_of(under ? -height : height, 1.333, MAP_SAGITTAL);
 }
 
 /* Under a flat surface the picture is the answer: every pixel is its own. */

@@ -144,7 +144,7 @@ static void make_scene(quad_scene *s, const float *positions, uint32_t vertices,
     s->scene.object_count = 1;
 }
 
-static gbuffer_job job_of(const mgt_scene *scene, gbuffer_map map)
+static gbuffer_job job_of(const mgt_scene *scene, int map)
 {
     return (gbuffer_job){.camera = camera_rays_of(&scene->camera, scene->image.width, scene->image.height),
                          .width = scene->image.width,
@@ -177,7 +177,7 @@ static void test_waterline(void **state)
             make_scene(&s, cameras[c][0][1] < 0 ? narrow : wall, 4, indices, 2, cameras[c][0], cameras[c][1]);
             if (cameras[c][0][1] < 0)
                 s.scene.camera.fov_y_deg = 12;
-            const gbuffer_job job = job_of(&s.scene, GBUFFER_SAGITTAL);
+            const gbuffer_job job = job_of(&s.scene, MAP_SAGITTAL);
             assert_int_equal(world_update(&w, &s.scene, pool), MGT_OK);
             assert_int_equal(gbuffers_draw(&g, w, &job, kernels[k], pool), MGT_OK);
             size_t none = 0, both = 0, near = 0;
@@ -273,7 +273,7 @@ static void test_against_rays(void **state)
         gbuffers g = {0};
         random_soup(positions, indices, &seed);
         make_scene(&s, positions, SOUP * 3, indices, SOUP, position, target);
-        const gbuffer_job job = job_of(&s.scene, GBUFFER_STRAIGHT);
+        const gbuffer_job job = job_of(&s.scene, MAP_STRAIGHT);
         assert_int_equal(world_update(&w, &s.scene, pool), MGT_OK);
         assert_int_equal(gbuffers_draw(&g, w, &job, &raster_kernels_1, pool), MGT_OK);
         for (size_t i = 0; i < pixels_of(&g); i += 3) {
@@ -320,8 +320,8 @@ static void test_same_bits(void **state)
     const uint64_t version = w->version;
     assert_int_equal(world_update(&w, &s.scene, three), MGT_OK);
     assert_int_equal(w->version, version);
-    for (int map = GBUFFER_STRAIGHT; map <= GBUFFER_PATH; map++) {
-        gbuffer_job job = job_of(&s.scene, (gbuffer_map)map);
+    for (int map = MAP_STRAIGHT; map <= MAP_PATH; map++) {
+        gbuffer_job job = job_of(&s.scene, (int)map);
         job.crest = 0.1;
         gbuffers g = {0}, h = {0};
         assert_int_equal(gbuffers_draw(&g, w, &job, &raster_kernels_1, one), MGT_OK);
@@ -371,7 +371,7 @@ static void test_odd_places(void **state)
         const double position[3] = {0, heights[i % 8], 0}, target[3] = {0.1, heights[i % 8] - 1, i % 3 ? -1 : -0.1};
         make_scene(&s, mesh, 8, indices, 7, position, target);
         s.scene.water.level = levels[i / 40];
-        gbuffer_job job = job_of(&s.scene, (gbuffer_map)(i % 2 + 1));
+        gbuffer_job job = job_of(&s.scene, (int)(i % 2 + 1));
         job.index = bends[i / 8 % 5];
         job.crest = 0.3;
         assert_int_equal(world_update(&w, &s.scene, pool), MGT_OK);

@@ -76,11 +76,11 @@ static void test_angle(void **state)
 {
     (void)state;
     points *p = new_points();
-    for (int map = GBUFFER_SAGITTAL; map <= GBUFFER_PATH; map++)
+    for (int map = MAP_SAGITTAL; map <= MAP_PATH; map++)
         for (int side = 0; side < 2; side++)
             for (int i = 0; i < INDICES; i++) {
                 const double height = side ? -2.5 : 2.5;
-                const RefractData refract = refract_data_of(height, indices[i], (gbuffer_map)map);
+                const RefractData refract = refract_data_of(height, indices[i], (int)map);
                 fill_grid(p, height);
                 map_points(&raster_kernels_1, &refract, p);
                 const double worst = worst_angle(p, height, indices[i]);
@@ -100,9 +100,9 @@ static void test_lanes_agree(void **state)
     const raster_kernels *kernels[] = {&raster_kernels_8, &raster_kernels_16};
     const uint32_t lanes[] = {8, 16};
     for (int k = 0; k < 2; k++)
-        for (int map = GBUFFER_STRAIGHT; map <= GBUFFER_PATH && runs(lanes[k]); map++)
+        for (int map = MAP_STRAIGHT; map <= MAP_PATH && runs(lanes[k]); map++)
             for (int side = 0; side < 2; side++) {
-                const RefractData refract = refract_data_of(side ? -2.5 : 2.5, 1.333, (gbuffer_map)map);
+                const RefractData refract = refract_data_of(side ? -2.5 : 2.5, 1.333, (int)map);
                 fill_grid(p, side ? -2.5 : 2.5);
                 fill_grid(q, side ? -2.5 : 2.5);
                 map_points(&raster_kernels_1, &refract, p);
@@ -111,7 +111,7 @@ static void test_lanes_agree(void **state)
             }
 #endif
     /* Four lanes without fused multiply-add: near. */
-    const RefractData refract = refract_data_of(2.5, 1.333, GBUFFER_SAGITTAL);
+    const RefractData refract = refract_data_of(2.5, 1.333, MAP_SAGITTAL);
     fill_grid(p, 2.5);
     map_points(&raster_kernels_4, &refract, p);
     assert_true(worst_angle(p, 2.5, 1.333) <= 2e-5);
@@ -124,10 +124,10 @@ static void test_inverse(void **state)
 {
     (void)state;
     points *p = new_points();
-    for (int map = GBUFFER_SAGITTAL; map <= GBUFFER_PATH; map++)
+    for (int map = MAP_SAGITTAL; map <= MAP_PATH; map++)
         for (int side = 0; side < 2; side++) {
             const double height = side ? -2 : 2;
-            const RefractData refract = refract_data_of(height, 1.333, (gbuffer_map)map);
+            const RefractData refract = refract_data_of(height, 1.333, (int)map);
             for (int i = 0; i < POINTS; i++) {
                 const double depth = 0.05 + 0.05 * (i % 101), across = side ? (depth + 2) * 0.008 * (i / 101) : 0.2 * (i / 101);
                 p->in[0][i] = (float)(across * cos(0.7 * i));
@@ -152,10 +152,10 @@ static void test_monotone(void **state)
 {
     (void)state;
     points *p = new_points();
-    for (int map = GBUFFER_SAGITTAL; map <= GBUFFER_PATH; map++)
+    for (int map = MAP_SAGITTAL; map <= MAP_PATH; map++)
         for (int side = 0; side < 2; side++) {
             const double height = side ? -1.7 : 1.7, n = 1.333;
-            const RefractData refract = refract_data_of(height, n, (gbuffer_map)map);
+            const RefractData refract = refract_data_of(height, n, (int)map);
             for (int i = 0; i < POINTS; i++) { /* 101 rays of 101 points */
                 const double sine = side ? 0.0074 * (i / 101) : 0.0098 * (i / 101), bent = side ? sine * n : sine / n;
                 const double far = 0.01 * pow(1.08, i % 101), across = fabs(height) * sine / sqrt(1 - sine * sine) + far * bent / sqrt(1 - bent * bent);
@@ -185,8 +185,8 @@ static void test_special_places(void **state)
     const double bend[] = {1, 0.9, 1.333, 3};
     for (size_t h = 0; h < sizeof heights / sizeof *heights; h++)
         for (size_t n = 0; n < 4; n++)
-            for (int map = GBUFFER_STRAIGHT; map <= GBUFFER_PATH; map++) {
-                const RefractData refract = refract_data_of(heights[h], bend[n], (gbuffer_map)map);
+            for (int map = MAP_STRAIGHT; map <= MAP_PATH; map++) {
+                const RefractData refract = refract_data_of(heights[h], bend[n], (int)map);
                 const float values[] = {0, 1e-30f, 1e-6f, 0.5f, 2, 1e6f, -0.5f, -1e6f, -0.0f};
                 int count = 0;
                 for (int x = 0; x < 9; x++)
@@ -196,14 +196,14 @@ static void test_special_places(void **state)
                 map_points(&raster_kernels_1, &refract, p);
                 for (int i = 0; i < count; i++)
                     for (int k = 0; k < 3; k++) {
-                        const bool level = map == GBUFFER_PATH && fabs(heights[h]) < 1e-3; /* paths along the surface have no direction */
-                        const bool same = map == GBUFFER_STRAIGHT || (bend[n] <= 1 && !level);
+                        const bool level = map == MAP_PATH && fabs(heights[h]) < 1e-3; /* paths along the surface have no direction */
+                        const bool same = map == MAP_STRAIGHT || (bend[n] <= 1 && !level);
                         const double size = hypot(across_of(p->in, i), fabs((double)p->in[1][i]) + fabs(heights[h]));
                         if (!isfinite(p->out[k][i]) || !isfinite(p->back[k][i]) ||
                             (same && !(fabs((double)p->out[k][i] - (double)p->in[k][i]) <= 2e-6 * size + 1e-12)))
                             fail_msg("map %d, camera at %g, n = %g: (%g %g %g) becomes (%g %g %g)", map, heights[h], bend[n], (double)p->in[0][i],
                                      (double)p->in[1][i], (double)p->in[2][i], (double)p->out[0][i], (double)p->out[1][i], (double)p->out[2][i]);
-                        if (map == GBUFFER_SAGITTAL && p->in[1][i] == 0 && heights[h] > 0)
+                        if (map == MAP_SAGITTAL && p->in[1][i] == 0 && heights[h] > 0)
                             assert_true(p->out[k][i] == p->in[k][i]);
                     }
             }

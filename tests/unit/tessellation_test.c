@@ -76,7 +76,7 @@ static void draw_pool(setting *s, const char *camera, int triangles, double erro
                            .width = s->scene.image.width,
                            .height = s->scene.image.height,
                            .index = 1.333,
-                           .map = GBUFFER_SAGITTAL,
+                           .map = MAP_SAGITTAL,
                            .error = error};
     raster_kernels recording = raster_kernels_1;
     recording.setups = record_setups;

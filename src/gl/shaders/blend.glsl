@@ -10,7 +10,7 @@ layout(binding = 1) uniform sampler2D color_texture;
 layout(binding = 2) uniform sampler2D coverage_texture;
 layout(binding = 3) uniform sampler2D water_texture;
 
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = GROUP_SIDE, local_size_y = GROUP_SIDE) in;
 layout(binding = 0) writeonly uniform image2D color_image;
 layout(binding = 1) writeonly uniform image2D coverage_image;
 layout(binding = 2) writeonly uniform image2D water_image;

@@ -5,11 +5,6 @@
 
 layout(binding = 14) uniform usamplerBuffer tree_table;
 
-const int TREE_LEVELS = 32;              /* no path is longer, and each of its nodes puts off one child at most */
-const int TREE_LEAF_TRIANGLES = 4;
-const uint TREE_LEAF = 0x80000000u;
-const uint TREE_NOTHING = 0xffffffffu;   /* counts as a leaf */
-
 struct TreeHit {
     int triangle; /* −1: nothing */
     float along;  /* in lengths of the ray's direction; +inf: nothing */
@@ -75,7 +70,7 @@ float cross_triangle(int triangle, vec3 from, vec3 direction)
 TreeHit nearer_of_leaf(TreeHit best, uint texel, vec3 from, vec3 direction)
 {
     uvec4 triangles = texelFetch(tree_table, int(texel));
-    for (int i = 0; i < TREE_LEAF_TRIANGLES; i++) {
+    for (int i = 0; i < BVH_LEAF_TRIANGLES; i++) {
         int triangle = int(triangles[i]);
         float along = triangle >= 0 ? cross_triangle(triangle, from, direction) : INFINITY;
         if (along < best.along || (along == best.along && triangle >= 0 && triangle < best.triangle))
@@ -86,13 +81,13 @@ TreeHit nearer_of_leaf(TreeHit best, uint texel, vec3 from, vec3 direction)
 
 TreeHit trace_nearest(vec3 from, vec3 direction)
 {
-    uint waiting[TREE_LEVELS];
+    uint waiting[BVH_LEVELS]; /* each node of a path puts off one child at most */
     int depth = 0;
     uint at = 0u;
     TreeRay ray = tree_ray(from, direction);
     TreeHit best = TreeHit(-1, INFINITY);
     do {
-        while ((at & TREE_LEAF) == 0u) {
+        while ((at & BVH_LEAF) == 0u) {
             uvec4 a = texelFetch(tree_table, int(at)), b = texelFetch(tree_table, int(at) + 1);
             uvec4 c = texelFetch(tree_table, int(at) + 2), d = texelFetch(tree_table, int(at) + 3);
             float left = enter_box(uintBitsToFloat(a.xyz), uintBitsToFloat(b.xyz), ray, best.along);
@@ -103,12 +98,12 @@ TreeHit trace_nearest(vec3 from, vec3 direction)
             if (both || min(left, right) < INFINITY)
                 at = left <= right ? a.w : b.w;
             else
-                at = depth > 0 ? waiting[--depth] : TREE_NOTHING;
+                at = depth > 0 ? waiting[--depth] : BVH_NOTHING;
         }
-        if (at != TREE_NOTHING) {
-            best = nearer_of_leaf(best, at & ~TREE_LEAF, from, direction);
-            at = depth > 0 ? waiting[--depth] : TREE_NOTHING;
+        if (at != BVH_NOTHING) {
+            best = nearer_of_leaf(best, at & ~BVH_LEAF, from, direction);
+            at = depth > 0 ? waiting[--depth] : BVH_NOTHING;
         }
-    } while (at != TREE_NOTHING);
+    } while (at != BVH_NOTHING);
     return best;
 }

@@ -4,7 +4,7 @@
  */
 #include "glare.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = GROUP_SIDE, local_size_y = GROUP_SIDE) in;
 layout(binding = 0) writeonly uniform image2D host_image;
 
 void main()

@@ -10,7 +10,7 @@ layout(std140, binding = 0) uniform FrameBlock { FrameData frame_data; };
 
 #include "kernels/display/tone.k"
 
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = GROUP_SIDE, local_size_y = GROUP_SIDE) in;
 layout(binding = 0) writeonly uniform image2D display_image;
 
 void main()

@@ -30,7 +30,7 @@ float parts_of_edge(int i, int j)
         error = max(error, max(quarter_error_squared(0, a, b, image_a, image_b), quarter_error_squared(0, b, a, image_b, image_a)));
     float parts = ceil(sqrt(sqrt(error / picture_data.error_squared)));
     /* Where it meets the surface: from below, images run along the edge of Snell's window there; and paths of the same length begin there. */
-    if ((refract_data.side < 0.0f || refract_data.map == 2) && (a.y < 0.0f) != (b.y < 0.0f))
+    if ((refract_data.side < 0.0f || refract_data.map == MAP_PATH) && (a.y < 0.0f) != (b.y < 0.0f))
         parts = max(parts, ceil(0.5f * sqrt(squared)));
     return clamp(parts, 1.0f, MOST_PARTS);
 }

@@ -12,7 +12,7 @@ layout(std140, binding = 2) uniform PassBlock { PassData pass_data; };
 #ifdef WAVES_IN_STORAGE
 layout(std430, binding = 6) readonly buffer WaveBlock { WaveData wave_data[]; };
 #else
-layout(std140, binding = 1) uniform WaveBlock { WaveData wave_data[512]; };
+layout(std140, binding = 1) uniform WaveBlock { WaveData wave_data[MAX_WAVES]; };
 #endif
 
 #ifndef TILE_ACCESS
@@ -74,6 +74,3 @@ vec3 body_light()
 #define CLEAR_TO_LIGHT(cx) texelFetch(clear_texture, layer_texel, 0).rgb
 #define DEEP_WATER(cx) texelFetch(deep_texture, layer_texel, 0).rgb
 #endif
-
-const int TILE_WIDTH = 32;
-const int TILE_HEIGHT = 16;

@@ -5,12 +5,6 @@
 #include "gl_data.glsl"
 #include "kernels/glitter/lattice.k"
 
-const int NODE_STEP_X = 8;
-const int NODE_STEP_Y = 4;
-const int NODE_COLUMNS = 5;
-const int NODE_ROWS = 5;
-const int NODE_COUNT = 25;
-
 #ifndef NODE_ACCESS
 #define NODE_ACCESS readonly
 #endif
@@ -57,7 +51,7 @@ HitGuess pixel_guess(ivec2 pixel)
     return guess;
 }
 
-/* The pixel of this invocation: eight by eight of them are a workgroup, a tile is four by two workgroups. */
+/* The pixel of this invocation: a tile is TILE_GROUPS_X × TILE_GROUPS_Y workgroups. */
 struct TilePixel {
     ivec2 at;    /* in the tile */
     ivec2 texel; /* of the layers */
@@ -68,9 +62,9 @@ TilePixel tile_pixel()
 {
     TilePixel p;
     ivec2 group = ivec2(gl_WorkGroupID.xy);
-    ivec2 tile = group / ivec2(4, 2);
+    ivec2 tile = group / ivec2(TILE_GROUPS_X, TILE_GROUPS_Y);
     tile_slot = tile.y * pass_data.columns + tile.x;
-    p.at = (group % ivec2(4, 2)) * 8 + ivec2(gl_LocalInvocationID.xy);
+    p.at = (group % ivec2(TILE_GROUPS_X, TILE_GROUPS_Y)) * GROUP_SIDE + ivec2(gl_LocalInvocationID.xy);
     ivec2 image = (tile + ivec2(pass_data.tile_x, pass_data.tile_y)) * ivec2(TILE_WIDTH, TILE_HEIGHT) + p.at;
     p.texel = image - ivec2(pass_data.area_x, pass_data.area_y);
     layer_texel = p.texel;

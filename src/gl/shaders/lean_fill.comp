@@ -9,15 +9,14 @@
 #include "kernels/common/math.k"
 
 layout(std140, binding = 3) uniform LeanPassBlock { LeanPass lean_pass; };
-layout(std140, binding = 1) uniform LeanWaveBlock { LeanWave lean_waves[512]; };
+layout(std140, binding = 1) uniform LeanWaveBlock { LeanWave lean_waves[MAX_WAVES]; };
 layout(binding = 0) writeonly uniform image2D mean_image;
 
-const int SIZE = 4096; /* LEAN_SIZE */
 const int ROWS = 16;
 layout(local_size_x = 64) in;
 
 /* Turns of so many texels' steps of a wave; whole ones are left out. */
-float turns_of(int steps) { return float(steps & (SIZE - 1)) * (1.0f / float(SIZE)); }
+float turns_of(int steps) { return float(steps & (LEAN_SIZE - 1)) * (1.0f / float(LEAN_SIZE)); }
 
 void main()
 {

@@ -11,7 +11,7 @@ layout(binding = 2) uniform sampler2D square_texture; /* from level 1 on */
 layout(binding = 0) writeonly uniform image2D mean_image;
 layout(binding = 1) writeonly uniform image2D square_image;
 
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = GROUP_SIDE, local_size_y = GROUP_SIDE) in;
 
 vec3 square_of(ivec2 texel, vec2 mean)
 {

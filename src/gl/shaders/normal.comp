@@ -7,7 +7,7 @@
 #include "kernels/glitter/glitter.k"
 #include "normal.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = GROUP_SIDE, local_size_y = GROUP_SIDE) in;
 
 void main()
 {

@@ -9,7 +9,7 @@
 #include "kernels/glitter/glitter.k"
 #include "objects_water.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = GROUP_SIDE, local_size_y = GROUP_SIDE) in;
 layout(binding = 0) writeonly uniform image2D body_image;
 layout(binding = 1) writeonly uniform image2D mirrored_image;
 layout(binding = 2) writeonly uniform image2D front_image;
@@ -83,7 +83,7 @@ void main()
     TilePixel pixel = tile_pixel();
     if (!pixel.inside)
         return;
-    int number = tile_slot * TILE_WIDTH * TILE_HEIGHT + pixel.at.y * TILE_WIDTH + pixel.at.x;
+    int number = tile_slot * TILE_PIXELS + pixel.at.y * TILE_WIDTH + pixel.at.x;
     ivec2 image = pixel.texel + ivec2(pass_data.area_x, pass_data.area_y);
     PixelWater water = water_at(pixel, vec2(0.0f));
     keep_water(number, water);

@@ -24,7 +24,7 @@ vec4 seen_mirrored(PixelWater water)
     Bent bent = Bent(mirrored_by_mean(0, water.hit.view, water.hit.normal), 1.0f);
     FoundPoint f = find_mirrored(0, water.hit, bent.direction);
     bool above = narrow_data.side > 0.0f;
-    int triangle = f.shown > 0.0f ? layer_triangle(1, ivec2(int(f.column), int(f.row))) : -1;
+    int triangle = f.shown > 0.0f ? layer_triangle(LAYER_REFLECTED, ivec2(int(f.column), int(f.row))) : -1;
     if (triangle < 0 && above)
         return vec4(0.0f);
     HitRay ray = ray_of(water.hit, f, above ? 0.0f : water.hit.along + f.after);

@@ -34,18 +34,18 @@ layout(binding = 13) uniform isampler2D near_triangle;
 
 /* ---- layers ---- */
 
-int layer_triangle(int layer, ivec2 at) { return layer == 0 ? texelFetch(far_triangle, at, 0).r : texelFetch(mirrored_triangle, at, 0).r; }
+int layer_triangle(int layer, ivec2 at) { return layer == LAYER_REFRACTED ? texelFetch(far_triangle, at, 0).r : texelFetch(mirrored_triangle, at, 0).r; }
 
 /* Of the depth. */
 float layer_inverse(int layer, ivec2 at)
 {
-    return (layer == 0 ? texelFetch(far_depth, at, 0).r : texelFetch(mirrored_depth, at, 0).r) / objects_data.least_depth;
+    return (layer == LAYER_REFRACTED ? texelFetch(far_depth, at, 0).r : texelFetch(mirrored_depth, at, 0).r) / objects_data.least_depth;
 }
 
 LayerPixel LAYER(int cx, int layer, float column, float row)
 {
     ivec2 at = ivec2(int(column), int(row));
-    float inverse = layer == 0 ? texelFetch(far_depth, at, 0).r : texelFetch(mirrored_depth, at, 0).r;
+    float inverse = layer == LAYER_REFRACTED ? texelFetch(far_depth, at, 0).r : texelFetch(mirrored_depth, at, 0).r;
     vec4 plane = texelFetch(plane_table, max(layer_triangle(layer, at), 0));
     return LayerPixel(inverse > 0.0f ? objects_data.least_depth / inverse : uintBitsToFloat(0x7f800000u), plane.xyz, plane.w);
 }
@@ -58,10 +58,7 @@ ivec3 triangle_corners(int triangle)
 
 /* ---- materials ---- */
 
-const int CODE_TEXELS = 64;
-const int CAUSTIC_TEXELS = 512;
-
-vec4 material_texel(int object, int i) { return texelFetch(material_table, CODE_TEXELS + CAUSTIC_TEXELS + 4 * object + i); }
+vec4 material_texel(int object, int i) { return texelFetch(material_table, CODE_TEXELS + MAX_WAVES + MATERIAL_TEXELS * object + i); }
 
 MarchWave caustic_wave(int i)
 {

@@ -10,7 +10,7 @@
 #define MARCH_WAVE(cx, i) caustic_wave(i)
 #include "kernels/refraction/material.k"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = LIST_GROUP) in;
 layout(binding = 6) writeonly uniform image2D deep_image;
 
 void main()

@@ -6,7 +6,7 @@
 #include "gl_data.glsl"
 #include "objects_behind.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = LIST_GROUP) in;
 layout(binding = 1) writeonly uniform image2D mirrored_image; /* what objects shine instead of what they hide of the sky, and how much that is */
 
 void main()

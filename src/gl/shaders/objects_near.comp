@@ -7,7 +7,7 @@
 #include "gl_data.glsl"
 #include "objects_shade.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = LIST_GROUP) in;
 layout(binding = 2) writeonly uniform image2D front_image;   /* what stands in front of water and sky, and its share of the pixel */
 layout(binding = 3) writeonly uniform image2D surface_image; /* its normal, and metres along the ray */
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
  * Pixels of a band that see objects: what is known of the water in them, and lists of those that one pass has found for the next ones. An entry is
- * the number of a pixel in the band: tile · 512 + row · 32 + column.
+ * the number of a pixel in the band: tile · TILE_PIXELS + row · TILE_WIDTH + column.
  */
 #include "objects_data.glsl"
 #include "kernels/refraction/spread.k"
@@ -14,8 +14,6 @@ struct PixelWater {
     WaterVariation variation;
 };
 
-const int WATER_FLOATS = 18;
-
 #ifdef LISTS_GROW
 #define LIST_ACCESS
 #else
@@ -25,22 +23,16 @@ layout(std430, binding = 4) LIST_ACCESS buffer WaterBlock { float water_data[]; 
 
 /* Lists: pixels wholly in front of the water, pixels on edges, pixels that see through the surface, under water those that see no surface, and of those
  * that see through it those whose rays are traced. */
-const int LIST_FRONT = 0;
-const int LIST_EDGES = 1;
-const int LIST_THROUGH = 2;
-const int LIST_DEEP = 3;
-const int LIST_TRACED = 4;
-const int LIST_GROUP = 64; /* entries of a workgroup */
 
 struct ListHead {
     uint groups_x, groups_y, groups_z, count;
 };
 layout(std430, binding = 5) LIST_ACCESS buffer ListBlock {
-    ListHead list_head[5];
+    ListHead list_head[LISTS];
     uint list_entry[];
 };
 
-int band_pixels() { return pass_data.columns * pass_data.rows * TILE_WIDTH * TILE_HEIGHT; }
+int band_pixels() { return pass_data.columns * pass_data.rows * TILE_PIXELS; }
 
 bool is_through(int pixel) { return water_data[WATER_FLOATS * pixel + WATER_FLOATS - 1] > 0.0f; }
 
@@ -61,7 +53,7 @@ PixelWater known_water(int pixel)
     w.variation.variance_xz = water_data[i + 15];
     w.variation.variance_zz = water_data[i + 16];
     ivec2 at = ivec2(pixel % TILE_WIDTH, pixel / TILE_WIDTH % TILE_HEIGHT);
-    int tile = pixel / (TILE_WIDTH * TILE_HEIGHT);
+    int tile = pixel / (TILE_PIXELS);
     ivec2 image = (ivec2(tile % pass_data.columns, tile / pass_data.columns) + ivec2(pass_data.tile_x, pass_data.tile_y)) * ivec2(TILE_WIDTH, TILE_HEIGHT) + at;
     w.hit.column = float(image.x);
     w.hit.row = float(image.y);

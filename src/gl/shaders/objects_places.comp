@@ -11,7 +11,7 @@
 #include "objects_through.glsl"
 #include "objects_tracing.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = GROUP_SIDE, local_size_y = GROUP_SIDE) in;
 layout(binding = 1) writeonly uniform image2D mirrored_image; /* as in objects_mirrored.comp */
 
 void main()
@@ -20,7 +20,7 @@ void main()
     if (!where.inside)
         return;
     ivec2 texel = where.texel;
-    int pixel = tile_slot * TILE_WIDTH * TILE_HEIGHT + where.at.y * TILE_WIDTH + where.at.x;
+    int pixel = tile_slot * TILE_PIXELS + where.at.y * TILE_WIDTH + where.at.x;
     if (!is_through(pixel))
         return;
     int places = objects_data.places;

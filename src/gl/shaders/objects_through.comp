@@ -7,7 +7,7 @@
 #include "gl_data.glsl"
 #include "objects_through.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = LIST_GROUP) in;
 
 void main()
 {

@@ -10,7 +10,7 @@ layout(binding = 4) writeonly uniform image2D error_image; /* pixels that the po
 /* Method `broad` knows the mean surface alone, `off` looks straight through. */
 WaterHit surface_of_method(WaterHit hit)
 {
-    if (narrow_data.method != 3)
+    if (narrow_data.method != REFRACTION_BROAD)
         return hit;
     hit.along = narrow_data.distance / max(-hit.view.y, 1e-6f);
     hit.normal = vec3(0.0f, 1.0f, 0.0f);
@@ -55,7 +55,7 @@ RayEnd sharpened(RayEnd end, WaterHit hit, int layer, FoundPoint f)
     vec3 view = turned(0, hit.view), from = camera_position() + hit.along * view;
     float along = INFINITY;
     int met = -1;
-    bool by_nothing = narrow_data.side < 0.0f && layer == 0; /* over the water the sky is all around */
+    bool by_nothing = narrow_data.side < 0.0f && layer == LAYER_REFRACTED; /* over the water the sky is all around */
     for (int i = 0; asked && i < 9; i++) {
         ivec2 beside = at + ivec2(i % 3 - 1, i / 3 - 1);
         if (any(lessThan(beside, ivec2(0))) || any(greaterThan(beside, last)))
@@ -74,7 +74,7 @@ RayEnd sharpened(RayEnd end, WaterHit hit, int layer, FoundPoint f)
     end.ray.after = met < 0 ? 0.0f : along;
     if (met >= 0)
         end.ray.position = from + along * end.ray.direction;
-    end.ray.water = narrow_data.side > 0.0f ? end.ray.after : hit.along + (layer == 1 ? end.ray.after : 0.0f);
+    end.ray.water = narrow_data.side > 0.0f ? end.ray.after : hit.along + (layer == LAYER_REFLECTED ? end.ray.after : 0.0f);
     return end;
 }
 
@@ -88,7 +88,7 @@ ThroughEnd end_through(PixelWater w)
 {
     WaterHit hit = surface_of_method(w.hit);
     Bent bent = bent_at(0, hit.view, hit.normal);
-    if (narrow_data.method == 7)
+    if (narrow_data.method == REFRACTION_OFF)
         bent = Bent(hit.view, 0.0f);
     bool total = bent.total > 0.0f;
     FoundPoint f;
@@ -98,16 +98,16 @@ ThroughEnd end_through(PixelWater w)
         f = find_refracted(0, hit, bent);
     float wet = narrow_data.side > 0.0f ? f.after : hit.along + (total ? f.after : 0.0f);
     RayEnd end;
-    end.triangle = f.shown > 0.0f ? layer_triangle(total ? 1 : 0, ivec2(int(f.column), int(f.row))) : -1;
+    end.triangle = f.shown > 0.0f ? layer_triangle(total ? LAYER_REFLECTED : LAYER_REFRACTED, ivec2(int(f.column), int(f.row))) : -1;
     end.ray = ray_of(hit, f, wet);
     end.ray.gain = gain_behind(total);
     end.error = f.residual < 1e28f ? f.residual : INFINITY;
     end.counts = true;
-    int layer = total ? 1 : 0;
-    if (narrow_data.method == 0)
+    int layer = total ? LAYER_REFLECTED : LAYER_REFRACTED;
+    if (narrow_data.method == REFRACTION_TWO_PHASE)
         end = sharpened(end, w.hit, layer, f);
     end.ray.footprint = footprint_behind(hit, bent, w.variation, end.ray.after);
-    bool traced = narrow_data.method == 1;
+    bool traced = narrow_data.method == REFRACTION_HYBRID;
     if (traced)
         traced = is_doubtful(f, layer) || passes_behind(0, layer, hit, f, f.column >= 0.0f ? 1.0f : 0.0f) > 0.0f;
     return ThroughEnd(end, traced);

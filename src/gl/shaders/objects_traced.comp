@@ -6,7 +6,7 @@
 #include "gl_data.glsl"
 #include "objects_tracing.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = LIST_GROUP) in;
 layout(binding = 0) writeonly uniform image2D body_image;  /* as in objects_through.glsl */
 layout(binding = 4) writeonly uniform image2D error_image;
 

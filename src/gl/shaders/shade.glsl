@@ -2,7 +2,7 @@
  *
  * A filtered method over the pixels of a band. Define METHOD_STATE, method_state and method_result before.
  */
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = GROUP_SIDE, local_size_y = GROUP_SIDE) in;
 layout(binding = 0, rgba32f) uniform image2D color_image;
 layout(binding = 1, r32f) uniform image2D coverage_image;
 layout(binding = 2, r32f) uniform image2D water_image;

@@ -4,14 +4,14 @@
  */
 #include "lattice_data.glsl"
 
-/* src/frame/podee_tables.h; the slices of the sweep stand side by side, eight a row. */
+/* src/frame/podee_tables.h; the slices of the sweep stand side by side. */
 layout(binding = 1) uniform sampler2D sweep_texture;
 layout(binding = 2) uniform sampler2D share_texture;
 
 float SWEEP_TEXEL(int cx, float v, float u, float slice)
 {
     int s = int(slice);
-    return texelFetch(sweep_texture, ivec2(int(v), int(u)) + 512 * ivec2(s % 8, s / 8), 0).r;
+    return texelFetch(sweep_texture, ivec2(int(v), int(u)) + ivec2(PODEE_COLUMNS, PODEE_ROWS) * ivec2(s % PODEE_SLICES_ACROSS, s / PODEE_SLICES_ACROSS), 0).r;
 }
 
 float SHARE_TEXEL(int cx, float r, float slice) { return texelFetch(share_texture, ivec2(int(r), int(slice)), 0).r; }

@@ -16,7 +16,7 @@ layout(std430, binding = 5) readonly buffer SortBlock { SortData sort_data[]; };
 const int LANES = 64;
 layout(local_size_x = 64) in;
 
-const int WORDS = 16; /* of 32 waves */
+const int WORDS = MAX_WAVES / 32; /* of 32 waves */
 shared uint resolved_bits[WORDS];
 shared uint mixed_bits[WORDS];
 shared uint marched_bits[WORDS];
@@ -57,9 +57,9 @@ void mark_wave(TileView view, int wave, int lane)
 {
     WaveClass c = class_of(view, wave);
     uint bit = 1u << (wave & 31);
-    if (c.kind == 1.0f)
+    if (c.kind == float(WAVE_RESOLVED))
         atomicOr(resolved_bits[wave >> 5], bit);
-    if (c.kind == 2.0f)
+    if (c.kind == float(WAVE_MIXED))
         atomicOr(mixed_bits[wave >> 5], bit);
     WaveData w = wave_data[wave];
     if (c.marched != 0.0f) {

@@ -24,9 +24,9 @@ float srgb_decode(float encoded) { return encoded <= 0.04045f ? encoded / 12.92f
 
 vec3 host_color(vec3 radiance)
 {
-    if (window_data.color == 0)
+    if (window_data.color == HOST_COLOR_RADIANCE)
         return radiance;
-    if (window_data.color == 1)
+    if (window_data.color == HOST_COLOR_EXPOSED)
         return radiance * FRAME(0).exposure;
     vec3 display = display_color(0, radiance, FRAME(0).tone_map);
     return window_data.encodes != 0 ? vec3(srgb_decode(display.x), srgb_decode(display.y), srgb_decode(display.z)) : display;

@@ -28,6 +28,8 @@
 
 #include <stdbool.h>
 
+#include "kernels/common/constants.h"
+
 #if !defined(MGT_LANES)
 #error "define MGT_LANES before including the kernel prelude"
 #elif MGT_LANES == 1

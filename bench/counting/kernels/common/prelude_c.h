@@ -11,6 +11,7 @@
 
 #include <string.h>
 
+#include "kernels/common/constants.h"
 #include "operation_count.h"
 
 #if MGT_LANES != 1

@@ -1,0 +1,117 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Sizes and enums that C and GLSL share: macros that stand for whole numbers, for both languages read them. Those that an enum of the public headers has too
+ * are compared with it in src/frame/constants.c.
+ */
+#ifndef MANGATA_KERNELS_COMMON_CONSTANTS_H
+#define MANGATA_KERNELS_COMMON_CONSTANTS_H
+
+/* ---- waves ---- */
+
+#define MAX_WAVES 512 /* of a scene */
+
+/* WaveClass.kind: how a tile counts a wave. */
+#define WAVE_UNRESOLVED 0
+#define WAVE_RESOLVED 1
+#define WAVE_MIXED 2
+
+/* ---- the picture's lattice ---- */
+
+/* Tiles of one fixed lattice of the whole image, whatever the crop. */
+#define TILE_WIDTH 32
+#define TILE_HEIGHT 16
+#define TILE_PIXELS (TILE_WIDTH * TILE_HEIGHT)
+
+/* Nodes of a tile's lattice of first hits; they lie on the tile's edges too. The water is foreshortened down the screen, seldom across. */
+#define NODE_STEP_X 8
+#define NODE_STEP_Y 4
+#define NODE_COLUMNS (TILE_WIDTH / NODE_STEP_X + 1)
+#define NODE_ROWS (TILE_HEIGHT / NODE_STEP_Y + 1)
+#define NODE_COUNT (NODE_COLUMNS * NODE_ROWS)
+
+/* ---- workgroups of shaders ---- */
+
+#define GROUP_SIDE 8 /* pixels along a side of a workgroup over pixels */
+#define TILE_GROUPS_X (TILE_WIDTH / GROUP_SIDE)
+#define TILE_GROUPS_Y (TILE_HEIGHT / GROUP_SIDE)
+#define LIST_GROUP 64 /* entries of a list in a workgroup over a list */
+
+/* ---- tables ---- */
+
+/* The sky's radiance around the light, see sky.k. */
+#define SKY_COLUMNS 192
+#define SKY_ROWS 96
+
+/* Circular kernels of podee-*, see podee_mixture.k. As a texture the slices of the sweep stand side by side. */
+#define PODEE_COLUMNS 512
+#define PODEE_ROWS 512
+#define PODEE_SLICES 64
+#define PODEE_SLICES_ACROSS 8
+
+/* The map of slope moments: texels along a side of level 0. */
+#define LEAN_SIZE 4096
+
+/* Objects' materials as a table of RGBA texels: linear values of all codes of a texture's channel, waves that make caustics, then the materials. */
+#define TEXTURE_CODES 256
+#define CODE_TEXELS (TEXTURE_CODES / 4)
+#define MATERIAL_TEXELS 4
+
+/* ---- a tree of boxes over triangles, see gl_bvh.h ---- */
+
+#define BVH_LEVELS 32        /* no path is longer */
+#define BVH_LEAF_TRIANGLES 4 /* at most */
+#define BVH_NODE_TEXELS 4
+#define BVH_LEAF 0x80000000u
+#define BVH_NOTHING 0xffffffffu /* counts as a leaf */
+
+/* ---- objects ---- */
+
+/* RefractData.map: where triangles beyond the surface are drawn. */
+#define MAP_STRAIGHT 0 /* where they are, as if there were no water: off, narrow, screen-space */
+#define MAP_SAGITTAL 1 /* at their sagittal images: two-phase, hybrid, broad */
+#define MAP_PATH 2     /* along the camera's ray at the length of the refracted path: liu */
+
+/* Pictures of objects that points are looked up in. */
+#define LAYER_REFRACTED 0 /* what lies beyond the surface */
+#define LAYER_REFLECTED 1 /* what the surface mirrors */
+
+/* NarrowData.method, an mgt_refraction. */
+#define REFRACTION_TWO_PHASE 0
+#define REFRACTION_HYBRID 1
+#define REFRACTION_LIU 2
+#define REFRACTION_BROAD 3
+#define REFRACTION_NARROW 4
+#define REFRACTION_SCREEN_SPACE 5
+#define REFRACTION_OFF 7
+
+/* HitMaterial.kind, an mgt_pattern. */
+#define PATTERN_NONE 0
+#define PATTERN_TILES 1
+#define PATTERN_CHECKER 2
+#define PATTERN_STRIPES 3
+
+/* Lists of a band's pixels, and what is kept of each pixel's water: see objects_pixel.glsl. */
+#define LIST_FRONT 0
+#define LIST_EDGES 1
+#define LIST_THROUGH 2
+#define LIST_DEEP 3
+#define LIST_TRACED 4
+#define LISTS 5
+#define WATER_FLOATS 18
+
+/* ---- options ---- */
+
+/* FrameData.podee_kernels, an mgt_kernels; other numbers count circular kernels. */
+#define KERNELS_FELINE 32
+#define KERNELS_RIEMANN 33
+
+/* FrameData.tone_map, an mgt_tone_map. */
+#define TONE_MAP_REINHARD 1
+#define TONE_MAP_ACES 2
+#define TONE_MAP_AGX 3
+
+/* WindowData.color, an mgt_gl_color. */
+#define HOST_COLOR_RADIANCE 0
+#define HOST_COLOR_EXPOSED 1
+
+#endif
