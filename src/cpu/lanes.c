@@ -65,29 +65,6 @@ static inline float any_of(real x)
     return lanes[0];
 }
 
-static TileData tile_data(const ViewData *v, TileView t)
-{
-    const float steepness = sqrtf(v->right_y * v->right_y + v->down_y * v->down_y), steep = steepness > 1e-10f ? steepness : 1e-10f;
-    return (TileData){
-        .ray_x = any_of(t.ray.x),
-        .ray_y = any_of(t.ray.y),
-        .ray_z = any_of(t.ray.z),
-        .camera_height = v->camera_height,
-        .right_x = v->right_x,
-        .right_y = v->right_y,
-        .right_z = v->right_z,
-        .origin_x = any_of(t.origin_x),
-        .down_x = v->down_x,
-        .down_y = v->down_y,
-        .down_z = v->down_z,
-        .origin_z = any_of(t.origin_z),
-        .far_distance = 1e5f,
-        .horizon_steepness = steep,
-        .horizon_inverse = 1.0f / steep,
-        .slope_variance = v->slope_deviation * v->slope_deviation,
-    };
-}
-
 /* The classes of all waves, an array per member that is read again. */
 typedef struct wave_classes {
     float kind[MGT_MAX_WAVES], phase[MGT_MAX_WAVES], share[MGT_MAX_WAVES], lost[MGT_MAX_WAVES], marched[MGT_MAX_WAVES];
@@ -109,102 +86,36 @@ static void classify_waves(const struct kernel_context *cx, const wave_set *set,
     }
 }
 
-static inline void add_lost(TileData *d, const WaveData *w, float lost)
+static void list_wave(const struct kernel_context *cx, const wave_set *set, const wave_classes *c, int wave, WaveData *out)
 {
-    d->filtered_xx += lost * w->variance_xx;
-    d->filtered_xz += lost * w->variance_xz;
-    d->filtered_zz += lost * w->variance_zz;
-    d->filtered_octave += lost * w->octave_mass;
-    d->filtered_octave_sq += lost * w->octave_sq_mass;
+    *out = wave_shared(cx, wave_placed(cx, set->data[wave], c->phase[wave]), c->share[wave]);
 }
 
-static inline void scale_wave(WaveData *w, float share)
+/* The resolved waves, then the mixed ones, each in the set's order. */
+static TileData list_waves(const struct kernel_context *cx, const wave_set *set, const wave_classes *c, tile_waves *out)
 {
-    w->even_x *= share, w->even_z *= share, w->odd_x *= share, w->odd_z *= share;
-    w->bend_xx *= share, w->bend_xz *= share, w->bend_zz *= share;
-    w->even_height *= share, w->odd_height *= share;
-}
-
-static void list_waves(const wave_set *set, const wave_classes *c, tile_waves *out)
-{
-    int count = 0;
-    for (int i = 0; i < set->view.wave_count; i++) {
-        if (c->kind[i] < 2)
-            add_lost(&out->data, &set->data[i], c->kind[i] > 0 ? c->lost[i] : 1.0f);
-        if (c->kind[i] != 1)
-            continue;
-        out->waves[count] = set->data[i];
-        out->waves[count].phase = c->phase[i];
-        scale_wave(&out->waves[count++], c->share[i]);
+    const int waves = set->view.wave_count;
+    uint16_t marched[MGT_MAX_WAVES];
+    int resolved = 0, all = 0, marched_count = 0;
+    TileSums sums = no_sums(cx);
+    for (int i = 0; i < waves; i++) {
+        sums = sums_with_wave(cx, sums, set->data[i], c->lost[i], c->marched[i], c->most[i]);
+        if (c->kind[i] == WAVE_RESOLVED)
+            list_wave(cx, set, c, i, &out->waves[resolved++]);
+        marched[marched_count] = (uint16_t)i;
+        marched_count += c->marched[i] != 0;
     }
-    out->data.resolved_count = count;
-    for (int i = 0; i < set->view.wave_count; i++)
-        if (c->kind[i] == 2) {
-            out->waves[count] = set->data[i];
-            out->waves[count++].phase = c->phase[i];
-        }
-    out->data.mixed_count = count - out->data.resolved_count;
-}
-
-/* What bounds marched waves along the view: sums of worst cases and of variances, whichever is tighter in the end. A sum of many sines
- * of random phases exceeds four deviations once in 30,000 places; few sines never reach their sum. */
-typedef struct march_bounds {
-    float height, height_variance, slope, slope_variance, bend, bend_variance;
-} march_bounds;
-
-static inline void add_bounds(march_bounds *b, float amplitude, float k)
-{
-    const float slope = amplitude * k, bend = slope * k;
-    b->height += amplitude, b->height_variance += 0.5f * amplitude * amplitude;
-    b->slope += slope, b->slope_variance += 0.5f * slope * slope;
-    b->bend += bend, b->bend_variance += 0.5f * bend * bend;
-}
-
-static inline float tighter(float sum, float variance)
-{
-    const float deviations = 4.0f * sqrtf(variance);
-    return sum < deviations ? sum : deviations;
-}
-
-/* A march strides over the largest quarter of the waves, where they are many. */
-enum { COARSE_LEAST = 32, COARSE_SHARE = 4 };
-
-static void list_marched(const wave_set *set, const wave_classes *c, tile_waves *out)
-{
-    TileData *d = &out->data;
-    float along[MGT_MAX_WAVES], most = 0, largest = 0;
-    int count = 0;
-    for (int i = 0; i < set->view.wave_count; i++) {
-        if (c->marched[i] == 0)
-            continue;
-        const WaveData *w = &set->data[i];
-        out->march[count] = (MarchWave){w->turns_x, w->turns_z, c->phase[i], w->even_height};
-        along[count++] = c->along[i];
-        const float squared = w->amplitude > 0 ? w->turns_x * w->turns_x + w->turns_z * w->turns_z : 0;
-        largest = squared > largest ? squared : largest;
-        most = w->amplitude > 0 && c->most[i] > most ? c->most[i] : most;
+    all = resolved;
+    for (int i = 0; i < waves; i++)
+        if (c->kind[i] == WAVE_MIXED)
+            list_wave(cx, set, c, i, &out->waves[all++]);
+    const int coarse = coarse_waves(cx, marched_count);
+    for (int place = 0; place < marched_count; place++) {
+        const int i = marched[place];
+        out->march[place] = march_wave_of(cx, set->data[i], c->phase[i]);
+        sums = sums_with_march(cx, sums, set->data[i], c->along[i], place, coarse);
     }
-    march_bounds coarse = {0}, all, rest = {0};
-    const int first = count < COARSE_LEAST ? count : count / COARSE_SHARE;
-    for (int i = 0; i < first; i++)
-        add_bounds(&coarse, fabsf(out->march[i].amplitude), along[i]);
-    all = coarse;
-    for (int i = first; i < count; i++) {
-        add_bounds(&all, fabsf(out->march[i].amplitude), along[i]);
-        add_bounds(&rest, fabsf(out->march[i].amplitude), 0);
-    }
-    d->march_count = count;
-    d->march_bound = tighter(all.height, all.height_variance);
-    d->march_slope = tighter(all.slope, all.slope_variance);
-    /* After such strides, two deviations of the bend serve filtered methods: what small waves could hide from the second moves no pixel. */
-    d->march_bend = tighter(all.bend, all.bend_variance) * (set->view.filter_waves && first < count ? 0.5f : 1.0f);
-    d->coarse_count = first;
-    d->coarse_rest = tighter(rest.height, rest.height_variance);
-    d->coarse_slope = tighter(coarse.slope, coarse.slope_variance);
-    d->coarse_bend = tighter(coarse.bend, coarse.bend_variance);
-    /* A tenth of the shortest wave is near enough for Newton's step of filtered methods. */
-    d->march_tolerance = largest > 0 ? (set->view.filter_waves ? 0.1f : 0.02f) / sqrtf(largest) : 1e-3f;
-    d->march_pixels = !set->view.filter_waves && most > 0.0625f;
+    return sorted_tile(cx, sums, resolved, all - resolved, marched_count);
 }
 
 static void lanes_sort(const FrameData *frame, const wave_set *set, const ViewData *view, uint32_t tile_x, uint32_t tile_y, tile_waves *out)
@@ -214,11 +125,14 @@ static void lanes_sort(const FrameData *frame, const wave_set *set, const ViewDa
     const real column = real((float)tile_x * width), row = real((float)tile_y * height);
     const TileView place = tile_view(&cx, column, row, width, height);
     wave_classes classes;
-    out->data = tile_data(view, place);
     classify_waves(&cx, set, place, &classes);
-    list_waves(set, &classes, out);
-    list_marched(set, &classes, out);
-    out->data.light_reach = view->filter_waves && any_of(tile_meets_light(&cx, column, row, width, height)) > 0;
+    out->data = list_waves(&cx, set, &classes, out);
+    out->data.ray_x = any_of(place.ray.x);
+    out->data.ray_y = any_of(place.ray.y);
+    out->data.ray_z = any_of(place.ray.z);
+    out->data.origin_x = any_of(place.origin_x);
+    out->data.origin_z = any_of(place.origin_z);
+    out->data.light_reach = any_of(tile_meets_light(&cx, column, row, width, height)) > 0;
 }
 
 /* ---- first-hit lattice ---- */

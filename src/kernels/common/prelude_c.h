@@ -185,6 +185,8 @@ KERNEL real real_fma(real a, real b, real c) { return a * b + c; }
 #define floor(x) real_floor(MGT_LIFT(x))
 #define uniform_min(a, b) mgt_uniform_min(a, b)
 #define uniform_max(a, b) mgt_uniform_max(a, b)
+#define uniform_sqrt(x) __builtin_sqrtf(x)
+#define INFINITE real_broadcast(__builtin_inff())
 
 KERNEL float mgt_uniform_min(float a, float b) { return a < b ? a : b; }
 KERNEL float mgt_uniform_max(float a, float b) { return a > b ? a : b; }

@@ -106,6 +106,8 @@ KERNEL real real_floor(real x) { return MGT_COUNTED(other, __builtin_floorf(x.v)
 
 KERNEL float uniform_min(float a, float b) { return a < b ? a : b; }
 KERNEL float uniform_max(float a, float b) { return a > b ? a : b; }
+#define uniform_sqrt(x) __builtin_sqrtf(x)
+#define INFINITE real(__builtin_inff())
 
 #define MGT_ROUNDER 12582912.0f
 
