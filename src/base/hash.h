@@ -5,12 +5,16 @@
 
 #include <stdint.h>
 
+#include "base/hash_numbers.h"
+
+#define HASH_WORD(name) ((uint64_t)name##_HIGH << 32 | name##_LOW)
+
 /* The finaliser of SplitMix64 with its two rounds. */
 static inline uint64_t hash_of(uint64_t x)
 {
-    x += 0x9e3779b97f4a7c15u;
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+    x += HASH_WORD(HASH_STEP);
+    x = (x ^ (x >> 30)) * HASH_WORD(HASH_FIRST);
+    x = (x ^ (x >> 27)) * HASH_WORD(HASH_SECOND);
     return x ^ (x >> 31);
 }
 

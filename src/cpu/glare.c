@@ -11,6 +11,7 @@
  * an octave's share of the light falls by √2.
  */
 #include "cpu/glare.h"
+#include "kernels/common/constants.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -159,7 +160,7 @@ static void up_row(const up_job *job, size_t row)
     }
     const float *a = coarse->rgb + near * coarse->stride, *b = coarse->rgb + far * coarse->stride;
     float *fine = job->fine + row * job->fine_stride;
-    float near_gain = 0.75f * job->gain, far_gain = 0.25f * job->gain, keep = job->keep;
+    float near_gain = GLARE_NEAR * job->gain, far_gain = GLARE_FAR * job->gain, keep = job->keep;
     for (size_t from = 0; from < coarse->width; from += BLOCK) {
         size_t count = coarse->width - from < BLOCK ? coarse->width - from : BLOCK;
         float mixed[3 * (BLOCK + 2) + 4], spread[6 * BLOCK + 4]; /* coarse pixels from − 1 … from + count, fine ones from 2·from */
@@ -177,9 +178,9 @@ static void up_row(const up_job *job, size_t row)
         mixed[3 * (count + 2)] = 0.0f; /* read by the last pixel's fourth lane, then dropped */
         for (size_t x = 0; x < count; ++x) {
             const float *m = &mixed[3 * x];
-            lanes centre = 0.75f * load(m + 3);
-            store(spread + 6 * x, centre + 0.25f * load(m));
-            store(spread + 6 * x + 3, centre + 0.25f * load(m + 6));
+            lanes centre = GLARE_NEAR * load(m + 3);
+            store(spread + 6 * x, centre + GLARE_FAR * load(m));
+            store(spread + 6 * x + 3, centre + GLARE_FAR * load(m + 6));
         }
         size_t end = 2 * (from + count) < job->fine_width ? 2 * (from + count) : job->fine_width;
         float *out = fine + 6 * from;

@@ -631,12 +631,12 @@ static void lanes_display(const FrameData *frame, const float *rgb, uint8_t *rgb
         const size_t valid = count - i < MGT_LANES ? count - i : MGT_LANES;
         const vec3 shown = displayed_lanes(&context, rgb + 3 * i, count - i);
         float channel[3][MGT_LANES];
-        store(channel[0], shown.x);
-        store(channel[1], shown.y);
-        store(channel[2], shown.z);
+        store(channel[0], display_code(&context, shown.x));
+        store(channel[1], display_code(&context, shown.y));
+        store(channel[2], display_code(&context, shown.z));
         for (size_t lane = 0; lane < valid; lane++) {
             for (int c = 0; c < 3; c++)
-                rgba[4 * (i + lane) + (size_t)c] = (uint8_t)(channel[c][lane] * 255.0f + 0.5f);
+                rgba[4 * (i + lane) + (size_t)c] = (uint8_t)channel[c][lane];
             rgba[4 * (i + lane) + 3] = 255;
         }
     }

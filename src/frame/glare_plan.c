@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * The blur pyramid of glare: its levels, and what each of them spreads. cpu/glare.c has the mathematics. */
 #include "frame/glare_plan.h"
+#include "kernels/common/constants.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -31,17 +32,17 @@ float glare_plan_shares(const glare_plan *plan, float glare, float shares[GLARE_
 void glare_weigh_axis(size_t fine_count, const float *fine_mass, size_t coarse_count, float *weights, float *mass)
 {
     for (size_t i = 0; i < coarse_count; ++i) {
-        static const float subdivision[4] = {0.25f, 0.75f, 0.75f, 0.25f};
+        static const float subdivision[4] = {GLARE_FAR, GLARE_NEAR, GLARE_NEAR, GLARE_FAR};
         float *w = &weights[4 * i], sum = 0.0f;
         for (size_t t = 0; t < 4; ++t) {
             bool inside = 2 * i + t >= 1 && 2 * i + t - 1 < fine_count;
             w[t] = inside ? subdivision[t] : 0.0f;
         }
         if (i == 0) {
-            w[1] += 0.25f; /* a fine pixel at the edge takes its whole value from the last coarse one */
+            w[1] += GLARE_FAR; /* a fine pixel at the edge takes its whole value from the last coarse one */
         }
         if (i + 1 == coarse_count && 2 * i + 1 < fine_count) {
-            w[2] += 0.25f;
+            w[2] += GLARE_FAR;
         }
         for (size_t t = 0; t < 4; ++t) {
             if (w[t] > 0.0f) {

@@ -48,53 +48,55 @@ static bool history_place(const taa_step *s, uint32_t x, uint32_t y, double at[2
     return project(&s->before, point, at) && at[0] >= 0 && at[1] >= 0 && at[0] <= s->current->width - 1 && at[1] <= s->current->height - 1;
 }
 
-static inline float smaller(float a, float b) { return a < b ? a : b; }
+#define MGT_LANES 1
+#include "kernels/common/prelude_c.h"
 
-static inline float larger(float a, float b) { return a > b ? a : b; }
+#include "kernels/display/blend.k"
 
-/* One channel of `channels`, bilinear. */
-static float history_at(const picture_planes *p, const float *history, size_t channels, const double at[2])
+float taa_share(int frames) { return fmaxf(1.0f / (float)(frames + 1), 0.1f); }
+
+static inline BlendPixel pixel_of(const picture_planes *p, size_t i)
+{
+    const float *c = p->color + 3 * i;
+    return (BlendPixel){{c[0], c[1], c[2]}, p->coverage[i], p->water[i]};
+}
+
+/* Bilinear. */
+static BlendPixel history_at(const picture_planes *p, const double at[2])
 {
     const uint32_t x0 = (uint32_t)at[0], y0 = (uint32_t)at[1], x1 = x0 + 1 < p->width ? x0 + 1 : x0, y1 = y0 + 1 < p->height ? y0 + 1 : y0;
     const float u = (float)(at[0] - x0), v = (float)(at[1] - y0);
-    const float *high = history + (size_t)y0 * p->width * channels, *low = history + (size_t)y1 * p->width * channels;
-    const float above = (1 - u) * high[x0 * channels] + u * high[x1 * channels], below = (1 - u) * low[x0 * channels] + u * low[x1 * channels];
-    return (1 - v) * above + v * below;
+    const size_t high = (size_t)y0 * p->width, low = (size_t)y1 * p->width;
+    const BlendPixel above = blend_mixed(NULL, pixel_of(p, high + x0), pixel_of(p, high + x1), u);
+    return blend_mixed(NULL, above, blend_mixed(NULL, pixel_of(p, low + x0), pixel_of(p, low + x1), u), v);
 }
 
-/* Blends one channel of `channels`. */
-static float blend(const taa_step *s, const float *current, const float *history, size_t channels, uint32_t x, uint32_t y, const double at[2])
+static BlendPixel blended(const taa_step *s, uint32_t x, uint32_t y)
 {
-    const uint32_t width = s->current->width, height = s->current->height;
-    float least = INFINITY, most = -INFINITY;
-    for (uint32_t j = y > 0 ? y - 1 : 0; j <= y + 1 && j < height; j++)
-        for (uint32_t i = x > 0 ? x - 1 : 0; i <= x + 1 && i < width; i++) {
-            const float value = current[((size_t)j * width + i) * channels];
-            least = smaller(least, value), most = larger(most, value);
+    const picture_planes *current = s->current;
+    const size_t pixel = (size_t)y * current->width + x;
+    const BlendPixel now = pixel_of(current, pixel);
+    double at[2];
+    if (!history_place(s, x, y, at))
+        return now;
+    BlendPixel least = now, most = now;
+    for (uint32_t j = y > 0 ? y - 1 : 0; j <= y + 1 && j < current->height; j++)
+        for (uint32_t i = x > 0 ? x - 1 : 0; i <= x + 1 && i < current->width; i++) {
+            const BlendPixel p = pixel_of(current, (size_t)j * current->width + i);
+            least = blend_least(NULL, least, p);
+            most = blend_most(NULL, most, p);
         }
-    const size_t pixel = (size_t)y * width + x;
-    const float before = s->still ? history[pixel * channels] : history_at(s->current, history, channels, at);
-    const float past = smaller(larger(before, least), most);
-    /* A mean over all frames until a tenth is reached. */
-    const float share = larger(1.0f / (float)(s->frames + 1), 0.1f);
-    return past + share * (current[pixel * channels] - past);
+    return taa_blend(NULL, now, s->still ? pixel_of(s->history, pixel) : history_at(s->history, at), least, most, taa_share(s->frames));
 }
 
 void taa_blend_row(const taa_step *s, uint32_t y)
 {
     for (uint32_t x = 0; x < s->current->width; x++) {
         const size_t pixel = (size_t)y * s->current->width + x;
-        double at[2];
-        if (!history_place(s, x, y, at)) {
-            memcpy(s->out->color + 3 * pixel, s->current->color + 3 * pixel, 3 * sizeof(float));
-            s->out->coverage[pixel] = s->current->coverage[pixel];
-            s->out->water[pixel] = s->current->water[pixel];
-            continue;
-        }
-        for (size_t c = 0; c < 3; c++)
-            s->out->color[3 * pixel + c] = blend(s, s->current->color + c, s->history->color + c, 3, x, y, at);
-        s->out->coverage[pixel] = blend(s, s->current->coverage, s->history->coverage, 1, x, y, at);
-        s->out->water[pixel] = blend(s, s->current->water, s->history->water, 1, x, y, at);
+        const BlendPixel p = blended(s, x, y);
+        memcpy(s->out->color + 3 * pixel, &p.color, sizeof p.color);
+        s->out->coverage[pixel] = p.coverage;
+        s->out->water[pixel] = p.water;
     }
 }
 

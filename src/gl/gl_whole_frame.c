@@ -211,7 +211,7 @@ static mgt_status add_to_history(gl_renderer *g, const gl_job *job, int back, co
         .width = (int)job->area.width,
         .height = (int)job->area.height,
         .still = !job->frame->scene->camera_moves,
-        .share = frames < 9 ? 1.0f / (float)(frames + 1) : 0.1f,
+        .share = taa_share(frames),
     };
     const camera_rays now = rays_before(job, back), before = rays_before(job, back + 1);
     set_reprojection(&data, &now, &before);

@@ -14,6 +14,7 @@ check() { # name, version line, extension, epilogue, kernel
     more=
     case $1 in
     lean | leadr) more=$kernels/baselines/lean_accessors_glsl.k ;;
+    fxaa) more=$work/luma.glsl ;;
     refract_*) more=$kernels/refraction/refract_accessors_glsl.k ;;
     caustic | footprint | material | narrow | spread | water_path | water_seen) more="$kernels/refraction/refract_accessors_glsl.k $kernels/refraction/narrow_types.k $kernels/refraction/shade_types.k $kernels/refraction/layer.k $work/object_accessors.glsl" ;;
     esac
@@ -39,6 +40,8 @@ vec3 TEXTURE(int cx, float object, float u, float v, float level);
 float SUN_SHARE(int cx, vec3 position);
 GLSL
 
+echo "float LUMA(int cx, float column, float row);" >"$work/luma.glsl"
+
 count=0
 for kernel in "$kernels"/*/*.k; do
     name=$(basename "$kernel" .k)
@@ -52,7 +55,7 @@ echo "$count kernel files, each as GLSL 4.50 and GLSL ES 3.00"
 # The check itself must be able to fail, and say where.
 printf '/* broken */\n#include "kernels/common/math.k"\nKERNEL real broken(CTX cx, real x) { return x +; }\n' >"$work/broken.k"
 "$source/scripts/kernel_glsl" "450 core" "$kernels/common/prelude_glsl.k" "$work/broken.k" >"$work/broken.comp" || failed=1
-if glslangValidator "$work/broken.comp" >"$work/log" 2>&1 || ! grep -q 'ERROR: 2:3:' "$work/log"; then
+if glslangValidator "$work/broken.comp" >"$work/log" 2>&1 || ! grep -q 'ERROR: 3:3:' "$work/log"; then
     echo "FAILED: a broken kernel was not reported at its own line"
     cat "$work/log"
     failed=1

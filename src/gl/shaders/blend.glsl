@@ -4,6 +4,7 @@
  */
 #include "kernels/common/prelude_glsl.k"
 #include "pass_data.k"
+#include "kernels/display/blend.k"
 
 layout(std140, binding = 3) uniform BlendBlock { BlendData blend_data; };
 layout(binding = 1) uniform sampler2D color_texture;
@@ -17,20 +18,15 @@ layout(binding = 2) writeonly uniform image2D water_image;
 
 ivec2 blend_size() { return ivec2(blend_data.width, blend_data.height); }
 
-struct BlendPixel {
-    vec3 color;
-    vec2 shares; /* coverage, water */
-};
-
 BlendPixel pixel_of_current(ivec2 texel)
 {
-    return BlendPixel(texelFetch(color_texture, texel, 0).rgb, vec2(texelFetch(coverage_texture, texel, 0).r, texelFetch(water_texture, texel, 0).r));
+    return BlendPixel(texelFetch(color_texture, texel, 0).rgb, texelFetch(coverage_texture, texel, 0).r, texelFetch(water_texture, texel, 0).r);
 }
 
 /* A store to a layer that does not exist has no effect. */
 void store_blend(ivec2 texel, BlendPixel p)
 {
     imageStore(color_image, texel, vec4(p.color, 1.0f));
-    imageStore(coverage_image, texel, vec4(p.shares.x));
-    imageStore(water_image, texel, vec4(p.shares.y));
+    imageStore(coverage_image, texel, vec4(p.coverage));
+    imageStore(water_image, texel, vec4(p.water));
 }

@@ -22,5 +22,5 @@ void main()
     if (glare_data.coarse_width > 0)
         radiance = glare_data.keep * radiance + glare_data.gain * glare_up(texel);
     vec3 shown = display_color(0, radiance, FRAME(0).tone_map);
-    imageStore(display_image, texel, vec4(floor(shown * 255.0f + 0.5f) / 255.0f, 1.0f));
+    imageStore(display_image, texel, vec4(vec3(display_code(0, shown.x), display_code(0, shown.y), display_code(0, shown.z)) / 255.0f, 1.0f));
 }

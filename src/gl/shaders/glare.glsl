@@ -17,7 +17,7 @@ vec3 glare_up(ivec2 texel)
     ivec2 near = texel / 2;
     ivec2 beyond = near + (texel % 2) * 2 - 1;
     ivec2 far = clamp(beyond, ivec2(0), last);
-    vec3 upper = 0.75f * texelFetch(coarse_texture, near, 0).rgb + 0.25f * texelFetch(coarse_texture, ivec2(far.x, near.y), 0).rgb;
-    vec3 lower = 0.75f * texelFetch(coarse_texture, ivec2(near.x, far.y), 0).rgb + 0.25f * texelFetch(coarse_texture, far, 0).rgb;
-    return 0.75f * upper + 0.25f * lower;
+    vec3 upper = GLARE_NEAR * texelFetch(coarse_texture, near, 0).rgb + GLARE_FAR * texelFetch(coarse_texture, ivec2(far.x, near.y), 0).rgb;
+    vec3 lower = GLARE_NEAR * texelFetch(coarse_texture, ivec2(near.x, far.y), 0).rgb + GLARE_FAR * texelFetch(coarse_texture, far, 0).rgb;
+    return GLARE_NEAR * upper + GLARE_FAR * lower;
 }

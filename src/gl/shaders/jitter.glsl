@@ -2,6 +2,8 @@
  *
  * The random numbers of src/cpu/tile_job.c, bit for bit: 64-bit words as uvec2(low, high).
  */
+#include "base/hash_numbers.h"
+
 uvec2 multiply_64(uvec2 a, uvec2 b)
 {
     uvec2 product;
@@ -26,9 +28,9 @@ uvec2 fold_64(uvec2 x, int places)
 /* The finaliser of SplitMix64. */
 uvec2 mix_64(uvec2 x)
 {
-    x = add_64(x, uvec2(0x7f4a7c15u, 0x9e3779b9u));
-    x = multiply_64(fold_64(x, 30), uvec2(0x1ce4e5b9u, 0xbf58476du));
-    x = multiply_64(fold_64(x, 27), uvec2(0x133111ebu, 0x94d049bbu));
+    x = add_64(x, uvec2(HASH_STEP_LOW, HASH_STEP_HIGH));
+    x = multiply_64(fold_64(x, 30), uvec2(HASH_FIRST_LOW, HASH_FIRST_HIGH));
+    x = multiply_64(fold_64(x, 27), uvec2(HASH_SECOND_LOW, HASH_SECOND_HIGH));
     return fold_64(x, 31);
 }
 

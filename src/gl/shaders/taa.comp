@@ -13,7 +13,7 @@ layout(binding = 7) uniform sampler2D depth_texture; /* only where the camera mo
 BlendPixel pixel_of_history(ivec2 texel)
 {
     return BlendPixel(texelFetch(history_color_texture, texel, 0).rgb,
-                      vec2(texelFetch(history_coverage_texture, texel, 0).r, texelFetch(history_water_texture, texel, 0).r));
+                      texelFetch(history_coverage_texture, texel, 0).r, texelFetch(history_water_texture, texel, 0).r);
 }
 
 /* Where the history shows what the pixel shows now. */
@@ -43,18 +43,13 @@ HistoryPlace history_place(ivec2 texel)
     return HistoryPlace(clamp(at, vec2(0.0f), last), inside);
 }
 
-BlendPixel mixed_pixel(BlendPixel a, BlendPixel b, float t)
-{
-    return BlendPixel((1.0f - t) * a.color + t * b.color, (1.0f - t) * a.shares + t * b.shares);
-}
-
 BlendPixel history_at(vec2 at)
 {
     ivec2 first = ivec2(at), second = min(first + 1, blend_size() - 1);
     vec2 t = at - vec2(first);
-    BlendPixel above = mixed_pixel(pixel_of_history(first), pixel_of_history(ivec2(second.x, first.y)), t.x);
-    BlendPixel below = mixed_pixel(pixel_of_history(ivec2(first.x, second.y)), pixel_of_history(second), t.x);
-    return mixed_pixel(above, below, t.y);
+    BlendPixel above = blend_mixed(0, pixel_of_history(first), pixel_of_history(ivec2(second.x, first.y)), t.x);
+    BlendPixel below = blend_mixed(0, pixel_of_history(ivec2(first.x, second.y)), pixel_of_history(second), t.x);
+    return blend_mixed(0, above, below, t.y);
 }
 
 void main()
@@ -72,16 +67,13 @@ void main()
     for (int i = 0; i < 9; i++) {
         ivec2 near = clamp(texel + ivec2(i % 3 - 1, i / 3 - 1), ivec2(0), blend_size() - 1);
         BlendPixel p = pixel_of_current(near);
-        least = BlendPixel(min(least.color, p.color), min(least.shares, p.shares));
-        most = BlendPixel(max(most.color, p.color), max(most.shares, p.shares));
+        least = blend_least(0, least, p);
+        most = blend_most(0, most, p);
     }
     BlendPixel past;
     if (blend_data.still != 0)
         past = pixel_of_history(texel);
     else
         past = history_at(place.at);
-    past = BlendPixel(clamp(past.color, least.color, most.color), clamp(past.shares, least.shares, most.shares));
-    now.color = past.color + blend_data.share * (now.color - past.color);
-    now.shares = past.shares + blend_data.share * (now.shares - past.shares);
-    store_blend(texel, now);
+    store_blend(texel, taa_blend(0, now, past, least, most, blend_data.share));
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Sizes and enums that C and GLSL share: macros that stand for whole numbers, for both languages read them. Those that an enum of the public headers has too
+ * Sizes and enums that C and GLSL share: macros that stand for numbers, for both languages read them. Those that an enum of the public headers has too
  * are compared with it in src/frame/constants.c.
  */
 #ifndef MANGATA_KERNELS_COMMON_CONSTANTS_H
@@ -64,6 +64,11 @@
 #define TEXTURE_CODES 256
 #define CODE_TEXELS (TEXTURE_CODES / 4)
 #define MATERIAL_TEXELS 4
+
+/* ---- glare: a level's spline weights of the nearer and of the farther coarse texel, each way ---- */
+
+#define GLARE_NEAR 0.75f
+#define GLARE_FAR 0.25f
 
 /* ---- a tree of boxes over triangles, see gl_bvh.h ---- */
 
