@@ -12,7 +12,6 @@
 
 #define LANES_NAME_(n) narrow_kernels_##n
 #define LANES_NAME(n) LANES_NAME_(n)
-static const float infinity = INFINITY;
 
 #include "kernels/common/prelude_c.h"
 
@@ -41,6 +40,7 @@ KERNEL LayerPixel LAYER(CTX cx, int layer, real column, real row)
     return p;
 }
 
+#include "kernels/refraction/edges.k"
 #include "kernels/refraction/water_seen.k"
 
 static void store_vector(float (*planes)[TILE_PIXELS], size_t i, vec3 v)
@@ -108,9 +108,9 @@ static real doubt_of(const struct kernel_context *cx, WaterHit hit, FoundPoint f
         breaks = gather_bytes(n->breaks[0], pixel) > 0;
     if (any_lane(AND(asked, mirrored)))
         breaks = select_whole(mirrored, gather_bytes(n->breaks[1], pixel) > 0, breaks);
-    mask doubt = AND(asked, OR(f.residual >= real(1.5f), breaks));
+    mask doubt = AND(asked, point_is_doubtful(cx, f.residual, breaks));
     for (int layer = 0; layer < 2 && n->data.method == MGT_REFRACTION_HYBRID; layer++) {
-        const mask wanted = AND(AND(asked, NOT(doubt)), layer == 1 ? mirrored : NOT(mirrored));
+        const mask wanted = AND(AND(asked, NOT(doubt)), layer == LAYER_REFLECTED ? mirrored : NOT(mirrored));
         if (any_lane(wanted))
             doubt = OR(doubt, passes_behind(cx, layer, hit, f, SELECT(wanted, real(1.0f), real(0.0f))) > real(0.0f));
     }
@@ -137,17 +137,7 @@ static void store_found(const struct kernel_context *cx, tile_ends *out, size_t 
     store(out->before + i, hit.along);
     store(out->after + i, f.after);
     store(out->water + i, wet);
-    store(out->error + i, SELECT(f.residual < real(1e28f), f.residual, real(infinity)));
-}
-
-/* `off` looks straight through, `broad` knows the mean surface alone. */
-static WaterHit surface_of_method(const struct kernel_context *cx, WaterHit hit)
-{
-    if (NARROW(cx).method != MGT_REFRACTION_BROAD)
-        return hit;
-    hit.along = real(NARROW(cx).distance) / max(real(0.0f) - hit.view.y, real(1e-6f));
-    hit.normal = vec3(real(0.0f), real(1.0f), real(0.0f));
-    return hit;
+    store(out->error + i, point_error(cx, f.residual));
 }
 
 static FoundPoint select_found(mask m, FoundPoint a, FoundPoint b)
@@ -164,14 +154,12 @@ static void lanes_refracted(const narrow_scene *n, const tile_offset *at, const 
         if (!any_lane(wet))
             continue;
         const WaterHit hit = surface_of_method(&cx, load_water(water, at, i));
-        Bent bent = bent_at(&cx, hit.view, hit.normal);
-        if (n->data.method == MGT_REFRACTION_OFF)
-            bent = (Bent){hit.view, real(0.0f)};
+        const Bent bent = bent_by_method(&cx, hit);
         FoundPoint f = find_refracted(&cx, hit, bent);
         const mask total = AND(wet, bent.total > real(0.0f));
         if (any_lane(total))
             f = select_found(total, find_mirrored(&cx, hit, bent.direction), f);
-        const real in_water = n->data.side > 0 ? f.after : hit.along + SELECT(total, f.after, real(0.0f));
+        const real in_water = metres_in_water(&cx, n->data.side, hit.along, f.after, total);
         store_found(&cx, out, i, hit, f, total, in_water, n->data.method <= MGT_REFRACTION_HYBRID);
         store(out->total + i, SELECT(total, real(1.0f), real(0.0f)));
         const Spread s = turned_spread(&cx, spread_of(&cx, hit, bent, load_variation(water, i)));

@@ -18,6 +18,7 @@ static const float infinity = INFINITY;
 #include "kernels/common/prelude_c.h"
 
 #include "cpu/lane_access.h"
+#include "kernels/refraction/edges.k"
 
 /* ---- edges ---- */
 
@@ -50,14 +51,6 @@ static vec3 normal_of(const float *planes, mask triangle)
     return vec3(gather_floats(planes, at), gather_floats(planes + 1, at), gather_floats(planes + 2, at));
 }
 
-/* Cosine, without its sign, of the angle between the planes of triangles. */
-static real alignment(const float *planes, mask a, mask b)
-{
-    const vec3 p = normal_of(planes, a), q = normal_of(planes, b);
-    return abs(p.x * q.x + p.y * q.y + p.z * q.z);
-}
-
-/* The inverse of the depth is straight over the screen wherever a plane goes on. */
 static void lanes_breaks(const gbuffer *g, const float *planes, float focal, uint32_t row, uint8_t *out)
 {
     memset(out, 1, g->width);
@@ -77,11 +70,9 @@ static void lanes_breaks(const gbuffer *g, const float *planes, float focal, uin
             const mask differ = AND(here != there, AND(here >= 0, there >= 0));
             others[k] = 1.0f / load(d + beside[k]);
             if (any_lane(differ))
-                broken = OR(broken, AND(differ, alignment(planes, here, there) < real(0.97f)));
+                broken = OR(broken, AND(differ, planes_bend(NULL, normal_of(planes, here), normal_of(planes, there))));
         }
-        const real across = others[0] + others[1] - 2.0f * inverse, down = others[2] + others[3] - 2.0f * inverse;
-        const real limit = 6.0f * inverse / real(focal);
-        store_bits(out + i, OR(broken, NOT(AND(abs(across) <= limit, abs(down) <= limit))));
+        store_bits(out + i, OR(broken, depth_breaks(NULL, inverse, others[0], others[1], others[2], others[3], focal)));
     }
     out[0] = out[width - 1] = 1;
 }
@@ -99,7 +90,7 @@ static void lanes_edges(const gbuffer *g, const float *planes, uint32_t row, uin
             const mask there = load_whole(t + beside[k]), differ = here != there;
             if (!any_lane(differ))
                 continue;
-            const mask goes_on = AND(alignment(planes, here, there) > real(0.9f), abs(depth - load(d + beside[k])) < 0.05f * depth);
+            const mask goes_on = surface_goes_on(NULL, normal_of(planes, here), normal_of(planes, there), depth, load(d + beside[k]));
             edge = OR(edge, AND(differ, NOT(AND(goes_on, AND(here >= 0, there >= 0)))));
         }
         store_bits(out + i, edge);
@@ -127,22 +118,6 @@ static void store_vector(float (*planes)[TILE_PIXELS], size_t i, vec3 v)
     store(planes[2] + i, v.z);
 }
 
-/* Multiple of a ray at which it meets the plane of the surface in its pixel. */
-static real meet_water(const tile_water *w, size_t i, float up, vec3 ray)
-{
-    const vec3 normal = load_vector(w->normal, i, up);
-    const real closing = dot(normal, ray);
-    const mask meets = AND(load(w->share + i) > real(0.0f), closing < real(0.0f));
-    return SELECT(meets, load(w->along + i) * dot(normal, load_vector(w->view, i, up)) / SELECT(meets, closing, real(1.0f)), real(infinity));
-}
-
-/* Whether the object may be on the other side of the surface within a pixel or two. */
-static mask near_waterline(const near_scene *n, const tile_water *w, size_t i, real along)
-{
-    const real water = load(w->along + i), steepness = max(real(0.0f) - load(w->view[1] + i), real(0.02f));
-    return AND(load(w->share + i) > real(0.0f), abs(along - water) < 2.0f * n->pixel_angle * water / steepness);
-}
-
 static void lanes_points(const near_scene *n, const tile_offset *at, const tile_water *water, tile_near *out, tile_ends *ends)
 {
     memset(out->kind, NEAR_NOTHING, sizeof out->kind);
@@ -162,8 +137,10 @@ static void lanes_points(const near_scene *n, const tile_offset *at, const tile_
         const real depth = SELECT(shown, load(g->depth + element), real(1.0f));
         const vec3 ray = ray_through(n, lane_numbers() + (float)x, real((float)y));
         const real length = sqrt(length_squared(ray)), along = depth * length;
-        edge = OR(edge, AND(shown, near_waterline(n, water, i, along)));
-        const mask inside = AND(AND(shown, NOT(edge)), depth < meet_water(water, i, up, ray));
+        const mask wet = load(water->share + i) > real(0.0f);
+        const vec3 surface = load_vector(water->normal, i, up), view = load_vector(water->view, i, up);
+        edge = OR(edge, AND(AND(shown, wet), near_waterline(NULL, along, load(water->along + i), load(water->view[1] + i), n->pixel_angle)));
+        const mask inside = AND(AND(shown, NOT(edge)), depth < meet_surface(NULL, wet, surface, view, load(water->along + i), ray));
         float kinds[MGT_LANES];
         store(kinds, SELECT(inside, real(1.0f), SELECT(edge, real(2.0f), real(0.0f))));
         for (int lane = 0; lane < MGT_LANES; lane++)

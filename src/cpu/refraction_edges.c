@@ -60,6 +60,11 @@ static bool by_nothing(const gbuffer *g, size_t element)
     return false;
 }
 
+#define MGT_LANES 1
+#include "kernels/common/prelude_c.h"
+
+#include "kernels/refraction/edges.k"
+
 static void sharpen_pixel(const refraction *r, tile_objects *o, size_t i)
 {
     tile_ends *e = &o->ends;
@@ -89,17 +94,14 @@ static void sharpen_pixel(const refraction *r, tile_objects *o, size_t i)
     refraction_spread_again(e, i);
     for (int k = 0; k < 3 && met >= 0; k++)
         e->position[k][i] = (float)(from[k] + nearest * ray[k]);
-    if (!r->frame->under)
-        e->water[i] = e->after[i];
-    else
-        e->water[i] = o->water.along[i] + (e->total[i] > 0 ? e->after[i] : 0);
+    e->water[i] = metres_in_water(NULL, r->narrow.data.side, o->water.along[i], e->after[i], e->total[i] > 0);
 }
 
 void refraction_sharpen(const refraction *r, tile_objects *o, size_t count)
 {
     for (size_t k = 0; k < count; k++) {
         const size_t i = o->list[k];
-        if (o->ends.doubt[i] > 0 && o->ends.pixel[i] >= 0 && o->ends.error[i] < 32)
+        if (o->ends.doubt[i] > 0 && o->ends.pixel[i] >= 0 && point_can_be_sharpened(NULL, o->ends.error[i]))
             sharpen_pixel(r, o, i);
     }
 }

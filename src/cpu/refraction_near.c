@@ -9,12 +9,6 @@
 #include "cpu/refraction_state.h"
 #include "base/triples.h"
 
-enum { PLACES = 8 };
-
-/* One in each row and column of an 8 × 8 grid, from the pixel's centre. */
-static const double place_x[PLACES] = {-7 / 16.0, -5 / 16.0, -3 / 16.0, -1 / 16.0, 1 / 16.0, 3 / 16.0, 5 / 16.0, 7 / 16.0};
-static const double place_y[PLACES] = {-1 / 16.0, 5 / 16.0, -5 / 16.0, 3 / 16.0, -7 / 16.0, 7 / 16.0, 1 / 16.0, -3 / 16.0};
-
 /* The tile's pixel at hand. */
 typedef struct near_pixel {
     const refraction *r;
@@ -90,12 +84,17 @@ static void add_point(const near_pixel *p, const double ray[3], double along, in
 
 /* ---- edges ---- */
 
+#define MGT_LANES 1
+#include "kernels/common/prelude_c.h"
+
+#include "kernels/refraction/edges.k"
+
 /* Whether the place lies between two pixels that both see something: then it does, too, even if it meets none of the tiny triangles at hand. */
-static bool between_objects(const near_pixel *p, int place)
+static bool between_objects(const near_pixel *p, vec2 place)
 {
     const gbuffer *g = &p->r->direct.near;
-    const bool across = fabs(place_x[place]) > fabs(place_y[place]);
-    const ptrdiff_t step = across ? (place_x[place] > 0 ? 1 : -1) : (ptrdiff_t)g->width * (place_y[place] > 0 ? 1 : -1);
+    const vec2 side = edge_side(NULL, place);
+    const ptrdiff_t step = (ptrdiff_t)side.x + (ptrdiff_t)g->width * (ptrdiff_t)side.y;
     return g->triangle[p->element] >= 0 && g->triangle[(size_t)((ptrdiff_t)p->element + step)] >= 0;
 }
 
@@ -109,16 +108,17 @@ static void see_edge(near_pixel *p, tile_objects *o, size_t *count)
     p->candidate_count = refraction_neighbours(g, p->element, p->candidates);
     for (size_t k = 0; k < p->candidate_count; k++)
         facets[k] = refraction_facet_of(p->r, p->candidates[k], eye);
-    for (int place = 0; place < PLACES; place++) {
+    for (int place = 0; place < EDGE_PLACES; place++) {
+        const vec2 within = edge_place(NULL, place);
         double ray[3], nearest = INFINITY;
         int32_t triangle = -1;
-        ray_through(p->r, p->x + place_x[place], p->y + place_y[place], ray);
+        ray_through(p->r, p->x + (double)within.x, p->y + (double)within.y, ray);
         for (size_t k = 0; k < p->candidate_count; k++) {
             const double along = refraction_meet(&facets[k], ray);
             if (along < nearest)
                 nearest = along, triangle = p->candidates[k];
         }
-        if (triangle < 0 && between_objects(p, place))
+        if (triangle < 0 && between_objects(p, within))
             nearest = (double)g->depth[p->element], triangle = g->triangle[p->element];
         if (triangle >= 0 && nearest < meet_water(o, p->i, p->r->frame->under, ray))
             add_point(p, ray, nearest, triangle, o, count);
@@ -154,8 +154,8 @@ static void see_edges(const refraction *r, const tile_offset *at, const tile_nea
             continue;
         for (int k = 0; k < 3 && o->share[i] > 0; k++)
             o->color[k][i] /= o->share[i];
-        o->share[i] /= PLACES;
-        if (o->share[i] < 0.5f)
+        o->share[i] /= EDGE_PLACES;
+        if (o->share[i] < FRONT_SHOWS)
             o->along[i] = INFINITY;
     }
 }

@@ -129,12 +129,17 @@ static void see_deep(const refraction *r, uint32_t column, uint32_t row, tile_ob
 static void keep_layers(tile_objects *o)
 {
     for (size_t i = 0; i < TILE_PIXELS; i++) {
-        const bool seen = o->water.share[i] > 0 && o->share[i] < 0.5f;
+        const bool seen = o->water.share[i] > 0 && o->share[i] < FRONT_SHOWS;
         for (int k = 0; k < 3; k++)
             o->refraction[k][i] = seen ? o->light.body[k][i] : 0;
         o->error[i] = seen ? o->error[i] : 0;
     }
 }
+
+#define MGT_LANES 1
+#include "kernels/common/prelude_c.h"
+
+#include "kernels/refraction/edges.k"
 
 void refraction_spread_again(tile_ends *e, size_t i)
 {
@@ -157,7 +162,7 @@ static void trace_doubtful(refraction *r, tile_objects *o, size_t count)
         if (!marches && e->doubt[i] == 0)
             continue;
         trace_ray *ray = &o->rays[doubtful];
-        const double along = (double)o->water.along[i] * (1 - 2e-6); /* rounding must not put it behind a wall that stands in the water */
+        const double along = (double)o->water.along[i] * TRACE_START;
         for (int axis = 0; axis < 3; axis++) {
             const double view = (double)o->water.view[axis][i] * (axis == 1 ? side : 1);
             ray->origin[axis] = (float)(foot[axis] + along * view);
@@ -181,10 +186,7 @@ static void trace_doubtful(refraction *r, tile_objects *o, size_t count)
         refraction_spread_again(e, i);
         for (int axis = 0; axis < 3 && found; axis++)
             e->position[axis][i] = o->rays[k].origin[axis] + e->after[i] * e->direction[axis][i];
-        if (!r->frame->under)
-            e->water[i] = e->after[i];
-        else
-            e->water[i] = o->water.along[i] + (e->total[i] > 0 ? e->after[i] : 0);
+        e->water[i] = metres_in_water(NULL, r->narrow.data.side, o->water.along[i], e->after[i], e->total[i] > 0);
         e->error[i] = marches ? INFINITY : 0;
     }
     atomic_fetch_add_explicit(&r->traced, doubtful, memory_order_relaxed);
@@ -355,8 +357,7 @@ void refraction_blend(tile_objects *o, const tile_opened *opened)
     float weight[TILE_PIXELS];
     for (size_t i = 0; i < TILE_PIXELS; i++) {
         const float both = o->share[i] + opened->share[i];
-        /* Where one end's water is wholly covered, nothing is known of its light. */
-        weight[i] = o->share[i] >= 1 ? 1 : opened->share[i] >= 1 ? 0 : 0.5f;
+        weight[i] = opened_weight(NULL, o->share[i], opened->share[i]);
         for (int k = 0; k < 3 && both > 0; k++)
             o->color[k][i] = (o->share[i] * o->color[k][i] + opened->share[i] * opened->color[k][i]) / both;
     }

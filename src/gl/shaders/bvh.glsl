@@ -31,7 +31,7 @@ float enter_box(vec3 low, vec3 high, TreeRay r, float most)
     vec3 first = min(a, b), last = max(a, b);
     float begin = max(max(first.x, first.y), max(first.z, 0.0f));
     float end = min(min(last.x, last.y), min(last.z, most));
-    return begin <= end * 1.0000005f ? begin : INFINITY;
+    return begin <= end * 1.0000005f ? begin : INFINITE;
 }
 
 /* On which side of the line from p to q a ray from the origin passes: the volume that both span, within 6e-7 of the product of |q − p|, |q + p| and
@@ -59,11 +59,11 @@ float cross_triangle(int triangle, vec3 from, vec3 direction)
     float longest = 4.0f * max(dot(e, e), dot(f, f)), farthest = 4.0f * max(dot(a, a), max(dot(b, b), dot(c, c)));
     float slack = 6e-7f * sqrt(longest * farthest * dot(direction, direction));
     if (min(min(u, v), w) < -slack && max(max(u, v), w) > slack)
-        return INFINITY;
+        return INFINITE;
     vec3 normal = cross(e, f);
     float closing = dot(normal, direction);
     float along = dot(normal, a) / (closing != 0.0f ? closing : 1.0f);
-    return closing != 0.0f && along >= 0.0f ? along : INFINITY;
+    return closing != 0.0f && along >= 0.0f ? along : INFINITE;
 }
 
 /* Of several triangles at the same distance the first of the world's list counts, in whichever order they are met. */
@@ -72,7 +72,7 @@ TreeHit nearer_of_leaf(TreeHit best, uint texel, vec3 from, vec3 direction)
     uvec4 triangles = texelFetch(tree_table, int(texel));
     for (int i = 0; i < BVH_LEAF_TRIANGLES; i++) {
         int triangle = int(triangles[i]);
-        float along = triangle >= 0 ? cross_triangle(triangle, from, direction) : INFINITY;
+        float along = triangle >= 0 ? cross_triangle(triangle, from, direction) : INFINITE;
         if (along < best.along || (along == best.along && triangle >= 0 && triangle < best.triangle))
             best = TreeHit(triangle, along);
     }
@@ -85,17 +85,17 @@ TreeHit trace_nearest(vec3 from, vec3 direction)
     int depth = 0;
     uint at = 0u;
     TreeRay ray = tree_ray(from, direction);
-    TreeHit best = TreeHit(-1, INFINITY);
+    TreeHit best = TreeHit(-1, INFINITE);
     do {
         while ((at & BVH_LEAF) == 0u) {
             uvec4 a = texelFetch(tree_table, int(at)), b = texelFetch(tree_table, int(at) + 1);
             uvec4 c = texelFetch(tree_table, int(at) + 2), d = texelFetch(tree_table, int(at) + 3);
             float left = enter_box(uintBitsToFloat(a.xyz), uintBitsToFloat(b.xyz), ray, best.along);
             float right = enter_box(uintBitsToFloat(c.xyz), uintBitsToFloat(d.xyz), ray, best.along);
-            bool both = max(left, right) < INFINITY;
+            bool both = max(left, right) < INFINITE;
             if (both)
                 waiting[depth++] = left <= right ? b.w : a.w;
-            if (both || min(left, right) < INFINITY)
+            if (both || min(left, right) < INFINITE)
                 at = left <= right ? a.w : b.w;
             else
                 at = depth > 0 ? waiting[--depth] : BVH_NOTHING;

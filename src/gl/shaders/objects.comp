@@ -38,9 +38,8 @@ bool are_like(ivec2 a, ivec2 b)
         return true;
     if (s < 0 || t < 0)
         return false;
-    bool level = abs(dot(texelFetch(plane_table, s).xyz, texelFetch(plane_table, t).xyz)) > 0.9f;
-    float depth = near_depth_at(a);
-    return level && abs(depth - near_depth_at(b)) < 0.05f * depth;
+    vec3 here = texelFetch(plane_table, s).xyz, there = texelFetch(plane_table, t).xyz;
+    return surface_goes_on(0, here, there, near_depth_at(a), near_depth_at(b));
 }
 
 bool is_edge(ivec2 image, PixelWater w)
@@ -50,10 +49,8 @@ bool is_edge(ivec2 image, PixelWater w)
         return true;
     if (near_triangle_at(at) < 0 || !(w.share > 0.0f))
         return false;
-    /* A waterline: within a pixel or two the object may be on the other side of the surface. */
     float object = near_depth_at(at) * sqrt(length_squared(camera_ray(image, vec2(0.0f))));
-    float pixel = w.hit.along * FRAME(0).pixel_angle / max(-w.hit.view.y, 0.02f);
-    return abs(object - w.hit.along) < 2.0f * pixel;
+    return near_waterline(0, object, w.hit.along, w.hit.view.y, FRAME(0).pixel_angle);
 }
 
 void keep_water(int pixel, PixelWater w)
@@ -91,7 +88,7 @@ void main()
     imageStore(body_image, pixel.texel, vec4(0.0f, 0.0f, 0.0f, 1.0f));
     imageStore(mirrored_image, pixel.texel, vec4(0.0f));
     imageStore(front_image, pixel.texel, vec4(0.0f));
-    imageStore(surface_image, pixel.texel, vec4(0.0f, 0.0f, 0.0f, INFINITY));
+    imageStore(surface_image, pixel.texel, vec4(0.0f, 0.0f, 0.0f, INFINITE));
     imageStore(error_image, pixel.texel, vec4(0.0f));
     imageStore(deep_image, pixel.texel, vec4(0.0f, 0.0f, 0.0f, 1.0f));
     bool edge = is_edge(image, water), front = false;

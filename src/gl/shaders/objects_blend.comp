@@ -4,6 +4,7 @@
  */
 #include "kernels/common/prelude_glsl.k"
 #include "pass_data.k"
+#include "kernels/refraction/edges.k"
 
 layout(std140, binding = 2) uniform PassBlock { PassData pass_data; };
 
@@ -28,8 +29,7 @@ void main()
         return;
     vec4 close = imageLoad(front_image, texel), open = texelFetch(front_texture, texel, 0);
     float both = close.w + open.w;
-    /* Where one end's water is wholly covered, nothing is known of its light. */
-    float share = close.w >= 1.0f ? 1.0f : open.w >= 1.0f ? 0.0f : 0.5f;
+    float share = opened_weight(0, close.w, open.w);
     imageStore(body_image, texel, mix(imageLoad(body_image, texel), texelFetch(body_texture, texel, 0), share));
     imageStore(mirrored_image, texel, mix(imageLoad(mirrored_image, texel), texelFetch(mirrored_texture, texel, 0), share));
     imageStore(clear_image, texel, mix(imageLoad(clear_image, texel), texelFetch(clear_texture, texel, 0), share));

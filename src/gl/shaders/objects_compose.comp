@@ -32,7 +32,7 @@ void main()
     imageStore(coverage_image, texel, imageLoad(coverage_image, texel) * (1.0f - front.w));
     float water = imageLoad(water_image, texel).r;
     imageStore(water_image, texel, vec4(water + front.w * ((pass_data.front_shows != 0 ? 1.0f : 0.0f) - water)));
-    if (front.w < 0.5f)
+    if (front.w < FRONT_SHOWS)
         return;
     vec4 surface = texelFetch(surface_texture, texel, 0);
     imageStore(depth_image, texel, vec4(surface.w));

@@ -47,7 +47,7 @@ LayerPixel LAYER(int cx, int layer, float column, float row)
     ivec2 at = ivec2(int(column), int(row));
     float inverse = layer == LAYER_REFRACTED ? texelFetch(far_depth, at, 0).r : texelFetch(mirrored_depth, at, 0).r;
     vec4 plane = texelFetch(plane_table, max(layer_triangle(layer, at), 0));
-    return LayerPixel(inverse > 0.0f ? objects_data.least_depth / inverse : uintBitsToFloat(0x7f800000u), plane.xyz, plane.w);
+    return LayerPixel(inverse > 0.0f ? objects_data.least_depth / inverse : INFINITE, plane.xyz, plane.w);
 }
 
 ivec3 triangle_corners(int triangle)

@@ -5,8 +5,7 @@
  */
 #include "objects_data.glsl"
 #include "kernels/refraction/spread.k"
-
-#define INFINITY uintBitsToFloat(0x7f800000u)
+#include "kernels/refraction/edges.k"
 
 struct PixelWater {
     float share; /* of the pixel; 0: the rest is not set */
@@ -94,11 +93,7 @@ float near_depth_at(ivec2 at) { return objects_data.least_depth / texelFetch(nea
 /* Multiple of the camera's ray at which it meets the plane of the surface in the pixel. */
 float meet_water(PixelWater w, vec3 ray)
 {
-    if (!(w.share > 0.0f))
-        return INFINITY;
-    vec3 normal = turned(0, w.hit.normal);
-    float closing = dot(normal, ray);
-    return closing < 0.0f ? w.hit.along * dot(normal, turned(0, w.hit.view)) / closing : INFINITY;
+    return meet_surface(0, w.share > 0.0f, turned(0, w.hit.normal), turned(0, w.hit.view), w.hit.along, ray);
 }
 
 /* Multiple of a ray at which it meets a triangle. */
@@ -110,7 +105,7 @@ float meet_triangle(int triangle, vec3 from, vec3 ray)
     vec3 to = from - p, across = cross(ray, e2), around = cross(to, e1);
     float det = dot(e1, across);
     if (det == 0.0f)
-        return INFINITY;
+        return INFINITE;
     float u = dot(to, across) / det, v = dot(ray, around) / det, along = dot(e2, around) / det;
-    return u >= 0.0f && v >= 0.0f && u + v <= 1.0f && along > 0.0f ? along : INFINITY;
+    return u >= 0.0f && v >= 0.0f && u + v <= 1.0f && along > 0.0f ? along : INFINITE;
 }

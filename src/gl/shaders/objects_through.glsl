@@ -7,24 +7,13 @@
 layout(binding = 0) writeonly uniform image2D body_image;  /* what comes through the surface */
 layout(binding = 4) writeonly uniform image2D error_image; /* pixels that the point behind the surface is off by */
 
-/* Method `broad` knows the mean surface alone, `off` looks straight through. */
-WaterHit surface_of_method(WaterHit hit)
-{
-    if (narrow_data.method != REFRACTION_BROAD)
-        return hit;
-    hit.along = narrow_data.distance / max(-hit.view.y, 1e-6f);
-    hit.normal = vec3(0.0f, 1.0f, 0.0f);
-    return hit;
-}
-
 /* ---- where what a layer shows breaks off or bends ---- */
 
 bool bends(int a, int b)
 {
-    return a != b && a >= 0 && b >= 0 && abs(dot(texelFetch(plane_table, a).xyz, texelFetch(plane_table, b).xyz)) < 0.97f;
+    return a != b && a >= 0 && b >= 0 && planes_bend(0, texelFetch(plane_table, a).xyz, texelFetch(plane_table, b).xyz);
 }
 
-/* The inverse of the depth is straight over the screen wherever a plane goes on. */
 bool breaks_off(int layer, ivec2 at)
 {
     if (any(lessThan(at, ivec2(1))) || any(greaterThanEqual(at + 1, ivec2(int(narrow_data.columns), int(narrow_data.rows)))))
@@ -37,23 +26,22 @@ bool breaks_off(int layer, ivec2 at)
             return true;
         inverse[i] = layer_inverse(layer, at + beside[i]);
     }
-    float here = layer_inverse(layer, at), limit = 6.0f * here / narrow_data.focal;
-    return !(abs(inverse[0] + inverse[1] - 2.0f * here) <= limit && abs(inverse[2] + inverse[3] - 2.0f * here) <= limit);
+    return depth_breaks(0, layer_inverse(layer, at), inverse[0], inverse[1], inverse[2], inverse[3], narrow_data.focal);
 }
 
 /* Whether the pictures do not certify a point. */
 bool is_doubtful(FoundPoint f, int layer)
 {
-    return f.column >= 0.0f && (f.residual >= 1.5f || breaks_off(layer, ivec2(int(f.column), int(f.row))));
+    return f.column >= 0.0f && point_is_doubtful(0, f.residual, breaks_off(layer, ivec2(int(f.column), int(f.row))));
 }
 
 /* There the pixel of the answer is not enough: the ray meets the triangles that it and its neighbours show, and the nearest one counts. */
 RayEnd sharpened(RayEnd end, WaterHit hit, int layer, FoundPoint f)
 {
     ivec2 at = ivec2(int(f.column), int(f.row)), last = ivec2(int(narrow_data.columns), int(narrow_data.rows)) - 1;
-    bool asked = end.error < 32.0f && is_doubtful(f, layer);
+    bool asked = point_can_be_sharpened(0, end.error) && is_doubtful(f, layer);
     vec3 view = turned(0, hit.view), from = camera_position() + hit.along * view;
-    float along = INFINITY;
+    float along = INFINITE;
     int met = -1;
     bool by_nothing = narrow_data.side < 0.0f && layer == LAYER_REFRACTED; /* over the water the sky is all around */
     for (int i = 0; asked && i < 9; i++) {
@@ -61,7 +49,7 @@ RayEnd sharpened(RayEnd end, WaterHit hit, int layer, FoundPoint f)
         if (any(lessThan(beside, ivec2(0))) || any(greaterThan(beside, last)))
             continue;
         int triangle = layer_triangle(layer, beside);
-        float way = triangle >= 0 ? meet_triangle(triangle, from, end.ray.direction) : INFINITY;
+        float way = triangle >= 0 ? meet_triangle(triangle, from, end.ray.direction) : INFINITE;
         by_nothing = by_nothing || triangle < 0;
         if (way < along) {
             along = way;
@@ -74,7 +62,7 @@ RayEnd sharpened(RayEnd end, WaterHit hit, int layer, FoundPoint f)
     end.ray.after = met < 0 ? 0.0f : along;
     if (met >= 0)
         end.ray.position = from + along * end.ray.direction;
-    end.ray.water = narrow_data.side > 0.0f ? end.ray.after : hit.along + (layer == LAYER_REFLECTED ? end.ray.after : 0.0f);
+    end.ray.water = metres_in_water(0, narrow_data.side, hit.along, end.ray.after, layer == LAYER_REFLECTED);
     return end;
 }
 
@@ -86,22 +74,20 @@ struct ThroughEnd {
 /* Where the surface lets nothing through, it mirrors the camera's own side. */
 ThroughEnd end_through(PixelWater w)
 {
-    WaterHit hit = surface_of_method(w.hit);
-    Bent bent = bent_at(0, hit.view, hit.normal);
-    if (narrow_data.method == REFRACTION_OFF)
-        bent = Bent(hit.view, 0.0f);
+    WaterHit hit = surface_of_method(0, w.hit);
+    Bent bent = bent_by_method(0, hit);
     bool total = bent.total > 0.0f;
     FoundPoint f;
     if (total)
         f = find_mirrored(0, hit, bent.direction);
     else
         f = find_refracted(0, hit, bent);
-    float wet = narrow_data.side > 0.0f ? f.after : hit.along + (total ? f.after : 0.0f);
+    float wet = metres_in_water(0, narrow_data.side, hit.along, f.after, total);
     RayEnd end;
     end.triangle = f.shown > 0.0f ? layer_triangle(total ? LAYER_REFLECTED : LAYER_REFRACTED, ivec2(int(f.column), int(f.row))) : -1;
     end.ray = ray_of(hit, f, wet);
     end.ray.gain = gain_behind(total);
-    end.error = f.residual < 1e28f ? f.residual : INFINITY;
+    end.error = point_error(0, f.residual);
     end.counts = true;
     int layer = total ? LAYER_REFLECTED : LAYER_REFRACTED;
     if (narrow_data.method == REFRACTION_TWO_PHASE)

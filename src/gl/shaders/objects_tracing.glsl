@@ -11,14 +11,13 @@ RayEnd end_traced(PixelWater w)
     bool total = bent.total > 0.0f;
     RayEnd end;
     end.ray.direction = turned(0, bent.direction);
-    /* Rounding must not put the origin behind a wall that stands in the water. */
-    vec3 from = camera_position() + w.hit.along * (1.0f - 2e-6f) * turned(0, w.hit.view);
+    vec3 from = camera_position() + w.hit.along * TRACE_START * turned(0, w.hit.view);
     TreeHit met = trace_nearest(from, end.ray.direction);
     end.triangle = met.triangle;
     end.ray.before = w.hit.along;
     end.ray.after = met.triangle >= 0 ? met.along : 0.0f;
     end.ray.position = from + end.ray.after * end.ray.direction;
-    end.ray.water = narrow_data.side > 0.0f ? end.ray.after : w.hit.along + (total ? end.ray.after : 0.0f);
+    end.ray.water = metres_in_water(0, narrow_data.side, w.hit.along, end.ray.after, total);
     end.ray.footprint = footprint_behind(w.hit, bent, w.variation, end.ray.after);
     end.ray.gain = gain_behind(total);
     end.error = 0.0f;

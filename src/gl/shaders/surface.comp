@@ -18,7 +18,6 @@ void main()
     vec3 ray = pixel_ray_at(0, float(pixel.at.x), float(pixel.at.y));
     SampleHit hit = sample_hit(0, ray, pixel_guess(pixel.at));
     bool water = hit.found > 0.0f;
-    float infinity = uintBitsToFloat(0x7f800000u);
-    imageStore(depth_image, pixel.texel, vec4(water ? hit.along * sqrt(length_squared(ray)) : infinity));
+    imageStore(depth_image, pixel.texel, vec4(water ? hit.along * sqrt(length_squared(ray)) : INFINITE));
     store_normal(pixel.texel, hit.slope, water);
 }

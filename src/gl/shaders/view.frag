@@ -53,6 +53,6 @@ void main()
         discard;
     vec3 radiance = texelFetch(color_texture, texel, 0).rgb;
     shown = vec4(host_color(radiance / alpha) * alpha, alpha);
-    float metres = water > 0.0f ? texelFetch(depth_texture, texel, 0).r : uintBitsToFloat(0x7f800000u);
+    float metres = water > 0.0f ? texelFetch(depth_texture, texel, 0).r : INFINITE;
     gl_FragDepth = window_depth(texel, metres);
 }

@@ -80,6 +80,10 @@
 
 /* ---- objects ---- */
 
+#define EDGE_PLACES 8          /* of a pixel, that look for objects at edges */
+#define FRONT_SHOWS 0.5f       /* share of a pixel from which on objects in front of the water are what depth and normal show */
+#define TRACE_START (1 - 2e-6) /* of the way to the surface, where rays begin: rounding must not put them behind a wall that stands in the water */
+
 /* RefractData.map: where triangles beyond the surface are drawn. */
 #define MAP_STRAIGHT 0 /* where they are, as if there were no water: off, narrow, screen-space */
 #define MAP_SAGITTAL 1 /* at their sagittal images: two-phase, hybrid, broad */
