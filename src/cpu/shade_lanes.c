@@ -80,30 +80,13 @@ KERNEL vec3 TEXTURE(CTX cx, real texture, real u, real v, real level)
 
 #include "kernels/sky/sky.k"
 
-/* Four texels about the ray's place, each lit or not. */
-KERNEL real SUN_SHARE(CTX cx, vec3 position)
+KERNEL real SHADOW_TEXEL(CTX cx, real column, real row)
 {
-    const ShadeData *d = &cx->shade->data;
-    if (d->shadow_columns == 0)
-        return real(1.0f);
-    const mask wet = position.y < real(0.0f);
-    const real lean_x = SELECT(wet, real(d->sun_water_x), real(d->sun_air_x)), lean_z = SELECT(wet, real(d->sun_water_z), real(d->sun_air_z));
-    const real u = (fma(real(0.0f) - lean_x, position.y, position.x) - d->shadow_left) * d->shadow_scale - 0.5f;
-    const real v = (fma(real(0.0f) - lean_z, position.y, position.z) - d->shadow_top) * d->shadow_scale - 0.5f;
-    const real column = clamp(floor(u), real(0.0f), real(d->shadow_columns - 2.0f)), row = clamp(floor(v), real(0.0f), real(d->shadow_rows - 2.0f));
-    const real right = clamp(u - column, real(0.0f), real(1.0f)), down = clamp(v - row, real(0.0f), real(1.0f));
-    const int columns = (int)d->shadow_columns;
-    const mask at = whole(row) * columns + whole(column);
-    const float *heights = cx->shade->shadows->height;
-    const real near[4] = {gather_floats(heights, at), gather_floats(heights + 1, at), gather_floats(heights + columns, at),
-                          gather_floats(heights + columns + 1, at)};
-    const real height = position.y + 2.0f * d->shadow_texel;
-    real lit[4];
-    for (int k = 0; k < 4; k++)
-        lit[k] = SELECT(near[k] <= height, real(1.0f), real(0.0f));
-    const real top = fma(right, lit[1] - lit[0], lit[0]), bottom = fma(right, lit[3] - lit[2], lit[2]);
-    return fma(down, bottom - top, top);
+    return gather_floats(cx->shade->shadows->height, whole(row) * (int)SHADE(cx).shadow_columns + whole(column));
 }
+
+#include "kernels/refraction/shadow.k"
+#define SUN_SHARE(cx, position) shadow_map_share(cx, position)
 
 #include "kernels/refraction/material.k"
 

@@ -118,21 +118,7 @@ vec3 TEXTURE(int cx, float object, float u, float v, float level)
 
 /* ---- shadows ---- */
 
-/* Four texels about the ray's place, each lit or not. */
-float SUN_SHARE(int cx, vec3 position)
-{
-    if (shade_data.shadow_columns == 0.0f)
-        return 1.0f;
-    bool wet = position.y < 0.0f;
-    vec2 lean = wet ? vec2(shade_data.sun_water_x, shade_data.sun_water_z) : vec2(shade_data.sun_air_x, shade_data.sun_air_z);
-    vec2 at = (position.xz - lean * position.y - vec2(shade_data.shadow_left, shade_data.shadow_top)) * shade_data.shadow_scale - 0.5f;
-    vec2 first = clamp(floor(at), vec2(0.0f), vec2(shade_data.shadow_columns - 2.0f, shade_data.shadow_rows - 2.0f));
-    vec2 share = clamp(at - first, vec2(0.0f), vec2(1.0f));
-    ivec2 texel = ivec2(int(first.x), int(first.y));
-    float height = position.y + 2.0f * shade_data.shadow_texel;
-    vec4 lit = vec4(lessThanEqual(vec4(texelFetch(shadow_texture, texel, 0).r, texelFetch(shadow_texture, texel + ivec2(1, 0), 0).r,
-                                       texelFetch(shadow_texture, texel + ivec2(0, 1), 0).r, texelFetch(shadow_texture, texel + ivec2(1, 1), 0).r),
-                                  vec4(height)));
-    float top = lit.x + share.x * (lit.y - lit.x), bottom = lit.z + share.x * (lit.w - lit.z);
-    return top + share.y * (bottom - top);
-}
+float SHADOW_TEXEL(int cx, float column, float row) { return texelFetch(shadow_texture, ivec2(int(column), int(row)), 0).r; }
+
+#include "kernels/refraction/shadow.k"
+#define SUN_SHARE(cx, position) shadow_map_share(cx, position)
