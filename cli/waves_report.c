@@ -7,8 +7,9 @@
 #include <string.h>
 
 #include "scene/spectrum_math.h"
+#include "params/waves.h"
 
-static double wavelength(const mgt_wave *wave) { return 2 * SPECTRUM_PI / hypot(wave->kx, wave->kz); }
+static double wavelength(const mgt_wave *wave) { return 2 * SPECTRUM_PI / wave_course_of(wave, 0).number; }
 
 static bool is_bent(const waves_report *r) { return r->settings->settings.slope == SLOPE_COX_MUNK; }
 

@@ -320,13 +320,7 @@ static mgt_status run_rounds(forest *f)
 static double path_bend(const forest *f, int parts)
 {
     const mgt_scene *s = f->a->frame->scene;
-    double sum = 0;
-    for (size_t i = 0; i < s->water.wave_count; i++) {
-        const mgt_wave *w = &s->water.waves[i];
-        const double away = 1 - cos(fmin(fabs(w->omega) * s->shutter / 2 / parts, 3.14159265358979323846));
-        sum += w->amplitude * w->amplitude * (w->kx * w->kx + w->kz * w->kz) / 2 * away * away;
-    }
-    return sqrt(sum) / (0.5 * (double)f->a->frame->data.light_radius);
+    return sines_path_bend(&s->water, s->shutter / 2 / parts) / (0.5 * (double)f->a->frame->data.light_radius);
 }
 
 static void place_parts(const forest *f, shutter_parts *p)

@@ -195,9 +195,7 @@ static void lanes_temporal(const method_tile *t, temporal_rays *rays)
 static void lanes_frequencies(const method_tile *t, const wave_set *waves, float *most)
 {
     const struct kernel_context cx = {.frame = t->frame, .tile = &t->close->data};
-    int count = waves->view.wave_count;
-    while (count > 0 && waves->data[count - 1].amplitude <= 0)
-        count--;
+    const int count = sines_moving(waves);
     for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
         const PixelRay p = pixel_ray_filtered(&cx, lane_numbers() + (float)(i % TILE_WIDTH), real((float)(i / TILE_WIDTH)));
         const mask water = p.water > real(0.0f);
@@ -223,8 +221,8 @@ static void lanes_lean_rows(const lean_waves *waves, const lean_phase *phases, f
             const real cosine = load(wave), sine = load(wave + LEAN_BLOCK);
             for (int r = 0; r < LEAN_ROWS; r++) {
                 const real steep = fma(cosine, real(phases[i].cosine[r]), sine * real(phases[i].minus_sine[r]));
-                x[r] = fma(steep, real(waves->slope_x[i]), x[r]);
-                z[r] = fma(steep, real(waves->slope_z[i]), z[r]);
+                x[r] = fma(steep, real(lean_slope_x(waves, i)), x[r]);
+                z[r] = fma(steep, real(lean_slope_z(waves, i)), z[r]);
             }
         }
         for (int r = 0; r < LEAN_ROWS; r++) {

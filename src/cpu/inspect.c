@@ -39,21 +39,15 @@ static void find_hit(const frame *f, tile_pixel at, const tile_guess *guess, mgt
 {
     const camera_rays *c = &f->close;
     const double x = at.tile_x * (double)TILE_WIDTH + at.column, y = at.tile_y * (double)TILE_HEIGHT + at.row;
-    const mgt_water *water = &f->scene->water;
     double ray[3];
     for (int i = 0; i < 3; i++)
         ray[i] = c->corner[i] + x * c->right[i] + y * c->down[i];
     const double start = (double)guess->height[at.row * TILE_WIDTH + at.column];
     double along = ray[1] < 0 ? (c->position[1] - start) / -ray[1] : 0;
     for (int step = 0; step < 8 && ray[1] < 0; step++) {
-        const double px = c->position[0] + along * ray[0], pz = c->position[2] + along * ray[2];
+        const double point[2] = {c->position[0] + along * ray[0], c->position[2] + along * ray[2]};
         double gap = c->position[1] + along * ray[1], closing = ray[1];
-        for (size_t i = 0; i < water->wave_count; i++) {
-            const mgt_wave *w = &water->waves[i];
-            const double phase = w->kx * px + w->kz * pz + w->omega * f->scene->time + w->phase;
-            gap -= w->amplitude * sin(phase);
-            closing -= w->amplitude * (w->kx * ray[0] + w->kz * ray[2]) * cos(phase);
-        }
+        sines_lower(&f->scene->water, point, f->scene->time, ray, &gap, &closing);
         const double move = gap / fmin(closing, 0.25 * ray[1]);
         along -= fmin(fmax(move, -0.1 * along), 0.1 * along);
     }

@@ -29,7 +29,7 @@ static void fill_columns(void *argument, size_t block, uint32_t worker)
     for (size_t i = 0; i < waves->count; i++) {
         float *out = job->columns + (block * waves->count + i) * 2 * LEAN_BLOCK;
         for (int x = 0; x < LEAN_BLOCK; x++) {
-            const unsigned part = (unsigned)waves->across[i] * (unsigned)(block * LEAN_BLOCK + (size_t)x);
+            const unsigned part = lean_column_part(waves, i, block * LEAN_BLOCK + (size_t)x);
             out[x] = job->cosines[part % LEAN_SIZE];
             out[LEAN_BLOCK + x] = job->cosines[(part + 3 * LEAN_SIZE / 4) % LEAN_SIZE];
         }
@@ -44,8 +44,7 @@ static void fill_rows(void *argument, size_t index, uint32_t worker)
     lean_phase phases[MGT_MAX_WAVES];
     for (size_t i = 0; i < waves->count; i++)
         for (int r = 0; r < LEAN_ROWS; r++) {
-            const unsigned part = (unsigned)waves->down[i] * (unsigned)(index * LEAN_ROWS + (size_t)r) % LEAN_SIZE;
-            const double angle = turn * (waves->turns[i] - rint(waves->turns[i]) + (double)part / LEAN_SIZE);
+            const double angle = lean_row_angle(waves, i, index * LEAN_ROWS + (size_t)r);
             phases[i].cosine[r] = (float)cos(angle);
             phases[i].minus_sine[r] = (float)-sin(angle);
         }
@@ -127,7 +126,7 @@ static bool fill(lean_map *map, const lane_kernels *kernels, thread_pool *pool)
 bool lean_map_build(lean_map *map, const frame *f, const lane_kernels *kernels, thread_pool *pool)
 {
     lean_waves waves;
-    map->data = lean_snap_waves(f, &waves);
+    map->data = sines_snap(&f->scene->water, frame_meeting(f, &f->close, (interval){f->scene->time, 0}), &waves);
     if (map->filled && memcmp(&waves, &map->waves, sizeof waves) == 0)
         return true;
     map->waves = waves;

@@ -4,8 +4,10 @@
 #define MANGATA_CPU_LEAN_MAP_H
 
 #include "cpu/lanes.h"
-#include "frame/lean_waves.h"
+#include "frame/sines.h"
 #include "base/thread_pool.h"
+
+struct frame; /* frame/frame.h */
 
 /* 246 MiB once it is filled. */
 struct lean_map {

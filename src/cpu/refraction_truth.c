@@ -76,12 +76,6 @@ struct refraction_truth {
 
 /* ---- creation ---- */
 
-static void mirror_waves(reference_frame *f)
-{
-    for (uint32_t i = 0; i < f->wave_count; i++)
-        f->waves[i].phase += 1; /* half a turn: amplitudes stay positive, as the march's bounds want them */
-}
-
 static bool create_scratch(refraction_truth *t)
 {
     t->scratch = calloc(t->job.workers, sizeof *t->scratch);
@@ -115,7 +109,7 @@ mgt_status refraction_truth_create(refraction_truth **truth, const truth_job *jo
         refraction_truth_free(t);
         return status;
     }
-    mirror_waves(t->below);
+    reference_waves_mirror(t->below->waves, t->below->wave_count);
     *truth = t;
     return MGT_OK;
 }

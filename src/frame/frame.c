@@ -106,16 +106,6 @@ static void set_through(frame *f)
     d->ndf_per_pixel = d->ndf_mean = 0;
 }
 
-static void order_waves(const mgt_water *water, uint16_t *order)
-{
-    for (size_t i = 0; i < water->wave_count; i++) {
-        size_t at = i;
-        for (; at > 0 && water->waves[order[at - 1]].amplitude < water->waves[i].amplitude; at--)
-            order[at] = order[at - 1];
-        order[at] = (uint16_t)i;
-    }
-}
-
 frame frame_of(const mgt_scene *scene, const sky_state *sky, bool want_color)
 {
     frame f = {.scene = scene, .under = scene->camera.position[1] < 0};
@@ -149,7 +139,7 @@ frame frame_of(const mgt_scene *scene, const sky_state *sky, bool want_color)
     d->sky_black = scene->sky.model == MGT_SKY_BLACK && scene->object_count == 0; /* what objects shine still shows */
     set_method(&f);
     set_through(&f);
-    order_waves(&scene->water, f.order);
+    sines_order(&scene->water, f.order);
     const camera_rays close = camera_rays_of(&scene->camera, scene->image.width, scene->image.height);
     f.close = rays_above(&f, &close);
     const camera_rays open = scene->camera_moves ? camera_rays_of(&scene->camera_open, scene->image.width, scene->image.height) : close;
@@ -163,39 +153,6 @@ interval frame_shutter(const frame *f)
 {
     const mgt_scene *s = f->scene;
     return s->camera_moves ? (interval){s->time, 0} : (interval){s->time - s->shutter / 2, s->shutter / 2};
-}
-
-double wave_turns(const frame *f) { return f->under ? 0.5 : 0; }
-
-static WaveData wave_data(const mgt_wave *w, double half)
-{
-    const double cos_half = cos(w->omega * half), sin_half = sin(w->omega * half);
-    const double squared = w->kx * w->kx + w->kz * w->kz, A = w->amplitude;
-    const double octave = squared > 0 ? 0.5 * log2(squared) : 0;
-    return (WaveData){
-        .turns_x = (float)(w->kx / (2 * pi)),
-        .turns_z = (float)(w->kz / (2 * pi)),
-        .amplitude = (float)A,
-        .even_x = (float)(A * w->kx * cos_half),
-        .even_z = (float)(A * w->kz * cos_half),
-        .odd_x = (float)(A * w->kx * sin_half),
-        .odd_z = (float)(A * w->kz * sin_half),
-        .bend_xx = (float)(-A * w->kx * w->kx),
-        .bend_xz = (float)(-A * w->kx * w->kz),
-        .bend_zz = (float)(-A * w->kz * w->kz),
-        .even_height = (float)(A * cos_half),
-        .k_x = (float)w->kx,
-        .k_z = (float)w->kz,
-        .half_variance = (float)(A * A / 2),
-        .odd_height = (float)(A * sin_half),
-        .cos_half = (float)cos_half,
-        .sin_half = (float)sin_half,
-        .octave_mass = (float)(A * A * squared / 2 * octave),
-        .octave_sq_mass = (float)(A * A * squared / 2 * octave * octave),
-        .variance_xx = (float)(A * A / 2 * w->kx * w->kx),
-        .variance_xz = (float)(A * A / 2 * w->kx * w->kz),
-        .variance_zz = (float)(A * A / 2 * w->kz * w->kz),
-    };
 }
 
 static ViewData view_data(const camera_rays *camera)
@@ -214,28 +171,15 @@ static ViewData view_data(const camera_rays *camera)
     };
 }
 
+wave_meeting frame_meeting(const frame *f, const camera_rays *camera, interval time)
+{
+    return (wave_meeting){camera->position[0], camera->position[2], time.middle, time.half, f->under ? 0.5 : 0};
+}
+
 void wave_set_build(const frame *f, const camera_rays *camera, interval time, bool filter, wave_set *set)
 {
-    const mgt_water *water = &f->scene->water;
-    double variance = 0, slope_variance = 0;
-    for (size_t i = water->wave_count; i-- > 0;) { /* from the smallest, for lesser_variance */
-        const mgt_wave *w = &water->waves[f->order[i]];
-        const double turns_x = w->kx / (2 * pi), turns_z = w->kz / (2 * pi);
-        set->data[i] = wave_data(w, time.half);
-        set->turns_x[i] = (float)turns_x;
-        set->turns_z[i] = (float)turns_z;
-        set->turns_low_x[i] = (float)(turns_x - (double)set->turns_x[i]);
-        set->turns_low_z[i] = (float)(turns_z - (double)set->turns_z[i]);
-        const double phase = turns_x * camera->position[0] + turns_z * camera->position[2] + (w->omega * time.middle + w->phase) / (2 * pi) + wave_turns(f);
-        set->phase[i] = (float)(phase - rint(phase));
-        variance += w->amplitude * w->amplitude / 2;
-        slope_variance += w->amplitude * w->amplitude * (w->kx * w->kx + w->kz * w->kz) / 2;
-        set->lesser_variance[i] = (float)variance;
-    }
     set->view = view_data(camera);
-    set->view.displacement = (float)(4 * sqrt(variance));
-    set->view.slope_deviation = (float)sqrt(slope_variance);
-    set->view.wave_count = (int)water->wave_count;
+    sines_place(&f->scene->water, f->order, frame_meeting(f, camera, time), set);
     set->view.filter_waves = filter;
     set->view.scale_x = set->view.scale_y = 1;
 }

@@ -32,9 +32,6 @@ camera_rays rays_above(const frame *f, const camera_rays *rays);
 /* `sky` must have been built from the scene; the scene must outlive the frame. */
 frame frame_of(const mgt_scene *scene, const sky_state *sky, bool want_color);
 
-/* Turns to be added to every wave's phase: half of one turns the surface over. */
-double wave_turns(const frame *f);
-
 /* The middle of an interval of time and half of its length. */
 typedef struct interval {
     double middle, half;
@@ -42,6 +39,9 @@ typedef struct interval {
 
 /* While the shutter is open, or the instant t where the camera moves: its other end is a camera of its own then. */
 interval frame_shutter(const frame *f);
+
+/* The frame's waves as a camera meets them: those of a camera under water are turned over. */
+wave_meeting frame_meeting(const frame *f, const camera_rays *camera, interval time);
 
 /* Places the frame's waves before a camera. `filter` false: every wave is resolved (point samples). */
 void wave_set_build(const frame *f, const camera_rays *camera, interval time, bool filter, wave_set *set);

@@ -18,17 +18,6 @@ static int map_of(mgt_refraction method)
     }
 }
 
-/* What the waves seldom rise above the mean surface by: four deviations, or their sum where that is less. */
-static double crest_of(const mgt_water *water)
-{
-    double sum = 0, variance = 0;
-    for (size_t i = 0; i < water->wave_count; i++) {
-        sum += water->waves[i].amplitude;
-        variance += water->waves[i].amplitude * water->waves[i].amplitude / 2;
-    }
-    return fmin(sum, 4 * sqrt(variance));
-}
-
 void refraction_plane(const world *w, size_t triangle, float plane[4])
 {
     const float *p[3];
@@ -119,7 +108,7 @@ gbuffer_job refraction_job(const frame *f)
 {
     const mgt_scene *scene = f->scene;
     /* Pictures are rounded to parts of pixels: they overlap at the waterline, and the water itself says what is in front. */
-    const double reach = fmax(crest_of(&scene->water), 0.002);
+    const double reach = fmax(sines_crest(&scene->water), 0.002);
     return (gbuffer_job){
         .camera = f->under ? mirrored_rays(&f->close) : f->close,
         .width = scene->image.width,

@@ -84,16 +84,12 @@ static void set_water(ShadeData *d, const frame *f, const sky_state *sky)
 /* Phases at the world's origin, at the frame's instant. */
 static void set_waves(shade_scene *s, const frame *f, const world *w, const sky_state *sky)
 {
-    static const double turn = 6.28318530717958647692;
     const mgt_water *water = &f->scene->water;
     const bool gathers = f->scene->quality.caustics && sky->direction[1] > 0;
     s->data.caustic_waves = gathers ? (int)water->wave_count : 0;
     s->data.sun_radius = (float)sky->tan_radius;
-    for (size_t i = 0; i < water->wave_count && gathers; i++) {
-        const mgt_wave *wave = &water->waves[i];
-        const double phase = (wave->kx * w->origin[0] + wave->kz * w->origin[1] + wave->omega * f->scene->time + wave->phase) / turn;
-        s->waves[i] = (MarchWave){(float)(wave->kx / turn), (float)(wave->kz / turn), (float)(phase - rint(phase)), (float)wave->amplitude};
-    }
+    if (gathers)
+        sines_marched(water, (wave_meeting){.x = w->origin[0], .z = w->origin[1], .middle = f->scene->time}, s->waves);
 }
 
 static void set_shadows(ShadeData *d, const shadow_map *m)

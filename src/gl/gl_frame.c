@@ -127,8 +127,7 @@ static void upload_waves(gl_renderer *g)
     g->gl.BindBufferRange(storage ? GL_SHADER_STORAGE_BUFFER : GL_UNIFORM_BUFFER, storage ? BIND_WAVE_STORAGE : BIND_WAVES, g->ring.buffer, (GLintptr)offset,
                           MGT_MAX_WAVES * sizeof(WaveData));
     SortData *sort = gl_ring_allocate(&g->ring, MGT_MAX_WAVES * sizeof(SortData), &offset);
-    for (size_t i = 0; i < count; i++)
-        sort[i] = (SortData){set->turns_x[i], set->turns_z[i], set->turns_low_x[i], set->turns_low_z[i], set->phase[i], set->lesser_variance[i], 0, 0};
+    sines_sort_data(set, sort);
     g->gl.BindBufferRange(GL_SHADER_STORAGE_BUFFER, BIND_SORT, g->ring.buffer, (GLintptr)offset, MGT_MAX_WAVES * sizeof(SortData));
     gl_uniform(g, BIND_EXTRA, &set->view, sizeof set->view);
 }

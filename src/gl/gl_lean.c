@@ -42,14 +42,8 @@ static void upload_waves(gl_renderer *g)
 {
     const lean_waves *waves = &g->lean.waves;
     size_t offset;
-    LeanWave *out = gl_ring_allocate(&g->ring, MGT_MAX_WAVES * sizeof *out, &offset);
-    for (size_t i = 0; i < waves->count; i++)
-        out[i] = (LeanWave){.periods_x = waves->across[i],
-                            .periods_z = waves->down[i],
-                            .turns = (float)(waves->turns[i] - rint(waves->turns[i])),
-                            .slope_x = waves->slope_x[i],
-                            .slope_z = waves->slope_z[i]};
-    g->gl.BindBufferRange(GL_UNIFORM_BUFFER, BIND_WAVES, g->ring.buffer, (GLintptr)offset, MGT_MAX_WAVES * sizeof *out);
+    memcpy(gl_ring_allocate(&g->ring, sizeof waves->waves, &offset), waves->waves, waves->count * sizeof *waves->waves);
+    g->gl.BindBufferRange(GL_UNIFORM_BUFFER, BIND_WAVES, g->ring.buffer, (GLintptr)offset, sizeof waves->waves);
 }
 
 static mgt_status run_level(gl_renderer *g, int level, const reporter *r)
@@ -92,7 +86,7 @@ mgt_status gl_lean_prepare(gl_renderer *g, const frame *f, const reporter *r)
 {
     gl_lean *l = &g->lean;
     lean_waves waves;
-    l->data = lean_snap_waves(f, &waves);
+    l->data = sines_snap(&f->scene->water, frame_meeting(f, &f->close, (interval){f->scene->time, 0}), &waves);
     if (l->filled && memcmp(&waves, &l->waves, sizeof waves) == 0)
         return MGT_OK;
     l->waves = waves;

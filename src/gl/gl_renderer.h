@@ -4,7 +4,7 @@
 #define MANGATA_GL_GL_RENDERER_H
 
 #include "frame/frame.h"
-#include "frame/lean_waves.h"
+#include "frame/sines.h"
 #include "gl/gl_gbuffer.h"
 #include "gl/gl_host_state.h"
 #include "gl/gl_memory.h"

@@ -44,14 +44,6 @@ const field_row sky_rows[] = {{"model", FIELD_CHOICE, offsetof(mgt_sky, model), 
                                .doc = "linear sRGB, airglow and stars, added everywhere (atmosphere)"},
                               {0}};
 
-const field_row wave_rows[] = {{"amplitude", FIELD_NUMBER, offsetof(mgt_wave, amplitude), FIELD_REQUIRED, 0, 1000, "m",
-                                .doc = "height of the crest over the mean surface"},
-                               {"a", FIELD_NUMBER, offsetof(mgt_wave, kx), FIELD_REQUIRED, -1e5, 1e5, "rad/m", .doc = "wave vector along x", .member = "kx"},
-                               {"b", FIELD_NUMBER, offsetof(mgt_wave, kz), FIELD_REQUIRED, -1e5, 1e5, "rad/m", .doc = "wave vector along z", .member = "kz"},
-                               {"c", FIELD_NUMBER, offsetof(mgt_wave, omega), FIELD_REQUIRED, -1e5, 1e5, "rad/s", .doc = "angular speed", .member = "omega"},
-                               {"phase", FIELD_NUMBER, offsetof(mgt_wave, phase), 0, FIELD_ANYWHERE, "rad", .doc = "phase at x = z = 0, time 0"},
-                               {0}};
-
 typedef struct camera_place {
     mgt_camera camera;
 } camera_place;

@@ -6,6 +6,7 @@
 #define MANGATA_PARAMS_SCENE_ROWS_H
 
 #include "params/options.h"
+#include "params/waves.h"
 
 #define FIELD_ANYWHERE -1e9, 1e9
 
@@ -58,7 +59,6 @@ extern const mgt_light light_defaults[];
 extern const field_row image_rows[];  /* of an mgt_image, but for its crop */
 extern const field_row light_rows[];  /* of an mgt_light */
 extern const field_row sky_rows[];    /* of an mgt_sky */
-extern const field_row wave_rows[];   /* of an mgt_wave */
 extern const field_row camera_rows[]; /* of an mgt_camera */
 
 /* Rows of an mgt_scene, but for its image, camera_open, waves and objects. */

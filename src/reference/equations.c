@@ -29,23 +29,6 @@ static void normalize(double a[3])
 
 /* ---- water ---- */
 
-water_point water_surface(const mgt_water *water, double x, double z, double time)
-{
-    water_point point = {0};
-    for (size_t i = 0; i < water->wave_count; i++) {
-        const mgt_wave *wave = &water->waves[i];
-        const double phase = wave->kx * x + wave->kz * z + wave->omega * time + wave->phase;
-        const double sine = wave->amplitude * sin(phase), cosine = wave->amplitude * cos(phase);
-        point.height += sine;
-        point.slope[0] += wave->kx * cosine;
-        point.slope[1] += wave->kz * cosine;
-        point.hessian[0] -= wave->kx * wave->kx * sine;
-        point.hessian[1] -= wave->kx * wave->kz * sine;
-        point.hessian[2] -= wave->kz * wave->kz * sine;
-    }
-    return point;
-}
-
 /* Means over the pixel of sin, cos, sin² and cos², one panel every half radian. */
 filtered_sine box_filter_sine(double phase, const double gradient[2])
 {

@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "reference/equations.h"
+#include "reference/sines.h"
 
 typedef struct water_ray {
     const mgt_water *water;
@@ -48,12 +49,8 @@ water_hit first_hit_brute_force(const mgt_scene *scene, double pixel_x, double p
     water_ray ray = {.water = &scene->water, .time = time};
     camera_ray(scene, pixel_x, pixel_y, time, ray.origin, ray.direction);
 
-    double crest = 0, steepest = 0; /* of all waves aligned, along the ray */
-    for (size_t i = 0; i < scene->water.wave_count; i++) {
-        const mgt_wave *wave = &scene->water.waves[i];
-        crest += fabs(wave->amplitude);
-        steepest += fabs(wave->amplitude * (wave->kx * ray.direction[0] + wave->kz * ray.direction[2]));
-    }
+    double crest, steepest;
+    water_worst_case(&scene->water, ray.direction, &crest, &steepest);
     const double fall = steepest - ray.direction[1]; /* the fastest loss of height over the water */
     double distance = 0;
     if (ray.origin[1] > crest) {

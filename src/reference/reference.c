@@ -15,14 +15,6 @@ static const long double pi = 3.14159265358979323846264338327950288L;
 
 /* ---- preparing a frame ---- */
 
-/* long double, because a camera may stand at phases of 10⁷ radians. */
-static double reduced_half_turns(const mgt_wave *wave, const mgt_scene *scene)
-{
-    const long double phase = (long double)wave->kx * scene->camera.position[0] + (long double)wave->kz * scene->camera.position[2] +
-                              (long double)wave->omega * scene->time + (long double)wave->phase;
-    return (double)remainderl(phase / pi, 2.0L);
-}
-
 static reference_view relative_view(const mgt_camera *camera, const mgt_camera *anchor)
 {
     reference_view view;
@@ -34,27 +26,6 @@ static reference_view relative_view(const mgt_camera *camera, const mgt_camera *
     }
     view.fov_half_turns = camera->fov_y_deg / 360;
     return view;
-}
-
-static void set_waves(reference_frame *frame, const mgt_scene *scene)
-{
-    double sum = 0, square = 0;
-    for (uint32_t i = 0; i < frame->wave_count; i++) {
-        const mgt_wave *from = &scene->water.waves[i];
-        reference_wave *to = &frame->waves[i];
-        to->amplitude = from->amplitude;
-        to->a = from->kx;
-        to->b = from->kz;
-        to->amplitude_a = from->amplitude * from->kx;
-        to->amplitude_b = from->amplitude * from->kz;
-        to->half_turns_a = (double)(from->kx / pi);
-        to->half_turns_b = (double)(from->kz / pi);
-        to->half_turns_c = (double)(from->omega / pi);
-        to->phase = reduced_half_turns(from, scene);
-        sum += fabs(from->amplitude);
-        square += from->amplitude * from->amplitude;
-    }
-    frame->height_bound = fmin(sum, frame->bound_deviations * sqrt(0.5 * square));
 }
 
 static void set_light(reference_frame *frame, const mgt_light *light)
@@ -125,7 +96,7 @@ mgt_status reference_frame_create(reference_frame **result, const mgt_scene *sce
     frame->view_open = scene->camera_moves ? relative_view(&scene->camera_open, &scene->camera) : frame->view;
     frame->view_scale_x = (double)scene->image.width / scene->image.height;
     frame->wave_count = (uint32_t)count;
-    set_waves(frame, scene);
+    frame->height_bound = reference_waves_of(scene, frame->bound_deviations, frame->waves);
     set_light(frame, &scene->light);
     set_sample_range(frame, &scene->quality);
     *result = frame;

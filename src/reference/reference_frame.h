@@ -8,15 +8,7 @@
 #include <stdint.h>
 
 #include "reference/reference.h"
-
-/* Phases are kept in half turns (π radians): reducing them is then one exact subtraction. */
-typedef struct reference_wave {
-    double amplitude;
-    double amplitude_a, amplitude_b; /* amplitude × wave vector in radians per metre */
-    double a, b;                     /* wave vector, radians per metre */
-    double half_turns_a, half_turns_b, half_turns_c;
-    double phase; /* half turns at camera.position (x, z) and scene.time, in [−1, 1] */
-} reference_wave;
+#include "reference/sines.h"
 
 typedef struct reference_view {
     double position[3]; /* x and z relative to camera.position of scene.camera; y absolute */

@@ -24,10 +24,6 @@ typedef struct lane_vector {
     reals x, y, z;
 } lane_vector;
 
-typedef struct lane_surface {
-    reals height, slope_x, slope_z;
-} lane_surface;
-
 static inline lane_vector interpolate(const double from[3], const double to[3], reals weight)
 {
     const lane_vector result = {fused(weight, splat(to[0] - from[0]), splat(from[0])), fused(weight, splat(to[1] - from[1]), splat(from[1])),
@@ -52,22 +48,6 @@ static inline lane_vector normalize(lane_vector a)
     const reals length = square_root(a.x * a.x + a.y * a.y + a.z * a.z);
     const lane_vector result = {a.x / length, a.y / length, a.z / length};
     return result;
-}
-
-static inline lane_surface water_at(const reference_frame *frame, reals x, reals z, reals time_offset)
-{
-    lane_surface sum = {splat(0), splat(0), splat(0)};
-    for (uint32_t i = 0; i < frame->wave_count; i++) {
-        const reference_wave *wave = &frame->waves[i];
-        reals phase = fused(time_offset, splat(wave->half_turns_c), splat(wave->phase));
-        phase = fused(z, splat(wave->half_turns_b), phase);
-        phase = fused(x, splat(wave->half_turns_a), phase);
-        const sine_cosine sc = sine_cosine_half_turns(phase);
-        sum.height = fused(sc.sine, splat(wave->amplitude), sum.height);
-        sum.slope_x = fused(sc.cosine, splat(wave->amplitude_a), sum.slope_x);
-        sum.slope_z = fused(sc.cosine, splat(wave->amplitude_b), sum.slope_z);
-    }
-    return sum;
 }
 
 /* Camera rays of REFERENCE_LANES samples from index `at` on. */
@@ -103,21 +83,11 @@ static void aim_rays(const reference_frame *frame, reference_batch *batch, uint3
 static void bound_rays(const reference_frame *frame, reference_batch *batch, uint32_t at)
 {
     const reals dx = load(&batch->direction_x[at]), dz = load(&batch->direction_z[at]);
-    reals slope_sum = splat(0), slope_square = splat(0), curvature_sum = splat(0), curvature_square = splat(0);
-    for (uint32_t i = 0; i < frame->wave_count; i++) {
-        const reference_wave *wave = &frame->waves[i];
-        const reals frequency = absolute(fused(dx, splat(wave->a), dz * wave->b));
-        const reals slope = frequency * wave->amplitude;
-        const reals curvature = slope * frequency;
-        slope_sum += slope;
-        slope_square = fused(slope, slope, slope_square);
-        curvature_sum += curvature;
-        curvature_square = fused(curvature, curvature, curvature_square);
-    }
-    reals slope_bound = slope_sum, curvature_bound = curvature_sum;
+    const lane_bounds sum = waves_bounds(frame->waves, frame->wave_count, dx, dz);
+    reals slope_bound = sum.slope, curvature_bound = sum.curvature;
     if (frame->bound_deviations < HUGE_VAL) {
-        slope_bound = lesser(slope_sum, frame->bound_deviations * square_root(0.5 * slope_square));
-        curvature_bound = lesser(curvature_sum, frame->bound_deviations * square_root(0.5 * curvature_square));
+        slope_bound = lesser(sum.slope, frame->bound_deviations * square_root(0.5 * sum.slope_square));
+        curvature_bound = lesser(sum.curvature, frame->bound_deviations * square_root(0.5 * sum.curvature_square));
     }
     store(&batch->slope_bound[at], slope_bound);
     store(&batch->curvature_bound[at], greater(curvature_bound, splat(1e-200)));
@@ -206,7 +176,8 @@ static inline march_outcome march_step(const reference_frame *frame, march_state
     const reals s = load(state->distance);
     const reals dx = load(state->direction_x), dy = load(state->direction_y), dz = load(state->direction_z);
     march_outcome outcome;
-    outcome.water = water_at(frame, fused(dx, s, load(state->origin_x)), fused(dz, s, load(state->origin_z)), load(state->time_offset));
+    outcome.water =
+        waves_at(frame->waves, frame->wave_count, fused(dx, s, load(state->origin_x)), fused(dz, s, load(state->origin_z)), load(state->time_offset));
 
     const reals f = fused(dy, s, load(state->origin_y)) - outcome.water.height;
     const reals derivative = dy - fused(dx, outcome.water.slope_x, dz * outcome.water.slope_z);
@@ -290,20 +261,10 @@ void BEND(const reference_frame *frame, reference_batch *batch, uint32_t count)
         const reals distance = load(&batch->distance[at]), s = select_lanes((masks)(distance < HUGE_VAL), distance, splat(0));
         const reals x = fused(load(&batch->direction_x[at]), s, load(&batch->origin_x[at]));
         const reals z = fused(load(&batch->direction_z[at]), s, load(&batch->origin_z[at]));
-        reals xx = splat(0), xz = splat(0), zz = splat(0);
-        for (uint32_t i = 0; i < frame->wave_count; i++) {
-            const reference_wave *wave = &frame->waves[i];
-            reals phase = fused(load(&batch->time_offset[at]), splat(wave->half_turns_c), splat(wave->phase));
-            phase = fused(z, splat(wave->half_turns_b), phase);
-            phase = fused(x, splat(wave->half_turns_a), phase);
-            const reals sine = sine_cosine_half_turns(phase).sine;
-            xx = fused(sine, splat(-wave->amplitude_a * wave->a), xx);
-            xz = fused(sine, splat(-wave->amplitude_a * wave->b), xz);
-            zz = fused(sine, splat(-wave->amplitude_b * wave->b), zz);
-        }
-        store(&batch->bend_xx[at], xx);
-        store(&batch->bend_xz[at], xz);
-        store(&batch->bend_zz[at], zz);
+        const lane_hessian h = waves_hessian(frame->waves, frame->wave_count, x, z, load(&batch->time_offset[at]));
+        store(&batch->bend_xx[at], h.xx);
+        store(&batch->bend_xz[at], h.xz);
+        store(&batch->bend_zz[at], h.zz);
     }
 }
 

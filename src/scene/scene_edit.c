@@ -25,7 +25,7 @@ void scene_values_write_out_sea(scene_values *values)
     water->sea = (scene_list){0};
     free(water->spectrum.file);
     water->spectrum = scene_values_defaults().water.spectrum;
-    water->amplitude = 1;
+    water->height = 1;
 }
 
 static bool fix_file(char **file, const char *scene_path)
@@ -403,7 +403,7 @@ bool scene_overrides_between(const scene_values *from, const scene_values *to, s
     if (is_written_out(from, to)) {
         goal.water.waves = from->water.waves;
         goal.water.spectrum = from->water.spectrum;
-        goal.water.amplitude = from->water.amplitude;
+        goal.water.height = from->water.height;
     }
     if (add_differences(out, "", scene_root_field(), from, &goal, &defaults))
         return true;

@@ -107,7 +107,7 @@ static const field_row water_fields[] = {{"waves", FIELD_LIST, offsetof(scene_wa
                                           .item_size = sizeof(mgt_wave), .max_items = MGT_MAX_WAVES, .prepare = prepare_wave},
                                          {"spectrum", FIELD_MAPPING, offsetof(scene_water, spectrum), FIELD_NO_PIXELS, NO_RANGE, NULL,
                                           .doc = "waves drawn from a wind's or a buoy's spectrum, beside those of waves", .fields = spectrum_fields},
-                                         {"amplitude", FIELD_NUMBER, offsetof(scene_water, amplitude), FIELD_NO_PIXELS, 0, 1000, NULL,
+                                         {"amplitude", FIELD_NUMBER, offsetof(scene_water, height), FIELD_NO_PIXELS, 0, 1000, NULL,
                                           .doc = "factor on the heights of all waves, those of the spectrum too; 0: a flat mirror"},
                                          WATER_BODY_ROWS(scene_water),
                                          {"clarity", FIELD_CHOICE, offsetof(scene_water, clarity), FIELD_NO_PIXELS, NO_RANGE, NULL,

@@ -51,8 +51,8 @@ typedef enum scene_clarity { CLARITY_PURE, CLARITY_CLEAR, CLARITY_COASTAL, CLARI
 typedef struct scene_water {
     scene_list waves; /* of mgt_wave */
     scene_spectrum spectrum;
-    double amplitude; /* factor on all of them */
-    scene_list sea;   /* not of the format: `waves` and then those of a spectrum, times the factor; made by scene_sea_fill() where it is needed */
+    double height;  /* factor on those of all waves */
+    scene_list sea; /* not of the format: `waves` and then those of a spectrum, times the factor; made by scene_sea_fill() where it is needed */
     double index_of_refraction;
     double level;
     scene_clarity clarity; /* only while it is read: what it says is then in the next two */
@@ -123,7 +123,7 @@ void scene_values_free(scene_values *values);
 bool scene_values_copy(scene_values *out, const scene_values *values);
 
 /* Whether the waves are not simply the ones written out. */
-static inline bool scene_water_has_sea(const scene_water *water) { return water->spectrum.settings.kind != SPECTRUM_NONE || water->amplitude != 1; }
+static inline bool scene_water_has_sea(const scene_water *water) { return water->spectrum.settings.kind != SPECTRUM_NONE || water->height != 1; }
 
 /* All waves as they are rendered. Belongs to `water`. */
 static inline scene_list scene_water_all(const scene_water *water) { return scene_water_has_sea(water) ? water->sea : water->waves; }

@@ -3,7 +3,9 @@
  * The sea of a scene's `water.spectrum`.
  */
 #include "scene/scene_sea.h"
+#include "params/waves.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -94,8 +96,7 @@ bool scene_sea_fill(scene_water *water, const char *scene_path, scene_sea_fault 
     }
     if (before > 0)
         memcpy(waves, water->waves.items, before * sizeof *waves);
-    for (size_t i = 0; i < count; i++)
-        waves[i].amplitude *= water->amplitude;
+    waves_scale(waves, count, water->height, HUGE_VAL);
     water->sea = (scene_list){.items = waves, .count = count};
     return true;
 }
@@ -105,11 +106,11 @@ static bool check_heights(const scene_tree *tree, const scene_water *water, scen
 {
     const mgt_wave *waves = water->sea.items;
     for (size_t i = 0; i < water->sea.count; i++)
-        if (waves[i].amplitude > 1000) {
+        if (wave_crest(&waves[i]) > 1000) {
             const tree_node *mapping = tree_get(tree->root, "water"), *node = tree_get(mapping, "amplitude");
             node = node != NULL ? node : mapping;
             return tree_error(tree, node->source, node->place, error, "water.amplitude is %s, which makes a wave of %s m; allowed: waves of at most 1000 m",
-                              double_text(water->amplitude).text, double_text(waves[i].amplitude).text);
+                              double_text(water->height).text, double_text(wave_crest(&waves[i])).text);
         }
     return true;
 }

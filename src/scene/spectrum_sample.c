@@ -9,6 +9,7 @@
 #include <stdlib.h>
 
 #include "scene/spectrum_math.h"
+#include "params/waves.h"
 
 enum { CELLS = 4096, DIRECTIONS = 720, HARMONIC_STEP = 64 };
 
@@ -198,11 +199,8 @@ static mgt_wave make_wave(const wave_spectrum *spectrum, double height_variance,
 {
     const double k = sqrt(slope_variance / height_variance), frequency = dispersion_frequency(k, spectrum->depth);
     const double azimuth = direction_quantile(spectrum, frequency, direction_share);
-    return (mgt_wave){.amplitude = seven_digits(sqrt(2 * height_variance)),
-                      .kx = seven_digits(k * portable_sin(azimuth)),
-                      .kz = seven_digits(-k * portable_cos(azimuth)),
-                      .omega = seven_digits(-frequency),
-                      .phase = seven_digits(phase)};
+    return wave_from(seven_digits(sqrt(2 * height_variance)), seven_digits(k * portable_sin(azimuth)), seven_digits(-k * portable_cos(azimuth)),
+                     seven_digits(-frequency), seven_digits(phase));
 }
 
 bool spectrum_sample(const wave_spectrum *spectrum, uint32_t seed, size_t count, mgt_wave *waves)
@@ -248,13 +246,6 @@ bool spectrum_statistics(const wave_spectrum *spectrum, sea_statistics *out)
 sea_statistics waves_statistics(const mgt_wave *waves, size_t count, double azimuth)
 {
     const double x = portable_sin(azimuth), z = -portable_cos(azimuth);
-    double height = 0, upwind = 0, crosswind = 0;
-    for (size_t i = 0; i < count; i++) {
-        const mgt_wave *w = &waves[i];
-        const double variance = w->amplitude * w->amplitude / 2, along = w->kx * x + w->kz * z, across = w->kx * z - w->kz * x;
-        height += variance;
-        upwind += variance * along * along;
-        crosswind += variance * across * across;
-    }
-    return (sea_statistics){.height = 4 * sqrt(height), .slope = upwind + crosswind, .upwind = upwind, .crosswind = crosswind};
+    const wave_variances v = waves_variances(waves, count, x, z);
+    return (sea_statistics){.height = 4 * sqrt(v.height), .slope = v.along + v.across, .upwind = v.along, .crosswind = v.across};
 }

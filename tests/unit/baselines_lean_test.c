@@ -49,8 +49,8 @@ static void waves_are_snapped_by_half_a_period_at_most(void **state)
     double worst = 0, shortest = 1e9, longest = 0;
     assert_int_equal(s->map->waves.count, WAVES);
     for (int i = 0; i < WAVES; i++) {
-        worst = fmax(worst, fabs(s->waves[i].kx * period / turn - s->map->waves.across[i]));
-        worst = fmax(worst, fabs(s->waves[i].kz * period / turn - s->map->waves.down[i]));
+        worst = fmax(worst, fabs(s->waves[i].kx * period / turn - s->map->waves.waves[i].periods_x));
+        worst = fmax(worst, fabs(s->waves[i].kz * period / turn - s->map->waves.waves[i].periods_z));
         const double length = turn / hypot(s->waves[i].kx, s->waves[i].kz);
         shortest = fmin(shortest, length), longest = fmax(longest, length);
     }
@@ -70,7 +70,7 @@ static void texels_are_the_snapped_waves(void **state)
         for (int i = 0; i < WAVES; i++) {
             const mgt_wave *w = &s->waves[i];
             const double phase = w->omega * s->bench->scene.time + w->phase;
-            const double c = cos(phase + turn * (s->map->waves.across[i] * (double)x + s->map->waves.down[i] * (double)z) / LEAN_SIZE);
+            const double c = cos(phase + turn * (s->map->waves.waves[i].periods_x * (double)x + s->map->waves.waves[i].periods_z * (double)z) / LEAN_SIZE);
             sx += w->amplitude * w->kx * c, sz += w->amplitude * w->kz * c;
         }
         worst = fmax(worst, hypot((double)s->map->slope_x[z * LEAN_SIZE + x] - sx, (double)s->map->slope_z[z * LEAN_SIZE + x] - sz));
@@ -101,7 +101,7 @@ static void levels_hold_the_covariance_that_they_filter(void **state)
         }
         for (int i = 0; i < WAVES; i++) {
             const mgt_wave *w = &s->waves[i];
-            const double d = dirichlet(s->map->waves.across[i], 1 << level) * dirichlet(s->map->waves.down[i], 1 << level);
+            const double d = dirichlet(s->map->waves.waves[i].periods_x, 1 << level) * dirichlet(s->map->waves.waves[i].periods_z, 1 << level);
             const double k[3] = {w->kx * w->kx, w->kx * w->kz, w->kz * w->kz};
             for (int m = 0; m < 3; m++) {
                 exact[m] += w->amplitude * w->amplitude / 2 * k[m] * (1 - d * d);

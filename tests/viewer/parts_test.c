@@ -13,6 +13,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "params/waves.h"
 #include "viewer/scene/camera_moves.h"
 #include "viewer/ui/controls.h"
 #include "viewer/picture/palette.h"
@@ -334,8 +335,8 @@ static void waves_have_shapes(void **state)
         assert_true(shape.speed > 0);
         /* Crests travel where the shape says. */
         const double angle = shape.direction_deg * 3.14159265358979 / 180, t = 0.37, way = shape.speed * t;
-        const double x = 1.2, z = -0.4, here = wave_height(&w, 1, x, z, 0);
-        assert_true(fabs(wave_height(&w, 1, x + way * sin(angle), z - way * cos(angle), t) - here) < 1e-9);
+        const double x = 1.2, z = -0.4, here = waves_height(&w, 1, x, z, 0);
+        assert_true(fabs(waves_height(&w, 1, x + way * sin(angle), z - way * cos(angle), t) - here) < 1e-9);
     }
 }
 

@@ -9,6 +9,7 @@
 #include "viewer/scene/camera_moves.h"
 #include "params/methods.h"
 #include "params/options.h"
+#include "params/waves.h"
 
 static const float panel_units = 23.5f, label_units = 8.2f; /* widths, in heights of the text */
 
@@ -183,7 +184,7 @@ static void draw_wave_row(viewer *v, size_t i)
     char label[96];
     const mgt_wave *wave = (const mgt_wave *)v->document.values.water.waves.items + i;
     const wave_shape shape = wave_shape_of(wave);
-    snprintf(label, sizeof label, "%3zu   %7.4f m   %7.2f m   %4.0f°##wave%zu", i, wave->amplitude, shape.wavelength, shape.direction_deg, i);
+    snprintf(label, sizeof label, "%3zu   %7.4f m   %7.2f m   %4.0f°##wave%zu", i, wave_crest(wave), shape.wavelength, shape.direction_deg, i);
     if (ui_selectable(label, v->selected_wave == i, 0))
         v->selected_wave = i;
 }

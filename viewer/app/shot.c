@@ -7,6 +7,7 @@
 #include "viewer/scene/camera_moves.h"
 #include "scene/scene_path.h"
 #include "viewer/app/viewer.h"
+#include "params/waves.h"
 
 /* ---- camera ---- */
 
@@ -57,7 +58,7 @@ static void keep_camera_above(viewer *v)
     if (viewer_follows_path(v) || camera->position[1] < level)
         return;
     const size_t count = list->count < w->count ? list->count : w->count;
-    const double wave = w->amplitude * wave_height(list->items, count, camera->position[0], camera->position[2], v->settings.clock.time);
+    const double wave = w->height * waves_height(list->items, count, camera->position[0], camera->position[2], v->settings.clock.time);
     camera_keep_above(camera, level + fmax(wave, 0) + v->settings.move.clearance);
 }
 
@@ -99,8 +100,7 @@ static size_t take_waves(const viewer *v, mgt_wave *waves)
     const size_t count = list->count < v->settings.waves.count ? list->count : v->settings.waves.count;
     if (count > 0)
         memcpy(waves, list->items, count * sizeof *waves);
-    for (size_t i = 0; i < count; i++)
-        waves[i].amplitude = fmin(waves[i].amplitude * v->settings.waves.amplitude, 1000);
+    waves_scale(waves, count, v->settings.waves.height, 1000);
     return count;
 }
 
@@ -133,7 +133,7 @@ bool viewer_frame_values(const viewer *v, uint32_t width, uint32_t height, scene
         free(out->camera.path.items);
         out->camera.path = (scene_list){0};
     }
-    if (v->settings.waves.amplitude != 1 || v->settings.waves.count < out->water.waves.count)
+    if (v->settings.waves.height != 1 || v->settings.waves.count < out->water.waves.count)
         out->water.waves.count = take_waves(v, out->water.waves.items);
     return true;
 }

@@ -30,8 +30,8 @@ typedef struct clock_settings {
 } clock_settings;
 
 typedef struct wave_settings {
-    double amplitude; /* factor on every wave's */
-    uint32_t count;   /* how many of the scene's waves are used, the first ones */
+    double height;  /* factor on every wave's */
+    uint32_t count; /* how many of the scene's waves are used, the first ones */
 } wave_settings;
 
 typedef enum move_mode { MOVE_ORBIT = 0, MOVE_FLY } move_mode;

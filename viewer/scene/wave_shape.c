@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * Waves as people think of them. */
 #include "viewer/scene/wave_shape.h"
+#include "params/waves.h"
 
 #include <math.h>
 
@@ -16,18 +17,15 @@ const field_row wave_shape_fields[] = {{"wavelength", FIELD_NUMBER, offsetof(wav
 
 wave_shape wave_shape_of(const mgt_wave *wave)
 {
-    const double k = hypot(wave->kx, wave->kz);
-    if (!(k > 2 * pi / longest))
+    const wave_course c = wave_course_of(wave, 2 * pi / longest);
+    if (!(c.number > 2 * pi / longest))
         return (wave_shape){longest, 0, 0};
-    return (wave_shape){fmax(2 * pi / k, shortest), atan2(wave->kx, -wave->kz) * 180 / pi, -wave->omega / k};
+    return (wave_shape){fmax(2 * pi / c.number, shortest), c.heading * 180 / pi, c.speed};
 }
 
 void wave_set_shape(mgt_wave *wave, const wave_shape *shape)
 {
-    const double k = 2 * pi / fmin(fmax(shape->wavelength, shortest), longest), angle = shape->direction_deg * pi / 180;
-    wave->kx = k * sin(angle);
-    wave->kz = -k * cos(angle);
-    wave->omega = fmin(fmax(-shape->speed * k, -1e5), 1e5);
+    wave_set_course(wave, (wave_course){2 * pi / fmin(fmax(shape->wavelength, shortest), longest), shape->direction_deg * pi / 180, shape->speed});
 }
 
 mgt_wave wave_new(size_t index)
@@ -35,15 +33,7 @@ mgt_wave wave_new(size_t index)
     const double golden = 0.6180339887498949, share = fmod((double)(index + 1) * golden, 1);
     const double length = 0.5 * pow(8, share);
     const wave_shape shape = {length, 80 * (fmod(share * 7, 1) - 0.5), sqrt(gravity * length / (2 * pi))};
-    mgt_wave wave = {.amplitude = 0.008 * length, .phase = 2 * pi * fmod(share * 5, 1)};
+    mgt_wave wave = wave_from(0.008 * length, 0, 0, 0, 2 * pi * fmod(share * 5, 1));
     wave_set_shape(&wave, &shape);
     return wave;
-}
-
-double wave_height(const mgt_wave *waves, size_t count, double x, double z, double time)
-{
-    double height = 0;
-    for (size_t i = 0; i < count; i++)
-        height += waves[i].amplitude * sin(waves[i].kx * x + waves[i].kz * z + waves[i].omega * time + waves[i].phase);
-    return height;
 }

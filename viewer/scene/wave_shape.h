@@ -21,7 +21,4 @@ extern const field_row wave_shape_fields[];
 /* A wave of deep water at its natural speed, a little unlike the ones before it. */
 mgt_wave wave_new(size_t index);
 
-/* Height of the water at a place and time. */
-double wave_height(const mgt_wave *waves, size_t count, double x, double z, double time);
-
 #endif

@@ -1,0 +1,177 @@
+/* SPDX-License-Identifier: MIT
+ * From the waves of a scene in double precision to those of kernels. */
+#include "frame/sines.h"
+
+#include <math.h>
+
+static const double pi = 3.14159265358979323846, turn = 6.28318530717958647692;
+
+void sines_order(const mgt_water *water, uint16_t *order)
+{
+    for (size_t i = 0; i < water->wave_count; i++) {
+        size_t at = i;
+        for (; at > 0 && water->waves[order[at - 1]].amplitude < water->waves[i].amplitude; at--)
+            order[at] = order[at - 1];
+        order[at] = (uint16_t)i;
+    }
+}
+
+static WaveData wave_data(const mgt_wave *w, double half)
+{
+    const double cos_half = cos(w->omega * half), sin_half = sin(w->omega * half);
+    const double squared = w->kx * w->kx + w->kz * w->kz, A = w->amplitude;
+    const double octave = squared > 0 ? 0.5 * log2(squared) : 0;
+    return (WaveData){
+        .turns_x = (float)(w->kx / (2 * pi)),
+        .turns_z = (float)(w->kz / (2 * pi)),
+        .amplitude = (float)A,
+        .even_x = (float)(A * w->kx * cos_half),
+        .even_z = (float)(A * w->kz * cos_half),
+        .odd_x = (float)(A * w->kx * sin_half),
+        .odd_z = (float)(A * w->kz * sin_half),
+        .bend_xx = (float)(-A * w->kx * w->kx),
+        .bend_xz = (float)(-A * w->kx * w->kz),
+        .bend_zz = (float)(-A * w->kz * w->kz),
+        .even_height = (float)(A * cos_half),
+        .k_x = (float)w->kx,
+        .k_z = (float)w->kz,
+        .half_variance = (float)(A * A / 2),
+        .odd_height = (float)(A * sin_half),
+        .cos_half = (float)cos_half,
+        .sin_half = (float)sin_half,
+        .octave_mass = (float)(A * A * squared / 2 * octave),
+        .octave_sq_mass = (float)(A * A * squared / 2 * octave * octave),
+        .variance_xx = (float)(A * A / 2 * w->kx * w->kx),
+        .variance_xz = (float)(A * A / 2 * w->kx * w->kz),
+        .variance_zz = (float)(A * A / 2 * w->kz * w->kz),
+    };
+}
+
+void sines_place(const mgt_water *water, const uint16_t *order, wave_meeting at, wave_set *set)
+{
+    double variance = 0, slope_variance = 0;
+    for (size_t i = water->wave_count; i-- > 0;) { /* from the smallest, for lesser_variance */
+        const mgt_wave *w = &water->waves[order[i]];
+        const double turns_x = w->kx / (2 * pi), turns_z = w->kz / (2 * pi);
+        set->data[i] = wave_data(w, at.half);
+        set->turns_x[i] = (float)turns_x;
+        set->turns_z[i] = (float)turns_z;
+        set->turns_low_x[i] = (float)(turns_x - (double)set->turns_x[i]);
+        set->turns_low_z[i] = (float)(turns_z - (double)set->turns_z[i]);
+        const double phase = turns_x * at.x + turns_z * at.z + (w->omega * at.middle + w->phase) / (2 * pi) + at.turns;
+        set->phase[i] = (float)(phase - rint(phase));
+        variance += w->amplitude * w->amplitude / 2;
+        slope_variance += w->amplitude * w->amplitude * (w->kx * w->kx + w->kz * w->kz) / 2;
+        set->lesser_variance[i] = (float)variance;
+    }
+    set->view.displacement = (float)(4 * sqrt(variance));
+    set->view.slope_deviation = (float)sqrt(slope_variance);
+    set->view.wave_count = (int)water->wave_count;
+}
+
+void sines_sort_data(const wave_set *set, SortData *out)
+{
+    for (int i = 0; i < set->view.wave_count; i++)
+        out[i] = (SortData){set->turns_x[i], set->turns_z[i], set->turns_low_x[i], set->turns_low_z[i], set->phase[i], set->lesser_variance[i], 0, 0};
+}
+
+int sines_moving(const wave_set *set)
+{
+    int count = set->view.wave_count;
+    while (count > 0 && set->data[count - 1].amplitude <= 0)
+        count--;
+    return count;
+}
+
+void sines_marched(const mgt_water *water, wave_meeting at, MarchWave *out)
+{
+    for (size_t i = 0; i < water->wave_count; i++) {
+        const mgt_wave *w = &water->waves[i];
+        const double phase = (w->kx * at.x + w->kz * at.z + w->omega * at.middle + w->phase) / turn;
+        out[i] = (MarchWave){(float)(w->kx / turn), (float)(w->kz / turn), (float)(phase - rint(phase)), (float)w->amplitude};
+    }
+}
+
+double sines_crest(const mgt_water *water)
+{
+    double sum = 0, variance = 0;
+    for (size_t i = 0; i < water->wave_count; i++) {
+        sum += water->waves[i].amplitude;
+        variance += water->waves[i].amplitude * water->waves[i].amplitude / 2;
+    }
+    return fmin(sum, 4 * sqrt(variance));
+}
+
+double sines_path_bend(const mgt_water *water, double half)
+{
+    double sum = 0;
+    for (size_t i = 0; i < water->wave_count; i++) {
+        const mgt_wave *w = &water->waves[i];
+        const double away = 1 - cos(fmin(fabs(w->omega) * half, pi));
+        sum += w->amplitude * w->amplitude * (w->kx * w->kx + w->kz * w->kz) / 2 * away * away;
+    }
+    return sqrt(sum);
+}
+
+void sines_lower(const mgt_water *water, const double point[2], double time, const double ray[3], double *gap, double *closing)
+{
+    for (size_t i = 0; i < water->wave_count; i++) {
+        const mgt_wave *w = &water->waves[i];
+        const double phase = w->kx * point[0] + w->kz * point[1] + w->omega * time + w->phase;
+        *gap -= w->amplitude * sin(phase);
+        *closing -= w->amplitude * (w->kx * ray[0] + w->kz * ray[2]) * cos(phase);
+    }
+}
+
+/* ---- the map of slope moments ---- */
+
+static double map_period(const mgt_water *water)
+{
+    double least = HUGE_VAL, most = 0;
+    for (size_t i = 0; i < water->wave_count; i++) {
+        const mgt_wave *w = &water->waves[i];
+        const double k = hypot(w->kx, w->kz);
+        if (w->amplitude > 0 && k > 0)
+            least = fmin(least, k), most = fmax(most, k);
+    }
+    return most > 0 ? fmax(LEAN_SIZE / 4 * turn / most, 8 * turn / least) : LEAN_SIZE;
+}
+
+LeanData sines_snap(const mgt_water *water, wave_meeting at, lean_waves *out)
+{
+    const double period = map_period(water), limit = LEAN_SIZE / 2.5;
+    double xx = 0, xz = 0, zz = 0;
+    *out = (lean_waves){0};
+    for (size_t i = 0; i < water->wave_count; i++) {
+        const mgt_wave *w = &water->waves[i];
+        const double across = rint(w->kx * period / turn), down = rint(w->kz * period / turn), variance = w->amplitude * w->amplitude / 2;
+        if (hypot(across, down) > limit) {
+            xx += variance * w->kx * w->kx;
+            xz += variance * w->kx * w->kz;
+            zz += variance * w->kz * w->kz;
+            continue;
+        }
+        const double turns = (w->kx * at.x + w->kz * at.z + w->omega * at.middle + w->phase) / turn + at.turns;
+        out->turns[out->count] = turns;
+        out->waves[out->count++] = (LeanWave){.periods_x = (int)across,
+                                              .periods_z = (int)down,
+                                              .turns = (float)(turns - rint(turns)),
+                                              .slope_x = (float)(w->amplitude * w->kx),
+                                              .slope_z = (float)(w->amplitude * w->kz)};
+    }
+    return (LeanData){
+        .texels_per_metre = (float)(LEAN_SIZE / period),
+        .turns_per_metre = (float)(1 / period),
+        .size = LEAN_SIZE,
+        .last_level = LEAN_LEVELS - 1,
+        .rest_xx = (float)xx,
+        .rest_xz = (float)xz,
+        .rest_zz = (float)zz,
+    };
+}
+
+double lean_row_angle(const lean_waves *waves, size_t i, size_t row)
+{
+    const unsigned part = (unsigned)waves->waves[i].periods_z * (unsigned)row % LEAN_SIZE;
+    return turn * (waves->turns[i] - rint(waves->turns[i]) + (double)part / LEAN_SIZE);
+}
