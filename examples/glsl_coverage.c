@@ -86,17 +86,18 @@ static FrameData frame_data(const scene *s)
     const vector light = {sin(s->azimuth) * cos(s->elevation), sin(s->elevation), -cos(s->azimuth) * cos(s->elevation)};
     const vector e = unit(cross((vector){0, 1, 0}, light)), f = cross(light, e);
     return (FrameData){
-        .light_x = (float)light.x,
-        .light_y = (float)light.y,
-        .light_z = (float)light.z,
-        .light_radius = (float)tan(s->radius),
-        .light_visible = s->elevation >= 0 ? 1 : 0,
-        .axis_e_x = (float)e.x,
-        .axis_e_y = (float)e.y,
-        .axis_e_z = (float)e.z,
-        .axis_f_x = (float)f.x,
-        .axis_f_y = (float)f.y,
-        .axis_f_z = (float)f.z,
+        .light_count = 1,
+        .lights[0].light_x = (float)light.x,
+        .lights[0].light_y = (float)light.y,
+        .lights[0].light_z = (float)light.z,
+        .lights[0].disk_radius = (float)tan(s->radius),
+        .lights[0].light_visible = s->elevation >= 0 ? 1 : 0,
+        .lights[0].axis_e_x = (float)e.x,
+        .lights[0].axis_e_y = (float)e.y,
+        .lights[0].axis_e_z = (float)e.z,
+        .lights[0].axis_f_x = (float)f.x,
+        .lights[0].axis_f_y = (float)f.y,
+        .lights[0].axis_f_z = (float)f.z,
         .ramp_scale = 1 / (1.2f * 1.2f), /* nothing is resolved beyond 1.2 cycles a pixel */
         .slope_floor = 1e-9f,
     };

@@ -77,7 +77,7 @@ static void describe_mirror(const struct kernel_context *cx, SlopeState open, Sl
     info->path[0][1] = (double)r0.y;
     info->path[1][0] = (double)r1.x;
     info->path[1][1] = (double)r1.y;
-    info->light_radius = (double)cx->frame->light_radius;
+    info->light_radius = (double)light_radius(cx, 0);
     map_covariance(m, both, info->covariance);
 }
 

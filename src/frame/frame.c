@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "base/triples.h"
+#include "frame/lights.h"
 #include "params/methods.h"
 
 static const double pi = 3.14159265358979323846;
@@ -46,17 +47,6 @@ camera_rays rays_above(const frame *f, const camera_rays *rays)
     camera_rays above = f->under ? mirrored_rays(rays) : *rays;
     above.position[1] = fmax(above.position[1], 1e-4);
     return above;
-}
-
-static void light_axes(const double light[3], FrameData *d)
-{
-    const double up[3] = {0, 1, 0}, north[3] = {0, 0, -1};
-    double e[3], f[3];
-    cross3(fabs(light[1]) < 0.999 ? up : north, light, e);
-    normalize3(e);
-    cross3(light, e, f);
-    d->axis_e_x = (float)e[0], d->axis_e_y = (float)e[1], d->axis_e_z = (float)e[2];
-    d->axis_f_x = (float)f[0], d->axis_f_y = (float)f[1], d->axis_f_z = (float)f[2];
 }
 
 /* Which ellipses fall back to Riemann sums: P1 §3.6 has "the minor axis multiplied by the number of circular kernels"; one circle is no
@@ -110,21 +100,9 @@ frame frame_of(const mgt_scene *scene, const sky_state *sky, bool want_color)
 {
     frame f = {.scene = scene, .under = scene->camera.position[1] < 0};
     FrameData *d = &f.data;
-    d->light_x = (float)sky->direction[0];
-    d->light_y = (float)(f.under ? -sky->direction[1] : sky->direction[1]);
-    d->light_z = (float)sky->direction[2];
-    d->light_radius = (float)sky->tan_radius;
-    d->light_azimuth_x = (float)sky->azimuth[0];
-    d->light_azimuth_z = (float)sky->azimuth[1];
-    d->limb = (float)sky->limb;
-    d->light_visible = scene->light.elevation_deg >= 0 ? 1 : 0;
-    d->light_radiance_r = (float)sky->light_radiance[0];
-    d->light_radiance_g = (float)sky->light_radiance[1];
-    d->light_radiance_b = (float)sky->light_radiance[2];
+    lights_place(sky, &scene->light, f.under, d);
     d->index_of_refraction = (float)(f.under ? 1 / scene->water.index_of_refraction : scene->water.index_of_refraction);
     d->camera_under = f.under;
-    const double light[3] = {sky->direction[0], f.under ? -sky->direction[1] : sky->direction[1], sky->direction[2]};
-    light_axes(light, d);
     double body[3];
     sky_body_radiance(sky, &scene->water, body);
     d->body_r = (float)body[0];

@@ -9,6 +9,7 @@
 #include <stdint.h>
 
 #include "frame/kernel_data.h"
+#include "kernels/common/constants.h"
 #include "mangata/mangata.h"
 
 /* The waves over an interval as a camera meets them: what is the same for every tile. Sorted by amplitude, the largest first. */

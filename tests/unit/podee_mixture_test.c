@@ -122,7 +122,7 @@ static path_case random_case(random_state *r, double widest, double least_elonga
 
 static double share_of(const path_case *p, mgt_kernels kernels, double elongation_limit, bool still)
 {
-    const FrameData data = {.podee_kernels = (int)kernels, .podee_elongation = (float)elongation_limit, .light_radius = 1};
+    const FrameData data = {.podee_kernels = (int)kernels, .podee_elongation = (float)elongation_limit, .lights[0].disk_radius = 1};
     const struct kernel_context cx = {.frame = &data, .podee = &tables};
     const double *from = still ? p->to : p->from;
     return (double)mixture_disk_path(&cx, vec2((float)from[0], (float)from[1]), vec2((float)p->to[0], (float)p->to[1]), (float)p->covariance[0],

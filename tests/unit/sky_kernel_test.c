@@ -36,17 +36,17 @@ KERNEL vec3 sky_texel(CTX cx, real column, real row)
 
 static FrameData frame_of(const sky_state *s)
 {
-    return (FrameData){.light_x = (float)s->direction[0],
-                       .light_y = (float)s->direction[1],
-                       .light_z = (float)s->direction[2],
-                       .light_radius = (float)s->tan_radius,
-                       .light_azimuth_x = (float)s->azimuth[0],
-                       .light_azimuth_z = (float)s->azimuth[1],
-                       .limb = (float)s->limb,
-                       .light_visible = (float)s->light_visible,
-                       .light_radiance_r = (float)s->light_radiance[0],
-                       .light_radiance_g = (float)s->light_radiance[1],
-                       .light_radiance_b = (float)s->light_radiance[2]};
+    return (FrameData){.lights[0].light_x = (float)s->direction[0],
+                       .lights[0].light_y = (float)s->direction[1],
+                       .lights[0].light_z = (float)s->direction[2],
+                       .lights[0].disk_radius = (float)s->tan_radius,
+                       .lights[0].light_azimuth_x = (float)s->azimuth[0],
+                       .lights[0].light_azimuth_z = (float)s->azimuth[1],
+                       .lights[0].limb = (float)s->limb,
+                       .lights[0].light_visible = (float)s->light_visible,
+                       .lights[0].light_radiance_r = (float)s->light_radiance[0],
+                       .lights[0].light_radiance_g = (float)s->light_radiance[1],
+                       .lights[0].light_radiance_b = (float)s->light_radiance[2]};
 }
 
 static sky_state *sunny(double elevation, double azimuth, double radius)
@@ -65,8 +65,8 @@ static void lookup_agrees_with_double(void **unused)
     sky_state *s = sunny(9, 200, 0.2665);
     FrameData frame = frame_of(s);
     /* Both sides see the azimuth that the kernel has. */
-    s->azimuth[0] = frame.light_azimuth_x;
-    s->azimuth[1] = frame.light_azimuth_z;
+    s->azimuth[0] = frame.lights[0].light_azimuth_x;
+    s->azimuth[1] = frame.lights[0].light_azimuth_z;
     struct kernel_context cx = {.frame = &frame, .sky = s->table};
     unsigned seed = 1;
     for (int i = 0; i < 200000; ++i) {
@@ -81,9 +81,9 @@ static void lookup_agrees_with_double(void **unused)
         if (i == 0) {
             x = z = 0, y = 1;
         } else if (i == 1) {
-            x = frame.light_azimuth_x, y = 0, z = frame.light_azimuth_z;
+            x = frame.lights[0].light_azimuth_x, y = 0, z = frame.lights[0].light_azimuth_z;
         } else if (i == 2) {
-            x = -frame.light_azimuth_x, y = 0, z = -frame.light_azimuth_z;
+            x = -frame.lights[0].light_azimuth_x, y = 0, z = -frame.lights[0].light_azimuth_z;
         }
         vec3 fast = sky_radiance(&cx, vec3(x, y, z));
         double exact[3];
@@ -109,7 +109,7 @@ static double disk_at(const struct kernel_context *cx, const sky_state *s, doubl
         square += d[c] * d[c];
     }
     double n = double_sqrt(square);
-    return light_disk_radiance(cx, vec3((float)(d[0] / n), (float)(d[1] / n), (float)(d[2] / n)), (float)pixel).y;
+    return light_disk_radiance(cx, 0, vec3((float)(d[0] / n), (float)(d[1] / n), (float)(d[2] / n)), (float)pixel).y;
 }
 
 static void disk_keeps_its_power_at_every_pixel_size(void **unused)
@@ -153,7 +153,7 @@ static void disk_is_darker_at_the_limb_and_ends(void **unused)
     assert_true(disk_at(&cx, s, 1.02 * r, 0, pixel) == 0);
     double edge = disk_at(&cx, s, r, 0, pixel) / (s->light_radiance[1] * sky_limb_factor(s->limb, 1));
     assert_true(edge > 0.4 && edge < 0.6);
-    vec3 behind = light_disk_radiance(&cx, vec3(-frame.light_x, -frame.light_y, -frame.light_z), (float)pixel);
+    vec3 behind = light_disk_radiance(&cx, 0, vec3(-frame.lights[0].light_x, -frame.lights[0].light_y, -frame.lights[0].light_z), (float)pixel);
     assert_true(behind.x == 0 && behind.y == 0 && behind.z == 0);
     free(s);
 }
