@@ -71,12 +71,12 @@ static void kernel_is_the_engines_product(void **state)
         const double up = random_range(&r, 0.1, 1.4), turn = random_range(&r, -1, 1), deviation[2] = {random_range(&r, 0.02, 0.2), random_range(&r, 0.02, 0.2)};
         const vec3 view = vec3((float)(cos(up) * sin(turn)), (float)sin(up), (float)(cos(up) * cos(turn)));
         const Mirror m = mirror_at(&b->cx, view);
-        const vec3 light = kernel_light_direction(&b->cx);
+        const vec3 light = kernel_light_direction(&b->cx, 0);
         ggx_case c = {.view = {(double)view.x, (double)view.y, (double)view.z},
                       .light = {(double)light.x, (double)light.y, (double)light.z},
                       .mean = {(double)m.slope.x + random_range(&r, -0.2, 0.2), (double)m.slope.y + random_range(&r, -0.2, 0.2)},
                       .covariance = {deviation[0] * deviation[0], random_range(&r, -0.8, 0.8) * deviation[0] * deviation[1], deviation[1] * deviation[1]},
-                      .radius = (double)b->frame.data.light_radius};
+                      .radius = (double)b->frame.data.lights[0].disk_radius};
         const SlopeGaussian g = {vec2((float)c.mean[0], (float)c.mean[1]), (float)c.covariance[0], (float)c.covariance[1], (float)c.covariance[2]};
         const double exact =
             engine_coverage(&c, (double[]){(double)m.slope.x, (double)m.slope.y}, (double[]){(double)m.j_ex, (double)m.j_ez, (double)m.j_fx, (double)m.j_fz});
@@ -101,7 +101,7 @@ static void no_light_is_added(void **state)
         kernel_bench *b = bench_of(89.9, 2);
         const Mirror m = mirror_at(&b->cx, vec3(0, 1, 0));
         const double alpha[2] = {sqrt(2) * deviations[k][0], sqrt(2) * deviations[k][1]};
-        const double rho = 0.5 * (double)b->frame.data.light_radius;
+        const double rho = 0.5 * (double)b->frame.data.lights[0].disk_radius;
         double sum = 0;
         /* Logarithmic rings about the mirror slope. */
         for (int i = 0; i < 400; i++) {
