@@ -584,7 +584,7 @@ static long draw_changing(const engine *e, int first, int count, bool sky_change
         const mgt_scene scene = changing_scene(waves, frame, sky_changes);
         mgt_gl_view view = make_camera(e->depth, 1.5, 0.2 * frame);
         view.framebuffer = e->framebuffer;
-        view.width = (uint32_t)(48 + 8 * (frame % 4));
+        view.width = (uint32_t)(48 + 16 * ((frame % METHODS + frame / METHODS) % 2)); /* each method in both sizes within 2 METHODS frames */
         view.height = 32;
         clear(e);
         draw_views(e, &scene, &view, 1);

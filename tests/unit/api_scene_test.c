@@ -15,6 +15,7 @@
 #include <cmocka.h>
 
 #include "mangata/mangata.h"
+#include "params/methods.h"
 
 enum { SIDE = 8 };
 
@@ -251,7 +252,7 @@ static void water_is_checked(void **state)
 static void quality_is_checked(void **state)
 {
     api_state *a = *state;
-    REFUSE(quality.method, (mgt_method)(MGT_METHOD_ADAPTIVE + 1));
+    REFUSE(quality.method, (mgt_method)method_count);
     REFUSE(quality.method, (mgt_method)-1);
     REFUSE(quality.spatial_samples, 0);
     REFUSE(quality.spatial_samples, 1025);
