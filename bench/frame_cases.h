@@ -29,7 +29,7 @@ typedef struct frame_cases_kernels {
     /* The integral over kept cases; returns something that depends on all of its values. */
     float (*replay)(const disk_path_cases *cases, size_t first, size_t count);
     /* Method mangata over the tile's pixels as far as `stage`; `out` gets what the stage found. */
-    void (*run_stage)(frame_stage stage, const FrameData *frame, const float *sky, const tile_waves *tile, const tile_guess *guess, tile_pixels *out);
+    void (*run_stage)(frame_stage stage, const FrameData *frame, const float *sky, const tile_waves *tile, const tile_estimate *estimate, tile_pixels *out);
 } frame_cases_kernels;
 
 extern const frame_cases_kernels frame_cases_1;

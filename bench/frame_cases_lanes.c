@@ -59,14 +59,14 @@ static float replay(const disk_path_cases *cases, size_t first, size_t count)
     return lanes[0];
 }
 
-static void run_stage(frame_stage stage, const FrameData *frame, const float *sky, const tile_waves *tile, const tile_guess *guess, tile_pixels *out)
+static void run_stage(frame_stage stage, const FrameData *frame, const float *sky, const tile_waves *tile, const tile_estimate *estimate, tile_pixels *out)
 {
-    const struct kernel_context context = {.frame = frame, .tile = &tile->data, .waves = tile->waves, .march = tile->march, .sky = sky};
+    const struct kernel_context context = {.frame = frame, .tile = &tile->data, .waves = tile->waves, .search = tile->search, .sky = sky};
     pixel_grid grid;
     tile_looks looks = {.places = all_pixels(&grid)};
     for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES)
         store(out->water + i, pixel_rays(&context, &looks.places, i).water);
-    look_at_tile(&context, guess, out->water, &looks);
+    look_at_tile(&context, estimate, out->water, &looks);
     for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
         const PixelRay p = pixel_rays(&context, &looks.places, i);
         if (!any_lane(p.water > real(0.0f)))

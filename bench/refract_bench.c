@@ -148,7 +148,7 @@ static void print_run(const pool_case *c, pool_run *run, int runs)
 {
     const timing one = timing_of(run->seconds[0], (size_t)runs), two = timing_of(run->seconds[1], (size_t)runs);
     printf("| %s | %zu | %zu + %zu | %.1f | %.2f (%.2f – %.2f) | %.2f (%.2f – %.2f) |\n", c->name, run->world->triangle_count,
-           run->layers.counts.near_triangles, run->layers.counts.far_triangles, 1e-6 * (double)world_size(run->world), 1e3 * one.median, 1e3 * one.least,
+           run->layers.counts.front_triangles, run->layers.counts.far_triangles, 1e-6 * (double)world_size(run->world), 1e3 * one.median, 1e3 * one.least,
            1e3 * one.most, 1e3 * two.median, 1e3 * two.least, 1e3 * two.most);
 }
 

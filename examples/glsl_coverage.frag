@@ -8,20 +8,20 @@ layout(std140, binding = 0) uniform FrameBlock { FrameData frame; };
 layout(std140, binding = 1) uniform TileBlock { TileData whole_image; };
 layout(std140, binding = 2) uniform WaveBlock { WaveData waves[128]; };
 
-/* A variable of this pixel, since each has waves of its own to march over. */
+/* A variable of this pixel, since each has waves of its own to search over. */
 TileData tile;
 
 #define FRAME(cx) frame
 #define TILE(cx) tile
 #define WAVE(cx, i) waves[i]
-#define MARCH_WAVE(cx, i) MarchWave(waves[i].turns_x, waves[i].turns_z, waves[i].phase, waves[i].even_height)
+#define SEARCH_WAVE(cx, i) SearchWave(waves[i].turns_x, waves[i].turns_z, waves[i].phase, waves[i].even_height)
 #define SKY_TEXEL(cx, column, row) vec3(0.0) /* coverage asks for no sky */
 #include "mangata_glitter.glsl"
 
 layout(location = 0) out float coverage;
 
 /* Waves come longest first: those below a quarter of a cycle a pixel steer the first hit, the others would only add noise to it. */
-int marched_waves(vec3 ray)
+int searched_waves(vec3 ray)
 {
     Footprint pixel = footprint_at(0, ray, tile.camera_height / -ray.y);
     int count = 0;
@@ -36,8 +36,8 @@ void main()
     PixelRay p = pixel_ray_filtered(0, gl_FragCoord.x - 0.5, gl_FragCoord.y - 0.5);
     coverage = 0.0;
     if (p.water > 0.0) {
-        tile.march_count = tile.coarse_count = marched_waves(p.ray);
-        SlopeState slopes = slope_state(0, p.ray, HitGuess(0.0, 0.0, 1.0)); /* from the camera, march */
+        tile.search_count = tile.coarse_count = searched_waves(p.ray);
+        SlopeState slopes = slope_state(0, p.ray, HitEstimate(0.0, 0.0, 1.0)); /* from the camera, search */
         coverage = p.water * glitter_coverage(0, slopes, slopes);
     }
 }

@@ -74,7 +74,7 @@ bool quality_options_apply(const quality_options *options, const mgt_quality *ba
     mgt_quality *q = &o.choice.values;
     const field_row *kernels = field_find(quality_fields, "kernels", 7), *spatial = field_find(quality_fields, "spatial", 7);
     if (o.integral && quality_is_chosen(&o.choice, kernels)) {
-        if ((o.integral == 1) != (q->kernels == MGT_KERNELS_EXACT))
+        if ((o.integral == 1) != (q->kernels == MGT_MIXTURE_EXACT))
             return snprintf(wrong, size, "--integral and --kernels contradict each other"), false;
     } else if (o.integral) {
         quality_choose(&o.choice, kernels, o.integral == 1 ? "exact" : "9");

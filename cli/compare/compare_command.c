@@ -53,7 +53,7 @@ char *compare_picture_command(const compare_job *job, const compare_scene *scene
             frames);
     if (picture == COMPARE_REFERENCE)
         fprintf(stream, " --method reference --spatial %u --time-samples %u%s", q->spatial_samples, q->time_samples,
-                q->refraction == MGT_REFRACTION_TRUTH ? " --refraction truth" : "");
+                q->refraction == MGT_REFRACTION_PATH_TRACED ? " --refraction truth" : "");
     else
         fprintf(stream, " %s", r->methods[picture - 1].options);
     if (q->seed)

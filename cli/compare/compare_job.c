@@ -184,7 +184,7 @@ static int load_scene(compare_job *job, size_t index)
     scene->height = first.image.height;
     scene->black_sky = first.sky.model == MGT_SKY_BLACK;
     if (first.object_count > 0)
-        scene->reference.refraction = MGT_REFRACTION_TRUTH;
+        scene->reference.refraction = MGT_REFRACTION_PATH_TRACED;
     const compare_scene *other = &job->scenes[0];
     if (r->gate_count && (scene->width != other->width || scene->height != other->height))
         return console_error(EXIT_CODE_USAGE, "%s has %u x %u pixels, %s has %u x %u; a limit scores all scenes as one clip, so give --size", other->path,

@@ -14,7 +14,7 @@ static const double pi = 3.14159265358979323846;
 /* The ways of Fig. 17, in its order. */
 enum { WAYS = 6 };
 static const figure_method way_methods[WAYS] = {FIGURE_KERNELS_1, FIGURE_KERNELS_3, FIGURE_KERNELS_5, FIGURE_KERNELS_9, FIGURE_FELINE, FIGURE_RIEMANN};
-static const mgt_kernels way_kernels[WAYS] = {MGT_KERNELS_1, MGT_KERNELS_3, MGT_KERNELS_5, MGT_KERNELS_9, MGT_KERNELS_FELINE, MGT_KERNELS_RIEMANN};
+static const mgt_mixture way_kernels[WAYS] = {MGT_MIXTURE_1, MGT_MIXTURE_3, MGT_MIXTURE_5, MGT_MIXTURE_9, MGT_MIXTURE_FELINE, MGT_MIXTURE_RIEMANN};
 static const char *const way_dashes[WAYS] = {"", "", "", "", "7 4", "2 3"};
 enum { WAY_5 = 2, WAY_9 = 3, WAY_FELINE = 4, WAY_RIEMANN = 5 };
 
@@ -197,7 +197,7 @@ static int still_sums(figures_job *f, size_t scene, double sums[2])
                 break;
             }
             view.shutter = 0;
-            view.quality.kernels = way ? MGT_KERNELS_RIEMANN : MGT_KERNELS_9;
+            view.quality.kernels = way ? MGT_MIXTURE_RIEMANN : MGT_MIXTURE_9;
             view.quality.elongation_limit = way ? 0 : 9;
             const mgt_status status = mgt_render(job->context, &view, &target, 1);
             code = status == MGT_OK ? figures_step(f) : console_library_error(job->context, status);

@@ -46,7 +46,7 @@ typedef enum mgt_status {
 } mgt_status;
 
 /* The names of enums and back, here and in the other headers: mgt_x_name() gives the word that commands and files use, static, or NULL for what is no
- * value of the enum; values count up from 0 (but mgt_kernels), so that the first NULL ends a list. mgt_x_from_name() returns false, and writes nothing,
+ * value of the enum; values count up from 0 (but mgt_mixture), so that the first NULL ends a list. mgt_x_from_name() returns false, and writes nothing,
  * where there is no such name. */
 MGT_API const char *mgt_status_name(mgt_status status);
 MGT_API bool mgt_status_from_name(const char *name, mgt_status *status);

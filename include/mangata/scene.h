@@ -33,11 +33,11 @@ typedef struct mgt_camera {
     double fov_y_deg;   /* vertical field of view, (0, 179) */
 } mgt_camera;
 
-typedef enum mgt_body { MGT_BODY_SUN = 0, MGT_BODY_MOON = 1 } mgt_body;
+typedef enum mgt_source { MGT_SOURCE_SUN = 0, MGT_SOURCE_MOON = 1 } mgt_source;
 
 /* One spherical light at infinity. Direction to it: (sin az·cos el, sin el, −cos az·cos el). */
 typedef struct mgt_light {
-    mgt_body body;             /* kind of sky around it, limb darkening */
+    mgt_source body;           /* kind of sky around it, limb darkening */
     double elevation_deg;      /* [−90, 90]; below 0 no direct light meets the water */
     double azimuth_deg;        /* ±1e6 */
     double angular_radius_deg; /* [1e-4, 20] */
@@ -133,7 +133,7 @@ typedef enum mgt_refraction {
     MGT_REFRACTION_SCREEN_SPACE,   /* McGuire and Mara 2014: rays marched through the depth buffer */
     MGT_REFRACTION_DISTANCE_FIELD, /* Rodgman and Chen 2001: rays marched through voxels of distances */
     MGT_REFRACTION_OFF,            /* straight through */
-    MGT_REFRACTION_TRUTH           /* rays traced through the waves as they are, many a pixel (CPU backend only) */
+    MGT_REFRACTION_PATH_TRACED     /* rays traced through the waves as they are, many a pixel (CPU backend only) */
 } mgt_refraction;
 
 /* How method adaptive finds the pixels that need more, and what it gives them. */
@@ -143,32 +143,32 @@ typedef enum mgt_adaptive {
 } mgt_adaptive;
 
 /* How podee-* integrates its Gaussian over the light disk and the shutter. */
-typedef enum mgt_kernels {
-    MGT_KERNELS_EXACT = 0, /* the ellipse itself, in closed form */
-    MGT_KERNELS_1 = 1,     /* so many circular Gaussians, fitted (P1 App. C), from tables of 64 MiB that the context keeps */
-    MGT_KERNELS_3 = 3,
-    MGT_KERNELS_5 = 5,
-    MGT_KERNELS_9 = 9,
-    MGT_KERNELS_FELINE = 32, /* circular Gaussians placed by the formulae of McCormack et al. 1999 */
-    MGT_KERNELS_RIEMANN = 33 /* a sum over the disk when the shutter closes: P1's fallback, everywhere */
-} mgt_kernels;
+typedef enum mgt_mixture {
+    MGT_MIXTURE_EXACT = 0, /* the ellipse itself, in closed form */
+    MGT_MIXTURE_1 = 1,     /* so many circular Gaussians, fitted (P1 App. C), from tables of 64 MiB that the context keeps */
+    MGT_MIXTURE_3 = 3,
+    MGT_MIXTURE_5 = 5,
+    MGT_MIXTURE_9 = 9,
+    MGT_MIXTURE_FELINE = 32, /* circular Gaussians placed by the formulae of McCormack et al. 1999 */
+    MGT_MIXTURE_RIEMANN = 33 /* a sum over the disk when the shutter closes: P1's fallback, everywhere */
+} mgt_mixture;
 
-MGT_API const char *mgt_body_name(mgt_body body);
+MGT_API const char *mgt_source_name(mgt_source body);
 MGT_API const char *mgt_sky_model_name(mgt_sky_model model);
 MGT_API const char *mgt_tone_map_name(mgt_tone_map tone_map);
 MGT_API const char *mgt_method_name(mgt_method method);
 MGT_API const char *mgt_method_waves_name(mgt_method_waves waves);
 MGT_API const char *mgt_refraction_name(mgt_refraction refraction);
 MGT_API const char *mgt_adaptive_name(mgt_adaptive adaptive);
-MGT_API const char *mgt_kernels_name(mgt_kernels kernels);
-MGT_API bool mgt_body_from_name(const char *name, mgt_body *body);
+MGT_API const char *mgt_mixture_name(mgt_mixture kernels);
+MGT_API bool mgt_source_from_name(const char *name, mgt_source *body);
 MGT_API bool mgt_sky_model_from_name(const char *name, mgt_sky_model *model);
 MGT_API bool mgt_tone_map_from_name(const char *name, mgt_tone_map *tone_map);
 MGT_API bool mgt_method_from_name(const char *name, mgt_method *method);
 MGT_API bool mgt_method_waves_from_name(const char *name, mgt_method_waves *waves);
 MGT_API bool mgt_refraction_from_name(const char *name, mgt_refraction *refraction);
 MGT_API bool mgt_adaptive_from_name(const char *name, mgt_adaptive *adaptive);
-MGT_API bool mgt_kernels_from_name(const char *name, mgt_kernels *kernels);
+MGT_API bool mgt_mixture_from_name(const char *name, mgt_mixture *kernels);
 
 /* How much work goes into which approximation. The words before a colon are the methods or ways of refraction that read a member. */
 typedef struct mgt_quality {
@@ -179,9 +179,9 @@ typedef struct mgt_quality {
     uint64_t sample_count;       /* ssaa, reference: how many samples to take; 0: all that remain */
     uint64_t seed;               /* of the jitter */
     bool ndf_mean_drop;          /* podee-pixel: leave the mean slope B out of the path (P1 Eq. 4 as printed) */
-    mgt_kernels kernels;         /* podee-*: what stands for the elliptical Gaussian on the light plane */
+    mgt_mixture kernels;         /* podee-*: what stands for the elliptical Gaussian on the light plane */
     double elongation_limit;     /* podee-* with kernels: ellipses longer than this, major over minor axis, are summed without time as by
-                                 MGT_KERNELS_RIEMANN, 1 … 1e6; 0: as many as there are kernels (P1 §3.6), and 1e6 for 1 kernel and Feline */
+                                 MGT_MIXTURE_RIEMANN, 1 … 1e6; 0: as many as there are kernels (P1 §3.6), and 1e6 for 1 kernel and Feline */
     uint32_t path_segments;      /* podee-*: straight pieces of the shutter, each with its own Gaussian, 1 … 64; 0: 1 */
     double transition_width;     /* podee-*: cycles per pixel below the Nyquist limit of 0.5 in which waves turn from resolved to unresolved
                                  (Eq. 20), up to 0.5; 0: 0.3 */
@@ -235,7 +235,7 @@ MGT_API void mgt_scene_init(mgt_scene *scene, size_t size);
 MGT_API void mgt_quality_init(mgt_quality *quality, size_t size);
 
 /* Radius (degrees), radiance outside the atmosphere and limb of a body, placed at elevation 30°, azimuth 0. */
-MGT_API void mgt_light_init(mgt_light *light, mgt_body body);
+MGT_API void mgt_light_init(mgt_light *light, mgt_source body);
 
 #ifdef __cplusplus
 }

@@ -98,7 +98,7 @@ void mgt_scene_init(mgt_scene *scene, size_t size)
     if (!scene || size < offsetof(mgt_scene, quality))
         return;
     const mgt_quality quality = quality_defaults();
-    scene->light = light_defaults[MGT_BODY_SUN];
+    scene->light = light_defaults[MGT_SOURCE_SUN];
     fill(&scene->quality, size - offsetof(mgt_scene, quality), &quality, sizeof quality);
 }
 
@@ -113,10 +113,10 @@ void mgt_quality_init(mgt_quality *quality, size_t size)
         fill(quality, size, &defaults, sizeof defaults);
 }
 
-void mgt_light_init(mgt_light *light, mgt_body body)
+void mgt_light_init(mgt_light *light, mgt_source body)
 {
     if (light)
-        *light = light_defaults[body == MGT_BODY_MOON];
+        *light = light_defaults[body == MGT_SOURCE_MOON];
 }
 
 /* ---- reading and filling ---- */

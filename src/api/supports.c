@@ -17,7 +17,7 @@ const char *gl_lacks(const mgt_scene *scene)
         return "the method runs";
     if (scene->object_count == 0)
         return NULL;
-    if (refraction == MGT_REFRACTION_DISTANCE_FIELD || refraction == MGT_REFRACTION_TRUTH)
+    if (refraction == MGT_REFRACTION_DISTANCE_FIELD || refraction == MGT_REFRACTION_PATH_TRACED)
         return "refraction distance-field and truth run";
     if (refraction == MGT_REFRACTION_LIU && scene->camera.position[1] < 0)
         return "refraction liu from under water runs";
@@ -40,7 +40,7 @@ bool mgt_supports(mgt_backend backend, const mgt_scene *scene, mgt_layer layer)
     if (scene_take(&r, &own, scene) != MGT_OK || mgt_layer_channels(layer) == 0)
         return false;
     scene_to_sea_level(&own);
-    const bool traces = own.object_count > 0 && (own.quality.refraction == MGT_REFRACTION_HYBRID || own.quality.refraction == MGT_REFRACTION_TRUTH);
+    const bool traces = own.object_count > 0 && (own.quality.refraction == MGT_REFRACTION_HYBRID || own.quality.refraction == MGT_REFRACTION_PATH_TRACED);
     const bool gl = gl_backend.render && !gl_lacks_layer(&own, layer), cpu = !traces || trace_available();
     switch (backend) {
     case MGT_BACKEND_CPU:

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * Method adaptive: pixels of method `mangata` are split into four cells again and again where that is worth most.
  *
- * A picture of pixels comes first. Every pixel or cell says how far off its coverage may be; the leaves of this forest are split in order of the
+ * A picture of pixels comes first. Every pixel or cell says how far off its coverage may be; the leaves of this refinement are split in order of the
  * squared error that this may save for each evaluation of the waves. That goes in rounds, for the cells of a round tell what the next one is worth.
  * Sums are kept per tile in a fixed order and counted in whole numbers across tiles, so that threads change nothing. */
 #define _POSIX_C_SOURCE 199309L
@@ -11,7 +11,7 @@
 #include <string.h>
 #include <time.h>
 
-#include "cpu/forest.h"
+#include "cpu/refinement.h"
 
 /* ---- the picture of pixels ---- */
 
@@ -45,7 +45,7 @@ static ViewData finer(const ViewData *view, int across, int down)
 }
 
 /* Sorts the tile's waves of a set for cells; returns what the kernels are told of the frame then. */
-static FrameData sort_set(const forest *f, size_t tile, const wave_set *set, int across, int down, tile_waves *out)
+static FrameData sort_set(const refinement *f, size_t tile, const wave_set *set, int across, int down, tile_waves *out)
 {
     FrameData data = f->a->frame->data;
     data.pixel_angle = ldexpf(data.pixel_angle, across > down ? -across : -down);
@@ -60,22 +60,22 @@ static FrameData sort_set(const forest *f, size_t tile, const wave_set *set, int
 }
 
 /* One piece of the shutter: into s->close, and s->open where the camera moves. */
-static FrameData sort_cells(const forest *f, size_t tile, int across, int down, int part, tile_scratch *s)
+static FrameData sort_cells(const refinement *f, size_t tile, int across, int down, int part, tile_scratch *s)
 {
-    const shutter_parts *parts = forest_parts(f, (across + down) / 2);
+    const shutter_parts *parts = refinement_parts(f, (across + down) / 2);
     const FrameData data = sort_set(f, tile, parts->sets[f->moves ? part + 1 : part], across, down, &s->close);
     if (f->moves)
         sort_set(f, tile, parts->sets[part], across, down, &s->open);
     if (f->moves)
         s->close.data.light_reach = s->open.data.light_reach = s->close.data.light_reach | s->open.data.light_reach;
-    forest_price(f, &f->tiles[tile], (across + down) / 2, s->close.data.resolved_count + s->close.data.mixed_count);
+    refinement_price(f, &f->tiles[tile], (across + down) / 2, s->close.data.resolved_count + s->close.data.mixed_count);
     return data;
 }
 
 /* What a squared error of the pixel's luminance is worth in the displayed picture: tone maps show relative errors where it is bright, and to the eye many
  * small errors are worse than few large ones, so that it is divided by the 3/4th power of what the pixel begins with. Under a black sky, where the
  * glitter is all there is, only the first holds. */
-static float weight_of(const forest *f, const leaf *l)
+static float weight_of(const refinement *f, const leaf *l)
 {
     const float luminance = 0.2126f * l->color[0] + 0.7152f * l->color[1] + 0.0722f * l->color[2];
     const float slope = 1 / (1 + f->a->frame->data.exposure * luminance), weight = slope * slope;
@@ -87,23 +87,23 @@ static float weight_of(const forest *f, const leaf *l)
 
 static void plant_tile(void *argument, size_t tile, uint32_t worker)
 {
-    forest *f = argument;
+    refinement *f = argument;
     const adaptive_frame *a = f->a;
     const picture_planes *p = f->out;
     tile_scratch *s = a->scratch[worker];
     tile_detail *detail = &f->cells[worker]->detail;
-    forest_tile *t = &f->tiles[tile];
+    refinement_tile *t = &f->tiles[tile];
     const FrameData data = sort_cells(f, tile, 0, 0, 0, s);
-    tile_find_guesses(a->kernels, &data, &s->close, &s->close_guess);
+    tile_find_estimates(a->kernels, &data, &s->close, &s->close_estimate);
     if (f->moves)
-        tile_find_guesses(a->kernels, &data, &s->open, &s->open_guess);
+        tile_find_estimates(a->kernels, &data, &s->open, &s->open_estimate);
     const method_tile shaded = {.frame = &data,
                                 .sky = a->sky,
                                 .light = a->objects ? &a->objects[tile].light : NULL,
                                 .close = &s->close,
-                                .close_guess = &s->close_guess,
+                                .close_estimate = &s->close_estimate,
                                 .open = f->moves ? &s->open : NULL,
-                                .open_guess = &s->open_guess,
+                                .open_estimate = &s->open_estimate,
                                 .detail = detail};
     a->kernels->method(MGT_METHOD_MANGATA, &shaded, &s->pixels);
     const uint32_t left = (uint32_t)(tile % f->columns) * TILE_WIDTH, top = (uint32_t)(tile / f->columns) * TILE_HEIGHT;
@@ -117,7 +117,7 @@ static void plant_tile(void *argument, size_t tile, uint32_t worker)
             p->importance[to] = sqrtf(l.variance);
             p->samples[to] = l.water > 0 ? (float)t->cost[0] : 0;
             t->spent += (double)p->samples[to];
-            if (!forest_add(f, tile, l))
+            if (!refinement_add(f, tile, l))
                 atomic_store(&f->failed, true);
         }
 }
@@ -138,13 +138,13 @@ static void add_part(const tile_cells *part, float share, tile_cells *sum)
 }
 
 /* Renders the cells that wait, all of one size. */
-static bool grow(const forest *f, size_t tile, int across, int down, uint32_t worker)
+static bool grow(const refinement *f, size_t tile, int across, int down, uint32_t worker)
 {
     const adaptive_frame *a = f->a;
     tile_cells *cells = f->cells[worker], *sum = f->sums[worker];
     tile_scratch *s = a->scratch[worker];
-    forest_tile *t = &f->tiles[tile];
-    const int level = (across + down) / 2, parts = forest_parts(f, level)->count;
+    refinement_tile *t = &f->tiles[tile];
+    const int level = (across + down) / 2, parts = refinement_parts(f, level)->count;
     memset(&sum->pixels, 0, sizeof sum->pixels);
     memset(&sum->detail, 0, sizeof sum->detail);
     cells->light = NULL;
@@ -169,7 +169,7 @@ static bool grow(const forest *f, size_t tile, int across, int down, uint32_t wo
         l.level = (uint8_t)level;
         f->out->samples[leaf_pixel(f, tile, &l)] += (float)t->cost[level];
         t->spent += t->cost[level];
-        if (!forest_add(f, tile, l))
+        if (!refinement_add(f, tile, l))
             return false;
     }
     cells->count = 0;
@@ -182,14 +182,14 @@ static void add_children(tile_cells *cells, const leaf *l)
     for (uint32_t k = 0; k < 4; k++) {
         cells->column[cells->count] = (float)(l->column * wide + k % wide);
         cells->row[cells->count] = (float)((l->row << halvings[l->shape][1]) + k / wide);
-        cells->guess.height[cells->count++] = l->height;
+        cells->estimate.height[cells->count++] = l->height;
     }
 }
 
 /* The chosen leaves whose children have one size; `end` is how many leaves there were before the round. */
-static bool split_size(const forest *f, size_t tile, int across, int down, size_t end, uint32_t worker)
+static bool split_size(const refinement *f, size_t tile, int across, int down, size_t end, uint32_t worker)
 {
-    forest_tile *t = &f->tiles[tile];
+    refinement_tile *t = &f->tiles[tile];
     tile_cells *cells = f->cells[worker];
     cells->count = 0;
     for (size_t i = 0; i < end; i++) {
@@ -205,8 +205,8 @@ static bool split_size(const forest *f, size_t tile, int across, int down, size_
 
 static void split_tile(void *argument, size_t tile, uint32_t worker)
 {
-    forest *f = argument;
-    forest_tile *t = &f->tiles[tile];
+    refinement *f = argument;
+    refinement_tile *t = &f->tiles[tile];
     const size_t end = t->count;
     bool sizes[SIDES][SIDES] = {{false}}, points = false;
     for (size_t i = 0; i < end; i++) {
@@ -223,7 +223,7 @@ static void split_tile(void *argument, size_t tile, uint32_t worker)
                 atomic_store(&f->failed, true);
                 return;
             }
-    if (points && !forest_scatter_points(f, tile, end, worker)) {
+    if (points && !refinement_scatter_points(f, tile, end, worker)) {
         atomic_store(&f->failed, true);
         return;
     }
@@ -243,7 +243,7 @@ static void split_tile(void *argument, size_t tile, uint32_t worker)
 static void settle_tile(void *argument, size_t tile, uint32_t worker)
 {
     (void)worker;
-    const forest *f = argument;
+    const refinement *f = argument;
     for (size_t i = 0; i < f->tiles[tile].count; i++)
         leaf_settle(f, tile, &f->tiles[tile].leaves[i]);
 }
@@ -263,17 +263,17 @@ typedef struct frame_budget {
 } frame_budget;
 
 /* How much the next round may spend; 0: it is enough. Little at first, while little is known. */
-static double next_share(const forest *f, frame_budget *b, size_t round)
+static double next_share(const refinement *f, frame_budget *b, size_t round)
 {
     static const double shares[] = {0.15, 0.25, 0.35, 0.5, 0.7, 1, 1, 1, 1, 1};
     enum { SHARES = sizeof shares / sizeof *shares, MOST_ROUNDS = 40 };
     const mgt_quality *q = &f->a->frame->scene->quality;
-    const double used = forest_spent(f);
+    const double used = refinement_spent(f);
     if (q->target_rmse > 0)
-        return round < MOST_ROUNDS && forest_predicted_rmse(f) > q->target_rmse ? 0.3 * used : 0;
+        return round < MOST_ROUNDS && refinement_predicted_rmse(f) > q->target_rmse ? 0.3 * used : 0;
     if (q->budget_ms > 0) {
         const double time = now(), left = b->end - time;
-        /* The first pixels are cheaper than cells: half of their speed is a careful guess. */
+        /* The first pixels are cheaper than cells: half of their speed is a careful estimate. */
         const double speed = round == 0 ? 0.5 * used / (time - b->began) : (used - b->before) / (time - b->round_began);
         /* A round may be three times as slow as the last one, when its cells turn to points. */
         const double share = round == 0 ? 0.2 : 0.3;
@@ -286,26 +286,26 @@ static double next_share(const forest *f, frame_budget *b, size_t round)
 }
 
 /* Within a round, on the caller's thread. */
-static bool tell_progress(void *argument, double fraction)
+static bool report_progress(void *argument, double fraction)
 {
-    const forest *f = argument;
+    const refinement *f = argument;
     return f->a->keep_going(f->a->keep_going_argument, fmin(f->done + f->share * fraction, 1));
 }
 
-static mgt_status run_rounds(forest *f)
+static mgt_status run_rounds(refinement *f)
 {
     const adaptive_frame *a = f->a;
     const mgt_quality *q = &a->frame->scene->quality;
     const size_t tiles = (size_t)f->columns * f->rows;
-    const thread_loop plant = {tiles, plant_tile, f, NULL}, split = {tiles, split_tile, f, tell_progress}, end = {tiles, settle_tile, f, NULL};
+    const thread_loop plant = {tiles, plant_tile, f, NULL}, split = {tiles, split_tile, f, report_progress}, end = {tiles, settle_tile, f, NULL};
     frame_budget budget = {.began = now()};
     /* Some of the time is for what follows: settling the leaves, and the display. */
     budget.end = budget.began + 1e-3 * q->budget_ms - 4e-9 * (double)f->out->width * f->out->height;
     thread_pool_run(a->pool, &plant);
-    budget.evaluations = (q->samples > 0 ? q->samples : 8) * forest_water(f);
+    budget.evaluations = (q->samples > 0 ? q->samples : 8) * refinement_water(f);
     double share;
-    for (size_t round = 0; !atomic_load(&f->failed) && (share = next_share(f, &budget, round)) > 0 && forest_plan(f, share, round); round++) {
-        f->done = forest_spent(f) / budget.evaluations;
+    for (size_t round = 0; !atomic_load(&f->failed) && (share = next_share(f, &budget, round)) > 0 && refinement_plan(f, share, round); round++) {
+        f->done = refinement_spent(f) / budget.evaluations;
         f->share = share / budget.evaluations;
         if (!thread_pool_run(a->pool, &split))
             return MGT_CANCELLED;
@@ -317,13 +317,13 @@ static mgt_status run_rounds(forest *f)
 /* ---- a frame ---- */
 
 /* How far the slopes' path over a piece of the shutter strays from a straight one, RMS, over the light's radius in slopes. */
-static double path_bend(const forest *f, int parts)
+static double path_bend(const refinement *f, int parts)
 {
     const mgt_scene *s = f->a->frame->scene;
     return sines_path_bend(&s->water, s->shutter / 2 / parts) / (0.5 * (double)f->a->frame->data.lights[0].disk_radius);
 }
 
-static void place_parts(const forest *f, shutter_parts *p)
+static void place_parts(const refinement *f, shutter_parts *p)
 {
     const frame *whole = f->a->frame;
     const mgt_scene *s = whole->scene;
@@ -334,7 +334,7 @@ static void place_parts(const forest *f, shutter_parts *p)
     }
 }
 
-static void place_waves(forest *f)
+static void place_waves(refinement *f)
 {
     static const double allowed[] = {1e9, 0.5, 0.02};
     for (int k = 0; k < 3; k++) {
@@ -344,20 +344,20 @@ static void place_waves(forest *f)
             p->count *= 2;
         place_parts(f, p);
     }
-    forest_place_instants(f);
+    refinement_place_instants(f);
 }
 
-mgt_status adaptive_render(const adaptive_frame *a, forest **kept, const picture_planes *out)
+mgt_status adaptive_render(const adaptive_frame *a, refinement **kept, const picture_planes *out)
 {
     if (*kept && ((*kept)->width != out->width || (*kept)->height != out->height)) {
-        forest_free(*kept);
+        refinement_free(*kept);
         *kept = NULL;
     }
     if (!*kept)
-        *kept = forest_make(a, out);
+        *kept = refinement_make(a, out);
     if (!*kept)
         return MGT_ERROR_MEMORY;
-    forest_clear(*kept, a, out);
+    refinement_clear(*kept, a, out);
     place_waves(*kept);
     return run_rounds(*kept);
 }

@@ -21,10 +21,10 @@ typedef struct adaptive_frame {
 } adaptive_frame;
 
 /* Memory that frames of one size share; nothing else outlives a frame. */
-typedef struct forest forest;
+typedef struct refinement refinement;
 
 /* Fills all planes but depth. MGT_ERROR_MEMORY where memory is short. *kept: NULL at first, made and remade as frames need it. */
-mgt_status adaptive_render(const adaptive_frame *a, forest **kept, const picture_planes *out);
-void forest_free(forest *f);
+mgt_status adaptive_render(const adaptive_frame *a, refinement **kept, const picture_planes *out);
+void refinement_free(refinement *f);
 
 #endif

@@ -161,12 +161,12 @@ static void list_tasks(const detail_job *job, size_t tile, tile_tasks *tasks)
 
 /* ---- samples ---- */
 
-static void see_tile(const detail_job *job, size_t tile, const wave_set *set, tile_waves *waves, tile_guess *guess)
+static void see_tile(const detail_job *job, size_t tile, const wave_set *set, tile_waves *waves, tile_estimate *estimate)
 {
     const adaptive_frame *a = job->a;
     const uint32_t x = (uint32_t)(tile % job->columns), y = (uint32_t)(tile / job->columns);
     a->kernels->sort(&a->frame->data, set, &set->view, x, y, waves);
-    tile_find_guesses(a->kernels, &a->frame->data, waves, guess);
+    tile_find_estimates(a->kernels, &a->frame->data, waves, estimate);
 }
 
 /* A random place in the pixel for its next sample. */
@@ -215,9 +215,9 @@ static bool take_samples(detail_job *job, size_t tile, const tile_tasks *tasks, 
                            .sky = a->sky,
                            .light = a->objects ? &s->objects.light : NULL,
                            .close = &s->close,
-                           .close_guess = &s->close_guess,
+                           .close_estimate = &s->close_estimate,
                            .open = job->open ? &s->open : NULL,
-                           .open_guess = job->open ? &s->open_guess : NULL};
+                           .open_estimate = job->open ? &s->open_estimate : NULL};
     const tile_corner corner = corner_of(job, tile);
     temporal_rays rays;
     uint64_t batches = 0;
@@ -278,9 +278,9 @@ static void sample_tile(void *argument, size_t tile, uint32_t worker)
     float frequencies[TILE_PIXELS];
     memset(&sums, 0, sizeof sums);
     list_tasks(job, tile, &tasks);
-    see_tile(job, tile, job->close, &s->close, &s->close_guess);
+    see_tile(job, tile, job->close, &s->close, &s->close_estimate);
     if (job->open)
-        see_tile(job, tile, job->open, &s->open, &s->open_guess);
+        see_tile(job, tile, job->open, &s->open, &s->open_estimate);
     if (!take_samples(job, tile, &tasks, first, end, worker, &sums))
         return;
     const method_tile t = {.frame = &a->frame->data, .close = &s->close};

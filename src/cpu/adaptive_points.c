@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cpu/forest.h"
+#include "cpu/refinement.h"
 
 /* Points that wait to be rendered, and the leaf that each belongs to. */
 typedef struct point_batch {
@@ -23,13 +23,13 @@ static void add_point(const leaf *l, double shift, int index, uint32_t owner, po
     s->jitter_y[i] = (float)(ldexp(l->row + v - floor(v), -l->down) - 0.5 - i / TILE_WIDTH);
     const size_t pixel = (size_t)(l->row >> l->down) * TILE_WIDTH + (l->column >> l->across);
     batch->pixel[i] = (uint16_t)pixel;
-    s->close_guess.height[i] = s->open_guess.height[pixel];
-    s->close_guess.from[i] = s->open_guess.from[pixel];
-    s->close_guess.march[i] = s->open_guess.march[pixel];
+    s->close_estimate.height[i] = s->open_estimate.height[pixel];
+    s->close_estimate.from[i] = s->open_estimate.from[pixel];
+    s->close_estimate.search[i] = s->open_estimate.search[pixel];
 }
 
 /* Sums of color, coverage and water go to sums[5 × owner]. */
-static void render_points(const forest *f, size_t tile, point_batch *batch, tile_scratch *s, double *sums)
+static void render_points(const refinement *f, size_t tile, point_batch *batch, tile_scratch *s, double *sums)
 {
     const tile_opened *objects = f->a->objects;
     for (int i = batch->count; i < TILE_PIXELS; i++) {
@@ -39,7 +39,7 @@ static void render_points(const forest *f, size_t tile, point_batch *batch, tile
     memset(&s->pixels, 0, sizeof s->pixels);
     if (objects)
         light_of_pixels(&objects[tile].light, batch->pixel, (size_t)batch->count, &s->objects.light);
-    f->a->kernels->sample(&f->a->frame->data, f->a->sky, objects ? &s->objects.light : NULL, &s->close, &s->close_guess, s->jitter_x, s->jitter_y, 1,
+    f->a->kernels->sample(&f->a->frame->data, f->a->sky, objects ? &s->objects.light : NULL, &s->close, &s->close_estimate, s->jitter_x, s->jitter_y, 1,
                           &s->pixels);
     for (int i = 0; i < batch->count; i++) {
         double *sum = sums + 5 * batch->owner[i];
@@ -65,10 +65,10 @@ static void take_points(leaf *l, const double sums[5])
     l->points = (uint16_t)end;
 }
 
-bool forest_scatter_points(const forest *f, size_t tile, size_t end, uint32_t worker)
+bool refinement_scatter_points(const refinement *f, size_t tile, size_t end, uint32_t worker)
 {
     const adaptive_frame *a = f->a;
-    forest_tile *t = &f->tiles[tile];
+    refinement_tile *t = &f->tiles[tile];
     tile_scratch *s = a->scratch[worker];
     double *sums = calloc(5 * end, sizeof *sums);
     point_batch batch = {0};
@@ -77,7 +77,7 @@ bool forest_scatter_points(const forest *f, size_t tile, size_t end, uint32_t wo
     for (int k = 0; k < INSTANTS; k++) {
         const wave_set *set = f->instants[k];
         a->kernels->sort(&a->frame->data, set, &set->view, (uint32_t)(tile % f->columns), (uint32_t)(tile / f->columns), &s->close);
-        tile_find_guesses(a->kernels, &a->frame->data, &s->close, &s->open_guess);
+        tile_find_estimates(a->kernels, &a->frame->data, &s->close, &s->open_estimate);
         for (size_t i = 0; i < end; i++) {
             const leaf *l = &t->leaves[i];
             if (!l->chosen || l->shape != SHAPE_POINTS)
@@ -102,14 +102,14 @@ bool forest_scatter_points(const forest *f, size_t tile, size_t end, uint32_t wo
         l.chosen = false;
         f->out->samples[leaf_pixel(f, tile, &l)] += (float)cost;
         t->spent += cost;
-        added = forest_add(f, tile, l);
+        added = refinement_add(f, tile, l);
     }
     free(sums);
     return added;
 }
 
 /* In the middle of strata of the shutter. */
-void forest_place_instants(forest *f)
+void refinement_place_instants(refinement *f)
 {
     const frame *whole = f->a->frame;
     for (int k = 0; k < INSTANTS; k++) {

@@ -68,9 +68,9 @@ KERNEL vec3 LEAN_SQUARE(CTX cx, real level, real column, real row)
 
 /* ---- pixels ---- */
 
-static inline HitGuess load_guess(const tile_guess *guess, size_t i)
+static inline HitEstimate load_estimate(const tile_estimate *estimate, size_t i)
 {
-    return (HitGuess){load(guess->height + i), load(guess->from + i), load(guess->march + i)};
+    return (HitEstimate){load(estimate->height + i), load(estimate->from + i), load(estimate->search + i)};
 }
 
 static inline void store_result(tile_pixels *out, size_t i, PixelResult p)
@@ -94,18 +94,18 @@ static inline const float *light_at(const tile_light *light, size_t i) { return 
 
 static struct kernel_context context_of(const method_tile *t, const tile_waves *waves)
 {
-    return (struct kernel_context){.frame = t->frame, .tile = &waves->data, .waves = waves->waves, .march = waves->march, .sky = t->sky, .lean = t->lean};
+    return (struct kernel_context){.frame = t->frame, .tile = &waves->data, .waves = waves->waves, .search = waves->search, .sky = t->sky, .lean = t->lean};
 }
 
 /* Shades a point of the surface with all its waves. */
-typedef PixelResult point_method(CTX cx, real column, real row, HitGuess guess);
+typedef PixelResult point_method(CTX cx, real column, real row, HitEstimate estimate);
 
 static void point_pixels(point_method *shade, const method_tile *t, tile_pixels *out)
 {
     struct kernel_context cx = context_of(t, t->close);
     for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
         cx.light = light_at(t->light, i);
-        store_result(out, i, shade(&cx, lane_numbers() + (float)(i % TILE_WIDTH), real((float)(i / TILE_WIDTH)), load_guess(t->close_guess, i)));
+        store_result(out, i, shade(&cx, lane_numbers() + (float)(i % TILE_WIDTH), real((float)(i / TILE_WIDTH)), load_estimate(t->close_estimate, i)));
     }
 }
 
@@ -124,10 +124,10 @@ static void slope_pixels(slope_method *shade, const method_tile *t, tile_pixels 
             store_result(out, i, sky_alone(&cx, p));
             continue;
         }
-        const SlopeState close = slope_state(&cx, p.ray, load_guess(t->close_guess, i));
+        const SlopeState close = slope_state(&cx, p.ray, load_estimate(t->close_estimate, i));
         SlopeState before = close;
         if (t->open)
-            before = slope_state(&open, pixel_ray_filtered(&open, column, row).ray, load_guess(t->open_guess, i));
+            before = slope_state(&open, pixel_ray_filtered(&open, column, row).ray, load_estimate(t->open_estimate, i));
         store_result(out, i, shade(&cx, p, before, close));
     }
 }
@@ -163,17 +163,17 @@ static inline real gather(const float *plane, const uint16_t *list)
     return load(lanes);
 }
 
-static inline HitGuess gather_guess(const tile_guess *guess, const uint16_t *list)
+static inline HitEstimate gather_estimate(const tile_estimate *estimate, const uint16_t *list)
 {
-    return (HitGuess){gather(guess->height, list), gather(guess->from, list), gather(guess->march, list)};
+    return (HitEstimate){gather(estimate->height, list), gather(estimate->from, list), gather(estimate->search, list)};
 }
 
 static void lanes_temporal(const method_tile *t, temporal_rays *rays)
 {
-    struct kernel_context cx = {.frame = t->frame, .tile = &t->close->data, .waves = t->close->waves, .march = t->close->march, .sky = t->sky};
+    struct kernel_context cx = {.frame = t->frame, .tile = &t->close->data, .waves = t->close->waves, .search = t->close->search, .sky = t->sky};
     struct kernel_context open = cx;
     if (t->open)
-        open.tile = &t->open->data, open.waves = t->open->waves, open.march = t->open->march;
+        open.tile = &t->open->data, open.waves = t->open->waves, open.search = t->open->search;
     for (size_t i = rays->count; i % MGT_LANES != 0; i++) {
         rays->pixel[i] = rays->pixel[i - 1];
         rays->column[i] = rays->column[i - 1];
@@ -183,10 +183,10 @@ static void lanes_temporal(const method_tile *t, temporal_rays *rays)
         const real column = load(rays->column + i), row = load(rays->row + i);
         cx.light = light_at(t->light, i);
         const vec3 ray = pixel_ray_at(&cx, column, row);
-        const TemporalEnd close = temporal_end(&cx, ray, gather_guess(t->close_guess, rays->pixel + i));
+        const TemporalEnd close = temporal_end(&cx, ray, gather_estimate(t->close_estimate, rays->pixel + i));
         TemporalEnd before = close;
         if (t->open)
-            before = temporal_end(&open, pixel_ray_at(&open, column, row), gather_guess(t->open_guess, rays->pixel + i));
+            before = temporal_end(&open, pixel_ray_at(&open, column, row), gather_estimate(t->open_estimate, rays->pixel + i));
         store_result(&rays->pixels, i, temporal_result(&cx, ray, before, close));
     }
 }

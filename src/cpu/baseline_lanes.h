@@ -8,7 +8,7 @@
 /* Rays through the pixels of a tile that are traced when the shutter opens and when it closes, see temporal_ray.k. */
 typedef struct temporal_rays {
     size_t count;                                /* at most TILE_PIXELS */
-    uint16_t pixel[TILE_PIXELS];                 /* of the tile: whose guesses serve */
+    uint16_t pixel[TILE_PIXELS];                 /* of the tile: whose estimates serve */
     float column[TILE_PIXELS], row[TILE_PIXELS]; /* from the tile's first pixel centre */
     tile_pixels pixels;                          /* out, a value a ray; lists are filled up to whole vectors */
 } temporal_rays;

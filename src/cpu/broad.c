@@ -166,7 +166,7 @@ static void work_batch(const chunk_job *job, bool place)
         if (edges)
             divide(job, p, i, edges);
         else
-            draw(job, FAR_LAYER, p, i);
+            draw(job, REFRACTED_LAYER, p, i);
     }
     b->count = 0;
 }
@@ -232,7 +232,7 @@ static void draw_near(const chunk_job *job, const part *p, int32_t triangle)
         memcpy(flat.image[0], image[0], sizeof flat.image[0]);
         memcpy(flat.image[1], image[i], sizeof flat.image[0]);
         memcpy(flat.image[2], image[i + 1], sizeof flat.image[0]);
-        take_straight(job, NEAR_LAYER, &flat);
+        take_straight(job, FRONT_LAYER, &flat);
     }
 }
 
@@ -261,7 +261,7 @@ static void cut_triangle(const chunk_job *job, const patch *whole, const float f
             draw_near(job, &near, whole->triangle);
         push_part(job, &beyond, whole->triangle);
     } else if (!view->mirrored) {
-        take_straight(job, NEAR_LAYER, whole);
+        take_straight(job, FRONT_LAYER, whole);
     }
     if (view->crest > 0) {
         const part own = cut(&p, 0, false, side);
@@ -325,7 +325,7 @@ static void take_triangle(const chunk_job *job, size_t index)
         return;
     if (LEAST3(far) >= 0) {
         if (view->refract.map == MAP_STRAIGHT)
-            take_straight(job, FAR_LAYER, &p);
+            take_straight(job, REFRACTED_LAYER, &p);
         else
             take_patch(job, &p);
         if (LEAST3(far) < view->trough)
@@ -333,7 +333,7 @@ static void take_triangle(const chunk_job *job, size_t index)
     } else if (MOST3(far) > -view->crest) {
         cut_triangle(job, &p, far);
     } else {
-        take_straight(job, NEAR_LAYER, &p);
+        take_straight(job, FRONT_LAYER, &p);
     }
 }
 

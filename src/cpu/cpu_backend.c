@@ -25,11 +25,11 @@ typedef struct cpu_state {
     thread_pool *pool;
     const lane_kernels *kernels;
     mgt_isa isa;
-    sky_state *sky;      /* of the last frame; zeroed at first */
-    podee_tables podee;  /* empty until a frame needs them */
-    lean_map *lean;      /* NULL until a frame needs it */
-    forest *adaptive;    /* NULL until a frame needs it */
-    refraction *objects; /* NULL until a frame has some */
+    sky_state *sky;       /* of the last frame; zeroed at first */
+    podee_tables podee;   /* empty until a frame needs them */
+    lean_map *lean;       /* NULL until a frame needs it */
+    refinement *adaptive; /* NULL until a frame needs it */
+    refraction *objects;  /* NULL until a frame has some */
     frame_waves *waves;
     tile_scratch **scratch; /* one a worker */
     mgt_progress_function progress;
@@ -101,7 +101,7 @@ static void cpu_destroy(void *state)
     thread_pool_destroy(s->pool);
     podee_tables_free(&s->podee);
     lean_map_free(s->lean);
-    forest_free(s->adaptive);
+    refinement_free(s->adaptive);
     refraction_free(s->objects);
     free(s->waves);
     free(s->sky);
@@ -401,7 +401,7 @@ static mgt_status make_reference(render_job *job, const reporter *r)
 {
     const sky_state *sky = job->state->sky;
     reference_sky rs = {.lookup = job->scene->sky.model == MGT_SKY_BLACK ? NULL : reference_lookup, .user = sky, .limb = sky->limb};
-    sky_body_radiance(sky, &job->scene->water, rs.body_radiance);
+    sky_upwelling_radiance(sky, &job->scene->water, rs.body_radiance);
     for (int i = 0; i < 3; i++)
         rs.light_radiance[i] = sky->light_radiance[i];
     const reference_options options = {.isa = job->state->isa};
@@ -465,8 +465,8 @@ static mgt_status prepare_sky(cpu_state *s, const reporter *r, const mgt_scene *
 /* Once for all lights and frames of a context. */
 static mgt_status prepare_podee(cpu_state *s, const reporter *r, const mgt_scene *scene)
 {
-    const mgt_kernels k = scene->quality.kernels;
-    if (!(method_of(scene->quality.method)->tables & METHOD_PODEE_TABLES) || k == MGT_KERNELS_EXACT || k == MGT_KERNELS_RIEMANN || s->podee.sweep ||
+    const mgt_mixture k = scene->quality.kernels;
+    if (!(method_of(scene->quality.method)->tables & METHOD_PODEE_TABLES) || k == MGT_MIXTURE_EXACT || k == MGT_MIXTURE_RIEMANN || s->podee.sweep ||
         podee_tables_build(&s->podee, run_indices, s->pool))
         return MGT_OK;
     return report_error(r, MGT_ERROR_MEMORY, "render.memory", "out of memory for the 64 MiB of tables that quality.kernels needs");
@@ -554,7 +554,7 @@ static mgt_status render_picture(cpu_state *s, const reporter *r, const mgt_scen
         if (status == MGT_OK)
             finished = run_loop(&job, TILE_WIDTH, TILE_HEIGHT, render_tile);
         if (objects && finished)
-            refraction_tell(s->objects, r);
+            refraction_report(s->objects, r);
     }
     if (status == MGT_OK && (!finished || atomic_load(&job.cancelled)))
         status = report_error(r, MGT_CANCELLED, "render.cancelled", "rendering was cancelled");
@@ -615,7 +615,7 @@ static void run_rows(void *user, size_t count, void (*body)(void *, size_t), voi
     run_indices(u->state->pool, count, body, argument);
 }
 
-static bool tell_adaptive(void *argument, double fraction)
+static bool report_adaptive(void *argument, double fraction)
 {
     const cpu_state *s = argument;
     return !s->progress || s->progress(s->progress_user, fraction);
@@ -702,7 +702,7 @@ static mgt_status adapt_picture(void *user, const mgt_scene *scene, const pictur
         free(objects.seen);
         return status;
     }
-    const adaptive_frame a = {&f, s->kernels, s->sky->table, s->pool, s->scratch, objects.seen, tell_adaptive, s};
+    const adaptive_frame a = {&f, s->kernels, s->sky->table, s->pool, s->scratch, objects.seen, report_adaptive, s};
     status = podee ? adaptive_podee_render(&a, out) : adaptive_render(&a, &s->adaptive, out);
     if (status == MGT_OK)
         put_objects_before(&objects, out);

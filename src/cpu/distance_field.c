@@ -306,7 +306,7 @@ static stretch within_grid(const distance_field *f, const trace_ray *ray)
 
 static float within(float x, uint32_t size) { return fminf(fmaxf(x, 0), (float)(size - 1)); }
 
-static trace_hit march(const distance_field *f, const trace_ray *ray)
+static trace_hit search(const distance_field *f, const trace_ray *ray)
 {
     const trace_hit none = {.along = HUGE_VALF, .triangle = -1};
     const stretch s = within_grid(f, ray);
@@ -328,5 +328,5 @@ static trace_hit march(const distance_field *f, const trace_ray *ray)
 void distance_field_nearest(const distance_field *field, size_t count, const trace_ray *rays, trace_hit *hits)
 {
     for (size_t i = 0; i < count; i++)
-        hits[i] = field->size[0] ? march(field, &rays[i]) : (trace_hit){.along = HUGE_VALF, .triangle = -1};
+        hits[i] = field->size[0] ? search(field, &rays[i]) : (trace_hit){.along = HUGE_VALF, .triangle = -1};
 }

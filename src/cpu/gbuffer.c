@@ -63,18 +63,18 @@ static bool shape_layers(gbuffers *g, const gbuffer_job *job)
 {
     struct gbuffer_store *s = g->store;
     const gbuffer shape = gbuffer_shape(job);
-    if (s->empty && g->near.width == shape.width && g->near.height == shape.height)
+    if (s->empty && g->front.width == shape.width && g->front.height == shape.height)
         return true;
     const size_t count = (size_t)shape.width * shape.height;
     const size_t tiles = (size_t)((shape.width + RASTER_TILE - 1) / RASTER_TILE) * ((shape.height + RASTER_TILE - 1) / RASTER_TILE);
-    free_layer(&g->near);
-    free_layer(&g->far);
+    free_layer(&g->front);
+    free_layer(&g->refracted);
     free(s->empty);
     s->empty = calloc(LAYERS * tiles, sizeof *s->empty);
-    g->near = g->far = shape;
-    g->near.depth = malloc(count * sizeof(float)), g->near.triangle = malloc(count * sizeof(int32_t));
-    g->far.depth = malloc(count * sizeof(float)), g->far.triangle = malloc(count * sizeof(int32_t));
-    return s->empty && g->near.depth && g->near.triangle && g->far.depth && g->far.triangle;
+    g->front = g->refracted = shape;
+    g->front.depth = malloc(count * sizeof(float)), g->front.triangle = malloc(count * sizeof(int32_t));
+    g->refracted.depth = malloc(count * sizeof(float)), g->refracted.triangle = malloc(count * sizeof(int32_t));
+    return s->empty && g->front.depth && g->front.triangle && g->refracted.depth && g->refracted.triangle;
 }
 
 static void free_store(struct gbuffer_store *s)
@@ -98,8 +98,8 @@ static void free_store(struct gbuffer_store *s)
 
 void gbuffers_free(gbuffers *g)
 {
-    free_layer(&g->near);
-    free_layer(&g->far);
+    free_layer(&g->front);
+    free_layer(&g->refracted);
     free_store(g->store);
     *g = (gbuffers){0};
 }
@@ -195,7 +195,7 @@ static void draw_tile(void *argument, size_t index, uint32_t worker)
     if (!drawn)
         kernels->tile_clear(tile);
     job->store->empty[index] = !drawn;
-    const gbuffer *layer = index < tiles ? &job->out->near : &job->out->far;
+    const gbuffer *layer = index < tiles ? &job->out->front : &job->out->refracted;
     for (int32_t row = 0; row < tile->height; row++) {
         const size_t at = (size_t)(y + row) * layer->width + (size_t)x;
         kernels->tile_row(tile, row, layer->depth + at, layer->triangle + at);
@@ -216,7 +216,7 @@ static bool is_drawn(const struct gbuffer_store *s, const world *w, const gbuffe
 static broad_view view_of(const gbuffers *g, const world *w, const gbuffer_job *job, const raster_kernels *kernels)
 {
     broad_view view = {.world = w, .kernels = kernels, .refract = g->refract, .images = g->store->images};
-    view.grid = grid_of(job, &g->near);
+    view.grid = grid_of(job, &g->front);
     view.picture = gbuffer_picture(job);
     view.foot[0] = (float)(job->camera.position[0] - w->origin[0]);
     view.foot[1] = (float)(job->camera.position[2] - w->origin[1]);
@@ -244,8 +244,8 @@ static bool draw_layers(draw_job *job, thread_pool *pool)
     thread_pool_run(pool, &tiles);
     job->out->counts = (gbuffer_counts){0, 0, 0};
     for (uint32_t i = 0; i < s->workers; i++) {
-        job->out->counts.near_triangles += s->counts[i].drawn[NEAR_LAYER];
-        job->out->counts.far_triangles += s->counts[i].drawn[FAR_LAYER];
+        job->out->counts.front_triangles += s->counts[i].drawn[FRONT_LAYER];
+        job->out->counts.far_triangles += s->counts[i].drawn[REFRACTED_LAYER];
         job->out->counts.splits += s->counts[i].splits;
     }
     return true;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * What a camera sees of the objects, apart on its own side of the mean surface and on the other one.
  *
- * On the other side, the far layer, every triangle is drawn where refraction by the flat mean surface shows it: its points are moved to their
+ * On the other side, the refracted layer, every triangle is drawn where refraction by the flat mean surface shows it: its points are moved to their
  * virtual images (kernels/refraction/refract_point.k), which lie on straight rays of the camera. Triangles are cut at the mean surface, split where the
  * map bends them, and drawn into a picture with a guard band around it.
  */
@@ -15,12 +15,12 @@
 
 /* Counts of the last picture that was drawn. */
 typedef struct gbuffer_counts {
-    size_t near_triangles, far_triangles; /* drawn: cut, split and within the guard band */
-    size_t splits;                        /* triangles added because the map bends */
+    size_t front_triangles, far_triangles; /* drawn: cut, split and within the guard band */
+    size_t splits;                         /* triangles added because the map bends */
 } gbuffer_counts;
 
 typedef struct gbuffers {
-    gbuffer near, far;
+    gbuffer front, refracted;
     RefractData refract; /* what the kernels' true_point() and virtual_point() need */
     gbuffer_counts counts;
     uint64_t drawn;              /* how often */

@@ -20,29 +20,29 @@ typedef struct tile_pixel {
     uint32_t column, row;
 } tile_pixel;
 
-static struct kernel_context sort_tile(const frame *f, const wave_set *set, const float *sky, tile_pixel at, tile_waves *waves, tile_guess *guess)
+static struct kernel_context sort_tile(const frame *f, const wave_set *set, const float *sky, tile_pixel at, tile_waves *waves, tile_estimate *estimate)
 {
     lane_kernels_1.sort(&f->data, set, &set->view, at.tile_x, at.tile_y, waves);
-    tile_find_guesses(&lane_kernels_1, &f->data, waves, guess);
-    return (struct kernel_context){.frame = &f->data, .tile = &waves->data, .waves = waves->waves, .march = waves->march, .sky = sky};
+    tile_find_estimates(&lane_kernels_1, &f->data, waves, estimate);
+    return (struct kernel_context){.frame = &f->data, .tile = &waves->data, .waves = waves->waves, .search = waves->search, .sky = sky};
 }
 
-static SlopeState slopes_of(const struct kernel_context *cx, const tile_guess *guess, tile_pixel at)
+static SlopeState slopes_of(const struct kernel_context *cx, const tile_estimate *estimate, tile_pixel at)
 {
     const size_t i = at.row * TILE_WIDTH + at.column;
-    const HitGuess from = {guess->height[i], guess->from[i], guess->march[i]};
+    const HitEstimate from = {estimate->height[i], estimate->from[i], estimate->search[i]};
     return slope_state(cx, pixel_ray_filtered(cx, (float)at.column, (float)at.row).ray, from);
 }
 
 /* The first hit in double precision at the instant t, near where the pixel's search began: Newton along the ray. */
-static void find_hit(const frame *f, tile_pixel at, const tile_guess *guess, mgt_pixel_info *info)
+static void find_hit(const frame *f, tile_pixel at, const tile_estimate *estimate, mgt_pixel_info *info)
 {
     const camera_rays *c = &f->close;
     const double x = at.tile_x * (double)TILE_WIDTH + at.column, y = at.tile_y * (double)TILE_HEIGHT + at.row;
     double ray[3];
     for (int i = 0; i < 3; i++)
         ray[i] = c->corner[i] + x * c->right[i] + y * c->down[i];
-    const double start = (double)guess->height[at.row * TILE_WIDTH + at.column];
+    const double start = (double)estimate->height[at.row * TILE_WIDTH + at.column];
     double along = ray[1] < 0 ? (c->position[1] - start) / -ray[1] : 0;
     for (int step = 0; step < 8 && ray[1] < 0; step++) {
         const double point[2] = {c->position[0] + along * ray[0], c->position[2] + along * ray[2]};
@@ -85,7 +85,7 @@ void inspect_pixel(const frame *f, const frame_waves *waves, const float *sky, u
 {
     const tile_pixel at = {x / TILE_WIDTH, y / TILE_HEIGHT, x % TILE_WIDTH, y % TILE_HEIGHT};
     const bool moves = f->scene->camera_moves;
-    const struct kernel_context cx = sort_tile(f, &waves->shutter, sky, at, &scratch->close, &scratch->close_guess);
+    const struct kernel_context cx = sort_tile(f, &waves->shutter, sky, at, &scratch->close, &scratch->close_estimate);
     const PixelRay ray = pixel_ray_filtered(&cx, (float)at.column, (float)at.row);
     *info = (mgt_pixel_info){.struct_size = sizeof *info, .water = (double)ray.water};
     if (!(ray.water > 0)) {
@@ -95,11 +95,11 @@ void inspect_pixel(const frame *f, const frame_waves *waves, const float *sky, u
         info->radiance[2] = (double)color.z;
         return;
     }
-    const SlopeState close = slopes_of(&cx, &scratch->close_guess, at);
+    const SlopeState close = slopes_of(&cx, &scratch->close_estimate, at);
     SlopeState open = close;
     if (moves) {
-        const struct kernel_context before = sort_tile(f, &waves->open, sky, at, &scratch->open, &scratch->open_guess);
-        open = slopes_of(&before, &scratch->open_guess, at);
+        const struct kernel_context before = sort_tile(f, &waves->open, sky, at, &scratch->open, &scratch->open_estimate);
+        open = slopes_of(&before, &scratch->open_estimate, at);
     }
     const PixelResult result = glitter_result(&cx, ray, open, close);
     info->coverage = (double)result.coverage;
@@ -119,7 +119,7 @@ void inspect_pixel(const frame *f, const frame_waves *waves, const float *sky, u
     info->resolved = (uint32_t)cx.tile->resolved_count;
     info->mixed = (uint32_t)cx.tile->mixed_count;
     info->filtered = (uint32_t)f->scene->water.wave_count - info->resolved - info->mixed;
-    find_hit(f, at, &scratch->close_guess, info);
+    find_hit(f, at, &scratch->close_estimate, info);
     if (cx.tile->light_reach != 0)
         describe_mirror(&cx, open, close, info);
 }

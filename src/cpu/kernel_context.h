@@ -11,7 +11,7 @@ struct kernel_context {
     const FrameData *frame;
     const TileData *tile;
     const WaveData *waves;
-    const MarchWave *march;
+    const SearchWave *search;
     const float *sky;                  /* SKY_ROWS × SKY_COLUMNS × 3 */
     const ViewData *view;              /* only while tiles are sorted */
     const podee_tables *podee;         /* only where podee-* replaces its Gaussian by kernels */

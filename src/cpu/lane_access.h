@@ -7,7 +7,7 @@
 #define VIEW(cx) (*(cx)->view)
 #define TILE(cx) (*(cx)->tile)
 #define WAVE(cx, i) ((cx)->waves[i])
-#define MARCH_WAVE(cx, i) ((cx)->march[i])
+#define SEARCH_WAVE(cx, i) ((cx)->search[i])
 
 /* An element a lane for the one width that has no instruction for it. */
 #define FOUR_OF(table, at)                                                     \
@@ -113,7 +113,7 @@ static inline real lane_numbers(void)
 /* A plane of a tile_light at the vector that cx stands for. */
 static inline real light_plane(CTX cx, size_t plane) { return load(cx->light + plane * TILE_PIXELS); }
 
-KERNEL vec3 BODY_LIGHT(CTX cx)
+KERNEL vec3 UPWELLING(CTX cx)
 {
     if (!cx->light)
         return (vec3){real_broadcast(FRAME(cx).body_r), real_broadcast(FRAME(cx).body_g), real_broadcast(FRAME(cx).body_b)};

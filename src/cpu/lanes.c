@@ -22,8 +22,8 @@
 #define SHADE_NAME(n) SHADE_NAME_(n)
 #define NARROW_NAME_(n) narrow_kernels_##n
 #define NARROW_NAME(n) NARROW_NAME_(n)
-#define NEAR_NAME_(n) near_kernels_##n
-#define NEAR_NAME(n) NEAR_NAME_(n)
+#define FRONT_NAME_(n) front_kernels_##n
+#define FRONT_NAME(n) FRONT_NAME_(n)
 static const float infinity = INFINITY;
 
 #include "kernels/common/prelude_c.h"
@@ -50,9 +50,9 @@ KERNEL real SHARE_TEXEL(CTX cx, real r, real slice) { return gather_floats(cx->p
 #include "kernels/glitter/sample.k"
 #include "kernels/waves/tile.k"
 
-static inline HitGuess load_guess(const tile_guess *guess, size_t i)
+static inline HitEstimate load_estimate(const tile_estimate *estimate, size_t i)
 {
-    return (HitGuess){load(guess->height + i), load(guess->from + i), load(guess->march + i)};
+    return (HitEstimate){load(estimate->height + i), load(estimate->from + i), load(estimate->search + i)};
 }
 
 /* ---- tiles ---- */
@@ -67,7 +67,7 @@ static inline float any_of(real x)
 
 /* The classes of all waves, an array per member that is read again. */
 typedef struct wave_classes {
-    float kind[MGT_MAX_WAVES], phase[MGT_MAX_WAVES], share[MGT_MAX_WAVES], lost[MGT_MAX_WAVES], marched[MGT_MAX_WAVES];
+    float kind[MGT_MAX_WAVES], phase[MGT_MAX_WAVES], share[MGT_MAX_WAVES], lost[MGT_MAX_WAVES], searched[MGT_MAX_WAVES];
     float along[MGT_MAX_WAVES], most[MGT_MAX_WAVES];
 } wave_classes;
 
@@ -80,7 +80,7 @@ static void classify_waves(const struct kernel_context *cx, const wave_set *set,
         store(out->phase + i, c.phase);
         store(out->share + i, c.share);
         store(out->lost + i, c.lost);
-        store(out->marched + i, c.marched);
+        store(out->searched + i, c.searched);
         store(out->along + i, c.along);
         store(out->most + i, c.most);
     }
@@ -95,27 +95,27 @@ static void list_wave(const struct kernel_context *cx, const wave_set *set, cons
 static TileData list_waves(const struct kernel_context *cx, const wave_set *set, const wave_classes *c, tile_waves *out)
 {
     const int waves = set->view.wave_count;
-    uint16_t marched[MGT_MAX_WAVES];
-    int resolved = 0, all = 0, marched_count = 0;
+    uint16_t searched[MGT_MAX_WAVES];
+    int resolved = 0, all = 0, searched_count = 0;
     TileSums sums = no_sums(cx);
     for (int i = 0; i < waves; i++) {
-        sums = sums_with_wave(cx, sums, set->data[i], c->lost[i], c->marched[i], c->most[i]);
+        sums = sums_with_wave(cx, sums, set->data[i], c->lost[i], c->searched[i], c->most[i]);
         if (c->kind[i] == WAVE_RESOLVED)
             list_wave(cx, set, c, i, &out->waves[resolved++]);
-        marched[marched_count] = (uint16_t)i;
-        marched_count += c->marched[i] != 0;
+        searched[searched_count] = (uint16_t)i;
+        searched_count += c->searched[i] != 0;
     }
     all = resolved;
     for (int i = 0; i < waves; i++)
         if (c->kind[i] == WAVE_MIXED)
             list_wave(cx, set, c, i, &out->waves[all++]);
-    const int coarse = coarse_waves(cx, marched_count);
-    for (int place = 0; place < marched_count; place++) {
-        const int i = marched[place];
-        out->march[place] = march_wave_of(cx, set->data[i], c->phase[i]);
-        sums = sums_with_march(cx, sums, set->data[i], c->along[i], place, coarse);
+    const int coarse = coarse_waves(cx, searched_count);
+    for (int place = 0; place < searched_count; place++) {
+        const int i = searched[place];
+        out->search[place] = search_wave_of(cx, set->data[i], c->phase[i]);
+        sums = sums_with_search(cx, sums, set->data[i], c->along[i], place, coarse);
     }
-    return sorted_tile(cx, sums, resolved, all - resolved, marched_count);
+    return sorted_tile(cx, sums, resolved, all - resolved, searched_count);
 }
 
 static void lanes_sort(const FrameData *frame, const wave_set *set, const ViewData *view, uint32_t tile_x, uint32_t tile_y, tile_waves *out)
@@ -144,7 +144,7 @@ typedef struct tile_nodes {
     float level[NODE_PADDED], slope_x[NODE_PADDED], slope_z[NODE_PADDED], height[NODE_PADDED];
 } tile_nodes;
 
-static void march_nodes(const struct kernel_context *cx, tile_nodes *nodes)
+static void search_nodes(const struct kernel_context *cx, tile_nodes *nodes)
 {
     float column[NODE_PADDED], row[NODE_PADDED];
     for (int i = 0; i < NODE_PADDED; i++) {
@@ -176,7 +176,7 @@ static bool tile_may_occlude(const struct kernel_context *cx, const tile_nodes *
     return false;
 }
 
-/* ---- guesses of pixels ---- */
+/* ---- estimates of pixels ---- */
 
 enum { CELLS = (NODE_COLUMNS - 1) * (NODE_ROWS - 1), CELL_COLUMNS = NODE_COLUMNS - 1 };
 _Static_assert(CELLS % 16 == 0, "cells fill vectors");
@@ -199,7 +199,7 @@ static LatticeNode gather_node(const tile_nodes *n, const uint16_t *list)
     return node;
 }
 
-/* Which cells' pixels must march themselves, and from where; a lane is a cell. */
+/* Which cells' pixels must search themselves, and from where; a lane is a cell. */
 static void judge_cells(const struct kernel_context *cx, const tile_nodes *nodes, float *doubt, float *from)
 {
     const bool occlude = tile_may_occlude(cx, nodes);
@@ -240,7 +240,7 @@ static inline NodePlane load_plane(const node_planes *p, int side, int x)
     return (NodePlane){load(p->level[side] + x), load(p->slope_x[side] + x), load(p->slope_z[side] + x), load(p->height[side] + x)};
 }
 
-static void guess_heights(const struct kernel_context *cx, const tile_nodes *nodes, tile_guess *guess)
+static void estimate_heights(const struct kernel_context *cx, const tile_nodes *nodes, tile_estimate *estimate)
 {
     node_planes planes[2];
     float shares[TILE_WIDTH];
@@ -254,31 +254,31 @@ static void guess_heights(const struct kernel_context *cx, const tile_nodes *nod
         const real v = real((float)(y % NODE_STEP_Y) / NODE_STEP_Y);
         for (int x = 0; x < TILE_WIDTH; x += MGT_LANES) {
             const vec3 ray = pixel_ray_at(cx, lane_numbers() + (float)x, real((float)y));
-            store(guess->height + y * TILE_WIDTH + x, lattice_height(cx, load_plane(above, 0, x), load_plane(above, 1, x), load_plane(below, 0, x),
-                                                                     load_plane(below, 1, x), ray, load(shares + x), v));
+            store(estimate->height + y * TILE_WIDTH + x, lattice_height(cx, load_plane(above, 0, x), load_plane(above, 1, x), load_plane(below, 0, x),
+                                                                        load_plane(below, 1, x), ray, load(shares + x), v));
         }
     }
 }
 
-static void lanes_guess(const FrameData *frame, const tile_waves *tile, tile_guess *guess)
+static void lanes_estimate(const FrameData *frame, const tile_waves *tile, tile_estimate *estimate)
 {
-    const struct kernel_context cx = {.frame = frame, .tile = &tile->data, .waves = tile->waves, .march = tile->march};
-    if (tile->data.march_pixels) {
-        *guess = (tile_guess){0};
+    const struct kernel_context cx = {.frame = frame, .tile = &tile->data, .waves = tile->waves, .search = tile->search};
+    if (tile->data.search_pixels) {
+        *estimate = (tile_estimate){0};
         for (int i = 0; i < TILE_PIXELS; i++)
-            guess->march[i] = 1;
+            estimate->search[i] = 1;
         return;
     }
     tile_nodes nodes;
     float doubt[CELLS], from[CELLS];
-    march_nodes(&cx, &nodes);
+    search_nodes(&cx, &nodes);
     judge_cells(&cx, &nodes, doubt, from);
     for (int i = 0; i < TILE_PIXELS; i++) {
         const int cell = i / TILE_WIDTH / NODE_STEP_Y * CELL_COLUMNS + i % TILE_WIDTH / NODE_STEP_X;
-        guess->march[i] = doubt[cell];
-        guess->from[i] = from[cell];
+        estimate->search[i] = doubt[cell];
+        estimate->from[i] = from[cell];
     }
-    guess_heights(&cx, &nodes, guess);
+    estimate_heights(&cx, &nodes, estimate);
 }
 
 /* ---- methods ---- */
@@ -287,10 +287,10 @@ static inline const float *light_at(const tile_light *light, size_t i) { return 
 
 static inline void accumulate(float *p, real value, float weight) { store(p, load(p) + value * weight); }
 
-static void lanes_sample(const FrameData *frame, const float *sky, const tile_light *light, const tile_waves *tile, const tile_guess *guess, const float *dx,
-                         const float *dy, float weight, tile_pixels *out)
+static void lanes_sample(const FrameData *frame, const float *sky, const tile_light *light, const tile_waves *tile, const tile_estimate *estimate,
+                         const float *dx, const float *dy, float weight, tile_pixels *out)
 {
-    struct kernel_context context = {.frame = frame, .tile = &tile->data, .waves = tile->waves, .march = tile->march, .sky = sky};
+    struct kernel_context context = {.frame = frame, .tile = &tile->data, .waves = tile->waves, .search = tile->search, .sky = sky};
     for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
         real column = lane_numbers() + (float)(i % TILE_WIDTH);
         real row = real_broadcast((float)(i / TILE_WIDTH));
@@ -299,7 +299,7 @@ static void lanes_sample(const FrameData *frame, const float *sky, const tile_li
             row = row + load(dy + i);
         }
         context.light = light_at(light, i);
-        const PixelResult p = sample_pixel(&context, column, row, load_guess(guess, i));
+        const PixelResult p = sample_pixel(&context, column, row, load_estimate(estimate, i));
         accumulate(out->red + i, p.color.x, weight);
         accumulate(out->green + i, p.color.y, weight);
         accumulate(out->blue + i, p.color.z, weight);
@@ -349,7 +349,7 @@ static tile_places all_pixels(pixel_grid *grid)
     return (tile_places){grid->column, grid->row, TILE_PIXELS};
 }
 
-/* What slope_state() of glitter.k knows of each pixel on its way. Marches and second looks are for few pixels: these are gathered from the whole
+/* What slope_state() of glitter.k knows of each pixel on its way. Searches and second looks are for few pixels: these are gathered from the whole
  * tile into full vectors. */
 typedef struct tile_looks {
     tile_places places;
@@ -404,23 +404,23 @@ static inline vec3 listed_ray(const struct kernel_context *cx, const tile_places
     return pixel_ray_filtered(cx, gather(p->column, list), gather(p->row, list)).ray;
 }
 
-/* Replaces the guesses that the lattice itself doubts. */
-static void march_doubtful(const struct kernel_context *cx, const tile_guess *guess, tile_looks *l)
+/* Replaces the estimates that the lattice itself doubts. */
+static void search_doubtful(const struct kernel_context *cx, const tile_estimate *estimate, tile_looks *l)
 {
     const size_t vectors = list_pixels(l->lost, l->places.count, l->list);
     for (size_t v = 0; v < vectors; v++) {
         const uint16_t *list = l->list + v * MGT_LANES;
-        const MarchHit hit = march(cx, listed_ray(cx, &l->places, list), gather(guess->from, list), real(1.0f));
+        const SearchHit hit = search(cx, listed_ray(cx, &l->places, list), gather(estimate->from, list), real(1.0f));
         scatter(l->along, list, SELECT(hit.found > real(0.0f), hit.along, gather(l->along, list)));
     }
 }
 
-static void march_lost(const struct kernel_context *cx, const tile_guess *guess, tile_looks *l)
+static void search_lost(const struct kernel_context *cx, const tile_estimate *estimate, tile_looks *l)
 {
     const size_t vectors = list_pixels(l->lost, l->places.count, l->list);
     for (size_t v = 0; v < vectors; v++) {
         const uint16_t *list = l->list + v * MGT_LANES;
-        const MarchHit hit = march(cx, listed_ray(cx, &l->places, list), gather(guess->from, list), real(1.0f));
+        const SearchHit hit = search(cx, listed_ray(cx, &l->places, list), gather(estimate->from, list), real(1.0f));
         const mask found = hit.found > real(0.0f);
         scatter(l->correction, list, SELECT(found, hit.along - gather(l->along, list), gather(l->correction, list)));
         scatter(l->again, list, SELECT(found, real(1.0f), gather(l->again, list)));
@@ -442,20 +442,20 @@ static void look_again(const struct kernel_context *cx, tile_looks *l)
 }
 
 /* Only where `wanted` is above 0. */
-static void look_at_tile(const struct kernel_context *cx, const tile_guess *guess, const float *wanted, tile_looks *l)
+static void look_at_tile(const struct kernel_context *cx, const tile_estimate *estimate, const float *wanted, tile_looks *l)
 {
     for (size_t i = 0; i < l->places.count; i += MGT_LANES) {
-        store(l->along + i, guessed_along(cx, pixel_rays(cx, &l->places, i).ray, load_guess(guess, i)));
-        store(l->lost + i, SELECT(load(wanted + i) > real(0.0f), load(guess->march + i), real(0.0f)));
+        store(l->along + i, estimated_along(cx, pixel_rays(cx, &l->places, i).ray, load_estimate(estimate, i)));
+        store(l->lost + i, SELECT(load(wanted + i) > real(0.0f), load(estimate->search + i), real(0.0f)));
     }
-    march_doubtful(cx, guess, l);
+    search_doubtful(cx, estimate, l);
     for (size_t i = 0; i < l->places.count; i += MGT_LANES) {
         const mask water = load(wanted + i) > real(0.0f);
         store(l->lost + i, real(0.0f));
         store(l->again + i, real(0.0f));
         if (!any_lane(water))
             continue;
-        const SurfaceLook look = look_at_guess(cx, pixel_rays(cx, &l->places, i).ray, load(l->along + i));
+        const SurfaceLook look = look_at_estimate(cx, pixel_rays(cx, &l->places, i).ray, load(l->along + i));
         const real *members = (const real *)&look.surface;
         for (int m = 0; m < SURFACE_FLOATS; m++)
             store(l->surface[m] + i, members[m]);
@@ -463,7 +463,7 @@ static void look_at_tile(const struct kernel_context *cx, const tile_guess *gues
         store(l->lost + i, SELECT(water, look.lost, real(0.0f)));
         store(l->again + i, SELECT(water, look.again, real(0.0f)));
     }
-    march_lost(cx, guess, l);
+    search_lost(cx, estimate, l);
     look_again(cx, l);
 }
 
@@ -484,17 +484,17 @@ static void store_cell(tile_pixels *out, tile_detail *detail, size_t i, CellResu
     }
 }
 
-static void render_glitter(const struct kernel_context *cx, const tile_light *light, tile_places places, const tile_guess *guess,
-                           const struct kernel_context *open, const tile_guess *open_guess, tile_pixels *out, tile_detail *detail)
+static void render_glitter(const struct kernel_context *cx, const tile_light *light, tile_places places, const tile_estimate *estimate,
+                           const struct kernel_context *open, const tile_estimate *open_estimate, tile_pixels *out, tile_detail *detail)
 {
     struct kernel_context here = *cx;
     tile_looks close_looks, open_looks;
     close_looks.places = open_looks.places = places;
     for (size_t i = 0; i < places.count; i += MGT_LANES)
         store(out->water + i, pixel_rays(cx, &places, i).water);
-    look_at_tile(cx, guess, out->water, &close_looks);
+    look_at_tile(cx, estimate, out->water, &close_looks);
     if (open)
-        look_at_tile(open, open_guess, out->water, &open_looks);
+        look_at_tile(open, open_estimate, out->water, &open_looks);
     for (size_t i = 0; i < places.count; i += MGT_LANES) {
         const PixelRay p = pixel_rays(cx, &places, i);
         CellResult cell = {.height = real(0.0f), .variance = real(0.0f), .contrast = real(0.0f), .places = real(1.0f), .aspect = real(1.0f)};
@@ -512,19 +512,19 @@ static void render_glitter(const struct kernel_context *cx, const tile_light *li
 
 static void lanes_cells(const FrameData *frame, const float *sky, const tile_waves *close, const tile_waves *open, tile_cells *cells)
 {
-    const struct kernel_context cx = {.frame = frame, .tile = &close->data, .waves = close->waves, .march = close->march, .sky = sky};
+    const struct kernel_context cx = {.frame = frame, .tile = &close->data, .waves = close->waves, .search = close->search, .sky = sky};
     struct kernel_context before = cx;
     if (open)
-        before.tile = &open->data, before.waves = open->waves, before.march = open->march;
+        before.tile = &open->data, before.waves = open->waves, before.search = open->search;
     size_t count = cells->count;
     for (; count % MGT_LANES != 0; count++) {
         cells->column[count] = cells->column[count - 1];
         cells->row[count] = cells->row[count - 1];
-        cells->guess.height[count] = cells->guess.height[count - 1];
-        cells->guess.march[count] = cells->guess.march[count - 1];
+        cells->estimate.height[count] = cells->estimate.height[count - 1];
+        cells->estimate.search[count] = cells->estimate.search[count - 1];
     }
     const tile_places places = {cells->column, cells->row, count};
-    render_glitter(&cx, cells->light, places, &cells->guess, open ? &before : NULL, &cells->guess, &cells->pixels, &cells->detail);
+    render_glitter(&cx, cells->light, places, &cells->estimate, open ? &before : NULL, &cells->estimate, &cells->pixels, &cells->detail);
 }
 
 static struct kernel_context context_of(const method_tile *t, const tile_waves *waves)
@@ -532,7 +532,7 @@ static struct kernel_context context_of(const method_tile *t, const tile_waves *
     return (struct kernel_context){.frame = t->frame,
                                    .tile = &waves->data,
                                    .waves = waves->waves,
-                                   .march = waves->march,
+                                   .search = waves->search,
                                    .sky = t->sky,
                                    .podee = t->podee,
                                    .lean = t->lean};
@@ -542,7 +542,7 @@ static void mangata_pixels(const method_tile *t, tile_pixels *out)
 {
     const struct kernel_context close = context_of(t, t->close), open = t->open ? context_of(t, t->open) : close;
     pixel_grid grid;
-    render_glitter(&close, t->light, all_pixels(&grid), t->close_guess, t->open ? &open : NULL, t->open_guess, out, t->detail);
+    render_glitter(&close, t->light, all_pixels(&grid), t->close_estimate, t->open ? &open : NULL, t->open_estimate, out, t->detail);
 }
 
 static void podee_pixels(const method_tile *t, tile_pixels *out)
@@ -557,10 +557,10 @@ static void podee_pixels(const method_tile *t, tile_pixels *out)
             store_pixels(out, i, nothing_but_sky(&cx, p));
             continue;
         }
-        const PodeeState state = podee_state(&cx, p.ray, load_guess(t->close_guess, i));
+        const PodeeState state = podee_state(&cx, p.ray, load_estimate(t->close_estimate, i));
         PodeeState before = state;
         if (t->open)
-            before = podee_state(&open, pixel_ray_filtered(&open, column, row).ray, load_guess(t->open_guess, i));
+            before = podee_state(&open, pixel_ray_filtered(&open, column, row).ray, load_estimate(t->open_estimate, i));
         const real coverage = FRAME(&cx).podee_kernels == 0 ? podee_coverage(&cx, before, state) : podee_mixture_coverage(&cx, before, state);
         store_pixels(out, i, podee_result_of(&cx, p, before, state, coverage));
     }
@@ -569,7 +569,7 @@ static void podee_pixels(const method_tile *t, tile_pixels *out)
 static void none_pixels(const method_tile *t, tile_pixels *out)
 {
     memset(out, 0, sizeof *out);
-    lanes_sample(t->frame, t->sky, t->light, t->close, t->close_guess, NULL, NULL, 1, out);
+    lanes_sample(t->frame, t->sky, t->light, t->close, t->close_estimate, NULL, NULL, 1, out);
 }
 
 /* Baselines are compiled apart. */
@@ -599,12 +599,12 @@ static void store_normal(tile_surface *out, size_t i, vec2 slope, mask water)
     store(out->normal_z + i, SELECT(water, normal.z, real(0.0f)));
 }
 
-static void lanes_surface(const FrameData *frame, const tile_waves *tile, const tile_guess *guess, tile_surface *out)
+static void lanes_surface(const FrameData *frame, const tile_waves *tile, const tile_estimate *estimate, tile_surface *out)
 {
-    const struct kernel_context context = {.frame = frame, .tile = &tile->data, .waves = tile->waves, .march = tile->march};
+    const struct kernel_context context = {.frame = frame, .tile = &tile->data, .waves = tile->waves, .search = tile->search};
     for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
         const vec3 ray = pixel_ray_at(&context, lane_numbers() + (float)(i % TILE_WIDTH), real_broadcast((float)(i / TILE_WIDTH)));
-        const SampleHit hit = sample_hit(&context, ray, load_guess(guess, i));
+        const SampleHit hit = sample_hit(&context, ray, load_estimate(estimate, i));
         const mask water = hit.found > real(0.0f);
         /* Within a wave the surface is behind the camera. */
         store(out->along + i, SELECT(water, max(hit.along, real(0.0f)) * sqrt(length_squared(ray)), real(infinity)));
@@ -612,12 +612,12 @@ static void lanes_surface(const FrameData *frame, const tile_waves *tile, const 
     }
 }
 
-static void lanes_filtered_normal(const FrameData *frame, const tile_waves *tile, const tile_guess *guess, tile_surface *out)
+static void lanes_filtered_normal(const FrameData *frame, const tile_waves *tile, const tile_estimate *estimate, tile_surface *out)
 {
-    const struct kernel_context context = {.frame = frame, .tile = &tile->data, .waves = tile->waves, .march = tile->march};
+    const struct kernel_context context = {.frame = frame, .tile = &tile->data, .waves = tile->waves, .search = tile->search};
     for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
         const PixelRay p = pixel_ray_filtered(&context, lane_numbers() + (float)(i % TILE_WIDTH), real_broadcast((float)(i / TILE_WIDTH)));
-        const SlopeState state = slope_state(&context, p.ray, load_guess(guess, i));
+        const SlopeState state = slope_state(&context, p.ray, load_estimate(estimate, i));
         store_normal(out, i, state.close, p.water > real(0.0f));
     }
 }
@@ -645,7 +645,7 @@ static void lanes_display(const FrameData *frame, const float *rgb, uint8_t *rgb
 const lane_kernels LANES_NAME(MGT_LANES) = {
     MGT_LANES,
     lanes_sort,
-    lanes_guess,
+    lanes_estimate,
     lanes_sample,
     lanes_method,
     lanes_cells,
@@ -655,6 +655,6 @@ const lane_kernels LANES_NAME(MGT_LANES) = {
     &BASELINES_NAME(MGT_LANES),
     &SHADE_NAME(MGT_LANES),
     &NARROW_NAME(MGT_LANES),
-    &NEAR_NAME(MGT_LANES),
+    &FRONT_NAME(MGT_LANES),
     &RASTER_NAME(MGT_LANES),
 };

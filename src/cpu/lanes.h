@@ -15,15 +15,15 @@
 typedef struct tile_waves {
     TileData data;
     WaveData waves[MGT_MAX_WAVES];
-    MarchWave march[MGT_MAX_WAVES];
+    SearchWave search[MGT_MAX_WAVES];
 } tile_waves;
 
-/* Where the first hits are looked for, a value per pixel (see HitGuess in pixel.k). */
-typedef struct tile_guess {
+/* Where the first hits are looked for, a value per pixel (see HitEstimate in pixel.k). */
+typedef struct tile_estimate {
     float height[TILE_PIXELS];
     float from[TILE_PIXELS];
-    float march[TILE_PIXELS];
-} tile_guess;
+    float search[TILE_PIXELS];
+} tile_estimate;
 
 typedef struct tile_pixels {
     float red[TILE_PIXELS], green[TILE_PIXELS], blue[TILE_PIXELS];
@@ -55,9 +55,9 @@ typedef struct method_tile {
     const podee_tables *podee; /* where podee-* replaces its Gaussian by kernels */
     const lean_map *lean;      /* of methods lean and leadr */
     const tile_waves *close;
-    const tile_guess *close_guess;
+    const tile_estimate *close_estimate;
     const tile_waves *open; /* NULL unless the camera moves and the method counts the shutter; for rays over the shutter, unless this is 0 */
-    const tile_guess *open_guess;
+    const tile_estimate *open_estimate;
     tile_detail *detail; /* out, of method mangata; NULL: not wanted */
 } method_tile;
 
@@ -66,7 +66,7 @@ typedef struct tile_cells {
     size_t count;                                /* at most TILE_PIXELS */
     float column[TILE_PIXELS], row[TILE_PIXELS]; /* whole numbers, in cells from the tile's first one */
     const tile_light *light;                     /* a value a cell; NULL: no objects */
-    tile_guess guess;                            /* heights; march: 1 to march from above, 0: only where the height leads nowhere */
+    tile_estimate estimate;                      /* heights; search: 1 to search from above, 0: only where the height leads nowhere */
     tile_detail detail;                          /* out */
     tile_pixels pixels;                          /* out */
 } tile_cells;
@@ -78,7 +78,7 @@ typedef struct tile_surface {
 
 typedef struct shade_kernels shade_kernels;       /* cpu/shade.h */
 typedef struct narrow_kernels narrow_kernels;     /* cpu/narrow_lanes.h */
-typedef struct near_kernels near_kernels;         /* cpu/near_lanes.h */
+typedef struct front_kernels front_kernels;       /* cpu/front_lanes.h */
 typedef struct baseline_kernels baseline_kernels; /* cpu/baseline_lanes.h */
 typedef struct raster_kernels raster_kernels;     /* cpu/raster_lanes.h */
 
@@ -86,33 +86,33 @@ typedef struct lane_kernels {
     uint32_t lanes;
     /* Sorts the waves for the tile (tile_x, tile_y) of the lattice; `view` is the set's own, or one that splits pixels into cells. */
     void (*sort)(const FrameData *frame, const wave_set *set, const ViewData *view, uint32_t tile_x, uint32_t tile_y, tile_waves *out);
-    /* Marches the tile's nodes and fills the guesses of its pixels. */
-    void (*guess)(const FrameData *frame, const tile_waves *tile, tile_guess *guess);
+    /* Searches the tile's nodes and fills the estimates of its pixels. */
+    void (*estimate)(const FrameData *frame, const tile_waves *tile, tile_estimate *estimate);
     /* One sample a pixel at (x + dx, y + dy), dx and dy in pixels from its centre (NULL: 0); adds weight × result to `out`. `light`: of objects;
        NULL where there are none, here and below. */
-    void (*sample)(const FrameData *frame, const float *sky, const tile_light *light, const tile_waves *tile, const tile_guess *guess, const float *dx,
+    void (*sample)(const FrameData *frame, const float *sky, const tile_light *light, const tile_waves *tile, const tile_estimate *estimate, const float *dx,
                    const float *dy, float weight, tile_pixels *out);
     /* Methods that shade each pixel once: METHOD_CENTRE and METHOD_FILTERED. */
     void (*method)(mgt_method method, const method_tile *tile, tile_pixels *out);
     /* Cells by method `mangata`; the waves are sorted for their level. Lists are filled up to whole vectors. */
     void (*cells)(const FrameData *frame, const float *sky, const tile_waves *close, const tile_waves *open, tile_cells *cells);
     /* Depth and normal at one instant. */
-    void (*surface)(const FrameData *frame, const tile_waves *tile, const tile_guess *guess, tile_surface *out);
+    void (*surface)(const FrameData *frame, const tile_waves *tile, const tile_estimate *estimate, tile_surface *out);
     /* The mean shading normal of filtered methods instead, from a tile with resolved and mixed waves at one instant. */
-    void (*filtered_normal)(const FrameData *frame, const tile_waves *tile, const tile_guess *guess, tile_surface *out);
+    void (*filtered_normal)(const FrameData *frame, const tile_waves *tile, const tile_estimate *estimate, tile_surface *out);
     /* Displayed colour: `count` pixels of 3 floats to 4 bytes. */
     void (*display)(const FrameData *frame, const float *rgb, uint8_t *rgba, size_t count);
     const baseline_kernels *baselines;
     const shade_kernels *shade;
     const narrow_kernels *narrow;
-    const near_kernels *near;
+    const front_kernels *front;
     const raster_kernels *raster;
 } lane_kernels;
 
 /* Those that lane_kernels lead to. */
 extern const shade_kernels shade_kernels_1, shade_kernels_4, shade_kernels_8, shade_kernels_16;
 extern const narrow_kernels narrow_kernels_1, narrow_kernels_4, narrow_kernels_8, narrow_kernels_16;
-extern const near_kernels near_kernels_1, near_kernels_4, near_kernels_8, near_kernels_16;
+extern const front_kernels front_kernels_1, front_kernels_4, front_kernels_8, front_kernels_16;
 
 extern const lane_kernels lane_kernels_1;
 extern const lane_kernels lane_kernels_4;

@@ -42,7 +42,7 @@ mixture mixture_fitted(int kernels, double e)
     return m;
 }
 
-double mixture_path_share(const podee_tables *tables, mgt_kernels kernels, const double from[2], const double to[2], const double covariance[3])
+double mixture_path_share(const podee_tables *tables, mgt_mixture kernels, const double from[2], const double to[2], const double covariance[3])
 {
     const FrameData data = {.podee_kernels = (int)kernels, .podee_elongation = 1e6f, .lights[0].disk_radius = 1};
     const struct kernel_context cx = {.frame = &data, .podee = tables};

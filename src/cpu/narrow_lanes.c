@@ -52,16 +52,16 @@ static void store_vector(float (*planes)[TILE_PIXELS], size_t i, vec3 v)
 
 /* ---- the surface ---- */
 
-static void lanes_water(const FrameData *data, const tile_waves *tile, const tile_guess *guess, const tile_offset *at, tile_water *out)
+static void lanes_water(const FrameData *data, const tile_waves *tile, const tile_estimate *estimate, const tile_offset *at, tile_water *out)
 {
-    const struct kernel_context cx = {.frame = data, .tile = &tile->data, .waves = tile->waves, .march = tile->march};
+    const struct kernel_context cx = {.frame = data, .tile = &tile->data, .waves = tile->waves, .search = tile->search};
     for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
         const real column = lane_numbers() + ((float)(i % TILE_WIDTH) + at->dx), row = real((float)(i / TILE_WIDTH) + at->dy);
         const PixelRay p = pixel_ray_filtered(&cx, column, row);
         store(out->share + i, p.water);
         if (!any_lane(p.water > real(0.0f)))
             continue;
-        const SeenWater w = seen_water(&cx, p.ray, (HitGuess){load(guess->height + i), load(guess->from + i), load(guess->march + i)});
+        const SeenWater w = seen_water(&cx, p.ray, (HitEstimate){load(estimate->height + i), load(estimate->from + i), load(estimate->search + i)});
         const WaterVariation v = w.variation;
         store_vector(out->view, i, scale(w.view, real(-1.0f)));
         store(out->along + i, w.along * sqrt(length_squared(p.ray)));

@@ -11,7 +11,7 @@ typedef struct narrow_scene {
     NarrowData data;
     RefractData refract;
     const gbuffer *layers[2]; /* beyond the surface, and as the surface mirrors it; all of one shape */
-    const uint8_t *breaks[2]; /* two-phase, hybrid: near_kernels.breaks of those that are asked */
+    const uint8_t *breaks[2]; /* two-phase, hybrid: front_kernels.breaks of those that are asked */
     const float *planes;      /* of the world's triangles: unit normal, and its product with a point of the triangle */
 } narrow_scene;
 
@@ -49,7 +49,7 @@ typedef struct tile_offset {
 
 struct narrow_kernels {
     /* The filtered surface, over the time that the waves were sorted for. */
-    void (*water)(const FrameData *frame, const tile_waves *tile, const tile_guess *guess, const tile_offset *at, tile_water *out);
+    void (*water)(const FrameData *frame, const tile_waves *tile, const tile_estimate *estimate, const tile_offset *at, tile_water *out);
     /* What lies behind it. */
     void (*refracted)(const narrow_scene *n, const tile_offset *at, const tile_water *water, tile_ends *out);
     /* What its mean slope mirrors of the camera's own side. */

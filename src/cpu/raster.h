@@ -15,7 +15,7 @@ typedef struct raster_grid {
     double least_depth;         /* metres; what is nearer is cut off */
 } raster_grid;
 
-enum { NEAR_LAYER = 0, FAR_LAYER = 1, LAYERS = 2 };
+enum { FRONT_LAYER = 0, REFRACTED_LAYER = 1, LAYERS = 2 };
 
 typedef struct bin_entry {
     uint32_t bin, triangle;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  * Scenes with objects: everything that a frame needs before its tiles.
  *
- * A frame draws three pictures of the objects: those on the camera's side of the water where they stand (near), those beyond it where the flat
- * surface shows them (far), and those on the camera's side where it mirrors them. The mirrored picture is the far one of a camera that is itself
- * mirrored. Tiles then look points up in them for the waves as they are, and shade these. */
+ * A frame draws three pictures of the objects: those on the camera's side of the water where they stand (front), those beyond it where the flat
+ * surface shows them (refracted), and those on the camera's side where it mirrors them (reflected). The reflected picture is the refracted one of a
+ * camera that is itself mirrored. Tiles then look points up in them for the waves as they are, and shade these. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -28,7 +28,7 @@ void refraction_free(refraction *r)
     world_free(r->world);
     trace_scene_free(r->trace);
     distance_field_free(r->field);
-    refraction_truth_free(r->truth);
+    path_traced_free(r->truth);
     free(r->planes);
     free(r);
 }
@@ -62,7 +62,7 @@ static mgt_status draw_layers(refraction *r, thread_pool *pool)
     return gbuffers_draw(&r->mirrored, r->world, &mirrored, r->kernels->raster, pool);
 }
 
-static bool traces(mgt_refraction method) { return method == MGT_REFRACTION_HYBRID || method == MGT_REFRACTION_TRUTH; }
+static bool traces(mgt_refraction method) { return method == MGT_REFRACTION_HYBRID || method == MGT_REFRACTION_PATH_TRACED; }
 
 static mgt_status prepare_trace(refraction *r, const reporter *report, thread_pool *pool)
 {
@@ -77,11 +77,11 @@ static mgt_status prepare_trace(refraction *r, const reporter *report, thread_po
 
 static mgt_status prepare_truth(refraction *r, const reporter *report, mgt_isa isa, uint32_t threads)
 {
-    refraction_truth_free(r->truth);
+    path_traced_free(r->truth);
     r->truth = NULL;
-    if (r->frame->scene->quality.refraction != MGT_REFRACTION_TRUTH)
+    if (r->frame->scene->quality.refraction != MGT_REFRACTION_PATH_TRACED)
         return MGT_OK;
-    const truth_job job = {
+    const path_traced_job job = {
         .scene = r->frame->scene,
         .camera = r->camera,
         .world = r->world,
@@ -91,15 +91,15 @@ static mgt_status prepare_truth(refraction *r, const reporter *report, mgt_isa i
         .isa = isa,
         .workers = threads,
     };
-    const mgt_status status = refraction_truth_create(&r->truth, &job);
+    const mgt_status status = path_traced_create(&r->truth, &job);
     return status == MGT_OK ? MGT_OK : report_error(report, status, "render.truth", "the ground truth of refraction: %s", mgt_status_text(status));
 }
 
-static near_scene near_scene_of(const refraction *r)
+static front_scene front_scene_of(const refraction *r)
 {
     const camera_rays *c = &r->camera;
-    near_scene n = {
-        .layer = &r->direct.near,
+    front_scene n = {
+        .layer = &r->direct.front,
         .edges = r->edges.bytes,
         .planes = r->planes,
         .foot = {r->narrow.data.foot_x, (float)c->position[1], r->narrow.data.foot_z},
@@ -123,12 +123,12 @@ static mgt_status set_camera(refraction *r, thread_pool *pool)
         refraction_marks_free(r);
         return MGT_ERROR_MEMORY;
     }
-    r->narrow = (narrow_scene){.data = refraction_narrow_data(f, r->world, &r->direct.far),
+    r->narrow = (narrow_scene){.data = refraction_narrow_data(f, r->world, &r->direct.refracted),
                                .refract = r->direct.refract,
-                               .layers = {&r->direct.far, r->mirrors ? &r->mirrored.far : &r->direct.far},
+                               .layers = {&r->direct.refracted, r->mirrors ? &r->mirrored.refracted : &r->direct.refracted},
                                .planes = r->planes,
                                .breaks = {r->breaks[0].bytes, r->breaks[1].bytes}};
-    r->near = near_scene_of(r);
+    r->front = front_scene_of(r);
     return MGT_OK;
 }
 
@@ -174,10 +174,11 @@ out_of_memory:
     return report_error(report, MGT_ERROR_MEMORY, "render.memory", "out of memory for the scene's objects");
 }
 
-void refraction_tell(const refraction *r, const reporter *log)
+void refraction_report(const refraction *r, const reporter *log)
 {
     const size_t pixels = atomic_load(&r->pixels), traced = atomic_load(&r->traced);
-    report(log, MGT_LOG_DEBUG, "render.refraction", "%zu triangles; drawn: %zu near, %zu far, %zu mirrored; %zu pixels of water, %zu of them traced (%.2f%%)",
-           r->world->triangle_count, r->direct.counts.near_triangles, r->direct.counts.far_triangles, r->mirrors ? r->mirrored.counts.far_triangles : (size_t)0,
-           pixels, traced, pixels > 0 ? 100.0 * (double)traced / (double)pixels : 0.0);
+    report(log, MGT_LOG_DEBUG, "render.refraction",
+           "%zu triangles; drawn: %zu front, %zu refracted, %zu reflected; %zu pixels of water, %zu of them traced (%.2f%%)", r->world->triangle_count,
+           r->direct.counts.front_triangles, r->direct.counts.far_triangles, r->mirrors ? r->mirrored.counts.far_triangles : (size_t)0, pixels, traced,
+           pixels > 0 ? 100.0 * (double)traced / (double)pixels : 0.0);
 }

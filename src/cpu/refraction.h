@@ -6,7 +6,7 @@
 #include "frame/backend.h"
 #include "cpu/narrow_lanes.h"
 #include "cpu/shade.h"
-#include "cpu/refraction_truth.h"
+#include "cpu/path_traced.h"
 
 /* What objects are to the pixels of a tile. */
 typedef struct tile_objects {
@@ -27,7 +27,7 @@ typedef struct tile_objects {
     float seen[TILE_PIXELS]; /* places of a pixel that met water */
     trace_ray rays[TILE_PIXELS];
     trace_hit hits[TILE_PIXELS];
-    truth_pixels truth;
+    path_traced_pixels truth;
 } tile_objects;
 
 typedef struct refraction refraction;
@@ -41,10 +41,11 @@ mgt_status refraction_prepare(refraction **r, const reporter *report, const fram
 void refraction_free(refraction *r); /* NULL is allowed */
 
 /* Tells the log, after a frame's tiles, what they took. */
-void refraction_tell(const refraction *r, const reporter *report);
+void refraction_report(const refraction *r, const reporter *report);
 
-/* Objects in the tile (tile_x, tile_y). `waves` and `guess`: sorted for the tile, filtered, over frame_shutter(). One call a worker at a time. */
-void refraction_tile(refraction *r, const tile_waves *waves, const tile_guess *guess, uint32_t tile_x, uint32_t tile_y, uint32_t worker, tile_objects *out);
+/* Objects in the tile (tile_x, tile_y). `waves` and `estimate`: sorted for the tile, filtered, over frame_shutter(). One call a worker at a time. */
+void refraction_tile(refraction *r, const tile_waves *waves, const tile_estimate *estimate, uint32_t tile_x, uint32_t tile_y, uint32_t worker,
+                     tile_objects *out);
 
 /* What the tile saw of objects when the shutter opened. */
 typedef struct tile_opened {

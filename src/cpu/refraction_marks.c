@@ -12,17 +12,17 @@ typedef struct mark_job {
     const refraction *r;
     const gbuffer *layer;
     uint8_t *marks;
-    bool near;
+    bool front;
 } mark_job;
 
 static void mark_row(void *argument, size_t index, uint32_t worker)
 {
     (void)worker;
     const mark_job *job = argument;
-    const near_kernels *kernels = job->r->kernels->near;
+    const front_kernels *kernels = job->r->kernels->front;
     const uint32_t row = (uint32_t)index;
     uint8_t *out = job->marks + index * job->layer->width;
-    if (!job->near)
+    if (!job->front)
         kernels->breaks(job->layer, job->r->planes, 1 / job->r->frame->data.pixel_angle, row, out);
     else if (row > 0 && row + 1 < job->layer->height)
         kernels->edges(job->layer, job->r->planes, row, out);
@@ -30,11 +30,11 @@ static void mark_row(void *argument, size_t index, uint32_t worker)
         memset(out, 1, job->layer->width);
 }
 
-static bool mark(const refraction *r, const gbuffers *g, bool near, layer_marks *m, thread_pool *pool)
+static bool mark(const refraction *r, const gbuffers *g, bool front, layer_marks *m, thread_pool *pool)
 {
     if (m->bytes && m->drawn == g->drawn)
         return true;
-    const gbuffer *layer = near ? &g->near : &g->far;
+    const gbuffer *layer = front ? &g->front : &g->refracted;
     const size_t size = (size_t)layer->width * layer->height + BYTES_BEYOND;
     if (size != m->size) {
         free(m->bytes);
@@ -43,7 +43,7 @@ static bool mark(const refraction *r, const gbuffers *g, bool near, layer_marks 
     }
     if (!m->bytes)
         return false;
-    mark_job job = {r, layer, m->bytes, near};
+    mark_job job = {r, layer, m->bytes, front};
     const thread_loop rows = {layer->height, mark_row, &job, NULL};
     thread_pool_run(pool, &rows);
     m->drawn = g->drawn;

@@ -6,9 +6,9 @@
 #include <stdatomic.h>
 
 #include "cpu/distance_field.h"
-#include "cpu/near_lanes.h"
+#include "cpu/front_lanes.h"
 #include "cpu/refraction.h"
-#include "cpu/refraction_truth.h"
+#include "cpu/path_traced.h"
 #include "trace/trace.h"
 
 /* A byte a pixel of a layer. */
@@ -27,10 +27,10 @@ struct refraction {
     shade_scene *shade;
     trace_scene *trace;           /* NULL until a method traces */
     distance_field *field;        /* NULL until a method marches through it */
-    refraction_truth *truth;      /* of this frame, for that method */
-    layer_marks edges, breaks[2]; /* of the near layer; of narrow.layers, where the method asks */
+    path_traced *truth;           /* of this frame, for that method */
+    layer_marks edges, breaks[2]; /* of the front layer; of narrow.layers, where the method asks */
     narrow_scene narrow;
-    near_scene near;
+    front_scene front;
     const lane_kernels *kernels;
     const frame *frame;
     camera_rays camera;           /* as it is, not mirrored */
@@ -55,7 +55,7 @@ void refraction_shade_listed(const refraction *r, tile_objects *o, size_t count)
 void refraction_spread(const tile_objects *o, size_t count, float (*planes)[TILE_PIXELS]);
 
 /* What stands in front of water and sky in the tile whose first pixel this is; the water must be known. */
-void refraction_near(const refraction *r, uint32_t column, uint32_t row, tile_objects *o);
+void refraction_front(const refraction *r, uint32_t column, uint32_t row, tile_objects *o);
 
 enum { REFRACTION_NEIGHBOURS = 9 };
 

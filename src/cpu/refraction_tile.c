@@ -150,7 +150,7 @@ void refraction_spread_again(tile_ends *e, size_t i)
 /* Uncertain pixels are traced together: which ones depends on the tile alone. Of distance-field all are. */
 static void trace_doubtful(refraction *r, tile_objects *o, size_t count)
 {
-    const bool marches = r->frame->scene->quality.refraction == MGT_REFRACTION_DISTANCE_FIELD;
+    const bool searches = r->frame->scene->quality.refraction == MGT_REFRACTION_DISTANCE_FIELD;
     tile_ends *e = &o->ends;
     const camera_rays *c = &r->camera;
     const double foot[3] = {c->position[0] - r->world->origin[0], c->position[1], c->position[2] - r->world->origin[1]};
@@ -159,7 +159,7 @@ static void trace_doubtful(refraction *r, tile_objects *o, size_t count)
     uint16_t list[TILE_PIXELS];
     for (size_t k = 0; k < count; k++) {
         const size_t i = o->list[k];
-        if (!marches && e->doubt[i] == 0)
+        if (!searches && e->doubt[i] == 0)
             continue;
         trace_ray *ray = &o->rays[doubtful];
         const double along = (double)o->water.along[i] * TRACE_START;
@@ -174,7 +174,7 @@ static void trace_doubtful(refraction *r, tile_objects *o, size_t count)
     }
     if (doubtful == 0)
         return;
-    if (marches)
+    if (searches)
         distance_field_nearest(r->field, doubtful, o->rays, o->hits);
     else
         trace_nearest(r->trace, doubtful, o->rays, o->hits);
@@ -187,17 +187,17 @@ static void trace_doubtful(refraction *r, tile_objects *o, size_t count)
         for (int axis = 0; axis < 3 && found; axis++)
             e->position[axis][i] = o->rays[k].origin[axis] + e->after[i] * e->direction[axis][i];
         e->water[i] = metres_in_water(NULL, r->narrow.data.side, o->water.along[i], e->after[i], e->total[i] > 0);
-        e->error[i] = marches ? INFINITY : 0;
+        e->error[i] = searches ? INFINITY : 0;
     }
     atomic_fetch_add_explicit(&r->traced, doubtful, memory_order_relaxed);
 }
 
 /* The ground truth in place of what the pictures tell, for what the surface mirrors too. */
-static void see_truth(const refraction *r, uint32_t tile_x, uint32_t tile_y, uint32_t worker, tile_objects *o)
+static void see_path_traced(const refraction *r, uint32_t tile_x, uint32_t tile_y, uint32_t worker, tile_objects *o)
 {
     const bool mirrored = r->mirrors;
-    refraction_truth_tile(r->truth, tile_x, tile_y, worker, mirrored, &o->truth);
-    const truth_pixels *t = &o->truth;
+    path_traced_tile(r->truth, tile_x, tile_y, worker, mirrored, &o->truth);
+    const path_traced_pixels *t = &o->truth;
     for (size_t i = 0; i < TILE_PIXELS; i++) {
         o->light.body[0][i] = t->red[i], o->light.body[1][i] = t->green[i], o->light.body[2][i] = t->blue[i];
         o->error[i] = 0;
@@ -258,14 +258,14 @@ static void see_place(refraction *r, const tile_offset *at, size_t count, tile_o
     see_mirrored(r, at, count, o);
 }
 
-static void look_at_water(const refraction *r, const tile_waves *waves, const tile_guess *guess, const tile_offset *at, tile_objects *o)
+static void look_at_water(const refraction *r, const tile_waves *waves, const tile_estimate *estimate, const tile_offset *at, tile_objects *o)
 {
-    r->kernels->narrow->water(&r->frame->through, waves, guess, at, &o->water);
+    r->kernels->narrow->water(&r->frame->through, waves, estimate, at, &o->water);
     leave_covered(o);
 }
 
 /* N × N places of every pixel that is water, or one. The water is that through the pixels' centres, also in the end. */
-static void see_refracted(refraction *r, const tile_waves *waves, const tile_guess *guess, tile_offset at, tile_objects *o)
+static void see_refracted(refraction *r, const tile_waves *waves, const tile_estimate *estimate, tile_offset at, tile_objects *o)
 {
     const uint32_t n = r->frame->scene->quality.refraction_samples ? r->frame->scene->quality.refraction_samples : 1;
     memset(o->light.body, 0, sizeof o->light.body);
@@ -276,14 +276,14 @@ static void see_refracted(refraction *r, const tile_waves *waves, const tile_gue
     for (uint32_t place = 0; place < n * n && n > 1 && !r->truth; place++) {
         at.dx = ((float)(place % n) + 0.5f) / (float)n - 0.5f;
         at.dy = ((float)(place / n) + 0.5f) / (float)n - 0.5f;
-        look_at_water(r, waves, guess, &at, o);
+        look_at_water(r, waves, estimate, &at, o);
         const size_t count = list_water(o);
         if (count > 0)
             see_place(r, &at, count, o);
     }
     at.dx = at.dy = 0;
     if (n > 1 && !r->truth)
-        look_at_water(r, waves, guess, &at, o);
+        look_at_water(r, waves, estimate, &at, o);
     const size_t count = list_water(o);
     if (n == 1 && count > 0 && !r->truth)
         see_place(r, &at, count, o);
@@ -298,17 +298,17 @@ static void see_refracted(refraction *r, const tile_waves *waves, const tile_gue
     }
 }
 
-void refraction_tile(refraction *r, const tile_waves *waves, const tile_guess *guess, uint32_t tile_x, uint32_t tile_y, uint32_t worker, tile_objects *o)
+void refraction_tile(refraction *r, const tile_waves *waves, const tile_estimate *estimate, uint32_t tile_x, uint32_t tile_y, uint32_t worker, tile_objects *o)
 {
     const tile_offset at = {tile_x * TILE_WIDTH, tile_y * TILE_HEIGHT, 0, 0};
-    r->kernels->narrow->water(&r->frame->through, waves, guess, &at, &o->water);
-    refraction_near(r, at.column, at.row, o);
+    r->kernels->narrow->water(&r->frame->through, waves, estimate, &at, &o->water);
+    refraction_front(r, at.column, at.row, o);
     leave_covered(o);
-    see_refracted(r, waves, guess, at, o);
+    see_refracted(r, waves, estimate, at, o);
     const size_t count = list_water(o);
     atomic_fetch_add_explicit(&r->pixels, count, memory_order_relaxed);
     if (r->truth)
-        see_truth(r, tile_x, tile_y, worker, o);
+        see_path_traced(r, tile_x, tile_y, worker, o);
     if (r->frame->under)
         see_deep(r, at.column, at.row, o);
     see_light(r, o);

@@ -175,7 +175,7 @@ static HitRay ray_of(const shade_hits *h, size_t i, size_t count, mask found)
 
 static void lanes_points(const shade_scene *s, const shade_hits *h, float *rgb)
 {
-    const struct kernel_context cx = {.frame = &s->frame, .sky = s->sky, .shade = s, .march = s->waves};
+    const struct kernel_context cx = {.frame = &s->frame, .sky = s->sky, .shade = s, .search = s->waves};
     for (size_t i = 0; i < h->count; i += MGT_LANES) {
         const size_t count = h->count - i < MGT_LANES ? h->count - i : MGT_LANES;
         int32_t triangle[MGT_LANES];

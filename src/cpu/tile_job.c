@@ -11,7 +11,7 @@
 bool tile_sees_water(const tile_waves *tile)
 {
     const TileData *d = &tile->data;
-    if (d->camera_height < d->march_bound)
+    if (d->camera_height < d->search_bound)
         return true;
     const float width = TILE_WIDTH, height = TILE_HEIGHT;
     const float steep = fabsf(d->right_y) + fabsf(d->down_y); /* a pixel's margin for partly covered ones */
@@ -22,12 +22,12 @@ bool tile_sees_water(const tile_waves *tile)
     return least < steep;
 }
 
-void tile_find_guesses(const lane_kernels *kernels, const FrameData *data, const tile_waves *tile, tile_guess *guess)
+void tile_find_estimates(const lane_kernels *kernels, const FrameData *data, const tile_waves *tile, tile_estimate *estimate)
 {
     if (tile_sees_water(tile))
-        kernels->guess(data, tile, guess);
+        kernels->estimate(data, tile, estimate);
     else
-        memset(guess, 0, sizeof *guess);
+        memset(estimate, 0, sizeof *estimate);
 }
 
 /* A tile of the lattice on its way. */
@@ -36,16 +36,16 @@ typedef struct tile_place {
     uint32_t x, y;
 } tile_place;
 
-static void build_with(const FrameData *data, tile_place place, const wave_set *set, tile_waves *waves, tile_guess *guess)
+static void build_with(const FrameData *data, tile_place place, const wave_set *set, tile_waves *waves, tile_estimate *estimate)
 {
     const tile_job *job = place.job;
     job->kernels->sort(data, set, &set->view, place.x, place.y, waves);
-    tile_find_guesses(job->kernels, data, waves, guess);
+    tile_find_estimates(job->kernels, data, waves, estimate);
 }
 
-static void build(tile_place place, const wave_set *set, tile_waves *waves, tile_guess *guess)
+static void build(tile_place place, const wave_set *set, tile_waves *waves, tile_estimate *estimate)
 {
-    build_with(&place.job->frame->data, place, set, waves, guess);
+    build_with(&place.job->frame->data, place, set, waves, estimate);
 }
 
 static const tile_light *light_of(const tile_job *job, const tile_scratch *scratch) { return job->objects ? &scratch->objects.light : NULL; }
@@ -84,12 +84,12 @@ static void render_samples(tile_place place, tile_scratch *scratch)
             wave_set_build(f, &camera, (interval){f->scene->time - (1 - share) * f->scene->shutter, 0}, false, &scratch->sample_waves);
             waves = &scratch->sample_waves;
         }
-        build(place, waves, &scratch->close, &scratch->close_guess);
+        build(place, waves, &scratch->close, &scratch->close_estimate);
         for (; sample < end; sample++) {
             if (sample % 16 == 15 && job->keep_going && !job->keep_going(job->keep_going_argument, scratch->worker))
                 return;
             jitter(place, q->seed, q->spatial_samples, sample % per_time, sample, scratch);
-            job->kernels->sample(&f->data, job->sky, light_of(job, scratch), &scratch->close, &scratch->close_guess, scratch->jitter_x, scratch->jitter_y,
+            job->kernels->sample(&f->data, job->sky, light_of(job, scratch), &scratch->close, &scratch->close_estimate, scratch->jitter_x, scratch->jitter_y,
                                  weight, &scratch->pixels);
         }
     }
@@ -112,9 +112,9 @@ static void shade_pixels(const tile_job *job, bool moves, tile_scratch *scratch,
                               .podee = job->podee,
                               .lean = job->lean,
                               .close = &scratch->close,
-                              .close_guess = &scratch->close_guess,
+                              .close_estimate = &scratch->close_estimate,
                               .open = moves ? &scratch->open : NULL,
-                              .open_guess = &scratch->open_guess};
+                              .open_estimate = &scratch->open_estimate};
     job->kernels->method(job->frame->scene->quality.method, &tile, out);
 }
 
@@ -130,9 +130,9 @@ static void render_shaded(tile_place place, tile_scratch *scratch)
     const tile_job *job = place.job;
     const wave_set *waves = waves_of(job);
     const bool moves = waves == &job->waves->shutter && job->frame->scene->camera_moves;
-    build(place, waves, &scratch->close, &scratch->close_guess);
+    build(place, waves, &scratch->close, &scratch->close_estimate);
     if (moves) {
-        build(place, &job->waves->open, &scratch->open, &scratch->open_guess);
+        build(place, &job->waves->open, &scratch->open, &scratch->open_estimate);
         share_light(scratch);
     }
     shade_pixels(job, moves, scratch, &scratch->pixels);
@@ -147,12 +147,12 @@ static void build_segment(tile_place place, double from, double to, tile_scratch
     const camera_rays camera = camera_at(f, to);
     const interval shutter = {0.5 * (open + close), 0.5 * (close - open)};
     wave_set_build(f, &camera, s->camera_moves ? (interval){close, 0} : shutter, true, &scratch->sample_waves);
-    build(place, &scratch->sample_waves, &scratch->close, &scratch->close_guess);
+    build(place, &scratch->sample_waves, &scratch->close, &scratch->close_estimate);
     if (!s->camera_moves)
         return;
     const camera_rays before = camera_at(f, from);
     wave_set_build(f, &before, (interval){open, 0}, true, &scratch->sample_waves);
-    build(place, &scratch->sample_waves, &scratch->open, &scratch->open_guess);
+    build(place, &scratch->sample_waves, &scratch->open, &scratch->open_estimate);
     share_light(scratch);
 }
 
@@ -183,12 +183,12 @@ static void render_surface(tile_place place, tile_scratch *scratch)
 {
     const tile_job *job = place.job;
     const frame *f = job->frame;
-    build(place, &job->waves->samples, &scratch->close, &scratch->close_guess);
-    job->kernels->surface(&f->data, &scratch->close, &scratch->close_guess, &scratch->surface);
+    build(place, &job->waves->samples, &scratch->close, &scratch->close_estimate);
+    job->kernels->surface(&f->data, &scratch->close, &scratch->close_estimate, &scratch->surface);
     if (waves_of(job) == &job->waves->samples)
         return;
-    build(place, &job->waves->now, &scratch->close, &scratch->close_guess);
-    job->kernels->filtered_normal(&f->data, &scratch->close, &scratch->close_guess, &scratch->surface);
+    build(place, &job->waves->now, &scratch->close, &scratch->close_estimate);
+    job->kernels->filtered_normal(&f->data, &scratch->close, &scratch->close_estimate, &scratch->surface);
 }
 
 static void see_objects(tile_place place, tile_scratch *scratch)
@@ -197,12 +197,12 @@ static void see_objects(tile_place place, tile_scratch *scratch)
     const FrameData *through = &job->frame->through;
     refraction *opened = refraction_opened(job->objects);
     if (opened) {
-        build_with(through, place, &job->waves->open, &scratch->close, &scratch->close_guess);
-        refraction_tile(opened, &scratch->close, &scratch->close_guess, place.x, place.y, scratch->worker, &scratch->objects);
+        build_with(through, place, &job->waves->open, &scratch->close, &scratch->close_estimate);
+        refraction_tile(opened, &scratch->close, &scratch->close_estimate, place.x, place.y, scratch->worker, &scratch->objects);
         refraction_keep(&scratch->objects, &scratch->opened);
     }
-    build_with(through, place, &job->waves->shutter, &scratch->close, &scratch->close_guess);
-    refraction_tile(job->objects, &scratch->close, &scratch->close_guess, place.x, place.y, scratch->worker, &scratch->objects);
+    build_with(through, place, &job->waves->shutter, &scratch->close, &scratch->close_estimate);
+    refraction_tile(job->objects, &scratch->close, &scratch->close_estimate, place.x, place.y, scratch->worker, &scratch->objects);
     if (opened)
         refraction_blend(&scratch->objects, &scratch->opened);
 }

@@ -10,7 +10,7 @@
 typedef struct tile_scratch {
     uint32_t worker; /* whose it is */
     tile_waves close, open;
-    tile_guess close_guess, open_guess;
+    tile_estimate close_estimate, open_estimate;
     float jitter_x[TILE_PIXELS], jitter_y[TILE_PIXELS];
     tile_pixels pixels;
     tile_surface surface;
@@ -43,8 +43,8 @@ typedef struct tile_job {
 /* Whether any pixel of the tile can see water. */
 bool tile_sees_water(const tile_waves *tile);
 
-/* The guesses of its pixels; zero where none does. */
-void tile_find_guesses(const lane_kernels *kernels, const FrameData *data, const tile_waves *tile, tile_guess *guess);
+/* The estimates of its pixels; zero where none does. */
+void tile_find_estimates(const lane_kernels *kernels, const FrameData *data, const tile_waves *tile, tile_estimate *estimate);
 
 /* Fills scratch->pixels and scratch->surface for the tile (tile_x, tile_y) of the lattice. Not for the reference. */
 void tile_render(const tile_job *job, uint32_t tile_x, uint32_t tile_y, tile_scratch *scratch);

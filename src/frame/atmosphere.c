@@ -34,7 +34,7 @@ static void place_light(sky_state *state)
     state->azimuth[1] = -cos(azimuth);
     state->tan_radius = tan(radius);
     state->light_solid_angle = 2.0 * PI * (1.0 - cos(radius));
-    state->limb = light->body == MGT_BODY_SUN ? 0.6 : 0.0;
+    state->limb = light->body == MGT_SOURCE_SUN ? 0.6 : 0.0;
 }
 
 /* Mean over the disk of what each of its horizontal strips sends through the air; strips below the horizon send nothing. */
@@ -227,7 +227,7 @@ static double fresnel(double cosine, double n)
     return cosine + inside > 0.0 ? 0.5 * (s * s + p * p) : 1.0;
 }
 
-void sky_body_radiance(const sky_state *state, const mgt_water *water, double rgb[3])
+void sky_upwelling_radiance(const sky_state *state, const mgt_water *water, double rgb[3])
 {
     enum { STEPS = 64 };
     double n = water->index_of_refraction, mirrored = 0.0;

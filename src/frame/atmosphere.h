@@ -56,6 +56,6 @@ double sky_limb_factor(double limb, double relative_distance);
  *   body = body_albedo · E_w / (π·n²),
  *   E_w  = irradiance_light·(1 − F(elevation)) + irradiance_sky·(1 − F_diffuse): what enters the water;
  * the upwelling light is taken as isotropic and 1/n² is its dilution on leaving the denser medium. 0 with a black sky. */
-void sky_body_radiance(const sky_state *state, const mgt_water *water, double rgb[3]);
+void sky_upwelling_radiance(const sky_state *state, const mgt_water *water, double rgb[3]);
 
 #endif

@@ -55,7 +55,7 @@ static double elongation_limit(const mgt_quality *q)
 {
     if (q->elongation_limit != 0)
         return q->elongation_limit;
-    return q->kernels == MGT_KERNELS_1 || q->kernels == MGT_KERNELS_FELINE ? 1e6 : (double)q->kernels;
+    return q->kernels == MGT_MIXTURE_1 || q->kernels == MGT_MIXTURE_FELINE ? 1e6 : (double)q->kernels;
 }
 
 /* Where waves turn from resolved to unresolved: P1's linear ramp, or ours, chosen by error and flicker on the standard scenes. */
@@ -104,7 +104,7 @@ frame frame_of(const mgt_scene *scene, const sky_state *sky, bool want_color)
     d->index_of_refraction = (float)(f.under ? 1 / scene->water.index_of_refraction : scene->water.index_of_refraction);
     d->camera_under = f.under;
     double body[3];
-    sky_body_radiance(sky, &scene->water, body);
+    sky_upwelling_radiance(sky, &scene->water, body);
     d->body_r = (float)body[0];
     d->body_g = (float)body[1];
     d->body_b = (float)body[2];

@@ -25,9 +25,9 @@ typedef struct gbuffer_job {
     double index;           /* of refraction of the water in air */
     int map;                /* where far triangles are drawn: MAP_… of constants.h */
     double error;           /* pixels that a triangle bent by the map may be off by; 0: 0.1 */
-    double trough;          /* metres beyond the mean surface that the near layer goes on for: as far as the waves may uncover it */
-    double crest;           /* metres over the mean surface that the far layer goes on for on the camera's side: as far as the waves may reach */
-    bool mirrored;          /* the far layer alone, without the insides of closed objects that the surface cuts open: of a camera that mirrors see */
+    double trough;          /* metres beyond the mean surface that the front layer goes on for: as far as the waves may uncover it */
+    double crest;           /* metres over the mean surface that the refracted layer goes on for on the camera's side: as far as the waves may reach */
+    bool mirrored;          /* the refracted layer alone, without the insides of closed objects that the surface cuts open: of a camera that mirrors see */
 } gbuffer_job;
 
 /* Triangles are cut off nearer to the camera than this, metres along the view. */

@@ -2,7 +2,7 @@
  *
  * Light scattered by a spherical atmosphere of air, aerosol and ozone over a dark sea, seen from sea level.
  *
- * Single scattering is marched along each view ray with the true phase functions. All further orders use a small table of the
+ * Single scattering is summed along each view ray with the true phase functions. All further orders use a small table of the
  * mean radiance J(height, sun) at a point: order n + 1 is gathered from order n, scattering isotropically, as in Hillaire,
  * "A scalable and production ready sky and atmosphere rendering technique" (2020), but order by order instead of one closed
  * local sum, which twilight needs: there the light comes from far away.

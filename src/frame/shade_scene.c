@@ -70,7 +70,7 @@ static void set_water(ShadeData *d, const frame *f, const sky_state *sky)
 {
     const mgt_water *water = &f->scene->water;
     double deep[3];
-    sky_body_radiance(sky, water, deep);
+    sky_upwelling_radiance(sky, water, deep);
     d->absorption_r = water->absorption[0], d->absorption_g = water->absorption[1], d->absorption_b = water->absorption[2];
     d->scattering_r = water->scattering[0], d->scattering_g = water->scattering[1], d->scattering_b = water->scattering[2];
     const double n = water->index_of_refraction, height = f->scene->camera.position[1];
@@ -89,7 +89,7 @@ static void set_waves(shade_scene *s, const frame *f, const world *w, const sky_
     s->data.caustic_waves = gathers ? (int)water->wave_count : 0;
     s->data.sun_radius = (float)sky->tan_radius;
     if (gathers)
-        sines_marched(water, (wave_meeting){.x = w->origin[0], .z = w->origin[1], .middle = f->scene->time}, s->waves);
+        sines_searched(water, (wave_meeting){.x = w->origin[0], .z = w->origin[1], .middle = f->scene->time}, s->waves);
 }
 
 static void set_shadows(ShadeData *d, const shadow_map *m)

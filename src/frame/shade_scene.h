@@ -22,8 +22,8 @@ typedef struct shade_scene {
     shade_material *materials; /* an object each */
     size_t material_room;
     shadow_map *shadows;
-    MarchWave waves[MGT_MAX_WAVES]; /* where light is bundled */
-    float linear[TEXTURE_CODES];    /* of an sRGB code */
+    SearchWave waves[MGT_MAX_WAVES]; /* where light is bundled */
+    float linear[TEXTURE_CODES];     /* of an sRGB code */
 } shade_scene;
 
 /*

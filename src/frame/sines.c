@@ -83,12 +83,12 @@ int sines_moving(const wave_set *set)
     return count;
 }
 
-void sines_marched(const mgt_water *water, wave_meeting at, MarchWave *out)
+void sines_searched(const mgt_water *water, wave_meeting at, SearchWave *out)
 {
     for (size_t i = 0; i < water->wave_count; i++) {
         const mgt_wave *w = &water->waves[i];
         const double phase = (w->kx * at.x + w->kz * at.z + w->omega * at.middle + w->phase) / turn;
-        out[i] = (MarchWave){(float)(w->kx / turn), (float)(w->kz / turn), (float)(phase - rint(phase)), (float)w->amplitude};
+        out[i] = (SearchWave){(float)(w->kx / turn), (float)(w->kz / turn), (float)(phase - rint(phase)), (float)w->amplitude};
     }
 }
 

@@ -44,7 +44,7 @@ void sines_sort_data(const wave_set *set, SortData *out);
 int sines_moving(const wave_set *set);
 
 /* The scene's waves for the light they gather, relative to the point and the interval's middle. */
-void sines_marched(const mgt_water *water, wave_meeting at, MarchWave *out);
+void sines_searched(const mgt_water *water, wave_meeting at, SearchWave *out);
 
 /* What the waves seldom rise above the mean surface by: four deviations, or their sum where that is less. */
 double sines_crest(const mgt_water *water);

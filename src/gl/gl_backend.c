@@ -224,7 +224,7 @@ void layer_wants_add(layer_wants *w, mgt_layer layer, bool display)
     w->display |= display;
 }
 
-mgt_status gl_layers_render(gl_backend_state *s, const reporter *r, const mgt_scene *scene, const layer_wants *wants, bool tell_progress, region *area)
+mgt_status gl_layers_render(gl_backend_state *s, const reporter *r, const mgt_scene *scene, const layer_wants *wants, bool report_progress, region *area)
 {
     mgt_status status = gl_sky_prepare(s->renderer, scene, r);
     if (status != MGT_OK)
@@ -242,7 +242,7 @@ mgt_status gl_layers_render(gl_backend_state *s, const reporter *r, const mgt_sc
         .wants_depth = wants->depth,
         .wants_normal = wants->normal,
         .background = true,
-        .progress = tell_progress ? s->desc.progress : NULL,
+        .progress = report_progress ? s->desc.progress : NULL,
         .progress_user = s->desc.progress_user,
     };
     status = gl_frame_render(s->renderer, &job, r);

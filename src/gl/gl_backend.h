@@ -36,7 +36,7 @@ void layer_wants_add(layer_wants *w, mgt_layer layer, bool display);
 
 /* Renders the layers of a scene that has been checked; `area` gets the part of the image that they hold: the crop, or all of it for
  * glare and for methods that work on whole pictures. */
-mgt_status gl_layers_render(gl_backend_state *s, const reporter *r, const mgt_scene *scene, const layer_wants *wants, bool tell_progress, region *area);
+mgt_status gl_layers_render(gl_backend_state *s, const reporter *r, const mgt_scene *scene, const layer_wants *wants, bool report_progress, region *area);
 
 mgt_status gl_render_textures(void *state, const reporter *r, const mgt_scene *scene, const mgt_gl_texture *textures, size_t count);
 mgt_status gl_render_views(void *state, const reporter *r, const checked_view *views, size_t count);

@@ -2,7 +2,7 @@
  * A frame on the GPU: bands of tiles, and the passes over each.
  *
  * A set of waves (an instant or a shutter interval before a camera) is sorted into the tiles of a band, their lattices of first hits are
- * marched, and then a method shades the band's pixels. The next set takes the same memory. */
+ * searched, and then a method shades the band's pixels. The next set takes the same memory. */
 #include <string.h>
 
 #include "frame/frame_waves.h"
@@ -55,7 +55,7 @@ static mgt_status reserve_tiles(frame_run *run)
     const size_t waves = f->scene->water.wave_count;
     run->wave_stride = (int)(waves > 0 ? waves : 1);
     const size_t cameras = needs_open(run) ? 2 : 1;
-    const size_t tile_bytes = sizeof(TileData) + NODE_COUNT * sizeof(NodeData) + (size_t)run->wave_stride * (sizeof(TileWave) + sizeof(MarchWave));
+    const size_t tile_bytes = sizeof(TileData) + NODE_COUNT * sizeof(NodeData) + (size_t)run->wave_stride * (sizeof(TileWave) + sizeof(SearchWave));
     const size_t row_bytes = run->columns * cameras * tile_bytes;
     uint64_t rows = band_bytes / row_bytes;
     if (run->job->progress)
@@ -70,7 +70,7 @@ static mgt_status reserve_tiles(frame_run *run)
     if (status == MGT_OK)
         status = gl_buffer_reserve(gl, &g->tile_waves, tiles * (size_t)run->wave_stride * sizeof(TileWave), 0, run->r);
     if (status == MGT_OK)
-        status = gl_buffer_reserve(gl, &g->march_waves, tiles * (size_t)run->wave_stride * sizeof(MarchWave), 0, run->r);
+        status = gl_buffer_reserve(gl, &g->search_waves, tiles * (size_t)run->wave_stride * sizeof(SearchWave), 0, run->r);
     if (status == MGT_OK)
         status = gl_buffer_reserve(gl, &g->nodes, tiles * NODE_COUNT * sizeof(NodeData), 0, run->r);
     return status;
@@ -112,7 +112,7 @@ enum { SET_PARTS = 8 };
 
 static void bind_storage(const gl_renderer *g)
 {
-    const GLuint buffers[] = {g->tiles.name, g->tile_waves.name, g->march_waves.name, g->nodes.name};
+    const GLuint buffers[] = {g->tiles.name, g->tile_waves.name, g->search_waves.name, g->nodes.name};
     for (GLuint i = 0; i < sizeof buffers / sizeof *buffers; i++)
         g->gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, BIND_TILES + i, buffers[i]);
 }
@@ -163,7 +163,7 @@ static mgt_status sort_tiles(const frame_run *run, const band *b, uint32_t first
     return sort_tiles_with(&run->job->frame->data, run, b, first_slot, open_slots);
 }
 
-static mgt_status march_nodes(const frame_run *run, uint32_t tiles)
+static mgt_status search_nodes(const frame_run *run, uint32_t tiles)
 {
     gl_renderer *g = run->g;
     gl_pass_begin(g, "nodes");
@@ -180,7 +180,7 @@ static mgt_status march_nodes(const frame_run *run, uint32_t tiles)
 static mgt_status prepare_set(const frame_run *run, const band *b)
 {
     const mgt_status status = sort_tiles(run, b, 0, 0);
-    return status == MGT_OK ? march_nodes(run, b->tiles) : status;
+    return status == MGT_OK ? search_nodes(run, b->tiles) : status;
 }
 
 /* Layers that do not exist are not written: a store to no image has no effect. */
@@ -197,7 +197,7 @@ static void bind_layers(const gl_renderer *g)
 /* Whether podee's tables stand for its closed form. */
 static bool uses_podee_tables(const frame_run *run)
 {
-    return run->method->tables & METHOD_PODEE_TABLES && run->job->frame->scene->quality.kernels != MGT_KERNELS_EXACT;
+    return run->method->tables & METHOD_PODEE_TABLES && run->job->frame->scene->quality.kernels != MGT_MIXTURE_EXACT;
 }
 
 static void bind_tables(const frame_run *run)
@@ -273,7 +273,7 @@ static mgt_status prepare_part(const frame_run *run, const band *b, double from,
     wave_set_build(f, &camera, s->camera_moves ? (interval){close, 0} : part, true, run->g->waves);
     if (status == MGT_OK)
         status = sort_tiles(run, b, 0, needs_open(run) ? b->tiles : 0);
-    return status == MGT_OK ? march_nodes(run, needs_open(run) ? 2 * b->tiles : b->tiles) : status;
+    return status == MGT_OK ? search_nodes(run, needs_open(run) ? 2 * b->tiles : b->tiles) : status;
 }
 
 /* The mean over the parts of the shutter; all methods but podee-* know one part alone. */
@@ -398,7 +398,7 @@ static mgt_status see_objects(const frame_run *run, const band *b, const camera_
     wave_set_build(run->job->frame, camera, time, true, run->g->waves);
     mgt_status status = sort_tiles_with(&run->job->frame->through, run, b, 0, 0);
     if (status == MGT_OK)
-        status = march_nodes(run, b->tiles);
+        status = search_nodes(run, b->tiles);
     return status == MGT_OK ? gl_refraction_see(run->g, &b->pass, run->r) : status;
 }
 

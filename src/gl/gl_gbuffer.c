@@ -40,8 +40,8 @@ static void free_layer(const gl_api *gl, gl_gbuffer *b)
 
 void gl_gbuffers_free(const gl_api *gl, gl_gbuffers *b)
 {
-    free_layer(gl, &b->near);
-    free_layer(gl, &b->far);
+    free_layer(gl, &b->front);
+    free_layer(gl, &b->refracted);
     free_layer(gl, &b->mirrored);
 }
 
@@ -140,9 +140,9 @@ static mgt_status draw_layer(gl_renderer *g, const gl_gbuffer *layer, const gbuf
 static mgt_status draw_layers(gl_renderer *g, const gbuffer_job *job, const gbuffer_job *mirrored, const reporter *r)
 {
     gl_gbuffers *b = &g->gbuffers;
-    mgt_status status = draw_layer(g, &b->near, job, false, r);
+    mgt_status status = draw_layer(g, &b->front, job, false, r);
     if (status == MGT_OK)
-        status = draw_layer(g, &b->far, job, true, r);
+        status = draw_layer(g, &b->refracted, job, true, r);
     return status == MGT_OK && mirrored ? draw_layer(g, &b->mirrored, mirrored, true, r) : status;
 }
 
@@ -159,7 +159,7 @@ mgt_status gl_gbuffers_draw(gl_renderer *g, const gbuffer_job *job, const gbuffe
     b->left = shape.left;
     b->top = shape.top;
     b->least_depth = gbuffer_picture(job).least_depth;
-    gl_gbuffer *const layers[] = {&b->near, &b->far, &b->mirrored};
+    gl_gbuffer *const layers[] = {&b->front, &b->refracted, &b->mirrored};
     mgt_status status = MGT_OK;
     for (int i = 0; i < (mirrored ? 3 : 2) && status == MGT_OK; i++)
         status = reserve_layer(&g->gl, layers[i], b->width, b->height, r);

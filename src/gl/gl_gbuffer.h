@@ -17,13 +17,13 @@ typedef struct gl_gbuffer {
 
 /* Texel (0, 0) is the guard band's top left pixel; the textures may be larger. */
 typedef struct gl_gbuffers {
-    gl_gbuffer near, far, mirrored;
+    gl_gbuffer front, refracted, mirrored;
     uint32_t width, height; /* guard band included */
     uint32_t left, top;
     float least_depth;
 } gl_gbuffers;
 
-/* Draws the layers of the objects; `mirrored`, whose far layer is what the surface mirrors, may be NULL. */
+/* Draws the layers of the objects; `mirrored`, whose refracted layer is what the surface mirrors, may be NULL. */
 mgt_status gl_gbuffers_draw(struct gl_renderer *g, const gbuffer_job *job, const gbuffer_job *mirrored, const reporter *r);
 void gl_gbuffers_free(const gl_api *gl, gl_gbuffers *b);
 

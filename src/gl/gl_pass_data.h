@@ -26,7 +26,7 @@ enum {
 
     BIND_TILES = 0, /* storage blocks */
     BIND_TILE_WAVES = 1,
-    BIND_MARCH = 2,
+    BIND_SEARCH = 2,
     BIND_NODES = 3,
     BIND_GLARE_WEIGHTS = 4,
     BIND_SORT = 5,
@@ -53,10 +53,10 @@ enum {
     UNIT_MATERIALS,
     UNIT_TEXELS,
     UNIT_SHADOWS,
-    UNIT_FAR, /* depth and triangle */
-    UNIT_MIRRORED = UNIT_FAR + 2,
-    UNIT_NEAR = UNIT_MIRRORED + 2,
-    UNIT_TREE = UNIT_NEAR + 2,
+    UNIT_REFRACTED_LAYER, /* depth and triangle */
+    UNIT_MIRRORED = UNIT_REFRACTED_LAYER + 2,
+    UNIT_FRONT_LAYER = UNIT_MIRRORED + 2,
+    UNIT_TREE = UNIT_FRONT_LAYER + 2,
     UNIT_FRONT = 1,
     UNIT_CLEAR = 12, /* what methods see of objects */
     UNIT_DEEP,

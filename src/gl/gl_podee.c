@@ -53,7 +53,7 @@ static mgt_status upload(gl_renderer *g, const podee_tables *tables, const repor
 
 mgt_status gl_podee_prepare(gl_renderer *g, const mgt_scene *scene, const reporter *r)
 {
-    if (scene->quality.kernels == MGT_KERNELS_RIEMANN || g->podee.filled)
+    if (scene->quality.kernels == MGT_MIXTURE_RIEMANN || g->podee.filled)
         return MGT_OK;
     podee_tables tables = {NULL, NULL};
     mgt_status status = build_tables(g->threads, &tables, r);

@@ -26,7 +26,7 @@ typedef enum gl_program {
     PROGRAM_GBUFFER,          /* objects as they are */
     PROGRAM_GBUFFER_BENT,     /* … and where refraction by the flat mean surface shows them */
     PROGRAM_OBJECTS,          /* water in the pixels, and which of these see objects: */
-    PROGRAM_OBJECTS_NEAR,     /* in front of the water, */
+    PROGRAM_OBJECTS_FRONT,    /* in front of the water, */
     PROGRAM_OBJECTS_THROUGH,  /* through its surface, */
     PROGRAM_OBJECTS_TRACED,   /* there, where rays are traced, */
     PROGRAM_OBJECTS_PLACES,   /* through several places of each pixel, */

@@ -66,7 +66,7 @@ static mgt_status upload_textures(const gl_api *gl, gl_refraction *o, const used
 /* ---- materials ---- */
 
 /* The table begins with linear values of codes and the waves that make caustics. */
-enum { MATERIAL_FLOATS = 4 * MATERIAL_TEXELS, FIRST_MATERIAL = TEXTURE_CODES + MAX_WAVES * sizeof(MarchWave) / sizeof(float) };
+enum { MATERIAL_FLOATS = 4 * MATERIAL_TEXELS, FIRST_MATERIAL = TEXTURE_CODES + MAX_WAVES * sizeof(SearchWave) / sizeof(float) };
 
 static void fill_material(const shade_material *m, bool smooth, float out[MATERIAL_FLOATS])
 {
@@ -228,10 +228,10 @@ static void bind_all(gl_renderer *g)
     bind_texture(gl, UNIT_TREE, g->objects.tree.texture);
     bind_texture(gl, UNIT_SKY, g->sky_texture);
     bind_texture(gl, UNIT_SHADOWS, o->shadows.name);
-    const gl_gbuffer *const layers[] = {&b->far, o->block.objects.mirrors ? &b->mirrored : &b->far, &b->near};
+    const gl_gbuffer *const layers[] = {&b->refracted, o->block.objects.mirrors ? &b->mirrored : &b->refracted, &b->front};
     for (GLuint i = 0; i < sizeof layers / sizeof *layers; i++) {
-        bind_texture(gl, UNIT_FAR + 2 * i, layers[i]->depth.name);
-        bind_texture(gl, UNIT_FAR + 2 * i + 1, layers[i]->triangle.name);
+        bind_texture(gl, UNIT_REFRACTED_LAYER + 2 * i, layers[i]->depth.name);
+        bind_texture(gl, UNIT_REFRACTED_LAYER + 2 * i + 1, layers[i]->triangle.name);
     }
     bind_images(g, GL_WRITE_ONLY);
     gl_uniform(g, BIND_EXTRA, &o->block, sizeof o->block);
@@ -308,10 +308,10 @@ static mgt_status run_passes(gl_renderer *g, const PassData *pass, const reporte
     if (status == MGT_OK && g->refraction.block.narrow.side < 0)
         status = over_list(g, PROGRAM_OBJECTS_DEEP, LIST_DEEP, r);
     if (status == MGT_OK)
-        status = over_list(g, PROGRAM_OBJECTS_NEAR, LIST_FRONT, r);
+        status = over_list(g, PROGRAM_OBJECTS_FRONT, LIST_FRONT, r);
     gl_uniform(g, BIND_PASS, &edges, sizeof edges);
     if (status == MGT_OK)
-        status = over_list(g, PROGRAM_OBJECTS_NEAR, LIST_EDGES, r);
+        status = over_list(g, PROGRAM_OBJECTS_FRONT, LIST_EDGES, r);
     gl->MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
     return status;
 }

@@ -112,7 +112,7 @@ void gl_renderer_destroy(gl_renderer *g)
     gl_programs_free(&g->programs);
     gl_ring_free(gl, &g->ring);
     gl_timers_free(gl, &g->timers);
-    gl_buffer *const buffers[] = {&g->tiles, &g->tile_waves, &g->march_waves, &g->nodes};
+    gl_buffer *const buffers[] = {&g->tiles, &g->tile_waves, &g->search_waves, &g->nodes};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++)
         gl_buffer_free(gl, buffers[i]);
     gl_layers *const layers[] = {&g->layers, &g->history[0], &g->history[1]};

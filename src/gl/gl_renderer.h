@@ -61,7 +61,7 @@ typedef struct gl_renderer {
     gl_programs programs;
     gl_ring ring;
     gl_timers timers;
-    gl_buffer tiles, tile_waves, march_waves, nodes; /* of a band */
+    gl_buffer tiles, tile_waves, search_waves, nodes; /* of a band */
     gl_layers layers;
     gl_layers history[2]; /* color, coverage and mask alone: for fxaa and taa */
     gl_image luma;        /* R32F, for fxaa */

@@ -29,7 +29,7 @@ typedef struct progress_part {
     double first, share;
 } progress_part;
 
-static bool tell_part(void *user, double fraction)
+static bool report_part(void *user, double fraction)
 {
     const progress_part *p = user;
     return p->tell(p->user, p->first + p->share * fraction);
@@ -41,7 +41,7 @@ static gl_job job_of_part(const gl_job *job, const none_frame *none, progress_pa
     own.frame = &none->frame;
     own.shaded_depth = false;
     if (job->progress) {
-        own.progress = tell_part;
+        own.progress = report_part;
         own.progress_user = part;
     }
     return own;

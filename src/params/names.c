@@ -14,7 +14,7 @@ const char *const format_names[] = {"r32f", "rgb32f", "rgba32f", "rgba8_srgb", N
 const char *const gl_color_names[] = {"radiance", "exposed", "display", NULL};
 const char *const isa_names[] = {"auto", "scalar", "sse2", "avx2", "avx512", "neon", NULL};
 const char *const kernels_names[] = {"exact", "1", "3", "5", "9", "feline", "riemann", NULL};
-const int kernels_values[] = {MGT_KERNELS_EXACT, MGT_KERNELS_1, MGT_KERNELS_3, MGT_KERNELS_5, MGT_KERNELS_9, MGT_KERNELS_FELINE, MGT_KERNELS_RIEMANN};
+const int kernels_values[] = {MGT_MIXTURE_EXACT, MGT_MIXTURE_1, MGT_MIXTURE_3, MGT_MIXTURE_5, MGT_MIXTURE_9, MGT_MIXTURE_FELINE, MGT_MIXTURE_RIEMANN};
 const char *const layer_names[] = {"color", "coverage", "mask", "depth", "normal", "samples", "importance", "detail", "refraction", "refraction_error", NULL};
 const char *const log_level_names[] = {"debug", "info", "warning", "error", NULL};
 const char *const method_waves_names[] = {"point", "instant", "shutter", NULL};
@@ -51,7 +51,7 @@ static bool find(const char *const *names, const char *name, void *value)
 
 const char *mgt_adaptive_name(mgt_adaptive adaptive) { return name_of(adaptive_names, (int)adaptive); }
 const char *mgt_backend_name(mgt_backend backend) { return name_of(backend_names, (int)backend); }
-const char *mgt_body_name(mgt_body body) { return name_of(body_names, (int)body); }
+const char *mgt_source_name(mgt_source body) { return name_of(body_names, (int)body); }
 const char *mgt_format_name(mgt_format format) { return name_of(format_names, (int)format); }
 const char *mgt_gl_color_name(mgt_gl_color color) { return name_of(gl_color_names, (int)color); }
 const char *mgt_isa_name(mgt_isa isa) { return name_of(isa_names, (int)isa); }
@@ -66,7 +66,7 @@ const char *mgt_tone_map_name(mgt_tone_map tone_map) { return name_of(tone_map_n
 
 bool mgt_adaptive_from_name(const char *name, mgt_adaptive *adaptive) { return find(adaptive_names, name, adaptive); }
 bool mgt_backend_from_name(const char *name, mgt_backend *backend) { return find(backend_names, name, backend); }
-bool mgt_body_from_name(const char *name, mgt_body *body) { return find(body_names, name, body); }
+bool mgt_source_from_name(const char *name, mgt_source *body) { return find(body_names, name, body); }
 bool mgt_format_from_name(const char *name, mgt_format *format) { return find(format_names, name, format); }
 bool mgt_gl_color_from_name(const char *name, mgt_gl_color *color) { return find(gl_color_names, name, color); }
 bool mgt_isa_from_name(const char *name, mgt_isa *isa) { return find(isa_names, name, isa); }
@@ -79,7 +79,7 @@ bool mgt_sky_model_from_name(const char *name, mgt_sky_model *model) { return fi
 bool mgt_status_from_name(const char *name, mgt_status *status) { return find(status_names, name, status); }
 bool mgt_tone_map_from_name(const char *name, mgt_tone_map *tone_map) { return find(tone_map_names, name, tone_map); }
 
-const char *mgt_kernels_name(mgt_kernels kernels)
+const char *mgt_mixture_name(mgt_mixture kernels)
 {
     for (int i = 0; kernels_names[i]; i++)
         if (kernels_values[i] == (int)kernels)
@@ -87,12 +87,12 @@ const char *mgt_kernels_name(mgt_kernels kernels)
     return NULL;
 }
 
-bool mgt_kernels_from_name(const char *name, mgt_kernels *kernels)
+bool mgt_mixture_from_name(const char *name, mgt_mixture *kernels)
 {
     int place;
     if (!find(kernels_names, name, &place))
         return false;
-    *kernels = (mgt_kernels)kernels_values[place];
+    *kernels = (mgt_mixture)kernels_values[place];
     return true;
 }
 

@@ -11,8 +11,8 @@
 static const char *const switch_words[] = {"off", "on", NULL};
 
 const mgt_light light_defaults[] =
-    {[MGT_BODY_SUN] = {.body = MGT_BODY_SUN, .elevation_deg = 30, .angular_radius_deg = 0.2665, .radiance = {1.98e6f, 1.88e6f, 1.80e6f}},
-     [MGT_BODY_MOON] = {.body = MGT_BODY_MOON, .elevation_deg = 30, .angular_radius_deg = 0.2590, .radiance = {3.75f, 3.45f, 3.0f}}};
+    {[MGT_SOURCE_SUN] = {.body = MGT_SOURCE_SUN, .elevation_deg = 30, .angular_radius_deg = 0.2665, .radiance = {1.98e6f, 1.88e6f, 1.80e6f}},
+     [MGT_SOURCE_MOON] = {.body = MGT_SOURCE_MOON, .elevation_deg = 30, .angular_radius_deg = 0.2590, .radiance = {3.75f, 3.45f, 3.0f}}};
 
 static void decide_body(void *parent)
 {

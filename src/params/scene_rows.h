@@ -53,7 +53,7 @@
             .doc = "share of the light entering the water that deep water sends up again, linear sRGB" \
     }
 
-/* What a body brings along, by mgt_body; at elevation 30°, azimuth 0. */
+/* What a body brings along, by mgt_source; at elevation 30°, azimuth 0. */
 extern const mgt_light light_defaults[];
 
 extern const field_row image_rows[];  /* of an mgt_image, but for its crop */

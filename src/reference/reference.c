@@ -46,21 +46,21 @@ static void set_sample_range(reference_frame *frame, const mgt_quality *quality)
 
 typedef struct lane_build {
     uint32_t lanes;
-    reference_trace *trace, *march, *bend;
+    reference_trace *trace, *search, *bend;
 } lane_build;
 
 /* All zero when this processor lacks it. */
 static lane_build pick_build(mgt_isa isa)
 {
-    const lane_build scalar = {1, reference_trace_1, reference_march_1, reference_bend_1}, missing = {0};
+    const lane_build scalar = {1, reference_trace_1, reference_search_1, reference_bend_1}, missing = {0};
 #if defined(__x86_64__)
     const bool avx512 =
         __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl");
     const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
     if (isa == MGT_ISA_AVX512 || (isa == MGT_ISA_AUTO && avx512))
-        return avx512 ? (lane_build){8, reference_trace_8, reference_march_8, reference_bend_8} : missing;
+        return avx512 ? (lane_build){8, reference_trace_8, reference_search_8, reference_bend_8} : missing;
     if (isa == MGT_ISA_AVX2 || (isa == MGT_ISA_AUTO && avx2))
-        return avx2 ? (lane_build){4, reference_trace_4, reference_march_4, reference_bend_4} : missing;
+        return avx2 ? (lane_build){4, reference_trace_4, reference_search_4, reference_bend_4} : missing;
 #else
     if (isa == MGT_ISA_AVX512 || isa == MGT_ISA_AVX2)
         return missing;
@@ -88,7 +88,7 @@ mgt_status reference_frame_create(reference_frame **result, const mgt_scene *sce
     if (sky)
         frame->sky = *sky;
     frame->trace = build.trace;
-    frame->march = build.march;
+    frame->search = build.search;
     frame->bend = build.bend;
     frame->lanes = build.lanes;
     frame->bound_deviations = options->bound_deviations > 0 ? options->bound_deviations : REFERENCE_BOUND_DEVIATIONS;

@@ -31,7 +31,7 @@ typedef struct reference_sky {
 typedef struct reference_options {
     mgt_isa isa; /* AUTO: the best; SSE2 and NEON run the one-lane build. Every choice gives the same bits. */
 
-    /* The march steps by bounds on the waves' slope and curvature along the ray: the smaller of the exhaustive bound (all crests
+    /* The search steps by bounds on the waves' slope and curvature along the ray: the smaller of the exhaustive bound (all crests
      * aligned) and this many standard deviations. 0: the default, REFERENCE_BOUND_DEVIATIONS. INFINITY: exhaustive alone.
      * A sum of sines of random phases is sub-Gaussian, so a point exceeds k deviations with probability < exp(−k²/2). */
     double bound_deviations;

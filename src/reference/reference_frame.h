@@ -28,7 +28,7 @@ typedef struct reference_batch {
     double origin_x[REFERENCE_BATCH], origin_y[REFERENCE_BATCH], origin_z[REFERENCE_BATCH];
     double direction_x[REFERENCE_BATCH], direction_y[REFERENCE_BATCH], direction_z[REFERENCE_BATCH];
     double slope_bound[REFERENCE_BATCH], curvature_bound[REFERENCE_BATCH]; /* of the water's height along the ray */
-    double start[REFERENCE_BATCH], end[REFERENCE_BATCH];                   /* metres, of the march */
+    double start[REFERENCE_BATCH], end[REFERENCE_BATCH];                   /* metres, of the search */
 
     double distance[REFERENCE_BATCH];                          /* metres to the first hit; +inf: none; 0: the camera is under the surface */
     double slope_x[REFERENCE_BATCH], slope_z[REFERENCE_BATCH]; /* at the hit */
@@ -42,7 +42,7 @@ typedef void reference_trace(const reference_frame *frame, reference_batch *batc
 struct reference_frame {
     mgt_scene scene; /* water.waves is NULL: see below */
     reference_sky sky;
-    reference_trace *trace, *march, *bend;
+    reference_trace *trace, *search, *bend;
     uint32_t lanes;
 
     reference_view view, view_open;
@@ -66,9 +66,9 @@ void reference_trace_4(const reference_frame *frame, reference_batch *batch, uin
 void reference_trace_8(const reference_frame *frame, reference_batch *batch, uint32_t count);
 
 /* The same for rays whose origin, direction (unit) and time_offset are the input. One that starts at or under the surface has its hit there. */
-void reference_march_1(const reference_frame *frame, reference_batch *batch, uint32_t count);
-void reference_march_4(const reference_frame *frame, reference_batch *batch, uint32_t count);
-void reference_march_8(const reference_frame *frame, reference_batch *batch, uint32_t count);
+void reference_search_1(const reference_frame *frame, reference_batch *batch, uint32_t count);
+void reference_search_4(const reference_frame *frame, reference_batch *batch, uint32_t count);
+void reference_search_8(const reference_frame *frame, reference_batch *batch, uint32_t count);
 
 /* After either of them: fills bend where rays hit. */
 void reference_bend_1(const reference_frame *frame, reference_batch *batch, uint32_t count);

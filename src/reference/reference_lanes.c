@@ -2,9 +2,9 @@
  *
  * First hits of a batch of rays with the displaced surface, in lanes. Compiled once per lane count.
  *
- * A ray marches on f(s) = (height of the ray) − (height of the water below it). From f, its derivative and bounds on the
+ * A ray searches on f(s) = (height of the ray) − (height of the water below it). From f, its derivative and bounds on the
  * water's slope and curvature along the ray follows a step that cannot pass the first zero; close to it that step becomes
- * Newton's. A lane that is done takes the next ray, so a long march holds up nobody.
+ * Newton's. A lane that is done takes the next ray, so a long search holds up nobody.
  */
 #include "reference/double_lanes.h"
 #include "reference/reference_frame.h"
@@ -12,7 +12,7 @@
 #define PASTE(name, lanes) name##lanes
 #define NAME(name, lanes) PASTE(name, lanes)
 #define TRACE NAME(reference_trace_, REFERENCE_LANES)
-#define MARCH NAME(reference_march_, REFERENCE_LANES)
+#define MARCH NAME(reference_search_, REFERENCE_LANES)
 #define BEND NAME(reference_bend_, REFERENCE_LANES)
 
 static const double relative_tolerance = 1e-9;
@@ -119,7 +119,7 @@ static inline reals safe_step(reals f, reals derivative, reals least, reals curv
 }
 
 /* What a lane carries from one evaluation to the next. */
-typedef struct march_state {
+typedef struct search_state {
     _Alignas(64) double origin_x[REFERENCE_LANES], origin_y[REFERENCE_LANES], origin_z[REFERENCE_LANES];
     _Alignas(64) double direction_x[REFERENCE_LANES], direction_y[REFERENCE_LANES], direction_z[REFERENCE_LANES];
     _Alignas(64) double time_offset[REFERENCE_LANES], slope_bound[REFERENCE_LANES], curvature_bound[REFERENCE_LANES];
@@ -131,10 +131,10 @@ typedef struct march_state {
     _Alignas(64) int64_t evaluations[REFERENCE_LANES];
     uint32_t ray[REFERENCE_LANES];
     uint32_t active; /* bits */
-} march_state;
+} search_state;
 
 /* Gives a lane the next ray that can meet water, or idles it. Returns the index of the ray to look at next. */
-static uint32_t take_ray(march_state *state, int lane, reference_batch *batch, uint32_t next, uint32_t count)
+static uint32_t take_ray(search_state *state, int lane, reference_batch *batch, uint32_t next, uint32_t count)
 {
     while (next < count && !(batch->start[next] < HUGE_VAL)) {
         batch->distance[next] = HUGE_VAL;
@@ -165,17 +165,17 @@ static uint32_t take_ray(march_state *state, int lane, reference_batch *batch, u
     return next + 1;
 }
 
-typedef struct march_outcome {
+typedef struct search_outcome {
     masks hit, miss;
     lane_surface water;
-} march_outcome;
+} search_outcome;
 
 /* One evaluation: updates the state and says which lanes are done. */
-static inline march_outcome march_step(const reference_frame *frame, march_state *state)
+static inline search_outcome search_step(const reference_frame *frame, search_state *state)
 {
     const reals s = load(state->distance);
     const reals dx = load(state->direction_x), dy = load(state->direction_y), dz = load(state->direction_z);
-    march_outcome outcome;
+    search_outcome outcome;
     outcome.water =
         waves_at(frame->waves, frame->wave_count, fused(dx, s, load(state->origin_x)), fused(dz, s, load(state->origin_z)), load(state->time_offset));
 
@@ -215,14 +215,14 @@ static inline march_outcome march_step(const reference_frame *frame, march_state
     return outcome;
 }
 
-static void march_rays(const reference_frame *frame, reference_batch *batch, uint32_t count)
+static void search_rays(const reference_frame *frame, reference_batch *batch, uint32_t count)
 {
-    march_state state = {0};
+    search_state state = {0};
     uint32_t next = 0;
     for (int lane = 0; lane < REFERENCE_LANES; lane++)
         next = take_ray(&state, lane, batch, next, count);
     while (state.active) {
-        const march_outcome outcome = march_step(frame, &state);
+        const search_outcome outcome = search_step(frame, &state);
         batch->evaluations += (uint64_t)__builtin_popcount(state.active);
         const uint32_t hits = lane_bits(outcome.hit);
         uint32_t done = (hits | lane_bits(outcome.miss)) & state.active;
@@ -252,7 +252,7 @@ void MARCH(const reference_frame *frame, reference_batch *batch, uint32_t count)
     }
     for (uint32_t i = 0; i < count; i += REFERENCE_LANES)
         bound_rays(frame, batch, i);
-    march_rays(frame, batch, count);
+    search_rays(frame, batch, count);
 }
 
 void BEND(const reference_frame *frame, reference_batch *batch, uint32_t count)

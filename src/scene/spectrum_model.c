@@ -22,7 +22,7 @@ double dispersion_wave_number(double frequency, double depth)
     const double deep = frequency * frequency / G;
     if (!(depth > 0) || deep * depth > 20)
         return deep;
-    /* Newton on k tanh(k d) = ω²/g from Eckart's guess, which is at most 5 % off. */
+    /* Newton on k tanh(k d) = ω²/g from Eckart's estimate, which is at most 5 % off. */
     double k = deep / sqrt(portable_tanh(deep * depth));
     for (int i = 0; i < 20; i++) {
         const double t = portable_tanh(k * depth), next = k - (k * t - deep) / (t + k * depth * (1 - t * t));

@@ -53,12 +53,12 @@ static const struct {
     {"fxaa", {.method = MGT_METHOD_FXAA, .spatial_samples = 1, .time_samples = 1}},
     {"taa", {.method = MGT_METHOD_TAA, .spatial_samples = 1, .time_samples = 1}},
     {"ssaa2 x 3", {.method = MGT_METHOD_SSAA, .spatial_samples = 2, .time_samples = 3, .seed = 7}},
-    {"1 kernel", {.method = MGT_METHOD_PODEE_UNIFORM, .spatial_samples = 1, .time_samples = 1, .kernels = MGT_KERNELS_1}},
-    {"3 kernels", {.method = MGT_METHOD_PODEE_UNIFORM, .spatial_samples = 1, .time_samples = 1, .kernels = MGT_KERNELS_3}},
-    {"5 kernels", {.method = MGT_METHOD_PODEE_PIXEL, .spatial_samples = 1, .time_samples = 1, .kernels = MGT_KERNELS_5}},
-    {"9 kernels", {.method = MGT_METHOD_PODEE_UNIFORM, .spatial_samples = 1, .time_samples = 1, .kernels = MGT_KERNELS_9}},
-    {"feline", {.method = MGT_METHOD_PODEE_UNIFORM, .spatial_samples = 1, .time_samples = 1, .kernels = MGT_KERNELS_FELINE}},
-    {"riemann", {.method = MGT_METHOD_PODEE_UNIFORM, .spatial_samples = 1, .time_samples = 1, .kernels = MGT_KERNELS_RIEMANN}},
+    {"1 kernel", {.method = MGT_METHOD_PODEE_UNIFORM, .spatial_samples = 1, .time_samples = 1, .kernels = MGT_MIXTURE_1}},
+    {"3 kernels", {.method = MGT_METHOD_PODEE_UNIFORM, .spatial_samples = 1, .time_samples = 1, .kernels = MGT_MIXTURE_3}},
+    {"5 kernels", {.method = MGT_METHOD_PODEE_PIXEL, .spatial_samples = 1, .time_samples = 1, .kernels = MGT_MIXTURE_5}},
+    {"9 kernels", {.method = MGT_METHOD_PODEE_UNIFORM, .spatial_samples = 1, .time_samples = 1, .kernels = MGT_MIXTURE_9}},
+    {"feline", {.method = MGT_METHOD_PODEE_UNIFORM, .spatial_samples = 1, .time_samples = 1, .kernels = MGT_MIXTURE_FELINE}},
+    {"riemann", {.method = MGT_METHOD_PODEE_UNIFORM, .spatial_samples = 1, .time_samples = 1, .kernels = MGT_MIXTURE_RIEMANN}},
     {"3 segments", {.method = MGT_METHOD_PODEE_PIXEL, .spatial_samples = 1, .time_samples = 1, .path_segments = 3}},
 };
 enum { METHODS = sizeof methods / sizeof *methods, VARIANTS = METHODS - 8 };

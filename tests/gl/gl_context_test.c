@@ -160,7 +160,7 @@ enum { QUALITIES = SEA_METHODS + SEA_BASELINES + 3 };
 
 static mgt_quality quality_of(const mgt_scene *scene, int i)
 {
-    static const mgt_kernels kernels[] = {MGT_KERNELS_5, MGT_KERNELS_FELINE, MGT_KERNELS_RIEMANN};
+    static const mgt_mixture kernels[] = {MGT_MIXTURE_5, MGT_MIXTURE_FELINE, MGT_MIXTURE_RIEMANN};
     mgt_quality q = scene->quality;
     if (i < SEA_METHODS) {
         q.method = sea_methods[i].method;

@@ -140,7 +140,7 @@ static void compare(const gl_renderer *g, const camera_rays *c, const gbuffer *c
     int *triangle = malloc((size_t)b->width * b->height * sizeof *triangle);
     assert_true(depth && triangle);
     assert_true(cpu->width == b->width && cpu->height == b->height && cpu->left == b->left && cpu->top == b->top);
-    read_layer(g, far ? &b->far : &b->near, depth, triangle);
+    read_layer(g, far ? &b->refracted : &b->front, depth, triangle);
     const double side = c->position[1] >= 0 ? 1 : -1;
     size_t shown = 0, others = 0, cpu_others = 0, unlike_cpu = 0;
     double worst = 0, worst_to_cpu = 0;
@@ -207,8 +207,8 @@ static void layers_are_those_of_rays(void **state)
         if (status == MGT_OK)
             status = gbuffers_draw(&cpu, g->objects.world, &job, &raster_kernels_1, g->objects.pool);
         assert_int_equal(status, MGT_OK);
-        compare(g, &job.camera, &cpu.near, false);
-        compare(g, &job.camera, &cpu.far, true);
+        compare(g, &job.camera, &cpu.front, false);
+        compare(g, &job.camera, &cpu.refracted, true);
     }
     gbuffers_free(&cpu);
     gl_renderer_destroy(g);

@@ -211,7 +211,7 @@ static void textures_hold_objects(void **state)
     gl.GetTextureSubImage(texture.texture, 0, 0, 0, 0, SEA_WIDTH, SEA_HEIGHT, 1, GL_RGBA, GL_FLOAT, (GLsizei)sizeof color, color);
     for (size_t i = 0; i < PIXELS; i++)
         assert_memory_equal(color + 4 * i, expected.color + 3 * i, 3 * sizeof(float));
-    scene.quality.refraction = MGT_REFRACTION_TRUTH;
+    scene.quality.refraction = MGT_REFRACTION_PATH_TRACED;
     assert_int_equal(mgt_gl_render_textures(context, &scene, &texture, 1), MGT_ERROR_UNSUPPORTED);
     assert_non_null(strstr(mgt_last_error(context), "on the CPU alone"));
     gl.DeleteTextures(1, &texture.texture);

@@ -484,7 +484,7 @@ enum { METHODS = sizeof methods / sizeof methods[0] };
 
 static mgt_quality quality_of(int i)
 {
-    const mgt_kernels kernels = i + 1 == METHODS ? MGT_KERNELS_5 : MGT_KERNELS_EXACT;
+    const mgt_mixture kernels = i + 1 == METHODS ? MGT_MIXTURE_5 : MGT_MIXTURE_EXACT;
     return (mgt_quality){.method = methods[i], .spatial_samples = 1, .time_samples = 1, .kernels = kernels};
 }
 

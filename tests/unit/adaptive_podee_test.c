@@ -287,7 +287,7 @@ static void many_samples_reach_the_reference(void **state)
     p->scene = sea_scene(p->waves);
     p->scene.shutter = 0.005;
     p->scene.light.angular_radius_deg = 6; /* light for many pixels: sums of less noise */
-    p->scene.light.body = MGT_BODY_MOON;   /* as bright at its rim as in the middle, which is what the paper's lights are */
+    p->scene.light.body = MGT_SOURCE_MOON; /* as bright at its rim as in the middle, which is what the paper's lights are */
     for (int moves = 0; moves < 2; moves++) {
         p->scene.camera_moves = moves;
         p->scene.camera_open = p->scene.camera;

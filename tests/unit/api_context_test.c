@@ -142,11 +142,11 @@ static void enums_have_names_and_back(void **state)
     NAMES(mgt_log_level, MGT_LOG_ERROR + 1);
     NAMES(mgt_layer, MGT_LAYER_REFRACTION_ERROR + 1);
     NAMES(mgt_format, MGT_FORMAT_RGBA8_SRGB + 1);
-    NAMES(mgt_body, MGT_BODY_MOON + 1);
+    NAMES(mgt_source, MGT_SOURCE_MOON + 1);
     NAMES(mgt_sky_model, MGT_SKY_BLACK + 1);
     NAMES(mgt_tone_map, MGT_TONE_AGX + 1);
     NAMES(mgt_method_waves, MGT_WAVES_SHUTTER + 1);
-    NAMES(mgt_refraction, MGT_REFRACTION_TRUTH + 1);
+    NAMES(mgt_refraction, MGT_REFRACTION_PATH_TRACED + 1);
     NAMES(mgt_adaptive, MGT_ADAPTIVE_PODEE + 1);
     NAMES(mgt_pattern, MGT_PATTERN_STRIPES + 1);
     NAMES(mgt_gl_color, MGT_GL_COLOR_DISPLAY + 1);
@@ -155,13 +155,13 @@ static void enums_have_names_and_back(void **state)
     for (; mgt_method_info((mgt_method)methods, &p, sizeof p) == MGT_OK; methods++)
         assert_true(mgt_method_name((mgt_method)methods) == p.name);
     NAMES(mgt_method, methods);
-    static const mgt_kernels kernels[] = {MGT_KERNELS_EXACT, MGT_KERNELS_1,      MGT_KERNELS_3,      MGT_KERNELS_5,
-                                          MGT_KERNELS_9,     MGT_KERNELS_FELINE, MGT_KERNELS_RIEMANN};
+    static const mgt_mixture kernels[] = {MGT_MIXTURE_EXACT, MGT_MIXTURE_1,      MGT_MIXTURE_3,      MGT_MIXTURE_5,
+                                          MGT_MIXTURE_9,     MGT_MIXTURE_FELINE, MGT_MIXTURE_RIEMANN};
     for (size_t i = 0; i < sizeof kernels / sizeof *kernels; i++) {
-        mgt_kernels value;
-        assert_true(mgt_kernels_from_name(mgt_kernels_name(kernels[i]), &value) && value == kernels[i]);
+        mgt_mixture value;
+        assert_true(mgt_mixture_from_name(mgt_mixture_name(kernels[i]), &value) && value == kernels[i]);
     }
-    assert_null(mgt_kernels_name((mgt_kernels)2));
+    assert_null(mgt_mixture_name((mgt_mixture)2));
     assert_true(mgt_layer_channels(MGT_LAYER_NORMAL) == 3 && mgt_layer_channels(MGT_LAYER_DEPTH) == 1 && mgt_layer_channels((mgt_layer)99) == 0);
 }
 

@@ -162,7 +162,7 @@ static void tables_may_fail(void **state)
     sea_render(context, &scene, &target, 1); /* the sky's tables are there */
     const long before = outstanding;
     scene.quality.method = MGT_METHOD_PODEE_UNIFORM;
-    scene.quality.kernels = MGT_KERNELS_3;
+    scene.quality.kernels = MGT_MIXTURE_3;
     for (int k = 1; k <= 2; k++) {
         fail_at = calls + k;
         assert_int_equal(mgt_render(context, &scene, &target, 1), MGT_ERROR_MEMORY);

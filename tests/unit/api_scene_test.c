@@ -108,7 +108,7 @@ static void defaults_are_legal(void **state)
     for (int i = 0; i < 2; i++)
         assert_int_equal(mgt_scene_check(a->contexts[i], &scene), MGT_OK);
     expect(a, &a->scene, MGT_OK, NULL);
-    for (mgt_body body = MGT_BODY_SUN; body <= MGT_BODY_MOON; body++) {
+    for (mgt_source body = MGT_SOURCE_SUN; body <= MGT_SOURCE_MOON; body++) {
         mgt_light light;
         mgt_light_init(&light, body);
         ACCEPT(light, light);
@@ -180,8 +180,8 @@ static void time_and_light_are_checked(void **state)
     RANGE(light.elevation_deg, -90.001, -90, 90, 90.001);
     RANGE(light.azimuth_deg, -1.1e6, -1e6, 1e6, 1.1e6);
     RANGE(light.angular_radius_deg, 0, 1e-4, 20, 20.001);
-    REFUSE(light.body, (mgt_body)2);
-    REFUSE(light.body, (mgt_body)-1);
+    REFUSE(light.body, (mgt_source)2);
+    REFUSE(light.body, (mgt_source)-1);
     for (int i = 0; i < 3; i++) {
         REFUSE_AS(MGT_ERROR_SCENE, light.radiance[i], -1, "light.radiance");
         REFUSE_AS(MGT_ERROR_SCENE, light.radiance[i], NAN, "light.radiance");
@@ -270,15 +270,15 @@ static void quality_is_checked(void **state)
 static void podee_is_checked(void **state)
 {
     api_state *a = *state;
-    REFUSE_AS(MGT_ERROR_SCENE, quality.kernels, MGT_KERNELS_9, "podee-uniform or podee-pixel");
+    REFUSE_AS(MGT_ERROR_SCENE, quality.kernels, MGT_MIXTURE_9, "podee-uniform or podee-pixel");
     REFUSE_AS(MGT_ERROR_SCENE, quality.path_segments, 2, "podee-uniform or podee-pixel");
     REFUSE_AS(MGT_ERROR_SCENE, quality.transition_hard, true, "podee-uniform or podee-pixel");
     REFUSE_AS(MGT_ERROR_SCENE, quality.transition_width, 0.2, "podee-uniform or podee-pixel");
     REFUSE_AS(MGT_ERROR_SCENE, quality.elongation_limit, 9, "podee-uniform or podee-pixel");
     a->scene.quality.method = MGT_METHOD_PODEE_PIXEL;
-    REFUSE(quality.kernels, (mgt_kernels)2);
-    REFUSE(quality.kernels, (mgt_kernels)-1);
-    REFUSE(quality.kernels, (mgt_kernels)34);
+    REFUSE(quality.kernels, (mgt_mixture)2);
+    REFUSE(quality.kernels, (mgt_mixture)-1);
+    REFUSE(quality.kernels, (mgt_mixture)34);
     REFUSE(quality.elongation_limit, 0.99);
     REFUSE(quality.elongation_limit, 1e7);
     REFUSE(quality.elongation_limit, NAN);
@@ -286,7 +286,7 @@ static void podee_is_checked(void **state)
     REFUSE(quality.transition_width, -0.1);
     REFUSE(quality.transition_width, 0.51);
     REFUSE(quality.transition_width, NAN);
-    ACCEPT(quality.kernels, MGT_KERNELS_RIEMANN);
+    ACCEPT(quality.kernels, MGT_MIXTURE_RIEMANN);
     ACCEPT(quality.elongation_limit, 1);
     ACCEPT(quality.path_segments, 64);
     ACCEPT(quality.transition_width, 0.5);

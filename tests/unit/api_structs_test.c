@@ -106,7 +106,7 @@ static void initialisers_keep_within_the_size(void **state)
     INITIALISES(mgt_gl_view, mgt_gl_view_init);
     INITIALISES(mgt_gl_texture, mgt_gl_texture_init);
     mgt_quality_init(NULL, sizeof(mgt_quality));
-    mgt_light_init(NULL, MGT_BODY_SUN);
+    mgt_light_init(NULL, MGT_SOURCE_SUN);
 }
 
 /* A program of a later version, whose structs are 8 bytes larger, gets the same picture. */

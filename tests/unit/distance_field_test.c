@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Voxels of distances against distances to all triangles, and marched rays against traced ones. */
+ * Voxels of distances against distances to all triangles, and searched rays against traced ones. */
 #include <float.h>
 #include <math.h>
 #include <setjmp.h>
@@ -126,7 +126,7 @@ static void distances_are_exact_near_and_never_too_far(void **state)
     end(&s);
 }
 
-static void marched_rays_end_near_traced_ones(void **state)
+static void searched_rays_end_near_traced_ones(void **state)
 {
     (void)state;
     if (!trace_available())
@@ -198,7 +198,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(distances_are_exact_near_and_never_too_far),
-        cmocka_unit_test(marched_rays_end_near_traced_ones),
+        cmocka_unit_test(searched_rays_end_near_traced_ones),
         cmocka_unit_test(numbers_do_not_depend_on_threads),
         cmocka_unit_test(memory_is_bounded),
         cmocka_unit_test(odd_rays_meet_nothing),

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Another model of the water behind water.k: a periodic table of heights, a cubic B-spline that drifts with the wind. The kernels that march to the
+ * Another model of the water behind water.k: a periodic table of heights, a cubic B-spline that drifts with the wind. The kernels that search to the
  * first hit, take Newton's last steps and filter a pixel are those of the library; only sines.k is replaced.
  */
 #include <math.h>
@@ -69,7 +69,7 @@ static table_point table_at(const height_table *table, double x, double z)
 typedef struct WaveData {
     const height_table *table;
 } WaveData;
-typedef WaveData MarchWave;
+typedef WaveData SearchWave;
 
 struct kernel_context {
     const FrameData *frame;
@@ -80,8 +80,8 @@ struct kernel_context {
 #define FRAME(cx) (*(cx)->frame)
 #define TILE(cx) (*(cx)->tile)
 #define WAVE(cx, i) ((cx)->wave[i])
-#define MARCH_WAVE(cx, i) ((cx)->wave[i])
-#define BODY_LIGHT(cx) vec3(0.0f, 0.0f, 0.0f)
+#define SEARCH_WAVE(cx, i) ((cx)->wave[i])
+#define UPWELLING(cx) vec3(0.0f, 0.0f, 0.0f)
 #define MIRRORS_OBJECTS(cx) 0
 #define OBJECTS_SHARE(cx) 0.0f
 #define OBJECTS_COLOR(cx) vec3(0.0f, 0.0f, 0.0f)
@@ -161,7 +161,7 @@ KERNEL Surface add_filtered(CTX cx, Surface s, WaveData w, place p, Footprint f)
     return s;
 }
 
-KERNEL MarchSums add_marched(CTX cx, MarchSums s, MarchWave w, bool live, real x, real z)
+KERNEL SearchSums add_searched(CTX cx, SearchSums s, SearchWave w, bool live, real x, real z)
 {
     const table_point p = table_at(w.table, (double)x, (double)z);
     const double share = live ? 1 : 0;
@@ -194,12 +194,12 @@ static TileData tile_of(const height_table *t, double camera_height)
         }
     return (TileData){.camera_height = (float)camera_height,
                       .resolved_count = 1,
-                      .march_count = 1,
+                      .search_count = 1,
                       .coarse_count = 1,
-                      .march_bound = (float)height,
-                      .march_slope = (float)(hypot(slope[0], slope[1]) / t->texel),
-                      .march_bend = (float)((fmax(bend[0], bend[2]) + bend[1]) / (t->texel * t->texel)),
-                      .march_tolerance = (float)(0.02 * t->texel),
+                      .search_bound = (float)height,
+                      .search_slope = (float)(hypot(slope[0], slope[1]) / t->texel),
+                      .search_bend = (float)((fmax(bend[0], bend[2]) + bend[1]) / (t->texel * t->texel)),
+                      .search_tolerance = (float)(0.02 * t->texel),
                       .far_distance = 1e5f};
 }
 
@@ -246,11 +246,11 @@ static void first_hits_are_those_of_brute_force(void **state)
         const struct kernel_context cx = {&frame, &tile, {{&t}}};
         const vec3 ray = {(float)(cos(azimuth) * cos(dip)), (float)-sin(dip), (float)(sin(azimuth) * cos(dip))};
         const double exact_ray[3] = {(double)ray.x, (double)ray.y, (double)ray.z};
-        const SampleHit hit = sample_hit(&cx, ray, (HitGuess){0, 0, 1});
+        const SampleHit hit = sample_hit(&cx, ray, (HitEstimate){0, 0, 1});
         const double exact = brute_force(&t, height, exact_ray, 0.0004, (height + 0.3) / sin(dip) + 1);
         assert_true(hit.found == 1 && exact < HUGE_VAL);
         const double wrong = fabs((double)hit.along - exact);
-        if (wrong > 0.01) { /* a crest that is grazed within the march's tolerance */
+        if (wrong > 0.01) { /* a crest that is grazed within the search's tolerance */
             off++;
             continue;
         }

@@ -31,8 +31,8 @@
 #define FRAME(cx) (*(cx)->frame)
 #define TILE(cx) (*(cx)->tile)
 #define WAVE(cx, i) ((cx)->waves[i])
-#define MARCH_WAVE(cx, i) ((cx)->march[i])
-#define BODY_LIGHT(cx) vec3(FRAME(cx).body_r, FRAME(cx).body_g, FRAME(cx).body_b)
+#define SEARCH_WAVE(cx, i) ((cx)->search[i])
+#define UPWELLING(cx) vec3(FRAME(cx).body_r, FRAME(cx).body_g, FRAME(cx).body_b)
 #define MIRRORS_OBJECTS(cx) 0
 #define OBJECTS_SHARE(cx) 0.0f
 #define OBJECTS_COLOR(cx) vec3(0.0f, 0.0f, 0.0f)
@@ -130,7 +130,7 @@ static inline kernel_bench *kernel_bench_create(const mgt_scene *scene)
     b->cx = (struct kernel_context){.frame = &b->frame.data,
                                     .tile = &b->tile.data,
                                     .waves = b->tile.waves,
-                                    .march = b->tile.march,
+                                    .search = b->tile.search,
                                     .sky = b->sky->table,
                                     .view = &b->set.view};
     return b;

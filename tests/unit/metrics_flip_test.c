@@ -99,7 +99,7 @@ static const double to_xyz[3][3] = {{0.4124564, 0.3575761, 0.1804375}, {0.212672
 static const double from_xyz[3][3] = {{3.2404542, -1.5371385, -0.4985314}, {-0.9692660, 1.8760108, 0.0415560}, {0.0556434, -0.2040259, 1.0572252}};
 static const double white[3] = {0.9504700, 1.0000001, 1.0888300};
 
-static double near_pixel(const double *plane, int x, int y)
+static double front_pixel(const double *plane, int x, int y)
 {
     x = x < 0 ? 0 : x >= W ? W - 1 : x;
     y = y < 0 ? 0 : y >= H ? H - 1 : y;
@@ -128,7 +128,7 @@ static double filtered(const double *plane, int x, int y, int radius, kernel_fun
     double above = 0, below = 0, sum_above = 0, sum_below = 0;
     for (int dy = -radius; dy <= radius; dy++)
         for (int dx = -radius; dx <= radius; dx++) {
-            const double weight = kernel(dx, dy, constants), value = near_pixel(plane, x + dx, y + dy);
+            const double weight = kernel(dx, dy, constants), value = front_pixel(plane, x + dx, y + dy);
             above += fmax(weight, 0);
             below += fmax(-weight, 0);
             sum_above += fmax(weight, 0) * value;

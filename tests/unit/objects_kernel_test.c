@@ -28,7 +28,7 @@ static FrameData frame_data;
 static ShadeData shade_data;
 static NarrowData narrow_data;
 static RefractData refract_data;
-static MarchWave waves[4];
+static SearchWave waves[4];
 static double floor_depth;                  /* of the plane that the layer shows */
 static double post_column = -1, post_depth; /* of a post before it, three columns wide */
 
@@ -39,7 +39,7 @@ static double post_column = -1, post_depth; /* of a post before it, three column
 #define SHADE(cx) shade_data
 #define NARROW(cx) narrow_data
 #define REFRACT(cx) refract_data
-#define MARCH_WAVE(cx, i) (waves[i])
+#define SEARCH_WAVE(cx, i) (waves[i])
 
 KERNEL vec3 TEXTURE(CTX cx, real texture, real u, real v, real level) { return vec3(texture, u, v * level); }
 KERNEL real SUN_SHARE(CTX cx, vec3 position) { return 1.0f; }
@@ -361,7 +361,7 @@ static void caustics_are_shares_of_area(void **state)
         shade_data = (ShadeData){.index = 1.333f, .caustic_waves = 4, .sun_air_x = (float)light[0], .sun_air_z = (float)light[2]};
         unit3(light);
         for (int k = 0; k < 4; k++)
-            waves[k] = (MarchWave){(float)range(-0.5, 0.5), (float)range(-0.5, 0.5), (float)range(0, 1), 0.01f};
+            waves[k] = (SearchWave){(float)range(-0.5, 0.5), (float)range(-0.5, 0.5), (float)range(0, 1), 0.01f};
         const double x = range(-5, 5), z = range(-5, 5), depth = range(0.5, 3), h = 1e-4;
         double at[2], right[2], ahead[2];
         send(light, x, z, depth, at);

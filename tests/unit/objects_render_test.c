@@ -87,7 +87,7 @@ static drawing draw(mgt_context *context, const mgt_scene *scene, const char *wh
     for (int i = 0; i < LAYERS; i++)
         targets[i] = sea_target(layers[i].layer, layers[i].channels == 3 ? MGT_FORMAT_RGB32F : MGT_FORMAT_R32F, planes[i], 0);
     const mgt_status status = mgt_render(context, scene, targets, LAYERS);
-    const bool traces = scene->quality.refraction == MGT_REFRACTION_HYBRID || scene->quality.refraction == MGT_REFRACTION_TRUTH;
+    const bool traces = scene->quality.refraction == MGT_REFRACTION_HYBRID || scene->quality.refraction == MGT_REFRACTION_PATH_TRACED;
     const bool samples = scene->quality.method == MGT_METHOD_REFERENCE || scene->quality.method == MGT_METHOD_ADAPTIVE;
     if ((traces && status == MGT_ERROR_UNAVAILABLE) || (samples && status == MGT_ERROR_UNSUPPORTED))
         return NOT_DRAWN;
@@ -174,7 +174,7 @@ static void every_refraction_ends(void **state)
         while (count < 4 && cases[i].overrides[count])
             count++;
         view v = view_of(cases[i].overrides, count);
-        for (int r = 0; r <= MGT_REFRACTION_TRUTH; r++)
+        for (int r = 0; r <= MGT_REFRACTION_PATH_TRACED; r++)
             for (int caustics = MGT_SANITIZED ? (i + r) % 2 : 0; caustics < 2; caustics += 1 + MGT_SANITIZED) {
                 v.scene.quality.refraction = (mgt_refraction)r;
                 v.scene.quality.refraction_samples = 1;
@@ -204,7 +204,7 @@ static void index_one_is_straight(void **state)
         v.scene.quality.refraction = MGT_REFRACTION_OFF;
         assert_int_equal(draw(context, &v.scene, "index 1, straight"), DRAWN_WELL);
         memcpy(straight, planes[5], sizeof straight);
-        static const mgt_refraction others[] = {MGT_REFRACTION_TWO_PHASE, MGT_REFRACTION_HYBRID, MGT_REFRACTION_BROAD, MGT_REFRACTION_TRUTH};
+        static const mgt_refraction others[] = {MGT_REFRACTION_TWO_PHASE, MGT_REFRACTION_HYBRID, MGT_REFRACTION_BROAD, MGT_REFRACTION_PATH_TRACED};
         for (int k = 0; k < 4; k++) {
             v.scene.quality.refraction = others[k];
             v.scene.quality.refraction_samples = 1;
@@ -368,7 +368,7 @@ static void poor_triangles_render(void **state)
         v.scene.objects = &object;
         v.scene.object_count = 1;
         v.scene.quality.refraction_samples = 1;
-        for (int r = 0; r <= MGT_REFRACTION_TRUTH; r++) {
+        for (int r = 0; r <= MGT_REFRACTION_PATH_TRACED; r++) {
             v.scene.quality.refraction = (mgt_refraction)r;
             bad += draw(context, &v.scene, "poor triangles") == DRAWN_BADLY;
         }
@@ -387,7 +387,7 @@ static void crops_and_long_pictures(void **state)
     static float whole[3 * WIDTH * HEIGHT];
     mgt_context *context = sea_context(2, MGT_ISA_AUTO);
     view v = view_of(NULL, 0);
-    for (int r = 0; r <= MGT_REFRACTION_TRUTH; r++) {
+    for (int r = 0; r <= MGT_REFRACTION_PATH_TRACED; r++) {
         v.scene.quality.refraction = (mgt_refraction)r;
         v.scene.quality.refraction_samples = 1;
         v.scene.image = (mgt_image){.width = WIDTH, .height = HEIGHT};

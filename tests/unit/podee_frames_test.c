@@ -6,8 +6,8 @@
 
 enum { PIXELS = SEA_WIDTH * SEA_HEIGHT };
 
-static const mgt_kernels all_kernels[] = {MGT_KERNELS_EXACT, MGT_KERNELS_1,      MGT_KERNELS_3,      MGT_KERNELS_5,
-                                          MGT_KERNELS_9,     MGT_KERNELS_FELINE, MGT_KERNELS_RIEMANN};
+static const mgt_mixture all_kernels[] = {MGT_MIXTURE_EXACT, MGT_MIXTURE_1,      MGT_MIXTURE_3,      MGT_MIXTURE_5,
+                                          MGT_MIXTURE_9,     MGT_MIXTURE_FELINE, MGT_MIXTURE_RIEMANN};
 enum { KERNELS = sizeof all_kernels / sizeof *all_kernels };
 
 typedef struct sea_state {
@@ -104,7 +104,7 @@ static void kernels_are_near_the_integral(void **state)
     coverage(s->context, &s->scene, s->a);
     for (int k = 1; k < KERNELS; k++) {
         s->scene.quality.kernels = all_kernels[k];
-        s->scene.quality.elongation_limit = all_kernels[k] == MGT_KERNELS_RIEMANN ? 0 : 1e6;
+        s->scene.quality.elongation_limit = all_kernels[k] == MGT_MIXTURE_RIEMANN ? 0 : 1e6;
         coverage(s->context, &s->scene, s->b);
         rms[k] = rms_difference(s->a, s->b);
         print_message("  kernels %2d: rms %.4f, sum over the exact one's %.4f\n", (int)all_kernels[k], rms[k], sum_of(s->b) / sum_of(s->a));
@@ -114,12 +114,12 @@ static void kernels_are_near_the_integral(void **state)
     /* Without a path there is nothing that the Riemann sum leaves out. */
     s->scene.shutter = 0;
     s->scene.quality.elongation_limit = 0;
-    s->scene.quality.kernels = MGT_KERNELS_EXACT;
+    s->scene.quality.kernels = MGT_MIXTURE_EXACT;
     coverage(s->context, &s->scene, s->a);
-    s->scene.quality.kernels = MGT_KERNELS_RIEMANN;
+    s->scene.quality.kernels = MGT_MIXTURE_RIEMANN;
     coverage(s->context, &s->scene, s->b);
     expect_rms("Riemann sums of a still surface", rms_difference(s->a, s->b), 0, 1e-3);
-    s->scene.quality.kernels = MGT_KERNELS_9;
+    s->scene.quality.kernels = MGT_MIXTURE_9;
     coverage(s->context, &s->scene, s->c);
     expect_rms("nine kernels there, sum over that of Riemann sums", sum_of(s->c) / sum_of(s->b), 0.97, 1.03);
 }
@@ -207,7 +207,7 @@ static void every_light_gives_shares(void **state)
             for (int still = 0; still < 2; still++) {
                 s->scene.quality.kernels = all_kernels[k];
                 s->scene.quality.method = (k + l) % 2 ? MGT_METHOD_PODEE_PIXEL : MGT_METHOD_PODEE_UNIFORM;
-                s->scene.quality.elongation_limit = still && k > 0 && all_kernels[k] != MGT_KERNELS_RIEMANN ? 1e6 : 0;
+                s->scene.quality.elongation_limit = still && k > 0 && all_kernels[k] != MGT_MIXTURE_RIEMANN ? 1e6 : 0;
                 s->scene.light.angular_radius_deg = radii[l];
                 s->scene.shutter = still ? 0 : 1.0 / 30;
                 coverage(s->context, &s->scene, s->a);

@@ -120,7 +120,7 @@ static path_case random_case(random_state *r, double widest, double least_elonga
     return p;
 }
 
-static double share_of(const path_case *p, mgt_kernels kernels, double elongation_limit, bool still)
+static double share_of(const path_case *p, mgt_mixture kernels, double elongation_limit, bool still)
 {
     const FrameData data = {.podee_kernels = (int)kernels, .podee_elongation = (float)elongation_limit, .lights[0].disk_radius = 1};
     const struct kernel_context cx = {.frame = &data, .podee = &tables};
@@ -132,14 +132,14 @@ static double share_of(const path_case *p, mgt_kernels kernels, double elongatio
 enum { KINDS = 5 };
 
 static const struct {
-    mgt_kernels kernels;
+    mgt_mixture kernels;
     const char *name;
     double bound; /* of the rms; 0: none */
-} kinds[KINDS] = {{MGT_KERNELS_1, "1 kernel", 0.045},
-                  {MGT_KERNELS_3, "3 kernels", 0.0145},
-                  {MGT_KERNELS_5, "5 kernels", 0.0075},
-                  {MGT_KERNELS_9, "9 kernels", 0.0028},
-                  {MGT_KERNELS_FELINE, "Feline", 0}};
+} kinds[KINDS] = {{MGT_MIXTURE_1, "1 kernel", 0.045},
+                  {MGT_MIXTURE_3, "3 kernels", 0.0145},
+                  {MGT_MIXTURE_5, "5 kernels", 0.0075},
+                  {MGT_MIXTURE_9, "9 kernels", 0.0028},
+                  {MGT_MIXTURE_FELINE, "Feline", 0}};
 
 /* Root mean square errors of CASES paths. */
 static void measure_kinds(double widest, double rms[KINDS])
@@ -186,11 +186,11 @@ static void still_surfaces_and_riemann_sums(void **state)
     double squares = 0, riemann = 0;
     for (int i = 0; i < CASES; i++) {
         const path_case p = random_case(&r, 8, 1, 9);
-        const double share = disk_path_quadrature(p.to, p.to, p.covariance, 1), still = share_of(&p, MGT_KERNELS_9, 1e6, true);
+        const double share = disk_path_quadrature(p.to, p.to, p.covariance, 1), still = share_of(&p, MGT_MIXTURE_9, 1e6, true);
         squares += (still - share) * (still - share) / CASES;
-        riemann = fmax(riemann, fabs(share_of(&p, MGT_KERNELS_RIEMANN, 1e6, true) - share));
+        riemann = fmax(riemann, fabs(share_of(&p, MGT_MIXTURE_RIEMANN, 1e6, true) - share));
         /* Time plays no part in it. */
-        assert_true(fabs(share_of(&p, MGT_KERNELS_RIEMANN, 1e6, true) - share_of(&p, MGT_KERNELS_RIEMANN, 1e6, false)) < 1e-5);
+        assert_true(fabs(share_of(&p, MGT_MIXTURE_RIEMANN, 1e6, true) - share_of(&p, MGT_MIXTURE_RIEMANN, 1e6, false)) < 1e-5);
     }
     expect_below("9 kernels without a path, rms", sqrt(squares), 0.0028);
     expect_below("Riemann sum against the integral", riemann, 2e-3);
@@ -203,13 +203,13 @@ static void long_ellipses_fall_back(void **state)
     double worst = 0;
     for (int i = 0; i < 200; i++) {
         const path_case p = random_case(&r, 8, 4.5, 60);
-        const double riemann = share_of(&p, MGT_KERNELS_RIEMANN, 1, false);
-        assert_true(share_of(&p, MGT_KERNELS_9, 4, false) == riemann);
-        assert_true(share_of(&p, MGT_KERNELS_FELINE, 4, false) == riemann);
-        assert_true(share_of(&p, MGT_KERNELS_9, 61, false) == share_of(&p, MGT_KERNELS_9, 1e6, false));
+        const double riemann = share_of(&p, MGT_MIXTURE_RIEMANN, 1, false);
+        assert_true(share_of(&p, MGT_MIXTURE_9, 4, false) == riemann);
+        assert_true(share_of(&p, MGT_MIXTURE_FELINE, 4, false) == riemann);
+        assert_true(share_of(&p, MGT_MIXTURE_9, 61, false) == share_of(&p, MGT_MIXTURE_9, 1e6, false));
         worst = fmax(worst, fabs(riemann - disk_path_quadrature(p.to, p.to, p.covariance, 1)));
         /* Longer than the fits reach, and no fallback: still a share. */
-        const double forced = share_of(&p, MGT_KERNELS_9, 1e6, false);
+        const double forced = share_of(&p, MGT_MIXTURE_9, 1e6, false);
         assert_true(forced >= 0 && forced <= 1);
     }
     expect_below("Riemann sums of long ellipses", worst, 2e-3);
@@ -219,7 +219,7 @@ static void long_ellipses_fall_back(void **state)
 static void extremes_are_shares(void **state)
 {
     (void)state;
-    static const mgt_kernels every[] = {MGT_KERNELS_1, MGT_KERNELS_3, MGT_KERNELS_5, MGT_KERNELS_9, MGT_KERNELS_FELINE, MGT_KERNELS_RIEMANN};
+    static const mgt_mixture every[] = {MGT_MIXTURE_1, MGT_MIXTURE_3, MGT_MIXTURE_5, MGT_MIXTURE_9, MGT_MIXTURE_FELINE, MGT_MIXTURE_RIEMANN};
     random_state r = {64};
     for (int i = 0; i < 20000; i++) {
         const double radius = pow(10, random_range(&r, -6, -0.4)), size = pow(10, random_range(&r, -12, 8));

@@ -135,7 +135,7 @@ static void any_light_radius_uses_the_same_tables(void **state)
     double worst = 0;
     for (int i = 0; i < 3000; i++) {
         const double radius = pow(10, random_range(&r, -5, -0.44)), deviation = random_deviation(&r), length = random_range(&r, 0, 2 + deviation);
-        const FrameData data = {.podee_kernels = MGT_KERNELS_1, .podee_elongation = 1e6f, .lights[0].disk_radius = (float)radius};
+        const FrameData data = {.podee_kernels = MGT_MIXTURE_1, .podee_elongation = 1e6f, .lights[0].disk_radius = (float)radius};
         const struct kernel_context cx = {.frame = &data, .podee = &tables};
         const double heading = random_range(&r, -3.2, 3.2), from[2] = {random_coordinate(&r, deviation), random_coordinate(&r, deviation)};
         const double to[2] = {from[0] + length * cos(heading), from[1] + length * sin(heading)};

@@ -153,7 +153,7 @@ static gbuffer_job job_of(const mgt_scene *scene, int map)
                          .map = map};
 }
 
-static size_t pixels_of(const gbuffers *g) { return (size_t)g->near.width * g->near.height; }
+static size_t pixels_of(const gbuffers *g) { return (size_t)g->front.width * g->front.height; }
 
 /* A wall through the waterline that fills the view: every pixel belongs to one layer. */
 static void test_waterline(void **state)
@@ -182,9 +182,9 @@ static void test_waterline(void **state)
             assert_int_equal(gbuffers_draw(&g, w, &job, kernels[k], pool), MGT_OK);
             size_t none = 0, both = 0, near = 0;
             for (size_t i = 0; i < pixels_of(&g); i++) {
-                near += g.near.triangle[i] >= 0;
-                none += g.near.triangle[i] < 0 && g.far.triangle[i] < 0;
-                both += g.near.triangle[i] >= 0 && g.far.triangle[i] >= 0;
+                near += g.front.triangle[i] >= 0;
+                none += g.front.triangle[i] < 0 && g.refracted.triangle[i] < 0;
+                both += g.front.triangle[i] >= 0 && g.refracted.triangle[i] >= 0;
             }
             if (none + both > 0 || near == 0 || near == pixels_of(&g))
                 fail_msg("camera %zu, kernels %d: %zu pixels without wall, %zu with two, %zu near", c, k, none, both, near);
@@ -277,19 +277,19 @@ static void test_against_rays(void **state)
         assert_int_equal(world_update(&w, &s.scene, pool), MGT_OK);
         assert_int_equal(gbuffers_draw(&g, w, &job, &raster_kernels_1, pool), MGT_OK);
         for (size_t i = 0; i < pixels_of(&g); i += 3) {
-            const double x = (double)(i % g.far.width) - g.far.left, y = (double)(i / g.far.width) - g.far.top;
+            const double x = (double)(i % g.refracted.width) - g.refracted.left, y = (double)(i / g.refracted.width) - g.refracted.top;
             int triangle;
             const double depth = nearest_depth(&job.camera, positions, x, y, &triangle);
-            assert_int_equal(g.near.triangle[i], -1);
+            assert_int_equal(g.front.triangle[i], -1);
             covered += triangle >= 0;
-            if (triangle == g.far.triangle[i]) {
+            if (triangle == g.refracted.triangle[i]) {
                 if (triangle >= 0)
-                    worst = fmax(worst, fabs((double)g.far.depth[i] / depth - 1));
+                    worst = fmax(worst, fabs((double)g.refracted.depth[i] / depth - 1));
                 continue;
             }
             differ++;
-            if (!is_near(&job.camera, positions, x, y, g.far.triangle[i], depth))
-                fail_msg("pixel (%g, %g): triangle %d, a ray meets %d", x, y, g.far.triangle[i], triangle);
+            if (!is_near(&job.camera, positions, x, y, g.refracted.triangle[i], depth))
+                fail_msg("pixel (%g, %g): triangle %d, a ray meets %d", x, y, g.refracted.triangle[i], triangle);
         }
         gbuffers_free(&g);
         world_free(w);
@@ -336,10 +336,10 @@ static void test_same_bits(void **state)
             assert_int_equal(gbuffers_draw(&h, w, &job, kernels[k], three), MGT_OK);
             const size_t size = pixels_of(&g) * 4;
             assert_int_equal(pixels_of(&h) * 4, size);
-            assert_memory_equal(g.near.depth, h.near.depth, size);
-            assert_memory_equal(g.near.triangle, h.near.triangle, size);
-            assert_memory_equal(g.far.depth, h.far.depth, size);
-            assert_memory_equal(g.far.triangle, h.far.triangle, size);
+            assert_memory_equal(g.front.depth, h.front.depth, size);
+            assert_memory_equal(g.front.triangle, h.front.triangle, size);
+            assert_memory_equal(g.refracted.depth, h.refracted.depth, size);
+            assert_memory_equal(g.refracted.triangle, h.refracted.triangle, size);
         }
         gbuffers_free(&g);
         gbuffers_free(&h);
@@ -377,8 +377,8 @@ static void test_odd_places(void **state)
         assert_int_equal(world_update(&w, &s.scene, pool), MGT_OK);
         assert_int_equal(gbuffers_draw(&g, w, &job, &raster_kernels_1, pool), MGT_OK);
         for (size_t k = 0; k < pixels_of(&g); k++) {
-            assert_true(g.far.depth[k] > 0 && g.near.depth[k] > 0);
-            assert_true(g.far.triangle[k] >= -1 && g.far.triangle[k] < 7);
+            assert_true(g.refracted.depth[k] > 0 && g.front.depth[k] > 0);
+            assert_true(g.refracted.triangle[k] >= -1 && g.refracted.triangle[k] < 7);
         }
         mgt_mesh_destroy(s.mesh);
     }

@@ -517,7 +517,7 @@ static void camera_among_the_crests(void **unused)
     picture_free(&p);
 }
 
-/* The march's statistical bounds lose nothing against bounds that hold for any phases. */
+/* The search's statistical bounds lose nothing against bounds that hold for any phases. */
 static void default_bounds_find_every_hit(void **unused)
 {
     (void)unused;

@@ -103,7 +103,7 @@ static void every_key_is_read(void **state)
     assert_vector(scene.camera.target, 1.5, 4.5, -7);
     assert_vector(scene.camera.up, 0.1, 1, 0);
     assert_true(scene.camera.fov_y_deg == 35.5);
-    assert_int_equal(scene.light.body, MGT_BODY_MOON);
+    assert_int_equal(scene.light.body, MGT_SOURCE_MOON);
     assert_true(scene.light.elevation_deg == 12 && scene.light.azimuth_deg == -20);
     assert_true(scene.light.angular_radius_deg == 0.5);
     assert_color(scene.light.radiance, 3, 2, 1);
@@ -183,7 +183,7 @@ static void body_sets_the_defaults_of_the_light(void **state)
 {
     (void)state;
     mgt_light moon;
-    mgt_light_init(&moon, MGT_BODY_MOON);
+    mgt_light_init(&moon, MGT_SOURCE_MOON);
     scene_file *file = parse("mangata: 1\nlight: {elevation_deg: 4, body: moon}", NULL, 0);
     mgt_scene scene = frame_of(file, 0);
     assert_true(scene.light.elevation_deg == 4);
@@ -205,7 +205,7 @@ static void overrides_replace_add_and_append(void **state)
     mgt_scene scene = frame_of(file, 0), defaults;
     mgt_scene_init(&defaults, sizeof defaults);
     assert_true(scene.light.elevation_deg == 3 && scene.light.azimuth_deg == -20);
-    assert_int_equal(scene.light.body, MGT_BODY_MOON);
+    assert_int_equal(scene.light.body, MGT_SOURCE_MOON);
     assert_true(scene.water.waves[0].amplitude == 0.02 && scene.water.waves[1].amplitude == 0.1);
     assert_true(scene.water.waves[1].kx == -2);
     assert_int_equal(scene.water.wave_count, 3);

@@ -22,7 +22,7 @@ static mgt_sky clear_sky(void) { return (mgt_sky){.model = MGT_SKY_ATMOSPHERE, .
 
 static mgt_light sun_at(double elevation)
 {
-    return (mgt_light){.body = MGT_BODY_SUN, .elevation_deg = elevation, .angular_radius_deg = 0.2665, .radiance = {1.98e6f, 1.88e6f, 1.80e6f}};
+    return (mgt_light){.body = MGT_SOURCE_SUN, .elevation_deg = elevation, .angular_radius_deg = 0.2665, .radiance = {1.98e6f, 1.88e6f, 1.80e6f}};
 }
 
 static sky_state *build(mgt_sky sky, mgt_light light)
@@ -74,7 +74,7 @@ static void illuminance_is_that_of_a_clear_day_and_dusk(void **unused)
 static void full_moon_gives_a_quarter_lux(void **unused)
 {
     (void)unused;
-    mgt_light moon = {.body = MGT_BODY_MOON, .elevation_deg = 60, .angular_radius_deg = 0.259, .radiance = {3.75f, 3.45f, 3.0f}};
+    mgt_light moon = {.body = MGT_SOURCE_MOON, .elevation_deg = 60, .angular_radius_deg = 0.259, .radiance = {3.75f, 3.45f, 3.0f}};
     mgt_sky sky = clear_sky();
     sky.night[0] = sky.night[1] = sky.night[2] = 2e-7f;
     sky_state *s = build(sky, moon);
@@ -327,19 +327,19 @@ static void body_radiance_is_what_the_water_returns(void **unused)
     mgt_water water = {.index_of_refraction = 1.0, .body_albedo = {0.1f, 0.2f, 0.0f}};
     double all[3], water_body[3], none[3];
     sky_state *s = build(clear_sky(), sun_at(40));
-    sky_body_radiance(s, &water, all);
+    sky_upwelling_radiance(s, &water, all);
     for (int c = 0; c < 3; ++c) { /* no surface: Lambert's law */
         assert_between(all[c], 0.999999 * water.body_albedo[c] * (s->irradiance_light[c] + s->irradiance_sky[c]) / PI,
                        1.000001 * water.body_albedo[c] * (s->irradiance_light[c] + s->irradiance_sky[c]) / PI);
     }
     water.index_of_refraction = 1.333;
-    sky_body_radiance(s, &water, water_body);
+    sky_upwelling_radiance(s, &water, water_body);
     assert_between(water_body[1] / all[1] * 1.333 * 1.333, 0.94, 0.98); /* a little is mirrored: 3% of the sun, 6.6% of the sky */
     free(s);
     mgt_sky black = clear_sky();
     black.model = MGT_SKY_BLACK;
     s = build(black, sun_at(40));
-    sky_body_radiance(s, &water, none);
+    sky_upwelling_radiance(s, &water, none);
     assert_true(none[0] == 0 && none[1] == 0 && none[2] == 0);
     free(s);
 }
@@ -355,7 +355,7 @@ static void exposure_follows_the_light_and_keeps_night_dark(void **unused)
         before = s->exposure_ev;
         free(s);
     }
-    mgt_light moon = {.body = MGT_BODY_MOON, .elevation_deg = 35, .angular_radius_deg = 0.259, .radiance = {3.75f, 3.45f, 3.0f}};
+    mgt_light moon = {.body = MGT_SOURCE_MOON, .elevation_deg = 35, .angular_radius_deg = 0.259, .radiance = {3.75f, 3.45f, 3.0f}};
     sky_state *day = build(clear_sky(), sun_at(35)), *night = build(clear_sky(), moon);
     double day_shown = luminance_at(day, 90, 10) * exp2(day->exposure_ev), night_shown = luminance_at(night, 90, 10) * exp2(night->exposure_ev);
     assert_between(day_shown, 0.12, 0.6);

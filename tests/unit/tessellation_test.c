@@ -255,7 +255,7 @@ static void test_no_cracks(void **state)
                      -1.5 * cos(2 * turn), -1.2 + 0.1 * turn);
             setting s;
             draw_pool(&s, camera, turn % 2 ? 12 : 2000, errors[e]);
-            const gbuffer *g = &s.layers.far;
+            const gbuffer *g = &s.layers.refracted;
             for (size_t i = 0; i < (size_t)g->width * g->height; i++) {
                 const double x = (double)(i % g->width) - g->left, y = (double)(i / g->width) - g->top;
                 /* The ray's place on the surface, if that is well inside the pool. */

@@ -113,10 +113,10 @@ static void record(viewer *v)
     if (viewer_follows_path(v))
         viewer_free_camera(v);
     if (!keyframe_record(&values->camera.path, v->settings.clock.time, &values->camera.still))
-        viewer_tell(v, true, "no further keyframe fits");
+        viewer_report(v, true, "no further keyframe fits");
     else {
         v->settings.move.path = 0; /* the camera stays in hand */
-        viewer_tell(v, false, "keyframe at %.3f s; %zu in all", v->settings.clock.time, values->camera.path.count);
+        viewer_report(v, false, "keyframe at %.3f s; %zu in all", v->settings.clock.time, values->camera.path.count);
     }
 }
 
@@ -124,7 +124,7 @@ static void save_named_picture(viewer *v)
 {
     char error[VIEWER_TEXT];
     if (!viewer_save_picture(v, v->picture_name, v->picture_size[0], v->picture_size[1], error, sizeof error))
-        viewer_tell(v, true, "%s", error);
+        viewer_report(v, true, "%s", error);
 }
 
 static void press(viewer *v, int key, int modifiers)

@@ -25,7 +25,7 @@ void viewer_log(viewer *v, const char *format, ...)
     console_note(&v->request->out, "%s", text);
 }
 
-void viewer_tell(viewer *v, bool is_error, const char *format, ...)
+void viewer_report(viewer *v, bool is_error, const char *format, ...)
 {
     notice *n = &v->message;
     va_list arguments;

@@ -295,7 +295,7 @@ static void draw_camera(viewer *v)
 static void draw_view(viewer *v)
 {
     static const char *const names[] = {"view.resolution", "view.frame", "image.width", "image.height", "view.zoom", NULL};
-    static const char *const depth[] = {"view.near_depth", "view.far_depth", NULL};
+    static const char *const depth[] = {"view.front_depth", "view.far_depth", NULL};
     static const char *const film[] = {"time.start", "time.fps", "time.frames", NULL};
     static const char *const panel[] = {"panel.timings", "panel.inspector", "panel.legend", "panel.log", "panel.keys", "panel.scale", NULL};
     draw_controls(v, names);
@@ -333,9 +333,9 @@ static void draw_files(viewer *v)
     ui_tooltip("A new file; comments of the old one are not carried over.");
     if (ui_button("save scene", 0)) {
         if (viewer_save_scene(v, v->save_name, error, sizeof error))
-            viewer_tell(v, false, "saved %s", v->save_name);
+            viewer_report(v, false, "saved %s", v->save_name);
         else
-            viewer_tell(v, true, "%s", error);
+            viewer_report(v, true, "%s", error);
     }
     ui_same_line(0);
     if (ui_button("back to the file", 0))

@@ -78,7 +78,7 @@ bool viewer_start_rendering(viewer *v)
     if (good && v->request->context.backend != MGT_BACKEND_CPU) {
         good = start_gl(v, why, sizeof why);
         if (!good && v->request->context.backend == MGT_BACKEND_AUTO)
-            viewer_tell(v, false, "the CPU renders: %s", why);
+            viewer_report(v, false, "the CPU renders: %s", why);
     }
     if (v->render.refining && !v->render.gl && v->request->context.backend != MGT_BACKEND_GL)
         good = start_live(v, why, sizeof why);
@@ -103,7 +103,7 @@ mgt_context *viewer_tools(viewer *v)
     mgt_context_desc desc = viewer_cpu_desc(v);
     desc.threads = 1;
     if (!v->render.tools && mgt_context_create(&v->render.tools, &desc) != MGT_OK)
-        viewer_tell(v, true, "%s", mgt_last_error(NULL));
+        viewer_report(v, true, "%s", mgt_last_error(NULL));
     return v->render.tools;
 }
 
@@ -188,11 +188,11 @@ void viewer_lose_gl(viewer *v, const char *why)
     char problem[VIEWER_TEXT];
     if (!v->render.gl)
         return;
-    viewer_tell(v, true, "OpenGL gave up, the CPU renders: %s", why);
+    viewer_report(v, true, "OpenGL gave up, the CPU renders: %s", why);
     mgt_context_destroy(v->render.gl);
     v->render.gl = NULL;
     if (!start_live(v, problem, sizeof problem))
-        viewer_tell(v, true, "%s", problem);
+        viewer_report(v, true, "%s", problem);
     v->render.last.serial = 0;
 }
 
@@ -388,7 +388,7 @@ static void use_shader_files(viewer *v, shader_files *f)
     if (status == MGT_OK) {
         v->shader_error.text[0] = 0;
         v->render.last.serial = 0;
-        viewer_tell(v, false, "%s: %zu shader files in use", v->request->shader_folder, good);
+        viewer_report(v, false, "%s: %zu shader files in use", v->request->shader_folder, good);
     } else {
         snprintf(v->shader_error.text, sizeof v->shader_error.text, "%s", mgt_last_error(v->render.gl));
         v->shader_error.is_error = true;

@@ -82,12 +82,12 @@ void viewer_copy_command(viewer *v)
 {
     char *text = viewer_command(v);
     if (!text) {
-        viewer_tell(v, true, "out of memory");
+        viewer_report(v, true, "out of memory");
         return;
     }
     ui_clipboard(text);
     viewer_log(v, "%s", text);
-    viewer_tell(v, false, "the command that renders this frame is in the clipboard");
+    viewer_report(v, false, "the command that renders this frame is in the clipboard");
     free(text);
 }
 
@@ -115,9 +115,9 @@ bool viewer_watch_saver(viewer *v)
     double share = 0;
     const picture_saver_state state = v->saver ? picture_saver_poll(v->saver, text, sizeof text, &share) : SAVER_IDLE;
     if (state == SAVER_SAVED)
-        viewer_tell(v, false, "saved %s", text);
+        viewer_report(v, false, "saved %s", text);
     if (state == SAVER_FAILED)
-        viewer_tell(v, true, "%s", text);
+        viewer_report(v, true, "%s", text);
     if (state == SAVER_SAVED || state == SAVER_FAILED)
         snprintf(v->save_problem, sizeof v->save_problem, "%s", state == SAVER_FAILED ? text : "");
     if (state == SAVER_BUSY)

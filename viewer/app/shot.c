@@ -39,13 +39,13 @@ void viewer_reset_camera(viewer *v)
 void viewer_revert(viewer *v)
 {
     if (!document_revert(&v->document)) {
-        viewer_tell(v, true, "out of memory");
+        viewer_report(v, true, "out of memory");
         return;
     }
     v->settings.waves = settings_defaults().waves;
     v->home = v->document.values.camera.still;
     viewer_reset_camera(v);
-    viewer_tell(v, false, "back to %s", v->document.path);
+    viewer_report(v, false, "back to %s", v->document.path);
 }
 
 /* A camera in the air does not sink into the waves; one that is under water stays there. */
@@ -69,7 +69,7 @@ void wave_add(viewer *v)
     scene_list *list = &v->document.values.water.waves;
     mgt_wave *items = list->count < MGT_MAX_WAVES ? realloc(list->items, (list->count + 1) * sizeof *items) : NULL;
     if (!items) {
-        viewer_tell(v, true, "%s", list->count < MGT_MAX_WAVES ? "out of memory" : "no further wave fits: 512 are allowed");
+        viewer_report(v, true, "%s", list->count < MGT_MAX_WAVES ? "out of memory" : "no further wave fits: 512 are allowed");
         return;
     }
     items[list->count] = wave_new(list->count);
@@ -187,7 +187,7 @@ void viewer_poll_files(viewer *v)
         v->scene_error.text[0] = 0;
         if (!scene_camera_equal(&before, &scene_file_values(v->document.file)->camera.still))
             v->home = scene_file_values(v->document.file)->camera.still;
-        viewer_tell(v, false, "%s: read again", v->document.path);
+        viewer_report(v, false, "%s: read again", v->document.path);
         break;
     case DOCUMENT_BROKEN:
         snprintf(v->scene_error.text, sizeof v->scene_error.text, "%s", v->document.error.text);

@@ -113,7 +113,7 @@ typedef struct viewer {
 
 void viewer_log(viewer *v, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* Shows a line over the picture for a few seconds, and logs it. */
-void viewer_tell(viewer *v, bool is_error, const char *format, ...) __attribute__((format(printf, 3, 4)));
+void viewer_report(viewer *v, bool is_error, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
 /* ---- the scene of the moment (shot.c) ---- */
 

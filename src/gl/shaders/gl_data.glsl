@@ -20,7 +20,7 @@ layout(std140, binding = 1) uniform WaveBlock { WaveData wave_data[MAX_WAVES]; }
 #endif
 layout(std430, binding = 0) TILE_ACCESS buffer TileBlock { TileData tile_data[]; };
 layout(std430, binding = 1) TILE_ACCESS buffer TileWaveBlock { TileWave tile_waves[]; };
-layout(std430, binding = 2) TILE_ACCESS buffer MarchBlock { MarchWave march_waves[]; };
+layout(std430, binding = 2) TILE_ACCESS buffer SearchBlock { SearchWave search_waves[]; };
 
 layout(binding = 0) uniform sampler2D sky_texture;
 
@@ -30,7 +30,7 @@ ivec2 layer_texel = ivec2(0); /* the pixel's */
 #define FRAME(cx) frame_data
 #define TILE(cx) tile_data[tile_slot]
 #define WAVE(cx, i) wave_of_tile(i)
-#define MARCH_WAVE(cx, i) march_waves[tile_slot * pass_data.wave_stride + i]
+#define SEARCH_WAVE(cx, i) search_waves[tile_slot * pass_data.wave_stride + i]
 
 #include "kernels/waves/sines.k"
 
@@ -61,13 +61,13 @@ vec3 body_light()
     return texelFetch(body_texture, layer_texel, 0).rgb;
 }
 
-#undef BODY_LIGHT
+#undef UPWELLING
 #undef MIRRORS_OBJECTS
 #undef OBJECTS_SHARE
 #undef OBJECTS_COLOR
 #undef CLEAR_TO_LIGHT
 #undef DEEP_WATER
-#define BODY_LIGHT(cx) body_light()
+#define UPWELLING(cx) body_light()
 #define MIRRORS_OBJECTS(cx) pass_data.objects
 #define OBJECTS_SHARE(cx) texelFetch(mirrored_texture, layer_texel, 0).a
 #define OBJECTS_COLOR(cx) texelFetch(mirrored_texture, layer_texel, 0).rgb

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * The lattice of first hits of a tile, and what a pixel guesses from the four nodes about it.
+ * The lattice of first hits of a tile, and what a pixel estimates from the four nodes about it.
  */
 #include "gl_data.glsl"
 #include "kernels/glitter/lattice.k"
@@ -31,24 +31,24 @@ bool tile_may_occlude()
            may_occlude(0, node_of(NODE_COLUMNS - 1, NODE_ROWS - 1).ray);
 }
 
-HitGuess pixel_guess(ivec2 pixel)
+HitEstimate pixel_estimate(ivec2 pixel)
 {
-    HitGuess guess;
-    if (TILE(0).march_pixels != 0) {
-        guess.height = 0.0f;
-        guess.from = 0.0f;
-        guess.march = 1.0f;
-        return guess;
+    HitEstimate estimate;
+    if (TILE(0).search_pixels != 0) {
+        estimate.height = 0.0f;
+        estimate.from = 0.0f;
+        estimate.search = 1.0f;
+        return estimate;
     }
     ivec2 cell = pixel / ivec2(NODE_STEP_X, NODE_STEP_Y);
     LatticeNode top_left = node_of(cell.x, cell.y), top_right = node_of(cell.x + 1, cell.y);
     LatticeNode low_left = node_of(cell.x, cell.y + 1), low_right = node_of(cell.x + 1, cell.y + 1);
-    guess.from = cell_from(0, top_left, top_right, low_left, low_right);
-    guess.march = tile_may_occlude() ? cell_doubt(0, top_left, top_right, low_left, low_right) : 0.0f;
+    estimate.from = cell_from(0, top_left, top_right, low_left, low_right);
+    estimate.search = tile_may_occlude() ? cell_doubt(0, top_left, top_right, low_left, low_right) : 0.0f;
     float u = float(pixel.x % NODE_STEP_X) / float(NODE_STEP_X), v = float(pixel.y % NODE_STEP_Y) / float(NODE_STEP_Y);
     vec3 ray = pixel_ray_at(0, float(pixel.x), float(pixel.y));
-    guess.height = lattice_height(0, top_left.plane, top_right.plane, low_left.plane, low_right.plane, ray, u, v);
-    return guess;
+    estimate.height = lattice_height(0, top_left.plane, top_right.plane, low_left.plane, low_right.plane, ray, u, v);
+    return estimate;
 }
 
 /* The pixel of this invocation: a tile is TILE_GROUPS_X × TILE_GROUPS_Y workgroups. */

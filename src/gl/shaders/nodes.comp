@@ -11,7 +11,7 @@ void main()
 {
     tile_slot = int(gl_WorkGroupID.x);
     int index = int(gl_LocalInvocationID.x);
-    if (index >= NODE_COUNT || TILE(0).march_pixels != 0)
+    if (index >= NODE_COUNT || TILE(0).search_pixels != 0)
         return;
     LatticeNode node = lattice_node(0, pixel_ray_at(0, float(index % NODE_COLUMNS * NODE_STEP_X), float(index / NODE_COLUMNS * NODE_STEP_Y)));
     NodeData n;

@@ -15,6 +15,6 @@ void main()
     if (!pixel.inside)
         return;
     PixelRay p = pixel_ray_filtered(0, float(pixel.at.x), float(pixel.at.y));
-    SlopeState state = slope_state(0, p.ray, pixel_guess(pixel.at));
+    SlopeState state = slope_state(0, p.ray, pixel_estimate(pixel.at));
     store_normal(pixel.texel, state.close, p.water > 0.0f);
 }

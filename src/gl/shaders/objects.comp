@@ -33,24 +33,24 @@ vec3 clear_to_light(PixelWater w)
 
 bool are_like(ivec2 a, ivec2 b)
 {
-    int s = near_triangle_at(a), t = near_triangle_at(b);
+    int s = front_triangle_at(a), t = front_triangle_at(b);
     if (s == t)
         return true;
     if (s < 0 || t < 0)
         return false;
     vec3 here = texelFetch(plane_table, s).xyz, there = texelFetch(plane_table, t).xyz;
-    return surface_goes_on(0, here, there, near_depth_at(a), near_depth_at(b));
+    return surface_goes_on(0, here, there, front_depth_at(a), front_depth_at(b));
 }
 
 bool is_edge(ivec2 image, PixelWater w)
 {
-    ivec2 at = near_texel(image);
+    ivec2 at = front_texel(image);
     if (!are_like(at, at - ivec2(1, 0)) || !are_like(at, at + ivec2(1, 0)) || !are_like(at, at - ivec2(0, 1)) || !are_like(at, at + ivec2(0, 1)))
         return true;
-    if (near_triangle_at(at) < 0 || !(w.share > 0.0f))
+    if (front_triangle_at(at) < 0 || !(w.share > 0.0f))
         return false;
-    float object = near_depth_at(at) * sqrt(length_squared(camera_ray(image, vec2(0.0f))));
-    return near_waterline(0, object, w.hit.along, w.hit.view.y, FRAME(0).pixel_angle);
+    float object = front_depth_at(at) * sqrt(length_squared(camera_ray(image, vec2(0.0f))));
+    return front_waterline(0, object, w.hit.along, w.hit.view.y, FRAME(0).pixel_angle);
 }
 
 void keep_water(int pixel, PixelWater w)
@@ -92,8 +92,8 @@ void main()
     imageStore(error_image, pixel.texel, vec4(0.0f));
     imageStore(deep_image, pixel.texel, vec4(0.0f, 0.0f, 0.0f, 1.0f));
     bool edge = is_edge(image, water), front = false;
-    if (!edge && near_triangle_at(near_texel(image)) >= 0)
-        front = near_depth_at(near_texel(image)) < meet_water(water, camera_ray(image, vec2(0.0f)));
+    if (!edge && front_triangle_at(front_texel(image)) >= 0)
+        front = front_depth_at(front_texel(image)) < meet_water(water, camera_ray(image, vec2(0.0f)));
     if (edge)
         append(LIST_EDGES, number);
     if (front)

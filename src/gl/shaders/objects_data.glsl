@@ -25,8 +25,8 @@ layout(binding = 8) uniform sampler2D far_depth;
 layout(binding = 9) uniform isampler2D far_triangle;
 layout(binding = 10) uniform sampler2D mirrored_depth;
 layout(binding = 11) uniform isampler2D mirrored_triangle;
-layout(binding = 12) uniform sampler2D near_depth;
-layout(binding = 13) uniform isampler2D near_triangle;
+layout(binding = 12) uniform sampler2D front_depth;
+layout(binding = 13) uniform isampler2D front_triangle;
 
 #define REFRACT(cx) refract_data
 #define NARROW(cx) narrow_data
@@ -60,10 +60,10 @@ ivec3 triangle_corners(int triangle)
 
 vec4 material_texel(int object, int i) { return texelFetch(material_table, CODE_TEXELS + MAX_WAVES + MATERIAL_TEXELS * object + i); }
 
-MarchWave caustic_wave(int i)
+SearchWave caustic_wave(int i)
 {
     vec4 w = texelFetch(material_table, CODE_TEXELS + i);
-    return MarchWave(w.x, w.y, w.z, w.w);
+    return SearchWave(w.x, w.y, w.z, w.w);
 }
 
 float linear_of_code(uint code) { return texelFetch(material_table, int(code >> 2))[int(code & 3u)]; }

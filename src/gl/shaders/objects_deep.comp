@@ -6,8 +6,8 @@
 #include "gl_data.glsl"
 #include "objects_pixel.glsl"
 #include "kernels/sky/sky.k"
-#undef MARCH_WAVE
-#define MARCH_WAVE(cx, i) caustic_wave(i)
+#undef SEARCH_WAVE
+#define SEARCH_WAVE(cx, i) caustic_wave(i)
 #include "kernels/refraction/material.k"
 
 layout(local_size_x = LIST_GROUP) in;

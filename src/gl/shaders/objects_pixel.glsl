@@ -84,11 +84,11 @@ vec3 camera_ray(ivec2 image, vec2 place) { return turned(0, layer_ray(0, float(i
 
 vec3 camera_position() { return vec3(narrow_data.foot_x, narrow_data.distance * narrow_data.side, narrow_data.foot_z); }
 
-ivec2 near_texel(ivec2 image) { return image + ivec2(int(narrow_data.left), int(narrow_data.top)); }
+ivec2 front_texel(ivec2 image) { return image + ivec2(int(narrow_data.left), int(narrow_data.top)); }
 
-int near_triangle_at(ivec2 at) { return texelFetch(near_triangle, at, 0).r; }
+int front_triangle_at(ivec2 at) { return texelFetch(front_triangle, at, 0).r; }
 
-float near_depth_at(ivec2 at) { return objects_data.least_depth / texelFetch(near_depth, at, 0).r; }
+float front_depth_at(ivec2 at) { return objects_data.least_depth / texelFetch(front_depth, at, 0).r; }
 
 /* Multiple of the camera's ray at which it meets the plane of the surface in the pixel. */
 float meet_water(PixelWater w, vec3 ray)

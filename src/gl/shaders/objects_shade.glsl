@@ -4,8 +4,8 @@
  */
 #include "objects_pixel.glsl"
 #include "kernels/sky/sky.k"
-#undef MARCH_WAVE
-#define MARCH_WAVE(cx, i) caustic_wave(i)
+#undef SEARCH_WAVE
+#define SEARCH_WAVE(cx, i) caustic_wave(i)
 #include "kernels/refraction/material.k"
 
 /* Radiance at the camera over that behind the surface; `total`: it is mirrored there. */

@@ -13,7 +13,7 @@ PixelWater water_at(TilePixel where, vec2 place)
     w.share = p.water;
     if (!(p.water > 0.0f))
         return w;
-    SeenWater seen = seen_water(0, p.ray, pixel_guess(where.at));
+    SeenWater seen = seen_water(0, p.ray, pixel_estimate(where.at));
     w.hit.view = scale(seen.view, -1.0f);
     w.hit.along = seen.along * sqrt(length_squared(p.ray));
     w.hit.normal = seen.normal;

@@ -37,14 +37,14 @@ void main()
         coverage = imageLoad(coverage_image, pixel.texel).r;
         water = imageLoad(water_image, pixel.texel).r;
     }
-    HitGuess guess = pixel_guess(pixel.at);
+    HitEstimate estimate = pixel_estimate(pixel.at);
     ivec2 image = pixel.texel + ivec2(pass_data.area_x, pass_data.area_y);
     for (int i = 0; i < max(pass_data.sample_count, 1); i++) {
         /* Along the horizon an ulp of the place is metres of the hit: no reordering of sums. */
         precise vec2 place = vec2(pixel.at);
         if (pass_data.sample_count > 0)
             place += jitter(image, i);
-        PixelResult p = sample_pixel(0, place.x, place.y, guess);
+        PixelResult p = sample_pixel(0, place.x, place.y, estimate);
         color += p.color * pass_data.weight;
         coverage += p.coverage * pass_data.weight;
         water += p.water * pass_data.weight;

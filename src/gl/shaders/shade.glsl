@@ -20,13 +20,13 @@ PixelResult nothing_but_sky(PixelRay p)
 PixelResult water_and_sky(PixelRay p, TilePixel where)
 {
     ivec2 pixel = where.at;
-    METHOD_STATE close = method_state(0, p.ray, pixel_guess(pixel));
+    METHOD_STATE close = method_state(0, p.ray, pixel_estimate(pixel));
     if (pass_data.write_depth != 0)
         imageStore(depth_image, where.texel, vec4(close.along * sqrt(length_squared(p.ray))));
     METHOD_STATE open = close;
     if (pass_data.open_slots != 0) {
         tile_slot += pass_data.open_slots;
-        open = method_state(0, pixel_ray_filtered(0, float(pixel.x), float(pixel.y)).ray, pixel_guess(pixel));
+        open = method_state(0, pixel_ray_filtered(0, float(pixel.x), float(pixel.y)).ray, pixel_estimate(pixel));
         tile_slot -= pass_data.open_slots;
     }
     return method_result(0, p, open, close);

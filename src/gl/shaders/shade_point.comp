@@ -17,7 +17,7 @@ void main()
     TilePixel pixel = tile_pixel();
     if (!pixel.inside)
         return;
-    PixelResult result = method_result(0, float(pixel.at.x), float(pixel.at.y), pixel_guess(pixel.at));
+    PixelResult result = method_result(0, float(pixel.at.x), float(pixel.at.y), pixel_estimate(pixel.at));
     if (FRAME(0).want_color != 0)
         imageStore(color_image, pixel.texel, vec4(result.color, 1.0f));
     imageStore(coverage_image, pixel.texel, vec4(result.coverage));

@@ -16,7 +16,7 @@ void main()
     if (!pixel.inside)
         return;
     vec3 ray = pixel_ray_at(0, float(pixel.at.x), float(pixel.at.y));
-    SampleHit hit = sample_hit(0, ray, pixel_guess(pixel.at));
+    SampleHit hit = sample_hit(0, ray, pixel_estimate(pixel.at));
     bool water = hit.found > 0.0f;
     imageStore(depth_image, pixel.texel, vec4(water ? hit.along * sqrt(length_squared(ray)) : INFINITE));
     store_normal(pixel.texel, hit.slope, water);

@@ -19,7 +19,7 @@ layout(local_size_x = 64) in;
 const int WORDS = MAX_WAVES / 32; /* of 32 waves */
 shared uint resolved_bits[WORDS];
 shared uint mixed_bits[WORDS];
-shared uint marched_bits[WORDS];
+shared uint searched_bits[WORDS];
 
 TileSums own; /* this invocation's waves' */
 shared float sums[TILE_SUMS * LANES];
@@ -30,7 +30,7 @@ void clear_bits(int lane)
     if (lane < WORDS) {
         resolved_bits[lane] = 0u;
         mixed_bits[lane] = 0u;
-        marched_bits[lane] = 0u;
+        searched_bits[lane] = 0u;
     }
     own = no_sums(0);
 }
@@ -49,9 +49,9 @@ void mark_wave(TileView view, int wave)
         atomicOr(resolved_bits[wave >> 5], bit);
     if (c.kind == float(WAVE_MIXED))
         atomicOr(mixed_bits[wave >> 5], bit);
-    if (c.marched != 0.0f)
-        atomicOr(marched_bits[wave >> 5], bit);
-    own = sums_with_wave(0, own, wave_data[wave], c.lost, c.marched, c.most);
+    if (c.searched != 0.0f)
+        atomicOr(searched_bits[wave >> 5], bit);
+    own = sums_with_wave(0, own, wave_data[wave], c.lost, c.searched, c.most);
 }
 
 /* Ones among the bits of waves before this one. */
@@ -65,10 +65,10 @@ void mark_wave(TileView view, int wave)
     }
 COUNT_BEFORE(resolved_before, resolved_bits)
 COUNT_BEFORE(mixed_before, mixed_bits)
-COUNT_BEFORE(marched_before, marched_bits)
+COUNT_BEFORE(searched_before, searched_bits)
 
 struct Counts {
-    int resolved, mixed, marched;
+    int resolved, mixed, searched;
 };
 
 Counts count_all()
@@ -77,7 +77,7 @@ Counts count_all()
     for (int i = 0; i < WORDS; i++) {
         c.resolved += bitCount(resolved_bits[i]);
         c.mixed += bitCount(mixed_bits[i]);
-        c.marched += bitCount(marched_bits[i]);
+        c.searched += bitCount(searched_bits[i]);
     }
     return c;
 }
@@ -87,8 +87,8 @@ bool has_bit(uint bits, int wave) { return (bits >> (wave & 31) & 1u) != 0u; }
 void list_wave(TileView view, Counts counts, int wave)
 {
     bool resolved = has_bit(resolved_bits[wave >> 5], wave), mixed = has_bit(mixed_bits[wave >> 5], wave);
-    bool marched = has_bit(marched_bits[wave >> 5], wave);
-    if (!resolved && !mixed && !marched)
+    bool searched = has_bit(searched_bits[wave >> 5], wave);
+    if (!resolved && !mixed && !searched)
         return;
     WaveClass c = class_of(view, wave);
     int base = tile_slot * pass_data.wave_stride;
@@ -96,11 +96,11 @@ void list_wave(TileView view, Counts counts, int wave)
         int place = resolved ? resolved_before(wave) : counts.resolved + mixed_before(wave);
         tile_waves[base + place] = TileWave(wave, c.phase, c.share, 0.0f);
     }
-    if (marched) {
+    if (searched) {
         WaveData w = wave_data[wave];
-        int place = marched_before(wave);
-        march_waves[base + place] = march_wave_of(0, w, c.phase);
-        own = sums_with_march(0, own, w, c.along, place, coarse_waves(0, counts.marched));
+        int place = searched_before(wave);
+        search_waves[base + place] = search_wave_of(0, w, c.phase);
+        own = sums_with_search(0, own, w, c.along, place, coarse_waves(0, counts.searched));
     }
 }
 
@@ -109,7 +109,7 @@ TileData finished_tile(TileView view, Counts counts)
     TileSums all;
     for (int i = 0; i < TILE_SUMS; i++)
         all.value[i] = totals[i];
-    TileData t = sorted_tile(0, all, counts.resolved, counts.mixed, counts.marched);
+    TileData t = sorted_tile(0, all, counts.resolved, counts.mixed, counts.searched);
     t.ray_x = view.ray.x;
     t.ray_y = view.ray.y;
     t.ray_z = view.ray.z;

@@ -17,10 +17,10 @@
 
 /* TileSums.value: what is summed over a tile's waves; from SUM_LARGEST on maxima. */
 #define SUM_LOST 0     /* slope covariance xx, xz, zz that no pixel resolves, its octaves, and their squares */
-#define SUM_MARCHED 5  /* of all marched waves: height, slope, bend, each followed by its variance */
+#define SUM_SEARCHED 5 /* of all searched waves: height, slope, bend, each followed by its variance */
 #define SUM_COARSE 11  /* of the largest ones */
 #define SUM_REST 17    /* height of the others, and its variance */
-#define SUM_LARGEST 19 /* squared frequency of marched waves */
+#define SUM_LARGEST 19 /* squared frequency of searched waves */
 #define SUM_MOST 20    /* and on the screen */
 #define TILE_SUMS 21
 
@@ -119,7 +119,7 @@
 
 /* ---- options ---- */
 
-/* FrameData.podee_kernels, an mgt_kernels; other numbers count circular kernels. */
+/* FrameData.podee_kernels, an mgt_mixture; other numbers count circular kernels. */
 #define KERNELS_FELINE 32
 #define KERNELS_RIEMANN 33
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * What method adaptive knows of a frame: the pixels and cells that may still be split, what that is worth, and the memory they live in. */
-#ifndef MANGATA_CPU_FOREST_H
-#define MANGATA_CPU_FOREST_H
+#ifndef MANGATA_CPU_REFINEMENT_H
+#define MANGATA_CPU_REFINEMENT_H
 
 #include <stdatomic.h>
 
@@ -30,7 +30,7 @@ typedef struct leaf {
     float color[3], coverage, water, height, variance, contrast, places;
 } leaf;
 
-typedef struct forest_tile {
+typedef struct refinement_tile {
     leaf *leaves;
     size_t count, capacity;
     double cost[LEVELS];  /* of a cell, evaluations of all waves; 0 as long as it is unknown */
@@ -38,7 +38,7 @@ typedef struct forest_tile {
     float worth[LEVELS];  /* of a split, for each unit of squared error */
     double spent;
     double final_variance; /* of what is split no more: sum of squared errors of pixels */
-} forest_tile;
+} refinement_tile;
 
 /* The shutter in straight pieces. While the camera stands, sets[i] is over piece i; where it moves, sets[i] and sets[i + 1] are the instants around it. */
 typedef struct shutter_parts {
@@ -52,13 +52,13 @@ typedef struct round_plan {
     int points;   /* leaves that take points: those above this bucket; they are too dear for shares */
 } round_plan;
 
-struct forest {
+struct refinement {
     const adaptive_frame *a;
     const picture_planes *out;
     uint32_t width, height; /* that the memory is for */
     uint32_t columns, rows;
     bool by_coverage; /* leaves are worth what they save of the coverage's error, not of the picture's */
-    forest_tile *tiles;
+    refinement_tile *tiles;
     float *weight;                /* a pixel's, squared */
     bool moves;                   /* the camera does */
     shutter_parts parts[3];       /* of pixels, of cells and of sharp cells */
@@ -76,40 +76,40 @@ struct forest {
 /* ---- leaves ---- */
 
 /* The pixel that a leaf of the tile lies in. */
-size_t leaf_pixel(const forest *f, size_t tile, const leaf *l);
+size_t leaf_pixel(const refinement *f, size_t tile, const leaf *l);
 /* A leaf is final: its share of the pixel. */
-void leaf_settle(const forest *f, size_t tile, const leaf *l);
+void leaf_settle(const refinement *f, size_t tile, const leaf *l);
 /* A number in [0, 1) that is the leaf's own, for one seed. */
 double leaf_lot(size_t tile, const leaf *l, uint64_t seed);
 /* How many points it has after its next turn. */
 int leaf_next_points(const leaf *l);
 /* Of its split or points, evaluations of all waves. */
-double leaf_cost(const forest_tile *t, const leaf *l);
+double leaf_cost(const refinement_tile *t, const leaf *l);
 /* Adds a leaf, or settles it where a split is worth nothing. False: memory is short. */
-bool forest_add(const forest *f, size_t tile, leaf l);
+bool refinement_add(const refinement *f, size_t tile, leaf l);
 /* Cells of a size cost so many waves in each part of the shutter: what splits are worth from now on. */
-void forest_price(const forest *f, forest_tile *t, int level, int waves);
+void refinement_price(const refinement *f, refinement_tile *t, int level, int waves);
 
 /* ---- rounds ---- */
 
-const shutter_parts *forest_parts(const forest *f, int level);
+const shutter_parts *refinement_parts(const refinement *f, int level);
 /* Which leaves may be split for `budget` evaluations. False: none. */
-bool forest_plan(forest *f, double budget, size_t round);
-bool leaf_chosen(const forest *f, size_t tile, const leaf *l);
+bool refinement_plan(refinement *f, double budget, size_t round);
+bool leaf_chosen(const refinement *f, size_t tile, const leaf *l);
 /* Points for the chosen ones among the tile's first `end` leaves that take them (adaptive_points.c). False: memory is short. */
-bool forest_scatter_points(const forest *f, size_t tile, size_t end, uint32_t worker);
-void forest_place_instants(forest *f);
+bool refinement_scatter_points(const refinement *f, size_t tile, size_t end, uint32_t worker);
+void refinement_place_instants(refinement *f);
 
 /* Evaluations so far; pixels of water; the RMSE of coverage over the picture that the leaves expect. */
-double forest_spent(const forest *f);
-double forest_water(const forest *f);
-double forest_predicted_rmse(const forest *f);
+double refinement_spent(const refinement *f);
+double refinement_water(const refinement *f);
+double refinement_predicted_rmse(const refinement *f);
 
 /* ---- memory ---- */
 
 /* NULL where memory is short. */
-forest *forest_make(const adaptive_frame *a, const picture_planes *out);
+refinement *refinement_make(const adaptive_frame *a, const picture_planes *out);
 /* Ready for a frame: empty but for memory. */
-void forest_clear(forest *f, const adaptive_frame *a, const picture_planes *out);
+void refinement_clear(refinement *f, const adaptive_frame *a, const picture_planes *out);
 
 #endif

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: MIT
- * Edges of layers, and what the near one shows between them, compiled once per lane width (MGT_LANES).
+ * Edges of layers, and what the front one shows between them, compiled once per lane width (MGT_LANES).
  *
  * Whatever the width, a pixel sees the same operations in the same order: the bits do not depend on it. */
 #include "cpu/kernel_context.h"
-#include "cpu/near_lanes.h"
+#include "cpu/front_lanes.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "frame/atmosphere.h"
 
-#define LANES_NAME_(n) near_kernels_##n
+#define LANES_NAME_(n) front_kernels_##n
 #define LANES_NAME(n) LANES_NAME_(n)
 
 static const float infinity = INFINITY;
@@ -99,7 +99,7 @@ static void lanes_edges(const gbuffer *g, const float *planes, uint32_t row, uin
 
 /* ---- points ---- */
 
-static vec3 ray_through(const near_scene *n, real x, real y)
+static vec3 ray_through(const front_scene *n, real x, real y)
 {
     return vec3(fma(x, real(n->right[0]), fma(y, real(n->down[0]), real(n->corner[0]))),
                 fma(x, real(n->right[1]), fma(y, real(n->down[1]), real(n->corner[1]))),
@@ -118,9 +118,9 @@ static void store_vector(float (*planes)[TILE_PIXELS], size_t i, vec3 v)
     store(planes[2] + i, v.z);
 }
 
-static void lanes_points(const near_scene *n, const tile_offset *at, const tile_water *water, tile_near *out, tile_ends *ends)
+static void lanes_points(const front_scene *n, const tile_offset *at, const tile_water *water, tile_front *out, tile_ends *ends)
 {
-    memset(out->kind, NEAR_NOTHING, sizeof out->kind);
+    memset(out->kind, FRONT_NOTHING, sizeof out->kind);
     const float up = n->under ? -1 : 1;
     const gbuffer *g = n->layer;
     for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
@@ -139,7 +139,7 @@ static void lanes_points(const near_scene *n, const tile_offset *at, const tile_
         const real length = sqrt(length_squared(ray)), along = depth * length;
         const mask wet = load(water->share + i) > real(0.0f);
         const vec3 surface = load_vector(water->normal, i, up), view = load_vector(water->view, i, up);
-        edge = OR(edge, AND(AND(shown, wet), near_waterline(NULL, along, load(water->along + i), load(water->view[1] + i), n->pixel_angle)));
+        edge = OR(edge, AND(AND(shown, wet), front_waterline(NULL, along, load(water->along + i), load(water->view[1] + i), n->pixel_angle)));
         const mask inside = AND(AND(shown, NOT(edge)), depth < meet_surface(NULL, wet, surface, view, load(water->along + i), ray));
         float kinds[MGT_LANES];
         store(kinds, SELECT(inside, real(1.0f), SELECT(edge, real(2.0f), real(0.0f))));
@@ -162,4 +162,4 @@ static void lanes_points(const near_scene *n, const tile_offset *at, const tile_
     }
 }
 
-const near_kernels LANES_NAME(MGT_LANES) = {lanes_breaks, lanes_edges, lanes_points};
+const front_kernels LANES_NAME(MGT_LANES) = {lanes_breaks, lanes_edges, lanes_points};

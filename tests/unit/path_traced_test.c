@@ -12,7 +12,7 @@
 #include <cmocka.h>
 
 #include "reference/equations.h"
-#include "cpu/refraction_truth.h"
+#include "cpu/path_traced.h"
 #include "unit/test_mesh.h"
 
 enum { WIDTH = 64, HEIGHT = 32, COLUMNS = WIDTH / TILE_WIDTH, ROWS = HEIGHT / TILE_HEIGHT };
@@ -74,23 +74,23 @@ static void end(setup *s)
     mgt_mesh_destroy(s->mesh);
 }
 
-static refraction_truth *truth_of(const setup *s, const answer_kind *what, mgt_isa isa, uint32_t workers)
+static path_traced *truth_of(const setup *s, const answer_kind *what, mgt_isa isa, uint32_t workers)
 {
-    refraction_truth *truth;
-    const truth_job job = {&s->scene, camera_rays_of(&s->scene.camera, WIDTH, HEIGHT), s->world, s->trace,
-                           tell,      (const shade_scene *)(const void *)what,         isa,      workers};
-    assert_int_equal(refraction_truth_create(&truth, &job), MGT_OK);
+    path_traced *truth;
+    const path_traced_job job = {&s->scene, camera_rays_of(&s->scene.camera, WIDTH, HEIGHT), s->world, s->trace,
+                                 tell,      (const shade_scene *)(const void *)what,         isa,      workers};
+    assert_int_equal(path_traced_create(&truth, &job), MGT_OK);
     return truth;
 }
 
-static truth_pixels *render(const setup *s, answer_kind what, mgt_isa isa, uint32_t worker)
+static path_traced_pixels *render(const setup *s, answer_kind what, mgt_isa isa, uint32_t worker)
 {
-    refraction_truth *truth = truth_of(s, &what, isa, worker + 1);
-    truth_pixels *tiles = calloc(COLUMNS * ROWS, sizeof *tiles);
+    path_traced *truth = truth_of(s, &what, isa, worker + 1);
+    path_traced_pixels *tiles = calloc(COLUMNS * ROWS, sizeof *tiles);
     assert_non_null(tiles);
     for (uint32_t i = 0; i < COLUMNS * ROWS; i++)
-        refraction_truth_tile(truth, i % COLUMNS, i / COLUMNS, worker, true, &tiles[i]);
-    refraction_truth_free(truth);
+        path_traced_tile(truth, i % COLUMNS, i / COLUMNS, worker, true, &tiles[i]);
+    path_traced_free(truth);
     return tiles;
 }
 
@@ -98,9 +98,9 @@ typedef struct answer {
     double water, through[3], mirrored[3];
 } answer;
 
-static answer answer_at(const truth_pixels *tiles, uint32_t x, uint32_t y)
+static answer answer_at(const path_traced_pixels *tiles, uint32_t x, uint32_t y)
 {
-    const truth_pixels *t = &tiles[y / TILE_HEIGHT * COLUMNS + x / TILE_WIDTH];
+    const path_traced_pixels *t = &tiles[y / TILE_HEIGHT * COLUMNS + x / TILE_WIDTH];
     const size_t i = y % TILE_HEIGHT * TILE_WIDTH + x % TILE_WIDTH;
     return (answer){(double)t->water[i],
                     {(double)t->red[i], (double)t->green[i], (double)t->blue[i]},
@@ -131,7 +131,7 @@ static void radiance_keeps_the_power_of_a_bundle(void **state)
         setup s;
         begin(&s, below ? -3 : 3, below ? 2 : -2);
         s.scene.camera = (mgt_camera){{5, below ? -3 : 3, 2}, {6, 0, 1}, {0, 1, 0}, 40};
-        truth_pixels *directions = render(&s, TOLD_DIRECTION, MGT_ISA_AUTO, 0), *gains = render(&s, TOLD_GAIN, MGT_ISA_AUTO, 0);
+        path_traced_pixels *directions = render(&s, TOLD_DIRECTION, MGT_ISA_AUTO, 0), *gains = render(&s, TOLD_GAIN, MGT_ISA_AUTO, 0);
         int seen = 0;
         for (uint32_t y = 0; y + 1 < HEIGHT; y++)
             for (uint32_t x = 0; x + 1 < WIDTH; x++) {
@@ -164,7 +164,7 @@ static void flat_water_shows_a_floor_where_snell_says(void **state)
     for (int d = 0; d < 3; d++) {
         setup s;
         begin(&s, 3, -depths[d]);
-        truth_pixels *places = render(&s, TOLD_POSITION, MGT_ISA_AUTO, 0), *lengths = render(&s, TOLD_LENGTHS, MGT_ISA_AUTO, 0);
+        path_traced_pixels *places = render(&s, TOLD_POSITION, MGT_ISA_AUTO, 0), *lengths = render(&s, TOLD_LENGTHS, MGT_ISA_AUTO, 0);
         for (uint32_t y = 0; y < HEIGHT; y++)
             for (uint32_t x = 0; x < WIDTH; x++) {
                 double o[3], v[3];
@@ -197,7 +197,7 @@ static void snells_window_ends_at_its_angle(void **state)
     setup s;
     begin(&s, -2, -5);
     s.scene.camera = (mgt_camera){{5, -2, 2}, {5, 0, 0}, {0, 1, 0}, 70};
-    truth_pixels *directions = render(&s, TOLD_DIRECTION, MGT_ISA_AUTO, 0), *places = render(&s, TOLD_POSITION, MGT_ISA_AUTO, 0);
+    path_traced_pixels *directions = render(&s, TOLD_DIRECTION, MGT_ISA_AUTO, 0), *places = render(&s, TOLD_POSITION, MGT_ISA_AUTO, 0);
     int inside = 0, outside = 0;
     for (uint32_t y = 0; y < HEIGHT; y++)
         for (uint32_t x = 0; x < WIDTH; x++) {
@@ -261,7 +261,7 @@ static void waves_bend_rays_at_their_first_hit(void **state)
     setup s;
     begin(&s, 3, -2);
     set_waves(&s);
-    truth_pixels *places = render(&s, TOLD_POSITION, MGT_ISA_AUTO, 0);
+    path_traced_pixels *places = render(&s, TOLD_POSITION, MGT_ISA_AUTO, 0);
     for (uint32_t y = 0; y < HEIGHT; y++)
         for (uint32_t x = 0; x < WIDTH; x++) {
             const water_hit hit = first_hit_brute_force(&s.scene, x + 0.5, y + 0.5, middle_of_shutter(&s.scene));
@@ -302,7 +302,7 @@ static void footprints_follow_the_rays(void **state)
     setup s;
     begin(&s, 3, -2);
     set_waves(&s);
-    truth_pixels *spreads = render(&s, TOLD_SPREAD, MGT_ISA_AUTO, 0);
+    path_traced_pixels *spreads = render(&s, TOLD_SPREAD, MGT_ISA_AUTO, 0);
     static const double h = 0.002; /* pixels: they are large */
     int seen = 0;
     for (uint32_t y = 0; y < HEIGHT; y += 3)
@@ -362,7 +362,7 @@ static void waves_bend_rays_from_below(void **state)
     begin(&s, -2, 1.5);
     set_waves(&s);
     s.scene.camera = (mgt_camera){{5, -2, 2}, {5, 0, 0.5}, {0, 1, 0}, 70};
-    truth_pixels *places = render(&s, TOLD_POSITION, MGT_ISA_AUTO, 0);
+    path_traced_pixels *places = render(&s, TOLD_POSITION, MGT_ISA_AUTO, 0);
     int through = 0;
     for (uint32_t y = 0; y < HEIGHT; y++)
         for (uint32_t x = 0; x < WIDTH; x++) {
@@ -394,7 +394,7 @@ static void shares_add_up(void **state)
         begin(&s, heights[i], -3);
         set_waves(&s);
         s.scene.camera.target[1] = heights[i] * 0.85;
-        truth_pixels *ones = render(&s, TOLD_ONE, MGT_ISA_AUTO, 0);
+        path_traced_pixels *ones = render(&s, TOLD_ONE, MGT_ISA_AUTO, 0);
         for (uint32_t y = 0; y < HEIGHT; y++)
             for (uint32_t x = 0; x < WIDTH; x++) {
                 const answer a = answer_at(ones, x, y);
@@ -414,12 +414,12 @@ static void bits_depend_on_the_tile_alone(void **state)
     set_waves(&s);
     s.scene.quality.refraction_samples = 3;
     s.scene.quality.seed = 5;
-    truth_pixels *first = render(&s, TOLD_LENGTHS, MGT_ISA_SCALAR, 0);
+    path_traced_pixels *first = render(&s, TOLD_LENGTHS, MGT_ISA_SCALAR, 0);
     static const mgt_isa isas[] = {MGT_ISA_AUTO, MGT_ISA_AVX2, MGT_ISA_AVX512};
     for (int i = 0; i < 3; i++) {
         if (!mgt_isa_available(isas[i]))
             continue;
-        truth_pixels *other = render(&s, TOLD_LENGTHS, isas[i], (uint32_t)i);
+        path_traced_pixels *other = render(&s, TOLD_LENGTHS, isas[i], (uint32_t)i);
         assert_memory_equal(first, other, COLUMNS * ROWS * sizeof *first);
         free(other);
     }
@@ -434,9 +434,9 @@ static void samples_fill_the_pixel(void **state)
     setup s;
     begin(&s, 3, -2);
     s.scene.camera = (mgt_camera){{5, 3, 2}, {5, 0, 2}, {0, 0, -1}, 40};
-    truth_pixels *centre = render(&s, TOLD_POSITION, MGT_ISA_AUTO, 0);
+    path_traced_pixels *centre = render(&s, TOLD_POSITION, MGT_ISA_AUTO, 0);
     s.scene.quality.refraction_samples = 16;
-    truth_pixels *mean = render(&s, TOLD_POSITION, MGT_ISA_AUTO, 0);
+    path_traced_pixels *mean = render(&s, TOLD_POSITION, MGT_ISA_AUTO, 0);
     for (uint32_t i = 0; i < WIDTH * HEIGHT; i++) {
         const answer a = answer_at(centre, i % WIDTH, i / WIDTH), b = answer_at(mean, i % WIDTH, i / WIDTH);
         for (int k = 0; k < 3; k++)

@@ -2,10 +2,10 @@
  *
  * Rays through the wavy surface, 512 at a time: where they cross it next, which triangle they meet before, and what they do at a crossing.
  *
- * Under water everything happens in a mirror: with y and the waves' heights negated, water lies above air and the march that finds the surface
+ * Under water everything happens in a mirror: with y and the waves' heights negated, water lies above air and the search that finds the surface
  * from above finds it from below.
  */
-#include "cpu/refraction_truth.h"
+#include "cpu/path_traced.h"
 
 #include <float.h>
 #include <math.h>
@@ -15,7 +15,7 @@
 #include "base/hash.h"
 #include "reference/reference_frame.h"
 
-enum { BATCH = REFERENCE_BATCH, MOST_PARTS = BATCH * (TRUTH_MOST_EVENTS + 4) };
+enum { BATCH = REFERENCE_BATCH, MOST_PARTS = BATCH * (PATH_MOST_EVENTS + 4) };
 
 _Static_assert((int)BATCH == (int)TILE_PIXELS, "a tile's rays are one batch");
 
@@ -54,8 +54,8 @@ typedef struct batch_hits {
     size_t count;
 } batch_hits;
 
-typedef struct truth_scratch {
-    reference_batch march;
+typedef struct path_traced_scratch {
+    reference_batch search;
     surface_point surface[BATCH];
     trace_ray rays[BATCH];
     trace_hit met[BATCH];
@@ -64,19 +64,19 @@ typedef struct truth_scratch {
     size_t part_count;
     double through[3][BATCH], mirror[3][BATCH];
     uint32_t samples[BATCH]; /* that met the surface */
-} truth_scratch;
+} path_traced_scratch;
 
-struct refraction_truth {
-    truth_job job;
+struct path_traced {
+    path_traced_job job;
     reference_frame *above, *below; /* the surface seen from the air, and mirrored from the water */
     double offset[3];               /* from the camera's foot to the world's origin, to be added */
     uint32_t side;                  /* N of N × N samples a pixel */
-    truth_scratch **scratch;
+    path_traced_scratch **scratch;
 };
 
 /* ---- creation ---- */
 
-static bool create_scratch(refraction_truth *t)
+static bool create_scratch(path_traced *t)
 {
     t->scratch = calloc(t->job.workers, sizeof *t->scratch);
     for (uint32_t i = 0; t->scratch && i < t->job.workers; i++)
@@ -85,10 +85,10 @@ static bool create_scratch(refraction_truth *t)
     return t->scratch != NULL;
 }
 
-mgt_status refraction_truth_create(refraction_truth **truth, const truth_job *job)
+mgt_status path_traced_create(path_traced **truth, const path_traced_job *job)
 {
     *truth = NULL;
-    refraction_truth *t = calloc(1, sizeof *t);
+    path_traced *t = calloc(1, sizeof *t);
     if (!t)
         return MGT_ERROR_MEMORY;
     t->job = *job;
@@ -106,7 +106,7 @@ mgt_status refraction_truth_create(refraction_truth **truth, const truth_job *jo
     if (status == MGT_OK && !create_scratch(t))
         status = MGT_ERROR_MEMORY;
     if (status != MGT_OK) {
-        refraction_truth_free(t);
+        path_traced_free(t);
         return status;
     }
     reference_waves_mirror(t->below->waves, t->below->wave_count);
@@ -114,7 +114,7 @@ mgt_status refraction_truth_create(refraction_truth **truth, const truth_job *jo
     return MGT_OK;
 }
 
-void refraction_truth_free(refraction_truth *truth)
+void path_traced_free(path_traced *truth)
 {
     if (!truth)
         return;
@@ -138,7 +138,7 @@ static void scale_to_unit(double a[3])
 static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /* Next crossings of the batch's parts that are in water, or of the others. */
-static void march_side(const refraction_truth *t, truth_scratch *s, size_t count, bool wet, bool first)
+static void search_side(const path_traced *t, path_traced_scratch *s, size_t count, bool wet, bool first)
 {
     uint16_t from[BATCH];
     uint32_t used = 0;
@@ -147,34 +147,34 @@ static void march_side(const refraction_truth *t, truth_scratch *s, size_t count
         const light_part *p = &s->batch[i];
         if (p->wet != wet)
             continue;
-        s->march.origin_x[used] = p->origin[0];
-        s->march.origin_y[used] = up * p->origin[1];
-        s->march.origin_z[used] = p->origin[2];
-        s->march.direction_x[used] = p->direction[0];
-        s->march.direction_y[used] = up * p->direction[1];
-        s->march.direction_z[used] = p->direction[2];
-        s->march.time_offset[used] = p->time;
+        s->search.origin_x[used] = p->origin[0];
+        s->search.origin_y[used] = up * p->origin[1];
+        s->search.origin_z[used] = p->origin[2];
+        s->search.direction_x[used] = p->direction[0];
+        s->search.direction_y[used] = up * p->direction[1];
+        s->search.direction_z[used] = p->direction[2];
+        s->search.time_offset[used] = p->time;
         from[used++] = (uint16_t)i;
     }
     if (used == 0)
         return;
     const reference_frame *side = wet ? t->below : t->above;
-    side->march(side, &s->march, used);
+    side->search(side, &s->search, used);
     if (first)
-        side->bend(side, &s->march, used);
+        side->bend(side, &s->search, used);
     for (uint32_t i = 0; i < used; i++) {
         surface_point *w = &s->surface[from[i]];
-        w->distance = s->march.distance[i];
-        w->normal[0] = -s->march.slope_x[i];
+        w->distance = s->search.distance[i];
+        w->normal[0] = -s->search.slope_x[i];
         w->normal[1] = up;
-        w->normal[2] = -s->march.slope_z[i];
+        w->normal[2] = -s->search.slope_z[i];
         scale_to_unit(w->normal);
         if (first)
-            w->bend[0] = s->march.bend_xx[i], w->bend[1] = s->march.bend_xz[i], w->bend[2] = s->march.bend_zz[i];
+            w->bend[0] = s->search.bend_xx[i], w->bend[1] = s->search.bend_xz[i], w->bend[2] = s->search.bend_zz[i];
     }
 }
 
-static trace_ray ray_of(const refraction_truth *t, const light_part *p, double most)
+static trace_ray ray_of(const path_traced *t, const light_part *p, double most)
 {
     trace_ray ray = {.most = most < (double)FLT_MAX ? (float)most : FLT_MAX};
     for (int k = 0; k < 3; k++) {
@@ -185,10 +185,10 @@ static trace_ray ray_of(const refraction_truth *t, const light_part *p, double m
 }
 
 /* Fills surface and met for the first `count` parts of the batch; `first`: they come from the camera. */
-static void look_ahead(const refraction_truth *t, truth_scratch *s, size_t count, bool first)
+static void look_ahead(const path_traced *t, path_traced_scratch *s, size_t count, bool first)
 {
-    march_side(t, s, count, false, first);
-    march_side(t, s, count, true, first);
+    search_side(t, s, count, false, first);
+    search_side(t, s, count, true, first);
     for (size_t i = 0; i < count; i++)
         s->rays[i] = ray_of(t, &s->batch[i], s->surface[i].distance);
     trace_nearest(t->job.trace, count, s->rays, s->met);
@@ -227,9 +227,9 @@ static crossing cross_surface(const double direction[3], const double normal[3],
 }
 
 /* Begins at the surface, a little on the side that it goes to, so that rounding does not let it cross at once. */
-static void push_part(truth_scratch *s, const light_part *from, const surface_point *w, const double direction[3], bool crosses, double share)
+static void push_part(path_traced_scratch *s, const light_part *from, const surface_point *w, const double direction[3], bool crosses, double share)
 {
-    if (share < TRUTH_LEAST_SHARE || s->part_count == MOST_PARTS)
+    if (share < PATH_LEAST_SHARE || s->part_count == MOST_PARTS)
         return;
     light_part *p = &s->parts[s->part_count++];
     *p = *from;
@@ -282,7 +282,7 @@ static ray_step step_aside(const light_part *p, const surface_point *w, const do
     return s;
 }
 
-static void set_steps(const refraction_truth *t, light_part *p, const surface_point *w, double index, const crossing *c, bool through)
+static void set_steps(const path_traced *t, light_part *p, const surface_point *w, double index, const crossing *c, bool through)
 {
     const camera_rays *r = &t->job.camera;
     const double size = p->pixel_share / t->side;
@@ -295,7 +295,7 @@ static void set_steps(const refraction_truth *t, light_part *p, const surface_po
 }
 
 /* What the first surface makes of a camera's ray. */
-static void begin_parts(const refraction_truth *t, truth_scratch *s, light_part p, const surface_point *w, bool mirrored)
+static void begin_parts(const path_traced *t, path_traced_scratch *s, light_part p, const surface_point *w, bool mirrored)
 {
     const double n = t->job.scene->water.index_of_refraction;
     const double index = p.wet ? 1 / n : n;
@@ -314,7 +314,7 @@ static void begin_parts(const refraction_truth *t, truth_scratch *s, light_part 
     push_part(s, &p, w, c.mirrored, false, 1);
 }
 
-static void split_part(const refraction_truth *t, truth_scratch *s, light_part p, const surface_point *w)
+static void split_part(const path_traced *t, path_traced_scratch *s, light_part p, const surface_point *w)
 {
     const double n = t->job.scene->water.index_of_refraction;
     const crossing c = cross_surface(p.direction, w->normal, p.wet ? 1 / n : n);
@@ -344,7 +344,7 @@ static void spread_ray(const light_part *p, float spread[3])
         spread[k] = (float)sum[k];
 }
 
-static void end_part(const refraction_truth *t, truth_scratch *s, light_part p, const trace_ray *ray, const trace_hit *met)
+static void end_part(const path_traced *t, path_traced_scratch *s, light_part p, const trace_ray *ray, const trace_hit *met)
 {
     batch_hits *e = &s->ends;
     const size_t i = e->count++;
@@ -370,7 +370,7 @@ static void end_part(const refraction_truth *t, truth_scratch *s, light_part p, 
     e->mirrored[i] = p.mirrored;
 }
 
-static void shade_ends(const refraction_truth *t, truth_scratch *s)
+static void shade_ends(const path_traced *t, path_traced_scratch *s)
 {
     batch_hits *e = &s->ends;
     const shade_hits hits = {.count = e->count,
@@ -390,7 +390,7 @@ static void shade_ends(const refraction_truth *t, truth_scratch *s)
 }
 
 /* Follows what the pixels' rays became, the newest parts first: so few wait at a time. */
-static void follow_parts(const refraction_truth *t, truth_scratch *s)
+static void follow_parts(const path_traced *t, path_traced_scratch *s)
 {
     while (s->part_count) {
         const size_t count = s->part_count < BATCH ? s->part_count : BATCH;
@@ -399,7 +399,7 @@ static void follow_parts(const refraction_truth *t, truth_scratch *s)
         look_ahead(t, s, count, false);
         for (size_t i = 0; i < count; i++) {
             const bool again = s->met[i].triangle < 0 && s->surface[i].distance < HUGE_VAL;
-            if (again && s->batch[i].events < TRUTH_MOST_EVENTS)
+            if (again && s->batch[i].events < PATH_MOST_EVENTS)
                 split_part(t, s, s->batch[i], &s->surface[i]);
             else
                 end_part(t, s, s->batch[i], &s->rays[i], &s->met[i]);
@@ -411,7 +411,7 @@ static void follow_parts(const refraction_truth *t, truth_scratch *s)
 /* ---- a tile ---- */
 
 /* The ray of a place (x, y) of the picture, pixel centres at whole numbers. */
-static light_part camera_part(const refraction_truth *t, double x, double y, uint16_t pixel)
+static light_part camera_part(const path_traced *t, double x, double y, uint16_t pixel)
 {
     const camera_rays *c = &t->job.camera;
     light_part p = {.origin = {0, c->position[1], 0}, .pixel = pixel, .wet = c->position[1] < 0};
@@ -422,7 +422,7 @@ static light_part camera_part(const refraction_truth *t, double x, double y, uin
     return p;
 }
 
-static void aim_sample(const refraction_truth *t, truth_scratch *s, uint32_t tile_x, uint32_t tile_y, uint32_t sample)
+static void aim_sample(const path_traced *t, path_traced_scratch *s, uint32_t tile_x, uint32_t tile_y, uint32_t sample)
 {
     const mgt_scene *scene = t->job.scene;
     const uint32_t strata = t->side * t->side;
@@ -453,9 +453,9 @@ static void write_mean(const double sum[3][BATCH], const uint32_t *count, float 
     }
 }
 
-void refraction_truth_tile(const refraction_truth *truth, uint32_t tile_x, uint32_t tile_y, uint32_t worker, bool mirrored, truth_pixels *out)
+void path_traced_tile(const path_traced *truth, uint32_t tile_x, uint32_t tile_y, uint32_t worker, bool mirrored, path_traced_pixels *out)
 {
-    truth_scratch *s = truth->scratch[worker];
+    path_traced_scratch *s = truth->scratch[worker];
     const uint32_t samples = truth->side * truth->side;
     s->part_count = s->ends.count = 0;
     memset(s->through, 0, sizeof s->through);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Pixels that see objects in front of the water. The near layer knows what the centre of each pixel sees. At edges and along waterlines eight places of
+ * Pixels that see objects in front of the water. The front layer knows what the centre of each pixel sees. At edges and along waterlines eight places of
  * the pixel ask the triangles that it and its neighbours see, and the surface's plane.
  */
 #define OBJECTS_PASS
@@ -15,18 +15,18 @@ layout(binding = 3) writeonly uniform image2D surface_image; /* its normal, and 
 bool between_objects(ivec2 at, vec2 place)
 {
     vec2 side = edge_side(0, place);
-    return near_triangle_at(at) >= 0 && near_triangle_at(at + ivec2(int(side.x), int(side.y))) >= 0;
+    return front_triangle_at(at) >= 0 && front_triangle_at(at + ivec2(int(side.x), int(side.y))) >= 0;
 }
 
 RayEnd end_in_front(ivec2 image, PixelWater w, bool edge, vec2 place)
 {
-    ivec2 at = near_texel(image);
+    ivec2 at = front_texel(image);
     vec3 ray = camera_ray(image, place);
     float along = INFINITE;
     RayEnd end;
     end.triangle = -1;
     for (int i = 0; edge && i < 9; i++) {
-        int triangle = near_triangle_at(at + ivec2(i % 3 - 1, i / 3 - 1));
+        int triangle = front_triangle_at(at + ivec2(i % 3 - 1, i / 3 - 1));
         float met = triangle >= 0 ? meet_triangle(triangle, camera_position(), ray) : INFINITE;
         if (met < along) {
             along = met;
@@ -34,8 +34,8 @@ RayEnd end_in_front(ivec2 image, PixelWater w, bool edge, vec2 place)
         }
     }
     if (end.triangle < 0 && (!edge || between_objects(at, place))) {
-        end.triangle = near_triangle_at(at);
-        along = near_depth_at(at);
+        end.triangle = front_triangle_at(at);
+        along = front_depth_at(at);
     }
     float size = sqrt(length_squared(ray));
     end.ray.position = camera_position() + ray * along;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * Objects in front of the water, with smooth edges.
  *
- * The near layer knows what the centre of each pixel sees. At edges, where a neighbour sees something else, and along waterlines, eight places of the
+ * The front layer knows what the centre of each pixel sees. At edges, where a neighbour sees something else, and along waterlines, eight places of the
  * pixel ask the triangles that it and its neighbours see, and the surface's plane. */
 #include <math.h>
 #include <string.h>
@@ -10,14 +10,14 @@
 #include "base/triples.h"
 
 /* The tile's pixel at hand. */
-typedef struct near_pixel {
+typedef struct front_pixel {
     const refraction *r;
     uint32_t x, y;  /* in the image */
-    size_t element; /* of the near layer */
+    size_t element; /* of the front layer */
     size_t i;       /* in the tile */
     size_t candidate_count;
     int32_t candidates[REFRACTION_NEIGHBOURS];
-} near_pixel;
+} front_pixel;
 
 static void ray_through(const refraction *r, double x, double y, double ray[3])
 {
@@ -50,7 +50,7 @@ static void flush(const refraction *r, tile_objects *o, size_t *count)
     *count = 0;
 }
 
-static void add_point(const near_pixel *p, const double ray[3], double along, int32_t triangle, tile_objects *o, size_t *count)
+static void add_point(const front_pixel *p, const double ray[3], double along, int32_t triangle, tile_objects *o, size_t *count)
 {
     const refraction *r = p->r;
     const camera_rays *c = &r->camera;
@@ -90,17 +90,17 @@ static void add_point(const near_pixel *p, const double ray[3], double along, in
 #include "kernels/refraction/edges.k"
 
 /* Whether the place lies between two pixels that both see something: then it does, too, even if it meets none of the tiny triangles at hand. */
-static bool between_objects(const near_pixel *p, vec2 place)
+static bool between_objects(const front_pixel *p, vec2 place)
 {
-    const gbuffer *g = &p->r->direct.near;
+    const gbuffer *g = &p->r->direct.front;
     const vec2 side = edge_side(NULL, place);
     const ptrdiff_t step = (ptrdiff_t)side.x + (ptrdiff_t)g->width * (ptrdiff_t)side.y;
     return g->triangle[p->element] >= 0 && g->triangle[(size_t)((ptrdiff_t)p->element + step)] >= 0;
 }
 
-static void see_edge(near_pixel *p, tile_objects *o, size_t *count)
+static void see_edge(front_pixel *p, tile_objects *o, size_t *count)
 {
-    const gbuffer *g = &p->r->direct.near;
+    const gbuffer *g = &p->r->direct.front;
     const world *w = p->r->world;
     const camera_rays *c = &p->r->camera;
     const double eye[3] = {c->position[0] - w->origin[0], c->position[1], c->position[2] - w->origin[1]};
@@ -125,32 +125,32 @@ static void see_edge(near_pixel *p, tile_objects *o, size_t *count)
     }
 }
 
-static size_t list_inside(const tile_near *near, tile_objects *o)
+static size_t list_inside(const tile_front *front, tile_objects *o)
 {
     size_t count = 0;
     for (size_t i = 0; i < TILE_PIXELS; i++) {
-        o->share[i] = near->kind[i] == NEAR_INSIDE;
+        o->share[i] = front->kind[i] == FRONT_INSIDE;
         o->list[count] = (uint16_t)i;
-        count += near->kind[i] == NEAR_INSIDE;
+        count += front->kind[i] == FRONT_INSIDE;
     }
     return count;
 }
 
-static void see_edges(const refraction *r, const tile_offset *at, const tile_near *near, tile_objects *o)
+static void see_edges(const refraction *r, const tile_offset *at, const tile_front *front, tile_objects *o)
 {
-    const gbuffer *g = &r->direct.near;
+    const gbuffer *g = &r->direct.front;
     size_t count = 0;
     for (uint32_t i = 0; i < TILE_PIXELS; i++) {
-        if (near->kind[i] != NEAR_EDGE)
+        if (front->kind[i] != FRONT_EDGE)
             continue;
-        near_pixel p = {.r = r, .x = at->column + i % TILE_WIDTH, .y = at->row + i / TILE_WIDTH, .i = i};
+        front_pixel p = {.r = r, .x = at->column + i % TILE_WIDTH, .y = at->row + i / TILE_WIDTH, .i = i};
         p.element = (size_t)(g->top + p.y) * g->width + g->left + p.x;
         see_edge(&p, o, &count);
     }
     if (count > 0)
         flush(r, o, &count);
     for (size_t i = 0; i < TILE_PIXELS; i++) {
-        if (near->kind[i] != NEAR_EDGE)
+        if (front->kind[i] != FRONT_EDGE)
             continue;
         for (int k = 0; k < 3 && o->share[i] > 0; k++)
             o->color[k][i] /= o->share[i];
@@ -160,16 +160,16 @@ static void see_edges(const refraction *r, const tile_offset *at, const tile_nea
     }
 }
 
-void refraction_near(const refraction *r, uint32_t column, uint32_t row, tile_objects *o)
+void refraction_front(const refraction *r, uint32_t column, uint32_t row, tile_objects *o)
 {
     const tile_offset at = {column, row, 0, 0};
-    tile_near near = {.along = o->along, .normal = o->normal};
-    r->kernels->near->points(&r->near, &at, &o->water, &near, &o->ends);
+    tile_front front = {.along = o->along, .normal = o->normal};
+    r->kernels->front->points(&r->front, &at, &o->water, &front, &o->ends);
     memset(o->color, 0, sizeof o->color);
-    const size_t inside = list_inside(&near, o);
+    const size_t inside = list_inside(&front, o);
     if (inside > 0) {
         refraction_shade_listed(r, o, inside);
         refraction_spread(o, inside, o->color);
     }
-    see_edges(r, &at, &near, o);
+    see_edges(r, &at, &front, o);
 }

@@ -6,19 +6,19 @@
 
 enum { WIDTH = 640, HEIGHT = 360, WAVES = 48, RAYS = 500 };
 
-typedef struct march_figures {
-    double before, beyond; /* how far the march stops before the hit, and goes beyond it, in its own tolerance */
+typedef struct search_figures {
+    double before, beyond; /* how far the search stops before the hit, and goes beyond it, in its own tolerance */
     double off;            /* share of the hits off by more than max(1%, 5 mm) */
     double median, slope;  /* of the distance's relative error and the slope's */
     double missed;         /* share of rays that disagree on there being water at all */
-} march_figures;
+} search_figures;
 
-static march_figures march_random_rays(const mgt_scene *scene, uint64_t seed, double lowest_row)
+static search_figures search_random_rays(const mgt_scene *scene, uint64_t seed, double lowest_row)
 {
     kernel_bench *b = kernel_bench_create(scene);
     random_state r = {seed};
     static double error[RAYS], slope_error[RAYS];
-    march_figures f = {0};
+    search_figures f = {0};
     size_t count = 0;
     int off = 0, missed = 0;
     for (int i = 0; i < RAYS; i++) {
@@ -26,7 +26,7 @@ static march_figures march_random_rays(const mgt_scene *scene, uint64_t seed, do
         kernel_bench_tile(b, false, false, x, y);
         const vec3 ray = kernel_bench_ray(b, x, y);
         const double length = sqrt((double)(ray.x * ray.x + ray.y * ray.y + ray.z * ray.z));
-        const SampleHit hit = sample_hit(&b->cx, ray, (HitGuess){0, 0, 1});
+        const SampleHit hit = sample_hit(&b->cx, ray, (HitEstimate){0, 0, 1});
         const water_hit exact = first_hit_brute_force(scene, x + 0.5, y + 0.5, scene->time);
         if ((hit.found > 0) != exact.hit) {
             missed++;
@@ -41,9 +41,9 @@ static march_figures march_random_rays(const mgt_scene *scene, uint64_t seed, do
             off++;
             continue;
         }
-        const MarchHit march_hit = march(&b->cx, ray, 0, 1);
+        const SearchHit search_hit = search(&b->cx, ray, 0, 1);
         const double horizontal = sqrt((double)(ray.x * ray.x + ray.z * ray.z)) / length;
-        const double gap = (exact.distance - (double)march_hit.along * length) * horizontal / (double)b->tile.data.march_tolerance;
+        const double gap = (exact.distance - (double)search_hit.along * length) * horizontal / (double)b->tile.data.search_tolerance;
         f.before = fmax(f.before, gap);
         f.beyond = fmax(f.beyond, -gap);
     }
@@ -70,12 +70,12 @@ static void steep_views_meet_the_surface(void **state)
     (void)state;
     mgt_wave waves[WAVES];
     const mgt_scene scene = rough_sea(waves, 0.18);
-    const march_figures f = march_random_rays(&scene, 42, 250);
+    const search_figures f = search_random_rays(&scene, 42, 250);
     expect_below("steep: share off by more than max(1%, 5 mm)", f.off, 0.004);
     expect_below("steep: rays missed", f.missed, 0);
     expect_below("steep: distance, relative, median", f.median, 2e-6);
     expect_below("steep: slope, 95 of 100", f.slope, 1e-4);
-    expect_below("steep: march beyond the hit, in its tolerance", f.beyond, 0.01);
+    expect_below("steep: search beyond the hit, in its tolerance", f.beyond, 0.01);
 }
 
 static void grazing_views_meet_the_first_crest(void **state)
@@ -83,14 +83,14 @@ static void grazing_views_meet_the_first_crest(void **state)
     (void)state;
     mgt_wave waves[WAVES];
     const mgt_scene scene = rough_sea(waves, 0.18);
-    const march_figures f = march_random_rays(&scene, 43, 168);
+    const search_figures f = search_random_rays(&scene, 43, 168);
     expect_below("grazing: share off by more than max(1%, 5 mm)", f.off, 0.005);
     expect_below("grazing: rays missed", f.missed, 0.002);
     expect_below("grazing: distance, relative, median", f.median, 2e-6);
-    expect_below("grazing: march beyond the hit, in its tolerance", f.beyond, 0.01);
+    expect_below("grazing: search beyond the hit, in its tolerance", f.beyond, 0.01);
 }
 
-/* Crests above the camera can only be met by marching from the camera on. */
+/* Crests above the camera can only be met by searching from the camera on. */
 static void low_cameras_see_crests_above_them(void **state)
 {
     (void)state;
@@ -103,14 +103,14 @@ static void low_cameras_see_crests_above_them(void **state)
     scene.camera.position[1] = fmax(above, 0) + 0.15;
     scene.camera.target[1] = scene.camera.position[1] - 0.05;
     assert_true(scene.camera.position[1] < crest);
-    const march_figures f = march_random_rays(&scene, 44, 0);
+    const search_figures f = search_random_rays(&scene, 44, 0);
     expect_below("among crests: share off by more than max(1%, 5 mm)", f.off, 0.01);
     expect_below("among crests: rays missed", f.missed, 0.01);
 }
 
-/* Without a march the guess is all there is: a height some millimetres off is mended by Newton's steps, and the slope with it. A
+/* Without a search the estimate is all there is: a height some millimetres off is mended by Newton's steps, and the slope with it. A
  * slope's error is then of second order, half of the third derivative A k³ times the step squared. */
-static void good_guesses_are_mended(void **state)
+static void good_estimates_are_mended(void **state)
 {
     (void)state;
     mgt_wave waves[WAVES];
@@ -124,7 +124,7 @@ static void good_guesses_are_mended(void **state)
         kernel_bench_tile(b, false, false, x, y);
         const vec3 ray = kernel_bench_ray(b, x, y);
         const double off = random_range(&r, -0.001, 0.001);
-        const SampleHit hit = sample_hit(&b->cx, ray, (HitGuess){(float)(exact.water.height + off), 0, 0});
+        const SampleHit hit = sample_hit(&b->cx, ray, (HitEstimate){(float)(exact.water.height + off), 0, 0});
         const double length = sqrt((double)(ray.x * ray.x + ray.y * ray.y + ray.z * ray.z)), reach = exact.distance + off * length / (double)ray.y;
         const double *camera = scene.camera.position;
         const water_point there =
@@ -136,8 +136,8 @@ static void good_guesses_are_mended(void **state)
     kernel_bench_destroy(b);
     const double whole = quantile(before, RAYS, 0.9), left = quantile(error, RAYS, 0.9);
     assert_true(whole > 0.001);
-    expect_below("guess 1 mm off: slope's error, of that at the guess", left / whole, 0.08);
-    expect_below("guess 1 mm off: distance, relative, nine of ten", quantile(distance, RAYS, 0.9), 1e-5);
+    expect_below("estimate 1 mm off: slope's error, of that at the estimate", left / whole, 0.08);
+    expect_below("estimate 1 mm off: distance, relative, nine of ten", quantile(distance, RAYS, 0.9), 1e-5);
 }
 
 int main(void)
@@ -146,7 +146,7 @@ int main(void)
         cmocka_unit_test(steep_views_meet_the_surface),
         cmocka_unit_test(grazing_views_meet_the_first_crest),
         cmocka_unit_test(low_cameras_see_crests_above_them),
-        cmocka_unit_test(good_guesses_are_mended),
+        cmocka_unit_test(good_estimates_are_mended),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

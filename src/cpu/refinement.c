@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * The leaves of method adaptive: what they are worth, which of them a round may split, and their memory. */
-#include "cpu/forest.h"
+#include "cpu/refinement.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -23,7 +23,7 @@ enum {
 static const double cost_unit = 65536; /* evaluations of all waves are counted in these parts */
 /* What a cell and a point sample cost besides their waves, in waves of a cell; measured, as is the 1.1 that a wave of a sample costs. */
 static const double cell_waves = 20, sample_waves = 1;
-/* Of a point, evaluations of all waves: points lie where rays graze, and march to their hits over every wave. Measured. */
+/* Of a point, evaluations of all waves: points lie where rays graze, and search to their hits over every wave. Measured. */
 static const double point_cost = 12;
 
 const uint8_t halvings[4][2] = {{1, 1}, {0, 2}, {2, 0}, {0, 0}};
@@ -33,7 +33,7 @@ struct census {
     uint64_t cells[BUCKETS], points[BUCKETS]; /* what the leaves of a bucket cost */
 };
 
-size_t leaf_pixel(const forest *f, size_t tile, const leaf *l)
+size_t leaf_pixel(const refinement *f, size_t tile, const leaf *l)
 {
     const size_t x = tile % f->columns * TILE_WIDTH + (l->column >> l->across), y = tile / f->columns * TILE_HEIGHT + (l->row >> l->down);
     return y * f->out->width + x;
@@ -41,7 +41,7 @@ size_t leaf_pixel(const forest *f, size_t tile, const leaf *l)
 
 static const float areas[LEVELS] = {1, 0x1p-2f, 0x1p-4f, 0x1p-6f, 0x1p-8f, 0x1p-10f, 0x1p-12f, 0x1p-14f, 0x1p-16f}; /* of a cell, pixels */
 
-void leaf_settle(const forest *f, size_t tile, const leaf *l)
+void leaf_settle(const refinement *f, size_t tile, const leaf *l)
 {
     const picture_planes *p = f->out;
     const size_t i = leaf_pixel(f, tile, l);
@@ -57,25 +57,25 @@ void leaf_settle(const forest *f, size_t tile, const leaf *l)
 
 /* ---- what a split is worth ---- */
 
-const shutter_parts *forest_parts(const forest *f, int level) { return &f->parts[level == 0 ? 0 : level < SHARP_LEVEL ? 1 : 2]; }
+const shutter_parts *refinement_parts(const refinement *f, int level) { return &f->parts[level == 0 ? 0 : level < SHARP_LEVEL ? 1 : 2]; }
 
 /* What splits cost and are worth, after a level's cost became known: where it is not, by the nearest level above. */
-static void forest_appraise(const forest *f, forest_tile *t)
+static void refinement_appraise(const refinement *f, refinement_tile *t)
 {
     double cost = t->cost[0];
     for (int level = 0; level < LEVELS; level++) {
         const double next = level + 1 < LEVELS ? t->cost[level + 1] : 0;
-        cost = next > 0 ? next : 1.2 * cost * forest_parts(f, level + 1)->count / forest_parts(f, level)->count;
+        cost = next > 0 ? next : 1.2 * cost * refinement_parts(f, level + 1)->count / refinement_parts(f, level)->count;
         t->below[level] = 4 * cost;
         t->worth[level] = (float)((double)(areas[level] * areas[level]) / t->below[level]);
     }
 }
 
-void forest_price(const forest *f, forest_tile *t, int level, int waves)
+void refinement_price(const refinement *f, refinement_tile *t, int level, int waves)
 {
     const double all = 1.1 * f->parts[0].sets[0]->view.wave_count + sample_waves;
-    t->cost[level] = forest_parts(f, level)->count * (waves + cell_waves) / all;
-    forest_appraise(f, t);
+    t->cost[level] = refinement_parts(f, level)->count * (waves + cell_waves) / all;
+    refinement_appraise(f, t);
 }
 
 /* Steps of a 32nd octave, straight within an octave: the upper bits of the float. */
@@ -101,11 +101,14 @@ int leaf_next_points(const leaf *l)
     return points;
 }
 
-double leaf_cost(const forest_tile *t, const leaf *l) { return l->shape == SHAPE_POINTS ? (leaf_next_points(l) - l->points) * point_cost : t->below[l->level]; }
+double leaf_cost(const refinement_tile *t, const leaf *l)
+{
+    return l->shape == SHAPE_POINTS ? (leaf_next_points(l) - l->points) * point_cost : t->below[l->level];
+}
 
 /* How much of its squared error a split may save for each evaluation. Four parts of a cell show the mean of a quarter of its places each; n points
  * that of n, and get nothing wrong. */
-static float worth_of(const forest_tile *t, const leaf *l)
+static float worth_of(const refinement_tile *t, const leaf *l)
 {
     const float area = areas[l->level];
     if (l->shape != SHAPE_POINTS)
@@ -113,9 +116,9 @@ static float worth_of(const forest_tile *t, const leaf *l)
     return fmaxf(1 - l->places / (float)leaf_next_points(l) + wrong_of(l), 0) * area * area / (float)leaf_cost(t, l);
 }
 
-bool forest_add(const forest *f, size_t tile, leaf l)
+bool refinement_add(const refinement *f, size_t tile, leaf l)
 {
-    forest_tile *t = &f->tiles[tile];
+    refinement_tile *t = &f->tiles[tile];
     const float now = f->by_coverage ? l.variance : l.contrast * f->weight[leaf_pixel(f, tile, &l)];
     if (l.points > 0 || (l.places > POINTS_PLACES && f->a->frame->data.sky_black))
         l.shape = SHAPE_POINTS;
@@ -141,8 +144,8 @@ bool forest_add(const forest *f, size_t tile, leaf l)
 
 static void count_tile(void *argument, size_t tile, uint32_t worker)
 {
-    const forest *f = argument;
-    const forest_tile *t = &f->tiles[tile];
+    const refinement *f = argument;
+    const refinement_tile *t = &f->tiles[tile];
     struct census *census = f->census[worker];
     for (size_t i = 0; i < t->count; i++) {
         const leaf *l = &t->leaves[i];
@@ -150,7 +153,7 @@ static void count_tile(void *argument, size_t tile, uint32_t worker)
     }
 }
 
-bool forest_plan(forest *f, double budget, size_t round)
+bool refinement_plan(refinement *f, double budget, size_t round)
 {
     for (size_t i = 0; i < f->workers; i++)
         memset(f->census[i], 0, sizeof **f->census);
@@ -193,14 +196,14 @@ double leaf_lot(size_t tile, const leaf *l, uint64_t seed)
     return (double)(hash_of(hash_of(hash_of(seed ^ hash_of(tile)) ^ size) ^ place) >> 11) * 0x1p-53;
 }
 
-bool leaf_chosen(const forest *f, size_t tile, const leaf *l)
+bool leaf_chosen(const refinement *f, size_t tile, const leaf *l)
 {
     if (l->shape == SHAPE_POINTS)
         return l->bucket > f->plan.points;
     return l->bucket > f->plan.bucket || (l->bucket == f->plan.bucket && leaf_lot(tile, l, 0) < f->plan.share);
 }
 
-double forest_spent(const forest *f)
+double refinement_spent(const refinement *f)
 {
     double sum = 0;
     for (size_t i = 0; i < (size_t)f->columns * f->rows; i++)
@@ -208,7 +211,7 @@ double forest_spent(const forest *f)
     return sum;
 }
 
-double forest_water(const forest *f)
+double refinement_water(const refinement *f)
 {
     double sum = 0;
     for (size_t i = 0; i < (size_t)f->out->width * f->out->height; i++)
@@ -220,11 +223,11 @@ double forest_water(const forest *f)
     return sum;
 }
 
-double forest_predicted_rmse(const forest *f)
+double refinement_predicted_rmse(const refinement *f)
 {
     double sum = 0;
     for (size_t tile = 0; tile < (size_t)f->columns * f->rows; tile++) {
-        const forest_tile *t = &f->tiles[tile];
+        const refinement_tile *t = &f->tiles[tile];
         sum += t->final_variance;
         for (size_t i = 0; i < t->count; i++)
             sum += (double)(areas[t->leaves[i].level] * areas[t->leaves[i].level] * t->leaves[i].variance);
@@ -235,7 +238,7 @@ double forest_predicted_rmse(const forest *f)
 
 /* ---- memory ---- */
 
-void forest_free(forest *f)
+void refinement_free(refinement *f)
 {
     if (!f)
         return;
@@ -259,7 +262,7 @@ void forest_free(forest *f)
     free(f);
 }
 
-static bool make_memory(forest *f)
+static bool make_memory(refinement *f)
 {
     f->tiles = calloc((size_t)f->columns * f->rows, sizeof *f->tiles);
     f->weight = malloc((size_t)f->width * f->height * sizeof *f->weight);
@@ -281,9 +284,9 @@ static bool make_memory(forest *f)
     return all;
 }
 
-forest *forest_make(const adaptive_frame *a, const picture_planes *out)
+refinement *refinement_make(const adaptive_frame *a, const picture_planes *out)
 {
-    forest *f = calloc(1, sizeof *f);
+    refinement *f = calloc(1, sizeof *f);
     if (!f)
         return NULL;
     f->width = out->width;
@@ -293,11 +296,11 @@ forest *forest_make(const adaptive_frame *a, const picture_planes *out)
     f->workers = thread_pool_size(a->pool);
     if (make_memory(f))
         return f;
-    forest_free(f);
+    refinement_free(f);
     return NULL;
 }
 
-void forest_clear(forest *f, const adaptive_frame *a, const picture_planes *out)
+void refinement_clear(refinement *f, const adaptive_frame *a, const picture_planes *out)
 {
     f->a = a;
     f->out = out;
@@ -306,5 +309,5 @@ void forest_clear(forest *f, const adaptive_frame *a, const picture_planes *out)
     f->least_bucket = 0;
     atomic_store(&f->failed, false);
     for (size_t i = 0; i < (size_t)f->columns * f->rows; i++)
-        f->tiles[i] = (forest_tile){.leaves = f->tiles[i].leaves, .capacity = f->tiles[i].capacity};
+        f->tiles[i] = (refinement_tile){.leaves = f->tiles[i].leaves, .capacity = f->tiles[i].capacity};
 }
