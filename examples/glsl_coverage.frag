@@ -8,7 +8,7 @@ layout(std140, binding = 0) uniform FrameBlock { FrameData frame; };
 layout(std140, binding = 1) uniform TileBlock { TileData whole_image; };
 layout(std140, binding = 2) uniform WaveBlock { WaveData waves[128]; };
 
-/* A variable of this pixel, since each has waves of its own to search over. */
+/* A variable of this pixel, since each has a list of waves of its own. */
 TileData tile;
 
 #define FRAME(cx) frame
