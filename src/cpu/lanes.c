@@ -67,17 +67,27 @@ static inline float any_of(real x)
 
 /* The classes of all waves, an array per member that is read again. */
 typedef struct wave_classes {
-    float kind[MGT_MAX_WAVES], phase[MGT_MAX_WAVES], share[MGT_MAX_WAVES], lost[MGT_MAX_WAVES], searched[MGT_MAX_WAVES];
+    float kind[MGT_MAX_WAVES], turns[MGT_MAX_WAVES], share[MGT_MAX_WAVES], lost[MGT_MAX_WAVES], searched[MGT_MAX_WAVES];
     float along[MGT_MAX_WAVES], most[MGT_MAX_WAVES];
 } wave_classes;
+
+_Static_assert(sizeof(SortWave) == SORT_KEYS * sizeof(real), "nothing but keys");
+
+static inline SortWave load_sort_wave(const wave_set *set, int i)
+{
+    SortWave w;
+    real *members = (real *)&w;
+    for (int key = 0; key < SORT_KEYS; key++)
+        members[key] = load(set->keys[key] + i);
+    return w;
+}
 
 static void classify_waves(const struct kernel_context *cx, const wave_set *set, TileView view, wave_classes *out)
 {
     for (int i = 0; i < set->view.wave_count; i += MGT_LANES) {
-        const WaveClass c = classify_wave(cx, view, load(set->turns_x + i), load(set->turns_z + i), load(set->turns_low_x + i), load(set->turns_low_z + i),
-                                          load(set->phase + i), load(set->lesser_variance + i));
+        const WaveClass c = classify_wave(cx, view, load_sort_wave(set, i));
         store(out->kind + i, c.kind);
-        store(out->phase + i, c.phase);
+        store(out->turns + i, c.turns);
         store(out->share + i, c.share);
         store(out->lost + i, c.lost);
         store(out->searched + i, c.searched);
@@ -88,7 +98,7 @@ static void classify_waves(const struct kernel_context *cx, const wave_set *set,
 
 static void list_wave(const struct kernel_context *cx, const wave_set *set, const wave_classes *c, int wave, WaveData *out)
 {
-    *out = wave_shared(cx, wave_placed(cx, set->data[wave], c->phase[wave]), c->share[wave]);
+    *out = wave_shared(cx, wave_placed(cx, set->data[wave], c->turns[wave]), c->share[wave]);
 }
 
 /* The resolved waves, then the mixed ones, each in the set's order. */
@@ -112,7 +122,7 @@ static TileData list_waves(const struct kernel_context *cx, const wave_set *set,
     const int coarse = coarse_waves(cx, searched_count);
     for (int place = 0; place < searched_count; place++) {
         const int i = searched[place];
-        out->search[place] = search_wave_of(cx, set->data[i], c->phase[i]);
+        out->search[place] = search_wave_of(cx, set->data[i], c->turns[i]);
         sums = sums_with_search(cx, sums, set->data[i], c->along[i], place, coarse);
     }
     return sorted_tile(cx, sums, resolved, all - resolved, searched_count);

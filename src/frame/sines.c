@@ -3,6 +3,7 @@
 #include "frame/sines.h"
 
 #include <math.h>
+#include <string.h>
 
 static const double pi = 3.14159265358979323846, turn = 6.28318530717958647692;
 
@@ -47,22 +48,38 @@ static WaveData wave_data(const mgt_wave *w, double half)
     };
 }
 
+_Static_assert(sizeof(SortData) >= SORT_KEYS * sizeof(float), "the keys come first");
+
+/* Its lesser_variance is left open. */
+static SortData sort_data(const mgt_wave *w, wave_meeting at)
+{
+    const double turns_x = w->kx / (2 * pi), turns_z = w->kz / (2 * pi);
+    const double phase = turns_x * at.x + turns_z * at.z + (w->omega * at.middle + w->phase) / (2 * pi) + at.turns;
+    SortData s = {.turns_x = (float)turns_x, .turns_z = (float)turns_z, .phase = (float)(phase - rint(phase))};
+    s.turns_low_x = (float)(turns_x - (double)s.turns_x);
+    s.turns_low_z = (float)(turns_z - (double)s.turns_z);
+    return s;
+}
+
+static void store_keys(wave_set *set, size_t i, const SortData *s)
+{
+    float keys[SORT_KEYS];
+    memcpy(keys, s, sizeof keys);
+    for (int key = 0; key < SORT_KEYS; key++)
+        set->keys[key][i] = keys[key];
+}
+
 void sines_place(const mgt_water *water, const uint16_t *order, wave_meeting at, wave_set *set)
 {
     double variance = 0, slope_variance = 0;
     for (size_t i = water->wave_count; i-- > 0;) { /* from the smallest, for lesser_variance */
         const mgt_wave *w = &water->waves[order[i]];
-        const double turns_x = w->kx / (2 * pi), turns_z = w->kz / (2 * pi);
+        SortData s = sort_data(w, at);
         set->data[i] = wave_data(w, at.half);
-        set->turns_x[i] = (float)turns_x;
-        set->turns_z[i] = (float)turns_z;
-        set->turns_low_x[i] = (float)(turns_x - (double)set->turns_x[i]);
-        set->turns_low_z[i] = (float)(turns_z - (double)set->turns_z[i]);
-        const double phase = turns_x * at.x + turns_z * at.z + (w->omega * at.middle + w->phase) / (2 * pi) + at.turns;
-        set->phase[i] = (float)(phase - rint(phase));
         variance += w->amplitude * w->amplitude / 2;
         slope_variance += w->amplitude * w->amplitude * (w->kx * w->kx + w->kz * w->kz) / 2;
-        set->lesser_variance[i] = (float)variance;
+        s.lesser_variance = (float)variance;
+        store_keys(set, i, &s);
     }
     set->view.displacement = (float)(4 * sqrt(variance));
     set->view.slope_deviation = (float)sqrt(slope_variance);
@@ -71,8 +88,12 @@ void sines_place(const mgt_water *water, const uint16_t *order, wave_meeting at,
 
 void sines_sort_data(const wave_set *set, SortData *out)
 {
-    for (int i = 0; i < set->view.wave_count; i++)
-        out[i] = (SortData){set->turns_x[i], set->turns_z[i], set->turns_low_x[i], set->turns_low_z[i], set->phase[i], set->lesser_variance[i], 0, 0};
+    for (int i = 0; i < set->view.wave_count; i++) {
+        float keys[sizeof out[i] / sizeof(float)] = {0};
+        for (int key = 0; key < SORT_KEYS; key++)
+            keys[key] = set->keys[key][i];
+        memcpy(&out[i], keys, sizeof keys);
+    }
 }
 
 int sines_moving(const wave_set *set)

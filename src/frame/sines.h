@@ -16,11 +16,8 @@
 typedef struct wave_set {
     ViewData view;
     WaveData data[MGT_MAX_WAVES]; /* phase left open */
-    /* What sorting needs, see tile.k; room for the widest lanes, and zero there. */
-    float turns_x[MGT_MAX_WAVES], turns_z[MGT_MAX_WAVES];
-    float turns_low_x[MGT_MAX_WAVES], turns_low_z[MGT_MAX_WAVES]; /* what rounding to float took away */
-    float phase[MGT_MAX_WAVES];                                   /* turns under the camera at the interval's middle, in [-1/2, 1/2] */
-    float lesser_variance[MGT_MAX_WAVES];                         /* metres², of the heights of a wave and of all smaller ones */
+    /* SortData's members, an array each; room for the widest lanes, and zero there. */
+    float keys[SORT_KEYS][MGT_MAX_WAVES];
 } wave_set;
 
 /* Where and when waves are met: a point of the mean surface, and an interval of time. `turns` are added to every phase: half of one turns the

@@ -6,7 +6,7 @@
 #include "kernels/common/prelude_glsl.k"
 #include "pass_data.k"
 #include "kernels/waves/sines_types.k"
-#include "kernels/common/math.k"
+#include "kernels/waves/lean_grid.k"
 
 layout(std140, binding = 3) uniform LeanPassBlock { LeanPass lean_pass; };
 layout(std140, binding = 1) uniform LeanWaveBlock { LeanWave lean_waves[MAX_WAVES]; };
@@ -14,9 +14,6 @@ layout(binding = 0) writeonly uniform image2D mean_image;
 
 const int ROWS = 16;
 layout(local_size_x = 64) in;
-
-/* Turns of so many texels' steps of a wave; whole ones are left out. */
-float turns_of(int steps) { return float(steps & (LEAN_SIZE - 1)) * (1.0f / float(LEAN_SIZE)); }
 
 void main()
 {
@@ -27,10 +24,10 @@ void main()
         slopes[r] = vec2(0.0f);
     for (int i = 0; i < lean_pass.wave_count; i++) {
         LeanWave w = lean_waves[i];
-        SinCos t = sincos_turns(0, w.turns + turns_of(w.periods_x * column + w.periods_z * first_row));
-        SinCos row = sincos_turns(0, turns_of(w.periods_z));
+        SinCos t = sincos_turns(0, grid_phase(0, w, column, first_row));
+        SinCos row = sincos_turns(0, grid_row_turns(0, w));
         for (int r = 0; r < ROWS; r++) {
-            slopes[r] += t.c * vec2(w.slope_x, w.slope_z);
+            slopes[r] += t.c * grid_slope(0, w);
             float sine = fma(t.s, row.c, t.c * row.s);
             t.c = fma(t.c, row.c, -t.s * row.s);
             t.s = sine;

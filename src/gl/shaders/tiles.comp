@@ -35,11 +35,7 @@ void clear_bits(int lane)
     own = no_sums(0);
 }
 
-WaveClass class_of(TileView view, int wave)
-{
-    SortData s = sort_data[wave];
-    return classify_wave(0, view, s.turns_x, s.turns_z, s.turns_low_x, s.turns_low_z, s.phase, s.lesser_variance);
-}
+WaveClass class_of(TileView view, int wave) { return classify_wave(0, view, sort_wave_of(0, sort_data[wave])); }
 
 void mark_wave(TileView view, int wave)
 {
@@ -94,12 +90,12 @@ void list_wave(TileView view, Counts counts, int wave)
     int base = tile_slot * pass_data.wave_stride;
     if (resolved || mixed) {
         int place = resolved ? resolved_before(wave) : counts.resolved + mixed_before(wave);
-        tile_waves[base + place] = TileWave(wave, c.phase, c.share, 0.0f);
+        tile_waves[base + place] = TileWave(wave, c.turns, c.share, 0.0f);
     }
     if (searched) {
         WaveData w = wave_data[wave];
         int place = searched_before(wave);
-        search_waves[base + place] = search_wave_of(0, w, c.phase);
+        search_waves[base + place] = search_wave_of(0, w, c.turns);
         own = sums_with_search(0, own, w, c.along, place, coarse_waves(0, counts.searched));
     }
 }

@@ -10,6 +10,8 @@
 
 #define MAX_WAVES 512 /* of a scene */
 
+#define SORT_KEYS 6 /* members of SortData that sort a wave, see tile.k */
+
 /* WaveClass.kind: how a tile counts a wave. */
 #define WAVE_UNRESOLVED 0
 #define WAVE_RESOLVED 1
