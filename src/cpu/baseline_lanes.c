@@ -90,7 +90,7 @@ static PixelResult sky_alone(const struct kernel_context *cx, PixelRay p)
     return result;
 }
 
-static inline const float *light_at(const tile_light *light, size_t i) { return light ? &light->body[0][i] : NULL; }
+static inline const float *light_at(const tile_light *light, size_t i) { return light ? &light->through[0][i] : NULL; }
 
 static struct kernel_context context_of(const method_tile *t, const tile_waves *waves)
 {

@@ -293,7 +293,7 @@ static void lanes_estimate(const FrameData *frame, const tile_waves *tile, tile_
 
 /* ---- methods ---- */
 
-static inline const float *light_at(const tile_light *light, size_t i) { return light ? &light->body[0][i] : NULL; }
+static inline const float *light_at(const tile_light *light, size_t i) { return light ? &light->through[0][i] : NULL; }
 
 static inline void accumulate(float *p, real value, float weight) { store(p, load(p) + value * weight); }
 

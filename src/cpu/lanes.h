@@ -38,7 +38,7 @@ typedef struct tile_detail {
 
 /* What the pixels of a tile see of objects through the surface and mirrored by it, see pixel.k. Kernels read the planes by their numbers. */
 typedef struct tile_light {
-    float body[3][TILE_PIXELS];     /* what comes through */
+    float through[3][TILE_PIXELS];  /* what comes through */
     float mirrored[3][TILE_PIXELS]; /* what objects shine instead of what they hide of the sky, … */
     float share[TILE_PIXELS];       /* … and how much that is */
     float clear[3][TILE_PIXELS];    /* what objects and water leave of the light's disk */

@@ -131,7 +131,7 @@ static void keep_layers(tile_objects *o)
     for (size_t i = 0; i < TILE_PIXELS; i++) {
         const bool seen = o->water.share[i] > 0 && o->share[i] < FRONT_SHOWS;
         for (int k = 0; k < 3; k++)
-            o->refraction[k][i] = seen ? o->light.body[k][i] : 0;
+            o->refraction[k][i] = seen ? o->light.through[k][i] : 0;
         o->error[i] = seen ? o->error[i] : 0;
     }
 }
@@ -199,7 +199,7 @@ static void see_path_traced(const refraction *r, uint32_t tile_x, uint32_t tile_
     path_traced_tile(r->truth, tile_x, tile_y, worker, mirrored, &o->truth);
     const path_traced_pixels *t = &o->truth;
     for (size_t i = 0; i < TILE_PIXELS; i++) {
-        o->light.body[0][i] = t->red[i], o->light.body[1][i] = t->green[i], o->light.body[2][i] = t->blue[i];
+        o->light.through[0][i] = t->red[i], o->light.through[1][i] = t->green[i], o->light.through[2][i] = t->blue[i];
         o->error[i] = 0;
         if (!mirrored || t->water[i] == 0)
             continue;
@@ -235,7 +235,7 @@ static void see_mirrored(const refraction *r, const tile_offset *at, size_t coun
     add_listed(o, mirrored, o->light.mirrored);
 }
 
-/* Radiance through one place of every listed pixel, added to the body's, and what it mirrors; the list is used up. */
+/* Radiance through one place of every listed pixel, added to what came through before, and what it mirrors; the list is used up. */
 static void see_place(refraction *r, const tile_offset *at, size_t count, tile_objects *o)
 {
     r->kernels->narrow->refracted(&r->narrow, at, &o->water, &o->ends);
@@ -252,7 +252,7 @@ static void see_place(refraction *r, const tile_offset *at, size_t count, tile_o
         o->ends.gain[i] = o->ends.total[i] > 0 ? 1 : through;
     }
     refraction_shade_listed(r, o, count);
-    add_listed(o, count, o->light.body);
+    add_listed(o, count, o->light.through);
     for (size_t i = 0; i < count; i++)
         o->seen[o->list[i]] += 1;
     see_mirrored(r, at, count, o);
@@ -268,7 +268,7 @@ static void look_at_water(const refraction *r, const tile_waves *waves, const ti
 static void see_refracted(refraction *r, const tile_waves *waves, const tile_estimate *estimate, tile_offset at, tile_objects *o)
 {
     const uint32_t n = r->frame->scene->quality.refraction_samples ? r->frame->scene->quality.refraction_samples : 1;
-    memset(o->light.body, 0, sizeof o->light.body);
+    memset(o->light.through, 0, sizeof o->light.through);
     memset(o->light.mirrored, 0, sizeof o->light.mirrored);
     memset(o->light.share, 0, sizeof o->light.share);
     memset(o->seen, 0, sizeof o->seen);
@@ -292,7 +292,7 @@ static void see_refracted(refraction *r, const tile_waves *waves, const tile_est
             continue;
         o->light.share[i] /= o->seen[i];
         for (int k = 0; k < 3; k++) {
-            o->light.body[k][i] /= o->seen[i];
+            o->light.through[k][i] /= o->seen[i];
             o->light.mirrored[k][i] /= o->seen[i];
         }
     }
@@ -327,8 +327,8 @@ void light_of_pixels(const tile_light *light, const uint16_t *pixels, size_t cou
 {
     enum { PLANES = sizeof(tile_light) / sizeof(float) / TILE_PIXELS };
     for (size_t plane = 0; plane < PLANES; plane++) {
-        const float *from = light->body[0] + plane * TILE_PIXELS;
-        float *to = out->body[0] + plane * TILE_PIXELS;
+        const float *from = light->through[0] + plane * TILE_PIXELS;
+        float *to = out->through[0] + plane * TILE_PIXELS;
         for (size_t i = 0; i < count; i++)
             to[i] = from[pixels[i]];
         for (size_t i = count; i < TILE_PIXELS; i++)
@@ -363,7 +363,7 @@ void refraction_blend(tile_objects *o, const tile_opened *opened)
     }
     for (size_t i = 0; i < TILE_PIXELS; i++)
         o->share[i] = 0.5f * (o->share[i] + opened->share[i]);
-    blend_planes(o->light.body[0], opened->light.body[0], sizeof o->light / sizeof o->light.share, weight);
+    blend_planes(o->light.through[0], opened->light.through[0], sizeof o->light / sizeof o->light.share, weight);
 }
 
 bool refraction_covers(const tile_objects *o)
