@@ -125,14 +125,6 @@ bool pixel_footprint(const mgt_scene *scene, double pixel_x, double pixel_y, dou
 
 /* ---- mirror and light ---- */
 
-void light_direction(const mgt_light *light, double direction[3])
-{
-    const double elevation = light->elevation_deg * pi / 180, azimuth = light->azimuth_deg * pi / 180;
-    direction[0] = sin(azimuth) * cos(elevation);
-    direction[1] = sin(elevation);
-    direction[2] = -cos(azimuth) * cos(elevation);
-}
-
 void light_plane_axes(const double light[3], double first[3], double second[3])
 {
     const double up[3] = {0, 1, 0};
@@ -199,12 +191,6 @@ double fresnel_dielectric(double cosine, double index_of_refraction)
     const double perpendicular = (c - n * c_inside) / (c + n * c_inside);
     const double parallel = (n * c - c_inside) / (n * c + c_inside);
     return 0.5 * (perpendicular * perpendicular + parallel * parallel);
-}
-
-double limb_profile(double u, double relative)
-{
-    const double cosine = sqrt(fmax(1 - relative * relative, 0));
-    return (1 - u * (1 - cosine)) / (1 - u / 3);
 }
 
 typedef struct normal_law {

@@ -56,9 +56,6 @@ water_hit first_hit_brute_force(const mgt_scene *scene, double pixel_x, double p
 
 /* ---- mirror and light ---- */
 
-/* (sin az·cos el, sin el, −cos az·cos el) */
-void light_direction(const mgt_light *light, double direction[3]);
-
 /* Axes of the light plane r·L = 1: first = normalize((0,1,0) × L), second = L × first, which points up.
  * For a vertical L first is (−1, 0, 0), the limit for a light that comes from azimuth 0. */
 void light_plane_axes(const double light[3], double first[3], double second[3]);
@@ -77,10 +74,6 @@ void mirror_slope(const double to_eye[3], const double light[3], double slope[2]
 
 /* Unpolarised reflectance of a dielectric of relative index n, for the cosine of the angle of incidence in the outer medium. */
 double fresnel_dielectric(double cosine, double index_of_refraction);
-
-/* Radiance over the disk's mean, at `relative` = angle from the centre / radius, in [0, 1]:
- * (1 − u (1 − μ)) / (1 − u/3), μ = √(1 − relative²). */
-double limb_profile(double u, double relative);
 
 /* E[max(w, 0)] of a normal w, by quadrature: the normalisation of Smith's visible slopes. */
 double mean_visible_weight(double mean, double deviation);

@@ -11,8 +11,6 @@
 #include "reference/equations.h"
 #include "reference/reference_frame.h"
 
-static const long double pi = 3.14159265358979323846264338327950288L;
-
 /* ---- preparing a frame ---- */
 
 static reference_view relative_view(const mgt_camera *camera, const mgt_camera *anchor)
@@ -26,14 +24,6 @@ static reference_view relative_view(const mgt_camera *camera, const mgt_camera *
     }
     view.fov_half_turns = camera->fov_y_deg / 360;
     return view;
-}
-
-static void set_light(reference_frame *frame, const mgt_light *light)
-{
-    light_direction(light, frame->light_direction);
-    frame->light_radius = light->angular_radius_deg * (double)(pi / 180);
-    const double chord = 2 * sin(0.5 * frame->light_radius);
-    frame->light_chord_squared = chord * chord;
 }
 
 static void set_sample_range(reference_frame *frame, const mgt_quality *quality)
@@ -81,8 +71,10 @@ mgt_status reference_frame_create(reference_frame **result, const mgt_scene *sce
     if (count > (SIZE_MAX - sizeof(reference_frame)) / sizeof(reference_wave) || count > UINT32_MAX)
         return MGT_ERROR_MEMORY;
     reference_frame *frame = calloc(1, sizeof *frame + count * sizeof frame->waves[0]);
-    if (!frame)
+    if (!frame || !(frame->lights = reference_lights_of(scene))) {
+        free(frame);
         return MGT_ERROR_MEMORY;
+    }
     frame->scene = *scene;
     frame->scene.water.waves = NULL;
     if (sky)
@@ -97,13 +89,17 @@ mgt_status reference_frame_create(reference_frame **result, const mgt_scene *sce
     frame->view_scale_x = (double)scene->image.width / scene->image.height;
     frame->wave_count = (uint32_t)count;
     frame->height_bound = reference_waves_of(scene, frame->bound_deviations, frame->waves);
-    set_light(frame, &scene->light);
     set_sample_range(frame, &scene->quality);
     *result = frame;
     return MGT_OK;
 }
 
-void reference_frame_destroy(reference_frame *frame) { free(frame); }
+void reference_frame_destroy(reference_frame *frame)
+{
+    if (frame)
+        free(frame->lights);
+    free(frame);
+}
 
 uint32_t reference_frame_lanes(const reference_frame *frame) { return frame->lanes; }
 
@@ -145,15 +141,8 @@ static void place_sample(const reference_frame *frame, uint32_t x, uint32_t y, u
 
 /* ---- what a sample sees ---- */
 
-/* Squared distance of two unit vectors: for small angles far better than their dot product. */
-static double chord_squared(const double a[3], const double b[3])
-{
-    const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
-    return x * x + y * y + z * z;
-}
-
-/* Sky and light in a direction; below the horizon the horizon's. */
-static void radiance_of_sky(const reference_frame *frame, const double direction[3], bool with_light, double rgb[3])
+/* Sky and lights in a direction, with `risen` only lights over the horizon; below the horizon the horizon's sky. */
+static void radiance_of_sky(const reference_frame *frame, const double direction[3], bool risen, double rgb[3])
 {
     const reference_sky *sky = &frame->sky;
     rgb[0] = rgb[1] = rgb[2] = 0;
@@ -167,16 +156,10 @@ static void radiance_of_sky(const reference_frame *frame, const double direction
         }
         sky->lookup(sky->user, d, rgb);
     }
-    const double chord = chord_squared(direction, frame->light_direction);
-    if (!with_light || chord >= frame->light_chord_squared)
-        return;
-    const double relative = 2 * asin(fmin(0.5 * sqrt(chord), 1)) / frame->light_radius;
-    const double limb = limb_profile(sky->limb, relative);
-    for (int i = 0; i < 3; i++)
-        rgb[i] += sky->light_radiance[i] * limb;
+    reference_lights_add(frame->lights, sky->disks, direction, risen, rgb);
 }
 
-/* One sample's mirror ray: whether it meets the light, and its radiance where `rgb` is not NULL. */
+/* One sample's mirror ray: whether it meets a light, and its radiance where `rgb` is not NULL. */
 static bool shade_hit(const reference_frame *frame, const double view[3], double slope_x, double slope_z, double rgb[3])
 {
     const double length = sqrt(slope_x * slope_x + 1 + slope_z * slope_z);
@@ -185,14 +168,13 @@ static bool shade_hit(const reference_frame *frame, const double view[3], double
     double mirrored[3];
     for (int i = 0; i < 3; i++)
         mirrored[i] = view[i] + 2 * cosine * normal[i];
-    const bool light_is_up = frame->scene.light.elevation_deg >= 0;
     if (rgb) {
         const double reflectance = fresnel_dielectric(cosine, frame->scene.water.index_of_refraction);
-        radiance_of_sky(frame, mirrored, light_is_up, rgb);
+        radiance_of_sky(frame, mirrored, true, rgb);
         for (int i = 0; i < 3; i++)
             rgb[i] = reflectance * rgb[i] + (1 - reflectance) * frame->sky.body_radiance[i];
     }
-    return light_is_up && chord_squared(mirrored, frame->light_direction) < frame->light_chord_squared;
+    return reference_lights_met(frame->lights, mirrored);
 }
 
 /* Sums of a pixel. Samples are added in the order of their index, so that batches leave no trace. */
@@ -207,7 +189,7 @@ static void add_sample(const reference_frame *frame, const reference_batch *batc
     double rgb[3] = {0};
     if (!(batch->distance[i] < HUGE_VAL)) {
         if (with_color)
-            radiance_of_sky(frame, view, true, rgb);
+            radiance_of_sky(frame, view, false, rgb);
     } else if (batch->distance[i] > 0) {
         sums->hits++;
         sums->covered += shade_hit(frame, view, batch->slope_x[i], batch->slope_z[i], with_color ? rgb : NULL);

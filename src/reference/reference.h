@@ -7,7 +7,7 @@
  * jittered in x, y and time by a hash of (seed, pixel x, pixel y, sample index) alone. Every N·N consecutive samples cover all
  * spatial strata, with the time strata interleaved; all N·N·M cover each pair once. With shutter 0 every sample shows scene.time.
  *
- * Coverage of a sample is 1 when the mirrored ray lies within the light's angular radius and the light's centre stands at or
+ * Coverage of a sample is 1 when the mirrored ray lies within a light's angular radius and that light's centre stands at or
  * above the horizon. Only the first hit counts; nothing shadows the mirrored ray.
  */
 #ifndef MANGATA_REFERENCE_REFERENCE_H
@@ -17,15 +17,15 @@
 #include <stdint.h>
 
 #include "mangata/mangata.h"
+#include "reference/light.h"
 
 /* Radiances for the colour layer, in any unit. Read while frames render, from several threads. */
 typedef struct reference_sky {
     /* Radiance of the sky without the light's disk, for a unit direction with direction[1] ≥ 0. NULL: black. */
     void (*lookup)(const void *user, const double direction[3], double rgb[3]);
     const void *user;
-    double light_radiance[3]; /* mean over the light's disk, at the observer */
-    double body_radiance[3];  /* leaves the water with the factor 1 − F */
-    double limb;              /* u of I(μ) ∝ 1 − u·(1 − μ), normalised to a disk mean of 1; [0, 1] */
+    double disks[REFERENCE_LIGHTS][3]; /* mean over each light's disk, at the observer */
+    double body_radiance[3];           /* leaves the water with the factor 1 − F */
 } reference_sky;
 
 typedef struct reference_options {

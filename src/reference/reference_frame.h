@@ -47,9 +47,7 @@ struct reference_frame {
 
     reference_view view, view_open;
     double view_scale_x; /* width / height */
-    double light_direction[3];
-    double light_chord_squared; /* of the angular radius: (2 sin(R/2))² */
-    double light_radius;        /* radians */
+    reference_lights *lights;
 
     double bound_deviations;
     double height_bound; /* no wave rises above it, ± */

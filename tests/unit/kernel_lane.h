@@ -22,6 +22,7 @@
 #include "cpu/lean_map.h"
 #include "frame/atmosphere.h"
 #include "reference/equations.h"
+#include "reference/light.h"
 #include "unit/random_numbers.h"
 
 #pragma GCC diagnostic ignored "-Wunused-parameter" /* the dialect hands cx to every function */

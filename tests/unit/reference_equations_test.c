@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "reference/equations.h"
+#include "reference/light.h"
 #include "reference/quadrature.h"
 
 static const double pi = 3.14159265358979323846;

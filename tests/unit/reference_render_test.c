@@ -207,7 +207,7 @@ static void flat_mirror_reflects_as_a_dielectric(void **unused)
     const double two = 2;
     mgt_scene scene = flat_scene(160, 90);
     scene.light.elevation_deg = -5;
-    const reference_sky sky = {.lookup = uniform_sky, .user = &two, .light_radiance = {9, 9, 9}, .body_radiance = {0, 0.5, 1}};
+    const reference_sky sky = {.lookup = uniform_sky, .user = &two, .disks = {{9, 9, 9}}, .body_radiance = {0, 0.5, 1}};
     picture p = render(&scene, &sky, NULL);
     for (uint32_t y = 0; y < 90; y += 7)
         for (uint32_t x = 3; x < 160; x += 31) {
@@ -236,7 +236,7 @@ static void light_in_the_sky_has_its_area_and_limb(void **unused)
     scene.camera.target[1] += 4;
     scene.camera.fov_y_deg = 6;
     scene.quality.spatial_samples = 8;
-    const reference_sky sky = {.light_radiance = {1, 10, 100}, .limb = 0.6};
+    const reference_sky sky = {.disks = {{1, 10, 100}}};
     picture p = render(&scene, &sky, NULL);
     double sum[3] = {0};
     for (size_t i = 0; i < picture_pixels(&p); i++)
@@ -339,7 +339,7 @@ static void sample_ranges_add_up(void **unused)
     mgt_wave waves[24];
     rough_waves(waves, 24, 0.15);
     const double one = 1;
-    const reference_sky sky = {.lookup = uniform_sky, .user = &one, .light_radiance = {5, 5, 5}};
+    const reference_sky sky = {.lookup = uniform_sky, .user = &one, .disks = {{5, 5, 5}}};
     mgt_scene scene = flat_scene(40, 24);
     scene.water.waves = waves;
     scene.water.wave_count = 24;
@@ -386,7 +386,7 @@ static void blocks_and_widths_give_the_same_bits(void **unused)
     mgt_wave waves[20];
     rough_waves(waves, 20, 0.2);
     const double one = 1;
-    const reference_sky sky = {.lookup = uniform_sky, .user = &one, .light_radiance = {5, 5, 5}, .limb = 0.6};
+    const reference_sky sky = {.lookup = uniform_sky, .user = &one, .disks = {{5, 5, 5}}};
     mgt_scene scene = flat_scene(45, 26);
     scene.water.waves = waves;
     scene.water.wave_count = 20;

@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The lights of a scene in double precision: disks at infinity. Only light.c looks inside.
+ */
+#ifndef MANGATA_REFERENCE_LIGHT_H
+#define MANGATA_REFERENCE_LIGHT_H
+
+#include <stdbool.h>
+
+#include "mangata/mangata.h"
+
+enum { REFERENCE_LIGHTS = 1 }; /* of a scene */
+
+typedef struct reference_lights reference_lights;
+
+/* (sin az·cos el, sin el, −cos az·cos el) */
+void light_direction(const mgt_light *light, double direction[3]);
+
+/* Radiance over the disk's mean, at `relative` = angle from the centre / radius, in [0, 1]:
+ * (1 − u (1 − μ)) / (1 − u/3), μ = √(1 − relative²). */
+double limb_profile(double u, double relative);
+
+/* For the caller to free(); NULL when memory is short. */
+reference_lights *reference_lights_of(const mgt_scene *scene);
+
+/* Whether a unit direction meets the disk of a light whose centre stands at or above the horizon. */
+bool reference_lights_met(const reference_lights *lights, const double direction[3]);
+
+/* Adds to `rgb` the radiance of the disks that a unit direction meets, `means[i]` being the mean over that of light i. `risen`: only of lights
+ * whose centre stands at or above the horizon. */
+void reference_lights_add(const reference_lights *lights, const double means[REFERENCE_LIGHTS][3], const double direction[3], bool risen, double rgb[3]);
+
+#endif
