@@ -320,7 +320,7 @@ static mgt_status run_rounds(refinement *f)
 static double path_bend(const refinement *f, int parts)
 {
     const mgt_scene *s = f->a->frame->scene;
-    return sines_path_bend(&s->water, s->shutter / 2 / parts) / (0.5 * (double)f->a->frame->data.lights[0].disk_radius);
+    return sines_path_bend(&s->water, s->shutter / 2 / parts) / (0.5 * lights_disk_radius(&f->a->frame->data));
 }
 
 static void place_parts(const refinement *f, shutter_parts *p)

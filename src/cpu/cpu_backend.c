@@ -402,8 +402,8 @@ static mgt_status make_reference(render_job *job, const reporter *r)
     const sky_state *sky = job->state->sky;
     reference_sky rs = {.lookup = job->scene->sky.model == MGT_SKY_BLACK ? NULL : reference_lookup, .user = sky};
     sky_upwelling_radiance(sky, &job->scene->water, rs.body_radiance);
-    for (int i = 0; i < 3; i++)
-        rs.disks[0][i] = sky->light_radiance[i];
+    for (int i = 0; i < sky->lights.count; i++)
+        light_mean_radiance(&sky->lights.of[i], rs.disks[i]);
     const reference_options options = {.isa = job->state->isa};
     const mgt_status status = reference_frame_create(&job->reference, job->scene, &rs, &options);
     return status == MGT_OK ? MGT_OK : report_error(r, status, "render.reference", "the reference frame: %s", mgt_status_text(status));

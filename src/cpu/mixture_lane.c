@@ -44,7 +44,7 @@ mixture mixture_fitted(int kernels, double e)
 
 double mixture_path_share(const podee_tables *tables, mgt_mixture kernels, const double from[2], const double to[2], const double covariance[3])
 {
-    const FrameData data = {.podee_kernels = (int)kernels, .podee_elongation = 1e6f, .lights[0].disk_radius = 1};
+    const FrameData data = {.podee_kernels = (int)kernels, .podee_elongation = 1e6f};
     const struct kernel_context cx = {.frame = &data, .podee = tables};
     return (double)mixture_disk_path(&cx, vec2((float)from[0], (float)from[1]), vec2((float)to[0], (float)to[1]), (float)covariance[0], (float)covariance[1],
                                      (float)covariance[2], 1);

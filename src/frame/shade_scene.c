@@ -43,14 +43,17 @@ static shadow_rays rays_of(const double direction[3], double n)
     return rays;
 }
 
+/* Objects are lit by the first light, which casts their shadows. */
 static void set_light(ShadeData *d, const frame *f, const sky_state *sky, const shadow_rays *rays)
 {
     const mgt_water *water = &f->scene->water;
-    const double n = water->index_of_refraction, up = sky->direction[1], entering = up > 0 ? 1 - fresnel(up, n) : 0;
+    const light_state *light = &sky->lights.of[0];
+    const double n = water->index_of_refraction, up = light_toward(light)[1], entering = up > 0 ? 1 - fresnel(up, n) : 0;
     const double slant = sqrt(1 + rays->water[0] * rays->water[0] + rays->water[1] * rays->water[1]), diffuse = 1 - fresnel_diffuse(n);
     double sun[3], sun_water[3], above[3], ground[3];
+    light_beam(light, sun);
     for (int i = 0; i < 3; i++) {
-        sun[i] = up > 0 ? sky->light_radiance[i] * sky->light_solid_angle : 0;
+        sun[i] = up > 0 ? sun[i] : 0;
         sun_water[i] = sun[i] * up * entering * slant; /* as much light as met the surface, on a beam of another width */
         above[i] = sky->irradiance_sky[i];
         ground[i] = 0.25 * (above[i] + sun[i] * fmax(up, 0));
@@ -85,9 +88,10 @@ static void set_water(ShadeData *d, const frame *f, const sky_state *sky)
 static void set_waves(shade_scene *s, const frame *f, const world *w, const sky_state *sky)
 {
     const mgt_water *water = &f->scene->water;
-    const bool gathers = f->scene->quality.caustics && sky->direction[1] > 0;
+    const light_state *light = &sky->lights.of[0];
+    const bool gathers = f->scene->quality.caustics && light_toward(light)[1] > 0;
     s->data.caustic_waves = gathers ? (int)water->wave_count : 0;
-    s->data.sun_radius = (float)sky->tan_radius;
+    s->data.sun_radius = (float)light_tan_radius(light);
     if (gathers)
         sines_searched(water, (wave_meeting){.x = w->origin[0], .z = w->origin[1], .middle = f->scene->time}, s->waves);
 }
@@ -153,7 +157,7 @@ mgt_status shade_update(shade_scene **scene, const world *w, const frame *f, con
     s->frame = f->data;
     s->sky = sky->table;
     s->world = w;
-    const shadow_rays rays = rays_of(sky->direction, f->scene->water.index_of_refraction);
+    const shadow_rays rays = rays_of(light_toward(&sky->lights.of[0]), f->scene->water.index_of_refraction);
     if (!set_materials(s, w) || shadow_map_update(&s->shadows, w, &rays) != MGT_OK)
         return MGT_ERROR_MEMORY;
     set_light(&s->data, f, sky, &rays);

@@ -65,8 +65,8 @@ static void illuminance_is_that_of_a_clear_day_and_dusk(void **unused)
     };
     for (size_t i = 0; i < sizeof known / sizeof known[0]; ++i) {
         sky_state *s = build(clear_sky(), sun_at(known[i].elevation));
-        assert_between(spectrum_luminance(s->light_radiance) * s->light_solid_angle, known[i].normal_low, known[i].normal_high);
-        assert_between(spectrum_luminance(s->irradiance_light) + spectrum_luminance(s->irradiance_sky), known[i].global_low, known[i].global_high);
+        assert_between(spectrum_luminance(s->lights.of[0].light_radiance) * s->lights.of[0].light_solid_angle, known[i].normal_low, known[i].normal_high);
+        assert_between(spectrum_luminance(s->lights.of[0].irradiance_light) + spectrum_luminance(s->irradiance_sky), known[i].global_low, known[i].global_high);
         free(s);
     }
 }
@@ -78,7 +78,7 @@ static void full_moon_gives_a_quarter_lux(void **unused)
     mgt_sky sky = clear_sky();
     sky.night[0] = sky.night[1] = sky.night[2] = 2e-7f;
     sky_state *s = build(sky, moon);
-    assert_between(spectrum_luminance(s->irradiance_light) + spectrum_luminance(s->irradiance_sky), 0.15e-3, 0.32e-3);
+    assert_between(spectrum_luminance(s->lights.of[0].irradiance_light) + spectrum_luminance(s->irradiance_sky), 0.15e-3, 0.32e-3);
     assert_between(luminance_at(s, 180, 50), 1e-6, 3e-5);
     free(s);
     moon.elevation_deg = -40;
@@ -95,9 +95,9 @@ static void radiance_and_colour_follow_the_sun(void **unused)
     at(s, 0, 90, zenith);
     assert_between(spectrum_luminance(zenith), 2.0, 6.0);
     assert_true(zenith[2] > 1.8 * zenith[0]);
-    assert_true(luminance_at(s, 180, 3) > 1.3 * luminance_at(s, 180, 60)); /* brighter towards the horizon */
-    assert_true(s->light_radiance[0] > s->light_radiance[2]);              /* yellowish */
-    assert_true(s->light_radiance[2] > 0.55 * s->light_radiance[0]);
+    assert_true(luminance_at(s, 180, 3) > 1.3 * luminance_at(s, 180, 60));              /* brighter towards the horizon */
+    assert_true(s->lights.of[0].light_radiance[0] > s->lights.of[0].light_radiance[2]); /* yellowish */
+    assert_true(s->lights.of[0].light_radiance[2] > 0.55 * s->lights.of[0].light_radiance[0]);
     double day_blue = zenith[2] / zenith[0];
     free(s);
 
@@ -107,7 +107,7 @@ static void radiance_and_colour_follow_the_sun(void **unused)
     assert_true(glow[0] > 1.3 * glow[1] && glow[1] > 1.3 * glow[2]); /* orange */
     assert_true(spectrum_luminance(glow) > 10 * spectrum_luminance(zenith));
     assert_true(zenith[2] > 1.5 * zenith[0]); /* still blue overhead: ozone */
-    assert_true(s->light_radiance[0] > 2 * s->light_radiance[1]);
+    assert_true(s->lights.of[0].light_radiance[0] > 2 * s->lights.of[0].light_radiance[1]);
     at(s, 180, 3, rgb);
     assert_true(rgb[0] / rgb[2] < 0.6 * glow[0] / glow[2]); /* the far side is no sunset */
     free(s);
@@ -137,8 +137,8 @@ static void everything_is_finite_and_not_negative(void **unused)
             assert_true(s->table[k] >= 0.0f && s->table[k] < 1e9f);
         }
         for (int c = 0; c < 3; ++c) {
-            assert_between(s->light_radiance[c], 0, light.radiance[c]);
-            assert_between(s->irradiance_light[c] + s->irradiance_sky[c], 0, 1e7);
+            assert_between(s->lights.of[0].light_radiance[c], 0, light.radiance[c]);
+            assert_between(s->lights.of[0].irradiance_light[c] + s->irradiance_sky[c], 0, 1e7);
         }
         assert_true(isfinite(s->exposure_ev));
         free(s);
@@ -151,22 +151,22 @@ static void setting_light_fades_to_nothing(void **unused)
     double before = INFINITY, visible = 1.0;
     for (double elevation = 1.0; elevation > -0.36; elevation -= 0.2) {
         sky_state *s = build(clear_sky(), sun_at(elevation));
-        double now = spectrum_luminance(s->light_radiance);
-        assert_true(now <= before && s->light_visible <= visible);
+        double now = spectrum_luminance(s->lights.of[0].light_radiance);
+        assert_true(now <= before && s->lights.of[0].light_visible <= visible);
         assert_true(elevation > -0.26 ? now > 0 : true);
         if (elevation < -0.2667) {
-            assert_true(now == 0 && s->light_visible == 0);
+            assert_true(now == 0 && s->lights.of[0].light_visible == 0);
             assert_true(luminance_at(s, 0, 5) > 0.01);
         }
         if (elevation > 0.2666) {
-            assert_true(s->light_visible == 1.0);
+            assert_true(s->lights.of[0].light_visible == 1.0);
         }
         before = now;
-        visible = s->light_visible;
+        visible = s->lights.of[0].light_visible;
         free(s);
     }
     sky_state *half = build(clear_sky(), sun_at(0));
-    assert_between(half->light_visible, 0.48, 0.52);
+    assert_between(half->lights.of[0].light_visible, 0.48, 0.52);
     free(half);
 }
 
@@ -185,14 +185,14 @@ static void table_is_the_integral(void **unused)
         assert_true(air && ray);
         double total = 0, worst = 0, count = 0, colour[3], irradiance[3];
         for (int c = 0; c < 3; ++c) {
-            irradiance[c] = light.radiance[c] * s->light_solid_angle;
+            irradiance[c] = light.radiance[c] * s->lights.of[0].light_solid_angle;
         }
         for (int k = 0; k < 400; ++k) {
             double sine = pow((k + 0.5) / 400, 2), azimuth = fmod(k * 0.61803398875, 1.0) * 2 * PI, cosine = sqrt(1 - sine * sine), spectrum[SPECTRUM_BANDS];
             double d[3] = {sin(azimuth) * cosine, sine, -cos(azimuth) * cosine}, rgb[3];
-            double cos_angle = d[0] * s->direction[0] + d[1] * s->direction[1] + d[2] * s->direction[2];
+            double cos_angle = d[0] * s->lights.of[0].direction[0] + d[1] * s->lights.of[0].direction[1] + d[2] * s->lights.of[0].direction[2];
             scattering_ray_aim(air, sine, ray);
-            scattering_radiance(air, ray, s->direction[1], cos_angle, spectrum);
+            scattering_radiance(air, ray, s->lights.of[0].direction[1], cos_angle, spectrum);
             spectrum_to_rgb(&weights, spectrum, irradiance, colour);
             sky_lookup(s, d, rgb);
             double error = fabs(spectrum_luminance(rgb) / spectrum_luminance(colour) - 1);
@@ -278,8 +278,8 @@ static void azimuth_turns_the_sky(void **unused)
     sky_state *turned = build(clear_sky(), light);
     assert_memory_equal(north->table, turned->table, sizeof north->table);
     assert_between(luminance_at(turned, 130 + 17, 8) / luminance_at(north, 17, 8), 1 - 1e-9, 1 + 1e-9);
-    assert_between(turned->direction[0], 0.7198, 0.7199); /* sin 130° cos 20° */
-    assert_between(turned->azimuth[1], 0.6427, 0.6428);   /* −cos 130° */
+    assert_between(turned->lights.of[0].direction[0], 0.7198, 0.7199); /* sin 130° cos 20° */
+    assert_between(turned->lights.of[0].azimuth[1], 0.6427, 0.6428);   /* −cos 130° */
     free(north);
     free(turned);
 }
@@ -297,7 +297,7 @@ static void gradient_and_black_skies(void **unused)
         assert_between(rgb[c], sky.horizon[c] - 1e-6, sky.horizon[c] + 1e-6);
         at(s, 40, 90, rgb);
         assert_between(rgb[c], sky.zenith[c] - 1e-6, sky.zenith[c] + 1e-6);
-        assert_true(s->light_radiance[c] == light.radiance[c]);
+        assert_true(s->lights.of[0].light_radiance[c] == light.radiance[c]);
     }
     double before = luminance_at(s, 0, 0);
     for (double e = 1; e <= 90; e += 1) {
@@ -311,13 +311,13 @@ static void gradient_and_black_skies(void **unused)
     s = build(sky, light);
     const float black[sizeof s->table / sizeof s->table[0]] = {0};
     assert_memory_equal(s->table, black, sizeof s->table);
-    assert_true(s->light_radiance[1] == light.radiance[1] && s->irradiance_sky[1] == 0);
+    assert_true(s->lights.of[0].light_radiance[1] == light.radiance[1] && s->irradiance_sky[1] == 0);
     /* a mirror at normal incidence shows the light at 0.15 */
-    assert_between(spectrum_luminance(s->light_radiance) * 0.02 * exp2(s->exposure_ev), 0.149, 0.151);
+    assert_between(spectrum_luminance(s->lights.of[0].light_radiance) * 0.02 * exp2(s->exposure_ev), 0.149, 0.151);
     free(s);
     light.elevation_deg = -1;
     s = build(sky, light);
-    assert_true(s->light_radiance[1] == 0 && s->irradiance_light[1] == 0);
+    assert_true(s->lights.of[0].light_radiance[1] == 0 && s->lights.of[0].irradiance_light[1] == 0);
     free(s);
 }
 
@@ -329,8 +329,8 @@ static void body_radiance_is_what_the_water_returns(void **unused)
     sky_state *s = build(clear_sky(), sun_at(40));
     sky_upwelling_radiance(s, &water, all);
     for (int c = 0; c < 3; ++c) { /* no surface: Lambert's law */
-        assert_between(all[c], 0.999999 * water.body_albedo[c] * (s->irradiance_light[c] + s->irradiance_sky[c]) / PI,
-                       1.000001 * water.body_albedo[c] * (s->irradiance_light[c] + s->irradiance_sky[c]) / PI);
+        assert_between(all[c], 0.999999 * water.body_albedo[c] * (s->lights.of[0].irradiance_light[c] + s->irradiance_sky[c]) / PI,
+                       1.000001 * water.body_albedo[c] * (s->lights.of[0].irradiance_light[c] + s->irradiance_sky[c]) / PI);
     }
     water.index_of_refraction = 1.333;
     sky_upwelling_radiance(s, &water, water_body);
