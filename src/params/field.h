@@ -79,6 +79,8 @@ struct field_row {
     size_t item_size, max_items; /* list */
     /* After a key was read: sets what it decides of its neighbours, which are read later. */
     void (*decide)(void *parent);
+    /* After a person chose another value: sets what it decides of its neighbours, and keeps the others. */
+    void (*change)(void *parent);
     /* Before a list item is read: its defaults, from the struct that holds the list. */
     void (*prepare)(const void *parent, void *item);
 };

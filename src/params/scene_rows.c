@@ -20,20 +20,32 @@ static void decide_body(void *parent)
     *light = light_defaults[light->body];
 }
 
+/* Another body brings its own radius and radiance; it stays where it is. */
+static void change_body(void *parent)
+{
+    mgt_light *light = parent;
+    const mgt_light old = *light;
+    decide_body(light);
+    light->elevation_deg = old.elevation_deg;
+    light->azimuth_deg = old.azimuth_deg;
+}
+
 const field_row image_rows[] = {{"width", FIELD_COUNT, offsetof(mgt_image, width), 0, 1, MGT_MAX_IMAGE_SIDE, "pixels", .doc = "width of the whole image"},
                                 {"height", FIELD_COUNT, offsetof(mgt_image, height), 0, 1, MGT_MAX_IMAGE_SIDE, "pixels", .doc = "height of the whole image"},
                                 {0}};
 
-const field_row light_rows[] =
-    {{"body", FIELD_CHOICE, offsetof(mgt_light, body), 0, NO_RANGE, NULL,
-      .doc = "kind of light: sets the defaults of angular_radius_deg and radiance, and the limb darkening", .choices = body_names, .decide = decide_body},
-     {"elevation_deg", FIELD_NUMBER, offsetof(mgt_light, elevation_deg), 0, -90, 90, "degrees",
-      .doc = "height over the horizon; below 0 no direct light meets the water"},
-     {"azimuth_deg", FIELD_NUMBER, offsetof(mgt_light, azimuth_deg), 0, -1e6, 1e6, "degrees", .doc = "0 is -z (\"north\"), 90 is +x (\"east\")"},
-     {"angular_radius_deg", FIELD_NUMBER, offsetof(mgt_light, angular_radius_deg), 0, 1e-4, 20, "degrees", .doc = "radius of the disk in the sky"},
-     {"radiance", FIELD_COLOR, offsetof(mgt_light, radiance), 0, 0, 1e12, "kcd/m²",
-      .doc = "linear sRGB; with the atmosphere sky as seen outside the atmosphere"},
-     {0}};
+const field_row light_rows[] = {{"body", FIELD_CHOICE, offsetof(mgt_light, body), 0, NO_RANGE, NULL,
+                                 .doc = "kind of light: sets the defaults of angular_radius_deg and radiance, and the limb darkening", .choices = body_names,
+                                 .decide = decide_body, .change = change_body},
+                                {"elevation_deg", FIELD_NUMBER, offsetof(mgt_light, elevation_deg), 0, -90, 90, "degrees",
+                                 .doc = "height over the horizon; below 0 no direct light meets the water"},
+                                {"azimuth_deg", FIELD_NUMBER, offsetof(mgt_light, azimuth_deg), 0, -1e6, 1e6, "degrees",
+                                 .doc = "0 is -z (\"north\"), 90 is +x (\"east\")"},
+                                {"angular_radius_deg", FIELD_NUMBER, offsetof(mgt_light, angular_radius_deg), 0, 1e-4, 20, "degrees",
+                                 .doc = "radius of the disk in the sky"},
+                                {"radiance", FIELD_COLOR, offsetof(mgt_light, radiance), 0, 0, 1e12, "kcd/m²",
+                                 .doc = "linear sRGB; with the atmosphere sky as seen outside the atmosphere"},
+                                {0}};
 
 const field_row sky_rows[] = {{"model", FIELD_CHOICE, offsetof(mgt_sky, model), 0, NO_RANGE, NULL,
                                .doc = "atmosphere: scattering, day to night; gradient: horizon to zenith; black: only the glitter", .choices = sky_model_names},

@@ -9,6 +9,7 @@
 #include "viewer/scene/camera_moves.h"
 #include "params/methods.h"
 #include "params/options.h"
+#include "params/scene_rows.h"
 #include "params/waves.h"
 
 static const float panel_units = 23.5f, label_units = 8.2f; /* widths, in heights of the text */
@@ -96,6 +97,16 @@ static void draw_controls(viewer *v, const char *const *names)
         panel_control(v, *names);
 }
 
+/* A mapping of the scene, a control each row. */
+static void draw_mapping(viewer *v, const char *path, const field_row *rows)
+{
+    char name[64];
+    for (const field_row *row = rows; row->key; row++) {
+        snprintf(name, sizeof name, "%s.%s", path, row->key);
+        panel_control(v, name);
+    }
+}
+
 /* ---- sides ---- */
 
 static void draw_side(viewer *v, int side)
@@ -152,14 +163,13 @@ static void draw_exposure(viewer *v)
 
 static void draw_look(viewer *v)
 {
-    static const char *const light[] = {"light.body", "light.elevation_deg", "light.azimuth_deg", "light.angular_radius_deg", "light.radiance", NULL};
     static const char *const sky[][4] =
         {[MGT_SKY_ATMOSPHERE] = {"sky.turbidity", "sky.night", NULL}, [MGT_SKY_GRADIENT] = {"sky.zenith", "sky.horizon", NULL}, [MGT_SKY_BLACK] = {NULL}};
     static const char *const water[] = {"water.level", "water.ior", "water.body_albedo", NULL};
     static const char *const under[] = {"water.absorption", "water.scattering", NULL}; /* for what is seen through it */
     static const char *const post[] = {"post.tone_map", "post.glare", NULL};
     if (ui_header("Light", true))
-        draw_controls(v, light);
+        draw_mapping(v, "light", light_rows);
     if (ui_header("Sky", true)) {
         panel_control(v, "sky.model");
         draw_controls(v, sky[v->document.values.sky.model]);

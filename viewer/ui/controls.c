@@ -317,18 +317,12 @@ static void leave_one_alternative(const control_board *board, const control *c)
             quality_drop_alternatives(c->field, &board->settings->sides[side]);
 }
 
-static void write_choice(const control_board *board, const control *c, int choice)
+static void write_choice(const control *c, int choice)
 {
     const int count = field_word_count(c->field);
     field_choose(c->field, choice < 0 ? 0 : choice < count ? choice : count - 1, c->value);
-    mgt_light *light = &board->document->values.light;
-    if (c->value != (void *)&light->body)
-        return;
-    /* Another body brings its own radius and radiance; it stays where it is. */
-    const mgt_light old = *light;
-    mgt_light_init(light, old.body);
-    light->elevation_deg = old.elevation_deg;
-    light->azimuth_deg = old.azimuth_deg;
+    if (c->field->change)
+        c->field->change((char *)c->value - c->field->offset);
 }
 
 void control_write(const control_board *board, const control *c, const double numbers[3])
@@ -365,7 +359,7 @@ void control_write(const control_board *board, const control *c, const double nu
         break;
     case FIELD_CHOICE:
     case FIELD_SWITCH:
-        write_choice(board, c, (int)numbers[0]);
+        write_choice(c, (int)numbers[0]);
         break;
     case FIELD_EXPOSURE:
         *(scene_exposure *)c->value = (scene_exposure){.stops = allowed(field, numbers[0])};
