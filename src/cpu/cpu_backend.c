@@ -397,6 +397,8 @@ static bool run_loop(render_job *job, uint32_t block_width, uint32_t block_heigh
 
 static void reference_lookup(const void *user, const double direction[3], double rgb[3]) { sky_lookup(user, direction, rgb); }
 
+_Static_assert((int)MAX_LIGHTS == (int)REFERENCE_LIGHTS, "the oracle has every light");
+
 static mgt_status make_reference(render_job *job, const reporter *r)
 {
     const sky_state *sky = job->state->sky;
