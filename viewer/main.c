@@ -143,7 +143,7 @@ static float range_end(const view_settings *s)
     case MGT_LAYER_COVERAGE:
         return (float)s->coverage_end;
     case MGT_LAYER_DEPTH:
-        return (float)(fmax(s->front_depth, s->far_depth) * 1.0001); /* never the same as the lower one */
+        return (float)(fmax(s->near_depth, s->far_depth) * 1.0001); /* never the same as the lower one */
     case MGT_LAYER_NORMAL:
         return (float)s->lean_end;
     default:
@@ -170,7 +170,7 @@ static void draw_picture(viewer *v)
         .compare = (compare_mode)s->compare,
         .wipe = (float)s->wipe,
         .difference_scale = (float)s->difference_scale,
-        .low = depth ? (float)fmin(s->front_depth, s->far_depth) : 0,
+        .low = depth ? (float)fmin(s->near_depth, s->far_depth) : 0,
         .high = range_end(s),
         .logarithmic = depth,
         .zoom = (float)s->zoom,

@@ -167,10 +167,10 @@ static void draw_legend(const viewer *v)
     } else {
         const double end = layer == MGT_LAYER_COVERAGE ? v->settings.view.coverage_end : 1;
         const view_settings *s = &v->settings.view;
-        const double front_depth = fmin(s->front_depth, s->far_depth), far_depth = fmax(s->front_depth, s->far_depth);
+        const double near_depth = fmin(s->near_depth, s->far_depth), far_depth = fmax(s->near_depth, s->far_depth);
         snprintf(title, sizeof title, "%s%s", layer_choices[layer], layer_meaning(layer));
-        snprintf(low, sizeof low, "%.6g", layer == MGT_LAYER_DEPTH ? front_depth : 0.0);
-        snprintf(middle, sizeof middle, "%.6g", layer == MGT_LAYER_DEPTH ? sqrt(front_depth * far_depth) : 0.5 * end);
+        snprintf(low, sizeof low, "%.6g", layer == MGT_LAYER_DEPTH ? near_depth : 0.0);
+        snprintf(middle, sizeof middle, "%.6g", layer == MGT_LAYER_DEPTH ? sqrt(near_depth * far_depth) : 0.5 * end);
         snprintf(high, sizeof high, "%.6g", layer == MGT_LAYER_DEPTH ? far_depth : end);
         if (wheel)
             draw_normal_legend(box, unit, v->settings.view.lean_end);

@@ -14,7 +14,7 @@ typedef struct view_settings {
     double wipe; /* share of the width that shows A */
     double difference_scale;
     int layer;                     /* mgt_layer */
-    double front_depth, far_depth; /* metres that the ends of the palette stand for */
+    double near_depth, far_depth; /* metres that the ends of the palette stand for */
     double coverage_end;           /* coverage that its upper end stands for */
     double lean_end;               /* horizontal part of a normal whose colour is full */
     int resolution;                /* resolution_mode */

@@ -71,7 +71,7 @@ static const control_hint hints[] = {
     {"view.wipe", "divider", 0, 1, false, "%.3f"},
     {"view.difference_scale", "A - B times", 0.5, 64, true, "%.2f"},
     {"view.layer", "layer", 0, 0, false, NULL},
-    {"view.front_depth", "near", 0.1, 1000, true, "%.1f m"},
+    {"view.near_depth", "near", 0.1, 1000, true, "%.1f m"},
     {"view.far_depth", "far", 1, 100000, true, "%.0f m"},
     {"view.coverage_end", "coverage to", 1e-3, 1, true, "%.3f"},
     {"view.lean_end", "lean to", 1e-2, 1, true, "%.3f"},
