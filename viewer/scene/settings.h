@@ -13,12 +13,12 @@ typedef struct view_settings {
     int compare; /* compare_mode */
     double wipe; /* share of the width that shows A */
     double difference_scale;
-    int layer;                     /* mgt_layer */
+    int layer;                    /* mgt_layer */
     double near_depth, far_depth; /* metres that the ends of the palette stand for */
-    double coverage_end;           /* coverage that its upper end stands for */
-    double lean_end;               /* horizontal part of a normal whose colour is full */
-    int resolution;                /* resolution_mode */
-    int frame;                     /* frame_mode */
+    double coverage_end;          /* coverage that its upper end stands for */
+    double lean_end;              /* horizontal part of a normal whose colour is full */
+    int resolution;               /* resolution_mode */
+    int frame;                    /* frame_mode */
     double zoom, center_x, center_y;
 } view_settings;
 
