@@ -8,43 +8,16 @@
 #include "cli/common/interrupt.h"
 #include "cli/common/memory_use.h"
 #include "cli/common/method_spec.h"
-#include "cli/common/numbers.h"
-#include "cli/common/options.h"
 #include "cli/common/progress.h"
 #include "cli/common/verbs.h"
 #include "params/methods.h"
-
-enum { OPT_METHODS, OPT_SIZE, OPT_FRAMES, OPT_REPEAT, OPT_BACKEND, OPT_GL_DEVICE, OPT_THREADS, OPT_ISA, OPT_SET, OPT_DISPLAY, OPT_MEMORY };
-
-static const option bench_options[] = {
-    [OPT_METHODS] = {"methods", 0, "LIST", "methods to measure, with options if wanted:\nadaptive:samples=4, none+hybrid (default none,podee-pixel,mangata)"},
-    [OPT_SIZE] = {"size", 0, "WxH", "size in pixels instead of the scene's"},
-    [OPT_FRAMES] = {"frames", 0, "N", "measure frames 0 to N-1 (default 3)"},
-    [OPT_REPEAT] = {"repeat", 0, "R", "measure each of them R times (default 5)"},
-    [OPT_BACKEND] = {"backend", 0, "NAME", "cpu (default), gl or auto"},
-    [OPT_GL_DEVICE] = CONTEXT_OPTION_GL_DEVICE,
-    [OPT_THREADS] = CONTEXT_OPTION_THREADS,
-    [OPT_ISA] = CONTEXT_OPTION_ISA,
-    [OPT_SET] = {"set", 0, "KEY=VALUE", "change a value of the scene; may be repeated"},
-    [OPT_DISPLAY] = {"display", 0, NULL, "make displayed colours: with exposure, glare and tone mapping"},
-    [OPT_MEMORY] = {"memory", 0, NULL, "also measure the memory that a frame takes at its peak, in a\ncontext of its own for every method"},
-};
-
-static const option_table bench_table = {"bench",
-                                         "SCENE [options]",
-                                         "Renders in memory, without output: scene-linear colour, or with --display what a picture shows.\n"
-                                         "The methods take turns, so that a change of the machine's pace meets all of them.",
-                                         bench_options,
-                                         sizeof bench_options / sizeof bench_options[0],
-                                         .notes = NULL};
 
 enum { METHOD_LIMIT = 16 };
 
 typedef struct bench_request {
     console out;
     const char *scene_path, *methods;
-    const char **overrides;
-    size_t override_count;
+    scene_changes changes;
     uint64_t frames, repeat;
     context_options context;
     bool display, memory;
@@ -67,62 +40,6 @@ typedef struct bench {
     bench_method methods[METHOD_LIMIT];
 } bench;
 
-static int bad_value(size_t id, const char *value, const char *allowed)
-{
-    return console_error(EXIT_CODE_USAGE, "--%s %s: allowed is %s", bench_options[id].name, value, allowed);
-}
-
-static int set_option(bench_request *r, int id, const char *value, char size[2][32])
-{
-    uint64_t side[2];
-    switch (id) {
-    case OPT_METHODS:
-        r->methods = value;
-        break;
-    case OPT_SIZE:
-        if (!number_parse_list(value, 'x', MGT_MAX_IMAGE_SIDE, 2, side) || side[0] == 0 || side[1] == 0)
-            return bad_value(OPT_SIZE, value, "WxH, each from 1 to 32768 pixels, such as 1280x720");
-        snprintf(size[0], 32, "image.width=%u", (unsigned)side[0]);
-        snprintf(size[1], 32, "image.height=%u", (unsigned)side[1]);
-        break;
-    case OPT_FRAMES:
-        if (!number_parse_u64(value, 1000000, &r->frames) || r->frames == 0)
-            return bad_value(OPT_FRAMES, value, "a number from 1 to 1000000");
-        break;
-    case OPT_REPEAT:
-        if (!number_parse_u64(value, 1000, &r->repeat) || r->repeat == 0)
-            return bad_value(OPT_REPEAT, value, "a number from 1 to 1000");
-        break;
-    case OPT_BACKEND:
-        if (!mgt_backend_from_name(value, &r->context.backend) || r->context.backend == MGT_BACKEND_NULL)
-            return bad_value(OPT_BACKEND, value, "cpu, gl or auto");
-        break;
-    case OPT_GL_DEVICE:
-    case OPT_THREADS:
-    case OPT_ISA: {
-        const char *allowed = context_option_set(&r->context, bench_options[id].name, value);
-        return allowed ? bad_value((size_t)id, value, allowed) : EXIT_CODE_OK;
-    }
-    case OPT_SET:
-        r->overrides[r->override_count++] = value;
-        break;
-    case OPT_DISPLAY:
-        r->display = true;
-        break;
-    case OPT_MEMORY:
-        r->memory = true;
-        break;
-    case OPTION_OPERAND:
-        if (r->scene_path)
-            return console_error(EXIT_CODE_USAGE, "one scene at a time: %s and %s are given", r->scene_path, value);
-        r->scene_path = value;
-        break;
-    default:
-        break;
-    }
-    return EXIT_CODE_OK;
-}
-
 static int add_methods(bench *b)
 {
     for (const char *p = b->request->methods; *p;) {
@@ -140,7 +57,7 @@ static int add_methods(bench *b)
         b->count++;
         p += length + (p[length] == ',');
     }
-    return b->count ? EXIT_CODE_OK : bad_value(OPT_METHODS, b->request->methods, method_names().text);
+    return b->count ? EXIT_CODE_OK : console_error(EXIT_CODE_USAGE, "--methods %s: allowed is %s", b->request->methods, method_names().text);
 }
 
 static bool keep_going(void *user, double fraction)
@@ -168,7 +85,7 @@ static int prepare(bench *b)
     const int code = add_methods(b);
     if (code != EXIT_CODE_OK)
         return code;
-    b->scene = scene_file_load(r->scene_path, r->overrides, r->override_count, &error);
+    b->scene = scene_file_load(r->scene_path, r->changes.items, r->changes.count, &error);
     if (!b->scene)
         return console_scene_error(&error);
     mgt_scene first;
@@ -294,9 +211,12 @@ static int print_report(bench *b)
                                         "methods", list));
 }
 
-static int run(const bench_request *request)
+static int run(void *place)
 {
+    const bench_request *request = place;
     bench b = {.request = request};
+    if (!request->scene_path)
+        return console_error(EXIT_CODE_USAGE, "no scene given; see mangata bench --help");
     interrupt_install();
     int code = prepare(&b);
     if (code == EXIT_CODE_OK && request->memory)
@@ -314,39 +234,36 @@ static int run(const bench_request *request)
     return code;
 }
 
-static int read_command_line(bench_request *r, int count, char **arguments, char size[2][32])
-{
-    option_reader reader = option_reader_start(&bench_table, &r->out, count, arguments);
-    const char *value = NULL;
-    int id;
-    while ((id = option_reader_next(&reader, &value)) != OPTION_END) {
-        if (id == OPTION_HELP)
-            return -1;
-        if (id == OPTION_ERROR)
-            return EXIT_CODE_USAGE;
-        const int code = set_option(r, id, value, size);
-        if (code != EXIT_CODE_OK)
-            return code;
-    }
-    if (!r->scene_path)
-        return console_error(EXIT_CODE_USAGE, "no scene given; see mangata bench --help");
-    if (size[0][0]) {
-        r->overrides[r->override_count++] = size[0];
-        r->overrides[r->override_count++] = size[1];
-    }
-    return EXIT_CODE_OK;
-}
+static const option bench_options[] = {
+    {"methods", 0, "LIST", "methods to measure, with options if wanted:\nadaptive:samples=4, none+hybrid (default none,podee-pixel,mangata)",
+     .set = option_text, .offset = offsetof(bench_request, methods)},
+    {"size", 0, "WxH", "size in pixels instead of the scene's", .set = option_size, .offset = offsetof(bench_request, changes), .least = 1,
+     .allowed = "WxH, each from 1 to 32768 pixels, such as 1280x720"},
+    {"frames", 0, "N", "measure frames 0 to N-1 (default 3)", .set = option_number, .offset = offsetof(bench_request, frames), .least = 1, .most = 1000000},
+    {"repeat", 0, "R", "measure each of them R times (default 5)", .set = option_number, .offset = offsetof(bench_request, repeat), .least = 1, .most = 1000},
+    {"backend", 0, "NAME", "cpu (default), gl or auto", .set = option_drawing_backend, .offset = offsetof(bench_request, context),
+     .allowed = "cpu, gl or auto"},
+    CONTEXT_OPTION_GL_DEVICE(bench_request),
+    CONTEXT_OPTION_THREADS(bench_request),
+    CONTEXT_OPTION_ISA(bench_request),
+    {"set", 0, "KEY=VALUE", "change a value of the scene; may be repeated", .set = option_change, .offset = offsetof(bench_request, changes)},
+    {"display", 0, NULL, "make displayed colours: with exposure, glare and tone mapping", .set = option_given, .offset = offsetof(bench_request, display)},
+    {"memory", 0, NULL, "also measure the memory that a frame takes at its peak, in a\ncontext of its own for every method", .set = option_given,
+     .offset = offsetof(bench_request, memory)},
+};
+
+static const option_table bench_table = {"bench",
+                                         "SCENE [options]",
+                                         "Renders in memory, without output: scene-linear colour, or with --display what a picture shows.\n"
+                                         "The methods take turns, so that a change of the machine's pace meets all of them.",
+                                         bench_options,
+                                         sizeof bench_options / sizeof bench_options[0],
+                                         .operand = {.set = option_one_scene, .offset = offsetof(bench_request, scene_path)},
+                                         .changes = offsetof(bench_request, changes),
+                                         .run = run};
 
 int verb_bench(int count, char **arguments)
 {
-    char size[2][32] = {{0}};
-    const char **overrides = calloc((size_t)count + 2, sizeof *overrides);
-    if (!overrides)
-        return console_error(EXIT_CODE_FAILED, "out of memory");
-    bench_request request = {.methods = "none,podee-pixel,mangata", .overrides = overrides, .frames = 3, .repeat = 5};
-    int code = read_command_line(&request, count, arguments, size);
-    if (code == EXIT_CODE_OK)
-        code = run(&request);
-    free(overrides);
-    return code < 0 ? EXIT_CODE_OK : code;
+    bench_request request = {.methods = "none,podee-pixel,mangata", .frames = 3, .repeat = 5};
+    return options_run(&bench_table, &request, count, arguments);
 }

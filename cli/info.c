@@ -9,8 +9,6 @@
 #include "cli/common/options.h"
 #include "cli/common/verbs.h"
 
-static const option_table info_table = {"info", "[options]", "Lists version, instruction sets, threads, libraries and file formats.", .options = NULL};
-
 #if defined(__clang__)
 #define COMPILER "clang " __clang_version__
 #else
@@ -143,19 +141,15 @@ static void print_text(const json_t *all)
     print_words("formats", json_object_get(all, "formats"));
 }
 
-int verb_info(int count, char **arguments)
+static int refuse_operand(const option *o, void *place, const char *value)
 {
-    console out = {0};
-    option_reader reader = option_reader_start(&info_table, &out, count, arguments);
-    const char *value = NULL;
-    int id;
-    while ((id = option_reader_next(&reader, &value)) != OPTION_END) {
-        if (id == OPTION_HELP)
-            return EXIT_CODE_OK;
-        if (id == OPTION_ERROR)
-            return EXIT_CODE_USAGE;
-        return console_error(EXIT_CODE_USAGE, "mangata info takes no %s", value);
-    }
+    (void)o, (void)place;
+    return console_error(EXIT_CODE_USAGE, "mangata info takes no %s", value);
+}
+
+static int run(void *request)
+{
+    const console *out = request;
     mgt_context *context = NULL;
     const mgt_status status = mgt_context_create(&context, NULL);
     if (status != MGT_OK)
@@ -164,9 +158,18 @@ int verb_info(int count, char **arguments)
     mgt_context_get_info(context, &info);
     mgt_context_destroy(context);
     json_t *all = collect(&info);
-    if (out.json || !all)
+    if (out->json || !all)
         return console_print_json(all);
     print_text(all);
     json_decref(all);
     return EXIT_CODE_OK;
+}
+
+static const option_table info_table = {"info", "[options]", "Lists version, instruction sets, threads, libraries and file formats.",
+                                        .operand = {.set = refuse_operand}, .run = run};
+
+int verb_info(int count, char **arguments)
+{
+    console out = {0};
+    return options_run(&info_table, &out, count, arguments);
 }

@@ -7,19 +7,12 @@
 #include "cli/common/options.h"
 #include "cli/common/verbs.h"
 
-enum { OPT_SET };
-
-static const option check_options[] = {
-    [OPT_SET] = {"set", 0, "KEY=VALUE", "check the scene with this value changed; may be repeated"},
-};
-
-static const option_table scene_table = {"scene",
-                                         "check FILE... [options]\n       mangata scene schema",
-                                         "check: reads scene files and reports what is wrong as file:line:column: message.\n"
-                                         "schema: prints the JSON Schema of scene files.",
-                                         check_options,
-                                         sizeof check_options / sizeof check_options[0],
-                                         .notes = "exit codes: 0 all is well, 64 usage, 65 bad scene, 66 no such file"};
+typedef struct scene_request {
+    console out;
+    const char **words; /* room for every argument */
+    size_t word_count;
+    scene_changes changes;
+} scene_request;
 
 /* What the loader cannot know, because only the library does: whether each frame can be rendered. */
 static int check_frames(const scene_file *scene, const char *path, scene_error *error)
@@ -59,10 +52,10 @@ static json_t *describe(const scene_file *scene, const char *path)
                      (json_int_t)scene_file_wave_count(scene));
 }
 
-static int check_file(const console *out, const char *path, const char *const *overrides, size_t override_count, json_t *list)
+static int check_file(const scene_request *r, const char *path, json_t *list)
 {
     scene_error error = {0};
-    scene_file *scene = scene_file_load(path, overrides, override_count, &error);
+    scene_file *scene = scene_file_load(path, r->changes.items, r->changes.count, &error);
     int code = EXIT_CODE_OK;
     if (!scene) {
         console_scene_error(&error);
@@ -75,22 +68,22 @@ static int check_file(const console *out, const char *path, const char *const *o
         json_array_append_new(list, code == EXIT_CODE_OK
                                         ? describe(scene, path)
                                         : json_pack("{s:o, s:b, s:o}", "file", console_json_text(path), "ok", 0, "error", console_json_text(error.text)));
-    else if (code == EXIT_CODE_OK && !out->quiet)
+    else if (code == EXIT_CODE_OK && !r->out.quiet)
         printf("%s: ok, %zu waves, %d frames\n", path, scene_file_wave_count(scene), scene_file_frame_count(scene));
     scene_file_free(scene);
     return code;
 }
 
-static int check_files(const console *out, const char *const *paths, size_t count, const char *const *overrides, size_t override_count)
+static int check_files(const scene_request *r)
 {
-    json_t *list = out->json ? json_array() : NULL;
+    json_t *list = r->out.json ? json_array() : NULL;
     int code = EXIT_CODE_OK;
-    for (size_t i = 0; i < count; i++) {
-        const int one = check_file(out, paths[i], overrides, override_count, list);
+    for (size_t i = 1; i < r->word_count; i++) {
+        const int one = check_file(r, r->words[i], list);
         if (code == EXIT_CODE_OK)
             code = one;
     }
-    const int printed = out->json ? console_print_json(list) : EXIT_CODE_OK;
+    const int printed = r->out.json ? console_print_json(list) : EXIT_CODE_OK;
     return code == EXIT_CODE_OK ? printed : code;
 }
 
@@ -101,39 +94,45 @@ static int print_schema(void)
     return console_error(EXIT_CODE_CANNOT_WRITE, "standard output: %s", strerror(errno));
 }
 
-/* `words` and `overrides` have room for every argument. */
-static int run(int count, char **arguments, const char **words, const char **overrides)
+static int add_word(const option *o, void *place, const char *value)
 {
-    console out = {0};
-    option_reader reader = option_reader_start(&scene_table, &out, count, arguments);
-    size_t word_count = 0, override_count = 0;
-    const char *value = NULL;
-    int id;
-    while ((id = option_reader_next(&reader, &value)) != OPTION_END) {
-        if (id == OPTION_HELP)
-            return EXIT_CODE_OK;
-        if (id == OPTION_ERROR)
-            return EXIT_CODE_USAGE;
-        if (id == OPT_SET)
-            overrides[override_count++] = value;
-        else
-            words[word_count++] = value;
-    }
-    if (word_count == 1 && strcmp(words[0], "schema") == 0)
-        return print_schema();
-    if (word_count == 0 || strcmp(words[0], "check") != 0)
-        return console_error(EXIT_CODE_USAGE, "mangata scene takes check FILE or schema; see mangata scene --help");
-    if (word_count == 1)
-        return console_error(EXIT_CODE_USAGE, "no scene given: mangata scene check FILE");
-    return check_files(&out, words + 1, word_count - 1, overrides, override_count);
+    scene_request *r = place;
+    (void)o;
+    r->words[r->word_count++] = value;
+    return EXIT_CODE_OK;
 }
+
+static int run(void *request)
+{
+    const scene_request *r = request;
+    if (r->word_count == 1 && strcmp(r->words[0], "schema") == 0)
+        return print_schema();
+    if (r->word_count == 0 || strcmp(r->words[0], "check") != 0)
+        return console_error(EXIT_CODE_USAGE, "mangata scene takes check FILE or schema; see mangata scene --help");
+    if (r->word_count == 1)
+        return console_error(EXIT_CODE_USAGE, "no scene given: mangata scene check FILE");
+    return check_files(r);
+}
+
+static const option check_options[] = {
+    {"set", 0, "KEY=VALUE", "check the scene with this value changed; may be repeated", .set = option_change, .offset = offsetof(scene_request, changes)},
+};
+
+static const option_table scene_table = {"scene",
+                                         "check FILE... [options]\n       mangata scene schema",
+                                         "check: reads scene files and reports what is wrong as file:line:column: message.\n"
+                                         "schema: prints the JSON Schema of scene files.",
+                                         check_options,
+                                         sizeof check_options / sizeof check_options[0],
+                                         .notes = "exit codes: 0 all is well, 64 usage, 65 bad scene, 66 no such file",
+                                         .operand = {.set = add_word},
+                                         .changes = offsetof(scene_request, changes),
+                                         .run = run};
 
 int verb_scene(int count, char **arguments)
 {
-    const char **words = calloc((size_t)count + 1, sizeof *words);
-    const char **overrides = calloc((size_t)count + 1, sizeof *overrides);
-    const int code = words && overrides ? run(count, arguments, words, overrides) : console_error(EXIT_CODE_FAILED, "out of memory");
-    free(overrides);
-    free(words);
+    scene_request request = {.words = calloc((size_t)count + 1, sizeof *request.words)};
+    const int code = request.words ? options_run(&scene_table, &request, count, arguments) : console_error(EXIT_CODE_FAILED, "out of memory");
+    free(request.words);
     return code;
 }

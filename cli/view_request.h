@@ -3,17 +3,13 @@
 #ifndef MANGATA_CLI_VIEW_REQUEST_H
 #define MANGATA_CLI_VIEW_REQUEST_H
 
-#include "cli/common/console.h"
 #include "cli/common/context_options.h"
 #include "cli/common/quality_options.h"
 
 typedef struct view_request {
     console out;
     const char *scene_path;
-    const char **overrides; /* --set and --size, in order; owned */
-    size_t override_count;
-    char size_words[2][32];
-    uint32_t width, height;    /* of the window; 0: as the scene says */
+    scene_changes changes;     /* width and height are the window's as well */
     quality_options quality;   /* of side A */
     context_options context;   /* but for the device: the window has one */
     const char *script;        /* NULL: none */

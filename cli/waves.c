@@ -15,7 +15,7 @@
 #include "cli/common/verbs.h"
 #include "cli/waves_report.h"
 
-/* The options before OPT_OUTPUT are keys of the scene's `water.spectrum`. */
+/* The first options, which are keys of the scene's `water.spectrum`. */
 enum {
     OPT_MODEL,
     OPT_WIND,
@@ -31,62 +31,24 @@ enum {
     OPT_COUNT,
     OPT_SEED,
     OPT_FILE,
-    OPT_OUTPUT,
-    OPT_BASE,
-    OPT_SET,
-    OPT_AS_SPECTRUM,
-    OPT_OVERWRITE
+    SPECTRUM_OPTIONS
 };
 
-static const char *const keys[OPT_OUTPUT] = {[OPT_MODEL] = "model",   [OPT_WIND] = "wind",   [OPT_WIND_HEIGHT] = "wind_height", [OPT_FETCH] = "fetch",
-                                             [OPT_DEPTH] = "depth",   [OPT_GAMMA] = "gamma", [OPT_DIRECTION] = "direction_deg", [OPT_DIRECTIONS] = "directions",
-                                             [OPT_SPREAD] = "spread", [OPT_SLOPE] = "slope", [OPT_SHORTEST] = "shortest",       [OPT_COUNT] = "count",
-                                             [OPT_SEED] = "seed",     [OPT_FILE] = "file"};
+static const char *const keys[SPECTRUM_OPTIONS] =
+    {[OPT_MODEL] = "model",   [OPT_WIND] = "wind",   [OPT_WIND_HEIGHT] = "wind_height", [OPT_FETCH] = "fetch",
+     [OPT_DEPTH] = "depth",   [OPT_GAMMA] = "gamma", [OPT_DIRECTION] = "direction_deg", [OPT_DIRECTIONS] = "directions",
+     [OPT_SPREAD] = "spread", [OPT_SLOPE] = "slope", [OPT_SHORTEST] = "shortest",       [OPT_COUNT] = "count",
+     [OPT_SEED] = "seed",     [OPT_FILE] = "file"};
 
-static const option waves_options[] = {
-    [OPT_MODEL] = {"spectrum", 0, "NAME", "pierson-moskowitz, jonswap (default), tma or buoy"},
-    [OPT_WIND] = {"wind", 0, "SPEED", "of the wind in m/s (default 8)"},
-    [OPT_WIND_HEIGHT] = {"wind-height", 0, "M",
-                         "height over the sea at which it blows so (default: as in the paper,\n"
-                         "19.5 m for pierson-moskowitz, else 10 m)"},
-    [OPT_FETCH] = {"fetch", 0, "M", "open water that the wind has crossed: jonswap, tma (default 50000)"},
-    [OPT_DEPTH] = {"depth", 0, "M", "of the water (default inf; tma needs one)"},
-    [OPT_GAMMA] = {"gamma", 0, "G", "how far the peak stands out: jonswap, tma (default 3.3)"},
-    [OPT_DIRECTION] = {"direction", 0, "DEG",
-                       "where the wind comes from: 0 (default) is -z, \"north\", whose waves\n"
-                       "run towards +z; 90 is +x, \"east\""},
-    [OPT_DIRECTIONS] = {"directions", 0, "NAME",
-                        "how waves spread around it: mitsuyasu, hasselmann (default),\n"
-                        "donelan-banner, or fixed with --spread"},
-    [OPT_SPREAD] = {"spread", 0, "S", "of cos^2s of half the angle, for --directions fixed (default 10)"},
-    [OPT_SLOPE] = {"slope", 0, "NAME", "of the short waves: spectrum (default), or cox-munk, the clean sea's"},
-    [OPT_SHORTEST] = {"shortest", 0, "M", "length of the shortest wave (default 0.05; buoy: the table's end)"},
-    [OPT_COUNT] = {"count", 'n', "N", "number of waves, 1 to 512 (default 64)"},
-    [OPT_SEED] = {"seed", 0, "N", "another seed: another sea of the same kind (default 1)"},
-    [OPT_FILE] = {"buoy", 0, "FILE",
-                  "a measured spectrum: lines of frequency (Hz), direction (degrees,\n"
-                  "where waves come from), density (m^2/Hz/degree); see docs/waves.md"},
-    [OPT_OUTPUT] = {"output", 'o', "SCENE", "scene file to write, .yaml or .yml (default: standard output)"},
-    [OPT_BASE] = {"base", 0, "SCENE", "take all but the waves from this scene"},
-    [OPT_SET] = {"set", 0, "KEY=VALUE", "change a value of that scene, e.g. light.body=moon; may be repeated"},
-    [OPT_AS_SPECTRUM] = {"as-spectrum", 0, NULL, "write the key water.spectrum instead of single waves"},
-    [OPT_OVERWRITE] = {"overwrite", 0, NULL, "replace an existing file"},
-};
-
-static const option_table waves_table = {"waves",
-                                         "[-o SCENE] [options]",
-                                         "Writes a scene whose waves are drawn from a published wave spectrum, or from a buoy's.\n"
-                                         "--json prints the sea's statistics instead, beside their closed forms.",
-                                         waves_options,
-                                         sizeof waves_options / sizeof waves_options[0],
-                                         .notes = "exit codes: 0 done, 64 usage, 65 bad scene, table or sea, 66 no such input, 73 cannot write"};
+static const option waves_options[];
 
 typedef struct waves_request {
+    console out;
+    scene_values values;     /* defaults, then the base */
     scene_spectrum spectrum; /* borrows its file's name */
-    bool given[OPT_OUTPUT];
+    bool given[SPECTRUM_OPTIONS];
     const char *output, *base;
-    const char **overrides; /* room for every argument */
-    size_t override_count;
+    scene_changes changes;
     bool as_spectrum, overwrite;
 } waves_request;
 
@@ -99,19 +61,16 @@ static const field_row *spectrum_field(const scene_values *values, const char *k
     return scene_values_find(values, path, place);
 }
 
-static int bad_value(int id, const char *value, const char *allowed)
-{
-    return console_error(EXIT_CODE_USAGE, "--%s %s: allowed is %s", waves_options[id].name, value, allowed);
-}
-
 /* The name of a choice into *place. */
 static bool set_choice(const field_row *field, const char *text, int *place) { return field_parse(field, text, place); }
 
 /* One key of the spectrum, with the checks of the scene format. */
-static int set_key(waves_request *r, const scene_values *values, int id, const char *text)
+static int set_key(const option *o, void *request, const char *text)
 {
+    waves_request *r = request;
+    const int id = (int)(o - waves_options);
     const void *unused;
-    const field_row *field = spectrum_field(values, keys[id], &unused);
+    const field_row *field = spectrum_field(&r->values, keys[id], &unused);
     void *place = (char *)&r->spectrum + field->offset;
     char allowed[160];
     double number;
@@ -138,31 +97,13 @@ static int set_key(waves_request *r, const scene_values *values, int id, const c
         memcpy(place, &text, sizeof text);
         break; /* the table's name */
     }
-    return good ? EXIT_CODE_OK : bad_value(id, text, id == OPT_MODEL ? "pierson-moskowitz, jonswap, tma or buoy" : allowed);
+    return good ? EXIT_CODE_OK : option_wrong(o, text, id == OPT_MODEL ? "pierson-moskowitz, jonswap, tma or buoy" : allowed);
 }
 
-static int set_option(waves_request *r, const scene_values *values, int id, const char *text)
+static int refuse_operand(const option *o, void *place, const char *value)
 {
-    if (id < OPT_OUTPUT)
-        return set_key(r, values, id, text);
-    switch (id) {
-    case OPT_OUTPUT:
-        r->output = text;
-        break;
-    case OPT_BASE:
-        r->base = text;
-        break;
-    case OPT_SET:
-        r->overrides[r->override_count++] = text;
-        break;
-    case OPT_AS_SPECTRUM:
-        r->as_spectrum = true;
-        break;
-    default:
-        r->overwrite = true;
-        break;
-    }
-    return EXIT_CODE_OK;
+    (void)o, (void)place;
+    return console_error(EXIT_CODE_USAGE, "%s: mangata waves takes options alone; a scene to start from is --base SCENE", value);
 }
 
 /* What contradicts itself, and what would be left unused without a word. */
@@ -215,8 +156,8 @@ static void place_camera(scene_values *values, double wave_height)
 static int load_base(const waves_request *r, scene_values *values)
 {
     scene_error error = {0};
-    scene_file *file = r->base ? scene_file_load(r->base, r->overrides, r->override_count, &error)
-                               : scene_file_parse(base_text, sizeof base_text - 1, "the scene", r->overrides, r->override_count, &error);
+    scene_file *file = r->base ? scene_file_load(r->base, r->changes.items, r->changes.count, &error)
+                               : scene_file_parse(base_text, sizeof base_text - 1, "the scene", r->changes.items, r->changes.count, &error);
     if (!file) {
         console_scene_error(&error);
         return exit_code_of_scene_error(error.kind);
@@ -235,8 +176,8 @@ static int load_base(const waves_request *r, scene_values *values)
 
 static bool names_camera(const waves_request *r)
 {
-    for (size_t i = 0; i < r->override_count; i++)
-        if (strncmp(r->overrides[i], "camera", 6) == 0)
+    for (size_t i = 0; i < r->changes.count; i++)
+        if (strncmp(r->changes.items[i], "camera", 6) == 0)
             return true;
     return false;
 }
@@ -279,7 +220,7 @@ static int write_scene(const waves_request *r, const scene_values *values)
 /* What a key of the format is called on the command line. */
 static const char *option_of_key(const char *key)
 {
-    for (int i = 0; i < OPT_OUTPUT; i++)
+    for (int i = 0; i < SPECTRUM_OPTIONS; i++)
         if (strcmp(keys[i], key) == 0)
             return waves_options[i].name;
     return key;
@@ -345,37 +286,67 @@ static int make_scene(const waves_request *r, scene_values *values, const consol
 
 /* ---- the verb ----------------------------------------------------------------------------------------------- */
 
-static int run(int count, char **arguments, waves_request *r)
+static int run(void *request)
 {
-    console out = {0};
-    option_reader reader = option_reader_start(&waves_table, &out, count, arguments);
-    scene_values values = scene_values_defaults();
-    const char *text = NULL;
-    int id, code = EXIT_CODE_OK;
-    r->spectrum = values.water.spectrum;
-    r->spectrum.settings.kind = SPECTRUM_JONSWAP;
-    while (code == EXIT_CODE_OK && (id = option_reader_next(&reader, &text)) != OPTION_END) {
-        if (id == OPTION_HELP)
-            return EXIT_CODE_OK;
-        if (id == OPTION_ERROR)
-            return EXIT_CODE_USAGE;
-        code = id == OPTION_OPERAND ? console_error(EXIT_CODE_USAGE, "%s: mangata waves takes options alone; a scene to start from is --base SCENE", text)
-                                    : set_option(r, &values, id, text);
-    }
+    waves_request *r = request;
+    int code = check_request(r, &r->out);
     if (code == EXIT_CODE_OK)
-        code = check_request(r, &out);
-    if (code == EXIT_CODE_OK)
-        code = load_base(r, &values);
-    if (code == EXIT_CODE_OK)
-        code = make_scene(r, &values, &out);
-    scene_values_free(&values);
-    return code;
+        code = load_base(r, &r->values);
+    return code == EXIT_CODE_OK ? make_scene(r, &r->values, &r->out) : code;
 }
+
+static const option waves_options[] = {
+    [OPT_MODEL] = {"spectrum", 0, "NAME", "pierson-moskowitz, jonswap (default), tma or buoy", .set = set_key},
+    [OPT_WIND] = {"wind", 0, "SPEED", "of the wind in m/s (default 8)", .set = set_key},
+    [OPT_WIND_HEIGHT] = {"wind-height", 0, "M",
+                         "height over the sea at which it blows so (default: as in the paper,\n"
+                         "19.5 m for pierson-moskowitz, else 10 m)",
+                         .set = set_key},
+    [OPT_FETCH] = {"fetch", 0, "M", "open water that the wind has crossed: jonswap, tma (default 50000)", .set = set_key},
+    [OPT_DEPTH] = {"depth", 0, "M", "of the water (default inf; tma needs one)", .set = set_key},
+    [OPT_GAMMA] = {"gamma", 0, "G", "how far the peak stands out: jonswap, tma (default 3.3)", .set = set_key},
+    [OPT_DIRECTION] = {"direction", 0, "DEG",
+                       "where the wind comes from: 0 (default) is -z, \"north\", whose waves\n"
+                       "run towards +z; 90 is +x, \"east\"",
+                       .set = set_key},
+    [OPT_DIRECTIONS] = {"directions", 0, "NAME",
+                        "how waves spread around it: mitsuyasu, hasselmann (default),\n"
+                        "donelan-banner, or fixed with --spread",
+                        .set = set_key},
+    [OPT_SPREAD] = {"spread", 0, "S", "of cos^2s of half the angle, for --directions fixed (default 10)", .set = set_key},
+    [OPT_SLOPE] = {"slope", 0, "NAME", "of the short waves: spectrum (default), or cox-munk, the clean sea's", .set = set_key},
+    [OPT_SHORTEST] = {"shortest", 0, "M", "length of the shortest wave (default 0.05; buoy: the table's end)", .set = set_key},
+    [OPT_COUNT] = {"count", 'n', "N", "number of waves, 1 to 512 (default 64)", .set = set_key},
+    [OPT_SEED] = {"seed", 0, "N", "another seed: another sea of the same kind (default 1)", .set = set_key},
+    [OPT_FILE] = {"buoy", 0, "FILE",
+                  "a measured spectrum: lines of frequency (Hz), direction (degrees,\n"
+                  "where waves come from), density (m^2/Hz/degree); see docs/waves.md",
+                  .set = set_key},
+    {"output", 'o', "SCENE", "scene file to write, .yaml or .yml (default: standard output)", .set = option_text, .offset = offsetof(waves_request, output)},
+    {"base", 0, "SCENE", "take all but the waves from this scene", .set = option_text, .offset = offsetof(waves_request, base)},
+    {"set", 0, "KEY=VALUE", "change a value of that scene, e.g. light.body=moon; may be repeated", .set = option_change,
+     .offset = offsetof(waves_request, changes)},
+    {"as-spectrum", 0, NULL, "write the key water.spectrum instead of single waves", .set = option_given, .offset = offsetof(waves_request, as_spectrum)},
+    {"overwrite", 0, NULL, "replace an existing file", .set = option_given, .offset = offsetof(waves_request, overwrite)},
+};
+
+static const option_table waves_table = {"waves",
+                                         "[-o SCENE] [options]",
+                                         "Writes a scene whose waves are drawn from a published wave spectrum, or from a buoy's.\n"
+                                         "--json prints the sea's statistics instead, beside their closed forms.",
+                                         waves_options,
+                                         sizeof waves_options / sizeof waves_options[0],
+                                         .notes = "exit codes: 0 done, 64 usage, 65 bad scene, table or sea, 66 no such input, 73 cannot write",
+                                         .operand = {.set = refuse_operand},
+                                         .changes = offsetof(waves_request, changes),
+                                         .run = run};
 
 int verb_waves(int count, char **arguments)
 {
-    waves_request request = {.overrides = calloc((size_t)count + 1, sizeof *request.overrides)};
-    const int code = request.overrides ? run(count, arguments, &request) : console_error(EXIT_CODE_FAILED, "out of memory");
-    free(request.overrides);
+    waves_request request = {.values = scene_values_defaults()};
+    request.spectrum = request.values.water.spectrum;
+    request.spectrum.settings.kind = SPECTRUM_JONSWAP;
+    const int code = options_run(&waves_table, &request, count, arguments);
+    scene_values_free(&request.values);
     return code;
 }

@@ -25,8 +25,8 @@ static void on_glfw_error(int code, const char *text)
 static GLFWwindow *make_window(const view_request *r, const scene_values *values, int major, int minor)
 {
     const GLFWvidmode *screen = glfwGetVideoMode(glfwGetPrimaryMonitor());
-    uint32_t width = r->width ? r->width : values->image.width, height = r->height ? r->height : values->image.height;
-    if (screen && !r->width) {
+    uint32_t width = r->changes.width ? r->changes.width : values->image.width, height = r->changes.height ? r->changes.height : values->image.height;
+    if (screen && !r->changes.width) {
         width = width < (uint32_t)screen->width ? width : (uint32_t)screen->width;
         height = height < (uint32_t)screen->height ? height : (uint32_t)screen->height;
     }
@@ -242,7 +242,7 @@ static bool open_scene(viewer *v)
 {
     scene_error error;
     const view_request *r = v->request;
-    if (!document_open(&v->document, r->scene_path, r->overrides, r->override_count, &error)) {
+    if (!document_open(&v->document, r->scene_path, r->changes.items, r->changes.count, &error)) {
         v->exit_code = console_scene_error(&error);
         return false;
     }

@@ -7,26 +7,25 @@
 #include "params/names.h"
 #include "cli/common/numbers.h"
 
-const char *context_option_set(context_options *options, const char *name, const char *value)
+int option_context(const option *o, void *place, const char *value)
 {
+    context_options *options = place;
+    const bool device = strcmp(o->name, "gl-device") == 0;
     uint64_t n = 0;
-    if (strcmp(name, "backend") == 0)
-        return mgt_backend_from_name(value, &options->backend) ? NULL : "cpu, gl, auto or null";
-    if (strcmp(name, "isa") == 0) {
-        static names_text allowed;
-        allowed = names_list(isa_names);
-        return mgt_isa_from_name(value, &options->isa) ? NULL : allowed.text;
-    }
-    if (strcmp(name, "gl-device") == 0) {
-        if (!number_parse_u64(value, 1023, &n))
-            return "a number from 0 to 1023";
-        options->gl_device = (uint32_t)n;
-        return NULL;
-    }
-    if (!number_parse_u64(value, 1024, &n))
-        return "a number from 0 (all CPUs) to 1024";
-    options->threads = (uint32_t)n;
-    return NULL;
+    if (strcmp(o->name, "backend") == 0)
+        return mgt_backend_from_name(value, &options->backend) ? EXIT_CODE_OK : option_wrong(o, value, "cpu, gl, auto or null");
+    if (strcmp(o->name, "isa") == 0)
+        return mgt_isa_from_name(value, &options->isa) ? EXIT_CODE_OK : option_wrong(o, value, names_list(isa_names).text);
+    if (!number_parse_u64(value, device ? 1023 : 1024, &n))
+        return option_wrong(o, value, device ? "a number from 0 to 1023" : "a number from 0 (all CPUs) to 1024");
+    *(device ? &options->gl_device : &options->threads) = (uint32_t)n;
+    return EXIT_CODE_OK;
+}
+
+int option_drawing_backend(const option *o, void *place, const char *value)
+{
+    context_options *options = place;
+    return mgt_backend_from_name(value, &options->backend) && options->backend != MGT_BACKEND_NULL ? EXIT_CODE_OK : option_wrong(o, value, o->allowed);
 }
 
 int context_open(const context_options *options, const console *out, mgt_progress_function progress, void *progress_user, mgt_context **context,

@@ -3,7 +3,7 @@
 #ifndef MANGATA_CLI_COMMON_CONTEXT_OPTIONS_H
 #define MANGATA_CLI_COMMON_CONTEXT_OPTIONS_H
 
-#include "cli/common/console.h"
+#include "cli/common/options.h"
 #include "mangata/mangata.h"
 
 typedef struct context_options {
@@ -12,24 +12,26 @@ typedef struct context_options {
     uint32_t threads, gl_device;
 } context_options;
 
-/* Rows of an option_table. */
-#define CONTEXT_OPTION_GL_DEVICE                                                                 \
-    {                                                                                            \
-        "gl-device", 0, "N", "OpenGL: which device of those that mangata info lists (default 0)" \
+/* "backend", "gl-device", "threads" or "isa" into context_options. */
+option_set option_context;
+
+/* Rows of a table whose request has `context`. */
+#define CONTEXT_OPTION_GL_DEVICE(request)                                                                                                                     \
+    {                                                                                                                                                         \
+        "gl-device", 0, "N", "OpenGL: which device of those that mangata info lists (default 0)", .set = option_context, .offset = offsetof(request, context) \
     }
-#define CONTEXT_OPTION_THREADS                                                          \
-    {                                                                                   \
-        "threads", 0, "N", "threads (default 0: one for each CPU this process may use)" \
+#define CONTEXT_OPTION_THREADS(request)                                                                                                              \
+    {                                                                                                                                                \
+        "threads", 0, "N", "threads (default 0: one for each CPU this process may use)", .set = option_context, .offset = offsetof(request, context) \
     }
-#define CONTEXT_OPTION_ISA                                                   \
-    {                                                                        \
-        "isa", 0, "NAME",                                                    \
-            "highest instruction set: auto (default), scalar, sse2, avx2,\n" \
-            "avx512 or neon"                                                 \
+#define CONTEXT_OPTION_ISA(request)                                                                                                            \
+    {                                                                                                                                          \
+        "isa", 0, "NAME", "highest instruction set: auto (default), scalar, sse2, avx2,\navx512 or neon", .set = option_context,               \
+                                                                                                          .offset = offsetof(request, context) \
     }
 
-/* Sets "backend", "gl-device", "threads" or "isa". NULL, or what is allowed. */
-const char *context_option_set(context_options *options, const char *name, const char *value);
+/* "backend" for verbs that draw: all but null. */
+option_set option_drawing_backend;
 
 /* Creates the context, whose log goes to `out`, and says what it is. An exit code; errors are printed. */
 int context_open(const context_options *options, const console *out, mgt_progress_function progress, void *progress_user, mgt_context **context,

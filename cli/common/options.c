@@ -3,24 +3,110 @@
 #include "cli/common/options.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
+#include "cli/common/frames.h"
+#include "cli/common/numbers.h"
+#include "cli/common/progress.h"
+#include "cli/common/quality_options.h"
 #include "params/methods.h"
 #include "params/options.h"
 
 static const option common_options[] = {
-    {"json", 0, NULL, "print the result as JSON on standard output"},
-    {"verbose", 'v', NULL, "say more on standard error"},
-    {"quiet", 'q', NULL, "say nothing but errors"},
-    {"help", 'h', NULL, "show this help"},
+    {"json", 0, NULL, .help = "print the result as JSON on standard output"},
+    {"verbose", 'v', NULL, .help = "say more on standard error"},
+    {"quiet", 'q', NULL, .help = "say nothing but errors"},
+    {"help", 'h', NULL, .help = "show this help"},
 };
 enum { COMMON_COUNT = sizeof common_options / sizeof common_options[0] };
 enum { COMMON_JSON, COMMON_VERBOSE, COMMON_QUIET, COMMON_HELP };
 
-option_reader option_reader_start(const option_table *table, console *out, int count, char **arguments)
+/* ---- what options usually set ---- */
+
+int option_wrong(const option *o, const char *value, const char *allowed)
 {
-    return (option_reader){.table = table, .out = out, .arguments = arguments, .count = count};
+    return console_error(EXIT_CODE_USAGE, "--%s %s: allowed is %s", o->name, value, allowed);
 }
+
+int option_given(const option *o, void *place, const char *value)
+{
+    (void)o, (void)value;
+    *(bool *)place = true;
+    return EXIT_CODE_OK;
+}
+
+int option_text(const option *o, void *place, const char *value)
+{
+    (void)o;
+    *(const char **)place = value;
+    return EXIT_CODE_OK;
+}
+
+int option_number(const option *o, void *place, const char *value)
+{
+    uint64_t number;
+    if (!number_parse_u64(value, o->most, &number) || number < o->least)
+        return console_error(EXIT_CODE_USAGE, "--%s %s: allowed is a number from %llu to %llu", o->name, value, (unsigned long long)o->least,
+                             (unsigned long long)o->most);
+    *(uint64_t *)place = number;
+    return EXIT_CODE_OK;
+}
+
+int option_samples(const option *o, void *place, const char *value)
+{
+    char wrong[240];
+    return quality_count_read(o->name, value, place, wrong, sizeof wrong) ? EXIT_CODE_OK : console_error(EXIT_CODE_USAGE, "%s", wrong);
+}
+
+int option_frames(const option *o, void *place, const char *value)
+{
+    const char *wrong = frame_list_parse(place, value);
+    return wrong ? console_error(EXIT_CODE_USAGE, "--%s %s: %s", o->name, value, wrong) : EXIT_CODE_OK;
+}
+
+int option_change(const option *o, void *place, const char *value)
+{
+    scene_changes *changes = place;
+    (void)o;
+    changes->items[changes->count++] = value;
+    return EXIT_CODE_OK;
+}
+
+int option_size(const option *o, void *place, const char *value)
+{
+    scene_changes *changes = place;
+    uint64_t side[2];
+    if (!number_parse_list(value, 'x', MGT_MAX_IMAGE_SIDE, 2, side) || side[0] < o->least || side[1] < o->least)
+        return option_wrong(o, value, o->allowed);
+    changes->width = (uint32_t)side[0];
+    changes->height = (uint32_t)side[1];
+    return EXIT_CODE_OK;
+}
+
+int option_quality(const option *o, void *place, const char *value)
+{
+    char wrong[600];
+    bool known;
+    return quality_option_set(place, o->name, strlen(o->name), value, &known, wrong, sizeof wrong) ? EXIT_CODE_OK : console_error(EXIT_CODE_USAGE, "%s", wrong);
+}
+
+int option_progress(const option *o, void *place, const char *value)
+{
+    return progress_mode_from_name(value, place) ? EXIT_CODE_OK : option_wrong(o, value, "auto, json or none");
+}
+
+int option_one_scene(const option *o, void *place, const char *value)
+{
+    const char **path = place;
+    (void)o;
+    if (*path)
+        return console_error(EXIT_CODE_USAGE, "one scene at a time: %s and %s are given", *path, value);
+    *path = value;
+    return EXIT_CODE_OK;
+}
+
+/* ---- the help ---- */
 
 /* The verb's own options, those of every verb, and those of quality. */
 static size_t option_total(const option_table *table) { return table->count + COMMON_COUNT + (table->quality ? QUALITY_ROWS : 0); }
@@ -175,6 +261,15 @@ const char *nearest_name(const char *text, const void *names, size_t count, cons
     return best;
 }
 
+/* ---- the words ---- */
+
+typedef struct option_reader {
+    const option_table *table;
+    void *request;
+    char **arguments;
+    int count, next;
+} option_reader;
+
 static int unknown_option(const option_reader *reader, const char *text)
 {
     char name[64];
@@ -182,77 +277,87 @@ static int unknown_option(const option_reader *reader, const char *text)
     const char *dashes = strncmp(name, "--", 2) == 0 ? name + 2 : name + 1;
     const char *near = nearest_name(dashes, reader->table, option_total(reader->table), option_name_at);
     if (near)
-        console_error(0, "unknown option %s; did you mean --%s?", name, near);
-    else
-        console_error(0, "unknown option %s; see mangata %s --help", name, reader->table->verb);
-    return OPTION_ERROR;
+        return console_error(EXIT_CODE_USAGE, "unknown option %s; did you mean --%s?", name, near);
+    return console_error(EXIT_CODE_USAGE, "unknown option %s; see mangata %s --help", name, reader->table->verb);
 }
 
-/* Common options act here and read on. */
-static int found(option_reader *reader, size_t index, const char **value)
+static int act(const option_reader *reader, size_t index, const option *o, const char *value)
 {
+    console *out = reader->request;
     if (index < reader->table->count)
-        return (int)index;
-    if (index >= reader->table->count + COMMON_COUNT)
-        return OPTION_QUALITY + (int)(index - reader->table->count - COMMON_COUNT);
+        return o->set(o, (char *)reader->request + o->offset, value);
     switch (index - reader->table->count) {
     case COMMON_JSON:
-        reader->out->json = true;
-        break;
+        out->json = true;
+        return EXIT_CODE_OK;
     case COMMON_VERBOSE:
-        reader->out->verbose = true;
-        break;
+        out->verbose = true;
+        return EXIT_CODE_OK;
     case COMMON_QUIET:
-        reader->out->quiet = true;
-        break;
-    default:
+        out->quiet = true;
+        return EXIT_CODE_OK;
+    case COMMON_HELP:
         print_help(reader->table);
-        return OPTION_HELP;
+        return OPTIONS_HELP;
+    default:
+        return option_quality(o, (char *)reader->request + reader->table->quality, value);
     }
-    return option_reader_next(reader, value);
 }
 
-static int take_value(option_reader *reader, const option *o, size_t index, const char *attached, const char **value)
+static int take_value(option_reader *reader, const option *o, size_t index, const char *attached)
 {
-    if (!o->value && attached) {
-        console_error(0, "--%s takes no value", o->name);
-        return OPTION_ERROR;
-    }
-    if (o->value && !attached && reader->next >= reader->count) {
-        console_error(0, "--%s needs a value: %s", o->name, o->value);
-        return OPTION_ERROR;
-    }
-    *value = !o->value ? NULL : attached ? attached : reader->arguments[reader->next++];
-    return found(reader, index, value);
+    if (!o->value && attached)
+        return console_error(EXIT_CODE_USAGE, "--%s takes no value", o->name);
+    if (o->value && !attached && reader->next >= reader->count)
+        return console_error(EXIT_CODE_USAGE, "--%s needs a value: %s", o->name, o->value);
+    return act(reader, index, o, !o->value || attached ? attached : reader->arguments[reader->next++]);
 }
 
-int option_reader_next(option_reader *reader, const char **value)
+static int read_option(option_reader *reader, const char *text)
 {
-    if (reader->next >= reader->count)
-        return OPTION_END;
-    const char *text = reader->arguments[reader->next++];
-    const size_t total = option_total(reader->table);
-    if (reader->operands_only || text[0] != '-' || text[1] == 0) {
-        *value = text;
-        return OPTION_OPERAND;
-    }
-    if (strcmp(text, "--") == 0) {
-        reader->operands_only = true;
-        return option_reader_next(reader, value);
-    }
-    if (text[1] != '-') {
-        for (size_t i = 0; i < total; i++) {
-            const option o = option_at(reader->table, i);
-            if (o.letter && o.letter == text[1])
-                return take_value(reader, &o, i, text[2] ? text + 2 : NULL, value);
-        }
-        return unknown_option(reader, text);
-    }
-    const size_t length = strcspn(text + 2, "=");
-    for (size_t i = 0; i < total; i++) {
+    const bool letter = text[1] != '-';
+    const size_t length = letter ? 0 : strcspn(text + 2, "="), end = 2 + length;
+    for (size_t i = 0; i < option_total(reader->table); i++) {
         const option o = option_at(reader->table, i);
-        if (is_named(o.name, text + 2, length))
-            return take_value(reader, &o, i, text[2 + length] ? text + 3 + length : NULL, value);
+        if (letter ? o.letter == text[1] : is_named(o.name, text + 2, length))
+            return take_value(reader, i < reader->table->count ? &reader->table->options[i] : &o, i, !text[end] ? NULL : text + end + !letter);
     }
     return unknown_option(reader, text);
+}
+
+int options_read(const option_table *table, void *request, int count, char **arguments)
+{
+    option_reader reader = {.table = table, .request = request, .arguments = arguments, .count = count};
+    scene_changes *changes = table->changes ? (scene_changes *)((char *)request + table->changes) : NULL;
+    bool operands_only = false;
+    int code = EXIT_CODE_OK;
+    /* Each --set takes a word of the command line; two more hold the size. */
+    if (changes && !(changes->items = calloc((size_t)count + 2, sizeof *changes->items)))
+        return console_error(EXIT_CODE_FAILED, "out of memory");
+    while (code == EXIT_CODE_OK && reader.next < count) {
+        const char *text = arguments[reader.next++];
+        if (operands_only || text[0] != '-' || text[1] == 0)
+            code = table->operand.set(&table->operand, (char *)request + table->operand.offset, text);
+        else if (strcmp(text, "--") == 0)
+            operands_only = true;
+        else
+            code = read_option(&reader, text);
+    }
+    if (changes && changes->width) {
+        snprintf(changes->size[0], sizeof changes->size[0], "image.width=%u", (unsigned)changes->width);
+        snprintf(changes->size[1], sizeof changes->size[1], "image.height=%u", (unsigned)changes->height);
+        for (int i = 0; i < 2; i++)
+            changes->items[changes->count++] = changes->size[i];
+    }
+    return code;
+}
+
+int options_run(const option_table *table, void *request, int count, char **arguments)
+{
+    int code = options_read(table, request, count, arguments);
+    if (code == EXIT_CODE_OK)
+        code = table->run(request);
+    if (table->changes)
+        free(((scene_changes *)((char *)request + table->changes))->items);
+    return code == OPTIONS_HELP ? EXIT_CODE_OK : code;
 }

@@ -4,49 +4,73 @@
 #define MANGATA_CLI_COMMON_OPTIONS_H
 
 #include <stddef.h>
+#include <stdint.h>
 
 #include "cli/common/console.h"
 
 /* What the help calls the value of an option that names a method: it lists them. */
 #define OPTION_VALUE_METHOD "METHOD"
 
-typedef struct option {
+typedef struct option option;
+
+/* Takes an option's value into `place`, which lies in the verb's request where the row says. An exit code; errors are printed. */
+typedef int option_set(const option *o, void *place, const char *value);
+
+struct option {
     const char *name;  /* without the dashes */
     char letter;       /* 0: none */
     const char *value; /* what the help calls its value; NULL: a flag */
     const char *help;  /* may hold newlines */
-} option;
+    option_set *set;
+    size_t offset;        /* of what it sets in the request */
+    const char *allowed;  /* what a wrong value is told, where no number says it */
+    uint64_t least, most; /* of option_number and option_size */
+};
 
-/* A verb's command line. --help, --json, -v/--verbose and --quiet are known everywhere and not listed. */
+/* A verb's command line. --help, --json, -v/--verbose and --quiet are known everywhere and not listed. A request begins with its console. */
 typedef struct option_table {
     const char *verb;  /* "render" */
     const char *usage; /* "SCENE -o OUT [options]" */
     const char *summary;
     const option *options;
     size_t count;
-    const char *notes; /* printed below the options; may be NULL */
-    bool quality;      /* it takes the options of quality as well */
+    const char *notes;  /* printed below the options; may be NULL */
+    option operand;     /* takes the words that are no options */
+    size_t quality;     /* of the request's quality_options, where the verb takes these as well; 0: it does not */
+    size_t changes;     /* of the request's scene_changes; 0: none */
+    int (*run)(void *); /* what the verb does with the request; an exit code */
 } option_table;
 
-typedef struct option_reader {
-    const option_table *table;
-    console *out; /* receives the common options */
-    char **arguments;
-    int count, next;
-    bool operands_only; /* after "--" */
-} option_reader;
+/* --set and --size of a scene, in order, the size last. */
+typedef struct scene_changes {
+    const char **items; /* KEY=VALUE */
+    size_t count;
+    uint32_t width, height; /* 0: not given */
+    char size[2][32];       /* as items */
+} scene_changes;
 
-enum { OPTION_END = -1, OPTION_OPERAND = -2, OPTION_ERROR = -3, OPTION_HELP = -4 };
+/* What options usually set. */
+option_set option_given;     /* a bool */
+option_set option_text;      /* a const char *, borrowed */
+option_set option_number;    /* a uint64_t */
+option_set option_samples;   /* a uint32_t, in the range that the option of quality of this name has */
+option_set option_frames;    /* a frame_list */
+option_set option_change;    /* scene_changes: KEY=VALUE */
+option_set option_size;      /* scene_changes: WxH */
+option_set option_quality;   /* quality_options: the option of this name */
+option_set option_progress;  /* a progress_mode */
+option_set option_one_scene; /* an operand, once: a const char * */
 
-/* Options of quality come as OPTION_QUALITY + their place in quality_fields. */
-enum { OPTION_QUALITY = 1000 };
+/* Says that --name is not `value` but what is allowed. EXIT_CODE_USAGE. */
+int option_wrong(const option *o, const char *value, const char *allowed);
 
-/* `arguments` are those after the verb. */
-option_reader option_reader_start(const option_table *table, console *out, int count, char **arguments);
+/* Reads the words after the verb into `request`. An exit code, or OPTIONS_HELP: the help has been printed and there is nothing more to do.
+ * In every case scene_changes.items are to be freed. */
+enum { OPTIONS_HELP = -1 };
+int options_read(const option_table *table, void *request, int count, char **arguments);
 
-/* The next option's index in the table with its value in *value, or OPTION_OPERAND with the operand, or the end.
- * OPTION_ERROR: a line has been printed, exit with EXIT_CODE_USAGE. OPTION_HELP: the help has been printed. */
-int option_reader_next(option_reader *reader, const char **value);
+/* The same, then runs the verb and frees the changes. An exit code. */
+int options_run(const option_table *table, void *request, int count, char **arguments);
 
 /* The nearest of `count` names, or NULL when none is near. `name_at(names, i)` gives the names. */
 const char *nearest_name(const char *text, const void *names, size_t count, const char *(*name_at)(const void *, size_t));

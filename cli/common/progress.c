@@ -16,10 +16,14 @@ double seconds_now(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
+progress_mode progress_mode_auto(void) { return isatty(STDERR_FILENO) ? PROGRESS_BAR : PROGRESS_NONE; }
+
+progress_mode progress_mode_heard(progress_mode mode, bool quiet) { return quiet && mode == PROGRESS_BAR ? PROGRESS_NONE : mode; }
+
 bool progress_mode_from_name(const char *name, progress_mode *mode)
 {
     if (strcmp(name, "auto") == 0)
-        *mode = isatty(STDERR_FILENO) ? PROGRESS_BAR : PROGRESS_NONE;
+        *mode = progress_mode_auto();
     else if (strcmp(name, "json") == 0)
         *mode = PROGRESS_JSON;
     else if (strcmp(name, "none") == 0)

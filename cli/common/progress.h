@@ -20,6 +20,12 @@ typedef struct progress {
 /* "auto" (a bar on a terminal), "json" or "none". */
 bool progress_mode_from_name(const char *name, progress_mode *mode);
 
+/* "auto", the default of every verb. */
+progress_mode progress_mode_auto(void);
+
+/* A bar is not for a quiet verb; lines for programs are. */
+progress_mode progress_mode_heard(progress_mode mode, bool quiet);
+
 progress progress_start(progress_mode mode, uint64_t frames);
 void progress_frame(progress *p, uint32_t frame);   /* a frame begins */
 void progress_update(progress *p, double fraction); /* of that frame */

@@ -58,9 +58,9 @@ char *compare_picture_command(const compare_job *job, const compare_scene *scene
         fprintf(stream, " %s", r->methods[picture - 1].options);
     if (q->seed)
         fprintf(stream, " --seed %llu", (unsigned long long)q->seed);
-    for (size_t i = 0; i < r->override_count; i++) {
+    for (size_t i = 0; i < r->changes.count; i++) {
         fputs(" --set", stream);
-        put_word(stream, r->overrides[i]);
+        put_word(stream, r->changes.items[i]);
     }
     if (r->context.backend != MGT_BACKEND_CPU)
         fprintf(stream, " --backend %s", mgt_backend_name(r->context.backend));

@@ -123,16 +123,16 @@ static scene_file *load_file(const compare_job *job, const compare_scene *scene,
 {
     const compare_request *r = job->request;
     const compare_view *view = scene->view;
-    const char **all = calloc(r->override_count + view->override_count + 1, sizeof *all);
+    const char **all = calloc(r->changes.count + view->override_count + 1, sizeof *all);
     if (!all) {
         *error = (scene_error){SCENE_ERROR_MEMORY, "out of memory"};
         return NULL;
     }
-    for (size_t i = 0; i < r->override_count; i++)
-        all[i] = r->overrides[i];
+    for (size_t i = 0; i < r->changes.count; i++)
+        all[i] = r->changes.items[i];
     for (size_t i = 0; i < view->override_count; i++)
-        all[r->override_count + i] = view->overrides[i];
-    scene_file *file = scene_file_load(scene->path, all, r->override_count + view->override_count, error);
+        all[r->changes.count + i] = view->overrides[i];
+    scene_file *file = scene_file_load(scene->path, all, r->changes.count + view->override_count, error);
     free(all);
     return file;
 }

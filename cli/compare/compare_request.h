@@ -3,7 +3,6 @@
 #ifndef MANGATA_CLI_COMPARE_COMPARE_REQUEST_H
 #define MANGATA_CLI_COMPARE_COMPARE_REQUEST_H
 
-#include "cli/common/console.h"
 #include "cli/common/context_options.h"
 #include "cli/common/frames.h"
 #include "cli/common/method_spec.h"
@@ -35,8 +34,7 @@ typedef struct compare_request {
     const char *scene_paths[COMPARE_SCENES];
     compare_view views[COMPARE_SCENES];
     size_t scene_count;
-    const char **overrides; /* --set and --size, in order; owned by the caller */
-    size_t override_count;
+    scene_changes changes;
     method_spec methods[COMPARE_METHODS];
     size_t method_count;
     mgt_quality reference;

@@ -2,7 +2,6 @@
 /* `mangata diff A B`: errors of a picture against another, or of two series scored as one clip. */
 #include <inttypes.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "cli/diff/diff_metrics.h"
@@ -13,109 +12,71 @@
 #include "cli/common/options.h"
 #include "cli/common/verbs.h"
 
-enum { OPT_FRAMES, OPT_LAYER, OPT_MAX_RMSE, OPT_FLICKER, OPT_METRICS, OPT_ENCODING, OPT_PIXELS_PER_DEGREE, OPT_GLINT_THRESHOLD, OPT_DISPLAY, OPT_MASK };
-
-static const option diff_options[] = {
-    [OPT_FRAMES] = {"frames", 0, "LIST", "frames to compare when A and B are numbered names"},
-    [OPT_LAYER] = {"layer", 0, "NAME", "layer of .exr pictures (default color, or the only one)"},
-    [OPT_MAX_RMSE] = {"max-rmse", 0, "X", "exit with 2 when the RMSE is above X or values are not comparable"},
-    [OPT_FLICKER] = {"flicker", 0, NULL,
-                     "compare the differences from frame to frame: the RMS of\n"
-                     "(A[n+1] - A[n]) - (B[n+1] - B[n])"},
-    [OPT_METRICS] = {"metrics", 0, "LIST",
-                     "also measure: flip, hdr-flip, ssim, yee (by idiff), flicker, and rmse,\n"
-                     "relrmse, energy, which are always there; B is the reference"},
-    [OPT_ENCODING] = {"encoding", 0, "E", "of the values, for --metrics: linear or srgb (default srgb for .png)"},
-    [OPT_PIXELS_PER_DEGREE] = {"pixels-per-degree", 0, "X", "of the viewer's eye, for FLIP, 4 to 400 (default 67)"},
-    [OPT_GLINT_THRESHOLD] = {"glint-threshold", 0, "X",
-                             "luminance above which a pixel is a glint, for flicker (default:\n"
-                             "half of what a thousandth of B's first frame exceed)"},
-    [OPT_DISPLAY] = {"display", 0, "EV",
-                     "first make displayed values of linear light: times 2^EV, clamped,\n"
-                     "sRGB-encoded, 0 to 1"},
-    [OPT_MASK] = {"mask", 0, "M",
-                  "count only the pixels that are 1 in this picture of one channel\n"
-                  "(or clip of such); the others are black in A and B"},
-};
-
-static const option_table diff_table = {"diff",
-                                        "A B [options]",
-                                        "Measures how far A is from B (.png, .exr, .pfm): RMSE, relative RMSE (by the RMS of B),\n"
-                                        "mean ratio (A / B) and the largest difference, over whole pictures. Numbered names\n"
-                                        "(frame_%04d.pfm or frame_####.pfm) are read as clips and scored together.",
-                                        diff_options,
-                                        sizeof diff_options / sizeof diff_options[0],
-                                        .notes = "exit codes: 0 done, 1 sizes or channels differ, 2 above --max-rmse, 64 usage, 65 bad picture,\n"
-                                                 "66 no such picture"};
-
 typedef struct diff_request {
     console out;
     const char *paths[2], *layer;
     frame_path names[2];
-    bool frames_given, gated, flicker;
-    frame_list frames;
+    bool gated, flicker;
+    frame_list frames; /* none: not given */
     double max_rmse;
     diff_metrics metrics;
     diff_prepare prepare;
     bool encoding_given;
 } diff_request;
 
-static int set_option(diff_request *r, int id, const char *value)
+static int add_picture(const option *o, void *place, const char *value)
 {
-    const char *wrong;
-    switch (id) {
-    case OPT_FRAMES:
-        if ((wrong = frame_list_parse(&r->frames, value)))
-            return console_error(EXIT_CODE_USAGE, "--frames %s: %s", value, wrong);
-        r->frames_given = true;
-        break;
-    case OPT_LAYER:
-        r->layer = value;
-        break;
-    case OPT_MAX_RMSE:
-        if (!number_parse_double(value, &r->max_rmse) || r->max_rmse < 0)
-            return console_error(EXIT_CODE_USAGE, "--max-rmse %s: allowed is a number from 0", value);
-        r->gated = true;
-        break;
-    case OPT_FLICKER:
-        r->flicker = true;
-        break;
-    case OPT_METRICS:
-        if (!clip_metrics_parse(value, &r->metrics.wanted.metrics))
-            return console_error(EXIT_CODE_USAGE, "--metrics %s: allowed are %s, separated by commas", value, clip_metric_words);
-        break;
-    case OPT_ENCODING:
-        r->encoding_given = true;
-        r->metrics.wanted.srgb_encoded = strcmp(value, "srgb") == 0;
-        if (!r->metrics.wanted.srgb_encoded && strcmp(value, "linear") != 0)
-            return console_error(EXIT_CODE_USAGE, "--encoding %s: allowed are linear and srgb", value);
-        break;
-    case OPT_PIXELS_PER_DEGREE:
-        if (!number_parse_double(value, &r->metrics.wanted.pixels_per_degree) || r->metrics.wanted.pixels_per_degree < 4 ||
-            r->metrics.wanted.pixels_per_degree > 400)
-            return console_error(EXIT_CODE_USAGE, "--pixels-per-degree %s: allowed is a number from 4 to 400", value);
-        break;
-    case OPT_GLINT_THRESHOLD:
-        if (!number_parse_double(value, &r->metrics.wanted.glint_threshold) || !(r->metrics.wanted.glint_threshold > 0))
-            return console_error(EXIT_CODE_USAGE, "--glint-threshold %s: allowed is a number above 0", value);
-        break;
-    case OPT_DISPLAY:
-        r->prepare.displayed = true;
-        if (!number_parse_double(value, &r->prepare.exposure) || !(fabs(r->prepare.exposure) <= 100))
-            return console_error(EXIT_CODE_USAGE, "--display %s: allowed is a number of stops from -100 to 100", value);
-        break;
-    case OPT_MASK:
-        r->prepare.mask = value;
-        break;
-    case OPTION_OPERAND:
-        if (r->paths[1])
-            return console_error(EXIT_CODE_USAGE, "two pictures are compared; %s is one more", value);
-        r->paths[r->paths[0] ? 1 : 0] = value;
-        break;
-    default:
-        break;
-    }
+    diff_request *r = place;
+    (void)o;
+    if (r->paths[1])
+        return console_error(EXIT_CODE_USAGE, "two pictures are compared; %s is one more", value);
+    r->paths[r->paths[0] ? 1 : 0] = value;
     return EXIT_CODE_OK;
+}
+
+static int set_max_rmse(const option *o, void *place, const char *value)
+{
+    diff_request *r = place;
+    r->gated = true;
+    return number_parse_double(value, &r->max_rmse) && r->max_rmse >= 0 ? EXIT_CODE_OK : option_wrong(o, value, "a number from 0");
+}
+
+static int set_metrics(const option *o, void *place, const char *value)
+{
+    diff_request *r = place;
+    if (clip_metrics_parse(value, &r->metrics.wanted.metrics))
+        return EXIT_CODE_OK;
+    return console_error(EXIT_CODE_USAGE, "--%s %s: allowed are %s, separated by commas", o->name, value, clip_metric_words);
+}
+
+static int set_encoding(const option *o, void *place, const char *value)
+{
+    diff_request *r = place;
+    r->encoding_given = true;
+    r->metrics.wanted.srgb_encoded = strcmp(value, "srgb") == 0;
+    if (r->metrics.wanted.srgb_encoded || strcmp(value, "linear") == 0)
+        return EXIT_CODE_OK;
+    return console_error(EXIT_CODE_USAGE, "--%s %s: allowed are linear and srgb", o->name, value);
+}
+
+static int set_pixels_per_degree(const option *o, void *place, const char *value)
+{
+    double *number = place;
+    return number_parse_double(value, number) && *number >= 4 && *number <= 400 ? EXIT_CODE_OK : option_wrong(o, value, "a number from 4 to 400");
+}
+
+static int set_glint_threshold(const option *o, void *place, const char *value)
+{
+    double *number = place;
+    return number_parse_double(value, number) && *number > 0 ? EXIT_CODE_OK : option_wrong(o, value, "a number above 0");
+}
+
+static int set_display(const option *o, void *place, const char *value)
+{
+    diff_prepare *prepare = place;
+    prepare->displayed = true;
+    return number_parse_double(value, &prepare->exposure) && fabs(prepare->exposure) <= 100 ? EXIT_CODE_OK
+                                                                                            : option_wrong(o, value, "a number of stops from -100 to 100");
 }
 
 /* PNG holds sRGB-encoded values, the others light. */
@@ -150,11 +111,11 @@ static int check_request(diff_request *r)
         return console_error(EXIT_CODE_USAGE, "--display makes sRGB-encoded values; leave --encoding out");
     if (r->names[0].numbered != r->names[1].numbered)
         return console_error(EXIT_CODE_USAGE, "%s and %s: number both names or neither", r->paths[0], r->paths[1]);
-    if (r->names[0].numbered && !r->frames_given)
+    if (r->names[0].numbered && !r->frames.count)
         return console_error(EXIT_CODE_USAGE, "numbered names need --frames, such as --frames 0-59");
-    if (!r->names[0].numbered && r->frames_given)
+    if (!r->names[0].numbered && r->frames.count)
         return console_error(EXIT_CODE_USAGE, "--frames needs numbered names, such as frame_%%04d.pfm");
-    if (!r->frames_given)
+    if (!r->frames.count)
         frame_list_span(&r->frames, 0, 0);
     if (r->flicker && frame_list_length(&r->frames) < 2)
         return console_error(EXIT_CODE_USAGE, "--flicker needs numbered names and at least two frames");
@@ -260,7 +221,7 @@ static int print_report(diff_request *r, const image_metrics *m)
     printf("%-15s%" PRIu64 "\n", r->flicker ? "frame steps" : "frames", m->frames);
     printf("%-15s%.6g\n%-15s%.6g\n%-15s%.6g\n", r->flicker ? "flicker" : "rmse", rmse, "relative rmse", relative, "mean ratio", ratio);
     printf("%-15s%.6g at x %u, y %u, channel %u", "maximum", m->max_difference, m->max_x, m->max_y, m->max_channel);
-    if (r->frames_given)
+    if (r->names[0].numbered)
         printf(", frame %u", frame);
     putchar('\n');
     if (m->mismatches)
@@ -268,19 +229,10 @@ static int print_report(diff_request *r, const image_metrics *m)
     return diff_metrics_print(&r->metrics);
 }
 
-static int run(diff_request *r, int count, char **arguments)
+static int run(void *request)
 {
-    option_reader reader = option_reader_start(&diff_table, &r->out, count, arguments);
-    const char *value = NULL;
-    int id, code;
-    while ((id = option_reader_next(&reader, &value)) != OPTION_END) {
-        if (id == OPTION_HELP)
-            return EXIT_CODE_OK;
-        if (id == OPTION_ERROR)
-            return EXIT_CODE_USAGE;
-        if ((code = set_option(r, id, value)) != EXIT_CODE_OK)
-            return code;
-    }
+    diff_request *r = request;
+    int code;
     image_metrics metrics = {0};
     if ((code = check_request(r)) != EXIT_CODE_OK || (code = measure(r, &metrics)) != EXIT_CODE_OK)
         return code;
@@ -293,13 +245,51 @@ static int run(diff_request *r, int count, char **arguments)
     return EXIT_CODE_OK;
 }
 
+static const option diff_options[] = {
+    {"frames", 0, "LIST", "frames to compare when A and B are numbered names", .set = option_frames, .offset = offsetof(diff_request, frames)},
+    {"layer", 0, "NAME", "layer of .exr pictures (default color, or the only one)", .set = option_text, .offset = offsetof(diff_request, layer)},
+    {"max-rmse", 0, "X", "exit with 2 when the RMSE is above X or values are not comparable", .set = set_max_rmse},
+    {"flicker", 0, NULL,
+     "compare the differences from frame to frame: the RMS of\n"
+     "(A[n+1] - A[n]) - (B[n+1] - B[n])",
+     .set = option_given, .offset = offsetof(diff_request, flicker)},
+    {"metrics", 0, "LIST",
+     "also measure: flip, hdr-flip, ssim, yee (by idiff), flicker, and rmse,\n"
+     "relrmse, energy, which are always there; B is the reference",
+     .set = set_metrics},
+    {"encoding", 0, "E", "of the values, for --metrics: linear or srgb (default srgb for .png)", .set = set_encoding},
+    {"pixels-per-degree", 0, "X", "of the viewer's eye, for FLIP, 4 to 400 (default 67)", .set = set_pixels_per_degree,
+     .offset = offsetof(diff_request, metrics.wanted.pixels_per_degree)},
+    {"glint-threshold", 0, "X",
+     "luminance above which a pixel is a glint, for flicker (default:\n"
+     "half of what a thousandth of B's first frame exceed)",
+     .set = set_glint_threshold, .offset = offsetof(diff_request, metrics.wanted.glint_threshold)},
+    {"display", 0, "EV",
+     "first make displayed values of linear light: times 2^EV, clamped,\n"
+     "sRGB-encoded, 0 to 1",
+     .set = set_display, .offset = offsetof(diff_request, prepare)},
+    {"mask", 0, "M",
+     "count only the pixels that are 1 in this picture of one channel\n"
+     "(or clip of such); the others are black in A and B",
+     .set = option_text, .offset = offsetof(diff_request, prepare.mask)},
+};
+
+static const option_table diff_table = {"diff",
+                                        "A B [options]",
+                                        "Measures how far A is from B (.png, .exr, .pfm): RMSE, relative RMSE (by the RMS of B),\n"
+                                        "mean ratio (A / B) and the largest difference, over whole pictures. Numbered names\n"
+                                        "(frame_%04d.pfm or frame_####.pfm) are read as clips and scored together.",
+                                        diff_options,
+                                        sizeof diff_options / sizeof diff_options[0],
+                                        .notes = "exit codes: 0 done, 1 sizes or channels differ, 2 above --max-rmse, 64 usage, 65 bad picture,\n"
+                                                 "66 no such picture",
+                                        .operand = {.set = add_picture},
+                                        .run = run};
+
 int verb_diff(int count, char **arguments)
 {
-    diff_request *request = calloc(1, sizeof *request);
-    if (!request)
-        return console_error(EXIT_CODE_FAILED, "out of memory");
-    const int code = run(request, count, arguments);
-    diff_metrics_free(&request->metrics);
-    free(request);
+    diff_request request = {.out = {0}};
+    const int code = options_run(&diff_table, &request, count, arguments);
+    diff_metrics_free(&request.metrics);
     return code;
 }

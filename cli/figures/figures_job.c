@@ -91,8 +91,7 @@ static int choose_pictures(figures_job *f)
     compare_request *c = &f->renders;
     *c = (compare_request){.out = r->out,
                            .folder = r->folder,
-                           .overrides = r->overrides,
-                           .override_count = r->override_count,
+                           .changes = r->changes,
                            .reference = r->reference,
                            .frames = r->frames,
                            .time_runs = r->time_runs,

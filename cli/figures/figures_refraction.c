@@ -133,8 +133,7 @@ static int choose(refraction_figures *r, const char *folder)
     compare_request *c = &r->renders;
     *c = (compare_request){.out = request->out,
                            .folder = request->folder,
-                           .overrides = request->overrides,
-                           .override_count = request->override_count,
+                           .changes = request->changes,
                            .layers = {MGT_LAYER_REFRACTION, MGT_LAYER_MASK},
                            .layer_count = 2,
                            .time_runs = request->time_runs,

@@ -3,7 +3,6 @@
 #ifndef MANGATA_CLI_FIGURES_FIGURES_REQUEST_H
 #define MANGATA_CLI_FIGURES_FIGURES_REQUEST_H
 
-#include "cli/common/console.h"
 #include "cli/common/context_options.h"
 #include "cli/common/frames.h"
 #include "cli/common/progress.h"
@@ -39,10 +38,9 @@ typedef enum figure_id {
 typedef struct figures_request {
     console out;
     const char *folder;
-    const char *scenes;     /* the folder of the standard scenes; NULL: look for it */
-    uint32_t wanted;        /* bits 1u << figure_id */
-    const char **overrides; /* --set and --size, in order; owned by the caller */
-    size_t override_count;
+    const char *scenes; /* the folder of the standard scenes; NULL: look for it */
+    uint32_t wanted;    /* bits 1u << figure_id */
+    scene_changes changes;
     bool size_given;
     mgt_quality reference;
     uint32_t refraction_samples; /* of pictures of traced refraction */

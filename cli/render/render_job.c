@@ -53,7 +53,7 @@ static int frame_scene(const render_job *job, uint32_t frame, mgt_scene *scene)
 {
     if (!scene_file_frame(job->scene, (int)frame, scene))
         return console_error(EXIT_CODE_BAD_INPUT, "%s: the camera of frame %u is not a legal one", job->request->scene_path, frame);
-    if (job->request->crop_given) {
+    if (job->request->crop[2]) {
         const uint64_t *crop = job->request->crop;
         scene->image.crop_x = (uint32_t)crop[0];
         scene->image.crop_y = (uint32_t)crop[1];
@@ -72,7 +72,7 @@ static int load_scene(render_job *job)
 {
     render_request *r = job->request;
     scene_error error;
-    job->scene = scene_file_load(r->scene_path, r->overrides, r->override_count, &error);
+    job->scene = scene_file_load(r->scene_path, r->changes.items, r->changes.count, &error);
     if (!job->scene)
         return console_scene_error(&error);
     job->canonical = scene_file_canonical(job->scene, NULL);
@@ -82,7 +82,7 @@ static int load_scene(render_job *job)
     const mgt_quality base = scene_file_quality(job->scene);
     if (!quality_options_apply(&r->options, &base, &r->quality, wrong, sizeof wrong))
         return console_error(EXIT_CODE_USAGE, "%s", wrong);
-    if (!r->frames_given) {
+    if (!r->frames.count) {
         const bool one = !render_is_film(r) && !r->path.numbered;
         frame_list_span(&r->frames, 0, one ? 0 : (uint32_t)scene_file_frame_count(job->scene) - 1);
     }

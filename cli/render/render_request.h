@@ -3,7 +3,6 @@
 #ifndef MANGATA_CLI_RENDER_RENDER_REQUEST_H
 #define MANGATA_CLI_RENDER_RENDER_REQUEST_H
 
-#include "cli/common/console.h"
 #include "cli/common/context_options.h"
 #include "cli/common/frames.h"
 #include "image/picture.h"
@@ -18,11 +17,9 @@ typedef struct render_request {
     picture_format format; /* of output */
     frame_path path;       /* the same output, taken apart */
 
-    const char **overrides; /* --set and --size, in order; owned by the caller */
-    size_t override_count;
-    bool frames_given, crop_given;
-    frame_list frames;
-    uint64_t crop[4];        /* x, y, width, height */
+    scene_changes changes;
+    frame_list frames;       /* none: not given */
+    uint64_t crop[4];        /* x, y, width, height; 0: not given */
     quality_options options; /* of quality, as given */
     mgt_quality quality;     /* with those of the scene, once it is loaded */
     context_options context;
