@@ -108,28 +108,6 @@ fail:
     return text;
 }
 
-file_status metadata_write_json(const char *json_path, const metadata_list *metadata, const output_options *options, file_error *error)
-{
-    static const metadata_list none = {0};
-    file_status status = metadata_check(metadata, error);
-    if (status != FILE_OK)
-        return status;
-    char *text = metadata_json_text(metadata ? metadata : &none);
-    if (!text)
-        return file_error_errno(error, FILE_MEMORY, json_path, NULL, ENOMEM);
-    output_file *file = NULL;
-    status = output_file_open(&file, json_path, options, error);
-    if (status == FILE_OK) {
-        status = output_file_write(file, text, strlen(text), error);
-        if (status == FILE_OK)
-            status = output_file_finish(file, error);
-        else
-            output_file_abort(file);
-    }
-    free(text);
-    return status;
-}
-
 static file_status sidecar_read(const char *path, const char *key, char **value, file_error *error)
 {
     input_file input = {0};

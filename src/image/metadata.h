@@ -28,9 +28,6 @@ file_status metadata_check(const metadata_list *metadata, file_error *error);
 /* "PATH.json" for the picture at `path` ("road.pfm" has "road.pfm.json"); the caller frees it. NULL: out of memory. */
 char *metadata_sidecar_path(const char *path);
 
-/* Writes a JSON object of strings, atomically, to `json_path` (a whole file name, see metadata_sidecar_path). */
-file_status metadata_write_json(const char *json_path, const metadata_list *metadata, const output_options *options, file_error *error);
-
 /* Reads what the file at `path` (.png, .exr by their own content; others by their sidecar) records for `key`.
  * FILE_OK with *value NULL: the file is there but records no such key, or an empty value, or has no sidecar. FILE_MISSING: no such file.
  * The caller frees *value. */

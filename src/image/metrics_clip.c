@@ -397,15 +397,3 @@ const char *clip_metrics_missing(const clip_metrics *m, clip_metric metric)
 const image_metrics *clip_metrics_sums(const clip_metrics *m) { return &m->sums; }
 
 double clip_metrics_glint_threshold(const clip_metrics *m) { return m->desc.glint_threshold; }
-
-void clip_metrics_flicker_maps(const clip_metrics *m, float *step_error, float *power_difference)
-{
-    if (m->flicker) {
-        flicker_maps(m->flicker, step_error, power_difference);
-        return;
-    }
-    if (step_error)
-        memset(step_error, 0, m->pixels * sizeof *step_error);
-    if (power_difference)
-        memset(power_difference, 0, m->pixels * sizeof *power_difference);
-}

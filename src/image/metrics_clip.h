@@ -96,8 +96,4 @@ const image_metrics *clip_metrics_sums(const clip_metrics *metrics);
 /* The threshold of glints in use; 0 before a first frame that has to tell it. */
 double clip_metrics_glint_threshold(const clip_metrics *metrics);
 
-/* The clip's flicker per pixel, width · height floats, top row first: √ mean over steps and channels of the steps' error², and the signed
- * P(A) − P(B): above 0 where A flickers more. Zeros below two frames or where no flicker is measured. Either may be NULL. */
-void clip_metrics_flicker_maps(const clip_metrics *metrics, float *step_error, float *power_difference);
-
 #endif

@@ -262,14 +262,3 @@ file_status flicker_measure(const flicker *f, flicker_scores *scores, file_error
     free(sorted);
     return FILE_OK;
 }
-
-void flicker_maps(const flicker *f, float *step_error, float *power_difference)
-{
-    const double steps = f->frames > 1 ? (double)(f->frames - 1) : 1;
-    for (size_t i = 0; i < f->pixels; i++) {
-        if (step_error)
-            step_error[i] = (float)sqrt(f->squared_error[i] / steps);
-        if (power_difference)
-            power_difference[i] = (float)((f->power[0][i] - f->power[1][i]) / steps);
-    }
-}

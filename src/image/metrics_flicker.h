@@ -46,9 +46,6 @@ typedef struct flicker_scores {
 
 file_status flicker_measure(const flicker *f, flicker_scores *scores, file_error *error);
 
-/* Per pixel: √ mean over steps and channels of the squared error; power of A − power of B. Zeros where there are no steps. */
-void flicker_maps(const flicker *f, float *step_error, float *power_difference);
-
 /* How many groups of pixels above `threshold`, eight neighbours joined; adds each to sizes[floor(log2(its pixels))]. `labels`: a scratch
  * of 2 · width · height. */
 uint32_t flicker_count_glints(const float *luminance, uint32_t width, uint32_t height, float threshold, uint32_t *labels, uint64_t sizes[32]);

@@ -31,22 +31,6 @@ picture_format picture_format_of(const char *path)
     return PICTURE_UNKNOWN;
 }
 
-file_status picture_check_output(const char *path, const output_options *options, file_error *error)
-{
-    picture_format format = picture_format_of(path);
-    if (format == PICTURE_UNKNOWN)
-        return file_error_set(error, FILE_ARGUMENT, "%s: the name must end in .png, .exr, .pfm, .mp4 or .y4m", path);
-    file_status status = output_file_check(path, options, error);
-    if (status != FILE_OK || format == PICTURE_PNG || format == PICTURE_EXR)
-        return status;
-    char *sidecar = metadata_sidecar_path(path);
-    if (!sidecar)
-        return file_error_errno(error, FILE_MEMORY, path, NULL, ENOMEM);
-    status = output_file_check(sidecar, options, error);
-    free(sidecar);
-    return status;
-}
-
 file_status input_file_open(input_file *input, const char *path, file_error *error)
 {
     *input = (input_file){.path = path};

@@ -15,10 +15,6 @@ typedef enum picture_format { PICTURE_UNKNOWN = 0, PICTURE_PNG, PICTURE_EXR, PIC
 /* By the extension, upper or lower case. */
 picture_format picture_format_of(const char *path);
 
-/* Whether `path` (any format above; FILE_ARGUMENT else) and its sidecar, where the format has one, could be written as things
- * stand: for an early message before long work. See output_file_check. */
-file_status picture_check_output(const char *path, const output_options *options, file_error *error);
-
 /* ---- writers: whole or not at all; nothing is copied but a few rows ------------------------------------------------- */
 
 /* One float layer in the caller's memory. */

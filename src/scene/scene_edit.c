@@ -283,8 +283,6 @@ static void write_value(FILE *stream, const field_row *field, const void *parent
     }
 }
 
-void scene_value_write(FILE *stream, const field_row *field, const void *parent) { write_value(stream, field, parent, parent); }
-
 /* ---- whole files ------------------------------------------------------------------------------------------- */
 
 static void write_inner_member(FILE *stream, const field_row *field, const void *parent, const void *defaults, bool first)

@@ -32,10 +32,6 @@ bool scene_objects_equal(const scene_values *left, const scene_values *right);
  * there is none, or no such item. */
 const field_row *scene_values_find(const scene_values *values, const char *path, const void **value);
 
-/* Writes a single value or a list as YAML and `--set` read it: "3", "[0, 4, 0]", "sun", "[{a: 1, b: 2}]". `parent`: the struct that holds
- * the value. */
-void scene_value_write(FILE *stream, const field_row *field, const void *parent);
-
 /* A whole scene file that reads back as the same values. False on a write error. */
 bool scene_values_write(FILE *stream, const scene_values *values);
 

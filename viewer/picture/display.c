@@ -252,8 +252,6 @@ GLuint display_texture(display *d, int side, mgt_layer layer, uint32_t width, ui
     return s->texture;
 }
 
-void display_clear(display *d, int side) { d->sides[side].filled = false; }
-
 /* ---- drawing ---- */
 
 void display_draw(const display *d, const display_view *view)

@@ -31,9 +31,6 @@ void display_upload(display *d, int side, mgt_layer layer, uint32_t width, uint3
 /* A texture for mgt_gl_render_textures() to write the layer into; needs OpenGL 4.2. */
 GLuint display_texture(display *d, int side, mgt_layer layer, uint32_t width, uint32_t height);
 
-/* Forgets a side's picture. */
-void display_clear(display *d, int side);
-
 /* Draws. A side without a picture, or with one of another layer than side A's, is left out. */
 void display_draw(const display *d, const display_view *view);
 

@@ -249,8 +249,6 @@ void ui_tabs_end(void) { ImGui::EndTabBar(); }
 
 float ui_font_size(void) { return ImGui::GetFontSize(); }
 
-float ui_row_height(void) { return ImGui::GetFrameHeightWithSpacing(); }
-
 ui_rect ui_room(void)
 {
     const ImVec2 at = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
@@ -261,13 +259,7 @@ void ui_same_line(float from_left) { ImGui::SameLine(from_left); }
 
 void ui_space(float height) { ImGui::Dummy(ImVec2(0, height)); }
 
-void ui_separator(void) { ImGui::Separator(); }
-
 void ui_item_width(float width) { ImGui::SetNextItemWidth(width); }
-
-void ui_push_id(int id) { ImGui::PushID(id); }
-
-void ui_pop_id(void) { ImGui::PopID(); }
 
 void ui_disabled_begin(bool disabled) { ImGui::BeginDisabled(disabled); }
 
@@ -282,14 +274,6 @@ void ui_tooltip(const char *text)
     ImGui::TextUnformatted(text);
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();
-}
-
-bool ui_item_held(void) { return ImGui::IsItemActive(); }
-
-ui_rect ui_item_rect(void)
-{
-    const ImVec2 low = ImGui::GetItemRectMin(), size = ImGui::GetItemRectSize();
-    return {low.x, low.y, size.x, size.y};
 }
 
 /* ---- items ---- */
@@ -312,8 +296,6 @@ void ui_text_wrapped(ui_tone tone, const char *text)
 }
 
 bool ui_button(const char *label, float width) { return ImGui::Button(label, ImVec2(width, 0)); }
-
-bool ui_small_button(const char *label) { return ImGui::SmallButton(label); }
 
 bool ui_toggle_button(const char *label, bool on, float width)
 {
@@ -390,14 +372,6 @@ ui_rect ui_canvas(const char *name, float height)
     return {at.x, at.y, width, height};
 }
 
-bool ui_canvas_held(float *x, float *y)
-{
-    const ImVec2 low = ImGui::GetItemRectMin(), size = ImGui::GetItemRectSize(), at = ImGui::GetIO().MousePos;
-    *x = (at.x - low.x) / size.x;
-    *y = (at.y - low.y) / size.y;
-    return ImGui::IsItemActive();
-}
-
 void ui_draw_line(ui_layer layer, float x0, float y0, float x1, float y1, uint32_t color, float thickness)
 {
     list_of(layer)->AddLine(ImVec2(x0, y0), ImVec2(x1, y1), packed(color), thickness);
@@ -414,11 +388,6 @@ void ui_draw_polyline(ui_layer layer, const float *points, int count, uint32_t c
 void ui_draw_box(ui_layer layer, ui_rect p, uint32_t color, float rounding)
 {
     list_of(layer)->AddRectFilled(ImVec2(p.x, p.y), ImVec2(p.x + p.width, p.y + p.height), packed(color), rounding);
-}
-
-void ui_draw_frame(ui_layer layer, ui_rect p, uint32_t color, float rounding)
-{
-    list_of(layer)->AddRect(ImVec2(p.x, p.y), ImVec2(p.x + p.width, p.y + p.height), packed(color), rounding);
 }
 
 void ui_draw_disk(ui_layer layer, float x, float y, float radius, uint32_t color) { list_of(layer)->AddCircleFilled(ImVec2(x, y), radius, packed(color)); }

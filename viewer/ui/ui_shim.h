@@ -76,19 +76,13 @@ void ui_tabs_end(void);
 /* ---- layout ---- */
 
 float ui_font_size(void);
-float ui_row_height(void);
 ui_rect ui_room(void);              /* what is left of the window */
 void ui_same_line(float from_left); /* 0: right behind the last item */
 void ui_space(float height);
-void ui_separator(void);
 void ui_item_width(float width); /* of the next item */
-void ui_push_id(int id);
-void ui_pop_id(void);
 void ui_disabled_begin(bool disabled);
 void ui_disabled_end(void);
 void ui_tooltip(const char *text); /* of the last item, while the pointer rests on it */
-bool ui_item_held(void);
-ui_rect ui_item_rect(void);
 
 /* ---- items: each returns true when the user has changed or pressed it ---- */
 
@@ -97,7 +91,6 @@ typedef enum ui_tone { UI_TONE_NORMAL, UI_TONE_FAINT, UI_TONE_ACCENT, UI_TONE_WA
 void ui_text(ui_tone tone, const char *text);
 void ui_text_wrapped(ui_tone tone, const char *text);
 bool ui_button(const char *label, float width); /* width 0: as the label needs */
-bool ui_small_button(const char *label);
 bool ui_toggle_button(const char *label, bool on, float width);
 bool ui_checkbox(const char *label, bool *on);
 bool ui_slider(const char *label, double *value, double min, double max, const char *format, bool logarithmic);
@@ -115,11 +108,9 @@ typedef enum ui_layer { UI_LAYER_WINDOW, UI_LAYER_BEHIND, UI_LAYER_ABOVE } ui_la
 
 /* An empty item to draw on, as wide as there is room. */
 ui_rect ui_canvas(const char *name, float height);
-bool ui_canvas_held(float *x, float *y); /* the last canvas is pressed; where, from 0 to 1 */
 void ui_draw_line(ui_layer layer, float x0, float y0, float x1, float y1, uint32_t color, float thickness);
 void ui_draw_polyline(ui_layer layer, const float *points, int count, uint32_t color, float thickness, bool closed);
 void ui_draw_box(ui_layer layer, ui_rect place, uint32_t color, float rounding);
-void ui_draw_frame(ui_layer layer, ui_rect place, uint32_t color, float rounding);
 void ui_draw_disk(ui_layer layer, float x, float y, float radius, uint32_t color);
 void ui_draw_circle(ui_layer layer, float x, float y, float radius, uint32_t color, float thickness);
 void ui_draw_text(ui_layer layer, float x, float y, uint32_t color, const char *text);
