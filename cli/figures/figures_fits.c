@@ -71,7 +71,7 @@ static double feline_least(int probes, int kernels)
     return least;
 }
 
-int figures_fits(figures_job *f)
+void figures_fits(figures_job *f)
 {
     double e[FIT_STEPS], error[FITS][FIT_STEPS], relative[FITS][FIT_STEPS], most = 0;
     svg sheet;
@@ -84,8 +84,8 @@ int figures_fits(figures_job *f)
         }
         most = fmax(most, error[1][i]);
     }
-    if (!svg_start(&sheet, 1140, 410))
-        return figures_no_memory();
+    if (!figures_sheet(f, &sheet, 1140, 410))
+        return;
     const double step = pow(10, floor(log10(most)));
     const plot left = {.x = 95,
                        .y = 40,
@@ -110,7 +110,7 @@ int figures_fits(figures_job *f)
     }
     figures_section(f, "fig21", "Fig. 21: error of the circular kernels");
     fputs("<p class=\"published\">Published: ε for three kernels over σ<sub>y</sub>, without printed values.</p>\n", f->page);
-    const int code = figures_plate(f, &sheet, "fig21", "Fit error over elongation", EXIT_CODE_OK);
+    figures_plate(f, &sheet, "fig21", "Fit error over elongation");
     table_of_fits(f);
     const double ratio = printed_over_true(4) / (4 * pi);
     fprintf(f->page,
@@ -124,5 +124,4 @@ int figures_fits(figures_job *f)
                   INFINITY);
     figures_check(f, "Fig. 21: the same with nine", feline_least(9, 9), 1, INFINITY);
     figures_section_end(f);
-    return code;
 }

@@ -171,8 +171,8 @@ static uint8_t *read_whole(const char *path, size_t *size)
     return NULL;
 }
 
-int figures_embed(figures_job *f, svg *sheet, const char *name, const uint8_t *rgba, uint32_t width, uint32_t height, svg_crop crop, double x, double y,
-                  double shown_width, double shown_height)
+static int embed(figures_job *f, svg *sheet, const char *name, const uint8_t *rgba, uint32_t width, uint32_t height, svg_crop crop, double x, double y,
+                 double shown_width, double shown_height)
 {
     char path[COMPARE_PATH], file[128];
     file_error error;
@@ -190,6 +190,25 @@ int figures_embed(figures_job *f, svg *sheet, const char *name, const uint8_t *r
     return done ? EXIT_CODE_OK : figures_no_memory();
 }
 
+void figures_embed(figures_job *f, svg *sheet, const char *name, const uint8_t *rgba, uint32_t width, uint32_t height, svg_crop crop, double x, double y,
+                   double shown_width, double shown_height)
+{
+    if (figures_good(f))
+        f->code = embed(f, sheet, name, rgba, width, height, crop, x, y, shown_width, shown_height);
+}
+
+void figures_put(figures_job *f, svg *sheet, size_t scene, size_t picture, const svg_crop *crop, double x, double y, double scale)
+{
+    const compare_scene *s = &f->compare->scenes[scene];
+    uint8_t *rgba = NULL;
+    char name[200];
+    if (figures_good(f))
+        f->code = figures_display(f->compare, scene, picture, 0, figure_stops[FIGURE_SHOWN], &rgba);
+    snprintf(name, sizeof name, "%s-%s", s->name, picture == COMPARE_REFERENCE ? "reference" : f->renders.methods[picture - 1].file);
+    figures_embed(f, sheet, name, rgba, s->width, s->height, *crop, x, y, crop->width * scale, crop->height * scale);
+    free(rgba);
+}
+
 svg_crop figures_glitter_crop(uint32_t width, uint32_t height)
 {
     const double w = floor(width * 0.34), h = floor(height * 0.68);
@@ -198,39 +217,28 @@ svg_crop figures_glitter_crop(uint32_t width, uint32_t height)
 
 void figures_steps(figures_job *f, uint64_t steps) { f->compare->progress = progress_start(f->request->progress, steps); }
 
-int figures_step(figures_job *f)
+void figures_step(figures_job *f)
 {
-    if (*interrupt_flag())
-        return compare_stopped(f->compare);
+    if (figures_good(f) && *interrupt_flag())
+        f->code = compare_stopped(f->compare);
     f->compare->progress.frames_done++;
     progress_update(&f->compare->progress, 0);
-    return EXIT_CODE_OK;
 }
 
 /* ---- the run ---- */
 
-static int make_figures(figures_job *f)
+static void make_figures(figures_job *f)
 {
-    int code = EXIT_CODE_OK;
-    if (figure_wanted(f, FIGURE_TABLE1))
-        code = figures_table1(f);
-    if (code == EXIT_CODE_OK && figure_wanted(f, FIGURE_11))
-        code = figures_transition(f);
-    if (code == EXIT_CODE_OK && figure_wanted(f, FIGURE_12))
-        code = figures_scene_views(f);
-    for (int s = 0; s < FIGURE_SCENES && code == EXIT_CODE_OK; s++)
-        if (figure_wanted(f, (figure_id)(FIGURE_13 + s)))
-            code = figures_glitter(f, (size_t)s);
-    if (code == EXIT_CODE_OK && figure_wanted(f, FIGURE_17))
-        code = figures_kernels(f);
-    if (code == EXIT_CODE_OK && figure_wanted(f, FIGURE_18))
-        code = figures_bars(f);
-    if (code == EXIT_CODE_OK && figure_wanted(f, FIGURE_20))
-        code = figures_mirror(f);
-    if (code == EXIT_CODE_OK && figure_wanted(f, FIGURE_21))
-        code = figures_fits(f);
+    static const struct {
+        figure_id id;
+        void (*make)(figures_job *f);
+    } makers[] = {{FIGURE_TABLE1, figures_table1}, {FIGURE_11, figures_transition}, {FIGURE_12, figures_scene_views}, {FIGURE_13, figures_simple},
+                  {FIGURE_14, figures_smooth},     {FIGURE_15, figures_medium},     {FIGURE_16, figures_high},        {FIGURE_17, figures_kernels},
+                  {FIGURE_18, figures_bars},       {FIGURE_20, figures_mirror},     {FIGURE_21, figures_fits}};
+    for (size_t i = 0; i < sizeof makers / sizeof *makers && figures_good(f); i++)
+        if (figure_wanted(f, makers[i].id))
+            makers[i].make(f);
     progress_clear(&f->compare->progress);
-    return code;
 }
 
 static int make_page(figures_job *f)
@@ -240,16 +248,16 @@ static int make_page(figures_job *f)
     f->page = open_memstream(&sections, &size);
     if (!f->page)
         return figures_no_memory();
-    int code = make_figures(f);
-    if (code == EXIT_CODE_OK && f->refraction)
-        code = figures_refraction(f);
+    make_figures(f);
+    if (figures_good(f) && f->refraction)
+        figures_refraction(f);
     const bool failed = ferror(f->page) != 0;
-    if ((fclose(f->page) != 0 || failed) && code == EXIT_CODE_OK)
-        code = figures_no_memory();
-    if (code == EXIT_CODE_OK)
-        code = figures_write_page(f, sections);
+    if ((fclose(f->page) != 0 || failed) && figures_good(f))
+        f->code = figures_no_memory();
+    if (figures_good(f))
+        figures_write_page(f, sections);
     free(sections);
-    return code;
+    return f->code;
 }
 
 static int make_pictures_folder(figures_job *f)
@@ -281,15 +289,11 @@ static int print_tables(figures_job *f)
 static int print_end(figures_job *f)
 {
     const figures_request *r = f->request;
-    char path[COMPARE_PATH];
     json_object_set(f->result, "claims", f->checks);
-    char *text = json_dumps(f->result, JSON_INDENT(1) | JSON_PRESERVE_ORDER | JSON_REAL_PRECISION(9));
-    if (!text)
-        return figures_no_memory();
-    int code = compare_file_path(f->compare, "figures.json", path) ? compare_write_text(f->compare, path, text, strlen(text)) : EXIT_CODE_USAGE;
-    free(text);
-    if (code != EXIT_CODE_OK)
-        return code;
+    figures_write(f, "figures.json", json_dumps(f->result, JSON_INDENT(1) | JSON_PRESERVE_ORDER | JSON_REAL_PRECISION(9)));
+    if (!figures_good(f))
+        return f->code;
+    int code;
     console_note(&r->out, "%s/index.html: %llu pictures rendered, %llu kept", r->folder, (unsigned long long)f->compare->rendered,
                  (unsigned long long)f->compare->kept);
     size_t i;
@@ -325,10 +329,10 @@ static int run(figures_job *f)
         code = compare_render(f->compare);
     if (code == EXIT_CODE_OK && f->renders.method_count)
         code = compare_time_methods(f->compare);
-    if (code == EXIT_CODE_OK && f->renders.method_count)
-        code = figures_measure(f);
-    if (code == EXIT_CODE_OK)
-        code = make_page(f);
+    f->code = code;
+    if (figures_good(f) && f->renders.method_count)
+        figures_measure(f);
+    code = figures_good(f) ? make_page(f) : f->code;
     if (code == EXIT_CODE_OK)
         code = print_end(f);
     figures_refraction_close(f);

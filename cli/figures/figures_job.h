@@ -60,7 +60,10 @@ typedef struct figures_job {
     FILE *page;                            /* the sections so far */
     json_t *result, *checks;
     uint32_t failed; /* checks */
+    int code;        /* exit code of the first failure; the makers' functions do nothing after it */
 } figures_job;
+
+static inline bool figures_good(const figures_job *f) { return f->code == EXIT_CODE_OK; }
 
 bool figure_wanted(const figures_job *f, figure_id id);
 
@@ -74,8 +77,8 @@ bool figures_liu_wanted(const figures_job *f);
 void figures_section(figures_job *f, const char *name, const char *title);
 void figures_section_end(figures_job *f);
 
-/* Ends the sheet, writes it as DIR/NAME.svg and shows it in the page; where `code` tells of a failure drops it and returns that code. */
-int figures_plate(figures_job *f, svg *sheet, const char *name, const char *description, int code);
+/* Ends the sheet, writes it as DIR/NAME.svg and shows it in the page; after a failure drops it. */
+void figures_plate(figures_job *f, svg *sheet, const char *name, const char *description);
 
 /* A number, or null where it is not finite. */
 json_t *figures_number(double value);
@@ -86,33 +89,45 @@ void figures_check(figures_job *f, const char *claim, double value, double least
 /* Displayed colour of a kept picture, `stops` brighter than the scene asks for: 4 bytes a pixel, the caller frees them. */
 int figures_display(compare_job *job, size_t scene, size_t picture, size_t frame, double stops, uint8_t **rgba);
 
+/* Writes a text of its own memory, NULL where that ran out, as DIR/NAME. */
+void figures_write(figures_job *f, const char *name, char *text);
+
+/* Starts a sheet. False, with the job's code, when memory runs out. */
+bool figures_sheet(figures_job *f, svg *sheet, double width, double height);
+
+/* A kept picture's part on the sheet, at the exposure of the plates; `scale` units a pixel. */
+void figures_put(figures_job *f, svg *sheet, size_t scene, size_t picture, const svg_crop *crop, double x, double y, double scale);
+
 /* Writes a PNG as DIR/pictures/NAME.png and embeds `crop` of it in the sheet. */
-int figures_embed(figures_job *f, svg *sheet, const char *name, const uint8_t *rgba, uint32_t width, uint32_t height, svg_crop crop, double x, double y,
-                  double shown_width, double shown_height);
+void figures_embed(figures_job *f, svg *sheet, const char *name, const uint8_t *rgba, uint32_t width, uint32_t height, svg_crop crop, double x, double y,
+                   double shown_width, double shown_height);
 
 /* The part of a picture that holds the glitter: the middle third, from above the horizon down. */
 svg_crop figures_glitter_crop(uint32_t width, uint32_t height);
 
-/* Progress over `steps`; a step returns EXIT_CODE_OK or, after a signal, its code. */
+/* Progress over `steps`; a signal becomes the job's code. */
 void figures_steps(figures_job *f, uint64_t steps);
-int figures_step(figures_job *f);
+void figures_step(figures_job *f);
 
 int figures_no_memory(void);
 
 /* Writes DIR/index.html around the sections. */
-int figures_write_page(figures_job *f, const char *sections);
+void figures_write_page(figures_job *f, const char *sections);
 
-/* ---- the makers; each prints its errors and returns the exit code ---- */
+/* ---- the makers; each prints its errors and leaves the exit code with the job ---- */
 
-int figures_measure(figures_job *f);               /* figures_scores.c: fills `scores` */
-int figures_table1(figures_job *f);                /* figures_table.c */
-char *figures_table1_text(const figures_job *f);   /* as Markdown */
-int figures_bars(figures_job *f);                  /* Fig. 18 */
-int figures_transition(figures_job *f);            /* figures_pictures.c: Fig. 11 */
-int figures_scene_views(figures_job *f);           /* Fig. 12 */
-int figures_glitter(figures_job *f, size_t scene); /* Figs. 13–16 */
-int figures_kernels(figures_job *f);               /* figures_kernels.c: Fig. 17 */
-int figures_fits(figures_job *f);                  /* figures_fits.c: Fig. 21 */
-int figures_mirror(figures_job *f);                /* figures_mirror.c: Fig. 20 */
+void figures_measure(figures_job *f);            /* figures_scores.c: fills `scores` */
+void figures_table1(figures_job *f);             /* figures_table.c */
+char *figures_table1_text(const figures_job *f); /* as Markdown */
+void figures_bars(figures_job *f);               /* Fig. 18 */
+void figures_transition(figures_job *f);         /* figures_pictures.c: Fig. 11 */
+void figures_scene_views(figures_job *f);        /* Fig. 12 */
+void figures_simple(figures_job *f);             /* Fig. 13 */
+void figures_smooth(figures_job *f);             /* Fig. 14 */
+void figures_medium(figures_job *f);             /* Fig. 15 */
+void figures_high(figures_job *f);               /* Fig. 16 */
+void figures_kernels(figures_job *f);            /* figures_kernels.c: Fig. 17 */
+void figures_fits(figures_job *f);               /* figures_fits.c: Fig. 21 */
+void figures_mirror(figures_job *f);             /* figures_mirror.c: Fig. 20 */
 
 #endif

@@ -69,12 +69,11 @@ static void in_order(void *user, size_t count, void (*body)(void *, size_t), voi
         body(argument, i);
 }
 
-static int measure_shares(figures_job *f, const podee_tables *tables, share_errors *out)
+static void measure_shares(figures_job *f, const podee_tables *tables, share_errors *out)
 {
     random_numbers random = {17};
     double nine = 0, riemann = 0;
-    int code = EXIT_CODE_OK;
-    for (int i = 0; i < ELONGATIONS && code == EXIT_CODE_OK; i++) {
+    for (int i = 0; i < ELONGATIONS && figures_good(f); i++) {
         double squares[2][WAYS] = {{0}};
         out->elongation[i] = elongation_at(i);
         for (int k = 0; k < CASES; k++) {
@@ -96,17 +95,16 @@ static int measure_shares(figures_job *f, const podee_tables *tables, share_erro
             out->still[w][i] = sqrt(squares[0][w]);
             out->moving[w][i] = sqrt(squares[1][w]);
         }
-        code = figures_step(f);
+        figures_step(f);
     }
     out->nine_over_riemann = nine / riemann;
-    return code;
 }
 
-static int plot_shares(figures_job *f, const share_errors *errors)
+static void plot_shares(figures_job *f, const share_errors *errors)
 {
     svg sheet;
-    if (!svg_start(&sheet, 1090, 400))
-        return figures_no_memory();
+    if (!figures_sheet(f, &sheet, 1090, 400))
+        return;
     for (int moves = 0; moves < 2; moves++) {
         const plot p = {.x = 85 + 430 * moves,
                         .y = 40,
@@ -121,7 +119,7 @@ static int plot_shares(figures_job *f, const share_errors *errors)
     }
     for (int w = 0; w < WAYS; w++)
         plot_key(&sheet, 890, 60, w, plot_color((size_t)w), way_dashes[w], figure_methods[way_methods[w]].title);
-    return figures_plate(f, &sheet, "fig17-elongation", "Error of the light's share over elongation, by kernels", EXIT_CODE_OK);
+    figures_plate(f, &sheet, "fig17-elongation", "Error of the light's share over elongation, by kernels");
 }
 
 /* Elongations up to 8, all alike. */
@@ -134,19 +132,19 @@ static double mean_to_eight(const double errors[ELONGATIONS])
     return sqrt(sum / count);
 }
 
-static int figure_of_shares(figures_job *f)
+static void figure_of_shares(figures_job *f)
 {
     podee_tables tables = {NULL, NULL};
     share_errors *errors = calloc(1, sizeof *errors);
     if (!errors || !podee_tables_build(&tables, in_order, NULL)) {
         free(errors);
-        return figures_no_memory();
+        f->code = figures_no_memory();
+        return;
     }
-    int code = measure_shares(f, &tables, errors);
+    measure_shares(f, &tables, errors);
     podee_tables_free(&tables);
-    if (code == EXIT_CODE_OK)
-        code = plot_shares(f, errors);
-    if (code == EXIT_CODE_OK) {
+    plot_shares(f, errors);
+    if (figures_good(f)) {
         json_t *json = json_object();
         for (int w = 0; w < WAYS; w++) {
             json_t *list = json_array();
@@ -168,82 +166,67 @@ static int figure_of_shares(figures_job *f)
         figures_check(f, "Fig. 17: shares by 9 kernels over those by Riemann sums, elongations to 8, nothing moves", errors->nine_over_riemann, 0.97, 1.03);
     }
     free(errors);
-    return code;
 }
 
 /* ---- pictures ---- */
 
 /* Sums of coverage with a closed shutter, where nine kernels and the Riemann sum mean the same. */
-static int still_sums(figures_job *f, size_t scene, double sums[2])
+static void still_sums(figures_job *f, size_t scene, double sums[2])
 {
     compare_job *job = f->compare;
     const compare_scene *s = &job->scenes[scene];
     const size_t pixels = (size_t)s->width * s->height;
     float *coverage = calloc(pixels, sizeof *coverage);
-    if (!coverage)
-        return figures_no_memory();
+    if (!coverage) {
+        f->code = figures_no_memory();
+        return;
+    }
     mgt_target target;
     mgt_target_init(&target, sizeof target);
     target.layer = MGT_LAYER_COVERAGE;
     target.format = MGT_FORMAT_R32F;
     target.pixels = coverage;
     sums[0] = sums[1] = 0;
-    int code = EXIT_CODE_OK;
     for (size_t frame = 0; frame < job->frame_count; frame++)
-        for (int way = 0; way < 2 && code == EXIT_CODE_OK; way++) {
+        for (int way = 0; way < 2 && figures_good(f); way++) {
             mgt_scene view;
             if (!compare_frame_scene(job, s, f->picture[FIGURE_KERNELS_9], frame, &view)) {
-                code = EXIT_CODE_BAD_INPUT;
+                f->code = EXIT_CODE_BAD_INPUT;
                 break;
             }
             view.shutter = 0;
             view.quality.kernels = way ? MGT_MIXTURE_RIEMANN : MGT_MIXTURE_9;
             view.quality.elongation_limit = way ? 0 : 9;
             const mgt_status status = mgt_render(job->context, &view, &target, 1);
-            code = status == MGT_OK ? figures_step(f) : console_library_error(job->context, status);
+            if (status != MGT_OK)
+                f->code = console_library_error(job->context, status);
+            figures_step(f);
             for (size_t i = 0; i < pixels; i++)
                 sums[way] += (double)coverage[i];
         }
     free(coverage);
-    return code;
 }
 
-static int put_panel(figures_job *f, svg *sheet, size_t scene, int way, double x, double y, double across, const svg_crop *crop)
-{
-    const compare_scene *s = &f->compare->scenes[scene];
-    const size_t picture = way < 0 ? COMPARE_REFERENCE : f->picture[way_methods[way]];
-    uint8_t *rgba = NULL;
-    char name[200];
-    int code = figures_display(f->compare, scene, picture, 0, figure_stops[FIGURE_SHOWN], &rgba);
-    if (code != EXIT_CODE_OK)
-        return code;
-    snprintf(name, sizeof name, "%s-%s", s->name, way < 0 ? "reference" : f->renders.methods[picture - 1].file);
-    code = figures_embed(f, sheet, name, rgba, s->width, s->height, *crop, x, y, across, crop->height * across / crop->width);
-    free(rgba);
-    return code;
-}
-
-static int plate_of_pictures(figures_job *f)
+static void plate_of_pictures(figures_job *f)
 {
     enum { ACROSS = 250, GAP = 12, SCENE = 1 };
     const compare_scene *s = &f->compare->scenes[SCENE];
     const svg_crop crop = figures_glitter_crop(s->width, s->height);
     const double tall = crop.height * ACROSS / crop.width, row = tall + 60;
     svg sheet;
-    int code = EXIT_CODE_OK;
-    if (!svg_start(&sheet, 4 * ACROSS + 5 * GAP, 2 * row + 10))
-        return figures_no_memory();
-    for (int way = -1; way < WAYS && code == EXIT_CODE_OK; way++) {
+    if (!figures_sheet(f, &sheet, 4 * ACROSS + 5 * GAP, 2 * row + 10))
+        return;
+    for (int way = -1; way < WAYS && figures_good(f); way++) {
         const int place = way + 1;
         const double x = GAP + (ACROSS + GAP) * (place % 4), y = 34 + row * (place / 4);
-        code = put_panel(f, &sheet, SCENE, way, x, y, ACROSS, &crop);
+        figures_put(f, &sheet, SCENE, way < 0 ? COMPARE_REFERENCE : f->picture[way_methods[way]], &crop, x, y, ACROSS / crop.width);
         svg_text(&sheet, x, y - 8, 14, SVG_LEFT, "font-weight=\"bold\"", "(%c) %s", "abcdefg"[place],
                  way < 0 ? "reference" : figure_methods[way_methods[way]].title);
         if (way >= 0)
             svg_text(&sheet, x, y + tall + 16, 11.5, SVG_LEFT, "", "RMSE %.4f displayed, %.4f coverage",
                      f->scores[SCENE][way_methods[way]].displayed[FIGURE_SHOWN], f->scores[SCENE][way_methods[way]].rmse);
     }
-    return figures_plate(f, &sheet, "fig17", "The smooth scene by 1, 3, 5, 9 kernels, Feline and convolution", code);
+    figures_plate(f, &sheet, "fig17", "The smooth scene by 1, 3, 5, 9 kernels, Feline and convolution");
 }
 
 static void table_of_ways(figures_job *f, double stills[FIGURE_SCENES][2])
@@ -277,10 +260,9 @@ static void table_of_ways(figures_job *f, double stills[FIGURE_SCENES][2])
     json_object_set_new(f->result, "fig17", json);
 }
 
-int figures_kernels(figures_job *f)
+void figures_kernels(figures_job *f)
 {
     double stills[FIGURE_SCENES][2];
-    int code = EXIT_CODE_OK;
     figures_steps(f, ELONGATIONS + 2 * FIGURE_SCENES * f->compare->frame_count);
     figures_section(f, "fig17", "Fig. 17: numbers of kernels, Feline, convolution");
     fputs("<p class=\"published\">Published: a reference of 8 spatial samples (a) and five pictures (b)–(f) by different numbers of circular "
@@ -288,14 +270,12 @@ int figures_kernels(figures_job *f)
           "time, (f) is better near the horizon, so the paper uses both.</p>\n"
           "<p>The paper's model per pixel, kernels without fallback. The plate shows the smooth scene; the table all of them.</p>\n",
           f->page);
-    for (size_t s = 0; s < FIGURE_SCENES && code == EXIT_CODE_OK; s++)
-        code = still_sums(f, s, stills[s]);
-    if (code == EXIT_CODE_OK)
-        code = plate_of_pictures(f);
-    if (code == EXIT_CODE_OK) {
+    for (size_t s = 0; s < FIGURE_SCENES && figures_good(f); s++)
+        still_sums(f, s, stills[s]);
+    plate_of_pictures(f);
+    if (figures_good(f)) {
         table_of_ways(f, stills);
-        code = figure_of_shares(f);
+        figure_of_shares(f);
     }
     figures_section_end(f);
-    return code;
 }

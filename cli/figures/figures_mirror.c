@@ -75,9 +75,9 @@ static void share_errors(const slope_law *law, double errors[2])
         errors[i] = sums[i] / exact;
 }
 
-static int measure(figures_job *f, error_field fields[3])
+static void measure(figures_job *f, error_field fields[3])
 {
-    for (int x = 0; x < SIDE; x++) {
+    for (int x = 0; x < SIDE && figures_good(f); x++) {
         for (int z = 0; z < SIDE; z++) {
             const slope_law law = {{0, 0}, {variance_step * (x + 1), 0, variance_step * (z + 1)}};
             double shares[2];
@@ -90,11 +90,8 @@ static int measure(figures_job *f, error_field fields[3])
                 fields[i].most = fmax(fields[i].most, fields[i].value[x][z]);
             }
         }
-        const int code = figures_step(f);
-        if (code != EXIT_CODE_OK)
-            return code;
+        figures_step(f);
     }
-    return EXIT_CODE_OK;
 }
 
 /* ---- surfaces, seen from above the corner of large variances ---- */
@@ -161,14 +158,14 @@ static void draw_surface(svg *s, const view_box *b, const error_field *field)
         }
 }
 
-static int draw(figures_job *f, const error_field fields[3])
+static void draw(figures_job *f, const error_field fields[3])
 {
     static const char *const titles[3] = {"(a) distance of the densities", "(b) light's share, Jacobian at the mean slope",
                                           "(c) light's share, Jacobian at the mirror slope"};
     static const char *const notes[3] = {"as published, Jacobian at the mean slope", "as published", "as mangata has it, same scale"};
     svg sheet;
-    if (!svg_start(&sheet, 1320, 460))
-        return figures_no_memory();
+    if (!figures_sheet(f, &sheet, 1320, 460))
+        return;
     for (int i = 0; i < 3; i++) {
         const double most = fields[i == 2 ? 1 : i].most, step = most > 1 ? 0.5 : most > 0.4 ? 0.2 : most > 0.2 ? 0.1 : 0.05;
         const view_box box = {.x = 222 + 440 * i, .y = 260, .half = 14, .rise = 6.2, .tall = 190, .top = step * ceil(most / step)};
@@ -177,7 +174,7 @@ static int draw(figures_job *f, const error_field fields[3])
         draw_axes(&sheet, &box, step);
         draw_surface(&sheet, &box, &fields[i]);
     }
-    return figures_plate(f, &sheet, "fig20", "Relative error of the linear map over slope variances", EXIT_CODE_OK);
+    figures_plate(f, &sheet, "fig20", "Relative error of the linear map over slope variances");
 }
 
 static json_t *field_json(const error_field *field)
@@ -192,14 +189,16 @@ static json_t *field_json(const error_field *field)
     return json_pack("{s:f, s:f, s:o}", "mean", field->mean, "largest", field->most, "by_variance_x_then_z", rows);
 }
 
-int figures_mirror(figures_job *f)
+void figures_mirror(figures_job *f)
 {
     error_field *fields = calloc(3, sizeof *fields);
-    if (!fields)
-        return figures_no_memory();
+    if (!fields) {
+        f->code = figures_no_memory();
+        return;
+    }
     figures_steps(f, SIDE);
-    int code = measure(f, fields);
-    if (code == EXIT_CODE_OK) {
+    measure(f, fields);
+    if (figures_good(f)) {
         const error_field *d = &fields[0];
         const int last = SIDE - 1;
         figures_section(f, "fig20", "Fig. 20: relative error of the linear map from slopes to reflections");
@@ -214,7 +213,7 @@ int figures_mirror(figures_job *f)
                 "wherever the slopes' distribution puts one; mean absolute error over the mean share. (b) takes the published Jacobian at the "
                 "slopes' mean, (c) the one at the slope that mirrors the light's centre; views 10° to 80° up.</p>\n",
                 lopsidedness(10, 20), lopsidedness(30, 60), disk_degrees);
-        code = draw(f, fields);
+        draw(f, fields);
         figures_check(f, "Fig. 20: error at low x and high z variance over that at high x and low z", d->value[0][last] / d->value[last][0], 1, INFINITY);
         figures_check(f, "Fig. 20: error at both variances high over that at both low", d->value[last][last] / d->value[0][0], 1, INFINITY);
         figures_check(f, "Fig. 20: error of the light's share with the Jacobian at the mirror slope over that at the mean slope",
@@ -225,5 +224,4 @@ int figures_mirror(figures_job *f)
         figures_section_end(f);
     }
     free(fields);
-    return code;
 }

@@ -2,6 +2,7 @@
 /* The page of the figures: sections with their plates, and the claims with what was measured. */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "cli/figures/figures_job.h"
 #include "cli/common/markup.h"
@@ -15,19 +16,30 @@ void figures_section_end(figures_job *f) { fputs("</section>\n", f->page); }
 
 json_t *figures_number(double value) { return isfinite(value) ? json_real(value) : json_null(); }
 
-int figures_plate(figures_job *f, svg *sheet, const char *name, const char *description, int code)
+void figures_write(figures_job *f, const char *name, char *text)
 {
-    char path[COMPARE_PATH], file[64];
+    char path[COMPARE_PATH];
+    if (figures_good(f) && !text)
+        f->code = figures_no_memory();
+    if (figures_good(f))
+        f->code = compare_file_path(f->compare, name, path) ? compare_write_text(f->compare, path, text, strlen(text)) : EXIT_CODE_USAGE;
+    free(text);
+}
+
+bool figures_sheet(figures_job *f, svg *sheet, double width, double height)
+{
+    if (figures_good(f) && !svg_start(sheet, width, height))
+        f->code = figures_no_memory();
+    return figures_good(f);
+}
+
+void figures_plate(figures_job *f, svg *sheet, const char *name, const char *description)
+{
+    char file[64];
     size_t size = 0;
     snprintf(file, sizeof file, "%s.svg", name);
-    char *text = svg_finish(sheet, &size);
-    if (code == EXIT_CODE_OK && !text)
-        code = figures_no_memory();
-    if (code == EXIT_CODE_OK)
-        code = compare_file_path(f->compare, file, path) ? compare_write_text(f->compare, path, text, size) : EXIT_CODE_USAGE;
-    free(text);
+    figures_write(f, file, svg_finish(sheet, &size));
     fprintf(f->page, "<a href=\"%s\"><img src=\"%s\" alt=\"%s\"></a>\n", file, file, description);
-    return code;
 }
 
 void figures_check(figures_job *f, const char *claim, double value, double least, double most)
@@ -114,13 +126,15 @@ static void put_podee(figures_job *f, FILE *page)
     fputs("</p>\n", page);
 }
 
-int figures_write_page(figures_job *f, const char *sections)
+void figures_write_page(figures_job *f, const char *sections)
 {
-    char *text = NULL, path[COMPARE_PATH];
+    char *text = NULL;
     size_t size = 0;
     FILE *page = open_memstream(&text, &size);
-    if (!page)
-        return figures_no_memory();
+    if (!page) {
+        f->code = figures_no_memory();
+        return;
+    }
     fputs(page_head, page);
     fputs("<h1>The papers' figures again</h1>\n<p>Made by <code>", page);
     put_command(f, page);
@@ -130,9 +144,5 @@ int figures_write_page(figures_job *f, const char *sections)
     fputs(sections, page);
     put_checks(f, page);
     fputs("</body></html>\n", page);
-    if (!memory_text_finish(page, &text))
-        return figures_no_memory();
-    const int code = compare_file_path(f->compare, "index.html", path) ? compare_write_text(f->compare, path, text, size) : EXIT_CODE_USAGE;
-    free(text);
-    return code;
+    figures_write(f, "index.html", memory_text_finish(page, &text));
 }

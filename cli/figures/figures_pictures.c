@@ -6,61 +6,46 @@
 
 #include "cli/figures/figures_job.h"
 
-/* A kept picture's part with its label above. */
+/* A picture's part and its place. */
 typedef struct panel {
     double x, y, scale; /* of a pixel */
     svg_crop crop;
 } panel;
 
-static int put_picture(figures_job *f, svg *sheet, size_t scene, size_t picture, const panel *p)
+static void put_picture(figures_job *f, svg *sheet, size_t scene, size_t picture, const panel *p)
 {
-    const compare_scene *s = &f->compare->scenes[scene];
-    uint8_t *rgba = NULL;
-    char name[200];
-    int code = figures_display(f->compare, scene, picture, 0, figure_stops[FIGURE_SHOWN], &rgba);
-    if (code != EXIT_CODE_OK)
-        return code;
-    snprintf(name, sizeof name, "%s-%s", s->name, picture == COMPARE_REFERENCE ? "reference" : f->renders.methods[picture - 1].file);
-    code = figures_embed(f, sheet, name, rgba, s->width, s->height, p->crop, p->x, p->y, p->crop.width * p->scale, p->crop.height * p->scale);
-    free(rgba);
-    return code;
+    figures_put(f, sheet, scene, picture, &p->crop, p->x, p->y, p->scale);
 }
 
 /* Signed difference of coverage: red where the picture has too much light, blue where too little; white at half. */
-static int put_error(figures_job *f, svg *sheet, size_t scene, size_t picture, const panel *p)
+static void put_error(figures_job *f, svg *sheet, size_t scene, size_t picture, const panel *p)
 {
     const compare_scene *s = &f->compare->scenes[scene];
-    float_image image = {0}, reference = {0};
+    const size_t pixels = (size_t)s->width * s->height, pair[] = {picture, COMPARE_REFERENCE};
+    float_image images[2] = {{0}, {0}};
     char path[COMPARE_PATH], name[200];
     file_error error;
-    int code = EXIT_CODE_OK;
-    if (!compare_picture_path(f->compare, s, picture, 0, path))
-        return EXIT_CODE_USAGE;
-    if (picture_read(&image, path, "coverage", &error) != FILE_OK)
-        return compare_file_failure(f->compare, &error);
-    if (!compare_picture_path(f->compare, s, COMPARE_REFERENCE, 0, path))
-        code = EXIT_CODE_USAGE;
-    else if (picture_read(&reference, path, "coverage", &error) != FILE_OK)
-        code = compare_file_failure(f->compare, &error);
-    const size_t pixels = (size_t)s->width * s->height;
+    for (int i = 0; i < 2 && figures_good(f); i++) {
+        if (!compare_picture_path(f->compare, s, pair[i], 0, path))
+            f->code = EXIT_CODE_USAGE;
+        else if (picture_read(&images[i], path, "coverage", &error) != FILE_OK)
+            f->code = compare_file_failure(f->compare, &error);
+    }
     uint8_t *rgba = calloc(pixels, 4);
-    if (code == EXIT_CODE_OK && !rgba)
-        code = figures_no_memory();
-    for (size_t i = 0; i < pixels && code == EXIT_CODE_OK; i++) {
-        const double difference = (double)image.pixels[i] - (double)reference.pixels[i], t = fmin(2 * fabs(difference), 1);
+    if (figures_good(f) && !rgba)
+        f->code = figures_no_memory();
+    for (size_t i = 0; i < pixels && figures_good(f); i++) {
+        const double difference = (double)images[0].pixels[i] - (double)images[1].pixels[i], t = fmin(2 * fabs(difference), 1);
         const uint8_t other = (uint8_t)lrint(255 * (1 - t)), own = (uint8_t)lrint(255 - 60 * t);
         const uint8_t pixel[4] = {difference > 0 ? own : other, other, difference > 0 ? other : own, 255};
         memcpy(rgba + 4 * i, pixel, 4);
     }
-    if (code == EXIT_CODE_OK) {
-        snprintf(name, sizeof name, "%s-%s-error", s->name, f->renders.methods[picture - 1].file);
-        code = figures_embed(f, sheet, name, rgba, s->width, s->height, p->crop, p->x, p->y, p->crop.width * p->scale, p->crop.height * p->scale);
-        svg_box(sheet, p->x, p->y, p->crop.width * p->scale, p->crop.height * p->scale, "none", "#bbb");
-    }
+    snprintf(name, sizeof name, "%s-%s-error", s->name, f->renders.methods[picture - 1].file);
+    figures_embed(f, sheet, name, rgba, s->width, s->height, p->crop, p->x, p->y, p->crop.width * p->scale, p->crop.height * p->scale);
+    svg_box(sheet, p->x, p->y, p->crop.width * p->scale, p->crop.height * p->scale, "none", "#bbb");
     free(rgba);
-    float_image_free(&image);
-    float_image_free(&reference);
-    return code;
+    for (int i = 0; i < 2; i++)
+        float_image_free(&images[i]);
 }
 
 /* A panel's size such that pictures of any size take 300 units across. */
@@ -81,18 +66,17 @@ static const char *const scene_captions[FIGURE_SCENES] = {"Published: five sine 
                                                           "aliasing far away."};
 
 /* The reference's whole frame, with a frame around what the panels show of it. */
-static int put_whole(figures_job *f, svg *sheet, size_t scene, double x, double y, double across)
+static void put_whole(figures_job *f, svg *sheet, size_t scene, double x, double y, double across)
 {
     const compare_scene *s = &f->compare->scenes[scene];
     const panel whole = {.x = x, .y = y, .scale = across / s->width, .crop = {0, 0, s->width, s->height}};
     const svg_crop part = figures_glitter_crop(s->width, s->height);
-    const int code = put_picture(f, sheet, scene, COMPARE_REFERENCE, &whole);
+    put_picture(f, sheet, scene, COMPARE_REFERENCE, &whole);
     svg_box(sheet, x + part.x * whole.scale, y + part.y * whole.scale, part.width * whole.scale, part.height * whole.scale, "none", "#e69f00");
     svg_text(sheet, x, y - 8, 14, SVG_LEFT, "font-weight=\"bold\"", "the whole reference");
-    return code;
 }
 
-int figures_glitter(figures_job *f, size_t scene)
+static void glitter(figures_job *f, size_t scene)
 {
     enum { ACROSS = 250, GAP = 12, TOP = 42 };
     const compare_scene *s = &f->compare->scenes[scene];
@@ -102,16 +86,15 @@ int figures_glitter(figures_job *f, size_t scene)
     svg sheet;
     snprintf(name, sizeof name, "fig%zu", 13 + scene);
     snprintf(title, sizeof title, "Fig. %zu: the %s scene", 13 + scene, figure_scenes[scene]);
-    if (!svg_start(&sheet, 4 * ACROSS + 5 * GAP, TOP + 2 * row + tall * across / ACROSS + 30))
-        return figures_no_memory();
-    int code = EXIT_CODE_OK;
-    for (size_t i = 0; i < 7 && code == EXIT_CODE_OK; i++) {
+    if (!figures_sheet(f, &sheet, 4 * ACROSS + 5 * GAP, TOP + 2 * row + tall * across / ACROSS + 30))
+        return;
+    for (size_t i = 0; i < 7 && figures_good(f); i++) {
         /* Two rows of four: the reference stands at the end of the first, the fifth place of which the methods skip. */
         const size_t place = i < 3 ? i : i == 6 ? 3 : i + 1;
         const double x = GAP + (ACROSS + GAP) * (double)(place % 4), y = TOP + row * (double)(place / 4);
         const panel p = panel_of(f, scene, x, y, ACROSS);
         const size_t picture = i == 6 ? COMPARE_REFERENCE : f->picture[i];
-        code = put_picture(f, &sheet, scene, picture, &p);
+        put_picture(f, &sheet, scene, picture, &p);
         svg_text(&sheet, x, y - 8, 14, SVG_LEFT, "font-weight=\"bold\"", "(%c) %s", "abcdefg"[i], i == 6 ? "reference" : figure_methods[i].title);
         if (i == 6) {
             svg_text(&sheet, x, y + tall + 16, 11.5, SVG_LEFT, "", "%u × %u × %u samples a pixel", f->request->reference.spatial_samples,
@@ -126,13 +109,12 @@ int figures_glitter(figures_job *f, size_t scene)
         else
             svg_text(&sheet, x, y + tall + 31, 11.5, SVG_LEFT, "", "light kept %.2f", score->kept);
     }
-    if (code == EXIT_CODE_OK)
-        code = put_whole(f, &sheet, scene, GAP + 3.0 * (ACROSS + GAP), TOP + row, ACROSS);
+    put_whole(f, &sheet, scene, GAP + 3.0 * (ACROSS + GAP), TOP + row, ACROSS);
     const double y = TOP + 2 * row;
     svg_text(&sheet, GAP, y - 8, 13, SVG_LEFT, "", "Error of coverage: red too bright, blue too dark, full colour at ±½");
-    for (size_t i = 0; i < 6 && code == EXIT_CODE_OK; i++) {
+    for (size_t i = 0; i < 6 && figures_good(f); i++) {
         const panel p = panel_of(f, scene, GAP + (across + GAP) * (double)i, y, across);
-        code = put_error(f, &sheet, scene, f->picture[i], &p);
+        put_error(f, &sheet, scene, f->picture[i], &p);
         svg_text(&sheet, p.x, y + tall * across / ACROSS + 15, 11.5, SVG_LEFT, "", "(%c) %s", "abcdef"[i], figure_methods[i].title);
     }
     figures_section(f, name, title);
@@ -140,14 +122,21 @@ int figures_glitter(figures_job *f, size_t scene)
             "<p class=\"published\">%s</p>\n<p>The part of frame %u with the glitter, %g stops above the scene's exposure, every pixel a square. "
             "RMSE are of all frames.</p>\n",
             scene_captions[scene], compare_frame_number(f->compare, 0), figure_stops[FIGURE_SHOWN]);
-    code = figures_plate(f, &sheet, name, "Seven renderings of one scene and their errors", code);
+    figures_plate(f, &sheet, name, "Seven renderings of one scene and their errors");
     figures_section_end(f);
-    return code;
 }
+
+void figures_simple(figures_job *f) { glitter(f, 0); }
+
+void figures_smooth(figures_job *f) { glitter(f, 1); }
+
+void figures_medium(figures_job *f) { glitter(f, 2); }
+
+void figures_high(figures_job *f) { glitter(f, 3); }
 
 /* ---- Fig. 11 ---- */
 
-int figures_transition(figures_job *f)
+void figures_transition(figures_job *f)
 {
     static const figure_method methods[] = {FIGURE_UNIFORM, FIGURE_HARD, FIGURE_MANGATA};
     static const char *const titles[] = {"(a) with a transition, 0.2 to 0.5", "(b) without: at once at 0.5", "(c) mangata"};
@@ -155,12 +144,11 @@ int figures_transition(figures_job *f)
     const panel first = panel_of(f, SCENE, 0, 0, ACROSS);
     const double tall = first.crop.height * first.scale;
     svg sheet;
-    int code = EXIT_CODE_OK;
-    if (!svg_start(&sheet, 4 * ACROSS + 5 * GAP, tall + 60))
-        return figures_no_memory();
-    for (size_t i = 0; i < 4 && code == EXIT_CODE_OK; i++) {
+    if (!figures_sheet(f, &sheet, 4 * ACROSS + 5 * GAP, tall + 60))
+        return;
+    for (size_t i = 0; i < 4 && figures_good(f); i++) {
         const panel p = panel_of(f, SCENE, GAP + (ACROSS + GAP) * (double)i, 34, ACROSS);
-        code = put_picture(f, &sheet, SCENE, i < 3 ? f->picture[methods[i]] : COMPARE_REFERENCE, &p);
+        put_picture(f, &sheet, SCENE, i < 3 ? f->picture[methods[i]] : COMPARE_REFERENCE, &p);
         svg_text(&sheet, p.x, 25, 14, SVG_LEFT, "font-weight=\"bold\"", "%s", i < 3 ? titles[i] : "(d) reference");
         if (i < 3)
             svg_text(&sheet, p.x, 34 + tall + 17, 11.5, SVG_LEFT, "", "RMSE %.4f displayed, %.4f coverage",
@@ -188,9 +176,8 @@ int figures_transition(figures_job *f)
     }
     fputs("</table>\n", f->page);
     json_object_set_new(f->result, "fig11_coverage_rmse", json);
-    code = figures_plate(f, &sheet, "fig11", "The medium scene with and without a transition region", code);
+    figures_plate(f, &sheet, "fig11", "The medium scene with and without a transition region");
     figures_section_end(f);
-    return code;
 }
 
 /* ---- Fig. 12 ---- */
@@ -214,28 +201,26 @@ static int render_view(figures_job *f, size_t scene, uint32_t width, uint32_t he
     return status == MGT_OK ? EXIT_CODE_OK : console_library_error(f->compare->context, status);
 }
 
-int figures_scene_views(figures_job *f)
+void figures_scene_views(figures_job *f)
 {
     enum { WIDTH = 640, HEIGHT = 360, GAP = 14 };
     static const char *const titles[] = {"(a) simple: 5 waves", "(b) smooth: 64 waves", "(c) medium: 48 waves", "(d) high: 32 short waves"};
     svg sheet;
-    int code = EXIT_CODE_OK;
     uint8_t *rgba = calloc((size_t)WIDTH * HEIGHT, 4);
     if (!rgba || !svg_start(&sheet, 2 * WIDTH + 3 * GAP, 2 * (HEIGHT + 34) + GAP)) {
         free(rgba);
-        return figures_no_memory();
+        f->code = figures_no_memory();
+        return;
     }
     figures_steps(f, FIGURE_SCENES);
-    for (size_t s = 0; s < FIGURE_SCENES && code == EXIT_CODE_OK; s++) {
+    for (size_t s = 0; s < FIGURE_SCENES && figures_good(f); s++) {
         const double x = GAP + (WIDTH + GAP) * (double)(s % 2), y = 30 + (HEIGHT + 34) * (double)(s / 2);
         char name[64];
         snprintf(name, sizeof name, "%s-view", figure_scenes[s]);
-        code = render_view(f, s, WIDTH, HEIGHT, rgba);
-        if (code == EXIT_CODE_OK)
-            code = figures_embed(f, &sheet, name, rgba, WIDTH, HEIGHT, (svg_crop){0, 0, WIDTH, HEIGHT}, x, y, WIDTH, HEIGHT);
+        f->code = render_view(f, s, WIDTH, HEIGHT, rgba);
+        figures_embed(f, &sheet, name, rgba, WIDTH, HEIGHT, (svg_crop){0, 0, WIDTH, HEIGHT}, x, y, WIDTH, HEIGHT);
         svg_text(&sheet, x, y - 8, 14, SVG_LEFT, "font-weight=\"bold\"", "%s", titles[s]);
-        if (code == EXIT_CODE_OK)
-            code = figures_step(f);
+        figures_step(f);
     }
     free(rgba);
     figures_section(f, "fig12", "Fig. 12: the four experimental scenes");
@@ -244,7 +229,6 @@ int figures_scene_views(figures_job *f)
           "<p>Our four scenes under a sky, so that the waves show (everywhere else the sky is black and only the light is mirrored), by "
           "<code>mangata</code>.</p>\n",
           f->page);
-    code = figures_plate(f, &sheet, "fig12", "The four scenes", code);
+    figures_plate(f, &sheet, "fig12", "The four scenes");
     figures_section_end(f);
-    return code;
 }

@@ -163,25 +163,22 @@ size_t refraction_picture(refraction_method method) { return (size_t)method + 1;
 
 /* ---- the run ---- */
 
-static int make(refraction_figures *r)
+static void make(refraction_figures *r)
 {
     static const struct {
         figure_id id;
-        int (*make)(refraction_figures *r);
+        void (*make)(refraction_figures *r);
     } plates[] = {{FIGURE_LIU_4, refraction_below},      {FIGURE_LIU_7, refraction_border},   {FIGURE_LIU_8, refraction_occlusion},
                   {FIGURE_LIU_9, refraction_narrow},     {FIGURE_LIU_10, refraction_flat},    {FIGURE_LIU_11, refraction_waves},
                   {FIGURE_LIU_TABLE3, refraction_speed}, {FIGURE_LIU_12, refraction_density}, {FIGURE_LIU_13, refraction_angles},
                   {FIGURE_LIU_14, refraction_outdoors},  {FIGURE_LIU_15, refraction_diver}};
-    int code = EXIT_CODE_OK;
     figures_steps(r->figures, sizeof plates / sizeof *plates);
-    for (size_t i = 0; i < sizeof plates / sizeof *plates && code == EXIT_CODE_OK; i++) {
+    for (size_t i = 0; i < sizeof plates / sizeof *plates && figures_good(r->figures); i++) {
         if (figure_wanted(r->figures, plates[i].id))
-            code = plates[i].make(r);
-        if (code == EXIT_CODE_OK)
-            code = figures_step(r->figures);
+            plates[i].make(r);
+        figures_step(r->figures);
     }
     progress_clear(&r->figures->compare->progress);
-    return code;
 }
 
 static void put_heading(refraction_figures *r)
@@ -215,23 +212,22 @@ int figures_refraction_open(figures_job *f, const char *folder)
     return code == EXIT_CODE_OK ? compare_open(r->compare, &r->renders, "index.html") : code;
 }
 
-int figures_refraction(figures_job *f)
+void figures_refraction(figures_job *f)
 {
     refraction_figures *r = f->refraction;
-    int code = compare_render(r->compare);
-    if (code == EXIT_CODE_OK)
-        code = compare_time_methods(r->compare);
-    if (code == EXIT_CODE_OK)
-        code = refraction_measure(r);
-    if (code == EXIT_CODE_OK) {
+    f->code = compare_render(r->compare);
+    if (figures_good(f))
+        f->code = compare_time_methods(r->compare);
+    if (figures_good(f))
+        refraction_measure(r);
+    if (figures_good(f)) {
         put_heading(r);
-        code = make(r);
+        make(r);
     }
-    if (code == EXIT_CODE_OK)
-        code = refraction_write_table(r);
+    if (figures_good(f))
+        refraction_write_table(r);
     f->compare->rendered += r->compare->rendered;
     f->compare->kept += r->compare->kept;
-    return code;
 }
 
 void figures_refraction_close(figures_job *f)

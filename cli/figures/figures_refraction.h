@@ -81,8 +81,8 @@ typedef struct refraction_figures {
 int figures_refraction_open(figures_job *f, const char *folder);
 void figures_refraction_close(figures_job *f);
 
-/* Renders, measures, and writes the part of the page; prints errors and returns the exit code. */
-int figures_refraction(figures_job *f);
+/* Renders, measures, and writes the part of the page; prints errors and leaves the exit code with the job. */
+void figures_refraction(figures_job *f);
 
 /* ---- shared by the makers ---- */
 
@@ -101,7 +101,7 @@ void refraction_pair_free(refraction_pair *pair);
 /* How far a pixel of the pair, by its place, is off in the worst channel, 0 to 255. */
 double refraction_pair_difference(const refraction_pair *pair, size_t pixel);
 
-int refraction_measure(refraction_figures *r); /* figures_refraction_scores.c */
+void refraction_measure(refraction_figures *r); /* figures_refraction_scores.c */
 
 /* ---- figures_refraction_panels.c ---- */
 
@@ -112,17 +112,29 @@ typedef struct refraction_panel {
     double left, top, width, height;
 } refraction_panel;
 
-double refraction_panel_height(const refraction_figures *r, const refraction_panel *p);
-
 typedef enum refraction_kind {
     PANEL_PICTURE,    /* as `mangata render` shows it */
     PANEL_DIFFERENCE, /* from the truth: white none, red ARTEFACT, black three times that; grey where no water */
     PANEL_ARTEFACTS   /* the same as red pixels over the grey picture */
 } refraction_kind;
 
+/* Panels of a plate, each so many columns right of and rows below the first. */
+typedef struct refraction_cell {
+    refraction_view view;
+    refraction_method method; /* SHOWN_RAY: the truth, of many rays */
+    refraction_kind kind;
+    int column, row;
+    const char *title, *text; /* NULL: its scores */
+} refraction_cell;
+
+double refraction_panel_height(const refraction_figures *r, const refraction_panel *p);
+
 /* `title` stands above the panel and names its letter, `text` below. */
-int refraction_panel_put(refraction_figures *r, svg *sheet, const refraction_panel *p, refraction_kind kind, size_t picture, const char *title,
-                         const char *text);
+void refraction_panel_put(refraction_figures *r, svg *sheet, const refraction_panel *p, refraction_kind kind, size_t picture, const char *title,
+                          const char *text);
+
+/* A step right is the panel's width and `gap`, a step down `row`. */
+void refraction_cells_put(refraction_figures *r, svg *sheet, const refraction_panel *first, const refraction_cell *cells, size_t count, double gap, double row);
 
 /* "RMSE 3.1, artefacts 0.4%". */
 typedef struct refraction_score_text {
@@ -133,21 +145,21 @@ refraction_score_text refraction_score_print(const refraction_figures *r, refrac
 /* Where on the view `whole` the panel's part is: a frame around it. */
 void refraction_panel_mark(const refraction_figures *r, svg *sheet, const refraction_panel *whole, const refraction_panel *part);
 
-/* ---- the makers; each prints its errors and returns the exit code ---- */
+/* ---- the makers; each prints its errors and leaves the exit code with the job ---- */
 
-int refraction_below(refraction_figures *r);     /* figures_refraction_phases.c: Fig. 4 */
-int refraction_border(refraction_figures *r);    /* Fig. 7 */
-int refraction_occlusion(refraction_figures *r); /* Fig. 8 */
-int refraction_narrow(refraction_figures *r);    /* Fig. 9 */
-int refraction_flat(refraction_figures *r);      /* figures_refraction_baselines.c: Fig. 10 */
-int refraction_waves(refraction_figures *r);     /* Fig. 11 */
-int refraction_speed(refraction_figures *r);     /* figures_refraction_speed.c: Table 3 */
-int refraction_density(refraction_figures *r);   /* figures_refraction_views.c: Fig. 12 */
-int refraction_angles(refraction_figures *r);    /* Fig. 13 */
-int refraction_outdoors(refraction_figures *r);  /* Fig. 14 */
-int refraction_diver(refraction_figures *r);     /* Fig. 15 */
+void refraction_below(refraction_figures *r);     /* figures_refraction_phases.c: Fig. 4 */
+void refraction_border(refraction_figures *r);    /* Fig. 7 */
+void refraction_occlusion(refraction_figures *r); /* Fig. 8 */
+void refraction_narrow(refraction_figures *r);    /* Fig. 9 */
+void refraction_flat(refraction_figures *r);      /* figures_refraction_baselines.c: Fig. 10 */
+void refraction_waves(refraction_figures *r);     /* Fig. 11 */
+void refraction_speed(refraction_figures *r);     /* figures_refraction_speed.c: Table 3 */
+void refraction_density(refraction_figures *r);   /* figures_refraction_views.c: Fig. 12 */
+void refraction_angles(refraction_figures *r);    /* Fig. 13 */
+void refraction_outdoors(refraction_figures *r);  /* Fig. 14 */
+void refraction_diver(refraction_figures *r);     /* Fig. 15 */
 
 /* DIR/refraction.md, which standard output gets as well, and the same in figures.json. */
-int refraction_write_table(refraction_figures *r);
+void refraction_write_table(refraction_figures *r);
 
 #endif

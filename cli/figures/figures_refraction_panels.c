@@ -58,26 +58,39 @@ static int paint(refraction_figures *r, refraction_view view, refraction_kind ki
     return EXIT_CODE_OK;
 }
 
-int refraction_panel_put(refraction_figures *r, svg *sheet, const refraction_panel *p, refraction_kind kind, size_t picture, const char *title,
-                         const char *text)
+void refraction_panel_put(refraction_figures *r, svg *sheet, const refraction_panel *p, refraction_kind kind, size_t picture, const char *title,
+                          const char *text)
 {
     const compare_scene *s = refraction_scene(r, p->view);
     const svg_crop crop = panel_crop(r, p);
     const double tall = refraction_panel_height(r, p);
     uint8_t *rgba = NULL;
     char name[200];
-    int code = figures_display(r->compare, r->place[p->view], picture, 0, 0, &rgba);
-    if (code == EXIT_CODE_OK && kind != PANEL_PICTURE)
-        code = paint(r, p->view, kind, picture, rgba);
+    figures_job *f = r->figures;
+    if (figures_good(f))
+        f->code = figures_display(r->compare, r->place[p->view], picture, 0, 0, &rgba);
+    if (figures_good(f) && kind != PANEL_PICTURE)
+        f->code = paint(r, p->view, kind, picture, rgba);
     snprintf(name, sizeof name, "%s-%s%s", s->name, picture == COMPARE_REFERENCE ? "truth" : r->renders.methods[picture - 1].file, kind_names[kind]);
-    if (code == EXIT_CODE_OK)
-        code = figures_embed(r->figures, sheet, name, rgba, s->width, s->height, crop, p->x, p->y, p->across, tall);
+    figures_embed(f, sheet, name, rgba, s->width, s->height, crop, p->x, p->y, p->across, tall);
     free(rgba);
     if (kind == PANEL_DIFFERENCE)
         svg_box(sheet, p->x, p->y, p->across, tall, "none", "#bbb");
     svg_text(sheet, p->x, p->y - 8, 14, SVG_LEFT, "font-weight=\"bold\"", "%s", title);
     svg_text(sheet, p->x, p->y + tall + 16, 12, SVG_LEFT, "", "%s", text);
-    return code;
+}
+
+void refraction_cells_put(refraction_figures *r, svg *sheet, const refraction_panel *first, const refraction_cell *cells, size_t count, double gap, double row)
+{
+    for (size_t i = 0; i < count && figures_good(r->figures); i++) {
+        const refraction_cell *c = &cells[i];
+        const size_t picture = c->method == SHOWN_RAY ? COMPARE_REFERENCE : refraction_picture(c->method);
+        refraction_panel p = *first;
+        p.view = c->view;
+        p.x += (p.across + gap) * c->column;
+        p.y += row * c->row;
+        refraction_panel_put(r, sheet, &p, c->kind, picture, c->title, c->text ? c->text : refraction_score_print(r, c->view, c->method).text);
+    }
 }
 
 void refraction_panel_mark(const refraction_figures *r, svg *sheet, const refraction_panel *whole, const refraction_panel *part)

@@ -106,7 +106,7 @@ static int measure(refraction_figures *r, refraction_view view, refraction_metho
     score->flip = same.values[CLIP_FLIP];
     score->yee = same.values[CLIP_YEE];
     score->many = many.values[CLIP_RMSE];
-    return code == EXIT_CODE_OK ? figures_step(r->figures) : code;
+    return code;
 }
 
 static bool is_scored(const refraction_figures *r, int view, int method)
@@ -116,22 +116,23 @@ static bool is_scored(const refraction_figures *r, int view, int method)
            compare_draws(&r->compare->scenes[place], refraction_picture((refraction_method)method));
 }
 
-int refraction_measure(refraction_figures *r)
+void refraction_measure(refraction_figures *r)
 {
     uint64_t steps = 0;
-    int code = EXIT_CODE_OK;
+    figures_job *f = r->figures;
     for (int v = 0; v < REFRACTION_VIEWS; v++)
         for (int m = 0; m < REFRACTION_METHODS; m++) {
             r->scores[v][m] = (refraction_score){NAN, NAN, NAN, NAN, NAN, NAN};
             steps += is_scored(r, v, m);
         }
-    figures_steps(r->figures, steps);
-    for (int v = 0; v < REFRACTION_VIEWS && code == EXIT_CODE_OK; v++)
-        for (int m = 0; m < REFRACTION_METHODS && code == EXIT_CODE_OK; m++)
-            if (is_scored(r, v, m))
-                code = measure(r, (refraction_view)v, (refraction_method)m);
-    progress_clear(&r->figures->compare->progress);
-    return code;
+    figures_steps(f, steps);
+    for (int v = 0; v < REFRACTION_VIEWS && figures_good(f); v++)
+        for (int m = 0; m < REFRACTION_METHODS && figures_good(f); m++)
+            if (is_scored(r, v, m)) {
+                f->code = measure(r, (refraction_view)v, (refraction_method)m);
+                figures_step(f);
+            }
+    progress_clear(&f->compare->progress);
 }
 
 refraction_score_text refraction_score_print(const refraction_figures *r, refraction_view view, refraction_method method)

@@ -129,18 +129,14 @@ static json_t *times_json(const refraction_figures *r)
     return list;
 }
 
-int refraction_write_table(refraction_figures *r)
+void refraction_write_table(refraction_figures *r)
 {
     figures_job *f = r->figures;
-    char path[COMPARE_PATH];
     f->refraction_table = table_text(r);
-    if (!f->refraction_table)
-        return figures_no_memory();
     json_object_set_new(f->result, "liu_scores", scores_json(r));
     if (is_timed(r))
         json_object_set_new(f->result, "liu_table3", times_json(r));
-    return compare_file_path(f->compare, "refraction.md", path) ? compare_write_text(f->compare, path, f->refraction_table, strlen(f->refraction_table))
-                                                                : EXIT_CODE_USAGE;
+    figures_write(f, "refraction.md", f->refraction_table ? strdup(f->refraction_table) : NULL);
 }
 
 /* ---- in the page ---- */
@@ -191,7 +187,7 @@ static void check(refraction_figures *r)
                   quickest_ratio(r, TIMED_TWO_PHASE, 1, TIMED_TWO_PHASE, 0), 0.5, INFINITY);
 }
 
-int refraction_speed(refraction_figures *r)
+void refraction_speed(refraction_figures *r)
 {
     FILE *page = r->figures->page;
     figures_section(r->figures, "liu-table3", "Table 3: frames a second");
@@ -202,7 +198,7 @@ int refraction_speed(refraction_figures *r)
     if (!is_timed(r)) {
         fputs("<p>Nothing was timed (<code>--time-runs 0</code>).</p>\n", page);
         figures_section_end(r->figures);
-        return EXIT_CODE_OK;
+        return;
     }
     const compare_scene *s = refraction_scene(r, VIEW_SPEED_16K);
     fprintf(page,
@@ -220,5 +216,4 @@ int refraction_speed(refraction_figures *r)
     fputs("</table>\n", page);
     figures_section_end(r->figures);
     check(r);
-    return EXIT_CODE_OK;
 }

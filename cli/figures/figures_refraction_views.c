@@ -8,32 +8,20 @@ enum { GAP = 14, TOP = 34, UNDER = 62 };
 
 /* ---- Fig. 12 ---- */
 
-int refraction_density(refraction_figures *r)
+void refraction_density(refraction_figures *r)
 {
     enum { ACROSS = 650 };
-    static const struct {
-        refraction_view view;
-        refraction_method method; /* SHOWN_RAY: the truth */
-        const char *title;
-    } cells[] = {{VIEW_DENSE, SHOWN_WHOLE_BROAD, "(a) walls and floor of 2000 triangles"},
-                 {VIEW_SPARSE, SHOWN_WHOLE_BROAD, "(b) of 30 triangles"},
-                 {VIEW_SPARSE, SHOWN_BROAD, "(c) of 30, split until right to 0.1 pixel"},
-                 {VIEW_SPARSE, SHOWN_RAY, "truth"}};
-    figures_job *f = r->figures;
-    refraction_panel p = {.view = VIEW_DENSE, .across = ACROSS};
+    static const refraction_cell cells[] = {{VIEW_DENSE, SHOWN_WHOLE_BROAD, PANEL_PICTURE, 0, 0, "(a) walls and floor of 2000 triangles", NULL},
+                                            {VIEW_SPARSE, SHOWN_WHOLE_BROAD, PANEL_PICTURE, 1, 0, "(b) of 30 triangles", NULL},
+                                            {VIEW_SPARSE, SHOWN_BROAD, PANEL_PICTURE, 0, 1, "(c) of 30, split until right to 0.1 pixel", NULL},
+                                            {VIEW_SPARSE, SHOWN_RAY, PANEL_PICTURE, 1, 1, "truth", ""}};
+    const refraction_panel p = {.view = VIEW_DENSE, .x = GAP, .y = TOP, .across = ACROSS};
     const double tall = refraction_panel_height(r, &p);
+    figures_job *f = r->figures;
     svg sheet;
-    int code = EXIT_CODE_OK;
-    if (!svg_start(&sheet, 2 * ACROSS + 3 * GAP, TOP + 2 * (tall + UNDER) - 20))
-        return figures_no_memory();
-    for (size_t i = 0; i < sizeof cells / sizeof *cells && code == EXIT_CODE_OK; i++) {
-        const bool truth = cells[i].method == SHOWN_RAY;
-        p.view = cells[i].view;
-        p.x = GAP + (ACROSS + GAP) * (double)(i % 2);
-        p.y = TOP + (tall + UNDER) * (double)(i / 2);
-        code = refraction_panel_put(r, &sheet, &p, PANEL_PICTURE, truth ? COMPARE_REFERENCE : refraction_picture(cells[i].method), cells[i].title,
-                                    truth ? "" : refraction_score_print(r, cells[i].view, cells[i].method).text);
-    }
+    if (!figures_sheet(f, &sheet, 2 * ACROSS + 3 * GAP, TOP + 2 * (tall + UNDER) - 20))
+        return;
+    refraction_cells_put(r, &sheet, &p, cells, sizeof cells / sizeof *cells, GAP, tall + UNDER);
     const double whole = r->scores[VIEW_SPARSE][SHOWN_WHOLE_BROAD].rmse, split = r->scores[VIEW_SPARSE][SHOWN_BROAD].rmse;
     figures_section(f, "liu-fig12", "Fig. 12: density of vertices");
     fprintf(f->page,
@@ -46,16 +34,15 @@ int refraction_density(refraction_figures *r)
             "whole triangles, %.1f split.</p>\n",
             whole, split, r->scores[VIEW_DENSE][SHOWN_WHOLE_BROAD].rmse, r->scores[VIEW_SPARSE][SHOWN_WHOLE].rmse,
             r->scores[VIEW_SPARSE][SHOWN_TWO_PHASE].rmse);
-    code = figures_plate(f, &sheet, "liu-fig12", "The pool with many and few triangles, whole and split", code);
+    figures_plate(f, &sheet, "liu-fig12", "The pool with many and few triangles, whole and split");
     figures_section_end(f);
     figures_check(f, "Liu Fig. 12: RMSE of the broad phase with few triangles split over that with the same ones whole", split / whole, 0, 0.5);
     figures_check(f, "Liu Fig. 12: the same of both phases", r->scores[VIEW_SPARSE][SHOWN_TWO_PHASE].rmse / r->scores[VIEW_SPARSE][SHOWN_WHOLE].rmse, 0, 1);
-    return code;
 }
 
 /* ---- Fig. 13 ---- */
 
-int refraction_angles(refraction_figures *r)
+void refraction_angles(refraction_figures *r)
 {
     enum { ACROSS = 320 };
     static const struct {
@@ -75,17 +62,15 @@ int refraction_angles(refraction_figures *r)
     const double tall = refraction_panel_height(r, &p);
     json_t *json = json_array();
     svg sheet;
-    int code = EXIT_CODE_OK;
-    if (!svg_start(&sheet, 4 * ACROSS + 5 * GAP, TOP + 4 * tall + 2 * 80))
-        return figures_no_memory();
-    for (size_t i = 0; i < CELLS && code == EXIT_CODE_OK; i++) {
+    if (!figures_sheet(f, &sheet, 4 * ACROSS + 5 * GAP, TOP + 4 * tall + 2 * 80))
+        return;
+    for (size_t i = 0; i < CELLS && figures_good(f); i++) {
         p.view = cells[i].view;
         p.x = GAP + (ACROSS + GAP) * (double)(i % 4);
         p.y = TOP + (2 * tall + 80) * (double)(i / 4);
-        code = refraction_panel_put(r, &sheet, &p, PANEL_PICTURE, refraction_picture(SHOWN_TWO_PHASE), cells[i].title, "");
+        refraction_panel_put(r, &sheet, &p, PANEL_PICTURE, refraction_picture(SHOWN_TWO_PHASE), cells[i].title, "");
         p.y += tall + 6;
-        if (code == EXIT_CODE_OK)
-            code = refraction_panel_put(r, &sheet, &p, PANEL_PICTURE, COMPARE_REFERENCE, "", refraction_score_print(r, p.view, SHOWN_TWO_PHASE).text);
+        refraction_panel_put(r, &sheet, &p, PANEL_PICTURE, COMPARE_REFERENCE, "", refraction_score_print(r, p.view, SHOWN_TWO_PHASE).text);
         json_array_append_new(json, json_pack("{s:s, s:o}", "view", cells[i].title, "rmse", figures_number(r->scores[p.view][SHOWN_TWO_PHASE].rmse)));
     }
     json_object_set_new(f->result, "liu_fig13", json);
@@ -95,28 +80,25 @@ int refraction_angles(refraction_figures *r)
           "<p>The upper picture of each pair is by two-phase, the lower the truth. Errors grow with the waves: one pixel shows what a steep surface "
           "spreads over many, and more of it was hidden when the surface was flat.</p>\n",
           f->page);
-    code = figures_plate(f, &sheet, "liu-fig13", "The pool with four amplitudes and from four angles", code);
+    figures_plate(f, &sheet, "liu-fig13", "The pool with four amplitudes and from four angles");
     figures_section_end(f);
     figures_check(f, "Liu Fig. 13: RMSE of two-phase at slope 0.2", r->scores[VIEW_ROUGHER][SHOWN_TWO_PHASE].rmse, 0, 10);
-    return code;
 }
 
 /* ---- Figs. 14 and 15 ---- */
 
 /* A row: two-phase, screen space, no refraction and the truth of a part; `letters` "": without titles. */
-static int put_row(refraction_figures *r, svg *sheet, refraction_panel p, const char *letters)
+static void put_row(refraction_figures *r, svg *sheet, refraction_panel p, const char *letters)
 {
     static const refraction_method methods[] = {SHOWN_TWO_PHASE, SHOWN_SCREEN_SPACE, SHOWN_OFF, SHOWN_RAY};
-    int code = EXIT_CODE_OK;
-    for (size_t i = 0; i < 4 && code == EXIT_CODE_OK; i++) {
+    for (size_t i = 0; i < 4; i++) {
         char title[64] = "truth";
         if (i < 3)
             snprintf(title, sizeof title, "(%c) %s", letters[0] ? letters[i] : ' ', refraction_methods[methods[i]].title);
-        code = refraction_panel_put(r, sheet, &p, PANEL_PICTURE, i < 3 ? refraction_picture(methods[i]) : COMPARE_REFERENCE, letters[0] ? title : "",
-                                    i < 3 && letters[0] ? refraction_score_print(r, p.view, methods[i]).text : "");
+        refraction_panel_put(r, sheet, &p, PANEL_PICTURE, i < 3 ? refraction_picture(methods[i]) : COMPARE_REFERENCE, letters[0] ? title : "",
+                             i < 3 && letters[0] ? refraction_score_print(r, p.view, methods[i]).text : "");
         p.x += p.across + GAP;
     }
-    return code;
 }
 
 static void check_view(refraction_figures *r, const char *figure, refraction_view view, const char *name)
@@ -128,24 +110,25 @@ static void check_view(refraction_figures *r, const char *figure, refraction_vie
 
 enum { ACROSS = 320 };
 
-/* A sheet for two rows, the lower one so far below the upper one and from the border, and the upper row on it. */
-static int start_rows(refraction_figures *r, svg *sheet, const refraction_panel *upper, refraction_panel *lower, double between, double below)
+/* A sheet for two rows, the lower one so far below the upper one and from the border, and the upper row on it. False when memory runs out. */
+static bool start_rows(refraction_figures *r, svg *sheet, const refraction_panel *upper, refraction_panel *lower, double between, double below)
 {
     lower->y = TOP + refraction_panel_height(r, upper) + between;
-    if (!svg_start(sheet, 4 * ACROSS + 5 * GAP, lower->y + refraction_panel_height(r, lower) + below))
-        return figures_no_memory();
-    return put_row(r, sheet, *upper, "abc");
+    if (!figures_sheet(r->figures, sheet, 4 * ACROSS + 5 * GAP, lower->y + refraction_panel_height(r, lower) + below))
+        return false;
+    put_row(r, sheet, *upper, "abc");
+    return true;
 }
 
-int refraction_outdoors(refraction_figures *r)
+void refraction_outdoors(refraction_figures *r)
 {
     const refraction_panel shore = {.view = VIEW_SHORE, .x = GAP, .y = TOP, .across = ACROSS, .left = 0.1, .top = 0.25, .width = 0.6, .height = 0.75};
     refraction_panel hull = {.view = VIEW_HULL, .x = GAP, .across = ACROSS, .left = 0.05, .top = 0.25, .width = 0.65, .height = 0.75};
     figures_job *f = r->figures;
     svg sheet;
-    int code = start_rows(r, &sheet, &shore, &hull, UNDER, 30);
-    if (code == EXIT_CODE_OK)
-        code = put_row(r, &sheet, hull, "def");
+    if (!start_rows(r, &sheet, &shore, &hull, UNDER, 30))
+        return;
+    put_row(r, &sheet, hull, "def");
     figures_section(f, "liu-fig14", "Fig. 14: outdoors");
     fputs("<p class=\"published\">Published: a game's outdoor scene (a) by the paper's method, (b) by the usual screen-space approach, whose "
           "refracted parts are wrong.</p>\n"
@@ -153,31 +136,29 @@ int refraction_outdoors(refraction_figures *r)
           "from the boat. Screen space finds nothing where the boat hides the ground from straight lines of sight and below the picture's lower "
           "border, and shows deep water there.</p>\n",
           f->page);
-    code = figures_plate(f, &sheet, "liu-fig14", "A shore and a boat by three methods and the truth", code);
+    figures_plate(f, &sheet, "liu-fig14", "A shore and a boat by three methods and the truth");
     figures_section_end(f);
     check_view(r, "Fig. 14", VIEW_SHORE, "shore");
     check_view(r, "Fig. 14", VIEW_HULL, "boat");
-    return code;
 }
 
-int refraction_diver(refraction_figures *r)
+void refraction_diver(refraction_figures *r)
 {
     const refraction_panel p = {.view = VIEW_DIVER, .x = GAP, .y = TOP, .across = ACROSS};
     refraction_panel part = {.view = VIEW_DIVER, .x = GAP, .across = ACROSS, .left = 0.3, .top = 0, .width = 0.45, .height = 0.45};
     figures_job *f = r->figures;
     svg sheet;
-    int code = start_rows(r, &sheet, &p, &part, 30, GAP);
+    if (!start_rows(r, &sheet, &p, &part, 30, GAP))
+        return;
     refraction_panel_mark(r, &sheet, &p, &part);
-    if (code == EXIT_CODE_OK)
-        code = put_row(r, &sheet, part, "");
+    put_row(r, &sheet, part, "");
     figures_section(f, "liu-fig15", "Fig. 15: a diver's view");
     fputs("<p class=\"published\">Published: from under water (a) what stands above is where it should be, (b) it is missing in the screen-space "
           "approach.</p>\n"
           "<p>A pool hall with pillars, beams and lamps, its upper part larger below. The whole hall shows inside Snell's window; outside of it the "
           "basin is mirrored.</p>\n",
           f->page);
-    code = figures_plate(f, &sheet, "liu-fig15", "The pool hall from under water by three methods and the truth", code);
+    figures_plate(f, &sheet, "liu-fig15", "The pool hall from under water by three methods and the truth");
     figures_section_end(f);
     check_view(r, "Fig. 15", VIEW_DIVER, "pool hall from below");
-    return code;
 }

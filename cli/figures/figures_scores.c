@@ -63,21 +63,21 @@ static int add_method(figures_job *f, size_t scene, size_t picture, size_t frame
         clip->values += 0.75 * (double)(row * rows);
     }
     free_frame(&own);
-    return code == EXIT_CODE_OK ? figures_step(f) : code;
+    return code;
 }
 
-static int measure_scene(figures_job *f, size_t scene)
+static void measure_scene(figures_job *f, size_t scene)
 {
     scored_clip clips[FIGURE_METHODS] = {{.values = 0}};
-    for (size_t frame = 0; frame < f->compare->frame_count; frame++) {
+    for (size_t frame = 0; frame < f->compare->frame_count && figures_good(f); frame++) {
         scored_frame reference;
-        int code = read_frame(f, scene, COMPARE_REFERENCE, frame, &reference);
-        for (int m = 0; m < FIGURE_METHODS && code == EXIT_CODE_OK; m++)
-            if (f->picture[m])
-                code = add_method(f, scene, f->picture[m], frame, &reference, &clips[m]);
+        f->code = read_frame(f, scene, COMPARE_REFERENCE, frame, &reference);
+        for (int m = 0; m < FIGURE_METHODS && figures_good(f); m++)
+            if (f->picture[m]) {
+                f->code = add_method(f, scene, f->picture[m], frame, &reference, &clips[m]);
+                figures_step(f);
+            }
         free_frame(&reference);
-        if (code != EXIT_CODE_OK)
-            return code;
     }
     for (int m = 0; m < FIGURE_METHODS; m++) {
         figure_score *score = &f->scores[scene][m];
@@ -90,15 +90,12 @@ static int measure_scene(figures_job *f, size_t scene)
             score->excess[i] = clips[m].half[i] > 0 ? clips[m].excess[i] / clips[m].half[i] : 0;
         }
     }
-    return EXIT_CODE_OK;
 }
 
-int figures_measure(figures_job *f)
+void figures_measure(figures_job *f)
 {
-    int code = EXIT_CODE_OK;
     figures_steps(f, FIGURE_SCENES * f->compare->frame_count * f->renders.method_count);
-    for (size_t scene = 0; scene < FIGURE_SCENES && code == EXIT_CODE_OK; scene++)
-        code = measure_scene(f, scene);
+    for (size_t scene = 0; scene < FIGURE_SCENES && figures_good(f); scene++)
+        measure_scene(f, scene);
     progress_clear(&f->compare->progress);
-    return code;
 }

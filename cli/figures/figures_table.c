@@ -126,16 +126,6 @@ static char *table_csv(const figures_job *f)
     return memory_text_finish(out, &text);
 }
 
-static int write_text(figures_job *f, const char *name, char *text)
-{
-    char path[COMPARE_PATH];
-    if (!text)
-        return figures_no_memory();
-    const int code = compare_file_path(f->compare, name, path) ? compare_write_text(f->compare, path, text, strlen(text)) : EXIT_CODE_USAGE;
-    free(text);
-    return code;
-}
-
 /* ---- in the page ---- */
 
 static void put_table(figures_job *f, int column)
@@ -221,7 +211,7 @@ static void check_table(figures_job *f)
     figures_check(f, "Table 1: RMSE of mangata over the better of the paper's two models, mean of the scenes", over_published(f, COLUMN_COVERAGE), 0, 0.75);
 }
 
-int figures_table1(figures_job *f)
+void figures_table1(figures_job *f)
 {
     figures_section(f, "table1", "Table 1: RMSE against the reference");
     fputs("<p class=\"published\">Published: RMSE of displayed colour, after glare and tone mapping, presumably of one frame a scene.</p>\n"
@@ -235,8 +225,8 @@ int figures_table1(figures_job *f)
     check_table(f);
     json_object_set_new(f->result, "table1", table_json(f));
     figures_section_end(f);
-    const int code = write_text(f, "table1.md", figures_table1_text(f));
-    return code == EXIT_CODE_OK ? write_text(f, "table1.csv", table_csv(f)) : code;
+    figures_write(f, "table1.md", figures_table1_text(f));
+    figures_write(f, "table1.csv", table_csv(f));
 }
 
 /* ---- Fig. 18 ---- */
@@ -246,7 +236,7 @@ static double bar_value(const figures_job *f, int panel, int scene, int method)
     return panel == 0 ? published[method][scene] : score(f, panel == 1 ? COLUMN_DISPLAYED + FIGURE_SHOWN : COLUMN_COVERAGE, scene, method);
 }
 
-int figures_bars(figures_job *f)
+void figures_bars(figures_job *f)
 {
     char shown[96], title[3][128];
     svg sheet;
@@ -254,8 +244,8 @@ int figures_bars(figures_job *f)
     snprintf(title[0], sizeof title[0], "published (displayed colour)");
     snprintf(title[1], sizeof title[1], "here, %s", shown);
     snprintf(title[2], sizeof title[2], "here, coverage");
-    if (!svg_start(&sheet, 1320, 420))
-        return figures_no_memory();
+    if (!figures_sheet(f, &sheet, 1320, 420))
+        return;
     for (int panel = 0; panel < 3; panel++) {
         double most = 0;
         for (int s = 0; s < FIGURE_SCENES; s++)
@@ -286,7 +276,6 @@ int figures_bars(figures_job *f)
     }
     figures_section(f, "fig18", "Fig. 18: RMSE comparison");
     fputs("<p class=\"published\">Published: Table 1 as bars.</p>\n", f->page);
-    const int code = figures_plate(f, &sheet, "fig18", "Bars of RMSE by scene and method, published and here", EXIT_CODE_OK);
+    figures_plate(f, &sheet, "fig18", "Bars of RMSE by scene and method, published and here");
     figures_section_end(f);
-    return code;
 }
