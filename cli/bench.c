@@ -8,6 +8,7 @@
 #include "cli/common/interrupt.h"
 #include "cli/common/memory_use.h"
 #include "cli/common/method_spec.h"
+#include "cli/common/numbers.h"
 #include "cli/common/progress.h"
 #include "cli/common/verbs.h"
 #include "params/methods.h"
@@ -60,15 +61,9 @@ static int add_methods(bench *b)
     return b->count ? EXIT_CODE_OK : console_error(EXIT_CODE_USAGE, "--methods %s: allowed is %s", b->request->methods, method_names().text);
 }
 
-static bool keep_going(void *user, double fraction)
-{
-    (void)user, (void)fraction;
-    return *interrupt_flag() == 0;
-}
-
 static int open_context(bench *b, bench_method *method)
 {
-    return context_open(&b->request->context, &b->request->out, keep_going, NULL, &method->context, &b->info);
+    return context_open(&b->request->context, &b->request->out, interrupt_keep_going, NULL, &method->context, &b->info);
 }
 
 static void close_context(bench_method *method)
@@ -158,12 +153,6 @@ static int measure(bench *b)
     return EXIT_CODE_OK;
 }
 
-static int ascending(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static int print_report(bench *b)
 {
     const size_t runs = (size_t)(b->request->frames * b->request->repeat);
@@ -184,18 +173,17 @@ static int print_report(bench *b)
                b->request->memory ? "       MiB" : "");
     }
     for (size_t m = 0; m < b->count; m++) {
-        double *s = b->methods[m].seconds;
-        qsort(s, runs, sizeof *s, ascending);
-        const double median = 0.5 * (s[(runs - 1) / 2] + s[runs / 2]);
+        const number_spread seconds = number_spread_of(b->methods[m].seconds, runs);
+        const double median = seconds.median;
         const char *name = b->methods[m].spec.name;
         const double memory = b->methods[m].memory;
         json_t *bytes = list && isfinite(memory) ? json_integer((json_int_t)memory) : NULL;
         if (list)
-            json_array_append_new(list, json_pack("{s:s, s:f, s:f, s:f, s:f, s:f, s:o*}", "method", name, "median_ms", 1e3 * median, "min_ms", 1e3 * s[0],
-                                                  "max_ms", 1e3 * s[runs - 1], "fps", 1 / fmax(median, 1e-9), "mpixel_per_s", megapixels / fmax(median, 1e-9),
-                                                  "memory_bytes", bytes));
+            json_array_append_new(list, json_pack("{s:s, s:f, s:f, s:f, s:f, s:f, s:o*}", "method", name, "median_ms", 1e3 * median, "min_ms",
+                                                  1e3 * seconds.least, "max_ms", 1e3 * seconds.most, "fps", 1 / fmax(median, 1e-9), "mpixel_per_s",
+                                                  megapixels / fmax(median, 1e-9), "memory_bytes", bytes));
         else
-            printf("%-*s%10.2f%10.2f%10.2f%10.1f%10.1f", width, name, 1e3 * median, 1e3 * s[0], 1e3 * s[runs - 1], 1 / fmax(median, 1e-9),
+            printf("%-*s%10.2f%10.2f%10.2f%10.1f%10.1f", width, name, 1e3 * median, 1e3 * seconds.least, 1e3 * seconds.most, 1 / fmax(median, 1e-9),
                    megapixels / fmax(median, 1e-9));
         if (!list && isfinite(memory))
             printf("%10.1f", memory / 1048576);

@@ -193,7 +193,6 @@ static char *table_name(const waves_request *r)
 static int write_scene(const waves_request *r, const scene_values *values)
 {
     const output_options options = {.overwrite = r->overwrite};
-    output_file *file = NULL;
     file_error error;
     char *text = NULL;
     size_t size = 0;
@@ -204,14 +203,8 @@ static int write_scene(const waves_request *r, const scene_values *values)
     int code = good ? EXIT_CODE_OK : console_error(EXIT_CODE_FAILED, "out of memory");
     if (good && !r->output) {
         fwrite(text, 1, size, stdout);
-    } else if (good) {
-        file_status status = output_file_open(&file, r->output, &options, &error);
-        if (status == FILE_OK && (status = output_file_write(file, text, size, &error)) != FILE_OK)
-            output_file_abort(file);
-        else if (status == FILE_OK)
-            status = output_file_finish(file, &error);
-        if (status != FILE_OK)
-            code = console_file_error(&error);
+    } else if (good && output_file_write_whole(r->output, text, size, &options, &error) != FILE_OK) {
+        code = console_file_error(&error);
     }
     free(text);
     return code;

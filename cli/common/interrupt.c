@@ -34,3 +34,9 @@ void interrupt_install(void)
 const volatile sig_atomic_t *interrupt_flag(void) { return &signal_that_came; }
 
 int interrupt_exit_code(void) { return 128 + (int)signal_that_came; }
+
+bool interrupt_keep_going(void *user, double fraction)
+{
+    (void)user, (void)fraction;
+    return *interrupt_flag() == 0;
+}

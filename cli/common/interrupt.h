@@ -4,6 +4,7 @@
 #define MANGATA_CLI_COMMON_INTERRUPT_H
 
 #include <signal.h>
+#include <stdbool.h>
 
 /* Installs the handlers; a signal that the parent set to be ignored (nohup) stays ignored. SIGPIPE becomes a write error. */
 void interrupt_install(void);
@@ -13,5 +14,8 @@ const volatile sig_atomic_t *interrupt_flag(void);
 
 /* 128 + the signal that came. */
 int interrupt_exit_code(void);
+
+/* An mgt_progress_function that goes on until then. */
+bool interrupt_keep_going(void *user, double fraction);
 
 #endif

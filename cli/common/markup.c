@@ -3,6 +3,7 @@
 #include "cli/common/markup.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 void markup_escape(FILE *stream, const char *text)
 {
@@ -24,6 +25,23 @@ void markup_escape(FILE *stream, const char *text)
             putc(*text, stream);
             break;
         }
+}
+
+void shell_word(FILE *stream, const char *word)
+{
+    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
+    putc(' ', stream);
+    if (word[0] && !word[strspn(word, plain)]) {
+        fputs(word, stream);
+        return;
+    }
+    putc('\'', stream);
+    for (; *word; word++)
+        if (*word == '\'')
+            fputs("'\\''", stream);
+        else
+            putc(*word, stream);
+    putc('\'', stream);
 }
 
 char *base64_text(const uint8_t *bytes, size_t size, size_t *length)

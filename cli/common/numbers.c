@@ -73,3 +73,17 @@ number_text number_print(double number)
     }
     return out;
 }
+
+static int ascending(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+number_spread number_spread_of(double *values, size_t count)
+{
+    if (count == 0)
+        return (number_spread){NAN, NAN, NAN};
+    qsort(values, count, sizeof *values, ascending);
+    return (number_spread){0.5 * (values[(count - 1) / 2] + values[count / 2]), values[0], values[count - 1]};
+}

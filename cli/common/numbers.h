@@ -22,4 +22,10 @@ typedef struct number_text {
 } number_text;
 number_text number_print(double number);
 
+/* Of measured values, which are sorted by it; NaN where there are none. */
+typedef struct number_spread {
+    double median, least, most;
+} number_spread;
+number_spread number_spread_of(double *values, size_t count);
+
 #endif

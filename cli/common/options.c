@@ -12,6 +12,7 @@
 #include "cli/common/quality_options.h"
 #include "params/methods.h"
 #include "params/options.h"
+#include "scene/scene_text.h"
 
 static const option common_options[] = {
     {"json", 0, NULL, .help = "print the result as JSON on standard output"},
@@ -226,35 +227,13 @@ static void print_help(const option_table *table)
 
 static size_t least(size_t a, size_t b) { return a < b ? a : b; }
 
-/* Levenshtein's distance; long names count as far. */
-static size_t edit_distance(const char *a, const char *b)
-{
-    enum { LIMIT = 32 };
-    const size_t length = strlen(b);
-    size_t row[LIMIT + 1];
-    if (length > LIMIT || strlen(a) > LIMIT)
-        return LIMIT;
-    for (size_t j = 0; j <= length; j++)
-        row[j] = j;
-    for (size_t i = 1; a[i - 1]; i++) {
-        size_t diagonal = row[0];
-        row[0] = i;
-        for (size_t j = 1; j <= length; j++) {
-            const size_t above = row[j];
-            row[j] = least(least(above, row[j - 1]) + 1, diagonal + (a[i - 1] != b[j - 1]));
-            diagonal = above;
-        }
-    }
-    return row[length];
-}
-
 const char *nearest_name(const char *text, const void *names, size_t count, const char *(*name_at)(const void *, size_t))
 {
     const char *best = NULL;
     size_t best_distance = 3;
     for (size_t i = 0; i < count; i++) {
         const char *name = name_at(names, i);
-        const size_t distance = edit_distance(text, name);
+        const size_t distance = scene_edit_distance(text, strlen(text), name);
         if (distance < best_distance && distance < strlen(name))
             best = name, best_distance = distance;
     }

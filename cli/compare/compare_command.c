@@ -5,24 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/common/markup.h"
 #include "cli/common/memory_text.h"
-
-static void put_word(FILE *stream, const char *word)
-{
-    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
-    putc(' ', stream);
-    if (word[0] && !word[strspn(word, plain)]) {
-        fputs(word, stream);
-        return;
-    }
-    putc('\'', stream);
-    for (; *word; word++)
-        if (*word == '\'')
-            fputs("'\\''", stream);
-        else
-            putc(*word, stream);
-    putc('\'', stream);
-}
 
 char *compare_command(const compare_job *job)
 {
@@ -33,7 +17,7 @@ char *compare_command(const compare_job *job)
         return NULL;
     fputs("mangata compare", stream);
     for (int i = 0; i < job->request->argument_count; i++)
-        put_word(stream, job->request->arguments[i]);
+        shell_word(stream, job->request->arguments[i]);
     return memory_text_finish(stream, &text);
 }
 
@@ -48,7 +32,7 @@ char *compare_picture_command(const compare_job *job, const compare_scene *scene
         return NULL;
     frame_list_print(&r->frames, frames, sizeof frames);
     fputs("mangata render", stream);
-    put_word(stream, scene->path);
+    shell_word(stream, scene->path);
     fprintf(stream, " -o %s_%%04d.exr --layer color --layer coverage --frames %s", picture == COMPARE_REFERENCE ? "reference" : r->methods[picture - 1].file,
             frames);
     if (picture == COMPARE_REFERENCE)
@@ -60,7 +44,7 @@ char *compare_picture_command(const compare_job *job, const compare_scene *scene
         fprintf(stream, " --seed %llu", (unsigned long long)q->seed);
     for (size_t i = 0; i < r->changes.count; i++) {
         fputs(" --set", stream);
-        put_word(stream, r->changes.items[i]);
+        shell_word(stream, r->changes.items[i]);
     }
     if (r->context.backend != MGT_BACKEND_CPU)
         fprintf(stream, " --backend %s", mgt_backend_name(r->context.backend));

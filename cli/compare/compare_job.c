@@ -75,15 +75,8 @@ int compare_file_failure(compare_job *job, const file_error *error)
 
 int compare_write_text(compare_job *job, const char *path, const char *text, size_t size)
 {
-    output_file *file = NULL;
     file_error error;
-    if (output_file_open(&file, path, &job->output, &error) != FILE_OK)
-        return compare_file_failure(job, &error);
-    if (output_file_write(file, text, size, &error) != FILE_OK) {
-        output_file_abort(file);
-        return compare_file_failure(job, &error);
-    }
-    return output_file_finish(file, &error) == FILE_OK ? EXIT_CODE_OK : compare_file_failure(job, &error);
+    return output_file_write_whole(path, text, size, &job->output, &error) == FILE_OK ? EXIT_CODE_OK : compare_file_failure(job, &error);
 }
 
 /* ---- before the first pixel ---------------------------------------------------------------------------- */

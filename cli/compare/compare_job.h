@@ -4,6 +4,7 @@
 #define MANGATA_CLI_COMPARE_COMPARE_JOB_H
 
 #include "cli/compare/compare_request.h"
+#include "cli/common/numbers.h"
 #include "image/metrics_clip.h"
 #include "cli/render/render_request.h"
 
@@ -15,15 +16,10 @@ typedef enum compare_kind {
     COMPARE_KINDS
 } compare_kind;
 
-/* Seconds of one frame; all NaN: not measured. */
-typedef struct compare_time {
-    double median, least, most;
-} compare_time;
-
 /* A method on a scene. */
 typedef struct compare_result {
-    compare_time time;
-    double memory; /* bytes that a frame takes at its peak, in a context of its own; NaN: not measured */
+    number_spread time; /* seconds of one frame; all NaN: not measured */
+    double memory;      /* bytes that a frame takes at its peak, in a context of its own; NaN: not measured */
     clip_scores clip[COMPARE_KINDS];
     clip_scores *frames[COMPARE_KINDS]; /* one a frame */
 } compare_result;
@@ -88,7 +84,7 @@ void compare_close(compare_job *job);
 
 /* The steps after it, in order; each prints its errors and returns the exit code. */
 int compare_render(compare_job *job);       /* compare_images.c: the pictures that are not there yet */
-int compare_time_methods(compare_job *job); /* compare_time.c */
+int compare_time_methods(compare_job *job); /* number_spread.c */
 int compare_measure(compare_job *job);      /* compare_scores.c */
 
 #endif

@@ -193,11 +193,11 @@ static bool is_best(const compare_job *job, const compare_scene *scene, size_t m
 static void put_row(FILE *stream, const compare_job *job, const compare_scene *scene, size_t index, size_t method)
 {
     const method_spec *spec = &job->request->methods[method];
-    compare_time time = {0};
+    number_spread time = {0};
     for (size_t s = 0; s < job->request->scene_count; s++) {
-        const compare_time *t = &job->scenes[s].results[method].time;
+        const number_spread *t = &job->scenes[s].results[method].time;
         const double share = 1 / (double)job->request->scene_count;
-        time = (compare_time){time.median + share * t->median, time.least + share * t->least, time.most + share * t->most};
+        time = (number_spread){time.median + share * t->median, time.least + share * t->least, time.most + share * t->most};
     }
     if (scene)
         time = scene->results[method].time;

@@ -32,7 +32,7 @@ static json_t *owned_text(char *text)
     return value;
 }
 
-static json_t *time_json(const compare_time *time)
+static json_t *time_json(const number_spread *time)
 {
     return json_pack("{s:o, s:o, s:o}", "median", number(1e3 * time->median), "least", number(1e3 * time->least), "most", number(1e3 * time->most));
 }

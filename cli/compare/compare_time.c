@@ -13,20 +13,6 @@
 
 static bool is_timed(const compare_scene *scene, size_t method) { return !scene->view->untimed && compare_draws(scene, method + 1); }
 
-static int ascending(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static compare_time summary(double *seconds, size_t count)
-{
-    if (count == 0)
-        return (compare_time){NAN, NAN, NAN};
-    qsort(seconds, count, sizeof *seconds, ascending);
-    return (compare_time){0.5 * (seconds[(count - 1) / 2] + seconds[count / 2]), seconds[0], seconds[count - 1]};
-}
-
 /* What the times depend on, but for the machine itself. */
 static bool times_key(const compare_job *job, const compare_scene *scene, sha256_text *key)
 {
@@ -79,7 +65,7 @@ static bool read_times(const compare_job *job, compare_scene *scene, const char 
         for (size_t i = 0; found && i < count; i++)
             seconds[i] = json_number_value(json_array_get(list, i));
         if (found)
-            scene->results[m].time = summary(seconds, count);
+            scene->results[m].time = number_spread_of(seconds, count);
         scene->results[m].memory = json_is_number(memory) ? json_number_value(memory) : NAN;
         free(seconds);
     }
@@ -133,12 +119,6 @@ static int time_once(compare_job *job, const compare_scene *scene, size_t method
     return code;
 }
 
-static bool keep_going(void *user, double fraction)
-{
-    (void)user, (void)fraction;
-    return *interrupt_flag() == 0;
-}
-
 static int measure_memory(compare_job *job, compare_scene *scene, const mgt_target *target)
 {
     int code = EXIT_CODE_OK;
@@ -152,7 +132,7 @@ static int measure_memory(compare_job *job, compare_scene *scene, const mgt_targ
         if (!compare_frame_scene(job, scene, m + 1, 0, &view))
             return EXIT_CODE_BAD_INPUT;
         const double before = memory_use_begin();
-        code = context_open(&job->request->context, &job->request->out, keep_going, NULL, &context, &info);
+        code = context_open(&job->request->context, &job->request->out, interrupt_keep_going, NULL, &context, &info);
         if (code == EXIT_CODE_OK)
             code = render_once(job, context, &view, target, &unused);
         scene->results[m].memory = memory_use_peak() - before;
@@ -182,7 +162,7 @@ static int time_scene(compare_job *job, compare_scene *scene, const char *path, 
         code = write_times(job, scene, path, key, seconds);
     for (size_t m = 0; m < methods && code == EXIT_CODE_OK; m++)
         if (is_timed(scene, m))
-            scene->results[m].time = summary(seconds + m * runs, runs);
+            scene->results[m].time = number_spread_of(seconds + m * runs, runs);
     free(seconds);
     free(target.pixels);
     return code;
@@ -195,7 +175,7 @@ int compare_time_methods(compare_job *job)
     uint64_t timed = 0;
     for (size_t s = 0; s < r->scene_count; s++)
         for (size_t m = 0; m < r->method_count; m++) {
-            job->scenes[s].results[m].time = summary(NULL, 0);
+            job->scenes[s].results[m].time = number_spread_of(NULL, 0);
             job->scenes[s].results[m].memory = NAN;
             timed += is_timed(&job->scenes[s], m);
         }

@@ -11,6 +11,7 @@
 
 #include "cli/figures/figures_refraction.h"
 #include "cli/common/interrupt.h"
+#include "cli/common/memory_text.h"
 
 const char *const figure_scenes[FIGURE_SCENES] = {"simple", "smooth", "medium", "high"};
 
@@ -149,28 +150,6 @@ int figures_display(compare_job *job, size_t scene, size_t picture, size_t frame
     return code;
 }
 
-/* A file that was just written. */
-static uint8_t *read_whole(const char *path, size_t *size)
-{
-    FILE *file = fopen(path, "rb");
-    uint8_t *bytes = NULL;
-    *size = 0;
-    if (!file)
-        return NULL;
-    if (fseek(file, 0, SEEK_END) == 0) {
-        const long length = ftell(file);
-        bytes = length > 0 ? malloc((size_t)length) : NULL;
-        rewind(file);
-        if (bytes && fread(bytes, 1, (size_t)length, file) == (size_t)length)
-            *size = (size_t)length;
-    }
-    fclose(file);
-    if (*size)
-        return bytes;
-    free(bytes);
-    return NULL;
-}
-
 static int embed(figures_job *f, svg *sheet, const char *name, const uint8_t *rgba, uint32_t width, uint32_t height, svg_crop crop, double x, double y,
                  double shown_width, double shown_height)
 {
@@ -182,10 +161,10 @@ static int embed(figures_job *f, svg *sheet, const char *name, const uint8_t *rg
     if (picture_write_png(path, width, height, rgba, 0, NULL, &f->compare->output, &error) != FILE_OK)
         return compare_file_failure(f->compare, &error);
     size_t size = 0;
-    uint8_t *png = read_whole(path, &size);
+    char *png = memory_text_read(path, &size);
     if (!png)
         return console_error(EXIT_CODE_FAILED, "%s: it cannot be read back", path);
-    const bool done = svg_picture(sheet, x, y, shown_width, shown_height, png, size, width, height, crop);
+    const bool done = svg_picture(sheet, x, y, shown_width, shown_height, (const uint8_t *)png, size, width, height, crop);
     free(png);
     return done ? EXIT_CODE_OK : figures_no_memory();
 }

@@ -245,6 +245,19 @@ fail:
     return status;
 }
 
+file_status output_file_write_whole(const char *path, const void *bytes, size_t size, const output_options *options, file_error *error)
+{
+    output_file *file = NULL;
+    file_status status = output_file_open(&file, path, options, error);
+    if (status != FILE_OK)
+        return status;
+    status = output_file_write(file, bytes, size, error);
+    if (status == FILE_OK)
+        return output_file_finish(file, error);
+    output_file_abort(file);
+    return status;
+}
+
 void output_file_abort(output_file *file)
 {
     if (!file)

@@ -46,6 +46,9 @@ file_status output_file_sync(output_file *file, file_error *error);
  * is removed. */
 file_status output_file_finish(output_file *file, file_error *error);
 
+/* A whole file at once. */
+file_status output_file_write_whole(const char *path, const void *bytes, size_t size, const output_options *options, file_error *error);
+
 /* Removes the temporary file and frees `file`. NULL is allowed. */
 void output_file_abort(output_file *file);
 

@@ -8,6 +8,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "cli/common/memory_text.h"
 #include "cli/common/progress.h"
 #include "params/methods.h"
 #include "params/scene_rows.h"
@@ -308,22 +309,6 @@ static void take(viewer *v, render_worker *w, bool refines)
 
 /* ---- kernel files of --shaders ---- */
 
-static char *read_text(const char *path)
-{
-    FILE *stream = fopen(path, "rb");
-    char *text = NULL;
-    size_t size = 0;
-    FILE *memory = stream ? open_memstream(&text, &size) : NULL;
-    char block[4096];
-    for (size_t n; memory && (n = fread(block, 1, sizeof block, stream)) > 0;)
-        fwrite(block, 1, n, memory);
-    if (stream)
-        fclose(stream);
-    if (memory)
-        fclose(memory);
-    return text;
-}
-
 /* Files of the folder that stand in for texts of the library, and a number that differs once one of them changes. */
 typedef struct shader_files {
     mgt_gl_source *sources; /* room for all that the library has; their texts are read when they are needed */
@@ -378,7 +363,8 @@ static void use_shader_files(viewer *v, shader_files *f)
 {
     size_t good = 0;
     for (size_t i = 0; i < f->count; i++) {
-        char *text = read_text(f->paths[i]);
+        size_t size;
+        char *text = memory_text_read(f->paths[i], &size);
         if (text)
             f->sources[good++] = (mgt_gl_source){f->sources[i].name, text};
     }

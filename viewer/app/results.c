@@ -5,29 +5,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/common/markup.h"
 #include "image/picture.h"
 #include "params/methods.h"
 #include "params/options.h"
 #include "viewer/app/viewer.h"
 
 /* ---- the command ---- */
-
-/* A word for a POSIX shell. */
-static void write_word(FILE *stream, const char *word)
-{
-    static const char plain[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_./:=,+@%-";
-    if (word[0] && word[strspn(word, plain)] == 0) {
-        fputs(word, stream);
-        return;
-    }
-    fputc('\'', stream);
-    for (const char *p = word; *p; p++)
-        if (*p == '\'')
-            fputs("'\\''", stream);
-        else
-            fputc(*p, stream);
-    fputc('\'', stream);
-}
 
 /* What side A does otherwise than the scene's own quality by the same method. */
 static void write_method(FILE *stream, const viewer *v, const mgt_quality *q)
@@ -58,15 +42,15 @@ char *viewer_command(const viewer *v)
         return NULL;
     FILE *stream = scene_overrides_between(scene_file_values(v->document.file), &values, &words) ? open_memstream(&text, &size) : NULL;
     if (stream) {
-        fputs("mangata render ", stream);
-        write_word(stream, v->document.path);
+        fputs("mangata render", stream);
+        shell_word(stream, v->document.path);
         fputs(" -o frame.png --frames 0", stream);
         write_method(stream, v, &q);
         if (v->settings.view.layer != MGT_LAYER_COLOR && v->settings.view.layer != MGT_LAYER_DEPTH)
             fprintf(stream, " --layer %s", layer_choices[v->settings.view.layer]);
         for (size_t i = 0; i < words.count; i++) {
-            fputs(" --set ", stream);
-            write_word(stream, words.words[i]);
+            fputs(" --set", stream);
+            shell_word(stream, words.words[i]);
         }
         if (fclose(stream) != 0) {
             free(text);

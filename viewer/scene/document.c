@@ -248,21 +248,13 @@ static bool reads_back(const char *text, size_t size, const scene_values *values
 file_status document_save(const scene_values *values, const char *path, bool overwrite, file_error *error)
 {
     const output_options options = {.overwrite = overwrite};
-    output_file *out = NULL;
     size_t size = 0;
     char *text = text_of_values(values, &size);
     if (!text)
         return file_error_set(error, FILE_MEMORY, "out of memory");
     file_status status = reads_back(text, size, values, error) ? FILE_OK : FILE_ARGUMENT;
     if (status == FILE_OK)
-        status = output_file_open(&out, path, &options, error);
-    if (status == FILE_OK) {
-        status = output_file_write(out, text, size, error);
-        if (status == FILE_OK)
-            status = output_file_finish(out, error);
-        else
-            output_file_abort(out);
-    }
+        status = output_file_write_whole(path, text, size, &options, error);
     free(text);
     return status;
 }
