@@ -48,3 +48,13 @@ int context_open(const context_options *options, const console *out, mgt_progres
     mgt_context_get_info(*context, info);
     return EXIT_CODE_OK;
 }
+
+mgt_target target_of(mgt_layer layer, mgt_format format, void *pixels)
+{
+    mgt_target target;
+    mgt_target_init(&target, sizeof target);
+    target.layer = layer;
+    target.format = format;
+    target.pixels = pixels;
+    return target;
+}

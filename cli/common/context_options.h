@@ -37,4 +37,7 @@ option_set option_drawing_backend;
 int context_open(const context_options *options, const console *out, mgt_progress_function progress, void *progress_user, mgt_context **context,
                  mgt_context_info *info);
 
+/* A target of whole rows in the caller's memory. */
+mgt_target target_of(mgt_layer layer, mgt_format format, void *pixels);
+
 #endif

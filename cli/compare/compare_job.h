@@ -83,7 +83,10 @@ int compare_open(compare_job *job, const compare_request *request, const char *p
 void compare_close(compare_job *job);
 
 /* The steps after it, in order; each prints its errors and returns the exit code. */
-int compare_render(compare_job *job);       /* compare_images.c: the pictures that are not there yet */
+int compare_render(compare_job *job); /* compare_images.c: the pictures that are not there yet */
+/* Linear light as it is displayed: 4 bytes a pixel, which the caller frees; NULL after a failure. compare_scores.c */
+int compare_display(compare_job *job, const mgt_scene *view, const float_image *light, uint8_t **rgba);
+
 int compare_time_methods(compare_job *job); /* number_spread.c */
 int compare_measure(compare_job *job);      /* compare_scores.c */
 

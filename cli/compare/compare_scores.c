@@ -88,27 +88,35 @@ static void free_frames(float_image frames[COMPARE_KINDS])
         float_image_free(&frames[k]);
 }
 
+int compare_display(compare_job *job, const mgt_scene *view, const float_image *light, uint8_t **rgba)
+{
+    *rgba = calloc((size_t)light->width * light->height, 4);
+    if (!*rgba)
+        return console_error(EXIT_CODE_FAILED, "out of memory");
+    const mgt_target target = target_of(MGT_LAYER_COLOR, MGT_FORMAT_RGBA8_SRGB, *rgba);
+    const mgt_status status = mgt_display(job->context, view, light->pixels, &target);
+    if (status == MGT_OK)
+        return EXIT_CODE_OK;
+    free(*rgba);
+    *rgba = NULL;
+    return *interrupt_flag() ? compare_stopped(job) : console_library_error(job->context, status);
+}
+
 /* Displayed colour as a file of 8 bits would hold it, 0 … 1. */
 static int display(compare_job *job, const compare_scene *scene, size_t frame, const float_image *light, float_image *displayed)
 {
-    const size_t pixels = (size_t)light->width * light->height;
+    const size_t values = 3 * (size_t)light->width * light->height;
+    uint8_t *bytes;
     mgt_scene view;
     if (!compare_frame_scene(job, scene, COMPARE_REFERENCE, frame, &view))
         return EXIT_CODE_BAD_INPUT;
-    mgt_target target;
-    mgt_target_init(&target, sizeof target);
-    target.layer = MGT_LAYER_COLOR;
-    target.format = MGT_FORMAT_RGBA8_SRGB;
-    uint8_t *bytes = calloc(pixels, 4);
-    *displayed = (float_image){light->width, light->height, 3, calloc(3 * pixels, sizeof(float))};
-    target.pixels = bytes;
-    int code = bytes && displayed->pixels ? EXIT_CODE_OK : console_error(EXIT_CODE_FAILED, "out of memory");
-    if (code == EXIT_CODE_OK) {
-        const mgt_status status = mgt_display(job->context, &view, light->pixels, &target);
-        if (status != MGT_OK)
-            code = *interrupt_flag() ? compare_stopped(job) : console_library_error(job->context, status);
-    }
-    for (size_t i = 0; i < 3 * pixels && code == EXIT_CODE_OK; i++)
+    int code = compare_display(job, &view, light, &bytes);
+    if (code != EXIT_CODE_OK)
+        return code;
+    *displayed = (float_image){light->width, light->height, 3, calloc(values, sizeof(float))};
+    if (!displayed->pixels)
+        code = console_error(EXIT_CODE_FAILED, "out of memory");
+    for (size_t i = 0; i < values && code == EXIT_CODE_OK; i++)
         displayed->pixels[i] = (float)bytes[i / 3 * 4 + i % 3] / 255;
     free(bytes);
     return code;

@@ -144,11 +144,7 @@ static int measure_memory(compare_job *job, compare_scene *scene, const mgt_targ
 static int time_scene(compare_job *job, compare_scene *scene, const char *path, const sha256_text *key)
 {
     const size_t runs = (size_t)job->request->time_runs, methods = job->request->method_count;
-    mgt_target target;
-    mgt_target_init(&target, sizeof target);
-    target.layer = MGT_LAYER_COLOR;
-    target.format = MGT_FORMAT_RGB32F;
-    target.pixels = calloc((size_t)scene->width * scene->height, 3 * sizeof(float));
+    const mgt_target target = target_of(MGT_LAYER_COLOR, MGT_FORMAT_RGB32F, calloc((size_t)scene->width * scene->height, 3 * sizeof(float)));
     double *seconds = calloc(methods * runs, sizeof *seconds), unused;
     int code = target.pixels && seconds ? EXIT_CODE_OK : console_error(EXIT_CODE_FAILED, "out of memory");
     /* Tables are built and memory is touched by a first frame, which does not count. */

@@ -131,22 +131,8 @@ int figures_display(compare_job *job, size_t scene, size_t picture, size_t frame
     if (picture_read(&light, path, "color", &error) != FILE_OK)
         return compare_file_failure(job, &error);
     view.post.exposure_ev += stops;
-    mgt_target target;
-    mgt_target_init(&target, sizeof target);
-    target.layer = MGT_LAYER_COLOR;
-    target.format = MGT_FORMAT_RGBA8_SRGB;
-    target.pixels = *rgba = calloc((size_t)light.width * light.height, 4);
-    int code = *rgba ? EXIT_CODE_OK : figures_no_memory();
-    if (code == EXIT_CODE_OK) {
-        const mgt_status status = mgt_display(job->context, &view, light.pixels, &target);
-        if (status != MGT_OK)
-            code = *interrupt_flag() ? compare_stopped(job) : console_library_error(job->context, status);
-    }
+    const int code = compare_display(job, &view, &light, rgba);
     float_image_free(&light);
-    if (code != EXIT_CODE_OK) {
-        free(*rgba);
-        *rgba = NULL;
-    }
     return code;
 }
 

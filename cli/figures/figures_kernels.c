@@ -181,11 +181,7 @@ static void still_sums(figures_job *f, size_t scene, double sums[2])
         f->code = figures_no_memory();
         return;
     }
-    mgt_target target;
-    mgt_target_init(&target, sizeof target);
-    target.layer = MGT_LAYER_COVERAGE;
-    target.format = MGT_FORMAT_R32F;
-    target.pixels = coverage;
+    const mgt_target target = target_of(MGT_LAYER_COVERAGE, MGT_FORMAT_R32F, coverage);
     sums[0] = sums[1] = 0;
     for (size_t frame = 0; frame < job->frame_count; frame++)
         for (int way = 0; way < 2 && figures_good(f); way++) {

@@ -192,11 +192,7 @@ static int render_view(figures_job *f, size_t scene, uint32_t width, uint32_t he
     view.sky.model = MGT_SKY_ATMOSPHERE;
     mgt_quality_init(&view.quality, sizeof view.quality);
     view.quality.method = MGT_METHOD_MANGATA;
-    mgt_target target;
-    mgt_target_init(&target, sizeof target);
-    target.layer = MGT_LAYER_COLOR;
-    target.format = MGT_FORMAT_RGBA8_SRGB;
-    target.pixels = rgba;
+    const mgt_target target = target_of(MGT_LAYER_COLOR, MGT_FORMAT_RGBA8_SRGB, rgba);
     const mgt_status status = mgt_render(f->compare->context, &view, &target, 1);
     return status == MGT_OK ? EXIT_CODE_OK : console_library_error(f->compare->context, status);
 }

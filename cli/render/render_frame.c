@@ -33,10 +33,8 @@ int frame_buffer_create(frame_buffer *buffer, const render_request *request, uin
         goto fail;
     for (size_t i = 0; i < request->layer_count; i++) {
         mgt_target *target = &buffer->targets[buffer->count];
-        mgt_target_init(target, sizeof *target);
-        target->layer = request->layers[i];
-        target->format = layer_format(target->layer, buffer->displayed);
-        target->pixels = calloc((size_t)width * height, pixel_bytes(target->format));
+        const mgt_format format = layer_format(request->layers[i], buffer->displayed);
+        *target = target_of(request->layers[i], format, calloc((size_t)width * height, pixel_bytes(format)));
         if (!target->pixels)
             goto fail;
         buffer->count++;

@@ -195,3 +195,21 @@ bool thread_pool_run(thread_pool *pool, const thread_loop *loop)
     pthread_mutex_unlock(&pool->lock);
     return !atomic_load(&pool->stopped);
 }
+
+typedef struct index_loop {
+    void (*body)(void *, size_t);
+    void *argument;
+} index_loop;
+
+static void index_step(void *argument, size_t index, uint32_t by)
+{
+    (void)by;
+    const index_loop *l = argument;
+    l->body(l->argument, index);
+}
+
+void thread_pool_each(void *pool, size_t count, void (*body)(void *, size_t), void *argument)
+{
+    index_loop l = {body, argument};
+    thread_pool_run(pool, &(thread_loop){.count = count, .body = index_step, .argument = &l});
+}

@@ -29,4 +29,7 @@ typedef struct thread_loop {
 /* Runs the loop; false when progress stopped it. */
 bool thread_pool_run(thread_pool *pool, const thread_loop *loop);
 
+/* The same of a body that asks for no worker; `pool` is a thread_pool. */
+void thread_pool_each(void *pool, size_t count, void (*body)(void *, size_t), void *argument);
+
 #endif

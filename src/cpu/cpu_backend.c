@@ -424,29 +424,10 @@ static void display_row(void *argument, size_t row, uint32_t worker)
             job->state->kernels->display(&job->frame.data, rgb, target_row(&job->targets[k], &job->crop, (uint32_t)row), job->crop.width);
 }
 
-typedef struct index_loop {
-    void (*body)(void *, size_t);
-    void *argument;
-} index_loop;
-
-static void index_step(void *argument, size_t index, uint32_t worker)
-{
-    (void)worker;
-    const index_loop *g = argument;
-    g->body(g->argument, index);
-}
-
-static void run_indices(void *user, size_t count, void (*body)(void *, size_t), void *argument)
-{
-    index_loop g = {body, argument};
-    const thread_loop loop = {count, index_step, &g, NULL};
-    thread_pool_run(user, &loop);
-}
-
 static mgt_status display(render_job *job, const reporter *r)
 {
     const mgt_status status =
-        glare_apply(job->radiance, job->area.width, job->area.height, (size_t)job->area.width * 3, job->scene->post.glare, run_indices, job->state->pool);
+        glare_apply(job->radiance, job->area.width, job->area.height, (size_t)job->area.width * 3, job->scene->post.glare, thread_pool_each, job->state->pool);
     if (status != MGT_OK)
         return report_error(r, status, "render.memory", "out of memory for the glare of %u x %u pixels", job->area.width, job->area.height);
     const thread_loop loop = {job->crop.height, display_row, job, NULL};
@@ -469,7 +450,7 @@ static mgt_status prepare_podee(cpu_state *s, const reporter *r, const mgt_scene
 {
     const mgt_mixture k = scene->quality.kernels;
     if (!(method_of(scene->quality.method)->tables & METHOD_PODEE_TABLES) || k == MGT_MIXTURE_EXACT || k == MGT_MIXTURE_RIEMANN || s->podee.sweep ||
-        podee_tables_build(&s->podee, run_indices, s->pool))
+        podee_tables_build(&s->podee, thread_pool_each, s->pool))
         return MGT_OK;
     return report_error(r, MGT_ERROR_MEMORY, "render.memory", "out of memory for the 64 MiB of tables that quality.kernels needs");
 }
@@ -607,14 +588,14 @@ static mgt_status luma_of_picture(void *user, const mgt_scene *scene, const floa
         return status;
     const frame f = frame_of(scene, u->state->sky, true);
     luma_job job = {u->state->kernels, &f.data, radiance, luma, scene->image.width};
-    run_indices(u->state->pool, scene->image.height, luma_row, &job);
+    thread_pool_each(u->state->pool, scene->image.height, luma_row, &job);
     return MGT_OK;
 }
 
 static void run_rows(void *user, size_t count, void (*body)(void *, size_t), void *argument)
 {
     const picture_user *u = user;
-    run_indices(u->state->pool, count, body, argument);
+    thread_pool_each(u->state->pool, count, body, argument);
 }
 
 static bool report_adaptive(void *argument, double fraction)

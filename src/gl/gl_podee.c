@@ -7,30 +7,12 @@
 /* The slices of the sweep stand side by side in one texture, so many a row. */
 enum { SLICES_ACROSS = PODEE_SLICES_ACROSS, SLICES_DOWN = PODEE_SLICES / SLICES_ACROSS };
 
-typedef struct slice_loop {
-    void (*body)(void *, size_t);
-    void *argument;
-} slice_loop;
-
-static void slice_step(void *argument, size_t index, uint32_t worker)
-{
-    (void)worker;
-    const slice_loop *l = argument;
-    l->body(l->argument, index);
-}
-
-static void run_slices(void *user, size_t count, void (*body)(void *, size_t), void *argument)
-{
-    slice_loop l = {body, argument};
-    thread_pool_run(user, &(thread_loop){.count = count, .body = slice_step, .argument = &l});
-}
-
 static mgt_status build_tables(uint32_t threads, podee_tables *tables, const reporter *r)
 {
     thread_pool *pool = thread_pool_create(threads ? threads : thread_pool_usable_cpus());
     if (!pool)
         return report_error(r, MGT_ERROR_THREAD, "render.thread", "no threads to make the tables that quality.kernels needs");
-    const bool built = podee_tables_build(tables, run_slices, pool);
+    const bool built = podee_tables_build(tables, thread_pool_each, pool);
     thread_pool_destroy(pool);
     return built ? MGT_OK : report_error(r, MGT_ERROR_MEMORY, "render.memory", "out of memory for the 64 MiB of tables that quality.kernels needs");
 }

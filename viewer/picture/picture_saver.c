@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/common/context_options.h"
 #include "image/picture.h"
 
 enum { PATH_SIZE = 512, ERROR_SIZE = 512 };
@@ -41,10 +42,7 @@ static bool write_exr(mgt_context *context, const mgt_scene *scene, const char *
     bool good = memory != NULL;
     for (int i = 0; i < EXR_LAYERS && good; i++) {
         const uint32_t channels = mgt_layer_channels((mgt_layer)i);
-        mgt_target_init(&targets[i], sizeof targets[i]);
-        targets[i].layer = (mgt_layer)i;
-        targets[i].format = channels == 3 ? MGT_FORMAT_RGB32F : MGT_FORMAT_R32F;
-        targets[i].pixels = next;
+        targets[i] = target_of((mgt_layer)i, channels == 3 ? MGT_FORMAT_RGB32F : MGT_FORMAT_R32F, next);
         layers[i] = (picture_layer){.name = mgt_layer_name((mgt_layer)i), .channels = channels, .pixels = next};
         next += channels * pixels;
     }

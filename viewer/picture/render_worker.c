@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/common/context_options.h"
 #include "cli/common/progress.h"
 #include "params/methods.h"
 
@@ -120,11 +121,7 @@ static void publish(render_worker *w, int side)
 /* Renders into `pixels`; false when there is nothing to show: cancelled, or failed (told). */
 static bool render(render_worker *w, const mgt_scene *scene, mgt_format format, void *pixels)
 {
-    mgt_target target;
-    mgt_target_init(&target, sizeof target);
-    target.layer = w->current.layer;
-    target.format = format;
-    target.pixels = pixels;
+    const mgt_target target = target_of(w->current.layer, format, pixels);
     const mgt_status status = mgt_render(w->context, scene, &target, 1);
     if (status != MGT_OK && status != MGT_CANCELLED)
         fail(w, mgt_last_error(w->context));

@@ -18,6 +18,15 @@ static bool number_at(viewer *v, int word, double *number)
     return false;
 }
 
+/* The first words behind the command. */
+static bool numbers_at(viewer *v, int count, double *numbers)
+{
+    for (int i = 0; i < count; i++)
+        if (!number_at(v, 1 + i, &numbers[i]))
+            return false;
+    return true;
+}
+
 /* ---- commands ---- */
 
 static void do_set(viewer *v)
@@ -78,9 +87,8 @@ static void do_drag(viewer *v)
 {
     script *s = v->script;
     double n[4];
-    for (int i = 0; i < 4; i++)
-        if (!number_at(v, 1 + i, &n[i]))
-            return;
+    if (!numbers_at(v, 4, n))
+        return;
     const char *button = s->words[5] ? s->words[5] : "left";
     s->drag_button = strcmp(button, "right") == 0 ? GLFW_MOUSE_BUTTON_RIGHT : strcmp(button, "middle") == 0 ? GLFW_MOUSE_BUTTON_MIDDLE : GLFW_MOUSE_BUTTON_LEFT;
     for (int i = 0; i < 2; i++) {
@@ -96,9 +104,8 @@ static void do_drag(viewer *v)
 static void do_pointer(viewer *v)
 {
     double n[2];
-    for (int i = 0; i < 2; i++)
-        if (!number_at(v, 1 + i, &n[i]))
-            return;
+    if (!numbers_at(v, 2, n))
+        return;
     v->stand_in.x = (float)n[0];
     v->stand_in.y = (float)n[1];
     input_pointer(v, n[0], n[1]);
@@ -108,9 +115,8 @@ static void do_pointer(viewer *v)
 static void do_scroll(viewer *v)
 {
     double n[3];
-    for (int i = 0; i < 3; i++)
-        if (!number_at(v, 1 + i, &n[i]))
-            return;
+    if (!numbers_at(v, 3, n))
+        return;
     const bool magnifies = v->script->words[4] && strcmp(v->script->words[4], "ctrl") == 0;
     input_pointer(v, n[0], n[1]);
     input_scroll(v, n[2], magnifies ? GLFW_MOD_CONTROL : 0);
@@ -256,9 +262,8 @@ static void do_list_controls(viewer *v)
 static void do_inspect(viewer *v)
 {
     double n[2];
-    for (int i = 0; i < 2; i++)
-        if (!number_at(v, 1 + i, &n[i]))
-            return;
+    if (!numbers_at(v, 2, n))
+        return;
     v->settings.inspect = (inspect_settings){(uint32_t)n[0], (uint32_t)n[1]};
     v->settings.panel.inspector = 1;
     v->inspection.valid = false;
@@ -274,9 +279,8 @@ static void do_inspect(viewer *v)
 static void do_random(viewer *v)
 {
     double n[2];
-    for (int i = 0; i < 2; i++)
-        if (!number_at(v, 1 + i, &n[i]))
-            return;
+    if (!numbers_at(v, 2, n))
+        return;
     v->script->random_left = (int)n[0];
     snprintf(v->script->spared, sizeof v->script->spared, "%s", v->script->words[3] ? v->script->words[3] : "");
     v->script->chance = (uint64_t)n[1] * 2 + 1;
@@ -307,9 +311,8 @@ static void do_timings(viewer *v)
 static void do_resize(viewer *v)
 {
     double n[2];
-    for (int i = 0; i < 2; i++)
-        if (!number_at(v, 1 + i, &n[i]))
-            return;
+    if (!numbers_at(v, 2, n))
+        return;
     glfwSetWindowSize(v->window, (int)n[0], (int)n[1]);
     script_wait(v->script, 6);
 }
