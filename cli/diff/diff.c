@@ -122,20 +122,30 @@ static int check_request(diff_request *r)
     return r->metrics.wanted.metrics ? check_metrics(r) : EXIT_CODE_OK;
 }
 
-static int read_pair(const diff_request *r, uint32_t frame, float_image pair[2])
+static int read_picture(const diff_request *r, size_t which, uint32_t frame, float_image *image)
 {
-    for (int i = 0; i < 2; i++) {
-        char path[sizeof r->names[i].before + 64 + sizeof r->names[i].after];
-        file_error error;
-        if (!frame_path_print(&r->names[i], frame, path, sizeof path))
-            return console_error(EXIT_CODE_USAGE, "%s: the path is too long", r->paths[i]);
-        if (picture_read(&pair[i], path, r->layer, &error) != FILE_OK)
-            return console_file_error(&error);
+    const frame_path *name = &r->names[which];
+    char path[sizeof name->before + 64 + sizeof name->after];
+    file_error error;
+    if (!frame_path_print(name, frame, path, sizeof path))
+        return console_error(EXIT_CODE_USAGE, "%s: the path is too long", r->paths[which]);
+    return picture_read(image, path, r->layer, &error) == FILE_OK ? EXIT_CODE_OK : console_file_error(&error);
+}
+
+static int read_frame(const diff_request *r, uint32_t number, diff_frame *frame)
+{
+    const float_image *a = &frame->images[0];
+    for (size_t i = 0; i < frame->count; i++) {
+        const int code = read_picture(r, i, number, &frame->images[i]);
+        if (code != EXIT_CODE_OK)
+            return code;
     }
-    const float_image *a = &pair[0], *b = &pair[1];
-    if (a->width != b->width || a->height != b->height || a->channels != b->channels)
-        return console_error(EXIT_CODE_FAILED, "%s has %u x %u pixels of %u channel%s, %s has %u x %u of %u; they must agree", r->paths[0], a->width, a->height,
-                             a->channels, a->channels == 1 ? "" : "s", r->paths[1], b->width, b->height, b->channels);
+    for (size_t i = 1; i < frame->count; i++) {
+        const float_image *b = &frame->images[i];
+        if (a->width != b->width || a->height != b->height || a->channels != b->channels)
+            return console_error(EXIT_CODE_FAILED, "%s has %u x %u pixels of %u channel%s, %s has %u x %u of %u; they must agree", r->paths[0], a->width,
+                                 a->height, a->channels, a->channels == 1 ? "" : "s", r->paths[i], b->width, b->height, b->channels);
+    }
     return EXIT_CODE_OK;
 }
 
@@ -147,13 +157,7 @@ static void to_difference(float_image *image, const float_image *next)
         image->pixels[i] = next->pixels[i] - image->pixels[i];
 }
 
-static void free_pair(float_image pair[2])
-{
-    float_image_free(&pair[0]);
-    float_image_free(&pair[1]);
-}
-
-static int add_frame(const diff_request *r, float_image pair[2], float_image previous[2], image_metrics *metrics)
+static int add_frame(const diff_request *r, const float_image pair[2], float_image previous[2], image_metrics *metrics)
 {
     file_error error;
     if (!r->flicker)
@@ -167,30 +171,38 @@ static int add_frame(const diff_request *r, float_image pair[2], float_image pre
     return image_metrics_add(metrics, &previous[0], &previous[1], &error) == FILE_OK ? EXIT_CODE_OK : console_file_error(&error);
 }
 
+static int measure_frame(diff_request *r, uint32_t number, diff_frame *frame, float_image previous[2], image_metrics *metrics)
+{
+    const uint64_t before = metrics->frames;
+    int code = read_frame(r, number, frame);
+    if (code == EXIT_CODE_OK)
+        code = diff_prepare_frame(&r->prepare, number, frame);
+    if (code == EXIT_CODE_OK)
+        code = add_frame(r, frame->images, previous, metrics);
+    if (code == EXIT_CODE_OK && metrics->frames > before)
+        metrics->values -= frame->left_out * frame->images[0].channels; /* black in both: the sums hold nothing of them */
+    if (code == EXIT_CODE_OK)
+        code = diff_metrics_add(&r->metrics, number, &frame->images[0], &frame->images[1]);
+    return code;
+}
+
 static int measure(diff_request *r, image_metrics *metrics)
 {
     float_image previous[2] = {{0}};
     int code = EXIT_CODE_OK;
     const uint64_t count = frame_list_length(&r->frames);
-    uint64_t left_out = 0, counted = 0;
     for (uint64_t i = 0; i < count && code == EXIT_CODE_OK; i++) {
-        float_image pair[2] = {{0}};
-        code = read_pair(r, frame_list_at(&r->frames, i), pair);
-        if (code == EXIT_CODE_OK)
-            code = diff_prepare_pair(&r->prepare, frame_list_at(&r->frames, i), pair, &left_out);
-        if (code == EXIT_CODE_OK)
-            code = add_frame(r, pair, previous, metrics);
-        if (code == EXIT_CODE_OK && metrics->frames > counted) {
-            metrics->values -= left_out * pair[0].channels; /* black in both: the sums hold nothing of them */
-            counted = metrics->frames;
+        diff_frame frame = {.count = 2};
+        code = measure_frame(r, frame_list_at(&r->frames, i), &frame, previous, metrics);
+        for (int k = 0; k < 2; k++) { /* the step to the next frame needs them */
+            float_image_free(&previous[k]);
+            previous[k] = frame.images[k];
+            frame.images[k] = (float_image){0};
         }
-        if (code == EXIT_CODE_OK)
-            code = diff_metrics_add(&r->metrics, frame_list_at(&r->frames, i), &pair[0], &pair[1]);
-        free_pair(previous);
-        previous[0] = pair[0];
-        previous[1] = pair[1];
+        diff_frame_free(&frame);
     }
-    free_pair(previous);
+    for (int k = 0; k < 2; k++)
+        float_image_free(&previous[k]);
     return code;
 }
 

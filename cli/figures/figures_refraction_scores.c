@@ -32,7 +32,7 @@ int refraction_pair_read(refraction_figures *r, refraction_view view, size_t pic
     }
     for (int i = 0; i < 2; i++)
         diff_prepare_display(&out->image[i], -REFRACTION_STOPS_DOWN);
-    out->left_out = diff_prepare_mask(out->image, &out->mask);
+    out->left_out = diff_prepare_mask(out->image, 2, &out->mask);
     return EXIT_CODE_OK;
 }
 
