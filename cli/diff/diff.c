@@ -6,6 +6,7 @@
 
 #include "cli/diff/diff_metrics.h"
 #include "cli/diff/diff_prepare.h"
+#include "cli/diff/diff_truth.h"
 #include "cli/common/frames.h"
 #include "image/image_metrics.h"
 #include "cli/common/numbers.h"
@@ -14,13 +15,14 @@
 
 typedef struct diff_request {
     console out;
-    const char *paths[2], *layer;
-    frame_path names[2];
+    const char *paths[3], *layer; /* A, B and the second reference or NULL */
+    frame_path names[3];
     bool gated, flicker;
     frame_list frames; /* none: not given */
     double max_rmse;
     diff_metrics metrics;
     diff_prepare prepare;
+    diff_truth truth;
     bool encoding_given;
 } diff_request;
 
@@ -44,9 +46,9 @@ static int set_max_rmse(const option *o, void *place, const char *value)
 static int set_metrics(const option *o, void *place, const char *value)
 {
     diff_request *r = place;
-    if (clip_metrics_parse(value, &r->metrics.wanted.metrics))
+    if (diff_truth_parse(&r->truth, value, &r->metrics.wanted.metrics))
         return EXIT_CODE_OK;
-    return console_error(EXIT_CODE_USAGE, "--%s %s: allowed are %s, separated by commas", o->name, value, clip_metric_words);
+    return console_error(EXIT_CODE_USAGE, "--%s %s: allowed are %s, %s, separated by commas", o->name, value, clip_metric_words, diff_truth_words);
 }
 
 static int set_encoding(const option *o, void *place, const char *value)
@@ -79,19 +81,37 @@ static int set_display(const option *o, void *place, const char *value)
                                                                                             : option_wrong(o, value, "a number of stops from -100 to 100");
 }
 
+static bool is_png(const char *path) { return picture_format_of(path) == PICTURE_PNG; }
+
 /* PNG holds sRGB-encoded values, the others light. */
 static int check_metrics(diff_request *r)
 {
     if (r->flicker)
         return console_error(EXIT_CODE_USAGE, "--flicker compares differences and goes with no --metrics; --metrics flicker measures both");
-    const bool png[2] = {picture_format_of(r->paths[0]) == PICTURE_PNG, picture_format_of(r->paths[1]) == PICTURE_PNG};
+    if (r->truth.wants_texture && !r->paths[2])
+        return console_error(EXIT_CODE_USAGE, "--metrics texture needs --second-reference B2, a picture of what B shows with noise of its own");
     if (r->prepare.displayed)
         r->metrics.wanted.srgb_encoded = true;
-    if (r->encoding_given || r->prepare.displayed)
-        return EXIT_CODE_OK;
-    if (png[0] != png[1])
+    else if (!r->encoding_given)
+        r->metrics.wanted.srgb_encoded = is_png(r->paths[1]);
+    r->truth.srgb_encoded = r->metrics.wanted.srgb_encoded;
+    if (!r->encoding_given && !r->prepare.displayed && is_png(r->paths[0]) != is_png(r->paths[1]))
         return console_error(EXIT_CODE_USAGE, "%s and %s hold values of unlike encoding; --encoding says how to take both", r->paths[0], r->paths[1]);
-    r->metrics.wanted.srgb_encoded = png[0];
+    return EXIT_CODE_OK;
+}
+
+static int check_second_reference(const diff_request *r)
+{
+    if (r->flicker)
+        return console_error(EXIT_CODE_USAGE, "--flicker compares differences and goes with no --second-reference");
+    if (strcmp(r->paths[2], r->paths[1]) == 0 || strcmp(r->paths[2], r->paths[0]) == 0)
+        return console_error(EXIT_CODE_USAGE, "--second-reference %s is %s itself; a picture with noise of its own is needed", r->paths[2],
+                             strcmp(r->paths[2], r->paths[1]) == 0 ? "B" : "A");
+    if (r->names[2].numbered != r->names[1].numbered)
+        return console_error(EXIT_CODE_USAGE, "%s and --second-reference %s: number both names or neither", r->paths[1], r->paths[2]);
+    if (!r->encoding_given && !r->prepare.displayed && is_png(r->paths[1]) != is_png(r->paths[2]))
+        return console_error(EXIT_CODE_USAGE, "%s and --second-reference %s hold values of unlike encoding; --encoding says how to take both", r->paths[1],
+                             r->paths[2]);
     return EXIT_CODE_OK;
 }
 
@@ -99,7 +119,7 @@ static int check_request(diff_request *r)
 {
     if (!r->paths[1])
         return console_error(EXIT_CODE_USAGE, "two pictures are needed: mangata diff A B");
-    for (int i = 0; i < 2; i++) {
+    for (int i = 0; i < 3 && r->paths[i]; i++) {
         const char *wrong = frame_path_parse(&r->names[i], r->paths[i]);
         if (wrong)
             return console_error(EXIT_CODE_USAGE, "%s: %s", r->paths[i], wrong);
@@ -119,7 +139,9 @@ static int check_request(diff_request *r)
         frame_list_span(&r->frames, 0, 0);
     if (r->flicker && frame_list_length(&r->frames) < 2)
         return console_error(EXIT_CODE_USAGE, "--flicker needs numbered names and at least two frames");
-    return r->metrics.wanted.metrics ? check_metrics(r) : EXIT_CODE_OK;
+    const int code = r->paths[2] ? check_second_reference(r) : EXIT_CODE_OK;
+    const bool measures = r->metrics.wanted.metrics || r->truth.wants_texture || r->truth.wants_specks;
+    return code == EXIT_CODE_OK && measures ? check_metrics(r) : code;
 }
 
 static int read_picture(const diff_request *r, size_t which, uint32_t frame, float_image *image)
@@ -183,6 +205,8 @@ static int measure_frame(diff_request *r, uint32_t number, diff_frame *frame, fl
         metrics->values -= frame->left_out * frame->images[0].channels; /* black in both: the sums hold nothing of them */
     if (code == EXIT_CODE_OK)
         code = diff_metrics_add(&r->metrics, number, &frame->images[0], &frame->images[1]);
+    if (code == EXIT_CODE_OK)
+        code = diff_truth_add(&r->truth, frame);
     return code;
 }
 
@@ -192,7 +216,7 @@ static int measure(diff_request *r, image_metrics *metrics)
     int code = EXIT_CODE_OK;
     const uint64_t count = frame_list_length(&r->frames);
     for (uint64_t i = 0; i < count && code == EXIT_CODE_OK; i++) {
-        diff_frame frame = {.count = 2};
+        diff_frame frame = {.count = r->paths[2] ? 3 : 2};
         code = measure_frame(r, frame_list_at(&r->frames, i), &frame, previous, metrics);
         for (int k = 0; k < 2; k++) { /* the step to the next frame needs them */
             float_image_free(&previous[k]);
@@ -223,7 +247,11 @@ static int print_report(diff_request *r, const image_metrics *m)
                       (int)m->max_channel, "equal_infinities", (json_int_t)m->equal_infinities, "mismatches", (json_int_t)m->mismatches);
         if (report && r->gated)
             json_object_set_new(report, "max_rmse", json_real(r->max_rmse));
-        const int code = report ? diff_metrics_report(&r->metrics, report) : EXIT_CODE_OK;
+        if (report && r->paths[2])
+            json_object_set_new(report, "second_reference", console_json_text(r->paths[2]));
+        int code = report ? diff_metrics_report(&r->metrics, report) : EXIT_CODE_OK;
+        if (report && code == EXIT_CODE_OK)
+            code = diff_truth_report(&r->truth, report);
         if (code != EXIT_CODE_OK) {
             json_decref(report);
             return code;
@@ -238,7 +266,10 @@ static int print_report(diff_request *r, const image_metrics *m)
     putchar('\n');
     if (m->mismatches)
         printf("%-15s%" PRIu64 " values are infinite or not a number in one picture\n", "mismatches", m->mismatches);
-    return diff_metrics_print(&r->metrics);
+    const int code = diff_metrics_print(&r->metrics);
+    if (code == EXIT_CODE_OK)
+        diff_truth_print(&r->truth);
+    return code;
 }
 
 static int run(void *request)
@@ -267,7 +298,9 @@ static const option diff_options[] = {
      .set = option_given, .offset = offsetof(diff_request, flicker)},
     {"metrics", 0, "LIST",
      "also measure: flip, hdr-flip, ssim, yee (by idiff), flicker, and rmse,\n"
-     "relrmse, energy, which are always there; B is the reference",
+     "relrmse, energy, which are always there; B is the reference; texture\n"
+     "(needs --second-reference): contrast, correlation and mean of bands of\n"
+     "ten rows; specks: pixels unlike all that B shows around them",
      .set = set_metrics},
     {"encoding", 0, "E", "of the values, for --metrics: linear or srgb (default srgb for .png)", .set = set_encoding},
     {"pixels-per-degree", 0, "X", "of the viewer's eye, for FLIP, 4 to 400 (default 67)", .set = set_pixels_per_degree,
@@ -284,6 +317,10 @@ static const option diff_options[] = {
      "count only the pixels that are 1 in this picture of one channel\n"
      "(or clip of such); the others are black in A and B",
      .set = option_text, .offset = offsetof(diff_request, prepare.mask)},
+    {"second-reference", 0, "B2",
+     "a picture (or clip) of what B shows with noise of its own, of B's size:\n"
+     "frees the RMSE of the references' noise, for texture and specks too",
+     .set = option_text, .offset = offsetof(diff_request, paths[2])},
 };
 
 static const option_table diff_table = {"diff",
@@ -303,5 +340,6 @@ int verb_diff(int count, char **arguments)
     diff_request request = {.out = {0}};
     const int code = options_run(&diff_table, &request, count, arguments);
     diff_metrics_free(&request.metrics);
+    diff_truth_free(&request.truth);
     return code;
 }

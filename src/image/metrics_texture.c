@@ -87,7 +87,7 @@ texture_band texture_band_at(const texture *t, uint32_t index)
     if (s->reference_power > 0)
         band.contrast = sqrt(s->picture_power / s->reference_power);
     if (s->reference_power > 0 && s->picture_power > 0)
-        band.correlation = s->product / (sqrt(s->picture_power) * sqrt(s->reference_power));
+        band.correlation = s->product / sqrt(s->picture_power * s->reference_power);
     if (s->reference != 0)
         band.mean = s->picture / s->reference;
     return band;

@@ -109,6 +109,9 @@ works render "$simple" -o whole.exr "${small[@]}" "${null[@]}" --quiet
 head -c 200 whole.exr >short.exr
 expect 65 'short.exr' "$MANGATA" diff whole.exr short.exr
 expect '64' 'nolayer' "$MANGATA" diff whole.exr whole.exr --layer nolayer
+cp whole.exr other.exr
+expect 66 'missing.exr' "$MANGATA" diff whole.exr other.exr --second-reference missing.exr --metrics texture,specks
+expect 65 'short.exr' "$MANGATA" diff whole.exr other.exr --second-reference short.exr --metrics texture,specks
 
 # Unusual but meaningful scenes render.
 good() {

@@ -20,6 +20,7 @@ clip() { # NAME METHOD: pictures of all kinds
 }
 clip a podee-pixel
 clip b mangata
+mangata render "$simple" -o c.exr --size 32x18 --quiet
 mangata render "$simple" --layer mask --size 32x18 -q -o m.pfm
 
 while read -r code output line; do

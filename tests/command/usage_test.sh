@@ -137,6 +137,17 @@ expect 64 'need --frames' "$MANGATA" diff a##.png b##.png
 expect 64 'needs numbered names' "$MANGATA" diff a.png b.png --frames 0-1
 expect 64 'at least two frames' "$MANGATA" diff a.png b.png --flicker
 expect 64 'a number from 0' "$MANGATA" diff a.png b.png --max-rmse nan
+expect 64 'texture needs --second-reference B2' "$MANGATA" diff a.png b.png --metrics texture
+expect 64 'second-reference c##.png: number both names or neither' "$MANGATA" diff a.png b.png --second-reference c##.png
+expect 64 'c%s.png: the frame number is written' "$MANGATA" diff a.png b.png --second-reference c%s.png
+expect 64 'b.png is B itself' "$MANGATA" diff a.png b.png --second-reference b.png
+expect 64 'a.png is A itself' "$MANGATA" diff a.png b.png --second-reference a.png
+expect 64 'b.png and --second-reference c.pfm hold values of unlike encoding' "$MANGATA" diff a.png b.png --second-reference c.pfm
+expect 64 'goes with no --second-reference' "$MANGATA" diff a##.png b##.png --frames 0-1 --flicker --second-reference c##.png
+expect 64 'goes with no --metrics' "$MANGATA" diff a##.png b##.png --frames 0-1 --flicker --metrics specks
+for list in '' , texture, ,specks textur specks,flop "$(printf 'x%.0s' {1..99})"; do
+    expect 64 'flicker-sizes, texture, specks, separated by commas' "$MANGATA" diff a.png b.png --metrics "$list"
+done
 expect 64 'takes check FILE or schema' "$MANGATA" scene
 expect 64 'takes check FILE or schema' "$MANGATA" scene chekc "$simple"
 expect 64 'no scene given' "$MANGATA" scene check
