@@ -12,6 +12,7 @@
 #include <stdlib.h>
 
 #include "image/metrics_clip.h"
+#include "image/metrics_texture.h"
 
 static long calls, fail_at, outstanding; /* fail_at: number of the call that fails, from 1; 0: none */
 
@@ -107,8 +108,24 @@ static void allocations_may_fail(void **state)
     print_message("  each of %ld allocations failed once\n", count);
 }
 
+static void texture_may_fail(void **state)
+{
+    (void)state;
+    texture *t = NULL;
+    file_error error;
+    calls = outstanding = 0;
+    fail_at = 1;
+    assert_int_equal(texture_create(&t, SIDE, SIDE, &error), FILE_MEMORY);
+    assert_null(t);
+    fail_at = 0;
+    assert_int_equal(texture_create(&t, SIDE, SIDE, &error), FILE_OK);
+    assert_int_equal(outstanding, 1);
+    texture_free(t);
+    assert_int_equal(outstanding, 0);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(allocations_may_fail)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(allocations_may_fail), cmocka_unit_test(texture_may_fail)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
