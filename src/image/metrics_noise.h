@@ -24,7 +24,7 @@ file_status noise_sums_add(noise_sums *sums, const float_image images[3], const 
 
 /* √ max(0, mean (A − B)(A − B2)); 0 without values. */
 double noise_sums_rmse(const noise_sums *sums);
-/* √ mean (B − B2)² / 2: how far the mean of B and B2 still is from the truth; 0 without values. */
+/* Half of √ mean (B − B2)²: how far the mean of B and B2 still is from the truth; 0 without values. */
 double noise_sums_floor(const noise_sums *sums);
 
 #endif
