@@ -142,6 +142,8 @@ static void lanes_sort(const FrameData *frame, const wave_set *set, const ViewDa
     out->data.ray_z = any_of(place.ray.z);
     out->data.origin_x = any_of(place.origin_x);
     out->data.origin_z = any_of(place.origin_z);
+    out->data.grazing = any_of(place.grazing) > 0;
+    out->data.search_pixels = out->data.search_pixels || out->data.grazing;
     out->data.light_reach = any_of(tile_meets_light(&cx, column, row, width, height)) > 0;
 }
 
@@ -270,9 +272,41 @@ static void estimate_heights(const struct kernel_context *cx, const tile_nodes *
     }
 }
 
+/* Where a ray of grazing water may begin its search: at the hit of the ray below it, where it stays above all that this one has passed. */
+static inline real start_of(const struct kernel_context *cx, vec3 ray, vec3 below, real hit)
+{
+    const real speed = sqrt(real_fma(ray.x, ray.x, ray.z * ray.z)), slower = sqrt(real_fma(below.x, below.x, below.z * below.z));
+    const real turned = abs(real_fma(ray.x, below.z, real(0.0f) - ray.z * below.x)) / (speed * slower);
+    const mask safe = ray.y / speed - below.y / slower > real(2.0f * TILE(cx).search_slope) * turned;
+    return SELECT(safe, hit * slower / speed, real(0.0f));
+}
+
+/* Every pixel's hit, from the lowest row up. */
+static void search_rows(const struct kernel_context *cx, tile_estimate *estimate)
+{
+    *estimate = (tile_estimate){0};
+    for (int x = 0; x < TILE_WIDTH; x += MGT_LANES) {
+        const real column = lane_numbers() + (float)x;
+        vec3 below = vec3(real(0.0f), real(-1.0f), real(0.0f));
+        real hit = real(0.0f);
+        for (int y = TILE_HEIGHT - 1; y >= 0; y--) {
+            const PixelRay p = pixel_ray_filtered(cx, column, real((float)y));
+            const real from = y == TILE_HEIGHT - 1 ? real(0.0f) : start_of(cx, p.ray, below, hit);
+            const SearchHit found = search(cx, p.ray, from, SELECT(p.water > real(0.0f), real(1.0f), real(0.0f)));
+            store(estimate->height + y * TILE_WIDTH + x, real_fma(p.ray.y, found.along, real(TILE(cx).camera_height)));
+            hit = SELECT(found.found > real(0.0f), found.along, real(0.0f));
+            below = p.ray;
+        }
+    }
+}
+
 static void lanes_estimate(const FrameData *frame, const tile_waves *tile, tile_estimate *estimate)
 {
     const struct kernel_context cx = {.frame = frame, .tile = &tile->data, .waves = tile->waves, .search = tile->search};
+    if (tile->data.grazing) {
+        search_rows(&cx, estimate);
+        return;
+    }
     if (tile->data.search_pixels) {
         *estimate = (tile_estimate){0};
         for (int i = 0; i < TILE_PIXELS; i++)
@@ -532,6 +566,10 @@ static void lanes_cells(const FrameData *frame, const float *sky, const tile_wav
         cells->row[count] = cells->row[count - 1];
         cells->estimate.height[count] = cells->estimate.height[count - 1];
         cells->estimate.search[count] = cells->estimate.search[count - 1];
+    }
+    for (size_t i = 0; i < count && cx.tile->grazing; i++) {
+        cells->estimate.search[i] = 1;
+        cells->estimate.from[i] = 0;
     }
     const tile_places places = {cells->column, cells->row, count};
     render_glitter(&cx, cells->light, places, &cells->estimate, open ? &before : NULL, &cells->estimate, &cells->pixels, &cells->detail);
