@@ -124,6 +124,13 @@ KERNEL Surface add_wave(CTX cx, Surface s, WaveData w, place p)
     return add_point(s, drifted(w.table, p, 0), drifted(w.table, p, -1), drifted(w.table, p, 1));
 }
 
+/* A table has no parts that are resolved in part. */
+KERNEL Surface add_shared(CTX cx, Surface s, WaveData w, Footprint f)
+{
+    (void)cx, (void)w, (void)f;
+    return s;
+}
+
 /* Means over taps in the pixel; what they vary by beside their bend is unresolved. */
 KERNEL Surface add_filtered(CTX cx, Surface s, WaveData w, place p, Footprint f)
 {
