@@ -73,7 +73,7 @@ static void set_method(frame *f)
     d->sort_start = (float)(start * start);
     d->sort_end = keep ? 1e30f : (float)(end * end);
     d->sort_shares = podee || bruneton ? 0 : 1;
-    d->grazing_fall = row->faces ? 1.2f : 0;
+    d->grazing_fall = row->faces && !f->under ? 1.2f : 0;
     d->ndf_per_pixel = keep;
     d->ndf_mean = keep && !q->ndf_mean_drop ? 1 : 0;
     d->podee_kernels = (int)q->kernels;

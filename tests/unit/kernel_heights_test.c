@@ -124,6 +124,12 @@ KERNEL Surface add_wave(CTX cx, Surface s, WaveData w, place p)
     return add_point(s, drifted(w.table, p, 0), drifted(w.table, p, -1), drifted(w.table, p, 1));
 }
 
+KERNEL vec2 add_filtered_slope(CTX cx, vec2 slope, WaveData w, place p, Footprint f)
+{
+    const Surface s = add_filtered(cx, (Surface){0}, w, p, f);
+    return (vec2){slope.x + s.slope_even.x, slope.y + s.slope_even.y};
+}
+
 /* A table has no parts that are resolved in part. */
 KERNEL Surface add_shared(CTX cx, Surface s, WaveData w, Footprint f)
 {
