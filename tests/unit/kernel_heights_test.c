@@ -124,19 +124,6 @@ KERNEL Surface add_wave(CTX cx, Surface s, WaveData w, place p)
     return add_point(s, drifted(w.table, p, 0), drifted(w.table, p, -1), drifted(w.table, p, 1));
 }
 
-KERNEL vec2 add_filtered_slope(CTX cx, vec2 slope, WaveData w, place p, Footprint f)
-{
-    const Surface s = add_filtered(cx, (Surface){0}, w, p, f);
-    return (vec2){slope.x + s.slope_even.x, slope.y + s.slope_even.y};
-}
-
-/* A table has no parts that are resolved in part. */
-KERNEL Surface add_shared(CTX cx, Surface s, WaveData w, Footprint f)
-{
-    (void)cx, (void)w, (void)f;
-    return s;
-}
-
 /* Means over taps in the pixel; what they vary by beside their bend is unresolved. */
 KERNEL Surface add_filtered(CTX cx, Surface s, WaveData w, place p, Footprint f)
 {
@@ -171,6 +158,19 @@ KERNEL Surface add_filtered(CTX cx, Surface s, WaveData w, place p, Footprint f)
     s.variance_xx += (float)lost[0];
     s.variance_xz += (float)lost[1];
     s.variance_zz += (float)lost[2];
+    return s;
+}
+
+KERNEL vec2 add_filtered_slope(CTX cx, vec2 slope, WaveData w, place p, Footprint f)
+{
+    const Surface s = add_filtered(cx, (Surface){0}, w, p, f);
+    return (vec2){slope.x + s.slope_even.x, slope.y + s.slope_even.y};
+}
+
+/* A table has no parts that are resolved in part. */
+KERNEL Surface add_shared(CTX cx, Surface s, WaveData w, Footprint f)
+{
+    (void)cx, (void)w, (void)f;
     return s;
 }
 
