@@ -272,30 +272,15 @@ static void estimate_heights(const struct kernel_context *cx, const tile_nodes *
     }
 }
 
-/* Where a ray of grazing water may begin its search: at the hit of the ray below it, where it stays above all that this one has passed. */
-static inline real start_of(const struct kernel_context *cx, vec3 ray, vec3 below, real hit)
-{
-    const real speed = sqrt(real_fma(ray.x, ray.x, ray.z * ray.z)), slower = sqrt(real_fma(below.x, below.x, below.z * below.z));
-    const real turned = abs(real_fma(ray.x, below.z, real(0.0f) - ray.z * below.x)) / (speed * slower);
-    const mask safe = ray.y / speed - below.y / slower > real(2.0f * TILE(cx).search_slope) * turned;
-    return SELECT(safe, hit * slower / speed, real(0.0f));
-}
-
 /* Every pixel's hit, from the lowest row up. */
 static void search_rows(const struct kernel_context *cx, tile_estimate *estimate)
 {
     *estimate = (tile_estimate){0};
     for (int x = 0; x < TILE_WIDTH; x += MGT_LANES) {
-        const real column = lane_numbers() + (float)x;
-        vec3 below = vec3(real(0.0f), real(-1.0f), real(0.0f));
-        real hit = real(0.0f);
+        RowHit hit = row_hit_none(cx);
         for (int y = TILE_HEIGHT - 1; y >= 0; y--) {
-            const PixelRay p = pixel_ray_filtered(cx, column, real((float)y));
-            const real from = y == TILE_HEIGHT - 1 ? real(0.0f) : start_of(cx, p.ray, below, hit);
-            const SearchHit found = search(cx, p.ray, from, SELECT(p.water > real(0.0f), real(1.0f), real(0.0f)));
-            store(estimate->height + y * TILE_WIDTH + x, real_fma(p.ray.y, found.along, real(TILE(cx).camera_height)));
-            hit = SELECT(found.found > real(0.0f), found.along, real(0.0f));
-            below = p.ray;
+            hit = row_hit(cx, lane_numbers() + (float)x, real((float)y), hit);
+            store(estimate->height + y * TILE_WIDTH + x, hit.height);
         }
     }
 }

@@ -14,7 +14,7 @@
 _Static_assert(sizeof(PassData) % 16 == 0 && sizeof(GlareData) % 16 == 0 && sizeof(WindowData) % 16 == 0, "std140 layout");
 _Static_assert(sizeof(LeanWave) == 32 && sizeof(LeanData) % 16 == 0 && sizeof(LeanPass) % 16 == 0 && sizeof(BlendData) % 16 == 0, "std140 layout");
 _Static_assert(sizeof(GbufferData) % 16 == 0 && sizeof(ObjectsData) % 16 == 0, "std140 layout");
-_Static_assert(sizeof(SortData) == 32 && sizeof(TileWave) == 16 && sizeof(NodeData) == 48, "std430 layout");
+_Static_assert(sizeof(SortData) == 32 && sizeof(TileWave) == 16, "std430 layout");
 
 /* Binding points, as in the shaders. */
 enum {

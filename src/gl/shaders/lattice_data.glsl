@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * The lattice of first hits of a tile, and what a pixel estimates from the four nodes about it.
+ * First hits of a tile: a lattice, and what a pixel estimates from the four nodes about it; or every pixel's own.
  */
 #include "gl_data.glsl"
 #include "kernels/glitter/lattice.k"
@@ -8,19 +8,20 @@
 #ifndef NODE_ACCESS
 #define NODE_ACCESS readonly
 #endif
-layout(std430, binding = 3) NODE_ACCESS buffer NodeBlock { NodeData node_data[]; };
+/* Of a tile TILE_PIXELS floats: its nodes, or where its water is grazing the height of every pixel's hit. */
+layout(std430, binding = 3) NODE_ACCESS buffer NodeBlock { float node_data[]; };
 
 LatticeNode node_of(int column, int row)
 {
-    NodeData d = node_data[tile_slot * NODE_COUNT + row * NODE_COLUMNS + column];
+    int at = tile_slot * TILE_PIXELS + (row * NODE_COLUMNS + column) * NODE_FLOATS;
     LatticeNode node;
-    node.ray = vec3(d.ray_x, d.ray_y, d.ray_z);
-    node.along = d.along;
-    node.found = d.found;
-    node.plane.level = d.level;
-    node.plane.slope_x = d.slope_x;
-    node.plane.slope_z = d.slope_z;
-    node.plane.height = d.height;
+    node.ray = vec3(node_data[at], node_data[at + 1], node_data[at + 2]);
+    node.along = node_data[at + 3];
+    node.found = node_data[at + 4];
+    node.plane.level = node_data[at + 5];
+    node.plane.slope_x = node_data[at + 6];
+    node.plane.slope_z = node_data[at + 7];
+    node.plane.height = node_data[at + 8];
     return node;
 }
 
@@ -34,6 +35,12 @@ bool tile_may_occlude()
 HitEstimate pixel_estimate(ivec2 pixel)
 {
     HitEstimate estimate;
+    if (TILE(0).grazing != 0) {
+        estimate.height = node_data[tile_slot * TILE_PIXELS + pixel.y * TILE_WIDTH + pixel.x];
+        estimate.from = 0.0f;
+        estimate.search = 0.0f;
+        return estimate;
+    }
     if (TILE(0).search_pixels != 0) {
         estimate.height = 0.0f;
         estimate.from = 0.0f;

@@ -1,31 +1,41 @@
 /* SPDX-License-Identifier: MIT
  *
- * First hits at the nodes of each tile: one workgroup a tile, one invocation a node.
+ * First hits of each tile, one workgroup a tile: at its nodes, one invocation a node; or where its water is grazing at every pixel, one invocation a
+ * column.
  */
 #define NODE_ACCESS
 #include "lattice_data.glsl"
 
-layout(local_size_x = 32) in;
+layout(local_size_x = 32) in; /* TILE_WIDTH, and NODE_COUNT at most */
+
+void search_column(int column)
+{
+    RowHit hit = row_hit_none(0);
+    for (int row = TILE_HEIGHT - 1; row >= 0; row--) {
+        hit = row_hit(0, float(column), float(row), hit);
+        node_data[tile_slot * TILE_PIXELS + row * TILE_WIDTH + column] = hit.height;
+    }
+}
 
 void main()
 {
     tile_slot = int(gl_WorkGroupID.x);
     int index = int(gl_LocalInvocationID.x);
+    if (TILE(0).grazing != 0) {
+        search_column(index);
+        return;
+    }
     if (index >= NODE_COUNT || TILE(0).search_pixels != 0)
         return;
     LatticeNode node = lattice_node(0, pixel_ray_at(0, float(index % NODE_COLUMNS * NODE_STEP_X), float(index / NODE_COLUMNS * NODE_STEP_Y)));
-    NodeData n;
-    n.ray_x = node.ray.x;
-    n.ray_y = node.ray.y;
-    n.ray_z = node.ray.z;
-    n.along = node.along;
-    n.height = node.plane.height;
-    n.slope_x = node.plane.slope_x;
-    n.slope_z = node.plane.slope_z;
-    n.found = node.found;
-    n.level = node.plane.level;
-    n.node_padding_0 = 0.0f;
-    n.node_padding_1 = 0.0f;
-    n.node_padding_2 = 0.0f;
-    node_data[tile_slot * NODE_COUNT + index] = n;
+    int at = tile_slot * TILE_PIXELS + index * NODE_FLOATS;
+    node_data[at] = node.ray.x;
+    node_data[at + 1] = node.ray.y;
+    node_data[at + 2] = node.ray.z;
+    node_data[at + 3] = node.along;
+    node_data[at + 4] = node.found;
+    node_data[at + 5] = node.plane.level;
+    node_data[at + 6] = node.plane.slope_x;
+    node_data[at + 7] = node.plane.slope_z;
+    node_data[at + 8] = node.plane.height;
 }

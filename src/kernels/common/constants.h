@@ -39,6 +39,7 @@
 #define NODE_COLUMNS (TILE_WIDTH / NODE_STEP_X + 1)
 #define NODE_ROWS (TILE_HEIGHT / NODE_STEP_Y + 1)
 #define NODE_COUNT (NODE_COLUMNS * NODE_ROWS)
+#define NODE_FLOATS 9
 
 /* ---- workgroups of shaders ---- */
 
