@@ -550,10 +550,9 @@ static void lanes_cells(const FrameData *frame, const float *sky, const tile_wav
         cells->column[count] = cells->column[count - 1];
         cells->row[count] = cells->row[count - 1];
         cells->estimate.height[count] = cells->estimate.height[count - 1];
-        cells->estimate.search[count] = cells->estimate.search[count - 1];
     }
-    for (size_t i = 0; i < count && cx.tile->grazing; i++) {
-        cells->estimate.search[i] = 1;
+    for (size_t i = 0; i < count; i++) { /* in grazing water the parent's hit says nothing of its parts' */
+        cells->estimate.search[i] = close->data.grazing || (open && open->data.grazing) ? 1 : 0;
         cells->estimate.from[i] = 0;
     }
     const tile_places places = {cells->column, cells->row, count};
