@@ -184,6 +184,7 @@ KERNEL SearchSums add_searched(CTX cx, SearchSums s, SearchWave w, bool live, re
 }
 
 #include "kernels/glitter/glitter.k"
+#include "kernels/glitter/lattice.k"
 #include "kernels/glitter/sample.k"
 
 #include "unit/kernel_words_off.h"
@@ -276,6 +277,44 @@ static void first_hits_are_those_of_brute_force(void **state)
     assert_true(worst < 3e-4 && slope < 3e-4);
 }
 
+/* In grazing water a ray begins at the hit of the ray below it: nothing that it would have met before may be lost. */
+static void columns_lose_no_crest(void **state)
+{
+    (void)state;
+    enum { COLUMNS = 24 };
+    random_state r = {73};
+    const height_table t = rough_table(&r);
+    const FrameData frame = {0};
+    int off = 0, begun = 0;
+    for (int k = 0; k < COLUMNS; k++) {
+        const double azimuth = random_range(&r, -3.1415, 3.1415), dip = random_range(&r, 0.03, 0.2), height = random_range(&r, 0.5, 2);
+        const float step = 0.006f;
+        TileData tile = tile_of(&t, height);
+        tile.grazing = 1;
+        tile.ray_x = (float)cos(azimuth);
+        tile.ray_y = (float)-dip;
+        tile.ray_z = (float)sin(azimuth);
+        tile.down_y = 0.0f - step;
+        tile.right_x = tile.ray_z * step;
+        tile.right_z = 0.0f - tile.ray_x * step;
+        tile.horizon_steepness = step;
+        tile.horizon_inverse = 1 / step;
+        const struct kernel_context cx = {&frame, &tile, {{&t}}};
+        RowHit hit = row_hit_none(&cx);
+        for (int row = TILE_HEIGHT - 1; row >= 0; row--) {
+            const RowHit below = hit;
+            hit = row_hit(&cx, 0, (float)row, below);
+            begun += row_start(&cx, hit.ray, below) > 0;
+            const double ray[3] = {(double)hit.ray.x, (double)hit.ray.y, (double)hit.ray.z};
+            const double exact = brute_force(&t, height, ray, 0.002, (height + 0.3) / -ray[1] + 1);
+            off += fabs((double)hit.along - exact) > 0.03;
+        }
+    }
+    printf("columns: %d of %d hits elsewhere, %d begun at the row below\n", off, COLUMNS * TILE_HEIGHT, begun);
+    assert_true(off <= COLUMNS * TILE_HEIGHT / 100);
+    assert_true(begun > COLUMNS * (TILE_HEIGHT - 2));
+}
+
 static void slopes_are_those_of_differences(void **state)
 {
     (void)state;
@@ -348,6 +387,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(first_hits_are_those_of_brute_force),
+        cmocka_unit_test(columns_lose_no_crest),
         cmocka_unit_test(slopes_are_those_of_differences),
         cmocka_unit_test(filtered_covariance_is_that_of_averages),
     };
