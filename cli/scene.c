@@ -46,10 +46,11 @@ static json_t *describe(const scene_file *scene, const char *path)
     mgt_scene first;
     if (!scene_file_frame(scene, 0, &first))
         return NULL;
-    return json_pack("{s:o, s:b, s:o, s:i, s:i, s:i, s:f, s:f, s:I}", "file", console_json_text(path), "ok", 1, "description",
+    const char *warning = scene_file_warning(scene);
+    return json_pack("{s:o, s:b, s:o, s:i, s:i, s:i, s:f, s:f, s:I, s:o}", "file", console_json_text(path), "ok", 1, "description",
                      console_json_text(scene_file_description(scene)), "width", (int)first.image.width, "height", (int)first.image.height, "frames",
                      scene_file_frame_count(scene), "fps", scene_file_fps(scene), "start", scene_file_start(scene), "waves",
-                     (json_int_t)scene_file_wave_count(scene));
+                     (json_int_t)scene_file_wave_count(scene), "warning", warning[0] ? console_json_text(warning) : json_null());
 }
 
 static int check_file(const scene_request *r, const char *path, json_t *list)
@@ -64,6 +65,8 @@ static int check_file(const scene_request *r, const char *path, json_t *list)
         error.kind = SCENE_ERROR_BAD_SCENE;
         console_scene_error(&error);
     }
+    if (code == EXIT_CODE_OK && scene_file_warning(scene)[0])
+        console_note(&r->out, "warning: %s", scene_file_warning(scene));
     if (list)
         json_array_append_new(list, code == EXIT_CODE_OK
                                         ? describe(scene, path)

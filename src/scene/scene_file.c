@@ -21,6 +21,7 @@ enum { MAX_BYTES = 16 * 1024 * 1024, FIRST_BYTES = 64 * 1024 };
 struct scene_file {
     char *path;
     scene_values values;
+    scene_error warning;
 };
 
 /* ---- loading -------------------------------------------------------------------------------------------- */
@@ -105,6 +106,7 @@ scene_file *scene_file_parse_like(const scene_values *like, const char *text, si
         file->values.models = scene_models_share(like->models);
     else if (!scene_models_read(&tree, &file->values, error))
         goto fail;
+    scene_warn(&tree, &file->values, &file->warning);
     tree_free(&tree);
     return file;
 
@@ -192,6 +194,8 @@ const scene_values *scene_file_values(const scene_file *file) { return &file->va
 const char *scene_file_path(const scene_file *file) { return file->path; }
 
 const char *scene_file_description(const scene_file *file) { return file->values.description != NULL ? file->values.description : ""; }
+
+const char *scene_file_warning(const scene_file *file) { return file->warning.text; }
 
 int scene_file_frame_count(const scene_file *file) { return (int)file->values.time.frames; }
 

@@ -52,10 +52,15 @@ bool scene_file_frame(const scene_file *file, int frame, mgt_scene *out);
 
 const char *scene_file_path(const scene_file *file);        /* as given to scene_file_load(); never NULL */
 const char *scene_file_description(const scene_file *file); /* "" where there is none; never NULL */
-int scene_file_frame_count(const scene_file *file);         /* ≥ 1 */
-double scene_file_fps(const scene_file *file);              /* > 0, may be fractional */
-double scene_file_start(const scene_file *file);            /* seconds, the time of frame 0 */
-size_t scene_file_wave_count(const scene_file *file);       /* 0 … MGT_MAX_WAVES */
+
+/* What is legal in the file and yet hardly meant, as an error's text: waves steeper than water can be, or a camera that waves wash over. "" where there
+ * is none; never NULL. */
+const char *scene_file_warning(const scene_file *file);
+
+int scene_file_frame_count(const scene_file *file);   /* ≥ 1 */
+double scene_file_fps(const scene_file *file);        /* > 0, may be fractional */
+double scene_file_start(const scene_file *file);      /* seconds, the time of frame 0 */
+size_t scene_file_wave_count(const scene_file *file); /* 0 … MGT_MAX_WAVES */
 
 /* The key `quality`, with defaults for what is not given. It may hold options that its method does not take: for a method chosen elsewhere. */
 mgt_quality scene_file_quality(const scene_file *file);

@@ -392,6 +392,39 @@ static void nothing_is_printed(void **state)
     assert_int_equal(status.st_size, 0);
 }
 
+static const char *warning_of(const char *text, scene_file **file)
+{
+    scene_error error;
+    *file = scene_file_parse(text, strlen(text), "s.yaml", NULL, 0, &error);
+    assert_non_null(*file);
+    return scene_file_warning(*file);
+}
+
+static void scenes_hardly_meant_are_warned_of(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *warning; /* NULL: none */
+    } cases[] = {
+        {"mangata: 1\ncamera: {position: [0, 2, 0], target: [0, 1, -9]}\nwater:\n  waves:\n    - {amplitude: 0.4, a: 1, b: 0, c: 1}\n", NULL},
+        {"mangata: 1\ncamera: {position: [0, 2, 0], target: [0, 1, -9]}\nwater:\n  waves:\n    - {amplitude: 0.1, a: 1, b: 0, c: 1}\n    - {amplitude: 3, a: 3, b: 4, c: 1}\n",
+         "s.yaml:6:7: wave 1 is 15 steep"},
+        {"mangata: 1\ncamera:\n  position: [0, 2, 0]\n  target: [0, 1, -9]\nwater:\n  waves:\n    - {amplitude: 3, a: 0.1, b: 0, c: 0.5, phase: 1.5707963}\n",
+         "s.yaml:3:13: in frame 0 a wave stands 3 m over the mean surface at the camera, which is at 2 m"},
+        {"mangata: 1\ncamera: {position: [0, -2, 0], target: [0, -3, -9]}\nwater:\n  waves:\n    - {amplitude: 3, a: 0.1, b: 0, c: 0.5, phase: -1.5707963}\n",
+         "s.yaml:2:20: in frame 0 a wave stands 3 m under the mean surface at the camera, which is at -2 m"},
+    };
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        scene_file *file;
+        const char *warning = warning_of(cases[i].text, &file);
+        if (cases[i].warning == NULL)
+            assert_string_equal(warning, "");
+        else if (strncmp(warning, cases[i].warning, strlen(cases[i].warning)) != 0)
+            fail_msg("%s instead of %s", warning, cases[i].warning);
+        scene_file_free(file);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -404,6 +437,7 @@ int main(void)
         cmocka_unit_test(every_truncation_of_a_file_is_refused),
         cmocka_unit_test(changed_files_do_no_harm),
         cmocka_unit_test(nothing_is_printed),
+        cmocka_unit_test(scenes_hardly_meant_are_warned_of),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Warnings about scenes that are legal and yet hardly meant.
+ */
+#include <math.h>
+
+#include "params/waves.h"
+#include "scene/scene_path.h"
+#include "scene/scene_read.h"
+
+/* Stokes' limit: waves of a greater amplitude times wave number break. */
+static const double STEEPEST = 0.4432;
+
+/* Frames that are looked at; of longer clips some. */
+enum { MOST_FRAMES = 1000 };
+
+static double steepness(const mgt_wave *wave) { return wave_crest(wave) * wave_course_of(wave, 0).number; }
+
+static bool warn_of_wave(const scene_tree *tree, const scene_water *water, scene_error *warning)
+{
+    const scene_list waves = scene_water_all(water);
+    const mgt_wave *all = waves.items;
+    const tree_node *mapping = tree_get(tree->root, "water"), *list = tree_get(mapping, "waves"), *spectrum = tree_get(mapping, "spectrum");
+    for (size_t i = 0; i < waves.count; i++)
+        if (steepness(&all[i]) > STEEPEST) {
+            const tree_node *own = i < water->waves.count ? tree_at(list, i) : NULL, *node = own != NULL ? own : spectrum != NULL ? spectrum : mapping;
+            return tree_error(tree, node->source, node->place, warning,
+                              "wave %zu is %.3g steep, amplitude times wave number; water breaks above %.3g, so that no method shows what a sea would", i,
+                              steepness(&all[i]), STEEPEST);
+        }
+    return true;
+}
+
+static const tree_node *camera_node(const scene_tree *tree)
+{
+    const tree_node *mapping = tree_get(tree->root, "camera"), *path = tree_get(mapping, "path"), *position = tree_get(mapping, "position");
+    return path != NULL ? path : position != NULL ? position : mapping != NULL ? mapping : tree->root;
+}
+
+/* Methods look through the surface from the side of the mean surface that the camera is on. */
+static bool warn_of_camera(const scene_tree *tree, const scene_values *values, scene_error *warning)
+{
+    const scene_list waves = scene_water_all(&values->water);
+    const uint32_t step = values->time.frames / MOST_FRAMES + 1;
+    for (uint32_t frame = 0; frame < values->time.frames; frame += step) {
+        const double time = values->time.start + frame / values->time.fps;
+        const mgt_camera camera = scene_camera_at(&values->camera, time);
+        const double above = camera.position[1] - values->water.level;
+        const double water = waves_height(waves.items, waves.count, camera.position[0], camera.position[2], time);
+        if (above > 0 ? above < water : above > water) {
+            const tree_node *node = camera_node(tree);
+            return tree_error(tree, node->source, node->place, warning,
+                              "in frame %u a wave stands %.3g m %s the mean surface at the camera, which is at %.3g m: it is drawn as if it were %s", frame,
+                              fabs(water), water > 0 ? "over" : "under", above, above > 0 ? "dry" : "under water");
+        }
+    }
+    return true;
+}
+
+bool scene_warn(const scene_tree *tree, const scene_values *values, scene_error *warning)
+{
+    return warn_of_wave(tree, &values->water, warning) && warn_of_camera(tree, values, warning);
+}
