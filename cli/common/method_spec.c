@@ -20,13 +20,27 @@ static bool fail(char *wrong, size_t size, const char *format, ...)
     return false;
 }
 
-static void add_words(method_spec *spec, const char *word, size_t length)
+static void append(char *text, size_t size, const char *format, ...) __attribute__((format(printf, 3, 4)));
+
+static void append(char *text, size_t size, const char *format, ...)
 {
-    const size_t used = strlen(spec->options);
-    snprintf(spec->options + used, sizeof spec->options - used, " --%.*s %s", (int)length, word, word + length + 1);
+    const size_t used = strlen(text);
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text + used, size - used, format, arguments);
+    va_end(arguments);
 }
 
-static bool set_option(method_spec *spec, const char *word, char *wrong, size_t wrong_size)
+/* `name`: the spec's, as far as it has been read. */
+static void add_words(method_spec *spec, char name[METHOD_SPEC_TEXT], const char *word, size_t length)
+{
+    const char *value = word + length + 1;
+    quality_option_first_names(&word, &length, &value);
+    append(spec->options, sizeof spec->options, " --%.*s %s", (int)length, word, value);
+    append(name, METHOD_SPEC_TEXT, ":%.*s=%s", (int)length, word, value);
+}
+
+static bool set_option(method_spec *spec, char name[METHOD_SPEC_TEXT], const char *word, char *wrong, size_t wrong_size)
 {
     const size_t length = strcspn(word, "=");
     char reason[512];
@@ -36,7 +50,7 @@ static bool set_option(method_spec *spec, const char *word, char *wrong, size_t 
     /* The method stands first, refraction follows the +, and the seed is that of all. */
     const bool apart = strncmp(word, "method=", 7) == 0 || strncmp(word, "refraction=", 11) == 0 || strncmp(word, "seed=", 5) == 0;
     if (!apart && quality_option_set(&spec->given, word, length, word + length + 1, &known, reason, sizeof reason)) {
-        add_words(spec, word, length);
+        add_words(spec, name, word, length);
         return true;
     }
     if (known)
@@ -61,7 +75,7 @@ bool method_spec_parse(method_spec *spec, const char *text, size_t length, char 
     if (length >= sizeof spec->name)
         return fail(wrong, wrong_size, "%.*s…: the name is too long", 32, text);
     memcpy(spec->name, text, length);
-    char words[METHOD_SPEC_TEXT];
+    char words[METHOD_SPEC_TEXT], name[METHOD_SPEC_TEXT];
     memcpy(words, spec->name, sizeof words);
     char *rest = strchr(words, ':');
     if (rest)
@@ -75,16 +89,20 @@ bool method_spec_parse(method_spec *spec, const char *text, size_t length, char 
         return fail(wrong, wrong_size, "unknown method %s; allowed are %s", words, method_names().text);
     if (refraction && !quality_option_set(&spec->given, "refraction", 10, refraction, &known, reason, sizeof reason))
         return fail(wrong, wrong_size, "%s: %s", spec->name, reason);
-    snprintf(spec->options, sizeof spec->options, "--method %s%s%s", words, refraction ? " --refraction " : "", refraction ? refraction : "");
-    print_file_name(spec);
+    const char *refraction_name = refraction ? refraction : "";
+    quality_option_first_names(&(const char *){"refraction"}, &(size_t){10}, &refraction_name);
+    snprintf(spec->options, sizeof spec->options, "--method %s%s%s", words, refraction ? " --refraction " : "", refraction_name);
+    snprintf(name, sizeof name, "%s%s%s", words, refraction ? "+" : "", refraction_name);
     while (rest) {
         char *next = strchr(rest, ':');
         if (next)
             *next++ = 0;
-        if (!set_option(spec, rest, wrong, wrong_size))
+        if (!set_option(spec, name, rest, wrong, wrong_size))
             return false;
         rest = next;
     }
+    memcpy(spec->name, name, sizeof name);
+    print_file_name(spec);
     const mgt_quality base = quality_defaults();
     return quality_options_apply(&spec->given, &base, &spec->quality, reason, sizeof reason) || fail(wrong, wrong_size, "%s: %s", spec->name, reason);
 }

@@ -13,7 +13,7 @@
 enum { METHOD_SPEC_TEXT = 96 };
 
 typedef struct method_spec {
-    char name[METHOD_SPEC_TEXT];        /* as it was given */
+    char name[METHOD_SPEC_TEXT];        /* as it was given, but by the older name of what has two */
     char file[METHOD_SPEC_TEXT];        /* the same as a part of a file's name: [a-z0-9.-]+ */
     char options[2 * METHOD_SPEC_TEXT]; /* the same as words of `mangata render`: "--method podee-pixel --ndf-mean drop" */
     quality_options given;

@@ -109,8 +109,8 @@ int option_one_scene(const option *o, void *place, const char *value)
 
 /* ---- the help ---- */
 
-/* The verb's own options, those of every verb, and those of quality. */
-static size_t option_total(const option_table *table) { return table->count + COMMON_COUNT + (table->quality ? QUALITY_ROWS : 0); }
+/* The verb's own options, those of every verb, those of quality, and the aliases of these. */
+static size_t option_total(const option_table *table) { return table->count + COMMON_COUNT + (table->quality ? 2 * QUALITY_ROWS : 0); }
 
 /* What the help calls a value of an option. */
 static const char *value_word(const field_row *field, char *room, size_t size)
@@ -131,8 +131,10 @@ static option option_at(const option_table *table, size_t i)
         return table->options[i];
     if (i < table->count + COMMON_COUNT)
         return common_options[i - table->count];
-    const field_row *field = &quality_fields[i - table->count - COMMON_COUNT];
-    return (option){.name = field->flags & FIELD_NO_FLAG ? "" : field->key, .value = "VALUE"};
+    const size_t place = i - table->count - COMMON_COUNT;
+    const field_row *field = &quality_fields[place % QUALITY_ROWS];
+    const char *name = place < QUALITY_ROWS ? field->key : field->alias;
+    return (option){.name = field->flags & FIELD_NO_FLAG || !name ? "" : name, .value = "VALUE"};
 }
 
 static const char *option_name_at(const void *table, size_t i) { return option_at(table, i).name; }
@@ -192,7 +194,8 @@ static void print_quality(void)
         field_conditions(quality_fields, field, when, sizeof when);
         const mgt_quality defaults = quality_defaults();
         const short_number preset = field_print(field, field_at(field, &defaults));
-        snprintf(text, sizeof text, "%s: %s (default %s%s%s)", field->doc, allowed, field->absent ? field->absent : preset.text, when[0] ? "; for " : "", when);
+        snprintf(text, sizeof text, "%s: %s (default %s%s%s)%s%s", field->doc, allowed, field->absent ? field->absent : preset.text, when[0] ? "; for " : "",
+                 when, field->alias ? "; also called " : "", field->alias ? option_flag_alias(field).text : "");
         wrap(text, lines);
         print_option(&(option){.name = option_flag_of(field).text + 2, .value = value_word(field, room, sizeof room), .help = lines});
     }

@@ -28,19 +28,34 @@ static bool set_range(quality_options *o, const char *value, char *wrong, size_t
     return true;
 }
 
-/* The row of the option of this name; NULL: there is none. */
-static const field_row *row_of(const char *name, size_t length)
+/* The row of the option of this name, and whether that is its alias; NULL: there is none. */
+static const field_row *row_of(const char *name, size_t length, bool *alias)
 {
     char key[40];
     for (size_t i = 0; i < length && i < sizeof key; i++)
         key[i] = name[i] == '-' ? '_' : name[i];
-    return length < sizeof key ? field_find(quality_fields, key, length) : NULL;
+    const field_row *field = length < sizeof key ? field_find(quality_fields, key, length) : NULL;
+    *alias = field && field_is_alias(field, key, length);
+    return field;
+}
+
+void quality_option_first_names(const char **name, size_t *length, const char **value)
+{
+    bool alias;
+    const field_row *field = row_of(*name, *length, &alias);
+    if (alias) {
+        *name = field->key;
+        *length = strlen(field->key);
+    }
+    if (field)
+        *value = name_first(field->aliases, *value);
 }
 
 bool quality_count_read(const char *name, const char *value, uint32_t *count, char *wrong, size_t size)
 {
     char allowed[160];
-    field_row row = *row_of(name, strlen(name));
+    bool alias;
+    field_row row = *row_of(name, strlen(name), &alias);
     row.flags = 0;
     field_allowed(&row, allowed, sizeof allowed);
     return field_parse(&row, value, count) || (snprintf(wrong, size, "--%s %s: allowed is %s", name, value, allowed), false);
@@ -49,14 +64,17 @@ bool quality_count_read(const char *name, const char *value, uint32_t *count, ch
 bool quality_option_set(quality_options *options, const char *name, size_t length, const char *value, bool *known, char *wrong, size_t size)
 {
     char allowed[160];
+    bool alias;
     *known = true;
     if (is(name, length, "integral"))
         return set_integral(options, value, wrong, size);
     if (is(name, length, "samples-range"))
         return set_range(options, value, wrong, size);
-    const field_row *field = row_of(name, length);
+    const field_row *field = row_of(name, length, &alias);
     *known = field && (field == quality_fields || !(field->flags & FIELD_NO_FLAG));
     if (!*known)
+        return false;
+    if (!quality_choose_name(&options->choice, field, alias, wrong, size))
         return false;
     if (quality_choose(&options->choice, field, value)) {
         if (field == quality_fields)
@@ -64,7 +82,8 @@ bool quality_option_set(quality_options *options, const char *name, size_t lengt
         return true;
     }
     field_allowed(field, allowed, sizeof allowed);
-    snprintf(wrong, size, "%s %s: allowed is %s", option_flag_of(field).text, value, field == quality_fields ? method_names().text : allowed);
+    snprintf(wrong, size, "%s %s: allowed is %s", alias ? option_flag_alias(field).text : option_flag_of(field).text, value,
+             field == quality_fields ? method_names().text : allowed);
     return false;
 }
 

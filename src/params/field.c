@@ -157,6 +157,22 @@ static bool parse_large(const field_row *field, const char *text, uint64_t *valu
     return exact ? strlen(text) < 20 || (strlen(text) == 20 && strcmp(text, "18446744073709551615") <= 0) : number < 18446744073709551616.0;
 }
 
+const char *name_first(const name_alias *aliases, const char *word)
+{
+    for (; aliases && aliases->alias; aliases++)
+        if (strcmp(aliases->alias, word) == 0)
+            return aliases->name;
+    return word;
+}
+
+const char *field_word_alias(const field_row *field, int place)
+{
+    for (const name_alias *other = field->aliases; other && other->alias; other++)
+        if (strcmp(other->name, field_word(field, place)) == 0)
+            return other->alias;
+    return NULL;
+}
+
 bool field_parse(const field_row *field, const char *text, void *value)
 {
     static const char *const truth[] = {"false", "true"};
@@ -165,6 +181,7 @@ bool field_parse(const field_row *field, const char *text, void *value)
     switch (field->type) {
     case FIELD_CHOICE:
     case FIELD_SWITCH:
+        text = name_first(field->aliases, text);
         for (int i = 0; field_word(field, i); i++)
             if (strcmp(text, field_word(field, i)) == 0 || (field->type == FIELD_SWITCH && strcmp(text, truth[i]) == 0)) {
                 field_choose(field, i, value);
@@ -254,10 +271,14 @@ short_number field_print(const field_row *field, const void *value)
 
 enum { CONDITIONS = sizeof((field_row *)0)->when / sizeof *((field_row *)0)->when };
 
+static bool is_word(const char *word, const char *text, size_t length) { return strlen(word) == length && memcmp(word, text, length) == 0; }
+
+bool field_is_alias(const field_row *field, const char *key, size_t length) { return field->alias && is_word(field->alias, key, length); }
+
 const field_row *field_find(const field_row *fields, const char *key, size_t length)
 {
     for (const field_row *field = fields; field && field->key; field++)
-        if (strlen(field->key) == length && memcmp(field->key, key, length) == 0)
+        if (is_word(field->key, key, length) || field_is_alias(field, key, length))
             return field;
     return NULL;
 }
@@ -293,8 +314,8 @@ void field_meaning(const field_row *fields, const field_row *field, char *out, s
 {
     char when[160];
     field_conditions(fields, field, when, sizeof when);
-    snprintf(out, size, "%s%s%s%s%s%s", field->doc, when[0] ? " (" : "", when, when[0] ? ")" : "", field->absent ? "; by default " : "",
-             field->absent ? field->absent : "");
+    snprintf(out, size, "%s%s%s%s%s%s%s%s", field->doc, when[0] ? " (" : "", when, when[0] ? ")" : "", field->absent ? "; by default " : "",
+             field->absent ? field->absent : "", field->alias ? "; also called " : "", field->alias ? field->alias : "");
 }
 
 bool field_numbers_write(FILE *stream, const field_row *field, const void *value)
@@ -381,8 +402,11 @@ void field_allowed(const field_row *field, char *out, size_t size)
     case FIELD_CHOICE:
     case FIELD_SWITCH:
         used = (size_t)snprintf(out, size, "one of");
-        for (int i = 0; field_word(field, i) != NULL && used < size; i++)
-            used += (size_t)snprintf(out + used, size - used, "%s %s", i > 0 ? "," : "", field_word(field, i));
+        for (int i = 0; field_word(field, i) != NULL && used < size; i++) {
+            const char *alias = field_word_alias(field, i);
+            used += (size_t)snprintf(out + used, size - used, "%s %s%s%s%s", i > 0 ? "," : "", field_word(field, i), alias ? " (also called " : "",
+                                     alias ? alias : "", alias ? ")" : "");
+        }
         break;
     case FIELD_MAPPING:
         snprintf(out, size, "a mapping {key: value, ...}");

@@ -57,6 +57,11 @@ typedef struct field_condition {
     bool tolerated;   /* elsewhere the API ignores the row; else it refuses it */
 } field_condition;
 
+/* A newer name that is read as an older one; the older one is what is written. A list is ended by one without. */
+typedef struct name_alias {
+    const char *alias, *name;
+} name_alias;
+
 typedef struct field_row field_row;
 struct field_row {
     const char *key;
@@ -70,6 +75,8 @@ struct field_row {
     size_t choice_stride;        /* bytes from one to the next, where they are members of rows; 0: none lie between */
     const int *values;           /* what each choice stands for; NULL: its place in `choices` */
     double preset;               /* options: the default */
+    const char *alias;           /* newer key that is read like `key`, never with it; NULL: none. Not of required rows */
+    const name_alias *aliases;   /* newer names of choices; NULL: none */
     const char *absent;          /* options: what 0 or nothing stands for, for the help; NULL: the preset says it */
     const char *member;          /* options: name in the API; NULL: the key */
     const char *label;           /* options: what help calls the value; NULL: by type */
@@ -84,6 +91,9 @@ struct field_row {
     /* Before a list item is read: its defaults, from the struct that holds the list. */
     void (*prepare)(const void *parent, void *item);
 };
+
+/* The name that `word` is a newer one of; else `word`. NULL `aliases`: there are none. */
+const char *name_first(const name_alias *aliases, const char *word);
 
 /* "-90 to 90 degrees", "above 0 and below 179 degrees", "one of sun, moon", …: what a message allows. `out` is cut to size. */
 void field_allowed(const field_row *field, char *out, size_t size);
@@ -121,7 +131,12 @@ void field_conditions(const field_row *fields, const field_row *field, char *out
 /* What a row means, what stands in its place where it is not given, and its conditions, as one line. */
 void field_meaning(const field_row *fields, const field_row *field, char *out, size_t size);
 
+/* By key or alias; NULL: there is none. */
 const field_row *field_find(const field_row *fields, const char *key, size_t length);
+bool field_is_alias(const field_row *field, const char *key, size_t length);
+
+/* The newer name of a choice by its place; NULL: it has none. */
+const char *field_word_alias(const field_row *field, int place);
 
 /* Writes the value of a field of numbers as JSON, which is YAML too: "30", "[0, 4, 0]". False for fields of other types. */
 bool field_numbers_write(FILE *stream, const field_row *field, const void *value);

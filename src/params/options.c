@@ -201,6 +201,15 @@ bool quality_choose(quality_choice *choice, const field_row *field, const char *
     return true;
 }
 
+bool quality_choose_name(quality_choice *choice, const field_row *field, bool alias, char *wrong, size_t size)
+{
+    const uint64_t bit = bit_of(field);
+    if (choice->rows & bit && alias != ((choice->aliased & bit) != 0))
+        return snprintf(wrong, size, "%s is the new name of %s; allowed is one of them", option_flag_alias(field).text, option_flag_of(field).text), false;
+    choice->aliased = alias ? choice->aliased | bit : choice->aliased & ~bit;
+    return true;
+}
+
 void quality_drop_alternatives(const field_row *field, mgt_quality *q)
 {
     for (const field_row *other = quality_fields; other->key; other++)
@@ -208,15 +217,18 @@ void quality_drop_alternatives(const field_row *field, mgt_quality *q)
             reset(other, q);
 }
 
-option_flag option_flag_of(const field_row *field)
+static option_flag flag_of(const char *key)
 {
     option_flag flag;
-    snprintf(flag.text, sizeof flag.text, "--%s", field->key);
+    snprintf(flag.text, sizeof flag.text, "--%s", key);
     for (char *p = flag.text; *p; p++)
         if (*p == '_')
             *p = '-';
     return flag;
 }
+
+option_flag option_flag_of(const field_row *field) { return flag_of(field->key); }
+option_flag option_flag_alias(const field_row *field) { return flag_of(field->alias); }
 
 bool quality_apply(const quality_choice *choice, const mgt_quality *base, mgt_quality *out, char *wrong, size_t size)
 {
@@ -236,7 +248,8 @@ bool quality_apply(const quality_choice *choice, const mgt_quality *base, mgt_qu
     for (const field_row *field = quality_fields; field->key; field++)
         if (quality_is_chosen(choice, field) && !field_applies(quality_fields, field, &q, false)) {
             field_conditions(quality_fields, field, words, sizeof words);
-            snprintf(wrong, size, "%s: it is for %s alone", option_flag_of(field).text, words);
+            const option_flag flag = choice->aliased & bit_of(field) ? option_flag_alias(field) : option_flag_of(field);
+            snprintf(wrong, size, "%s: it is for %s alone", flag.text, words);
             return false;
         }
     *out = quality_restricted(&q);

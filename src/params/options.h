@@ -39,7 +39,8 @@ mgt_quality quality_restricted(const mgt_quality *quality);
 /* Options that somebody chose, apart from the defaults of all others. */
 typedef struct quality_choice {
     mgt_quality values;
-    uint64_t rows; /* one bit each, by place in quality_fields */
+    uint64_t rows;    /* one bit each, by place in quality_fields */
+    uint64_t aliased; /* those of them that were given by their alias */
 } quality_choice;
 
 quality_choice quality_choice_none(void);
@@ -47,6 +48,9 @@ quality_choice quality_choice_none(void);
 /* Reads an option. False, with nothing changed, where the value is not allowed. */
 bool quality_choose(quality_choice *choice, const field_row *field, const char *text);
 bool quality_is_chosen(const quality_choice *choice, const field_row *field);
+
+/* Notes by which of its names an option is given next. False, with one line in `wrong`, where it was given by the other one. */
+bool quality_choose_name(quality_choice *choice, const field_row *field, bool alias, char *wrong, size_t size);
 
 /* `base` with what was chosen in its place; what the method then does not take goes back to its default. False, with one line in `wrong`, where
  * a chosen option does not apply, or where chosen ones exclude each other. */
@@ -60,6 +64,7 @@ typedef struct option_flag {
     char text[40];
 } option_flag;
 option_flag option_flag_of(const field_row *field);
+option_flag option_flag_alias(const field_row *field); /* the field has one */
 
 /* Key and value, by `format`, of each option that is not at its default, but for method, samples and seed. For hashes and metadata. */
 void quality_write(FILE *stream, const mgt_quality *q, const char *format) __attribute__((format(printf, 3, 0)));

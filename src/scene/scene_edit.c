@@ -59,13 +59,7 @@ bool scene_values_fix_files(scene_values *values, const char *scene_path)
 
 /* ---- paths ------------------------------------------------------------------------------------------------- */
 
-static const field_row *child_field(const field_row *field, const char *word, size_t length)
-{
-    for (const field_row *child = field->fields; child != NULL && child->key != NULL; child++)
-        if (strlen(child->key) == length && memcmp(child->key, word, length) == 0)
-            return child;
-    return NULL;
-}
+static const field_row *child_field(const field_row *field, const char *word, size_t length) { return field_find(field->fields, word, length); }
 
 const field_row *scene_values_find(const scene_values *values, const char *path, const void **value)
 {

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "scene/scene_fields.h"
 #include "scene/scene_read.h"
 
 /* One step of a key's path: a word, or an index in brackets. */
@@ -62,8 +63,16 @@ static bool refuse_step(const scene_tree *tree, const char *override, const tree
     }
 }
 
-/* The child that a step names, made where it is missing. */
-static tree_node *take_step(scene_tree *tree, tree_node *node, const path_step *step, const char *override, scene_error *error)
+/* The child that has the other name of the same key; NULL: none, or the key has one name. */
+static tree_node *child_by_other_name(const tree_node *node, const field_row *field, const char *word)
+{
+    if (field == NULL || field->alias == NULL)
+        return NULL;
+    return tree_get(node, field_is_alias(field, word, strlen(word)) ? field->key : field->alias);
+}
+
+/* The child that a step names, made where it is missing. `field`: its row; NULL: an index, or no known key. */
+static tree_node *take_step(scene_tree *tree, tree_node *node, const path_step *step, const field_row *field, const char *override, scene_error *error)
 {
     tree_kind wanted = step->word != NULL ? TREE_MAPPING : TREE_LIST;
     if (node->kind == TREE_NULL) {
@@ -81,6 +90,18 @@ static tree_node *take_step(scene_tree *tree, tree_node *node, const path_step *
         if (word == NULL)
             goto memory;
         child = tree_get(node, word);
+        tree_node *other = child == NULL ? child_by_other_name(node, field, word) : NULL;
+        if (other != NULL && other->source != NULL) {
+            scene_quote quote = scene_quote_text(other->source, strlen(other->source));
+            tree_error(tree, override, node->place, error,
+                       "key \"%s\" stands beside \"%s\" of --set %s; \"%s\" is the new name of \"%s\"; allowed: one of them", word, other->key, quote.text,
+                       field->alias, field->key);
+            return NULL;
+        }
+        if (other != NULL) {
+            other->key = word;
+            child = other;
+        }
     } else {
         child = tree_at(node, step->index);
         if (child == NULL && step->index > node->count) {
@@ -119,9 +140,12 @@ bool scene_override_apply(scene_tree *tree, const char *override, scene_error *e
         return true; /* reading it will say what is wrong */
 
     tree_node *node = tree->root;
+    const field_row *field = scene_root_field();
     for (const char *at = override; at < equals;) {
         next_step(&at, equals, at == override, &step);
-        node = take_step(tree, node, &step, override, error);
+        if (step.word != NULL)
+            field = field != NULL ? field_find(field->fields, step.word, step.length) : NULL;
+        node = take_step(tree, node, &step, step.word != NULL ? field : NULL, override, error);
         if (node == NULL)
             return false;
     }

@@ -57,10 +57,13 @@ static bool refuse_unknown_key(const scene_reader *reader, const field_row *mapp
     char known[320] = "", hint[64] = "";
     size_t nearest = 3, used = 0; /* further than two edits is no slip of the finger */
     for (const field_row *field = mapping->fields; field->key != NULL; field++) {
-        size_t distance = key_distance(node->key, field->key);
-        if (distance < nearest) {
-            nearest = distance;
-            snprintf(hint, sizeof hint, "did you mean \"%s\"? ", field->key);
+        const char *const names[] = {field->key, field->alias};
+        for (int i = 0; i < 2 && names[i] != NULL; i++) {
+            size_t distance = key_distance(node->key, names[i]);
+            if (distance < nearest) {
+                nearest = distance;
+                snprintf(hint, sizeof hint, "did you mean \"%s\"? ", names[i]);
+            }
         }
         if (used < sizeof known)
             used += (size_t)snprintf(known + used, sizeof known - used, "%s%s", used > 0 ? ", " : "", field->key);
@@ -218,11 +221,14 @@ static bool read_field(scene_reader *reader, const field_row *field, const tree_
 static bool match_keys(const scene_reader *reader, const field_row *mapping, const tree_node *node, const tree_node *found[MAX_FIELDS])
 {
     for (const tree_node *child = node->first; child != NULL; child = child->next) {
-        size_t index = 0;
-        while (mapping->fields[index].key != NULL && strcmp(mapping->fields[index].key, child->key) != 0)
-            index++;
-        if (mapping->fields[index].key == NULL)
+        const field_row *field = field_find(mapping->fields, child->key, strlen(child->key));
+        if (field == NULL)
             return refuse_unknown_key(reader, mapping, child);
+        const ptrdiff_t index = field - mapping->fields;
+        if (found[index] != NULL && strcmp(found[index]->key, child->key) != 0)
+            return tree_error(reader->tree, child->key_source, child->key_place, reader->error,
+                              "key \"%s\" stands beside \"%s\" at line %d, column %d; \"%s\" is the new name of \"%s\"; allowed: one of them", child->key,
+                              found[index]->key, found[index]->key_place.line, found[index]->key_place.column, field->alias, field->key);
         if (found[index] != NULL)
             return tree_error(reader->tree, child->key_source, child->key_place, reader->error,
                               "key \"%s\" stands twice, first at line %d, column %d; allowed: once", child->key, found[index]->key_place.line,
@@ -244,7 +250,7 @@ static bool read_mapping(scene_reader *reader, const field_row *mapping, const t
         return false;
     for (size_t i = 0; mapping->fields[i].key != NULL; i++) {
         const field_row *field = &mapping->fields[i];
-        size_t length = path_enter(reader, field->key);
+        size_t length = path_enter(reader, found[i] != NULL ? found[i]->key : field->key);
         if (found[i] == NULL && field->flags & FIELD_REQUIRED) {
             char allowed[240];
             field_allowed(field, allowed, sizeof allowed);

@@ -123,6 +123,8 @@ static void write_type_schema(FILE *stream, const field_row *field, const void *
     case FIELD_SWITCH:
         for (int i = 0; field_word(field, i) != NULL; i++) {
             fprintf(stream, "%s\"%s\"", i == 0 ? "\"enum\": [" : ", ", field_word(field, i));
+            if (field_word_alias(field, i))
+                fprintf(stream, ", \"%s\"", field_word_alias(field, i));
             if (number_read(field_word(field, i), &number)) /* YAML and JSON may leave the quotes out */
                 fprintf(stream, ", %s", field_word(field, i));
         }
@@ -154,6 +156,34 @@ static void write_type_schema(FILE *stream, const field_row *field, const void *
     }
 }
 
+/* A key of its own; the older one beside it is refused by write_exclusions(). */
+static void write_alias_schema(FILE *stream, const field_row *field, const void *values, int depth)
+{
+    fputs(",\n", stream);
+    indent(stream, depth);
+    fprintf(stream, "\"%s\": {\n", field->alias);
+    indent(stream, depth + 1);
+    fprintf(stream, "\"description\": \"the new name of %s\",\n", field->key);
+    indent(stream, depth + 1);
+    write_type_schema(stream, field, field_at(field, values), values, depth + 1);
+    fputs("\n", stream);
+    indent(stream, depth);
+    fputs("}", stream);
+}
+
+/* No key stands beside its new name. */
+static void write_exclusions(FILE *stream, const field_row *mapping)
+{
+    const char *separator = " \"not\": {\"anyOf\": [";
+    for (const field_row *field = mapping->fields; field->key != NULL; field++)
+        if (field->alias != NULL) {
+            fprintf(stream, "%s{\"required\": [\"%s\", \"%s\"]}", separator, field->key, field->alias);
+            separator = ", ";
+        }
+    if (separator[0] == ',')
+        fputs("]},", stream);
+}
+
 static void write_mapping_schema(FILE *stream, const field_row *mapping, const void *values, int depth)
 {
     const char *separator = " \"required\": [";
@@ -163,7 +193,9 @@ static void write_mapping_schema(FILE *stream, const field_row *mapping, const v
             fprintf(stream, "%s\"%s\"", separator, field->key);
             separator = ", ";
         }
-    fputs(separator[0] == ',' ? "],\n" : "\n", stream);
+    fputs(separator[0] == ',' ? "]," : "", stream);
+    write_exclusions(stream, mapping);
+    fputs("\n", stream);
     indent(stream, depth);
     fputs("\"properties\": {\n", stream);
     for (const field_row *field = mapping->fields; field->key != NULL; field++) {
@@ -188,7 +220,10 @@ static void write_mapping_schema(FILE *stream, const field_row *mapping, const v
         write_type_schema(stream, field, value, values, depth + 2);
         fputs("\n", stream);
         indent(stream, depth + 1);
-        fputs(field[1].key != NULL ? "},\n" : "}\n", stream);
+        fputs("}", stream);
+        if (field->alias != NULL)
+            write_alias_schema(stream, field, values, depth + 1);
+        fputs(field[1].key != NULL ? ",\n" : "\n", stream);
     }
     indent(stream, depth);
     fputs("}", stream);
