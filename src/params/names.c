@@ -20,6 +20,7 @@ const char *const log_level_names[] = {"debug", "info", "warning", "error", NULL
 const char *const method_waves_names[] = {"point", "instant", "shutter", NULL};
 const char *const pattern_names[] = {"none", "tiles", "checker", "stripes", NULL};
 const char *const refraction_names[] = {"two-phase", "hybrid", "liu", "broad", "narrow", "screen-space", "distance-field", "off", "truth", NULL};
+const name_alias refraction_aliases[] = {{"path-traced", "truth"}, {NULL, NULL}};
 const char *const sky_model_names[] = {"atmosphere", "gradient", "black", NULL};
 const char *const status_names[] = {"ok", "argument", "scene", "memory", "unavailable", "unsupported", "thread", "cancelled", NULL};
 const char *const tone_map_names[] = {"none", "reinhard", "aces", "agx", NULL};
@@ -74,7 +75,10 @@ bool mgt_layer_from_name(const char *name, mgt_layer *layer) { return find(layer
 bool mgt_log_level_from_name(const char *name, mgt_log_level *level) { return find(log_level_names, name, level); }
 bool mgt_method_waves_from_name(const char *name, mgt_method_waves *waves) { return find(method_waves_names, name, waves); }
 bool mgt_pattern_from_name(const char *name, mgt_pattern *pattern) { return find(pattern_names, name, pattern); }
-bool mgt_refraction_from_name(const char *name, mgt_refraction *refraction) { return find(refraction_names, name, refraction); }
+bool mgt_refraction_from_name(const char *name, mgt_refraction *refraction)
+{
+    return name && find(refraction_names, name_first(refraction_aliases, name), refraction);
+}
 bool mgt_sky_model_from_name(const char *name, mgt_sky_model *model) { return find(sky_model_names, name, model); }
 bool mgt_status_from_name(const char *name, mgt_status *status) { return find(status_names, name, status); }
 bool mgt_tone_map_from_name(const char *name, mgt_tone_map *tone_map) { return find(tone_map_names, name, tone_map); }

@@ -4,6 +4,7 @@
 #define MANGATA_PARAMS_NAMES_H
 
 #include "mangata/mangata.h"
+#include "params/field.h"
 
 extern const char *const adaptive_names[],
     *const backend_names[], *const body_names[], *const format_names[], *const gl_color_names[], *const isa_names[],
@@ -16,6 +17,9 @@ extern const char *const adaptive_names[],
                                                                                                                              *const sky_model_names[],
                                                                                                                                  *const status_names[],
                                                                                                                                      *const tone_map_names[];
+
+/* Newer names that are read as well. */
+extern const name_alias refraction_aliases[];
 
 /* The values of kernels_names, which have gaps. */
 extern const int kernels_values[];

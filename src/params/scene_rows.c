@@ -36,7 +36,7 @@ const field_row image_rows[] = {{"width", FIELD_COUNT, offsetof(mgt_image, width
 
 const field_row light_rows[] = {{"body", FIELD_CHOICE, offsetof(mgt_light, body), 0, NO_RANGE, NULL,
                                  .doc = "kind of light: sets the defaults of angular_radius_deg and radiance, and the limb darkening", .choices = body_names,
-                                 .decide = decide_body, .change = change_body},
+                                 .alias = "source", .decide = decide_body, .change = change_body},
                                 {"elevation_deg", FIELD_NUMBER, offsetof(mgt_light, elevation_deg), 0, -90, 90, "degrees",
                                  .doc = "height over the horizon; below 0 no direct light meets the water"},
                                 {"azimuth_deg", FIELD_NUMBER, offsetof(mgt_light, azimuth_deg), 0, -1e6, 1e6, "degrees",

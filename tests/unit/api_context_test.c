@@ -147,6 +147,10 @@ static void enums_have_names_and_back(void **state)
     NAMES(mgt_tone_map, MGT_TONE_AGX + 1);
     NAMES(mgt_method_waves, MGT_WAVES_SHUTTER + 1);
     NAMES(mgt_refraction, MGT_REFRACTION_PATH_TRACED + 1);
+    mgt_refraction refraction = MGT_REFRACTION_OFF;
+    assert_true(mgt_refraction_from_name("path-traced", &refraction) && refraction == MGT_REFRACTION_PATH_TRACED);
+    assert_string_equal(mgt_refraction_name(refraction), "truth");
+    assert_false(mgt_refraction_from_name("path-trace", &refraction) || mgt_refraction_from_name("path_traced", &refraction));
     NAMES(mgt_adaptive, MGT_ADAPTIVE_PODEE + 1);
     NAMES(mgt_pattern, MGT_PATTERN_STRIPES + 1);
     NAMES(mgt_gl_color, MGT_GL_COLOR_DISPLAY + 1);

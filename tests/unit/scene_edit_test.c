@@ -108,6 +108,66 @@ static void one_change_is_one_word(void **state)
     scene_file_free(file);
 }
 
+/* By the names of version 0.1 and by those that were added since: the same values, and one text that is written. */
+static void new_names_are_read_as_old_ones(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *old, *new, *written;
+    } cases[] = {
+        {"mangata: 1\nlight: {body: moon}\n", "mangata: 1\nlight: {source: moon}\n", "body: moon"},
+        {"mangata: 1\nlight: {elevation_deg: 3, body: moon}\n", "mangata: 1\nlight: {elevation_deg: 3, source: moon}\n", "body: moon"},
+        {"mangata: 1\nquality: {refraction: truth}\n", "mangata: 1\nquality: {refraction: path-traced}\n", "refraction: truth"},
+        {"mangata: 1\nquality: {method: podee-pixel, kernels: 9}\n", "mangata: 1\nquality: {mixture: 9, method: podee-pixel}\n", "kernels: 9"},
+        {"mangata: 1\nquality: {method: podee-pixel, kernels: feline}\n", "mangata: 1\nquality: {method: podee-pixel, mixture: \"feline\"}\n",
+         "kernels: feline"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        scene_file *files[] = {parse(cases[i].old, NULL, 0), parse(cases[i].new, NULL, 0)};
+        char *texts[2] = {NULL, NULL};
+        assert_same_values(scene_file_values(files[0]), scene_file_values(files[1]));
+        for (int k = 0; k < 2; k++) {
+            size_t size = 0;
+            FILE *stream = open_memstream(&texts[k], &size);
+            assert_true(scene_values_write(stream, scene_file_values(files[k])));
+            fclose(stream);
+        }
+        assert_string_equal(texts[0], texts[1]);
+        assert_non_null(strstr(texts[1], cases[i].written));
+        for (int k = 0; k < 2; k++) {
+            free(texts[k]);
+            scene_file_free(files[k]);
+        }
+    }
+}
+
+/* --set by either name replaces what the file says by the other. */
+static void an_override_goes_by_either_name(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {"mangata: 1\n", "mangata: 1\nlight: {body: sun, elevation_deg: 7}\n", "mangata: 1\nlight: {source: sun}\n"};
+    static const char *const words[] = {"light.body=moon", "light.source=moon", "light.body=moon"};
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        scene_file *files[] = {parse(texts[i], &words[0], 1), parse(texts[i], &words[1], 1)};
+        assert_int_equal(scene_file_values(files[0])->light.body, MGT_SOURCE_MOON);
+        assert_same_values(scene_file_values(files[0]), scene_file_values(files[1]));
+        scene_file_free(files[0]);
+        scene_file_free(files[1]);
+        static const char *const messages[] = {
+            "--set light.source=moon: key \"source\" stands beside \"body\" of --set light.body=moon; \"source\" is the new name of \"body\"; allowed: one of them",
+            "--set light.body=moon: key \"body\" stands beside \"source\" of --set light.source=moon; \"source\" is the new name of \"body\"; allowed: one of them"};
+        for (int k = 0; k < 2; k++) {
+            scene_error error;
+            assert_null(scene_file_parse(texts[i], strlen(texts[i]), "test", words + k, 2, &error));
+            assert_string_equal(error.text, messages[k]);
+        }
+    }
+    static const char *const both = "mangata: 1\nlight: {body: sun, source: sun}\n";
+    scene_error error;
+    assert_null(scene_file_parse(both, strlen(both), "test", words, 1, &error));
+    assert_non_null(strstr(error.text, "test:2:20: key \"source\" stands beside \"body\""));
+}
+
 static void paths_find_their_values(void **state)
 {
     (void)state;
@@ -128,10 +188,8 @@ static void paths_find_their_values(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_written_scene_reads_back),
-        cmocka_unit_test(words_lead_from_any_scene_to_any_other),
-        cmocka_unit_test(one_change_is_one_word),
-        cmocka_unit_test(paths_find_their_values),
+        cmocka_unit_test(a_written_scene_reads_back),     cmocka_unit_test(words_lead_from_any_scene_to_any_other), cmocka_unit_test(one_change_is_one_word),
+        cmocka_unit_test(new_names_are_read_as_old_ones), cmocka_unit_test(an_override_goes_by_either_name),        cmocka_unit_test(paths_find_their_values),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -177,6 +177,41 @@ static void the_reader_keeps_every_range(void **state)
     assert_true(checked >= 34);
 }
 
+static int words_named(const field_row *field, const char *name)
+{
+    int count = 0;
+    for (int i = 0; field_word(field, i) != NULL; i++)
+        count += strcmp(field_word(field, i), name) == 0;
+    return count;
+}
+
+static int check_aliases(const field_row *mapping)
+{
+    int count = 0;
+    for (const field_row *field = mapping->fields; field->key != NULL; field++) {
+        if (field->fields != NULL)
+            count += check_aliases(field);
+        if (field->alias != NULL) {
+            assert_false(field->flags & FIELD_REQUIRED);
+            for (const field_row *other = mapping->fields; other->key != NULL; other++)
+                assert_true(strcmp(other->key, field->alias) != 0 && (other == field || other->alias == NULL || strcmp(other->alias, field->alias) != 0));
+            count++;
+        }
+        for (const name_alias *other = field->aliases; other != NULL && other->alias != NULL; other++) {
+            assert_int_equal(words_named(field, other->name), 1);
+            assert_int_equal(words_named(field, other->alias), 0);
+            count++;
+        }
+    }
+    return count;
+}
+
+static void new_names_stand_for_one_old_name(void **state)
+{
+    (void)state;
+    assert_true(check_aliases(scene_root_field()) >= 3);
+}
+
 /* A file that loads also passes the library's own check. */
 static void the_library_takes_every_end(void **state)
 {
@@ -214,7 +249,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_schema_in_docs_is_this_one), cmocka_unit_test(the_table_in_docs_is_this_one), cmocka_unit_test(the_examples_in_docs_load),
-        cmocka_unit_test(the_reader_keeps_every_range),   cmocka_unit_test(the_library_takes_every_end),
+        cmocka_unit_test(the_reader_keeps_every_range),   cmocka_unit_test(the_library_takes_every_end),   cmocka_unit_test(new_names_stand_for_one_old_name),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
