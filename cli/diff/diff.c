@@ -22,7 +22,7 @@ typedef struct diff_request {
     double max_rmse;
     diff_metrics metrics;
     diff_prepare prepare;
-    diff_truth truth;
+    truth_metrics truth;
     bool encoding_given;
 } diff_request;
 
@@ -46,9 +46,9 @@ static int set_max_rmse(const option *o, void *place, const char *value)
 static int set_metrics(const option *o, void *place, const char *value)
 {
     diff_request *r = place;
-    if (diff_truth_parse(&r->truth, value, &r->metrics.wanted.metrics))
+    if (truth_words_parse(value, &r->truth.wants, &r->metrics.wanted.metrics))
         return EXIT_CODE_OK;
-    return console_error(EXIT_CODE_USAGE, "--%s %s: allowed are %s, %s, separated by commas", o->name, value, clip_metric_words, diff_truth_words);
+    return console_error(EXIT_CODE_USAGE, "--%s %s: allowed are %s, %s, separated by commas", o->name, value, clip_metric_words, truth_words_text);
 }
 
 static int set_encoding(const option *o, void *place, const char *value)
@@ -88,7 +88,7 @@ static int check_metrics(diff_request *r)
 {
     if (r->flicker)
         return console_error(EXIT_CODE_USAGE, "--flicker compares differences and goes with no --metrics; --metrics flicker measures both");
-    if (r->truth.wants_texture && !r->paths[2])
+    if (r->truth.wants.texture && !r->paths[2])
         return console_error(EXIT_CODE_USAGE, "--metrics texture needs --second-reference B2, a picture of what B shows with noise of its own");
     if (r->prepare.displayed)
         r->metrics.wanted.srgb_encoded = true;
@@ -140,7 +140,7 @@ static int check_request(diff_request *r)
     if (r->flicker && frame_list_length(&r->frames) < 2)
         return console_error(EXIT_CODE_USAGE, "--flicker needs numbered names and at least two frames");
     const int code = r->paths[2] ? check_second_reference(r) : EXIT_CODE_OK;
-    const bool measures = r->metrics.wanted.metrics || r->truth.wants_texture || r->truth.wants_specks;
+    const bool measures = r->metrics.wanted.metrics || r->truth.wants.texture || r->truth.wants.specks;
     return code == EXIT_CODE_OK && measures ? check_metrics(r) : code;
 }
 
@@ -340,6 +340,6 @@ int verb_diff(int count, char **arguments)
     diff_request request = {.out = {0}};
     const int code = options_run(&diff_table, &request, count, arguments);
     diff_metrics_free(&request.metrics);
-    diff_truth_free(&request.truth);
+    truth_metrics_free(&request.truth);
     return code;
 }

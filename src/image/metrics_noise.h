@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Errors against a truth that is known by two pictures with independent noise, B and B2. Private to src/image, cli/diff and their tests.
+/* Errors against a truth that is known by two pictures with independent noise, B and B2. Private to src/image and its tests.
  * With A independent of both, mean (A − B)(A − B2) is the mean squared distance of A from the truth: the noise of B and that of B2 are not
  * correlated and cancel, where mean (A − B)² holds the noise of B. */
 #ifndef MANGATA_IMAGE_METRICS_NOISE_H

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Specks: single pixels that stand out of a picture where the truth shows nothing like them nearby. Private to src/image, cli/diff and their tests. */
+/* Specks: single pixels that stand out of a picture where the truth shows nothing like them nearby. Private to src/image and its tests. */
 #ifndef MANGATA_IMAGE_METRICS_SPECKS_H
 #define MANGATA_IMAGE_METRICS_SPECKS_H
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* How much of the truth's texture a picture keeps, from the horizon down: contrast, correlation and mean of bands of rows. Private to src/image,
- * cli/diff and their tests.
+ * cli and their tests.
  * P: the picture; A, B: two references of one truth with independent noise; x′: x minus the mean of its row. All are linear luminances.
  *   contrast    √ mean P′² / √ mean A′B′                          1 is best; below 1: too smooth
  *   correlation mean P′(A′ + B′)/2 / (√ mean P′² · √ mean A′B′)   1 is best; 0: the texture lies elsewhere
