@@ -28,8 +28,10 @@ json_t *truth_texture_json(const truth_metrics *t)
     json_t *list = json_array();
     for (uint32_t i = 0; i < texture_bands(t->bands); i++) {
         const texture_band b = texture_band_at(t->bands, i);
-        json_array_append_new(list, json_pack("{s:I, s:I, s:o, s:o, s:o}", "row", (json_int_t)b.row, "rows", (json_int_t)b.rows, "contrast",
-                                              json_number(b.contrast), "correlation", json_number(b.correlation), "mean", json_number(b.mean)));
+        json_array_append_new(list, json_pack("{s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:o}", "row", (json_int_t)b.row, "rows", (json_int_t)b.rows, "contrast",
+                                              json_number(b.contrast), "correlation", json_number(b.correlation), "mean", json_number(b.mean), "contrast_noise",
+                                              json_number(b.contrast_noise), "correlation_noise", json_number(b.correlation_noise), "mean_noise",
+                                              json_number(b.mean_noise)));
     }
     return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "correlation_mean", json_number(s.correlation_mean), "correlation_least",
                      json_number(s.correlation_least), "contrast_least", json_number(s.contrast_least), "contrast_greatest", json_number(s.contrast_greatest),

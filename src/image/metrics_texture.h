@@ -6,6 +6,11 @@
  *   correlation mean P′(A′ + B′)/2 / (√ mean P′² · √ mean A′B′)   1 is best; 0: the texture lies elsewhere
  *   mean        mean P / mean (A + B)/2                           1 is best
  * The noise of A is not that of B, so mean A′B′ is the variance of the truth alone. Means run over the rows of a band and over all frames.
+ * Their own noise, a standard deviation, is what is left of the references' noise; the noise of their mean R is taken from d = (A − B)/2, pixel by pixel
+ * (errors of R: independent from pixel to pixel, to first order, S = Σ A′B′):
+ *   contrast    contrast · √ Σ d′²R′² / S
+ *   correlation √ Σ d′² (P′/√(S Σ P′²) − correlation · R′/S)²
+ *   mean        mean · √ Σ d′² / Σ R
  * NaN: contrast and correlation where mean A′B′ ≤ 0 (no texture, or less than the noise hides), correlation where P′ is 0, mean where both
  * references are black. */
 #ifndef MANGATA_IMAGE_METRICS_TEXTURE_H
@@ -38,6 +43,7 @@ void texture_add(texture *t, const texture_input *input);
 typedef struct texture_band {
     uint32_t row, rows; /* first row from the top, and how many */
     double contrast, correlation, mean;
+    double contrast_noise, correlation_noise, mean_noise; /* standard deviations */
 } texture_band;
 
 /* How many bands there are; 0 where the picture has fewer than TEXTURE_ROWS_LEAST rows. */
@@ -53,5 +59,7 @@ typedef struct texture_summary {
 } texture_summary;
 
 texture_summary texture_summarize(const texture *t);
+/* The standard deviation of each: of a mean over bands that mean's, of the least and the greatest that of their band. */
+texture_summary texture_summarize_noise(const texture *t);
 
 #endif

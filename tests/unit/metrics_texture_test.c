@@ -126,6 +126,43 @@ static void test_texture_is_free_of_noise(void **state)
     texture_free(t);
 }
 
+/* Over many pairs of references the figures of a band spread as their noise says, here and for a picture of other texture. */
+static void test_texture_tells_its_noise(void **state)
+{
+    (void)state;
+    enum { RUNS = 200 };
+    static float p[PIXELS], a[PIXELS], b[PIXELS];
+    for (int shift = 0; shift < 2; shift++) {
+        double sums[3] = {0}, squares[3] = {0}, told[3] = {0};
+        fill_sine(p, 2, 0.4, shift / 8.0);
+        for (int run = 0; run < RUNS; run++) {
+            fill_sine(a, 2, 0.5, 0);
+            memcpy(b, a, sizeof b);
+            add_noise(a, 0.25, 1000 + 2 * (uint64_t)run);
+            add_noise(b, 0.25, 1001 + 2 * (uint64_t)run);
+            texture *t = texture_of(p, a, b);
+            const texture_band band = texture_band_at(t, 0);
+            const double values[] = {band.contrast, band.correlation, band.mean}, noise[] = {band.contrast_noise, band.correlation_noise, band.mean_noise};
+            for (int i = 0; i < 3; i++) {
+                sums[i] += values[i] / RUNS;
+                squares[i] += values[i] * values[i] / RUNS;
+                told[i] += noise[i] / RUNS;
+            }
+            texture_free(t);
+        }
+        for (int i = 0; i < 3; i++) {
+            const double spread = sqrt(squares[i] - sums[i] * sums[i]);
+            assert_true(fabs(told[i] / spread - 1) < 0.2);
+        }
+    }
+    /* Without noise there is none to tell. */
+    fill_sine(a, 2, 0.5, 0);
+    texture *t = texture_of(p, a, a);
+    const texture_summary noise = texture_summarize_noise(t);
+    assert_true(noise.correlation_mean == 0 && noise.correlation_least == 0 && noise.contrast_least == 0 && noise.mean_greatest == 0);
+    texture_free(t);
+}
+
 static void test_texture_adds_frames(void **state)
 {
     (void)state;
@@ -351,6 +388,7 @@ int main(void)
         cmocka_unit_test(test_bands),
         cmocka_unit_test(test_texture_of_sines),
         cmocka_unit_test(test_texture_is_free_of_noise),
+        cmocka_unit_test(test_texture_tells_its_noise),
         cmocka_unit_test(test_texture_adds_frames),
         cmocka_unit_test(test_texture_without_meaning),
         cmocka_unit_test(test_texture_of_a_part),
