@@ -74,6 +74,31 @@ number_text number_print(double number)
     return out;
 }
 
+/* Place of the first digit: 0 for 1 to 9.99, −1 for 0.1 to 0.999. */
+static int first_place(double magnitude) { return (int)floor(log10(magnitude)); }
+
+number_text number_print_measured(double value, double noise)
+{
+    const double magnitude = fabs(value);
+    number_text out;
+    int digits = 4;
+    if (!isfinite(value)) {
+        snprintf(out.text, sizeof out.text, "-");
+        return out;
+    }
+    if (magnitude >= 1e12) {
+        snprintf(out.text, sizeof out.text, "%.3e", value);
+        return out;
+    }
+    const int place = magnitude > 0 ? first_place(magnitude) : isfinite(noise) && noise > 0 ? first_place(noise) : 0;
+    if (isfinite(noise) && noise > 0)
+        digits = place - first_place(noise) + 1;
+    digits = digits < 2 ? 2 : digits > 4 ? 4 : digits;
+    const int behind = digits - 1 - place;
+    snprintf(out.text, sizeof out.text, "%.*f", behind < 0 ? 0 : behind > 12 ? 12 : behind, value);
+    return out;
+}
+
 static int ascending(const void *a, const void *b)
 {
     const double x = *(const double *)a, y = *(const double *)b;

@@ -22,6 +22,10 @@ typedef struct number_text {
 } number_text;
 number_text number_print(double number);
 
+/* A measured value to the digits that its noise leaves: to the place of the first digit of `noise`, but never fewer than 2 significant digits nor
+ * more than 4. `noise` NaN or 0: 4. "-" for a value that is not finite. */
+number_text number_print_measured(double value, double noise);
+
 /* Of measured values, which are sorted by it; NaN where there are none. */
 typedef struct number_spread {
     double median, least, most;

@@ -382,6 +382,18 @@ file_status clip_metrics_scores(const clip_metrics *m, clip_scores *scores, file
     return status;
 }
 
+double clip_metric_best(clip_metric metric) { return metric == CLIP_ENERGY || metric == CLIP_SSIM || metric == CLIP_FLICKER_RATIO ? 1 : 0; }
+
+file_status clip_metrics_noise(const clip_metrics *m, clip_scores *floors, file_error *error)
+{
+    const file_status status = clip_metrics_scores(m, floors, error);
+    for (int i = 0; i < CLIP_METRICS; i++)
+        floors->values[i] = fabs(floors->values[i] - clip_metric_best((clip_metric)i));
+    if (measures(m, CLIP_ENERGY))
+        floors->values[CLIP_ENERGY] = m->sums.sum_b != 0 ? sqrt(m->sums.sum_difference_squared) / fabs(m->sums.sum_b) : NAN;
+    return status;
+}
+
 const char *clip_metrics_missing(const clip_metrics *m, clip_metric metric)
 {
     clip_scores scores;

@@ -90,6 +90,15 @@ file_status clip_metrics_scores(const clip_metrics *metrics, clip_scores *scores
 /* Why a metric asked for has no score (one line), or NULL where it has one. */
 const char *clip_metrics_missing(const clip_metrics *metrics, clip_metric metric);
 
+/* The value of a picture that is the reference: 1 of energy, SSIM and the flicker ratio, else 0. */
+double clip_metric_best(clip_metric metric);
+
+/* The noise floor of a reference that is the mean of two halves with independent noise, from metrics to which its first half was added as A and that
+ * mean as B: the half is as far from the mean as the mean is from the truth, so the floor is the distance of each score from its best. Of RMSE it is
+ * noise_sums_floor(). Of energy it is the standard deviation, √ Σ (A − B)² / |Σ B|, of values with independent noise, since one sum's own distance may
+ * be 0 by chance. NaN where there is no score. FILE_MEMORY. */
+file_status clip_metrics_noise(const clip_metrics *metrics, clip_scores *floors, file_error *error);
+
 /* Sums, maximum and mismatches as `mangata diff` reports them; kept for every set of metrics. */
 const image_metrics *clip_metrics_sums(const clip_metrics *metrics);
 

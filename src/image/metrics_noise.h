@@ -27,4 +27,7 @@ double noise_sums_rmse(const noise_sums *sums);
 /* Half of √ mean (B − B2)²: how far the mean of B and B2 still is from the truth; 0 without values. */
 double noise_sums_floor(const noise_sums *sums);
 
+/* The mean of two references, of B's size; the caller frees it. FILE_ARGUMENT where their sizes or channels differ, FILE_MEMORY. */
+file_status noise_mean(float_image *mean, const float_image *b, const float_image *b2, file_error *error);
+
 #endif

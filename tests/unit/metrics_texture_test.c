@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Texture, specks and errors freed of noise, against closed forms: sines with independent noise, single pixels. */
+/* Texture, specks, errors freed of noise and noise floors, against closed forms: sines with independent noise, single pixels. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "image/metrics_clip.h"
 #include "image/metrics_noise.h"
 #include "image/metrics_specks.h"
 #include "image/metrics_texture.h"
@@ -366,6 +367,51 @@ static void test_noise_sums(void **state)
     assert_true(fabs(noise_sums_rmse(&sums) - 1) < 1e-5);
 }
 
+/* A floor is what the truth scores against the mean of two halves; that of RMSE is the one of noise_sums. */
+static void test_floors_of_clips(void **state)
+{
+    (void)state;
+    static float truth[PIXELS], a[PIXELS], b[PIXELS];
+    const clip_metrics_desc desc = {.width = W,
+                                    .height = H,
+                                    .channels = 1,
+                                    .metrics = 1u << CLIP_RMSE | 1u << CLIP_ENERGY | 1u << CLIP_FLIP | 1u << CLIP_SSIM | 1u << CLIP_FLICKER};
+    clip_metrics *noise = NULL, *true_scores = NULL;
+    noise_sums sums = {0};
+    assert_int_equal(clip_metrics_create(&noise, &desc, NULL), FILE_OK);
+    assert_int_equal(clip_metrics_create(&true_scores, &desc, NULL), FILE_OK);
+    for (uint64_t frame = 0; frame < 4; frame++) {
+        fill_sine(truth, 0.5, 0.2, (double)frame / 8);
+        memcpy(a, truth, sizeof a);
+        memcpy(b, truth, sizeof b);
+        add_noise(a, 0.03, 100 + frame);
+        add_noise(b, 0.03, 200 + frame);
+        const float_image images[3] = {{W, H, 1, truth}, {W, H, 1, a}, {W, H, 1, b}};
+        float_image mean;
+        assert_int_equal(noise_mean(&mean, &images[1], &images[2], NULL), FILE_OK);
+        assert_int_equal(noise_sums_add(&sums, images, NULL, NULL), FILE_OK);
+        assert_int_equal(clip_metrics_add(noise, &images[1], &mean, NULL, NULL, NULL), FILE_OK);
+        assert_int_equal(clip_metrics_add(true_scores, &images[0], &mean, NULL, NULL, NULL), FILE_OK);
+        float_image_free(&mean);
+    }
+    clip_scores floors, scores;
+    assert_int_equal(clip_metrics_noise(noise, &floors, NULL), FILE_OK);
+    assert_int_equal(clip_metrics_scores(true_scores, &scores, NULL), FILE_OK);
+    assert_true(fabs(floors.values[CLIP_RMSE] - noise_sums_floor(&sums)) < 1e-7);
+    /* SSIM divides by variances, which the noise of a half raises twice as much. */
+    static const clip_metric compared[] = {CLIP_RMSE, CLIP_FLIP, CLIP_FLICKER, CLIP_SSIM};
+    static const double within[] = {0.03, 0.03, 0.03, 0.3};
+    for (int i = 0; i < 4; i++) {
+        const double right = fabs(scores.values[compared[i]] - clip_metric_best(compared[i]));
+        assert_true(right > 0 && fabs(floors.values[compared[i]] / right - 1) < within[i]);
+    }
+    const double energy = 0.03 / sqrt(2) / 0.5 / sqrt(4.0 * PIXELS);
+    assert_true(fabs(floors.values[CLIP_ENERGY] / energy - 1) < 0.02 && fabs(scores.values[CLIP_ENERGY] - 1) < 4 * energy);
+    assert_true(isnan(floors.values[CLIP_YEE]));
+    clip_metrics_free(noise);
+    clip_metrics_free(true_scores);
+}
+
 static void test_sizes_must_agree(void **state)
 {
     (void)state;
@@ -379,6 +425,9 @@ static void test_sizes_must_agree(void **state)
             assert_int_equal(noise_sums_add(&sums, images, NULL, &error), FILE_ARGUMENT);
             assert_int_equal(sums.values, 0);
             assert_non_null(strstr(error.text, "4x4"));
+            float_image mean;
+            if (i > 0)
+                assert_int_equal(noise_mean(&mean, &images[0], &images[i], &error), FILE_ARGUMENT);
         }
 }
 
@@ -395,6 +444,7 @@ int main(void)
         cmocka_unit_test(test_planted_specks),
         cmocka_unit_test(test_noise_is_no_speck),
         cmocka_unit_test(test_noise_sums),
+        cmocka_unit_test(test_floors_of_clips),
         cmocka_unit_test(test_sizes_must_agree),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
