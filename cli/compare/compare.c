@@ -40,8 +40,10 @@ static int add_gate(const option *o, void *place, const char *value)
 
 static int set_metrics(const option *o, void *place, const char *value)
 {
-    uint32_t *metrics = place;
-    return clip_metrics_parse(value, metrics) && *metrics ? EXIT_CODE_OK : option_wrong(o, value, clip_metric_words);
+    compare_request *r = place;
+    if (truth_words_parse(value, &r->truth, &r->metrics))
+        return EXIT_CODE_OK;
+    return console_error(EXIT_CODE_USAGE, "--%s %s: allowed are %s, %s, separated by commas", o->name, value, clip_metric_words, truth_words_text);
 }
 
 static int add_method(compare_request *r, const char *text, size_t length, uint64_t seed)
@@ -109,6 +111,8 @@ static int run(void *place)
         return console_error(EXIT_CODE_USAGE, "no folder given: -o DIR; see mangata compare --help");
     /* Another seed than the methods': else a method that jitters would share the reference's samples and look better than it is. */
     r->reference.seed = line->seed + 1;
+    r->reference.time_samples += r->reference.time_samples % 2;
+    r->halved = true;
     r->picture_bytes = line->megabytes * 1000000;
     r->progress = progress_mode_heard(r->progress, r->out.quiet);
     int code = add_methods(r, line);
@@ -129,12 +133,17 @@ static const option compare_options[] = {
      .allowed = "WxH, each from 1 to 32768 pixels, such as 320x180"},
     {"spatial", 0, "N", "reference: NxN samples a pixel for each time sample (default 8)", .set = option_samples,
      .offset = offsetof(compare_request, reference.spatial_samples)},
-    {"time-samples", 0, "M", "reference: samples of the open shutter (default 8)", .set = option_samples,
-     .offset = offsetof(compare_request, reference.time_samples)},
+    {"time-samples", 0, "M",
+     "reference: samples of the open shutter (default 8), half of them\n"
+     "for each of two halves whose difference tells the noise floor",
+     .set = option_samples, .offset = offsetof(compare_request, reference.time_samples)},
     {"set", 0, "KEY=VALUE", "change a value of every scene; may be repeated", .set = option_change, .offset = offsetof(compare_request, changes)},
-    {"seed", 0, "N", "seed of the methods' jitter; the reference's is N + 1 (default 0)", .set = option_number, .offset = offsetof(compare_line, seed),
-     .most = UINT64_MAX - 1},
-    {"metrics", 0, "LIST", "what to measure, as in mangata diff (default: all)", .set = set_metrics, .offset = offsetof(compare_request, metrics)},
+    {"seed", 0, "N", "seed of the methods' jitter; the reference's are N + 1, N + 2 (default 0)", .set = option_number, .offset = offsetof(compare_line, seed),
+     .most = UINT64_MAX - 2},
+    {"metrics", 0, "LIST",
+     "what to measure, as in mangata diff, texture and specks against\n"
+     "the halves of the reference (default: all)",
+     .set = set_metrics},
     {"time-runs", 0, "N",
      "timed renders of each method on each scene, apart from the\n"
      "pictures; 0: none (default 5)",
@@ -157,8 +166,9 @@ static const option compare_options[] = {
 
 static const option_table compare_table = {"compare",
                                            "SCENE... -o DIR [options]",
-                                           "Renders every method on every scene, and the reference, measures how far they are apart, and\n"
-                                           "writes DIR/report.html (one file that needs nothing else), report.json, report.csv and report.tex.\n"
+                                           "Renders every method on every scene, and the reference, measures how far they are apart, and how\n"
+                                           "far the reference's own noise moves each score; writes DIR/report.html (one file that needs nothing\n"
+                                           "else), report.json, report.csv and report.tex.\n"
                                            "Pictures are kept in DIR/frames: the same command again goes on where it was stopped.",
                                            compare_options,
                                            sizeof compare_options / sizeof compare_options[0],
@@ -170,10 +180,14 @@ static const option_table compare_table = {"compare",
 
 int verb_compare(int count, char **arguments)
 {
-    compare_line line =
-        {.request = {.arguments = arguments, .argument_count = count, .metrics = CLIP_ALL_METRICS, .time_runs = 5, .progress = progress_mode_auto()},
-         .methods = "none,podee-uniform,podee-pixel,mangata",
-         .megabytes = 14};
+    compare_line line = {.request = {.arguments = arguments,
+                                     .argument_count = count,
+                                     .metrics = CLIP_ALL_METRICS,
+                                     .truth = {true, true},
+                                     .time_runs = 5,
+                                     .progress = progress_mode_auto()},
+                         .methods = "none,podee-uniform,podee-pixel,mangata",
+                         .megabytes = 14};
     mgt_quality_init(&line.request.reference, sizeof line.request.reference);
     method_from_name("reference", &line.request.reference);
     frame_list_span(&line.request.frames, 0, 3);

@@ -25,6 +25,7 @@ char *compare_picture_command(const compare_job *job, const compare_scene *scene
 {
     const compare_request *r = job->request;
     const mgt_quality *q = compare_picture_quality(scene, picture);
+    const bool reference = picture == COMPARE_REFERENCE || picture >= COMPARE_HALF;
     char *text = NULL, frames[240];
     size_t size = 0;
     FILE *stream = open_memstream(&text, &size);
@@ -33,9 +34,9 @@ char *compare_picture_command(const compare_job *job, const compare_scene *scene
     frame_list_print(&r->frames, frames, sizeof frames);
     fputs("mangata render", stream);
     shell_word(stream, scene->path);
-    fprintf(stream, " -o %s_%%04d.exr --layer color --layer coverage --frames %s", picture == COMPARE_REFERENCE ? "reference" : r->methods[picture - 1].file,
-            frames);
-    if (picture == COMPARE_REFERENCE)
+    fprintf(stream, " -o %s_%%04d.exr --layer color --layer coverage --frames %s",
+            reference ? compare_picture_name(job, picture) : r->methods[picture - 1].file, frames);
+    if (reference)
         fprintf(stream, " --method reference --spatial %u --time-samples %u%s", q->spatial_samples, q->time_samples,
                 q->refraction == MGT_REFRACTION_PATH_TRACED ? " --refraction truth" : "");
     else

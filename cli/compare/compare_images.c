@@ -28,7 +28,9 @@ static render_request picture_request(const compare_job *job, const compare_scen
     return request;
 }
 
-static int hash_picture(const compare_job *job, const compare_scene *scene, size_t picture, size_t frame, sha256_text *hash)
+static bool is_halved(const compare_job *job, size_t picture) { return picture == COMPARE_REFERENCE && job->request->halved; }
+
+static int hash_render(const compare_job *job, const compare_scene *scene, size_t picture, size_t frame, sha256_text *hash)
 {
     const render_request request = picture_request(job, scene, picture);
     const mgt_image image = {.width = scene->width, .height = scene->height, .crop_width = scene->width, .crop_height = scene->height};
@@ -37,14 +39,49 @@ static int hash_picture(const compare_job *job, const compare_scene *scene, size
     return render_hash(&request, scene->canonical, &image, &job->info, number, hash) ? EXIT_CODE_OK : console_error(EXIT_CODE_FAILED, "out of memory");
 }
 
+/* A reference of two halves is known by theirs. */
+static int hash_picture(const compare_job *job, const compare_scene *scene, size_t picture, size_t frame, sha256_text *hash)
+{
+    sha256_text halves[2];
+    char text[2 * sizeof halves[0].text + 16];
+    if (!is_halved(job, picture))
+        return hash_render(job, scene, picture, frame, hash);
+    for (size_t half = 0; half < 2; half++) {
+        const int code = hash_render(job, scene, COMPARE_HALF + half, frame, &halves[half]);
+        if (code != EXIT_CODE_OK)
+            return code;
+    }
+    const int length = snprintf(text, sizeof text, "mean of %s %s", halves[0].text, halves[1].text);
+    *hash = sha256(text, (size_t)length);
+    return EXIT_CODE_OK;
+}
+
 /* Whether the file is there as these options would make it. What is there and different is rendered anew: the folder is ours. */
-static bool picture_is_kept(const char *path, const sha256_text *hash)
+static bool file_is_kept(const char *path, const sha256_text *hash)
 {
     char *recorded = NULL;
     file_error error;
     const bool kept = metadata_read(path, RENDER_HASH_KEY, &recorded, &error) == FILE_OK && recorded && strcmp(recorded, hash->text) == 0;
     free(recorded);
     return kept;
+}
+
+/* The same of a picture; a reference needs its halves too. */
+static int look_for_picture(const compare_job *job, const compare_scene *scene, size_t picture, size_t frame, bool *kept)
+{
+    const size_t pictures[] = {picture, COMPARE_HALF, COMPARE_HALF + 1};
+    *kept = true;
+    for (int i = 0; i < (is_halved(job, picture) ? 3 : 1) && *kept; i++) {
+        char path[COMPARE_PATH];
+        sha256_text hash;
+        if (!compare_picture_path(job, scene, pictures[i], frame, path))
+            return EXIT_CODE_USAGE;
+        const int code = hash_picture(job, scene, pictures[i], frame, &hash);
+        if (code != EXIT_CODE_OK)
+            return code;
+        *kept = file_is_kept(path, &hash);
+    }
+    return EXIT_CODE_OK;
 }
 
 static int make_folder(compare_job *job, const char *name)
@@ -76,18 +113,36 @@ static double picture_work(const compare_scene *scene, size_t picture)
     return each * (double)compare_samples(quality) * scene->width * scene->height;
 }
 
-static int render_picture(compare_job *job, frame_buffer *buffer, const compare_scene *scene, size_t picture, size_t frame)
+static int write_picture(compare_job *job, const frame_buffer *buffer, const compare_scene *scene, size_t picture, size_t frame, double seconds)
 {
+    const render_request request = picture_request(job, scene, picture);
     char path[COMPARE_PATH], number[16];
     sha256_text hash;
     mgt_scene view;
+    render_record record;
+    file_error error;
     if (!compare_picture_path(job, scene, picture, frame, path) || !compare_frame_scene(job, scene, picture, frame, &view))
         return EXIT_CODE_BAD_INPUT;
-    int code = hash_picture(job, scene, picture, frame, &hash);
+    const int code = hash_picture(job, scene, picture, frame, &hash);
     if (code != EXIT_CODE_OK)
         return code;
-    progress_frame(&job->progress, compare_frame_number(job, frame));
-    job->progress.work_now = picture_work(scene, picture);
+    snprintf(number, sizeof number, "%u", compare_frame_number(job, frame));
+    render_record_fill(&record, &request, &job->info, &hash, number, view.time, seconds);
+    const size_t last = record.list.count;
+    if (last < RECORD_ENTRIES) {
+        snprintf(record.values[last], RECORD_TEXT, "%.6f", seconds);
+        record.entries[last] = (metadata_entry){seconds_key, record.values[last]};
+        record.list.count++;
+    }
+    return frame_buffer_write(buffer, &request, path, &record.list, &job->output, &error) == FILE_OK ? EXIT_CODE_OK : compare_file_failure(job, &error);
+}
+
+/* Renders and writes it. */
+static int draw_picture(compare_job *job, frame_buffer *buffer, const compare_scene *scene, size_t picture, size_t frame)
+{
+    mgt_scene view;
+    if (!compare_frame_scene(job, scene, picture, frame, &view))
+        return EXIT_CODE_BAD_INPUT;
     const double start = seconds_now();
     const mgt_status status = mgt_render(job->context, &view, buffer->targets, buffer->count);
     const double seconds = seconds_now() - start;
@@ -98,21 +153,74 @@ static int render_picture(compare_job *job, frame_buffer *buffer, const compare_
         return console_error(exit_code_of_status(status), "%s: frame %u by %s: %s", scene->path, compare_frame_number(job, frame),
                              compare_picture_name(job, picture), mgt_last_error(job->context));
     }
-    const render_request request = picture_request(job, scene, picture);
-    render_record record;
+    return write_picture(job, buffer, scene, picture, frame, seconds);
+}
+
+/* What the picture's file says; NaN: nothing. */
+static double recorded_seconds(const compare_job *job, const compare_scene *scene, size_t picture, size_t frame)
+{
+    char path[COMPARE_PATH], *value = NULL;
     file_error error;
-    snprintf(number, sizeof number, "%u", compare_frame_number(job, frame));
-    render_record_fill(&record, &request, &job->info, &hash, number, view.time, seconds);
-    const size_t last = record.list.count;
-    if (last < RECORD_ENTRIES) {
-        snprintf(record.values[last], RECORD_TEXT, "%.6f", seconds);
-        record.entries[last] = (metadata_entry){seconds_key, record.values[last]};
-        record.list.count++;
+    if (!compare_picture_path(job, scene, picture, frame, path) || metadata_read(path, seconds_key, &value, &error) != FILE_OK)
+        value = NULL;
+    const double seconds = value ? strtod(value, NULL) : NAN;
+    free(value);
+    return seconds;
+}
+
+/* The layer becomes the mean of the two files'. */
+static int read_mean(compare_job *job, const char paths[2][COMPARE_PATH], const mgt_target *target)
+{
+    float_image halves[2] = {{0}}, mean = {0};
+    file_error error;
+    bool good = true;
+    for (int half = 0; half < 2 && good; half++)
+        good = picture_read(&halves[half], paths[half], mgt_layer_name(target->layer), &error) == FILE_OK;
+    good = good && noise_mean(&mean, &halves[0], &halves[1], &error) == FILE_OK;
+    if (good)
+        memcpy(target->pixels, mean.pixels, (size_t)mean.width * mean.height * mean.channels * sizeof(float));
+    float_image_free(&halves[0]);
+    float_image_free(&halves[1]);
+    float_image_free(&mean);
+    return good ? EXIT_CODE_OK : compare_file_failure(job, &error);
+}
+
+/* A half that an interrupted run left is taken as it is. */
+static int draw_reference(compare_job *job, frame_buffer *buffer, const compare_scene *scene, size_t frame)
+{
+    char paths[2][COMPARE_PATH];
+    double seconds = 0;
+    int code = EXIT_CODE_OK;
+    for (size_t half = 0; half < 2 && code == EXIT_CODE_OK; half++) {
+        bool kept;
+        if (!compare_picture_path(job, scene, COMPARE_HALF + half, frame, paths[half]))
+            return EXIT_CODE_USAGE;
+        job->part_first = 0.5 * (double)half;
+        job->part_share = 0.5;
+        code = look_for_picture(job, scene, COMPARE_HALF + half, frame, &kept);
+        if (code == EXIT_CODE_OK && !kept)
+            code = draw_picture(job, buffer, scene, COMPARE_HALF + half, frame);
+        seconds += code == EXIT_CODE_OK ? recorded_seconds(job, scene, COMPARE_HALF + half, frame) : 0;
     }
-    if (frame_buffer_write(buffer, &request, path, &record.list, &job->output, &error) != FILE_OK)
-        return compare_file_failure(job, &error);
+    job->part_first = 0;
+    job->part_share = 1;
+    for (size_t i = 0; i < buffer->count && code == EXIT_CODE_OK; i++)
+        code = read_mean(job, paths, &buffer->targets[i]);
+    return code == EXIT_CODE_OK ? write_picture(job, buffer, scene, COMPARE_REFERENCE, frame, seconds) : code;
+}
+
+static int render_picture(compare_job *job, frame_buffer *buffer, const compare_scene *scene, size_t picture, size_t frame)
+{
+    char path[COMPARE_PATH];
+    if (!compare_picture_path(job, scene, picture, frame, path))
+        return EXIT_CODE_USAGE;
+    progress_frame(&job->progress, compare_frame_number(job, frame));
+    job->progress.work_now = picture_work(scene, picture);
+    const int code = is_halved(job, picture) ? draw_reference(job, buffer, scene, frame) : draw_picture(job, buffer, scene, picture, frame);
+    if (code != EXIT_CODE_OK)
+        return code;
     job->rendered++;
-    progress_frame_done(&job->progress, path, seconds);
+    progress_frame_done(&job->progress, path, recorded_seconds(job, scene, picture, frame));
     return EXIT_CODE_OK;
 }
 
@@ -121,18 +229,13 @@ static int look_for_kept(compare_job *job, const compare_scene *scene, bool *kep
 {
     const size_t pictures = job->request->method_count + 1;
     for (size_t i = 0; i < job->frame_count * pictures; i++) {
-        char path[COMPARE_PATH];
-        sha256_text hash;
         if (!compare_draws(scene, i % pictures) || scene->view->only_timed) {
             kept[i] = true;
             continue;
         }
-        if (!compare_picture_path(job, scene, i % pictures, i / pictures, path))
-            return EXIT_CODE_USAGE;
-        const int code = hash_picture(job, scene, i % pictures, i / pictures, &hash);
+        const int code = look_for_picture(job, scene, i % pictures, i / pictures, &kept[i]);
         if (code != EXIT_CODE_OK)
             return code;
-        kept[i] = picture_is_kept(path, &hash);
         *missing += !kept[i];
         *work += kept[i] ? 0 : picture_work(scene, i % pictures);
         job->kept += kept[i];
@@ -161,14 +264,8 @@ static int render_scene(compare_job *job, const compare_scene *scene, const bool
 static void read_reference_seconds(compare_job *job, compare_scene *scene)
 {
     double sum = 0;
-    for (size_t frame = 0; frame < job->frame_count; frame++) {
-        char path[COMPARE_PATH], *value = NULL;
-        file_error error;
-        if (!compare_picture_path(job, scene, COMPARE_REFERENCE, frame, path) || metadata_read(path, seconds_key, &value, &error) != FILE_OK)
-            value = NULL;
-        sum += value ? strtod(value, NULL) : NAN;
-        free(value);
-    }
+    for (size_t frame = 0; frame < job->frame_count; frame++)
+        sum += recorded_seconds(job, scene, COMPARE_REFERENCE, frame);
     scene->reference_seconds = sum / (double)job->frame_count;
 }
 

@@ -13,11 +13,22 @@
 
 const char *compare_picture_name(const compare_job *job, size_t picture)
 {
+    static const char *const halves[] = {"reference-1", "reference-2"};
+    if (picture >= COMPARE_HALF)
+        return halves[picture - COMPARE_HALF];
     return picture == COMPARE_REFERENCE ? "reference" : job->request->methods[picture - 1].name;
+}
+
+/* Of its files. */
+static const char *picture_file(const compare_job *job, size_t picture)
+{
+    return picture == COMPARE_REFERENCE || picture >= COMPARE_HALF ? compare_picture_name(job, picture) : job->request->methods[picture - 1].file;
 }
 
 const mgt_quality *compare_picture_quality(const compare_scene *scene, size_t picture)
 {
+    if (picture >= COMPARE_HALF)
+        return &scene->halves[picture - COMPARE_HALF];
     return picture == COMPARE_REFERENCE ? &scene->reference : &scene->methods[picture - 1];
 }
 
@@ -34,15 +45,14 @@ bool compare_file_path(const compare_job *job, const char *name, char path[COMPA
 
 bool compare_picture_path(const compare_job *job, const compare_scene *scene, size_t picture, size_t frame, char path[COMPARE_PATH])
 {
-    const char *file = picture == COMPARE_REFERENCE ? "reference" : job->request->methods[picture - 1].file;
     char name[METHOD_SPEC_TEXT + 96];
-    snprintf(name, sizeof name, "frames/%s/%s_%04u.exr", scene->name, file, compare_frame_number(job, frame));
+    snprintf(name, sizeof name, "frames/%s/%s_%04u.exr", scene->name, picture_file(job, picture), compare_frame_number(job, frame));
     return compare_file_path(job, name, path);
 }
 
 bool compare_draws(const compare_scene *scene, size_t picture)
 {
-    return picture == COMPARE_REFERENCE || scene->view->methods == 0 || (scene->view->methods >> (picture - 1) & 1);
+    return picture == COMPARE_REFERENCE || picture >= COMPARE_HALF || scene->view->methods == 0 || (scene->view->methods >> (picture - 1) & 1);
 }
 
 bool compare_number_scene(const compare_scene *scene, size_t picture, uint32_t number, mgt_scene *out)
@@ -84,7 +94,7 @@ int compare_write_text(compare_job *job, const char *path, const char *text, siz
 static bool on_progress(void *user, double fraction)
 {
     compare_job *job = user;
-    progress_update(&job->progress, fraction);
+    progress_update(&job->progress, job->part_first + job->part_share * fraction);
     return *interrupt_flag() == 0;
 }
 
@@ -150,6 +160,15 @@ static int set_qualities(const compare_job *job, compare_scene *scene)
     return EXIT_CODE_OK;
 }
 
+static void set_halves(const compare_job *job, compare_scene *scene)
+{
+    for (int half = 0; half < 2 && job->request->halved; half++) {
+        scene->halves[half] = scene->reference;
+        scene->halves[half].time_samples /= 2;
+        scene->halves[half].seed += (uint64_t)half;
+    }
+}
+
 static int load_scene(compare_job *job, size_t index)
 {
     const compare_request *r = job->request;
@@ -178,6 +197,7 @@ static int load_scene(compare_job *job, size_t index)
     scene->black_sky = first.sky.model == MGT_SKY_BLACK;
     if (first.object_count > 0)
         scene->reference.refraction = MGT_REFRACTION_PATH_TRACED;
+    set_halves(job, scene);
     const compare_scene *other = &job->scenes[0];
     if (r->gate_count && (scene->width != other->width || scene->height != other->height))
         return console_error(EXIT_CODE_USAGE, "%s has %u x %u pixels, %s has %u x %u; a limit scores all scenes as one clip, so give --size", other->path,
@@ -286,6 +306,7 @@ int compare_open(compare_job *job, const compare_request *request, const char *p
     interrupt_install();
     job->request = request;
     job->frame_count = (size_t)frame_list_length(&request->frames);
+    job->part_share = 1;
     job->output = (output_options){.overwrite = true, .cancel = interrupt_flag()};
     for (size_t s = 0; s < request->scene_count && code == EXIT_CODE_OK; s++)
         code = load_scene(job, s);
@@ -298,9 +319,12 @@ int compare_open(compare_job *job, const compare_request *request, const char *p
 
 static void free_scene(compare_scene *scene, size_t methods)
 {
-    for (size_t m = 0; scene->results && m < methods; m++)
+    for (size_t m = 0; scene->results && m < methods; m++) {
         for (int k = 0; k < COMPARE_KINDS; k++)
             free(scene->results[m].frames[k]);
+        json_decref(scene->results[m].texture);
+        json_decref(scene->results[m].specks);
+    }
     free(scene->results);
     free(scene->methods);
     free(scene->canonical);

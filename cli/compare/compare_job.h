@@ -3,6 +3,8 @@
 #ifndef MANGATA_CLI_COMPARE_COMPARE_JOB_H
 #define MANGATA_CLI_COMPARE_COMPARE_JOB_H
 
+#include <jansson.h>
+
 #include "cli/compare/compare_request.h"
 #include "cli/common/numbers.h"
 #include "image/metrics_clip.h"
@@ -16,12 +18,29 @@ typedef enum compare_kind {
     COMPARE_KINDS
 } compare_kind;
 
+/* Scores beyond those of clip_metric: of a clip, against the two halves of the reference. */
+typedef enum truth_score {
+    TRUTH_CORRELATION = CLIP_METRICS, /* mean over the bands of texture */
+    TRUTH_CORRELATION_LEAST,
+    TRUTH_CONTRAST_LEAST,
+    TRUTH_CONTRAST_GREATEST,
+    TRUTH_MEAN_LEAST,
+    TRUTH_MEAN_GREATEST,
+    TRUTH_SPECKS, /* share of the pixels beyond what the halves show of each other */
+    COMPARE_METRICS
+} truth_score;
+enum { TRUTH_SCORES = COMPARE_METRICS - CLIP_METRICS };
+
 /* A method on a scene. */
 typedef struct compare_result {
     number_spread time; /* seconds of one frame; all NaN: not measured */
     double memory;      /* bytes that a frame takes at its peak, in a context of its own; NaN: not measured */
     clip_scores clip[COMPARE_KINDS];
     clip_scores *frames[COMPARE_KINDS]; /* one a frame */
+    double truth[TRUTH_SCORES];         /* from TRUTH_CORRELATION on; NaN: not measured, not defined */
+    double truth_noise[TRUTH_SCORES];   /* the noise floor of each */
+    double noiseless_rmse;              /* of coverage; NaN without halves */
+    json_t *texture, *specks;           /* as in mangata diff; NULL: not measured */
 } compare_result;
 
 typedef struct compare_scene {
@@ -31,11 +50,13 @@ typedef struct compare_scene {
     scene_file *file;
     char *canonical;
     uint32_t width, height;
-    mgt_quality *methods;     /* one a method: the request's, over the scene's quality */
-    mgt_quality reference;    /* the request's; objects are seen through the waves as they are */
-    bool black_sky;           /* colour tells nothing that coverage does not */
-    double reference_seconds; /* of a frame, on average; NaN: not known */
-    compare_result *results;  /* one a method */
+    mgt_quality *methods;             /* one a method: the request's, over the scene's quality */
+    mgt_quality reference;            /* the request's; objects are seen through the waves as they are */
+    mgt_quality halves[2];            /* where the reference has them: its own, of half the time samples, seeds in sequence */
+    bool black_sky;                   /* colour tells nothing that coverage does not */
+    double reference_seconds;         /* of a frame, on average; NaN: not known */
+    compare_result *results;          /* one a method */
+    clip_scores noise[COMPARE_KINDS]; /* the reference's noise floor in each score; NaN without halves */
 } compare_scene;
 
 typedef struct compare_job {
@@ -46,14 +67,15 @@ typedef struct compare_job {
     progress progress;
     compare_scene scenes[COMPARE_SCENES]; /* request->scene_count of them */
     size_t frame_count;
-    uint64_t rendered, kept;                        /* pictures */
-    char missing[COMPARE_KINDS][CLIP_METRICS][160]; /* why a metric has no score; "" where it has */
+    double part_first, part_share;                     /* of the picture in work: where the render that runs begins, and its share */
+    uint64_t rendered, kept;                           /* pictures */
+    char missing[COMPARE_KINDS][COMPARE_METRICS][160]; /* why a metric has no score; "" where it has */
 } compare_job;
 
 enum { COMPARE_PATH = 4600 };
 
-/* Pictures are numbered 0: the reference, m + 1: method m. */
-enum { COMPARE_REFERENCE = 0 };
+/* Pictures are numbered 0: the reference, m + 1: method m; then the reference's halves. */
+enum { COMPARE_REFERENCE = 0, COMPARE_HALF = COMPARE_METHODS + 1 };
 
 const char *compare_picture_name(const compare_job *job, size_t picture);
 const mgt_quality *compare_picture_quality(const compare_scene *scene, size_t picture);
@@ -84,10 +106,10 @@ void compare_close(compare_job *job);
 
 /* The steps after it, in order; each prints its errors and returns the exit code. */
 int compare_render(compare_job *job); /* compare_images.c: the pictures that are not there yet */
-/* Linear light as it is displayed: 4 bytes a pixel, which the caller frees; NULL after a failure. compare_scores.c */
+/* Linear light as it is displayed: 4 bytes a pixel, which the caller frees; NULL after a failure. compare_measure.c */
 int compare_display(compare_job *job, const mgt_scene *view, const float_image *light, uint8_t **rgba);
 
-int compare_time_methods(compare_job *job); /* number_spread.c */
-int compare_measure(compare_job *job);      /* compare_scores.c */
+int compare_time_methods(compare_job *job); /* compare_time.c */
+int compare_measure(compare_job *job);      /* compare_measure.c */
 
 #endif

@@ -155,38 +155,26 @@ static int pack_pictures(page *p)
 
 /* ---- the table ------------------------------------------------------------------------------------------- */
 
-/* Digits behind the point that keep two or more that count. */
-static int score_digits(double value)
-{
-    const double size = fabs(value);
-    return size == 0 || size >= 0.1 ? (size < 100 ? 4 : 1) : size >= 0.01 ? 5 : size >= 1e-3 ? 6 : 7;
-}
-
-static void put_number(FILE *stream, double value, bool best, const char *class_name, int digits)
+static void put_number(FILE *stream, double value, const char *class_name, int digits)
 {
     if (isfinite(value))
-        fprintf(stream, "<td class=\"%s%s\" data-value=\"%.9g\">%.*f</td>", class_name, best ? " best" : "", value, digits, value);
+        fprintf(stream, "<td class=\"%s\" data-value=\"%.9g\">%.*f</td>", class_name, value, digits, value);
     else
         fprintf(stream, "<td class=\"%s\">–</td>", class_name);
 }
 
-/* Distance of the method's score from a perfect one; NaN becomes infinity. */
-static double distance(const compare_job *job, const compare_scene *scene, size_t method, const score_column *column)
+static void put_score(FILE *stream, const compare_job *job, const compare_scene *scene, size_t method, const score_column *column)
 {
-    const double score = scene ? score_of(&scene->results[method], column) : score_mean(job, method, column);
-    return isfinite(score) ? fabs(score - column->best) : INFINITY;
-}
-
-static bool is_best(const compare_job *job, const compare_scene *scene, size_t method, const score_column *column)
-{
-    const double own = distance(job, scene, method, column);
-    bool beaten = false, beats = false;
-    for (size_t m = 0; m < job->request->method_count; m++) {
-        const double other = distance(job, scene, m, column);
-        beaten = beaten || other < own;
-        beats = beats || other > own;
+    const double value = scene ? score_of(&scene->results[method], column) : score_mean(job, method, column), noise = score_noise(job, scene, column);
+    fprintf(stream, "<td class=\"score%s%s\"", column->main ? "" : " minor", score_winner(job, scene, column) == (int)method ? " best" : "");
+    if (!isfinite(value)) {
+        fputs(">–</td>", stream);
+        return;
     }
-    return beats && !beaten;
+    fprintf(stream, " data-value=\"%.9g\"", value);
+    if (isfinite(noise))
+        fprintf(stream, " title=\"noise floor %s\"", score_noise_text(noise).text);
+    fprintf(stream, ">%s</td>", number_print_measured(value, noise).text);
 }
 
 /* `scene` NULL: the means over all scenes. */
@@ -205,8 +193,8 @@ static void put_row(FILE *stream, const compare_job *job, const compare_scene *s
             scene ? scene->name : "mean");
     markup_escape(stream, spec->name);
     fputs("</th>", stream);
-    put_number(stream, (double)compare_samples(&spec->quality), false, "samples", 0);
-    put_number(stream, 1e3 * time.median, false, "time", 1);
+    put_number(stream, (double)compare_samples(&spec->quality), "samples", 0);
+    put_number(stream, 1e3 * time.median, "time", 1);
     if (isfinite(time.least))
         fprintf(stream, "<td class=\"spread\" data-value=\"%.9g\">%.1f–%.1f</td>", 1e3 * (time.most - time.least), 1e3 * time.least, 1e3 * time.most);
     else
@@ -214,9 +202,20 @@ static void put_row(FILE *stream, const compare_job *job, const compare_scene *s
     for (size_t c = 0; c < score_column_count; c++) {
         const score_column *column = &score_columns[c];
         if (score_wanted(job->request, column))
-            put_number(stream, scene ? score_of(&scene->results[method], column) : score_mean(job, method, column), is_best(job, scene, method, column),
-                       column->main ? "score" : "score minor",
-                       score_digits(scene ? score_of(&scene->results[method], column) : score_mean(job, method, column)));
+            put_score(stream, job, scene, method, column);
+    }
+    fputs("</tr>\n", stream);
+}
+
+/* `scene` NULL: of the means. */
+static void put_noise_row(FILE *stream, const compare_job *job, const compare_scene *scene, size_t index)
+{
+    fprintf(stream, "<tr data-scene=\"%d\"><td class=\"scene\">%s</td><th scope=\"row\">noise floor</th><td></td><td></td><td></td>", scene ? (int)index : -1,
+            scene ? scene->name : "mean");
+    for (size_t c = 0; c < score_column_count; c++) {
+        const double noise = score_noise(job, scene, &score_columns[c]);
+        if (score_wanted(job->request, &score_columns[c]))
+            fprintf(stream, "<td class=\"%s\">%s</td>", score_columns[c].main ? "score" : "score minor", isfinite(noise) ? score_noise_text(noise).text : "–");
     }
     fputs("</tr>\n", stream);
 }
@@ -250,6 +249,28 @@ static void put_table(FILE *stream, const compare_job *job)
     for (size_t m = 0; m < r->method_count && r->scene_count > 1; m++)
         put_row(stream, job, NULL, 0, m);
     fputs("</tbody>", stream);
+    if (!r->halved)
+        return;
+    fputs("\n<tfoot>\n", stream);
+    for (size_t s = 0; s < r->scene_count; s++)
+        put_noise_row(stream, job, &job->scenes[s], s);
+    if (r->scene_count > 1)
+        put_noise_row(stream, job, NULL, 0);
+    fputs("</tfoot>", stream);
+}
+
+static int put_ties(FILE *stream, const compare_job *job)
+{
+    char *ties = score_ties_text(job, false);
+    if (!ties)
+        return console_error(EXIT_CODE_FAILED, "out of memory");
+    if (ties[0]) {
+        fputs("<p class=\"caption\" id=\"ties\">", stream);
+        markup_escape(stream, ties);
+        fputs("</p>", stream);
+    }
+    free(ties);
+    return EXIT_CODE_OK;
 }
 
 /* ---- everything ------------------------------------------------------------------------------------------ */
@@ -317,6 +338,8 @@ static int put_mark(FILE *stream, const page *p, const char *mark, size_t length
         put_summary(stream, p->job);
     else if (strncmp(mark, "table", length) == 0)
         put_table(stream, p->job);
+    else if (strncmp(mark, "ties", length) == 0)
+        return put_ties(stream, p->job);
     else if (strncmp(mark, "data", length) == 0)
         return put_data(stream, p);
     else if (strncmp(mark, "pictures", length) == 0)

@@ -8,6 +8,7 @@
 #include "cli/common/method_spec.h"
 #include "params/names.h"
 #include "cli/common/progress.h"
+#include "image/metrics_truth.h"
 
 enum { COMPARE_METHODS = 32, COMPARE_SCENES = 64, COMPARE_GATES = 64 };
 
@@ -38,10 +39,12 @@ typedef struct compare_request {
     method_spec methods[COMPARE_METHODS];
     size_t method_count;
     mgt_quality reference;
+    bool halved; /* the reference is the mean of two halves with seeds of their own, of half as many time samples each, which must be even */
     frame_list frames;
     mgt_layer layers[LAYER_COUNT]; /* that pictures keep besides colour and coverage */
     size_t layer_count;
-    uint32_t metrics; /* set of clip_metric */
+    uint32_t metrics;  /* set of clip_metric */
+    truth_words truth; /* measured against the halves; none unless `halved` */
     uint64_t time_runs;
     bool memory;            /* measured as well, where times are */
     uint64_t picture_bytes; /* of the page: how much its pictures may take */

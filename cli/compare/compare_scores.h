@@ -7,7 +7,7 @@
 
 typedef struct score_column {
     compare_kind kind;
-    clip_metric metric;
+    int metric; /* clip_metric or truth_score */
     const char *key, *title, *help;
     double best; /* the value of a perfect method */
     bool main;   /* among those that a first look needs */
@@ -21,6 +21,21 @@ bool score_wanted(const compare_request *request, const score_column *column);
 
 double score_of(const compare_result *result, const score_column *column);
 double score_of_frame(const compare_result *result, const score_column *column, size_t frame);
+
+/* How far the reference's own noise moves the score, in its units; NaN: not known. `scene` NULL: of the mean over scenes. */
+double score_noise(const compare_job *job, const compare_scene *scene, const score_column *column);
+
+/* A floor itself, to two digits. */
+number_text score_noise_text(double noise);
+
+/* The method nearest to the best value, where it is nearer than every other by more than the noise floor; -1: none is. `scene` NULL: by the means over
+ * scenes. */
+int score_winner(const compare_job *job, const compare_scene *scene, const score_column *column);
+/* Whether there is no winner though two methods or more have a score. */
+bool score_tied(const compare_job *job, const compare_scene *scene, const score_column *column);
+/* A line that names where methods are tied, among main columns alone or among all; "" where there is no such place; NULL when memory runs out. The
+ * caller frees it. */
+char *score_ties_text(const compare_job *job, bool main_alone);
 
 /* Why no method has a score on any scene; NULL where one has. */
 const char *score_missing(const compare_job *job, const score_column *column);

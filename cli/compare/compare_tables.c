@@ -69,8 +69,48 @@ static json_t *method_json(const compare_job *job, const compare_scene *scene, s
         json_object_set_new(scores, column->key, number(score_of(result, column)));
         json_object_set_new(frames, column->key, list);
     }
-    return json_pack("{s:s, s:I, s:o, s:o, s:o, s:o}", "method", spec->name, "samples", (json_int_t)compare_samples(&spec->quality), "time_ms",
-                     time_json(&result->time), "scores", scores, "frames", frames, "command", owned_text(compare_picture_command(job, scene, method + 1)));
+    json_t *object =
+        json_pack("{s:s, s:I, s:o, s:o, s:o, s:o}", "method", spec->name, "samples", (json_int_t)compare_samples(&spec->quality), "time_ms",
+                  time_json(&result->time), "scores", scores, "frames", frames, "command", owned_text(compare_picture_command(job, scene, method + 1)));
+    if (job->request->halved)
+        json_object_set_new(object, "noiseless_rmse", number(result->noiseless_rmse));
+    if (result->texture)
+        json_object_set(object, "texture", result->texture);
+    if (result->specks)
+        json_object_set(object, "specks", result->specks);
+    return object;
+}
+
+/* Of each column the noise floor, or the method that is best, null where none is. */
+static json_t *floors_json(const compare_job *job, const compare_scene *scene)
+{
+    json_t *floors = json_object();
+    for (size_t c = 0; c < score_column_count; c++)
+        if (score_wanted(job->request, &score_columns[c]))
+            json_object_set_new(floors, score_columns[c].key, number(score_noise(job, scene, &score_columns[c])));
+    return floors;
+}
+
+static json_t *best_json(const compare_job *job, const compare_scene *scene)
+{
+    json_t *best = json_object();
+    for (size_t c = 0; c < score_column_count; c++) {
+        if (!score_wanted(job->request, &score_columns[c]))
+            continue;
+        const int winner = score_winner(job, scene, &score_columns[c]);
+        json_object_set_new(best, score_columns[c].key, winner < 0 ? json_null() : json_string(job->request->methods[winner].name));
+    }
+    return best;
+}
+
+static json_t *reference_json(const compare_job *job, const compare_scene *scene)
+{
+    if (!job->request->halved)
+        return json_pack("{s:o, s:o}", "time_ms", number(1e3 * scene->reference_seconds), "command",
+                         owned_text(compare_picture_command(job, scene, COMPARE_REFERENCE)));
+    return json_pack("{s:o, s:o, s:o}", "time_ms", number(1e3 * scene->reference_seconds), "command",
+                     owned_text(compare_picture_command(job, scene, COMPARE_HALF)), "second_command",
+                     owned_text(compare_picture_command(job, scene, COMPARE_HALF + 1)));
 }
 
 static json_t *scene_json(const compare_job *job, const compare_scene *scene)
@@ -78,11 +118,9 @@ static json_t *scene_json(const compare_job *job, const compare_scene *scene)
     json_t *methods = json_array();
     for (size_t m = 0; m < job->request->method_count; m++)
         json_array_append_new(methods, method_json(job, scene, m));
-    json_t *reference = json_pack("{s:o, s:o}", "time_ms", number(1e3 * scene->reference_seconds), "command",
-                                  owned_text(compare_picture_command(job, scene, COMPARE_REFERENCE)));
-    return json_pack("{s:s, s:o, s:o, s:i, s:i, s:o, s:o}", "name", scene->name, "path", console_json_text(scene->path), "description",
-                     console_json_text(scene_file_description(scene->file)), "width", (int)scene->width, "height", (int)scene->height, "reference", reference,
-                     "methods", methods);
+    return json_pack("{s:s, s:o, s:o, s:i, s:i, s:o, s:o, s:o, s:o}", "name", scene->name, "path", console_json_text(scene->path), "description",
+                     console_json_text(scene_file_description(scene->file)), "width", (int)scene->width, "height", (int)scene->height, "reference",
+                     reference_json(job, scene), "methods", methods, "noise_floor", floors_json(job, scene), "best", best_json(job, scene));
 }
 
 /* Means over the scenes. */
@@ -122,10 +160,11 @@ json_t *compare_result_json(const compare_job *job)
         json_array_append_new(scenes, scene_json(job, &job->scenes[s]));
     json_t *reference = json_pack("{s:i, s:i, s:I, s:I}", "spatial", (int)r->reference.spatial_samples, "time_samples", (int)r->reference.time_samples,
                                   "samples", (json_int_t)compare_samples(&r->reference), "seed", (json_int_t)r->reference.seed);
-    return json_pack("{s:i, s:s, s:o, s:s, s:s, s:s, s:i, s:I, s:o, s:o, s:o, s:o, s:o, s:o}", "mangata_comparison", 1, "version", mgt_version(), "command",
-                     owned_text(compare_command(job)), "backend", mgt_backend_name(job->info.backend), "renderer", job->info.renderer, "isa",
+    return json_pack("{s:i, s:s, s:o, s:s, s:s, s:s, s:i, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "mangata_comparison", 1, "version", mgt_version(),
+                     "command", owned_text(compare_command(job)), "backend", mgt_backend_name(job->info.backend), "renderer", job->info.renderer, "isa",
                      mgt_isa_name(job->info.isa), "threads", (int)job->info.threads, "time_runs", (json_int_t)r->time_runs, "frames", frames, "reference",
-                     reference, "columns", columns_json(job), "scenes", scenes, "all", all_json(job), "gates", gates_json(job));
+                     reference, "columns", columns_json(job), "scenes", scenes, "all", all_json(job), "all_noise_floor", floors_json(job, NULL), "all_best",
+                     best_json(job, NULL), "gates", gates_json(job));
 }
 
 char *compare_json_text(const compare_job *job, size_t *size)
@@ -158,6 +197,9 @@ char *compare_csv_text(const compare_job *job, size_t *size)
     for (size_t c = 0; c < score_column_count; c++)
         if (score_wanted(r, &score_columns[c]))
             fprintf(stream, ",%s", score_columns[c].key);
+    for (size_t c = 0; c < score_column_count; c++)
+        if (score_wanted(r, &score_columns[c]))
+            fprintf(stream, ",%s.noise-floor", score_columns[c].key);
     putc('\n', stream);
     for (size_t s = 0; s < r->scene_count; s++)
         for (size_t m = 0; m < r->method_count; m++) {
@@ -169,6 +211,9 @@ char *compare_csv_text(const compare_job *job, size_t *size)
             for (size_t c = 0; c < score_column_count; c++)
                 if (score_wanted(r, &score_columns[c]))
                     csv_number(stream, score_of(result, &score_columns[c]));
+            for (size_t c = 0; c < score_column_count; c++)
+                if (score_wanted(r, &score_columns[c]))
+                    csv_number(stream, score_noise(job, &job->scenes[s], &score_columns[c]));
             putc('\n', stream);
         }
     return memory_text_finish(stream, &text);
@@ -188,15 +233,6 @@ static bool tex_column(const compare_job *job, const score_column *column)
     return column->main && score_wanted(job->request, column) && !score_missing(job, column);
 }
 
-/* Nearest to the best value among the methods; such a number is set in bold. */
-static double least_distance(const compare_job *job, const compare_scene *scene, const score_column *column)
-{
-    double least = INFINITY;
-    for (size_t m = 0; m < job->request->method_count; m++)
-        least = fmin(least, fabs(score_of(&scene->results[m], column) - column->best));
-    return least;
-}
-
 static void tex_row(FILE *stream, const compare_job *job, const compare_scene *scene, size_t method)
 {
     const compare_result *result = &scene->results[method];
@@ -208,14 +244,38 @@ static void tex_row(FILE *stream, const compare_job *job, const compare_scene *s
         if (!tex_column(job, column))
             continue;
         const double score = score_of(result, column);
-        if (!isfinite(score))
-            fputs(" & --", stream);
-        else if (fabs(score - column->best) <= least_distance(job, scene, column))
-            fprintf(stream, " & \\textbf{%.4f}", score);
+        const char *begin = score_winner(job, scene, column) == (int)method ? "\\textbf{" : "";
+        if (isfinite(score))
+            fprintf(stream, " & %s%s%s%s", begin, score < 0 ? "$-$" : "", number_print_measured(fabs(score), score_noise(job, scene, column)).text,
+                    begin[0] ? "}" : "");
         else
-            fprintf(stream, " & %.4f", score);
+            fputs(" & --", stream);
     }
     fputs(" \\\\\n", stream);
+}
+
+static void tex_noise_row(FILE *stream, const compare_job *job, const compare_scene *scene)
+{
+    fputs("  \\textit{noise floor} & --", stream);
+    for (size_t c = 0; c < score_column_count; c++)
+        if (tex_column(job, &score_columns[c])) {
+            const double noise = score_noise(job, scene, &score_columns[c]);
+            fprintf(stream, " & %s", isfinite(noise) ? score_noise_text(noise).text : "--");
+        }
+    fputs(" \\\\\n", stream);
+}
+
+/* The line under the table. */
+static bool tex_ties(FILE *stream, const compare_job *job)
+{
+    char *ties = score_ties_text(job, true);
+    if (ties && ties[0]) {
+        fputs("\\par\\noindent{\\footnotesize ", stream);
+        tex_name(stream, ties);
+        fputs("}\n", stream);
+    }
+    free(ties);
+    return ties != NULL;
 }
 
 char *compare_tex_text(const compare_job *job, size_t *size)
@@ -233,8 +293,11 @@ char *compare_tex_text(const compare_job *job, size_t *size)
     }
     for (size_t c = 0; c < score_column_count; c++)
         columns += tex_column(job, &score_columns[c]);
-    fprintf(stream, "%% %s\n%% Needs \\usepackage{booktabs}. Against a reference of %llu samples a pixel, %zu frames; the best of each scene is bold.\n",
-            command, (unsigned long long)compare_samples(&r->reference), job->frame_count);
+    fprintf(
+        stream,
+        "%% %s\n%% Needs \\usepackage{booktabs}. Against a reference of %llu samples a pixel, %zu frames; the best of each scene is bold where it leads by more than the\n"
+        "%% reference's noise floor, which also sets how many digits are printed.\n",
+        command, (unsigned long long)compare_samples(&r->reference), job->frame_count);
     fputs("\\begin{tabular}{lr", stream);
     for (size_t c = 0; c < columns; c++)
         putc('r', stream);
@@ -249,8 +312,15 @@ char *compare_tex_text(const compare_job *job, size_t *size)
         fputs("}} \\\\\n", stream);
         for (size_t m = 0; m < r->method_count; m++)
             tex_row(stream, job, &job->scenes[s], m);
+        if (r->halved)
+            tex_noise_row(stream, job, &job->scenes[s]);
     }
     fputs("\\bottomrule\n\\end{tabular}\n", stream);
     free(command);
-    return memory_text_finish(stream, &text);
+    const bool good = tex_ties(stream, job);
+    text = memory_text_finish(stream, &text);
+    if (good)
+        return text;
+    free(text);
+    return NULL;
 }

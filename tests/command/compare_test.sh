@@ -22,11 +22,52 @@ grep -q '</html>' r/report.html || fail "the page is cut short"
 # The figures are those of mangata render and mangata diff.
 for frame in 0 1; do
     render "$simple" -o "m_$frame.pfm" --frames $frame --layer coverage --size 32x18 --quiet
-    render "$simple" -o "t_$frame.pfm" --frames $frame --layer coverage --size 32x18 --method reference --spatial 2 --time-samples 2 --seed 1 --quiet
+    for half in 1 2; do
+        render "$simple" -o "t${half}_$frame.exr" --frames $frame --layer color --layer coverage --size 32x18 --method reference --spatial 2 \
+            --time-samples 1 --seed $half --quiet
+        expect 0 '' "$MANGATA" diff "t${half}_$frame.exr" "r/frames/simple/reference-${half}_000$frame.exr" --layer coverage --max-rmse 0
+    done
 done
-expect 0 '' "$MANGATA" diff m_#.pfm t_#.pfm --frames 0-1 --json
-ours=$(cut -d, -f7 r/report.csv | sed -n 2p)
-awk -v a="$ours" -v b="$(json rmse)" 'BEGIN { exit !(a > 0 && (a - b) * (a - b) < 1e-14) }' || fail "RMSE $ours, mangata diff says $(json rmse)"
+near() { awk -v a="$1" -v b="$2" 'BEGIN { exit !(a > 0 && (a - b) * (a - b) < 1e-14) }' || fail "$3: $1, mangata diff says $2"; }
+csv() { awk -F, -v key="$2" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == key) c = i } NR == 2 { print $c }' "$1/report.csv"; }
+expect 0 '' "$MANGATA" diff m_#.pfm r/frames/simple/reference_####.exr --frames 0-1 --layer coverage --json
+near "$(cut -d, -f7 r/report.csv | sed -n 2p)" "$(json rmse)" RMSE
+expect 0 '' "$MANGATA" diff m_#.pfm t1_#.exr --second-reference t2_#.exr --frames 0-1 --layer coverage --json
+near "$(csv r coverage.rmse.noise-floor)" "$(json noise_floor)" "noise floor"
+[[ $(report scenes.0.noise_floor r) == *"\"coverage.rmse\":$(csv r coverage.rmse.noise-floor)"* ]] || fail "noise floor: $(report scenes.0.noise_floor r)"
+near "$(report scenes.0.methods.0.noiseless_rmse r)" "$(json noiseless_rmse)" "noiseless RMSE"
+[[ $(report scenes.0.reference.command r) == *'--spatial 2 --time-samples 1 --seed 1'* && $(report scenes.0.reference.second_command r) == *'--seed 2'* ]] ||
+    fail "commands of the halves: $(report scenes.0.reference r)"
+
+# Texture and specks are those of mangata diff; without rmse nothing else is there.
+expect 0 '' compare "$simple" -o x1 --size 64x36 --spatial 2 --time-samples 8 --frames 0-1 --time-runs 0 --methods mangata --metrics texture,specks
+[[ $(report columns.0.key x1) == light.texture-correlation && $(report columns.6.key x1) == displayed.specks ]] || fail "columns: $(report columns x1)"
+expect 0 '' "$MANGATA" diff x1/frames/simple/mangata_####.exr x1/frames/simple/reference-1_####.exr --second-reference x1/frames/simple/reference-2_####.exr \
+    --frames 0-1 --layer color --metrics texture --json
+near "$(csv x1 light.texture-correlation)" "$(json metrics.texture.correlation_mean)" texture
+[[ $(report scenes.0.methods.0.texture.bands.3.rows x1) == 6 && $(report scenes.0.methods.0.specks.pixels x1) == 4608 ]] || fail "bands: $(report scenes.0.methods.0 x1)"
+
+# The noise floor is what a far better reference scores, and halves with four times as many samples.
+for samples in 8 32; do
+    expect 0 '' compare "$simple" -o n$samples --size 64x36 --spatial 2 --time-samples $samples --frames 0-1 --time-runs 0 \
+        --methods reference:spatial=4:time-samples=64,none --metrics rmse,flip
+done
+for metric in coverage.rmse displayed.rmse displayed.flip; do
+    for samples in 8 32; do
+        echo "$(csv n$samples $metric.noise-floor) $(csv n$samples $metric)"
+    done >floors.txt
+    awk '{ floor[NR] = $1; right += $1 > 0 && $2 / $1 > 0.8 && $2 / $1 < 1.25 } END { ratio = floor[1] / floor[2]; exit !(right == 2 && ratio > 1.4 && ratio < 2.6) }' \
+        floors.txt || fail "$metric: floor and score of the truth, with 32 and 128 samples: $(cat floors.txt)"
+done
+[[ $(report scenes.0.best n8) == '{"coverage.rmse":"reference:spatial=4:time-samples=64"'* ]] || fail "best: $(report scenes.0.best n8)"
+grep -q '\\textbf{0\.00' n8/report.tex && grep -q '\\textit{noise floor}' n8/report.tex && ! grep -q 'No best' n8/report.tex || fail "LaTeX: $(cat n8/report.tex)"
+
+# Pictures that are alike, or that differ by less than the noise, have no winner, and the tables say so.
+expect 0 '' compare "$simple" -o tie "${quick[@]}" --time-runs 0 --methods podee-pixel,podee-pixel:ndf-mean=add
+[[ $(report scenes.0.best tie) == '{"coverage.rmse":null,'* ]] && ! grep -q 'textbf' tie/report.tex && ! grep -q 'class="score best"' tie/report.html ||
+    fail "a winner among equals: $(report scenes.0.best tie)"
+grep -q 'No best is marked where .* noise floor: simple (RMSE, relative RMSE' tie/report.tex && grep -q 'id="ties">No best is marked' tie/report.html ||
+    fail "ties: $(cat tie/report.tex)"
 
 # Nothing is rendered or timed twice; what was asked anew is.
 before=$(stat -c %Y.%i r/frames/*/*)
@@ -124,7 +165,9 @@ expect 64 'METHOD=X' compare "$simple" -o x --max-rmse 0.1
 expect 64 'lean is not one of the methods compared' compare "$simple" -o x --max-rmse lean=0.1
 expect 64 'needs at least two frames' compare "$simple" -o x --frames 3 --max-flicker mangata=0.1
 expect 64 'needs rmse among --metrics' compare "$simple" -o x --metrics flicker --max-rmse mangata=0.1
-expect 64 'allowed' compare "$simple" -o x --metrics beauty
+expect 64 '--metrics beauty: allowed are rmse, .*, texture, specks, separated by commas' compare "$simple" -o x --metrics beauty
+expect 64 '--metrics texture,: allowed are' compare "$simple" -o x --metrics texture,
+expect 64 '--metrics : allowed are' compare "$simple" -o x --metrics ''
 expect 66 'nosuch.json' compare "$simple" nosuch.json -o x
 echo '{"mangata": 1, "light": {"elevation_deg": 99}}' >bad.json
 expect 65 'bad.json:1' compare bad.json -o x

@@ -39,7 +39,7 @@ function markGroups() {
 }
 
 function filterRows(scene) {
-  for (const row of results.tBodies[0].rows)
+  for (const row of [...results.tBodies[0].rows, ...(results.tFoot ? results.tFoot.rows : [])])
     row.hidden = scene !== "" && row.dataset.scene !== scene;
   markGroups();
 }
