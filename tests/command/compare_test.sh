@@ -166,6 +166,7 @@ expect 64 'lean is not one of the methods compared' compare "$simple" -o x --max
 expect 64 'needs at least two frames' compare "$simple" -o x --frames 3 --max-flicker mangata=0.1
 expect 64 'needs rmse among --metrics' compare "$simple" -o x --metrics flicker --max-rmse mangata=0.1
 expect 64 '--metrics beauty: allowed are rmse, .*, texture, specks, separated by commas' compare "$simple" -o x --metrics beauty
+expect 64 'seed 18446744073709551614' compare "$simple" -o x --seed 18446744073709551614
 expect 64 '--metrics texture,: allowed are' compare "$simple" -o x --metrics texture,
 expect 64 '--metrics : allowed are' compare "$simple" -o x --metrics ''
 expect 66 'nosuch.json' compare "$simple" nosuch.json -o x

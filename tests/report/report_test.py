@@ -50,6 +50,13 @@ def test_table(page, report):
     rows = len(report["scenes"]) * len(report["scenes"][0]["methods"])
     means = len(report["scenes"][0]["methods"]) if len(report["scenes"]) > 1 else 0
     check(page.run("document.querySelectorAll('#results tbody tr').length") == rows + means, "rows of the table")
+    check(page.run("document.querySelectorAll('#results tfoot tr').length") == len(report["scenes"]) + bool(means), "a row of noise floors for each scene")
+    hidden = "document.querySelectorAll('#results tfoot tr[hidden]').length"
+    choose = "(() => {{ const s = document.getElementById('table-scene'); s.value = '{}'; s.dispatchEvent(new Event('change')); }})()"
+    page.run(choose.format("0"))
+    check(page.run(hidden) == len(report["scenes"]) - 1 + bool(means), "noise floors of one scene")
+    page.run(choose.format(""))
+    check(page.run(hidden) == 0, "noise floors of all scenes")
     index = page.run("[...document.querySelectorAll('#results thead th')].findIndex(c => c.textContent === 'RMSE')")
     values = f"[...document.querySelectorAll('#results tbody tr')].map(r => +r.cells[{index}].dataset.value)"
     heading = f"#results thead th:nth-child({index + 1}) button"
