@@ -204,7 +204,7 @@ static int measure_frame(diff_request *r, uint32_t number, diff_frame *frame, fl
     if (code == EXIT_CODE_OK && metrics->frames > before)
         metrics->values -= frame->left_out * frame->images[0].channels; /* black in both: the sums hold nothing of them */
     if (code == EXIT_CODE_OK)
-        code = diff_metrics_add(&r->metrics, number, &frame->images[0], &frame->images[1]);
+        code = diff_metrics_add(&r->metrics, number, frame);
     if (code == EXIT_CODE_OK)
         code = diff_truth_add(&r->truth, frame);
     return code;
@@ -319,7 +319,8 @@ static const option diff_options[] = {
      .set = option_text, .offset = offsetof(diff_request, prepare.mask)},
     {"second-reference", 0, "B2",
      "a picture (or clip) of what B shows with noise of its own, of B's size:\n"
-     "frees the RMSE of the references' noise, for texture and specks too",
+     "frees the RMSE of the references' noise, for texture and specks too,\n"
+     "and tells the noise floor of every metric",
      .set = option_text, .offset = offsetof(diff_request, paths[2])},
 };
 

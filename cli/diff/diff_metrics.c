@@ -5,6 +5,8 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "image/metrics_noise.h"
+
 /* JSON keys are words of their own: "hdr_flip" where the command line says "hdr-flip". */
 static const char *json_key(clip_metric metric)
 {
@@ -38,8 +40,27 @@ static json_t *scores_to_json(const diff_metrics *m, const clip_scores *scores)
     return object;
 }
 
-int diff_metrics_add(diff_metrics *m, uint32_t frame, const float_image *a, const float_image *b)
+static int failure(const file_error *error)
 {
+    return error->status == FILE_ARGUMENT ? console_error(EXIT_CODE_FAILED, "%s", error->text) : console_file_error(error);
+}
+
+static int add_noise(diff_metrics *m, const float_image *b, const float_image *b2)
+{
+    float_image mean;
+    file_error error;
+    if (!m->noise && clip_metrics_create(&m->noise, &m->wanted, &error) != FILE_OK)
+        return console_file_error(&error);
+    if (noise_mean(&mean, b, b2, &error) != FILE_OK)
+        return failure(&error);
+    const file_status status = clip_metrics_add(m->noise, b, &mean, NULL, NULL, &error);
+    float_image_free(&mean);
+    return status == FILE_OK ? EXIT_CODE_OK : failure(&error);
+}
+
+int diff_metrics_add(diff_metrics *m, uint32_t number, const diff_frame *frame)
+{
+    const float_image *a = &frame->images[0], *b = &frame->images[1];
     clip_frame result;
     file_error error;
     if (!m->wanted.metrics)
@@ -53,12 +74,12 @@ int diff_metrics_add(diff_metrics *m, uint32_t frame, const float_image *a, cons
         m->per_frame = json_array();
     }
     if (clip_metrics_add(m->clip, a, b, NULL, &result, &error) != FILE_OK)
-        return error.status == FILE_ARGUMENT ? console_error(EXIT_CODE_FAILED, "%s", error.text) : console_file_error(&error);
+        return failure(&error);
     json_t *object = scores_to_json(m, &result.scores);
-    json_object_set_new(object, "frame", json_integer(frame));
+    json_object_set_new(object, "frame", json_integer(number));
     if (json_array_append_new(m->per_frame, object) != 0)
         return console_error(EXIT_CODE_FAILED, "out of memory");
-    return EXIT_CODE_OK;
+    return frame->count == 3 ? add_noise(m, b, &frame->images[2]) : EXIT_CODE_OK;
 }
 
 static int get_scores(const diff_metrics *m, clip_scores *scores)
@@ -67,12 +88,23 @@ static int get_scores(const diff_metrics *m, clip_scores *scores)
     return clip_metrics_scores(m->clip, scores, &error) == FILE_OK ? EXIT_CODE_OK : console_file_error(&error);
 }
 
+/* All NaN without a second reference. */
+static int get_floors(const diff_metrics *m, clip_scores *floors)
+{
+    file_error error;
+    for (int i = 0; i < CLIP_METRICS; i++)
+        floors->values[i] = NAN;
+    return !m->noise || clip_metrics_noise(m->noise, floors, &error) == FILE_OK ? EXIT_CODE_OK : console_file_error(&error);
+}
+
 int diff_metrics_report(diff_metrics *m, json_t *report)
 {
-    clip_scores scores;
+    clip_scores scores, floors;
     if (!m->clip)
         return EXIT_CODE_OK;
-    const int code = get_scores(m, &scores);
+    int code = get_scores(m, &scores);
+    if (code == EXIT_CODE_OK)
+        code = get_floors(m, &floors);
     if (code != EXIT_CODE_OK)
         return code;
     json_t *reasons = json_object();
@@ -82,6 +114,8 @@ int diff_metrics_report(diff_metrics *m, json_t *report)
             json_object_set_new(reasons, json_key((clip_metric)i), console_json_text(missing));
     }
     json_object_set_new(report, "metrics", scores_to_json(m, &scores));
+    if (m->noise)
+        json_object_set_new(report, "noise_floors", scores_to_json(m, &floors));
     json_object_set_new(report, "unavailable", reasons);
     json_object_set_new(report, "per_frame", m->per_frame);
     if (clip_metrics_glint_threshold(m->clip) > 0)
@@ -92,16 +126,22 @@ int diff_metrics_report(diff_metrics *m, json_t *report)
 
 int diff_metrics_print(const diff_metrics *m)
 {
-    clip_scores scores;
+    clip_scores scores, floors;
     if (!m->clip)
         return EXIT_CODE_OK;
-    const int code = get_scores(m, &scores);
+    int code = get_scores(m, &scores);
+    if (code == EXIT_CODE_OK)
+        code = get_floors(m, &floors);
     for (int i = CLIP_FLIP; i < CLIP_METRICS && code == EXIT_CODE_OK; i++) {
         const char *missing = clip_metrics_missing(m->clip, (clip_metric)i);
-        if (missing)
+        if (missing) {
             printf("%-15sunavailable: %s\n", clip_metric_name((clip_metric)i), missing);
-        else if (is_wanted(m, i))
-            printf("%-15s%.6g\n", clip_metric_name((clip_metric)i), scores.values[i]);
+        } else if (is_wanted(m, i)) {
+            printf("%-15s%.6g", clip_metric_name((clip_metric)i), scores.values[i]);
+            if (isfinite(floors.values[i]))
+                printf("; noise floor %.6g", floors.values[i]);
+            putchar('\n');
+        }
     }
     return code;
 }
@@ -109,6 +149,7 @@ int diff_metrics_print(const diff_metrics *m)
 void diff_metrics_free(diff_metrics *m)
 {
     clip_metrics_free(m->clip);
+    clip_metrics_free(m->noise);
     json_decref(m->per_frame);
-    *m = (diff_metrics){{0}, NULL, NULL};
+    *m = (diff_metrics){.clip = NULL};
 }

@@ -43,6 +43,22 @@ expect 0 '' diff p.pfm a.pfm --second-reference b.pfm --json
 expect 0 '' diff p.pfm a.pfm --json
 ! number noise_floor >/dev/null 2>&1 || fail "a noise floor without a second reference"
 
+# The floor of every metric: what B scores against the mean of B and B2, which lies half as far away as B2 does.
+grey p.pfm 12 1 1 1 1
+grey a.pfm 12 .5 1 .5 1
+grey b.pfm 12 .5 0 .5 0
+grey mean.pfm 12 .5 .5 .5 .5
+expect 0 '' diff a.pfm mean.pfm --metrics flip,ssim,rmse --json
+flip=$(number metrics.flip) ssim=$(number metrics.ssim)
+expect 0 '' diff p.pfm a.pfm --second-reference b.pfm --metrics flip,ssim,rmse --json
+[[ $(number noise_floors.flip) == "$flip" && $(number noise_floors.rmse) == "$(number noise_floor)" && $(number noise_floors.rmse) == 0.353553390* ]] ||
+    fail "floors: $(cat stdout.txt)"
+awk -v a="$ssim" -v b="$(number noise_floors.ssim)" 'BEGIN { exit !((a + b - 1) ^ 2 < 1e-12) }' || fail "floor of SSIM: $ssim, $(cat stdout.txt)"
+expect 0 '' diff p.pfm a.pfm --second-reference b.pfm --metrics flip
+grep -Eq '^flip           [0-9.]+; noise floor [0-9.]+$' stdout.txt || fail "floors: $(cat stdout.txt)"
+expect 0 '' diff p.pfm a.pfm --metrics flip --json
+! number noise_floors >/dev/null 2>&1 || fail "noise floors without a second reference"
+
 # Seven rows at the bottom are the second band; a third of four is left out.
 grey p.pfm 7 2 1 2 1 10 1 2 1 2
 grey a.pfm 17 0 2 0 2
