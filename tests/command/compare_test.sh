@@ -78,6 +78,20 @@ expect 0 '6 pictures rendered, 0 kept' compare "$simple" -o r "${quick[@]}" --me
 echo junk >r/frames/simple/none_0000.exr
 expect 0 '1 pictures rendered, 5 kept' compare "$simple" -o r "${quick[@]}" --methods mangata,none --set light.elevation_deg=12
 
+# A half of the reference that was finished is taken as it is; one that is lost is rendered again.
+expect 0 '6 pictures rendered' compare "$simple" -o h --size 32x18 --spatial 1 --time-samples 3 --frames 0-2 --time-runs 0 --methods none --metrics rmse
+expect 0 '0 pictures rendered, 6 kept' compare "$simple" -o h --size 32x18 --spatial 1 --time-samples 4 --frames 0-2 --time-runs 0 --methods none --metrics rmse
+[[ $(report reference.samples h) == 4 && $(report reference.time_samples h) == 4 ]] || fail "an odd number of time samples: $(report reference h)"
+half=h/frames/simple/reference-1_0000.exr
+before=$(stat -c %Y.%i $half)
+cp h/frames/simple/reference_0000.exr mean.exr
+rm h/frames/simple/reference_0000.exr h/frames/simple/reference-2_0000.exr
+expect 0 '1 pictures rendered, 5 kept' compare "$simple" -o h --size 32x18 --spatial 1 --time-samples 4 --frames 0-2 --time-runs 0 --methods none --metrics rmse
+[[ $(stat -c %Y.%i $half) == "$before" ]] || fail "a finished half was rendered again"
+for layer in color coverage; do
+    expect 0 '' "$MANGATA" diff mean.exr h/frames/simple/reference_0000.exr --layer $layer --max-rmse 0
+done
+
 # Killed without warning, it goes on: no picture twice, and the same report at the end.
 slow=(--size 160x90 --spatial 2 --time-samples 4 --frames 0-3 --time-runs 0 --metrics rmse,flicker --methods none,ssaa8,mangata
     --progress json --quiet)
