@@ -42,6 +42,18 @@ KERNEL real SWEEP_TEXEL(CTX cx, real v, real u, real slice)
 
 KERNEL real SHARE_TEXEL(CTX cx, real r, real slice) { return gather_floats(cx->podee->share, whole(real_fma(slice, real_broadcast(PODEE_COLUMNS), r))); }
 
+/* Heights of hits go to their pixels. */
+KERNEL void HIT_FOUND(CTX cx, real column, real row, real height, mask where)
+{
+    const real at = real_fma(row, real_broadcast(TILE_WIDTH), column);
+    float indices[MGT_LANES], heights[MGT_LANES];
+    store(indices, real_select(where, at, real_broadcast(-1.0f)));
+    store(heights, height);
+    for (int i = 0; i < MGT_LANES; i++)
+        if (indices[i] >= 0)
+            cx->found[(int)indices[i]] = heights[i];
+}
+
 #include "kernels/adaptive/cells.k"
 #include "kernels/glitter/glitter.k"
 #include "kernels/glitter/lattice.k"
@@ -276,13 +288,10 @@ static void estimate_heights(const struct kernel_context *cx, const tile_nodes *
 static void search_rows(const struct kernel_context *cx, tile_estimate *estimate)
 {
     *estimate = (tile_estimate){0};
-    for (int x = 0; x < TILE_WIDTH; x += MGT_LANES) {
-        RowHit hit = row_hit_none(cx);
-        for (int y = TILE_HEIGHT - 1; y >= 0; y--) {
-            hit = row_hit(cx, lane_numbers() + (float)x, real((float)y), hit);
-            store(estimate->height + y * TILE_WIDTH + x, hit.height);
-        }
-    }
+    struct kernel_context columns = *cx;
+    columns.found = estimate->height;
+    for (int x = 0; x < TILE_WIDTH; x += MGT_LANES)
+        walk_column(&columns, lane_numbers() + (float)x);
 }
 
 static void lanes_estimate(const FrameData *frame, const tile_waves *tile, tile_estimate *estimate)
