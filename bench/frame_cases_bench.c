@@ -88,13 +88,13 @@ static void time_stages(const tile_frame *f, const frame_cases_kernels *w, tile_
         w->kernels->sort(&f->frame.data, &f->waves->shutter, &f->waves->shutter.view, i % f->columns, i / f->columns, &s->close);
         t[1] = seconds_now();
         if (tile_sees_water(&s->close))
-            w->kernels->estimate(&f->frame.data, &s->close, &s->close_estimate);
+            w->kernels->estimate(&f->frame.data, &s->close, s->close_estimate);
         t[2] = seconds_now();
-        w->run_stage(STAGE_SURFACE, &f->frame.data, f->sky->table, &s->close, &s->close_estimate, &s->pixels);
+        w->run_stage(STAGE_SURFACE, &f->frame.data, f->sky->table, &s->close, s->close_estimate, &s->pixels);
         t[3] = seconds_now();
-        w->run_stage(STAGE_COVERAGE, &f->frame.data, f->sky->table, &s->close, &s->close_estimate, &s->pixels);
+        w->run_stage(STAGE_COVERAGE, &f->frame.data, f->sky->table, &s->close, s->close_estimate, &s->pixels);
         t[4] = seconds_now();
-        const method_tile shaded = {.frame = &f->frame.data, .sky = f->sky->table, .close = &s->close, .close_estimate = &s->close_estimate};
+        const method_tile shaded = {.frame = &f->frame.data, .sky = f->sky->table, .close = &s->close, .close_estimate = s->close_estimate};
         w->kernels->method(MGT_METHOD_MANGATA, &shaded, &s->pixels);
         t[5] = seconds_now();
         for (int k = 0; k < TIMES; k++)

@@ -59,11 +59,11 @@ static float replay(const disk_path_cases *cases, size_t first, size_t count)
     return lanes[0];
 }
 
-static void run_stage(frame_stage stage, const FrameData *frame, const float *sky, const tile_waves *tile, const tile_estimate *estimate, tile_pixels *out)
+static void run_rows(frame_stage stage, const struct kernel_context *cx, int first, const tile_estimate *estimate, tile_pixels *out)
 {
-    const struct kernel_context context = {.frame = frame, .tile = &tile->data, .waves = tile->waves, .search = tile->search, .sky = sky};
-    pixel_grid grid;
-    tile_looks looks = {.places = all_pixels(&grid)};
+    const struct kernel_context context = *cx;
+    row_grid grid;
+    tile_looks looks = {.places = rows_from(first, &grid)};
     for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES)
         store(out->water + i, pixel_rays(&context, &looks.places, i).water);
     look_at_tile(&context, estimate, out->water, &looks);
@@ -79,6 +79,13 @@ static void run_stage(frame_stage stage, const FrameData *frame, const float *sk
         if (stage == STAGE_COVERAGE)
             store(out->coverage + i, glitter_coverage(&context, state, state));
     }
+}
+
+static void run_stage(frame_stage stage, const FrameData *frame, const float *sky, const tile_waves *tile, const tile_estimate *estimate, tile_pixels *out)
+{
+    const struct kernel_context context = {.frame = frame, .tile = &tile->data, .waves = tile->waves, .search = tile->search, .sky = sky};
+    for (int part = 0; part < (int)tile->data.hit_rows; part++)
+        run_rows(stage, &context, part * TILE_HEIGHT, estimate + part, out);
 }
 
 const frame_cases_kernels CASES_NAME(MGT_LANES) = {&LANES_NAME(MGT_LANES), keep, replay, run_stage};

@@ -32,7 +32,7 @@ bool count_frame(const mgt_scene *scene, stage_count *out)
         for (uint32_t i = 0; i < f->rows * f->columns; i++) {
             counting_lane_kernels.sort(&f->frame.data, &f->waves->shutter, &f->waves->shutter.view, i % f->columns, i / f->columns, &s->close);
             if (tile_sees_water(&s->close))
-                counting_lane_kernels.estimate(&f->frame.data, &s->close, &s->close_estimate);
+                counting_lane_kernels.estimate(&f->frame.data, &s->close, s->close_estimate);
         }
         out->lattice = operations_done;
         operations_done = (operation_count){0};

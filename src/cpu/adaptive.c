@@ -94,16 +94,16 @@ static void plant_tile(void *argument, size_t tile, uint32_t worker)
     tile_detail *detail = &f->cells[worker]->detail;
     refinement_tile *t = &f->tiles[tile];
     const FrameData data = sort_cells(f, tile, 0, 0, 0, s);
-    tile_find_estimates(a->kernels, &data, &s->close, &s->close_estimate);
+    tile_find_estimates(a->kernels, &data, &s->close, s->close_estimate);
     if (f->moves)
-        tile_find_estimates(a->kernels, &data, &s->open, &s->open_estimate);
+        tile_find_estimates(a->kernels, &data, &s->open, s->open_estimate);
     const method_tile shaded = {.frame = &data,
                                 .sky = a->sky,
                                 .light = a->objects ? &a->objects[tile].light : NULL,
                                 .close = &s->close,
-                                .close_estimate = &s->close_estimate,
+                                .close_estimate = s->close_estimate,
                                 .open = f->moves ? &s->open : NULL,
-                                .open_estimate = &s->open_estimate,
+                                .open_estimate = s->open_estimate,
                                 .detail = detail};
     a->kernels->method(MGT_METHOD_MANGATA, &shaded, &s->pixels);
     const uint32_t left = (uint32_t)(tile % f->columns) * TILE_WIDTH, top = (uint32_t)(tile / f->columns) * TILE_HEIGHT;

@@ -215,9 +215,9 @@ static bool take_samples(detail_job *job, size_t tile, const tile_tasks *tasks, 
                            .sky = a->sky,
                            .light = a->objects ? &s->objects.light : NULL,
                            .close = &s->close,
-                           .close_estimate = &s->close_estimate,
+                           .close_estimate = s->close_estimate,
                            .open = job->open ? &s->open : NULL,
-                           .open_estimate = job->open ? &s->open_estimate : NULL};
+                           .open_estimate = job->open ? s->open_estimate : NULL};
     const tile_corner corner = corner_of(job, tile);
     temporal_rays rays;
     uint64_t batches = 0;
@@ -278,9 +278,9 @@ static void sample_tile(void *argument, size_t tile, uint32_t worker)
     float frequencies[TILE_PIXELS];
     memset(&sums, 0, sizeof sums);
     list_tasks(job, tile, &tasks);
-    see_tile(job, tile, job->close, &s->close, &s->close_estimate);
+    see_tile(job, tile, job->close, &s->close, s->close_estimate);
     if (job->open)
-        see_tile(job, tile, job->open, &s->open, &s->open_estimate);
+        see_tile(job, tile, job->open, &s->open, s->open_estimate);
     if (!take_samples(job, tile, &tasks, first, end, worker, &sums))
         return;
     const method_tile t = {.frame = &a->frame->data, .close = &s->close};

@@ -23,9 +23,9 @@ static void add_point(const leaf *l, double shift, int index, uint32_t owner, po
     s->jitter_y[i] = (float)(ldexp(l->row + v - floor(v), -l->down) - 0.5 - i / TILE_WIDTH);
     const size_t pixel = (size_t)(l->row >> l->down) * TILE_WIDTH + (l->column >> l->across);
     batch->pixel[i] = (uint16_t)pixel;
-    s->close_estimate.height[i] = s->open_estimate.height[pixel];
-    s->close_estimate.from[i] = s->open_estimate.from[pixel];
-    s->close_estimate.search[i] = s->open_estimate.search[pixel];
+    s->close_estimate->height[i] = s->open_estimate->height[pixel];
+    s->close_estimate->from[i] = s->open_estimate->from[pixel];
+    s->close_estimate->search[i] = s->open_estimate->search[pixel];
 }
 
 /* Sums of color, coverage and water go to sums[5 × owner]. */
@@ -39,7 +39,7 @@ static void render_points(const refinement *f, size_t tile, point_batch *batch, 
     memset(&s->pixels, 0, sizeof s->pixels);
     if (objects)
         light_of_pixels(&objects[tile].light, batch->pixel, (size_t)batch->count, &s->objects.light);
-    f->a->kernels->sample(&f->a->frame->data, f->a->sky, objects ? &s->objects.light : NULL, &s->close, &s->close_estimate, s->jitter_x, s->jitter_y, 1,
+    f->a->kernels->sample(&f->a->frame->data, f->a->sky, objects ? &s->objects.light : NULL, &s->close, s->close_estimate, s->jitter_x, s->jitter_y, 1,
                           &s->pixels);
     for (int i = 0; i < batch->count; i++) {
         double *sum = sums + 5 * batch->owner[i];
@@ -77,7 +77,7 @@ bool refinement_scatter_points(const refinement *f, size_t tile, size_t end, uin
     for (int k = 0; k < INSTANTS; k++) {
         const wave_set *set = f->instants[k];
         a->kernels->sort(&a->frame->data, set, &set->view, (uint32_t)(tile % f->columns), (uint32_t)(tile / f->columns), &s->close);
-        tile_find_estimates(a->kernels, &a->frame->data, &s->close, &s->open_estimate);
+        tile_find_estimates(a->kernels, &a->frame->data, &s->close, s->open_estimate);
         for (size_t i = 0; i < end; i++) {
             const leaf *l = &t->leaves[i];
             if (!l->chosen || l->shape != SHAPE_POINTS)

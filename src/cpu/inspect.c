@@ -30,7 +30,9 @@ static struct kernel_context sort_tile(const frame *f, const wave_set *set, cons
 static SlopeState slopes_of(const struct kernel_context *cx, const tile_estimate *estimate, tile_pixel at)
 {
     const size_t i = at.row * TILE_WIDTH + at.column;
-    const HitEstimate from = {estimate->height[i], estimate->from[i], estimate->search[i]};
+    HitEstimate from = {estimate->height[i], estimate->from[i], estimate->search[i], {0, 0}};
+    if (cx->tile->grazing != 0)
+        from.slope = (vec2){estimate->slope_x[i], estimate->slope_z[i]};
     return slope_state(cx, pixel_ray_filtered(cx, (float)at.column, (float)at.row).ray, from);
 }
 
@@ -85,7 +87,7 @@ void inspect_pixel(const frame *f, const frame_waves *waves, const float *sky, u
 {
     const tile_pixel at = {x / TILE_WIDTH, y / TILE_HEIGHT, x % TILE_WIDTH, y % TILE_HEIGHT};
     const bool moves = f->scene->camera_moves;
-    const struct kernel_context cx = sort_tile(f, &waves->shutter, sky, at, &scratch->close, &scratch->close_estimate);
+    const struct kernel_context cx = sort_tile(f, &waves->shutter, sky, at, &scratch->close, scratch->close_estimate);
     const PixelRay ray = pixel_ray_filtered(&cx, (float)at.column, (float)at.row);
     *info = (mgt_pixel_info){.struct_size = sizeof *info, .water = (double)ray.water};
     if (!(ray.water > 0)) {
@@ -95,11 +97,11 @@ void inspect_pixel(const frame *f, const frame_waves *waves, const float *sky, u
         info->radiance[2] = (double)color.z;
         return;
     }
-    const SlopeState close = slopes_of(&cx, &scratch->close_estimate, at);
+    const SlopeState close = slopes_of(&cx, scratch->close_estimate, at);
     SlopeState open = close;
     if (moves) {
-        const struct kernel_context before = sort_tile(f, &waves->open, sky, at, &scratch->open, &scratch->open_estimate);
-        open = slopes_of(&before, &scratch->open_estimate, at);
+        const struct kernel_context before = sort_tile(f, &waves->open, sky, at, &scratch->open, scratch->open_estimate);
+        open = slopes_of(&before, scratch->open_estimate, at);
     }
     const PixelResult result = glitter_result(&cx, ray, open, close);
     info->coverage = (double)result.coverage;
@@ -119,7 +121,7 @@ void inspect_pixel(const frame *f, const frame_waves *waves, const float *sky, u
     info->resolved = (uint32_t)cx.tile->resolved_count;
     info->mixed = (uint32_t)cx.tile->mixed_count;
     info->filtered = (uint32_t)f->scene->water.wave_count - info->resolved - info->mixed;
-    find_hit(f, at, &scratch->close_estimate, info);
+    find_hit(f, at, scratch->close_estimate, info);
     if (cx.tile->light_reach != 0)
         describe_mirror(&cx, open, close, info);
 }

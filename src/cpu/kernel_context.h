@@ -20,7 +20,7 @@ struct kernel_context {
     const PictureData *picture;        /* only where triangles are drawn */
     const struct shade_scene *shade;   /* only where objects are shaded */
     const struct narrow_scene *narrow; /* only where objects are looked for */
-    float *found;                      /* TILE_PIXELS heights of hits; only while columns of grazing water are searched */
+    struct tile_estimate *found;       /* HIT_ROWS of them; only while columns of grazing water are searched */
     const float *light;                /* of this vector's pixels, planes of a tile_light; NULL: no objects */
 };
 

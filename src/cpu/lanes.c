@@ -42,16 +42,25 @@ KERNEL real SWEEP_TEXEL(CTX cx, real v, real u, real slice)
 
 KERNEL real SHARE_TEXEL(CTX cx, real r, real slice) { return gather_floats(cx->podee->share, whole(real_fma(slice, real_broadcast(PODEE_COLUMNS), r))); }
 
-/* Heights of hits go to their pixels. */
-KERNEL void HIT_FOUND(CTX cx, real column, real row, real height, mask where)
+#include "kernels/glitter/pixel.k"
+
+/* Keeps the hits of lanes. */
+KERNEL void HIT_FOUND(CTX cx, real column, real row, HitEstimate hit, mask where)
 {
-    const real at = real_fma(row, real_broadcast(TILE_WIDTH), column);
-    float indices[MGT_LANES], heights[MGT_LANES];
-    store(indices, real_select(where, at, real_broadcast(-1.0f)));
-    store(heights, height);
-    for (int i = 0; i < MGT_LANES; i++)
-        if (indices[i] >= 0)
-            cx->found[(int)indices[i]] = heights[i];
+    float at[MGT_LANES], height[MGT_LANES], slope_x[MGT_LANES], slope_z[MGT_LANES];
+    store(at, real_select(where, real_fma(row, real_broadcast(TILE_WIDTH), column), real_broadcast(-1.0f)));
+    store(height, hit.height);
+    store(slope_x, hit.slope.x);
+    store(slope_z, hit.slope.y);
+    for (int i = 0; i < MGT_LANES; i++) {
+        if (at[i] < 0)
+            continue;
+        const int place = (int)at[i];
+        tile_estimate *rows = cx->found + place / TILE_PIXELS;
+        rows->height[place % TILE_PIXELS] = height[i];
+        rows->slope_x[place % TILE_PIXELS] = slope_x[i];
+        rows->slope_z[place % TILE_PIXELS] = slope_z[i];
+    }
 }
 
 #include "kernels/adaptive/cells.k"
@@ -64,7 +73,15 @@ KERNEL void HIT_FOUND(CTX cx, real column, real row, real height, mask where)
 
 static inline HitEstimate load_estimate(const tile_estimate *estimate, size_t i)
 {
-    return (HitEstimate){load(estimate->height + i), load(estimate->from + i), load(estimate->search + i)};
+    return (HitEstimate){load(estimate->height + i), load(estimate->from + i), load(estimate->search + i), vec2(real(0.0f), real(0.0f))};
+}
+
+static inline HitEstimate load_hit(const struct kernel_context *cx, const tile_estimate *estimate, size_t i)
+{
+    HitEstimate hit = load_estimate(estimate, i);
+    if (TILE(cx).grazing != 0)
+        hit.slope = vec2(load(estimate->slope_x + i), load(estimate->slope_z + i));
+    return hit;
 }
 
 /* ---- tiles ---- */
@@ -114,7 +131,7 @@ static void list_wave(const struct kernel_context *cx, const wave_set *set, cons
 }
 
 /* The resolved waves, then the mixed ones, each in the set's order. */
-static TileData list_waves(const struct kernel_context *cx, const wave_set *set, const wave_classes *c, tile_waves *out)
+static TileData list_waves(const struct kernel_context *cx, const wave_set *set, const wave_classes *c, float rows, tile_waves *out)
 {
     const int waves = set->view.wave_count;
     uint16_t searched[MGT_MAX_WAVES];
@@ -137,7 +154,7 @@ static TileData list_waves(const struct kernel_context *cx, const wave_set *set,
         out->search[place] = search_wave_of(cx, set->data[i], c->turns[i]);
         sums = sums_with_search(cx, sums, set->data[i], c->along[i], place, coarse);
     }
-    return sorted_tile(cx, sums, resolved, all - resolved, searched_count);
+    return sorted_tile(cx, sums, resolved, all - resolved, searched_count, rows);
 }
 
 static void lanes_sort(const FrameData *frame, const wave_set *set, const ViewData *view, uint32_t tile_x, uint32_t tile_y, tile_waves *out)
@@ -148,7 +165,7 @@ static void lanes_sort(const FrameData *frame, const wave_set *set, const ViewDa
     const TileView place = tile_view(&cx, column, row, width, height);
     wave_classes classes;
     classify_waves(&cx, set, place, &classes);
-    out->data = list_waves(&cx, set, &classes, out);
+    out->data = list_waves(&cx, set, &classes, any_of(place.rows), out);
     out->data.ray_x = any_of(place.ray.x);
     out->data.ray_y = any_of(place.ray.y);
     out->data.ray_z = any_of(place.ray.z);
@@ -284,12 +301,11 @@ static void estimate_heights(const struct kernel_context *cx, const tile_nodes *
     }
 }
 
-/* Every pixel's hit, from the lowest row up. */
-static void search_rows(const struct kernel_context *cx, tile_estimate *estimate)
+/* Every hit of every pixel, from the lowest row up. */
+static void search_columns(const struct kernel_context *cx, tile_estimate *estimate)
 {
-    *estimate = (tile_estimate){0};
     struct kernel_context columns = *cx;
-    columns.found = estimate->height;
+    columns.found = estimate;
     for (int x = 0; x < TILE_WIDTH; x += MGT_LANES)
         walk_column(&columns, lane_numbers() + (float)x);
 }
@@ -298,7 +314,8 @@ static void lanes_estimate(const FrameData *frame, const tile_waves *tile, tile_
 {
     const struct kernel_context cx = {.frame = frame, .tile = &tile->data, .waves = tile->waves, .search = tile->search};
     if (tile->data.grazing) {
-        search_rows(&cx, estimate);
+        memset(estimate, 0, (size_t)tile->data.hit_rows * sizeof *estimate);
+        search_columns(&cx, estimate);
         return;
     }
     if (tile->data.search_pixels) {
@@ -373,16 +390,16 @@ typedef struct tile_places {
     size_t count;
 } tile_places;
 
-/* All pixels of a tile. */
-typedef struct pixel_grid {
+/* TILE_HEIGHT whole rows. */
+typedef struct row_grid {
     float column[TILE_PIXELS], row[TILE_PIXELS];
-} pixel_grid;
+} row_grid;
 
-static tile_places all_pixels(pixel_grid *grid)
+static tile_places rows_from(int first, row_grid *grid)
 {
     for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
         store(grid->column + i, lane_numbers() + (float)(i % TILE_WIDTH));
-        store(grid->row + i, real_broadcast((float)(i / TILE_WIDTH)));
+        store(grid->row + i, real_broadcast((float)first + (float)(i / TILE_WIDTH)));
     }
     return (tile_places){grid->column, grid->row, TILE_PIXELS};
 }
@@ -393,6 +410,7 @@ typedef struct tile_looks {
     tile_places places;
     float surface[SURFACE_FLOATS][TILE_PIXELS];
     float along[TILE_PIXELS], correction[TILE_PIXELS], lost[TILE_PIXELS], again[TILE_PIXELS];
+    float slope_x[TILE_PIXELS], slope_z[TILE_PIXELS]; /* see HitEstimate */
     uint16_t list[TILE_PIXELS + MGT_LANES];
 } tile_looks;
 
@@ -449,7 +467,10 @@ static void search_doubtful(const struct kernel_context *cx, const tile_estimate
     for (size_t v = 0; v < vectors; v++) {
         const uint16_t *list = l->list + v * MGT_LANES;
         const SearchHit hit = search(cx, listed_ray(cx, &l->places, list), gather(estimate->from, list), real(1.0f));
-        scatter(l->along, list, SELECT(hit.found > real(0.0f), hit.along, gather(l->along, list)));
+        const mask found = hit.found > real(0.0f);
+        scatter(l->along, list, SELECT(found, hit.along, gather(l->along, list)));
+        scatter(l->slope_x, list, SELECT(found, hit.slope.x, gather(l->slope_x, list)));
+        scatter(l->slope_z, list, SELECT(found, hit.slope.y, gather(l->slope_z, list)));
     }
 }
 
@@ -471,7 +492,7 @@ static void look_again(const struct kernel_context *cx, tile_looks *l)
     for (size_t v = 0; v < vectors; v++) {
         const uint16_t *list = l->list + v * MGT_LANES;
         const real along = gather(l->along, list) + gather(l->correction, list);
-        const Surface s = surface_along(cx, listed_ray(cx, &l->places, list), along);
+        const Surface s = surface_along(cx, listed_ray(cx, &l->places, list), along, vec2(gather(l->slope_x, list), gather(l->slope_z, list)));
         const real *members = (const real *)&s;
         scatter(l->along, list, along);
         for (int m = 0; m < SURFACE_FLOATS; m++)
@@ -483,7 +504,10 @@ static void look_again(const struct kernel_context *cx, tile_looks *l)
 static void look_at_tile(const struct kernel_context *cx, const tile_estimate *estimate, const float *wanted, tile_looks *l)
 {
     for (size_t i = 0; i < l->places.count; i += MGT_LANES) {
-        store(l->along + i, estimated_along(cx, pixel_rays(cx, &l->places, i).ray, load_estimate(estimate, i)));
+        const HitEstimate e = load_hit(cx, estimate, i);
+        store(l->along + i, estimated_along(cx, pixel_rays(cx, &l->places, i).ray, e));
+        store(l->slope_x + i, e.slope.x);
+        store(l->slope_z + i, e.slope.y);
         store(l->lost + i, SELECT(load(wanted + i) > real(0.0f), load(estimate->search + i), real(0.0f)));
     }
     search_doubtful(cx, estimate, l);
@@ -493,7 +517,8 @@ static void look_at_tile(const struct kernel_context *cx, const tile_estimate *e
         store(l->again + i, real(0.0f));
         if (!any_lane(water))
             continue;
-        const SurfaceLook look = look_at_estimate(cx, pixel_rays(cx, &l->places, i).ray, load(l->along + i));
+        const vec2 slope = vec2(load(l->slope_x + i), load(l->slope_z + i));
+        const SurfaceLook look = look_at_estimate(cx, pixel_rays(cx, &l->places, i).ray, load(l->along + i), slope);
         const real *members = (const real *)&look.surface;
         for (int m = 0; m < SURFACE_FLOATS; m++)
             store(l->surface[m] + i, members[m]);
@@ -563,6 +588,7 @@ static void lanes_cells(const FrameData *frame, const float *sky, const tile_wav
     for (size_t i = 0; i < count; i++) { /* in grazing water the parent's hit says nothing of its parts' */
         cells->estimate.search[i] = close->data.grazing || (open && open->data.grazing) ? 1 : 0;
         cells->estimate.from[i] = 0;
+        cells->estimate.slope_x[i] = cells->estimate.slope_z[i] = 0;
     }
     const tile_places places = {cells->column, cells->row, count};
     render_glitter(&cx, cells->light, places, &cells->estimate, open ? &before : NULL, &cells->estimate, &cells->pixels, &cells->detail);
@@ -579,11 +605,46 @@ static struct kernel_context context_of(const method_tile *t, const tile_waves *
                                    .lean = t->lean};
 }
 
+/* The light of pixels, for HIT_ROWS rows of hits each: those of part `part` of the tile. */
+static const tile_light *light_of_rows(const tile_light *light, int part, tile_light *rows)
+{
+    enum { PLANES = sizeof *light / sizeof light->through[0] };
+    if (!light)
+        return NULL;
+    for (size_t plane = 0; plane < PLANES; plane++)
+        for (int row = 0; row < TILE_HEIGHT; row++)
+            memcpy(rows->through[0] + plane * TILE_PIXELS + row * TILE_WIDTH,
+                   light->through[0] + plane * TILE_PIXELS + (part * TILE_HEIGHT + row) / HIT_ROWS * TILE_WIDTH, TILE_WIDTH * sizeof(float));
+    return rows;
+}
+
+/* Every pixel is the mean of HIT_ROWS hits, one above the other. */
+static void several_hits(const method_tile *t, const struct kernel_context *close, const struct kernel_context *open, tile_pixels *out)
+{
+    row_grid grid;
+    tile_pixels rows;
+    tile_light light;
+    memset(out, 0, sizeof *out);
+    for (int part = 0; part < HIT_ROWS; part++) {
+        render_glitter(close, light_of_rows(t->light, part, &light), rows_from(part * TILE_HEIGHT, &grid), t->close_estimate + part, open,
+                       t->open_estimate + part, &rows, NULL);
+        const float *const from[] = {rows.red, rows.green, rows.blue, rows.coverage, rows.water};
+        float *const into[] = {out->red, out->green, out->blue, out->coverage, out->water};
+        for (size_t k = 0; k < sizeof into / sizeof *into; k++)
+            for (size_t i = 0; i < TILE_PIXELS; i++)
+                into[k][((size_t)part * TILE_HEIGHT + i / TILE_WIDTH) / HIT_ROWS * TILE_WIDTH + i % TILE_WIDTH] += from[k][i] / HIT_ROWS;
+    }
+}
+
 static void mangata_pixels(const method_tile *t, tile_pixels *out)
 {
     const struct kernel_context close = context_of(t, t->close), open = t->open ? context_of(t, t->open) : close;
-    pixel_grid grid;
-    render_glitter(&close, t->light, all_pixels(&grid), t->close_estimate, t->open ? &open : NULL, t->open_estimate, out, t->detail);
+    row_grid grid;
+    if (t->close->data.hit_rows > 1) {
+        several_hits(t, &close, t->open ? &open : NULL, out);
+        return;
+    }
+    render_glitter(&close, t->light, rows_from(0, &grid), t->close_estimate, t->open ? &open : NULL, t->open_estimate, out, t->detail);
 }
 
 static void podee_pixels(const method_tile *t, tile_pixels *out)
@@ -657,9 +718,18 @@ static void lanes_filtered_normal(const FrameData *frame, const tile_waves *tile
 {
     const struct kernel_context context = {.frame = frame, .tile = &tile->data, .waves = tile->waves, .search = tile->search};
     for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
-        const PixelRay p = pixel_ray_filtered(&context, lane_numbers() + (float)(i % TILE_WIDTH), real_broadcast((float)(i / TILE_WIDTH)));
-        const SlopeState state = slope_state(&context, p.ray, load_estimate(estimate, i));
-        store_normal(out, i, state.close, p.water > real(0.0f));
+        const real column = lane_numbers() + (float)(i % TILE_WIDTH);
+        vec2 slope = vec2(real(0.0f), real(0.0f));
+        real water = real(0.0f);
+        for (int hit = 0; hit < (int)tile->data.hit_rows; hit++) { /* their mean */
+            const size_t row = i / TILE_WIDTH * (size_t)tile->data.hit_rows + (size_t)hit, at = row * TILE_WIDTH + i % TILE_WIDTH;
+            const PixelRay p = pixel_ray_filtered(&context, column, real_broadcast((float)row));
+            const SlopeState state = slope_state(&context, p.ray, load_hit(&context, estimate + at / TILE_PIXELS, at % TILE_PIXELS));
+            const real share = SELECT(p.water > real(0.0f), real(1.0f), real(0.0f));
+            slope = add(slope, scale(state.close, share));
+            water = water + share;
+        }
+        store_normal(out, i, scale(slope, real(1.0f) / max(water, real(1.0f))), water > real(0.0f));
     }
 }
 

@@ -18,11 +18,13 @@ typedef struct tile_waves {
     SearchWave search[MGT_MAX_WAVES];
 } tile_waves;
 
-/* Where the first hits are looked for, a value per pixel (see HitEstimate in pixel.k). */
+/* Where the first hits are looked for, a value per pixel (see HitEstimate in pixel.k). A tile has HIT_ROWS of them, for the first and the next
+ * TILE_HEIGHT rows of hits where pixels show several. */
 typedef struct tile_estimate {
     float height[TILE_PIXELS];
     float from[TILE_PIXELS];
     float search[TILE_PIXELS];
+    float slope_x[TILE_PIXELS], slope_z[TILE_PIXELS]; /* in grazing water alone */
 } tile_estimate;
 
 typedef struct tile_pixels {

@@ -13,7 +13,7 @@ bool tile_sees_water(const tile_waves *tile)
     const TileData *d = &tile->data;
     if (d->camera_height < d->search_bound)
         return true;
-    const float width = TILE_WIDTH, height = TILE_HEIGHT;
+    const float width = TILE_WIDTH, height = TILE_HEIGHT * d->hit_rows;
     const float steep = fabsf(d->right_y) + fabsf(d->down_y); /* a pixel's margin for partly covered ones */
     float least = d->ray_y;
     least = fminf(least, d->ray_y + width * d->right_y);
@@ -27,7 +27,7 @@ void tile_find_estimates(const lane_kernels *kernels, const FrameData *data, con
     if (tile_sees_water(tile))
         kernels->estimate(data, tile, estimate);
     else
-        memset(estimate, 0, sizeof *estimate);
+        memset(estimate, 0, HIT_ROWS * sizeof *estimate);
 }
 
 /* A tile of the lattice on its way. */
@@ -84,12 +84,12 @@ static void render_samples(tile_place place, tile_scratch *scratch)
             wave_set_build(f, &camera, (interval){f->scene->time - (1 - share) * f->scene->shutter, 0}, false, &scratch->sample_waves);
             waves = &scratch->sample_waves;
         }
-        build(place, waves, &scratch->close, &scratch->close_estimate);
+        build(place, waves, &scratch->close, scratch->close_estimate);
         for (; sample < end; sample++) {
             if (sample % 16 == 15 && job->keep_going && !job->keep_going(job->keep_going_argument, scratch->worker))
                 return;
             jitter(place, q->seed, q->spatial_samples, sample % per_time, sample, scratch);
-            job->kernels->sample(&f->data, job->sky, light_of(job, scratch), &scratch->close, &scratch->close_estimate, scratch->jitter_x, scratch->jitter_y,
+            job->kernels->sample(&f->data, job->sky, light_of(job, scratch), &scratch->close, scratch->close_estimate, scratch->jitter_x, scratch->jitter_y,
                                  weight, &scratch->pixels);
         }
     }
@@ -112,9 +112,9 @@ static void shade_pixels(const tile_job *job, bool moves, tile_scratch *scratch,
                               .podee = job->podee,
                               .lean = job->lean,
                               .close = &scratch->close,
-                              .close_estimate = &scratch->close_estimate,
+                              .close_estimate = scratch->close_estimate,
                               .open = moves ? &scratch->open : NULL,
-                              .open_estimate = &scratch->open_estimate};
+                              .open_estimate = scratch->open_estimate};
     job->kernels->method(job->frame->scene->quality.method, &tile, out);
 }
 
@@ -130,9 +130,9 @@ static void render_shaded(tile_place place, tile_scratch *scratch)
     const tile_job *job = place.job;
     const wave_set *waves = waves_of(job);
     const bool moves = waves == &job->waves->shutter && job->frame->scene->camera_moves;
-    build(place, waves, &scratch->close, &scratch->close_estimate);
+    build(place, waves, &scratch->close, scratch->close_estimate);
     if (moves) {
-        build(place, &job->waves->open, &scratch->open, &scratch->open_estimate);
+        build(place, &job->waves->open, &scratch->open, scratch->open_estimate);
         share_light(scratch);
     }
     shade_pixels(job, moves, scratch, &scratch->pixels);
@@ -147,12 +147,12 @@ static void build_segment(tile_place place, double from, double to, tile_scratch
     const camera_rays camera = camera_at(f, to);
     const interval shutter = {0.5 * (open + close), 0.5 * (close - open)};
     wave_set_build(f, &camera, s->camera_moves ? (interval){close, 0} : shutter, true, &scratch->sample_waves);
-    build(place, &scratch->sample_waves, &scratch->close, &scratch->close_estimate);
+    build(place, &scratch->sample_waves, &scratch->close, scratch->close_estimate);
     if (!s->camera_moves)
         return;
     const camera_rays before = camera_at(f, from);
     wave_set_build(f, &before, (interval){open, 0}, true, &scratch->sample_waves);
-    build(place, &scratch->sample_waves, &scratch->open, &scratch->open_estimate);
+    build(place, &scratch->sample_waves, &scratch->open, scratch->open_estimate);
     share_light(scratch);
 }
 
@@ -183,12 +183,12 @@ static void render_surface(tile_place place, tile_scratch *scratch)
 {
     const tile_job *job = place.job;
     const frame *f = job->frame;
-    build(place, &job->waves->samples, &scratch->close, &scratch->close_estimate);
-    job->kernels->surface(&f->data, &scratch->close, &scratch->close_estimate, &scratch->surface);
+    build(place, &job->waves->samples, &scratch->close, scratch->close_estimate);
+    job->kernels->surface(&f->data, &scratch->close, scratch->close_estimate, &scratch->surface);
     if (waves_of(job) == &job->waves->samples)
         return;
-    build(place, &job->waves->now, &scratch->close, &scratch->close_estimate);
-    job->kernels->filtered_normal(&f->data, &scratch->close, &scratch->close_estimate, &scratch->surface);
+    build(place, &job->waves->now, &scratch->close, scratch->close_estimate);
+    job->kernels->filtered_normal(&f->data, &scratch->close, scratch->close_estimate, &scratch->surface);
 }
 
 static void see_objects(tile_place place, tile_scratch *scratch)
@@ -197,12 +197,12 @@ static void see_objects(tile_place place, tile_scratch *scratch)
     const FrameData *through = &job->frame->through;
     refraction *opened = refraction_opened(job->objects);
     if (opened) {
-        build_with(through, place, &job->waves->open, &scratch->close, &scratch->close_estimate);
-        refraction_tile(opened, &scratch->close, &scratch->close_estimate, place.x, place.y, scratch->worker, &scratch->objects);
+        build_with(through, place, &job->waves->open, &scratch->close, scratch->close_estimate);
+        refraction_tile(opened, &scratch->close, scratch->close_estimate, place.x, place.y, scratch->worker, &scratch->objects);
         refraction_keep(&scratch->objects, &scratch->opened);
     }
-    build_with(through, place, &job->waves->shutter, &scratch->close, &scratch->close_estimate);
-    refraction_tile(job->objects, &scratch->close, &scratch->close_estimate, place.x, place.y, scratch->worker, &scratch->objects);
+    build_with(through, place, &job->waves->shutter, &scratch->close, scratch->close_estimate);
+    refraction_tile(job->objects, &scratch->close, scratch->close_estimate, place.x, place.y, scratch->worker, &scratch->objects);
     if (opened)
         refraction_blend(&scratch->objects, &scratch->opened);
 }

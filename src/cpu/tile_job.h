@@ -10,7 +10,7 @@
 typedef struct tile_scratch {
     uint32_t worker; /* whose it is */
     tile_waves close, open;
-    tile_estimate close_estimate, open_estimate;
+    tile_estimate close_estimate[HIT_ROWS], open_estimate[HIT_ROWS];
     float jitter_x[TILE_PIXELS], jitter_y[TILE_PIXELS];
     tile_pixels pixels;
     tile_surface surface;

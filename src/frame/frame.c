@@ -73,7 +73,9 @@ static void set_method(frame *f)
     d->sort_start = (float)(start * start);
     d->sort_end = keep ? 1e30f : (float)(end * end);
     d->sort_shares = podee || bruneton ? 0 : 1;
-    d->grazing_fall = row->faces && !f->under ? 1.2f : 0;
+    d->grazing_fall = row->hits > 0 && !f->under ? 1.2f : 0;
+    d->hit_rows = (float)(row->hits > 0 ? row->hits : 1);
+    d->hit_rows_fall = 0.5f * d->grazing_fall;
     d->ndf_per_pixel = keep;
     d->ndf_mean = keep && !q->ndf_mean_drop ? 1 : 0;
     d->podee_kernels = (int)q->kernels;
@@ -96,6 +98,32 @@ static void set_through(frame *f)
     d->sort_shares = 1;
     d->grazing_fall = 0;
     d->ndf_per_pixel = d->ndf_mean = 0;
+}
+
+static CameraRays camera_data(const camera_rays *camera)
+{
+    return (CameraRays){
+        .corner_x = (float)camera->corner[0],
+        .corner_y = (float)camera->corner[1],
+        .corner_z = (float)camera->corner[2],
+        .right_x = (float)camera->right[0],
+        .right_y = (float)camera->right[1],
+        .right_z = (float)camera->right[2],
+        .down_x = (float)camera->down[0],
+        .down_y = (float)camera->down[1],
+        .down_z = (float)camera->down[2],
+    };
+}
+
+void frame_look(frame *f, const camera_rays *open, const camera_rays *close)
+{
+    f->open = rays_above(f, open);
+    f->close = rays_above(f, close);
+    FrameData *const data[] = {&f->data, &f->through};
+    for (int i = 0; i < 2; i++) {
+        data[i]->ends[0] = camera_data(&f->open);
+        data[i]->ends[1] = camera_data(&f->close);
+    }
 }
 
 frame frame_of(const mgt_scene *scene, const sky_state *sky, bool want_color)
@@ -121,9 +149,8 @@ frame frame_of(const mgt_scene *scene, const sky_state *sky, bool want_color)
     set_through(&f);
     sines_order(&scene->water, f.order);
     const camera_rays close = camera_rays_of(&scene->camera, scene->image.width, scene->image.height);
-    f.close = rays_above(&f, &close);
     const camera_rays open = scene->camera_moves ? camera_rays_of(&scene->camera_open, scene->image.width, scene->image.height) : close;
-    f.open = rays_above(&f, &open);
+    frame_look(&f, &open, &close);
     return f;
 }
 

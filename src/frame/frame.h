@@ -29,6 +29,9 @@ camera_rays mirrored_rays(const camera_rays *rays);
 /* A camera as a frame takes it: above the surface, if need be mirrored or moved off it. */
 camera_rays rays_above(const frame *f, const camera_rays *rays);
 
+/* Takes the rays of both ends of the shutter. */
+void frame_look(frame *f, const camera_rays *open, const camera_rays *close);
+
 /* `sky` must have been built from the scene; the scene must outlive the frame. */
 frame frame_of(const mgt_scene *scene, const sky_state *sky, bool want_color);
 

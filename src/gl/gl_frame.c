@@ -55,7 +55,7 @@ static mgt_status reserve_tiles(frame_run *run)
     const size_t waves = f->scene->water.wave_count;
     run->wave_stride = (int)(waves > 0 ? waves : 1);
     const size_t cameras = needs_open(run) ? 2 : 1;
-    const size_t tile_bytes = sizeof(TileData) + TILE_PIXELS * sizeof(float) + (size_t)run->wave_stride * (sizeof(TileWave) + sizeof(SearchWave));
+    const size_t tile_bytes = sizeof(TileData) + TILE_FLOATS * sizeof(float) + (size_t)run->wave_stride * (sizeof(TileWave) + sizeof(SearchWave));
     const size_t row_bytes = run->columns * cameras * tile_bytes;
     uint64_t rows = band_bytes / row_bytes;
     if (run->job->progress)
@@ -72,7 +72,7 @@ static mgt_status reserve_tiles(frame_run *run)
     if (status == MGT_OK)
         status = gl_buffer_reserve(gl, &g->search_waves, tiles * (size_t)run->wave_stride * sizeof(SearchWave), 0, run->r);
     if (status == MGT_OK)
-        status = gl_buffer_reserve(gl, &g->nodes, tiles * TILE_PIXELS * sizeof(float), 0, run->r);
+        status = gl_buffer_reserve(gl, &g->nodes, tiles * TILE_FLOATS * sizeof(float), 0, run->r);
     return status;
 }
 

@@ -257,8 +257,7 @@ static mgt_status render_view(gl_backend_state *s, const checked_view *v, size_t
     if (status != MGT_OK)
         return status;
     frame f = frame_of(&v->scene, s->renderer->sky, true);
-    f.close = rays_above(&f, &v->close.rays);
-    f.open = v->scene.camera_moves ? rays_above(&f, &v->open.rays) : f.close;
+    frame_look(&f, v->scene.camera_moves ? &v->open.rays : &v->close.rays, &v->close.rays);
     f.data.pixel_angle = f.through.pixel_angle = (float)view_pixel_angle(&f.close);
     const gl_job job = {
         .frame = &f,

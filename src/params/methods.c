@@ -54,7 +54,7 @@ const method_row method_rows[] =
             {
                 .properties = {0, "mangata", "this library's own closed form", MGT_WAVES_SHUTTER, CPU_AND_GL, LAYERS},
                 .way = METHOD_FILTERED,
-                .faces = true,
+                .hits = 2,
                 .shader = &(const method_shader){"shade_slopes.comp", "glitter.k", "glitter_result"},
             },
         [MGT_METHOD_REFERENCE] =
@@ -125,7 +125,7 @@ const method_row method_rows[] =
                 .way = METHOD_PASS,
                 .base = MGT_METHOD_MANGATA,
                 .pass = METHOD_PASS_ADAPTIVE,
-                .faces = true,
+                .hits = 1,
             },
         [MGT_METHOD_GGX_MOMENTS] =
             {

@@ -3,17 +3,35 @@
  * First hits of a tile: a lattice, and what a pixel estimates from the four nodes about it; or every pixel's own.
  */
 #include "gl_data.glsl"
-#include "kernels/glitter/lattice.k"
+#include "kernels/glitter/pixel.k"
 
 #ifndef NODE_ACCESS
 #define NODE_ACCESS readonly
 #endif
-/* Of a tile TILE_PIXELS floats: its nodes, or where its water is grazing the height of every pixel's hit. */
+/* Of a tile TILE_FLOATS: its nodes, or where its water is grazing every hit. */
 layout(std430, binding = 3) NODE_ACCESS buffer NodeBlock { float node_data[]; };
+
+int hit_place(int column, int row) { return tile_slot * TILE_FLOATS + (row * TILE_WIDTH + column) * HIT_FLOATS; }
+
+#ifdef FINDS_HITS
+void HIT_FOUND(int cx, float column, float row, HitEstimate hit, bool where)
+{
+    if (!where)
+        return;
+    int at = hit_place(int(column), int(row));
+    node_data[at] = hit.height;
+    node_data[at + 1] = hit.slope.x;
+    node_data[at + 2] = hit.slope.y;
+}
+#else
+#define HIT_FOUND(cx, column, row, hit, where)
+#endif
+
+#include "kernels/glitter/lattice.k"
 
 LatticeNode node_of(int column, int row)
 {
-    int at = tile_slot * TILE_PIXELS + (row * NODE_COLUMNS + column) * NODE_FLOATS;
+    int at = tile_slot * TILE_FLOATS + (row * NODE_COLUMNS + column) * NODE_FLOATS;
     LatticeNode node;
     node.ray = vec3(node_data[at], node_data[at + 1], node_data[at + 2]);
     node.along = node_data[at + 3];
@@ -32,13 +50,20 @@ bool tile_may_occlude()
            may_occlude(0, node_of(NODE_COLUMNS - 1, NODE_ROWS - 1).ray);
 }
 
+/* The hits of a pixel lie one above the other: this is the first one's row. */
+int first_row(int row) { return row * int(TILE(0).hit_rows); }
+
+/* `pixel`: its column, and the row of the hit. */
 HitEstimate pixel_estimate(ivec2 pixel)
 {
     HitEstimate estimate;
+    estimate.slope = vec2(0.0f);
     if (TILE(0).grazing != 0) {
-        estimate.height = node_data[tile_slot * TILE_PIXELS + pixel.y * TILE_WIDTH + pixel.x];
+        int at = hit_place(pixel.x, pixel.y);
+        estimate.height = node_data[at];
         estimate.from = 0.0f;
         estimate.search = 0.0f;
+        estimate.slope = vec2(node_data[at + 1], node_data[at + 2]);
         return estimate;
     }
     if (TILE(0).search_pixels != 0) {

@@ -4,31 +4,23 @@
  * column.
  */
 #define NODE_ACCESS
+#define FINDS_HITS
 #include "lattice_data.glsl"
 
 layout(local_size_x = 32) in; /* TILE_WIDTH, and NODE_COUNT at most */
-
-void search_column(int column)
-{
-    RowHit hit = row_hit_none(0);
-    for (int row = TILE_HEIGHT - 1; row >= 0; row--) {
-        hit = row_hit(0, float(column), float(row), hit);
-        node_data[tile_slot * TILE_PIXELS + row * TILE_WIDTH + column] = hit.height;
-    }
-}
 
 void main()
 {
     tile_slot = int(gl_WorkGroupID.x);
     int index = int(gl_LocalInvocationID.x);
     if (TILE(0).grazing != 0) {
-        search_column(index);
+        walk_column(0, float(index));
         return;
     }
     if (index >= NODE_COUNT || TILE(0).search_pixels != 0)
         return;
     LatticeNode node = lattice_node(0, pixel_ray_at(0, float(index % NODE_COLUMNS * NODE_STEP_X), float(index / NODE_COLUMNS * NODE_STEP_Y)));
-    int at = tile_slot * TILE_PIXELS + index * NODE_FLOATS;
+    int at = tile_slot * TILE_FLOATS + index * NODE_FLOATS;
     node_data[at] = node.ray.x;
     node_data[at + 1] = node.ray.y;
     node_data[at + 2] = node.ray.z;

@@ -14,7 +14,16 @@ void main()
     TilePixel pixel = tile_pixel();
     if (!pixel.inside)
         return;
-    PixelRay p = pixel_ray_filtered(0, float(pixel.at.x), float(pixel.at.y));
-    SlopeState state = slope_state(0, p.ray, pixel_estimate(pixel.at));
-    store_normal(pixel.texel, state.close, p.water > 0.0f);
+    vec2 slope = vec2(0.0f);
+    float water = 0.0f;
+    for (int hit = 0; hit < int(TILE(0).hit_rows); hit++) { /* their mean */
+        ivec2 at = ivec2(pixel.at.x, first_row(pixel.at.y) + hit);
+        PixelRay p = pixel_ray_filtered(0, float(at.x), float(at.y));
+        SlopeState state = slope_state(0, p.ray, pixel_estimate(at));
+        if (p.water > 0.0f) {
+            slope = add(slope, state.close);
+            water += 1.0f;
+        }
+    }
+    store_normal(pixel.texel, scale(slope, 1.0f / max(water, 1.0f)), water > 0.0f);
 }

@@ -17,12 +17,12 @@ PixelResult nothing_but_sky(PixelRay p)
     return result;
 }
 
-PixelResult water_and_sky(PixelRay p, TilePixel where)
+/* `pixel`: the column and the row of the hit. */
+PixelResult water_and_sky(PixelRay p, ivec2 pixel, ivec2 texel)
 {
-    ivec2 pixel = where.at;
     METHOD_STATE close = method_state(0, p.ray, pixel_estimate(pixel));
     if (pass_data.write_depth != 0)
-        imageStore(depth_image, where.texel, vec4(close.along * sqrt(length_squared(p.ray))));
+        imageStore(depth_image, texel, vec4(close.along * sqrt(length_squared(p.ray))));
     METHOD_STATE open = close;
     if (pass_data.open_slots != 0) {
         tile_slot += pass_data.open_slots;
@@ -30,6 +30,14 @@ PixelResult water_and_sky(PixelRay p, TilePixel where)
         tile_slot -= pass_data.open_slots;
     }
     return method_result(0, p, open, close);
+}
+
+PixelResult hit_result(ivec2 pixel, ivec2 texel)
+{
+    PixelRay p = pixel_ray_filtered(0, float(pixel.x), float(pixel.y));
+    if (p.water > 0.0f)
+        return water_and_sky(p, pixel, texel);
+    return nothing_but_sky(p);
 }
 
 /* A part of the shutter, and what the layers hold of those before. */
@@ -52,12 +60,19 @@ void main()
     TilePixel pixel = tile_pixel();
     if (!pixel.inside)
         return;
-    PixelRay p = pixel_ray_filtered(0, float(pixel.at.x), float(pixel.at.y));
-    PixelResult result;
-    if (p.water > 0.0f)
-        result = water_and_sky(p, pixel);
-    else
-        result = nothing_but_sky(p);
+    int hits = int(TILE(0).hit_rows);
+    PixelResult result = hit_result(ivec2(pixel.at.x, first_row(pixel.at.y)), pixel.texel);
+    for (int hit = 1; hit < hits; hit++) {
+        PixelResult another = hit_result(ivec2(pixel.at.x, first_row(pixel.at.y) + hit), pixel.texel);
+        result.color += another.color;
+        result.coverage += another.coverage;
+        result.water += another.water;
+    }
+    if (hits > 1) {
+        result.color /= float(hits);
+        result.coverage /= float(hits);
+        result.water /= float(hits);
+    }
     if (pass_data.weight != 1.0f)
         result = part_of_mean(result, pixel.texel);
     if (FRAME(0).want_color != 0)

@@ -105,7 +105,7 @@ TileData finished_tile(TileView view, Counts counts)
     TileSums all;
     for (int i = 0; i < TILE_SUMS; i++)
         all.value[i] = totals[i];
-    TileData t = sorted_tile(0, all, counts.resolved, counts.mixed, counts.searched);
+    TileData t = sorted_tile(0, all, counts.resolved, counts.mixed, counts.searched, view.rows);
     t.ray_x = view.ray.x;
     t.ray_y = view.ray.y;
     t.ray_z = view.ray.z;

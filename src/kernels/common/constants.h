@@ -33,6 +33,11 @@
 #define TILE_HEIGHT 16
 #define TILE_PIXELS (TILE_WIDTH * TILE_HEIGHT)
 
+/* Hits of a pixel in grazing water at most, one above the other. */
+#define HIT_ROWS 2
+#define HIT_FLOATS 3 /* that are kept of one: see HitEstimate */
+#define TILE_FLOATS (TILE_PIXELS * HIT_ROWS * HIT_FLOATS)
+
 /* Nodes of a tile's lattice of first hits; they lie on the tile's edges too. The water is foreshortened down the screen, seldom across. */
 #define NODE_STEP_X 8
 #define NODE_STEP_Y 4
