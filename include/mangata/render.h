@@ -156,7 +156,8 @@ MGT_API mgt_status mgt_render(mgt_context *context, const mgt_scene *scene, cons
  * `target`: MGT_LAYER_COLOR in MGT_FORMAT_RGBA8_SRGB, of the crop. */
 MGT_API mgt_status mgt_display(mgt_context *context, const mgt_scene *scene, const float *radiance, const mgt_target *target);
 
-/* What method `mangata` knows of one pixel. Slopes are (∂y/∂x, ∂y/∂z). The light plane is r·L = 1, its axes as in the kernels: e horizontal, f up. */
+/* What method `mangata` knows of one pixel. Near the horizon a pixel shows two hits, one above the other: water, coverage and radiance are then their
+ * mean, and slopes, covariances and the path are those of the lower one. Slopes are (∂y/∂x, ∂y/∂z). The light plane is r·L = 1, its axes as in the kernels: e horizontal, f up. */
 typedef struct mgt_pixel_info {
     size_t struct_size;
     double water;                       /* share of the pixel that is water; where it is 0 all else is 0 */

@@ -27,9 +27,11 @@ static struct kernel_context sort_tile(const frame *f, const wave_set *set, cons
     return (struct kernel_context){.frame = &f->data, .tile = &waves->data, .waves = waves->waves, .search = waves->search, .sky = sky};
 }
 
-static SlopeState slopes_of(const struct kernel_context *cx, const tile_estimate *estimate, tile_pixel at)
+/* The rows of a pixel are those of its hits. */
+static SlopeState slopes_of(const struct kernel_context *cx, const tile_estimate *rows, tile_pixel at)
 {
-    const size_t i = at.row * TILE_WIDTH + at.column;
+    const tile_estimate *estimate = rows + at.row / TILE_HEIGHT;
+    const size_t i = at.row % TILE_HEIGHT * TILE_WIDTH + at.column;
     HitEstimate from = {estimate->height[i], estimate->from[i], estimate->search[i], {0, 0}};
     if (cx->tile->grazing != 0)
         from.slope = (vec2){estimate->slope_x[i], estimate->slope_z[i]};
@@ -37,14 +39,15 @@ static SlopeState slopes_of(const struct kernel_context *cx, const tile_estimate
 }
 
 /* The first hit in double precision at the instant t, near where the pixel's search began: Newton along the ray. */
-static void find_hit(const frame *f, tile_pixel at, const tile_estimate *estimate, mgt_pixel_info *info)
+static void find_hit(const frame *f, tile_pixel at, uint32_t hits, const tile_estimate *estimate, mgt_pixel_info *info)
 {
     const camera_rays *c = &f->close;
     const double x = at.tile_x * (double)TILE_WIDTH + at.column, y = at.tile_y * (double)TILE_HEIGHT + at.row;
     double ray[3];
     for (int i = 0; i < 3; i++)
         ray[i] = c->corner[i] + x * c->right[i] + y * c->down[i];
-    const double start = (double)estimate->height[at.row * TILE_WIDTH + at.column];
+    const uint32_t row = at.row * hits;
+    const double start = (double)estimate[row / TILE_HEIGHT].height[row % TILE_HEIGHT * TILE_WIDTH + at.column];
     double along = ray[1] < 0 ? (c->position[1] - start) / -ray[1] : 0;
     for (int step = 0; step < 8 && ray[1] < 0; step++) {
         const double point[2] = {c->position[0] + along * ray[0], c->position[2] + along * ray[2]};
@@ -83,31 +86,41 @@ static void describe_mirror(const struct kernel_context *cx, SlopeState open, Sl
     map_covariance(m, both, info->covariance);
 }
 
+/* Adds one of `hits`. Returns whether it is water. */
+static bool add_hit(const struct kernel_context *cx, tile_pixel at, SlopeState open, SlopeState close, uint32_t hits, mgt_pixel_info *info)
+{
+    const PixelRay ray = pixel_ray_filtered(cx, (float)at.column, (float)at.row);
+    const float part = 1.0f / (float)hits;
+    const vec3 sky = ray.water > 0 ? (vec3){0, 0, 0} : background(cx, ray.sky_ray);
+    const PixelResult result = ray.water > 0 ? glitter_result(cx, ray, open, close) : (PixelResult){sky, 0, 0};
+    info->water = (double)((float)info->water + result.water * part);
+    info->coverage = (double)((float)info->coverage + result.coverage * part);
+    const float color[] = {result.color.x, result.color.y, result.color.z};
+    for (int c = 0; c < 3; c++)
+        info->radiance[c] = (double)((float)info->radiance[c] + color[c] * part);
+    return ray.water > 0;
+}
+
 void inspect_pixel(const frame *f, const frame_waves *waves, const float *sky, uint32_t x, uint32_t y, tile_scratch *scratch, mgt_pixel_info *info)
 {
-    const tile_pixel at = {x / TILE_WIDTH, y / TILE_HEIGHT, x % TILE_WIDTH, y % TILE_HEIGHT};
+    const tile_pixel pixel = {x / TILE_WIDTH, y / TILE_HEIGHT, x % TILE_WIDTH, y % TILE_HEIGHT};
     const bool moves = f->scene->camera_moves;
-    const struct kernel_context cx = sort_tile(f, &waves->shutter, sky, at, &scratch->close, scratch->close_estimate);
-    const PixelRay ray = pixel_ray_filtered(&cx, (float)at.column, (float)at.row);
-    *info = (mgt_pixel_info){.struct_size = sizeof *info, .water = (double)ray.water};
-    if (!(ray.water > 0)) {
-        const vec3 color = background(&cx, ray.sky_ray);
-        info->radiance[0] = (double)color.x;
-        info->radiance[1] = (double)color.y;
-        info->radiance[2] = (double)color.z;
+    const struct kernel_context cx = sort_tile(f, &waves->shutter, sky, pixel, &scratch->close, scratch->close_estimate);
+    struct kernel_context before = cx;
+    if (moves)
+        before = sort_tile(f, &waves->open, sky, pixel, &scratch->open, scratch->open_estimate);
+    const uint32_t hits = (uint32_t)cx.tile->hit_rows;
+    *info = (mgt_pixel_info){.struct_size = sizeof *info};
+    bool water = false;
+    SlopeState open, close;
+    for (uint32_t hit = 0; hit < hits; hit++) {
+        const tile_pixel at = {pixel.tile_x, pixel.tile_y, pixel.column, pixel.row * hits + hit};
+        close = slopes_of(&cx, scratch->close_estimate, at);
+        open = moves ? slopes_of(&before, scratch->open_estimate, at) : close;
+        water = add_hit(&cx, at, open, close, hits, info);
+    }
+    if (!water)
         return;
-    }
-    const SlopeState close = slopes_of(&cx, scratch->close_estimate, at);
-    SlopeState open = close;
-    if (moves) {
-        const struct kernel_context before = sort_tile(f, &waves->open, sky, at, &scratch->open, scratch->open_estimate);
-        open = slopes_of(&before, scratch->open_estimate, at);
-    }
-    const PixelResult result = glitter_result(&cx, ray, open, close);
-    info->coverage = (double)result.coverage;
-    info->radiance[0] = (double)result.color.x;
-    info->radiance[1] = (double)result.color.y;
-    info->radiance[2] = (double)result.color.z;
     info->slope_open[0] = (double)open.open.x;
     info->slope_open[1] = (double)open.open.y;
     info->slope_close[0] = (double)close.close.x;
@@ -121,7 +134,7 @@ void inspect_pixel(const frame *f, const frame_waves *waves, const float *sky, u
     info->resolved = (uint32_t)cx.tile->resolved_count;
     info->mixed = (uint32_t)cx.tile->mixed_count;
     info->filtered = (uint32_t)f->scene->water.wave_count - info->resolved - info->mixed;
-    find_hit(f, at, scratch->close_estimate, info);
+    find_hit(f, pixel, hits, scratch->close_estimate, info);
     if (cx.tile->light_reach != 0)
         describe_mirror(&cx, open, close, info);
 }
