@@ -59,14 +59,6 @@ static FrameData sort_set(const refinement *f, size_t tile, const wave_set *set,
     return data;
 }
 
-static bool no_light(const FrameData *d)
-{
-    for (int i = 0; i < d->light_count; i++)
-        if (d->lights[i].light_radiance_r > 0 || d->lights[i].light_radiance_g > 0 || d->lights[i].light_radiance_b > 0)
-            return false;
-    return true;
-}
-
 /* One piece of the shutter: into s->close, and s->open where the camera moves. */
 static FrameData sort_cells(const refinement *f, size_t tile, int across, int down, int part, tile_scratch *s)
 {
@@ -79,7 +71,7 @@ static FrameData sort_cells(const refinement *f, size_t tile, int across, int do
     if (f->moves)
         s->close.data.light_reach = s->open.data.light_reach = s->close.data.light_reach | s->open.data.light_reach;
     if (across + down == 0)
-        t->dark = !data.sky_black && (s->close.data.light_reach == 0 || (f->by_display && no_light(&data)));
+        t->dark = !data.sky_black && (s->close.data.light_reach == 0 || (f->by_display && lights_dark(&data)));
     refinement_price(f, t, (across + down) / 2, s->close.data.resolved_count + s->close.data.mixed_count);
     return data;
 }
