@@ -186,7 +186,7 @@ typedef struct mgt_quality {
     double transition_width;     /* podee-*: cycles per pixel below the Nyquist limit of 0.5 in which waves turn from resolved to unresolved
                                  (Eq. 20), up to 0.5; 0: 0.3 */
     bool transition_hard;        /* podee-*: no transition, waves turn at 0.5 cycles per pixel (Fig. 11) */
-    mgt_adaptive adaptive;       /* adaptive: the scheme; at most one of the next three says when it ends */
+    mgt_adaptive adaptive;       /* adaptive: the scheme; at most one of the next three and target_displayed says when it ends */
     double samples;              /* adaptive: evaluations of all waves per pixel of water, on average, 1 … 4096; cells and points count as what they
                                  cost, a ray of podee, traced at both ends of the shutter, as one. 0: 8 where no other end is given */
     double target_rmse;          /* adaptive, cells: ends where the predicted RMSE of coverage over the image is this, 1e-6 … 1; 0: none */
@@ -207,6 +207,8 @@ typedef struct mgt_quality {
 #define MGT_METHOD_OPTION(name, method, least, most, preset, meaning) -1
 #include "mangata/method_options.h"
     ];
+    double target_displayed; /* adaptive, cells: ends where the predicted RMSE of the displayed luminance (0 to 1, after exposure and tone map) over the
+                                image is this, 1e-5 … 1; under a black sky that of coverage; 0: none. An alternative to samples, target_rmse, budget_ms */
 } mgt_quality;
 
 /* Everything a frame depends on. Plain data, read during mgt_render() only. */

@@ -20,7 +20,7 @@
 static_assert(sizeof(mgt_context_desc) == END(mgt_context_desc, gl_get_proc), "mgt_context_desc ends with padding");
 static_assert(sizeof(mgt_mesh_desc) == END(mgt_mesh_desc, indices), "mgt_mesh_desc ends with padding");
 static_assert(sizeof(mgt_texture_desc) == END(mgt_texture_desc, row_stride), "mgt_texture_desc ends with padding");
-static_assert(sizeof(mgt_quality) == END(mgt_quality, method_option_room), "mgt_quality ends with padding");
+static_assert(sizeof(mgt_quality) == END(mgt_quality, target_displayed), "mgt_quality ends with padding");
 static_assert(sizeof(mgt_scene) == END(mgt_scene, quality), "mgt_quality grows with the scene only while it is the last in it");
 static_assert(sizeof(mgt_target) == END(mgt_target, row_stride), "mgt_target ends with padding");
 static_assert(sizeof(mgt_gl_view) == END(mgt_gl_view, reserved), "mgt_gl_view ends with padding");

@@ -62,27 +62,29 @@ static FrameData sort_set(const refinement *f, size_t tile, const wave_set *set,
 /* One piece of the shutter: into s->close, and s->open where the camera moves. */
 static FrameData sort_cells(const refinement *f, size_t tile, int across, int down, int part, tile_scratch *s)
 {
-    const shutter_parts *parts = refinement_parts(f, (across + down) / 2);
+    refinement_tile *t = &f->tiles[tile];
+    const shutter_parts *parts = refinement_parts(f, t, (across + down) / 2);
     const FrameData data = sort_set(f, tile, parts->sets[f->moves ? part + 1 : part], across, down, &s->close);
     if (f->moves)
         sort_set(f, tile, parts->sets[part], across, down, &s->open);
+    s->close.data.parts = s->open.data.parts = across + down > 0 && !data.sky_black;
     if (f->moves)
         s->close.data.light_reach = s->open.data.light_reach = s->close.data.light_reach | s->open.data.light_reach;
-    refinement_price(f, &f->tiles[tile], (across + down) / 2, s->close.data.resolved_count + s->close.data.mixed_count);
+    if (across + down == 0)
+        t->dark = !data.sky_black && (s->close.data.light_reach == 0 || (f->by_display && lights_dark(&data)));
+    refinement_price(f, t, (across + down) / 2, s->close.data.resolved_count + s->close.data.mixed_count);
     return data;
 }
 
-/* What a squared error of the pixel's luminance is worth in the displayed picture: tone maps show relative errors where it is bright, and to the eye many
- * small errors are worse than few large ones, so that it is divided by the 3/4th power of what the pixel begins with. Under a black sky, where the
- * glitter is all there is, only the first holds. */
-static float weight_of(const refinement *f, const leaf *l)
+/* What a squared error of the pixel's luminance is worth. Under a black sky, where the glitter is all there is, errors count the less the brighter the pixel
+ * is, as tone maps show them. */
+static float weight_of(const refinement *f, const leaf *l, float shown)
 {
+    if (!f->a->frame->data.sky_black)
+        return shown;
     const float luminance = 0.2126f * l->color[0] + 0.7152f * l->color[1] + 0.0722f * l->color[2];
-    const float slope = 1 / (1 + f->a->frame->data.exposure * luminance), weight = slope * slope;
-    if (f->a->frame->data.sky_black)
-        return weight;
-    const float root = sqrtf(weight * l->contrast + 1e-6f);
-    return weight / (root * sqrtf(root));
+    const float slope = 1 / (1 + f->a->frame->data.exposure * luminance);
+    return slope * slope;
 }
 
 static void plant_tile(void *argument, size_t tile, uint32_t worker)
@@ -113,7 +115,8 @@ static void plant_tile(void *argument, size_t tile, uint32_t worker)
             leaf l = leaf_from(&s->pixels, detail, from);
             l.column = x;
             l.row = y;
-            f->weight[to] = weight_of(f, &l);
+            f->hit_height[to] = l.water >= 1 ? l.height : NAN;
+            f->weight[to] = weight_of(f, &l, detail->shown[from]);
             p->importance[to] = sqrtf(l.variance);
             p->samples[to] = l.water > 0 ? (float)t->cost[0] : 0;
             t->spent += (double)p->samples[to];
@@ -144,7 +147,7 @@ static bool grow(const refinement *f, size_t tile, int across, int down, uint32_
     tile_cells *cells = f->cells[worker], *sum = f->sums[worker];
     tile_scratch *s = a->scratch[worker];
     refinement_tile *t = &f->tiles[tile];
-    const int level = (across + down) / 2, parts = refinement_parts(f, level)->count;
+    const int level = (across + down) / 2, parts = refinement_parts(f, t, level)->count;
     memset(&sum->pixels, 0, sizeof sum->pixels);
     memset(&sum->detail, 0, sizeof sum->detail);
     cells->light = NULL;
@@ -155,6 +158,8 @@ static bool grow(const refinement *f, size_t tile, int across, int down, uint32_
         light_of_pixels(&a->objects[tile].light, pixels, cells->count, &s->objects.light);
         cells->light = &s->objects.light;
     }
+    cells->across = across;
+    cells->down = down;
     for (int part = 0; part < parts; part++) {
         const FrameData data = sort_cells(f, tile, across, down, part, s);
         a->kernels->cells(&data, a->sky, &s->close, f->moves ? &s->open : NULL, cells);
@@ -176,12 +181,17 @@ static bool grow(const refinement *f, size_t tile, int across, int down, uint32_
     return true;
 }
 
-static void add_children(tile_cells *cells, const leaf *l)
+/* Where neither camera nor water moves under the cell, it may begin its search at the hit of a pixel below. */
+static void add_children(const refinement *f, size_t tile, tile_cells *cells, const leaf *l)
 {
+    const size_t below = leaf_pixel(f, tile, l) + 2 * (size_t)f->out->width;
+    const bool still = !f->a->frame->data.sky_black && !f->moves && refinement_parts(f, &f->tiles[tile], l->level + 1)->count == 1;
+    const bool known = still && below < (size_t)f->width * f->height;
     const uint32_t wide = 1u << halvings[l->shape][0];
     for (uint32_t k = 0; k < 4; k++) {
         cells->column[cells->count] = (float)(l->column * wide + k % wide);
         cells->row[cells->count] = (float)((l->row << halvings[l->shape][1]) + k / wide);
+        cells->below[cells->count] = known ? f->hit_height[below] : NAN;
         cells->estimate.height[cells->count++] = l->height;
     }
 }
@@ -196,7 +206,7 @@ static bool split_size(const refinement *f, size_t tile, int across, int down, s
         const leaf *l = &t->leaves[i];
         if (!l->chosen || l->shape == SHAPE_POINTS || l->across + halvings[l->shape][0] != across || l->down + halvings[l->shape][1] != down)
             continue;
-        add_children(cells, l);
+        add_children(f, tile, cells, l);
         if (cells->count == TILE_PIXELS && !grow(f, tile, across, down, worker))
             return false;
     }
@@ -271,6 +281,8 @@ static double next_share(const refinement *f, frame_budget *b, size_t round)
     const double used = refinement_spent(f);
     if (q->target_rmse > 0)
         return round < MOST_ROUNDS && refinement_predicted_rmse(f) > q->target_rmse ? 0.3 * used : 0;
+    if (q->target_displayed > 0)
+        return round < MOST_ROUNDS && refinement_predicted_displayed(f) > q->target_displayed ? 0.3 * used : 0;
     if (q->budget_ms > 0) {
         const double time = now(), left = b->end - time;
         /* The first pixels are cheaper than cells: half of their speed is a careful estimate. */

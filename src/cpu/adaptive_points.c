@@ -28,7 +28,12 @@ static void add_point(const leaf *l, double shift, int index, uint32_t owner, po
     s->close_estimate->search[i] = s->open_estimate->search[pixel];
 }
 
-/* Sums of color, coverage and water go to sums[5 × owner]. */
+/* What is summed of a leaf's points: colour, coverage, water and the square of the luminance. */
+enum { POINT_SUMS = 6 };
+
+static double luminance_of(double red, double green, double blue) { return 0.2126 * red + 0.7152 * green + 0.0722 * blue; }
+
+/* Sums go to sums[POINT_SUMS × owner]. */
 static void render_points(const refinement *f, size_t tile, point_batch *batch, tile_scratch *s, double *sums)
 {
     const tile_opened *objects = f->a->objects;
@@ -42,24 +47,29 @@ static void render_points(const refinement *f, size_t tile, point_batch *batch, 
     f->a->kernels->sample(&f->a->frame->data, f->a->sky, objects ? &s->objects.light : NULL, &s->close, s->close_estimate, s->jitter_x, s->jitter_y, 1,
                           &s->pixels);
     for (int i = 0; i < batch->count; i++) {
-        double *sum = sums + 5 * batch->owner[i];
+        double *sum = sums + POINT_SUMS * batch->owner[i];
+        const double luminance = luminance_of((double)s->pixels.red[i], (double)s->pixels.green[i], (double)s->pixels.blue[i]);
         sum[0] += (double)s->pixels.red[i];
         sum[1] += (double)s->pixels.green[i];
         sum[2] += (double)s->pixels.blue[i];
         sum[3] += (double)s->pixels.coverage[i];
         sum[4] += (double)s->pixels.water[i];
+        sum[5] += luminance * luminance;
     }
     batch->count = 0;
 }
 
-/* The leaf's values become the mean of all its points, old and new. */
-static void take_points(leaf *l, const double sums[5])
+/* The leaf's values become the mean of all its points, old and new. Under a sky the luminance of the points says how far off their mean is. */
+static void take_points(leaf *l, const double sums[POINT_SUMS], bool sky_black)
 {
     const int first = l->points, end = leaf_next_points(l);
+    const double before = luminance_of((double)l->color[0], (double)l->color[1], (double)l->color[2]);
+    const double squares = first * (first * (double)l->contrast + before * before) + sums[5];
     float *const values[] = {&l->color[0], &l->color[1], &l->color[2], &l->coverage, &l->water};
     for (int k = 0; k < 5; k++)
         *values[k] = (float)((first * (double)*values[k] + sums[k]) / end);
-    l->contrast *= l->places / (float)end;
+    const double mean = luminance_of((double)l->color[0], (double)l->color[1], (double)l->color[2]);
+    l->contrast = sky_black ? l->contrast * (l->places / (float)end) : (float)(fmax(squares / end - mean * mean, 0) / end);
     l->variance = l->coverage * fmaxf(l->water - l->coverage, 0) / (float)end;
     l->places = (float)end;
     l->points = (uint16_t)end;
@@ -70,7 +80,7 @@ bool refinement_scatter_points(const refinement *f, size_t tile, size_t end, uin
     const adaptive_frame *a = f->a;
     refinement_tile *t = &f->tiles[tile];
     tile_scratch *s = a->scratch[worker];
-    double *sums = calloc(5 * end, sizeof *sums);
+    double *sums = calloc(POINT_SUMS * end, sizeof *sums);
     point_batch batch = {0};
     if (!sums)
         return false;
@@ -98,7 +108,7 @@ bool refinement_scatter_points(const refinement *f, size_t tile, size_t end, uin
         if (!l.chosen || l.shape != SHAPE_POINTS)
             continue;
         const double cost = leaf_cost(t, &l);
-        take_points(&l, sums + 5 * i);
+        take_points(&l, sums + POINT_SUMS * i, a->frame->data.sky_black);
         l.chosen = false;
         f->out->samples[leaf_pixel(f, tile, &l)] += (float)cost;
         t->spent += cost;

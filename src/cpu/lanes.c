@@ -542,6 +542,7 @@ static void store_cell(tile_pixels *out, tile_detail *detail, size_t i, CellResu
         store(detail->height + i, c.height);
         store(detail->variance + i, c.variance);
         store(detail->contrast + i, c.contrast);
+        store(detail->shown + i, c.shown);
         store(detail->aspect + i, c.aspect);
         store(detail->places + i, c.places);
     }
@@ -560,7 +561,8 @@ static void render_glitter(const struct kernel_context *cx, const tile_light *li
         look_at_tile(open, open_estimate, out->water, &open_looks);
     for (size_t i = 0; i < places.count; i += MGT_LANES) {
         const PixelRay p = pixel_rays(cx, &places, i);
-        CellResult cell = {.height = real(0.0f), .variance = real(0.0f), .contrast = real(0.0f), .places = real(1.0f), .aspect = real(1.0f)};
+        CellResult cell =
+            {.height = real(0.0f), .variance = real(0.0f), .contrast = real(0.0f), .shown = real(0.0f), .places = real(1.0f), .aspect = real(1.0f)};
         if (any_lane(p.water > real(0.0f))) {
             const SlopeState state = looked_slopes(cx, &close_looks, i, p.ray);
             here.light = light_at(light, i);
@@ -570,6 +572,24 @@ static void render_glitter(const struct kernel_context *cx, const tile_light *li
             cell.pixel = nothing_but_sky(&here, p);
         }
         store_cell(out, detail, i, cell);
+    }
+}
+
+/* Cells of a pixel are above all that the ray two pixels below has passed over. */
+static void place_starts(const struct kernel_context *cx, size_t count, tile_cells *cells)
+{
+    for (size_t i = 0; i < count; i += MGT_LANES) {
+        float column[MGT_LANES], row[MGT_LANES], known[MGT_LANES], height[MGT_LANES];
+        for (size_t lane = 0; lane < MGT_LANES; lane++) {
+            /* The middle of the pixel two rows below, in cells. */
+            column[lane] = ldexpf(floorf(ldexpf(cells->column[i + lane], -cells->across)) + 0.5f, cells->across) - 0.5f;
+            row[lane] = ldexpf(floorf(ldexpf(cells->row[i + lane], -cells->down)) + 2.5f, cells->down) - 0.5f;
+            known[lane] = isnan(cells->below[i + lane]) ? 0.0f : 1.0f;
+            height[lane] = known[lane] > 0 ? cells->below[i + lane] : 0.0f;
+        }
+        const vec3 ray = pixel_ray_at(cx, load(column), load(row));
+        const real along = SELECT(ray.y < real(-1e-7f), load(known) * (real(TILE(cx).camera_height) - load(height)) / (real(0.0f) - ray.y), real(0.0f));
+        store(cells->estimate.from + i, row_start(cx, pixel_ray_filtered(cx, load(cells->column + i), load(cells->row + i)).ray, ray, along));
     }
 }
 
@@ -584,12 +604,17 @@ static void lanes_cells(const FrameData *frame, const float *sky, const tile_wav
         cells->column[count] = cells->column[count - 1];
         cells->row[count] = cells->row[count - 1];
         cells->estimate.height[count] = cells->estimate.height[count - 1];
+        cells->below[count] = cells->below[count - 1];
     }
-    for (size_t i = 0; i < count; i++) { /* in grazing water the parent's hit says nothing of its parts' */
-        cells->estimate.search[i] = close->data.grazing || (open && open->data.grazing) ? 1 : 0;
+    /* In grazing water the parent's hit says nothing of its parts'. */
+    const float searched = close->data.grazing || (open && open->data.grazing) ? 1 : 0;
+    for (size_t i = 0; i < count; i++) {
+        cells->estimate.search[i] = searched;
         cells->estimate.from[i] = 0;
         cells->estimate.slope_x[i] = cells->estimate.slope_z[i] = 0;
     }
+    if (searched > 0)
+        place_starts(&cx, count, cells);
     const tile_places places = {cells->column, cells->row, count};
     render_glitter(&cx, cells->light, places, &cells->estimate, open ? &before : NULL, &cells->estimate, &cells->pixels, &cells->detail);
 }

@@ -35,7 +35,7 @@ typedef struct tile_pixels {
 
 /* How a pixel or cell of method `mangata` goes on, see cells.k. */
 typedef struct tile_detail {
-    float height[TILE_PIXELS], variance[TILE_PIXELS], contrast[TILE_PIXELS], aspect[TILE_PIXELS], places[TILE_PIXELS];
+    float height[TILE_PIXELS], variance[TILE_PIXELS], contrast[TILE_PIXELS], shown[TILE_PIXELS], aspect[TILE_PIXELS], places[TILE_PIXELS];
 } tile_detail;
 
 /* What the pixels of a tile see of objects through the surface and mirrored by it, see pixel.k. Kernels read the planes by their numbers. */
@@ -67,6 +67,8 @@ typedef struct method_tile {
 typedef struct tile_cells {
     size_t count;                                /* at most TILE_PIXELS */
     float column[TILE_PIXELS], row[TILE_PIXELS]; /* whole numbers, in cells from the tile's first one */
+    int across, down;                            /* how often their pixels have been halved each way */
+    float below[TILE_PIXELS];                    /* height of the hit of the pixel two rows under the cell's, metres; NAN: unknown */
     const tile_light *light;                     /* a value a cell; NULL: no objects */
     tile_estimate estimate;                      /* heights; search: 1 to search from above, 0: only where the height leads nowhere */
     tile_detail detail;                          /* out */

@@ -37,7 +37,9 @@ typedef struct refinement_tile {
     double below[LEVELS]; /* of the four cells that one of this level is split into, as far as is known */
     float worth[LEVELS];  /* of a split, for each unit of squared error */
     double spent;
-    double final_variance; /* of what is split no more: sum of squared errors of pixels */
+    bool dark;             /* under a sky: no light is mirrored here, and what is mirrored of the sky needs no pieces of the shutter */
+    double final_variance; /* of what is split no more: sum of squared errors of pixels' coverage, … */
+    double final_shown;    /* … and under a sky of their displayed luminance */
 } refinement_tile;
 
 /* The shutter in straight pieces. While the camera stands, sets[i] is over piece i; where it moves, sets[i] and sets[i + 1] are the instants around it. */
@@ -58,8 +60,10 @@ struct refinement {
     uint32_t width, height; /* that the memory is for */
     uint32_t columns, rows;
     bool by_coverage; /* leaves are worth what they save of the coverage's error, not of the picture's */
+    bool by_display;  /* under a sky, not by coverage: of the displayed picture's */
     refinement_tile *tiles;
     float *weight;                /* a pixel's, squared */
+    float *hit_height;            /* of the surface where a pixel's ray meets it, metres; NAN where it is not all water */
     bool moves;                   /* the camera does */
     shutter_parts parts[3];       /* of pixels, of cells and of sharp cells */
     wave_set *instants[INSTANTS]; /* as points see them */
@@ -92,7 +96,8 @@ void refinement_price(const refinement *f, refinement_tile *t, int level, int wa
 
 /* ---- rounds ---- */
 
-const shutter_parts *refinement_parts(const refinement *f, int level);
+/* Of cells of this level. */
+const shutter_parts *refinement_parts(const refinement *f, const refinement_tile *t, int level);
 /* Which leaves may be split for `budget` evaluations. False: none. */
 bool refinement_plan(refinement *f, double budget, size_t round);
 bool leaf_chosen(const refinement *f, size_t tile, const leaf *l);
@@ -100,10 +105,12 @@ bool leaf_chosen(const refinement *f, size_t tile, const leaf *l);
 bool refinement_scatter_points(const refinement *f, size_t tile, size_t end, uint32_t worker);
 void refinement_place_instants(refinement *f);
 
-/* Evaluations so far; pixels of water; the RMSE of coverage over the picture that the leaves expect. */
+/* Evaluations so far; pixels of water; the RMSE over the picture that the leaves expect, of coverage. */
 double refinement_spent(const refinement *f);
 double refinement_water(const refinement *f);
 double refinement_predicted_rmse(const refinement *f);
+/* Of the displayed luminance, 0 to 1; under a black sky of coverage. */
+double refinement_predicted_displayed(const refinement *f);
 
 /* ---- memory ---- */
 

@@ -178,4 +178,12 @@ void lights_place(const light_set *set, bool under, FrameData *frame)
         frame->lights[i] = light_data(&set->of[i], under);
 }
 
+bool lights_dark(const FrameData *frame)
+{
+    for (int i = 0; i < frame->light_count; i++)
+        if (frame->lights[i].light_radiance_r > 0 || frame->lights[i].light_radiance_g > 0 || frame->lights[i].light_radiance_b > 0)
+            return false;
+    return true;
+}
+
 double lights_disk_radius(const FrameData *frame) { return (double)frame->lights[0].disk_radius; }

@@ -87,5 +87,7 @@ void lights_place(const light_set *set, bool under, FrameData *frame);
 
 /* The first light's disk_radius. */
 double lights_disk_radius(const FrameData *frame);
+/* Whether all of them are black. */
+bool lights_dark(const FrameData *frame);
 
 #endif

@@ -12,7 +12,7 @@
 /* Rows of an mgt_quality, ended by one without a key. A flag of the command line is a key with dashes. */
 extern const field_row quality_fields[];
 enum {
-    QUALITY_ROWS = 24
+    QUALITY_ROWS = 25
 #define MGT_METHOD_OPTION(name, method, least, most, preset, meaning) +1
 #include "mangata/method_options.h"
 };

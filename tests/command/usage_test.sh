@@ -78,7 +78,7 @@ podee 'transition soft alone' --transition hard --transition-width 0.2
 
 bad roughness-floor 0.1 'for method ggx-moments alone'
 expect 64 '--roughness-floor 2: allowed is a number, 0 to 1' render "$simple" -o a.png --method ggx-moments --roughness-floor 2
-for option in 'adaptive podee' 'samples 4' 'target-rmse 0.01' 'budget-ms 10' 'slots 1000' 'importance-center 0.1' 'importance-width 0.1' \
+for option in 'adaptive podee' 'samples 4' 'target-rmse 0.01' 'target-displayed 0.01' 'budget-ms 10' 'slots 1000' 'importance-center 0.1' 'importance-width 0.1' \
     'importance-threshold 0.1'; do
     for method in mangata none podee-uniform ssaa2; do
         expect 64 'it is for method adaptive' render "$simple" -o a.png --method $method --$option
@@ -92,6 +92,7 @@ for value in -1 0.5 1e9 4097 nan inf '' x; do
 done
 for value in -0.1 2 nan; do
     adaptive "--target-rmse $value: allowed is a number, 0 or 1e-6 to 1" --target-rmse "$value"
+    adaptive "--target-displayed $value: allowed is a number, 0 or 1e-5 to 1" --target-displayed "$value"
     adaptive "--importance-center $value: allowed is a number, 0 to 1" --adaptive podee --importance-center "$value"
     adaptive "--importance-width $value: allowed is a number, 0 or 1e-6 to 1" --adaptive podee --importance-width "$value"
     adaptive "--importance-threshold $value: allowed is a number, 0 to 1" --adaptive podee --importance-threshold "$value"
@@ -103,13 +104,14 @@ for value in -1 4294967297 1.5 18446744073709551617; do
     adaptive "--slots $value: allowed is a whole number, 0 or 1 to 4294967296" --adaptive podee --slots "$value"
 done
 for both in '--samples 8 --target-rmse 0.01' '--samples 8 --budget-ms 10' '--target-rmse 0.01 --budget-ms 10' \
+    '--target-rmse 0.01 --target-displayed 0.01' '--samples 8 --target-displayed 0.01' '--target-displayed 0.01 --budget-ms 10' \
     '--adaptive podee --samples 8 --slots 1000'; do
     # shellcheck disable=SC2086 # options are words
     adaptive 'each says how much to sample' $both
 done
 adaptive '--slots: it is for method adaptive and adaptive podee alone' --slots 1000
 adaptive '--slots: it is for method adaptive and adaptive podee alone' --adaptive cells --slots 1000
-for option in 'target-rmse 0.01' 'budget-ms 10'; do
+for option in 'target-rmse 0.01' 'target-displayed 0.01' 'budget-ms 10'; do
     adaptive "--${option% *}: it is for method adaptive and adaptive cells alone" --adaptive podee --$option
 done
 for option in 'importance-center 0.1' 'importance-width 0.1' 'importance-threshold 0.1'; do

@@ -147,6 +147,97 @@ static void a_target_error_is_met(void **state)
     mgt_context_destroy(context);
 }
 
+enum { DISPLAYED = 4 * PIXELS };
+
+static void render_displayed(mgt_context *context, const mgt_scene *scene, uint8_t rgba[DISPLAYED])
+{
+    const mgt_target target = sea_target(MGT_LAYER_COLOR, MGT_FORMAT_RGBA8_SRGB, rgba, 0);
+    sea_render(context, scene, &target, 1);
+}
+
+static double displayed_at(const uint8_t *rgba, int pixel)
+{
+    return (0.2126 * rgba[4 * pixel] + 0.7152 * rgba[4 * pixel + 1] + 0.0722 * rgba[4 * pixel + 2]) / 255;
+}
+
+/* Freed of the references' noise. */
+static double displayed_rmse(const uint8_t *rgba, const uint8_t *first, const uint8_t *second)
+{
+    double sum = 0;
+    for (int i = 0; i < PIXELS; i++)
+        sum += (displayed_at(rgba, i) - displayed_at(first, i)) * (displayed_at(rgba, i) - displayed_at(second, i));
+    return sqrt(fmax(sum, 0) / PIXELS);
+}
+
+/* Seas under a sky: with the road of a light that the references can follow, and grazing water from two heights without it. */
+static mgt_scene sky_scene(mgt_wave waves[SEA_WAVES], int which)
+{
+    mgt_scene scene = sea_scene(waves);
+    scene.post.glare = 0;
+    for (int k = 0; k < 3; k++)
+        scene.light.radiance[k] = which == 0 ? 100 : 0;
+    if (which == 0)
+        return scene;
+    scene.camera.position[1] = which == 1 ? 1.5 : 8;
+    scene.camera.target[1] = scene.camera.position[1] - 0.16;
+    for (int i = 0; i < SEA_WAVES; i++)
+        waves[i].amplitude *= 2.5;
+    return scene;
+}
+
+static void a_displayed_target_is_met_and_no_picture_gets_worse(void **state)
+{
+    (void)state;
+    mgt_wave waves[SEA_WAVES];
+    static uint8_t first[DISPLAYED], second[DISPLAYED], rgba[DISPLAYED];
+    mgt_context *context = sea_context(2, MGT_ISA_AUTO);
+    for (int which = 0; which < 3; which++) {
+        mgt_scene scene = sky_scene(waves, which);
+        scene.quality.method = MGT_METHOD_REFERENCE;
+        scene.quality.spatial_samples = 12;
+        scene.quality.time_samples = 4;
+        render_displayed(context, &scene, first);
+        scene.quality.seed = 1;
+        render_displayed(context, &scene, second);
+        mgt_quality_init(&scene.quality, sizeof scene.quality);
+        render_displayed(context, &scene, rgba);
+        const double model = displayed_rmse(rgba, first, second);
+        scene.quality.method = MGT_METHOD_ADAPTIVE;
+        render_displayed(context, &scene, rgba);
+        const double eight = displayed_rmse(rgba, first, second);
+        print_message("sea %d: displayed RMSE %.5f, of the analytic picture's %.5f\n", which, eight, model);
+        assert_true(eight < 0.9 * model);
+        static const double targets[] = {0.02, 0.01};
+        for (size_t i = 0; i < sizeof targets / sizeof *targets; i++) {
+            scene.quality.target_displayed = targets[i];
+            render_displayed(context, &scene, rgba);
+            const double error = displayed_rmse(rgba, first, second);
+            print_message("sea %d: target %g, displayed RMSE %.5f\n", which, targets[i], error);
+            assert_true(error < 2 * targets[i]);
+        }
+    }
+    mgt_context_destroy(context);
+}
+
+/* Under a black sky the error of coverage is the only one. */
+static void a_displayed_target_is_one_of_coverage_under_a_black_sky(void **state)
+{
+    (void)state;
+    mgt_wave waves[SEA_WAVES];
+    static layers l;
+    mgt_context *context = sea_context(2, MGT_ISA_AUTO);
+    mgt_scene scene = glitter_scene(waves, MGT_METHOD_ADAPTIVE);
+    static const double targets[] = {0.02, 0.005};
+    double spent[2];
+    for (int i = 0; i < 2; i++) {
+        scene.quality.target_displayed = targets[i];
+        render_layers(context, &scene, &l);
+        spent[i] = sum_of(l.samples);
+    }
+    assert_true(spent[1] > spent[0]);
+    mgt_context_destroy(context);
+}
+
 /* Frames do not know of each other, though they share memory: sizes, cameras and ends change in between. */
 static void history_leaves_no_trace(void **state)
 {
@@ -194,9 +285,14 @@ static void nothing_to_find_costs_nothing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(samples_are_those_asked_for),     cmocka_unit_test(more_samples_are_nearer_to_brute_force),
-        cmocka_unit_test(shutters_of_any_length_converge), cmocka_unit_test(a_target_error_is_met),
-        cmocka_unit_test(history_leaves_no_trace),         cmocka_unit_test(nothing_to_find_costs_nothing),
+        cmocka_unit_test(samples_are_those_asked_for),
+        cmocka_unit_test(more_samples_are_nearer_to_brute_force),
+        cmocka_unit_test(shutters_of_any_length_converge),
+        cmocka_unit_test(a_target_error_is_met),
+        cmocka_unit_test(history_leaves_no_trace),
+        cmocka_unit_test(nothing_to_find_costs_nothing),
+        cmocka_unit_test(a_displayed_target_is_met_and_no_picture_gets_worse),
+        cmocka_unit_test(a_displayed_target_is_one_of_coverage_under_a_black_sky),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -85,7 +85,7 @@ pattern() { grep -E "$1" all.txt; }
     echo 'set a.method adaptive'
     vary a.adaptive
     echo 'set a.adaptive cells'
-    vary a.samples a.target_rmse
+    vary a.samples a.target_rmse a.target_displayed
     echo 'set a.samples 4'
     echo 'set a.adaptive podee'
     vary a.importance_center a.importance_width a.importance_threshold a.slots

@@ -65,6 +65,7 @@ static const control_hint hints[] = {
     {"a.budget_ms", "budget", 0, 1000, false, "%.0f ms"},
     {"a.slots", "samples in all", 0, 1e7, false, NULL},
     {"a.target_rmse", "predicted RMSE", 0, 0.1, false, "%.4f"},
+    {"a.target_displayed", "displayed RMSE", 0, 0.1, false, "%.4f"},
     {"a.tess_error", "triangles off by", 0, 4, false, "%.2f px"},
     {"a.refraction_samples", "rays N x N", 0, 8, false, NULL},
     {"view.compare", "compare", 0, 0, false, NULL},
