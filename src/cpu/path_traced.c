@@ -109,7 +109,7 @@ mgt_status path_traced_create(path_traced **truth, const path_traced_job *job)
         path_traced_free(t);
         return status;
     }
-    reference_waves_mirror(t->below->waves, t->below->wave_count);
+    reference_frame_mirror(t->below);
     *truth = t;
     return MGT_OK;
 }

@@ -70,7 +70,10 @@ mgt_status reference_frame_create(reference_frame **result, const mgt_scene *sce
     const size_t count = scene->water.wave_count;
     if (count > (SIZE_MAX - sizeof(reference_frame)) / sizeof(reference_wave) || count > UINT32_MAX)
         return MGT_ERROR_MEMORY;
-    reference_frame *frame = calloc(1, sizeof *frame + count * sizeof frame->waves[0]);
+    const size_t bytes = (sizeof(reference_frame) + count * sizeof(reference_wave) + 63) / 64 * 64;
+    reference_frame *frame = aligned_alloc(64, bytes);
+    if (frame)
+        memset(frame, 0, bytes);
     if (!frame || !(frame->lights = reference_lights_of(scene))) {
         free(frame);
         return MGT_ERROR_MEMORY;
@@ -88,7 +91,10 @@ mgt_status reference_frame_create(reference_frame **result, const mgt_scene *sce
     frame->view_open = scene->camera_moves ? relative_view(&scene->camera_open, &scene->camera) : frame->view;
     frame->view_scale_x = (double)scene->image.width / scene->image.height;
     frame->wave_count = (uint32_t)count;
-    frame->height_bound = reference_waves_of(scene, frame->bound_deviations, frame->waves);
+    reference_waves_of(scene, frame->waves);
+    frame->height_bound = reference_waves_bound(frame->waves, count, frame->bound_deviations);
+    reference_columns_of(frame->waves, frame->wave_count, &frame->columns);
+    frame->level_count = reference_levels_of(frame->waves, frame->wave_count, frame->bound_deviations, frame->levels);
     set_sample_range(frame, &scene->quality);
     *result = frame;
     return MGT_OK;
@@ -99,6 +105,12 @@ void reference_frame_destroy(reference_frame *frame)
     if (frame)
         free(frame->lights);
     free(frame);
+}
+
+void reference_frame_mirror(reference_frame *frame)
+{
+    reference_waves_mirror(frame->waves, frame->wave_count);
+    reference_columns_of(frame->waves, frame->wave_count, &frame->columns);
 }
 
 uint32_t reference_frame_lanes(const reference_frame *frame) { return frame->lanes; }

@@ -49,7 +49,7 @@ typedef struct reference_result {
     float *depth;          /* 1: metres along the centre ray at scene.time, +inf without water */
     float *normal;         /* 3: of the surface at that hit, (0,0,0) without water */
     size_t row_stride;     /* pixels from a row to the next; 0: the block's width */
-    uint64_t *evaluations; /* adds how often a sum of all waves was evaluated for a ray; NULL: not wanted */
+    uint64_t *evaluations; /* adds how often a sum of waves, of all or of the longest, was evaluated for a ray; NULL: not wanted */
 } reference_result;
 
 /* Prepares a frame; `scene` must have passed mgt_scene_check(). The scene and its waves are copied, `sky` too (but not what its
@@ -62,7 +62,7 @@ void reference_frame_destroy(reference_frame *frame);
 uint32_t reference_frame_lanes(const reference_frame *frame);
 
 /* Renders the pixels [x0, x0 + width) × [y0, y0 + height) of the whole image, blocks of any size in any order from any number
- * of threads. Uses about 100 KiB of stack and allocates nothing. */
+ * of threads. Uses about 200 KiB of stack and allocates nothing. */
 void reference_render_block(const reference_frame *frame, uint32_t x0, uint32_t y0, uint32_t width, uint32_t height, const reference_result *result);
 
 #endif

@@ -29,6 +29,7 @@ typedef struct reference_batch {
     double direction_x[REFERENCE_BATCH], direction_y[REFERENCE_BATCH], direction_z[REFERENCE_BATCH];
     double slope_bound[REFERENCE_BATCH], curvature_bound[REFERENCE_BATCH]; /* of the water's height along the ray */
     double start[REFERENCE_BATCH], end[REFERENCE_BATCH];                   /* metres, of the search */
+    double above[REFERENCE_BATCH];                                         /* the last distance known to be above the water */
 
     double distance[REFERENCE_BATCH];                          /* metres to the first hit; +inf: none; 0: the camera is under the surface */
     double slope_x[REFERENCE_BATCH], slope_z[REFERENCE_BATCH]; /* at the hit */
@@ -54,9 +55,15 @@ struct reference_frame {
 
     uint64_t sample_first, sample_count; /* resolved range */
 
+    uint32_t level_count;
+    reference_level levels[REFERENCE_LEVELS];
+    reference_columns columns;
     uint32_t wave_count;
     reference_wave waves[];
 };
+
+/* Turns the surface over. */
+void reference_frame_mirror(reference_frame *frame);
 
 /* One of these per lane count; all give the same bits. */
 void reference_trace_1(const reference_frame *frame, reference_batch *batch, uint32_t count);

@@ -3,8 +3,9 @@
  * First hits of a batch of rays with the displaced surface, in lanes. Compiled once per lane count.
  *
  * A ray searches on f(s) = (height of the ray) − (height of the water below it). From f, its derivative and bounds on the
- * water's slope and curvature along the ray follows a step that cannot pass the first zero; close to it that step becomes
- * Newton's. A lane that is done takes the next ray, so a long search holds up nobody.
+ * water's slope and curvature along the ray follows a step that cannot pass the first zero; close to it, where bounds prove that
+ * there is one zero alone, steps are Newton's. A lane that is done takes the next ray, so a long search holds up nobody. Over many
+ * waves the search begins where approach.h ends.
  */
 #include "reference/double_lanes.h"
 #include "reference/reference_frame.h"
@@ -79,18 +80,31 @@ static void aim_rays(const reference_frame *frame, reference_batch *batch, uint3
     store(&batch->direction_z[at], direction.z);
 }
 
+/* Bounds of a curve's slope and curvature. */
+typedef struct lane_curve {
+    reals slope, curvature;
+} lane_curve;
+
+/* Adds waves to sums that bound the slope and curvature of the water along rays. */
+static inline lane_curve bound_waves(const reference_frame *frame, uint32_t from, uint32_t to, reals dx, reals dz, lane_bounds *sum)
+{
+    waves_bounds(frame->waves + from, to - from, dx, dz, sum);
+    lane_curve bound = {sum->slope, sum->curvature};
+    if (frame->bound_deviations < HUGE_VAL) {
+        bound.slope = lesser(sum->slope, frame->bound_deviations * square_root(0.5 * sum->slope_square));
+        bound.curvature = lesser(sum->curvature, frame->bound_deviations * square_root(0.5 * sum->curvature_square));
+    }
+    bound.curvature = greater(bound.curvature, splat(1e-200));
+    return bound;
+}
+
 /* Bounds of the water's slope and curvature along the rays, and the part of each ray that can meet water. */
 static void bound_rays(const reference_frame *frame, reference_batch *batch, uint32_t at)
 {
-    const reals dx = load(&batch->direction_x[at]), dz = load(&batch->direction_z[at]);
-    const lane_bounds sum = waves_bounds(frame->waves, frame->wave_count, dx, dz);
-    reals slope_bound = sum.slope, curvature_bound = sum.curvature;
-    if (frame->bound_deviations < HUGE_VAL) {
-        slope_bound = lesser(sum.slope, frame->bound_deviations * square_root(0.5 * sum.slope_square));
-        curvature_bound = lesser(sum.curvature, frame->bound_deviations * square_root(0.5 * sum.curvature_square));
-    }
-    store(&batch->slope_bound[at], slope_bound);
-    store(&batch->curvature_bound[at], greater(curvature_bound, splat(1e-200)));
+    lane_bounds sum = {splat(0), splat(0), splat(0), splat(0)};
+    const lane_curve bound = bound_waves(frame, 0, frame->wave_count, load(&batch->direction_x[at]), load(&batch->direction_z[at]), &sum);
+    store(&batch->slope_bound[at], bound.slope);
+    store(&batch->curvature_bound[at], bound.curvature);
 
     const reals infinite = splat(HUGE_VAL);
     const reals dy = load(&batch->direction_y[at]);
@@ -117,6 +131,8 @@ static inline reals safe_step(reals f, reals derivative, reals least, reals curv
     const reals step = select_lanes((masks)(f_there > 0.0), straight, parabola);
     return select_lanes((masks)(least < 0.0), step, splat(HUGE_VAL));
 }
+
+#include "reference/approach.h"
 
 /* What a lane carries from one evaluation to the next. */
 typedef struct search_state {
@@ -156,7 +172,7 @@ static uint32_t take_ray(search_state *state, int lane, reference_batch *batch, 
     state->curvature_bound[lane] = batch->curvature_bound[next];
     state->end[lane] = batch->end[next];
     state->distance[lane] = batch->start[next];
-    state->above[lane] = 0;
+    state->above[lane] = batch->above[next];
     state->below[lane] = HUGE_VAL;
     state->last[lane] = 0;
     state->evaluations[lane] = 0;
@@ -195,7 +211,10 @@ static inline search_outcome search_step(const reference_frame *frame, search_st
 
     /* Above the water: the safe step, and Newton's for the very last one. */
     const masks nearly = is_above & (masks)(derivative < 0.0) & (masks)(step * step * load(state->curvature_bound) <= tolerance * -derivative);
-    reals next = select_lanes(nearly, newton, s + step);
+    /* One root is ahead. Where waves are few the safe step is as fast, and never ends below. */
+    const masks single = (frame->level_count > 1 ? is_above : (masks){0}) & (masks)(derivative < 0.0) &
+                         (masks)(derivative * derivative > 2.0 * f * load(state->curvature_bound));
+    reals next = select_lanes(nearly | single, newton, s + step);
     /* Below it (a bound was exceeded or rounding overshot): Newton's within the bracket, halved now and then. */
     const masks inside = (masks)(newton > above) & (masks)(newton < below) & (masks)((evaluations & 3) != 0);
     next = select_lanes(is_above, next, select_lanes(inside, newton, middle));
@@ -252,6 +271,11 @@ void MARCH(const reference_frame *frame, reference_batch *batch, uint32_t count)
     }
     for (uint32_t i = 0; i < count; i += REFERENCE_LANES)
         bound_rays(frame, batch, i);
+    for (uint32_t i = 0; i < count; i++)
+        batch->above[i] = 0;
+    if (frame->level_count > 1)
+        for (uint32_t i = 0; i < count; i += APPROACH_RAYS)
+            approach_rays(frame, batch, i, count - i < APPROACH_RAYS ? count : i + APPROACH_RAYS);
     search_rays(frame, batch, count);
 }
 

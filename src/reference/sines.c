@@ -5,6 +5,7 @@
 #include "reference/sines.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 #include "reference/equations.h"
 
@@ -45,9 +46,24 @@ static double reduced_half_turns(const mgt_wave *wave, const mgt_scene *scene)
     return (double)remainderl(phase / pi, 2.0L);
 }
 
-double reference_waves_of(const mgt_scene *scene, double deviations, reference_wave *out)
+static const uint32_t most_single = 32; /* waves that one level serves as fast; measured */
+
+static int order_of(double a, double b) { return (a > b) - (a < b); }
+
+/* The longest first; waves that tie in everything may stand in any order. */
+static int compare_waves(const void *left, const void *right)
 {
-    double sum = 0, square = 0;
+    const reference_wave *p = left, *q = right;
+    int order = order_of(p->a * p->a + p->b * p->b, q->a * q->a + q->b * q->b);
+    order = order ? order : order_of(p->a, q->a);
+    order = order ? order : order_of(p->b, q->b);
+    order = order ? order : order_of(p->amplitude, q->amplitude);
+    order = order ? order : order_of(p->half_turns_c, q->half_turns_c);
+    return order ? order : order_of(p->phase, q->phase);
+}
+
+void reference_waves_of(const mgt_scene *scene, reference_wave *out)
+{
     for (size_t i = 0; i < scene->water.wave_count; i++) {
         const mgt_wave *from = &scene->water.waves[i];
         out[i] = (reference_wave){.amplitude = from->amplitude,
@@ -59,10 +75,64 @@ double reference_waves_of(const mgt_scene *scene, double deviations, reference_w
                                   .half_turns_b = (double)(from->kz / pi),
                                   .half_turns_c = (double)(from->omega / pi),
                                   .phase = reduced_half_turns(from, scene)};
-        sum += fabs(from->amplitude);
-        square += from->amplitude * from->amplitude;
+    }
+    if (scene->water.wave_count > most_single)
+        qsort(out, scene->water.wave_count, sizeof *out, compare_waves);
+}
+
+double reference_waves_bound(const reference_wave *waves, size_t count, double deviations)
+{
+    double sum = 0, square = 0;
+    for (size_t i = 0; i < count; i++) {
+        sum += fabs(waves[i].amplitude);
+        square += waves[i].amplitude * waves[i].amplitude;
     }
     return fmin(sum, deviations * sqrt(0.5 * square));
+}
+
+/* Sum of the squared second derivatives' amplitudes. */
+static double square_curvature(const reference_wave *waves, size_t count)
+{
+    double square = 0;
+    for (size_t i = 0; i < count; i++) {
+        const double curvature = waves[i].amplitude * (waves[i].a * waves[i].a + waves[i].b * waves[i].b);
+        square += curvature * curvature;
+    }
+    return square;
+}
+
+uint32_t reference_levels_of(const reference_wave *waves, uint32_t count, double deviations, reference_level levels[REFERENCE_LEVELS])
+{
+    const double ratio = 2; /* of neighbours' curvature, at least; measured */
+    uint32_t waves_of[REFERENCE_LEVELS] = {count}, used = 1;
+    uint32_t fewer = count <= REFERENCE_MOST_WAVES ? (count - 1) / REFERENCE_BLOCK * REFERENCE_BLOCK : REFERENCE_MOST_WAVES;
+    while (count > most_single && used < REFERENCE_LEVELS && fewer > 0) {
+        if (square_curvature(waves, fewer) * ratio * ratio <= square_curvature(waves, waves_of[used - 1]))
+            waves_of[used++] = fewer;
+        fewer -= REFERENCE_BLOCK;
+    }
+    for (uint32_t level = 0; level < used; level++) {
+        const uint32_t now = waves_of[used - 1 - level];
+        levels[level] = (reference_level){.waves = now, .rest = reference_waves_bound(waves + now, count - now, deviations)};
+        levels[level].random = levels[level].rest < reference_waves_bound(waves + now, count - now, HUGE_VAL);
+        for (uint32_t i = 0; i < now; i++)
+            levels[level].amplitudes += fabs(waves[i].amplitude);
+    }
+    return used;
+}
+
+void reference_columns_of(const reference_wave *waves, uint32_t count, reference_columns *columns)
+{
+    *columns = (reference_columns){0};
+    for (uint32_t i = 0; i < count && i < REFERENCE_MOST_WAVES; i++) {
+        columns->half_turns_a[i] = waves[i].half_turns_a;
+        columns->half_turns_b[i] = waves[i].half_turns_b;
+        columns->half_turns_c[i] = waves[i].half_turns_c;
+        columns->phase[i] = waves[i].phase;
+        columns->amplitude_a[i] = waves[i].amplitude_a;
+        columns->amplitude_b[i] = waves[i].amplitude_b;
+        columns->amplitude[i] = (float)waves[i].amplitude;
+    }
 }
 
 void reference_waves_mirror(reference_wave *waves, size_t count)

@@ -5,6 +5,8 @@
 #ifndef MANGATA_REFERENCE_SINES_H
 #define MANGATA_REFERENCE_SINES_H
 
+#include <stdbool.h>
+
 #include "mangata/mangata.h"
 
 /* Phases are kept in half turns (π radians): reducing them is then one exact subtraction. */
@@ -16,8 +18,37 @@ typedef struct reference_wave {
     double phase; /* half turns at camera.position (x, z) and scene.time, in [−1, 1] */
 } reference_wave;
 
-/* Fills a wave for each of the scene's. Returns what none rises above: their sum or so many deviations, whichever is less. */
-double reference_waves_of(const mgt_scene *scene, double deviations, reference_wave *out);
+enum {
+    REFERENCE_LEVELS = 8,
+    REFERENCE_BLOCK = 16,      /* waves; but for the last level, levels are whole blocks */
+    REFERENCE_MOST_WAVES = 512 /* on any level but the last */
+};
+
+/* The longest waves of a sea, and what the others add to their height. */
+typedef struct reference_level {
+    uint32_t waves;    /* how many, from the first */
+    double rest;       /* metres: the bound of the others' height; 0 on the last level */
+    bool random;       /* that bound is so many deviations, not the sum */
+    double amplitudes; /* metres: the sum of theirs */
+} reference_level;
+
+/* The first waves once more, with waves of no height up to a whole block. */
+typedef struct reference_columns {
+    _Alignas(64) double half_turns_a[REFERENCE_MOST_WAVES], half_turns_b[REFERENCE_MOST_WAVES], half_turns_c[REFERENCE_MOST_WAVES];
+    double phase[REFERENCE_MOST_WAVES], amplitude_a[REFERENCE_MOST_WAVES], amplitude_b[REFERENCE_MOST_WAVES];
+    float amplitude[REFERENCE_MOST_WAVES];
+} reference_columns;
+
+/* Fills a wave for each of the scene's, the longest first where levels want it. */
+void reference_waves_of(const mgt_scene *scene, reference_wave *out);
+
+/* What a sum of these waves never rises above: the sum of amplitudes or so many deviations, whichever is less. */
+double reference_waves_bound(const reference_wave *waves, size_t count, double deviations);
+
+void reference_columns_of(const reference_wave *waves, uint32_t count, reference_columns *columns);
+
+/* Fills levels, the last one being all waves, and returns how many. */
+uint32_t reference_levels_of(const reference_wave *waves, uint32_t count, double deviations, reference_level levels[REFERENCE_LEVELS]);
 
 /* Turns the surface over. */
 void reference_waves_mirror(reference_wave *waves, size_t count);
@@ -34,7 +65,7 @@ typedef struct lane_hessian {
     reals xx, xz, zz;
 } lane_hessian;
 
-/* Sums over the waves of the absolute slopes and second derivatives along a direction, and of their squares. */
+/* Adds to `total`, over the waves, the absolute slopes and second derivatives along a direction, and their squares. */
 typedef struct lane_bounds {
     reals slope, slope_square, curvature, curvature_square;
 } lane_bounds;
@@ -71,9 +102,9 @@ static inline lane_hessian waves_hessian(const reference_wave *waves, uint32_t c
     return sum;
 }
 
-static inline lane_bounds waves_bounds(const reference_wave *waves, uint32_t count, reals dx, reals dz)
+static inline void waves_bounds(const reference_wave *waves, uint32_t count, reals dx, reals dz, lane_bounds *total)
 {
-    lane_bounds sum = {splat(0), splat(0), splat(0), splat(0)};
+    lane_bounds sum = *total;
     for (const reference_wave *wave = waves; wave < waves + count; wave++) {
         const reals frequency = absolute(fused(dx, splat(wave->a), dz * wave->b));
         const reals slope = frequency * wave->amplitude;
@@ -83,7 +114,7 @@ static inline lane_bounds waves_bounds(const reference_wave *waves, uint32_t cou
         sum.curvature += curvature;
         sum.curvature_square = fused(curvature, curvature, sum.curvature_square);
     }
-    return sum;
+    *total = sum;
 }
 #endif
 
