@@ -119,6 +119,8 @@ mgt_status mgt_mesh_create(mgt_mesh **mesh, const mgt_mesh_desc *desc)
         mgt_mesh_destroy(m);
         return report_error(&r, MGT_ERROR_ARGUMENT, "mesh.create", "none of the mesh's %u triangles has an area", own.triangle_count);
     }
+    if (!mesh_find_neighbours(m))
+        goto out_of_memory;
     if (m->normals)
         normalize_all(m->normals, m->vertex_count);
     *mesh = m;
@@ -136,6 +138,7 @@ void mgt_mesh_destroy(mgt_mesh *mesh)
     free(mesh->normals);
     free(mesh->texcoords);
     free(mesh->indices);
+    free(mesh->neighbours);
     free(mesh);
 }
 

@@ -114,9 +114,14 @@ static real doubt_of(const struct kernel_context *cx, WaterHit hit, FoundPoint f
     for (int layer = 0; layer < 2 && n->data.method == MGT_REFRACTION_HYBRID; layer++) {
         const mask wanted = AND(AND(asked, NOT(doubt)), layer == LAYER_REFLECTED ? mirrored : NOT(mirrored));
         if (any_lane(wanted))
-            doubt = OR(doubt, passes_behind(cx, layer, hit, f, SELECT(wanted, real(1.0f), real(0.0f))) > real(0.0f));
+            doubt = OR(doubt, passed_place(cx, layer, hit, f, SELECT(wanted, real(1.0f), real(0.0f))).inside > real(0.0f));
     }
     return SELECT(doubt, real(1.0f), real(0.0f));
+}
+
+static mask element_of(const narrow_scene *n, real column, real row)
+{
+    return whole(max(row, real(0.0f))) * (int)n->layers[0]->width + whole(max(column, real(0.0f)));
 }
 
 /* `mirrored`: looked for in the layer that the surface mirrors; `wet`: metres in water. */
@@ -124,13 +129,15 @@ static void store_found(const struct kernel_context *cx, tile_ends *out, size_t 
 {
     const narrow_scene *n = cx->narrow;
     const mask asked = f.column >= real(0.0f), shown = f.shown > real(0.0f);
-    const mask pixel = whole(max(f.row, real(0.0f))) * (int)n->layers[0]->width + whole(max(f.column, real(0.0f)));
+    const mask pixel = element_of(n, f.column, f.row);
     mask triangle = gather_ints(n->layers[0]->triangle, pixel);
     if (any_lane(mirrored))
         triangle = select_whole(mirrored, gather_ints(n->layers[1]->triangle, pixel), triangle);
     const mask nothing = whole(real(-1.0f));
     store_whole(out->triangle + i, select_whole(AND(asked, shown), triangle, nothing));
     store_whole(out->pixel + i, select_whole(asked, pixel, nothing));
+    if (certifies)
+        store_whole(out->last + i, select_whole(f.last_column >= real(0.0f), element_of(n, f.last_column, f.last_row), nothing));
     if (certifies)
         store(out->doubt + i, doubt_of(cx, hit, f, asked, pixel, mirrored));
     const vec3 position = turned(cx, f.position);
@@ -140,12 +147,6 @@ static void store_found(const struct kernel_context *cx, tile_ends *out, size_t 
     store(out->after + i, f.after);
     store(out->water + i, wet);
     store(out->error + i, point_error(cx, f.residual));
-}
-
-static FoundPoint select_found(mask m, FoundPoint a, FoundPoint b)
-{
-    return (FoundPoint){SELECT3(m, a.position, b.position), SELECT3(m, a.direction, b.direction), SELECT(m, a.column, b.column),    SELECT(m, a.row, b.row),
-                        SELECT(m, a.shown, b.shown),        SELECT(m, a.after, b.after),          SELECT(m, a.residual, b.residual)};
 }
 
 static void lanes_refracted(const narrow_scene *n, const tile_offset *at, const tile_water *water, tile_ends *out)
@@ -160,7 +161,7 @@ static void lanes_refracted(const narrow_scene *n, const tile_offset *at, const 
         FoundPoint f = find_refracted(&cx, hit, bent);
         const mask total = AND(wet, bent.total > real(0.0f));
         if (any_lane(total))
-            f = select_found(total, find_mirrored(&cx, hit, bent.direction), f);
+            f = found_either(&cx, total, find_mirrored(&cx, hit, bent.direction), f);
         const real in_water = metres_in_water(&cx, n->data.side, hit.along, f.after, total);
         store_found(&cx, out, i, hit, f, total, in_water, n->data.method <= MGT_REFRACTION_HYBRID);
         store(out->total + i, SELECT(total, real(1.0f), real(0.0f)));

@@ -39,6 +39,7 @@ typedef struct tile_ends {
     float total[TILE_PIXELS];     /* 1 where the surface lets nothing through */
     float doubt[TILE_PIXELS];     /* two-phase, hybrid: 1 where the pictures do not certify the answer, else 0 */
     int32_t pixel[TILE_PIXELS];   /* of the layer, whose answer it is; −1: none's */
+    int32_t last[TILE_PIXELS];    /* two-phase, hybrid: the one that shows what is infinitely far along the ray; −1: none */
 } tile_ends;
 
 /* Pixel 0 of the tile within the image, and the place in every pixel that rays go through, from its centre. */

@@ -5,11 +5,11 @@
 #include "cpu/refraction_state.h"
 #include "base/triples.h"
 
-refraction_facet refraction_facet_of(const refraction *r, int32_t triangle, const double from[3])
+surface_facet refraction_facet_of(const refraction *r, int32_t triangle, const double from[3])
 {
     const world *w = r->world;
     const float *p[3];
-    refraction_facet f;
+    surface_facet f = {.triangle = triangle};
     for (size_t c = 0; c < 3; c++)
         p[c] = w->positions + 3 * (size_t)w->indices[3 * (size_t)triangle + c];
     for (int k = 0; k < 3; k++) {
@@ -22,15 +22,100 @@ refraction_facet refraction_facet_of(const refraction *r, int32_t triangle, cons
     return f;
 }
 
-double refraction_meet(const refraction_facet *f, const double ray[3])
+/* Where a ray meets a triangle's plane. */
+typedef struct crossing {
+    double weight[3]; /* of the corners; negative beyond the edge across */
+    double along;     /* multiple of the ray; +inf: nowhere */
+} crossing;
+
+static crossing crossing_of(const surface_facet *f, const double ray[3])
 {
     double across[3];
     cross3(ray, f->edges[1], across);
     const double det = dot3(f->edges[0], across);
     if (fabs(det) < 1e-300)
-        return INFINITY;
-    const double inverse = 1 / det, u = dot3(f->to, across) * inverse, v = dot3(ray, f->turned) * inverse, along = f->level * inverse;
-    return u >= 0 && v >= 0 && u + v <= 1 && along > 0 ? along : INFINITY;
+        return (crossing){.along = INFINITY};
+    const double inverse = 1 / det, u = dot3(f->to, across) * inverse, v = dot3(ray, f->turned) * inverse;
+    return (crossing){{1 - u - v, u, v}, f->level * inverse};
+}
+
+static bool is_within(const crossing *c) { return c->weight[1] >= 0 && c->weight[2] >= 0 && c->weight[1] + c->weight[2] <= 1; }
+
+double refraction_meet(const surface_facet *f, const double ray[3])
+{
+    const crossing c = crossing_of(f, ray);
+    return c.along > 0 && is_within(&c) ? c.along : INFINITY;
+}
+
+/* ---- surfaces ---- */
+
+enum { KNOWN_FACETS = 32 };
+
+/* A ray, and where it meets the surfaces that it follows. */
+typedef struct surface_ray {
+    const refraction *r;
+    double from[3], direction[3]; /* in the world's coordinates */
+    double nearest;               /* metres, +inf: nowhere */
+    int32_t met;                  /* triangle there, −1: none */
+    bool lost;                    /* triangles are so small that a surface could not be followed to its end */
+    int count;
+    int32_t visited[KNOWN_FACETS]; /* triangles that it came by */
+} surface_ray;
+
+static bool was_visited(surface_ray *s, int32_t triangle)
+{
+    for (int i = 0; i < s->count; i++)
+        if (s->visited[i] == triangle)
+            return true;
+    if (s->count < KNOWN_FACETS)
+        s->visited[s->count++] = triangle;
+    return false;
+}
+
+static bool faces(const surface_ray *s, int32_t triangle)
+{
+    const float *plane = s->r->planes + 4 * (size_t)triangle;
+    return (double)plane[0] * s->direction[0] + (double)plane[1] * s->direction[1] + (double)plane[2] * s->direction[2] < 0;
+}
+
+/* The triangle across the edge that the ray passes farthest beyond, if it shows the ray the same side; −1: none. */
+static int32_t triangle_towards(const surface_ray *s, int32_t triangle, const crossing *c)
+{
+    const int32_t *neighbours = s->r->world->neighbours + 3 * (size_t)triangle;
+    const bool facing = faces(s, triangle);
+    double least = 0;
+    int32_t next = -1;
+    for (int corner = 0; corner < 3; corner++) {
+        const int32_t across = neighbours[corner == 2 ? 0 : corner + 1];
+        if (c->weight[corner] < least && across >= 0 && faces(s, across) == facing)
+            least = c->weight[corner], next = across;
+    }
+    return next;
+}
+
+/* Follows the surface that a triangle near the ray belongs to, from triangle to triangle across the edges that the ray passes beyond, to the one that it
+ * meets; outlines and borders end the way, and triangles whose way is known. The nearest of all surfaces that were followed counts. */
+static void follow_surface(surface_ray *s, int32_t triangle)
+{
+    int32_t before = -1;
+    for (int step = 0; step < SURFACE_STEPS; step++) {
+        if (was_visited(s, triangle))
+            return;
+        const surface_facet f = refraction_facet_of(s->r, triangle, s->from);
+        const crossing c = crossing_of(&f, s->direction);
+        if (!(c.along > 0 && c.along < INFINITY))
+            return;
+        const bool within = is_within(&c);
+        const int32_t next = within ? -1 : triangle_towards(s, triangle, &c);
+        const bool between = next >= 0 && next == before; /* both, by rounding */
+        if ((within || between) && c.along < s->nearest)
+            s->nearest = c.along, s->met = triangle;
+        if (next < 0 || between)
+            return;
+        before = triangle;
+        triangle = next;
+    }
+    s->lost = true;
 }
 
 size_t refraction_neighbours(const gbuffer *g, size_t element, int32_t triangles[REFRACTION_NEIGHBOURS])
@@ -65,43 +150,57 @@ static bool by_nothing(const gbuffer *g, size_t element)
 
 #include "kernels/refraction/edges.k"
 
-static void sharpen_pixel(const refraction *r, tile_objects *o, size_t i)
+/* Those that the pixels on the straight line between two show. */
+static void follow_between(surface_ray *s, const gbuffer *g, size_t first, size_t last)
+{
+    const double x = (double)(first % g->width), y = (double)(first / g->width);
+    const double across = (double)(last % g->width) - x, down = (double)(last / g->width) - y;
+    for (int k = 0; k <= SHARP_PLACES; k++) {
+        const double share = (double)k / SHARP_PLACES;
+        const int32_t triangle = g->triangle[(size_t)rint(y + share * down) * g->width + (size_t)rint(x + share * across)];
+        if (triangle >= 0)
+            follow_surface(s, triangle);
+    }
+}
+
+/* `element`: of the layer, where the ray meets the water. */
+static void sharpen_pixel(const refraction *r, tile_objects *o, size_t i, size_t element)
 {
     tile_ends *e = &o->ends;
     const camera_rays *c = &r->camera;
     const double side = r->frame->under ? -1 : 1, along = (double)o->water.along[i];
-    const double from[3] = {c->position[0] - r->world->origin[0] + along * (double)o->water.view[0][i],
-                            c->position[1] + along * side * (double)o->water.view[1][i],
-                            c->position[2] - r->world->origin[1] + along * (double)o->water.view[2][i]};
-    const double ray[3] = {(double)e->direction[0][i], (double)e->direction[1][i], (double)e->direction[2][i]};
     const gbuffer *g = r->narrow.layers[e->total[i] > 0];
+    surface_ray s = {.r = r, .nearest = INFINITY, .met = -1};
+    for (int k = 0; k < 3; k++) {
+        s.from[k] = c->position[k] - (k == 1 ? 0 : r->world->origin[k / 2]) + along * (k == 1 ? side : 1) * (double)o->water.view[k][i];
+        s.direction[k] = (double)e->direction[k][i];
+    }
     int32_t triangles[REFRACTION_NEIGHBOURS];
     const size_t count = refraction_neighbours(g, (size_t)e->pixel[i], triangles);
-    double nearest = INFINITY;
-    int32_t met = -1;
-    for (size_t k = 0; k < count; k++) {
-        const refraction_facet f = refraction_facet_of(r, triangles[k], from);
-        const double way = refraction_meet(&f, ray);
-        if (way < nearest)
-            nearest = way, met = triangles[k];
-    }
+    for (size_t k = 0; k < count; k++)
+        follow_surface(&s, triangles[k]);
+    if (s.lost && point_is_near(NULL, e->error[i]) && (double)e->after[i] < s.nearest)
+        return;
+    if (point_is_lost(NULL, e->error[i]) && e->last[i] >= 0)
+        follow_between(&s, g, element, (size_t)e->last[i]);
     /* Over the water the sky is all around. */
     const bool open = r->frame->under && e->total[i] == 0;
-    if (met < 0 && !open && !by_nothing(g, (size_t)e->pixel[i]))
+    if (s.met < 0 && !open && !by_nothing(g, (size_t)e->pixel[i]))
         return;
-    e->triangle[i] = met;
-    e->after[i] = met < 0 ? 0 : (float)nearest;
+    e->triangle[i] = s.met;
+    e->after[i] = s.met < 0 ? 0 : (float)s.nearest;
     refraction_spread_again(e, i);
-    for (int k = 0; k < 3 && met >= 0; k++)
-        e->position[k][i] = (float)(from[k] + nearest * ray[k]);
+    for (int k = 0; k < 3 && s.met >= 0; k++)
+        e->position[k][i] = (float)(s.from[k] + s.nearest * s.direction[k]);
     e->water[i] = metres_in_water(NULL, r->narrow.data.side, o->water.along[i], e->after[i], e->total[i] > 0);
 }
 
-void refraction_sharpen(const refraction *r, tile_objects *o, size_t count)
+void refraction_sharpen(const refraction *r, const tile_offset *at, tile_objects *o, size_t count)
 {
+    const gbuffer *g = r->narrow.layers[0];
     for (size_t k = 0; k < count; k++) {
         const size_t i = o->list[k];
         if (o->ends.doubt[i] > 0 && o->ends.pixel[i] >= 0 && point_can_be_sharpened(NULL, o->ends.error[i]))
-            sharpen_pixel(r, o, i);
+            sharpen_pixel(r, o, i, (size_t)(g->top + at->row + i / TILE_WIDTH) * g->width + g->left + at->column + i % TILE_WIDTH);
     }
 }

@@ -104,7 +104,7 @@ static void see_edge(front_pixel *p, tile_objects *o, size_t *count)
     const world *w = p->r->world;
     const camera_rays *c = &p->r->camera;
     const double eye[3] = {c->position[0] - w->origin[0], c->position[1], c->position[2] - w->origin[1]};
-    refraction_facet facets[REFRACTION_NEIGHBOURS];
+    surface_facet facets[REFRACTION_NEIGHBOURS];
     p->candidate_count = refraction_neighbours(g, p->element, p->candidates);
     for (size_t k = 0; k < p->candidate_count; k++)
         facets[k] = refraction_facet_of(p->r, p->candidates[k], eye);

@@ -64,21 +64,22 @@ enum { REFRACTION_NEIGHBOURS = 9 };
 size_t refraction_neighbours(const gbuffer *g, size_t element, int32_t triangles[REFRACTION_NEIGHBOURS]);
 
 /* A triangle as rays from one point meet it. */
-typedef struct refraction_facet {
+typedef struct surface_facet {
+    int32_t triangle;
     double edges[2][3], to[3], turned[3], level;
-} refraction_facet;
+} surface_facet;
 
 /* `from`: in the world's coordinates. */
-refraction_facet refraction_facet_of(const refraction *r, int32_t triangle, const double from[3]);
+surface_facet refraction_facet_of(const refraction *r, int32_t triangle, const double from[3]);
 
 /* Multiple of a ray at which it meets the triangle; +inf: it does not. */
-double refraction_meet(const refraction_facet *f, const double ray[3]);
+double refraction_meet(const surface_facet *f, const double ray[3]);
 
 /* The footprint of an end whose `after` became another. */
 void refraction_spread_again(tile_ends *e, size_t i);
 
 /* Where what a layer shows breaks off or bends, the pixel of the answer is not enough: the rays of doubtful ends among the listed ones meet the
- * triangles that it and its neighbours show, and the nearest one counts. */
-void refraction_sharpen(const refraction *r, tile_objects *o, size_t count);
+ * surfaces that it and its neighbours show, and the nearest one counts. `at`: the place that the rays go through. */
+void refraction_sharpen(const refraction *r, const tile_offset *at, tile_objects *o, size_t count);
 
 #endif

@@ -241,7 +241,7 @@ static void see_place(refraction *r, const tile_offset *at, size_t count, tile_o
     r->kernels->narrow->refracted(&r->narrow, at, &o->water, &o->ends);
     const mgt_refraction method = r->frame->scene->quality.refraction;
     if (method == MGT_REFRACTION_TWO_PHASE)
-        refraction_sharpen(r, o, count);
+        refraction_sharpen(r, at, o, count);
     if (method == MGT_REFRACTION_HYBRID || method == MGT_REFRACTION_DISTANCE_FIELD)
         trace_doubtful(r, o, count);
     const double n = r->frame->scene->water.index_of_refraction;

@@ -3,6 +3,8 @@
 #ifndef MANGATA_FRAME_MESH_H
 #define MANGATA_FRAME_MESH_H
 
+#include <stdbool.h>
+
 #include "mangata/mangata.h"
 
 struct mgt_mesh {
@@ -12,8 +14,12 @@ struct mgt_mesh {
     float *normals;        /* 3 a vertex, unit; NULL: those of the triangles */
     float *texcoords;      /* 2 a vertex; NULL: none */
     uint32_t *indices;     /* 3 a triangle */
+    int32_t *neighbours;   /* 3 a triangle: those across the edges from each corner to the next, −1: none */
     float low[3], high[3]; /* bounds of the vertices in use */
 };
+
+/* Fills `neighbours`; false: out of memory. */
+bool mesh_find_neighbours(mgt_mesh *m);
 
 enum { TEXTURE_LEVELS = 15 };
 

@@ -56,10 +56,18 @@ static void invert(const double right[3], const double down[3], const double cor
             rows[i][k] /= det;
 }
 
+/* Whether a method shows what the nearest pixel of a layer shows, however many rays there are. */
+static bool looks_up(mgt_refraction method)
+{
+    return method == MGT_REFRACTION_LIU || method == MGT_REFRACTION_BROAD || method == MGT_REFRACTION_NARROW || method == MGT_REFRACTION_SCREEN_SPACE ||
+           method == MGT_REFRACTION_OFF;
+}
+
 NarrowData refraction_narrow_data(const frame *f, const world *w, const gbuffer *layer)
 {
     const camera_rays *c = &f->close;
     const double n = f->scene->water.index_of_refraction;
+    const float place = 1.0f / (float)(f->scene->quality.refraction_samples ? f->scene->quality.refraction_samples : 1);
     double rows[3][3];
     invert(c->right, c->down, c->corner, rows);
     return (NarrowData){
@@ -94,7 +102,8 @@ NarrowData refraction_narrow_data(const frame *f, const world *w, const gbuffer 
         .method = (int)f->scene->quality.refraction,
         .thickness = 0.5f,
         .stride = 2,
-        .place = 1.0f / (float)(f->scene->quality.refraction_samples ? f->scene->quality.refraction_samples : 1),
+        .place = place,
+        .looked = looks_up(f->scene->quality.refraction) ? 1 : place,
         .low_x = (float)(w->low[0] + w->origin[0] - c->position[0]) - 1e-3f,
         .low_y = (f->under ? -w->high[1] : w->low[1]) - 1e-3f,
         .low_z = (float)(w->low[2] + w->origin[1] - c->position[2]) - 1e-3f,

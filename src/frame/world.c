@@ -34,6 +34,7 @@ void world_free(world *w)
     free(w->normals);
     free(w->texcoords);
     free(w->indices);
+    free(w->neighbours);
     free(w->object);
     free(w->objects);
     free(kept(w)->keys);
@@ -42,7 +43,7 @@ void world_free(world *w)
 
 size_t world_size(const world *w)
 {
-    return w ? w->vertex_count * 8 * sizeof(float) + w->triangle_count * 4 * sizeof(uint32_t) + w->object_count * (sizeof *w->objects + sizeof(object_key)) +
+    return w ? w->vertex_count * 8 * sizeof(float) + w->triangle_count * 7 * sizeof(uint32_t) + w->object_count * (sizeof *w->objects + sizeof(object_key)) +
                    sizeof(kept_world)
              : 0;
 }
@@ -158,6 +159,16 @@ static bool is_cut(const world *w, const world_object *o)
     return low < 0 && high > 0 && sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]) < 1e-3 * area;
 }
 
+/* A mirrored triangle has its corners in the other order: its first edge is the last one. */
+static void fill_neighbours(const mgt_mesh *mesh, size_t triangle, uint32_t first, bool mirrors, int32_t to[3])
+{
+    const int32_t *from = mesh->neighbours + 3 * triangle;
+    for (int e = 0; e < 3; e++) {
+        const int32_t across = from[mirrors ? 2 - e : e];
+        to[e] = across < 0 ? -1 : (int32_t)first + across;
+    }
+}
+
 static void fill_object(void *argument, size_t index, uint32_t worker)
 {
     (void)worker;
@@ -192,6 +203,7 @@ static void fill_object(void *argument, size_t index, uint32_t worker)
         to[0] = (uint32_t)first + from[0];
         to[1] = (uint32_t)first + from[mirrors ? 2 : 1];
         to[2] = (uint32_t)first + from[mirrors ? 1 : 2];
+        fill_neighbours(mesh, i, o->first_triangle, mirrors, w->neighbours + 3 * (o->first_triangle + i));
         w->object[o->first_triangle + i] = (uint32_t)index;
     }
     o->cut = is_cut(w, o);
@@ -215,10 +227,11 @@ static bool allocate(world *w, size_t objects, size_t vertices, size_t triangles
     w->normals = malloc((vertices * 3 + 1) * sizeof *w->normals);
     w->texcoords = malloc((vertices * 2 + 1) * sizeof *w->texcoords);
     w->indices = malloc((triangles * 3 + 1) * sizeof *w->indices);
+    w->neighbours = malloc((triangles * 3 + 1) * sizeof *w->neighbours);
     w->object = malloc((triangles + 1) * sizeof *w->object);
     w->objects = calloc(objects + 1, sizeof *w->objects);
     kept(w)->keys = calloc(objects + 1, sizeof *kept(w)->keys);
-    return w->positions && w->normals && w->texcoords && w->indices && w->object && w->objects && kept(w)->keys;
+    return w->positions && w->normals && w->texcoords && w->indices && w->neighbours && w->object && w->objects && kept(w)->keys;
 }
 
 static mgt_status build(world **out, const mgt_scene *scene, thread_pool *pool)

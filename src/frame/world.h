@@ -16,8 +16,8 @@ typedef struct world_object {
 
 /*
  * Positions are metres from world.origin, a horizontal point that depends on the objects alone, and from the mean surface: y is the height above
- * it. The point under a camera at c is (c[0] − origin[0], c[2] − origin[1]). 32 bytes a vertex and 16 a triangle: at most 112 bytes a triangle,
- * about 32 where most vertices are shared.
+ * it. The point under a camera at c is (c[0] − origin[0], c[2] − origin[1]). 32 bytes a vertex and 28 a triangle: at most 124 bytes a triangle,
+ * about 44 where most vertices are shared.
  */
 typedef struct world {
     uint64_t version; /* of the geometry, unlike that of every other world of the process: what is built for it may stay while this is the same */
@@ -27,6 +27,7 @@ typedef struct world {
     float *normals;        /* 3 a vertex, unit; see world_object.smooth */
     float *texcoords;      /* 2 a vertex */
     uint32_t *indices;     /* 3 a triangle, counter-clockwise seen from outside */
+    int32_t *neighbours;   /* 3 a triangle: those across the edges from each corner to the next, −1: none */
     uint32_t *object;      /* of a triangle: index into objects */
     world_object *objects; /* as the scene's; read from the scene of every frame, their textures live only during it */
     float low[3], high[3]; /* bounds of the vertices in use; low > high where there is nothing */

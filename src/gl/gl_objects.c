@@ -88,15 +88,16 @@ static mgt_status upload_floats(const gl_api *gl, gl_objects *o, gl_table *t, fi
     return MGT_OK;
 }
 
-static mgt_status upload_numbers(const gl_api *gl, gl_table *t, const uint32_t *numbers, size_t count, const reporter *r)
+/* Numbers of 32 bits. */
+static mgt_status upload_numbers(const gl_api *gl, gl_table *t, GLenum format, const void *numbers, size_t count, const reporter *r)
 {
-    const mgt_status status = gl_table_reserve(gl, t, GL_R32UI, count, sizeof *numbers, r);
+    const mgt_status status = gl_table_reserve(gl, t, format, count, sizeof(uint32_t), r);
     if (status != MGT_OK || count == 0)
         return status;
-    void *map = gl_table_map(gl, t, count * sizeof *numbers, r);
+    void *map = gl_table_map(gl, t, count * sizeof(uint32_t), r);
     if (!map)
         return MGT_ERROR_MEMORY;
-    memcpy(map, numbers, count * sizeof *numbers);
+    memcpy(map, numbers, count * sizeof(uint32_t));
     gl_table_unmap(gl, t);
     return MGT_OK;
 }
@@ -121,9 +122,11 @@ mgt_status gl_objects_update(const gl_api *gl, gl_objects *o, const mgt_scene *s
     if (status == MGT_OK)
         status = upload_floats(gl, o, &o->planes, (fill_job){.count = w->triangle_count, .fill = refraction_plane, .floats = PLANE_FLOATS}, r);
     if (status == MGT_OK)
-        status = upload_numbers(gl, &o->indices, w->indices, 3 * w->triangle_count, r);
+        status = upload_numbers(gl, &o->indices, GL_R32UI, w->indices, 3 * w->triangle_count, r);
     if (status == MGT_OK)
-        status = upload_numbers(gl, &o->owners, w->object, w->triangle_count, r);
+        status = upload_numbers(gl, &o->neighbours, GL_R32I, w->neighbours, 3 * w->triangle_count, r);
+    if (status == MGT_OK)
+        status = upload_numbers(gl, &o->owners, GL_R32UI, w->object, w->triangle_count, r);
     if (status != MGT_OK)
         return status;
     o->version = w->version;
@@ -166,6 +169,7 @@ void gl_objects_free(const gl_api *gl, gl_objects *o)
     gl_table_free(gl, &o->tree);
     gl_table_free(gl, &o->vertices);
     gl_table_free(gl, &o->indices);
+    gl_table_free(gl, &o->neighbours);
     gl_table_free(gl, &o->owners);
     gl_table_free(gl, &o->planes);
     world_free(o->world);

@@ -19,6 +19,7 @@ typedef struct gl_objects {
     uint64_t version;      /* of the one that the tables hold; 0: none */
     gl_table vertices;     /* RGBA32F, two a vertex: x, y, z, u; normal x, y, z, v */
     gl_table indices;      /* R32UI, three a triangle */
+    gl_table neighbours;   /* R32I, three a triangle: world.neighbours */
     gl_table owners;       /* R32UI: the object of a triangle */
     gl_table planes;       /* RGBA32F, one a triangle: unit normal, and its product with a point of it */
     gl_table tree;         /* RGBA32UI: see gl_bvh.h */

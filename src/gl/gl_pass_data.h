@@ -57,6 +57,7 @@ enum {
     UNIT_MIRRORED = UNIT_REFRACTED_LAYER + 2,
     UNIT_FRONT_LAYER = UNIT_MIRRORED + 2,
     UNIT_TREE = UNIT_FRONT_LAYER + 2,
+    UNIT_NEIGHBOURS,
     UNIT_FRONT = 1,
     UNIT_CLEAR = 12, /* what methods see of objects */
     UNIT_DEEP,

@@ -226,6 +226,7 @@ static void bind_all(gl_renderer *g)
     for (GLuint i = 0; i < sizeof tables / sizeof *tables; i++)
         bind_texture(gl, UNIT_VERTICES + i, tables[i]->texture);
     bind_texture(gl, UNIT_TREE, g->objects.tree.texture);
+    bind_texture(gl, UNIT_NEIGHBOURS, g->objects.neighbours.texture);
     bind_texture(gl, UNIT_SKY, g->sky_texture);
     bind_texture(gl, UNIT_SHADOWS, o->shadows.name);
     const gl_gbuffer *const layers[] = {&b->refracted, o->block.objects.mirrors ? &b->mirrored : &b->refracted, &b->front};

@@ -7,6 +7,7 @@
  *                                                    runs is, within limits; else the same
  *   picture_check crop WHOLE PART X Y                PART equals that place of WHOLE to the bit
  *   picture_check pick OUT.pfm N A                   writes the middle one of every N × N pixels
+ *   picture_check area WITHOUT WITH                  pixels that something black covers, from pictures without and with it
  *   picture_check depth A B                          per cent of B's pixels off by more than max(1%, 5 mm), and the largest error
  *
  * Exit code 0: alike, 1: not, 64: usage, 66: unreadable. */
@@ -211,6 +212,24 @@ static int check_depth(const picture_pair *p)
     return 0;
 }
 
+/* Of the middle channel; pixels that are black anyway do not count. */
+static int print_area(const picture_pair *p)
+{
+    if (!same_shape(p))
+        return 1;
+    const size_t count = (size_t)p->a.width * p->a.height;
+    double most = 0, sum = 0;
+    for (size_t i = 0; i < count; i++)
+        most = fmax(most, (double)p->a.pixels[i * p->a.channels + p->a.channels / 2]);
+    for (size_t i = 0; i < count; i++) {
+        const double without = (double)p->a.pixels[i * p->a.channels + p->a.channels / 2], with = (double)p->b.pixels[i * p->b.channels + p->b.channels / 2];
+        if (without > 1e-6 * most)
+            sum += fmin(fmax((without - with) / without, 0), 1);
+    }
+    printf("%.2f\n", sum);
+    return 0;
+}
+
 /* ---- pixels of a larger picture ---- */
 
 static int write_picked(const char *path, const char *every, const char *from)
@@ -245,9 +264,10 @@ int main(int count, char **arguments)
     const bool pick = !strcmp(verb, "pick") && count == 5;
     const bool near = !strcmp(verb, "near") && count == 7, crop = !strcmp(verb, "crop") && count == 6;
     const bool most = !strcmp(verb, "most") && count == 8, runs = !strcmp(verb, "runs") && count == 8, depth = !strcmp(verb, "depth") && count == 4;
-    if (!pick && !near && !most && !runs && !crop && !depth) {
+    const bool area = !strcmp(verb, "area") && count == 4;
+    if (!pick && !near && !most && !runs && !crop && !depth && !area) {
         fprintf(stderr, "usage: picture_check near A B MAX MEAN DIFFERENCE.png | most A B FAR SHARE MEAN DIFFERENCE.png |\n"
-                        "       runs A B FAR SHARE RUN DIFFERENCE.png | crop WHOLE PART X Y | pick OUT.pfm N A | depth A B\n");
+                        "       runs A B FAR SHARE RUN DIFFERENCE.png | crop WHOLE PART X Y | pick OUT.pfm N A | depth A B |\n       area WITHOUT WITH\n");
         return 64;
     }
     if (pick)
@@ -259,6 +279,7 @@ int main(int count, char **arguments)
                : most ? check_most(&pair, arguments + 4)
                : runs ? check_runs(&pair, arguments + 4)
                : crop ? check_crop(&pair, arguments + 4)
+               : area ? print_area(&pair)
                       : check_depth(&pair);
     float_image_free(&pair.a);
     float_image_free(&pair.b);

@@ -259,6 +259,7 @@ static Spread spread_of_case(const bent_case *c, const double direction[3])
         .ratio = (float)c->ratio,
         .side = 1,
         .place = 1,
+        .looked = 1,
         .depth_x = (float)c->forward[0],
         .depth_y = (float)c->forward[1],
         .depth_z = (float)c->forward[2],
@@ -600,13 +601,13 @@ static void rays_pass_behind_posts(void **state)
         const FoundPoint f = {.column = (float)(column + 40 + moved), .row = (float)(row + 30), .shown = 1};
         const double begins = 1 / ((double)hit.along * depth_of_view(view)), ends = 1 / (double)layer_pixel((double)f.column, (double)f.row).depth;
         const double halfway = begins + 0.5 * (ends - begins);
-        assert_true(passes_behind(NULL, 0, hit, f, 1.0f) == 0);
+        assert_true(passed_place(NULL, 0, hit, f, 1.0f).inside == 0);
         post_column = column + 40 + floor(moved / 2);
         post_depth = 0.9 / halfway; /* nearer than the ray there */
-        assert_true(passes_behind(NULL, 0, hit, f, 1.0f) == 1);
-        assert_true(passes_behind(NULL, 0, hit, f, 0.0f) == 0);
+        assert_true(passed_place(NULL, 0, hit, f, 1.0f).inside == 1);
+        assert_true(passed_place(NULL, 0, hit, f, 0.0f).inside == 0);
         post_depth = 1.1 / halfway;
-        assert_true(passes_behind(NULL, 0, hit, f, 1.0f) == 0);
+        assert_true(passed_place(NULL, 0, hit, f, 1.0f).inside == 0);
         post_column = -1;
     }
     printf("posts: %d rays\n", rays);

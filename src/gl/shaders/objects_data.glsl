@@ -16,6 +16,7 @@ layout(std140, binding = 3) uniform ObjectsBlock {
 
 layout(binding = 1) uniform samplerBuffer vertex_table;   /* two a vertex: x, y, z, u; normal x, y, z, v */
 layout(binding = 2) uniform usamplerBuffer index_table;   /* three a triangle */
+layout(binding = 15) uniform isamplerBuffer neighbour_table; /* three a triangle, across the edges from each corner to the next; −1: none */
 layout(binding = 3) uniform usamplerBuffer owner_table;   /* the object of a triangle */
 layout(binding = 4) uniform samplerBuffer plane_table;    /* of a triangle: unit normal, and its product with a point */
 layout(binding = 5) uniform samplerBuffer material_table; /* the linear values of sRGB codes, four each; waves that make caustics; then four an object */

@@ -35,28 +35,38 @@ bool is_doubtful(FoundPoint f, int layer)
     return f.column >= 0.0f && point_is_doubtful(0, f.residual, breaks_off(layer, ivec2(int(f.column), int(f.row))));
 }
 
-/* There the pixel of the answer is not enough: the ray meets the triangles that it and its neighbours show, and the nearest one counts. */
+/* There the pixel of the answer is not enough: the ray meets the surfaces that it and its neighbours show, and the nearest one counts; where the search
+ * did not arrive, also those that the layer shows on the straight line from where the ray meets the water to what is infinitely far along it. */
 RayEnd sharpened(RayEnd end, WaterHit hit, int layer, FoundPoint f)
 {
     ivec2 at = ivec2(int(f.column), int(f.row)), last = ivec2(int(narrow_data.columns), int(narrow_data.rows)) - 1;
-    bool asked = point_can_be_sharpened(0, end.error) && is_doubtful(f, layer);
-    vec3 view = turned(0, hit.view), from = camera_position() + hit.along * view;
+    if (!point_can_be_sharpened(0, end.error) || !is_doubtful(f, layer))
+        return end;
+    vec3 from = camera_position() + hit.along * turned(0, hit.view);
     float along = INFINITE;
-    int met = -1;
+    int met = -1, asked = -1;
+    bool lost = false;
     bool by_nothing = narrow_data.side < 0.0f && layer == LAYER_REFRACTED; /* over the water the sky is all around */
-    for (int i = 0; asked && i < 9; i++) {
-        ivec2 beside = at + ivec2(i % 3 - 1, i / 3 - 1);
+    LayerPlace begin = layer_place(0, hit.column, hit.row);
+    vec2 first = vec2(begin.x, begin.y), line = vec2(f.last_column, f.last_row) - first;
+    int places = point_is_lost(0, end.error) && f.last_column >= 0.0f ? SHARP_PLACES + 1 : 0;
+    for (int i = 0; i < 9 + places; i++) {
+        ivec2 beside = i < 9 ? at + ivec2(i % 3 - 1, i / 3 - 1) : ivec2(roundEven(first + line * (float(i - 9) / float(SHARP_PLACES))));
         if (any(lessThan(beside, ivec2(0))) || any(greaterThan(beside, last)))
             continue;
         int triangle = layer_triangle(layer, beside);
-        float way = triangle >= 0 ? meet_triangle(triangle, from, end.ray.direction) : INFINITE;
-        by_nothing = by_nothing || triangle < 0;
-        if (way < along) {
-            along = way;
-            met = triangle;
+        by_nothing = by_nothing || (i < 9 && triangle < 0);
+        if (triangle < 0 || triangle == asked)
+            continue;
+        asked = triangle;
+        SurfaceHit met_there = follow_surface(triangle, from, end.ray.direction, SURFACE_STEPS);
+        lost = lost || (met_there.lost && triangle == end.triangle);
+        if (met_there.along < along) {
+            along = met_there.along;
+            met = met_there.triangle;
         }
     }
-    if (!asked || (met < 0 && !by_nothing))
+    if ((lost && point_is_near(0, end.error) && end.ray.after < along) || (met < 0 && !by_nothing))
         return end;
     end.triangle = met;
     end.ray.after = met < 0 ? 0.0f : along;
@@ -95,6 +105,6 @@ ThroughEnd end_through(PixelWater w)
     end.ray.footprint = footprint_behind(hit, bent, w.variation, end.ray.after);
     bool traced = narrow_data.method == REFRACTION_HYBRID;
     if (traced)
-        traced = is_doubtful(f, layer) || passes_behind(0, layer, hit, f, f.column >= 0.0f ? 1.0f : 0.0f) > 0.0f;
+        traced = is_doubtful(f, layer) || passed_place(0, layer, hit, f, f.column >= 0.0f ? 1.0f : 0.0f).inside > 0.0f;
     return ThroughEnd(end, traced);
 }
