@@ -589,7 +589,7 @@ static void place_starts(const struct kernel_context *cx, size_t count, tile_cel
         }
         const vec3 ray = pixel_ray_at(cx, load(column), load(row));
         const real along = SELECT(ray.y < real(-1e-7f), load(known) * (real(TILE(cx).camera_height) - load(height)) / (real(0.0f) - ray.y), real(0.0f));
-        store(cells->estimate.from + i, row_start(cx, pixel_ray_filtered(cx, load(cells->column + i), load(cells->row + i)).ray, ray, along));
+        store(cells->estimate.from + i, row_start(cx, pixel_ray_filtered(cx, load(cells->column + i), load(cells->row + i)).ray, ray, along).along);
     }
 }
 

@@ -116,6 +116,102 @@ static inline void waves_bounds(const reference_wave *waves, uint32_t count, rea
     }
     *total = sum;
 }
+
+/* ---- sums in single precision ---- */
+
+/* A sum adds blocks of 16 waves to 16 partial sums, whatever the lanes. */
+#define FLOAT_LANES (REFERENCE_LANES == 1 ? 1 : 2 * REFERENCE_LANES)
+enum { PARTS = REFERENCE_BLOCK / FLOAT_LANES };
+
+typedef float floats __attribute__((vector_size(4 * FLOAT_LANES)));
+typedef int32_t float_bits __attribute__((vector_size(4 * FLOAT_LANES)));
+typedef floats floats_memory __attribute__((may_alias));
+typedef float few_floats __attribute__((vector_size(4 * REFERENCE_LANES)));
+typedef few_floats few_floats_memory __attribute__((may_alias));
+
+static inline floats load_floats(const float *from) { return *(const floats_memory *)from; }
+
+static inline floats splat_float(float value) { return value - (floats){0}; }
+
+static inline floats fused_floats(floats a, floats b, floats c)
+{
+#if FLOAT_LANES == 16 && defined(__AVX512F__)
+    return (floats)_mm512_fmadd_ps((__m512)a, (__m512)b, (__m512)c);
+#elif FLOAT_LANES == 8 && defined(__FMA__)
+    return (floats)_mm256_fmadd_ps((__m256)a, (__m256)b, (__m256)c);
+#else
+    floats result;
+    for (int lane = 0; lane < FLOAT_LANES; lane++)
+        result[lane] = fmaf(a[lane], b[lane], c[lane]);
+    return result;
+#endif
+}
+
+/* The waves along one ray: phase + turns · (distance from the anchor), in half turns. */
+typedef struct ray_waves {
+    _Alignas(64) float phase[REFERENCE_MOST_WAVES], turns[REFERENCE_MOST_WAVES], slope[REFERENCE_MOST_WAVES];
+} ray_waves;
+
+typedef struct partial_sums {
+    floats height[PARTS], slope[PARTS]; /* slope: of the height along the ray */
+} partial_sums;
+
+static inline void place_waves(const reference_columns *from, uint32_t first, uint32_t end, const double place[3], const double direction[2], ray_waves *to)
+{
+    const double round_magic = 0x1.8p53; /* adding it rounds to an even integer */
+    for (uint32_t i = first; i < end; i += REFERENCE_LANES) {
+        const reals a = load(&from->half_turns_a[i]), b = load(&from->half_turns_b[i]);
+        reals phase = fused(splat(place[2]), load(&from->half_turns_c[i]), load(&from->phase[i]));
+        phase = fused(splat(place[1]), b, phase);
+        phase = fused(splat(place[0]), a, phase);
+        phase = phase - ((phase + round_magic) - round_magic);
+        const reals turns = fused(a, splat(direction[0]), b * direction[1]);
+        const reals slope = fused(load(&from->amplitude_a[i]), splat(direction[0]), load(&from->amplitude_b[i]) * direction[1]);
+        *(few_floats_memory *)&to->phase[i] = __builtin_convertvector(phase, few_floats);
+        *(few_floats_memory *)&to->turns[i] = __builtin_convertvector(turns, few_floats);
+        *(few_floats_memory *)&to->slope[i] = __builtin_convertvector(slope, few_floats);
+    }
+}
+
+/* Adds blocks. Errors of sin(πp) and cos(πp) beside those of p are below 2e-7: Chebyshev fits in r² over [0, ¼], p = n + r. */
+static inline void add_waves(const ray_waves *ray, const reference_columns *columns, uint32_t from, uint32_t to, float distance, partial_sums *sums)
+{
+    const float round_magic = 0x1.8p23f;
+    for (uint32_t at = from; at < to; at += REFERENCE_BLOCK)
+        for (int part = 0; part < PARTS; part++) {
+            const uint32_t i = at + (uint32_t)part * FLOAT_LANES;
+            const floats p = fused_floats(load_floats(&ray->turns[i]), splat_float(distance), load_floats(&ray->phase[i]));
+            const floats shifted = p + round_magic;
+            const floats r = p - (shifted - round_magic);
+            const float_bits sign = (float_bits)shifted << 31;
+            const floats u = r * r;
+            floats s = splat_float(0.07765591227685842f);
+            s = fused_floats(s, u, splat_float(-0.5982904112836939f));
+            s = fused_floats(s, u, splat_float(2.5500773865289372f));
+            s = fused_floats(s, u, splat_float(-5.167710076668316f));
+            s = fused_floats(s, u, splat_float(3.141592640077203f));
+            floats c = splat_float(0.21968242357666407f);
+            c = fused_floats(c, u, splat_float(-1.3318729727880956f));
+            c = fused_floats(c, u, splat_float(4.058410790762683f));
+            c = fused_floats(c, u, splat_float(-4.934792802489462f));
+            c = fused_floats(c, u, splat_float(0.9999999530275124f));
+            sums->height[part] = fused_floats((floats)((float_bits)(s * r) ^ sign), load_floats(&columns->amplitude[i]), sums->height[part]);
+            sums->slope[part] = fused_floats((floats)((float_bits)c ^ sign), load_floats(&ray->slope[i]), sums->slope[part]);
+        }
+}
+
+/* Of 16 partial sums: halves added to halves. */
+static inline double add_up(const floats part[PARTS])
+{
+    typedef float eight __attribute__((vector_size(32), may_alias));
+    typedef float four __attribute__((vector_size(16), may_alias));
+    _Alignas(64) float sum[REFERENCE_BLOCK];
+    for (int i = 0; i < PARTS; i++)
+        *(floats_memory *)&sum[i * FLOAT_LANES] = part[i];
+    *(eight *)sum = *(const eight *)sum + *(const eight *)(sum + 8);
+    *(four *)sum = *(const four *)sum + *(const four *)(sum + 4);
+    return (double)((sum[0] + sum[2]) + (sum[1] + sum[3]));
+}
 #endif
 
 #endif
