@@ -14,10 +14,12 @@ static atomic_long threads_started, thread_fails_at;
 
 void *__real_malloc(size_t size);
 void *__real_calloc(size_t count, size_t size);
+void *__real_aligned_alloc(size_t alignment, size_t size);
 void __real_free(void *memory);
 int __real_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*body)(void *), void *argument);
 void *__wrap_malloc(size_t size);
 void *__wrap_calloc(size_t count, size_t size);
+void *__wrap_aligned_alloc(size_t alignment, size_t size);
 void __wrap_free(void *memory);
 int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*body)(void *), void *argument);
 
@@ -30,6 +32,8 @@ static void *counted(void *memory)
 void *__wrap_malloc(size_t size) { return ++calls == fail_at ? NULL : counted(__real_malloc(size)); }
 
 void *__wrap_calloc(size_t count, size_t size) { return ++calls == fail_at ? NULL : counted(__real_calloc(count, size)); }
+
+void *__wrap_aligned_alloc(size_t alignment, size_t size) { return ++calls == fail_at ? NULL : counted(__real_aligned_alloc(alignment, size)); }
 
 void __wrap_free(void *memory)
 {
