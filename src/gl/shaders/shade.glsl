@@ -61,12 +61,12 @@ void main()
     if (!pixel.inside)
         return;
     int hits = int(TILE(0).hit_rows);
-    PixelResult result = hit_result(ivec2(pixel.at.x, first_row(pixel.at.y)), pixel.texel);
-    for (int hit = 1; hit < hits; hit++) {
-        PixelResult another = hit_result(ivec2(pixel.at.x, first_row(pixel.at.y) + hit), pixel.texel);
-        result.color += another.color;
-        result.coverage += another.coverage;
-        result.water += another.water;
+    PixelResult result = PixelResult(vec3(0.0f), 0.0f, 0.0f);
+    for (int hit = 0; hit < hits; hit++) {
+        PixelResult shown = hit_result(ivec2(pixel.at.x, first_row(pixel.at.y) + hit), pixel.texel);
+        result.color += shown.color;
+        result.coverage += shown.coverage;
+        result.water += shown.water;
     }
     if (hits > 1) {
         result.color /= float(hits);
