@@ -35,12 +35,12 @@ static ViewData finer(const ViewData *view, int across, int down)
     ViewData v = *view;
     v.scale_x = ldexpf(1, across);
     v.scale_y = ldexpf(1, down);
-    v.right_x /= v.scale_x, v.right_y /= v.scale_x, v.right_z /= v.scale_x;
-    v.down_x /= v.scale_y, v.down_y /= v.scale_y, v.down_z /= v.scale_y;
+    v.rays.right_x /= v.scale_x, v.rays.right_y /= v.scale_x, v.rays.right_z /= v.scale_x;
+    v.rays.down_x /= v.scale_y, v.rays.down_y /= v.scale_y, v.rays.down_z /= v.scale_y;
     const float x = 0.5f - 0.5f * v.scale_x, y = 0.5f - 0.5f * v.scale_y;
-    v.corner_x += x * v.right_x + y * v.down_x;
-    v.corner_y += x * v.right_y + y * v.down_y;
-    v.corner_z += x * v.right_z + y * v.down_z;
+    v.rays.corner_x += x * v.rays.right_x + y * v.rays.down_x;
+    v.rays.corner_y += x * v.rays.right_y + y * v.rays.down_y;
+    v.rays.corner_z += x * v.rays.right_z + y * v.rays.down_z;
     return v;
 }
 

@@ -8,6 +8,7 @@
 #define TILE(cx) (*(cx)->tile)
 #define WAVE(cx, i) ((cx)->waves[i])
 #define SEARCH_WAVE(cx, i) ((cx)->search[i])
+#define PARTS(cx) TILE(cx).parts /* 1: cells of method adaptive under a sky, not pixels */
 
 /* An element a lane for the one width that has no instruction for it. */
 #define FOUR_OF(table, at)                                                     \

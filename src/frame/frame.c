@@ -162,22 +162,6 @@ interval frame_shutter(const frame *f)
     return s->camera_moves ? (interval){s->time, 0} : (interval){s->time - s->shutter / 2, s->shutter / 2};
 }
 
-static ViewData view_data(const camera_rays *camera)
-{
-    return (ViewData){
-        .corner_x = (float)camera->corner[0],
-        .corner_y = (float)camera->corner[1],
-        .corner_z = (float)camera->corner[2],
-        .camera_height = (float)camera->position[1],
-        .right_x = (float)camera->right[0],
-        .right_y = (float)camera->right[1],
-        .right_z = (float)camera->right[2],
-        .down_x = (float)camera->down[0],
-        .down_y = (float)camera->down[1],
-        .down_z = (float)camera->down[2],
-    };
-}
-
 wave_meeting frame_meeting(const frame *f, const camera_rays *camera, interval time)
 {
     return (wave_meeting){camera->position[0], camera->position[2], time.middle, time.half, f->under ? 0.5 : 0};
@@ -185,7 +169,7 @@ wave_meeting frame_meeting(const frame *f, const camera_rays *camera, interval t
 
 void wave_set_build(const frame *f, const camera_rays *camera, interval time, bool filter, wave_set *set)
 {
-    set->view = view_data(camera);
+    set->view = (ViewData){.rays = camera_data(camera), .camera_height = (float)camera->position[1]};
     sines_place(&f->scene->water, f->order, frame_meeting(f, camera, time), set);
     set->view.filter_waves = filter;
     set->view.scale_x = set->view.scale_y = 1;

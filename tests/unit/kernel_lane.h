@@ -31,6 +31,7 @@
 
 #define FRAME(cx) (*(cx)->frame)
 #define TILE(cx) (*(cx)->tile)
+#define PARTS(cx) TILE(cx).parts
 #define WAVE(cx, i) ((cx)->waves[i])
 #define SEARCH_WAVE(cx, i) ((cx)->search[i])
 #define UPWELLING(cx) vec3(FRAME(cx).body_r, FRAME(cx).body_g, FRAME(cx).body_b)

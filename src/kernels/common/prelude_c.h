@@ -278,9 +278,6 @@ KERNEL real vec3_dot(vec3 a, vec3 b) { return real_fma(a.x, b.x, real_fma(a.y, b
 KERNEL real vec3_length_squared(vec3 v) { return vec3_dot(v, v); }
 KERNEL vec3 vec3_cross(vec3 a, vec3 b) { return (vec3){real_fma(a.y, b.z, -(a.z * b.y)), real_fma(a.z, b.x, -(a.x * b.z)), real_fma(a.x, b.y, -(a.y * b.x))}; }
 KERNEL vec3 vec3_normalize(vec3 v) { return vec3_scale(v, 1.0f / real_sqrt(vec3_dot(v, v))); }
-/* 1: cells of method adaptive under a sky, not pixels. */
-#define PARTS(cx) TILE(cx).parts
-
 KERNEL vec3 vec3_select(mask m, vec3 a, vec3 b) { return (vec3){real_select(m, a.x, b.x), real_select(m, a.y, b.y), real_select(m, a.z, b.z)}; }
 
 #endif

@@ -155,7 +155,4 @@ KERNEL vec3 normalize(vec3 v) { return scale(v, real(1.0f) / sqrt(dot(v, v))); }
 KERNEL vec2 SELECT2(mask m, vec2 a, vec2 b) { return vec2(real_select(m, a.x, b.x), real_select(m, a.y, b.y)); }
 KERNEL vec3 SELECT3(mask m, vec3 a, vec3 b) { return vec3(real_select(m, a.x, b.x), real_select(m, a.y, b.y), real_select(m, a.z, b.z)); }
 
-/* 1: cells of method adaptive under a sky, not pixels. */
-#define PARTS(cx) TILE(cx).parts
-
 #endif
