@@ -28,7 +28,7 @@ mgt_status mgt_gl_render_textures(mgt_context *context, const mgt_scene *scene, 
     if (status == MGT_OK)
         status = struct_take(r, &gl_texture_kind, own_textures, textures, count);
     for (size_t i = 0; i < count && status == MGT_OK; i++)
-        if ((int)own_textures[i].layer < 0 || (int)own_textures[i].layer > MGT_LAYER_NORMAL)
+        if ((int)own_textures[i].layer < 0 || (int)own_textures[i].layer > MGT_LAYER_DETAIL)
             status = report_error(r, MGT_ERROR_ARGUMENT, "render.texture", "texture %zu: layer %d does not exist", i, (int)own_textures[i].layer);
     if (status != MGT_OK)
         return status;

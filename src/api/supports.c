@@ -10,11 +10,21 @@
 
 enum { MOST_PLACES = 4 }; /* rays of refraction along a side of a pixel, on OpenGL */
 
+/* Of method adaptive. A budget of time depends on the machine anyway. */
+static const char *gl_lacks_scheme(const mgt_quality *q)
+{
+    if (q->budget_ms > 0)
+        return "a budget of milliseconds is kept";
+    return q->adaptive == MGT_ADAPTIVE_PODEE ? "the scheme podee runs" : "the scheme cells runs";
+}
+
 const char *gl_lacks(const mgt_scene *scene)
 {
     const mgt_refraction refraction = scene->quality.refraction;
     if (!(method_of(scene->quality.method)->properties.backends & 1u << MGT_BACKEND_GL))
         return "the method runs";
+    if (scene->quality.method == MGT_METHOD_ADAPTIVE && gl_lacks_scheme(&scene->quality))
+        return gl_lacks_scheme(&scene->quality);
     if (scene->object_count == 0)
         return NULL;
     if (refraction == MGT_REFRACTION_DISTANCE_FIELD || refraction == MGT_REFRACTION_PATH_TRACED)
@@ -28,7 +38,7 @@ const char *gl_lacks_layer(const mgt_scene *scene, mgt_layer layer)
 {
     /* Of a moving camera's refraction only the mean over the shutter is kept, which its layers are not. */
     const bool refraction = scene->object_count > 0 && !scene->camera_moves && method_of(scene->quality.method)->way != METHOD_PASS;
-    if (layer <= MGT_LAYER_NORMAL || (refraction && (layer == MGT_LAYER_REFRACTION || layer == MGT_LAYER_REFRACTION_ERROR)))
+    if (layer <= MGT_LAYER_DETAIL || (refraction && (layer == MGT_LAYER_REFRACTION || layer == MGT_LAYER_REFRACTION_ERROR)))
         return gl_lacks(scene);
     return "a layer that was asked for runs";
 }

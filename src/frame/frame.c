@@ -154,6 +154,15 @@ frame frame_of(const mgt_scene *scene, const sky_state *sky, bool want_color)
     return f;
 }
 
+frame frame_by_quality(const frame *f, const mgt_scene *scene)
+{
+    frame other = *f;
+    other.scene = scene;
+    set_method(&other);
+    set_through(&other);
+    return other;
+}
+
 /* ---- waves of an interval ---- */
 
 interval frame_shutter(const frame *f)

@@ -35,6 +35,9 @@ void frame_look(frame *f, const camera_rays *open, const camera_rays *close);
 /* `sky` must have been built from the scene; the scene must outlive the frame. */
 frame frame_of(const mgt_scene *scene, const sky_state *sky, bool want_color);
 
+/* The same frame of another scene, which differs by its quality alone. */
+frame frame_by_quality(const frame *f, const mgt_scene *scene);
+
 /* The middle of an interval of time and half of its length. */
 typedef struct interval {
     double middle, half;

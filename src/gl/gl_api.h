@@ -25,6 +25,7 @@
     X(CHECKNAMEDFRAMEBUFFERSTATUS, CheckNamedFramebufferStatus)                           \
     X(CLEARBUFFERFV, ClearBufferfv)                                                       \
     X(CLEARBUFFERIV, ClearBufferiv)                                                       \
+    X(CLEARTEXIMAGE, ClearTexImage)                                                       \
     X(CLIENTWAITSYNC, ClientWaitSync)                                                     \
     X(CLIPCONTROL, ClipControl)                                                           \
     X(COLORMASKI, ColorMaski)                                                             \

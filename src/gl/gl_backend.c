@@ -163,9 +163,12 @@ static layer_source source_of(const gl_renderer *g, const mgt_target *target)
         return (layer_source){&l->depth, GL_RED, GL_FLOAT};
     case MGT_LAYER_NORMAL:
         return (layer_source){&l->normal, channels, GL_FLOAT};
-    case MGT_LAYER_SAMPLES: /* handed to the CPU */
+    case MGT_LAYER_SAMPLES:
+        return (layer_source){&l->samples, GL_RED, GL_FLOAT};
     case MGT_LAYER_IMPORTANCE:
+        return (layer_source){&l->importance, GL_RED, GL_FLOAT};
     case MGT_LAYER_DETAIL:
+        return (layer_source){&l->detail, GL_RED, GL_FLOAT};
     case MGT_LAYER_COLOR:
         break;
     case MGT_LAYER_REFRACTION:
@@ -222,6 +225,7 @@ void layer_wants_add(layer_wants *w, mgt_layer layer, bool display)
     w->depth |= layer == MGT_LAYER_DEPTH;
     w->normal |= layer == MGT_LAYER_NORMAL;
     w->display |= display;
+    w->spent |= layer >= MGT_LAYER_SAMPLES && layer <= MGT_LAYER_DETAIL;
 }
 
 mgt_status gl_layers_render(gl_backend_state *s, const reporter *r, const mgt_scene *scene, const layer_wants *wants, bool report_progress, region *area)
@@ -233,12 +237,13 @@ mgt_status gl_layers_render(gl_backend_state *s, const reporter *r, const mgt_sc
     *area = image_region(&scene->image);
     if ((wants->display && scene->post.glare > 0) || method_of(scene->quality.method)->way == METHOD_PASS)
         *area = (region){0, 0, scene->image.width, scene->image.height};
+    const bool adapts = method_of(scene->quality.method)->pass == METHOD_PASS_ADAPTIVE;
     const gl_job job = {
         .frame = &f,
         .camera_at = scene_camera_at,
         .camera_user = &f,
         .area = *area,
-        .wants_pixels = wants->pixels,
+        .wants_pixels = wants->pixels || (wants->spent && adapts),
         .wants_depth = wants->depth,
         .wants_normal = wants->normal,
         .background = true,
@@ -246,6 +251,8 @@ mgt_status gl_layers_render(gl_backend_state *s, const reporter *r, const mgt_sc
         .progress_user = s->desc.progress_user,
     };
     status = gl_frame_render(s->renderer, &job, r);
+    if (status == MGT_OK && wants->spent && !adapts)
+        status = gl_spent_fill(s->renderer, area, &scene->quality, r);
     return status == MGT_OK && wants->display ? gl_display_render(s->renderer, &f, area, r) : status;
 }
 

@@ -30,6 +30,7 @@ mgt_status gl_leave(gl_backend_state *s, const gl_scope *scope, mgt_status statu
 /* What a call asks for. */
 typedef struct layer_wants {
     bool color, pixels, depth, normal, display;
+    bool spent; /* samples, importance or detail */
 } layer_wants;
 
 void layer_wants_add(layer_wants *w, mgt_layer layer, bool display);

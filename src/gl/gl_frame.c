@@ -8,7 +8,7 @@
 #include "frame/frame_waves.h"
 #include "frame/targets.h"
 #include "frame/whole_frame.h"
-#include "gl/gl_renderer.h"
+#include "gl/gl_frame.h"
 
 /* Memory of a band's lists of waves, unless a single row of tiles needs more. */
 static const size_t band_bytes = (size_t)64 << 20;
@@ -16,34 +16,14 @@ static const size_t band_bytes = (size_t)64 << 20;
 /* Point samples of a dispatch, and pixels of a band where progress is told: what keeps both prompt. */
 static const uint64_t prompt_samples = (uint64_t)1 << 20;
 
-typedef struct band {
-    PassData pass;
-    uint32_t tiles; /* of one camera */
-} band;
-
-typedef struct frame_run {
-    gl_renderer *g;
-    const gl_job *job;
-    const reporter *r;
-    const method_row *method;
-    mgt_method_waves waves;
-    gl_program program;
-    uint32_t first_row, end_row, first_column, columns; /* of tiles */
-    uint32_t band_rows;
-    int wave_stride;
-    bool objects;  /* the scene has some, or the camera is under water */
-    GLsync behind; /* of the last step but one told */
-    double done, steps;
-} frame_run;
-
 /* Whether tiles are needed of two cameras at once. */
-static bool needs_open(const frame_run *run) { return run->waves == MGT_WAVES_SHUTTER && run->job->frame->scene->camera_moves; }
+static bool needs_open(const gl_run *run) { return run->waves == MGT_WAVES_SHUTTER && run->job->frame->scene->camera_moves; }
 
 /* ---- memory ---- */
 
 static uint32_t least(uint64_t a, uint64_t b) { return (uint32_t)(a < b ? a : b); }
 
-static mgt_status reserve_tiles(frame_run *run)
+static mgt_status reserve_tiles(gl_run *run, size_t sets)
 {
     gl_renderer *g = run->g;
     const frame *f = run->job->frame;
@@ -54,9 +34,8 @@ static mgt_status reserve_tiles(frame_run *run)
     run->end_row = (a->y + a->height - 1) / TILE_HEIGHT + 1;
     const size_t waves = f->scene->water.wave_count;
     run->wave_stride = (int)(waves > 0 ? waves : 1);
-    const size_t cameras = needs_open(run) ? 2 : 1;
     const size_t tile_bytes = sizeof(TileData) + TILE_FLOATS * sizeof(float) + (size_t)run->wave_stride * (sizeof(TileWave) + sizeof(SearchWave));
-    const size_t row_bytes = run->columns * cameras * tile_bytes;
+    const size_t row_bytes = run->columns * sets * tile_bytes;
     uint64_t rows = band_bytes / row_bytes;
     if (run->job->progress)
         rows = rows < prompt_samples / ((uint64_t)run->columns * TILE_PIXELS) ? rows : prompt_samples / ((uint64_t)run->columns * TILE_PIXELS);
@@ -64,7 +43,7 @@ static mgt_status reserve_tiles(frame_run *run)
         rows = REFRACTION_PIXELS / ((uint64_t)run->columns * TILE_PIXELS);
     run->band_rows = least(rows > 0 ? rows : 1, run->end_row - run->first_row);
 
-    const size_t tiles = (size_t)run->columns * run->band_rows * cameras;
+    const size_t tiles = (size_t)run->columns * run->band_rows * sets;
     const gl_api *gl = &g->gl;
     mgt_status status = gl_buffer_reserve(gl, &g->tiles, tiles * sizeof(TileData), 0, run->r);
     if (status == MGT_OK)
@@ -76,27 +55,25 @@ static mgt_status reserve_tiles(frame_run *run)
     return status;
 }
 
-static mgt_status reserve_layers(const frame_run *run)
+static mgt_status reserve_layers(gl_renderer *g, const gl_job *job, const reporter *r)
 {
-    gl_renderer *g = run->g;
     gl_layers *l = &g->layers;
-    const gl_job *job = run->job;
     const region *a = &job->area;
     if (a->width > g->limits.texture_side || a->height > g->limits.texture_side)
-        return report_error(run->r, MGT_ERROR_UNSUPPORTED, "render.size",
+        return report_error(r, MGT_ERROR_UNSUPPORTED, "render.size",
                             "%u x %u pixels are more than this OpenGL's textures hold: %u a side; render a crop or use the CPU", a->width, a->height,
                             g->limits.texture_side);
     mgt_status status = MGT_OK;
     if (job->wants_pixels && job->frame->data.want_color)
-        status = gl_image_reserve(&g->gl, &l->color, GL_RGBA32F, a->width, a->height, run->r);
+        status = gl_image_reserve(&g->gl, &l->color, GL_RGBA32F, a->width, a->height, r);
     if (status == MGT_OK && job->wants_pixels)
-        status = gl_image_reserve(&g->gl, &l->coverage, GL_R32F, a->width, a->height, run->r);
+        status = gl_image_reserve(&g->gl, &l->coverage, GL_R32F, a->width, a->height, r);
     if (status == MGT_OK && job->wants_pixels)
-        status = gl_image_reserve(&g->gl, &l->water, GL_R32F, a->width, a->height, run->r);
+        status = gl_image_reserve(&g->gl, &l->water, GL_R32F, a->width, a->height, r);
     if (status == MGT_OK && job->wants_depth)
-        status = gl_image_reserve(&g->gl, &l->depth, GL_R32F, a->width, a->height, run->r);
+        status = gl_image_reserve(&g->gl, &l->depth, GL_R32F, a->width, a->height, r);
     if (status == MGT_OK && job->wants_normal)
-        status = gl_image_reserve(&g->gl, &l->normal, GL_RGBA32F, a->width, a->height, run->r);
+        status = gl_image_reserve(&g->gl, &l->normal, GL_RGBA32F, a->width, a->height, r);
     return status;
 }
 
@@ -110,7 +87,7 @@ static size_t set_bytes(void)
 
 enum { SET_PARTS = 8 };
 
-static void bind_storage(const gl_renderer *g)
+void gl_bind_tiles(const gl_renderer *g)
 {
     const GLuint buffers[] = {g->tiles.name, g->tile_waves.name, g->search_waves.name, g->nodes.name};
     for (GLuint i = 0; i < sizeof buffers / sizeof *buffers; i++)
@@ -132,9 +109,7 @@ static void upload_waves(gl_renderer *g)
     gl_uniform(g, BIND_EXTRA, &set->view, sizeof set->view);
 }
 
-/* Sorts the waves that g->waves holds into the band's tiles from `first_slot` on. `open_slots`: where the same tiles stand as they were when the
- * shutter opened, as in PassData. */
-static mgt_status sort_tiles_with(const FrameData *data, const frame_run *run, const band *b, uint32_t first_slot, uint32_t open_slots)
+mgt_status gl_sort_tiles(const FrameData *data, const gl_run *run, const gl_band *b, uint32_t first_slot, uint32_t open_slots)
 {
     gl_renderer *g = run->g;
     mgt_status status = gl_ring_begin(&g->gl, &g->ring, set_bytes(), SET_PARTS, run->r);
@@ -147,7 +122,7 @@ static mgt_status sort_tiles_with(const FrameData *data, const frame_run *run, c
     gl_uniform(g, BIND_FRAME, data, sizeof *data);
     gl_uniform(g, BIND_PASS, &pass, sizeof pass);
     upload_waves(g);
-    bind_storage(g);
+    gl_bind_tiles(g);
     status = gl_use(g, PROGRAM_TILES, run->r);
     if (status == MGT_OK) {
         g->gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
@@ -158,12 +133,12 @@ static mgt_status sort_tiles_with(const FrameData *data, const frame_run *run, c
     return status == MGT_OK ? ended : status;
 }
 
-static mgt_status sort_tiles(const frame_run *run, const band *b, uint32_t first_slot, uint32_t open_slots)
+static mgt_status sort_tiles(const gl_run *run, const gl_band *b, uint32_t first_slot, uint32_t open_slots)
 {
-    return sort_tiles_with(&run->job->frame->data, run, b, first_slot, open_slots);
+    return gl_sort_tiles(&run->job->frame->data, run, b, first_slot, open_slots);
 }
 
-static mgt_status search_nodes(const frame_run *run, uint32_t tiles)
+mgt_status gl_search_nodes(const gl_run *run, uint32_t tiles)
 {
     gl_renderer *g = run->g;
     gl_pass_begin(g, "nodes");
@@ -177,14 +152,13 @@ static mgt_status search_nodes(const frame_run *run, uint32_t tiles)
 }
 
 /* Tiles and lattices of one camera at g->waves. */
-static mgt_status prepare_set(const frame_run *run, const band *b)
+static mgt_status prepare_set(const gl_run *run, const gl_band *b)
 {
     const mgt_status status = sort_tiles(run, b, 0, 0);
-    return status == MGT_OK ? search_nodes(run, b->tiles) : status;
+    return status == MGT_OK ? gl_search_nodes(run, b->tiles) : status;
 }
 
-/* Layers that do not exist are not written: a store to no image has no effect. */
-static void bind_layers(const gl_renderer *g)
+void gl_bind_layers(const gl_renderer *g)
 {
     const gl_layers *l = &g->layers;
     const gl_image *const images[IMAGE_LAYERS] = {&l->color, &l->coverage, &l->water, &l->depth, &l->normal};
@@ -195,12 +169,12 @@ static void bind_layers(const gl_renderer *g)
 }
 
 /* Whether podee's tables stand for its closed form. */
-static bool uses_podee_tables(const frame_run *run)
+static bool uses_podee_tables(const gl_run *run)
 {
     return run->method->tables & METHOD_PODEE_TABLES && run->job->frame->scene->quality.kernels != MGT_MIXTURE_EXACT;
 }
 
-static void bind_tables(const frame_run *run)
+static void bind_tables(const gl_run *run)
 {
     gl_refraction_bind_light(run->g);
     if (uses_podee_tables(run))
@@ -210,14 +184,14 @@ static void bind_tables(const frame_run *run)
 }
 
 /* A program over the pixels of the band. */
-static mgt_status run_pixels(const frame_run *run, const PassData *pass, const char *name, gl_program program)
+static mgt_status run_pixels(const gl_run *run, const PassData *pass, const char *name, gl_program program)
 {
     gl_renderer *g = run->g;
     gl_pass_begin(g, name);
     const mgt_status status = gl_use(g, program, run->r);
     if (status == MGT_OK) {
         gl_uniform(g, BIND_PASS, pass, sizeof *pass);
-        bind_layers(g);
+        gl_bind_layers(g);
         if (program == run->program)
             bind_tables(run);
         else
@@ -231,8 +205,7 @@ static mgt_status run_pixels(const frame_run *run, const PassData *pass, const c
 
 /* ---- progress ---- */
 
-/* Tells that a step has been sent, and waits until the one before has run, so that the caller hears where the GPU is. */
-static mgt_status step_done(frame_run *run, double steps)
+mgt_status gl_step_done(gl_run *run, double steps)
 {
     const gl_job *job = run->job;
     const gl_api *gl = &run->g->gl;
@@ -256,7 +229,7 @@ static mgt_status step_done(frame_run *run, double steps)
 /* ---- methods ---- */
 
 /* Tiles for the part of the shutter between two shares of it, of both cameras where it moves; what the instant t shows is the part from 1 to 1. */
-static mgt_status prepare_part(const frame_run *run, const band *b, double from, double to)
+static mgt_status prepare_part(const gl_run *run, const gl_band *b, double from, double to)
 {
     const gl_job *job = run->job;
     const frame *f = job->frame;
@@ -273,11 +246,11 @@ static mgt_status prepare_part(const frame_run *run, const band *b, double from,
     wave_set_build(f, &camera, s->camera_moves ? (interval){close, 0} : part, true, run->g->waves);
     if (status == MGT_OK)
         status = sort_tiles(run, b, 0, needs_open(run) ? b->tiles : 0);
-    return status == MGT_OK ? search_nodes(run, needs_open(run) ? 2 * b->tiles : b->tiles) : status;
+    return status == MGT_OK ? gl_search_nodes(run, needs_open(run) ? 2 * b->tiles : b->tiles) : status;
 }
 
 /* The mean over the parts of the shutter; all methods but podee-* know one part alone. */
-static mgt_status render_filtered(frame_run *run, const band *b)
+static mgt_status render_filtered(gl_run *run, const gl_band *b)
 {
     const mgt_quality *q = &run->job->frame->scene->quality;
     const uint32_t parts = q->path_segments > 1 ? q->path_segments : 1;
@@ -293,12 +266,12 @@ static mgt_status render_filtered(frame_run *run, const band *b)
         if (status == MGT_OK)
             status = run_pixels(run, &pass, "shade", run->program);
         if (status == MGT_OK)
-            status = step_done(run, 1);
+            status = gl_step_done(run, 1);
     }
     return status;
 }
 
-static mgt_status render_centre(frame_run *run, const band *b)
+static mgt_status render_centre(gl_run *run, const gl_band *b)
 {
     const frame *f = run->job->frame;
     wave_set_build(f, &f->close, (interval){f->scene->time, 0}, false, run->g->waves);
@@ -309,14 +282,14 @@ static mgt_status render_centre(frame_run *run, const band *b)
     pass.strata = 1;
     if (status == MGT_OK)
         status = run_pixels(run, &pass, "samples", run->program);
-    return status == MGT_OK ? step_done(run, 1) : status;
+    return status == MGT_OK ? gl_step_done(run, 1) : status;
 }
 
 /* Dispatches after which a set's uniform data are sent again, before the ring comes round to them. */
 enum { resend = 1000 };
 
 /* Samples [from, end) of one instant, whose tiles are ready, in dispatches of moderate length. */
-static mgt_status run_samples(frame_run *run, const band *b, uint64_t from, uint64_t end)
+static mgt_status run_samples(gl_run *run, const gl_band *b, uint64_t from, uint64_t end)
 {
     const mgt_quality *q = &run->job->frame->scene->quality;
     const uint64_t per_time = (uint64_t)q->spatial_samples * q->spatial_samples;
@@ -345,12 +318,12 @@ static mgt_status run_samples(frame_run *run, const band *b, uint64_t from, uint
             status = run_pixels(run, &pass, "samples", run->program);
         from += count;
         if (status == MGT_OK)
-            status = step_done(run, (double)count);
+            status = gl_step_done(run, (double)count);
     }
     return status;
 }
 
-static mgt_status render_samples(frame_run *run, const band *b)
+static mgt_status render_samples(gl_run *run, const gl_band *b)
 {
     const gl_job *job = run->job;
     const frame *f = job->frame;
@@ -372,7 +345,7 @@ static mgt_status render_samples(frame_run *run, const band *b)
 }
 
 /* `ready`: the tiles are those of point samples at the instant already. */
-static mgt_status render_surface(frame_run *run, const band *b, bool ready)
+static mgt_status render_surface(gl_run *run, const gl_band *b, bool ready)
 {
     const frame *f = run->job->frame;
     const interval now = {f->scene->time, 0};
@@ -393,17 +366,16 @@ static mgt_status render_surface(frame_run *run, const band *b, bool ready)
 }
 
 /* What the band's pixels see of objects through a camera. */
-static mgt_status see_objects(const frame_run *run, const band *b, const camera_rays *camera, interval time)
+static mgt_status see_objects(const gl_run *run, const gl_band *b, const camera_rays *camera, interval time)
 {
     wave_set_build(run->job->frame, camera, time, true, run->g->waves);
-    mgt_status status = sort_tiles_with(&run->job->frame->through, run, b, 0, 0);
+    mgt_status status = gl_sort_tiles(&run->job->frame->through, run, b, 0, 0);
     if (status == MGT_OK)
-        status = search_nodes(run, b->tiles);
+        status = gl_search_nodes(run, b->tiles);
     return status == MGT_OK ? gl_refraction_see(run->g, &b->pass, run->r) : status;
 }
 
-/* Objects in front of the water over the band's layers. */
-static mgt_status put_objects_in_front(const frame_run *run, const band *b)
+mgt_status gl_put_objects_in_front(const gl_run *run, const gl_band *b)
 {
     gl_renderer *g = run->g;
     mgt_status status = gl_ring_begin(&g->gl, &g->ring, sizeof b->pass, 1, run->r);
@@ -413,7 +385,7 @@ static mgt_status put_objects_in_front(const frame_run *run, const band *b)
     status = gl_use(g, PROGRAM_OBJECTS_COMPOSE, run->r);
     if (status == MGT_OK) {
         gl_uniform(g, BIND_PASS, &b->pass, sizeof b->pass);
-        bind_layers(g);
+        gl_bind_layers(g);
         gl_refraction_bind_front(g);
         g->gl.DispatchCompute((GLuint)b->pass.columns * TILE_GROUPS_X, (GLuint)b->pass.rows * TILE_GROUPS_Y, 1);
         g->gl.MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
@@ -422,11 +394,11 @@ static mgt_status put_objects_in_front(const frame_run *run, const band *b)
     return status == MGT_OK ? ended : status;
 }
 
-static band band_at(const frame_run *run, uint32_t row)
+gl_band gl_band_at(const gl_run *run, uint32_t row)
 {
     const gl_job *job = run->job;
     const uint32_t rows = least(run->band_rows, run->end_row - row);
-    return (band){
+    return (gl_band){
         .pass =
             {
                 .tile_x = (int)run->first_column,
@@ -447,12 +419,12 @@ static band band_at(const frame_run *run, uint32_t row)
     };
 }
 
-static mgt_status render_band(frame_run *run, uint32_t row)
+static mgt_status render_band(gl_run *run, uint32_t row)
 {
     const gl_job *job = run->job;
     const frame *f = job->frame;
     const bool samples = run->method->way == METHOD_SAMPLES;
-    const band b = band_at(run, row);
+    const gl_band b = gl_band_at(run, row);
     mgt_status status = run->objects ? see_objects(run, &b, &f->close, frame_shutter(f)) : MGT_OK;
     if (status == MGT_OK && run->objects && f->scene->camera_moves)
         status = gl_refraction_blend(run->g, &b.pass, run->r);
@@ -462,11 +434,11 @@ static mgt_status render_band(frame_run *run, uint32_t row)
     const bool depth = job->wants_depth && (points || !job->shaded_depth);
     if (status == MGT_OK && (depth || job->wants_normal))
         status = render_surface(run, &b, job->wants_pixels && points && !samples);
-    return status == MGT_OK && run->objects ? put_objects_in_front(run, &b) : status;
+    return status == MGT_OK && run->objects && !job->behind ? gl_put_objects_in_front(run, &b) : status;
 }
 
 /* Layers of the objects and what else their passes need; where the camera moves, what all pixels see of them when the shutter opens. */
-static mgt_status prepare_objects(const frame_run *run)
+static mgt_status prepare_objects(const gl_run *run)
 {
     gl_renderer *g = run->g;
     const frame *f = run->job->frame;
@@ -476,7 +448,7 @@ static mgt_status prepare_objects(const frame_run *run)
         opened.close = f->open;
         status = gl_refraction_prepare(g, &opened, &run->job->area, run->r);
         for (uint32_t row = run->first_row; row < run->end_row && status == MGT_OK; row += run->band_rows) {
-            const band b = band_at(run, row);
+            const gl_band b = gl_band_at(run, row);
             status = see_objects(run, &b, &f->open, (interval){f->scene->time - f->scene->shutter, 0});
         }
         gl_refraction_keep(g);
@@ -492,11 +464,31 @@ static double count_steps(const mgt_quality *q)
     return q->path_segments > 1 ? q->path_segments : 1;
 }
 
-static mgt_status prepare_tables(const frame_run *run)
+static mgt_status prepare_tables(const gl_run *run)
 {
     if (uses_podee_tables(run))
         return gl_podee_prepare(run->g, run->job->frame->scene, run->r);
     return run->method->tables & METHOD_LEAN_MAP ? gl_lean_prepare(run->g, run->job->frame, run->r) : MGT_OK;
+}
+
+mgt_status gl_run_begin(gl_run *run, gl_renderer *g, const gl_job *job, size_t sets, const reporter *r)
+{
+    const method_row *method = method_of(job->frame->scene->quality.method);
+    *run = (gl_run){.g = g,
+                    .job = job,
+                    .r = r,
+                    .method = method,
+                    .waves = method->properties.waves,
+                    .objects = job->frame->scene->object_count > 0 || job->frame->under};
+    run->program = gl_method_program(job->frame->scene->quality.method, uses_podee_tables(run));
+    return reserve_tiles(run, sets);
+}
+
+void gl_run_end(gl_run *run)
+{
+    if (run->behind)
+        run->g->gl.DeleteSync(run->behind);
+    run->behind = NULL;
 }
 
 mgt_status gl_frame_render(gl_renderer *g, const gl_job *job, const reporter *r)
@@ -505,12 +497,10 @@ mgt_status gl_frame_render(gl_renderer *g, const gl_job *job, const reporter *r)
     const method_row *method = method_of(q->method);
     if (method->way == METHOD_PASS)
         return gl_whole_frame_render(g, job, r);
-    frame_run run =
-        {.g = g, .job = job, .r = r, .method = method, .waves = method->properties.waves, .objects = job->frame->scene->object_count > 0 || job->frame->under};
-    run.program = gl_method_program(q->method, uses_podee_tables(&run));
-    mgt_status status = reserve_layers(&run);
+    gl_run run;
+    mgt_status status = reserve_layers(g, job, r);
     if (status == MGT_OK)
-        status = reserve_tiles(&run);
+        status = gl_run_begin(&run, g, job, method->properties.waves == MGT_WAVES_SHUTTER && job->frame->scene->camera_moves ? 2 : 1, r);
     if (status == MGT_OK && job->wants_pixels)
         status = prepare_tables(&run);
     if (status == MGT_OK && run.objects)
@@ -521,7 +511,6 @@ mgt_status gl_frame_render(gl_renderer *g, const gl_job *job, const reporter *r)
     run.steps = bands * count_steps(q);
     for (uint32_t row = run.first_row; row < run.end_row && status == MGT_OK; row += run.band_rows)
         status = render_band(&run, row);
-    if (run.behind)
-        g->gl.DeleteSync(run.behind);
+    gl_run_end(&run);
     return status;
 }

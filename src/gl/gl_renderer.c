@@ -99,7 +99,7 @@ mgt_status gl_renderer_create(gl_renderer **out, mgt_gl_get_proc get_proc, const
 
 static void free_layers(const gl_api *gl, gl_layers *l)
 {
-    gl_image *const images[] = {&l->color, &l->coverage, &l->water, &l->depth, &l->normal, &l->display};
+    gl_image *const images[] = {&l->color, &l->coverage, &l->water, &l->depth, &l->normal, &l->display, &l->samples, &l->importance, &l->detail};
     for (size_t i = 0; i < sizeof images / sizeof *images; i++)
         gl_image_free(gl, images[i]);
 }

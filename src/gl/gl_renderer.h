@@ -21,6 +21,8 @@ typedef struct gl_layers {
     gl_image coverage, water, depth; /* R32F */
     gl_image normal;                 /* RGBA32F, alpha 1 */
     gl_image display;                /* RGBA8 */
+    gl_image samples;                /* R32F, as the next two: what method adaptive has spent, … */
+    gl_image importance, detail;     /* … what for, and what came of it; of other methods one number everywhere */
 } gl_layers;
 
 enum { GLARE_LEVELS = 16 };
@@ -107,6 +109,7 @@ typedef struct gl_job {
     bool wants_depth, wants_normal;
     bool shaded_depth;              /* the depth that the method itself finds will do: filtered ones are spared another look for point samples */
     bool background;                /* sky behind the water */
+    bool behind;                    /* objects in front of the water are left out */
     mgt_progress_function progress; /* NULL: none, and nothing waits */
     void *progress_user;
 } gl_job;
@@ -116,6 +119,13 @@ mgt_status gl_frame_render(gl_renderer *g, const gl_job *job, const reporter *r)
 
 /* The same for methods that work on whole pictures. */
 mgt_status gl_whole_frame_render(gl_renderer *g, const gl_job *job, const reporter *r);
+
+/* The layers that only method adaptive makes a picture of: memory for them, and what they hold for other methods. */
+mgt_status gl_spent_reserve(gl_renderer *g, const region *area, const reporter *r);
+mgt_status gl_spent_fill(gl_renderer *g, const region *area, const mgt_quality *quality, const reporter *r);
+
+/* Method adaptive: colour, coverage, mask and those layers. */
+mgt_status gl_adaptive_render(gl_renderer *g, const gl_job *job, const reporter *r);
 
 /* What single methods read beside: filled where they are not yet, bound for the next dispatch, freed. */
 mgt_status gl_podee_prepare(gl_renderer *g, const mgt_scene *scene, const reporter *r);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Methods that work on whole pictures of method `none`, on the GPU: fxaa on one, taa on several. */
+ * Methods that work on whole pictures, on the GPU: fxaa on one of method `none`, taa on several, adaptive on its own. */
 #include "frame/whole_frame.h"
 
 #include "base/triples.h"
@@ -8,7 +8,7 @@
 
 /* ---- the pictures of `none` ---- */
 
-/* A frame of the whole one, with a scene of its own. */
+/* A frame of the whole one by its method's base, with a scene of its own. */
 typedef struct none_frame {
     mgt_scene scene;
     frame frame;
@@ -17,9 +17,8 @@ typedef struct none_frame {
 static void none_frame_of(const frame *f, none_frame *out)
 {
     out->scene = *f->scene;
-    out->scene.quality.method = method_of(f->scene->quality.method)->base;
-    out->frame = *f;
-    out->frame.scene = &out->scene;
+    out->scene.quality = plain_quality(&f->scene->quality, method_of(f->scene->quality.method)->base);
+    out->frame = frame_by_quality(f, &out->scene);
 }
 
 /* Progress of one picture as a part of the frame's. */
@@ -239,9 +238,9 @@ static mgt_status render_taa(gl_renderer *g, const gl_job *job, const reporter *
     return status;
 }
 
-/* ---- both ---- */
+/* ---- all ---- */
 
-/* Depth and normal are those of `none`. */
+/* Depth and normal are those of the base. */
 static mgt_status render_surface(gl_renderer *g, const gl_job *job, double share, const reporter *r)
 {
     none_frame none;
@@ -256,8 +255,9 @@ mgt_status gl_whole_frame_render(gl_renderer *g, const gl_job *job, const report
 {
     if (!job->wants_pixels)
         return render_surface(g, job, 1, r);
-    if (method_of(job->frame->scene->quality.method)->pass == METHOD_PASS_FXAA)
+    const method_pass pass = method_of(job->frame->scene->quality.method)->pass;
+    if (pass == METHOD_PASS_FXAA)
         return render_fxaa(g, job, r);
-    const mgt_status status = render_taa(g, job, r);
+    const mgt_status status = pass == METHOD_PASS_TAA ? render_taa(g, job, r) : gl_adaptive_render(g, job, r);
     return status == MGT_OK && (job->wants_depth || job->wants_normal) ? render_surface(g, job, 0, r) : status;
 }

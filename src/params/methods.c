@@ -121,7 +121,7 @@ const method_row method_rows[] =
             },
         [MGT_METHOD_ADAPTIVE] =
             {
-                .properties = {0, "adaptive", "mangata, with more samples where it is likely to be wrong", MGT_WAVES_SHUTTER, CPU, LAYERS_ADAPTIVE},
+                .properties = {0, "adaptive", "mangata, with more samples where it is likely to be wrong", MGT_WAVES_SHUTTER, CPU_AND_GL, LAYERS_ADAPTIVE},
                 .way = METHOD_PASS,
                 .base = MGT_METHOD_MANGATA,
                 .pass = METHOD_PASS_ADAPTIVE,

@@ -81,8 +81,8 @@ static void the_cpus_frames_are_announced(void **state)
         mgt_method method;
         const mgt_target *target;
         bool gl, announced;
-    } cases[] = {{MGT_METHOD_NONE, &target, true, false},     {MGT_METHOD_NONE, &spent, false, true},       {MGT_METHOD_NONE, &spent, false, false},
-                 {MGT_METHOD_ADAPTIVE, &target, false, true}, {MGT_METHOD_ADAPTIVE, &target, false, false}, {MGT_METHOD_NONE, &target, true, false}};
+    } cases[] = {{MGT_METHOD_NONE, &target, true, false},      {MGT_METHOD_NONE, &spent, true, false},        {MGT_METHOD_REFERENCE, &target, false, true},
+                 {MGT_METHOD_REFERENCE, &spent, false, false}, {MGT_METHOD_REFERENCE, &target, false, false}, {MGT_METHOD_NONE, &target, true, false}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         scene.quality.method = cases[i].method;
         log.ids[0] = 0;
@@ -543,14 +543,53 @@ static void wrong_textures_are_refused(void **state)
     assert_int_equal(mgt_gl_render_textures(context, &scene, NULL, 1), MGT_ERROR_ARGUMENT);
     assert_int_equal(mgt_gl_render_textures(NULL, &scene, &good, 1), MGT_ERROR_ARGUMENT);
     assert_int_equal(mgt_gl_render_textures(context, NULL, &good, 1), MGT_ERROR_ARGUMENT);
-    for (int i = 0; i < 2; i++) {
-        scene.quality.method = i ? MGT_METHOD_ADAPTIVE : MGT_METHOD_REFERENCE;
-        assert_int_equal(mgt_gl_render_textures(context, &scene, &good, 1), MGT_ERROR_UNSUPPORTED);
-        assert_non_null(strstr(mgt_last_error(context), "the method runs on the CPU alone"));
-    }
+    scene.quality.method = MGT_METHOD_ADAPTIVE;
+    scene.quality.budget_ms = 100;
+    assert_int_equal(mgt_gl_render_textures(context, &scene, &good, 1), MGT_ERROR_UNSUPPORTED);
+    assert_non_null(strstr(mgt_last_error(context), "a budget of milliseconds is kept on the CPU alone"));
+    scene.quality.budget_ms = 0;
+    scene.quality.method = MGT_METHOD_REFERENCE;
+    assert_int_equal(mgt_gl_render_textures(context, &scene, &good, 1), MGT_ERROR_UNSUPPORTED);
+    assert_non_null(strstr(mgt_last_error(context), "the method runs on the CPU alone"));
     scene.quality.method = MGT_METHOD_NONE;
     assert_int_equal(mgt_gl_render_textures(context, &scene, &good, 1), MGT_OK);
     assert_int_equal(h.gl.GetError(), GL_NO_ERROR);
+    mgt_context_destroy(context);
+    host_stop(&h);
+}
+
+/* Other methods than adaptive have spent the same everywhere. */
+static void spent_layers_are_even(void **state)
+{
+    (void)state;
+    static float got[3][PIXELS];
+    mgt_wave waves[SEA_WAVES];
+    mgt_scene scene = sea_scene(waves);
+    mgt_target targets[3];
+    for (int i = 0; i < 3; i++)
+        targets[i] = sea_target((mgt_layer)(MGT_LAYER_SAMPLES + i), MGT_FORMAT_R32F, got[i], 0);
+    static const struct {
+        mgt_method method;
+        float samples;
+    } cases[] = {{MGT_METHOD_SSAA, 8}, {MGT_METHOD_MSAA32, 32}, {MGT_METHOD_TAA, 8}, {MGT_METHOD_MANGATA, 1}};
+    mgt_context *gl = gl_context();
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        scene.quality.method = cases[k].method;
+        memset(got, 0x7f, sizeof got);
+        sea_render(gl, &scene, targets, 3);
+        for (size_t i = 0; i < PIXELS; i++)
+            assert_true(got[0][i] == cases[k].samples && got[1][i] == 0 && got[2][i] == 0);
+    }
+    mgt_context_destroy(gl);
+
+    host h;
+    host_start(&h);
+    mgt_context *context = host_context();
+    mgt_gl_texture t = host_texture(&h, MGT_LAYER_SAMPLES, GL_R32F, SEA_WIDTH, SEA_HEIGHT);
+    assert_int_equal(mgt_gl_render_textures(context, &scene, &t, 1), MGT_OK);
+    read_texture(&h, t.texture, GL_RED, GL_FLOAT, sizeof got[0], got[0]);
+    assert_true(got[0][0] == 1 && got[0][PIXELS - 1] == 1);
+    h.gl.DeleteTextures(1, &t.texture);
     mgt_context_destroy(context);
     host_stop(&h);
 }
@@ -612,6 +651,7 @@ int main(void)
         cmocka_unit_test(rendering_can_be_cancelled),
         cmocka_unit_test(sources_can_be_replaced),
         cmocka_unit_test(textures_hold_the_layers),
+        cmocka_unit_test(spent_layers_are_even),
         cmocka_unit_test(wrong_textures_are_refused),
         cmocka_unit_test(the_threads_context_stays_current),
         cmocka_unit_test(messages_name_the_file),
