@@ -4,18 +4,25 @@
 
 #include "api/structs.h"
 #include "frame/backend.h"
+#include "frame/podee_rules.h"
 #include "frame/targets.h"
 #include "params/methods.h"
 #include "trace/trace.h"
 
 enum { MOST_PLACES = 4 }; /* rays of refraction along a side of a pixel, on OpenGL */
 
+static const double most_slots = 2147483647; /* of a picture, on OpenGL */
+
 /* Of method adaptive. A budget of time depends on the machine anyway. */
-static const char *gl_lacks_scheme(const mgt_quality *q)
+static const char *gl_lacks_scheme(const mgt_scene *scene)
 {
+    const mgt_quality *q = &scene->quality;
+    const double pixels = (double)scene->image.width * scene->image.height, slots = q->sample_slots ? (double)q->sample_slots : podee_samples_of(q) * pixels;
     if (q->budget_ms > 0)
         return "a budget of milliseconds is kept";
-    return q->adaptive == MGT_ADAPTIVE_PODEE ? "the scheme podee runs" : "the scheme cells runs";
+    if (q->adaptive == MGT_ADAPTIVE_PODEE && slots > most_slots)
+        return "more than 2^31 samples of a picture are taken";
+    return q->adaptive == MGT_ADAPTIVE_PODEE ? NULL : "the scheme cells runs";
 }
 
 const char *gl_lacks(const mgt_scene *scene)
@@ -23,8 +30,8 @@ const char *gl_lacks(const mgt_scene *scene)
     const mgt_refraction refraction = scene->quality.refraction;
     if (!(method_of(scene->quality.method)->properties.backends & 1u << MGT_BACKEND_GL))
         return "the method runs";
-    if (scene->quality.method == MGT_METHOD_ADAPTIVE && gl_lacks_scheme(&scene->quality))
-        return gl_lacks_scheme(&scene->quality);
+    if (scene->quality.method == MGT_METHOD_ADAPTIVE && gl_lacks_scheme(scene))
+        return gl_lacks_scheme(scene);
     if (scene->object_count == 0)
         return NULL;
     if (refraction == MGT_REFRACTION_DISTANCE_FIELD || refraction == MGT_REFRACTION_PATH_TRACED)

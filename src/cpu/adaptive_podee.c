@@ -18,16 +18,9 @@
 
 /* ---- the paper's equations ---- */
 
-podee_rules podee_rules_of(const mgt_quality *q)
-{
-    return (podee_rules){.center = q->importance_center != 0 ? q->importance_center : 0.1,
-                         .width = q->importance_width != 0 ? q->importance_width : 0.04,
-                         .threshold = q->importance_threshold != 0 ? q->importance_threshold : 0.05};
-}
-
 uint64_t podee_slots_of(const mgt_quality *q, double water)
 {
-    const double slots = (q->samples > 0 ? q->samples : 8) * water;
+    const double slots = podee_samples_of(q) * water;
     return q->sample_slots ? q->sample_slots : slots > 1 ? (uint64_t)(slots + 0.5) : 1;
 }
 

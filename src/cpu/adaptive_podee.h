@@ -5,19 +5,13 @@
 #define MANGATA_CPU_ADAPTIVE_PODEE_H
 
 #include "cpu/adaptive.h"
+#include "frame/podee_rules.h"
 
 /* `out` holds colour, coverage and water of the approximate picture; they become the blended ones, and the other planes but depth are
  * filled. MGT_ERROR_MEMORY where memory is short. */
 mgt_status adaptive_podee_render(const adaptive_frame *a, const picture_planes *out);
 
 /* ---- its parts ---- */
-
-/* The numbers that the paper leaves to its user, defaults filled in. */
-typedef struct podee_rules {
-    double center, width, threshold;
-} podee_rules;
-
-podee_rules podee_rules_of(const mgt_quality *quality);
 
 /* M: as many slots as asked for, or so many a pixel of `water` pixels; at least 1. */
 uint64_t podee_slots_of(const mgt_quality *quality, double water);

@@ -198,13 +198,11 @@ static void lanes_frequencies(const method_tile *t, const wave_set *waves, float
     const int count = sines_moving(waves);
     for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
         const PixelRay p = pixel_ray_filtered(&cx, lane_numbers() + (float)(i % TILE_WIDTH), real((float)(i / TILE_WIDTH)));
-        const mask water = p.water > real(0.0f);
-        const real fall = SELECT(water, real(0.0f) - p.ray.y, real(1.0f));
-        const Footprint f = footprint_at(&cx, p.ray, real(TILE(&cx).camera_height) / fall);
+        const Footprint f = mean_footprint(&cx, p);
         real squared = real(0.0f);
         for (int w = 0; w < count; w++)
             squared = max(squared, wave_frequency(&cx, f, waves->data[w]));
-        store(most + i, SELECT(water, sqrt(squared), real(0.0f)));
+        store(most + i, SELECT(p.water > real(0.0f), sqrt(squared), real(0.0f)));
     }
 }
 

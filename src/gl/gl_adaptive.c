@@ -27,7 +27,5 @@ mgt_status gl_spent_fill(gl_renderer *g, const region *area, const mgt_quality *
 mgt_status gl_adaptive_render(gl_renderer *g, const gl_job *job, const reporter *r)
 {
     const mgt_status status = gl_spent_reserve(g, &job->area, r);
-    return status == MGT_OK ? report_error(r, MGT_ERROR_UNSUPPORTED, "render.adaptive", "the scheme %s runs on the CPU alone: use mgt_render()",
-                                           mgt_adaptive_name(job->frame->scene->quality.adaptive))
-                            : status;
+    return status == MGT_OK ? gl_adaptive_podee_render(g, job, r) : status;
 }

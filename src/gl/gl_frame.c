@@ -386,6 +386,8 @@ mgt_status gl_put_objects_in_front(const gl_run *run, const gl_band *b)
     if (status == MGT_OK) {
         gl_uniform(g, BIND_PASS, &b->pass, sizeof b->pass);
         gl_bind_layers(g);
+        for (GLuint i = IMAGE_COLOR; i <= IMAGE_WATER && !run->job->wants_pixels; i++) /* finished by another picture of the frame */
+            g->gl.BindImageTexture(i, 0, 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32F);
         gl_refraction_bind_front(g);
         g->gl.DispatchCompute((GLuint)b->pass.columns * TILE_GROUPS_X, (GLuint)b->pass.rows * TILE_GROUPS_Y, 1);
         g->gl.MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);

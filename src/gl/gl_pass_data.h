@@ -11,7 +11,7 @@
 #include "gl/shaders/pass_data.k"
 #undef STRUCT
 
-_Static_assert(sizeof(PassData) % 16 == 0 && sizeof(GlareData) % 16 == 0 && sizeof(WindowData) % 16 == 0, "std140 layout");
+_Static_assert(sizeof(PassData) % 16 == 0 && sizeof(GlareData) % 16 == 0 && sizeof(WindowData) % 16 == 0 && sizeof(SlotsData) % 16 == 0, "std140 layout");
 _Static_assert(sizeof(LeanWave) == 32 && sizeof(LeanData) % 16 == 0 && sizeof(LeanPass) % 16 == 0 && sizeof(BlendData) % 16 == 0, "std140 layout");
 _Static_assert(sizeof(GbufferData) % 16 == 0 && sizeof(ObjectsData) % 16 == 0, "std140 layout");
 _Static_assert(sizeof(SortData) == 32 && sizeof(TileWave) == 16, "std430 layout");
@@ -32,7 +32,10 @@ enum {
     BIND_SORT = 5,
     BIND_OBJECT_WATER = 4, /* objects: see objects_pixel.glsl */
     BIND_OBJECT_LISTS = 5,
+    BIND_PLAN = 4, /* method adaptive: see slots_data.glsl */
+    BIND_TASKS = 5,
     BIND_WAVE_STORAGE = 6, /* where a uniform block cannot hold the waves */
+    BIND_SLOTS = 7,
     STORAGE_BINDINGS,
 
     UNIT_SKY = 0, /* textures; those that no program reads together share units */
@@ -71,6 +74,9 @@ enum {
     IMAGE_DEPTH,
     IMAGE_NORMAL,
     IMAGE_LAYERS,
+    IMAGE_SAMPLES = IMAGE_DEPTH, /* method adaptive's instead */
+    IMAGE_IMPORTANCE,
+    IMAGE_DETAIL,
     IMAGE_UNITS = 7 /* objects.comp has names of its own for them */
 };
 

@@ -40,6 +40,13 @@ static const program_text program_texts[PROGRAM_METHODS] = {
     [PROGRAM_OBJECTS_DEEP] = {"refraction", "objects_deep.comp", {NULL}},
     [PROGRAM_OBJECTS_BLEND] = {"refraction", "objects_blend.comp", {NULL}},
     [PROGRAM_OBJECTS_COMPOSE] = {"refraction", "objects_compose.comp", {NULL}},
+    [PROGRAM_SLOTS_WEIGH] = {"slots", "slots_weigh.comp", {NULL}},
+    [PROGRAM_SLOTS_SCAN] = {"slots", "slots_scan.comp", {NULL}},
+    [PROGRAM_SLOTS_LIST] = {"slots", "slots_list.comp", {NULL}},
+    [PROGRAM_SLOTS_CHUNKS] = {"slots", "slots_chunks.comp", {NULL}},
+    [PROGRAM_SLOTS_TRACE] = {"slots", "slots_trace.comp", {NULL}},
+    [PROGRAM_SLOTS_SUM] = {"slots", "slots_sum.comp", {NULL}},
+    [PROGRAM_SLOTS_BLEND] = {"slots", "slots_blend.comp", {NULL}},
     [PROGRAM_GBUFFER] = {"gbuffer", NULL, {"gbuffer.vert", "gbuffer.frag"}},
     [PROGRAM_GBUFFER_BENT] = {"gbuffer", NULL, {"gbuffer_bent.vert", "gbuffer.frag", "gbuffer_bent.tesc", "gbuffer_bent.tese"}},
 };

@@ -34,6 +34,13 @@ typedef enum gl_program {
     PROGRAM_OBJECTS_DEEP,     /* or only water */
     PROGRAM_OBJECTS_BLEND,    /* both ends of the shutter */
     PROGRAM_OBJECTS_COMPOSE,  /* what is in front over the layers */
+    PROGRAM_SLOTS_WEIGH,      /* scheme podee of method adaptive: importance of pixels, */
+    PROGRAM_SLOTS_SCAN,       /* its prefix sum over tiles, */
+    PROGRAM_SLOTS_LIST,       /* the tasks of a band */
+    PROGRAM_SLOTS_CHUNKS,     /* and the number of their slots; */
+    PROGRAM_SLOTS_TRACE,      /* a ray each, */
+    PROGRAM_SLOTS_SUM,        /* their sums, */
+    PROGRAM_SLOTS_BLEND,      /* which become part of the picture */
     PROGRAM_METHODS,          /* first of the methods' own */
     PROGRAM_COUNT = PROGRAM_METHODS + 2 * METHOD_SLOTS
 } gl_program;

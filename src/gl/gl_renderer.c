@@ -35,10 +35,10 @@ static mgt_status read_limits(gl_renderer *g, const reporter *r)
     g->gl.GetIntegerv(GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS, &storage);
     g->gl.GetIntegerv(GL_MAX_COMPUTE_SHARED_MEMORY_SIZE, &shared);
     g->gl.GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &table);
-    if (storage < 7 || shared < 16384)
+    if (storage < 8 || shared < 16384)
         return report_error(r, MGT_ERROR_UNAVAILABLE, "context.gl",
                             "the OpenGL context has %d storage blocks and %d bytes of shared memory for compute shaders; "
-                            "7 and 16384 are needed",
+                            "8 and 16384 are needed",
                             storage, shared);
     g->limits = (gl_limits){
         .texture_side = (uint32_t)texture,
@@ -122,6 +122,7 @@ void gl_renderer_destroy(gl_renderer *g)
     gl_glare_free(g);
     gl_podee_free(g);
     gl_lean_free(g);
+    gl_adaptive_podee_free(g);
     gl_refraction_free(gl, &g->refraction);
     gl_gbuffers_free(gl, &g->gbuffers);
     gl_objects_free(gl, &g->objects);

@@ -42,6 +42,11 @@ typedef struct gl_podee {
     bool filled;
 } gl_podee;
 
+/* What scheme podee of method adaptive keeps of a picture and of a band: see slots_data.glsl. */
+typedef struct gl_slots {
+    gl_buffer plan, tasks, values, commands;
+} gl_slots;
+
 /* The map of methods lean and leadr: see gl_lean.c. */
 typedef struct gl_lean {
     LeanData data;
@@ -70,6 +75,7 @@ typedef struct gl_renderer {
     gl_glare glare;
     gl_podee podee;
     gl_lean lean;
+    gl_slots slots;
     gl_objects objects;
     gl_gbuffers gbuffers;
     gl_refraction refraction;
@@ -126,6 +132,8 @@ mgt_status gl_spent_fill(gl_renderer *g, const region *area, const mgt_quality *
 
 /* Method adaptive: colour, coverage, mask and those layers. */
 mgt_status gl_adaptive_render(gl_renderer *g, const gl_job *job, const reporter *r);
+mgt_status gl_adaptive_podee_render(gl_renderer *g, const gl_job *job, const reporter *r);
+void gl_adaptive_podee_free(gl_renderer *g);
 
 /* What single methods read beside: filled where they are not yet, bound for the next dispatch, freed. */
 mgt_status gl_podee_prepare(gl_renderer *g, const mgt_scene *scene, const reporter *r);

@@ -1,43 +1,36 @@
 /* SPDX-License-Identifier: MIT
  * Methods that work on whole pictures, on the GPU: fxaa on one of method `none`, taa on several, adaptive on its own. */
-#include "frame/whole_frame.h"
+#include "gl/gl_whole_frame.h"
 
 #include "base/triples.h"
-#include "gl/gl_renderer.h"
 #include "frame/targets.h"
 
-/* ---- the pictures of `none` ---- */
+/* ---- pictures of other methods ---- */
 
-/* A frame of the whole one by its method's base, with a scene of its own. */
-typedef struct none_frame {
-    mgt_scene scene;
-    frame frame;
-} none_frame;
-
-static void none_frame_of(const frame *f, none_frame *out)
+void gl_plain_frame_of(const frame *f, mgt_method method, gl_plain_frame *out)
 {
     out->scene = *f->scene;
-    out->scene.quality = plain_quality(&f->scene->quality, method_of(f->scene->quality.method)->base);
+    out->scene.quality = plain_quality(&f->scene->quality, method);
     out->frame = frame_by_quality(f, &out->scene);
 }
 
-/* Progress of one picture as a part of the frame's. */
-typedef struct progress_part {
-    mgt_progress_function tell;
-    void *user;
-    double first, share;
-} progress_part;
+static void base_frame_of(const frame *f, gl_plain_frame *out) { gl_plain_frame_of(f, method_of(f->scene->quality.method)->base, out); }
+
+gl_progress_part gl_progress_part_of(const gl_job *job, double first, double share)
+{
+    return (gl_progress_part){job->progress, job->progress_user, first, share};
+}
 
 static bool report_part(void *user, double fraction)
 {
-    const progress_part *p = user;
+    const gl_progress_part *p = user;
     return p->tell(p->user, p->first + p->share * fraction);
 }
 
-static gl_job job_of_part(const gl_job *job, const none_frame *none, progress_part *part)
+gl_job gl_job_of_part(const gl_job *job, const frame *f, gl_progress_part *part)
 {
     gl_job own = *job;
-    own.frame = &none->frame;
+    own.frame = f;
     own.shaded_depth = false;
     if (job->progress) {
         own.progress = report_part;
@@ -133,11 +126,11 @@ static mgt_status make_luma(gl_renderer *g, const frame *f, const region *area, 
 
 static mgt_status render_fxaa(gl_renderer *g, const gl_job *job, const reporter *r)
 {
-    none_frame none;
-    none_frame_of(job->frame, &none);
+    gl_plain_frame none;
+    base_frame_of(job->frame, &none);
     none.frame.data.want_color = 1;
-    progress_part part = {job->progress, job->progress_user, 0, 1};
-    const gl_job own = job_of_part(job, &none, &part);
+    gl_progress_part part = gl_progress_part_of(job, 0, 1);
+    const gl_job own = gl_job_of_part(job, &none.frame, &part);
     mgt_status status = gl_frame_render(g, &own, r);
     if (status == MGT_OK)
         status = reserve(g, &g->history[0], &job->area, true, r);
@@ -186,8 +179,8 @@ static camera_rays rays_before(const gl_job *job, int back)
 
 static mgt_status render_current(gl_renderer *g, const gl_job *job, int back, const reporter *r)
 {
-    none_frame none;
-    none_frame_of(job->frame, &none);
+    gl_plain_frame none;
+    base_frame_of(job->frame, &none);
     none.scene.time -= back * taa_interval(job->frame->scene);
     double offset[2];
     taa_offset(back, offset);
@@ -195,8 +188,8 @@ static mgt_status render_current(gl_renderer *g, const gl_job *job, int back, co
     *c = rays_before(job, back);
     for (int i = 0; i < 3; i++)
         c->corner[i] += offset[0] * c->right[i] + offset[1] * c->down[i];
-    progress_part part = {job->progress, job->progress_user, (double)(TAA_FRAMES - 1 - back) / TAA_FRAMES, 1.0 / TAA_FRAMES};
-    gl_job own = job_of_part(job, &none, &part);
+    gl_progress_part part = gl_progress_part_of(job, (double)(TAA_FRAMES - 1 - back) / TAA_FRAMES, 1.0 / TAA_FRAMES);
+    gl_job own = gl_job_of_part(job, &none.frame, &part);
     own.wants_depth = none.scene.camera_moves;
     own.wants_normal = false;
     return gl_frame_render(g, &own, r);
@@ -243,10 +236,10 @@ static mgt_status render_taa(gl_renderer *g, const gl_job *job, const reporter *
 /* Depth and normal are those of the base. */
 static mgt_status render_surface(gl_renderer *g, const gl_job *job, double share, const reporter *r)
 {
-    none_frame none;
-    none_frame_of(job->frame, &none);
-    progress_part part = {job->progress, job->progress_user, 1 - share, share};
-    gl_job own = job_of_part(job, &none, &part);
+    gl_plain_frame base;
+    base_frame_of(job->frame, &base);
+    gl_progress_part part = gl_progress_part_of(job, 1 - share, share);
+    gl_job own = gl_job_of_part(job, &base.frame, &part);
     own.wants_pixels = false;
     return gl_frame_render(g, &own, r);
 }

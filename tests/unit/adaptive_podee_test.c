@@ -26,6 +26,24 @@ static void importance_is_the_papers_gaussian(void **state)
         }
 }
 
+/* What GPUs take for it, in single precision. */
+static void shaders_importance_is_the_same(void **state)
+{
+    (void)state;
+    static const double centers[] = {0.1, 0.5, 0.003}, widths[] = {0.0012, 0.04, 0.3, 1};
+    double worst = 0;
+    for (int c = 0; c < 3; c++)
+        for (int w = 0; w < 4; w++) {
+            const podee_rules rules = {centers[c], widths[w], 0};
+            const float center = (float)centers[c], low = (float)(centers[c] - (double)center), inverse = (float)(1 / widths[w]);
+            for (int i = 0; i <= 1000; i++) {
+                const float value = (float)i / 1000;
+                worst = fmax(worst, fabs((double)podee_importance(&rules, value) - (double)slot_importance(NULL, value, center, low, inverse)));
+            }
+        }
+    expect_below("Eq. 1 in single precision", worst, 4e-7);
+}
+
 /* "Any pixel that is not in that reflection at all is ignored": with c and ρ as printed the threshold must be above exp(−c²/2ρ²) = .044. */
 static void defaults_ignore_dark_pixels(void **state)
 {
@@ -124,6 +142,12 @@ static void weights_are_the_nyquist_share(void **state)
     assert_true(podee_detail_weight(6, 3) == 1 && podee_detail_weight(1e9, 3) == 1); /* two samples a wave */
     assert_true(fabs(podee_detail_weight(3, 3) - 0.5) < 1e-15);
     assert_true(podee_detail_weight(0.1, 0) == 1 && podee_detail_weight(0, 0) == 0);
+    static const double samples[] = {0, 0.1, 0.7, 3, 6, 1e9}, frequencies[] = {0, 1e-7, 0.4, 3, 200};
+    for (int s = 0; s < 6; s++)
+        for (int f = 0; f < 5; f++) {
+            const real weight = slot_weight(NULL, (float)samples[s], (float)(frequencies[f] * frequencies[f]));
+            assert_true(fabs(podee_detail_weight(samples[s], frequencies[f]) - (double)weight) < 2e-7);
+        }
 }
 
 /* ---- §3.1 ---- */
@@ -393,17 +417,12 @@ static void a_long_picture_can_be_cancelled(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(importance_is_the_papers_gaussian),
-        cmocka_unit_test(defaults_ignore_dark_pixels),
-        cmocka_unit_test(slots_are_shared_in_proportion),
-        cmocka_unit_test(searches_end_where_they_must),
-        cmocka_unit_test(slots_follow_the_water),
-        cmocka_unit_test(weights_are_the_nyquist_share),
-        cmocka_unit_test(light_share_is_a_ratio_of_lengths),
-        cmocka_unit_test(pictures_are_put_together_as_printed),
-        cmocka_unit_test(no_tasks_leave_the_picture),
-        cmocka_unit_test(many_samples_reach_the_reference),
-        cmocka_unit_test(bits_do_not_depend_on_machines),
+        cmocka_unit_test(importance_is_the_papers_gaussian),    cmocka_unit_test(shaders_importance_is_the_same),
+        cmocka_unit_test(defaults_ignore_dark_pixels),          cmocka_unit_test(slots_are_shared_in_proportion),
+        cmocka_unit_test(searches_end_where_they_must),         cmocka_unit_test(slots_follow_the_water),
+        cmocka_unit_test(weights_are_the_nyquist_share),        cmocka_unit_test(light_share_is_a_ratio_of_lengths),
+        cmocka_unit_test(pictures_are_put_together_as_printed), cmocka_unit_test(no_tasks_leave_the_picture),
+        cmocka_unit_test(many_samples_reach_the_reference),     cmocka_unit_test(bits_do_not_depend_on_machines),
         cmocka_unit_test(a_long_picture_can_be_cancelled),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -127,6 +127,13 @@
 #define LISTS 5
 #define WATER_FLOATS 18
 
+/* ---- method adaptive, scheme podee: see slots_data.glsl ---- */
+
+#define SLOT_GROUP 64     /* slots of a workgroup, … */
+#define SLOT_GROUPS 32768 /* … and at most so many of these in a row */
+#define SLOT_FLOATS 5     /* a result: colour, coverage, water */
+#define TASK_LANES 128    /* invocations over a tile's tasks */
+
 /* ---- options ---- */
 
 /* FrameData.podee_kernels, an mgt_mixture; other numbers count circular kernels. */

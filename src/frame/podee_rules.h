@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: MIT
+ * Scheme podee of method adaptive: the numbers that the paper leaves to its user (docs/adaptive.md). */
+#ifndef MANGATA_FRAME_PODEE_RULES_H
+#define MANGATA_FRAME_PODEE_RULES_H
+
+#include "mangata/mangata.h"
+
+/* Defaults filled in. */
+typedef struct podee_rules {
+    double center, width, threshold;
+} podee_rules;
+
+podee_rules podee_rules_of(const mgt_quality *quality);
+
+/* Slots of a pixel of water, where no number for the whole picture is given. */
+double podee_samples_of(const mgt_quality *quality);
+
+#endif
