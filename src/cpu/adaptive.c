@@ -11,11 +11,11 @@
 #include <string.h>
 #include <time.h>
 
+#include "cpu/leaf_lane.h"
 #include "cpu/refinement.h"
+#include "frame/cell_waves.h"
 
 /* ---- the picture of pixels ---- */
-
-static uint8_t shape_of(float aspect_squared) { return aspect_squared > 8 ? SHAPE_ROWS : aspect_squared < 0.125f ? SHAPE_COLUMNS : SHAPE_EVEN; }
 
 static leaf leaf_from(const tile_pixels *p, const tile_detail *d, size_t i)
 {
@@ -26,35 +26,14 @@ static leaf leaf_from(const tile_pixels *p, const tile_detail *d, size_t i)
                   .variance = d->variance[i],
                   .contrast = d->contrast[i],
                   .places = d->places[i],
-                  .shape = shape_of(d->aspect[i])};
-}
-
-/* Rays of cells: every pixel is halved so many times each way. */
-static ViewData finer(const ViewData *view, int across, int down)
-{
-    ViewData v = *view;
-    v.scale_x = ldexpf(1, across);
-    v.scale_y = ldexpf(1, down);
-    v.rays.right_x /= v.scale_x, v.rays.right_y /= v.scale_x, v.rays.right_z /= v.scale_x;
-    v.rays.down_x /= v.scale_y, v.rays.down_y /= v.scale_y, v.rays.down_z /= v.scale_y;
-    const float x = 0.5f - 0.5f * v.scale_x, y = 0.5f - 0.5f * v.scale_y;
-    v.rays.corner_x += x * v.rays.right_x + y * v.rays.down_x;
-    v.rays.corner_y += x * v.rays.right_y + y * v.rays.down_y;
-    v.rays.corner_z += x * v.rays.right_z + y * v.rays.down_z;
-    return v;
+                  .shape = lane_split(d->aspect[i])};
 }
 
 /* Sorts the tile's waves of a set for cells; returns what the kernels are told of the frame then. */
 static FrameData sort_set(const refinement *f, size_t tile, const wave_set *set, int across, int down, tile_waves *out)
 {
-    FrameData data = f->a->frame->data;
-    data.pixel_angle = ldexpf(data.pixel_angle, across > down ? -across : -down);
-    if (across + down > 0) {
-        /* Small cells see glints so sharp that no wave's share may be a tile's mean. */
-        data.sort_shares = 0;
-        data.sort_start = 1e-3f;
-    }
-    const ViewData view = finer(&set->view, across, down);
+    const FrameData data = cell_frame(&f->a->frame->data, across, down);
+    const ViewData view = cell_view(&set->view, across, down);
     f->a->kernels->sort(&data, set, &view, (uint32_t)(tile % f->columns), (uint32_t)(tile / f->columns), out);
     return data;
 }
@@ -74,17 +53,6 @@ static FrameData sort_cells(const refinement *f, size_t tile, int across, int do
         t->dark = !data.sky_black && (s->close.data.light_reach == 0 || (f->by_display && lights_dark(&data)));
     refinement_price(f, t, (across + down) / 2, s->close.data.resolved_count + s->close.data.mixed_count);
     return data;
-}
-
-/* What a squared error of the pixel's luminance is worth. Under a black sky, where the glitter is all there is, errors count the less the brighter the pixel
- * is, as tone maps show them. */
-static float weight_of(const refinement *f, const leaf *l, float shown)
-{
-    if (!f->a->frame->data.sky_black)
-        return shown;
-    const float luminance = 0.2126f * l->color[0] + 0.7152f * l->color[1] + 0.0722f * l->color[2];
-    const float slope = 1 / (1 + f->a->frame->data.exposure * luminance);
-    return slope * slope;
 }
 
 static void plant_tile(void *argument, size_t tile, uint32_t worker)
@@ -116,7 +84,7 @@ static void plant_tile(void *argument, size_t tile, uint32_t worker)
             l.column = x;
             l.row = y;
             f->hit_height[to] = l.water >= 1 ? l.height : NAN;
-            f->weight[to] = weight_of(f, &l, detail->shown[from]);
+            f->weight[to] = lane_weight(&a->frame->data, l.color, detail->shown[from]);
             p->importance[to] = sqrtf(l.variance);
             p->samples[to] = l.water > 0 ? (float)t->cost[0] : 0;
             t->spent += (double)p->samples[to];
@@ -204,7 +172,7 @@ static bool split_size(const refinement *f, size_t tile, int across, int down, s
     cells->count = 0;
     for (size_t i = 0; i < end; i++) {
         const leaf *l = &t->leaves[i];
-        if (!l->chosen || l->shape == SHAPE_POINTS || l->across + halvings[l->shape][0] != across || l->down + halvings[l->shape][1] != down)
+        if (!l->chosen || l->shape == SPLIT_POINTS || l->across + halvings[l->shape][0] != across || l->down + halvings[l->shape][1] != down)
             continue;
         add_children(f, tile, cells, l);
         if (cells->count == TILE_PIXELS && !grow(f, tile, across, down, worker))
@@ -222,7 +190,7 @@ static void split_tile(void *argument, size_t tile, uint32_t worker)
     for (size_t i = 0; i < end; i++) {
         leaf *l = &t->leaves[i];
         l->chosen = leaf_chosen(f, tile, l);
-        if (l->shape == SHAPE_POINTS)
+        if (l->shape == SPLIT_POINTS)
             points |= l->chosen;
         else
             sizes[l->across + halvings[l->shape][0]][l->down + halvings[l->shape][1]] |= l->chosen;
@@ -272,11 +240,10 @@ typedef struct frame_budget {
     double round_began, before; /* when the last round began, and what had been spent then */
 } frame_budget;
 
-/* How much the next round may spend; 0: it is enough. Little at first, while little is known. */
+/* How much the next round may spend; 0: it is enough. */
 static double next_share(const refinement *f, frame_budget *b, size_t round)
 {
-    static const double shares[] = {0.15, 0.25, 0.35, 0.5, 0.7, 1, 1, 1, 1, 1};
-    enum { SHARES = sizeof shares / sizeof *shares, MOST_ROUNDS = 40 };
+    enum { MOST_ROUNDS = 40 };
     const mgt_quality *q = &f->a->frame->scene->quality;
     const double used = refinement_spent(f);
     if (q->target_rmse > 0)
@@ -294,7 +261,7 @@ static double next_share(const refinement *f, frame_budget *b, size_t round)
         return round < MOST_ROUNDS && left > 0.02 * (b->end - b->began) ? share * left * speed : 0;
     }
     const double left = b->evaluations - used;
-    return round < SHARES && left > 0.005 * b->evaluations ? shares[round] * left : 0;
+    return left > 0.005 * b->evaluations ? lane_round_per_cent((int)round) / 100.0 * left : 0;
 }
 
 /* Within a round, on the caller's thread. */
@@ -328,35 +295,25 @@ static mgt_status run_rounds(refinement *f)
 
 /* ---- a frame ---- */
 
-/* How far the slopes' path over a piece of the shutter strays from a straight one, RMS, over the light's radius in slopes. */
-static double path_bend(const refinement *f, int parts)
-{
-    const mgt_scene *s = f->a->frame->scene;
-    return sines_path_bend(&s->water, s->shutter / 2 / parts) / (0.5 * lights_disk_radius(&f->a->frame->data));
-}
-
-static void place_parts(const refinement *f, shutter_parts *p)
-{
-    const frame *whole = f->a->frame;
-    const mgt_scene *s = whole->scene;
-    for (int i = 0; i < (f->moves ? p->count + 1 : p->count); i++) {
-        const double share = f->moves ? (double)i / p->count : (i + 0.5) / p->count;
-        const camera_rays camera = camera_at(whole, share);
-        wave_set_build(whole, &camera, (interval){s->time - (1 - share) * s->shutter, f->moves ? 0 : s->shutter / 2 / p->count}, true, p->sets[i]);
-    }
-}
-
 static void place_waves(refinement *f)
 {
-    static const double allowed[] = {1e9, 0.5, 0.02};
-    for (int k = 0; k < 3; k++) {
+    const frame *whole = f->a->frame;
+    int counts[CELL_CLASSES];
+    cell_part_counts(whole, counts);
+    for (int k = 0; k < CELL_CLASSES; k++) {
         shutter_parts *p = &f->parts[k];
-        p->count = 1;
-        while (p->count < MOST_PARTS && path_bend(f, p->count) > allowed[k])
-            p->count *= 2;
-        place_parts(f, p);
+        p->count = counts[k];
+        for (int i = 0; i < (f->moves ? p->count + 1 : p->count); i++) {
+            const cell_time part = cell_part(whole->scene, p->count, i);
+            const camera_rays camera = camera_at(whole, part.share);
+            wave_set_build(whole, &camera, part.time, true, p->sets[i]);
+        }
     }
-    refinement_place_instants(f);
+    for (int k = 0; k < INSTANTS; k++) {
+        const cell_time instant = cell_instant(whole->scene, k);
+        const camera_rays camera = camera_at(whole, instant.share);
+        wave_set_build(whole, &camera, instant.time, false, f->instants[k]);
+    }
 }
 
 mgt_status adaptive_render(const adaptive_frame *a, refinement **kept, const picture_planes *out)

@@ -90,7 +90,7 @@ bool refinement_scatter_points(const refinement *f, size_t tile, size_t end, uin
         tile_find_estimates(a->kernels, &a->frame->data, &s->close, s->open_estimate);
         for (size_t i = 0; i < end; i++) {
             const leaf *l = &t->leaves[i];
-            if (!l->chosen || l->shape != SHAPE_POINTS)
+            if (!l->chosen || l->shape != SPLIT_POINTS)
                 continue;
             const double shift = leaf_lot(tile, l, ~a->frame->scene->quality.seed);
             for (int n = l->points + k; n < leaf_next_points(l); n += INSTANTS) {
@@ -105,7 +105,7 @@ bool refinement_scatter_points(const refinement *f, size_t tile, size_t end, uin
     bool added = true;
     for (size_t i = 0; i < end && added; i++) {
         leaf l = t->leaves[i];
-        if (!l.chosen || l.shape != SHAPE_POINTS)
+        if (!l.chosen || l.shape != SPLIT_POINTS)
             continue;
         const double cost = leaf_cost(t, &l);
         take_points(&l, sums + POINT_SUMS * i, a->frame->data.sky_black);
@@ -116,15 +116,4 @@ bool refinement_scatter_points(const refinement *f, size_t tile, size_t end, uin
     }
     free(sums);
     return added;
-}
-
-/* In the middle of strata of the shutter. */
-void refinement_place_instants(refinement *f)
-{
-    const frame *whole = f->a->frame;
-    for (int k = 0; k < INSTANTS; k++) {
-        const double share = (k + 0.5) / INSTANTS;
-        const camera_rays camera = camera_at(whole, share);
-        wave_set_build(whole, &camera, (interval){whole->scene->time - (1 - share) * whole->scene->shutter, 0}, false, f->instants[k]);
-    }
 }

@@ -7,31 +7,13 @@
 #include <string.h>
 
 #include "base/hash.h"
-
-enum {
-    SHARP_LEVEL = 5,    /* from which cells see glints so sharp that the bend of a path shows */
-    POINTS_PLACES = 16, /* cells of more places are given points: splits would long say the same */
-    POINTS_LEVEL = 5,   /* under a sky only from this level, for the model knows the mirrored sky well */
-    LEAST_POINTS = 256,
-    MOST_POINTS = 4096,
-    BUCKETS_PER_OCTAVE = 32,
-    OCTAVES = 96,
-    BUCKETS = BUCKETS_PER_OCTAVE * OCTAVES,
-    BUCKET_ZERO = (127 - 80) * BUCKETS_PER_OCTAVE, /* of 2^-80 */
-    KEPT_OCTAVES = 5,                              /* leaves worth less than 2^-5 of what was split last are settled, … */
-    KEPT_ROUNDS = 2,                               /* … after the first rounds, which take only the best */
-};
-static const double cost_unit = 65536; /* evaluations of all waves are counted in these parts */
-/* What a cell and a point sample cost besides their waves, in waves of a cell; measured, as is the 1.1 that a wave of a sample costs. */
-static const double cell_waves = 20, sample_waves = 1;
-/* Of a point, evaluations of all waves: points lie where rays graze, and search to their hits over every wave. Measured. */
-static const double point_cost = 12;
+#include "cpu/leaf_lane.h"
 
 const uint8_t halvings[4][2] = {{1, 1}, {0, 2}, {2, 0}, {0, 0}};
 
 /* Of one worker; whole numbers, so that their sum does not depend on who counted what. */
 struct census {
-    uint64_t cells[BUCKETS], points[BUCKETS]; /* what the leaves of a bucket cost */
+    uint64_t cells[WORTH_BUCKETS], points[WORTH_BUCKETS]; /* what the leaves of a bucket cost */
 };
 
 size_t leaf_pixel(const refinement *f, size_t tile, const leaf *l)
@@ -59,10 +41,7 @@ void leaf_settle(const refinement *f, size_t tile, const leaf *l)
 
 /* ---- what a split is worth ---- */
 
-const shutter_parts *refinement_parts(const refinement *f, const refinement_tile *t, int level)
-{
-    return &f->parts[level == 0 || t->dark ? 0 : level < SHARP_LEVEL ? 1 : 2];
-}
+const shutter_parts *refinement_parts(const refinement *f, const refinement_tile *t, int level) { return &f->parts[lane_class(level, t->dark)]; }
 
 /* What splits cost and are worth, after a level's cost became known: where it is not, by the nearest level above. */
 static void refinement_appraise(const refinement *f, refinement_tile *t)
@@ -78,57 +57,35 @@ static void refinement_appraise(const refinement *f, refinement_tile *t)
 
 void refinement_price(const refinement *f, refinement_tile *t, int level, int waves)
 {
-    const double all = 1.1 * f->parts[0].sets[0]->view.wave_count + sample_waves;
-    t->cost[level] = refinement_parts(f, t, level)->count * (waves + cell_waves) / all;
+    const double all = SAMPLE_TENTHS / 10.0 * f->parts[0].sets[0]->view.wave_count + SAMPLE_WAVES;
+    t->cost[level] = refinement_parts(f, t, level)->count * (waves + CELL_WAVES) / all;
     refinement_appraise(f, t);
 }
 
-/* Steps of a 32nd octave, straight within an octave: the upper bits of the float. */
-static uint16_t bucket_of(float worth)
-{
-    uint32_t bits;
-    memcpy(&bits, &worth, sizeof bits);
-    const int32_t bucket = (int32_t)(bits >> 18) - BUCKET_ZERO;
-    return bucket <= 0 ? 0 : bucket >= BUCKETS ? BUCKETS - 1 : (uint16_t)bucket;
-}
+static lane_leaf lane_of(const leaf *l) { return (lane_leaf){l->points, l->places, l->coverage}; }
 
-/* What the model gets wrong where waves hide each other, a tenth or two of the light, over what it cannot know. */
-static float wrong_of(const leaf *l) { return l->points > 0 ? 0 : 0.0225f * l->places * l->coverage; }
-
-/* At first as many as halve the squared error. */
-int leaf_next_points(const leaf *l)
-{
-    if (l->points > 0)
-        return 4 * l->points;
-    int points = LEAST_POINTS;
-    while (points < MOST_POINTS && (float)points * (1 + wrong_of(l)) < 2 * l->places)
-        points *= 4;
-    return points;
-}
+int leaf_next_points(const leaf *l) { return lane_next_points(lane_of(l)); }
 
 double leaf_cost(const refinement_tile *t, const leaf *l)
 {
-    return l->shape == SHAPE_POINTS ? (leaf_next_points(l) - l->points) * point_cost : t->below[l->level];
+    return l->shape == SPLIT_POINTS ? (double)(leaf_next_points(l) - l->points) * POINT_COST : t->below[l->level];
 }
 
-/* How much of its squared error a split may save for each evaluation. Four parts of a cell show the mean of a quarter of its places each; n points
- * that of n, and get nothing wrong. Of the mirrored sky a split saves more: its parts see what hides what. */
 static float worth_of(const refinement *f, const refinement_tile *t, const leaf *l)
 {
-    const float area = areas[l->level];
-    if (l->shape != SHAPE_POINTS)
-        return f->by_display ? t->worth[l->level] : 4 / (l->places + 3) * t->worth[l->level];
-    return fmaxf(1 - l->places / (float)leaf_next_points(l) + wrong_of(l), 0) * area * area / (float)leaf_cost(t, l);
+    if (l->shape != SPLIT_POINTS)
+        return lane_split_worth(f->by_display, l->places, t->worth[l->level]);
+    return lane_points_worth(lane_of(l), areas[l->level], (float)leaf_cost(t, l));
 }
 
 bool refinement_add(const refinement *f, size_t tile, leaf l)
 {
     refinement_tile *t = &f->tiles[tile];
     const float now = f->by_coverage ? l.variance : l.contrast * f->weight[leaf_pixel(f, tile, &l)];
-    if (l.points > 0 || (l.places > POINTS_PLACES && (f->a->frame->data.sky_black || l.level >= POINTS_LEVEL)))
-        l.shape = SHAPE_POINTS;
-    const bool ends = l.shape == SHAPE_POINTS ? leaf_next_points(&l) > MOST_POINTS : l.level + 1 == LEVELS;
-    l.bucket = now > 0 && !ends ? bucket_of(now * worth_of(f, t, &l)) : 0;
+    if (lane_takes_points(&f->a->frame->data, lane_of(&l), l.level))
+        l.shape = SPLIT_POINTS;
+    const bool ends = l.shape == SPLIT_POINTS ? leaf_next_points(&l) > LEAF_MOST_POINTS : l.level + 1 == LEVELS;
+    l.bucket = now > 0 && !ends ? lane_bucket(now * worth_of(f, t, &l)) : 0;
     if (l.bucket <= f->least_bucket) {
         leaf_settle(f, tile, &l);
         return true;
@@ -154,7 +111,7 @@ static void count_tile(void *argument, size_t tile, uint32_t worker)
     struct census *census = f->census[worker];
     for (size_t i = 0; i < t->count; i++) {
         const leaf *l = &t->leaves[i];
-        (l->shape == SHAPE_POINTS ? census->points : census->cells)[l->bucket] += (uint64_t)(leaf_cost(t, l) * cost_unit);
+        (l->shape == SPLIT_POINTS ? census->points : census->cells)[l->bucket] += (uint64_t)(leaf_cost(t, l) * COST_UNIT);
     }
 }
 
@@ -164,10 +121,10 @@ bool refinement_plan(refinement *f, double budget, size_t round)
         memset(f->census[i], 0, sizeof **f->census);
     const thread_loop loop = {(size_t)f->columns * f->rows, count_tile, f, NULL};
     thread_pool_run(f->a->pool, &loop);
-    double left = budget * cost_unit;
+    double left = budget * COST_UNIT;
     f->plan = (round_plan){0, 0, -1};
     bool any = false;
-    for (int b = BUCKETS - 1; b >= 0; b--) {
+    for (int b = WORTH_BUCKETS - 1; b >= 0; b--) {
         uint64_t cells = 0, points = 0;
         for (size_t i = 0; i < f->workers; i++) {
             cells += f->census[i]->cells[b];
@@ -189,7 +146,7 @@ bool refinement_plan(refinement *f, double budget, size_t round)
     }
     if (f->plan.points < f->plan.bucket)
         f->plan.points = f->plan.bucket - 1; /* those of the last bucket have been paid for */
-    const int least = f->plan.bucket - KEPT_OCTAVES * BUCKETS_PER_OCTAVE;
+    const int least = f->plan.bucket - KEPT_OCTAVES * WORTH_STEPS;
     if (round >= KEPT_ROUNDS && least > f->least_bucket)
         f->least_bucket = least;
     return any;
@@ -203,7 +160,7 @@ double leaf_lot(size_t tile, const leaf *l, uint64_t seed)
 
 bool leaf_chosen(const refinement *f, size_t tile, const leaf *l)
 {
-    if (l->shape == SHAPE_POINTS)
+    if (l->shape == SPLIT_POINTS)
         return l->bucket > f->plan.points;
     return l->bucket > f->plan.bucket || (l->bucket == f->plan.bucket && leaf_lot(tile, l, 0) < f->plan.share);
 }

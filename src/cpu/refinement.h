@@ -6,16 +6,15 @@
 #include <stdatomic.h>
 
 #include "cpu/adaptive.h"
+#include "frame/cell_waves.h"
 
 enum {
-    LEVELS = 9,             /* a pixel has up to 4^8 cells, … */
-    SIDES = 2 * LEVELS - 1, /* … split up to 16 times one way */
-    MOST_PARTS = 16,        /* straight pieces of the shutter */
-    INSTANTS = 8,           /* of the shutter, that points are spread over */
+    LEVELS = LEAF_LEVELS,
+    SIDES = LEAF_SIDES,
+    MOST_PARTS = LEAF_PARTS,
+    INSTANTS = LEAF_INSTANTS,
 };
 
-/* Into 2 × 2, four rows or four columns, whatever makes the parts' shape on the water rounder; or points instead. */
-enum { SHAPE_EVEN, SHAPE_ROWS, SHAPE_COLUMNS, SHAPE_POINTS };
 extern const uint8_t halvings[4][2]; /* of a pixel across and down, by shape */
 
 /* A pixel or cell that may be split. */
@@ -23,7 +22,7 @@ typedef struct leaf {
     uint32_t column, row; /* within the tile, in cells of this size */
     uint8_t across, down; /* how often the pixel has been halved each way */
     uint8_t level;        /* (across + down) / 2 */
-    uint8_t shape;        /* of the split to come, see shape_of() */
+    uint8_t shape;        /* SPLIT_… of the split to come */
     bool chosen;          /* to be split in this round */
     uint16_t bucket;      /* of what a split is worth */
     uint16_t points;      /* samples that its values are the mean of; 0: it is a cell */
@@ -62,14 +61,14 @@ struct refinement {
     bool by_coverage; /* leaves are worth what they save of the coverage's error, not of the picture's */
     bool by_display;  /* under a sky, not by coverage: of the displayed picture's */
     refinement_tile *tiles;
-    float *weight;                /* a pixel's, squared */
-    float *hit_height;            /* of the surface where a pixel's ray meets it, metres; NAN where it is not all water */
-    bool moves;                   /* the camera does */
-    shutter_parts parts[3];       /* of pixels, of cells and of sharp cells */
-    wave_set *instants[INSTANTS]; /* as points see them */
-    tile_cells **cells;           /* one a worker, … */
-    tile_cells **sums;            /* … and one for the mean over the shutter's parts */
-    struct census **census;       /* one a worker */
+    float *weight;                     /* a pixel's, squared */
+    float *hit_height;                 /* of the surface where a pixel's ray meets it, metres; NAN where it is not all water */
+    bool moves;                        /* the camera does */
+    shutter_parts parts[CELL_CLASSES]; /* of pixels, of cells and of sharp cells */
+    wave_set *instants[INSTANTS];      /* as points see them */
+    tile_cells **cells;                /* one a worker, … */
+    tile_cells **sums;                 /* … and one for the mean over the shutter's parts */
+    struct census **census;            /* one a worker */
     size_t workers;
     round_plan plan;
     double done, share; /* of the budget, before this round and in it */
@@ -103,7 +102,6 @@ bool refinement_plan(refinement *f, double budget, size_t round);
 bool leaf_chosen(const refinement *f, size_t tile, const leaf *l);
 /* Points for the chosen ones among the tile's first `end` leaves that take them (adaptive_points.c). False: memory is short. */
 bool refinement_scatter_points(const refinement *f, size_t tile, size_t end, uint32_t worker);
-void refinement_place_instants(refinement *f);
 
 /* Evaluations so far; pixels of water; the RMSE over the picture that the leaves expect, of coverage. */
 double refinement_spent(const refinement *f);

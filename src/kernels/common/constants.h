@@ -134,6 +134,41 @@
 #define SLOT_FLOATS 5     /* a result: colour, coverage, water */
 #define TASK_LANES 128    /* invocations over a tile's tasks */
 
+/* ---- method adaptive: the leaves of its refinement, see refinement.k ---- */
+
+#define LEAF_LEVELS 9                    /* a pixel has up to 4^8 cells, … */
+#define LEAF_SIDES (2 * LEAF_LEVELS - 1) /* … split up to 16 times one way */
+#define LEAF_SHARP_LEVEL 5               /* from which cells see glints so sharp that the bend of a path shows */
+#define LEAF_PARTS 16                    /* straight pieces of the shutter, at most */
+#define LEAF_INSTANTS 8                  /* of the shutter, that points are spread over */
+
+/* Into 2 × 2, four rows or four columns, whatever makes the parts' shape on the water rounder; or points instead. */
+#define SPLIT_EVEN 0
+#define SPLIT_ROWS 1
+#define SPLIT_COLUMNS 2
+#define SPLIT_POINTS 3
+
+#define LEAF_POINTS_PLACES 16 /* cells of more places are given points: splits would long say the same */
+#define LEAF_POINTS_LEVEL 5   /* under a sky only from this level, for the model knows the mirrored sky well */
+#define LEAF_LEAST_POINTS 256 /* then four times as many, … */
+#define LEAF_MOST_POINTS 4096 /* … to this */
+
+/* What a split is worth, counted in steps of a 32nd of an octave from 2^-80 on. */
+#define WORTH_STEPS 32
+#define WORTH_OCTAVES 96
+#define WORTH_BUCKETS (WORTH_STEPS * WORTH_OCTAVES)
+#define WORTH_ZERO 80
+#define KEPT_OCTAVES 5 /* leaves worth less than 2^-5 of what was split last are settled, … */
+#define KEPT_ROUNDS 2  /* … after the first rounds, which take only the best */
+
+#define COST_UNIT 65536 /* evaluations of all waves are counted in these parts */
+/* What a cell and a point sample cost besides their waves, in waves of a cell; measured, as are the 11 tenths that a wave of a sample costs. */
+#define CELL_WAVES 20
+#define SAMPLE_WAVES 1
+#define SAMPLE_TENTHS 11
+/* Of a point, evaluations of all waves: points lie where rays graze, and search to their hits over every wave. Measured. */
+#define POINT_COST 12
+
 /* ---- options ---- */
 
 /* FrameData.podee_kernels, an mgt_mixture; other numbers count circular kernels. */

@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: MIT
+ * Decisions of refinement.k, of one leaf at a time. */
+#include "cpu/leaf_lane.h"
+
+#include "cpu/kernel_context.h"
+
+#define MGT_LANES 1
+#include "kernels/common/prelude_c.h"
+
+#define FRAME(cx) (*(cx)->frame)
+
+#include "kernels/adaptive/refinement.k"
+
+uint8_t lane_split(float aspect) { return (uint8_t)leaf_split(NULL, aspect); }
+
+float lane_weight(const FrameData *frame, const float color[3], float shown)
+{
+    const struct kernel_context cx = {.frame = frame};
+    return leaf_weight(&cx, vec3(color[0], color[1], color[2]), shown);
+}
+
+int lane_class(int level, bool dark) { return leaf_class(NULL, level, dark); }
+
+int lane_next_points(lane_leaf l) { return (int)leaf_next_points(NULL, (float)l.points, l.places, l.coverage); }
+
+bool lane_takes_points(const FrameData *frame, lane_leaf l, int level)
+{
+    const struct kernel_context cx = {.frame = frame};
+    return leaf_takes_points(&cx, (float)l.points, l.places, level) > 0;
+}
+
+float lane_split_worth(bool by_display, float places, float split_worth) { return leaf_split_worth(NULL, by_display, places, split_worth); }
+
+float lane_points_worth(lane_leaf l, float area, float cost) { return leaf_points_worth(NULL, (float)l.points, l.places, l.coverage, area, cost); }
+
+uint16_t lane_bucket(float worth) { return (uint16_t)leaf_bucket(NULL, worth); }
+
+float lane_round_per_cent(int round) { return round_per_cent(NULL, round); }

@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: MIT
+ * Decisions of refinement.k, of one leaf at a time. */
+#ifndef MANGATA_CPU_LEAF_LANE_H
+#define MANGATA_CPU_LEAF_LANE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "frame/kernel_data.h"
+
+/* SPLIT_… for an aspect of CellResult. */
+uint8_t lane_split(float aspect);
+
+/* What a squared error of a pixel of this colour is worth; `shown` as in CellResult. */
+float lane_weight(const FrameData *frame, const float color[3], float shown);
+
+/* Which of the shutter's pieces cells of a level see, 0 to 2. */
+int lane_class(int level, bool dark);
+
+/* The leaf's numbers that its points depend on. */
+typedef struct lane_leaf {
+    int points; /* 0: it is a cell */
+    float places, coverage;
+} lane_leaf;
+
+/* How many points it has after its next turn. */
+int lane_next_points(lane_leaf l);
+bool lane_takes_points(const FrameData *frame, lane_leaf l, int level);
+
+/* How much of its squared error a split or points save for each evaluation. `split_worth`: of a split, for each unit of squared error. */
+float lane_split_worth(bool by_display, float places, float split_worth);
+float lane_points_worth(lane_leaf l, float area, float cost);
+uint16_t lane_bucket(float worth);
+
+/* Per cent of what is left of a number of samples that a round may spend; 0: no such round. */
+float lane_round_per_cent(int round);
+
+#endif

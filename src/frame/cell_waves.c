@@ -1,0 +1,66 @@
+/* SPDX-License-Identifier: MIT
+ * What the cells of method adaptive look at: the shutter in straight pieces, rays of cells, and the frame's numbers for them. */
+#include "frame/cell_waves.h"
+
+#include <math.h>
+
+#include "frame/lights.h"
+
+/* ---- the shutter ---- */
+
+/* How far the slopes' path over a piece of the shutter strays from a straight one, RMS, over the light's radius in slopes. */
+static double path_bend(const frame *f, int parts)
+{
+    const mgt_scene *s = f->scene;
+    return sines_path_bend(&s->water, s->shutter / 2 / parts) / (0.5 * lights_disk_radius(&f->data));
+}
+
+void cell_part_counts(const frame *f, int counts[CELL_CLASSES])
+{
+    static const double allowed[CELL_CLASSES] = {1e9, 0.5, 0.02};
+    for (int k = 0; k < CELL_CLASSES; k++) {
+        counts[k] = 1;
+        while (counts[k] < LEAF_PARTS && path_bend(f, counts[k]) > allowed[k])
+            counts[k] *= 2;
+    }
+}
+
+cell_time cell_part(const mgt_scene *scene, int count, int i)
+{
+    const double share = scene->camera_moves ? (double)i / count : (i + 0.5) / count;
+    return (cell_time){share, {scene->time - (1 - share) * scene->shutter, scene->camera_moves ? 0 : scene->shutter / 2 / count}};
+}
+
+cell_time cell_instant(const mgt_scene *scene, int i)
+{
+    const double share = (i + 0.5) / LEAF_INSTANTS;
+    return (cell_time){share, {scene->time - (1 - share) * scene->shutter, 0}};
+}
+
+/* ---- cells ---- */
+
+ViewData cell_view(const ViewData *view, int across, int down)
+{
+    ViewData v = *view;
+    v.scale_x = ldexpf(1, across);
+    v.scale_y = ldexpf(1, down);
+    v.rays.right_x /= v.scale_x, v.rays.right_y /= v.scale_x, v.rays.right_z /= v.scale_x;
+    v.rays.down_x /= v.scale_y, v.rays.down_y /= v.scale_y, v.rays.down_z /= v.scale_y;
+    const float x = 0.5f - 0.5f * v.scale_x, y = 0.5f - 0.5f * v.scale_y;
+    v.rays.corner_x += x * v.rays.right_x + y * v.rays.down_x;
+    v.rays.corner_y += x * v.rays.right_y + y * v.rays.down_y;
+    v.rays.corner_z += x * v.rays.right_z + y * v.rays.down_z;
+    return v;
+}
+
+FrameData cell_frame(const FrameData *data, int across, int down)
+{
+    FrameData d = *data;
+    d.pixel_angle = ldexpf(d.pixel_angle, across > down ? -across : -down);
+    if (across + down > 0) {
+        /* Small cells see glints so sharp that no wave's share may be a tile's mean. */
+        d.sort_shares = 0;
+        d.sort_start = 1e-3f;
+    }
+    return d;
+}
