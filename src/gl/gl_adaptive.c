@@ -27,5 +27,7 @@ mgt_status gl_spent_fill(gl_renderer *g, const region *area, const mgt_quality *
 mgt_status gl_adaptive_render(gl_renderer *g, const gl_job *job, const reporter *r)
 {
     const mgt_status status = gl_spent_reserve(g, &job->area, r);
-    return status == MGT_OK ? gl_adaptive_podee_render(g, job, r) : status;
+    if (status != MGT_OK)
+        return status;
+    return job->frame->scene->quality.adaptive == MGT_ADAPTIVE_PODEE ? gl_adaptive_podee_render(g, job, r) : gl_cells_render(g, job, r);
 }

@@ -25,6 +25,7 @@
     X(CHECKNAMEDFRAMEBUFFERSTATUS, CheckNamedFramebufferStatus)                           \
     X(CLEARBUFFERFV, ClearBufferfv)                                                       \
     X(CLEARBUFFERIV, ClearBufferiv)                                                       \
+    X(CLEARNAMEDBUFFERSUBDATA, ClearNamedBufferSubData)                                   \
     X(CLEARTEXIMAGE, ClearTexImage)                                                       \
     X(CLIENTWAITSYNC, ClientWaitSync)                                                     \
     X(CLIPCONTROL, ClipControl)                                                           \
@@ -65,6 +66,7 @@
     X(GETFLOATI_V, GetFloati_v)                                                           \
     X(GETGRAPHICSRESETSTATUS, GetGraphicsResetStatus)                                     \
     X(GETINTEGER64I_V, GetInteger64i_v)                                                   \
+    X(GETINTEGER64V, GetInteger64v)                                                       \
     X(GETINTEGERI_V, GetIntegeri_v)                                                       \
     X(GETINTEGERV, GetIntegerv)                                                           \
     X(GETNAMEDFRAMEBUFFERATTACHMENTPARAMETERIV, GetNamedFramebufferAttachmentParameteriv) \

@@ -14,6 +14,7 @@
 _Static_assert(sizeof(PassData) % 16 == 0 && sizeof(GlareData) % 16 == 0 && sizeof(WindowData) % 16 == 0 && sizeof(SlotsData) % 16 == 0, "std140 layout");
 _Static_assert(sizeof(LeanWave) == 32 && sizeof(LeanData) % 16 == 0 && sizeof(LeanPass) % 16 == 0 && sizeof(BlendData) % 16 == 0, "std140 layout");
 _Static_assert(sizeof(GbufferData) % 16 == 0 && sizeof(ObjectsData) % 16 == 0, "std140 layout");
+_Static_assert(sizeof(CellsData) % 16 == 0, "std140 layout");
 _Static_assert(sizeof(SortData) == 32 && sizeof(TileWave) == 16, "std430 layout");
 
 /* Binding points, as in the shaders. */
@@ -34,8 +35,11 @@ enum {
     BIND_OBJECT_LISTS = 5,
     BIND_PLAN = 4, /* method adaptive: see slots_data.glsl */
     BIND_TASKS = 5,
-    BIND_WAVE_STORAGE = 6, /* where a uniform block cannot hold the waves */
+    BIND_LEAVES = 4, /* … and cells_data.glsl */
+    BIND_CELLS = 5,
+    BIND_WAVE_STORAGE = 6, /* where a uniform block cannot hold the waves; of cells all sets of them */
     BIND_SLOTS = 7,
+    BIND_PIXELS = 7,
     STORAGE_BINDINGS,
 
     UNIT_SKY = 0, /* textures; those that no program reads together share units */

@@ -41,6 +41,16 @@ typedef enum gl_program {
     PROGRAM_SLOTS_TRACE,      /* a ray each, */
     PROGRAM_SLOTS_SUM,        /* their sums, */
     PROGRAM_SLOTS_BLEND,      /* which become part of the picture */
+    PROGRAM_CELLS_PLANT,      /* method adaptive: pixels, the first leaves, */
+    PROGRAM_CELLS_PLAN,       /* what a round may spend, … */
+    PROGRAM_CELLS_CHOOSE,     /* … on which leaves, … */
+    PROGRAM_CELLS_ALLOCATE,   /* … where they go, … */
+    PROGRAM_CELLS_LIST,       /* … and a list of what is to be rendered: */
+    PROGRAM_CELLS_SORT,       /* waves of each tile's cells, */
+    PROGRAM_CELLS_SHADE,      /* cells, */
+    PROGRAM_CELLS_POINTS,     /* points; */
+    PROGRAM_CELLS_GROW,       /* what came of them, */
+    PROGRAM_CELLS_CENSUS,     /* and what is left */
     PROGRAM_METHODS,          /* first of the methods' own */
     PROGRAM_COUNT = PROGRAM_METHODS + 2 * METHOD_SLOTS
 } gl_program;

@@ -5,6 +5,7 @@
 
 #include "frame/frame.h"
 #include "frame/sines.h"
+#include "gl/gl_cells.h"
 #include "gl/gl_gbuffer.h"
 #include "gl/gl_host_state.h"
 #include "gl/gl_memory.h"
@@ -59,6 +60,7 @@ typedef struct gl_limits {
     uint32_t texture_side;
     bool waves_in_storage; /* uniform blocks are too small for them */
     bool software;         /* llvmpipe and its like */
+    size_t storage_bytes;  /* of a buffer that shaders write */
     size_t table_texels;   /* elements of a buffer that shaders fetch */
 } gl_limits;
 
@@ -76,6 +78,7 @@ typedef struct gl_renderer {
     gl_podee podee;
     gl_lean lean;
     gl_slots slots;
+    gl_cells cells;
     gl_objects objects;
     gl_gbuffers gbuffers;
     gl_refraction refraction;
@@ -134,6 +137,9 @@ mgt_status gl_spent_fill(gl_renderer *g, const region *area, const mgt_quality *
 mgt_status gl_adaptive_render(gl_renderer *g, const gl_job *job, const reporter *r);
 mgt_status gl_adaptive_podee_render(gl_renderer *g, const gl_job *job, const reporter *r);
 void gl_adaptive_podee_free(gl_renderer *g);
+
+/* The same for the cells of method adaptive; gl_cells.c. */
+mgt_status gl_cells_render(gl_renderer *g, const gl_job *job, const reporter *r);
 
 /* What single methods read beside: filled where they are not yet, bound for the next dispatch, freed. */
 mgt_status gl_podee_prepare(gl_renderer *g, const mgt_scene *scene, const reporter *r);

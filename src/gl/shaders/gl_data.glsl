@@ -7,12 +7,18 @@
 #include "kernels/waves/sines_types.k"
 #include "pass_data.k"
 
-layout(std140, binding = 0) uniform FrameBlock { FrameData frame_data; };
 layout(std140, binding = 2) uniform PassBlock { PassData pass_data; };
+#ifdef CELLS_PASS
+#include "cells_waves.glsl"
+#else
+layout(std140, binding = 0) uniform FrameBlock { FrameData frame_data; };
+#define FRAME(cx) frame_data
 #ifdef WAVES_IN_STORAGE
 layout(std430, binding = 6) readonly buffer WaveBlock { WaveData wave_data[]; };
 #else
 layout(std140, binding = 1) uniform WaveBlock { WaveData wave_data[MAX_WAVES]; };
+#endif
+#define SET_WAVE(i) wave_data[i]
 #endif
 
 #ifndef TILE_ACCESS
@@ -27,7 +33,6 @@ layout(binding = 0) uniform sampler2D sky_texture;
 int tile_slot = 0;
 ivec2 layer_texel = ivec2(0); /* the pixel's */
 
-#define FRAME(cx) frame_data
 #define TILE(cx) tile_data[tile_slot]
 #define WAVE(cx, i) wave_of_tile(i)
 #define SEARCH_WAVE(cx, i) search_waves[tile_slot * pass_data.wave_stride + i]
@@ -38,7 +43,7 @@ ivec2 layer_texel = ivec2(0); /* the pixel's */
 WaveData wave_of_tile(int i)
 {
     TileWave entry = tile_waves[tile_slot * pass_data.wave_stride + i];
-    WaveData w = wave_placed(0, wave_data[entry.index], entry.turns);
+    WaveData w = wave_placed(0, SET_WAVE(entry.index), entry.turns);
 #ifdef SHARED_WAVES
     w = wave_shared(0, w, entry.share);
 #endif
@@ -57,7 +62,7 @@ layout(binding = 15) uniform sampler2D mirrored_texture;
 vec3 body_light()
 {
     if (pass_data.objects == 0)
-        return vec3(frame_data.body_r, frame_data.body_g, frame_data.body_b);
+        return vec3(FRAME(0).body_r, FRAME(0).body_g, FRAME(0).body_b);
     return texelFetch(body_texture, layer_texel, 0).rgb;
 }
 

@@ -1,0 +1,479 @@
+/* SPDX-License-Identifier: MIT
+ * Method adaptive's cells on the GPU: a picture of pixels, then rounds that split what is worth most.
+ *
+ * The GPU itself decides what each round renders: dispatches take their sizes from the state, and those of rounds that are not needed are empty. Nothing is
+ * read back. What a round does is written in cells_*.comp; it is what src/cpu/adaptive.c does. */
+#include "gl/gl_cells.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "frame/cell_waves.h"
+#include "frame/lights.h"
+#include "gl/gl_frame.h"
+
+enum {
+    SAMPLE_ROUNDS = 10, /* that spend a number of samples, see round_per_cent() */
+    MOST_ROUNDS = 40,   /* that reach for an error */
+    JOBS_A_TILE = 6,    /* sizes of cells in a round, on average; pictures of sea had two to three */
+    LEAST_JOBS = 4 * CELL_SIZES,
+    MOST_SLOTS = 32768, /* a row of a dispatch */
+    STATE_PARTS = 4,
+};
+
+/* Memory of the lists of waves that a batch of jobs needs. */
+static const size_t batch_bytes = (size_t)64 << 20;
+
+/* One frame. */
+typedef struct cells_run {
+    gl_run *run;
+    gl_renderer *g;
+    const frame *frame;
+    CellsData data;
+    gl_band whole; /* the picture as one band */
+    int parts[CELL_CLASSES];
+    int batches, point_batches, most_parts;
+    size_t set_vectors; /* of 16 bytes */
+} cells_run;
+
+/* ---- memory ---- */
+
+static int least(int64_t a, int64_t b) { return (int)(a < b ? a : b); }
+
+static int batches_of(int count, int slots) { return least(((int64_t)count + slots - 1) / slots, CELLS_BATCHES); }
+
+/* Lists of jobs, and how many of them run together. */
+static void plan_lists(cells_run *c)
+{
+    CellsData *d = &c->data;
+    const int64_t tiles = d->tiles, pixels = tiles * TILE_PIXELS;
+    const size_t slot = (size_t)(1 + d->moves) * (sizeof(TileData) + (size_t)c->run->wave_stride * (sizeof(TileWave) + sizeof(SearchWave)));
+    const int64_t most = batch_bytes / slot > 64 ? (int64_t)(batch_bytes / slot) : 64;
+    const int64_t point_most = (int64_t)(batch_bytes / (TILE_FLOATS * sizeof(float)));
+    d->most_jobs = least(JOBS_A_TILE * tiles + LEAST_JOBS, (int64_t)1 << 24);
+    d->slots = least(least(most, d->most_jobs), MOST_SLOTS);
+    c->batches = batches_of(d->most_jobs, d->slots);
+    d->most_jobs = least(d->most_jobs, (int64_t)d->slots * c->batches);
+    d->point_slots = least(least(least(most, point_most), tiles), d->slots);
+    c->point_batches = batches_of(d->tiles, d->point_slots);
+    d->most_groups = least(pixels / CELLS_GROUP * 4 + d->most_jobs, (int64_t)1 << 28);
+    d->most_point_groups = least(pixels / 16 + 4096, (int64_t)1 << 24);
+    d->jobs_at = CELLS_TILES + d->tiles * CELLS_TILE_WORDS;
+    d->groups_at = d->jobs_at + d->most_jobs * JOB_WORDS;
+    d->point_tiles_at = d->groups_at + d->most_groups * GROUP_WORDS;
+    d->point_groups_at = d->point_tiles_at + d->tiles;
+}
+
+static size_t state_words(const CellsData *d) { return (size_t)d->point_groups_at + (size_t)d->most_point_groups * POINT_GROUP_WORDS; }
+
+/* Leaves that there is room for: pictures of sea with eight samples had up to two a pixel. */
+static int64_t pool_of(const cells_run *c)
+{
+    const double a_pixel = fmin(2 + c->data.samples / 16.0, 8);
+    return (int64_t)(a_pixel * c->data.tiles * TILE_PIXELS);
+}
+
+static mgt_status reserve(cells_run *c)
+{
+    gl_renderer *g = c->g;
+    gl_cells *cells = &g->cells;
+    const gl_api *gl = &g->gl;
+    const reporter *r = c->run->r;
+    const CellsData *d = &c->data;
+    const size_t leaf = LEAF_VECTORS * 16, cameras = 1 + (size_t)d->moves;
+    const size_t slots = (size_t)d->slots * cameras;
+    const struct {
+        gl_buffer *buffer;
+        size_t size;
+    } all[] = {
+        {&cells->leaves, 2 * (size_t)d->pool * leaf},
+        {&cells->state, state_words(d) * sizeof(uint32_t)},
+        {&cells->pixels, (size_t)d->tiles * TILE_PIXELS * 2 * sizeof(float)},
+        {&cells->sets, c->set_vectors * 16 * (LEAF_INSTANTS + (size_t)(c->parts[0] + c->parts[1] + c->parts[2] + CELL_CLASSES * d->moves))},
+        {&cells->frames, LEAF_SIDES * sizeof(FrameData)},
+        {&g->tiles, slots * sizeof(TileData)},
+        {&g->tile_waves, slots * (size_t)c->run->wave_stride * sizeof(TileWave)},
+        {&g->search_waves, slots * (size_t)c->run->wave_stride * sizeof(SearchWave)},
+        {&g->nodes, (size_t)d->point_slots * TILE_FLOATS * sizeof(float)},
+    };
+    mgt_status status = MGT_OK;
+    for (size_t i = 0; i < sizeof all / sizeof *all && status == MGT_OK; i++)
+        status = all[i].size > g->limits.storage_bytes
+                     ? report_error(r, MGT_ERROR_UNSUPPORTED, "render.size",
+                                    "adaptive needs a buffer of %zu bytes for this picture, this OpenGL takes %zu: use the CPU", all[i].size,
+                                    g->limits.storage_bytes)
+                     : gl_buffer_reserve(gl, all[i].buffer, all[i].size, 0, r);
+    return status;
+}
+
+void gl_cells_free(const gl_api *gl, gl_cells *c)
+{
+    gl_buffer *const buffers[] = {&c->leaves, &c->state, &c->pixels, &c->sets, &c->frames};
+    for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++)
+        gl_buffer_free(gl, buffers[i]);
+}
+
+/* ---- waves ---- */
+
+/* By way of the ring, so that the GPU may still read what the buffer held. */
+static void *begin_upload(cells_run *c, size_t size, size_t *offset, mgt_status *status)
+{
+    gl_renderer *g = c->g;
+    *status = gl_ring_begin(&g->gl, &g->ring, size, 1, c->run->r);
+    return *status == MGT_OK ? gl_ring_allocate(&g->ring, size, offset) : NULL;
+}
+
+static mgt_status upload_frames(cells_run *c)
+{
+    size_t offset;
+    mgt_status status;
+    const size_t size = LEAF_SIDES * sizeof(FrameData);
+    FrameData *frames = begin_upload(c, size, &offset, &status);
+    for (int i = 0; frames && i < LEAF_SIDES; i++)
+        frames[i] = cell_frame(&c->frame->data, i, 0);
+    if (frames)
+        c->g->gl.CopyNamedBufferSubData(c->g->ring.buffer, c->g->cells.frames.name, (GLintptr)offset, 0, (GLsizeiptr)size);
+    return status;
+}
+
+static void write_views(const ViewData *view, ViewData *out)
+{
+    *out++ = *view;
+    for (int level = 1; level < LEAF_LEVELS; level++)
+        for (int across = 0; across <= 2 * level; across++)
+            *out++ = cell_view(view, across, 2 * level - across);
+}
+
+/* The set that g->waves holds. */
+static mgt_status upload_set(cells_run *c, size_t index)
+{
+    gl_renderer *g = c->g;
+    const wave_set *set = g->waves;
+    const size_t waves = (size_t)set->view.wave_count, size = c->set_vectors * 16;
+    size_t offset;
+    mgt_status status;
+    char *at = begin_upload(c, size, &offset, &status);
+    if (!at)
+        return status;
+    memcpy(at, set->data, waves * sizeof(WaveData));
+    at += waves * sizeof(WaveData);
+    sines_sort_data(set, (SortData *)(void *)at);
+    at += waves * sizeof(SortData);
+    write_views(&set->view, (ViewData *)(void *)at);
+    g->gl.CopyNamedBufferSubData(g->ring.buffer, g->cells.sets.name, (GLintptr)offset, (GLintptr)(index * size), (GLsizeiptr)size);
+    return MGT_OK;
+}
+
+static mgt_status place_set(cells_run *c, cell_time at, bool filter, size_t index)
+{
+    const gl_job *job = c->run->job;
+    const camera_rays camera = c->data.moves ? job->camera_at(job->camera_user, at.share) : c->frame->close;
+    wave_set_build(c->frame, &camera, at.time, filter, c->g->waves);
+    return upload_set(c, index);
+}
+
+/* In the order that cells_job.glsl counts them in. */
+static mgt_status upload_sets(cells_run *c)
+{
+    const mgt_scene *s = c->frame->scene;
+    size_t index = 0;
+    mgt_status status = MGT_OK;
+    for (int k = 0; k < CELL_CLASSES; k++)
+        for (int i = 0; i < c->parts[k] + c->data.moves && status == MGT_OK; i++)
+            status = place_set(c, cell_part(s, c->parts[k], i), true, index++);
+    for (int i = 0; i < LEAF_INSTANTS && status == MGT_OK; i++)
+        status = place_set(c, cell_instant(s, i), false, index++);
+    return status;
+}
+
+/* ---- dispatches ---- */
+
+static void bind(const cells_run *c)
+{
+    const gl_renderer *g = c->g;
+    const gl_api *gl = &g->gl;
+    const gl_layers *l = &g->layers;
+    const gl_image *const images[] = {&l->color, &l->coverage, &l->water, &l->samples, &l->importance, &l->detail};
+    gl_bind_tiles(g);
+    gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, BIND_LEAVES, g->cells.leaves.name);
+    gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, BIND_CELLS, g->cells.state.name);
+    gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, BIND_PIXELS, g->cells.pixels.name);
+    for (GLuint i = 0; i < sizeof images / sizeof *images; i++)
+        gl->BindImageTexture(i, images[i]->name, 0, GL_FALSE, 0, GL_READ_WRITE, images[i]->format);
+    gl->BindTextureUnit(UNIT_SKY, g->sky_texture);
+    gl->BindSampler(UNIT_SKY, 0);
+}
+
+/* Also for passes over rounds: the sets, and the frame's numbers. */
+static void bind_sets(const cells_run *c)
+{
+    const gl_renderer *g = c->g;
+    g->gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, BIND_WAVE_STORAGE, g->cells.sets.name);
+    g->gl.BindBufferRange(GL_UNIFORM_BUFFER, BIND_FRAME, g->cells.frames.name, 0, (GLsizeiptr)(LEAF_SIDES * sizeof(FrameData)));
+    g->gl.BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, g->cells.state.name);
+}
+
+static void barrier_after(const gl_api *gl) { gl->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_COMMAND_BARRIER_BIT); }
+
+/* The program and its uniform data; `pass`: of the band, or of the picture. */
+static mgt_status use(cells_run *c, gl_program program, const PassData *pass)
+{
+    gl_renderer *g = c->g;
+    mgt_status status = gl_ring_begin(&g->gl, &g->ring, sizeof *pass + sizeof c->data, 2, c->run->r);
+    if (status == MGT_OK)
+        status = gl_use(g, program, c->run->r);
+    if (status != MGT_OK)
+        return status;
+    gl_uniform(g, BIND_PASS, pass, sizeof *pass);
+    gl_uniform(g, BIND_EXTRA, &c->data, sizeof c->data);
+    return MGT_OK;
+}
+
+/* Over as much as the state says at word `size`. */
+static mgt_status run_counted(cells_run *c, gl_program program, int size)
+{
+    const mgt_status status = use(c, program, &c->whole.pass);
+    if (status != MGT_OK)
+        return status;
+    c->g->gl.DispatchComputeIndirect((GLintptr)size * 4);
+    barrier_after(&c->g->gl);
+    return MGT_OK;
+}
+
+static mgt_status run_groups(cells_run *c, gl_program program, GLuint columns, GLuint rows)
+{
+    const mgt_status status = use(c, program, &c->whole.pass);
+    if (status != MGT_OK)
+        return status;
+    c->g->gl.DispatchCompute(columns, rows, 1);
+    barrier_after(&c->g->gl);
+    return MGT_OK;
+}
+
+static mgt_status run_tiles(cells_run *c, gl_program program) { return run_groups(c, program, (GLuint)c->data.columns, (GLuint)c->data.rows); }
+
+/* ---- the picture of pixels ---- */
+
+static mgt_status sort_band(cells_run *c, const gl_band *b)
+{
+    const gl_job *job = c->run->job;
+    const mgt_scene *s = c->frame->scene;
+    const FrameData *data = &c->frame->data;
+    mgt_status status = MGT_OK;
+    for (int i = 0; i <= c->data.moves && status == MGT_OK; i++) {
+        const cell_time part = cell_part(s, 1, i);
+        const camera_rays camera = c->data.moves ? job->camera_at(job->camera_user, part.share) : c->frame->close;
+        const bool opens = i < c->data.moves;
+        wave_set_build(c->frame, &camera, part.time, true, c->g->waves);
+        status = gl_sort_tiles(data, c->run, b, opens ? b->tiles : 0, !opens && c->data.moves ? b->tiles : 0);
+    }
+    return status == MGT_OK ? gl_search_nodes(c->run, b->tiles * (1 + (uint32_t)c->data.moves)) : status;
+}
+
+static mgt_status plant_band(cells_run *c, uint32_t row)
+{
+    gl_renderer *g = c->g;
+    const gl_band b = gl_band_at(c->run, row);
+    PassData pass = b.pass;
+    pass.open_slots = c->data.moves ? (int)b.tiles : 0;
+    mgt_status status = sort_band(c, &b);
+    if (status != MGT_OK)
+        return status;
+    gl_pass_begin(g, "shade");
+    bind(c);
+    status = use(c, PROGRAM_CELLS_PLANT, &pass);
+    if (status == MGT_OK) {
+        g->gl.DispatchCompute((GLuint)pass.columns * TILE_GROUPS_X, (GLuint)pass.rows * TILE_GROUPS_Y, 1);
+        barrier_after(&g->gl);
+    }
+    const mgt_status ended = gl_pass_end(g, c->run->r);
+    return status == MGT_OK ? ended : status;
+}
+
+/* The leaves of a round, or of the picture of pixels, take their place and are counted. */
+static mgt_status grow(cells_run *c, int mode)
+{
+    c->data.mode = mode;
+    mgt_status status = mode == GROW_ROUND ? run_counted(c, PROGRAM_CELLS_GROW, CELLS_TILES_SIZE) : run_tiles(c, PROGRAM_CELLS_GROW);
+    if (status == MGT_OK && mode == GROW_PIXELS)
+        status = run_tiles(c, PROGRAM_CELLS_CENSUS);
+    if (status == MGT_OK && mode == GROW_ROUND)
+        status = run_counted(c, PROGRAM_CELLS_CENSUS, CELLS_TILES_SIZE);
+    return status;
+}
+
+static mgt_status plant(cells_run *c)
+{
+    gl_run *run = c->run;
+    const uint32_t zero = 0;
+    c->g->gl.ClearNamedBufferSubData(c->g->cells.state.name, GL_R32UI, 0, CELLS_TILES * 4, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
+    mgt_status status = MGT_OK;
+    for (uint32_t row = run->first_row; row < run->end_row && status == MGT_OK; row += run->band_rows) {
+        status = plant_band(c, row);
+        if (status == MGT_OK)
+            status = gl_step_done(run, 1);
+    }
+    return status;
+}
+
+/* ---- rounds ---- */
+
+/* Which leaves the round takes, and where what becomes of them goes. */
+static mgt_status plan_round(cells_run *c)
+{
+    mgt_status status = run_groups(c, PROGRAM_CELLS_PLAN, 1, 1);
+    if (status == MGT_OK)
+        status = run_counted(c, PROGRAM_CELLS_CHOOSE, CELLS_TILES_SIZE);
+    if (status == MGT_OK)
+        status = run_groups(c, PROGRAM_CELLS_ALLOCATE, 1, 1);
+    return status == MGT_OK ? run_counted(c, PROGRAM_CELLS_LIST, CELLS_TILES_SIZE) : status;
+}
+
+static mgt_status shade_cells(cells_run *c)
+{
+    mgt_status status = MGT_OK;
+    c->data.instant = -1;
+    for (int batch = 0; batch < c->batches && status == MGT_OK; batch++)
+        for (int part = 0; part < c->most_parts && status == MGT_OK; part++) {
+            c->data.batch = batch;
+            c->data.part = part;
+            status = run_counted(c, PROGRAM_CELLS_SORT, CELLS_SORT_SIZE + 4 * batch);
+            if (status == MGT_OK)
+                status = run_counted(c, PROGRAM_CELLS_SHADE, CELLS_SHADE_SIZE + 4 * batch);
+        }
+    return status;
+}
+
+static mgt_status sample_points(cells_run *c)
+{
+    mgt_status status = MGT_OK;
+    for (int batch = 0; batch < c->point_batches && status == MGT_OK; batch++)
+        for (int instant = 0; instant < LEAF_INSTANTS && status == MGT_OK; instant++) {
+            c->data.batch = batch;
+            c->data.instant = instant;
+            status = run_counted(c, PROGRAM_CELLS_SORT, CELLS_POINT_SORT_SIZE + 4 * batch);
+            if (status == MGT_OK)
+                status = run_counted(c, PROGRAM_NODES, CELLS_POINT_SORT_SIZE + 4 * batch);
+            if (status == MGT_OK)
+                status = run_counted(c, PROGRAM_CELLS_POINTS, CELLS_POINT_SIZE + 4 * batch);
+        }
+    return status;
+}
+
+static mgt_status run_stage(cells_run *c, const char *name, mgt_status (*stage)(cells_run *))
+{
+    gl_pass_begin(c->g, name);
+    const mgt_status status = stage(c), ended = gl_pass_end(c->g, c->run->r);
+    return status == MGT_OK ? ended : status;
+}
+
+static mgt_status grow_pixels(cells_run *c) { return grow(c, GROW_PIXELS); }
+static mgt_status grow_round(cells_run *c) { return grow(c, GROW_ROUND); }
+static mgt_status grow_end(cells_run *c) { return grow(c, GROW_END); }
+
+static mgt_status run_round(cells_run *c)
+{
+    mgt_status status = run_stage(c, "plan", plan_round);
+    if (status == MGT_OK)
+        status = run_stage(c, "cells", shade_cells);
+    if (status == MGT_OK)
+        status = run_stage(c, "points", sample_points);
+    return status == MGT_OK ? run_stage(c, "grow", grow_round) : status;
+}
+
+static mgt_status refine(cells_run *c, int rounds)
+{
+    bind(c);
+    bind_sets(c);
+    mgt_status status = run_stage(c, "grow", grow_pixels);
+    for (int round = 0; round < rounds && status == MGT_OK; round++) {
+        status = run_round(c);
+        if (status == MGT_OK)
+            status = gl_step_done(c->run, 1);
+    }
+    return status == MGT_OK ? run_stage(c, "grow", grow_end) : status;
+}
+
+/* ---- a frame ---- */
+
+static CellsData data_of(const gl_job *job, const frame *f, const int parts[CELL_CLASSES])
+{
+    const mgt_quality *q = &f->scene->quality;
+    const int width = (int)job->area.width, height = (int)job->area.height;
+    const int columns = (width + TILE_WIDTH - 1) / TILE_WIDTH, rows = (height + TILE_HEIGHT - 1) / TILE_HEIGHT;
+    return (CellsData){
+        .tiles = columns * rows,
+        .columns = columns,
+        .rows = rows,
+        .waves = (int)f->scene->water.wave_count,
+        .width = width,
+        .height = height,
+        .instant = -1,
+        .parts_1 = parts[1],
+        .parts_2 = parts[2],
+        .moves = f->scene->camera_moves,
+        .sky_black = f->data.sky_black,
+        .by_coverage = q->target_rmse > 0,
+        .by_display = !f->data.sky_black && !(q->target_rmse > 0),
+        .lights_dark = lights_dark(&f->data),
+        .samples = (int)(q->samples > 0 ? q->samples : 8),
+        .target_rmse = (float)q->target_rmse,
+        .target_displayed = (float)q->target_displayed,
+        .seed_low = (int)(uint32_t)q->seed,
+        .seed_high = (int)(uint32_t)(q->seed >> 32),
+    };
+}
+
+static mgt_status reserve_pictures(gl_renderer *g, const region *area, const reporter *r)
+{
+    gl_layers *l = &g->layers;
+    mgt_status status = gl_image_reserve(&g->gl, &l->color, GL_RGBA32F, area->width, area->height, r);
+    if (status == MGT_OK)
+        status = gl_image_reserve(&g->gl, &l->coverage, GL_R32F, area->width, area->height, r);
+    return status == MGT_OK ? gl_image_reserve(&g->gl, &l->water, GL_R32F, area->width, area->height, r) : status;
+}
+
+static mgt_status prepare(cells_run *c)
+{
+    const CellsData *d = &c->data;
+    const size_t waves = c->frame->scene->water.wave_count;
+    c->set_vectors = waves * (SET_WAVE_VECTORS + SET_SORT_VECTORS) + SET_VIEWS * SET_VIEW_VECTORS;
+    c->most_parts = c->parts[1] > c->parts[2] ? c->parts[1] : c->parts[2];
+    plan_lists(c);
+    c->data.pool = least(pool_of(c), (int64_t)(c->g->limits.storage_bytes / (2 * LEAF_VECTORS * 16)));
+    if (c->data.pool < d->tiles * TILE_PIXELS)
+        c->data.pool = d->tiles * TILE_PIXELS;
+    c->whole = gl_band_at(c->run, c->run->first_row);
+    c->whole.pass.rows = d->rows;
+    mgt_status status = reserve(c);
+    if (status == MGT_OK)
+        status = upload_frames(c);
+    return status == MGT_OK ? upload_sets(c) : status;
+}
+
+mgt_status gl_cells_render(gl_renderer *g, const gl_job *job, const reporter *r)
+{
+    frame colored = *job->frame; /* errors are weighed by colour, whatever layers are asked for */
+    colored.data.want_color = 1;
+    gl_job own = *job;
+    own.frame = &colored;
+    gl_run run;
+    cells_run c = {.run = &run, .g = g, .frame = &colored};
+    cell_part_counts(&colored, c.parts);
+    c.data = data_of(job, &colored, c.parts);
+    mgt_status status = reserve_pictures(g, &job->area, r);
+    if (status == MGT_OK)
+        status = gl_run_begin(&run, g, &own, 1 + (size_t)c.data.moves, r);
+    if (status != MGT_OK)
+        return status;
+    const int rounds = colored.scene->quality.target_rmse > 0 || colored.scene->quality.target_displayed > 0 ? MOST_ROUNDS : SAMPLE_ROUNDS;
+    run.steps = (run.end_row - run.first_row + run.band_rows - 1) / run.band_rows + (double)rounds;
+    status = prepare(&c);
+    if (status == MGT_OK)
+        status = plant(&c);
+    if (status == MGT_OK)
+        status = refine(&c, rounds);
+    gl_run_end(&run);
+    return status;
+}

@@ -1,0 +1,396 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Leaves that have been rendered take their place, a workgroup a tile: what a split of each is worth, which are settled, and what the tile has spent.
+ *
+ * Leaves are looked at in groups of one size, in one order, so that sums of pixels have one order too. What is kept moves up to the tile's first place.
+ */
+#include "kernels/common/prelude_glsl.k"
+#include "kernels/common/types.k"
+layout(std140, binding = 0) uniform FrameBlock { FrameData frame_of_halvings[LEAF_SIDES]; };
+#define FRAME(cx) frame_of_halvings[0]
+#include "kernels/adaptive/refinement.k"
+#include "cells_data.glsl"
+
+layout(local_size_x = CELLS_GROUP) in;
+layout(binding = 0, rgba32f) coherent uniform image2D color_image;
+layout(binding = 1, r32f) coherent uniform image2D coverage_image;
+layout(binding = 2, r32f) coherent uniform image2D water_image;
+layout(binding = 3, r32f) coherent uniform image2D samples_image;
+layout(binding = 5, r32f) coherent uniform image2D detail_image;
+layout(std430, binding = 7) readonly buffer PixelBlock { vec2 pixel_data[]; };
+
+int tile, words, lane, least;
+int first_place; /* of the tile's leaves */
+bool dark;
+
+/* ---- what cells cost ---- */
+
+shared double level_cost[LEAF_LEVELS]; /* of a cell; 0: unknown */
+shared double level_below[LEAF_LEVELS];
+shared float level_worth[LEAF_LEVELS];
+
+int part_count(int level)
+{
+    int kind = leaf_class(0, level, dark);
+    return kind == 0 ? 1 : kind == 1 ? cells_data.parts_1 : cells_data.parts_2;
+}
+
+/* What splits cost and are worth, after a level's cost became known: where it is not, by the nearest level above. */
+void appraise()
+{
+    double cost = level_cost[0];
+    for (int level = 0; level < LEAF_LEVELS; level++) {
+        double next = level + 1 < LEAF_LEVELS ? level_cost[level + 1] : 0.0lf;
+        cost = next > 0.0lf ? next : 1.2lf * cost * double(part_count(level + 1)) / double(part_count(level));
+        level_below[level] = 4.0lf * cost;
+        level_worth[level] = float(double(leaf_area(level) * leaf_area(level)) / level_below[level]);
+    }
+}
+
+/* Cells of a level evaluate so many waves in each part of the shutter. */
+void price(int level, int waves)
+{
+    double all = double(SAMPLE_TENTHS) / 10.0lf * double(cells_data.waves) + double(SAMPLE_WAVES);
+    level_cost[level] = double(part_count(level)) * double(waves + CELL_WAVES) / all;
+    appraise();
+}
+
+/* ---- sums of a tile ---- */
+
+double spent, settled_variance, settled_shown, water; /* this invocation's */
+shared double lane_sums[CELLS_GROUP];
+
+/* In one order. */
+double sum_of_lanes(double value)
+{
+    barrier();
+    lane_sums[lane] = value;
+    barrier();
+    double sum = 0.0lf;
+    if (lane == 0)
+        for (int i = 0; i < CELLS_GROUP; i++)
+            sum += lane_sums[i];
+    return sum;
+}
+
+void add_to_tile(int word, double value)
+{
+    double sum = sum_of_lanes(value);
+    if (lane == 0)
+        set_state_double(words + word, state_double(words + word) + sum);
+}
+
+/* ---- a group of leaves ---- */
+
+shared uint group_pixels[2 * TILE_PIXELS]; /* which leaves of the group lie in a pixel, bits; zero between groups */
+shared vec4 group_color[CELLS_GROUP];      /* what leaves add to pixels: colour and coverage, … */
+shared vec4 group_water[CELLS_GROUP];      /* … water, detail, samples */
+shared uint group_kept[2];
+shared int kept; /* of the tile so far */
+
+/* The first of a pixel's leaves adds them all, in order. */
+void add_to_pixel(ivec2 pixel, uint low, uint high)
+{
+    ivec2 texel = ivec2(tile % cells_data.columns, tile / cells_data.columns) * ivec2(TILE_WIDTH, TILE_HEIGHT) + pixel;
+    vec3 color = imageLoad(color_image, texel).rgb;
+    float coverage = imageLoad(coverage_image, texel).r, of_water = imageLoad(water_image, texel).r;
+    float detail = imageLoad(detail_image, texel).r, samples = imageLoad(samples_image, texel).r;
+    while (low != 0u || high != 0u) {
+        int i = low != 0u ? findLSB(low) : 32 + findLSB(high);
+        high = low != 0u ? high : high & (high - 1u);
+        low = low != 0u ? low & (low - 1u) : 0u;
+        color += group_color[i].rgb;
+        coverage += group_color[i].a;
+        of_water += group_water[i].x;
+        detail += group_water[i].y;
+        samples += group_water[i].z;
+    }
+    imageStore(color_image, texel, vec4(color, 1.0f));
+    imageStore(coverage_image, texel, vec4(coverage));
+    imageStore(water_image, texel, vec4(of_water));
+    imageStore(detail_image, texel, vec4(detail));
+    imageStore(samples_image, texel, vec4(samples));
+}
+
+float pixel_weight(ivec2 pixel) { return pixel_data[tile * TILE_PIXELS + pixel.y * TILE_WIDTH + pixel.x].x; }
+
+/* What settling the leaf adds. */
+void settle(Leaf l, ivec2 pixel)
+{
+    int level = leaf_level(l);
+    float area = leaf_area(level);
+    group_color[lane] = vec4(l.color, l.coverage) * area;
+    group_water[lane].x = area * l.water;
+    group_water[lane].y = level > 0 || l.points > 0.0f ? area * l.coverage : 0.0f;
+    settled_variance += double(area * area * l.variance);
+    settled_shown += double(area * area * l.contrast * pixel_weight(pixel));
+}
+
+/* One leaf an invocation, of those that are there: settles or keeps it. `samples`: what it has cost just now. */
+void take_group(bool there, Leaf l, bool settles, float samples)
+{
+    ivec2 pixel = there ? leaf_pixel(l) : ivec2(0);
+    int index = 2 * (pixel.y * TILE_WIDTH + pixel.x);
+    bool adds = there && (settles || samples > 0.0f), keeps = there && !settles;
+    group_color[lane] = vec4(0.0f);
+    group_water[lane] = vec4(0.0f, 0.0f, samples, 0.0f);
+    if (there && settles)
+        settle(l, pixel);
+    if (adds)
+        atomicOr(group_pixels[index + (lane >> 5)], 1u << (lane & 31));
+    if (keeps)
+        atomicOr(group_kept[lane >> 5], 1u << (lane & 31));
+    barrier();
+    uint low = group_pixels[index], high = group_pixels[index + 1];
+    bool first = adds && (low != 0u ? findLSB(low) : 32 + findLSB(high)) == lane;
+    if (first)
+        add_to_pixel(pixel, low, high);
+    uvec2 keepers = uvec2(group_kept[0], group_kept[1]);
+    if (keeps) {
+        int before = bitCount(lane < 32 ? keepers.x & ((1u << lane) - 1u) : keepers.y & ((1u << (lane - 32)) - 1u)) + (lane < 32 ? 0 : bitCount(keepers.x));
+        set_leaf(first_place + kept + before, l);
+    }
+    memoryBarrierImage();
+    barrier();
+    if (first) {
+        group_pixels[index] = 0u;
+        group_pixels[index + 1] = 0u;
+    }
+    if (lane == 0) {
+        kept += bitCount(keepers.x) + bitCount(keepers.y);
+        group_kept[0] = 0u;
+        group_kept[1] = 0u;
+    }
+    barrier();
+}
+
+/* How the leaf goes on, as refinement_add() of the CPU. */
+Leaf judged(Leaf l)
+{
+    int level = leaf_level(l);
+    float off = cells_data.by_coverage != 0 ? l.variance : l.contrast * pixel_weight(leaf_pixel(l));
+    if (leaf_takes_points(0, l.points, l.places, level) > 0.0f)
+        l.split = SPLIT_POINTS;
+    bool points = l.split == SPLIT_POINTS;
+    float next = leaf_next_points(0, l.points, l.places, l.coverage);
+    bool ends = points ? next > float(LEAF_MOST_POINTS) : level + 1 == LEAF_LEVELS;
+    l.bucket = 0;
+    if (!(off > 0.0f) || ends)
+        return l;
+    float worth = leaf_split_worth(0, cells_data.by_display != 0, l.places, level_worth[level]);
+    if (points)
+        worth = leaf_points_worth(0, l.points, l.places, l.coverage, leaf_area(level), (next - l.points) * float(POINT_COST));
+    l.bucket = int(leaf_bucket(0, off * worth));
+    return l;
+}
+
+Leaf no_leaf()
+{
+    Leaf l;
+    l.place = ivec2(0);
+    l.halvings = ivec2(0);
+    l.split = 0;
+    l.points = 0.0f;
+    l.bucket = 0;
+    l.places = 1.0f;
+    l.color = vec3(0.0f);
+    l.coverage = 0.0f;
+    l.water = 0.0f;
+    l.height = 0.0f;
+    l.variance = 0.0f;
+    l.contrast = 0.0f;
+    return l;
+}
+
+/* ---- kinds of leaves ---- */
+
+/* Leaves that were there before and have not been chosen. */
+void take_old(int from, int count, bool all)
+{
+    for (int i = 0; i < count; i += CELLS_GROUP) {
+        bool there = i + lane < count;
+        Leaf l = no_leaf();
+        if (there)
+            l = leaf_at(from + i + lane);
+        take_group(there, l, all || l.bucket <= least, 0.0f);
+    }
+}
+
+void take_pixels(int from)
+{
+    if (lane == 0)
+        price(0, int(state[words + TILE_WAVES]));
+    barrier();
+    for (int i = 0; i < TILE_PIXELS; i += CELLS_GROUP) {
+        bool there = leaves[LEAF_VECTORS * (from + i + lane)].x != NO_LEAF;
+        Leaf l = no_leaf();
+        if (there)
+            l = judged(leaf_at(from + i + lane));
+        float samples = there && l.water > 0.0f ? float(level_cost[0]) : 0.0f;
+        spent += double(samples);
+        water += double(l.water);
+        take_group(there, l, l.bucket <= least, samples);
+    }
+}
+
+/* What the pieces of the shutter have summed up. */
+Leaf new_cell(int i)
+{
+    Leaf l = leaf_at(i);
+    l.split = int(leaf_split(0, uintBitsToFloat(leaves[LEAF_VECTORS * i].z)));
+    l.points = 0.0f;
+    return judged(l);
+}
+
+/* Cells of one size; `from` is the first one's place. */
+void take_cells(int from, int count, int level)
+{
+    for (int i = 0; i < count; i += CELLS_GROUP) {
+        bool there = i + lane < count;
+        Leaf l = no_leaf();
+        if (there)
+            l = new_cell(from + i + lane);
+        if (there)
+            spent += level_cost[level];
+        take_group(there, l, l.bucket <= least, there ? float(level_cost[level]) : 0.0f);
+    }
+}
+
+void take_all_cells(int from)
+{
+    int job = int(state[words + TILE_JOB_FIRST]);
+    for (int across = 0; across < LEAF_SIDES; across++)
+        for (int down = across & 1; down < LEAF_SIDES - across; down += 2) {
+            if (across + down == 0)
+                continue;
+            int count = 4 * int(state[words + TILE_SIZES + cell_size(across, down)]), level = (across + down) / 2;
+            if (count == 0)
+                continue;
+            barrier();
+            if (lane == 0)
+                price(level, int(state[cells_data.jobs_at + JOB_WORDS * job + 2]));
+            barrier();
+            take_cells(from, count, level);
+            from += count;
+            job++;
+        }
+}
+
+double luminance_of(dvec3 color) { return 0.2126lf * color.r + 0.7152lf * color.g + 0.0722lf * color.b; }
+
+/* The leaf's values become the mean of all its points, old and new. Under a sky the luminance of the points says how far off their mean is. */
+Leaf with_points(Leaf l, double sums[POINT_SUMS])
+{
+    double first = double(l.points), end = double(leaf_next_points(0, l.points, l.places, l.coverage));
+    double before = luminance_of(dvec3(l.color));
+    double squares = first * (first * double(l.contrast) + before * before) + sums[5];
+    l.color = vec3(float((first * double(l.color.r) + sums[0]) / end), float((first * double(l.color.g) + sums[1]) / end),
+                   float((first * double(l.color.b) + sums[2]) / end));
+    l.coverage = float((first * double(l.coverage) + sums[3]) / end);
+    l.water = float((first * double(l.water) + sums[4]) / end);
+    double mean = luminance_of(dvec3(l.color));
+    l.contrast = cells_data.sky_black != 0 ? l.contrast * (l.places / float(end)) : float(max(squares / end - mean * mean, 0.0lf) / end);
+    l.variance = l.coverage * max(l.water - l.coverage, 0.0f) / float(end);
+    l.places = float(end);
+    l.points = float(end);
+    return l;
+}
+
+/* Height stands for the place of the leaf's first group of points. */
+Leaf new_points(Leaf l)
+{
+    int group = int(floatBitsToUint(l.height)), end = int(leaf_next_points(0, l.points, l.places, l.coverage));
+    int groups = (end - int(l.points)) / (POINT_GROUP * LEAF_INSTANTS);
+    double sums[POINT_SUMS];
+    for (int k = 0; k < POINT_SUMS; k++) {
+        sums[k] = 0.0lf;
+        for (int i = 0; i < groups; i++)
+            sums[k] += state_double(cells_data.point_groups_at + POINT_GROUP_WORDS * (group + i) + POINT_SUMS_AT + 2 * k);
+    }
+    return judged(with_points(l, sums));
+}
+
+void take_points(int from, int count)
+{
+    for (int i = 0; i < count; i += CELLS_GROUP) {
+        bool there = i + lane < count;
+        Leaf l = no_leaf();
+        float cost = 0.0f;
+        if (there) {
+            l = leaf_at(from + i + lane);
+            cost = (leaf_next_points(0, l.points, l.places, l.coverage) - l.points) * float(POINT_COST);
+            l = new_points(l);
+        }
+        spent += double(cost);
+        take_group(there, l, l.bucket <= least, cost);
+    }
+}
+
+/* ---- a tile ---- */
+
+void read_costs()
+{
+    if (lane < LEAF_LEVELS) {
+        level_cost[lane] = cells_data.mode == GROW_PIXELS ? 0.0lf : state_double(words + TILE_COST + 2 * lane);
+        level_worth[lane] = uintBitsToFloat(state[words + TILE_WORTH + lane]);
+        level_below[lane] = double(state[words + TILE_BELOW + lane]) / double(COST_UNIT);
+    }
+    for (int i = lane; i < 2 * TILE_PIXELS; i += CELLS_GROUP)
+        group_pixels[i] = 0u;
+    if (lane == 0) {
+        kept = 0;
+        group_kept[0] = 0u;
+        group_kept[1] = 0u;
+        if (cells_data.mode == GROW_PIXELS) {
+            for (int i = TILE_SPENT; i < TILE_COST; i++)
+                state[words + i] = 0u;
+        }
+    }
+    barrier();
+}
+
+void write_costs()
+{
+    barrier();
+    if (lane < LEAF_LEVELS) {
+        set_state_double(words + TILE_COST + 2 * lane, level_cost[lane]);
+        state[words + TILE_WORTH + lane] = floatBitsToUint(level_worth[lane]);
+        state[words + TILE_BELOW + lane] = uint(level_below[lane] * double(COST_UNIT));
+    }
+    add_to_tile(TILE_SPENT, spent);
+    add_to_tile(TILE_VARIANCE, settled_variance);
+    add_to_tile(TILE_SHOWN, settled_shown);
+    add_to_tile(TILE_WATER, water);
+    if (lane == 0) {
+        state[words + TILE_FIRST] = uint(first_place);
+        state[words + TILE_LEAVES] = uint(kept);
+    }
+}
+
+void main()
+{
+    tile = int(gl_WorkGroupID.y) * cells_data.columns + int(gl_WorkGroupID.x);
+    words = tile_words(tile);
+    lane = int(gl_LocalInvocationIndex);
+    least = int(state[CELLS_LEAST]);
+    dark = state[words + TILE_DARK] != 0u;
+    spent = 0.0lf;
+    settled_variance = 0.0lf;
+    settled_shown = 0.0lf;
+    water = 0.0lf;
+    read_costs();
+    if (cells_data.mode == GROW_PIXELS) {
+        first_place = tile * TILE_PIXELS;
+        take_pixels(first_place);
+    } else if (cells_data.mode == GROW_END) {
+        first_place = int(state[words + TILE_FIRST]);
+        take_old(first_place, int(state[words + TILE_LEAVES]), true);
+    } else {
+        int old = int(state[words + TILE_KEPT]), cells = int(state[words + TILE_CHILDREN]);
+        first_place = int(state[words + TILE_NEXT]);
+        take_old(first_place, old, false);
+        take_all_cells(first_place + old);
+        take_points(first_place + old + cells, int(state[words + TILE_POINT_LEAVES]));
+    }
+    write_costs();
+}

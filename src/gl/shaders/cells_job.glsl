@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The cells of a tile that have one size, and the sets of waves that they see.
+ */
+struct Job {
+    int tile;
+    ivec2 halvings; /* across and down */
+    int kind;       /* leaf_class() */
+};
+
+Job job_at(int place)
+{
+    int at = cells_data.jobs_at + JOB_WORDS * place;
+    int how = int(state[at + 1]);
+    return Job(int(state[at]), ivec2(how & 255, how >> 8 & 255), how >> 16);
+}
+
+int part_count(int kind) { return kind == 0 ? 1 : kind == 1 ? cells_data.parts_1 : cells_data.parts_2; }
+
+/* Sets stand in the order of classes; where the camera moves, of the instants between pieces. Those of points are the last. */
+int first_set(int kind)
+{
+    int sets = 0;
+    for (int k = 0; k < kind; k++)
+        sets += part_count(k) + cells_data.moves;
+    return sets;
+}
+
+int set_of_part(int kind, bool open) { return (first_set(kind) + cells_data.part + (open ? 0 : cells_data.moves)) * set_vectors(); }
+int set_of_instant() { return (first_set(3) + cells_data.instant) * set_vectors(); }

@@ -1,0 +1,99 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Where the buffers of method adaptive's cells hold what, for C and GLSL; see cells_data.glsl. Places are counted in words of four bytes, a double is two
+ * of them.
+ */
+#ifndef CELLS_LAYOUT_H
+#define CELLS_LAYOUT_H
+
+/* ---- the frame's words ---- */
+
+#define CELLS_ROUND 0
+#define CELLS_RUNNING 1 /* 1 while rounds go on */
+#define CELLS_BUCKET 2  /* what the round splits: cells above this bucket, … */
+#define CELLS_POINTS 3  /* … leaves with points above this one … */
+#define CELLS_LEAST 4   /* leaves up to this bucket are settled */
+#define CELLS_SHARE 5   /* … and this share of the cells in the bucket, a double */
+#define CELLS_BUDGET 7  /* evaluations in all, a double */
+#define CELLS_JOBS 9    /* of the round: tiles of one size of cells, … */
+#define CELLS_GROUPS 10 /* … groups of cells of one job, … */
+#define CELLS_POINT_TILES 11
+#define CELLS_POINT_GROUPS 12 /* … groups of points of one leaf */
+#define CELLS_LEAVES 13       /* that are open */
+#define CELLS_USED 14         /* evaluations before the round, a double */
+
+/* Sizes of dispatches, four words each. */
+#define CELLS_SIZES 64
+#define CELLS_BATCHES 16
+#define CELLS_TILES_SIZE CELLS_SIZES
+#define CELLS_SORT_SIZE (CELLS_TILES_SIZE + 4)
+#define CELLS_SHADE_SIZE (CELLS_SORT_SIZE + 4 * CELLS_BATCHES)
+#define CELLS_POINT_SORT_SIZE (CELLS_SHADE_SIZE + 4 * CELLS_BATCHES)
+#define CELLS_POINT_SIZE (CELLS_POINT_SORT_SIZE + 4 * CELLS_BATCHES)
+#define CELLS_SIZES_END (CELLS_POINT_SIZE + 4 * CELLS_BATCHES)
+
+/* What leaves of a bucket cost: two words for cells, then two for points, the lower one first. */
+#define CELLS_CENSUS 512
+#define CELLS_TILES (CELLS_CENSUS + 4 * WORTH_BUCKETS)
+
+/* ---- a tile's words ---- */
+
+#define TILE_FIRST 0        /* its leaves in the pool, … */
+#define TILE_LEAVES 1       /* … and how many */
+#define TILE_NEXT 2         /* where they are to go; */
+#define TILE_KEPT 3         /* first those that stay, … */
+#define TILE_CHILDREN 4     /* … then new cells, … */
+#define TILE_POINT_LEAVES 5 /* … then those that take points */
+#define TILE_JOBS 6
+#define TILE_GROUPS 7
+#define TILE_POINT_GROUPS 8
+#define TILE_JOB_FIRST 9
+#define TILE_GROUP_FIRST 10
+#define TILE_POINT_TILE 11
+#define TILE_POINT_FIRST 12
+#define TILE_DARK 13          /* 1: no light is mirrored there, and what is mirrored of the sky needs no pieces of the shutter */
+#define TILE_WAVES 14         /* of its pixels */
+#define TILE_SPENT 16         /* doubles: evaluations, … */
+#define TILE_VARIANCE 18      /* … squared errors of what is settled: of coverage … */
+#define TILE_SHOWN 20         /* … and of the displayed luminance, … */
+#define TILE_OPEN_VARIANCE 22 /* … the same of what is open, … */
+#define TILE_OPEN_SHOWN 24
+#define TILE_WATER 26                            /* … pixels of water */
+#define TILE_COST 32                             /* of a cell of each level, evaluations, doubles; 0: unknown */
+#define TILE_BELOW (TILE_COST + 2 * LEAF_LEVELS) /* of a split of a cell, in COST_UNIT-ths */
+#define TILE_WORTH (TILE_BELOW + LEAF_LEVELS)    /* of it, for each unit of squared error, floats */
+#define TILE_SIZES 72                            /* leaves that are split into cells of a size: see cell_size() */
+#define CELL_SIZES (LEAF_LEVELS * LEAF_LEVELS - 1)
+#define CELLS_TILE_WORDS (TILE_SIZES + CELL_SIZES)
+
+/* ---- lists ---- */
+
+#define JOB_WORDS 4          /* tile; halvings across, down and class, a byte each; waves */
+#define GROUP_WORDS 4        /* job; first cell in the pool; count */
+#define POINT_GROUP_WORDS 16 /* leaf in the pool; place of its tile in the list of tiles; which of its groups; then sums, doubles */
+#define POINT_SUMS_AT 4
+#define POINT_SUMS 6 /* colour, coverage, water and the square of the luminance */
+
+/* ---- workgroups ---- */
+
+#define CELLS_GROUP 64  /* cells, or leaves of a tile that are looked at together */
+#define POINT_GROUP 32  /* points of a leaf at one instant */
+#define CELLS_LANES 256 /* of what runs over all tiles */
+
+/* ---- wave sets, in words of 16 bytes: waves, as they are sorted, then views ---- */
+
+#define SET_WAVE_VECTORS 6
+#define SET_SORT_VECTORS 2
+#define SET_VIEW_VECTORS 5
+#define SET_VIEWS (CELL_SIZES + 1) /* of pixels, then of each size of cells */
+
+/* ---- a leaf in the pool, words of 16 bytes ---- */
+
+#define LEAF_VECTORS 3
+
+/* CellsData.mode of cells_grow.comp: which leaves there are. */
+#define GROW_PIXELS 0 /* pixels, as they were planted */
+#define GROW_ROUND 1  /* what a round has made */
+#define GROW_END 2    /* all that are left are settled */
+
+#endif

@@ -1,0 +1,172 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * What the next round may spend, and which leaves it splits for that: one workgroup.
+ */
+#include "kernels/common/prelude_glsl.k"
+#include "kernels/common/types.k"
+layout(std140, binding = 0) uniform FrameBlock { FrameData frame_of_halvings[LEAF_SIDES]; };
+#define FRAME(cx) frame_of_halvings[0]
+#include "kernels/adaptive/refinement.k"
+#include "cells_state.glsl"
+
+layout(local_size_x = CELLS_LANES) in;
+
+shared double lane_sums[CELLS_LANES];
+shared uint running;
+
+int lane;
+
+/* Of a number that each tile has, in one order; on every invocation. */
+double sum_of_tiles(int word, int other)
+{
+    double sum = 0.0lf;
+    for (int tile = lane; tile < cells_data.tiles; tile += CELLS_LANES) {
+        sum += state_double(tile_words(tile) + word);
+        if (other != word)
+            sum += state_double(tile_words(tile) + other);
+    }
+    lane_sums[lane] = sum;
+    for (int half_way = CELLS_LANES / 2; half_way > 0; half_way /= 2) {
+        barrier();
+        if (lane < half_way)
+            lane_sums[lane] += lane_sums[lane + half_way];
+    }
+    barrier();
+    double all = lane_sums[0];
+    barrier();
+    return all;
+}
+
+void count_leaves()
+{
+    double sum = 0.0lf;
+    for (int tile = lane; tile < cells_data.tiles; tile += CELLS_LANES)
+        sum += double(state[tile_words(tile) + TILE_LEAVES]);
+    lane_sums[lane] = sum;
+    barrier();
+    if (lane != 0)
+        return;
+    for (int i = 1; i < CELLS_LANES; i++)
+        sum += lane_sums[i];
+    state[CELLS_LEAVES] = uint(sum);
+}
+
+/* Of coverage a third, of the displayed luminance a fifth of what leaves say, as refinement.c measured. */
+double predicted(double of_sum, double sum) { return sqrt(of_sum * sum / (double(cells_data.width) * double(cells_data.height))); }
+
+/* How much the round may spend; 0: it is enough. */
+double next_share(int round, double used)
+{
+    double variance = sum_of_tiles(TILE_VARIANCE, TILE_OPEN_VARIANCE), shown = sum_of_tiles(TILE_SHOWN, TILE_OPEN_SHOWN);
+    double budget = sum_of_tiles(TILE_WATER, TILE_WATER) * double(cells_data.samples);
+    if (cells_data.target_rmse > 0.0f)
+        return predicted(0.35lf, variance) > double(cells_data.target_rmse) ? 0.3lf * used : 0.0lf;
+    if (cells_data.target_displayed > 0.0f) {
+        double off = cells_data.sky_black != 0 ? predicted(0.35lf, variance) : predicted(0.2lf, shown);
+        return off > double(cells_data.target_displayed) ? 0.3lf * used : 0.0lf;
+    }
+    double left = budget - used;
+    return left > 0.005lf * budget ? double(round_per_cent(0, round)) / 100.0lf * left : 0.0lf;
+}
+
+/* ---- the census ---- */
+
+const int CHUNK = 256; /* buckets that are read together */
+shared uvec4 bucket_costs[CHUNK];
+
+struct Plan {
+    int bucket, points;
+    double share, left;
+    bool any, ended;
+};
+
+double whole(uvec2 words) { return double(words.y) * 4294967296.0lf + double(words.x); }
+
+Plan with_bucket(Plan p, int b, uvec4 costs)
+{
+    double cells = whole(costs.xy), points = whole(costs.zw);
+    if (p.points < b && points <= p.left) {
+        p.left -= points;
+        p.any = p.any || points > 0.0lf;
+    } else if (p.points < b) {
+        p.points = b;
+    }
+    p.any = p.any || cells > 0.0lf;
+    if (cells > p.left) {
+        p.bucket = b;
+        p.share = p.left / cells;
+        p.ended = true;
+        return p;
+    }
+    p.left -= cells;
+    return p;
+}
+
+/* From the best bucket down until the share is spent. Leaves with points are too dear for shares of a bucket: from the first bucket on that cannot be paid
+ * they wait. */
+Plan plan_for(double share)
+{
+    Plan p = Plan(0, -1, 0.0lf, share * double(COST_UNIT), false, false);
+    for (int end = WORTH_BUCKETS; end > 0; end -= CHUNK) {
+        int at = CELLS_CENSUS + 4 * (end - CHUNK + lane);
+        bucket_costs[lane] = uvec4(state[at], state[at + 1], state[at + 2], state[at + 3]);
+        barrier();
+        if (lane == 0)
+            for (int b = end - 1; b >= end - CHUNK && !p.ended; b--)
+                p = with_bucket(p, b, bucket_costs[b - end + CHUNK]);
+        barrier();
+    }
+    if (p.points < p.bucket)
+        p.points = p.bucket - 1; /* those of the last bucket have been paid for */
+    return p;
+}
+
+void clear_census()
+{
+    for (int i = lane; i < 4 * WORTH_BUCKETS; i += CELLS_LANES)
+        state[CELLS_CENSUS + i] = 0u;
+}
+
+void set_size(int at, bool runs)
+{
+    state[at] = runs ? uint(cells_data.columns) : 0u;
+    state[at + 1] = runs ? uint(cells_data.rows) : 0u;
+    state[at + 2] = runs ? 1u : 0u;
+}
+
+void store_plan(int round, Plan p)
+{
+    state[CELLS_BUCKET] = uint(p.bucket);
+    state[CELLS_POINTS] = uint(p.points);
+    set_state_double(CELLS_SHARE, p.share);
+    int keep = p.bucket - KEPT_OCTAVES * WORTH_STEPS;
+    if (p.any && round >= KEPT_ROUNDS && keep > int(state[CELLS_LEAST]))
+        state[CELLS_LEAST] = uint(keep);
+}
+
+void main()
+{
+    lane = int(gl_LocalInvocationIndex);
+    int round = int(state[CELLS_ROUND]);
+    if (lane == 0)
+        running = round == 0 ? 1u : state[CELLS_RUNNING];
+    barrier();
+    if (running == 0u)
+        return;
+    double used = sum_of_tiles(TILE_SPENT, TILE_SPENT);
+    double share = next_share(round, used);
+    count_leaves();
+    Plan p = plan_for(max(share, 0.0lf));
+    barrier();
+    clear_census();
+    if (lane != 0)
+        return;
+    bool runs = share > 0.0lf && p.any;
+    store_plan(round, p);
+    state[CELLS_ROUND] = uint(round + 1);
+    state[CELLS_RUNNING] = runs ? 1u : 0u;
+    set_state_double(CELLS_USED, used);
+    for (int at = CELLS_SIZES; at < CELLS_SIZES_END; at++)
+        state[at] = 0u;
+    set_size(CELLS_TILES_SIZE, runs);
+}

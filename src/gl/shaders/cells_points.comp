@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Point samples of leaves at one instant: a workgroup takes a share of a leaf's.
+ */
+#define EXACT_FMA
+#define CELLS_PASS
+#include "lattice_data.glsl"
+#include "kernels/glitter/sample.k"
+#include "cells_data.glsl"
+#include "cells_job.glsl"
+#include "cells_lot.glsl"
+
+layout(local_size_x = POINT_GROUP) in;
+
+shared double lane_sums[POINT_SUMS][POINT_GROUP];
+
+/* Point `index` of the leaf's sequence: the R2 sequence (Roberts 2018), shifted by the leaf and the seed. In pixels from the tile's first one's centre. */
+vec2 point_place(int tile, Leaf l, int index)
+{
+    double shift = leaf_lot(tile, l, ~uvec2(uint(cells_data.seed_low), uint(cells_data.seed_high)));
+    double u = shift + double(index) * 0.75487766624669276lf, v = 0.5lf + shift * 977.0lf + double(index) * 0.56984029099805327lf;
+    dvec2 sides = dvec2(double(1 << l.halvings.x), double(1 << l.halvings.y));
+    dvec2 place = (dvec2(l.place) + dvec2(u - floor(u), v - floor(v))) / sides - 0.5lf;
+    return vec2(place);
+}
+
+void keep(int group, int lane, PixelResult p)
+{
+    double luminance = 0.2126lf * double(p.color.r) + 0.7152lf * double(p.color.g) + 0.0722lf * double(p.color.b);
+    double values[POINT_SUMS] =
+        double[POINT_SUMS](double(p.color.r), double(p.color.g), double(p.color.b), double(p.coverage), double(p.water), luminance * luminance);
+    for (int k = 0; k < POINT_SUMS; k++)
+        lane_sums[k][lane] = values[k];
+    barrier();
+    if (lane >= POINT_SUMS)
+        return;
+    int at = cells_data.point_groups_at + POINT_GROUP_WORDS * group + POINT_SUMS_AT + 2 * lane;
+    double sum = cells_data.instant == 0 ? 0.0lf : state_double(at);
+    for (int i = 0; i < POINT_GROUP; i++)
+        sum += lane_sums[lane][i];
+    set_state_double(at, sum);
+}
+
+void main()
+{
+    int group = int(gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x), lane = int(gl_LocalInvocationIndex);
+    if (group >= int(state[CELLS_POINT_GROUPS]))
+        return;
+    int at = cells_data.point_groups_at + POINT_GROUP_WORDS * group, place = int(state[at + 1]), slot = place - cells_data.batch * cells_data.point_slots;
+    if (slot < 0 || slot >= cells_data.point_slots)
+        return;
+    int tile = int(state[cells_data.point_tiles_at + place]);
+    Leaf l = leaf_at(int(state[at]));
+    ivec2 pixel = leaf_pixel(l);
+    tile_slot = slot;
+    set_at = set_of_instant();
+    layer_texel = ivec2(tile % cells_data.columns, tile / cells_data.columns) * ivec2(TILE_WIDTH, TILE_HEIGHT) + pixel;
+    int index = int(l.points) + cells_data.instant + LEAF_INSTANTS * (POINT_GROUP * int(state[at + 2]) + lane);
+    vec2 where = point_place(tile, l, index);
+    keep(group, lane, sample_pixel(0, where.x, where.y, pixel_estimate(pixel)));
+}

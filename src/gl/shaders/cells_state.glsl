@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * What method adaptive keeps on the GPU between its passes: numbers of the frame and of each tile, and lists. See cells_layout.h.
+ */
+#include "pass_data.k"
+
+layout(std140, binding = 3) uniform CellsBlock { CellsData cells_data; };
+layout(std430, binding = 5) buffer StateBlock { uint state[]; };
+
+double state_double(int at) { return packDouble2x32(uvec2(state[at], state[at + 1])); }
+
+void set_state_double(int at, double value)
+{
+    uvec2 words = unpackDouble2x32(value);
+    state[at] = words.x;
+    state[at + 1] = words.y;
+}
+
+int tile_words(int tile) { return CELLS_TILES + tile * CELLS_TILE_WORDS; }
+
+/* The place of a size of cells among all: by level, then by halvings across. Level 0 has none. */
+int cell_size(int across, int down)
+{
+    int level = (across + down) / 2;
+    return level * level - 1 + across;
+}
+
+int halvings_across(int split) { return split == SPLIT_EVEN ? 1 : split == SPLIT_ROWS ? 0 : 2; }
+int halvings_down(int split) { return 2 - halvings_across(split); }
