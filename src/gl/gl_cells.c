@@ -25,6 +25,9 @@ enum {
 /* Memory of the lists of waves that a batch of jobs needs. */
 static const size_t batch_bytes = (size_t)64 << 20;
 
+/* Memory of a side of the pool of leaves, unless pixels need more. */
+static const size_t pool_bytes = (size_t)256 << 20;
+
 /* One frame. */
 typedef struct cells_run {
     gl_run *run;
@@ -67,11 +70,14 @@ static void plan_lists(cells_run *c)
 
 static size_t state_words(const CellsData *d) { return (size_t)d->point_groups_at + (size_t)d->most_point_groups * POINT_GROUP_WORDS; }
 
-/* Leaves that there is room for: pictures of sea with eight samples had up to two a pixel. */
-static int64_t pool_of(const cells_run *c)
+/* Leaves that there is room for on a side of the pool: pictures of sea with eight samples have up to three a pixel; fewer where that is much memory, and
+ * always some more than pixels. */
+static int pool_of(const cells_run *c)
 {
-    const double a_pixel = fmin(2 + c->data.samples / 16.0, 8);
-    return (int64_t)(a_pixel * c->data.tiles * TILE_PIXELS);
+    const int64_t pixels = (int64_t)c->data.tiles * TILE_PIXELS, leaf = LEAF_VECTORS * 16, least_pool = pixels + pixels / 4;
+    const int64_t wanted = (int64_t)((double)pixels * fmin(4 + c->data.samples / 16.0, 16)), held = (int64_t)pool_bytes / leaf;
+    const int64_t pool = wanted < held ? wanted : held > least_pool ? held : least_pool, allowed = (int64_t)(c->g->limits.storage_bytes / 2) / leaf;
+    return least(pool < allowed || allowed < pixels ? pool : allowed, 1 << 28);
 }
 
 static mgt_status reserve(cells_run *c)
@@ -441,9 +447,7 @@ static mgt_status prepare(cells_run *c)
     c->set_vectors = waves * (SET_WAVE_VECTORS + SET_SORT_VECTORS) + SET_VIEWS * SET_VIEW_VECTORS;
     c->most_parts = c->parts[1] > c->parts[2] ? c->parts[1] : c->parts[2];
     plan_lists(c);
-    c->data.pool = least(pool_of(c), (int64_t)(c->g->limits.storage_bytes / (2 * LEAF_VECTORS * 16)));
-    if (c->data.pool < d->tiles * TILE_PIXELS)
-        c->data.pool = d->tiles * TILE_PIXELS;
+    c->data.pool = pool_of(c);
     c->whole = gl_band_at(c->run, c->run->first_row);
     c->whole.pass.rows = d->rows;
     mgt_status status = reserve(c);

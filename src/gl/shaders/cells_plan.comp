@@ -134,13 +134,15 @@ void set_size(int at, bool runs)
     state[at + 2] = runs ? 1u : 0u;
 }
 
+/* A pool that fills settles leaves from the first round on. */
 void store_plan(int round, Plan p)
 {
     state[CELLS_BUCKET] = uint(p.bucket);
     state[CELLS_POINTS] = uint(p.points);
     set_state_double(CELLS_SHARE, p.share);
     int keep = p.bucket - KEPT_OCTAVES * WORTH_STEPS;
-    if (p.any && round >= KEPT_ROUNDS && keep > int(state[CELLS_LEAST]))
+    bool crowded = double(state[CELLS_LEAVES]) > 0.625lf * double(cells_data.pool);
+    if (p.any && (round >= KEPT_ROUNDS || crowded) && keep > int(state[CELLS_LEAST]))
         state[CELLS_LEAST] = uint(keep);
 }
 

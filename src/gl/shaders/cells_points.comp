@@ -14,14 +14,17 @@ layout(local_size_x = POINT_GROUP) in;
 
 shared double lane_sums[POINT_SUMS][POINT_GROUP];
 
-/* Point `index` of the leaf's sequence: the R2 sequence (Roberts 2018), shifted by the leaf and the seed. In pixels from the tile's first one's centre. */
-vec2 point_place(int tile, Leaf l, int index)
+/* Point `index` of the leaf's sequence: the R2 sequence (Roberts 2018), shifted by the leaf and the seed. In pixels from the tile's first one's centre. It
+ * is rounded as a jitter about the pixel `about`, at whose place the CPU samples it. */
+vec2 point_place(int tile, Leaf l, int index, ivec2 about)
 {
-    double shift = leaf_lot(tile, l, ~uvec2(uint(cells_data.seed_low), uint(cells_data.seed_high)));
-    double u = shift + double(index) * 0.75487766624669276lf, v = 0.5lf + shift * 977.0lf + double(index) * 0.56984029099805327lf;
-    dvec2 sides = dvec2(double(1 << l.halvings.x), double(1 << l.halvings.y));
-    dvec2 place = (dvec2(l.place) + dvec2(u - floor(u), v - floor(v))) / sides - 0.5lf;
-    return vec2(place);
+    precise double shift = leaf_lot(tile, l, ~uvec2(uint(cells_data.seed_low), uint(cells_data.seed_high)));
+    precise double u = shift + double(index) * 0.75487766624669276lf;
+    precise double v = 0.5lf + shift * 977.0lf + double(index) * 0.56984029099805327lf;
+    precise dvec2 corner = dvec2(l.place) + dvec2(u, v) - dvec2(floor(u), floor(v));
+    precise dvec2 place = corner / dvec2(double(1 << l.halvings.x), double(1 << l.halvings.y)) - 0.5lf - dvec2(about);
+    precise vec2 jittered = vec2(about) + vec2(place);
+    return jittered;
 }
 
 void keep(int group, int lane, PixelResult p)
@@ -56,6 +59,7 @@ void main()
     set_at = set_of_instant();
     layer_texel = ivec2(tile % cells_data.columns, tile / cells_data.columns) * ivec2(TILE_WIDTH, TILE_HEIGHT) + pixel;
     int index = int(l.points) + cells_data.instant + LEAF_INSTANTS * (POINT_GROUP * int(state[at + 2]) + lane);
-    vec2 where = point_place(tile, l, index);
+    int before = group - int(state[tile_words(tile) + TILE_POINT_FIRST]);
+    vec2 where = point_place(tile, l, index, ivec2(lane, before % TILE_HEIGHT));
     keep(group, lane, sample_pixel(0, where.x, where.y, pixel_estimate(pixel)));
 }
