@@ -71,10 +71,10 @@ static void plan_lists(cells_run *c)
 static size_t state_words(const CellsData *d) { return (size_t)d->point_groups_at + (size_t)d->most_point_groups * POINT_GROUP_WORDS; }
 
 /* Leaves that there is room for on a side of the pool: pictures of sea with eight samples have up to three a pixel; fewer where that is much memory, and
- * always some more than pixels. */
+ * always half as much again as pixels. */
 static int pool_of(const cells_run *c)
 {
-    const int64_t pixels = (int64_t)c->data.tiles * TILE_PIXELS, leaf = LEAF_VECTORS * 16, least_pool = pixels + pixels / 4;
+    const int64_t pixels = (int64_t)c->data.tiles * TILE_PIXELS, leaf = LEAF_VECTORS * 16, least_pool = pixels + pixels / 2;
     const int64_t wanted = (int64_t)((double)pixels * fmin(4 + c->data.samples / 16.0, 16)), held = (int64_t)pool_bytes / leaf;
     const int64_t pool = wanted < held ? wanted : held > least_pool ? held : least_pool, allowed = (int64_t)(c->g->limits.storage_bytes / 2) / leaf;
     return least(pool < allowed || allowed < pixels ? pool : allowed, 1 << 28);

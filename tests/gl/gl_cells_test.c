@@ -1,0 +1,305 @@
+/* SPDX-License-Identifier: MIT
+ * The cells of method adaptive on OpenGL: the same samples and pictures as on the CPU, the same bytes every time, and nothing is read back. */
+#include <math.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <cmocka.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "frame/backend.h"
+#include "gl/gl_api.h"
+#include "gl/gl_egl.h"
+#include "mangata/gl.h"
+#include "scene/scene_file.h"
+
+enum { WIDTH = 160, HEIGHT = 90, PIXELS = WIDTH * HEIGHT };
+
+static const double most_others = 5e-3; /* share of the pixels that may have another number of samples; */
+static const double largest_rms = 5e-5; /* of the others */
+
+typedef struct picture {
+    float coverage[PIXELS], mask[PIXELS], samples[PIXELS], importance[PIXELS], detail[PIXELS];
+    unsigned char shown[4 * PIXELS];
+} picture;
+
+static mgt_context *context_of(mgt_backend backend)
+{
+    mgt_context_desc desc;
+    mgt_context_desc_init(&desc, sizeof desc);
+    desc.backend = backend;
+    mgt_context *context = NULL;
+    if (mgt_context_create(&context, &desc) != MGT_OK)
+        fail_msg("%s", mgt_last_error(NULL));
+    return context;
+}
+
+static scene_file *load(const char *name, mgt_scene *scene)
+{
+    char path[512];
+    snprintf(path, sizeof path, "%s/scenes/%s", MGT_SOURCE_DIR, name);
+    scene_error error;
+    scene_file *file = scene_file_load(path, NULL, 0, &error);
+    if (!file || !scene_file_frame(file, 0, scene))
+        fail_msg("%s: %s", path, file ? "no frame" : error.text);
+    scene->image = (mgt_image){.width = WIDTH, .height = HEIGHT};
+    mgt_quality_init(&scene->quality, sizeof scene->quality);
+    scene->quality.method = MGT_METHOD_ADAPTIVE;
+    return file;
+}
+
+static mgt_target target_of(mgt_layer layer, mgt_format format, void *pixels)
+{
+    mgt_target t;
+    mgt_target_init(&t, sizeof t);
+    t.layer = layer;
+    t.format = format;
+    t.pixels = pixels;
+    return t;
+}
+
+static void render(mgt_context *context, const mgt_scene *scene, picture *out)
+{
+    const mgt_target targets[] = {
+        target_of(MGT_LAYER_COVERAGE, MGT_FORMAT_R32F, out->coverage), target_of(MGT_LAYER_MASK, MGT_FORMAT_R32F, out->mask),
+        target_of(MGT_LAYER_SAMPLES, MGT_FORMAT_R32F, out->samples),   target_of(MGT_LAYER_IMPORTANCE, MGT_FORMAT_R32F, out->importance),
+        target_of(MGT_LAYER_DETAIL, MGT_FORMAT_R32F, out->detail),     target_of(MGT_LAYER_COLOR, MGT_FORMAT_RGBA8_SRGB, out->shown),
+    };
+    memset(out, 0xff, sizeof *out);
+    if (mgt_render(context, scene, targets, sizeof targets / sizeof *targets) != MGT_OK)
+        fail_msg("%s", mgt_last_error(context));
+}
+
+static double rms_where(const float *a, const float *b, const bool *where)
+{
+    double sum = 0;
+    size_t count = 0;
+    for (size_t i = 0; i < PIXELS; i++)
+        if (where[i]) {
+            sum += ((double)a[i] - (double)b[i]) * ((double)a[i] - (double)b[i]);
+            count++;
+        }
+    return count ? sqrt(sum / (double)count) : 0;
+}
+
+static void expect_alike(const char *name, const picture *a, const picture *b)
+{
+    static bool same[PIXELS];
+    size_t others = 0, steps = 0;
+    for (size_t i = 0; i < PIXELS; i++) {
+        same[i] = fabsf(a->samples[i] - b->samples[i]) <= 1e-4f * fmaxf(b->samples[i], 1); /* sums of floats in other orders */
+        others += !same[i];
+        for (size_t k = 0; k < 3; k++)
+            steps += same[i] && abs(a->shown[4 * i + k] - b->shown[4 * i + k]) > 1;
+    }
+    const double coverage = rms_where(a->coverage, b->coverage, same), mask = rms_where(a->mask, b->mask, same);
+    const double importance = rms_where(a->importance, b->importance, same), detail = rms_where(a->detail, b->detail, same);
+    printf("  %-18s %5zu pixels of other samples, rms of the others: coverage %.1e, mask %.1e, importance %.1e, detail %.1e\n", name, others, coverage, mask,
+           importance, detail);
+    assert_true((double)others <= most_others * PIXELS);
+    assert_true(coverage <= largest_rms && mask <= largest_rms && importance <= largest_rms && detail <= largest_rms);
+    assert_true((double)steps <= 1e-3 * 3 * PIXELS);
+}
+
+static const char *const seas[] = {"simple.json", "smooth.json", "medium.json", "high.json", "sunset.json", "gale.yaml", "moonlit.json"};
+enum { SEAS = sizeof seas / sizeof *seas };
+
+static void pictures_are_those_of_the_cpu(void **state)
+{
+    (void)state;
+    static picture expected, got, again;
+    mgt_context *gl = context_of(MGT_BACKEND_GL), *cpu = context_of(MGT_BACKEND_CPU);
+    for (size_t i = 0; i < SEAS; i++) {
+        mgt_scene scene;
+        scene_file *file = load(seas[i], &scene);
+        assert_true(mgt_supports(MGT_BACKEND_GL, &scene, MGT_LAYER_SAMPLES));
+        render(cpu, &scene, &expected);
+        render(gl, &scene, &got);
+        expect_alike(seas[i], &got, &expected);
+        render(gl, &scene, &again);
+        assert_memory_equal(&again, &got, sizeof got);
+        scene_file_free(file);
+    }
+    mgt_context_destroy(gl);
+    mgt_context_destroy(cpu);
+}
+
+/* How far, with a camera that moves, and in pictures whose sides are no multiples of tiles. */
+static void options_are_those_of_the_cpu(void **state)
+{
+    (void)state;
+    static picture expected, got;
+    static const struct {
+        const char *name, *sea;
+        mgt_quality quality;
+        bool moves;
+    } cases[] = {
+        {"--samples 2", "medium.json", {.samples = 2}, false},
+        {"--samples 24", "smooth.json", {.samples = 24, .seed = 5}, false},
+        {"--target-rmse", "smooth.json", {.target_rmse = 1e-3}, false},
+        {"--target-displayed", "sunset.json", {.target_displayed = 0.03}, false},
+        {"moving", "smooth.json", {.samples = 0}, true},
+        {"moving", "sunset.json", {.samples = 0}, true},
+    };
+    mgt_context *gl = context_of(MGT_BACKEND_GL), *cpu = context_of(MGT_BACKEND_CPU);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        mgt_scene scene;
+        scene_file *file = load(cases[i].sea, &scene);
+        scene.quality.samples = cases[i].quality.samples;
+        scene.quality.seed = cases[i].quality.seed;
+        scene.quality.target_rmse = cases[i].quality.target_rmse;
+        scene.quality.target_displayed = cases[i].quality.target_displayed;
+        scene.camera_moves = cases[i].moves;
+        scene.camera_open = scene.camera;
+        scene.camera_open.position[0] -= 0.02;
+        render(cpu, &scene, &expected);
+        render(gl, &scene, &got);
+        expect_alike(cases[i].name, &got, &expected);
+        scene_file_free(file);
+    }
+    mgt_context_destroy(gl);
+    mgt_context_destroy(cpu);
+}
+
+static void crops_are_parts_of_the_whole(void **state)
+{
+    (void)state;
+    static picture whole;
+    enum { X = 35, Y = 41, W = 40, H = 26 };
+    static float part[W * H];
+    mgt_context *gl = context_of(MGT_BACKEND_GL);
+    mgt_scene scene;
+    scene_file *file = load("smooth.json", &scene);
+    render(gl, &scene, &whole);
+    scene.image.crop_x = X, scene.image.crop_y = Y, scene.image.crop_width = W, scene.image.crop_height = H;
+    const mgt_target target = target_of(MGT_LAYER_COVERAGE, MGT_FORMAT_R32F, part);
+    assert_int_equal(mgt_render(gl, &scene, &target, 1), MGT_OK);
+    for (size_t y = 0; y < H; y++)
+        assert_memory_equal(part + y * W, whole.coverage + (y + Y) * WIDTH + X, W * sizeof(float));
+    scene_file_free(file);
+    mgt_context_destroy(gl);
+}
+
+/* ---- what the CPU still does ---- */
+
+static void the_rest_is_the_cpus(void **state)
+{
+    (void)state;
+    mgt_scene scene;
+    scene_file *file = load("smooth.json", &scene);
+    scene.quality.budget_ms = 20;
+    assert_false(mgt_supports(MGT_BACKEND_GL, &scene, MGT_LAYER_COVERAGE));
+    scene_file_free(file);
+    file = load("diver.yaml", &scene);
+    assert_false(mgt_supports(MGT_BACKEND_GL, &scene, MGT_LAYER_COVERAGE));
+    scene_file_free(file);
+}
+
+/* ---- nothing is read back ---- */
+
+/* Calls by which a program learns what the GPU has done; mapping counts where it is for reading. */
+static size_t reads, waits;
+static PFNGLGETTEXTURESUBIMAGEPROC get_texture;
+static PFNGLMAPNAMEDBUFFERRANGEPROC map_buffer;
+static PFNGLCLIENTWAITSYNCPROC wait_sync;
+
+static void APIENTRY counted_get_texture(GLuint texture, GLint level, GLint x, GLint y, GLint z, GLsizei width, GLsizei height, GLsizei depth, GLenum format,
+                                         GLenum type, GLsizei size, void *pixels)
+{
+    reads++;
+    get_texture(texture, level, x, y, z, width, height, depth, format, type, size, pixels);
+}
+
+static void *APIENTRY counted_map_buffer(GLuint buffer, GLintptr offset, GLsizeiptr size, GLbitfield access)
+{
+    reads += (access & GL_MAP_READ_BIT) != 0;
+    return map_buffer(buffer, offset, size, access);
+}
+
+/* A look whether a fence has been reached does not wait. */
+static GLenum APIENTRY counted_wait_sync(GLsync sync, GLbitfield flags, GLuint64 timeout)
+{
+    waits += timeout > 0;
+    return wait_sync(sync, flags, timeout);
+}
+
+static mgt_gl_function counting_get_proc(const char *name)
+{
+    const mgt_gl_function function = gl_egl_get_proc(name);
+    if (strcmp(name, "glGetTextureSubImage") == 0) {
+        get_texture = (PFNGLGETTEXTURESUBIMAGEPROC)function;
+        return (mgt_gl_function)counted_get_texture;
+    }
+    if (strcmp(name, "glMapNamedBufferRange") == 0) {
+        map_buffer = (PFNGLMAPNAMEDBUFFERRANGEPROC)function;
+        return (mgt_gl_function)counted_map_buffer;
+    }
+    if (strcmp(name, "glClientWaitSync") == 0) {
+        wait_sync = (PFNGLCLIENTWAITSYNCPROC)function;
+        return (mgt_gl_function)counted_wait_sync;
+    }
+    return function;
+}
+
+static void nothing_is_read_back(void **state)
+{
+    (void)state;
+    enum { FRAMES = 100, SIDE = 64 };
+    char error[REPORTER_TEXT];
+    const reporter r = {.error = error};
+    gl_egl *egl;
+    gl_egl_scope scope;
+    gl_api api;
+    assert_int_equal(gl_egl_create(&egl, 0, &r), MGT_OK);
+    assert_int_equal(gl_egl_enter(egl, &scope, &r), MGT_OK);
+    assert_null(gl_api_load(&api, gl_egl_get_proc));
+    mgt_context_desc desc;
+    mgt_context_desc_init(&desc, sizeof desc);
+    desc.backend = MGT_BACKEND_GL;
+    desc.gl_get_proc = counting_get_proc;
+    mgt_context *context = NULL;
+    assert_int_equal(mgt_context_create(&context, &desc), MGT_OK);
+    mgt_scene scene;
+    scene_file *file = load("simple.json", &scene);
+    scene.image = (mgt_image){.width = SIDE, .height = SIDE};
+    mgt_gl_texture texture;
+    mgt_gl_texture_init(&texture, sizeof texture);
+    texture.layer = MGT_LAYER_COLOR;
+    api.CreateTextures(GL_TEXTURE_2D, 1, &texture.texture);
+    api.TextureStorage2D(texture.texture, 1, GL_RGBA32F, SIDE, SIDE);
+    reads = waits = 0;
+    for (int i = 0; i < FRAMES; i++) {
+        scene.time = 0.01 * i;
+        if (mgt_gl_render_textures(context, &scene, &texture, 1) != MGT_OK)
+            fail_msg("%s", mgt_last_error(context));
+    }
+    printf("  %d frames: %zu times read back, %zu times waited for room in the ring of uniform data\n", FRAMES, reads, waits);
+    assert_int_equal(reads, 0);
+    scene_file_free(file);
+    api.DeleteTextures(1, &texture.texture);
+    mgt_context_destroy(context);
+    gl_egl_leave(egl, &scope);
+    gl_egl_destroy(egl);
+}
+
+int main(void)
+{
+    mgt_context_desc desc;
+    mgt_context_desc_init(&desc, sizeof desc);
+    desc.backend = MGT_BACKEND_GL;
+    mgt_context *context = NULL;
+    const mgt_status status = mgt_context_create(&context, &desc);
+    mgt_context_destroy(context);
+    if (status == MGT_ERROR_UNAVAILABLE) {
+        printf("SKIPPED: %s\n", mgt_last_error(NULL));
+        return 77;
+    }
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(pictures_are_those_of_the_cpu), cmocka_unit_test(options_are_those_of_the_cpu), cmocka_unit_test(crops_are_parts_of_the_whole),
+        cmocka_unit_test(the_rest_is_the_cpus),          cmocka_unit_test(nothing_is_read_back),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
