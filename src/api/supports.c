@@ -20,9 +20,7 @@ static const char *gl_lacks_scheme(const mgt_scene *scene)
     const double pixels = (double)scene->image.width * scene->image.height, slots = q->sample_slots ? (double)q->sample_slots : podee_samples_of(q) * pixels;
     if (q->budget_ms > 0)
         return "a budget of milliseconds is kept";
-    if (q->adaptive == MGT_ADAPTIVE_PODEE)
-        return slots > most_slots ? "more than 2^31 samples of a picture are taken" : NULL;
-    return scene->object_count > 0 || scene->camera.position[1] < 0 ? "the scheme cells with objects or under water runs" : NULL;
+    return q->adaptive == MGT_ADAPTIVE_PODEE && slots > most_slots ? "more than 2^31 samples of a picture are taken" : NULL;
 }
 
 const char *gl_lacks(const mgt_scene *scene)

@@ -209,6 +209,7 @@ static void bind(const cells_run *c)
         gl->BindImageTexture(i, images[i]->name, 0, GL_FALSE, 0, GL_READ_WRITE, images[i]->format);
     gl->BindTextureUnit(UNIT_SKY, g->sky_texture);
     gl->BindSampler(UNIT_SKY, 0);
+    gl_refraction_bind_light(g);
 }
 
 /* Also for passes over rounds: the sets, and the frame's numbers. */
@@ -283,7 +284,9 @@ static mgt_status plant_band(cells_run *c, uint32_t row)
     const gl_band b = gl_band_at(c->run, row);
     PassData pass = b.pass;
     pass.open_slots = c->data.moves ? (int)b.tiles : 0;
-    mgt_status status = sort_band(c, &b);
+    mgt_status status = gl_see_band(c->run, &b);
+    if (status == MGT_OK)
+        status = sort_band(c, &b);
     if (status != MGT_OK)
         return status;
     gl_pass_begin(g, "shade");
@@ -403,6 +406,16 @@ static mgt_status refine(cells_run *c, int rounds)
 
 /* ---- a frame ---- */
 
+static mgt_status put_objects_in_front(const gl_run *run)
+{
+    mgt_status status = MGT_OK;
+    for (uint32_t row = run->first_row; row < run->end_row && status == MGT_OK && run->objects; row += run->band_rows) {
+        const gl_band b = gl_band_at(run, row);
+        status = gl_put_objects_in_front(run, &b);
+    }
+    return status;
+}
+
 static CellsData data_of(const gl_job *job, const frame *f, const int parts[CELL_CLASSES])
 {
     const mgt_quality *q = &f->scene->quality;
@@ -459,7 +472,7 @@ static mgt_status prepare(cells_run *c)
 mgt_status gl_cells_render(gl_renderer *g, const gl_job *job, const reporter *r)
 {
     frame colored = *job->frame; /* errors are weighed by colour, whatever layers are asked for */
-    colored.data.want_color = 1;
+    colored.data.want_color = colored.through.want_color = 1;
     gl_job own = *job;
     own.frame = &colored;
     gl_run run;
@@ -474,10 +487,14 @@ mgt_status gl_cells_render(gl_renderer *g, const gl_job *job, const reporter *r)
     const int rounds = colored.scene->quality.target_rmse > 0 || colored.scene->quality.target_displayed > 0 ? MOST_ROUNDS : SAMPLE_ROUNDS;
     run.steps = (run.end_row - run.first_row + run.band_rows - 1) / run.band_rows + (double)rounds;
     status = prepare(&c);
+    if (status == MGT_OK && run.objects)
+        status = gl_prepare_objects(&run);
     if (status == MGT_OK)
         status = plant(&c);
     if (status == MGT_OK)
         status = refine(&c, rounds);
+    if (status == MGT_OK)
+        status = put_objects_in_front(&run);
     gl_run_end(&run);
     return status;
 }

@@ -375,6 +375,15 @@ static mgt_status see_objects(const gl_run *run, const gl_band *b, const camera_
     return status == MGT_OK ? gl_refraction_see(run->g, &b->pass, run->r) : status;
 }
 
+mgt_status gl_see_band(const gl_run *run, const gl_band *b)
+{
+    const frame *f = run->job->frame;
+    mgt_status status = run->objects ? see_objects(run, b, &f->close, frame_shutter(f)) : MGT_OK;
+    if (status == MGT_OK && run->objects && f->scene->camera_moves)
+        status = gl_refraction_blend(run->g, &b->pass, run->r);
+    return status;
+}
+
 mgt_status gl_put_objects_in_front(const gl_run *run, const gl_band *b)
 {
     gl_renderer *g = run->g;
@@ -424,12 +433,9 @@ gl_band gl_band_at(const gl_run *run, uint32_t row)
 static mgt_status render_band(gl_run *run, uint32_t row)
 {
     const gl_job *job = run->job;
-    const frame *f = job->frame;
     const bool samples = run->method->way == METHOD_SAMPLES;
     const gl_band b = gl_band_at(run, row);
-    mgt_status status = run->objects ? see_objects(run, &b, &f->close, frame_shutter(f)) : MGT_OK;
-    if (status == MGT_OK && run->objects && f->scene->camera_moves)
-        status = gl_refraction_blend(run->g, &b.pass, run->r);
+    mgt_status status = gl_see_band(run, &b);
     const bool points = run->waves == MGT_WAVES_POINT;
     if (status == MGT_OK && job->wants_pixels)
         status = !points ? render_filtered(run, &b) : samples ? render_samples(run, &b) : render_centre(run, &b);
@@ -439,8 +445,7 @@ static mgt_status render_band(gl_run *run, uint32_t row)
     return status == MGT_OK && run->objects && !job->behind ? gl_put_objects_in_front(run, &b) : status;
 }
 
-/* Layers of the objects and what else their passes need; where the camera moves, what all pixels see of them when the shutter opens. */
-static mgt_status prepare_objects(const gl_run *run)
+mgt_status gl_prepare_objects(const gl_run *run)
 {
     gl_renderer *g = run->g;
     const frame *f = run->job->frame;
@@ -506,7 +511,7 @@ mgt_status gl_frame_render(gl_renderer *g, const gl_job *job, const reporter *r)
     if (status == MGT_OK && job->wants_pixels)
         status = prepare_tables(&run);
     if (status == MGT_OK && run.objects)
-        status = prepare_objects(&run);
+        status = gl_prepare_objects(&run);
     if (status != MGT_OK)
         return status;
     const uint32_t bands = (run.end_row - run.first_row + run.band_rows - 1) / run.band_rows;

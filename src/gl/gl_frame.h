@@ -45,6 +45,12 @@ mgt_status gl_search_nodes(const gl_run *run, uint32_t tiles);
 void gl_bind_tiles(const gl_renderer *g);
 void gl_bind_layers(const gl_renderer *g);
 
+/* Of scenes with objects: their layers and what else their passes need; where the camera moves, what all pixels see of them when the shutter opens. */
+mgt_status gl_prepare_objects(const gl_run *run);
+
+/* What the band's pixels see of objects; nothing where there are none. */
+mgt_status gl_see_band(const gl_run *run, const gl_band *b);
+
 /* Objects in front of the water over the band's layers. */
 mgt_status gl_put_objects_in_front(const gl_run *run, const gl_band *b);
 
