@@ -75,7 +75,7 @@ static size_t state_words(const CellsData *d) { return (size_t)d->point_groups_a
 static int pool_of(const cells_run *c)
 {
     const int64_t pixels = (int64_t)c->data.tiles * TILE_PIXELS, leaf = LEAF_VECTORS * 16, least_pool = pixels + pixels / 2;
-    const int64_t wanted = (int64_t)((double)pixels * fmin(4 + c->data.samples / 16.0, 16)), held = (int64_t)pool_bytes / leaf;
+    const int64_t wanted = (int64_t)((double)pixels * fmin(4 + (double)c->data.samples / 16, 16)), held = (int64_t)pool_bytes / leaf;
     const int64_t pool = wanted < held ? wanted : held > least_pool ? held : least_pool, allowed = (int64_t)(c->g->limits.storage_bytes / 2) / leaf;
     return least(pool < allowed || allowed < pixels ? pool : allowed, 1 << 28);
 }
@@ -436,7 +436,7 @@ static CellsData data_of(const gl_job *job, const frame *f, const int parts[CELL
         .by_coverage = q->target_rmse > 0,
         .by_display = !f->data.sky_black && !(q->target_rmse > 0),
         .lights_dark = lights_dark(&f->data),
-        .samples = (int)(q->samples > 0 ? q->samples : 8),
+        .samples = q->samples > 0 ? (float)q->samples : 8,
         .target_rmse = (float)q->target_rmse,
         .target_displayed = (float)q->target_displayed,
         .seed_low = (int)(uint32_t)q->seed,
