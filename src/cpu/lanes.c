@@ -307,7 +307,8 @@ static void search_columns(const struct kernel_context *cx, tile_estimate *estim
     struct kernel_context columns = *cx;
     columns.found = estimate;
     for (int x = 0; x < TILE_WIDTH; x += MGT_LANES)
-        walk_column(&columns, lane_numbers() + (float)x);
+        for (int part = 0; part < walk_parts(cx); part++)
+            walk_column(&columns, lane_numbers() + (float)x, part);
 }
 
 static void lanes_estimate(const FrameData *frame, const tile_waves *tile, tile_estimate *estimate)

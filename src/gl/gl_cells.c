@@ -216,7 +216,7 @@ static void bind(const cells_run *c)
 static void bind_sets(const cells_run *c)
 {
     const gl_renderer *g = c->g;
-    g->gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, BIND_WAVE_STORAGE, g->cells.sets.name);
+    g->gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, BIND_WAVES, g->cells.sets.name);
     g->gl.BindBufferRange(GL_UNIFORM_BUFFER, BIND_FRAME, g->cells.frames.name, 0, (GLsizeiptr)(LEAF_SIDES * sizeof(FrameData)));
     g->gl.BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, g->cells.state.name);
 }
@@ -293,7 +293,7 @@ static mgt_status plant_band(cells_run *c, uint32_t row)
     bind(c);
     status = use(c, PROGRAM_CELLS_PLANT, &pass);
     if (status == MGT_OK) {
-        g->gl.DispatchCompute((GLuint)pass.columns * TILE_GROUPS_X, (GLuint)pass.rows * TILE_GROUPS_Y, 1);
+        g->gl.DispatchCompute((GLuint)pass.columns, (GLuint)pass.rows * GROUPS_A_TILE, 1);
         barrier_after(&g->gl);
     }
     const mgt_status ended = gl_pass_end(g, c->run->r);

@@ -100,9 +100,7 @@ static void upload_waves(gl_renderer *g)
     const size_t count = (size_t)set->view.wave_count;
     size_t offset;
     memcpy(gl_ring_allocate(&g->ring, MGT_MAX_WAVES * sizeof(WaveData), &offset), set->data, count * sizeof(WaveData));
-    const bool storage = g->limits.waves_in_storage;
-    g->gl.BindBufferRange(storage ? GL_SHADER_STORAGE_BUFFER : GL_UNIFORM_BUFFER, storage ? BIND_WAVE_STORAGE : BIND_WAVES, g->ring.buffer, (GLintptr)offset,
-                          MGT_MAX_WAVES * sizeof(WaveData));
+    g->gl.BindBufferRange(GL_SHADER_STORAGE_BUFFER, BIND_WAVES, g->ring.buffer, (GLintptr)offset, MGT_MAX_WAVES * sizeof(WaveData));
     SortData *sort = gl_ring_allocate(&g->ring, MGT_MAX_WAVES * sizeof(SortData), &offset);
     sines_sort_data(set, sort);
     g->gl.BindBufferRange(GL_SHADER_STORAGE_BUFFER, BIND_SORT, g->ring.buffer, (GLintptr)offset, MGT_MAX_WAVES * sizeof(SortData));
@@ -144,7 +142,7 @@ mgt_status gl_search_nodes(const gl_run *run, uint32_t tiles)
     gl_pass_begin(g, "nodes");
     const mgt_status status = gl_use(g, PROGRAM_NODES, run->r);
     if (status == MGT_OK) {
-        g->gl.DispatchCompute(tiles, 1, 1);
+        g->gl.DispatchCompute(tiles, WALK_PARTS, 1);
         g->gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     }
     const mgt_status ended = gl_pass_end(g, run->r);
@@ -196,7 +194,7 @@ static mgt_status run_pixels(const gl_run *run, const PassData *pass, const char
             bind_tables(run);
         else
             gl_refraction_bind_light(g);
-        g->gl.DispatchCompute((GLuint)pass->columns * TILE_GROUPS_X, (GLuint)pass->rows * TILE_GROUPS_Y, 1);
+        g->gl.DispatchCompute((GLuint)pass->columns, (GLuint)pass->rows * GROUPS_A_TILE, 1);
         g->gl.MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
     }
     const mgt_status ended = gl_pass_end(g, run->r);
@@ -398,7 +396,7 @@ mgt_status gl_put_objects_in_front(const gl_run *run, const gl_band *b)
         for (GLuint i = IMAGE_COLOR; i <= IMAGE_WATER && !run->job->wants_pixels; i++) /* finished by another picture of the frame */
             g->gl.BindImageTexture(i, 0, 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32F);
         gl_refraction_bind_front(g);
-        g->gl.DispatchCompute((GLuint)b->pass.columns * TILE_GROUPS_X, (GLuint)b->pass.rows * TILE_GROUPS_Y, 1);
+        g->gl.DispatchCompute((GLuint)b->pass.columns, (GLuint)b->pass.rows * GROUPS_A_TILE, 1);
         g->gl.MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
     }
     const mgt_status ended = gl_pass_end(g, run->r);

@@ -119,7 +119,7 @@ static mgt_status draw_layer(gl_renderer *g, const gl_gbuffer *layer, const gbuf
     static const GLint nothing[4] = {-1, -1, -1, -1};
     static const GLfloat farthest = 0;
     gl_uniform(g, BIND_FRAME, &refract, sizeof refract);
-    gl_uniform(g, BIND_WAVES, &picture, sizeof picture);
+    gl_uniform(g, BIND_PICTURE, &picture, sizeof picture);
     gl_uniform(g, BIND_EXTRA, &data, sizeof data);
     gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, layer->framebuffer);
     gl->ClearBufferiv(GL_COLOR, 0, nothing);

@@ -43,7 +43,7 @@ static void upload_waves(gl_renderer *g)
     const lean_waves *waves = &g->lean.waves;
     size_t offset;
     memcpy(gl_ring_allocate(&g->ring, sizeof waves->waves, &offset), waves->waves, waves->count * sizeof *waves->waves);
-    g->gl.BindBufferRange(GL_UNIFORM_BUFFER, BIND_WAVES, g->ring.buffer, (GLintptr)offset, sizeof waves->waves);
+    g->gl.BindBufferRange(GL_UNIFORM_BUFFER, BIND_PICTURE, g->ring.buffer, (GLintptr)offset, sizeof waves->waves);
 }
 
 static mgt_status run_level(gl_renderer *g, int level, const reporter *r)

@@ -20,7 +20,7 @@ _Static_assert(sizeof(SortData) == 32 && sizeof(TileWave) == 16, "std430 layout"
 /* Binding points, as in the shaders. */
 enum {
     BIND_FRAME = 0, /* uniform blocks */
-    BIND_WAVES = 1,
+    BIND_PICTURE = 1, /* what a pass over objects or a map of slopes reads */
     BIND_PASS = 2,
     BIND_EXTRA = 3, /* the view that sorts tiles, a map of slopes, glare, a blend, or window */
     UNIFORM_BINDINGS,
@@ -37,7 +37,7 @@ enum {
     BIND_TASKS = 5,
     BIND_LEAVES = 4, /* … and cells_data.glsl */
     BIND_CELLS = 5,
-    BIND_WAVE_STORAGE = 6, /* where a uniform block cannot hold the waves; of cells all sets of them */
+    BIND_WAVES = 6, /* of cells all sets of them */
     BIND_SLOTS = 7,
     BIND_PIXELS = 7,
     STORAGE_BINDINGS,

@@ -278,7 +278,7 @@ static mgt_status over_pixels(gl_renderer *g, gl_program program, const PassData
 {
     const mgt_status status = gl_use(g, program, r);
     if (status == MGT_OK)
-        g->gl.DispatchCompute((GLuint)pass->columns * TILE_GROUPS_X, (GLuint)pass->rows * TILE_GROUPS_Y, 1);
+        g->gl.DispatchCompute((GLuint)pass->columns, (GLuint)pass->rows * GROUPS_A_TILE, 1);
     return status;
 }
 
@@ -354,7 +354,7 @@ mgt_status gl_refraction_blend(gl_renderer *g, const PassData *pass, const repor
             bind_texture(&g->gl, 1 + i, images[i]->name);
         bind_images(g, GL_READ_WRITE);
         gl_uniform(g, BIND_PASS, pass, sizeof *pass);
-        g->gl.DispatchCompute((GLuint)pass->columns * TILE_GROUPS_X, (GLuint)pass->rows * TILE_GROUPS_Y, 1);
+        g->gl.DispatchCompute((GLuint)pass->columns, (GLuint)pass->rows * GROUPS_A_TILE, 1);
         g->gl.MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
     }
     const mgt_status ended = gl_pass_end(g, r);

@@ -29,28 +29,25 @@ static bool is_software(const gl_api *gl)
 
 static mgt_status read_limits(gl_renderer *g, const reporter *r)
 {
-    GLint texture = 0, uniform = 0, storage = 0, shared = 0, table = 0;
+    GLint texture = 0, storage = 0, shared = 0, table = 0;
     GLint64 bytes = 0;
     g->gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &texture);
-    g->gl.GetIntegerv(GL_MAX_UNIFORM_BLOCK_SIZE, &uniform);
     g->gl.GetIntegerv(GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS, &storage);
     g->gl.GetIntegerv(GL_MAX_COMPUTE_SHARED_MEMORY_SIZE, &shared);
     g->gl.GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &table);
     g->gl.GetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &bytes);
-    if (storage < 8 || shared < 16384)
+    if (storage < 8 || shared < 32768)
         return report_error(r, MGT_ERROR_UNAVAILABLE, "context.gl",
                             "the OpenGL context has %d storage blocks and %d bytes of shared memory for compute shaders; "
-                            "8 and 16384 are needed",
+                            "8 and 32768 are needed",
                             storage, shared);
     g->limits = (gl_limits){
         .texture_side = (uint32_t)texture,
-        .waves_in_storage = (size_t)uniform < MGT_MAX_WAVES * sizeof(WaveData),
         .software = is_software(&g->gl),
         .table_texels = (size_t)table,
         .storage_bytes = (size_t)bytes,
     };
-    static const char *const defines[2][2] = {{"", "#define SOFTWARE_GL\n"}, {"#define WAVES_IN_STORAGE\n", "#define WAVES_IN_STORAGE\n#define SOFTWARE_GL\n"}};
-    g->programs.defines = defines[g->limits.waves_in_storage][g->limits.software];
+    g->programs.defines = g->limits.software ? "#define SOFTWARE_GL\n" : "";
     return MGT_OK;
 }
 

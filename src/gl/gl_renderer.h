@@ -58,7 +58,6 @@ typedef struct gl_lean {
 
 typedef struct gl_limits {
     uint32_t texture_side;
-    bool waves_in_storage; /* uniform blocks are too small for them */
     bool software;         /* llvmpipe and its like */
     size_t storage_bytes;  /* of a buffer that shaders write */
     size_t table_texels;   /* elements of a buffer that shaders fetch */

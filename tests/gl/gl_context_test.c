@@ -368,7 +368,7 @@ static void sources_can_be_replaced(void **state)
     assert_int_equal(mgt_gl_set_sources(NULL, NULL, 0), MGT_ERROR_ARGUMENT);
 
     const mgt_gl_source shade =
-        {"shade.glsl", "layout(local_size_x = 8, local_size_y = 8) in;\nlayout(binding = 2) writeonly uniform image2D water_image;\n"
+        {"shade.glsl", "layout(local_size_x = TILE_WIDTH, local_size_y = GROUP_ROWS) in;\nlayout(binding = 2) writeonly uniform image2D water_image;\n"
                        "void main()\n{\n    TilePixel p = tile_pixel();\n    if (p.inside)\n        imageStore(water_image, p.texel, vec4(0.25));\n}\n"};
     assert_int_equal(mgt_gl_set_sources(gl, &shade, 1), MGT_OK);
     sea_render(gl, &scene, &target, 1);

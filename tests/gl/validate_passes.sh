@@ -26,8 +26,6 @@ each_way() { # file, what to define
     count=$((count + 1))
     check "$1" "$2"
     check "$1" "$2
-#define WAVES_IN_STORAGE"
-    check "$1" "$2
 #define SOFTWARE_GL"
 }
 for pass in "$work"/*.comp "$work"/*.vert "$work"/*.frag "$work"/*.tesc "$work"/*.tese; do
@@ -43,6 +41,6 @@ $map"
 done <<END
 $rows
 END
-echo "$count passes, each with the waves in a uniform block, in a storage buffer, and for software"
+echo "$count passes, each for hardware and for software"
 [ $count -ge 12 ] || failed=1
 exit $failed

@@ -8,7 +8,7 @@
 #include "kernels/adaptive/refinement.k"
 #include "cells_data.glsl"
 
-layout(local_size_x = GROUP_SIDE, local_size_y = GROUP_SIDE) in;
+layout(local_size_x = TILE_WIDTH, local_size_y = GROUP_ROWS) in;
 layout(binding = 0, rgba32f) writeonly uniform image2D color_image;
 layout(binding = 1, r32f) writeonly uniform image2D coverage_image;
 layout(binding = 2, r32f) writeonly uniform image2D water_image;

@@ -13,42 +13,106 @@ layout(std140, binding = 2) uniform PassBlock { PassData pass_data; };
 #else
 layout(std140, binding = 0) uniform FrameBlock { FrameData frame_data; };
 #define FRAME(cx) frame_data
-#ifdef WAVES_IN_STORAGE
-layout(std430, binding = 6) readonly buffer WaveBlock { WaveData wave_data[]; };
-#else
-layout(std140, binding = 1) uniform WaveBlock { WaveData wave_data[MAX_WAVES]; };
-#endif
-#define SET_WAVE(i) wave_data[i]
+layout(std430, binding = 6) restrict readonly buffer WaveBlock { vec4 frame_waves[]; }; /* WAVE_VECTORS each: WaveData */
 #endif
 
 #ifndef TILE_ACCESS
 #define TILE_ACCESS readonly
 #endif
-layout(std430, binding = 0) TILE_ACCESS buffer TileBlock { TileData tile_data[]; };
-layout(std430, binding = 1) TILE_ACCESS buffer TileWaveBlock { TileWave tile_waves[]; };
-layout(std430, binding = 2) TILE_ACCESS buffer SearchBlock { SearchWave search_waves[]; };
+layout(std430, binding = 0) restrict TILE_ACCESS buffer TileBlock { TileData tile_data[]; };
+/* Waves as vectors, which GPUs load at once: a struct of floats they load float by float. */
+layout(std430, binding = 1) restrict TILE_ACCESS buffer TileWaveBlock { uvec4 tile_waves[]; };    /* TileWave */
+layout(std430, binding = 2) restrict TILE_ACCESS buffer SearchBlock { vec4 search_waves[]; };     /* SearchWave */
 
 layout(binding = 0) uniform sampler2D sky_texture;
 
 int tile_slot = 0;
 ivec2 layer_texel = ivec2(0); /* the pixel's */
 
+#ifdef CACHES_TILE
+#define TILE(cx) cached_tile
+shared TileData cached_tile;
+#else
 #define TILE(cx) tile_data[tile_slot]
+#endif
 #define WAVE(cx, i) wave_of_tile(i)
-#define SEARCH_WAVE(cx, i) search_waves[tile_slot * pass_data.wave_stride + i]
+#define SEARCH_WAVE(cx, i) search_wave_of_vector(search_waves[tile_slot * pass_data.wave_stride + i])
 
 #include "kernels/waves/sines.k"
 
-/* A wave of the tile: the frame's, with the tile's phase and share. */
-WaveData wave_of_tile(int i)
+const int WAVE_VECTORS = 6;
+
+WaveData wave_of_vectors(vec4 a, vec4 b, vec4 c, vec4 d, vec4 e, vec4 f)
 {
-    TileWave entry = tile_waves[tile_slot * pass_data.wave_stride + i];
+    return WaveData(a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w, c.x, c.y, c.z, c.w, d.x, d.y, d.z, d.w, e.x, e.y, e.z, e.w, f.x, f.y, f.z, f.w);
+}
+
+SearchWave search_wave_of_vector(vec4 v) { return SearchWave(v.x, v.y, v.z, v.w); }
+vec4 vector_of_search_wave(SearchWave w) { return vec4(w.turns_x, w.turns_z, w.phase, w.amplitude); }
+
+TileWave tile_wave_of_vector(uvec4 v) { return TileWave(int(v.x), uintBitsToFloat(v.y), uintBitsToFloat(v.z), 0.0f); }
+uvec4 vector_of_tile_wave(int index, float turns, float share) { return uvec4(uint(index), floatBitsToUint(turns), floatBitsToUint(share), 0u); }
+
+#ifndef CELLS_PASS
+WaveData SET_WAVE(int i)
+{
+    int at = WAVE_VECTORS * i;
+    return wave_of_vectors(frame_waves[at], frame_waves[at + 1], frame_waves[at + 2], frame_waves[at + 3], frame_waves[at + 4], frame_waves[at + 5]);
+}
+#endif
+
+/* A wave of the tile: the frame's, with the tile's phase and share. */
+WaveData listed_wave(int i)
+{
+    TileWave entry = tile_wave_of_vector(tile_waves[tile_slot * pass_data.wave_stride + i]);
     WaveData w = wave_placed(0, SET_WAVE(entry.index), entry.turns);
 #ifdef SHARED_WAVES
     w = wave_shared(0, w, entry.share);
 #endif
     return w;
 }
+
+#ifdef CACHES_TILE
+/* The first waves of the workgroup's tile, which most tiles have no more than. */
+const int CACHED_WAVES = 64;
+shared vec4 cached_waves[CACHED_WAVES * WAVE_VECTORS];
+
+WaveData wave_of_tile(int i)
+{
+    if (i >= CACHED_WAVES)
+        return listed_wave(i);
+    int at = WAVE_VECTORS * i;
+    return wave_of_vectors(cached_waves[at], cached_waves[at + 1], cached_waves[at + 2], cached_waves[at + 3], cached_waves[at + 4], cached_waves[at + 5]);
+}
+
+void cache_wave(int i)
+{
+    WaveData w = listed_wave(i);
+    int at = WAVE_VECTORS * i;
+    cached_waves[at] = vec4(w.turns_x, w.turns_z, w.phase, w.amplitude);
+    cached_waves[at + 1] = vec4(w.even_x, w.even_z, w.odd_x, w.odd_z);
+    cached_waves[at + 2] = vec4(w.bend_xx, w.bend_xz, w.bend_zz, w.even_height);
+    cached_waves[at + 3] = vec4(w.k_x, w.k_z, w.half_variance, w.odd_height);
+    cached_waves[at + 4] = vec4(w.cos_half, w.sin_half, w.octave_mass, w.octave_sq_mass);
+    cached_waves[at + 5] = vec4(w.variance_xx, w.variance_xz, w.variance_zz, 0.0f);
+}
+
+/* The whole workgroup turns to the tile of tile_slot. */
+void enter_tile(int lanes)
+{
+    int lane = int(gl_LocalInvocationIndex);
+    barrier(); /* the last tile has been read */
+    if (lane == 0)
+        cached_tile = tile_data[tile_slot];
+    barrier();
+    int count = min(TILE(0).resolved_count + TILE(0).mixed_count, CACHED_WAVES);
+    for (int i = lane; i < count; i += lanes)
+        cache_wave(i);
+    barrier();
+}
+#else
+#define wave_of_tile(i) listed_wave(i)
+#endif
 
 vec3 SKY_TEXEL(int cx, float column, float row) { return texelFetch(sky_texture, ivec2(int(column), int(row)), 0).rgb; }
 

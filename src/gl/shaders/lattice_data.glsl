@@ -9,7 +9,7 @@
 #define NODE_ACCESS readonly
 #endif
 /* Of a tile TILE_FLOATS: its nodes, or where its water is grazing every hit. */
-layout(std430, binding = 3) NODE_ACCESS buffer NodeBlock { float node_data[]; };
+layout(std430, binding = 3) restrict NODE_ACCESS buffer NodeBlock { float node_data[]; };
 
 int hit_place(int column, int row) { return tile_slot * TILE_FLOATS + (row * TILE_WIDTH + column) * HIT_FLOATS; }
 
@@ -83,7 +83,9 @@ HitEstimate pixel_estimate(ivec2 pixel)
     return estimate;
 }
 
-/* The pixel of this invocation: a tile is TILE_GROUPS_X × TILE_GROUPS_Y workgroups. */
+const int GROUP_PIXELS = TILE_WIDTH * GROUP_ROWS;
+
+/* The pixel of this invocation: a tile is GROUPS_A_TILE workgroups, one above the other. */
 struct TilePixel {
     ivec2 at;    /* in the tile */
     ivec2 texel; /* of the layers */
@@ -94,9 +96,9 @@ TilePixel tile_pixel()
 {
     TilePixel p;
     ivec2 group = ivec2(gl_WorkGroupID.xy);
-    ivec2 tile = group / ivec2(TILE_GROUPS_X, TILE_GROUPS_Y);
+    ivec2 tile = group / ivec2(1, GROUPS_A_TILE);
     tile_slot = tile.y * pass_data.columns + tile.x;
-    p.at = (group % ivec2(TILE_GROUPS_X, TILE_GROUPS_Y)) * GROUP_SIDE + ivec2(gl_LocalInvocationID.xy);
+    p.at = ivec2(0, group.y % GROUPS_A_TILE * GROUP_ROWS) + ivec2(gl_LocalInvocationID.xy);
     ivec2 image = (tile + ivec2(pass_data.tile_x, pass_data.tile_y)) * ivec2(TILE_WIDTH, TILE_HEIGHT) + p.at;
     p.texel = image - ivec2(pass_data.area_x, pass_data.area_y);
     layer_texel = p.texel;

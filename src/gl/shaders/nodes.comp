@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
  * First hits of each tile, one workgroup a tile: at its nodes, one invocation a node; or where its water is grazing at every pixel, one invocation a
- * column.
+ * column, or a part of it.
  */
 #define NODE_ACCESS
 #define FINDS_HITS
@@ -13,11 +13,13 @@ void main()
 {
     tile_slot = int(gl_WorkGroupID.x);
     int index = int(gl_LocalInvocationID.x);
+    int part = int(gl_WorkGroupID.y);
     if (TILE(0).grazing != 0) {
-        walk_column(0, float(index));
+        if (part < walk_parts(0))
+            walk_column(0, float(index), part);
         return;
     }
-    if (index >= NODE_COUNT || TILE(0).search_pixels != 0)
+    if (part > 0 || index >= NODE_COUNT || TILE(0).search_pixels != 0)
         return;
     LatticeNode node = lattice_node(0, pixel_ray_at(0, float(index % NODE_COLUMNS * NODE_STEP_X), float(index / NODE_COLUMNS * NODE_STEP_Y)));
     int at = tile_slot * TILE_FLOATS + index * NODE_FLOATS;

@@ -7,7 +7,7 @@
 #include "kernels/glitter/glitter.k"
 #include "normal.glsl"
 
-layout(local_size_x = GROUP_SIDE, local_size_y = GROUP_SIDE) in;
+layout(local_size_x = TILE_WIDTH, local_size_y = GROUP_ROWS) in;
 
 void main()
 {

@@ -9,7 +9,7 @@
 #include "kernels/glitter/glitter.k"
 #include "objects_water.glsl"
 
-layout(local_size_x = GROUP_SIDE, local_size_y = GROUP_SIDE) in;
+layout(local_size_x = TILE_WIDTH, local_size_y = GROUP_ROWS) in;
 layout(binding = 0) writeonly uniform image2D body_image;
 layout(binding = 1) writeonly uniform image2D mirrored_image;
 layout(binding = 2) writeonly uniform image2D front_image;

@@ -7,7 +7,7 @@
 
 layout(std140, binding = 2) uniform PassBlock { PassData pass_data; };
 
-layout(local_size_x = GROUP_SIDE, local_size_y = GROUP_SIDE) in;
+layout(local_size_x = TILE_WIDTH, local_size_y = GROUP_ROWS) in;
 layout(binding = 0, rgba32f) uniform image2D color_image;
 layout(binding = 1, r32f) uniform image2D coverage_image;
 layout(binding = 2, r32f) uniform image2D water_image;
@@ -20,7 +20,7 @@ layout(binding = 2) uniform sampler2D surface_texture;
 
 void main()
 {
-    ivec2 texel = ivec2(gl_WorkGroupID.xy) * GROUP_SIDE + ivec2(gl_LocalInvocationID.xy);
+    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     texel += ivec2(pass_data.tile_x * TILE_WIDTH - pass_data.area_x, pass_data.tile_y * TILE_HEIGHT - pass_data.area_y);
     if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, ivec2(pass_data.area_width, pass_data.area_height))))
         return;

@@ -11,7 +11,7 @@
 #include "objects_through.glsl"
 #include "objects_tracing.glsl"
 
-layout(local_size_x = GROUP_SIDE, local_size_y = GROUP_SIDE) in;
+layout(local_size_x = TILE_WIDTH, local_size_y = GROUP_ROWS) in;
 layout(binding = 1) writeonly uniform image2D mirrored_image; /* as in objects_mirrored.comp */
 
 void main()

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * A filtered method over the pixels of a band. Define METHOD_STATE, method_state and method_result before.
+ * A filtered method over the pixels of a band. Define CACHES_TILE before lattice_data.glsl is included, then METHOD_STATE, state_where() and
+ * method_result.
  */
-layout(local_size_x = GROUP_SIDE, local_size_y = GROUP_SIDE) in;
+layout(local_size_x = TILE_WIDTH, local_size_y = GROUP_ROWS) in;
 layout(binding = 0, rgba32f) uniform image2D color_image;
 layout(binding = 1, r32f) uniform image2D coverage_image;
 layout(binding = 2, r32f) uniform image2D water_image;
@@ -17,27 +18,33 @@ PixelResult nothing_but_sky(PixelRay p)
     return result;
 }
 
-/* `pixel`: the column and the row of the hit. */
-PixelResult water_and_sky(PixelRay p, ivec2 pixel, ivec2 texel)
+void turn_to(int slot)
 {
-    METHOD_STATE close = method_state(0, p.ray, pixel_estimate(pixel));
-    if (pass_data.write_depth != 0)
-        imageStore(depth_image, texel, vec4(close.along * sqrt(length_squared(p.ray))));
-    METHOD_STATE open = close;
-    if (pass_data.open_slots != 0) {
-        tile_slot += pass_data.open_slots;
-        open = method_state(0, pixel_ray_filtered(0, float(pixel.x), float(pixel.y)).ray, pixel_estimate(pixel));
-        tile_slot -= pass_data.open_slots;
-    }
-    return method_result(0, p, open, close);
+    tile_slot = slot;
+    enter_tile(GROUP_PIXELS);
 }
 
-PixelResult hit_result(ivec2 pixel, ivec2 texel)
+/* `pixel`: the column and the row of the hit. The whole workgroup comes here, for state_where() may wait for it. */
+PixelResult hit_result(ivec2 pixel, ivec2 texel, bool inside)
 {
     PixelRay p = pixel_ray_filtered(0, float(pixel.x), float(pixel.y));
-    if (p.water > 0.0f)
-        return water_and_sky(p, pixel, texel);
-    return nothing_but_sky(p);
+    bool water = inside && p.water > 0.0f;
+    METHOD_STATE close, open;
+    int cameras = pass_data.open_slots != 0 ? 2 : 1;
+    for (int camera = 0; camera < cameras; camera++) { /* a loop, for compilers build what it calls once */
+        if (camera > 0)
+            turn_to(tile_slot + pass_data.open_slots);
+        open = state_where(water, pixel_ray_filtered(0, float(pixel.x), float(pixel.y)).ray, pixel);
+        if (camera == 0)
+            close = open;
+    }
+    if (cameras > 1)
+        turn_to(tile_slot - pass_data.open_slots);
+    if (!water)
+        return nothing_but_sky(p);
+    if (pass_data.write_depth != 0)
+        imageStore(depth_image, texel, vec4(close.along * sqrt(length_squared(p.ray))));
+    return method_result(0, p, open, close);
 }
 
 /* A part of the shutter, and what the layers hold of those before. */
@@ -58,16 +65,17 @@ PixelResult part_of_mean(PixelResult result, ivec2 texel)
 void main()
 {
     TilePixel pixel = tile_pixel();
-    if (!pixel.inside)
-        return;
+    turn_to(tile_slot);
     int hits = int(TILE(0).hit_rows);
     PixelResult result = PixelResult(vec3(0.0f), 0.0f, 0.0f);
     for (int hit = 0; hit < hits; hit++) {
-        PixelResult shown = hit_result(ivec2(pixel.at.x, first_row(pixel.at.y) + hit), pixel.texel);
+        PixelResult shown = hit_result(ivec2(pixel.at.x, first_row(pixel.at.y) + hit), pixel.texel, pixel.inside);
         result.color += shown.color;
         result.coverage += shown.coverage;
         result.water += shown.water;
     }
+    if (!pixel.inside)
+        return;
     if (hits > 1) {
         result.color /= float(hits);
         result.coverage /= float(hits);

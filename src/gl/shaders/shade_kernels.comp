@@ -2,6 +2,7 @@
  *
  * Methods `podee-uniform` and `podee-pixel` with circular kernels, read from tables, in place of the Gaussian (`--kernels`).
  */
+#define CACHES_TILE
 #include "lattice_data.glsl"
 
 /* src/frame/podee_tables.h; the slices of the sweep stand side by side. */
@@ -18,6 +19,6 @@ float SHARE_TEXEL(int cx, float r, float slice) { return texelFetch(share_textur
 
 #include "kernels/baselines/podee_mixture.k"
 #define METHOD_STATE PodeeState
-#define method_state podee_state
 #define method_result(cx, p, open, close) podee_result_of(cx, p, open, close, podee_mixture_coverage(cx, open, close))
+#include "shade_podee.glsl"
 #include "shade.glsl"

@@ -2,9 +2,10 @@
  *
  * Methods `podee-uniform` and `podee-pixel`.
  */
+#define CACHES_TILE
 #include "lattice_data.glsl"
 #include "kernels/baselines/podee.k"
 #define METHOD_STATE PodeeState
-#define method_state podee_state
 #define method_result podee_result
+#include "shade_podee.glsl"
 #include "shade.glsl"

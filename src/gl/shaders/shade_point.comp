@@ -7,7 +7,7 @@
 #include "lattice_data.glsl"
 #include "method.k"
 
-layout(local_size_x = GROUP_SIDE, local_size_y = GROUP_SIDE) in;
+layout(local_size_x = TILE_WIDTH, local_size_y = GROUP_ROWS) in;
 layout(binding = 0) writeonly uniform image2D color_image;
 layout(binding = 1) writeonly uniform image2D coverage_image;
 layout(binding = 2) writeonly uniform image2D water_image;

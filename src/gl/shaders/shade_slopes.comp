@@ -1,13 +1,93 @@
 /* SPDX-License-Identifier: MIT
  *
  * Methods that shade a pixel from its slopes. Assembled once a method: method.k is its kernel, method_result the kernel's function.
+ *
+ * Searches and second looks are for few pixels: a workgroup gathers these into full warps.
  */
 #define SHARED_WAVES
+#define CACHES_TILE
+#define UNROLLED 4 /* of searches: left to themselves, compilers unroll them for half a minute */
 #include "lattice_data.glsl"
 #ifdef LEAN_MAP
 #include "lean_data.glsl"
 #endif
 #include "method.k"
+
+/* The pixels that wait: what they know, and what is found for them. */
+shared int waiting;
+shared int waiting_pixel[GROUP_PIXELS]; /* column, and row of the hit, of the tile */
+shared float waiting_along[GROUP_PIXELS];
+shared Surface found_surface[GROUP_PIXELS];
+shared SearchHit found_hit[GROUP_PIXELS];
+
+/* This invocation's place in the list; −1 where it does not wait. */
+int wait_for(bool wanted, ivec2 pixel, float along)
+{
+    barrier(); /* what was found before has been read */
+    if (gl_LocalInvocationIndex == 0u)
+        waiting = 0;
+    barrier();
+    int place = wanted ? atomicAdd(waiting, 1) : -1;
+    if (wanted) {
+        waiting_pixel[place] = pixel.y * TILE_WIDTH + pixel.x;
+        waiting_along[place] = along;
+    }
+    barrier();
+    return place;
+}
+
+bool is_worker() { return int(gl_LocalInvocationIndex) < waiting; }
+
+vec3 waiting_ray()
+{
+    int pixel = waiting_pixel[gl_LocalInvocationIndex];
+    return pixel_ray_filtered(0, float(pixel % TILE_WIDTH), float(pixel / TILE_WIDTH)).ray;
+}
+
+SearchHit search_where(bool wanted, ivec2 pixel, HitEstimate estimate)
+{
+    SearchHit hit = SearchHit(0.0f, 0.0f, vec2(0.0f));
+    int place = wait_for(wanted, pixel, estimate.from);
+    if (is_worker())
+        found_hit[gl_LocalInvocationIndex] = search(0, waiting_ray(), waiting_along[gl_LocalInvocationIndex], 1.0f);
+    barrier();
+    if (wanted)
+        hit = found_hit[place];
+    return hit;
+}
+
+/* slope_state() of glitter.k; to be called by the whole workgroup. */
+SlopeState state_where(bool wanted, vec3 ray, ivec2 pixel)
+{
+    HitEstimate estimate = pixel_estimate(pixel);
+    float along = estimated_along(0, ray, estimate);
+    SurfaceLook look;
+    bool lost = wanted && estimate.search > 0.0f;
+    look.again = 0.0f;
+    for (int turn = 0; turn < 2; turn++) { /* where the lattice doubts the estimate, and where the look finds it wrong */
+        SearchHit hit = search_where(lost, pixel, estimate);
+        bool found = lost && hit.found > 0.0f;
+        if (turn == 0) {
+            along = found ? hit.along : along;
+            estimate.slope = found ? hit.slope : estimate.slope;
+            if (wanted)
+                look = look_at_estimate(0, ray, along, estimate.slope);
+            lost = wanted && look.lost > 0.0f;
+        } else if (found) {
+            look.correction = hit.along - along;
+            look.again = 1.0f;
+        }
+    }
+    bool again = wanted && look.again > 0.0f;
+    look.along = again ? along + look.correction : along;
+    int place = wait_for(again, pixel, look.along);
+    if (is_worker())
+        found_surface[gl_LocalInvocationIndex] = surface_along(0, waiting_ray(), waiting_along[gl_LocalInvocationIndex], vec2(0.0f));
+    barrier();
+    if (again)
+        look.surface = found_surface[place];
+    return slopes_at(0, ray, look.along, look.surface);
+}
+
 #define METHOD_STATE SlopeState
-#define method_state slope_state
 #include "shade.glsl"

@@ -21,7 +21,7 @@ float finest_frequency_squared(ivec2 at)
     Footprint f = mean_footprint(0, p);
     float squared = 0.0f;
     for (int w = 0; w < slots_data.moving_waves; w++)
-        squared = max(squared, wave_frequency(0, f, wave_data[w]));
+        squared = max(squared, wave_frequency(0, f, SET_WAVE(w)));
     return p.water > 0.0f ? squared : 0.0f;
 }
 

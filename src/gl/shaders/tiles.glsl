@@ -84,12 +84,12 @@ void list_wave(TileView view, Counts counts, int wave)
     int base = tile_slot * pass_data.wave_stride;
     if (resolved || mixed) {
         int place = resolved ? resolved_before(wave) : counts.resolved + mixed_before(wave);
-        tile_waves[base + place] = TileWave(wave, c.turns, c.share, 0.0f);
+        tile_waves[base + place] = vector_of_tile_wave(wave, c.turns, c.share);
     }
     if (searched) {
         WaveData w = SET_WAVE(wave);
         int place = searched_before(wave);
-        search_waves[base + place] = search_wave_of(0, w, c.turns);
+        search_waves[base + place] = vector_of_search_wave(search_wave_of(0, w, c.turns));
         own = sums_with_search(0, own, w, c.along, place, coarse_waves(0, counts.searched));
     }
 }

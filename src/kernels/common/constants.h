@@ -35,6 +35,7 @@
 
 /* Hits of a pixel in grazing water at most, one above the other. */
 #define HIT_ROWS 2
+#define WALK_PARTS 4 /* of a column of hits at the horizon */
 #define HIT_FLOATS 3 /* that are kept of one: see HitEstimate */
 #define TILE_FLOATS (TILE_PIXELS * HIT_ROWS * HIT_FLOATS)
 
@@ -48,9 +49,9 @@
 
 /* ---- workgroups of shaders ---- */
 
-#define GROUP_SIDE 8 /* pixels along a side of a workgroup over pixels */
-#define TILE_GROUPS_X (TILE_WIDTH / GROUP_SIDE)
-#define TILE_GROUPS_Y (TILE_HEIGHT / GROUP_SIDE)
+#define GROUP_SIDE 8 /* pixels along a side of a workgroup over pixels of the picture */
+#define GROUP_ROWS 4 /* of a workgroup over pixels of a tile, which is as wide as the tile */
+#define GROUPS_A_TILE (TILE_HEIGHT / GROUP_ROWS)
 #define LIST_GROUP 64 /* entries of a list in a workgroup over a list */
 
 /* ---- tables ---- */

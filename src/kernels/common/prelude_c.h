@@ -186,6 +186,7 @@ KERNEL real real_fma(real a, real b, real c) { return a * b + c; }
 #define uniform_min(a, b) mgt_uniform_min(a, b)
 #define uniform_max(a, b) mgt_uniform_max(a, b)
 #define uniform_sqrt(x) __builtin_sqrtf(x)
+#define uniform_float(x) ((float)(x))
 #define INFINITE real_broadcast(__builtin_inff())
 
 KERNEL float mgt_uniform_min(float a, float b) { return a < b ? a : b; }

@@ -107,6 +107,7 @@ KERNEL real real_floor(real x) { return MGT_COUNTED(other, __builtin_floorf(x.v)
 KERNEL float uniform_min(float a, float b) { return a < b ? a : b; }
 KERNEL float uniform_max(float a, float b) { return a > b ? a : b; }
 #define uniform_sqrt(x) __builtin_sqrtf(x)
+#define uniform_float(x) ((float)(x))
 #define INFINITE real(__builtin_inff())
 
 #define MGT_ROUNDER 12582912.0f
