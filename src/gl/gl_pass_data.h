@@ -19,7 +19,7 @@ _Static_assert(sizeof(SortData) == 32 && sizeof(TileWave) == 16, "std430 layout"
 
 /* Binding points, as in the shaders. */
 enum {
-    BIND_FRAME = 0, /* uniform blocks */
+    BIND_FRAME = 0,   /* uniform blocks */
     BIND_PICTURE = 1, /* what a pass over objects or a map of slopes reads */
     BIND_PASS = 2,
     BIND_EXTRA = 3, /* the view that sorts tiles, a map of slopes, glare, a blend, or window */

@@ -58,9 +58,9 @@ typedef struct gl_lean {
 
 typedef struct gl_limits {
     uint32_t texture_side;
-    bool software;         /* llvmpipe and its like */
-    size_t storage_bytes;  /* of a buffer that shaders write */
-    size_t table_texels;   /* elements of a buffer that shaders fetch */
+    bool software;        /* llvmpipe and its like */
+    size_t storage_bytes; /* of a buffer that shaders write */
+    size_t table_texels;  /* elements of a buffer that shaders fetch */
 } gl_limits;
 
 typedef struct gl_renderer {

@@ -13,13 +13,12 @@ void main()
 {
     tile_slot = int(gl_WorkGroupID.x);
     int index = int(gl_LocalInvocationID.x);
-    int part = int(gl_WorkGroupID.y);
     if (TILE(0).grazing != 0) {
-        if (part < walk_parts(0))
+        for (int part = int(gl_WorkGroupID.y); part < walk_parts(0); part += int(gl_NumWorkGroups.y))
             walk_column(0, float(index), part);
         return;
     }
-    if (part > 0 || index >= NODE_COUNT || TILE(0).search_pixels != 0)
+    if (gl_WorkGroupID.y > 0u || index >= NODE_COUNT || TILE(0).search_pixels != 0)
         return;
     LatticeNode node = lattice_node(0, pixel_ray_at(0, float(index % NODE_COLUMNS * NODE_STEP_X), float(index / NODE_COLUMNS * NODE_STEP_Y)));
     int at = tile_slot * TILE_FLOATS + index * NODE_FLOATS;
