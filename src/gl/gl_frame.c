@@ -10,8 +10,8 @@
 #include "frame/whole_frame.h"
 #include "gl/gl_frame.h"
 
-/* Memory of a band's lists of waves, unless a single row of tiles needs more. */
-static const size_t band_bytes = (size_t)64 << 20;
+/* Memory of a band's lists of waves, unless a single row of tiles needs more: a GPU waits at the end of each band for its slowest tile. */
+static const size_t band_bytes = (size_t)256 << 20, software_band_bytes = (size_t)64 << 20;
 
 /* Point samples of a dispatch, and pixels of a band where progress is told: what keeps both prompt. */
 static const uint64_t prompt_samples = (uint64_t)1 << 20;
@@ -36,7 +36,7 @@ static mgt_status reserve_tiles(gl_run *run, size_t sets)
     run->wave_stride = (int)(waves > 0 ? waves : 1);
     const size_t tile_bytes = sizeof(TileData) + TILE_FLOATS * sizeof(float) + (size_t)run->wave_stride * (sizeof(TileWave) + sizeof(SearchWave));
     const size_t row_bytes = run->columns * sets * tile_bytes;
-    uint64_t rows = band_bytes / row_bytes;
+    uint64_t rows = (g->limits.software ? software_band_bytes : band_bytes) / row_bytes;
     if (run->job->progress)
         rows = rows < prompt_samples / ((uint64_t)run->columns * TILE_PIXELS) ? rows : prompt_samples / ((uint64_t)run->columns * TILE_PIXELS);
     if (run->objects && rows > REFRACTION_PIXELS / ((uint64_t)run->columns * TILE_PIXELS))

@@ -332,7 +332,8 @@ static void columns_lose_no_crest(void **state)
         tile.horizon_steepness = step;
         tile.horizon_inverse = 1 / step;
         const struct kernel_context cx = {&frame, &tile, {{&t}}, found};
-        walk_column(&cx, 0, 0);
+        for (int part = 0; part < walk_parts(&cx); part++)
+            walk_column(&cx, 0, part);
         for (int row = 0; row < ROWS; row++) {
             const vec3 seen = pixel_ray_filtered(&cx, 0, (float)row).ray;
             const double ray[3] = {(double)seen.x, (double)seen.y, (double)seen.z};

@@ -38,17 +38,8 @@ shared TileData cached_tile;
 #define WAVE(cx, i) wave_of_tile(i)
 #define SEARCH_WAVE(cx, i) search_wave_of_vector(search_waves[tile_slot * pass_data.wave_stride + i])
 
+#define WAVES_AS_VECTORS
 #include "kernels/waves/sines.k"
-
-const int WAVE_VECTORS = 6;
-
-WaveData wave_of_vectors(vec4 a, vec4 b, vec4 c, vec4 d, vec4 e, vec4 f)
-{
-    return WaveData(a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w, c.x, c.y, c.z, c.w, d.x, d.y, d.z, d.w, e.x, e.y, e.z, e.w, f.x, f.y, f.z, f.w);
-}
-
-SearchWave search_wave_of_vector(vec4 v) { return SearchWave(v.x, v.y, v.z, v.w); }
-vec4 vector_of_search_wave(SearchWave w) { return vec4(w.turns_x, w.turns_z, w.phase, w.amplitude); }
 
 TileWave tile_wave_of_vector(uvec4 v) { return TileWave(int(v.x), uintBitsToFloat(v.y), uintBitsToFloat(v.z), 0.0f); }
 uvec4 vector_of_tile_wave(int index, float turns, float share) { return uvec4(uint(index), floatBitsToUint(turns), floatBitsToUint(share), 0u); }
@@ -87,14 +78,10 @@ WaveData wave_of_tile(int i)
 
 void cache_wave(int i)
 {
-    WaveData w = listed_wave(i);
-    int at = WAVE_VECTORS * i;
-    cached_waves[at] = vec4(w.turns_x, w.turns_z, w.phase, w.amplitude);
-    cached_waves[at + 1] = vec4(w.even_x, w.even_z, w.odd_x, w.odd_z);
-    cached_waves[at + 2] = vec4(w.bend_xx, w.bend_xz, w.bend_zz, w.even_height);
-    cached_waves[at + 3] = vec4(w.k_x, w.k_z, w.half_variance, w.odd_height);
-    cached_waves[at + 4] = vec4(w.cos_half, w.sin_half, w.octave_mass, w.octave_sq_mass);
-    cached_waves[at + 5] = vec4(w.variance_xx, w.variance_xz, w.variance_zz, 0.0f);
+    vec4 v[WAVE_VECTORS];
+    wave_to_vectors(listed_wave(i), v);
+    for (int k = 0; k < WAVE_VECTORS; k++)
+        cached_waves[WAVE_VECTORS * i + k] = v[k];
 }
 
 /* The whole workgroup turns to the tile of tile_slot. */
