@@ -9,7 +9,7 @@
 #include "slots_data.glsl"
 
 const int LANES = 256;
-layout(local_size_x = LANES) in;
+layout(local_size_x = 256) in;
 shared double importances[LANES + 1];
 shared double waters[LANES];
 
