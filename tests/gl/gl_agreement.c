@@ -64,33 +64,36 @@ static const struct {
     {"feline", {.method = MGT_METHOD_PODEE_UNIFORM, .spatial_samples = 1, .time_samples = 1, .kernels = MGT_MIXTURE_FELINE}},
     {"riemann", {.method = MGT_METHOD_PODEE_UNIFORM, .spatial_samples = 1, .time_samples = 1, .kernels = MGT_MIXTURE_RIEMANN}},
     {"3 segments", {.method = MGT_METHOD_PODEE_PIXEL, .spatial_samples = 1, .time_samples = 1, .path_segments = 3}},
+    {"adaptive", {.method = MGT_METHOD_ADAPTIVE, .spatial_samples = 1, .time_samples = 1}},
     {"adaptive podee", {.method = MGT_METHOD_ADAPTIVE, .adaptive = MGT_ADAPTIVE_PODEE, .spatial_samples = 1, .time_samples = 1}},
 };
-enum { METHODS = sizeof methods / sizeof *methods, VARIANTS = METHODS - 9, ADAPTIVE = METHODS - 1 };
+enum { METHODS = sizeof methods / sizeof *methods, VARIANTS = METHODS - 10, ADAPTIVE = METHODS - 2 };
 
 /* Scenes with objects: every way to refract that both know, and methods that see objects each in their way. */
 static const struct {
     const char *name;
     mgt_method method;
     mgt_refraction refraction;
+    mgt_adaptive scheme;
 } object_methods[] = {
-    {"two-phase", MGT_METHOD_MANGATA, MGT_REFRACTION_TWO_PHASE},
-    {"hybrid", MGT_METHOD_MANGATA, MGT_REFRACTION_HYBRID},
-    {"liu", MGT_METHOD_MANGATA, MGT_REFRACTION_LIU},
-    {"broad", MGT_METHOD_MANGATA, MGT_REFRACTION_BROAD},
-    {"narrow", MGT_METHOD_MANGATA, MGT_REFRACTION_NARROW},
-    {"screen-space", MGT_METHOD_MANGATA, MGT_REFRACTION_SCREEN_SPACE},
-    {"off", MGT_METHOD_MANGATA, MGT_REFRACTION_OFF},
-    {"none", MGT_METHOD_NONE, MGT_REFRACTION_TWO_PHASE},
-    {"ssaa2", MGT_METHOD_SSAA, MGT_REFRACTION_TWO_PHASE},
-    {"podee-pixel", MGT_METHOD_PODEE_PIXEL, MGT_REFRACTION_TWO_PHASE},
-    {"lean", MGT_METHOD_LEAN, MGT_REFRACTION_TWO_PHASE},
-    {"msaa32", MGT_METHOD_MSAA32, MGT_REFRACTION_TWO_PHASE},
-    {"fxaa", MGT_METHOD_FXAA, MGT_REFRACTION_TWO_PHASE},
-    {"taa", MGT_METHOD_TAA, MGT_REFRACTION_TWO_PHASE},
-    {"adaptive podee", MGT_METHOD_ADAPTIVE, MGT_REFRACTION_TWO_PHASE},
+    {"two-phase", MGT_METHOD_MANGATA, MGT_REFRACTION_TWO_PHASE, MGT_ADAPTIVE_CELLS},
+    {"hybrid", MGT_METHOD_MANGATA, MGT_REFRACTION_HYBRID, MGT_ADAPTIVE_CELLS},
+    {"liu", MGT_METHOD_MANGATA, MGT_REFRACTION_LIU, MGT_ADAPTIVE_CELLS},
+    {"broad", MGT_METHOD_MANGATA, MGT_REFRACTION_BROAD, MGT_ADAPTIVE_CELLS},
+    {"narrow", MGT_METHOD_MANGATA, MGT_REFRACTION_NARROW, MGT_ADAPTIVE_CELLS},
+    {"screen-space", MGT_METHOD_MANGATA, MGT_REFRACTION_SCREEN_SPACE, MGT_ADAPTIVE_CELLS},
+    {"off", MGT_METHOD_MANGATA, MGT_REFRACTION_OFF, MGT_ADAPTIVE_CELLS},
+    {"none", MGT_METHOD_NONE, MGT_REFRACTION_TWO_PHASE, MGT_ADAPTIVE_CELLS},
+    {"ssaa2", MGT_METHOD_SSAA, MGT_REFRACTION_TWO_PHASE, MGT_ADAPTIVE_CELLS},
+    {"podee-pixel", MGT_METHOD_PODEE_PIXEL, MGT_REFRACTION_TWO_PHASE, MGT_ADAPTIVE_CELLS},
+    {"lean", MGT_METHOD_LEAN, MGT_REFRACTION_TWO_PHASE, MGT_ADAPTIVE_CELLS},
+    {"msaa32", MGT_METHOD_MSAA32, MGT_REFRACTION_TWO_PHASE, MGT_ADAPTIVE_CELLS},
+    {"fxaa", MGT_METHOD_FXAA, MGT_REFRACTION_TWO_PHASE, MGT_ADAPTIVE_CELLS},
+    {"taa", MGT_METHOD_TAA, MGT_REFRACTION_TWO_PHASE, MGT_ADAPTIVE_CELLS},
+    {"adaptive", MGT_METHOD_ADAPTIVE, MGT_REFRACTION_TWO_PHASE, MGT_ADAPTIVE_CELLS},
+    {"adaptive podee", MGT_METHOD_ADAPTIVE, MGT_REFRACTION_TWO_PHASE, MGT_ADAPTIVE_PODEE},
 };
-enum { OBJECT_METHODS = sizeof object_methods / sizeof *object_methods, OBJECT_VARIANTS = OBJECT_METHODS - 8 };
+enum { OBJECT_METHODS = sizeof object_methods / sizeof *object_methods, OBJECT_VARIANTS = OBJECT_METHODS - 9 };
 
 static const int steps_off = 2;            /* a pixel off by more displayed steps than this has flipped: another triangle, another iterate … */
 static const double most_steps_off = 2e-3; /* … which this share of them may have */
@@ -222,7 +225,7 @@ static bool compare_objects(mgt_context *cpu, mgt_context *gl, const char *label
             continue;
         mgt_quality_init(&scene->quality, sizeof scene->quality);
         scene->quality.method = object_methods[m].method;
-        scene->quality.adaptive = scene->quality.method == MGT_METHOD_ADAPTIVE ? MGT_ADAPTIVE_PODEE : MGT_ADAPTIVE_CELLS;
+        scene->quality.adaptive = object_methods[m].scheme;
         scene->quality.refraction = object_methods[m].refraction;
         scene->quality.spatial_samples = 2;
         scene->quality.tess_error = 0.05; /* both split triangles in ways of their own */
