@@ -55,9 +55,9 @@ typedef struct mgt_gl_view {
 MGT_API void mgt_gl_view_init(mgt_gl_view *view, size_t size);
 
 /* Draws the water of `scene` into `count` views (1 … 16). Water is tested against your depth buffer and writes its own depth, that of the waves
- * which a pixel resolves; the pixels of the horizon blend into what your framebuffer holds. Methods: all but MGT_METHOD_REFERENCE and
- * MGT_METHOD_ADAPTIVE by cells or with a budget of time (MGT_ERROR_UNSUPPORTED). fxaa looks for edges in the water of the view alone; taa renders the seven frames before it anew,
- * its camera on the line from view_open to view. */
+ * which a pixel resolves; the pixels of the horizon blend into what your framebuffer holds. Methods: all but MGT_METHOD_REFERENCE, and
+ * MGT_METHOD_ADAPTIVE with a budget of time (MGT_ERROR_UNSUPPORTED). fxaa looks for edges in the water of the view alone; taa renders the seven
+ * frames before it anew, its camera on the line from view_open to view. */
 MGT_API mgt_status mgt_gl_render_views(mgt_context *context, const mgt_scene *scene, const mgt_gl_view *views, size_t count);
 
 /* A texture of yours that receives a layer of scene.image's size (the crop's), top row first: texel (0, 0) is the top left pixel. GL_TEXTURE_2D with immutable
