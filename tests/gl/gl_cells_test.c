@@ -273,45 +273,142 @@ static mgt_gl_function counting_get_proc(const char *name)
     return function;
 }
 
-static void nothing_is_read_back(void **state)
-{
-    (void)state;
-    enum { FRAMES = 100, SIDE = 64 };
-    char error[REPORTER_TEXT];
-    const reporter r = {.error = error};
+/* A host's context, and ours in it. */
+typedef struct host {
     gl_egl *egl;
     gl_egl_scope scope;
-    gl_api api;
-    assert_int_equal(gl_egl_create(&egl, 0, &r), MGT_OK);
-    assert_int_equal(gl_egl_enter(egl, &scope, &r), MGT_OK);
-    assert_null(gl_api_load(&api, gl_egl_get_proc));
+    gl_api gl;
+    mgt_context *context;
+} host;
+
+static void host_start(host *h)
+{
+    char error[REPORTER_TEXT];
+    const reporter r = {.error = error};
+    assert_int_equal(gl_egl_create(&h->egl, 0, &r), MGT_OK);
+    assert_int_equal(gl_egl_enter(h->egl, &h->scope, &r), MGT_OK);
+    assert_null(gl_api_load(&h->gl, gl_egl_get_proc));
     mgt_context_desc desc;
     mgt_context_desc_init(&desc, sizeof desc);
     desc.backend = MGT_BACKEND_GL;
     desc.gl_get_proc = counting_get_proc;
-    mgt_context *context = NULL;
-    assert_int_equal(mgt_context_create(&context, &desc), MGT_OK);
+    h->context = NULL;
+    assert_int_equal(mgt_context_create(&h->context, &desc), MGT_OK);
+}
+
+static void host_stop(host *h)
+{
+    mgt_context_destroy(h->context);
+    gl_egl_leave(h->egl, &h->scope);
+    gl_egl_destroy(h->egl);
+}
+
+enum { SIDE = 64 };
+
+static GLuint texture_of(const host *h, GLenum format)
+{
+    GLuint name = 0;
+    h->gl.CreateTextures(GL_TEXTURE_2D, 1, &name);
+    h->gl.TextureStorage2D(name, 1, format, SIDE, SIDE);
+    return name;
+}
+
+static mgt_gl_texture color_texture(const host *h)
+{
+    mgt_gl_texture t;
+    mgt_gl_texture_init(&t, sizeof t);
+    t.layer = MGT_LAYER_COLOR;
+    t.texture = texture_of(h, GL_RGBA32F);
+    return t;
+}
+
+static void nothing_is_read_back(void **state)
+{
+    (void)state;
+    enum { FRAMES = 100 };
+    host h;
+    host_start(&h);
     mgt_scene scene;
     scene_file *file = load("simple.json", &scene);
     scene.image = (mgt_image){.width = SIDE, .height = SIDE};
-    mgt_gl_texture texture;
-    mgt_gl_texture_init(&texture, sizeof texture);
-    texture.layer = MGT_LAYER_COLOR;
-    api.CreateTextures(GL_TEXTURE_2D, 1, &texture.texture);
-    api.TextureStorage2D(texture.texture, 1, GL_RGBA32F, SIDE, SIDE);
+    const mgt_gl_texture texture = color_texture(&h);
     reads = waits = 0;
     for (int i = 0; i < FRAMES; i++) {
         scene.time = 0.01 * i;
-        if (mgt_gl_render_textures(context, &scene, &texture, 1) != MGT_OK)
-            fail_msg("%s", mgt_last_error(context));
+        if (mgt_gl_render_textures(h.context, &scene, &texture, 1) != MGT_OK)
+            fail_msg("%s", mgt_last_error(h.context));
     }
     printf("  %d frames: %zu times read back, %zu times waited for room in the ring of uniform data\n", FRAMES, reads, waits);
     assert_int_equal(reads, 0);
     scene_file_free(file);
-    api.DeleteTextures(1, &texture.texture);
-    mgt_context_destroy(context);
-    gl_egl_leave(egl, &scope);
-    gl_egl_destroy(egl);
+    host_stop(&h);
+}
+
+/* ---- a host's view ---- */
+
+/* Level, along −z, 45 degrees high. */
+static mgt_gl_view level_view(const host *h, GLuint color, double height)
+{
+    mgt_gl_view v;
+    mgt_gl_view_init(&v, sizeof v);
+    h->gl.CreateFramebuffers(1, &v.framebuffer);
+    h->gl.NamedFramebufferTexture(v.framebuffer, GL_COLOR_ATTACHMENT0, color, 0);
+    h->gl.NamedFramebufferTexture(v.framebuffer, GL_DEPTH_ATTACHMENT, texture_of(h, GL_DEPTH_COMPONENT32F), 0);
+    const GLfloat black[4] = {0}, far_away = 1;
+    h->gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, v.framebuffer);
+    h->gl.ClearBufferfv(GL_COLOR, 0, black);
+    h->gl.ClearBufferfv(GL_DEPTH, 0, &far_away);
+    const double cot = 1 / tan(45 * 3.14159265358979323846 / 360), near_plane = 0.1, far_plane = 1e5;
+    memset(v.view, 0, sizeof v.view);
+    memset(v.projection, 0, sizeof v.projection);
+    for (int i = 0; i < 4; i++)
+        v.view[5 * i] = 1;
+    v.view[13] = -height;
+    v.projection[0] = v.projection[5] = cot;
+    v.projection[10] = (far_plane + near_plane) / (near_plane - far_plane);
+    v.projection[11] = -1;
+    v.projection[14] = 2 * far_plane * near_plane / (near_plane - far_plane);
+    v.width = v.height = SIDE;
+    v.color = MGT_GL_COLOR_RADIANCE;
+    v.draw_sky = true;
+    return v;
+}
+
+static void read_color(const host *h, GLuint texture, float out[SIDE * SIDE * 4])
+{
+    h->gl.GetTextureSubImage(texture, 0, 0, 0, 0, SIDE, SIDE, 1, GL_RGBA, GL_FLOAT, SIDE * SIDE * 4 * (GLsizei)sizeof *out, out);
+}
+
+static void views_show_the_picture(void **state)
+{
+    (void)state;
+    static float layer[SIDE * SIDE * 4], seen[SIDE * SIDE * 4];
+    host h;
+    host_start(&h);
+    mgt_scene scene;
+    scene_file *file = load("sunset.json", &scene);
+    const double height = scene.camera.position[1];
+    scene.image = (mgt_image){.width = SIDE, .height = SIDE};
+    scene.camera = (mgt_camera){.position = {0, height, 0}, .target = {0, height, -1}, .up = {0, 1, 0}, .fov_y_deg = 45};
+    const mgt_gl_texture texture = color_texture(&h);
+    if (mgt_gl_render_textures(h.context, &scene, &texture, 1) != MGT_OK)
+        fail_msg("%s", mgt_last_error(h.context));
+    const GLuint shown = texture_of(&h, GL_RGBA32F);
+    const mgt_gl_view view = level_view(&h, shown, height);
+    if (mgt_gl_render_views(h.context, &scene, &view, 1) != MGT_OK)
+        fail_msg("%s", mgt_last_error(h.context));
+    read_color(&h, texture.texture, layer);
+    read_color(&h, shown, seen);
+    size_t off = 0;
+    for (size_t y = 0; y < SIDE; y++)
+        for (size_t x = 0; x < 4 * (size_t)SIDE; x++) {
+            const double a = (double)layer[y * SIDE * 4 + x], b = (double)seen[(SIDE - 1 - y) * SIDE * 4 + x];
+            off += !(fabs(a - b) <= 1e-2 * fmax(fabs(a), 1));
+        }
+    printf("  %zu of %d values differ\n", off, SIDE * SIDE * 4);
+    assert_true(off <= SIDE * SIDE * 4 / 200);
+    scene_file_free(file);
+    host_stop(&h);
 }
 
 int main(void)
@@ -330,6 +427,7 @@ int main(void)
         cmocka_unit_test(pictures_are_those_of_the_cpu), cmocka_unit_test(options_are_those_of_the_cpu),
         cmocka_unit_test(crops_are_parts_of_the_whole),  cmocka_unit_test(objects_are_shown),
         cmocka_unit_test(a_budget_of_time_is_the_cpus),  cmocka_unit_test(nothing_is_read_back),
+        cmocka_unit_test(views_show_the_picture),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
