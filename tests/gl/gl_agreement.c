@@ -35,7 +35,7 @@ static const double largest_rms = 5e-5;  /* of the others */
 /* Adaptive: the share of pixels that may have got another number of samples; they are left out of the rest. Scheme podee shares samples out by one sum over
  * the picture: where a path touches the light's limb, coverage differs by 1e-4 for an ulp of a ray, and that moves every later border between two pixels'
  * samples by a good part of one. More pixels then may differ, but by one sample. */
-static const double most_recounted = 5e-3, most_by_one = 2e-2, most_by_more = 1e-3;
+static const double most_recounted = 5e-3, most_by_one = 1e-2, most_by_more = 1e-3;
 static const double most_bytes_off = 1e-3; /* share of displayed bytes that differ by more than a step */
 
 static const struct {
