@@ -60,7 +60,7 @@ static void plan_lists(cells_run *c)
     d->most_jobs = least(d->most_jobs, (int64_t)d->slots * c->batches);
     d->point_slots = least(least(least(most, point_most), tiles), d->slots);
     c->point_batches = batches_of(d->tiles, d->point_slots);
-    d->most_groups = least(pixels / CELLS_GROUP * 4 + d->most_jobs, (int64_t)1 << 28);
+    d->most_groups = d->pool / CELLS_GROUP * 4 / 3 + d->most_jobs; /* four new cells take three more places */
     d->most_point_groups = least(pixels / 16 + 4096, (int64_t)1 << 24);
     d->jobs_at = CELLS_TILES + d->tiles * CELLS_TILE_WORDS;
     d->groups_at = d->jobs_at + d->most_jobs * JOB_WORDS;
@@ -75,7 +75,8 @@ static size_t state_words(const CellsData *d) { return (size_t)d->point_groups_a
 static int pool_of(const cells_run *c)
 {
     const int64_t pixels = (int64_t)c->data.tiles * TILE_PIXELS, leaf = LEAF_VECTORS * 16, least_pool = pixels + pixels / 2;
-    const int64_t wanted = (int64_t)((double)pixels * fmin(4 + (double)c->data.samples / 16, 16)), held = (int64_t)pool_bytes / leaf;
+    const double a_pixel = c->data.target_rmse > 0 || c->data.target_displayed > 0 ? 16 : fmax(4, (double)c->data.samples / 6);
+    const int64_t wanted = (int64_t)((double)pixels * a_pixel), held = (int64_t)pool_bytes / leaf;
     const int64_t pool = wanted < held ? wanted : held > least_pool ? held : least_pool, allowed = (int64_t)(c->g->limits.storage_bytes / 2) / leaf;
     return least(pool < allowed || allowed < pixels ? pool : allowed, 1 << 28);
 }
@@ -459,8 +460,8 @@ static mgt_status prepare(cells_run *c)
     const size_t waves = c->frame->scene->water.wave_count;
     c->set_vectors = waves * (SET_WAVE_VECTORS + SET_SORT_VECTORS) + SET_VIEWS * SET_VIEW_VECTORS;
     c->most_parts = c->parts[1] > c->parts[2] ? c->parts[1] : c->parts[2];
-    plan_lists(c);
     c->data.pool = pool_of(c);
+    plan_lists(c);
     c->whole = gl_band_at(c->run, c->run->first_row);
     c->whole.pass.rows = d->rows;
     mgt_status status = reserve(c);
