@@ -40,7 +40,7 @@ typedef enum mgt_status {
     MGT_ERROR_SCENE,       /* a scene value out of its range; mgt_last_error() names the field */
     MGT_ERROR_MEMORY,      /* an allocation failed */
     MGT_ERROR_UNAVAILABLE, /* the backend or instruction set does not exist here */
-    MGT_ERROR_UNSUPPORTED, /* meaningful, but not built yet */
+    MGT_ERROR_UNSUPPORTED, /* meaningful, but nothing does it */
     MGT_ERROR_THREAD,      /* a thread could not be started */
     MGT_CANCELLED          /* the progress callback asked to stop */
 } mgt_status;

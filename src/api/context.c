@@ -116,6 +116,11 @@ mgt_status mgt_render(mgt_context *context, const mgt_scene *scene, const mgt_ta
     if (status != MGT_OK)
         return status;
     scene_to_sea_level(&own);
+    if (!method_draws(&own))
+        return report_error(
+            &context->report, MGT_ERROR_UNSUPPORTED, "render.method",
+            "method %s computes the water's surface alone, no objects and no camera under water; ssaa with refraction truth traces them by brute force",
+            mgt_method_name(own.quality.method));
     const char *lacks = NULL;
     for (size_t i = 0; i < count && !lacks && context->backend == &gl_backend; i++)
         lacks = gl_lacks_layer(&own, own_targets[i].layer);

@@ -18,7 +18,7 @@ const char *mgt_status_text(mgt_status status)
     case MGT_ERROR_UNAVAILABLE:
         return "not available here";
     case MGT_ERROR_UNSUPPORTED:
-        return "not supported yet";
+        return "not supported";
     case MGT_ERROR_THREAD:
         return "a thread could not be started";
     case MGT_CANCELLED:

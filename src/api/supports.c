@@ -23,6 +23,12 @@ static const char *gl_lacks_scheme(const mgt_scene *scene)
     return q->adaptive == MGT_ADAPTIVE_PODEE && slots > most_slots ? "more than 2^31 samples of a picture are taken" : NULL;
 }
 
+bool method_draws(const mgt_scene *scene)
+{
+    const bool surface_alone = !(method_of(scene->quality.method)->properties.layers & 1u << MGT_LAYER_REFRACTION);
+    return !surface_alone || (scene->object_count == 0 && scene->camera.position[1] >= 0);
+}
+
 const char *gl_lacks(const mgt_scene *scene)
 {
     const mgt_refraction refraction = scene->quality.refraction;
@@ -55,6 +61,8 @@ bool mgt_supports(mgt_backend backend, const mgt_scene *scene, mgt_layer layer)
     if (scene_take(&r, &own, scene) != MGT_OK || mgt_layer_channels(layer) == 0)
         return false;
     scene_to_sea_level(&own);
+    if (!method_draws(&own))
+        return false;
     const bool traces = own.object_count > 0 && (own.quality.refraction == MGT_REFRACTION_HYBRID || own.quality.refraction == MGT_REFRACTION_PATH_TRACED);
     const bool gl = gl_backend.render && !gl_lacks_layer(&own, layer), cpu = !traces || trace_available();
     switch (backend) {

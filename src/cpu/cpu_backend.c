@@ -699,9 +699,6 @@ static mgt_status adapt_picture(void *user, const mgt_scene *scene, const pictur
 static mgt_status cpu_render(void *state, const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count)
 {
     const method_row *row = method_of(scene->quality.method);
-    if ((scene->object_count > 0 || scene->camera.position[1] < 0) && !(row->properties.layers & 1u << MGT_LAYER_REFRACTION))
-        return report_error(r, MGT_ERROR_UNSUPPORTED, "render.method", "method %s does not draw objects or cameras under water yet; ssaa does",
-                            row->properties.name);
     if (row->way != METHOD_PASS)
         return render_picture(state, r, scene, targets, count, NULL);
     picture_user user = {state, r};
