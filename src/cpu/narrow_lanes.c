@@ -40,6 +40,7 @@ KERNEL LayerPixel LAYER(CTX cx, int layer, real column, real row)
     return p;
 }
 
+#include "kernels/refraction/again.k"
 #include "kernels/refraction/edges.k"
 #include "kernels/refraction/water_seen.k"
 
@@ -149,24 +150,40 @@ static void store_found(const struct kernel_context *cx, tile_ends *out, size_t 
     store(out->error + i, point_error(cx, f.residual));
 }
 
-static void lanes_refracted(const narrow_scene *n, const tile_offset *at, const tile_water *water, tile_ends *out)
+/* Where the ray met the surface last, after store_found(). */
+static void store_way(const struct kernel_context *cx, tile_ends *out, size_t i, WaterHit hit, SeenBehind seen)
 {
-    const struct kernel_context cx = {.narrow = n};
+    const narrow_scene *n = cx->narrow;
+    store(out->before + i, hit.along);
+    store(out->after + i, seen.way + seen.found.after);
+    store(out->way + i, seen.way);
+    store(out->wet + i, seen.wet);
+    store(out->part + i, seen.part);
+    if (!any_lane(seen.way > real(0.0f)))
+        return;
+    const vec3 from = turned(cx, left_at(cx, seen.from));
+    store_vector(out->from, i, vec3(from.x + n->data.foot_x, from.y, from.z + n->data.foot_z));
+}
+
+static void lanes_refracted(const narrow_scene *n, const tile_offset *at, const tile_water *water, int branch, tile_ends *out)
+{
+    const struct kernel_context cx = {.narrow = n, .search = n->waves};
     for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
-        const mask wet = load(water->share + i) > real(0.0f);
+        mask wet = load(water->share + i) > real(0.0f);
+        if (branch > 0)
+            wet = AND(wet, is_split(&cx, load(out->part + i)));
         if (!any_lane(wet))
             continue;
         const WaterHit hit = surface_of_method(&cx, load_water(water, at, i));
         const Bent bent = bent_by_method(&cx, hit);
-        FoundPoint f = find_refracted(&cx, hit, bent);
-        const mask total = AND(wet, bent.total > real(0.0f));
-        if (any_lane(total))
-            f = found_either(&cx, total, find_mirrored(&cx, hit, bent.direction), f);
-        const real in_water = metres_in_water(&cx, n->data.side, hit.along, f.after, total);
-        store_found(&cx, out, i, hit, f, total, in_water, n->data.method <= MGT_REFRACTION_HYBRID);
+        const SeenBehind seen = find_behind(&cx, hit, wet, branch);
+        const mask total = AND(wet, seen.bent.total > real(0.0f));
+        const real in_water = metres_in_water(&cx, n->data.side, hit.along, seen.found.after, total) + seen.wet;
+        store_found(&cx, out, i, seen.from, seen.found, total, in_water, n->data.method <= MGT_REFRACTION_HYBRID);
         store(out->total + i, SELECT(total, real(1.0f), real(0.0f)));
+        store_way(&cx, out, i, hit, seen);
         const Spread s = turned_spread(&cx, spread_of(&cx, hit, bent, load_variation(water, i)));
-        store_vector(out->spread, i, spread_after(&cx, s, f.after));
+        store_vector(out->spread, i, spread_after(&cx, s, seen.way + seen.found.after));
         const bool certified = n->data.method <= MGT_REFRACTION_HYBRID && !any_lane(load(out->doubt + i) > real(0.0f));
         if (certified || (n->data.method > MGT_REFRACTION_HYBRID && n->data.method != MGT_REFRACTION_DISTANCE_FIELD))
             continue;

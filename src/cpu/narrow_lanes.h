@@ -10,9 +10,10 @@
 typedef struct narrow_scene {
     NarrowData data;
     RefractData refract;
-    const gbuffer *layers[2]; /* beyond the surface, and as the surface mirrors it; all of one shape */
-    const uint8_t *breaks[2]; /* two-phase, hybrid: front_kernels.breaks of those that are asked */
-    const float *planes;      /* of the world's triangles: unit normal, and its product with a point of the triangle */
+    const gbuffer *layers[2];        /* beyond the surface, and as the surface mirrors it; all of one shape */
+    const uint8_t *breaks[2];        /* two-phase, hybrid: front_kernels.breaks of those that are asked */
+    const float *planes;             /* of the world's triangles: unit normal, and its product with a point of the triangle */
+    SearchWave waves[MGT_MAX_WAVES]; /* data.waves of them */
 } narrow_scene;
 
 /* The surface in the pixels of a tile; directions as in narrow_types.k, y away from the surface on the camera's side. */
@@ -32,6 +33,10 @@ typedef struct tile_ends {
     float position[3][TILE_PIXELS];
     float direction[3][TILE_PIXELS];
     float before[TILE_PIXELS], after[TILE_PIXELS], water[TILE_PIXELS];
+    float way[TILE_PIXELS];       /* metres of `after` to where the ray met the surface last; 0: it met it once … */
+    float wet[TILE_PIXELS];       /* … of them in water, … */
+    float from[3][TILE_PIXELS];   /* … and where that is; not set where it met it once */
+    float part[TILE_PIXELS];      /* of the light that goes this way */
     float spread[3][TILE_PIXELS]; /* the footprint, as in shade_hits */
     float terms[9][TILE_PIXELS];  /* Spread, for another `after`; two-phase, hybrid: where there is doubt */
     float gain[TILE_PIXELS];      /* as in shade_hits */
@@ -51,8 +56,8 @@ typedef struct tile_offset {
 struct narrow_kernels {
     /* The filtered surface, over the time that the waves were sorted for. */
     void (*water)(const FrameData *frame, const tile_waves *tile, const tile_estimate *estimate, const tile_offset *at, tile_water *out);
-    /* What lies behind it. */
-    void (*refracted)(const narrow_scene *n, const tile_offset *at, const tile_water *water, tile_ends *out);
+    /* What lies behind it, on branch 0; on branch 1 of again.k only where out->part says that branch 0 is split. */
+    void (*refracted)(const narrow_scene *n, const tile_offset *at, const tile_water *water, int branch, tile_ends *out);
     /* What its mean slope mirrors of the camera's own side. */
     void (*mirrored)(const narrow_scene *n, const tile_offset *at, const tile_water *water, tile_ends *out);
 };

@@ -128,6 +128,8 @@ static mgt_status set_camera(refraction *r, thread_pool *pool)
                                .layers = {&r->direct.refracted, r->mirrors ? &r->mirrored.refracted : &r->direct.refracted},
                                .planes = r->planes,
                                .breaks = {r->breaks[0].bytes, r->breaks[1].bytes}};
+    if (r->narrow.data.waves > 0)
+        refraction_wave_list(f, r->world, r->narrow.waves);
     r->front = front_scene_of(r);
     return MGT_OK;
 }

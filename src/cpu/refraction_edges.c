@@ -172,14 +172,15 @@ static void sharpen_pixel(const refraction *r, tile_objects *o, size_t i, size_t
     const gbuffer *g = r->narrow.layers[e->total[i] > 0];
     surface_ray s = {.r = r, .nearest = INFINITY, .met = -1};
     for (int k = 0; k < 3; k++) {
-        s.from[k] = c->position[k] - (k == 1 ? 0 : r->world->origin[k / 2]) + along * (k == 1 ? side : 1) * (double)o->water.view[k][i];
+        s.from[k] = e->way[i] > 0 ? (double)e->from[k][i]
+                                  : c->position[k] - (k == 1 ? 0 : r->world->origin[k / 2]) + along * (k == 1 ? side : 1) * (double)o->water.view[k][i];
         s.direction[k] = (double)e->direction[k][i];
     }
     int32_t triangles[REFRACTION_NEIGHBOURS];
     const size_t count = refraction_neighbours(g, (size_t)e->pixel[i], triangles);
     for (size_t k = 0; k < count; k++)
         follow_surface(&s, triangles[k]);
-    if (s.lost && point_is_near(NULL, e->error[i]) && (double)e->after[i] < s.nearest)
+    if (s.lost && point_is_near(NULL, e->error[i]) && (double)(e->after[i] - e->way[i]) < s.nearest)
         return;
     if (point_is_lost(NULL, e->error[i]) && e->last[i] >= 0)
         follow_between(&s, g, element, (size_t)e->last[i]);
@@ -188,11 +189,9 @@ static void sharpen_pixel(const refraction *r, tile_objects *o, size_t i, size_t
     if (s.met < 0 && !open && !by_nothing(g, (size_t)e->pixel[i]))
         return;
     e->triangle[i] = s.met;
-    e->after[i] = s.met < 0 ? 0 : (float)s.nearest;
-    refraction_spread_again(e, i);
+    refraction_end_at(r, o, i, s.met < 0 ? 0 : (float)s.nearest);
     for (int k = 0; k < 3 && s.met >= 0; k++)
         e->position[k][i] = (float)(s.from[k] + s.nearest * s.direction[k]);
-    e->water[i] = metres_in_water(NULL, r->narrow.data.side, o->water.along[i], e->after[i], e->total[i] > 0);
 }
 
 void refraction_sharpen(const refraction *r, const tile_offset *at, tile_objects *o, size_t count)

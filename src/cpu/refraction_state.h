@@ -75,8 +75,8 @@ surface_facet refraction_facet_of(const refraction *r, int32_t triangle, const d
 /* Multiple of a ray at which it meets the triangle; +inf: it does not. */
 double refraction_meet(const surface_facet *f, const double ray[3]);
 
-/* The footprint of an end whose `after` became another. */
-void refraction_spread_again(tile_ends *e, size_t i);
+/* Ends a pixel's ray `last` metres behind where it met the surface last: `after`, `water` and the footprint. */
+void refraction_end_at(const refraction *r, tile_objects *o, size_t i, float last);
 
 /* Where what a layer shows breaks off or bends, the pixel of the answer is not enough: the rays of doubtful ends among the listed ones meet the
  * surfaces that it and its neighbours show, and the nearest one counts. `at`: the place that the rays go through. */

@@ -141,8 +141,11 @@ static void keep_layers(tile_objects *o)
 
 #include "kernels/refraction/edges.k"
 
-void refraction_spread_again(tile_ends *e, size_t i)
+void refraction_end_at(const refraction *r, tile_objects *o, size_t i, float last)
 {
+    tile_ends *e = &o->ends;
+    e->after[i] = e->way[i] + last;
+    e->water[i] = metres_in_water(NULL, r->narrow.data.side, o->water.along[i], last, e->total[i] > 0) + e->wet[i];
     for (int k = 0; k < 3; k++)
         e->spread[k][i] = e->terms[k][i] + e->after[i] * (e->terms[3 + k][i] + e->after[i] * e->terms[6 + k][i]);
 }
@@ -165,7 +168,7 @@ static void trace_doubtful(refraction *r, tile_objects *o, size_t count)
         const double along = (double)o->water.along[i] * TRACE_START;
         for (int axis = 0; axis < 3; axis++) {
             const double view = (double)o->water.view[axis][i] * (axis == 1 ? side : 1);
-            ray->origin[axis] = (float)(foot[axis] + along * view);
+            ray->origin[axis] = e->way[i] > 0 ? e->from[axis][i] : (float)(foot[axis] + along * view);
             ray->direction[axis] = e->direction[axis][i];
         }
         ray->least = 0;
@@ -182,11 +185,10 @@ static void trace_doubtful(refraction *r, tile_objects *o, size_t count)
         const size_t i = list[k];
         const bool found = o->hits[k].triangle >= 0;
         e->triangle[i] = o->hits[k].triangle;
-        e->after[i] = found ? o->hits[k].along : 0;
-        refraction_spread_again(e, i);
+        const float last = found ? o->hits[k].along : 0;
+        refraction_end_at(r, o, i, last);
         for (int axis = 0; axis < 3 && found; axis++)
-            e->position[axis][i] = o->rays[k].origin[axis] + e->after[i] * e->direction[axis][i];
-        e->water[i] = metres_in_water(NULL, r->narrow.data.side, o->water.along[i], e->after[i], e->total[i] > 0);
+            e->position[axis][i] = o->rays[k].origin[axis] + last * e->direction[axis][i];
         e->error[i] = searches ? INFINITY : 0;
     }
     atomic_fetch_add_explicit(&r->traced, doubtful, memory_order_relaxed);
@@ -235,10 +237,12 @@ static void see_mirrored(const refraction *r, const tile_offset *at, size_t coun
     add_listed(o, mirrored, o->light.mirrored);
 }
 
-/* Radiance through one place of every listed pixel, added to what came through before, and what it mirrors; the list is used up. */
-static void see_place(refraction *r, const tile_offset *at, size_t count, tile_objects *o)
+/* Radiance on one branch of the rays through a place of every listed pixel, added to what came through before. */
+static void see_branch(refraction *r, const tile_offset *at, int branch, size_t count, tile_objects *o)
 {
-    r->kernels->narrow->refracted(&r->narrow, at, &o->water, &o->ends);
+    float part[TILE_PIXELS];
+    r->kernels->narrow->refracted(&r->narrow, at, &o->water, branch, &o->ends);
+    memcpy(part, o->ends.part, sizeof part);
     const mgt_refraction method = r->frame->scene->quality.refraction;
     if (method == MGT_REFRACTION_TWO_PHASE)
         refraction_sharpen(r, at, o, count);
@@ -252,9 +256,27 @@ static void see_place(refraction *r, const tile_offset *at, size_t count, tile_o
         o->ends.gain[i] = o->ends.total[i] > 0 ? 1 : through;
     }
     refraction_shade_listed(r, o, count);
-    add_listed(o, count, o->light.through);
     for (size_t i = 0; i < count; i++)
-        o->seen[o->list[i]] += 1;
+        for (int k = 0; k < 3; k++)
+            o->rgb[3 * i + (size_t)k] *= part[o->list[i]];
+    add_listed(o, count, o->light.through);
+}
+
+/* Radiance through one place of every listed pixel, added to what came through before, and what it mirrors; the list is used up. */
+static void see_place(refraction *r, const tile_offset *at, size_t count, tile_objects *o)
+{
+    see_branch(r, at, 0, count, o);
+    uint16_t all[TILE_PIXELS];
+    memcpy(all, o->list, count * sizeof *all);
+    size_t split = 0;
+    for (size_t i = 0; i < count; i++) {
+        o->seen[all[i]] += 1;
+        if (o->ends.part[all[i]] < LEAST_WHOLE)
+            o->list[split++] = all[i];
+    }
+    if (split > 0)
+        see_branch(r, at, 1, split, o);
+    memcpy(o->list, all, count * sizeof *all);
     see_mirrored(r, at, count, o);
 }
 

@@ -63,6 +63,20 @@ static bool looks_up(mgt_refraction method)
            method == MGT_REFRACTION_OFF;
 }
 
+/* From above, rays behind a surface as steep as a crest is are refracted to 41° or more below the horizontal. */
+static int waves_met_again(const frame *f)
+{
+    const double n = f->scene->water.index_of_refraction, steepest = sines_steepest(&f->scene->water);
+    return steepest > 0 && (f->under || steepest > sqrt(n * n - 1)) ? (int)f->scene->water.wave_count : 0;
+}
+
+void refraction_wave_list(const frame *f, const world *w, SearchWave *out)
+{
+    const mgt_scene *s = f->scene;
+    const double half = s->camera_moves ? 0 : 0.5 * s->shutter;
+    sines_searched(&s->water, (wave_meeting){.x = w->origin[0], .z = w->origin[1], .middle = s->time - half}, out);
+}
+
 NarrowData refraction_narrow_data(const frame *f, const world *w, const gbuffer *layer)
 {
     const camera_rays *c = &f->close;
@@ -110,6 +124,10 @@ NarrowData refraction_narrow_data(const frame *f, const world *w, const gbuffer 
         .high_x = (float)(w->high[0] + w->origin[0] - c->position[0]) + 1e-3f,
         .high_y = (f->under ? -w->low[1] : w->high[1]) + 1e-3f,
         .high_z = (float)(w->high[2] + w->origin[1] - c->position[2]) + 1e-3f,
+        .wave_height = (float)sines_crest(&f->scene->water),
+        .waves = waves_met_again(f),
+        .wave_slope = (float)sines_steepest(&f->scene->water),
+        .wave_bend = (float)sines_sharpest(&f->scene->water),
     };
 }
 

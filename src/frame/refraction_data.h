@@ -13,6 +13,9 @@ gbuffer_job refraction_mirrored_job(const frame *f);
 /* Whether the surface mirrors more than the sky: objects, or under water the water. */
 bool refraction_mirrors(const frame *f, const world *w);
 
+/* All waves, as NarrowData counts them. */
+void refraction_wave_list(const frame *f, const world *w, SearchWave *out);
+
 /* `layer`: the shape of the layers. */
 NarrowData refraction_narrow_data(const frame *f, const world *w, const gbuffer *layer);
 

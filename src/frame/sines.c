@@ -113,15 +113,24 @@ void sines_searched(const mgt_water *water, wave_meeting at, SearchWave *out)
     }
 }
 
-double sines_crest(const mgt_water *water)
+/* Of the surface's derivative of this order: its sum over the waves, or four deviations where that is less. */
+static double seldom_above(const mgt_water *water, int order)
 {
     double sum = 0, variance = 0;
     for (size_t i = 0; i < water->wave_count; i++) {
-        sum += water->waves[i].amplitude;
-        variance += water->waves[i].amplitude * water->waves[i].amplitude / 2;
+        const mgt_wave *w = &water->waves[i];
+        const double most = w->amplitude * pow(hypot(w->kx, w->kz), order);
+        sum += most;
+        variance += most * most / 2;
     }
     return fmin(sum, 4 * sqrt(variance));
 }
+
+double sines_crest(const mgt_water *water) { return seldom_above(water, 0); }
+
+double sines_steepest(const mgt_water *water) { return seldom_above(water, 1); }
+
+double sines_sharpest(const mgt_water *water) { return seldom_above(water, 2); }
 
 double sines_path_bend(const mgt_water *water, double half)
 {

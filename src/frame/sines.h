@@ -46,6 +46,10 @@ void sines_searched(const mgt_water *water, wave_meeting at, SearchWave *out);
 /* What the waves seldom rise above the mean surface by: four deviations, or their sum where that is less. */
 double sines_crest(const mgt_water *water);
 
+/* What their slopes and second derivatives seldom are above, likewise. */
+double sines_steepest(const mgt_water *water);
+double sines_sharpest(const mgt_water *water);
+
 /* Root of the sum of the waves' slope variances, each times (1 − cos(omega·half))²: how far the slopes' path over ± half seconds is from a
  * straight one. */
 double sines_path_bend(const mgt_water *water, double half);

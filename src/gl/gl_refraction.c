@@ -65,8 +65,13 @@ static mgt_status upload_textures(const gl_api *gl, gl_refraction *o, const used
 
 /* ---- materials ---- */
 
-/* The table begins with linear values of codes and the waves that make caustics. */
-enum { MATERIAL_FLOATS = 4 * MATERIAL_TEXELS, FIRST_MATERIAL = TEXTURE_CODES + MAX_WAVES * sizeof(SearchWave) / sizeof(float) };
+/* The table begins with linear values of codes, the waves that make caustics and those that rays behind the surface meet again. */
+enum {
+    MATERIAL_FLOATS = 4 * MATERIAL_TEXELS,
+    WAVE_FLOATS = sizeof(SearchWave) / sizeof(float),
+    FIRST_AGAIN = TEXTURE_CODES + MAX_WAVES * WAVE_FLOATS,
+    FIRST_MATERIAL = FIRST_AGAIN + MAX_WAVES * WAVE_FLOATS
+};
 
 static void fill_material(const shade_material *m, bool smooth, float out[MATERIAL_FLOATS])
 {
@@ -90,6 +95,7 @@ static mgt_status upload_materials(const gl_api *gl, gl_refraction *o, const wor
         return status == MGT_OK ? MGT_ERROR_MEMORY : status;
     memcpy(map, s->linear, sizeof s->linear);
     memcpy(map + TEXTURE_CODES, s->waves, sizeof s->waves);
+    memcpy(map + FIRST_AGAIN, o->again, sizeof o->again);
     float *materials = map + FIRST_MATERIAL;
     for (size_t i = 0; i < w->object_count; i++)
         fill_material(&s->materials[i], w->objects[i].smooth, materials + MATERIAL_FLOATS * i);
@@ -188,6 +194,7 @@ mgt_status gl_refraction_prepare(gl_renderer *g, const frame *f, const region *a
     status = reserve_images(&g->gl, &o->seen, area, f->under, r);
     if (status == MGT_OK)
         status = gl_gbuffers_draw(g, &direct, mirrors ? &mirrored : NULL, r);
+    refraction_wave_list(f, w, o->again);
     if (status == MGT_OK)
         status = update_materials(g, r);
     if (status == MGT_OK)

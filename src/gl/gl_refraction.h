@@ -41,6 +41,7 @@ typedef struct gl_refraction {
     uint64_t shadow_version; /* … and the version of its world; 0: none */
     gl_buffer water, lists;  /* of a band's pixels: see objects_pixel.glsl */
     gl_objects_block block;
+    SearchWave again[MAX_WAVES]; /* those of block.narrow.waves */
 } gl_refraction;
 
 /* Everything that the objects of a frame need before its bands: draws them, and brings lights, materials and shadows up to date. */

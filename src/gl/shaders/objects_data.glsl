@@ -19,7 +19,7 @@ layout(binding = 2) uniform usamplerBuffer index_table;   /* three a triangle */
 layout(binding = 15) uniform isamplerBuffer neighbour_table; /* three a triangle, across the edges from each corner to the next; −1: none */
 layout(binding = 3) uniform usamplerBuffer owner_table;   /* the object of a triangle */
 layout(binding = 4) uniform samplerBuffer plane_table;    /* of a triangle: unit normal, and its product with a point */
-layout(binding = 5) uniform samplerBuffer material_table; /* the linear values of sRGB codes, four each; waves that make caustics; then four an object */
+layout(binding = 5) uniform samplerBuffer material_table; /* the linear values of sRGB codes, four each; waves that make caustics; waves that are met again; then four an object */
 layout(binding = 6) uniform usamplerBuffer texel_table;   /* of all textures */
 layout(binding = 7) uniform sampler2D shadow_texture;
 layout(binding = 8) uniform sampler2D far_depth;
@@ -59,11 +59,17 @@ ivec3 triangle_corners(int triangle)
 
 /* ---- materials ---- */
 
-vec4 material_texel(int object, int i) { return texelFetch(material_table, CODE_TEXELS + MAX_WAVES + MATERIAL_TEXELS * object + i); }
+vec4 material_texel(int object, int i) { return texelFetch(material_table, CODE_TEXELS + 2 * MAX_WAVES + MATERIAL_TEXELS * object + i); }
 
 SearchWave caustic_wave(int i)
 {
     vec4 w = texelFetch(material_table, CODE_TEXELS + i);
+    return SearchWave(w.x, w.y, w.z, w.w);
+}
+
+SearchWave wave_met_again(int i)
+{
+    vec4 w = texelFetch(material_table, CODE_TEXELS + MAX_WAVES + i);
     return SearchWave(w.x, w.y, w.z, w.w);
 }
 

@@ -18,7 +18,8 @@ struct PixelWater {
 #else
 #define LIST_ACCESS readonly
 #endif
-layout(std430, binding = 4) LIST_ACCESS buffer WaterBlock { float water_data[]; }; /* WATER_FLOATS a pixel: PixelWater, and 1 in those of LIST_THROUGH */
+layout(std430, binding = 4) LIST_ACCESS buffer WaterBlock { float water_data[]; }; /* WATER_FLOATS a pixel: PixelWater, 1 in those of LIST_THROUGH, and of those whose rays are traced the light
+                                                                               * that is known and the rays of both branches */
 
 /* Lists: pixels wholly in front of the water, pixels on edges, pixels that see through the surface, under water those that see no surface, and of those
  * that see through it those whose rays are traced. */
@@ -33,7 +34,7 @@ layout(std430, binding = 5) LIST_ACCESS buffer ListBlock {
 
 int band_pixels() { return pass_data.columns * pass_data.rows * TILE_PIXELS; }
 
-bool is_through(int pixel) { return water_data[WATER_FLOATS * pixel + WATER_FLOATS - 1] > 0.0f; }
+bool is_through(int pixel) { return water_data[WATER_FLOATS * pixel + WATER_THROUGH] > 0.0f; }
 
 PixelWater known_water(int pixel)
 {

@@ -31,14 +31,18 @@ void main()
         PixelWater water = water_at(where, (vec2(float(i % places), float(i / places)) + 0.5f) / float(places) - 0.5f);
         if (!(water.share > 0.0f))
             continue;
-        ThroughEnd through = end_through(water);
-        RayEnd end = through.end;
-        if (through.traced)
-            end = end_traced(water);
-        color += shaded(end.triangle, end.ray);
+        float part = 0.0f;
+        for (int branch = 0; branch < 2 && part < LEAST_WHOLE; branch++) {
+            ThroughEnd through = end_through(water, branch);
+            RayEnd end = through.end;
+            if (through.traced)
+                end = end_traced(water, through.ray);
+            part = through.ray.part;
+            color += part * shaded(end.triangle, end.ray);
+            error = max(error, end.error);
+        }
         if (objects_data.mirrors != 0)
             mirrored += seen_mirrored(water);
-        error = max(error, end.error);
         seen += 1.0f;
     }
     imageStore(body_image, texel, vec4(color / max(seen, 1.0f), 1.0f));

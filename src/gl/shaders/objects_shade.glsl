@@ -22,6 +22,58 @@ struct RayEnd {
     bool counts; /* false: there is nothing to shade */
 };
 
+/* A ray behind the surface, from where it met it last. */
+struct TracedRay {
+    vec3 from, direction;
+    float way;  /* metres to there from where the pixel meets the surface … */
+    float wet;  /* … of them in water */
+    float part; /* of the pixel's light */
+    bool total; /* it is on the camera's side */
+};
+
+int ray_place(int pixel, int branch) { return WATER_FLOATS * pixel + WATER_RAYS + RAY_FLOATS * branch; }
+
+/* A branch that needs no tracing has no part of the light. */
+TracedRay known_ray(int pixel, int branch)
+{
+    int i = ray_place(pixel, branch);
+    TracedRay r;
+    r.from = vec3(water_data[i], water_data[i + 1], water_data[i + 2]);
+    r.direction = vec3(water_data[i + 3], water_data[i + 4], water_data[i + 5]);
+    r.way = water_data[i + 6];
+    r.wet = water_data[i + 7];
+    r.part = water_data[i + 8];
+    r.total = water_data[i + 9] > 0.0f;
+    return r;
+}
+
+vec3 known_light(int pixel)
+{
+    int i = WATER_FLOATS * pixel + WATER_LIGHT;
+    return vec3(water_data[i], water_data[i + 1], water_data[i + 2]);
+}
+
+#ifdef LISTS_GROW
+void keep_ray(int pixel, int branch, TracedRay r)
+{
+    int i = ray_place(pixel, branch);
+    for (int k = 0; k < 3; k++) {
+        water_data[i + k] = r.from[k];
+        water_data[i + 3 + k] = r.direction[k];
+    }
+    water_data[i + 6] = r.way;
+    water_data[i + 7] = r.wet;
+    water_data[i + 8] = r.part;
+    water_data[i + 9] = r.total ? 1.0f : 0.0f;
+}
+
+void keep_light(int pixel, vec3 color)
+{
+    for (int k = 0; k < 3; k++)
+        water_data[WATER_FLOATS * pixel + WATER_LIGHT + k] = color[k];
+}
+#endif
+
 HitMaterial material_of(int object)
 {
     vec4 a = material_texel(object, 0), b = material_texel(object, 1), c = material_texel(object, 2), d = material_texel(object, 3);
@@ -64,6 +116,17 @@ RayFootprint footprint_behind(WaterHit hit, Bent bent, WaterVariation variation,
 {
     vec3 f = spread_after(0, turned_spread(0, spread_of(0, hit, bent, variation)), after);
     return RayFootprint(f.x, f.y, f.z);
+}
+
+/* An end whose `after` counts from where the ray met the surface last. `bent`: as the surface bends it first. */
+RayEnd end_behind(RayEnd end, PixelWater w, TracedRay r, Bent bent)
+{
+    end.ray.before = w.hit.along;
+    end.ray.water = metres_in_water(0, narrow_data.side, w.hit.along, end.ray.after, r.total) + r.wet;
+    end.ray.after += r.way;
+    end.ray.footprint = footprint_behind(w.hit, bent, w.variation, end.ray.after);
+    end.ray.gain = gain_behind(r.total);
+    return end;
 }
 
 vec3 shaded(int triangle, HitRay ray)

@@ -3,6 +3,9 @@
  * What pixels see through the surface.
  */
 #include "objects_behind.glsl"
+#undef SEARCH_WAVE
+#define SEARCH_WAVE(cx, i) wave_met_again(i)
+#include "kernels/refraction/again.k"
 
 layout(binding = 0) writeonly uniform image2D body_image;  /* what comes through the surface */
 layout(binding = 4) writeonly uniform image2D error_image; /* pixels that the point behind the surface is off by */
@@ -72,39 +75,41 @@ RayEnd sharpened(RayEnd end, WaterHit hit, int layer, FoundPoint f)
     end.ray.after = met < 0 ? 0.0f : along;
     if (met >= 0)
         end.ray.position = from + along * end.ray.direction;
-    end.ray.water = metres_in_water(0, narrow_data.side, hit.along, end.ray.after, layer == LAYER_REFLECTED);
     return end;
 }
 
 struct ThroughEnd {
     RayEnd end;
+    TracedRay ray;
     bool traced; /* the ray shall be: the end does not count */
 };
 
-/* Where the surface lets nothing through, it mirrors the camera's own side. */
-ThroughEnd end_through(PixelWater w)
+/* On a branch of again.k. Where the surface lets nothing through, it mirrors the camera's own side. */
+ThroughEnd end_through(PixelWater w, int branch)
 {
     WaterHit hit = surface_of_method(0, w.hit);
-    Bent bent = bent_by_method(0, hit);
-    bool total = bent.total > 0.0f;
-    FoundPoint f;
-    if (total)
-        f = find_mirrored(0, hit, bent.direction);
-    else
-        f = find_refracted(0, hit, bent);
-    float wet = metres_in_water(0, narrow_data.side, hit.along, f.after, total);
+    SeenBehind s = find_behind(0, hit, true, branch);
+    FoundPoint f = s.found;
+    bool total = s.bent.total > 0.0f;
+    int layer = total ? LAYER_REFLECTED : LAYER_REFRACTED;
+    ThroughEnd through;
+    through.ray.direction = turned(0, s.bent.direction);
+    through.ray.from = camera_position() + s.from.along * (s.way > 0.0f ? 1.0f : TRACE_START) * turned(0, s.from.view);
+    through.ray.way = s.way;
+    through.ray.wet = s.wet;
+    through.ray.part = s.part;
+    through.ray.total = total;
     RayEnd end;
-    end.triangle = f.shown > 0.0f ? layer_triangle(total ? LAYER_REFLECTED : LAYER_REFRACTED, ivec2(int(f.column), int(f.row))) : -1;
-    end.ray = ray_of(hit, f, wet);
-    end.ray.gain = gain_behind(total);
+    end.triangle = f.shown > 0.0f ? layer_triangle(layer, ivec2(int(f.column), int(f.row))) : -1;
+    end.ray = ray_of(s.from, f, 0.0f);
     end.error = point_error(0, f.residual);
     end.counts = true;
-    int layer = total ? LAYER_REFLECTED : LAYER_REFRACTED;
     if (narrow_data.method == REFRACTION_TWO_PHASE)
-        end = sharpened(end, w.hit, layer, f);
-    end.ray.footprint = footprint_behind(hit, bent, w.variation, end.ray.after);
-    bool traced = narrow_data.method == REFRACTION_HYBRID;
-    if (traced)
-        traced = is_doubtful(f, layer) || passed_place(0, layer, hit, f, f.column >= 0.0f ? 1.0f : 0.0f).inside > 0.0f;
-    return ThroughEnd(end, traced);
+        end = sharpened(end, s.from, layer, f);
+    w.hit = hit;
+    through.end = end_behind(end, w, through.ray, bent_by_method(0, hit));
+    through.traced = narrow_data.method == REFRACTION_HYBRID;
+    if (through.traced)
+        through.traced = is_doubtful(f, layer) || passed_place(0, layer, s.from, f, f.column >= 0.0f ? 1.0f : 0.0f).inside > 0.0f;
+    return through;
 }

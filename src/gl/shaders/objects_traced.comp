@@ -16,8 +16,17 @@ void main()
     if (pixel < 0)
         return;
     PixelWater water = known_water(pixel);
-    RayEnd end = end_traced(water);
+    vec3 color = known_light(pixel);
+    float error = 0.0f;
+    for (int branch = 0; branch < 2; branch++) {
+        TracedRay ray = known_ray(pixel, branch);
+        if (!(ray.part > 0.0f))
+            continue;
+        RayEnd end = end_traced(water, ray);
+        color += ray.part * shaded(end.triangle, end.ray);
+        error = max(error, end.error);
+    }
     ivec2 texel = texel_of_image(image_of(water));
-    imageStore(body_image, texel, vec4(shaded(end.triangle, end.ray), 1.0f));
-    imageStore(error_image, texel, vec4(end.error));
+    imageStore(body_image, texel, vec4(color, 1.0f));
+    imageStore(error_image, texel, vec4(error));
 }

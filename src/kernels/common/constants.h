@@ -126,7 +126,16 @@
 #define LIST_DEEP 3
 #define LIST_TRACED 4
 #define LISTS 5
-#define WATER_FLOATS 18
+#define WATER_FLOATS 41
+#define WATER_THROUGH 17 /* the place of the flag */
+#define WATER_LIGHT 18
+#define WATER_RAYS 21
+#define RAY_FLOATS 10
+
+/* How often a ray behind the surface is followed where it meets it again. */
+#define MOST_AGAIN 6
+/* A part of its light that is as large stands for all of it. */
+#define LEAST_WHOLE 0.98f
 
 /* ---- method adaptive, scheme podee: see slots_data.glsl ---- */
 
