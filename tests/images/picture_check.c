@@ -7,6 +7,8 @@
  *                                                    runs is, within limits; else the same
  *   picture_check crop WHOLE PART X Y                PART equals that place of WHOLE to the bit
  *   picture_check pick OUT.pfm N A                   writes the middle one of every N × N pixels
+ *   picture_check mean OUT.pfm N A                   writes the mean of every N × N pixels; a grey A gets one channel
+ *   picture_check shift N FINE COARSE                by how many of its own pixels COARSE lies right of and below the means of N × N pixels of FINE
  *   picture_check area WITHOUT WITH                  pixels that something black covers, from pictures without and with it
  *   picture_check depth A B                          per cent of B's pixels off by more than max(1%, 5 mm), and the largest error
  *
@@ -232,17 +234,32 @@ static int print_area(const picture_pair *p)
 
 /* ---- pixels of a larger picture ---- */
 
-static int write_picked(const char *path, const char *every, const char *from)
+static bool read_whole(float_image *whole, uint32_t step, const char *path)
+{
+    file_error error;
+    if (step > 0 && picture_read(whole, path, NULL, &error) == FILE_OK)
+        return true;
+    fprintf(stderr, "picture_check: %s\n", step == 0 ? "every how many pixels?" : error.text);
+    return false;
+}
+
+static int write_part(const char *path, uint32_t columns, uint32_t rows, const picture_layer *layer)
 {
     const metadata_list none = {0};
     const output_options options = {.overwrite = true};
-    const uint32_t step = (uint32_t)strtoul(every, NULL, 10);
     file_error error;
+    const file_status written = picture_write_pfm(path, columns, rows, layer, &none, &options, &error);
+    if (written != FILE_OK)
+        fprintf(stderr, "picture_check: %s\n", error.text);
+    return written == FILE_OK ? 0 : 66;
+}
+
+static int write_picked(const char *path, const char *every, const char *from)
+{
+    const uint32_t step = (uint32_t)strtoul(every, NULL, 10);
     float_image whole = {0};
-    if (step == 0 || picture_read(&whole, from, NULL, &error) != FILE_OK) {
-        fprintf(stderr, "picture_check: %s\n", step == 0 ? "every how many pixels?" : error.text);
+    if (!read_whole(&whole, step, from))
         return step == 0 ? 64 : 66;
-    }
     const uint32_t columns = whole.width / step, rows = whole.height / step;
     float *to = whole.pixels; /* nothing is overwritten before it is read */
     for (uint32_t row = 0; row < rows; row++)
@@ -251,11 +268,92 @@ static int write_picked(const char *path, const char *every, const char *from)
             memmove(to, whole.pixels + at * whole.channels, whole.channels * sizeof *to);
         }
     const picture_layer layer = {.name = "picked", .channels = whole.channels, .pixels = whole.pixels};
-    const file_status written = picture_write_pfm(path, columns, rows, &layer, &none, &options, &error);
-    if (written != FILE_OK)
-        fprintf(stderr, "picture_check: %s\n", error.text);
+    const int code = write_part(path, columns, rows, &layer);
     float_image_free(&whole);
-    return written == FILE_OK ? 0 : 66;
+    return code;
+}
+
+/* Mean of channel c over step × step pixels whose first is at (left, top). */
+static double block_mean(const float_image *whole, uint32_t step, uint32_t left, uint32_t top, uint32_t c)
+{
+    double sum = 0;
+    for (uint32_t row = top; row < top + step; row++)
+        for (uint32_t column = left; column < left + step; column++)
+            sum += (double)whole->pixels[((size_t)row * whole->width + column) * whole->channels + c];
+    return sum / ((double)step * step);
+}
+
+static bool is_grey(const float_image *image)
+{
+    const size_t pixels = (size_t)image->width * image->height;
+    for (size_t i = 0; i < pixels; i++)
+        for (uint32_t c = 1; c < image->channels; c++)
+            if (image->pixels[i * image->channels + c] != image->pixels[i * image->channels])
+                return false;
+    return true;
+}
+
+static int write_means(const char *path, const char *every, const char *from)
+{
+    const uint32_t step = (uint32_t)strtoul(every, NULL, 10);
+    float_image whole = {0};
+    if (!read_whole(&whole, step, from))
+        return step == 0 ? 64 : 66;
+    const uint32_t columns = whole.width / step, rows = whole.height / step, channels = is_grey(&whole) ? 1 : whole.channels;
+    float *means = malloc((size_t)columns * rows * channels * sizeof *means);
+    for (uint32_t row = 0; means && row < rows; row++)
+        for (uint32_t column = 0; column < columns; column++)
+            for (uint32_t c = 0; c < channels; c++)
+                means[((size_t)row * columns + column) * channels + c] = (float)block_mean(&whole, step, column * step, row * step, c);
+    const picture_layer layer = {.name = "means", .channels = channels, .pixels = means};
+    const int code = means ? write_part(path, columns, rows, &layer) : 66;
+    free(means);
+    float_image_free(&whole);
+    return code;
+}
+
+/* Mean squared difference of the first channels where the means begin `right` and `down` pixels of the fine picture later; one pixel of the coarse
+ * one all around does not count. */
+static double displaced_error(const float_image *fine, const float_image *coarse, uint32_t step, int right, int down)
+{
+    double sum = 0;
+    for (uint32_t row = 1; row + 1 < coarse->height; row++)
+        for (uint32_t column = 1; column + 1 < coarse->width; column++) {
+            const double mean = block_mean(fine, step, column * step + (uint32_t)right, row * step + (uint32_t)down, 0);
+            const double d = mean - (double)coarse->pixels[((size_t)row * coarse->width + column) * coarse->channels];
+            sum += d * d;
+        }
+    return sum / ((double)(coarse->width - 2) * (coarse->height - 2));
+}
+
+/* Where the parabola through three values at −1, 0 and 1 is least. */
+static double least_at(double before, double here, double after)
+{
+    const double bend = before - 2 * here + after;
+    return bend > 0 ? 0.5 * (before - after) / bend : INFINITY;
+}
+
+/* The means that are most like COARSE begin where it lies: the mean of the error of a picture and one displaced is even in how far. */
+static int print_shift(const char *every, const char *fine_path, const char *coarse_path)
+{
+    const uint32_t step = (uint32_t)strtoul(every, NULL, 10);
+    float_image fine = {0}, coarse = {0};
+    int code = 66;
+    if (read_whole(&fine, step, fine_path) && read_whole(&coarse, step, coarse_path)) {
+        code = 1;
+        if (coarse.width < 3 || coarse.height < 3 || fine.width != coarse.width * step || fine.height != coarse.height * step)
+            fprintf(stderr, "picture_check: %s is not %u times as large as %s\n", fine_path, step, coarse_path);
+        else {
+            const double here = displaced_error(&fine, &coarse, step, 0, 0);
+            const double right = least_at(displaced_error(&fine, &coarse, step, -1, 0), here, displaced_error(&fine, &coarse, step, 1, 0));
+            const double down = least_at(displaced_error(&fine, &coarse, step, 0, -1), here, displaced_error(&fine, &coarse, step, 0, 1));
+            printf("%.5f %.5f\n", right / step, down / step);
+            code = 0;
+        }
+    }
+    float_image_free(&fine);
+    float_image_free(&coarse);
+    return code;
 }
 
 int main(int count, char **arguments)
@@ -264,14 +362,19 @@ int main(int count, char **arguments)
     const bool pick = !strcmp(verb, "pick") && count == 5;
     const bool near = !strcmp(verb, "near") && count == 7, crop = !strcmp(verb, "crop") && count == 6;
     const bool most = !strcmp(verb, "most") && count == 8, runs = !strcmp(verb, "runs") && count == 8, depth = !strcmp(verb, "depth") && count == 4;
-    const bool area = !strcmp(verb, "area") && count == 4;
-    if (!pick && !near && !most && !runs && !crop && !depth && !area) {
+    const bool area = !strcmp(verb, "area") && count == 4, means = !strcmp(verb, "mean") && count == 5, shift = !strcmp(verb, "shift") && count == 5;
+    if (!pick && !means && !shift && !near && !most && !runs && !crop && !depth && !area) {
         fprintf(stderr, "usage: picture_check near A B MAX MEAN DIFFERENCE.png | most A B FAR SHARE MEAN DIFFERENCE.png |\n"
-                        "       runs A B FAR SHARE RUN DIFFERENCE.png | crop WHOLE PART X Y | pick OUT.pfm N A | depth A B |\n       area WITHOUT WITH\n");
+                        "       runs A B FAR SHARE RUN DIFFERENCE.png | crop WHOLE PART X Y | pick OUT.pfm N A | depth A B |\n"
+                        "       area WITHOUT WITH | mean OUT.pfm N A | shift N FINE COARSE\n");
         return 64;
     }
     if (pick)
         return write_picked(arguments[2], arguments[3], arguments[4]);
+    if (means)
+        return write_means(arguments[2], arguments[3], arguments[4]);
+    if (shift)
+        return print_shift(arguments[2], arguments[3], arguments[4]);
     picture_pair pair = {0};
     int code = 66;
     if (read_pair(&pair, arguments + 2))
