@@ -182,6 +182,7 @@ static void lanes_refracted(const narrow_scene *n, const tile_offset *at, const 
         store_found(&cx, out, i, seen.from, seen.found, total, in_water, n->data.method <= MGT_REFRACTION_HYBRID);
         store(out->total + i, SELECT(total, real(1.0f), real(0.0f)));
         store_way(&cx, out, i, hit, seen);
+        store(out->first + i, bent.total);
         const Spread s = turned_spread(&cx, spread_of(&cx, hit, bent, load_variation(water, i)));
         store_vector(out->spread, i, spread_after(&cx, s, seen.way + seen.found.after));
         const bool certified = n->data.method <= MGT_REFRACTION_HYBRID && !any_lane(load(out->doubt + i) > real(0.0f));

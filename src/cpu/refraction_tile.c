@@ -221,7 +221,7 @@ static void add_listed(const tile_objects *o, size_t count, float (*planes)[TILE
 /* What the surface mirrors in one place of every listed pixel, added to that of the others; the list is used up. */
 static void see_mirrored(const refraction *r, const tile_offset *at, size_t count, tile_objects *o)
 {
-    if (!r->mirrors)
+    if (!r->mirrors || count == 0)
         return;
     r->kernels->narrow->mirrored(&r->narrow, at, &o->water, &o->ends);
     size_t mirrored = 0;
@@ -260,6 +260,23 @@ static void see_branch(refraction *r, const tile_offset *at, int branch, size_t 
         for (int k = 0; k < 3; k++)
             o->rgb[3 * i + (size_t)k] *= part[o->list[i]];
     add_listed(o, count, o->light.through);
+    for (size_t i = 0; i < count; i++)
+        for (int k = 0; k < 3 && o->ends.first[o->list[i]] > 0; k++)
+            o->light.mirrored[k][o->list[i]] += o->rgb[3 * i + (size_t)k];
+}
+
+/* What is reflected totally is what the surface mirrors: the list keeps the others. */
+static size_t leave_total(tile_objects *o, size_t count)
+{
+    size_t left = 0;
+    for (size_t i = 0; i < count; i++) {
+        const uint16_t pixel = o->list[i];
+        if (o->ends.first[pixel] > 0)
+            o->light.share[pixel] += 1;
+        else
+            o->list[left++] = pixel;
+    }
+    return left;
 }
 
 /* Radiance through one place of every listed pixel, added to what came through before, and what it mirrors; the list is used up. */
@@ -277,7 +294,7 @@ static void see_place(refraction *r, const tile_offset *at, size_t count, tile_o
     if (split > 0)
         see_branch(r, at, 1, split, o);
     memcpy(o->list, all, count * sizeof *all);
-    see_mirrored(r, at, count, o);
+    see_mirrored(r, at, leave_total(o, count), o);
 }
 
 static void look_at_water(const refraction *r, const tile_waves *waves, const tile_estimate *estimate, const tile_offset *at, tile_objects *o)

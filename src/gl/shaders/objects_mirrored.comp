@@ -15,6 +15,8 @@ void main()
     if (pixel < 0)
         return;
     PixelWater water = known_water(pixel);
+    if (mirrors_all(water))
+        return;
     vec4 mirrored = seen_mirrored(water);
     if (mirrored.a > 0.0f)
         imageStore(mirrored_image, texel_of_image(image_of(water)), mirrored);

@@ -32,17 +32,19 @@ void main()
         if (!(water.share > 0.0f))
             continue;
         float part = 0.0f;
+        vec3 place = vec3(0.0f);
         for (int branch = 0; branch < 2 && part < LEAST_WHOLE; branch++) {
             ThroughEnd through = end_through(water, branch);
             RayEnd end = through.end;
             if (through.traced)
                 end = end_traced(water, through.ray);
             part = through.ray.part;
-            color += part * shaded(end.triangle, end.ray);
+            place += part * shaded(end.triangle, end.ray);
             error = max(error, end.error);
         }
+        color += place;
         if (objects_data.mirrors != 0)
-            mirrored += seen_mirrored(water);
+            mirrored += mirrors_all(water) ? vec4(place, 1.0f) : seen_mirrored(water);
         seen += 1.0f;
     }
     imageStore(body_image, texel, vec4(color / max(seen, 1.0f), 1.0f));

@@ -15,6 +15,9 @@ float gain_behind(bool total)
     return total ? 1.0f : narrow_data.side > 0.0f ? 1.0f / squared : squared;
 }
 
+/* Where nothing gets through, what comes from behind the surface is what it mirrors. */
+bool mirrors_all(PixelWater water) { return objects_data.mirrors != 0 && bent_by_method(0, surface_of_method(0, water.hit)).total > 0.0f; }
+
 struct RayEnd {
     int triangle;
     HitRay ray;

@@ -8,6 +8,7 @@
 #include "objects_through.glsl"
 
 layout(local_size_x = LIST_GROUP) in;
+layout(binding = 1) writeonly uniform image2D mirrored_image; /* as in objects_mirrored.comp */
 
 void main()
 {
@@ -38,5 +39,7 @@ void main()
     }
     ivec2 texel = texel_of_image(image_of(water));
     imageStore(body_image, texel, vec4(color, 1.0f));
+    if (mirrors_all(water))
+        imageStore(mirrored_image, texel, vec4(color, 1.0f));
     imageStore(error_image, texel, vec4(error));
 }
