@@ -37,7 +37,7 @@ typedef struct tile_ends {
     float wet[TILE_PIXELS];       /* … of them in water, … */
     float from[3][TILE_PIXELS];   /* … and where that is; not set where it met it once */
     float part[TILE_PIXELS];      /* of the light that goes this way */
-    float first[TILE_PIXELS]; /* 1 where the surface lets nothing through as it is met first */
+    float first[TILE_PIXELS];     /* 1 where the surface lets nothing through as it is met first */
     float spread[3][TILE_PIXELS]; /* the footprint, as in shade_hits */
     float terms[9][TILE_PIXELS];  /* Spread, for another `after`; two-phase, hybrid: where there is doubt */
     float gain[TILE_PIXELS];      /* as in shade_hits */
