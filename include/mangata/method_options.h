@@ -11,6 +11,7 @@
 
 /* clang-format off */
 MGT_METHOD_OPTION(roughness_floor, MGT_METHOD_GGX_MOMENTS, 0, 1, 0, least GGX alpha along any direction)
+MGT_METHOD_OPTION(light_cells, MGT_METHOD_REFERENCE, 0, 4096, 0, cells of the water a pixel and time sample in which mirrored lights are looked for on their own; 0: by the rays alone)
 /* clang-format on */
 
 #undef MGT_METHOD_OPTION

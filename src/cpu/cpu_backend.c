@@ -315,7 +315,11 @@ static void render_tile(void *argument, size_t index, uint32_t worker)
 }
 
 /* Blocks shrink with the samples of a pixel so that progress and cancelling stay prompt. */
-enum { REFERENCE_WIDTH = 16, REFERENCE_HEIGHT = 4, REFERENCE_PIXELS = REFERENCE_WIDTH * REFERENCE_HEIGHT };
+enum { REFERENCE_WIDTH = 16, REFERENCE_HEIGHT = 4, REFERENCE_PIXELS = 1024 };
+
+/* Cells of the mean surface are lifted to other rows: high blocks look at few that they do not show. */
+enum { CELLS_WIDTH = 8, CELLS_HEIGHT = 128 };
+_Static_assert(CELLS_WIDTH *CELLS_HEIGHT <= REFERENCE_PIXELS && REFERENCE_WIDTH * REFERENCE_HEIGHT <= REFERENCE_PIXELS, "blocks have room");
 
 static uint32_t reference_block_width(const mgt_quality *q)
 {
@@ -515,7 +519,10 @@ static mgt_status render_picture(cpu_state *s, const reporter *r, const mgt_scen
         status = make_reference(&job, r);
         if (status == MGT_OK) {
             const uint32_t width = reference_block_width(&scene->quality);
-            finished = run_loop(&job, width, width == REFERENCE_WIDTH ? REFERENCE_HEIGHT : 1, render_reference_block);
+            if (scene->quality.light_cells > 0)
+                finished = run_loop(&job, CELLS_WIDTH, CELLS_HEIGHT, render_reference_block);
+            else
+                finished = run_loop(&job, width, width == REFERENCE_WIDTH ? REFERENCE_HEIGHT : 1, render_reference_block);
         }
         reference_frame_destroy(job.reference);
     } else {

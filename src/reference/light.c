@@ -6,6 +6,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 static const long double pi = 3.14159265358979323846264338327950288L;
 
@@ -67,6 +68,15 @@ bool reference_lights_met(const reference_lights *lights, const double direction
     for (int i = 0; i < lights->count; i++)
         met = met || (lights->of[i].risen && chord_squared(direction, lights->of[i].direction) < lights->of[i].chord_squared);
     return met;
+}
+
+int reference_lights_count(const reference_lights *lights) { return lights->count; }
+
+bool reference_lights_disk(const reference_lights *lights, int light, double direction[3], double *radius)
+{
+    memcpy(direction, lights->of[light].direction, sizeof lights->of[light].direction);
+    *radius = lights->of[light].radius;
+    return lights->of[light].risen;
 }
 
 void reference_lights_add(const reference_lights *lights, const double means[REFERENCE_LIGHTS][3], const double direction[3], bool risen, double rgb[3])

@@ -26,6 +26,11 @@ reference_lights *reference_lights_of(const mgt_scene *scene);
 /* Whether a unit direction meets the disk of a light whose centre stands at or above the horizon. */
 bool reference_lights_met(const reference_lights *lights, const double direction[3]);
 
+int reference_lights_count(const reference_lights *lights);
+
+/* Direction and angular radius (radians) of a light. False where its centre stands below the horizon. */
+bool reference_lights_disk(const reference_lights *lights, int light, double direction[3], double *radius);
+
 /* Adds to `rgb` the radiance of the disks that a unit direction meets, `means[i]` being the mean over that of light i. `risen`: only of lights
  * whose centre stands at or above the horizon. */
 void reference_lights_add(const reference_lights *lights, const double means[REFERENCE_LIGHTS][3], const double direction[3], bool risen, double rgb[3]);

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "reference/equations.h"
+#include "reference/light_cells.h"
 #include "reference/reference_frame.h"
 
 /* ---- preparing a frame ---- */
@@ -37,20 +38,21 @@ static void set_sample_range(reference_frame *frame, const mgt_quality *quality)
 typedef struct lane_build {
     uint32_t lanes;
     reference_trace *trace, *search, *bend;
+    reference_judge *judge;
 } lane_build;
 
 /* All zero when this processor lacks it. */
 static lane_build pick_build(mgt_isa isa)
 {
-    const lane_build scalar = {1, reference_trace_1, reference_search_1, reference_bend_1}, missing = {0};
+    const lane_build scalar = {1, reference_trace_1, reference_search_1, reference_bend_1, reference_judge_1}, missing = {0};
 #if defined(__x86_64__)
     const bool avx512 =
         __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl");
     const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
     if (isa == MGT_ISA_AVX512 || (isa == MGT_ISA_AUTO && avx512))
-        return avx512 ? (lane_build){8, reference_trace_8, reference_search_8, reference_bend_8} : missing;
+        return avx512 ? (lane_build){8, reference_trace_8, reference_search_8, reference_bend_8, reference_judge_8} : missing;
     if (isa == MGT_ISA_AVX2 || (isa == MGT_ISA_AUTO && avx2))
-        return avx2 ? (lane_build){4, reference_trace_4, reference_search_4, reference_bend_4} : missing;
+        return avx2 ? (lane_build){4, reference_trace_4, reference_search_4, reference_bend_4, reference_judge_4} : missing;
 #else
     if (isa == MGT_ISA_AVX512 || isa == MGT_ISA_AVX2)
         return missing;
@@ -85,6 +87,7 @@ mgt_status reference_frame_create(reference_frame **result, const mgt_scene *sce
     frame->trace = build.trace;
     frame->search = build.search;
     frame->bend = build.bend;
+    frame->judge = build.judge;
     frame->lanes = build.lanes;
     frame->bound_deviations = options->bound_deviations > 0 ? options->bound_deviations : REFERENCE_BOUND_DEVIATIONS;
     frame->view = relative_view(&scene->camera, &scene->camera);
@@ -96,6 +99,7 @@ mgt_status reference_frame_create(reference_frame **result, const mgt_scene *sce
     reference_columns_of(frame->waves, frame->wave_count, &frame->columns);
     frame->level_count = reference_levels_of(frame->waves, frame->wave_count, frame->bound_deviations, frame->levels);
     set_sample_range(frame, &scene->quality);
+    frame->light_cells = light_cells_serve(frame);
     *result = frame;
     return MGT_OK;
 }
@@ -153,8 +157,10 @@ static void place_sample(const reference_frame *frame, uint32_t x, uint32_t y, u
 
 /* ---- what a sample sees ---- */
 
-/* Sky and lights in a direction, with `risen` only lights over the horizon; below the horizon the horizon's sky. */
-static void radiance_of_sky(const reference_frame *frame, const double direction[3], bool risen, double rgb[3])
+typedef enum seen_lights { LIGHTS_NONE, LIGHTS_RISEN, LIGHTS_ALL } seen_lights;
+
+/* Sky and lights in a direction, LIGHTS_RISEN being those over the horizon; below the horizon the horizon's sky. */
+static void radiance_of_sky(const reference_frame *frame, const double direction[3], seen_lights lights, double rgb[3])
 {
     const reference_sky *sky = &frame->sky;
     rgb[0] = rgb[1] = rgb[2] = 0;
@@ -168,7 +174,8 @@ static void radiance_of_sky(const reference_frame *frame, const double direction
         }
         sky->lookup(sky->user, d, rgb);
     }
-    reference_lights_add(frame->lights, sky->disks, direction, risen, rgb);
+    if (lights != LIGHTS_NONE)
+        reference_lights_add(frame->lights, sky->disks, direction, lights == LIGHTS_RISEN, rgb);
 }
 
 /* One sample's mirror ray: whether it meets a light, and its radiance where `rgb` is not NULL. */
@@ -182,7 +189,7 @@ static bool shade_hit(const reference_frame *frame, const double view[3], double
         mirrored[i] = view[i] + 2 * cosine * normal[i];
     if (rgb) {
         const double reflectance = fresnel_dielectric(cosine, frame->scene.water.index_of_refraction);
-        radiance_of_sky(frame, mirrored, true, rgb);
+        radiance_of_sky(frame, mirrored, frame->light_cells ? LIGHTS_NONE : LIGHTS_RISEN, rgb);
         for (int i = 0; i < 3; i++)
             rgb[i] = reflectance * rgb[i] + (1 - reflectance) * frame->sky.body_radiance[i];
     }
@@ -201,7 +208,7 @@ static void add_sample(const reference_frame *frame, const reference_batch *batc
     double rgb[3] = {0};
     if (!(batch->distance[i] < HUGE_VAL)) {
         if (with_color)
-            radiance_of_sky(frame, view, false, rgb);
+            radiance_of_sky(frame, view, LIGHTS_ALL, rgb);
     } else if (batch->distance[i] > 0) {
         sums->hits++;
         sums->covered += shade_hit(frame, view, batch->slope_x[i], batch->slope_z[i], with_color ? rgb : NULL);
@@ -301,6 +308,28 @@ static void render_geometry(const reference_frame *frame, const block *area, con
     }
 }
 
+/* Adds lights to the colour of samples that saw none, and replaces their coverage. */
+static void add_light_cells(const reference_frame *frame, const block *area, const reference_result *result)
+{
+    light_cells_sum sums[LIGHT_CELLS_PIXELS];
+    const uint32_t wide = area->width < LIGHT_CELLS_PIXELS ? area->width : LIGHT_CELLS_PIXELS, high = LIGHT_CELLS_PIXELS / wide;
+    for (uint32_t y = 0; y < area->height; y += high)
+        for (uint32_t x = 0; x < area->width; x += wide) {
+            const light_cells_area part = {area->x0 + x, area->y0 + y, area->width - x < wide ? area->width - x : wide,
+                                           area->height - y < high ? area->height - y : high};
+            const uint64_t evaluations = light_cells_render(frame, &part, sums);
+            if (result->evaluations)
+                *result->evaluations += evaluations;
+            for (uint32_t i = 0; i < part.width * part.height; i++) {
+                const size_t at = (size_t)(y + i / part.width) * area->stride + x + i % part.width;
+                if (result->coverage)
+                    result->coverage[at] = (float)sums[i].coverage;
+                for (size_t c = 0; c < 3 && result->color; c++)
+                    result->color[3 * at + c] += (float)sums[i].rgb[c];
+            }
+        }
+}
+
 void reference_render_block(const reference_frame *frame, uint32_t x0, uint32_t y0, uint32_t width, uint32_t height, const reference_result *result)
 {
     if (width == 0 || height == 0)
@@ -310,6 +339,8 @@ void reference_render_block(const reference_frame *frame, uint32_t x0, uint32_t 
     batch.evaluations = 0;
     if (result->color || result->coverage || result->mask)
         render_samples(frame, &area, result, &batch);
+    if (frame->light_cells && (result->color || result->coverage))
+        add_light_cells(frame, &area, result);
     if (result->depth || result->normal)
         render_geometry(frame, &area, result, &batch);
     if (result->evaluations)

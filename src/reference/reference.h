@@ -9,6 +9,9 @@
  *
  * Coverage of a sample is 1 when the mirrored ray lies within a light's angular radius and that light's centre stands at or
  * above the horizon. Only the first hit counts; nothing shadows the mirrored ray.
+ *
+ * With quality.light_cells samples show the sky alone, and mirrored lights are found as light_cells.h tells, all of them whatever the range of samples.
+ * Coverage is then an estimate that may exceed 1 a little.
  */
 #ifndef MANGATA_REFERENCE_REFERENCE_H
 #define MANGATA_REFERENCE_REFERENCE_H
@@ -62,7 +65,7 @@ void reference_frame_destroy(reference_frame *frame);
 uint32_t reference_frame_lanes(const reference_frame *frame);
 
 /* Renders the pixels [x0, x0 + width) × [y0, y0 + height) of the whole image, blocks of any size in any order from any number
- * of threads. Uses about 200 KiB of stack and allocates nothing. */
+ * of threads. Uses about 400 KiB of stack and allocates nothing. */
 void reference_render_block(const reference_frame *frame, uint32_t x0, uint32_t y0, uint32_t width, uint32_t height, const reference_result *result);
 
 #endif

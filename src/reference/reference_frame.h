@@ -40,15 +40,20 @@ typedef struct reference_batch {
 
 typedef void reference_trace(const reference_frame *frame, reference_batch *batch, uint32_t count);
 
+struct reference_cells;
+typedef void reference_judge(const reference_frame *frame, struct reference_cells *cells, uint32_t count);
+
 struct reference_frame {
     mgt_scene scene; /* water.waves is NULL: see below */
     reference_sky sky;
     reference_trace *trace, *search, *bend;
+    reference_judge *judge;
     uint32_t lanes;
 
     reference_view view, view_open;
     double view_scale_x; /* width / height */
     reference_lights *lights;
+    bool light_cells; /* mirrored lights are found by light_cells.h */
 
     double bound_deviations;
     double height_bound; /* no wave rises above it, ± */
@@ -79,5 +84,10 @@ void reference_search_8(const reference_frame *frame, reference_batch *batch, ui
 void reference_bend_1(const reference_frame *frame, reference_batch *batch, uint32_t count);
 void reference_bend_4(const reference_frame *frame, reference_batch *batch, uint32_t count);
 void reference_bend_8(const reference_frame *frame, reference_batch *batch, uint32_t count);
+
+/* See light_lanes.h. */
+void reference_judge_1(const reference_frame *frame, struct reference_cells *cells, uint32_t count);
+void reference_judge_4(const reference_frame *frame, struct reference_cells *cells, uint32_t count);
+void reference_judge_8(const reference_frame *frame, struct reference_cells *cells, uint32_t count);
 
 #endif

@@ -102,6 +102,23 @@ static inline lane_hessian waves_hessian(const reference_wave *waves, uint32_t c
     return sum;
 }
 
+/* Both of the above with one sine. */
+static inline lane_surface waves_at_with_hessian(const reference_wave *waves, uint32_t count, reals x, reals z, reals time_offset, lane_hessian *bend)
+{
+    lane_surface sum = {splat(0), splat(0), splat(0)};
+    *bend = (lane_hessian){splat(0), splat(0), splat(0)};
+    for (const reference_wave *wave = waves; wave < waves + count; wave++) {
+        const sine_cosine sc = wave_sine_cosine(wave, x, z, time_offset);
+        sum.height = fused(sc.sine, splat(wave->amplitude), sum.height);
+        sum.slope_x = fused(sc.cosine, splat(wave->amplitude_a), sum.slope_x);
+        sum.slope_z = fused(sc.cosine, splat(wave->amplitude_b), sum.slope_z);
+        bend->xx = fused(sc.sine, splat(-wave->amplitude_a * wave->a), bend->xx);
+        bend->xz = fused(sc.sine, splat(-wave->amplitude_a * wave->b), bend->xz);
+        bend->zz = fused(sc.sine, splat(-wave->amplitude_b * wave->b), bend->zz);
+    }
+    return sum;
+}
+
 static inline void waves_bounds(const reference_wave *waves, uint32_t count, reals dx, reals dz, lane_bounds *total)
 {
     lane_bounds sum = *total;
