@@ -321,19 +321,7 @@ static void work_off(cells_job *job)
 
 /* ---- pixels of the plane ---- */
 
-/* Cells are so large that second derivatives of the slope add this share of its deviation at most, in the mean over directions; measured. */
-static double cell_size(const reference_frame *frame)
-{
-    const double share = 0.4;
-    double square = 0, bend = 0;
-    for (uint32_t i = 0; i < frame->wave_count; i++) {
-        const reference_wave *wave = &frame->waves[i];
-        const double squared_length = wave->a * wave->a + wave->b * wave->b, slope = wave->amplitude * sqrt(squared_length);
-        square += 0.5 * slope * slope;
-        bend += 0.5 * slope * squared_length;
-    }
-    return bend > 0 ? 2 * sqrt(share * sqrt(0.5 * square) / bend) : HUGE_VAL;
-}
+static const double curved_share = 0.4; /* of the slope's deviation: what second derivatives may add over a cell decides its size; measured */
 
 /* How many cells a pixel has along each of its sides, and from how many strata they are taken. */
 typedef struct pixel_grid {
@@ -387,34 +375,17 @@ static plane_pixel pixel_at(const instant *now, int64_t x, int64_t y)
     return p;
 }
 
-static double farthest(const vec2 sides[4], const reference_wave *wave)
+/* Bounds for the cells of a pixel. */
+static void bound_pixel(cells_job *job, const plane_pixel *p, const pixel_grid *grid)
 {
-    double most = 0;
-    for (int i = 0; i < 4; i++)
-        most = fmax(most, fabs(wave->a * sides[i].x + wave->b * sides[i].z));
-    return most;
-}
-
-/* Bounds for the cells of a pixel, and how far heights in it are from that of its middle. */
-static double bound_pixel(cells_job *job, const plane_pixel *p, const pixel_grid *grid)
-{
-    double range = 0;
-    reference_cells *r = &job->lanes;
-    for (int axis = 0; axis < 2; axis++)
-        r->first[axis] = r->both[axis] = r->second[axis] = 0;
-    for (uint32_t i = 0; i < job->frame->wave_count; i++) {
-        const reference_wave *wave = &job->frame->waves[i];
-        const double whole_a = 0.5 * farthest(p->sides[0], wave), whole_b = 0.5 * farthest(p->sides[1], wave);
-        const double a = whole_a / grid->cells[0], b = whole_b / grid->cells[1];
-        range += wave->amplitude * fmin(whole_a + whole_b, 2);
-        for (int axis = 0; axis < 2; axis++) {
-            const double slope = 0.5 * fabs(wave->amplitude_a * r->axes[axis][0] + wave->amplitude_b * r->axes[axis][1]);
-            r->first[axis] += slope * a * a;
-            r->both[axis] += slope * 2 * a * b;
-            r->second[axis] += slope * b * b;
+    double sides[2][4][2];
+    for (int k = 0; k < 2; k++)
+        for (int i = 0; i < 4; i++) {
+            sides[k][i][0] = p->sides[k][i].x / grid->cells[k];
+            sides[k][i][1] = p->sides[k][i].z / grid->cells[k];
         }
-    }
-    return range;
+    job->lanes.bend =
+        reference_waves_bend(job->frame->waves, job->frame->wave_count, (const double(*)[4][2])sides, grid->cells, (const double(*)[2])job->lanes.axes);
 }
 
 /* Whether a pixel of the plane, lifted by heights of a range, can be seen in the area. */
@@ -438,8 +409,9 @@ static bool can_be_seen(const cells_job *job, const instant *now, const plane_pi
 }
 
 /* Leaves those of the first `count` instants at which the pixel can be seen. */
-static uint32_t keep_seen(cells_job *job, const plane_pixel *p, double range, uint32_t count)
+static uint32_t keep_seen(cells_job *job, const plane_pixel *p, uint32_t count)
 {
+    const double range = job->lanes.bend.height;
     uint32_t kept = 0;
     for (uint32_t first = 0; first < count; first += REFERENCE_CELLS) {
         const uint32_t some = count - first < REFERENCE_CELLS ? count - first : REFERENCE_CELLS;
@@ -503,8 +475,8 @@ static void look_at_pixel(cells_job *job, int64_t x, int64_t y, uint64_t key, ui
     const pixel_grid grid = grid_of(job->size, pixel.lengths, quality->light_cells);
     job->bounded = pixel.bounded;
     if (job->bounded) {
-        const double range = bound_pixel(job, &pixel, &grid);
-        count = keep_seen(job, &pixel, range, count);
+        bound_pixel(job, &pixel, &grid);
+        count = keep_seen(job, &pixel, count);
     }
     for (uint32_t i = 0; i < count; i++)
         take_cells(job, &pixel, &grid, i, 1.0 / all);
@@ -594,11 +566,12 @@ uint64_t light_cells_render(const reference_frame *frame, const light_cells_area
     job.area = area;
     job.sums = sums;
     job.lanes.lights = 0;
+    job.lanes.bend = (reference_bend){{0}, {0}, {0}, 0};
     job.lanes.fair_share = fair_share;
     job.evaluations = 0;
     job.stacked = job.hits = 0;
     job.batch.evaluations = 0;
-    job.size = cell_size(frame);
+    job.size = reference_waves_straight(frame->waves, frame->wave_count, curved_share);
     set_lights(&job);
     memset(sums, 0, (size_t)area->width * area->height * sizeof *sums);
     const plane_area below = area_below(frame, area);

@@ -78,7 +78,7 @@ static inline reals disks_across(const reference_cells *cells, const light_disk 
     reals widest = splat(0);
     for (int i = 0; i < 2; i++) {
         const lane_pair axis = {splat(cells->axes[i][0]), splat(cells->axes[i][1])};
-        const reals bend = fused(scale * rest[i], scale, 0.5 * cells->both[i] * scale * other_scale);
+        const reals bend = fused(scale * rest[i], scale, 0.5 * cells->bend.both[i] * scale * other_scale);
         widest = greater(widest, (absolute(dot_pair(half, axis)) + bend) / reach_along(disk, m, axis));
     }
     return widest;
@@ -95,8 +95,8 @@ static inline masks judge_light(const reference_cells *cells, const light_disk *
     masks dark = {0};
     for (int i = 0; i < 4; i++)
         dark |= apart(cells, disk, s, &m, across[i]);
-    const reals wide_x = disks_across(cells, disk, &m, s->along_a, cells->first, scale_x, scale_y);
-    const reals wide_y = disks_across(cells, disk, &m, s->along_b, cells->second, scale_y, scale_x);
+    const reals wide_x = disks_across(cells, disk, &m, s->along_a, cells->bend.first, scale_x, scale_y);
+    const reals wide_y = disks_across(cells, disk, &m, s->along_b, cells->bend.second, scale_y, scale_x);
     const masks halve = (masks)(greater(wide_x, wide_y) > cells->fair_share), by_x = (masks)(wide_x > wide_y);
     const masks halves = (by_x & CELL_HALVE_X) | (~by_x & CELL_HALVE_Y);
     const masks lit = (halve & halves) | (~halve & CELL_POINT);
@@ -124,7 +124,8 @@ void JUDGE(const reference_frame *frame, reference_cells *cells, uint32_t count)
                          .along_b = {fused(bend.xx, b.x, bend.xz * b.z), fused(bend.xz, b.x, bend.zz * b.z)}};
         const reals scale_x = load(&cells->scale_x[at]), scale_y = load(&cells->scale_y[at]);
         for (int i = 0; i < 2; i++)
-            s.rest[i] = fused(scale_x * cells->first[i], scale_x, fused(scale_x * cells->both[i], scale_y, scale_y * cells->second[i] * scale_y));
+            s.rest[i] =
+                fused(scale_x * cells->bend.first[i], scale_x, fused(scale_x * cells->bend.both[i], scale_y, scale_y * cells->bend.second[i] * scale_y));
         const reals steepest = size_pair(s.middle) + size_pair(s.along_a) + size_pair(s.along_b) + s.rest[0] + s.rest[1];
         const reals reach = (size_pair(a) + size_pair(b)) * (1.0 + steepest);
         const reals seen[3] = {x - load(&cells->eye_x[at]), sum.height - load(&cells->eye_y[at]), z - load(&cells->eye_z[at])};

@@ -29,10 +29,10 @@ typedef struct reference_cells {
     double a_x[REFERENCE_CELLS], a_z[REFERENCE_CELLS], b_x[REFERENCE_CELLS], b_z[REFERENCE_CELLS];
     double scale_x[REFERENCE_CELLS], scale_y[REFERENCE_CELLS]; /* of the sides, of those that the bounds below are for */
 
-    /* The input, for all. Second derivatives of the slope add, along axis i, at most first · scale_x² + both · scale_x · scale_y + second · scale_y². */
-    double axes[2][2]; /* of slopes: unit vectors, along the view and across */
-    double first[2], both[2], second[2];
-    double fair_share; /* a cell is halved while it is wider than so many disks */
+    /* The input, for all. */
+    double axes[2][2];   /* of slopes: unit vectors, along the view and across */
+    reference_bend bend; /* along these, for sides of scale 1 */
+    double fair_share;   /* a cell is halved while it is wider than so many disks */
     int lights;
     light_disk disks[REFERENCE_LIGHTS];
 

@@ -135,6 +135,41 @@ void reference_columns_of(const reference_wave *waves, uint32_t count, reference
     }
 }
 
+static double farthest(const double sides[4][2], const reference_wave *wave)
+{
+    double most = 0;
+    for (int i = 0; i < 4; i++)
+        most = fmax(most, fabs(wave->a * sides[i][0] + wave->b * sides[i][1]));
+    return most;
+}
+
+reference_bend reference_waves_bend(const reference_wave *waves, uint32_t count, const double sides[2][4][2], const double whole[2], const double axes[2][2])
+{
+    reference_bend bend = {{0}, {0}, {0}, 0};
+    for (const reference_wave *wave = waves; wave < waves + count; wave++) {
+        const double first = 0.5 * farthest(sides[0], wave), second = 0.5 * farthest(sides[1], wave); /* radians to the border */
+        bend.height += fabs(wave->amplitude) * fmin(first * whole[0] + second * whole[1], 2);
+        for (int axis = 0; axis < 2; axis++) {
+            const double slope = 0.5 * fabs(wave->amplitude_a * axes[axis][0] + wave->amplitude_b * axes[axis][1]);
+            bend.first[axis] += slope * first * first;
+            bend.both[axis] += slope * 2 * first * second;
+            bend.second[axis] += slope * second * second;
+        }
+    }
+    return bend;
+}
+
+double reference_waves_straight(const reference_wave *waves, uint32_t count, double share)
+{
+    double square = 0, bend = 0;
+    for (const reference_wave *wave = waves; wave < waves + count; wave++) {
+        const double squared_length = wave->a * wave->a + wave->b * wave->b, slope = fabs(wave->amplitude) * sqrt(squared_length);
+        square += 0.5 * slope * slope;
+        bend += 0.5 * slope * squared_length;
+    }
+    return bend > 0 ? 2 * sqrt(share * sqrt(0.5 * square) / bend) : HUGE_VAL;
+}
+
 void reference_waves_mirror(reference_wave *waves, size_t count)
 {
     for (size_t i = 0; i < count; i++)

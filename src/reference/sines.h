@@ -50,6 +50,19 @@ void reference_columns_of(const reference_wave *waves, uint32_t count, reference
 /* Fills levels, the last one being all waves, and returns how many. */
 uint32_t reference_levels_of(const reference_wave *waves, uint32_t count, double deviations, reference_level levels[REFERENCE_LEVELS]);
 
+/* What the waves may change within parallelograms. Along direction i of slopes the slope differs from what first derivatives make of the middle's by no more than
+ * first + both + second: of the first side, of both and of the second, so that shares x and y of the sides take x², x·y and y² of them. */
+typedef struct reference_bend {
+    double first[2], both[2], second[2];
+    double height; /* metres by which the height may differ from the middle's within `whole` parallelograms along each side */
+} reference_bend;
+
+/* sides[i] are four vectors: side i is any mean of them. */
+reference_bend reference_waves_bend(const reference_wave *waves, uint32_t count, const double sides[2][4][2], const double whole[2], const double axes[2][2]);
+
+/* Metres within which waves of any direction make of the slope, beside first derivatives, at most this share of its deviation. +inf without waves. */
+double reference_waves_straight(const reference_wave *waves, uint32_t count, double share);
+
 /* Turns the surface over. */
 void reference_waves_mirror(reference_wave *waves, size_t count);
 
