@@ -43,6 +43,7 @@ for option in 'kernels exact' 'integral exact' 'path-segments 1' 'transition sof
     [[ $(hash_of --method podee-pixel --$option) == "$podee" ]] || fail "--$option is the default"
 done
 
+[[ $(hash_of --method reference) != $(hash_of --method reference --light-cells 20) ]] || fail "the hash must depend on --light-cells"
 [[ $(hash_of --method ggx-moments) != $(hash_of --method ggx-moments --roughness-floor 0.1) ]] || fail "the hash must depend on --roughness-floor"
 [[ $(hash_of --method ggx-moments --roughness-floor 0.1) == $(hash_of --set 'quality={method: ggx-moments, roughness_floor: 0.1}') ]] || fail "a scene's quality and the command line are one"
 value() { "$JSON_GET" "$1" <hash.pfm.json 2>/dev/null; }

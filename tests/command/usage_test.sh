@@ -76,6 +76,8 @@ podee '--transition smooth: allowed is one of soft, hard' --transition smooth
 podee '--transition-width 0.6: allowed is a number, 0 to 0.5' --transition-width 0.6
 podee 'transition soft alone' --transition hard --transition-width 0.2
 
+bad light-cells 20 'for method reference alone'
+expect 64 '--light-cells 5000: allowed is a number, 0 to 4096' render "$simple" -o a.png --method reference --light-cells 5000
 bad roughness-floor 0.1 'for method ggx-moments alone'
 expect 64 '--roughness-floor 2: allowed is a number, 0 to 1' render "$simple" -o a.png --method ggx-moments --roughness-floor 2
 for option in 'adaptive podee' 'samples 4' 'target-rmse 0.01' 'target-displayed 0.01' 'budget-ms 10' 'slots 1000' 'importance-center 0.1' 'importance-width 0.1' \
