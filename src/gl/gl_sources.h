@@ -32,7 +32,7 @@ void gl_replacements_free(gl_replacements *r);
 /* Whether a text of this name is embedded. */
 bool gl_text_exists(const char *name);
 
-enum { MAX_FILES = 48 };
+enum { MAX_FILES = 64 };
 
 /* A whole source, and which file each number of a #line names. */
 typedef struct gl_source {
