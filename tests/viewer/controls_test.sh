@@ -80,6 +80,8 @@ pattern() { grep -E "$1" all.txt; }
     vary a.ndf_mean a.kernels a.transition a.path_segments
     echo 'set a.transition soft'
     vary a.transition_width
+    echo 'set a.method reference'
+    vary a.light_cells
     echo 'set a.method ggx-moments'
     vary a.roughness_floor
     echo 'set a.method adaptive'
