@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
  * OpenGL against the CPU: every method on scene files, coverage and displayed colour, and the displayed bytes with glare.
- * usage: gl_agreement [--only METHOD] SCENE…      Exit 1 where a limit is missed, 77 without OpenGL.
+ * usage: gl_agreement [--quick] [--only METHOD] SCENE…      Exit 1 where a limit is missed, 77 without OpenGL.
+ * With --quick what takes many samples a pixel is compared at half the size, and seas by adaptive cells not at all: gl_cells_test compares these.
  */
 #include <math.h>
 #include <stdio.h>
@@ -98,7 +99,14 @@ enum { OBJECT_METHODS = sizeof object_methods / sizeof *object_methods, OBJECT_V
 static const int steps_off = 2;            /* a pixel off by more displayed steps than this has flipped: another triangle, another iterate … */
 static const double most_steps_off = 2e-3; /* … which this share of them may have */
 
+/* What the command line asks for. */
+typedef struct agreement_plan {
+    const char *only; /* a method's name; NULL: all */
+    bool quick;
+} agreement_plan;
+
 typedef struct layers {
+    size_t pixels;
     float coverage[PIXELS], color[3 * PIXELS], samples[PIXELS];
     unsigned char shown[4 * PIXELS];
 } layers;
@@ -144,11 +152,11 @@ static bool render(mgt_context *context, const mgt_scene *scene, layers *out)
 }
 
 /* Radiance to what is displayed, before rounding to bytes. */
-static void display(const mgt_scene *scene, double exposure_ev, float *color)
+static void display(const mgt_scene *scene, double exposure_ev, size_t pixels, float *color)
 {
     const FrameData frame = {.exposure = (float)exp2(scene->post.exposure_ev + (scene->post.auto_exposure ? exposure_ev : 0))};
     const struct kernel_context cx = {.frame = &frame};
-    for (size_t i = 0; i < PIXELS; i++) {
+    for (size_t i = 0; i < pixels; i++) {
         float *c = color + 3 * i;
         const vec3 shown = display_color(&cx, vec3(c[0], c[1], c[2]), (int)scene->post.tone_map);
         c[0] = shown.x, c[1] = shown.y, c[2] = shown.z;
@@ -169,7 +177,7 @@ static bool counts_agree(mgt_adaptive scheme, recounted r)
 static recounted leave_out_recounted(const layers *reference, layers *other)
 {
     size_t by_one = 0, by_more = 0;
-    for (size_t i = 0; i < PIXELS; i++) {
+    for (size_t i = 0; i < reference->pixels; i++) {
         const float more = fabsf(other->samples[i] - reference->samples[i]);
         if (more == 0)
             continue;
@@ -181,7 +189,7 @@ static recounted leave_out_recounted(const layers *reference, layers *other)
         memcpy(other->color + 3 * i, reference->color + 3 * i, 3 * sizeof(float));
         memcpy(other->shown + 4 * i, reference->shown + 4 * i, 4);
     }
-    return (recounted){(double)by_one / PIXELS, (double)by_more / PIXELS};
+    return (recounted){(double)by_one / (double)reference->pixels, (double)by_more / (double)reference->pixels};
 }
 
 static bool print(const char *scene, const char *method, const difference *coverage, const difference *color, double bytes_off, mgt_adaptive scheme,
@@ -212,19 +220,28 @@ static bool render_bytes(mgt_context *context, const mgt_scene *scene, unsigned 
 /* What differs by an option, or sees objects as others do, needs one scene in four. */
 static bool is_left_out(int method, int first_variant, int scene_index) { return method >= first_variant && (method + scene_index) % 4 != 0; }
 
-/* Whether a row is what the command line asks for alone; `only` NULL: every one of the plan is. */
-static bool is_wanted(const char *only, const char *name, bool planned) { return only ? strcmp(only, name) == 0 : planned; }
+/* Whether a row is what the command line asks for alone, or without that one of those that are compared. */
+static bool is_wanted(const agreement_plan *plan, const char *name, bool compared) { return plan->only ? strcmp(plan->only, name) == 0 : compared; }
 
-static bool compare_objects(mgt_context *cpu, mgt_context *gl, const char *label, mgt_scene *scene, int scene_index, const char *only)
+static mgt_image image_of(const agreement_plan *plan, mgt_method method)
+{
+    const bool sampled = method == MGT_METHOD_ADAPTIVE || method == MGT_METHOD_SSAA || method == MGT_METHOD_TAA;
+    const uint32_t part = plan->quick && sampled ? 2 : 1;
+    return (mgt_image){.width = WIDTH / part, .height = HEIGHT / part};
+}
+
+static bool compare_objects(mgt_context *cpu, mgt_context *gl, const char *label, mgt_scene *scene, int scene_index, const agreement_plan *plan)
 {
     static unsigned char a[4 * PIXELS], b[4 * PIXELS];
     bool all_good = true;
     for (int m = 0; m < OBJECT_METHODS; m++) {
         const bool needs_rays = object_methods[m].refraction == MGT_REFRACTION_HYBRID; /* of the CPU */
-        if (!is_wanted(only, object_methods[m].name, !is_left_out(m, OBJECT_VARIANTS, scene_index)) || (needs_rays && !trace_available()))
+        if (!is_wanted(plan, object_methods[m].name, !is_left_out(m, OBJECT_VARIANTS, scene_index)) || (needs_rays && !trace_available()))
             continue;
         mgt_quality_init(&scene->quality, sizeof scene->quality);
         scene->quality.method = object_methods[m].method;
+        scene->image = image_of(plan, object_methods[m].method);
+        const size_t pixels = (size_t)scene->image.width * scene->image.height;
         scene->quality.adaptive = object_methods[m].scheme;
         scene->quality.refraction = object_methods[m].refraction;
         scene->quality.spatial_samples = 2;
@@ -232,7 +249,7 @@ static bool compare_objects(mgt_context *cpu, mgt_context *gl, const char *label
         if (!render_bytes(cpu, scene, a) || !render_bytes(gl, scene, b))
             return false;
         size_t off = 0;
-        for (size_t i = 0; i < PIXELS; i++) {
+        for (size_t i = 0; i < pixels; i++) {
             int worst = 0;
             for (size_t k = 0; k < 3; k++) {
                 const int d = abs(a[4 * i + k] - b[4 * i + k]);
@@ -240,15 +257,15 @@ static bool compare_objects(mgt_context *cpu, mgt_context *gl, const char *label
             }
             off += worst > steps_off;
         }
-        const bool good = (double)off <= most_steps_off * PIXELS;
-        printf("%-10s %-14s %57.4f %%  %s\n", label, object_methods[m].name, 100.0 * (double)off / PIXELS, good ? "ok" : "MISSED");
+        const bool good = (double)off <= most_steps_off * (double)pixels;
+        printf("%-10s %-14s %57.4f %%  %s\n", label, object_methods[m].name, 100.0 * (double)off / (double)pixels, good ? "ok" : "MISSED");
         fflush(stdout);
         all_good = all_good && good;
     }
     return all_good;
 }
 
-static bool compare_scene(mgt_context *cpu, mgt_context *gl, const char *path, int scene_index, sky_state *sky, const char *only)
+static bool compare_scene(mgt_context *cpu, mgt_context *gl, const char *path, int scene_index, sky_state *sky, const agreement_plan *plan)
 {
     static layers reference, other;
     scene_error error;
@@ -262,9 +279,8 @@ static bool compare_scene(mgt_context *cpu, mgt_context *gl, const char *path, i
     const char *name = strrchr(path, '/') ? strrchr(path, '/') + 1 : path;
     char label[16];
     snprintf(label, sizeof label, "%.*s", (int)strcspn(name, "."), name);
-    scene.image = (mgt_image){.width = WIDTH, .height = HEIGHT};
     if (scene.object_count > 0) {
-        const bool alike = compare_objects(cpu, gl, label, &scene, scene_index, only);
+        const bool alike = compare_objects(cpu, gl, label, &scene, scene_index, plan);
         scene_file_free(file);
         return alike;
     }
@@ -272,10 +288,12 @@ static bool compare_scene(mgt_context *cpu, mgt_context *gl, const char *path, i
     bool rendered = good;
     const bool wind = scene.water.wave_count > 64; /* where other methods than the default learn nothing new */
     for (int m = 0; m < METHODS && rendered; m++) {
-        const bool planned = m == 0 || m >= ADAPTIVE || (!wind && !is_left_out(m, VARIANTS, scene_index));
-        if (!is_wanted(only, methods[m].name, planned))
+        const bool compared = m == 0 || m > ADAPTIVE || (m == ADAPTIVE && !plan->quick) || (m < ADAPTIVE && !wind && !is_left_out(m, VARIANTS, scene_index));
+        if (!is_wanted(plan, methods[m].name, compared))
             continue;
         scene.quality = methods[m].quality;
+        scene.image = image_of(plan, scene.quality.method);
+        reference.pixels = other.pixels = (size_t)scene.image.width * scene.image.height;
         if (wind && scene.quality.method == MGT_METHOD_ADAPTIVE)
             scene.quality.samples = 1; /* each takes a software rasteriser a millisecond */
         rendered = render(cpu, &scene, &reference) && render(gl, &scene, &other);
@@ -283,12 +301,13 @@ static bool compare_scene(mgt_context *cpu, mgt_context *gl, const char *path, i
             break;
         const recounted samples = leave_out_recounted(&reference, &other);
         size_t bytes_off = 0;
-        for (size_t i = 0; i < sizeof reference.shown; i++)
+        for (size_t i = 0; i < 4 * reference.pixels; i++)
             bytes_off += abs(reference.shown[i] - other.shown[i]) > 1;
-        display(&scene, sky->exposure_ev, reference.color);
-        display(&scene, sky->exposure_ev, other.color);
-        const difference coverage = compare(other.coverage, reference.coverage, PIXELS, 1), color = compare(other.color, reference.color, PIXELS, 3);
-        good = print(label, methods[m].name, &coverage, &color, (double)bytes_off / (double)sizeof reference.shown, scene.quality.adaptive, samples) && good;
+        display(&scene, sky->exposure_ev, reference.pixels, reference.color);
+        display(&scene, sky->exposure_ev, other.pixels, other.color);
+        const difference coverage = compare(other.coverage, reference.coverage, reference.pixels, 1),
+                         color = compare(other.color, reference.color, reference.pixels, 3);
+        good = print(label, methods[m].name, &coverage, &color, (double)bytes_off / (4.0 * (double)reference.pixels), scene.quality.adaptive, samples) && good;
     }
     scene_file_free(file);
     return good && rendered;
@@ -317,10 +336,15 @@ int main(int count, char **arguments)
         info.renderer, WIDTH, HEIGHT, far_off, 100 * most_far_off, largest_rms, 100 * most_bytes_off, 100 * most_recounted, 100 * most_by_one,
         100 * most_by_more, "", "coverage", "color", "bytes", "samples");
     sky_state *sky = calloc(1, sizeof *sky);
-    const int first = count > 2 && strcmp(arguments[1], "--only") == 0 ? 3 : 1;
+    agreement_plan plan = {NULL, false};
+    int first = 1;
+    if (first < count && strcmp(arguments[first], "--quick") == 0)
+        plan.quick = true, first++;
+    if (first + 1 < count && strcmp(arguments[first], "--only") == 0)
+        plan.only = arguments[first + 1], first += 2;
     bool good = sky != NULL && count > first;
     for (int i = first; i < count && sky; i++)
-        good = compare_scene(cpu, gl, arguments[i], i, sky, first > 1 ? arguments[2] : NULL) && good;
+        good = compare_scene(cpu, gl, arguments[i], i - first + 1, sky, &plan) && good;
     free(sky);
     mgt_context_destroy(gl);
     mgt_context_destroy(cpu);

@@ -505,8 +505,8 @@ static void state_is_as_before(void **state)
         for (int color = i == 0 ? MGT_GL_COLOR_RADIANCE : MGT_GL_COLOR_DISPLAY; color <= MGT_GL_COLOR_DISPLAY; color++) {
             mgt_gl_view view = whole_view(&e);
             view.color = (mgt_gl_color)color;
-            view.width /= 2;
-            view.height /= 2;
+            view.width /= 4;
+            view.height /= 4;
             clear(&e);
             gl_state_read(&before);
             draw_views(&e, &scene, &view, 1);
