@@ -196,10 +196,12 @@ typedef struct mgt_quality {
     double importance_threshold; /* adaptive, podee: pixels whose importance (1 at its peak) is not above it get no samples, up to 1; 0: 0.05,
                                  a little more than the importance of a pixel without light by the defaults */
     mgt_refraction refraction;
-    double tess_error;           /* two-phase, hybrid, liu, broad: pixels that a triangle bent by refraction may be off by, 0.01 … 100; 0: 0.1 */
-    uint32_t refraction_samples; /* N of N×N places of a pixel that rays of refraction go through, 1 … 64; 1 is the pixel's centre; 0: 1, and 4 for truth */
-    bool caustics;               /* light that the waves bundle on what lies under them */
-    uint64_t sample_slots;       /* adaptive, podee: M of Eq. 3, how many samples the picture gets, up to 2^32; 0: as `samples` says */
+    double tess_error; /* two-phase, hybrid, liu, broad: pixels that a triangle bent by refraction may be off by, 0.01 … 100; 0: 0.1 */
+    uint32_t
+        refraction_samples; /* N of N×N places of a pixel that rays of refraction go through, 1 … 64; 1 is the pixel's centre; 0: 1, 4 rays more at outlines
+                                    of two-phase, and 4 for truth */
+    bool caustics;          /* light that the waves bundle on what lies under them */
+    uint64_t sample_slots;  /* adaptive, podee: M of Eq. 3, how many samples the picture gets, up to 2^32; 0: as `samples` says */
     /* Options of single methods, and room for those of later versions, zero: 16 in all. */
 #define MGT_METHOD_OPTION(name, method, least, most, preset, meaning) double name;
 #include "mangata/method_options.h"

@@ -165,6 +165,22 @@ static void store_way(const struct kernel_context *cx, tile_ends *out, size_t i,
     store_vector(out->from, i, vec3(from.x + n->data.foot_x, from.y, from.z + n->data.foot_z));
 }
 
+static void lanes_beside(const narrow_scene *n, const tile_offset *at, const tile_water *water, const float *edge, tile_water *out)
+{
+    const struct kernel_context cx = {.narrow = n};
+    const tile_offset centres = {at->column, at->row, 0, 0};
+    for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
+        const real share = SELECT(load(edge + i) > real(0.0f), load(water->share + i), real(0.0f));
+        store(out->share + i, share);
+        if (!any_lane(share > real(0.0f)))
+            continue;
+        const WaterHit hit = hit_beside(&cx, load_water(water, &centres, i), load_variation(water, i), vec2(real(at->dx), real(at->dy)));
+        store_vector(out->view, i, hit.view);
+        store(out->along + i, hit.along);
+        store_vector(out->normal, i, hit.normal);
+    }
+}
+
 static void lanes_refracted(const narrow_scene *n, const tile_offset *at, const tile_water *water, int branch, tile_ends *out)
 {
     const struct kernel_context cx = {.narrow = n, .search = n->waves};
@@ -213,4 +229,4 @@ static void lanes_mirrored(const narrow_scene *n, const tile_offset *at, const t
     }
 }
 
-const narrow_kernels LANES_NAME(MGT_LANES) = {lanes_water, lanes_refracted, lanes_mirrored};
+const narrow_kernels LANES_NAME(MGT_LANES) = {lanes_water, lanes_beside, lanes_refracted, lanes_mirrored};

@@ -57,6 +57,8 @@ typedef struct tile_offset {
 struct narrow_kernels {
     /* The filtered surface, over the time that the waves were sorted for. */
     void (*water)(const FrameData *frame, const tile_waves *tile, const tile_estimate *estimate, const tile_offset *at, tile_water *out);
+    /* The surface about a tile's known one, in another place of those pixels whose `edge` is not 0; the others get no share. */
+    void (*beside)(const narrow_scene *n, const tile_offset *at, const tile_water *water, const float *edge, tile_water *out);
     /* What lies behind it, on branch 0; on branch 1 of again.k only where out->part says that branch 0 is split. */
     void (*refracted)(const narrow_scene *n, const tile_offset *at, const tile_water *water, int branch, tile_ends *out);
     /* What its mean slope mirrors of the camera's own side. */

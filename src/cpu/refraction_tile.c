@@ -279,8 +279,8 @@ static size_t leave_total(tile_objects *o, size_t count)
     return left;
 }
 
-/* Radiance through one place of every listed pixel, added to what came through before, and what it mirrors; the list is used up. */
-static void see_place(refraction *r, const tile_offset *at, size_t count, tile_objects *o)
+/* Radiance through one place of every listed pixel, added to what came through before. */
+static void see_branches(refraction *r, const tile_offset *at, size_t count, tile_objects *o)
 {
     see_branch(r, at, 0, count, o);
     uint16_t all[TILE_PIXELS];
@@ -288,13 +288,54 @@ static void see_place(refraction *r, const tile_offset *at, size_t count, tile_o
     size_t split = 0;
     for (size_t i = 0; i < count; i++) {
         o->seen[all[i]] += 1;
+        o->edge[all[i]] = o->ends.doubt[all[i]];
         if (o->ends.part[all[i]] < LEAST_WHOLE)
             o->list[split++] = all[i];
     }
     if (split > 0)
         see_branch(r, at, 1, split, o);
     memcpy(o->list, all, count * sizeof *all);
+}
+
+/* The same, and what it mirrors; the list is used up. */
+static void see_place(refraction *r, const tile_offset *at, size_t count, tile_objects *o)
+{
+    see_branches(r, at, count, o);
     see_mirrored(r, at, leave_total(o, count), o);
+}
+
+/* Where an outline may pass through a pixel, the mean of more rays. What the surface mirrors, it mirrors at the pixel's centre. */
+static void see_outlines(refraction *r, tile_offset at, tile_objects *o)
+{
+    size_t edges = 0;
+    for (size_t i = 0; i < TILE_PIXELS; i++) {
+        o->edge[i] = o->water.share[i] > 0 && o->edge[i] > 0 ? 1 : 0;
+        edges += o->edge[i] > 0;
+    }
+    if (edges == 0)
+        return;
+    float total[TILE_PIXELS];
+    memcpy(total, o->ends.first, sizeof total);
+    memcpy(o->kept, o->light.mirrored, sizeof o->kept);
+    o->centre = o->water;
+    for (int ray = 0; ray < r->narrow.data.edge_rays; ray++) {
+        const vec2 place = edge_ray(NULL, ray);
+        at.dx = place.x, at.dy = place.y;
+        float edge[TILE_PIXELS];
+        memcpy(edge, o->edge, sizeof edge);
+        r->kernels->narrow->beside(&r->narrow, &at, &o->centre, edge, &o->water);
+        see_branches(r, &at, list_water(o), o);
+        memcpy(o->edge, edge, sizeof edge);
+    }
+    memcpy(&o->water, &o->centre, sizeof o->water);
+    memcpy(o->light.mirrored, o->kept, sizeof o->kept);
+    for (size_t i = 0; i < TILE_PIXELS; i++)
+        for (int k = 0; k < 3 && o->edge[i] > 0; k++) {
+            o->light.through[k][i] /= o->seen[i];
+            if (total[i] > 0)
+                o->light.mirrored[k][i] = o->light.through[k][i];
+        }
+    memset(o->seen, 0, sizeof o->seen);
 }
 
 static void look_at_water(const refraction *r, const tile_waves *waves, const tile_estimate *estimate, const tile_offset *at, tile_objects *o)
@@ -326,6 +367,8 @@ static void see_refracted(refraction *r, const tile_waves *waves, const tile_est
     const size_t count = list_water(o);
     if (n == 1 && count > 0 && !r->truth)
         see_place(r, &at, count, o);
+    if (count > 0 && r->narrow.data.edge_rays > 0)
+        see_outlines(r, at, o);
     for (size_t i = 0; i < TILE_PIXELS; i++) {
         if (o->seen[i] <= 1)
             continue;

@@ -77,6 +77,9 @@ void refraction_wave_list(const frame *f, const world *w, SearchWave *out)
     sines_searched(&s->water, (wave_meeting){.x = w->origin[0], .z = w->origin[1], .middle = s->time - half}, out);
 }
 
+/* One ray a pixel, unless someone asks for a number. */
+static bool smooths_edges(const mgt_quality *q) { return q->refraction == MGT_REFRACTION_TWO_PHASE && q->refraction_samples == 0; }
+
 NarrowData refraction_narrow_data(const frame *f, const world *w, const gbuffer *layer)
 {
     const camera_rays *c = &f->close;
@@ -127,6 +130,7 @@ NarrowData refraction_narrow_data(const frame *f, const world *w, const gbuffer 
         .wave_height = (float)sines_crest(&f->scene->water),
         .waves = waves_met_again(f),
         .wave_slope = (float)sines_steepest(&f->scene->water),
+        .edge_rays = smooths_edges(&f->scene->quality) ? EDGE_RAYS : 0,
         .wave_bend = (float)sines_sharpest(&f->scene->water),
     };
 }

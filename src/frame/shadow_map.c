@@ -24,13 +24,52 @@ void shadow_map_free(shadow_map *m)
     free(m);
 }
 
-/* The box of places that the world's bounds have; heights between are convex in each medium, so corners and the waterline suffice. */
+/* Of an object: its vertices' bounds. */
+typedef struct bounds {
+    float low[3], high[3];
+} bounds;
+
+static bounds bounds_of(const world *w, const world_object *o)
+{
+    bounds b = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    for (size_t i = 3 * (size_t)o->first_triangle; i < 3 * ((size_t)o->first_triangle + o->triangle_count); i++)
+        for (size_t k = 0; k < 3; k++) {
+            const float at = w->positions[3 * (size_t)w->indices[i] + k];
+            b.low[k] = fminf(b.low[k], at), b.high[k] = fmaxf(b.high[k], at);
+        }
+    return b;
+}
+
+/* Bounds of all objects that can cast shadows on something. A level ground without end, with nothing wholly under it, would leave the others a few texels. */
+static bounds bounds_of_casters(const world *w)
+{
+    bounds all = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    float lowest_top = INFINITY;
+    for (size_t i = 0; i < w->object_count; i++)
+        if (w->objects[i].triangle_count > 0)
+            lowest_top = fminf(lowest_top, bounds_of(w, &w->objects[i]).high[1]);
+    for (size_t i = 0; i < w->object_count; i++) {
+        const bounds b = bounds_of(w, &w->objects[i]);
+        if (w->objects[i].triangle_count == 0 || (b.low[1] == b.high[1] && b.high[1] <= lowest_top))
+            continue;
+        for (int k = 0; k < 3; k++)
+            all.low[k] = fminf(all.low[k], b.low[k]), all.high[k] = fmaxf(all.high[k], b.high[k]);
+    }
+    if (all.low[0] > all.high[0]) {
+        memcpy(all.low, w->low, sizeof all.low);
+        memcpy(all.high, w->high, sizeof all.high);
+    }
+    return all;
+}
+
+/* The box of places that their bounds have; heights between are convex in each medium, so corners and the waterline suffice. */
 static void place_map(shadow_map *m, const world *w)
 {
+    const bounds b = bounds_of_casters(w);
     double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
     for (int corner = 0; corner < 12; corner++) {
-        const double y = corner < 4 ? (double)w->low[1] : corner < 8 ? (double)w->high[1] : 0;
-        const double p[3] = {(double)(corner & 1 ? w->high[0] : w->low[0]), y, (double)(corner & 2 ? w->high[2] : w->low[2])};
+        const double y = corner < 4 ? (double)b.low[1] : corner < 8 ? (double)b.high[1] : 0;
+        const double p[3] = {(double)(corner & 1 ? b.high[0] : b.low[0]), y, (double)(corner & 2 ? b.high[2] : b.low[2])};
         const light_point at = place_of(&m->rays, p);
         low[0] = fmin(low[0], at.u), high[0] = fmax(high[0], at.u);
         low[1] = fmin(low[1], at.v), high[1] = fmax(high[1], at.v);

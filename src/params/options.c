@@ -83,7 +83,7 @@ const field_row quality_fields[] =
      {"tess_error", FIELD_NUMBER, MEMBER(tess_error), FIELD_OBJECTS | FIELD_OR_ZERO, 0.01, 100, "pixels", .doc = "how far a bent triangle may be off",
       .absent = "0.1", .label = "PX", .when = {{BENDING}}},
      {"refraction_samples", FIELD_COUNT, MEMBER(refraction_samples), FIELD_OBJECTS | FIELD_OR_ZERO, 1, 64, NULL, .doc = "N of N x N refracted rays a pixel",
-      .absent = "1, and 4 for truth"},
+      .absent = "1 ray, 4 more at outlines of two-phase, and 4 x 4 for truth"},
      {"caustics", FIELD_SWITCH, MEMBER(caustics), FIELD_OBJECTS, .doc = "light that the waves bundle on what lies under them", .choices = switch_words},
 #define MGT_METHOD_OPTION(name, method_, least, most, preset_, meaning) \
     {#name, FIELD_NUMBER, MEMBER(name), 0, least, most, NULL, .doc = #meaning, .preset = preset_, .when = {{"method", ONE(method_)}}},

@@ -42,7 +42,7 @@ static double post_column = -1, post_depth; /* of a post before it, three column
 #define SEARCH_WAVE(cx, i) (waves[i])
 
 KERNEL vec3 TEXTURE(CTX cx, real texture, real u, real v, real level) { return vec3(texture, u, v * level); }
-KERNEL real SUN_SHARE(CTX cx, vec3 position) { return 1.0f; }
+KERNEL real SUN_SHARE(CTX cx, vec3 position, vec3 first, vec3 second) { return 1.0f; }
 
 #include "kernels/refraction/layer.k"
 
@@ -314,6 +314,48 @@ static void footprints_follow_the_rays(void **state)
     }
     printf("footprints: within %.2g of the mean over pixel, shutter and slopes, in %d cases\n", worst, seen);
     assert_true(seen > 150 && worst < 0.01);
+}
+
+/* Rays through other places of a pixel meet the plane of the surface and bend as its slopes there say. */
+static void rays_beside_meet_the_surface(void **state)
+{
+    (void)state;
+    numbers.state = 8;
+    double worst = 0, farthest = 0;
+    for (int i = 0; i < 300; i++) {
+        const bent_case c = random_case(i);
+        const vec2 place = vec2((float)range(-0.5, 0.5), (float)range(-0.5, 0.5));
+        double middle[3], ray[3], hit[3], out[3], normal[3] = {-c.slope[0], 1, -c.slope[1]};
+        const double none[2] = {0};
+        ray3(&c, 0, 0, middle);
+        unit3(normal);
+        if (-dot3(middle, normal) < 0.2 || !follow(&c, (double)place.x, (double)place.y, 0, none, hit, out))
+            continue;
+        spread_of_case(&c, (const double[3]){0, -1, 0});
+        narrow_data.corner_x = (float)c.forward[0], narrow_data.corner_y = (float)c.forward[1], narrow_data.corner_z = (float)c.forward[2];
+        const WaterHit centre = {.view = vec3((float)middle[0], (float)middle[1], (float)middle[2]),
+                                 .along = (float)c.distance,
+                                 .normal = vec3((float)normal[0], (float)normal[1], (float)normal[2]),
+                                 .column = (float)c.place[0],
+                                 .row = (float)c.place[1]};
+        const WaterVariation v = {.bend_xx = (float)c.bend[0], .bend_xz = (float)c.bend[1], .bend_zz = (float)c.bend[2]};
+        const WaterHit beside = hit_beside(NULL, centre, v, place);
+        const double view[3] = {(double)beside.view.x, (double)beside.view.y, (double)beside.view.z};
+        const double there[3] = {(double)beside.normal.x, (double)beside.normal.y, (double)beside.normal.z};
+        double bent[3];
+        if (c.mirrored)
+            for (int k = 0; k < 3; k++)
+                bent[k] = view[k] - 2 * dot3(view, there) * there[k];
+        else
+            assert_true(refract3(view, there, c.ratio, bent));
+        ray3(&c, (double)place.x, (double)place.y, ray);
+        for (int k = 0; k < 3; k++) {
+            worst = fmax(worst, fabs(bent[k] - out[k]));
+            farthest = fmax(farthest, fabs((double)beside.along * view[k] - c.distance * middle[k] - hit[k]) / c.distance);
+        }
+    }
+    printf("rays beside: directions within %.1g, hits within %.1g of the distance\n", worst, farthest);
+    assert_true(worst < 2e-5 && farthest < 2e-6);
 }
 
 /* Upside down, `rise` turns round: the mixed term changes its sign. */
@@ -731,6 +773,7 @@ int main(void)
         cmocka_unit_test(spreads_turn_with_the_camera), cmocka_unit_test(caustics_are_shares_of_area),  cmocka_unit_test(slopes_bend_the_view_to_the_light),
         cmocka_unit_test(rays_bend_by_snells_law),      cmocka_unit_test(flat_water_needs_no_search),   cmocka_unit_test(waves_lead_to_the_floor),
         cmocka_unit_test(rays_meet_the_next_wave),      cmocka_unit_test(parts_of_light_are_all_of_it), cmocka_unit_test(rays_pass_behind_posts),
+        cmocka_unit_test(rays_beside_meet_the_surface),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

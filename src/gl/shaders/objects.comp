@@ -23,8 +23,8 @@ vec3 clear_to_light(PixelWater w)
 {
     vec3 at = vec3(narrow_data.foot_x, 0.0f, narrow_data.foot_z);
     if (!(w.share > 0.0f))
-        return vec3(SUN_SHARE(0, at));
-    float lit = SUN_SHARE(0, at + w.hit.along * vec3(w.hit.view.x, 0.0f, w.hit.view.z));
+        return vec3(shadow_at_point(0, at));
+    float lit = shadow_at_point(0, at + w.hit.along * vec3(w.hit.view.x, 0.0f, w.hit.view.z));
     if (narrow_data.side > 0.0f)
         return vec3(lit);
     return lit * shade_data.index * shade_data.index * exp(-w.hit.along * vec3(shade_data.absorption_r + shade_data.scattering_r, shade_data.absorption_g + shade_data.scattering_g,

@@ -10,6 +10,27 @@
 layout(local_size_x = LIST_GROUP) in;
 layout(binding = 1) writeonly uniform image2D mirrored_image; /* as in objects_mirrored.comp */
 
+/* Radiance on the branches that are not traced. */
+struct PlaceLight {
+    vec3 color;
+    float error;
+};
+
+/* Of an outline's pixel: through another place of it. */
+PlaceLight light_beside(PixelWater water, vec2 place)
+{
+    PlaceLight light = PlaceLight(vec3(0.0f), 0.0f);
+    float part = 0.0f;
+    water.hit = hit_beside(0, water.hit, water.variation, place);
+    for (int branch = 0; branch < 2 && part < LEAST_WHOLE; branch++) {
+        ThroughEnd through = end_through(water, branch);
+        part = through.ray.part;
+        light.color += part * shaded(through.end.triangle, through.end.ray);
+        light.error = max(light.error, through.end.error);
+    }
+    return light;
+}
+
 void main()
 {
     int pixel = listed_pixel(LIST_THROUGH);
@@ -18,7 +39,7 @@ void main()
     PixelWater water = known_water(pixel);
     vec3 color = vec3(0.0f);
     float error = 0.0f, part = 0.0f;
-    bool traced = false;
+    bool traced = false, doubtful = false;
     for (int branch = 0; branch < 2; branch++) {
         keep_ray(pixel, branch, TracedRay(vec3(0.0f), vec3(0.0f), 0.0f, 0.0f, 0.0f, false));
         if (!(part < LEAST_WHOLE))
@@ -30,6 +51,7 @@ void main()
         else
             color += through.ray.part * shaded(through.end.triangle, through.end.ray);
         traced = traced || through.traced;
+        doubtful = doubtful || (branch == 0 && through.doubtful);
         error = max(error, through.traced ? 0.0f : through.end.error);
     }
     if (traced) {
@@ -37,6 +59,13 @@ void main()
         append(LIST_TRACED, pixel);
         return;
     }
+    int rays = doubtful ? narrow_data.edge_rays : 0;
+    for (int i = 0; i < rays; i++) {
+        PlaceLight light = light_beside(water, edge_ray(0, i));
+        color += light.color;
+        error = max(error, light.error);
+    }
+    color /= float(rays + 1);
     ivec2 texel = texel_of_image(image_of(water));
     imageStore(body_image, texel, vec4(color, 1.0f));
     if (mirrors_all(water))

@@ -81,7 +81,8 @@ RayEnd sharpened(RayEnd end, WaterHit hit, int layer, FoundPoint f)
 struct ThroughEnd {
     RayEnd end;
     TracedRay ray;
-    bool traced; /* the ray shall be: the end does not count */
+    bool traced;   /* the ray shall be: the end does not count */
+    bool doubtful; /* at outlines: the pictures do not certify the end */
 };
 
 /* On a branch of again.k. Where the surface lets nothing through, it mirrors the camera's own side. */
@@ -108,6 +109,7 @@ ThroughEnd end_through(PixelWater w, int branch)
         end = sharpened(end, s.from, layer, f);
     w.hit = hit;
     through.end = end_behind(end, w, through.ray, bent_by_method(0, hit));
+    through.doubtful = narrow_data.edge_rays > 0 && is_doubtful(f, layer);
     through.traced = narrow_data.method == REFRACTION_HYBRID;
     if (through.traced)
         through.traced = is_doubtful(f, layer) || passed_place(0, layer, s.from, f, f.column >= 0.0f ? 1.0f : 0.0f).inside > 0.0f;

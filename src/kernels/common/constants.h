@@ -90,6 +90,7 @@
 /* ---- objects ---- */
 
 #define EDGE_PLACES 8          /* of a pixel, that look for objects at edges */
+#define EDGE_RAYS 4            /* of a pixel at an outline behind the surface, besides that through its centre */
 #define SURFACE_STEPS 128      /* triangles that a ray goes through to find its own */
 #define SHARP_PLACES 16        /* of a ray's way over a layer, that are asked where a search did not arrive */
 #define FRONT_SHOWS 0.5f       /* share of a pixel from which on objects in front of the water are what depth and normal show */
