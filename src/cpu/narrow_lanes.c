@@ -174,10 +174,12 @@ static void lanes_beside(const narrow_scene *n, const tile_offset *at, const til
         store(out->share + i, share);
         if (!any_lane(share > real(0.0f)))
             continue;
-        const WaterHit hit = hit_beside(&cx, load_water(water, &centres, i), load_variation(water, i), vec2(real(at->dx), real(at->dy)));
-        store_vector(out->view, i, hit.view);
-        store(out->along + i, hit.along);
-        store_vector(out->normal, i, hit.normal);
+        const WaterHit centre = load_water(water, &centres, i);
+        const WaterHit hit = hit_beside(&cx, centre, load_variation(water, i), vec2(real(at->dx), real(at->dy)));
+        const mask moves = share > real(0.0f);
+        store_vector(out->view, i, SELECT3(moves, hit.view, centre.view));
+        store(out->along + i, SELECT(moves, hit.along, centre.along));
+        store_vector(out->normal, i, SELECT3(moves, hit.normal, centre.normal));
     }
 }
 

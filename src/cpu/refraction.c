@@ -127,7 +127,7 @@ static mgt_status set_camera(refraction *r, thread_pool *pool)
                                .refract = r->direct.refract,
                                .layers = {&r->direct.refracted, r->mirrors ? &r->mirrored.refracted : &r->direct.refracted},
                                .planes = r->planes,
-                               .breaks = {r->breaks[0].bytes, r->breaks[1].bytes}};
+                               .breaks = {r->breaks[0].bytes, f->under ? r->breaks[1].bytes : r->breaks[0].bytes}};
     if (r->narrow.data.waves > 0)
         refraction_wave_list(f, r->world, r->narrow.waves);
     r->front = front_scene_of(r);
