@@ -24,6 +24,10 @@ typedef struct mgt_mesh_desc {
     uint32_t vertex_count;   /* at least 1 */
     uint32_t triangle_count; /* 1 … MGT_MAX_TRIANGLES */
     const uint32_t *indices; /* 3 a triangle, below vertex_count; counter-clockwise seen from outside. Both sides are drawn */
+    uint32_t dry;            /* 1: a hull, open or closed at the top; no water is drawn within. 0: water goes through the mesh. Inside is a place above
+                              * which or beside which no water gets in: the triangles of the scene's dry meshes lie straight below it and stand around
+                              * it at its height, but for gaps of an eighth of all directions. Over its rim a hull is wet */
+    uint32_t reserved;       /* 0 */
 } mgt_mesh_desc;
 
 typedef struct mgt_texture_desc {

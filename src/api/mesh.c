@@ -24,6 +24,8 @@ static mgt_status check_mesh(const reporter *r, const mgt_mesh_desc *d)
         return report_error(r, MGT_ERROR_ARGUMENT, "mesh.desc", "the mesh has no triangles");
     if (d->triangle_count > MGT_MAX_TRIANGLES)
         return report_error(r, MGT_ERROR_ARGUMENT, "mesh.desc", "the mesh has %u triangles; at most %d are allowed", d->triangle_count, MGT_MAX_TRIANGLES);
+    if (d->dry > 1 || d->reserved != 0)
+        return report_error(r, MGT_ERROR_ARGUMENT, "mesh.desc", "dry is %u and reserved %u; allowed is dry 0 or 1 and reserved 0", d->dry, d->reserved);
     for (size_t i = 0; i < 3 * (size_t)d->vertex_count; i++)
         if (!(fabsf(d->positions[i]) <= 1e6f))
             return report_error(r, MGT_ERROR_ARGUMENT, "mesh.desc", "vertex %zu lies at %g; allowed is -1e6 to 1e6 m", i / 3, (double)d->positions[i]);
@@ -107,6 +109,7 @@ mgt_status mgt_mesh_create(mgt_mesh **mesh, const mgt_mesh_desc *desc)
     if (!m)
         goto out_of_memory;
     m->id = next_id();
+    m->dry = own.dry != 0;
     m->vertex_count = own.vertex_count;
     m->positions = copy_of(own.positions, own.vertex_count, 3 * sizeof *m->positions);
     m->normals = copy_of(own.normals, own.vertex_count, 3 * sizeof *m->normals);

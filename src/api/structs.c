@@ -18,7 +18,7 @@
 
 /* A member that is added later must not lie in what was padding of an earlier version, where callers leave anything. */
 static_assert(sizeof(mgt_context_desc) == END(mgt_context_desc, gl_get_proc), "mgt_context_desc ends with padding");
-static_assert(sizeof(mgt_mesh_desc) == END(mgt_mesh_desc, indices), "mgt_mesh_desc ends with padding");
+static_assert(sizeof(mgt_mesh_desc) == END(mgt_mesh_desc, reserved), "mgt_mesh_desc ends with padding");
 static_assert(sizeof(mgt_texture_desc) == END(mgt_texture_desc, row_stride), "mgt_texture_desc ends with padding");
 static_assert(sizeof(mgt_quality) == END(mgt_quality, target_displayed), "mgt_quality ends with padding");
 static_assert(sizeof(mgt_scene) == END(mgt_scene, quality), "mgt_quality grows with the scene only while it is the last in it");

@@ -247,6 +247,14 @@ static void push_part(const chunk_job *job, const part *p, int32_t triangle)
     }
 }
 
+/* How far beyond the surface the front layer shows an object: troughs may uncover some of it, dry hulls all. */
+static float uncovered(const broad_view *view, int32_t triangle)
+{
+    const world *w = view->world;
+    const bool all = w->dry && !view->mirrored && view->refract.side > 0 && w->objects[w->object[triangle]].in_dry;
+    return all ? INFINITY : view->trough;
+}
+
 /* Both sides of a triangle that meets the surface, or comes near it from the camera's side. */
 static void cut_triangle(const chunk_job *job, const patch *whole, const float far[3])
 {
@@ -256,7 +264,7 @@ static void cut_triangle(const chunk_job *job, const patch *whole, const float f
     memcpy(p.corner, whole->corner, sizeof whole->corner);
     memcpy(p.far, far, 3 * sizeof *far);
     if (MOST3(far) > 0) {
-        const part near = cut(&p, view->trough, false, side), beyond = cut(&p, 0, true, side);
+        const part near = cut(&p, uncovered(view, whole->triangle), false, side), beyond = cut(&p, 0, true, side);
         if (!view->mirrored)
             draw_near(job, &near, whole->triangle);
         push_part(job, &beyond, whole->triangle);
@@ -270,13 +278,13 @@ static void cut_triangle(const chunk_job *job, const patch *whole, const float f
     }
 }
 
-/* What of a triangle beyond the surface troughs may uncover. */
+/* What of a triangle beyond the surface may be uncovered. */
 static void draw_uncovered(const chunk_job *job, const patch *whole, const float far[3])
 {
     part p = {.count = 3};
     memcpy(p.corner, whole->corner, sizeof whole->corner);
     memcpy(p.far, far, 3 * sizeof *far);
-    const part near = cut(&p, job->view->trough, false, job->view->refract.side);
+    const part near = cut(&p, uncovered(job->view, whole->triangle), false, job->view->refract.side);
     draw_near(job, &near, whole->triangle);
 }
 
@@ -328,7 +336,7 @@ static void take_triangle(const chunk_job *job, size_t index)
             take_straight(job, REFRACTED_LAYER, &p);
         else
             take_patch(job, &p);
-        if (LEAST3(far) < view->trough)
+        if (LEAST3(far) < uncovered(view, p.triangle))
             draw_uncovered(job, &p, far);
     } else if (MOST3(far) > -view->crest) {
         cut_triangle(job, &p, far);

@@ -51,6 +51,15 @@ static vec3 normal_of(const float *planes, mask triangle)
     return vec3(gather_floats(planes, at), gather_floats(planes + 1, at), gather_floats(planes + 2, at));
 }
 
+/* Dry levels of the sides that rays meet. */
+static real levels_of(const float *dry, mask triangle, vec3 normal, vec3 ray)
+{
+    if (!dry)
+        return real(0.0f) - real(infinity);
+    const mask at = 2 * (triangle & ~(triangle >> 31));
+    return level_faced(NULL, gather_floats(dry, at), gather_floats(dry + 1, at), dot(normal, ray));
+}
+
 static void lanes_breaks(const gbuffer *g, const float *planes, float focal, uint32_t row, uint8_t *out)
 {
     memset(out, 1, g->width);
@@ -140,25 +149,28 @@ static void lanes_points(const front_scene *n, const tile_offset *at, const tile
         const mask wet = load(water->share + i) > real(0.0f);
         const vec3 surface = load_vector(water->normal, i, up), view = load_vector(water->view, i, up);
         edge = OR(edge, AND(AND(shown, wet), front_waterline(NULL, along, load(water->along + i), load(water->view[1] + i), n->pixel_angle)));
-        const mask inside = AND(AND(shown, NOT(edge)), depth < meet_surface(NULL, wet, surface, view, load(water->along + i), ray));
+        const real met = meet_surface(NULL, wet, surface, view, load(water->along + i), ray);
+        const vec3 normal = normal_of(n->planes, triangle);
+        const real level = levels_of(n->dry, triangle, normal, ray);
+        const mask inside = AND(AND(shown, NOT(edge)), stands_in_front(NULL, depth, met, fma(met, ray.y, real(n->foot[1])), level));
         float kinds[MGT_LANES];
         store(kinds, SELECT(inside, real(1.0f), SELECT(edge, real(2.0f), real(0.0f))));
         for (int lane = 0; lane < MGT_LANES; lane++)
             out->kind[i + (size_t)lane] = (uint8_t)kinds[lane];
         if (!any_lane(inside))
             continue;
-        const vec3 normal = normal_of(n->planes, triangle);
         store(out->along + i, SELECT(inside, along, real(infinity)));
         store_vector(out->normal, i, scale(normal, SELECT(dot(normal, ray) > real(0.0f), real(-1.0f), real(1.0f))));
         memcpy(ends->triangle + i, &triangle, sizeof triangle);
-        store_vector(ends->position, i, add(vec3(n->foot[0], n->foot[1], n->foot[2]), scale(ray, depth)));
+        const vec3 position = add(vec3(n->foot[0], n->foot[1], n->foot[2]), scale(ray, depth));
+        store_vector(ends->position, i, position);
         store_vector(ends->direction, i, scale(ray, real(1.0f) / length));
         const real variance = (n->pixel_angle * n->pixel_angle / 12) * along * along;
         store_vector(ends->spread, i, vec3(variance, real(0.0f), variance));
         store(ends->before + i, along);
         store(ends->after + i, real(0.0f));
         store(ends->gain + i, real(1.0f));
-        store(ends->water + i, n->under ? along : real(0.0f));
+        store(ends->water + i, SELECT(is_inside_dry(NULL, position.y, level), real(IN_DRY_HULL), n->under ? along : real(0.0f)));
     }
 }
 

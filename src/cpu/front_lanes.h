@@ -10,6 +10,7 @@ typedef struct front_scene {
     const gbuffer *layer;
     const uint8_t *edges;               /* as front_kernels.edges sets them */
     const float *planes;                /* of the world's triangles, as in narrow_scene */
+    const float *dry;                   /* levels of their sides, see frame/dry.h; NULL: none is dry */
     float corner[3], right[3], down[3]; /* rays of the camera */
     float foot[3];                      /* the camera, in the world's coordinates */
     float pixel_angle;

@@ -35,6 +35,7 @@ typedef struct light_part {
     uint16_t pixel;
     uint8_t events;
     bool wet, mirrored; /* in water; belongs to the mirrored radiance */
+    bool dry;           /* goes on inside a dry hull */
 } light_part;
 
 /* Where a ray meets the surface. */
@@ -184,6 +185,26 @@ static trace_ray ray_of(const path_traced *t, const light_part *p, double most)
     return ray;
 }
 
+/* Where a part in air meets the surface inside a dry hull, there is none: it goes on to what is there. */
+static void pass_dry(const path_traced *t, path_traced_scratch *s, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        light_part *p = &s->batch[i];
+        surface_point *w = &s->surface[i];
+        if (s->met[i].triangle >= 0 || p->wet || !(w->distance < HUGE_VAL))
+            continue;
+        double point[3];
+        for (int k = 0; k < 3; k++)
+            point[k] = p->origin[k] + w->distance * p->direction[k] + t->offset[k];
+        if (!path_dry_holds(t->job.dry, point))
+            continue;
+        p->dry = true;
+        w->distance = HUGE_VAL;
+        s->rays[i].most = FLT_MAX;
+        trace_nearest(t->job.trace, 1, &s->rays[i], &s->met[i]);
+    }
+}
+
 /* Fills surface and met for the first `count` parts of the batch; `first`: they come from the camera. */
 static void look_ahead(const path_traced *t, path_traced_scratch *s, size_t count, bool first)
 {
@@ -192,6 +213,8 @@ static void look_ahead(const path_traced *t, path_traced_scratch *s, size_t coun
     for (size_t i = 0; i < count; i++)
         s->rays[i] = ray_of(t, &s->batch[i], s->surface[i].distance);
     trace_nearest(t->job.trace, count, s->rays, s->met);
+    if (t->job.dry)
+        pass_dry(t, s, count);
 }
 
 /* ---- at the surface ---- */
@@ -359,7 +382,7 @@ static void end_part(const path_traced *t, path_traced_scratch *s, light_part p,
     }
     e->before[i] = (float)p.before;
     e->after[i] = (float)p.after;
-    e->water[i] = (float)p.water;
+    e->water[i] = p.dry && p.water == 0 ? IN_DRY_HULL : (float)p.water;
     e->gain[i] = p.wet == wet ? 1 : (float)(wet ? n * n : 1 / (n * n));
     e->share[i] = (float)p.share;
     float spread[3];

@@ -6,6 +6,7 @@
 #ifndef MANGATA_CPU_PATH_TRACED_H
 #define MANGATA_CPU_PATH_TRACED_H
 
+#include "cpu/path_dry.h"
 #include "cpu/shade.h"
 #include "trace/trace.h"
 
@@ -13,7 +14,7 @@
  * A ray meets the surface first, is bent, and goes on. Where it meets the surface again, at a crest or from inside the water, it goes on both as
  * what is let through and as what is mirrored, each weighed by Fresnel's equations; parts below PATH_LEAST_SHARE of the pixel are let go, and a
  * part that met the surface PATH_MOST_EVENTS times ends there, in what lies in its direction far away. Radiance is not divided by the square of
- * the index of refraction.
+ * the index of refraction. In air a surface inside dry hulls is none: rays pass it.
  */
 #define PATH_LEAST_SHARE 0.001
 #define PATH_MOST_EVENTS 8
@@ -23,6 +24,7 @@ typedef struct path_traced_job {
     camera_rays camera;     /* at scene.time. position[1] < 0: under water. Unless it moves samples are spread over the shutter, one is of its middle */
     const world *world;
     const trace_scene *trace; /* of that world */
+    const path_dry *dry;      /* likewise; NULL: nothing is dry */
     /* Radiance of what rays end at: points() of the shading kernels. `user` is its scene. */
     void (*shade)(const shade_scene *user, const shade_hits *hits, float *rgb);
     const shade_scene *user;

@@ -29,6 +29,7 @@ void refraction_free(refraction *r)
     trace_scene_free(r->trace);
     distance_field_free(r->field);
     path_traced_free(r->truth);
+    path_dry_free(r->dry);
     free(r->planes);
     free(r);
 }
@@ -81,17 +82,21 @@ static mgt_status prepare_truth(refraction *r, const reporter *report, mgt_isa i
     r->truth = NULL;
     if (r->frame->scene->quality.refraction != MGT_REFRACTION_PATH_TRACED)
         return MGT_OK;
+    mgt_status status = path_dry_update(&r->dry, r->world, threads, report);
+    if (status != MGT_OK)
+        return status;
     const path_traced_job job = {
         .scene = r->frame->scene,
         .camera = r->camera,
         .world = r->world,
         .trace = r->trace,
+        .dry = r->dry,
         .shade = r->kernels->shade->points,
         .user = r->shade,
         .isa = isa,
         .workers = threads,
     };
-    const mgt_status status = path_traced_create(&r->truth, &job);
+    status = path_traced_create(&r->truth, &job);
     return status == MGT_OK ? MGT_OK : report_error(report, status, "render.truth", "the ground truth of refraction: %s", mgt_status_text(status));
 }
 
@@ -102,6 +107,7 @@ static front_scene front_scene_of(const refraction *r)
         .layer = &r->direct.front,
         .edges = r->edges.bytes,
         .planes = r->planes,
+        .dry = r->frame->under ? NULL : r->world->dry,
         .foot = {r->narrow.data.foot_x, (float)c->position[1], r->narrow.data.foot_z},
         .pixel_angle = r->frame->data.pixel_angle,
         .under = r->frame->under,

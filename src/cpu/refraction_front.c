@@ -15,6 +15,7 @@ typedef struct front_pixel {
     uint32_t x, y;  /* in the image */
     size_t element; /* of the front layer */
     size_t i;       /* in the tile */
+    bool dry;       /* what it sees in the place at hand is inside a dry hull */
     size_t candidate_count;
     int32_t candidates[REFRACTION_NEIGHBOURS];
 } front_pixel;
@@ -72,7 +73,7 @@ static void add_point(const front_pixel *p, const double ray[3], double along, i
     e->spread[1][at] = 0;
     e->after[at] = 0;
     e->gain[at] = 1;
-    e->water[at] = r->frame->under ? e->before[at] : 0;
+    e->water[at] = p->dry ? IN_DRY_HULL : r->frame->under ? e->before[at] : 0;
     o->share[p->i] += 1;
     const float *plane = r->planes + 4 * (size_t)triangle;
     const double normal[3] = {(double)plane[0], (double)plane[1], (double)plane[2]};
@@ -88,6 +89,14 @@ static void add_point(const front_pixel *p, const double ray[3], double along, i
 #include "kernels/common/prelude_c.h"
 
 #include "kernels/refraction/edges.k"
+
+/* The dry level of the side of a triangle that a ray meets. */
+static float level_of(const refraction *r, int32_t triangle, const double ray[3])
+{
+    const float *levels = r->front.dry, *plane = r->planes + 4 * (size_t)triangle;
+    const double facing = (double)plane[0] * ray[0] + (double)plane[1] * ray[1] + (double)plane[2] * ray[2];
+    return levels ? level_faced(NULL, levels[2 * (size_t)triangle], levels[2 * (size_t)triangle + 1], (float)facing) : -INFINITY;
+}
 
 /* Whether the place lies between two pixels that both see something: then it does, too, even if it meets none of the tiny triangles at hand. */
 static bool between_objects(const front_pixel *p, vec2 place)
@@ -120,7 +129,12 @@ static void see_edge(front_pixel *p, tile_objects *o, size_t *count)
         }
         if (triangle < 0 && between_objects(p, within))
             nearest = (double)g->depth[p->element], triangle = g->triangle[p->element];
-        if (triangle >= 0 && nearest < meet_water(o, p->i, p->r->frame->under, ray))
+        if (triangle < 0)
+            continue;
+        const double water = meet_water(o, p->i, p->r->frame->under, ray);
+        const float level = level_of(p->r, triangle, ray);
+        p->dry = is_inside_dry(NULL, (float)(eye[1] + nearest * ray[1]), level);
+        if (nearest < water || is_inside_dry(NULL, (float)(eye[1] + water * ray[1]), level))
             add_point(p, ray, nearest, triangle, o, count);
     }
 }

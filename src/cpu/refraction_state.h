@@ -28,6 +28,7 @@ struct refraction {
     trace_scene *trace;           /* NULL until a method traces */
     distance_field *field;        /* NULL until a method marches through it */
     path_traced *truth;           /* of this frame, for that method */
+    path_dry *dry;                /* likewise; NULL: nothing is dry */
     layer_marks edges, breaks[2]; /* of the front layer; of narrow.layers, where the method asks */
     narrow_scene narrow;
     front_scene front;

@@ -86,7 +86,7 @@ KERNEL real SHADOW_TEXEL(CTX cx, real column, real row)
 }
 
 #include "kernels/refraction/shadow.k"
-#define SUN_SHARE(cx, position, first, second) shadow_over(cx, position, first, second)
+#define SUN_SHARE(cx, position, first, second, dry) shadow_over(cx, position, first, second, dry)
 
 #include "kernels/refraction/material.k"
 
@@ -209,7 +209,7 @@ static void lanes_sun(const shade_scene *s, size_t count, const float *x, const 
     for (size_t i = 0; i < count; i += MGT_LANES) {
         const size_t some = count - i < MGT_LANES ? count - i : MGT_LANES;
         float lanes[MGT_LANES];
-        store(lanes, shadow_at_point(&cx, vec3(load_some(x + i, some), real(0.0f), load_some(z + i, some))));
+        store(lanes, shadow_at_point(&cx, vec3(load_some(x + i, some), real(0.0f), load_some(z + i, some)), lane_numbers() < real(0.0f)));
         for (size_t lane = 0; lane < some; lane++)
             share[i + lane] = lanes[lane];
     }

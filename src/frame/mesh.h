@@ -16,6 +16,7 @@ struct mgt_mesh {
     uint32_t *indices;     /* 3 a triangle */
     int32_t *neighbours;   /* 3 a triangle: those across the edges from each corner to the next, −1: none */
     float low[3], high[3]; /* bounds of the vertices in use */
+    bool dry;              /* a hull: no water stands inside */
 };
 
 /* Fills `neighbours`; false: out of memory. */

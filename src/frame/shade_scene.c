@@ -104,6 +104,7 @@ static void set_shadows(ShadeData *d, const shadow_map *m)
     d->shadow_scale = m->columns > 0 ? 1 / m->texel : 0;
     d->shadow_columns = (float)m->columns;
     d->shadow_rows = (float)m->rows;
+    d->shadow_dry_row = m->halves > 1 ? (float)m->rows : 0;
 }
 
 static shade_material material_of(const mgt_material *m)

@@ -17,6 +17,9 @@ static light_point place_of(const shadow_rays *rays, const double p[3])
     return (light_point){p[0] - lean[0] * p[1], p[2] - lean[1] * p[1], p[1]};
 }
 
+/* For points in dry hulls. */
+static shadow_rays straight_rays(const shadow_rays *rays) { return (shadow_rays){{rays->air[0], rays->air[1]}, {rays->air[0], rays->air[1]}}; }
+
 void shadow_map_free(shadow_map *m)
 {
     if (m)
@@ -66,11 +69,13 @@ static bounds bounds_of_casters(const world *w)
 static void place_map(shadow_map *m, const world *w)
 {
     const bounds b = bounds_of_casters(w);
+    const shadow_rays straight = straight_rays(&m->rays);
     double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
-    for (int corner = 0; corner < 12; corner++) {
+    for (int place = 0; place < 12 * (int)m->halves; place++) {
+        const int corner = place % 12;
         const double y = corner < 4 ? (double)b.low[1] : corner < 8 ? (double)b.high[1] : 0;
         const double p[3] = {(double)(corner & 1 ? b.high[0] : b.low[0]), y, (double)(corner & 2 ? b.high[2] : b.low[2])};
-        const light_point at = place_of(&m->rays, p);
+        const light_point at = place_of(place < 12 ? &m->rays : &straight, p);
         low[0] = fmin(low[0], at.u), high[0] = fmax(high[0], at.u);
         low[1] = fmin(low[1], at.v), high[1] = fmax(high[1], at.v);
     }
@@ -82,9 +87,17 @@ static void place_map(shadow_map *m, const world *w)
     m->rows = (uint32_t)((high[1] - low[1]) / (double)m->texel) + 4;
 }
 
+/* A half of a map, and its rays. */
+typedef struct map_half {
+    const shadow_map *map;
+    shadow_rays rays;
+    float *height;
+} map_half;
+
 /* Texel centres within the triangle get its height there, if it is greater. */
-static void draw_triangle(shadow_map *m, const light_point corner[3])
+static void draw_triangle(const map_half *h, const light_point corner[3])
 {
+    const shadow_map *m = h->map;
     const light_point *a = &corner[0], *b = &corner[1], *c = &corner[2];
     const double bu = b->u - a->u, bv = b->v - a->v, cu = c->u - a->u, cv = c->v - a->v, det = bu * cv - bv * cu;
     if (!(fabs(det) > 1e-12))
@@ -103,7 +116,7 @@ static void draw_triangle(shadow_map *m, const light_point corner[3])
             from = fmin(from, u), to = fmax(to, u);
         }
         const double left = ceil(fmax(from - 0.5, 0)), right = floor(fmin(to - 0.5, (double)m->columns - 1));
-        float *texels = m->height + (size_t)row * m->columns;
+        float *texels = h->height + (size_t)row * m->columns;
         for (double column = left; column <= right; column++) {
             const double du = column + 0.5 - a->u, dv = v - a->v;
             const double s = (du * cv - dv * cu) / det, t = (bu * dv - bv * du) / det;
@@ -114,22 +127,23 @@ static void draw_triangle(shadow_map *m, const light_point corner[3])
     }
 }
 
-static void draw_points(shadow_map *m, const double (*points)[3], size_t count)
+static void draw_points(const map_half *h, const double (*points)[3], size_t count)
 {
     light_point seen[4];
     for (size_t i = 0; i < count; i++) {
-        seen[i] = place_of(&m->rays, points[i]);
+        const shadow_map *m = h->map;
+        seen[i] = place_of(&h->rays, points[i]);
         seen[i].u = (seen[i].u - (double)m->left) / (double)m->texel;
         seen[i].v = (seen[i].v - (double)m->top) / (double)m->texel;
     }
     for (size_t i = 2; i < count; i++) {
         const light_point corner[3] = {seen[0], seen[i - 1], seen[i]};
-        draw_triangle(m, corner);
+        draw_triangle(h, corner);
     }
 }
 
 /* The part of a triangle on one side of the surface, where the light's rays are straight. */
-static void draw_side(shadow_map *m, const double p[3][3], double side)
+static void draw_side(const map_half *h, const double p[3][3], double side)
 {
     double part[4][3];
     size_t count = 0;
@@ -144,10 +158,10 @@ static void draw_side(shadow_map *m, const double p[3][3], double side)
             part[count++][2] = a[2] + s * (b[2] - a[2]);
         }
     }
-    draw_points(m, (const double(*)[3])part, count);
+    draw_points(h, (const double(*)[3])part, count);
 }
 
-static void draw_world(shadow_map *m, const world *w)
+static void draw_world(const map_half *h, const world *w)
 {
     for (size_t t = 0; t < w->triangle_count; t++) {
         double p[3][3];
@@ -156,9 +170,9 @@ static void draw_world(shadow_map *m, const world *w)
                 p[c][k] = (double)w->positions[3 * (size_t)w->indices[3 * t + (size_t)c] + (size_t)k];
         const bool above = p[0][1] > 0 || p[1][1] > 0 || p[2][1] > 0, below = p[0][1] < 0 || p[1][1] < 0 || p[2][1] < 0;
         if (above || !below)
-            draw_side(m, (const double(*)[3])p, 1);
+            draw_side(h, (const double(*)[3])p, 1);
         if (below)
-            draw_side(m, (const double(*)[3])p, -1);
+            draw_side(h, (const double(*)[3])p, -1);
     }
 }
 
@@ -172,10 +186,11 @@ mgt_status shadow_map_update(shadow_map **map, const world *w, const shadow_rays
         return MGT_ERROR_MEMORY;
     m->version = w->version;
     m->rays = *rays;
+    m->halves = w->dry ? 2 : 1;
     if (w->triangle_count == 0)
         return MGT_OK;
     place_map(m, w);
-    const size_t count = (size_t)m->columns * m->rows;
+    const size_t half = (size_t)m->columns * m->rows, count = half * m->halves;
     m->height = malloc(count * sizeof *m->height);
     if (!m->height) {
         shadow_map_free(m);
@@ -184,6 +199,8 @@ mgt_status shadow_map_update(shadow_map **map, const world *w, const shadow_rays
     }
     for (size_t i = 0; i < count; i++)
         m->height[i] = -INFINITY;
-    draw_world(m, w);
+    draw_world(&(map_half){m, m->rays, m->height}, w);
+    if (m->halves > 1)
+        draw_world(&(map_half){m, straight_rays(rays), m->height + half}, w);
     return MGT_OK;
 }

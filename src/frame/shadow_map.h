@@ -8,6 +8,9 @@
 /*
  * A ray of the light meets the mean surface at (x, z) − lean · y, where lean is ∂(x, z)/∂y along the ray in air or, for y below 0, in water: this
  * place names the ray. A texel holds the greatest height of any object there.
+ *
+ * Where something is dry the map has a second half below the first one, of the same places: rays that go straight on below 0, as light falls into dry
+ * hulls.
  */
 typedef struct shadow_rays {
     double air[2], water[2]; /* lean */
@@ -17,12 +20,13 @@ typedef struct shadow_map {
     uint64_t version; /* of the world it was drawn from */
     shadow_rays rays;
     uint32_t columns, rows; /* 0: nothing casts shadows */
+    uint32_t halves;        /* 1, or 2: rows are those of one */
     float left, top;        /* place of its corner, metres in the world's coordinates */
     float texel;            /* metres */
-    float *height;          /* −inf: nothing */
+    float *height;          /* columns × rows × halves; −inf: nothing */
 } shadow_map;
 
-enum { SHADOW_SIDE = 2048 }; /* most texels a side */
+enum { SHADOW_SIDE = 2048 }; /* most texels a side of a half */
 
 /* *m is NULL at first; what it holds stays while the world's version and the rays are the same. MGT_ERROR_MEMORY leaves none. */
 mgt_status shadow_map_update(shadow_map **m, const world *w, const shadow_rays *rays);

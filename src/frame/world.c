@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "frame/dry.h"
 #include "frame/mesh.h"
 
 /* What the geometry of an object depends on. */
@@ -36,6 +37,7 @@ void world_free(world *w)
     free(w->indices);
     free(w->neighbours);
     free(w->object);
+    free(w->dry);
     free(w->objects);
     free(kept(w)->keys);
     free(w);
@@ -43,8 +45,8 @@ void world_free(world *w)
 
 size_t world_size(const world *w)
 {
-    return w ? w->vertex_count * 8 * sizeof(float) + w->triangle_count * 7 * sizeof(uint32_t) + w->object_count * (sizeof *w->objects + sizeof(object_key)) +
-                   sizeof(kept_world)
+    return w ? w->vertex_count * 8 * sizeof(float) + w->triangle_count * (w->dry ? 9 : 7) * sizeof(uint32_t) +
+                   w->object_count * (sizeof *w->objects + sizeof(object_key)) + sizeof(kept_world)
              : 0;
 }
 
@@ -207,6 +209,7 @@ static void fill_object(void *argument, size_t index, uint32_t worker)
         w->object[o->first_triangle + i] = (uint32_t)index;
     }
     o->cut = is_cut(w, o);
+    o->dry = mesh->dry;
 }
 
 static void find_bounds(world *w)
@@ -269,6 +272,8 @@ static mgt_status build(world **out, const mgt_scene *scene, thread_pool *pool)
     const thread_loop loop = {scene->object_count, fill_object, &job, NULL};
     thread_pool_run(pool, &loop);
     find_bounds(w);
+    if (!dry_levels(w, pool))
+        goto fail;
     free(first_vertex);
     *out = w;
     return MGT_OK;

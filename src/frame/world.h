@@ -12,12 +12,14 @@ typedef struct world_object {
     uint32_t first_triangle, triangle_count;
     bool smooth; /* the mesh has normals of its own; else its triangles are flat and `normals` holds zeros */
     bool cut;    /* closed, and the mean surface cuts it */
+    bool dry;    /* a hull */
+    bool in_dry; /* reaches into the bounds of dry objects, itself among them */
 } world_object;
 
 /*
  * Positions are metres from world.origin, a horizontal point that depends on the objects alone, and from the mean surface: y is the height above
  * it. The point under a camera at c is (c[0] − origin[0], c[2] − origin[1]). 32 bytes a vertex and 28 a triangle: at most 124 bytes a triangle,
- * about 44 where most vertices are shared.
+ * about 44 where most vertices are shared; where something is dry, 8 a triangle more.
  */
 typedef struct world {
     uint64_t version; /* of the geometry, unlike that of every other world of the process: what is built for it may stay while this is the same */
@@ -30,6 +32,7 @@ typedef struct world {
     int32_t *neighbours;   /* 3 a triangle: those across the edges from each corner to the next, −1: none */
     uint32_t *object;      /* of a triangle: index into objects */
     world_object *objects; /* as the scene's; read from the scene of every frame, their textures live only during it */
+    float *dry;            /* 2 a triangle, of its front and its back: see dry.h; NULL: nothing is dry */
     float low[3], high[3]; /* bounds of the vertices in use; low > high where there is nothing */
 } world;
 

@@ -81,13 +81,17 @@ static void end_drawing(const gl_renderer *g)
     g->gl.BindVertexArray(0);
 }
 
-/* Triangles of the objects that the surface cuts open, or of the others. */
-static void draw_objects(const gl_api *gl, const world *w, bool cut)
+static bool is_cut(const world_object *o) { return o->cut; }
+
+static bool is_in_dry(const world_object *o) { return o->in_dry; }
+
+/* Triangles of the objects that are something, or of the others. */
+static void draw_objects(const gl_api *gl, const world *w, bool (*is)(const world_object *o), bool so)
 {
     for (size_t i = 0; i < w->object_count; i++) {
         const size_t first = i;
         size_t count = 0;
-        for (; i < w->object_count && w->objects[i].cut == cut; i++)
+        for (; i < w->object_count && is(&w->objects[i]) == so; i++)
             count += w->objects[i].triangle_count;
         if (count > 0)
             gl->DrawArrays(GL_TRIANGLES, (GLint)(3 * w->objects[first].first_triangle), (GLsizei)(3 * count));
@@ -126,14 +130,21 @@ static mgt_status draw_layer(gl_renderer *g, const gl_gbuffer *layer, const gbuf
     gl->ClearBufferfv(GL_DEPTH, 0, &farthest);
     if (w->triangle_count == 0)
         return MGT_OK;
+    if (w->dry && !job->mirrored && !beyond && refract.side > 0) {
+        draw_objects(gl, w, is_in_dry, false);
+        data.crest = 1e30f; /* dry hulls hold no water back: what is inside is seen however deep it is */
+        gl_uniform(g, BIND_EXTRA, &data, sizeof data);
+        draw_objects(gl, w, is_in_dry, true);
+        return MGT_OK;
+    }
     if (!job->mirrored) {
         gl->DrawArrays(bent ? GL_PATCHES : GL_TRIANGLES, 0, (GLsizei)(3 * w->triangle_count));
         return MGT_OK;
     }
-    draw_objects(gl, w, false);
+    draw_objects(gl, w, is_cut, false);
     data.drop_backs = 1;
     gl_uniform(g, BIND_EXTRA, &data, sizeof data);
-    draw_objects(gl, w, true);
+    draw_objects(gl, w, is_cut, true);
     return MGT_OK;
 }
 

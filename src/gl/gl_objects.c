@@ -72,6 +72,18 @@ static void fill_block(void *argument, size_t index, uint32_t worker)
         job->fill(job->world, i, job->out + job->floats * i);
 }
 
+/* Planes of all triangles, then the dry levels of their sides. */
+static void fill_plane(const world *w, size_t i, float *out)
+{
+    if (i < w->triangle_count) {
+        refraction_plane(w, i, out);
+        return;
+    }
+    const float *level = w->dry + 2 * (i - w->triangle_count);
+    const float levels[PLANE_FLOATS] = {level[0], level[1], 0, 0};
+    memcpy(out, levels, sizeof levels);
+}
+
 /* Elements of RGBA32F texels. */
 static mgt_status upload_floats(const gl_api *gl, gl_objects *o, gl_table *t, fill_job job, const reporter *r)
 {
@@ -120,7 +132,7 @@ mgt_status gl_objects_update(const gl_api *gl, gl_objects *o, const mgt_scene *s
                             w->vertex_count, w->triangle_count, most_texels);
     status = upload_floats(gl, o, &o->vertices, (fill_job){.count = w->vertex_count, .fill = fill_vertex, .floats = VERTEX_FLOATS}, r);
     if (status == MGT_OK)
-        status = upload_floats(gl, o, &o->planes, (fill_job){.count = w->triangle_count, .fill = refraction_plane, .floats = PLANE_FLOATS}, r);
+        status = upload_floats(gl, o, &o->planes, (fill_job){.count = (w->dry ? 2 : 1) * w->triangle_count, .fill = fill_plane, .floats = PLANE_FLOATS}, r);
     if (status == MGT_OK)
         status = upload_numbers(gl, &o->indices, GL_R32UI, w->indices, 3 * w->triangle_count, r);
     if (status == MGT_OK)

@@ -143,10 +143,10 @@ static mgt_status update_shadows(const gl_api *gl, gl_refraction *o, const repor
     if (m->columns == 0 || (o->shadow_version == m->version && memcmp(&o->shadow_rays, &m->rays, sizeof m->rays) == 0))
         return MGT_OK;
     o->shadow_version = 0;
-    mgt_status status = gl_image_reserve(gl, &o->shadows, GL_R32F, m->columns, m->rows, r);
+    mgt_status status = gl_image_reserve(gl, &o->shadows, GL_R32F, m->columns, m->rows * m->halves, r);
     if (status != MGT_OK)
         return status;
-    gl->TextureSubImage2D(o->shadows.name, 0, 0, 0, (GLsizei)m->columns, (GLsizei)m->rows, GL_RED, GL_FLOAT, m->height);
+    gl->TextureSubImage2D(o->shadows.name, 0, 0, 0, (GLsizei)m->columns, (GLsizei)(m->rows * m->halves), GL_RED, GL_FLOAT, m->height);
     status = gl_check(gl, "shadows", r);
     if (status == MGT_OK) {
         o->shadow_rays = m->rays;
@@ -205,7 +205,10 @@ mgt_status gl_refraction_prepare(gl_renderer *g, const frame *f, const region *a
         .refract = refract_data_of(direct.camera.position[1], direct.index, direct.map),
         .narrow = refraction_narrow_data(f, w, &shape),
         .shade = o->shade->data,
-        .objects = {.least_depth = g->gbuffers.least_depth, .mirrors = mirrors, .places = places > 1 ? (int)places : 1},
+        .objects = {.least_depth = g->gbuffers.least_depth,
+                    .mirrors = mirrors,
+                    .places = places > 1 ? (int)places : 1,
+                    .dry = w->dry && !f->under ? (int)w->triangle_count : 0},
     };
     return status;
 }

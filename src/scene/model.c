@@ -78,7 +78,7 @@ bool mesh_data_smooth(mesh_data *mesh)
     return true;
 }
 
-bool model_of_mesh(scene_model *out, const mesh_data *mesh, const char *name, model_fault *fault)
+bool model_of_mesh(scene_model *out, const mesh_data *mesh, const char *name, bool dry, model_fault *fault)
 {
     *out = (scene_model){.meshes = calloc(1, sizeof *out->meshes), .parts = calloc(1, sizeof *out->parts)};
     if (out->meshes == NULL || out->parts == NULL) {
@@ -93,6 +93,7 @@ bool model_of_mesh(scene_model *out, const mesh_data *mesh, const char *name, mo
     desc.vertex_count = (uint32_t)mesh->vertex_count;
     desc.indices = mesh->indices;
     desc.triangle_count = (uint32_t)mesh->triangle_count;
+    desc.dry = dry;
     const mgt_status status = mgt_mesh_create(&out->meshes[0], &desc);
     if (status != MGT_OK) {
         model_free(out);

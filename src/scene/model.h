@@ -56,10 +56,15 @@ bool shape_build(mesh_data *mesh, const scene_object *object);
 bool floor_build(mesh_data *mesh, const scene_object *object, const char *path, uint64_t *hash, model_fault *fault);
 
 /* A model of one mesh in the object's own coordinates. */
-bool model_of_mesh(scene_model *out, const mesh_data *mesh, const char *name, model_fault *fault);
+bool model_of_mesh(scene_model *out, const mesh_data *mesh, const char *name, bool dry, model_fault *fault);
 
-/* A file of meshes. `own_materials`: with the materials and textures it names; else they are left at the format's defaults. */
-bool model_load(scene_model *out, const char *path, bool own_materials, model_fault *fault);
+/* How a scene uses a file of meshes. */
+typedef struct model_use {
+    bool own_materials; /* with the materials and textures it names; else they are left at the format's defaults */
+    bool dry;           /* its meshes are hulls */
+} model_use;
+
+bool model_load(scene_model *out, const char *path, model_use use, model_fault *fault);
 
 /* A texture from a PNG or JPEG file; *hash is that of its pixels. NULL with *fault filled. */
 mgt_texture *texture_load(const char *path, uint64_t *hash, model_fault *fault);

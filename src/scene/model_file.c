@@ -110,6 +110,7 @@ static void close_file(struct aiFileIO *io, struct aiFile *file)
 typedef struct model_reader {
     const struct aiScene *scene;
     const char *path;
+    bool dry;
     mesh_format format;
     scene_model *model;
     model_fault *fault;
@@ -296,6 +297,7 @@ static bool read_mesh(model_reader *r, unsigned index)
         desc.vertex_count = mesh->mNumVertices;
         desc.indices = data.indices;
         desc.triangle_count = mesh->mNumFaces;
+        desc.dry = r->dry;
         const mgt_status status = mgt_mesh_create(&model->meshes[model->mesh_count], &desc);
         good = status == MGT_OK || (status == MGT_ERROR_MEMORY ? model_fault_memory(r->fault) : refuse(r->fault, r->path, mgt_last_error(NULL)));
         if (good) {
@@ -398,7 +400,7 @@ static bool add_node(model_reader *r, const struct aiNode *node, const double ab
     return true;
 }
 
-bool model_load(scene_model *out, const char *path, bool own_materials, model_fault *fault)
+bool model_load(scene_model *out, const char *path, model_use use, model_fault *fault)
 {
     static const double identity[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
     *out = (scene_model){.hash = 1};
@@ -416,12 +418,12 @@ bool model_load(scene_model *out, const char *path, bool own_materials, model_fa
     if (!is_readable(path))
         return refuse(fault, path, S_ISREG(status.st_mode) ? "is too large" : "is no regular file");
     if (format == FORMAT_PLY)
-        return ply_load(out, path, fault);
+        return ply_load(out, path, use.dry, fault);
     const struct aiScene *scene = import(path, format, fault);
     if (scene == NULL)
         return false;
-    model_reader r = {.scene = scene, .path = path, .format = format, .model = out, .fault = fault};
-    bool good = read_materials(&r, own_materials) && read_meshes(&r) && add_node(&r, scene->mRootNode, identity, 0);
+    model_reader r = {.scene = scene, .path = path, .dry = use.dry, .format = format, .model = out, .fault = fault};
+    bool good = read_materials(&r, use.own_materials) && read_meshes(&r) && add_node(&r, scene->mRootNode, identity, 0);
     if (good && out->part_count == 0)
         good = refuse(fault, path, "holds no triangles");
     aiReleaseImport(scene);

@@ -326,7 +326,7 @@ bool ply_parse(mesh_data *out, const char *bytes, size_t length, const char *nam
     return good;
 }
 
-bool ply_load(scene_model *out, const char *path, model_fault *fault)
+bool ply_load(scene_model *out, const char *path, bool dry, model_fault *fault)
 {
     mesh_data mesh = {0};
     bool good = false;
@@ -350,7 +350,7 @@ bool ply_load(scene_model *out, const char *path, model_fault *fault)
     fclose(stream);
     if (!good)
         return false;
-    good = model_of_mesh(out, &mesh, scene_file_name(path).text, fault);
+    good = model_of_mesh(out, &mesh, scene_file_name(path).text, dry, fault);
     if (good) {
         out->hash = model_hash(1, mesh.positions, mesh.vertex_count * 3 * sizeof(float));
         out->hash = model_hash(out->hash, mesh.normals, mesh.vertex_count * 3 * sizeof(float));

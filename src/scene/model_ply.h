@@ -11,6 +11,6 @@
 bool ply_parse(mesh_data *out, const char *bytes, size_t length, const char *name, model_fault *fault);
 
 /* A model of the regular file at `path`. */
-bool ply_load(scene_model *out, const char *path, model_fault *fault);
+bool ply_load(scene_model *out, const char *path, bool dry, model_fault *fault);
 
 #endif

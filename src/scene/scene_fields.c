@@ -151,6 +151,8 @@ static const field_row material_fields[] =
      {"pattern_joint", FIELD_SHARE, LOOK(pattern_joint), 0, 0, 0.999, NULL, .doc = "width of a joint as a share of a tile"},
      {0}};
 
+static const char *const dry_words[] = {"false", "true", NULL};
+
 static const field_row object_fields[] =
     {{"name", FIELD_TEXT, offsetof(scene_object, name), FIELD_NO_PIXELS, NO_RANGE, NULL, .doc = "free text"},
      {"mesh", FIELD_TEXT, offsetof(scene_object, mesh), FIELD_NO_PIXELS, NO_RANGE, NULL,
@@ -166,6 +168,8 @@ static const field_row object_fields[] =
       .doc = "grey PNG or PFM of the heights, from the scene's folder, its top row at -z (floor)"},
      {"lowest", FIELD_NUMBER, offsetof(scene_object, lowest), 0, -1e5, 1e5, "m", .doc = "height of 0 or black (floor)"},
      {"highest", FIELD_NUMBER, offsetof(scene_object, highest), 0, -1e5, 1e5, "m", .doc = "height of 1 or white (floor)"},
+     {"dry", FIELD_SWITCH, offsetof(scene_object, dry), 0, NO_RANGE, NULL, .doc = "true: a hull, no water within it; see docs/refraction.md",
+      .choices = dry_words},
      PLACE(scene_object, pose),
      {"instances", FIELD_LIST, offsetof(scene_object, instances), 0, NO_RANGE, NULL, .doc = "further places of the same mesh or shape",
       .fields = instance_fields, .item_size = sizeof(scene_pose), .max_items = MGT_MAX_OBJECTS, .prepare = prepare_pose},

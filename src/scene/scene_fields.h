@@ -81,6 +81,7 @@ typedef struct scene_object {
     double size[3];
     uint32_t triangles, count;
     double rim_width, rim_height;
+    bool dry;
     double lowest, highest;
     scene_pose pose;
     scene_list instances; /* of scene_pose */

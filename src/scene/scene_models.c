@@ -16,7 +16,7 @@
 /* A model or a texture with the file it came from. */
 typedef struct loaded_model {
     char *path; /* owned; NULL: a shape's */
-    bool own_materials;
+    model_use use;
     scene_model model;
 } loaded_model;
 
@@ -70,6 +70,7 @@ static bool check_keys(const models_reader *r, size_t index, const tree_node *it
         {"heights", 1u << SHAPE_FLOOR, "is of a floor; allowed: with shape: floor"},
         {"lowest", 1u << SHAPE_FLOOR, "is of a floor; allowed: with shape: floor"},
         {"highest", 1u << SHAPE_FLOOR, "is of a floor; allowed: with shape: floor"},
+        {"dry", ~(1u << SHAPE_PLANE | 1u << SHAPE_FLOOR), "is of hulls, which hold water back; allowed: not with a plane or a floor"},
     };
     const bool has_mesh = o->mesh != NULL && o->mesh[0] != '\0', has_heights = o->heights != NULL && o->heights[0] != '\0';
     if (has_mesh && o->shape != SHAPE_MESH)
@@ -102,10 +103,11 @@ static bool refuse_fault(const models_reader *r, size_t index, const tree_node *
 static void *grown(void *items, size_t count, size_t size) { return realloc(items, (count + 1) * size); }
 
 /* A place for the model of `path` (taken over; NULL: a shape's), or the one that is there already. NULL when memory runs out. */
-static loaded_model *place_for_model(scene_models *m, char *path, bool own_materials, bool *found)
+static loaded_model *place_for_model(scene_models *m, char *path, model_use use, bool *found)
 {
     for (size_t i = 0; path != NULL && i < m->model_count; i++)
-        if (m->models[i].path != NULL && strcmp(m->models[i].path, path) == 0 && m->models[i].own_materials == own_materials) {
+        if (m->models[i].path != NULL && strcmp(m->models[i].path, path) == 0 && m->models[i].use.own_materials == use.own_materials &&
+            m->models[i].use.dry == use.dry) {
             free(path);
             *found = true;
             return &m->models[i];
@@ -116,7 +118,7 @@ static loaded_model *place_for_model(scene_models *m, char *path, bool own_mater
         return NULL;
     }
     m->models = models;
-    models[m->model_count] = (loaded_model){.path = path, .own_materials = own_materials};
+    models[m->model_count] = (loaded_model){.path = path, .use = use};
     *found = false;
     return &models[m->model_count++];
 }
@@ -131,7 +133,7 @@ static bool make_shape(scene_model *out, const scene_object *object, const char 
     } else if (!shape_build(&mesh, object)) {
         return model_fault_memory(fault);
     }
-    const bool good = model_of_mesh(out, &mesh, "the shape", fault);
+    const bool good = model_of_mesh(out, &mesh, "the shape", object->dry, fault);
     out->hash = hash;
     mesh_data_free(&mesh);
     return good;
@@ -143,9 +145,10 @@ static const scene_model *take_model(models_reader *r, size_t index, const tree_
     const bool is_mesh = object->shape == SHAPE_MESH;
     const char *file = is_mesh ? object->mesh : object->shape == SHAPE_FLOOR ? object->heights : NULL;
     char *path = file != NULL ? scene_file_beside(r->tree->file_name, file) : NULL, *key = is_mesh ? path : NULL;
+    const model_use use = {.own_materials = !object->material.given, .dry = object->dry};
     model_fault fault = {0};
     bool found = false, good = false;
-    loaded_model *place = file == NULL || path != NULL ? place_for_model(r->models, key, !object->material.given, &found) : NULL;
+    loaded_model *place = file == NULL || path != NULL ? place_for_model(r->models, key, use, &found) : NULL;
     if (place == NULL) {
         if (!is_mesh)
             free(path);
@@ -154,7 +157,7 @@ static const scene_model *take_model(models_reader *r, size_t index, const tree_
     }
     if (found)
         return &place->model;
-    good = is_mesh ? model_load(&place->model, place->path, place->own_materials, &fault) : make_shape(&place->model, object, path, &fault);
+    good = is_mesh ? model_load(&place->model, place->path, use, &fault) : make_shape(&place->model, object, path, &fault);
     if (!is_mesh)
         free(path);
     if (good)

@@ -78,6 +78,7 @@ refused 65 '^scene.yaml:3:[0-9]+: objects\[0\].mesh stands beside a shape' scene
 scene 'mangata: 1' 'objects:' '  - {shape: box, scale: [1, 0, 1]}'
 refused 65 '^scene.yaml:3:[0-9]+: objects\[0\].scale\[1\] is 0; allowed: ' scene.yaml
 refused 65 '^--set objects.0..shape=cone: .*allowed: one of mesh, plane' "$SOURCE/scenes/shore.yaml" --set 'objects[0].shape=cone'
+refused 65 '^--set objects.0..dry=wet: .*allowed: ' "$SOURCE/scenes/hull.yaml" --set 'objects[0].dry=wet'
 refused 69 "method reference computes the water's surface alone.*ssaa with refraction truth" "$SOURCE/scenes/shore.yaml" --method reference
 refused 69 "method reference computes the water's surface alone" "$simple" --method reference --set camera.position=[0,-1,0]
 expect 0 '' "$MANGATA" scene check "$SOURCE"/scenes/{shore,diver,hull}.yaml

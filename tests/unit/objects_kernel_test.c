@@ -42,7 +42,7 @@ static double post_column = -1, post_depth; /* of a post before it, three column
 #define SEARCH_WAVE(cx, i) (waves[i])
 
 KERNEL vec3 TEXTURE(CTX cx, real texture, real u, real v, real level) { return vec3(texture, u, v * level); }
-KERNEL real SUN_SHARE(CTX cx, vec3 position, vec3 first, vec3 second) { return 1.0f; }
+KERNEL real SUN_SHARE(CTX cx, vec3 position, vec3 first, vec3 second, mask dry) { return 1.0f; }
 
 #include "kernels/refraction/layer.k"
 

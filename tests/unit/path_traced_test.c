@@ -77,8 +77,14 @@ static void end(setup *s)
 static path_traced *truth_of(const setup *s, const answer_kind *what, mgt_isa isa, uint32_t workers)
 {
     path_traced *truth;
-    const path_traced_job job = {&s->scene, camera_rays_of(&s->scene.camera, WIDTH, HEIGHT), s->world, s->trace,
-                                 tell,      (const shade_scene *)(const void *)what,         isa,      workers};
+    const path_traced_job job = {.scene = &s->scene,
+                                 .camera = camera_rays_of(&s->scene.camera, WIDTH, HEIGHT),
+                                 .world = s->world,
+                                 .trace = s->trace,
+                                 .shade = tell,
+                                 .user = (const shade_scene *)(const void *)what,
+                                 .isa = isa,
+                                 .workers = workers};
     assert_int_equal(path_traced_create(&truth, &job), MGT_OK);
     return truth;
 }

@@ -46,7 +46,7 @@ static double mean_share(vec3 at, vec3 first, vec3 second)
     double sum = 0;
     for (int i = 0; i < STEPS * STEPS; i++) {
         const float a = ((float)(i % STEPS) + 0.5f) / STEPS - 0.5f, b = ((float)(i / STEPS) + 0.5f) / STEPS - 0.5f;
-        sum += (double)shadow_at_point(NULL, within_parallelogram(NULL, at, first, second, a, b));
+        sum += (double)shadow_at_point(NULL, within_parallelogram(NULL, at, first, second, a, b), 0);
     }
     return sum / (STEPS * STEPS);
 }
@@ -66,8 +66,8 @@ static void shadows_are_means_over_the_footprint(void **state)
         const vec3 second = vec3(size * range(-1, 1), size * range(-0.2, 0.2), size * range(-1, 1));
         const double exact = mean_share(at, first, second);
         borders += exact > 0.1 && exact < 0.9;
-        worst = fmax(worst, fabs((double)shadow_over(NULL, at, first, second) - exact));
-        middles = fmax(middles, fabs((double)shadow_at_point(NULL, at) - exact));
+        worst = fmax(worst, fabs((double)shadow_over(NULL, at, first, second, 0) - exact));
+        middles = fmax(middles, fabs((double)shadow_at_point(NULL, at, 0) - exact));
     }
     printf("  within %.2g of the footprint's mean, in %d cases at borders; what its middle says is off by up to %.2g\n", worst, borders, middles);
     assert_true(borders > 400 && worst < 0.08);

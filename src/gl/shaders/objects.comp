@@ -23,8 +23,8 @@ vec3 clear_to_light(PixelWater w)
 {
     vec3 at = vec3(narrow_data.foot_x, 0.0f, narrow_data.foot_z);
     if (!(w.share > 0.0f))
-        return vec3(shadow_at_point(0, at));
-    float lit = shadow_at_point(0, at + w.hit.along * vec3(w.hit.view.x, 0.0f, w.hit.view.z));
+        return vec3(shadow_at_point(0, at, false));
+    float lit = shadow_at_point(0, at + w.hit.along * vec3(w.hit.view.x, 0.0f, w.hit.view.z), false);
     if (narrow_data.side > 0.0f)
         return vec3(lit);
     return lit * shade_data.index * shade_data.index * exp(-w.hit.along * vec3(shade_data.absorption_r + shade_data.scattering_r, shade_data.absorption_g + shade_data.scattering_g,
@@ -93,7 +93,7 @@ void main()
     imageStore(deep_image, pixel.texel, vec4(0.0f, 0.0f, 0.0f, 1.0f));
     bool edge = is_edge(image, water), front = false;
     if (!edge && front_triangle_at(front_texel(image)) >= 0)
-        front = front_depth_at(front_texel(image)) < meet_water(water, camera_ray(image, vec2(0.0f)));
+        front = is_in_front(front_triangle_at(front_texel(image)), front_depth_at(front_texel(image)), water, camera_ray(image, vec2(0.0f)));
     if (edge)
         append(LIST_EDGES, number);
     if (front)

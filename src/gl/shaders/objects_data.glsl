@@ -18,7 +18,7 @@ layout(binding = 1) uniform samplerBuffer vertex_table;   /* two a vertex: x, y,
 layout(binding = 2) uniform usamplerBuffer index_table;   /* three a triangle */
 layout(binding = 15) uniform isamplerBuffer neighbour_table; /* three a triangle, across the edges from each corner to the next; −1: none */
 layout(binding = 3) uniform usamplerBuffer owner_table;   /* the object of a triangle */
-layout(binding = 4) uniform samplerBuffer plane_table;    /* of a triangle: unit normal, and its product with a point */
+layout(binding = 4) uniform samplerBuffer plane_table;    /* of a triangle: unit normal, and its product with a point; behind all, dry levels of its sides */
 layout(binding = 5) uniform samplerBuffer material_table; /* the linear values of sRGB codes, four each; waves that make caustics; waves that are met again; then four an object */
 layout(binding = 6) uniform usamplerBuffer texel_table;   /* of all textures */
 layout(binding = 7) uniform sampler2D shadow_texture;
@@ -128,4 +128,4 @@ vec3 TEXTURE(int cx, float object, float u, float v, float level)
 float SHADOW_TEXEL(int cx, float column, float row) { return texelFetch(shadow_texture, ivec2(int(column), int(row)), 0).r; }
 
 #include "kernels/refraction/shadow.k"
-#define SUN_SHARE(cx, position, first, second) shadow_over(cx, position, first, second)
+#define SUN_SHARE(cx, position, first, second, dry) shadow_over(cx, position, first, second, dry)

@@ -97,6 +97,22 @@ float meet_water(PixelWater w, vec3 ray)
     return meet_surface(0, w.share > 0.0f, turned(0, w.hit.normal), turned(0, w.hit.view), w.hit.along, ray);
 }
 
+/* The dry level of the side of a triangle that a ray meets. */
+float dry_level(int triangle, vec3 ray)
+{
+    if (objects_data.dry == 0)
+        return -INFINITE;
+    vec2 level = texelFetch(plane_table, objects_data.dry + triangle).xy;
+    return level_faced(0, level.x, level.y, dot(texelFetch(plane_table, triangle).xyz, ray));
+}
+
+/* Whether what a ray of the camera shows, a multiple of it away, stands in front of the water. */
+bool is_in_front(int triangle, float along, PixelWater w, vec3 ray)
+{
+    float water = meet_water(w, ray);
+    return stands_in_front(0, along, water, camera_position().y + water * ray.y, dry_level(triangle, ray));
+}
+
 /* ---- surfaces of triangles ---- */
 
 /* Where a ray meets a triangle's plane. */

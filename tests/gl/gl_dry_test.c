@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: MIT
+ * No pixel of water in a boat that rolls, with OpenGL. */
+#include "gl/gl_sea.h"
+#include "unit/dry_pixels.h"
+
+static void no_pixel_in_the_boat_shows_water(void **state)
+{
+    (void)state;
+    mgt_context *context = gl_context();
+    dry_expect_none(context, MGT_SANITIZED ? 1 : DRY_FRAMES);
+    mgt_context_destroy(context);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(no_pixel_in_the_boat_shows_water)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
