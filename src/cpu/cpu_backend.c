@@ -25,7 +25,7 @@ typedef struct cpu_state {
     thread_pool *pool;
     const lane_kernels *kernels;
     mgt_isa isa;
-    sky_state *sky;       /* of the last frame; zeroed at first */
+    sky_state *sky;       /* of the last frame */
     podee_tables podee;   /* empty until a frame needs them */
     lean_map *lean;       /* NULL until a frame needs it */
     refinement *adaptive; /* NULL until a frame needs it */
@@ -104,7 +104,7 @@ static void cpu_destroy(void *state)
     refinement_free(s->adaptive);
     refraction_free(s->objects);
     free(s->waves);
-    free(s->sky);
+    sky_state_destroy(s->sky);
     free(s);
 }
 
@@ -131,7 +131,7 @@ static mgt_status cpu_create(void **state, const mgt_context_desc *desc, const r
     s->kernels = kernels_of(s->isa);
     s->progress = desc->progress;
     s->progress_user = desc->progress_user;
-    s->sky = calloc(1, sizeof *s->sky);
+    s->sky = sky_state_create();
     s->waves = calloc(1, sizeof *s->waves);
     s->pool = s->sky && s->waves ? thread_pool_create(desc->threads ? desc->threads : thread_pool_usable_cpus()) : NULL;
     if (!s->pool || !allocate_scratch(s)) {
@@ -408,8 +408,8 @@ static mgt_status make_reference(render_job *job, const reporter *r)
     const sky_state *sky = job->state->sky;
     reference_sky rs = {.lookup = job->scene->sky.model == MGT_SKY_BLACK ? NULL : reference_lookup, .user = sky};
     sky_upwelling_radiance(sky, &job->scene->water, rs.body_radiance);
-    for (int i = 0; i < sky->lights.count; i++)
-        light_mean_radiance(&sky->lights.of[i], rs.disks[i]);
+    for (int i = 0; i < lights_count(sky->lights); i++)
+        light_mean_radiance(lights_get(sky->lights, i), rs.disks[i]);
     const reference_options options = {.isa = job->state->isa};
     const mgt_status status = reference_frame_create(&job->reference, job->scene, &rs, &options);
     return status == MGT_OK ? MGT_OK : report_error(r, status, "render.reference", "the reference frame: %s", mgt_status_text(status));

@@ -34,7 +34,7 @@ static void fill_gradient(sky_state *state)
 
 static void fill_atmosphere(sky_state *state, const scattering *air, const spectrum_weights *weights, scattering_ray *ray)
 {
-    const light_state *light = &state->lights.of[0];
+    const light_state *light = lights_get(state->lights, 0);
     double sin_light = light_toward(light)[1], cos_light = sqrt(fmax(0.0, 1.0 - sin_light * sin_light));
     double rgb_irradiance[3];
     light_beam_outside(light, rgb_irradiance);
@@ -57,7 +57,7 @@ static void fill_atmosphere(sky_state *state, const scattering *air, const spect
 void sky_lookup(const sky_state *state, const double direction[3], double rgb[3])
 {
     double across = sqrt(fmax(direction[0] * direction[0] + direction[2] * direction[2], 1e-24));
-    const double *azimuth = light_azimuth(&state->lights.of[0]);
+    const double *azimuth = light_azimuth(lights_get(state->lights, 0));
     double chord_x = direction[0] / across - azimuth[0], chord_z = direction[2] / across - azimuth[1];
     double u = fmin(0.5 * sqrt(chord_x * chord_x + chord_z * chord_z), 1.0);
     double v = fmin(sqrt(fmax(direction[1], 0.0)), 1.0);
@@ -143,7 +143,7 @@ static double automatic_exposure(sky_state *state)
     if (isfinite(key)) {
         return fmin(log2(0.15) - key + compression * fmin(key - log2(day), 0.0), 100.0);
     }
-    double luminance = lights_luminance(&state->lights);
+    double luminance = lights_luminance(state->lights);
     return luminance > 0.0 ? fmin(log2(0.15 / 0.02) - log2(luminance), 100.0) : 0.0;
 }
 
@@ -161,9 +161,9 @@ static double fresnel(double cosine, double n)
 static void sum_entering(const light_set *lights, double n, double rgb[3])
 {
     rgb[0] = rgb[1] = rgb[2] = 0.0;
-    for (int i = 0; i < lights->count; ++i) {
-        double sine = light_toward(&lights->of[i])[1], share = sine > 0.0 ? 1.0 - fresnel(sine, n) : 0.0, irradiance[3];
-        light_irradiance(&lights->of[i], irradiance);
+    for (int i = 0; i < lights_count(lights); ++i) {
+        double sine = light_toward(lights_get(lights, i))[1], share = sine > 0.0 ? 1.0 - fresnel(sine, n) : 0.0, irradiance[3];
+        light_irradiance(lights_get(lights, i), irradiance);
         for (int c = 0; c < 3; ++c) {
             rgb[c] += irradiance[c] * share;
         }
@@ -179,7 +179,7 @@ void sky_upwelling_radiance(const sky_state *state, const mgt_water *water, doub
         mirrored += fresnel(cosine, n) * 2.0 * cosine / STEPS;
     }
     double light_enters[3];
-    sum_entering(&state->lights, n, light_enters);
+    sum_entering(state->lights, n, light_enters);
     for (int c = 0; c < 3; ++c) {
         double enters = light_enters[c] + state->irradiance_sky[c] * (1.0 - mirrored);
         rgb[c] = state->sky.model == MGT_SKY_BLACK ? 0.0 : water->body_albedo[c] * enters / (PI * n * n);
@@ -187,19 +187,14 @@ void sky_upwelling_radiance(const sky_state *state, const mgt_water *water, doub
 }
 
 /* Everything that follows from the inputs; with air, `ray` is room to work in. */
-static void fill_state(sky_state *s, const mgt_sky *sky, const light_set *lights, const scattering *air, scattering_ray *ray)
+static void fill_state(sky_state *s, const mgt_sky *sky, const mgt_light *light, const scattering *air, scattering_ray *ray)
 {
+    light_set *lights = s->lights;
     memset(s, 0, sizeof *s);
     s->sky = *sky;
-    s->lights = *lights;
+    s->lights = lights;
     const spectrum_weights weights = air ? spectrum_weights_make() : (spectrum_weights){0};
-    for (int i = 0; i < s->lights.count; ++i) {
-        if (air) {
-            light_through_air(&s->lights.of[i], air, &weights);
-        } else {
-            light_without_air(&s->lights.of[i]);
-        }
-    }
+    lights_set(s->lights, light, 1, air, &weights);
     if (air) {
         fill_atmosphere(s, air, &weights, ray);
     } else if (sky->model == MGT_SKY_GRADIENT) {
@@ -209,20 +204,36 @@ static void fill_state(sky_state *s, const mgt_sky *sky, const light_set *lights
     s->exposure_ev = automatic_exposure(s);
 }
 
+sky_state *sky_state_create(void)
+{
+    sky_state *state = calloc(1, sizeof *state);
+    if (!state || !(state->lights = lights_create())) {
+        free(state);
+        return NULL;
+    }
+    return state;
+}
+
+void sky_state_destroy(sky_state *state)
+{
+    if (state) {
+        lights_destroy(state->lights);
+        free(state);
+    }
+}
+
 mgt_status sky_state_build(sky_state *state, const mgt_sky *sky, const mgt_light *light)
 {
-    const mgt_sky wanted = *sky; /* may be the state's own */
-    light_set lights;
-    lights_set(&lights, light, 1);
+    const mgt_sky wanted = *sky;              /* may be the state's own */
     if (wanted.model != MGT_SKY_ATMOSPHERE) { /* a light that moves from frame to frame allocates nothing */
-        fill_state(state, &wanted, &lights, NULL, NULL);
+        fill_state(state, &wanted, light, NULL, NULL);
         return MGT_OK;
     }
     scattering *air = scattering_create(wanted.turbidity, light_radius_sine(light));
     scattering_ray *ray = scattering_ray_create();
     const bool enough = air && ray;
     if (enough) {
-        fill_state(state, &wanted, &lights, air, ray);
+        fill_state(state, &wanted, light, air, ray);
     }
     scattering_ray_destroy(ray);
     scattering_destroy(air);
@@ -231,5 +242,5 @@ mgt_status sky_state_build(sky_state *state, const mgt_sky *sky, const mgt_light
 
 bool sky_state_same_inputs(const sky_state *state, const mgt_sky *sky, const mgt_light *light)
 {
-    return lights_same(&state->lights, light, 1) && fields_equal(sky_rows, &state->sky, sky);
+    return lights_same(state->lights, light, 1) && fields_equal(sky_rows, &state->sky, sky);
 }

@@ -16,10 +16,10 @@
  * u = column/(SKY_COLUMNS − 1), v = row/(SKY_ROWS − 1): the table's edges are the horizon, the zenith and the two half
  * planes through that light. */
 
-/* Plain data, 217 KiB: keep it on the heap. Radiance in kcd/m², irradiance in klx (kcd·sr/m²), linear sRGB. */
+/* 217 KiB. Radiance in kcd/m², irradiance in klx (kcd·sr/m²), linear sRGB. */
 typedef struct sky_state {
     mgt_sky sky; /* the input it was built from, with the lights */
-    light_set lights;
+    light_set *lights;
 
     double irradiance_sky[3]; /* on the horizontal, from the table */
     double exposure_ev;       /* automatic exposure: the picture is radiance · 2^exposure_ev before the tone map */
@@ -27,11 +27,15 @@ typedef struct sky_state {
     float table[SKY_ROWS * SKY_COLUMNS * 3]; /* rows from the horizon up; no disk in it */
 } sky_state;
 
+/* A black sky without lights, NULL without memory. The caller owns it. */
+sky_state *sky_state_create(void);
+void sky_state_destroy(sky_state *state); /* NULL does nothing */
+
 /* Fills `state`. The inputs must be valid (mgt_scene_check). Takes up to 0.1 s for MGT_SKY_ATMOSPHERE, microseconds for the other
  * models. MGT_OK or MGT_ERROR_MEMORY; after a failure `state` is unchanged. */
 mgt_status sky_state_build(sky_state *state, const mgt_sky *sky, const mgt_light *light);
 
-/* Whether a build from these inputs would give the bytes that `state` holds. Never true for a zeroed state. */
+/* Whether a build from these inputs would give the bytes that `state` holds. Never true for a new state. */
 bool sky_state_same_inputs(const sky_state *state, const mgt_sky *sky, const mgt_light *light);
 
 /* Radiance of the sky (no disk) in a unit direction; below the horizon the horizon's. The maths of sky.k in double. */

@@ -130,7 +130,7 @@ frame frame_of(const mgt_scene *scene, const sky_state *sky, bool want_color)
 {
     frame f = {.scene = scene, .under = scene->camera.position[1] < 0};
     FrameData *d = &f.data;
-    lights_place(&sky->lights, f.under, d);
+    lights_place(sky->lights, f.under, d);
     d->index_of_refraction = (float)(f.under ? 1 / scene->water.index_of_refraction : scene->water.index_of_refraction);
     d->camera_under = f.under;
     double body[3];

@@ -5,6 +5,7 @@
 #include "frame/lights.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/triples.h"
@@ -15,6 +16,32 @@
 static const double pi = 3.14159265358979323846;
 
 /* ---- from a scene ---- */
+
+/* Radiance in kcd/m², irradiance in klx (kcd·sr/m²), linear sRGB. */
+struct light_state {
+    mgt_light light; /* what it was made from */
+
+    double direction[3]; /* unit, to the light's centre */
+    double azimuth[2];   /* x, z of the unit horizontal direction to the light; (0, −1) when it stands in the zenith */
+    double tan_radius;   /* tangent of the light's angular radius */
+    double limb;         /* u of the limb darkening I(μ)/I(1) = 1 − u·(1 − μ), μ² = 1 − (angle/radius)²: sun 0.6, moon 0 */
+
+    /* Mean radiance of the whole disk as seen from the water: what lies below the horizon counts as zero, so this fades to 0
+     * while the light sets. The part still above has light_radiance / light_visible. */
+    double light_radiance[3];
+    double light_visible;       /* share of the disk's light-weighted area above the horizon, [0, 1] */
+    double light_solid_angle;   /* sr, of the whole disk */
+    double irradiance_light[3]; /* on the horizontal, from the disk */
+};
+
+struct light_set {
+    int count;
+    light_state of[MAX_LIGHTS];
+};
+
+light_set *lights_create(void) { return calloc(1, sizeof(light_set)); }
+
+void lights_destroy(light_set *set) { free(set); }
 
 static double limb_of(mgt_source body) { return body == MGT_SOURCE_SUN ? 0.6 : 0; }
 
@@ -34,13 +61,6 @@ static light_state placed(const mgt_light *light)
     };
 }
 
-void lights_set(light_set *set, const mgt_light *lights, int count)
-{
-    set->count = count;
-    for (int i = 0; i < count; i++)
-        set->of[i] = placed(&lights[i]);
-}
-
 bool lights_same(const light_set *set, const mgt_light *lights, int count)
 {
     bool same = set->count == count && count > 0;
@@ -58,7 +78,7 @@ static double limb_factor(double limb, double relative_distance)
 }
 
 /* Mean over the disk of what each of its horizontal strips sends through the air; strips below the horizon send nothing. */
-void light_through_air(light_state *state, const struct scattering *air, const struct spectrum_weights *weights)
+static void through_air(light_state *state, const struct scattering *air, const struct spectrum_weights *weights)
 {
     enum { STRIPS = 64, DEPTHS = 16 };
     const mgt_light *light = &state->light;
@@ -94,7 +114,8 @@ void light_through_air(light_state *state, const struct scattering *air, const s
     spectrum_to_rgb(weights, irradiance, outside, state->irradiance_light);
 }
 
-void light_without_air(light_state *state)
+/* All of it until the light's centre meets the horizon. */
+static void without_air(light_state *state)
 {
     const bool up = state->light.elevation_deg >= 0;
     state->light_visible = up ? 1 : 0;
@@ -104,13 +125,33 @@ void light_without_air(light_state *state)
     }
 }
 
+void lights_set(light_set *set, const mgt_light *lights, int count, const struct scattering *air, const struct spectrum_weights *weights)
+{
+    set->count = count < MAX_LIGHTS ? count : MAX_LIGHTS;
+    for (int i = 0; i < set->count; i++) {
+        set->of[i] = placed(&lights[i]);
+        if (air)
+            through_air(&set->of[i], air, weights);
+        else
+            without_air(&set->of[i]);
+    }
+}
+
 /* ---- what the rest of a frame asks ---- */
+
+int lights_count(const light_set *set) { return set->count; }
+
+const light_state *lights_get(const light_set *set, int index) { return &set->of[index]; }
 
 const double *light_toward(const light_state *state) { return state->direction; }
 
 const double *light_azimuth(const light_state *state) { return state->azimuth; }
 
 double light_tan_radius(const light_state *state) { return state->tan_radius; }
+
+double light_solid_angle(const light_state *state) { return state->light_solid_angle; }
+
+double light_visible_part(const light_state *state) { return state->light_visible; }
 
 double light_limb_factor(const light_state *state, double relative_distance) { return limb_factor(state->limb, relative_distance); }
 

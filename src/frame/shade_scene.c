@@ -47,7 +47,7 @@ static shadow_rays rays_of(const double direction[3], double n)
 static void set_light(ShadeData *d, const frame *f, const sky_state *sky, const shadow_rays *rays)
 {
     const mgt_water *water = &f->scene->water;
-    const light_state *light = &sky->lights.of[0];
+    const light_state *light = lights_get(sky->lights, 0);
     const double n = water->index_of_refraction, up = light_toward(light)[1], entering = up > 0 ? 1 - fresnel(up, n) : 0;
     const double slant = sqrt(1 + rays->water[0] * rays->water[0] + rays->water[1] * rays->water[1]), diffuse = 1 - fresnel_diffuse(n);
     double sun[3], sun_water[3], above[3], ground[3];
@@ -88,7 +88,7 @@ static void set_water(ShadeData *d, const frame *f, const sky_state *sky)
 static void set_waves(shade_scene *s, const frame *f, const world *w, const sky_state *sky)
 {
     const mgt_water *water = &f->scene->water;
-    const light_state *light = &sky->lights.of[0];
+    const light_state *light = lights_get(sky->lights, 0);
     const bool gathers = f->scene->quality.caustics && light_toward(light)[1] > 0;
     s->data.caustic_waves = gathers ? (int)water->wave_count : 0;
     s->data.sun_radius = (float)light_tan_radius(light);
@@ -158,7 +158,7 @@ mgt_status shade_update(shade_scene **scene, const world *w, const frame *f, con
     s->frame = f->data;
     s->sky = sky->table;
     s->world = w;
-    const shadow_rays rays = rays_of(light_toward(&sky->lights.of[0]), f->scene->water.index_of_refraction);
+    const shadow_rays rays = rays_of(light_toward(lights_get(sky->lights, 0)), f->scene->water.index_of_refraction);
     if (!set_materials(s, w) || shadow_map_update(&s->shadows, w, &rays) != MGT_OK)
         return MGT_ERROR_MEMORY;
     set_light(&s->data, f, sky, &rays);

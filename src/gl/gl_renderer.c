@@ -63,7 +63,7 @@ mgt_status gl_renderer_create(gl_renderer **out, mgt_gl_get_proc get_proc, const
     if (!g)
         return report_error(r, MGT_ERROR_MEMORY, "context.create", "out of memory");
     g->programs.gl = &g->gl;
-    g->sky = calloc(1, sizeof *g->sky);
+    g->sky = sky_state_create();
     g->waves = calloc(1, sizeof *g->waves);
     mgt_status status = g->sky && g->waves ? MGT_OK : report_error(r, MGT_ERROR_MEMORY, "context.create", "out of memory");
     const char *missing = status == MGT_OK ? gl_api_load(&g->gl, get_proc) : NULL;
@@ -90,7 +90,7 @@ mgt_status gl_renderer_create(gl_renderer **out, mgt_gl_get_proc get_proc, const
     if (loaded) {
         gl_renderer_destroy(g);
     } else {
-        free(g->sky);
+        sky_state_destroy(g->sky);
         free(g->waves);
         free(g);
     }
@@ -131,7 +131,7 @@ void gl_renderer_destroy(gl_renderer *g)
         gl->DeleteVertexArrays(1, &g->vertex_array);
     if (g->sky_texture)
         gl->DeleteTextures(1, &g->sky_texture);
-    free(g->sky);
+    sky_state_destroy(g->sky);
     free(g->waves);
     free(g);
 }

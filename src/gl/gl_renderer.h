@@ -85,7 +85,7 @@ typedef struct gl_renderer {
     uint32_t threads;          /* for tables that the CPU makes; 0: as many as this process may use */
     GLuint sky_texture;
     GLuint vertex_array; /* empty */
-    sky_state *sky;      /* of the last frame; zeroed at first */
+    sky_state *sky;      /* of the last frame */
     wave_set *waves;     /* of the pass being prepared */
     const char *pass;    /* the current one's name */
 } gl_renderer;

@@ -335,7 +335,7 @@ int main(int count, char **arguments)
         "left out and counted apart: pixels of one sample more or less, and of another number (%g %% together, podee %g and %g %%)\n\n%-25s %22s %22s %11s %22s\n",
         info.renderer, WIDTH, HEIGHT, far_off, 100 * most_far_off, largest_rms, 100 * most_bytes_off, 100 * most_recounted, 100 * most_by_one,
         100 * most_by_more, "", "coverage", "color", "bytes", "samples");
-    sky_state *sky = calloc(1, sizeof *sky);
+    sky_state *sky = sky_state_create();
     agreement_plan plan = {NULL, false};
     int first = 1;
     if (first < count && strcmp(arguments[first], "--quick") == 0)
@@ -345,7 +345,7 @@ int main(int count, char **arguments)
     bool good = sky != NULL && count > first;
     for (int i = first; i < count && sky; i++)
         good = compare_scene(cpu, gl, arguments[i], i - first + 1, sky, &plan) && good;
-    free(sky);
+    sky_state_destroy(sky);
     mgt_context_destroy(gl);
     mgt_context_destroy(cpu);
     return good ? 0 : 1;

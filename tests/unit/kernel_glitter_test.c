@@ -103,7 +103,7 @@ static void mirror_slope_at(const kernel_bench *b, double x, double y, double sl
     camera_ray(&b->scene, x, y, b->scene.time, origin, d);
     const double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
     const double view[3] = {-d[0] / length, -d[1] / length, -d[2] / length};
-    mirror_slope(view, b->sky->lights.of[0].direction, slope);
+    mirror_slope(view, light_toward(lights_get(b->sky->lights, 0)), slope);
 }
 
 static void mirror_slope_turns_with_the_view(void **state)
@@ -290,11 +290,11 @@ static void unresolved_sea_mirrors_its_probability(void **state)
             const double view[3] = {(double)s.view.x, (double)s.view.y, (double)s.view.z}, radius = tan(scene.light.angular_radius_deg * 0.017453292519943295);
             const double det = cov[0] * cov[2] - cov[1] * cov[1], cell = 4 * radius / SIDE;
             double centre[2], lit = 0;
-            mirror_slope(view, b->sky->lights.of[0].direction, centre);
+            mirror_slope(view, light_toward(lights_get(b->sky->lights, 0)), centre);
             for (int i = 0; i < SIDE * SIDE; i++) {
                 const double slope[2] = {centre[0] + cell * (i % SIDE - 0.5 * (SIDE - 1)), centre[1] + cell * (i / SIDE - 0.5 * (SIDE - 1))};
                 double at[2];
-                if (!mirror_map(view, b->sky->lights.of[0].direction, slope, at) || hypot(at[0], at[1]) >= radius)
+                if (!mirror_map(view, light_toward(lights_get(b->sky->lights, 0)), slope, at) || hypot(at[0], at[1]) >= radius)
                     continue;
                 const double square = cov[2] * slope[0] * slope[0] - 2 * cov[1] * slope[0] * slope[1] + cov[0] * slope[1] * slope[1];
                 lit += (view[1] - view[0] * slope[0] - view[2] * slope[1]) * exp(-0.5 * square / det) * cell * cell / (2 * 3.14159265358979323846 * sqrt(det));

@@ -125,7 +125,7 @@ static inline kernel_bench *kernel_bench_create(const mgt_scene *scene)
 {
     kernel_bench *b = calloc(1, sizeof *b);
     assert_non_null(b);
-    b->sky = calloc(1, sizeof *b->sky);
+    b->sky = sky_state_create();
     assert_non_null(b->sky);
     b->scene = *scene;
     assert_int_equal(sky_state_build(b->sky, &b->scene.sky, &b->scene.light), MGT_OK);
@@ -141,7 +141,7 @@ static inline kernel_bench *kernel_bench_create(const mgt_scene *scene)
 
 static inline void kernel_bench_destroy(kernel_bench *b)
 {
-    free(b->sky);
+    sky_state_destroy(b->sky);
     free(b);
 }
 

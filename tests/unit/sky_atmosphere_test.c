@@ -13,6 +13,7 @@
 #include <cmocka.h>
 
 #include "frame/atmosphere.h"
+#include "unit/sky_light.h"
 #include "frame/scattering.h"
 #include "frame/spectrum.h"
 
@@ -27,7 +28,7 @@ static mgt_light sun_at(double elevation)
 
 static sky_state *build(mgt_sky sky, mgt_light light)
 {
-    sky_state *state = calloc(1, sizeof *state);
+    sky_state *state = sky_state_create();
     assert_non_null(state);
     assert_int_equal(sky_state_build(state, &sky, &light), MGT_OK);
     return state;
@@ -65,9 +66,9 @@ static void illuminance_is_that_of_a_clear_day_and_dusk(void **unused)
     };
     for (size_t i = 0; i < sizeof known / sizeof known[0]; ++i) {
         sky_state *s = build(clear_sky(), sun_at(known[i].elevation));
-        assert_between(spectrum_luminance(s->lights.of[0].light_radiance) * s->lights.of[0].light_solid_angle, known[i].normal_low, known[i].normal_high);
-        assert_between(spectrum_luminance(s->lights.of[0].irradiance_light) + spectrum_luminance(s->irradiance_sky), known[i].global_low, known[i].global_high);
-        free(s);
+        assert_between(spectrum_luminance(light_of(s).light_radiance) * light_of(s).light_solid_angle, known[i].normal_low, known[i].normal_high);
+        assert_between(spectrum_luminance(light_of(s).irradiance_light) + spectrum_luminance(s->irradiance_sky), known[i].global_low, known[i].global_high);
+        sky_state_destroy(s);
     }
 }
 
@@ -78,13 +79,13 @@ static void full_moon_gives_a_quarter_lux(void **unused)
     mgt_sky sky = clear_sky();
     sky.night[0] = sky.night[1] = sky.night[2] = 2e-7f;
     sky_state *s = build(sky, moon);
-    assert_between(spectrum_luminance(s->lights.of[0].irradiance_light) + spectrum_luminance(s->irradiance_sky), 0.15e-3, 0.32e-3);
+    assert_between(spectrum_luminance(light_of(s).irradiance_light) + spectrum_luminance(s->irradiance_sky), 0.15e-3, 0.32e-3);
     assert_between(luminance_at(s, 180, 50), 1e-6, 3e-5);
-    free(s);
+    sky_state_destroy(s);
     moon.elevation_deg = -40;
     s = build(sky, moon); /* only the night is left */
     assert_between(luminance_at(s, 20, 70), 1.99e-7, 2.2e-7);
-    free(s);
+    sky_state_destroy(s);
 }
 
 static void radiance_and_colour_follow_the_sun(void **unused)
@@ -95,11 +96,11 @@ static void radiance_and_colour_follow_the_sun(void **unused)
     at(s, 0, 90, zenith);
     assert_between(spectrum_luminance(zenith), 2.0, 6.0);
     assert_true(zenith[2] > 1.8 * zenith[0]);
-    assert_true(luminance_at(s, 180, 3) > 1.3 * luminance_at(s, 180, 60));              /* brighter towards the horizon */
-    assert_true(s->lights.of[0].light_radiance[0] > s->lights.of[0].light_radiance[2]); /* yellowish */
-    assert_true(s->lights.of[0].light_radiance[2] > 0.55 * s->lights.of[0].light_radiance[0]);
+    assert_true(luminance_at(s, 180, 3) > 1.3 * luminance_at(s, 180, 60));      /* brighter towards the horizon */
+    assert_true(light_of(s).light_radiance[0] > light_of(s).light_radiance[2]); /* yellowish */
+    assert_true(light_of(s).light_radiance[2] > 0.55 * light_of(s).light_radiance[0]);
     double day_blue = zenith[2] / zenith[0];
-    free(s);
+    sky_state_destroy(s);
 
     s = build(clear_sky(), sun_at(2));
     at(s, 0, 3, glow);
@@ -107,16 +108,16 @@ static void radiance_and_colour_follow_the_sun(void **unused)
     assert_true(glow[0] > 1.3 * glow[1] && glow[1] > 1.3 * glow[2]); /* orange */
     assert_true(spectrum_luminance(glow) > 10 * spectrum_luminance(zenith));
     assert_true(zenith[2] > 1.5 * zenith[0]); /* still blue overhead: ozone */
-    assert_true(s->lights.of[0].light_radiance[0] > 2 * s->lights.of[0].light_radiance[1]);
+    assert_true(light_of(s).light_radiance[0] > 2 * light_of(s).light_radiance[1]);
     at(s, 180, 3, rgb);
     assert_true(rgb[0] / rgb[2] < 0.6 * glow[0] / glow[2]); /* the far side is no sunset */
-    free(s);
+    sky_state_destroy(s);
 
     s = build(clear_sky(), sun_at(-6));
     at(s, 0, 90, zenith);
     assert_true(zenith[2] / zenith[0] > day_blue); /* the blue hour */
     assert_true(luminance_at(s, 0, 3) > 1.5 * luminance_at(s, 180, 3));
-    free(s);
+    sky_state_destroy(s);
 }
 
 static void everything_is_finite_and_not_negative(void **unused)
@@ -137,11 +138,11 @@ static void everything_is_finite_and_not_negative(void **unused)
             assert_true(s->table[k] >= 0.0f && s->table[k] < 1e9f);
         }
         for (int c = 0; c < 3; ++c) {
-            assert_between(s->lights.of[0].light_radiance[c], 0, light.radiance[c]);
-            assert_between(s->lights.of[0].irradiance_light[c] + s->irradiance_sky[c], 0, 1e7);
+            assert_between(light_of(s).light_radiance[c], 0, light.radiance[c]);
+            assert_between(light_of(s).irradiance_light[c] + s->irradiance_sky[c], 0, 1e7);
         }
         assert_true(isfinite(s->exposure_ev));
-        free(s);
+        sky_state_destroy(s);
     }
 }
 
@@ -151,23 +152,23 @@ static void setting_light_fades_to_nothing(void **unused)
     double before = INFINITY, visible = 1.0;
     for (double elevation = 1.0; elevation > -0.36; elevation -= 0.2) {
         sky_state *s = build(clear_sky(), sun_at(elevation));
-        double now = spectrum_luminance(s->lights.of[0].light_radiance);
-        assert_true(now <= before && s->lights.of[0].light_visible <= visible);
+        double now = spectrum_luminance(light_of(s).light_radiance);
+        assert_true(now <= before && light_of(s).light_visible <= visible);
         assert_true(elevation > -0.26 ? now > 0 : true);
         if (elevation < -0.2667) {
-            assert_true(now == 0 && s->lights.of[0].light_visible == 0);
+            assert_true(now == 0 && light_of(s).light_visible == 0);
             assert_true(luminance_at(s, 0, 5) > 0.01);
         }
         if (elevation > 0.2666) {
-            assert_true(s->lights.of[0].light_visible == 1.0);
+            assert_true(light_of(s).light_visible == 1.0);
         }
         before = now;
-        visible = s->lights.of[0].light_visible;
-        free(s);
+        visible = light_of(s).light_visible;
+        sky_state_destroy(s);
     }
     sky_state *half = build(clear_sky(), sun_at(0));
-    assert_between(half->lights.of[0].light_visible, 0.48, 0.52);
-    free(half);
+    assert_between(light_of(half).light_visible, 0.48, 0.52);
+    sky_state_destroy(half);
 }
 
 /* Between the nodes the table must give what the integral along that very ray gives. */
@@ -185,14 +186,14 @@ static void table_is_the_integral(void **unused)
         assert_true(air && ray);
         double total = 0, worst = 0, count = 0, colour[3], irradiance[3];
         for (int c = 0; c < 3; ++c) {
-            irradiance[c] = light.radiance[c] * s->lights.of[0].light_solid_angle;
+            irradiance[c] = light.radiance[c] * light_of(s).light_solid_angle;
         }
         for (int k = 0; k < 400; ++k) {
             double sine = pow((k + 0.5) / 400, 2), azimuth = fmod(k * 0.61803398875, 1.0) * 2 * PI, cosine = sqrt(1 - sine * sine), spectrum[SPECTRUM_BANDS];
             double d[3] = {sin(azimuth) * cosine, sine, -cos(azimuth) * cosine}, rgb[3];
-            double cos_angle = d[0] * s->lights.of[0].direction[0] + d[1] * s->lights.of[0].direction[1] + d[2] * s->lights.of[0].direction[2];
+            double cos_angle = d[0] * light_of(s).direction[0] + d[1] * light_of(s).direction[1] + d[2] * light_of(s).direction[2];
             scattering_ray_aim(air, sine, ray);
-            scattering_radiance(air, ray, s->lights.of[0].direction[1], cos_angle, spectrum);
+            scattering_radiance(air, ray, light_of(s).direction[1], cos_angle, spectrum);
             spectrum_to_rgb(&weights, spectrum, irradiance, colour);
             sky_lookup(s, d, rgb);
             double error = fabs(spectrum_luminance(rgb) / spectrum_luminance(colour) - 1);
@@ -204,7 +205,7 @@ static void table_is_the_integral(void **unused)
         assert_between(worst, 0, 0.08); /* in the bend of the glow over a low sun */
         scattering_ray_destroy(ray);
         scattering_destroy(air);
-        free(s);
+        sky_state_destroy(s);
     }
 }
 
@@ -251,7 +252,7 @@ static void lookups_are_continuous_and_symmetric(void **unused)
     at(s, 10, -20, below);
     at(s, 10, 0, horizon);
     assert_memory_equal(below, horizon, sizeof horizon);
-    free(s);
+    sky_state_destroy(s);
 }
 
 static void irradiance_is_the_hemisphere_integral(void **unused)
@@ -266,7 +267,7 @@ static void irradiance_is_the_hemisphere_integral(void **unused)
         }
     }
     assert_between(spectrum_luminance(s->irradiance_sky) / sum, 0.995, 1.005);
-    free(s);
+    sky_state_destroy(s);
 }
 
 static void azimuth_turns_the_sky(void **unused)
@@ -278,10 +279,10 @@ static void azimuth_turns_the_sky(void **unused)
     sky_state *turned = build(clear_sky(), light);
     assert_memory_equal(north->table, turned->table, sizeof north->table);
     assert_between(luminance_at(turned, 130 + 17, 8) / luminance_at(north, 17, 8), 1 - 1e-9, 1 + 1e-9);
-    assert_between(turned->lights.of[0].direction[0], 0.7198, 0.7199); /* sin 130° cos 20° */
-    assert_between(turned->lights.of[0].azimuth[1], 0.6427, 0.6428);   /* −cos 130° */
-    free(north);
-    free(turned);
+    assert_between(light_of(turned).direction[0], 0.7198, 0.7199); /* sin 130° cos 20° */
+    assert_between(light_of(turned).azimuth[1], 0.6427, 0.6428);   /* −cos 130° */
+    sky_state_destroy(north);
+    sky_state_destroy(turned);
 }
 
 static void gradient_and_black_skies(void **unused)
@@ -297,7 +298,7 @@ static void gradient_and_black_skies(void **unused)
         assert_between(rgb[c], sky.horizon[c] - 1e-6, sky.horizon[c] + 1e-6);
         at(s, 40, 90, rgb);
         assert_between(rgb[c], sky.zenith[c] - 1e-6, sky.zenith[c] + 1e-6);
-        assert_true(s->lights.of[0].light_radiance[c] == light.radiance[c]);
+        assert_true(light_of(s).light_radiance[c] == light.radiance[c]);
     }
     double before = luminance_at(s, 0, 0);
     for (double e = 1; e <= 90; e += 1) {
@@ -305,20 +306,20 @@ static void gradient_and_black_skies(void **unused)
         assert_true(now < before);
         before = now;
     }
-    free(s);
+    sky_state_destroy(s);
 
     sky.model = MGT_SKY_BLACK;
     s = build(sky, light);
     const float black[sizeof s->table / sizeof s->table[0]] = {0};
     assert_memory_equal(s->table, black, sizeof s->table);
-    assert_true(s->lights.of[0].light_radiance[1] == light.radiance[1] && s->irradiance_sky[1] == 0);
+    assert_true(light_of(s).light_radiance[1] == light.radiance[1] && s->irradiance_sky[1] == 0);
     /* a mirror at normal incidence shows the light at 0.15 */
-    assert_between(spectrum_luminance(s->lights.of[0].light_radiance) * 0.02 * exp2(s->exposure_ev), 0.149, 0.151);
-    free(s);
+    assert_between(spectrum_luminance(light_of(s).light_radiance) * 0.02 * exp2(s->exposure_ev), 0.149, 0.151);
+    sky_state_destroy(s);
     light.elevation_deg = -1;
     s = build(sky, light);
-    assert_true(s->lights.of[0].light_radiance[1] == 0 && s->lights.of[0].irradiance_light[1] == 0);
-    free(s);
+    assert_true(light_of(s).light_radiance[1] == 0 && light_of(s).irradiance_light[1] == 0);
+    sky_state_destroy(s);
 }
 
 static void body_radiance_is_what_the_water_returns(void **unused)
@@ -329,19 +330,19 @@ static void body_radiance_is_what_the_water_returns(void **unused)
     sky_state *s = build(clear_sky(), sun_at(40));
     sky_upwelling_radiance(s, &water, all);
     for (int c = 0; c < 3; ++c) { /* no surface: Lambert's law */
-        assert_between(all[c], 0.999999 * water.body_albedo[c] * (s->lights.of[0].irradiance_light[c] + s->irradiance_sky[c]) / PI,
-                       1.000001 * water.body_albedo[c] * (s->lights.of[0].irradiance_light[c] + s->irradiance_sky[c]) / PI);
+        assert_between(all[c], 0.999999 * water.body_albedo[c] * (light_of(s).irradiance_light[c] + s->irradiance_sky[c]) / PI,
+                       1.000001 * water.body_albedo[c] * (light_of(s).irradiance_light[c] + s->irradiance_sky[c]) / PI);
     }
     water.index_of_refraction = 1.333;
     sky_upwelling_radiance(s, &water, water_body);
     assert_between(water_body[1] / all[1] * 1.333 * 1.333, 0.94, 0.98); /* a little is mirrored: 3% of the sun, 6.6% of the sky */
-    free(s);
+    sky_state_destroy(s);
     mgt_sky black = clear_sky();
     black.model = MGT_SKY_BLACK;
     s = build(black, sun_at(40));
     sky_upwelling_radiance(s, &water, none);
     assert_true(none[0] == 0 && none[1] == 0 && none[2] == 0);
-    free(s);
+    sky_state_destroy(s);
 }
 
 static void exposure_follows_the_light_and_keeps_night_dark(void **unused)
@@ -353,15 +354,15 @@ static void exposure_follows_the_light_and_keeps_night_dark(void **unused)
         sky_state *s = build(clear_sky(), sun_at(elevations[i]));
         assert_true(s->exposure_ev > before);
         before = s->exposure_ev;
-        free(s);
+        sky_state_destroy(s);
     }
     mgt_light moon = {.body = MGT_SOURCE_MOON, .elevation_deg = 35, .angular_radius_deg = 0.259, .radiance = {3.75f, 3.45f, 3.0f}};
     sky_state *day = build(clear_sky(), sun_at(35)), *night = build(clear_sky(), moon);
     double day_shown = luminance_at(day, 90, 10) * exp2(day->exposure_ev), night_shown = luminance_at(night, 90, 10) * exp2(night->exposure_ev);
     assert_between(day_shown, 0.12, 0.6);
     assert_between(log2(day_shown / night_shown), 1.3, 3.0);
-    free(day);
-    free(night);
+    sky_state_destroy(day);
+    sky_state_destroy(night);
 }
 
 static void same_inputs_are_recognised(void **unused)
@@ -369,7 +370,7 @@ static void same_inputs_are_recognised(void **unused)
     (void)unused;
     mgt_sky sky = clear_sky();
     mgt_light light = sun_at(12);
-    sky_state *s = calloc(1, sizeof *s);
+    sky_state *s = sky_state_create();
     assert_false(sky_state_same_inputs(s, &sky, &light));
     assert_int_equal(sky_state_build(s, &sky, &light), MGT_OK);
     assert_true(sky_state_same_inputs(s, &sky, &light));
@@ -387,8 +388,8 @@ static void same_inputs_are_recognised(void **unused)
     hazy = sky;
     hazy.night[1] = 1;
     assert_false(sky_state_same_inputs(s, &hazy, &light));
-    free(again);
-    free(s);
+    sky_state_destroy(again);
+    sky_state_destroy(s);
 }
 
 static void own_exponential_is_exact(void **unused)

@@ -14,6 +14,7 @@
 #include "cpu/kernel_context.h"
 #include "frame/kernel_data.h"
 #include "frame/atmosphere.h"
+#include "unit/sky_light.h"
 
 static double double_sqrt(double x) { return sqrt(x); }
 
@@ -36,24 +37,17 @@ KERNEL vec3 sky_texel(CTX cx, real column, real row)
 
 static FrameData frame_of(const sky_state *s)
 {
-    return (FrameData){.lights[0].light_x = (float)s->lights.of[0].direction[0],
-                       .lights[0].light_y = (float)s->lights.of[0].direction[1],
-                       .lights[0].light_z = (float)s->lights.of[0].direction[2],
-                       .lights[0].disk_radius = (float)s->lights.of[0].tan_radius,
-                       .lights[0].light_azimuth_x = (float)s->lights.of[0].azimuth[0],
-                       .lights[0].light_azimuth_z = (float)s->lights.of[0].azimuth[1],
-                       .lights[0].limb = (float)s->lights.of[0].limb,
-                       .lights[0].light_visible = (float)s->lights.of[0].light_visible,
-                       .lights[0].light_radiance_r = (float)s->lights.of[0].light_radiance[0],
-                       .lights[0].light_radiance_g = (float)s->lights.of[0].light_radiance[1],
-                       .lights[0].light_radiance_b = (float)s->lights.of[0].light_radiance[2]};
+    FrameData frame = {0};
+    lights_place(s->lights, false, &frame);
+    frame.lights[0].light_visible = (float)light_of(s).light_visible;
+    return frame;
 }
 
 static sky_state *sunny(double elevation, double azimuth, double radius)
 {
     mgt_sky sky = {.model = MGT_SKY_ATMOSPHERE, .turbidity = 2.0f};
     mgt_light light = {.elevation_deg = elevation, .azimuth_deg = azimuth, .angular_radius_deg = radius, .radiance = {1e6f, 1e6f, 1e6f}};
-    sky_state *s = calloc(1, sizeof *s);
+    sky_state *s = sky_state_create();
     assert_non_null(s);
     assert_int_equal(sky_state_build(s, &sky, &light), MGT_OK);
     return s;
@@ -64,9 +58,6 @@ static void lookup_agrees_with_double(void **unused)
     (void)unused;
     sky_state *s = sunny(9, 200, 0.2665);
     FrameData frame = frame_of(s);
-    /* Both sides see the azimuth that the kernel has. */
-    s->lights.of[0].azimuth[0] = frame.lights[0].light_azimuth_x;
-    s->lights.of[0].azimuth[1] = frame.lights[0].light_azimuth_z;
     struct kernel_context cx = {.frame = &frame, .sky = s->table};
     unsigned seed = 1;
     for (int i = 0; i < 200000; ++i) {
@@ -95,13 +86,13 @@ static void lookup_agrees_with_double(void **unused)
             }
         }
     }
-    free(s);
+    sky_state_destroy(s);
 }
 
 /* Radiance of the disk at (a, b) in its tangent plane. */
 static double disk_at(const struct kernel_context *cx, const sky_state *s, double a, double b, double pixel)
 {
-    const double *l = s->lights.of[0].direction, h = double_sqrt(l[0] * l[0] + l[2] * l[2]);
+    const double *l = light_toward(lights_get(s->lights, 0)), h = double_sqrt(l[0] * l[0] + l[2] * l[2]);
     const double e[3] = {-l[2] / h, 0, l[0] / h}, f[3] = {l[1] * e[2], l[2] * e[0] - l[0] * e[2], -l[1] * e[0]};
     double d[3], square = 0;
     for (int c = 0; c < 3; ++c) {
@@ -119,9 +110,9 @@ static void disk_keeps_its_power_at_every_pixel_size(void **unused)
     sky_state *s = sunny(30, 40, 0.2665);
     FrameData frame = frame_of(s);
     struct kernel_context cx = {.frame = &frame, .sky = s->table};
-    double power = 3.14159265358979 * s->lights.of[0].tan_radius * s->lights.of[0].tan_radius * s->lights.of[0].light_radiance[1];
+    double power = 3.14159265358979 * light_of(s).tan_radius * light_of(s).tan_radius * light_of(s).light_radiance[1];
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; ++i) {
-        double pixel = sizes[i] * s->lights.of[0].tan_radius, sum = 0;
+        double pixel = sizes[i] * light_of(s).tan_radius, sum = 0;
         int reach = (int)(2.0 / sizes[i]) + 3;
         for (int shift = 0; shift < 16; ++shift) { /* mean over where the lattice falls */
             for (int y = -reach; y <= reach; ++y) {
@@ -134,7 +125,7 @@ static void disk_keeps_its_power_at_every_pixel_size(void **unused)
             fail_msg("pixels of %g radii see %g of the disk's power", sizes[i], sum / power);
         }
     }
-    free(s);
+    sky_state_destroy(s);
 }
 
 static void disk_is_darker_at_the_limb_and_ends(void **unused)
@@ -143,19 +134,19 @@ static void disk_is_darker_at_the_limb_and_ends(void **unused)
     sky_state *s = sunny(30, 40, 0.2665);
     FrameData frame = frame_of(s);
     struct kernel_context cx = {.frame = &frame, .sky = s->table};
-    double r = s->lights.of[0].tan_radius, pixel = 0.02 * r;
+    double r = light_of(s).tan_radius, pixel = 0.02 * r;
     for (double x = 0; x < 0.97; x += 0.1) {
-        double expected = s->lights.of[0].light_radiance[1] * light_limb_factor(&s->lights.of[0], x);
+        double expected = light_of(s).light_radiance[1] * light_limb_factor(lights_get(s->lights, 0), x);
         double got = disk_at(&cx, s, x * r, 0, pixel), turned = disk_at(&cx, s, 0, -x * r, pixel);
         assert_true(fabs(got / expected - 1) < 2e-3);
         assert_true(fabs(turned / got - 1) < 2e-3);
     }
     assert_true(disk_at(&cx, s, 1.02 * r, 0, pixel) == 0);
-    double edge = disk_at(&cx, s, r, 0, pixel) / (s->lights.of[0].light_radiance[1] * light_limb_factor(&s->lights.of[0], 1));
+    double edge = disk_at(&cx, s, r, 0, pixel) / (light_of(s).light_radiance[1] * light_limb_factor(lights_get(s->lights, 0), 1));
     assert_true(edge > 0.4 && edge < 0.6);
     vec3 behind = light_disk_radiance(&cx, 0, vec3(-frame.lights[0].light_x, -frame.lights[0].light_y, -frame.lights[0].light_z), (float)pixel);
     assert_true(behind.x == 0 && behind.y == 0 && behind.z == 0);
-    free(s);
+    sky_state_destroy(s);
 }
 
 static void a_half_set_disk_keeps_its_radiance(void **unused)
@@ -164,10 +155,10 @@ static void a_half_set_disk_keeps_its_radiance(void **unused)
     sky_state *s = sunny(0, 0, 0.2665);
     FrameData frame = frame_of(s);
     struct kernel_context cx = {.frame = &frame, .sky = s->table};
-    double centre = disk_at(&cx, s, 0, 0, 0.01 * s->lights.of[0].tan_radius);
-    double expected = s->lights.of[0].light_radiance[1] / s->lights.of[0].light_visible * light_limb_factor(&s->lights.of[0], 0);
+    double centre = disk_at(&cx, s, 0, 0, 0.01 * light_of(s).tan_radius);
+    double expected = light_of(s).light_radiance[1] / light_of(s).light_visible * light_limb_factor(lights_get(s->lights, 0), 0);
     assert_true(expected > 0 && fabs(centre / expected - 1) < 1e-5);
-    free(s);
+    sky_state_destroy(s);
 }
 
 int main(void)
