@@ -2,7 +2,8 @@
  *
  * OpenGL against the CPU: every method on scene files, coverage and displayed colour, and the displayed bytes with glare.
  * usage: gl_agreement [--quick] [--only METHOD] SCENE…      Exit 1 where a limit is missed, 77 without OpenGL.
- * With --quick what takes many samples a pixel is compared at half the size, and seas by adaptive cells not at all: gl_cells_test compares these.
+ * With --quick all but the default method is compared at half the size, on every other scene, and seas by adaptive cells not at all: gl_cells_test
+ * compares these.
  */
 #include <math.h>
 #include <stdio.h>
@@ -217,16 +218,29 @@ static bool render_bytes(mgt_context *context, const mgt_scene *scene, unsigned 
     return false;
 }
 
-/* What differs by an option, or sees objects as others do, needs one scene in four. */
-static bool is_left_out(int method, int first_variant, int scene_index) { return method >= first_variant && (method + scene_index) % 4 != 0; }
+/* What differs by an option, or sees objects as others do, needs one scene in four; what is no default, every other scene where there is little time. */
+static bool is_left_out(const agreement_plan *plan, int method, int first_variant, int scene_index)
+{
+    const int every = method >= first_variant ? 4 : plan->quick && method > 0 ? 2 : 1;
+    return (method + scene_index) % every != 0;
+}
+
+/* Whether a sea without objects is compared by a method; `wind`: one of so many waves that other methods than the default learn nothing new. */
+static bool is_compared(const agreement_plan *plan, int method, bool wind, int scene_index)
+{
+    if (method == 0)
+        return true;
+    if (method >= ADAPTIVE)
+        return !plan->quick || (method > ADAPTIVE && !wind && !is_left_out(plan, method, METHODS, scene_index));
+    return !wind && !is_left_out(plan, method, VARIANTS, scene_index);
+}
 
 /* Whether a row is what the command line asks for alone, or without that one of those that are compared. */
 static bool is_wanted(const agreement_plan *plan, const char *name, bool compared) { return plan->only ? strcmp(plan->only, name) == 0 : compared; }
 
 static mgt_image image_of(const agreement_plan *plan, mgt_method method)
 {
-    const bool sampled = method == MGT_METHOD_ADAPTIVE || method == MGT_METHOD_SSAA || method == MGT_METHOD_TAA;
-    const uint32_t part = plan->quick && sampled ? 2 : 1;
+    const uint32_t part = plan->quick && method != MGT_METHOD_MANGATA ? 2 : 1;
     return (mgt_image){.width = WIDTH / part, .height = HEIGHT / part};
 }
 
@@ -236,7 +250,7 @@ static bool compare_objects(mgt_context *cpu, mgt_context *gl, const char *label
     bool all_good = true;
     for (int m = 0; m < OBJECT_METHODS; m++) {
         const bool needs_rays = object_methods[m].refraction == MGT_REFRACTION_HYBRID; /* of the CPU */
-        if (!is_wanted(plan, object_methods[m].name, !is_left_out(m, OBJECT_VARIANTS, scene_index)) || (needs_rays && !trace_available()))
+        if (!is_wanted(plan, object_methods[m].name, !is_left_out(plan, m, OBJECT_VARIANTS, scene_index)) || (needs_rays && !trace_available()))
             continue;
         mgt_quality_init(&scene->quality, sizeof scene->quality);
         scene->quality.method = object_methods[m].method;
@@ -286,10 +300,9 @@ static bool compare_scene(mgt_context *cpu, mgt_context *gl, const char *path, i
     }
     bool good = sky_state_build(sky, &scene.sky, &scene.light) == MGT_OK;
     bool rendered = good;
-    const bool wind = scene.water.wave_count > 64; /* where other methods than the default learn nothing new */
+    const bool wind = scene.water.wave_count > 64;
     for (int m = 0; m < METHODS && rendered; m++) {
-        const bool compared = m == 0 || m > ADAPTIVE || (m == ADAPTIVE && !plan->quick) || (m < ADAPTIVE && !wind && !is_left_out(m, VARIANTS, scene_index));
-        if (!is_wanted(plan, methods[m].name, compared))
+        if (!is_wanted(plan, methods[m].name, is_compared(plan, m, wind, scene_index)))
             continue;
         scene.quality = methods[m].quality;
         scene.image = image_of(plan, scene.quality.method);
