@@ -24,6 +24,7 @@
 
 #include "mangata/gl.h"
 #include "mangata/objects.h"
+#include "mangata/query.h"
 #include "mangata/render.h"
 #include "mangata/scene.h"
 

@@ -23,6 +23,7 @@ static_assert(sizeof(mgt_texture_desc) == END(mgt_texture_desc, row_stride), "mg
 static_assert(sizeof(mgt_quality) == END(mgt_quality, target_displayed), "mgt_quality ends with padding");
 static_assert(sizeof(mgt_scene) == END(mgt_scene, quality), "mgt_quality grows with the scene only while it is the last in it");
 static_assert(sizeof(mgt_target) == END(mgt_target, row_stride), "mgt_target ends with padding");
+static_assert(sizeof(mgt_water_answers) == END(mgt_water_answers, covariance), "mgt_water_answers ends with padding");
 static_assert(sizeof(mgt_gl_view) == END(mgt_gl_view, reserved), "mgt_gl_view ends with padding");
 static_assert(sizeof(mgt_gl_texture) == END(mgt_gl_texture, reserved), "mgt_gl_texture ends with padding");
 
@@ -58,6 +59,7 @@ const struct_kind target_kind = KIND(mgt_target, "render.target", MOST_TARGETS, 
 const struct_kind pixel_info_kind = KIND(mgt_pixel_info, "inspect.info", 1, filtered);
 const struct_kind gl_view_kind = KIND(mgt_gl_view, "render.view", MOST_TARGETS, reserved, .view = IDENTITY, .projection = IDENTITY, .view_open = IDENTITY);
 const struct_kind gl_texture_kind = KIND(mgt_gl_texture, "render.texture", MOST_TARGETS, reserved);
+const struct_kind water_answers_kind = KIND(mgt_water_answers, "query.answers", 1, covariance);
 const struct_kind scene_kind = KIND(mgt_scene, "render.scene", 1, quality.sample_slots, .image = {.width = 1280, .height = 720}, .camera = CAMERA,
                                     .camera_open = CAMERA, .shutter = 1.0 / 30,
                                     .sky = {.model = MGT_SKY_ATMOSPHERE,
@@ -103,6 +105,7 @@ void mgt_scene_init(mgt_scene *scene, size_t size)
 }
 
 void mgt_target_init(mgt_target *target, size_t size) { init(&target_kind, target, size); }
+void mgt_water_answers_init(mgt_water_answers *answers, size_t size) { init(&water_answers_kind, answers, size); }
 void mgt_gl_view_init(mgt_gl_view *view, size_t size) { init(&gl_view_kind, view, size); }
 void mgt_gl_texture_init(mgt_gl_texture *texture, size_t size) { init(&gl_texture_kind, texture, size); }
 

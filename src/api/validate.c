@@ -81,16 +81,27 @@ static mgt_status check_camera(const reporter *r, const char *name, const mgt_ca
     return MGT_OK;
 }
 
-static mgt_status check_waves(const reporter *r, const mgt_water *water)
+/* Rows that are no mappings. */
+static bool rows_are_legal(const field_row *fields, const void *values)
+{
+    for (const field_row *field = fields; field->key; field++)
+        if (!field_is_legal(field, field_at(field, values)))
+            return false;
+    return true;
+}
+
+mgt_status validate_waves(const reporter *r, const mgt_water *water)
 {
     if (water->wave_count > MGT_MAX_WAVES)
         return report_error(r, MGT_ERROR_SCENE, "render.scene", "water.waves has %zu waves; at most %d are allowed", water->wave_count, MGT_MAX_WAVES);
     if (water->wave_count > 0 && !water->waves)
         return report_error(r, MGT_ERROR_ARGUMENT, "render.scene", "water.waves is NULL although water.wave_count is %zu", water->wave_count);
     for (size_t i = 0; i < water->wave_count; i++) {
+        if (rows_are_legal(wave_rows, &water->waves[i]))
+            continue;
         char name[40];
         snprintf(name, sizeof name, "water.waves[%zu].", i);
-        TRY(check_rows(r, name, wave_rows, &water->waves[i]));
+        return check_rows(r, name, wave_rows, &water->waves[i]);
     }
     return MGT_OK;
 }
@@ -166,7 +177,7 @@ mgt_status validate_scene(const reporter *r, const mgt_scene *scene)
         TRY(check_rows(r, "camera_open.", camera_rows, &scene->camera_open));
         TRY(check_camera(r, "camera_open", &scene->camera_open));
     }
-    TRY(check_waves(r, &scene->water));
+    TRY(validate_waves(r, &scene->water));
     TRY(check_objects(r, scene));
     return check_quality(r, &scene->quality);
 }

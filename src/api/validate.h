@@ -6,6 +6,7 @@
 #include "frame/backend.h"
 
 mgt_status validate_desc(const reporter *r, const mgt_context_desc *desc);
+mgt_status validate_waves(const reporter *r, const mgt_water *water);
 mgt_status validate_scene(const reporter *r, const mgt_scene *scene);
 mgt_status validate_targets(const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count);
 

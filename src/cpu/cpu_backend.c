@@ -14,6 +14,7 @@
 #include "cpu/glare.h"
 #include "cpu/inspect.h"
 #include "cpu/lean_map.h"
+#include "cpu/query_lanes.h"
 #include "cpu/baseline_lanes.h"
 #include "base/thread_pool.h"
 #include "cpu/tile_job.h"
@@ -85,6 +86,23 @@ static mgt_isa best_isa(void)
         if (mgt_isa_available(order[i]))
             return order[i];
     return MGT_ISA_SCALAR;
+}
+
+query_function *query_lanes(void)
+{
+    switch (best_isa()) {
+#if defined(__x86_64__)
+    case MGT_ISA_AVX512:
+        return query_lanes_16;
+    case MGT_ISA_AVX2:
+        return query_lanes_8;
+#endif
+    case MGT_ISA_SSE2:
+    case MGT_ISA_NEON:
+        return query_lanes_4;
+    default:
+        return query_lanes_1;
+    }
 }
 
 /* ---- context ---- */

@@ -5,6 +5,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "frame/water_terms.h"
+
 static const double pi = 3.14159265358979323846, turn = 6.28318530717958647692;
 
 void sines_order(const mgt_water *water, uint16_t *order)
@@ -204,4 +206,49 @@ double lean_row_angle(const lean_waves *waves, size_t i, size_t row)
 {
     const unsigned part = (unsigned)waves->waves[i].periods_z * (unsigned)row % LEAN_SIZE;
     return turn * (waves->turns[i] - rint(waves->turns[i]) + (double)part / LEAN_SIZE);
+}
+
+/* ---- at points ---- */
+
+static const double turns_per_radian = 0.15915494309189533577;
+
+/* ω·t + phase in turns, within ±1/2: what rounding takes from the product counts, for t may be many periods. */
+static double turns_at(const mgt_wave *wave, double time)
+{
+    const double product = wave->omega * time, lost = fma(wave->omega, time, -product);
+    const double turns = (remainder(product, 2 * pi) + lost + remainder(wave->phase, 2 * pi)) * turns_per_radian;
+    return turns - nearbyint(turns);
+}
+
+static void add_term(water_terms *terms, const mgt_wave *w, double time)
+{
+    const int n = terms->count++;
+    terms->along_x[n] = w->kx * turns_per_radian;
+    terms->along_z[n] = w->kz * turns_per_radian;
+    terms->start[n] = turns_at(w, time);
+    terms->up[n] = w->amplitude;
+    terms->lean_x[n] = w->amplitude * w->kx;
+    terms->lean_z[n] = w->amplitude * w->kz;
+    terms->rise[n] = w->amplitude * w->omega;
+    terms->single[n].up = (float)terms->up[n];
+    terms->single[n].lean_x = (float)terms->lean_x[n];
+    terms->single[n].lean_z = (float)terms->lean_z[n];
+    terms->single[n].rise = (float)terms->rise[n];
+}
+
+void water_terms_at(const mgt_water *water, double time, double least, water_terms *terms, double covariance[3])
+{
+    terms->count = 0;
+    covariance[0] = covariance[1] = covariance[2] = 0;
+    for (size_t i = 0; i < water->wave_count; i++) {
+        const mgt_wave *w = &water->waves[i];
+        if (hypot(w->kx, w->kz) * least <= 2 * pi) {
+            add_term(terms, w, time);
+            continue;
+        }
+        const double variance = w->amplitude * w->amplitude / 2;
+        covariance[0] += variance * w->kx * w->kx;
+        covariance[1] += variance * w->kx * w->kz;
+        covariance[2] += variance * w->kz * w->kz;
+    }
 }

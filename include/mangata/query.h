@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Questions about the water: how high it is at a place, how it leans and how it moves. They need no context. */
+#ifndef MANGATA_QUERY_H
+#define MANGATA_QUERY_H
+
+#include "mangata/scene.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* What mgt_water_query() is to answer, and where to. A pointer that is NULL asks nothing. */
+typedef struct mgt_water_answers {
+    size_t struct_size;
+    double least_wavelength; /* metres, 0 … 1e9: shorter waves count in `covariance` alone. 0: all waves count at the points */
+    uint32_t exact;          /* 0: heights within 1e-6 of the sum of all amplitudes. 1: within 1e-9 m, in about twice the time. Up to 100 km from the origin */
+    uint32_t reserved;       /* 0 */
+    double *height;          /* metres, water.level included: a number a point */
+    float *normal;           /* unit, of the side of the air: x, y, z of each point */
+    float *velocity;         /* metres per second, of the surface: x, y, z of each point; x and z are 0, for sines move water up and down */
+    double covariance[3];    /* written: xx, xz and zz of the slopes of the waves shorter than least_wavelength */
+} mgt_water_answers;
+
+/* Asks nothing. */
+MGT_API void mgt_water_answers_init(mgt_water_answers *answers, size_t size);
+
+/* Answers for `count` points, x and z of each in metres, within ±1e9. Waves are those of P1 Eq. 1, as `water` has them; nothing else of it is read but its
+ * level. A point that is not finite gets NaN.
+ * Any thread, several at once; nothing is allocated or kept, and a point's answer depends neither on the others nor on the thread. With AVX2 and AVX-512 it is
+ * the same to the bit. 64 waves take a core with AVX2 about 65 ns a point.
+ * MGT_ERROR_SCENE: a wave is out of its range; MGT_ERROR_ARGUMENT: the time is not within ±1e9 s, or a pointer is missing. mgt_last_error(NULL) has the
+ * words, and nothing has been written. */
+MGT_API mgt_status mgt_water_query(const mgt_water *water, double time, const double *points, size_t count, mgt_water_answers *answers);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Heights, normals and velocities of the water at points, by lanes.
+ */
+#ifndef MANGATA_CPU_QUERY_LANES_H
+#define MANGATA_CPU_QUERY_LANES_H
+
+#include "frame/water_terms.h"
+
+/* `points` as mgt_water_query() gets them; `level` metres. */
+typedef void query_function(const water_terms *terms, double level, const double *points, size_t count, const mgt_water_answers *answers);
+
+/* One a lane width, in query_lanes.c. */
+extern query_function query_lanes_1, query_lanes_4, query_lanes_8, query_lanes_16;
+
+/* For the widest lanes that this processor has. */
+query_function *query_lanes(void);
+
+#endif

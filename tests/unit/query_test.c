@@ -1,0 +1,292 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Questions about the water at points, against sums in long double; lanes, threads, and what is refused.
+ */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+#include <pthread.h>
+
+#include "cpu/query_lanes.h"
+#include "mangata/mangata.h"
+
+enum { WAVES = 64, POINTS = 5003 };
+
+static const double reach = 1e4; /* metres */
+
+static double random_unit(uint64_t *state)
+{
+    *state = *state * 6364136223846793005u + 1442695040888963407u;
+    return (double)(*state >> 11) * 0x1p-53;
+}
+
+/* Lengths from half a metre to 200 m, steep as a sea is, in all directions. */
+static mgt_water sea(mgt_wave waves[WAVES])
+{
+    uint64_t state = 5;
+    for (int i = 0; i < WAVES; i++) {
+        const double k = 2 * M_PI / (0.5 * pow(400, random_unit(&state))), heading = 2 * M_PI * random_unit(&state);
+        waves[i] = (mgt_wave){.amplitude = 0.03 / k * random_unit(&state),
+                              .kx = k * cos(heading),
+                              .kz = k * sin(heading),
+                              .omega = sqrt(9.81 * k),
+                              .phase = 100 * random_unit(&state)};
+    }
+    return (mgt_water){.waves = waves, .wave_count = WAVES, .index_of_refraction = 1.333, .level = 12.5};
+}
+
+static void scatter(double points[2 * POINTS])
+{
+    uint64_t state = 11;
+    for (int i = 0; i < 2 * POINTS; i++)
+        points[i] = reach * (2 * random_unit(&state) - 1);
+}
+
+typedef struct truth {
+    long double height, slope[2], rise;
+} truth;
+
+static truth truth_at(const mgt_water *water, double time, double x, double z, double least)
+{
+    truth t = {(long double)water->level, {0, 0}, 0};
+    for (size_t i = 0; i < water->wave_count; i++) {
+        const mgt_wave *w = &water->waves[i];
+        if (hypot(w->kx, w->kz) * least > 2 * M_PI)
+            continue;
+        const long double psi = (long double)w->kx * x + (long double)w->kz * z + (long double)w->omega * time + (long double)w->phase;
+        const long double a = (long double)w->amplitude, steep = a * cosl(psi);
+        t.height += a * sinl(psi);
+        t.slope[0] += steep * (long double)w->kx;
+        t.slope[1] += steep * (long double)w->kz;
+        t.rise += steep * (long double)w->omega;
+    }
+    return t;
+}
+
+static double amplitudes(const mgt_water *water)
+{
+    double sum = 0;
+    for (size_t i = 0; i < water->wave_count; i++)
+        sum += water->waves[i].amplitude;
+    return sum;
+}
+
+typedef struct answer_set {
+    double height[POINTS];
+    float normal[3 * POINTS], velocity[3 * POINTS];
+} answer_set;
+
+static mgt_water_answers ask(answer_set *to)
+{
+    mgt_water_answers a;
+    mgt_water_answers_init(&a, sizeof a);
+    a.height = to->height;
+    a.normal = to->normal;
+    a.velocity = to->velocity;
+    return a;
+}
+
+static void sums_are_exact(void **state)
+{
+    (void)state;
+    static double points[2 * POINTS];
+    static answer_set got;
+    mgt_wave waves[WAVES];
+    const mgt_water water = sea(waves);
+    scatter(points);
+    const double times[] = {0, 3.25, -86400.5}, leasts[] = {0, 0, 5};
+    for (int exact = 0; exact < 2; exact++)
+        for (int k = 0; k < 3; k++) {
+            mgt_water_answers a = ask(&got);
+            a.exact = (uint32_t)exact;
+            a.least_wavelength = leasts[k];
+            assert_int_equal(mgt_water_query(&water, times[k], points, POINTS, &a), MGT_OK);
+            double height = 0, normal = 0, rise = 0;
+            for (int i = 0; i < POINTS; i++) {
+                const truth t = truth_at(&water, times[k], points[2 * i], points[2 * i + 1], leasts[k]);
+                const long double inverse = 1 / sqrtl(1 + t.slope[0] * t.slope[0] + t.slope[1] * t.slope[1]);
+                const long double expected[3] = {-t.slope[0] * inverse, inverse, -t.slope[1] * inverse};
+                height = fmax(height, fabs((double)((long double)got.height[i] - t.height)));
+                for (int c = 0; c < 3; c++)
+                    normal = fmax(normal, fabs((double)((long double)got.normal[3 * i + c] - expected[c])));
+                rise = fmax(rise, fabs((double)((long double)got.velocity[3 * i + 1] - t.rise)));
+                assert_true(got.velocity[3 * i] == 0 && got.velocity[3 * i + 2] == 0);
+            }
+            print_message("  %s, t = %g s, from %g m: height %.1e m (%.1e of all amplitudes), normal %.1e, velocity %.1e m/s\n", exact ? "double" : "single",
+                          times[k], leasts[k], height, height / amplitudes(&water), normal, rise);
+            assert_true(height <= (exact ? 1e-9 : 1e-6 * amplitudes(&water)) && normal <= 1e-6 && rise <= 3e-6);
+        }
+}
+
+static void short_waves_are_a_covariance(void **state)
+{
+    (void)state;
+    mgt_wave waves[WAVES];
+    const mgt_water water = sea(waves);
+    mgt_water_answers a;
+    mgt_water_answers_init(&a, sizeof a);
+    double whole[3] = {0}, least = 3;
+    for (int i = 0; i < WAVES; i++)
+        if (2 * M_PI / hypot(waves[i].kx, waves[i].kz) < least) {
+            const double v = waves[i].amplitude * waves[i].amplitude / 2;
+            whole[0] += v * waves[i].kx * waves[i].kx, whole[1] += v * waves[i].kx * waves[i].kz, whole[2] += v * waves[i].kz * waves[i].kz;
+        }
+    a.least_wavelength = least;
+    assert_int_equal(mgt_water_query(&water, 0, NULL, 0, &a), MGT_OK);
+    for (int i = 0; i < 3; i++)
+        assert_true(fabs(a.covariance[i] - whole[i]) <= 1e-14 && (i == 1 || whole[i] > 0));
+}
+
+/* With fused multiply-adds the same to the bit; SSE2 has none. */
+static void lanes_agree(void **state)
+{
+    (void)state;
+    static double points[2 * POINTS];
+    static answer_set expected, got;
+    mgt_wave waves[WAVES];
+    const mgt_water water = sea(waves);
+    static water_terms taken;
+    double none[3];
+    water_terms_at(&water, 0, 0, &taken, none);
+    assert_int_equal(taken.count, WAVES);
+    scatter(points);
+    for (uint32_t exact = 0; exact < 2; exact++) {
+        mgt_water_answers a = ask(&expected), b = ask(&got);
+        a.exact = b.exact = exact;
+        query_lanes_1(&taken, water.level, points, POINTS, &a);
+        query_lanes_4(&taken, water.level, points, POINTS, &b);
+        for (int i = 0; i < POINTS; i++)
+            assert_true(fabs(got.height[i] - expected.height[i]) <= (exact ? 1e-9 : 1e-6));
+#if defined(__x86_64__)
+        query_function *const wide[] = {mgt_isa_available(MGT_ISA_AVX2) ? query_lanes_8 : NULL, mgt_isa_available(MGT_ISA_AVX512) ? query_lanes_16 : NULL};
+        for (int i = 0; i < 2; i++)
+            if (wide[i]) {
+                memset(&got, 0, sizeof got);
+                wide[i](&taken, water.level, points, POINTS, &b);
+                assert_memory_equal(&got, &expected, sizeof got);
+            }
+#endif
+    }
+}
+
+typedef struct asker {
+    const mgt_water *water;
+    const double *points;
+    answer_set got;
+    mgt_status status;
+} asker;
+
+static void *run_asker(void *user)
+{
+    asker *self = user;
+    mgt_water_answers a = ask(&self->got);
+    self->status = mgt_water_query(self->water, 7.5, self->points, POINTS, &a);
+    return NULL;
+}
+
+/* The same to the bit from eight threads at once, and one point at a time. */
+static void threads_agree(void **state)
+{
+    (void)state;
+    enum { THREADS = 8 };
+    static double points[2 * POINTS];
+    static asker askers[THREADS];
+    static answer_set alone;
+    pthread_t threads[THREADS];
+    mgt_wave waves[WAVES];
+    const mgt_water water = sea(waves);
+    scatter(points);
+    for (int i = 0; i < THREADS; i++) {
+        askers[i].water = &water;
+        askers[i].points = points;
+        assert_int_equal(pthread_create(&threads[i], NULL, run_asker, &askers[i]), 0);
+    }
+    for (int i = 0; i < THREADS; i++) {
+        pthread_join(threads[i], NULL);
+        assert_int_equal(askers[i].status, MGT_OK);
+        assert_memory_equal(&askers[i].got, &askers[0].got, sizeof alone);
+    }
+    for (int i = 0; i < POINTS; i += 7) {
+        mgt_water_answers a = ask(&alone);
+        assert_int_equal(mgt_water_query(&water, 7.5, points + 2 * i, 1, &a), MGT_OK);
+        assert_true(alone.height[0] == askers[0].got.height[i] && memcmp(alone.normal, askers[0].got.normal + 3 * i, 3 * sizeof(float)) == 0);
+    }
+}
+
+static void expect_refused(const mgt_water *water, double time, const double *points, mgt_water_answers a, mgt_status status, const char *words)
+{
+    double before = -5;
+    a.height = &before;
+    assert_int_equal(mgt_water_query(water, time, points, 1, &a), status);
+    if (!strstr(mgt_last_error(NULL), words))
+        fail_msg("'%s' lacks '%s'", mgt_last_error(NULL), words);
+    assert_true(before == -5);
+}
+
+static void bad_questions_are_refused(void **state)
+{
+    (void)state;
+    mgt_wave waves[WAVES];
+    mgt_water water = sea(waves);
+    mgt_water_answers a;
+    mgt_water_answers_init(&a, sizeof a);
+    const double point[2] = {1, 2};
+    expect_refused(NULL, 0, point, a, MGT_ERROR_ARGUMENT, "the water is NULL");
+    expect_refused(&water, 0, NULL, a, MGT_ERROR_ARGUMENT, "the list of points is NULL");
+    expect_refused(&water, (double)NAN, point, a, MGT_ERROR_ARGUMENT, "the time is nan s");
+    expect_refused(&water, 2e9, point, a, MGT_ERROR_ARGUMENT, "allowed is -1e9 to 1e9");
+    mgt_water_answers wrong = a;
+    wrong.least_wavelength = -1;
+    expect_refused(&water, 0, point, wrong, MGT_ERROR_ARGUMENT, "least_wavelength is -1 m");
+    wrong = a;
+    wrong.exact = 2;
+    expect_refused(&water, 0, point, wrong, MGT_ERROR_ARGUMENT, "exact is 2");
+    wrong = a;
+    wrong.struct_size = 3;
+    expect_refused(&water, 0, point, wrong, MGT_ERROR_ARGUMENT, "struct_size is 3");
+    waves[3].kx = (double)NAN;
+    expect_refused(&water, 0, point, a, MGT_ERROR_SCENE, "water.waves[3].kx is nan");
+    waves[3].kx = 0;
+    water.level = (double)INFINITY;
+    expect_refused(&water, 0, point, a, MGT_ERROR_SCENE, "water.level is inf");
+    assert_int_equal(mgt_water_query(&water, 0, point, 1, NULL), MGT_ERROR_ARGUMENT);
+}
+
+static void what_is_not_finite_gets_nan(void **state)
+{
+    (void)state;
+    mgt_wave waves[WAVES];
+    mgt_water water = sea(waves);
+    const double points[] = {1, 2, (double)NAN, 0, 3, (double)INFINITY, 5, 6};
+    double height[4];
+    for (uint32_t exact = 0; exact < 2; exact++) {
+        mgt_water_answers a;
+        mgt_water_answers_init(&a, sizeof a);
+        a.height = height;
+        a.exact = exact;
+        assert_int_equal(mgt_water_query(&water, 0, points, 4, &a), MGT_OK);
+        assert_true(isfinite(height[0]) && isnan(height[1]) && isnan(height[2]) && isfinite(height[3]));
+        water.wave_count = 0;
+        assert_int_equal(mgt_water_query(&water, 0, points, 1, &a), MGT_OK);
+        assert_true(height[0] == water.level);
+        assert_int_equal(mgt_water_query(&water, 0, points + 2, 1, &a), MGT_OK);
+        assert_true(isnan(height[0]));
+        water.wave_count = WAVES;
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(sums_are_exact), cmocka_unit_test(short_waves_are_a_covariance), cmocka_unit_test(lanes_agree),
+        cmocka_unit_test(threads_agree),  cmocka_unit_test(bad_questions_are_refused),    cmocka_unit_test(what_is_not_finite_gets_nan),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
