@@ -22,7 +22,7 @@ int host_gl_main(int argc, char **argv);
 #include "host_gl.c"
 #undef main
 
-enum { WIDTH = MGT_SANITIZED ? 160 : 320, HEIGHT = MGT_SANITIZED ? 90 : 180, CONVENTIONS = 3 };
+enum { WIDTH = 320, HEIGHT = 180, CONVENTIONS = 3 };
 static const double test_time = 3.7;
 
 typedef struct picture {
