@@ -33,6 +33,13 @@ MGT_API void mgt_water_answers_init(mgt_water_answers *answers, size_t size);
  * words, and nothing has been written. */
 MGT_API mgt_status mgt_water_query(const mgt_water *water, double time, const double *points, size_t count, mgt_water_answers *answers);
 
+/* Where rays first meet the surface, from above or from below. `rays` are `count` origins and directions, x y z and x y z in metres; origins within ±1e9, and
+ * directions of any length but 0. `distance` gets `count` numbers: multiples of the direction, at most `reach` (0 … 1e9); +infinity where the water is not met
+ * by then; NaN where a ray is not finite, has no direction, or has not come to an end after 100,000 looks at the water, as one that follows the
+ * surface may. No crest is stepped over: a hit is the first one. It lies within 1e-9 m of the surface, or within 1e-9 of the way to it.
+ * Threads and errors as for mgt_water_query(). */
+MGT_API mgt_status mgt_water_trace(const mgt_water *water, double time, const double *rays, size_t count, double reach, double *distance);
+
 #ifdef __cplusplus
 }
 #endif

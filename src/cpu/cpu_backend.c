@@ -88,20 +88,20 @@ static mgt_isa best_isa(void)
     return MGT_ISA_SCALAR;
 }
 
-query_function *query_lanes(void)
+query_functions query_lanes(void)
 {
     switch (best_isa()) {
 #if defined(__x86_64__)
     case MGT_ISA_AVX512:
-        return query_lanes_16;
+        return (query_functions){query_lanes_16, trace_lanes_16};
     case MGT_ISA_AVX2:
-        return query_lanes_8;
+        return (query_functions){query_lanes_8, trace_lanes_8};
 #endif
     case MGT_ISA_SSE2:
     case MGT_ISA_NEON:
-        return query_lanes_4;
+        return (query_functions){query_lanes_4, trace_lanes_4};
     default:
-        return query_lanes_1;
+        return (query_functions){query_lanes_1, trace_lanes_1};
     }
 }
 

@@ -204,3 +204,111 @@ void JOIN(query_lanes_, MGT_LANES)(const water_terms *terms, double level, const
             write_point(&g, lane, level, first + (size_t)lane, answers);
     }
 }
+
+/* ---- rays ---- */
+
+/* A ray on its way to the surface. All that bounds the surface along it is in metres per unit of `along`. */
+typedef struct traced_ray {
+    double origin[3], direction[3]; /* the origin's height is over the mean surface */
+    double side;                    /* 1 from above, −1 from below, 0 before the first look */
+    double closing, bend;           /* most that the gap shrinks by, and that this rate grows by */
+    double along, speed;            /* metres a unit of `along` */
+    bool arrived;
+} traced_ray;
+
+/* Starts where the ray enters the slab that holds the surface. */
+static traced_ray ray_start(const water_terms *w, double level, const double *ray, double crest, double reach)
+{
+    traced_ray r = {.origin = {ray[0], ray[1] - level, ray[2]}, .direction = {ray[3], ray[4], ray[5]}, .bend = 1e-12};
+    double length = 0, finite = 0;
+    for (int c = 0; c < 3; c++) {
+        length += r.direction[c] * r.direction[c];
+        finite += 0 * (r.origin[c] + r.direction[c]);
+    }
+    if (!(length > 0) || finite != 0 || !(length < 1e300)) {
+        r.along = __builtin_nan("");
+        r.arrived = true;
+        return r;
+    }
+    r.speed = __builtin_sqrt(length);
+    double slope = 0;
+    for (int i = 0; i < w->count; i++) {
+        const double turns = w->along_x[i] * r.direction[0] + w->along_z[i] * r.direction[2], radians = 6.28318530717958647692 * turns;
+        slope += __builtin_fabs(w->up[i] * radians);
+        r.bend += w->up[i] * radians * radians;
+    }
+    r.closing = slope + __builtin_fabs(r.direction[1]) + 1e-12 * r.speed;
+    const double above = __builtin_fabs(r.origin[1]) - crest;
+    if (above > 0) {
+        const double toward = r.origin[1] > 0 ? -r.direction[1] : r.direction[1];
+        r.along = toward > 0 ? above / toward : __builtin_inf();
+        r.arrived = !(r.along <= reach);
+        if (r.arrived)
+            r.along = __builtin_inf();
+    }
+    return r;
+}
+
+/* A step that jumps over no crest; near the surface it becomes Newton's. As search_step() in search_step.k. */
+static double ray_step(const traced_ray *r, double gap, double closing)
+{
+    const double root = __builtin_sqrt(closing * closing + 2 * r->bend * gap), spare = r->closing - closing;
+    if (root > r->closing)
+        return gap / r->closing + spare * spare / (2 * r->closing * r->bend);
+    return closing > 0 ? 2 * gap / (root + closing) : (root - closing) / r->bend;
+}
+
+static void ray_advance(traced_ray *r, double height, double slope_x, double slope_z, double crest, double reach)
+{
+    double gap = r->origin[1] + r->direction[1] * r->along - height;
+    if (r->side == 0)
+        r->side = gap >= 0 ? 1 : -1;
+    gap = gap * r->side > 0 ? gap * r->side : 0;
+    const double closing = r->side * (slope_x * r->direction[0] + slope_z * r->direction[2] - r->direction[1]);
+    const double step = ray_step(r, gap, closing), out = r->side * (r->origin[1] + r->direction[1] * r->along);
+    if (gap <= 1e-9 || step <= 1e-9 * (r->along + 1 / r->speed)) {
+        r->arrived = true;
+        r->along += closing > 0 ? gap / closing < step ? gap / closing : step : 0;
+        return;
+    }
+    r->along += step;
+    const bool leaves = out > crest && r->side * r->direction[1] >= 0;
+    if (r->along > reach || leaves) {
+        r->along = __builtin_inf();
+        r->arrived = true;
+    }
+}
+
+void JOIN(trace_lanes_, MGT_LANES)(const water_terms *terms, double level, const double *rays, size_t count, double reach, double *distance)
+{
+    enum { MOST_LOOKS = 100000 };
+    double crest = 1e-9;
+    for (int i = 0; i < terms->count; i++)
+        crest += terms->up[i];
+    for (size_t first = 0; first < count; first += MGT_LANES) {
+        traced_ray r[MGT_LANES];
+        query_group g;
+        int travelling = 0;
+        for (int lane = 0; lane < MGT_LANES; lane++) {
+            const size_t i = first + (size_t)lane < count ? first + (size_t)lane : count - 1;
+            r[lane] = ray_start(terms, level, rays + 6 * i, crest, reach);
+            travelling += !r[lane].arrived;
+        }
+        for (int look = 0; look < MOST_LOOKS && travelling > 0; look++) {
+            for (int lane = 0; lane < MGT_LANES; lane++) {
+                const double along = r[lane].arrived ? 0 : r[lane].along;
+                g.x[lane] = r[lane].origin[0] + r[lane].direction[0] * along;
+                g.z[lane] = r[lane].origin[2] + r[lane].direction[2] * along;
+            }
+            sum_double(terms, &g);
+            travelling = 0;
+            for (int lane = 0; lane < MGT_LANES; lane++) {
+                if (!r[lane].arrived)
+                    ray_advance(&r[lane], g.height[lane], g.slope_x[lane], g.slope_z[lane], crest, reach);
+                travelling += !r[lane].arrived;
+            }
+        }
+        for (int lane = 0; lane < MGT_LANES && first + (size_t)lane < count; lane++)
+            distance[first + (size_t)lane] = r[lane].arrived ? r[lane].along : __builtin_nan("");
+    }
+}

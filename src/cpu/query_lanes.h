@@ -10,10 +10,19 @@
 /* `points` as mgt_water_query() gets them; `level` metres. */
 typedef void query_function(const water_terms *terms, double level, const double *points, size_t count, const mgt_water_answers *answers);
 
+/* `rays` and `distance` as mgt_water_trace() gets them. */
+typedef void trace_function(const water_terms *terms, double level, const double *rays, size_t count, double reach, double *distance);
+
 /* One a lane width, in query_lanes.c. */
 extern query_function query_lanes_1, query_lanes_4, query_lanes_8, query_lanes_16;
+extern trace_function trace_lanes_1, trace_lanes_4, trace_lanes_8, trace_lanes_16;
 
 /* For the widest lanes that this processor has. */
-query_function *query_lanes(void);
+typedef struct query_functions {
+    query_function *query;
+    trace_function *trace;
+} query_functions;
+
+query_functions query_lanes(void);
 
 #endif

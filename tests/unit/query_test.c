@@ -19,7 +19,7 @@
 
 enum { WAVES = 64, POINTS = 5003 };
 
-static const double reach = 1e4; /* metres */
+static const double farthest = 1e4; /* metres */
 
 static double random_unit(uint64_t *state)
 {
@@ -46,7 +46,7 @@ static void scatter(double points[2 * POINTS])
 {
     uint64_t state = 11;
     for (int i = 0; i < 2 * POINTS; i++)
-        points[i] = reach * (2 * random_unit(&state) - 1);
+        points[i] = farthest * (2 * random_unit(&state) - 1);
 }
 
 typedef struct truth {
@@ -220,6 +220,130 @@ static void threads_agree(void **state)
     }
 }
 
+/* The first change of sides, looked for in small steps. */
+static double first_crossing(const mgt_water *water, double time, const double ray[6], double reach, double step)
+{
+    double before = 0, gap_before = 0;
+    for (double along = 0; along <= reach; along += step) {
+        const double gap = ray[1] + along * ray[4] - (double)truth_at(water, time, ray[0] + along * ray[3], ray[2] + along * ray[5], 0).height;
+        if (along > 0 && (gap > 0) != (gap_before > 0)) {
+            double low = before, high = along;
+            for (int i = 0; i < 60; i++) {
+                const double middle = 0.5 * (low + high), x = ray[0] + middle * ray[3], z = ray[2] + middle * ray[5];
+                const double there = ray[1] + middle * ray[4] - (double)truth_at(water, time, x, z, 0).height;
+                if ((there > 0) == (gap_before > 0))
+                    low = middle;
+                else
+                    high = middle;
+            }
+            return low;
+        }
+        before = along;
+        gap_before = gap;
+    }
+    return (double)INFINITY;
+}
+
+static void rays_meet_the_first_crest(void **state)
+{
+    (void)state;
+    enum { RAYS = 240 };
+    mgt_wave waves[WAVES];
+    const mgt_water water = sea(waves);
+    uint64_t lot = 9;
+    static double rays[6 * RAYS], distance[RAYS];
+    for (int i = 0; i < RAYS; i++) {
+        double *r = rays + 6 * i;
+        const double heading = 2 * M_PI * random_unit(&lot), fall = pow(10, -2 * random_unit(&lot)), length = 0.2 + 2 * random_unit(&lot);
+        const bool under = i % 3 == 2;
+        r[0] = farthest * random_unit(&lot), r[2] = farthest * random_unit(&lot);
+        r[1] = water.level + (under ? -1 : 1) * (0.5 + 4 * random_unit(&lot));
+        r[3] = length * cos(heading), r[4] = length * fall * (under ? 1 : -1), r[5] = length * sin(heading);
+    }
+    assert_int_equal(mgt_water_trace(&water, 3.5, rays, RAYS, 40, distance), MGT_OK);
+    int hits = 0;
+    double worst = 0;
+    for (int i = 0; i < RAYS; i++) {
+        const double expected = first_crossing(&water, 3.5, rays + 6 * i, 40, 0.01);
+        if (isinf(expected) || isinf(distance[i])) {
+            assert_true(expected == distance[i]);
+            continue;
+        }
+        hits++;
+        worst = fmax(worst, fabs(distance[i] - expected));
+    }
+    print_message("  %d of %d rays meet the water, off by %.1e at most\n", hits, RAYS, worst);
+    assert_true(hits > RAYS / 2 && hits < RAYS && worst <= 1e-6);
+}
+
+static void odd_rays_end(void **state)
+{
+    (void)state;
+    mgt_wave waves[WAVES];
+    const mgt_water water = sea(waves);
+    const double rays[] = {0,
+                           100,
+                           0,
+                           0,
+                           -1,
+                           0,
+                           0,
+                           100,
+                           0,
+                           0,
+                           1,
+                           0,
+                           0,
+                           100,
+                           0,
+                           1,
+                           0,
+                           0,
+                           0,
+                           -100,
+                           0,
+                           0,
+                           2,
+                           0,
+                           0,
+                           100,
+                           0,
+                           0,
+                           0,
+                           0,
+                           (double)NAN,
+                           1,
+                           0,
+                           0,
+                           -1,
+                           0,
+                           0,
+                           100,
+                           0,
+                           0,
+                           (double)-INFINITY,
+                           0,
+                           0,
+                           100,
+                           0,
+                           1e-9,
+                           -1e-9,
+                           0};
+    double distance[8];
+    assert_int_equal(mgt_water_trace(&water, 0, rays, 8, 1e9, distance), MGT_OK);
+    assert_true(fabs(distance[0] - (100 - 12.5)) < 6 && isinf(distance[1]) && isinf(distance[2]) && fabs(distance[3] - 56.25) < 3);
+    assert_true(isnan(distance[4]) && isnan(distance[5]) && isnan(distance[6]) && isinf(distance[7]));
+    assert_int_equal(mgt_water_trace(&water, 0, rays, 1, 10, distance), MGT_OK);
+    assert_true(isinf(distance[0]));
+    const mgt_water flat = {.level = 2, .index_of_refraction = 1.333};
+    assert_int_equal(mgt_water_trace(&flat, 0, rays, 1, 1000, distance), MGT_OK);
+    assert_true(fabs(distance[0] - 98) < 1e-6);
+    assert_int_equal(mgt_water_trace(&flat, 0, rays, 1, -1, distance), MGT_ERROR_ARGUMENT);
+    assert_non_null(strstr(mgt_last_error(NULL), "reach is -1"));
+    assert_int_equal(mgt_water_trace(&flat, 0, NULL, 1, 1, distance), MGT_ERROR_ARGUMENT);
+    assert_int_equal(mgt_water_trace(NULL, 0, rays, 1, 1, distance), MGT_ERROR_ARGUMENT);
+}
+
 static void expect_refused(const mgt_water *water, double time, const double *points, mgt_water_answers a, mgt_status status, const char *words)
 {
     double before = -5;
@@ -285,8 +409,14 @@ static void what_is_not_finite_gets_nan(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sums_are_exact), cmocka_unit_test(short_waves_are_a_covariance), cmocka_unit_test(lanes_agree),
-        cmocka_unit_test(threads_agree),  cmocka_unit_test(bad_questions_are_refused),    cmocka_unit_test(what_is_not_finite_gets_nan),
+        cmocka_unit_test(sums_are_exact),
+        cmocka_unit_test(short_waves_are_a_covariance),
+        cmocka_unit_test(lanes_agree),
+        cmocka_unit_test(threads_agree),
+        cmocka_unit_test(rays_meet_the_first_crest),
+        cmocka_unit_test(odd_rays_end),
+        cmocka_unit_test(bad_questions_are_refused),
+        cmocka_unit_test(what_is_not_finite_gets_nan),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
