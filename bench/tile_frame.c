@@ -9,7 +9,7 @@ tile_frame *tile_frame_create(const mgt_scene *scene)
     tile_frame *f = calloc(1, sizeof *f);
     if (!f)
         return NULL;
-    f->sky = calloc(1, sizeof *f->sky);
+    f->sky = sky_state_create();
     f->waves = calloc(1, sizeof *f->waves);
     if (!f->sky || !f->waves || sky_state_build(f->sky, &scene->sky, &scene->light) != MGT_OK) {
         tile_frame_free(f);
@@ -26,7 +26,7 @@ void tile_frame_free(tile_frame *f)
 {
     if (!f)
         return;
-    free(f->sky);
+    sky_state_destroy(f->sky);
     free(f->waves);
     free(f);
 }
