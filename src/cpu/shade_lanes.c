@@ -20,12 +20,21 @@ typedef struct texture_color {
     float rgb[3];
 } texture_color;
 
-static texture_color texel_of(const shade_scene *s, const mgt_texture *t, uint32_t level, int64_t x, int64_t y)
+/* Two texels side by side in a texture that repeats: `first` may lie outside of [0, size). */
+typedef struct texel_pair {
+    size_t at[2];
+} texel_pair;
+
+static texel_pair repeated(int64_t first, uint32_t size)
 {
-    const int64_t width = t->width >> level ? t->width >> level : 1, height = t->height >> level ? t->height >> level : 1;
-    const int64_t column = x % width, row = y % height;
-    const size_t at = (size_t)(row < 0 ? row + height : row) * (size_t)width + (size_t)(column < 0 ? column + width : column);
-    const uint32_t rgba = t->texels[t->level_start[level] + at];
+    const bool power = (size & (size - 1)) == 0;
+    const int64_t part = power ? first & (int64_t)(size - 1) : first % (int64_t)size;
+    const size_t at = (size_t)(part < 0 ? part + (int64_t)size : part);
+    return (texel_pair){{at, at + 1 < size ? at + 1 : 0}};
+}
+
+static texture_color linear_of(const shade_scene *s, uint32_t rgba)
+{
     return (texture_color){{s->linear[rgba & 255], s->linear[rgba >> 8 & 255], s->linear[rgba >> 16 & 255]}};
 }
 
@@ -39,12 +48,16 @@ static texture_color blend(texture_color a, texture_color b, float share)
 
 static texture_color bilinear(const shade_scene *s, const mgt_texture *t, uint32_t level, float u, float v)
 {
-    const double width = t->width >> level ? t->width >> level : 1, height = t->height >> level ? t->height >> level : 1;
+    const uint32_t width = t->width >> level ? t->width >> level : 1, height = t->height >> level ? t->height >> level : 1;
     const double x = (double)u * width - 0.5, y = (double)v * height - 0.5, column = floor(x), row = floor(y);
-    const int64_t i = (int64_t)column, j = (int64_t)row;
+    const texel_pair columns = repeated((int64_t)column, width), rows = repeated((int64_t)row, height);
     const float right = (float)(x - column), down = (float)(y - row);
-    return blend(blend(texel_of(s, t, level, i, j), texel_of(s, t, level, i + 1, j), right),
-                 blend(texel_of(s, t, level, i, j + 1), texel_of(s, t, level, i + 1, j + 1), right), down);
+    texture_color mean[2];
+    for (int j = 0; j < 2; j++) {
+        const uint32_t *texels = t->texels + t->level_start[level] + rows.at[j] * width;
+        mean[j] = blend(linear_of(s, texels[columns.at[0]]), linear_of(s, texels[columns.at[1]]), right);
+    }
+    return blend(mean[0], mean[1], down);
 }
 
 static texture_color trilinear(const shade_scene *s, const mgt_texture *t, float u, float v, float level)
