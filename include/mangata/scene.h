@@ -68,6 +68,7 @@ typedef struct mgt_water {
     float absorption[3];        /* absorption coefficient, 1/metre, linear sRGB, [0, 1000] */
     float scattering[3];        /* scattering coefficient, 1/metre, linear sRGB, [0, 1000] */
     float body_albedo[3];       /* fraction of the light entering deep water that it sends up again, linear sRGB, [0, 1]; not with a black sky */
+    float choppiness;           /* [0, 1]: how far waves shift the water to their crests, over what trochoidal waves do; 0: waves are sines */
 } mgt_water;
 
 typedef enum mgt_tone_map { MGT_TONE_NONE = 0, MGT_TONE_REINHARD, MGT_TONE_ACES, MGT_TONE_AGX } mgt_tone_map;

@@ -26,6 +26,8 @@ static void add_point(const leaf *l, double shift, int index, uint32_t owner, po
     s->close_estimate->height[i] = s->open_estimate->height[pixel];
     s->close_estimate->from[i] = s->open_estimate->from[pixel];
     s->close_estimate->search[i] = s->open_estimate->search[pixel];
+    s->close_estimate->shift_x[i] = s->open_estimate->shift_x[pixel];
+    s->close_estimate->shift_z[i] = s->open_estimate->shift_z[pixel];
 }
 
 /* What is summed of a leaf's points: colour, coverage, water and the square of the luminance. */

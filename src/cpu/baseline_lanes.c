@@ -70,7 +70,8 @@ KERNEL vec3 LEAN_SQUARE(CTX cx, real level, real column, real row)
 
 static inline HitEstimate load_estimate(const tile_estimate *estimate, size_t i)
 {
-    return (HitEstimate){load(estimate->height + i), load(estimate->from + i), load(estimate->search + i), vec2(real(0.0f), real(0.0f))};
+    const vec2 shift = vec2(load(estimate->shift_x + i), load(estimate->shift_z + i));
+    return (HitEstimate){load(estimate->height + i), load(estimate->from + i), load(estimate->search + i), vec2(real(0.0f), real(0.0f)), shift};
 }
 
 static inline void store_result(tile_pixels *out, size_t i, PixelResult p)
@@ -165,7 +166,8 @@ static inline real gather(const float *plane, const uint16_t *list)
 
 static inline HitEstimate gather_estimate(const tile_estimate *estimate, const uint16_t *list)
 {
-    return (HitEstimate){gather(estimate->height, list), gather(estimate->from, list), gather(estimate->search, list), vec2(real(0.0f), real(0.0f))};
+    const vec2 shift = vec2(gather(estimate->shift_x, list), gather(estimate->shift_z, list));
+    return (HitEstimate){gather(estimate->height, list), gather(estimate->from, list), gather(estimate->search, list), vec2(real(0.0f), real(0.0f)), shift};
 }
 
 static void lanes_temporal(const method_tile *t, temporal_rays *rays)

@@ -32,7 +32,7 @@ static SlopeState slopes_of(const struct kernel_context *cx, const tile_estimate
 {
     const tile_estimate *estimate = rows + at.row / TILE_HEIGHT;
     const size_t i = at.row % TILE_HEIGHT * TILE_WIDTH + at.column;
-    HitEstimate from = {estimate->height[i], estimate->from[i], estimate->search[i], {0, 0}};
+    HitEstimate from = {estimate->height[i], estimate->from[i], estimate->search[i], {0, 0}, {estimate->shift_x[i], estimate->shift_z[i]}};
     if (cx->tile->grazing != 0)
         from.slope = (vec2){estimate->slope_x[i], estimate->slope_z[i]};
     return slope_state(cx, pixel_ray_filtered(cx, (float)at.column, (float)at.row).ray, from);

@@ -47,11 +47,13 @@ KERNEL real SHARE_TEXEL(CTX cx, real r, real slice) { return gather_floats(cx->p
 /* Keeps the hits of lanes. */
 KERNEL void HIT_FOUND(CTX cx, real column, real row, HitEstimate hit, mask where)
 {
-    float at[MGT_LANES], height[MGT_LANES], slope_x[MGT_LANES], slope_z[MGT_LANES];
+    float at[MGT_LANES], height[MGT_LANES], slope_x[MGT_LANES], slope_z[MGT_LANES], shift_x[MGT_LANES], shift_z[MGT_LANES];
     store(at, real_select(where, real_fma(row, real_broadcast(TILE_WIDTH), column), real_broadcast(-1.0f)));
     store(height, hit.height);
     store(slope_x, hit.slope.x);
     store(slope_z, hit.slope.y);
+    store(shift_x, hit.shift.x);
+    store(shift_z, hit.shift.y);
     for (int i = 0; i < MGT_LANES; i++) {
         if (at[i] < 0)
             continue;
@@ -60,6 +62,8 @@ KERNEL void HIT_FOUND(CTX cx, real column, real row, HitEstimate hit, mask where
         rows->height[place % TILE_PIXELS] = height[i];
         rows->slope_x[place % TILE_PIXELS] = slope_x[i];
         rows->slope_z[place % TILE_PIXELS] = slope_z[i];
+        rows->shift_x[place % TILE_PIXELS] = shift_x[i];
+        rows->shift_z[place % TILE_PIXELS] = shift_z[i];
     }
 }
 
@@ -73,7 +77,8 @@ KERNEL void HIT_FOUND(CTX cx, real column, real row, HitEstimate hit, mask where
 
 static inline HitEstimate load_estimate(const tile_estimate *estimate, size_t i)
 {
-    return (HitEstimate){load(estimate->height + i), load(estimate->from + i), load(estimate->search + i), vec2(real(0.0f), real(0.0f))};
+    const vec2 shift = vec2(load(estimate->shift_x + i), load(estimate->shift_z + i));
+    return (HitEstimate){load(estimate->height + i), load(estimate->from + i), load(estimate->search + i), vec2(real(0.0f), real(0.0f)), shift};
 }
 
 static inline HitEstimate load_hit(const struct kernel_context *cx, const tile_estimate *estimate, size_t i)
@@ -183,6 +188,7 @@ typedef struct tile_nodes {
     float ray_x[NODE_PADDED], ray_y[NODE_PADDED], ray_z[NODE_PADDED];
     float along[NODE_PADDED], found[NODE_PADDED];
     float level[NODE_PADDED], slope_x[NODE_PADDED], slope_z[NODE_PADDED], height[NODE_PADDED];
+    float shift_x[NODE_PADDED], shift_z[NODE_PADDED];
 } tile_nodes;
 
 static void search_nodes(const struct kernel_context *cx, tile_nodes *nodes)
@@ -204,6 +210,8 @@ static void search_nodes(const struct kernel_context *cx, tile_nodes *nodes)
         store(nodes->slope_x + i, n.plane.slope_x);
         store(nodes->slope_z + i, n.plane.slope_z);
         store(nodes->height + i, n.plane.height);
+        store(nodes->shift_x + i, n.shift.x);
+        store(nodes->shift_z + i, n.shift.y);
     }
 }
 
@@ -301,6 +309,26 @@ static void estimate_heights(const struct kernel_context *cx, const tile_nodes *
     }
 }
 
+/* Of choppy water: the shifts of nodes, `from`, between them. */
+static void spread_shifts(const struct kernel_context *cx, const float *from, float *to)
+{
+    for (int y = 0; y < TILE_HEIGHT; y++) {
+        const real v = real((float)(y % NODE_STEP_Y) / NODE_STEP_Y);
+        for (int x = 0; x < TILE_WIDTH; x += MGT_LANES) {
+            float corner[4][MGT_LANES], u[MGT_LANES];
+            for (int i = 0; i < MGT_LANES; i++) {
+                const float *at = from + y / NODE_STEP_Y * NODE_COLUMNS + (x + i) / NODE_STEP_X;
+                corner[0][i] = at[0];
+                corner[1][i] = at[1];
+                corner[2][i] = at[NODE_COLUMNS];
+                corner[3][i] = at[NODE_COLUMNS + 1];
+                u[i] = (float)((x + i) % NODE_STEP_X) / NODE_STEP_X;
+            }
+            store(to + y * TILE_WIDTH + x, lattice_shift(cx, load(corner[0]), load(corner[1]), load(corner[2]), load(corner[3]), load(u), v));
+        }
+    }
+}
+
 /* Every hit of every pixel, from the lowest row up. */
 static void search_columns(const struct kernel_context *cx, tile_estimate *estimate)
 {
@@ -333,8 +361,13 @@ static void lanes_estimate(const FrameData *frame, const tile_waves *tile, tile_
         const int cell = i / TILE_WIDTH / NODE_STEP_Y * CELL_COLUMNS + i % TILE_WIDTH / NODE_STEP_X;
         estimate->search[i] = doubt[cell];
         estimate->from[i] = from[cell];
+        estimate->shift_x[i] = estimate->shift_z[i] = 0;
     }
     estimate_heights(&cx, &nodes, estimate);
+    if (tile->data.choppy) {
+        spread_shifts(&cx, nodes.shift_x, estimate->shift_x);
+        spread_shifts(&cx, nodes.shift_z, estimate->shift_z);
+    }
 }
 
 /* ---- methods ---- */
@@ -411,7 +444,7 @@ typedef struct tile_looks {
     tile_places places;
     float surface[SURFACE_FLOATS][TILE_PIXELS];
     float along[TILE_PIXELS], correction[TILE_PIXELS], lost[TILE_PIXELS], again[TILE_PIXELS];
-    float slope_x[TILE_PIXELS], slope_z[TILE_PIXELS]; /* see HitEstimate */
+    float slope_x[TILE_PIXELS], slope_z[TILE_PIXELS], shift_x[TILE_PIXELS], shift_z[TILE_PIXELS]; /* see HitEstimate */
     uint16_t list[TILE_PIXELS + MGT_LANES];
 } tile_looks;
 
@@ -472,6 +505,8 @@ static void search_doubtful(const struct kernel_context *cx, const tile_estimate
         scatter(l->along, list, SELECT(found, hit.along, gather(l->along, list)));
         scatter(l->slope_x, list, SELECT(found, hit.slope.x, gather(l->slope_x, list)));
         scatter(l->slope_z, list, SELECT(found, hit.slope.y, gather(l->slope_z, list)));
+        scatter(l->shift_x, list, SELECT(found, hit.shift.x, gather(l->shift_x, list)));
+        scatter(l->shift_z, list, SELECT(found, hit.shift.y, gather(l->shift_z, list)));
     }
 }
 
@@ -484,6 +519,8 @@ static void search_lost(const struct kernel_context *cx, const tile_estimate *es
         const mask found = hit.found > real(0.0f);
         scatter(l->correction, list, SELECT(found, hit.along - gather(l->along, list), gather(l->correction, list)));
         scatter(l->again, list, SELECT(found, real(1.0f), gather(l->again, list)));
+        scatter(l->shift_x, list, SELECT(found, hit.shift.x, gather(l->shift_x, list)));
+        scatter(l->shift_z, list, SELECT(found, hit.shift.y, gather(l->shift_z, list)));
     }
 }
 
@@ -493,7 +530,8 @@ static void look_again(const struct kernel_context *cx, tile_looks *l)
     for (size_t v = 0; v < vectors; v++) {
         const uint16_t *list = l->list + v * MGT_LANES;
         const real along = gather(l->along, list) + gather(l->correction, list);
-        const Surface s = surface_along(cx, listed_ray(cx, &l->places, list), along, vec2(gather(l->slope_x, list), gather(l->slope_z, list)));
+        const vec2 slope = vec2(gather(l->slope_x, list), gather(l->slope_z, list)), shift = vec2(gather(l->shift_x, list), gather(l->shift_z, list));
+        const Surface s = surface_along(cx, listed_ray(cx, &l->places, list), along, slope, shift);
         const real *members = (const real *)&s;
         scatter(l->along, list, along);
         for (int m = 0; m < SURFACE_FLOATS; m++)
@@ -509,6 +547,8 @@ static void look_at_tile(const struct kernel_context *cx, const tile_estimate *e
         store(l->along + i, estimated_along(cx, pixel_rays(cx, &l->places, i).ray, e));
         store(l->slope_x + i, e.slope.x);
         store(l->slope_z + i, e.slope.y);
+        store(l->shift_x + i, e.shift.x);
+        store(l->shift_z + i, e.shift.y);
         store(l->lost + i, SELECT(load(wanted + i) > real(0.0f), load(estimate->search + i), real(0.0f)));
     }
     search_doubtful(cx, estimate, l);
@@ -519,7 +559,10 @@ static void look_at_tile(const struct kernel_context *cx, const tile_estimate *e
         if (!any_lane(water))
             continue;
         const vec2 slope = vec2(load(l->slope_x + i), load(l->slope_z + i));
-        const SurfaceLook look = look_at_estimate(cx, pixel_rays(cx, &l->places, i).ray, load(l->along + i), slope);
+        const vec2 shift = vec2(load(l->shift_x + i), load(l->shift_z + i));
+        const SurfaceLook look = look_at_estimate(cx, pixel_rays(cx, &l->places, i).ray, load(l->along + i), slope, shift);
+        store(l->shift_x + i, look.surface.shift.x);
+        store(l->shift_z + i, look.surface.shift.y);
         const real *members = (const real *)&look.surface;
         for (int m = 0; m < SURFACE_FLOATS; m++)
             store(l->surface[m] + i, members[m]);
@@ -607,14 +650,16 @@ static void lanes_cells(const FrameData *frame, const float *sky, const tile_wav
         cells->estimate.height[count] = cells->estimate.height[count - 1];
         cells->below[count] = cells->below[count - 1];
     }
-    /* In grazing water the parent's hit says nothing of its parts'. */
-    const float searched = close->data.grazing || (open && open->data.grazing) ? 1 : 0;
+    /* In grazing water the parent's hit says nothing of its parts', and in choppy water nothing of where they rest. */
+    const bool grazing = close->data.grazing || (open && open->data.grazing);
+    const float searched = grazing || close->data.choppy ? 1 : 0;
     for (size_t i = 0; i < count; i++) {
         cells->estimate.search[i] = searched;
         cells->estimate.from[i] = 0;
         cells->estimate.slope_x[i] = cells->estimate.slope_z[i] = 0;
+        cells->estimate.shift_x[i] = cells->estimate.shift_z[i] = 0;
     }
-    if (searched > 0)
+    if (grazing)
         place_starts(&cx, count, cells);
     const tile_places places = {cells->column, cells->row, count};
     render_glitter(&cx, cells->light, places, &cells->estimate, open ? &before : NULL, &cells->estimate, &cells->pixels, &cells->detail);

@@ -25,6 +25,7 @@ typedef struct tile_estimate {
     float from[TILE_PIXELS];
     float search[TILE_PIXELS];
     float slope_x[TILE_PIXELS], slope_z[TILE_PIXELS]; /* in grazing water alone */
+    float shift_x[TILE_PIXELS], shift_z[TILE_PIXELS]; /* of choppy water */
 } tile_estimate;
 
 typedef struct tile_pixels {

@@ -19,7 +19,7 @@ void sines_order(const mgt_water *water, uint16_t *order)
     }
 }
 
-static WaveData wave_data(const mgt_wave *w, double half)
+static WaveData wave_data(const mgt_wave *w, double choppiness, double half)
 {
     const double cos_half = cos(w->omega * half), sin_half = sin(w->omega * half);
     const double squared = w->kx * w->kx + w->kz * w->kz, A = w->amplitude;
@@ -47,6 +47,7 @@ static WaveData wave_data(const mgt_wave *w, double half)
         .variance_xx = (float)(A * A / 2 * w->kx * w->kx),
         .variance_xz = (float)(A * A / 2 * w->kx * w->kz),
         .variance_zz = (float)(A * A / 2 * w->kz * w->kz),
+        .shift = squared > 0 ? (float)(choppiness / sqrt(squared)) : 0,
     };
 }
 
@@ -77,7 +78,7 @@ void sines_place(const mgt_water *water, const uint16_t *order, wave_meeting at,
     for (size_t i = water->wave_count; i-- > 0;) { /* from the smallest, for lesser_variance */
         const mgt_wave *w = &water->waves[order[i]];
         SortData s = sort_data(w, at);
-        set->data[i] = wave_data(w, at.half);
+        set->data[i] = wave_data(w, at.turns != 0 ? -(double)water->choppiness : (double)water->choppiness, at.half);
         variance += w->amplitude * w->amplitude / 2;
         slope_variance += w->amplitude * w->amplitude * (w->kx * w->kx + w->kz * w->kz) / 2;
         s.lesser_variance = (float)variance;
@@ -85,6 +86,7 @@ void sines_place(const mgt_water *water, const uint16_t *order, wave_meeting at,
     }
     set->view.displacement = (float)(4 * sqrt(variance));
     set->view.slope_deviation = (float)sqrt(slope_variance);
+    set->view.pressed = (float)sines_pressed(water);
     set->view.wave_count = (int)water->wave_count;
 }
 
@@ -111,7 +113,13 @@ void sines_searched(const mgt_water *water, wave_meeting at, SearchWave *out)
     for (size_t i = 0; i < water->wave_count; i++) {
         const mgt_wave *w = &water->waves[i];
         const double phase = (w->kx * at.x + w->kz * at.z + w->omega * at.middle + w->phase) / turn;
-        out[i] = (SearchWave){(float)(w->kx / turn), (float)(w->kz / turn), (float)(phase - rint(phase)), (float)w->amplitude};
+        const double k = hypot(w->kx, w->kz), shift = k > 0 ? (double)water->choppiness / k : 0;
+        out[i] = (SearchWave){.turns_x = (float)(w->kx / turn),
+                              .turns_z = (float)(w->kz / turn),
+                              .phase = (float)(phase - rint(phase)),
+                              .amplitude = (float)w->amplitude,
+                              .shift_x = (float)(shift * w->kx),
+                              .shift_z = (float)(shift * w->kz)};
     }
 }
 
@@ -133,6 +141,8 @@ double sines_crest(const mgt_water *water) { return seldom_above(water, 0); }
 double sines_steepest(const mgt_water *water) { return seldom_above(water, 1); }
 
 double sines_sharpest(const mgt_water *water) { return seldom_above(water, 2); }
+
+double sines_pressed(const mgt_water *water) { return fmin((double)water->choppiness * sines_steepest(water), 0.9); }
 
 double sines_path_bend(const mgt_water *water, double half)
 {

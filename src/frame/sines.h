@@ -50,6 +50,9 @@ double sines_crest(const mgt_water *water);
 double sines_steepest(const mgt_water *water);
 double sines_sharpest(const mgt_water *water);
 
+/* Share of its area that the shift of choppy water seldom takes from it, at most .9; 0: the waves are sines. */
+double sines_pressed(const mgt_water *water);
+
 /* Root of the sum of the waves' slope variances, each times (1 − cos(omega·half))²: how far the slopes' path over ± half seconds is from a
  * straight one. */
 double sines_path_bend(const mgt_water *water, double half);

@@ -28,6 +28,14 @@
 /* Rows of what mgt_water and the scene format have in common, for a struct with members of these names. */
 #define WATER_BODY_ROWS(type)                                                                                                                  \
     {"level", FIELD_NUMBER, offsetof(type, level), 0, -1e6, 1e6, "m", .doc = "height of the mean surface"},                                    \
+        {"choppiness",                                                                                                                         \
+         FIELD_SHARE,                                                                                                                          \
+         offsetof(type, choppiness),                                                                                                           \
+         0,                                                                                                                                    \
+         0,                                                                                                                                    \
+         1,                                                                                                                                    \
+         NULL,                                                                                                                                 \
+         .doc = "how far waves shift the water to their crests, which sharpens them: 0 sines, 1 trochoids"},                                   \
     {                                                                                                                                          \
         "ior", FIELD_NUMBER, offsetof(type, index_of_refraction), 0, 1, 3, NULL, .doc = "index of refraction", .member = "index_of_refraction" \
     }

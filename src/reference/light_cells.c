@@ -547,7 +547,7 @@ bool light_cells_serve(const reference_frame *frame)
     for (int i = 0; i < reference_lights_count(frame->lights); i++)
         up = up || reference_lights_disk(frame->lights, i, direction, &radius);
     const double lowest = fmin(frame->view.position[1], frame->view_open.position[1]);
-    return up && frame->scene.quality.light_cells > 0 && frame->height_bound < 0.95 * lowest && plane_ahead(frame);
+    return up && frame->scene.quality.light_cells > 0 && frame->choppiness == 0 && frame->height_bound < 0.95 * lowest && plane_ahead(frame);
 }
 
 static void set_lights(cells_job *job)

@@ -98,6 +98,9 @@ mgt_status reference_frame_create(reference_frame **result, const mgt_scene *sce
     frame->height_bound = reference_waves_bound(frame->waves, count, frame->bound_deviations);
     reference_columns_of(frame->waves, frame->wave_count, &frame->columns);
     frame->level_count = reference_levels_of(frame->waves, frame->wave_count, frame->bound_deviations, frame->levels);
+    frame->choppiness = frame->wave_count > 0 ? (double)scene->water.choppiness : 0;
+    reference_columns_shift(frame->waves, frame->wave_count, frame->choppiness, &frame->columns);
+    choppy_levels_of(frame->waves, frame->choppiness, frame->bound_deviations, frame->levels, frame->level_count, frame->choppy);
     set_sample_range(frame, &scene->quality);
     frame->light_cells = light_cells_serve(frame);
     *result = frame;
@@ -115,6 +118,8 @@ void reference_frame_mirror(reference_frame *frame)
 {
     reference_waves_mirror(frame->waves, frame->wave_count);
     reference_columns_of(frame->waves, frame->wave_count, &frame->columns);
+    frame->choppiness = -frame->choppiness;
+    reference_columns_shift(frame->waves, frame->wave_count, frame->choppiness, &frame->columns);
 }
 
 uint32_t reference_frame_lanes(const reference_frame *frame) { return frame->lanes; }

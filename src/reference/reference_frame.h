@@ -63,6 +63,8 @@ struct reference_frame {
     uint32_t level_count;
     reference_level levels[REFERENCE_LEVELS];
     reference_columns columns;
+    double choppiness; /* below 0 where the surface is turned over; 0: waves are sines */
+    choppy_level choppy[REFERENCE_LEVELS];
     uint32_t wave_count;
     reference_wave waves[];
 };

@@ -133,6 +133,7 @@ static inline reals safe_step(reals f, reals derivative, reals least, reals curv
 }
 
 #include "reference/approach.h"
+#include "reference/choppy.h"
 
 /* What a lane carries from one evaluation to the next. */
 typedef struct search_state {
@@ -273,6 +274,11 @@ void MARCH(const reference_frame *frame, reference_batch *batch, uint32_t count)
         bound_rays(frame, batch, i);
     for (uint32_t i = 0; i < count; i++)
         batch->above[i] = 0;
+    if (frame->choppiness != 0) {
+        for (uint32_t i = 0; i < count; i++)
+            choppy_search(frame, batch, i);
+        return;
+    }
     if (frame->level_count > 1)
         for (uint32_t i = 0; i < count; i += APPROACH_RAYS)
             approach_rays(frame, batch, i, count - i < APPROACH_RAYS ? count : i + APPROACH_RAYS);

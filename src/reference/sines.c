@@ -135,6 +135,53 @@ void reference_columns_of(const reference_wave *waves, uint32_t count, reference
     }
 }
 
+void reference_columns_shift(const reference_wave *waves, uint32_t count, double choppiness, reference_columns *columns)
+{
+    for (uint32_t i = 0; i < count && i < REFERENCE_MOST_WAVES; i++) {
+        const reference_wave *w = &waves[i];
+        const double k = hypot(w->a, w->b), shift = k > 0 ? choppiness / k : 0;
+        columns->height[i] = w->amplitude;
+        columns->shift_a[i] = shift * w->amplitude_a;
+        columns->shift_b[i] = shift * w->amplitude_b;
+        columns->press_aa[i] = shift * w->amplitude_a * w->a;
+        columns->press_ab[i] = shift * w->amplitude_a * w->b;
+        columns->press_bb[i] = shift * w->amplitude_b * w->b;
+    }
+}
+
+/* Of the derivative of this order of the height of waves. */
+static double derivative_bound(const reference_wave *waves, uint32_t count, int order, double deviations)
+{
+    double sum = 0, square = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        const double most = fabs(waves[i].amplitude) * pow(hypot(waves[i].a, waves[i].b), order);
+        sum += most;
+        square += most * most;
+    }
+    return fmin(sum, deviations * sqrt(0.5 * square));
+}
+
+void choppy_levels_of(const reference_wave *waves, double choppiness, double deviations, const reference_level *levels, uint32_t level_count,
+                      choppy_level *out)
+{
+    const uint32_t all = levels[level_count - 1].waves;
+    const double size = fabs(choppiness);
+    for (uint32_t i = 0; i < level_count; i++) {
+        const uint32_t count = levels[i].waves;
+        const double slope = derivative_bound(waves, count, 1, deviations), bend = derivative_bound(waves, count, 2, deviations);
+        /* A step along the curve goes sideways too, by as much as the shift turns. */
+        const double pressed = fmin(size * slope, 0.9), aside = 1 + pressed;
+        out[i] = (choppy_level){.waves = count,
+                                .shift = size * derivative_bound(waves, all, 0, deviations),
+                                .rest = levels[i].rest,
+                                .rest_shift = size * levels[i].rest * slope * aside,
+                                .slope = slope,
+                                .bend = bend * aside * aside * (1 + pressed),
+                                .most_stretch = aside,
+                                .shift_bend = size * bend * aside * aside};
+    }
+}
+
 static double farthest(const double sides[4][2], const reference_wave *wave)
 {
     double most = 0;

@@ -37,7 +37,26 @@ typedef struct reference_columns {
     _Alignas(64) double half_turns_a[REFERENCE_MOST_WAVES], half_turns_b[REFERENCE_MOST_WAVES], half_turns_c[REFERENCE_MOST_WAVES];
     double phase[REFERENCE_MOST_WAVES], amplitude_a[REFERENCE_MOST_WAVES], amplitude_b[REFERENCE_MOST_WAVES];
     float amplitude[REFERENCE_MOST_WAVES];
+    /* Of choppy water: height; shift over the cosine; minus ∂shift/∂place over the sine. */
+    _Alignas(64) double height[REFERENCE_MOST_WAVES], shift_a[REFERENCE_MOST_WAVES], shift_b[REFERENCE_MOST_WAVES];
+    double press_aa[REFERENCE_MOST_WAVES], press_ab[REFERENCE_MOST_WAVES], press_bb[REFERENCE_MOST_WAVES];
 } reference_columns;
+
+/* Choppy water at a place of rest. */
+typedef struct choppy_sums {
+    double height, slope[2], shift[2];
+    double stretch[3]; /* xx, xz, zz of 1 + ∂shift/∂place */
+} choppy_sums;
+
+/* What bounds choppy water along a curve of places of rest, over the longest waves. */
+typedef struct choppy_level {
+    uint32_t waves;
+    double shift;            /* metres: the shift of all waves along a direction */
+    double rest, rest_shift; /* metres: what the other waves add to the height, and what their shift adds by the slope of these */
+    double slope, bend;      /* of the height along the curve */
+    double most_stretch;     /* metres of water for a metre along it */
+    double shift_bend;       /* 1/metre */
+} choppy_level;
 
 /* Fills a wave for each of the scene's, the longest first where levels want it. */
 void reference_waves_of(const mgt_scene *scene, reference_wave *out);
@@ -46,6 +65,13 @@ void reference_waves_of(const mgt_scene *scene, reference_wave *out);
 double reference_waves_bound(const reference_wave *waves, size_t count, double deviations);
 
 void reference_columns_of(const reference_wave *waves, uint32_t count, reference_columns *columns);
+
+/* The columns' shifts. `choppiness`: below 0 for water turned over. */
+void reference_columns_shift(const reference_wave *waves, uint32_t count, double choppiness, reference_columns *columns);
+
+/* Bounds of choppy water with the waves of these levels. */
+void choppy_levels_of(const reference_wave *waves, double choppiness, double deviations, const reference_level *levels, uint32_t level_count,
+                      choppy_level *out);
 
 /* Fills levels, the last one being all waves, and returns how many. */
 uint32_t reference_levels_of(const reference_wave *waves, uint32_t count, double deviations, reference_level levels[REFERENCE_LEVELS]);

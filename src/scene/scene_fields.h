@@ -55,6 +55,7 @@ typedef struct scene_water {
     scene_list sea; /* not of the format: `waves` and then those of a spectrum, times the factor; made by scene_sea_fill() where it is needed */
     double index_of_refraction;
     double level;
+    float choppiness;
     scene_clarity clarity; /* only while it is read: what it says is then in the next two */
     float absorption[3], scattering[3];
     float body_albedo[3];

@@ -57,7 +57,7 @@ static void tokuyoshi_counts_half_vector_steps(void **state)
         for (uint32_t y = 48; y < 90; y += 6) {
             kernel_bench_tile(b, false, false, 80, y);
             const vec3 ray = kernel_bench_ray(b, 80, y), view = scale(normalize(ray), -1.0f);
-            const SampleHit hit = sample_hit(&b->cx, ray, (HitEstimate){0, 0, 1, {0, 0}});
+            const SampleHit hit = sample_hit(&b->cx, ray, (HitEstimate){0, 0, 1, {0, 0}, {0, 0}});
             const Mirror m = mirror_at(&b->cx, view);
             const SlopeGaussian g = tokuyoshi_slopes(&b->cx, ray, hit, m, view);
             const double half = 0.5 * ((double)g.xx + (double)g.zz), gap = 0.5 * ((double)g.xx - (double)g.zz);

@@ -283,7 +283,7 @@ static void unresolved_sea_mirrors_its_probability(void **state)
         for (uint32_t x = 30; x < 130; x += 9) {
             kernel_bench_tile(b, true, true, x, y);
             assert_int_equal(b->tile.data.resolved_count + b->tile.data.mixed_count, 0);
-            const SlopeState s = slope_state(&b->cx, kernel_bench_ray(b, x, y), (HitEstimate){0, 0, 0, {0, 0}});
+            const SlopeState s = slope_state(&b->cx, kernel_bench_ray(b, x, y), (HitEstimate){0, 0, 0, {0, 0}, {0, 0}});
             const double ours = (double)glitter_coverage(&b->cx, s, s);
             /* Brute force: the share of the slopes seen by the eye that mirror the light, over a lattice around the mirror slope. */
             enum { SIDE = 160 };
@@ -326,7 +326,7 @@ static void octaves_are_the_spectrums(void **state)
         const mgt_scene scene = black_scene(WIDTH, HEIGHT, waves, COUNT);
         kernel_bench *b = kernel_bench_create(&scene);
         kernel_bench_tile(b, true, true, 80, 70);
-        const SlopeState s = slope_state(&b->cx, kernel_bench_ray(b, 80, 70), (HitEstimate){0, 0, 0, {0, 0}});
+        const SlopeState s = slope_state(&b->cx, kernel_bench_ray(b, 80, 70), (HitEstimate){0, 0, 0, {0, 0}, {0, 0}});
         worst = fmax(worst, fabs((double)octaves_of(&b->cx, s) - octaves));
         kernel_bench_destroy(b);
     }

@@ -268,7 +268,7 @@ static void first_hits_are_those_of_brute_force(void **state)
         const struct kernel_context cx = {&frame, &tile, {{&t}}, NULL};
         const vec3 ray = {(float)(cos(azimuth) * cos(dip)), (float)-sin(dip), (float)(sin(azimuth) * cos(dip))};
         const double exact_ray[3] = {(double)ray.x, (double)ray.y, (double)ray.z};
-        const SampleHit hit = sample_hit(&cx, ray, (HitEstimate){0, 0, 1, {0, 0}});
+        const SampleHit hit = sample_hit(&cx, ray, (HitEstimate){0, 0, 1, {0, 0}, {0, 0}});
         const double exact = brute_force(&t, height, exact_ray, 0.0004, (height + 0.3) / sin(dip) + 1);
         assert_true(hit.found == 1 && exact < HUGE_VAL);
         const double wrong = fabs((double)hit.along - exact);

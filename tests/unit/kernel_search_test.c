@@ -26,7 +26,7 @@ static search_figures search_random_rays(const mgt_scene *scene, uint64_t seed, 
         kernel_bench_tile(b, false, false, x, y);
         const vec3 ray = kernel_bench_ray(b, x, y);
         const double length = sqrt((double)(ray.x * ray.x + ray.y * ray.y + ray.z * ray.z));
-        const SampleHit hit = sample_hit(&b->cx, ray, (HitEstimate){0, 0, 1, {0, 0}});
+        const SampleHit hit = sample_hit(&b->cx, ray, (HitEstimate){0, 0, 1, {0, 0}, {0, 0}});
         const water_hit exact = first_hit_brute_force(scene, x + 0.5, y + 0.5, scene->time);
         if ((hit.found > 0) != exact.hit) {
             missed++;
@@ -124,7 +124,7 @@ static void good_estimates_are_mended(void **state)
         kernel_bench_tile(b, false, false, x, y);
         const vec3 ray = kernel_bench_ray(b, x, y);
         const double off = random_range(&r, -0.001, 0.001);
-        const SampleHit hit = sample_hit(&b->cx, ray, (HitEstimate){(float)(exact.water.height + off), 0, 0, {0, 0}});
+        const SampleHit hit = sample_hit(&b->cx, ray, (HitEstimate){(float)(exact.water.height + off), 0, 0, {0, 0}, {0, 0}});
         const double length = sqrt((double)(ray.x * ray.x + ray.y * ray.y + ray.z * ray.z)), reach = exact.distance + off * length / (double)ray.y;
         const double *camera = scene.camera.position;
         const water_point there =

@@ -22,7 +22,7 @@ layout(std430, binding = 6) restrict readonly buffer WaveBlock { vec4 frame_wave
 layout(std430, binding = 0) restrict TILE_ACCESS buffer TileBlock { TileData tile_data[]; };
 /* Waves as vectors, which GPUs load at once: a struct of floats they load float by float. */
 layout(std430, binding = 1) restrict TILE_ACCESS buffer TileWaveBlock { uvec4 tile_waves[]; };    /* TileWave */
-layout(std430, binding = 2) restrict TILE_ACCESS buffer SearchBlock { vec4 search_waves[]; };     /* SearchWave */
+layout(std430, binding = 2) restrict TILE_ACCESS buffer SearchBlock { vec4 search_waves[]; };     /* SEARCH_VECTORS each: SearchWave */
 
 layout(binding = 0) uniform sampler2D sky_texture;
 
@@ -36,10 +36,16 @@ shared TileData cached_tile;
 #define TILE(cx) tile_data[tile_slot]
 #endif
 #define WAVE(cx, i) wave_of_tile(i)
-#define SEARCH_WAVE(cx, i) search_wave_of_vector(search_waves[tile_slot * pass_data.wave_stride + i])
+#define SEARCH_WAVE(cx, i) searched_wave(i)
 
 #define WAVES_AS_VECTORS
 #include "kernels/waves/sines.k"
+
+SearchWave searched_wave(int i)
+{
+    int at = SEARCH_VECTORS * (tile_slot * pass_data.wave_stride + i);
+    return search_wave_of_vectors(search_waves[at], TILE(0).choppy != 0 ? search_waves[at + 1] : vec4(0.0f));
+}
 
 TileWave tile_wave_of_vector(uvec4 v) { return TileWave(int(v.x), uintBitsToFloat(v.y), uintBitsToFloat(v.z), 0.0f); }
 uvec4 vector_of_tile_wave(int index, float turns, float share) { return uvec4(uint(index), floatBitsToUint(turns), floatBitsToUint(share), 0u); }

@@ -22,6 +22,8 @@ void HIT_FOUND(int cx, float column, float row, HitEstimate hit, bool where)
     node_data[at] = hit.height;
     node_data[at + 1] = hit.slope.x;
     node_data[at + 2] = hit.slope.y;
+    node_data[at + 3] = hit.shift.x;
+    node_data[at + 4] = hit.shift.y;
 }
 #else
 #define HIT_FOUND(cx, column, row, hit, where)
@@ -40,6 +42,7 @@ LatticeNode node_of(int column, int row)
     node.plane.slope_x = node_data[at + 6];
     node.plane.slope_z = node_data[at + 7];
     node.plane.height = node_data[at + 8];
+    node.shift = vec2(node_data[at + 9], node_data[at + 10]);
     return node;
 }
 
@@ -58,12 +61,14 @@ HitEstimate pixel_estimate(ivec2 pixel)
 {
     HitEstimate estimate;
     estimate.slope = vec2(0.0f);
+    estimate.shift = vec2(0.0f);
     if (TILE(0).grazing != 0) {
         int at = hit_place(pixel.x, pixel.y);
         estimate.height = node_data[at];
         estimate.from = 0.0f;
         estimate.search = 0.0f;
         estimate.slope = vec2(node_data[at + 1], node_data[at + 2]);
+        estimate.shift = vec2(node_data[at + 3], node_data[at + 4]);
         return estimate;
     }
     if (TILE(0).search_pixels != 0) {
@@ -80,6 +85,9 @@ HitEstimate pixel_estimate(ivec2 pixel)
     float u = float(pixel.x % NODE_STEP_X) / float(NODE_STEP_X), v = float(pixel.y % NODE_STEP_Y) / float(NODE_STEP_Y);
     vec3 ray = pixel_ray_at(0, float(pixel.x), float(pixel.y));
     estimate.height = lattice_height(0, top_left.plane, top_right.plane, low_left.plane, low_right.plane, ray, u, v);
+    if (TILE(0).choppy != 0)
+        estimate.shift = vec2(lattice_shift(0, top_left.shift.x, top_right.shift.x, low_left.shift.x, low_right.shift.x, u, v),
+                              lattice_shift(0, top_left.shift.y, top_right.shift.y, low_left.shift.y, low_right.shift.y, u, v));
     return estimate;
 }
 

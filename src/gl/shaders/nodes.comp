@@ -31,4 +31,6 @@ void main()
     node_data[at + 6] = node.plane.slope_x;
     node_data[at + 7] = node.plane.slope_z;
     node_data[at + 8] = node.plane.height;
+    node_data[at + 9] = node.shift.x;
+    node_data[at + 10] = node.shift.y;
 }

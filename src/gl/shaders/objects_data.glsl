@@ -59,19 +59,18 @@ ivec3 triangle_corners(int triangle)
 
 /* ---- materials ---- */
 
-vec4 material_texel(int object, int i) { return texelFetch(material_table, CODE_TEXELS + 2 * MAX_WAVES + MATERIAL_TEXELS * object + i); }
+const int WAVE_TEXELS = 2; /* of a SearchWave */
 
-SearchWave caustic_wave(int i)
+vec4 material_texel(int object, int i) { return texelFetch(material_table, CODE_TEXELS + 2 * WAVE_TEXELS * MAX_WAVES + MATERIAL_TEXELS * object + i); }
+
+SearchWave wave_of_table(int i)
 {
-    vec4 w = texelFetch(material_table, CODE_TEXELS + i);
-    return SearchWave(w.x, w.y, w.z, w.w);
+    vec4 a = texelFetch(material_table, CODE_TEXELS + WAVE_TEXELS * i), b = texelFetch(material_table, CODE_TEXELS + WAVE_TEXELS * i + 1);
+    return SearchWave(a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w);
 }
 
-SearchWave wave_met_again(int i)
-{
-    vec4 w = texelFetch(material_table, CODE_TEXELS + MAX_WAVES + i);
-    return SearchWave(w.x, w.y, w.z, w.w);
-}
+SearchWave caustic_wave(int i) { return wave_of_table(i); }
+SearchWave wave_met_again(int i) { return wave_of_table(MAX_WAVES + i); }
 
 float linear_of_code(uint code) { return texelFetch(material_table, int(code >> 2))[int(code & 3u)]; }
 

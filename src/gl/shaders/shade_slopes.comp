@@ -17,11 +17,12 @@
 shared int waiting;
 shared int waiting_pixel[GROUP_PIXELS]; /* column, and row of the hit, of the tile */
 shared float waiting_along[GROUP_PIXELS];
+shared vec2 waiting_shift[GROUP_PIXELS];
 shared Surface found_surface[GROUP_PIXELS];
 shared SearchHit found_hit[GROUP_PIXELS];
 
 /* This invocation's place in the list; −1 where it does not wait. */
-int wait_for(bool wanted, ivec2 pixel, float along)
+int wait_for(bool wanted, ivec2 pixel, float along, vec2 shift)
 {
     barrier(); /* what was found before has been read */
     if (gl_LocalInvocationIndex == 0u)
@@ -31,6 +32,7 @@ int wait_for(bool wanted, ivec2 pixel, float along)
     if (wanted) {
         waiting_pixel[place] = pixel.y * TILE_WIDTH + pixel.x;
         waiting_along[place] = along;
+        waiting_shift[place] = shift;
     }
     barrier();
     return place;
@@ -46,8 +48,8 @@ vec3 waiting_ray()
 
 SearchHit search_where(bool wanted, ivec2 pixel, HitEstimate estimate)
 {
-    SearchHit hit = SearchHit(0.0f, 0.0f, vec2(0.0f));
-    int place = wait_for(wanted, pixel, estimate.from);
+    SearchHit hit = SearchHit(0.0f, 0.0f, vec2(0.0f), vec2(0.0f));
+    int place = wait_for(wanted, pixel, estimate.from, vec2(0.0f));
     if (is_worker())
         found_hit[gl_LocalInvocationIndex] = search(0, waiting_ray(), waiting_along[gl_LocalInvocationIndex], 1.0f);
     barrier();
@@ -70,19 +72,24 @@ SlopeState state_where(bool wanted, vec3 ray, ivec2 pixel)
         if (turn == 0) {
             along = found ? hit.along : along;
             estimate.slope = found ? hit.slope : estimate.slope;
-            if (wanted)
-                look = look_at_estimate(0, ray, along, estimate.slope);
+            estimate.shift = found ? hit.shift : estimate.shift;
+            if (wanted) {
+                look = look_at_estimate(0, ray, along, estimate.slope, estimate.shift);
+                estimate.shift = look.surface.shift;
+            }
             lost = wanted && look.lost > 0.0f;
         } else if (found) {
             look.correction = hit.along - along;
             look.again = 1.0f;
+            estimate.shift = hit.shift;
         }
     }
     bool again = wanted && look.again > 0.0f;
     look.along = again ? along + look.correction : along;
-    int place = wait_for(again, pixel, look.along);
+    int place = wait_for(again, pixel, look.along, estimate.shift);
     if (is_worker())
-        found_surface[gl_LocalInvocationIndex] = surface_along(0, waiting_ray(), waiting_along[gl_LocalInvocationIndex], vec2(0.0f));
+        found_surface[gl_LocalInvocationIndex] =
+            surface_along(0, waiting_ray(), waiting_along[gl_LocalInvocationIndex], vec2(0.0f), waiting_shift[gl_LocalInvocationIndex]);
     barrier();
     if (again)
         look.surface = found_surface[place];

@@ -89,7 +89,10 @@ void list_wave(TileView view, Counts counts, int wave)
     if (searched) {
         WaveData w = SET_WAVE(wave);
         int place = searched_before(wave);
-        search_waves[base + place] = vector_of_search_wave(search_wave_of(0, w, c.turns));
+        vec4 v[SEARCH_VECTORS];
+        search_wave_to_vectors(search_wave_of(0, w, c.turns), v);
+        for (int k = 0; k < SEARCH_VECTORS; k++)
+            search_waves[SEARCH_VECTORS * (base + place) + k] = v[k];
         own = sums_with_search(0, own, w, c.along, place, coarse_waves(0, counts.searched));
     }
 }

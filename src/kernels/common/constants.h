@@ -36,7 +36,7 @@
 /* Hits of a pixel in grazing water at most, one above the other. */
 #define HIT_ROWS 2
 #define WALK_PARTS 4 /* of a column of hits at the horizon */
-#define HIT_FLOATS 3 /* that are kept of one: see HitEstimate */
+#define HIT_FLOATS 5 /* that are kept of one: see HitEstimate */
 #define TILE_FLOATS (TILE_PIXELS * HIT_ROWS * HIT_FLOATS)
 
 /* Nodes of a tile's lattice of first hits; they lie on the tile's edges too. The water is foreshortened down the screen, seldom across. */
@@ -45,7 +45,7 @@
 #define NODE_COLUMNS (TILE_WIDTH / NODE_STEP_X + 1)
 #define NODE_ROWS (TILE_HEIGHT / NODE_STEP_Y + 1)
 #define NODE_COUNT (NODE_COLUMNS * NODE_ROWS)
-#define NODE_FLOATS 9
+#define NODE_FLOATS 11
 
 /* ---- workgroups of shaders ---- */
 

@@ -1,0 +1,205 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * First hits of rays with choppy water: water that rests at u is shifted to u + D(u). Included by the lane builds; waves stand in lanes.
+ *
+ * A ray's vertical plane, of direction d along the ray and n across it, cuts the water along a curve of places of rest u = o + v d + w n: for each v
+ * Newton's steps find the w whose water lies in the plane. Along the curve s(v) is how far the water stands from the eye and g(v) how far the ray is
+ * above it. Sums of sines bound the derivatives of g, so that a step in v cannot pass its first zero; where the water folds, s(v) goes back a little
+ * and nothing else changes. Sums over the longest waves alone serve where the others cannot reach the ray.
+ */
+#ifndef MANGATA_REFERENCE_CHOPPY_H
+#define MANGATA_REFERENCE_CHOPPY_H
+
+/* ---- sums, by parts of eight waves whatever the lanes ---- */
+
+enum { CHOPPY_PARTS = 8 / REFERENCE_LANES, CHOPPY_SUMS = 8 };
+
+static inline double add_parts(const reals part[CHOPPY_PARTS])
+{
+    _Alignas(64) double sum[8];
+    for (int i = 0; i < CHOPPY_PARTS; i++)
+        store(&sum[i * REFERENCE_LANES], part[i]);
+    return ((sum[0] + sum[4]) + (sum[2] + sum[6])) + ((sum[1] + sum[5]) + (sum[3] + sum[7]));
+}
+
+static choppy_sums choppy_sums_at(const reference_columns *c, uint32_t count, double x, double z, double time_offset)
+{
+    reals sum[CHOPPY_SUMS][CHOPPY_PARTS] = {0};
+    for (uint32_t at = 0; at < count; at += 8)
+        for (int part = 0; part < CHOPPY_PARTS; part++) {
+            const uint32_t i = at + (uint32_t)part * REFERENCE_LANES;
+            reals phase = fused(splat(time_offset), load(&c->half_turns_c[i]), load(&c->phase[i]));
+            phase = fused(splat(z), load(&c->half_turns_b[i]), phase);
+            phase = fused(splat(x), load(&c->half_turns_a[i]), phase);
+            const sine_cosine sc = sine_cosine_half_turns(phase);
+            sum[0][part] = fused(sc.sine, load(&c->height[i]), sum[0][part]);
+            sum[1][part] = fused(sc.cosine, load(&c->amplitude_a[i]), sum[1][part]);
+            sum[2][part] = fused(sc.cosine, load(&c->amplitude_b[i]), sum[2][part]);
+            sum[3][part] = fused(sc.cosine, load(&c->shift_a[i]), sum[3][part]);
+            sum[4][part] = fused(sc.cosine, load(&c->shift_b[i]), sum[4][part]);
+            sum[5][part] = fused(sc.sine, load(&c->press_aa[i]), sum[5][part]);
+            sum[6][part] = fused(sc.sine, load(&c->press_ab[i]), sum[6][part]);
+            sum[7][part] = fused(sc.sine, load(&c->press_bb[i]), sum[7][part]);
+        }
+    return (choppy_sums){.height = add_parts(sum[0]),
+                         .slope = {add_parts(sum[1]), add_parts(sum[2])},
+                         .shift = {add_parts(sum[3]), add_parts(sum[4])},
+                         .stretch = {1 - add_parts(sum[5]), -add_parts(sum[6]), 1 - add_parts(sum[7])}};
+}
+
+/* ---- the curve ---- */
+
+typedef struct choppy_ray {
+    const reference_frame *frame;
+    double origin[3], time_offset;
+    double along[2], across[2]; /* horizontal, unit */
+    double rise;                /* of the ray for a metre along */
+} choppy_ray;
+
+typedef struct curve_point {
+    double across;       /* w */
+    double distance;     /* s */
+    double above;        /* g */
+    double above_change; /* dg/dv, ds/dv */
+    double distance_change;
+    choppy_sums sums;
+} curve_point;
+
+static inline double dot2(const double a[2], const double b[2]) { return a[0] * b[0] + a[1] * b[1]; }
+
+static inline double between(const double a[2], const double m[3], const double b[2])
+{
+    return a[0] * (m[0] * b[0] + m[1] * b[1]) + a[1] * (m[1] * b[0] + m[2] * b[1]);
+}
+
+/* The point at v; `across` is near its w. Newton's steps within what the shift can be; halves of that where they lead out of it. */
+static curve_point curve_at(const choppy_ray *ray, const choppy_level *level, double v, double across)
+{
+    const reference_columns *c = &ray->frame->columns;
+    double least = -level->shift, most = level->shift, w = fmin(fmax(across, least), most);
+    choppy_sums sums = {0};
+    for (int i = 0; i < 60; i++) {
+        sums = choppy_sums_at(c, level->waves, ray->origin[0] + v * ray->along[0] + w * ray->across[0], ray->origin[2] + v * ray->along[1] + w * ray->across[1],
+                              ray->time_offset);
+        const double off = w + dot2(ray->across, sums.shift);
+        if (fabs(off) < 1e-10 * (1 + level->shift))
+            break;
+        if (off > 0)
+            most = w;
+        else
+            least = w;
+        const double stretch = between(ray->across, sums.stretch, ray->across), next = w - off / stretch;
+        w = stretch > 0.05 && next > least && next < most ? next : 0.5 * (least + most);
+    }
+    curve_point p = {.across = w, .sums = sums};
+    const double across_change = -between(ray->across, sums.stretch, ray->along) / fmax(between(ray->across, sums.stretch, ray->across), 0.05);
+    p.distance = v + dot2(ray->along, sums.shift);
+    p.above = ray->origin[1] + ray->rise * p.distance - sums.height;
+    p.distance_change = between(ray->along, sums.stretch, ray->along) + across_change * between(ray->along, sums.stretch, ray->across);
+    p.above_change = ray->rise * p.distance_change - dot2(sums.slope, ray->along) - across_change * dot2(sums.slope, ray->across);
+    return p;
+}
+
+/* How far v may go before g, of derivative d that falls by at most `bend` a metre and never below `least`, reaches 0. */
+static double free_way(double g, double d, double least, double bend)
+{
+    const double until = fmax(d - least, 0) / bend, there = g + until * 0.5 * (d + least);
+    if (there > 0)
+        return until + there / -least;
+    const double root = sqrt(d * d + 2 * g * bend);
+    return d < 0 ? 2 * g / (root - d) : (root + d) / bend;
+}
+
+/* Slope of the surface, with the eigenvalues of the stretch bounded from below. */
+static void choppy_slope(const choppy_sums *sums, double slope[2])
+{
+    const double middle = 0.5 * (sums->stretch[0] + sums->stretch[2]), half = 0.5 * (sums->stretch[0] - sums->stretch[2]);
+    const double radius = hypot(half, sums->stretch[1]), angle = 0.5 * atan2(sums->stretch[1], half), c = cos(angle), s = sin(angle);
+    const double first = fmax(middle + radius, 0.1), second = fmax(middle - radius, 0.1);
+    const double p = (c * sums->slope[0] + s * sums->slope[1]) / first, q = (c * sums->slope[1] - s * sums->slope[0]) / second;
+    slope[0] = c * p - s * q;
+    slope[1] = s * p + c * q;
+}
+
+static void keep_hit(const choppy_ray *ray, const curve_point *p, double horizontal, reference_batch *batch, uint32_t i)
+{
+    double slope[2];
+    (void)ray;
+    choppy_slope(&p->sums, slope);
+    batch->distance[i] = fmax(p->distance, 0) / horizontal;
+    batch->slope_x[i] = slope[0];
+    batch->slope_z[i] = slope[1];
+}
+
+static void choppy_search(const reference_frame *frame, reference_batch *batch, uint32_t i)
+{
+    batch->distance[i] = HUGE_VAL;
+    batch->slope_x[i] = batch->slope_z[i] = 0;
+    if (!(batch->start[i] < HUGE_VAL))
+        return;
+    const double flat = hypot(batch->direction_x[i], batch->direction_z[i]), horizontal = fmax(flat, 1e-6);
+    choppy_ray ray = {.frame = frame,
+                      .origin = {batch->origin_x[i], batch->origin_y[i], batch->origin_z[i]},
+                      .time_offset = batch->time_offset[i],
+                      .along = {1, 0},
+                      .rise = batch->direction_y[i] / horizontal};
+    if (flat > 1e-9)
+        ray.along[0] = batch->direction_x[i] / flat, ray.along[1] = batch->direction_z[i] / flat;
+    ray.across[0] = -ray.along[1];
+    ray.across[1] = ray.along[0];
+    const uint32_t finest = frame->level_count - 1;
+    const double start = batch->start[i] * horizontal, end = batch->end[i] * horizontal;
+    uint32_t level = 0;
+    double v = start - frame->choppy[finest].shift, across = 0, last = v;
+    for (int64_t k = 0; k < most_evaluations; k++) {
+        const choppy_level *l = &frame->choppy[level];
+        const curve_point p = curve_at(&ray, l, v, across);
+        batch->evaluations++;
+        across = p.across;
+        const double rest = l->rest * (1 + fabs(ray.rise) * l->most_stretch) + l->rest_shift, above = p.above - rest;
+        if (p.distance < start) { /* before the ray begins */
+            last = v;
+            v += fmax((start - p.distance) / l->most_stretch, 1e-9 * (1 + start));
+            continue;
+        }
+        if (p.distance > end && above > 0)
+            return;
+        if (level < finest && above < 0.5 * rest) {
+            level++;
+            continue;
+        }
+        const double least = -(l->slope + fabs(ray.rise)) * l->most_stretch, bend = l->bend + fabs(ray.rise) * l->shift_bend;
+        const double tolerance = relative_tolerance * (p.distance / horizontal + least_distance) * horizontal;
+        if (above <= 0) {
+            double free = last, under = v;
+            curve_point hit = p;
+            for (int halvings = 0; halvings < 100 && under - free > tolerance; halvings++) {
+                const double middle = 0.5 * (free + under);
+                const curve_point q = curve_at(&ray, l, middle, across);
+                if (q.above > 0)
+                    free = middle;
+                else
+                    under = middle, hit = q;
+            }
+            keep_hit(&ray, &hit, horizontal, batch, i);
+            return;
+        }
+        const double step = free_way(above, p.above_change, fmin(least, -1e-12), fmax(bend, 1e-12));
+        if (level == finest && step < tolerance) {
+            keep_hit(&ray, &p, horizontal, batch, i);
+            return;
+        }
+        last = v;
+        v += step;
+        if (p.distance / horizontal > far_away)
+            return;
+        if (level > 0) {
+            const choppy_level *coarser = &frame->choppy[level - 1];
+            const double margin = coarser->rest * (1 + fabs(ray.rise) * coarser->most_stretch) + coarser->rest_shift;
+            if (above > 2.5 * margin)
+                level--;
+        }
+    }
+}
+
+#endif
