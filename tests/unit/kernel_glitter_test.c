@@ -181,7 +181,7 @@ static SlopeState state_of(kernel_bench *b, uint32_t x, uint32_t y)
     kernel_bench_tile(b, true, true, x, y);
     const water_hit hit = first_hit_brute_force(&b->scene, x + 0.5, y + 0.5, b->scene.time - b->scene.shutter / 2);
     assert_true(hit.hit);
-    const HitEstimate estimate = {(float)hit.water.height, 0, 0, {0, 0}};
+    const HitEstimate estimate = {(float)hit.water.height, 0, 0, {0, 0}, {0, 0}};
     return slope_state(&b->cx, kernel_bench_ray(b, x, y), estimate);
 }
 

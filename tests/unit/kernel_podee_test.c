@@ -97,7 +97,7 @@ static void pixel_ndf_is_the_mean_over_the_span(void **state)
         const double share = (double)podee_share(&cx, p, w);
         if (share == 0 || half > 100)
             continue;
-        const PodeeSurface s = podee_surface(&cx, 0, 0, p);
+        const PodeeSurface s = podee_surface(&cx, 0, 0, vec2(0, 0), p);
         double mean, variance;
         span_means(share * amplitude, 2 * pi * (double)w.phase, half, &mean, &variance);
         const double measured = (double)(s.surface.variance_xx + s.surface.variance_zz) / (k * k);
@@ -128,7 +128,7 @@ static void split_is_as_published(void **state)
         w.phase = 0.13f;
         const TileData tile = {.mixed_count = 1};
         const struct kernel_context cx = {.frame = &data, .tile = &tile, .waves = &w};
-        const PodeeSurface s = podee_surface(&cx, 0, 0, p);
+        const PodeeSurface s = podee_surface(&cx, 0, 0, vec2(0, 0), p);
         const double alpha = fmin(fmax((frequency - 0.2) / 0.3, 0), 1);
         const double slope = (1 - alpha) * amplitude * k * cos(2 * pi * (double)w.phase), variance = alpha * alpha * amplitude * amplitude * k * k / 2;
         worst = fmax(worst, fabs(hypot((double)s.surface.slope_even.x, (double)s.surface.slope_even.y) - fabs(slope)) / (amplitude * k));

@@ -37,7 +37,7 @@ static double surface_error(const kernel_bench *b, random_state *r, const double
     double worst = 0;
     for (int i = 0; i < 200; i++) {
         const float x = (float)random_range(r, -reach, reach), z = (float)random_range(r, -reach, reach);
-        const Surface s = surface_full(&b->cx, x, z);
+        const Surface s = surface_full(&b->cx, x, z, vec2(0, 0));
         const double *camera = b->scene.camera.position;
         const water_point exact = water_surface(&b->scene.water, camera[0] + (double)b->tile.data.origin_x + (double)x,
                                                 camera[2] + (double)b->tile.data.origin_z + (double)z, b->scene.time);
@@ -106,7 +106,7 @@ static void shutter_ends_come_by_rotation(void **state)
         const Footprint p = {{0, 0}, {0, 0}};
         for (int i = 0; i < 500; i++) {
             const float x = (float)random_range(&r, -5, 5), z = (float)random_range(&r, -5, 5);
-            const Surface s = surface_filtered(&b->cx, x, z, p);
+            const Surface s = surface_filtered(&b->cx, x, z, p, vec2(0, 0));
             const double at[2] = {scene.camera.position[0] + (double)b->tile.data.origin_x + (double)x,
                                   scene.camera.position[2] + (double)b->tile.data.origin_z + (double)z};
             const bounds limit = float_bounds(&scene, (double)x, (double)z);
@@ -152,7 +152,7 @@ static variance_split split_of(const kernel_bench *b, const mgt_wave *wave, doub
     const double k = 2 * pi * frequency;
     for (int i = 0; i < PHASES; i++) {
         const double along = (double)i / PHASES / frequency; /* metres along the wave */
-        const Surface s = surface_filtered(&b->cx, (float)(0.8 * along), (float)(0.6 * along), p);
+        const Surface s = surface_filtered(&b->cx, (float)(0.8 * along), (float)(0.6 * along), p, vec2(0, 0));
         v.mean += (double)(s.slope_even.x * s.slope_even.x + s.slope_even.y * s.slope_even.y) / PHASES;
         v.bend += (double)(s.bend_xx * s.bend_xx + 2 * s.bend_xz * s.bend_xz + s.bend_zz * s.bend_zz) / 12 / PHASES;
         v.unresolved += (double)(s.variance_xx + s.variance_zz) / PHASES;

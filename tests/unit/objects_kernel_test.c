@@ -405,7 +405,7 @@ static void caustics_are_shares_of_area(void **state)
         shade_data = (ShadeData){.index = 1.333f, .caustic_waves = 4, .sun_air_x = (float)light[0], .sun_air_z = (float)light[2]};
         unit3(light);
         for (int k = 0; k < 4; k++)
-            waves[k] = (SearchWave){(float)range(-0.5, 0.5), (float)range(-0.5, 0.5), (float)range(0, 1), 0.01f};
+            waves[k] = (SearchWave){(float)range(-0.5, 0.5), (float)range(-0.5, 0.5), (float)range(0, 1), 0.01f, 0, 0, 0, 0};
         const double x = range(-5, 5), z = range(-5, 5), depth = range(0.5, 3), h = 1e-4;
         double at[2], right[2], ahead[2];
         send(light, x, z, depth, at);
@@ -544,7 +544,7 @@ static void place_waves(double side)
     narrow_data = (NarrowData){.side = (float)side, .ratio = side < 0 ? 1.333f : 1 / 1.333f, .waves = 4, .distance = 1.5f, .foot_x = 0.7f, .foot_z = -1.2f};
     for (int i = 0; i < 4; i++) {
         const double *w = numbers_of[i], k = hypot(w[1], w[2]);
-        waves[i] = (SearchWave){(float)(w[1] / (2 * pi)), (float)(w[2] / (2 * pi)), (float)range(0, 1), (float)w[0]};
+        waves[i] = (SearchWave){(float)(w[1] / (2 * pi)), (float)(w[2] / (2 * pi)), (float)range(0, 1), (float)w[0], 0, 0, 0, 0};
         narrow_data.wave_height += (float)w[0];
         narrow_data.wave_slope += (float)(w[0] * k);
         narrow_data.wave_bend += (float)(w[0] * k * k);
