@@ -12,7 +12,7 @@
 #include "mangata/mangata.h"
 #include "timing.h"
 
-enum { WAVES = 64, QUESTIONS = 4, ROUNDS = 15, FEW = 5 };
+enum { WAVES = 64, QUESTIONS = 7, CHOPPY = 4, ROUNDS = 15, FEW = 5 };
 
 /* A point and wave of single precision: phase in double 7, sine and cosine 27, three sums 6. */
 static const double flops = 40;
@@ -58,13 +58,19 @@ int main(int count, char **arguments)
     const bool quick = count > 1 && strcmp(arguments[1], "--quick") == 0;
     const size_t n = quick ? 1000 : 1000000;
     const int rounds = quick ? 1 : ROUNDS;
-    static const char *const names[QUESTIONS] = {"height and normal", "height alone", "height, normal, velocity", "the same, exact"};
+    static const char *const names[QUESTIONS] = {"height and normal", "height alone", "height, normal, velocity", "the same, exact",
+                                                "choppy: height and normal", "choppy: all, exact", "choppy as far as it folds: height and normal"};
     double *points = malloc(2 * n * sizeof *points), *height = malloc(n * sizeof *height);
     float *normal = malloc(3 * n * sizeof *normal), *velocity = malloc(3 * n * sizeof *velocity);
     if (!points || !height || !normal || !velocity)
         return 1;
     mgt_wave waves[WAVES];
     const mgt_water water = sea(waves);
+    mgt_water waters[QUESTIONS];
+    for (int q = 0; q < QUESTIONS; q++) {
+        waters[q] = water;
+        waters[q].choppiness = q < CHOPPY ? 0 : q + 1 < QUESTIONS ? 0.7f : 1;
+    }
     uint64_t state = 3;
     for (size_t i = 0; i < 2 * n; i++)
         points[i] = 2e4 * random_unit(&state) - 1e4;
@@ -73,13 +79,13 @@ int main(int count, char **arguments)
         mgt_water_answers_init(&asked[q], sizeof *asked);
         asked[q].height = height;
         asked[q].normal = q == 1 ? NULL : normal;
-        asked[q].velocity = q >= 2 ? velocity : NULL;
-        asked[q].exact = q == 3;
+        asked[q].velocity = q == 2 || q == 3 || q == 5 ? velocity : NULL;
+        asked[q].exact = q == 3 || q == 5;
     }
     double samples[QUESTIONS][ROUNDS], few[ROUNDS];
     for (int round = -1; round < rounds; round++) /* the first to warm up */
         for (int q = 0; q < QUESTIONS; q++)
-            samples[q][round < 0 ? 0 : round] = ask(&water, points, n, &asked[q]);
+            samples[q][round < 0 ? 0 : round] = ask(&waters[q], points, n, &asked[q]);
     for (int round = 0; round < rounds; round++) {
         few[round] = 0;
         for (int i = 0; i < 100; i++)

@@ -18,8 +18,10 @@ typedef struct mgt_water_answers {
     uint32_t reserved;       /* 0 */
     double *height;          /* metres, water.level included: a number a point */
     float *normal;           /* unit, of the side of the air: x, y, z of each point */
-    float *velocity;         /* metres per second, of the surface: x, y, z of each point; x and z are 0, for sines move water up and down */
+    float *velocity;         /* metres per second, of the surface: x, y, z of each point; x and z are 0 where the water is not choppy */
     double covariance[3];    /* written: xx, xz and zz of the slopes of the waves shorter than least_wavelength */
+    float *jacobian;         /* area of the water over the area that it rests on, a number a point: 1 of sines; below 0 the water is folded */
+    size_t unsettled;        /* written: points of choppy water whose place of rest was not found; their answers are those of the nearest place */
 } mgt_water_answers;
 
 /* Asks nothing. */

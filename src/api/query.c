@@ -16,6 +16,8 @@ static mgt_status check_water(const reporter *r, const char *call, const mgt_wat
         return report_error(r, MGT_ERROR_ARGUMENT, "query.time", "%s: the time is %g s; allowed is -1e9 to 1e9", call, time);
     if (!(fabs(water->level) <= 1e6))
         return report_error(r, MGT_ERROR_SCENE, "query.level", "water.level is %g; allowed is -1e6 to 1e6", water->level);
+    if (!(water->choppiness >= 0 && water->choppiness <= 1))
+        return report_error(r, MGT_ERROR_SCENE, "query.choppiness", "water.choppiness is %g; allowed is 0 to 1", (double)water->choppiness);
     return validate_waves(r, water);
 }
 

@@ -23,7 +23,7 @@ static_assert(sizeof(mgt_texture_desc) == END(mgt_texture_desc, row_stride), "mg
 static_assert(sizeof(mgt_quality) == END(mgt_quality, target_displayed), "mgt_quality ends with padding");
 static_assert(sizeof(mgt_scene) == END(mgt_scene, quality), "mgt_quality grows with the scene only while it is the last in it");
 static_assert(sizeof(mgt_target) == END(mgt_target, row_stride), "mgt_target ends with padding");
-static_assert(sizeof(mgt_water_answers) == END(mgt_water_answers, covariance), "mgt_water_answers ends with padding");
+static_assert(sizeof(mgt_water_answers) == END(mgt_water_answers, unsettled), "mgt_water_answers ends with padding");
 static_assert(sizeof(mgt_gl_view) == END(mgt_gl_view, reserved), "mgt_gl_view ends with padding");
 static_assert(sizeof(mgt_gl_texture) == END(mgt_gl_texture, reserved), "mgt_gl_texture ends with padding");
 

@@ -146,25 +146,286 @@ static inline wide cosine(wide squared)
     return wide_fma(sum, squared, wide_of(1));
 }
 
+typedef struct wide_sine {
+    wide sine, cosine;
+} wide_sine;
+
+static inline wide_sine sine_of_turns(wide turns)
+{
+    const wide y = turns * 3.14159265358979323846, squared = y * y;
+    const wide s = y * sine_over(squared); /* of half the phase */
+    return (wide_sine){2 * s * cosine(squared), 1 - 2 * s * s};
+}
+
 static inline void sum_double(const water_terms *w, query_group *g)
 {
-    const double pi = 3.14159265358979323846;
     for (int half = 0; half < HALVES; half++) {
         const wide x = wide_load(g->x + half * WIDE), z = wide_load(g->z + half * WIDE);
         wide height = wide_of(0), slope_x = height, slope_z = height, rise = height;
         for (int i = 0; i < w->count; i++) {
-            const wide y = turns_at(w, i, x, z) * pi, squared = y * y;
-            const wide s = y * sine_over(squared); /* of half the phase */
-            const wide sine = 2 * s * cosine(squared), flat = 1 - 2 * s * s;
-            height = wide_fma(sine, wide_of(w->up[i]), height);
-            slope_x = wide_fma(flat, wide_of(w->lean_x[i]), slope_x);
-            slope_z = wide_fma(flat, wide_of(w->lean_z[i]), slope_z);
-            rise = wide_fma(flat, wide_of(w->rise[i]), rise);
+            const wide_sine t = sine_of_turns(turns_at(w, i, x, z));
+            height = wide_fma(t.sine, wide_of(w->up[i]), height);
+            slope_x = wide_fma(t.cosine, wide_of(w->lean_x[i]), slope_x);
+            slope_z = wide_fma(t.cosine, wide_of(w->lean_z[i]), slope_z);
+            rise = wide_fma(t.cosine, wide_of(w->rise[i]), rise);
         }
         wide_store(g->height + half * WIDE, height);
         wide_store(g->slope_x + half * WIDE, slope_x);
         wide_store(g->slope_z + half * WIDE, slope_z);
         wide_store(g->rise + half * WIDE, rise);
+    }
+}
+
+/* ---- choppy water ---- */
+
+/* Sums at places of rest, as many as lanes. */
+typedef struct rest_group {
+    double x[MGT_LANES], z[MGT_LANES]; /* the places */
+    double height[MGT_LANES], slope_x[MGT_LANES], slope_z[MGT_LANES], rise[MGT_LANES];
+    double shift_x[MGT_LANES], shift_z[MGT_LANES], drift_x[MGT_LANES], drift_z[MGT_LANES];
+    double xx[MGT_LANES], xz[MGT_LANES], zz[MGT_LANES]; /* −∂shift/∂place */
+} rest_group;
+
+static inline __attribute__((always_inline)) void rest_single(const water_terms *w, int count, rest_group *g)
+{
+    const real zero = real_broadcast(0);
+    real height = zero, slope_x = zero, slope_z = zero, rise = zero, shift_x = zero, shift_z = zero, drift_x = zero, drift_z = zero;
+    real xx = zero, xz = zero, zz = zero;
+    wide x[HALVES], z[HALVES];
+    for (int half = 0; half < HALVES; half++) {
+        x[half] = wide_load(g->x + half * WIDE);
+        z[half] = wide_load(g->z + half * WIDE);
+    }
+    for (int i = 0; i < count; i++) {
+        wide turns[HALVES];
+        for (int half = 0; half < HALVES; half++)
+            turns[half] = turns_at(w, i, x[half], z[half]);
+        const SinCos t = sincos_turns(NULL, real_of_wides(turns));
+        height = real_fma(t.s, real_broadcast(w->single[i].up), height);
+        slope_x = real_fma(t.c, real_broadcast(w->single[i].lean_x), slope_x);
+        slope_z = real_fma(t.c, real_broadcast(w->single[i].lean_z), slope_z);
+        rise = real_fma(t.c, real_broadcast(w->single[i].rise), rise);
+        shift_x = real_fma(t.c, real_broadcast(w->single[i].shift_x), shift_x);
+        shift_z = real_fma(t.c, real_broadcast(w->single[i].shift_z), shift_z);
+        drift_x = real_fma(t.s, real_broadcast(w->single[i].drift_x), drift_x);
+        drift_z = real_fma(t.s, real_broadcast(w->single[i].drift_z), drift_z);
+        xx = real_fma(t.s, real_broadcast(w->single[i].press_xx), xx);
+        xz = real_fma(t.s, real_broadcast(w->single[i].press_xz), xz);
+        zz = real_fma(t.s, real_broadcast(w->single[i].press_zz), zz);
+    }
+    store_sum(g->height, height);
+    store_sum(g->slope_x, slope_x);
+    store_sum(g->slope_z, slope_z);
+    store_sum(g->rise, rise);
+    store_sum(g->shift_x, shift_x);
+    store_sum(g->shift_z, shift_z);
+    store_sum(g->drift_x, drift_x);
+    store_sum(g->drift_z, drift_z);
+    store_sum(g->xx, xx);
+    store_sum(g->xz, xz);
+    store_sum(g->zz, zz);
+}
+
+static inline void rest_double(const water_terms *w, int count, rest_group *g)
+{
+    for (int half = 0; half < HALVES; half++) {
+        const wide x = wide_load(g->x + half * WIDE), z = wide_load(g->z + half * WIDE), zero = wide_of(0);
+        wide height = zero, slope_x = zero, slope_z = zero, rise = zero, shift_x = zero, shift_z = zero, drift_x = zero, drift_z = zero;
+        wide xx = zero, xz = zero, zz = zero;
+        for (int i = 0; i < count; i++) {
+            const wide_sine t = sine_of_turns(turns_at(w, i, x, z));
+            height = wide_fma(t.sine, wide_of(w->up[i]), height);
+            slope_x = wide_fma(t.cosine, wide_of(w->lean_x[i]), slope_x);
+            slope_z = wide_fma(t.cosine, wide_of(w->lean_z[i]), slope_z);
+            rise = wide_fma(t.cosine, wide_of(w->rise[i]), rise);
+            shift_x = wide_fma(t.cosine, wide_of(w->shift_x[i]), shift_x);
+            shift_z = wide_fma(t.cosine, wide_of(w->shift_z[i]), shift_z);
+            drift_x = wide_fma(t.sine, wide_of(w->drift_x[i]), drift_x);
+            drift_z = wide_fma(t.sine, wide_of(w->drift_z[i]), drift_z);
+            xx = wide_fma(t.sine, wide_of(w->press_xx[i]), xx);
+            xz = wide_fma(t.sine, wide_of(w->press_xz[i]), xz);
+            zz = wide_fma(t.sine, wide_of(w->press_zz[i]), zz);
+        }
+        wide_store(g->height + half * WIDE, height);
+        wide_store(g->slope_x + half * WIDE, slope_x);
+        wide_store(g->slope_z + half * WIDE, slope_z);
+        wide_store(g->rise + half * WIDE, rise);
+        wide_store(g->shift_x + half * WIDE, shift_x);
+        wide_store(g->shift_z + half * WIDE, shift_z);
+        wide_store(g->drift_x + half * WIDE, drift_x);
+        wide_store(g->drift_z + half * WIDE, drift_z);
+        wide_store(g->xx + half * WIDE, xx);
+        wide_store(g->xz + half * WIDE, xz);
+        wide_store(g->zz + half * WIDE, zz);
+    }
+}
+
+/* What is told of a point of choppy water. */
+typedef struct settled_point {
+    double height, slope[2], velocity[3], jacobian;
+    double least;      /* eigenvalue of B */
+    double worst[2];   /* unit, its direction */
+    double rest[2];    /* the place */
+    bool settled;
+} settled_point;
+
+/* Eigenvalues of B = 1 − [xx, xz; xz, zz], the greater first, and the lesser one's direction. */
+static void stretch_of(double xx, double xz, double zz, double value[2], double direction[2])
+{
+    const double middle = 1 - 0.5 * (xx + zz), half = 0.5 * (zz - xx), radius = __builtin_sqrt(half * half + xz * xz);
+    value[0] = middle + radius;
+    value[1] = middle - radius;
+    /* B − middle is [half, −xz; −xz, −half]; the eigenvector of −radius. */
+    const double a = half <= 0 ? radius - half : xz, b = half <= 0 ? xz : radius + half, length = __builtin_sqrt(a * a + b * b);
+    direction[0] = length > 0 ? a / length : 1;
+    direction[1] = length > 0 ? b / length : 0;
+}
+
+/* B⁻¹ v. */
+static void to_rest_by(double most, double least, const double direction[2], const double v[2], double out[2])
+{
+    const double along = v[0] * direction[0] + v[1] * direction[1], across = v[1] * direction[0] - v[0] * direction[1];
+    out[0] = along / least * direction[0] - across / most * direction[1];
+    out[1] = along / least * direction[1] + across / most * direction[0];
+}
+
+/* The same with eigenvalues of at least 0.1. */
+static void to_rest(const double value[2], const double direction[2], const double v[2], double out[2])
+{
+    to_rest_by(value[0] > 0.1 ? value[0] : 0.1, value[1] > 0.1 ? value[1] : 0.1, direction, v, out);
+}
+
+/* Newton's step, also to a place where the water is folded over. */
+static void newton_step(const double value[2], const double direction[2], const double v[2], double out[2])
+{
+    const double least = value[1] < 0 ? (value[1] < -0.05 ? value[1] : -0.05) : value[1] > 0.05 ? value[1] : 0.05;
+    to_rest_by(value[0] > 0.1 ? value[0] : 0.1, least, direction, v, out);
+}
+
+static void keep_point(const rest_group *g, int lane, settled_point *p)
+{
+    double value[2];
+    stretch_of(g->xx[lane], g->xz[lane], g->zz[lane], value, p->worst);
+    const double slope[2] = {g->slope_x[lane], g->slope_z[lane]};
+    to_rest(value, p->worst, slope, p->slope);
+    p->height = g->height[lane];
+    p->velocity[0] = g->drift_x[lane];
+    p->velocity[1] = g->rise[lane];
+    p->velocity[2] = g->drift_z[lane];
+    p->jacobian = value[0] * value[1];
+    p->least = value[1];
+    p->rest[0] = g->x[lane];
+    p->rest[1] = g->z[lane];
+}
+
+/* Finds the places of rest of as many points as lanes, from those in g. Steps that always come nearer lead to where the waves are straight, Newton's from
+ * there. The largest waves alone serve for the first ones. */
+static void settle(const water_terms *w, bool exact, const double at[][2], rest_group *g, settled_point *points)
+{
+    enum { LOOKS = 40, FIRST = 4 };
+    const double near = exact ? 1e-11 * (1 + w->sum) : 4e-7 * w->sum;
+    int open = MGT_LANES;
+    for (int lane = 0; lane < MGT_LANES; lane++) {
+        points[lane].settled = !(0 * (at[lane][0] + at[lane][1]) == 0); /* where there is no place to find */
+        open -= points[lane].settled;
+    }
+    for (int look = 0; look < LOOKS && open > 0; look++) {
+        const int count = look < FIRST && w->count > 16 ? w->count / 4 : w->count;
+        if (exact && look >= FIRST)
+            rest_double(w, count, g);
+        else
+            rest_single(w, count, g);
+        for (int lane = 0; lane < MGT_LANES; lane++) {
+            if (points[lane].settled)
+                continue;
+            const double left[2] = {at[lane][0] - g->x[lane] - g->shift_x[lane], at[lane][1] - g->z[lane] - g->shift_z[lane]};
+            const double squared = left[0] * left[0] + left[1] * left[1];
+            if (count == w->count && (squared <= near * near || look + 1 == LOOKS)) {
+                keep_point(g, lane, &points[lane]);
+                points[lane].height += points[lane].slope[0] * left[0] + points[lane].slope[1] * left[1];
+                points[lane].settled = squared <= near * near;
+                open -= points[lane].settled;
+                continue;
+            }
+            double step[2] = {left[0], left[1]};
+            if (squared < w->straight * w->straight) {
+                double value[2], direction[2];
+                stretch_of(g->xx[lane], g->xz[lane], g->zz[lane], value, direction);
+                newton_step(value, direction, left, step);
+            }
+            g->x[lane] += step[0];
+            g->z[lane] += step[1];
+        }
+    }
+}
+
+/* Where the water may fold, other places may be shifted here too: the highest of those found from around. */
+static void settle_folded(const water_terms *w, bool exact, const double at[2], settled_point *p)
+{
+    enum { STARTS = 32 };
+    static const double eighths[8][2] = {{1, 0}, {M_SQRT1_2, M_SQRT1_2}, {0, 1}, {-M_SQRT1_2, M_SQRT1_2}, {-1, 0}, {-M_SQRT1_2, -M_SQRT1_2}, {0, -1}, {M_SQRT1_2, -M_SQRT1_2}};
+    settled_point best = *p;
+    for (int first = 0; first < STARTS; first += MGT_LANES) {
+        rest_group g;
+        double ats[MGT_LANES][2];
+        settled_point found[MGT_LANES];
+        for (int lane = 0; lane < MGT_LANES; lane++) {
+            const int k = first + lane < STARTS ? first + lane : STARTS - 1;
+            /* Around the place found, at four distances; the first of eight directions is that in which the water is pressed most. */
+            const double away = 1.5 * w->straight * (1 + k / 8), c = p->worst[0], s = p->worst[1];
+            const double *turn = eighths[k % 8];
+            g.x[lane] = p->rest[0] + away * (c * turn[0] - s * turn[1]);
+            g.z[lane] = p->rest[1] + away * (s * turn[0] + c * turn[1]);
+            ats[lane][0] = at[0];
+            ats[lane][1] = at[1];
+        }
+        settle(w, exact, ats, &g, found);
+        for (int lane = 0; lane < MGT_LANES && first + lane < STARTS; lane++)
+            if (found[lane].settled && (!best.settled || found[lane].height > best.height))
+                best = found[lane];
+    }
+    *p = best;
+}
+
+static void write_choppy(const double at[2], const settled_point *p, double level, size_t i, mgt_water_answers *answers)
+{
+    const double here = 0 * (at[0] + at[1]);
+    if (answers->height)
+        answers->height[i] = here == 0 ? level + p->height : here;
+    if (answers->normal) {
+        const double x = -p->slope[0], z = -p->slope[1], inverse = 1 / __builtin_sqrt(x * x + 1 + z * z);
+        answers->normal[3 * i] = here == 0 ? (float)(x * inverse) : (float)here;
+        answers->normal[3 * i + 1] = here == 0 ? (float)inverse : (float)here;
+        answers->normal[3 * i + 2] = here == 0 ? (float)(z * inverse) : (float)here;
+    }
+    if (answers->velocity)
+        for (int c = 0; c < 3; c++)
+            answers->velocity[3 * i + (size_t)c] = here == 0 ? (float)p->velocity[c] : (float)here;
+    if (answers->jacobian)
+        answers->jacobian[i] = here == 0 ? (float)p->jacobian : (float)here;
+    answers->unsettled += !p->settled;
+}
+
+static void query_choppy(const water_terms *terms, double level, const double *points, size_t count, mgt_water_answers *answers)
+{
+    for (size_t first = 0; first < count; first += MGT_LANES) {
+        rest_group g;
+        double at[MGT_LANES][2];
+        settled_point found[MGT_LANES];
+        for (int lane = 0; lane < MGT_LANES; lane++) {
+            const size_t i = first + (size_t)lane < count ? first + (size_t)lane : count - 1;
+            at[lane][0] = g.x[lane] = points[2 * i];
+            at[lane][1] = g.z[lane] = points[2 * i + 1];
+            if (0 * (at[lane][0] + at[lane][1]) != 0)
+                g.x[lane] = g.z[lane] = 0;
+        }
+        settle(terms, answers->exact, at, &g, found);
+        for (int lane = 0; lane < MGT_LANES && first + (size_t)lane < count; lane++) {
+            const bool finite = 0 * (at[lane][0] + at[lane][1]) == 0;
+            if (finite && (terms->folds || !found[lane].settled || found[lane].least < 0.2))
+                settle_folded(terms, answers->exact, at[lane], &found[lane]);
+            write_choppy(at[lane], &found[lane], level, first + (size_t)lane, answers);
+        }
     }
 }
 
@@ -179,14 +440,21 @@ static void write_point(const query_group *g, int lane, double level, size_t i, 
         answers->normal[3 * i + 1] = (float)inverse;
         answers->normal[3 * i + 2] = (float)(z * inverse);
     }
+    if (answers->jacobian)
+        answers->jacobian[i] = (float)(1 + here);
     if (answers->velocity) {
         answers->velocity[3 * i] = answers->velocity[3 * i + 2] = (float)here;
         answers->velocity[3 * i + 1] = (float)(g->rise[lane] + here);
     }
 }
 
-void JOIN(query_lanes_, MGT_LANES)(const water_terms *terms, double level, const double *points, size_t count, const mgt_water_answers *answers)
+void JOIN(query_lanes_, MGT_LANES)(const water_terms *terms, double level, const double *points, size_t count, mgt_water_answers *answers)
 {
+    answers->unsettled = 0;
+    if (terms->choppy) {
+        query_choppy(terms, level, points, count, answers);
+        return;
+    }
     for (size_t first = 0; first < count; first += MGT_LANES) {
         query_group g;
         for (int lane = 0; lane < MGT_LANES; lane++) {
@@ -213,6 +481,8 @@ typedef struct traced_ray {
     double side;                    /* 1 from above, −1 from below, 0 before the first look */
     double closing, bend;           /* most that the gap shrinks by, and that this rate grows by */
     double along, speed;            /* metres a unit of `along` */
+    double shift[2];                /* about that of choppy water at `along` */
+    int tries;                      /* looks at it there */
     bool arrived;
 } traced_ray;
 
@@ -236,6 +506,11 @@ static traced_ray ray_start(const water_terms *w, double level, const double *ra
         const double turns = w->along_x[i] * r.direction[0] + w->along_z[i] * r.direction[2], radians = 6.28318530717958647692 * turns;
         slope += __builtin_fabs(w->up[i] * radians);
         r.bend += w->up[i] * radians * radians;
+    }
+    if (w->choppy) { /* a surface that leans by S at most, and is pressed by as much, leans by S/√(1 − S²) */
+        const double pressed = w->pressed < 0.9 ? w->pressed : 0.9, steeper = 1 / __builtin_sqrt(1 - pressed * pressed);
+        slope *= steeper;
+        r.bend *= steeper * steeper;
     }
     r.closing = slope + __builtin_fabs(r.direction[1]) + 1e-12 * r.speed;
     const double above = __builtin_fabs(r.origin[1]) - crest;
@@ -279,6 +554,41 @@ static void ray_advance(traced_ray *r, double height, double slope_x, double slo
     }
 }
 
+/* Looks at the water at the rays' points; `ready`: lanes whose place of rest has been found. */
+static void look_at_points(const water_terms *w, traced_ray *r, query_group *g, bool *ready)
+{
+    if (!w->choppy) {
+        sum_double(w, g);
+        for (int lane = 0; lane < MGT_LANES; lane++)
+            ready[lane] = true;
+        return;
+    }
+    enum { MOST_TRIES = 40 };
+    rest_group rest;
+    for (int lane = 0; lane < MGT_LANES; lane++) {
+        rest.x[lane] = g->x[lane] - r[lane].shift[0];
+        rest.z[lane] = g->z[lane] - r[lane].shift[1];
+    }
+    rest_double(w, w->count, &rest);
+    for (int lane = 0; lane < MGT_LANES; lane++) {
+        const double left[2] = {r[lane].shift[0] - rest.shift_x[lane], r[lane].shift[1] - rest.shift_z[lane]};
+        const double squared = left[0] * left[0] + left[1] * left[1], straight = w->straight * w->straight;
+        double value[2], direction[2], step[2] = {left[0], left[1]}, slope[2];
+        stretch_of(rest.xx[lane], rest.xz[lane], rest.zz[lane], value, direction);
+        if (squared < straight)
+            to_rest(value, direction, left, step);
+        to_rest(value, direction, (const double[]){rest.slope_x[lane], rest.slope_z[lane]}, slope);
+        r[lane].shift[0] -= step[0];
+        r[lane].shift[1] -= step[1];
+        g->height[lane] = rest.height[lane] + slope[0] * left[0] + slope[1] * left[1];
+        g->slope_x[lane] = slope[0];
+        g->slope_z[lane] = slope[1];
+        ready[lane] = squared < 1e-8 * straight || ++r[lane].tries >= MOST_TRIES;
+        if (ready[lane])
+            r[lane].tries = 0;
+    }
+}
+
 void JOIN(trace_lanes_, MGT_LANES)(const water_terms *terms, double level, const double *rays, size_t count, double reach, double *distance)
 {
     enum { MOST_LOOKS = 100000 };
@@ -300,10 +610,11 @@ void JOIN(trace_lanes_, MGT_LANES)(const water_terms *terms, double level, const
                 g.x[lane] = r[lane].origin[0] + r[lane].direction[0] * along;
                 g.z[lane] = r[lane].origin[2] + r[lane].direction[2] * along;
             }
-            sum_double(terms, &g);
+            bool ready[MGT_LANES];
+            look_at_points(terms, r, &g, ready);
             travelling = 0;
             for (int lane = 0; lane < MGT_LANES; lane++) {
-                if (!r[lane].arrived)
+                if (!r[lane].arrived && ready[lane])
                     ray_advance(&r[lane], g.height[lane], g.slope_x[lane], g.slope_z[lane], crest, reach);
                 travelling += !r[lane].arrived;
             }

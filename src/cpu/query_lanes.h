@@ -8,7 +8,7 @@
 #include "frame/water_terms.h"
 
 /* `points` as mgt_water_query() gets them; `level` metres. */
-typedef void query_function(const water_terms *terms, double level, const double *points, size_t count, const mgt_water_answers *answers);
+typedef void query_function(const water_terms *terms, double level, const double *points, size_t count, mgt_water_answers *answers);
 
 /* `rays` and `distance` as mgt_water_trace() gets them. */
 typedef void trace_function(const water_terms *terms, double level, const double *rays, size_t count, double reach, double *distance);

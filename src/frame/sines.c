@@ -230,6 +230,28 @@ static double turns_at(const mgt_wave *wave, double time)
     return turns - nearbyint(turns);
 }
 
+/* Of the last term. */
+static void add_shift_terms(water_terms *terms, const mgt_wave *w, double choppiness)
+{
+    const int n = terms->count - 1;
+    const double k = hypot(w->kx, w->kz), shift = k > 0 ? choppiness / k : 0;
+    terms->shift_x[n] = shift * terms->lean_x[n];
+    terms->shift_z[n] = shift * terms->lean_z[n];
+    terms->drift_x[n] = -w->omega * terms->shift_x[n];
+    terms->drift_z[n] = -w->omega * terms->shift_z[n];
+    terms->pressed += choppiness * w->amplitude * k;
+    terms->press_xx[n] = terms->shift_x[n] * w->kx;
+    terms->press_xz[n] = terms->shift_x[n] * w->kz;
+    terms->press_zz[n] = terms->shift_z[n] * w->kz;
+    terms->single[n].shift_x = (float)terms->shift_x[n];
+    terms->single[n].shift_z = (float)terms->shift_z[n];
+    terms->single[n].drift_x = (float)terms->drift_x[n];
+    terms->single[n].drift_z = (float)terms->drift_z[n];
+    terms->single[n].press_xx = (float)terms->press_xx[n];
+    terms->single[n].press_xz = (float)terms->press_xz[n];
+    terms->single[n].press_zz = (float)terms->press_zz[n];
+}
+
 static void add_term(water_terms *terms, const mgt_wave *w, double time)
 {
     const int n = terms->count++;
@@ -248,12 +270,22 @@ static void add_term(water_terms *terms, const mgt_wave *w, double time)
 
 void water_terms_at(const mgt_water *water, double time, double least, water_terms *terms, double covariance[3])
 {
+    uint16_t order[MGT_MAX_WAVES];
     terms->count = 0;
+    terms->choppy = water->choppiness > 0 && water->wave_count > 0;
+    terms->folds = (double)water->choppiness * sines_steepest(water) >= 1;
+    terms->sum = terms->pressed = 0;
+    terms->straight = 0.3 * sines_steepest(water) / fmax(sines_sharpest(water), 1e-300);
+    if (terms->choppy)
+        sines_order(water, order);
     covariance[0] = covariance[1] = covariance[2] = 0;
     for (size_t i = 0; i < water->wave_count; i++) {
-        const mgt_wave *w = &water->waves[i];
+        const mgt_wave *w = &water->waves[terms->choppy ? order[i] : i];
         if (hypot(w->kx, w->kz) * least <= 2 * pi) {
             add_term(terms, w, time);
+            terms->sum += w->amplitude;
+            if (terms->choppy)
+                add_shift_terms(terms, w, (double)water->choppiness);
             continue;
         }
         const double variance = w->amplitude * w->amplitude / 2;

@@ -5,6 +5,8 @@
 #ifndef MANGATA_FRAME_WATER_TERMS_H
 #define MANGATA_FRAME_WATER_TERMS_H
 
+#include <stdbool.h>
+
 #include "mangata/mangata.h"
 
 /* With t = along_x·x + along_z·z + start turns: height Σ up·sin t, slope Σ lean·cos t, its speed upwards Σ rise·cos t. */
@@ -15,8 +17,20 @@ typedef struct water_terms {
     double up[MGT_MAX_WAVES];                              /* metres */
     double lean_x[MGT_MAX_WAVES], lean_z[MGT_MAX_WAVES];
     double rise[MGT_MAX_WAVES]; /* metres per second */
+
+    /* Of choppy water, whose terms stand in order of size: at a place of rest it is shifted by Σ shift·cos t, which grows by Σ drift·sin t a second, and its
+     * derivative is −Σ press·sin t. */
+    bool choppy;
+    bool folds; /* it is pressed so hard that it may fold */
+    double shift_x[MGT_MAX_WAVES], shift_z[MGT_MAX_WAVES]; /* metres */
+    double drift_x[MGT_MAX_WAVES], drift_z[MGT_MAX_WAVES]; /* metres per second */
+    double press_xx[MGT_MAX_WAVES], press_xz[MGT_MAX_WAVES], press_zz[MGT_MAX_WAVES];
+    double sum;      /* metres: of all heights */
+    double pressed;  /* of all derivatives of the shift */
+    double straight; /* metres over which the slopes change little */
+
     struct {
-        float up, lean_x, lean_z, rise;
+        float up, lean_x, lean_z, rise, shift_x, shift_z, drift_x, drift_z, press_xx, press_xz, press_zz;
     } single[MGT_MAX_WAVES]; /* the same in single precision */
 } water_terms;
 

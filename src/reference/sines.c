@@ -11,31 +11,99 @@
 
 static const long double pi = 3.14159265358979323846264338327950288L;
 
-water_point water_surface(const mgt_water *water, double x, double z, double time)
+/* Of water at rest: where it is shifted to, and the derivatives that the surface there is made of. */
+typedef struct rest_sums {
+    water_point flat;          /* height and its derivatives at rest */
+    double shift[2];           /* metres */
+    double stretch[3];         /* xx, xz, zz of 1 + ∂shift/∂place */
+    double bend[4];            /* xxx, xxz, xzz, zzz of ∂²shift/∂place² */
+} rest_sums;
+
+static rest_sums sums_at_rest(const mgt_water *water, double x, double z, double time)
 {
-    water_point point = {0};
+    rest_sums r = {.stretch = {1, 0, 1}};
     for (size_t i = 0; i < water->wave_count; i++) {
         const mgt_wave *wave = &water->waves[i];
         const double phase = wave->kx * x + wave->kz * z + wave->omega * time + wave->phase;
         const double sine = wave->amplitude * sin(phase), cosine = wave->amplitude * cos(phase);
-        point.height += sine;
-        point.slope[0] += wave->kx * cosine;
-        point.slope[1] += wave->kz * cosine;
-        point.hessian[0] -= wave->kx * wave->kx * sine;
-        point.hessian[1] -= wave->kx * wave->kz * sine;
-        point.hessian[2] -= wave->kz * wave->kz * sine;
+        r.flat.height += sine;
+        r.flat.slope[0] += wave->kx * cosine;
+        r.flat.slope[1] += wave->kz * cosine;
+        r.flat.hessian[0] -= wave->kx * wave->kx * sine;
+        r.flat.hessian[1] -= wave->kx * wave->kz * sine;
+        r.flat.hessian[2] -= wave->kz * wave->kz * sine;
+        const double k = hypot(wave->kx, wave->kz), shift = k > 0 ? (double)water->choppiness / k : 0;
+        r.shift[0] += shift * wave->kx * cosine;
+        r.shift[1] += shift * wave->kz * cosine;
+        r.stretch[0] -= shift * wave->kx * wave->kx * sine;
+        r.stretch[1] -= shift * wave->kx * wave->kz * sine;
+        r.stretch[2] -= shift * wave->kz * wave->kz * sine;
+        r.bend[0] -= shift * wave->kx * wave->kx * wave->kx * cosine;
+        r.bend[1] -= shift * wave->kx * wave->kx * wave->kz * cosine;
+        r.bend[2] -= shift * wave->kx * wave->kz * wave->kz * cosine;
+        r.bend[3] -= shift * wave->kz * wave->kz * wave->kz * cosine;
     }
-    return point;
+    return r;
+}
+
+/* The surface where the sums' water has been shifted to: derivatives by x = u + D(u). */
+static water_point shifted_surface(const rest_sums *r)
+{
+    const double *b = r->stretch, det = b[0] * b[2] - b[1] * b[1];
+    const double u[2][2] = {{b[2] / det, -b[1] / det}, {-b[1] / det, b[0] / det}}; /* ∂u/∂x */
+    water_point p = {.height = r->flat.height};
+    for (int i = 0; i < 2; i++)
+        p.slope[i] = u[i][0] * r->flat.slope[0] + u[i][1] * r->flat.slope[1];
+    const double rest[3] = {r->flat.hessian[0] - p.slope[0] * r->bend[0] - p.slope[1] * r->bend[1],
+                            r->flat.hessian[1] - p.slope[0] * r->bend[1] - p.slope[1] * r->bend[2],
+                            r->flat.hessian[2] - p.slope[0] * r->bend[2] - p.slope[1] * r->bend[3]};
+    for (int i = 0; i < 3; i++) {
+        const double *left = u[i == 2], *right = u[i > 0];
+        p.hessian[i] = left[0] * (rest[0] * right[0] + rest[1] * right[1]) + left[1] * (rest[1] * right[0] + rest[2] * right[1]);
+    }
+    return p;
+}
+
+water_point water_surface(const mgt_water *water, double x, double z, double time)
+{
+    double u[2] = {x, z};
+    rest_sums r = sums_at_rest(water, x, z, time);
+    if (!(water->choppiness > 0))
+        return r.flat;
+    /* Half of a step that always comes nearer, then Newton's. */
+    for (int i = 0; i < 300; i++) {
+        const double left[2] = {x - u[0] - r.shift[0], z - u[1] - r.shift[1]}, off = hypot(left[0], left[1]);
+        if (off < 1e-14 * (1 + fabs(x) + fabs(z)))
+            break;
+        const double *b = r.stretch, det = b[0] * b[2] - b[1] * b[1];
+        const double newton[2] = {(b[2] * left[0] - b[1] * left[1]) / det, (b[0] * left[1] - b[1] * left[0]) / det};
+        double part = 1;
+        for (int halvings = 0; halvings < 6; halvings++, part /= 2) { /* as far as it comes nearer */
+            const rest_sums next = sums_at_rest(water, u[0] + part * newton[0], u[1] + part * newton[1], time);
+            if (hypot(x - u[0] - part * newton[0] - next.shift[0], z - u[1] - part * newton[1] - next.shift[1]) < off)
+                break;
+        }
+        const bool nearer = part > 0.02 && det > 0;
+        u[0] += nearer ? part * newton[0] : 0.5 * left[0];
+        u[1] += nearer ? part * newton[1] : 0.5 * left[1];
+        r = sums_at_rest(water, u[0], u[1], time);
+    }
+    return shifted_surface(&r);
 }
 
 void water_worst_case(const mgt_water *water, const double direction[3], double *height, double *slope)
 {
+    double steepest = 0;
     *height = *slope = 0;
     for (size_t i = 0; i < water->wave_count; i++) {
         const mgt_wave *wave = &water->waves[i];
         *height += fabs(wave->amplitude);
         *slope += fabs(wave->amplitude * (wave->kx * direction[0] + wave->kz * direction[2]));
+        steepest += fabs(wave->amplitude) * hypot(wave->kx, wave->kz);
     }
+    /* A surface that leans by S at rest where it is not pressed is pressed by choppiness · S where it is level. */
+    const double pressed = fmin((double)water->choppiness * steepest, 0.9);
+    *slope /= 1 - pressed;
 }
 
 /* long double, because a camera may stand at phases of 10⁷ radians. */
