@@ -4,6 +4,7 @@
  * sums over waves are single or double.
  */
 #include <math.h>
+#include <stddef.h>
 
 #include "cpu/query_lanes.h"
 
@@ -184,19 +185,61 @@ typedef struct rest_group {
     double height[MGT_LANES], slope_x[MGT_LANES], slope_z[MGT_LANES], rise[MGT_LANES];
     double shift_x[MGT_LANES], shift_z[MGT_LANES], drift_x[MGT_LANES], drift_z[MGT_LANES];
     double xx[MGT_LANES], xz[MGT_LANES], zz[MGT_LANES]; /* −∂shift/∂place */
+    double bend_xx[MGT_LANES], bend_xz[MGT_LANES], bend_zz[MGT_LANES]; /* −∂slope/∂place */
+    double xxx[MGT_LANES], xxz[MGT_LANES], xzz[MGT_LANES], zzz[MGT_LANES]; /* −∂²shift/∂place² */
 } rest_group;
 
-static inline __attribute__((always_inline)) void rest_single(const water_terms *w, int count, rest_group *g)
+/* Turns of the waves at the places where a search begins. */
+typedef struct start_turns {
+    float of[MGT_MAX_WAVES][MGT_LANES];
+} start_turns;
+
+static void place_turns(const water_terms *w, const rest_group *g, start_turns *to)
+{
+    for (int i = 0; i < w->count; i++) {
+        wide turns[HALVES];
+        for (int half = 0; half < HALVES; half++)
+            turns[half] = turns_at(w, i, wide_load(g->x + half * WIDE), wide_load(g->z + half * WIDE));
+        const real single = real_of_wides(turns);
+        __builtin_memcpy(to->of[i], &single, sizeof single);
+    }
+}
+
+/* Shift, and minus its derivative. */
+typedef struct shift_sums {
+    real x, z, xx, xz, zz;
+} shift_sums;
+
+/* As far as a search needs them, away_x and away_z from where it began. */
+static inline shift_sums shift_away(const water_terms *w, int count, const start_turns *turns, real away_x, real away_z)
+{
+    const real zero = real_broadcast(0);
+    shift_sums d = {zero, zero, zero, zero, zero};
+    for (int i = 0; i < count; i++) {
+        real at;
+        __builtin_memcpy(&at, turns->of[i], sizeof at);
+        at = real_fma(away_x, real_broadcast(w->single[i].along_x), real_fma(away_z, real_broadcast(w->single[i].along_z), at));
+        const SinCos t = sincos_wave(NULL, at);
+        d.x = real_fma(t.c, real_broadcast(w->single[i].shift_x), d.x);
+        d.z = real_fma(t.c, real_broadcast(w->single[i].shift_z), d.z);
+        d.xx = real_fma(t.s, real_broadcast(w->single[i].press_xx), d.xx);
+        d.xz = real_fma(t.s, real_broadcast(w->single[i].press_xz), d.xz);
+        d.zz = real_fma(t.s, real_broadcast(w->single[i].press_zz), d.zz);
+    }
+    return d;
+}
+
+static inline void rest_single(const water_terms *w, rest_group *g)
 {
     const real zero = real_broadcast(0);
     real height = zero, slope_x = zero, slope_z = zero, rise = zero, shift_x = zero, shift_z = zero, drift_x = zero, drift_z = zero;
-    real xx = zero, xz = zero, zz = zero;
+    real xx = zero, xz = zero, zz = zero, bend_xx = zero, bend_xz = zero, bend_zz = zero, xxx = zero, xxz = zero, xzz = zero, zzz = zero;
     wide x[HALVES], z[HALVES];
     for (int half = 0; half < HALVES; half++) {
         x[half] = wide_load(g->x + half * WIDE);
         z[half] = wide_load(g->z + half * WIDE);
     }
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < w->count; i++) {
         wide turns[HALVES];
         for (int half = 0; half < HALVES; half++)
             turns[half] = turns_at(w, i, x[half], z[half]);
@@ -212,7 +255,22 @@ static inline __attribute__((always_inline)) void rest_single(const water_terms 
         xx = real_fma(t.s, real_broadcast(w->single[i].press_xx), xx);
         xz = real_fma(t.s, real_broadcast(w->single[i].press_xz), xz);
         zz = real_fma(t.s, real_broadcast(w->single[i].press_zz), zz);
+        const real along_x = t.c * w->single[i].k_x, along_z = t.c * w->single[i].k_z, high_x = t.s * w->single[i].k_x, high_z = t.s * w->single[i].k_z;
+        bend_xx = real_fma(high_x, real_broadcast(w->single[i].lean_x), bend_xx);
+        bend_xz = real_fma(high_x, real_broadcast(w->single[i].lean_z), bend_xz);
+        bend_zz = real_fma(high_z, real_broadcast(w->single[i].lean_z), bend_zz);
+        xxx = real_fma(along_x, real_broadcast(w->single[i].press_xx), xxx);
+        xxz = real_fma(along_z, real_broadcast(w->single[i].press_xx), xxz);
+        xzz = real_fma(along_x, real_broadcast(w->single[i].press_zz), xzz);
+        zzz = real_fma(along_z, real_broadcast(w->single[i].press_zz), zzz);
     }
+    store_sum(g->bend_xx, bend_xx);
+    store_sum(g->bend_xz, bend_xz);
+    store_sum(g->bend_zz, bend_zz);
+    store_sum(g->xxx, xxx);
+    store_sum(g->xxz, xxz);
+    store_sum(g->xzz, xzz);
+    store_sum(g->zzz, zzz);
     store_sum(g->height, height);
     store_sum(g->slope_x, slope_x);
     store_sum(g->slope_z, slope_z);
@@ -226,13 +284,15 @@ static inline __attribute__((always_inline)) void rest_single(const water_terms 
     store_sum(g->zz, zz);
 }
 
-static inline void rest_double(const water_terms *w, int count, rest_group *g)
+/* Without the second derivatives: a search in double ends where they do not matter. */
+static inline void rest_double(const water_terms *w, rest_group *g)
 {
+    __builtin_memset(g->bend_xx, 0, sizeof *g - offsetof(rest_group, bend_xx));
     for (int half = 0; half < HALVES; half++) {
         const wide x = wide_load(g->x + half * WIDE), z = wide_load(g->z + half * WIDE), zero = wide_of(0);
         wide height = zero, slope_x = zero, slope_z = zero, rise = zero, shift_x = zero, shift_z = zero, drift_x = zero, drift_z = zero;
         wide xx = zero, xz = zero, zz = zero;
-        for (int i = 0; i < count; i++) {
+        for (int i = 0; i < w->count; i++) {
             const wide_sine t = sine_of_turns(turns_at(w, i, x, z));
             height = wide_fma(t.sine, wide_of(w->up[i]), height);
             slope_x = wide_fma(t.cosine, wide_of(w->lean_x[i]), slope_x);
@@ -302,57 +362,113 @@ static void newton_step(const double value[2], const double direction[2], const 
     to_rest_by(value[0] > 0.1 ? value[0] : 0.1, least, direction, v, out);
 }
 
-static void keep_point(const rest_group *g, int lane, settled_point *p)
+/* The answer at the point `left` beyond the one that the sums' place is shifted to. */
+static void keep_point(const rest_group *g, int lane, const double left[2], settled_point *p)
 {
-    double value[2];
+    double value[2], step[2];
     stretch_of(g->xx[lane], g->xz[lane], g->zz[lane], value, p->worst);
-    const double slope[2] = {g->slope_x[lane], g->slope_z[lane]};
+    newton_step(value, p->worst, left, step);
+    const double turn[2] = {g->bend_xx[lane] * step[0] + g->bend_xz[lane] * step[1], g->bend_xz[lane] * step[0] + g->bend_zz[lane] * step[1]};
+    const double press[3] = {g->xxx[lane] * step[0] + g->xxz[lane] * step[1], g->xxz[lane] * step[0] + g->xzz[lane] * step[1],
+                             g->xzz[lane] * step[0] + g->zzz[lane] * step[1]};
+    stretch_of(g->xx[lane] + press[0], g->xz[lane] + press[1], g->zz[lane] + press[2], value, p->worst);
+    const double slope[2] = {g->slope_x[lane] - turn[0], g->slope_z[lane] - turn[1]};
     to_rest(value, p->worst, slope, p->slope);
-    p->height = g->height[lane];
+    p->height = g->height[lane] + (g->slope_x[lane] - 0.5 * turn[0]) * step[0] + (g->slope_z[lane] - 0.5 * turn[1]) * step[1];
     p->velocity[0] = g->drift_x[lane];
     p->velocity[1] = g->rise[lane];
     p->velocity[2] = g->drift_z[lane];
     p->jacobian = value[0] * value[1];
     p->least = value[1];
-    p->rest[0] = g->x[lane];
-    p->rest[1] = g->z[lane];
+    p->rest[0] = g->x[lane] + step[0];
+    p->rest[1] = g->z[lane] + step[1];
 }
 
-/* Finds the places of rest of as many points as lanes, from those in g. Steps that always come nearer lead to where the waves are straight, Newton's from
- * there. The largest waves alone serve for the first ones. */
+/* A step towards the place of rest: one that always comes nearer, and Newton's where the waves are straight. */
+static void rest_step(const water_terms *w, const rest_group *g, int lane, const double left[2], double step[2])
+{
+    step[0] = left[0];
+    step[1] = left[1];
+    if (left[0] * left[0] + left[1] * left[1] < w->straight * w->straight) {
+        double value[2], direction[2];
+        stretch_of(g->xx[lane], g->xz[lane], g->zz[lane], value, direction);
+        newton_step(value, direction, left, step);
+    }
+}
+
+/* rest_step() by lanes. */
+static inline vec2 rest_steps(const water_terms *w, shift_sums d, vec2 left)
+{
+    const real half_sum = 1 - 0.5f * (d.xx + d.zz), half = 0.5f * (d.zz - d.xx);
+    const real radius = sqrt(half * half + d.xz * d.xz), inverse_radius = 1 / max(radius, real(1e-20f));
+    const real most = max(half_sum + radius, real(0.1f)), value = half_sum - radius;
+    const real least = SELECT(value < 0, min(value, real(-0.05f)), max(value, real(0.05f)));
+    /* B⁻¹ = middle + part · (B − half_sum)/radius */
+    const real middle = 0.5f * (1 / most + 1 / least), part = 0.5f * (1 / most - 1 / least) * inverse_radius;
+    const vec2 newton = vec2(middle * left.x + part * (half * left.x - d.xz * left.y), middle * left.y - part * (d.xz * left.x + half * left.y));
+    const real straight = real((float)(w->straight * w->straight));
+    return SELECT2(left.x * left.x + left.y * left.y < straight, newton, left);
+}
+
+/* Moves places from where they are to near those of rest. The largest waves alone serve for the first steps. */
+static void settle_roughly(const water_terms *w, const double at[][2], rest_group *g)
+{
+    enum { LOOKS = 24, FIRST = 3 };
+    start_turns turns;
+    float off_x[MGT_LANES], off_z[MGT_LANES];
+    for (int lane = 0; lane < MGT_LANES; lane++) {
+        off_x[lane] = (float)(at[lane][0] - g->x[lane]);
+        off_z[lane] = (float)(at[lane][1] - g->z[lane]);
+    }
+    place_turns(w, g, &turns);
+    const float enough = (float)(0.05 * w->straight + 3e-5 * w->sum);
+    real away_x = real(0.0f), away_z = real(0.0f), open = real(1.0f), x, z;
+    __builtin_memcpy(&x, off_x, sizeof x);
+    __builtin_memcpy(&z, off_z, sizeof z);
+    for (int look = 0; look < LOOKS && any_lane(open > 0); look++) {
+        const int count = look < FIRST && w->count > 16 ? w->count / 4 : w->count;
+        const shift_sums d = shift_away(w, count, &turns, away_x, away_z);
+        const vec2 left = vec2(x - away_x - d.x, z - away_z - d.z), step = rest_steps(w, d, left);
+        away_x = away_x + open * step.x;
+        away_z = away_z + open * step.y;
+        if (count == w->count)
+            open = SELECT(left.x * left.x + left.y * left.y > real(enough * enough), open, real(0.0f));
+    }
+    double moved_x[MGT_LANES], moved_z[MGT_LANES];
+    store_sum(moved_x, away_x);
+    store_sum(moved_z, away_z);
+    for (int lane = 0; lane < MGT_LANES; lane++) {
+        g->x[lane] += moved_x[lane];
+        g->z[lane] += moved_z[lane];
+    }
+}
+
+/* Finds the places of rest of as many points as lanes, from those in g. */
 static void settle(const water_terms *w, bool exact, const double at[][2], rest_group *g, settled_point *points)
 {
-    enum { LOOKS = 40, FIRST = 4 };
-    const double near = exact ? 1e-11 * (1 + w->sum) : 4e-7 * w->sum;
+    enum { LOOKS = 12 };
+    const double near = exact ? 1e-11 * (1 + w->sum) : 2e-3 * w->straight + 1e-5 * w->sum;
     int open = MGT_LANES;
     for (int lane = 0; lane < MGT_LANES; lane++) {
         points[lane].settled = !(0 * (at[lane][0] + at[lane][1]) == 0); /* where there is no place to find */
         open -= points[lane].settled;
     }
+    settle_roughly(w, at, g);
     for (int look = 0; look < LOOKS && open > 0; look++) {
-        const int count = look < FIRST && w->count > 16 ? w->count / 4 : w->count;
-        if (exact && look >= FIRST)
-            rest_double(w, count, g);
+        if (exact)
+            rest_double(w, g);
         else
-            rest_single(w, count, g);
+            rest_single(w, g);
         for (int lane = 0; lane < MGT_LANES; lane++) {
             if (points[lane].settled)
                 continue;
             const double left[2] = {at[lane][0] - g->x[lane] - g->shift_x[lane], at[lane][1] - g->z[lane] - g->shift_z[lane]};
-            const double squared = left[0] * left[0] + left[1] * left[1];
-            if (count == w->count && (squared <= near * near || look + 1 == LOOKS)) {
-                keep_point(g, lane, &points[lane]);
-                points[lane].height += points[lane].slope[0] * left[0] + points[lane].slope[1] * left[1];
-                points[lane].settled = squared <= near * near;
-                open -= points[lane].settled;
-                continue;
-            }
-            double step[2] = {left[0], left[1]};
-            if (squared < w->straight * w->straight) {
-                double value[2], direction[2];
-                stretch_of(g->xx[lane], g->xz[lane], g->zz[lane], value, direction);
-                newton_step(value, direction, left, step);
-            }
+            points[lane].settled = left[0] * left[0] + left[1] * left[1] <= near * near;
+            if (points[lane].settled || look + 1 == LOOKS)
+                keep_point(g, lane, left, &points[lane]);
+            open -= points[lane].settled;
+            double step[2];
+            rest_step(w, g, lane, left, step);
             g->x[lane] += step[0];
             g->z[lane] += step[1];
         }
@@ -569,7 +685,7 @@ static void look_at_points(const water_terms *w, traced_ray *r, query_group *g, 
         rest.x[lane] = g->x[lane] - r[lane].shift[0];
         rest.z[lane] = g->z[lane] - r[lane].shift[1];
     }
-    rest_double(w, w->count, &rest);
+    rest_double(w, &rest);
     for (int lane = 0; lane < MGT_LANES; lane++) {
         const double left[2] = {r[lane].shift[0] - rest.shift_x[lane], r[lane].shift[1] - rest.shift_z[lane]};
         const double squared = left[0] * left[0] + left[1] * left[1], straight = w->straight * w->straight;

@@ -30,7 +30,7 @@ typedef struct water_terms {
     double straight; /* metres over which the slopes change little */
 
     struct {
-        float up, lean_x, lean_z, rise, shift_x, shift_z, drift_x, drift_z, press_xx, press_xz, press_zz;
+        float along_x, along_z, k_x, k_z, up, lean_x, lean_z, rise, shift_x, shift_z, drift_x, drift_z, press_xx, press_xz, press_zz;
     } single[MGT_MAX_WAVES]; /* the same in single precision */
 } water_terms;
 
