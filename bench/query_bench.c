@@ -58,8 +58,13 @@ int main(int count, char **arguments)
     const bool quick = count > 1 && strcmp(arguments[1], "--quick") == 0;
     const size_t n = quick ? 1000 : 1000000;
     const int rounds = quick ? 1 : ROUNDS;
-    static const char *const names[QUESTIONS] = {"height and normal", "height alone", "height, normal, velocity", "the same, exact",
-                                                "choppy: height and normal", "choppy: all, exact", "choppy as far as it folds: height and normal"};
+    static const char *const names[QUESTIONS] = {"height and normal",
+                                                 "height alone",
+                                                 "height, normal, velocity",
+                                                 "the same, exact",
+                                                 "choppy: height and normal",
+                                                 "choppy: all, exact",
+                                                 "choppy as far as it folds: height and normal"};
     double *points = malloc(2 * n * sizeof *points), *height = malloc(n * sizeof *height);
     float *normal = malloc(3 * n * sizeof *normal), *velocity = malloc(3 * n * sizeof *velocity);
     if (!points || !height || !normal || !velocity)

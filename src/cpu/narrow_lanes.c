@@ -62,10 +62,9 @@ static void lanes_water(const FrameData *data, const tile_waves *tile, const til
         store(out->share + i, p.water);
         if (!any_lane(p.water > real(0.0f)))
             continue;
-        const SeenWater w =
-            seen_water(&cx, p.ray,
-                       (HitEstimate){load(estimate->height + i), load(estimate->from + i), load(estimate->search + i), vec2(real(0.0f), real(0.0f)),
-                                     vec2(load(estimate->shift_x + i), load(estimate->shift_z + i))});
+        const SeenWater w = seen_water(&cx, p.ray,
+                                       (HitEstimate){load(estimate->height + i), load(estimate->from + i), load(estimate->search + i),
+                                                     vec2(real(0.0f), real(0.0f)), vec2(load(estimate->shift_x + i), load(estimate->shift_z + i))});
         const WaterVariation v = w.variation;
         store_vector(out->view, i, scale(w.view, real(-1.0f)));
         store(out->along + i, w.along * sqrt(length_squared(p.ray)));

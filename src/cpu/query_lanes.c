@@ -184,8 +184,8 @@ typedef struct rest_group {
     double x[MGT_LANES], z[MGT_LANES]; /* the places */
     double height[MGT_LANES], slope_x[MGT_LANES], slope_z[MGT_LANES], rise[MGT_LANES];
     double shift_x[MGT_LANES], shift_z[MGT_LANES], drift_x[MGT_LANES], drift_z[MGT_LANES];
-    double xx[MGT_LANES], xz[MGT_LANES], zz[MGT_LANES]; /* −∂shift/∂place */
-    double bend_xx[MGT_LANES], bend_xz[MGT_LANES], bend_zz[MGT_LANES]; /* −∂slope/∂place */
+    double xx[MGT_LANES], xz[MGT_LANES], zz[MGT_LANES];                    /* −∂shift/∂place */
+    double bend_xx[MGT_LANES], bend_xz[MGT_LANES], bend_zz[MGT_LANES];     /* −∂slope/∂place */
     double xxx[MGT_LANES], xxz[MGT_LANES], xzz[MGT_LANES], zzz[MGT_LANES]; /* −∂²shift/∂place² */
 } rest_group;
 
@@ -255,7 +255,8 @@ static inline void rest_single(const water_terms *w, rest_group *g)
         xx = real_fma(t.s, real_broadcast(w->single[i].press_xx), xx);
         xz = real_fma(t.s, real_broadcast(w->single[i].press_xz), xz);
         zz = real_fma(t.s, real_broadcast(w->single[i].press_zz), zz);
-        const real along_x = t.c * w->single[i].k_x, along_z = t.c * w->single[i].k_z, high_x = t.s * w->single[i].k_x, high_z = t.s * w->single[i].k_z;
+        const real along_x = t.c * w->single[i].radians_x, along_z = t.c * w->single[i].radians_z, high_x = t.s * w->single[i].radians_x,
+                   high_z = t.s * w->single[i].radians_z;
         bend_xx = real_fma(high_x, real_broadcast(w->single[i].lean_x), bend_xx);
         bend_xz = real_fma(high_x, real_broadcast(w->single[i].lean_z), bend_xz);
         bend_zz = real_fma(high_z, real_broadcast(w->single[i].lean_z), bend_zz);
@@ -323,9 +324,9 @@ static inline void rest_double(const water_terms *w, rest_group *g)
 /* What is told of a point of choppy water. */
 typedef struct settled_point {
     double height, slope[2], velocity[3], jacobian;
-    double least;      /* eigenvalue of B */
-    double worst[2];   /* unit, its direction */
-    double rest[2];    /* the place */
+    double least;    /* eigenvalue of B */
+    double worst[2]; /* unit, its direction */
+    double rest[2];  /* the place */
     bool settled;
 } settled_point;
 
@@ -479,7 +480,8 @@ static void settle(const water_terms *w, bool exact, const double at[][2], rest_
 static void settle_folded(const water_terms *w, bool exact, const double at[2], settled_point *p)
 {
     enum { STARTS = 32 };
-    static const double eighths[8][2] = {{1, 0}, {M_SQRT1_2, M_SQRT1_2}, {0, 1}, {-M_SQRT1_2, M_SQRT1_2}, {-1, 0}, {-M_SQRT1_2, -M_SQRT1_2}, {0, -1}, {M_SQRT1_2, -M_SQRT1_2}};
+    static const double eighths[8][2] = {{1, 0},  {M_SQRT1_2, M_SQRT1_2},   {0, 1},  {-M_SQRT1_2, M_SQRT1_2},
+                                         {-1, 0}, {-M_SQRT1_2, -M_SQRT1_2}, {0, -1}, {M_SQRT1_2, -M_SQRT1_2}};
     settled_point best = *p;
     for (int first = 0; first < STARTS; first += MGT_LANES) {
         rest_group g;

@@ -245,8 +245,8 @@ static void add_shift_terms(water_terms *terms, const mgt_wave *w, double choppi
     terms->press_zz[n] = terms->shift_z[n] * w->kz;
     terms->single[n].along_x = (float)terms->along_x[n];
     terms->single[n].along_z = (float)terms->along_z[n];
-    terms->single[n].k_x = (float)w->kx;
-    terms->single[n].k_z = (float)w->kz;
+    terms->single[n].radians_x = (float)w->kx;
+    terms->single[n].radians_z = (float)w->kz;
     terms->single[n].shift_x = (float)terms->shift_x[n];
     terms->single[n].shift_z = (float)terms->shift_z[n];
     terms->single[n].drift_x = (float)terms->drift_x[n];

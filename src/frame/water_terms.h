@@ -21,7 +21,7 @@ typedef struct water_terms {
     /* Of choppy water, whose terms stand in order of size: at a place of rest it is shifted by Σ shift·cos t, which grows by Σ drift·sin t a second, and its
      * derivative is −Σ press·sin t. */
     bool choppy;
-    bool folds; /* it is pressed so hard that it may fold */
+    bool folds;                                            /* it is pressed so hard that it may fold */
     double shift_x[MGT_MAX_WAVES], shift_z[MGT_MAX_WAVES]; /* metres */
     double drift_x[MGT_MAX_WAVES], drift_z[MGT_MAX_WAVES]; /* metres per second */
     double press_xx[MGT_MAX_WAVES], press_xz[MGT_MAX_WAVES], press_zz[MGT_MAX_WAVES];
@@ -30,7 +30,7 @@ typedef struct water_terms {
     double straight; /* metres over which the slopes change little */
 
     struct {
-        float along_x, along_z, k_x, k_z, up, lean_x, lean_z, rise, shift_x, shift_z, drift_x, drift_z, press_xx, press_xz, press_zz;
+        float along_x, along_z, radians_x, radians_z, up, lean_x, lean_z, rise, shift_x, shift_z, drift_x, drift_z, press_xx, press_xz, press_zz;
     } single[MGT_MAX_WAVES]; /* the same in single precision */
 } water_terms;
 

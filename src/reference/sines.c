@@ -13,10 +13,10 @@ static const long double pi = 3.14159265358979323846264338327950288L;
 
 /* Of water at rest: where it is shifted to, and the derivatives that the surface there is made of. */
 typedef struct rest_sums {
-    water_point flat;          /* height and its derivatives at rest */
-    double shift[2];           /* metres */
-    double stretch[3];         /* xx, xz, zz of 1 + ∂shift/∂place */
-    double bend[4];            /* xxx, xxz, xzz, zzz of ∂²shift/∂place² */
+    water_point flat;  /* height and its derivatives at rest */
+    double shift[2];   /* metres */
+    double stretch[3]; /* xx, xz, zz of 1 + ∂shift/∂place */
+    double bend[4];    /* xxx, xxz, xzz, zzz of ∂²shift/∂place² */
 } rest_sums;
 
 static rest_sums sums_at_rest(const mgt_water *water, double x, double z, double time)
@@ -229,8 +229,7 @@ static double derivative_bound(const reference_wave *waves, uint32_t count, int 
     return fmin(sum, deviations * sqrt(0.5 * square));
 }
 
-void choppy_levels_of(const reference_wave *waves, double choppiness, double deviations, const reference_level *levels, uint32_t level_count,
-                      choppy_level *out)
+void choppy_levels_of(const reference_wave *waves, double choppiness, double deviations, const reference_level *levels, uint32_t level_count, choppy_level *out)
 {
     const uint32_t all = levels[level_count - 1].waves;
     const double size = fabs(choppiness);

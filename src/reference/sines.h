@@ -173,6 +173,43 @@ static inline void waves_bounds(const reference_wave *waves, uint32_t count, rea
     *total = sum;
 }
 
+/* ---- choppy water: sums by parts of eight waves, whatever the lanes ---- */
+
+enum { CHOPPY_PARTS = 8 / REFERENCE_LANES, CHOPPY_SUMS = 8 };
+
+static inline double add_parts(const reals part[CHOPPY_PARTS])
+{
+    _Alignas(64) double sum[8];
+    for (int i = 0; i < CHOPPY_PARTS; i++)
+        store(&sum[i * REFERENCE_LANES], part[i]);
+    return ((sum[0] + sum[4]) + (sum[2] + sum[6])) + ((sum[1] + sum[5]) + (sum[3] + sum[7]));
+}
+
+static inline choppy_sums choppy_sums_at(const reference_columns *c, uint32_t count, double x, double z, double time_offset)
+{
+    reals sum[CHOPPY_SUMS][CHOPPY_PARTS] = {0};
+    for (uint32_t at = 0; at < count; at += 8)
+        for (int part = 0; part < CHOPPY_PARTS; part++) {
+            const uint32_t i = at + (uint32_t)part * REFERENCE_LANES;
+            reals phase = fused(splat(time_offset), load(&c->half_turns_c[i]), load(&c->phase[i]));
+            phase = fused(splat(z), load(&c->half_turns_b[i]), phase);
+            phase = fused(splat(x), load(&c->half_turns_a[i]), phase);
+            const sine_cosine sc = sine_cosine_half_turns(phase);
+            sum[0][part] = fused(sc.sine, load(&c->height[i]), sum[0][part]);
+            sum[1][part] = fused(sc.cosine, load(&c->amplitude_a[i]), sum[1][part]);
+            sum[2][part] = fused(sc.cosine, load(&c->amplitude_b[i]), sum[2][part]);
+            sum[3][part] = fused(sc.cosine, load(&c->shift_a[i]), sum[3][part]);
+            sum[4][part] = fused(sc.cosine, load(&c->shift_b[i]), sum[4][part]);
+            sum[5][part] = fused(sc.sine, load(&c->press_aa[i]), sum[5][part]);
+            sum[6][part] = fused(sc.sine, load(&c->press_ab[i]), sum[6][part]);
+            sum[7][part] = fused(sc.sine, load(&c->press_bb[i]), sum[7][part]);
+        }
+    return (choppy_sums){.height = add_parts(sum[0]),
+                         .slope = {add_parts(sum[1]), add_parts(sum[2])},
+                         .shift = {add_parts(sum[3]), add_parts(sum[4])},
+                         .stretch = {1 - add_parts(sum[5]), -add_parts(sum[6]), 1 - add_parts(sum[7])}};
+}
+
 /* ---- sums in single precision ---- */
 
 /* A sum adds blocks of 16 waves to 16 partial sums, whatever the lanes. */

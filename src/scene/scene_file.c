@@ -166,8 +166,11 @@ bool scene_values_shot(const scene_values *values, double time, mgt_scene *out)
     scene.light = values->light;
     scene.sky = values->sky;
     const scene_list waves = scene_water_all(&values->water);
-    scene.water =
-        (mgt_water){.waves = waves.items, .wave_count = waves.count, .index_of_refraction = values->water.index_of_refraction, .level = values->water.level, .choppiness = values->water.choppiness};
+    scene.water = (mgt_water){.waves = waves.items,
+                              .wave_count = waves.count,
+                              .index_of_refraction = values->water.index_of_refraction,
+                              .level = values->water.level,
+                              .choppiness = values->water.choppiness};
     memcpy(scene.water.absorption, values->water.absorption, sizeof scene.water.absorption);
     memcpy(scene.water.scattering, values->water.scattering, sizeof scene.water.scattering);
     memcpy(scene.water.body_albedo, values->water.body_albedo, sizeof scene.water.body_albedo);

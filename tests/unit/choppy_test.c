@@ -151,7 +151,8 @@ static void the_shutters_ends_are_the_surface_then(void **state)
         const double at[2] = {scene.camera.position[0] + (double)b->tile.data.origin_x + (double)x,
                               scene.camera.position[2] + (double)b->tile.data.origin_z + (double)z};
         const Surface s = surface_filtered(&b->cx, x, z, p, vec2(0, 0));
-        const water_point close = water_surface(&scene.water, at[0], at[1], scene.time), open = water_surface(&scene.water, at[0], at[1], scene.time - scene.shutter);
+        const water_point close = water_surface(&scene.water, at[0], at[1], scene.time),
+                          open = water_surface(&scene.water, at[0], at[1], scene.time - scene.shutter);
         slope += pow(2 * (double)s.slope_odd.x - (open.slope[0] - close.slope[0]), 2) + pow(2 * (double)s.slope_odd.y - (open.slope[1] - close.slope[1]), 2);
         moved += pow(open.slope[0] - close.slope[0], 2) + pow(open.slope[1] - close.slope[1], 2);
         height += pow(2 * (double)s.height_odd - (close.height - open.height), 2);
@@ -184,7 +185,8 @@ static void ripples_lean_more_on_crests(void **state)
             across += pow(s.slope[1], 2) / SEAS;
         }
         const double rest = 0.02 * 0.02 / 4;
-        print_message("  %s: × %.3f along, %.3f across; B⁻¹ says %.3f, 1\n", side == 0 ? "crest" : "trough", along / rest, across / rest, 1 / (stretch * stretch));
+        print_message("  %s: × %.3f along, %.3f across; B⁻¹ says %.3f, 1\n", side == 0 ? "crest" : "trough", along / rest, across / rest,
+                      1 / (stretch * stretch));
         assert_float_equal(along / rest * stretch * stretch, 1, 0.08);
         assert_float_equal(across / rest, 1, 0.08);
     }

@@ -44,6 +44,7 @@ static const control_hint hints[] = {
     {"water.waves[].wavelength", "length", 0.02, 200, true, "%.3f m"},
     {"water.waves[].direction_deg", "direction", -180, 180, false, "%.0f°"},
     {"water.waves[].speed", "speed", -20, 20, false, "%.2f m/s"},
+    {"water.choppiness", "choppiness", 0, 1, false, "%.2f"},
     {"water.level", "level", -10, 10, false, "%.2f m"},
     {"water.ior", "refraction", 1, 2, false, "%.3f"},
     {"water.absorption", "absorption", 0, 2, false, "%.3f /m"},
