@@ -37,7 +37,7 @@ void main()
     coverage = 0.0;
     if (p.water > 0.0) {
         tile.search_count = tile.coarse_count = searched_waves(p.ray);
-        SlopeState slopes = slope_state(0, p.ray, HitEstimate(0.0, 0.0, 1.0, vec2(0.0))); /* from the camera, search */
+        SlopeState slopes = slope_state(0, p.ray, HitEstimate(0.0, 0.0, 1.0, vec2(0.0), vec2(0.0))); /* from the camera, search */
         coverage = p.water * glitter_coverage(0, slopes, slopes);
     }
 }

@@ -35,7 +35,7 @@ pattern() { grep -E "$1" all.txt; }
 
 {
     echo 'set view.resolution full'
-    vary $(pattern '^light\.' | grep -v azimuth) light.azimuth_deg sky.model sky.turbidity water.ior water.body_albedo
+    vary $(pattern '^light\.' | grep -v azimuth) light.azimuth_deg sky.model sky.turbidity water.choppiness water.ior water.body_albedo
     vary post.exposure post.exposure_offset post.tone_map post.glare
     vary camera.position camera.target camera.fov_y_deg time.shutter time.fps clock.time
     vary $(pattern '^water\.waves\[[0-9]+\]')
