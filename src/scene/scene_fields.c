@@ -13,7 +13,7 @@
 #define VERSION 1, 1
 #define NO_RANGE 0, 0
 
-static const char *const spectrum_kinds[] = {"none", "pierson-moskowitz", "jonswap", "tma", "buoy", NULL};
+static const char *const spectrum_kinds[] = {"none", "pierson-moskowitz", "jonswap", "tma", "elfouhaily", "buoy", NULL};
 static const char *const spectrum_spreadings[] = {"mitsuyasu", "hasselmann", "donelan-banner", "fixed", NULL};
 static const char *const spectrum_slopes[] = {"spectrum", "cox-munk", NULL};
 static const char *const clarities[] = {"pure", "clear", "coastal", "murky", NULL};
@@ -85,13 +85,14 @@ static const field_row spectrum_fields[] =
      {"wind_height", FIELD_NUMBER, offsetof(scene_spectrum, settings.wind_height), 0, 0, 200, "m",
       .doc = "where the wind was measured; 0: 19.5 m for pierson-moskowitz, else 10 m, as in their papers"},
      {"fetch", FIELD_NUMBER, offsetof(scene_spectrum, settings.fetch), 0, 100, 1e7, "m",
-      .doc = "stretch of open water that the wind has crossed (jonswap, tma)"},
+      .doc = "stretch of open water that the wind has crossed (jonswap, tma, elfouhaily)"},
      {"depth", FIELD_NUMBER, offsetof(scene_spectrum, settings.depth), 0, 0, 12000, "m", .doc = "of the water; 0: deep"},
      {"gamma", FIELD_NUMBER, offsetof(scene_spectrum, settings.gamma), 0, 1, 20, NULL, .doc = "how far the peak stands out (jonswap, tma)"},
      {"direction_deg", FIELD_NUMBER, offsetof(scene_spectrum, settings.direction_deg), 0, -1e6, 1e6, "degrees",
       .doc = "where the wind comes from: 0 is -z (\"north\"), 90 is +x (\"east\")"},
      {"directions", FIELD_CHOICE, offsetof(scene_spectrum, settings.directions), 0, NO_RANGE, NULL,
-      .doc = "how waves spread around the wind; fixed: cos^2s of half the angle with s = spread", .choices = spectrum_spreadings},
+      .doc = "how waves spread around the wind (pierson-moskowitz, jonswap, tma); fixed: cos^2s of half the angle with s = spread",
+      .choices = spectrum_spreadings},
      {"spread", FIELD_NUMBER, offsetof(scene_spectrum, settings.spread), 0, 0, 1000, NULL, .doc = "s of directions: fixed; 0: from everywhere"},
      {"slope", FIELD_CHOICE, offsetof(scene_spectrum, settings.slope), 0, NO_RANGE, NULL,
       .doc = "cox-munk: the short waves are scaled to the mean-square slope of a clean sea in this wind", .choices = spectrum_slopes},

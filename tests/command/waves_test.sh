@@ -15,7 +15,8 @@ works waves -q -o jonswap.yaml --spectrum jonswap --wind 8 --fetch 50000 --direc
 works waves -q -o tma.yaml --spectrum tma --wind 12 --fetch 30000 --depth 6 --direction 90 --gamma 2.2 --slope cox-munk --shortest 0.1
 works waves -q -o buoy.yaml --buoy "$buoy" -n 32
 works waves -q -o deep.yml --spectrum tma --depth 9000 -n 512
-for scene in pm jonswap tma buoy; do
+works waves -q -o unified.yaml --spectrum elfouhaily --wind 10 --fetch 200000
+for scene in pm jonswap tma buoy unified; do
     expect 0 '' check "$scene.yaml"
     works render "$scene.yaml" -o "$scene.png" -q "${small[@]}" --frames 0
 done
@@ -100,7 +101,7 @@ expect 64 '--count 0: allowed is a whole number, 1 to 512' waves -n 0
 expect 64 '--count 100000: allowed' waves -n 100000
 expect 64 '--count 1.5: allowed' waves -n 1.5
 expect 64 '--seed -1: allowed' waves --seed -1
-expect 64 '--spectrum phillips: allowed is pierson-moskowitz, jonswap, tma or buoy' waves --spectrum phillips
+expect 64 '--spectrum phillips: allowed is pierson-moskowitz, jonswap, tma, elfouhaily or buoy' waves --spectrum phillips
 expect 64 '--spectrum none: allowed' waves --spectrum none
 expect 64 '--directions sideways: allowed is one of mitsuyasu' waves --directions sideways
 expect 64 '--spectrum tma needs --depth' waves --spectrum tma --wind 8
@@ -109,6 +110,9 @@ expect 64 '--buoy is for --spectrum buoy' waves --spectrum jonswap --buoy "$buoy
 expect 64 'ends in .yaml or .yml' waves -o sea.png
 expect 64 'takes options alone' waves pm.yaml
 expect 65 '--shortest leaves no room between the shortest wave, 900 m' waves --shortest 900
+expect 65 '--fetch is 500 m, too short for the spectrum in this wind; allowed: at least 2365 m' waves --spectrum elfouhaily --wind 20 --fetch 500
+expect 0 '--directions changes nothing: elfouhaily has its own' waves --spectrum elfouhaily --directions fixed
+expect 0 '--gamma changes nothing' waves --spectrum elfouhaily --gamma 2
 expect 65 '--slope cannot be cox-munk' waves --wind 0.5 --fetch 100 --shortest 0.01 --slope cox-munk
 expect 66 'no-such.txt: No such file' waves --buoy no-such.txt
 expect 66 'no-such.yaml: No such file' waves --base no-such.yaml
