@@ -2,8 +2,6 @@
 /* The command line of `mangata view` and of mangata-viewer. */
 #include "cli/view_request.h"
 
-#include <stdlib.h>
-
 #include "cli/common/options.h"
 
 static const option view_options[] = {
@@ -46,8 +44,4 @@ int view_request_read(view_request *request, int count, char **arguments)
     return code == EXIT_CODE_OK && !request->scene_path ? console_error(EXIT_CODE_USAGE, "no scene given: mangata view SCENE") : code;
 }
 
-void view_request_free(view_request *request)
-{
-    free(request->changes.items);
-    request->changes.items = NULL;
-}
+void view_request_free(view_request *request) { scene_changes_free(&request->changes); }

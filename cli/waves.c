@@ -142,25 +142,13 @@ static int check_request(waves_request *r, const console *out)
 
 /* ---- the scene ---------------------------------------------------------------------------------------------- */
 
-/* A low sun straight ahead and two seconds of film; the camera's height is for the sea to say. */
-static const char base_text[] = "mangata: 1\ntime: {fps: 30, frames: 60}\nlight: {elevation_deg: 12}\n";
-
-/* Above the crests, looking 7 degrees down. */
-static void place_camera(scene_values *values, double wave_height)
-{
-    mgt_camera *camera = &values->camera.still;
-    const double height = fmax(3, ceil(2 * (1 + 1.5 * wave_height)) / 2);
-    camera->position[1] = height;
-    camera->target[1] = height - 0.123;
-    camera->target[2] = -1;
-}
-
 /* The base with overrides, without its waves. */
 static int load_base(const waves_request *r, scene_values *values)
 {
     scene_error error = {0};
+    const scene_values empty = scene_sea_values();
     scene_file *file = r->base ? scene_file_load(r->base, r->changes.items, r->changes.count, &error)
-                               : scene_file_parse(base_text, sizeof base_text - 1, "the scene", r->changes.items, r->changes.count, &error);
+                               : scene_values_parse(&empty, "the scene", r->changes.items, r->changes.count, &error);
     if (!file) {
         console_scene_error(&error);
         return exit_code_of_scene_error(error.kind);
@@ -174,6 +162,7 @@ static int load_base(const waves_request *r, scene_values *values)
     free(values->water.spectrum.file);
     values->water.waves = values->water.sea = (scene_list){0};
     values->water.spectrum = (scene_spectrum){0};
+    values->water.wind = scene_values_defaults().water.wind;
     return EXIT_CODE_OK;
 }
 
@@ -261,7 +250,7 @@ static int make_scene(const waves_request *r, scene_values *values, const consol
     if (code != EXIT_CODE_OK)
         return code;
     if (!r->base && !names_camera(r))
-        place_camera(values, report.waves.height);
+        scene_sea_place_camera(&values->camera.still, report.waves.height);
     if (!values->description)
         values->description = strdup(waves_report_title(&report).text);
     if (!r->as_spectrum)

@@ -47,7 +47,8 @@ typedef enum field_flags {
     FIELD_GIVEN = 16,    /* mapping: its struct begins with a bool, whether it stands in the file */
     FIELD_OR_ZERO = 32,  /* besides the range 0 is allowed, which stands for the default in `absent` */
     FIELD_NO_FLAG = 64,  /* an option whose flag on the command line, if there is one, is no plain value */
-    FIELD_OBJECTS = 128  /* an option of scenes with objects */
+    FIELD_OBJECTS = 128, /* an option of scenes with objects */
+    FIELD_SHORT = 256    /* mapping: a single value stands for its first key */
 } field_flags;
 
 /* A row counts only while another choice of the same struct is one of some. */

@@ -24,7 +24,9 @@ void scene_values_write_out_sea(scene_values *values)
     water->waves = water->sea;
     water->sea = (scene_list){0};
     free(water->spectrum.file);
-    water->spectrum = scene_values_defaults().water.spectrum;
+    const scene_values defaults = scene_values_defaults();
+    water->spectrum = defaults.water.spectrum;
+    water->wind = defaults.water.wind;
     water->height = 1;
 }
 
@@ -152,7 +154,7 @@ static void write_text(FILE *stream, const char *text)
 }
 
 /* Keys that another one excludes are not written: position and target beside a path, the offset beside an exposure that is a number, what a
- * spectrum that is none is like. */
+ * spectrum or a wind that is none is like. */
 static bool is_excluded(const field_row *mapping, const field_row *field, const void *parent)
 {
     if (strcmp(mapping->key, "camera") == 0) {
@@ -161,6 +163,8 @@ static bool is_excluded(const field_row *mapping, const field_row *field, const 
     }
     if (strcmp(mapping->key, "spectrum") == 0)
         return strcmp(field->key, "model") != 0 && ((const scene_spectrum *)parent)->settings.kind == SPECTRUM_NONE;
+    if (strcmp(mapping->key, "wind") == 0)
+        return strcmp(field->key, "speed") != 0 && !(((const scene_wind *)parent)->speed > 0);
     return strcmp(mapping->key, "post") == 0 && strcmp(field->key, "exposure_offset") == 0 && !((const scene_post *)parent)->exposure.automatic;
 }
 
@@ -395,6 +399,7 @@ bool scene_overrides_between(const scene_values *from, const scene_values *to, s
     if (is_written_out(from, to)) {
         goal.water.waves = from->water.waves;
         goal.water.spectrum = from->water.spectrum;
+        goal.water.wind = from->water.wind;
         goal.water.height = from->water.height;
     }
     if (add_differences(out, "", scene_root_field(), from, &goal, &defaults))

@@ -208,6 +208,8 @@ static bool read_field(scene_reader *reader, const field_row *field, const tree_
     case FIELD_TEXT:
         return read_text(reader, field, node, place);
     case FIELD_MAPPING:
+        if (field->flags & FIELD_SHORT && node->kind == TREE_SCALAR)
+            return (node->plain && field_parse(field->fields, node->text, (char *)place + field->fields->offset)) || refuse_value(reader, field, node);
         if (field->flags & FIELD_GIVEN)
             *(bool *)place = true;
         return read_mapping(reader, field, node, place);

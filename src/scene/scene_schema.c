@@ -139,7 +139,15 @@ static void write_type_schema(FILE *stream, const field_row *field, const void *
         fputs("\"type\": [\"string\", \"number\", \"boolean\"]", stream);
         break;
     case FIELD_MAPPING:
+        if (!(field->flags & FIELD_SHORT)) {
+            write_mapping_schema(stream, field, value, depth);
+            break;
+        }
+        fputs("\"oneOf\": [{", stream);
+        write_type_schema(stream, field->fields, field_at(field->fields, value), value, depth);
+        fputs("}, {", stream);
         write_mapping_schema(stream, field, value, depth);
+        fputs("}]", stream);
         break;
     case FIELD_LIST:
         memset(&item, 0, sizeof item);

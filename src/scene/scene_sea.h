@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * The sea of a scene's `water.spectrum`: settings and a table's file in, waves out.
+ * The sea of a scene's `water.spectrum` or `water.wind`: settings and a table's file in, waves out.
  */
 #ifndef MANGATA_SCENE_SCENE_SEA_H
 #define MANGATA_SCENE_SCENE_SEA_H
@@ -28,6 +28,18 @@ typedef struct scene_sea_fault {
 /* `scene_path` is the scene's file, beside which a relative `file` lies. False with *fault filled and nothing to close. */
 bool scene_sea_open(scene_sea *sea, const scene_spectrum *settings, const char *scene_path, scene_sea_fault *fault);
 void scene_sea_close(scene_sea *sea);
+
+/* What `water.wind` is short for: in deep water the spectrum of Elfouhaily et al., else TMA's, with Cox and Munk's slopes. */
+scene_spectrum scene_wind_spectrum(const scene_wind *wind);
+
+/* A fault of that spectrum by the keys of the wind. */
+void scene_wind_fault(spectrum_fault *fault);
+
+/* What a scene of a sea begins with: a low sun straight ahead and two seconds of film. */
+scene_values scene_sea_values(void);
+
+/* Above the crests of a sea of this significant height, in metres, looking 7 degrees down. */
+void scene_sea_place_camera(mgt_camera *camera, double wave_height);
 
 /* Fills water->sea with the waves and those of the spectrum, times the factor, where there is one or the other. */
 bool scene_sea_fill(scene_water *water, const char *scene_path, scene_sea_fault *fault);

@@ -20,6 +20,7 @@ scene_values scene_values_defaults(void)
         .light = scene.light,
         .sky = scene.sky,
         .water = {.spectrum = {.settings = {.wind = 8, .fetch = 5e4, .gamma = 3.3, .directions = DIRECTIONS_HASSELMANN, .spread = 10}, .count = 64, .seed = 1},
+                  .wind = {.count = 160, .seed = 1},
                   .height = 1,
                   .index_of_refraction = scene.water.index_of_refraction,
                   .level = scene.water.level},

@@ -93,19 +93,29 @@ static bool refuse(spectrum_fault *fault, const char *key, const char *format, d
     return false;
 }
 
+static double jonswap_peak(double wind_10, double fetch) { return 22 * portable_pow(G * G / (wind_10 * fetch), 1.0 / 3); }
+
 /* Pierson and Moskowitz write α g² ω⁻⁵ exp(-β (g / (U ω))⁴) with β = 0.74; as a peak that is (4 β / 5)^¼ g / U. */
+static double pierson_moskowitz_peak(double wind_19_5) { return sqrt(sqrt(0.8 * 0.74)) * G / wind_19_5; }
+
 static void make_pierson_moskowitz(wave_spectrum *s, double wind_19_5)
 {
     s->alpha = 8.1e-3;
     s->gamma = 1;
-    s->peak = sqrt(sqrt(0.8 * 0.74)) * G / wind_19_5;
+    s->peak = pierson_moskowitz_peak(wind_19_5);
+}
+
+double developed_fetch(double wind_10)
+{
+    const double ratio = jonswap_peak(wind_10, 1) / pierson_moskowitz_peak(wind_at_height(wind_10, 10, 19.5));
+    return ratio * ratio * ratio;
 }
 
 static void make_jonswap(wave_spectrum *s, double wind_10, double fetch, double gamma)
 {
     s->alpha = 0.076 * portable_pow(wind_10 * wind_10 / (fetch * G), 0.22);
     s->gamma = gamma;
-    s->peak = 22 * portable_pow(G * G / (wind_10 * fetch), 1.0 / 3);
+    s->peak = jonswap_peak(wind_10, fetch);
 }
 
 static bool make_elfouhaily(wave_spectrum *s, double wind_10, double fetch, spectrum_fault *fault)

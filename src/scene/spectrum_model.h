@@ -111,6 +111,9 @@ double depth_factor(double frequency, double depth);
 /* Wind at another height over a neutral sea with the drag coefficient 1.3e-3: a logarithmic profile. */
 double wind_at_height(double wind, double height, double wanted_height);
 
+/* The fetch, in metres, after which JONSWAP's peak has come down to that of Pierson and Moskowitz in this wind at 10 m: about 1.9e4 U²/g. */
+double developed_fetch(double wind_10);
+
 /* Significant wave height 4 √m0 of α g² ω⁻⁵ exp(-5/4 (ω_p/ω)⁴) γ^…; exact for γ = 1, to γ = 7 by the fit 1 - 0.287 ln γ, good to 1 %;
  * NAN beyond. */
 double closed_form_height(double alpha, double peak, double gamma);

@@ -142,6 +142,25 @@ static void messages_say_what_where_and_what_is_allowed(void **state)
         {"mangata: 1\ntime: {fps: 4, frames: 9}\ncamera:\n  path:\n  - {time: 0, position: [0, 5, 0], target: [4, 5, 0]}\n"
          "  - {time: 2, position: [2, 5, 0], target: [-2, 5, 0]}\n",
          "s.yaml:5:3: camera.path at 1 s (frame 4): the camera looks at its own position; allowed: a target apart from position"},
+        /* seas */
+        {"mangata: 1\nwater: {wind: -3}\n", "s.yaml:2:15: water.wind is -3; allowed: a number, 0 or 0.5 to 75 m/s, or a mapping {key: value, ...}"},
+        {"mangata: 1\nwater: {wind: strong}\n", "s.yaml:2:15: water.wind is strong; allowed: a number, 0 or 0.5 to 75 m/s, or a mapping {key: value, ...}"},
+        {"mangata: 1\nwater: {wind: \"8\"}\n",
+         "s.yaml:2:15: water.wind is the text \"8\"; allowed: a number, 0 or 0.5 to 75 m/s, or a mapping {key: value, ...}"},
+        {"mangata: 1\nwater: {wind: .nan}\n", "s.yaml:2:15: water.wind is .nan; allowed: a number, 0 or 0.5 to 75 m/s, or a mapping {key: value, ...}"},
+        {"mangata: 1\nwater: {wind: [8]}\n", "s.yaml:2:15: water.wind is a list of 1; allowed: a number, 0 or 0.5 to 75 m/s, or a mapping {key: value, ...}"},
+        {"mangata: 1\nwater: {wind: {speed: 76}}\n", "s.yaml:2:23: water.wind.speed is 76; allowed: a number, 0 or 0.5 to 75 m/s"},
+        {"mangata: 1\nwater: {wind: {sped: 7}}\n",
+         "s.yaml:2:16: unknown key \"sped\" in water.wind; did you mean \"speed\"? allowed: speed, direction_deg, fetch, depth, count, seed"},
+        {"mangata: 1\nwater: {wind: {speed: 8, count: 513}}\n", "s.yaml:2:33: water.wind.count is 513; allowed: a whole number, 1 to 512"},
+        {"mangata: 1\nwater:\n  wind: 8\n  waves: [{amplitude: 1, a: 1, b: 1, c: 1}]\n",
+         "s.yaml:4:3: water.waves stands beside water.wind, which replaces it; allowed: one of them"},
+        {"mangata: 1\nwater:\n  spectrum: {model: jonswap}\n  wind: {speed: 8}\n",
+         "s.yaml:3:3: water.spectrum stands beside water.wind, which replaces it; allowed: one of them"},
+        {"mangata: 1\nwater: {wind: {speed: 20, fetch: 500}}\n",
+         "s.yaml:2:34: water.wind.fetch is 500 m, too short for the spectrum in this wind; allowed: at least 2365 m"},
+        {"mangata: 1\nwater: {wind: {speed: 0.5, fetch: 200}}\n",
+         "s.yaml:2:23: water.wind.speed makes waves, after this fetch, that are all shorter than 0.2 m; allowed: a longer fetch, or a stronger wind"},
         {"mangata: 1\npost: {exposure: 2, exposure_offset: 1}\n",
          "s.yaml:2:21: post.exposure_offset stands beside an exposure that is a number; allowed: only with exposure: auto"},
     };
@@ -171,6 +190,9 @@ static void override_messages_name_the_option(void **state)
         {"water.waves[0].amplitude=-1", "water.waves[0].amplitude is -1; allowed: a number, 0 to 1000 m"},
         {"time.fps={a", "not valid YAML or JSON: a comma or a closing bracket is missing; allowed: a \"}\" for the \"{\" of line 1, column 1"},
         {"time.fps=*a", "aliases (*name) are not supported; allowed: the value written out"},
+        {"water.wind=8", "water.wind stands beside water.waves of the file, which it replaces; allowed: one of them (--set water.waves=[])"},
+        {"water.wind.speed=8", "water.wind stands beside water.waves of the file, which it replaces; allowed: one of them (--set water.waves=[])"},
+        {"water.wind=900", "water.wind is 900; allowed: a number, 0 or 0.5 to 75 m/s, or a mapping {key: value, ...}"},
         {"camera.position=[0, 3.84, -0.987]", "camera: the camera looks at its own position; allowed: a target apart from position"},
     };
     static const char text[] = "mangata: 1\nlight: {body: sun}\nwater: {waves: [{amplitude: 1, a: 1, b: 1, c: 1}]}\n";
