@@ -344,6 +344,15 @@ static bool add_word(scene_overrides *out, const char *path, const field_row *fi
     return fclose(stream) == 0 && !bad;
 }
 
+/* A whole item of a list, whatever form the file has it in. */
+static bool add_item(scene_overrides *out, const char *path, const field_row *field, const void *item, const void *defaults)
+{
+    field_row whole = *field;
+    whole.type = FIELD_MAPPING;
+    whole.offset = 0;
+    return add_word(out, path, &whole, item, defaults);
+}
+
 /* Where single members would leave a file that contradicts itself, or defaults that another key decides, the whole mapping is written. */
 static bool needs_whole(const field_row *field, const void *from, const void *to)
 {
@@ -372,8 +381,11 @@ static bool add_differences(scene_overrides *out, const char *path, const field_
                 any_mapping expected;
                 field->prepare(to, &expected);
                 snprintf(item, sizeof item, "%.60s[%zu]", name, i);
-                good = add_differences(out, item, field, (const char *)left_list->items + i * field->item_size,
-                                       (const char *)right_list->items + i * field->item_size, &expected);
+                const char *old = (const char *)left_list->items + i * field->item_size, *new = (const char *)right_list->items + i * field->item_size;
+                if (!left_list->otherwise)
+                    good = add_differences(out, item, field, old, new, &expected);
+                else if (!mappings_equal(field, old, new))
+                    good = add_item(out, item, field, new, &expected);
             }
         } else {
             good = add_word(out, name, field, to, defaults);

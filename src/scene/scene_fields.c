@@ -5,6 +5,7 @@
 #include "scene/scene_fields.h"
 
 #include "params/scene_rows.h"
+#include "scene/scene_wave.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -117,7 +118,7 @@ static const field_row wind_fields[] = {{"speed", FIELD_NUMBER, offsetof(scene_w
 
 static const field_row water_fields[] = {{"waves", FIELD_LIST, offsetof(scene_water, waves), 0, NO_RANGE, NULL,
                                           .doc = "each adds amplitude·sin(a·x + b·z + c·t + phase) to the height; none: a flat mirror", .fields = wave_rows,
-                                          .item_size = sizeof(mgt_wave), .max_items = MGT_MAX_WAVES, .prepare = prepare_wave},
+                                          .item_size = sizeof(mgt_wave), .max_items = MGT_MAX_WAVES, .prepare = prepare_wave, .other = &measured_wave_form},
                                          {"spectrum", FIELD_MAPPING, offsetof(scene_water, spectrum), FIELD_NO_PIXELS, NO_RANGE, NULL,
                                           .doc = "waves drawn from a wind's or a buoy's spectrum, beside those of waves", .fields = spectrum_fields},
                                          {"wind", FIELD_MAPPING, offsetof(scene_water, wind), FIELD_NO_PIXELS | FIELD_SHORT, NO_RANGE, NULL,

@@ -20,6 +20,7 @@
 typedef struct scene_list {
     void *items; /* owned */
     size_t count;
+    bool otherwise; /* the file has an item in its other form */
 } scene_list;
 
 typedef struct scene_keyframe {

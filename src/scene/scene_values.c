@@ -79,7 +79,7 @@ static bool copy_members(const field_row *mapping, void *values)
         } else if (field->type == FIELD_LIST) {
             scene_list *list = at;
             const scene_list borrowed = *list;
-            *list = (scene_list){0};
+            *list = (scene_list){.otherwise = borrowed.otherwise};
             if (borrowed.count == 0)
                 continue;
             list->items = malloc(borrowed.count * field->item_size);

@@ -74,7 +74,18 @@ static void messages_say_what_where_and_what_is_allowed(void **state)
          "s.yaml:2:9: unknown key \"elevation\" in light; did you mean \"elevation_deg\"? allowed: body, elevation_deg, azimuth_deg, "
          "angular_radius_deg, radiance"},
         {"mangata: 1\nwater: {waves: [{amplitude: 1, a: 1, b: 1, c: 1, wibble: 2}]}\n",
-         "s.yaml:2:50: unknown key \"wibble\" in water.waves[0]; allowed: amplitude, a, b, c, phase"},
+         "s.yaml:2:50: unknown key \"wibble\" in water.waves[0]; allowed: amplitude, a, b, c, phase; or wavelength, direction_deg, height, phase"},
+        {"mangata: 1\nwater: {waves: [{wavelenght: 4, height: 1}]}\n",
+         "s.yaml:2:18: unknown key \"wavelenght\" in water.waves[0]; did you mean \"wavelength\"? allowed: wavelength, direction_deg, height, phase"},
+        {"mangata: 1\nwater: {waves: [{wavelength: 4, height: 1, a: 2}]}\n",
+         "s.yaml:2:44: water.waves[0].a stands beside wavelength, which is of another form; allowed: one form, the other one is wavelength, "
+         "direction_deg, height, phase"},
+        {"mangata: 1\nwater: {waves: [{amplitude: 1, a: 1, b: 1, c: 1, direction_deg: 40}]}\n",
+         "s.yaml:2:50: water.waves[0].direction_deg stands beside amplitude, which is of another form; allowed: one form, the other one is wavelength, "
+         "direction_deg, height, phase"},
+        {"mangata: 1\nwater: {waves: [{wavelength: 4}]}\n", "s.yaml:2:17: water.waves[0].height is missing; required: height: a number, 0 to 2000 m"},
+        {"mangata: 1\nwater: {waves: [{wavelength: 0, height: 1}]}\n", "s.yaml:2:30: water.waves[0].wavelength is 0; allowed: a number, 0.0001 to 100000 m"},
+        {"mangata: 1\nwater: {waves: [{wavelength: 4, height: -1}]}\n", "s.yaml:2:41: water.waves[0].height is -1; allowed: a number, 0 to 2000 m"},
         {"mangata: 1\nlight:\n  body: sun\n  body: moon\n", "s.yaml:4:3: key \"body\" stands twice, first at line 3, column 3; allowed: once"},
         {"mangata: 1\nlight: {body: sun, source: moon}\n",
          "s.yaml:2:20: key \"source\" stands beside \"body\" at line 2, column 9; \"source\" is the new name of \"body\"; allowed: one of them"},

@@ -155,6 +155,43 @@ static void words_make_a_scene(void **state)
     }
 }
 
+/* In deep water ω² = g k; crests go where the direction says. */
+static void waves_may_be_measured(void **state)
+{
+    (void)state;
+    scene_file *file = parse("mangata: 1\nwater: {waves: [{wavelength: 40, direction_deg: 90, height: 1.2}, {wavelength: 5, height: 0.1, phase: 2},\n"
+                             "  {height: 1, wavelength: 100, direction_deg: -150}, {amplitude: 1, a: 1, b: 2, c: -3}]}\n",
+                             NULL, 0);
+    mgt_scene scene;
+    assert_true(scene_file_frame(file, 0, &scene));
+    assert_int_equal(scene.water.wave_count, 4);
+    const mgt_wave *waves = scene.water.waves;
+    const double lengths[] = {40, 5, 100}, directions[] = {90, 0, -150}, pi = 3.14159265358979323846;
+    for (int i = 0; i < 3; i++) {
+        const double k = 2 * pi / lengths[i], angle = directions[i] * pi / 180;
+        assert_true(fabs(waves[i].kx - k * sin(angle)) < 1e-6 * k && fabs(waves[i].kz + k * cos(angle)) < 1e-6 * k);
+        assert_true(fabs(waves[i].omega + sqrt(9.80665 * k)) < 1e-6 * sqrt(9.80665 * k));
+    }
+    assert_true(waves[0].amplitude == 0.6 && waves[1].amplitude == 0.05 && waves[2].amplitude == 0.5);
+    assert_true(waves[0].kz == 0 && waves[1].kx == 0); /* exactly */
+    assert_true(waves[1].phase == 2 && waves[0].phase == 0);
+    assert_true(waves[3].kz == 2 && waves[3].omega == -3);
+
+    /* Changed by its own keys, and by a whole item from what a program made of it. */
+    static const char *const change = "water.waves[0].height=2";
+    static const char text[] = "mangata: 1\nwater: {waves: [{wavelength: 40, height: 1}, {wavelength: 4, height: 0.1}]}\n";
+    scene_file *higher = parse(text, &change, 1), *old = parse(text, NULL, 0);
+    assert_true(((const mgt_wave *)scene_file_values(higher)->water.waves.items)->amplitude == 1);
+    scene_overrides words;
+    assert_true(scene_overrides_between(scene_file_values(old), scene_file_values(higher), &words));
+    assert_int_equal(words.count, 1);
+    assert_memory_equal(words.words[0], "water.waves[0]={amplitude: 1, a: 0, b: ", 38);
+    scene_overrides_free(&words);
+    scene_file_free(old);
+    scene_file_free(higher);
+    scene_file_free(file);
+}
+
 static void bad_words_say_what_is_allowed(void **state)
 {
     (void)state;
@@ -200,6 +237,7 @@ int main(void)
         cmocka_unit_test(every_wind_makes_a_sea),
         cmocka_unit_test(written_out_it_is_no_wind),
         cmocka_unit_test(words_make_a_scene),
+        cmocka_unit_test(waves_may_be_measured),
         cmocka_unit_test(bad_words_say_what_is_allowed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
