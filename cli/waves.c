@@ -159,8 +159,9 @@ static int load_base(const waves_request *r, scene_values *values)
         return console_error(EXIT_CODE_FAILED, "out of memory");
     free(values->water.waves.items);
     free(values->water.sea.items);
+    free(values->water.swell.items);
     free(values->water.spectrum.file);
-    values->water.waves = values->water.sea = (scene_list){0};
+    values->water.waves = values->water.sea = values->water.swell = (scene_list){0};
     values->water.spectrum = (scene_spectrum){0};
     values->water.wind = scene_values_defaults().water.wind;
     return EXIT_CODE_OK;

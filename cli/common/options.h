@@ -29,12 +29,12 @@ struct option {
 };
 
 /* A scene of a few words, in place of a file: an operand that scene_file_open() takes. */
-#define OPTION_SEA                                                                                       \
-    {                                                                                                    \
-        "sea", 0, "KEY=VALUE,...",                                                                       \
-            "a sea in place of a scene's file: wind=12 in m/s, and if wanted\ndirection, fetch, depth, " \
-            "count, seed, as in docs/seas.md",                                                           \
-            .operand = true                                                                              \
+#define OPTION_SEA                                                                                                                 \
+    {                                                                                                                              \
+        "sea", 0, "KEY=VALUE,...",                                                                                                 \
+            "a sea in place of a scene's file: wind=12 in m/s, and if wanted\ndirection, fetch, depth, count, seed, swell, ...:\n" \
+            "docs/seas.md",                                                                                                        \
+            .operand = true                                                                                                        \
     }
 
 /* A verb's command line. --help, --json, -v/--verbose and --quiet are known everywhere and not listed. A request begins with its console. */

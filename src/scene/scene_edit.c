@@ -27,6 +27,8 @@ void scene_values_write_out_sea(scene_values *values)
     const scene_values defaults = scene_values_defaults();
     water->spectrum = defaults.water.spectrum;
     water->wind = defaults.water.wind;
+    free(water->swell.items);
+    water->swell = (scene_list){0};
     water->height = 1;
 }
 
@@ -173,6 +175,7 @@ typedef union any_mapping {
     scene_values values;
     scene_camera camera;
     scene_keyframe keyframe;
+    scene_swell swell;
     mgt_wave wave;
     mgt_light light;
     scene_object object;
@@ -412,6 +415,7 @@ bool scene_overrides_between(const scene_values *from, const scene_values *to, s
         goal.water.waves = from->water.waves;
         goal.water.spectrum = from->water.spectrum;
         goal.water.wind = from->water.wind;
+        goal.water.swell = from->water.swell;
         goal.water.height = from->water.height;
     }
     if (add_differences(out, "", scene_root_field(), from, &goal, &defaults))

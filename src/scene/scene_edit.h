@@ -44,7 +44,7 @@ typedef struct scene_overrides {
     size_t count;
 } scene_overrides;
 
-/* The words that turn a file with the values `from` into `to`; where `to` holds a spectrum or a wind of `from` written out there are none about waves.
+/* The words that turn a file with the values `from` into `to`; where `to` holds a spectrum, a wind or swells of `from` written out there are none about waves.
  * False when memory runs out; *out is then empty. */
 bool scene_overrides_between(const scene_values *from, const scene_values *to, scene_overrides *out);
 void scene_overrides_free(scene_overrides *overrides);

@@ -116,6 +116,24 @@ static const field_row wind_fields[] = {{"speed", FIELD_NUMBER, offsetof(scene_w
                                          .doc = "another seed: another sea of the same kind"},
                                         {0}};
 
+static void prepare_swell(const void *parent, void *item)
+{
+    (void)parent;
+    *(scene_swell *)item = scene_swell_defaults();
+}
+
+static const field_row swell_fields[] = {{"height", FIELD_NUMBER, offsetof(scene_swell, height), FIELD_REQUIRED, 0.001, 50, "m", .doc = "significant height"},
+                                         {"period", FIELD_NUMBER, offsetof(scene_swell, period), 0, 1, 40, "s", .doc = "of its highest waves"},
+                                         {"direction_deg", FIELD_NUMBER, offsetof(scene_swell, direction_deg), 0, -1e6, 1e6, "degrees",
+                                          .doc = "where it comes from: 0 is -z (\"north\"), 90 is +x (\"east\")"},
+                                         {"spread", FIELD_NUMBER, offsetof(scene_swell, spread), 0, 0, 1000, NULL,
+                                          .doc = "s of cos^2s of half the angle to its direction: 25 from near, 75 from far away"},
+                                         {"count", FIELD_COUNT, offsetof(scene_swell, count), 0, 1, MGT_MAX_WAVES, NULL,
+                                          .doc = "number of waves, with all others at most 512"},
+                                         {"seed", FIELD_COUNT, offsetof(scene_swell, seed), 0, 0, 4294967295, NULL,
+                                          .doc = "another seed: another swell of the same kind"},
+                                         {0}};
+
 static const field_row water_fields[] = {{"waves", FIELD_LIST, offsetof(scene_water, waves), 0, NO_RANGE, NULL,
                                           .doc = "each adds amplitude·sin(a·x + b·z + c·t + phase) to the height; none: a flat mirror", .fields = wave_rows,
                                           .item_size = sizeof(mgt_wave), .max_items = MGT_MAX_WAVES, .prepare = prepare_wave, .other = &measured_wave_form},
@@ -124,8 +142,11 @@ static const field_row water_fields[] = {{"waves", FIELD_LIST, offsetof(scene_wa
                                          {"wind", FIELD_MAPPING, offsetof(scene_water, wind), FIELD_NO_PIXELS | FIELD_SHORT, NO_RANGE, NULL,
                                           .doc = "a whole sea from the wind alone, in place of waves and spectrum: a speed, or a mapping",
                                           .fields = wind_fields},
+                                         {"swell", FIELD_LIST, offsetof(scene_water, swell), FIELD_NO_PIXELS, NO_RANGE, NULL,
+                                          .doc = "waves from far away, beside all others", .fields = swell_fields, .item_size = sizeof(scene_swell),
+                                          .max_items = 16, .prepare = prepare_swell},
                                          {"amplitude", FIELD_NUMBER, offsetof(scene_water, height), FIELD_NO_PIXELS, 0, 1000, NULL,
-                                          .doc = "factor on the heights of all waves, those of spectrum and wind too; 0: a flat mirror"},
+                                          .doc = "factor on the heights of all waves, those of spectrum, wind and swell too; 0: a flat mirror"},
                                          WATER_BODY_ROWS(scene_water),
                                          {"clarity", FIELD_CHOICE, offsetof(scene_water, clarity), FIELD_NO_PIXELS, NO_RANGE, NULL,
                                           .doc = "sets the defaults of absorption and scattering: a clean pool, clear ocean, a coast, a harbour",

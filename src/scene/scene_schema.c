@@ -11,6 +11,7 @@
 typedef union scene_list_item {
     mgt_wave wave;
     scene_keyframe keyframe;
+    scene_swell swell;
     scene_pose pose;
     scene_object object;
     char form[FORM_SIZE];

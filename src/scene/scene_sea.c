@@ -3,6 +3,7 @@
  * The sea of a scene's `water.spectrum`.
  */
 #include "scene/scene_sea.h"
+#include "scene/spectrum_swell.h"
 #include "params/waves.h"
 
 #include <math.h>
@@ -98,25 +99,59 @@ static bool draw_waves(const scene_spectrum *settings, const char *scene_path, m
     return good || scene_error_memory(&fault->error);
 }
 
+size_t scene_swell_count(const scene_water *water)
+{
+    const scene_swell *swells = water->swell.items;
+    size_t count = 0;
+    for (size_t i = 0; i < water->swell.count; i++)
+        count += swells[i].count;
+    return count;
+}
+
+/* Swells of one seed, and a wind sea of the same, do not share their random numbers. */
+static uint32_t swell_seed(const scene_swell *swell, size_t index) { return swell->seed + 0x9e3779b9u * ((uint32_t)index + 1); }
+
+static bool draw_swells(const scene_water *water, mgt_wave *waves)
+{
+    const scene_swell *swells = water->swell.items;
+    for (size_t i = 0; i < water->swell.count; waves += swells[i++].count) {
+        wave_spectrum spectrum;
+        if (!swell_spectrum_make(&spectrum, swells[i].height, swells[i].period, swells[i].direction_deg, swells[i].spread) ||
+            !spectrum_sample(&spectrum, swell_seed(&swells[i], i), swells[i].count, waves))
+            return false;
+    }
+    return true;
+}
+
+/* Too many waves: the count of the spectrum, or of the swells where there is none, is at fault. */
+static bool refuse_count(scene_sea_fault *fault, const scene_water *water, size_t drawn, size_t all)
+{
+    char text[160];
+    const size_t swells = scene_swell_count(water);
+    snprintf(text, sizeof text, "is %zu, with %s %zu in all; allowed: together at most %d", drawn > 0 ? drawn : swells,
+             drawn == 0 || swells == 0 ? "water.waves" : "water.waves and water.swell", all, MGT_MAX_WAVES);
+    return refuse(fault, "count", text);
+}
+
 bool scene_sea_fill(scene_water *water, const char *scene_path, scene_sea_fault *fault)
 {
     const scene_spectrum settings = drawn_from(water);
-    const bool drawn = settings.settings.kind != SPECTRUM_NONE;
-    const size_t before = water->waves.count, count = before + (drawn ? settings.count : 0);
+    const size_t before = water->waves.count, drawn = settings.settings.kind != SPECTRUM_NONE ? settings.count : 0;
+    const size_t count = before + drawn + scene_swell_count(water);
     *fault = (scene_sea_fault){0};
     free(water->sea.items);
     water->sea = (scene_list){0};
     if (!scene_water_has_sea(water) || count == 0)
         return true;
-    if (count > MGT_MAX_WAVES) {
-        char text[160];
-        snprintf(text, sizeof text, "is %u, with water.waves %zu in all; allowed: together at most %d", settings.count, count, MGT_MAX_WAVES);
-        return refuse(fault, "count", text);
-    }
+    if (count > MGT_MAX_WAVES)
+        return refuse_count(fault, water, drawn, count);
     mgt_wave *waves = malloc(count * sizeof *waves);
     if (waves == NULL)
         return scene_error_memory(&fault->error);
-    if (!draw_waves(&settings, scene_path, waves + before, fault)) {
+    bool good = draw_waves(&settings, scene_path, waves + before, fault);
+    if (good && !draw_swells(water, waves + before + drawn))
+        good = scene_error_memory(&fault->error);
+    if (!good) {
         free(waves);
         return false;
     }
@@ -167,7 +202,7 @@ bool scene_sea_read(const scene_tree *tree, scene_water *water, scene_error *err
     const bool wind = water->wind.speed > 0;
     if (wind)
         scene_wind_fault(&fault.setting);
-    const char *name = wind ? "wind" : "spectrum";
+    const char *name = wind ? "wind" : water->spectrum.settings.kind != SPECTRUM_NONE ? "spectrum" : "swell";
     const tree_node *mapping = tree_get(tree_get(tree->root, "water"), name), *node = tree_get(mapping, fault.setting.key);
     node = node != NULL ? node : mapping;
     return tree_error(tree, node->source, node->place, error, "water.%s.%s %s", name, fault.setting.key, fault.setting.text);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * The sea of a scene's `water.spectrum` or `water.wind`: settings and a table's file in, waves out.
+ * The sea of a scene's `water.spectrum`, `water.wind` and `water.swell`: settings and a table's file in, waves out.
  */
 #ifndef MANGATA_SCENE_SCENE_SEA_H
 #define MANGATA_SCENE_SCENE_SEA_H
@@ -41,7 +41,10 @@ scene_values scene_sea_values(void);
 /* Above the crests of a sea of this significant height, in metres, looking 7 degrees down. */
 void scene_sea_place_camera(mgt_camera *camera, double wave_height);
 
-/* Fills water->sea with the waves and those of the spectrum, times the factor, where there is one or the other. */
+/* The number of waves of all swells, which are the last ones of the sea. */
+size_t scene_swell_count(const scene_water *water);
+
+/* Fills water->sea with the waves, those of the spectrum and those of swells, times the factor, where there is one or the other. */
 bool scene_sea_fill(scene_water *water, const char *scene_path, scene_sea_fault *fault);
 
 /* The same while a file is read: errors at the key's place. */

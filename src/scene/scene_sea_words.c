@@ -14,38 +14,63 @@ static const char PREFIX[] = "--sea ";
 
 /* ---- the words ---------------------------------------------------------------------------------------------- */
 
-/* A row of water.wind by its name in words: the first one is the wind itself, and units are left out. */
-static short_number word_of(const field_row *rows, const field_row *row)
-{
-    short_number word;
-    const char *unit = strstr(row->key, "_deg");
-    snprintf(word.text, sizeof word.text, "%.*s", (int)(unit != NULL ? (size_t)(unit - row->key) : strlen(row->key)), row == rows ? "wind" : row->key);
-    return word;
-}
+/* What the words say. */
+typedef struct sea_words {
+    scene_wind wind;
+    scene_swell swell; /* of height 0: none */
+    uint32_t seen;     /* one bit a word */
+} sea_words;
 
-static const field_row *wind_rows(void)
+/* Where a word belongs. */
+typedef struct sea_word {
+    const field_row *row; /* NULL: there is no such word */
+    size_t offset;        /* in sea_words */
+    char name[32];
+    unsigned index;
+} sea_word;
+
+/* The word of a place: the rows of water.wind and of water.swell, the first one of each called after its mapping, units left out, and those of the
+ * swell with "swell_" in front. */
+static sea_word word_at(unsigned index)
 {
+    static const struct {
+        const char *key, *prefix;
+        size_t offset;
+    } parts[] = {{"wind", "", offsetof(sea_words, wind)}, {"swell", "swell_", offsetof(sea_words, swell)}};
     const field_row *water = field_find(scene_root_field()->fields, "water", 5);
-    return field_find(water->fields, "wind", 4)->fields;
+    unsigned left = index;
+    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
+        const field_row *rows = field_find(water->fields, parts[i].key, strlen(parts[i].key))->fields;
+        for (const field_row *row = rows; row->key != NULL; row++, left--)
+            if (left == 0) {
+                sea_word word = {.row = row, .offset = parts[i].offset + row->offset, .index = index};
+                const char *unit = strstr(row->key, "_deg");
+                const int length = unit != NULL ? (int)(unit - row->key) : (int)strlen(row->key);
+                if (row == rows)
+                    snprintf(word.name, sizeof word.name, "%s", parts[i].key);
+                else
+                    snprintf(word.name, sizeof word.name, "%s%.*s", parts[i].prefix, length, row->key);
+                return word;
+            }
+    }
+    return (sea_word){0};
 }
 
-static const field_row *row_of(const field_row *rows, const char *word, size_t length)
+static sea_word find_word(const char *name, size_t length)
 {
-    for (const field_row *row = rows; row->key != NULL; row++) {
-        const short_number name = word_of(rows, row);
-        if (strlen(name.text) == length && memcmp(name.text, word, length) == 0)
-            return row;
+    for (unsigned i = 0;; i++) {
+        const sea_word word = word_at(i);
+        if (word.row == NULL || (strlen(word.name) == length && memcmp(word.name, name, length) == 0))
+            return word;
     }
-    return NULL;
 }
 
 scene_sea_names scene_sea_word_names(void)
 {
     scene_sea_names names;
     size_t used = 0;
-    const field_row *rows = wind_rows();
-    for (const field_row *row = rows; row->key != NULL && used < sizeof names.text; row++)
-        used += (size_t)snprintf(names.text + used, sizeof names.text - used, "%s%s", row == rows ? "" : ", ", word_of(rows, row).text);
+    for (unsigned i = 0; word_at(i).row != NULL && used < sizeof names.text; i++)
+        used += (size_t)snprintf(names.text + used, sizeof names.text - used, "%s%s", i == 0 ? "" : ", ", word_at(i).name);
     return names;
 }
 
@@ -62,42 +87,41 @@ static bool refuse(scene_error *error, scene_error_kind kind, const char *words,
     return scene_error_set(error, kind, "%s%s: %s", PREFIX, scene_quote_text(words, strlen(words)).text, wrong);
 }
 
-/* One word, name=value, into *wind. */
-static bool read_word(const char *all, const char *word, size_t length, uint32_t *seen, scene_wind *wind, scene_error *error)
+/* One word, name=value. */
+static bool read_word(const char *all, const char *text, size_t length, sea_words *words, scene_error *error)
 {
-    const field_row *rows = wind_rows();
-    const char *equals = memchr(word, '=', length);
+    const char *equals = memchr(text, '=', length);
     if (equals == NULL)
         return refuse(error, SCENE_ERROR_BAD_OVERRIDE, all, "\"%s\" is not of the form key=value; allowed: such as wind=12,direction=30",
-                      scene_quote_text(word, length).text);
-    const size_t name = (size_t)(equals - word), size = length - name - 1;
-    const field_row *row = row_of(rows, word, name);
-    if (row == NULL)
-        return refuse(error, SCENE_ERROR_BAD_OVERRIDE, all, "unknown key \"%s\"; allowed: %s", scene_quote_text(word, name).text, scene_sea_word_names().text);
-    if (*seen >> (row - rows) & 1)
-        return refuse(error, SCENE_ERROR_BAD_OVERRIDE, all, "key \"%s\" stands twice; allowed: once", word_of(rows, row).text);
-    *seen |= 1u << (row - rows);
+                      scene_quote_text(text, length).text);
+    const size_t name = (size_t)(equals - text), size = length - name - 1;
+    const sea_word word = find_word(text, name);
+    if (word.row == NULL)
+        return refuse(error, SCENE_ERROR_BAD_OVERRIDE, all, "unknown key \"%s\"; allowed: %s", scene_quote_text(text, name).text, scene_sea_word_names().text);
+    if (words->seen >> word.index & 1)
+        return refuse(error, SCENE_ERROR_BAD_OVERRIDE, all, "key \"%s\" stands twice; allowed: once", word.name);
+    words->seen |= 1u << word.index;
     char value[64] = "", allowed[160];
     if (size < sizeof value)
         memcpy(value, equals + 1, size);
-    if (field_parse(row, value, (char *)wind + row->offset))
+    if (field_parse(word.row, value, (char *)words + word.offset))
         return true;
-    field_allowed(row, allowed, sizeof allowed);
-    return refuse(error, SCENE_ERROR_BAD_SCENE, all, "%s is \"%s\"; allowed: %s", word_of(rows, row).text, scene_quote_text(equals + 1, size).text, allowed);
+    field_allowed(word.row, allowed, sizeof allowed);
+    return refuse(error, SCENE_ERROR_BAD_SCENE, all, "%s is \"%s\"; allowed: %s", word.name, scene_quote_text(equals + 1, size).text, allowed);
 }
 
-static bool read_words(const char *words, scene_wind *wind, scene_error *error)
+static bool read_words(const char *text, sea_words *words, scene_error *error)
 {
-    uint32_t seen = 0;
-    for (const char *at = words;; at++) {
+    for (const char *at = text;; at++) {
         const size_t length = strcspn(at, ",");
-        if (!read_word(words, at, length, &seen, wind, error))
+        if (!read_word(text, at, length, words, error))
             return false;
         at += length;
         if (*at == '\0')
             break;
     }
-    return wind->speed > 0 || refuse(error, SCENE_ERROR_BAD_SCENE, words, "there is no wind; allowed: such as wind=12,direction=30");
+    return words->wind.speed > 0 || words->swell.height > 0 ||
+           refuse(error, SCENE_ERROR_BAD_SCENE, text, "there is no wind and no swell; allowed: such as wind=12,direction=30");
 }
 
 /* ---- the scene ---------------------------------------------------------------------------------------------- */
@@ -139,17 +163,38 @@ scene_file *scene_values_parse(const scene_values *values, const char *name, con
     return file;
 }
 
-static bool measure(scene_values *values, const char *words, scene_error *error)
+/* What the sea of these words cannot be, by a word. */
+static bool refuse_sea(scene_error *error, const char *text, scene_sea_fault *fault)
 {
+    if (fault->setting.key == NULL)
+        return scene_error_memory(error);
+    scene_wind_fault(&fault->setting);
+    sea_word word = word_at(0);
+    for (unsigned i = 0; word_at(i).row != NULL; i++)
+        if (strcmp(word_at(i).row->key, fault->setting.key) == 0) {
+            word = word_at(i);
+            break;
+        }
+    return refuse(error, SCENE_ERROR_BAD_SCENE, text, "%s %s", word.name, fault->setting.text);
+}
+
+/* Values with the sea of the words, and a camera over it. */
+static bool make_values(scene_values *values, const char *text, scene_error *error)
+{
+    sea_words words = {.wind = values->water.wind, .swell = scene_swell_defaults()};
     scene_sea_fault fault;
-    if (!scene_sea_fill(&values->water, "", &fault)) {
-        if (fault.setting.key == NULL)
+    if (!read_words(text, &words, error))
+        return false;
+    values->water.wind = words.wind;
+    if (words.swell.height > 0) {
+        scene_swell *swell = malloc(sizeof *swell);
+        if (swell == NULL)
             return scene_error_memory(error);
-        scene_wind_fault(&fault.setting);
-        const field_row *rows = wind_rows();
-        return refuse(error, SCENE_ERROR_BAD_SCENE, words, "%s %s", word_of(rows, field_find(rows, fault.setting.key, strlen(fault.setting.key))).text,
-                      fault.setting.text);
+        *swell = words.swell;
+        values->water.swell = (scene_list){.items = swell, .count = 1};
     }
+    if (!scene_sea_fill(&values->water, "", &fault))
+        return refuse_sea(error, text, &fault);
     const scene_list waves = scene_water_all(&values->water);
     scene_sea_place_camera(&values->camera.still, waves_statistics(waves.items, waves.count, 0).height);
     return true;
@@ -162,7 +207,7 @@ scene_file *scene_file_sea(const char *words, const char *const *overrides, size
     char *name = NULL;
     if (error != NULL)
         *error = (scene_error){0};
-    if (read_words(words, &values.water.wind, error) && measure(&values, words, error)) {
+    if (make_values(&values, words, error)) {
         if (asprintf(&name, "%s%s", PREFIX, words) < 0)
             scene_error_memory(error);
         else

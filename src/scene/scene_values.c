@@ -36,6 +36,8 @@ scene_values scene_values_defaults(void)
     return values;
 }
 
+scene_swell scene_swell_defaults(void) { return (scene_swell){.period = 12, .spread = 40, .count = 24, .seed = 1}; }
+
 mgt_material scene_material_defaults(void)
 {
     return (

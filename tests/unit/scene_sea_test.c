@@ -192,6 +192,57 @@ static void waves_may_be_measured(void **state)
     scene_file_free(file);
 }
 
+/* Every swell has its height, its period and its direction; all seas add up. */
+static void swells_come_beside_the_wind(void **state)
+{
+    (void)state;
+    const double pi = 3.14159265358979323846;
+    static const char text[] = "mangata: 1\nwater:\n  wind: 3\n  swell:\n    - {height: 2, period: 12, direction_deg: 70}\n"
+                               "    - {height: 0.8, period: 6, direction_deg: 180, spread: 75, count: 30}\n";
+    scene_file *file = parse(text, NULL, 0), *calm = parse("mangata: 1\nwater: {wind: 3}\n", NULL, 0);
+    mgt_scene scene, alone;
+    assert_true(scene_file_frame(file, 0, &scene) && scene_file_frame(calm, 0, &alone));
+    assert_int_equal(scene.water.wave_count, 160 + 24 + 30);
+    assert_memory_equal(scene.water.waves, alone.water.waves, 160 * sizeof(mgt_wave));
+    static const struct {
+        size_t from, count;
+        double height, period, comes_from;
+    } swells[] = {{160, 24, 2, 12, 70}, {184, 30, 0.8, 6, 180}};
+    for (size_t i = 0; i < COUNT(swells); i++) {
+        const mgt_wave *waves = scene.water.waves + swells[i].from;
+        double x = 0, z = 0, highest = 0, frequency = 0;
+        for (size_t k = 0; k < swells[i].count; k++) {
+            const double variance = waves[k].amplitude * waves[k].amplitude, number = hypot(waves[k].kx, waves[k].kz);
+            x += variance * waves[k].kx / number;
+            z += variance * waves[k].kz / number;
+            highest += variance;
+            frequency -= variance * waves[k].omega;
+        }
+        assert_true(fabs(waves_statistics(waves, swells[i].count, 0).height - swells[i].height) < 1e-5);
+        assert_true(fabs(frequency / highest * swells[i].period / (2 * pi) - 1.1) < 0.05); /* the mean is a tenth above the peak */
+        const double to = atan2(x, -z) * 180 / pi, wanted = remainder(swells[i].comes_from + 180, 360);
+        if (!(fabs(remainder(to - wanted, 360)) < 6))
+            fail_msg("runs to %g, not to %g", to, wanted);
+        assert_true(hypot(x, z) / highest > 0.96); /* close together */
+    }
+    assert_true(scene.water.waves[160].phase != scene.water.waves[0].phase);
+
+    scene_error error;
+    scene_file *words = scene_file_sea("wind=3,swell=2,swell_period=12,swell_direction=70", NULL, 0, &error);
+    if (words == NULL)
+        fail_msg("%s", error.text);
+    assert_true(scene_file_frame(words, 0, &alone));
+    assert_int_equal(alone.water.wave_count, 184);
+    assert_memory_equal(scene.water.waves, alone.water.waves, 184 * sizeof(mgt_wave));
+    assert_true(alone.camera.position[1] == 4.5);
+    scene_file_free(words);
+    words = scene_file_sea("swell=1", NULL, 0, &error);
+    assert_int_equal(scene_file_wave_count(words), 24);
+    scene_file_free(words);
+    scene_file_free(calm);
+    scene_file_free(file);
+}
+
 static void bad_words_say_what_is_allowed(void **state)
 {
     (void)state;
@@ -202,15 +253,21 @@ static void bad_words_say_what_is_allowed(void **state)
         {"", "--sea : \"\" is not of the form key=value; allowed: such as wind=12,direction=30", SCENE_ERROR_BAD_OVERRIDE},
         {"wind", "--sea wind: \"wind\" is not of the form key=value; allowed: such as wind=12,direction=30", SCENE_ERROR_BAD_OVERRIDE},
         {"wind=3,", "--sea wind=3,: \"\" is not of the form key=value; allowed: such as wind=12,direction=30", SCENE_ERROR_BAD_OVERRIDE},
-        {"wynd=3", "--sea wynd=3: unknown key \"wynd\"; allowed: wind, direction, fetch, depth, count, seed", SCENE_ERROR_BAD_OVERRIDE},
-        {"speed=3", "--sea speed=3: unknown key \"speed\"; allowed: wind, direction, fetch, depth, count, seed", SCENE_ERROR_BAD_OVERRIDE},
+        {"wynd=3",
+         "--sea wynd=3: unknown key \"wynd\"; allowed: wind, direction, fetch, depth, count, seed, swell, swell_period, swell_direction, swell_spread, swell_count, swell_seed",
+         SCENE_ERROR_BAD_OVERRIDE},
+        {"speed=3",
+         "--sea speed=3: unknown key \"speed\"; allowed: wind, direction, fetch, depth, count, seed, swell, swell_period, swell_direction, swell_spread, swell_count, swell_seed",
+         SCENE_ERROR_BAD_OVERRIDE},
         {"wind=3,wind=3", "--sea wind=3,wind=3: key \"wind\" stands twice; allowed: once", SCENE_ERROR_BAD_OVERRIDE},
         {"wind=-3", "--sea wind=-3: wind is \"-3\"; allowed: a number, 0 or 0.5 to 75 m/s", SCENE_ERROR_BAD_SCENE},
         {"wind=nan", "--sea wind=nan: wind is \"nan\"; allowed: a number, 0 or 0.5 to 75 m/s", SCENE_ERROR_BAD_SCENE},
         {"wind=3}", "--sea wind=3}: wind is \"3}\"; allowed: a number, 0 or 0.5 to 75 m/s", SCENE_ERROR_BAD_SCENE},
         {"wind=3,count=1.5", "--sea wind=3,count=1.5: count is \"1.5\"; allowed: a whole number, 1 to 512", SCENE_ERROR_BAD_SCENE},
-        {"wind=0", "--sea wind=0: there is no wind; allowed: such as wind=12,direction=30", SCENE_ERROR_BAD_SCENE},
-        {"seed=2", "--sea seed=2: there is no wind; allowed: such as wind=12,direction=30", SCENE_ERROR_BAD_SCENE},
+        {"wind=0", "--sea wind=0: there is no wind and no swell; allowed: such as wind=12,direction=30", SCENE_ERROR_BAD_SCENE},
+        {"seed=2", "--sea seed=2: there is no wind and no swell; allowed: such as wind=12,direction=30", SCENE_ERROR_BAD_SCENE},
+        {"swell=-1", "--sea swell=-1: swell is \"-1\"; allowed: a number, 0.001 to 50 m", SCENE_ERROR_BAD_SCENE},
+        {"swell_period=9", "--sea swell_period=9: there is no wind and no swell; allowed: such as wind=12,direction=30", SCENE_ERROR_BAD_SCENE},
         {"wind=20,fetch=500", "--sea wind=20,fetch=500: fetch is 500 m, too short for the spectrum in this wind; allowed: at least 2365 m",
          SCENE_ERROR_BAD_SCENE},
     };
@@ -238,6 +295,7 @@ int main(void)
         cmocka_unit_test(written_out_it_is_no_wind),
         cmocka_unit_test(words_make_a_scene),
         cmocka_unit_test(waves_may_be_measured),
+        cmocka_unit_test(swells_come_beside_the_wind),
         cmocka_unit_test(bad_words_say_what_is_allowed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

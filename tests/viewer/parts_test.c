@@ -249,6 +249,7 @@ static void every_value_of_the_scene_is_a_control(void **state)
     assert_false(control_find(&board, "water.waves[2].a", &c));
     assert_false(control_find(&board, "water.spectrum.wind", &c)); /* it is written out as waves */
     assert_false(control_find(&board, "water.wind.speed", &c));
+    assert_false(control_find(&board, "water.swell[0].height", &c));
     assert_false(control_find(&board, "objects[0].position", &c)); /* they are built when the file is read */
     assert_false(control_find(&board, "view.wipes", &c));
     document_close(&d);
