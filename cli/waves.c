@@ -306,7 +306,8 @@ static const option waves_options[] = {
     [OPT_SEED] = {"seed", 0, "N", "another seed: another sea of the same kind (default 1)", .set = set_key},
     [OPT_FILE] = {"buoy", 0, "FILE",
                   "a measured spectrum: lines of frequency (Hz), direction (degrees,\n"
-                  "where waves come from), density (m^2/Hz/degree); see docs/waves.md",
+                  "where waves come from), density (m^2/Hz/degree), or a file of\n"
+                  "NDBC's (.data_spec, ...w2025.txt) or Datawell's (.spt); see docs/waves.md",
                   .set = set_key},
     {"output", 'o', "SCENE", "scene file to write, .yaml or .yml (default: standard output)", .set = option_text, .offset = offsetof(waves_request, output)},
     {"base", 0, "SCENE", "take all but the waves from this scene", .set = option_text, .offset = offsetof(waves_request, base)},

@@ -101,7 +101,8 @@ static const field_row spectrum_fields[] =
       .doc = "length of the shortest wave; 0: 0.05 m, or a table's end"},
      {"count", FIELD_COUNT, offsetof(scene_spectrum, count), 0, 1, MGT_MAX_WAVES, NULL, .doc = "number of waves, with those of waves at most 512"},
      {"seed", FIELD_COUNT, offsetof(scene_spectrum, seed), 0, 0, 4294967295, NULL, .doc = "another seed: another sea of the same kind"},
-     {"file", FIELD_TEXT, offsetof(scene_spectrum, file), 0, NO_RANGE, NULL, .doc = "table of a buoy, from the scene's folder (see waves.md)"},
+     {"file", FIELD_TEXT, offsetof(scene_spectrum, file), 0, NO_RANGE, NULL,
+      .doc = "table of a buoy, or a file of NDBC's or Datawell's, from the scene's folder (see waves.md)"},
      {0}};
 
 static const field_row wind_fields[] = {{"speed", FIELD_NUMBER, offsetof(scene_wind, speed), FIELD_OR_ZERO, 0.5, 75, "m/s",
