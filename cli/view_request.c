@@ -5,6 +5,7 @@
 #include "cli/common/options.h"
 
 static const option view_options[] = {
+    OPTION_SEA,
     {"backend", 0, "NAME",
      "auto (default: OpenGL where there is hardware for it, else the\n"
      "CPU), cpu or gl",
