@@ -80,7 +80,7 @@ static int prepare(bench *b)
     const int code = add_methods(b);
     if (code != EXIT_CODE_OK)
         return code;
-    b->scene = scene_file_load(r->scene_path, r->changes.items, r->changes.count, &error);
+    b->scene = scene_file_open(r->scene_path, r->changes.items, r->changes.count, &error);
     if (!b->scene)
         return console_scene_error(&error);
     mgt_scene first;
@@ -223,6 +223,7 @@ static int run(void *place)
 }
 
 static const option bench_options[] = {
+    OPTION_SEA,
     {"methods", 0, "LIST", "methods to measure, with options if wanted:\nadaptive:samples=4, none+hybrid (default none,podee-pixel,mangata)",
      .set = option_text, .offset = offsetof(bench_request, methods)},
     {"size", 0, "WxH", "size in pixels instead of the scene's", .set = option_size, .offset = offsetof(bench_request, changes), .least = 1,

@@ -56,7 +56,7 @@ static json_t *describe(const scene_file *scene, const char *path)
 static int check_file(const scene_request *r, const char *path, json_t *list)
 {
     scene_error error = {0};
-    scene_file *scene = scene_file_load(path, r->changes.items, r->changes.count, &error);
+    scene_file *scene = scene_file_open(path, r->changes.items, r->changes.count, &error);
     int code = EXIT_CODE_OK;
     if (!scene) {
         console_scene_error(&error);
@@ -118,6 +118,7 @@ static int run(void *request)
 }
 
 static const option check_options[] = {
+    OPTION_SEA,
     {"set", 0, "KEY=VALUE", "check the scene with this value changed; may be repeated", .set = option_change, .offset = offsetof(scene_request, changes)},
 };
 

@@ -2,11 +2,10 @@
 /* The command line of `mangata view` and of mangata-viewer. */
 #include "cli/view_request.h"
 
-#include <stdlib.h>
-
 #include "cli/common/options.h"
 
 static const option view_options[] = {
+    OPTION_SEA,
     {"backend", 0, "NAME",
      "auto (default: OpenGL where there is hardware for it, else the\n"
      "CPU), cpu or gl",
@@ -46,8 +45,4 @@ int view_request_read(view_request *request, int count, char **arguments)
     return code == EXIT_CODE_OK && !request->scene_path ? console_error(EXIT_CODE_USAGE, "no scene given: mangata view SCENE") : code;
 }
 
-void view_request_free(view_request *request)
-{
-    free(request->changes.items);
-    request->changes.items = NULL;
-}
+void view_request_free(view_request *request) { scene_changes_free(&request->changes); }

@@ -97,7 +97,7 @@ static int set_key(const option *o, void *request, const char *text)
         memcpy(place, &text, sizeof text);
         break; /* the table's name */
     }
-    return good ? EXIT_CODE_OK : option_wrong(o, text, id == OPT_MODEL ? "pierson-moskowitz, jonswap, tma or buoy" : allowed);
+    return good ? EXIT_CODE_OK : option_wrong(o, text, id == OPT_MODEL ? "pierson-moskowitz, jonswap, tma, elfouhaily or buoy" : allowed);
 }
 
 static int refuse_operand(const option *o, void *place, const char *value)
@@ -109,7 +109,7 @@ static int refuse_operand(const option *o, void *place, const char *value)
 /* What contradicts itself, and what would be left unused without a word. */
 static int check_request(waves_request *r, const console *out)
 {
-    static const int fetched[] = {OPT_FETCH, OPT_GAMMA}, windy[] = {OPT_WIND, OPT_WIND_HEIGHT}, directed[] = {OPT_DIRECTION, OPT_DIRECTIONS, OPT_SPREAD};
+    static const int windy[] = {OPT_WIND, OPT_WIND_HEIGHT}, spread[] = {OPT_DIRECTIONS, OPT_SPREAD};
     spectrum_settings *s = &r->spectrum.settings;
     if (r->given[OPT_FILE] && !r->given[OPT_MODEL])
         s->kind = SPECTRUM_BUOY;
@@ -122,42 +122,33 @@ static int check_request(waves_request *r, const console *out)
     const char *name = r->output ? strrchr(r->output, '.') : NULL;
     if (r->output && (!name || (strcmp(name, ".yaml") != 0 && strcmp(name, ".yml") != 0)))
         return console_error(EXIT_CODE_USAGE, "%s: allowed is a name that ends in .yaml or .yml", r->output);
-    const bool fetch = s->kind == SPECTRUM_JONSWAP || s->kind == SPECTRUM_TMA, buoy = s->kind == SPECTRUM_BUOY;
-    for (size_t i = 0; i < 2; i++) {
-        if (r->given[fetched[i]] && !fetch)
-            console_note(out, "--%s changes nothing: it is for jonswap and tma", waves_options[fetched[i]].name);
+    const bool buoy = s->kind == SPECTRUM_BUOY, directions = spectrum_has_directions(s->kind);
+    if (r->given[OPT_FETCH] && !spectrum_takes_fetch(s->kind))
+        console_note(out, "--fetch changes nothing: it is for jonswap, tma and elfouhaily");
+    if (r->given[OPT_GAMMA] && !spectrum_takes_gamma(s->kind))
+        console_note(out, "--gamma changes nothing: it is for jonswap and tma");
+    for (size_t i = 0; i < 2; i++)
         if (r->given[windy[i]] && buoy && s->slope != SLOPE_COX_MUNK)
             console_note(out, "--%s changes nothing: of a measured sea only --slope cox-munk asks for a wind", waves_options[windy[i]].name);
-    }
-    for (size_t i = 0; i < 3; i++)
-        if (r->given[directed[i]] && buoy)
-            console_note(out, "--%s changes nothing: a table has its own directions", waves_options[directed[i]].name);
-    if (r->given[OPT_SPREAD] && !buoy && s->directions != DIRECTIONS_FIXED)
+    if (r->given[OPT_DIRECTION] && buoy)
+        console_note(out, "--direction changes nothing: a table has its own directions");
+    for (size_t i = 0; i < 2; i++)
+        if (r->given[spread[i]] && directions)
+            console_note(out, "--%s changes nothing: %s has its own directions", waves_options[spread[i]].name, buoy ? "a table" : "elfouhaily");
+    if (r->given[OPT_SPREAD] && !directions && s->directions != DIRECTIONS_FIXED)
         console_note(out, "--spread changes nothing: it is for --directions fixed");
     return EXIT_CODE_OK;
 }
 
 /* ---- the scene ---------------------------------------------------------------------------------------------- */
 
-/* A low sun straight ahead and two seconds of film; the camera's height is for the sea to say. */
-static const char base_text[] = "mangata: 1\ntime: {fps: 30, frames: 60}\nlight: {elevation_deg: 12}\n";
-
-/* Above the crests, looking 7 degrees down. */
-static void place_camera(scene_values *values, double wave_height)
-{
-    mgt_camera *camera = &values->camera.still;
-    const double height = fmax(3, ceil(2 * (1 + 1.5 * wave_height)) / 2);
-    camera->position[1] = height;
-    camera->target[1] = height - 0.123;
-    camera->target[2] = -1;
-}
-
 /* The base with overrides, without its waves. */
 static int load_base(const waves_request *r, scene_values *values)
 {
     scene_error error = {0};
+    const scene_values empty = scene_sea_values();
     scene_file *file = r->base ? scene_file_load(r->base, r->changes.items, r->changes.count, &error)
-                               : scene_file_parse(base_text, sizeof base_text - 1, "the scene", r->changes.items, r->changes.count, &error);
+                               : scene_values_parse(&empty, "the scene", r->changes.items, r->changes.count, &error);
     if (!file) {
         console_scene_error(&error);
         return exit_code_of_scene_error(error.kind);
@@ -168,9 +159,11 @@ static int load_base(const waves_request *r, scene_values *values)
         return console_error(EXIT_CODE_FAILED, "out of memory");
     free(values->water.waves.items);
     free(values->water.sea.items);
+    free(values->water.swell.items);
     free(values->water.spectrum.file);
-    values->water.waves = values->water.sea = (scene_list){0};
+    values->water.waves = values->water.sea = values->water.swell = (scene_list){0};
     values->water.spectrum = (scene_spectrum){0};
+    values->water.wind = scene_values_defaults().water.wind;
     return EXIT_CODE_OK;
 }
 
@@ -230,7 +223,7 @@ static int refuse_sea(const scene_sea_fault *fault)
 /* The growth with fetch ends where the sea is fully developed. */
 static void warn_of_fetch(const waves_request *r, const wave_spectrum *spectrum, const console *out)
 {
-    const bool fetch = spectrum->kind == SPECTRUM_JONSWAP || spectrum->kind == SPECTRUM_TMA;
+    const bool fetch = spectrum_takes_fetch(spectrum->kind);
     const double developed = 0.877 * SPECTRUM_GRAVITY / wind_at_height(spectrum->wind_10, 10, 19.5);
     if (fetch && spectrum->peak < developed)
         console_note(out, "a fetch of %g km is more than this wind needs for a fully developed sea: pierson-moskowitz fits better",
@@ -258,7 +251,7 @@ static int make_scene(const waves_request *r, scene_values *values, const consol
     if (code != EXIT_CODE_OK)
         return code;
     if (!r->base && !names_camera(r))
-        place_camera(values, report.waves.height);
+        scene_sea_place_camera(&values->camera.still, report.waves.height);
     if (!values->description)
         values->description = strdup(waves_report_title(&report).text);
     if (!r->as_spectrum)
@@ -289,13 +282,13 @@ static int run(void *request)
 }
 
 static const option waves_options[] = {
-    [OPT_MODEL] = {"spectrum", 0, "NAME", "pierson-moskowitz, jonswap (default), tma or buoy", .set = set_key},
+    [OPT_MODEL] = {"spectrum", 0, "NAME", "pierson-moskowitz, jonswap (default), tma, elfouhaily or buoy", .set = set_key},
     [OPT_WIND] = {"wind", 0, "SPEED", "of the wind in m/s (default 8)", .set = set_key},
     [OPT_WIND_HEIGHT] = {"wind-height", 0, "M",
                          "height over the sea at which it blows so (default: as in the paper,\n"
                          "19.5 m for pierson-moskowitz, else 10 m)",
                          .set = set_key},
-    [OPT_FETCH] = {"fetch", 0, "M", "open water that the wind has crossed: jonswap, tma (default 50000)", .set = set_key},
+    [OPT_FETCH] = {"fetch", 0, "M", "open water that the wind has crossed: jonswap, tma, elfouhaily\n(default 50000)", .set = set_key},
     [OPT_DEPTH] = {"depth", 0, "M", "of the water (default inf; tma needs one)", .set = set_key},
     [OPT_GAMMA] = {"gamma", 0, "G", "how far the peak stands out: jonswap, tma (default 3.3)", .set = set_key},
     [OPT_DIRECTION] = {"direction", 0, "DEG",
@@ -304,7 +297,7 @@ static const option waves_options[] = {
                        .set = set_key},
     [OPT_DIRECTIONS] = {"directions", 0, "NAME",
                         "how waves spread around it: mitsuyasu, hasselmann (default),\n"
-                        "donelan-banner, or fixed with --spread",
+                        "donelan-banner, or fixed with --spread; elfouhaily has its own",
                         .set = set_key},
     [OPT_SPREAD] = {"spread", 0, "S", "of cos^2s of half the angle, for --directions fixed (default 10)", .set = set_key},
     [OPT_SLOPE] = {"slope", 0, "NAME", "of the short waves: spectrum (default), or cox-munk, the clean sea's", .set = set_key},
@@ -313,7 +306,8 @@ static const option waves_options[] = {
     [OPT_SEED] = {"seed", 0, "N", "another seed: another sea of the same kind (default 1)", .set = set_key},
     [OPT_FILE] = {"buoy", 0, "FILE",
                   "a measured spectrum: lines of frequency (Hz), direction (degrees,\n"
-                  "where waves come from), density (m^2/Hz/degree); see docs/waves.md",
+                  "where waves come from), density (m^2/Hz/degree), or a file of\n"
+                  "NDBC's (.data_spec, ...w2025.txt) or Datawell's (.spt); see docs/waves.md",
                   .set = set_key},
     {"output", 'o', "SCENE", "scene file to write, .yaml or .yml (default: standard output)", .set = option_text, .offset = offsetof(waves_request, output)},
     {"base", 0, "SCENE", "take all but the waves from this scene", .set = option_text, .offset = offsetof(waves_request, base)},

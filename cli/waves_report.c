@@ -62,7 +62,7 @@ json_t *waves_report_json(const waves_report *r, const char *path)
 {
     const spectrum_settings *s = &r->settings->settings;
     const double wind = r->spectrum.wind_10, azimuth = r->spectrum.downwind * 180 / SPECTRUM_PI;
-    const bool fetch = s->kind == SPECTRUM_JONSWAP || s->kind == SPECTRUM_TMA;
+    const bool fetch = spectrum_takes_fetch(s->kind);
     json_t *json = json_pack("{s:s, s:s, s:I, s:I}", "spectrum", choice_name("model", (int)s->kind), "slope", choice_name("slope", (int)s->slope), "waves",
                              (json_int_t)r->count, "seed", (json_int_t)r->settings->seed);
     if (!json)
@@ -109,14 +109,14 @@ void waves_report_print(const waves_report *r, const console *out)
 
 waves_title waves_report_title(const waves_report *r)
 {
-    static const char *const names[] = {"", "Pierson-Moskowitz", "JONSWAP", "TMA", "buoy's"};
+    static const char *const names[] = {"", "Pierson-Moskowitz", "JONSWAP", "TMA", "unified", "buoy's"};
     const spectrum_settings *s = &r->settings->settings;
     const double height = s->wind_height > 0 ? s->wind_height : s->kind == SPECTRUM_PIERSON_MOSKOWITZ ? 19.5 : 10;
     waves_title title;
     char wind[64] = "", fetch[48] = "", depth[48] = "";
     if (s->kind != SPECTRUM_BUOY || is_bent(r))
         snprintf(wind, sizeof wind, ", wind %g m/s at %g m", s->wind, height);
-    if (s->kind == SPECTRUM_JONSWAP || s->kind == SPECTRUM_TMA)
+    if (spectrum_takes_fetch(s->kind))
         snprintf(fetch, sizeof fetch, ", fetch %g km", s->fetch / 1000);
     if (s->depth > 0)
         snprintf(depth, sizeof depth, ", depth %g m", s->depth);

@@ -61,3 +61,11 @@ char *base64_text(const uint8_t *bytes, size_t size, size_t *length)
     *length = text ? (size_t)(out - text) : 0;
     return text;
 }
+
+void shell_scene(FILE *stream, const char *path)
+{
+    const char *blank = strncmp(path, "--", 2) == 0 ? strchr(path, ' ') : NULL;
+    if (blank)
+        fprintf(stream, " %.*s", (int)(blank - path), path);
+    shell_word(stream, blank ? blank + 1 : path);
+}

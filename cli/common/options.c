@@ -107,6 +107,15 @@ int option_one_scene(const option *o, void *place, const char *value)
     return EXIT_CODE_OK;
 }
 
+void scene_changes_free(scene_changes *changes)
+{
+    for (size_t i = 0; i < changes->operand_count; i++)
+        free(changes->operands[i]);
+    free(changes->operands);
+    free(changes->items);
+    *changes = (scene_changes){0};
+}
+
 /* ---- the help ---- */
 
 /* The verb's own options, those of every verb, those of quality, and the aliases of these. */
@@ -263,9 +272,29 @@ static int unknown_option(const option_reader *reader, const char *text)
     return console_error(EXIT_CODE_USAGE, "unknown option %s; see mangata %s --help", name, reader->table->verb);
 }
 
+/* "--name value" as one operand. */
+static int take_operand(const option_reader *reader, const option *o, const char *value)
+{
+    const option *operand = &reader->table->operand;
+    scene_changes *changes = (scene_changes *)((char *)reader->request + reader->table->changes);
+    char **list = realloc(changes->operands, (changes->operand_count + 1) * sizeof *list);
+    if (!list)
+        return console_error(EXIT_CODE_FAILED, "out of memory");
+    changes->operands = list;
+    const size_t size = strlen(o->name) + strlen(value) + 4;
+    char *text = list[changes->operand_count] = malloc(size);
+    if (!text)
+        return console_error(EXIT_CODE_FAILED, "out of memory");
+    changes->operand_count++;
+    snprintf(text, size, "--%s %s", o->name, value);
+    return operand->set(operand, (char *)reader->request + operand->offset, text);
+}
+
 static int act(const option_reader *reader, size_t index, const option *o, const char *value)
 {
     console *out = reader->request;
+    if (index < reader->table->count && o->operand)
+        return take_operand(reader, o, value);
     if (index < reader->table->count)
         return o->set(o, (char *)reader->request + o->offset, value);
     switch (index - reader->table->count) {
@@ -340,6 +369,6 @@ int options_run(const option_table *table, void *request, int count, char **argu
     if (code == EXIT_CODE_OK)
         code = table->run(request);
     if (table->changes)
-        free(((scene_changes *)((char *)request + table->changes))->items);
+        scene_changes_free((scene_changes *)((char *)request + table->changes));
     return code == OPTIONS_HELP ? EXIT_CODE_OK : code;
 }

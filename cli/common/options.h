@@ -25,7 +25,17 @@ struct option {
     size_t offset;        /* of what it sets in the request */
     const char *allowed;  /* what a wrong value is told, where no number says it */
     uint64_t least, most; /* of option_number and option_size */
+    bool operand;         /* "--name value" in one word is an operand; of verbs with changes */
 };
+
+/* A scene of a few words, in place of a file: an operand that scene_file_open() takes. */
+#define OPTION_SEA                                                                                                                 \
+    {                                                                                                                              \
+        "sea", 0, "KEY=VALUE,...",                                                                                                 \
+            "a sea in place of a scene's file: wind=12 in m/s, and if wanted\ndirection, fetch, depth, count, seed, swell, ...:\n" \
+            "docs/seas.md",                                                                                                        \
+            .operand = true                                                                                                        \
+    }
 
 /* A verb's command line. --help, --json, -v/--verbose and --quiet are known everywhere and not listed. A request begins with its console. */
 typedef struct option_table {
@@ -41,13 +51,17 @@ typedef struct option_table {
     int (*run)(void *); /* what the verb does with the request; an exit code */
 } option_table;
 
-/* --set and --size of a scene, in order, the size last. */
+/* --set and --size of a scene, in order, the size last; and --sea. */
 typedef struct scene_changes {
     const char **items; /* KEY=VALUE */
     size_t count;
     uint32_t width, height; /* 0: not given */
     char size[2][32];       /* as items */
+    char **operands;        /* those made of an option and its value; owned */
+    size_t operand_count;
 } scene_changes;
+
+void scene_changes_free(scene_changes *changes);
 
 /* What options usually set. */
 option_set option_given;     /* a bool */
@@ -65,7 +79,7 @@ option_set option_one_scene; /* an operand, once: a const char * */
 int option_wrong(const option *o, const char *value, const char *allowed);
 
 /* Reads the words after the verb into `request`. An exit code, or OPTIONS_HELP: the help has been printed and there is nothing more to do.
- * In every case scene_changes.items are to be freed. */
+ * In every case the changes are to be freed. */
 enum { OPTIONS_HELP = -1 };
 int options_read(const option_table *table, void *request, int count, char **arguments);
 

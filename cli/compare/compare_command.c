@@ -33,7 +33,7 @@ char *compare_picture_command(const compare_job *job, const compare_scene *scene
         return NULL;
     frame_list_print(&r->frames, frames, sizeof frames);
     fputs("mangata render", stream);
-    shell_word(stream, scene->path);
+    shell_scene(stream, scene->path);
     fprintf(stream, " -o %s_%%04d.exr --layer color --layer coverage --frames %s",
             reference ? compare_picture_name(job, picture) : r->methods[picture - 1].file, frames);
     if (reference)

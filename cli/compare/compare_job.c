@@ -98,12 +98,13 @@ static bool on_progress(void *user, double fraction)
     return *interrupt_flag() == 0;
 }
 
-/* "scenes/high.json" is "high"; a second one "high-2". */
+/* "scenes/high.json" is "high", a second one "high-2"; "--sea wind=7.5" is "sea_wind_7_5". */
 static void name_scene(compare_job *job, size_t index)
 {
     compare_scene *scene = &job->scenes[index];
     const char *path = scene->view->name ? scene->view->name : scene->path;
-    const char *slash = strrchr(path, '/'), *start = slash ? slash + 1 : path, *dot = strrchr(start, '.');
+    const bool words = strncmp(path, "--", 2) == 0;
+    const char *slash = strrchr(path, '/'), *start = words ? path + 2 : slash ? slash + 1 : path, *dot = words ? NULL : strrchr(start, '.');
     const size_t length = dot && dot > start ? (size_t)(dot - start) : strlen(start);
     char base[48];
     snprintf(base, sizeof base, "%.*s", (int)(length < sizeof base ? length : sizeof base - 1), start);
@@ -135,7 +136,7 @@ static scene_file *load_file(const compare_job *job, const compare_scene *scene,
         all[i] = r->changes.items[i];
     for (size_t i = 0; i < view->override_count; i++)
         all[r->changes.count + i] = view->overrides[i];
-    scene_file *file = scene_file_load(scene->path, all, r->changes.count + view->override_count, error);
+    scene_file *file = scene_file_open(scene->path, all, r->changes.count + view->override_count, error);
     free(all);
     return file;
 }

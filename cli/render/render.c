@@ -84,6 +84,7 @@ static const option render_options[] = {
      "the file to write: .png .exr .pfm, or a film: .mp4 .y4m;\n"
      "several pictures: frame_%04d.png or frame_####.png",
      .set = option_text, .offset = offsetof(render_request, output)},
+    OPTION_SEA,
     {"frames", 0, "LIST",
      "A, A-B, A-B:STEP or a list of these (default: all frames of the\n"
      "scene for a film or a numbered name, else frame 0)",
@@ -121,7 +122,7 @@ static const option render_options[] = {
 };
 
 static const option_table render_table = {"render",
-                                          "SCENE -o OUT [options]",
+                                          "SCENE -o OUT [options]\n       mangata render --sea wind=12 -o OUT [options]",
                                           "Renders frames of a scene into pictures or a film.",
                                           render_options,
                                           sizeof render_options / sizeof render_options[0],

@@ -72,7 +72,7 @@ static int load_scene(render_job *job)
 {
     render_request *r = job->request;
     scene_error error;
-    job->scene = scene_file_load(r->scene_path, r->changes.items, r->changes.count, &error);
+    job->scene = scene_file_open(r->scene_path, r->changes.items, r->changes.count, &error);
     if (!job->scene)
         return console_scene_error(&error);
     job->canonical = scene_file_canonical(job->scene, NULL);

@@ -409,7 +409,12 @@ void field_allowed(const field_row *field, char *out, size_t size)
         }
         break;
     case FIELD_MAPPING:
-        snprintf(out, size, "a mapping {key: value, ...}");
+        used = 0;
+        if (field->flags & FIELD_SHORT) {
+            field_allowed(field->fields, out, size);
+            used = strlen(out);
+        }
+        snprintf(out + used, size - used, "%sa mapping {key: value, ...}", used > 0 ? ", or " : "");
         break;
     case FIELD_LIST:
         snprintf(out, size, "a list of at most %zu mappings", field->max_items);

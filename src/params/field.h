@@ -47,7 +47,8 @@ typedef enum field_flags {
     FIELD_GIVEN = 16,    /* mapping: its struct begins with a bool, whether it stands in the file */
     FIELD_OR_ZERO = 32,  /* besides the range 0 is allowed, which stands for the default in `absent` */
     FIELD_NO_FLAG = 64,  /* an option whose flag on the command line, if there is one, is no plain value */
-    FIELD_OBJECTS = 128  /* an option of scenes with objects */
+    FIELD_OBJECTS = 128, /* an option of scenes with objects */
+    FIELD_SHORT = 256    /* mapping: a single value stands for its first key */
 } field_flags;
 
 /* A row counts only while another choice of the same struct is one of some. */
@@ -63,6 +64,17 @@ typedef struct name_alias {
 } name_alias;
 
 typedef struct field_row field_row;
+
+/* Another form in which a list's items may be written: rows of a struct of its own, from which an item is made. */
+typedef struct field_form {
+    const field_row *fields; /* ended by one without a key; what has the key of one of the item's own rows means the same */
+    size_t size;             /* of the struct, at most FORM_SIZE */
+    void (*prepare)(void *values);
+    void (*convert)(const void *values, void *item);
+} field_form;
+
+enum { FORM_SIZE = 64 };
+
 struct field_row {
     const char *key;
     field_type type;
@@ -84,6 +96,7 @@ struct field_row {
     int alternative;             /* options: at most one of those with the same number is set; 0: none */
     const field_row *fields;     /* ended by one without a key */
     size_t item_size, max_items; /* list */
+    const field_form *other;     /* list: another form of its items; NULL: none */
     /* After a key was read: sets what it decides of its neighbours, which are read later. */
     void (*decide)(void *parent);
     /* After a person chose another value: sets what it decides of its neighbours, and keeps the others. */

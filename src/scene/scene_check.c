@@ -101,6 +101,21 @@ static bool check_path(const scene_tree *tree, const scene_values *values, const
     return true;
 }
 
+/* The wind makes the whole sea. Where one of the two was written last, on the command line, that one is at fault. */
+static bool check_wind(const scene_tree *tree, const scene_water *water, scene_error *error)
+{
+    const char *other = water->waves.count > 0 ? "waves" : water->spectrum.settings.kind != SPECTRUM_NONE ? "spectrum" : NULL;
+    if (!(water->wind.speed > 0) || other == NULL)
+        return true;
+    const tree_node *mapping = tree_get(tree->root, "water"), *wind = tree_get(mapping, "wind"), *node = tree_get(mapping, other);
+    if (node->key_source == NULL && node->source == NULL && (wind->key_source != NULL || wind->source != NULL))
+        return tree_error(tree, wind->key_source != NULL ? wind->key_source : wind->source, wind->key_place, error,
+                          "water.wind stands beside water.%s of the file, which it replaces; allowed: one of them (--set water.%s)", other,
+                          water->waves.count > 0 ? "waves=[]" : "spectrum.model=none");
+    return tree_error(tree, node->key_source != NULL ? node->key_source : node->source, node->key_place, error,
+                      "water.%s stands beside water.wind, which replaces it; allowed: one of them", other);
+}
+
 static bool check_exposure(const scene_tree *tree, const scene_values *values, scene_error *error)
 {
     const tree_node *offset = tree_get(tree_get(tree->root, "post"), "exposure_offset");
@@ -124,5 +139,5 @@ bool scene_check(const scene_tree *tree, const scene_values *values, scene_error
     return check_image(tree, &values->image, error) &&
            (moves ? check_keyframes(tree, &values->camera, path, error) && check_path(tree, values, path, error)
                   : check_still_camera(tree, &values->camera, error)) &&
-           check_exposure(tree, values, error) && check_quality(tree, &values->quality, error);
+           check_wind(tree, &values->water, error) && check_exposure(tree, values, error) && check_quality(tree, &values->quality, error);
 }

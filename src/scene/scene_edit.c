@@ -24,7 +24,11 @@ void scene_values_write_out_sea(scene_values *values)
     water->waves = water->sea;
     water->sea = (scene_list){0};
     free(water->spectrum.file);
-    water->spectrum = scene_values_defaults().water.spectrum;
+    const scene_values defaults = scene_values_defaults();
+    water->spectrum = defaults.water.spectrum;
+    water->wind = defaults.water.wind;
+    free(water->swell.items);
+    water->swell = (scene_list){0};
     water->height = 1;
 }
 
@@ -152,7 +156,7 @@ static void write_text(FILE *stream, const char *text)
 }
 
 /* Keys that another one excludes are not written: position and target beside a path, the offset beside an exposure that is a number, what a
- * spectrum that is none is like. */
+ * spectrum or a wind that is none is like. */
 static bool is_excluded(const field_row *mapping, const field_row *field, const void *parent)
 {
     if (strcmp(mapping->key, "camera") == 0) {
@@ -161,6 +165,8 @@ static bool is_excluded(const field_row *mapping, const field_row *field, const 
     }
     if (strcmp(mapping->key, "spectrum") == 0)
         return strcmp(field->key, "model") != 0 && ((const scene_spectrum *)parent)->settings.kind == SPECTRUM_NONE;
+    if (strcmp(mapping->key, "wind") == 0)
+        return strcmp(field->key, "speed") != 0 && !(((const scene_wind *)parent)->speed > 0);
     return strcmp(mapping->key, "post") == 0 && strcmp(field->key, "exposure_offset") == 0 && !((const scene_post *)parent)->exposure.automatic;
 }
 
@@ -169,6 +175,7 @@ typedef union any_mapping {
     scene_values values;
     scene_camera camera;
     scene_keyframe keyframe;
+    scene_swell swell;
     mgt_wave wave;
     mgt_light light;
     scene_object object;
@@ -340,6 +347,15 @@ static bool add_word(scene_overrides *out, const char *path, const field_row *fi
     return fclose(stream) == 0 && !bad;
 }
 
+/* A whole item of a list, whatever form the file has it in. */
+static bool add_item(scene_overrides *out, const char *path, const field_row *field, const void *item, const void *defaults)
+{
+    field_row whole = *field;
+    whole.type = FIELD_MAPPING;
+    whole.offset = 0;
+    return add_word(out, path, &whole, item, defaults);
+}
+
 /* Where single members would leave a file that contradicts itself, or defaults that another key decides, the whole mapping is written. */
 static bool needs_whole(const field_row *field, const void *from, const void *to)
 {
@@ -368,8 +384,11 @@ static bool add_differences(scene_overrides *out, const char *path, const field_
                 any_mapping expected;
                 field->prepare(to, &expected);
                 snprintf(item, sizeof item, "%.60s[%zu]", name, i);
-                good = add_differences(out, item, field, (const char *)left_list->items + i * field->item_size,
-                                       (const char *)right_list->items + i * field->item_size, &expected);
+                const char *old = (const char *)left_list->items + i * field->item_size, *new = (const char *)right_list->items + i * field->item_size;
+                if (!left_list->otherwise)
+                    good = add_differences(out, item, field, old, new, &expected);
+                else if (!mappings_equal(field, old, new))
+                    good = add_item(out, item, field, new, &expected);
             }
         } else {
             good = add_word(out, name, field, to, defaults);
@@ -395,6 +414,8 @@ bool scene_overrides_between(const scene_values *from, const scene_values *to, s
     if (is_written_out(from, to)) {
         goal.water.waves = from->water.waves;
         goal.water.spectrum = from->water.spectrum;
+        goal.water.wind = from->water.wind;
+        goal.water.swell = from->water.swell;
         goal.water.height = from->water.height;
     }
     if (add_differences(out, "", scene_root_field(), from, &goal, &defaults))

@@ -35,13 +35,16 @@ const field_row *scene_values_find(const scene_values *values, const char *path,
 /* A whole scene file that reads back as the same values. False on a write error. */
 bool scene_values_write(FILE *stream, const scene_values *values);
 
+/* The same as a file that was read, with overrides; `name` stands for the file's name. NULL on failure, with *error filled. */
+scene_file *scene_values_parse(const scene_values *values, const char *name, const char *const *overrides, size_t override_count, scene_error *error);
+
 /* Words "key=value" in the order in which they must be applied. */
 typedef struct scene_overrides {
     char **words; /* owned, as is each of them */
     size_t count;
 } scene_overrides;
 
-/* The words that turn a file with the values `from` into `to`; where `to` holds a spectrum of `from` written out there are none about waves.
+/* The words that turn a file with the values `from` into `to`; where `to` holds a spectrum, a wind or swells of `from` written out there are none about waves.
  * False when memory runs out; *out is then empty. */
 bool scene_overrides_between(const scene_values *from, const scene_values *to, scene_overrides *out);
 void scene_overrides_free(scene_overrides *overrides);

@@ -5,6 +5,7 @@
 #include "scene/scene_fields.h"
 
 #include "params/scene_rows.h"
+#include "scene/scene_wave.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -13,7 +14,7 @@
 #define VERSION 1, 1
 #define NO_RANGE 0, 0
 
-static const char *const spectrum_kinds[] = {"none", "pierson-moskowitz", "jonswap", "tma", "buoy", NULL};
+static const char *const spectrum_kinds[] = {"none", "pierson-moskowitz", "jonswap", "tma", "elfouhaily", "buoy", NULL};
 static const char *const spectrum_spreadings[] = {"mitsuyasu", "hasselmann", "donelan-banner", "fixed", NULL};
 static const char *const spectrum_slopes[] = {"spectrum", "cox-munk", NULL};
 static const char *const clarities[] = {"pure", "clear", "coastal", "murky", NULL};
@@ -85,13 +86,14 @@ static const field_row spectrum_fields[] =
      {"wind_height", FIELD_NUMBER, offsetof(scene_spectrum, settings.wind_height), 0, 0, 200, "m",
       .doc = "where the wind was measured; 0: 19.5 m for pierson-moskowitz, else 10 m, as in their papers"},
      {"fetch", FIELD_NUMBER, offsetof(scene_spectrum, settings.fetch), 0, 100, 1e7, "m",
-      .doc = "stretch of open water that the wind has crossed (jonswap, tma)"},
+      .doc = "stretch of open water that the wind has crossed (jonswap, tma, elfouhaily)"},
      {"depth", FIELD_NUMBER, offsetof(scene_spectrum, settings.depth), 0, 0, 12000, "m", .doc = "of the water; 0: deep"},
      {"gamma", FIELD_NUMBER, offsetof(scene_spectrum, settings.gamma), 0, 1, 20, NULL, .doc = "how far the peak stands out (jonswap, tma)"},
      {"direction_deg", FIELD_NUMBER, offsetof(scene_spectrum, settings.direction_deg), 0, -1e6, 1e6, "degrees",
       .doc = "where the wind comes from: 0 is -z (\"north\"), 90 is +x (\"east\")"},
      {"directions", FIELD_CHOICE, offsetof(scene_spectrum, settings.directions), 0, NO_RANGE, NULL,
-      .doc = "how waves spread around the wind; fixed: cos^2s of half the angle with s = spread", .choices = spectrum_spreadings},
+      .doc = "how waves spread around the wind (pierson-moskowitz, jonswap, tma); fixed: cos^2s of half the angle with s = spread",
+      .choices = spectrum_spreadings},
      {"spread", FIELD_NUMBER, offsetof(scene_spectrum, settings.spread), 0, 0, 1000, NULL, .doc = "s of directions: fixed; 0: from everywhere"},
      {"slope", FIELD_CHOICE, offsetof(scene_spectrum, settings.slope), 0, NO_RANGE, NULL,
       .doc = "cox-munk: the short waves are scaled to the mean-square slope of a clean sea in this wind", .choices = spectrum_slopes},
@@ -99,16 +101,53 @@ static const field_row spectrum_fields[] =
       .doc = "length of the shortest wave; 0: 0.05 m, or a table's end"},
      {"count", FIELD_COUNT, offsetof(scene_spectrum, count), 0, 1, MGT_MAX_WAVES, NULL, .doc = "number of waves, with those of waves at most 512"},
      {"seed", FIELD_COUNT, offsetof(scene_spectrum, seed), 0, 0, 4294967295, NULL, .doc = "another seed: another sea of the same kind"},
-     {"file", FIELD_TEXT, offsetof(scene_spectrum, file), 0, NO_RANGE, NULL, .doc = "table of a buoy, from the scene's folder (see waves.md)"},
+     {"file", FIELD_TEXT, offsetof(scene_spectrum, file), 0, NO_RANGE, NULL,
+      .doc = "table of a buoy, or a file of NDBC's or Datawell's, from the scene's folder (see waves.md)"},
      {0}};
+
+static const field_row wind_fields[] = {{"speed", FIELD_NUMBER, offsetof(scene_wind, speed), FIELD_OR_ZERO, 0.5, 75, "m/s",
+                                         .doc = "of the wind at 10 m, which makes the whole sea; wind: 12 says the speed alone; 0: no such sea"},
+                                        {"direction_deg", FIELD_NUMBER, offsetof(scene_wind, direction_deg), 0, -1e6, 1e6, "degrees",
+                                         .doc = "where the wind comes from: 0 is -z (\"north\"), 90 is +x (\"east\")"},
+                                        {"fetch", FIELD_NUMBER, offsetof(scene_wind, fetch), FIELD_OR_ZERO, 100, 1e7, "m",
+                                         .doc = "stretch of open water that the wind has crossed; 0: as long as the sea needs to be fully developed"},
+                                        {"depth", FIELD_NUMBER, offsetof(scene_wind, depth), 0, 0, 12000, "m", .doc = "of the water; 0: deep"},
+                                        {"count", FIELD_COUNT, offsetof(scene_wind, count), 0, 1, MGT_MAX_WAVES, NULL, .doc = "number of waves"},
+                                        {"seed", FIELD_COUNT, offsetof(scene_wind, seed), 0, 0, 4294967295, NULL,
+                                         .doc = "another seed: another sea of the same kind"},
+                                        {0}};
+
+static void prepare_swell(const void *parent, void *item)
+{
+    (void)parent;
+    *(scene_swell *)item = scene_swell_defaults();
+}
+
+static const field_row swell_fields[] = {{"height", FIELD_NUMBER, offsetof(scene_swell, height), FIELD_REQUIRED, 0.001, 50, "m", .doc = "significant height"},
+                                         {"period", FIELD_NUMBER, offsetof(scene_swell, period), 0, 1, 40, "s", .doc = "of its highest waves"},
+                                         {"direction_deg", FIELD_NUMBER, offsetof(scene_swell, direction_deg), 0, -1e6, 1e6, "degrees",
+                                          .doc = "where it comes from: 0 is -z (\"north\"), 90 is +x (\"east\")"},
+                                         {"spread", FIELD_NUMBER, offsetof(scene_swell, spread), 0, 0, 1000, NULL,
+                                          .doc = "s of cos^2s of half the angle to its direction: 25 from near, 75 from far away"},
+                                         {"count", FIELD_COUNT, offsetof(scene_swell, count), 0, 1, MGT_MAX_WAVES, NULL,
+                                          .doc = "number of waves, with all others at most 512"},
+                                         {"seed", FIELD_COUNT, offsetof(scene_swell, seed), 0, 0, 4294967295, NULL,
+                                          .doc = "another seed: another swell of the same kind"},
+                                         {0}};
 
 static const field_row water_fields[] = {{"waves", FIELD_LIST, offsetof(scene_water, waves), 0, NO_RANGE, NULL,
                                           .doc = "each adds amplitude·sin(a·x + b·z + c·t + phase) to the height; none: a flat mirror", .fields = wave_rows,
-                                          .item_size = sizeof(mgt_wave), .max_items = MGT_MAX_WAVES, .prepare = prepare_wave},
+                                          .item_size = sizeof(mgt_wave), .max_items = MGT_MAX_WAVES, .prepare = prepare_wave, .other = &measured_wave_form},
                                          {"spectrum", FIELD_MAPPING, offsetof(scene_water, spectrum), FIELD_NO_PIXELS, NO_RANGE, NULL,
                                           .doc = "waves drawn from a wind's or a buoy's spectrum, beside those of waves", .fields = spectrum_fields},
+                                         {"wind", FIELD_MAPPING, offsetof(scene_water, wind), FIELD_NO_PIXELS | FIELD_SHORT, NO_RANGE, NULL,
+                                          .doc = "a whole sea from the wind alone, in place of waves and spectrum: a speed, or a mapping",
+                                          .fields = wind_fields},
+                                         {"swell", FIELD_LIST, offsetof(scene_water, swell), FIELD_NO_PIXELS, NO_RANGE, NULL,
+                                          .doc = "waves from far away, beside all others", .fields = swell_fields, .item_size = sizeof(scene_swell),
+                                          .max_items = 16, .prepare = prepare_swell},
                                          {"amplitude", FIELD_NUMBER, offsetof(scene_water, height), FIELD_NO_PIXELS, 0, 1000, NULL,
-                                          .doc = "factor on the heights of all waves, those of the spectrum too; 0: a flat mirror"},
+                                          .doc = "factor on the heights of all waves, those of spectrum, wind and swell too; 0: a flat mirror"},
                                          WATER_BODY_ROWS(scene_water),
                                          {"clarity", FIELD_CHOICE, offsetof(scene_water, clarity), FIELD_NO_PIXELS, NO_RANGE, NULL,
                                           .doc = "sets the defaults of absorption and scattering: a clean pool, clear ocean, a coast, a harbour",

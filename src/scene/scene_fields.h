@@ -20,6 +20,7 @@
 typedef struct scene_list {
     void *items; /* owned */
     size_t count;
+    bool otherwise; /* the file has an item in its other form */
 } scene_list;
 
 typedef struct scene_keyframe {
@@ -45,14 +46,35 @@ typedef struct scene_spectrum {
     char *file; /* owned; NULL: none */
 } scene_spectrum;
 
+/* A whole sea from the wind alone. */
+typedef struct scene_wind {
+    double speed; /* m/s at 10 m; 0: none */
+    double direction_deg;
+    double fetch, depth; /* m; 0: a fully developed sea, deep water */
+    uint32_t count, seed;
+} scene_wind;
+
+/* Waves that have left their wind. */
+typedef struct scene_swell {
+    double height;        /* significant, m */
+    double period;        /* of the peak, s */
+    double direction_deg; /* where it comes from */
+    double spread;        /* s of cos^2s of half the angle */
+    uint32_t count, seed;
+} scene_swell;
+
+scene_swell scene_swell_defaults(void); /* but for the height */
+
 /* Named waters: each sets absorption and scattering. */
 typedef enum scene_clarity { CLARITY_PURE, CLARITY_CLEAR, CLARITY_COASTAL, CLARITY_MURKY } scene_clarity;
 
 typedef struct scene_water {
     scene_list waves; /* of mgt_wave */
     scene_spectrum spectrum;
-    double height;  /* factor on those of all waves */
-    scene_list sea; /* not of the format: `waves` and then those of a spectrum, times the factor; made by scene_sea_fill() where it is needed */
+    scene_wind wind;  /* in place of both */
+    scene_list swell; /* of scene_swell, beside all others */
+    double height;    /* factor on those of all waves */
+    scene_list sea;   /* not of the format: `waves`, those of a spectrum and those of swells, times the factor; made by scene_sea_fill() where it is needed */
     double index_of_refraction;
     double level;
     float choppiness;
@@ -125,7 +147,10 @@ void scene_values_free(scene_values *values);
 bool scene_values_copy(scene_values *out, const scene_values *values);
 
 /* Whether the waves are not simply the ones written out. */
-static inline bool scene_water_has_sea(const scene_water *water) { return water->spectrum.settings.kind != SPECTRUM_NONE || water->height != 1; }
+static inline bool scene_water_has_sea(const scene_water *water)
+{
+    return water->spectrum.settings.kind != SPECTRUM_NONE || water->wind.speed > 0 || water->swell.count > 0 || water->height != 1;
+}
 
 /* All waves as they are rendered. Belongs to `water`. */
 static inline scene_list scene_water_all(const scene_water *water) { return scene_water_has_sea(water) ? water->sea : water->waves; }

@@ -40,6 +40,20 @@ scene_file *scene_file_load(const char *path, const char *const *overrides, size
 /* The same from memory; `name` stands for the file's name in errors and in scene_file_path(). */
 scene_file *scene_file_parse(const char *text, size_t length, const char *name, const char *const *overrides, size_t override_count, scene_error *error);
 
+/* A scene from a few words about its sea, such as "wind=12,direction=30,seed=3": the keys of water.wind, with wind for speed and without "_deg", and
+ * of one water.swell, swell for its height, else with "swell_" in front. A low sun stands straight ahead, the camera over the crests, and the film has two seconds. scene_file_path() is "--sea wind=12,…". Errors as of
+ * scene_file_load(), "--sea wind=12,…: …"; words that are not of the form are a SCENE_ERROR_BAD_OVERRIDE. */
+scene_file *scene_file_sea(const char *words, const char *const *overrides, size_t override_count, scene_error *error);
+
+/* scene_file_load(), or where `path` begins with "--sea " scene_file_sea() of the rest. */
+scene_file *scene_file_open(const char *path, const char *const *overrides, size_t override_count, scene_error *error);
+
+/* The keys of these words: "wind, direction, …". */
+typedef struct scene_sea_names {
+    char text[160];
+} scene_sea_names;
+scene_sea_names scene_sea_word_names(void);
+
 /* NULL is allowed. */
 void scene_file_free(scene_file *file);
 

@@ -124,6 +124,28 @@ memory:
     return NULL;
 }
 
+/* "wind: 12" as "wind: {speed: 12}", so that a step finds its key. False when memory runs out. */
+static bool spell_out(scene_tree *tree, tree_node *node, const field_row *field)
+{
+    if (field == NULL || !(field->flags & FIELD_SHORT) || node->kind != TREE_SCALAR)
+        return true;
+    tree_node *value = tree_add_node(tree, TREE_SCALAR, node->place, node->source);
+    if (value == NULL)
+        return false;
+    *value = *node;
+    value->key = field->fields->key;
+    value->key_place = node->place;
+    value->key_source = node->source;
+    value->next = NULL;
+    node->kind = TREE_MAPPING;
+    node->text = NULL;
+    node->length = 0;
+    node->first = node->last = NULL;
+    node->count = 0;
+    tree_append(node, value);
+    return true;
+}
+
 bool scene_override_apply(scene_tree *tree, const char *override, scene_error *error)
 {
     const char *equals = override != NULL ? strchr(override, '=') : NULL;
@@ -143,6 +165,8 @@ bool scene_override_apply(scene_tree *tree, const char *override, scene_error *e
     const field_row *field = scene_root_field();
     for (const char *at = override; at < equals;) {
         next_step(&at, equals, at == override, &step);
+        if (step.word != NULL && !spell_out(tree, node, field))
+            return scene_error_memory(error);
         if (step.word != NULL)
             field = field != NULL ? field_find(field->fields, step.word, step.length) : NULL;
         node = take_step(tree, node, &step, step.word != NULL ? field : NULL, override, error);

@@ -4,6 +4,7 @@
  */
 #include "scene/scene_read.h"
 
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -52,25 +53,41 @@ static size_t key_distance(const char *key, const char *known)
     return 2 * distance < strlen(known) ? distance : SIZE_MAX;
 }
 
-static bool refuse_unknown_key(const scene_reader *reader, const field_row *mapping, const tree_node *node)
+/* The known keys of one table, and the one nearest to a key. */
+typedef struct known_keys {
+    char list[320], hint[64];
+    size_t used, nearest;
+} known_keys;
+
+static void add_known(known_keys *known, const char *key, const field_row *fields)
 {
-    char known[320] = "", hint[64] = "";
-    size_t nearest = 3, used = 0; /* further than two edits is no slip of the finger */
-    for (const field_row *field = mapping->fields; field->key != NULL; field++) {
+    for (const field_row *field = fields; field->key != NULL; field++) {
         const char *const names[] = {field->key, field->alias};
         for (int i = 0; i < 2 && names[i] != NULL; i++) {
-            size_t distance = key_distance(node->key, names[i]);
-            if (distance < nearest) {
-                nearest = distance;
-                snprintf(hint, sizeof hint, "did you mean \"%s\"? ", names[i]);
+            size_t distance = key_distance(key, names[i]);
+            if (distance < known->nearest) {
+                known->nearest = distance;
+                snprintf(known->hint, sizeof known->hint, "did you mean \"%s\"? ", names[i]);
             }
         }
-        if (used < sizeof known)
-            used += (size_t)snprintf(known + used, sizeof known - used, "%s%s", used > 0 ? ", " : "", field->key);
+        if (known->used < sizeof known->list)
+            known->used += (size_t)snprintf(known->list + known->used, sizeof known->list - known->used, "%s%s",
+                                            known->used == 0  ? ""
+                                            : field == fields ? "; or "
+                                                              : ", ",
+                                            field->key);
     }
+}
+
+static bool refuse_unknown_key(const scene_reader *reader, const field_row *mapping, const tree_node *node)
+{
+    known_keys known = {.nearest = 3}; /* further than two edits is no slip of the finger */
+    add_known(&known, node->key, mapping->fields);
+    if (mapping->other != NULL)
+        add_known(&known, node->key, mapping->other->fields);
     scene_quote quote = scene_quote_text(node->key, strlen(node->key));
     return tree_error(reader->tree, node->key_source, node->key_place, reader->error, "unknown key \"%s\" in %s; %sallowed: %s", quote.text,
-                      reader->path[0] != '\0' ? reader->path : "the scene", hint, known);
+                      reader->path[0] != '\0' ? reader->path : "the scene", known.hint, known.list);
 }
 
 static size_t path_enter(scene_reader *reader, const char *key)
@@ -155,6 +172,58 @@ static bool read_exposure(const scene_reader *reader, const field_row *field, co
 
 static bool read_mapping(scene_reader *reader, const field_row *field, const tree_node *node, void *values);
 
+/* The first of a mapping's keys that is in one table and not in another; NULL: none. */
+static const tree_node *key_of_one(const tree_node *mapping, const field_row *one, const field_row *another)
+{
+    if (mapping->kind == TREE_MAPPING)
+        for (const tree_node *child = mapping->first; child != NULL; child = child->next) {
+            const size_t length = strlen(child->key);
+            if (field_find(one, child->key, length) != NULL && field_find(another, child->key, length) == NULL)
+                return child;
+        }
+    return NULL;
+}
+
+static bool is_before(scene_place left, scene_place right) { return left.line != right.line ? left.line < right.line : left.column < right.column; }
+
+/* Keys of both forms in one item: the later one is at fault. */
+static bool refuse_forms(const scene_reader *reader, const field_row *field, const tree_node *own, const tree_node *other)
+{
+    char keys[160] = "";
+    size_t used = 0;
+    for (const field_row *row = field->other->fields; row->key != NULL && used < sizeof keys; row++)
+        used += (size_t)snprintf(keys + used, sizeof keys - used, "%s%s", used > 0 ? ", " : "", row->key);
+    const bool own_last = own->key_source != NULL || (other->key_source == NULL && is_before(other->key_place, own->key_place));
+    const tree_node *last = own_last ? own : other, *first = own_last ? other : own;
+    return tree_error(reader->tree, last->key_source, last->key_place, reader->error,
+                      "%s.%s stands beside %s, which is of another form; allowed: one form, the other one is %s", reader->path, last->key, first->key, keys);
+}
+
+/* An item of a list, in either of its forms. */
+static bool read_item(scene_reader *reader, const field_row *field, const tree_node *node, scene_list *list, void *item)
+{
+    const field_form *form = field->other;
+    const tree_node *other = form != NULL ? key_of_one(node, form->fields, field->fields) : NULL;
+    if (other == NULL)
+        return read_mapping(reader, field, node, item);
+    const tree_node *own = key_of_one(node, field->fields, form->fields);
+    if (own != NULL)
+        return refuse_forms(reader, field, own, other);
+    union {
+        max_align_t align;
+        char bytes[FORM_SIZE];
+    } values;
+    field_row rows = *field;
+    rows.fields = form->fields;
+    rows.other = NULL;
+    form->prepare(&values);
+    if (!read_mapping(reader, &rows, node, &values))
+        return false;
+    form->convert(&values, item);
+    list->otherwise = true;
+    return true;
+}
+
 static bool read_list(scene_reader *reader, const field_row *field, const tree_node *node, void *parent)
 {
     scene_list *list = (scene_list *)((char *)parent + field->offset);
@@ -174,7 +243,7 @@ static bool read_list(scene_reader *reader, const field_row *field, const tree_n
         void *item = (char *)list->items + i * field->item_size;
         size_t length = path_enter_item(reader, i);
         field->prepare(parent, item);
-        if (!read_mapping(reader, field, child, item))
+        if (!read_item(reader, field, child, list, item))
             return false;
         path_leave(reader, length);
     }
@@ -208,6 +277,8 @@ static bool read_field(scene_reader *reader, const field_row *field, const tree_
     case FIELD_TEXT:
         return read_text(reader, field, node, place);
     case FIELD_MAPPING:
+        if (field->flags & FIELD_SHORT && node->kind == TREE_SCALAR)
+            return (node->plain && field_parse(field->fields, node->text, (char *)place + field->fields->offset)) || refuse_value(reader, field, node);
         if (field->flags & FIELD_GIVEN)
             *(bool *)place = true;
         return read_mapping(reader, field, node, place);

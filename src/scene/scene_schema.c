@@ -11,9 +11,22 @@
 typedef union scene_list_item {
     mgt_wave wave;
     scene_keyframe keyframe;
+    scene_swell swell;
     scene_pose pose;
     scene_object object;
+    char form[FORM_SIZE];
 } scene_list_item;
+
+/* The rows of the other form of a list's items, and their defaults. */
+static field_row other_form(const field_row *field, scene_list_item *item)
+{
+    field_row rows = *field;
+    rows.fields = field->other->fields;
+    rows.other = NULL;
+    memset(item, 0, sizeof *item);
+    field->other->prepare(item);
+    return rows;
+}
 
 /* ---- defaults ------------------------------------------------------------------------------------------- */
 
@@ -86,9 +99,26 @@ static void indent(FILE *stream, int depth) { fprintf(stream, "%*s", 2 * depth, 
 /* `values`: the struct that holds the mapping's defaults. */
 static void write_mapping_schema(FILE *stream, const field_row *mapping, const void *values, int depth);
 
-static void write_type_schema(FILE *stream, const field_row *field, const void *value, const void *parent, int depth)
+/* What the items of a list may be. */
+static void write_items_schema(FILE *stream, const field_row *field, const void *parent, int depth)
 {
     scene_list_item item;
+    memset(&item, 0, sizeof item);
+    field->prepare(parent, &item);
+    if (field->other == NULL) {
+        write_mapping_schema(stream, field, &item, depth);
+        return;
+    }
+    fputs("\"oneOf\": [{", stream);
+    write_mapping_schema(stream, field, &item, depth);
+    fputs("}, {", stream);
+    const field_row rows = other_form(field, &item);
+    write_mapping_schema(stream, &rows, &item, depth);
+    fputs("}]", stream);
+}
+
+static void write_type_schema(FILE *stream, const field_row *field, const void *value, const void *parent, int depth)
+{
     double number;
     switch (field->type) {
     case FIELD_COUNT:
@@ -139,16 +169,22 @@ static void write_type_schema(FILE *stream, const field_row *field, const void *
         fputs("\"type\": [\"string\", \"number\", \"boolean\"]", stream);
         break;
     case FIELD_MAPPING:
+        if (!(field->flags & FIELD_SHORT)) {
+            write_mapping_schema(stream, field, value, depth);
+            break;
+        }
+        fputs("\"oneOf\": [{", stream);
+        write_type_schema(stream, field->fields, field_at(field->fields, value), value, depth);
+        fputs("}, {", stream);
         write_mapping_schema(stream, field, value, depth);
+        fputs("}]", stream);
         break;
     case FIELD_LIST:
-        memset(&item, 0, sizeof item);
-        field->prepare(parent, &item);
         fprintf(stream, "\"type\": \"array\", \"maxItems\": %zu,\n", field->max_items);
         indent(stream, depth);
         fputs("\"items\": {\n", stream);
         indent(stream, depth + 1);
-        write_mapping_schema(stream, field, &item, depth + 1);
+        write_items_schema(stream, field, parent, depth + 1);
         fputs("\n", stream);
         indent(stream, depth);
         fputs("}", stream);
@@ -240,9 +276,28 @@ bool scene_schema_write(FILE *stream)
 
 /* ---- tables of the documentation ------------------------------------------------------------------------- */
 
-static void write_table(FILE *stream, const char *path, const field_row *mapping, const void *values)
+static void write_table(FILE *stream, const char *path, const field_row *mapping, const void *values);
+
+/* The rows of a list's items, and those of their other form that are not the same. */
+static void write_items(FILE *stream, const char *path, const field_row *field, const void *parent)
 {
     scene_list_item item;
+    memset(&item, 0, sizeof item);
+    field->prepare(parent, &item);
+    write_table(stream, path, field, &item);
+    if (field->other == NULL)
+        return;
+    const field_row rows = other_form(field, &item);
+    for (const field_row *row = rows.fields; row->key != NULL; row++)
+        if (field_find(field->fields, row->key, strlen(row->key)) == NULL) {
+            const field_row single[] = {*row, {0}};
+            const field_row one = {.fields = single};
+            write_table(stream, path, &one, &item);
+        }
+}
+
+static void write_table(FILE *stream, const char *path, const field_row *mapping, const void *values)
+{
     for (const field_row *field = mapping->fields; field->key != NULL; field++) {
         const void *value = field_at(field, values);
         char name[64], allowed[200], meaning[400];
@@ -263,10 +318,8 @@ static void write_table(FILE *stream, const char *path, const field_row *mapping
         field_meaning(mapping->fields, field, meaning, sizeof meaning);
         fprintf(stream, " | %s |\n", meaning);
         if (field->type == FIELD_LIST) {
-            memset(&item, 0, sizeof item);
-            field->prepare(values, &item);
             snprintf(name + strlen(name), sizeof name - strlen(name), "[]");
-            write_table(stream, name, field, &item);
+            write_items(stream, name, field, values);
         }
     }
 }

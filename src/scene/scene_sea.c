@@ -3,6 +3,7 @@
  * The sea of a scene's `water.spectrum`.
  */
 #include "scene/scene_sea.h"
+#include "scene/spectrum_swell.h"
 #include "params/waves.h"
 
 #include <math.h>
@@ -59,6 +60,32 @@ bool scene_sea_open(scene_sea *sea, const scene_spectrum *settings, const char *
 
 void scene_sea_close(scene_sea *sea) { spectrum_table_free(&sea->table); }
 
+/* Of water that is not deep the spectrum is TMA's, which would grow for ever. */
+static double bounded_fetch(const scene_wind *wind)
+{
+    const double developed = developed_fetch(wind->speed);
+    return wind->fetch > 0 && wind->fetch < developed ? wind->fetch : developed;
+}
+
+scene_spectrum scene_wind_spectrum(const scene_wind *wind)
+{
+    const bool deep = !(wind->depth > 0);
+    return (scene_spectrum){.settings = {.kind = deep ? SPECTRUM_ELFOUHAILY : SPECTRUM_TMA,
+                                         .wind = wind->speed,
+                                         .wind_height = 10,
+                                         .fetch = deep ? wind->fetch : bounded_fetch(wind),
+                                         .depth = wind->depth,
+                                         .gamma = 3.3,
+                                         .direction_deg = wind->direction_deg,
+                                         .directions = DIRECTIONS_HASSELMANN,
+                                         .slope = SLOPE_COX_MUNK},
+                            .count = wind->count,
+                            .seed = wind->seed};
+}
+
+/* What the waves beside the single ones are drawn from; its kind is none where there are no others. */
+static scene_spectrum drawn_from(const scene_water *water) { return water->wind.speed > 0 ? scene_wind_spectrum(&water->wind) : water->spectrum; }
+
 /* The waves of the spectrum, if there is one, into `waves`. */
 static bool draw_waves(const scene_spectrum *settings, const char *scene_path, mgt_wave *waves, scene_sea_fault *fault)
 {
@@ -72,25 +99,59 @@ static bool draw_waves(const scene_spectrum *settings, const char *scene_path, m
     return good || scene_error_memory(&fault->error);
 }
 
+size_t scene_swell_count(const scene_water *water)
+{
+    const scene_swell *swells = water->swell.items;
+    size_t count = 0;
+    for (size_t i = 0; i < water->swell.count; i++)
+        count += swells[i].count;
+    return count;
+}
+
+/* Swells of one seed, and a wind sea of the same, do not share their random numbers. */
+static uint32_t swell_seed(const scene_swell *swell, size_t index) { return swell->seed + 0x9e3779b9u * ((uint32_t)index + 1); }
+
+static bool draw_swells(const scene_water *water, mgt_wave *waves)
+{
+    const scene_swell *swells = water->swell.items;
+    for (size_t i = 0; i < water->swell.count; waves += swells[i++].count) {
+        wave_spectrum spectrum;
+        if (!swell_spectrum_make(&spectrum, swells[i].height, swells[i].period, swells[i].direction_deg, swells[i].spread) ||
+            !spectrum_sample(&spectrum, swell_seed(&swells[i], i), swells[i].count, waves))
+            return false;
+    }
+    return true;
+}
+
+/* Too many waves: the count of the spectrum, or of the swells where there is none, is at fault. */
+static bool refuse_count(scene_sea_fault *fault, const scene_water *water, size_t drawn, size_t all)
+{
+    char text[160];
+    const size_t swells = scene_swell_count(water);
+    snprintf(text, sizeof text, "is %zu, with %s %zu in all; allowed: together at most %d", drawn > 0 ? drawn : swells,
+             drawn == 0 || swells == 0 ? "water.waves" : "water.waves and water.swell", all, MGT_MAX_WAVES);
+    return refuse(fault, "count", text);
+}
+
 bool scene_sea_fill(scene_water *water, const char *scene_path, scene_sea_fault *fault)
 {
-    const scene_spectrum *settings = &water->spectrum;
-    const bool drawn = settings->settings.kind != SPECTRUM_NONE;
-    const size_t before = water->waves.count, count = before + (drawn ? settings->count : 0);
+    const scene_spectrum settings = drawn_from(water);
+    const size_t before = water->waves.count, drawn = settings.settings.kind != SPECTRUM_NONE ? settings.count : 0;
+    const size_t count = before + drawn + scene_swell_count(water);
     *fault = (scene_sea_fault){0};
     free(water->sea.items);
     water->sea = (scene_list){0};
     if (!scene_water_has_sea(water) || count == 0)
         return true;
-    if (count > MGT_MAX_WAVES) {
-        char text[160];
-        snprintf(text, sizeof text, "is %u, with water.waves %zu in all; allowed: together at most %d", settings->count, count, MGT_MAX_WAVES);
-        return refuse(fault, "count", text);
-    }
+    if (count > MGT_MAX_WAVES)
+        return refuse_count(fault, water, drawn, count);
     mgt_wave *waves = malloc(count * sizeof *waves);
     if (waves == NULL)
         return scene_error_memory(&fault->error);
-    if (!draw_waves(settings, scene_path, waves + before, fault)) {
+    bool good = draw_waves(&settings, scene_path, waves + before, fault);
+    if (good && !draw_swells(water, waves + before + drawn))
+        good = scene_error_memory(&fault->error);
+    if (!good) {
         free(waves);
         return false;
     }
@@ -115,6 +176,19 @@ static bool check_heights(const scene_tree *tree, const scene_water *water, scen
     return true;
 }
 
+void scene_wind_fault(spectrum_fault *fault)
+{
+    if (strcmp(fault->key, "slope") == 0) {
+        fault->key = "speed";
+        snprintf(fault->text, sizeof fault->text,
+                 "makes waves, after this fetch, whose slopes cannot be those of a clean sea; allowed: another wind or fetch, or water.spectrum");
+    } else if (strcmp(fault->key, "wind") == 0 || strcmp(fault->key, "shortest") == 0) {
+        fault->key = "speed";
+        snprintf(fault->text, sizeof fault->text, "makes waves, after this fetch, that are all shorter than %g m; allowed: a longer fetch, or a stronger wind",
+                 4 * SPECTRUM_SHORTEST);
+    }
+}
+
 bool scene_sea_read(const scene_tree *tree, scene_water *water, scene_error *error)
 {
     scene_sea_fault fault;
@@ -125,7 +199,11 @@ bool scene_sea_read(const scene_tree *tree, scene_water *water, scene_error *err
             *error = fault.error;
         return false;
     }
-    const tree_node *spectrum = tree_get(tree_get(tree->root, "water"), "spectrum"), *node = tree_get(spectrum, fault.setting.key);
-    node = node != NULL ? node : spectrum;
-    return tree_error(tree, node->source, node->place, error, "water.spectrum.%s %s", fault.setting.key, fault.setting.text);
+    const bool wind = water->wind.speed > 0;
+    if (wind)
+        scene_wind_fault(&fault.setting);
+    const char *name = wind ? "wind" : water->spectrum.settings.kind != SPECTRUM_NONE ? "spectrum" : "swell";
+    const tree_node *mapping = tree_get(tree_get(tree->root, "water"), name), *node = tree_get(mapping, fault.setting.key);
+    node = node != NULL ? node : mapping;
+    return tree_error(tree, node->source, node->place, error, "water.%s.%s %s", name, fault.setting.key, fault.setting.text);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * The sea of a scene's `water.spectrum`: settings and a table's file in, waves out.
+ * The sea of a scene's `water.spectrum`, `water.wind` and `water.swell`: settings and a table's file in, waves out.
  */
 #ifndef MANGATA_SCENE_SCENE_SEA_H
 #define MANGATA_SCENE_SCENE_SEA_H
@@ -29,7 +29,22 @@ typedef struct scene_sea_fault {
 bool scene_sea_open(scene_sea *sea, const scene_spectrum *settings, const char *scene_path, scene_sea_fault *fault);
 void scene_sea_close(scene_sea *sea);
 
-/* Fills water->sea with the waves and those of the spectrum, times the factor, where there is one or the other. */
+/* What `water.wind` is short for: in deep water the spectrum of Elfouhaily et al., else TMA's, with Cox and Munk's slopes. */
+scene_spectrum scene_wind_spectrum(const scene_wind *wind);
+
+/* A fault of that spectrum by the keys of the wind. */
+void scene_wind_fault(spectrum_fault *fault);
+
+/* What a scene of a sea begins with: a low sun straight ahead and two seconds of film. */
+scene_values scene_sea_values(void);
+
+/* Above the crests of a sea of this significant height, in metres, looking 7 degrees down. */
+void scene_sea_place_camera(mgt_camera *camera, double wave_height);
+
+/* The number of waves of all swells, which are the last ones of the sea. */
+size_t scene_swell_count(const scene_water *water);
+
+/* Fills water->sea with the waves, those of the spectrum and those of swells, times the factor, where there is one or the other. */
 bool scene_sea_fill(scene_water *water, const char *scene_path, scene_sea_fault *fault);
 
 /* The same while a file is read: errors at the key's place. */

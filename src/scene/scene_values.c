@@ -20,6 +20,7 @@ scene_values scene_values_defaults(void)
         .light = scene.light,
         .sky = scene.sky,
         .water = {.spectrum = {.settings = {.wind = 8, .fetch = 5e4, .gamma = 3.3, .directions = DIRECTIONS_HASSELMANN, .spread = 10}, .count = 64, .seed = 1},
+                  .wind = {.count = 160, .seed = 1},
                   .height = 1,
                   .index_of_refraction = scene.water.index_of_refraction,
                   .level = scene.water.level,
@@ -35,6 +36,8 @@ scene_values scene_values_defaults(void)
     memcpy(values.water.body_albedo, scene.water.body_albedo, sizeof values.water.body_albedo);
     return values;
 }
+
+scene_swell scene_swell_defaults(void) { return (scene_swell){.period = 12, .spread = 40, .count = 24, .seed = 1}; }
 
 mgt_material scene_material_defaults(void)
 {
@@ -79,7 +82,7 @@ static bool copy_members(const field_row *mapping, void *values)
         } else if (field->type == FIELD_LIST) {
             scene_list *list = at;
             const scene_list borrowed = *list;
-            *list = (scene_list){0};
+            *list = (scene_list){.otherwise = borrowed.otherwise};
             if (borrowed.count == 0)
                 continue;
             list->items = malloc(borrowed.count * field->item_size);

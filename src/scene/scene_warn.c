@@ -7,6 +7,7 @@
 #include "params/waves.h"
 #include "scene/scene_path.h"
 #include "scene/scene_read.h"
+#include "scene/scene_sea.h"
 
 /* Stokes' limit: waves of a greater amplitude times wave number break. */
 static const double STEEPEST = 0.4432;
@@ -20,10 +21,17 @@ static bool warn_of_wave(const scene_tree *tree, const scene_water *water, scene
 {
     const scene_list waves = scene_water_all(water);
     const mgt_wave *all = waves.items;
-    const tree_node *mapping = tree_get(tree->root, "water"), *list = tree_get(mapping, "waves"), *spectrum = tree_get(mapping, "spectrum");
+    const tree_node *mapping = tree_get(tree->root, "water"), *list = tree_get(mapping, "waves");
+    const tree_node *drawn = tree_get(mapping, water->wind.speed > 0 ? "wind" : "spectrum"), *swell = tree_get(mapping, "swell");
+    const size_t swell_from = waves.count - scene_swell_count(water);
     for (size_t i = 0; i < waves.count; i++)
         if (steepness(&all[i]) > STEEPEST) {
-            const tree_node *own = i < water->waves.count ? tree_at(list, i) : NULL, *node = own != NULL ? own : spectrum != NULL ? spectrum : mapping;
+            const tree_node *own = i < water->waves.count ? tree_at(list, i)
+                                   : i >= swell_from      ? swell
+                                                          : NULL,
+                            *node = own != NULL     ? own
+                                    : drawn != NULL ? drawn
+                                                    : mapping;
             return tree_error(tree, node->source, node->place, warning,
                               "wave %zu is %.3g steep, amplitude times wave number; water breaks above %.3g, so that no method shows what a sea would", i,
                               steepness(&all[i]), STEEPEST);

@@ -5,6 +5,8 @@
 #include "scene/spectrum_math.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 
 /* ln 2 and π/2 in two parts; the first has so few digits that its product with a small whole number is exact. */
 static const double LN2 = 0.693147180559945309417, LN2_HIGH = 0x1.62e42fee00000p-1, LN2_LOW = 1.90821492927058770002e-10;
@@ -72,3 +74,10 @@ static double turned_sin(double x, int quarters)
 double portable_sin(double x) { return turned_sin(x, 0); }
 
 double portable_cos(double x) { return turned_sin(x, 1); }
+
+double seven_digits(double value)
+{
+    char text[32];
+    snprintf(text, sizeof text, "%.6e", value);
+    return strtod(text, NULL);
+}

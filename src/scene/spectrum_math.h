@@ -15,4 +15,7 @@ double portable_tanh(double x);          /* x ≥ 0 */
 double portable_sin(double x);           /* |x| ≤ 1e6 */
 double portable_cos(double x);
 
+/* Rounded to seven significant digits, in which what else differs from one machine to the next is lost. */
+double seven_digits(double value);
+
 #endif

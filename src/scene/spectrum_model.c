@@ -93,19 +93,42 @@ static bool refuse(spectrum_fault *fault, const char *key, const char *format, d
     return false;
 }
 
+static double jonswap_peak(double wind_10, double fetch) { return 22 * portable_pow(G * G / (wind_10 * fetch), 1.0 / 3); }
+
 /* Pierson and Moskowitz write α g² ω⁻⁵ exp(-β (g / (U ω))⁴) with β = 0.74; as a peak that is (4 β / 5)^¼ g / U. */
+static double pierson_moskowitz_peak(double wind_19_5) { return sqrt(sqrt(0.8 * 0.74)) * G / wind_19_5; }
+
 static void make_pierson_moskowitz(wave_spectrum *s, double wind_19_5)
 {
     s->alpha = 8.1e-3;
     s->gamma = 1;
-    s->peak = sqrt(sqrt(0.8 * 0.74)) * G / wind_19_5;
+    s->peak = pierson_moskowitz_peak(wind_19_5);
+}
+
+double developed_fetch(double wind_10)
+{
+    const double ratio = jonswap_peak(wind_10, 1) / pierson_moskowitz_peak(wind_at_height(wind_10, 10, 19.5));
+    return ratio * ratio * ratio;
 }
 
 static void make_jonswap(wave_spectrum *s, double wind_10, double fetch, double gamma)
 {
     s->alpha = 0.076 * portable_pow(wind_10 * wind_10 / (fetch * G), 0.22);
     s->gamma = gamma;
-    s->peak = 22 * portable_pow(G * G / (wind_10 * fetch), 1.0 / 3);
+    s->peak = jonswap_peak(wind_10, fetch);
+}
+
+static bool make_elfouhaily(wave_spectrum *s, double wind_10, double fetch, spectrum_fault *fault)
+{
+    const double age = unified_age(wind_10, fetch);
+    if (age > UNIFIED_YOUNGEST)
+        return refuse(fault, "fetch", "is %g m, too short for the spectrum in this wind; allowed: at least %.0f m", fetch,
+                      ceil(unified_fetch(wind_10, UNIFIED_YOUNGEST)));
+    s->unified = unified_sea_make(wind_10, age);
+    s->alpha = s->unified.long_alpha;
+    s->gamma = s->unified.gamma;
+    s->peak = age * G / wind_10;
+    return true;
 }
 
 static bool make_buoy(wave_spectrum *s, const spectrum_table *table, double shortest, spectrum_fault *fault)
@@ -155,7 +178,10 @@ bool wave_spectrum_make(wave_spectrum *out, const spectrum_settings *settings, c
         *out = s;
         return good;
     }
-    if (pierson)
+    if (settings->kind == SPECTRUM_ELFOUHAILY) {
+        if (!make_elfouhaily(&s, s.wind_10, settings->fetch, fault))
+            return false;
+    } else if (pierson)
         make_pierson_moskowitz(&s, wind_at_height(settings->wind, height, 19.5));
     else
         make_jonswap(&s, s.wind_10, settings->fetch, settings->gamma);
@@ -176,9 +202,9 @@ bool wave_spectrum_make(wave_spectrum *out, const spectrum_settings *settings, c
 
 double wave_spectrum_peak(const wave_spectrum *spectrum)
 {
-    /* The factor of depth falls towards low frequencies and moves the highest point up a little. */
+    /* The factor of depth falls towards low frequencies and moves the highest point up a little; that of Elfouhaily et al. is not at their k_p. */
     double best = spectrum->peak;
-    if (spectrum->kind == SPECTRUM_TMA)
+    if (spectrum->kind == SPECTRUM_TMA || spectrum->kind == SPECTRUM_ELFOUHAILY)
         for (double f = 0.5 * spectrum->peak, most = 0; f < 3 * spectrum->peak; f += 0.001 * spectrum->peak) {
             const double density = wave_spectrum_density(spectrum, f);
             if (density > most) {
@@ -191,8 +217,19 @@ double wave_spectrum_peak(const wave_spectrum *spectrum)
 
 /* ---- densities ---------------------------------------------------------------------------------------------- */
 
+/* dk/dω in water of this depth. */
+static double numbers_per_frequency(double wave_number, double frequency, double depth)
+{
+    const double t = depth > 0 ? portable_tanh(wave_number * depth) : 1;
+    return 2 * frequency / (G * (t + wave_number * depth * (1 - t * t)));
+}
+
 static double parametric_density(const wave_spectrum *s, double frequency)
 {
+    if (s->kind == SPECTRUM_ELFOUHAILY) {
+        const double k = dispersion_wave_number(frequency, s->depth);
+        return unified_density(&s->unified, k) * numbers_per_frequency(k, frequency, s->depth);
+    }
     const double ratio = s->peak / frequency, square = frequency * frequency;
     double density = s->alpha * G * G / (square * square * frequency) * portable_exp(-1.25 * ratio * ratio * ratio * ratio);
     if (s->gamma > 1) {
@@ -253,6 +290,8 @@ double wave_spectrum_spreading(const wave_spectrum *s, double frequency, double 
         return half_cosine(angle, s->bend_spread);
     if (s->kind == SPECTRUM_BUOY)
         return spectrum_table_at(s->table, frequency, azimuth);
+    if (s->kind == SPECTRUM_ELFOUHAILY) /* as symmetric as the paper's in its slopes, but no wave runs against the wind */
+        return fabs(angle) < SPECTRUM_PI / 2 ? 1 + unified_asymmetry(&s->unified, dispersion_wave_number(frequency, s->depth)) * portable_cos(2 * angle) : 0;
     const double ratio = frequency / s->peak, wind_over_speed = s->wind_10 * s->peak / G;
     switch (s->directions) {
     case DIRECTIONS_MITSUYASU:

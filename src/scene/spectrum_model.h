@@ -12,6 +12,7 @@
 #include <stdint.h>
 
 #include "scene/spectrum_table.h"
+#include "scene/spectrum_unified.h"
 
 #define SPECTRUM_GRAVITY 9.80665 /* m/s² */
 
@@ -20,6 +21,7 @@ typedef enum spectrum_kind {
     SPECTRUM_PIERSON_MOSKOWITZ, /* fully developed sea of the open ocean (Pierson and Moskowitz 1964) */
     SPECTRUM_JONSWAP,           /* limited by fetch (Hasselmann et al. 1973) */
     SPECTRUM_TMA,               /* JONSWAP times Kitaigorodskii's factor of depth (Bouws et al. 1985) */
+    SPECTRUM_ELFOUHAILY,        /* limited by fetch, long and short waves alike (Elfouhaily et al. 1997) */
     SPECTRUM_BUOY               /* measured: a table */
 } spectrum_kind;
 
@@ -39,7 +41,7 @@ typedef struct spectrum_settings {
     spectrum_kind kind;
     double wind;          /* m/s */
     double wind_height;   /* m over the water; 0: of the kind's own paper, 19.5 m for Pierson-Moskowitz, else 10 m */
-    double fetch;         /* m; JONSWAP, TMA */
+    double fetch;         /* m; where spectrum_takes_fetch(). 0 for Elfouhaily et al. alone: a fully developed sea */
     double depth;         /* m; 0: deep */
     double gamma;         /* peak enhancement; JONSWAP, TMA */
     double direction_deg; /* where the wind comes from, 0 is -z ("north"), 90 is +x ("east") */
@@ -51,10 +53,19 @@ typedef struct spectrum_settings {
 
 #define SPECTRUM_SHORTEST 0.05
 
+static inline bool spectrum_takes_fetch(spectrum_kind kind) { return kind == SPECTRUM_JONSWAP || kind == SPECTRUM_TMA || kind == SPECTRUM_ELFOUHAILY; }
+
+/* Whether it is up to the settings how far the peak stands out. */
+static inline bool spectrum_takes_gamma(spectrum_kind kind) { return kind == SPECTRUM_JONSWAP || kind == SPECTRUM_TMA; }
+
+/* Whether it comes with directions of its own. */
+static inline bool spectrum_has_directions(spectrum_kind kind) { return kind == SPECTRUM_ELFOUHAILY || kind == SPECTRUM_BUOY; }
+
 /* A spectrum ready to be evaluated. */
 typedef struct wave_spectrum {
     spectrum_kind kind;
     double alpha, gamma, peak; /* of the parametric kinds; the table's highest row for a buoy */
+    unified_sea unified;       /* of Elfouhaily et al. */
     double depth;              /* 0: deep */
     double wind_10;            /* m/s at 10 m */
     double low, high;          /* frequencies between which there are waves */
@@ -99,6 +110,9 @@ double depth_factor(double frequency, double depth);
 
 /* Wind at another height over a neutral sea with the drag coefficient 1.3e-3: a logarithmic profile. */
 double wind_at_height(double wind, double height, double wanted_height);
+
+/* The fetch, in metres, after which JONSWAP's peak has come down to that of Pierson and Moskowitz in this wind at 10 m: about 1.9e4 U²/g. */
+double developed_fetch(double wind_10);
 
 /* Significant wave height 4 √m0 of α g² ω⁻⁵ exp(-5/4 (ω_p/ω)⁴) γ^…; exact for γ = 1, to γ = 7 by the fit 1 - 0.287 ln γ, good to 1 %;
  * NAN beyond. */

@@ -188,13 +188,6 @@ static double uniform(uint32_t seed, uint64_t counter)
     return (double)(x >> 11) * 0x1p-53;
 }
 
-static double seven_digits(double value)
-{
-    char text[32];
-    snprintf(text, sizeof text, "%.6e", value);
-    return strtod(text, NULL);
-}
-
 static mgt_wave make_wave(const wave_spectrum *spectrum, double height_variance, double slope_variance, double direction_share, double phase)
 {
     const double k = sqrt(slope_variance / height_variance), frequency = dispersion_frequency(k, spectrum->depth);

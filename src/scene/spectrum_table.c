@@ -4,13 +4,12 @@
  */
 #include "scene/spectrum_table.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
+#include "scene/buoy_files.h"
 #include "scene/spectrum_math.h"
 
 enum { FREQUENCY, DIRECTION, DENSITY, COLUMNS };
@@ -238,39 +237,25 @@ bool spectrum_table_parse(spectrum_table *out, const char *text, size_t length, 
     return false;
 }
 
-static bool refuse_file(scene_error *error, scene_error_kind kind, const char *path, const char *what)
-{
-    return scene_error_set(error, kind, "%s: %s; allowed: a table of frequency, direction and density of at most 16 MiB", scene_file_name(path).text, what);
-}
-
 bool spectrum_table_load(spectrum_table *out, const char *path, scene_error *error)
 {
+    size_t length;
+    scene_place unused;
     *out = (spectrum_table){0};
-    struct stat status;
-    char *text = NULL;
-    bool good = false;
-    FILE *stream = fopen(path, "rbe");
-    if (stream == NULL)
-        return refuse_file(error, SCENE_ERROR_MISSING_INPUT, path, strerror(errno));
-    if (fstat(fileno(stream), &status) == 0 && S_ISDIR(status.st_mode)) {
-        refuse_file(error, SCENE_ERROR_MISSING_INPUT, path, "is a directory");
-        goto done;
+    char *text = buoy_file_read(path, &length, error);
+    if (text == NULL)
+        return false;
+    const buoy_format format = scene_text_is_clean(text, length, &unused) ? buoy_format_of(text) : BUOY_TABLE;
+    if (format != BUOY_TABLE) {
+        char *table = buoy_file_convert(format, path, text, error);
+        free(text);
+        if (table == NULL)
+            return false;
+        text = table;
+        length = strlen(table);
     }
-    text = malloc(SPECTRUM_TABLE_BYTES + 1);
-    if (text == NULL) {
-        scene_error_memory(error);
-        goto done;
-    }
-    const size_t length = fread(text, 1, SPECTRUM_TABLE_BYTES + 1, stream);
-    if (ferror(stream))
-        refuse_file(error, SCENE_ERROR_MISSING_INPUT, path, strerror(errno));
-    else if (length > SPECTRUM_TABLE_BYTES)
-        refuse_file(error, SCENE_ERROR_BAD_SCENE, path, "is larger than 16 MiB");
-    else
-        good = spectrum_table_parse(out, text, length, path, error);
-done:
+    const bool good = spectrum_table_parse(out, text, length, path, error);
     free(text);
-    fclose(stream);
     return good;
 }
 

@@ -33,12 +33,12 @@ typedef struct spectrum_table {
     size_t point_count;
 } spectrum_table;
 
-enum { SPECTRUM_TABLE_BYTES = 16 * 1024 * 1024, SPECTRUM_TABLE_POINTS = 500000 };
+enum { SPECTRUM_TABLE_POINTS = 500000 };
 
 /* Reads `text`, called `name` in errors, which are "name:line:column: what is wrong; allowed: …". False with *error filled and *out empty. */
 bool spectrum_table_parse(spectrum_table *out, const char *text, size_t length, const char *name, scene_error *error);
 
-/* The same from a file. */
+/* The same from a file, or from one of the formats of buoy_files.h. */
 bool spectrum_table_load(spectrum_table *out, const char *path, scene_error *error);
 
 void spectrum_table_free(spectrum_table *table);

@@ -15,7 +15,8 @@ works waves -q -o jonswap.yaml --spectrum jonswap --wind 8 --fetch 50000 --direc
 works waves -q -o tma.yaml --spectrum tma --wind 12 --fetch 30000 --depth 6 --direction 90 --gamma 2.2 --slope cox-munk --shortest 0.1
 works waves -q -o buoy.yaml --buoy "$buoy" -n 32
 works waves -q -o deep.yml --spectrum tma --depth 9000 -n 512
-for scene in pm jonswap tma buoy; do
+works waves -q -o unified.yaml --spectrum elfouhaily --wind 10 --fetch 200000
+for scene in pm jonswap tma buoy unified; do
     expect 0 '' check "$scene.yaml"
     works render "$scene.yaml" -o "$scene.png" -q "${small[@]}" --frames 0
 done
@@ -62,6 +63,27 @@ expected=$(awk '!/^[#f]/ && NF { if ($1 != f) { if (n) row(); f = $1; n = 0 } t[
     END { row(); print 4 * sqrt(m) }' "$buoy")
 near "$(value buoy.json significant_wave_height.waves)" "$expected" 0.0005
 
+# ---- buoys' files as they are published ----
+mkdir ndbc
+row() { printf '#YY  MM DD hh mm %s\n2026 01 31 12 40 %s\n' "$2" "$3" >"ndbc/46042.$1"; }
+row data_spec 'Sep_Freq  < spec_1 (freq_1) ... >' '0.117 0.500 (0.033) 8.000 (0.070) 2.000 (0.100) 0.250 (0.200)'
+row swdir 'alpha1_1 (freq_1) ... >' '999.0 (0.033) 290.0 (0.070) 310.0 (0.100) 20.0 (0.200)'
+row swdir2 'alpha2_1 (freq_1) ... >' '999.0 (0.033) 292.0 (0.070) 300.0 (0.100) 40.0 (0.200)'
+row swr1 'r1_1 (freq_1) ... >' '999.00 (0.033) 0.90 (0.070) 0.60 (0.100) 0.30 (0.200)'
+expect 66 'ndbc/46042.swr2: No such file' waves -q -o ndbc.yaml --buoy ndbc/46042.data_spec
+row swr2 'r2_1 (freq_1) ... >' '999.00 (0.033) 0.40 (0.070) 0.20 (0.100) MM (0.200)'
+waves --json --buoy ndbc/46042.data_spec --shortest 0.05 >ndbc.json
+near "$(value ndbc.json from_deg)" 294 0.02
+waves --json --buoy ndbc/46042.data_spec >ndbc.json
+near "$(value ndbc.json significant_wave_height.waves)" "$(awk 'BEGIN { print 4 * sqrt(8.5 / 2 * .037 + 10 / 2 * .03 + 2.25 / 2 * .1) }')" 0.001
+printf '%s\r\n' 17 231 7.1 4.5E+0 10 8.5 7 0 0 0 40 60 '0.080,1.000E+00,90.0,20.0,0.1,2.0' '0.180,4.000E-01,90.0,30.0,0.1,2.0' >buoy.spt
+waves --json --buoy buoy.spt >spt.json
+near "$(value spt.json significant_wave_height.waves)" "$(awk 'BEGIN { print 4 * sqrt(6.3 / 2 * .1) }')" 0.001
+near "$(value spt.json from_deg)" 90 0.01
+echo 'mangata: 1
+water: {spectrum: {model: buoy, file: buoy.spt}}' >spt.yaml
+expect 0 '' check spt.yaml
+
 # ---- bases, and spectra that stay spectra ----
 works waves -q -o moon.yaml --base "$SOURCE/scenes/moonlit.json" --set image.width=64 --set image.height=36 --wind 5
 grep -q 'body: moon' moon.yaml || fail "moon.yaml has no moon"
@@ -100,7 +122,7 @@ expect 64 '--count 0: allowed is a whole number, 1 to 512' waves -n 0
 expect 64 '--count 100000: allowed' waves -n 100000
 expect 64 '--count 1.5: allowed' waves -n 1.5
 expect 64 '--seed -1: allowed' waves --seed -1
-expect 64 '--spectrum phillips: allowed is pierson-moskowitz, jonswap, tma or buoy' waves --spectrum phillips
+expect 64 '--spectrum phillips: allowed is pierson-moskowitz, jonswap, tma, elfouhaily or buoy' waves --spectrum phillips
 expect 64 '--spectrum none: allowed' waves --spectrum none
 expect 64 '--directions sideways: allowed is one of mitsuyasu' waves --directions sideways
 expect 64 '--spectrum tma needs --depth' waves --spectrum tma --wind 8
@@ -109,6 +131,9 @@ expect 64 '--buoy is for --spectrum buoy' waves --spectrum jonswap --buoy "$buoy
 expect 64 'ends in .yaml or .yml' waves -o sea.png
 expect 64 'takes options alone' waves pm.yaml
 expect 65 '--shortest leaves no room between the shortest wave, 900 m' waves --shortest 900
+expect 65 '--fetch is 500 m, too short for the spectrum in this wind; allowed: at least 2365 m' waves --spectrum elfouhaily --wind 20 --fetch 500
+expect 0 '--directions changes nothing: elfouhaily has its own' waves --spectrum elfouhaily --directions fixed
+expect 0 '--gamma changes nothing' waves --spectrum elfouhaily --gamma 2
 expect 65 '--slope cannot be cox-munk' waves --wind 0.5 --fetch 100 --shortest 0.01 --slope cox-munk
 expect 66 'no-such.txt: No such file' waves --buoy no-such.txt
 expect 66 'no-such.yaml: No such file' waves --base no-such.yaml

@@ -50,6 +50,12 @@ static const char *const scenes[] = {
     "mangata: 1\nwater: {waves: [{amplitude: 0.1, a: 1, b: 2, c: -3.1}]}\n",
     "mangata: 1\nwater: {waves: [{amplitude: 0.1, a: 1, b: 2, c: -3.1}], spectrum: {model: tma, wind: 7, depth: 5, count: 9, seed: 4}}\n",
     "mangata: 1\nwater: {spectrum: {model: pierson-moskowitz, directions: fixed, spread: 4, slope: cox-munk}, ior: 1.4}\n",
+    "mangata: 1\nwater: {wind: 7}\n",
+    "mangata: 1\nwater: {wind: 3, swell: [{height: 2}, {height: 1.5, period: 9, direction_deg: 250, seed: 4}]}\n",
+    "mangata: 1\nwater: {swell: [{height: 1, period: 8, spread: 75, count: 10}], waves: [{amplitude: 0.1, a: 1, b: 2, c: -3.1}]}\n",
+    "mangata: 1\nwater: {waves: [{wavelength: 40, direction_deg: 30, height: 1.2}]}\n",
+    "mangata: 1\nwater: {waves: [{wavelength: 7, height: 0.3, phase: 2}, {amplitude: 0.2, a: -1, b: 0.25, c: 4}]}\n",
+    "mangata: 1\nwater: {wind: {speed: 9, direction_deg: 20, fetch: 2e4, count: 30, seed: 7}, amplitude: 0.5}\n",
 };
 enum { SCENE_COUNT = sizeof scenes / sizeof scenes[0] };
 

@@ -122,9 +122,16 @@ static bool loads(const char *override)
     /* A path excludes a still camera's position and target. */
     static const char text[] = "mangata: 1\ncamera: {up: [0.3, 1, 0.2]}\nwater: {waves: [{amplitude: 1, a: 1, b: 1, c: 1}]}\n";
     static const char path[] = "mangata: 1\ncamera: {path: [{time: 0, position: [0, 4, 0], target: [0, 3, -1], up: [0.3, 1, 0.2]}]}\n";
-    bool on_path = strncmp(override, "camera.path", 11) == 0;
+    static const char calm[] = "mangata: 1\ncamera: {up: [0.3, 1, 0.2]}\n"; /* the wind excludes other waves */
+    static const char swell[] = "mangata: 1\ncamera: {up: [0.3, 1, 0.2]}\nwater: {swell: [{height: 1}]}\n";
+    static const struct {
+        const char *key, *text;
+    } bases[] = {{"camera.path", path}, {"water.wind", calm}, {"water.swell", swell}, {"", text}};
+    size_t i = 0;
+    while (strncmp(override, bases[i].key, strlen(bases[i].key)) != 0)
+        i++;
     char base[512];
-    snprintf(base, sizeof base, "%s%s%s}]\n", on_path ? path : text, "objects: [{instances: [{}], ", shape_for(override));
+    snprintf(base, sizeof base, "%s%s%s}]\n", bases[i].text, "objects: [{instances: [{}], ", shape_for(override));
     scene_error error;
     scene_file *file = scene_file_parse(base, strlen(base), "test", &override, 1, &error);
     scene_file_free(file);

@@ -495,7 +495,7 @@ static void bad_spectra_say_where(void **state)
         {"{model: jonswap, wind: -3}", "sea.yaml:2:42: water.spectrum.wind is -3; allowed: a number, 0.5 to 75 m/s"},
         {"{model: jonswap, wind: 900}", "wind is 900; allowed"},
         {"{model: jonswap, fetch: -5}", "fetch is -5; allowed: a number, 100 to 1e7 m"},
-        {"{model: phillips}", "model is phillips; allowed: one of none, pierson-moskowitz, jonswap, tma, buoy"},
+        {"{model: phillips}", "model is phillips; allowed: one of none, pierson-moskowitz, jonswap, tma, elfouhaily, buoy"},
         {"{model: tma}", "sea.yaml:2:19: water.spectrum.depth is 0: tma is a sea of limited depth"},
         {"{model: jonswap, wind: 20, depth: 3}", "sea.yaml:2:53: water.spectrum.depth is 3 m, shallow for this sea's waves"},
         {"{model: buoy}", "sea.yaml:2:19: water.spectrum.file is missing"},

@@ -98,6 +98,26 @@ static void the_file_wins_where_it_changed_and_nothing_else_is_lost(void **state
     document_close(&d);
 }
 
+/* The words of --sea in place of a file. */
+static void a_sea_is_a_document(void **state)
+{
+    (void)state;
+    document d;
+    scene_error error;
+    static const char *const word = "light.elevation_deg=5";
+    char name[64];
+    if (!document_open(&d, "--sea wind=8,seed=3", &word, 1, &error))
+        fail_msg("%s", error.text);
+    assert_true(d.values.light.elevation_deg == 5);
+    assert_int_equal(d.values.water.waves.count, 160);
+    assert_true(d.values.water.wind.speed == 0);
+    assert_int_equal(document_poll(&d), DOCUMENT_SAME);
+    document_save_name(&d, name, sizeof name);
+    assert_string_equal(name, "sea-edited.yaml");
+    document_close(&d);
+    assert_false(document_open(&d, "--sea wind=gale", NULL, 0, &error));
+}
+
 static void a_broken_file_changes_nothing(void **state)
 {
     const folder *f = *state;
@@ -248,6 +268,8 @@ static void every_value_of_the_scene_is_a_control(void **state)
     assert_false(control_find(&board, "view", &c));
     assert_false(control_find(&board, "water.waves[2].a", &c));
     assert_false(control_find(&board, "water.spectrum.wind", &c)); /* it is written out as waves */
+    assert_false(control_find(&board, "water.wind.speed", &c));
+    assert_false(control_find(&board, "water.swell[0].height", &c));
     assert_false(control_find(&board, "objects[0].position", &c)); /* they are built when the file is read */
     assert_false(control_find(&board, "view.wipes", &c));
     document_close(&d);
@@ -359,6 +381,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(the_file_wins_where_it_changed_and_nothing_else_is_lost, make_folder, remove_folder),
+        cmocka_unit_test(a_sea_is_a_document),
         cmocka_unit_test_setup_teardown(a_broken_file_changes_nothing, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(changes_that_no_longer_fit_are_given_up, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(a_spectrum_becomes_waves, make_folder, remove_folder),

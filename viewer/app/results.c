@@ -43,7 +43,7 @@ char *viewer_command(const viewer *v)
     FILE *stream = scene_overrides_between(scene_file_values(v->document.file), &values, &words) ? open_memstream(&text, &size) : NULL;
     if (stream) {
         fputs("mangata render", stream);
-        shell_word(stream, v->document.path);
+        shell_scene(stream, v->document.path);
         fputs(" -o frame.png --frames 0", stream);
         write_method(stream, v, &q);
         if (v->settings.view.layer != MGT_LAYER_COLOR && v->settings.view.layer != MGT_LAYER_DEPTH)

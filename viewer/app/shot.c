@@ -74,7 +74,7 @@ void wave_add(viewer *v)
     }
     items[list->count] = wave_new(list->count);
     v->selected_wave = list->count;
-    *list = (scene_list){items, list->count + 1};
+    *list = (scene_list){.items = items, .count = list->count + 1};
 }
 
 void wave_remove(viewer *v, size_t index)

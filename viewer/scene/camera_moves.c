@@ -121,7 +121,7 @@ bool keyframe_record(scene_list *path, double time, const mgt_camera *camera)
         return false;
     memmove(items + at + 1, items + at, (path->count - at) * sizeof *items);
     items[at] = (scene_keyframe){time, *camera};
-    *path = (scene_list){items, path->count + 1};
+    *path = (scene_list){.items = items, .count = path->count + 1};
     return true;
 }
 

@@ -35,10 +35,10 @@ bool document_open(document *d, const char *path, const char *const *words, size
     *d = (document){.path = path};
     if (stat(path, &d->stamp) != 0)
         d->stamp = (struct stat){0};
-    scene_file *changed = scene_file_load(path, words, count, error);
+    scene_file *changed = scene_file_open(path, words, count, error);
     if (!changed)
         return false;
-    d->file = scene_file_load(path, NULL, 0, error);
+    d->file = scene_file_open(path, NULL, 0, error);
     /* A file may be good only with what the words change. */
     if (!d->file) {
         d->file = changed;
@@ -204,7 +204,7 @@ document_news document_poll(document *d)
     if (stat(d->path, &stamp) != 0 || same_stamp(&stamp, &d->stamp))
         return DOCUMENT_SAME;
     d->stamp = stamp;
-    scene_file *fresh = scene_file_load(d->path, NULL, 0, &d->error);
+    scene_file *fresh = scene_file_open(d->path, NULL, 0, &d->error);
     if (!fresh)
         return DOCUMENT_BROKEN;
     if (!merge(d, fresh, &values)) {
@@ -226,6 +226,10 @@ void document_save_name(const document *d, char *name, size_t size)
     const char *slash = strrchr(d->path, '/');
     const char *dot = strrchr(slash ? slash : d->path, '.');
     const size_t length = dot ? (size_t)(dot - d->path) : strlen(d->path);
+    if (strncmp(d->path, "--", 2) == 0) { /* words of --sea */
+        snprintf(name, size, "sea-edited.yaml");
+        return;
+    }
     const bool edited = length > 7 && strncmp(d->path + length - 7, "-edited", 7) == 0;
     snprintf(name, size, "%.*s%s.yaml", (int)length, d->path, edited ? "" : "-edited");
 }

@@ -127,12 +127,13 @@ static const control_hint *hint_of(const char *name)
 }
 
 /* Samples are taken in turn while a side refines.
- * The document holds a spectrum's waves times the factor, so their settings change nothing any more; nor does a named clarity, whose numbers it
+ * The document holds a spectrum's, a wind's or a swell's waves times the factor, so their settings change nothing any more; nor does a named clarity, whose numbers it
  * holds. Objects are built when the file is read. Each side has a quality of its own. */
 static bool is_left_out(const char *name)
 {
-    return strncmp(name, "water.spectrum", 14) == 0 || strcmp(name, "water.amplitude") == 0 || strcmp(name, "water.clarity") == 0 ||
-           strncmp(name, "objects", 7) == 0 || strncmp(name, "quality", 7) == 0 || strncmp(name + 1, ".sample_", 8) == 0;
+    return strncmp(name, "water.spectrum", 14) == 0 || strncmp(name, "water.wind.", 11) == 0 || strncmp(name, "water.swell", 11) == 0 ||
+           strcmp(name, "water.amplitude") == 0 || strcmp(name, "water.clarity") == 0 || strncmp(name, "objects", 7) == 0 || strncmp(name, "quality", 7) == 0 ||
+           strncmp(name + 1, ".sample_", 8) == 0;
 }
 
 static bool is_control(const field_row *field)
