@@ -63,10 +63,17 @@ static bool looks_up(mgt_refraction method)
            method == MGT_REFRACTION_OFF;
 }
 
+/* What choppiness may multiply slopes by. */
+static double steeper(const frame *f)
+{
+    const double pressed = sines_pressed(&f->scene->water);
+    return 1 / sqrt(1 - pressed * pressed);
+}
+
 /* From above, rays behind a surface as steep as a crest is are refracted to 41° or more below the horizontal. */
 static int waves_met_again(const frame *f)
 {
-    const double n = f->scene->water.index_of_refraction, steepest = sines_steepest(&f->scene->water);
+    const double n = f->scene->water.index_of_refraction, steepest = steeper(f) * sines_steepest(&f->scene->water);
     return steepest > 0 && (f->under || steepest > sqrt(n * n - 1)) ? (int)f->scene->water.wave_count : 0;
 }
 
@@ -129,9 +136,10 @@ NarrowData refraction_narrow_data(const frame *f, const world *w, const gbuffer 
         .high_z = (float)(w->high[2] + w->origin[1] - c->position[2]) + 1e-3f,
         .wave_height = (float)sines_crest(&f->scene->water),
         .waves = waves_met_again(f),
-        .wave_slope = (float)sines_steepest(&f->scene->water),
+        .wave_slope = (float)(steeper(f) * sines_steepest(&f->scene->water)),
         .edge_rays = smooths_edges(&f->scene->quality) ? EDGE_RAYS : 0,
-        .wave_bend = (float)sines_sharpest(&f->scene->water),
+        .wave_bend = (float)(steeper(f) * sines_sharpest(&f->scene->water)),
+        .choppy = f->scene->water.choppiness > 0,
     };
 }
 

@@ -91,6 +91,7 @@ static void set_waves(shade_scene *s, const frame *f, const world *w, const sky_
     const light_state *light = lights_get(sky->lights, 0);
     const bool gathers = f->scene->quality.caustics && light_toward(light)[1] > 0;
     s->data.caustic_waves = gathers ? (int)water->wave_count : 0;
+    s->data.choppy = water->choppiness > 0;
     s->data.sun_radius = (float)light_tan_radius(light);
     if (gathers)
         sines_searched(water, (wave_meeting){.x = w->origin[0], .z = w->origin[1], .middle = f->scene->time}, s->waves);

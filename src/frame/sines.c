@@ -155,13 +155,43 @@ double sines_path_bend(const mgt_water *water, double half)
     return sqrt(sum);
 }
 
+/* The place of rest of choppy water that is shifted to a point: steps that always come nearer. */
+static void place_of_rest(const mgt_water *water, const double point[2], double time, double rest[2], double stretch[3])
+{
+    rest[0] = point[0], rest[1] = point[1];
+    for (int look = 0; look < 200; look++) {
+        double shift[2] = {0, 0};
+        stretch[0] = stretch[2] = 1, stretch[1] = 0;
+        for (size_t i = 0; i < water->wave_count; i++) {
+            const mgt_wave *w = &water->waves[i];
+            const double phase = w->kx * rest[0] + w->kz * rest[1] + w->omega * time + w->phase, k = hypot(w->kx, w->kz);
+            const double size = k > 0 ? (double)water->choppiness * w->amplitude / k : 0, pressed = size * sin(phase);
+            shift[0] += size * w->kx * cos(phase);
+            shift[1] += size * w->kz * cos(phase);
+            stretch[0] -= pressed * w->kx * w->kx;
+            stretch[1] -= pressed * w->kx * w->kz;
+            stretch[2] -= pressed * w->kz * w->kz;
+        }
+        const double left[2] = {point[0] - rest[0] - shift[0], point[1] - rest[1] - shift[1]};
+        if (!(hypot(left[0], left[1]) > 1e-9))
+            break;
+        rest[0] += left[0];
+        rest[1] += left[1];
+    }
+}
+
 void sines_lower(const mgt_water *water, const double point[2], double time, const double ray[3], double *gap, double *closing)
 {
+    double rest[2] = {point[0], point[1]}, stretch[3] = {1, 0, 1};
+    if (water->choppiness > 0)
+        place_of_rest(water, point, time, rest, stretch);
+    const double det = fmax(stretch[0] * stretch[2] - stretch[1] * stretch[1], 0.1);
+    const double along_x = (stretch[2] * ray[0] - stretch[1] * ray[2]) / det, along_z = (stretch[0] * ray[2] - stretch[1] * ray[0]) / det;
     for (size_t i = 0; i < water->wave_count; i++) {
         const mgt_wave *w = &water->waves[i];
-        const double phase = w->kx * point[0] + w->kz * point[1] + w->omega * time + w->phase;
+        const double phase = w->kx * rest[0] + w->kz * rest[1] + w->omega * time + w->phase;
         *gap -= w->amplitude * sin(phase);
-        *closing -= w->amplitude * (w->kx * ray[0] + w->kz * ray[2]) * cos(phase);
+        *closing -= w->amplitude * (w->kx * along_x + w->kz * along_z) * cos(phase);
     }
 }
 

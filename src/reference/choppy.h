@@ -20,10 +20,10 @@ typedef struct choppy_ray {
 } choppy_ray;
 
 typedef struct curve_point {
-    double across;       /* w */
-    double distance;     /* s */
-    double above;        /* g */
-    double above_change; /* dg/dv, ds/dv */
+    double along, across; /* v, w */
+    double distance;      /* s */
+    double above;         /* g */
+    double above_change;  /* dg/dv, ds/dv */
     double distance_change;
     choppy_sums sums;
 } curve_point;
@@ -54,7 +54,7 @@ static curve_point curve_at(const choppy_ray *ray, const choppy_level *level, do
         const double stretch = between(ray->across, sums.stretch, ray->across), next = w - off / stretch;
         w = stretch > 0.05 && next > least && next < most ? next : 0.5 * (least + most);
     }
-    curve_point p = {.across = w, .sums = sums};
+    curve_point p = {.along = v, .across = w, .sums = sums};
     const double across_change = -between(ray->across, sums.stretch, ray->along) / fmax(between(ray->across, sums.stretch, ray->across), 0.05);
     p.distance = v + dot2(ray->along, sums.shift);
     p.above = ray->origin[1] + ray->rise * p.distance - sums.height;
@@ -87,11 +87,41 @@ static void choppy_slope(const choppy_sums *sums, double slope[2])
 static void keep_hit(const choppy_ray *ray, const curve_point *p, double horizontal, reference_batch *batch, uint32_t i)
 {
     double slope[2];
-    (void)ray;
     choppy_slope(&p->sums, slope);
+    batch->rest_x[i] = ray->origin[0] + p->along * ray->along[0] + p->across * ray->across[0];
+    batch->rest_z[i] = ray->origin[2] + p->along * ray->along[1] + p->across * ray->across[1];
     batch->distance[i] = fmax(p->distance, 0) / horizontal;
     batch->slope_x[i] = slope[0];
     batch->slope_z[i] = slope[1];
+}
+
+/* Second derivatives of the surface at a hit. */
+static void choppy_bend(const reference_frame *frame, reference_batch *batch, uint32_t i)
+{
+    if (!(batch->distance[i] < HUGE_VAL))
+        return;
+    const double slope[2] = {batch->slope_x[i], batch->slope_z[i]};
+    choppy_sums sums;
+    double bend[3];
+    choppy_bend_at_rest(frame->waves, frame->wave_count, frame->choppiness, (const double[]){batch->rest_x[i], batch->rest_z[i], batch->time_offset[i]}, slope,
+                        bend, &sums);
+    /* B⁻¹ M B⁻¹ by the eigenvectors of B, whose eigenvalues are bounded as for the slope. */
+    const double first[2] = {bend[0], bend[1]}, second[2] = {bend[1], bend[2]};
+    double left[2], right[2], row[2], column[2];
+    choppy_sums part = sums;
+    memcpy(part.slope, first, sizeof first);
+    choppy_slope(&part, left);
+    memcpy(part.slope, second, sizeof second);
+    choppy_slope(&part, right);
+    row[0] = left[0], row[1] = right[0];
+    column[0] = left[1], column[1] = right[1];
+    memcpy(part.slope, row, sizeof row);
+    choppy_slope(&part, left);
+    memcpy(part.slope, column, sizeof column);
+    choppy_slope(&part, right);
+    batch->bend_xx[i] = left[0];
+    batch->bend_xz[i] = left[1];
+    batch->bend_zz[i] = right[1];
 }
 
 static void choppy_search(const reference_frame *frame, reference_batch *batch, uint32_t i)

@@ -33,6 +33,7 @@ typedef struct reference_batch {
 
     double distance[REFERENCE_BATCH];                          /* metres to the first hit; +inf: none; 0: the camera is under the surface */
     double slope_x[REFERENCE_BATCH], slope_z[REFERENCE_BATCH]; /* at the hit */
+    double rest_x[REFERENCE_BATCH], rest_z[REFERENCE_BATCH];   /* of choppy water: where that of the hit rests */
     double bend_xx[REFERENCE_BATCH], bend_xz[REFERENCE_BATCH], bend_zz[REFERENCE_BATCH]; /* second derivatives there */
 
     uint64_t evaluations; /* counts up */

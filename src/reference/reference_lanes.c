@@ -287,6 +287,11 @@ void MARCH(const reference_frame *frame, reference_batch *batch, uint32_t count)
 
 void BEND(const reference_frame *frame, reference_batch *batch, uint32_t count)
 {
+    if (frame->choppiness != 0) {
+        for (uint32_t i = 0; i < count; i++)
+            choppy_bend(frame, batch, i);
+        return;
+    }
     for (uint32_t at = 0; at < count; at += REFERENCE_LANES) {
         const reals distance = load(&batch->distance[at]), s = select_lanes((masks)(distance < HUGE_VAL), distance, splat(0));
         const reals x = fused(load(&batch->direction_x[at]), s, load(&batch->origin_x[at]));

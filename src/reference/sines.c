@@ -249,6 +249,27 @@ void choppy_levels_of(const reference_wave *waves, double choppiness, double dev
     }
 }
 
+void choppy_bend_at_rest(const reference_wave *waves, uint32_t count, double choppiness, const double place[3], const double slope[2], double bend[3],
+                         choppy_sums *sums)
+{
+    *sums = (choppy_sums){.stretch = {1, 0, 1}};
+    bend[0] = bend[1] = bend[2] = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        const reference_wave *w = &waves[i];
+        const double half_turns = place[0] * w->half_turns_a + place[1] * w->half_turns_b + place[2] * w->half_turns_c + w->phase;
+        const double phase = (double)pi * remainder(half_turns, 2), sine = sin(phase), cosine = cos(phase);
+        const double k = hypot(w->a, w->b), shift = k > 0 ? choppiness / k : 0;
+        /* −∂²h: A sin ψ k k; ∂²D_i: −shift A cos ψ k_i k k. */
+        const double part = -w->amplitude * sine + shift * w->amplitude * cosine * (slope[0] * w->a + slope[1] * w->b);
+        bend[0] += part * w->a * w->a;
+        bend[1] += part * w->a * w->b;
+        bend[2] += part * w->b * w->b;
+        sums->stretch[0] -= shift * w->amplitude_a * w->a * sine;
+        sums->stretch[1] -= shift * w->amplitude_a * w->b * sine;
+        sums->stretch[2] -= shift * w->amplitude_b * w->b * sine;
+    }
+}
+
 static double farthest(const double sides[4][2], const reference_wave *wave)
 {
     double most = 0;

@@ -89,6 +89,10 @@ reference_bend reference_waves_bend(const reference_wave *waves, uint32_t count,
 /* Metres within which waves of any direction make of the slope, beside first derivatives, at most this share of its deviation. +inf without waves. */
 double reference_waves_straight(const reference_wave *waves, uint32_t count, double share);
 
+/* At a place of rest x, z and time offset: ∇²h − Σ slope_i ∇²D_i (xx, xz, zz), and the stretch of `sums`. */
+void choppy_bend_at_rest(const reference_wave *waves, uint32_t count, double choppiness, const double place[3], const double slope[2], double bend[3],
+                         choppy_sums *sums);
+
 /* Turns the surface over. */
 void reference_waves_mirror(reference_wave *waves, size_t count);
 
