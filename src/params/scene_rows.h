@@ -35,7 +35,7 @@
          0,                                                                                                                                    \
          1,                                                                                                                                    \
          NULL,                                                                                                                                 \
-         .doc = "how far waves shift the water to their crests, which sharpens them: 0 sines, 1 trochoids"},                                   \
+         .doc = "how far waves shift the water to their crests, which sharpens them: 0 sines, 1 trochoids; 0.7 with water.wind"},              \
     {                                                                                                                                          \
         "ior", FIELD_NUMBER, offsetof(type, index_of_refraction), 0, 1, 3, NULL, .doc = "index of refraction", .member = "index_of_refraction" \
     }

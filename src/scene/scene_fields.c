@@ -135,6 +135,13 @@ static const field_row swell_fields[] = {{"height", FIELD_NUMBER, offsetof(scene
                                           .doc = "another seed: another swell of the same kind"},
                                          {0}};
 
+static void decide_wind(void *parent)
+{
+    scene_water *water = parent;
+    if (water->wind.speed > 0)
+        water->choppiness = WIND_CHOPPINESS;
+}
+
 static const field_row water_fields[] = {{"waves", FIELD_LIST, offsetof(scene_water, waves), 0, NO_RANGE, NULL,
                                           .doc = "each adds amplitude·sin(a·x + b·z + c·t + phase) to the height; none: a flat mirror", .fields = wave_rows,
                                           .item_size = sizeof(mgt_wave), .max_items = MGT_MAX_WAVES, .prepare = prepare_wave, .other = &measured_wave_form},
@@ -142,7 +149,7 @@ static const field_row water_fields[] = {{"waves", FIELD_LIST, offsetof(scene_wa
                                           .doc = "waves drawn from a wind's or a buoy's spectrum, beside those of waves", .fields = spectrum_fields},
                                          {"wind", FIELD_MAPPING, offsetof(scene_water, wind), FIELD_NO_PIXELS | FIELD_SHORT, NO_RANGE, NULL,
                                           .doc = "a whole sea from the wind alone, in place of waves and spectrum: a speed, or a mapping",
-                                          .fields = wind_fields},
+                                          .fields = wind_fields, .decide = decide_wind},
                                          {"swell", FIELD_LIST, offsetof(scene_water, swell), FIELD_NO_PIXELS, NO_RANGE, NULL,
                                           .doc = "waves from far away, beside all others", .fields = swell_fields, .item_size = sizeof(scene_swell),
                                           .max_items = 16, .prepare = prepare_swell},

@@ -68,6 +68,8 @@ scene_swell scene_swell_defaults(void); /* but for the height */
 /* Named waters: each sets absorption and scattering. */
 typedef enum scene_clarity { CLARITY_PURE, CLARITY_CLEAR, CLARITY_COASTAL, CLARITY_MURKY } scene_clarity;
 
+#define WIND_CHOPPINESS 0.7f /* of the seas that water.wind makes, where the scene says nothing else */
+
 typedef struct scene_water {
     scene_list waves; /* of mgt_wave */
     scene_spectrum spectrum;

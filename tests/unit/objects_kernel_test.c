@@ -529,8 +529,7 @@ static double height_of(double x, double z)
 {
     double rest[2] = {x, z}, shift[2], height = height_at_rest(rest, shift);
     for (int i = 0; narrow_data.choppy && i < 100 && hypot(x - rest[0] - shift[0], z - rest[1] - shift[1]) > 1e-10; i++) {
-        rest[0] = x - shift[0], rest[1] = z - shift[1];
-        height = height_at_rest(rest, shift);
+        rest[0] = x - shift[0], rest[1] = z - shift[1], height = height_at_rest(rest, shift);
     }
     return height;
 }
