@@ -465,9 +465,11 @@ static void settle(const water_terms *w, bool exact, const double at[][2], rest_
                 continue;
             const double left[2] = {at[lane][0] - g->x[lane] - g->shift_x[lane], at[lane][1] - g->z[lane] - g->shift_z[lane]};
             points[lane].settled = left[0] * left[0] + left[1] * left[1] <= near * near;
-            if (points[lane].settled || look + 1 == LOOKS)
+            if (points[lane].settled || look + 1 == LOOKS) {
                 keep_point(g, lane, left, &points[lane]);
-            open -= points[lane].settled;
+                open -= points[lane].settled;
+                continue;
+            }
             double step[2];
             rest_step(w, g, lane, left, step);
             g->x[lane] += step[0];
