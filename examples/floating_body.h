@@ -81,30 +81,40 @@ typedef struct body_load {
     double force, pitch_moment, roll_moment; /* N, N m */
 } body_load;
 
-/* Adds what a column carries, and its damping, where the water stands at `height` and rises with `speed`. */
-static inline void body_add_column(const floating_body *body, const body_motion *motion, const double transform[3][4], const body_column *column, double height,
-                                   double speed, body_load *load)
+/* The water at a column's place. */
+typedef struct body_water {
+    double height, speed; /* of the surface, upward */
+    float normal[3];
+} body_water;
+
+/* Adds what a column carries, and its damping. Pressure grows along the surface's normal, so that a body lies along long waves; the part of it that is
+ * not upright turns the body and moves it nowhere. */
+static inline void body_add_column(const floating_body *body, const body_motion *motion, const double transform[3][4], const body_column *column,
+                                   const body_water *water, body_load *load)
 {
     const double base = body_row(transform[1], column->x, column->bottom, column->z);
-    const double wet = fmin(fmax((height - base) / transform[1][1], 0), column->top - column->bottom); /* along the column's axis */
+    const double wet = fmin(fmax((water->height - base) / transform[1][1], 0), column->top - column->bottom); /* along the column's axis */
     if (wet <= 0)
         return;
-    const double middle = column->bottom + wet / 2;
+    const double middle = column->bottom + wet / 2, ch = cos(body->heading), sh = sin(body->heading);
     const double dx = body_row(transform[0], column->x, middle, column->z) - body->place_x;
     const double dz = body_row(transform[2], column->x, middle, column->z) - body->place_z;
-    const double arm_x = cos(body->heading) * dx - sin(body->heading) * dz, arm_z = sin(body->heading) * dx + cos(body->heading) * dz;
+    const double arm_x = ch * dx - sh * dz, arm_z = sh * dx + ch * dz;
+    const double arm_y = body_row(transform[1], column->x, middle, column->z) - body->center[1] - motion->heave;
     const double rising = motion->heave_speed + motion->roll_speed * arm_x - motion->pitch_speed * arm_z;
-    const double force = column->area * (BODY_WATER_DENSITY * BODY_GRAVITY * wet - body->damping * (rising - speed));
+    const double lift = BODY_WATER_DENSITY * BODY_GRAVITY * column->area * wet, force = lift - column->area * body->damping * (rising - water->speed);
+    const double push_x = lift * (ch * water->normal[0] - sh * water->normal[2]) / water->normal[1];
+    const double push_z = lift * (sh * water->normal[0] + ch * water->normal[2]) / water->normal[1];
     load->force += force;
-    load->pitch_moment -= force * arm_z;
-    load->roll_moment += force * arm_x;
+    load->pitch_moment += arm_y * push_z - arm_z * force;
+    load->roll_moment += arm_x * force - arm_y * push_x;
 }
 
 /* The loads of all columns on the water at `time`. */
 static inline mgt_status body_loads(const floating_body *body, const body_motion *motion, const mgt_water *water, double time, body_load *load)
 {
     double transform[3][4], points[2 * BODY_MAX_COLUMNS], height[BODY_MAX_COLUMNS];
-    float velocity[3 * BODY_MAX_COLUMNS];
+    float normal[3 * BODY_MAX_COLUMNS], velocity[3 * BODY_MAX_COLUMNS];
     body_transform(body, motion, transform);
     for (size_t i = 0; i < body->count; i++) {
         const body_column *column = &body->columns[i];
@@ -114,12 +124,15 @@ static inline mgt_status body_loads(const floating_body *body, const body_motion
     mgt_water_answers answers;
     mgt_water_answers_init(&answers, sizeof answers);
     answers.height = height;
+    answers.normal = normal;
     answers.velocity = velocity;
     answers.least_wavelength = body->least_wavelength;
     const mgt_status status = mgt_water_query(water, time, points, body->count, &answers);
     *load = (body_load){.force = -BODY_GRAVITY * body->mass};
-    for (size_t i = 0; status == MGT_OK && i < body->count; i++)
-        body_add_column(body, motion, transform, &body->columns[i], height[i], velocity[3 * i + 1], load);
+    for (size_t i = 0; status == MGT_OK && i < body->count; i++) {
+        const body_water here = {height[i], velocity[3 * i + 1], {normal[3 * i], normal[3 * i + 1], normal[3 * i + 2]}};
+        body_add_column(body, motion, transform, &body->columns[i], &here, load);
+    }
     return status;
 }
 
