@@ -190,10 +190,11 @@ static mgt_scene make_scene(const film_options *film, const mgt_wave waves[WAVES
     mgt_scene_init(&scene, sizeof scene);
     scene.image.width = film->width;
     scene.image.height = film->height;
-    scene.camera = (mgt_camera){.position = {1.5, 2.6, 6.3}, .target = {0.1, 0.1, 0}, .up = {0, 1, 0}, .fov_y_deg = 42};
+    scene.camera = (mgt_camera){.position = {1.5, 2.6, 6.3}, .target = {0.1, 0.1, 0}, .up = {0, 1, 0}, .fov_y_deg = 36};
     scene.shutter = fmin(0.5 / film->fps, 1 / 48.0); /* the boat is drawn where it is when the shutter closes */
     scene.light.elevation_deg = 32;
     scene.light.azimuth_deg = 48;
+    scene.post.exposure_ev = 1;
     scene.quality.refraction_samples = 3; /* smooth outlines of the boat in the water */
     scene.water.waves = waves;
     scene.water.wave_count = WAVES;
@@ -253,6 +254,7 @@ static bool make_film(const film_options *film)
         mgt_object object = {.mesh = mesh, .material = {.base_color = {0.35f, 0.1f, 0.03f}, .roughness = 0.5f}};
         scene.objects = &object;
         scene.object_count = 1;
+        body_transform(&boat, &(body_motion){0}, object.transform);
         scene.quality.refraction = MGT_REFRACTION_HYBRID;
         if (!mgt_supports(MGT_BACKEND_CPU, &scene, MGT_LAYER_COLOR))
             scene.quality.refraction = MGT_REFRACTION_TWO_PHASE; /* built without rays */
