@@ -89,7 +89,7 @@ typedef struct body_water {
 
 /* Adds what a column carries, and its damping. Pressure grows along the surface's normal, so that a body lies along long waves; the part of it that is
  * not upright turns the body and moves it nowhere. */
-static inline void body_add_column(const floating_body *body, const body_motion *motion, const double transform[3][4], const body_column *column,
+static inline void body_add_column(const floating_body *body, const body_motion *motion, double transform[3][4], const body_column *column,
                                    const body_water *water, body_load *load)
 {
     const double base = body_row(transform[1], column->x, column->bottom, column->z);

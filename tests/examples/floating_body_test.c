@@ -116,6 +116,27 @@ static void it_lies_along_the_water(void **state)
     }
 }
 
+/* Water that rises and falls as a whole: stiffness and damping pull the body along, its mass holds it back. */
+static void it_answers_swell_as_a_damped_oscillator(void **state)
+{
+    (void)state;
+    mgt_water water = flat_water();
+    const mgt_wave swell = {.amplitude = 0.1, .kx = 1e-6, .omega = 3};
+    water.waves = &swell;
+    water.wave_count = 1;
+    const floating_body body = make_box(1500);
+    body_motion motion = {0};
+    assert_int_equal(body_run(&body, &motion, &water, 0, 30), MGT_OK);
+    const double area = box[0] * box[2], stiffness = BODY_WATER_DENSITY * BODY_GRAVITY * area, drag = body.damping * area * swell.omega;
+    const double inert = stiffness - body.mass * swell.omega * swell.omega;
+    const double gain = hypot(stiffness, drag) / hypot(inert, drag), shift = atan2(drag, stiffness) - atan2(drag, inert);
+    for (int i = 0; i < 200; i++) {
+        const double time = 30 + i / 60.0, expected = swell.amplitude * gain * sin(swell.omega * time + shift);
+        assert_true(fabs(motion.heave - expected) < 0.02 * swell.amplitude);
+        assert_int_equal(body_run(&body, &motion, &water, time, 1 / 60.0), MGT_OK);
+    }
+}
+
 static void waves_that_do_not_count_do_not_move_it(void **state)
 {
     (void)state;
@@ -145,8 +166,12 @@ static void bad_water_is_reported(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(it_settles_at_the_draught_of_archimedes),          cmocka_unit_test(it_heaves_with_the_analytic_period),
-                                       cmocka_unit_test(it_rolls_and_pitches_with_the_metacentric_period), cmocka_unit_test(it_lies_along_the_water),
-                                       cmocka_unit_test(waves_that_do_not_count_do_not_move_it),           cmocka_unit_test(bad_water_is_reported)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(it_settles_at_the_draught_of_archimedes),
+                                       cmocka_unit_test(it_heaves_with_the_analytic_period),
+                                       cmocka_unit_test(it_rolls_and_pitches_with_the_metacentric_period),
+                                       cmocka_unit_test(it_lies_along_the_water),
+                                       cmocka_unit_test(it_answers_swell_as_a_damped_oscillator),
+                                       cmocka_unit_test(waves_that_do_not_count_do_not_move_it),
+                                       cmocka_unit_test(bad_water_is_reported)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
