@@ -198,6 +198,7 @@ static mgt_scene make_scene(const film_options *film, const mgt_wave waves[WAVES
     scene.quality.refraction_samples = 3; /* smooth outlines of the boat in the water */
     scene.water.waves = waves;
     scene.water.wave_count = WAVES;
+    scene.water.choppiness = 0.7f;
     return scene;
 }
 

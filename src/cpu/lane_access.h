@@ -6,6 +6,7 @@
 #define FRAME(cx) (*(cx)->frame)
 #define VIEW(cx) (*(cx)->view)
 #define TILE(cx) (*(cx)->tile)
+#define CHOPPY(cx) TILE(cx).choppy
 #define WAVE(cx, i) ((cx)->waves[i])
 #define SEARCH_WAVE(cx, i) ((cx)->search[i])
 #define PARTS(cx) TILE(cx).parts /* 1: cells of method adaptive under a sky, not pixels */

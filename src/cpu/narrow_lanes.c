@@ -19,6 +19,7 @@
 
 #define REFRACT(cx) ((cx)->narrow->refract)
 #define NARROW(cx) ((cx)->narrow->data)
+#define CHOPPY_BEHIND(cx) NARROW(cx).choppy
 
 #include "kernels/glitter/glitter.k"
 

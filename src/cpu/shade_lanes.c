@@ -77,6 +77,7 @@ static texture_color trilinear(const shade_scene *s, const mgt_texture *t, float
 #include "cpu/lane_access.h"
 
 #define SHADE(cx) ((cx)->shade->data)
+#define CHOPPY_LIGHT(cx) SHADE(cx).choppy
 
 KERNEL vec3 TEXTURE(CTX cx, real texture, real u, real v, real level)
 {

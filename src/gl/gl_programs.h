@@ -62,14 +62,18 @@ typedef struct gl_programs {
     const gl_api *gl;
     const char *defines; /* of this context, before those of a program; static */
     gl_replacements replaced;
-    GLuint names[PROGRAM_COUNT]; /* 0: not built yet */
-    uint64_t hashes[PROGRAM_COUNT];
+    bool choppy; /* which kind of water programs are asked for */
+    struct {
+        GLuint names[PROGRAM_COUNT]; /* 0: not built yet */
+        uint64_t hashes[PROGRAM_COUNT];
+    } of[2]; /* by `choppy` */
 } gl_programs;
 
 /* The program's name, built now if it has not been; 0 on failure, which is reported. */
 GLuint gl_program_get(gl_programs *p, gl_program which, const reporter *r, mgt_status *status);
 
-/* Builds every program from new texts; keeps all old ones on a failure. */
+/* Builds every program from new texts, for the kind of water that was asked for last, those for the other one when they are needed; keeps all old ones on a
+ * failure. */
 mgt_status gl_programs_replace(gl_programs *p, const mgt_gl_source *sources, size_t count, const reporter *r);
 
 void gl_programs_free(gl_programs *p);

@@ -172,6 +172,7 @@ void gl_uniform(gl_renderer *g, GLuint binding, const void *data, size_t size)
 
 mgt_status gl_sky_prepare(gl_renderer *g, const mgt_scene *scene, const reporter *r)
 {
+    g->programs.choppy = scene->water.choppiness > 0;
     if (sky_state_same_inputs(g->sky, &scene->sky, &scene->light))
         return MGT_OK;
     const mgt_status status = sky_state_build(g->sky, &scene->sky, &scene->light);

@@ -34,7 +34,9 @@ cat >"$work/object_accessors.glsl" <<'GLSL'
 layout(std140) uniform NarrowBlock { NarrowData narrow_data; };
 layout(std140) uniform ShadeBlock { ShadeData shade_data; };
 #define NARROW(cx) narrow_data
+#define CHOPPY_BEHIND(cx) NARROW(cx).choppy
 #define SHADE(cx) shade_data
+#define CHOPPY_LIGHT(cx) SHADE(cx).choppy
 LayerPixel LAYER(int cx, int layer, float column, float row);
 vec3 TEXTURE(int cx, float object, float u, float v, float level);
 float SUN_SHARE(int cx, vec3 position, vec3 first, vec3 second, bool dry);

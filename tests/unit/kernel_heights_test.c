@@ -80,6 +80,7 @@ struct kernel_context {
 
 #define FRAME(cx) (*(cx)->frame)
 #define TILE(cx) (*(cx)->tile)
+#define CHOPPY(cx) TILE(cx).choppy
 #define PARTS(cx) TILE(cx).parts
 #define WAVE(cx, i) ((cx)->wave[i])
 #define SEARCH_WAVE(cx, i) ((cx)->wave[i])

@@ -31,6 +31,7 @@
 
 #define FRAME(cx) (*(cx)->frame)
 #define TILE(cx) (*(cx)->tile)
+#define CHOPPY(cx) TILE(cx).choppy
 #define PARTS(cx) TILE(cx).parts
 #define WAVE(cx, i) ((cx)->waves[i])
 #define SEARCH_WAVE(cx, i) ((cx)->search[i])

@@ -37,7 +37,9 @@ static double post_column = -1, post_depth; /* of a post before it, three column
 
 #define FRAME(cx) frame_data
 #define SHADE(cx) shade_data
+#define CHOPPY_LIGHT(cx) 0
 #define NARROW(cx) narrow_data
+#define CHOPPY_BEHIND(cx) NARROW(cx).choppy
 #define REFRACT(cx) refract_data
 #define SEARCH_WAVE(cx, i) (waves[i])
 

@@ -62,7 +62,7 @@ HitEstimate estimate_of(Job job, int slot, ivec2 pixel, vec2 place, float height
     HitEstimate estimate;
     bool grazing = TILE(0).grazing != 0 || (cells_data.moves != 0 && tile_data[slot + cells_data.slots].grazing != 0);
     estimate.height = height;
-    estimate.search = grazing || TILE(0).choppy != 0 ? 1.0f : 0.0f;
+    estimate.search = grazing || CHOPPY(0) != 0 ? 1.0f : 0.0f;
     estimate.from = grazing ? search_start(job, pixel, place) : 0.0f;
     estimate.slope = vec2(0.0f);
     estimate.shift = vec2(0.0f);

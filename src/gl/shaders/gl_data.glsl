@@ -35,6 +35,13 @@ shared TileData cached_tile;
 #else
 #define TILE(cx) tile_data[tile_slot]
 #endif
+#ifdef CHOPPY_WATER /* programs are built for either kind of water */
+#define CHOPPY(cx) 1
+#else
+#define CHOPPY(cx) 0
+#endif
+#define CHOPPY_BEHIND(cx) CHOPPY(cx)
+#define CHOPPY_LIGHT(cx) CHOPPY(cx)
 #define WAVE(cx, i) wave_of_tile(i)
 #define SEARCH_WAVE(cx, i) searched_wave(i)
 
@@ -44,7 +51,7 @@ shared TileData cached_tile;
 SearchWave searched_wave(int i)
 {
     int at = SEARCH_VECTORS * (tile_slot * pass_data.wave_stride + i);
-    return search_wave_of_vectors(search_waves[at], TILE(0).choppy != 0 ? search_waves[at + 1] : vec4(0.0f));
+    return search_wave_of_vectors(search_waves[at], CHOPPY(0) != 0 ? search_waves[at + 1] : vec4(0.0f));
 }
 
 TileWave tile_wave_of_vector(uvec4 v) { return TileWave(int(v.x), uintBitsToFloat(v.y), uintBitsToFloat(v.z), 0.0f); }

@@ -85,7 +85,7 @@ HitEstimate pixel_estimate(ivec2 pixel)
     float u = float(pixel.x % NODE_STEP_X) / float(NODE_STEP_X), v = float(pixel.y % NODE_STEP_Y) / float(NODE_STEP_Y);
     vec3 ray = pixel_ray_at(0, float(pixel.x), float(pixel.y));
     estimate.height = lattice_height(0, top_left.plane, top_right.plane, low_left.plane, low_right.plane, ray, u, v);
-    if (TILE(0).choppy != 0)
+    if (CHOPPY(0) != 0)
         estimate.shift = vec2(lattice_shift(0, top_left.shift.x, top_right.shift.x, low_left.shift.x, low_right.shift.x, u, v),
                               lattice_shift(0, top_left.shift.y, top_right.shift.y, low_left.shift.y, low_right.shift.y, u, v));
     return estimate;
