@@ -14,7 +14,6 @@
 #include "cpu/kernel_context.h"
 #include "cpu/gbuffer.h"
 #include "cpu/narrow_lanes.h"
-#include "cpu/gbuffer.h"
 #include "frame/refraction_data.h"
 #include "unit/random_numbers.h"
 
@@ -530,9 +529,8 @@ static double height_at_rest(const double rest[2], double shift[2])
 static double height_of(double x, double z)
 {
     double rest[2] = {x, z}, shift[2], height = height_at_rest(rest, shift);
-    for (int i = 0; narrow_data.choppy && i < 100 && hypot(x - rest[0] - shift[0], z - rest[1] - shift[1]) > 1e-10; i++) {
+    for (int i = 0; narrow_data.choppy && i < 100 && hypot(x - rest[0] - shift[0], z - rest[1] - shift[1]) > 1e-10; i++)
         rest[0] = x - shift[0], rest[1] = z - shift[1], height = height_at_rest(rest, shift);
-    }
     return height;
 }
 
