@@ -221,11 +221,13 @@ typedef struct mgt_scene {
     mgt_camera camera;      /* when the shutter closes */
     mgt_camera camera_open; /* when it opens; used when camera_moves */
     bool camera_moves;
+    float foam;            /* share of the water that whitecaps cover, [0, 0.5]; 0: none. Only choppy water seen from above has any */
     double time;           /* seconds, when the shutter closes */
     double shutter;        /* seconds the shutter is open, ≥ 0; light is integrated over [time − shutter, time] */
     double frame_interval; /* seconds since the frame before, ≥ 0; method taa alone looks back. 0: the shutter, or 1/30 where that is 0 too */
     mgt_light light;
     mgt_sky sky;
+    float foam_persistence; /* seconds that foam lasts, [0, 60]; 0: only where waves break right now */
     mgt_water water;
     const mgt_object *objects; /* object_count of them, read during the call; NULL when there are none */
     size_t object_count;       /* 0 … MGT_MAX_OBJECTS */

@@ -81,11 +81,12 @@ static inline void store_result(tile_pixels *out, size_t i, PixelResult p)
     store(out->blue + i, p.color.z);
     store(out->coverage + i, p.coverage);
     store(out->water + i, p.water);
+    store(out->foam + i, p.foam);
 }
 
 static PixelResult sky_alone(const struct kernel_context *cx, PixelRay p)
 {
-    PixelResult result = {vec3(real(0.0f), real(0.0f), real(0.0f)), real(0.0f), real(0.0f)};
+    PixelResult result = {vec3(real(0.0f), real(0.0f), real(0.0f)), real(0.0f), real(0.0f), real(0.0f)};
     if (FRAME(cx).want_color != 0)
         result.color = background(cx, p.sky_ray);
     return result;
@@ -95,7 +96,10 @@ static inline const float *light_at(const tile_light *light, size_t i) { return 
 
 static struct kernel_context context_of(const method_tile *t, const tile_waves *waves)
 {
-    return (struct kernel_context){.frame = t->frame, .tile = &waves->data, .waves = waves->waves, .search = waves->search, .sky = t->sky, .lean = t->lean};
+    struct kernel_context cx = context_for(t->frame, waves);
+    cx.sky = t->sky;
+    cx.lean = t->lean;
+    return cx;
 }
 
 /* Shades a point of the surface with all its waves. */
@@ -129,7 +133,7 @@ static void slope_pixels(slope_method *shade, const method_tile *t, tile_pixels 
         SlopeState before = close;
         if (t->open)
             before = slope_state(&open, pixel_ray_filtered(&open, column, row).ray, load_estimate(t->open_estimate, i));
-        store_result(out, i, shade(&cx, p, before, close));
+        store_result(out, i, foam_over_state(&cx, shade(&cx, p, before, close), p, close));
     }
 }
 
@@ -172,10 +176,8 @@ static inline HitEstimate gather_estimate(const tile_estimate *estimate, const u
 
 static void lanes_temporal(const method_tile *t, temporal_rays *rays)
 {
-    struct kernel_context cx = {.frame = t->frame, .tile = &t->close->data, .waves = t->close->waves, .search = t->close->search, .sky = t->sky};
-    struct kernel_context open = cx;
-    if (t->open)
-        open.tile = &t->open->data, open.waves = t->open->waves, open.search = t->open->search;
+    struct kernel_context cx = context_of(t, t->close);
+    const struct kernel_context open = t->open ? context_of(t, t->open) : cx;
     for (size_t i = rays->count; i % MGT_LANES != 0; i++) {
         rays->pixel[i] = rays->pixel[i - 1];
         rays->column[i] = rays->column[i - 1];

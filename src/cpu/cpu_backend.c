@@ -191,7 +191,7 @@ typedef struct render_job {
 typedef struct pixel_planes {
     const float *color[3]; /* red, green, blue, each `color_step` floats a pixel */
     size_t color_step;
-    const float *coverage, *water, *depth;
+    const float *coverage, *water, *foam, *depth;
     const float *refraction[3], *error; /* one float a pixel; NULL: zeros */
     const float *normal[3];
     size_t normal_step;
@@ -226,6 +226,9 @@ static void write_row(const render_job *job, const mgt_target *t, const pixel_pl
     switch (t->layer) {
     case MGT_LAYER_COVERAGE:
         memcpy(out, p->coverage + first, count * sizeof *out);
+        return;
+    case MGT_LAYER_FOAM:
+        memcpy(out, p->foam + first, count * sizeof *out);
         return;
     case MGT_LAYER_MASK:
         memcpy(out, p->water + first, count * sizeof *out);
@@ -320,6 +323,7 @@ static void render_tile(void *argument, size_t index, uint32_t worker)
         .color_step = 1,
         .coverage = s->pixels.coverage + at,
         .water = s->pixels.water + at,
+        .foam = s->pixels.foam + at,
         .depth = s->surface.along + at,
         .normal = {s->surface.normal_x + at, s->surface.normal_y + at, s->surface.normal_z + at},
         .normal_step = 1,
@@ -352,11 +356,12 @@ static void render_reference_block(void *argument, size_t index, uint32_t worker
     const render_job *job = argument;
     uint32_t offset[2];
     const region block = block_of(job, index, offset);
-    float color[REFERENCE_PIXELS * 3], coverage[REFERENCE_PIXELS], mask[REFERENCE_PIXELS], depth[REFERENCE_PIXELS], normal[REFERENCE_PIXELS * 3];
+    float color[REFERENCE_PIXELS * 3], coverage[REFERENCE_PIXELS], mask[REFERENCE_PIXELS], foam[REFERENCE_PIXELS], depth[REFERENCE_PIXELS], normal[REFERENCE_PIXELS * 3];
     const bool pixels = job->wants.pixels, surface = job->wants.surface;
     const reference_result result = {.color = pixels && job->frame.data.want_color ? color : NULL,
                                      .coverage = pixels ? coverage : NULL,
                                      .mask = pixels ? mask : NULL,
+                                     .foam = pixels ? foam : NULL,
                                      .depth = surface ? depth : NULL,
                                      .normal = surface ? normal : NULL};
     reference_render_block(job->reference, block.x, block.y, block.width, block.height, &result);
@@ -365,6 +370,7 @@ static void render_reference_block(void *argument, size_t index, uint32_t worker
         .color_step = 3,
         .coverage = coverage,
         .water = mask,
+        .foam = foam,
         .depth = depth,
         .normal = {normal, normal + 1, normal + 2},
         .normal_step = 3,
@@ -428,6 +434,7 @@ static mgt_status make_reference(render_job *job, const reporter *r)
     sky_upwelling_radiance(sky, &job->scene->water, rs.body_radiance);
     for (int i = 0; i < lights_count(sky->lights); i++)
         light_mean_radiance(lights_get(sky->lights, i), rs.disks[i]);
+    frame_foam_light(job->scene, sky, rs.foam_sky, rs.foam_beams);
     const reference_options options = {.isa = job->state->isa};
     const mgt_status status = reference_frame_create(&job->reference, job->scene, &rs, &options);
     return status == MGT_OK ? MGT_OK : report_error(r, status, "render.reference", "the reference frame: %s", mgt_status_text(status));
@@ -523,7 +530,7 @@ static mgt_status render_picture(cpu_state *s, const reporter *r, const mgt_scen
     status = prepare_lean(s, r, &job.frame);
     if (status != MGT_OK)
         return status;
-    job.wants.pixels = wants_layer(targets, count, MGT_LAYER_COLOR, MGT_LAYER_MASK);
+    job.wants.pixels = wants_layer(targets, count, MGT_LAYER_COLOR, MGT_LAYER_MASK) || wants_layer(targets, count, MGT_LAYER_FOAM, MGT_LAYER_FOAM);
     job.wants.surface = wants_layer(targets, count, MGT_LAYER_DEPTH, MGT_LAYER_NORMAL);
     job.crop = job.area = image_region(&scene->image);
     if (wants_glare(scene, targets, count)) {

@@ -24,7 +24,9 @@ static struct kernel_context sort_tile(const frame *f, const wave_set *set, cons
 {
     lane_kernels_1.sort(&f->data, set, &set->view, at.tile_x, at.tile_y, waves);
     tile_find_estimates(&lane_kernels_1, &f->data, waves, estimate);
-    return (struct kernel_context){.frame = &f->data, .tile = &waves->data, .waves = waves->waves, .search = waves->search, .sky = sky};
+    struct kernel_context cx = context_for(&f->data, waves);
+    cx.sky = sky;
+    return cx;
 }
 
 /* The rows of a pixel are those of its hits. */
@@ -92,7 +94,7 @@ static bool add_hit(const struct kernel_context *cx, tile_pixel at, SlopeState o
     const PixelRay ray = pixel_ray_filtered(cx, (float)at.column, (float)at.row);
     const float part = 1.0f / (float)hits;
     const vec3 sky = ray.water > 0 ? (vec3){0, 0, 0} : background(cx, ray.sky_ray);
-    const PixelResult result = ray.water > 0 ? glitter_result(cx, ray, open, close) : (PixelResult){sky, 0, 0};
+    const PixelResult result = ray.water > 0 ? glitter_result(cx, ray, open, close) : (PixelResult){sky, 0, 0, 0};
     info->water = (double)((float)info->water + result.water * part);
     info->coverage = (double)((float)info->coverage + result.coverage * part);
     const float color[] = {result.color.x, result.color.y, result.color.z};

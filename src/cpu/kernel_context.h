@@ -3,6 +3,7 @@
 #ifndef MANGATA_CPU_KERNEL_CONTEXT_H
 #define MANGATA_CPU_KERNEL_CONTEXT_H
 
+#include "cpu/lanes.h"
 #include "frame/kernel_data.h"
 #include "frame/podee_tables.h"
 
@@ -12,6 +13,9 @@ struct kernel_context {
     const TileData *tile;
     const WaveData *waves;
     const SearchWave *search;
+    const FoamData *foam; /* NULL: there is none */
+    const FoamWave *foam_waves;
+    const FoamSine *foam_sines;
     const float *sky;                  /* SKY_ROWS × SKY_COLUMNS × 3 */
     const ViewData *view;              /* only while tiles are sorted */
     const podee_tables *podee;         /* only where podee-* replaces its Gaussian by kernels */
@@ -23,5 +27,17 @@ struct kernel_context {
     struct tile_estimate *found;       /* HIT_ROWS of them; only while columns of grazing water are searched */
     const float *light;                /* of this vector's pixels, planes of a tile_light; NULL: no objects */
 };
+
+/* For the pixels of a tile. */
+static inline struct kernel_context context_for(const FrameData *data, const tile_waves *tile)
+{
+    struct kernel_context cx = {.frame = data, .tile = &tile->data, .waves = tile->waves, .search = tile->search};
+    if (tile->foam) {
+        cx.foam = &tile->foam->data;
+        cx.foam_waves = tile->foam->waves;
+        cx.foam_sines = tile->foam->sines;
+    }
+    return cx;
+}
 
 #endif

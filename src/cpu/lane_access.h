@@ -9,6 +9,10 @@
 #define CHOPPY(cx) TILE(cx).choppy
 #define WAVE(cx, i) ((cx)->waves[i])
 #define SEARCH_WAVE(cx, i) ((cx)->search[i])
+#define FOAMY(cx) ((cx)->foam != NULL)
+#define FOAM(cx) (*(cx)->foam)
+#define FOAM_WAVE(cx, i) ((cx)->foam_waves[i])
+#define FOAM_SINE(cx, i) ((cx)->foam_sines[i])
 #define PARTS(cx) TILE(cx).parts /* 1: cells of method adaptive under a sky, not pixels */
 
 /* An element a lane for the one width that has no instruction for it. */

@@ -178,6 +178,7 @@ static void lanes_sort(const FrameData *frame, const wave_set *set, const ViewDa
     out->data.origin_z = any_of(place.origin_z);
     out->data.grazing = any_of(place.grazing) > 0;
     out->data.search_pixels = out->data.search_pixels || out->data.grazing;
+    out->foam = set->has_foam ? &set->foam : NULL;
     out->data.light_reach = any_of(tile_meets_light(&cx, column, row, width, height)) > 0;
 }
 
@@ -192,7 +193,8 @@ static inline void accumulate(float *p, real value, float weight) { store(p, loa
 static void lanes_sample(const FrameData *frame, const float *sky, const tile_light *light, const tile_waves *tile, const tile_estimate *estimate,
                          const float *dx, const float *dy, float weight, tile_pixels *out)
 {
-    struct kernel_context context = {.frame = frame, .tile = &tile->data, .waves = tile->waves, .search = tile->search, .sky = sky};
+    struct kernel_context context = context_for(frame, tile);
+    context.sky = sky;
     for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
         real column = lane_numbers() + (float)(i % TILE_WIDTH);
         real row = real_broadcast((float)(i / TILE_WIDTH));
@@ -207,12 +209,13 @@ static void lanes_sample(const FrameData *frame, const float *sky, const tile_li
         accumulate(out->blue + i, p.color.z, weight);
         accumulate(out->coverage + i, p.coverage, weight);
         accumulate(out->water + i, p.water, weight);
+        accumulate(out->foam + i, p.foam, weight);
     }
 }
 
 static PixelResult nothing_but_sky(const struct kernel_context *cx, PixelRay p)
 {
-    PixelResult result = {vec3(real(0.0f), real(0.0f), real(0.0f)), real(0.0f), real(0.0f)};
+    PixelResult result = {vec3(real(0.0f), real(0.0f), real(0.0f)), real(0.0f), real(0.0f), real(0.0f)};
     if (FRAME(cx).want_color != 0)
         result.color = background(cx, p.sky_ray);
     return result;
@@ -225,6 +228,7 @@ static void store_pixels(tile_pixels *out, size_t i, PixelResult p)
     store(out->blue + i, p.color.z);
     store(out->coverage + i, p.coverage);
     store(out->water + i, p.water);
+    store(out->foam + i, p.foam);
 }
 
 /* ---- the filtered surface of a tile ---- */
@@ -452,10 +456,10 @@ static void place_starts(const struct kernel_context *cx, size_t count, tile_cel
 
 static void lanes_cells(const FrameData *frame, const float *sky, const tile_waves *close, const tile_waves *open, tile_cells *cells)
 {
-    const struct kernel_context cx = {.frame = frame, .tile = &close->data, .waves = close->waves, .search = close->search, .sky = sky};
-    struct kernel_context before = cx;
+    struct kernel_context cx = context_for(frame, close), before = cx;
     if (open)
-        before.tile = &open->data, before.waves = open->waves, before.search = open->search;
+        before = context_for(frame, open);
+    cx.sky = before.sky = sky;
     size_t count = cells->count;
     for (; count % MGT_LANES != 0; count++) {
         cells->column[count] = cells->column[count - 1];
@@ -480,13 +484,11 @@ static void lanes_cells(const FrameData *frame, const float *sky, const tile_wav
 
 static struct kernel_context context_of(const method_tile *t, const tile_waves *waves)
 {
-    return (struct kernel_context){.frame = t->frame,
-                                   .tile = &waves->data,
-                                   .waves = waves->waves,
-                                   .search = waves->search,
-                                   .sky = t->sky,
-                                   .podee = t->podee,
-                                   .lean = t->lean};
+    struct kernel_context cx = context_for(t->frame, waves);
+    cx.sky = t->sky;
+    cx.podee = t->podee;
+    cx.lean = t->lean;
+    return cx;
 }
 
 /* The light of pixels, for HIT_ROWS rows of hits each: those of part `part` of the tile. */
@@ -512,8 +514,8 @@ static void several_hits(const method_tile *t, const struct kernel_context *clos
     for (int part = 0; part < HIT_ROWS; part++) {
         render_glitter(close, light_of_rows(t->light, part, &light), rows_from(part * TILE_HEIGHT, &grid), t->close_estimate + part, open,
                        t->open_estimate + part, &rows, NULL);
-        const float *const from[] = {rows.red, rows.green, rows.blue, rows.coverage, rows.water};
-        float *const into[] = {out->red, out->green, out->blue, out->coverage, out->water};
+        const float *const from[] = {rows.red, rows.green, rows.blue, rows.coverage, rows.water, rows.foam};
+        float *const into[] = {out->red, out->green, out->blue, out->coverage, out->water, out->foam};
         for (size_t k = 0; k < sizeof into / sizeof *into; k++)
             for (size_t i = 0; i < TILE_PIXELS; i++)
                 into[k][((size_t)part * TILE_HEIGHT + i / TILE_WIDTH) / HIT_ROWS * TILE_WIDTH + i % TILE_WIDTH] += from[k][i] / HIT_ROWS;

@@ -16,6 +16,7 @@ typedef struct tile_waves {
     TileData data;
     WaveData waves[MGT_MAX_WAVES];
     SearchWave search[MGT_MAX_WAVES];
+    const foam_set *foam; /* of the wave_set that it was sorted from; NULL: none */
 } tile_waves;
 
 /* Where the first hits are looked for, a value per pixel (see HitEstimate in pixel.k). A tile has HIT_ROWS of them, for the first and the next
@@ -32,6 +33,7 @@ typedef struct tile_pixels {
     float red[TILE_PIXELS], green[TILE_PIXELS], blue[TILE_PIXELS];
     float coverage[TILE_PIXELS];
     float water[TILE_PIXELS];
+    float foam[TILE_PIXELS];
 } tile_pixels;
 
 /* How a pixel or cell of method `mangata` goes on, see cells.k. */

@@ -465,6 +465,7 @@ void refraction_compose(const tile_objects *o, tile_pixels *pixels, tile_surface
         for (size_t i = 0; i < TILE_PIXELS; i++) {
             pixels->coverage[i] *= 1 - o->share[i];
             pixels->water[i] *= 1 - o->share[i];
+            pixels->foam[i] *= 1 - o->share[i];
         }
     }
     if (!surface)

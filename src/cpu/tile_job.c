@@ -175,6 +175,7 @@ static void render_segments(tile_place place, tile_scratch *scratch)
             sum->blue[p] += weight * part.blue[p];
             sum->coverage[p] += weight * part.coverage[p];
             sum->water[p] += weight * part.water[p];
+            sum->foam[p] += weight * part.foam[p];
         }
     }
 }

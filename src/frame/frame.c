@@ -148,6 +148,7 @@ frame frame_of(const mgt_scene *scene, const sky_state *sky, bool want_color)
     set_method(&f);
     set_through(&f);
     sines_order(&scene->water, f.order);
+    frame_foam_of(scene, sky, f.under, &f.foam);
     const camera_rays close = camera_rays_of(&scene->camera, scene->image.width, scene->image.height);
     const camera_rays open = scene->camera_moves ? camera_rays_of(&scene->camera_open, scene->image.width, scene->image.height) : close;
     frame_look(&f, &open, &close);
@@ -182,4 +183,7 @@ void wave_set_build(const frame *f, const camera_rays *camera, interval time, bo
     sines_place(&f->scene->water, f->order, frame_meeting(f, camera, time), set);
     set->view.filter_waves = filter;
     set->view.scale_x = set->view.scale_y = 1;
+    set->has_foam = f->foam.some;
+    if (set->has_foam)
+        foam_place(&f->foam, camera->position[0], camera->position[2], time.middle, time.half, filter, &set->foam);
 }

@@ -19,6 +19,7 @@ typedef struct frame {
     camera_rays close, open;       /* cameras when the shutter closes and opens, on the upper side of what is called the water; see `under` */
     bool under;                    /* the camera is under water: cameras, light and waves are mirrored at the mean surface */
     uint16_t order[MGT_MAX_WAVES]; /* of the scene's waves by falling amplitude */
+    frame_foam foam;
 } frame;
 
 camera_rays camera_rays_of(const mgt_camera *camera, uint32_t width, uint32_t height);

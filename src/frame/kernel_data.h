@@ -12,6 +12,7 @@
 #define STD140 __attribute__((aligned(16)))
 #define MGT_METHOD_OPTION(name, method, least, most, preset, meaning) float name;
 #include "kernels/common/types.k"
+#include "kernels/waves/foam_types.k"
 #include "kernels/waves/sines_types.k"
 #include "kernels/baselines/lean_types.k"
 #include "kernels/refraction/refract_types.k"
@@ -26,6 +27,8 @@ _Static_assert(sizeof(ViewData) % 16 == 0, "std140 layout");
 _Static_assert(sizeof(ShadeData) % 16 == 0, "std140 layout");
 _Static_assert(sizeof(NarrowData) % 16 == 0, "std140 layout");
 _Static_assert(sizeof(WaveData) == 96, "std140 layout");
+_Static_assert(sizeof(FoamData) % 16 == 0, "std140 layout");
+_Static_assert(sizeof(FoamWave) == 96, "std140 layout");
 _Static_assert(sizeof(SearchWave) == 32, "std140 layout");
 _Static_assert(sizeof(RefractData) == 48, "std140 layout");
 _Static_assert(sizeof(PictureData) == 80, "std140 layout");

@@ -8,6 +8,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "frame/foam.h"
 #include "frame/kernel_data.h"
 #include "kernels/common/constants.h"
 #include "mangata/mangata.h"
@@ -18,6 +19,8 @@ typedef struct wave_set {
     WaveData data[MGT_MAX_WAVES]; /* phase left open */
     /* SortData's members, an array each; room for the widest lanes, and zero there. */
     float keys[SORT_KEYS][MGT_MAX_WAVES];
+    bool has_foam;
+    foam_set foam;
 } wave_set;
 
 /* Where and when waves are met: a point of the mean surface, and an interval of time. `turns` are added to every phase: half of one turns the

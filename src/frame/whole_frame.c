@@ -76,7 +76,8 @@ static void copy_layer(const mgt_target *t, const region *crop, const picture_pl
 
 static bool shows_surface(const mgt_target *t)
 {
-    return t->layer == MGT_LAYER_DEPTH || t->layer == MGT_LAYER_NORMAL || t->layer == MGT_LAYER_REFRACTION || t->layer == MGT_LAYER_REFRACTION_ERROR;
+    return t->layer == MGT_LAYER_DEPTH || t->layer == MGT_LAYER_NORMAL || t->layer == MGT_LAYER_REFRACTION || t->layer == MGT_LAYER_REFRACTION_ERROR ||
+           t->layer == MGT_LAYER_FOAM;
 }
 
 static mgt_status write_targets(const picture_maker *m, const mgt_scene *scene, const mgt_target *targets, size_t count, const picture_planes *p)

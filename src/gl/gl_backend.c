@@ -170,6 +170,7 @@ static layer_source source_of(const gl_renderer *g, const mgt_target *target)
     case MGT_LAYER_DETAIL:
         return (layer_source){&l->detail, GL_RED, GL_FLOAT};
     case MGT_LAYER_COLOR:
+    case MGT_LAYER_FOAM: /* rendered on the CPU */
         break;
     case MGT_LAYER_REFRACTION:
         return (layer_source){&g->refraction.seen.body, channels, GL_FLOAT};

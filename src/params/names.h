@@ -24,7 +24,7 @@ extern const name_alias refraction_aliases[];
 /* The values of kernels_names, which have gaps. */
 extern const int kernels_values[];
 
-enum { LAYER_COUNT = MGT_LAYER_REFRACTION_ERROR + 1 };
+enum { LAYER_COUNT = MGT_LAYER_FOAM + 1 };
 
 /* "color, coverage, mask": what a message allows. */
 typedef struct names_text {

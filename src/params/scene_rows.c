@@ -4,6 +4,7 @@
  */
 #include "params/scene_rows.h"
 
+#include "params/foam.h"
 #include "params/names.h"
 
 #define NO_RANGE 0, 0
@@ -77,6 +78,8 @@ const field_row scene_rows[] = {PART(camera, camera_rows, "when the shutter clos
                                 PART(light, light_rows, "the sun or the moon"),
                                 PART(sky, sky_rows, "what the water mirrors"),
                                 PART(water, water_rows, "the surface and what is under it"),
+                                {"foam", FIELD_SHARE, offsetof(mgt_scene, foam), 0, 0, MOST_FOAM, NULL, .doc = "share of the water that whitecaps cover"},
+                                {"foam_persistence", FIELD_SHARE, offsetof(mgt_scene, foam_persistence), 0, 0, 60, "s", .doc = "how long foam lasts"},
                                 PART(post, post_fields, "from radiance to displayed colour"),
                                 PART(quality, quality_fields, "how it is rendered"),
                                 {0}};

@@ -60,3 +60,5 @@ wave_variances waves_variances(const mgt_wave *waves, size_t count, double x, do
     }
     return sum;
 }
+
+wave_numbers wave_numbers_of(const mgt_wave *wave) { return (wave_numbers){wave->amplitude, wave->kx, wave->kz, wave->omega, wave->phase}; }

@@ -24,6 +24,13 @@ void wave_set_course(mgt_wave *wave, wave_course course);
 /* With its wave vector and angular frequency. */
 mgt_wave wave_from(double height, double x, double z, double frequency, double phase);
 
+/* What a wave is, for those who add waves up: height · sin(x·X + z·Z + frequency·t + start). */
+typedef struct wave_numbers {
+    double height, x, z, frequency, start;
+} wave_numbers;
+
+wave_numbers wave_numbers_of(const mgt_wave *wave);
+
 /* Multiplies the heights of waves, up to `most` metres. */
 void waves_scale(mgt_wave *waves, size_t count, double factor, double most);
 

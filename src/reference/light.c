@@ -72,6 +72,11 @@ bool reference_lights_met(const reference_lights *lights, const double direction
 
 int reference_lights_count(const reference_lights *lights) { return lights->count; }
 
+void reference_lights_toward(const reference_lights *lights, int light, double direction[3])
+{
+    memcpy(direction, lights->of[light].direction, sizeof lights->of[light].direction);
+}
+
 bool reference_lights_disk(const reference_lights *lights, int light, double direction[3], double *radius)
 {
     memcpy(direction, lights->of[light].direction, sizeof lights->of[light].direction);

@@ -28,6 +28,9 @@ bool reference_lights_met(const reference_lights *lights, const double direction
 
 int reference_lights_count(const reference_lights *lights);
 
+/* Unit vector to a light. */
+void reference_lights_toward(const reference_lights *lights, int light, double direction[3]);
+
 /* Direction and angular radius (radians) of a light. False where its centre stands below the horizon. */
 bool reference_lights_disk(const reference_lights *lights, int light, double direction[3], double *radius);
 

@@ -60,6 +60,22 @@ static lane_build pick_build(mgt_isa isa)
     return scalar;
 }
 
+/* False when memory is short. */
+static bool set_foam(reference_frame *frame, const mgt_scene *scene)
+{
+    if (!(scene->foam > 0) || frame->choppiness <= 0 || scene->camera.position[1] < 0)
+        return true;
+    frame->foam = malloc(sizeof *frame->foam);
+    if (frame->foam && !foam_sea_of(scene, frame->foam)) {
+        free(frame->foam);
+        frame->foam = NULL;
+        return true;
+    }
+    for (int i = 0; i < reference_lights_count(frame->lights); i++)
+        reference_lights_toward(frame->lights, i, frame->foam_toward[i]);
+    return frame->foam != NULL;
+}
+
 mgt_status reference_frame_create(reference_frame **result, const mgt_scene *scene, const reference_sky *sky, const reference_options *options)
 {
     *result = NULL;
@@ -102,6 +118,10 @@ mgt_status reference_frame_create(reference_frame **result, const mgt_scene *sce
     reference_columns_shift(frame->waves, frame->wave_count, frame->choppiness, &frame->columns);
     choppy_levels_of(frame->waves, frame->choppiness, frame->bound_deviations, frame->levels, frame->level_count, frame->choppy);
     set_sample_range(frame, &scene->quality);
+    if (!set_foam(frame, scene)) {
+        reference_frame_destroy(frame);
+        return MGT_ERROR_MEMORY;
+    }
     frame->light_cells = light_cells_serve(frame);
     *result = frame;
     return MGT_OK;
@@ -109,8 +129,10 @@ mgt_status reference_frame_create(reference_frame **result, const mgt_scene *sce
 
 void reference_frame_destroy(reference_frame *frame)
 {
-    if (frame)
+    if (frame) {
         free(frame->lights);
+        free(frame->foam);
+    }
     free(frame);
 }
 
@@ -204,8 +226,27 @@ static bool shade_hit(const reference_frame *frame, const double view[3], double
 /* Sums of a pixel. Samples are added in the order of their index, so that batches leave no trace. */
 typedef struct pixel_sums {
     uint64_t hits, covered;
+    double foam, hidden; /* foam, and how much of what is covered it hides */
     double rgb[3];
 } pixel_sums;
+
+/* Puts foam over the water of a hit and returns how much of it. */
+static double cover_with_foam(const reference_frame *frame, const reference_batch *batch, uint32_t i, double rgb[3])
+{
+    const double *eye = frame->scene.camera.position;
+    const foam_point foam =
+        reference_foam_at(frame->foam, batch->rest_x[i] + eye[0], batch->rest_z[i] + eye[2], frame->scene.time + batch->time_offset[i]);
+    const double x = batch->slope_x[i], z = batch->slope_z[i];
+    for (int c = 0; c < 3; c++) {
+        double lit = frame->sky.foam_sky[c];
+        for (int l = 0; l < reference_lights_count(frame->lights); l++) {
+            const double *toward = frame->foam_toward[l];
+            lit += frame->sky.foam_beams[l][c] * fmax(toward[1] - x * toward[0] - z * toward[2], 0) / sqrt(1 + x * x + z * z);
+        }
+        rgb[c] = (1 - foam.share) * rgb[c] + foam.white * lit;
+    }
+    return foam.share;
+}
 
 static void add_sample(const reference_frame *frame, const reference_batch *batch, uint32_t i, bool with_color, pixel_sums *sums)
 {
@@ -216,7 +257,13 @@ static void add_sample(const reference_frame *frame, const reference_batch *batc
             radiance_of_sky(frame, view, LIGHTS_ALL, rgb);
     } else if (batch->distance[i] > 0) {
         sums->hits++;
-        sums->covered += shade_hit(frame, view, batch->slope_x[i], batch->slope_z[i], with_color ? rgb : NULL);
+        const bool covered = shade_hit(frame, view, batch->slope_x[i], batch->slope_z[i], with_color ? rgb : NULL);
+        sums->covered += covered;
+        if (frame->foam) {
+            const double share = cover_with_foam(frame, batch, i, rgb);
+            sums->foam += share;
+            sums->hidden += covered ? share : 0;
+        }
     } else { /* the camera is under a crest: nothing but water */
         sums->hits++;
         memcpy(rgb, frame->sky.body_radiance, sizeof rgb);
@@ -229,7 +276,9 @@ static void store_pixel(const reference_result *result, size_t at, const pixel_s
 {
     const double n = count ? (double)count : 1;
     if (result->coverage)
-        result->coverage[at] = (float)((double)sums->covered / n);
+        result->coverage[at] = (float)(((double)sums->covered - sums->hidden) / n);
+    if (result->foam)
+        result->foam[at] = (float)(sums->foam / n);
     if (result->mask)
         result->mask[at] = (float)((double)sums->hits / n);
     if (result->color)
@@ -342,7 +391,7 @@ void reference_render_block(const reference_frame *frame, uint32_t x0, uint32_t 
     const block area = {x0, y0, width, height, result->row_stride ? result->row_stride : width};
     reference_batch batch;
     batch.evaluations = 0;
-    if (result->color || result->coverage || result->mask)
+    if (result->color || result->coverage || result->mask || result->foam)
         render_samples(frame, &area, result, &batch);
     if (frame->light_cells && (result->color || result->coverage))
         add_light_cells(frame, &area, result);

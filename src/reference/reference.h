@@ -29,6 +29,7 @@ typedef struct reference_sky {
     const void *user;
     double disks[REFERENCE_LIGHTS][3]; /* mean over each light's disk, at the observer */
     double body_radiance[3];           /* leaves the water with the factor 1 − F */
+    double foam_sky[3], foam_beams[REFERENCE_LIGHTS][3]; /* what white foam sends up: by the sky, and by each light facing it */
 } reference_sky;
 
 typedef struct reference_options {
@@ -49,6 +50,7 @@ typedef struct reference_result {
     float *color;          /* 3 per pixel */
     float *coverage;       /* 1 */
     float *mask;           /* 1: share of the samples that meet water */
+    float *foam;           /* 1: share of the samples' area that foam covers */
     float *depth;          /* 1: metres along the centre ray at scene.time, +inf without water */
     float *normal;         /* 3: of the surface at that hit, (0,0,0) without water */
     size_t row_stride;     /* pixels from a row to the next; 0: the block's width */

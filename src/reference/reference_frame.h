@@ -7,6 +7,7 @@
 
 #include <stdint.h>
 
+#include "reference/foam.h"
 #include "reference/reference.h"
 #include "reference/sines.h"
 
@@ -66,6 +67,8 @@ struct reference_frame {
     reference_columns columns;
     double choppiness; /* below 0 where the surface is turned over; 0: waves are sines */
     choppy_level choppy[REFERENCE_LEVELS];
+    foam_sea *foam; /* NULL: none */
+    double foam_toward[REFERENCE_LIGHTS][3];
     uint32_t wave_count;
     reference_wave waves[];
 };

@@ -4,6 +4,7 @@
  */
 #include "scene/scene_fields.h"
 
+#include "params/foam.h"
 #include "params/scene_rows.h"
 #include "scene/scene_wave.h"
 
@@ -142,6 +143,14 @@ static void decide_wind(void *parent)
         water->choppiness = WIND_CHOPPINESS;
 }
 
+static const field_row foam_fields[] = {{"amount", FIELD_NUMBER, offsetof(scene_foam, amount), 0, 0, 10, NULL,
+                                         .doc = "whitecaps over what the wind makes at sea, 3.84e-6 U^3.41 of the water; 0: none; 1 with water.wind"},
+                                        {"share", FIELD_NUMBER, offsetof(scene_foam, share), 0, 0, MOST_FOAM, NULL,
+                                         .doc = "of the water that whitecaps cover, for waves of no wind: in place of amount; 0: what amount says"},
+                                        {"persistence", FIELD_NUMBER, offsetof(scene_foam, persistence), 0, 0, 60, "s",
+                                         .doc = "how long foam lasts; 0: only where waves break right now"},
+                                        {0}};
+
 static const field_row water_fields[] = {{"waves", FIELD_LIST, offsetof(scene_water, waves), 0, NO_RANGE, NULL,
                                           .doc = "each adds amplitude·sin(a·x + b·z + c·t + phase) to the height; none: a flat mirror", .fields = wave_rows,
                                           .item_size = sizeof(mgt_wave), .max_items = MGT_MAX_WAVES, .prepare = prepare_wave, .other = &measured_wave_form},
@@ -156,6 +165,8 @@ static const field_row water_fields[] = {{"waves", FIELD_LIST, offsetof(scene_wa
                                          {"amplitude", FIELD_NUMBER, offsetof(scene_water, height), FIELD_NO_PIXELS, 0, 1000, NULL,
                                           .doc = "factor on the heights of all waves, those of spectrum, wind and swell too; 0: a flat mirror"},
                                          WATER_BODY_ROWS(scene_water),
+                                         {"foam", FIELD_MAPPING, offsetof(scene_water, foam), 0, NO_RANGE, NULL,
+                                          .doc = "whitecaps, where choppy water is pressed together", .fields = foam_fields},
                                          {"clarity", FIELD_CHOICE, offsetof(scene_water, clarity), FIELD_NO_PIXELS, NO_RANGE, NULL,
                                           .doc = "sets the defaults of absorption and scattering: a clean pool, clear ocean, a coast, a harbour",
                                           .choices = clarities, .decide = decide_clarity},

@@ -70,6 +70,10 @@ typedef enum scene_clarity { CLARITY_PURE, CLARITY_CLEAR, CLARITY_COASTAL, CLARI
 
 #define WIND_CHOPPINESS 0.7f /* of the seas that water.wind makes, where the scene says nothing else */
 
+typedef struct scene_foam {
+    double amount, share, persistence;
+} scene_foam;
+
 typedef struct scene_water {
     scene_list waves; /* of mgt_wave */
     scene_spectrum spectrum;
@@ -80,6 +84,7 @@ typedef struct scene_water {
     double index_of_refraction;
     double level;
     float choppiness;
+    scene_foam foam;
     scene_clarity clarity; /* only while it is read: what it says is then in the next two */
     float absorption[3], scattering[3];
     float body_albedo[3];

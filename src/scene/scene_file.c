@@ -171,6 +171,8 @@ bool scene_values_shot(const scene_values *values, double time, mgt_scene *out)
                               .index_of_refraction = values->water.index_of_refraction,
                               .level = values->water.level,
                               .choppiness = values->water.choppiness};
+    scene.foam = (float)scene_water_foam(&values->water);
+    scene.foam_persistence = (float)values->water.foam.persistence;
     memcpy(scene.water.absorption, values->water.absorption, sizeof scene.water.absorption);
     memcpy(scene.water.scattering, values->water.scattering, sizeof scene.water.scattering);
     memcpy(scene.water.body_albedo, values->water.body_albedo, sizeof scene.water.body_albedo);

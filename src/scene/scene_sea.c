@@ -4,6 +4,7 @@
  */
 #include "scene/scene_sea.h"
 #include "scene/spectrum_swell.h"
+#include "params/foam.h"
 #include "params/waves.h"
 
 #include <math.h>
@@ -85,6 +86,18 @@ scene_spectrum scene_wind_spectrum(const scene_wind *wind)
 
 /* What the waves beside the single ones are drawn from; its kind is none where there are no others. */
 static scene_spectrum drawn_from(const scene_water *water) { return water->wind.speed > 0 ? scene_wind_spectrum(&water->wind) : water->spectrum; }
+
+double scene_water_wind(const scene_water *water)
+{
+    const scene_spectrum drawn = drawn_from(water);
+    return drawn.settings.kind == SPECTRUM_NONE || drawn.settings.kind == SPECTRUM_BUOY ? 0 : drawn.settings.wind;
+}
+
+double scene_water_foam(const scene_water *water)
+{
+    const double share = water->foam.share > 0 ? water->foam.share : water->foam.amount * foam_share_of_wind(scene_water_wind(water));
+    return share < MOST_FOAM ? share : MOST_FOAM;
+}
 
 /* The waves of the spectrum, if there is one, into `waves`. */
 static bool draw_waves(const scene_spectrum *settings, const char *scene_path, mgt_wave *waves, scene_sea_fault *fault)

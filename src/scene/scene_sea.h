@@ -32,6 +32,12 @@ void scene_sea_close(scene_sea *sea);
 /* What `water.wind` is short for: in deep water the spectrum of Elfouhaily et al., else TMA's, with Cox and Munk's slopes. */
 scene_spectrum scene_wind_spectrum(const scene_wind *wind);
 
+/* m/s at 10 m, of the wind that makes the waves; 0: none does. */
+double scene_water_wind(const scene_water *water);
+
+/* Share of the water that foam covers. */
+double scene_water_foam(const scene_water *water);
+
 /* A fault of that spectrum by the keys of the wind. */
 void scene_wind_fault(spectrum_fault *fault);
 

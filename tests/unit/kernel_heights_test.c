@@ -65,6 +65,7 @@ static table_point table_at(const height_table *table, double x, double z)
 #include "kernels/common/prelude_c.h"
 
 #include "kernels/common/types.k"
+#include "kernels/waves/foam_types.k"
 
 typedef struct WaveData {
     const height_table *table;
@@ -82,6 +83,10 @@ struct kernel_context {
 #define TILE(cx) (*(cx)->tile)
 #define CHOPPY(cx) TILE(cx).choppy
 #define PARTS(cx) TILE(cx).parts
+#define FOAMY(cx) 0
+#define FOAM(cx) ((FoamData){0})
+#define FOAM_WAVE(cx, i) ((FoamWave){0})
+#define FOAM_SINE(cx, i) ((FoamSine){0})
 #define WAVE(cx, i) ((cx)->wave[i])
 #define SEARCH_WAVE(cx, i) ((cx)->wave[i])
 #define UPWELLING(cx) vec3(0.0f, 0.0f, 0.0f)

@@ -33,6 +33,10 @@
 #define TILE(cx) (*(cx)->tile)
 #define CHOPPY(cx) TILE(cx).choppy
 #define PARTS(cx) TILE(cx).parts
+#define FOAMY(cx) ((cx)->foam != NULL)
+#define FOAM(cx) (*(cx)->foam)
+#define FOAM_WAVE(cx, i) ((cx)->foam_waves[i])
+#define FOAM_SINE(cx, i) ((cx)->foam_sines[i])
 #define WAVE(cx, i) ((cx)->waves[i])
 #define SEARCH_WAVE(cx, i) ((cx)->search[i])
 #define UPWELLING(cx) vec3(FRAME(cx).body_r, FRAME(cx).body_g, FRAME(cx).body_b)

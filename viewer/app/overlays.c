@@ -128,6 +128,8 @@ static const char *layer_meaning(mgt_layer layer)
         return ", metres along the ray";
     case MGT_LAYER_NORMAL:
         return ", horizontal part";
+    case MGT_LAYER_FOAM:
+        return ", share that foam covers";
     case MGT_LAYER_SAMPLES:
     case MGT_LAYER_IMPORTANCE:
     case MGT_LAYER_DETAIL:

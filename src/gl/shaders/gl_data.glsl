@@ -42,6 +42,7 @@ shared TileData cached_tile;
 #endif
 #define CHOPPY_BEHIND(cx) CHOPPY(cx)
 #define CHOPPY_LIGHT(cx) CHOPPY(cx)
+#include "foam_data.glsl"
 #define WAVE(cx, i) wave_of_tile(i)
 #define SEARCH_WAVE(cx, i) searched_wave(i)
 

@@ -67,7 +67,7 @@ void main()
     TilePixel pixel = tile_pixel();
     turn_to(tile_slot);
     int hits = int(TILE(0).hit_rows);
-    PixelResult result = PixelResult(vec3(0.0f), 0.0f, 0.0f);
+    PixelResult result = PixelResult(vec3(0.0f), 0.0f, 0.0f, 0.0f);
     for (int hit = 0; hit < hits; hit++) {
         PixelResult shown = hit_result(ivec2(pixel.at.x, first_row(pixel.at.y) + hit), pixel.texel, pixel.inside);
         result.color += shown.color;

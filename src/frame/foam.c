@@ -1,0 +1,132 @@
+/* SPDX-License-Identifier: MIT
+ * From a sea's foam in double precision to that of kernels. */
+#include "frame/foam.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double pi = 3.14159265358979323846, turn = 6.28318530717958647692;
+
+void frame_foam_light(const mgt_scene *scene, const sky_state *sky, double by_sky[3], double by_light[MAX_LIGHTS][3])
+{
+    for (int c = 0; c < 3; c++)
+        by_sky[c] = scene->sky.model == MGT_SKY_BLACK ? 0 : sky->irradiance_sky[c] / pi;
+    for (int i = 0; i < lights_count(sky->lights); i++) {
+        light_beam(lights_get(sky->lights, i), by_light[i]);
+        for (int c = 0; c < 3; c++)
+            by_light[i][c] /= pi;
+    }
+}
+
+void frame_foam_of(const mgt_scene *scene, const sky_state *sky, bool under, frame_foam *foam)
+{
+    foam->some = !under && foam_sea_of(scene, &foam->sea);
+    if (!foam->some)
+        return;
+    double beams[MAX_LIGHTS][3] = {{0}};
+    frame_foam_light(scene, sky, foam->sky, beams);
+    memcpy(foam->beam, beams[0], sizeof foam->beam);
+    memset(foam->toward, 0, sizeof foam->toward);
+    if (lights_count(sky->lights) > 0)
+        memcpy(foam->toward, light_toward(lights_get(sky->lights, 0)), sizeof foam->toward);
+}
+
+_Static_assert((int)MAX_LIGHTS == 1, "foam has one beam");
+_Static_assert(FOAM_MOMENTS == 4, "four of each member");
+
+static float reduced(double radians)
+{
+    const double turns = radians / turn;
+    return (float)(turns - rint(turns));
+}
+
+static double mean_cosine(double half) { return fabs(half) < 1e-4 ? 1 - half * half / 6 : sin(half) / half; }
+
+static FoamWave wave_of(const foam_sea *sea, const foam_wave *w, double x, double z, double middle, double half)
+{
+    const double k = hypot(w->x, w->z), blur = mean_cosine(w->frequency * half), variance = w->press * w->press / 2;
+    double held[FOAM_MOMENTS], shared[FOAM_MOMENTS];
+    for (int j = 0; j < FOAM_MOMENTS; j++) {
+        held[j] = w->held[j] * blur;
+        shared[j] = variance * w->held[j] * cos(w->frequency * sea->age[j]) * blur * blur;
+    }
+    return (FoamWave){.along_x = (float)(w->x / turn),
+                      .along_z = (float)(w->z / turn),
+                      .start = reduced(w->x * x + w->z * z + w->frequency * middle + w->start),
+                      .held_0 = (float)held[0],
+                      .held_1 = (float)held[1],
+                      .held_2 = (float)held[2],
+                      .held_3 = (float)held[3],
+                      .press_xx = (float)(-w->press * w->x * w->x / (k * k)),
+                      .press_xz = (float)(-w->press * w->x * w->z / (k * k)),
+                      .press_zz = (float)(-w->press * w->z * w->z / (k * k)),
+                      .back_c = (float)cos(w->frequency * sea->age[1]),
+                      .back_s = (float)sin(w->frequency * sea->age[1]),
+                      .half_c = (float)cos(w->frequency * (sea->age[3] - sea->age[2])),
+                      .half_s = (float)sin(w->frequency * (sea->age[3] - sea->age[2])),
+                      .variance_now = (float)(variance * held[0] * held[0]),
+                      .variance_old_1 = (float)(variance * held[1] * held[1]),
+                      .variance_old_2 = (float)(variance * held[2] * held[2]),
+                      .variance_old_3 = (float)(variance * held[3] * held[3]),
+                      .shared_1 = (float)shared[1],
+                      .shared_2 = (float)shared[2],
+                      .shared_3 = (float)shared[3]};
+}
+
+/* A kernel's sine stands for a cosine: a quarter of a turn on. */
+static FoamSine sine_of(const foam_sine *s, double x, double z)
+{
+    return (FoamSine){(float)(s->x / turn), (float)(s->z / turn), reduced(s->x * x + s->z * z + s->start + pi / 2), (float)s->size};
+}
+
+void foam_place(const frame_foam *foam, double x, double z, double middle, double half, bool filter, foam_set *out)
+{
+    const foam_sea *sea = &foam->sea;
+    FoamData *d = &out->data;
+    double together[FOAM_MOMENTS] = {0};
+    for (int i = 0; i < sea->wave_count; i++) {
+        const foam_wave *w = &sea->waves[i];
+        out->waves[i] = wave_of(sea, w, x, z, middle, half);
+        for (int j = 0; j < FOAM_MOMENTS; j++)
+            together[j] += w->press * w->press / 2 * w->held[j] * cos(w->frequency * sea->age[j]);
+    }
+    for (int i = 0; i < FOAM_SINES; i++) {
+        out->sines[i] = sine_of(&sea->fresh[i], x, z);
+        out->sines[FOAM_SINES + i] = sine_of(&sea->old[i], x, z);
+    }
+    const float v = (float)sea->variance;
+    *d = (FoamData){.foam_waves = sea->wave_count,
+                    .foam_moments = sea->moments,
+                    .least = (float)sea->least,
+                    .filter = filter ? 1 : 0,
+                    .shape_xxxx = (float)sea->shape[0],
+                    .shape_xxxz = (float)sea->shape[1],
+                    .shape_xxzz = (float)sea->shape[2],
+                    .shape_xzzz = (float)sea->shape[3],
+                    .shape_zzzz = (float)sea->shape[4],
+                    .variance_0 = v,
+                    .variance_1 = v,
+                    .variance_2 = v,
+                    .variance_3 = v,
+                    .together_0 = (float)together[0],
+                    .together_1 = (float)together[1],
+                    .together_2 = (float)together[2],
+                    .together_3 = (float)together[3],
+                    .weight_0 = (float)sea->weight[0],
+                    .weight_1 = (float)sea->weight[1],
+                    .weight_2 = (float)sea->weight[2],
+                    .weight_3 = (float)sea->weight[3],
+                    .white_0 = (float)(sea->weight[0] * sea->whiteness[0]),
+                    .white_1 = (float)(sea->weight[1] * sea->whiteness[1]),
+                    .white_2 = (float)(sea->weight[2] * sea->whiteness[2]),
+                    .white_3 = (float)(sea->weight[3] * sea->whiteness[3]),
+                    .toward_x = (float)foam->toward[0],
+                    .toward_y = (float)foam->toward[1],
+                    .toward_z = (float)foam->toward[2],
+                    .beam_r = (float)foam->beam[0],
+                    .beam_g = (float)foam->beam[1],
+                    .beam_b = (float)foam->beam[2],
+                    .sky_r = (float)foam->sky[0],
+                    .sky_g = (float)foam->sky[1],
+                    .sky_b = (float)foam->sky[2]};
+}

@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: MIT
+ * A frame's foam in single precision, as a camera meets it. */
+#ifndef MANGATA_FRAME_FOAM_H
+#define MANGATA_FRAME_FOAM_H
+
+#include <stdbool.h>
+
+#include "frame/atmosphere.h"
+#include "frame/kernel_data.h"
+#include "params/foam.h"
+
+/* What is the same for every camera and instant of a frame. */
+typedef struct frame_foam {
+    bool some; /* false: there is no foam, and nothing else counts */
+    foam_sea sea;
+    double toward[3], beam[3], sky[3]; /* see FoamData */
+} frame_foam;
+
+/* The foam of an interval of time before a camera. */
+typedef struct foam_set {
+    FoamData data;
+    FoamWave waves[MGT_MAX_WAVES];
+    FoamSine sines[2 * FOAM_SINES];
+} foam_set;
+
+/* `under`: the camera is under water, where foam is not drawn. */
+void frame_foam_of(const mgt_scene *scene, const sky_state *sky, bool under, frame_foam *foam);
+
+/* Radiance of white foam, kcd/m²: by the sky, and by each light facing it. */
+void frame_foam_light(const mgt_scene *scene, const sky_state *sky, double by_sky[3], double by_light[MAX_LIGHTS][3]);
+
+/* Horizontal position under the camera, and an interval of time by its middle and half. `filter` false: point samples. */
+void foam_place(const frame_foam *foam, double x, double z, double middle, double half, bool filter, foam_set *out);
+
+#endif

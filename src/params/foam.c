@@ -1,0 +1,177 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * A sea's foam: its waves, moments, patterns and threshold.
+ */
+#include "params/foam.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "params/waves.h"
+
+static const double pi = 3.14159265358979323846;
+
+double foam_share_of_wind(double wind) { return fmin(3.84e-6 * pow(fmax(wind, 0), 3.41), MOST_FOAM); }
+
+/* ---- waves ---- */
+
+/* Shorter waves do not break: they count by exp(−(k/k₀)²/2), k₀ a multiple of the sea's root mean square wave number. */
+static const double break_number = 8, least_part = 0.02;
+
+/* The wave number √(mean square slope / mean square height). */
+static double mean_number(const mgt_water *water)
+{
+    double height = 0, slope = 0;
+    for (size_t i = 0; i < water->wave_count; i++) {
+        const wave_numbers w = wave_numbers_of(&water->waves[i]);
+        height += w.height * w.height;
+        slope += w.height * w.height * (w.x * w.x + w.z * w.z);
+    }
+    return height > 0 ? sqrt(slope / height) : 0;
+}
+
+/* Mean of a cosine over an interval of so many radians to both sides, over its middle. */
+static double mean_cosine(double half) { return fabs(half) < 1e-4 ? 1 - half * half / 6 : sin(half) / half; }
+
+static void add_breaking(foam_sea *sea, const mgt_wave *wave, double choppiness, double longest_number, const double span[FOAM_MOMENTS])
+{
+    const wave_numbers w = wave_numbers_of(wave);
+    const double k = hypot(w.x, w.z), relative = k / longest_number, part = exp(-relative * relative / 2);
+    if (!(k > 0) || part < least_part || w.height == 0)
+        return;
+    foam_wave f = {.x = w.x, .z = w.z, .frequency = w.frequency, .start = w.start, .press = choppiness * w.height * k * part};
+    for (int j = 0; j < FOAM_MOMENTS; j++)
+        f.held[j] = mean_cosine(w.frequency * span[j] / 2);
+    int at = sea->wave_count++;
+    for (; at > 0 && hypot(sea->waves[at - 1].x, sea->waves[at - 1].z) > k; at--)
+        sea->waves[at] = sea->waves[at - 1];
+    sea->waves[at] = f;
+}
+
+static void measure_waves(foam_sea *sea)
+{
+    for (int i = 0; i < sea->wave_count; i++) {
+        const foam_wave *w = &sea->waves[i];
+        const double k = hypot(w->x, w->z), x = w->x / k, z = w->z / k, half = w->press * w->press / 2;
+        const double parts[5] = {x * x * x * x, x * x * x * z, x * x * z * z, x * z * z * z, z * z * z * z};
+        sea->variance += half;
+        for (int c = 0; c < 5; c++)
+            sea->shape[c] += half * parts[c];
+    }
+    for (int c = 0; c < 5 && sea->variance > 0; c++)
+        sea->shape[c] /= sea->variance;
+}
+
+/* ---- moments ---- */
+
+/* In quarters of the persistence: when each moment is, and how long. */
+static const double ages[FOAM_MOMENTS] = {0, 1, 2, 4}, spans[FOAM_MOMENTS] = {0, 1, 1.5, 2};
+static const double weights[FOAM_MOMENTS] = {0.3, 0.28, 0.24, 0.18}, whitenesses[FOAM_MOMENTS] = {0.55, 0.26, 0.14, 0.08};
+
+/* ---- patterns ---- */
+
+enum { DIRECTIONS = FOAM_SINES / FOAM_OCTAVES };
+
+/* Their directions and phases are spread by multiples of irrational numbers; lengths within an octave too, so that nothing repeats. */
+static void fill_pattern(foam_sine sines[FOAM_SINES], double longest, const double wind[2], double drawn, double seed)
+{
+    double sum = 0;
+    for (int i = 0; i < FOAM_SINES; i++) {
+        const int octave = i / DIRECTIONS;
+        const double a = fmod(seed + i * 0.61803398874989485, 1), b = fmod(seed + i * 0.75487766624669276, 1), c = fmod(seed + i * 0.56984029099805327, 1);
+        const double angle = pi * ((i % DIRECTIONS + a) / DIRECTIONS + 0.37 * octave), number = 2 * pi / longest * exp2(octave + b - 0.5);
+        const double along = number * cos(angle) / drawn, across = number * sin(angle);
+        sines[i] = (foam_sine){.x = along * wind[0] - across * wind[1], .z = along * wind[1] + across * wind[0], .start = 2 * pi * c, .size = exp2(-0.25 * octave)};
+        sum += sines[i].size * sines[i].size / 2;
+    }
+    for (int i = 0; i < FOAM_SINES; i++)
+        sines[i].size *= sqrt((1 - FOAM_FINE * FOAM_FINE) / sum);
+}
+
+/* The main axis of the slopes of breaking waves. */
+static void main_axis(const foam_sea *sea, double axis[2])
+{
+    double xx = 0, xz = 0, zz = 0;
+    for (int i = 0; i < sea->wave_count; i++) {
+        const foam_wave *w = &sea->waves[i];
+        const double k = hypot(w->x, w->z), share = w->press * w->press / (k * k);
+        xx += share * w->x * w->x;
+        xz += share * w->x * w->z;
+        zz += share * w->z * w->z;
+    }
+    const double angle = 0.5 * atan2(2 * xz, xx - zz);
+    axis[0] = cos(angle);
+    axis[1] = sin(angle);
+}
+
+/* ---- the threshold ---- */
+
+/* P(z) for a gamma distribution of mean 0, variance 1 and this skewness, by Wilson and Hilferty's cube root; and −E[z; z < its argument]. */
+static double gamma_share(double z, double skewness, double *lacking)
+{
+    const double q = cbrt(fmax(1 + 0.5 * skewness * z, 0)), y = 3 * z / (q * q + q + 1) + skewness / 6;
+    *lacking = q * exp(-y * y / 2) / sqrt(2 * pi);
+    return 0.5 * erfc(-y / sqrt(2));
+}
+
+double foam_sea_share(const foam_sea *sea, double least)
+{
+    const double deviation = sqrt(sea->variance), *t = sea->shape;
+    const double xx = t[0] + t[2], xz = t[1] + t[3], zz = t[2] + t[4];
+    const double skewness = 6 * deviation * (xx * zz - xz * xz);
+    double share = 0;
+    for (int j = 0; j < sea->moments; j++) {
+        double together = 0, lacking;
+        for (int i = 0; i < sea->wave_count; i++) {
+            const foam_wave *w = &sea->waves[i];
+            together += w->press * w->press / 2 * w->held[j] * cos(w->frequency * sea->age[j]);
+        }
+        const double below = gamma_share((least - 1) / deviation, skewness, &lacking);
+        share += sea->weight[j] * fmax(below - together / deviation * lacking, 0);
+    }
+    return share;
+}
+
+static double threshold(const foam_sea *sea)
+{
+    const double deviation = sqrt(sea->variance);
+    double low = 1 - 6 * deviation, high = 1 + 6 * deviation;
+    for (int i = 0; i < 60; i++) {
+        const double middle = 0.5 * (low + high);
+        if (foam_sea_share(sea, middle) < sea->share)
+            low = middle;
+        else
+            high = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+bool foam_sea_of(const mgt_scene *scene, foam_sea *sea)
+{
+    const mgt_water *water = &scene->water;
+    const double number = mean_number(water) * break_number;
+    memset(sea, 0, offsetof(foam_sea, waves));
+    if (!(scene->foam > 0) || !(water->choppiness > 0) || !(number > 0))
+        return false;
+    sea->share = fmin((double)scene->foam, MOST_FOAM);
+    sea->moments = scene->foam_persistence > 0 ? FOAM_MOMENTS : 1;
+    double span[FOAM_MOMENTS], wind[2];
+    for (int j = 0; j < FOAM_MOMENTS; j++) {
+        const double quarter = (double)scene->foam_persistence / 4;
+        sea->age[j] = ages[j] * quarter;
+        span[j] = spans[j] * quarter;
+        sea->weight[j] = sea->moments > 1 ? weights[j] : j == 0 ? 1 : 0;
+        sea->whiteness[j] = whitenesses[j];
+    }
+    for (size_t i = 0; i < water->wave_count; i++)
+        add_breaking(sea, &water->waves[i], (double)water->choppiness, number, span);
+    measure_waves(sea);
+    if (!(sea->variance > 0))
+        return false;
+    sea->least = threshold(sea);
+    main_axis(sea, wind);
+    const double longest = 2 * pi / number;
+    fill_pattern(sea->fresh, longest, wind, 1, 0.17);
+    fill_pattern(sea->old, longest, wind, 3.5, 0.53);
+    return true;
+}
