@@ -68,6 +68,7 @@ static FoamWave wave_of(const foam_sea *sea, const foam_wave *w, double x, doubl
                       .variance_old_1 = (float)(variance * held[1] * held[1]),
                       .variance_old_2 = (float)(variance * held[2] * held[2]),
                       .variance_old_3 = (float)(variance * held[3] * held[3]),
+                      .shared_0 = (float)shared[0],
                       .shared_1 = (float)shared[1],
                       .shared_2 = (float)shared[2],
                       .shared_3 = (float)shared[3]};

@@ -64,8 +64,8 @@ static void measure_waves(foam_sea *sea)
 
 /* ---- moments ---- */
 
-/* In quarters of the persistence: when each moment is, and how long. */
-static const double ages[FOAM_MOMENTS] = {0, 1, 2, 4}, spans[FOAM_MOMENTS] = {0, 1, 1.5, 2};
+/* In quarters of the persistence: when the middle of each moment is, and how long. */
+static const double ages[FOAM_MOMENTS] = {0, 1, 2, 4}, spans[FOAM_MOMENTS] = {0.6, 1, 1.5, 2};
 static const double weights[FOAM_MOMENTS] = {0.3, 0.28, 0.24, 0.18}, whitenesses[FOAM_MOMENTS] = {0.55, 0.26, 0.14, 0.08};
 
 /* ---- patterns ---- */
