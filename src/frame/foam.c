@@ -84,12 +84,17 @@ void foam_place(const frame_foam *foam, double x, double z, double middle, doubl
 {
     const foam_sea *sea = &foam->sea;
     FoamData *d = &out->data;
-    double together[FOAM_MOMENTS] = {0};
+    double together[FOAM_MOMENTS] = {0}, lean[FOAM_MOMENTS][2] = {{0}}, high[FOAM_MOMENTS] = {0};
     for (int i = 0; i < sea->wave_count; i++) {
         const foam_wave *w = &sea->waves[i];
         out->waves[i] = wave_of(sea, w, x, z, middle, half);
-        for (int j = 0; j < FOAM_MOMENTS; j++)
-            together[j] += w->press * w->press / 2 * w->held[j] * cos(w->frequency * sea->age[j]);
+        for (int j = 0; j < FOAM_MOMENTS; j++) {
+            const double held = w->held[j] / 2, turned = w->frequency * sea->age[j];
+            together[j] += w->press * w->press * held * cos(turned);
+            lean[j][0] += w->height * w->x * w->press * held * sin(turned);
+            lean[j][1] += w->height * w->z * w->press * held * sin(turned);
+            high[j] -= w->height * w->press / sea->deviation * held * cos(turned);
+        }
     }
     for (int i = 0; i < FOAM_SINES; i++) {
         out->sines[i] = sine_of(&sea->fresh[i], x, z);
@@ -105,6 +110,17 @@ void foam_place(const frame_foam *foam, double x, double z, double middle, doubl
                     .shape_xxzz = (float)sea->shape[2],
                     .shape_xzzz = (float)sea->shape[3],
                     .shape_zzzz = (float)sea->shape[4],
+                    .whole = 1 / v,
+                    .lean_x_1 = (float)lean[1][0],
+                    .lean_x_2 = (float)lean[2][0],
+                    .lean_x_3 = (float)lean[3][0],
+                    .lean_z_1 = (float)lean[1][1],
+                    .lean_z_2 = (float)lean[2][1],
+                    .lean_z_3 = (float)lean[3][1],
+                    .high_0 = (float)high[0],
+                    .high_1 = (float)high[1],
+                    .high_2 = (float)high[2],
+                    .high_3 = (float)high[3],
                     .variance_0 = v,
                     .variance_1 = v,
                     .variance_2 = v,

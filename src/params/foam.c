@@ -39,7 +39,7 @@ static void add_breaking(foam_sea *sea, const mgt_wave *wave, double choppiness,
     const double k = hypot(w.x, w.z), relative = k / longest_number, part = exp(-relative * relative / 2);
     if (!(k > 0) || part < least_part || w.height == 0)
         return;
-    foam_wave f = {.x = w.x, .z = w.z, .frequency = w.frequency, .start = w.start, .press = choppiness * w.height * k * part};
+    foam_wave f = {.x = w.x, .z = w.z, .frequency = w.frequency, .start = w.start, .height = w.height, .press = choppiness * w.height * k * part};
     for (int j = 0; j < FOAM_MOMENTS; j++)
         f.held[j] = mean_cosine(w.frequency * span[j] / 2);
     int at = sea->wave_count++;
@@ -163,6 +163,7 @@ bool foam_sea_of(const mgt_scene *scene, foam_sea *sea)
         sea->weight[j] = sea->moments > 1 ? weights[j] : j == 0 ? 1 : 0;
         sea->whiteness[j] = whitenesses[j];
     }
+    sea->deviation = sqrt(waves_variances(water->waves, water->wave_count, 1, 0).height);
     for (size_t i = 0; i < water->wave_count; i++)
         add_breaking(sea, &water->waves[i], (double)water->choppiness, number, span);
     measure_waves(sea);

@@ -21,6 +21,7 @@ double foam_share_of_wind(double wind);
 typedef struct foam_wave {
     double x, z; /* radians per metre */
     double frequency, start;
+    double height; /* metres, of the wave */
     double press;
     double held[FOAM_MOMENTS]; /* share of it that the mean over a moment's length leaves */
 } foam_wave;
@@ -39,6 +40,7 @@ typedef struct foam_sea {
     double age[FOAM_MOMENTS];       /* seconds, of each moment, … */
     double weight[FOAM_MOMENTS];    /* … its part in the mean, … */
     double whiteness[FOAM_MOMENTS]; /* … and the share of light that its foam sends back */
+    double deviation;               /* metres, of the height of all waves */
     double variance;                /* of J at rest */
     double shape[5];                /* Σ ½press² k̂ᵢk̂ⱼk̂ₖk̂ₗ over the variance: xxxx, xxxz, xxzz, xzzz, zzzz */
     foam_wave waves[MGT_MAX_WAVES];
