@@ -109,9 +109,9 @@ typedef enum mgt_layer {
                              where it is above the threshold. Others: 0 */
     MGT_LAYER_DETAIL,     /* 1: adaptive: coverage of the added samples alone, 0 where there are none. Others: 0 */
     /* Scenes with objects; not in textures and views of OpenGL. Elsewhere 0. */
-    MGT_LAYER_REFRACTION,      /* 3: radiance that comes through the water's surface, before Fresnel's share of it is taken; 0 where no water */
+    MGT_LAYER_REFRACTION,       /* 3: radiance that comes through the water's surface, before Fresnel's share of it is taken; 0 where no water */
     MGT_LAYER_REFRACTION_ERROR, /* 1: pixels by which what is shown may be beside what the refracted ray meets; +inf where it is not known at all */
-    MGT_LAYER_FOAM /* 1: share of the pixel that foam covers, [0, 1]; not in textures and views of OpenGL */
+    MGT_LAYER_FOAM              /* 1: share of the pixel that foam covers, [0, 1]; not in textures and views of OpenGL */
 } mgt_layer;
 
 typedef enum mgt_format {

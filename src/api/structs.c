@@ -71,8 +71,7 @@ const struct_kind scene_kind = KIND(mgt_scene, "render.scene", 1, quality.sample
                                               .absorption = {0.264f, 0.0565f, 0.0101f},
                                               .scattering = {0.0012f, 0.0019f, 0.0039f},
                                               .body_albedo = {0.006f, 0.022f, 0.030f}},
-                                    .foam_persistence = 3,
-                                    .post = {.auto_exposure = true, .tone_map = MGT_TONE_AGX, .glare = 0.03f});
+                                    .foam_persistence = 3, .post = {.auto_exposure = true, .tone_map = MGT_TONE_AGX, .glare = 0.03f});
 
 /* ---- initialising ---- */
 

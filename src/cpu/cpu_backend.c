@@ -356,7 +356,8 @@ static void render_reference_block(void *argument, size_t index, uint32_t worker
     const render_job *job = argument;
     uint32_t offset[2];
     const region block = block_of(job, index, offset);
-    float color[REFERENCE_PIXELS * 3], coverage[REFERENCE_PIXELS], mask[REFERENCE_PIXELS], foam[REFERENCE_PIXELS], depth[REFERENCE_PIXELS], normal[REFERENCE_PIXELS * 3];
+    float color[REFERENCE_PIXELS * 3], coverage[REFERENCE_PIXELS], mask[REFERENCE_PIXELS], foam[REFERENCE_PIXELS], depth[REFERENCE_PIXELS],
+        normal[REFERENCE_PIXELS * 3];
     const bool pixels = job->wants.pixels, surface = job->wants.surface;
     const reference_result result = {.color = pixels && job->frame.data.want_color ? color : NULL,
                                      .coverage = pixels ? coverage : NULL,

@@ -18,9 +18,9 @@ void frame_foam_light(const mgt_scene *scene, const sky_state *sky, double by_sk
     }
 }
 
-void frame_foam_of(const mgt_scene *scene, const sky_state *sky, bool under, frame_foam *foam)
+void frame_foam_of(const mgt_scene *scene, const sky_state *sky, frame_foam *foam)
 {
-    foam->some = !under && foam_sea_of(scene, &foam->sea);
+    foam->some = foam_sea_of(scene, &foam->sea);
     if (!foam->some)
         return;
     double beams[MAX_LIGHTS][3] = {{0}};
@@ -104,7 +104,7 @@ void foam_place(const frame_foam *foam, double x, double z, double middle, doubl
     *d = (FoamData){.foam_waves = sea->wave_count,
                     .foam_moments = sea->moments,
                     .least = (float)sea->least,
-                    .filter = filter ? 1 : 0,
+                    .sees = filter ? 1 : 0,
                     .shape_xxxx = (float)sea->shape[0],
                     .shape_xxxz = (float)sea->shape[1],
                     .shape_xxzz = (float)sea->shape[2],

@@ -16,15 +16,14 @@ typedef struct frame_foam {
     double toward[3], beam[3], sky[3]; /* see FoamData */
 } frame_foam;
 
-/* The foam of an interval of time before a camera. */
+/* The foam of an interval of time before a camera, as a storage buffer has it. */
 typedef struct foam_set {
     FoamData data;
-    FoamWave waves[MGT_MAX_WAVES];
     FoamSine sines[2 * FOAM_SINES];
+    FoamWave waves[MGT_MAX_WAVES];
 } foam_set;
 
-/* `under`: the camera is under water, where foam is not drawn. */
-void frame_foam_of(const mgt_scene *scene, const sky_state *sky, bool under, frame_foam *foam);
+void frame_foam_of(const mgt_scene *scene, const sky_state *sky, frame_foam *foam);
 
 /* Radiance of white foam, kcd/m²: by the sky, and by each light facing it. */
 void frame_foam_light(const mgt_scene *scene, const sky_state *sky, double by_sky[3], double by_light[MAX_LIGHTS][3]);

@@ -148,7 +148,7 @@ frame frame_of(const mgt_scene *scene, const sky_state *sky, bool want_color)
     set_method(&f);
     set_through(&f);
     sines_order(&scene->water, f.order);
-    frame_foam_of(scene, sky, f.under, &f.foam);
+    frame_foam_of(scene, sky, &f.foam);
     const camera_rays close = camera_rays_of(&scene->camera, scene->image.width, scene->image.height);
     const camera_rays open = scene->camera_moves ? camera_rays_of(&scene->camera_open, scene->image.width, scene->image.height) : close;
     frame_look(&f, &open, &close);

@@ -82,10 +82,11 @@ static mgt_status reserve_layers(gl_renderer *g, const gl_job *job, const report
 /* Uniform data of all passes over one set: they stay valid until the set after the next. */
 static size_t set_bytes(void)
 {
-    return sizeof(FrameData) + MGT_MAX_WAVES * (sizeof(WaveData) + sizeof(SortData)) + sizeof(ViewData) + 3 * sizeof(PassData) + sizeof(LeanData);
+    return sizeof(FrameData) + MGT_MAX_WAVES * (sizeof(WaveData) + sizeof(SortData)) + sizeof(ViewData) + 3 * sizeof(PassData) + sizeof(LeanData) +
+           sizeof(foam_set);
 }
 
-enum { SET_PARTS = 8 };
+enum { SET_PARTS = 9 };
 
 void gl_bind_tiles(const gl_renderer *g)
 {
@@ -105,6 +106,10 @@ static void upload_waves(gl_renderer *g)
     sines_sort_data(set, sort);
     g->gl.BindBufferRange(GL_SHADER_STORAGE_BUFFER, BIND_SORT, g->ring.buffer, (GLintptr)offset, MGT_MAX_WAVES * sizeof(SortData));
     gl_uniform(g, BIND_EXTRA, &set->view, sizeof set->view);
+    if (!set->has_foam)
+        return;
+    memcpy(gl_ring_allocate(&g->ring, sizeof set->foam, &offset), &set->foam, sizeof set->foam);
+    g->gl.BindBufferRange(GL_SHADER_STORAGE_BUFFER, BIND_FOAM, g->ring.buffer, (GLintptr)offset, sizeof set->foam);
 }
 
 mgt_status gl_sort_tiles(const FrameData *data, const gl_run *run, const gl_band *b, uint32_t first_slot, uint32_t open_slots)

@@ -38,6 +38,7 @@ enum {
     BIND_LEAVES = 4, /* … and cells_data.glsl */
     BIND_CELLS = 5,
     BIND_WAVES = 6, /* of cells all sets of them */
+    BIND_FOAM = 7,  /* programs of shading */
     BIND_SLOTS = 7,
     BIND_PIXELS = 7,
     STORAGE_BINDINGS,

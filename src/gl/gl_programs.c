@@ -102,10 +102,13 @@ typedef struct define_text {
     char text[256];
 } define_text;
 
+static const char *const water_defines[WATER_KINDS] =
+    {[WATER_SINES] = "", [WATER_CHOPPY] = "#define CHOPPY_WATER\n", [WATER_FOAM] = "#define CHOPPY_WATER\n#define FOAMY_WATER\n"};
+
 static define_text defines_of(const gl_programs *p, const program_text *t)
 {
     define_text d;
-    int used = snprintf(d.text, sizeof d.text, "%s%s", p->defines ? p->defines : "", p->choppy ? "#define CHOPPY_WATER\n" : "");
+    int used = snprintf(d.text, sizeof d.text, "%s%s", p->defines ? p->defines : "", water_defines[p->water]);
     if (t->result)
         used += snprintf(d.text + used, sizeof d.text - (size_t)used, "#define method_result %s\n", t->result);
     if (t->method && t->method->tables & METHOD_LEAN_MAP)
@@ -191,8 +194,8 @@ static mgt_status build(const gl_programs *p, const gl_replacements *replaced, g
     *hash = 0;
     for (int i = 0; i < s.count; i++)
         *hash = *hash * 31 + gl_source_hash(&s.stages[i]);
-    if (status == MGT_OK && p->of[p->choppy].names[which] && p->of[p->choppy].hashes[which] == *hash) {
-        *out = p->of[p->choppy].names[which];
+    if (status == MGT_OK && p->of[p->water].names[which] && p->of[p->water].hashes[which] == *hash) {
+        *out = p->of[p->water].names[which];
     } else if (status == MGT_OK && s.count > 0) {
         const GLuint program = p->gl->CreateProgram();
         for (int i = 0; i < s.count && status == MGT_OK; i++)
@@ -211,18 +214,18 @@ static mgt_status build(const gl_programs *p, const gl_replacements *replaced, g
 
 GLuint gl_program_get(gl_programs *p, gl_program which, const reporter *r, mgt_status *status)
 {
-    GLuint *name = &p->of[p->choppy].names[which];
+    GLuint *name = &p->of[p->water].names[which];
     if (*name == 0 && *status == MGT_OK)
-        *status = build(p, &p->replaced, which, name, &p->of[p->choppy].hashes[which], r);
+        *status = build(p, &p->replaced, which, name, &p->of[p->water].hashes[which], r);
     return *name;
 }
 
-static void delete_programs(gl_programs *p, bool choppy)
+static void delete_programs(gl_programs *p, gl_water water)
 {
     for (int i = 0; i < PROGRAM_COUNT; i++)
-        if (p->of[choppy].names[i])
-            p->gl->DeleteProgram(p->of[choppy].names[i]);
-    memset(&p->of[choppy], 0, sizeof p->of[choppy]);
+        if (p->of[water].names[i])
+            p->gl->DeleteProgram(p->of[water].names[i]);
+    memset(&p->of[water], 0, sizeof p->of[water]);
 }
 
 mgt_status gl_programs_replace(gl_programs *p, const mgt_gl_source *sources, size_t count, const reporter *r)
@@ -232,9 +235,9 @@ mgt_status gl_programs_replace(gl_programs *p, const mgt_gl_source *sources, siz
         return report_error(r, MGT_ERROR_MEMORY, "gl.sources", "out of memory for %zu texts", count);
     mgt_status status = MGT_OK;
     int built = 0;
-    GLuint *const old = p->of[p->choppy].names, *const new = next.of[p->choppy].names;
+    GLuint *const old = p->of[p->water].names, *const new = next.of[p->water].names;
     for (; built < PROGRAM_COUNT && status == MGT_OK; built++)
-        status = build(p, &next.replaced, (gl_program)built, &new[built], &next.of[p->choppy].hashes[built], r);
+        status = build(p, &next.replaced, (gl_program)built, &new[built], &next.of[p->water].hashes[built], r);
     const GLuint *const unused = status == MGT_OK ? old : new;
     for (int i = 0; i < built; i++)
         if (unused[i] && old[i] != new[i])
@@ -242,14 +245,16 @@ mgt_status gl_programs_replace(gl_programs *p, const mgt_gl_source *sources, siz
     gl_replacements_free(status == MGT_OK ? &p->replaced : &next.replaced);
     if (status == MGT_OK) {
         *p = next;
-        delete_programs(p, !p->choppy);
+        for (int water = 0; water < WATER_KINDS; water++)
+            if (water != (int)p->water)
+                delete_programs(p, (gl_water)water);
     }
     return status;
 }
 
 void gl_programs_free(gl_programs *p)
 {
-    delete_programs(p, false);
-    delete_programs(p, true);
+    for (int water = 0; water < WATER_KINDS; water++)
+        delete_programs(p, (gl_water)water);
     gl_replacements_free(&p->replaced);
 }

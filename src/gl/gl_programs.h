@@ -58,15 +58,18 @@ typedef enum gl_program {
 /* That shades pixels by a method, from tables or without. Methods whose rows name the same shader share it. */
 gl_program gl_method_program(mgt_method method, bool tables);
 
+/* Kinds of water, for which programs are built apart. */
+typedef enum gl_water { WATER_SINES = 0, WATER_CHOPPY, WATER_FOAM, WATER_KINDS } gl_water;
+
 typedef struct gl_programs {
     const gl_api *gl;
     const char *defines; /* of this context, before those of a program; static */
     gl_replacements replaced;
-    bool choppy; /* which kind of water programs are asked for */
+    gl_water water; /* which programs are asked for */
     struct {
         GLuint names[PROGRAM_COUNT]; /* 0: not built yet */
         uint64_t hashes[PROGRAM_COUNT];
-    } of[2]; /* by `choppy` */
+    } of[WATER_KINDS]; /* by `water` */
 } gl_programs;
 
 /* The program's name, built now if it has not been; 0 on failure, which is reported. */

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "params/foam.h"
+
 enum { RING_SEGMENT = 1 << 20 };
 
 static mgt_status check_version(const gl_api *gl, const reporter *r)
@@ -172,7 +174,7 @@ void gl_uniform(gl_renderer *g, GLuint binding, const void *data, size_t size)
 
 mgt_status gl_sky_prepare(gl_renderer *g, const mgt_scene *scene, const reporter *r)
 {
-    g->programs.choppy = scene->water.choppiness > 0;
+    g->programs.water = !(scene->water.choppiness > 0) ? WATER_SINES : foam_draws(scene) ? WATER_FOAM : WATER_CHOPPY;
     if (sky_state_same_inputs(g->sky, &scene->sky, &scene->light))
         return MGT_OK;
     const mgt_status status = sky_state_build(g->sky, &scene->sky, &scene->light);

@@ -81,7 +81,8 @@ static void fill_pattern(foam_sine sines[FOAM_SINES], double longest, const doub
         const double a = fmod(seed + i * 0.61803398874989485, 1), b = fmod(seed + i * 0.75487766624669276, 1), c = fmod(seed + i * 0.56984029099805327, 1);
         const double angle = pi * ((i % DIRECTIONS + a) / DIRECTIONS + 0.37 * octave), number = 2 * pi / longest * exp2(octave + b - 0.5);
         const double along = number * cos(angle) / drawn, across = number * sin(angle);
-        sines[i] = (foam_sine){.x = along * wind[0] - across * wind[1], .z = along * wind[1] + across * wind[0], .start = 2 * pi * c, .size = exp2(-0.25 * octave)};
+        sines[i] =
+            (foam_sine){.x = along * wind[0] - across * wind[1], .z = along * wind[1] + across * wind[0], .start = 2 * pi * c, .size = exp2(-0.25 * octave)};
         sum += sines[i].size * sines[i].size / 2;
     }
     for (int i = 0; i < FOAM_SINES; i++)
@@ -146,12 +147,17 @@ static double threshold(const foam_sea *sea)
     return 0.5 * (low + high);
 }
 
+bool foam_draws(const mgt_scene *scene)
+{
+    return scene->foam > 0 && scene->water.choppiness > 0 && mean_number(&scene->water) > 0 && scene->camera.position[1] >= 0;
+}
+
 bool foam_sea_of(const mgt_scene *scene, foam_sea *sea)
 {
     const mgt_water *water = &scene->water;
     const double number = mean_number(water) * break_number;
     memset(sea, 0, offsetof(foam_sea, waves));
-    if (!(scene->foam > 0) || !(water->choppiness > 0) || !(number > 0))
+    if (!foam_draws(scene))
         return false;
     sea->share = fmin((double)scene->foam, MOST_FOAM);
     sea->moments = scene->foam_persistence > 0 ? FOAM_MOMENTS : 1;

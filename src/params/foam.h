@@ -9,7 +9,7 @@
 #ifndef MANGATA_PARAMS_FOAM_H
 #define MANGATA_PARAMS_FOAM_H
 
-#include "kernels/common/constants.h"
+#include "base/foam_numbers.h"
 #include "mangata/mangata.h"
 
 /* Share of the water that whitecaps cover in a wind of so many m/s at 10 m: W = 3.84e-6 U^3.41, Monahan and O'Muircheartaigh 1980, at most MOST_FOAM. */
@@ -47,6 +47,9 @@ typedef struct foam_sea {
     foam_sine fresh[FOAM_SINES]; /* a field of variance 1 − FOAM_FINE² */
     foam_sine old[FOAM_SINES];   /* another, drawn out along the wind */
 } foam_sea;
+
+/* Whether a scene, its mean surface at y = 0, has foam that its camera sees. */
+bool foam_draws(const mgt_scene *scene);
 
 /* False where there is no foam; `sea` is then unfinished. */
 bool foam_sea_of(const mgt_scene *scene, foam_sea *sea);

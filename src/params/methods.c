@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define LAYERS_WATER \
+#define LAYERS_WATER                                                                                                                                      \
     (1u << MGT_LAYER_COLOR | 1u << MGT_LAYER_COVERAGE | 1u << MGT_LAYER_MASK | 1u << MGT_LAYER_DEPTH | 1u << MGT_LAYER_NORMAL | 1u << MGT_LAYER_SAMPLES | \
      1u << MGT_LAYER_FOAM)
 #define LAYERS (LAYERS_WATER | 1u << MGT_LAYER_REFRACTION | 1u << MGT_LAYER_REFRACTION_ERROR)

@@ -15,7 +15,8 @@ const char *const gl_color_names[] = {"radiance", "exposed", "display", NULL};
 const char *const isa_names[] = {"auto", "scalar", "sse2", "avx2", "avx512", "neon", NULL};
 const char *const kernels_names[] = {"exact", "1", "3", "5", "9", "feline", "riemann", NULL};
 const int kernels_values[] = {MGT_MIXTURE_EXACT, MGT_MIXTURE_1, MGT_MIXTURE_3, MGT_MIXTURE_5, MGT_MIXTURE_9, MGT_MIXTURE_FELINE, MGT_MIXTURE_RIEMANN};
-const char *const layer_names[] = {"color", "coverage", "mask", "depth", "normal", "samples", "importance", "detail", "refraction", "refraction_error", "foam", NULL};
+const char *const layer_names[] = {"color",      "coverage",         "mask", "depth", "normal", "samples", "importance", "detail",
+                                   "refraction", "refraction_error", "foam", NULL};
 const char *const log_level_names[] = {"debug", "info", "warning", "error", NULL};
 const char *const method_waves_names[] = {"point", "instant", "shutter", NULL};
 const char *const pattern_names[] = {"none", "tiles", "checker", "stripes", NULL};

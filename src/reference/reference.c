@@ -63,7 +63,7 @@ static lane_build pick_build(mgt_isa isa)
 /* False when memory is short. */
 static bool set_foam(reference_frame *frame, const mgt_scene *scene)
 {
-    if (!(scene->foam > 0) || frame->choppiness <= 0 || scene->camera.position[1] < 0)
+    if (!foam_draws(scene))
         return true;
     frame->foam = malloc(sizeof *frame->foam);
     if (frame->foam && !foam_sea_of(scene, frame->foam)) {
@@ -234,8 +234,7 @@ typedef struct pixel_sums {
 static double cover_with_foam(const reference_frame *frame, const reference_batch *batch, uint32_t i, double rgb[3])
 {
     const double *eye = frame->scene.camera.position;
-    const foam_point foam =
-        reference_foam_at(frame->foam, batch->rest_x[i] + eye[0], batch->rest_z[i] + eye[2], frame->scene.time + batch->time_offset[i]);
+    const foam_point foam = reference_foam_at(frame->foam, batch->rest_x[i] + eye[0], batch->rest_z[i] + eye[2], frame->scene.time + batch->time_offset[i]);
     const double x = batch->slope_x[i], z = batch->slope_z[i];
     for (int c = 0; c < 3; c++) {
         double lit = frame->sky.foam_sky[c];

@@ -27,8 +27,8 @@ typedef struct reference_sky {
     /* Radiance of the sky without the light's disk, for a unit direction with direction[1] ≥ 0. NULL: black. */
     void (*lookup)(const void *user, const double direction[3], double rgb[3]);
     const void *user;
-    double disks[REFERENCE_LIGHTS][3]; /* mean over each light's disk, at the observer */
-    double body_radiance[3];           /* leaves the water with the factor 1 − F */
+    double disks[REFERENCE_LIGHTS][3];                   /* mean over each light's disk, at the observer */
+    double body_radiance[3];                             /* leaves the water with the factor 1 − F */
     double foam_sky[3], foam_beams[REFERENCE_LIGHTS][3]; /* what white foam sends up: by the sky, and by each light facing it */
 } reference_sky;
 

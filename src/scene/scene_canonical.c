@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "scene/scene_models.h"
+#include "scene/scene_sea.h"
 
 enum { DOUBLE_DIGITS = 17, FLOAT_DIGITS = 9 }; /* read back as the same number */
 
@@ -90,6 +91,7 @@ char *scene_values_canonical(const scene_values *values, size_t *length)
     if (effective.camera.path.count > 0) /* the still camera is then never looked through */
         effective.camera.still = ((const scene_keyframe *)effective.camera.path.items)[0].camera;
     effective.water.waves = scene_water_all(&values->water);
+    effective.water.foam.share = scene_water_foam(&values->water);
     if (!effective.post.exposure.automatic)
         effective.post.exposure_offset = 0;
     FILE *stream = open_memstream(&text, &size);

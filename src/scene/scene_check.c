@@ -8,7 +8,6 @@
 #include "params/options.h"
 #include "scene/scene_path.h"
 #include "scene/scene_read.h"
-#include "scene/scene_sea.h"
 
 static const double MAX_PIXELS = 268435456; /* 2^28 */
 static const double MIN_KEYFRAME_GAP = 1e-6;
@@ -123,13 +122,10 @@ static bool check_foam(const scene_tree *tree, const scene_water *water, scene_e
     const tree_node *foam = tree_get(tree_get(tree->root, "water"), "foam"), *amount = tree_get(foam, "amount"), *share = tree_get(foam, "share");
     if (amount == NULL || !(water->foam.amount > 0))
         return true;
-    if (share != NULL && water->foam.share > 0)
-        return tree_error(tree, share->key_source != NULL ? share->key_source : share->source, share->key_place, error,
-                          "water.foam.share stands beside water.foam.amount; allowed: one of them");
-    if (scene_water_wind(water) > 0)
+    if (share == NULL || !(water->foam.share > 0))
         return true;
-    return tree_error(tree, amount->key_source != NULL ? amount->key_source : amount->source, amount->key_place, error,
-                      "water.foam.amount is a multiple of what a wind makes, and these waves have none; allowed: 0, or water.foam.share instead");
+    return tree_error(tree, share->key_source != NULL ? share->key_source : share->source, share->key_place, error,
+                      "water.foam.share stands beside water.foam.amount; allowed: one of them");
 }
 
 static bool check_exposure(const scene_tree *tree, const scene_values *values, scene_error *error)
@@ -155,5 +151,6 @@ bool scene_check(const scene_tree *tree, const scene_values *values, scene_error
     return check_image(tree, &values->image, error) &&
            (moves ? check_keyframes(tree, &values->camera, path, error) && check_path(tree, values, path, error)
                   : check_still_camera(tree, &values->camera, error)) &&
-           check_wind(tree, &values->water, error) && check_foam(tree, &values->water, error) && check_exposure(tree, values, error) && check_quality(tree, &values->quality, error);
+           check_wind(tree, &values->water, error) && check_foam(tree, &values->water, error) && check_exposure(tree, values, error) &&
+           check_quality(tree, &values->quality, error);
 }

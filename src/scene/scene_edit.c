@@ -25,6 +25,8 @@ void scene_values_write_out_sea(scene_values *values)
     water->sea = (scene_list){0};
     free(water->spectrum.file);
     const scene_values defaults = scene_values_defaults();
+    water->foam.share = scene_water_foam(water);
+    water->foam.amount = 0;
     water->spectrum = defaults.water.spectrum;
     water->wind = defaults.water.wind;
     free(water->swell.items);

@@ -139,11 +139,13 @@ static const field_row swell_fields[] = {{"height", FIELD_NUMBER, offsetof(scene
 static void decide_wind(void *parent)
 {
     scene_water *water = parent;
-    if (water->wind.speed > 0)
+    if (water->wind.speed > 0) {
         water->choppiness = WIND_CHOPPINESS;
+        water->foam.amount = 1;
+    }
 }
 
-static const field_row foam_fields[] = {{"amount", FIELD_NUMBER, offsetof(scene_foam, amount), 0, 0, 10, NULL,
+static const field_row foam_fields[] = {{"amount", FIELD_NUMBER, offsetof(scene_foam, amount), FIELD_NO_PIXELS, 0, 10, NULL,
                                          .doc = "whitecaps over what the wind makes at sea, 3.84e-6 U^3.41 of the water; 0: none; 1 with water.wind"},
                                         {"share", FIELD_NUMBER, offsetof(scene_foam, share), 0, 0, MOST_FOAM, NULL,
                                          .doc = "of the water that whitecaps cover, for waves of no wind: in place of amount; 0: what amount says"},
@@ -151,27 +153,24 @@ static const field_row foam_fields[] = {{"amount", FIELD_NUMBER, offsetof(scene_
                                          .doc = "how long foam lasts; 0: only where waves break right now"},
                                         {0}};
 
-static const field_row water_fields[] = {{"waves", FIELD_LIST, offsetof(scene_water, waves), 0, NO_RANGE, NULL,
-                                          .doc = "each adds amplitude·sin(a·x + b·z + c·t + phase) to the height; none: a flat mirror", .fields = wave_rows,
-                                          .item_size = sizeof(mgt_wave), .max_items = MGT_MAX_WAVES, .prepare = prepare_wave, .other = &measured_wave_form},
-                                         {"spectrum", FIELD_MAPPING, offsetof(scene_water, spectrum), FIELD_NO_PIXELS, NO_RANGE, NULL,
-                                          .doc = "waves drawn from a wind's or a buoy's spectrum, beside those of waves", .fields = spectrum_fields},
-                                         {"wind", FIELD_MAPPING, offsetof(scene_water, wind), FIELD_NO_PIXELS | FIELD_SHORT, NO_RANGE, NULL,
-                                          .doc = "a whole sea from the wind alone, in place of waves and spectrum: a speed, or a mapping",
-                                          .fields = wind_fields, .decide = decide_wind},
-                                         {"swell", FIELD_LIST, offsetof(scene_water, swell), FIELD_NO_PIXELS, NO_RANGE, NULL,
-                                          .doc = "waves from far away, beside all others", .fields = swell_fields, .item_size = sizeof(scene_swell),
-                                          .max_items = 16, .prepare = prepare_swell},
-                                         {"amplitude", FIELD_NUMBER, offsetof(scene_water, height), FIELD_NO_PIXELS, 0, 1000, NULL,
-                                          .doc = "factor on the heights of all waves, those of spectrum, wind and swell too; 0: a flat mirror"},
-                                         WATER_BODY_ROWS(scene_water),
-                                         {"foam", FIELD_MAPPING, offsetof(scene_water, foam), 0, NO_RANGE, NULL,
-                                          .doc = "whitecaps, where choppy water is pressed together", .fields = foam_fields},
-                                         {"clarity", FIELD_CHOICE, offsetof(scene_water, clarity), FIELD_NO_PIXELS, NO_RANGE, NULL,
-                                          .doc = "sets the defaults of absorption and scattering: a clean pool, clear ocean, a coast, a harbour",
-                                          .choices = clarities, .decide = decide_clarity},
-                                         WATER_COLOR_ROWS(scene_water),
-                                         {0}};
+static const field_row water_fields[] =
+    {{"waves", FIELD_LIST, offsetof(scene_water, waves), 0, NO_RANGE, NULL,
+      .doc = "each adds amplitude·sin(a·x + b·z + c·t + phase) to the height; none: a flat mirror", .fields = wave_rows, .item_size = sizeof(mgt_wave),
+      .max_items = MGT_MAX_WAVES, .prepare = prepare_wave, .other = &measured_wave_form},
+     {"spectrum", FIELD_MAPPING, offsetof(scene_water, spectrum), FIELD_NO_PIXELS, NO_RANGE, NULL,
+      .doc = "waves drawn from a wind's or a buoy's spectrum, beside those of waves", .fields = spectrum_fields},
+     {"wind", FIELD_MAPPING, offsetof(scene_water, wind), FIELD_NO_PIXELS | FIELD_SHORT, NO_RANGE, NULL,
+      .doc = "a whole sea from the wind alone, in place of waves and spectrum: a speed, or a mapping", .fields = wind_fields, .decide = decide_wind},
+     {"swell", FIELD_LIST, offsetof(scene_water, swell), FIELD_NO_PIXELS, NO_RANGE, NULL, .doc = "waves from far away, beside all others",
+      .fields = swell_fields, .item_size = sizeof(scene_swell), .max_items = 16, .prepare = prepare_swell},
+     {"amplitude", FIELD_NUMBER, offsetof(scene_water, height), FIELD_NO_PIXELS, 0, 1000, NULL,
+      .doc = "factor on the heights of all waves, those of spectrum, wind and swell too; 0: a flat mirror"},
+     WATER_BODY_ROWS(scene_water),
+     {"foam", FIELD_MAPPING, offsetof(scene_water, foam), 0, NO_RANGE, NULL, .doc = "whitecaps, where choppy water is pressed together", .fields = foam_fields},
+     {"clarity", FIELD_CHOICE, offsetof(scene_water, clarity), FIELD_NO_PIXELS, NO_RANGE, NULL,
+      .doc = "sets the defaults of absorption and scattering: a clean pool, clear ocean, a coast, a harbour", .choices = clarities, .decide = decide_clarity},
+     WATER_COLOR_ROWS(scene_water),
+     {0}};
 
 /* The rows of a scene_pose inside a struct: an object and its instances share them. */
 #define PLACE(type, member)                                                                                                                              \

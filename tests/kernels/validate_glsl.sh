@@ -19,7 +19,7 @@ check() { # name, version line, extension, epilogue, kernel
     again | caustic | footprint | material | narrow | shadow | spread | water_path | water_seen) more="$kernels/refraction/refract_accessors_glsl.k $kernels/refraction/narrow_types.k $kernels/refraction/shade_types.k $kernels/refraction/layer.k $work/object_accessors.glsl" ;;
     esac
     # shellcheck disable=SC2086 # nothing where there is none
-    "$source/scripts/kernel_glsl" "$2" "$kernels/common/prelude_glsl.k" "$kernels/waves/sines_types.k" "$kernels/common/accessors_glsl.k" $more "$5" >"$work/$1.$3" || { failed=1; return; }
+    "$source/scripts/kernel_glsl" "$2" "$kernels/common/prelude_glsl.k" "$kernels/waves/sines_types.k" "$kernels/common/accessors_glsl.k" "$kernels/waves/foam_accessors_glsl.k" $more "$5" >"$work/$1.$3" || { failed=1; return; }
     printf '%s\n' "$4" >>"$work/$1.$3"
     if ! glslangValidator "$work/$1.$3" >"$work/log" 2>&1; then
         failed=1

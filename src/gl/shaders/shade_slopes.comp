@@ -12,6 +12,7 @@
 #include "lean_data.glsl"
 #endif
 #include "method.k"
+#include "kernels/glitter/foam_over.k"
 
 /* The pixels that wait: what they know, and what is found for them. */
 shared int waiting;
@@ -97,4 +98,5 @@ SlopeState state_where(bool wanted, vec3 ray, ivec2 pixel)
 }
 
 #define METHOD_STATE SlopeState
+#define FOAM_OVER_STATE
 #include "shade.glsl"

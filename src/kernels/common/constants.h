@@ -26,13 +26,6 @@
 #define SUM_MOST 20    /* and on the screen */
 #define TILE_SUMS 21
 
-/* ---- foam, see foam.k ---- */
-
-#define FOAM_MOMENTS 4   /* that its age is made of; the first is now */
-#define FOAM_OCTAVES 7   /* of its patterns */
-#define FOAM_SINES 42    /* of a pattern, as many an octave */
-#define FOAM_FINE 0.2f   /* deviation of what a pattern has beyond them */
-
 /* ---- the picture's lattice ---- */
 
 /* Tiles of one fixed lattice of the whole image, whatever the crop. */

@@ -1,0 +1,247 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Foam: its share of a sea against random places of that sea, its patterns against their own mean, kernels against double precision, and water that folds.
+ */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "mangata/mangata.h"
+#include "reference/foam.h"
+
+#include "unit/random_numbers.h"
+
+#include "unit/kernel_lane.h"
+
+enum { WAVES = 48 };
+
+static mgt_scene foam_scene(mgt_wave waves[WAVES], float share, double steepness)
+{
+    random_state r = {33};
+    random_waves(&r, waves, WAVES, 0.5, 60, steepness);
+    mgt_scene scene = black_scene(640, 360, waves, WAVES);
+    scene.water.choppiness = 0.7f;
+    scene.foam = share;
+    return scene;
+}
+
+/* det B of the breaking waves at a place of rest. */
+static double area_at(const foam_sea *sea, double x, double z, double time)
+{
+    double xx = 1, xz = 0, zz = 1;
+    for (int i = 0; i < sea->wave_count; i++) {
+        const foam_wave *w = &sea->waves[i];
+        const double pressed = w->press / (w->x * w->x + w->z * w->z) * sin(w->x * x + w->z * z + w->frequency * time + w->start);
+        xx -= pressed * w->x * w->x;
+        xz -= pressed * w->x * w->z;
+        zz -= pressed * w->z * w->z;
+    }
+    return xx * zz - xz * xz;
+}
+
+/* ---- the sea ---- */
+
+static void foam_covers_the_share_that_is_asked_for(void **state)
+{
+    (void)state;
+    static const float shares[] = {0.004f, 0.02f, 0.1f, 0.25f};
+    static foam_sea sea;
+    mgt_wave waves[WAVES];
+    for (size_t k = 0; k < 4; k++) {
+        const mgt_scene scene = foam_scene(waves, shares[k], 0.2);
+        assert_true(foam_sea_of(&scene, &sea));
+        random_state r = {7};
+        double area = 0, fresh = 0, all = 0;
+        for (int i = 0; i < 60000; i++) {
+            const double x = random_range(&r, 0, 5000), z = random_range(&r, 0, 5000), time = random_range(&r, 0, 500);
+            const double weight = area_at(&sea, x, z, time);
+            double moments[FOAM_MOMENTS];
+            reference_foam_moments(&sea, x, z, time, moments);
+            area += weight;
+            fresh += weight * moments[0];
+            for (int j = 0; j < FOAM_MOMENTS; j++)
+                all += weight * sea.weight[j] * moments[j];
+        }
+        char text[80];
+        snprintf(text, sizeof text, "share %.3f, all moments over what was asked for less 1", (double)shares[k]);
+        expect_below(text, fabs(all / area / (double)shares[k] - 1), 0.04);
+        snprintf(text, sizeof text, "share %.3f, fresh foam over that", (double)shares[k]);
+        expect_below(text, fresh / all, 1.6);
+        assert_true(fresh / all > 0.6);
+    }
+}
+
+static void winds_have_the_share_of_monahan(void **state)
+{
+    (void)state;
+    expect_below("10 m/s", fabs(foam_share_of_wind(10) - 0.00987), 1e-4);
+    assert_true(foam_share_of_wind(0) == 0);
+    assert_true(foam_share_of_wind(75) <= MOST_FOAM);
+}
+
+/* ---- patterns ---- */
+
+static void quantiles_are_those_of_the_normal_distribution(void **state)
+{
+    (void)state;
+    double most = 0;
+    for (int i = 1; i < 2000; i++)
+        most = fmax(most, fabs((double)normal_quantile(NULL, (float)i / 2000) - reference_normal_quantile(i / 2000.0)));
+    expect_below("quantile of the normal distribution", most, 3e-4);
+}
+
+static void patterns_cover_their_share(void **state)
+{
+    (void)state;
+    static const float shares[] = {0.02f, 0.1f, 0.3f, 0.7f};
+    static const double sides[] = {0, 0.2, 1, 30};
+    mgt_wave waves[WAVES];
+    const mgt_scene scene = foam_scene(waves, 0.05f, 0.2);
+    kernel_bench *b = kernel_bench_create(&scene);
+    kernel_bench_tile(b, true, true, 320, 180);
+    b->cx = context_for(&b->frame.data, &b->tile);
+    random_state r = {5};
+    for (int side = 0; side < 4; side++)
+        for (int k = 0; k < 4; k++) {
+            double patches = 0, lace = 0;
+            const int count = 20000;
+            const float s = (float)sides[side];
+            const Footprint p = {{s, 0}, {0, s}};
+            for (int i = 0; i < count; i++) {
+                const float x = (float)random_range(&r, -300, 300), z = (float)random_range(&r, -300, 300);
+                patches += (double)foam_patches(&b->cx, foam_field(&b->cx, 0, x, z, p), shares[k]) / count;
+                lace += (double)foam_lace(&b->cx, foam_field(&b->cx, FOAM_SINES, x, z, p), shares[k]) / count;
+            }
+            char text[80];
+            snprintf(text, sizeof text, "share %.2f, pixels of %g m: patches, lace", (double)shares[k], sides[side]);
+            expect_below(text, fmax(fabs(patches - (double)shares[k]), fabs(lace - (double)shares[k])), 0.012);
+        }
+    kernel_bench_destroy(b);
+}
+
+/* ---- kernels ---- */
+
+static void kernels_agree_with_double_precision(void **state)
+{
+    (void)state;
+    mgt_wave waves[WAVES];
+    const mgt_scene scene = foam_scene(waves, 0.1f, 0.2);
+    kernel_bench *b = kernel_bench_create(&scene);
+    kernel_bench_tile(b, false, false, 320, 180);
+    b->cx = context_for(&b->frame.data, &b->tile);
+    const foam_sea *sea = &b->frame.foam.sea;
+    const Footprint none = {{0, 0}, {0, 0}};
+    random_state r = {9};
+    double worst = 0, mean = 0;
+    const int count = 4000;
+    for (int i = 0; i < count; i++) {
+        const float x = (float)random_range(&r, -100, 100), z = (float)random_range(&r, -100, 100);
+        const foam_point want = reference_foam_at(sea, (double)x + scene.camera.position[0], (double)z + scene.camera.position[2], scene.time);
+        const FoamShares f = foam_shares(&b->cx, x, z, none, foam_sight_even(&b->cx));
+        const Foam foam = foam_patterned(&b->cx, f, x, z, none);
+        const double off = fmax(fabs((double)foam.share - want.share), fabs((double)foam.white - want.white));
+        worst = fmax(worst, off);
+        mean += off / count;
+    }
+    expect_below("foam at a point, kernel less double: mean", mean, 3e-4);
+    expect_below("greatest", worst, 0.003);
+    kernel_bench_destroy(b);
+}
+
+/* The share over the sea is the same at every footprint. */
+static void footprints_keep_the_share(void **state)
+{
+    (void)state;
+    static const double sides[] = {0.1, 1, 4, 16, 1000};
+    mgt_wave waves[WAVES];
+    const mgt_scene scene = foam_scene(waves, 0.05f, 0.2);
+    kernel_bench *b = kernel_bench_create(&scene);
+    kernel_bench_tile(b, true, true, 320, 180);
+    b->cx = context_for(&b->frame.data, &b->tile);
+    for (int side = 0; side < 5; side++) {
+        random_state r = {11};
+        double area = 0, covered = 0;
+        const float s = (float)sides[side];
+        const Footprint p = {{s, 0}, {0, s}};
+        for (int i = 0; i < 30000; i++) {
+            const float x = (float)random_range(&r, -2000, 2000), z = (float)random_range(&r, -2000, 2000);
+            const FoamShares f = foam_shares(&b->cx, x, z, p, foam_sight_even(&b->cx));
+            const double weight = 1 / (double)(f.inverse.xx * f.inverse.zz - f.inverse.xz * f.inverse.xz);
+            area += weight;
+            covered += weight * (double)(f.fresh + f.old);
+        }
+        char text[80];
+        snprintf(text, sizeof text, "pixels of %g m: share over what was asked for less 1", sides[side]);
+        expect_below(text, fabs(covered / area / 0.05 - 1), 0.02);
+    }
+    kernel_bench_destroy(b);
+}
+
+static void folds_give_numbers(void **state)
+{
+    (void)state;
+    mgt_wave waves[WAVES];
+    mgt_scene scene = foam_scene(waves, 0.3f, 1.5);
+    scene.water.choppiness = 1;
+    kernel_bench *b = kernel_bench_create(&scene);
+    kernel_bench_tile(b, true, true, 320, 180);
+    b->cx = context_for(&b->frame.data, &b->tile);
+    random_state r = {13};
+    for (int i = 0; i < 20000; i++) {
+        const float s = (float)exp(random_range(&r, -6, 6)), x = (float)random_range(&r, -500, 500), z = (float)random_range(&r, -500, 500);
+        const Footprint p = {{s, 0}, {0, 2 * s}};
+        const vec3 view = {0.6f, (float)random_range(&r, 0.001, 0.8), 0.2f};
+        const FoamSight sight = foam_sight(&b->cx, view, (vec2){0.3f, -0.2f}, 0.2f, 0.01f, 0.3f);
+        const Foam foam = foam_patterned(&b->cx, foam_shares(&b->cx, x, z, p, sight), x, z, p);
+        assert_true(foam.share >= 0 && foam.share <= 1);
+        assert_true(foam.white >= 0 && foam.white <= 1);
+    }
+    kernel_bench_destroy(b);
+}
+
+/* ---- scenes ---- */
+
+static void water_without_foam_has_none(void **state)
+{
+    (void)state;
+    static foam_sea sea;
+    mgt_wave waves[WAVES];
+    mgt_scene scene = foam_scene(waves, 0, 0.2);
+    assert_false(foam_sea_of(&scene, &sea));
+    scene.foam = 0.1f;
+    scene.water.choppiness = 0;
+    assert_false(foam_sea_of(&scene, &sea));
+    scene.water.choppiness = 0.7f;
+    scene.water.wave_count = 0;
+    assert_false(foam_sea_of(&scene, &sea));
+    scene.water.wave_count = WAVES;
+    scene.camera.position[1] = -1;
+    assert_false(foam_sea_of(&scene, &sea));
+    scene.camera.position[1] = 1;
+    scene.foam_persistence = 0;
+    assert_true(foam_sea_of(&scene, &sea));
+    assert_int_equal(sea.moments, 1);
+    assert_true(fabs(foam_sea_share(&sea, sea.least) - 0.1) < 1e-6);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(foam_covers_the_share_that_is_asked_for),
+        cmocka_unit_test(winds_have_the_share_of_monahan),
+        cmocka_unit_test(quantiles_are_those_of_the_normal_distribution),
+        cmocka_unit_test(patterns_cover_their_share),
+        cmocka_unit_test(kernels_agree_with_double_precision),
+        cmocka_unit_test(footprints_keep_the_share),
+        cmocka_unit_test(folds_give_numbers),
+        cmocka_unit_test(water_without_foam_has_none),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
