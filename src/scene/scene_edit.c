@@ -419,6 +419,10 @@ bool scene_overrides_between(const scene_values *from, const scene_values *to, s
         goal.water.wind = from->water.wind;
         goal.water.swell = from->water.swell;
         goal.water.height = from->water.height;
+        if (goal.water.foam.amount == 0 && goal.water.foam.share == scene_water_foam(&from->water)) {
+            goal.water.foam.amount = from->water.foam.amount;
+            goal.water.foam.share = from->water.foam.share;
+        }
     }
     if (add_differences(out, "", scene_root_field(), from, &goal, &defaults))
         return true;
