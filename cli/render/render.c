@@ -104,7 +104,7 @@ static const option render_options[] = {
      .set = option_change, .offset = offsetof(render_request, changes)},
     {"layer", 0, "NAME",
      "color (default), coverage, mask, depth, normal, samples,\n"
-     "importance, detail, refraction or refraction_error;\n"
+     "importance, detail, refraction, refraction_error or foam;\n"
      ".exr takes several, or all",
      .set = add_layer},
     {"backend", 0, "NAME", "cpu (default), gl, auto, or null (renders nothing: for tests)", .set = option_context, .offset = offsetof(render_request, context)},

@@ -140,7 +140,7 @@ static void enums_have_names_and_back(void **state)
     NAMES(mgt_backend, MGT_BACKEND_NULL + 1);
     NAMES(mgt_isa, MGT_ISA_NEON + 1);
     NAMES(mgt_log_level, MGT_LOG_ERROR + 1);
-    NAMES(mgt_layer, MGT_LAYER_REFRACTION_ERROR + 1);
+    NAMES(mgt_layer, MGT_LAYER_FOAM + 1);
     NAMES(mgt_format, MGT_FORMAT_RGBA8_SRGB + 1);
     NAMES(mgt_source, MGT_SOURCE_MOON + 1);
     NAMES(mgt_sky_model, MGT_SKY_BLACK + 1);

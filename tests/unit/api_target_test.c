@@ -18,6 +18,7 @@ static const layer_format all_formats[] = {
     {MGT_LAYER_SAMPLES, MGT_FORMAT_R32F, 4},        {MGT_LAYER_IMPORTANCE, MGT_FORMAT_R32F, 4},
     {MGT_LAYER_DETAIL, MGT_FORMAT_R32F, 4},         {MGT_LAYER_REFRACTION, MGT_FORMAT_RGB32F, 12},
     {MGT_LAYER_REFRACTION, MGT_FORMAT_RGBA32F, 16}, {MGT_LAYER_REFRACTION_ERROR, MGT_FORMAT_R32F, 4},
+    {MGT_LAYER_FOAM, MGT_FORMAT_R32F, 4},
 };
 enum { FORMATS = sizeof all_formats / sizeof *all_formats, PIXELS = SEA_WIDTH * SEA_HEIGHT };
 
@@ -285,7 +286,7 @@ static void bad_targets_are_refused(void **state)
     refused(context, &scene, many, 0, "1 to 16");
     refused(context, &scene, many, 17, "1 to 16");
     sea_render(context, &scene, many, 16);
-    for (int layer = -1; layer <= MGT_LAYER_REFRACTION_ERROR + 1; layer++)
+    for (int layer = -1; layer <= MGT_LAYER_FOAM + 1; layer++)
         for (int format = -1; format <= MGT_FORMAT_RGBA8_SRGB + 1; format++) {
             const mgt_target t = sea_target((mgt_layer)layer, (mgt_format)format, pixels, 0);
             bool legal = false;

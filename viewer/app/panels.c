@@ -165,7 +165,8 @@ static void draw_look(viewer *v)
 {
     static const char *const sky[][4] =
         {[MGT_SKY_ATMOSPHERE] = {"sky.turbidity", "sky.night", NULL}, [MGT_SKY_GRADIENT] = {"sky.zenith", "sky.horizon", NULL}, [MGT_SKY_BLACK] = {NULL}};
-    static const char *const water[] = {"water.choppiness", "water.level", "water.ior", "water.body_albedo", NULL};
+    static const char *const water[] = {"water.choppiness", "water.foam.amount", "water.foam.share",  "water.foam.persistence",
+                                        "water.level",      "water.ior",         "water.body_albedo", NULL};
     static const char *const under[] = {"water.absorption", "water.scattering", NULL}; /* for what is seen through it */
     static const char *const post[] = {"post.tone_map", "post.glare", NULL};
     if (ui_header("Light", true))
