@@ -36,6 +36,13 @@ pattern() { grep -E "$1" all.txt; }
 {
     echo 'set view.resolution full'
     vary $(pattern '^light\.' | grep -v azimuth) light.azimuth_deg sky.model sky.turbidity water.choppiness water.ior water.body_albedo
+    echo 'set water.choppiness 0.7'
+    vary water.foam.share
+    echo 'set water.foam.share 0.3'
+    vary water.foam.persistence
+    echo water.foam.amount >>varied.txt # of a wind
+    echo 'set water.foam.share 0'
+    echo 'set water.choppiness 0'
     vary post.exposure post.exposure_offset post.tone_map post.glare
     vary camera.position camera.target camera.fov_y_deg time.shutter time.fps clock.time
     vary $(pattern '^water\.waves\[[0-9]+\]')
