@@ -33,10 +33,10 @@ static double mean_number(const mgt_water *water)
 /* Mean of a cosine over an interval of so many radians to both sides, over its middle. */
 static double mean_cosine(double half) { return fabs(half) < 1e-4 ? 1 - half * half / 6 : sin(half) / half; }
 
-static void add_breaking(foam_sea *sea, const mgt_wave *wave, double choppiness, double longest_number, const double span[FOAM_MOMENTS])
+static void add_breaking(foam_sea *sea, const mgt_wave *wave, double choppiness, double breaking_number, const double span[FOAM_MOMENTS])
 {
     const wave_numbers w = wave_numbers_of(wave);
-    const double k = hypot(w.x, w.z), relative = k / longest_number, part = exp(-relative * relative / 2);
+    const double k = hypot(w.x, w.z), relative = k / breaking_number, part = exp(-relative * relative / 2);
     if (!(k > 0) || part < least_part || w.height == 0)
         return;
     foam_wave f = {.x = w.x, .z = w.z, .frequency = w.frequency, .start = w.start, .height = w.height, .press = choppiness * w.height * k * part};
