@@ -94,7 +94,8 @@ static int print_schema(void)
 {
     if (scene_schema_write(stdout))
         return EXIT_CODE_OK;
-    return console_error(EXIT_CODE_CANNOT_WRITE, "standard output: %s", strerror(errno));
+    /* console_finish() reports a stream that failed. */
+    return ferror(stdout) ? EXIT_CODE_CANNOT_WRITE : console_error(EXIT_CODE_FAILED, "cannot make the schema: %s", strerror(errno));
 }
 
 static int add_word(const option *o, void *place, const char *value)

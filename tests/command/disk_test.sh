@@ -15,6 +15,8 @@ expect 73 'f_03.png: .*exist' render "$simple" -o f_##.png --frames 0-9 "${null[
 absent f_00.png
 if [[ -c /dev/full ]]; then
     expect 73 'standard output' bash -c '"$MANGATA" info >/dev/full'
+    expect 73 'standard output' bash -c '"$MANGATA" scene schema >/dev/full'
+    [[ $("$MANGATA" scene schema 2>&1 >/dev/full | wc -l) == 1 ]] || fail "scene schema >/dev/full: not one line"
 else
     echo "NOTICE: no /dev/full here; a full standard output was not tested"
 fi
