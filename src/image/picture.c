@@ -5,13 +5,11 @@
 #include "image/picture.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
+#include "base/regular_file.h"
 #include "image/picture_formats.h"
 
 picture_format picture_format_of(const char *path)
@@ -34,26 +32,13 @@ picture_format picture_format_of(const char *path)
 file_status input_file_open(input_file *input, const char *path, file_error *error)
 {
     *input = (input_file){.path = path};
-    struct stat info;
-    /* Not to wait for the other end of a named pipe. */
-    int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (descriptor < 0)
-        return file_error_errno(error, FILE_MISSING, path, "cannot read", errno);
-    if (fstat(descriptor, &info) != 0) {
-        file_status status = file_error_errno(error, FILE_MISSING, path, "cannot read", errno);
-        close(descriptor);
-        return status;
-    }
-    if (!S_ISREG(info.st_mode)) {
-        close(descriptor);
-        return file_error_set(error, FILE_BAD, "%s: is %s", path, S_ISDIR(info.st_mode) ? "a directory" : "not a regular file");
-    }
-    input->size = (uint64_t)info.st_size;
-    input->stream = fdopen(descriptor, "rb");
-    if (!input->stream) {
-        close(descriptor);
-        return file_error_errno(error, FILE_MEMORY, path, NULL, ENOMEM);
-    }
+    regular_file file;
+    if (!regular_file_open(&file, path))
+        return file.fault == REGULAR_FILE_MISSING  ? file_error_errno(error, FILE_MISSING, path, "cannot read", errno)
+               : file.fault == REGULAR_FILE_MEMORY ? file_error_errno(error, FILE_MEMORY, path, NULL, ENOMEM)
+                                                   : file_error_set(error, FILE_BAD, "%s: %s", path, file.what);
+    input->size = file.size;
+    input->stream = file.stream;
     return FILE_OK;
 }
 

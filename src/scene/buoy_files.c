@@ -5,13 +5,12 @@
 #include "scene/buoy_files.h"
 
 #include <ctype.h>
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
+#include "scene/scene_text.h"
 #include "scene/spectrum_math.h"
 
 enum { MAX_BYTES = 16 * 1024 * 1024, BINS = 256, DIRECTIONS = 72, PATH_SIZE = 4096 };
@@ -28,39 +27,11 @@ static bool refuse_file(scene_error *error, scene_error_kind kind, const char *p
 
 char *buoy_file_read(const char *path, size_t *length, scene_error *error)
 {
-    struct stat status;
-    char *text = NULL;
-    FILE *stream = fopen(path, "rbe");
-    if (stream == NULL) {
-        refuse_file(error, SCENE_ERROR_MISSING_INPUT, path, strerror(errno));
-        return NULL;
-    }
-    if (fstat(fileno(stream), &status) == 0 && S_ISDIR(status.st_mode)) {
-        refuse_file(error, SCENE_ERROR_MISSING_INPUT, path, "is a directory");
-        goto fail;
-    }
-    text = malloc(MAX_BYTES + 2);
-    if (text == NULL) {
-        scene_error_memory(error);
-        goto fail;
-    }
-    *length = fread(text, 1, MAX_BYTES + 1, stream);
-    if (ferror(stream)) {
-        refuse_file(error, SCENE_ERROR_MISSING_INPUT, path, strerror(errno));
-        goto fail;
-    }
-    if (*length > MAX_BYTES) {
-        refuse_file(error, SCENE_ERROR_BAD_SCENE, path, "is larger than 16 MiB");
-        goto fail;
-    }
-    text[*length] = '\0';
-    fclose(stream);
+    regular_file read;
+    char *text = regular_file_read(&read, path, false, MAX_BYTES, "is larger than 16 MiB", length);
+    if (text == NULL)
+        refuse_file(error, scene_error_of_fault(read.fault), path, read.what);
     return text;
-
-fail:
-    free(text);
-    fclose(stream);
-    return NULL;
 }
 
 /* ---- words -------------------------------------------------------------------------------------------------- */

@@ -3,7 +3,6 @@
  * Meshes from PLY files (Stanford triangle format), text or binary. Read here rather than by assimp, which waits forever for the rest of a file that is
  * cut off in its header.
  */
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -329,25 +328,13 @@ bool ply_parse(mesh_data *out, const char *bytes, size_t length, const char *nam
 bool ply_load(scene_model *out, const char *path, bool dry, model_fault *fault)
 {
     mesh_data mesh = {0};
-    bool good = false;
-    FILE *stream = fopen(path, "rbe");
-    if (stream == NULL) {
-        model_fault_set(fault, SCENE_ERROR_MISSING_INPUT, "%s: %s; allowed: a PLY file", scene_file_name(path).text, strerror(errno));
-        return false;
-    }
-    fseeko(stream, 0, SEEK_END);
-    const off_t end = ftello(stream);
-    const size_t length = end > 0 ? (size_t)end : 0;
-    rewind(stream);
-    char *bytes = malloc(length + 1);
+    regular_file read;
+    size_t length = 0;
+    char *bytes = regular_file_read(&read, path, false, (size_t)8 << 30, "is larger than 8 GiB", &length);
     if (bytes == NULL)
-        model_fault_memory(fault);
-    else if (fread(bytes, 1, length, stream) != length)
-        model_fault_set(fault, SCENE_ERROR_MISSING_INPUT, "%s: cannot be read; allowed: a PLY file", scene_file_name(path).text);
-    else
-        good = ply_parse(&mesh, bytes, length, path, fault);
+        return model_fault_set(fault, scene_error_of_fault(read.fault), "%s: %s; allowed: a PLY file", scene_file_name(path).text, read.what);
+    bool good = ply_parse(&mesh, bytes, length, path, fault);
     free(bytes);
-    fclose(stream);
     if (!good)
         return false;
     good = model_of_mesh(out, &mesh, scene_file_name(path).text, dry, fault);

@@ -2,14 +2,14 @@
  *
  * Textures from PNG and JPEG files, and from the bytes of one inside a mesh's file.
  */
-#include <errno.h>
 #include <spng.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <turbojpeg.h>
 
+#include "base/regular_file.h"
 #include "scene/model.h"
+#include "scene/scene_text.h"
 
 enum { TEXTURE_SIDE = 16384, TEXTURE_BYTES = 512 * 1024 * 1024 };
 
@@ -116,34 +116,15 @@ mgt_texture *texture_parse(const void *bytes, size_t length, const char *name, u
 
 mgt_texture *texture_load(const char *path, uint64_t *hash, model_fault *fault)
 {
-    struct stat status;
-    mgt_texture *texture = NULL;
-    void *bytes = NULL;
-    /* A pipe would make opening it wait. */
-    if (stat(path, &status) == 0 && !S_ISREG(status.st_mode)) {
-        refuse(fault, path, "is no regular file");
+    regular_file read;
+    size_t length = 0;
+    char *bytes = regular_file_read(&read, path, false, TEXTURE_BYTES, "is larger than 512 MiB", &length);
+    if (bytes == NULL) {
+        refuse(fault, path, read.what);
+        fault->kind = scene_error_of_fault(read.fault);
         return NULL;
     }
-    FILE *stream = fopen(path, "rbe");
-    if (stream == NULL) {
-        refuse(fault, path, strerror(errno));
-        fault->kind = SCENE_ERROR_MISSING_INPUT;
-        return NULL;
-    }
-    if (fstat(fileno(stream), &status) != 0 || status.st_size > TEXTURE_BYTES) {
-        refuse(fault, path, "is larger than 512 MiB");
-        goto done;
-    }
-    const size_t size = (size_t)status.st_size;
-    bytes = malloc(size + 1);
-    if (bytes == NULL)
-        model_fault_memory(fault);
-    else if (fread(bytes, 1, size, stream) != size)
-        refuse(fault, path, "cannot be read");
-    else
-        texture = texture_parse(bytes, size, path, hash, fault);
-done:
+    mgt_texture *texture = texture_parse(bytes, length, path, hash, fault);
     free(bytes);
-    fclose(stream);
     return texture;
 }

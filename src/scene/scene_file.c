@@ -4,10 +4,8 @@
  */
 #include "scene/scene_file.h"
 
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "params/options.h"
 #include "scene/scene_edit.h"
@@ -15,8 +13,9 @@
 #include "scene/scene_path.h"
 #include "scene/scene_read.h"
 #include "scene/scene_sea.h"
+#include "scene/scene_text.h"
 
-enum { MAX_BYTES = 16 * 1024 * 1024, FIRST_BYTES = 64 * 1024 };
+enum { MAX_BYTES = 16 * 1024 * 1024 };
 
 struct scene_file {
     char *path;
@@ -26,54 +25,11 @@ struct scene_file {
 
 /* ---- loading -------------------------------------------------------------------------------------------- */
 
+static const char TOO_LARGE[] = "is larger than 16 MiB";
+
 static bool refuse_file(scene_error *error, scene_error_kind kind, const char *path, const char *what)
 {
     return scene_error_set(error, kind, "%s: %s; allowed: a YAML or JSON file of at most 16 MiB", scene_file_name(path).text, what);
-}
-
-/* The whole file into memory of the caller's; NULL on failure. */
-static char *read_whole_file(const char *path, size_t *length, scene_error *error)
-{
-    char *text = NULL;
-    size_t size = FIRST_BYTES, used = 0;
-    struct stat status;
-    FILE *stream = fopen(path, "rbe");
-    if (stream == NULL) {
-        refuse_file(error, SCENE_ERROR_MISSING_INPUT, path, strerror(errno));
-        return NULL;
-    }
-    if (fstat(fileno(stream), &status) == 0 && S_ISDIR(status.st_mode)) {
-        refuse_file(error, SCENE_ERROR_MISSING_INPUT, path, "is a directory");
-        goto fail;
-    }
-    for (;;) {
-        char *more = realloc(text, size);
-        if (more == NULL) {
-            scene_error_memory(error);
-            goto fail;
-        }
-        text = more;
-        used += fread(text + used, 1, size - used, stream);
-        if (ferror(stream)) {
-            refuse_file(error, SCENE_ERROR_MISSING_INPUT, path, strerror(errno));
-            goto fail;
-        }
-        if (used < size)
-            break;
-        if (used > MAX_BYTES) {
-            refuse_file(error, SCENE_ERROR_BAD_SCENE, path, "is larger than 16 MiB");
-            goto fail;
-        }
-        size = 2 * size < MAX_BYTES ? 2 * size : MAX_BYTES + 1;
-    }
-    fclose(stream);
-    *length = used;
-    return text;
-
-fail:
-    free(text);
-    fclose(stream);
-    return NULL;
 }
 
 scene_file *scene_file_parse_like(const scene_values *like, const char *text, size_t length, const char *name, const char *const *overrides,
@@ -85,7 +41,7 @@ scene_file *scene_file_parse_like(const scene_values *like, const char *text, si
     if (error != NULL)
         *error = (scene_error){0};
     if (length > MAX_BYTES) {
-        refuse_file(error, SCENE_ERROR_BAD_SCENE, name, "is larger than 16 MiB");
+        refuse_file(error, SCENE_ERROR_BAD_SCENE, name, TOO_LARGE);
         return NULL;
     }
     tree.root = tree_parse(&tree, text, length, NULL, error);
@@ -130,9 +86,13 @@ scene_file *scene_file_load(const char *path, const char *const *overrides, size
         scene_error_set(error, SCENE_ERROR_MISSING_INPUT, "the scene's file name is empty; allowed: the path of a YAML or JSON file");
         return NULL;
     }
-    char *text = read_whole_file(path, &length, error);
-    if (text == NULL)
+    regular_file read;
+    char *text = regular_file_read(&read, path, true, MAX_BYTES, TOO_LARGE, &length);
+    if (text == NULL) {
+        refuse_file(error, scene_error_of_fault(read.fault), path,
+                    read.fault == REGULAR_FILE_OTHER ? "is no regular file (standard input is \"-\")" : read.what);
         return NULL;
+    }
     scene_file *file = scene_file_parse(text, length, path, overrides, override_count, error);
     free(text);
     return file;

@@ -29,7 +29,7 @@ typedef struct scene_error {
     char text[512];
 } scene_error;
 
-/* Reads and checks a scene file of at most 16 MiB. Each override is "key=value": the key a path in the format
+/* Reads and checks a scene file of at most 16 MiB; "-" is standard input. A named pipe or a device is refused. Each override is "key=value": the key a path in the format
  * ("light.elevation_deg", "water.waves[0].amplitude", "camera.position", "camera.position[1]"), the value a piece of
  * YAML ("3", "[0, 5, 0]", "{model: black}"); they are applied in order, before defaults are filled in, so that
  * "light.body=moon" brings the moon's radius along. A list index may be one past the end (append).

@@ -76,6 +76,19 @@ bool scene_error_set(scene_error *error, scene_error_kind kind, const char *form
 
 bool scene_error_memory(scene_error *error) { return scene_error_set(error, SCENE_ERROR_MEMORY, "out of memory while reading the scene"); }
 
+scene_error_kind scene_error_of_fault(regular_file_fault fault)
+{
+    switch (fault) {
+    case REGULAR_FILE_MEMORY:
+        return SCENE_ERROR_MEMORY;
+    case REGULAR_FILE_MISSING:
+    case REGULAR_FILE_FOLDER:
+        return SCENE_ERROR_MISSING_INPUT;
+    default:
+        return SCENE_ERROR_BAD_SCENE;
+    }
+}
+
 scene_quote scene_quote_text(const char *text, size_t length)
 {
     scene_quote quote;

@@ -9,6 +9,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "base/regular_file.h"
 #include "scene/scene_file.h"
 
 #define SCENE_FORMAT(string, first) __attribute__((format(printf, string, first)))
@@ -33,6 +34,9 @@ typedef struct scene_place {
 bool scene_error_set(scene_error *error, scene_error_kind kind, const char *format, ...) SCENE_FORMAT(3, 4);
 bool scene_error_set_va(scene_error *error, scene_error_kind kind, const char *format, va_list arguments) SCENE_FORMAT(3, 0);
 bool scene_error_memory(scene_error *error);
+
+/* Of a file that cannot be read. */
+scene_error_kind scene_error_of_fault(regular_file_fault fault);
 
 /* Control characters replaced, cut to about 60 characters with "..." where longer. */
 scene_quote scene_quote_text(const char *text, size_t length);

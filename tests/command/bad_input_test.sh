@@ -53,6 +53,23 @@ refused 65 '^scene.yaml' scene.yaml
 head -c 300 "$SOURCE/scenes/sunset.json" >scene.yaml
 refused 65 '^scene.yaml:[0-9]+:[0-9]+: ' scene.yaml
 
+# A named pipe or a device is refused at once, whatever it stands for; standard input is "-".
+mkfifo pipe.yaml
+refused 65 '^pipe.yaml: is no regular file .standard input is "-".; allowed: ' pipe.yaml
+refused 65 '^/dev/zero: is no regular file' /dev/zero
+expect 65 '^pipe.yaml: is no regular file' "$MANGATA" scene check pipe.yaml
+expect 65 '^pipe.yaml: is no regular file' "$MANGATA" bench pipe.yaml
+expect 65 '^pipe.yaml: is no regular file' "$MANGATA" waves --base pipe.yaml
+expect 65 'pipe.yaml: is no regular file' "$MANGATA" waves --buoy pipe.yaml
+expect 65 'pipe.yaml: is no regular file' "$MANGATA" diff pipe.yaml pipe.yaml
+printf 'mangata: 1\nwater: {choppiness: 3}\n' >bad.yaml
+from() { # CODE PATTERN FILE COMMAND…
+    expect "$1" "$2" bash -c 'exec "${@:2}" <"$1"' bash "${@:3}"
+}
+from 65 '^-:2:21: water.choppiness is 3; allowed: ' bad.yaml "$MANGATA" scene check -
+from 65 '^-' /dev/null "$MANGATA" scene check -
+from 0 '' "$simple" "$MANGATA" scene check -
+
 # Objects: the file that is missing or broken is named, at the place that names it.
 cp "$SOURCE/scenes/models/rock.ply" "$SOURCE/scenes/models/sand.png" .
 head -c 300 rock.ply >cut.ply

@@ -22,6 +22,13 @@ stops INT 130 a.y4m "${long[@]}" --frames 0-9
 stops TERM 143 b.y4m --frames 0-99999 --size 640x360 "${null[@]}"
 command -v ffmpeg >/dev/null && stops INT 130 b.mp4 --frames 0-99999 --size 640x360 "${null[@]}"
 
+# While a scene is read from a pipe that stays open.
+timeout -s TERM -k 20 --preserve-status 1 "$MANGATA" render - -o pipe.png < <(exec sleep 3) 2>stderr.txt
+result=$?
+((result == 143)) || fail "reading a scene: exit code $result: $(cat stderr.txt)"
+(($(wc -l <stderr.txt) == 1)) || fail "reading a scene: $(cat stderr.txt)"
+[[ ! -e pipe.png ]] || fail "reading a scene left a picture"
+
 # Killed at once: what has a final name can be read to its end.
 mkdir kill
 for ((i = 0; i < 6; i++)); do
