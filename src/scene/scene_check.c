@@ -120,9 +120,7 @@ static bool check_wind(const scene_tree *tree, const scene_water *water, scene_e
 static bool check_foam(const scene_tree *tree, const scene_water *water, scene_error *error)
 {
     const tree_node *foam = tree_get(tree_get(tree->root, "water"), "foam"), *amount = tree_get(foam, "amount"), *share = tree_get(foam, "share");
-    if (amount == NULL || !(water->foam.amount > 0))
-        return true;
-    if (share == NULL || !(water->foam.share > 0))
+    if (amount == NULL || !(water->foam.amount > 0) || share == NULL || !(water->foam.share > 0))
         return true;
     return tree_error(tree, share->key_source != NULL ? share->key_source : share->source, share->key_place, error,
                       "water.foam.share stands beside water.foam.amount; allowed: one of them");

@@ -39,6 +39,18 @@ static bool warn_of_wave(const scene_tree *tree, const scene_water *water, scene
     return true;
 }
 
+static bool warn_of_foam(const scene_tree *tree, const scene_water *water, scene_error *warning)
+{
+    const tree_node *foam = tree_get(tree_get(tree->root, "water"), "foam"), *amount = tree_get(foam, "amount");
+    const tree_node *node = amount != NULL ? amount : foam;
+    if (amount != NULL && water->foam.amount > 0 && !(scene_water_wind(water) > 0))
+        return tree_error(tree, node->source, node->place, warning,
+                          "water.foam.amount follows the wind, and these waves have none: no foam is drawn; water.foam.share says how much there is");
+    if (foam != NULL && scene_water_foam(water) > 0 && !(water->choppiness > 0))
+        return tree_error(tree, node->source, node->place, warning, "foam is on water that is pressed together: without water.choppiness none is drawn");
+    return true;
+}
+
 static const tree_node *camera_node(const scene_tree *tree)
 {
     const tree_node *mapping = tree_get(tree->root, "camera"), *path = tree_get(mapping, "path"), *position = tree_get(mapping, "position");
@@ -67,5 +79,5 @@ static bool warn_of_camera(const scene_tree *tree, const scene_values *values, s
 
 bool scene_warn(const scene_tree *tree, const scene_values *values, scene_error *warning)
 {
-    return warn_of_wave(tree, &values->water, warning) && warn_of_camera(tree, values, warning);
+    return warn_of_wave(tree, &values->water, warning) && warn_of_foam(tree, &values->water, warning) && warn_of_camera(tree, values, warning);
 }

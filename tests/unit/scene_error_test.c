@@ -475,6 +475,11 @@ static void scenes_hardly_meant_are_warned_of(void **state)
          "s.yaml:3:13: in frame 0 a wave stands 3 m over the mean surface at the camera, which is at 2 m"},
         {"mangata: 1\ncamera: {position: [0, -2, 0], target: [0, -3, -9]}\nwater:\n  waves:\n    - {amplitude: 3, a: 0.1, b: 0, c: 0.5, phase: -1.5707963}\n",
          "s.yaml:2:20: in frame 0 a wave stands 3 m under the mean surface at the camera, which is at -2 m"},
+        {"mangata: 1\nwater:\n  choppiness: 0.5\n  waves: [{amplitude: 0.1, a: 1, b: 0, c: 1}]\n  foam: {amount: 1}\n",
+         "s.yaml:5:18: water.foam.amount follows the wind"},
+        {"mangata: 1\nwater:\n  waves: [{amplitude: 0.1, a: 1, b: 0, c: 1}]\n  foam: {share: 0.1}\n", "s.yaml:4:9: foam is on water that is pressed together"},
+        {"mangata: 1\nwater:\n  choppiness: 0.5\n  waves: [{amplitude: 0.1, a: 1, b: 0, c: 1}]\n  foam: {share: 0.1}\n", NULL},
+        {"mangata: 1\nwater: {wind: 12}\n", NULL},
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
         scene_file *file;
