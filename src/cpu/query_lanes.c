@@ -82,6 +82,30 @@ static inline wide turns_at(const water_terms *w, int i, wide x, wide z)
     return p - ((p + rounder) - rounder);
 }
 
+/* The places of a group. */
+typedef struct wide_places {
+    wide x[HALVES], z[HALVES];
+} wide_places;
+
+static inline wide_places load_places(const double *x, const double *z)
+{
+    wide_places p;
+    for (int half = 0; half < HALVES; half++) {
+        p.x[half] = wide_load(x + half * WIDE);
+        p.z[half] = wide_load(z + half * WIDE);
+    }
+    return p;
+}
+
+/* Turns of a wave there, rounded to single precision last. */
+static inline real turns_of(const water_terms *w, int i, const wide_places *p)
+{
+    wide turns[HALVES];
+    for (int half = 0; half < HALVES; half++)
+        turns[half] = turns_at(w, i, p->x[half], p->z[half]);
+    return real_of_wides(turns);
+}
+
 static inline void store_sum(double to[MGT_LANES], real sum)
 {
     float single[MGT_LANES];
@@ -94,16 +118,9 @@ static inline void store_sum(double to[MGT_LANES], real sum)
 static inline __attribute__((always_inline)) void sum_single(const water_terms *w, query_group *g, bool moving)
 {
     real height = real_broadcast(0), slope_x = height, slope_z = height, rise = height;
-    wide x[HALVES], z[HALVES];
-    for (int half = 0; half < HALVES; half++) {
-        x[half] = wide_load(g->x + half * WIDE);
-        z[half] = wide_load(g->z + half * WIDE);
-    }
+    const wide_places places = load_places(g->x, g->z);
     for (int i = 0; i < w->count; i++) {
-        wide turns[HALVES];
-        for (int half = 0; half < HALVES; half++)
-            turns[half] = turns_at(w, i, x[half], z[half]);
-        const SinCos t = sincos_turns(NULL, real_of_wides(turns));
+        const SinCos t = sincos_turns(NULL, turns_of(w, i, &places));
         height = real_fma(t.s, real_broadcast(w->single[i].up), height);
         slope_x = real_fma(t.c, real_broadcast(w->single[i].lean_x), slope_x);
         slope_z = real_fma(t.c, real_broadcast(w->single[i].lean_z), slope_z);
@@ -196,11 +213,9 @@ typedef struct start_turns {
 
 static void place_turns(const water_terms *w, const rest_group *g, start_turns *to)
 {
+    const wide_places places = load_places(g->x, g->z);
     for (int i = 0; i < w->count; i++) {
-        wide turns[HALVES];
-        for (int half = 0; half < HALVES; half++)
-            turns[half] = turns_at(w, i, wide_load(g->x + half * WIDE), wide_load(g->z + half * WIDE));
-        const real single = real_of_wides(turns);
+        const real single = turns_of(w, i, &places);
         __builtin_memcpy(to->of[i], &single, sizeof single);
     }
 }
@@ -234,16 +249,9 @@ static inline void rest_single(const water_terms *w, rest_group *g)
     const real zero = real_broadcast(0);
     real height = zero, slope_x = zero, slope_z = zero, rise = zero, shift_x = zero, shift_z = zero, drift_x = zero, drift_z = zero;
     real xx = zero, xz = zero, zz = zero, bend_xx = zero, bend_xz = zero, bend_zz = zero, xxx = zero, xxz = zero, xzz = zero, zzz = zero;
-    wide x[HALVES], z[HALVES];
-    for (int half = 0; half < HALVES; half++) {
-        x[half] = wide_load(g->x + half * WIDE);
-        z[half] = wide_load(g->z + half * WIDE);
-    }
+    const wide_places places = load_places(g->x, g->z);
     for (int i = 0; i < w->count; i++) {
-        wide turns[HALVES];
-        for (int half = 0; half < HALVES; half++)
-            turns[half] = turns_at(w, i, x[half], z[half]);
-        const SinCos t = sincos_turns(NULL, real_of_wides(turns));
+        const SinCos t = sincos_turns(NULL, turns_of(w, i, &places));
         height = real_fma(t.s, real_broadcast(w->single[i].up), height);
         slope_x = real_fma(t.c, real_broadcast(w->single[i].lean_x), slope_x);
         slope_z = real_fma(t.c, real_broadcast(w->single[i].lean_z), slope_z);

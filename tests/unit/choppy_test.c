@@ -19,6 +19,7 @@
 #include "params/methods.h"
 #include "reference/equations.h"
 
+#include "unit/depth_picture.h"
 #include "unit/random_numbers.h"
 
 #include "unit/kernel_lane.h"
@@ -198,17 +199,9 @@ enum { WIDTH = 96, HEIGHT = 54 };
 
 static void depth_of(mgt_scene scene, mgt_method method, float depth[WIDTH * HEIGHT])
 {
-    mgt_context *context = NULL;
-    assert_int_equal(mgt_context_create(&context, NULL), MGT_OK);
     scene.image = (mgt_image){.width = WIDTH, .height = HEIGHT};
     scene.quality.method = method;
-    mgt_target target;
-    mgt_target_init(&target, sizeof target);
-    target.layer = MGT_LAYER_DEPTH;
-    target.format = MGT_FORMAT_R32F;
-    target.pixels = depth;
-    assert_int_equal(mgt_render(context, &scene, &target, 1), MGT_OK);
-    mgt_context_destroy(context);
+    render_depth(&scene, depth);
 }
 
 static void rays_meet_choppy_water_first(void **state)

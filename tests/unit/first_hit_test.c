@@ -16,6 +16,7 @@
 #include "mangata/mangata.h"
 #include "reference/equations.h"
 #include "scene/scene_file.h"
+#include "unit/depth_picture.h"
 
 enum { WIDTH = 160, HEIGHT = 90, SAMPLES = 1500 };
 
@@ -31,25 +32,17 @@ static scene_file *load(const char *name, mgt_scene *scene)
     return file;
 }
 
-static void render_depth(mgt_scene scene, mgt_method method, float *depth)
+static void depth_by(mgt_scene scene, mgt_method method, float *depth)
 {
-    mgt_context *context = NULL;
-    assert_int_equal(mgt_context_create(&context, NULL), MGT_OK);
     scene.quality = (mgt_quality){.method = method, .spatial_samples = 1, .time_samples = 1};
-    mgt_target target;
-    mgt_target_init(&target, sizeof target);
-    target.layer = MGT_LAYER_DEPTH;
-    target.format = MGT_FORMAT_R32F;
-    target.pixels = depth;
-    assert_int_equal(mgt_render(context, &scene, &target, 1), MGT_OK);
-    mgt_context_destroy(context);
+    render_depth(&scene, depth);
 }
 
 /* Per cent of sampled pixels that are off by more than max(1%, 5 mm). */
 static double share_off(const mgt_scene *scene, mgt_method method)
 {
     static float depth[WIDTH * HEIGHT];
-    render_depth(*scene, method, depth);
+    depth_by(*scene, method, depth);
     int off = 0;
     for (int i = 0; i < SAMPLES; i++) {
         /* A stride that shares no factor with the number of pixels visits each once. */

@@ -15,32 +15,11 @@
 #include "scene/scene_edit.h"
 #include "scene/scene_sea.h"
 #include "scene/spectrum_math.h"
-
-static void assert_near(double value, double expected, double relative)
-{
-    if (!(fabs(value - expected) <= relative * fabs(expected)))
-        fail_msg("%.10g is not %.10g within %g", value, expected, relative);
-}
+#include "unit/test_spectrum.h"
 
 static spectrum_settings settings_of(spectrum_kind kind, double wind)
 {
     return (spectrum_settings){.kind = kind, .wind = wind, .fetch = 1e5, .gamma = 3.3, .directions = DIRECTIONS_HASSELMANN, .spread = 10};
-}
-
-static wave_spectrum make(const spectrum_settings *settings)
-{
-    wave_spectrum s;
-    spectrum_fault fault = {0};
-    if (!wave_spectrum_make(&s, settings, NULL, &fault))
-        fail_msg("%s %s", fault.key, fault.text);
-    return s;
-}
-
-static sea_statistics statistics(const wave_spectrum *s)
-{
-    sea_statistics result;
-    assert_true(spectrum_statistics(s, &result));
-    return result;
 }
 
 /* ---- functions ---------------------------------------------------------------------------------------------- */

@@ -12,16 +12,11 @@
 
 #include "scene/scene_fields.h"
 #include "scene/spectrum_sample.h"
+#include "unit/test_spectrum.h"
 
 static const double PI = 3.14159265358979323846, G = 9.80665;
 static const double winds[] = {3, 5, 7, 10, 12, 15};
 enum { WINDS = sizeof winds / sizeof winds[0] };
-
-static void assert_near(double value, double expected, double relative)
-{
-    if (!(fabs(value - expected) <= relative * fabs(expected)))
-        fail_msg("%.10g is not %.10g within %g", value, expected, relative);
-}
 
 static void assert_between(const char *what, double value, double low, double high)
 {
@@ -59,21 +54,9 @@ static moments plain_moments(double wind, double age, double shortest)
     return sum;
 }
 
-static wave_spectrum make(double wind, double fetch, double shortest)
+static wave_spectrum unified(double wind, double fetch, double shortest)
 {
-    const spectrum_settings settings = {.kind = SPECTRUM_ELFOUHAILY, .wind = wind, .fetch = fetch, .shortest = shortest};
-    wave_spectrum s;
-    spectrum_fault fault = {0};
-    if (!wave_spectrum_make(&s, &settings, NULL, &fault))
-        fail_msg("%s %s", fault.key, fault.text);
-    return s;
-}
-
-static sea_statistics statistics(const wave_spectrum *s)
-{
-    sea_statistics result;
-    assert_true(spectrum_statistics(s, &result));
-    return result;
+    return make(&(spectrum_settings){.kind = SPECTRUM_ELFOUHAILY, .wind = wind, .fetch = fetch, .shortest = shortest});
 }
 
 static void it_has_the_moments_of_its_formulas(void **state)
@@ -83,7 +66,7 @@ static void it_has_the_moments_of_its_formulas(void **state)
     static const double shortest[] = {0.05, 0.002};
     for (int i = 0; i < WINDS; i++)
         for (int k = 0; k < 6; k++) {
-            const wave_spectrum s = make(winds[i], fetches[k % 3], shortest[k / 3]);
+            const wave_spectrum s = unified(winds[i], fetches[k % 3], shortest[k / 3]);
             const moments expected = plain_moments(winds[i], unified_age(winds[i], fetches[k % 3]), shortest[k / 3]);
             const sea_statistics found = statistics(&s);
             assert_near(found.height, 4 * sqrt(expected.height), 1e-5);
@@ -96,7 +79,7 @@ static void its_slopes_are_those_of_a_clean_sea(void **state)
 {
     (void)state;
     for (int i = 0; i < WINDS; i++) {
-        const wave_spectrum s = make(winds[i], 0, 1e-3);
+        const wave_spectrum s = unified(winds[i], 0, 1e-3);
         const sea_statistics sea = statistics(&s);
         const cox_munk clean = cox_munk_slopes(wind_at_height(winds[i], 10, 12.5));
         assert_between("slope over Cox and Munk's", sea.slope / clean.total, 1, winds[i] < 5 ? 1.25 : 1.12);
@@ -110,7 +93,7 @@ static void a_developed_sea_has_the_known_height(void **state)
 {
     (void)state;
     for (int i = 0; i < WINDS; i++) {
-        const wave_spectrum s = make(winds[i], 0, 0.05), long_fetch = make(winds[i], 1e7, 0.05);
+        const wave_spectrum s = unified(winds[i], 0, 0.05), long_fetch = unified(winds[i], 1e7, 0.05);
         const double unit = winds[i] * winds[i] / G, height = statistics(&s).height / unit;
         assert_between("height over U²/g", height, 0.235, 0.235 * 1.12);
         assert_near(statistics(&long_fetch).height / unit, height, 0.05);
@@ -123,7 +106,7 @@ static void a_young_sea_grows_with_its_fetch(void **state)
 {
     (void)state;
     for (double fetch = 2e3; fetch < 1e5; fetch *= 2) {
-        const wave_spectrum s = make(10, fetch, 0.05);
+        const wave_spectrum s = unified(10, fetch, 0.05);
         assert_between("height over JONSWAP's", statistics(&s).height / (0.0016 * sqrt(G * fetch / 100) * 100 / G), 0.7, 1.3);
     }
     assert_near(unified_age(7, unified_fetch(7, 3)), 3, 1e-12);
@@ -134,7 +117,7 @@ static void a_young_sea_grows_with_its_fetch(void **state)
 static void it_spreads_as_published(void **state)
 {
     (void)state;
-    const wave_spectrum s = make(10, 0, 0.002);
+    const wave_spectrum s = unified(10, 0, 0.002);
     for (double k = 0.02; k < 3000; k *= 3) {
         const double f = dispersion_frequency(k, 0), c = sqrt(G / k * (1 + pow(k * 0.23 * 0.23 / (2 * G), 2))), cp = 10 / 0.84;
         const double delta = tanh(log(2) / 4 + 4 * pow(c / cp, 2.5) + 0.13 * s.unified.friction / 0.23 * pow(0.23 / c, 2.5));
@@ -154,7 +137,7 @@ static void its_waves_have_its_variances(void **state)
     (void)state;
     enum { COUNT = 200 };
     mgt_wave waves[COUNT];
-    wave_spectrum s = make(8, 1e5, 0.05);
+    wave_spectrum s = unified(8, 1e5, 0.05);
     const sea_statistics sea = statistics(&s);
     assert_true(spectrum_sample(&s, 3, COUNT, waves));
     const sea_statistics drawn = waves_statistics(waves, COUNT, s.downwind);
