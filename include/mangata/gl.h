@@ -46,7 +46,8 @@ typedef struct mgt_gl_view {
     uint32_t width, height;
     uint32_t framebuffer; /* name of yours with a colour and a depth attachment, multisampled or not; 0: the default one */
     mgt_gl_color color;
-    bool reversed_depth; /* nearer is greater: tested with GL_GEQUAL instead of GL_LEQUAL. Clip depth mode and depth range are yours */
+    bool reversed_depth; /* nearer is greater: tested with GL_GEQUAL instead of GL_LEQUAL. Clip depth mode and depth range are yours. What projection and
+                            depth range contradict is an MGT_ERROR_ARGUMENT */
     bool draw_sky;       /* fills what lies behind the far plane with the scene's sky and light; else only water is drawn */
     uint8_t reserved[6]; /* 0 */
 } mgt_gl_view;

@@ -36,7 +36,7 @@ mgt_status report_error(const reporter *r, mgt_status status, const char *id, co
     va_start(arguments, format);
     vsnprintf(r->error, REPORTER_TEXT, format, arguments);
     va_end(arguments);
-    send(r, MGT_LOG_ERROR, id, r->error);
+    send(r, status == MGT_CANCELLED ? MGT_LOG_INFO : MGT_LOG_ERROR, id, r->error);
     return status;
 }
 

@@ -14,7 +14,7 @@ typedef struct reporter {
 
 #define REPORTER_TEXT 512
 
-/* Writes the detail of a failure, logs it and returns `status`, so that callers can `return report_error(…)`. */
+/* Writes the detail of a failure, logs it, as an error unless it was asked for (MGT_CANCELLED), and returns `status`, so that callers can `return report_error(…)`. */
 mgt_status report_error(const reporter *r, mgt_status status, const char *id, const char *format, ...) __attribute__((format(printf, 4, 5)));
 void report(const reporter *r, mgt_log_level level, const char *id, const char *format, ...) __attribute__((format(printf, 4, 5)));
 

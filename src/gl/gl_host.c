@@ -164,6 +164,19 @@ static mgt_status check_framebuffer(const gl_api *gl, GLuint name, size_t index,
     return MGT_OK;
 }
 
+/* Water of a view whose matrix and flag contradict each other would fail the depth test nearly everywhere. */
+static mgt_status check_depth_order(const gl_api *gl, const checked_view *v, size_t index, const reporter *r)
+{
+    GLfloat range[2] = {0, 1};
+    gl->GetFloati_v(GL_DEPTH_RANGE, 0, range);
+    const double nearer = v->close.clip_offset * (double)(range[1] - range[0]); /* above 0: what is nearer has a greater depth */
+    if (!(v->view->reversed_depth ? nearer < 0 : nearer > 0))
+        return MGT_OK;
+    return report_error(r, MGT_ERROR_ARGUMENT, "render.view",
+                        "view %zu: reversed_depth is %s, but its projection and glDepthRange give nearer things a %s depth", index,
+                        v->view->reversed_depth ? "true" : "false", nearer > 0 ? "greater" : "smaller");
+}
+
 /* Between the two ends of the shutter, and before, rays and place move evenly; never through the water. */
 static camera_rays view_camera_at(const void *user, double share)
 {
@@ -262,6 +275,8 @@ static mgt_status render_view(gl_backend_state *s, const checked_view *v, size_t
     const mgt_gl_view *view = v->view;
     bool encodes = false;
     mgt_status status = check_framebuffer(&s->renderer->gl, view->framebuffer, index, &encodes, r);
+    if (status == MGT_OK)
+        status = check_depth_order(&s->renderer->gl, v, index, r);
     if (status == MGT_OK)
         status = gl_sky_prepare(s->renderer, &v->scene, r);
     if (status != MGT_OK)

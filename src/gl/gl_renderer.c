@@ -16,6 +16,8 @@ static mgt_status check_version(const gl_api *gl, const reporter *r)
     gl->GetIntegerv(GL_MINOR_VERSION, &minor);
     if (major > 4 || (major == 4 && minor >= 5))
         return MGT_OK;
+    if (major == 0) /* functions that no context answers leave what was there */
+        return report_error(r, MGT_ERROR_UNAVAILABLE, "context.gl", "no OpenGL context is current on this thread; one of 4.5 core or later is needed");
     return report_error(r, MGT_ERROR_UNAVAILABLE, "context.gl", "the OpenGL context has version %d.%d; 4.5 core or later is needed", major, minor);
 }
 

@@ -132,6 +132,10 @@ static void incomplete_hosts_are_refused(void **state)
     assert_int_equal(mgt_context_create(&context, &desc), MGT_ERROR_UNAVAILABLE);
     assert_null(context);
     assert_non_null(strstr(mgt_last_error(NULL), "glDispatchCompute"));
+    desc.gl_get_proc = gl_egl_get_proc; /* every function, and no context that is current */
+    assert_int_equal(mgt_context_create(&context, &desc), MGT_ERROR_UNAVAILABLE);
+    assert_null(context);
+    assert_non_null(strstr(mgt_last_error(NULL), "no OpenGL context is current on this thread"));
 }
 
 /* ---- layers ---- */

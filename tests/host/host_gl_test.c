@@ -666,6 +666,9 @@ static void wrong_views_are_refused(void **state)
     v.projection[11] = 0, v.projection[15] = 1;
     expect_refused(&e, v, MGT_ERROR_ARGUMENT, "an orthographic projection");
     v = good;
+    v.reversed_depth = true;
+    expect_refused(&e, v, MGT_ERROR_ARGUMENT, "reversed depth by a projection that reverses nothing");
+    v = good;
     v.view[0] *= 2;
     expect_refused(&e, v, MGT_ERROR_ARGUMENT, "a view that scales");
     v = good;

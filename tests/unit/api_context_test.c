@@ -244,6 +244,7 @@ static void progress_can_cancel(void **state)
     assert_int_equal(mgt_render(context, &slow, &target, 1), MGT_CANCELLED);
     assert_true(progress.in_order && progress.calls >= 2);
     assert_string_equal(log.id, "render.cancelled");
+    assert_int_equal(log.level, MGT_LOG_INFO); /* it was asked for */
     assert_string_equal(log.text, mgt_last_error(context));
 
     slow.quality = (mgt_quality){.method = MGT_METHOD_SSAA, .spatial_samples = 32, .time_samples = 4};
