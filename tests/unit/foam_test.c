@@ -202,6 +202,9 @@ static void folds_give_numbers(void **state)
         const Foam foam = foam_patterned(&b->cx, foam_shares(&b->cx, x, z, p, sight), x, z, p);
         assert_true(foam.share >= 0 && foam.share <= 1);
         assert_true(foam.white >= 0 && foam.white <= 1);
+        const float slopes[] = {1e30f, -1e30f, INFINITY, NAN}; /* at the horizon, where places are beyond numbers */
+        const vec3 light = foam_light(&b->cx, foam, (vec2){slopes[i % 4], 0.1f});
+        assert_true(isfinite(light.x) && isfinite(light.y) && isfinite(light.z));
     }
     kernel_bench_destroy(b);
 }
