@@ -205,8 +205,8 @@ static int run(void *place)
     bench b = {.request = request};
     if (!request->scene_path)
         return console_error(EXIT_CODE_USAGE, "no scene given; see mangata bench --help");
-    interrupt_install();
     int code = prepare(&b);
+    interrupt_install();
     if (code == EXIT_CODE_OK && request->memory)
         code = measure_memory(&b);
     if (code == EXIT_CODE_OK)

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "cli/common/console.h"
+#include "cli/common/interrupt.h"
 #include "cli/common/options.h"
 #include "cli/common/verbs.h"
 
@@ -69,4 +70,8 @@ static int run(int argc, char **argv)
     return console_error(EXIT_CODE_USAGE, "unknown %s %s; see mangata --help", word[0] == '-' ? "option" : "verb", word);
 }
 
-int main(int argc, char **argv) { return console_finish(run(argc, argv)); }
+int main(int argc, char **argv)
+{
+    interrupt_while_reading();
+    return console_finish(run(argc, argv));
+}

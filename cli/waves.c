@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "image/output_file.h"
+#include "cli/common/interrupt.h"
 #include "cli/common/numbers.h"
 #include "cli/common/options.h"
 #include "scene/scene_edit.h"
@@ -196,8 +197,10 @@ static int write_scene(const waves_request *r, const scene_values *values)
     int code = good ? EXIT_CODE_OK : console_error(EXIT_CODE_FAILED, "out of memory");
     if (good && !r->output) {
         fwrite(text, 1, size, stdout);
-    } else if (good && output_file_write_whole(r->output, text, size, &options, &error) != FILE_OK) {
-        code = console_file_error(&error);
+    } else if (good) {
+        interrupt_install(); /* nothing is left half written */
+        if (output_file_write_whole(r->output, text, size, &options, &error) != FILE_OK)
+            code = console_file_error(&error);
     }
     free(text);
     return code;

@@ -282,7 +282,9 @@ static int run(const view_request *request)
     v->request = request;
     v->settings = settings_defaults();
     glfwSetErrorCallback(on_glfw_error);
-    if (open_scene(v) && open_script(v)) {
+    const bool opened = open_scene(v) && open_script(v);
+    interrupt_install();
+    if (opened) {
         if (!glfwInit()) {
             v->exit_code = no_display();
         } else if (open_window(v) && viewer_start_rendering(v)) {
@@ -309,7 +311,7 @@ int main(int argc, char **argv)
     view_request request;
     int code = view_request_read(&request, argc - 1, argv + 1);
     if (code == EXIT_CODE_OK) {
-        interrupt_install();
+        interrupt_while_reading();
         code = run(&request);
     }
     view_request_free(&request);

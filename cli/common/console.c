@@ -8,8 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/common/interrupt.h"
-
 /* A file's name may hold anything; a message stays one line and sends nothing odd to a terminal. */
 static void print_line(const char *prefix, const char *format, va_list arguments)
 {
@@ -97,8 +95,6 @@ int exit_code_of_scene_error(scene_error_kind kind)
 
 int console_scene_error(const scene_error *error)
 {
-    if (*interrupt_flag())
-        return console_error(interrupt_exit_code(), "stopped while a scene was read");
     const int code = exit_code_of_scene_error(error->kind);
     if (error->kind != SCENE_ERROR_BAD_SCENE)
         return console_error(code, "%s", error->text);

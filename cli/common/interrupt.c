@@ -3,6 +3,7 @@
 #include "cli/common/interrupt.h"
 
 #include <stddef.h>
+#include <unistd.h>
 
 static volatile sig_atomic_t signal_that_came;
 
@@ -12,19 +13,35 @@ static void note_signal(int signal)
         signal_that_came = signal;
 }
 
-static void install(int number)
+static void end_at_once(int signal)
 {
-    struct sigaction old, action = {.sa_handler = note_signal};
+    static const char text[] = "mangata: stopped while a file was read\n";
+    /* Nothing can be done where it fails. */
+    const ssize_t unused = write(STDERR_FILENO, text, sizeof text - 1);
+    (void)unused;
+    _exit(128 + signal);
+}
+
+static void install(int number, void (*handler)(int))
+{
+    struct sigaction old, action = {.sa_handler = handler};
     sigemptyset(&action.sa_mask);
     if (sigaction(number, NULL, &old) == 0 && old.sa_handler != SIG_IGN)
         sigaction(number, &action, NULL);
 }
 
+static void install_all(void (*handler)(int))
+{
+    install(SIGINT, handler);
+    install(SIGTERM, handler);
+    install(SIGHUP, handler);
+}
+
+void interrupt_while_reading(void) { install_all(end_at_once); }
+
 void interrupt_install(void)
 {
-    install(SIGINT);
-    install(SIGTERM);
-    install(SIGHUP);
+    install_all(note_signal);
     struct sigaction ignore = {.sa_handler = SIG_IGN};
     sigemptyset(&ignore.sa_mask);
     sigaction(SIGPIPE, &ignore, NULL);

@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* SIGINT, SIGTERM and SIGHUP as a flag, so that work stops at a clean place. */
+/* SIGINT, SIGTERM and SIGHUP: at once while files are read, then as a flag, so that work stops at a clean place. */
 #ifndef MANGATA_CLI_COMMON_INTERRUPT_H
 #define MANGATA_CLI_COMMON_INTERRUPT_H
 
 #include <signal.h>
 #include <stdbool.h>
+
+/* Until interrupt_install() a signal ends the process at once, with one line and 128 + its number: there is nothing to tidy up while files are read. */
+void interrupt_while_reading(void);
 
 /* Installs the handlers; a signal that the parent set to be ignored (nohup) stays ignored. SIGPIPE becomes a write error. */
 void interrupt_install(void);

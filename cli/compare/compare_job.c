@@ -304,13 +304,13 @@ static int print_end(const compare_job *job)
 int compare_open(compare_job *job, const compare_request *request, const char *page)
 {
     int code = EXIT_CODE_OK;
-    interrupt_install();
     job->request = request;
     job->frame_count = (size_t)frame_list_length(&request->frames);
     job->part_share = 1;
     job->output = (output_options){.overwrite = true, .cancel = interrupt_flag()};
     for (size_t s = 0; s < request->scene_count && code == EXIT_CODE_OK; s++)
         code = load_scene(job, s);
+    interrupt_install();
     if (code == EXIT_CODE_OK)
         code = context_open(&request->context, &request->out, on_progress, job, &job->context, &job->info);
     for (size_t s = 0; s < request->scene_count && code == EXIT_CODE_OK; s++)

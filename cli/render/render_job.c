@@ -357,6 +357,7 @@ static int run(render_job *job)
 {
     const double start = seconds_now();
     int code = load_scene(job);
+    interrupt_install();
     if (code == EXIT_CODE_OK)
         code = create_context(job);
     if (code == EXIT_CODE_OK)
@@ -378,7 +379,6 @@ int render_job_run(render_request *request)
     render_job *job = calloc(1, sizeof *job);
     if (!job)
         return console_error(EXIT_CODE_FAILED, "out of memory");
-    interrupt_install();
     job->request = request;
     job->output = (output_options){.overwrite = request->overwrite, .cancel = interrupt_flag()};
     if (request->out.json)

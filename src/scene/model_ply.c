@@ -332,7 +332,8 @@ bool ply_load(scene_model *out, const char *path, bool dry, model_fault *fault)
     size_t length = 0;
     char *bytes = regular_file_read(&read, path, false, (size_t)8 << 30, "is larger than 8 GiB", &length);
     if (bytes == NULL)
-        return model_fault_set(fault, scene_error_of_fault(read.fault), "%s: %s; allowed: a PLY file", scene_file_name(path).text, read.what);
+        return model_fault_set(fault, scene_error_of_fault(read.fault), "%s: %s%s; allowed: a PLY file", scene_file_name(path).text, read.what,
+                               read.fault == REGULAR_FILE_MISSING ? " (scripts/fetch_models gets those of the project's own scenes)" : "");
     bool good = ply_parse(&mesh, bytes, length, path, fault);
     free(bytes);
     if (!good)

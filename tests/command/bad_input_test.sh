@@ -81,7 +81,7 @@ refused 66 'scene.yaml:3:12: objects\[0\].mesh: nowhere.ply: No such file .*allo
 scene 'mangata: 1' 'objects:' '  - {mesh: cut.ply}'
 refused 65 '^scene.yaml:3:12: .*cut.ply: ends too early; allowed: ' scene.yaml
 scene 'mangata: 1' 'objects:' '  - {mesh: bad.obj}'
-refused 65 '^scene.yaml:3:12: .*bad.obj: ' scene.yaml
+refused 65 '^scene.yaml:3:12: .*bad.obj:2:1: ' scene.yaml
 scene 'mangata: 1' 'objects:' '  - {mesh: pipe.ply}'
 refused 65 '^scene.yaml:3:12: .*pipe.ply: is no regular file' scene.yaml
 scene 'mangata: 1' 'objects:' '  - {mesh: sand.png}'

@@ -29,6 +29,32 @@ result=$?
 (($(wc -l <stderr.txt) == 1)) || fail "reading a scene: $(cat stderr.txt)"
 [[ ! -e pipe.png ]] || fail "reading a scene left a picture"
 
+# While a large model is read, by the program and by the process that it starts: one line, and that process ends as well, however the first one does.
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\n' >large.obj
+for ((i = 0; i < 12; i++)); do echo 'f 1 2 3'; done >faces
+for ((i = 0; i < 16; i++)); do cat faces faces >more && mv more faces; done
+cat faces >>large.obj
+printf 'mangata: 1\nobjects:\n  - mesh: large.obj\n' >large.yaml
+readers() { pgrep -f "mangata-import large.obj $1 " | wc -l; }
+for signal in TERM KILL HUP; do
+    "$MANGATA" render large.yaml -o large.png 2>stderr.txt &
+    pid=$!
+    for ((i = 0; i < 100 && $(readers $pid) == 0; i++)); do sleep 0.05; done
+    (($(readers $pid) == 1)) || fail "$signal: no process reads the model"
+    start=$(date +%s%N)
+    kill -s "$signal" "$pid"
+    wait "$pid" 2>/dev/null
+    result=$?
+    (($(date +%s%N) - start < 1000000000)) || fail "$signal while a model was read: it took longer than a second"
+    case $signal in TERM) expected=143 ;; KILL) expected=137 ;; HUP) expected=129 ;; esac
+    ((result == expected)) || fail "$signal while a model was read: exit code $result: $(cat stderr.txt)"
+    [[ $signal == KILL ]] || (($(wc -l <stderr.txt) == 1)) || fail "$signal while a model was read: $(cat stderr.txt)"
+    for ((i = 0; i < 20 && $(readers $pid) > 0; i++)); do sleep 0.05; done
+    (($(readers $pid) == 0)) || fail "$signal: the process that reads the model lives on"
+    absent large.png
+done
+rm faces large.*
+
 # Killed at once: what has a final name can be read to its end.
 mkdir kill
 for ((i = 0; i < 6; i++)); do
