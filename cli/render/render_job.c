@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "image/file_whole.h"
 #include "image/video.h"
 #include "cli/common/interrupt.h"
 #include "cli/render/render_frame.h"
@@ -133,29 +134,38 @@ static int check_frames(render_job *job)
     return EXIT_CODE_OK;
 }
 
-/* Whether `path` is there already as these options would make it (*skip), or may be written; else the error.
- * The hash is read with --skip-existing only. */
-static int check_output(render_job *job, const char *path, const sha256_text *hash, bool *skip)
+/* What is to be done about one file. */
+typedef struct output_plan {
+    bool skip;             /* it is there already as these options would make it */
+    output_options output; /* else: how it may be written; with overwrite where it is damaged */
+} output_plan;
+
+/* Whether `path` is there already, or may be written; else the error. It is read with --skip-existing only, to its end where `whole` says so. */
+static int check_output(render_job *job, const char *path, const sha256_text *hash, bool whole, output_plan *plan)
 {
     file_error error;
-    *skip = false;
+    *plan = (output_plan){.output = job->output};
     if (job->request->skip_existing) {
-        char *recorded = NULL;
-        const file_status status = metadata_read(path, RENDER_HASH_KEY, &recorded, &error);
-        *skip = status == FILE_OK && recorded && strcmp(recorded, hash->text) == 0;
-        const bool same = *skip;
-        free(recorded);
-        if (same)
+        file_state state;
+        const file_status status = file_state_read(path, RENDER_HASH_KEY, hash->text, whole, &state, &error);
+        plan->skip = status == FILE_OK && state == FILE_STATE_SAME;
+        if (plan->skip)
             return EXIT_CODE_OK;
         if (status == FILE_MEMORY)
             return file_failure(job, &error);
-        if (status != FILE_MISSING && !job->request->overwrite) {
+        if (status == FILE_OK && state == FILE_STATE_DAMAGED) {
+            plan->output.overwrite = true;
+            if (whole) {
+                progress_clear(&job->progress);
+                console_note(&job->request->out, "%s: it is damaged and rendered again", path);
+            }
+        } else if (status != FILE_MISSING && !job->request->overwrite) {
             progress_clear(&job->progress);
             return console_error(EXIT_CODE_CANNOT_WRITE, "%s: it exists, but was not rendered from this scene with these options; --overwrite replaces it",
                                  path);
         }
     }
-    if (output_file_check(path, &job->output, &error) != FILE_OK)
+    if (output_file_check(path, &plan->output, &error) != FILE_OK)
         return file_failure(job, &error);
     return EXIT_CODE_OK;
 }
@@ -183,12 +193,12 @@ static int check_stills(render_job *job)
         const uint32_t frame = frame_list_at(&job->request->frames, i);
         char path[PATH_SIZE], number[16];
         sha256_text hash;
-        bool skip;
+        output_plan plan;
         int code = print_path(job, frame, path);
         if (code == EXIT_CODE_OK && job->request->skip_existing)
             code = hash_frame(job, frame, number, &hash);
         if (code == EXIT_CODE_OK)
-            code = check_output(job, path, &hash, &skip);
+            code = check_output(job, path, &hash, false, &plan);
         if (code != EXIT_CODE_OK)
             return code;
     }
@@ -237,27 +247,27 @@ static int render_still(render_job *job, uint32_t frame)
 {
     char path[PATH_SIZE], number[16];
     sha256_text hash;
-    bool skip = false;
+    output_plan plan = {0};
     /* Asked again here: another machine of a farm may have finished it meanwhile. */
     int code = print_path(job, frame, path);
     if (code == EXIT_CODE_OK)
         code = hash_frame(job, frame, number, &hash);
     if (code == EXIT_CODE_OK)
-        code = check_output(job, path, &hash, &skip);
+        code = check_output(job, path, &hash, true, &plan);
     if (code != EXIT_CODE_OK)
         return code;
     double time, seconds = 0;
-    if (!skip) {
+    if (!plan.skip) {
         code = render_frame(job, frame, &time, &seconds);
         if (code != EXIT_CODE_OK)
             return code;
         render_record record;
         file_error error;
         render_record_fill(&record, job->request, &job->info, &hash, number, time, seconds);
-        file_status status = frame_buffer_write(&job->buffer, job->request, path, &record.list, &job->output, &error);
+        file_status status = frame_buffer_write(&job->buffer, job->request, path, &record.list, &plan.output, &error);
         if (status == FILE_EXISTS && job->request->skip_existing) {
-            code = check_output(job, path, &hash, &skip);
-            if (code != EXIT_CODE_OK || skip)
+            code = check_output(job, path, &hash, true, &plan);
+            if (code != EXIT_CODE_OK || plan.skip)
                 status = FILE_OK;
         }
         if (status != FILE_OK)
@@ -265,7 +275,7 @@ static int render_still(render_job *job, uint32_t frame)
         if (code != EXIT_CODE_OK)
             return code;
     }
-    list_file(job, path, number, &hash, skip);
+    list_file(job, path, number, &hash, plan.skip);
     progress_frame_done(&job->progress, path, seconds);
     return EXIT_CODE_OK;
 }
@@ -292,11 +302,11 @@ static int render_film(render_job *job)
     sha256_text hash = sha256(r->frames.ranges, r->frames.count * sizeof r->frames.ranges[0]);
     if (!render_hash(r, job->canonical, &job->image, &job->info, hash.text, &hash))
         return console_error(EXIT_CODE_FAILED, "out of memory");
-    bool skip = false;
-    int code = check_output(job, path, &hash, &skip);
+    output_plan plan;
+    int code = check_output(job, path, &hash, true, &plan);
     if (code != EXIT_CODE_OK)
         return code;
-    if (skip) {
+    if (plan.skip) {
         list_file(job, path, frames, &hash, true);
         return EXIT_CODE_OK;
     }
@@ -310,7 +320,7 @@ static int render_film(render_job *job)
                              .height = job->buffer.height,
                              .frames_per_second = scene_file_fps(job->scene),
                              .metadata = &record.list,
-                             .output = job->output};
+                             .output = plan.output};
     video_writer *writer = NULL;
     file_error error;
     if (video_writer_open(&writer, path, &desc, &error) != FILE_OK)

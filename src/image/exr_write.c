@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "image/exr_names.h"
+#include "image/file_whole.h"
 #include "image/picture_formats.h"
 
 enum {
@@ -88,6 +89,11 @@ static exr_result_t write_header(exr_context_t context, uint32_t width, uint32_t
         char name[EXR_ATTRIBUTE_NAME_SIZE];
         exr_attribute_name(name, metadata->entries[i].key);
         code = exr_attr_set_string(context, part, name, metadata->entries[i].value);
+    }
+    if (metadata && !code) {
+        char name[EXR_ATTRIBUTE_NAME_SIZE];
+        exr_attribute_name(name, FILE_CHECK_KEY);
+        code = exr_attr_set_string(context, part, name, FILE_CHECK_NONE);
     }
     return code ? code : exr_write_header(context);
 }
@@ -189,6 +195,9 @@ file_status picture_write_exr(const char *path, uint32_t width, uint32_t height,
                                                  : file_error_set(error, FILE_WRITE, "%s: cannot encode: %s", path, exr_get_default_error_message(code));
         goto fail;
     }
+    status = metadata ? file_check_seal_exr(sink.file, path, error) : FILE_OK;
+    if (status != FILE_OK)
+        goto fail;
     status = output_file_finish(sink.file, error);
     sink.file = NULL;
 

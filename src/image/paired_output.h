@@ -9,7 +9,8 @@
 
 typedef struct paired_output {
     output_file *file;    /* written by the caller */
-    output_file *sidecar; /* already written; NULL without metadata */
+    output_file *sidecar; /* already written but for the picture's checksum; NULL without metadata */
+    uint64_t check_place; /* of that in the sidecar */
     char *stale_sidecar;  /* with overwrite: an older sidecar to remove before the new picture appears */
 } paired_output;
 

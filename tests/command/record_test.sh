@@ -76,6 +76,37 @@ for out in x.exr x.pfm x.y4m; do
     expect 0 'nothing to render' render "$simple" -o $out --frames 0 "${small[@]}" "${null[@]}" --skip-existing
     expect 73 'was not rendered' render "$simple" -o $out --frames 1 "${small[@]}" "${null[@]}" --skip-existing
 done
+
+# A damaged file is rendered again, to the same bytes, and said so; one that is whole is not.
+flip() { # FILE BYTE
+    local byte
+    byte=$(od -An -tu1 -j "$2" -N 1 "$1")
+    printf "\\$(printf %03o $((byte ^ 16)))" | dd of="$1" bs=1 seek="$2" conv=notrunc status=none
+}
+again() { # FILE WHAT
+    expect 0 "$1: it is damaged and rendered again" render "$simple" -o "$1" --frames 0 "${small[@]}" "${null[@]}" --skip-existing
+    same "$1" "whole.$1"
+    expect 0 'nothing to render' render "$simple" -o "$1" --frames 0 "${small[@]}" "${null[@]}" --skip-existing
+}
+for out in d.png d.exr d.pfm d.y4m; do
+    works render "$simple" -o $out --frames 0 "${small[@]}" "${null[@]}" --quiet
+    cp $out whole.$out
+    size=$(stat -c %s $out)
+    for cut in 0 $((size / 2)) $((size - 1)); do
+        truncate -s "$cut" $out
+        again $out
+    done
+    printf x >>$out
+    again $out
+    for part in 4 2; do
+        flip $out $((size - size / part))
+        again $out
+    done
+    flip $out $((size - 5))
+    again $out
+done
+echo '{"render_hash": ' >d.pfm.json
+again d.pfm
 echo foreign >y.png
 expect 73 'y.png' render "$simple" -o y.png "${small[@]}" "${null[@]}" --skip-existing
 [[ $(cat y.png) == foreign ]] || fail "a foreign file was replaced"
