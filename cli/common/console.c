@@ -19,6 +19,29 @@ static void print_line(const char *prefix, const char *format, va_list arguments
     fprintf(stderr, "%s%s\n", prefix, text);
 }
 
+/* The same as {"event": "note", "text": …}. */
+static void print_json_line(const char *format, va_list arguments)
+{
+    char text[2048];
+    vsnprintf(text, sizeof text, format, arguments);
+    char *line = NULL;
+    json_t *note = json_pack("{s:s, s:o}", "event", "note", "text", console_json_text(text));
+    if (note)
+        line = json_dumps(note, JSON_COMPACT);
+    if (line)
+        fprintf(stderr, "%s\n", line);
+    free(line);
+    json_decref(note);
+}
+
+static void print_note(const console *out, const char *format, va_list arguments)
+{
+    if (out->json_notes)
+        print_json_line(format, arguments);
+    else
+        print_line("", format, arguments);
+}
+
 int console_error(int code, const char *format, ...)
 {
     va_list arguments;
@@ -34,7 +57,7 @@ void console_note(const console *out, const char *format, ...)
         return;
     va_list arguments;
     va_start(arguments, format);
-    print_line("", format, arguments);
+    print_note(out, format, arguments);
     va_end(arguments);
 }
 
@@ -44,7 +67,7 @@ void console_detail(const console *out, const char *format, ...)
         return;
     va_list arguments;
     va_start(arguments, format);
-    print_line("", format, arguments);
+    print_note(out, format, arguments);
     va_end(arguments);
 }
 

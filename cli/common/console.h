@@ -25,6 +25,7 @@ typedef enum exit_code {
 /* The options that every verb knows. */
 typedef struct console {
     bool json, verbose, quiet;
+    bool json_notes; /* notes and details are JSON lines, as those of --progress json beside them */
 } console;
 
 /* Prints "mangata: …" as one line on stderr and returns `code`. */
@@ -34,7 +35,7 @@ int console_error(int code, const char *format, ...) __attribute__((format(print
 void console_note(const console *out, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void console_detail(const console *out, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* The same errors from where they arose; each returns the exit code that belongs to it, that of a scene the signal's where one came. */
+/* The same errors from where they arose; each returns the exit code that belongs to it. */
 int console_file_error(const file_error *error);
 int console_scene_error(const scene_error *error);
 int console_library_error(const mgt_context *context, mgt_status status);

@@ -115,6 +115,7 @@ static int run(void *place)
     r->halved = true;
     r->picture_bytes = line->megabytes * 1000000;
     r->progress = progress_mode_heard(r->progress, r->out.quiet);
+    r->out.json_notes = r->progress == PROGRESS_JSON;
     int code = add_methods(r, line);
     if (code == EXIT_CODE_OK)
         code = resolve_gates(r, line);

@@ -49,6 +49,7 @@ static int run(void *request)
     if (!r->folder || !r->folder[0])
         return console_error(EXIT_CODE_USAGE, "no folder given: -o DIR; see mangata figures --help");
     r->progress = progress_mode_heard(r->progress, r->out.quiet);
+    r->out.json_notes = r->progress == PROGRESS_JSON;
     return figures_run(r);
 }
 

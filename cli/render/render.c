@@ -76,6 +76,7 @@ static int run(void *request)
     if (code != EXIT_CODE_OK)
         return code;
     r->progress = progress_mode_heard(r->progress, r->out.quiet);
+    r->out.json_notes = r->progress == PROGRESS_JSON;
     return render_job_run(r);
 }
 

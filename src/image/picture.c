@@ -9,6 +9,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "base/pixel_budget.h"
 #include "base/regular_file.h"
 #include "image/picture_formats.h"
 
@@ -73,11 +74,23 @@ file_status picture_check_size(const char *path, uint32_t width, uint32_t height
     return FILE_OK;
 }
 
+file_status picture_check_budget(const char *path, uint64_t width, uint64_t height, file_error *error)
+{
+    if (width * height <= pixel_budget())
+        return FILE_OK;
+    return file_error_set(error, FILE_BAD, "%s: it has %llu pixels; allowed: %llu, more with %s=%llu in the environment", path,
+                          (unsigned long long)(width * height), (unsigned long long)pixel_budget(), PIXEL_BUDGET_VARIABLE,
+                          (unsigned long long)(width * height));
+}
+
 file_status float_image_allocate(float_image *image, const char *path, file_error *error)
 {
     if (image->width < 1 || image->height < 1 || image->width > PICTURE_SIDE_MAX || image->height > PICTURE_SIDE_MAX)
         return file_error_set(error, FILE_BAD, "%s: size %ux%u is not within 1x1 and %dx%d", path, image->width, image->height, (int)PICTURE_SIDE_MAX,
                               (int)PICTURE_SIDE_MAX);
+    const file_status status = picture_check_budget(path, image->width, image->height, error);
+    if (status != FILE_OK)
+        return status;
     size_t pixels = (size_t)image->width * image->height;
     if (pixels > SIZE_MAX / sizeof(float) / image->channels)
         return file_error_errno(error, FILE_MEMORY, path, NULL, ENOMEM);

@@ -27,6 +27,9 @@ picture_format input_file_format(const input_file *input);
 /* FILE_ARGUMENT unless 1 ≤ sides ≤ PICTURE_SIDE_MAX; for writers. */
 file_status picture_check_size(const char *path, uint32_t width, uint32_t height, file_error *error);
 
+/* FILE_BAD where a picture has more pixels than pixel_budget(); for readers, before they decode. */
+file_status picture_check_budget(const char *path, uint64_t width, uint64_t height, file_error *error);
+
 /* Allocates image->pixels for its size and channels, overflow-checked; for readers. */
 file_status float_image_allocate(float_image *image, const char *path, file_error *error);
 

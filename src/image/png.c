@@ -206,6 +206,9 @@ file_status png_read(float_image *image, const input_file *input, file_error *er
         status = bad_png(input, code, error);
         goto fail;
     }
+    status = picture_check_budget(input->path, header.width, header.height, error);
+    if (status != FILE_OK)
+        goto fail;
     rgba = malloc(size);
     if (!rgba) {
         status = file_error_errno(error, FILE_MEMORY, input->path, NULL, ENOMEM);

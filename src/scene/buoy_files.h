@@ -12,7 +12,7 @@
 
 typedef enum buoy_format { BUOY_TABLE, BUOY_NDBC, BUOY_DATAWELL } buoy_format;
 
-/* By how a file begins. */
+/* By how a file begins. Texts end with a NUL here and below, as buoy_file_read() leaves them. */
 buoy_format buoy_format_of(const char *text);
 
 /* A whole file of at most 16 MiB with a NUL behind; the caller frees it. NULL with *error filled. */

@@ -64,12 +64,13 @@ typedef struct model_use {
     bool dry;           /* its meshes are hulls */
 } model_use;
 
-bool model_load(scene_model *out, const char *path, model_use use, model_fault *fault);
+/* *pixels counts those of the scene's textures so far; see pixel_budget(). */
+bool model_load(scene_model *out, const char *path, model_use use, uint64_t *pixels, model_fault *fault);
 
-/* A texture from a PNG or JPEG file; *hash is that of its pixels. NULL with *fault filled. */
-mgt_texture *texture_load(const char *path, uint64_t *hash, model_fault *fault);
+/* A texture from a PNG or JPEG file; *hash is that of its pixels, *pixels counts them with the scene's others. NULL with *fault filled. */
+mgt_texture *texture_load(const char *path, uint64_t *pixels, uint64_t *hash, model_fault *fault);
 /* The same from the bytes of one; `name` is for messages. */
-mgt_texture *texture_parse(const void *bytes, size_t length, const char *name, uint64_t *hash, model_fault *fault);
+mgt_texture *texture_parse(const void *bytes, size_t length, const char *name, uint64_t *pixels, uint64_t *hash, model_fault *fault);
 
 void model_free(scene_model *model);
 

@@ -44,7 +44,8 @@ typedef struct model_reader {
     const char *at, *end; /* of the records */
     wire_header header;
     const char *path;
-    bool own, dry; /* as model_use has them */
+    bool own, dry;    /* as model_use has them */
+    uint64_t *pixels; /* of the scene's textures */
     mesh_format format;
     scene_model *model;
     model_fault *fault;
@@ -107,7 +108,7 @@ static const mgt_texture *read_texture(model_reader *r, const wire_picture *pict
     }
     model->textures = textures;
     if (picture->kind == WIRE_PICTURE_INSIDE) {
-        texture = texture_parse(bytes, picture->length, r->path, &hash, r->fault);
+        texture = texture_parse(bytes, picture->length, r->path, r->pixels, &hash, r->fault);
     } else if (picture->kind == WIRE_PICTURE_RAW) {
         refuse(r->fault, r->path, "holds a picture that is not compressed");
     } else {
@@ -117,7 +118,7 @@ static const mgt_texture *read_texture(model_reader *r, const wire_picture *pict
             if (*at == '\\')
                 *at = '/';
         if (path != NULL)
-            texture = texture_load(path, &hash, r->fault);
+            texture = texture_load(path, r->pixels, &hash, r->fault);
         else
             model_fault_memory(r->fault);
         free(path);
@@ -338,7 +339,7 @@ static bool refuse_import(const wire_header *header, const char *path, model_fau
     return refuse(fault, path, what);
 }
 
-bool model_load(scene_model *out, const char *path, model_use use, model_fault *fault)
+bool model_load(scene_model *out, const char *path, model_use use, uint64_t *pixels, model_fault *fault)
 {
     const mesh_format format = format_of(path);
     model_import import;
@@ -355,6 +356,7 @@ bool model_load(scene_model *out, const char *path, model_use use, model_fault *
                       .path = path,
                       .own = use.own_materials,
                       .dry = use.dry,
+                      .pixels = pixels,
                       .format = format,
                       .model = out,
                       .fault = fault};

@@ -30,7 +30,8 @@ typedef struct ply_element {
 } ply_element;
 
 typedef struct ply_reader {
-    const char *at, *end;
+    const char *bytes, *at, *end;
+    const char *word; /* where what is read begins; NULL: in binary values, which have no lines */
     const char *name;
     model_fault *fault;
     ply_encoding encoding;
@@ -42,6 +43,12 @@ typedef struct ply_reader {
 
 static bool refuse(ply_reader *r, const char *what)
 {
+    scene_place place = {1, 1};
+    for (const char *p = r->bytes; r->word != NULL && p < r->word; p++)
+        place = *p == '\n' ? (scene_place){place.line + 1, 1} : (scene_place){place.line, place.column + 1};
+    if (r->word != NULL)
+        return model_fault_set(r->fault, SCENE_ERROR_BAD_SCENE, "%s:%d:%d: %s; allowed: a sound PLY file of triangles or polygons",
+                               scene_file_name(r->name).text, place.line, place.column, what);
     return model_fault_set(r->fault, SCENE_ERROR_BAD_SCENE, "%s: %s; allowed: a sound PLY file of triangles or polygons", scene_file_name(r->name).text, what);
 }
 
@@ -52,6 +59,7 @@ static int next_line(ply_reader *r, char words[5][32])
 {
     const char *stop = memchr(r->at, '\n', (size_t)(r->end - r->at));
     int count = 0;
+    r->word = r->at;
     if (stop == NULL)
         return -1;
     for (const char *p = r->at; p < stop && count < 5;) {
@@ -162,6 +170,7 @@ static bool read_text(ply_reader *r, double *value)
     size_t length = 0;
     while (r->at < r->end && (*r->at == ' ' || *r->at == '\t' || *r->at == '\r' || *r->at == '\n'))
         r->at++;
+    r->word = r->at;
     while (r->at < r->end && (*r->at > ' ') && length + 1 < sizeof word)
         word[length++] = *r->at++;
     word[length] = '\0';
@@ -310,8 +319,10 @@ bool ply_parse(mesh_data *out, const char *bytes, size_t length, const char *nam
     *out = (mesh_data){0};
     if (r == NULL)
         return model_fault_memory(fault);
-    *r = (ply_reader){.at = bytes, .end = bytes + length, .name = name, .fault = fault};
+    *r = (ply_reader){.bytes = bytes, .at = bytes, .end = bytes + length, .word = bytes, .name = name, .fault = fault};
     bool good = read_header(r);
+    if (r->encoding != PLY_TEXT)
+        r->word = NULL;
     for (size_t i = 0; good && i < r->element_count; i++)
         good = read_element(r, &r->elements[i]);
     if (good && r->mesh.triangle_count == 0)

@@ -7,6 +7,7 @@
 #include <string.h>
 #include <turbojpeg.h>
 
+#include "base/pixel_budget.h"
 #include "base/regular_file.h"
 #include "scene/model.h"
 #include "scene/scene_text.h"
@@ -17,6 +18,17 @@ static bool refuse(model_fault *fault, const char *name, const char *what)
 {
     return model_fault_set(fault, SCENE_ERROR_BAD_SCENE, "%s: %s; allowed: a PNG or JPEG picture of at most %d x %d pixels", scene_file_name(name).text, what,
                            TEXTURE_SIDE, TEXTURE_SIDE);
+}
+
+/* Before any of them is decoded. */
+static bool is_within_budget(uint64_t width, uint64_t height, const char *name, const uint64_t *pixels, model_fault *fault)
+{
+    const uint64_t own = width * height, all = *pixels + own;
+    return all <= pixel_budget() ||
+           model_fault_set(fault, SCENE_ERROR_BAD_SCENE,
+                           "%s: with its %llu pixels the scene's textures have %llu; allowed: %llu, more with %s=%llu in the environment",
+                           scene_file_name(name).text, (unsigned long long)own, (unsigned long long)all, (unsigned long long)pixel_budget(),
+                           PIXEL_BUDGET_VARIABLE, (unsigned long long)all);
 }
 
 /* RGBA, 8 bits each. */
@@ -30,7 +42,7 @@ static const char *png_problem(int code)
     return code == SPNG_IO_EOF ? "is not a sound PNG: it ends too early" : code == SPNG_ESIGNATURE ? "is neither PNG nor JPEG" : spng_strerror(code);
 }
 
-static decoded decode_png(const void *bytes, size_t length, const char *name, model_fault *fault)
+static decoded decode_png(const void *bytes, size_t length, const char *name, const uint64_t *pixels, model_fault *fault)
 {
     decoded out = {0};
     struct spng_ihdr header = {0};
@@ -44,6 +56,8 @@ static decoded decode_png(const void *bytes, size_t length, const char *name, mo
     int code = spng_get_ihdr(context, &header);
     if (!code)
         code = spng_decoded_image_size(context, SPNG_FMT_RGBA8, &size);
+    if (!code && !is_within_budget(header.width, header.height, name, pixels, fault))
+        goto done;
     out = (decoded){.pixels = code ? NULL : malloc(size), .width = header.width, .height = header.height};
     if (!code && out.pixels == NULL)
         code = SPNG_EMEM;
@@ -62,7 +76,7 @@ done:
     return out;
 }
 
-static decoded decode_jpeg(const void *bytes, size_t length, const char *name, model_fault *fault)
+static decoded decode_jpeg(const void *bytes, size_t length, const char *name, const uint64_t *pixels, model_fault *fault)
 {
     decoded out = {0};
     int width = 0, height = 0, sampling, space;
@@ -76,6 +90,8 @@ static decoded decode_jpeg(const void *bytes, size_t length, const char *name, m
         refuse(fault, name, "is too large");
         goto done;
     }
+    if (good && !is_within_budget((uint64_t)width, (uint64_t)height, name, pixels, fault))
+        goto done;
     out = (decoded){.pixels = good ? malloc((size_t)width * (size_t)height * 4) : NULL, .width = (uint32_t)width, .height = (uint32_t)height};
     if (good && out.pixels == NULL) {
         model_fault_memory(fault);
@@ -92,18 +108,19 @@ done:
     return out;
 }
 
-mgt_texture *texture_parse(const void *bytes, size_t length, const char *name, uint64_t *hash, model_fault *fault)
+mgt_texture *texture_parse(const void *bytes, size_t length, const char *name, uint64_t *pixels, uint64_t *hash, model_fault *fault)
 {
     mgt_texture *texture = NULL;
     mgt_texture_desc desc;
     mgt_texture_desc_init(&desc, sizeof desc);
     const bool is_jpeg = length > 3 && memcmp(bytes, "\xff\xd8\xff", 3) == 0;
-    const decoded picture = is_jpeg ? decode_jpeg(bytes, length, name, fault) : decode_png(bytes, length, name, fault);
+    const decoded picture = is_jpeg ? decode_jpeg(bytes, length, name, pixels, fault) : decode_png(bytes, length, name, pixels, fault);
     if (picture.pixels == NULL)
         return NULL;
     desc.width = picture.width;
     desc.height = picture.height;
     desc.pixels = picture.pixels;
+    *pixels += (uint64_t)picture.width * picture.height;
     *hash = model_hash(picture.width, picture.pixels, (size_t)picture.width * picture.height * 4);
     const mgt_status status = mgt_texture_create(&texture, &desc);
     if (status == MGT_ERROR_MEMORY)
@@ -114,7 +131,7 @@ mgt_texture *texture_parse(const void *bytes, size_t length, const char *name, u
     return texture;
 }
 
-mgt_texture *texture_load(const char *path, uint64_t *hash, model_fault *fault)
+mgt_texture *texture_load(const char *path, uint64_t *pixels, uint64_t *hash, model_fault *fault)
 {
     regular_file read;
     size_t length = 0;
@@ -124,7 +141,7 @@ mgt_texture *texture_load(const char *path, uint64_t *hash, model_fault *fault)
         fault->kind = scene_error_of_fault(read.fault);
         return NULL;
     }
-    mgt_texture *texture = texture_parse(bytes, length, path, hash, fault);
+    mgt_texture *texture = texture_parse(bytes, length, path, pixels, hash, fault);
     free(bytes);
     return texture;
 }

@@ -43,6 +43,7 @@ typedef struct models_reader {
     scene_models *models;
     scene_error *error;
     uint64_t triangles;
+    uint64_t pixels; /* of textures */
 } models_reader;
 
 /* ---- keys that go together -------------------------------------------------------------------------------------- */
@@ -157,7 +158,7 @@ static const scene_model *take_model(models_reader *r, size_t index, const tree_
     }
     if (found)
         return &place->model;
-    good = is_mesh ? model_load(&place->model, place->path, use, &fault) : make_shape(&place->model, object, path, &fault);
+    good = is_mesh ? model_load(&place->model, place->path, use, &r->pixels, &fault) : make_shape(&place->model, object, path, &fault);
     if (!is_mesh)
         free(path);
     if (good)
@@ -185,7 +186,7 @@ static const loaded_texture *take_texture(models_reader *r, size_t index, const 
     loaded_texture *t = &textures[m->texture_count];
     model_fault fault = {0};
     *t = (loaded_texture){.path = path};
-    t->texture = texture_load(path, &t->hash, &fault);
+    t->texture = texture_load(path, &r->pixels, &t->hash, &fault);
     if (t->texture == NULL) {
         free(path);
         refuse_fault(r, index, item, "material.texture", &fault);
