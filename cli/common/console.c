@@ -137,9 +137,11 @@ int exit_code_of_status(mgt_status status)
     case MGT_ERROR_UNAVAILABLE:
     case MGT_ERROR_UNSUPPORTED:
         return EXIT_CODE_UNAVAILABLE;
+    case MGT_ERROR_LOST:
+    case MGT_ERROR_THREAD:
+        return EXIT_CODE_TRY_AGAIN;
     case MGT_ERROR_ARGUMENT:
     case MGT_ERROR_MEMORY:
-    case MGT_ERROR_THREAD:
     case MGT_CANCELLED:
         break;
     }

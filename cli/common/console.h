@@ -19,7 +19,8 @@ typedef enum exit_code {
     EXIT_CODE_BAD_INPUT = 65,
     EXIT_CODE_NO_INPUT = 66,
     EXIT_CODE_UNAVAILABLE = 69,
-    EXIT_CODE_CANNOT_WRITE = 73
+    EXIT_CODE_CANNOT_WRITE = 73,
+    EXIT_CODE_TRY_AGAIN = 75
 } exit_code;
 
 /* The options that every verb knows. */

@@ -68,6 +68,26 @@ uint64_t frame_list_length(const frame_list *list)
     return length;
 }
 
+void frame_list_shard(frame_list *list, const work_shard *shard)
+{
+    size_t kept = 0;
+    uint64_t before = 0; /* frames of the ranges before this one */
+    for (size_t i = 0; i < list->count && shard->count; i++) {
+        frame_range r = list->ranges[i];
+        const uint32_t length = range_length(&r), skip = (uint32_t)((shard->index + shard->count - before % shard->count) % shard->count);
+        before += length;
+        if (skip >= length)
+            continue;
+        const uint32_t more = (length - 1 - skip) / shard->count;
+        r.first += skip * r.step;
+        r.step = more ? r.step * shard->count : 1;
+        r.last = r.first + more * r.step;
+        list->ranges[kept++] = r;
+    }
+    if (shard->count)
+        list->count = kept;
+}
+
 uint32_t frame_list_at(const frame_list *list, uint64_t index)
 {
     size_t i = 0;

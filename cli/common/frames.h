@@ -33,6 +33,18 @@ uint32_t frame_list_at(const frame_list *list, uint64_t index);
 /* The spelling that frame_list_parse() reads; cut short with "…" when it does not fit. */
 void frame_list_print(const frame_list *list, char *text, size_t size);
 
+/* One of `count` parts of some work, for as many machines: of any list the elements whose index modulo `count` is `index`. Count 0: all. */
+typedef struct work_shard {
+    uint32_t index, count;
+} work_shard;
+
+enum { SHARD_LIMIT = 1000000 };
+
+static inline bool shard_has(const work_shard *shard, uint64_t element) { return shard->count == 0 || element % shard->count == shard->index; }
+
+/* Keeps the shard's frames of the list, which may be none. */
+void frame_list_shard(frame_list *list, const work_shard *shard);
+
 /* A path with the place of the frame number: "%d", "%04d" or "####" in the file's name (folders are taken as they are).
  * "%%" stands for a percent sign. */
 typedef struct frame_path {

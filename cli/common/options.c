@@ -94,7 +94,17 @@ int option_quality(const option *o, void *place, const char *value)
 
 int option_progress(const option *o, void *place, const char *value)
 {
-    return progress_mode_from_name(value, place) ? EXIT_CODE_OK : option_wrong(o, value, "auto, json or none");
+    return progress_mode_from_name(value, place) ? EXIT_CODE_OK : option_wrong(o, value, PROGRESS_MODES);
+}
+
+int option_shard(const option *o, void *place, const char *value)
+{
+    work_shard *shard = place;
+    uint64_t parts[2];
+    if (!number_parse_list(value, '/', SHARD_LIMIT, 2, parts) || parts[0] >= parts[1])
+        return option_wrong(o, value, "I/N, the shard I of 0 ... N-1, N from 1 to 1000000, such as 0/8");
+    *shard = (work_shard){(uint32_t)parts[0], (uint32_t)parts[1]};
+    return EXIT_CODE_OK;
 }
 
 int option_one_scene(const option *o, void *place, const char *value)

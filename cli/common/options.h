@@ -37,6 +37,17 @@ struct option {
             .operand = true                                                                                                        \
     }
 
+/* Rows of a table whose request has `progress`, and `shard`. */
+#define OPTION_PROGRESS(request)                                                                                                         \
+    {                                                                                                                                    \
+        "progress", 0, "MODE", "auto (default: a bar on a terminal), json, text, openjd\nor none", .set = option_progress,               \
+                                                                                                   .offset = offsetof(request, progress) \
+    }
+#define OPTION_SHARD(request, what)                                                      \
+    {                                                                                    \
+        "shard", 0, "I/N", what, .set = option_shard, .offset = offsetof(request, shard) \
+    }
+
 /* A verb's command line. --help, --json, -v/--verbose and --quiet are known everywhere and not listed. A request begins with its console. */
 typedef struct option_table {
     const char *verb;  /* "render" */
@@ -73,6 +84,7 @@ option_set option_change;    /* scene_changes: KEY=VALUE */
 option_set option_size;      /* scene_changes: WxH */
 option_set option_quality;   /* quality_options: the option of this name */
 option_set option_progress;  /* a progress_mode */
+option_set option_shard;     /* a work_shard */
 option_set option_one_scene; /* an operand, once: a const char * */
 
 /* Says that --name is not `value` but what is allowed. EXIT_CODE_USAGE. */

@@ -26,6 +26,10 @@ bool progress_mode_from_name(const char *name, progress_mode *mode)
         *mode = progress_mode_auto();
     else if (strcmp(name, "json") == 0)
         *mode = PROGRESS_JSON;
+    else if (strcmp(name, "text") == 0)
+        *mode = PROGRESS_TEXT;
+    else if (strcmp(name, "openjd") == 0)
+        *mode = PROGRESS_OPENJD;
     else if (strcmp(name, "none") == 0)
         *mode = PROGRESS_NONE;
     else
@@ -36,7 +40,7 @@ bool progress_mode_from_name(const char *name, progress_mode *mode)
 progress progress_start(progress_mode mode, uint64_t frames)
 {
     const double now = seconds_now();
-    return (progress){.mode = mode, .frames = frames, .started = now, .last_shown = now};
+    return (progress){.mode = mode, .frames = frames, .started = now, .last_shown = now, .percent = -1};
 }
 
 static void print_json_line(json_t *line)
@@ -48,7 +52,27 @@ static void print_json_line(json_t *line)
     json_decref(line);
 }
 
-void progress_frame(progress *p, uint32_t frame) { p->frame = frame; }
+/* A line for each whole percent, as render managers read them. */
+static void print_percent(progress *p, double all)
+{
+    const int percent = (int)(100 * all);
+    if (percent == p->percent)
+        return;
+    p->percent = percent;
+    fprintf(stderr, p->mode == PROGRESS_OPENJD ? "openjd_progress: %d\n" : "Progress: %d%%\n", percent);
+}
+
+static double share_done(const progress *p, double fraction)
+{
+    return p->work > 0 ? (p->work_done + p->work_now * fraction) / p->work : ((double)p->frames_done + fraction) / (double)(p->frames ? p->frames : 1);
+}
+
+void progress_frame(progress *p, uint32_t frame)
+{
+    p->frame = frame;
+    if (p->mode == PROGRESS_OPENJD)
+        fprintf(stderr, "openjd_status: frame %u, %llu of %llu\n", frame, (unsigned long long)p->frames_done + 1, (unsigned long long)p->frames);
+}
 
 void progress_update(progress *p, double fraction)
 {
@@ -56,8 +80,11 @@ void progress_update(progress *p, double fraction)
     if (p->mode == PROGRESS_NONE || now - p->last_shown < 0.1)
         return;
     p->last_shown = now;
-    const double all =
-        p->work > 0 ? (p->work_done + p->work_now * fraction) / p->work : ((double)p->frames_done + fraction) / (double)(p->frames ? p->frames : 1);
+    const double all = share_done(p, fraction);
+    if (p->mode == PROGRESS_TEXT || p->mode == PROGRESS_OPENJD) {
+        print_percent(p, all);
+        return;
+    }
     const double left = all > 0 ? (now - p->started) * (1 - all) / all : 0;
     if (p->mode == PROGRESS_JSON) {
         print_json_line(json_pack("{s:s, s:I, s:f, s:f, s:f}", "event", "progress", "frame", (json_int_t)p->frame, "frame_fraction", fraction, "fraction", all,
@@ -78,6 +105,8 @@ void progress_frame_done(progress *p, const char *path, double seconds)
 {
     p->frames_done++;
     p->work_done += p->work_now;
+    if (p->mode == PROGRESS_TEXT || p->mode == PROGRESS_OPENJD)
+        print_percent(p, share_done(p, 0));
     if (p->mode == PROGRESS_JSON)
         print_json_line(json_pack("{s:s, s:I, s:o, s:f, s:I, s:I}", "event", "frame", "frame", (json_int_t)p->frame, "file", console_json_text(path), "seconds",
                                   seconds, "done", (json_int_t)p->frames_done, "frames", (json_int_t)p->frames));

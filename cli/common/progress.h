@@ -6,18 +6,20 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-typedef enum progress_mode { PROGRESS_NONE = 0, PROGRESS_BAR, PROGRESS_JSON } progress_mode;
+typedef enum progress_mode { PROGRESS_NONE = 0, PROGRESS_BAR, PROGRESS_JSON, PROGRESS_TEXT, PROGRESS_OPENJD } progress_mode;
 
 typedef struct progress {
     progress_mode mode;
-    bool shown; /* a bar stands on the line */
+    bool shown;  /* a bar stands on the line */
+    int percent; /* text and openjd: the last one printed */
     uint64_t frames, frames_done;
     uint32_t frame;
     double started, last_shown;
     double work, work_done, work_now; /* of frames that take unlike times: of all, of those done, of this one; work 0: all alike */
 } progress;
 
-/* "auto" (a bar on a terminal), "json" or "none". */
+/* "auto" (a bar on a terminal), "json", "text" ("Progress: 34%"), "openjd" (lines of Open Job Description) or "none". */
+#define PROGRESS_MODES "auto, json, text, openjd or none"
 bool progress_mode_from_name(const char *name, progress_mode *mode);
 
 /* "auto", the default of every verb. */

@@ -131,6 +131,7 @@ static const option compare_options[] = {
      "(default none,podee-uniform,podee-pixel,mangata)",
      .set = option_text, .offset = offsetof(compare_line, methods)},
     {"frames", 0, "LIST", "A, A-B, A-B:STEP or a list of these (default 0-3)", .set = option_frames, .offset = offsetof(compare_request, frames)},
+    OPTION_SHARD(compare_request, "one of N machines' share of all pictures: draws it and measures\nnothing; the same command without --shard then does"),
     {"size", 0, "WxH", "size in pixels instead of the scenes'", .set = option_size, .offset = offsetof(compare_request, changes), .least = 1,
      .allowed = "WxH, each from 1 to 32768 pixels, such as 320x180"},
     {"spatial", 0, "N", "reference: NxN samples a pixel for each time sample (default 8)", .set = option_samples,
@@ -163,7 +164,7 @@ static const option compare_options[] = {
     CONTEXT_OPTION_GL_DEVICE(compare_request),
     CONTEXT_OPTION_THREADS(compare_request),
     CONTEXT_OPTION_ISA(compare_request),
-    {"progress", 0, "MODE", "auto (default: a bar on a terminal), json or none", .set = option_progress, .offset = offsetof(compare_request, progress)},
+    OPTION_PROGRESS(compare_request),
 };
 
 static const option_table compare_table = {"compare",
@@ -175,7 +176,7 @@ static const option_table compare_table = {"compare",
                                            compare_options,
                                            sizeof compare_options / sizeof compare_options[0],
                                            .notes = "exit codes: 0 done, 2 above a limit, 64 usage, 65 bad scene, 66 no such scene, 69 not available,\n"
-                                                    "73 cannot write, 130 and 143 stopped by a signal",
+                                                    "73 cannot write, 75 try again, 130 and 143 stopped by a signal",
                                            .operand = {.set = add_scene},
                                            .changes = offsetof(compare_request, changes),
                                            .run = run};

@@ -224,12 +224,12 @@ static int render_picture(compare_job *job, frame_buffer *buffer, const compare_
     return EXIT_CODE_OK;
 }
 
-/* Marks what is kept in `kept` (frames × pictures) and counts the rest. */
+/* Marks what is not to be drawn in `kept` (frames × pictures) and counts the rest. */
 static int look_for_kept(compare_job *job, const compare_scene *scene, bool *kept, uint64_t *missing, double *work)
 {
-    const size_t pictures = job->request->method_count + 1;
-    for (size_t i = 0; i < job->frame_count * pictures; i++) {
-        if (!compare_draws(scene, i % pictures) || scene->view->only_timed) {
+    const size_t pictures = job->request->method_count + 1, each = job->frame_count * pictures, before = (size_t)(scene - job->scenes) * each;
+    for (size_t i = 0; i < each; i++) {
+        if (!compare_draws(scene, i % pictures) || scene->view->only_timed || !shard_has(&job->request->shard, before + i)) {
             kept[i] = true;
             continue;
         }

@@ -339,6 +339,30 @@ void compare_close(compare_job *job)
     mgt_context_destroy(job->context);
 }
 
+int compare_shard_done(const compare_job *job)
+{
+    const compare_request *r = job->request;
+    console_note(&r->out, "%s: shard %u/%u: %llu pictures rendered, %llu kept; when all shards are done, the same command without --shard measures them",
+                 r->folder, r->shard.index, r->shard.count, (unsigned long long)job->rendered, (unsigned long long)job->kept);
+    if (!r->out.json)
+        return EXIT_CODE_OK;
+    return console_print_json(
+        json_pack("{s:{s:o, s:I, s:I}}", "run", "folder", console_json_text(r->folder), "rendered", (json_int_t)job->rendered, "kept", (json_int_t)job->kept));
+}
+
+/* What follows when the pictures are there. */
+static int finish_report(compare_job *job)
+{
+    int code = compare_time_methods(job);
+    if (code == EXIT_CODE_OK)
+        code = compare_measure(job);
+    if (code == EXIT_CODE_OK)
+        code = write_reports(job);
+    if (code == EXIT_CODE_OK)
+        code = print_end(job);
+    return code == EXIT_CODE_OK ? check_gates(job) : code;
+}
+
 int compare_run(const compare_request *request)
 {
     compare_job *job = calloc(1, sizeof *job);
@@ -348,15 +372,7 @@ int compare_run(const compare_request *request)
     if (code == EXIT_CODE_OK)
         code = compare_render(job);
     if (code == EXIT_CODE_OK)
-        code = compare_time_methods(job);
-    if (code == EXIT_CODE_OK)
-        code = compare_measure(job);
-    if (code == EXIT_CODE_OK)
-        code = write_reports(job);
-    if (code == EXIT_CODE_OK)
-        code = print_end(job);
-    if (code == EXIT_CODE_OK)
-        code = check_gates(job);
+        code = request->shard.count ? compare_shard_done(job) : finish_report(job);
     compare_close(job);
     free(job);
     return code;

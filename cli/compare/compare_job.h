@@ -96,6 +96,9 @@ bool compare_number_scene(const compare_scene *scene, size_t picture, uint32_t n
 int compare_file_failure(compare_job *job, const file_error *error);
 int compare_stopped(compare_job *job);
 
+/* Says that a shard's pictures are there; returns EXIT_CODE_OK. */
+int compare_shard_done(const compare_job *job);
+
 /* Replaces a file whole; returns the exit code. */
 int compare_write_text(compare_job *job, const char *path, const char *text, size_t size);
 

@@ -61,6 +61,7 @@ static const option figures_options[] = {
      "frames that errors are taken over; plates show the first, of\n"
      "refraction nothing but the first is made (default 0-56:8)",
      .set = option_frames, .offset = offsetof(figures_request, frames)},
+    OPTION_SHARD(figures_request, "one of N machines' share of all pictures: draws it and measures\nnothing; the same command without --shard then does"),
     {"size", 0, "WxH", "size of what is scored (default 320x180; refraction 640x360, and\n1280x720 for its times)", set_size,
      .least = 16, /* smaller pictures have no room for what the plates cut out of them */
      .allowed = "WxH, each from 16 to 32768 pixels, such as 320x180"},
@@ -82,7 +83,7 @@ static const option figures_options[] = {
     CONTEXT_OPTION_GL_DEVICE(figures_request),
     CONTEXT_OPTION_THREADS(figures_request),
     CONTEXT_OPTION_ISA(figures_request),
-    {"progress", 0, "MODE", "auto (default: a bar on a terminal), json or none", .set = option_progress, .offset = offsetof(figures_request, progress)},
+    OPTION_PROGRESS(figures_request),
 };
 
 static const option_table figures_table = {"figures",
@@ -94,7 +95,7 @@ static const option_table figures_table = {"figures",
                                            figures_options,
                                            sizeof figures_options / sizeof figures_options[0],
                                            .notes = "exit codes: 0 done, 2 a claim does not hold (--check), 64 usage, 65 bad scene, 66 no such scene,\n"
-                                                    "69 not available, 73 cannot write, 130 and 143 stopped by a signal",
+                                                    "69 not available, 73 cannot write, 75 try again, 130 and 143 stopped by a signal",
                                            .operand = {.set = refuse_operand},
                                            .changes = offsetof(figures_request, changes),
                                            .run = run};

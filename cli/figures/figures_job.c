@@ -95,6 +95,7 @@ static int choose_pictures(figures_job *f)
                            .changes = r->changes,
                            .reference = r->reference,
                            .frames = r->frames,
+                           .shard = r->shard,
                            .time_runs = r->time_runs,
                            .context = r->context,
                            .progress = r->progress};
@@ -281,6 +282,7 @@ static int print_end(figures_job *f)
 
 static int run(figures_job *f)
 {
+    const figures_request *r = f->request;
     int code = choose_pictures(f);
     if (code != EXIT_CODE_OK)
         return code;
@@ -292,6 +294,12 @@ static int run(figures_job *f)
         code = make_pictures_folder(f);
     if (code == EXIT_CODE_OK && f->renders.method_count)
         code = compare_render(f->compare);
+    if (code == EXIT_CODE_OK && r->shard.count) {
+        if (f->refraction)
+            figures_refraction(f);
+        code = figures_good(f) ? compare_shard_done(f->compare) : f->code;
+        goto done;
+    }
     if (code == EXIT_CODE_OK && f->renders.method_count)
         code = compare_time_methods(f->compare);
     f->code = code;
@@ -300,6 +308,7 @@ static int run(figures_job *f)
     code = figures_good(f) ? make_page(f) : f->code;
     if (code == EXIT_CODE_OK)
         code = print_end(f);
+done:
     figures_refraction_close(f);
     compare_close(f->compare);
     return code;

@@ -136,6 +136,7 @@ static int choose(refraction_figures *r, const char *folder)
                            .changes = request->changes,
                            .layers = {MGT_LAYER_REFRACTION, MGT_LAYER_MASK},
                            .layer_count = 2,
+                           .shard = request->shard,
                            .time_runs = request->time_runs,
                            .memory = true,
                            .context = request->context,
@@ -216,6 +217,8 @@ void figures_refraction(figures_job *f)
 {
     refraction_figures *r = f->refraction;
     f->code = compare_render(r->compare);
+    if (r->renders.shard.count)
+        goto done;
     if (figures_good(f))
         f->code = compare_time_methods(r->compare);
     if (figures_good(f))
@@ -226,6 +229,7 @@ void figures_refraction(figures_job *f)
     }
     if (figures_good(f))
         refraction_write_table(r);
+done:
     f->compare->rendered += r->compare->rendered;
     f->compare->kept += r->compare->kept;
 }

@@ -45,6 +45,7 @@ typedef struct figures_request {
     mgt_quality reference;
     uint32_t refraction_samples; /* of pictures of traced refraction */
     frame_list frames;
+    work_shard shard; /* of all pictures */
     uint64_t time_runs;
     context_options context;
     progress_mode progress;

@@ -66,6 +66,8 @@ static int check_output(render_request *r)
     if (!render_is_film(r) && !r->path.numbered && frame_list_length(&r->frames) > 1)
         return console_error(EXIT_CODE_USAGE, "-o %s: %llu frames do not fit into one picture; number the files: frame_%%04d.png or frame_####.png", r->output,
                              (unsigned long long)frame_list_length(&r->frames));
+    if (r->shard.count && !r->path.numbered)
+        return console_error(EXIT_CODE_USAGE, "-o %s: --shard takes numbered pictures, such as frame_%%04d.png; a film is made of them afterwards", r->output);
     return check_layers(r);
 }
 
@@ -90,6 +92,7 @@ static const option render_options[] = {
      "A, A-B, A-B:STEP or a list of these (default: all frames of the\n"
      "scene for a film or a numbered name, else frame 0)",
      .set = option_frames, .offset = offsetof(render_request, frames)},
+    OPTION_SHARD(render_request, "one of N machines' share: the frames whose place in the list,\ncounted from 0, modulo N is I"),
     {"size", 0, "WxH", "size in pixels instead of the scene's", .set = option_size, .offset = offsetof(render_request, changes), .least = 1,
      .allowed = "WxH, each from 1 to 32768 pixels, such as 1280x720"},
     {"crop", 0, "X,Y,W,H", "render this rectangle of the picture alone", .set = set_crop},
@@ -119,7 +122,7 @@ static const option render_options[] = {
      "the rest",
      .set = option_given, .offset = offsetof(render_request, skip_existing)},
     {"stamp", 0, NULL, "record host, date, threads and instruction set in the output", .set = option_given, .offset = offsetof(render_request, stamp)},
-    {"progress", 0, "MODE", "auto (default: a bar on a terminal), json or none", .set = option_progress, .offset = offsetof(render_request, progress)},
+    OPTION_PROGRESS(render_request),
 };
 
 static const option_table render_table = {"render",
@@ -129,7 +132,7 @@ static const option_table render_table = {"render",
                                           sizeof render_options / sizeof render_options[0],
                                           .notes = "The same scene, frame and options give the same bytes, whatever the threads and the machine.\n"
                                                    "exit codes: 0 done, 1 failed, 64 usage, 65 bad scene, 66 no such input, 69 not available,\n"
-                                                   "73 cannot write, 130 and 143 stopped by a signal",
+                                                   "73 cannot write, 75 try again (a device was lost, no thread to be had), 130 and 143 stopped by a signal",
                                           .operand = {.set = option_one_scene, .offset = offsetof(render_request, scene_path)},
                                           .quality = offsetof(render_request, options),
                                           .changes = offsetof(render_request, changes),

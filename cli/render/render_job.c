@@ -31,7 +31,8 @@ enum { PATH_SIZE = 4600, FRAMES_TEXT = 240 };
 
 static int stopped(const render_job *job)
 {
-    console_note(&job->request->out, "mangata: stopped; nothing unfinished was left behind");
+    console_note(&job->request->out, "mangata: stopped; nothing unfinished was left behind%s",
+                 job->request->path.numbered ? "; --skip-existing goes on where it stopped" : "");
     return interrupt_exit_code();
 }
 
@@ -91,6 +92,7 @@ static int load_scene(render_job *job)
     const int code = frame_scene(job, frame_list_at(&r->frames, 0), &first);
     if (code != EXIT_CODE_OK)
         return code;
+    frame_list_shard(&r->frames, &r->shard);
     job->image = first.image;
     const mgt_image *i = &job->image;
     if (i->crop_x >= i->width || i->crop_y >= i->height || i->crop_width > i->width - i->crop_x || i->crop_height > i->height - i->crop_y)
@@ -352,7 +354,7 @@ static int report(render_job *job, double wall)
         console_note(&r->out, "%s: %" PRIu64 " frame%s of %u x %u by %s, %.1f ms each%s", r->output, job->rendered, job->rendered == 1 ? "" : "s",
                      job->buffer.width, job->buffer.height, method_name(&r->quality).text, 1e3 * mean, job->skipped ? ", others kept" : "");
     else
-        console_note(&r->out, "%s: kept, nothing to render", r->output);
+        console_note(&r->out, "%s: %snothing to render", r->output, job->skipped ? "kept, " : "");
     if (!r->out.json)
         return EXIT_CODE_OK;
     return console_print_json(json_pack("{s:s, s:o, s:s, s:i, s:i, s:I, s:I, s:{s:f, s:f, s:f}, s:f, s:s, s:s, s:i, s:O}", "version", mgt_version(), "scene",
@@ -378,6 +380,9 @@ static int run(render_job *job)
         code = frame_buffer_create(&job->buffer, job->request, job->image.crop_width, job->image.crop_height);
     if (code != EXIT_CODE_OK)
         return code;
+    /* A farm may have more machines than there are frames. */
+    if (frame_list_length(&job->request->frames) == 0)
+        return report(job, seconds_now() - start);
     job->progress = progress_start(job->request->progress, frame_list_length(&job->request->frames));
     code = render_is_film(job->request) ? render_film(job) : render_stills(job);
     progress_clear(&job->progress);

@@ -19,6 +19,7 @@ typedef struct render_request {
 
     scene_changes changes;
     frame_list frames;       /* none: not given */
+    work_shard shard;        /* of these frames */
     uint64_t crop[4];        /* x, y, width, height; 0: not given */
     quality_options options; /* of quality, as given */
     mgt_quality quality;     /* with those of the scene, once it is loaded */

@@ -42,7 +42,8 @@ typedef enum mgt_status {
     MGT_ERROR_UNAVAILABLE, /* the backend or instruction set does not exist here */
     MGT_ERROR_UNSUPPORTED, /* meaningful, but nothing does it */
     MGT_ERROR_THREAD,      /* a thread could not be started */
-    MGT_CANCELLED          /* the progress callback asked to stop */
+    MGT_CANCELLED,         /* the progress callback asked to stop */
+    MGT_ERROR_LOST         /* OpenGL: the device was reset and its context with it; a new context may work */
 } mgt_status;
 
 /* The names of enums and back, here and in the other headers: mgt_x_name() gives the word that commands and files use, static, or NULL for what is no

@@ -23,6 +23,8 @@ const char *mgt_status_text(mgt_status status)
         return "a thread could not be started";
     case MGT_CANCELLED:
         return "cancelled";
+    case MGT_ERROR_LOST:
+        return "the device was lost";
     }
     return "unknown status";
 }

@@ -16,7 +16,7 @@ static mgt_status check_lost(const gl_backend_state *s, const reporter *r)
 {
     if (s->renderer->gl.GetGraphicsResetStatus() == GL_NO_ERROR)
         return MGT_OK;
-    return report_error(r, MGT_ERROR_UNAVAILABLE, "gl.lost", "the OpenGL context was lost (the GPU was reset); create a new context");
+    return report_error(r, MGT_ERROR_LOST, "gl.lost", "the OpenGL context was lost (the GPU was reset); create a new context");
 }
 
 mgt_status gl_enter(gl_backend_state *s, gl_scope *scope, const reporter *r)

@@ -23,7 +23,7 @@ const char *const pattern_names[] = {"none", "tiles", "checker", "stripes", NULL
 const char *const refraction_names[] = {"two-phase", "hybrid", "liu", "broad", "narrow", "screen-space", "distance-field", "off", "truth", NULL};
 const name_alias refraction_aliases[] = {{"path-traced", "truth"}, {NULL, NULL}};
 const char *const sky_model_names[] = {"atmosphere", "gradient", "black", NULL};
-const char *const status_names[] = {"ok", "argument", "scene", "memory", "unavailable", "unsupported", "thread", "cancelled", NULL};
+const char *const status_names[] = {"ok", "argument", "scene", "memory", "unavailable", "unsupported", "thread", "cancelled", "lost", NULL};
 const char *const tone_map_names[] = {"none", "reinhard", "aces", "agx", NULL};
 
 names_text names_list(const char *const *names)

@@ -114,7 +114,7 @@ static void creation_resolves(void **state)
 static void texts_are_there(void **state)
 {
     (void)state;
-    for (int status = -1; status <= MGT_CANCELLED + 1; status++)
+    for (int status = -1; status <= MGT_ERROR_LOST + 1; status++)
         assert_true(strlen(mgt_status_text((mgt_status)status)) > 1);
     char version[32];
     snprintf(version, sizeof version, "%d.%d.%d", MGT_VERSION_MAJOR, MGT_VERSION_MINOR, MGT_VERSION_PATCH);
@@ -136,7 +136,7 @@ static void texts_are_there(void **state)
 static void enums_have_names_and_back(void **state)
 {
     (void)state;
-    NAMES(mgt_status, MGT_CANCELLED + 1);
+    NAMES(mgt_status, MGT_ERROR_LOST + 1);
     NAMES(mgt_backend, MGT_BACKEND_NULL + 1);
     NAMES(mgt_isa, MGT_ISA_NEON + 1);
     NAMES(mgt_log_level, MGT_LOG_ERROR + 1);

@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: MIT
+# What farms need of the command, and contrib/farm without a farm: scripts/farm_test has a real one.
+. "$CHECK"
+
+# Shards: every frame in one of them, in none twice.
+list=0-9,12,20-41:3,50
+works render "$simple" -o 'all_%03d.png' --frames $list "${small[@]}" "${null[@]}" --quiet
+for count in 1 2 3 7 40; do
+    for ((i = 0; i < count; i++)); do
+        works render "$simple" -o 's_%03d.png' --frames $list --shard $i/$count "${small[@]}" "${null[@]}" --quiet
+    done
+    [[ $(ls s_* | tr -d s) == "$(ls all_* | sed s/all//)" ]] || fail "$count shards: $(ls s_* | tr '\n' ' ')"
+    rm s_*
+done
+works render "$simple" -o 's_%03d.png' --frames $list --shard 1/3 "${small[@]}" "${null[@]}" --quiet
+[[ $(ls s_* | tr '\n' ' ') == 's_001.png s_004.png s_007.png s_012.png s_026.png s_035.png s_050.png ' ]] || fail "shard 1/3: $(ls s_* | tr '\n' ' ')"
+expect 0 'nothing to render' render "$simple" -o 'n_%d.png' --frames 0-2 --shard 3/4 "${small[@]}" "${null[@]}"
+absent n_*
+for wrong in 1 2/2 3/2 a/2 0/0 -1/2 0/1000001 0/2/3 ''; do
+    expect 64 '^mangata: --shard .*allowed is I/N' render "$simple" -o 'n_%d.png' --shard "$wrong" "${small[@]}" "${null[@]}"
+done
+expect 64 'shard takes numbered pictures' render "$simple" -o n.mp4 --shard 0/2 "${small[@]}" "${null[@]}"
+expect 64 'shard takes numbered pictures' render "$simple" -o n.png --shard 0/2 "${small[@]}" "${null[@]}"
+
+# Progress as render managers read it: increasing, to the end.
+render "$simple" -o 'p_%d.png' --frames 0-3 "${small[@]}" --progress text --quiet 2>progress
+grep -vE '^Progress: [0-9]+%$' progress && fail "--progress text: $(cat progress)"
+[[ $(tail -n 1 progress) == 'Progress: 100%' ]] || fail "--progress text ends with $(tail -n 1 progress)"
+sort -n -k2 -c progress || fail "--progress text runs backwards"
+render "$simple" -o 'p_%d.png' --frames 0-3 "${small[@]}" --progress openjd --quiet --overwrite 2>progress
+grep -vE '^openjd_(progress: [0-9]+|status: frame [0-3], [1-4] of 4)$' progress && fail "--progress openjd: $(cat progress)"
+grep -qx 'openjd_progress: 100' progress || fail "--progress openjd: $(cat progress)"
+
+# Pictures of a comparison, drawn in shards, are kept by the run that measures.
+compare=("$MANGATA" compare "$simple" --methods none,mangata --size 16x9 --frames 0-1 --spatial 1 --time-samples 2 --time-runs 0 --metrics rmse)
+expect 0 'shard 0/2: 3 pictures rendered' "${compare[@]}" -o report --shard 0/2
+expect 0 'shard 1/2: 3 pictures rendered' "${compare[@]}" -o report --shard 1/2
+absent report/report.html
+expect 0 '0 pictures rendered, 6 kept' "${compare[@]}" -o report
+exists report/report.html
+
+# After a signal it says how to go on.
+timeout -s TERM --preserve-status 1 "$MANGATA" render "$simple" -o 'k_%d.png' --method reference --spatial 16 --size 3840x2160 2>stderr.txt
+grep -q 'skip-existing' stderr.txt || fail "after a signal: $(cat stderr.txt)"
+
+# The Slurm script, with a command that ends as told and a scontrol that says what it was asked.
+mkdir bin
+printf '#!/bin/sh\necho "$@" >>"%s/calls"\n' "$work" >bin/scontrol
+printf '#!/bin/sh\nexit 0\n' >bin/sleep
+printf '#!/bin/sh\necho "$@" >"%s/arguments"\nexit $CODE\n' "$work" >bin/ends
+chmod +x bin/*
+task() { # CODE RESTARTS: runs task 3 of 8
+    rm -f calls
+    env PATH="$work/bin:$PATH" CODE="$1" MANGATA=ends SLURM_JOB_ID=77 SLURM_ARRAY_JOB_ID=77 SLURM_ARRAY_TASK_ID=3 SLURM_ARRAY_TASK_COUNT=8 SLURM_RESTART_COUNT="$2" \
+        SLURM_CPUS_PER_TASK=2 "$SOURCE/contrib/farm/mangata.sbatch" 'a b.yaml' -o 'f_%d.png' 2>/dev/null
+    [[ $? == "$1" ]] || fail "mangata.sbatch does not end with $1"
+}
+for code in 73 75 137 143; do
+    task $code 2
+    [[ $(cat calls) == 'requeue 77_3' ]] || fail "exit code $code: scontrol $(cat calls)"
+    task $code 20
+    absent calls
+done
+for code in 0 1 64 65 66 69; do
+    task $code 0
+    absent calls
+done
+[[ $(cat arguments) == 'render a b.yaml -o f_%d.png --shard 3/8 --threads 2 --skip-existing --progress text' ]] || fail "mangata.sbatch: $(cat arguments)"
+
+# The script that the OpenJD template embeds.
+if python3 -c 'import yaml' 2>/dev/null; then
+    python3 - "$SOURCE/contrib/farm/mangata.openjd.yaml" "$simple" "$work" "$MANGATA" >task.sh <<'END' || fail "mangata.openjd.yaml"
+import re, sys, yaml
+template = yaml.safe_load(open(sys.argv[1]))
+assert template["specificationVersion"] == "jobtemplate-2023-09"
+values = {"Param." + p["name"]: p.get("default") for p in template["parameterDefinitions"]}
+values.update({"Param.Scene": sys.argv[2], "Param.OutputFolder": sys.argv[3], "Param.Options": "--size 64x36 --backend null", "Param.Command": sys.argv[4],
+               "Task.Param.Frame": "7"})
+step, = template["steps"]
+assert step["parameterSpace"]["taskParameterDefinitions"] == [{"name": "Frame", "type": "INT", "range": "{{Param.Frames}}"}]
+script = step["script"]
+assert script["actions"]["onRun"]["args"] == ["{{Task.File.%s}}" % script["embeddedFiles"][0]["name"]]
+print(re.sub(r"\{\{(.*?)\}\}", lambda m: str(values[m[1]]), script["embeddedFiles"][0]["data"]))
+END
+    bash task.sh 2>stderr.txt || fail "mangata.openjd.yaml: $(cat stderr.txt)"
+    exists frame_0007.exr
+    grep -qx 'openjd_progress: 100' stderr.txt || fail "mangata.openjd.yaml: $(cat stderr.txt)"
+else
+    echo "NOTICE: no python3-yaml here; the OpenJD template was not tested"
+fi
+
+# The tasks that the Flamenco job type makes.
+if command -v node >/dev/null; then
+    node -e '
+const chunks = ["0-7", "8-9"], tasks = [];
+const author = { Task: (name, type) => ({ name, type, commands: [], addCommand(c) { this.commands.push(c); } }), Command: (name, parameters) => ({ name, ...parameters }) };
+const frameChunker = (frames, size) => { if (frames !== "0-9" || size !== 8) throw "frameChunker"; return chunks; };
+eval(require("fs").readFileSync(process.argv[1], "utf8") + ";globalThis.type = JOB_TYPE; globalThis.compile = compileJob;");
+const settings = Object.fromEntries(type.settings.map((s) => [s.key, s.default]));
+compile({ settings: { ...settings, scene: "a b.yaml", frames: "0-9", folder: "/out", options: "--seed  3" }, addTask: (t) => tasks.push(t) });
+const words = JSON.stringify(tasks.map((t) => [t.name, t.type, ...t.commands.map((c) => [c.name, c.exe, ...c.args])]));
+const task = (c) => ["render-" + c, "misc", ["exec", "mangata", "render", "a b.yaml", "-o", "/out/frame_####.exr", "--frames", c, "--skip-existing", "--progress", "text", "--seed", "3"]];
+if (words !== JSON.stringify(chunks.map(task))) { console.log(words); process.exit(1); }
+' "$SOURCE/contrib/farm/mangata.flamenco.js" || fail "mangata.flamenco.js"
+else
+    echo "NOTICE: no node here; the Flamenco job type was not tested"
+fi
+finish
