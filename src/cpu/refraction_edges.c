@@ -58,6 +58,7 @@ typedef struct surface_ray {
     double nearest;               /* metres, +inf: nowhere */
     int32_t met;                  /* triangle there, −1: none */
     bool lost;                    /* triangles are so small that a surface could not be followed to its end */
+    bool open;                    /* one of the places that were asked shows nothing */
     int count;
     int32_t visited[KNOWN_FACETS]; /* triangles that it came by */
 } surface_ray;
@@ -150,6 +151,14 @@ static bool by_nothing(const gbuffer *g, size_t element)
 
 #include "kernels/refraction/edges.k"
 
+static void follow_shown(surface_ray *s, const gbuffer *g, double column, double row)
+{
+    const int32_t triangle = g->triangle[(size_t)row * g->width + (size_t)column];
+    if (triangle >= 0)
+        follow_surface(s, triangle);
+    s->open |= triangle < 0;
+}
+
 /* Those that the pixels on the straight line between two show. */
 static void follow_between(surface_ray *s, const gbuffer *g, size_t first, size_t last)
 {
@@ -157,10 +166,30 @@ static void follow_between(surface_ray *s, const gbuffer *g, size_t first, size_
     const double across = (double)(last % g->width) - x, down = (double)(last / g->width) - y;
     for (int k = 0; k <= SHARP_PLACES; k++) {
         const double share = (double)k / SHARP_PLACES;
-        const int32_t triangle = g->triangle[(size_t)rint(y + share * down) * g->width + (size_t)rint(x + share * across)];
-        if (triangle >= 0)
-            follow_surface(s, triangle);
+        follow_shown(s, g, rint(x + share * across), rint(y + share * down));
     }
+}
+
+/* Those that pixels all around one show: what the nearer ones hide goes on behind it. */
+static void follow_around(surface_ray *s, const gbuffer *g, size_t pixel)
+{
+    for (int k = 0; k < AROUND_PLACES; k++) {
+        const vec2 place = place_around(NULL, k);
+        const double column = (double)(pixel % g->width) + (double)place.x, row = (double)(pixel / g->width) + (double)place.y;
+        if (column >= 0 && column < g->width && row >= 0 && row < g->height)
+            follow_shown(s, g, column, row);
+    }
+}
+
+/* All that may tell of a ray whose search did not arrive. What is mirrored ends where its picture ends: nothing that is shown there means nothing. */
+static void follow_lost(surface_ray *s, const gbuffer *g, size_t element, int32_t pixel, int32_t last, bool mirrored)
+{
+    const bool open = s->open;
+    if (last >= 0)
+        follow_between(s, g, element, (size_t)last);
+    if (s->met < 0 && !mirrored)
+        follow_around(s, g, (size_t)pixel);
+    s->open = open || (s->open && !s->lost && !mirrored);
 }
 
 /* `element`: of the layer, where the ray meets the water. */
@@ -182,11 +211,11 @@ static void sharpen_pixel(const refraction *r, tile_objects *o, size_t i, size_t
         follow_surface(&s, triangles[k]);
     if (s.lost && point_is_near(NULL, e->error[i]) && (double)(e->after[i] - e->way[i]) < s.nearest)
         return;
-    if (point_is_lost(NULL, e->error[i]) && e->last[i] >= 0)
-        follow_between(&s, g, element, (size_t)e->last[i]);
     /* Over the water the sky is all around. */
-    const bool open = r->frame->under && e->total[i] == 0;
-    if (s.met < 0 && !open && !by_nothing(g, (size_t)e->pixel[i]))
+    s.open = (r->frame->under && e->total[i] == 0) || by_nothing(g, (size_t)e->pixel[i]);
+    if (point_is_lost(NULL, e->error[i]))
+        follow_lost(&s, g, element, e->pixel[i], e->last[i], e->total[i] > 0);
+    if (s.met < 0 && !s.open)
         return;
     e->triangle[i] = s.met;
     refraction_end_at(r, o, i, s.met < 0 ? 0 : (float)s.nearest);
@@ -199,7 +228,7 @@ void refraction_sharpen(const refraction *r, const tile_offset *at, tile_objects
     const gbuffer *g = r->narrow.layers[0];
     for (size_t k = 0; k < count; k++) {
         const size_t i = o->list[k];
-        if (o->ends.doubt[i] > 0 && o->ends.pixel[i] >= 0 && point_can_be_sharpened(NULL, o->ends.error[i]))
+        if (o->ends.doubt[i] > 0 && o->ends.pixel[i] >= 0)
             sharpen_pixel(r, o, i, (size_t)(g->top + at->row + i / TILE_WIDTH) * g->width + g->left + at->column + i % TILE_WIDTH);
     }
 }

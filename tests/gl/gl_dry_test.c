@@ -11,8 +11,16 @@ static void no_pixel_in_the_boat_shows_water(void **state)
     mgt_context_destroy(context);
 }
 
+static void no_specks_along_the_waterline(void **state)
+{
+    (void)state;
+    mgt_context *context = gl_context();
+    dry_expect_no_specks(context);
+    mgt_context_destroy(context);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(no_pixel_in_the_boat_shows_water)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(no_pixel_in_the_boat_shows_water), cmocka_unit_test(no_specks_along_the_waterline)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

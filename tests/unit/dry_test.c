@@ -213,12 +213,20 @@ static void ways_of_refraction_agree(void **state)
     mgt_context_destroy(context);
 }
 
+static void no_specks_along_the_waterline(void **state)
+{
+    (void)state;
+    mgt_context *context = sea_context(2, MGT_ISA_AUTO);
+    dry_expect_no_specks(context);
+    mgt_context_destroy(context);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(boat_is_dry_inside),       cmocka_unit_test(tubs_are_dry_and_tubes_are_not),
         cmocka_unit_test(nothing_is_dry_by_itself), cmocka_unit_test(no_pixel_in_the_boat_shows_water),
-        cmocka_unit_test(ways_of_refraction_agree),
+        cmocka_unit_test(ways_of_refraction_agree), cmocka_unit_test(no_specks_along_the_waterline),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

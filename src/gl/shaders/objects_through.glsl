@@ -38,43 +38,66 @@ bool is_doubtful(FoundPoint f, int layer)
     return f.column >= 0.0f && point_is_doubtful(0, f.residual, breaks_off(layer, ivec2(int(f.column), int(f.row))));
 }
 
-/* There the pixel of the answer is not enough: the ray meets the surfaces that it and its neighbours show, and the nearest one counts; where the search
- * did not arrive, also those that the layer shows on the straight line from where the ray meets the water to what is infinitely far along it. */
+/* What a ray meets of the surfaces that pixels show. */
+struct ShownSurfaces {
+    vec3 from, direction;
+    int met;     /* triangle, −1: none */
+    float along; /* INFINITE: none */
+    int asked;   /* triangle of the pixel before */
+    bool lost;   /* triangles are so small that a surface could not be followed to its end … */
+    bool unsure; /* … that of the answer */
+    bool open;   /* one of the pixels shows nothing */
+};
+
+ShownSurfaces follow_shown(ShownSurfaces s, int layer, ivec2 at, int answer)
+{
+    if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, ivec2(int(narrow_data.columns), int(narrow_data.rows)))))
+        return s;
+    int triangle = layer_triangle(layer, at);
+    s.open = s.open || triangle < 0;
+    if (triangle < 0 || triangle == s.asked)
+        return s;
+    s.asked = triangle;
+    SurfaceHit there = follow_surface(triangle, s.from, s.direction, SURFACE_STEPS);
+    s.lost = s.lost || there.lost;
+    s.unsure = s.unsure || (there.lost && triangle == answer);
+    if (there.along < s.along) {
+        s.along = there.along;
+        s.met = there.triangle;
+    }
+    return s;
+}
+
+/* The pixel of an outcome that is in doubt is not enough: the ray meets the surfaces that it and its neighbours show, and the nearest one counts; where the
+ * search did not arrive, also those that the layer shows on the straight line from where the ray meets the water to what is infinitely far along it,
+ * and around. What is mirrored ends where its picture ends: nothing that is shown there means nothing. */
 RayEnd sharpened(RayEnd end, WaterHit hit, int layer, FoundPoint f)
 {
-    ivec2 at = ivec2(int(f.column), int(f.row)), last = ivec2(int(narrow_data.columns), int(narrow_data.rows)) - 1;
-    if (!point_can_be_sharpened(0, end.error) || !is_doubtful(f, layer))
+    ivec2 at = ivec2(int(f.column), int(f.row));
+    if (!is_doubtful(f, layer))
         return end;
-    vec3 from = camera_position() + hit.along * turned(0, hit.view);
-    float along = INFINITE;
-    int met = -1, asked = -1;
-    bool lost = false;
     bool by_nothing = narrow_data.side < 0.0f && layer == LAYER_REFRACTED; /* over the water the sky is all around */
+    bool is_lost = point_is_lost(0, end.error), refracted = layer == LAYER_REFRACTED;
     LayerPlace begin = layer_place(0, hit.column, hit.row);
     vec2 first = vec2(begin.x, begin.y), line = vec2(f.last_column, f.last_row) - first;
-    int places = point_is_lost(0, end.error) && f.last_column >= 0.0f ? SHARP_PLACES + 1 : 0;
-    for (int i = 0; i < 9 + places; i++) {
-        ivec2 beside = i < 9 ? at + ivec2(i % 3 - 1, i / 3 - 1) : ivec2(roundEven(first + line * (float(i - 9) / float(SHARP_PLACES))));
-        if (any(lessThan(beside, ivec2(0))) || any(greaterThan(beside, last)))
-            continue;
-        int triangle = layer_triangle(layer, beside);
-        by_nothing = by_nothing || (i < 9 && triangle < 0);
-        if (triangle < 0 || triangle == asked)
-            continue;
-        asked = triangle;
-        SurfaceHit met_there = follow_surface(triangle, from, end.ray.direction, SURFACE_STEPS);
-        lost = lost || (met_there.lost && triangle == end.triangle);
-        if (met_there.along < along) {
-            along = met_there.along;
-            met = met_there.triangle;
-        }
+    ShownSurfaces s =
+        ShownSurfaces(camera_position() + hit.along * turned(0, hit.view), end.ray.direction, -1, INFINITE, -1, false, false, by_nothing);
+    int between = 9 + (is_lost && f.last_column >= 0.0f ? SHARP_PLACES + 1 : 0), around = between + (is_lost && refracted ? AROUND_PLACES : 0);
+    for (int i = 0; i < around; i++) {
+        if (i == 9)
+            by_nothing = s.open;
+        if (i == between && s.met >= 0)
+            break;
+        vec2 place = i < between ? first + line * (float(i - 9) / float(SHARP_PLACES)) : vec2(at) + place_around(0, i - between);
+        s = follow_shown(s, layer, i < 9 ? at + ivec2(i % 3 - 1, i / 3 - 1) : ivec2(roundEven(place)), end.triangle);
     }
-    if ((lost && point_is_near(0, end.error) && end.ray.after < along) || (met < 0 && !by_nothing))
+    bool open = by_nothing || (s.open && (around == 9 || (refracted && !s.lost)));
+    if ((s.unsure && point_is_near(0, end.error) && end.ray.after < s.along) || (s.met < 0 && !open))
         return end;
-    end.triangle = met;
-    end.ray.after = met < 0 ? 0.0f : along;
-    if (met >= 0)
-        end.ray.position = from + along * end.ray.direction;
+    end.triangle = s.met;
+    end.ray.after = s.met < 0 ? 0.0f : s.along;
+    if (s.met >= 0)
+        end.ray.position = s.from + s.along * s.direction;
     return end;
 }
 
