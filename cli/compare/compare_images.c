@@ -113,7 +113,7 @@ static double picture_work(const compare_scene *scene, size_t picture)
     return each * (double)compare_samples(quality) * scene->width * scene->height;
 }
 
-static int write_picture(compare_job *job, const frame_buffer *buffer, const compare_scene *scene, size_t picture, size_t frame, double seconds)
+static int write_picture(compare_job *job, frame_buffer *buffer, const compare_scene *scene, size_t picture, size_t frame, double seconds)
 {
     const render_request request = picture_request(job, scene, picture);
     char path[COMPARE_PATH], number[16];
@@ -134,7 +134,8 @@ static int write_picture(compare_job *job, const frame_buffer *buffer, const com
         record.entries[last] = (metadata_entry){seconds_key, record.values[last]};
         record.list.count++;
     }
-    return frame_buffer_write(buffer, &request, path, &record.list, &job->output, &error) == FILE_OK ? EXIT_CODE_OK : compare_file_failure(job, &error);
+    return frame_buffer_write(buffer, &request, NULL, 0, path, &record.list, &job->output, &error) == FILE_OK ? EXIT_CODE_OK
+                                                                                                              : compare_file_failure(job, &error);
 }
 
 /* Renders and writes it. */

@@ -7,6 +7,7 @@
 
 #include "cli/common/numbers.h"
 #include "cli/common/options.h"
+#include "image/video.h"
 #include "cli/render/render_request.h"
 #include "cli/common/verbs.h"
 
@@ -49,6 +50,40 @@ static int check_layers(render_request *r)
     return EXIT_CODE_OK;
 }
 
+static int set_codec(const option *o, void *place, const char *value)
+{
+    render_request *r = place;
+    return video_codec_from_name(value, &r->film.codec) ? EXIT_CODE_OK : option_wrong(o, value, VIDEO_CODEC_NAMES);
+}
+
+static int set_crf(const option *o, void *place, const char *value)
+{
+    render_request *r = place;
+    uint64_t crf;
+    if (!number_parse_u64(value, VIDEO_CRF_MOST, &crf))
+        return option_wrong(o, value, "a number from 0 (lossless for h264) to 51");
+    r->film.crf = (int)crf;
+    r->film.crf_given = true;
+    return EXIT_CODE_OK;
+}
+
+/* Prints what is wrong. */
+static bool film_fits(render_request *r)
+{
+    const bool encoded = r->format == PICTURE_MP4 || r->format == PICTURE_MOV;
+    if (!encoded && (r->film.codec != VIDEO_CODEC_DEFAULT || r->film.crf_given))
+        return console_error(0, "-o %s: --codec and --crf are for .mp4 and .mov", r->output), false;
+    if (r->film.codec == VIDEO_CODEC_DEFAULT)
+        r->film.codec = r->format == PICTURE_MOV ? VIDEO_CODEC_PRORES : VIDEO_CODEC_H264;
+    if (r->format == PICTURE_MP4 && r->film.codec == VIDEO_CODEC_PRORES)
+        return console_error(0, "-o %s: --codec prores goes into .mov", r->output), false;
+    if (r->film.codec == VIDEO_CODEC_PRORES && r->film.crf_given)
+        return console_error(0, "--crf is for h264 and hevc; prores has one quality, HQ"), false;
+    if (!r->film.crf_given)
+        r->film.crf = VIDEO_CRF_DEFAULT;
+    return true;
+}
+
 static int check_output(render_request *r)
 {
     if (!r->scene_path)
@@ -60,7 +95,7 @@ static int check_output(render_request *r)
         return console_error(EXIT_CODE_USAGE, "-o %s: %s", r->output, wrong);
     r->format = picture_format_of(r->output);
     if (r->format == PICTURE_UNKNOWN)
-        return console_error(EXIT_CODE_USAGE, "-o %s: unknown kind of file; allowed are .png .exr .pfm .mp4 .y4m", r->output);
+        return console_error(EXIT_CODE_USAGE, "-o %s: unknown kind of file; allowed are .png .exr .pfm .mp4 .mov .y4m", r->output);
     if (render_is_film(r) && r->path.numbered)
         return console_error(EXIT_CODE_USAGE, "-o %s: a film is one file; leave the frame number out", r->output);
     if (!render_is_film(r) && !r->path.numbered && frame_list_length(&r->frames) > 1)
@@ -68,6 +103,10 @@ static int check_output(render_request *r)
                              (unsigned long long)frame_list_length(&r->frames));
     if (r->shard.count && !r->path.numbered)
         return console_error(EXIT_CODE_USAGE, "-o %s: --shard takes numbered pictures, such as frame_%%04d.png; a film is made of them afterwards", r->output);
+    if (r->format != PICTURE_EXR && !exr_choice_is_plain(&r->exr))
+        return console_error(EXIT_CODE_USAGE, "-o %s: --exr is for .exr alone", r->output);
+    if (!film_fits(r))
+        return EXIT_CODE_USAGE;
     return check_layers(r);
 }
 
@@ -84,7 +123,7 @@ static int run(void *request)
 
 static const option render_options[] = {
     {"output", 'o', "OUT",
-     "the file to write: .png .exr .pfm, or a film: .mp4 .y4m;\n"
+     "the file to write: .png .exr .pfm, or a film: .mp4 .mov .y4m;\n"
      "several pictures: frame_%04d.png or frame_####.png",
      .set = option_text, .offset = offsetof(render_request, output)},
     OPTION_SEA,
@@ -111,6 +150,12 @@ static const option render_options[] = {
      "importance, detail, refraction, refraction_error or foam;\n"
      ".exr takes several, or all",
      .set = add_layer},
+    {"exr", 0, "WORDS",
+     ".exr: half (16 bits), piz or none (for ZIP), alpha (channel A, the\n"
+     "share of water), z (channel Z, metres along the view), acescg",
+     .set = option_exr, .offset = offsetof(render_request, exr)},
+    {"codec", 0, "NAME", "films: h264 (default of .mp4), hevc (10 bits), prores (422 HQ, default\nof .mov)", .set = set_codec},
+    {"crf", 0, "N", "films: quality of h264 and hevc, 0 (best) to 51 (default 16)", .set = set_crf},
     {"backend", 0, "NAME", "cpu (default), gl, auto, or null (renders nothing: for tests)", .set = option_context, .offset = offsetof(render_request, context)},
     CONTEXT_OPTION_GL_DEVICE(render_request),
     CONTEXT_OPTION_THREADS(render_request),

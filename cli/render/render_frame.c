@@ -21,20 +21,49 @@ static bool fits_in_memory(double bytes)
     return pages <= 0 || bytes < pages * page;
 }
 
+static const mgt_target *target_of_layer(const frame_buffer *buffer, mgt_layer layer)
+{
+    for (size_t i = 0; i < buffer->count; i++)
+        if (buffer->targets[i].layer == layer)
+            return &buffer->targets[i];
+    return NULL;
+}
+
+/* The request's layers, and those that it needs besides. */
+static size_t list_layers(const render_request *request, mgt_layer layers[LAYER_COUNT])
+{
+    size_t count = request->layer_count;
+    bool mask = false, depth = false;
+    for (size_t i = 0; i < count; i++) {
+        layers[i] = request->layers[i];
+        mask = mask || layers[i] == MGT_LAYER_MASK;
+        depth = depth || layers[i] == MGT_LAYER_DEPTH;
+    }
+    if (request->exr.alpha && !mask)
+        layers[count++] = MGT_LAYER_MASK;
+    if (request->exr.z && !depth)
+        layers[count++] = MGT_LAYER_DEPTH;
+    return count;
+}
+
 int frame_buffer_create(frame_buffer *buffer, const render_request *request, uint32_t width, uint32_t height)
 {
+    mgt_layer layers[LAYER_COUNT];
+    const size_t count = list_layers(request, layers), pixels = (size_t)width * height;
     *buffer = (frame_buffer){.width = width, .height = height};
     buffer->displayed = request->format != PICTURE_EXR && request->format != PICTURE_PFM;
-    double bytes = 0;
-    for (size_t i = 0; i < request->layer_count; i++)
-        bytes += (double)width * height * (double)pixel_bytes(layer_format(request->layers[i], buffer->displayed));
+    double bytes = request->exr.z ? 4.0 * (double)pixels : 0;
+    for (size_t i = 0; i < count; i++)
+        bytes += (double)pixels * (double)pixel_bytes(layer_format(layers[i], buffer->displayed));
     /* Linux grants more than there is and kills later; better to say no now. */
     if (!fits_in_memory(bytes))
         goto fail;
-    for (size_t i = 0; i < request->layer_count; i++) {
+    if (request->exr.z && !(buffer->planar = calloc(pixels, sizeof *buffer->planar)))
+        goto fail;
+    for (size_t i = 0; i < count; i++) {
         mgt_target *target = &buffer->targets[buffer->count];
-        const mgt_format format = layer_format(request->layers[i], buffer->displayed);
-        *target = target_of(request->layers[i], format, calloc((size_t)width * height, pixel_bytes(format)));
+        const mgt_format format = layer_format(layers[i], buffer->displayed);
+        *target = target_of(layers[i], format, calloc(pixels, pixel_bytes(format)));
         if (!target->pixels)
             goto fail;
         buffer->count++;
@@ -49,6 +78,8 @@ void frame_buffer_free(frame_buffer *buffer)
 {
     for (size_t i = 0; i < buffer->count; i++)
         free(buffer->targets[i].pixels);
+    free(buffer->planar);
+    buffer->planar = NULL;
     buffer->count = 0;
 }
 
@@ -73,17 +104,51 @@ void frame_buffer_display(frame_buffer *buffer)
     }
 }
 
-file_status frame_buffer_write(const frame_buffer *buffer, const render_request *request, const char *path, const metadata_list *metadata,
-                               const output_options *options, file_error *error)
+/* Numbers that 16 bits are too few for. */
+static bool is_exact(mgt_layer layer) { return layer == MGT_LAYER_DEPTH || layer == MGT_LAYER_SAMPLES || layer == MGT_LAYER_REFRACTION_ERROR; }
+
+static picture_layer layer_of(const mgt_target *target)
 {
-    picture_layer layers[LAYER_COUNT] = {0};
+    return (picture_layer){.name = mgt_layer_name(target->layer),
+                           .channels = mgt_layer_channels(target->layer),
+                           .pixels = target->pixels,
+                           .exact = is_exact(target->layer)};
+}
+
+static file_status write_exr(frame_buffer *buffer, const render_request *request, const mgt_scene *scene, double fps, const char *path,
+                             const metadata_list *metadata, const output_options *options, file_error *error)
+{
+    picture_layer layers[LAYER_COUNT + 2];
+    size_t count = 0;
+    const size_t pixels = (size_t)buffer->width * buffer->height;
+    const exr_desc desc = scene ? exr_desc_of(&request->exr, scene, fps) : (exr_desc){0};
+    for (; count < request->layer_count; count++) {
+        const mgt_target *target = &buffer->targets[count];
+        layers[count] = layer_of(target);
+        if (desc.acescg && (target->layer == MGT_LAYER_COLOR || target->layer == MGT_LAYER_REFRACTION))
+            exr_to_acescg(target->pixels, pixels);
+    }
+    if (request->exr.alpha) {
+        layers[count] = layer_of(target_of_layer(buffer, MGT_LAYER_MASK));
+        layers[count++].channel = "A";
+    }
+    if (buffer->planar && scene) {
+        layers[count] = layer_of(target_of_layer(buffer, MGT_LAYER_DEPTH));
+        memcpy(buffer->planar, layers[count].pixels, pixels * sizeof *buffer->planar);
+        exr_planar_depth(buffer->planar, scene);
+        layers[count].pixels = buffer->planar;
+        layers[count++].channel = "Z";
+    }
+    return picture_write_exr_described(path, buffer->width, buffer->height, layers, count, &desc, metadata, options, error);
+}
+
+file_status frame_buffer_write(frame_buffer *buffer, const render_request *request, const mgt_scene *scene, double fps, const char *path,
+                               const metadata_list *metadata, const output_options *options, file_error *error)
+{
     if (buffer->displayed)
         return picture_write_png(path, buffer->width, buffer->height, buffer->targets[0].pixels, 0, metadata, options, error);
-    for (size_t i = 0; i < buffer->count; i++)
-        layers[i] = (picture_layer){.name = mgt_layer_name(buffer->targets[i].layer),
-                                    .channels = mgt_layer_channels(buffer->targets[i].layer),
-                                    .pixels = buffer->targets[i].pixels};
-    if (request->format == PICTURE_PFM)
-        return picture_write_pfm(path, buffer->width, buffer->height, &layers[0], metadata, options, error);
-    return picture_write_exr(path, buffer->width, buffer->height, layers, buffer->count, metadata, options, error);
+    if (request->format == PICTURE_EXR)
+        return write_exr(buffer, request, scene, fps, path, metadata, options, error);
+    const picture_layer layer = layer_of(&buffer->targets[0]);
+    return picture_write_pfm(path, buffer->width, buffer->height, &layer, metadata, options, error);
 }

@@ -9,8 +9,9 @@
 typedef struct frame_buffer {
     uint32_t width, height; /* of the crop */
     bool displayed;         /* one layer that becomes 8-bit RGBA */
-    size_t count;
+    size_t count;           /* layers asked for, then those that alpha and planar depth are made of */
     mgt_target targets[LAYER_COUNT];
+    float *planar; /* planar depth; NULL: not asked for */
 } frame_buffer;
 
 /* Allocates what the request needs; prints the error and returns the exit code. */
@@ -20,8 +21,9 @@ void frame_buffer_free(frame_buffer *buffer);
 /* After rendering for PNG and films: turns a float layer into grey or normal colours, in place. Color is left alone. */
 void frame_buffer_display(frame_buffer *buffer);
 
-/* Writes a still picture of the request's kind. */
-file_status frame_buffer_write(const frame_buffer *buffer, const render_request *request, const char *path, const metadata_list *metadata,
-                               const output_options *options, file_error *error);
+/* Writes a still picture of the request's kind, of the scene at `fps` frames a second; NULL: an EXR is not described. Colour may become that of other
+ * primaries in place. */
+file_status frame_buffer_write(frame_buffer *buffer, const render_request *request, const mgt_scene *scene, double fps, const char *path,
+                               const metadata_list *metadata, const output_options *options, file_error *error);
 
 #endif

@@ -209,17 +209,15 @@ static int check_stills(render_job *job)
 
 /* ---- rendering ----------------------------------------------------------------------------------------- */
 
-static int render_frame(render_job *job, uint32_t frame, double *time, double *seconds)
+static int render_frame(render_job *job, uint32_t frame, mgt_scene *scene, double *seconds)
 {
-    mgt_scene scene;
-    const int code = frame_scene(job, frame, &scene);
+    const int code = frame_scene(job, frame, scene);
     if (code != EXIT_CODE_OK)
         return code;
     progress_frame(&job->progress, frame);
     const double start = seconds_now();
-    const mgt_status status = mgt_render(job->context, &scene, job->buffer.targets, job->buffer.count);
+    const mgt_status status = mgt_render(job->context, scene, job->buffer.targets, job->buffer.count);
     *seconds = seconds_now() - start;
-    *time = scene.time;
     if (status != MGT_OK || *interrupt_flag())
         progress_clear(&job->progress);
     if (status == MGT_CANCELLED || *interrupt_flag())
@@ -258,15 +256,16 @@ static int render_still(render_job *job, uint32_t frame)
         code = check_output(job, path, &hash, true, &plan);
     if (code != EXIT_CODE_OK)
         return code;
-    double time, seconds = 0;
+    mgt_scene scene;
+    double seconds = 0;
     if (!plan.skip) {
-        code = render_frame(job, frame, &time, &seconds);
+        code = render_frame(job, frame, &scene, &seconds);
         if (code != EXIT_CODE_OK)
             return code;
         render_record record;
         file_error error;
-        render_record_fill(&record, job->request, &job->info, &hash, number, time, seconds);
-        file_status status = frame_buffer_write(&job->buffer, job->request, path, &record.list, &plan.output, &error);
+        render_record_fill(&record, job->request, &job->info, &hash, number, scene.time, seconds);
+        file_status status = frame_buffer_write(&job->buffer, job->request, &scene, scene_file_fps(job->scene), path, &record.list, &plan.output, &error);
         if (status == FILE_EXISTS && job->request->skip_existing) {
             code = check_output(job, path, &hash, true, &plan);
             if (code != EXIT_CODE_OK || plan.skip)
@@ -321,6 +320,8 @@ static int render_film(render_job *job)
     const video_desc desc = {.width = job->buffer.width,
                              .height = job->buffer.height,
                              .frames_per_second = scene_file_fps(job->scene),
+                             .codec = r->film.codec,
+                             .crf = r->film.crf,
                              .metadata = &record.list,
                              .output = plan.output};
     video_writer *writer = NULL;
@@ -328,8 +329,9 @@ static int render_film(render_job *job)
     if (video_writer_open(&writer, path, &desc, &error) != FILE_OK)
         return file_failure(job, &error);
     for (uint64_t i = 0; i < count; i++) {
-        double time, seconds;
-        code = render_frame(job, frame_list_at(&r->frames, i), &time, &seconds);
+        mgt_scene scene;
+        double seconds;
+        code = render_frame(job, frame_list_at(&r->frames, i), &scene, &seconds);
         if (code == EXIT_CODE_OK && video_writer_frame(writer, job->buffer.targets[0].pixels, 0, &error) != FILE_OK)
             code = file_failure(job, &error);
         if (code != EXIT_CODE_OK) {

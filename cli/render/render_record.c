@@ -25,6 +25,8 @@ static const char *format_word(picture_format format)
         return "pfm";
     case PICTURE_MP4:
         return "mp4";
+    case PICTURE_MOV:
+        return "mov";
     case PICTURE_Y4M:
         return "y4m";
     case PICTURE_UNKNOWN:
@@ -60,6 +62,15 @@ bool render_hash(const render_request *request, const char *canonical, const mgt
     fprintf(stream, "arithmetic %s\nformat %s\nlayers", arithmetic_word(info), format_word(request->format));
     for (size_t i = 0; i < request->layer_count; i++)
         fprintf(stream, " %s", mgt_layer_name(request->layers[i]));
+    /* What stands where it always stood adds nothing, so that older files are kept. */
+    if (request->format == PICTURE_EXR) {
+        if (image->crop_x || image->crop_y || image->crop_width != image->width || image->crop_height != image->height)
+            fputs("\ncrop in its place", stream);
+        exr_choice_write(stream, &request->exr);
+    }
+    if (request->format == PICTURE_MOV ||
+        (request->format == PICTURE_MP4 && (request->film.codec != VIDEO_CODEC_H264 || request->film.crf != VIDEO_CRF_DEFAULT)))
+        fprintf(stream, "\ncodec %s crf %d", video_codec_name(request->film.codec), request->film.crf);
     fprintf(stream, "\nframes %s\n", frames);
     if (!memory_text_finish(stream, &text))
         return false;

@@ -5,7 +5,9 @@
 
 #include "cli/common/context_options.h"
 #include "cli/common/frames.h"
+#include "cli/render/render_exr.h"
 #include "image/picture.h"
+#include "image/video.h"
 #include "params/names.h"
 #include "cli/common/progress.h"
 #include "cli/common/quality_options.h"
@@ -26,13 +28,22 @@ typedef struct render_request {
     context_options context;
     mgt_layer layers[LAYER_COUNT];
     size_t layer_count;
+    exr_choice exr;
+    struct {
+        video_codec codec;
+        int crf;
+        bool crf_given;
+    } film;
 
     bool overwrite, skip_existing, stamp;
     progress_mode progress;
 } render_request;
 
 /* True when the output is one file for all frames. */
-static inline bool render_is_film(const render_request *request) { return request->format == PICTURE_MP4 || request->format == PICTURE_Y4M; }
+static inline bool render_is_film(const render_request *request)
+{
+    return request->format == PICTURE_MP4 || request->format == PICTURE_MOV || request->format == PICTURE_Y4M;
+}
 
 /* Renders; prints errors and returns the exit code. Takes the request, since defaults are filled in from the scene. */
 int render_job_run(render_request *request);

@@ -20,9 +20,11 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "image/picture.h"
+
 extern char **environ;
 
-enum { WAIT_STEP_MS = 100, FIXED_ARGUMENTS = 64 };
+enum { WAIT_STEP_MS = 100, FIXED_ARGUMENTS = 96 };
 
 struct encoder_process {
     pid_t pid;    /* 0: reaped */
@@ -91,61 +93,58 @@ static char *format_text(const char *format, ...)
     return text;
 }
 
-/* x264's result depends on its number of threads, so it is fixed; bitexact keeps times and versions of the muxer out. */
+/* An encoder's words, ended by NULL; "CRF" stands for the quality. Their results depend on the number of threads, so it is fixed. */
+typedef struct encoder_words {
+    const char *input; /* how frames come */
+    const char *words[24];
+} encoder_words;
+
+static const encoder_words encoders[] = {
+    [VIDEO_CODEC_H264] = {"yuv420p",
+                          {"-c:v", "libx264", "-preset", "fast", "-crf", "CRF", "-pix_fmt", "yuv420p", "-threads", "4", "-x264-params", "lookahead-threads=1",
+                           NULL}},
+    [VIDEO_CODEC_HEVC] = {"yuv420p",
+                          {"-c:v", "libx265", "-preset", "fast", "-crf", "CRF", "-pix_fmt", "yuv420p10le", "-tag:v", "hvc1", "-x265-params",
+                           "log-level=error:info=0:pools=4:frame-threads=1", NULL}},
+    [VIDEO_CODEC_PRORES] = {"yuv444p", {"-c:v", "prores_ks", "-profile:v", "hq", "-vendor", "apl0", "-pix_fmt", "yuv422p10le", "-threads", "4", NULL}},
+};
+
+static void add_words(argument_list *list, const char *const *words, int crf)
+{
+    for (; *words; words++)
+        add_argument(list, strcmp(*words, "CRF") == 0 ? format_text("%d", crf) : strdup(*words));
+}
+
+/* bitexact keeps times and versions of the muxer out. */
 static argument_list encoder_arguments(const encoder_desc *desc)
 {
-    static const char *const before[] = {"ffmpeg", "-nostdin",         "-hide_banner", "-loglevel",  "error",        "-xerror", "-y",
-                                         "-f",     "rawvideo",         "-pix_fmt",     "yuv420p",    "-color_range", "tv",      "-colorspace",
-                                         "bt709",  "-color_primaries", "bt709",        "-color_trc", "bt709"};
-    static const char *const after[] = {"-i",
-                                        "pipe:0",
-                                        "-map",
-                                        "0:v:0",
-                                        "-c:v",
-                                        "libx264",
-                                        "-preset",
-                                        "fast",
-                                        "-crf",
-                                        "16",
-                                        "-pix_fmt",
-                                        "yuv420p",
-                                        "-threads",
-                                        "4",
-                                        "-x264-params",
-                                        "lookahead-threads=1",
-                                        "-color_range",
-                                        "tv",
-                                        "-colorspace",
-                                        "bt709",
-                                        "-color_primaries",
-                                        "bt709",
-                                        "-color_trc",
-                                        "bt709",
-                                        "-fflags",
-                                        "+bitexact",
-                                        "-flags:v",
-                                        "+bitexact",
-                                        "-map_metadata",
-                                        "-1",
-                                        "-movflags",
-                                        "+faststart+use_metadata_tags",
-                                        "-f",
-                                        "mp4"};
+    static const char *const before[] = {"ffmpeg", "-nostdin", "-hide_banner", "-loglevel", "error", "-xerror", "-y", "-f", "rawvideo", NULL};
+    static const char *const tagged[] = {"-color_range", "tv", "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709", NULL};
+    static const char *const input[] = {"-i", "pipe:0", "-map", "0:v:0", NULL};
+    static const char *const after[] = {"-fflags", "+bitexact", "-flags:v", "+bitexact", "-map_metadata", "-1", "-movflags", "+faststart+use_metadata_tags",
+                                        NULL};
+    const encoder_words *encoder = &encoders[desc->codec];
     size_t tags = desc->metadata ? desc->metadata->count : 0;
-    argument_list list = {.capacity = FIXED_ARGUMENTS + sizeof before / sizeof *before + sizeof after / sizeof *after + 2 * tags};
+    argument_list list = {.capacity = FIXED_ARGUMENTS + 2 * tags};
     list.items = calloc(list.capacity, sizeof *list.items);
     if (!list.items) {
         list.failed = true;
         return list;
     }
-    for (size_t i = 0; i < sizeof before / sizeof *before; i++)
-        add_argument(&list, strdup(before[i]));
+    add_words(&list, before, 0);
+    add_argument(&list, strdup("-pix_fmt"));
+    add_argument(&list, strdup(encoder->input));
+    add_words(&list, tagged, 0);
     add_argument(&list, strdup("-video_size"));
     add_argument(&list, format_text("%ux%u", desc->width, desc->height));
     add_argument(&list, strdup("-framerate"));
     add_argument(&list, format_text("%u/%u", desc->rate_numerator, desc->rate_denominator));
-    for (size_t i = 0; i < sizeof after / sizeof *after; i++)
-        add_argument(&list, strdup(after[i]));
+    add_words(&list, input, 0);
+    add_words(&list, encoder->words, desc->crf);
+    add_words(&list, tagged, 0);
+    add_words(&list, after, 0);
+    add_argument(&list, strdup("-f"));
+    add_argument(&list, strdup(picture_format_of(desc->path) == PICTURE_MOV ? "mov" : "mp4"));
     for (size_t i = 0; i < tags; i++) {
         add_argument(&list, strdup("-metadata"));
         add_argument(&list, format_text("%s=%s", desc->metadata->entries[i].key, desc->metadata->entries[i].value));

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* ffmpeg as a subprocess that takes raw frames and writes one .mp4. Private to src/image. */
+/* ffmpeg as a subprocess that takes raw frames and writes one .mp4 or .mov. Private to src/image. */
 #ifndef MANGATA_IMAGE_ENCODER_PROCESS_H
 #define MANGATA_IMAGE_ENCODER_PROCESS_H
 
@@ -9,11 +9,14 @@
 #include "image/file_error.h"
 #include "image/metadata.h"
 #include "image/output_file.h"
+#include "image/video.h"
 
 typedef struct encoder_process encoder_process;
 
 typedef struct encoder_desc {
     uint32_t width, height; /* even */
+    video_codec codec;      /* not the default; ProRes takes frames of full chroma */
+    int crf;
     uint32_t rate_numerator, rate_denominator;
     const metadata_list *metadata; /* NULL: no tags */
     const char *path;              /* final name, for messages only; must outlive the process */

@@ -3,12 +3,15 @@
 #define _POSIX_C_SOURCE 200809L
 
 #include <errno.h>
+#include <math.h>
 #include <openexr.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "image/exr_names.h"
 #include "image/file_whole.h"
+#include "image/frame_rate.h"
 #include "image/picture_formats.h"
 
 enum {
@@ -59,7 +62,10 @@ static int list_sources(exr_source *sources, const char *path, const picture_lay
             if (used == CHANNELS_MAX)
                 return file_error_set(error, FILE_ARGUMENT, "%s: more than %d channels", path, (int)CHANNELS_MAX), 0;
             exr_source *source = &sources[used];
-            exr_channel_name(source->name, layer->name, layer->channels, c);
+            if (layer->channel)
+                snprintf(source->name, sizeof source->name, "%s", layer->channel);
+            else
+                exr_channel_name(source->name, layer->name, layer->channels, c);
             source->layer = layer;
             source->component = c;
             for (int other = 0; other < used; other++)
@@ -73,18 +79,74 @@ static int list_sources(exr_source *sources, const char *path, const picture_lay
     return used;
 }
 
-static exr_result_t write_header(exr_context_t context, uint32_t width, uint32_t height, const exr_source *sources, int count, const metadata_list *metadata)
+/* ---- the header ---- */
+
+static bool is_half(const exr_desc *desc, const exr_source *source) { return desc->half && !source->layer->exact; }
+
+static exr_compression_t compression_of(const exr_desc *desc)
+{
+    return desc->packing == EXR_PACKING_PIZ ? EXR_COMPRESSION_PIZ : desc->packing == EXR_PACKING_NONE ? EXR_COMPRESSION_NONE : EXR_COMPRESSION_ZIP;
+}
+
+static exr_result_t write_windows(exr_context_t context, int part, uint32_t width, uint32_t height, const exr_desc *desc)
+{
+    const uint32_t display_width = desc->display_width ? desc->display_width : width, display_height = desc->display_height ? desc->display_height : height;
+    const exr_attr_box2i_t display = {{{{0, 0}}}, {{{(int32_t)display_width - 1, (int32_t)display_height - 1}}}};
+    const exr_attr_box2i_t data = {{{{(int32_t)desc->x, (int32_t)desc->y}}}, {{{(int32_t)(desc->x + width) - 1, (int32_t)(desc->y + height) - 1}}}};
+    const exr_attr_v2f_t center = {{{0, 0}}};
+    return exr_initialize_required_attr(context, part, &display, &data, 1.0f, &center, desc->described ? (float)desc->screen_width : 1.0f,
+                                        EXR_LINEORDER_INCREASING_Y, compression_of(desc));
+}
+
+static exr_result_t write_matrix(exr_context_t context, int part, const char *name, const double from[4][4])
+{
+    exr_attr_m44f_t matrix;
+    for (int i = 0; i < 16; i++)
+        matrix.m[i] = (float)from[i / 4][i % 4];
+    return exr_attr_set_m44f(context, part, name, &matrix);
+}
+
+static exr_result_t write_rate(exr_context_t context, int part, double rate)
+{
+    const frame_rate exact = frame_rate_of(rate);
+    const exr_attr_rational_t rational = {.num = (int32_t)exact.numerator, .denom = exact.denominator};
+    return exr_attr_set_rational(context, part, "framesPerSecond", &rational);
+}
+
+static exr_result_t write_description(exr_context_t context, int part, const exr_desc *desc)
+{
+    static const exr_attr_chromaticities_t srgb =
+        {.red_x = 0.64f, .red_y = 0.33f, .green_x = 0.3f, .green_y = 0.6f, .blue_x = 0.15f, .blue_y = 0.06f, .white_x = 0.3127f, .white_y = 0.329f};
+    static const exr_attr_chromaticities_t ap1 =
+        {.red_x = 0.713f, .red_y = 0.293f, .green_x = 0.165f, .green_y = 0.83f, .blue_x = 0.128f, .blue_y = 0.044f, .white_x = 0.32168f, .white_y = 0.33767f};
+    exr_result_t code = exr_attr_set_chromaticities(context, part, "chromaticities", desc->acescg ? &ap1 : &srgb);
+    if (!code)
+        code = exr_attr_set_float(context, part, "whiteLuminance", (float)desc->nits);
+    if (!code && desc->frames_per_second > 0)
+        code = write_rate(context, part, desc->frames_per_second);
+    if (!code && desc->exposure > 0)
+        code = exr_attr_set_float(context, part, "expTime", (float)desc->exposure);
+    if (!code)
+        code = write_matrix(context, part, "worldToCamera", desc->world_to_camera);
+    return code ? code : write_matrix(context, part, "worldToNDC", desc->world_to_ndc);
+}
+
+static exr_result_t write_header(exr_context_t context, uint32_t width, uint32_t height, const exr_source *sources, int count, const exr_desc *desc,
+                                 const metadata_list *metadata)
 {
     int part = 0;
     exr_result_t code = exr_set_longname_support(context, 1);
     if (!code)
         code = exr_add_part(context, "mangata", EXR_STORAGE_SCANLINE, &part);
     if (!code)
-        code = exr_initialize_required_attr_simple(context, part, (int32_t)width, (int32_t)height, EXR_COMPRESSION_ZIP);
+        code = write_windows(context, part, width, height, desc);
+    if (!code && desc->described)
+        code = write_description(context, part, desc);
     if (!code)
         code = exr_set_zip_compression_level(context, part, ZIP_LEVEL);
     for (int i = 0; i < count && !code; i++)
-        code = exr_add_channel(context, part, sources[i].name, EXR_PIXEL_FLOAT, EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
+        code =
+            exr_add_channel(context, part, sources[i].name, is_half(desc, &sources[i]) ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT, EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
     for (size_t i = 0; metadata && i < metadata->count && !code; i++) {
         char name[EXR_ATTRIBUTE_NAME_SIZE];
         exr_attribute_name(name, metadata->entries[i].key);
@@ -106,8 +168,18 @@ static const exr_source *find_source(const exr_source *sources, int count, const
     return NULL;
 }
 
+/* Within what a half float holds; infinities stay. */
+static float within_half(float value)
+{
+    enum { HALF_MAX = 65504 };
+    if (!isfinite(value))
+        return value;
+    return value > HALF_MAX ? HALF_MAX : value < -HALF_MAX ? -HALF_MAX : value;
+}
+
 /* Gathers a chunk's rows of every channel into the planar `band` and points the encoder there. */
-static exr_result_t gather_band(exr_encode_pipeline_t *encoder, float *band, uint32_t width, uint32_t y, int32_t rows, const exr_source *sources, int count)
+static exr_result_t gather_band(exr_encode_pipeline_t *encoder, float *band, uint32_t width, uint32_t y, int32_t rows, const exr_source *sources, int count,
+                                const exr_desc *desc)
 {
     for (int c = 0; c < encoder->channel_count; c++) {
         exr_coding_channel_info_t *channel = &encoder->channels[c];
@@ -115,6 +187,7 @@ static exr_result_t gather_band(exr_encode_pipeline_t *encoder, float *band, uin
         if (!source)
             return EXR_ERR_INVALID_ARGUMENT;
         const picture_layer *layer = source->layer;
+        const bool half = is_half(desc, source);
         size_t step = layer->pixel_floats ? layer->pixel_floats : layer->channels;
         channel->encode_from_ptr = (const uint8_t *)band;
         channel->user_data_type = EXR_PIXEL_FLOAT;
@@ -123,27 +196,32 @@ static exr_result_t gather_band(exr_encode_pipeline_t *encoder, float *band, uin
         channel->user_line_stride = (int32_t)(width * sizeof(float));
         for (int32_t row = 0; row < rows; row++) {
             const float *from = picture_row(layer->pixels, width * step * sizeof(float), layer->row_stride, y + (uint32_t)row);
-            for (uint32_t x = 0; x < width; x++)
-                memcpy(band++, from + x * step + source->component, sizeof(float));
+            for (uint32_t x = 0; x < width; x++) {
+                memcpy(band, from + x * step + source->component, sizeof(float));
+                if (half)
+                    *band = within_half(*band);
+                band++;
+            }
         }
     }
     return EXR_ERR_SUCCESS;
 }
 
-static exr_result_t write_pixels(exr_context_t context, float *band, uint32_t width, uint32_t height, const exr_source *sources, int count)
+static exr_result_t write_pixels(exr_context_t context, float *band, uint32_t width, uint32_t height, const exr_source *sources, int count,
+                                 const exr_desc *desc)
 {
     exr_encode_pipeline_t encoder = EXR_ENCODE_PIPELINE_INITIALIZER;
     exr_chunk_info_t chunk;
     int32_t rows = 0;
     exr_result_t code = exr_get_scanlines_per_chunk(context, 0, &rows);
     for (uint32_t y = 0; y < height && !code; y += (uint32_t)rows) {
-        code = exr_write_scanline_chunk_info(context, 0, (int)y, &chunk);
+        code = exr_write_scanline_chunk_info(context, 0, (int)(desc->y + y), &chunk);
         if (!code && y == 0)
             code = exr_encoding_initialize(context, 0, &chunk, &encoder);
         else if (!code)
             code = exr_encoding_update(context, 0, &chunk, &encoder);
         if (!code)
-            code = gather_band(&encoder, band, width, y, chunk.height, sources, count);
+            code = gather_band(&encoder, band, width, y, chunk.height, sources, count, desc);
         if (!code && y == 0)
             code = exr_encoding_choose_default_routines(context, 0, &encoder);
         if (!code)
@@ -156,7 +234,14 @@ static exr_result_t write_pixels(exr_context_t context, float *band, uint32_t wi
 file_status picture_write_exr(const char *path, uint32_t width, uint32_t height, const picture_layer *layers, size_t layer_count, const metadata_list *metadata,
                               const output_options *options, file_error *error)
 {
-    enum { CHUNK_ROWS_MAX = 16 }; /* of ZIP */
+    const exr_desc plain = {0};
+    return picture_write_exr_described(path, width, height, layers, layer_count, &plain, metadata, options, error);
+}
+
+file_status picture_write_exr_described(const char *path, uint32_t width, uint32_t height, const picture_layer *layers, size_t layer_count,
+                                        const exr_desc *desc, const metadata_list *metadata, const output_options *options, file_error *error)
+{
+    enum { CHUNK_ROWS_MAX = 32 }; /* of PIZ */
     exr_source sources[CHANNELS_MAX];
     file_status status = picture_check_size(path, width, height, error);
     if (status == FILE_OK)
@@ -182,9 +267,9 @@ file_status picture_write_exr(const char *path, uint32_t width, uint32_t height,
     initializer.write_fn = sink_write;
     exr_result_t code = exr_start_write(&context, path, EXR_WRITE_FILE_DIRECTLY, &initializer);
     if (!code)
-        code = write_header(context, width, height, sources, count, metadata);
+        code = write_header(context, width, height, sources, count, desc, metadata);
     if (!code)
-        code = write_pixels(context, band, width, height, sources, count);
+        code = write_pixels(context, band, width, height, sources, count, desc);
     /* Writes the table of chunks, too. */
     exr_result_t finish_code = context ? exr_finish(&context) : EXR_ERR_SUCCESS;
     if (!code)

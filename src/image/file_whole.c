@@ -162,7 +162,7 @@ static bool begins_like(const input_file *input, picture_format format)
     const size_t length = fread(start, 1, sizeof start, input->stream);
     const picture_format named = picture_format_of(input->path);
     return input->size == 0 || (format != PICTURE_UNKNOWN && format == named) || (named == PICTURE_Y4M && length >= 9 && memcmp(start, "YUV4MPEG2", 9) == 0) ||
-           (named == PICTURE_MP4 && length >= 8 && memcmp(start + 4, "ftyp", 4) == 0);
+           ((named == PICTURE_MP4 || named == PICTURE_MOV) && length >= 8 && memcmp(start + 4, "ftyp", 4) == 0);
 }
 
 file_status file_state_read(const char *path, const char *key, const char *value, bool whole, file_state *state, file_error *error)

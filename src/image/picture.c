@@ -18,7 +18,7 @@ picture_format picture_format_of(const char *path)
     static const struct {
         const char *extension;
         picture_format format;
-    } known[] = {{".png", PICTURE_PNG}, {".exr", PICTURE_EXR}, {".pfm", PICTURE_PFM}, {".mp4", PICTURE_MP4}, {".y4m", PICTURE_Y4M}};
+    } known[] = {{".png", PICTURE_PNG}, {".exr", PICTURE_EXR}, {".pfm", PICTURE_PFM}, {".mp4", PICTURE_MP4}, {".mov", PICTURE_MOV}, {".y4m", PICTURE_Y4M}};
     const char *slash = strrchr(path, '/');
     const char *name = slash ? slash + 1 : path;
     const char *dot = strrchr(name, '.');

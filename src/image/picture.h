@@ -3,6 +3,7 @@
 #ifndef MANGATA_IMAGE_PICTURE_H
 #define MANGATA_IMAGE_PICTURE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -10,7 +11,7 @@
 #include "image/metadata.h"
 #include "image/output_file.h"
 
-typedef enum picture_format { PICTURE_UNKNOWN = 0, PICTURE_PNG, PICTURE_EXR, PICTURE_PFM, PICTURE_MP4, PICTURE_Y4M } picture_format;
+typedef enum picture_format { PICTURE_UNKNOWN = 0, PICTURE_PNG, PICTURE_EXR, PICTURE_PFM, PICTURE_MP4, PICTURE_MOV, PICTURE_Y4M } picture_format;
 
 /* By the extension, upper or lower case. */
 picture_format picture_format_of(const char *path);
@@ -20,6 +21,8 @@ picture_format picture_format_of(const char *path);
 /* One float layer in the caller's memory. */
 typedef struct picture_layer {
     const char *name;      /* "color", "coverage", "mask", "depth", "normal"; others as [A-Za-z0-9_]+ */
+    const char *channel;   /* EXR, of 1 channel: its whole name, such as "A"; NULL: after `name` */
+    bool exact;            /* EXR: 32 bits in files of half floats too, for distances and counts */
     uint32_t channels;     /* channels to write: 1 or 3 */
     const float *pixels;   /* top left pixel */
     uint32_t pixel_floats; /* floats from a pixel to its right neighbour: 1, 3, 4, …; 0: `channels` */
@@ -39,6 +42,28 @@ file_status picture_write_png_alpha(const char *path, uint32_t width, uint32_t h
  * normal normal.X,.Y,.Z · any other NAME.Y or NAME.R,.G,.B. Metadata as string attributes. Layer names must differ. */
 file_status picture_write_exr(const char *path, uint32_t width, uint32_t height, const picture_layer *layers, size_t layer_count, const metadata_list *metadata,
                               const output_options *options, file_error *error);
+
+typedef enum exr_packing { EXR_PACKING_ZIP = 0, EXR_PACKING_PIZ, EXR_PACKING_NONE } exr_packing;
+
+/* How an EXR is packed and what it says of its pixels in the format's own attributes. All zero: ZIP, 32 bits, the pixels are the whole picture, none. */
+typedef struct exr_desc {
+    exr_packing packing;
+    bool half;                              /* 16 bits; finite values beyond ±65504 become these */
+    uint32_t x, y;                          /* of the pixels' corner in the whole picture: data window and display window */
+    uint32_t display_width, display_height; /* of the whole picture; 0: as large as the pixels */
+    bool described;                         /* whether all that follows is written */
+    bool acescg;                            /* primaries of ACES (AP1), else of sRGB: chromaticities */
+    double nits;                            /* of white, 1 1 1: whiteLuminance */
+    double frames_per_second;               /* framesPerSecond; 0: not written */
+    double exposure;                        /* seconds: expTime; 0: not written */
+    double screen_width;                    /* of the picture, at distance 1 of the camera: screenWindowWidth */
+    double world_to_camera[4][4];           /* worldToCamera, of row vectors: x right, y up, z in the direction of view */
+    double world_to_ndc[4][4];              /* worldToNDC, of row vectors: (0, 0) to (1, 1) is the display window, y down */
+} exr_desc;
+
+/* The same, packed and described. */
+file_status picture_write_exr_described(const char *path, uint32_t width, uint32_t height, const picture_layer *layers, size_t layer_count,
+                                        const exr_desc *desc, const metadata_list *metadata, const output_options *options, file_error *error);
 
 /* "Pf" (1 channel) or "PF" (3), little endian, bottom row first. Metadata go to the sidecar PATH.json, which appears after the
  * picture; with NULL none is written. */

@@ -5,12 +5,12 @@
 #include "image/video.h"
 
 #include <errno.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "image/encoder_process.h"
+#include "image/frame_rate.h"
 #include "image/paired_output.h"
 #include "image/picture_formats.h"
 #include "image/yuv.h"
@@ -26,36 +26,30 @@ struct video_writer {
     encoder_process *encoder; /* mp4 only */
 };
 
-typedef struct frame_rate {
-    uint32_t numerator, denominator;
-} frame_rate;
+static const char *const codec_names[] = {"default", "h264", "hevc", "prores"};
 
-static frame_rate frame_rate_of(double frames_per_second)
+const char *video_codec_name(video_codec codec) { return codec_names[codec]; }
+
+bool video_codec_from_name(const char *name, video_codec *codec)
 {
-    double whole = round(frames_per_second);
-    if (fabs(frames_per_second - whole) < 1e-6)
-        return (frame_rate){(uint32_t)whole, 1};
-    /* The television rates 23.976, 29.97, 59.94 are n · 1000/1001. */
-    if (fabs(frames_per_second - whole * 1000.0 / 1001.0) < 2e-3 && whole >= 1.0)
-        return (frame_rate){(uint32_t)whole * 1000, 1001};
-    uint32_t a = (uint32_t)round(frames_per_second * 1000.0), b = 1000;
-    for (uint32_t x = a, y = b;;) { /* greatest common divisor */
-        if (y == 0)
-            return (frame_rate){a / x, b / x};
-        uint32_t rest = x % y;
-        x = y;
-        y = rest;
-    }
+    for (int i = VIDEO_CODEC_H264; i <= VIDEO_CODEC_PRORES; i++)
+        if (strcmp(name, codec_names[i]) == 0)
+            return *codec = (video_codec)i, true;
+    return false;
 }
 
 static file_status check_desc(const char *path, const video_desc *desc, picture_format format, file_error *error)
 {
-    if (format != PICTURE_MP4 && format != PICTURE_Y4M)
-        return file_error_set(error, FILE_ARGUMENT, "%s: a film's name must end in .mp4 or .y4m", path);
+    if (format != PICTURE_MP4 && format != PICTURE_MOV && format != PICTURE_Y4M)
+        return file_error_set(error, FILE_ARGUMENT, "%s: a film's name must end in .mp4, .mov or .y4m", path);
+    if (desc->codec == VIDEO_CODEC_PRORES && format != PICTURE_MOV)
+        return file_error_set(error, FILE_ARGUMENT, "%s: ProRes goes into .mov", path);
+    if (desc->crf < 0 || desc->crf > VIDEO_CRF_MOST)
+        return file_error_set(error, FILE_ARGUMENT, "%s: crf %d is not within 0 and %d", path, desc->crf, (int)VIDEO_CRF_MOST);
     if (!(desc->frames_per_second >= 0.01 && desc->frames_per_second <= 1000.0))
         return file_error_set(error, FILE_ARGUMENT, "%s: %g frames per second are not within 0.01 and 1000", path, desc->frames_per_second);
-    if (format == PICTURE_MP4 && (desc->width > 16384 || desc->height > 16384))
-        return file_error_set(error, FILE_ARGUMENT, "%s: H.264 takes sides up to 16384, not %ux%u", path, desc->width, desc->height);
+    if (format != PICTURE_Y4M && (desc->width > 16384 || desc->height > 16384))
+        return file_error_set(error, FILE_ARGUMENT, "%s: encoders take sides up to 16384, not %ux%u", path, desc->width, desc->height);
     return picture_check_size(path, desc->width, desc->height, error);
 }
 
@@ -81,8 +75,10 @@ file_status video_writer_open(video_writer **result, const char *path, const vid
     writer->width = desc->width;
     writer->height = desc->height;
     /* 4:2:0 H.264 has even sides. */
-    uint32_t odd = format == PICTURE_MP4 ? 1 : 0;
-    writer->layout = yuv_layout_of(desc->width + (desc->width & odd), desc->height + (desc->height & odd), format == PICTURE_Y4M && desc->full_chroma);
+    uint32_t odd = format != PICTURE_Y4M ? 1 : 0;
+    const video_codec codec = desc->codec != VIDEO_CODEC_DEFAULT ? desc->codec : format == PICTURE_MOV ? VIDEO_CODEC_PRORES : VIDEO_CODEC_H264;
+    const bool full_chroma = format == PICTURE_Y4M ? desc->full_chroma : codec == VIDEO_CODEC_PRORES;
+    writer->layout = yuv_layout_of(desc->width + (desc->width & odd), desc->height + (desc->height & odd), full_chroma);
     writer->planes = malloc(writer->layout.bytes);
     writer->path = strdup(path);
     if (!writer->planes || !writer->path) {
@@ -98,6 +94,8 @@ file_status video_writer_open(video_writer **result, const char *path, const vid
     } else {
         encoder_desc encoder = {.width = writer->layout.width,
                                 .height = writer->layout.height,
+                                .codec = codec,
+                                .crf = desc->crf,
                                 .rate_numerator = rate.numerator,
                                 .rate_denominator = rate.denominator,
                                 .metadata = desc->metadata,
@@ -120,7 +118,7 @@ file_status video_writer_frame(video_writer *writer, const uint8_t *rgba, ptrdif
     static const char mark[] = "FRAME\n";
     file_status status = FILE_OK;
     yuv_from_rgba(writer->planes, &writer->layout, rgba, row_stride, writer->width, writer->height);
-    if (writer->format == PICTURE_MP4) {
+    if (writer->format != PICTURE_Y4M) {
         status = encoder_process_write(writer->encoder, writer->planes, writer->layout.bytes, error);
     } else {
         status = output_file_write(writer->output.file, mark, sizeof mark - 1, error);

@@ -15,7 +15,10 @@ enum { WIDTH = 63, HEIGHT = 35, FRAMES = 7 };
 static const metadata_entry entries[] = {{"render_hash", "abc"}, {"method", "mangata"}};
 static const metadata_list metadata = {entries, 2};
 
-static video_desc small_film(void) { return (video_desc){.width = WIDTH, .height = HEIGHT, .frames_per_second = 30.0, .metadata = &metadata}; }
+static video_desc small_film(void)
+{
+    return (video_desc){.width = WIDTH, .height = HEIGHT, .frames_per_second = 30.0, .crf = VIDEO_CRF_DEFAULT, .metadata = &metadata};
+}
 
 /* A smooth coloured picture that moves. */
 static void paint(uint8_t *rgba, int width, int height, int frame)

@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: MIT */
+/* What an EXR of a render holds beside its layers: how it is packed, alpha, planar depth, its place, its camera. */
+#ifndef MANGATA_CLI_RENDER_RENDER_EXR_H
+#define MANGATA_CLI_RENDER_RENDER_EXR_H
+
+#include <stdio.h>
+
+#include "cli/common/options.h"
+#include "image/picture.h"
+
+/* --exr. */
+typedef struct exr_choice {
+    bool half;
+    exr_packing packing;
+    bool alpha, z, acescg;
+} exr_choice;
+
+/* "half,piz,alpha,z,acescg" into an exr_choice. */
+option_set option_exr;
+
+static inline bool exr_choice_is_plain(const exr_choice *c) { return !(c->half || c->packing || c->alpha || c->z || c->acescg); }
+
+/* The words that are not the default, each behind a space; nothing where there are none. */
+void exr_choice_write(FILE *stream, const exr_choice *choice);
+
+/* How the picture of the scene is packed and described. `fps` frames a second. */
+exr_desc exr_desc_of(const exr_choice *choice, const mgt_scene *scene, double fps);
+
+/* Metres along the rays of the crop's `count` pixels become metres along the direction of view; infinities stay. */
+void exr_planar_depth(float *depth, const mgt_scene *scene);
+
+/* Linear sRGB becomes ACEScg, 3 floats a pixel. */
+void exr_to_acescg(float *color, size_t pixels);
+
+#endif
