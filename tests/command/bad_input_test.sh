@@ -122,6 +122,21 @@ grep -q 'simple.json: ok, ' stdout.txt || fail "scene check does not say ok"
 expect 0 '' "$MANGATA" scene schema
 "$JSON_GET" '$schema' <stdout.txt >/dev/null || fail "the schema is not JSON"
 
+# A program that reads models and ends badly is an error of the file; without that program there is one as well.
+mkdir program
+cp "$MANGATA" program/mangata
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >good.obj
+scene 'mangata: 1' 'objects:' '  - {mesh: good.obj}'
+expect 0 '' "$MANGATA" scene check scene.yaml
+for end in 'kill -SEGV $$' 'kill -KILL $$' 'exit 3' 'exit 0' 'head -c 5000 /dev/zero' 'printf short' 'printf MGI2; head -c 500 /dev/zero' 'printf MGI2; head -c 500 /dev/zero | tr "\\000" "\\377"'; do
+    printf '#!/bin/sh\n%s\n' "$end" >program/mangata-import
+    chmod +x program/mangata-import
+    expect 65 'scene.yaml:3:12: .*good.obj: ' program/mangata scene check scene.yaml
+done
+rm program/mangata-import
+program/mangata scene check scene.yaml >stdout.txt 2>stderr.txt || grep -q 'cannot be read without the program mangata-import' stderr.txt || fail "without mangata-import: $(cat stderr.txt)"
+rm -r program
+
 # Pictures that are not.
 expect 66 'missing.png' "$MANGATA" diff missing.png missing.png
 echo 'not a picture' >bad.png

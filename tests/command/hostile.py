@@ -1,0 +1,316 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Files that mean harm, one row each: how the command ends, what it says, where, and what it takes: at most 5 s of a core and 500 MB; nothing is left behind.
+
+usage: hostile.py COMMAND [PATTERN]     PATTERN: only rows whose name matches; in the environment SANITIZED=1: a build whose time and memory say nothing"""
+import base64
+import copy
+import json
+import os
+import re
+import resource
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import zlib
+
+SANITIZED = os.environ.get("SANITIZED") == "1"
+SECONDS, MEGABYTES = (60, 1 << 20) if SANITIZED else (5, 500)
+BAD, MISSING, USAGE = 65, 66, 64
+rows = []  # name, files {name: bytes}, words of the command, exit code, pattern of the message
+
+
+def row(name, files, words, code, pattern):
+    rows.append((name, {k: v.encode() if isinstance(v, str) else v for k, v in files.items()}, words, code, pattern))
+
+
+def check(name, file, content, pattern, code=BAD, more=None, key="mesh"):
+    """A scene that names the file."""
+    scene = {"mesh": f"mangata: 1\nobjects:\n  - {{mesh: {file}}}\n", "texture": f"mangata: 1\nobjects:\n  - {{shape: box, material: {{texture: {file}}}}}\n",
+             "heights": f"mangata: 1\nobjects:\n  - {{shape: floor, heights: {file}}}\n",
+             "spectrum": f"mangata: 1\nwater: {{spectrum: {{model: table, file: {file}}}}}\n"}[key]
+    place = {"mesh": "s.yaml:3:[0-9]+: objects\\[0\\].mesh: ", "texture": "s.yaml:3:[0-9]+: objects\\[0\\].material.texture: ", "heights": "s.yaml:3:[0-9]+: objects\\[0\\].heights: ",
+             "spectrum": "s.yaml:[0-9]+:[0-9]+: .*|"}[key]
+    row(f"{key} {name}", {"s.yaml": scene, **({file: content} if content is not None else {}), **(more or {})}, ["scene", "check", "s.yaml"], code, place + pattern)
+
+
+# ---- glTF ----
+
+FLOATS = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)
+
+
+def data_uri(data):
+    return "data:application/octet-stream;base64," + base64.b64encode(data).decode()
+
+
+BASE = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0, "children": [1]}, {"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}], "materials": [{"pbrMetallicRoughness": {}}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}, {"bufferView": 1, "componentType": 5123, "count": 3, "type": "SCALAR"}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 6}],
+        "buffers": [{"byteLength": 42, "uri": data_uri(FLOATS + struct.pack("<3H", 0, 1, 2))}]}
+GONE = object()
+SPARSE = {"count": 1, "indices": {"bufferView": 1, "componentType": 5123}, "values": {"bufferView": 0}}
+
+
+def edited(edits):
+    document = copy.deepcopy(BASE)
+    for path, value in edits:
+        *way, last = [int(p) if p.isdigit() else p for p in path.split(".")]
+        at = document
+        for step in way:
+            at = at[step]
+        if value is GONE:
+            del at[last]
+        elif isinstance(at, list) and last == len(at):
+            at.append(value)
+        else:
+            at[last] = value
+    return json.dumps(document, indent=1)
+
+
+def gltf(name, pattern, *edits):
+    check(name, "x.gltf", edited(edits), "x.gltf:[0-9]+:[0-9]+: .*" + pattern)
+
+
+GLTF = [
+    ("no asset", "asset is missing", ("asset", GONE)), ("no version", "asset.version is missing", ("asset.version", GONE)),
+    ("version 1", "asset.version is 1.0; allowed: 2.0", ("asset.version", "1.0")), ("version 3", "asset.version is 3.0", ("asset.version", "3.0")),
+    ("version a number", "asset.version is of another kind", ("asset.version", 2)), ("asset a list", "asset is of another kind", ("asset", [])),
+    ("scene beyond", "scene is none of the 1 scenes", ("scene", 1)), ("scene negative", "scene is none", ("scene", -1)), ("scene half", "scene is none", ("scene", 0.5)),
+    ("scene huge", "scene is none", ("scene", 1e300)), ("scenes an object", "scenes is of another kind", ("scenes", {})), ("scene a number", "holds something", ("scenes", [1])),
+    ("scene's nodes a number", "nodes is of another kind", ("scenes.0.nodes", 1)), ("scene's node beyond", "names none of the 2 nodes", ("scenes.0.nodes", [2])),
+    ("scene names a child", "another's child", ("scenes.0.nodes", [0, 1])), ("scene names a node twice", "named twice", ("nodes.0.children", GONE), ("scenes.0.nodes", [0, 0])),
+    ("nodes in a circle", "circle", ("nodes.1.children", [0]), ("scenes.0.nodes", [])), ("node its own child", "circle|one parent", ("nodes.0.children", [0])),
+    ("node twice a child", "one parent", ("nodes.0.children", [1, 1])), ("child beyond", "names none", ("nodes.0.children", [7])), ("child a word", "names none", ("nodes.0.children", ["a"])),
+    ("children an object", "another kind", ("nodes.0.children", {})), ("mesh beyond", "mesh is none", ("nodes.0.mesh", 1)), ("skin beyond", "skin is none", ("nodes.0.skin", 0)),
+    ("matrix short", "list of 16 numbers", ("nodes.0.matrix", [1, 0, 0])), ("matrix of words", "list of 16", ("nodes.0.matrix", ["1"] * 16)),
+    ("rotation short", "list of 4", ("nodes.0.rotation", [1])), ("translation a number", "another kind", ("nodes.0.translation", 1)), ("scale long", "list of 3", ("nodes.0.scale", [1] * 4)),
+    ("no primitives", "primitives is missing", ("meshes.0.primitives", GONE)), ("primitive a number", "is no object", ("meshes.0.primitives.0", 3)),
+    ("no attributes", "attributes is missing", ("meshes.0.primitives.0.attributes", GONE)), ("attribute beyond", "none of the 2 accessors", ("meshes.0.primitives.0.attributes.POSITION", 9)),
+    ("attribute negative", "none of the 2 accessors", ("meshes.0.primitives.0.attributes.POSITION", -1)), ("places of shorts", "another type", ("meshes.0.primitives.0.attributes.POSITION", 1)),
+    ("normals of scalars", "another type", ("meshes.0.primitives.0.attributes.NORMAL", 1)), ("joints of three", "another type", ("meshes.0.primitives.0.attributes.JOINTS_0", 0)),
+    ("as many in each", "as many in each", ("accessors.2", {"bufferView": 0, "componentType": 5126, "count": 2, "type": "VEC3"}), ("meshes.0.primitives.0.attributes.NORMAL", 2)),
+    ("indices beyond", "indices is none", ("meshes.0.primitives.0.indices", 5)), ("indices of floats", "another type", ("meshes.0.primitives.0.indices", 0)),
+    ("mode 7", "mode is 7", ("meshes.0.primitives.0.mode", 7)), ("mode negative", "mode is -1", ("meshes.0.primitives.0.mode", -1)), ("material beyond", "material is none", ("meshes.0.primitives.0.material", 1)),
+    ("targets an object", "targets is of another kind", ("meshes.0.primitives.0.targets", {})), ("target beyond", "none of the 2", ("meshes.0.primitives.0.targets", [{"POSITION": 4}])),
+    ("no type", "type is missing", ("accessors.0.type", GONE)), ("type unknown", "type is unknown", ("accessors.0.type", "VEC9")), ("no componentType", "componentType is missing", ("accessors.0.componentType", GONE)),
+    ("componentType 5124", "5124", ("accessors.0.componentType", 5124)), ("componentType 1", "componentType is 1", ("accessors.0.componentType", 1)), ("no count", "count is missing", ("accessors.0.count", GONE)),
+    ("count 0", "count is 0", ("accessors.0.count", 0)), ("count negative", "count is -3", ("accessors.0.count", -3)), ("count half", "count is 1.5", ("accessors.0.count", 1.5)),
+    ("count 4", "ends 48 bytes", ("accessors.0.count", 4)), ("count 2^32", "count is 4294967296", ("accessors.0.count", 4294967296)), ("count 2^31", "count is 2147483648", ("accessors.0.count", 2147483648)),
+    ("count 1e30", "count is 1e", ("accessors.0.count", 1e30)), ("byteOffset -8", "byteOffset is -8", ("accessors.0.byteOffset", -8)), ("byteOffset 4", "ends 40 bytes", ("accessors.0.byteOffset", 4)),
+    ("byteOffset 2^40", "ends", ("accessors.0.byteOffset", 1 << 40)), ("view beyond", "bufferView is none", ("accessors.0.bufferView", 2)), ("zeros from nothing", "come from nothing", ("accessors.0.bufferView", GONE), ("accessors.0.count", 150000000)),
+    ("sparse empty", "sparse.count is missing", ("accessors.0.sparse", {})), ("sparse a list", "sparse is of another kind", ("accessors.0.sparse", [])),
+    ("sparse without indices", "sparse.indices is missing", ("accessors.0.sparse", {"count": 1, "values": {"bufferView": 0}})), ("sparse without values", "sparse.values is missing", ("accessors.0.sparse", {"count": 1, "indices": {"bufferView": 1, "componentType": 5123}})),
+    ("sparse count 4", "sparse.count is 4", ("accessors.0.sparse", {**SPARSE, "count": 4})), ("sparse count 1e9", "sparse.count is 1000000000", ("accessors.0.sparse", {**SPARSE, "count": 10**9})),
+    ("sparse indices of floats", "componentType is 5126", ("accessors.0.sparse", {**SPARSE, "indices": {"bufferView": 1, "componentType": 5126}})), ("sparse values beyond", "sparse.values ends", ("accessors.0.sparse", {**SPARSE, "values": {"bufferView": 0, "byteOffset": 30}})),
+    ("sparse indices beyond", "sparse.indices ends", ("accessors.0.sparse", {**SPARSE, "indices": {"bufferView": 1, "componentType": 5123, "byteOffset": 5}})),
+    ("sparse index out of range", "is 16256|below 3", ("accessors.0.sparse", {**SPARSE, "indices": {"bufferView": 0, "componentType": 5123, "byteOffset": 14}})),
+    ("sparse indices fall", "more than the one before", ("accessors.0.sparse", {"count": 2, "indices": {"bufferView": 0, "componentType": 5121}, "values": {"bufferView": 0}})),
+    ("view's buffer beyond", "buffer is none of the 1", ("bufferViews.0.buffer", 1)), ("view without a buffer", "buffer is none", ("bufferViews.0.buffer", GONE)), ("view without a length", "byteLength is missing", ("bufferViews.0.byteLength", GONE)),
+    ("view of length 0", "byteLength is out of range", ("bufferViews.0.byteLength", 0)), ("view too long", "ends 43 bytes", ("bufferViews.0.byteLength", 43)), ("view at -1", "byteOffset is out of range", ("bufferViews.0.byteOffset", -1)),
+    ("view at the end", "ends 78 bytes", ("bufferViews.0.byteOffset", 42)), ("stride 4294967295", "byteStride is out of range", ("bufferViews.0.byteStride", 4294967295)), ("stride 2", "byteStride is out of range", ("bufferViews.0.byteStride", 2)),
+    ("stride 252", "ends 516 bytes", ("bufferViews.0.byteStride", 252)), ("buffer without a length", "byteLength is missing", ("buffers.0.byteLength", GONE)), ("buffer of 43 bytes", "at most the 42 bytes", ("buffers.0.byteLength", 43)),
+    ("buffer of GiB", "at most the 42 bytes", ("buffers.0.byteLength", 4 << 30)), ("buffer of 1e18 bytes", "out of range", ("buffers.0.byteLength", 10**18)), ("buffer of nothing", "uri is missing", ("buffers.0.uri", GONE)),
+    ("uri a number", "uri is no string", ("buffers.0.uri", 3)), ("uri not base64", "not in base64", ("buffers.0.uri", "data:text/plain,abc")), ("uri with a star", "base64's", ("buffers.0.uri", "data:;base64,AAA*")),
+    ("uri missing", "cannot be read", ("buffers.0.uri", "nowhere.bin")), ("uri a device", "cannot be read", ("buffers.0.uri", "/dev/zero")), ("uri a folder", "cannot be read", ("buffers.0.uri", ".")), ("uri escaped", "cannot be read", ("buffers.0.uri", "\u0001\u0000x")),
+    ("image of two", "or neither", ("images", [{}])), ("texture's image beyond", "source is none", ("textures", [{"source": 0}])), ("base colour beyond", "index is none", ("materials.0.pbrMetallicRoughness.baseColorTexture", {"index": 0})),
+    ("base colour without index", "index is missing", ("materials.0.pbrMetallicRoughness.baseColorTexture", {})), ("base colour short", "list of 4", ("materials.0.pbrMetallicRoughness.baseColorFactor", [1])),
+    ("skin without joints", "joints is missing", ("skins", [{}])), ("joint beyond", "names none", ("skins", [{"joints": [4]}])), ("matrices too few", "inverseBindMatrices", ("skins", [{"joints": [0], "inverseBindMatrices": 0}])),
+]
+for entry in GLTF:
+    gltf(*entry[:2], *entry[2:])
+LONG = copy.deepcopy(BASE)
+LONG["nodes"] = [{"children": [i + 1]} for i in range(400)] + [{"mesh": 0}]
+check("400 nodes deep", "x.gltf", json.dumps(LONG), "x.gltf:1:[0-9]+: .*deeper than 256")
+TWICE = copy.deepcopy(BASE)
+TWICE["nodes"] = [{"children": [i + 1, i + 1]} for i in range(31)] + [{"mesh": 0}]
+check("2^30 nodes", "x.gltf", json.dumps(TWICE), "x.gltf:1:[0-9]+: .*one parent")
+MANY = copy.deepcopy(BASE)
+MANY["accessors"] = [{"componentType": 5126, "count": 100000, "type": "VEC3"} for _ in range(3000)]
+check("thousands of accessors of nothing", "x.gltf", json.dumps(MANY), "x.gltf:1:[0-9]+: .*come from nothing")
+check("glTF 1.0 in a circle", "x.gltf", '{"asset":{"version":"1.0"},"scene":"s","scenes":{"s":{"nodes":["a"]}},"nodes":{"a":{"children":["a"]}}}', "x.gltf:1:[0-9]+: asset.version")
+for name, text, pattern in [
+        ("empty", "", "not valid JSON"), ("blank", "  \n ", "not valid JSON"), ("a word", "glTF", "none of JSON's"), ("200000 brackets", "[" * 200000, "nested deeper than 64"),
+        ("200000 braces", '{"a":' * 200000, "nested deeper"), ("deep extras", '{"asset":{"version":"2.0"},"extras":' + "[" * 200000 + "]" * 200000 + "}", "nested deeper"),
+        ("cut", edited([])[:200], "not valid JSON"), ("two documents", edited([]) + "{}", "behind the document"), ("a list", "[]", "no JSON object"), ("a zero byte", "{\0}", "not printable"),
+        ("not UTF-8", b'{"a": "\xff"}', "not printable UTF-8"), ("a bare word", "{a: 1}", "name in quotes"), ("no colon", '{"a" 1}', "colon is missing"), ("no comma", '{"a": 1 "b": 2}', "comma"),
+        ("trailing comma", '{"a": 1,}', "name in quotes"), ("NaN", '{"a": NaN}', "none of JSON's"), ("1e999", '{"a": 1e999}', "too large"), ("a long number", '{"a": ' + "1" * 100 + "}", "63 characters"),
+        ("01", '{"a": 01}', "comma"), ("minus", '{"a": -}', "digit"), ("escape", '{"a": "\\q"}', "escape"), ("half an escape", '{"a": "\\u12"}', "escape"), ("no end", '{"a": "b', "no end"),
+        ("two million values", "[" + "0," * 2100000 + "0]", "2000000 values")]:
+    check("JSON " + name, "x.gltf", text, "x.gltf:[0-9]+:[0-9]+: .*" + pattern)
+
+# ---- GLB ----
+
+inner = copy.deepcopy(BASE)
+del inner["buffers"][0]["uri"]
+
+
+def glb(chunks, version=2, length=None, magic=b"glTF"):
+    body = b"".join(struct.pack("<I", len(data) if size is None else size) + kind + data for kind, data, size in chunks)
+    return magic + struct.pack("<II", version, 12 + len(body) if length is None else length) + body
+
+
+TEXT = json.dumps(inner).encode()
+TEXT += b" " * (-len(TEXT) % 4)
+BYTES = FLOATS + struct.pack("<3HH", 0, 1, 2, 0)
+for name, data, pattern in [
+        ("empty", b"", "no binary glTF"), ("short", b"glTF\x02\0\0\0", "no binary glTF"), ("another word", glb([(b"JSON", TEXT, None)], magic=b"GLTF"), "no binary glTF"), ("version 1", glb([(b"JSON", TEXT, None)], 1), "version 1"),
+        ("length 0", glb([(b"JSON", TEXT, None)], 2, 0), "says that it has 0 bytes"), ("length 4 GiB", glb([(b"JSON", TEXT, None)], 2, 0xFFFFFFFF), "says that it has"), ("chunk too long", glb([(b"JSON", TEXT, 0xFFFFFFF0)]), "chunk 0"),
+        ("chunk cut", glb([(b"JSON", TEXT, len(TEXT) - 3), (b"BIN\0", BYTES, None)]), "chunk 1|chunk"), ("bytes first", glb([(b"BIN\0", BYTES, None), (b"JSON", TEXT, None)]), "chunk 0"), ("two JSON", glb([(b"JSON", TEXT, None), (b"JSON", TEXT, None)]), "chunk 1"),
+        ("no bytes", glb([(b"JSON", TEXT, None)]), "line 1, column [0-9]+: buffers\\[0\\].uri is missing"), ("too few bytes", glb([(b"JSON", TEXT, None), (b"BIN\0", BYTES[:40], None)]), "column [0-9]+: buffers\\[0\\].byteLength"),
+        ("empty JSON", glb([(b"JSON", b"", None), (b"BIN\0", BYTES, None)]), "not valid JSON"), ("JSON of zeros", glb([(b"JSON", b"\0" * 64, None)]), "not valid JSON")]:
+    check("GLB " + name, "x.glb", data, "x.glb: .*" + pattern)
+
+# ---- OBJ ----
+
+V = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
+for name, text, place, pattern in [
+        ("empty", "", "1:1", "without a face"), ("places alone", V, "4:1", "without a face"), ("index 0", V + "f 0 1 2\n", "4:3", "places that there are not"), ("index 4", V + "f 1 2 4\n", "4:7", "places that"),
+        ("index -4", V + "f -1 -2 -4\n", "4:9", "places that"), ("index 2^64", V + "f 1 2 18446744073709551617\n", "4:7", "places that"), ("texture beyond", V + "f 1/1 2/1 3/1\n", "4:5", "texture coordinates"),
+        ("normal beyond", V + "f 1//1 2//1 3//1\n", "4:6", "normals"), ("corner a word", V + "f a b c\n", "4:3", "no corner"), ("corner of four", V + "f 1/1/1/1 2 3\n", "4:", "corner|texture"), ("corner 1.5", V + "f 1.5 2 3\n", "4:3", "no corner"),
+        ("two places", "v 0 0\n" + V + "f 1 2 3\n", "1:6", "number is missing"), ("nan", "v nan 0 0\n" + V + "f 1 2 3\n", "1:3", "no finite number"), ("inf", "v 0 inf 0\n" + V + "f 1 2 3\n", "1:5", "no finite number"),
+        ("1e999", "v 0 1e999 0\n" + V + "f 1 2 3\n", "1:5", "no finite"), ("a word", "v 0 zero 0\n" + V + "f 1 2 3\n", "1:5", "no finite"), ("many numbers", "v 0 0 0 0 0 0 0 0 0\n" + V + "f 1 2 3\n", "1:19", "too many"),
+        ("long number", "v " + "1" * 70 + " 0 0\n" + V + "f 1 2 3\n", "1:3", "63 characters"), ("a zero byte", V + "f 1 2\0 3\n", "4:6", "byte is zero"), ("a face of 70000", V + "f" + " 1" * 70000 + "\n", "4:", "65536 corners"),
+        ("binary", bytes(range(256)) * 40, "1:1", "byte is zero")]:
+    check("OBJ " + name, "x.obj", text, f"x.obj:{place}.*{pattern}")
+check("OBJ that never ends", "x.obj", V + "f 1 2 3 \\\n" * 100000, "x.obj: ?.*allowed")
+check("OBJ of one point", "x.obj", V + "f 1 1 1\n" * 1000, "x.obj: .*area")
+check("OBJ with a pipe of materials", "x.obj", "mtllib /dev/zero\n" + V + "usemtl a\nf 1 2 3\n", "^$", 0)
+
+# ---- PLY ----
+
+HEAD = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+for name, text, place, pattern in [
+        ("empty", "", "1:1", "begin with"), ("another", "plx\n", "1:1", "begin with"), ("cut", HEAD[:60], "[0-9]+:1", "ends in its header"), ("format", HEAD.replace("ascii", "utf"), "2:1", "format"), ("no format", HEAD.replace("format ascii 1.0\n", ""), "8:1", "no format"),
+        ("negative", HEAD.replace("vertex 3", "vertex -3"), "3:1", "number"), ("a word", HEAD.replace("vertex 3", "vertex x"), "3:1", "number"), ("2^64", HEAD.replace("vertex 3", "vertex 18446744073709551616") + "0 0 0\n", "", "early|four thousand"),
+        ("10^9", HEAD.replace("vertex 3", "vertex 1000000000") + "0 0 0\n", "", "early"), ("type", HEAD.replace("float x", "half x"), "4:1", "not understood"), ("list of floats", HEAD.replace("uchar int", "float int"), "8:1", "not understood"),
+        ("no x", HEAD.replace(" x", " w") + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "", "no x, y and z"), ("no vertices", HEAD.replace("vertex 3", "vertex 0") + "3 0 1 2\n", "", "no vertices|early|not"), ("values cut", HEAD + "0 0 0\n1 0", "", "early"),
+        ("a value", HEAD + "0 0 0\n1 zero 0\n0 1 0\n3 0 1 2\n", "11:3", "no number"), ("index", HEAD + "0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", "13:7", "refers to a vertex"), ("index negative", HEAD + "0 0 0\n1 0 0\n0 1 0\n3 0 1 -2\n", "13:7", "refers"),
+        ("list of 10^9", HEAD + "0 0 0\n1 0 0\n0 1 0\n1000000000 0 1 2\n", "13:1", "longer than 65536"), ("seventeen elements", "ply\nformat ascii 1.0\n" + "element a 1\n" * 17, "19:1", "16 elements"), ("properties", "ply\nformat ascii 1.0\nelement a 1\n" + "property int a\n" * 65, "68:1", "64 of one"),
+        ("property alone", "ply\nformat ascii 1.0\nproperty int a\n", "3:1", "without an element"), ("noise", HEAD.replace("ascii", "binary_little_endian").encode() + b"\xff" * 100, "", "PLY|vertex|list|nan"),
+        ("a dead element", HEAD.replace("element face", "element dead 18446744073709551615\nelement face") + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "", "^$")]:
+    check("PLY " + name, "x.ply", text, "" if pattern == "^$" else f"x.ply:?{place}.*{pattern}", 0 if pattern == "^$" else BAD)
+
+# ---- pictures ----
+
+
+def chunk(kind, data, crc=None):
+    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data) if crc is None else crc)
+
+
+def png(width, height, depth=8, color=2, data=None, more=b"", end=True):
+    row_bytes = (width * {0: 1, 2: 3, 3: 1, 4: 2, 6: 4}.get(color, 1) * depth + 7) // 8
+    data = zlib.compress(b"\0" * ((row_bytes + 1) * height), 9) if data is None else data
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, depth, color, 0, 0, 0)) + more + chunk(b"IDAT", data) + (chunk(b"IEND", b"") if end else b"")
+
+
+BLACK = zlib.compressobj(9)
+BOMB = b"".join(BLACK.compress(b"\0" * 16384 * 64) for _ in range(64)) + BLACK.flush()
+PNGS = [("empty", b"", "PNG"), ("signature alone", b"\x89PNG\r\n\x1a\n", "ends too early|PNG"), ("16384 x 16384", png(16384, 16384, 8, 0, BOMB), "268435456 pixels.*MANGATA_PIXELS=268435456"),
+        ("16384 x 16384 of 16 bits", png(16384, 16384, 16, 6, BOMB), "268435456 pixels"), ("2^31 x 1", png(0x7FFFFFFF, 1, 8, 0, BOMB), "PNG|dimension|width|allowed"), ("0 x 0", png(0, 0), "allowed"),
+        ("depth 3", png(2, 2, 3), "allowed"), ("colour 5", png(2, 2, 8, 5), "allowed"), ("no palette", png(2, 2, 8, 3), "allowed"), ("no data", png(9, 9, 8, 2, b""), "allowed"), ("data cut", png(64, 64, 8, 2, zlib.compress(b"\0" * 500)), "allowed"),
+        ("data noise", png(64, 64, 8, 2, os.urandom(0) + bytes(range(256)) * 4), "allowed"), ("checksum", b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 2, 2, 8, 2, 0, 0, 0), 1), "allowed"), ("text of 20 MB", png(2, 2, 8, 2, None, chunk(b"zTXt", b"a\0\0" + zlib.compress(b"x" * (20 << 20)))), "allowed")]
+for name, data, pattern in PNGS:
+    check("PNG " + name, "x.png", data, "x.png: .*" + pattern, key="texture")
+    row("diff PNG " + name, {"a.png": data, "b.png": png(2, 2)}, ["diff", "a.png", "b.png"], BAD, "a.png: ")
+    check("PNG " + name, "x.png", data, "x.png: ", key="heights")
+check("JPEG cut", "x.jpg", b"\xff\xd8\xff\xe0\0\x10JFIF\0\1\2\0\0\1\0\1\0\0", "x.jpg: .*JPEG", key="texture")
+check("JPEG noise", "x.jpg", b"\xff\xd8\xff" + bytes(range(256)) * 20, "x.jpg: .*JPEG", key="texture")
+check("a folder", "d", None, "d: is a directory", MISSING, key="texture")
+check("a device", "/dev/zero", None, "/dev/zero: is no regular file", key="texture")
+for name, data in [("PFM without a size", b"PF\n"), ("PFM of 2^32", b"PF\n4294967296 1\n-1.0\n"), ("PFM negative", b"PF\n-1 1\n-1.0\n"), ("PFM scale 0", b"PF\n1 1\n0\n" + b"\0" * 12), ("PFM scale nan", b"PF\n1 1\nnan\n" + b"\0" * 12), ("PFM cut", b"PF\n4 4\n-1.0\n" + b"\0" * 100),
+                   ("PFM long", b"PF\n1 1\n-1.0\n" + b"\0" * 13), ("PFM 32768 x 32768", b"Pf\n32768 32768\n-1.0\n"), ("EXR magic", b"\x76\x2f\x31\x01"), ("EXR zeros", b"\x76\x2f\x31\x01" + b"\0" * 400), ("EXR noise", b"\x76\x2f\x31\x01\x02\0\0\0" + bytes(range(1, 256)) * 9),
+                   ("EXR of long names", b"\x76\x2f\x31\x01\x02\0\0\0" + b"a" * 70000), ("EXR attribute of 2 GiB", b"\x76\x2f\x31\x01\x02\0\0\0channels\0chlist\0\xff\xff\xff\x7f"), ("text", b"a picture"), ("y4m", b"YUV4MPEG2 W9 H9\n")]:
+    row("diff " + name, {"a": data, "b.png": png(2, 2)}, ["diff", "a", "b.png"], BAD, "^mangata: a: ")
+
+# ---- scenes ----
+
+for name, text, place in [
+        ("empty", "", "1:1"), ("binary", bytes(range(256)), "1:1"), ("not UTF-8", b"mangata: 1\ndescription: \xc3\x28\n", "2:"), ("open list", "mangata: 1\nimage: [", "2:"), ("open quote", 'mangata: 1\ndescription: "a', "2:"), ("tabs", "mangata: 1\n\timage: {}", "1:10"),
+        ("anchor", "mangata: 1\nimage: &a {width: 3}\n", "2:11"), ("alias", "mangata: 1\nimage: *a\n", "2:8"), ("tag", "mangata: 1\nimage: !!map {}\n", "2:14"), ("laughs", "a: &a [x,x]\nb: &b [*a,*a]\nc: [*b,*b]\n", "1:"), ("two documents", "mangata: 1\n---\nmangata: 1\n", "2:1"),
+        ("100 levels", "mangata: 1\nimage: " + "[" * 100 + "]" * 100, "2:"), ("100000 levels", "{" * 100000, "1:"), ("100000 keys", "mangata: 1\n" + "".join(f"k{i}: 1\n" for i in range(100000)), "2:1"), ("key twice", "mangata: 1\nmangata: 1\n", "2:1"),
+        ("a long key", "mangata: 1\n" + "k" * 70000 + ": 1\n", "2:1"), ("a list as key", "mangata: 1\n? [a]\n: 1\n", "2:"), ("version 2", "mangata: 2\n", "1:10"), ("no version", "image: {}\n", "1:"), ("NUL in a text", 'mangata: 1\ndescription: "a\\0b"\n', "2:14"),
+        ("width 1e9", "mangata: 1\nimage: {width: 1000000000}\n", "2:16"), ("width octal", "mangata: 1\nimage: {width: 0o9}\n", "2:16"), ("nan", "mangata: 1\nlight: {elevation_deg: .nan}\n", "2:24"), ("fps 0", "mangata: 1\ntime: {fps: 0}\n", "2:13"), ("frames 1e12", "mangata: 1\ntime: {frames: 1000000000000}\n", "2:16"),
+        ("wave of words", "mangata: 1\nwater: {waves: [{amplitude: high}]}\n", "2:"), ("waves a number", "mangata: 1\nwater: {waves: 3}\n", "2:"), ("600 waves", "mangata: 1\nwater:\n  waves:\n" + "    - {amplitude: 0.01, a: 1, b: 0, c: 1}\n" * 600, "[0-9]+:"),
+        ("wind of words", "mangata: 1\nwater: {wind: {speed: fast}}\n", "2:"), ("count 1e9", "mangata: 1\nwater: {wind: {speed: 9, count: 1000000000}}\n", "2:"), ("70000 objects", "mangata: 1\nobjects:\n" + "  - {shape: box}\n" * 70000, "[0-9]+:"),
+        ("triangles 1e12", "mangata: 1\nobjects: [{shape: sphere, triangles: 1000000000000}]\n", "2:"), ("camera at itself", "mangata: 1\ncamera: {position: [1, 2, 3], target: [1, 2, 3]}\n", "2:"), ("path of 1 time", "mangata: 1\ncamera: {path: [{time: 0}, {time: 0}]}\n", "2:")]:
+    row("scene " + name, {"s.yaml": text}, ["scene", "check", "s.yaml"], BAD, f"^s.yaml:{place}")
+row("scene of 17 MiB", {"s.yaml": "# " + "x" * (17 << 20)}, ["scene", "check", "s.yaml"], BAD, "larger than 16 MiB")
+row("scene missing", {}, ["scene", "check", "s.yaml"], MISSING, "s.yaml: No such file")
+row("scene a folder", {}, ["scene", "check", "d"], MISSING, "directory")
+row("scene a device", {}, ["scene", "check", "/dev/urandom"], BAD, "no regular file")
+
+# ---- spectra ----
+
+for name, text, place in [
+        ("empty", "", ""), ("words", "this is no table\nof numbers\n", ":1:|:2:"), ("two columns", "0.1 0\n", ":1:"), ("nan", "0.1 0 nan\n", ":1:"), ("negative", "0.1 0 -1\n", ":1:"), ("falling", "0.2 0 1\n0.1 0 1\n", ":2:"), ("binary", b"0.1 0 1\n\x01", ":2:"), ("no NUL", "0.1", ":1:"),
+        ("a long line", "0.1 " * 100000, ":1:"), ("one frequency", "0.1 0 1\n", ""), ("600000 lines", "".join(f"0.1 {i * 0.0005:.4f} 1\n" for i in range(600000)), ":5"), ("NDBC without a record", "#YY MM DD hh mm Sep_Freq\n", ""), ("NDBC without numbers", "#YY MM DD hh mm Sep_Freq\n2026 1 1 1 1 0.1 x (0.1)\n", ":2:"),
+        ("Datawell cut", "1\n2\n3\n", ":")]:
+    row("buoy " + name, {"x.txt": text}, ["waves", "--buoy", "x.txt"], BAD, f"x.txt{place}")
+
+# ---- words of the command ----
+
+for words, pattern in [
+        (["render", "s.yaml", "-o", "a.png", "--frames", "9-1"], "frames"), (["render", "s.yaml", "-o", "a.png", "--frames", "0-99999999999"], "frames"), (["render", "s.yaml", "-o", "a%s.png", "--frames", "0-3"], "-o"), (["render", "s.yaml", "-o", "a%n.png"], "-o"),
+        (["render", "s.yaml", "-o", "a.png", "--size", "0x0"], "size"), (["render", "s.yaml", "-o", "a.png", "--size", "99999999999x1"], "size"), (["render", "s.yaml", "-o", "a.png", "--crop", "1,2,3"], "crop"), (["render", "s.yaml", "-o", "a.png", "--crop", "0,0,0,0"], "crop"),
+        (["render", "s.yaml", "-o", "a.png", "--threads", "-1"], "threads"), (["render", "s.yaml", "-o", "a.png", "--seed", "x"], "seed"), (["render", "s.yaml", "-o", "a.png", "--method", "ssaa99999999999"], "ssaa|method"), (["render", "s.yaml", "-o", "a.png", "--method", "%n%n"], "method"),
+        (["render", "s.yaml", "-o", "a.gif"], "gif"), (["render", "s.yaml"], "-o"), (["render", "--sea", "wind=nan", "-o", "a.png"], "wind"), (["render", "--sea", "wind=9,wind=9,", "-o", "a.png"], "sea|wind"), (["render", "s.yaml", "-o", "a.png", "--set", "x"], "key=value"),
+        (["render", "s.yaml", "-o", "a.png", "--set", "a" * 100000 + "=1"], "aaa"), (["diff", "a"], "diff"), (["\x1b[31m"], "verb|option")]:
+    row("words " + " ".join(w[:30] for w in words).replace("\x1b", "ESC"), {"s.yaml": "mangata: 1\n"}, words, (USAGE, BAD), pattern)
+
+
+def run(command, words, folder):
+    """Exit code, message, seconds of a core and megabytes, of the command and what it started."""
+    with open(os.path.join(folder, ".out"), "w+b") as out, open(os.path.join(folder, ".err"), "w+b") as err:
+        process = subprocess.Popen([command, *words], cwd=folder, stdin=subprocess.DEVNULL, stdout=out, stderr=err,
+                                   preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (4 * SECONDS, 4 * SECONDS)))
+        _, status, used = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        err.seek(0)
+        message = err.read().decode(errors="replace")
+    os.remove(os.path.join(folder, ".out"))
+    os.remove(os.path.join(folder, ".err"))
+    return process.returncode, message, used.ru_utime + used.ru_stime, used.ru_maxrss / 1024
+
+
+def main():
+    if len(sys.argv) < 2 or sys.argv[1] in ("-h", "--help"):
+        print(__doc__)
+        return 64
+    wanted = [r for r in rows if len(sys.argv) < 3 or re.search(sys.argv[2], r[0])]
+    failed, slowest, largest, start = 0, ("", 0), ("", 0), time.monotonic()
+    for name, files, words, code, pattern in wanted:
+        folder = tempfile.mkdtemp(prefix="mangata-hostile-")
+        os.mkdir(os.path.join(folder, "d"))
+        for file, content in files.items():
+            with open(os.path.join(folder, file), "wb") as out:
+                out.write(content)
+        before = sorted(os.listdir(folder))
+        found, message, seconds, megabytes = run(sys.argv[1], words, folder)
+        slowest, largest = max(slowest, (name, seconds), key=lambda x: x[1]), max(largest, (name, megabytes), key=lambda x: x[1])
+        wrong = []
+        if found not in (code if isinstance(code, tuple) else (code,)):
+            wrong.append(f"exit code {found} instead of {code}")
+        if found != 0 and (message.count("\n") != 1 or not re.search(pattern, message)):
+            wrong.append(f"says {message[:300]!r}, not {pattern!r}")
+        if re.search("[^\\x20-\\x7e\\n\\u00a0-\\U0010ffff]", message):
+            wrong.append("prints control characters")
+        if seconds > SECONDS:
+            wrong.append(f"takes {seconds:.1f} s of a core")
+        if megabytes > MEGABYTES:
+            wrong.append(f"takes {megabytes:.0f} MB")
+        if sorted(os.listdir(folder)) != before:
+            wrong.append(f"leaves {set(os.listdir(folder)) - set(before)}")
+        shutil.rmtree(folder)
+        if wrong:
+            failed += 1
+            print(f"FAIL {name}: " + "; ".join(wrong))
+    print(f"{len(wanted)} hostile inputs, {failed} of them with a failure, in {time.monotonic() - start:.1f} s; the slowest {slowest[1]:.2f} s ({slowest[0]}), "
+          f"the largest {largest[1]:.0f} MB ({largest[0]})")
+    return 1 if failed else 0
+
+
+sys.exit(main())
