@@ -2,7 +2,7 @@
 # A thin front of CMake: `make` builds the libraries, the command build/mangata and the viewer; `make demo`, `make test` (a few minutes) and `make check`
 # (everything) start from nothing.
 
-.PHONY: all setup demo test check bench bench-gpu install clean
+.PHONY: all setup demo test check fuzz bench bench-gpu install clean
 
 all:
 	[ -f build/build.ninja ] || cmake --preset release
@@ -22,6 +22,10 @@ test: setup
 
 check: setup
 	scripts/check
+
+# HOURS of one core; corpora grow from run to run.
+fuzz: setup
+	scripts/fuzz $(or $(HOURS),0.1)
 
 bench: all
 	cmake --build build --target benchmarks

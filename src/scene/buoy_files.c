@@ -87,10 +87,12 @@ static bool word_number(buoy_word word, double *value)
     char text[32], *end;
     if (word.length > 1 && word.text[0] == '(' && word.text[word.length - 1] == ')')
         word = (buoy_word){word.text + 1, word.length - 2};
-    if (word.length == 0 || word.length >= sizeof text || strspn(word.text, "+-.0123456789eE") < word.length)
+    if (word.length == 0 || word.length >= sizeof text)
         return false;
     memcpy(text, word.text, word.length);
     text[word.length] = '\0';
+    if (strspn(text, "+-.0123456789eE") < word.length)
+        return false;
     *value = strtod(text, &end);
     return *end == '\0' && isfinite(*value);
 }

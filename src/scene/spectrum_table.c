@@ -94,10 +94,12 @@ static bool read_header(table_reader *r, const table_word *words, size_t count)
 static bool read_number(const table_word *word, double *value)
 {
     char text[64], *end;
-    if (word->length >= sizeof text || strspn(word->text, "+-.0123456789eE") < word->length)
+    if (word->length >= sizeof text)
         return false;
     memcpy(text, word->text, word->length);
     text[word->length] = '\0';
+    if (strspn(text, "+-.0123456789eE") < word->length)
+        return false;
     *value = strtod(text, &end);
     return *end == '\0' && end != text && isfinite(*value);
 }

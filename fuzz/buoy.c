@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Spectra: plain tables, and what buoys' owners publish.
+ */
+#include <math.h>
+
+#include "fuzz.h"
+#include "scene/buoy_files.h"
+#include "scene/spectrum_table.h"
+
+static void read_table(const char *text, size_t length)
+{
+    spectrum_table table;
+    scene_error error;
+    if (!spectrum_table_parse(&table, text, length, "fuzz.txt", &error)) {
+        fuzz_require_message(error.text);
+        return;
+    }
+    for (int i = 0; i < 8; i++) {
+        fuzz_require(isfinite(spectrum_table_density(&table, 0.3 * i)) && spectrum_table_density(&table, 0.3 * i) >= 0, "a density is none");
+        fuzz_require(spectrum_table_at(&table, 0.3 * i, 0.9 * i) >= 0, "a density is none");
+    }
+    fuzz_require(isfinite(spectrum_table_mean_azimuth(&table)), "a mean direction is none");
+    spectrum_table_free(&table);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
+{
+    scene_error error;
+    scene_place place;
+    char *text = fuzz_text(bytes, size);
+    read_table((const char *)bytes, size);
+    if (scene_text_is_clean(text, size, &place)) {
+        const buoy_format format = buoy_format_of(text);
+        char *table = format != BUOY_TABLE ? buoy_file_convert(format, "41002.data_spec", text, &error) : NULL;
+        if (table != NULL)
+            read_table(table, strlen(table));
+        else if (format != BUOY_TABLE)
+            fuzz_require_message(error.text);
+        free(table);
+    }
+    free(text);
+    return 0;
+}
