@@ -6,6 +6,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "image/file_whole.h"
 #include "cli/compare/compare_job.h"
 #include "cli/compare/compare_tables.h"
 #include "cli/common/interrupt.h"
@@ -59,11 +60,9 @@ static int hash_picture(const compare_job *job, const compare_scene *scene, size
 /* Whether the file is there as these options would make it. What is there and different is rendered anew: the folder is ours. */
 static bool file_is_kept(const char *path, const sha256_text *hash)
 {
-    char *recorded = NULL;
     file_error error;
-    const bool kept = metadata_read(path, RENDER_HASH_KEY, &recorded, &error) == FILE_OK && recorded && strcmp(recorded, hash->text) == 0;
-    free(recorded);
-    return kept;
+    file_state state;
+    return file_state_read(path, RENDER_HASH_KEY, hash->text, true, &state, &error) == FILE_OK && state == FILE_STATE_SAME;
 }
 
 /* The same of a picture; a reference needs its halves too. */

@@ -3,6 +3,7 @@
 #define _GNU_SOURCE
 #include "base/thread_pool.h"
 
+#include <errno.h>
 #include <pthread.h>
 #include <sched.h>
 #include <stdatomic.h>
@@ -97,11 +98,13 @@ static void *worker_main(void *argument)
 static bool start_worker(thread_pool *pool)
 {
     worker *w = malloc(sizeof *w);
+    errno = ENOMEM;
     if (!w)
         return false;
     *w = (worker){pool, pool->started + 1};
     if (pthread_create(&pool->threads[pool->started], NULL, worker_main, w) != 0) {
         free(w);
+        errno = EAGAIN;
         return false;
     }
     pool->started++;
@@ -111,6 +114,7 @@ static bool start_worker(thread_pool *pool)
 thread_pool *thread_pool_create(uint32_t threads)
 {
     thread_pool *pool = calloc(1, sizeof *pool);
+    errno = ENOMEM;
     if (!pool)
         return NULL;
     pool->size = threads;
@@ -122,7 +126,9 @@ thread_pool *thread_pool_create(uint32_t threads)
     while (good && pool->started + 1 < threads)
         good = start_worker(pool);
     if (!good) {
+        const int code = errno;
         thread_pool_destroy(pool);
+        errno = code;
         return NULL;
     }
     return pool;

@@ -12,7 +12,7 @@ typedef struct thread_pool thread_pool;
 /* CPUs that this process may use: its affinity mask, cut by the cgroup's quota; at least 1. */
 uint32_t thread_pool_usable_cpus(void);
 
-/* `threads` counts the caller, which works too. NULL when memory or threads are short. */
+/* `threads` counts the caller, which works too. NULL when memory or threads are short: errno is then ENOMEM or EAGAIN. */
 thread_pool *thread_pool_create(uint32_t threads);
 void thread_pool_destroy(thread_pool *pool);
 uint32_t thread_pool_size(const thread_pool *pool);

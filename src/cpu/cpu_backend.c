@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * The CPU backend: tiles over a thread pool, the lanes that this processor runs, targets and display. */
 #define _POSIX_C_SOURCE 199309L
+#include <errno.h>
 #include <stdatomic.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -153,7 +154,7 @@ static mgt_status cpu_create(void **state, const mgt_context_desc *desc, const r
     s->waves = calloc(1, sizeof *s->waves);
     s->pool = s->sky && s->waves ? thread_pool_create(desc->threads ? desc->threads : thread_pool_usable_cpus()) : NULL;
     if (!s->pool || !allocate_scratch(s)) {
-        const mgt_status status = s->sky && s->waves && !s->pool ? MGT_ERROR_THREAD : MGT_ERROR_MEMORY;
+        const mgt_status status = s->sky && s->waves && !s->pool && errno == EAGAIN ? MGT_ERROR_THREAD : MGT_ERROR_MEMORY;
         cpu_destroy(s);
         return report_error(r, status, "context.create", "%s", mgt_status_text(status));
     }
