@@ -38,11 +38,19 @@ for header in "$prefix"/include/mangata/*.h; do
 done
 
 # All that is exported is the public interface, and all of the public interface is exported.
-nm -D --defined-only "$library" | awk '{ print $3 }' | grep -v '^_' | sort >"$work/exported"
-grep -Eho '^MGT_API [^(]*\(' "$prefix"/include/mangata/*.h | grep -Eo 'mgt_[a-z0-9_]+\(' | tr -d '(' | sort >"$work/declared"
+exported() { nm -D --defined-only "$1" | awk '{ print $3 }' | grep -v '^_' | sort; }
+declared() { grep -Eho '^MGT_API [^(]*\(' "$@" | grep -Eo 'mgt_[a-z0-9_]+\(' | tr -d '(' | sort; }
+declared $(ls "$prefix"/include/mangata/*.h | grep -v /io.h) >"$work/declared"
 [[ -s $work/declared ]] || die "no declarations found"
-diff "$work/declared" "$work/exported" || die "exported symbols are not the declared ones"
+exported "$library" | diff "$work/declared" - || die "exported symbols are not the declared ones"
+exported "$folder/libmangata-io.so" | diff <(declared "$prefix/include/mangata/io.h") - || die "exported symbols of libmangata-io are not the declared ones"
 objdump -p "$library" | grep -Eq 'SONAME +libmangata\.so\.0\.1$' || die "no soname"
+
+# The Python package, where the system's Python has what it needs.
+if /usr/bin/python3 -c 'import cffi, numpy' 2>/dev/null && ((${#flags[@]} == 0)); then
+    (cd "$work" && LD_LIBRARY_PATH=$folder PYTHONPATH=$prefix/lib/python3/dist-packages /usr/bin/python3 -c 'import mangata; mangata.render(mangata.sea(wind=5), size=(16, 9))') ||
+        die "the installed Python package"
+fi
 
 # By pkg-config.
 export PKG_CONFIG_PATH=$folder/pkgconfig

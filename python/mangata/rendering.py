@@ -1,0 +1,204 @@
+# SPDX-License-Identifier: MIT
+"""Rendering into numpy arrays."""
+import re
+import threading
+from typing import Any, Callable, Dict, Mapping, Optional, Sequence, Tuple, Union
+
+import numpy as np
+
+from ._library import ffi, lib, names, text
+from .errors import Cancelled, MangataError, SceneError
+from .scenes import Document, Scene, as_scene
+
+Progress = Callable[[float], Optional[bool]]
+
+DISPLAY = "display"
+_LAYERS = names(lib.mgt_layer_name)
+_BACKENDS = names(lib.mgt_backend_name)
+_ISAS = names(lib.mgt_isa_name)
+
+
+def layers() -> Sequence[str]:
+    """The names of layers, "display" (8-bit colour) last."""
+    return [*_LAYERS, DISPLAY]
+
+
+def methods() -> Sequence[str]:
+    """The names of methods; ssaa stands for ssaa2, ssaa3, …"""
+    return names(lib.mgt_method_name)
+
+
+def _choose(words: Sequence[str], word: str, what: str) -> int:
+    if word not in words:
+        raise ValueError(f"{what} {word!r}: allowed is {', '.join(words)}")
+    return words.index(word)
+
+
+class Context:
+    """What renders: threads and tables that are kept from one frame to the next. One thread renders at a time, others wait.
+
+    backend: "cpu", "gl", "auto" or "null". threads: 0 for as many as the CPUs that this process may use. isa: the highest instruction set.
+    """
+
+    def __init__(self, backend: str = "cpu", threads: int = 0, isa: str = "auto") -> None:
+        desc = ffi.new("mgt_context_desc *")
+        lib.mgt_context_desc_init(desc, ffi.sizeof("mgt_context_desc"))
+        desc.backend = _choose(_BACKENDS, backend, "backend")
+        desc.isa = _choose(_ISAS, isa, "isa")
+        desc.threads = threads
+        self._progress: Optional[Progress] = None
+        self._raised: Optional[BaseException] = None
+        self._callback = ffi.callback("bool(void *, double)", self._step, error=False, onerror=self._fail)
+        desc.progress = self._callback
+        out = ffi.new("mgt_context **")
+        status = lib.mgt_context_create(out, desc)
+        if status:
+            raise MangataError(text(lib.mgt_last_error(ffi.NULL)), text(lib.mgt_status_name(status)))
+        self._context = ffi.gc(out[0], lib.mgt_context_destroy)
+        self._lock = threading.Lock()
+
+    def _step(self, _user, fraction: float) -> bool:
+        # Also where a signal such as Ctrl-C becomes an exception.
+        return self._progress is None or self._progress(fraction) is not False
+
+    def _fail(self, _kind, exception, _traceback) -> None:
+        self._raised = exception
+
+    def render_into(self, scene, targets: Sequence[Tuple[str, np.ndarray]], progress: Optional[Progress] = None) -> None:
+        """Renders a C scene, `Scene.frame()`, into arrays of the crop's size: float32 (h, w, 3) of color, normal and refraction, float32 (h, w) of the other
+        layers, uint8 (h, w, 4) of "display". Rows may have a stride; pixels of a row are packed. Nothing is copied."""
+        array = ffi.new("mgt_target[]", len(targets))
+        kept = []
+        for target, (layer, pixels) in zip(array, targets):
+            lib.mgt_target_init(ffi.addressof(target), ffi.sizeof("mgt_target"))
+            target.layer, target.format = _layer_format(layer)
+            _check_array(layer, pixels, scene.image)
+            pointer = ffi.cast("void *", pixels.__array_interface__["data"][0])
+            kept.append(pointer)
+            target.pixels = pointer
+            target.row_stride = pixels.strides[0]
+        with self._lock:
+            self._progress, self._raised = progress, None
+            status = lib.mgt_render(self._context, scene, array, len(targets))
+            self._progress = None
+            raised, self._raised = self._raised, None
+            message = text(lib.mgt_last_error(self._context)) if status else ""
+        if raised is not None:
+            raise raised
+        if status == lib.MGT_CANCELLED:
+            raise Cancelled(message, "cancelled")
+        if status == lib.MGT_ERROR_SCENE:
+            raise SceneError(message)
+        if status == lib.MGT_ERROR_MEMORY:
+            raise MemoryError(message)
+        if status:
+            raise MangataError(message, text(lib.mgt_status_name(status)))
+
+
+def _layer_format(layer: str) -> Tuple[int, int]:
+    if layer == DISPLAY:
+        return lib.MGT_LAYER_COLOR, lib.MGT_FORMAT_RGBA8_SRGB
+    place = _choose(layers(), layer, "layer")
+    return place, lib.MGT_FORMAT_RGB32F if lib.mgt_layer_channels(place) == 3 else lib.MGT_FORMAT_R32F
+
+
+def _shape(layer: str, width: int, height: int) -> Tuple[Tuple[int, ...], Any]:
+    if layer == DISPLAY:
+        return (height, width, 4), np.uint8
+    channels = lib.mgt_layer_channels(_layer_format(layer)[0])
+    return ((height, width, 3) if channels == 3 else (height, width)), np.float32
+
+
+def _crop_size(image) -> Tuple[int, int]:
+    return image.crop_width or image.width - image.crop_x, image.crop_height or image.height - image.crop_y
+
+
+def _check_array(layer: str, pixels: np.ndarray, image) -> None:
+    shape, dtype = _shape(layer, *_crop_size(image))
+    packed = np.dtype(dtype).itemsize * (shape[2] if len(shape) == 3 else 1)
+    good = isinstance(pixels, np.ndarray) and pixels.shape == shape and pixels.dtype == dtype and pixels.flags.writeable
+    if not good or pixels.strides[1] != packed or (len(shape) == 3 and pixels.strides[2] != np.dtype(dtype).itemsize):
+        raise ValueError(f"layer {layer} needs a writeable array of {np.dtype(dtype).name} {shape} with packed rows")
+
+
+_contexts: Dict[Tuple[str, int, str], Context] = {}
+_contexts_lock = threading.Lock()
+
+
+def _context(backend: str, threads: int, isa: str) -> Context:
+    with _contexts_lock:
+        key = (backend, threads, isa)
+        if key not in _contexts:
+            _contexts[key] = Context(backend, threads, isa)
+        return _contexts[key]
+
+
+def render(
+    scene: Union[Scene, Document],
+    method: Optional[str] = None,
+    layers: Sequence[str] = ("color",),
+    frame: int = 0,
+    *,
+    size: Optional[Tuple[int, int]] = None,
+    crop: Optional[Tuple[int, int, int, int]] = None,
+    changes: Optional[Mapping[str, Any]] = None,
+    out: Optional[Mapping[str, np.ndarray]] = None,
+    progress: Optional[Progress] = None,
+    backend: str = "cpu",
+    threads: int = 0,
+    isa: str = "auto",
+    context: Optional[Context] = None,
+    **options: Any,
+) -> Dict[str, np.ndarray]:
+    """Renders a frame: a dictionary of numpy arrays by layer, top row first.
+
+    scene    a Scene, a dictionary, or the path of a scene file
+    method   "mangata", "podee-pixel", "ssaa4", "reference", …; None: the scene's
+    layers   "color" float32 (h, w, 3), radiance in kcd/m², linear sRGB; "display" uint8 (h, w, 4), what a screen shows; "normal", "refraction" float32 (h, w, 3);
+             "coverage", "mask", "foam" float32 (h, w), shares; "depth" float32 (h, w), metres along the ray, inf where no water; "samples", …
+    frame    from 0; its time is start + frame / fps
+    size     (width, height) in pixels; crop: (x, y, width, height) of it
+    changes  values of the scene: {"light.elevation_deg": 6}
+    out      arrays to render into, by layer, in place of new ones
+    progress called with the share done several times a second; returning False stops with Cancelled, an exception passes through
+    options  those of the method: samples=16, spatial=8, time_samples=8, seed=1, kernels="9", refraction="hybrid", …
+
+    The same scene, frame and options give the same numbers, whatever the threads. Errors: SceneError with file, line, column; MangataError.
+    """
+    given = dict(changes or {})
+    if size is not None:
+        given["image.width"], given["image.height"] = int(size[0]), int(size[1])
+    if method is not None:
+        # The scene format has the number of ssaaN as a key of its own.
+        number = re.fullmatch(r"ssaa([0-9]+)", method)
+        given["quality.method"] = "ssaa" if number else method
+        if number:
+            given["quality.spatial"] = int(number[1])
+    given.update({f"quality.{key}": value for key, value in options.items()})
+    scene = as_scene(scene)
+    if given:
+        scene = _changed(scene, given)
+    view = scene.frame(frame)
+    if crop is not None:
+        view.image.crop_x, view.image.crop_y, view.image.crop_width, view.image.crop_height = crop
+    width, height = _crop_size(view.image)
+    if not 0 < width <= view.image.width or not 0 < height <= view.image.height:
+        raise ValueError(f"crop {crop}: it lies outside the picture of {view.image.width} x {view.image.height} pixels")
+    result = {}
+    for layer in layers:
+        shape, dtype = _shape(layer, width, height)
+        result[layer] = out[layer] if out and layer in out else np.empty(shape, dtype)
+    (context or _context(backend, threads, isa)).render_into(view, list(result.items()), progress)
+    return result
+
+
+def _changed(scene: Scene, changes: Mapping[str, Any]) -> Scene:
+    """The changed scene, the last one of each kept, so that a second frame does not read it again."""
+    key = repr(sorted(changes.items()))
+    kept = getattr(scene, "_last_change", None)
+    if kept is None or kept[0] != key:
+        kept = scene._last_change = (key, scene.changed(changes))
+    return kept[1]
+
+
+__all__ = ["Context", "layers", "methods", "render"]

@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: MIT
+"""Scenes: from files, text, dictionaries, or a few words about a sea."""
+import json
+import os
+from typing import Any, Dict, Mapping, Optional, Tuple, Union
+
+from ._library import ffi, io, text
+from .errors import MangataError, SceneError
+
+Document = Union[str, Mapping[str, Any]]
+
+
+def _plain(value: Any) -> Any:
+    """numpy's numbers and arrays as JSON has them."""
+    if hasattr(value, "tolist"):
+        return value.tolist()
+    raise TypeError(f"{type(value).__name__} does not fit into a scene")
+
+
+def _yaml(value: Any) -> str:
+    return json.dumps(value, default=_plain)
+
+
+def raise_io(status: int, error) -> None:
+    """The exception of a failed call of libmangata-io."""
+    reason = text(error.text)
+    if status == io.MGT_IO_MEMORY:
+        raise MemoryError(reason)
+    if status == io.MGT_IO_MISSING:
+        raise FileNotFoundError(reason)
+    if error.line:
+        raise SceneError(reason, text(error.file), error.line, error.column)
+    raise SceneError(reason)
+
+
+def new_error():
+    error = ffi.new("mgt_io_error *")
+    io.mgt_io_error_init(error, ffi.sizeof("mgt_io_error"))
+    return error
+
+
+class Scene:
+    """A scene that has been read and checked. It does not change: `changed()` gives another one.
+
+    Scene("water: {wind: 12}")             YAML or JSON
+    Scene({"water": {"wind": 12}})         the same as a dictionary, whose values may be numpy's
+    Scene({...}, {"light.elevation_deg": 6})  with changes, whose keys are paths of the scene format
+    """
+
+    def __init__(self, document: Document, changes: Optional[Mapping[str, Any]] = None, name: str = "scene") -> None:
+        if not isinstance(document, str):
+            document = json.dumps({"mangata": 1, **document}, default=_plain)
+        self._open("text", document, dict(changes or {}), name)
+
+    @classmethod
+    def load(cls, path: Union[str, os.PathLike], changes: Optional[Mapping[str, Any]] = None) -> "Scene":
+        """Reads a scene file. FileNotFoundError, SceneError."""
+        scene = cls.__new__(cls)
+        scene._open("file", os.fspath(path), dict(changes or {}), "")
+        return scene
+
+    @classmethod
+    def sea(cls, changes: Optional[Mapping[str, Any]] = None, **words: Any) -> "Scene":
+        """A sea under a low sun from the wind: sea(wind=12, direction=30, seed=3); the words are those of `mangata render --sea` (docs/seas.md)."""
+        scene = cls.__new__(cls)
+        scene._open("sea", ",".join(f"{key}={value}" for key, value in words.items()), dict(changes or {}), "")
+        return scene
+
+    def changed(self, changes: Mapping[str, Any]) -> "Scene":
+        """The scene with these values: changed({"light.elevation_deg": 3, "camera.position": [0, 4, 0]})."""
+        scene = type(self).__new__(type(self))
+        scene._open(self._kind, self._source, {**self._changes, **changes}, self._name)
+        return scene
+
+    def _open(self, kind: str, source: str, changes: Dict[str, Any], name: str) -> None:
+        self._kind, self._source, self._changes, self._name = kind, source, changes, name
+        words = [ffi.new("char[]", f"{key}={_yaml(value)}".encode()) for key, value in changes.items()]
+        array = ffi.new("char *[]", words) if words else ffi.NULL
+        error, out = new_error(), ffi.new("mgt_scene_file **")
+        data = source.encode()
+        if kind == "file":
+            status = io.mgt_scene_file_load(out, data, array, len(words), error)
+        elif kind == "sea":
+            status = io.mgt_scene_file_sea(out, data, array, len(words), error)
+        else:
+            status = io.mgt_scene_file_parse(out, data, len(data), name.encode(), array, len(words), error)
+        if status:
+            raise_io(status, error)
+        self._file = ffi.gc(out[0], io.mgt_scene_file_free)
+
+    def frame(self, frame: int = 0):
+        """The C struct `mgt_scene *` of a frame; what it points to lives as long as this scene."""
+        scene = ffi.new("mgt_scene *")
+        if not 0 <= frame < 1 << 31 or io.mgt_scene_file_frame(self._file, frame, scene, ffi.sizeof("mgt_scene")):
+            raise SceneError(f"frame {frame}: there is no such frame, or its camera is not a legal one")
+        return scene
+
+    @property
+    def frames(self) -> int:
+        """How many frames the scene has."""
+        return io.mgt_scene_file_frame_count(self._file)
+
+    @property
+    def fps(self) -> float:
+        """Frames per second."""
+        return io.mgt_scene_file_fps(self._file)
+
+    @property
+    def size(self) -> Tuple[int, int]:
+        """Width and height in pixels."""
+        image = self.frame(0).image
+        return image.width, image.height
+
+    @property
+    def warning(self) -> str:
+        """What is legal and yet hardly meant; "" where there is nothing."""
+        return text(io.mgt_scene_file_warning(self._file)) or ""
+
+    def waves(self, frame: int = 0):
+        """The waves, an array of shape (count, 5): amplitude in metres, kx and kz in radians a metre, omega in radians a second, phase in radians;
+        y += amplitude · sin(kx x + kz z + omega t + phase)."""
+        import numpy
+
+        water = self.frame(frame).water
+        return numpy.array([[w.amplitude, w.kx, w.kz, w.omega, w.phase] for w in (water.waves[i] for i in range(water.wave_count))]).reshape(-1, 5)
+
+    def __repr__(self) -> str:
+        width, height = self.size
+        return f"<mangata.Scene {self._source if self._kind != 'text' else self._name!r}: {width} x {height}, {self.frames} frames>"
+
+
+def as_scene(scene: Union[Scene, Document, os.PathLike]) -> Scene:
+    """A Scene; a path of a scene file, or a dictionary, becomes one."""
+    if isinstance(scene, Scene):
+        return scene
+    if isinstance(scene, Mapping):
+        return Scene(scene)
+    return Scene.load(scene)
+
+
+__all__ = ["Scene", "as_scene", "MangataError"]

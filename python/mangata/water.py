@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: MIT
+"""Questions about the water."""
+from typing import Dict, Optional, Sequence, Union
+
+import numpy as np
+
+from ._library import ffi, lib, text
+from .errors import MangataError, SceneError
+from .scenes import Document, Scene, as_scene
+
+_ANSWERS = {"height": ("double *", np.float64, ()), "normal": ("float *", np.float32, (3,)), "velocity": ("float *", np.float32, (3,)), "jacobian": ("float *", np.float32, ())}
+
+
+def _pointer(kind: str, array: np.ndarray):
+    return ffi.cast(kind, array.__array_interface__["data"][0])
+
+
+def _raise(status: int) -> None:
+    message = text(lib.mgt_last_error(ffi.NULL))
+    if status == lib.MGT_ERROR_SCENE:
+        raise SceneError(message)
+    raise MangataError(message or text(lib.mgt_status_text(status)), text(lib.mgt_status_name(status)))
+
+
+def query(
+    scene: Union[Scene, Document],
+    points,
+    time: Optional[float] = None,
+    answers: Sequence[str] = ("height", "normal"),
+    *,
+    frame: int = 0,
+    least_wavelength: float = 0.0,
+    exact: bool = False,
+) -> Dict[str, np.ndarray]:
+    """How high the water is at points, how it leans and how it moves.
+
+    points   array (…, 2) of x and z in metres, float64; other types are copied
+    time     seconds; None: that of `frame`
+    answers  "height" float64 (…), metres; "normal" float32 (…, 3), unit; "velocity" float32 (…, 3), metres a second; "jacobian" float32 (…)
+    least_wavelength  metres: shorter waves count in the result's "covariance" alone: xx, xz, zz of their slopes
+    exact    heights within 1e-9 m, in about twice the time
+
+    Also in the result: "covariance" float64 (3,), "unsettled" int, points of choppy water whose place of rest was not found.
+    """
+    view = as_scene(scene).frame(frame)
+    points = np.ascontiguousarray(points, np.float64)
+    if points.ndim < 1 or points.shape[-1] != 2:
+        raise ValueError(f"points need the shape (…, 2), x and z in metres, not {points.shape}")
+    shape = points.shape[:-1]
+    asked = ffi.new("mgt_water_answers *")
+    lib.mgt_water_answers_init(asked, ffi.sizeof("mgt_water_answers"))
+    asked.least_wavelength, asked.exact = least_wavelength, int(exact)
+    result: Dict[str, np.ndarray] = {}
+    for name in answers:
+        if name not in _ANSWERS:
+            raise ValueError(f"answer {name!r}: allowed is {', '.join(_ANSWERS)}")
+        kind, dtype, more = _ANSWERS[name]
+        result[name] = np.empty(shape + more, dtype)
+        setattr(asked, name, _pointer(kind, result[name]))
+    water = ffi.addressof(view, "water")
+    status = lib.mgt_water_query(water, view.time if time is None else time, _pointer("double *", points), int(np.prod(shape, dtype=np.int64)), asked)
+    if status:
+        _raise(status)
+    result["covariance"] = np.array(list(asked.covariance))
+    result["unsettled"] = int(asked.unsettled)
+    return result
+
+
+def trace(scene: Union[Scene, Document], origins, directions, reach: float = 1e5, time: Optional[float] = None, *, frame: int = 0) -> np.ndarray:
+    """Where rays first meet the water: multiples of their direction, float64 (…), inf where they do not by `reach`.
+
+    origins, directions  arrays (…, 3) of metres, which may be broadcast against each other
+    """
+    view = as_scene(scene).frame(frame)
+    origins, directions = np.broadcast_arrays(np.asarray(origins, np.float64), np.asarray(directions, np.float64))
+    if origins.shape[-1:] != (3,):
+        raise ValueError(f"origins and directions need the shape (…, 3), not {origins.shape}")
+    rays = np.ascontiguousarray(np.concatenate([origins, directions], axis=-1))
+    distance = np.empty(rays.shape[:-1])
+    status = lib.mgt_water_trace(
+        ffi.addressof(view, "water"), view.time if time is None else time, _pointer("double *", rays), distance.size, reach, _pointer("double *", distance)
+    )
+    if status:
+        _raise(status)
+    return distance
+
+
+__all__ = ["query", "trace"]

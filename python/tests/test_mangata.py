@@ -1,0 +1,261 @@
+# SPDX-License-Identifier: MIT
+"""The package against the command, against numpy, and with bad input."""
+import gc
+import os
+import subprocess
+import threading
+
+import numpy as np
+import pytest
+
+import mangata
+
+SOURCE = os.path.join(os.path.dirname(__file__), "..", "..")
+SIMPLE = os.path.join(SOURCE, "scenes", "simple.json")
+SMALL = (64, 36)
+
+
+@pytest.fixture(scope="module")
+def scene():
+    return mangata.load(SIMPLE)
+
+
+def command(*words):
+    subprocess.run([os.environ["MANGATA"], *map(str, words), "--quiet"], check=True)
+
+
+# ---- scenes ----
+
+
+def test_scene_as_file_text_and_dictionary_are_one(scene):
+    import json
+
+    with open(SIMPLE) as f:
+        text = f.read()
+    for other in (mangata.Scene(text), mangata.Scene(json.loads(text)), scene.changed({})):
+        assert other.frames == scene.frames and other.size == scene.size and other.fps == scene.fps
+        assert np.array_equal(other.waves(), scene.waves())
+    assert scene.waves().shape[1] == 5
+
+
+def test_changes_take_numbers_lists_and_arrays(scene):
+    other = scene.changed({"camera.position": np.array([0.0, 9.0, 0.0]), "light.elevation_deg": np.float64(33), "image.width": 10})
+    view = other.frame(0)
+    assert view.camera.position[1] == 9 and view.light.elevation_deg == 33 and other.size[0] == 10
+    assert scene.frame(0).camera.position[1] != 9
+
+
+def test_errors_carry_file_line_and_column(tmp_path):
+    path = tmp_path / "bad: name.yaml"
+    path.write_text("mangata: 1\nlight:\n  elevation_deg: 300\n")
+    with pytest.raises(mangata.SceneError) as caught:
+        mangata.load(path)
+    error = caught.value
+    assert (error.file, error.line, error.column) == (str(path), 3, 18)
+    assert "allowed" in error.reason and str(path) not in error.reason and str(error).startswith(f"{path}:3:18: ")
+    assert isinstance(error, ValueError)
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        lambda: mangata.Scene(""),
+        lambda: mangata.Scene("mangata: 1\nsky: {model: green}"),
+        lambda: mangata.Scene({"water": {"wind": float("nan")}}),
+        lambda: mangata.Scene({"no": 1}),
+        lambda: mangata.sea(wind=-1),
+        lambda: mangata.sea(breeze=3),
+        lambda: mangata.load(SIMPLE, {"light": 3}),
+        lambda: mangata.load(SIMPLE, {"": 3}),
+        lambda: mangata.load(SIMPLE).frame(-1),
+    ],
+)
+def test_bad_scenes_are_scene_errors(wrong):
+    with pytest.raises(mangata.SceneError):
+        wrong()
+
+
+def test_missing_file_is_missing():
+    with pytest.raises(FileNotFoundError):
+        mangata.load("/nowhere/scene.yaml")
+    with pytest.raises(FileNotFoundError):
+        mangata.read("/nowhere/picture.exr")
+
+
+# ---- rendering ----
+
+
+@pytest.mark.parametrize("method, words", [("mangata", []), ("podee-pixel", []), ("ssaa3", ["--seed", 5]), ("adaptive", ["--samples", 4])])
+def test_pixels_are_those_of_the_command(scene, tmp_path, method, words):
+    options = {words[0][2:]: words[1]} if words else {}
+    layers = ["color", "coverage", "mask", "depth", "normal"]
+    command("render", SIMPLE, "-o", tmp_path / "a.exr", "--size", "64x36", "--frames", 7, "--method", method, *words, *sum((["--layer", layer] for layer in layers), []))
+    ours = mangata.render(scene, method, layers, 7, size=SMALL, **options)
+    assert list(ours) == layers
+    for layer in layers:
+        assert np.array_equal(ours[layer], mangata.read(tmp_path / "a.exr", layer)), layer
+
+
+def test_display_crop_and_threads(scene, tmp_path):
+    command("render", SIMPLE, "-o", tmp_path / "a.png", "--size", "64x36")
+    whole = mangata.render(scene, layers=["display"], size=SMALL)["display"]
+    assert np.array_equal(whole[..., :3] / np.float32(255), mangata.read(tmp_path / "a.png"))
+    part = mangata.render(scene, layers=["coverage"], size=SMALL, crop=(8, 4, 20, 10), threads=1)["coverage"]
+    all_of_it = mangata.render(scene, layers=["coverage"], size=SMALL, threads=2)["coverage"]
+    assert np.array_equal(part, all_of_it[4:14, 8:28])
+
+
+def test_renders_into_arrays_of_the_caller(scene):
+    film = np.zeros((3, 36, 64), np.float32)
+    for frame in range(3):
+        out = mangata.render(scene, layers=["coverage"], frame=frame, size=SMALL, out={"coverage": film[frame]})
+        assert out["coverage"].base is film
+    assert film.any(axis=(1, 2)).all()
+    wide = np.zeros((36, 100), np.float32)
+    mangata.render(scene, layers=["coverage"], size=SMALL, out={"coverage": wide[:, :64]})
+    assert np.array_equal(wide[:, :64], film[0]) and not wide[:, 64:].any()
+    up = np.zeros((36, 64), np.float32)
+    mangata.render(scene, layers=["coverage"], size=SMALL, out={"coverage": up[::-1]})
+    assert np.array_equal(up[::-1], film[0])
+    for bad in (np.zeros((36, 64)), np.zeros((36, 63), np.float32), np.zeros((36, 128), np.float32)[:, ::2], [[0.0]]):
+        with pytest.raises(ValueError):
+            mangata.render(scene, layers=["coverage"], size=SMALL, out={"coverage": bad})
+
+
+def test_bad_arguments(scene):
+    for arguments in ({"layers": ["light"]}, {"crop": (60, 0, 10, 10)}, {"crop": (0, 0, 100, 1)}, {"backend": "vulkan"}, {"isa": "mmx"}, {"method": "nope"}, {"spatial": 0, "method": "reference"}):
+        with pytest.raises((ValueError, mangata.MangataError)):
+            mangata.render(scene, size=SMALL, **arguments)
+
+
+def test_progress_and_cancel(scene):
+    seen = []
+    mangata.render(scene, "reference", size=(320, 180), progress=seen.append)
+    assert seen and seen == sorted(seen) and 0 <= seen[0] and seen[-1] <= 1
+    with pytest.raises(mangata.Cancelled):
+        mangata.render(scene, "reference", size=(320, 180), progress=lambda share: False)
+
+    def fail(share):
+        raise KeyError("stop")
+
+    with pytest.raises(KeyError):
+        mangata.render(scene, "reference", size=(320, 180), progress=fail)
+    assert mangata.render(scene, size=SMALL)["color"].shape == (36, 64, 3)
+
+
+def test_threads_of_python(scene):
+    pictures = {}
+
+    def draw(frame):
+        pictures[frame] = mangata.render(scene, layers=["coverage"], frame=frame, size=SMALL)["coverage"]
+
+    workers = [threading.Thread(target=draw, args=(frame,)) for frame in range(4)]
+    for worker in workers:
+        worker.start()
+    for worker in workers:
+        worker.join()
+    for frame in range(4):
+        assert np.array_equal(pictures[frame], mangata.render(scene, layers=["coverage"], frame=frame, size=SMALL)["coverage"])
+
+
+def test_scene_with_objects():
+    pool = mangata.load(os.path.join(SOURCE, "scenes", "pool.yaml"))
+    assert np.isfinite(mangata.render(pool, size=SMALL)["color"]).all()
+
+
+# ---- water ----
+
+
+def test_query_is_the_sum_of_sines(scene):
+    rng = np.random.default_rng(1)
+    points = rng.uniform(-20, 20, (5, 7, 2))
+    amplitude, kx, kz, omega, phase = scene.waves().T
+    time = 3.25
+    angles = points[..., :1] * kx + points[..., 1:] * kz + omega * time + phase
+    answer = mangata.query(scene, points, time, ["height", "normal", "velocity", "jacobian"], exact=True)
+    assert np.allclose(answer["height"], (amplitude * np.sin(angles)).sum(-1) + scene.frame().water.level, atol=1e-9)
+    slope = np.stack([-(amplitude * kx * np.cos(angles)).sum(-1), np.ones(angles.shape[:-1]), -(amplitude * kz * np.cos(angles)).sum(-1)], -1)
+    assert np.allclose(answer["normal"], slope / np.linalg.norm(slope, axis=-1, keepdims=True), atol=1e-5)
+    assert np.allclose(answer["velocity"][..., 1], (amplitude * omega * np.cos(angles)).sum(-1), atol=1e-4)
+    assert answer["jacobian"].shape == (5, 7) and answer["covariance"].shape == (3,)
+    with pytest.raises(ValueError):
+        mangata.query(scene, [1, 2, 3])
+    with pytest.raises(ValueError):
+        mangata.query(scene, [1, 2], answers=["depth"])
+
+
+def test_trace_ends_on_the_water(scene):
+    origins = np.array([[x, 4.0, 0.0] for x in range(-3, 4)])
+    direction = np.array([0.1, -1.0, 0.3])
+    hits = origins + mangata.trace(scene, origins, direction, time=1)[:, None] * direction
+    assert np.allclose(mangata.query(scene, hits[:, [0, 2]], 1, ["height"], exact=True)["height"], hits[:, 1], atol=1e-6)
+    assert np.isinf(mangata.trace(scene, [0, 4, 0], [0, 1, 0]))
+
+
+def test_sea():
+    sea = mangata.sea(wind=12, count=50, changes={"light.elevation_deg": 6})
+    assert len(sea.waves()) == 50 and sea.frame().light.elevation_deg == 6
+    assert mangata.render(sea, size=SMALL)["color"].mean() > 0
+
+
+# ---- metrics ----
+
+
+def test_metrics_on_arrays():
+    rng = np.random.default_rng(2)
+    a, b = rng.random((2, 20, 30), np.float32)
+    scores = mangata.metrics(a, b, "rmse,relrmse,energy,flip")
+    assert scores["rmse"] == pytest.approx(np.sqrt(np.mean((a.astype(float) - b) ** 2)))
+    assert scores["energy"] == pytest.approx(a.mean(dtype=float) / b.mean(dtype=float))
+    assert 0 < scores["flip"] < 1
+    assert mangata.metrics(a, a)["flip"] == 0 and mangata.metrics(a, a)["ssim"] == pytest.approx(1)
+    clip = rng.random((2, 4, 20, 30, 3), np.float32)
+    assert mangata.metrics(*clip, "rmse,flicker", clip=True)["flicker"] > 0
+    assert mangata.error_map(a, b, "rmse") == pytest.approx(np.abs(a - b), abs=1e-6)
+    assert mangata.error_map(a, b).mean() == pytest.approx(scores["flip"], rel=1e-4)
+    for bad in (lambda: mangata.metrics(a, b[1:]), lambda: mangata.metrics(a, b, "beauty"), lambda: mangata.metrics(a[0], b[0]), lambda: mangata.error_map(a, b, "energy"),
+                lambda: mangata.metrics(a, b, encoding="pq")):
+        with pytest.raises(ValueError):
+            bad()
+
+
+def test_metrics_are_those_of_the_command(scene, tmp_path):
+    a, b = (mangata.render(scene, method, ["coverage"], size=SMALL)["coverage"] for method in ("none", "mangata"))
+    for method, name in (("none", "a"), ("mangata", "b")):
+        command("render", SIMPLE, "-o", tmp_path / f"{name}.pfm", "--layer", "coverage", "--method", method, "--size", "64x36")
+    import json
+
+    said = json.loads(subprocess.run([os.environ["MANGATA"], "diff", tmp_path / "a.pfm", tmp_path / "b.pfm", "--metrics", "rmse,flip,ssim", "--json"], check=True, capture_output=True).stdout)
+    for name, score in mangata.metrics(a, b, "rmse,flip,ssim").items():
+        assert said["metrics"][name] == pytest.approx(score, rel=1e-9)
+
+
+def test_compare_with_a_method_of_ones_own(scene):
+    lines = []
+    rows = mangata.compare({"simple": scene}, ["none", "mangata"], external={"black": lambda scene, frame: np.zeros((36, 64), np.float32)}, frames=[0, 1], size=SMALL,
+                           reference={"spatial": 4, "time_samples": 4}, progress=lines.append)
+    assert [row["method"] for row in rows] == ["none", "mangata", "black"] and {row["scene"] for row in rows} == {"simple"}
+    errors = {row["method"]: row["rmse"] for row in rows}
+    assert errors["mangata"] < errors["none"] and len(lines) == 8
+    assert rows[2]["energy"] == 0 and rows[2]["relrmse"] == pytest.approx(1)
+
+
+def test_pictures_outlive_what_read_them(scene, tmp_path):
+    command("render", SIMPLE, "-o", tmp_path / "a.pfm", "--layer", "coverage", "--size", "64x36")
+    picture = mangata.read(tmp_path / "a.pfm")
+    copy = picture.copy()
+    for _ in range(20):
+        mangata.read(tmp_path / "a.pfm")
+    gc.collect()
+    assert np.array_equal(picture, copy)
+    (tmp_path / "bad.exr").write_bytes(b"nothing")
+    with pytest.raises(mangata.SceneError):
+        mangata.read(tmp_path / "bad.exr")
+
+
+def test_every_public_name_has_a_docstring_and_types():
+    for name in mangata.__all__:
+        thing = getattr(mangata, name)
+        assert thing.__doc__, name
+        if callable(thing) and not isinstance(thing, type):
+            assert "return" in thing.__annotations__, name
