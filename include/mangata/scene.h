@@ -221,6 +221,7 @@ typedef struct mgt_scene {
     mgt_camera camera;      /* when the shutter closes */
     mgt_camera camera_open; /* when it opens; used when camera_moves */
     bool camera_moves;
+    bool aerial;           /* the air before what the eye sees over the water dims it and shines: with MGT_SKY_ATMOSPHERE, whose air it is */
     float foam;            /* share of the water that whitecaps cover, [0, 0.5]; 0: none. Only choppy water seen from above has any */
     double time;           /* seconds, when the shutter closes */
     double shutter;        /* seconds the shutter is open, ≥ 0; light is integrated over [time − shutter, time] */

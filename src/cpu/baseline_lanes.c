@@ -133,7 +133,7 @@ static void slope_pixels(slope_method *shade, const method_tile *t, tile_pixels 
         SlopeState before = close;
         if (t->open)
             before = slope_state(&open, pixel_ray_filtered(&open, column, row).ray, load_estimate(t->open_estimate, i));
-        store_result(out, i, foam_over_state(&cx, shade(&cx, p, before, close), p, close));
+        store_result(out, i, over_state(&cx, shade(&cx, p, before, close), p, close));
     }
 }
 

@@ -427,12 +427,19 @@ static bool run_loop(render_job *job, uint32_t block_width, uint32_t block_heigh
 
 static void reference_lookup(const void *user, const double direction[3], double rgb[3]) { sky_lookup(user, direction, rgb); }
 
+static void reference_air(const void *user, const double direction[3], double distance, double leaves[3], double light[3])
+{
+    sky_air_lookup(user, direction, distance, leaves, light);
+}
+
 _Static_assert((int)MAX_LIGHTS == (int)REFERENCE_LIGHTS, "the oracle has every light");
 
 static mgt_status make_reference(render_job *job, const reporter *r)
 {
     const sky_state *sky = job->state->sky;
-    reference_sky rs = {.lookup = job->scene->sky.model == MGT_SKY_BLACK ? NULL : reference_lookup, .user = sky};
+    reference_sky rs = {.lookup = job->scene->sky.model == MGT_SKY_BLACK ? NULL : reference_lookup,
+                        .air = sky_state_has_air(job->scene) ? reference_air : NULL,
+                        .user = sky};
     sky_upwelling_radiance(sky, &job->scene->water, rs.body_radiance);
     for (int i = 0; i < lights_count(sky->lights); i++)
         light_mean_radiance(lights_get(sky->lights, i), rs.disks[i]);
@@ -470,10 +477,12 @@ static mgt_status display(render_job *job, const reporter *r)
 
 static mgt_status prepare_sky(cpu_state *s, const reporter *r, const mgt_scene *scene)
 {
-    if (sky_state_same_inputs(s->sky, &scene->sky, &scene->light))
-        return MGT_OK;
-    const mgt_status status = sky_state_build(s->sky, &scene->sky, &scene->light);
-    return status == MGT_OK ? MGT_OK : report_error(r, status, "render.memory", "out of memory for the sky's tables");
+    const bool same = sky_state_same_inputs(s->sky, &scene->sky, &scene->light);
+    const mgt_status status = same ? MGT_OK : sky_state_build(s->sky, &scene->sky, &scene->light);
+    if (status != MGT_OK)
+        return report_error(r, status, "render.memory", "out of memory for the sky's tables");
+    sky_state_see_air(s->sky, scene);
+    return MGT_OK;
 }
 
 /* Once for all lights and frames of a context. */

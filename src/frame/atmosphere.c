@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "frame/scattering.h"
+#include "frame/air.h"
 #include "frame/spectrum.h"
 #include "params/scene_rows.h"
 
@@ -54,20 +54,44 @@ static void fill_atmosphere(sky_state *state, const scattering *air, const spect
     }
 }
 
-void sky_lookup(const sky_state *state, const double direction[3], double rgb[3])
+/* sin(φ/2) of a direction's azimuth from the light. */
+static double azimuth_column(const sky_state *state, const double direction[3])
 {
     double across = sqrt(fmax(direction[0] * direction[0] + direction[2] * direction[2], 1e-24));
     const double *azimuth = light_azimuth(lights_get(state->lights, 0));
     double chord_x = direction[0] / across - azimuth[0], chord_z = direction[2] / across - azimuth[1];
-    double u = fmin(0.5 * sqrt(chord_x * chord_x + chord_z * chord_z), 1.0);
+    return fmin(0.5 * sqrt(chord_x * chord_x + chord_z * chord_z), 1.0);
+}
+
+/* Bilinear, `right` and `up` from the texel at `low`. */
+static void blend_texels(const float *low, double right, double up, double rgb[3])
+{
+    const float *high = low + SKY_COLUMNS * 3;
+    for (int c = 0; c < 3; ++c) {
+        double below = low[c] + ((double)low[c + 3] - low[c]) * right;
+        double above = high[c] + ((double)high[c + 3] - high[c]) * right;
+        rgb[c] = below + (above - below) * up;
+    }
+}
+
+void sky_lookup(const sky_state *state, const double direction[3], double rgb[3])
+{
+    double u = azimuth_column(state, direction);
     double v = fmin(sqrt(fmax(direction[1], 0.0)), 1.0);
     double x = u * (SKY_COLUMNS - 1), y = v * (SKY_ROWS - 1);
     double column = fmin(floor(x), SKY_COLUMNS - 2.0), row = fmin(floor(y), SKY_ROWS - 2.0);
-    const float *low = &state->table[((int)row * SKY_COLUMNS + (int)column) * 3], *high = low + SKY_COLUMNS * 3;
+    blend_texels(&state->table[((int)row * SKY_COLUMNS + (int)column) * 3], x - column, y - row, rgb);
+}
+
+void sky_air_lookup(const sky_state *state, const double direction[3], double distance, double leaves[3], double light[3])
+{
+    double w = -expm1(-state->air_rate * distance);
+    double y = w * (AIR_ROWS - 1), row = fmin(floor(y), AIR_ROWS - 2.0);
+    double x = azimuth_column(state, direction) * (SKY_COLUMNS - 1), column = fmin(floor(x), SKY_COLUMNS - 2.0);
+    blend_texels(&state->table[((SKY_ROWS + (int)row) * SKY_COLUMNS + (int)column) * 3], x - column, y - row, light);
+    const float *near = &state->table[((SKY_ROWS + AIR_ROWS) * SKY_COLUMNS + (int)row) * 3];
     for (int c = 0; c < 3; ++c) {
-        double below = low[c] + ((double)low[c + 3] - low[c]) * (x - column);
-        double above = high[c] + ((double)high[c + 3] - high[c]) * (x - column);
-        rgb[c] = below + (above - below) * (y - row);
+        leaves[c] = near[c] + ((double)near[c + 3] - near[c]) * (y - row);
     }
 }
 
@@ -186,13 +210,16 @@ void sky_upwelling_radiance(const sky_state *state, const mgt_water *water, doub
     }
 }
 
-/* Everything that follows from the inputs; with air, `ray` is room to work in. */
-static void fill_state(sky_state *s, const mgt_sky *sky, const mgt_light *light, const scattering *air, scattering_ray *ray)
+/* Everything that follows from the inputs; with air, `ray` is room to work in. The caller's air and ray are then the state's. */
+static void fill_state(sky_state *s, const mgt_sky *sky, const mgt_light *light, scattering *air, scattering_ray *ray)
 {
     light_set *lights = s->lights;
     memset(s, 0, sizeof *s);
     s->sky = *sky;
     s->lights = lights;
+    s->air = air;
+    s->ray = ray;
+    s->air_height = -1.0;
     const spectrum_weights weights = air ? spectrum_weights_make() : (spectrum_weights){0};
     lights_set(s->lights, light, 1, air, &weights);
     if (air) {
@@ -214,9 +241,18 @@ sky_state *sky_state_create(void)
     return state;
 }
 
+static void free_air(sky_state *state)
+{
+    scattering_ray_destroy(state->ray);
+    scattering_destroy(state->air);
+    state->ray = NULL;
+    state->air = NULL;
+}
+
 void sky_state_destroy(sky_state *state)
 {
     if (state) {
+        free_air(state);
         lights_destroy(state->lights);
         free(state);
     }
@@ -224,20 +260,38 @@ void sky_state_destroy(sky_state *state)
 
 mgt_status sky_state_build(sky_state *state, const mgt_sky *sky, const mgt_light *light)
 {
-    const mgt_sky wanted = *sky;              /* may be the state's own */
-    if (wanted.model != MGT_SKY_ATMOSPHERE) { /* a light that moves from frame to frame allocates nothing */
-        fill_state(state, &wanted, light, NULL, NULL);
-        return MGT_OK;
+    const mgt_sky wanted = *sky; /* may be the state's own */
+    scattering *air = NULL;
+    scattering_ray *ray = NULL;
+    if (wanted.model == MGT_SKY_ATMOSPHERE) { /* else a light that moves from frame to frame allocates nothing */
+        air = scattering_create(wanted.turbidity, light_radius_sine(light));
+        ray = scattering_ray_create();
+        if (!air || !ray) {
+            scattering_ray_destroy(ray);
+            scattering_destroy(air);
+            return MGT_ERROR_MEMORY;
+        }
     }
-    scattering *air = scattering_create(wanted.turbidity, light_radius_sine(light));
-    scattering_ray *ray = scattering_ray_create();
-    const bool enough = air && ray;
-    if (enough) {
-        fill_state(state, &wanted, light, air, ray);
-    }
-    scattering_ray_destroy(ray);
-    scattering_destroy(air);
-    return enough ? MGT_OK : MGT_ERROR_MEMORY;
+    free_air(state);
+    fill_state(state, &wanted, light, air, ray);
+    return MGT_OK;
+}
+
+bool sky_state_has_air(const mgt_scene *scene) { return scene->aerial && scene->sky.model == MGT_SKY_ATMOSPHERE && scene->camera.position[1] >= 0; }
+
+bool sky_state_see_air(sky_state *state, const mgt_scene *scene)
+{
+    const double height = scene->camera.position[1];
+    if (!sky_state_has_air(scene) || !state->air || state->air_height == height)
+        return false;
+    const spectrum_weights weights = spectrum_weights_make();
+    const light_state *light = lights_get(state->lights, 0);
+    air_view view = {.height = height, .sin_light = light_toward(light)[1]};
+    light_beam_outside(light, view.rgb_irradiance);
+    air_fill(state->air, &weights, &view, texel(state, 0, 0), state->sky.night, state->ray, texel(state, 0, SKY_ROWS));
+    state->air_rate = air_rate(state->air, height);
+    state->air_height = height;
+    return true;
 }
 
 bool sky_state_same_inputs(const sky_state *state, const mgt_sky *sky, const mgt_light *light)

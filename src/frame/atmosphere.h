@@ -16,7 +16,7 @@
  * u = column/(SKY_COLUMNS − 1), v = row/(SKY_ROWS − 1): the table's edges are the horizon, the zenith and the two half
  * planes through that light. */
 
-/* 217 KiB. Radiance in kcd/m², irradiance in klx (kcd·sr/m²), linear sRGB. */
+/* 290 KiB. Radiance in kcd/m², irradiance in klx (kcd·sr/m²), linear sRGB. */
 typedef struct sky_state {
     mgt_sky sky; /* the input it was built from, with the lights */
     light_set *lights;
@@ -24,7 +24,13 @@ typedef struct sky_state {
     double irradiance_sky[3]; /* on the horizontal, from the table */
     double exposure_ev;       /* automatic exposure: the picture is radiance · 2^exposure_ev before the tone map */
 
-    float table[SKY_ROWS * SKY_COLUMNS * 3]; /* rows from the horizon up; no disk in it */
+    double air_height; /* the eye's, of which the rows of air are; < 0: they are of none */
+    double air_rate;   /* see air.h */
+
+    struct scattering *air; /* of the model atmosphere; else NULL */
+    struct scattering_ray *ray;
+
+    float table[SKY_TABLE_ROWS * SKY_COLUMNS * 3]; /* rows from the horizon up, no disk in it; then those of air.h */
 } sky_state;
 
 /* A black sky without lights, NULL without memory. The caller owns it. */
@@ -35,11 +41,21 @@ void sky_state_destroy(sky_state *state); /* NULL does nothing */
  * models. MGT_OK or MGT_ERROR_MEMORY; after a failure `state` is unchanged. */
 mgt_status sky_state_build(sky_state *state, const mgt_sky *sky, const mgt_light *light);
 
+/* Fills the rows of air for an eye at scene->camera.position, where the scene has aerial perspective. True: the table has changed. */
+bool sky_state_see_air(sky_state *state, const mgt_scene *scene);
+
+/* Whether the air before the water is seen. */
+bool sky_state_has_air(const mgt_scene *scene);
+
 /* Whether a build from these inputs would give the bytes that `state` holds. Never true for a new state. */
 bool sky_state_same_inputs(const sky_state *state, const mgt_sky *sky, const mgt_light *light);
 
 /* Radiance of the sky (no disk) in a unit direction; below the horizon the horizon's. The maths of sky.k in double. */
 void sky_lookup(const sky_state *state, const double direction[3], double rgb[3]);
+
+/* What the air leaves of the light of water so many metres along a unit direction, and its own light. The maths of air.k in double, after
+ * sky_state_see_air(). */
+void sky_air_lookup(const sky_state *state, const double direction[3], double distance, double leaves[3], double light[3]);
 
 /* Radiance that deep water sends up through a flat surface, without the last factor: the caller multiplies by (1 − F(view)).
  *   body = body_albedo · E_w / (π·n²),

@@ -144,6 +144,7 @@ frame frame_of(const mgt_scene *scene, const sky_state *sky, bool want_color)
     d->slope_floor = 1e-9f;
     d->pixel_angle = (float)(2 * tan(scene->camera.fov_y_deg * pi / 360) / scene->image.height);
     d->want_color = want_color;
+    d->air_rate = sky_state_has_air(scene) ? (float)sky->air_rate : 0;
     d->sky_black = scene->sky.model == MGT_SKY_BLACK && scene->object_count == 0; /* what objects shine still shows */
     set_method(&f);
     set_through(&f);

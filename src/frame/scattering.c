@@ -24,6 +24,7 @@
 #define MEAN_ABOVE 24    /* … above: sine = (i/24)² */
 #define MEAN_COLUMNS (MEAN_BELOW + MEAN_ABOVE + 1)
 #define VIEW_STEPS 40
+#define AIR_STEPS 12 /* of a way that ends in the air */
 #define GATHER_STEPS 12
 #define GATHER_ZENITHS 8
 #define GATHER_AZIMUTHS 4
@@ -228,12 +229,12 @@ static band_values mean_at(const band_values (*table)[MEAN_COLUMNS], const ray_s
 
 /* ---- rays ----------------------------------------------------------------------------------------------- */
 
-/* Splits a ray into stretches, dense near its start, each with its light integrated for constant density. */
-static void aim_ray(const medium *air, double start, double sine, int count, scattering_ray *ray)
+typedef enum stretches { EVEN, DENSE_NEAR_START } stretches;
+
+/* Splits a ray of this length into stretches, each with its light integrated for constant density. */
+static void split_ray(const medium *air, double start, double sine, double whole, stretches how, int count, scattering_ray *ray)
 {
-    double discriminant = start * start * (sine * sine - 1.0) + EARTH * EARTH;
-    ray->hits_ground = sine < 0.0 && discriminant >= 0.0;
-    ray->length = ray->hits_ground ? fmax(-start * sine - sqrt(discriminant), 0.0) : distance_to_space(start, sine);
+    ray->length = whole;
     ray->start = start;
     ray->count = count;
     double through[BANDS];
@@ -242,7 +243,7 @@ static void aim_ray(const medium *air, double start, double sine, int count, sca
     }
     for (int i = 0; i < count; ++i) {
         double s0 = (double)i / count, s1 = (double)(i + 1) / count;
-        double from = ray->length * s0 * s0, to = ray->length * s1 * s1, length = to - from;
+        double from = whole * s0 * (how == EVEN ? 1.0 : s0), to = whole * s1 * (how == EVEN ? 1.0 : s1), length = to - from;
         double middle = 0.5 * (from + to), radius = radius_at(start, sine, middle), height = radius - EARTH;
         double rayleigh = rayleigh_density(height), aerosol = aerosol_density(height), ozone = ozone_density(height);
         ray_step *step = &ray->steps[i];
@@ -265,6 +266,15 @@ static void aim_ray(const medium *air, double start, double sine, int count, sca
 static double sine_along(const scattering_ray *ray, const ray_step *step, double sin_light, double cos_angle)
 {
     return clamped((ray->start * sin_light + step->distance * cos_angle) / step->radius, -1.0, 1.0);
+}
+
+/* As far as it goes: to the sea or to space. */
+static void aim_ray(const medium *air, double start, double sine, int count, scattering_ray *ray)
+{
+    double discriminant = start * start * (sine * sine - 1.0) + EARTH * EARTH;
+    ray->hits_ground = sine < 0.0 && discriminant >= 0.0;
+    split_ray(air, start, sine, ray->hits_ground ? fmax(-start * sine - sqrt(discriminant), 0.0) : distance_to_space(start, sine), DENSE_NEAR_START, count,
+              ray);
 }
 
 /* Light of the first order along a ray, phase functions included; seen: by the eye, not gathered. */
@@ -427,6 +437,31 @@ void scattering_ray_destroy(scattering_ray *ray) { free(ray); }
 void scattering_ray_aim(const scattering *air, double sin_elevation, scattering_ray *ray)
 {
     aim_ray(&air->air, EARTH, fmax(sin_elevation, 0.0), VIEW_STEPS, ray);
+}
+
+void scattering_ray_aim_through(const scattering *air, double height, double sine, double length, scattering_ray *ray)
+{
+    const double start = EARTH + height;
+    ray->hits_ground = false;
+    split_ray(&air->air, start, sine, fmin(length, distance_to_space(start, sine)), EVEN, AIR_STEPS, ray);
+}
+
+void scattering_ray_transmittance(const scattering_ray *ray, double transmittance[SPECTRUM_BANDS])
+{
+    for (int b = 0; b < BANDS; ++b) {
+        transmittance[b] = (double)ray->through[b];
+    }
+}
+
+double scattering_extinction(const scattering *air, double height)
+{
+    const int band = 5, steps = 16;
+    double sum = 0.0;
+    for (int i = 0; i < steps; ++i) {
+        double at = height * (i + 0.5) / steps;
+        sum += air->air.rayleigh[band] * rayleigh_density(at) + air->air.aerosol[band] * aerosol_density(at) + air->air.ozone[band] * ozone_density(at);
+    }
+    return sum / steps;
 }
 
 void scattering_radiance(const scattering *air, const scattering_ray *ray, double sin_light, double cos_angle, double radiance[SPECTRUM_BANDS])

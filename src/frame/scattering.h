@@ -30,6 +30,15 @@ scattering_ray *scattering_ray_create(void);
 void scattering_ray_destroy(scattering_ray *ray);
 void scattering_ray_aim(const scattering *air, double sin_elevation, scattering_ray *ray);
 
+/* A way through the air that begins at this height and ends after this length, both in kilometres; the sine of its elevation is any. */
+void scattering_ray_aim_through(const scattering *air, double height, double sine, double length, scattering_ray *ray);
+
+/* Of the whole ray. */
+void scattering_ray_transmittance(const scattering_ray *ray, double transmittance[SPECTRUM_BANDS]);
+
+/* Extinction at 540 nm, its mean from the sea to a height in kilometres, 1/km. */
+double scattering_extinction(const scattering *air, double height);
+
 /* Radiance along the ray per unit of irradiance outside the atmosphere (on a plane facing the light), 1/sr, per band.
  * sin_light: sine of the light's elevation; cos_angle: cosine of the angle between ray and light. */
 void scattering_radiance(const scattering *air, const scattering_ray *ray, double sin_light, double cos_angle, double radiance[SPECTRUM_BANDS]);

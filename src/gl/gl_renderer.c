@@ -58,7 +58,7 @@ static mgt_status read_limits(gl_renderer *g, const reporter *r)
 static void create_sky_texture(gl_renderer *g)
 {
     g->gl.CreateTextures(GL_TEXTURE_2D, 1, &g->sky_texture);
-    g->gl.TextureStorage2D(g->sky_texture, 1, GL_RGBA32F, SKY_COLUMNS, SKY_ROWS);
+    g->gl.TextureStorage2D(g->sky_texture, 1, GL_RGBA32F, SKY_COLUMNS, SKY_TABLE_ROWS);
 }
 
 mgt_status gl_renderer_create(gl_renderer **out, mgt_gl_get_proc get_proc, const reporter *r)
@@ -177,11 +177,12 @@ void gl_uniform(gl_renderer *g, GLuint binding, const void *data, size_t size)
 mgt_status gl_sky_prepare(gl_renderer *g, const mgt_scene *scene, const reporter *r)
 {
     g->programs.water = !(scene->water.choppiness > 0) ? WATER_SINES : foam_draws(scene) ? WATER_FOAM : WATER_CHOPPY;
-    if (sky_state_same_inputs(g->sky, &scene->sky, &scene->light))
-        return MGT_OK;
-    const mgt_status status = sky_state_build(g->sky, &scene->sky, &scene->light);
+    const bool same = sky_state_same_inputs(g->sky, &scene->sky, &scene->light);
+    const mgt_status status = same ? MGT_OK : sky_state_build(g->sky, &scene->sky, &scene->light);
     if (status != MGT_OK)
         return report_error(r, status, "render.memory", "out of memory for the sky's tables");
-    g->gl.TextureSubImage2D(g->sky_texture, 0, 0, 0, SKY_COLUMNS, SKY_ROWS, GL_RGB, GL_FLOAT, g->sky->table);
+    if (!sky_state_see_air(g->sky, scene) && same)
+        return MGT_OK;
+    g->gl.TextureSubImage2D(g->sky_texture, 0, 0, 0, SKY_COLUMNS, SKY_TABLE_ROWS, GL_RGB, GL_FLOAT, g->sky->table);
     return gl_check(&g->gl, "sky", r);
 }

@@ -48,14 +48,11 @@ const field_row light_rows[] = {{"body", FIELD_CHOICE, offsetof(mgt_light, body)
                                  .doc = "linear sRGB; with the atmosphere sky as seen outside the atmosphere"},
                                 {0}};
 
-const field_row sky_rows[] = {{"model", FIELD_CHOICE, offsetof(mgt_sky, model), 0, NO_RANGE, NULL,
-                               .doc = "atmosphere: scattering, day to night; gradient: horizon to zenith; black: only the glitter", .choices = sky_model_names},
-                              {"turbidity", FIELD_SHARE, offsetof(mgt_sky, turbidity), 0, 1, 10, NULL, .doc = "aerosol amount over clear air (atmosphere)"},
-                              {"zenith", FIELD_COLOR, offsetof(mgt_sky, zenith), 0, 0, 1e9, "kcd/m²", .doc = "linear sRGB, straight up (gradient)"},
-                              {"horizon", FIELD_COLOR, offsetof(mgt_sky, horizon), 0, 0, 1e9, "kcd/m²", .doc = "linear sRGB, at the horizon (gradient)"},
-                              {"night", FIELD_COLOR, offsetof(mgt_sky, night), 0, 0, 1e9, "kcd/m²",
-                               .doc = "linear sRGB, airglow and stars, added everywhere (atmosphere)"},
-                              {0}};
+typedef struct sky_place {
+    mgt_sky sky;
+} sky_place;
+
+const field_row sky_rows[] = {SKY_LOOK_ROWS(sky_place, sky), {0}};
 
 typedef struct camera_place {
     mgt_camera camera;
@@ -77,6 +74,8 @@ const field_row scene_rows[] = {PART(camera, camera_rows, "when the shutter clos
                                 {"frame_interval", FIELD_NUMBER, offsetof(mgt_scene, frame_interval), 0, 0, 1e6, "s", .doc = "since the frame before"},
                                 PART(light, light_rows, "the sun or the moon"),
                                 PART(sky, sky_rows, "what the water mirrors"),
+                                {"aerial", FIELD_SWITCH, offsetof(mgt_scene, aerial), .doc = "whether the air before the water is seen",
+                                 .choices = switch_words},
                                 PART(water, water_rows, "the surface and what is under it"),
                                 {"foam", FIELD_SHARE, offsetof(mgt_scene, foam), 0, 0, MOST_FOAM, NULL, .doc = "share of the water that whitecaps cover"},
                                 {"foam_persistence", FIELD_SHARE, offsetof(mgt_scene, foam_persistence), 0, 0, 60, "s", .doc = "how long foam lasts"},

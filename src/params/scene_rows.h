@@ -5,6 +5,7 @@
 #ifndef MANGATA_PARAMS_SCENE_ROWS_H
 #define MANGATA_PARAMS_SCENE_ROWS_H
 
+#include "params/names.h"
 #include "params/options.h"
 #include "params/waves.h"
 
@@ -23,6 +24,17 @@
         {"up", FIELD_VECTOR, offsetof(type, member.up), 0, FIELD_ANYWHERE, NULL, .doc = "a direction that is up in the picture, not parallel to the view"}, \
     {                                                                                                                                                       \
         "fov_y_deg", FIELD_NUMBER, offsetof(type, member.fov_y_deg), FIELD_OPEN_MIN | FIELD_OPEN_MAX, 0, 179, "degrees", .doc = "vertical field of view"    \
+    }
+
+/* Rows of an mgt_sky, of which `look` of a struct is one. */
+#define SKY_LOOK_ROWS(type, look)                                                                                                                            \
+    {"model", FIELD_CHOICE, offsetof(type, look.model), .doc = "atmosphere: scattering, day to night; gradient: horizon to zenith; black: only the glitter", \
+     .choices = sky_model_names},                                                                                                                            \
+        {"turbidity", FIELD_SHARE, offsetof(type, look.turbidity), 0, 1, 10, NULL, .doc = "aerosol amount over clear air (atmosphere)"},                     \
+        {"zenith", FIELD_COLOR, offsetof(type, look.zenith), 0, 0, 1e9, "kcd/m²", .doc = "linear sRGB, straight up (gradient)"},                             \
+        {"horizon", FIELD_COLOR, offsetof(type, look.horizon), 0, 0, 1e9, "kcd/m²", .doc = "linear sRGB, at the horizon (gradient)"},                        \
+    {                                                                                                                                                        \
+        "night", FIELD_COLOR, offsetof(type, look.night), 0, 0, 1e9, "kcd/m²", .doc = "linear sRGB, airglow and stars, added everywhere (atmosphere)"        \
     }
 
 /* Rows of what mgt_water and the scene format have in common, for a struct with members of these names. */

@@ -209,8 +209,15 @@ static void judge_point(cells_job *job, const cell *c, const cell_plane *plane, 
     const double distance = length3(from_camera);
     const vec3 up = {-p->slope_x[at], 1, -p->slope_z[at]};
     pending_hit hit = {.distance = distance};
-    if (!mirrors_light(job->frame, scaled3(from_camera, 1 / distance), unit3(up), hit.rgb))
+    const vec3 view = scaled3(from_camera, 1 / distance);
+    if (!mirrors_light(job->frame, view, unit3(up), hit.rgb))
         return;
+    if (job->frame->sky.air) {
+        double leaves[3], light[3]; /* samples of the sky show the latter */
+        job->frame->sky.air(job->frame->sky.user, (const double[3]){view.x, view.y, view.z}, distance, leaves, light);
+        for (int k = 0; k < 3; k++)
+            hit.rgb[k] *= leaves[k];
+    }
     const place seen = place_of(now, from_camera);
     const double column = floor(seen.x) - job->area->x0, row = floor(seen.y) - job->area->y0;
     if (!(seen.depth > 0) || !(column >= 0 && column < job->area->width && row >= 0 && row < job->area->height))

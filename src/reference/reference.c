@@ -247,6 +247,14 @@ static double cover_with_foam(const reference_frame *frame, const reference_batc
     return foam.share;
 }
 
+static void look_through_air(const reference_frame *frame, const double view[3], double distance, double rgb[3])
+{
+    double leaves[3], light[3];
+    frame->sky.air(frame->sky.user, view, distance, leaves, light);
+    for (int c = 0; c < 3; c++)
+        rgb[c] = leaves[c] * rgb[c] + light[c];
+}
+
 static void add_sample(const reference_frame *frame, const reference_batch *batch, uint32_t i, bool with_color, pixel_sums *sums)
 {
     const double view[3] = {batch->direction_x[i], batch->direction_y[i], batch->direction_z[i]};
@@ -263,6 +271,8 @@ static void add_sample(const reference_frame *frame, const reference_batch *batc
             sums->foam += share;
             sums->hidden += covered ? share : 0;
         }
+        if (frame->sky.air && with_color)
+            look_through_air(frame, view, batch->distance[i], rgb);
     } else { /* the camera is under a crest: nothing but water */
         sums->hits++;
         memcpy(rgb, frame->sky.body_radiance, sizeof rgb);

@@ -25,6 +25,7 @@ void scene_values_write_out_sea(scene_values *values)
     water->sea = (scene_list){0};
     free(water->spectrum.file);
     const scene_values defaults = scene_values_defaults();
+    values->sky.aerial = scene_values_aerial(values) ? AERIAL_ON : AERIAL_OFF;
     water->foam.share = scene_water_foam(water);
     water->foam.amount = 0;
     water->spectrum = defaults.water.spectrum;
@@ -419,6 +420,8 @@ bool scene_overrides_between(const scene_values *from, const scene_values *to, s
         goal.water.wind = from->water.wind;
         goal.water.swell = from->water.swell;
         goal.water.height = from->water.height;
+        if (scene_values_aerial(to) == scene_values_aerial(from))
+            goal.sky.aerial = from->sky.aerial;
         if (goal.water.foam.amount == 0 && goal.water.foam.share == scene_water_foam(&from->water)) {
             goal.water.foam.amount = from->water.foam.amount;
             goal.water.foam.share = from->water.foam.share;

@@ -233,6 +233,14 @@ static const field_row object_fields[] =
       .doc = "what it is made of; replaces the materials of a mesh's file", .fields = material_fields},
      {0}};
 
+static const char *const aerial_words[] = {"auto", "off", "on", NULL};
+
+static const field_row sky_fields[] =
+    {SKY_LOOK_ROWS(scene_sky, look),
+     {"aerial", FIELD_CHOICE, offsetof(scene_sky, aerial), 0, NO_RANGE, NULL,
+      .doc = "on: the air of the atmosphere is seen before the water, more of it with turbidity; auto: on with water.wind, else off", .choices = aerial_words},
+     {0}};
+
 static const field_row scene_post_fields[] = {{"exposure", FIELD_EXPOSURE, offsetof(scene_post, exposure), 0, EXPOSURE_RANGE,
                                                .doc = "auto: from light and sky, the same for a whole film; a number: 2^exposure per kcd/m²"},
                                               {"exposure_offset", FIELD_NUMBER, offsetof(scene_post, exposure_offset), 0, EXPOSURE_RANGE,
@@ -247,7 +255,7 @@ static const field_row scene_fields[] =
      {"camera", FIELD_MAPPING, offsetof(scene_values, camera), 0, NO_RANGE, NULL, .doc = "the view", .fields = camera_fields},
      {"time", FIELD_MAPPING, offsetof(scene_values, time), 0, NO_RANGE, NULL, .doc = "the clock", .fields = time_fields},
      {"light", FIELD_MAPPING, offsetof(scene_values, light), 0, NO_RANGE, NULL, .doc = "the sun or the moon", .fields = light_rows},
-     {"sky", FIELD_MAPPING, offsetof(scene_values, sky), 0, NO_RANGE, NULL, .doc = "what the water mirrors", .fields = sky_rows},
+     {"sky", FIELD_MAPPING, offsetof(scene_values, sky), 0, NO_RANGE, NULL, .doc = "what the water mirrors", .fields = sky_fields},
      {"water", FIELD_MAPPING, offsetof(scene_values, water), 0, NO_RANGE, NULL, .doc = "the surface and what is under it", .fields = water_fields},
      {"objects", FIELD_LIST, offsetof(scene_values, objects), 0, NO_RANGE, NULL, .doc = "what stands in and around the water", .fields = object_fields,
       .item_size = sizeof(scene_object), .max_items = 10000, .prepare = prepare_object},

@@ -130,6 +130,14 @@ typedef struct scene_post {
     float glare;
 } scene_post;
 
+/* auto: as water.wind says. */
+typedef enum scene_aerial { AERIAL_AUTO, AERIAL_OFF, AERIAL_ON } scene_aerial;
+
+typedef struct scene_sky {
+    mgt_sky look;
+    scene_aerial aerial;
+} scene_sky;
+
 typedef struct scene_values {
     uint32_t version;
     char *description; /* owned; NULL: none */
@@ -137,7 +145,7 @@ typedef struct scene_values {
     scene_camera camera;
     scene_clock time;
     mgt_light light;
-    mgt_sky sky;
+    scene_sky sky;
     scene_water water;
     scene_list objects; /* of scene_object */
     scene_post post;
@@ -157,6 +165,11 @@ bool scene_values_copy(scene_values *out, const scene_values *values);
 static inline bool scene_water_has_sea(const scene_water *water)
 {
     return water->spectrum.settings.kind != SPECTRUM_NONE || water->wind.speed > 0 || water->swell.count > 0 || water->height != 1;
+}
+
+static inline bool scene_values_aerial(const scene_values *values)
+{
+    return values->sky.aerial == AERIAL_ON || (values->sky.aerial == AERIAL_AUTO && values->water.wind.speed > 0);
 }
 
 /* All waves as they are rendered. Belongs to `water`. */

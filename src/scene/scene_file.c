@@ -124,7 +124,8 @@ bool scene_values_shot(const scene_values *values, double time, mgt_scene *out)
     if (scene_camera_fault(&scene.camera) != CAMERA_LEGAL || scene_camera_fault(&scene.camera_open) != CAMERA_LEGAL)
         return false;
     scene.light = values->light;
-    scene.sky = values->sky;
+    scene.sky = values->sky.look;
+    scene.aerial = scene_values_aerial(values);
     const scene_list waves = scene_water_all(&values->water);
     scene.water = (mgt_water){.waves = waves.items,
                               .wave_count = waves.count,

@@ -18,7 +18,7 @@ scene_values scene_values_defaults(void)
         .camera = {.still = scene.camera},
         .time = {.start = 0, .fps = 30, .frames = 1, .shutter = 1},
         .light = scene.light,
-        .sky = scene.sky,
+        .sky = {.look = scene.sky},
         .water = {.spectrum = {.settings = {.wind = 8, .fetch = 5e4, .gamma = 3.3, .directions = DIRECTIONS_HASSELMANN, .spread = 10}, .count = 64, .seed = 1},
                   .wind = {.count = 160, .seed = 1},
                   .height = 1,

@@ -51,6 +51,14 @@ static bool warn_of_foam(const scene_tree *tree, const scene_water *water, scene
     return true;
 }
 
+static bool warn_of_air(const scene_tree *tree, const scene_sky *sky, scene_error *warning)
+{
+    const tree_node *node = tree_get(tree_get(tree->root, "sky"), "aerial");
+    if (node == NULL || sky->aerial != AERIAL_ON || sky->look.model == MGT_SKY_ATMOSPHERE)
+        return true;
+    return tree_error(tree, node->source, node->place, warning, "sky.aerial shows the air of the model atmosphere: with another sky.model there is none");
+}
+
 static const tree_node *camera_node(const scene_tree *tree)
 {
     const tree_node *mapping = tree_get(tree->root, "camera"), *path = tree_get(mapping, "path"), *position = tree_get(mapping, "position");
@@ -79,5 +87,6 @@ static bool warn_of_camera(const scene_tree *tree, const scene_values *values, s
 
 bool scene_warn(const scene_tree *tree, const scene_values *values, scene_error *warning)
 {
-    return warn_of_wave(tree, &values->water, warning) && warn_of_foam(tree, &values->water, warning) && warn_of_camera(tree, values, warning);
+    return warn_of_wave(tree, &values->water, warning) && warn_of_foam(tree, &values->water, warning) && warn_of_air(tree, &values->sky, warning) &&
+           warn_of_camera(tree, values, warning);
 }

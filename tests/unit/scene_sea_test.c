@@ -40,14 +40,16 @@ static void the_wind_stands_for_a_spectrum(void **state)
     static const char *const seas[][2] = {
         {"{wind: 12}", "{wind: {speed: 12}}"},
         {"{wind: {speed: 9, direction_deg: 30, fetch: 5e4, count: 40, seed: 5}}",
-         "{spectrum: {model: elfouhaily, wind: 9, wind_height: 10, fetch: 5e4, direction_deg: 30, slope: cox-munk, count: 40, seed: 5}, choppiness: 0.7, foam: {amount: 1}}"},
+         "{spectrum: {model: elfouhaily, wind: 9, wind_height: 10, fetch: 5e4, direction_deg: 30, slope: cox-munk, count: 40, seed: 5}, choppiness: 0.7, foam: {amount: 1}}\nsky: {aerial: on}"},
         {"{wind: {speed: 9, fetch: 5e4, depth: 8}}",
-         "{spectrum: {model: tma, wind: 9, fetch: 5e4, depth: 8, slope: cox-munk, count: 160}, choppiness: 0.7, foam: {amount: 1}}"},
+         "{spectrum: {model: tma, wind: 9, fetch: 5e4, depth: 8, slope: cox-munk, count: 160}, choppiness: 0.7, foam: {amount: 1}}\nsky: {aerial: on}"},
         {"{wind: 0}", "{waves: []}"},
         {"{wind: 0, waves: [{amplitude: 1, a: 1, b: 0, c: -3}]}", "{waves: [{amplitude: 1, a: 1, b: 0, c: -3}]}"},
         {"{wind: 7, waves: [], spectrum: {model: none}}", "{wind: 7}"},
         {"{wind: 7, choppiness: 0.7}", "{wind: 7}"},
         {"{wind: 7, foam: {amount: 1}}", "{wind: 7}"},
+        {"{wind: 7}\nsky: {aerial: auto}", "{wind: 7}"},
+        {"{waves: []}\nsky: {aerial: auto}", "{waves: []}\nsky: {aerial: off}"},
     };
     for (size_t i = 0; i < COUNT(seas); i++) {
         scene_file *files[2];

@@ -92,7 +92,7 @@ static void the_file_wins_where_it_changed_and_nothing_else_is_lost(void **state
     assert_true(d.values.light.elevation_deg == 12);
     assert_true(d.values.light.azimuth_deg == 30);
     assert_true(waves[1].phase == 1.5 && waves[1].amplitude == 0.25);
-    assert_int_equal(d.values.sky.model, MGT_SKY_BLACK);
+    assert_int_equal(d.values.sky.look.model, MGT_SKY_BLACK);
     assert_true(document_revert(&d));
     assert_true(d.values.light.azimuth_deg == 5);
     document_close(&d);

@@ -163,8 +163,9 @@ static void draw_exposure(viewer *v)
 
 static void draw_look(viewer *v)
 {
-    static const char *const sky[][4] =
-        {[MGT_SKY_ATMOSPHERE] = {"sky.turbidity", "sky.night", NULL}, [MGT_SKY_GRADIENT] = {"sky.zenith", "sky.horizon", NULL}, [MGT_SKY_BLACK] = {NULL}};
+    static const char *const sky[][4] = {[MGT_SKY_ATMOSPHERE] = {"sky.turbidity", "sky.night", "sky.aerial", NULL},
+                                         [MGT_SKY_GRADIENT] = {"sky.zenith", "sky.horizon", NULL},
+                                         [MGT_SKY_BLACK] = {NULL}};
     static const char *const water[] = {"water.choppiness", "water.foam.amount", "water.foam.share",  "water.foam.persistence",
                                         "water.level",      "water.ior",         "water.body_albedo", NULL};
     static const char *const under[] = {"water.absorption", "water.scattering", NULL}; /* for what is seen through it */
@@ -173,7 +174,7 @@ static void draw_look(viewer *v)
         draw_mapping(v, "light", light_rows);
     if (ui_header("Sky", true)) {
         panel_control(v, "sky.model");
-        draw_controls(v, sky[v->document.values.sky.model]);
+        draw_controls(v, sky[v->document.values.sky.look.model]);
     }
     if (ui_header("Water", true)) {
         draw_controls(v, water);

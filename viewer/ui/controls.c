@@ -36,6 +36,7 @@ static const control_hint hints[] = {
     {"sky.zenith", "zenith", 0, 100, false, NULL},
     {"sky.horizon", "horizon", 0, 100, false, NULL},
     {"sky.night", "night", 0, 1e-3, false, NULL},
+    {"sky.aerial", "aerial", 0, 0, false, NULL},
     {"water.waves[].amplitude", "amplitude", 1e-4, 2, true, "%.4f m"},
     {"water.waves[].a", "a", -20, 20, false, "%.3f"},
     {"water.waves[].b", "b", -20, 20, false, "%.3f"},

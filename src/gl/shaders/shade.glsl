@@ -44,8 +44,8 @@ PixelResult hit_result(ivec2 pixel, ivec2 texel, bool inside)
         return nothing_but_sky(p);
     if (pass_data.write_depth != 0)
         imageStore(depth_image, texel, vec4(close.along * sqrt(length_squared(p.ray))));
-#ifdef FOAM_OVER_STATE
-    return foam_over_state(0, method_result(0, p, open, close), p, close);
+#ifdef OVER_STATE
+    return over_state(0, method_result(0, p, open, close), p, close);
 #else
     return method_result(0, p, open, close);
 #endif

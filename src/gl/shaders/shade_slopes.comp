@@ -98,5 +98,5 @@ SlopeState state_where(bool wanted, vec3 ray, ivec2 pixel)
 }
 
 #define METHOD_STATE SlopeState
-#define FOAM_OVER_STATE
+#define OVER_STATE
 #include "shade.glsl"

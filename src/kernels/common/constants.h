@@ -60,6 +60,10 @@
 #define SKY_COLUMNS 192
 #define SKY_ROWS 96
 
+/* Below it, what the air before the water does; see air.k. */
+#define AIR_ROWS 32
+#define SKY_TABLE_ROWS (SKY_ROWS + AIR_ROWS + 1)
+
 /* Circular kernels of podee-*, see podee_mixture.k. As a texture the slices of the sweep stand side by side. */
 #define PODEE_COLUMNS 512
 #define PODEE_ROWS 512
