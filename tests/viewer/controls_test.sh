@@ -43,8 +43,9 @@ pattern() { grep -E "$1" all.txt; }
     echo water.foam.amount >>varied.txt # of a wind
     echo 'set water.foam.share 0'
     echo 'set water.choppiness 0'
-    printf '%s\n' mark 'set sky.aerial on' expect-change 'set sky.aerial off' expect-change
+    printf '%s\n' 'set camera.position [0, 900, 0]' mark 'set sky.aerial on' expect-change 'set sky.aerial off' expect-same
     echo sky.aerial >>varied.txt # auto is off without a wind
+    echo 'set camera.position [0, 3, 0]'
     vary post.exposure post.exposure_offset post.tone_map post.glare
     vary camera.position camera.target camera.fov_y_deg time.shutter time.fps clock.time
     vary $(pattern '^water\.waves\[[0-9]+\]')
