@@ -54,7 +54,11 @@ bool scene_sea_open(scene_sea *sea, const scene_spectrum *settings, const char *
     sea->slopes = cox_munk_slopes(wind_at_height(sea->spectrum.wind_10, 10, 12.5));
     if (good && s->slope == SLOPE_COX_MUNK)
         good = spectrum_bend_tail(&sea->spectrum, sea->slopes, &fault->setting);
-    if (!good)
+    if (!good && fault->setting.key == NULL)
+        scene_error_memory(&fault->error);
+    if (good)
+        fault->setting = (spectrum_fault){0};
+    else
         scene_sea_close(sea);
     return good;
 }

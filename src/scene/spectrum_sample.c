@@ -139,13 +139,12 @@ bool spectrum_bend_tail(wave_spectrum *spectrum, cox_munk slopes, spectrum_fault
 {
     const double least = -30, most = 30, halfway = sqrt(spectrum->peak * spectrum->high);
     const double from = spectrum->kind == SPECTRUM_BUOY ? spectrum->tail_from : fmin(TAIL_BEGINS * spectrum->peak, halfway);
-    fault->key = "slope";
+    fault->key = NULL;
     spectrum->bend_from = INFINITY;
     frequency_grid *grid = make_grid(spectrum);
-    if (grid == NULL) {
-        snprintf(fault->text, sizeof fault->text, "could not be met: out of memory");
+    if (grid == NULL)
         return false;
-    }
+    fault->key = "slope";
     int node = (int)ceil((portable_log(from) - grid->low) / grid->step);
     node = node < 0 ? 0 : node > CELLS - 1 ? CELLS - 1 : node;
     const double rest = slopes.total - grid->slope[node];

@@ -16,7 +16,7 @@
 
 /* Bends the spectrum's tail so that the mean-square slope down to the shortest wave is `slopes.total`, and lets the tail spread so that the
  * share upwind is theirs as far as it can. The tail begins at three times the peak, halfway to the shortest wave where that is nearer, or
- * where a table ends. False with *fault filled where no tail can do it. */
+ * where a table ends. False with *fault filled where no tail can do it, its key NULL where memory runs out. */
 bool spectrum_bend_tail(wave_spectrum *spectrum, cox_munk slopes, spectrum_fault *fault);
 
 /* Fills `count` waves from the longest to the shortest. False when memory runs out. */

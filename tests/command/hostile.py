@@ -30,10 +30,8 @@ def row(name, files, words, code, pattern):
 def check(name, file, content, pattern, code=BAD, more=None, key="mesh"):
     """A scene that names the file."""
     scene = {"mesh": f"mangata: 1\nobjects:\n  - {{mesh: {file}}}\n", "texture": f"mangata: 1\nobjects:\n  - {{shape: box, material: {{texture: {file}}}}}\n",
-             "heights": f"mangata: 1\nobjects:\n  - {{shape: floor, heights: {file}}}\n",
-             "spectrum": f"mangata: 1\nwater: {{spectrum: {{model: table, file: {file}}}}}\n"}[key]
-    place = {"mesh": "s.yaml:3:[0-9]+: objects\\[0\\].mesh: ", "texture": "s.yaml:3:[0-9]+: objects\\[0\\].material.texture: ", "heights": "s.yaml:3:[0-9]+: objects\\[0\\].heights: ",
-             "spectrum": "s.yaml:[0-9]+:[0-9]+: .*|"}[key]
+             "heights": f"mangata: 1\nobjects:\n  - {{shape: floor, heights: {file}}}\n"}[key]
+    place = {"mesh": "s.yaml:3:[0-9]+: objects\\[0\\].mesh: ", "texture": "s.yaml:3:[0-9]+: objects\\[0\\].material.texture: ", "heights": "s.yaml:3:[0-9]+: objects\\[0\\].heights: "}[key]
     row(f"{key} {name}", {"s.yaml": scene, **({file: content} if content is not None else {}), **(more or {})}, ["scene", "check", "s.yaml"], code, place + pattern)
 
 
