@@ -170,7 +170,7 @@ bool gltf_check_view(gltf_reader *g, const json_value *value, size_t index)
 /* The bytes of a buffer, read once. NULL with the fault filled. */
 static const char *bytes_of(gltf_reader *g, gltf_buffer *buffer)
 {
-    size_t length;
+    size_t length = 0;
     regular_file file;
     if (buffer->uri == NULL)
         return g->chunk;

@@ -69,7 +69,7 @@ static bool is_word(const char *word, size_t length, const char *plain) { return
 static bool check_numbers(obj_reader *r, int kind)
 {
     char text[64], *stop;
-    const char *word = r->at;
+    const char *word;
     size_t length;
     int count = 0;
     for (;; count++) {
