@@ -32,7 +32,7 @@ static int check_frames(const scene_file *scene, const char *path, scene_error *
         if (!scene_file_frame(scene, frame, &one)) {
             snprintf(error->text, sizeof error->text, "%.300s: the camera of frame %d is not a legal one", path, frame);
             code = EXIT_CODE_BAD_INPUT;
-        } else if ((status = mgt_scene_check(context, &one)) != MGT_OK) {
+        } else if (mgt_scene_check(context, &one) != MGT_OK) {
             snprintf(error->text, sizeof error->text, "%.200s: frame %d: %.280s", path, frame, mgt_last_error(context));
             code = EXIT_CODE_BAD_INPUT;
         }
