@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "scene/spectrum_math.h"
+#include "sea/spectrum_math.h"
 #include "params/waves.h"
 
 static double wavelength(const mgt_wave *wave) { return 2 * SPECTRUM_PI / wave_course_of(wave, 0).number; }

@@ -27,5 +27,6 @@
 #include "mangata/query.h"
 #include "mangata/render.h"
 #include "mangata/scene.h"
+#include "mangata/waves.h"
 
 #endif

@@ -7,6 +7,7 @@
 
 #include "api/validate.h"
 #include "params/scene_rows.h"
+#include "sea/sea.h"
 
 /* ---- kinds ---- */
 
@@ -24,6 +25,7 @@ static_assert(sizeof(mgt_quality) == END(mgt_quality, target_displayed), "mgt_qu
 static_assert(sizeof(mgt_scene) == END(mgt_scene, quality), "mgt_quality grows with the scene only while it is the last in it");
 static_assert(sizeof(mgt_target) == END(mgt_target, row_stride), "mgt_target ends with padding");
 static_assert(sizeof(mgt_water_answers) == END(mgt_water_answers, unsettled), "mgt_water_answers ends with padding");
+static_assert(sizeof(mgt_sea) == END(mgt_sea, swells), "mgt_sea ends with padding");
 static_assert(sizeof(mgt_gl_view) == END(mgt_gl_view, reserved), "mgt_gl_view ends with padding");
 static_assert(sizeof(mgt_gl_texture) == END(mgt_gl_texture, reserved), "mgt_gl_texture ends with padding");
 
@@ -38,6 +40,7 @@ FIXED(mgt_water, 72);
 FIXED(mgt_material, 56);
 FIXED(mgt_object, 160);
 FIXED(mgt_post, 24);
+FIXED(mgt_swell, 40);
 FIXED(mgt_gl_timing, 16);
 FIXED(mgt_gl_source, 16);
 
@@ -60,6 +63,8 @@ const struct_kind pixel_info_kind = KIND(mgt_pixel_info, "inspect.info", 1, filt
 const struct_kind gl_view_kind = KIND(mgt_gl_view, "render.view", MOST_TARGETS, reserved, .view = IDENTITY, .projection = IDENTITY, .view_open = IDENTITY);
 const struct_kind gl_texture_kind = KIND(mgt_gl_texture, "render.texture", MOST_TARGETS, reserved);
 const struct_kind water_answers_kind = KIND(mgt_water_answers, "query.answers", 1, covariance);
+const struct_kind sea_kind = KIND(mgt_sea, "waves.sea", 1, swells, .spreading = MGT_SPREADING_HASSELMANN, .wind = 10, .gamma = SEA_PEAKEDNESS, .spread = 10,
+                                  .count = SEA_COUNT, .seed = 1, .cox_munk = 1, .choppiness = SEA_CHOPPINESS, .foam = 1);
 const struct_kind scene_kind = KIND(mgt_scene, "render.scene", 1, quality.sample_slots, .image = {.width = 1280, .height = 720}, .camera = CAMERA,
                                     .camera_open = CAMERA, .shutter = 1.0 / 30,
                                     .sky = {.model = MGT_SKY_ATMOSPHERE,
@@ -106,6 +111,7 @@ void mgt_scene_init(mgt_scene *scene, size_t size)
 
 void mgt_target_init(mgt_target *target, size_t size) { init(&target_kind, target, size); }
 void mgt_water_answers_init(mgt_water_answers *answers, size_t size) { init(&water_answers_kind, answers, size); }
+void mgt_sea_init(mgt_sea *sea, size_t size) { init(&sea_kind, sea, size); }
 void mgt_gl_view_init(mgt_gl_view *view, size_t size) { init(&gl_view_kind, view, size); }
 void mgt_gl_texture_init(mgt_gl_texture *texture, size_t size) { init(&gl_texture_kind, texture, size); }
 

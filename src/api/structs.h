@@ -20,7 +20,7 @@ typedef struct struct_kind {
 } struct_kind;
 
 extern const struct_kind context_desc_kind, context_info_kind, method_properties_kind, mesh_desc_kind, texture_desc_kind, scene_kind, target_kind,
-    pixel_info_kind, gl_view_kind, gl_texture_kind, water_answers_kind;
+    pixel_info_kind, gl_view_kind, gl_texture_kind, water_answers_kind, sea_kind;
 
 /* Copies `count` structs of the caller, one after another at the distance that the first one's size says, into `own`. What an earlier version lacks
  * gets its default. A later version's struct is accepted while the members that this library does not know are 0, as struct_init leaves them. */

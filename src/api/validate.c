@@ -26,8 +26,7 @@ mgt_status validate_desc(const reporter *r, const mgt_context_desc *desc)
             return status_;          \
     } while (0)
 
-/* A struct of the scene against its rows; `path` is its name and a point. */
-static mgt_status check_rows(const reporter *r, const char *path, const field_row *fields, const void *values)
+mgt_status validate_rows(const reporter *r, const char *path, const field_row *fields, const void *values)
 {
     for (const field_row *field = fields; field->key; field++) {
         const void *value = field_at(field, values);
@@ -35,7 +34,7 @@ static mgt_status check_rows(const reporter *r, const char *path, const field_ro
         char words[240];
         if (field->type == FIELD_MAPPING) {
             snprintf(words, sizeof words, "%s%s.", path, name);
-            TRY(check_rows(r, words, field->fields, value));
+            TRY(validate_rows(r, words, field->fields, value));
             continue;
         }
         if (!field_is_legal(field, value)) {
@@ -52,7 +51,7 @@ static mgt_status check_rows(const reporter *r, const char *path, const field_ro
 
 static mgt_status check_image(const reporter *r, const mgt_image *image)
 {
-    TRY(check_rows(r, "image.", image_rows, image));
+    TRY(validate_rows(r, "image.", image_rows, image));
     const region area = image_region(image);
     if (image->crop_x >= image->width || image->crop_y >= image->height || area.width > image->width - image->crop_x ||
         area.height > image->height - image->crop_y)
@@ -101,7 +100,7 @@ mgt_status validate_waves(const reporter *r, const mgt_water *water)
             continue;
         char name[40];
         snprintf(name, sizeof name, "water.waves[%zu].", i);
-        return check_rows(r, name, wave_rows, &water->waves[i]);
+        return validate_rows(r, name, wave_rows, &water->waves[i]);
     }
     return MGT_OK;
 }
@@ -171,10 +170,10 @@ static mgt_status check_objects(const reporter *r, const mgt_scene *scene)
 mgt_status validate_scene(const reporter *r, const mgt_scene *scene)
 {
     TRY(check_image(r, &scene->image));
-    TRY(check_rows(r, "", scene_rows, scene));
+    TRY(validate_rows(r, "", scene_rows, scene));
     TRY(check_camera(r, "camera", &scene->camera));
     if (scene->camera_moves) {
-        TRY(check_rows(r, "camera_open.", camera_rows, &scene->camera_open));
+        TRY(validate_rows(r, "camera_open.", camera_rows, &scene->camera_open));
         TRY(check_camera(r, "camera_open", &scene->camera_open));
     }
     TRY(validate_waves(r, &scene->water));

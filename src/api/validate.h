@@ -4,8 +4,12 @@
 #define MANGATA_API_VALIDATE_H
 
 #include "frame/backend.h"
+#include "params/field.h"
 
 mgt_status validate_desc(const reporter *r, const mgt_context_desc *desc);
+/* A struct against its rows; `path` is its name and a point. */
+mgt_status validate_rows(const reporter *r, const char *path, const field_row *fields, const void *values);
+
 mgt_status validate_waves(const reporter *r, const mgt_water *water);
 mgt_status validate_scene(const reporter *r, const mgt_scene *scene);
 mgt_status validate_targets(const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count);

@@ -23,6 +23,8 @@ const char *const pattern_names[] = {"none", "tiles", "checker", "stripes", NULL
 const char *const refraction_names[] = {"two-phase", "hybrid", "liu", "broad", "narrow", "screen-space", "distance-field", "off", "truth", NULL};
 const name_alias refraction_aliases[] = {{"path-traced", "truth"}, {NULL, NULL}};
 const char *const sky_model_names[] = {"atmosphere", "gradient", "black", NULL};
+const char *const spectrum_names[] = {"auto", "pierson-moskowitz", "jonswap", "tma", "elfouhaily", NULL};
+const char *const spreading_names[] = {"mitsuyasu", "hasselmann", "donelan-banner", "fixed", NULL};
 const char *const status_names[] = {"ok", "argument", "scene", "memory", "unavailable", "unsupported", "thread", "cancelled", "lost", NULL};
 const char *const tone_map_names[] = {"none", "reinhard", "aces", "agx", NULL};
 
@@ -63,6 +65,8 @@ const char *mgt_method_waves_name(mgt_method_waves waves) { return name_of(metho
 const char *mgt_pattern_name(mgt_pattern pattern) { return name_of(pattern_names, (int)pattern); }
 const char *mgt_refraction_name(mgt_refraction refraction) { return name_of(refraction_names, (int)refraction); }
 const char *mgt_sky_model_name(mgt_sky_model model) { return name_of(sky_model_names, (int)model); }
+const char *mgt_spectrum_name(mgt_spectrum spectrum) { return name_of(spectrum_names, (int)spectrum); }
+const char *mgt_spreading_name(mgt_spreading spreading) { return name_of(spreading_names, (int)spreading); }
 const char *mgt_status_name(mgt_status status) { return name_of(status_names, (int)status); }
 const char *mgt_tone_map_name(mgt_tone_map tone_map) { return name_of(tone_map_names, (int)tone_map); }
 
@@ -92,6 +96,8 @@ const char *mgt_mixture_name(mgt_mixture kernels)
     return NULL;
 }
 
+bool mgt_spectrum_from_name(const char *name, mgt_spectrum *spectrum) { return find(spectrum_names, name, spectrum); }
+bool mgt_spreading_from_name(const char *name, mgt_spreading *spreading) { return find(spreading_names, name, spreading); }
 bool mgt_mixture_from_name(const char *name, mgt_mixture *kernels)
 {
     int place;

@@ -7,16 +7,18 @@
 #include "params/field.h"
 
 extern const char *const adaptive_names[],
-    *const backend_names[], *const body_names[], *const format_names[], *const gl_color_names[], *const isa_names[],
-                                                                                                     *const kernels_names[],
-                                                                                                         *const layer_names[],
-                                                                                                             *const log_level_names[],
-                                                                                                                 *const method_waves_names[],
-                                                                                                                     *const pattern_names[],
-                                                                                                                         *const refraction_names[],
-                                                                                                                             *const sky_model_names[],
-                                                                                                                                 *const status_names[],
-                                                                                                                                     *const tone_map_names[];
+    *const backend_names[], *const body_names[], *const format_names[], *const gl_color_names[],
+                                                                            *const isa_names[], *const kernels_names[],
+                                                                                                    *const layer_names[],
+                                                                                                        *const log_level_names[],
+                                                                                                            *const method_waves_names[],
+                                                                                                                *const pattern_names[],
+                                                                                                                    *const refraction_names[],
+                                                                                                                        *const sky_model_names[],
+                                                                                                                            *const spectrum_names[],
+                                                                                                                                *const spreading_names[],
+                                                                                                                                    *const status_names[],
+                                                                                                                                        *const tone_map_names[];
 
 /* Newer names that are read as well. */
 extern const name_alias refraction_aliases[];

@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include "scene/scene_text.h"
-#include "scene/spectrum_math.h"
+#include "sea/spectrum_math.h"
 
 enum { MAX_BYTES = 16 * 1024 * 1024, BINS = 256, DIRECTIONS = 72, PATH_SIZE = 4096 };
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Spectra as buoys' owners publish them, turned into the plain table of spectrum_table.h.
+ * Spectra as buoys' owners publish them, turned into the plain table of spectrum_table_read.h.
  *
  * NDBC: STATION.data_spec with .swdir, .swdir2, .swr1 and .swr2 beside it, as of its real-time service, or STATIONwYEAR.txt with the letters d, i, j and k in
  * place of w, as of its archive. The first record of the density's file is taken, the others are looked for at its time. Datawell: .spt files.

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "scene/model.h"
-#include "scene/spectrum_math.h"
+#include "sea/spectrum_math.h"
 
 typedef struct point {
     double x, y, z;

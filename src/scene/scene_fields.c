@@ -7,6 +7,7 @@
 #include "params/foam.h"
 #include "params/scene_rows.h"
 #include "scene/scene_wave.h"
+#include "sea/sea.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -83,22 +84,22 @@ static const field_row time_fields[] = {{"start", FIELD_NUMBER, offsetof(scene_c
 static const field_row spectrum_fields[] =
     {{"model", FIELD_CHOICE, offsetof(scene_spectrum, settings.kind), 0, NO_RANGE, NULL, .doc = "which sea; none: no further waves; buoy: the table in file",
       .choices = spectrum_kinds},
-     {"wind", FIELD_NUMBER, offsetof(scene_spectrum, settings.wind), 0, 0.5, 75, "m/s", .doc = "speed of the wind"},
-     {"wind_height", FIELD_NUMBER, offsetof(scene_spectrum, settings.wind_height), 0, 0, 200, "m",
+     {"wind", FIELD_NUMBER, offsetof(scene_spectrum, settings.wind), 0, SEA_WIND, "m/s", .doc = "speed of the wind"},
+     {"wind_height", FIELD_NUMBER, offsetof(scene_spectrum, settings.wind_height), 0, SEA_WIND_HEIGHT, "m",
       .doc = "where the wind was measured; 0: 19.5 m for pierson-moskowitz, else 10 m, as in their papers"},
-     {"fetch", FIELD_NUMBER, offsetof(scene_spectrum, settings.fetch), 0, 100, 1e7, "m",
+     {"fetch", FIELD_NUMBER, offsetof(scene_spectrum, settings.fetch), 0, SEA_FETCH, "m",
       .doc = "stretch of open water that the wind has crossed (jonswap, tma, elfouhaily)"},
-     {"depth", FIELD_NUMBER, offsetof(scene_spectrum, settings.depth), 0, 0, 12000, "m", .doc = "of the water; 0: deep"},
-     {"gamma", FIELD_NUMBER, offsetof(scene_spectrum, settings.gamma), 0, 1, 20, NULL, .doc = "how far the peak stands out (jonswap, tma)"},
-     {"direction_deg", FIELD_NUMBER, offsetof(scene_spectrum, settings.direction_deg), 0, -1e6, 1e6, "degrees",
+     {"depth", FIELD_NUMBER, offsetof(scene_spectrum, settings.depth), 0, SEA_DEPTH, "m", .doc = "of the water; 0: deep"},
+     {"gamma", FIELD_NUMBER, offsetof(scene_spectrum, settings.gamma), 0, SEA_GAMMA, NULL, .doc = "how far the peak stands out (jonswap, tma)"},
+     {"direction_deg", FIELD_NUMBER, offsetof(scene_spectrum, settings.direction_deg), 0, SEA_DIRECTION, "degrees",
       .doc = "where the wind comes from: 0 is -z (\"north\"), 90 is +x (\"east\")"},
      {"directions", FIELD_CHOICE, offsetof(scene_spectrum, settings.directions), 0, NO_RANGE, NULL,
       .doc = "how waves spread around the wind (pierson-moskowitz, jonswap, tma); fixed: cos^2s of half the angle with s = spread",
       .choices = spectrum_spreadings},
-     {"spread", FIELD_NUMBER, offsetof(scene_spectrum, settings.spread), 0, 0, 1000, NULL, .doc = "s of directions: fixed; 0: from everywhere"},
+     {"spread", FIELD_NUMBER, offsetof(scene_spectrum, settings.spread), 0, SEA_SPREAD, NULL, .doc = "s of directions: fixed; 0: from everywhere"},
      {"slope", FIELD_CHOICE, offsetof(scene_spectrum, settings.slope), 0, NO_RANGE, NULL,
       .doc = "cox-munk: the short waves are scaled to the mean-square slope of a clean sea in this wind", .choices = spectrum_slopes},
-     {"shortest", FIELD_NUMBER, offsetof(scene_spectrum, settings.shortest), 0, 0, 1000, "m",
+     {"shortest", FIELD_NUMBER, offsetof(scene_spectrum, settings.shortest), 0, SEA_SHORTEST, "m",
       .doc = "length of the shortest wave; 0: 0.05 m, or a table's end"},
      {"count", FIELD_COUNT, offsetof(scene_spectrum, count), 0, 1, MGT_MAX_WAVES, NULL, .doc = "number of waves, with those of waves at most 512"},
      {"seed", FIELD_COUNT, offsetof(scene_spectrum, seed), 0, 0, 4294967295, NULL, .doc = "another seed: another sea of the same kind"},
@@ -106,13 +107,13 @@ static const field_row spectrum_fields[] =
       .doc = "table of a buoy, or a file of NDBC's or Datawell's, from the scene's folder (see waves.md)"},
      {0}};
 
-static const field_row wind_fields[] = {{"speed", FIELD_NUMBER, offsetof(scene_wind, speed), FIELD_OR_ZERO, 0.5, 75, "m/s",
+static const field_row wind_fields[] = {{"speed", FIELD_NUMBER, offsetof(scene_wind, speed), FIELD_OR_ZERO, SEA_WIND, "m/s",
                                          .doc = "of the wind at 10 m, which makes the whole sea; wind: 12 says the speed alone; 0: no such sea"},
-                                        {"direction_deg", FIELD_NUMBER, offsetof(scene_wind, direction_deg), 0, -1e6, 1e6, "degrees",
+                                        {"direction_deg", FIELD_NUMBER, offsetof(scene_wind, direction_deg), 0, SEA_DIRECTION, "degrees",
                                          .doc = "where the wind comes from: 0 is -z (\"north\"), 90 is +x (\"east\")"},
-                                        {"fetch", FIELD_NUMBER, offsetof(scene_wind, fetch), FIELD_OR_ZERO, 100, 1e7, "m",
+                                        {"fetch", FIELD_NUMBER, offsetof(scene_wind, fetch), FIELD_OR_ZERO, SEA_FETCH, "m",
                                          .doc = "stretch of open water that the wind has crossed; 0: as long as the sea needs to be fully developed"},
-                                        {"depth", FIELD_NUMBER, offsetof(scene_wind, depth), 0, 0, 12000, "m", .doc = "of the water; 0: deep"},
+                                        {"depth", FIELD_NUMBER, offsetof(scene_wind, depth), 0, SEA_DEPTH, "m", .doc = "of the water; 0: deep"},
                                         {"count", FIELD_COUNT, offsetof(scene_wind, count), 0, 1, MGT_MAX_WAVES, NULL, .doc = "number of waves"},
                                         {"seed", FIELD_COUNT, offsetof(scene_wind, seed), 0, 0, 4294967295, NULL,
                                          .doc = "another seed: another sea of the same kind"},
@@ -124,28 +125,27 @@ static void prepare_swell(const void *parent, void *item)
     *(scene_swell *)item = scene_swell_defaults();
 }
 
-static const field_row swell_fields[] = {{"height", FIELD_NUMBER, offsetof(scene_swell, height), FIELD_REQUIRED, 0.001, 50, "m", .doc = "significant height"},
-                                         {"period", FIELD_NUMBER, offsetof(scene_swell, period), 0, 1, 40, "s", .doc = "of its highest waves"},
-                                         {"direction_deg", FIELD_NUMBER, offsetof(scene_swell, direction_deg), 0, -1e6, 1e6, "degrees",
-                                          .doc = "where it comes from: 0 is -z (\"north\"), 90 is +x (\"east\")"},
-                                         {"spread", FIELD_NUMBER, offsetof(scene_swell, spread), 0, 0, 1000, NULL,
-                                          .doc = "s of cos^2s of half the angle to its direction: 25 from near, 75 from far away"},
-                                         {"count", FIELD_COUNT, offsetof(scene_swell, count), 0, 1, MGT_MAX_WAVES, NULL,
-                                          .doc = "number of waves, with all others at most 512"},
-                                         {"seed", FIELD_COUNT, offsetof(scene_swell, seed), 0, 0, 4294967295, NULL,
-                                          .doc = "another seed: another swell of the same kind"},
-                                         {0}};
+static const field_row swell_fields[] =
+    {{"height", FIELD_NUMBER, offsetof(scene_swell, height), FIELD_REQUIRED, SWELL_HEIGHT, "m", .doc = "significant height"},
+     {"period", FIELD_NUMBER, offsetof(scene_swell, period), 0, SWELL_PERIOD, "s", .doc = "of its highest waves"},
+     {"direction_deg", FIELD_NUMBER, offsetof(scene_swell, direction_deg), 0, SEA_DIRECTION, "degrees",
+      .doc = "where it comes from: 0 is -z (\"north\"), 90 is +x (\"east\")"},
+     {"spread", FIELD_NUMBER, offsetof(scene_swell, spread), 0, SEA_SPREAD, NULL,
+      .doc = "s of cos^2s of half the angle to its direction: 25 from near, 75 from far away"},
+     {"count", FIELD_COUNT, offsetof(scene_swell, count), 0, 1, MGT_MAX_WAVES, NULL, .doc = "number of waves, with all others at most 512"},
+     {"seed", FIELD_COUNT, offsetof(scene_swell, seed), 0, 0, 4294967295, NULL, .doc = "another seed: another swell of the same kind"},
+     {0}};
 
 static void decide_wind(void *parent)
 {
     scene_water *water = parent;
     if (water->wind.speed > 0) {
-        water->choppiness = WIND_CHOPPINESS;
+        water->choppiness = SEA_CHOPPINESS;
         water->foam.amount = 1;
     }
 }
 
-static const field_row foam_fields[] = {{"amount", FIELD_NUMBER, offsetof(scene_foam, amount), FIELD_NO_PIXELS, 0, 10, NULL,
+static const field_row foam_fields[] = {{"amount", FIELD_NUMBER, offsetof(scene_foam, amount), FIELD_NO_PIXELS, SEA_FOAM, NULL,
                                          .doc = "whitecaps over what the wind makes at sea, 3.84e-6 U^3.41 of the water; 0: none; 1 with water.wind"},
                                         {"share", FIELD_NUMBER, offsetof(scene_foam, share), 0, 0, MOST_FOAM, NULL,
                                          .doc = "of the water that whitecaps cover, for waves of no wind: in place of amount; 0: what amount says"},
@@ -162,7 +162,7 @@ static const field_row water_fields[] =
      {"wind", FIELD_MAPPING, offsetof(scene_water, wind), FIELD_NO_PIXELS | FIELD_SHORT, NO_RANGE, NULL,
       .doc = "a whole sea from the wind alone, in place of waves and spectrum: a speed, or a mapping", .fields = wind_fields, .decide = decide_wind},
      {"swell", FIELD_LIST, offsetof(scene_water, swell), FIELD_NO_PIXELS, NO_RANGE, NULL, .doc = "waves from far away, beside all others",
-      .fields = swell_fields, .item_size = sizeof(scene_swell), .max_items = 16, .prepare = prepare_swell},
+      .fields = swell_fields, .item_size = sizeof(scene_swell), .max_items = SEA_SWELLS, .prepare = prepare_swell},
      {"amplitude", FIELD_NUMBER, offsetof(scene_water, height), FIELD_NO_PIXELS, 0, 1000, NULL,
       .doc = "factor on the heights of all waves, those of spectrum, wind and swell too; 0: a flat mirror"},
      WATER_BODY_ROWS(scene_water),

@@ -13,7 +13,7 @@
 
 #include "params/field.h"
 #include "scene/scene_text.h"
-#include "scene/spectrum_model.h"
+#include "sea/spectrum_model.h"
 
 /* ---- the values of a file ------------------------------------------------------------------------------ */
 
@@ -67,8 +67,6 @@ scene_swell scene_swell_defaults(void); /* but for the height */
 
 /* Named waters: each sets absorption and scattering. */
 typedef enum scene_clarity { CLARITY_PURE, CLARITY_CLEAR, CLARITY_COASTAL, CLARITY_MURKY } scene_clarity;
-
-#define WIND_CHOPPINESS 0.7f /* of the seas that water.wind makes, where the scene says nothing else */
 
 typedef struct scene_foam {
     double amount, share, persistence;

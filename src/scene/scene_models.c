@@ -11,7 +11,7 @@
 
 #include "scene/model.h"
 #include "scene/scene_sea.h"
-#include "scene/spectrum_math.h"
+#include "sea/spectrum_math.h"
 
 /* A model or a texture with the file it came from. */
 typedef struct loaded_model {

@@ -3,9 +3,11 @@
  * The sea of a scene's `water.spectrum`.
  */
 #include "scene/scene_sea.h"
-#include "scene/spectrum_swell.h"
 #include "params/foam.h"
 #include "params/waves.h"
+#include "scene/spectrum_table_read.h"
+#include "sea/sea.h"
+#include "sea/spectrum_swell.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -50,10 +52,8 @@ bool scene_sea_open(scene_sea *sea, const scene_spectrum *settings, const char *
     *sea = (scene_sea){0};
     if (s->kind == SPECTRUM_BUOY && !load_table(&sea->table, settings, scene_path, fault))
         return false;
-    bool good = wave_spectrum_make(&sea->spectrum, s, &sea->table, &fault->setting);
+    const bool good = sea_spectrum_make(&sea->spectrum, s, &sea->table, &fault->setting);
     sea->slopes = cox_munk_slopes(wind_at_height(sea->spectrum.wind_10, 10, 12.5));
-    if (good && s->slope == SLOPE_COX_MUNK)
-        good = spectrum_bend_tail(&sea->spectrum, sea->slopes, &fault->setting);
     if (!good && fault->setting.key == NULL)
         scene_error_memory(&fault->error);
     if (good)
@@ -65,27 +65,9 @@ bool scene_sea_open(scene_sea *sea, const scene_spectrum *settings, const char *
 
 void scene_sea_close(scene_sea *sea) { spectrum_table_free(&sea->table); }
 
-/* Of water that is not deep the spectrum is TMA's, which would grow for ever. */
-static double bounded_fetch(const scene_wind *wind)
-{
-    const double developed = developed_fetch(wind->speed);
-    return wind->fetch > 0 && wind->fetch < developed ? wind->fetch : developed;
-}
-
 scene_spectrum scene_wind_spectrum(const scene_wind *wind)
 {
-    const bool deep = !(wind->depth > 0);
-    return (scene_spectrum){.settings = {.kind = deep ? SPECTRUM_ELFOUHAILY : SPECTRUM_TMA,
-                                         .wind = wind->speed,
-                                         .wind_height = 10,
-                                         .fetch = deep ? wind->fetch : bounded_fetch(wind),
-                                         .depth = wind->depth,
-                                         .gamma = 3.3,
-                                         .direction_deg = wind->direction_deg,
-                                         .directions = DIRECTIONS_HASSELMANN,
-                                         .slope = SLOPE_COX_MUNK},
-                            .count = wind->count,
-                            .seed = wind->seed};
+    return (scene_spectrum){.settings = sea_of_wind(wind->speed, wind->direction_deg, wind->fetch, wind->depth), .count = wind->count, .seed = wind->seed};
 }
 
 /* What the waves beside the single ones are drawn from; its kind is none where there are no others. */
@@ -125,16 +107,13 @@ size_t scene_swell_count(const scene_water *water)
     return count;
 }
 
-/* Swells of one seed, and a wind sea of the same, do not share their random numbers. */
-static uint32_t swell_seed(const scene_swell *swell, size_t index) { return swell->seed + 0x9e3779b9u * ((uint32_t)index + 1); }
-
 static bool draw_swells(const scene_water *water, mgt_wave *waves)
 {
     const scene_swell *swells = water->swell.items;
     for (size_t i = 0; i < water->swell.count; waves += swells[i++].count) {
         wave_spectrum spectrum;
         if (!swell_spectrum_make(&spectrum, swells[i].height, swells[i].period, swells[i].direction_deg, swells[i].spread) ||
-            !spectrum_sample(&spectrum, swell_seed(&swells[i], i), swells[i].count, waves))
+            !spectrum_sample(&spectrum, swell_seed(swells[i].seed, i), swells[i].count, waves))
             return false;
     }
     return true;

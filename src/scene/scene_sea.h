@@ -7,7 +7,7 @@
 
 #include "scene/scene_fields.h"
 #include "scene/scene_tree.h"
-#include "scene/spectrum_sample.h"
+#include "sea/spectrum_sample.h"
 
 /* A spectrum with the table that it may need. Not to be moved: the one points at the other. */
 typedef struct scene_sea {

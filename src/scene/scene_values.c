@@ -7,6 +7,7 @@
 
 #include "params/options.h"
 #include "scene/scene_models.h"
+#include "sea/sea.h"
 
 scene_values scene_values_defaults(void)
 {
@@ -19,8 +20,10 @@ scene_values scene_values_defaults(void)
         .time = {.start = 0, .fps = 30, .frames = 1, .shutter = 1},
         .light = scene.light,
         .sky = {.look = scene.sky},
-        .water = {.spectrum = {.settings = {.wind = 8, .fetch = 5e4, .gamma = 3.3, .directions = DIRECTIONS_HASSELMANN, .spread = 10}, .count = 64, .seed = 1},
-                  .wind = {.count = 160, .seed = 1},
+        .water = {.spectrum = {.settings = {.wind = 8, .fetch = 5e4, .gamma = SEA_PEAKEDNESS, .directions = DIRECTIONS_HASSELMANN, .spread = 10},
+                               .count = 64,
+                               .seed = 1},
+                  .wind = {.count = SEA_COUNT, .seed = 1},
                   .height = 1,
                   .index_of_refraction = scene.water.index_of_refraction,
                   .level = scene.water.level,
@@ -38,7 +41,7 @@ scene_values scene_values_defaults(void)
     return values;
 }
 
-scene_swell scene_swell_defaults(void) { return (scene_swell){.period = 12, .spread = 40, .count = 24, .seed = 1}; }
+scene_swell scene_swell_defaults(void) { return (scene_swell){.period = SWELL_USUAL_PERIOD, .spread = SWELL_USUAL_SPREAD, .count = SWELL_COUNT, .seed = 1}; }
 
 mgt_material scene_material_defaults(void)
 {

@@ -7,8 +7,8 @@
 #include <math.h>
 
 #include "params/waves.h"
-#include "scene/spectrum_math.h"
-#include "scene/spectrum_model.h"
+#include "sea/spectrum_math.h"
+#include "sea/spectrum_model.h"
 
 static const field_row measured_rows[] = {{"wavelength", FIELD_NUMBER, offsetof(measured_wave, wavelength), FIELD_REQUIRED, 1e-4, 1e5, "m",
                                            .doc = "in place of amplitude, a, b and c: from crest to crest, in deep water"},

@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scene/spectrum_table.h"
+#include "scene/spectrum_table_read.h"
 
 static const double PI = 3.14159265358979323846;
 

@@ -14,7 +14,7 @@
 
 #include "scene/scene_edit.h"
 #include "scene/scene_sea.h"
-#include "scene/spectrum_math.h"
+#include "sea/spectrum_math.h"
 #include "unit/test_spectrum.h"
 
 static spectrum_settings settings_of(spectrum_kind kind, double wind)

@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include "scene/scene_fields.h"
-#include "scene/spectrum_sample.h"
+#include "sea/spectrum_sample.h"
 #include "unit/test_spectrum.h"
 
 static const double PI = 3.14159265358979323846, G = 9.80665;

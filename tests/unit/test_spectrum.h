@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-#include "scene/spectrum_sample.h"
+#include "sea/spectrum_sample.h"
 
 static inline void assert_near(double value, double expected, double relative)
 {

@@ -2,12 +2,12 @@
  *
  * The unified directional spectrum of Elfouhaily et al. (1997).
  */
-#include "scene/spectrum_unified.h"
+#include "sea/spectrum_unified.h"
 
 #include <math.h>
 
-#include "scene/spectrum_math.h"
-#include "scene/spectrum_model.h"
+#include "sea/spectrum_math.h"
+#include "sea/spectrum_model.h"
 
 static const double G = SPECTRUM_GRAVITY;
 static const double SLOWEST = 0.23;        /* m/s: the least phase speed, where gravity and surface tension are equal */

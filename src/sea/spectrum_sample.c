@@ -2,13 +2,13 @@
  *
  * From a spectrum to sines.
  */
-#include "scene/spectrum_sample.h"
+#include "sea/spectrum_sample.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "scene/spectrum_math.h"
+#include "sea/spectrum_math.h"
 #include "params/waves.h"
 
 enum { CELLS = 4096, DIRECTIONS = 720, HARMONIC_STEP = 64 };

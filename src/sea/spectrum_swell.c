@@ -2,12 +2,12 @@
  *
  * Swell.
  */
-#include "scene/spectrum_swell.h"
+#include "sea/spectrum_swell.h"
 
 #include <math.h>
 
-#include "scene/spectrum_math.h"
-#include "scene/spectrum_sample.h"
+#include "sea/spectrum_math.h"
+#include "sea/spectrum_sample.h"
 
 /* Goda (1983) found 3 to 10 for swell that had crossed an ocean. */
 static const double PEAKEDNESS = 7;

@@ -5,14 +5,14 @@
  * Frequencies are angular, rad/s. Azimuths are in radians, clockwise from -z seen from above, of where waves travel to (or the wind blows
  * to); those in degrees in settings say where it comes from, as weather reports and buoys do.
  */
-#ifndef MANGATA_SCENE_SPECTRUM_MODEL_H
-#define MANGATA_SCENE_SPECTRUM_MODEL_H
+#ifndef MANGATA_SEA_SPECTRUM_MODEL_H
+#define MANGATA_SEA_SPECTRUM_MODEL_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "scene/spectrum_table.h"
-#include "scene/spectrum_unified.h"
+#include "sea/spectrum_table.h"
+#include "sea/spectrum_unified.h"
 
 #define SPECTRUM_GRAVITY 9.80665 /* m/s² */
 

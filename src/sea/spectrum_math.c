@@ -2,7 +2,7 @@
  *
  * Elementary functions of double with the same bits everywhere.
  */
-#include "scene/spectrum_math.h"
+#include "sea/spectrum_math.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -3,8 +3,8 @@
  * The unified directional spectrum of long and short waves of Elfouhaily, Chapron, Katsaros and Vandemark (1997), over wave numbers: gravity
  * waves by the wind over their crests' speed, short ones by the friction of the wind.
  */
-#ifndef MANGATA_SCENE_SPECTRUM_UNIFIED_H
-#define MANGATA_SCENE_SPECTRUM_UNIFIED_H
+#ifndef MANGATA_SEA_SPECTRUM_UNIFIED_H
+#define MANGATA_SEA_SPECTRUM_UNIFIED_H
 
 typedef struct unified_sea {
     double age;          /* inverse wave age: the wind at 10 m over the phase speed at the peak; 0.84 where fully developed, at most 5 */

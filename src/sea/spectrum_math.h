@@ -3,8 +3,8 @@
  * Elementary functions of double made of additions, products, quotients and roots alone, so that a sea made from its spectrum has the same
  * bits on every machine; the C library's differ in their last bits from one processor to the next. Relative errors below 2e-15.
  */
-#ifndef MANGATA_SCENE_SPECTRUM_MATH_H
-#define MANGATA_SCENE_SPECTRUM_MATH_H
+#ifndef MANGATA_SEA_SPECTRUM_MATH_H
+#define MANGATA_SEA_SPECTRUM_MATH_H
 
 #define SPECTRUM_PI 3.14159265358979323846
 

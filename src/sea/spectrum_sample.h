@@ -8,11 +8,11 @@
  * and of slope exactly. Directions: quantiles of the spreading at the wave's frequency, at golden ratios from a start that the seed decides,
  * so that neighbouring frequencies run apart. Phases: uniform, by the seed. Numbers are rounded to seven digits.
  */
-#ifndef MANGATA_SCENE_SPECTRUM_SAMPLE_H
-#define MANGATA_SCENE_SPECTRUM_SAMPLE_H
+#ifndef MANGATA_SEA_SPECTRUM_SAMPLE_H
+#define MANGATA_SEA_SPECTRUM_SAMPLE_H
 
 #include "mangata/mangata.h"
-#include "scene/spectrum_model.h"
+#include "sea/spectrum_model.h"
 
 /* Bends the spectrum's tail so that the mean-square slope down to the shortest wave is `slopes.total`, and lets the tail spread so that the
  * share upwind is theirs as far as it can. The tail begins at three times the peak, halfway to the shortest wave where that is nearer, or

@@ -2,13 +2,13 @@
  *
  * Wave spectra as they were published.
  */
-#include "scene/spectrum_model.h"
+#include "sea/spectrum_model.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "scene/spectrum_math.h"
+#include "sea/spectrum_math.h"
 
 static const double G = SPECTRUM_GRAVITY;
 static const double LOWEST = 0.3; /* in peaks; below it is less than e^-150 */

@@ -2,7 +2,7 @@
  *
  * Directional wave spectra as buoys report them.
  */
-#include "scene/spectrum_table.h"
+#include "scene/spectrum_table_read.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -10,11 +10,11 @@
 #include <string.h>
 
 #include "scene/buoy_files.h"
-#include "scene/spectrum_math.h"
+#include "sea/spectrum_math.h"
 
 enum { FREQUENCY, DIRECTION, DENSITY, COLUMNS };
 
-static const double TURN = 2 * SPECTRUM_PI, WIDEST_GAP = SPECTRUM_PI / 2 * (1 + 1e-9);
+static const double TURN = 2 * SPECTRUM_PI, WIDEST_GAP = SPECTRUM_WIDEST_GAP;
 
 /* ---- lines into points -------------------------------------------------------------------------------------- */
 
@@ -168,12 +168,6 @@ static int compare_points(const void *left, const void *right)
     return (a > b) - (a < b);
 }
 
-/* From point i of a row to the next around the circle. */
-static double gap_after(const spectrum_point *points, size_t count, size_t i)
-{
-    return i + 1 < count ? points[i + 1].azimuth - points[i].azimuth : points[0].azimuth + TURN - points[i].azimuth;
-}
-
 static bool finish_row(const table_reader *r, spectrum_row *row)
 {
     spectrum_point *points = r->table->points + row->first;
@@ -183,7 +177,7 @@ static bool finish_row(const table_reader *r, spectrum_row *row)
                                hertz);
     qsort(points, row->count, sizeof *points, compare_points);
     for (size_t i = 0; i < row->count; i++) {
-        const double gap = gap_after(points, row->count, i);
+        const double gap = spectrum_row_gap(points, row->count, i);
         if (gap < 1e-9)
             return scene_error_set(r->error, SCENE_ERROR_BAD_SCENE, "%s: frequency %g Hz has a direction twice; allowed: each once",
                                    scene_file_name(r->name).text, hertz);
@@ -259,99 +253,4 @@ bool spectrum_table_load(spectrum_table *out, const char *path, scene_error *err
     const bool good = spectrum_table_parse(out, text, length, path, error);
     free(text);
     return good;
-}
-
-void spectrum_table_free(spectrum_table *table)
-{
-    free(table->rows);
-    free(table->points);
-    *table = (spectrum_table){0};
-}
-
-/* ---- values ------------------------------------------------------------------------------------------------- */
-
-/* The row at or before a frequency within the table; the last but one at its end. */
-static size_t find_row(const spectrum_table *table, double frequency)
-{
-    size_t low = 0, high = table->row_count - 1;
-    while (high - low > 1) {
-        const size_t middle = low + (high - low) / 2;
-        if (table->rows[middle].frequency <= frequency)
-            low = middle;
-        else
-            high = middle;
-    }
-    return low;
-}
-
-double spectrum_table_density(const spectrum_table *table, double frequency)
-{
-    const spectrum_row *rows = table->rows;
-    if (frequency < rows[0].frequency || frequency > rows[table->row_count - 1].frequency)
-        return 0;
-    const size_t i = find_row(table, frequency);
-    const double t = (frequency - rows[i].frequency) / (rows[i + 1].frequency - rows[i].frequency);
-    return (1 - t) * rows[i].density + t * rows[i + 1].density;
-}
-
-static double row_at(const spectrum_table *table, const spectrum_row *row, double azimuth)
-{
-    const spectrum_point *points = table->points + row->first;
-    size_t low = 0, high = row->count;
-    while (low < high) { /* how many points lie at or before */
-        const size_t middle = low + (high - low) / 2;
-        if (points[middle].azimuth <= azimuth)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    const size_t i = low > 0 ? low - 1 : row->count - 1;
-    const double gap = gap_after(points, row->count, i), past = azimuth - points[i].azimuth + (low > 0 ? 0 : TURN);
-    if (gap > WIDEST_GAP)
-        return 0;
-    return points[i].density + (points[(i + 1) % row->count].density - points[i].density) * past / gap;
-}
-
-double spectrum_table_at(const spectrum_table *table, double frequency, double azimuth)
-{
-    const spectrum_row *rows = table->rows, *last = &rows[table->row_count - 1];
-    azimuth -= TURN * floor(azimuth / TURN);
-    if (frequency <= rows[0].frequency)
-        return row_at(table, rows, azimuth);
-    if (frequency >= last->frequency)
-        return row_at(table, last, azimuth);
-    const size_t i = find_row(table, frequency);
-    const double t = (frequency - rows[i].frequency) / (rows[i + 1].frequency - rows[i].frequency);
-    return (1 - t) * row_at(table, &rows[i], azimuth) + t * row_at(table, &rows[i + 1], azimuth);
-}
-
-double spectrum_table_mean_azimuth(const spectrum_table *table)
-{
-    double east = 0, north = 0;
-    for (size_t i = 0; i < table->row_count; i++) {
-        const spectrum_row *row = &table->rows[i];
-        const double before = i > 0 ? row->frequency - row[-1].frequency : 0;
-        const double after = i + 1 < table->row_count ? row[1].frequency - row->frequency : 0;
-        const spectrum_point *points = table->points + row->first;
-        for (size_t j = 0; j < row->count; j++) {
-            const double behind = gap_after(points, row->count, (j + row->count - 1) % row->count), ahead = gap_after(points, row->count, j);
-            const double width = (behind <= WIDEST_GAP ? behind : 0) + (ahead <= WIDEST_GAP ? ahead : 0);
-            const double energy = (before + after) * width * points[j].density;
-            east += energy * portable_sin(points[j].azimuth);
-            north += energy * portable_cos(points[j].azimuth);
-        }
-    }
-    if (!(east * east + north * north > 0))
-        return 0;
-    /* By bisection, for the same bits everywhere. */
-    const double length = sqrt(east * east + north * north);
-    double low = 0, high = SPECTRUM_PI;
-    for (int i = 0; i < 60; i++) {
-        const double middle = (low + high) / 2;
-        if (portable_cos(middle) > north / length)
-            low = middle;
-        else
-            high = middle;
-    }
-    return east >= 0 ? low : TURN - low;
 }

@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Seas of wind and swell.
+ */
+#include "sea/sea.h"
+
+#include "sea/spectrum_sample.h"
+
+/* Of water that is not deep the spectrum is TMA's, which would grow for ever. */
+static double bounded_fetch(double wind, double fetch)
+{
+    const double developed = developed_fetch(wind);
+    return fetch > 0 && fetch < developed ? fetch : developed;
+}
+
+spectrum_settings sea_of_wind(double wind, double direction_deg, double fetch, double depth)
+{
+    const bool deep = !(depth > 0);
+    return (spectrum_settings){.kind = deep ? SPECTRUM_ELFOUHAILY : SPECTRUM_TMA,
+                               .wind = wind,
+                               .wind_height = 10,
+                               .fetch = deep ? fetch : bounded_fetch(wind, fetch),
+                               .depth = depth,
+                               .gamma = SEA_PEAKEDNESS,
+                               .direction_deg = direction_deg,
+                               .directions = DIRECTIONS_HASSELMANN,
+                               .slope = SLOPE_COX_MUNK};
+}
+
+bool sea_spectrum_make(wave_spectrum *out, const spectrum_settings *settings, const spectrum_table *table, spectrum_fault *fault)
+{
+    return wave_spectrum_make(out, settings, table, fault) &&
+           (settings->slope != SLOPE_COX_MUNK || spectrum_bend_tail(out, cox_munk_slopes(wind_at_height(out->wind_10, 10, 12.5)), fault));
+}
+
+uint32_t swell_seed(uint32_t seed, size_t index) { return seed + 0x9e3779b9u * ((uint32_t)index + 1); }

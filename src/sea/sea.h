@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * What seas of wind and swell have in common, whether a file or a program describes them.
+ */
+#ifndef MANGATA_SEA_SEA_H
+#define MANGATA_SEA_SEA_H
+
+#include "sea/spectrum_model.h"
+
+/* Ranges of their values. */
+#define SEA_WIND 0.5, 75
+#define SEA_WIND_HEIGHT 0, 200
+#define SEA_DIRECTION -1e6, 1e6
+#define SEA_FETCH 100, 1e7
+#define SEA_DEPTH 0, 12000
+#define SEA_GAMMA 1, 20
+#define SEA_SPREAD 0, 1000
+#define SEA_SHORTEST 0, 1000
+#define SEA_FOAM 0, 10
+#define SWELL_HEIGHT 0.001, 50
+#define SWELL_PERIOD 1, 40
+
+enum { SEA_SWELLS = 16 }; /* at most */
+
+/* What a sea has where nothing else is said. */
+#define SEA_COUNT 160
+#define SEA_CHOPPINESS 0.7f
+#define SEA_PEAKEDNESS 3.3 /* gamma */
+#define SWELL_COUNT 24
+#define SWELL_USUAL_PERIOD 12
+#define SWELL_USUAL_SPREAD 40
+
+/* A whole sea from the wind alone, at 10 m: in deep water the spectrum of Elfouhaily et al., else TMA's, with Cox and Munk's slopes. `fetch`, metres; 0: fully
+ * developed. */
+spectrum_settings sea_of_wind(double wind, double direction_deg, double fetch, double depth);
+
+/* A spectrum from settings, its tail bent where they say so. False with *fault filled. */
+bool sea_spectrum_make(wave_spectrum *out, const spectrum_settings *settings, const spectrum_table *table, spectrum_fault *fault);
+
+/* Swells of one seed, and a wind sea of the same, do not share their random numbers. */
+uint32_t swell_seed(uint32_t seed, size_t index);
+
+#endif

@@ -1,0 +1,219 @@
+/* SPDX-License-Identifier: MIT
+ * Seas of the public interface: the waves that a scene file's are, to the byte; what is refused; callers of other versions. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "mangata/mangata.h"
+#include "scene/scene_file.h"
+
+enum { ROOM = MGT_MAX_WAVES };
+
+static mgt_sea sea_now(void)
+{
+    mgt_sea sea;
+    mgt_sea_init(&sea, sizeof sea);
+    return sea;
+}
+
+/* The scene that the sea makes is that of a file with this water. */
+static void assert_as_file(const mgt_sea *sea, const char *water)
+{
+    char text[512];
+    snprintf(text, sizeof text, "mangata: 1\n%s\n", water);
+    scene_error error;
+    scene_file *file = scene_file_parse(text, strlen(text), "s.yaml", NULL, 0, &error);
+    if (!file)
+        fail_msg("%s", error.text);
+    mgt_scene expected, scene;
+    assert_true(scene_file_frame(file, 0, &expected));
+    static mgt_wave waves[ROOM];
+    mgt_scene_init(&scene, sizeof scene);
+    assert_int_equal(mgt_sea_scene(sea, waves, ROOM, &scene), MGT_OK);
+    assert_int_equal(scene.water.wave_count, expected.water.wave_count);
+    assert_int_equal(mgt_sea_wave_count(sea), expected.water.wave_count);
+    assert_memory_equal(waves, expected.water.waves, expected.water.wave_count * sizeof *waves);
+    assert_ptr_equal(scene.water.waves, waves);
+    assert_true(scene.water.choppiness == expected.water.choppiness && scene.foam == expected.foam && scene.aerial == expected.aerial);
+    scene_file_free(file);
+}
+
+static void seas_are_those_of_files(void **unused)
+{
+    (void)unused;
+    mgt_sea sea = sea_now();
+    assert_as_file(&sea, "water: {wind: 10}");
+    sea.wind = 14;
+    sea.direction_deg = 40;
+    sea.fetch = 5e4;
+    sea.count = 70;
+    sea.seed = 9;
+    sea.foam = 2;
+    assert_as_file(&sea, "water: {wind: {speed: 14, direction_deg: 40, fetch: 5e4, count: 70, seed: 9}, foam: {amount: 2}}");
+    sea.depth = 9;
+    sea.choppiness = 0.25f;
+    sea.foam = 0;
+    assert_as_file(&sea, "water: {wind: {speed: 14, direction_deg: 40, fetch: 5e4, depth: 9, count: 70, seed: 9}, choppiness: 0.25, foam: {amount: 0}}");
+
+    mgt_swell swells[2];
+    mgt_swell_init(&swells[0]);
+    mgt_swell_init(&swells[1]);
+    swells[0].height = 2;
+    swells[0].direction_deg = 250;
+    swells[1] = (mgt_swell){.height = 0.6, .period = 5, .direction_deg = 40, .spread = 20, .count = 10, .seed = 1};
+    sea = sea_now();
+    sea.wind = 3;
+    sea.swells = swells;
+    sea.swell_count = 2;
+    const char *two = "water: {wind: 3, swell: [{height: 2, direction_deg: 250}, {height: 0.6, period: 5, direction_deg: 40, spread: 20, count: 10}]}";
+    assert_as_file(&sea, two);
+    sea.wind = 0;
+    sea.choppiness = 0;
+    assert_as_file(&sea, "water: {swell: [{height: 2, direction_deg: 250}, {height: 0.6, period: 5, direction_deg: 40, spread: 20, count: 10}]}");
+
+    sea = sea_now();
+    sea.spectrum = MGT_SPECTRUM_JONSWAP;
+    sea.spreading = MGT_SPREADING_FIXED;
+    sea.fetch = 2e4;
+    sea.gamma = 5;
+    sea.cox_munk = 0;
+    sea.count = 33;
+    assert_as_file(
+        &sea,
+        "sky: {aerial: on}\nwater: {choppiness: 0.7, foam: {amount: 1}, spectrum: {model: jonswap, wind: 10, fetch: 2e4, gamma: 5, count: 33, directions: fixed}}");
+    sea.spectrum = MGT_SPECTRUM_PIERSON_MOSKOWITZ;
+    sea.spreading = MGT_SPREADING_DONELAN_BANNER;
+    assert_as_file(
+        &sea,
+        "sky: {aerial: on}\nwater: {choppiness: 0.7, foam: {amount: 1}, spectrum: {model: pierson-moskowitz, wind: 10, count: 33, directions: donelan-banner}}");
+}
+
+static void every_wind_makes_a_sea(void **unused)
+{
+    (void)unused;
+    static mgt_wave waves[ROOM];
+    mgt_sea sea = sea_now();
+    for (sea.wind = 1.5; sea.wind <= 75; sea.wind *= 1.4) {
+        assert_int_equal(mgt_sea_waves(&sea, waves, ROOM), MGT_OK);
+        for (size_t i = 0; i < sea.count; i++)
+            assert_true(isfinite(waves[i].amplitude) && waves[i].amplitude >= 0);
+    }
+}
+
+/* Refused with these words, and nothing is written. */
+static void assert_refused(const mgt_sea *sea, size_t room, mgt_status status, const char *words)
+{
+    static mgt_wave waves[ROOM], before[ROOM];
+    memset(waves, 0x3c, sizeof waves);
+    memset(before, 0x3c, sizeof before);
+    mgt_scene scene, old;
+    mgt_scene_init(&scene, sizeof scene);
+    memcpy(&old, &scene, sizeof old);
+    assert_int_equal(mgt_sea_scene(sea, waves, room, &scene), status);
+    if (!strstr(mgt_last_error(NULL), words))
+        fail_msg("\"%s\" lacks \"%s\"", mgt_last_error(NULL), words);
+    assert_memory_equal(waves, before, sizeof waves);
+    assert_memory_equal(&scene, &old, sizeof old);
+}
+
+#define WITH(statement, room, status, words)       \
+    do {                                           \
+        mgt_sea sea = sea_now();                   \
+        statement;                                 \
+        assert_refused(&sea, room, status, words); \
+    } while (0)
+
+static void bad_seas_are_refused(void **unused)
+{
+    (void)unused;
+    mgt_swell swell;
+    mgt_swell_init(&swell);
+    WITH(sea.wind = 0.4, ROOM, MGT_ERROR_SCENE, "sea.wind is 0.4; allowed is ");
+    WITH(sea.wind = (double)NAN, ROOM, MGT_ERROR_SCENE, "sea.wind is nan");
+    WITH(sea.wind = 76, ROOM, MGT_ERROR_SCENE, "sea.wind is 76");
+    WITH(sea.fetch = 3, ROOM, MGT_ERROR_SCENE, "sea.fetch is 3");
+    WITH(sea.fetch = 200, ROOM, MGT_ERROR_SCENE, "sea.fetch is 200 m, too short");
+    WITH(sea.spectrum = (mgt_spectrum)9, ROOM, MGT_ERROR_SCENE, "sea.spectrum");
+    WITH(sea.spreading = (mgt_spreading)-1, ROOM, MGT_ERROR_SCENE, "sea.spreading");
+    WITH(sea.spectrum = MGT_SPECTRUM_JONSWAP, ROOM, MGT_ERROR_SCENE, "sea.fetch is 0; spectrum jonswap needs one");
+    WITH((sea.spectrum = MGT_SPECTRUM_TMA, sea.fetch = 1e5), ROOM, MGT_ERROR_SCENE, "sea.depth is 0");
+    WITH(sea.count = 0, ROOM, MGT_ERROR_SCENE, "sea.count is 0");
+    WITH(sea.choppiness = 1.5f, ROOM, MGT_ERROR_SCENE, "sea.choppiness is 1.5");
+    WITH(sea.foam = -1, ROOM, MGT_ERROR_SCENE, "sea.foam is -1");
+    WITH(sea.cox_munk = 2, ROOM, MGT_ERROR_SCENE, "sea.cox_munk is 2");
+    WITH(sea.swell_count = 1, ROOM, MGT_ERROR_ARGUMENT, "sea.swells is NULL");
+    WITH((sea.swell_count = 17, sea.swells = &swell), ROOM, MGT_ERROR_SCENE, "sea.swell_count is 17");
+    WITH((sea.swell_count = 1, sea.swells = &swell, swell.period = 0), ROOM, MGT_ERROR_SCENE, "sea.swells[0].period is 0");
+    swell.period = 12;
+    WITH((sea.swell_count = 1, sea.swells = &swell, sea.count = MGT_MAX_WAVES), ROOM, MGT_ERROR_SCENE, "at most");
+    WITH((void)0, 159, MGT_ERROR_ARGUMENT, "the sea has 160 waves, and there is room for 159");
+    WITH(sea.struct_size = 8, ROOM, MGT_ERROR_ARGUMENT, "struct_size is 8");
+    assert_int_equal(mgt_sea_waves(NULL, NULL, 0), MGT_ERROR_ARGUMENT);
+    assert_int_equal(mgt_sea_wave_count(NULL), 0);
+    const mgt_sea sea = sea_now();
+    assert_int_equal(mgt_sea_waves(&sea, NULL, ROOM), MGT_ERROR_ARGUMENT);
+    static mgt_wave waves[ROOM];
+    assert_int_equal(mgt_sea_scene(&sea, waves, ROOM, NULL), MGT_ERROR_ARGUMENT);
+    mgt_swell_init(NULL);
+    mgt_sea_init(NULL, 0);
+}
+
+/* A program of a later version has a larger struct: what this library does not know must be 0. */
+static void other_versions_are_served(void **unused)
+{
+    (void)unused;
+    static mgt_wave waves[ROOM];
+    union {
+        mgt_sea sea;
+        unsigned char bytes[sizeof(mgt_sea) + 64];
+    } later;
+    memset(&later, 0x7e, sizeof later);
+    mgt_sea_init(&later.sea, sizeof(mgt_sea) + 32);
+    for (size_t i = sizeof(mgt_sea); i < sizeof(mgt_sea) + 32; i++)
+        assert_int_equal(later.bytes[i], 0);
+    assert_int_equal(later.bytes[sizeof(mgt_sea) + 32], 0x7e);
+    assert_int_equal(mgt_sea_waves(&later.sea, waves, ROOM), MGT_OK);
+    later.bytes[sizeof(mgt_sea) + 8] = 1;
+    assert_int_equal(mgt_sea_waves(&later.sea, waves, ROOM), MGT_ERROR_ARGUMENT);
+
+    /* The first version of a scene ends where sample_slots does. */
+    const size_t first = offsetof(mgt_scene, quality.sample_slots) + sizeof(uint64_t);
+    mgt_scene *scene = malloc(sizeof *scene);
+    assert_non_null(scene);
+    memset(scene, 0x7e, sizeof *scene);
+    mgt_scene_init(scene, first);
+    const mgt_sea sea = sea_now();
+    assert_int_equal(mgt_sea_scene(&sea, waves, ROOM, scene), MGT_OK);
+    assert_true(scene->water.wave_count == 160 && scene->aerial && scene->foam > 0);
+    for (size_t i = first; i < sizeof *scene; i++)
+        assert_int_equal(((const unsigned char *)scene)[i], 0x7e);
+    free(scene);
+}
+
+static void names_go_both_ways(void **unused)
+{
+    (void)unused;
+    mgt_spectrum spectrum = MGT_SPECTRUM_AUTO;
+    mgt_spreading spreading = MGT_SPREADING_MITSUYASU;
+    assert_true(mgt_spectrum_from_name("elfouhaily", &spectrum) && spectrum == MGT_SPECTRUM_ELFOUHAILY);
+    assert_true(mgt_spreading_from_name("fixed", &spreading) && spreading == MGT_SPREADING_FIXED);
+    assert_string_equal(mgt_spectrum_name(MGT_SPECTRUM_PIERSON_MOSKOWITZ), "pierson-moskowitz");
+    assert_string_equal(mgt_spreading_name(MGT_SPREADING_DONELAN_BANNER), "donelan-banner");
+    assert_false(mgt_spectrum_from_name("buoy", &spectrum));
+    assert_null(mgt_spectrum_name((mgt_spectrum)5));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(seas_are_those_of_files), cmocka_unit_test(every_wind_makes_a_sea),
+                                       cmocka_unit_test(bad_seas_are_refused), cmocka_unit_test(other_versions_are_served),
+                                       cmocka_unit_test(names_go_both_ways)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
