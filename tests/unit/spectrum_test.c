@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "scene/spectrum_table_read.h"
 #include "scene/scene_edit.h"
 #include "scene/scene_sea.h"
 #include "sea/spectrum_math.h"
