@@ -73,13 +73,14 @@ static mgt_status take_sea(const reporter *r, const mgt_sea *theirs, mgt_sea *ow
 static mgt_status draw(const reporter *r, const mgt_sea *sea, mgt_wave *waves)
 {
     wave_spectrum spectrum;
-    spectrum_fault fault;
+    spectrum_fault fault = {0};
     bool good = true;
     if (sea->wind > 0) {
         const spectrum_settings settings = settings_of(sea);
-        if (!sea_spectrum_make(&spectrum, &settings, NULL, &fault))
+        good = sea_spectrum_make(&spectrum, &settings, NULL, &fault);
+        if (!good && fault.key)
             return report_error(r, MGT_ERROR_SCENE, "waves.sea", "sea.%s %s", fault.key, fault.text);
-        good = spectrum_sample(&spectrum, sea->seed, sea->count, waves);
+        good = good && spectrum_sample(&spectrum, sea->seed, sea->count, waves);
         waves += sea->count;
     }
     for (uint32_t i = 0; good && i < sea->swell_count; i++) {

@@ -34,7 +34,8 @@ enum { SEA_SWELLS = 16 }; /* at most */
  * developed. */
 spectrum_settings sea_of_wind(double wind, double direction_deg, double fetch, double depth);
 
-/* A spectrum from settings, its tail bent where they say so. False with *fault filled. */
+/* A spectrum from settings, its tail bent where they say so. False with *fault filled, its key NULL where memory runs
+ * out. */
 bool sea_spectrum_make(wave_spectrum *out, const spectrum_settings *settings, const spectrum_table *table, spectrum_fault *fault);
 
 /* Swells of one seed, and a wind sea of the same, do not share their random numbers. */
