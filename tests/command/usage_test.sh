@@ -120,7 +120,7 @@ for option in 'importance-center 0.1' 'importance-width 0.1' 'importance-thresho
     adaptive "--${option% *}: it is for method adaptive and adaptive podee alone" --$option
 done
 
-expect 64 'unknown kind of file; allowed are .png .exr .pfm .mp4 .y4m' render "$simple" -o a.jpg
+expect 64 'unknown kind of file; allowed are .png .exr .pfm .mp4 .mov .y4m' render "$simple" -o a.jpg
 expect 64 'unknown kind of file' render "$simple" -o png
 expect 64 'names no file' render "$simple" -o folder/
 expect 64 '2 frames do not fit into one picture' render "$simple" -o a.png --frames 3-4
