@@ -6,7 +6,7 @@
 
 #include "fuzz.h"
 #include "scene/buoy_files.h"
-#include "scene/spectrum_table.h"
+#include "scene/spectrum_table_read.h"
 
 static void read_table(const char *text, size_t length)
 {
