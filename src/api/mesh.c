@@ -218,7 +218,7 @@ mgt_status mgt_texture_create(mgt_texture **texture, const mgt_texture_desc *des
         t->width = own.width;
         t->height = own.height;
         do {
-            t->level_start[t->levels] = count;
+            t->level_start[t->levels] = (uint32_t)count;
             count += (size_t)side(t->width, t->levels) * side(t->height, t->levels);
             t->levels++;
         } while (t->width >> t->levels || t->height >> t->levels);

@@ -66,6 +66,8 @@ static inline mask whole(real x)
 #endif
 }
 
+static inline mask whole_select(mask m, mask a, mask b) { return real_bits(real_select(m, real_from_bits(a), real_from_bits(b))); }
+
 /* Single numbers of a table; an element a lane. */
 static inline real gather_floats(const float *table, mask at)
 {

@@ -101,8 +101,6 @@ static WaterVariation load_variation(const tile_water *w, size_t i)
 
 static void store_whole(int32_t *p, mask m) { memcpy(p, &m, sizeof m); }
 
-static mask select_whole(mask m, mask a, mask b) { return real_bits(real_select(m, real_from_bits(a), real_from_bits(b))); }
-
 /* Whether the pictures do not certify a point: 1 or 0. */
 static real doubt_of(const struct kernel_context *cx, WaterHit hit, FoundPoint f, mask asked, mask pixel, mask mirrored)
 {
@@ -111,7 +109,7 @@ static real doubt_of(const struct kernel_context *cx, WaterHit hit, FoundPoint f
     if (any_lane(AND(asked, NOT(mirrored))))
         breaks = gather_bytes(n->breaks[0], pixel) > 0;
     if (any_lane(AND(asked, mirrored)))
-        breaks = select_whole(mirrored, gather_bytes(n->breaks[1], pixel) > 0, breaks);
+        breaks = whole_select(mirrored, gather_bytes(n->breaks[1], pixel) > 0, breaks);
     mask doubt = AND(asked, point_is_doubtful(cx, f.residual, breaks));
     for (int layer = 0; layer < 2 && n->data.method == MGT_REFRACTION_HYBRID; layer++) {
         const mask wanted = AND(AND(asked, NOT(doubt)), layer == LAYER_REFLECTED ? mirrored : NOT(mirrored));
@@ -134,12 +132,12 @@ static void store_found(const struct kernel_context *cx, tile_ends *out, size_t 
     const mask pixel = element_of(n, f.column, f.row);
     mask triangle = gather_ints(n->layers[0]->triangle, pixel);
     if (any_lane(mirrored))
-        triangle = select_whole(mirrored, gather_ints(n->layers[1]->triangle, pixel), triangle);
+        triangle = whole_select(mirrored, gather_ints(n->layers[1]->triangle, pixel), triangle);
     const mask nothing = whole(real(-1.0f));
-    store_whole(out->triangle + i, select_whole(AND(asked, shown), triangle, nothing));
-    store_whole(out->pixel + i, select_whole(asked, pixel, nothing));
+    store_whole(out->triangle + i, whole_select(AND(asked, shown), triangle, nothing));
+    store_whole(out->pixel + i, whole_select(asked, pixel, nothing));
     if (certifies)
-        store_whole(out->last + i, select_whole(f.last_column >= real(0.0f), element_of(n, f.last_column, f.last_row), nothing));
+        store_whole(out->last + i, whole_select(f.last_column >= real(0.0f), element_of(n, f.last_column, f.last_row), nothing));
     if (certifies)
         store(out->doubt + i, doubt_of(cx, hit, f, asked, pixel, mirrored));
     const vec3 position = turned(cx, f.position);

@@ -14,83 +14,17 @@
 #define LANES_NAME_(n) shade_kernels_##n
 #define LANES_NAME(n) LANES_NAME_(n)
 
-/* ---- textures, a texel at a time ---- */
-
-typedef struct texture_color {
-    float rgb[3];
-} texture_color;
-
-/* Two texels side by side in a texture that repeats: `first` may lie outside of [0, size). */
-typedef struct texel_pair {
-    size_t at[2];
-} texel_pair;
-
-static texel_pair repeated(int64_t first, uint32_t size)
-{
-    const bool power = (size & (size - 1)) == 0;
-    const int64_t part = power ? first & (int64_t)(size - 1) : first % (int64_t)size;
-    const size_t at = (size_t)(part < 0 ? part + (int64_t)size : part);
-    return (texel_pair){{at, at + 1 < size ? at + 1 : 0}};
-}
-
-static texture_color linear_of(const shade_scene *s, uint32_t rgba)
-{
-    return (texture_color){{s->linear[rgba & 255], s->linear[rgba >> 8 & 255], s->linear[rgba >> 16 & 255]}};
-}
-
-static texture_color blend(texture_color a, texture_color b, float share)
-{
-    texture_color mixed;
-    for (int i = 0; i < 3; i++)
-        mixed.rgb[i] = a.rgb[i] + share * (b.rgb[i] - a.rgb[i]);
-    return mixed;
-}
-
-static texture_color bilinear(const shade_scene *s, const mgt_texture *t, uint32_t level, float u, float v)
-{
-    const uint32_t width = t->width >> level ? t->width >> level : 1, height = t->height >> level ? t->height >> level : 1;
-    const double x = (double)u * width - 0.5, y = (double)v * height - 0.5, column = floor(x), row = floor(y);
-    const texel_pair columns = repeated((int64_t)column, width), rows = repeated((int64_t)row, height);
-    const float right = (float)(x - column), down = (float)(y - row);
-    texture_color mean[2];
-    for (int j = 0; j < 2; j++) {
-        const uint32_t *texels = t->texels + t->level_start[level] + rows.at[j] * width;
-        mean[j] = blend(linear_of(s, texels[columns.at[0]]), linear_of(s, texels[columns.at[1]]), right);
-    }
-    return blend(mean[0], mean[1], down);
-}
-
-static texture_color trilinear(const shade_scene *s, const mgt_texture *t, float u, float v, float level)
-{
-    if (!(fabsf(u) < 1e9f && fabsf(v) < 1e9f))
-        return (texture_color){{0}};
-    const float most = (float)(t->levels - 1), l = level > 0 ? (level < most ? level : most) : 0;
-    const uint32_t fine = (uint32_t)l;
-    const texture_color first = bilinear(s, t, fine, u, v);
-    return (float)fine < l ? blend(first, bilinear(s, t, fine + 1, u, v), l - (float)fine) : first;
-}
-
 /* ---- what kernels read ---- */
 
 #include "kernels/common/prelude_c.h"
 
 #include "cpu/lane_access.h"
+#include "cpu/texture_lane.h"
 
 #define SHADE(cx) ((cx)->shade->data)
 #define CHOPPY_LIGHT(cx) SHADE(cx).choppy
 
-KERNEL vec3 TEXTURE(CTX cx, real texture, real u, real v, real level)
-{
-    float at[4][MGT_LANES], rgb[3][MGT_LANES];
-    store(at[0], texture), store(at[1], u), store(at[2], v), store(at[3], level);
-    for (int i = 0; i < MGT_LANES; i++) {
-        const mgt_texture *t = cx->shade->materials[(size_t)at[0][i]].texture;
-        const texture_color mean = t ? trilinear(cx->shade, t, at[1][i], at[2][i], at[3][i]) : (texture_color){{0}};
-        for (int k = 0; k < 3; k++)
-            rgb[k][i] = mean.rgb[k];
-    }
-    return (vec3){load(rgb[0]), load(rgb[1]), load(rgb[2])};
-}
+KERNEL vec3 TEXTURE(CTX cx, real texture, real u, real v, real level) { return object_texture(cx->shade, texture, u, v, level); }
 
 #include "kernels/sky/sky.k"
 

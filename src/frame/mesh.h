@@ -27,9 +27,9 @@ enum { TEXTURE_LEVELS = 15 };
 struct mgt_texture {
     uint64_t id;
     uint32_t width, height;
-    uint32_t levels;                    /* down to 1 × 1: level l has max(1, size >> l) texels a side */
-    size_t level_start[TEXTURE_LEVELS]; /* first texel of each in `texels` */
-    uint32_t *texels;                   /* RGBA, 8 bits each, red lowest; sRGB, averaged in linear light */
+    uint32_t levels;                      /* down to 1 × 1: level l has max(1, size >> l) texels a side */
+    uint32_t level_start[TEXTURE_LEVELS]; /* first texel of each in `texels` */
+    uint32_t *texels;                     /* RGBA, 8 bits each, red lowest; sRGB, averaged in linear light */
 };
 
 #endif

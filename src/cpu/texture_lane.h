@@ -1,0 +1,134 @@
+/* SPDX-License-Identifier: MIT
+ * Textures looked up a point a lane. Include it after lane_access.h.
+ *
+ * Coordinates are double: those of a texel far from 0 would lose the place within it. */
+#ifndef MANGATA_CPU_TEXTURE_LANE_H
+#define MANGATA_CPU_TEXTURE_LANE_H
+
+#include <stddef.h>
+
+#include "cpu/shade.h"
+#include "frame/mesh.h"
+
+/* As many doubles as a register of MGT_LANES floats holds, where it holds more than two. */
+#if MGT_LANES == 1
+enum { DOUBLE_LANES = 1 };
+typedef double doubles;
+typedef int64_t double_mask;
+typedef float few_reals;
+typedef int few_whole;
+#define DOUBLES_OF(x) ((double)(x))
+#define REALS_OF(x) ((float)(x))
+#define WHOLE_OF(x) ((int)(x))
+#define DOUBLES_WHERE(m, x) ((m) ? (x) : 0.0)
+#else
+enum { DOUBLE_LANES = MGT_LANES > 4 ? MGT_LANES / 2 : MGT_LANES };
+typedef double doubles __attribute__((vector_size(8 * DOUBLE_LANES)));
+typedef int64_t double_mask __attribute__((vector_size(8 * DOUBLE_LANES)));
+typedef float few_reals __attribute__((vector_size(4 * DOUBLE_LANES)));
+typedef int few_whole __attribute__((vector_size(4 * DOUBLE_LANES)));
+#define DOUBLES_OF(x) __builtin_convertvector(x, doubles)
+#define REALS_OF(x) __builtin_convertvector(x, few_reals)
+#define WHOLE_OF(x) __builtin_convertvector(x, few_whole)
+#define DOUBLES_WHERE(m, x) ((doubles)((double_mask)(m) & (double_mask)(x)))
+#endif
+
+/* Of |x| < 2^51. */
+static inline doubles doubles_floor(doubles x)
+{
+    static const double whole_from = 6755399441055744.0; /* 1.5 · 2^52: to its sum with this, numbers are rounded to whole ones */
+    const doubles nearest = (x + whole_from) - whole_from, one = x - x + 1;
+    return nearest - DOUBLES_WHERE(nearest > x, one);
+}
+
+/* Two texels side by side in a texture that repeats, and the place between them. */
+typedef struct texel_lanes {
+    mask first, second;
+    real share; /* of the second */
+} texel_lanes;
+
+/* The texels about a coordinate that is 1 after `size` texels; below 1e9 either way. */
+static inline texel_lanes texels_about(real coordinate, mask size)
+{
+    float share[MGT_LANES], places[MGT_LANES];
+    int sizes[MGT_LANES], first[MGT_LANES];
+    __builtin_memcpy(places, &coordinate, sizeof places);
+    __builtin_memcpy(sizes, &size, sizeof sizes);
+    for (int i = 0; i < MGT_LANES; i += DOUBLE_LANES) {
+        few_reals at;
+        few_whole width;
+        __builtin_memcpy(&at, places + i, sizeof at);
+        __builtin_memcpy(&width, sizes + i, sizeof width);
+        const doubles whole_size = DOUBLES_OF(width), x = DOUBLES_OF(at) * whole_size - 0.5, texel = doubles_floor(x);
+        doubles within = texel - whole_size * doubles_floor(texel / whole_size);
+        within += DOUBLES_WHERE(within < 0, whole_size); /* the quotient was rounded */
+        within -= DOUBLES_WHERE(within >= whole_size, whole_size);
+        const few_reals part = REALS_OF(x - texel);
+        const few_whole column = WHOLE_OF(within);
+        __builtin_memcpy(share + i, &part, sizeof part);
+        __builtin_memcpy(first + i, &column, sizeof column);
+    }
+    texel_lanes t;
+    __builtin_memcpy(&t.first, first, sizeof t.first);
+    __builtin_memcpy(&t.share, share, sizeof t.share);
+    const mask next = t.first + 1;
+    t.second = whole_select(next < size, next, next - next);
+    return t;
+}
+
+static inline vec3 texel_color(const shade_scene *s, mask rgba)
+{
+    return (vec3){gather_floats(s->linear, rgba & 255), gather_floats(s->linear, rgba >> 8 & 255), gather_floats(s->linear, rgba >> 16 & 255)};
+}
+
+static inline vec3 blended_color(vec3 a, vec3 b, real share) { return (vec3){a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), a.z + share * (b.z - a.z)}; }
+
+static inline vec3 bilinear_color(const shade_scene *s, const mgt_texture *t, mask level, real u, real v)
+{
+    const int *const texels = (const int *)t->texels;
+    const mask none = level - level, one = none + 1, wide = (none + (int)t->width) >> level, high = (none + (int)t->height) >> level;
+    const mask width = whole_select(wide > 1, wide, one), height = whole_select(high > 1, high, one);
+    const texel_lanes columns = texels_about(u, width), rows = texels_about(v, height);
+    const mask start = gather_ints((const int *)t->level_start, level);
+    const mask upper = start + rows.first * width, lower = start + rows.second * width;
+    const vec3 above =
+        blended_color(texel_color(s, gather_ints(texels, upper + columns.first)), texel_color(s, gather_ints(texels, upper + columns.second)), columns.share);
+    const vec3 below =
+        blended_color(texel_color(s, gather_ints(texels, lower + columns.first)), texel_color(s, gather_ints(texels, lower + columns.second)), columns.share);
+    return blended_color(above, below, rows.share);
+}
+
+/* Black where coordinates are beyond all bounds. */
+static inline vec3 trilinear_color(const shade_scene *s, const mgt_texture *t, real u, real v, real level)
+{
+    const mask good = AND(abs(u) < real(1e9f), abs(v) < real(1e9f));
+    const real none = real(0.0f), most = real((float)(t->levels - 1));
+    const real l = SELECT(level > none, SELECT(level < most, level, most), none), x = SELECT(good, u, none), y = SELECT(good, v, none);
+    const mask fine = whole(l);
+    vec3 color = bilinear_color(s, t, fine, x, y);
+    const mask mixed = AND(real_from_int(fine) < l, good);
+    if (any_lane(mixed)) {
+        const mask coarse = whole_select(mixed, fine + 1, fine);
+        color = SELECT3(mixed, blended_color(color, bilinear_color(s, t, coarse, x, y), l - real_from_int(fine)), color);
+    }
+    return SELECT3(good, color, vec3(none, none, none));
+}
+
+/* `object`: whose material's texture it is, if it has one. Neighbours mostly share theirs. */
+static inline vec3 object_texture(const shade_scene *s, real object, real u, real v, real level)
+{
+    float objects[MGT_LANES];
+    store(objects, object);
+    vec3 color = vec3(real(0.0f), real(0.0f), real(0.0f));
+    for (int i = 0; i < MGT_LANES; i++) {
+        const mgt_texture *t = s->materials[(size_t)objects[i]].texture;
+        bool known = !t;
+        for (int k = 0; k < i && !known; k++)
+            known = objects[k] == objects[i];
+        if (!known)
+            color = SELECT3(object == real(objects[i]), trilinear_color(s, t, u, v, level), color);
+    }
+    return color;
+}
+
+#endif
