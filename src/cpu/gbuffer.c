@@ -70,7 +70,7 @@ static bool shape_layers(gbuffers *g, const gbuffer_job *job)
     free_layer(&g->front);
     free_layer(&g->refracted);
     free(s->empty);
-    s->empty = calloc(LAYERS * tiles, sizeof *s->empty);
+    s->empty = calloc(LAYERS * tiles + 3, sizeof *s->empty);
     g->front = g->refracted = shape;
     g->front.depth = malloc(count * sizeof(float)), g->front.triangle = malloc(count * sizeof(int32_t));
     g->refracted.depth = malloc(count * sizeof(float)), g->refracted.triangle = malloc(count * sizeof(int32_t));
@@ -202,6 +202,25 @@ static void draw_tile(void *argument, size_t index, uint32_t worker)
     }
 }
 
+/* What is known of the refracted layer after it was drawn: where it is empty. */
+static void bound_layer(const draw_job *job)
+{
+    gbuffers *g = job->out;
+    const raster_grid *grid = &job->view.grid;
+    const size_t tiles = (size_t)grid->columns * (size_t)grid->rows;
+    float *within = g->within;
+    g->empty = job->store->empty + REFRACTED_LAYER * tiles;
+    g->columns = grid->columns;
+    within[0] = (float)grid->width, within[1] = -1, within[2] = (float)grid->height, within[3] = -1;
+    for (size_t i = 0; i < tiles; i++) {
+        if (g->empty[i])
+            continue;
+        const float x = (float)((int32_t)(i % (size_t)grid->columns) * RASTER_TILE), y = (float)((int32_t)(i / (size_t)grid->columns) * RASTER_TILE);
+        within[0] = fminf(within[0], x), within[1] = fmaxf(within[1], x + RASTER_TILE - 1);
+        within[2] = fminf(within[2], y), within[3] = fmaxf(within[3], y + RASTER_TILE - 1);
+    }
+}
+
 /* ---- drawing ---- */
 
 static bool same_camera(const camera_rays *a, const camera_rays *b) { return memcmp(a, b, sizeof *a) == 0; }
@@ -242,6 +261,7 @@ static bool draw_layers(draw_job *job, thread_pool *pool)
             return false;
     const thread_loop tiles = {(size_t)LAYERS * (size_t)grid->columns * (size_t)grid->rows, draw_tile, job, NULL};
     thread_pool_run(pool, &tiles);
+    bound_layer(job);
     job->out->counts = (gbuffer_counts){0, 0, 0};
     for (uint32_t i = 0; i < s->workers; i++) {
         job->out->counts.front_triangles += s->counts[i].drawn[FRONT_LAYER];

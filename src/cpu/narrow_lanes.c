@@ -25,20 +25,35 @@
 
 #include "kernels/refraction/layer.k"
 
+enum { TILE_SHIFT = 6 };
+_Static_assert(1 << TILE_SHIFT == RASTER_TILE, "a column's tile");
+
+/* Layers are larger than caches, and most of a mirrored one is empty: tiles that show nothing are not read. */
 KERNEL LayerPixel LAYER(CTX cx, int layer, real column, real row)
 {
     const gbuffer *g = cx->narrow->layers[layer];
-    const mask at = whole(row) * (int)g->width + whole(column), triangle = gather_ints(g->triangle, at);
-    const real depth = gather_floats(g->depth, at);
-    const mask shown = triangle >= 0;
-    LayerPixel p = {depth, vec3(real(0.0f), real(1.0f), real(0.0f)), real(0.0f)};
-    if (!any_lane(shown))
+    const gbuffers *drawn = cx->narrow->drawn[layer];
+    const mask x = whole(column), y = whole(row), at = y * (int)g->width + x;
+    LayerPixel p = {INFINITE, vec3(real(0.0f), real(1.0f), real(0.0f)), real(0.0f)};
+    if (!any_lane(gather_bytes(drawn->empty, (y >> TILE_SHIFT) * (int)drawn->columns + (x >> TILE_SHIFT)) == 0))
         return p;
+    p.depth = gather_floats(g->depth, at);
+    if (!any_lane(p.depth < real(1e30f)))
+        return p;
+    const mask triangle = gather_ints(g->triangle, at), shown = triangle >= 0;
     const float *planes = cx->narrow->planes;
     const mask plane = 4 * (triangle & ~(triangle >> 31));
     p.normal = SELECT3(shown, vec3(gather_floats(planes, plane), gather_floats(planes + 1, plane), gather_floats(planes + 2, plane)), p.normal);
     p.level = SELECT(shown, gather_floats(planes + 3, plane), p.level);
     return p;
+}
+
+#define MIRRORED_WITHIN(cx, a, b) shows_within((cx)->narrow->drawn[LAYER_REFLECTED]->within, (a).x, (a).y, (b).x, (b).y)
+
+static inline mask shows_within(const float within[4], real x0, real y0, real x1, real y1)
+{
+    const mask across = AND(max(x0, x1) >= real(within[0]), min(x0, x1) <= real(within[1]));
+    return AND(across, AND(max(y0, y1) >= real(within[2]), min(y0, y1) <= real(within[3])));
 }
 
 #include "kernels/refraction/again.k"
@@ -130,10 +145,12 @@ static void store_found(const struct kernel_context *cx, tile_ends *out, size_t 
     const narrow_scene *n = cx->narrow;
     const mask asked = f.column >= real(0.0f), shown = f.shown > real(0.0f);
     const mask pixel = element_of(n, f.column, f.row);
-    mask triangle = gather_ints(n->layers[0]->triangle, pixel);
-    if (any_lane(mirrored))
-        triangle = whole_select(mirrored, gather_ints(n->layers[1]->triangle, pixel), triangle);
     const mask nothing = whole(real(-1.0f));
+    mask triangle = nothing;
+    if (any_lane(AND(AND(asked, shown), NOT(mirrored))))
+        triangle = gather_ints(n->layers[0]->triangle, pixel);
+    if (any_lane(AND(AND(asked, shown), mirrored)))
+        triangle = whole_select(mirrored, gather_ints(n->layers[1]->triangle, pixel), triangle);
     store_whole(out->triangle + i, whole_select(AND(asked, shown), triangle, nothing));
     store_whole(out->pixel + i, whole_select(asked, pixel, nothing));
     if (certifies)

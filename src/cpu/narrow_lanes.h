@@ -11,6 +11,7 @@ typedef struct narrow_scene {
     NarrowData data;
     RefractData refract;
     const gbuffer *layers[2];        /* beyond the surface, and as the surface mirrors it; all of one shape */
+    const gbuffers *drawn[2];        /* that they are the refracted layers of */
     const uint8_t *breaks[2];        /* two-phase, hybrid: front_kernels.breaks of those that are asked */
     const float *planes;             /* of the world's triangles: unit normal, and its product with a point of the triangle */
     SearchWave waves[MGT_MAX_WAVES]; /* data.waves of them */

@@ -132,6 +132,7 @@ static mgt_status set_camera(refraction *r, thread_pool *pool)
     r->narrow = (narrow_scene){.data = refraction_narrow_data(f, r->world, &r->direct.refracted),
                                .refract = r->direct.refract,
                                .layers = {&r->direct.refracted, r->mirrors ? &r->mirrored.refracted : &r->direct.refracted},
+                               .drawn = {&r->direct, r->mirrors ? &r->mirrored : &r->direct},
                                .planes = r->planes,
                                .breaks = {r->breaks[0].bytes, f->under ? r->breaks[1].bytes : r->breaks[0].bytes}};
     if (r->narrow.data.waves > 0)

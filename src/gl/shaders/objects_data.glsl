@@ -51,6 +51,9 @@ LayerPixel LAYER(int cx, int layer, float column, float row)
     return LayerPixel(inverse > 0.0f ? objects_data.least_depth / inverse : INFINITE, plane.xyz, plane.w);
 }
 
+/* Nothing is known but the pictures. */
+#define MIRRORED_WITHIN(cx, a, b) true
+
 ivec3 triangle_corners(int triangle)
 {
     return ivec3(int(texelFetch(index_table, 3 * triangle).r), int(texelFetch(index_table, 3 * triangle + 1).r),
