@@ -40,14 +40,14 @@ typedef enum mgt_status {
     MGT_ERROR_SCENE,       /* a scene value out of its range; mgt_last_error() names the field */
     MGT_ERROR_MEMORY,      /* an allocation failed */
     MGT_ERROR_UNAVAILABLE, /* the backend or instruction set does not exist here */
-    MGT_ERROR_UNSUPPORTED, /* meaningful, but nothing does it */
+    MGT_ERROR_UNSUPPORTED, /* valid, but no backend can do it */
     MGT_ERROR_THREAD,      /* a thread could not be started */
     MGT_CANCELLED,         /* the progress callback asked to stop */
     MGT_ERROR_LOST         /* OpenGL: the device was reset and its context with it; a new context may work */
 } mgt_status;
 
-/* The names of enums and back, here and in the other headers: mgt_x_name() gives the word that commands and files use, static, or NULL for what is no
- * value of the enum; values count up from 0 (but mgt_mixture), so that the first NULL ends a list. mgt_x_from_name() returns false, and writes nothing,
+/* Names of enum values, here and in the other headers. mgt_x_name() returns the static word that commands and files use, or NULL for a number that is no
+ * value of the enum. Values count up from 0, so the first NULL ends a list; only mgt_mixture has gaps. mgt_x_from_name() returns false and writes nothing
  * where there is no such name. */
 MGT_API const char *mgt_status_name(mgt_status status);
 MGT_API bool mgt_status_from_name(const char *name, mgt_status *status);

@@ -12,7 +12,7 @@
  *               framebuffers, viewport, depth, blend, colour mask, cull, scissor and stencil tests, sRGB writes, pixel store. Objects
  *               are made with direct state access. Your debug groups are untouched, and glGetError() stays clean: an error
  *               that you left pending is logged and cleared.
- *   Waiting     nothing waits for the GPU but mgt_render(). Parameters change from frame to frame without building a shader anew; a
+ *   Waiting     only mgt_render() waits for the GPU. Parameters change from frame to frame without building a shader anew; a
  *               method's first frame builds its programs.
  *   Memory      buffers grow with the largest frame and the number of waves seen; a steady loop allocates nothing.
  *   Threads     as your OpenGL context: one at a time.

@@ -2,7 +2,7 @@
  *
  * Mangata: reflections of the sun and the moon on water, anti-aliased in space and time.
  *
- * In one breath: create a context, initialise a scene and change what you like, point one or more targets at your memory, call mgt_render().
+ * In short: create a context, initialise a scene and change what you like, point one or more targets at your memory, call mgt_render().
  *
  * Conventions of every function here
  *   Units       metres, seconds, degrees where the name says so and radians elsewhere; luminance in kcd/m².

@@ -11,7 +11,7 @@ extern "C" {
 #endif
 
 /* Triangles and pictures that scenes refer to. They belong to no context and never change: any number of threads, contexts and scenes may use one at
- * once. What a context uploads or builds for them it keeps while frames go on using them. A mesh or texture must outlive every mgt_render() that uses
+ * once. A context keeps what it uploads or builds for them while frames go on using them. A mesh or texture must outlive every mgt_render() that uses
  * it; contexts do not read it after that. */
 typedef struct mgt_mesh mgt_mesh;
 typedef struct mgt_texture mgt_texture;
@@ -24,9 +24,9 @@ typedef struct mgt_mesh_desc {
     uint32_t vertex_count;   /* at least 1 */
     uint32_t triangle_count; /* 1 … MGT_MAX_TRIANGLES */
     const uint32_t *indices; /* 3 a triangle, below vertex_count; counter-clockwise seen from outside. Both sides are drawn */
-    uint32_t dry;            /* 1: a hull, open or closed at the top; no water is drawn within. 0: water goes through the mesh. Inside is a place above
-                              * which or beside which no water gets in: the triangles of the scene's dry meshes lie straight below it and stand around
-                              * it at its height, but for gaps of an eighth of all directions. Over its rim a hull is wet */
+    uint32_t dry;            /* 1: a hull, open or closed at the top; no water is drawn inside. 0: water passes through the mesh. A place is inside where
+                              * triangles of dry meshes lie straight below it and surround it at its own height; gaps of up to an eighth of all
+                              * directions do not count. Water above the rim is drawn */
     uint32_t reserved;       /* 0 */
 } mgt_mesh_desc;
 

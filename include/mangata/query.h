@@ -10,7 +10,7 @@
 extern "C" {
 #endif
 
-/* What mgt_water_query() is to answer, and where to. A pointer that is NULL asks nothing. */
+/* What mgt_water_query() computes, and where it writes. Answers whose pointer is NULL are left out. */
 typedef struct mgt_water_answers {
     size_t struct_size;
     double least_wavelength; /* metres, 0 … 1e9: shorter waves count in `covariance` alone. 0: all waves count at the points */
@@ -20,25 +20,24 @@ typedef struct mgt_water_answers {
     float *normal;           /* unit, of the side of the air: x, y, z of each point */
     float *velocity;         /* metres per second, of the surface: x, y, z of each point; x and z are 0 where the water is not choppy */
     double covariance[3];    /* written: xx, xz and zz of the slopes of the waves shorter than least_wavelength */
-    float *jacobian;         /* area of the water over the area that it rests on, a number a point: 1 of sines; below 0 the water is folded */
-    size_t unsettled;        /* written: points of choppy water whose place of rest was not found; their answers are those of the nearest place */
+    float *jacobian;         /* area of a piece of water divided by its area at rest, a number a point: 1 without choppiness; below 0 the water folds over */
+    size_t unsettled;        /* written: points of choppy water whose place at rest was not found; they have the answers of the nearest place that was */
 } mgt_water_answers;
 
-/* Asks nothing. */
+/* All pointers NULL: asks nothing. */
 MGT_API void mgt_water_answers_init(mgt_water_answers *answers, size_t size);
 
-/* Answers for `count` points, x and z of each in metres, within ±1e9. Waves are those of P1 Eq. 1, as `water` has them; nothing else of it is read but its
- * level. A point that is not finite gets NaN.
+/* Answers for `count` points, x and z of each in metres, within ±1e9. Of `water`, its waves, choppiness and level are read. A point that is not finite gets NaN.
  * Any thread, several at once; nothing is allocated or kept, and a point's answer depends neither on the others nor on the thread. With AVX2 and AVX-512 it is
  * the same to the bit. 64 waves take a core with AVX2 about 65 ns a point.
- * MGT_ERROR_SCENE: a wave is out of its range; MGT_ERROR_ARGUMENT: the time is not within ±1e9 s, or a pointer is missing. mgt_last_error(NULL) has the
- * words, and nothing has been written. */
+ * MGT_ERROR_SCENE: a wave is out of its range; MGT_ERROR_ARGUMENT: the time is not within ±1e9 s, or a pointer is missing. mgt_last_error(NULL) says which,
+ * and nothing has been written. */
 MGT_API mgt_status mgt_water_query(const mgt_water *water, double time, const double *points, size_t count, mgt_water_answers *answers);
 
 /* Where rays first meet the surface, from above or from below. `rays` are `count` origins and directions, x y z and x y z in metres; origins within ±1e9, and
  * directions of any length but 0. `distance` gets `count` numbers: multiples of the direction, at most `reach` (0 … 1e9); +infinity where the water is not met
- * by then; NaN where a ray is not finite, has no direction, or has not come to an end after 100,000 looks at the water, as one that follows the
- * surface may. No crest is stepped over: a hit is the first one. It lies within 1e-9 m of the surface, or within 1e-9 of the way to it.
+ * by then; NaN where a ray is not finite, has no direction, or has not ended after 100,000 evaluations of the water, as a ray along the
+ * surface may not. No crest is stepped over: a hit is the first one. It lies within 1e-9 m of the surface, or within 1e-9 of the way to it.
  * Threads and errors as for mgt_water_query(). */
 MGT_API mgt_status mgt_water_trace(const mgt_water *water, double time, const double *rays, size_t count, double reach, double *distance);
 

@@ -99,19 +99,19 @@ MGT_API bool mgt_isa_available(mgt_isa isa);
 
 typedef enum mgt_layer {
     MGT_LAYER_COLOR = 0, /* 3 channels: radiance in kcd/m², or displayed colour in 8-bit formats */
-    MGT_LAYER_COVERAGE,  /* 1: share of pixel area × shutter time whose mirror ray meets the light, [0, 1] (P1 Eq. 17 / L_l) */
-    MGT_LAYER_MASK,      /* 1: share of the pixel that is water */
+    MGT_LAYER_COVERAGE,  /* 1: fraction of pixel area × shutter time whose mirror ray meets the light, [0, 1] (P1 Eq. 17 / L_l) */
+    MGT_LAYER_MASK,      /* 1: fraction of the pixel that is water */
     MGT_LAYER_DEPTH,     /* 1: metres along the ray to the first hit at time t; +inf where there is no water */
     MGT_LAYER_NORMAL,    /* 3: world space unit normal, the mean shading normal at time t; (0,0,0) where no water */
-    /* What a method spent and why; not in textures and views of OpenGL. */
+    /* What a method spent and why. */
     MGT_LAYER_SAMPLES,    /* 1: samples of the pixel; for adaptive evaluations of all waves (see mgt_quality.samples) */
-    MGT_LAYER_IMPORTANCE, /* 1: adaptive: what samples are given for, of the analytic picture; cells: predicted error of its coverage, podee: Eq. 1
-                             where it is above the threshold. Others: 0 */
+    MGT_LAYER_IMPORTANCE, /* 1: adaptive: what decides where samples go, from the analytic picture. Cells: predicted error of its coverage; podee:
+                             Eq. 1 where it is above the threshold. Others: 0 */
     MGT_LAYER_DETAIL,     /* 1: adaptive: coverage of the added samples alone, 0 where there are none. Others: 0 */
     /* Scenes with objects; not in textures and views of OpenGL. Elsewhere 0. */
-    MGT_LAYER_REFRACTION,       /* 3: radiance that comes through the water's surface, before Fresnel's share of it is taken; 0 where no water */
-    MGT_LAYER_REFRACTION_ERROR, /* 1: pixels by which what is shown may be beside what the refracted ray meets; +inf where it is not known at all */
-    MGT_LAYER_FOAM              /* 1: share of the pixel that foam covers, [0, 1]; not in textures and views of OpenGL */
+    MGT_LAYER_REFRACTION,       /* 3: radiance that arrives through the water's surface, before the Fresnel transmittance is applied; 0 where no water */
+    MGT_LAYER_REFRACTION_ERROR, /* 1: estimated distance, in pixels, from what is shown to what the refracted ray meets; +inf where it is unknown */
+    MGT_LAYER_FOAM              /* 1: fraction of the pixel that foam covers, [0, 1]; not in textures and views of OpenGL */
 } mgt_layer;
 
 typedef enum mgt_format {
@@ -143,10 +143,10 @@ MGT_API void mgt_target_init(mgt_target *target, size_t size);
 /* Checks a scene as mgt_render() would, without rendering. The detail of an error is in mgt_last_error(context). */
 MGT_API mgt_status mgt_scene_check(mgt_context *context, const mgt_scene *scene);
 
-/* Whether `backend` itself renders a layer of the scene as it stands, its method, refraction, objects and camera; false also for scenes that are not
- * valid. mgt_render() of an OpenGL context renders the rest on the CPU, with the same pixels as a CPU context, and says so in the log once a method
- * ("render.cpu": a warning, or for MGT_BACKEND_AUTO an information); views and textures refuse it. AUTO: whether either does. Whether a context of
- * the backend can be created here, only mgt_context_create() knows. Any thread. */
+/* Whether `backend` itself renders a layer of the scene as it stands: its method, refraction, objects and camera. AUTO: whether CPU or OpenGL does. False
+ * also for a scene that is not valid. What OpenGL does not render, mgt_render() of an OpenGL context renders on the CPU, with the same pixels as a CPU
+ * context, and logs "render.cpu" once a method (a warning; for MGT_BACKEND_AUTO an information); views and textures refuse it. Only mgt_context_create()
+ * knows whether a context of the backend can be created here. Any thread. */
 MGT_API bool mgt_supports(mgt_backend backend, const mgt_scene *scene, mgt_layer layer);
 
 /* Renders one frame into `count` targets (1 … 16). Blocks until done. The same scene gives the same bytes. */
@@ -161,7 +161,7 @@ MGT_API mgt_status mgt_display(mgt_context *context, const mgt_scene *scene, con
  * mean, and slopes, covariances and the path are those of the lower one. Slopes are (∂y/∂x, ∂y/∂z). The light plane is r·L = 1, its axes as in the kernels: e horizontal, f up. */
 typedef struct mgt_pixel_info {
     size_t struct_size;
-    double water;                       /* share of the pixel that is water; where it is 0 all else is 0 */
+    double water;                       /* fraction of the pixel that is water; where it is 0 all else is 0 */
     double coverage;                    /* as the layer's */
     double radiance[3];                 /* kcd/m² */
     double position[3];                 /* of the hit, metres */

@@ -68,7 +68,7 @@ typedef struct mgt_water {
     float absorption[3];        /* absorption coefficient, 1/metre, linear sRGB, [0, 1000] */
     float scattering[3];        /* scattering coefficient, 1/metre, linear sRGB, [0, 1000] */
     float body_albedo[3];       /* fraction of the light entering deep water that it sends up again, linear sRGB, [0, 1]; not with a black sky */
-    float choppiness;           /* [0, 1]: how far waves shift the water to their crests, over what trochoidal waves do; 0: waves are sines */
+    float choppiness;           /* [0, 1]: horizontal shift towards the crests, as a fraction of that of trochoidal (Gerstner) waves; 0: plain sines */
 } mgt_water;
 
 typedef enum mgt_tone_map { MGT_TONE_NONE = 0, MGT_TONE_REINHARD, MGT_TONE_ACES, MGT_TONE_AGX } mgt_tone_map;
@@ -89,18 +89,16 @@ typedef enum mgt_method {
     MGT_METHOD_MANGATA,       /* this library's own model */
     MGT_METHOD_REFERENCE,     /* brute force in double precision (CPU backend only) */
     /* Baselines, for comparison: docs/methods.md says what is theirs and what is different here. */
-    MGT_METHOD_MSAA32,    /* 32 samples of visibility, one shading */
-    MGT_METHOD_LEAN,      /* Olano and Baker 2010: a tiled map of slope moments */
-    MGT_METHOD_LEADR,     /* Dupuy et al. 2013: the same with masking and shadowing */
-    MGT_METHOD_TOKUYOSHI, /* Tokuyoshi and Kaplanyan 2019: geometric specular anti-aliasing */
-    MGT_METHOD_BRUNETON,  /* Bruneton et al. 2010: Gaussian slopes and a point-like sun */
-    MGT_METHOD_FXAA,      /* Lottes 2009: `none`, its edges blended afterwards */
-    MGT_METHOD_TAA,       /* Karis 2014: `none` jittered over eight frames, history reprojected and clamped */
-    MGT_METHOD_TNDF,      /* after Tessari et al. 2020: one Gaussian of slopes over pixel and shutter */
-    /* Samples where they show: an analytic picture first, then more of it where that one is likely to be wrong. On the CPU
-       whatever the backend. */
-    MGT_METHOD_ADAPTIVE,
-    MGT_METHOD_GGX_MOMENTS /* what engines do: GGX of the footprint's slope moments, the light by a representative point (Karis 2013) */
+    MGT_METHOD_MSAA32,     /* 32 samples of visibility, one shading */
+    MGT_METHOD_LEAN,       /* Olano and Baker 2010: a tiled map of slope moments */
+    MGT_METHOD_LEADR,      /* Dupuy et al. 2013: the same with masking and shadowing */
+    MGT_METHOD_TOKUYOSHI,  /* Tokuyoshi and Kaplanyan 2019: geometric specular anti-aliasing */
+    MGT_METHOD_BRUNETON,   /* Bruneton et al. 2010: Gaussian slopes and a point-like sun */
+    MGT_METHOD_FXAA,       /* Lottes 2009: `none`, its edges blended afterwards */
+    MGT_METHOD_TAA,        /* Karis 2014: `none` jittered over eight frames, history reprojected and clamped */
+    MGT_METHOD_TNDF,       /* after Tessari et al. 2020: one Gaussian of slopes over pixel and shutter */
+    MGT_METHOD_ADAPTIVE,   /* an analytic picture first, then samples where it is likely to be wrong: docs/adaptive.md */
+    MGT_METHOD_GGX_MOMENTS /* as in game engines: GGX from the footprint's slope moments, the light as a representative point (Karis 2013) */
 } mgt_method;
 
 /* The waves that a method shades from. */
@@ -124,11 +122,11 @@ typedef struct mgt_method_properties {
  * numbered from 0 without gaps. Any thread. */
 MGT_API mgt_status mgt_method_info(mgt_method method, mgt_method_properties *properties, size_t size);
 
-/* How what lies on the other side of the surface is found: scenes with objects. docs/refraction.md says what is whose. */
+/* How objects on the other side of the surface are found. docs/refraction.md says which paper each one follows. */
 typedef enum mgt_refraction {
     MGT_REFRACTION_TWO_PHASE = 0,  /* this library's own: Liu et al. 2020 in true space, with the waves' heights, iterated */
     MGT_REFRACTION_HYBRID,         /* the same, and rays are traced where it is uncertain */
-    MGT_REFRACTION_LIU,            /* Liu et al. 2020: both phases as printed, mistakes of print mended */
+    MGT_REFRACTION_LIU,            /* Liu et al. 2020: both phases as printed, misprints corrected */
     MGT_REFRACTION_BROAD,          /* its broad phase alone: a flat surface */
     MGT_REFRACTION_NARROW,         /* its narrow phase alone */
     MGT_REFRACTION_SCREEN_SPACE,   /* McGuire and Mara 2014: rays marched through the depth buffer */
@@ -137,7 +135,7 @@ typedef enum mgt_refraction {
     MGT_REFRACTION_PATH_TRACED     /* rays traced through the waves as they are, many a pixel (CPU backend only) */
 } mgt_refraction;
 
-/* How method adaptive finds the pixels that need more, and what it gives them. */
+/* How method adaptive finds the pixels that need more samples, and which samples it takes there. */
 typedef enum mgt_adaptive {
     MGT_ADAPTIVE_CELLS = 0, /* pixels of method mangata, split into four again and again where the predicted error is largest */
     MGT_ADAPTIVE_PODEE = 1  /* Podee et al., Adaptive Supersampling: samples in proportion to an importance of the approximate picture */
@@ -146,7 +144,7 @@ typedef enum mgt_adaptive {
 /* How podee-* integrates its Gaussian over the light disk and the shutter. */
 typedef enum mgt_mixture {
     MGT_MIXTURE_EXACT = 0, /* the ellipse itself, in closed form */
-    MGT_MIXTURE_1 = 1,     /* so many circular Gaussians, fitted (P1 App. C), from tables of 64 MiB that the context keeps */
+    MGT_MIXTURE_1 = 1,     /* 1, 3, 5 or 9 circular Gaussians, fitted (P1 App. C), from tables of 64 MiB that the context keeps */
     MGT_MIXTURE_3 = 3,
     MGT_MIXTURE_5 = 5,
     MGT_MIXTURE_9 = 9,
@@ -171,7 +169,7 @@ MGT_API bool mgt_refraction_from_name(const char *name, mgt_refraction *refracti
 MGT_API bool mgt_adaptive_from_name(const char *name, mgt_adaptive *adaptive);
 MGT_API bool mgt_mixture_from_name(const char *name, mgt_mixture *kernels);
 
-/* How much work goes into which approximation. The words before a colon are the methods or ways of refraction that read a member. */
+/* Settings of quality. Words before a colon name the methods or kinds of refraction that read the member; the others ignore it. */
 typedef struct mgt_quality {
     mgt_method method;
     uint32_t spatial_samples;    /* N of N×N strata a pixel: ssaa, reference; 1 … 1024 */
@@ -180,7 +178,7 @@ typedef struct mgt_quality {
     uint64_t sample_count;       /* ssaa, reference: how many samples to take; 0: all that remain */
     uint64_t seed;               /* of the jitter */
     bool ndf_mean_drop;          /* podee-pixel: leave the mean slope B out of the path (P1 Eq. 4 as printed) */
-    mgt_mixture kernels;         /* podee-*: what stands for the elliptical Gaussian on the light plane */
+    mgt_mixture kernels;         /* podee-*: how the elliptical Gaussian on the light plane is integrated */
     double elongation_limit;     /* podee-* with kernels: ellipses longer than this, major over minor axis, are summed without time as by
                                  MGT_MIXTURE_RIEMANN, 1 … 1e6; 0: as many as there are kernels (P1 §3.6), and 1e6 for 1 kernel and Feline */
     uint32_t path_segments;      /* podee-*: straight pieces of the shutter, each with its own Gaussian, 1 … 64; 0: 1 */
@@ -188,21 +186,20 @@ typedef struct mgt_quality {
                                  (Eq. 20), up to 0.5; 0: 0.3 */
     bool transition_hard;        /* podee-*: no transition, waves turn at 0.5 cycles per pixel (Fig. 11) */
     mgt_adaptive adaptive;       /* adaptive: the scheme; at most one of the next three and target_displayed says when it ends */
-    double samples;              /* adaptive: evaluations of all waves per pixel of water, on average, 1 … 4096; cells and points count as what they
-                                 cost, a ray of podee, traced at both ends of the shutter, as one. 0: 8 where no other end is given */
+    double samples;              /* adaptive: evaluations of all waves per pixel of water, on average, 1 … 4096. Cells and points count by what they
+                                 cost; a ray of podee, traced at both ends of the shutter, counts as one. 0: 8 where no other end is given */
     double target_rmse;          /* adaptive, cells: ends where the predicted RMSE of coverage over the image is this, 1e-6 … 1; 0: none */
     double budget_ms;            /* adaptive, cells: ends after so much time, 0.1 … 1e7. The one setting whose pixels depend on the machine; 0: none */
     double importance_center;    /* adaptive, podee: c of Eq. 1, a coverage, up to 1; 0: 0.1 */
     double importance_width;     /* adaptive, podee: ρ of Eq. 1, 1e-6 … 1; 0: 0.04 */
     double importance_threshold; /* adaptive, podee: pixels whose importance (1 at its peak) is not above it get no samples, up to 1; 0: 0.05,
-                                 a little more than the importance of a pixel without light by the defaults */
+                                 a little more than the importance of a pixel without light */
     mgt_refraction refraction;
-    double tess_error; /* two-phase, hybrid, liu, broad: pixels that a triangle bent by refraction may be off by, 0.01 … 100; 0: 0.1 */
-    uint32_t
-        refraction_samples; /* N of N×N places of a pixel that rays of refraction go through, 1 … 64; 1 is the pixel's centre; 0: 1, 4 rays more at outlines
-                                    of two-phase, and 4 for truth */
-    bool caustics;          /* light that the waves bundle on what lies under them */
-    uint64_t sample_slots;  /* adaptive, podee: M of Eq. 3, how many samples the picture gets, up to 2^32; 0: as `samples` says */
+    double tess_error;           /* two-phase, hybrid, liu, broad: pixels that a triangle bent by refraction may be off by, 0.01 … 100; 0: 0.1 */
+    uint32_t refraction_samples; /* N of N×N rays of refraction a pixel, 1 … 64; 1: one through the pixel's centre; 0: 1, with 4 more at outlines for two-phase,
+                                    and 4 for path-traced */
+    bool caustics;               /* the light that waves focus on what lies below them */
+    uint64_t sample_slots;       /* adaptive, podee: M of Eq. 3, how many samples the picture gets, up to 2^32; 0: as `samples` says */
     /* Options of single methods, and room for those of later versions, zero: 16 in all. */
 #define MGT_METHOD_OPTION(name, method, least, most, preset, meaning) double name;
 #include "mangata/method_options.h"
@@ -221,11 +218,11 @@ typedef struct mgt_scene {
     mgt_camera camera;      /* when the shutter closes */
     mgt_camera camera_open; /* when it opens; used when camera_moves */
     bool camera_moves;
-    bool aerial;           /* the air before what the eye sees over the water dims it and shines: with MGT_SKY_ATMOSPHERE, whose air it is */
-    float foam;            /* share of the water that whitecaps cover, [0, 0.5]; 0: none. Only choppy water seen from above has any */
+    bool aerial;           /* aerial perspective: the air of MGT_SKY_ATMOSPHERE dims what lies behind it and adds the light that it scatters */
+    float foam;            /* fraction of the water that whitecaps cover, [0, 0.5]; 0: none. Only choppy water seen from above shows foam */
     double time;           /* seconds, when the shutter closes */
     double shutter;        /* seconds the shutter is open, ≥ 0; light is integrated over [time − shutter, time] */
-    double frame_interval; /* seconds since the frame before, ≥ 0; method taa alone looks back. 0: the shutter, or 1/30 where that is 0 too */
+    double frame_interval; /* seconds since the frame before, ≥ 0; only taa reads it. 0: the shutter, or 1/30 where that is 0 too */
     mgt_light light;
     mgt_sky sky;
     float foam_persistence; /* seconds that foam lasts, [0, 60]; 0: only where waves break right now */
