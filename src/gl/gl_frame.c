@@ -101,7 +101,8 @@ static void upload_waves(gl_renderer *g)
     const size_t count = (size_t)set->view.wave_count;
     size_t offset;
     memcpy(gl_ring_allocate(&g->ring, MGT_MAX_WAVES * sizeof(WaveData), &offset), set->data, count * sizeof(WaveData));
-    g->gl.BindBufferRange(GL_SHADER_STORAGE_BUFFER, BIND_WAVES, g->ring.buffer, (GLintptr)offset, MGT_MAX_WAVES * sizeof(WaveData));
+    const GLenum block = g->limits.software ? GL_UNIFORM_BUFFER : GL_SHADER_STORAGE_BUFFER;
+    g->gl.BindBufferRange(block, g->limits.software ? BIND_UNIFORM_WAVES : BIND_WAVES, g->ring.buffer, (GLintptr)offset, MGT_MAX_WAVES * sizeof(WaveData));
     SortData *sort = gl_ring_allocate(&g->ring, MGT_MAX_WAVES * sizeof(SortData), &offset);
     sines_sort_data(set, sort);
     g->gl.BindBufferRange(GL_SHADER_STORAGE_BUFFER, BIND_SORT, g->ring.buffer, (GLintptr)offset, MGT_MAX_WAVES * sizeof(SortData));

@@ -13,7 +13,9 @@ layout(std140, binding = 2) uniform PassBlock { PassData pass_data; };
 #else
 layout(std140, binding = 0) uniform FrameBlock { FrameData frame_data; };
 #define FRAME(cx) frame_data
-layout(std430, binding = 6) restrict readonly buffer WaveBlock { vec4 frame_waves[]; }; /* WAVE_VECTORS each: WaveData */
+#endif
+#ifdef SOFTWARE_GL
+#undef CACHES_TILE /* shared memory is memory like any other here, and each access a loop over lanes that takes long to compile */
 #endif
 
 #ifndef TILE_ACCESS
@@ -59,6 +61,12 @@ TileWave tile_wave_of_vector(uvec4 v) { return TileWave(int(v.x), uintBitsToFloa
 uvec4 vector_of_tile_wave(int index, float turns, float share) { return uvec4(uint(index), floatBitsToUint(turns), floatBitsToUint(share), 0u); }
 
 #ifndef CELLS_PASS
+#ifdef SOFTWARE_GL /* reads of uniform blocks need no loop over lanes */
+layout(std140, binding = 4) uniform WaveBlock { vec4 frame_waves[MAX_WAVES * WAVE_VECTORS]; };
+#else
+layout(std430, binding = 6) restrict readonly buffer WaveBlock { vec4 frame_waves[]; }; /* WAVE_VECTORS each: WaveData */
+#endif
+
 WaveData SET_WAVE(int i)
 {
     int at = WAVE_VECTORS * i;
@@ -113,6 +121,7 @@ void enter_tile(int lanes)
 }
 #else
 #define wave_of_tile(i) listed_wave(i)
+#define enter_tile(lanes)
 #endif
 
 vec3 SKY_TEXEL(int cx, float column, float row) { return texelFetch(sky_texture, ivec2(int(column), int(row)), 0).rgb; }
