@@ -5,14 +5,14 @@
 #include <math.h>
 #include <stdlib.h>
 
-static double share(const plot_axis *axis, double value)
+static double fraction(const plot_axis *axis, double value)
 {
     return axis->logarithmic ? log(value / axis->low) / log(axis->high / axis->low) : (value - axis->low) / (axis->high - axis->low);
 }
 
-double plot_x(const plot *p, double value) { return p->x + p->width * share(&p->across, value); }
+double plot_x(const plot *p, double value) { return p->x + p->width * fraction(&p->across, value); }
 
-double plot_y(const plot *p, double value) { return p->y + p->height * (1 - share(&p->up, value)); }
+double plot_y(const plot *p, double value) { return p->y + p->height * (1 - fraction(&p->up, value)); }
 
 static void tick(svg *s, const plot *p, bool across, double value, bool label)
 {
@@ -63,7 +63,7 @@ void plot_curve(svg *s, const plot *p, const double *x, const double *y, size_t 
     if (!points)
         return;
     for (size_t i = 0; i < count; i++) {
-        const double at = share(&p->up, y[i]), along = share(&p->across, x[i]);
+        const double at = fraction(&p->up, y[i]), along = fraction(&p->across, x[i]);
         const bool inside = at >= -1e-9 && at <= 1 + 1e-9 && along >= -1e-9 && along <= 1 + 1e-9;
         points[2 * i] = inside ? plot_x(p, x[i]) : NAN;
         points[2 * i + 1] = inside ? plot_y(p, y[i]) : NAN;

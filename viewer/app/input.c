@@ -250,23 +250,23 @@ static bool over_divider(const viewer *v, double x)
 }
 
 /* Place in the finished picture, from 0 to 1, of a place in the window. */
-static void picture_share(const viewer *v, double x, double y, double share[2])
+static void picture_fraction(const viewer *v, double x, double y, double fraction[2])
 {
     const ui_rect *p = &v->place.place;
     const view_settings *s = &v->settings.view;
     const double size = 1 / s->zoom;
     const double cx = fmin(fmax(s->center_x, 0.5 * size), 1 - 0.5 * size), cy = fmin(fmax(s->center_y, 0.5 * size), 1 - 0.5 * size);
-    share[0] = cx + ((x - (double)p->x) / (double)p->width - 0.5) * size;
-    share[1] = cy + ((y - (double)p->y) / (double)p->height - 0.5) * size;
+    fraction[0] = cx + ((x - (double)p->x) / (double)p->width - 0.5) * size;
+    fraction[1] = cy + ((y - (double)p->y) / (double)p->height - 0.5) * size;
 }
 
 static void inspect_at(viewer *v, double x, double y)
 {
-    double share[2];
-    picture_share(v, x, y, share);
-    if (share[0] < 0 || share[1] < 0 || share[0] >= 1 || share[1] >= 1)
+    double fraction[2];
+    picture_fraction(v, x, y, fraction);
+    if (fraction[0] < 0 || fraction[1] < 0 || fraction[0] >= 1 || fraction[1] >= 1)
         return;
-    v->settings.inspect = (inspect_settings){(uint32_t)(share[0] * v->place.width), (uint32_t)(share[1] * v->place.height)};
+    v->settings.inspect = (inspect_settings){(uint32_t)(fraction[0] * v->place.width), (uint32_t)(fraction[1] * v->place.height)};
     v->settings.panel.inspector = 1;
 }
 
@@ -319,9 +319,9 @@ static void magnify(viewer *v, double factor)
 {
     view_settings *s = &v->settings.view;
     double before[2], after[2];
-    picture_share(v, v->pointer.x, v->pointer.y, before);
+    picture_fraction(v, v->pointer.x, v->pointer.y, before);
     s->zoom = fmin(fmax(s->zoom * factor, 1), 64);
-    picture_share(v, v->pointer.x, v->pointer.y, after);
+    picture_fraction(v, v->pointer.x, v->pointer.y, after);
     s->center_x = fmin(fmax(s->center_x + before[0] - after[0], 0.5 / s->zoom), 1 - 0.5 / s->zoom);
     s->center_y = fmin(fmax(s->center_y + before[1] - after[1], 0.5 / s->zoom), 1 - 0.5 / s->zoom);
 }

@@ -121,15 +121,15 @@ static const char *layer_meaning(mgt_layer layer)
 {
     switch (layer) {
     case MGT_LAYER_COVERAGE:
-        return ", share that mirrors the light";
+        return ", fraction that mirrors the light";
     case MGT_LAYER_MASK:
-        return ", share that is water";
+        return ", fraction that is water";
     case MGT_LAYER_DEPTH:
         return ", metres along the ray";
     case MGT_LAYER_NORMAL:
         return ", horizontal part";
     case MGT_LAYER_FOAM:
-        return ", share that foam covers";
+        return ", fraction that foam covers";
     case MGT_LAYER_SAMPLES:
     case MGT_LAYER_IMPORTANCE:
     case MGT_LAYER_DETAIL:

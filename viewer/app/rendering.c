@@ -110,7 +110,7 @@ mgt_context *viewer_tools(viewer *v)
 
 /* ---- size ---- */
 
-/* The share of the full size at which moving pictures keep their rate. */
+/* The fraction of the full size at which moving pictures keep their rate. */
 static double moving_scale(const viewer *v)
 {
     const double pixels = (double)v->place.width * v->place.height, seconds = v->render.seconds_per_pixel * pixels;

@@ -96,8 +96,8 @@ bool viewer_save_picture(viewer *v, const char *path, uint32_t width, uint32_t h
 bool viewer_watch_saver(viewer *v)
 {
     char text[VIEWER_TEXT] = "";
-    double share = 0;
-    const picture_saver_state state = v->saver ? picture_saver_poll(v->saver, text, sizeof text, &share) : SAVER_IDLE;
+    double fraction = 0;
+    const picture_saver_state state = v->saver ? picture_saver_poll(v->saver, text, sizeof text, &fraction) : SAVER_IDLE;
     if (state == SAVER_SAVED)
         viewer_report(v, false, "saved %s", text);
     if (state == SAVER_FAILED)
@@ -105,7 +105,7 @@ bool viewer_watch_saver(viewer *v)
     if (state == SAVER_SAVED || state == SAVER_FAILED)
         snprintf(v->save_problem, sizeof v->save_problem, "%s", state == SAVER_FAILED ? text : "");
     if (state == SAVER_BUSY)
-        snprintf(v->progress, sizeof v->progress, "saving %.200s, %.0f%%", text, 100 * share);
+        snprintf(v->progress, sizeof v->progress, "saving %.200s, %.0f%%", text, 100 * fraction);
     else
         v->progress[0] = 0;
     return state == SAVER_BUSY;

@@ -14,7 +14,7 @@ typedef enum compare_mode { COMPARE_OFF = 0, COMPARE_WIPE, COMPARE_DIFFERENCE } 
 typedef struct display_view {
     int x, y, width, height; /* of the picture in the framebuffer, pixels from its lower left corner */
     compare_mode compare;
-    float wipe; /* A is left of this share of the width */
+    float wipe; /* A is left of this fraction of the width */
     float difference_scale;
     float low, high;                /* what the palette's ends stand for, where the layer is a number */
     bool logarithmic;               /* steps of equal ratio in between */

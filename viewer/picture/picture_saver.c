@@ -25,7 +25,7 @@ struct picture_saver {
     char error[ERROR_SIZE]; /* written before `state` */
     atomic_int state;       /* picture_saver_state */
     atomic_bool stop;
-    _Atomic double share;
+    _Atomic double fraction;
 };
 
 /* ---- files ---- */
@@ -85,7 +85,7 @@ static bool write_png(mgt_context *context, const mgt_scene *scene, const char *
 static bool on_progress(void *user, double fraction)
 {
     picture_saver *s = user;
-    atomic_store(&s->share, fraction);
+    atomic_store(&s->fraction, fraction);
     return !atomic_load(&s->stop);
 }
 
@@ -163,7 +163,7 @@ bool picture_saver_start(picture_saver *s, const mgt_scene *scene, const char *p
     memcpy(s->waves, scene->water.waves, scene->water.wave_count * sizeof *s->waves);
     s->scene.water.waves = s->waves;
     snprintf(s->path, sizeof s->path, "%s", path);
-    atomic_store(&s->share, 0);
+    atomic_store(&s->fraction, 0);
     atomic_store(&s->state, SAVER_BUSY);
     s->started = pthread_create(&s->thread, NULL, run, s) == 0;
     if (s->started)
@@ -173,10 +173,10 @@ bool picture_saver_start(picture_saver *s, const mgt_scene *scene, const char *p
     return false;
 }
 
-picture_saver_state picture_saver_poll(picture_saver *s, char *text, size_t size, double *share)
+picture_saver_state picture_saver_poll(picture_saver *s, char *text, size_t size, double *fraction)
 {
     const picture_saver_state state = (picture_saver_state)atomic_load(&s->state);
-    *share = atomic_load(&s->share);
+    *fraction = atomic_load(&s->fraction);
     if (state == SAVER_IDLE)
         return state;
     snprintf(text, size, "%s", state == SAVER_FAILED ? s->error : s->path);

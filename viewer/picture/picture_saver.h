@@ -18,7 +18,7 @@ bool picture_saver_start(picture_saver *s, const mgt_scene *scene, const char *p
 
 typedef enum picture_saver_state { SAVER_IDLE, SAVER_BUSY, SAVER_SAVED, SAVER_FAILED } picture_saver_state;
 
-/* SAVED and FAILED are told once, with the path or the reason in `text`; while BUSY *share says how far it is. */
-picture_saver_state picture_saver_poll(picture_saver *s, char *text, size_t size, double *share);
+/* SAVED and FAILED are told once, with the path or the reason in `text`; while BUSY *fraction says how far it is. */
+picture_saver_state picture_saver_poll(picture_saver *s, char *text, size_t size, double *fraction);
 
 #endif

@@ -20,7 +20,7 @@ static const char *const move_choices[] = {"orbit", "fly", NULL};
 static const field_row view_fields[] =
     {{"compare", FIELD_CHOICE, offsetof(view_settings, compare), 0, NO_RANGE, NULL, .doc = "side A alone, A and B left and right of a divider, or A - B",
       .choices = compare_choices},
-     {"wipe", FIELD_NUMBER, offsetof(view_settings, wipe), 0, 0, 1, NULL, .doc = "place of the divider, as a share of the width"},
+     {"wipe", FIELD_NUMBER, offsetof(view_settings, wipe), 0, 0, 1, NULL, .doc = "place of the divider, as a fraction of the width"},
      {"difference_scale", FIELD_NUMBER, offsetof(view_settings, difference_scale), 0, 0.01, 10000, NULL, .doc = "A - B is shown times this"},
      {"layer", FIELD_CHOICE, offsetof(view_settings, layer), 0, NO_RANGE, NULL, .doc = "what is shown; all but colour in false colours",
       .choices = layer_choices},
@@ -33,7 +33,7 @@ static const field_row view_fields[] =
      {"frame", FIELD_CHOICE, offsetof(view_settings, frame), 0, NO_RANGE, NULL, .doc = "the picture fills the window, or has the scene's own size",
       .choices = frame_choices},
      {"zoom", FIELD_NUMBER, offsetof(view_settings, zoom), 0, 1, 64, NULL, .doc = "magnifies the finished pixels"},
-     {"center_x", FIELD_NUMBER, offsetof(view_settings, center_x), 0, 0, 1, NULL, .doc = "middle of what is magnified, as a share of the width"},
+     {"center_x", FIELD_NUMBER, offsetof(view_settings, center_x), 0, 0, 1, NULL, .doc = "middle of what is magnified, as a fraction of the width"},
      {"center_y", FIELD_NUMBER, offsetof(view_settings, center_y), 0, 0, 1, NULL, .doc = "the same, of the height"},
      {0}};
 

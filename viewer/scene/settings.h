@@ -11,7 +11,7 @@ typedef enum frame_mode { FRAME_FILLS = 0, FRAME_AS_SCENE } frame_mode;
 
 typedef struct view_settings {
     int compare; /* compare_mode */
-    double wipe; /* share of the width that shows A */
+    double wipe; /* fraction of the width that shows A */
     double difference_scale;
     int layer;                    /* mgt_layer */
     double near_depth, far_depth; /* metres that the ends of the palette stand for */

@@ -30,10 +30,10 @@ void wave_set_shape(mgt_wave *wave, const wave_shape *shape)
 
 mgt_wave wave_new(size_t index)
 {
-    const double golden = 0.6180339887498949, share = fmod((double)(index + 1) * golden, 1);
-    const double length = 0.5 * pow(8, share);
-    const wave_shape shape = {length, 80 * (fmod(share * 7, 1) - 0.5), sqrt(gravity * length / (2 * pi))};
-    mgt_wave wave = wave_from(0.008 * length, 0, 0, 0, 2 * pi * fmod(share * 5, 1));
+    const double golden = 0.6180339887498949, fraction = fmod((double)(index + 1) * golden, 1);
+    const double length = 0.5 * pow(8, fraction);
+    const wave_shape shape = {length, 80 * (fmod(fraction * 7, 1) - 0.5), sqrt(gravity * length / (2 * pi))};
+    mgt_wave wave = wave_from(0.008 * length, 0, 0, 0, 2 * pi * fmod(fraction * 5, 1));
     wave_set_shape(&wave, &shape);
     return wave;
 }

@@ -123,9 +123,9 @@ static void run_line(viewer *v)
 static void step_drag(viewer *v)
 {
     script *s = v->script;
-    const double share = s->drag_at <= 1 ? 0 : s->drag_at - 1 < s->drag_frames ? (double)(s->drag_at - 1) / s->drag_frames : 1;
-    const double x = (double)s->drag_from[0] + share * (double)(s->drag_to[0] - s->drag_from[0]);
-    const double y = (double)s->drag_from[1] + share * (double)(s->drag_to[1] - s->drag_from[1]);
+    const double fraction = s->drag_at <= 1 ? 0 : s->drag_at - 1 < s->drag_frames ? (double)(s->drag_at - 1) / s->drag_frames : 1;
+    const double x = (double)s->drag_from[0] + fraction * (double)(s->drag_to[0] - s->drag_from[0]);
+    const double y = (double)s->drag_from[1] + fraction * (double)(s->drag_to[1] - s->drag_from[1]);
     v->stand_in.x = (float)x;
     v->stand_in.y = (float)y;
     input_pointer(v, x, y);

@@ -271,9 +271,9 @@ function pixelAt(event) {
 
 /* Zooms about a place of the picture, which stays where it is on the stage. */
 function zoomAbout(place, factor) {
-  const zoom = Math.min(Math.max(state.zoom * factor, 1), 256), share = 1 - state.zoom / zoom;
+  const zoom = Math.min(Math.max(state.zoom * factor, 1), 256), fraction = 1 - state.zoom / zoom;
   const at = place ? [place.x / state.scene.width, place.y / state.scene.height] : state.center;
-  setView(zoom, state.center.map((c, i) => c + (at[i] - c) * share));
+  setView(zoom, state.center.map((c, i) => c + (at[i] - c) * fraction));
 }
 
 function setView(zoom, center) {
