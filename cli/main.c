@@ -37,7 +37,7 @@ static void print_help(FILE *stream)
     fputs("usage: mangata VERB [options]\n\nRenders reflections of the sun and the moon on water, anti-aliased in space and time.\n\nverbs:\n", stream);
     for (size_t i = 0; i < VERB_COUNT; i++)
         fprintf(stream, "  %-8s%s\n", verbs[i].name, verbs[i].summary);
-    fputs("\noptions:\n  --version   print the version\n  -h, --help  show this help; mangata VERB --help tells about a verb\n", stream);
+    fputs("\noptions:\n  --version   print the version\n  -h, --help  show this help; mangata VERB --help describes a verb\n", stream);
 }
 
 static int run(int argc, char **argv)

@@ -288,12 +288,12 @@ static const option waves_options[] = {
     [OPT_MODEL] = {"spectrum", 0, "NAME", "pierson-moskowitz, jonswap (default), tma, elfouhaily or buoy", .set = set_key},
     [OPT_WIND] = {"wind", 0, "SPEED", "of the wind in m/s (default 8)", .set = set_key},
     [OPT_WIND_HEIGHT] = {"wind-height", 0, "M",
-                         "height over the sea at which it blows so (default: as in the paper,\n"
+                         "height above the sea at which that holds (default: as in the paper,\n"
                          "19.5 m for pierson-moskowitz, else 10 m)",
                          .set = set_key},
     [OPT_FETCH] = {"fetch", 0, "M", "open water that the wind has crossed: jonswap, tma, elfouhaily\n(default 50000)", .set = set_key},
     [OPT_DEPTH] = {"depth", 0, "M", "of the water (default inf; tma needs one)", .set = set_key},
-    [OPT_GAMMA] = {"gamma", 0, "G", "how far the peak stands out: jonswap, tma (default 3.3)", .set = set_key},
+    [OPT_GAMMA] = {"gamma", 0, "G", "peak enhancement factor: jonswap, tma (default 3.3)", .set = set_key},
     [OPT_DIRECTION] = {"direction", 0, "DEG",
                        "where the wind comes from: 0 (default) is -z, \"north\", whose waves\n"
                        "run towards +z; 90 is +x, \"east\"",
@@ -302,8 +302,8 @@ static const option waves_options[] = {
                         "how waves spread around it: mitsuyasu, hasselmann (default),\n"
                         "donelan-banner, or fixed with --spread; elfouhaily has its own",
                         .set = set_key},
-    [OPT_SPREAD] = {"spread", 0, "S", "of cos^2s of half the angle, for --directions fixed (default 10)", .set = set_key},
-    [OPT_SLOPE] = {"slope", 0, "NAME", "of the short waves: spectrum (default), or cox-munk, the clean sea's", .set = set_key},
+    [OPT_SPREAD] = {"spread", 0, "S", "s of cos^2s of half the angle, for --directions fixed (default 10)", .set = set_key},
+    [OPT_SLOPE] = {"slope", 0, "NAME", "slope variance of the short waves: spectrum (default), or cox-munk, a clean sea's", .set = set_key},
     [OPT_SHORTEST] = {"shortest", 0, "M", "length of the shortest wave (default 0.05; buoy: the table's end)", .set = set_key},
     [OPT_COUNT] = {"count", 'n', "N", "number of waves, 1 to 512 (default 64)", .set = set_key},
     [OPT_SEED] = {"seed", 0, "N", "another seed: another sea of the same kind (default 1)", .set = set_key},

@@ -138,7 +138,7 @@ static const option compare_options[] = {
      .offset = offsetof(compare_request, reference.spatial_samples)},
     {"time-samples", 0, "M",
      "reference: samples of the open shutter (default 8), half of them\n"
-     "for each of two halves whose difference tells the noise floor",
+     "for each of two halves whose difference is the noise floor",
      .set = option_samples, .offset = offsetof(compare_request, reference.time_samples)},
     {"set", 0, "KEY=VALUE", "change a value of every scene; may be repeated", .set = option_change, .offset = offsetof(compare_request, changes)},
     {"seed", 0, "N", "seed of the methods' jitter; the reference's are N + 1, N + 2 (default 0)", .set = option_number, .offset = offsetof(compare_line, seed),

@@ -319,8 +319,8 @@ static const option diff_options[] = {
      .set = option_text, .offset = offsetof(diff_request, prepare.mask)},
     {"second-reference", 0, "B2",
      "a picture (or clip) of what B shows with noise of its own, of B's size:\n"
-     "frees the RMSE of the references' noise, for texture and specks too,\n"
-     "and tells the noise floor of every metric",
+     "takes the references' noise off the RMSE; for texture and specks too,\n"
+     "and gives the noise floor of every metric",
      .set = option_text, .offset = offsetof(diff_request, paths[2])},
 };
 

@@ -69,7 +69,7 @@ static const option figures_options[] = {
      .offset = offsetof(figures_request, reference.spatial_samples)},
     {"time-samples", 0, "M", "reference: samples of the open shutter (default 8)", .set = option_samples,
      .offset = offsetof(figures_request, reference.time_samples)},
-    {"refraction-samples", 0, "N", "the truth of refraction: NxN rays a pixel (default 4)", .set = option_samples,
+    {"refraction-samples", 0, "N", "refraction's path-traced reference: NxN rays a pixel (default 4)", .set = option_samples,
      .offset = offsetof(figures_request, refraction_samples)},
     {"scenes", 0, "DIR",
      "the folder of the standard scenes, simple.json to pool.yaml\n"

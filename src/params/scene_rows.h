@@ -51,26 +51,26 @@
     {                                                                                                                                          \
         "ior", FIELD_NUMBER, offsetof(type, index_of_refraction), 0, 1, 3, NULL, .doc = "index of refraction", .member = "index_of_refraction" \
     }
-#define WATER_COLOR_ROWS(type)                                                                         \
-    {"absorption",                                                                                     \
-     FIELD_COLOR,                                                                                      \
-     offsetof(type, absorption),                                                                       \
-     0,                                                                                                \
-     0,                                                                                                \
-     1000,                                                                                             \
-     "1/m",                                                                                            \
-     .doc = "light that a metre of water absorbs, linear sRGB; for what is seen through it"},          \
-        {"scattering",                                                                                 \
-         FIELD_COLOR,                                                                                  \
-         offsetof(type, scattering),                                                                   \
-         0,                                                                                            \
-         0,                                                                                            \
-         1000,                                                                                         \
-         "1/m",                                                                                        \
-         .doc = "light that a metre of water scatters, linear sRGB; for what is seen through it"},     \
-    {                                                                                                  \
-        "body_albedo", FIELD_COLOR, offsetof(type, body_albedo), 0, 0, 1, NULL,                        \
-            .doc = "share of the light entering the water that deep water sends up again, linear sRGB" \
+#define WATER_COLOR_ROWS(type)                                                                            \
+    {"absorption",                                                                                        \
+     FIELD_COLOR,                                                                                         \
+     offsetof(type, absorption),                                                                          \
+     0,                                                                                                   \
+     0,                                                                                                   \
+     1000,                                                                                                \
+     "1/m",                                                                                               \
+     .doc = "light that a metre of water absorbs, linear sRGB; for what is seen through it"},             \
+        {"scattering",                                                                                    \
+         FIELD_COLOR,                                                                                     \
+         offsetof(type, scattering),                                                                      \
+         0,                                                                                               \
+         0,                                                                                               \
+         1000,                                                                                            \
+         "1/m",                                                                                           \
+         .doc = "light that a metre of water scatters, linear sRGB; for what is seen through it"},        \
+    {                                                                                                     \
+        "body_albedo", FIELD_COLOR, offsetof(type, body_albedo), 0, 0, 1, NULL,                           \
+            .doc = "fraction of the light entering the water that deep water sends up again, linear sRGB" \
     }
 
 /* What a body brings along, by mgt_source; at elevation 30°, azimuth 0. */

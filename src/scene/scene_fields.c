@@ -78,7 +78,7 @@ static const field_row time_fields[] = {{"start", FIELD_NUMBER, offsetof(scene_c
                                          .doc = "frames a second; frame f shows start + f/fps"},
                                         {"frames", FIELD_COUNT, offsetof(scene_clock, frames), FIELD_NO_PIXELS, 1, 1000000, NULL, .doc = "length of the film"},
                                         {"shutter", FIELD_NUMBER, offsetof(scene_clock, shutter), 0, 0, 1000, "frames",
-                                         .doc = "how long light is gathered before a frame's time, as a share of 1/fps; 0: an instant"},
+                                         .doc = "how long light is gathered before a frame's time, as a fraction of 1/fps; 0: an instant"},
                                         {0}};
 
 static const field_row spectrum_fields[] =
@@ -90,7 +90,7 @@ static const field_row spectrum_fields[] =
      {"fetch", FIELD_NUMBER, offsetof(scene_spectrum, settings.fetch), 0, SEA_FETCH, "m",
       .doc = "stretch of open water that the wind has crossed (jonswap, tma, elfouhaily)"},
      {"depth", FIELD_NUMBER, offsetof(scene_spectrum, settings.depth), 0, SEA_DEPTH, "m", .doc = "of the water; 0: deep"},
-     {"gamma", FIELD_NUMBER, offsetof(scene_spectrum, settings.gamma), 0, SEA_GAMMA, NULL, .doc = "how far the peak stands out (jonswap, tma)"},
+     {"gamma", FIELD_NUMBER, offsetof(scene_spectrum, settings.gamma), 0, SEA_GAMMA, NULL, .doc = "peak enhancement factor (jonswap, tma)"},
      {"direction_deg", FIELD_NUMBER, offsetof(scene_spectrum, settings.direction_deg), 0, SEA_DIRECTION, "degrees",
       .doc = "where the wind comes from: 0 is -z (\"north\"), 90 is +x (\"east\")"},
      {"directions", FIELD_CHOICE, offsetof(scene_spectrum, settings.directions), 0, NO_RANGE, NULL,
@@ -204,7 +204,7 @@ static const field_row material_fields[] =
      {"pattern_color", FIELD_COLOR, LOOK(pattern_color), 0, 0, 1, NULL, .doc = "linear sRGB"},
      {"pattern_size", FIELD_SHARE, LOOK(pattern_size), 0, 1e-4, 1e6, NULL,
       .doc = "side of a tile, field or stripe in texture coordinates, which are metres on shapes"},
-     {"pattern_joint", FIELD_SHARE, LOOK(pattern_joint), 0, 0, 0.999, NULL, .doc = "width of a joint as a share of a tile"},
+     {"pattern_joint", FIELD_SHARE, LOOK(pattern_joint), 0, 0, 0.999, NULL, .doc = "width of a joint as a fraction of a tile"},
      {0}};
 
 static const char *const dry_words[] = {"false", "true", NULL};
