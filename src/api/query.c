@@ -6,6 +6,8 @@
 #include "api/validate.h"
 #include "cpu/query_lanes.h"
 #include "mangata/query.h"
+#include "params/foam.h"
+#include "reference/foam.h"
 
 /* What both questions need. */
 static mgt_status check_water(const reporter *r, const char *call, const mgt_water *water, double time)
@@ -28,7 +30,49 @@ static mgt_status check_answers(const reporter *r, const mgt_water_answers *answ
     if (answers->exact > 1 || answers->reserved)
         return report_error(r, MGT_ERROR_ARGUMENT, "query.answers", "%s is %u; allowed is %s", answers->reserved ? "reserved" : "exact",
                             answers->reserved ? answers->reserved : answers->exact, answers->reserved ? "0" : "0 or 1");
+    if (!(answers->foam_share >= 0 && (double)answers->foam_share <= MOST_FOAM))
+        return report_error(r, MGT_ERROR_ARGUMENT, "query.answers", "foam_share is %g; allowed is 0 to %g", (double)answers->foam_share, MOST_FOAM);
+    if (!(answers->foam_persistence >= 0 && answers->foam_persistence <= 60))
+        return report_error(r, MGT_ERROR_ARGUMENT, "query.answers", "foam_persistence is %g s; allowed is 0 to 60", (double)answers->foam_persistence);
     return MGT_OK;
+}
+
+/* Answers with those of points from `first` on. */
+static mgt_water_answers answers_from(const mgt_water_answers *all, size_t first)
+{
+    mgt_water_answers a = *all;
+    a.height = all->height ? all->height + first : NULL;
+    a.normal = all->normal ? all->normal + 3 * first : NULL;
+    a.velocity = all->velocity ? all->velocity + 3 * first : NULL;
+    a.jacobian = all->jacobian ? all->jacobian + first : NULL;
+    return a;
+}
+
+/* All that is asked, foam too: at the places where the water of the points rests, some points after the others. */
+static void answer_with_foam(const mgt_water *water, double time, const water_terms *terms, const double *points, size_t count, mgt_water_answers *answers)
+{
+    enum { SOME = 128 };
+    double rest[2 * SOME];
+    foam_sea sea;
+    mgt_scene scene;
+    mgt_scene_init(&scene, sizeof scene);
+    scene.water = *water;
+    scene.foam = answers->foam_share;
+    scene.foam_persistence = answers->foam_persistence;
+    const bool some = foam_sea_of(&scene, &sea);
+    size_t unsettled = 0;
+    for (size_t first = 0; first < count; first += SOME) {
+        const size_t points_left = count - first, now = points_left < SOME ? points_left : SOME;
+        mgt_water_answers part = answers_from(answers, first);
+        query_lanes().query(terms, water->level, points + 2 * first, now, &part, rest);
+        unsettled += part.unsettled;
+        for (size_t i = 0; i < now; i++) {
+            const double here = 0 * (points[2 * (first + i)] + points[2 * (first + i) + 1]); /* 0, or NaN where the point is not finite */
+            const double share = some && here == 0 ? reference_foam_at(&sea, rest[2 * i], rest[2 * i + 1], time).share : here;
+            answers->foam[first + i] = (float)share;
+        }
+    }
+    answers->unsettled = unsettled;
 }
 
 mgt_status mgt_water_query(const mgt_water *water, double time, const double *points, size_t count, mgt_water_answers *answers)
@@ -46,7 +90,10 @@ mgt_status mgt_water_query(const mgt_water *water, double time, const double *po
         return status;
     water_terms terms;
     water_terms_at(water, time, own.least_wavelength, &terms, own.covariance);
-    query_lanes().query(&terms, water->level, points, count, &own);
+    if (own.foam)
+        answer_with_foam(water, time, &terms, points, count, &own);
+    else
+        query_lanes().query(&terms, water->level, points, count, &own, NULL);
     return struct_give(&r, &water_answers_kind, &own, answers);
 }
 

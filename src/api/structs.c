@@ -24,7 +24,7 @@ static_assert(sizeof(mgt_texture_desc) == END(mgt_texture_desc, row_stride), "mg
 static_assert(sizeof(mgt_quality) == END(mgt_quality, target_displayed), "mgt_quality ends with padding");
 static_assert(sizeof(mgt_scene) == END(mgt_scene, quality), "mgt_quality grows with the scene only while it is the last in it");
 static_assert(sizeof(mgt_target) == END(mgt_target, row_stride), "mgt_target ends with padding");
-static_assert(sizeof(mgt_water_answers) == END(mgt_water_answers, unsettled), "mgt_water_answers ends with padding");
+static_assert(sizeof(mgt_water_answers) == END(mgt_water_answers, foam_persistence), "mgt_water_answers ends with padding");
 static_assert(sizeof(mgt_sea) == END(mgt_sea, swells), "mgt_sea ends with padding");
 static_assert(sizeof(mgt_gl_view) == END(mgt_gl_view, reserved), "mgt_gl_view ends with padding");
 static_assert(sizeof(mgt_gl_texture) == END(mgt_gl_texture, reserved), "mgt_gl_texture ends with padding");
@@ -62,7 +62,7 @@ const struct_kind target_kind = KIND(mgt_target, "render.target", MOST_TARGETS, 
 const struct_kind pixel_info_kind = KIND(mgt_pixel_info, "inspect.info", 1, filtered);
 const struct_kind gl_view_kind = KIND(mgt_gl_view, "render.view", MOST_TARGETS, reserved, .view = IDENTITY, .projection = IDENTITY, .view_open = IDENTITY);
 const struct_kind gl_texture_kind = KIND(mgt_gl_texture, "render.texture", MOST_TARGETS, reserved);
-const struct_kind water_answers_kind = KIND(mgt_water_answers, "query.answers", 1, covariance);
+const struct_kind water_answers_kind = KIND(mgt_water_answers, "query.answers", 1, covariance, .foam_persistence = 3);
 const struct_kind sea_kind = KIND(mgt_sea, "waves.sea", 1, swells, .spreading = MGT_SPREADING_HASSELMANN, .wind = 10, .gamma = SEA_PEAKEDNESS, .spread = 10,
                                   .count = SEA_COUNT, .seed = 1, .cox_munk = 1, .choppiness = SEA_CHOPPINESS, .foam = 1);
 const struct_kind scene_kind = KIND(mgt_scene, "render.scene", 1, quality.sample_slots, .image = {.width = 1280, .height = 720}, .camera = CAMERA,

@@ -534,7 +534,7 @@ static void write_choppy(const double at[2], const settled_point *p, double leve
     answers->unsettled += !p->settled;
 }
 
-static void query_choppy(const water_terms *terms, double level, const double *points, size_t count, mgt_water_answers *answers)
+static void query_choppy(const water_terms *terms, double level, const double *points, size_t count, mgt_water_answers *answers, double *rest)
 {
     for (size_t first = 0; first < count; first += MGT_LANES) {
         rest_group g;
@@ -553,6 +553,8 @@ static void query_choppy(const water_terms *terms, double level, const double *p
             if (finite && (terms->folds || !found[lane].settled || found[lane].least < 0.2))
                 settle_folded(terms, answers->exact, at[lane], &found[lane]);
             write_choppy(at[lane], &found[lane], level, first + (size_t)lane, answers);
+            for (size_t c = 0; c < 2 && rest; c++)
+                rest[2 * (first + (size_t)lane) + c] = finite ? found[lane].rest[c] : at[lane][c];
         }
     }
 }
@@ -576,11 +578,11 @@ static void write_point(const query_group *g, int lane, double level, size_t i, 
     }
 }
 
-void JOIN(query_lanes_, MGT_LANES)(const water_terms *terms, double level, const double *points, size_t count, mgt_water_answers *answers)
+void JOIN(query_lanes_, MGT_LANES)(const water_terms *terms, double level, const double *points, size_t count, mgt_water_answers *answers, double *rest)
 {
     answers->unsettled = 0;
     if (terms->choppy) {
-        query_choppy(terms, level, points, count, answers);
+        query_choppy(terms, level, points, count, answers, rest);
         return;
     }
     for (size_t first = 0; first < count; first += MGT_LANES) {

@@ -7,8 +7,9 @@
 
 #include "frame/water_terms.h"
 
-/* `points` as mgt_water_query() gets them; `level` metres. */
-typedef void query_function(const water_terms *terms, double level, const double *points, size_t count, mgt_water_answers *answers);
+/* `points` as mgt_water_query() gets them; `level` metres. All answers but foam. `rest` gets x and z of where the water of each point of choppy water rests; NULL:
+ * not wanted. */
+typedef void query_function(const water_terms *terms, double level, const double *points, size_t count, mgt_water_answers *answers, double *rest);
 
 /* `rays` and `distance` as mgt_water_trace() gets them. */
 typedef void trace_function(const water_terms *terms, double level, const double *rays, size_t count, double reach, double *distance);

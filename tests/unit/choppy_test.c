@@ -371,7 +371,7 @@ static void lanes_answer_alike(void **state)
             mgt_water_answers_init(&answers, sizeof answers);
             answers.exact = exact;
             answers.height = height[k];
-            (k == 0 ? query_lanes_1 : query_lanes().query)(&terms, 0, points, POINTS, &answers);
+            (k == 0 ? query_lanes_1 : query_lanes().query)(&terms, 0, points, POINTS, &answers, NULL);
         }
         assert_memory_equal(height[0], height[1], sizeof height[0]);
         assert_true(isnan(height[0][10]));

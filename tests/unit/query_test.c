@@ -160,8 +160,8 @@ static void lanes_agree(void **state)
     for (uint32_t exact = 0; exact < 2; exact++) {
         mgt_water_answers a = ask(&expected), b = ask(&got);
         a.exact = b.exact = exact;
-        query_lanes_1(&taken, water.level, points, POINTS, &a);
-        query_lanes_4(&taken, water.level, points, POINTS, &b);
+        query_lanes_1(&taken, water.level, points, POINTS, &a, NULL);
+        query_lanes_4(&taken, water.level, points, POINTS, &b, NULL);
         for (int i = 0; i < POINTS; i++)
             assert_true(fabs(got.height[i] - expected.height[i]) <= (exact ? 1e-9 : 1e-6));
 #if defined(__x86_64__)
@@ -169,7 +169,7 @@ static void lanes_agree(void **state)
         for (int i = 0; i < 2; i++)
             if (wide[i]) {
                 memset(&got, 0, sizeof got);
-                wide[i](&taken, water.level, points, POINTS, &b);
+                wide[i](&taken, water.level, points, POINTS, &b, NULL);
                 assert_memory_equal(&got, &expected, sizeof got);
             }
 #endif

@@ -197,6 +197,81 @@ static void other_versions_are_served(void **unused)
     free(scene);
 }
 
+/* Foam by the question and as it is drawn at the same points: `none` straight down. */
+static void foam_is_where_it_is_drawn(void **unused)
+{
+    (void)unused;
+    enum { SIDE = 96 };
+    static mgt_wave waves[ROOM];
+    static float drawn[SIDE * SIDE], asked[SIDE * SIDE];
+    static double rays[SIDE * SIDE][6], distance[SIDE * SIDE], points[SIDE * SIDE][2];
+    mgt_sea sea = sea_now();
+    sea.wind = 16;
+    mgt_scene scene;
+    mgt_scene_init(&scene, sizeof scene);
+    assert_int_equal(mgt_sea_scene(&sea, waves, ROOM, &scene), MGT_OK);
+    scene.image = (mgt_image){.width = SIDE, .height = SIDE};
+    scene.camera = (mgt_camera){.position = {500, 40, -300}, .target = {500, 0, -300}, .up = {0, 0, -1}, .fov_y_deg = 60};
+    scene.time = 7;
+    scene.quality.method = MGT_METHOD_NONE;
+    mgt_context_desc desc;
+    mgt_context_desc_init(&desc, sizeof desc);
+    mgt_context *context = NULL;
+    assert_int_equal(mgt_context_create(&context, &desc), MGT_OK);
+    mgt_target target;
+    mgt_target_init(&target, sizeof target);
+    target.layer = MGT_LAYER_FOAM;
+    target.format = MGT_FORMAT_R32F;
+    target.pixels = drawn;
+    assert_int_equal(mgt_render(context, &scene, &target, 1), MGT_OK);
+    mgt_context_destroy(context);
+
+    const double pixel = 2 * tan(30 * 3.14159265358979323846 / 180) / SIDE;
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        const double ray[6] = {500, 40, -300, (i % SIDE + 0.5 - SIDE / 2) * pixel, -1, (i / SIDE + 0.5 - SIDE / 2) * pixel};
+        memcpy(rays[i], ray, sizeof ray);
+    }
+    assert_int_equal(mgt_water_trace(&scene.water, scene.time, rays[0], SIDE * SIDE, 100, distance), MGT_OK);
+    for (int i = 0; i < SIDE * SIDE; i++)
+        for (int c = 0; c < 2; c++)
+            points[i][c] = rays[i][2 * c] + distance[i] * rays[i][3 + 2 * c];
+    mgt_water_answers answers;
+    mgt_water_answers_init(&answers, sizeof answers);
+    answers.exact = 1;
+    answers.foam = asked;
+    answers.foam_share = scene.foam;
+    assert_int_equal(mgt_water_query(&scene.water, scene.time, points[0], SIDE * SIDE, &answers), MGT_OK);
+    double mean = 0;
+    int off = 0;
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        mean += (double)asked[i] / (SIDE * SIDE);
+        off += fabsf(asked[i] - drawn[i]) > 0.01f;
+    }
+    assert_true(mean > 0.01 && mean < 0.2);
+    if (off > SIDE * SIDE / 1000) /* edges of fresh foam are steps */
+        fail_msg("%d of %d points are off", off, SIDE * SIDE);
+
+    /* Some points at a time, without choppiness, without a share, and from no number. */
+    float some[3], height[3];
+    memset(height, 0, sizeof height);
+    answers.foam = some;
+    assert_int_equal(mgt_water_query(&scene.water, scene.time, points[4000], 3, &answers), MGT_OK);
+    assert_memory_equal(some, asked + 4000, sizeof some);
+    answers.foam_share = 0;
+    assert_int_equal(mgt_water_query(&scene.water, scene.time, points[0], 3, &answers), MGT_OK);
+    assert_memory_equal(some, height, sizeof some);
+    answers.foam_share = 0.1f;
+    scene.water.choppiness = 0;
+    points[1][0] = (double)NAN;
+    assert_int_equal(mgt_water_query(&scene.water, scene.time, points[0], 3, &answers), MGT_OK);
+    assert_true(some[0] == 0 && isnan(some[1]) && some[2] == 0);
+    answers.foam_share = 0.6f;
+    assert_int_equal(mgt_water_query(&scene.water, scene.time, points[0], 3, &answers), MGT_ERROR_ARGUMENT);
+    answers.foam_share = 0.1f;
+    answers.foam_persistence = (float)NAN;
+    assert_int_equal(mgt_water_query(&scene.water, scene.time, points[0], 3, &answers), MGT_ERROR_ARGUMENT);
+}
+
 static void names_go_both_ways(void **unused)
 {
     (void)unused;
@@ -212,8 +287,8 @@ static void names_go_both_ways(void **unused)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(seas_are_those_of_files), cmocka_unit_test(every_wind_makes_a_sea),
-                                       cmocka_unit_test(bad_seas_are_refused), cmocka_unit_test(other_versions_are_served),
-                                       cmocka_unit_test(names_go_both_ways)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(seas_are_those_of_files),   cmocka_unit_test(every_wind_makes_a_sea),
+                                       cmocka_unit_test(bad_seas_are_refused),      cmocka_unit_test(other_versions_are_served),
+                                       cmocka_unit_test(foam_is_where_it_is_drawn), cmocka_unit_test(names_go_both_ways)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
