@@ -25,7 +25,8 @@ void scene_values_write_out_sea(scene_values *values)
     water->sea = (scene_list){0};
     free(water->spectrum.file);
     const scene_values defaults = scene_values_defaults();
-    values->sky.aerial = scene_values_aerial(values) ? AERIAL_ON : AERIAL_OFF;
+    if (scene_values_aerial(values))
+        values->sky.aerial = AERIAL_ON; /* the wind that says so goes */
     water->foam.share = scene_water_foam(water);
     water->foam.amount = 0;
     water->spectrum = defaults.water.spectrum;
