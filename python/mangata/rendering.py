@@ -155,12 +155,12 @@ def render(
     scene    a Scene, a dictionary, or the path of a scene file
     method   "mangata", "podee-pixel", "ssaa4", "reference", …; None: the scene's
     layers   "color" float32 (h, w, 3), radiance in kcd/m², linear sRGB; "display" uint8 (h, w, 4), what a screen shows; "normal", "refraction" float32 (h, w, 3);
-             "coverage", "mask", "foam" float32 (h, w), shares; "depth" float32 (h, w), metres along the ray, inf where no water; "samples", …
+             "coverage", "mask", "foam" float32 (h, w), fractions of the pixel; "depth" float32 (h, w), metres along the ray, inf where no water; "samples", …
     frame    from 0; its time is start + frame / fps
     size     (width, height) in pixels; crop: (x, y, width, height) of it
     changes  values of the scene: {"light.elevation_deg": 6}
     out      arrays to render into, by layer, in place of new ones
-    progress called with the share done several times a second; returning False stops with Cancelled, an exception passes through
+    progress called with the fraction done several times a second; returning False stops with Cancelled, an exception passes through
     options  those of the method: samples=16, spatial=8, time_samples=8, seed=1, kernels="9", refraction="hybrid", …
 
     The same scene, frame and options give the same numbers, whatever the threads. Errors: SceneError with file, line, column; MangataError.
