@@ -6,19 +6,23 @@
 #include "mangata/mangata.h"
 #include "params/field.h"
 
-extern const char *const adaptive_names[],
-    *const backend_names[], *const body_names[], *const format_names[], *const gl_color_names[],
-                                                                            *const isa_names[], *const kernels_names[],
-                                                                                                    *const layer_names[],
-                                                                                                        *const log_level_names[],
-                                                                                                            *const method_waves_names[],
-                                                                                                                *const pattern_names[],
-                                                                                                                    *const refraction_names[],
-                                                                                                                        *const sky_model_names[],
-                                                                                                                            *const spectrum_names[],
-                                                                                                                                *const spreading_names[],
-                                                                                                                                    *const status_names[],
-                                                                                                                                        *const tone_map_names[];
+extern const char *const adaptive_names[];
+extern const char *const backend_names[];
+extern const char *const body_names[];
+extern const char *const format_names[];
+extern const char *const gl_color_names[];
+extern const char *const isa_names[];
+extern const char *const kernels_names[];
+extern const char *const layer_names[];
+extern const char *const log_level_names[];
+extern const char *const method_waves_names[];
+extern const char *const pattern_names[];
+extern const char *const refraction_names[];
+extern const char *const sky_model_names[];
+extern const char *const spectrum_names[];
+extern const char *const spreading_names[];
+extern const char *const status_names[];
+extern const char *const tone_map_names[];
 
 /* Newer names that are read as well. */
 extern const name_alias refraction_aliases[];
