@@ -101,16 +101,8 @@ static double square_at(double x) { return ((long long)floor(x) & 1) == 0 ? 1 : 
 
 static double pattern_at(int kind, double joint, double u, double v)
 {
-    switch (kind) {
-    case 1:
-        return 1 - tile_at(u, joint) * tile_at(v, joint);
-    case 2:
-        return 0.5 * (1 - square_at(u) * square_at(v));
-    case 3:
-        return 0.5 * (1 - square_at(u));
-    default:
-        return 0;
-    }
+    const double tiles = 1 - tile_at(u, joint) * tile_at(v, joint), checks = 0.5 * (1 - square_at(u) * square_at(v)), stripes = 0.5 * (1 - square_at(u));
+    return kind == 1 ? tiles : kind == 2 ? checks : kind == 3 ? stripes : 0;
 }
 
 static void patterns_are_box_means(void **state)
