@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Spectra: plain tables, and what buoys' owners publish.
+ * Wave spectra: plain tables, and files in the formats of buoy networks.
  */
 #include <math.h>
 
@@ -17,10 +17,10 @@ static void read_table(const char *text, size_t length)
         return;
     }
     for (int i = 0; i < 8; i++) {
-        fuzz_require(isfinite(spectrum_table_density(&table, 0.3 * i)) && spectrum_table_density(&table, 0.3 * i) >= 0, "a density is none");
-        fuzz_require(spectrum_table_at(&table, 0.3 * i, 0.9 * i) >= 0, "a density is none");
+        fuzz_require(isfinite(spectrum_table_density(&table, 0.3 * i)) && spectrum_table_density(&table, 0.3 * i) >= 0, "a density is negative or not finite");
+        fuzz_require(spectrum_table_at(&table, 0.3 * i, 0.9 * i) >= 0, "a density is negative or not a number");
     }
-    fuzz_require(isfinite(spectrum_table_mean_azimuth(&table)), "a mean direction is none");
+    fuzz_require(isfinite(spectrum_table_mean_azimuth(&table)), "the mean direction is not finite");
     spectrum_table_free(&table);
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Command lines: words, one a line, read by a table with the options that verbs share; and the same words as frames, paths and methods.
+ * Command lines: words, one a line, read by a table of the options that verbs share, and each word as frames, a path and a method.
  */
 #include "cli/common/frames.h"
 #include "cli/common/method_spec.h"

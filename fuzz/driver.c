@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Runs a fuzz target where the compiler has no libFuzzer: its seeds, then so many inputs made from them, the same ones every time.
+ * Runs a fuzz target where the compiler has no libFuzzer: its seeds, then RUNS (2000) inputs made from them, the same ones every time.
  *
  *     fuzz_TARGET FOLDER [RUNS [SEED]]
  */
@@ -106,7 +106,7 @@ static void mutate(random_state *r, const seeds *s, uint8_t *bytes, size_t *size
     }
 }
 
-/* In memory of exactly its size, so that a sanitizer sees each byte beyond. */
+/* Copies the input to memory of exactly its size, so that a sanitizer sees each byte read beyond it. */
 static void run(const uint8_t *bytes, size_t size)
 {
     uint8_t *copy = malloc(size > 0 ? size : 1);
@@ -144,6 +144,6 @@ int main(int argc, char **argv)
     unlink("last_input");
     for (size_t i = 0; i < s.count; i++)
         free(s.items[i].bytes);
-    printf("%zu seeds and %lu inputs from them: none does harm\n", s.count, runs);
+    printf("%zu seeds and %lu inputs from them: no failure\n", s.count, runs);
     return 0;
 }

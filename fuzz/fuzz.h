@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * What the fuzz targets share. Each is one function that gets the bytes of an input and must neither crash, leak nor hang; what it finds wrong beyond that it
- * says by fuzz_require().
+ * Functions that the fuzz targets share. A target is one function that gets the bytes of an input and must neither crash, leak nor hang; fuzz_require() checks
+ * whatever else must hold.
  */
 #ifndef MANGATA_FUZZ_FUZZ_H
 #define MANGATA_FUZZ_FUZZ_H
@@ -16,7 +16,7 @@
 /* Called by libFuzzer, or by driver.c where there is none. */
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size);
 
-/* Ends the process, which the fuzzer reports with its input, where `good` is false. */
+/* Where `good` is false, ends the process, which the fuzzer reports with the input. */
 static inline void fuzz_require(bool good, const char *what)
 {
     if (good)
