@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* SIGINT, SIGTERM and SIGHUP: at once while files are read, then as a flag, so that work stops at a clean place. */
+/* SIGINT, SIGTERM and SIGHUP end the process at once while files are read; later they set a flag, so that work stops at a clean place. */
 #ifndef MANGATA_CLI_COMMON_INTERRUPT_H
 #define MANGATA_CLI_COMMON_INTERRUPT_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What an EXR of a render holds beside its layers: how it is packed, alpha, planar depth, its place, its camera. */
+/* Packing, alpha, planar depth, crop and camera of an EXR. */
 #ifndef MANGATA_CLI_RENDER_RENDER_EXR_H
 #define MANGATA_CLI_RENDER_RENDER_EXR_H
 
@@ -26,10 +26,10 @@ void exr_choice_write(FILE *stream, const exr_choice *choice);
 /* How the picture of the scene is packed and described. `fps` frames a second. */
 exr_desc exr_desc_of(const exr_choice *choice, const mgt_scene *scene, double fps);
 
-/* Metres along the rays of the crop's `count` pixels become metres along the direction of view; infinities stay. */
+/* Turns the crop's depths from metres along each ray into metres along the direction of view; infinities stay. */
 void exr_planar_depth(float *depth, const mgt_scene *scene);
 
-/* Linear sRGB becomes ACEScg, 3 floats a pixel. */
+/* Turns linear sRGB into ACEScg, 3 floats a pixel. */
 void exr_to_acescg(float *color, size_t pixels);
 
 #endif

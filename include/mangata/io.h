@@ -22,7 +22,7 @@ typedef enum mgt_io_status {
 typedef struct mgt_io_error {
     size_t struct_size;
     uint32_t line, column; /* from 1; 0: no place in a file */
-    char file[1024];       /* "" where none is to blame; cut short where it is longer */
+    char file[1024];       /* "": the error is of no file; a longer name is cut short */
     char text[1024];       /* one line of UTF-8: what is wrong, what is allowed; without the place */
 } mgt_io_error;
 
@@ -58,7 +58,7 @@ MGT_API mgt_io_status mgt_scene_file_frame(const mgt_scene_file *file, uint32_t 
 MGT_API uint32_t mgt_scene_file_frame_count(const mgt_scene_file *file); /* ≥ 1 */
 MGT_API double mgt_scene_file_fps(const mgt_scene_file *file);           /* > 0 */
 
-/* What is legal and yet hardly meant: one line, "" where there is none. Lives as long as the file. */
+/* A warning about values that are legal but probably a mistake: one line, "" where there is none. Lives as long as the file. */
 MGT_API const char *mgt_scene_file_warning(const mgt_scene_file *file);
 
 /* ---- pictures ------------------------------------------------------------------------------------------- */

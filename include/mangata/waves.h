@@ -54,7 +54,7 @@ typedef struct mgt_sea {
     uint32_t seed;           /* another one: another sea of the same kind */
     uint32_t cox_munk;    /* 1: short waves are scaled to the mean-square slope of a clean sea in this wind (Cox and Munk 1954); 0: as the spectrum has them */
     float choppiness;     /* for mgt_sea_scene(): of the water, [0, 1] */
-    float foam;           /* the same: whitecaps over those that the wind makes at sea, 3.84e-6 U^3.41 of the water, [0, 10] */
+    float foam;           /* for mgt_sea_scene(): whitecaps as a multiple of those of the wind at sea, 3.84e-6 U^3.41 of the water, [0, 10] */
     uint32_t swell_count; /* 0 … 16 */
     const mgt_swell *swells; /* swell_count of them, the caller's, read during the call; NULL where there are none */
 } mgt_sea;
@@ -62,10 +62,10 @@ typedef struct mgt_sea {
 /* A deep, fully developed sea in a wind of 10 m/s from north: 160 waves, choppiness 0.7, foam 1, no swell; what `water: {wind: 10}` makes. */
 MGT_API void mgt_sea_init(mgt_sea *sea, size_t size);
 
-/* One metre high, of 12 s, from north, spread 40: 24 waves. */
+/* A swell one metre high, period 12 s, from north, spread 40, of 24 waves. */
 MGT_API void mgt_swell_init(mgt_swell *swell);
 
-/* Waves that the sea has: those of the wind and of all swells. 0 where `sea` is NULL or its struct_size is no version's. */
+/* Number of waves of the wind and of all swells together. 0 where `sea` is NULL or its struct_size is no version's. */
 MGT_API size_t mgt_sea_wave_count(const mgt_sea *sea);
 
 /* Writes mgt_sea_wave_count() waves to `waves`, which has room for `capacity`: those of the wind from the longest to the shortest, then those of each swell.
@@ -74,8 +74,8 @@ MGT_API size_t mgt_sea_wave_count(const mgt_sea *sea);
  * MGT_ERROR_MEMORY. mgt_last_error(NULL) has the words, and nothing has been written. */
 MGT_API mgt_status mgt_sea_waves(const mgt_sea *sea, mgt_wave *waves, size_t capacity);
 
-/* The same, and gives the scene that water: its waves, which must stay where they are while the scene is used, choppiness, foam, and the air before it. The scene
- * renders as one of a file with water.wind does. */
+/* Writes the waves as mgt_sea_waves() does and sets the scene's waves, choppiness, foam and aerial perspective, so that it renders as a scene file with water.wind
+ * does. The scene points to `waves`, which must stay in place while it is used. Errors as above; *scene is then unchanged. */
 MGT_API mgt_status mgt_sea_scene(const mgt_sea *sea, mgt_wave *waves, size_t capacity, mgt_scene *scene);
 
 MGT_API const char *mgt_spectrum_name(mgt_spectrum spectrum);

@@ -37,7 +37,7 @@ static mgt_status check_answers(const reporter *r, const mgt_water_answers *answ
     return MGT_OK;
 }
 
-/* Answers with those of points from `first` on. */
+/* The answers' pointers moved on to the point `first`. */
 static mgt_water_answers answers_from(const mgt_water_answers *all, size_t first)
 {
     mgt_water_answers a = *all;
@@ -48,7 +48,7 @@ static mgt_water_answers answers_from(const mgt_water_answers *all, size_t first
     return a;
 }
 
-/* All that is asked, foam too: at the places where the water of the points rests, some points after the others. */
+/* Answers with foam, which belongs to the place where the water of a point rests; in blocks, so that these places fit on the stack. */
 static void answer_with_foam(const mgt_water *water, double time, const water_terms *terms, const double *points, size_t count, mgt_water_answers *answers)
 {
     enum { SOME = 128 };

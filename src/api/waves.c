@@ -9,9 +9,9 @@
 #include "api/structs.h"
 #include "api/validate.h"
 #include "params/foam.h"
-#include "sea/sea_rows.h"
 #include "params/waves.h"
 #include "sea/sea.h"
+#include "sea/sea_rows.h"
 #include "sea/spectrum_sample.h"
 #include "sea/spectrum_swell.h"
 
@@ -69,7 +69,7 @@ static mgt_status take_sea(const reporter *r, const mgt_sea *theirs, mgt_sea *ow
     return status;
 }
 
-/* Into memory of the library's own, so that a failure writes nothing. */
+/* Into memory of the library's own first, so that a failure writes nothing. */
 static mgt_status draw(const reporter *r, const mgt_sea *sea, mgt_wave *waves)
 {
     wave_spectrum spectrum;

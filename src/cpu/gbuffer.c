@@ -202,7 +202,7 @@ static void draw_tile(void *argument, size_t index, uint32_t worker)
     }
 }
 
-/* What is known of the refracted layer after it was drawn: where it is empty. */
+/* Notes which tiles of the refracted layer are empty, and the rectangle that holds the others. */
 static void bound_layer(const draw_job *job)
 {
     gbuffers *g = job->out;

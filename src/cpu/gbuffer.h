@@ -24,9 +24,9 @@ typedef struct gbuffers {
     RefractData refract; /* what the kernels' true_point() and virtual_point() need */
     gbuffer_counts counts;
     uint64_t drawn;              /* how often */
-    const uint8_t *empty;        /* of the refracted layer's tiles of RASTER_TILE pixels a side, row by row: 1: shows nothing. Three bytes more may be read */
-    int32_t columns;             /* of tiles */
-    float within[4];             /* columns from … to and rows from … to of a rectangle of pixels that holds all that it shows */
+    const uint8_t *empty;        /* refracted layer: 1 for each tile of RASTER_TILE² pixels that shows nothing, row by row; readable three bytes beyond */
+    int32_t columns;             /* tiles in a row */
+    float within[4];             /* refracted layer: first and last column, first and last row of the pixels that may show something */
     struct gbuffer_store *store; /* its own: memory and what the layers were drawn from */
 } gbuffers;
 

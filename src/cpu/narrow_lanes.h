@@ -11,8 +11,8 @@ typedef struct narrow_scene {
     NarrowData data;
     RefractData refract;
     const gbuffer *layers[2];        /* beyond the surface, and as the surface mirrors it; all of one shape */
-    const gbuffers *drawn[2];        /* that they are the refracted layers of */
-    const uint8_t *breaks[2];        /* two-phase, hybrid: front_kernels.breaks of those that are asked */
+    const gbuffers *drawn[2];        /* the drawn scenes whose refracted layers these are */
+    const uint8_t *breaks[2];        /* two-phase, hybrid: front_kernels.breaks of these layers */
     const float *planes;             /* of the world's triangles: unit normal, and its product with a point of the triangle */
     SearchWave waves[MGT_MAX_WAVES]; /* data.waves of them */
 } narrow_scene;
@@ -42,11 +42,11 @@ typedef struct tile_ends {
     float spread[3][TILE_PIXELS]; /* the footprint, as in shade_hits */
     float terms[9][TILE_PIXELS];  /* Spread, for another `after`; two-phase, hybrid: where there is doubt */
     float gain[TILE_PIXELS];      /* as in shade_hits */
-    float error[TILE_PIXELS];     /* pixels; +inf: nothing is known */
+    float error[TILE_PIXELS];     /* pixels; +inf: unknown */
     float total[TILE_PIXELS];     /* 1 where the surface lets nothing through */
     float doubt[TILE_PIXELS];     /* two-phase, hybrid: 1 where the pictures do not certify the answer, else 0 */
-    int32_t pixel[TILE_PIXELS];   /* of the layer, whose answer it is; −1: none's */
-    int32_t last[TILE_PIXELS];    /* two-phase, hybrid: the one that shows what is infinitely far along the ray; −1: none */
+    int32_t pixel[TILE_PIXELS];   /* index in the layer of the pixel that gave the answer; −1: none */
+    int32_t last[TILE_PIXELS];    /* two-phase, hybrid: index of the pixel at which a point infinitely far along the ray is seen; −1: none */
 } tile_ends;
 
 /* Pixel 0 of the tile within the image, and the place in every pixel that rays go through, from its centre. */

@@ -57,8 +57,8 @@ typedef struct surface_ray {
     double from[3], direction[3]; /* in the world's coordinates */
     double nearest;               /* metres, +inf: nowhere */
     int32_t met;                  /* triangle there, −1: none */
-    bool lost;                    /* triangles are so small that a surface could not be followed to its end */
-    bool open;                    /* one of the places that were asked shows nothing */
+    bool lost;                    /* following a surface ended after SURFACE_STEPS triangles */
+    bool open;                    /* a pixel that was asked shows nothing */
     int count;
     int32_t visited[KNOWN_FACETS]; /* triangles that it came by */
 } surface_ray;
@@ -170,7 +170,7 @@ static void follow_between(surface_ray *s, const gbuffer *g, size_t first, size_
     }
 }
 
-/* Those that pixels all around one show: what the nearer ones hide goes on behind it. */
+/* Follows the surfaces that pixels around this one show: a surface that a nearer one hides here may be seen beside it. */
 static void follow_around(surface_ray *s, const gbuffer *g, size_t pixel)
 {
     for (int k = 0; k < AROUND_PLACES; k++) {
@@ -181,7 +181,8 @@ static void follow_around(surface_ray *s, const gbuffer *g, size_t pixel)
     }
 }
 
-/* All that may tell of a ray whose search did not arrive. What is mirrored ends where its picture ends: nothing that is shown there means nothing. */
+/* Follows the surfaces along the image of a ray whose search did not converge, then those around it. An empty pixel of the mirrored layer does not set `open`:
+ * that picture may end before the scene does. */
 static void follow_lost(surface_ray *s, const gbuffer *g, size_t element, int32_t pixel, int32_t last, bool mirrored)
 {
     const bool open = s->open;

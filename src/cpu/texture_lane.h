@@ -33,7 +33,7 @@ typedef int few_whole __attribute__((vector_size(4 * DOUBLE_LANES)));
 #define DOUBLES_WHERE(m, x) ((doubles)((double_mask)(m) & (double_mask)(x)))
 #endif
 
-/* Of |x| < 2^51. */
+/* The greatest whole number that is not above x; |x| < 2^51. */
 static inline doubles doubles_floor(doubles x)
 {
     static const double whole_from = 6755399441055744.0; /* 1.5 · 2^52: to its sum with this, numbers are rounded to whole ones */

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * The air between an eye over the sea and what it sees, as the table that air.k reads.
+ * Aerial perspective above the sea: transmittance and in-scattered light between the eye and a point, as the table that air.k reads.
  *
- * The way is straight through the round atmosphere of the sky, from the eye's height at the fall with which it would meet a flat sea, and ends after its
- * length. A way without end has the light of the sky at the horizon and leaves nothing, so that the far sea has no edge before the sky.
+ * A path runs straight through the sky's round atmosphere, from the eye's height, at the angle at which it would meet a flat sea at its length. At infinity
+ * the light is that of the sky at the horizon and the transmittance is 0, so that the far sea has no edge before the sky.
  */
 #ifndef MANGATA_FRAME_AIR_H
 #define MANGATA_FRAME_AIR_H
@@ -24,8 +24,8 @@ typedef struct air_view {
 /* FRAME(cx).air_rate: extinction at 540 nm, the mean from the sea to the eye, 1/metre. */
 double air_rate(const scattering *air, double height);
 
-/* What a way of so many metres leaves of light (NULL: not wanted) and sends along itself, kcd/m², where cos_azimuth is the cosine between its horizontal
- * direction and the light's. `ray` is room to work in. */
+/* Transmittance (`leaves`, NULL: not wanted) and in-scattered light (kcd/m²) of a path of `distance` metres. cos_azimuth: cosine between the path's
+ * horizontal direction and the light's. `ray` is scratch memory. */
 void air_along(const scattering *air, const spectrum_weights *weights, const air_view *view, double distance, double cos_azimuth, scattering_ray *ray,
                double leaves[3], double light[3]);
 

@@ -24,10 +24,10 @@ typedef struct sky_state {
     double irradiance_sky[3]; /* on the horizontal, from the table */
     double exposure_ev;       /* automatic exposure: the picture is radiance · 2^exposure_ev before the tone map */
 
-    double air_height; /* the eye's, of which the rows of air are; < 0: they are of none */
-    double air_rate;   /* see air.h */
+    double air_height; /* height of the eye that the rows of air were filled for, metres; < 0: not filled */
+    double air_rate;   /* FRAME(cx).air_rate, see air.h */
 
-    struct scattering *air; /* of the model atmosphere; else NULL */
+    struct scattering *air; /* MGT_SKY_ATMOSPHERE; NULL: another model */
     struct scattering_ray *ray;
 
     float table[SKY_TABLE_ROWS * SKY_COLUMNS * 3]; /* rows from the horizon up, no disk in it; then those of air.h */

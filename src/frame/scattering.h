@@ -30,13 +30,13 @@ scattering_ray *scattering_ray_create(void);
 void scattering_ray_destroy(scattering_ray *ray);
 void scattering_ray_aim(const scattering *air, double sin_elevation, scattering_ray *ray);
 
-/* A way through the air that begins at this height and ends after this length, both in kilometres; the sine of its elevation is any. */
+/* Aims at a path that begins at this height and ends after this length, both in kilometres. `sine` of its elevation: −1 … 1. */
 void scattering_ray_aim_through(const scattering *air, double height, double sine, double length, scattering_ray *ray);
 
-/* Of the whole ray. */
+/* Transmittance of the whole ray. */
 void scattering_ray_transmittance(const scattering_ray *ray, double transmittance[SPECTRUM_BANDS]);
 
-/* Extinction at 540 nm, its mean from the sea to a height in kilometres, 1/km. */
+/* Mean extinction at 540 nm from the sea to a height in kilometres, 1/km. */
 double scattering_extinction(const scattering *air, double height);
 
 /* Radiance along the ray per unit of irradiance outside the atmosphere (on a plane facing the light), 1/sr, per band.

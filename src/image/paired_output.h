@@ -10,7 +10,7 @@
 typedef struct paired_output {
     output_file *file;    /* written by the caller */
     output_file *sidecar; /* already written but for the picture's checksum; NULL without metadata */
-    uint64_t check_place; /* of that in the sidecar */
+    uint64_t check_place; /* offset of the checksum in the sidecar, bytes */
     char *stale_sidecar;  /* with overwrite: an older sidecar to remove before the new picture appears */
 } paired_output;
 

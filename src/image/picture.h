@@ -45,7 +45,8 @@ file_status picture_write_exr(const char *path, uint32_t width, uint32_t height,
 
 typedef enum exr_packing { EXR_PACKING_ZIP = 0, EXR_PACKING_PIZ, EXR_PACKING_NONE } exr_packing;
 
-/* How an EXR is packed and what it says of its pixels in the format's own attributes. All zero: ZIP, 32 bits, the pixels are the whole picture, none. */
+/* How an EXR is packed and what it says of its pixels in the format's own attributes. All zero: ZIP, 32 bits,
+ * pixels that are the whole picture, no attributes. */
 typedef struct exr_desc {
     exr_packing packing;
     bool half;                              /* 16 bits; finite values beyond ±65504 become these */

@@ -5,7 +5,7 @@
 #ifndef MANGATA_REFERENCE_AIR_H
 #define MANGATA_REFERENCE_AIR_H
 
-/* A way, lengths in kilometres. */
+/* A path; lengths in kilometres. */
 typedef struct reference_way {
     double turbidity;
     double height; /* where it begins, over the sea */
@@ -13,13 +13,13 @@ typedef struct reference_way {
     double length;
 } reference_way;
 
-/* Share of light of this wavelength that the way leaves. */
+/* Transmittance of the path at this wavelength. */
 double reference_air_leaves(const reference_way *way, double nanometres);
 
-/* What a place sends along the way per kilometre: `height` km over the sea, `distance` km along the way, whose elevation there has this sine. */
+/* Light scattered along the path per kilometre, `height` km over the sea and `distance` km along the path, whose elevation there has this sine. */
 typedef double reference_source(const void *user, double height, double sine, double distance);
 
-/* ∫ leaves · source along the way. */
+/* ∫ transmittance · source along the path. */
 double reference_air_light(const reference_way *way, double nanometres, reference_source *source, const void *user);
 
 #endif

@@ -51,7 +51,7 @@ LayerPixel LAYER(int cx, int layer, float column, float row)
     return LayerPixel(inverse > 0.0f ? objects_data.least_depth / inverse : INFINITE, plane.xyz, plane.w);
 }
 
-/* Nothing is known but the pictures. */
+/* OpenGL keeps no bounds of the mirrored layer: any rectangle may show something. */
 #define MIRRORED_WITHIN(cx, a, b) true
 
 ivec3 triangle_corners(int triangle)

@@ -38,15 +38,15 @@ bool is_doubtful(FoundPoint f, int layer)
     return f.column >= 0.0f && point_is_doubtful(0, f.residual, breaks_off(layer, ivec2(int(f.column), int(f.row))));
 }
 
-/* What a ray meets of the surfaces that pixels show. */
+/* A ray, and its nearest hit among the surfaces that the pixels asked so far show. */
 struct ShownSurfaces {
     vec3 from, direction;
-    int met;     /* triangle, −1: none */
-    float along; /* INFINITE: none */
-    int asked;   /* triangle of the pixel before */
-    bool lost;   /* triangles are so small that a surface could not be followed to its end … */
-    bool unsure; /* … that of the answer */
-    bool open;   /* one of the pixels shows nothing */
+    int met;     /* triangle of the hit; −1: none */
+    float along; /* distance of the hit along the ray; INFINITE: none */
+    int asked;   /* triangle of the last pixel asked */
+    bool lost;   /* following a surface ended after SURFACE_STEPS triangles */
+    bool unsure; /* the same for the surface that the answer's pixel shows */
+    bool open;   /* a pixel that was asked shows nothing */
 };
 
 ShownSurfaces follow_shown(ShownSurfaces s, int layer, ivec2 at, int answer)

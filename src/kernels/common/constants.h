@@ -96,8 +96,8 @@
 #define EDGE_PLACES 8          /* of a pixel, that look for objects at edges */
 #define EDGE_RAYS 4            /* of a pixel at an outline behind the surface, besides that through its centre */
 #define SURFACE_STEPS 128      /* triangles that a ray goes through to find its own */
-#define SHARP_PLACES 16        /* of a ray's way over a layer, that are asked where a search did not arrive … */
-#define AROUND_PLACES 24       /* … and around it, where they do not tell either */
+#define SHARP_PLACES 16        /* pixels along a ray's image in a layer that are asked where the search did not converge */
+#define AROUND_PLACES 24       /* pixels around the search's last one that are asked where the ray met nothing at those */
 #define IN_DRY_HULL (-1.0f)    /* metres of water before a hit inside a dry hull: light reaches it as in air */
 #define FRONT_SHOWS 0.5f       /* share of a pixel from which on objects in front of the water are what depth and normal show */
 #define TRACE_START (1 - 2e-6) /* of the way to the surface, where rays begin: rounding must not put them behind a wall that stands in the water */
