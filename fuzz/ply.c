@@ -12,7 +12,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
     scene_model model = {0};
     bool good = ply_parse(&mesh, (const char *)bytes, size, "fuzz.ply", &fault);
     for (size_t i = 0; good && i < 3 * mesh.triangle_count; i++)
-        fuzz_require(mesh.indices[i] < mesh.vertex_count, "a triangle refers to a vertex that there is not");
+        fuzz_require(mesh.indices[i] < mesh.vertex_count, "a triangle refers to a vertex that does not exist");
     good = good && model_of_mesh(&model, &mesh, "fuzz.ply", size % 2 == 1, &fault);
     if (!good)
         fuzz_require_message(fault.text);

@@ -130,7 +130,7 @@ bool gltf_check_buffer(gltf_reader *g, const json_value *value, size_t index)
     buffer->length = (uint64_t)length;
     buffer->uri = json_text_get(&g->json, value, "uri");
     if (buffer->uri != NULL && buffer->uri->kind != JSON_STRING)
-        return gltf_refuse(g, buffer->uri, "%s.uri is no string; allowed: one", where);
+        return gltf_refuse(g, buffer->uri, "%s.uri is not a string; allowed: a string", where);
     if (buffer->uri == NULL && (index != 0 || g->chunk == NULL))
         return gltf_refuse(g, value, "%s.uri is missing; allowed: a file's name or a data: URI", where);
     if (buffer->uri != NULL && !room_of(g, buffer, where, &room))
@@ -141,7 +141,7 @@ bool gltf_check_buffer(gltf_reader *g, const json_value *value, size_t index)
     if (buffer->path != NULL) {
         g->weight += room;
         if ((double)g->weight > MAX_BUFFER_BYTES)
-            return gltf_refuse(g, value, "with %s the file and its buffers are larger than 8 GiB; allowed: at most that", where);
+            return gltf_refuse(g, value, "with %s the file and its buffers are larger than 8 GiB; allowed: at most 8 GiB", where);
     }
     return true;
 }
@@ -163,7 +163,7 @@ bool gltf_check_view(gltf_reader *g, const json_value *value, size_t index)
     view->offset = (uint64_t)offset;
     view->length = (uint64_t)length;
     return view->offset + view->length <= g->buffers[view->buffer].length ||
-           gltf_refuse(g, value, "%s ends %llu bytes behind the start of buffers[%zu], which has %llu; allowed: what lies in it", where,
+           gltf_refuse(g, value, "%s ends %llu bytes behind the start of buffers[%zu], which has %llu; allowed: bytes inside it", where,
                        (unsigned long long)(view->offset + view->length), view->buffer, (unsigned long long)g->buffers[view->buffer].length);
 }
 

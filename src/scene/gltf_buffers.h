@@ -32,8 +32,8 @@ typedef struct gltf_list {
 typedef struct gltf_buffer {
     uint64_t length;
     const json_value *uri; /* NULL: the chunk of a .glb */
-    char *path;            /* owned, of a file beside the document; NULL: inside it */
-    char *bytes;           /* owned, of what had to be read; NULL: not yet */
+    char *path;            /* owned; a file beside the document; NULL: the buffer is inside the document */
+    char *bytes;           /* owned; NULL: not read yet */
 } gltf_buffer;
 
 typedef struct gltf_view {
@@ -52,7 +52,7 @@ typedef struct gltf_reader {
     const char *path;
     bool binary;
     model_fault *fault;
-    const char *chunk; /* of a .glb's bytes; NULL: none */
+    const char *chunk; /* the binary chunk of a .glb; NULL: none */
     uint64_t chunk_length;
     uint64_t weight;    /* bytes of the file and its buffers */
     uint64_t zeros;     /* bytes of accessors without a view */
@@ -61,8 +61,8 @@ typedef struct gltf_reader {
     gltf_buffer *buffers;
     gltf_view *views;
     gltf_accessor *accessors;
-    uint32_t *parents; /* of each node, from 1; 0: none */
-    uint8_t *roots;    /* of each node: a mark of the last scene that names it */
+    uint32_t *parents; /* parent of each node, counted from 1; 0: none */
+    uint8_t *roots;    /* of each node: mark of the last scene that lists it as a root */
 } gltf_reader;
 
 /* "FILE:LINE:COLUMN: …" of a value; NULL: of no place in the text. Both return false. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * The glTF 2.0 specification's own rules (Khronos, sections 3.6 and 4.4), as far as a reader's safety hangs on them. Animations, skins and cameras, which a
+ * The glTF 2.0 specification's own rules (Khronos, sections 3.6 and 4.4), as far as the safety of reading depends on them. Animations, skins and cameras, which a
  * scene does not use, are looked at only for what refers to accessors.
  */
 #include "scene/gltf_check.h"
@@ -66,7 +66,7 @@ static bool check_numbers(gltf_reader *g, const json_value *object, const char *
     bool good = list == NULL || list->count == count;
     for (const json_value *v = json_text_first(&g->json, list); v != NULL; v = json_text_next(&g->json, v))
         good &= v->kind == JSON_NUMBER;
-    return good || gltf_refuse(g, list, "%s.%s is no list of %u numbers; allowed: that", where, key, count);
+    return good || gltf_refuse(g, list, "%s.%s is not a list of %u numbers; allowed: %u finite numbers", where, key, count, count);
 }
 
 /* The list of that name at the top, with all its items objects. */
@@ -78,7 +78,7 @@ static bool take_items(gltf_reader *g, const char *name, gltf_list *out)
     *out = (gltf_list){.name = name, .list = list, .count = list != NULL ? list->count : 0};
     for (const json_value *v = json_text_first(&g->json, list); v != NULL; v = json_text_next(&g->json, v))
         if (v->kind != JSON_OBJECT)
-            return gltf_refuse(g, v, "%s holds something that is no object; allowed: objects", name);
+            return gltf_refuse(g, v, "%s holds a value that is not an object; allowed: objects", name);
     return true;
 }
 
@@ -99,7 +99,7 @@ static bool check_span(gltf_reader *g, const json_value *at, const char *where, 
 {
     const double end = offset + stride * (count - 1) + size, room = (double)g->views[view].length;
     return end <= room ||
-           gltf_refuse(g, at, "%s ends %.17g bytes behind the start of bufferViews[%ld], which has %.17g; allowed: what lies in it", where, end, view, room);
+           gltf_refuse(g, at, "%s ends %.17g bytes behind the start of bufferViews[%ld], which has %.17g; allowed: bytes inside it", where, end, view, room);
 }
 
 /* The indices say which elements are replaced: they are read, as those that lie outside would be written outside. */
@@ -209,7 +209,7 @@ static bool check_primitive(gltf_reader *g, const json_value *p, const char *whe
     double mode;
     uint64_t vertices = 0;
     if (p->kind != JSON_OBJECT)
-        return gltf_refuse(g, p, "%s is no object; allowed: one", where);
+        return gltf_refuse(g, p, "%s is not an object; allowed: an object", where);
     if (!take_kind(g, p, where, "attributes", JSON_OBJECT, true, &attributes) || !take_whole(g, p, where, "mode", 0, 6, 4, &mode) ||
         !take_index(g, p, where, "indices", "accessors", g->lists[GLTF_ACCESSORS].count, false, &indices) ||
         !take_index(g, p, where, "material", "materials", g->lists[GLTF_MATERIALS].count, false, &material) ||
@@ -375,7 +375,7 @@ static bool check_version(gltf_reader *g)
     const json_value *asset, *version;
     const json_value *root = &g->json.values[0];
     if (root->kind != JSON_OBJECT)
-        return gltf_refuse(g, root, "is no JSON object; allowed: a glTF 2.0 document");
+        return gltf_refuse(g, root, "is not a JSON object; allowed: a glTF 2.0 document");
     if (!take_kind(g, root, "document", "asset", JSON_OBJECT, true, &asset) || !take_kind(g, asset, "asset", "version", JSON_STRING, true, &version))
         return false;
     return (version->length == 3 && memcmp(g->json.text + version->at, "2.", 2) == 0) ||
@@ -429,7 +429,7 @@ static uint32_t word_at(const char *bytes)
 static bool find_chunks(gltf_reader *g, const char *bytes, size_t length, const char **text, size_t *text_length)
 {
     if (length < 20 || word_at(bytes) != GLB_MAGIC)
-        return gltf_refuse(g, NULL, "is no binary glTF; allowed: one that begins with \"glTF\", a version and a length");
+        return gltf_refuse(g, NULL, "is not binary glTF; allowed: a file that begins with \"glTF\", a version and a length");
     if (word_at(bytes + 4) != 2)
         return gltf_refuse(g, NULL, "is binary glTF of version %u; allowed: 2", word_at(bytes + 4));
     if (word_at(bytes + 8) != length)

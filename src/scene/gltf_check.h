@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * What a glTF 2.0 file says of itself, compared with what there is, before anything else reads it.
+ * Validation of glTF 2.0 files before anything else reads them.
  */
 #ifndef MANGATA_SCENE_GLTF_CHECK_H
 #define MANGATA_SCENE_GLTF_CHECK_H

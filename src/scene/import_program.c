@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
  * mangata-import: reads one glTF or OBJ file with assimp (Open Asset Import) and writes what a scene needs of it to standard output, as model_wire.h says.
- * Programs start it for each such file, so that neither a crash of assimp nor its hunger is theirs. It limits itself, and it ends with who started it.
+ * Programs start it for each such file, so that a crash of assimp or its use of memory does not end them. It limits itself, and ends with the process that
+ * started it.
  *
  *     mangata-import FILE PARENT MEGABYTES SECONDS
  */
@@ -258,7 +259,7 @@ static const char *visit(const struct aiScene *scene, const struct aiNode *node,
         for (int j = 0; j < 4; j++) {
             part.transform[i][j] = above[i][0] * own[0][j] + above[i][1] * own[1][j] + above[i][2] * own[2][j] + (j == 3 ? above[i][3] : 0);
             if (!isfinite(part.transform[i][j]))
-                return "places a mesh at what is not a number";
+                return "places a mesh at a position that is not a number";
         }
     for (unsigned i = 0; i < node->mNumMeshes; i++) {
         if (scene->mMeshes[node->mMeshes[i]]->mNumFaces == 0 || triangles_of(scene->mMeshes[node->mMeshes[i]]) == 0)

@@ -67,7 +67,7 @@ static bool read_string(json_reader *r, uint32_t *at, uint32_t *length)
             break;
         if (c == '\\') {
             if (escaped(r->json->text + r->at + 1, r->json->length - r->at - 1, &taken) < 0)
-                return fails(r, "an escape in a string is none of JSON's");
+                return fails(r, "an escape in a string is not valid in JSON");
             r->at += taken;
         }
         r->at++;
@@ -185,7 +185,7 @@ static bool read_word(json_reader *r, const char *word)
 {
     const size_t length = strlen(word);
     if (r->json->length - r->at < length || memcmp(r->json->text + r->at, word, length) != 0)
-        return fails(r, "a value is none of JSON's");
+        return fails(r, "a value is not valid in JSON");
     r->at += length;
     return true;
 }
@@ -230,7 +230,7 @@ bool json_text_parse(json_text *json, const char *text, size_t length)
     if (!read_value(&r, (json_value){0}, 0, &root))
         return false;
     skip_space(&r);
-    return r.at == length || fails(&r, "something stands behind the document");
+    return r.at == length || fails(&r, "text follows the document");
 }
 
 void json_text_free(json_text *json)

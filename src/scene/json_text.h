@@ -17,7 +17,7 @@ typedef struct json_value json_value;
 struct json_value {
     json_kind kind;
     uint32_t at, length;
-    uint32_t key_at, key_length; /* of an object's member, as it is written */
+    uint32_t key_at, key_length; /* the key as written, for a member of an object */
     uint32_t first, next;        /* indices of a child and a sibling; 0: none */
     uint32_t count;              /* children */
     double number;
@@ -29,7 +29,7 @@ typedef struct json_text {
     json_value *values; /* owned; the first is the document's own */
     size_t count, room;
     scene_place fault_place; /* where the document is wrong */
-    const char *fault_what;  /* and how; NULL: memory ran out */
+    const char *fault_what;  /* what is wrong there; NULL: memory ran out */
 } json_text;
 
 /* Reads a document; false with the fault filled. To be freed with json_text_free() in any case. `text` must outlive it. */

@@ -68,7 +68,7 @@ static const void *take(model_reader *r, size_t size)
     const size_t filled = (size + 7) / 8 * 8;
     const char *at = r->at;
     if (size > (size_t)(r->end - at) || filled > (size_t)(r->end - at)) {
-        refuse(r->fault, r->path, "mangata-import has written something that is cut short");
+        refuse(r->fault, r->path, "the output of mangata-import is cut short");
         return NULL;
     }
     r->at += filled;
@@ -78,7 +78,7 @@ static const void *take(model_reader *r, size_t size)
 static bool take_pictures(model_reader *r)
 {
     if (r->header.picture_count > (size_t)(r->end - r->at) / sizeof(wire_picture))
-        return refuse(r->fault, r->path, "mangata-import has written something that is cut short");
+        return refuse(r->fault, r->path, "the output of mangata-import is cut short");
     r->pictures = calloc((size_t)r->header.picture_count + 1, sizeof *r->pictures);
     if (r->pictures == NULL)
         return model_fault_memory(r->fault);
@@ -148,7 +148,7 @@ static bool read_material(model_reader *r, const wire_material *m, mgt_material 
     if (m->picture == WIRE_NONE)
         return true;
     if (m->picture >= r->header.picture_count)
-        return refuse(r->fault, r->path, "mangata-import has written a picture's number that is none");
+        return refuse(r->fault, r->path, "mangata-import names a picture that does not exist");
     out->texture = read_texture(r, r->pictures[m->picture]);
     return out->texture != NULL;
 }
@@ -157,7 +157,7 @@ static bool read_materials(model_reader *r)
 {
     const uint32_t count = r->header.material_count;
     if (count > (size_t)(r->end - r->at) / sizeof(wire_material))
-        return refuse(r->fault, r->path, "mangata-import has written something that is cut short");
+        return refuse(r->fault, r->path, "the output of mangata-import is cut short");
     r->materials = calloc((size_t)count + 1, sizeof *r->materials);
     if (r->materials == NULL)
         return model_fault_memory(r->fault);
@@ -190,7 +190,7 @@ static bool complete(const model_reader *r, mesh_data *mesh, const float *texcoo
     }
     for (size_t i = 0; i < 3 * mesh->triangle_count; i++)
         if (mesh->indices[i] >= mesh->vertex_count)
-            return refuse(r->fault, r->path, "a triangle refers to a vertex that there is not");
+            return refuse(r->fault, r->path, "a triangle refers to a vertex that does not exist");
     return has_normals || r->format != FORMAT_OBJ || mesh_data_smooth(mesh) || model_fault_memory(r->fault);
 }
 
@@ -253,7 +253,7 @@ static bool read_meshes(model_reader *r)
 {
     const uint32_t count = r->header.mesh_count;
     if (count > (size_t)(r->end - r->at) / sizeof(wire_mesh))
-        return refuse(r->fault, r->path, "mangata-import has written something that is cut short");
+        return refuse(r->fault, r->path, "the output of mangata-import is cut short");
     r->meshes = calloc((size_t)count + 1, sizeof *r->meshes);
     r->model->meshes = calloc((size_t)count + 1, sizeof(mgt_mesh *));
     if (r->meshes == NULL || r->model->meshes == NULL)
@@ -291,7 +291,7 @@ static bool read_parts(model_reader *r)
             return false;
         const read_mesh *mesh = in->mesh < r->header.mesh_count ? &r->meshes[in->mesh] : NULL;
         if (mesh == NULL || mesh->positions == NULL || mesh->head.material >= r->header.material_count)
-            return refuse(r->fault, r->path, "mangata-import has written a mesh's or a material's number that is none");
+            return refuse(r->fault, r->path, "mangata-import names a mesh or a material that does not exist");
         model_part *part = &model->parts[model->part_count++];
         *part = (model_part){.mesh = model->meshes[mesh->of_model], .material = r->materials[mesh->head.material]};
         memcpy(part->transform, in->transform, sizeof part->transform);

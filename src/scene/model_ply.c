@@ -253,7 +253,7 @@ static bool read_list(ply_reader *r, const ply_property *p)
         if (p->role != ROLE_INDICES)
             continue;
         if (!(value >= 0 && value < (double)r->mesh.vertex_count))
-            return refuse(r, "a face refers to a vertex that there is not");
+            return refuse(r, "a face refers to a vertex that does not exist");
         const uint32_t index = (uint32_t)value;
         if (i == 0)
             first = index;

@@ -37,7 +37,7 @@ typedef struct wire_picture {
 } wire_picture;
 
 typedef struct wire_material {
-    uint32_t plain;     /* assimp's own, of what has none: the rest does not count */
+    uint32_t plain;     /* 1: assimp's default, for meshes without a material; the other members are not set */
     uint32_t has_color; /* base_color counts */
     float base_color[3];
     float shininess, roughness, metallic; /* NaN: not given */

@@ -104,7 +104,7 @@ static bool check_corner(obj_reader *r, const char *word, size_t length)
             return refuse(r, word, "is no corner of a face", "numbers as 1, 1/2, 1//3 or 1/2/3");
         if (!empty && (index == 0 || index > (back ? r->counts[kind] : r->totals[kind]))) {
             char what[96];
-            snprintf(what, sizeof what, "a face refers to %s that there are not", kinds[kind].name);
+            snprintf(what, sizeof what, "a face refers to %s that do not exist", kinds[kind].name);
             return refuse(r, start, what, "a number from 1, or from -1 backwards");
         }
         if (at == end)
@@ -156,7 +156,7 @@ bool obj_check(const char *path, const char *bytes, size_t length, model_fault *
     obj_reader r = {.path = path, .bytes = bytes, .end = bytes + length, .fault = fault};
     const char *zero = memchr(bytes, '\0', length);
     if (zero != NULL)
-        return refuse(&r, zero, "a byte is zero: this is no text", "a text in ASCII or UTF-8");
+        return refuse(&r, zero, "a byte is zero: the file is not text", "a text in ASCII or UTF-8");
     if (!read_lines(&r, false))
         return false;
     memcpy(r.totals, r.counts, sizeof r.totals);
