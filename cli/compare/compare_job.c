@@ -350,7 +350,7 @@ int compare_shard_done(const compare_job *job)
         json_pack("{s:{s:o, s:I, s:I}}", "run", "folder", console_json_text(r->folder), "rendered", (json_int_t)job->rendered, "kept", (json_int_t)job->kept));
 }
 
-/* What follows when the pictures are there. */
+/* Times, measures and writes the reports, once all pictures are drawn. */
 static int finish_report(compare_job *job)
 {
     int code = compare_time_methods(job);

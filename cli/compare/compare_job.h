@@ -96,7 +96,7 @@ bool compare_number_scene(const compare_scene *scene, size_t picture, uint32_t n
 int compare_file_failure(compare_job *job, const file_error *error);
 int compare_stopped(compare_job *job);
 
-/* Says that a shard's pictures are there; returns EXIT_CODE_OK. */
+/* Reports that a shard's pictures are drawn; returns EXIT_CODE_OK. */
 int compare_shard_done(const compare_job *job);
 
 /* Replaces a file whole; returns the exit code. */

@@ -41,7 +41,7 @@ typedef struct compare_request {
     mgt_quality reference;
     bool halved; /* the reference is the mean of two halves with seeds of their own, of half as many time samples each, which must be even */
     frame_list frames;
-    work_shard shard;              /* of all pictures; given, they are drawn and nothing is measured */
+    work_shard shard;              /* part of all pictures; with a count, they are drawn and nothing is measured */
     mgt_layer layers[LAYER_COUNT]; /* that pictures keep besides colour and coverage */
     size_t layer_count;
     uint32_t metrics;  /* set of clip_metric */

@@ -152,7 +152,7 @@ static const option render_options[] = {
      .set = add_layer},
     {"exr", 0, "WORDS",
      ".exr: half (16 bits), piz or none (for ZIP), alpha (channel A, the\n"
-     "share of water), z (channel Z, metres along the view), acescg",
+     "fraction of water), z (channel Z, metres along the view), acescg",
      .set = option_exr, .offset = offsetof(render_request, exr)},
     {"codec", 0, "NAME", "films: h264 (default of .mp4), hevc (10 bits), prores (422 HQ, default\nof .mov)", .set = set_codec},
     {"crf", 0, "N", "films: quality of h264 and hevc, 0 (best) to 51 (default 16)", .set = set_crf},
@@ -175,9 +175,10 @@ static const option_table render_table = {"render",
                                           "Renders frames of a scene into pictures or a film.",
                                           render_options,
                                           sizeof render_options / sizeof render_options[0],
-                                          .notes = "The same scene, frame and options give the same bytes, whatever the threads and the machine.\n"
-                                                   "exit codes: 0 done, 1 failed, 64 usage, 65 bad scene, 66 no such input, 69 not available,\n"
-                                                   "73 cannot write, 75 try again (a device was lost, no thread to be had), 130 and 143 stopped by a signal",
+                                          .notes =
+                                              "The same scene, frame and options give the same bytes, whatever the threads and the machine.\n"
+                                              "exit codes: 0 done, 1 failed, 64 usage, 65 bad scene, 66 no such input, 69 not available,\n"
+                                              "73 cannot write, 75 try again (a device was lost, no thread could be started), 130 and 143 stopped by a signal",
                                           .operand = {.set = option_one_scene, .offset = offsetof(render_request, scene_path)},
                                           .quality = offsetof(render_request, options),
                                           .changes = offsetof(render_request, changes),

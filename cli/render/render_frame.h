@@ -9,7 +9,7 @@
 typedef struct frame_buffer {
     uint32_t width, height; /* of the crop */
     bool displayed;         /* one layer that becomes 8-bit RGBA */
-    size_t count;           /* layers asked for, then those that alpha and planar depth are made of */
+    size_t count;           /* layers asked for, then those from which alpha and planar depth are made */
     mgt_target targets[LAYER_COUNT];
     float *planar; /* planar depth; NULL: not asked for */
 } frame_buffer;

@@ -136,13 +136,13 @@ static int check_frames(render_job *job)
     return EXIT_CODE_OK;
 }
 
-/* What is to be done about one file. */
+/* Whether and how one output file is written. */
 typedef struct output_plan {
-    bool skip;             /* it is there already as these options would make it */
-    output_options output; /* else: how it may be written; with overwrite where it is damaged */
+    bool skip;             /* the file exists as these options would make it */
+    output_options output; /* otherwise; overwrites a damaged file */
 } output_plan;
 
-/* Whether `path` is there already, or may be written; else the error. It is read with --skip-existing only, to its end where `whole` says so. */
+/* Fills the plan for `path`; prints an error if it may not be written. Only --skip-existing reads the file, and only with `whole` to its end. */
 static int check_output(render_job *job, const char *path, const sha256_text *hash, bool whole, output_plan *plan)
 {
     file_error error;
@@ -159,7 +159,7 @@ static int check_output(render_job *job, const char *path, const sha256_text *ha
             plan->output.overwrite = true;
             if (whole) {
                 progress_clear(&job->progress);
-                console_note(&job->request->out, "%s: it is damaged and rendered again", path);
+                console_note(&job->request->out, "%s: damaged; it is rendered again", path);
             }
         } else if (status != FILE_MISSING && !job->request->overwrite) {
             progress_clear(&job->progress);

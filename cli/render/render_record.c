@@ -62,7 +62,7 @@ bool render_hash(const render_request *request, const char *canonical, const mgt
     fprintf(stream, "arithmetic %s\nformat %s\nlayers", arithmetic_word(info), format_word(request->format));
     for (size_t i = 0; i < request->layer_count; i++)
         fprintf(stream, " %s", mgt_layer_name(request->layers[i]));
-    /* What stands where it always stood adds nothing, so that older files are kept. */
+    /* A whole picture adds no line, so that the hash of older files stays the same. */
     if (request->format == PICTURE_EXR) {
         if (image->crop_x || image->crop_y || image->crop_width != image->width || image->crop_height != image->height)
             fputs("\ncrop in its place", stream);

@@ -84,7 +84,7 @@ flip() { # FILE BYTE
     printf "\\$(printf %03o $((byte ^ 16)))" | dd of="$1" bs=1 seek="$2" conv=notrunc status=none
 }
 again() { # FILE WHAT
-    expect 0 "$1: it is damaged and rendered again" render "$simple" -o "$1" --frames 0 "${small[@]}" "${null[@]}" --skip-existing
+    expect 0 "$1: damaged; it is rendered again" render "$simple" -o "$1" --frames 0 "${small[@]}" "${null[@]}" --skip-existing
     same "$1" "whole.$1"
     expect 0 'nothing to render' render "$simple" -o "$1" --frames 0 "${small[@]}" "${null[@]}" --skip-existing
 }
