@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Whether a file is as it was written: PNG has checksums of its own, the others record the CRC-32 of the file (ISO 3309, as in PNG and zip) beside their
- * metadata: FILE_CHECK_KEY, 8 hexadecimal digits; EXR inside the file, of which those digits count as zeros, PFM, y4m and mp4 in the sidecar. */
+/* Whether a file is as it was written. PNG has checksums of its own. The others record the file's CRC-32 (ISO 3309, as in PNG and zip) as 8 hexadecimal digits
+ * under FILE_CHECK_KEY: EXR inside the file, whose digits there count as zeros; PFM, y4m, mp4 and mov in the sidecar. */
 #ifndef MANGATA_IMAGE_FILE_WHOLE_H
 #define MANGATA_IMAGE_FILE_WHOLE_H
 
@@ -11,20 +11,20 @@
 #include "image/output_file.h"
 
 #define FILE_CHECK_KEY "file_crc32"
-/* As long as a checksum; what stands in its place while a file is written. */
+/* Placeholder of a checksum while a file is written; as long as one. */
 #define FILE_CHECK_NONE "00000000"
 
-/* What a file is to somebody who would write it. */
+/* An existing file compared with the one that would be written. */
 typedef enum file_state {
     FILE_STATE_OTHER,   /* it records another value, or nothing */
     FILE_STATE_SAME,    /* it records this value and is as it was written */
     FILE_STATE_DAMAGED, /* it is empty, or begins as its format does and is cut short or changed */
 } file_state;
 
-/* What the file at `path` is where it should record `value` for `key`. With `whole` all its bytes are read. FILE_MISSING, FILE_MEMORY, or FILE_OK. */
+/* The state of the file at `path`, which should record `value` for `key`. With `whole` all its bytes are read. FILE_MISSING, FILE_MEMORY, or FILE_OK. */
 file_status file_state_read(const char *path, const char *key, const char *value, bool whole, file_state *state, file_error *error);
 
-/* The checksum of a file that is written, as text; `size` bytes of it. FILE_WRITE where it cannot be read. */
+/* The checksum, as text, of the first `size` bytes of a file that has been written. FILE_WRITE: it cannot be read back. */
 file_status file_check_of(int descriptor, uint64_t size, const char *path, char digits[9], file_error *error);
 
 /* Writes a finished EXR's own checksum into its header, where FILE_CHECK_NONE stands. Nothing happens where it has none. */

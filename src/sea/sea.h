@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT
  *
- * What seas of wind and swell have in common, whether a file or a program describes them.
+ * Ranges, defaults and spectra of seas of wind and swell, shared by scene files and the public interface.
  */
 #ifndef MANGATA_SEA_SEA_H
 #define MANGATA_SEA_SEA_H
 
 #include "sea/spectrum_model.h"
 
-/* Ranges of their values. */
+/* Least and greatest value of each member. */
 #define SEA_WIND 0.5, 75
 #define SEA_WIND_HEIGHT 0, 200
 #define SEA_DIRECTION -1e6, 1e6
@@ -22,7 +22,7 @@
 
 enum { SEA_SWELLS = 16 }; /* at most */
 
-/* What a sea has where nothing else is said. */
+/* Defaults. */
 #define SEA_COUNT 160
 #define SEA_CHOPPINESS 0.7f
 #define SEA_PEAKEDNESS 3.3 /* gamma */
@@ -34,11 +34,10 @@ enum { SEA_SWELLS = 16 }; /* at most */
  * developed. */
 spectrum_settings sea_of_wind(double wind, double direction_deg, double fetch, double depth);
 
-/* A spectrum from settings, its tail bent where they say so. False with *fault filled, its key NULL where memory runs
- * out. */
+/* A spectrum from settings, with its tail scaled to Cox and Munk's slopes if they ask for it. False with *fault filled; fault->key is NULL if memory runs out. */
 bool sea_spectrum_make(wave_spectrum *out, const spectrum_settings *settings, const spectrum_table *table, spectrum_fault *fault);
 
-/* Swells of one seed, and a wind sea of the same, do not share their random numbers. */
+/* The seed of swell `index`: swells and wind waves of one seed must not share random numbers. */
 uint32_t swell_seed(uint32_t seed, size_t index);
 
 #endif

@@ -20,7 +20,7 @@ typedef struct spectrum_point {
 } spectrum_point;
 
 typedef struct spectrum_table {
-    spectrum_row *rows; /* owned, as the points */
+    spectrum_row *rows; /* owned, as is `points` */
     size_t row_count;
     spectrum_point *points;
     size_t point_count;

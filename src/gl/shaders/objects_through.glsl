@@ -68,9 +68,9 @@ ShownSurfaces follow_shown(ShownSurfaces s, int layer, ivec2 at, int answer)
     return s;
 }
 
-/* The pixel of an outcome that is in doubt is not enough: the ray meets the surfaces that it and its neighbours show, and the nearest one counts; where the
- * search did not arrive, also those that the layer shows on the straight line from where the ray meets the water to what is infinitely far along it,
- * and around. What is mirrored ends where its picture ends: nothing that is shown there means nothing. */
+/* An answer in doubt is decided by the nearest surface that the ray meets among those that its pixel and the neighbours show. Where the search did not converge,
+ * the surfaces along the ray's image in the layer count as well, then those around its pixel. An empty pixel of the mirrored layer does not set `open`: that
+ * picture may end before the scene does. */
 RayEnd sharpened(RayEnd end, WaterHit hit, int layer, FoundPoint f)
 {
     ivec2 at = ivec2(int(f.column), int(f.row));
