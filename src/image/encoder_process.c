@@ -8,7 +8,6 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
-#include <spawn.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -20,9 +19,8 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "base/child_process.h"
 #include "image/picture.h"
-
-extern char **environ;
 
 enum { WAIT_STEP_MS = 100, FIXED_ARGUMENTS = 96 };
 
@@ -154,42 +152,6 @@ static argument_list encoder_arguments(const encoder_desc *desc)
     return list;
 }
 
-/* posix_spawn with our socket as stdin, the memory file as stderr, signals back to their defaults. 0 or an errno. */
-static int spawn(pid_t *pid, const char *program, char *const *arguments, int input, int messages)
-{
-    posix_spawn_file_actions_t actions;
-    posix_spawnattr_t attributes;
-    sigset_t none, all;
-    sigemptyset(&none);
-    sigfillset(&all);
-    int code = posix_spawn_file_actions_init(&actions);
-    if (code)
-        return code;
-    code = posix_spawnattr_init(&attributes);
-    if (code) {
-        posix_spawn_file_actions_destroy(&actions);
-        return code;
-    }
-    code = posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
-    if (!code)
-        code = posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    if (!code)
-        code = posix_spawn_file_actions_adddup2(&actions, messages, STDERR_FILENO);
-    if (!code)
-        code = posix_spawnattr_setpgroup(&attributes, 0);
-    if (!code)
-        code = posix_spawnattr_setsigmask(&attributes, &none);
-    if (!code)
-        code = posix_spawnattr_setsigdefault(&attributes, &all);
-    if (!code)
-        code = posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-    if (!code)
-        code = posix_spawn(pid, program, &actions, &attributes, arguments, environ);
-    posix_spawnattr_destroy(&attributes);
-    posix_spawn_file_actions_destroy(&actions);
-    return code;
-}
-
 file_status encoder_process_start(encoder_process **result, const encoder_desc *desc, file_error *error)
 {
     *result = NULL;
@@ -217,9 +179,9 @@ file_status encoder_process_start(encoder_process **result, const encoder_desc *
         status = file_error_errno(error, FILE_WRITE, desc->path, "cannot start ffmpeg", errno);
         goto fail;
     }
-    int code = spawn(&process->pid, program, arguments.items, ends[1], process->messages);
+    const child_descriptors descriptors = {.standard = {ends[1], -1, process->messages}, .extra = -1};
+    const int code = child_process_start(&process->pid, program, arguments.items, &descriptors, true);
     if (code) {
-        process->pid = 0;
         status = file_error_errno(error, FILE_UNAVAILABLE, desc->path, "cannot start ffmpeg", code);
         goto fail;
     }

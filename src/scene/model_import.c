@@ -9,7 +9,6 @@
 #include <limits.h>
 #include <poll.h>
 #include <signal.h>
-#include <spawn.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
@@ -18,9 +17,8 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "base/child_process.h"
 #include "scene/model_wire.h"
-
-extern char **environ;
 
 enum { BASE_MEGABYTES = 256, PER_BYTE = 160, BASE_SECONDS = 4, SECONDS_PER_MEGABYTE = 2, WALL_PER_SECOND = 10, WALL_SECONDS = 30 };
 
@@ -74,45 +72,7 @@ typedef struct import_process {
     int status; /* as waitpid() gives it; -1: someone else has it */
 } import_process;
 
-static int spawn(import_process *p, const char *program, char *const *arguments, int life)
-{
-    posix_spawn_file_actions_t actions;
-    posix_spawnattr_t attributes;
-    sigset_t none, all;
-    sigemptyset(&none);
-    sigfillset(&all);
-    int code = posix_spawn_file_actions_init(&actions);
-    if (code != 0)
-        return code;
-    code = posix_spawnattr_init(&attributes);
-    if (code != 0) {
-        posix_spawn_file_actions_destroy(&actions);
-        return code;
-    }
-    if (code == 0)
-        code = posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    if (code == 0)
-        code = posix_spawn_file_actions_adddup2(&actions, p->output, STDOUT_FILENO);
-    if (code == 0)
-        code = posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-    if (code == 0)
-        code = posix_spawn_file_actions_adddup2(&actions, life, WIRE_LIFE);
-    if (code == 0)
-        code = posix_spawnattr_setsigmask(&attributes, &none);
-    if (code == 0)
-        code = posix_spawnattr_setsigdefault(&attributes, &all);
-    if (code == 0)
-        code = posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-    if (code == 0)
-        code = posix_spawn(&p->pid, program, &actions, &attributes, arguments, environ);
-    if (code != 0)
-        p->pid = 0;
-    posix_spawnattr_destroy(&attributes);
-    posix_spawn_file_actions_destroy(&actions);
-    return code;
-}
-
-/* Above the three that the child's own take the places of. */
+/* Moves a descriptor above those that the child's own descriptors replace. */
 static bool raise_descriptor(int *descriptor)
 {
     const int high = *descriptor >= 0 && *descriptor <= WIRE_LIFE ? fcntl(*descriptor, F_DUPFD_CLOEXEC, WIRE_LIFE + 1) : *descriptor;
@@ -219,7 +179,8 @@ bool model_import_run(model_import *out, const char *path, uint64_t weight, mode
         refuse(fault, path, "cannot be read without the program mangata-import, which is neither beside this program nor in " MGT_LIBEXEC);
         goto done;
     }
-    const int code = spawn(&p, program, arguments, ends[1]);
+    const child_descriptors descriptors = {.standard = {-1, p.output, -1}, .extra = ends[1], .extra_place = WIRE_LIFE};
+    const int code = child_process_start(&p.pid, program, arguments, &descriptors, false);
     if (code == EAGAIN || code == ENOMEM) {
         model_fault_memory(fault);
         goto done;
