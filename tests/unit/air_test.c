@@ -21,18 +21,7 @@
 static double double_exp(double x) { return exp(x); }
 static double double_sqrt(double x) { return sqrt(x); }
 
-#pragma GCC diagnostic ignored "-Wunused-parameter" /* the dialect hands cx to every function */
-#define MGT_LANES 1
-#include "kernels/common/prelude_c.h"
-
-#define FRAME(cx) (*(cx)->frame)
-#define SKY_TEXEL(cx, column, row) sky_texel(cx, column, row)
-
-KERNEL vec3 sky_texel(CTX cx, real column, real row)
-{
-    const float *t = cx->sky + ((size_t)row * SKY_COLUMNS + (size_t)column) * 3;
-    return vec3(t[0], t[1], t[2]);
-}
+#include "unit/sky_lane.h"
 
 #include "kernels/sky/air.k"
 

@@ -13,17 +13,9 @@
 
 #include "image/metrics_clip.h"
 #include "image/metrics_texture.h"
+#include "unit/wrapped_memory.h"
 
 static long calls, fail_at, outstanding; /* fail_at: number of the call that fails, from 1; 0: none */
-
-void *__real_malloc(size_t size);
-void *__real_calloc(size_t count, size_t size);
-void *__real_realloc(void *memory, size_t size);
-void __real_free(void *memory);
-void *__wrap_malloc(size_t size);
-void *__wrap_calloc(size_t count, size_t size);
-void *__wrap_realloc(void *memory, size_t size);
-void __wrap_free(void *memory);
 
 static void *counted(void *memory)
 {

@@ -7,6 +7,7 @@
 
 #include "image/picture.h"
 #include "scene/scene_edit.h"
+#include "unit/wrapped_memory.h"
 
 enum { LIVE = 1 << 14 };
 
@@ -16,15 +17,6 @@ static struct {
     void *live[LIVE];
     size_t count;
 } heap;
-
-void *__real_malloc(size_t size);
-void *__real_calloc(size_t count, size_t size);
-void *__real_realloc(void *memory, size_t size);
-void __real_free(void *memory);
-void *__wrap_malloc(size_t size);
-void *__wrap_calloc(size_t count, size_t size);
-void *__wrap_realloc(void *memory, size_t size);
-void __wrap_free(void *memory);
 
 static void *noted(void *memory)
 {
