@@ -7,7 +7,7 @@
 #include "params/field.h"
 
 mgt_status validate_desc(const reporter *r, const mgt_context_desc *desc);
-/* A struct against its rows; `path` is its name and a point. */
+/* Checks a struct against its rows. `path`: its name and a dot, such as "scene.". */
 mgt_status validate_rows(const reporter *r, const char *path, const field_row *fields, const void *values);
 
 mgt_status validate_waves(const reporter *r, const mgt_water *water);

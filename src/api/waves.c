@@ -49,7 +49,7 @@ static size_t wave_count(const mgt_sea *sea)
     return count;
 }
 
-/* The caller's sea in this version. */
+/* Copies the caller's sea into this version's struct and checks it. */
 static mgt_status take_sea(const reporter *r, const mgt_sea *theirs, mgt_sea *own)
 {
     mgt_status status = struct_take(r, &sea_kind, own, theirs, 1);
@@ -128,7 +128,7 @@ mgt_status mgt_sea_scene(const mgt_sea *sea, mgt_wave *waves, size_t capacity, m
 {
     const reporter r = creation_reporter();
     mgt_sea own;
-    mgt_scene checked; /* its size alone: the rest may be made later */
+    mgt_scene checked; /* only to check the caller's struct_size */
     mgt_status status = take_sea(&r, sea, &own);
     if (status == MGT_OK)
         status = struct_take(&r, &scene_kind, &checked, scene, 1);

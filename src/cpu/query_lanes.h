@@ -7,8 +7,8 @@
 
 #include "frame/water_terms.h"
 
-/* `points` as mgt_water_query() gets them; `level` metres. All answers but foam. `rest` gets x and z of where the water of each point of choppy water rests; NULL:
- * not wanted. */
+/* `points` as mgt_water_query() gets them; `level` metres. Writes all answers except foam. `rest` (NULL: not wanted)
+ * gets x and z of the place at rest of the water at each point. */
 typedef void query_function(const water_terms *terms, double level, const double *points, size_t count, mgt_water_answers *answers, double *rest);
 
 /* `rays` and `distance` as mgt_water_trace() gets them. */

@@ -44,10 +44,10 @@ static inline doubles doubles_floor(doubles x)
 /* Two texels side by side in a texture that repeats, and the place between them. */
 typedef struct texel_lanes {
     mask first, second;
-    real share; /* of the second */
+    real share; /* weight of the second texel */
 } texel_lanes;
 
-/* The texels about a coordinate that is 1 after `size` texels; below 1e9 either way. */
+/* The two texels around a texture coordinate, which is 1 at `size` texels and within ±1e9. */
 static inline texel_lanes texels_about(real coordinate, mask size)
 {
     float share[MGT_LANES], places[MGT_LANES];
@@ -98,7 +98,7 @@ static inline vec3 bilinear_color(const shade_scene *s, const mgt_texture *t, ma
     return blended_color(above, below, rows.share);
 }
 
-/* Black where coordinates are beyond all bounds. */
+/* Black where a coordinate is not within ±1e9. */
 static inline vec3 trilinear_color(const shade_scene *s, const mgt_texture *t, real u, real v, real level)
 {
     const mask good = AND(abs(u) < real(1e9f), abs(v) < real(1e9f));

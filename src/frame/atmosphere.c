@@ -210,7 +210,7 @@ void sky_upwelling_radiance(const sky_state *state, const mgt_water *water, doub
     }
 }
 
-/* Everything that follows from the inputs; with air, `ray` is room to work in. The caller's air and ray are then the state's. */
+/* Everything that follows from the inputs; the state then owns `air` and `ray` (scratch memory). */
 static void fill_state(sky_state *s, const mgt_sky *sky, const mgt_light *light, scattering *air, scattering_ray *ray)
 {
     light_set *lights = s->lights;

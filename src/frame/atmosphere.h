@@ -44,7 +44,7 @@ mgt_status sky_state_build(sky_state *state, const mgt_sky *sky, const mgt_light
 /* Fills the rows of air for an eye at scene->camera.position, where the scene has aerial perspective. True: the table has changed. */
 bool sky_state_see_air(sky_state *state, const mgt_scene *scene);
 
-/* Whether the air before the water is seen. */
+/* Whether the scene is drawn with aerial perspective. */
 bool sky_state_has_air(const mgt_scene *scene);
 
 /* Whether a build from these inputs would give the bytes that `state` holds. Never true for a new state. */
@@ -53,8 +53,8 @@ bool sky_state_same_inputs(const sky_state *state, const mgt_sky *sky, const mgt
 /* Radiance of the sky (no disk) in a unit direction; below the horizon the horizon's. The maths of sky.k in double. */
 void sky_lookup(const sky_state *state, const double direction[3], double rgb[3]);
 
-/* What the air leaves of the light of water so many metres along a unit direction, and its own light. The maths of air.k in double, after
- * sky_state_see_air(). */
+/* Transmittance (`leaves`) and in-scattered light of the air up to `distance` metres along a unit direction, by the formulas of air.k in double. Call
+ * sky_state_see_air() first. */
 void sky_air_lookup(const sky_state *state, const double direction[3], double distance, double leaves[3], double light[3]);
 
 /* Radiance that deep water sends up through a flat surface, without the last factor: the caller multiplies by (1 − F(view)).

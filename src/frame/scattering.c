@@ -24,7 +24,7 @@
 #define MEAN_ABOVE 24    /* … above: sine = (i/24)² */
 #define MEAN_COLUMNS (MEAN_BELOW + MEAN_ABOVE + 1)
 #define VIEW_STEPS 40
-#define AIR_STEPS 12 /* of a way that ends in the air */
+#define AIR_STEPS 12 /* stretches of a path that ends in the air */
 #define GATHER_STEPS 12
 #define GATHER_ZENITHS 8
 #define GATHER_AZIMUTHS 4
@@ -231,7 +231,7 @@ static band_values mean_at(const band_values (*table)[MEAN_COLUMNS], const ray_s
 
 typedef enum stretches { EVEN, DENSE_NEAR_START } stretches;
 
-/* Splits a ray of this length into stretches, each with its light integrated for constant density. */
+/* Splits a ray of this length into stretches; within each the density counts as constant. */
 static void split_ray(const medium *air, double start, double sine, double whole, stretches how, int count, scattering_ray *ray)
 {
     ray->length = whole;
@@ -268,7 +268,7 @@ static double sine_along(const scattering_ray *ray, const ray_step *step, double
     return clamped((ray->start * sin_light + step->distance * cos_angle) / step->radius, -1.0, 1.0);
 }
 
-/* As far as it goes: to the sea or to space. */
+/* Aims a ray that ends at the sea or in space. */
 static void aim_ray(const medium *air, double start, double sine, int count, scattering_ray *ray)
 {
     double discriminant = start * start * (sine * sine - 1.0) + EARTH * EARTH;

@@ -91,10 +91,10 @@ static char *format_text(const char *format, ...)
     return text;
 }
 
-/* An encoder's words, ended by NULL; "CRF" stands for the quality. Their results depend on the number of threads, so it is fixed. */
+/* ffmpeg's arguments for an encoder. Encoders' results depend on the number of threads, so that is fixed. */
 typedef struct encoder_words {
-    const char *input; /* how frames come */
-    const char *words[24];
+    const char *input;     /* pixel format of the frames */
+    const char *words[24]; /* ended by NULL; "CRF" is replaced by the quality */
 } encoder_words;
 
 static const encoder_words encoders[] = {

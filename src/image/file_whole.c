@@ -18,7 +18,7 @@
 
 enum { CHECK_DIGITS = sizeof FILE_CHECK_NONE - 1, BLOCK_BYTES = 1 << 16, EXR_HEADER_MOST = 4 << 20 };
 
-/* Of `size` bytes; those of a checksum at `zeros` count as its zeros (UINT64_MAX: nowhere). False where they cannot be read. */
+/* The CRC-32 of the first `size` bytes. The digits at `zeros` count as "0" (UINT64_MAX: there are none). False if they cannot be read. */
 static bool checksum(int descriptor, uint64_t size, uint64_t zeros, uint32_t *crc)
 {
     unsigned char block[BLOCK_BYTES];
@@ -154,7 +154,7 @@ static file_status is_whole(const input_file *input, picture_format format, bool
     return status == FILE_MEMORY ? status : FILE_OK;
 }
 
-/* Whether a file that says nothing begins as one of its name does, so that it may be what is left of one of ours. */
+/* Whether a file without metadata begins as its format does: it may be a damaged file of ours. */
 static bool begins_like(const input_file *input, picture_format format)
 {
     char start[10] = "";
@@ -182,7 +182,7 @@ file_status file_state_read(const char *path, const char *key, const char *value
         status = whole ? is_whole(&input, format, &sound, error) : FILE_OK;
         *state = sound ? FILE_STATE_SAME : FILE_STATE_DAMAGED;
     } else if (status != FILE_MEMORY && begins_like(&input, format)) {
-        /* The others cannot tell what is damaged from what is not theirs. */
+        /* Files of other formats do not show whether they are damaged or of another program. */
         const bool damaged = (format == PICTURE_PNG && !is_png_whole(input.stream, input.size)) ||
                              (format == PICTURE_EXR && exr_check_place(fileno(input.stream)) != UINT64_MAX && !is_exr_whole(fileno(input.stream), input.size));
         *state = status == FILE_BAD || input.size == 0 || damaged ? FILE_STATE_DAMAGED : FILE_STATE_OTHER;

@@ -26,7 +26,7 @@
 typedef struct reference_sky {
     /* Radiance of the sky without the light's disk, for a unit direction with direction[1] ≥ 0. NULL: black. */
     void (*lookup)(const void *user, const double direction[3], double rgb[3]);
-    /* What the air leaves of the light of the water, met so many metres along a unit direction, and its own light. NULL: there is no air. */
+    /* Transmittance and in-scattered light of the air up to water `distance` metres along a unit direction. NULL: there is no air. */
     void (*air)(const void *user, const double direction[3], double distance, double leaves[3], double light[3]);
     const void *user;
     double disks[REFERENCE_LIGHTS][3];                   /* mean over each light's disk, at the observer */
