@@ -36,7 +36,7 @@ int console_error(int code, const char *format, ...) __attribute__((format(print
 void console_note(const console *out, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void console_detail(const console *out, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* The same errors from where they arose; each returns the exit code that belongs to it. */
+/* Print an error of a file, a scene or the library; each returns its exit code. */
 int console_file_error(const file_error *error);
 int console_scene_error(const scene_error *error);
 int console_library_error(const mgt_context *context, mgt_status status);

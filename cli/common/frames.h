@@ -33,7 +33,7 @@ uint32_t frame_list_at(const frame_list *list, uint64_t index);
 /* The spelling that frame_list_parse() reads; cut short with "…" when it does not fit. */
 void frame_list_print(const frame_list *list, char *text, size_t size);
 
-/* One of `count` parts of some work, for as many machines: of any list the elements whose index modulo `count` is `index`. Count 0: all. */
+/* One of `count` parts of some work, one for each machine: the elements of a list whose index modulo `count` is `index`. Count 0: all elements. */
 typedef struct work_shard {
     uint32_t index, count;
 } work_shard;

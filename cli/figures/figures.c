@@ -61,7 +61,8 @@ static const option figures_options[] = {
      "frames that errors are taken over; plates show the first, of\n"
      "refraction nothing but the first is made (default 0-56:8)",
      .set = option_frames, .offset = offsetof(figures_request, frames)},
-    OPTION_SHARD(figures_request, "one of N machines' share of all pictures: draws it and measures\nnothing; the same command without --shard then does"),
+    OPTION_SHARD(figures_request,
+                 "one of N machines' part of all pictures: draws it and measures\nnothing; the same command without --shard then measures all"),
     {"size", 0, "WxH", "size of what is scored (default 320x180; refraction 640x360, and\n1280x720 for its times)", set_size,
      .least = 16, /* smaller pictures have no room for what the plates cut out of them */
      .allowed = "WxH, each from 16 to 32768 pixels, such as 320x180"},

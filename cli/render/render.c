@@ -131,7 +131,7 @@ static const option render_options[] = {
      "A, A-B, A-B:STEP or a list of these (default: all frames of the\n"
      "scene for a film or a numbered name, else frame 0)",
      .set = option_frames, .offset = offsetof(render_request, frames)},
-    OPTION_SHARD(render_request, "one of N machines' share: the frames whose place in the list,\ncounted from 0, modulo N is I"),
+    OPTION_SHARD(render_request, "one of N machines' part: the frames whose place in the list,\ncounted from 0, modulo N is I"),
     {"size", 0, "WxH", "size in pixels instead of the scene's", .set = option_size, .offset = offsetof(render_request, changes), .least = 1,
      .allowed = "WxH, each from 1 to 32768 pixels, such as 1280x720"},
     {"crop", 0, "X,Y,W,H", "render this rectangle of the picture alone", .set = set_crop},

@@ -21,8 +21,8 @@ void frame_buffer_free(frame_buffer *buffer);
 /* After rendering for PNG and films: turns a float layer into grey or normal colours, in place. Color is left alone. */
 void frame_buffer_display(frame_buffer *buffer);
 
-/* Writes a still picture of the request's kind, of the scene at `fps` frames a second; NULL: an EXR is not described. Colour may become that of other
- * primaries in place. */
+/* Writes a still picture of the request's kind. `scene` and `fps`, frames a second, fill an EXR's attributes; scene NULL: none. With --exr acescg the colours
+ * of the buffer are converted in place. */
 file_status frame_buffer_write(frame_buffer *buffer, const render_request *request, const mgt_scene *scene, double fps, const char *path,
                                const metadata_list *metadata, const output_options *options, file_error *error);
 
