@@ -113,7 +113,7 @@ class Scene:
 
     @property
     def warning(self) -> str:
-        """What is legal and yet hardly meant; "" where there is nothing."""
+        """A warning about values that are legal but probably a mistake; "" where there is none."""
         return text(io.mgt_scene_file_warning(self._file)) or ""
 
     def waves(self, frame: int = 0):

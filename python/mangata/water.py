@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Questions about the water."""
+"""Queries about the water."""
 from typing import Dict, Optional, Sequence, Union
 
 import numpy as np
@@ -8,7 +8,7 @@ from ._library import ffi, lib, text
 from .errors import MangataError, SceneError
 from .scenes import Document, Scene, as_scene
 
-_ANSWERS = {"height": ("double *", np.float64, ()), "normal": ("float *", np.float32, (3,)), "velocity": ("float *", np.float32, (3,)), "jacobian": ("float *", np.float32, ())}
+_ANSWERS = {"height": ("double *", np.float64, ()), "normal": ("float *", np.float32, (3,)), "velocity": ("float *", np.float32, (3,)), "jacobian": ("float *", np.float32, ()), "foam": ("float *", np.float32, ())}
 
 
 def _pointer(kind: str, array: np.ndarray):
@@ -32,11 +32,12 @@ def query(
     least_wavelength: float = 0.0,
     exact: bool = False,
 ) -> Dict[str, np.ndarray]:
-    """How high the water is at points, how it leans and how it moves.
+    """Height, slope, motion and foam of the water at points.
 
     points   array (…, 2) of x and z in metres, float64; other types are copied
     time     seconds; None: that of `frame`
-    answers  "height" float64 (…), metres; "normal" float32 (…, 3), unit; "velocity" float32 (…, 3), metres a second; "jacobian" float32 (…)
+    answers  "height" float64 (…), metres; "normal" float32 (…, 3), unit; "velocity" float32 (…, 3), metres a second; "jacobian" float32 (…);
+             "foam" float32 (…), fraction that the scene's foam covers
     least_wavelength  metres: shorter waves count in the result's "covariance" alone: xx, xz, zz of their slopes
     exact    heights within 1e-9 m, in about twice the time
 
@@ -50,6 +51,7 @@ def query(
     asked = ffi.new("mgt_water_answers *")
     lib.mgt_water_answers_init(asked, ffi.sizeof("mgt_water_answers"))
     asked.least_wavelength, asked.exact = least_wavelength, int(exact)
+    asked.foam_share, asked.foam_persistence = view.foam, view.foam_persistence
     result: Dict[str, np.ndarray] = {}
     for name in answers:
         if name not in _ANSWERS:

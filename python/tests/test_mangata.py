@@ -184,6 +184,15 @@ def test_query_is_the_sum_of_sines(scene):
         mangata.query(scene, [1, 2], answers=["depth"])
 
 
+def test_query_knows_foam():
+    windy = mangata.sea(wind=16, count=64)
+    points = np.random.default_rng(2).uniform(-500, 500, (20000, 2))
+    foam = mangata.query(windy, points, 1.5, ["foam"])["foam"]
+    assert foam.min() >= 0 and foam.max() <= 1 and foam.max() > 0.5
+    assert abs(foam.mean() / windy.frame().foam - 1) < 0.25
+    assert not mangata.query(windy.changed({"water.foam.amount": 0}), points[:100], 1.5, ["foam"])["foam"].any()
+
+
 def test_trace_ends_on_the_water(scene):
     origins = np.array([[x, 4.0, 0.0] for x in range(-3, 4)])
     direction = np.array([0.1, -1.0, 0.3])
