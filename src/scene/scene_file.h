@@ -67,8 +67,8 @@ bool scene_file_frame(const scene_file *file, int frame, mgt_scene *out);
 const char *scene_file_path(const scene_file *file);        /* as given to scene_file_load(); never NULL */
 const char *scene_file_description(const scene_file *file); /* "" where there is none; never NULL */
 
-/* What is legal in the file and yet hardly meant, as an error's text: waves steeper than water can be, or a camera that waves wash over. "" where there
- * is none; never NULL. */
+/* A warning, in the form of an error's text, of values that are legal but probably a mistake: waves steeper than water can be, or a
+ * camera that waves wash over. "" where there is none; never NULL. */
 const char *scene_file_warning(const scene_file *file);
 
 int scene_file_frame_count(const scene_file *file);   /* ≥ 1 */

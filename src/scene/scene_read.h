@@ -16,7 +16,7 @@ bool scene_read(const scene_tree *tree, scene_values *values, scene_error *error
  * keys that exclude each other. */
 bool scene_check(const scene_tree *tree, const scene_values *values, scene_error *error);
 
-/* Looks for what is legal and yet hardly meant: waves steeper than water can be, and a camera that waves wash over. False with *warning filled by
+/* Looks for values that are legal but probably a mistake: waves steeper than water can be, and a camera that waves wash over. False with *warning filled by
  * the first of these; needs the waves of the spectrum. */
 bool scene_warn(const scene_tree *tree, const scene_values *values, scene_error *warning);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Warnings about scenes that are legal and yet hardly meant.
+ * Warnings about values of a scene that are legal but probably a mistake.
  */
 #include <math.h>
 
