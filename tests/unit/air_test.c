@@ -49,13 +49,13 @@ static sky_state *seen_from(double height, double elevation, double turbidity, m
     return s;
 }
 
-/* ---- the way ---- */
+/* ---- the path ---- */
 
-/* Light of one band that a metre of air sends along a way. */
+/* In-scattered light of one band from a metre of air along a path. */
 typedef struct metre {
     const scattering *air;
     scattering_ray *ray;
-    double start, way_sine, sin_light, cos_angle; /* of the whole way, where it begins */
+    double start, way_sine, sin_light, cos_angle; /* of the whole path, at its beginning */
     int band;
 } metre;
 
@@ -117,7 +117,7 @@ static void exact_way(const sky_state *s, const mgt_scene *scene, const double d
 
 static double peak(const double rgb[3]) { return fmax(rgb[0], fmax(rgb[1], rgb[2])); }
 
-/* Below 20 km, as far as a thirtieth of the light is left; light over that of the horizon or of the way. */
+/* Eyes below 20 km, paths with a transmittance above 1/30; errors of light relative to that of the horizon or of the path. */
 static void table_agrees_with_ways(void **unused)
 {
     static const double heights[] = {2, 30, 300, 2000}, elevations[] = {50, 12, 1, -4}, turbidities[] = {1, 1.8, 5};
@@ -196,7 +196,7 @@ static void far_water_is_the_horizon(void **unused)
     }
 }
 
-/* Any height, any light: nothing but finite numbers. */
+/* All numbers are finite for any height and any light. */
 static void extremes_are_finite(void **unused)
 {
     static const double heights[] = {0, 1e-6, 1e3, 1e5, 1e9}, elevations[] = {90, 0, -90};

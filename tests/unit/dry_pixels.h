@@ -192,7 +192,7 @@ static inline bool dry_refract(mgt_context *context, mgt_scene *scene, mgt_refra
     return status == MGT_OK;
 }
 
-/* In waves that stand far off the mean surface rays beside the hull pass under it, where the picture of a flat surface shows nothing but hull. There is no
+/* In waves far from the mean surface, rays beside the hull pass under it, where the picture refracted by a flat surface shows only hull. There is no
  * bottom: two-phase must show water without end as traced rays do, not the hull's planes where the hull does not reach. */
 static inline void dry_expect_no_specks(mgt_context *context)
 {

@@ -11,7 +11,7 @@
 
 enum { LIVE = 1 << 14 };
 
-/* Blocks that are in use; those of libraries are not among them. */
+/* Blocks of our own code that are in use. */
 static struct {
     long calls, fail_at; /* fail_at: number of the call that fails, from 1; 0: none */
     void *live[LIVE];
@@ -85,7 +85,7 @@ static int setup(void **state)
     return picture_write_png(in_folder(folder, "a.png", path), 2, 2, pixels, 0, NULL, &(output_options){.overwrite = true}, &error) == FILE_OK ? 0 : -1;
 }
 
-/* Whether all went well; else memory was short, and said so. */
+/* Loads, changes, copies and writes a scene. False if an allocation failed, which must then be the reported error. */
 static bool live(const char *path)
 {
     static const char *const words[] = {"light.elevation_deg=12", "objects[1]={shape: box}"};

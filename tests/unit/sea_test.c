@@ -197,7 +197,7 @@ static void other_versions_are_served(void **unused)
     free(scene);
 }
 
-/* Foam by the question and as it is drawn at the same points: `none` straight down. */
+/* Foam of mgt_water_query() against foam that method `none` draws at the same points, seen straight down. */
 static void foam_is_where_it_is_drawn(void **unused)
 {
     (void)unused;
@@ -251,7 +251,7 @@ static void foam_is_where_it_is_drawn(void **unused)
     if (off > SIDE * SIDE / 1000) /* edges of fresh foam are steps */
         fail_msg("%d of %d points are off", off, SIDE * SIDE);
 
-    /* Some points at a time, without choppiness, without a share, and from no number. */
+    /* In blocks of points, without choppiness, with foam_share 0, and for a point that is not finite. */
     float some[3], height[3];
     memset(height, 0, sizeof height);
     answers.foam = some;
