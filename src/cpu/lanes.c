@@ -504,6 +504,17 @@ static const tile_light *light_of_rows(const tile_light *light, int part, tile_l
     return rows;
 }
 
+/* Adds the hits of TILE_HEIGHT rows, of which the first is row `first`, to the pixels that they are parts of. */
+static void add_rows(const tile_pixels *rows, int first, tile_pixels *out)
+{
+    const float *const from[] = {rows->red, rows->green, rows->blue, rows->coverage, rows->water, rows->foam};
+    float *const into[] = {out->red, out->green, out->blue, out->coverage, out->water, out->foam};
+    for (size_t k = 0; k < sizeof into / sizeof *into; k++)
+        for (int row = 0; row < TILE_HEIGHT; row++)
+            for (size_t x = 0; x < TILE_WIDTH; x += MGT_LANES)
+                accumulate(into[k] + (first + row) / HIT_ROWS * TILE_WIDTH + x, load(from[k] + row * TILE_WIDTH + x), 1.0f / HIT_ROWS);
+}
+
 /* Every pixel is the mean of HIT_ROWS hits, one above the other. */
 static void several_hits(const method_tile *t, const struct kernel_context *close, const struct kernel_context *open, tile_pixels *out)
 {
@@ -514,11 +525,7 @@ static void several_hits(const method_tile *t, const struct kernel_context *clos
     for (int part = 0; part < HIT_ROWS; part++) {
         render_glitter(close, light_of_rows(t->light, part, &light), rows_from(part * TILE_HEIGHT, &grid), t->close_estimate + part, open,
                        t->open_estimate + part, &rows, NULL);
-        const float *const from[] = {rows.red, rows.green, rows.blue, rows.coverage, rows.water, rows.foam};
-        float *const into[] = {out->red, out->green, out->blue, out->coverage, out->water, out->foam};
-        for (size_t k = 0; k < sizeof into / sizeof *into; k++)
-            for (size_t i = 0; i < TILE_PIXELS; i++)
-                into[k][((size_t)part * TILE_HEIGHT + i / TILE_WIDTH) / HIT_ROWS * TILE_WIDTH + i % TILE_WIDTH] += from[k][i] / HIT_ROWS;
+        add_rows(&rows, part * TILE_HEIGHT, out);
     }
 }
 
