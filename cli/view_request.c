@@ -29,8 +29,8 @@ static const option view_options[] = {
 
 static const option_table view_table =
     {"view",
-     "SCENE [options]",
-     "Opens a scene in the interactive viewer, the program mangata-viewer.",
+     "[SCENE] [options]",
+     "Opens a scene, or without one a sea of some wind, in the interactive viewer, the program mangata-viewer.",
      view_options,
      sizeof view_options / sizeof view_options[0],
      .notes = "exit codes: 0 done, 1 failed, 64 usage, 65 bad scene, 66 no such input, 69 no viewer, no display\nor no such backend",
@@ -42,7 +42,9 @@ int view_request_read(view_request *request, int count, char **arguments)
 {
     *request = (view_request){.context.backend = MGT_BACKEND_AUTO, .quality = quality_options_none()};
     const int code = options_read(&view_table, request, count, arguments);
-    return code == EXIT_CODE_OK && !request->scene_path ? console_error(EXIT_CODE_USAGE, "no scene given: mangata view SCENE") : code;
+    if (!request->scene_path)
+        request->scene_path = "--sea wind=8";
+    return code;
 }
 
 void view_request_free(view_request *request) { scene_changes_free(&request->changes); }

@@ -301,24 +301,50 @@ static void cameras_turn_without_tumbling(void **state)
     mgt_camera c = {.position = {0, 3, 0}, .target = {0, 2, -4}, .up = {0, 1, 0}, .fov_y_deg = 50};
     const double length = distance(&c);
     const mgt_camera start = c;
-    camera_orbit(&c, 0.3, 0.2);
+    camera_orbit(&c, 0.3, 0.2, -100);
     assert_true(fabs(distance(&c) - length) < 1e-9 && memcmp(c.target, start.target, sizeof c.target) == 0);
-    camera_orbit(&c, 0, 9); /* stops short of straight down */
+    camera_orbit(&c, 0, 9, -100); /* stops short of straight down */
     const camera_axes axes = camera_axes_of(&c);
     assert_true(isfinite(axes.right[0]) && axes.forward[1] > -1 && axes.forward[1] < -0.99);
     c = start;
     camera_look(&c, 0.5, -9);
     assert_true(memcmp(c.position, start.position, sizeof c.position) == 0 && fabs(distance(&c) - length) < 1e-9);
     c = start;
-    camera_set_pivot(&c);
+    camera_set_pivot(&c, 0);
     assert_true(fabs(c.target[1]) < 1e-9); /* where the view meets the water */
     const camera_axes before = camera_axes_of(&start), after = camera_axes_of(&c);
     for (int i = 0; i < 3; i++)
         assert_true(fabs(before.forward[i] - after.forward[i]) < 1e-12);
+    const double arm = distance(&c);
+    camera_orbit(&c, 0, -2, 0.5); /* not into the water, at the same distance */
+    assert_true(fabs(c.position[1] - 0.5) < 1e-9 && fabs(distance(&c) - arm) < 1e-9);
+    c = start;
+    camera_set_pivot(&c, 0);
     camera_keep_above(&c, 7);
     assert_true(c.position[1] == 7 && fabs(c.target[1] - 4) < 1e-9);
     camera_move(&c, 0, 0, -1);
     assert_true(c.position[1] == 6);
+}
+
+static void what_is_grabbed_stays_under_the_pointer(void **state)
+{
+    (void)state;
+    mgt_camera c = {.position = {2, 3, 1}, .target = {3, 2.4, -4}, .up = {0, 1, 0}, .fov_y_deg = 50};
+    const double aspect = 1.5, from[2] = {0.3, 0.8}, to[2] = {0.7, 0.65}, sky[2] = {0.5, 0};
+    double direction[3], point[3], at[2];
+    camera_view_ray(&c, aspect, from, direction);
+    for (int i = 0; i < 3; i++)
+        point[i] = c.position[i] + 4 * direction[i];
+    assert_true(camera_project(&c, aspect, point, at));
+    assert_true(fabs(at[0] - from[0]) < 1e-12 && fabs(at[1] - from[1]) < 1e-12);
+    assert_true(camera_grab(&c, aspect, point, to));
+    assert_true(c.position[1] == 3 && c.target[1] == 2.4);
+    assert_true(camera_project(&c, aspect, point, at));
+    assert_true(fabs(at[0] - to[0]) < 1e-9 && fabs(at[1] - to[1]) < 1e-9);
+    assert_false(camera_grab(&c, aspect, point, sky));
+    for (int i = 0; i < 3; i++)
+        point[i] = 2 * c.position[i] - c.target[i];
+    assert_false(camera_project(&c, aspect, point, at));
 }
 
 static void keyframes_stay_in_order(void **state)
@@ -390,6 +416,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(every_value_of_the_scene_is_a_control, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(another_body_brings_its_own_light, make_folder, remove_folder),
         cmocka_unit_test(cameras_turn_without_tumbling),
+        cmocka_unit_test(what_is_grabbed_stays_under_the_pointer),
         cmocka_unit_test(keyframes_stay_in_order),
         cmocka_unit_test(waves_have_shapes),
         cmocka_unit_test(palettes_have_their_ends),

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Keys and pointer: what they do to camera, clock and view. */
+ * Keys, and what GLFW reports. pointer.c has the pointer. */
 #include <GLFW/glfw3.h>
 
 #include <math.h>
@@ -10,12 +10,10 @@
 #include "cli/common/progress.h"
 #include "viewer/app/viewer.h"
 
-static const double turn_per_pixel = 0.005, zoom_step = 1.12;
-
 const key_help key_helps[] = {
     {"drag", "orbit, or look around when flying"},
     {"right drag", "look around"},
-    {"middle drag", "shift the magnified picture"},
+    {"middle drag, Shift drag", "pull the water along; shift the magnified picture"},
     {"wheel", "nearer, farther (orbit); speed (fly)"},
     {"Ctrl wheel", "magnify the pixels"},
     {"Ctrl click", "inspect a pixel"},
@@ -239,107 +237,6 @@ void input_press_key(viewer *v, const char *name)
         return;
     input_key(v, key, GLFW_PRESS, modifiers);
     input_key(v, key, GLFW_RELEASE, modifiers);
-}
-
-/* ---- pointer ---- */
-
-static bool over_divider(const viewer *v, double x)
-{
-    const ui_rect *p = &v->place.place;
-    return v->settings.view.compare == COMPARE_WIPE && fabs(x - ((double)p->x + v->settings.view.wipe * (double)p->width)) < 8;
-}
-
-/* Place in the finished picture, from 0 to 1, of a place in the window. */
-static void picture_fraction(const viewer *v, double x, double y, double fraction[2])
-{
-    const ui_rect *p = &v->place.place;
-    const view_settings *s = &v->settings.view;
-    const double size = 1 / s->zoom;
-    const double cx = fmin(fmax(s->center_x, 0.5 * size), 1 - 0.5 * size), cy = fmin(fmax(s->center_y, 0.5 * size), 1 - 0.5 * size);
-    fraction[0] = cx + ((x - (double)p->x) / (double)p->width - 0.5) * size;
-    fraction[1] = cy + ((y - (double)p->y) / (double)p->height - 0.5) * size;
-}
-
-static void inspect_at(viewer *v, double x, double y)
-{
-    double fraction[2];
-    picture_fraction(v, x, y, fraction);
-    if (fraction[0] < 0 || fraction[1] < 0 || fraction[0] >= 1 || fraction[1] >= 1)
-        return;
-    v->settings.inspect = (inspect_settings){(uint32_t)(fraction[0] * v->place.width), (uint32_t)(fraction[1] * v->place.height)};
-    v->settings.panel.inspector = 1;
-}
-
-void input_button(viewer *v, int button, int action, int modifiers)
-{
-    pointer_state *p = &v->pointer;
-    if (action == GLFW_RELEASE) {
-        p->orbiting = p->looking = p->wiping = p->panning = false;
-        return;
-    }
-    if (over_divider(v, p->x) && p->x < (double)v->place.room.width && button == GLFW_MOUSE_BUTTON_LEFT) {
-        p->wiping = true;
-        return;
-    }
-    if (ui_takes_pointer())
-        return;
-    if (modifiers & GLFW_MOD_CONTROL) {
-        inspect_at(v, p->x, p->y);
-        return;
-    }
-    p->panning = button == GLFW_MOUSE_BUTTON_MIDDLE;
-    p->looking = button == GLFW_MOUSE_BUTTON_RIGHT || (button == GLFW_MOUSE_BUTTON_LEFT && v->settings.move.mode == MOVE_FLY);
-    p->orbiting = button == GLFW_MOUSE_BUTTON_LEFT && v->settings.move.mode == MOVE_ORBIT;
-    if (p->orbiting)
-        camera_set_pivot(viewer_free_camera(v));
-}
-
-void input_pointer(viewer *v, double x, double y)
-{
-    pointer_state *p = &v->pointer;
-    view_settings *s = &v->settings.view;
-    const ui_rect *place = &v->place.place;
-    const double dx = x - p->x, dy = y - p->y;
-    p->x = x;
-    p->y = y;
-    if (p->wiping)
-        s->wipe = fmin(fmax((x - (double)place->x) / (double)place->width, 0), 1);
-    if (p->looking)
-        camera_look(viewer_free_camera(v), -dx * turn_per_pixel * 0.5, dy * turn_per_pixel * 0.5);
-    if (p->orbiting)
-        camera_orbit(viewer_free_camera(v), -dx * turn_per_pixel, dy * turn_per_pixel);
-    if (p->panning) {
-        s->center_x = fmin(fmax(s->center_x - dx / ((double)place->width * s->zoom), 0), 1);
-        s->center_y = fmin(fmax(s->center_y - dy / ((double)place->height * s->zoom), 0), 1);
-    }
-}
-
-/* Magnifies about the pointer: what is under it stays there. */
-static void magnify(viewer *v, double factor)
-{
-    view_settings *s = &v->settings.view;
-    double before[2], after[2];
-    picture_fraction(v, v->pointer.x, v->pointer.y, before);
-    s->zoom = fmin(fmax(s->zoom * factor, 1), 64);
-    picture_fraction(v, v->pointer.x, v->pointer.y, after);
-    s->center_x = fmin(fmax(s->center_x + before[0] - after[0], 0.5 / s->zoom), 1 - 0.5 / s->zoom);
-    s->center_y = fmin(fmax(s->center_y + before[1] - after[1], 0.5 / s->zoom), 1 - 0.5 / s->zoom);
-}
-
-void input_scroll(viewer *v, double amount, int modifiers)
-{
-    if (ui_takes_pointer() || amount == 0)
-        return;
-    const double factor = pow(zoom_step, amount);
-    if (modifiers & GLFW_MOD_CONTROL)
-        magnify(v, factor);
-    else if (v->settings.move.mode == MOVE_FLY)
-        v->settings.move.speed = fmin(fmax(v->settings.move.speed * factor, 0.01), 1e5);
-    else {
-        mgt_camera *camera = viewer_free_camera(v);
-        camera_set_pivot(camera);
-        camera_approach(camera, 1 / factor);
-    }
 }
 
 /* ---- GLFW ---- */

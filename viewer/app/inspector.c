@@ -2,31 +2,49 @@
  * The pixel inspector: numbers of one pixel, and the light plane with the pixel's slopes on their way over the disk. */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "viewer/app/panels.h"
+
+static bool look_into(viewer *v, uint32_t x, uint32_t y, mgt_pixel_info *info)
+{
+    shot now;
+    mgt_context *context = viewer_tools(v);
+    if (!context || !viewer_take_shot(v, &now))
+        return false;
+    now.scene.image = (mgt_image){.width = v->place.width, .height = v->place.height};
+    *info = (mgt_pixel_info){.struct_size = sizeof *info};
+    if (mgt_inspect_pixel(context, &now.scene, x, y, info) == MGT_OK)
+        return true;
+    snprintf(v->render_error.text, sizeof v->render_error.text, "%s", mgt_last_error(context));
+    return false;
+}
 
 void viewer_inspect(viewer *v)
 {
     inspection *seen = &v->inspection;
     const inspect_settings *at = &v->settings.inspect;
     const uint32_t x = at->x < v->place.width ? at->x : v->place.width - 1, y = at->y < v->place.height ? at->y : v->place.height - 1;
-    shot now;
     if (seen->valid && seen->x == x && seen->y == y && seen->serial == v->render.serial)
         return;
-    seen->valid = false;
-    mgt_context *context = viewer_tools(v);
-    if (!context || !viewer_take_shot(v, &now))
-        return;
-    now.scene.image = (mgt_image){.width = v->place.width, .height = v->place.height};
-    seen->info = (mgt_pixel_info){.struct_size = sizeof seen->info};
-    if (mgt_inspect_pixel(context, &now.scene, x, y, &seen->info) != MGT_OK) {
-        snprintf(v->render_error.text, sizeof v->render_error.text, "%s", mgt_last_error(context));
-        return;
-    }
-    seen->valid = true;
+    seen->valid = look_into(v, x, y, &seen->info);
     seen->x = x;
     seen->y = y;
     seen->serial = v->render.serial;
+}
+
+static uint32_t pixel_at(double fraction, uint32_t side) { return (uint32_t)fmin(fmax(floor(fraction * side), 0), side - 1); }
+
+bool viewer_point_at(viewer *v, const double at[2], double point[3], double middle[2])
+{
+    const uint32_t x = pixel_at(at[0], v->place.width), y = pixel_at(at[1], v->place.height);
+    mgt_pixel_info info;
+    middle[0] = (x + 0.5) / v->place.width;
+    middle[1] = (y + 0.5) / v->place.height;
+    if (!look_into(v, x, y, &info) || !(info.water > 0) || !isfinite(info.distance))
+        return false;
+    memcpy(point, info.position, sizeof info.position);
+    return true;
 }
 
 /* ---- the plot ---- */

@@ -286,8 +286,19 @@ static void draw_log(viewer *v)
     ui_panel_end();
 }
 
+/* Where help is found, in the corner. */
+static void draw_hint(const viewer *v)
+{
+    static const char text[] = "?  keys";
+    const float unit = unit_of(v), width = ui_text_width(text) + unit;
+    const ui_rect *room = &v->place.room;
+    draw_label(room->x + room->width - width - unit, room->y + unit, text, unit);
+}
+
 void overlays_draw(viewer *v)
 {
+    if (!v->settings.panel.keys && !v->settings.panel.inspector)
+        draw_hint(v);
     if (v->settings.view.compare != COMPARE_OFF)
         draw_divider(v);
     draw_legend(v);

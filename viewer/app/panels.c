@@ -67,7 +67,7 @@ static bool draw_numbers(const control *c, const char *label, double n[3])
         return ui_drag(label, n, 3, (high - low) * 2e-4, c->field->min, c->field->max, format_of(c, room, sizeof room));
     if ((c->field->type == FIELD_COUNT || (c->field->type == FIELD_LARGE && c->hint))) {
         uint32_t whole = (uint32_t)n[0];
-        const bool changed = ui_slider_count(label, &whole, (uint32_t)low, (uint32_t)high, h && h->logarithmic);
+        const bool changed = ui_slider_count(label, &whole, (uint32_t)low, (uint32_t)high, h && h->logarithmic, NULL);
         n[0] = whole;
         return changed;
     }
@@ -218,7 +218,7 @@ static void draw_waves(viewer *v)
     v->settings.waves.count = v->settings.waves.count < list->count ? v->settings.waves.count : MGT_MAX_WAVES;
     uint32_t used = v->settings.waves.count < list->count ? v->settings.waves.count : (uint32_t)list->count;
     ui_item_width(-label_units * ui_font_size());
-    if (ui_slider_count("waves used", &used, 0, (uint32_t)list->count, false))
+    if (ui_slider_count("waves used", &used, 0, (uint32_t)list->count, false, NULL))
         v->settings.waves.count = used < list->count ? used : MGT_MAX_WAVES;
     ui_text(UI_TONE_FAINT, "       amplitude      length        to");
     if (ui_child_begin("waves", 11 * ui_font_size()))
@@ -330,8 +330,7 @@ static void draw_files(viewer *v)
     ui_tooltip(".png: as shown; .exr: scene-linear with every layer");
     for (int i = 0; i < 2; i++) {
         ui_item_width(-label_units * ui_font_size());
-        ui_slider_count(i == 0 ? "width##saved" : "height##saved", &v->picture_size[i], 0, i == 0 ? 7680 : 4320, false);
-        ui_tooltip("0: as in the window");
+        ui_slider_count(i == 0 ? "width##saved" : "height##saved", &v->picture_size[i], 0, i == 0 ? 7680 : 4320, false, "window");
     }
     if (ui_button("save (F12)", 0))
         input_press_key(v, "f12");

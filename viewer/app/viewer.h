@@ -58,9 +58,20 @@ typedef struct notice {
     double until; /* seconds_now(); 0: until it is taken away */
 } notice;
 
+typedef enum drag_kind { DRAG_NONE, DRAG_WIPE, DRAG_ORBIT, DRAG_LOOK, DRAG_GRAB, DRAG_SLIDE, DRAG_SHIFT } drag_kind;
+
+/* What the pressed button does. */
+typedef struct drag {
+    drag_kind kind;
+    double x, y;       /* of the press */
+    mgt_camera camera; /* then */
+    double point[3];   /* grabbed, of the water */
+    double offset[2];  /* from the pointer to where that point is seen, fractions of the picture */
+} drag;
+
 typedef struct pointer_state {
     double x, y;
-    bool orbiting, looking, wiping, panning;
+    drag drag;
     bool keys[6]; /* W A S D Q E */
     bool fast;
 } pointer_state;
@@ -192,7 +203,10 @@ bool viewer_save_scene(viewer *v, const char *path, char *error, size_t error_si
 /* Looks into the pixel that the settings name. */
 void viewer_inspect(viewer *v);
 
-/* ---- input (input.c) ---- */
+/* The place of the water in the pixel at fractions of the picture's width and height, and the pixel's own middle; false where there is none. */
+bool viewer_point_at(viewer *v, const double at[2], double point[3], double middle[2]);
+
+/* ---- input (input.c, pointer.c) ---- */
 
 /* What GLFW reports, and scripts too. Places in window coordinates; keys, buttons and actions as GLFW numbers them. */
 void input_key(viewer *v, int key, int action, int modifiers);
@@ -200,6 +214,9 @@ void input_button(viewer *v, int button, int action, int modifiers);
 void input_pointer(viewer *v, double x, double y);
 void input_scroll(viewer *v, double amount, int modifiers);
 void input_install(viewer *v);
+
+/* Place in the finished picture, fractions of its width and height, of a place in the window. */
+void input_fraction(const viewer *v, double x, double y, double fraction[2]);
 
 typedef struct key_help {
     const char *keys, *what;

@@ -6,8 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double steepest = 1.553; /* 89 degrees */
+static const double steepest = 1.553;   /* 89 degrees */
+static const double pivot_heights = 5;  /* the pivot's greatest distance, in heights over the water */
+static const double longest_grab = 500; /* of a grabbed point's greatest distance, in heights over it */
 static const double keyframe_gap = 1e-3;
+static const double pi = 3.14159265358979323846;
 enum { MOST_KEYFRAMES = 10000 };
 
 static double length_of(const double v[3]) { return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
@@ -37,31 +40,31 @@ camera_axes camera_axes_of(const mgt_camera *camera)
     return axes;
 }
 
-void camera_set_pivot(mgt_camera *camera)
+void camera_set_pivot(mgt_camera *camera, double level)
 {
     const camera_axes axes = camera_axes_of(camera);
-    const double height = camera->position[1], fall = -axes.forward[1];
-    const double distance = fall > 0 ? fmin(height / fall, 12 * height) : 12 * height;
+    const double above = camera->position[1] - level, height = fmax(fabs(above), 0.1), fall = above < 0 ? axes.forward[1] : -axes.forward[1];
+    const double distance = fall > 0 ? fmin(height / fall, pivot_heights * height) : pivot_heights * height;
     for (int i = 0; i < 3; i++)
         camera->target[i] = camera->position[i] + distance * axes.forward[i];
 }
 
-/* The direction at these angles; keeps off straight up and down, where the view would have no right side. */
-static void turn(double v[3], double yaw, double pitch)
+/* The direction at these angles, no lower than `lowest`; keeps off straight up and down, where the view would have no right side. */
+static void turn(double v[3], double yaw, double pitch, double lowest)
 {
     const double length = length_of(v), azimuth = atan2(v[0], -v[2]) + yaw;
-    const double elevation = fmin(fmax(asin(fmin(fmax(v[1] / length, -1), 1)) + pitch, -steepest), steepest);
+    const double elevation = fmin(fmax(asin(fmin(fmax(v[1] / length, -1), 1)) + pitch, fmax(lowest, -steepest)), steepest);
     v[0] = length * sin(azimuth) * cos(elevation);
     v[1] = length * sin(elevation);
     v[2] = -length * cos(azimuth) * cos(elevation);
 }
 
-void camera_orbit(mgt_camera *camera, double yaw, double pitch)
+void camera_orbit(mgt_camera *camera, double yaw, double pitch, double lowest)
 {
     double arm[3];
     for (int i = 0; i < 3; i++)
         arm[i] = camera->position[i] - camera->target[i];
-    turn(arm, yaw, pitch);
+    turn(arm, yaw, pitch, asin(fmin(fmax((lowest - camera->target[1]) / length_of(arm), -1), 1)));
     for (int i = 0; i < 3; i++)
         camera->position[i] = camera->target[i] + arm[i];
 }
@@ -71,7 +74,7 @@ void camera_look(mgt_camera *camera, double yaw, double pitch)
     double view[3];
     for (int i = 0; i < 3; i++)
         view[i] = camera->target[i] - camera->position[i];
-    turn(view, yaw, pitch);
+    turn(view, yaw, pitch, -steepest);
     for (int i = 0; i < 3; i++)
         camera->target[i] = camera->position[i] + view[i];
 }
@@ -90,6 +93,51 @@ void camera_approach(mgt_camera *camera, double factor)
 {
     for (int i = 0; i < 3; i++)
         camera->position[i] = camera->target[i] + factor * (camera->position[i] - camera->target[i]);
+}
+
+/* ---- what is seen where ---- */
+
+static double half_height(const mgt_camera *camera) { return tan(camera->fov_y_deg * pi / 360); }
+
+void camera_view_ray(const mgt_camera *camera, double aspect, const double at[2], double direction[3])
+{
+    const camera_axes axes = camera_axes_of(camera);
+    const double up = (1 - 2 * at[1]) * half_height(camera), right = (2 * at[0] - 1) * half_height(camera) * aspect;
+    for (int i = 0; i < 3; i++)
+        direction[i] = axes.forward[i] + right * axes.right[i] + up * axes.up[i];
+    normalize(direction);
+}
+
+bool camera_project(const mgt_camera *camera, double aspect, const double point[3], double at[2])
+{
+    const camera_axes axes = camera_axes_of(camera);
+    double forward = 0, right = 0, up = 0;
+    for (int i = 0; i < 3; i++) {
+        const double way = point[i] - camera->position[i];
+        forward += way * axes.forward[i];
+        right += way * axes.right[i];
+        up += way * axes.up[i];
+    }
+    if (!(forward > 0))
+        return false;
+    at[0] = 0.5 + 0.5 * right / (forward * half_height(camera) * aspect);
+    at[1] = 0.5 - 0.5 * up / (forward * half_height(camera));
+    return true;
+}
+
+bool camera_grab(mgt_camera *camera, double aspect, const double point[3], const double at[2])
+{
+    double direction[3];
+    camera_view_ray(camera, aspect, at, direction);
+    const double fall = point[1] - camera->position[1], distance = fall / direction[1];
+    if (!(direction[1] * fall > 0) || distance > longest_grab * fabs(fall))
+        return false;
+    for (int i = 0; i < 3; i += 2) {
+        const double step = point[i] - distance * direction[i] - camera->position[i];
+        camera->position[i] += step;
+        camera->target[i] += step;
+    }
+    return true;
 }
 
 void camera_keep_above(mgt_camera *camera, double height)

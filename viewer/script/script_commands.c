@@ -2,11 +2,13 @@
  * The commands of scripts; docs/viewer.md describes them. */
 #include <GLFW/glfw3.h>
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "cli/common/numbers.h"
 #include "cli/common/progress.h"
+#include "viewer/scene/camera_moves.h"
 #include "viewer/script/script_state.h"
 
 static bool number_at(viewer *v, int word, double *number)
@@ -236,6 +238,65 @@ static void do_expect_change(viewer *v) { script_capture(v->script, CAPTURE_CHAN
 
 static void do_expect_same(viewer *v) { script_capture(v->script, CAPTURE_SAME); }
 
+/* ---- the camera's way ---- */
+
+static double aspect_of(const viewer *v) { return (double)v->place.place.width / (double)v->place.place.height; }
+
+static void do_mark_point(viewer *v)
+{
+    double n[2], at[2], middle[2];
+    if (!numbers_at(v, 2, n))
+        return;
+    input_fraction(v, n[0], n[1], at);
+    if (!viewer_point_at(v, at, v->script->point, middle))
+        script_fail(v, "mark-point: no water is seen there");
+}
+
+static void do_expect_point(viewer *v)
+{
+    double n[3], at[2], pointer[2];
+    if (!numbers_at(v, 3, n))
+        return;
+    const mgt_camera *camera = viewer_free_camera(v);
+    const ui_rect *place = &v->place.place;
+    input_fraction(v, n[0], n[1], pointer);
+    if (!camera_project(camera, aspect_of(v), v->script->point, at)) {
+        script_fail(v, "expect-point: the marked point lies behind the camera");
+        return;
+    }
+    const double off = hypot((at[0] - pointer[0]) * (double)place->width, (at[1] - pointer[1]) * (double)place->height);
+    printf("point: %.2f pixels from %g, %g\n", off, n[0], n[1]);
+    if (!(off <= n[2]))
+        script_fail(v, "expect-point: the marked point is %.2f pixels off; allowed is %g", off, n[2]);
+}
+
+static void do_mark_camera(viewer *v)
+{
+    mgt_camera *camera = viewer_free_camera(v);
+    camera_set_pivot(camera, v->document.values.water.level);
+    v->script->camera = *camera;
+}
+
+/* The angle between the arms from the pivot to the camera, in degrees a pixel of a drag. */
+static void do_expect_orbit(viewer *v)
+{
+    double n[2], dot = 0, length[2] = {0, 0};
+    if (!numbers_at(v, 2, n))
+        return;
+    const mgt_camera *old = &v->script->camera, *now = viewer_free_camera(v);
+    for (int i = 0; i < 3; i++) {
+        const double a = old->position[i] - old->target[i], b = now->position[i] - now->target[i];
+        dot += a * b;
+        length[0] += a * a;
+        length[1] += b * b;
+    }
+    const double cosine = dot / sqrt(length[0] * length[1]), angle = acos(fmin(fmax(cosine, -1), 1)) * 180 / 3.14159265358979323846;
+    const double farther = sqrt(length[1] / length[0]) - 1;
+    printf("orbit: %.3f degrees a pixel, distance %.6f m, changed by %.1e of it\n", angle / n[0], sqrt(length[1]), farther);
+    if (!(angle / n[0] <= n[1] && angle > 0 && fabs(farther) < 1e-6))
+        script_fail(v, "expect-orbit: %.3f degrees a pixel, and the distance changed by %.1e of it; allowed are up to %g and 0", angle / n[0], farther, n[1]);
+}
+
 static void do_vary(viewer *v)
 {
     script *s = v->script;
@@ -365,6 +426,10 @@ const script_command script_commands[] = {
     {"mark", 1, 1, do_mark},
     {"expect-change", 1, 1, do_expect_change},
     {"expect-same", 1, 1, do_expect_same},
+    {"mark-point", 3, 3, do_mark_point},
+    {"expect-point", 4, 4, do_expect_point},
+    {"mark-camera", 1, 1, do_mark_camera},
+    {"expect-orbit", 3, 3, do_expect_orbit},
     {"vary", 2, 2, do_vary},
     {"list-controls", 1, 1, do_list_controls},
     {"inspect", 3, 3, do_inspect},

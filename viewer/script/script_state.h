@@ -44,6 +44,8 @@ struct script {
     bool saving; /* wait until the picture is on the disk */
     bool waiting_reload;
     struct stat reload_stamp;
+    double point[3];   /* of the water, marked */
+    mgt_camera camera; /* marked */
 };
 
 typedef struct script_command {

@@ -319,9 +319,9 @@ bool ui_slider(const char *label, double *value, double min, double max, const c
     return ImGui::SliderScalar(label, ImGuiDataType_Double, value, &min, &max, format, flags);
 }
 
-bool ui_slider_count(const char *label, uint32_t *value, uint32_t min, uint32_t max, bool logarithmic)
+bool ui_slider_count(const char *label, uint32_t *value, uint32_t min, uint32_t max, bool logarithmic, const char *zero)
 {
-    return ImGui::SliderScalar(label, ImGuiDataType_U32, value, &min, &max, "%u", logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
+    return ImGui::SliderScalar(label, ImGuiDataType_U32, value, &min, &max, zero && *value == 0 ? zero : "%u", logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
 }
 
 bool ui_drag(const char *label, double *values, int count, double step, double min, double max, const char *format)

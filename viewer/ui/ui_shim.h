@@ -94,7 +94,8 @@ bool ui_button(const char *label, float width); /* width 0: as the label needs *
 bool ui_toggle_button(const char *label, bool on, float width);
 bool ui_checkbox(const char *label, bool *on);
 bool ui_slider(const char *label, double *value, double min, double max, const char *format, bool logarithmic);
-bool ui_slider_count(const char *label, uint32_t *value, uint32_t min, uint32_t max, bool logarithmic);
+/* `zero`: shown in place of 0; NULL: 0. */
+bool ui_slider_count(const char *label, uint32_t *value, uint32_t min, uint32_t max, bool logarithmic, const char *zero);
 bool ui_drag(const char *label, double *values, int count, double step, double min, double max, const char *format);
 bool ui_color(const char *label, float rgb[3], float *intensity);
 bool ui_choice(const char *label, int *chosen, const char *const *names, int count);
