@@ -223,6 +223,7 @@ static void run_frame(viewer *v)
     place_picture(v);
     viewer_render(v);
     viewer_watch_saver(v);
+    viewer_keep_step(v, false);
     v->stand_in.seconds = (float)script_frame;
     ui_frame_begin(&v->stand_in);
     draw_picture(v);
@@ -261,7 +262,10 @@ static bool open_scene(viewer *v)
     v->home = v->document.values.camera.still;
     document_save_name(&v->document, v->save_name, sizeof v->save_name);
     snprintf(v->picture_name, sizeof v->picture_name, "mangata.png");
-    return true;
+    if (history_start(&v->history, &v->document.values, &v->settings))
+        return true;
+    v->exit_code = console_error(EXIT_CODE_FAILED, "out of memory");
+    return false;
 }
 
 static bool open_script(viewer *v)
@@ -300,6 +304,7 @@ static int run(const view_request *request)
     close_window(v);
     glfwTerminate();
     script_close(v->script);
+    history_free(&v->history);
     document_close(&v->document);
     const int code = v->exit_code;
     free(v);

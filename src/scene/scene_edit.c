@@ -138,6 +138,8 @@ static bool mappings_equal(const field_row *mapping, const void *left, const voi
     return equal;
 }
 
+bool scene_values_equal(const scene_values *left, const scene_values *right) { return mappings_equal(scene_root_field(), left, right); }
+
 bool scene_objects_equal(const scene_values *left, const scene_values *right)
 {
     const field_row *objects = child_field(scene_root_field(), "objects", 7);

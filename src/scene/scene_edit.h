@@ -25,6 +25,9 @@ bool scene_values_fix_files(scene_values *values, const char *scene_path);
 scene_file *scene_file_parse_like(const scene_values *like, const char *text, size_t length, const char *name, const char *const *overrides,
                                   size_t override_count, scene_error *error);
 
+/* Whether both hold the same for every key. */
+bool scene_values_equal(const scene_values *left, const scene_values *right);
+
 /* Whether both list the same objects. */
 bool scene_objects_equal(const scene_values *left, const scene_values *right);
 

@@ -15,6 +15,7 @@
 
 #include "params/waves.h"
 #include "viewer/scene/camera_moves.h"
+#include "viewer/scene/history.h"
 #include "viewer/ui/controls.h"
 #include "viewer/picture/palette.h"
 
@@ -347,6 +348,41 @@ static void what_is_grabbed_stays_under_the_pointer(void **state)
     assert_false(camera_project(&c, aspect, point, at));
 }
 
+static void states_are_undone_and_redone(void **state)
+{
+    (void)state;
+    history h = {0};
+    scene_values values = scene_values_defaults();
+    settings chosen = settings_defaults();
+    assert_true(history_start(&h, &values, &chosen) && history_is_current(&h, &values, &chosen));
+    assert_false(history_add(&h, &values, &chosen)); /* nothing has changed */
+    assert_null(history_step(&h, -1));
+    for (int i = 1; i <= 3; i++) {
+        values.light.elevation_deg = 10 * i;
+        assert_true(history_add(&h, &values, &chosen));
+    }
+    chosen.view.wipe = 0.25;
+    assert_true(history_add(&h, &values, &chosen));
+    assert_true(history_step(&h, -1)->settings.view.wipe == 0.5);
+    assert_true(history_step(&h, -1)->values.light.elevation_deg == 20);
+    assert_true(history_step(&h, 1)->values.light.elevation_deg == 30);
+    history_follow(&h, 7, &values.camera.still);
+    chosen.clock.time = 7;
+    chosen.view.wipe = 0.5;
+    assert_true(history_is_current(&h, &values, &chosen));
+    values.light.elevation_deg = 50; /* in place of the wipe that was undone */
+    assert_true(history_add(&h, &values, &chosen));
+    assert_null(history_step(&h, 1));
+    for (int i = 0; i < 2000; i++) {
+        values.light.elevation_deg = i % 2;
+        assert_true(history_add(&h, &values, &chosen));
+    }
+    assert_true(h.count < 1000 && h.at == h.count - 1);
+    history_free(&h);
+    assert_false(history_add(&h, &values, &chosen));
+    scene_values_free(&values);
+}
+
 static void keyframes_stay_in_order(void **state)
 {
     (void)state;
@@ -417,6 +453,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(another_body_brings_its_own_light, make_folder, remove_folder),
         cmocka_unit_test(cameras_turn_without_tumbling),
         cmocka_unit_test(what_is_grabbed_stays_under_the_pointer),
+        cmocka_unit_test(states_are_undone_and_redone),
         cmocka_unit_test(keyframes_stay_in_order),
         cmocka_unit_test(waves_have_shapes),
         cmocka_unit_test(palettes_have_their_ends),

@@ -35,6 +35,7 @@ const key_help key_helps[] = {
     {"T", "timings"},
     {"C", "copy as command"},
     {"F12", "save the picture"},
+    {"Ctrl Z, Ctrl Y", "undo, redo"},
     {"Tab", "hide or show the controls"},
     {"F11", "full screen"},
     {"? or F1", "these keys"},
@@ -131,6 +132,8 @@ static void press(viewer *v, int key, int modifiers)
     const bool shift = modifiers & GLFW_MOD_SHIFT;
     if (modifiers & GLFW_MOD_CONTROL) {
         v->quit |= key == GLFW_KEY_Q;
+        if (key == GLFW_KEY_Z || key == GLFW_KEY_Y)
+            viewer_undo(v, key == GLFW_KEY_Y || shift ? 1 : -1);
         return;
     }
     switch (key) {
@@ -224,7 +227,8 @@ void input_key(viewer *v, int key, int action, int modifiers)
             v->pointer.keys[i] = action != GLFW_RELEASE && !ui_takes_keys() && !(modifiers & GLFW_MOD_CONTROL);
     if (key == GLFW_KEY_LEFT_SHIFT || key == GLFW_KEY_RIGHT_SHIFT)
         v->pointer.fast = action != GLFW_RELEASE;
-    const bool repeats = key == GLFW_KEY_COMMA || key == GLFW_KEY_PERIOD;
+    const bool steps = modifiers & GLFW_MOD_CONTROL && (key == GLFW_KEY_Z || key == GLFW_KEY_Y);
+    const bool repeats = key == GLFW_KEY_COMMA || key == GLFW_KEY_PERIOD || steps;
     if (!ui_takes_keys() && (action == GLFW_PRESS || (action == GLFW_REPEAT && repeats)))
         press(v, key, modifiers);
 }

@@ -25,6 +25,22 @@ void viewer_log(viewer *v, const char *format, ...)
     console_note(&v->request->out, "%s", text);
 }
 
+static void show(viewer *v, bool is_error)
+{
+    /* What a script sees does not depend on the time it takes. */
+    v->message.is_error = is_error;
+    v->message.until = v->script ? 0 : seconds_now() + (is_error ? 8 : 4);
+}
+
+void viewer_tell(viewer *v, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(v->message.text, sizeof v->message.text, format, arguments);
+    va_end(arguments);
+    show(v, false);
+}
+
 void viewer_report(viewer *v, bool is_error, const char *format, ...)
 {
     notice *n = &v->message;
@@ -32,7 +48,6 @@ void viewer_report(viewer *v, bool is_error, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(n->text, sizeof n->text, format, arguments);
     va_end(arguments);
-    n->is_error = is_error;
-    n->until = v->script ? 0 : seconds_now() + (is_error ? 8 : 4); /* what a script sees does not depend on the time it takes */
+    show(v, is_error);
     viewer_log(v, "%s", n->text);
 }

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "cli/common/progress.h"
 #include "viewer/app/viewer.h"
 #include "viewer/scene/camera_moves.h"
 
@@ -190,6 +191,7 @@ void input_scroll(viewer *v, double amount, int modifiers)
 {
     if (ui_takes_pointer() || amount == 0)
         return;
+    v->pointer.scrolled_at = seconds_now();
     const double factor = pow(zoom_step, amount);
     if (modifiers & GLFW_MOD_CONTROL)
         magnify(v, factor);

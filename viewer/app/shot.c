@@ -169,10 +169,13 @@ void viewer_advance(viewer *v, double seconds)
     const bool *k = v->pointer.keys;
     const double step = v->settings.move.speed * seconds * (v->pointer.fast ? 5 : 1);
     const double forward = k[0] - k[2], right = k[3] - k[1], up = k[5] - k[4];
+    const bool moves = forward != 0 || right != 0 || up != 0, kept = !moves && history_is_current(&v->history, &v->document.values, &v->settings);
     run_clock(v, seconds);
-    if (forward != 0 || right != 0 || up != 0)
+    if (moves)
         camera_move(viewer_free_camera(v), forward * step, right * step, up * step);
     keep_camera_above(v);
+    if (kept)
+        history_follow(&v->history, v->settings.clock.time, &v->document.values.camera.still);
 }
 
 /* ---- files ---- */

@@ -4,6 +4,7 @@
 #define MANGATA_VIEWER_APP_VIEWER_H
 
 #include "viewer/ui/controls.h"
+#include "viewer/scene/history.h"
 #include "mangata/gl.h"
 #include "viewer/picture/picture_saver.h"
 #include "viewer/picture/render_worker.h"
@@ -71,6 +72,7 @@ typedef struct drag {
 
 typedef struct pointer_state {
     double x, y;
+    double scrolled_at; /* seconds_now() of the wheel's last step */
     drag drag;
     bool keys[6]; /* W A S D Q E */
     bool fast;
@@ -94,6 +96,7 @@ typedef struct viewer {
     display *display;
     document document;
     settings settings;
+    history history;
     control_board board;
     renderers render;
     picture_place place;
@@ -123,7 +126,9 @@ typedef struct viewer {
 /* ---- messages (notices.c) ---- */
 
 void viewer_log(viewer *v, const char *format, ...) __attribute__((format(printf, 2, 3)));
-/* Shows a line over the picture for a few seconds, and logs it. */
+/* Shows a line over the picture for a few seconds. */
+void viewer_tell(viewer *v, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* The same, and logs it. */
 void viewer_report(viewer *v, bool is_error, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
 /* ---- the scene of the moment (shot.c) ---- */
@@ -205,6 +210,14 @@ void viewer_inspect(viewer *v);
 
 /* The place of the water in the pixel at fractions of the picture's width and height, and the pixel's own middle; false where there is none. */
 bool viewer_point_at(viewer *v, const double at[2], double point[3], double middle[2]);
+
+/* ---- undo (undo.c) ---- */
+
+/* Keeps what has changed as one step, once nothing is held any more; `all`: at once. Every frame. */
+void viewer_keep_step(viewer *v, bool all);
+
+/* Steps back by -1, on by 1, and tells over the picture what has changed. False where there is no such step. */
+bool viewer_undo(viewer *v, int by);
 
 /* ---- input (input.c, pointer.c) ---- */
 

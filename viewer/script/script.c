@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "cli/common/progress.h"
+#include "params/methods.h"
 #include "viewer/script/script_state.h"
 
 enum { VARY_TRIES = 6 };
@@ -33,6 +34,9 @@ void script_close(script *s)
         fclose(s->stream);
     free(s->mark.bytes);
     free(s->before.bytes);
+    free(s->after.bytes);
+    free(s->values_before);
+    free(s->values_after);
     free(s);
 }
 
@@ -234,36 +238,125 @@ static void keep_pixels(window_pixels *to, window_pixels from)
     *to = from;
 }
 
-static void set_varied(viewer *v, const char *value)
+/* ---- a control changed, undone and redone ---- */
+
+/* Every control with its value; to be freed. NULL when memory runs out. */
+static char *all_values(const viewer *v)
 {
-    char error[VIEWER_TEXT];
-    if (!control_set(&v->board, v->script->vary_name, value, error, sizeof error))
-        viewer_log(v, "refused: %s", error);
+    size_t count, size;
+    char *text = NULL;
+    control *list = control_list(&v->board, &count);
+    FILE *stream = list ? open_memstream(&text, &size) : NULL;
+    for (size_t i = 0; stream && i < count; i++)
+        fprintf(stream, "%s=%s\n", list[i].name, control_print(&list[i]).text);
+    free(list);
+    if (stream && fclose(stream) == 0)
+        return text;
+    free(text);
+    return NULL;
+}
+
+static void keep_values(const viewer *v, char **to)
+{
+    free(*to);
+    *to = all_values(v);
+}
+
+static void expect_values(viewer *v, const char *expected, const char *what)
+{
+    char *now = all_values(v);
+    if (!now || !expected || strcmp(now, expected) != 0)
+        script_fail(v, "%s: %s, the controls have other values than before", v->script->vary_name, what);
+    free(now);
+}
+
+static bool has_few_samples(const viewer *v)
+{
+    bool few = true;
+    for (int side = 0; side < SIDE_COUNT; side++) {
+        const mgt_quality *q = &v->settings.sides[side];
+        const bool seen = side == SIDE_A || v->settings.view.compare != COMPARE_OFF;
+        few &= !seen || !method_is_sampled(q->method) || (uint64_t)q->spatial_samples * q->spatial_samples * q->time_samples <= 16;
+    }
+    return few;
+}
+
+/* Pictures of many samples are compared once all of them are there, where they are few. */
+void script_capture_vary(viewer *v, capture what)
+{
+    script_capture(v->script, what);
+    v->script->samples = has_few_samples(v) ? 0 : 1;
+}
+
+static void expect_pixels(viewer *v, const window_pixels *expected, const window_pixels *now, const char *what)
+{
+    if (has_few_samples(v) && !same_pixels(expected, now))
+        script_fail(v, "%s: %s, the window has other pixels than before", v->script->vary_name, what);
 }
 
 static void try_other_value(viewer *v)
 {
     script *s = v->script;
+    char error[VIEWER_TEXT];
     control c;
     if (!control_find(&v->board, s->vary_name, &c))
         return;
-    set_varied(v, control_random(&c, &s->chance).text);
+    if (!control_set(&v->board, s->vary_name, control_random(&c, &s->chance).text, error, sizeof error))
+        viewer_log(v, "refused: %s", error);
+    viewer_keep_step(v, true);
     s->vary_tries++;
-    script_capture(s, CAPTURE_VARY_AFTER);
+    script_capture_vary(v, CAPTURE_VARY_AFTER);
 }
 
-static void end_vary(viewer *v, window_pixels now)
+static void undo_to(viewer *v, size_t step)
+{
+    while (v->history.at > step && viewer_undo(v, -1))
+        continue;
+}
+
+static void go_on_varying(viewer *v, capture what, window_pixels now)
 {
     script *s = v->script;
-    const bool same = same_pixels(&s->before, &now);
-    free(now.bytes);
-    set_varied(v, s->vary_value);
-    if (!same)
-        return;
-    if (s->vary_tries < VARY_TRIES)
+    switch (what) {
+    case CAPTURE_VARY_BEFORE:
+        keep_pixels(&s->before, now);
+        keep_values(v, &s->values_before);
         try_other_value(v);
-    else
-        script_fail(v, "%s: no value changes what is seen", s->vary_name);
+        return;
+    case CAPTURE_VARY_AFTER:
+        keep_pixels(&s->after, now);
+        keep_values(v, &s->values_after);
+        if (!same_pixels(&s->before, &s->after)) {
+            if (v->history.at == s->vary_step)
+                script_fail(v, "%s: its change is no step", s->vary_name);
+            undo_to(v, s->vary_step);
+            script_capture_vary(v, CAPTURE_VARY_UNDONE);
+        } else if (s->vary_tries < VARY_TRIES) {
+            undo_to(v, s->vary_step);
+            try_other_value(v);
+        } else {
+            script_fail(v, "%s: no value changes what is seen", s->vary_name);
+        }
+        return;
+    case CAPTURE_VARY_UNDONE:
+        expect_values(v, s->values_before, "undone");
+        expect_pixels(v, &s->before, &now, "undone");
+        viewer_undo(v, 1);
+        script_capture_vary(v, CAPTURE_VARY_REDONE);
+        break;
+    case CAPTURE_VARY_REDONE:
+        expect_values(v, s->values_after, "redone");
+        expect_pixels(v, &s->after, &now, "redone");
+        undo_to(v, s->vary_step);
+        break;
+    case CAPTURE_NONE:
+    case CAPTURE_FILE:
+    case CAPTURE_MARK:
+    case CAPTURE_CHANGE:
+    case CAPTURE_SAME:
+        break;
+    }
+    free(now.bytes);
 }
 
 void script_after_frame(viewer *v)
@@ -297,11 +390,10 @@ void script_after_frame(viewer *v)
         free(now.bytes);
         break;
     case CAPTURE_VARY_BEFORE:
-        keep_pixels(&s->before, now);
-        try_other_value(v);
-        break;
     case CAPTURE_VARY_AFTER:
-        end_vary(v, now);
+    case CAPTURE_VARY_UNDONE:
+    case CAPTURE_VARY_REDONE:
+        go_on_varying(v, what, now);
         break;
     case CAPTURE_NONE:
     case CAPTURE_FILE:

@@ -306,9 +306,10 @@ static void do_vary(viewer *v)
         return;
     }
     snprintf(s->vary_name, sizeof s->vary_name, "%s", s->words[1]);
-    snprintf(s->vary_value, sizeof s->vary_value, "%s", control_print(&c).text);
     s->vary_tries = 0;
-    script_capture(s, CAPTURE_VARY_BEFORE);
+    viewer_keep_step(v, true);
+    s->vary_step = v->history.at;
+    script_capture_vary(v, CAPTURE_VARY_BEFORE);
 }
 
 static void do_list_controls(viewer *v)
@@ -398,6 +399,13 @@ static void do_wave(viewer *v)
         script_fail(v, "wave: allowed is add or remove INDEX");
 }
 
+static void do_undo(viewer *v)
+{
+    const bool redo = strcmp(v->script->words[0], "redo") == 0;
+    if (!viewer_undo(v, redo ? 1 : -1))
+        script_fail(v, "there is nothing to %s", v->script->words[0]);
+}
+
 static void do_revert(viewer *v) { viewer_revert(v); }
 
 static void do_quit(viewer *v) { v->quit = true; }
@@ -439,6 +447,8 @@ const script_command script_commands[] = {
     {"resize", 3, 3, do_resize},
     {"page", 2, 2, do_page},
     {"wave", 2, 3, do_wave},
+    {"undo", 1, 1, do_undo},
+    {"redo", 1, 1, do_undo},
     {"revert", 1, 1, do_revert},
     {"quit", 1, 1, do_quit},
 };

@@ -8,7 +8,17 @@
 enum { LINE_SIZE = 8192, WORDS = 8 };
 
 /* What is done with the window's pixels once a frame is drawn. */
-typedef enum capture { CAPTURE_NONE, CAPTURE_FILE, CAPTURE_MARK, CAPTURE_CHANGE, CAPTURE_SAME, CAPTURE_VARY_BEFORE, CAPTURE_VARY_AFTER } capture;
+typedef enum capture {
+    CAPTURE_NONE,
+    CAPTURE_FILE,
+    CAPTURE_MARK,
+    CAPTURE_CHANGE,
+    CAPTURE_SAME,
+    CAPTURE_VARY_BEFORE,
+    CAPTURE_VARY_AFTER,
+    CAPTURE_VARY_UNDONE,
+    CAPTURE_VARY_REDONE
+} capture;
 
 typedef struct window_pixels {
     uint8_t *bytes; /* owned */
@@ -29,10 +39,12 @@ struct script {
     double give_up_at; /* seconds_now() */
     capture capture;
     char file[LINE_SIZE];
-    window_pixels mark, before;
+    window_pixels mark, before, after;
 
-    char vary_name[64], vary_value[256]; /* the control under test, and what it was */
+    char vary_name[64];                 /* the control under test */
+    char *values_before, *values_after; /* of all controls; owned */
     int vary_tries;
+    size_t vary_step; /* of the history, before the change */
     uint64_t chance;
 
     int random_left;
@@ -68,6 +80,9 @@ void script_settle(script *s, uint64_t samples);
 
 /* The same; then does something with the window's pixels. */
 void script_capture(script *s, capture what);
+
+/* The same for a control under test; few samples are all awaited. */
+void script_capture_vary(viewer *v, capture what);
 
 /* The error that stands over the picture; empty: none. */
 const char *script_any_error(const viewer *v);

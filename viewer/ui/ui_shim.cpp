@@ -203,6 +203,8 @@ void ui_on_enter(GLFWwindow *window, int entered) { ImGui_ImplGlfw_CursorEnterCa
 
 bool ui_takes_pointer(void) { return ImGui::GetIO().WantCaptureMouse; }
 
+bool ui_holds_item(void) { return ImGui::IsAnyItemActive(); }
+
 bool ui_takes_keys(void) { return ImGui::GetIO().WantTextInput; }
 
 /* ---- windows ---- */

@@ -52,6 +52,7 @@ void ui_on_enter(struct GLFWwindow *window, int entered);
 
 bool ui_takes_pointer(void); /* the pointer is over or holds a control */
 bool ui_takes_keys(void);    /* text is being typed */
+bool ui_holds_item(void);    /* a control is held down or written in */
 
 /* ---- windows ---- */
 
