@@ -222,6 +222,7 @@ static void run_frame(viewer *v)
     follow_scale(v);
     place_picture(v);
     viewer_render(v);
+    viewer_judge(v);
     viewer_watch_saver(v);
     viewer_keep_step(v, false);
     v->stand_in.seconds = (float)script_frame;
@@ -285,6 +286,7 @@ static int run(const view_request *request)
         return console_error(EXIT_CODE_FAILED, "out of memory");
     v->request = request;
     v->settings = settings_defaults();
+    v->settings.panel.judge = !request->script; /* what a script sees does not depend on the time it takes */
     glfwSetErrorCallback(on_glfw_error);
     const bool opened = open_scene(v) && open_script(v);
     interrupt_install();
@@ -299,6 +301,7 @@ static int run(const view_request *request)
                 v->exit_code = interrupt_exit_code();
         }
     }
+    judge_destroy(v->judging.judge);
     picture_saver_destroy(v->saver);
     viewer_stop_rendering(v);
     close_window(v);

@@ -127,7 +127,7 @@ pattern() { grep -E "$1" all.txt; }
     echo 'page 3'
     vary move.mode move.path move.speed move.clearance
     echo 'page 4'
-    vary time.start time.frames
+    vary time.start time.frames panel.judge
     vary clock.speed clock.loop
     # a path
     echo 'set move.path on'

@@ -54,6 +54,7 @@ static void draw_divider(const viewer *v)
     ui_draw_line(UI_LAYER_BEHIND, x + 0.2f * unit, middle - 0.3f * unit, x + 0.2f * unit, middle + 0.3f * unit, accent, 1.5f);
     draw_label(x - ui_text_width(a) - 2 * unit, p->y + unit, a, unit);
     draw_label(x + unit, p->y + unit, b, unit);
+    judging_draw(v, x, p->y + 3 * unit, unit);
     ui_clip_end(UI_LAYER_BEHIND);
 }
 

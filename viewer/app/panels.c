@@ -309,7 +309,7 @@ static void draw_view(viewer *v)
     static const char *const names[] = {"view.resolution", "view.frame", "image.width", "image.height", "view.zoom", NULL};
     static const char *const depth[] = {"view.near_depth", "view.far_depth", NULL};
     static const char *const film[] = {"time.start", "time.fps", "time.frames", NULL};
-    static const char *const panel[] = {"panel.timings", "panel.inspector", "panel.legend", "panel.log", "panel.keys", "panel.scale", NULL};
+    static const char *const panel[] = {"panel.timings", "panel.judge", "panel.inspector", "panel.legend", "panel.log", "panel.keys", "panel.scale", NULL};
     draw_controls(v, names);
     if (v->settings.view.layer == MGT_LAYER_DEPTH)
         draw_controls(v, depth);

@@ -6,6 +6,7 @@
 #include "viewer/ui/controls.h"
 #include "viewer/scene/history.h"
 #include "mangata/gl.h"
+#include "viewer/picture/judge.h"
 #include "viewer/picture/picture_saver.h"
 #include "viewer/picture/render_worker.h"
 #include "viewer/picture/timings.h"
@@ -85,6 +86,14 @@ typedef struct inspection {
     uint64_t serial; /* of the order it belongs to */
 } inspection;
 
+/* A and B against brute force. */
+typedef struct judging {
+    judge *judge;    /* NULL: not needed yet */
+    uint64_t serial; /* of the order that is judged; 0: none */
+    judgement found;
+    bool has_found;
+} judging;
+
 typedef struct script script;
 
 struct GLFWwindow;
@@ -109,6 +118,7 @@ typedef struct viewer {
     pointer_state pointer;
     ui_stand_in stand_in;
     inspection inspection;
+    judging judging;
     mgt_camera home; /* the camera that "reset" goes back to */
     size_t selected_wave, selected_keyframe;
     int open_tab; /* page of the panel to open, from 1; 0: as it is */
@@ -184,6 +194,11 @@ void viewer_lose_gl(viewer *v, const char *why);
 
 /* A context for single pixels and pictures on the side; NULL with a notice. */
 mgt_context *viewer_tools(viewer *v);
+
+/* ---- the judge (judging.c) ---- */
+
+/* Begins to judge once all rests, ends when something moves, takes the figures. Once a frame. */
+void viewer_judge(viewer *v);
 
 /* ---- results (results.c) ---- */
 

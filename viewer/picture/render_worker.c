@@ -12,6 +12,7 @@
 #include "cli/common/context_options.h"
 #include "cli/common/progress.h"
 #include "params/methods.h"
+#include "viewer/picture/strata.h"
 
 enum { ERROR_SIZE = 512 };
 
@@ -150,25 +151,6 @@ static void render_once(render_worker *w, int side)
 }
 
 /* ---- refinement ---- */
-
-static uint64_t common_divisor(uint64_t a, uint64_t b)
-{
-    while (b) {
-        const uint64_t rest = a % b;
-        a = b;
-        b = rest;
-    }
-    return a;
-}
-
-/* Strata in an order that fills the pixel and the shutter evenly from the start: steps of about the golden section. */
-static uint64_t stratum_at(uint64_t index, uint64_t total)
-{
-    uint64_t step = (uint64_t)((double)total * 0.6180339887498949) | 1;
-    while (common_divisor(step, total) != 1)
-        step += 2;
-    return (uint64_t)((unsigned __int128)index * step % total);
-}
 
 /* Means over samples are meaningful for light and areas; depth and normal show one instant and are rendered once. */
 static bool layer_refines(mgt_layer layer) { return layer <= MGT_LAYER_MASK; }

@@ -61,6 +61,7 @@ static const field_row move_fields[] = {{"mode", FIELD_CHOICE, offsetof(move_set
 
 static const field_row panel_fields[] = {{"shown", SWITCH(panel_settings, shown, "the panel of controls")},
                                          {"timings", SWITCH(panel_settings, timings, "times of frames and passes")},
+                                         {"judge", SWITCH(panel_settings, judge, "A and B against brute force while nothing moves")},
                                          {"inspector", SWITCH(panel_settings, inspector, "what is known of one pixel")},
                                          {"keys", SWITCH(panel_settings, keys, "the list of keys")},
                                          {"legend", SWITCH(panel_settings, legend, "what false colours stand for")},
@@ -109,6 +110,6 @@ settings settings_defaults(void)
         .clock = {.speed = 1, .loop = 1},
         .waves = {.height = 1, .count = MGT_MAX_WAVES},
         .move = {.path = 1, .speed = 4, .clearance = 0.3},
-        .panel = {.shown = 1, .legend = 1, .scale = 1},
+        .panel = {.shown = 1, .judge = 1, .legend = 1, .scale = 1},
     };
 }

@@ -44,8 +44,8 @@ typedef struct move_settings {
 } move_settings;
 
 typedef struct panel_settings {
-    int shown, timings, inspector, keys, legend, log; /* off, on */
-    double scale;                                     /* of text and controls */
+    int shown, timings, judge, inspector, keys, legend, log; /* off, on */
+    double scale;                                            /* of text and controls */
 } panel_settings;
 
 typedef struct inspect_settings {

@@ -168,6 +168,23 @@ static void step_random(viewer *v)
     script_wait(s, 1);
 }
 
+/* Prints the figures once they are against as many samples as are asked for. */
+static bool take_judgement(viewer *v)
+{
+    static const char letters[] = {'A', 'B'};
+    const judging *state = &v->judging;
+    if (!state->has_found || state->found.samples < v->script->judging) {
+        if (seconds_now() > v->script->give_up_at)
+            script_fail(v, "there is no judgement after two minutes");
+        return false;
+    }
+    for (int side = 0; side < SIDE_COUNT; side++)
+        printf("judge %c: error %.5f, FLIP %.5f, flicker %.5f, against %u samples, noise %.5f\n", letters[side], state->found.sides[side].error,
+               state->found.sides[side].flip, state->found.sides[side].flicker, state->found.samples, state->found.noise);
+    v->script->judging = 0;
+    return true;
+}
+
 static bool is_waiting(viewer *v)
 {
     script *s = v->script;
@@ -188,6 +205,8 @@ static bool is_waiting(viewer *v)
         return true;
     }
     s->settling = false;
+    if (s->judging > 0 && !take_judgement(v))
+        return true;
     if (s->waiting_reload && s->words[0] && strcmp(s->words[0], "wait-reload") == 0) {
         const struct stat *a = &s->reload_stamp, *b = &v->document.stamp;
         if (a->st_mtim.tv_sec == b->st_mtim.tv_sec && a->st_mtim.tv_nsec == b->st_mtim.tv_nsec && a->st_size == b->st_size) {

@@ -169,6 +169,17 @@ static void do_picture(viewer *v)
         v->script->saving = true;
 }
 
+/* Waits for the judge and prints what it found. */
+static void do_judge(viewer *v)
+{
+    double samples;
+    if (!number_at(v, 1, &samples))
+        return;
+    script_settle(v->script, 1);
+    v->settings.panel.judge = 1;
+    v->script->judging = (uint32_t)fmax(samples, 2);
+}
+
 static void do_lose_renderer(viewer *v) { viewer_lose_gl(v, "the script took it away"); }
 
 static void do_command(viewer *v)
@@ -424,6 +435,7 @@ const script_command script_commands[] = {
     {"settle", 1, 2, do_settle},
     {"screenshot", 2, 2, do_screenshot},
     {"picture", 2, 3, do_picture},
+    {"judge", 2, 2, do_judge},
     {"lose-renderer", 1, 1, do_lose_renderer},
     {"command", 1, 1, do_command},
     {"save-scene", 2, 2, do_save_scene},

@@ -53,7 +53,8 @@ struct script {
     float drag_from[2], drag_to[2];
     int drag_button, drag_frames, drag_at;
     int held_key, held_modifiers, held_left;
-    bool saving; /* wait until the picture is on the disk */
+    uint32_t judging; /* wait for figures against so many samples; 0: not */
+    bool saving;      /* wait until the picture is on the disk */
     bool waiting_reload;
     struct stat reload_stamp;
     double point[3];   /* of the water, marked */

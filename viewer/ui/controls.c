@@ -98,6 +98,7 @@ static const control_hint hints[] = {
     {"move.clearance", "clearance", 0.05, 10, true, "%.2f m"},
     {"panel.shown", "controls", 0, 0, false, NULL},
     {"panel.timings", "timings", 0, 0, false, NULL},
+    {"panel.judge", "judge", 0, 0, false, NULL},
     {"panel.inspector", "inspector", 0, 0, false, NULL},
     {"panel.keys", "keys", 0, 0, false, NULL},
     {"panel.legend", "legend", 0, 0, false, NULL},
