@@ -3,7 +3,7 @@
 . "$CHECK"
 
 scene=$SOURCE/scenes/smooth.json
-drive "$scene" --size 120x80 <<'END'
+drive "$scene" --size 144x96 <<'END'
 set panel.shown off
 wipe none mangata 0.5
 judge 2
@@ -12,17 +12,17 @@ set light.elevation_deg 40
 judge 4
 set light.elevation_deg 35
 revert
-judge 64
+judge 128
 screenshot judged.png
 set panel.judge off
 screenshot plain.png
 END
 tee judged.txt <stdout.txt
 differ judged.png plain.png
-works render "$scene" -o truth-%d.png --frames 0-1 --size 120x80 --method reference --spatial 6 --time-samples 4 --quiet
+works render "$scene" -o truth-%d.png --frames 0-1 --size 144x96 --method reference --spatial 8 --time-samples 4 --quiet
 for side in A:none B:mangata; do
     method=${side#*:}
-    works render "$scene" -o "$method-%d.png" --frames 0-1 --size 120x80 --method "$method" --quiet
+    works render "$scene" -o "$method-%d.png" --frames 0-1 --size 144x96 --method "$method" --quiet
     "$MANGATA" diff "$method-%d.png" truth-%d.png --frames 0 --metrics rmse,flip >still.txt
     "$MANGATA" diff "$method-%d.png" truth-%d.png --frames 0-1 --metrics flicker >steps.txt
     awk -v side="${side%:*}" '
