@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "cli/common/interrupt.h"
+#include "image/video.h"
 #include "viewer/app/panels.h"
 #include "params/methods.h"
 #include "cli/common/progress.h"
@@ -198,7 +199,8 @@ static bool is_busy(const viewer *v)
 {
     const bool *k = v->pointer.keys;
     const bool moves = k[0] || k[1] || k[2] || k[3] || k[4] || k[5];
-    return v->script || v->settings.clock.play || moves || v->render.reduced || seconds_now() - v->render.changed_at < 1 || v->message.until > seconds_now();
+    return v->script || v->settings.clock.play || moves || v->film_export || v->render.reduced || seconds_now() - v->render.changed_at < 1 ||
+           v->message.until > seconds_now();
 }
 
 static void run_frame(viewer *v)
@@ -223,6 +225,7 @@ static void run_frame(viewer *v)
     place_picture(v);
     viewer_render(v);
     viewer_judge(v);
+    film_watch(v);
     viewer_watch_saver(v);
     viewer_keep_step(v, false);
     v->stand_in.seconds = (float)script_frame;
@@ -263,6 +266,7 @@ static bool open_scene(viewer *v)
     v->home = v->document.values.camera.still;
     document_save_name(&v->document, v->save_name, sizeof v->save_name);
     snprintf(v->picture_name, sizeof v->picture_name, "mangata.png");
+    v->film = (film_choice){.name = "film", .last = UINT32_MAX, .crf = VIDEO_CRF_DEFAULT};
     if (history_start(&v->history, &v->document.values, &v->settings))
         return true;
     v->exit_code = console_error(EXIT_CODE_FAILED, "out of memory");
@@ -301,6 +305,7 @@ static int run(const view_request *request)
                 v->exit_code = interrupt_exit_code();
         }
     }
+    film_stop(v);
     judge_destroy(v->judging.judge);
     picture_saver_destroy(v->saver);
     viewer_stop_rendering(v);

@@ -328,15 +328,14 @@ static void draw_files(viewer *v)
     ui_item_width(-label_units * ui_font_size());
     ui_text_field("file##picture", v->picture_name, sizeof v->picture_name);
     ui_tooltip(".png: as shown; .exr: scene-linear with every layer");
-    for (int i = 0; i < 2; i++) {
-        ui_item_width(-label_units * ui_font_size());
-        ui_slider_count(i == 0 ? "width##saved" : "height##saved", &v->picture_size[i], 0, i == 0 ? 7680 : 4320, false, "window");
-    }
+    size_draw(v, "size##saved", v->picture_size);
     if (ui_button("save (F12)", 0))
         input_press_key(v, "f12");
     ui_same_line(0);
     if (ui_button("copy as command (C)", 0))
         viewer_copy_command(v);
+    ui_space(6);
+    film_draw(v);
     ui_space(6);
     ui_text(UI_TONE_ACCENT, "Scene");
     ui_item_width(-label_units * ui_font_size());

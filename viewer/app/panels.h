@@ -11,6 +11,10 @@ float panels_width(const viewer *v);
 void panels_draw(viewer *v);
 void overlays_draw(viewer *v);
 void inspector_draw(viewer *v);
+void film_draw(viewer *v);
+
+/* A choice of sizes: the window's (0, 0), the scene's, usual ones, any other. */
+void size_draw(viewer *v, const char *label, uint32_t size[2]);
 
 /* The figures of both sides, left and right of the divider, from `top` down. */
 void judging_draw(const viewer *v, float divider, float top, float unit);

@@ -6,6 +6,7 @@
 #include "viewer/ui/controls.h"
 #include "viewer/scene/history.h"
 #include "mangata/gl.h"
+#include "viewer/picture/film_export.h"
 #include "viewer/picture/judge.h"
 #include "viewer/picture/picture_saver.h"
 #include "viewer/picture/render_worker.h"
@@ -94,6 +95,16 @@ typedef struct judging {
     bool has_found;
 } judging;
 
+/* What the next film is to be. */
+typedef struct film_choice {
+    char name[VIEWER_TEXT]; /* its ending follows the kind */
+    int kind;               /* place in the list of film.c */
+    uint32_t size[2];       /* 0: as in the window */
+    uint32_t first, last;   /* frames; beyond the last one: that */
+    uint32_t crf;
+    bool replaces; /* files that are there */
+} film_choice;
+
 typedef struct script script;
 
 struct GLFWwindow;
@@ -119,7 +130,10 @@ typedef struct viewer {
     ui_stand_in stand_in;
     inspection inspection;
     judging judging;
-    mgt_camera home; /* the camera that "reset" goes back to */
+    film_choice film;
+    film_export *film_export; /* NULL: none is under way */
+    double film_fraction;     /* of it that is done */
+    mgt_camera home;          /* the camera that "reset" goes back to */
     size_t selected_wave, selected_keyframe;
     int open_tab; /* page of the panel to open, from 1; 0: as it is */
     char save_name[VIEWER_TEXT], picture_name[VIEWER_TEXT];
@@ -199,6 +213,21 @@ mgt_context *viewer_tools(viewer *v);
 
 /* Begins to judge once all rests, ends when something moves, takes the figures. Once a frame. */
 void viewer_judge(viewer *v);
+
+/* ---- films (film.c) ---- */
+
+/* Begins to render the film that v->film says, by side A's method, in a process of its own. */
+bool film_begin(viewer *v, char *error, size_t error_size);
+void film_stop(viewer *v);
+
+/* Tells of a film that has been saved, or of why it has not. True while one is under way. */
+bool film_watch(viewer *v);
+
+/* Chooses the kind by the ending of the film's name. False where no kind has it. */
+bool film_take_kind(viewer *v);
+
+/* The path of the film, its ending included. */
+void film_path(const viewer *v, char *path, size_t size);
 
 /* ---- results (results.c) ---- */
 

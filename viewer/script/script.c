@@ -196,6 +196,8 @@ static bool is_waiting(viewer *v)
     }
     if (s->saving && viewer_watch_saver(v))
         return true;
+    if (s->saving && v->film_export)
+        return true;
     if (s->saving && v->save_problem[0])
         script_fail(v, "%s", v->save_problem);
     s->saving = false;

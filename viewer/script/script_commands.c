@@ -169,6 +169,33 @@ static void do_picture(viewer *v)
         v->script->saving = true;
 }
 
+static void do_film(viewer *v)
+{
+    char error[VIEWER_TEXT];
+    double range[2];
+    uint64_t size[2] = {0, 0};
+    const script *s = v->script;
+    film_choice *c = &v->film;
+    if (!number_at(v, 2, &range[0]) || !number_at(v, 3, &range[1]))
+        return;
+    if (s->words[4] && !number_parse_list(s->words[4], 'x', MGT_MAX_IMAGE_SIDE, 2, size)) {
+        script_fail(v, "film: %s is no size; allowed is WxH", s->words[4]);
+        return;
+    }
+    snprintf(c->name, sizeof c->name, "%s", s->words[1]);
+    if (!film_take_kind(v)) {
+        script_fail(v, "film: %s ends in none of .mp4, .mov, .y4m, .png and .exr", s->words[1]);
+        return;
+    }
+    c->first = (uint32_t)range[0];
+    c->last = (uint32_t)range[1];
+    c->size[0] = (uint32_t)size[0];
+    c->size[1] = (uint32_t)size[1];
+    v->script->saving = film_begin(v, error, sizeof error);
+    if (!v->script->saving)
+        script_fail(v, "%s", error);
+}
+
 /* Waits for the judge and prints what it found. */
 static void do_judge(viewer *v)
 {
@@ -435,6 +462,7 @@ const script_command script_commands[] = {
     {"settle", 1, 2, do_settle},
     {"screenshot", 2, 2, do_screenshot},
     {"picture", 2, 3, do_picture},
+    {"film", 4, 5, do_film},
     {"judge", 2, 2, do_judge},
     {"lose-renderer", 1, 1, do_lose_renderer},
     {"command", 1, 1, do_command},

@@ -360,6 +360,13 @@ bool ui_choice(const char *label, int *chosen, const char *const *names, int cou
 
 bool ui_selectable(const char *label, bool selected, float width) { return ImGui::Selectable(label, selected, 0, ImVec2(width, 0)); }
 
+void ui_progress(float fraction, const char *text)
+{
+    ImGui::PushStyleColor(ImGuiCol_PlotHistogram, accent(0.55f));
+    ImGui::ProgressBar(fraction, ImVec2(-1, 0), text);
+    ImGui::PopStyleColor();
+}
+
 bool ui_text_field(const char *label, char *text, size_t size) { return ImGui::InputText(label, text, size, ImGuiInputTextFlags_AutoSelectAll); }
 
 void ui_clipboard(const char *text) { ImGui::SetClipboardText(text); }

@@ -101,6 +101,7 @@ bool ui_drag(const char *label, double *values, int count, double step, double m
 bool ui_color(const char *label, float rgb[3], float *intensity);
 bool ui_choice(const char *label, int *chosen, const char *const *names, int count);
 bool ui_selectable(const char *label, bool selected, float width);
+void ui_progress(float fraction, const char *text);
 bool ui_text_field(const char *label, char *text, size_t size);
 void ui_clipboard(const char *text);
 
