@@ -177,6 +177,7 @@ static void lanes_sort(const FrameData *frame, const wave_set *set, const ViewDa
     out->data.origin_x = any_of(place.origin_x);
     out->data.origin_z = any_of(place.origin_z);
     out->data.grazing = any_of(place.grazing) > 0;
+    out->data.refined = any_of(place.refined) > 0;
     out->data.search_pixels = out->data.search_pixels || out->data.grazing;
     out->foam = set->has_foam ? &set->foam : NULL;
     out->data.light_reach = any_of(tile_meets_light(&cx, column, row, width, height)) > 0;

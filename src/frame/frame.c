@@ -73,9 +73,10 @@ static void set_method(frame *f)
     d->sort_start = (float)(start * start);
     d->sort_end = keep ? 1e30f : (float)(end * end);
     d->sort_shares = podee || bruneton ? 0 : 1;
-    d->grazing_fall = row->hits > 0 && !f->under ? 1.2f : 0;
+    d->grazing_fall = row->hits > 0 && !f->under ? 2.5f : 0;
     d->hit_rows = (float)(row->hits > 0 ? row->hits : 1);
     d->hit_rows_fall = 0.8f * d->grazing_fall;
+    d->refined_fall = 0.3f;
     d->ndf_per_pixel = keep;
     d->ndf_mean = keep && !q->ndf_mean_drop ? 1 : 0;
     d->podee_kernels = (int)q->kernels;

@@ -349,6 +349,7 @@ static void columns_lose_no_crest(void **state)
         double found[ROWS];
         TileData tile = tile_of(&t, height);
         tile.grazing = 1;
+        tile.refined = k % 2;
         tile.hit_rows = HIT_ROWS;
         tile.ray_x = (float)cos(azimuth);
         tile.ray_y = (float)-dip;

@@ -9,6 +9,9 @@ layout(binding = 1, r32f) uniform image2D coverage_image;
 layout(binding = 2, r32f) uniform image2D water_image;
 layout(binding = 3) writeonly uniform image2D depth_image;
 
+float wet_hits = 0.0f; /* of the pixel's hits those that met water, … */
+float nearness = 0.0f; /* … and the sum of 1/distance of these, which is even over the screen, 1/metres */
+
 PixelResult nothing_but_sky(PixelRay p)
 {
     PixelResult result;
@@ -25,7 +28,7 @@ void turn_to(int slot)
 }
 
 /* `pixel`: the column and the row of the hit. The whole workgroup comes here, for state_where() may wait for it. */
-PixelResult hit_result(ivec2 pixel, ivec2 texel, bool inside)
+PixelResult hit_result(ivec2 pixel, float middle, bool inside)
 {
     PixelRay p = pixel_ray_filtered(0, float(pixel.x), float(pixel.y));
     bool water = inside && p.water > 0.0f;
@@ -42,8 +45,8 @@ PixelResult hit_result(ivec2 pixel, ivec2 texel, bool inside)
         turn_to(tile_slot - pass_data.open_slots);
     if (!water)
         return nothing_but_sky(p);
-    if (pass_data.write_depth != 0)
-        imageStore(depth_image, texel, vec4(close.along * sqrt(length_squared(p.ray))));
+    wet_hits += 1.0f;
+    nearness += nearness_beside(0, p.ray, close.along, close.close, pixel_ray_at(0, float(pixel.x), middle));
 #ifdef OVER_STATE
     return over_state(0, method_result(0, p, open, close), p, close);
 #else
@@ -72,14 +75,17 @@ void main()
     turn_to(tile_slot);
     int hits = int(TILE(0).hit_rows);
     PixelResult result = PixelResult(vec3(0.0f), 0.0f, 0.0f, 0.0f);
+    float middle = float(first_row(pixel.at.y)) + 0.5f * float(hits - 1);
     for (int hit = 0; hit < hits; hit++) {
-        PixelResult shown = hit_result(ivec2(pixel.at.x, first_row(pixel.at.y) + hit), pixel.texel, pixel.inside);
+        PixelResult shown = hit_result(ivec2(pixel.at.x, first_row(pixel.at.y) + hit), middle, pixel.inside);
         result.color += shown.color;
         result.coverage += shown.coverage;
         result.water += shown.water;
     }
     if (!pixel.inside)
         return;
+    if (pass_data.write_depth != 0 && wet_hits > 0.0f)
+        imageStore(depth_image, pixel.texel, vec4(wet_hits / nearness));
     if (hits > 1) {
         result.color /= float(hits);
         result.coverage /= float(hits);
