@@ -93,7 +93,9 @@ static bool add_hit(const struct kernel_context *cx, tile_pixel at, SlopeState o
 {
     const PixelRay ray = pixel_ray_filtered(cx, (float)at.column, (float)at.row);
     const float part = 1.0f / (float)hits;
-    const vec3 sky = ray.water > 0 ? (vec3){0, 0, 0} : background(cx, ray.sky_ray);
+    /* The light of deep water is traced for whole tiles alone. */
+    const bool dark = ray.water > 0 || cx->frame->camera_under != 0;
+    const vec3 sky = dark ? (vec3){0, 0, 0} : background(cx, ray.sky_ray);
     const PixelResult result = ray.water > 0 ? glitter_result(cx, ray, open, close) : (PixelResult){sky, 0, 0, 0};
     info->water = (double)((float)info->water + result.water * part);
     info->coverage = (double)((float)info->coverage + result.coverage * part);
