@@ -289,6 +289,7 @@ static int run(const view_request *request)
     if (!v)
         return console_error(EXIT_CODE_FAILED, "out of memory");
     v->request = request;
+    v->held_handle = -1;
     v->settings = settings_defaults();
     v->settings.panel.judge = !request->script; /* what a script sees does not depend on the time it takes */
     glfwSetErrorCallback(on_glfw_error);

@@ -59,7 +59,7 @@ static bool fix_file(char **file, const char *scene_path)
 bool scene_values_fix_files(scene_values *values, const char *scene_path)
 {
     scene_object *objects = values->objects.items;
-    bool good = true;
+    bool good = fix_file(&values->water.spectrum.file, scene_path);
     for (size_t i = 0; i < values->objects.count; i++)
         good &= fix_file(&objects[i].mesh, scene_path) && fix_file(&objects[i].heights, scene_path) && fix_file(&objects[i].material.texture, scene_path);
     return good;
@@ -234,7 +234,7 @@ static void write_members(FILE *stream, const field_row *mapping, const void *at
             first = false;
         }
         if (field->decide != NULL) {
-            memcpy((char *)&expected + field->offset, field_at(field, at), field_size(field));
+            memcpy((char *)&expected + field->offset, field_at(field, at), field->type == FIELD_MAPPING ? mapping_size(field) : field_size(field));
             field->decide(&expected);
         }
     }
@@ -372,17 +372,47 @@ static bool needs_whole(const field_row *field, const void *from, const void *to
     return strcmp(field->key, "post") == 0 && ((const scene_post *)from)->exposure.automatic != ((const scene_post *)to)->exposure.automatic;
 }
 
+/* Marks the fields that a mapping `field`, which differs, decides otherwise in `to` than in `from`. */
+static uint64_t decided_by(const field_row *mapping, const field_row *field, const void *from, const void *to, const void *defaults)
+{
+    any_mapping old, new;
+    uint64_t marks = 0;
+    memcpy(&old, defaults, mapping_size(mapping));
+    memcpy(&new, defaults, mapping_size(mapping));
+    memcpy((char *)&old + field->offset, field_at(field, from), mapping_size(field));
+    memcpy((char *)&new + field->offset, field_at(field, to), mapping_size(field));
+    field->decide(&old);
+    field->decide(&new);
+    for (size_t i = 0; mapping->fields[i].key != NULL; i++)
+        if (&mapping->fields[i] != field && !values_equal(&mapping->fields[i], &old, &new))
+            marks |= (uint64_t)1 << i;
+    return marks;
+}
+
 static bool add_differences(scene_overrides *out, const char *path, const field_row *mapping, const void *from, const void *to, const void *defaults)
 {
+    uint64_t decided = 0;
     for (const field_row *field = mapping->fields; field->key != NULL; field++) {
         char name[PATH_SIZE];
         snprintf(name, sizeof name, "%s%s%s", path, path[0] != '\0' ? "." : "", field->key);
-        if (values_equal(field, from, to) || is_excluded(mapping, field, to))
+        const bool equal = values_equal(field, from, to), is_decided = decided >> (field - mapping->fields) & 1;
+        if ((equal && !is_decided) || is_excluded(mapping, field, to))
             continue;
+        if (field->decide != NULL && field->type == FIELD_MAPPING)
+            decided |= decided_by(mapping, field, from, to, defaults);
         const void *left = field_at(field, from), *right = field_at(field, to);
         const scene_list *left_list = left, *right_list = right;
         bool good = true;
-        if (field->type == FIELD_MAPPING && !needs_whole(field, left, right)) {
+        if (is_decided) {
+            const field_row *const inner = field->type == FIELD_MAPPING ? field->fields : NULL;
+            for (const field_row *f = inner; good && f != NULL && f->key != NULL; f++) {
+                char key[PATH_SIZE + 32];
+                snprintf(key, sizeof key, "%s.%s", name, f->key);
+                good = add_word(out, key, f, right, field_at(field, defaults));
+            }
+            if (inner == NULL)
+                good = add_word(out, name, field, to, defaults);
+        } else if (field->type == FIELD_MAPPING && !needs_whole(field, left, right)) {
             good = add_differences(out, name, field, left, right, field_at(field, defaults));
         } else if (field->type == FIELD_LIST && left_list->count == right_list->count) {
             for (size_t i = 0; good && i < left_list->count; i++) {

@@ -18,7 +18,7 @@ bool scene_values_shot(const scene_values *values, double time, mgt_scene *out);
 /* Turns what a spectrum and a factor made into explicit waves, the spectrum into none, the factor into 1. */
 void scene_values_write_out_sea(scene_values *values);
 
-/* Makes the paths of meshes, textures and heights independent of the folder of the scene's file. False when memory runs out. */
+/* Makes the paths of meshes, textures, heights and a buoy's table independent of the folder of the scene's file. False when memory runs out. */
 bool scene_values_fix_files(scene_values *values, const char *scene_path);
 
 /* scene_file_parse() for a text that differs little from `like`: where the objects are the same, so are their models, which are not read again. */

@@ -56,6 +56,9 @@ static const char *const scenes[] = {
     "mangata: 1\nwater: {waves: [{wavelength: 40, direction_deg: 30, height: 1.2}]}\n",
     "mangata: 1\nwater: {waves: [{wavelength: 7, height: 0.3, phase: 2}, {amplitude: 0.2, a: -1, b: 0.25, c: 4}]}\n",
     "mangata: 1\nwater: {wind: {speed: 9, direction_deg: 20, fetch: 2e4, count: 30, seed: 7}, amplitude: 0.5}\n",
+    /* What a wind decides, without a wind; and a wind with what is usual without one. */
+    "mangata: 1\nwater: {choppiness: 0.7, foam: {amount: 1}}\n",
+    "mangata: 1\nwater: {wind: 9, choppiness: 0, foam: {amount: 0}}\n",
 };
 enum { SCENE_COUNT = sizeof scenes / sizeof scenes[0] };
 

@@ -14,7 +14,7 @@ water:
     - {amplitude: 0.03, a: -2, b: 1.1, c: -4.5}
     - {amplitude: 0.005, a: 9, b: 6, c: -10}
 END
-size=(--size 560x300)
+size=(--size 480x270)
 
 drive scene.yaml "${size[@]}" <<'END'
 list-controls
@@ -41,11 +41,21 @@ pattern() { grep -E "$1" all.txt; }
 {
     echo 'set view.resolution full'
     vary $(pattern '^light\.' | grep -v azimuth) light.azimuth_deg sky.model sky.turbidity water.choppiness water.ior water.body_albedo
-    echo 'set water.choppiness 0.7'
+    # a wind, a spectrum and a swell in place of the waves
+    change water.wind.speed 9
+    echo 'set water.wind.speed 9'
+    vary water.wind.direction_deg water.wind.fetch water.wind.depth water.wind.count water.wind.seed water.foam.amount
+    printf '%s\n' 'set water.wind.speed 0' mark 'set water.spectrum.model jonswap' expect-change undo expect-same redo
+    echo water.spectrum.model >>varied.txt
+    vary $(pattern '^water\.spectrum' | grep -v 'model\|spread')
+    echo 'set water.spectrum.directions fixed'
+    vary water.spectrum.spread
+    echo 'set water.swell [{height: 1, period: 6, count: 20}]'
+    for key in height period direction_deg spread count seed; do vary "water.swell[0].$key"; done
+    printf '%s\n' 'set water.swell []' 'set water.spectrum.model none' revert 'set view.resolution full' 'set water.choppiness 0.7'
     vary water.foam.share
     echo 'set water.foam.share 0.3'
     vary water.foam.persistence
-    echo water.foam.amount >>varied.txt # of a wind
     echo 'set water.foam.share 0'
     echo 'set water.choppiness 0'
     echo 'set camera.position [0, 900, 0]'
@@ -54,7 +64,7 @@ pattern() { grep -E "$1" all.txt; }
     vary post.exposure post.exposure_offset post.tone_map post.glare
     vary camera.position camera.target camera.fov_y_deg time.shutter time.fps clock.time
     vary $(pattern '^water\.waves\[[0-9]+\]')
-    vary waves.amplitude
+    vary water.amplitude
     change waves.count 1 # most counts are above three
     vary a.method view.compare view.layer view.zoom view.resolution
     echo 'set camera.position [0, 3, 0]'
@@ -123,7 +133,7 @@ pattern() { grep -E "$1" all.txt; }
     vary inspect.x inspect.y
     echo 'set panel.inspector off'
     # shown by the panel's pages, not by the picture
-    echo 'resize 1000 700'
+    printf '%s\n' 'set view.resolution quarter' 'resize 1000 700'
     echo 'page 3'
     vary move.mode move.path move.speed move.clearance
     echo 'page 4'
@@ -144,8 +154,9 @@ pattern() { grep -E "$1" all.txt; }
 } >vary.txt
 drive scene.yaml "${size[@]}" <vary.txt
 sort -u varied.txt >covered.txt
+grep -v '^water\.swell\[' covered.txt >named.txt # of the swell that was added
 missing=$(comm -23 all.txt covered.txt)
 [[ -z $missing ]] || fail "not covered: $missing"
-unknown=$(comm -13 all.txt covered.txt)
+unknown=$(comm -13 all.txt named.txt)
 [[ -z $unknown ]] || fail "no such controls: $unknown"
 finish

@@ -110,8 +110,8 @@ static void a_sea_is_a_document(void **state)
     if (!document_open(&d, "--sea wind=8,seed=3", &word, 1, &error))
         fail_msg("%s", error.text);
     assert_true(d.values.light.elevation_deg == 5);
-    assert_int_equal(d.values.water.waves.count, 160);
-    assert_true(d.values.water.wind.speed == 0);
+    assert_int_equal(scene_water_all(&d.values.water).count, 160);
+    assert_true(d.values.water.wind.speed == 8);
     assert_int_equal(document_poll(&d), DOCUMENT_SAME);
     document_save_name(&d, name, sizeof name);
     assert_string_equal(name, "sea-edited.yaml");
@@ -150,26 +150,75 @@ static void changes_that_no_longer_fit_are_given_up(void **state)
     document_close(&d);
 }
 
-static void a_spectrum_becomes_waves(void **state)
+static void a_spectrum_stays_one(void **state)
 {
     const folder *f = *state;
     write_file(f->scene, "mangata: 1\nwater: {waves: [{amplitude: 0.1, a: 1, b: 2, c: -3}], spectrum: {model: jonswap, count: 7}}\n");
     document d = open_document(f);
-    assert_int_equal(d.values.water.waves.count, 8);
+    assert_int_equal(d.values.water.waves.count, 1);
+    assert_int_equal(scene_water_all(&d.values.water).count, 8);
+    set(&d, "water.waves[0].phase=1.5");
+    const double before = ((const mgt_wave *)d.values.water.sea.items)[3].amplitude;
+    d.values.water.spectrum.settings.wind = 12;
+    document_changed(&d, false);
+    document_refresh(&d);
+    assert_true(d.fault.kind == SCENE_ERROR_NONE && ((const mgt_wave *)d.values.water.sea.items)[3].amplitude != before);
     scene_overrides words;
-    assert_true(scene_overrides_between(scene_file_values(d.file), &d.values, &words));
-    assert_int_equal(words.count, 0);
-    scene_overrides_free(&words);
-    set(&d, "water.waves[3].phase=1.5");
-    assert_int_equal(d.values.water.waves.count, 8);
     assert_true(scene_overrides_between(scene_file_values(d.file), &d.values, &words));
     assert_int_equal(words.count, 2);
     scene_overrides_free(&words);
+    /* A sea that cannot be made says why, and the former one stays. */
+    d.values.water.spectrum.count = 512;
+    document_changed(&d, false);
+    document_refresh(&d);
+    assert_true(d.fault.kind == SCENE_ERROR_BAD_SCENE && strstr(d.fault.text, "water.spectrum.count") != NULL);
+    assert_int_equal(scene_water_all(&d.values.water).count, 8);
+    d.values.water.spectrum.count = 9;
+    document_changed(&d, false);
+    document_refresh(&d);
+    assert_true(d.fault.kind == SCENE_ERROR_NONE && scene_water_all(&d.values.water).count == 10);
     write_file(f->scene, "mangata: 1\nlight: {elevation_deg: 12}\n"
                          "water: {waves: [{amplitude: 0.1, a: 1, b: 2, c: -3}], spectrum: {model: jonswap, count: 7, seed: 2}}\n");
     assert_int_equal(document_poll(&d), DOCUMENT_READ_ANEW);
-    assert_int_equal(d.values.water.waves.count, 8);
-    assert_true(d.values.light.elevation_deg == 12);
+    assert_true(d.values.light.elevation_deg == 12 && d.values.water.spectrum.seed == 2 && d.values.water.spectrum.settings.wind == 12);
+    document_close(&d);
+}
+
+static void a_wind_takes_the_place_of_waves(void **state)
+{
+    const folder *f = *state;
+    document d = open_document(f);
+    settings s = settings_defaults();
+    const control_board board = {&d, &s};
+    assert_true(control_set_number(&board, "water.wind.speed", 10));
+    document_refresh(&d);
+    assert_true(d.fault.kind == SCENE_ERROR_NONE && d.values.water.waves.count == 0 && scene_water_all(&d.values.water).count == 160);
+    assert_true(d.values.water.choppiness == 0.7f && d.values.water.foam.amount == 1);
+    assert_true(control_set_number(&board, "water.foam.share", 0.1));
+    assert_true(d.values.water.foam.amount == 0); /* one says it */
+    assert_true(control_set_number(&board, "water.choppiness", 0));
+    file_error error;
+    assert_int_equal(document_save(&d.values, f->saved, false, &error), FILE_OK);
+    document_close(&d);
+}
+
+static void objects_are_built_anew(void **state)
+{
+    const folder *f = *state;
+    write_file(f->scene, "mangata: 1\nobjects: [{shape: box, size: [1, 1, 1]}]\n");
+    document d = open_document(f);
+    settings s = settings_defaults();
+    const control_board board = {&d, &s};
+    char error[256];
+    control c;
+    const struct scene_models *before = d.values.models;
+    assert_true(control_set(&board, "objects[0].position", "[1, 2, 3]", error, sizeof error));
+    assert_true(control_set(&board, "objects[0].material.roughness", "0.25", error, sizeof error));
+    document_refresh(&d);
+    assert_true(d.fault.kind == SCENE_ERROR_NONE && d.values.models != before);
+    mgt_scene scene;
+    assert_true(scene_values_shot(&d.values, 0, &scene) && scene.object_count == 1);
+    assert_false(control_find(&board, "objects[0].rim_width", &c)); /* of pools alone */
     document_close(&d);
 }
 
@@ -260,18 +309,17 @@ static void every_value_of_the_scene_is_a_control(void **state)
         for (const field_row *field = part->fields; part->type == FIELD_MAPPING && field->key; field++) {
             char name[96];
             snprintf(name, sizeof name, "%s.%s", part->key, field->key);
-            /* The document holds what the first two have made, waves and coefficients; each side has a quality of its own. */
-            const bool done = strcmp(name, "water.amplitude") == 0 || strcmp(name, "water.clarity") == 0 || strcmp(part->key, "quality") == 0;
+            /* The document holds the coefficients that the first has made; each side has a quality of its own. */
+            const bool done = strcmp(name, "water.clarity") == 0 || strcmp(part->key, "quality") == 0;
             if (field->type != FIELD_LIST && field->type != FIELD_MAPPING && control_find(&board, name, &c) == done)
                 fail_msg("%s is %s control", name, done ? "a" : "no");
         }
     assert_false(control_find(&board, "light", &c));
     assert_false(control_find(&board, "view", &c));
     assert_false(control_find(&board, "water.waves[2].a", &c));
-    assert_false(control_find(&board, "water.spectrum.wind", &c)); /* it is written out as waves */
-    assert_false(control_find(&board, "water.wind.speed", &c));
     assert_false(control_find(&board, "water.swell[0].height", &c));
-    assert_false(control_find(&board, "objects[0].position", &c)); /* they are built when the file is read */
+    assert_false(control_find(&board, "objects[0].position", &c)); /* there is none */
+    assert_true(control_find(&board, "water.spectrum.wind", &c) && control_find(&board, "water.wind.fetch", &c));
     assert_false(control_find(&board, "view.wipes", &c));
     document_close(&d);
 }
@@ -446,7 +494,9 @@ int main(void)
         cmocka_unit_test(a_sea_is_a_document),
         cmocka_unit_test_setup_teardown(a_broken_file_changes_nothing, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(changes_that_no_longer_fit_are_given_up, make_folder, remove_folder),
-        cmocka_unit_test_setup_teardown(a_spectrum_becomes_waves, make_folder, remove_folder),
+        cmocka_unit_test_setup_teardown(a_spectrum_stays_one, make_folder, remove_folder),
+        cmocka_unit_test_setup_teardown(a_wind_takes_the_place_of_waves, make_folder, remove_folder),
+        cmocka_unit_test_setup_teardown(objects_are_built_anew, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(a_saved_scene_is_whole_and_replaces_nothing, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(every_control_reads_back_and_keeps_to_its_range, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(every_value_of_the_scene_is_a_control, make_folder, remove_folder),

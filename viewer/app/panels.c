@@ -63,15 +63,15 @@ static bool draw_numbers(const control *c, const char *label, double n[3])
             n[i] = (double)rgb[i];
         return changed;
     }
-    if (c->field->type == FIELD_VECTOR)
+    if (control_width(c) == 3)
         return ui_drag(label, n, 3, (high - low) * 2e-4, c->field->min, c->field->max, format_of(c, room, sizeof room));
     if ((c->field->type == FIELD_COUNT || (c->field->type == FIELD_LARGE && c->hint))) {
         uint32_t whole = (uint32_t)n[0];
-        const bool changed = ui_slider_count(label, &whole, (uint32_t)low, (uint32_t)high, h && h->logarithmic, NULL);
+        const bool changed = ui_slider_count(label, &whole, (uint32_t)low, (uint32_t)high, h && h->logarithmic, h ? h->zero : NULL);
         n[0] = whole;
         return changed;
     }
-    return ui_slider(label, n, low, high, format_of(c, room, sizeof room), h && h->logarithmic);
+    return ui_slider(label, n, low, high, h && h->zero && n[0] == 0 ? h->zero : format_of(c, room, sizeof room), h && h->logarithmic);
 }
 
 bool panel_control(viewer *v, const char *name)
@@ -91,10 +91,17 @@ bool panel_control(viewer *v, const char *name)
     return changed;
 }
 
-static void draw_controls(viewer *v, const char *const *names)
+void panel_controls(viewer *v, const char *const *names)
 {
     for (; *names; names++)
         panel_control(v, *names);
+}
+
+bool panel_count(viewer *v, const char *label, uint32_t *value, uint32_t min, uint32_t max, const char *zero)
+{
+    (void)v;
+    ui_item_width(-label_units * ui_font_size());
+    return ui_slider_count(label, value, min, max, false, zero);
 }
 
 /* A mapping of the scene, a control each row. */
@@ -161,79 +168,63 @@ static void draw_exposure(viewer *v)
     panel_control(v, automatic ? "post.exposure_offset" : "post.exposure");
 }
 
+static const char *object_name(const scene_object *object, size_t index, char *room, size_t size)
+{
+    snprintf(room, size, "%zu  %.60s", index, object->name && object->name[0] ? object->name : object->mesh ? object->mesh : "shape");
+    return room;
+}
+
+/* One object is chosen; its controls follow, then what refraction and caustics are set to. */
+static void draw_objects(viewer *v)
+{
+    static const char *const keys[] = {"position",           "rotation_deg",      "scale",           "size", "material.base_color",
+                                       "material.roughness", "material.metallic", "material.pattern"};
+    static const char *const patterned[] = {"material.pattern_color", "material.pattern_size", "material.pattern_joint"};
+    const scene_list *list = &v->document.values.objects;
+    const scene_object *items = list->items;
+    char name[96];
+    v->selected_object = v->selected_object < list->count ? v->selected_object : 0;
+    for (size_t i = 0; i < list->count && list->count > 1; i++)
+        if (ui_selectable(object_name(&items[i], i, name, sizeof name), v->selected_object == i, 0))
+            v->selected_object = i;
+    for (size_t k = 0; k < sizeof keys / sizeof keys[0]; k++) {
+        snprintf(name, sizeof name, "objects[%zu].%s", v->selected_object, keys[k]);
+        panel_control(v, name);
+    }
+    for (size_t k = 0; k < sizeof patterned / sizeof patterned[0] && items[v->selected_object].material.look.pattern != MGT_PATTERN_NONE; k++) {
+        snprintf(name, sizeof name, "objects[%zu].%s", v->selected_object, patterned[k]);
+        panel_control(v, name);
+    }
+    ui_text(UI_TONE_FAINT, "Refraction and caustics stand with the methods above.");
+}
+
 static void draw_look(viewer *v)
 {
     static const char *const sky[][4] = {[MGT_SKY_ATMOSPHERE] = {"sky.turbidity", "sky.night", "sky.aerial", NULL},
                                          [MGT_SKY_GRADIENT] = {"sky.zenith", "sky.horizon", NULL},
                                          [MGT_SKY_BLACK] = {NULL}};
-    static const char *const water[] = {"water.choppiness", "water.foam.amount", "water.foam.share",  "water.foam.persistence",
-                                        "water.level",      "water.ior",         "water.body_albedo", NULL};
+    static const char *const water[] = {"water.level", "water.ior", "water.body_albedo", NULL};
     static const char *const under[] = {"water.absorption", "water.scattering", NULL}; /* for what is seen through it */
     static const char *const post[] = {"post.tone_map", "post.glare", NULL};
     if (ui_header("Light", true))
         draw_mapping(v, "light", light_rows);
     if (ui_header("Sky", true)) {
         panel_control(v, "sky.model");
-        draw_controls(v, sky[v->document.values.sky.look.model]);
+        panel_controls(v, sky[v->document.values.sky.look.model]);
     }
     if (ui_header("Water", true)) {
-        draw_controls(v, water);
+        panel_controls(v, water);
         if (v->document.values.objects.count > 0)
-            draw_controls(v, under);
+            panel_controls(v, under);
     }
+    if (v->document.values.objects.count > 0 && ui_header("Objects", true))
+        draw_objects(v);
     if (ui_header("Exposure", true)) {
         draw_exposure(v);
-        draw_controls(v, post);
+        panel_controls(v, post);
     }
     if (ui_header("Shutter", true))
         panel_control(v, "time.shutter");
-}
-
-/* ---- waves ---- */
-
-static void draw_wave_row(viewer *v, size_t i)
-{
-    char label[96];
-    const mgt_wave *wave = (const mgt_wave *)v->document.values.water.waves.items + i;
-    const wave_shape shape = wave_shape_of(wave);
-    snprintf(label, sizeof label, "%3zu   %7.4f m   %7.2f m   %4.0f°##wave%zu", i, wave_crest(wave), shape.wavelength, shape.direction_deg, i);
-    if (ui_selectable(label, v->selected_wave == i, 0))
-        v->selected_wave = i;
-}
-
-static void draw_wave(viewer *v)
-{
-    static const char *const keys[] = {"amplitude", "wavelength", "direction_deg", "speed", "phase"};
-    char name[64];
-    for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++) {
-        snprintf(name, sizeof name, "water.waves[%zu].%s", v->selected_wave, keys[i]);
-        panel_control(v, name);
-    }
-}
-
-static void draw_waves(viewer *v)
-{
-    const scene_list *list = &v->document.values.water.waves;
-    panel_control(v, "waves.amplitude");
-    v->settings.waves.count = v->settings.waves.count < list->count ? v->settings.waves.count : MGT_MAX_WAVES;
-    uint32_t used = v->settings.waves.count < list->count ? v->settings.waves.count : (uint32_t)list->count;
-    ui_item_width(-label_units * ui_font_size());
-    if (ui_slider_count("waves used", &used, 0, (uint32_t)list->count, false, NULL))
-        v->settings.waves.count = used < list->count ? used : MGT_MAX_WAVES;
-    ui_text(UI_TONE_FAINT, "       amplitude      length        to");
-    if (ui_child_begin("waves", 11 * ui_font_size()))
-        for (size_t i = 0; i < list->count; i++)
-            draw_wave_row(v, i);
-    ui_child_end();
-    if (ui_button("add", 0))
-        wave_add(v);
-    ui_same_line(0);
-    ui_disabled_begin(list->count == 0);
-    if (ui_button("remove", 0))
-        wave_remove(v, v->selected_wave);
-    ui_disabled_end();
-    if (v->selected_wave < list->count)
-        draw_wave(v);
 }
 
 /* ---- camera ---- */
@@ -287,12 +278,12 @@ static void draw_camera(viewer *v)
 {
     static const char *const still[] = {"camera.position", "camera.target", "camera.fov_y_deg", NULL};
     static const char *const move[] = {"move.mode", "move.speed", "move.clearance", NULL};
-    draw_controls(v, move);
+    panel_controls(v, move);
     if (ui_button("reset (R)", 0))
         viewer_reset_camera(v);
     if (ui_header("View", true)) {
         ui_disabled_begin(viewer_follows_path(v));
-        draw_controls(v, still);
+        panel_controls(v, still);
         panel_control(v, "camera.up");
         ui_disabled_end();
     }
@@ -310,13 +301,13 @@ static void draw_view(viewer *v)
     static const char *const depth[] = {"view.near_depth", "view.far_depth", NULL};
     static const char *const film[] = {"time.start", "time.fps", "time.frames", NULL};
     static const char *const panel[] = {"panel.timings", "panel.judge", "panel.inspector", "panel.legend", "panel.log", "panel.keys", "panel.scale", NULL};
-    draw_controls(v, names);
+    panel_controls(v, names);
     if (v->settings.view.layer == MGT_LAYER_DEPTH)
-        draw_controls(v, depth);
+        panel_controls(v, depth);
     if (ui_header("Film", true))
-        draw_controls(v, film);
+        panel_controls(v, film);
     if (ui_header("Panels", true))
-        draw_controls(v, panel);
+        panel_controls(v, panel);
 }
 
 /* ---- files ---- */
@@ -377,7 +368,7 @@ static void draw_panel(viewer *v)
     static const struct {
         const char *label;
         void (*draw)(viewer *);
-    } tabs[] = {{"Look", draw_look}, {"Waves", draw_waves}, {"Camera", draw_camera}, {"View", draw_view}, {"Files", draw_files}};
+    } tabs[] = {{"Look", draw_look}, {"Sea", sea_page_draw}, {"Camera", draw_camera}, {"View", draw_view}, {"Files", draw_files}};
     const ui_rect *room = &v->place.room;
     const ui_rect place = {room->width, 0, panels_width(v), room->height};
     if (ui_panel_begin("controls", place, UI_PANEL_SCROLLS)) {

@@ -19,6 +19,15 @@ void size_draw(viewer *v, const char *label, uint32_t size[2]);
 /* The figures of both sides, left and right of the divider, from `top` down. */
 void judging_draw(const viewer *v, float divider, float top, float unit);
 
+/* The page of the sea (sea_page.c). */
+void sea_page_draw(viewer *v);
+
+/* Controls by name, ended by NULL. */
+void panel_controls(viewer *v, const char *const *names);
+
+/* A count that is no control, laid out as one; `zero` as in ui_slider_count(). */
+bool panel_count(viewer *v, const char *label, uint32_t *value, uint32_t min, uint32_t max, const char *zero);
+
 /* One control as its kind asks for. True when it was changed. */
 bool panel_control(viewer *v, const char *name);
 

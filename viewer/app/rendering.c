@@ -12,6 +12,7 @@
 #include "cli/common/progress.h"
 #include "params/methods.h"
 #include "params/scene_rows.h"
+#include "scene/scene_models.h"
 #include "viewer/app/viewer.h"
 
 /* Frames a second that moving pictures hold, how long after the last change they count as still, and how small they may get. */
@@ -96,6 +97,7 @@ void viewer_stop_rendering(viewer *v)
     mgt_context_destroy(v->render.tools);
     for (int side = 0; side < SIDE_COUNT; side++)
         picture_free(&v->render.pictures[side]);
+    scene_models_release(v->render.ordered.models);
     v->render = (renderers){0};
 }
 
@@ -158,6 +160,8 @@ static bool same_shot(const shot *a, const shot *b)
 
 static void copy_shot(shot *to, const shot *from)
 {
+    scene_models_release(to->models);
+    to->models = scene_models_share(from->models);
     to->scene = from->scene;
     memcpy(to->waves, from->waves, from->scene.water.wave_count * sizeof *to->waves);
     to->scene.water.waves = to->waves;
@@ -279,6 +283,7 @@ static void order(viewer *v)
     o.interruptible = !moving;
     copy_shot(&v->render.ordered, &now);
     o.scene.water.waves = v->render.ordered.waves;
+    o.models = v->render.ordered.models;
     v->render.reduced = scale < 1 && v->settings.view.resolution == RESOLUTION_AUTO;
     post(v, &o);
     v->render.last = o;

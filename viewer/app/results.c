@@ -90,7 +90,7 @@ bool viewer_save_picture(viewer *v, const char *path, uint32_t width, uint32_t h
     }
     now.scene.image = (mgt_image){.width = width ? width : v->place.width, .height = height ? height : v->place.height};
     now.scene.quality = quality_restricted(&v->settings.sides[SIDE_A]);
-    return picture_saver_start(v->saver, &now.scene, path, error, error_size);
+    return picture_saver_start(v->saver, &now.scene, now.models, path, error, error_size);
 }
 
 bool viewer_watch_saver(viewer *v)
@@ -157,6 +157,7 @@ bool viewer_save_scene(viewer *v, const char *path, char *error, size_t error_si
     scene_values values;
     file_error problem = {0};
     const mgt_image *image = &v->document.values.image;
+    document_refresh(&v->document);
     if (!viewer_frame_values(v, image->width, image->height, &values)) {
         snprintf(error, error_size, "out of memory");
         return false;

@@ -8,6 +8,7 @@
 #include "scene/scene_path.h"
 #include "viewer/app/viewer.h"
 #include "params/waves.h"
+#include "sea/sea.h"
 
 /* ---- camera ---- */
 
@@ -52,21 +53,83 @@ void viewer_revert(viewer *v)
 static void keep_camera_above(viewer *v)
 {
     mgt_camera *camera = &v->document.values.camera.still;
-    const scene_list *list = &v->document.values.water.waves;
+    const scene_list list = scene_water_all(&v->document.values.water);
     const wave_settings *w = &v->settings.waves;
     const double level = v->document.values.water.level;
     if (viewer_follows_path(v) || camera->position[1] < level)
         return;
-    const size_t count = list->count < w->count ? list->count : w->count;
-    const double wave = w->height * waves_height(list->items, count, camera->position[0], camera->position[2], v->settings.clock.time);
+    const size_t count = list.count < w->count ? list.count : w->count;
+    const double wave = waves_height(list.items, count, camera->position[0], camera->position[2], v->settings.clock.time);
     camera_keep_above(camera, level + fmax(wave, 0) + v->settings.move.clearance);
 }
 
 /* ---- waves ---- */
 
+void viewer_write_out_sea(viewer *v)
+{
+    document_refresh(&v->document);
+    scene_values_write_out_sea(&v->document.values);
+}
+
+void swell_add(viewer *v)
+{
+    scene_list *list = &v->document.values.water.swell;
+    scene_swell *items = list->count < SEA_SWELLS ? realloc(list->items, (list->count + 1) * sizeof *items) : NULL;
+    if (!items) {
+        viewer_report(v, true, "%s", list->count < SEA_SWELLS ? "out of memory" : "no further swell fits: 16 are allowed");
+        return;
+    }
+    items[list->count] = scene_swell_defaults();
+    items[list->count].height = 1;
+    items[list->count].direction_deg = list->count * 40.0 - 30;
+    *list = (scene_list){.items = items, .count = list->count + 1};
+    document_changed(&v->document, false);
+}
+
+void swell_remove(viewer *v, size_t index)
+{
+    scene_list *list = &v->document.values.water.swell;
+    scene_swell *items = list->items;
+    if (index >= list->count)
+        return;
+    memmove(items + index, items + index + 1, (list->count - index - 1) * sizeof *items);
+    if (--list->count == 0) {
+        free(items);
+        list->items = NULL;
+    }
+    document_changed(&v->document, false);
+}
+
+void sea_choose(viewer *v, sea_kind kind)
+{
+    scene_water *water = &v->document.values.water;
+    const sea_kind now = sea_of(water);
+    const double wind = now == SEA_OF_WIND ? water->wind.speed : now == SEA_OF_SPECTRUM ? water->spectrum.settings.wind : 8;
+    const double from = now == SEA_OF_WIND ? water->wind.direction_deg : water->spectrum.settings.direction_deg;
+    if (kind == now)
+        return;
+    if (kind == SEA_OF_WAVES) {
+        viewer_write_out_sea(v);
+        return;
+    }
+    free(water->waves.items);
+    water->waves = (scene_list){0};
+    if (kind == SEA_OF_WIND)
+        water->wind.direction_deg = from;
+    control_set_number(&v->board, "water.wind.speed", kind == SEA_OF_WIND ? wind : 0);
+    if (kind == SEA_OF_SPECTRUM) {
+        water->spectrum.settings.kind = SPECTRUM_JONSWAP;
+        water->spectrum.settings.wind = wind;
+        water->spectrum.settings.direction_deg = from;
+        document_changed(&v->document, false);
+    }
+}
+
 void wave_add(viewer *v)
 {
     scene_list *list = &v->document.values.water.waves;
+    if (v->document.values.water.wind.speed > 0) /* which would replace it */
+        viewer_write_out_sea(v);
     mgt_wave *items = list->count < MGT_MAX_WAVES ? realloc(list->items, (list->count + 1) * sizeof *items) : NULL;
     if (!items) {
         viewer_report(v, true, "%s", list->count < MGT_MAX_WAVES ? "out of memory" : "no further wave fits: 512 are allowed");
@@ -75,6 +138,7 @@ void wave_add(viewer *v)
     items[list->count] = wave_new(list->count);
     v->selected_wave = list->count;
     *list = (scene_list){.items = items, .count = list->count + 1};
+    document_changed(&v->document, false);
 }
 
 void wave_remove(viewer *v, size_t index)
@@ -90,22 +154,23 @@ void wave_remove(viewer *v, size_t index)
     }
     if (v->selected_wave > 0 && v->selected_wave >= list->count)
         v->selected_wave--;
+    document_changed(&v->document, false);
 }
 
 /* ---- the shot ---- */
 
 static size_t take_waves(const viewer *v, mgt_wave *waves)
 {
-    const scene_list *list = &v->document.values.water.waves;
-    const size_t count = list->count < v->settings.waves.count ? list->count : v->settings.waves.count;
+    const scene_list list = scene_water_all(&v->document.values.water);
+    const size_t count = list.count < v->settings.waves.count ? list.count : v->settings.waves.count;
     if (count > 0)
-        memcpy(waves, list->items, count * sizeof *waves);
-    waves_scale(waves, count, v->settings.waves.height, 1000);
+        memcpy(waves, list.items, count * sizeof *waves);
     return count;
 }
 
 bool viewer_take_shot(viewer *v, shot *out)
 {
+    document_refresh(&v->document);
     scene_values values = v->document.values; /* borrows the lists */
     if (!viewer_follows_path(v))
         values.camera.path = (scene_list){0};
@@ -115,7 +180,9 @@ bool viewer_take_shot(viewer *v, shot *out)
         return false;
     }
     if (v->document.error.kind == SCENE_ERROR_NONE)
-        v->scene_error.text[0] = 0;
+        snprintf(v->scene_error.text, sizeof v->scene_error.text, "%s", v->document.fault.kind == SCENE_ERROR_NONE ? "" : v->document.fault.text);
+    v->scene_error.is_error = true;
+    out->models = values.models;
     out->scene.water.wave_count = take_waves(v, out->waves);
     out->scene.water.waves = out->waves;
     return true;
@@ -133,8 +200,10 @@ bool viewer_frame_values(const viewer *v, uint32_t width, uint32_t height, scene
         free(out->camera.path.items);
         out->camera.path = (scene_list){0};
     }
-    if (v->settings.waves.height != 1 || v->settings.waves.count < out->water.waves.count)
-        out->water.waves.count = take_waves(v, out->water.waves.items);
+    if (v->settings.waves.count < scene_water_all(&out->water).count) {
+        scene_values_write_out_sea(out);
+        out->water.waves.count = v->settings.waves.count;
+    }
     return true;
 }
 

@@ -64,6 +64,7 @@ bool viewer_undo(viewer *v, int by)
     const control_board other = {&there, &chosen};
     describe(&v->board, &other, what, sizeof what);
     document_replace(&v->document, &there.values);
+    document_changed(&v->document, false); /* it may have been kept before its sea was made */
     v->settings = chosen;
     history_follow(&v->history, chosen.clock.time, &v->document.values.camera.still);
     viewer_tell(v, "%s%s%s", word, what[0] ? ": " : "", what);

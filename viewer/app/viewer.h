@@ -22,6 +22,7 @@ enum { VIEWER_TEXT = 640, LOG_LINES = 200 };
 typedef struct shot {
     mgt_scene scene; /* without the image's size */
     mgt_wave waves[MGT_MAX_WAVES];
+    struct scene_models *models; /* borrowed of the document */
 } shot;
 
 /* Where the picture lies in the window, window coordinates. */
@@ -40,7 +41,7 @@ typedef struct renderers {
     picture pictures[SIDE_COUNT];
     uint64_t serial;            /* of the last order */
     uint64_t shown[SIDE_COUNT]; /* order that each side's texture is of */
-    shot ordered;               /* what the last order showed, … */
+    shot ordered;               /* what the last order showed, with a share of its models, … */
     render_order last;          /* … and the order itself */
     double seconds_per_pixel;   /* of live frames, smoothed */
     double changed_at;          /* seconds_now() of the last change */
@@ -134,8 +135,9 @@ typedef struct viewer {
     film_export *film_export; /* NULL: none is under way */
     double film_fraction;     /* of it that is done */
     mgt_camera home;          /* the camera that "reset" goes back to */
-    size_t selected_wave, selected_keyframe;
-    int open_tab; /* page of the panel to open, from 1; 0: as it is */
+    size_t selected_wave, selected_keyframe, selected_object;
+    int held_handle; /* of the plot of waves; -1: none */
+    int open_tab;    /* page of the panel to open, from 1; 0: as it is */
     char save_name[VIEWER_TEXT], picture_name[VIEWER_TEXT];
     uint32_t picture_size[2]; /* of the next picture; 0: as in the window */
     script *script;           /* NULL: none */
@@ -174,6 +176,19 @@ void viewer_reset_camera(viewer *v);
 /* Takes back every change since the scene was read. */
 void viewer_revert(viewer *v);
 
+/* Turns the sea into single waves. */
+void viewer_write_out_sea(viewer *v);
+
+/* What makes the waves; chosen anew, one takes the wind of the other. */
+typedef enum sea_kind { SEA_OF_WAVES, SEA_OF_WIND, SEA_OF_SPECTRUM } sea_kind;
+static inline sea_kind sea_of(const scene_water *w)
+{
+    return w->wind.speed > 0 ? SEA_OF_WIND : w->spectrum.settings.kind != SPECTRUM_NONE ? SEA_OF_SPECTRUM : SEA_OF_WAVES;
+}
+void sea_choose(viewer *v, sea_kind kind);
+
+void swell_add(viewer *v);
+void swell_remove(viewer *v, size_t index);
 void wave_add(viewer *v);
 void wave_remove(viewer *v, size_t index);
 

@@ -10,6 +10,7 @@
 
 #include "cli/common/context_options.h"
 #include "image/picture.h"
+#include "scene/scene_models.h"
 
 enum { PATH_SIZE = 512, ERROR_SIZE = 512 };
 
@@ -21,6 +22,7 @@ struct picture_saver {
     mgt_context *context; /* made by the first picture */
     mgt_scene scene;
     mgt_wave waves[MGT_MAX_WAVES];
+    scene_models *models; /* shared */
     char path[PATH_SIZE];
     char error[ERROR_SIZE]; /* written before `state` */
     atomic_int state;       /* picture_saver_state */
@@ -135,10 +137,11 @@ void picture_saver_destroy(picture_saver *s)
     atomic_store(&s->stop, true);
     join(s);
     mgt_context_destroy(s->context);
+    scene_models_release(s->models);
     free(s);
 }
 
-bool picture_saver_start(picture_saver *s, const mgt_scene *scene, const char *path, char *error, size_t error_size)
+bool picture_saver_start(picture_saver *s, const mgt_scene *scene, scene_models *models, const char *path, char *error, size_t error_size)
 {
     const output_options options = {.overwrite = true};
     const picture_format format = picture_format_of(path);
@@ -162,6 +165,8 @@ bool picture_saver_start(picture_saver *s, const mgt_scene *scene, const char *p
     s->scene = *scene;
     memcpy(s->waves, scene->water.waves, scene->water.wave_count * sizeof *s->waves);
     s->scene.water.waves = s->waves;
+    scene_models_release(s->models);
+    s->models = scene_models_share(models);
     snprintf(s->path, sizeof s->path, "%s", path);
     atomic_store(&s->fraction, 0);
     atomic_store(&s->state, SAVER_BUSY);

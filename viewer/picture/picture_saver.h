@@ -5,6 +5,8 @@
 
 #include "mangata/mangata.h"
 
+struct scene_models;
+
 typedef struct picture_saver picture_saver;
 
 /* NULL when memory runs out. `desc` names the machine's part of the context; `wake` is called on another thread when a picture is done. */
@@ -13,8 +15,8 @@ picture_saver *picture_saver_create(const mgt_context_desc *desc, void (*wake)(v
 /* Stops what is under way; nothing unfinished is left behind. NULL is allowed. */
 void picture_saver_destroy(picture_saver *s);
 
-/* Starts on a copy of the scene. `path` ends in .png (displayed colour) or .exr (every layer). False with the reason in `error`. */
-bool picture_saver_start(picture_saver *s, const mgt_scene *scene, const char *path, char *error, size_t error_size);
+/* Starts on a copy of the scene, whose objects belong to `models`. `path` ends in .png (displayed colour) or .exr (every layer). False with the reason in `error`. */
+bool picture_saver_start(picture_saver *s, const mgt_scene *scene, struct scene_models *models, const char *path, char *error, size_t error_size);
 
 typedef enum picture_saver_state { SAVER_IDLE, SAVER_BUSY, SAVER_SAVED, SAVER_FAILED } picture_saver_state;
 

@@ -12,6 +12,7 @@
 #include "cli/common/context_options.h"
 #include "cli/common/progress.h"
 #include "params/methods.h"
+#include "scene/scene_models.h"
 #include "viewer/picture/strata.h"
 
 enum { ERROR_SIZE = 512 };
@@ -259,7 +260,9 @@ static void *run(void *argument)
             pthread_cond_wait(&w->posted, &w->lock);
             continue;
         }
+        scene_models_release(w->current.models);
         w->current = w->order;
+        w->order.models = NULL;
         memcpy(w->current_waves, w->waves, w->order.scene.water.wave_count * sizeof *w->waves);
         w->current.scene.water.waves = w->current_waves;
         w->has_order = false;
@@ -324,6 +327,8 @@ void render_worker_destroy(render_worker *w)
     if (w->started)
         pthread_join(w->thread, NULL);
     mgt_context_destroy(w->context);
+    scene_models_release(w->order.models);
+    scene_models_release(w->current.models);
     for (int side = 0; side < SIDE_COUNT; side++) {
         picture_free(&w->ready[side]);
         picture_free(&w->drawn[side]);
@@ -341,7 +346,9 @@ void render_worker_post(render_worker *w, const render_order *order)
     pthread_mutex_lock(&w->lock);
     if (w->busy && w->current.interruptible)
         atomic_store(&w->stop, true);
+    scene_models_release(w->order.models);
     w->order = *order;
+    scene_models_share(w->order.models);
     memcpy(w->waves, order->scene.water.waves, order->scene.water.wave_count * sizeof *w->waves);
     w->has_order = true;
     pthread_cond_signal(&w->posted);

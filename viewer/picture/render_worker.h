@@ -13,7 +13,8 @@ typedef struct render_order {
     mgt_quality quality[SIDE_COUNT];
     bool wanted[SIDE_COUNT];
     mgt_layer layer;
-    bool interruptible; /* a newer order may stop it before it is done */
+    struct scene_models *models; /* what scene.objects belong to; shared when it is posted. NULL: there are none */
+    bool interruptible;          /* a newer order may stop it before it is done */
 } render_order;
 
 /* A finished picture of one side. */

@@ -11,12 +11,11 @@
 
 static bool values_of_words(const scene_values *base, const char *const *words, size_t count, scene_values *out, scene_error *error);
 
-/* The values of a file with its spectrum as single waves: those are what the viewer changes. It may be saved to another folder. */
+/* The values of a file, which may be saved to another folder. */
 static bool copy_values(scene_values *out, const scene_file *file)
 {
     if (!scene_values_copy(out, scene_file_values(file)))
         return false;
-    scene_values_write_out_sea(out);
     if (scene_values_fix_files(out, scene_file_path(file)))
         return true;
     scene_values_free(out);
@@ -56,33 +55,17 @@ bool document_open(document *d, const char *path, const char *const *words, size
 
 void document_close(document *d)
 {
-    for (size_t i = 0; i < d->former_count; i++)
-        scene_models_release(d->former[i]);
-    free(d->former);
     scene_values_free(&d->values);
     scene_file_free(d->file);
     *d = (document){0};
 }
 
-/* Lets models live as long as the document does; where memory runs out, for ever. */
-static void keep_models(document *d)
-{
-    if (!d->values.models)
-        return;
-    scene_models *models = scene_models_share(d->values.models);
-    scene_models **former = realloc(d->former, (d->former_count + 1) * sizeof *former);
-    if (!former)
-        return;
-    d->former = former;
-    former[d->former_count++] = models;
-}
-
 void document_replace(document *d, scene_values *values)
 {
-    if (d->values.models != values->models)
-        keep_models(d);
     scene_values_free(&d->values);
     d->values = *values;
+    d->stale = d->other_objects = false;
+    d->fault = (scene_error){0};
     *values = (scene_values){0};
 }
 
@@ -150,6 +133,47 @@ bool document_set(document *d, const char *word, scene_error *error)
         return false;
     document_replace(d, &values);
     return true;
+}
+
+/* ---- changes in place ---------------------------------------------------------------------------------------- */
+
+void document_changed(document *d, bool objects)
+{
+    scene_water *water = &d->values.water;
+    if (water->wind.speed > 0) {
+        free(water->waves.items);
+        water->waves = (scene_list){0};
+        water->spectrum.settings.kind = SPECTRUM_NONE;
+    }
+    d->stale |= objects || scene_water_has_sea(water);
+    d->other_objects |= objects;
+}
+
+void document_refresh(document *d)
+{
+    size_t size = 0;
+    if (!d->stale)
+        return;
+    char *text = text_of_values(&d->values, &size);
+    scene_file *file = text ? scene_file_parse_like(d->other_objects ? NULL : &d->values, text, size, "the scene", NULL, 0, &d->fault) : NULL;
+    scene_values made = {0};
+    d->stale = false;
+    if (!text || (file && !scene_values_copy(&made, scene_file_values(file))))
+        scene_error_memory(&d->fault);
+    else if (file) {
+        scene_values *v = &d->values;
+        const scene_list sea = v->water.sea;
+        scene_models *models = v->models;
+        v->water.sea = made.water.sea;
+        v->models = made.models;
+        made.water.sea = sea;
+        made.models = models;
+        d->fault = (scene_error){0};
+        d->other_objects = false;
+    }
+    scene_values_free(&made);
+    scene_file_free(file);
+    free(text);
 }
 
 /* ---- the file on the disk ------------------------------------------------------------------------------------ */

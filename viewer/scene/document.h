@@ -9,13 +9,14 @@
 #include "scene/scene_edit.h"
 
 typedef struct document {
-    const char *path;             /* of the file; borrowed */
-    scene_file *file;             /* the last good one, as it is on the disk */
-    scene_values values;          /* as changed */
-    struct stat stamp;            /* of the file when it was last read, good or bad */
-    scene_error error;            /* of that reading; kind SCENE_ERROR_NONE when it was good */
-    struct scene_models **former; /* those of earlier values: a rendering under way may still read them */
-    size_t former_count;
+    const char *path;    /* of the file; borrowed */
+    scene_file *file;    /* the last good one, as it is on the disk */
+    scene_values values; /* as changed */
+    struct stat stamp;   /* of the file when it was last read, good or bad */
+    scene_error error;   /* of that reading; kind SCENE_ERROR_NONE when it was good */
+    scene_error fault;   /* why sea or models cannot be made of the values; kind SCENE_ERROR_NONE: they can */
+    bool stale;          /* they are not those of the values yet, … */
+    bool other_objects;  /* … and it is the objects that have changed */
 } document;
 
 /* Reads `path`, then changes it by `words` ("key=value"). False with the reason in *error; *d is then empty. */
@@ -33,6 +34,13 @@ bool document_revert(document *d);
 
 /* Changes one value as `--set key=value` does, every check included. False with the reason in *error and nothing changed. */
 bool document_set(document *d, const char *word, scene_error *error);
+
+/* Tells that waves, seas or objects of `values` were changed in place. What becomes of the water is settled at once: where a wind makes the sea there are no waves
+ * beside it. */
+void document_changed(document *d, bool objects);
+
+/* Makes sea and models anew where values have changed. Where they cannot be, `fault` says why and the former ones stay. */
+void document_refresh(document *d);
 
 /* Puts other values in place; takes over what they own. */
 void document_replace(document *d, scene_values *values);

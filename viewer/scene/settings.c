@@ -45,9 +45,7 @@ static const field_row clock_fields[] = {{"time", FIELD_NUMBER, offsetof(clock_s
                                          {"loop", SWITCH(clock_settings, loop, "time goes round over the scene's frames")},
                                          {0}};
 
-static const field_row wave_fields[] = {{"amplitude", FIELD_NUMBER, offsetof(wave_settings, height), 0, 0, 100, NULL,
-                                         .doc = "factor on the height of all waves"},
-                                        {"count", FIELD_COUNT, offsetof(wave_settings, count), 0, 0, MGT_MAX_WAVES, NULL,
+static const field_row wave_fields[] = {{"count", FIELD_COUNT, offsetof(wave_settings, count), 0, 0, MGT_MAX_WAVES, NULL,
                                          .doc = "how many of the scene's waves are used, from the first"},
                                         {0}};
 
@@ -108,7 +106,7 @@ settings settings_defaults(void)
                  .center_x = 0.5,
                  .center_y = 0.5},
         .clock = {.speed = 1, .loop = 1},
-        .waves = {.height = 1, .count = MGT_MAX_WAVES},
+        .waves = {.count = MGT_MAX_WAVES},
         .move = {.path = 1, .speed = 4, .clearance = 0.3},
         .panel = {.shown = 1, .judge = 1, .legend = 1, .scale = 1},
     };

@@ -30,7 +30,6 @@ typedef struct clock_settings {
 } clock_settings;
 
 typedef struct wave_settings {
-    double height;  /* factor on every wave's */
     uint32_t count; /* how many of the scene's waves are used, the first ones */
 } wave_settings;
 

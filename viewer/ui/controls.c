@@ -9,103 +9,140 @@
 
 #include "cli/common/numbers.h"
 #include "params/options.h"
+#include "sea/sea.h"
 
 static const control_hint hints[] = {
-    {"image.width", "width", 64, 3840, true, "%.0f px"},
-    {"image.height", "height", 36, 2160, true, "%.0f px"},
-    {"camera.position", "position", -50, 50, false, "%.2f"},
-    {"camera.target", "target", -50, 50, false, "%.2f"},
-    {"camera.up", "up", -1, 1, false, "%.2f"},
-    {"camera.fov_y_deg", "field of view", 5, 120, false, "%.1f°"},
-    {"camera.path[].time", "time", 0, 60, false, "%.2f s"},
-    {"camera.path[].position", "position", -50, 50, false, "%.2f"},
-    {"camera.path[].target", "target", -50, 50, false, "%.2f"},
-    {"camera.path[].up", "up", -1, 1, false, "%.2f"},
-    {"camera.path[].fov_y_deg", "field of view", 5, 120, false, "%.1f°"},
-    {"time.start", "start", 0, 60, false, "%.2f s"},
-    {"time.fps", "frames a second", 1, 120, false, "%.3g"},
-    {"time.frames", "frames", 1, 600, true, NULL},
-    {"time.shutter", "shutter", 0, 2, false, "%.2f frames"},
-    {"light.body", "body", 0, 0, false, NULL},
-    {"light.elevation_deg", "elevation", -10, 90, false, "%.2f°"},
-    {"light.azimuth_deg", "azimuth", -180, 180, false, "%.1f°"},
-    {"light.angular_radius_deg", "radius", 0.05, 20, true, "%.4f°"},
-    {"light.radiance", "radiance", 0, 1e7, false, NULL},
-    {"sky.model", "sky", 0, 0, false, NULL},
-    {"sky.turbidity", "turbidity", 1, 10, false, "%.2f"},
-    {"sky.zenith", "zenith", 0, 100, false, NULL},
-    {"sky.horizon", "horizon", 0, 100, false, NULL},
-    {"sky.night", "night", 0, 1e-3, false, NULL},
-    {"sky.aerial", "aerial", 0, 0, false, NULL},
-    {"water.waves[].amplitude", "amplitude", 1e-4, 2, true, "%.4f m"},
-    {"water.waves[].a", "a", -20, 20, false, "%.3f"},
-    {"water.waves[].b", "b", -20, 20, false, "%.3f"},
-    {"water.waves[].c", "c", -20, 20, false, "%.3f"},
-    {"water.waves[].phase", "phase", 0, 6.2831853, false, "%.2f rad"},
-    {"water.waves[].wavelength", "length", 0.02, 200, true, "%.3f m"},
-    {"water.waves[].direction_deg", "direction", -180, 180, false, "%.0f°"},
-    {"water.waves[].speed", "speed", -20, 20, false, "%.2f m/s"},
-    {"water.choppiness", "choppiness", 0, 1, false, "%.2f"},
-    {"water.foam.amount", "foam", 0, 4, false, "%.2f"},
-    {"water.foam.share", "foam's share", 0, 0.5, false, "%.3f"},
-    {"water.foam.persistence", "foam lasts", 0, 10, false, "%.1f s"},
-    {"water.level", "level", -10, 10, false, "%.2f m"},
-    {"water.ior", "refraction", 1, 2, false, "%.3f"},
-    {"water.absorption", "absorption", 0, 2, false, "%.3f /m"},
-    {"water.scattering", "scattering", 0, 2, false, "%.3f /m"},
-    {"water.body_albedo", "body albedo", 0, 1, false, NULL},
-    {"post.exposure", "exposure", -24, 24, false, "%.2f EV"},
-    {"post.exposure_offset", "exposure", -8, 8, false, "%+.2f EV"},
-    {"post.tone_map", "tone map", 0, 0, false, NULL},
-    {"post.glare", "glare", 0, 0.5, false, "%.3f"},
-    {"a.method", "A", 0, 0, false, NULL},
-    {"b.method", "B", 0, 0, false, NULL},
-    {"a.spatial", "samples N x N", 1, 32, false, NULL},
-    {"a.time_samples", "time samples", 1, 64, true, NULL},
-    {"a.seed", "seed", 0, 100, false, NULL},
-    {"a.ndf_mean", "NDF mean", 0, 0, false, NULL},
-    {"a.elongation", "elongation to", 0, 100, false, NULL},
-    {"a.path_segments", "path segments", 0, 16, false, NULL},
-    {"a.samples", "samples", 0, 64, false, NULL},
-    {"a.budget_ms", "budget", 0, 1000, false, "%.0f ms"},
-    {"a.slots", "samples in all", 0, 1e7, false, NULL},
-    {"a.target_rmse", "predicted RMSE", 0, 0.1, false, "%.4f"},
-    {"a.target_displayed", "displayed RMSE", 0, 0.1, false, "%.4f"},
-    {"a.tess_error", "triangles off by", 0, 4, false, "%.2f px"},
-    {"a.refraction_samples", "rays N x N", 0, 8, false, NULL},
-    {"view.compare", "compare", 0, 0, false, NULL},
-    {"view.wipe", "divider", 0, 1, false, "%.3f"},
-    {"view.difference_scale", "A - B times", 0.5, 64, true, "%.2f"},
-    {"view.layer", "layer", 0, 0, false, NULL},
-    {"view.near_depth", "near", 0.1, 1000, true, "%.1f m"},
-    {"view.far_depth", "far", 1, 100000, true, "%.0f m"},
-    {"view.coverage_end", "coverage to", 1e-3, 1, true, "%.3f"},
-    {"view.lean_end", "lean to", 1e-2, 1, true, "%.3f"},
-    {"view.resolution", "resolution", 0, 0, false, NULL},
-    {"view.frame", "frame", 0, 0, false, NULL},
-    {"view.zoom", "magnify", 1, 32, true, "%.2f x"},
-    {"view.center_x", "middle x", 0, 1, false, "%.3f"},
-    {"view.center_y", "middle y", 0, 1, false, "%.3f"},
-    {"clock.time", "time", 0, 60, false, "%.3f s"},
-    {"clock.play", "play", 0, 0, false, NULL},
-    {"clock.speed", "speed", 0.02, 4, true, "%.2f x"},
-    {"clock.loop", "loop", 0, 0, false, NULL},
-    {"waves.amplitude", "height, all", 0, 4, false, "%.2f x"},
-    {"waves.count", "waves used", 0, MGT_MAX_WAVES, false, NULL},
-    {"move.mode", "drag", 0, 0, false, NULL},
-    {"move.path", "follow the path", 0, 0, false, NULL},
-    {"move.speed", "speed", 0.1, 100, true, "%.1f m/s"},
-    {"move.clearance", "clearance", 0.05, 10, true, "%.2f m"},
-    {"panel.shown", "controls", 0, 0, false, NULL},
-    {"panel.timings", "timings", 0, 0, false, NULL},
-    {"panel.judge", "judge", 0, 0, false, NULL},
-    {"panel.inspector", "inspector", 0, 0, false, NULL},
-    {"panel.keys", "keys", 0, 0, false, NULL},
-    {"panel.legend", "legend", 0, 0, false, NULL},
-    {"panel.log", "log", 0, 0, false, NULL},
-    {"panel.scale", "size", 0.75, 2, false, "%.2f x"},
-    {"inspect.x", "x", 0, 1279, false, NULL},
-    {"inspect.y", "y", 0, 719, false, NULL},
+    {"image.width", "width", 64, 3840, true, "%.0f px", NULL},
+    {"image.height", "height", 36, 2160, true, "%.0f px", NULL},
+    {"camera.position", "position", -50, 50, false, "%.2f", NULL},
+    {"camera.target", "target", -50, 50, false, "%.2f", NULL},
+    {"camera.up", "up", -1, 1, false, "%.2f", NULL},
+    {"camera.fov_y_deg", "field of view", 5, 120, false, "%.1f°", NULL},
+    {"camera.path[].time", "time", 0, 60, false, "%.2f s", NULL},
+    {"camera.path[].position", "position", -50, 50, false, "%.2f", NULL},
+    {"camera.path[].target", "target", -50, 50, false, "%.2f", NULL},
+    {"camera.path[].up", "up", -1, 1, false, "%.2f", NULL},
+    {"camera.path[].fov_y_deg", "field of view", 5, 120, false, "%.1f°", NULL},
+    {"time.start", "start", 0, 60, false, "%.2f s", NULL},
+    {"time.fps", "frames a second", 1, 120, false, "%.3g", NULL},
+    {"time.frames", "frames", 1, 600, true, NULL, NULL},
+    {"time.shutter", "shutter", 0, 2, false, "%.2f frames", NULL},
+    {"light.body", "body", 0, 0, false, NULL, NULL},
+    {"light.elevation_deg", "elevation", -10, 90, false, "%.2f°", NULL},
+    {"light.azimuth_deg", "azimuth", -180, 180, false, "%.1f°", NULL},
+    {"light.angular_radius_deg", "radius", 0.05, 20, true, "%.4f°", NULL},
+    {"light.radiance", "radiance", 0, 1e7, false, NULL, NULL},
+    {"sky.model", "sky", 0, 0, false, NULL, NULL},
+    {"sky.turbidity", "turbidity", 1, 10, false, "%.2f", NULL},
+    {"sky.zenith", "zenith", 0, 100, false, NULL, NULL},
+    {"sky.horizon", "horizon", 0, 100, false, NULL, NULL},
+    {"sky.night", "night", 0, 1e-3, false, NULL, NULL},
+    {"sky.aerial", "aerial", 0, 0, false, NULL, NULL},
+    {"water.waves[].amplitude", "amplitude", 1e-4, 2, true, "%.4f m", NULL},
+    {"water.waves[].a", "a", -20, 20, false, "%.3f", NULL},
+    {"water.waves[].b", "b", -20, 20, false, "%.3f", NULL},
+    {"water.waves[].c", "c", -20, 20, false, "%.3f", NULL},
+    {"water.waves[].phase", "phase", 0, 6.2831853, false, "%.2f rad", NULL},
+    {"water.waves[].wavelength", "length", 0.02, 200, true, "%.3f m", NULL},
+    {"water.waves[].direction_deg", "direction", -180, 180, false, "%.0f°", NULL},
+    {"water.waves[].speed", "speed", -20, 20, false, "%.2f m/s", NULL},
+    {"water.wind.speed", "wind", 0.5, 30, false, "%.1f m/s", NULL},
+    {"water.wind.direction_deg", "comes from", -180, 180, false, "%.0f°", NULL},
+    {"water.wind.fetch", "fetch", 0, 1e6, true, "%.0f m", "fully developed"},
+    {"water.wind.depth", "depth", 0, 1000, true, "%.1f m", "deep"},
+    {"water.wind.count", "waves", 1, 400, false, NULL, NULL},
+    {"water.wind.seed", "seed", 0, 100, false, NULL, NULL},
+    {"water.spectrum.model", "spectrum", 0, 0, false, NULL, NULL},
+    {"water.spectrum.wind", "wind", 0.5, 30, false, "%.1f m/s", NULL},
+    {"water.spectrum.wind_height", "measured at", 0, 50, false, "%.1f m", "as published"},
+    {"water.spectrum.fetch", "fetch", 1000, 1e6, true, "%.0f m", NULL},
+    {"water.spectrum.depth", "depth", 0, 1000, true, "%.1f m", "deep"},
+    {"water.spectrum.gamma", "peakedness", 1, 20, false, "%.2f", NULL},
+    {"water.spectrum.direction_deg", "comes from", -180, 180, false, "%.0f°", NULL},
+    {"water.spectrum.directions", "directions", 0, 0, false, NULL, NULL},
+    {"water.spectrum.spread", "spread", 0, 100, false, "%.1f", NULL},
+    {"water.spectrum.slope", "slopes", 0, 0, false, NULL, NULL},
+    {"water.spectrum.shortest", "shortest", 0, 2, false, "%.3f m", "usual"},
+    {"water.spectrum.count", "waves", 1, 400, false, NULL, NULL},
+    {"water.spectrum.seed", "seed", 0, 100, false, NULL, NULL},
+    {"water.swell[].height", "height", 0.05, 5, true, "%.2f m", NULL},
+    {"water.swell[].period", "period", 3, 20, false, "%.1f s", NULL},
+    {"water.swell[].direction_deg", "comes from", -180, 180, false, "%.0f°", NULL},
+    {"water.swell[].spread", "spread", 0, 200, false, "%.0f", NULL},
+    {"water.swell[].count", "waves", 1, 64, false, NULL, NULL},
+    {"water.swell[].seed", "seed", 0, 100, false, NULL, NULL},
+    {"water.amplitude", "height, all", 0, 4, false, "%.2f x", NULL},
+    {"objects[].position", "position", -20, 20, false, "%.2f", NULL},
+    {"objects[].rotation_deg", "turned", -180, 180, false, "%.1f°", NULL},
+    {"objects[].scale", "scale", 0.1, 10, false, "%.3f", NULL},
+    {"objects[].size", "size", 0.1, 50, false, "%.2f", NULL},
+    {"objects[].material.base_color", "colour", 0, 1, false, NULL, NULL},
+    {"objects[].material.roughness", "roughness", 0.02, 1, false, "%.2f", NULL},
+    {"objects[].material.metallic", "metallic", 0, 1, false, "%.2f", NULL},
+    {"objects[].material.pattern", "pattern", 0, 0, false, NULL, NULL},
+    {"objects[].material.pattern_color", "pattern's colour", 0, 1, false, NULL, NULL},
+    {"objects[].material.pattern_size", "pattern's size", 0.01, 2, true, "%.3f", NULL},
+    {"objects[].material.pattern_joint", "joints", 0, 0.5, false, "%.3f", NULL},
+    {"water.choppiness", "choppiness", 0, 1, false, "%.2f", NULL},
+    {"water.foam.amount", "foam", 0, 4, false, "%.2f", NULL},
+    {"water.foam.share", "foam's share", 0, 0.5, false, "%.3f", NULL},
+    {"water.foam.persistence", "foam lasts", 0, 10, false, "%.1f s", NULL},
+    {"water.level", "level", -10, 10, false, "%.2f m", NULL},
+    {"water.ior", "refraction", 1, 2, false, "%.3f", NULL},
+    {"water.absorption", "absorption", 0, 2, false, "%.3f /m", NULL},
+    {"water.scattering", "scattering", 0, 2, false, "%.3f /m", NULL},
+    {"water.body_albedo", "body albedo", 0, 1, false, NULL, NULL},
+    {"post.exposure", "exposure", -24, 24, false, "%.2f EV", NULL},
+    {"post.exposure_offset", "exposure", -8, 8, false, "%+.2f EV", NULL},
+    {"post.tone_map", "tone map", 0, 0, false, NULL, NULL},
+    {"post.glare", "glare", 0, 0.5, false, "%.3f", NULL},
+    {"a.method", "A", 0, 0, false, NULL, NULL},
+    {"b.method", "B", 0, 0, false, NULL, NULL},
+    {"a.spatial", "samples N x N", 1, 32, false, NULL, NULL},
+    {"a.time_samples", "time samples", 1, 64, true, NULL, NULL},
+    {"a.seed", "seed", 0, 100, false, NULL, NULL},
+    {"a.ndf_mean", "NDF mean", 0, 0, false, NULL, NULL},
+    {"a.elongation", "elongation to", 0, 100, false, NULL, NULL},
+    {"a.path_segments", "path segments", 0, 16, false, NULL, NULL},
+    {"a.samples", "samples", 0, 64, false, NULL, NULL},
+    {"a.budget_ms", "budget", 0, 1000, false, "%.0f ms", NULL},
+    {"a.slots", "samples in all", 0, 1e7, false, NULL, NULL},
+    {"a.target_rmse", "predicted RMSE", 0, 0.1, false, "%.4f", NULL},
+    {"a.target_displayed", "displayed RMSE", 0, 0.1, false, "%.4f", NULL},
+    {"a.tess_error", "triangles off by", 0, 4, false, "%.2f px", NULL},
+    {"a.refraction_samples", "rays N x N", 0, 8, false, NULL, NULL},
+    {"view.compare", "compare", 0, 0, false, NULL, NULL},
+    {"view.wipe", "divider", 0, 1, false, "%.3f", NULL},
+    {"view.difference_scale", "A - B times", 0.5, 64, true, "%.2f", NULL},
+    {"view.layer", "layer", 0, 0, false, NULL, NULL},
+    {"view.near_depth", "near", 0.1, 1000, true, "%.1f m", NULL},
+    {"view.far_depth", "far", 1, 100000, true, "%.0f m", NULL},
+    {"view.coverage_end", "coverage to", 1e-3, 1, true, "%.3f", NULL},
+    {"view.lean_end", "lean to", 1e-2, 1, true, "%.3f", NULL},
+    {"view.resolution", "resolution", 0, 0, false, NULL, NULL},
+    {"view.frame", "frame", 0, 0, false, NULL, NULL},
+    {"view.zoom", "magnify", 1, 32, true, "%.2f x", NULL},
+    {"view.center_x", "middle x", 0, 1, false, "%.3f", NULL},
+    {"view.center_y", "middle y", 0, 1, false, "%.3f", NULL},
+    {"clock.time", "time", 0, 60, false, "%.3f s", NULL},
+    {"clock.play", "play", 0, 0, false, NULL, NULL},
+    {"clock.speed", "speed", 0.02, 4, true, "%.2f x", NULL},
+    {"clock.loop", "loop", 0, 0, false, NULL, NULL},
+    {"waves.count", "waves used", 0, MGT_MAX_WAVES, false, NULL, NULL},
+    {"move.mode", "drag", 0, 0, false, NULL, NULL},
+    {"move.path", "follow the path", 0, 0, false, NULL, NULL},
+    {"move.speed", "speed", 0.1, 100, true, "%.1f m/s", NULL},
+    {"move.clearance", "clearance", 0.05, 10, true, "%.2f m", NULL},
+    {"panel.shown", "controls", 0, 0, false, NULL, NULL},
+    {"panel.timings", "timings", 0, 0, false, NULL, NULL},
+    {"panel.judge", "judge", 0, 0, false, NULL, NULL},
+    {"panel.inspector", "inspector", 0, 0, false, NULL, NULL},
+    {"panel.keys", "keys", 0, 0, false, NULL, NULL},
+    {"panel.legend", "legend", 0, 0, false, NULL, NULL},
+    {"panel.log", "log", 0, 0, false, NULL, NULL},
+    {"panel.scale", "size", 0.75, 2, false, "%.2f x", NULL},
+    {"inspect.x", "x", 0, 1279, false, NULL, NULL},
+    {"inspect.y", "y", 0, 719, false, NULL, NULL},
 };
 
 /* ---- finding ------------------------------------------------------------------------------------------------ */
@@ -131,14 +168,28 @@ static const control_hint *hint_of(const char *name)
     return NULL;
 }
 
-/* Samples are taken in turn while a side refines.
- * The document holds a spectrum's, a wind's or a swell's waves times the factor, so their settings change nothing any more; nor does a named clarity, whose numbers it
- * holds. Objects are built when the file is read. Each side has a quality of its own. */
+/* The controls of an object: where it stands and what it looks like. What a key does for other shapes alone is left to the file. */
+static bool is_of_object(const char *key)
+{
+    static const char *const keys[] = {"position", "rotation_deg", "scale", "size"};
+    bool found = strncmp(key, "material.", 9) == 0;
+    for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++)
+        found |= strcmp(key, keys[i]) == 0;
+    return found;
+}
+
+/* Samples are taken in turn while a side refines. The document holds the numbers of a named clarity. Each side has a quality of its own. */
 static bool is_left_out(const char *name)
 {
-    return strncmp(name, "water.spectrum", 14) == 0 || strncmp(name, "water.wind.", 11) == 0 || strncmp(name, "water.swell", 11) == 0 ||
-           strcmp(name, "water.amplitude") == 0 || strcmp(name, "water.clarity") == 0 || strncmp(name, "objects", 7) == 0 || strncmp(name, "quality", 7) == 0 ||
-           strncmp(name + 1, ".sample_", 8) == 0;
+    const char *key = strncmp(name, "objects[", 8) == 0 ? strchr(name, '.') : NULL;
+    return strcmp(name, "water.clarity") == 0 || (key && !is_of_object(key + 1)) || strncmp(name, "quality", 7) == 0 || strncmp(name + 1, ".sample_", 8) == 0;
+}
+
+/* A mesh has no size of its own. `value` is that of the name. */
+static bool is_of_mesh(const char *name, const void *value)
+{
+    const char *key = strncmp(name, "objects[", 8) == 0 ? strchr(name, '.') : NULL;
+    return key && strcmp(key, ".size") == 0 && ((const scene_object *)(const void *)((const char *)value - offsetof(scene_object, size)))->shape == SHAPE_MESH;
 }
 
 static bool is_control(const field_row *field)
@@ -170,7 +221,7 @@ static void walk(control_sink *sink, const char *path, const field_row *mapping,
         char name[64];
         void *value = (char *)values + field->offset;
         snprintf(name, sizeof name, "%.40s%s%s", path, path[0] ? "." : "", field->key);
-        if (is_left_out(name))
+        if (is_left_out(name) || is_of_mesh(name, value))
             continue;
         if (field->type == FIELD_MAPPING)
             walk(sink, name, field, value);
@@ -257,7 +308,7 @@ bool control_find(const control_board *board, const char *name, control *out)
         out->field = find_setting(board->settings, name, &out->value);
         out->of_scene = false;
     }
-    return out->field && is_control(out->field) && !is_left_out(name);
+    return out->field && is_control(out->field) && !is_left_out(name) && !is_of_mesh(name, out->value);
 }
 
 /* ---- values --------------------------------------------------------------------------------------------------- */
@@ -333,7 +384,31 @@ static void write_choice(const control *c, int choice)
         c->field->change((char *)c->value - c->field->offset);
 }
 
-void control_write(const control_board *board, const control *c, const double numbers[3])
+/* What a value of the water or of an object brings along. */
+static void follow_change(const control_board *board, const control *c, bool had_wind)
+{
+    document *d = board->document;
+    scene_water *water = &d->values.water;
+    size_t index;
+    int used = 0;
+    if (water->wind.speed > 0 && !had_wind) { /* as where a file names a wind */
+        water->choppiness = SEA_CHOPPINESS;
+        water->foam = (scene_foam){.amount = 1, .persistence = water->foam.persistence};
+    }
+    if (c->value == &water->foam.share && water->foam.share > 0)
+        water->foam.amount = 0;
+    if (c->value == &water->foam.amount && water->foam.amount > 0)
+        water->foam.share = 0;
+    if (sscanf(c->name, "objects[%zu].material.%n", &index, &used) == 1 && used > 0) {
+        scene_material *material = &((scene_object *)d->values.objects.items)[index].material;
+        material->given = true;
+    }
+    const bool objects = strncmp(c->name, "objects[", 8) == 0;
+    if (objects || strncmp(c->name, "water.", 6) == 0)
+        document_changed(d, objects);
+}
+
+static void write_value(const control_board *board, const control *c, const double numbers[3])
 {
     const field_row *field = c->field;
     leave_one_alternative(board, c);
@@ -377,6 +452,24 @@ void control_write(const control_board *board, const control *c, const double nu
     case FIELD_LIST:
         break;
     }
+}
+
+void control_write(const control_board *board, const control *c, const double numbers[3])
+{
+    const bool had_wind = board->document->values.water.wind.speed > 0;
+    write_value(board, c, numbers);
+    if (c->of_scene)
+        follow_change(board, c, had_wind);
+}
+
+bool control_set_number(const control_board *board, const char *name, double number)
+{
+    control c;
+    const double numbers[3] = {number, number, number};
+    if (!control_find(board, name, &c))
+        return false;
+    control_write(board, &c, numbers);
+    return true;
 }
 
 /* ---- text ------------------------------------------------------------------------------------------------------ */
@@ -480,8 +573,8 @@ static double random_number(const control *c, uint64_t *state)
 {
     const control_hint *h = c->hint;
     const double low = h ? fmax(h->low, c->field->min) : c->field->min, high = h ? fmin(h->high, c->field->max) : c->field->max;
-    const double share = random_share(state);
-    double number = h && h->logarithmic ? low * pow(high / low, share) : low + (high - low) * share;
+    const double share = random_share(state), first = low > 0 ? low : high * 1e-3; /* a logarithmic scale has no 0 */
+    double number = h && h->logarithmic ? first * pow(high / first, share) : low + (high - low) * share;
     if (c->field->type == FIELD_COUNT || c->field->type == FIELD_LARGE)
         number = round(number);
     return allowed(c->field, number);

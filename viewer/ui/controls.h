@@ -21,6 +21,7 @@ typedef struct control_hint {
     double low, high;
     bool logarithmic;
     const char *format; /* NULL: as long as it needs to be */
+    const char *zero;   /* what stands in place of 0; NULL: 0 */
 } control_hint;
 
 typedef struct control {
@@ -52,6 +53,9 @@ bool control_set(const control_board *board, const char *name, const char *text,
 int control_width(const control *c);
 void control_read(const control *c, double numbers[3]);
 void control_write(const control_board *board, const control *c, const double numbers[3]);
+
+/* Sets by one number. False where no control has this name. */
+bool control_set_number(const control_board *board, const char *name, double number);
 
 /* Some other value within the useful range, from a generator's state. */
 control_text control_random(const control *c, uint64_t *state);

@@ -381,6 +381,12 @@ ui_rect ui_canvas(const char *name, float height)
     return {at.x, at.y, width, height};
 }
 
+ui_pointer ui_canvas_pointer(void)
+{
+    const ImVec2 at = ImGui::GetIO().MousePos;
+    return {ImGui::IsItemActivated(), ImGui::IsItemActive(), at.x, at.y};
+}
+
 void ui_draw_line(ui_layer layer, float x0, float y0, float x1, float y1, uint32_t color, float thickness)
 {
     list_of(layer)->AddLine(ImVec2(x0, y0), ImVec2(x1, y1), packed(color), thickness);

@@ -111,6 +111,14 @@ typedef enum ui_layer { UI_LAYER_WINDOW, UI_LAYER_BEHIND, UI_LAYER_ABOVE } ui_la
 
 /* An empty item to draw on, as wide as there is room. */
 ui_rect ui_canvas(const char *name, float height);
+/* What the pointer does to the canvas before. */
+typedef struct ui_pointer {
+    bool pressed; /* the button goes down on it in this frame */
+    bool held;
+    float x, y;
+} ui_pointer;
+ui_pointer ui_canvas_pointer(void);
+
 void ui_draw_line(ui_layer layer, float x0, float y0, float x1, float y1, uint32_t color, float thickness);
 void ui_draw_polyline(ui_layer layer, const float *points, int count, uint32_t color, float thickness, bool closed);
 void ui_draw_box(ui_layer layer, ui_rect place, uint32_t color, float rounding);
