@@ -19,7 +19,7 @@
 #include "scene/scene_models.h"
 #include "viewer/picture/strata.h"
 
-enum { ERROR_SIZE = 512, SPATIAL = 2, TIME_SAMPLES = 4, STRATA = SPATIAL * SPATIAL * TIME_SAMPLES, HALVES = 2, TOTAL = 1024, LOWEST_PRIORITY = 19 };
+enum { ERROR_SIZE = 512, SPATIAL = 2, TIME_SAMPLES = 4, STRATA = SPATIAL * SPATIAL * TIME_SAMPLES, HALVES = 2, TOTAL = 1024, LOW_PRIORITY = 10 };
 
 /* A reference: sums of linear light over the samples of each half, and how both are displayed. */
 typedef struct reference_sums {
@@ -304,7 +304,7 @@ static bool open_context(judge *j)
 static void *run(void *argument)
 {
     judge *j = argument;
-    setpriority(PRIO_PROCESS, (id_t)gettid(), LOWEST_PRIORITY); /* of this thread, and of those that its context starts */
+    setpriority(PRIO_PROCESS, (id_t)gettid(), LOW_PRIORITY); /* of this thread, and of those that its context starts */
     pthread_mutex_lock(&j->lock);
     while (!j->quit) {
         if (!j->has_order) {
