@@ -87,14 +87,6 @@ static void close_window(viewer *v)
     glfwDestroyWindow(v->window);
 }
 
-static void set_title(viewer *v)
-{
-    char title[VIEWER_TEXT];
-    const char *slash = strrchr(v->document.path, '/');
-    snprintf(title, sizeof title, "%s - Mangata", slash ? slash + 1 : v->document.path);
-    glfwSetWindowTitle(v->window, title);
-}
-
 /* ---- a frame ---- */
 
 static void follow_scale(viewer *v)
@@ -265,6 +257,7 @@ static bool open_scene(viewer *v)
     v->settings.clock.time = v->document.values.time.start;
     v->home = v->document.values.camera.still;
     document_save_name(&v->document, v->save_name, sizeof v->save_name);
+    recent_add(r->scene_path);
     snprintf(v->picture_name, sizeof v->picture_name, "mangata.png");
     v->film = (film_choice){.name = "film", .last = UINT32_MAX, .crf = VIDEO_CRF_DEFAULT};
     if (history_start(&v->history, &v->document.values, &v->settings))
@@ -299,7 +292,7 @@ static int run(const view_request *request)
         if (!glfwInit()) {
             v->exit_code = no_display();
         } else if (open_window(v) && viewer_start_rendering(v)) {
-            set_title(v);
+            viewer_set_title(v);
             while (!v->quit)
                 run_frame(v);
             if (*interrupt_flag())
@@ -315,6 +308,8 @@ static int run(const view_request *request)
     script_close(v->script);
     history_free(&v->history);
     document_close(&v->document);
+    dialog_free(v);
+    free(v->opened_path);
     const int code = v->exit_code;
     free(v);
     return code;

@@ -22,7 +22,7 @@ fi
 
 # Software rendering that looks the same everywhere.
 view() {
-    env DISPLAY=":$(<display.txt)" LIBGL_ALWAYS_SOFTWARE=1 GALLIUM_DRIVER=llvmpipe ${KEEP_LOADED:+LD_PRELOAD="$KEEP_LOADED"} "$MANGATA" view "$@"
+    env XDG_STATE_HOME="$PWD/state" DISPLAY=":$(<display.txt)" LIBGL_ALWAYS_SOFTWARE=1 GALLIUM_DRIVER=llvmpipe ${KEEP_LOADED:+LD_PRELOAD="$KEEP_LOADED"} "$MANGATA" view "$@"
 }
 
 # drive SCENE [OPTION…] <script: must end well; what the script prints is in stdout.txt.

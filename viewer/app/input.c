@@ -36,6 +36,7 @@ const key_help key_helps[] = {
     {"C", "copy as command"},
     {"F12", "save the picture"},
     {"Ctrl Z, Ctrl Y", "undo, redo"},
+    {"Ctrl O", "open a scene"},
     {"Tab", "hide or show the controls"},
     {"F11", "full screen"},
     {"? or F1", "these keys"},
@@ -132,6 +133,8 @@ static void press(viewer *v, int key, int modifiers)
     const bool shift = modifiers & GLFW_MOD_SHIFT;
     if (modifiers & GLFW_MOD_CONTROL) {
         v->quit |= key == GLFW_KEY_Q;
+        if (key == GLFW_KEY_O)
+            dialog_toggle(v);
         if (key == GLFW_KEY_Z || key == GLFW_KEY_Y)
             viewer_undo(v, key == GLFW_KEY_Y || shift ? 1 : -1);
         return;
@@ -211,6 +214,8 @@ static void press(viewer *v, int key, int modifiers)
         break;
     case GLFW_KEY_ESCAPE:
         s->panel.keys = 0;
+        if (v->dialog.shown)
+            dialog_toggle(v);
         break;
     default:
         if (key >= GLFW_KEY_1 && key <= GLFW_KEY_6)
@@ -276,6 +281,12 @@ static void on_focus(GLFWwindow *window, int focused)
     v->pointer.fast = false;
 }
 
+static void on_drop(GLFWwindow *window, int count, const char **paths)
+{
+    for (int i = 0; i < count; i++)
+        viewer_drop(viewer_of(window), paths[i]);
+}
+
 void input_install(viewer *v)
 {
     glfwSetWindowUserPointer(v->window, v);
@@ -286,4 +297,5 @@ void input_install(viewer *v)
     glfwSetScrollCallback(v->window, on_scroll);
     glfwSetWindowFocusCallback(v->window, on_focus);
     glfwSetCursorEnterCallback(v->window, ui_on_enter);
+    glfwSetDropCallback(v->window, on_drop);
 }

@@ -311,5 +311,6 @@ void overlays_draw(viewer *v)
         draw_log(v);
     if (v->settings.panel.keys)
         draw_keys(v);
+    dialog_draw(v);
     draw_notices(v);
 }

@@ -315,6 +315,9 @@ static void draw_view(viewer *v)
 static void draw_files(viewer *v)
 {
     char error[VIEWER_TEXT];
+    if (ui_button("open a scene (Ctrl O)", 0))
+        dialog_toggle(v);
+    ui_space(6);
     ui_text(UI_TONE_ACCENT, "Picture");
     ui_item_width(-label_units * ui_font_size());
     ui_text_field("file##picture", v->picture_name, sizeof v->picture_name);

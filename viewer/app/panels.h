@@ -12,6 +12,7 @@ void panels_draw(viewer *v);
 void overlays_draw(viewer *v);
 void inspector_draw(viewer *v);
 void film_draw(viewer *v);
+void dialog_draw(viewer *v);
 
 /* A choice of sizes: the window's (0, 0), the scene's, usual ones, any other. */
 void size_draw(viewer *v, const char *label, uint32_t size[2]);

@@ -11,10 +11,11 @@
 #include "viewer/picture/picture_saver.h"
 #include "viewer/picture/render_worker.h"
 #include "viewer/picture/timings.h"
+#include "viewer/scene/scene_places.h"
 #include "viewer/ui/ui_shim.h"
 #include "cli/view_request.h"
 
-enum { VIEWER_TEXT = 640, LOG_LINES = 200 };
+enum { VIEWER_TEXT = 640, LOG_LINES = 200, OPEN_PATH = 4096 };
 
 /* ---- parts ---- */
 
@@ -106,6 +107,14 @@ typedef struct film_choice {
     bool replaces; /* files that are there */
 } film_choice;
 
+typedef struct open_dialog {
+    bool shown;
+    char path[OPEN_PATH];   /* typed */
+    char folder[OPEN_PATH]; /* whose files are listed; empty: the current one */
+    char *shipped_folder;   /* owned; NULL: missing, or not shown */
+    name_list shipped, recent, files;
+} open_dialog;
+
 typedef struct script script;
 
 struct GLFWwindow;
@@ -130,6 +139,8 @@ typedef struct viewer {
     pointer_state pointer;
     ui_stand_in stand_in;
     inspection inspection;
+    open_dialog dialog;
+    char *opened_path; /* of the scene, where it is another than at the start; owned */
     judging judging;
     film_choice film;
     film_export *film_export; /* NULL: none is under way */
@@ -228,6 +239,20 @@ mgt_context *viewer_tools(viewer *v);
 
 /* Begins to judge once all rests, ends when something moves, takes the figures. Once a frame. */
 void viewer_judge(viewer *v);
+
+/* ---- another scene (open.c) ---- */
+
+void viewer_set_title(viewer *v);
+
+/* Opens another scene in place of this one; its undoing begins anew. False with the reason in `error`, and nothing has changed. */
+bool viewer_open(viewer *v, const char *path, char *error, size_t error_size);
+
+/* A file dropped on the window: a scene is opened, a model becomes an object. */
+void viewer_drop(viewer *v, const char *path);
+
+/* Shows or hides the dialog. */
+void dialog_toggle(viewer *v);
+void dialog_free(viewer *v); /* what it lists */
 
 /* ---- films (film.c) ---- */
 

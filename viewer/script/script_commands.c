@@ -169,6 +169,15 @@ static void do_picture(viewer *v)
         v->script->saving = true;
 }
 
+static void do_open(viewer *v)
+{
+    char error[VIEWER_TEXT];
+    if (!viewer_open(v, v->script->words[1], error, sizeof error))
+        script_fail(v, "%s", error);
+}
+
+static void do_drop(viewer *v) { viewer_drop(v, v->script->words[1]); }
+
 static void do_film(viewer *v)
 {
     char error[VIEWER_TEXT];
@@ -462,6 +471,8 @@ const script_command script_commands[] = {
     {"settle", 1, 2, do_settle},
     {"screenshot", 2, 2, do_screenshot},
     {"picture", 2, 3, do_picture},
+    {"open", 2, 2, do_open},
+    {"drop", 2, 2, do_drop},
     {"film", 4, 5, do_film},
     {"judge", 2, 2, do_judge},
     {"lose-renderer", 1, 1, do_lose_renderer},
