@@ -175,7 +175,7 @@ static bool take_judgement(viewer *v)
     const judging *state = &v->judging;
     if (!state->has_found || state->found.samples < v->script->judging) {
         if (seconds_now() > v->script->give_up_at)
-            script_fail(v, "there is no judgement after two minutes");
+            script_fail(v, "there is no judgement after ten minutes");
         return false;
     }
     for (int side = 0; side < SIDE_COUNT; side++)

@@ -214,6 +214,7 @@ static void do_judge(viewer *v)
     script_settle(v->script, 1);
     v->settings.panel.judge = 1;
     v->script->judging = (uint32_t)fmax(samples, 2);
+    v->script->give_up_at = seconds_now() + 600; /* of low priority */
 }
 
 static void do_lose_renderer(viewer *v) { viewer_lose_gl(v, "the script took it away"); }
