@@ -42,6 +42,7 @@ pattern() { grep -E "$1" all.txt; }
     echo 'set view.resolution full'
     vary $(pattern '^light\.' | grep -v azimuth) light.azimuth_deg sky.model sky.turbidity water.choppiness water.ior water.body_albedo
     # a wind, a spectrum and a swell in place of the waves
+    echo 'set view.resolution third'
     change water.wind.speed 9
     echo 'set water.wind.speed 9'
     vary water.wind.direction_deg water.wind.fetch water.wind.depth water.wind.count water.wind.seed water.foam.amount

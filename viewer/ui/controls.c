@@ -400,8 +400,8 @@ static void follow_change(const control_board *board, const control *c, bool had
     if (c->value == &water->foam.amount && water->foam.amount > 0)
         water->foam.share = 0;
     if (sscanf(c->name, "objects[%zu].material.%n", &index, &used) == 1 && used > 0) {
-        scene_material *material = &((scene_object *)d->values.objects.items)[index].material;
-        material->given = true;
+        scene_object *object = (scene_object *)d->values.objects.items + index;
+        object->material.given = object->shape == SHAPE_MESH; /* a shape has no other */
     }
     const bool objects = strncmp(c->name, "objects[", 8) == 0;
     if (objects || strncmp(c->name, "water.", 6) == 0)
