@@ -53,7 +53,16 @@ pattern() { grep -E "$1" all.txt; }
     vary water.spectrum.spread
     echo 'set water.swell [{height: 1, period: 6, count: 20}]'
     for key in height period direction_deg spread count seed; do vary "water.swell[0].$key"; done
-    printf '%s\n' 'set water.swell []' 'set water.spectrum.model none' revert 'set view.resolution full' 'set water.choppiness 0.7'
+    printf '%s\n' 'set water.swell []' 'set water.spectrum.model none' revert 'set view.resolution third'
+    # objects, and what shows with them alone
+    echo 'set objects [{shape: plane, size: [20, 1, 20], position: [0, -1, -3]}, {shape: box, size: [1, 1, 1], position: [0, 0.4, -4]}]'
+    for key in position rotation_deg scale size material.base_color material.roughness material.metallic; do vary "objects[1].$key"; done
+    echo 'set objects[1].material.pattern tiles'
+    for key in pattern pattern_color pattern_size pattern_joint; do vary "objects[1].material.$key"; done
+    vary a.refraction a.caustics a.tess_error
+    printf '%s\n' 'set a.refraction truth'
+    vary a.refraction_samples
+    printf '%s\n' 'set a.refraction two-phase' revert 'set view.resolution full' 'set water.choppiness 0.7'
     vary water.foam.share
     echo 'set water.foam.share 0.3'
     vary water.foam.persistence
@@ -118,8 +127,8 @@ pattern() { grep -E "$1" all.txt; }
     echo 'set a.samples 4'
     echo 'set a.adaptive podee'
     vary a.importance_center a.importance_width a.importance_threshold a.slots
-    # what shows with objects, for long ellipses, or as the machine has it
-    printf 'a.%s\n' refraction tess_error refraction_samples caustics elongation budget_ms >>varied.txt
+    # what shows for long ellipses, or as the machine has it
+    printf 'a.%s\n' elongation budget_ms >>varied.txt
     # side B has the same rows
     pattern '^b\.' | grep -v 'method\|ndf_mean\|spatial\|seed\|time_samples' >>varied.txt
     printf 'set a.%s\n' 'method ssaa' 'spatial 2' 'time_samples 2'
@@ -155,7 +164,7 @@ pattern() { grep -E "$1" all.txt; }
 } >vary.txt
 drive scene.yaml "${size[@]}" <vary.txt
 sort -u varied.txt >covered.txt
-grep -v '^water\.swell\[' covered.txt >named.txt # of the swell that was added
+grep -v '^water\.swell\[\|^objects\[' covered.txt >named.txt # of the swell and the objects that were added
 missing=$(comm -23 all.txt covered.txt)
 [[ -z $missing ]] || fail "not covered: $missing"
 unknown=$(comm -13 all.txt named.txt)

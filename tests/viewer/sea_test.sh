@@ -8,7 +8,7 @@ page 2
 expect-value water.wind.speed 8
 mark
 # the wind's handle: a drag is one step
-drag 1216 450 1180 430
+drag 1216 474 1180 454
 expect-refused water.wind.speed 200
 expect-change
 undo
@@ -18,7 +18,7 @@ expect-same
 # a handle of a swell
 set water.swell [{height: 2, period: 12, count: 20}]
 frames 2
-drag 1239 422 1215 440
+drag 1239 446 1215 464
 expect-change
 undo
 expect-value water.swell[0].period 12
@@ -38,7 +38,7 @@ command
 save-scene wind.yaml
 # the button "waves": the same picture of single waves
 set view.resolution quarter
-drag 1021 147 1021 147
+drag 1021 171 1021 171
 set water.waves[0].phase 1
 undo
 picture waves.png 320x180

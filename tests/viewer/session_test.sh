@@ -27,7 +27,7 @@ set view.resolution full
 screenshot open.png
 mark
 # a slider under the pointer, a camera by drag, keys and wheel
-drag 740 195 860 195
+drag 740 219 860 219
 expect-change
 set light.elevation_deg 7
 pointer 5 5

@@ -315,9 +315,6 @@ static void draw_view(viewer *v)
 static void draw_files(viewer *v)
 {
     char error[VIEWER_TEXT];
-    if (ui_button("open a scene (Ctrl O)", 0))
-        dialog_toggle(v);
-    ui_space(6);
     ui_text(UI_TONE_ACCENT, "Picture");
     ui_item_width(-label_units * ui_font_size());
     ui_text_field("file##picture", v->picture_name, sizeof v->picture_name);
@@ -366,6 +363,26 @@ static void draw_renderer(const viewer *v)
     ui_text(UI_TONE_FAINT, text);
 }
 
+/* What is wanted on every page. */
+static void draw_tools(viewer *v)
+{
+    static const struct {
+        const char *label, *key, *what;
+    } tools[] = {{"open", "ctrl+o", "another scene (Ctrl O)"},
+                 {"undo", "ctrl+z", "takes back the last step (Ctrl Z)"},
+                 {"redo", "ctrl+y", "takes it back again (Ctrl Y)"},
+                 {"save", "f12", "the picture, as the page Files says (F12)"}};
+    enum { TOOLS = sizeof tools / sizeof tools[0] };
+    const float width = (ui_room().width - 7 * (TOOLS - 1)) / TOOLS;
+    for (int i = 0; i < TOOLS; i++) {
+        if (i > 0)
+            ui_same_line(0);
+        if (ui_button(tools[i].label, width))
+            input_press_key(v, tools[i].key);
+        ui_tooltip(tools[i].what);
+    }
+}
+
 static void draw_panel(viewer *v)
 {
     static const struct {
@@ -375,6 +392,7 @@ static void draw_panel(viewer *v)
     const ui_rect *room = &v->place.room;
     const ui_rect place = {room->width, 0, panels_width(v), room->height};
     if (ui_panel_begin("controls", place, UI_PANEL_SCROLLS)) {
+        draw_tools(v);
         draw_compare(v);
         draw_renderer(v);
         ui_space(2);

@@ -19,8 +19,10 @@ static bool is_held(const viewer *v)
 
 void viewer_keep_step(viewer *v, bool all)
 {
-    if (all || !is_held(v))
-        history_add(&v->history, &v->document.values, &v->settings);
+    if (!all && is_held(v))
+        return;
+    document_refresh(&v->document);
+    history_add(&v->history, &v->document.values, &v->settings);
 }
 
 /* The first control in which the boards differ, and how many others do. */
@@ -64,7 +66,7 @@ bool viewer_undo(viewer *v, int by)
     const control_board other = {&there, &chosen};
     describe(&v->board, &other, what, sizeof what);
     document_replace(&v->document, &there.values);
-    document_changed(&v->document, false); /* it may have been kept before its sea was made */
+    document_changed(&v->document, false); /* tells again why a sea cannot be made */
     v->settings = chosen;
     history_follow(&v->history, chosen.clock.time, &v->document.values.camera.still);
     viewer_tell(v, "%s%s%s", word, what[0] ? ": " : "", what);
