@@ -185,7 +185,9 @@ static bool make_values(scene_values *values, const char *text, scene_error *err
     scene_sea_fault fault;
     if (!read_words(text, &words, error))
         return false;
+    const field_row *wind = field_find(field_find(scene_root_field()->fields, "water", 5)->fields, "wind", 4);
     values->water.wind = words.wind;
+    wind->decide(&values->water);
     if (words.swell.height > 0) {
         scene_swell *swell = malloc(sizeof *swell);
         if (swell == NULL)

@@ -154,6 +154,7 @@ static void words_make_a_scene(void **state)
         assert_non_null(file);
         assert_true(scene_file_frame(file, 0, &one));
         assert_true(one.light.elevation_deg == 5);
+        assert_true(one.water.choppiness == 0.7f && one.foam > 0); /* as water.wind decides */
         assert_true(one.camera.position[1] >= 3 && one.camera.position[1] > 1.2 * waves_statistics(one.water.waves, one.water.wave_count, 0).height);
         assert_string_equal(scene_file_warning(file), "");
         scene_file_free(file);
