@@ -176,6 +176,7 @@ static bool take_judgement(viewer *v)
     if (!state->has_found || state->found.samples < v->script->judging) {
         if (seconds_now() > v->script->give_up_at)
             script_fail(v, "there is no judgement after ten minutes");
+        glfwWaitEventsTimeout(0.02); /* the time is the judge's */
         return false;
     }
     for (int side = 0; side < SIDE_COUNT; side++)
