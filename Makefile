@@ -14,7 +14,7 @@ setup:
 # The steps are recipes, not prerequisites, so that they keep their order under `make -j`.
 demo: setup
 	[ -f build/build.ninja ] || cmake --preset release
-	cmake --build build --target mangata buoyancy
+	cmake --build build --target mangata buoyancy web_page
 	scripts/demo
 
 test: setup

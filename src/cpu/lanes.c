@@ -162,25 +162,46 @@ static TileData list_waves(const struct kernel_context *cx, const wave_set *set,
     return sorted_tile(cx, sums, resolved, all - resolved, searched_count, rows);
 }
 
+/* A tile of the picture and its waves' classes. */
+typedef struct tile_sorting {
+    real column, row;
+    float width, height;
+    TileView place;
+    wave_classes classes;
+} tile_sorting;
+
+static void classify_tile(const struct kernel_context *cx, const wave_set *set, uint32_t tile_x, uint32_t tile_y, tile_sorting *out)
+{
+    out->width = TILE_WIDTH * cx->view->scale_x;
+    out->height = TILE_HEIGHT * cx->view->scale_y;
+    out->column = real((float)tile_x * out->width);
+    out->row = real((float)tile_y * out->height);
+    out->place = tile_view(cx, out->column, out->row, out->width, out->height);
+    classify_waves(cx, set, out->place, &out->classes);
+}
+
+static void list_tile(const struct kernel_context *cx, const wave_set *set, const tile_sorting *sorting, tile_waves *out)
+{
+    const TileView *place = &sorting->place;
+    out->data = list_waves(cx, set, &sorting->classes, any_of(place->rows), out);
+    out->data.ray_x = any_of(place->ray.x);
+    out->data.ray_y = any_of(place->ray.y);
+    out->data.ray_z = any_of(place->ray.z);
+    out->data.origin_x = any_of(place->origin_x);
+    out->data.origin_z = any_of(place->origin_z);
+    out->data.grazing = any_of(place->grazing) > 0;
+    out->data.refined = any_of(place->refined) > 0;
+    out->data.search_pixels = out->data.search_pixels || out->data.grazing;
+    out->foam = set->has_foam ? &set->foam : NULL;
+    out->data.light_reach = any_of(tile_meets_light(cx, sorting->column, sorting->row, sorting->width, sorting->height)) > 0;
+}
+
 static void lanes_sort(const FrameData *frame, const wave_set *set, const ViewData *view, uint32_t tile_x, uint32_t tile_y, tile_waves *out)
 {
     const struct kernel_context cx = {.frame = frame, .view = view};
-    const float width = TILE_WIDTH * view->scale_x, height = TILE_HEIGHT * view->scale_y;
-    const real column = real((float)tile_x * width), row = real((float)tile_y * height);
-    const TileView place = tile_view(&cx, column, row, width, height);
-    wave_classes classes;
-    classify_waves(&cx, set, place, &classes);
-    out->data = list_waves(&cx, set, &classes, any_of(place.rows), out);
-    out->data.ray_x = any_of(place.ray.x);
-    out->data.ray_y = any_of(place.ray.y);
-    out->data.ray_z = any_of(place.ray.z);
-    out->data.origin_x = any_of(place.origin_x);
-    out->data.origin_z = any_of(place.origin_z);
-    out->data.grazing = any_of(place.grazing) > 0;
-    out->data.refined = any_of(place.refined) > 0;
-    out->data.search_pixels = out->data.search_pixels || out->data.grazing;
-    out->foam = set->has_foam ? &set->foam : NULL;
-    out->data.light_reach = any_of(tile_meets_light(&cx, column, row, width, height)) > 0;
+    tile_sorting sorting;
+    classify_tile(&cx, set, tile_x, tile_y, &sorting);
+    list_tile(&cx, set, &sorting, out);
 }
 
 #include "cpu/lattice_lane.h"

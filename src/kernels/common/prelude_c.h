@@ -21,7 +21,7 @@
  *  6. Literals end in f. No casts, no int times real, no arrays indexed per lane, no directives but #include "x.k" and
  *     #pragma once, no name that GLSL reserves (active, common, filter, input, output, sample, ...), no member called length.
  *  7. Every operation here is exactly rounded and the kernels are built with -ffp-contract=off, so that every lane width
- *     with fused multiply-add gives the same bits. SSE2 (4 lanes), where fma(a,b,c) is a*b+c, is outside that promise.
+ *     with fused multiply-add gives the same bits. SSE2 (4 lanes), where fma(a,b,c) is a*b+c, is outside that promise, as is WebAssembly.
  */
 #ifndef MANGATA_KERNELS_COMMON_PRELUDE_C_H
 #define MANGATA_KERNELS_COMMON_PRELUDE_C_H
@@ -36,6 +36,8 @@
 #include <string.h>
 #elif defined(__aarch64__) && MGT_LANES == 4
 #include <arm_neon.h>
+#elif defined(__wasm_simd128__) && MGT_LANES == 4
+#include <wasm_simd128.h>
 #elif MGT_LANES == 4 || MGT_LANES == 8 || MGT_LANES == 16
 #include <immintrin.h>
 #else
@@ -151,6 +153,17 @@ KERNEL real real_fma(real a, real b, real c) { return (real)vfmaq_f32((float32x4
 KERNEL real real_round_even(real x) { return (real)vrndnq_f32((float32x4_t)x); }
 KERNEL real real_floor(real x) { return (real)vrndmq_f32((float32x4_t)x); }
 
+#elif defined(__wasm__)
+
+KERNEL bool any_lane(mask m) { return wasm_v128_any_true((v128_t)m); }
+KERNEL bool all_lanes(mask m) { return wasm_i32x4_all_true((v128_t)m); }
+KERNEL real real_min(real a, real b) { return (real)wasm_f32x4_pmin((v128_t)b, (v128_t)a); }
+KERNEL real real_max(real a, real b) { return (real)wasm_f32x4_pmax((v128_t)b, (v128_t)a); }
+KERNEL real real_sqrt(real x) { return (real)wasm_f32x4_sqrt((v128_t)x); }
+KERNEL real real_fma(real a, real b, real c) { return a * b + c; }
+KERNEL real real_round_even(real x) { return (real)wasm_f32x4_nearest((v128_t)x); }
+KERNEL real real_floor(real x) { return (real)wasm_f32x4_floor((v128_t)x); }
+
 #else
 
 KERNEL bool any_lane(mask m) { return _mm_movemask_ps((__m128)m) != 0; }
@@ -198,7 +211,7 @@ KERNEL real real_abs(real x) { return real_from_bits(real_bits(x) & 0x7fffffff);
 
 KERNEL real real_copy_sign(real magnitude, real sign) { return real_from_bits((real_bits(magnitude) & 0x7fffffff) | (real_bits(sign) & MGT_SIGN_BIT)); }
 
-#if MGT_LANES == 1 || (MGT_LANES == 4 && !defined(__aarch64__))
+#if MGT_LANES == 1 || (MGT_LANES == 4 && !defined(__aarch64__) && !defined(__wasm__))
 /* Adding 2^23 leaves no bits below one. Neither plain C nor SSE2 has a rounding instruction; the bits are the same. */
 KERNEL real real_round_even(real x)
 {

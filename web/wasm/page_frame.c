@@ -1,0 +1,103 @@
+/* SPDX-License-Identifier: MIT
+ * What the shaders read of a frame: its uniform structs, and the tiles with their waves and first hits. */
+#include "page.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* A buffer that grows. */
+typedef struct page_buffer {
+    void *data;
+    size_t capacity;
+} page_buffer;
+
+static void *reserve(page_buffer *b, size_t size)
+{
+    if (size > b->capacity) {
+        b->capacity = size + size / 2;
+        b->data = realloc(b->data, b->capacity);
+        if (!b->data)
+            abort();
+    }
+    return b->data;
+}
+
+/* Where a tile's parts begin, in elements of theirs. `first_hit` below 0: no hits have been sought. */
+typedef struct tile_parts {
+    int first_wave, first_search, first_hit, padding;
+} tile_parts;
+
+typedef struct shader_tile {
+    TileData data;
+    tile_parts parts;
+} shader_tile;
+_Static_assert(sizeof(shader_tile) % 16 == 0, "texels");
+
+/* What the page uploads. */
+static struct page_upload {
+    const void *frame_data, *waves, *foam, *tiles, *lists, *searched, *hits;
+    int wave_count, has_foam, choppy;
+    int tile_columns, tile_rows;
+    int list_count, search_count, hit_count;
+} upload;
+
+static frame prepared;
+static wave_set set;
+static page_buffer tiles, lists, searched, hits;
+
+EXPORT(tile_bytes) int page_tile_bytes(void) { return sizeof(shader_tile); }
+EXPORT(frame_bytes) int page_frame_bytes(void) { return sizeof(FrameData); }
+EXPORT(foam_bytes) int page_foam_bytes(void) { return sizeof(FoamData) + 2 * FOAM_SINES * sizeof(FoamSine); }
+
+static void add_tile(const FrameData *data, uint32_t x, uint32_t y)
+{
+    static page_tile tile;
+    page_sort(data, &set, x, y, &tile);
+    const TileData *d = &tile.waves.data;
+    const int count = d->resolved_count + d->mixed_count;
+    shader_tile *t = (shader_tile *)tiles.data + y * (uint32_t)upload.tile_columns + x;
+    t->data = *d;
+    t->parts = (tile_parts){upload.list_count, upload.search_count, upload.hit_count, 0};
+    page_wave *list = reserve(&lists, (size_t)(upload.list_count + count) * sizeof *list);
+    memcpy(list + upload.list_count, tile.list, (size_t)count * sizeof *list);
+    SearchWave *search = reserve(&searched, (size_t)(upload.search_count + d->search_count) * sizeof *search);
+    memcpy(search + upload.search_count, tile.waves.search, (size_t)d->search_count * sizeof *search);
+    float *values = reserve(&hits, ((size_t)upload.hit_count + HIT_ROWS * TILE_PIXELS) * NODE_VALUES * sizeof *values);
+    const size_t found = page_hits(data, &tile, values + (size_t)upload.hit_count * NODE_VALUES) / NODE_VALUES;
+    if (found == 0)
+        t->parts.first_hit = -1;
+    upload.list_count += count;
+    upload.search_count += d->search_count;
+    upload.hit_count += (int)found;
+}
+
+/* Prepares a picture of columns × rows pixels. `sorted` 0: every wave is looked at in every pixel, to measure what sorting gains. */
+EXPORT(prepare) const void *page_prepare(int method, int columns, int rows, double jitter_x, double jitter_y, int sorted)
+{
+    bool filter;
+    prepared = page_frame((mgt_method)method, (uint32_t)columns, (uint32_t)rows, (const double[2]){jitter_x, jitter_y});
+    if (!sorted) {
+        prepared.data.sort_start = -1;
+        prepared.data.sort_end = 1e30f;
+        prepared.data.sort_shares = 0;
+    }
+    const interval time = page_interval(&prepared, (mgt_method)method, &filter);
+    wave_set_build(&prepared, &prepared.close, time, filter, &set);
+    upload = (struct page_upload){.frame_data = &prepared.data,
+                                  .waves = set.data,
+                                  .foam = &set.foam,
+                                  .wave_count = set.view.wave_count,
+                                  .has_foam = set.has_foam,
+                                  .choppy = page_scene()->water.choppiness > 0,
+                                  .tile_columns = (columns + TILE_WIDTH - 1) / TILE_WIDTH,
+                                  .tile_rows = (rows + TILE_HEIGHT - 1) / TILE_HEIGHT};
+    reserve(&tiles, (size_t)upload.tile_columns * (size_t)upload.tile_rows * sizeof(shader_tile));
+    for (int y = 0; y < upload.tile_rows; y++)
+        for (int x = 0; x < upload.tile_columns; x++)
+            add_tile(&prepared.data, (uint32_t)x, (uint32_t)y);
+    upload.tiles = tiles.data;
+    upload.lists = lists.data;
+    upload.searched = searched.data;
+    upload.hits = hits.data;
+    return &upload;
+}
