@@ -100,6 +100,9 @@ static FrameData frame_data(const scene *s)
         .lights[0].axis_f_z = (float)f.z,
         .ramp_scale = 1 / (1.2f * 1.2f), /* nothing is resolved beyond 1.2 cycles a pixel */
         .slope_floor = 1e-9f,
+        .grazing_fall = 2.5f, /* grazing water and its two hits, as the library has them: docs/grazing.md */
+        .hit_rows_fall = 2,
+        .hit_rows = 2,
     };
 }
 

@@ -31,14 +31,42 @@ int searched_waves(vec3 ray)
     return count;
 }
 
+/* Of one hit; the row is the tile's. */
+float coverage_at(float column, float row)
+{
+    PixelRay p = pixel_ray_filtered(0, column, row);
+    if (p.water <= 0.0)
+        return 0.0;
+    tile.search_count = tile.coarse_count = searched_waves(p.ray);
+    SlopeState slopes = slope_state(0, p.ray, HitEstimate(0.0, 0.0, 1.0, vec2(0.0), vec2(0.0))); /* from the camera, search */
+    return p.water * glitter_coverage(0, slopes, slopes);
+}
+
+/* As many hits as the library takes, one above the other: the tile's rows become theirs. */
+void split_rows(float hits)
+{
+    float part = 1.0 / hits, first = 0.5 * (part - 1.0); /* of the pixel, from its middle */
+    tile.ray_x += first * tile.down_x;
+    tile.ray_y += first * tile.down_y;
+    tile.ray_z += first * tile.down_z;
+    tile.down_x *= part;
+    tile.down_y *= part;
+    tile.down_z *= part;
+    tile.horizon_steepness *= part;
+    tile.horizon_inverse *= hits;
+    tile.hit_rows = hits;
+}
+
 void main()
 {
     tile = whole_image;
-    PixelRay p = pixel_ray_filtered(0, gl_FragCoord.x - 0.5, gl_FragCoord.y - 0.5);
+    float column = gl_FragCoord.x - 0.5, row = gl_FragCoord.y - 0.5;
+    vec3 ray = pixel_ray_at(0, column, row);
+    float fall = -ray.y / (length(ray.xz) * sqrt(tile.slope_variance)); /* in deviations of the water's slope: docs/grazing.md */
+    tile.grazing = tile.refined = fall < frame.grazing_fall ? 1 : 0;
+    float hits = fall < frame.hit_rows_fall ? frame.hit_rows : 1.0;
+    split_rows(hits);
     coverage = 0.0;
-    if (p.water > 0.0) {
-        tile.search_count = tile.coarse_count = searched_waves(p.ray);
-        SlopeState slopes = slope_state(0, p.ray, HitEstimate(0.0, 0.0, 1.0, vec2(0.0), vec2(0.0))); /* from the camera, search */
-        coverage = p.water * glitter_coverage(0, slopes, slopes);
-    }
+    for (float hit = 0.0; hit < hits; hit++)
+        coverage += coverage_at(column, hits * row + hit) / hits;
 }

@@ -67,7 +67,7 @@ cd "$work"
 ((code == 0)) || die "glsl_coverage ends with $code"
 "$mangata" render --quiet scene.json --layer coverage -o library.pfm
 
-# One tile without a lattice is not the library's way to the hits: .00076 apart, where both are .0046 from brute force.
+# One tile without a lattice is not the library's way to the hits: .0011 apart, where both are .0044 from brute force.
 limit=0.0012
 "$mangata" diff own.pfm library.pfm --max-rmse $limit | tee diff.txt || die "own.pfm and library.pfm differ"
 awk '$1 == "mean" && ($3 < 0.99 || $3 > 1.01) { exit 1 }' diff.txt || die "own.pfm has another brightness"
