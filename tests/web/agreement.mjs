@@ -40,7 +40,7 @@ try {
       })()`);
       const [ours, theirs] = [join(folder, "page.png"), join(folder, "sea.png")];
       writeFileSync(ours, Buffer.from(drawn.png, "base64"));
-      execFileSync("sh", ["-c", `${drawn.command.replace(/^mangata/, mangata)} --overwrite -q`], { cwd: folder });
+      execFileSync("sh", ["-c", `${drawn.command.replace(/^mangata/, resolve(mangata))} --overwrite -q`], { cwd: folder });
       const rmse = JSON.parse(execFileSync(mangata, ["diff", ours, theirs, "--metrics", "rmse", "--json"])).rmse;
       failed ||= !(rmse <= MOST_RMSE);
       console.log(`${name}, ${method}: RMSE ${rmse.toFixed(5)}, frame ${drawn.frame.toFixed(0)} ms, of which tiles ${drawn.times.prepare.toFixed(0)} ms`);
