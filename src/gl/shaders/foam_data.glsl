@@ -16,11 +16,5 @@ layout(std430, binding = 7) restrict readonly buffer FoamBlock
 #define FOAM_WAVE(cx, i) foam_waves[i]
 #define FOAM_SINE(cx, i) foam_sines[i]
 #else
-FoamData no_foam;
-FoamWave no_foam_wave;
-FoamSine no_foam_sine;
-#define FOAMY(cx) 0
-#define FOAM(cx) no_foam
-#define FOAM_WAVE(cx, i) no_foam_wave
-#define FOAM_SINE(cx, i) no_foam_sine
+#include "kernels/waves/no_foam_accessors_glsl.k"
 #endif

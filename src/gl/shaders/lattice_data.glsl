@@ -78,17 +78,9 @@ HitEstimate pixel_estimate(ivec2 pixel)
         return estimate;
     }
     ivec2 cell = pixel / ivec2(NODE_STEP_X, NODE_STEP_Y);
-    LatticeNode top_left = node_of(cell.x, cell.y), top_right = node_of(cell.x + 1, cell.y);
-    LatticeNode low_left = node_of(cell.x, cell.y + 1), low_right = node_of(cell.x + 1, cell.y + 1);
-    estimate.from = cell_from(0, top_left, top_right, low_left, low_right);
-    estimate.search = tile_may_occlude() ? cell_doubt(0, top_left, top_right, low_left, low_right) : 0.0f;
-    float u = float(pixel.x % NODE_STEP_X) / float(NODE_STEP_X), v = float(pixel.y % NODE_STEP_Y) / float(NODE_STEP_Y);
-    vec3 ray = pixel_ray_at(0, float(pixel.x), float(pixel.y));
-    estimate.height = lattice_height(0, top_left.plane, top_right.plane, low_left.plane, low_right.plane, ray, u, v);
-    if (CHOPPY(0) != 0)
-        estimate.shift = vec2(lattice_shift(0, top_left.shift.x, top_right.shift.x, low_left.shift.x, low_right.shift.x, u, v),
-                              lattice_shift(0, top_left.shift.y, top_right.shift.y, low_left.shift.y, low_right.shift.y, u, v));
-    return estimate;
+    vec2 part = vec2(pixel % ivec2(NODE_STEP_X, NODE_STEP_Y)) / vec2(float(NODE_STEP_X), float(NODE_STEP_Y));
+    return cell_estimate(0, node_of(cell.x, cell.y), node_of(cell.x + 1, cell.y), node_of(cell.x, cell.y + 1), node_of(cell.x + 1, cell.y + 1),
+                         pixel_ray_at(0, float(pixel.x), float(pixel.y)), part.x, part.y, tile_may_occlude());
 }
 
 const int GROUP_PIXELS = TILE_WIDTH * GROUP_ROWS;
