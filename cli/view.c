@@ -7,24 +7,11 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/child_process.h"
 #include "cli/common/verbs.h"
 #include "cli/view_request.h"
 
 enum { PATH_SIZE = 4096 };
-
-/* The viewer beside this program; false where there is none. */
-static bool find_beside(char path[PATH_SIZE])
-{
-    const ssize_t length = readlink("/proc/self/exe", path, PATH_SIZE - 1);
-    if (length <= 0)
-        return false;
-    path[length] = 0;
-    char *name = strrchr(path, '/');
-    const size_t room = name ? PATH_SIZE - (size_t)(name + 1 - path) : 0;
-    if (!name || (size_t)snprintf(name + 1, room, "mangata-viewer") >= room)
-        return false;
-    return access(path, X_OK) == 0;
-}
 
 int verb_view(int count, char **arguments)
 {
@@ -39,7 +26,7 @@ int verb_view(int count, char **arguments)
         return console_error(EXIT_CODE_FAILED, "out of memory");
     words[0] = program;
     memcpy(words + 1, arguments, (size_t)count * sizeof *words);
-    if (find_beside(beside))
+    if (program_beside(program, beside, sizeof beside))
         execv(beside, words);
     else
         execvp(program, words);

@@ -4,8 +4,22 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
 
 extern char **environ;
+
+bool program_beside(const char *name, char *path, size_t size)
+{
+    const ssize_t length = readlink("/proc/self/exe", path, size - 1);
+    if (length <= 0)
+        return false;
+    path[length] = 0;
+    char *own = strrchr(path, '/');
+    const size_t room = own ? size - (size_t)(own + 1 - path) : 0;
+    return own && (size_t)snprintf(own + 1, room, "%s", name) < room && access(path, X_OK) == 0;
+}
 
 static int set_descriptors(posix_spawn_file_actions_t *actions, const child_descriptors *d)
 {

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT
  *
- * Starting a program with chosen descriptors, no blocked signals and no handlers.
+ * Finding a program, and starting it with chosen descriptors, no blocked signals and no handlers.
  */
 #ifndef MANGATA_BASE_CHILD_PROCESS_H
 #define MANGATA_BASE_CHILD_PROCESS_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <sys/types.h>
 
 typedef struct child_descriptors {
@@ -13,6 +14,9 @@ typedef struct child_descriptors {
     int extra;       /* becomes the descriptor `extra_place` of the child; -1: none */
     int extra_place;
 } child_descriptors;
+
+/* Whether an executable of this name stands in this program's folder, and its path. Any thread. */
+bool program_beside(const char *name, char *path, size_t size);
 
 /* Starts `program`, a path, with the caller's environment; `arguments` end with NULL. `own_group`: the child leads a process group of its own, which signals of a
  * terminal do not reach. Returns 0 or an errno; *pid is written on success only. Any thread. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The colour words that the perceptual metrics share: sRGB's transfer curve and its luminance. Private to src/image. */
+/* The colour words that measures of displayed pictures share: sRGB's transfer curve and its luminance. */
 #ifndef MANGATA_IMAGE_METRICS_COLOR_H
 #define MANGATA_IMAGE_METRICS_COLOR_H
 

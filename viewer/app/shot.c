@@ -71,32 +71,49 @@ void viewer_write_out_sea(viewer *v)
     scene_values_write_out_sea(&v->document.values);
 }
 
+/* One more item at a list's end, not yet set; NULL, which is reported, where memory or `most` is at its end. */
+static void *list_append(viewer *v, scene_list *list, size_t size, size_t most, const char *name)
+{
+    char *items = list->count < most ? realloc(list->items, (list->count + 1) * size) : NULL;
+    if (!items) {
+        if (list->count < most)
+            viewer_report(v, true, "out of memory");
+        else
+            viewer_report(v, true, "no further %s fits: %zu are allowed", name, most);
+        return NULL;
+    }
+    *list = (scene_list){.items = items, .count = list->count + 1};
+    return items + (list->count - 1) * size;
+}
+
+static void list_remove(scene_list *list, size_t size, size_t index)
+{
+    char *items = list->items;
+    memmove(items + index * size, items + (index + 1) * size, (list->count - index - 1) * size);
+    if (--list->count == 0) {
+        free(items);
+        list->items = NULL;
+    }
+}
+
 void swell_add(viewer *v)
 {
     scene_list *list = &v->document.values.water.swell;
-    scene_swell *items = list->count < SEA_SWELLS ? realloc(list->items, (list->count + 1) * sizeof *items) : NULL;
-    if (!items) {
-        viewer_report(v, true, "%s", list->count < SEA_SWELLS ? "out of memory" : "no further swell fits: 16 are allowed");
+    scene_swell *added = list_append(v, list, sizeof *added, SEA_SWELLS, "swell");
+    if (!added)
         return;
-    }
-    items[list->count] = scene_swell_defaults();
-    items[list->count].height = 1;
-    items[list->count].direction_deg = list->count * 40.0 - 30;
-    *list = (scene_list){.items = items, .count = list->count + 1};
+    *added = scene_swell_defaults();
+    added->height = 1;
+    added->direction_deg = (double)(list->count - 1) * 40.0 - 30;
     document_changed(&v->document, false);
 }
 
 void swell_remove(viewer *v, size_t index)
 {
     scene_list *list = &v->document.values.water.swell;
-    scene_swell *items = list->items;
     if (index >= list->count)
         return;
-    memmove(items + index, items + index + 1, (list->count - index - 1) * sizeof *items);
-    if (--list->count == 0) {
-        free(items);
-        list->items = NULL;
-    }
+    list_remove(list, sizeof(scene_swell), index);
     document_changed(&v->document, false);
 }
 
@@ -130,28 +147,20 @@ void wave_add(viewer *v)
     scene_list *list = &v->document.values.water.waves;
     if (v->document.values.water.wind.speed > 0) /* which would replace it */
         viewer_write_out_sea(v);
-    mgt_wave *items = list->count < MGT_MAX_WAVES ? realloc(list->items, (list->count + 1) * sizeof *items) : NULL;
-    if (!items) {
-        viewer_report(v, true, "%s", list->count < MGT_MAX_WAVES ? "out of memory" : "no further wave fits: 512 are allowed");
+    mgt_wave *added = list_append(v, list, sizeof *added, MGT_MAX_WAVES, "wave");
+    if (!added)
         return;
-    }
-    items[list->count] = wave_new(list->count);
-    v->selected_wave = list->count;
-    *list = (scene_list){.items = items, .count = list->count + 1};
+    v->selected_wave = list->count - 1;
+    *added = wave_new(v->selected_wave);
     document_changed(&v->document, false);
 }
 
 void wave_remove(viewer *v, size_t index)
 {
     scene_list *list = &v->document.values.water.waves;
-    mgt_wave *items = list->items;
     if (index >= list->count)
         return;
-    memmove(items + index, items + index + 1, (list->count - index - 1) * sizeof *items);
-    if (--list->count == 0) {
-        free(items);
-        list->items = NULL;
-    }
+    list_remove(list, sizeof(mgt_wave), index);
     if (v->selected_wave > 0 && v->selected_wave >= list->count)
         v->selected_wave--;
     document_changed(&v->document, false);

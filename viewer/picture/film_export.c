@@ -27,18 +27,6 @@ struct film_export {
     char text[512]; /* its last line that is no JSON */
 };
 
-/* The command beside this program; false where there is none. */
-static bool find_beside(char path[PATH_SIZE])
-{
-    const ssize_t length = readlink("/proc/self/exe", path, PATH_SIZE - 1);
-    if (length <= 0)
-        return false;
-    path[length] = 0;
-    char *name = strrchr(path, '/');
-    const size_t room = name ? PATH_SIZE - (size_t)(name + 1 - path) : 0;
-    return name && (size_t)snprintf(name + 1, room, "mangata") < room && access(path, X_OK) == 0;
-}
-
 /* A file without a name that holds the text, to be read from its start; -1 where there is no room. */
 static int file_of_text(const char *text, size_t size)
 {
@@ -59,7 +47,7 @@ film_export *film_export_start(const char *scene, size_t scene_size, const char 
     int pipe_ends[2] = {-1, -1}, input = -1, code = ENOMEM;
     size_t count = 0;
     film_export *f = calloc(1, sizeof *f);
-    const bool found = find_beside(beside);
+    const bool found = program_beside("mangata", beside, sizeof beside);
     static char env[] = "env", command[] = "mangata", render[] = "render", standard_input[] = "-", progress[] = "--progress", json[] = "json";
     if (!found)
         arguments[count++] = env;

@@ -12,6 +12,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include "image/metrics_color.h"
 #include "image/metrics_flip.h"
 #include "image/metrics_noise.h"
 #include "params/methods.h"
@@ -199,8 +200,6 @@ static bool compare(const judge *j, float *a, float *b, float *b2, noise_sums *s
     return noise_sums_add(sums, images, NULL, error) == FILE_OK;
 }
 
-static float to_linear(float v) { return v <= 0.04045f ? v / 12.92f : powf((v + 0.055f) / 1.055f, 2.4f); }
-
 static void step_of(float *out, const float *later, const float *first, size_t count)
 {
     for (size_t i = 0; i < count; i++)
@@ -212,8 +211,8 @@ static double flip_of(judge *j, flip *f, const float *side)
 {
     const reference_sums *r = &j->references[0];
     for (size_t i = 0; i < j->values; i++) {
-        j->steps[0][i] = to_linear(side[i]);
-        j->steps[1][i] = to_linear((r->displayed[0][i] + r->displayed[1][i]) / 2);
+        j->steps[0][i] = color_srgb_decode(side[i]);
+        j->steps[1][i] = color_srgb_decode((r->displayed[0][i] + r->displayed[1][i]) / 2);
     }
     return flip_ldr(f, (flip_picture){j->steps[0], 3}, (flip_picture){j->steps[1], 3}, NULL);
 }
