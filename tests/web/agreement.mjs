@@ -25,7 +25,7 @@ try {
     window.tested = await create(canvas);
   })()`);
   for (const scene of (await browser.run("GALLERY")).slice(0, Number(count)))
-    for (const method of ["none", "ggx-moments", "bruneton", "mangata"]) {
+    for (const method of ["none", "ggx-moments", "bruneton", "taa", "mangata"]) {
       const { name, ...changes } = scene;
       const drawn = await browser.run(`(async () => {
         setScene(tested, { ...presets(), ...${JSON.stringify(changes)} });

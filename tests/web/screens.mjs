@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Screenshots of the page: screens.mjs PAGE FOLDER [TIMES]. Desktop, light and dark, and phone; and how long the first picture takes.
+// Screenshots of the page with all of the window's pixels: screens.mjs PAGE FOLDER. Desktop, dark and light, and phone; and how long the first picture takes.
+// Minutes each with a software GL.
 import { writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { openBrowser } from "./browser.mjs";
@@ -13,7 +14,9 @@ for (const [name, width, height, scale, scheme, link] of views) {
     await browser.size(width, height, scale, name === "phone");
     await browser.send("Emulation.setEmulatedMedia", { features: [{ name: "prefers-color-scheme", value: scheme }] });
     await browser.open("file://" + resolve(page) + link);
-    await browser.run(`(async () => { for (let i = 0; i < 400 && (page.frames || 0) < 3; i++) await new Promise(r => setTimeout(r, 50)); page.scale = 1; setPlaying(false); changed(); page.dirty = true;
+    await browser.run(`(async () => { for (let i = 0; (page.frames || 0) < 3; i++) await new Promise(r => setTimeout(r, 50));
+      const before = page.frames; page.scale = 1; setPlaying(false); changed();
+      while (page.frames === before) await new Promise(r => setTimeout(r, 50));
       await new Promise(r => setTimeout(r, 4000)); showFigures(); })()`);
     console.log(name, "first picture after", Math.round(await browser.run("page.firstPicture")), "ms;", (await browser.run("document.getElementById('figures').textContent")).replaceAll("\n", "; "));
     writeFileSync(join(folder, `web-${name}.png`), await browser.screenshot());

@@ -6,6 +6,7 @@ const METHODS = {
   none: { about: "one sample at the pixel's centre", program: ["points.frag"] },
   "ggx-moments": { about: "as in game engines: GGX of the slopes' moments", program: ["slopes.frag", "kernels/baselines/ggx_moments.k", "ggx_moments_result"] },
   bruneton: { about: "Bruneton et al. 2010: Gaussian slopes", program: ["slopes.frag", "kernels/baselines/bruneton.k", "bruneton_result"] },
+  taa: { about: "temporal anti-aliasing: eight frames of none", program: ["points.frag"], blends: true },
   mangata: { about: "this library's closed form", program: ["slopes.frag", "kernels/glitter/glitter.k", "glitter_result"] },
 };
 // As src/frame/whole_frame.h has them: frames of taa, and where in the pixel each looks (Halton 2, 3).

@@ -125,7 +125,8 @@ function lightPlace() {
   return [canvas.clientWidth / 2 + focal * x / ahead, canvas.clientHeight / 2 - focal * up / ahead];
 }
 
-function fold() { if (!page.folded && innerWidth < 640) { page.folded = true; element("fold").click(); } }
+// An open panel would hide the water of a small window.
+function fold() { if (!page.folded && (innerWidth < 640 || innerHeight < 480)) { page.folded = true; element("fold").click(); } }
 
 function takeLink() {
   const { settings, methods } = settingsOfLink(location.hash);
@@ -313,7 +314,7 @@ async function start() {
     return;
   }
   element("canvas").addEventListener("webglcontextlost", event => { event.preventDefault(); location.reload(); });
-  page.scale = 0.5;
+  page.scale = 0.2; // of the window's pixels, until a frame's time is known
   page.judge = new Judge(await openLibrary(module));
   requestAnimationFrame(loop);
 }
