@@ -207,10 +207,23 @@ static exr_result_t gather_band(exr_encode_pipeline_t *encoder, float *band, uin
     return EXR_ERR_SUCCESS;
 }
 
+/* Chunks that do not shrink are stored as they are, which readers tell by their size; OpenEXR 3.1 gets this wrong for ZIP. */
+static exr_result_t compress_or_store(exr_encode_pipeline_t *encoder)
+{
+    exr_result_t (*const *compress)(exr_encode_pipeline_t *) = encoder->encoding_user_data;
+    const exr_result_t code = (*compress)(encoder);
+    if (!code && encoder->compressed_bytes >= encoder->packed_bytes) {
+        memcpy(encoder->compressed_buffer, encoder->packed_buffer, encoder->packed_bytes);
+        encoder->compressed_bytes = encoder->packed_bytes;
+    }
+    return code;
+}
+
 static exr_result_t write_pixels(exr_context_t context, float *band, uint32_t width, uint32_t height, const exr_source *sources, int count,
                                  const exr_desc *desc)
 {
     exr_encode_pipeline_t encoder = EXR_ENCODE_PIPELINE_INITIALIZER;
+    exr_result_t (*compress)(exr_encode_pipeline_t *) = NULL;
     exr_chunk_info_t chunk;
     int32_t rows = 0;
     exr_result_t code = exr_get_scanlines_per_chunk(context, 0, &rows);
@@ -224,6 +237,11 @@ static exr_result_t write_pixels(exr_context_t context, float *band, uint32_t wi
             code = gather_band(&encoder, band, width, y, chunk.height, sources, count, desc);
         if (!code && y == 0)
             code = exr_encoding_choose_default_routines(context, 0, &encoder);
+        if (!code && y == 0 && encoder.compress_fn) {
+            compress = encoder.compress_fn;
+            encoder.encoding_user_data = &compress;
+            encoder.compress_fn = compress_or_store;
+        }
         if (!code)
             code = exr_encoding_run(context, 0, &encoder);
     }

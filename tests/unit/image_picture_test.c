@@ -317,6 +317,35 @@ static void test_exr_round_trip(void **state)
     assert_non_null(strstr(error.text, "depth.Z"));
 }
 
+/* Noise does not shrink: its chunks are longer compressed than as they are. */
+static void test_exr_of_noise(void **state)
+{
+    enum { SIDE = 70, VALUES = SIDE * SIDE * 3 };
+    test_folder *folder = *state;
+    char path[512];
+    float *values = malloc(VALUES * sizeof *values);
+    uint32_t seed = 1;
+    for (int kind = 0; kind < 6; kind++) {
+        const exr_desc desc = {.packing = (exr_packing)(kind % 3), .half = kind >= 3};
+        const picture_layer layer = {.name = "color", .channels = 3, .pixels = values};
+        float_image image;
+        file_error error;
+        for (int i = 0; i < VALUES; i++) {
+            seed = seed * 1664525u + 1013904223u;
+            const uint32_t bits = seed >> 8;
+            values[i] = desc.half ? ldexpf((float)(1024 + (bits & 1023)) * (bits >> 22 & 1 ? -1.0f : 1.0f), (int)(bits >> 10 & 31) % 30 - 24)
+                                  : ldexpf((float)(seed | 1u) - 2147483648.0f, (int)(bits & 127) - 90);
+        }
+        assert_int_equal(picture_write_exr_described(in_folder(folder, "noise.exr", path), SIDE, SIDE, &layer, 1, &desc, NULL,
+                                                     &(output_options){.overwrite = true}, &error),
+                         FILE_OK);
+        assert_int_equal(picture_read(&image, path, NULL, &error), FILE_OK);
+        assert_memory_equal(image.pixels, values, VALUES * sizeof *values);
+        float_image_free(&image);
+    }
+    free(values);
+}
+
 static void test_exr_refuses_bad_layers(void **state)
 {
     test_folder *folder = *state;
@@ -571,6 +600,7 @@ int main(void)
         IN_FOLDER(test_pfm_bad_headers),
         IN_FOLDER(test_pfm_replaces_its_sidecar),
         IN_FOLDER(test_exr_round_trip),
+        IN_FOLDER(test_exr_of_noise),
         IN_FOLDER(test_exr_refuses_bad_layers),
         IN_FOLDER(test_exr_of_others),
         IN_FOLDER(test_damaged_png),
