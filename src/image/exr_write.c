@@ -207,15 +207,14 @@ static exr_result_t gather_band(exr_encode_pipeline_t *encoder, float *band, uin
     return EXR_ERR_SUCCESS;
 }
 
-/* Chunks that do not shrink are stored as they are, which readers tell by their size; OpenEXR 3.1 gets this wrong for ZIP. */
+/* Chunks that do not shrink are stored as they are, which readers tell by their size. OpenEXR 3.1 does so only for those that grow: one that is as long
+ * compressed as it was is then read as if it were not compressed. */
 static exr_result_t compress_or_store(exr_encode_pipeline_t *encoder)
 {
     exr_result_t (*const *compress)(exr_encode_pipeline_t *) = encoder->encoding_user_data;
     const exr_result_t code = (*compress)(encoder);
-    if (!code && encoder->compressed_bytes >= encoder->packed_bytes) {
+    if (!code && encoder->compressed_bytes == encoder->packed_bytes)
         memcpy(encoder->compressed_buffer, encoder->packed_buffer, encoder->packed_bytes);
-        encoder->compressed_bytes = encoder->packed_bytes;
-    }
     return code;
 }
 
