@@ -303,7 +303,7 @@ static const option diff_options[] = {
      "ten rows; specks: pixels unlike all that B shows around them",
      .set = set_metrics},
     {"encoding", 0, "E", "of the values, for --metrics: linear or srgb (default srgb for .png)", .set = set_encoding},
-    {"pixels-per-degree", 0, "X", "of the viewer's eye, for FLIP, 4 to 400 (default 67)", .set = set_pixels_per_degree,
+    {"pixels-per-degree", 0, "X", "of the viewer's eye, for FLIP, 4 to 400 (default 67.0206)", .set = set_pixels_per_degree,
      .offset = offsetof(diff_request, metrics.wanted.pixels_per_degree)},
     {"glint-threshold", 0, "X",
      "luminance above which a pixel is a glint, for flicker (default:\n"

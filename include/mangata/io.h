@@ -83,7 +83,7 @@ typedef struct mgt_metrics_desc {
     uint32_t width, height;
     uint32_t channels;        /* 1 or 3 */
     bool srgb_encoded;        /* the values are sRGB-encoded; false: linear */
-    double pixels_per_degree; /* of the viewer's eye, for FLIP; 0: 67 */
+    double pixels_per_degree; /* of the viewer's eye, for FLIP; 0: 67.0206, as in its papers */
     const char *metrics;      /* words with commas between them, "rmse,flip,ssim,flicker"; NULL: all that need no other program */
 } mgt_metrics_desc;
 

@@ -66,7 +66,7 @@ def metrics(
     a, b       float arrays (h, w) or (h, w, 3); with clip=True (frames, h, w) or (frames, h, w, 3), scored as one clip. float32 is not copied
     metrics    "rmse,flip" or a list; None: all that are defined
     encoding   of the values: "linear" or "srgb"
-    pixels_per_degree  of the viewer's eye, for FLIP; 0: 67
+    pixels_per_degree  of the viewer's eye, for FLIP; 0: 67.0206, as in its papers
     """
     words = metrics if metrics is None or isinstance(metrics, str) else ",".join(metrics)
     scores, _ = _measure(a, b, words, clip, encoding, pixels_per_degree)

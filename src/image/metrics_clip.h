@@ -46,7 +46,7 @@ typedef struct clip_metrics_desc {
     uint32_t metrics;                     /* set of what to measure; only that costs time and memory */
     bool srgb_encoded;                    /* the values are sRGB-encoded; false: linear. RMSE, energy and flicker take values as given; the others
                                  decode or encode as their definitions ask, with white at 1 */
-    double pixels_per_degree;             /* of the viewer's eye, for FLIP, above 0; 0: 67, a 0.7 m wide 4K screen at 0.7 m */
+    double pixels_per_degree;             /* of the viewer's eye, for FLIP, above 0; 0: 67.0206, a 0.7 m wide 4K screen at 0.7 m */
     double glint_threshold;               /* a pixel is bright when its linear luminance (coverage) is above this; 0: above half of what a thousandth of the
                                  pixels of the reference's first frame exceed, so that every method is judged alike */
     bool fixed_exposures;                 /* HDR-FLIP: take the range below; false: from each frame of the reference, as its paper says */

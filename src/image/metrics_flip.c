@@ -44,23 +44,47 @@ struct flip {
 
 /* ---- colour ---- */
 
+static double determinant(double m[3][3])
+{
+    double sum = 0;
+    for (int c = 0; c < 3; c++)
+        sum += m[0][c] * (m[1][(c + 1) % 3] * m[2][(c + 2) % 3] - m[1][(c + 2) % 3] * m[2][(c + 1) % 3]);
+    return sum;
+}
+
+static void invert(double m[3][3], double inverse[3][3])
+{
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 3; c++)
+            inverse[c][r] =
+                (m[(r + 1) % 3][(c + 1) % 3] * m[(r + 2) % 3][(c + 2) % 3] - m[(r + 1) % 3][(c + 2) % 3] * m[(r + 2) % 3][(c + 1) % 3]) / determinant(m);
+}
+
+/* From chromaticities: sRGB's primaries, and D65 with the five digits of CIE, as the papers' program has it. */
 static color_matrices make_matrices(void)
 {
-    static const double xyz[3][3] = {{0.4124564, 0.3575761, 0.1804375}, {0.2126729, 0.7151522, 0.0721750}, {0.0193339, 0.1191920, 0.9503041}};
-    double m[3][3], adjugate[3][3], determinant = 0;
+    static const double chromaticities[3][2] = {{0.64, 0.33}, {0.30, 0.60}, {0.15, 0.06}}, white[2] = {0.31271, 0.32902};
+    const double white_xyz[3] = {white[0] / white[1], 1, (1 - white[0] - white[1]) / white[1]};
+    double primaries[3][3], inverse[3][3];
     color_matrices matrices;
-    for (int r = 0; r < 3; r++)
-        for (int c = 0; c < 3; c++)
-            m[r][c] = xyz[r][c] / (xyz[r][0] + xyz[r][1] + xyz[r][2]);
-    for (int r = 0; r < 3; r++)
-        for (int c = 0; c < 3; c++)
-            adjugate[c][r] = m[(r + 1) % 3][(c + 1) % 3] * m[(r + 2) % 3][(c + 2) % 3] - m[(r + 1) % 3][(c + 2) % 3] * m[(r + 2) % 3][(c + 1) % 3];
-    for (int c = 0; c < 3; c++)
-        determinant += m[0][c] * adjugate[c][0];
+    for (int c = 0; c < 3; c++) {
+        primaries[0][c] = chromaticities[c][0];
+        primaries[1][c] = chromaticities[c][1];
+        primaries[2][c] = 1 - chromaticities[c][0] - chromaticities[c][1];
+    }
+    invert(primaries, inverse);
+    for (int c = 0; c < 3; c++) {
+        double amount = 0; /* of this primary in white */
+        for (int k = 0; k < 3; k++)
+            amount += inverse[c][k] * white_xyz[k];
+        for (int r = 0; r < 3; r++)
+            primaries[r][c] *= amount / white_xyz[r];
+    }
+    invert(primaries, inverse);
     for (int r = 0; r < 3; r++)
         for (int c = 0; c < 3; c++) {
-            matrices.to_relative[r][c] = (float)m[r][c];
-            matrices.to_light[r][c] = (float)(adjugate[r][c] / determinant);
+            matrices.to_relative[r][c] = (float)primaries[r][c];
+            matrices.to_light[r][c] = (float)inverse[r][c];
         }
     return matrices;
 }
@@ -326,6 +350,8 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
+static double median_of(const float *sorted, size_t count) { return 0.5 * ((double)sorted[(count - 1) / 2] + sorted[count / 2]); }
+
 flip_exposures flip_exposures_of(flip *f, flip_picture reference)
 {
     float *const sorted = f->scratch[0];
@@ -337,8 +363,8 @@ flip_exposures flip_exposures_of(flip *f, flip_picture reference)
         dark++;
     if (dark == f->count)
         return (flip_exposures){0, 0, 1};
-    const size_t middle = (f->count - 1) / 2;
-    const double median = sorted[dark > middle ? dark + (f->count - dark - 1) / 2 : middle], light = flip_tone_inverse(TONE_TARGET);
+    const double whole = median_of(sorted, f->count), median = whole > 0 ? whole : median_of(sorted + dark, f->count - dark);
+    const double light = flip_tone_inverse(TONE_TARGET);
     const double first = log2(light / sorted[f->count - 1]), last = log2(light / median), count = ceil(last - first);
     return (flip_exposures){first, last, count < 2 ? 2 : count > FLIP_EXPOSURES_MAX ? FLIP_EXPOSURES_MAX : (uint32_t)count};
 }

@@ -9,7 +9,7 @@
 
 #include "image/file_error.h"
 
-#define FLIP_PIXELS_PER_DEGREE 67.0 /* a 0.7 m wide screen of 3840 pixels at 0.7 m */
+#define FLIP_PIXELS_PER_DEGREE (3840 * 3.14159265358979323846 / 180) /* 67.0206: a 0.7 m wide screen of 3840 pixels at 0.7 m, as in the papers */
 
 /* Filters and buffers for one size; holds nothing of the pictures from call to call. One thread at a time. */
 typedef struct flip flip;
@@ -35,8 +35,8 @@ typedef struct flip_exposures {
 
 enum { FLIP_EXPOSURES_MAX = 64 };
 
-/* The papers' range: from where the reference's brightest luminance is tone-mapped to 0.85 up to where its median is; one a stop, at least
- * two, at most FLIP_EXPOSURES_MAX. Where the median is 0, that of the positive luminances stands in; a black picture gives {0, 0, 1}. */
+/* The papers' range: from where the reference's brightest luminance is tone-mapped to 0.85 up to where its median is (of an even number of
+ * pixels the mean of the two in the middle); one a stop, at least two, at most FLIP_EXPOSURES_MAX. Where the median is 0, that of the positive luminances stands in; a black picture gives {0, 0, 1}. */
 flip_exposures flip_exposures_of(flip *flip, flip_picture reference);
 
 /* HDR-FLIP: the greatest FLIP of each pixel over the exposures, each of 2^stops · light, tone-mapped by Narkowicz's fit of ACES, clamped. */
