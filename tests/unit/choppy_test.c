@@ -18,6 +18,7 @@
 #include "mangata/mangata.h"
 #include "params/methods.h"
 #include "reference/equations.h"
+#include "reference/reference_frame.h"
 
 #include "unit/depth_picture.h"
 #include "unit/random_numbers.h"
@@ -416,6 +417,85 @@ static void rays_are_traced_to_choppy_water(void **state)
     expect_below("distance off", worst, 1e-6);
 }
 
+/* First place of a ray under the surface, by steps of a centimetre and halving; INFINITY: none within `end` metres. */
+static double meet_surface(const mgt_water *water, double time, const double from[3], const double direction[3], double end)
+{
+    double free = 0, under = INFINITY;
+    for (double along = 0.01; along <= end && !isfinite(under); along += 0.01) {
+        const double height = water_surface(water, from[0] + along * direction[0], from[2] + along * direction[2], time).height;
+        if (from[1] + along * direction[1] > height)
+            free = along;
+        else
+            under = along;
+    }
+    for (int k = 0; k < 40 && isfinite(under); k++) {
+        const double middle = (free + under) / 2, height = water_surface(water, from[0] + middle * direction[0], from[2] + middle * direction[2], time).height;
+        if (from[1] + middle * direction[1] > height)
+            free = middle;
+        else
+            under = middle;
+    }
+    return under;
+}
+
+/* Begins the batch's rays at the crest-side hits of a camera's rays, mirrored there, as the ground truth of refraction does. */
+static void begin_mirrored(const reference_frame *truth, reference_batch *batch)
+{
+    random_state r = {12};
+    for (int i = 0; i < REFERENCE_BATCH; i++) {
+        const double x = cos(i), y = -random_range(&r, 0.03, 0.25), z = sin(i), length = hypot(y, 1);
+        batch->origin_x[i] = batch->origin_z[i] = batch->time_offset[i] = 0;
+        batch->origin_y[i] = 2.5;
+        batch->direction_x[i] = x / length, batch->direction_y[i] = y / length, batch->direction_z[i] = z / length;
+    }
+    truth->search(truth, batch, REFERENCE_BATCH);
+    for (int i = 0; i < REFERENCE_BATCH; i++) {
+        const double along = isfinite(batch->distance[i]) ? batch->distance[i] : 0, length = sqrt(1 + pow(batch->slope_x[i], 2) + pow(batch->slope_z[i], 2));
+        const double normal[3] = {-batch->slope_x[i] / length, 1 / length, -batch->slope_z[i] / length}, aside = 2e-8 * (1 + along);
+        const double cosine = batch->direction_x[i] * normal[0] + batch->direction_y[i] * normal[1] + batch->direction_z[i] * normal[2];
+        batch->origin_x[i] += along * batch->direction_x[i] + aside * normal[0];
+        batch->origin_y[i] += along * batch->direction_y[i] + aside * normal[1];
+        batch->origin_z[i] += along * batch->direction_z[i] + aside * normal[2];
+        batch->direction_x[i] -= 2 * cosine * normal[0];
+        batch->direction_y[i] -= 2 * cosine * normal[1];
+        batch->direction_z[i] -= 2 * cosine * normal[2];
+    }
+}
+
+/* What a crest mirrors may be another wave; it is never the crest itself, at once. */
+static void mirrored_rays_meet_other_waves(void **state)
+{
+    (void)state;
+    enum { FAR = 20 };
+    static reference_batch batch;
+    mgt_wave waves[WAVES];
+    const mgt_scene scene = choppy_scene(waves, 1);
+    reference_frame *truth;
+    assert_int_equal(reference_frame_create(&truth, &scene, NULL, NULL), MGT_OK);
+    begin_mirrored(truth, &batch);
+    truth->search(truth, &batch, REFERENCE_BATCH);
+    int hits = 0, passed = 0;
+    double worst = 0;
+    for (int i = 0; i < REFERENCE_BATCH; i++) {
+        const double direction[3] = {batch.direction_x[i], batch.direction_y[i], batch.direction_z[i]};
+        if (direction[1] > 0.2 || (isinf(batch.distance[i]) && passed == 20))
+            continue;
+        const double from[3] = {batch.origin_x[i], batch.origin_y[i], batch.origin_z[i]}, end = fmin(batch.distance[i] + 0.5, FAR);
+        const double exact = meet_surface(&scene.water, scene.time, from, direction, end);
+        if (isinf(exact)) {
+            assert_true(batch.distance[i] > FAR);
+            passed++;
+            continue;
+        }
+        hits++;
+        worst = fmax(worst, fabs(batch.distance[i] - exact));
+    }
+    reference_frame_destroy(truth);
+    print_message("  %d mirrored rays meet a wave, %d none\n", hits, passed);
+    assert_true(hits > 30 && passed > 10);
+    expect_below("distance off", worst, 1e-6);
+}
+
 static void choppiness_out_of_range_is_refused(void **state)
 {
     (void)state;
@@ -454,6 +534,7 @@ int main(void)
         cmocka_unit_test(a_fold_answers_with_its_highest_water),
         cmocka_unit_test(lanes_answer_alike),
         cmocka_unit_test(rays_are_traced_to_choppy_water),
+        cmocka_unit_test(mirrored_rays_meet_other_waves),
         cmocka_unit_test(choppiness_out_of_range_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
