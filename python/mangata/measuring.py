@@ -74,8 +74,8 @@ def metrics(
 
 
 def error_map(a: np.ndarray, b: np.ndarray, metric: str = "flip", *, encoding: str = "linear", pixels_per_degree: float = 0.0) -> np.ndarray:
-    """The error of each pixel of a against b, float32 (h, w), by "rmse", "flip", "hdr-flip" or "ssim" (1 − SSIM)."""
-    mapped = ("rmse", "flip", "hdr-flip", "ssim")
+    """The error of each pixel of a against b, float32 (h, w), by "rmse", "relrmse" (over b's own strength), "flip", "hdr-flip" or "ssim" (1 − SSIM): docs/command.md."""
+    mapped = ("rmse", "relrmse", "flip", "hdr-flip", "ssim")
     if metric not in mapped:
         raise ValueError(f"metric {metric!r}: allowed is {', '.join(mapped)}")
     return _measure(a, b, metric, False, encoding, pixels_per_degree, _METRICS.index(metric), True)[1]

@@ -221,6 +221,8 @@ def test_metrics_on_arrays():
     clip = rng.random((2, 4, 20, 30, 3), np.float32)
     assert mangata.metrics(*clip, "rmse,flicker", clip=True)["flicker"] > 0
     assert mangata.error_map(a, b, "rmse") == pytest.approx(np.abs(a - b), abs=1e-6)
+    floor = 0.01**2 * np.mean(b.astype(float) ** 2)
+    assert mangata.error_map(a, b, "relrmse") == pytest.approx(np.abs(a - b) / np.sqrt(b.astype(float) ** 2 + floor), rel=1e-5, abs=1e-6)
     assert mangata.error_map(a, b).mean() == pytest.approx(scores["flip"], rel=1e-4)
     for bad in (lambda: mangata.metrics(a, b[1:]), lambda: mangata.metrics(a, b, "beauty"), lambda: mangata.metrics(a[0], b[0]), lambda: mangata.error_map(a, b, "energy"),
                 lambda: mangata.metrics(a, b, encoding="pq")):

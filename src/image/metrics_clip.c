@@ -20,6 +20,8 @@ enum {
     NEED_LIGHT = NEED_LUMINANCE | NEED_FLIP | 1u << CLIP_YEE
 };
 
+#define RELATIVE_FLOOR 0.01
+
 struct clip_metrics {
     clip_metrics_desc desc;
     size_t pixels;
@@ -231,6 +233,19 @@ static void error_map(const clip_metrics *m, const float_image *a, const float_i
     }
 }
 
+/* `map` holds the errors; the floor keeps dark pixels from counting without bound. */
+static void to_relative(const clip_metrics *m, const image_metrics *sums, const float_image *b, float *map)
+{
+    const uint32_t channels = m->desc.channels;
+    const double mean = sums->values ? sums->sum_b_squared / (double)sums->values : 0;
+    for (size_t i = 0; i < m->pixels && mean > 0; i++) {
+        double own = 0;
+        for (size_t v = i * channels; v < (i + 1) * channels; v++)
+            own += isfinite(b->pixels[v]) ? (double)b->pixels[v] * b->pixels[v] / channels : 0;
+        map[i] = (float)(map[i] / sqrt(own + RELATIVE_FLOOR * RELATIVE_FLOOR * mean));
+    }
+}
+
 static double hdr_flip(clip_metrics *m, flip_picture a, flip_picture b, float *map)
 {
     const clip_metrics_desc *d = &m->desc;
@@ -344,6 +359,10 @@ file_status clip_metrics_add(clip_metrics *m, const float_image *a, const float_
     score_sums(m, &sums, &result.scores);
     if (measures(m, CLIP_RMSE) && map[CLIP_RMSE])
         error_map(m, a, b, map[CLIP_RMSE]);
+    if (measures(m, CLIP_RELATIVE_RMSE) && map[CLIP_RELATIVE_RMSE]) {
+        error_map(m, a, b, map[CLIP_RELATIVE_RMSE]);
+        to_relative(m, &sums, b, map[CLIP_RELATIVE_RMSE]);
+    }
     const flip_picture light[2] = {{light_of(m, 0), m->desc.channels}, {light_of(m, 1), m->desc.channels}};
     if (measures(m, CLIP_FLIP))
         result.scores.values[CLIP_FLIP] = flip_ldr(m->flip, light[0], light[1], map[CLIP_FLIP]);

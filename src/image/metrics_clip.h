@@ -74,8 +74,9 @@ typedef struct clip_frame {
 } clip_frame;
 
 /* Error maps wanted of one frame: width · height floats each, top row first, NULL: not wanted. Filled for RMSE (√ mean over channels of
- * squared differences), FLIP, HDR-FLIP, SSIM (1 − SSIM) and flicker (as RMSE, of the steps; 0 in the first frame), where those are
- * measured; others are left alone. */
+ * squared differences), relative RMSE (the same over √(mean over channels of B² + (0.01 √ mean B² of the frame)²), or as it is where B is
+ * black), FLIP, HDR-FLIP, SSIM (1 − SSIM) and flicker (as RMSE, of the steps; 0 in the first frame), where those are measured; others are
+ * left alone. */
 typedef struct clip_maps {
     float *maps[CLIP_METRICS];
 } clip_maps;

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "image/error_colors.h"
 #include "image/metrics_clip.h"
 #include "image/metrics_color.h"
 #include "image/metrics_filter.h"
@@ -617,9 +618,35 @@ static void test_yee_itself(void **state)
     assert_true(share == 0);
 }
 
+/* ---- colours of error maps ---- */
+
+static void test_error_colors(void **state)
+{
+    (void)state;
+    uint8_t colors[ERROR_COLORS][3];
+    double before = -1;
+    error_colors(colors);
+    assert_memory_equal(colors[0], "\0\0\0", 3);
+    for (int i = 0; i < ERROR_COLORS; i++) {
+        float light[3];
+        for (int c = 0; c < 3; c++)
+            light[c] = color_srgb_decode((float)colors[i][c] / 255);
+        const double y = color_luminance(light, 3), lightness = y > 216.0 / 24389 ? 116 * cbrt(y) - 16 : 24389.0 / 27 * y;
+        assert_true(fabs(lightness - 98 * i / 255.0) < 0.6); /* 8 bits */
+        assert_true(lightness > before);
+        before = lightness;
+    }
+    /* Violet, magenta, orange, pale yellow. */
+    assert_true(colors[64][2] > colors[64][0] && colors[64][0] > colors[64][1]);
+    assert_true(colors[128][0] > colors[128][2] && colors[128][2] > colors[128][1]);
+    assert_true(colors[192][0] > colors[192][1] && colors[192][1] > colors[192][2]);
+    assert_true(colors[255][0] > 240 && colors[255][1] > 240 && colors[255][2] > 160 && colors[255][2] < 220);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_error_colors),
         cmocka_unit_test(test_ssim_by_definition),
         cmocka_unit_test(test_ssim_closed_forms),
         cmocka_unit_test(test_glints_by_hand),
