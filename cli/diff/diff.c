@@ -8,6 +8,7 @@
 #include "cli/diff/diff_prepare.h"
 #include "cli/diff/diff_truth.h"
 #include "cli/common/frames.h"
+#include "cli/common/interrupt.h"
 #include "image/image_metrics.h"
 #include "cli/common/numbers.h"
 #include "cli/common/options.h"
@@ -23,6 +24,7 @@ typedef struct diff_request {
     diff_metrics metrics;
     diff_prepare prepare;
     truth_metrics truth;
+    diff_maps maps;
     bool encoding_given;
 } diff_request;
 
@@ -81,13 +83,19 @@ static int set_display(const option *o, void *place, const char *value)
                                                                                             : option_wrong(o, value, "a number of stops from -100 to 100");
 }
 
+static int set_error_top(const option *o, void *place, const char *value)
+{
+    double *number = place;
+    return number_parse_double(value, number) && *number > 0 ? EXIT_CODE_OK : option_wrong(o, value, "a number above 0");
+}
+
 static bool is_png(const char *path) { return picture_format_of(path) == PICTURE_PNG; }
 
 /* PNG holds sRGB-encoded values, the others light. */
 static int check_metrics(diff_request *r)
 {
     if (r->flicker)
-        return console_error(EXIT_CODE_USAGE, "--flicker compares differences and goes with no --metrics; --metrics flicker measures both");
+        return console_error(EXIT_CODE_USAGE, "--flicker compares differences and goes with no --metrics and no --error-map; --metrics flicker measures both");
     if (r->truth.wants.texture && !r->paths[2])
         return console_error(EXIT_CODE_USAGE, "--metrics texture needs --second-reference B2, a picture of what B shows with noise of its own");
     if (r->prepare.displayed)
@@ -139,7 +147,10 @@ static int check_request(diff_request *r)
         frame_list_span(&r->frames, 0, 0);
     if (r->flicker && frame_list_length(&r->frames) < 2)
         return console_error(EXIT_CODE_USAGE, "--flicker needs numbered names and at least two frames");
-    const int code = r->paths[2] ? check_second_reference(r) : EXIT_CODE_OK;
+    int code = r->paths[2] ? check_second_reference(r) : EXIT_CODE_OK;
+    if (code == EXIT_CODE_OK && r->maps.wanted)
+        code = diff_maps_check(&r->maps, r->names[0].numbered, &r->frames, r->paths);
+    r->metrics.wanted.metrics |= diff_maps_metrics(&r->maps);
     const bool measures = r->metrics.wanted.metrics || r->truth.wants.texture || r->truth.wants.specks;
     return code == EXIT_CODE_OK && measures ? check_metrics(r) : code;
 }
@@ -204,7 +215,7 @@ static int measure_frame(diff_request *r, uint32_t number, diff_frame *frame, fl
     if (code == EXIT_CODE_OK && metrics->frames > before)
         metrics->values -= frame->left_out * frame->images[0].channels; /* black in both: the sums hold nothing of them */
     if (code == EXIT_CODE_OK)
-        code = diff_metrics_add(&r->metrics, number, frame);
+        code = diff_metrics_add(&r->metrics, number, frame, &r->maps);
     if (code == EXIT_CODE_OK)
         code = diff_truth_add(&r->truth, frame);
     return code;
@@ -217,7 +228,7 @@ static int measure(diff_request *r, image_metrics *metrics)
     const uint64_t count = frame_list_length(&r->frames);
     for (uint64_t i = 0; i < count && code == EXIT_CODE_OK; i++) {
         diff_frame frame = {.count = r->paths[2] ? 3 : 2};
-        code = measure_frame(r, frame_list_at(&r->frames, i), &frame, previous, metrics);
+        code = *interrupt_flag() ? interrupt_exit_code() : measure_frame(r, frame_list_at(&r->frames, i), &frame, previous, metrics);
         for (int k = 0; k < 2; k++) { /* the step to the next frame needs them */
             float_image_free(&previous[k]);
             previous[k] = frame.images[k];
@@ -247,6 +258,8 @@ static int print_report(diff_request *r, const image_metrics *m)
                       (int)m->max_channel, "equal_infinities", (json_int_t)m->equal_infinities, "mismatches", (json_int_t)m->mismatches);
         if (report && r->gated)
             json_object_set_new(report, "max_rmse", json_real(r->max_rmse));
+        if (report && r->maps.files)
+            json_object_set(report, "error_maps", r->maps.files);
         if (report && r->paths[2])
             json_object_set_new(report, "second_reference", console_json_text(r->paths[2]));
         int code = report ? diff_metrics_report(&r->metrics, report) : EXIT_CODE_OK;
@@ -277,7 +290,11 @@ static int run(void *request)
     diff_request *r = request;
     int code;
     image_metrics metrics = {0};
-    if ((code = check_request(r)) != EXIT_CODE_OK || (code = measure(r, &metrics)) != EXIT_CODE_OK)
+    if ((code = check_request(r)) != EXIT_CODE_OK)
+        return code;
+    if (r->maps.wanted)
+        interrupt_install(); /* nothing is left half written */
+    if ((code = measure(r, &metrics)) != EXIT_CODE_OK)
         return code;
     if (!(r->out.quiet && !r->out.json) && (code = print_report(r, &metrics)) != EXIT_CODE_OK)
         return code;
@@ -322,6 +339,14 @@ static const option diff_options[] = {
      "takes the references' noise off the RMSE; for texture and specks too,\n"
      "and gives the noise floor of every metric",
      .set = option_text, .offset = offsetof(diff_request, paths[2])},
+    {"error-map", 0, "METRIC=FILE",
+     "writes the error of each pixel by rmse, relrmse, flip, hdr-flip, ssim\n"
+     "or flicker, which is measured: a .png in colours from black to pale\n"
+     "yellow, or .exr or .pfm with the values; may be repeated",
+     .set = option_error_map, .offset = offsetof(diff_request, maps)},
+    {"error-top", 0, "X", "what the brightest colour of a .png map of rmse, relrmse or flicker\nstands for (default 1)", .set = set_error_top,
+     .offset = offsetof(diff_request, maps.top)},
+    {"overwrite", 0, NULL, "replace existing maps", .set = option_given, .offset = offsetof(diff_request, maps.overwrite)},
 };
 
 static const option_table diff_table = {"diff",
@@ -332,7 +357,7 @@ static const option_table diff_table = {"diff",
                                         diff_options,
                                         sizeof diff_options / sizeof diff_options[0],
                                         .notes = "exit codes: 0 done, 1 sizes or channels differ, 2 above --max-rmse, 64 usage, 65 bad picture,\n"
-                                                 "66 no such picture",
+                                                 "66 no such picture, 73 cannot write",
                                         .operand = {.set = add_picture},
                                         .run = run};
 
@@ -342,5 +367,6 @@ int verb_diff(int count, char **arguments)
     const int code = options_run(&diff_table, &request, count, arguments);
     diff_metrics_free(&request.metrics);
     truth_metrics_free(&request.truth);
+    diff_maps_free(&request.maps);
     return code;
 }

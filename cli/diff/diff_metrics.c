@@ -58,7 +58,7 @@ static int add_noise(diff_metrics *m, const float_image *b, const float_image *b
     return status == FILE_OK ? EXIT_CODE_OK : failure(&error);
 }
 
-int diff_metrics_add(diff_metrics *m, uint32_t number, const diff_frame *frame)
+int diff_metrics_add(diff_metrics *m, uint32_t number, const diff_frame *frame, diff_maps *maps)
 {
     const float_image *a = &frame->images[0], *b = &frame->images[1];
     clip_frame result;
@@ -73,8 +73,14 @@ int diff_metrics_add(diff_metrics *m, uint32_t number, const diff_frame *frame)
             return console_file_error(&error);
         m->per_frame = json_array();
     }
-    if (clip_metrics_add(m->clip, a, b, NULL, &result, &error) != FILE_OK)
+    int code = diff_maps_prepare(maps, (size_t)a->width * a->height);
+    if (code != EXIT_CODE_OK)
+        return code;
+    if (clip_metrics_add(m->clip, a, b, &maps->pixels, &result, &error) != FILE_OK)
         return failure(&error);
+    code = diff_maps_write(maps, number, a->width, a->height, &result.scores);
+    if (code != EXIT_CODE_OK)
+        return code;
     json_t *object = scores_to_json(m, &result.scores);
     json_object_set_new(object, "frame", json_integer(number));
     if (json_array_append_new(m->per_frame, object) != 0)

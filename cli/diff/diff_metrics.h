@@ -6,6 +6,7 @@
 #include <jansson.h>
 
 #include "cli/common/console.h"
+#include "cli/diff/diff_maps.h"
 #include "cli/diff/diff_prepare.h"
 #include "image/metrics_clip.h"
 
@@ -17,8 +18,8 @@ typedef struct diff_metrics {
     json_t *per_frame;
 } diff_metrics;
 
-/* Adds a frame of two pictures or three; an exit code, after a line on stderr where it is not 0. */
-int diff_metrics_add(diff_metrics *metrics, uint32_t number, const diff_frame *frame);
+/* Adds a frame of two pictures or three and writes its maps; an exit code, after a line on stderr where it is not 0. */
+int diff_metrics_add(diff_metrics *metrics, uint32_t number, const diff_frame *frame, diff_maps *maps);
 
 /* Adds "metrics", "per_frame" and, where there are any, "unavailable" and "noise_floors" to the report; takes per_frame. An exit code. */
 int diff_metrics_report(diff_metrics *metrics, json_t *report);

@@ -112,6 +112,38 @@ if command -v idiff >/dev/null; then
     [[ $(number unavailable.yee) == *nowhere* ]] || fail "no folder for Yee's test: $(cat stdout.txt)"
 fi
 
+# Maps: the values themselves, and in colours from black to pale yellow; what exists stays.
+expect 0 '' "$MANGATA" diff a.pfm b.pfm --error-map rmse=error.pfm --error-map relrmse=relative.exr --error-map ssim=s.png --json
+[[ $(number error_maps.0.file) == error.pfm && $(number error_maps.1.metric) == relrmse && $(number metrics.ssim) != null ]] || fail "maps: $(cat stdout.txt)"
+pfm expected.pfm 0 0 0 2
+tail -c 16 error.pfm | cmp -s - <(tail -c 16 expected.pfm) || fail "error map: $(od -f error.pfm)"
+grep -q '"score": "1"' error.pfm.json || fail "record of the map: $(cat error.pfm.json)"
+expect 0 '' "$MANGATA" diff relative.exr expected.pfm --json # 2 over 2, but for the floor of a hundredth of √2.5
+[[ $(number maximum.difference) == 1.00003* && $(number mean_a) == 0.24999* ]] || fail "relative map: $(cat stdout.txt)"
+expect 73 'error.pfm: .*exists' "$MANGATA" diff a.pfm b.pfm --error-map rmse=error.pfm
+expect 0 '' "$MANGATA" diff a.pfm b.pfm --error-map rmse=error.png --error-top 2 --error-map relrmse=error.pfm --overwrite
+pfm black.pfm 0 0 0 0
+expect 0 '' "$MANGATA" diff a.pfm a.pfm --error-map rmse=none.png
+expect 0 '' "$MANGATA" diff error.png none.png --json # pale yellow once, elsewhere black
+[[ $(number mean_b) == 0.0 && $(number maximum.difference) == 0.9[789]* && $(number mean_a) == 0.2[23]* ]] || fail "colours of the map: $(cat stdout.txt)"
+expect 0 '' "$MANGATA" diff p_#.pfm q_#.pfm --frames 0-2 --error-map flicker=step_#.pfm
+cmp -s <(tail -c 16 step_0.pfm) <(tail -c 16 black.pfm) || fail "flicker of a first frame"
+pfm ones.pfm 1 1 1 1
+cmp -s <(tail -c 16 step_2.pfm) <(tail -c 16 ones.pfm) || fail "flicker map"
+! grep -q score step_0.pfm.json || fail "a score of no step"
+no_temporaries .
+expect 64 'METRIC=FILE' "$MANGATA" diff a.pfm b.pfm --error-map energy=a.png
+expect 64 'METRIC=FILE' "$MANGATA" diff a.pfm b.pfm --error-map flip=a.jpg
+expect 64 'METRIC=FILE' "$MANGATA" diff a.pfm b.pfm --error-map flip.png
+expect 64 'that picture is compared' "$MANGATA" diff a.pfm b.pfm --error-map rmse=a.pfm --overwrite
+expect 64 'two maps of one name' "$MANGATA" diff a.pfm b.pfm --error-map rmse=e.png --error-map flip=e.png
+expect 64 'number the files' "$MANGATA" diff p_#.pfm q_#.pfm --frames 0-2 --error-map flip=e.png
+expect 64 'leave the frame number out' "$MANGATA" diff a.pfm b.pfm --error-map flip=e_#.png
+expect 64 'above 0' "$MANGATA" diff a.pfm b.pfm --error-map flip=e.png --error-top 0
+expect 64 'no --error-map' "$MANGATA" diff p_#.pfm q_#.pfm --frames 0-2 --flicker --error-map flip=e_#.png
+expect 73 'nowhere' "$MANGATA" diff a.pfm b.pfm --error-map flip=nowhere/e.png
+absent e.png 'e_*'
+
 expect 64 'allowed are rmse, relrmse' "$MANGATA" diff a.pfm b.pfm --metrics rmse,flop
 expect 64 'goes with no --metrics' "$MANGATA" diff p_#.pfm q_#.pfm --frames 0-2 --flicker --metrics flip
 expect 64 'linear and srgb' "$MANGATA" diff a.pfm b.pfm --metrics flip --encoding gamma

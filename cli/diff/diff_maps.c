@@ -1,0 +1,169 @@
+/* SPDX-License-Identifier: MIT */
+/* Error maps as .png in colours, or as .exr and .pfm with the values themselves. */
+#include "cli/diff/diff_maps.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/common/interrupt.h"
+#include "cli/common/numbers.h"
+#include "image/error_colors.h"
+
+/* Those that clip_metrics_add() fills. */
+static const clip_metric mapped[] = {CLIP_RMSE, CLIP_RELATIVE_RMSE, CLIP_FLIP, CLIP_HDR_FLIP, CLIP_SSIM, CLIP_FLICKER};
+enum { MAPPED = sizeof mapped / sizeof mapped[0], PATH_SIZE = sizeof(frame_path) };
+static const char mapped_words[] = "METRIC=FILE, where METRIC is rmse, relrmse, flip, hdr-flip, ssim or flicker and FILE ends in .png, .exr or .pfm";
+
+int option_error_map(const option *o, void *place, const char *value)
+{
+    diff_maps *m = place;
+    const size_t length = strcspn(value, "=");
+    int i = 0;
+    while (i < MAPPED && (strlen(clip_metric_name(mapped[i])) != length || strncmp(clip_metric_name(mapped[i]), value, length) != 0))
+        i++;
+    if (i == MAPPED || !value[length])
+        return option_wrong(o, value, mapped_words);
+    diff_map *map = &m->maps[mapped[i]];
+    map->path = value + length + 1;
+    map->format = picture_format_of(map->path);
+    if (map->format != PICTURE_PNG && map->format != PICTURE_EXR && map->format != PICTURE_PFM)
+        return option_wrong(o, value, mapped_words);
+    const char *wrong = frame_path_parse(&map->name, map->path);
+    if (wrong)
+        return console_error(EXIT_CODE_USAGE, "--%s %s: %s", o->name, value, wrong);
+    m->wanted = true;
+    return EXIT_CODE_OK;
+}
+
+uint32_t diff_maps_metrics(const diff_maps *maps)
+{
+    uint32_t set = 0;
+    for (int i = 0; i < MAPPED; i++)
+        if (maps->maps[mapped[i]].path)
+            set |= 1u << mapped[i];
+    return set;
+}
+
+static output_options options_of(const diff_maps *maps) { return (output_options){.overwrite = maps->overwrite, .cancel = interrupt_flag()}; }
+
+static int print_path(const diff_map *map, uint32_t frame, char path[PATH_SIZE])
+{
+    return frame_path_print(&map->name, frame, path, PATH_SIZE) ? EXIT_CODE_OK
+                                                                : console_error(EXIT_CODE_USAGE, "--error-map %s: the path is too long", map->path);
+}
+
+static int check_name(const diff_maps *maps, int place, bool numbered, const char *const inputs[3])
+{
+    const diff_map *map = &maps->maps[mapped[place]];
+    if (map->name.numbered != numbered)
+        return console_error(EXIT_CODE_USAGE, "--error-map %s: %s", map->path,
+                             numbered ? "several frames are compared; number the files: flip_%04d.png" : "one picture is compared; leave the frame number out");
+    for (int i = 0; i < 3; i++)
+        if (inputs[i] && strcmp(inputs[i], map->path) == 0)
+            return console_error(EXIT_CODE_USAGE, "--error-map %s: that picture is compared", map->path);
+    for (int i = 0; i < place; i++)
+        if (maps->maps[mapped[i]].path && strcmp(maps->maps[mapped[i]].path, map->path) == 0)
+            return console_error(EXIT_CODE_USAGE, "--error-map %s: two maps of one name", map->path);
+    return EXIT_CODE_OK;
+}
+
+int diff_maps_check(const diff_maps *maps, bool numbered, const frame_list *frames, const char *const inputs[3])
+{
+    const output_options options = options_of(maps);
+    for (int i = 0; i < MAPPED; i++) {
+        const diff_map *map = &maps->maps[mapped[i]];
+        int code = map->path ? check_name(maps, i, numbered, inputs) : EXIT_CODE_OK;
+        for (uint64_t f = 0; map->path && f < frame_list_length(frames) && code == EXIT_CODE_OK; f++) {
+            char path[PATH_SIZE];
+            file_error error;
+            code = print_path(map, frame_list_at(frames, f), path);
+            if (code == EXIT_CODE_OK && output_file_check(path, &options, &error) != FILE_OK)
+                code = console_file_error(&error);
+        }
+        if (code != EXIT_CODE_OK)
+            return code;
+    }
+    return EXIT_CODE_OK;
+}
+
+int diff_maps_prepare(diff_maps *maps, size_t pixels)
+{
+    for (int i = 0; i < MAPPED; i++) {
+        float **map = &maps->pixels.maps[mapped[i]];
+        if (maps->maps[mapped[i]].path && !*map && !(*map = calloc(pixels, sizeof **map)))
+            return console_error(EXIT_CODE_FAILED, "out of memory");
+    }
+    return EXIT_CODE_OK;
+}
+
+static file_status write_png(const char *path, uint32_t width, uint32_t height, const float *errors, double top, const metadata_list *metadata,
+                             const output_options *options, file_error *error)
+{
+    uint8_t colors[ERROR_COLORS][3];
+    const size_t count = (size_t)width * height;
+    uint8_t *rgba = malloc(count * 4);
+    if (!rgba)
+        return file_error_set(error, FILE_MEMORY, "%s: out of memory", path);
+    error_colors(colors);
+    for (size_t i = 0; i < count; i++) {
+        const double share = errors[i] / top;
+        memcpy(rgba + 4 * i, colors[share < 1 ? (int)(share * (ERROR_COLORS - 1) + 0.5) : ERROR_COLORS - 1], 3);
+        rgba[4 * i + 3] = 255;
+    }
+    const file_status status = picture_write_png(path, width, height, rgba, 0, metadata, options, error);
+    free(rgba);
+    return status;
+}
+
+static int write_map(const diff_maps *maps, clip_metric metric, const char *path, uint32_t width, uint32_t height, double score)
+{
+    const bool bounded = metric == CLIP_FLIP || metric == CLIP_HDR_FLIP || metric == CLIP_SSIM;
+    const double top = maps->top > 0 && !bounded ? maps->top : 1;
+    const diff_map *map = &maps->maps[metric];
+    const number_text score_text = number_print(score), top_text = number_print(top);
+    metadata_entry entries[4] = {{"mangata_version", mgt_version()}, {"error_map", clip_metric_name(metric)}};
+    metadata_list metadata = {entries, 2};
+    if (isfinite(score)) /* flicker of a first frame has none */
+        entries[metadata.count++] = (metadata_entry){"score", score_text.text};
+    if (map->format == PICTURE_PNG)
+        entries[metadata.count++] = (metadata_entry){"brightest", top_text.text};
+    const output_options options = options_of(maps);
+    const float *errors = maps->pixels.maps[metric];
+    const picture_layer layer = {.name = "color", .channels = 1, .pixels = errors};
+    file_error error;
+    const file_status status = map->format == PICTURE_PNG   ? write_png(path, width, height, errors, top, &metadata, &options, &error)
+                               : map->format == PICTURE_EXR ? picture_write_exr(path, width, height, &layer, 1, &metadata, &options, &error)
+                                                            : picture_write_pfm(path, width, height, &layer, &metadata, &options, &error);
+    if (status == FILE_CANCELLED)
+        return console_error(interrupt_exit_code(), "stopped by a signal");
+    return status == FILE_OK ? EXIT_CODE_OK : console_file_error(&error);
+}
+
+int diff_maps_write(diff_maps *maps, uint32_t frame, uint32_t width, uint32_t height, const clip_scores *scores)
+{
+    for (int i = 0; i < MAPPED; i++) {
+        const clip_metric metric = mapped[i];
+        char path[PATH_SIZE];
+        if (!maps->maps[metric].path)
+            continue;
+        int code = print_path(&maps->maps[metric], frame, path);
+        if (code == EXIT_CODE_OK)
+            code = write_map(maps, metric, path, width, height, scores->values[metric]);
+        if (code != EXIT_CODE_OK)
+            return code;
+        if (!maps->files)
+            maps->files = json_array();
+        json_array_append_new(maps->files,
+                              json_pack("{s:s, s:I, s:o}", "metric", clip_metric_name(metric), "frame", (json_int_t)frame, "file", console_json_text(path)));
+    }
+    return EXIT_CODE_OK;
+}
+
+void diff_maps_free(diff_maps *maps)
+{
+    for (int i = 0; i < MAPPED; i++)
+        free(maps->pixels.maps[mapped[i]]);
+    json_decref(maps->files);
+    *maps = (diff_maps){.wanted = false};
+}
