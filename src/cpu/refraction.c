@@ -31,7 +31,35 @@ void refraction_free(refraction *r)
     path_traced_free(r->truth);
     path_dry_free(r->dry);
     free(r->planes);
+    free(r->surface);
     free(r);
+}
+
+static void fill_surface(const world *w, size_t triangle, const float plane[4], surface_triangle *s)
+{
+    for (size_t c = 0; c < 3; c++)
+        memcpy(s->corners[c], w->positions + 3 * (size_t)w->indices[3 * triangle + c], sizeof s->corners[c]);
+    memcpy(s->neighbours, w->neighbours + 3 * triangle, sizeof s->neighbours);
+    memcpy(s->normal, plane, sizeof s->normal);
+    s->padding = 0;
+}
+
+static bool make_plane_room(refraction *r, size_t triangles)
+{
+    const size_t room = triangles > 0 ? triangles : 1;
+    float *planes = malloc(room * 4 * sizeof *planes);
+    surface_triangle *surface = aligned_alloc(sizeof *surface, room * sizeof *surface);
+    if (!planes || !surface) {
+        free(planes);
+        free(surface);
+        return false;
+    }
+    free(r->planes);
+    free(r->surface);
+    r->planes = planes;
+    r->surface = surface;
+    r->plane_room = room;
+    return true;
 }
 
 static bool build_planes(refraction *r)
@@ -39,16 +67,12 @@ static bool build_planes(refraction *r)
     const world *w = r->world;
     if (r->plane_version == w->version && r->planes)
         return true;
-    if (w->triangle_count > r->plane_room || !r->planes) {
-        const size_t room = w->triangle_count > 0 ? w->triangle_count : 1;
-        float *more = realloc(r->planes, room * 4 * sizeof *more);
-        if (!more)
-            return false;
-        r->planes = more;
-        r->plane_room = room;
-    }
-    for (size_t t = 0; t < w->triangle_count; t++)
+    if ((w->triangle_count > r->plane_room || !r->planes) && !make_plane_room(r, w->triangle_count))
+        return false;
+    for (size_t t = 0; t < w->triangle_count; t++) {
         refraction_plane(w, t, r->planes + 4 * t);
+        fill_surface(w, t, r->planes + 4 * t, &r->surface[t]);
+    }
     r->plane_version = w->version;
     return true;
 }
@@ -148,6 +172,7 @@ static bool prepare_opened(refraction *r, thread_pool *pool)
     refraction *o = r->opened;
     o->world = r->world;
     o->planes = r->planes;
+    o->surface = r->surface;
     o->shade = r->shade;
     o->trace = r->trace;
     o->field = r->field;

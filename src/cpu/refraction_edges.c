@@ -7,15 +7,13 @@
 
 surface_facet refraction_facet_of(const refraction *r, int32_t triangle, const double from[3])
 {
-    const world *w = r->world;
-    const float *p[3];
-    surface_facet f = {.triangle = triangle};
-    for (size_t c = 0; c < 3; c++)
-        p[c] = w->positions + 3 * (size_t)w->indices[3 * (size_t)triangle + c];
+    const surface_triangle *t = &r->surface[triangle];
+    surface_facet f;
     for (int k = 0; k < 3; k++) {
-        f.edges[0][k] = (double)p[1][k] - (double)p[0][k];
-        f.edges[1][k] = (double)p[2][k] - (double)p[0][k];
-        f.to[k] = from[k] - (double)p[0][k];
+        const double first = (double)t->corners[0][k];
+        f.edges[0][k] = (double)t->corners[1][k] - first;
+        f.edges[1][k] = (double)t->corners[2][k] - first;
+        f.to[k] = from[k] - first;
     }
     cross3(f.to, f.edges[0], f.turned);
     f.level = dot3(f.edges[1], f.turned);
@@ -60,29 +58,33 @@ typedef struct surface_ray {
     bool lost;                    /* following a surface ended after SURFACE_STEPS triangles */
     bool open;                    /* a pixel that was asked shows nothing */
     int count;
-    int32_t visited[KNOWN_FACETS]; /* triangles that it came by */
+    int32_t visited[KNOWN_FACETS]; /* triangles that it came by … */
+    uint64_t perhaps;              /* … and the bits that their numbers share */
 } surface_ray;
 
 static bool was_visited(surface_ray *s, int32_t triangle)
 {
-    for (int i = 0; i < s->count; i++)
+    const uint64_t bit = (uint64_t)1 << (triangle & 63);
+    for (int i = 0; i < s->count && (s->perhaps & bit); i++)
         if (s->visited[i] == triangle)
             return true;
-    if (s->count < KNOWN_FACETS)
+    if (s->count < KNOWN_FACETS) {
         s->visited[s->count++] = triangle;
+        s->perhaps |= bit;
+    }
     return false;
 }
 
 static bool faces(const surface_ray *s, int32_t triangle)
 {
-    const float *plane = s->r->planes + 4 * (size_t)triangle;
-    return (double)plane[0] * s->direction[0] + (double)plane[1] * s->direction[1] + (double)plane[2] * s->direction[2] < 0;
+    const float *normal = s->r->surface[triangle].normal;
+    return (double)normal[0] * s->direction[0] + (double)normal[1] * s->direction[1] + (double)normal[2] * s->direction[2] < 0;
 }
 
 /* The triangle across the edge that the ray passes farthest beyond, if it shows the ray the same side; −1: none. */
 static int32_t triangle_towards(const surface_ray *s, int32_t triangle, const crossing *c)
 {
-    const int32_t *neighbours = s->r->world->neighbours + 3 * (size_t)triangle;
+    const int32_t *neighbours = s->r->surface[triangle].neighbours;
     const bool facing = faces(s, triangle);
     double least = 0;
     int32_t next = -1;

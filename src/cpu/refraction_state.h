@@ -18,10 +18,19 @@ typedef struct layer_marks {
     uint64_t drawn; /* gbuffers.drawn of what was marked */
 } layer_marks;
 
+/* What the way over a surface asks of a triangle, in a line of the cache. */
+typedef struct surface_triangle {
+    float corners[3][3];   /* metres, in the world's coordinates */
+    int32_t neighbours[3]; /* as those of the world */
+    float normal[3];       /* of its plane */
+    float padding;
+} surface_triangle;
+
 struct refraction {
     world *world;
     gbuffers direct, mirrored; /* the camera's layers, and those of its mirror image */
     float *planes;             /* 4 a triangle */
+    surface_triangle *surface; /* 1 a triangle */
     size_t plane_room;         /* triangles */
     uint64_t plane_version;    /* of the world that they are of */
     shade_scene *shade;
@@ -66,7 +75,6 @@ size_t refraction_neighbours(const gbuffer *g, size_t element, int32_t triangles
 
 /* A triangle as rays from one point meet it. */
 typedef struct surface_facet {
-    int32_t triangle;
     double edges[2][3], to[3], turned[3], level;
 } surface_facet;
 
