@@ -2,7 +2,7 @@
 /* `mangata compare`: its command line. The work is in compare_job.c. */
 #include <string.h>
 
-#include "cli/compare/compare_request.h"
+#include "cli/compare/compare_external.h"
 #include "image/metrics_clip.h"
 #include "cli/common/numbers.h"
 #include "cli/common/verbs.h"
@@ -12,6 +12,8 @@
 typedef struct compare_line {
     compare_request request; /* first: rows reach into it */
     const char *methods;
+    const char *external[COMPARE_METHODS];
+    size_t external_count;
     const char *gates[COMPARE_GATES];
     bool gate_flicker[COMPARE_GATES];
     size_t gate_count;
@@ -35,6 +37,16 @@ static int add_gate(const option *o, void *place, const char *value)
         return console_error(EXIT_CODE_USAGE, "at most %d limits are allowed", COMPARE_GATES);
     line->gate_flicker[line->gate_count] = strcmp(o->name, "max-flicker") == 0;
     line->gates[line->gate_count++] = value;
+    return EXIT_CODE_OK;
+}
+
+/* Read when scenes and frames are known. */
+static int add_external(const option *o, void *place, const char *value)
+{
+    compare_line *line = place;
+    if (line->external_count == COMPARE_METHODS)
+        return console_error(EXIT_CODE_USAGE, "--%s: at most %d methods are allowed", o->name, COMPARE_METHODS);
+    line->external[line->external_count++] = value;
     return EXIT_CODE_OK;
 }
 
@@ -117,6 +129,8 @@ static int run(void *place)
     r->progress = progress_mode_heard(r->progress, r->out.quiet);
     r->out.json_notes = r->progress == PROGRESS_JSON;
     int code = add_methods(r, line);
+    for (size_t i = 0; i < line->external_count && code == EXIT_CODE_OK; i++)
+        code = compare_external_add(r, line->external[i]);
     if (code == EXIT_CODE_OK)
         code = resolve_gates(r, line);
     return code == EXIT_CODE_OK ? compare_run(r) : code;
@@ -130,6 +144,10 @@ static const option compare_options[] = {
      "option of mangata render, such as podee-pixel:ndf-mean=drop\n"
      "(default none,podee-uniform,podee-pixel,mangata)",
      .set = option_text, .offset = offsetof(compare_line, methods)},
+    {"external", 0, "NAME=PATH",
+     "pictures of another program beside the methods: dir/%04d.exr with\n"
+     "color, coverage or both, scene-linear, or .pfm with one of them;\n" EXTERNAL_SCENE " in it is the scene's name; may be repeated",
+     .set = add_external},
     {"frames", 0, "LIST", "A, A-B, A-B:STEP or a list of these (default 0-3)", .set = option_frames, .offset = offsetof(compare_request, frames)},
     OPTION_SHARD(compare_request,
                  "one of N machines' part of all pictures: draws it and measures\nnothing; the same command without --shard then measures all"),

@@ -7,7 +7,7 @@
 #include <sys/stat.h>
 
 #include "image/file_whole.h"
-#include "cli/compare/compare_job.h"
+#include "cli/compare/compare_external.h"
 #include "cli/compare/compare_tables.h"
 #include "cli/common/interrupt.h"
 #include "params/methods.h"
@@ -229,15 +229,17 @@ static int look_for_kept(compare_job *job, const compare_scene *scene, bool *kep
 {
     const size_t pictures = job->request->method_count + 1, each = job->frame_count * pictures, before = (size_t)(scene - job->scenes) * each;
     for (size_t i = 0; i < each; i++) {
-        if (!compare_draws(scene, i % pictures) || scene->view->only_timed || !shard_has(&job->request->shard, before + i)) {
+        const size_t picture = i % pictures;
+        const bool external = picture != COMPARE_REFERENCE && compare_is_external(job->request, picture - 1);
+        if (external || !compare_draws(scene, picture) || scene->view->only_timed || !shard_has(&job->request->shard, before + i)) {
             kept[i] = true;
             continue;
         }
-        const int code = look_for_picture(job, scene, i % pictures, i / pictures, &kept[i]);
+        const int code = look_for_picture(job, scene, picture, i / pictures, &kept[i]);
         if (code != EXIT_CODE_OK)
             return code;
         *missing += !kept[i];
-        *work += kept[i] ? 0 : picture_work(scene, i % pictures);
+        *work += kept[i] ? 0 : picture_work(scene, picture);
         job->kept += kept[i];
     }
     return EXIT_CODE_OK;

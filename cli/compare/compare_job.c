@@ -6,6 +6,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "cli/compare/compare_external.h"
 #include "cli/compare/compare_page.h"
 #include "cli/compare/compare_scores.h"
 #include "cli/compare/compare_tables.h"
@@ -32,6 +33,11 @@ const mgt_quality *compare_picture_quality(const compare_scene *scene, size_t pi
     return picture == COMPARE_REFERENCE ? &scene->reference : &scene->methods[picture - 1];
 }
 
+static bool is_external(const compare_job *job, size_t picture)
+{
+    return picture != COMPARE_REFERENCE && picture < COMPARE_HALF && compare_is_external(job->request, picture - 1);
+}
+
 uint32_t compare_frame_number(const compare_job *job, size_t frame) { return frame_list_at(&job->request->frames, frame); }
 
 bool compare_file_path(const compare_job *job, const char *name, char path[COMPARE_PATH])
@@ -46,8 +52,26 @@ bool compare_file_path(const compare_job *job, const char *name, char path[COMPA
 bool compare_picture_path(const compare_job *job, const compare_scene *scene, size_t picture, size_t frame, char path[COMPARE_PATH])
 {
     char name[METHOD_SPEC_TEXT + 96];
+    if (is_external(job, picture))
+        return compare_external_path(job, scene, picture - 1, frame, path);
     snprintf(name, sizeof name, "frames/%s/%s_%04u.exr", scene->name, picture_file(job, picture), compare_frame_number(job, frame));
     return compare_file_path(job, name, path);
+}
+
+int compare_read_layer(compare_job *job, const compare_scene *scene, size_t picture, size_t frame, const char *layer, float_image *image)
+{
+    const bool color = strcmp(layer, "color") == 0;
+    const compare_result *result = is_external(job, picture) ? &scene->results[picture - 1] : NULL;
+    char path[COMPARE_PATH];
+    file_error error;
+    if (result && (color ? result->lacks_color : result->lacks_coverage)) {
+        *image = (float_image){scene->width, scene->height, color ? 3 : 1, NULL};
+        image->pixels = calloc((size_t)image->width * image->height * image->channels, sizeof *image->pixels);
+        return image->pixels ? EXIT_CODE_OK : console_error(EXIT_CODE_FAILED, "out of memory");
+    }
+    if (!compare_picture_path(job, scene, picture, frame, path))
+        return EXIT_CODE_USAGE;
+    return picture_read(image, path, layer, &error) == FILE_OK ? EXIT_CODE_OK : compare_file_failure(job, &error);
 }
 
 bool compare_draws(const compare_scene *scene, size_t picture)
@@ -212,7 +236,7 @@ static int check_scene(compare_job *job, const compare_scene *scene)
     for (size_t frame = 0; frame < job->frame_count; frame++)
         for (size_t picture = 0; picture <= job->request->method_count; picture++) {
             mgt_scene view;
-            if (!compare_draws(scene, picture))
+            if (!compare_draws(scene, picture) || is_external(job, picture))
                 continue;
             if (!compare_frame_scene(job, scene, picture, frame, &view))
                 return EXIT_CODE_BAD_INPUT;
@@ -315,6 +339,8 @@ int compare_open(compare_job *job, const compare_request *request, const char *p
         code = context_open(&request->context, &request->out, on_progress, job, &job->context, &job->info);
     for (size_t s = 0; s < request->scene_count && code == EXIT_CODE_OK; s++)
         code = check_scene(job, &job->scenes[s]);
+    if (code == EXIT_CODE_OK)
+        code = compare_external_check(job);
     return code == EXIT_CODE_OK ? make_report_folder(job, page) : code;
 }
 

@@ -33,8 +33,9 @@ enum { TRUTH_SCORES = COMPARE_METRICS - CLIP_METRICS };
 
 /* A method on a scene. */
 typedef struct compare_result {
-    number_spread time; /* seconds of one frame; all NaN: not measured */
-    double memory;      /* bytes that a frame takes at its peak, in a context of its own; NaN: not measured */
+    bool lacks_coverage, lacks_color; /* its pictures, of another program, hold no such layer */
+    number_spread time;               /* seconds of one frame; all NaN: not measured */
+    double memory;                    /* bytes that a frame takes at its peak, in a context of its own; NaN: not measured */
     clip_scores clip[COMPARE_KINDS];
     clip_scores *frames[COMPARE_KINDS]; /* one a frame */
     double truth[TRUTH_SCORES];         /* from TRUTH_CORRELATION on; NaN: not measured, not defined */
@@ -84,6 +85,9 @@ uint32_t compare_frame_number(const compare_job *job, size_t frame);
 /* Where the picture is kept, and a file DIR/NAME of the report. False, with the error printed, when the path is too long. */
 bool compare_picture_path(const compare_job *job, const compare_scene *scene, size_t picture, size_t frame, char path[COMPARE_PATH]);
 bool compare_file_path(const compare_job *job, const char *name, char path[COMPARE_PATH]);
+
+/* Reads "coverage" or "color" of a picture; zeros where a method of others has none. An exit code. */
+int compare_read_layer(compare_job *job, const compare_scene *scene, size_t picture, size_t frame, const char *layer, float_image *image);
 
 /* Whether the picture is one of the scene's view. */
 bool compare_draws(const compare_scene *scene, size_t picture);

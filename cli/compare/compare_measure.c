@@ -61,13 +61,10 @@ static int display(compare_job *job, const compare_scene *scene, size_t frame, c
 
 static int read_frame(compare_job *job, const compare_scene *scene, size_t picture, size_t frame, float_image out[COMPARE_KINDS])
 {
-    char path[COMPARE_PATH];
-    file_error error;
-    if (!compare_picture_path(job, scene, picture, frame, path))
-        return EXIT_CODE_USAGE;
-    if (picture_read(&out[KIND_COVERAGE], path, "coverage", &error) != FILE_OK || picture_read(&out[KIND_LIGHT], path, "color", &error) != FILE_OK)
-        return compare_file_failure(job, &error);
-    return shows_displayed(job->request) ? display(job, scene, frame, &out[KIND_LIGHT], &out[KIND_DISPLAYED]) : EXIT_CODE_OK;
+    int code = compare_read_layer(job, scene, picture, frame, "coverage", &out[KIND_COVERAGE]);
+    if (code == EXIT_CODE_OK)
+        code = compare_read_layer(job, scene, picture, frame, "color", &out[KIND_LIGHT]);
+    return code == EXIT_CODE_OK && shows_displayed(job->request) ? display(job, scene, frame, &out[KIND_LIGHT], &out[KIND_DISPLAYED]) : code;
 }
 
 /* The metrics of one scene: a row of kinds for each method; NULL where a kind has nothing to measure. */
@@ -112,11 +109,15 @@ static int start(compare_job *job, const compare_scene *scene, measuring *state)
 /* Coverage alone is freed of noise: its sums cost little. */
 static bool measures_truth(const truth_metrics *truth, int kind) { return kind == KIND_COVERAGE || truth->wants.texture || truth->wants.specks; }
 
+static bool lacks(const compare_result *result, int kind) { return kind == KIND_COVERAGE ? result->lacks_coverage : result->lacks_color; }
+
 static int add_method_frame(compare_job *job, compare_scene *scene, measuring *state, size_t method, size_t frame, const truth_pictures *truth)
 {
     float_image images[COMPARE_KINDS] = {{0}};
     int code = read_frame(job, scene, method + 1, frame, images);
     for (int k = 0; k < COMPARE_KINDS && code == EXIT_CODE_OK; k++) {
+        if (lacks(&scene->results[method], k))
+            continue;
         const float_image trio[] = {images[k], truth->halves[0][k], truth->halves[1][k]};
         const truth_frame against = {.images = trio, .count = 3};
         clip_frame scores;
@@ -192,7 +193,10 @@ static void take_truth(compare_job *job, compare_result *result, const truth_met
 {
     if (!job->request->halved)
         return;
-    result->noiseless_rmse = noise_sums_rmse(&truth[KIND_COVERAGE].noise);
+    if (!result->lacks_coverage)
+        result->noiseless_rmse = noise_sums_rmse(&truth[KIND_COVERAGE].noise);
+    if (result->lacks_color)
+        return;
     if (job->request->truth.texture)
         take_texture(job, result, &truth[KIND_LIGHT]);
     if (job->request->truth.specks)
@@ -210,12 +214,21 @@ static void take_missing(compare_job *job, int kind, const clip_metrics *metrics
     }
 }
 
+/* For the dashes of its row. */
+static void note_lack(compare_job *job, int kind, const char *name)
+{
+    for (int i = 0; i < COMPARE_METRICS; i++)
+        snprintf(job->missing[kind][i], sizeof job->missing[kind][i], "%s has no %s", name, kind == KIND_COVERAGE ? "coverage" : "color");
+}
+
 static int take_scores(compare_job *job, compare_scene *scene, const measuring *state)
 {
     file_error error;
     for (int k = 0; k < COMPARE_KINDS; k++) {
         for (size_t m = 0; m < job->request->method_count; m++) {
-            if (!state->metrics[m][k])
+            if (lacks(&scene->results[m], k))
+                note_lack(job, k, job->request->methods[m].name);
+            if (!state->metrics[m][k] || lacks(&scene->results[m], k))
                 continue;
             if (clip_metrics_scores(state->metrics[m][k], &scene->results[m].clip[k], &error) != FILE_OK)
                 return compare_file_failure(job, &error);

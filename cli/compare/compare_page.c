@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/compare/compare_external.h"
 #include "cli/compare/compare_pixels.h"
 #include "cli/compare/compare_scores.h"
 #include "cli/compare/compare_tables.h"
@@ -36,15 +37,6 @@ static const char *text_named(const char *name)
 
 /* ---- pictures -------------------------------------------------------------------------------------------- */
 
-static int read_layer(compare_job *job, const compare_scene *scene, size_t picture, size_t frame, const char *layer, float_image *image)
-{
-    char path[COMPARE_PATH];
-    file_error error;
-    if (!compare_picture_path(job, scene, picture, frame, path))
-        return EXIT_CODE_USAGE;
-    return picture_read(image, path, layer, &error) == FILE_OK ? EXIT_CODE_OK : compare_file_failure(job, &error);
-}
-
 static int measure_light(compare_job *job, const compare_scene *scene, scene_light *light)
 {
     float most = 0;
@@ -52,7 +44,7 @@ static int measure_light(compare_job *job, const compare_scene *scene, scene_lig
     for (size_t frame = 0; frame < job->frame_count; frame++)
         for (size_t picture = 0; picture <= job->request->method_count; picture++) {
             float_image image;
-            const int code = read_layer(job, scene, picture, frame, "color", &image);
+            const int code = compare_read_layer(job, scene, picture, frame, "color", &image);
             if (code != EXIT_CODE_OK)
                 return code;
             const size_t count = (size_t)image.width * image.height * image.channels;
@@ -78,7 +70,7 @@ static int ascending(const void *a, const void *b)
 static int measure_coverage(compare_job *job, const compare_scene *scene, scene_light *light)
 {
     float_image image;
-    const int code = read_layer(job, scene, COMPARE_REFERENCE, 0, "coverage", &image);
+    const int code = compare_read_layer(job, scene, COMPARE_REFERENCE, 0, "coverage", &image);
     if (code != EXIT_CODE_OK)
         return code;
     const size_t count = (size_t)image.width * image.height;
@@ -93,7 +85,7 @@ static int put_picture(const page *p, FILE *stream, size_t s, size_t picture, si
 {
     float_image image;
     size_t length = 0;
-    const int code = read_layer(p->job, &p->job->scenes[s], picture, frame, layer, &image);
+    const int code = compare_read_layer(p->job, &p->job->scenes[s], picture, frame, layer, &image);
     if (code != EXIT_CODE_OK)
         return code;
     char *text = pixels_pack(&image, scale, &length);
@@ -193,7 +185,7 @@ static void put_row(FILE *stream, const compare_job *job, const compare_scene *s
             scene ? scene->name : "mean");
     markup_escape(stream, spec->name);
     fputs("</th>", stream);
-    put_number(stream, (double)compare_samples(&spec->quality), "samples", 0);
+    put_number(stream, compare_is_external(job->request, method) ? NAN : (double)compare_samples(&spec->quality), "samples", 0);
     put_number(stream, 1e3 * time.median, "time", 1);
     if (isfinite(time.least))
         fprintf(stream, "<td class=\"spread\" data-value=\"%.9g\">%.1f–%.1f</td>", 1e3 * (time.most - time.least), 1e3 * time.least, 1e3 * time.most);

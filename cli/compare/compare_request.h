@@ -37,6 +37,7 @@ typedef struct compare_request {
     size_t scene_count;
     scene_changes changes;
     method_spec methods[COMPARE_METHODS];
+    const char *external[COMPARE_METHODS]; /* where a method's pictures are, of which nothing is rendered; NULL: it is ours */
     size_t method_count;
     mgt_quality reference;
     bool halved; /* the reference is the mean of two halves with seeds of their own, of half as many time samples each, which must be even */

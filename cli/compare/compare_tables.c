@@ -69,9 +69,13 @@ static json_t *method_json(const compare_job *job, const compare_scene *scene, s
         json_object_set_new(scores, column->key, number(score_of(result, column)));
         json_object_set_new(frames, column->key, list);
     }
+    const char *external = job->request->external[method];
     json_t *object =
-        json_pack("{s:s, s:I, s:o, s:o, s:o, s:o}", "method", spec->name, "samples", (json_int_t)compare_samples(&spec->quality), "time_ms",
-                  time_json(&result->time), "scores", scores, "frames", frames, "command", owned_text(compare_picture_command(job, scene, method + 1)));
+        json_pack("{s:s, s:o, s:o, s:o, s:o, s:o}", "method", spec->name, "samples",
+                  external ? json_null() : json_integer((json_int_t)compare_samples(&spec->quality)), "time_ms", time_json(&result->time), "scores", scores,
+                  "frames", frames, "command", external ? json_null() : owned_text(compare_picture_command(job, scene, method + 1)));
+    if (external)
+        json_object_set_new(object, "external", console_json_text(external));
     if (job->request->halved)
         json_object_set_new(object, "noiseless_rmse", number(result->noiseless_rmse));
     if (result->texture)
@@ -204,7 +208,9 @@ char *compare_csv_text(const compare_job *job, size_t *size)
     for (size_t s = 0; s < r->scene_count; s++)
         for (size_t m = 0; m < r->method_count; m++) {
             const compare_result *result = &job->scenes[s].results[m];
-            fprintf(stream, "%s,%s,%llu", job->scenes[s].name, r->methods[m].name, (unsigned long long)compare_samples(&r->methods[m].quality));
+            fprintf(stream, "%s,%s,", job->scenes[s].name, r->methods[m].name);
+            if (!r->external[m])
+                fprintf(stream, "%llu", (unsigned long long)compare_samples(&r->methods[m].quality));
             csv_number(stream, 1e3 * result->time.median);
             csv_number(stream, 1e3 * result->time.least);
             csv_number(stream, 1e3 * result->time.most);

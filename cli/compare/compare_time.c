@@ -5,13 +5,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/compare/compare_job.h"
+#include "cli/compare/compare_external.h"
 #include "cli/common/interrupt.h"
 #include "cli/common/memory_text.h"
 #include "cli/common/memory_use.h"
 #include "cli/common/sha256.h"
 
-static bool is_timed(const compare_scene *scene, size_t method) { return !scene->view->untimed && compare_draws(scene, method + 1); }
+static bool is_timed(const compare_job *job, const compare_scene *scene, size_t method)
+{
+    return !scene->view->untimed && compare_draws(scene, method + 1) && !compare_is_external(job->request, method);
+}
 
 /* What the times depend on, but for the machine itself. */
 static bool times_key(const compare_job *job, const compare_scene *scene, sha256_text *key)
@@ -29,7 +32,7 @@ static bool times_key(const compare_job *job, const compare_scene *scene, sha256
     if (r->memory)
         fputs("memory\n", stream);
     for (size_t m = 0; m < r->method_count; m++)
-        if (is_timed(scene, m)) {
+        if (is_timed(job, scene, m)) {
             fprintf(stream, "%s seed %llu\n", r->methods[m].name, (unsigned long long)r->methods[m].quality.seed);
             quality_write(stream, &scene->methods[m], "%s %s\n");
         }
@@ -55,7 +58,7 @@ static bool read_times(const compare_job *job, compare_scene *scene, const char 
     const char *recorded = json_string_value(json_object_get(root, "key"));
     bool found = recorded && strcmp(recorded, key->text) == 0;
     for (size_t m = 0; m < job->request->method_count && found; m++) {
-        if (!is_timed(scene, m))
+        if (!is_timed(job, scene, m))
             continue;
         const char *name = job->request->methods[m].name;
         json_t *list = json_object_get(json_object_get(root, "seconds"), name), *memory = json_object_get(json_object_get(root, "memory"), name);
@@ -79,7 +82,7 @@ static int write_times(compare_job *job, const compare_scene *scene, const char 
     json_t *lists = json_object(), *memory = json_object();
     for (size_t m = 0; m < job->request->method_count; m++) {
         const char *name = job->request->methods[m].name;
-        if (!is_timed(scene, m))
+        if (!is_timed(job, scene, m))
             continue;
         json_t *list = json_array();
         for (size_t i = 0; i < runs; i++)
@@ -127,7 +130,7 @@ static int measure_memory(compare_job *job, compare_scene *scene, const mgt_targ
         mgt_context_info info;
         mgt_scene view;
         double unused;
-        if (!is_timed(scene, m))
+        if (!is_timed(job, scene, m))
             continue;
         if (!compare_frame_scene(job, scene, m + 1, 0, &view))
             return EXIT_CODE_BAD_INPUT;
@@ -150,14 +153,14 @@ static int time_scene(compare_job *job, compare_scene *scene, const char *path, 
     /* Tables are built and memory is touched by a first frame, which does not count. */
     for (size_t run = 0; run <= runs; run++)
         for (size_t m = 0; m < methods && code == EXIT_CODE_OK; m++)
-            if (is_timed(scene, m))
+            if (is_timed(job, scene, m))
                 code = time_once(job, scene, m, run, &target, run ? &seconds[m * runs + run - 1] : &unused);
     if (code == EXIT_CODE_OK && job->request->memory)
         code = measure_memory(job, scene, &target);
     if (code == EXIT_CODE_OK)
         code = write_times(job, scene, path, key, seconds);
     for (size_t m = 0; m < methods && code == EXIT_CODE_OK; m++)
-        if (is_timed(scene, m))
+        if (is_timed(job, scene, m))
             scene->results[m].time = number_spread_of(seconds + m * runs, runs);
     free(seconds);
     free(target.pixels);
@@ -173,7 +176,7 @@ int compare_time_methods(compare_job *job)
         for (size_t m = 0; m < r->method_count; m++) {
             job->scenes[s].results[m].time = number_spread_of(NULL, 0);
             job->scenes[s].results[m].memory = NAN;
-            timed += is_timed(&job->scenes[s], m);
+            timed += is_timed(job, &job->scenes[s], m);
         }
     if (r->time_runs == 0)
         return EXIT_CODE_OK;

@@ -153,6 +153,43 @@ expect 0 '' "$MANGATA" diff direct.exr o/frames/simple/podee-pixel-ndf-mean-drop
 [[ $(report scenes.0.methods.1.command o) == *'--method ssaa2 --time-samples 3'* && $(report scenes.0.methods.1.samples o) == 12 ]] ||
     fail "commands: $(report scenes.0.methods.1.command o)"
 
+# Pictures of others, beside ours: a copy of a method scores what it scores; what a file lacks has no score.
+mkdir -p other/simple other/smooth
+cp r/frames/smooth/none_0000.exr other/smooth/0000.exr
+cp r/frames/smooth/none_0001.exr other/smooth/0001.exr
+for frame in 0 1; do
+    render "$simple" -o other/simple/000$frame.exr --layer coverage --layer color --method none --size 32x18 --frames $frame --quiet
+    render "$simple" -o other/coverage_$frame.pfm --layer coverage --method none --size 32x18 --frames $frame --quiet
+done
+expect 0 '8 pictures rendered, 0 kept' compare "$simple" "$smooth" -o e --size 32x18 --spatial 2 --time-samples 2 --frames 0-1 --time-runs 0 --methods none --metrics rmse,flip,texture \
+    --external 'Mine_1.0=other/{scene}/%04d.exr' --json
+[[ $(json scenes.0.methods.1.method) == Mine_1.0 && $(json scenes.1.methods.1.samples) == null && $(json scenes.0.methods.1.command) == null ]] || fail "external: $(json scenes.0.methods.1)"
+for scene in 0 1; do
+    [[ $(json scenes.$scene.methods.0.scores) == "$(json scenes.$scene.methods.1.scores)" ]] || fail "a copy scores $(json scenes.$scene.methods.1.scores)"
+done
+grep -q '^simple,Mine_1.0,,,,,0' e/report.csv && grep -q 'Mine\\_1.0 & -- & 0' e/report.tex && grep -q 'row">Mine_1.0' e/report.html || fail "external in the tables: $(cat e/report.csv)"
+absent e/frames/simple/Mine_1.0_0000.exr
+expect 0 '0 pictures rendered, 4 kept' compare "$simple" -o e "${tiny[@]}" --frames 0-1 --time-runs 0 --methods none --metrics rmse,flip \
+    --external grey=other/coverage_%d.pfm --json --max-rmse grey=1
+[[ $(json scenes.0.methods.1.scores) == *'"displayed.flip":null'* && $(json scenes.0.methods.1.scores) == '{"coverage.rmse":0.'* ]] || fail "coverage alone: $(json scenes.0.methods.1)"
+external() { compare "$simple" -o x "${tiny[@]}" --frames 0-1 --methods none --external "$@"; }
+expect 64 'allowed is NAME=PATH' external other/%04d.exr
+expect 64 'allowed is NAME=PATH' external 'my own=other/%04d.exr'
+expect 64 'mangata is the name of a method' external mangata=other/simple/%04d.exr
+expect 64 'a is the name of a method' external a=other/simple/%04d.exr --external a=other/smooth/%04d.exr
+expect 64 'allowed are .exr and .pfm' external a=other/%04d.png
+expect 64 'number the files' external a=other/simple/0000.exr
+expect 64 'several scenes are compared; write .scene.' external a=other/simple/%04d.exr "$smooth"
+expect 66 'other/simple/0002.exr: .*No such file' external a=other/simple/%04d.exr --frames 0-2
+expect 1 'other/simple/0000.exr has 32 x 18 pixels, simple is compared at 16 x 9; --size' external a=other/simple/%04d.exr --size 16x9
+render "$simple" -o other/normal_0.exr --layer normal --size 32x18 --quiet
+render "$simple" -o other/mixed_0.exr --layer color --size 32x18 --quiet
+render "$simple" -o other/mixed_1.exr --layer coverage --size 32x18 --quiet
+expect 65 'normal_0.exr: it holds neither color' external a=other/normal_%d.exr
+expect 65 'mixed_1.exr: it does not hold the layers' external a=other/mixed_%d.exr
+echo junk >other/junk_0.exr
+expect 65 'junk_0.exr' external a=other/junk_%d.exr
+
 # Without idiff one metric is missing, and nothing else.
 mkdir bin
 expect 0 'Yee is unavailable' env PATH="$work/bin" "$MANGATA" compare "$simple" -o y "${tiny[@]}" --frames 0 --time-runs 0 \

@@ -74,7 +74,7 @@ function setScene(index) {
 function showCommands() {
   control("command").textContent = report.command;
   const {command, second_command} = state.scene.reference, halves = second_command ? [["reference, second half", second_command]] : [];
-  const entries = [["reference", command], ...halves, ...state.scene.methods.map(m => [m.method, m.command])];
+  const entries = [["reference", command], ...halves, ...state.scene.methods.map(m => [m.method, m.command ?? `files ${m.external}`])];
   control("commands").replaceChildren(...entries.map(([name, command]) => {
     const block = document.createElement("pre");
     block.textContent = command;
