@@ -36,6 +36,7 @@
     X(CREATEFRAMEBUFFERS, CreateFramebuffers)                                             \
     X(CREATEPROGRAM, CreateProgram)                                                       \
     X(CREATEQUERIES, CreateQueries)                                                       \
+    X(CREATESAMPLERS, CreateSamplers)                                                     \
     X(CREATESHADER, CreateShader)                                                         \
     X(CREATETEXTURES, CreateTextures)                                                     \
     X(CREATEVERTEXARRAYS, CreateVertexArrays)                                             \
@@ -44,6 +45,7 @@
     X(DELETEFRAMEBUFFERS, DeleteFramebuffers)                                             \
     X(DELETEPROGRAM, DeleteProgram)                                                       \
     X(DELETEQUERIES, DeleteQueries)                                                       \
+    X(DELETESAMPLERS, DeleteSamplers)                                                     \
     X(DELETESHADER, DeleteShader)                                                         \
     X(DELETESYNC, DeleteSync)                                                             \
     X(DELETETEXTURES, DeleteTextures)                                                     \
@@ -97,9 +99,9 @@
     X(POPDEBUGGROUP, PopDebugGroup)                                                       \
     X(PUSHDEBUGGROUP, PushDebugGroup)                                                     \
     X(QUERYCOUNTER, QueryCounter)                                                         \
+    X(SAMPLERPARAMETERI, SamplerParameteri)                                               \
     X(SHADERSOURCE, ShaderSource)                                                         \
     X(TEXTUREBUFFERRANGE, TextureBufferRange)                                             \
-    X(TEXTUREPARAMETERI, TextureParameteri)                                               \
     X(TEXTURESTORAGE2D, TextureStorage2D)                                                 \
     X(TEXTURESUBIMAGE2D, TextureSubImage2D)                                               \
     X(UNMAPNAMEDBUFFER, UnmapNamedBuffer)                                                 \

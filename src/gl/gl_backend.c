@@ -231,7 +231,7 @@ void layer_wants_add(layer_wants *w, mgt_layer layer, bool display)
 
 mgt_status gl_layers_render(gl_backend_state *s, const reporter *r, const mgt_scene *scene, const layer_wants *wants, bool report_progress, region *area)
 {
-    mgt_status status = gl_sky_prepare(s->renderer, scene, r);
+    mgt_status status = gl_frame_begin(s->renderer, scene, r);
     if (status != MGT_OK)
         return status;
     const frame f = frame_of(scene, s->renderer->sky, wants->color);

@@ -14,9 +14,6 @@ static mgt_status reserve_layer(const gl_api *gl, gl_gbuffer *b, uint32_t width,
         status = gl_image_reserve(gl, &b->triangle, GL_R32I, width, height, r);
     if (status != MGT_OK || (b->framebuffer && b->depth.name == depth && b->triangle.name == triangle))
         return status;
-    /* Integers are never blended, and textures that ask for it read as zeros. */
-    gl->TextureParameteri(b->triangle.name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    gl->TextureParameteri(b->triangle.name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     if (!b->framebuffer)
         gl->CreateFramebuffers(1, &b->framebuffer);
     gl->NamedFramebufferTexture(b->framebuffer, GL_DEPTH_ATTACHMENT, b->depth.name, 0);
@@ -54,10 +51,8 @@ static void begin_drawing(const gl_renderer *g, const gl_gbuffers *b)
         gl_host_state_neutral(gl, g->host);
     gl->BindVertexArray(g->vertex_array);
     const GLuint tables[] = {g->objects.vertices.texture, g->objects.indices.texture};
-    for (GLuint i = 0; i < 2; i++) {
-        gl->BindTextureUnit(UNIT_VERTICES + i, tables[i]);
-        gl->BindSampler(UNIT_VERTICES + i, 0);
-    }
+    for (GLuint i = 0; i < 2; i++)
+        gl_bind_texture(g, UNIT_VERTICES + i, tables[i]);
     gl->ViewportIndexedf(0, 0, 0, (float)b->width, (float)b->height);
     gl->DepthRangeIndexed(0, 0, 1);
     gl->ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);

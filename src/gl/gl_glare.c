@@ -62,12 +62,6 @@ static mgt_status prepare_pyramid(gl_renderer *g, uint32_t width, uint32_t heigh
     return status;
 }
 
-static void bind_texture(const gl_renderer *g, GLuint unit, const gl_image *image)
-{
-    g->gl.BindTextureUnit(unit, image->name);
-    g->gl.BindSampler(unit, 0);
-}
-
 static mgt_status dispatch(gl_renderer *g, gl_program program, const GlareData *data, int width, int height, const reporter *r)
 {
     const mgt_status status = gl_use(g, program, r);
@@ -87,7 +81,7 @@ static mgt_status spread(gl_renderer *g, const float *shares, const reporter *r)
     mgt_status status = MGT_OK;
     gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, BIND_GLARE_WEIGHTS, p->weights.name);
     for (size_t k = 0; k < p->count && status == MGT_OK; k++) {
-        bind_texture(g, UNIT_FINE, k ? &p->levels[k - 1] : &g->layers.color);
+        gl_bind_texture(g, UNIT_FINE, k ? p->levels[k - 1].name : g->layers.color.name);
         gl->BindImageTexture(0, p->levels[k].name, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA32F);
         status = dispatch(g, PROGRAM_GLARE_DOWN, &p->sizes[k], p->sizes[k].coarse_width, p->sizes[k].coarse_height, r);
     }
@@ -95,7 +89,7 @@ static mgt_status spread(gl_renderer *g, const float *shares, const reporter *r)
         GlareData data = p->sizes[k];
         data.keep = shares[k - 1];
         data.gain = k + 1 == p->count ? shares[k] : 1;
-        bind_texture(g, UNIT_COARSE, &p->levels[k]);
+        gl_bind_texture(g, UNIT_COARSE, p->levels[k].name);
         gl->BindImageTexture(0, p->levels[k - 1].name, 0, GL_FALSE, 0, GL_READ_WRITE, GL_RGBA32F);
         status = dispatch(g, PROGRAM_GLARE_UP, &data, data.fine_width, data.fine_height, r);
     }
@@ -133,9 +127,9 @@ mgt_status gl_display_render(gl_renderer *g, const frame *f, const region *area,
         return status;
     gl_pass_begin(g, "display");
     gl_uniform(g, BIND_FRAME, &f->data, sizeof f->data);
-    bind_texture(g, UNIT_FINE, &g->layers.color);
+    gl_bind_texture(g, UNIT_FINE, g->layers.color.name);
     if (shown.coarse_width > 0)
-        bind_texture(g, UNIT_COARSE, &g->glare.levels[0]);
+        gl_bind_texture(g, UNIT_COARSE, g->glare.levels[0].name);
     g->gl.BindImageTexture(0, g->layers.display.name, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA8);
     status = dispatch(g, PROGRAM_DISPLAY, &shown, shown.fine_width, shown.fine_height, r);
     const mgt_status ended = gl_pass_end(g, r);

@@ -95,8 +95,7 @@ static mgt_status copy_layer(gl_backend_state *s, const mgt_gl_texture *t, GLenu
     status = gl_use(g, PROGRAM_COPY, r);
     if (status == MGT_OK) {
         gl_uniform(g, BIND_EXTRA, &data, sizeof data);
-        g->gl.BindTextureUnit(UNIT_FINE, image_of(&g->layers, t->layer, format)->name);
-        g->gl.BindSampler(UNIT_FINE, 0);
+        gl_bind_texture(g, UNIT_FINE, image_of(&g->layers, t->layer, format)->name);
         g->gl.BindImageTexture(0, t->texture, t->level, GL_FALSE, 0, GL_WRITE_ONLY, format);
         g->gl.DispatchCompute((crop->width + GROUP_SIDE - 1) / GROUP_SIDE, (crop->height + GROUP_SIDE - 1) / GROUP_SIDE, 1);
     }
@@ -257,10 +256,8 @@ static mgt_status draw_layers(gl_backend_state *s, const checked_view *v, bool e
     status = gl_use(g, PROGRAM_VIEW, r);
     if (status == MGT_OK) {
         const GLuint textures[] = {g->layers.color.name, g->layers.water.name, g->layers.depth.name};
-        for (GLuint i = 0; i < sizeof textures / sizeof *textures; i++) {
-            gl->BindTextureUnit(UNIT_FINE + i, textures[i]);
-            gl->BindSampler(UNIT_FINE + i, 0);
-        }
+        for (GLuint i = 0; i < sizeof textures / sizeof *textures; i++)
+            gl_bind_texture(g, UNIT_FINE + i, textures[i]);
         gl_uniform(g, BIND_FRAME, &f->data, sizeof f->data);
         gl_uniform(g, BIND_EXTRA, &window, sizeof window);
         set_drawing(s, v->view, host);
@@ -278,7 +275,7 @@ static mgt_status render_view(gl_backend_state *s, const checked_view *v, size_t
     if (status == MGT_OK)
         status = check_depth_order(&s->renderer->gl, v, index, r);
     if (status == MGT_OK)
-        status = gl_sky_prepare(s->renderer, &v->scene, r);
+        status = gl_frame_begin(s->renderer, &v->scene, r);
     if (status != MGT_OK)
         return status;
     frame f = frame_of(&v->scene, s->renderer->sky, true);

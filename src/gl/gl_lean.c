@@ -32,10 +32,8 @@ static mgt_status create_textures(gl_renderer *g, const reporter *r)
 
 static void bind_textures(const gl_renderer *g)
 {
-    g->gl.BindTextureUnit(UNIT_LEAN_MEAN, g->lean.mean);
-    g->gl.BindTextureUnit(UNIT_LEAN_SQUARE, g->lean.square);
-    g->gl.BindSampler(UNIT_LEAN_MEAN, 0);
-    g->gl.BindSampler(UNIT_LEAN_SQUARE, 0);
+    gl_bind_texture(g, UNIT_LEAN_MEAN, g->lean.mean);
+    gl_bind_texture(g, UNIT_LEAN_SQUARE, g->lean.square);
 }
 
 static void upload_waves(gl_renderer *g)

@@ -66,6 +66,16 @@ void gl_buffer_free(const gl_api *gl, gl_buffer *b)
     *b = (gl_buffer){0};
 }
 
+/* llvmpipe compiles a program anew for each combination of images whose sides are powers of two or not: small images never have such sides. */
+static uint32_t side_of(uint32_t pixels)
+{
+    const uint32_t largest = 4096; /* of those that grow: the limits of OpenGL are powers of two, too */
+    uint32_t side = pixels;
+    while (side <= largest && (side & (side - 1)) == 0)
+        side++;
+    return side;
+}
+
 mgt_status gl_image_reserve(const gl_api *gl, gl_image *image, GLenum format, uint32_t width, uint32_t height, const reporter *r)
 {
     if (image->name && image->format == format && image->width >= width && image->height >= height)
@@ -76,6 +86,8 @@ mgt_status gl_image_reserve(const gl_api *gl, gl_image *image, GLenum format, ui
         w = width;
         h = height;
     }
+    w = side_of(w);
+    h = side_of(h);
     gl_image_free(gl, image);
     GLuint name = 0;
     gl->CreateTextures(GL_TEXTURE_2D, 1, &name);

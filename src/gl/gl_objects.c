@@ -9,9 +9,16 @@
 
 /* ---- tables ---- */
 
+/* At least `size`. llvmpipe compiles a program anew where a table's size is a power of two or not, and (22.3) where bits 8 to 15 of it are zero or not. */
+static size_t table_bytes(size_t size)
+{
+    const size_t block = 256, blocks = (size + block - 1) / block;
+    return (blocks < 3 ? 3 : blocks | 1) * block;
+}
+
 mgt_status gl_table_reserve(const gl_api *gl, gl_table *t, GLenum format, size_t count, size_t size, const reporter *r)
 {
-    const size_t bytes = (count > 0 ? count : 1) * size;
+    const size_t bytes = table_bytes((count > 0 ? count : 1) * size);
     if (t->texture && t->buffer.size >= bytes)
         return MGT_OK;
     gl_table_free(gl, t);

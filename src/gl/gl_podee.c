@@ -48,10 +48,8 @@ mgt_status gl_podee_prepare(gl_renderer *g, const mgt_scene *scene, const report
 
 void gl_podee_bind(const gl_renderer *g)
 {
-    g->gl.BindTextureUnit(UNIT_SWEEP, g->podee.sweep.name);
-    g->gl.BindTextureUnit(UNIT_SHARE, g->podee.share.name);
-    g->gl.BindSampler(UNIT_SWEEP, 0);
-    g->gl.BindSampler(UNIT_SHARE, 0);
+    gl_bind_texture(g, UNIT_SWEEP, g->podee.sweep.name);
+    gl_bind_texture(g, UNIT_SHARE, g->podee.share.name);
 }
 
 void gl_podee_free(gl_renderer *g)

@@ -17,6 +17,7 @@ typedef struct program_text {
 } program_text;
 
 static const program_text program_texts[PROGRAM_METHODS] = {
+    [PROGRAM_SAMPLERS] = {"samplers", "samplers.comp", {NULL}},
     [PROGRAM_TILES] = {"tiles", "tiles.comp", {NULL}},
     [PROGRAM_NODES] = {"nodes", "nodes.comp", {NULL}},
     [PROGRAM_SURFACE] = {"surface", "surface.comp", {NULL}},

@@ -9,13 +9,14 @@
 #include "params/methods.h"
 
 typedef enum gl_program {
-    PROGRAM_TILES = 0,   /* waves of each tile, sorted */
-    PROGRAM_NODES,       /* first hits of the tiles' lattices */
-    PROGRAM_SURFACE,     /* depth and normal at an instant */
-    PROGRAM_NORMAL,      /* the filtered methods' mean shading normal */
-    PROGRAM_LEAN_FILL,   /* the map of slope moments, level 0 … */
-    PROGRAM_LEAN_SHRINK, /* … and the next coarser level */
-    PROGRAM_LUMA,        /* of the displayed picture, for the next */
+    PROGRAM_SAMPLERS = 0, /* a sampler in every place, for llvmpipe */
+    PROGRAM_TILES,        /* waves of each tile, sorted */
+    PROGRAM_NODES,        /* first hits of the tiles' lattices */
+    PROGRAM_SURFACE,      /* depth and normal at an instant */
+    PROGRAM_NORMAL,       /* the filtered methods' mean shading normal */
+    PROGRAM_LEAN_FILL,    /* the map of slope moments, level 0 … */
+    PROGRAM_LEAN_SHRINK,  /* … and the next coarser level */
+    PROGRAM_LUMA,         /* of the displayed picture, for the next */
     PROGRAM_FXAA,
     PROGRAM_TAA, /* one frame into the history */
     PROGRAM_GLARE_DOWN,

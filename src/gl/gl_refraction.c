@@ -176,6 +176,17 @@ static mgt_status reserve_images(const gl_api *gl, gl_seen *o, const region *are
     return status;
 }
 
+mgt_status gl_refraction_reserve_least(gl_renderer *g, const reporter *r)
+{
+    const region texel = {0, 0, 1, 1};
+    mgt_status status = reserve_images(&g->gl, &g->refraction.seen, &texel, true, r);
+    if (status == MGT_OK)
+        status = reserve_images(&g->gl, &g->refraction.opened, &texel, true, r);
+    if (status == MGT_OK)
+        status = gl_image_reserve(&g->gl, &g->refraction.shadows, GL_R32F, 1, 1, r);
+    return status == MGT_OK ? gl_table_reserve(&g->gl, &g->objects.tree, GL_RGBA32UI, 0, sizeof(uint32_t[4]), r) : status;
+}
+
 mgt_status gl_refraction_prepare(gl_renderer *g, const frame *f, const region *area, const reporter *r)
 {
     gl_refraction *o = &g->refraction;
@@ -213,36 +224,29 @@ mgt_status gl_refraction_prepare(gl_renderer *g, const frame *f, const region *a
     return status;
 }
 
-static void bind_texture(const gl_api *gl, GLuint unit, GLuint texture)
-{
-    gl->BindTextureUnit(unit, texture);
-    gl->BindSampler(unit, 0);
-}
-
 static void bind_images(gl_renderer *g, GLenum access)
 {
     gl_image *images[IMAGES];
     list_images(&g->refraction.seen, images);
     for (GLuint i = 0; i < IMAGES; i++)
-        g->gl.BindImageTexture(i, images[i]->name, 0, GL_FALSE, 0, access, images[i]->name ? images[i]->format : GL_R32F);
+        g->gl.BindImageTexture(i, images[i]->name, 0, GL_FALSE, 0, access, images[i]->format);
 }
 
 static void bind_all(gl_renderer *g)
 {
-    const gl_api *gl = &g->gl;
     const gl_refraction *o = &g->refraction;
     const gl_gbuffers *b = &g->gbuffers;
     const gl_table *const tables[] = {&g->objects.vertices, &g->objects.indices, &g->objects.owners, &g->objects.planes, &o->materials, &o->texels};
     for (GLuint i = 0; i < sizeof tables / sizeof *tables; i++)
-        bind_texture(gl, UNIT_VERTICES + i, tables[i]->texture);
-    bind_texture(gl, UNIT_TREE, g->objects.tree.texture);
-    bind_texture(gl, UNIT_NEIGHBOURS, g->objects.neighbours.texture);
-    bind_texture(gl, UNIT_SKY, g->sky_texture);
-    bind_texture(gl, UNIT_SHADOWS, o->shadows.name);
+        gl_bind_texture(g, UNIT_VERTICES + i, tables[i]->texture);
+    gl_bind_texture(g, UNIT_TREE, g->objects.tree.texture);
+    gl_bind_texture(g, UNIT_NEIGHBOURS, g->objects.neighbours.texture);
+    gl_bind_texture(g, UNIT_SKY, g->sky_texture);
+    gl_bind_texture(g, UNIT_SHADOWS, o->shadows.name);
     const gl_gbuffer *const layers[] = {&b->refracted, o->block.objects.mirrors ? &b->mirrored : &b->refracted, &b->front};
     for (GLuint i = 0; i < sizeof layers / sizeof *layers; i++) {
-        bind_texture(gl, UNIT_REFRACTED_LAYER + 2 * i, layers[i]->depth.name);
-        bind_texture(gl, UNIT_REFRACTED_LAYER + 2 * i + 1, layers[i]->triangle.name);
+        gl_bind_texture(g, UNIT_REFRACTED_LAYER + 2 * i, layers[i]->depth.name);
+        gl_bind_texture(g, UNIT_REFRACTED_LAYER + 2 * i + 1, layers[i]->triangle.name);
     }
     bind_images(g, GL_WRITE_ONLY);
     gl_uniform(g, BIND_EXTRA, &o->block, sizeof o->block);
@@ -361,7 +365,7 @@ mgt_status gl_refraction_blend(gl_renderer *g, const PassData *pass, const repor
     if (status == MGT_OK) {
         const gl_image *const images[] = {&o->body, &o->mirrored, &o->front, &o->clear, &o->deep};
         for (GLuint i = 0; i < sizeof images / sizeof *images; i++)
-            bind_texture(&g->gl, 1 + i, images[i]->name);
+            gl_bind_texture(g, 1 + i, images[i]->name);
         bind_images(g, GL_READ_WRITE);
         gl_uniform(g, BIND_PASS, pass, sizeof *pass);
         g->gl.DispatchCompute((GLuint)pass->columns, (GLuint)pass->rows * GROUPS_A_TILE, 1);
@@ -376,13 +380,13 @@ void gl_refraction_bind_light(const gl_renderer *g)
     const gl_refraction *o = &g->refraction;
     const gl_image *const images[] = {&o->seen.clear, &o->seen.deep, &o->seen.body, &o->seen.mirrored};
     for (GLuint i = 0; i < sizeof images / sizeof *images; i++)
-        bind_texture(&g->gl, UNIT_CLEAR + i, images[i]->name);
+        gl_bind_texture(g, UNIT_CLEAR + i, images[i]->name);
 }
 
 void gl_refraction_bind_front(const gl_renderer *g)
 {
-    bind_texture(&g->gl, UNIT_FRONT, g->refraction.seen.front.name);
-    bind_texture(&g->gl, UNIT_FRONT + 1, g->refraction.seen.surface.name);
+    gl_bind_texture(g, UNIT_FRONT, g->refraction.seen.front.name);
+    gl_bind_texture(g, UNIT_FRONT + 1, g->refraction.seen.surface.name);
     const gl_image *const layers[] = {&g->refraction.seen.body, &g->refraction.seen.error};
     for (GLuint i = 0; i < 2; i++)
         g->gl.BindImageTexture(IMAGE_LAYERS + i, layers[i]->name, 0, GL_FALSE, 0, GL_WRITE_ONLY, layers[i]->format);

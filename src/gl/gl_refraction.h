@@ -47,6 +47,9 @@ typedef struct gl_refraction {
 /* Everything that the objects of a frame need before its bands: draws them, and brings lights, materials and shadows up to date. */
 mgt_status gl_refraction_prepare(struct gl_renderer *g, const frame *f, const region *area, const reporter *r);
 
+/* A texel of each image and table that a frame may do without: see gl_frame_begin(). */
+mgt_status gl_refraction_reserve_least(struct gl_renderer *g, const reporter *r);
+
 /* Pixels of a band that the buffers can take at a time. */
 enum { REFRACTION_PIXELS = 1 << 20 };
 

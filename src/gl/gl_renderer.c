@@ -55,8 +55,11 @@ static mgt_status read_limits(gl_renderer *g, const reporter *r)
     return MGT_OK;
 }
 
-static void create_sky_texture(gl_renderer *g)
+static void create_textures(gl_renderer *g)
 {
+    g->gl.CreateSamplers(1, &g->sampler);
+    g->gl.SamplerParameteri(g->sampler, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    g->gl.SamplerParameteri(g->sampler, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     g->gl.CreateTextures(GL_TEXTURE_2D, 1, &g->sky_texture);
     g->gl.TextureStorage2D(g->sky_texture, 1, GL_RGBA32F, SKY_COLUMNS, SKY_TABLE_ROWS);
 }
@@ -83,7 +86,7 @@ mgt_status gl_renderer_create(gl_renderer **out, mgt_gl_get_proc get_proc, const
         status = gl_ring_create(&g->gl, &g->ring, RING_SEGMENT, r);
     if (status == MGT_OK) {
         gl_timers_create(&g->gl, &g->timers);
-        create_sky_texture(g);
+        create_textures(g);
         g->gl.CreateVertexArrays(1, &g->vertex_array);
         status = gl_check(&g->gl, "create", r);
     }
@@ -135,6 +138,8 @@ void gl_renderer_destroy(gl_renderer *g)
         gl->DeleteVertexArrays(1, &g->vertex_array);
     if (g->sky_texture)
         gl->DeleteTextures(1, &g->sky_texture);
+    if (g->sampler)
+        gl->DeleteSamplers(1, &g->sampler);
     sky_state_destroy(g->sky);
     free(g->waves);
     free(g);
@@ -172,11 +177,49 @@ void gl_uniform(gl_renderer *g, GLuint binding, const void *data, size_t size)
     g->gl.BindBufferRange(GL_UNIFORM_BUFFER, binding, g->ring.buffer, (GLintptr)offset, (GLsizeiptr)size);
 }
 
-/* ---- sky ---- */
-
-mgt_status gl_sky_prepare(gl_renderer *g, const mgt_scene *scene, const reporter *r)
+void gl_bind_texture(const gl_renderer *g, GLuint unit, GLuint texture)
 {
-    g->programs.water = !(scene->water.choppiness > 0) ? WATER_SINES : foam_draws(scene) ? WATER_FOAM : WATER_CHOPPY;
+    g->gl.BindTextureUnit(unit, texture);
+    g->gl.BindSampler(unit, g->sampler);
+}
+
+/* ---- begin of a frame ---- */
+
+/* llvmpipe compiles a program anew for other formats of the images and textures that it may read, and where nothing is bound. What a frame lacks is a texel
+ * of its format. */
+static mgt_status reserve_least(gl_renderer *g, const reporter *r)
+{
+    gl_layers *l = &g->layers;
+    gl_image *const colors[] = {&l->color, &l->normal}, *const numbers[] = {&l->coverage, &l->water, &l->depth};
+    mgt_status status = MGT_OK;
+    for (size_t i = 0; i < sizeof colors / sizeof *colors && status == MGT_OK; i++)
+        status = gl_image_reserve(&g->gl, colors[i], GL_RGBA32F, 1, 1, r);
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers && status == MGT_OK; i++)
+        status = gl_image_reserve(&g->gl, numbers[i], GL_R32F, 1, 1, r);
+    return status == MGT_OK ? gl_refraction_reserve_least(g, r) : status;
+}
+
+/* llvmpipe compiles a program anew for other samplers. A buffer's texture has none; there it takes the one that an earlier program had in the same place.
+ * Therefore the first program has the sampler of all textures in every place. */
+static mgt_status set_samplers(gl_renderer *g, const reporter *r)
+{
+    if (g->samplers_set || !g->limits.software)
+        return MGT_OK;
+    mgt_status status = gl_image_reserve(&g->gl, &g->luma, GL_R32F, 1, 1, r);
+    if (status == MGT_OK)
+        status = gl_use(g, PROGRAM_SAMPLERS, r);
+    if (status != MGT_OK)
+        return status;
+    for (GLuint i = 0; i < TEXTURE_UNITS; i++)
+        gl_bind_texture(g, i, g->sky_texture);
+    g->gl.BindImageTexture(0, g->luma.name, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_R32F);
+    g->gl.DispatchCompute(1, 1, 1);
+    g->samplers_set = true;
+    return gl_check(&g->gl, "samplers", r);
+}
+
+static mgt_status update_sky(gl_renderer *g, const mgt_scene *scene, const reporter *r)
+{
     const bool same = sky_state_same_inputs(g->sky, &scene->sky, &scene->light);
     const mgt_status status = same ? MGT_OK : sky_state_build(g->sky, &scene->sky, &scene->light);
     if (status != MGT_OK)
@@ -185,4 +228,13 @@ mgt_status gl_sky_prepare(gl_renderer *g, const mgt_scene *scene, const reporter
         return MGT_OK;
     g->gl.TextureSubImage2D(g->sky_texture, 0, 0, 0, SKY_COLUMNS, SKY_TABLE_ROWS, GL_RGB, GL_FLOAT, g->sky->table);
     return gl_check(&g->gl, "sky", r);
+}
+
+mgt_status gl_frame_begin(gl_renderer *g, const mgt_scene *scene, const reporter *r)
+{
+    g->programs.water = !(scene->water.choppiness > 0) ? WATER_SINES : foam_draws(scene) ? WATER_FOAM : WATER_CHOPPY;
+    mgt_status status = update_sky(g, scene, r);
+    if (status == MGT_OK)
+        status = reserve_least(g, r);
+    return status == MGT_OK ? set_samplers(g, r) : status;
 }

@@ -84,6 +84,8 @@ typedef struct gl_renderer {
     const gl_host_state *host; /* during a call in a host's context, else NULL */
     uint32_t threads;          /* for tables that the CPU makes; 0: as many as this process may use */
     GLuint sky_texture;
+    GLuint sampler;      /* of all textures: the nearest texel */
+    bool samplers_set;   /* see gl_frame_begin() */
     GLuint vertex_array; /* empty */
     sky_state *sky;      /* of the last frame */
     wave_set *waves;     /* of the pass being prepared */
@@ -100,6 +102,9 @@ mgt_status gl_pass_end(gl_renderer *g, const reporter *r);
 
 /* Program `which` in use, built if need be. */
 mgt_status gl_use(gl_renderer *g, gl_program which, const reporter *r);
+
+/* A texture for the next dispatch. */
+void gl_bind_texture(const gl_renderer *g, GLuint unit, GLuint texture);
 
 /* A uniform block for the next dispatch, copied into the ring. */
 void gl_uniform(gl_renderer *g, GLuint binding, const void *data, size_t size);
@@ -154,7 +159,7 @@ mgt_status gl_display_render(gl_renderer *g, const frame *f, const region *area,
 /* Frees the pyramid. */
 void gl_glare_free(gl_renderer *g);
 
-/* Brings the sky's table and its texture up to date. */
-mgt_status gl_sky_prepare(gl_renderer *g, const mgt_scene *scene, const reporter *r);
+/* Before a frame: programs for its kind of water, something in every place that they may read, and the sky's texture up to date. */
+mgt_status gl_frame_begin(gl_renderer *g, const mgt_scene *scene, const reporter *r);
 
 #endif

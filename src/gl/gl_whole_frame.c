@@ -44,10 +44,8 @@ gl_job gl_job_of_part(const gl_job *job, const frame *f, gl_progress_part *part)
 static void bind_textures(const gl_renderer *g, GLuint first, const gl_layers *l)
 {
     const gl_image *const images[] = {&l->color, &l->coverage, &l->water};
-    for (GLuint i = 0; i < sizeof images / sizeof *images; i++) {
-        g->gl.BindTextureUnit(first + i, images[i]->name);
-        g->gl.BindSampler(first + i, 0);
-    }
+    for (GLuint i = 0; i < sizeof images / sizeof *images; i++)
+        gl_bind_texture(g, first + i, images[i]->name);
 }
 
 static mgt_status reserve(gl_renderer *g, gl_layers *l, const region *area, bool color, const reporter *r)
@@ -114,8 +112,7 @@ static mgt_status make_luma(gl_renderer *g, const frame *f, const region *area, 
     if (status == MGT_OK) {
         gl_uniform(g, BIND_FRAME, &f->data, sizeof f->data);
         gl_uniform(g, BIND_EXTRA, &size, sizeof size);
-        gl->BindTextureUnit(UNIT_FINE, g->layers.color.name);
-        gl->BindSampler(UNIT_FINE, 0);
+        gl_bind_texture(g, UNIT_FINE, g->layers.color.name);
         gl->BindImageTexture(0, g->luma.name, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_R32F);
         gl->DispatchCompute((area->width + GROUP_SIDE - 1) / GROUP_SIDE, (area->height + GROUP_SIDE - 1) / GROUP_SIDE, 1);
         gl->MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
@@ -139,8 +136,7 @@ static mgt_status render_fxaa(gl_renderer *g, const gl_job *job, const reporter 
     if (status != MGT_OK)
         return status;
     const BlendData data = {.width = (int)job->area.width, .height = (int)job->area.height};
-    g->gl.BindTextureUnit(UNIT_LUMA, g->luma.name);
-    g->gl.BindSampler(UNIT_LUMA, 0);
+    gl_bind_texture(g, UNIT_LUMA, g->luma.name);
     status = blend(g, PROGRAM_FXAA, &data, &g->history[0], r);
     swap_pictures(&g->layers, &g->history[0]);
     return status;
@@ -208,8 +204,7 @@ static mgt_status add_to_history(gl_renderer *g, const gl_job *job, int back, co
     const camera_rays now = rays_before(job, back), before = rays_before(job, back + 1);
     set_reprojection(&data, &now, &before);
     bind_textures(g, UNIT_HISTORY, &g->history[0]);
-    g->gl.BindTextureUnit(UNIT_DEPTH, g->layers.depth.name);
-    g->gl.BindSampler(UNIT_DEPTH, 0);
+    gl_bind_texture(g, UNIT_DEPTH, g->layers.depth.name);
     return blend(g, PROGRAM_TAA, &data, &g->history[1], r);
 }
 
