@@ -7,6 +7,16 @@ import { join } from "node:path";
 
 const PROGRAMS = ["/usr/bin/chromium-headless-shell", "/usr/bin/chromium"];
 
+// Runs work(ended) for so many seconds at most. False: the time ended before it was done; what it still waits for is left.
+export async function withinSeconds(seconds, work) {
+  let over = false, timer;
+  const limit = new Promise(resolve => { timer = setTimeout(() => { over = true; resolve(false); }, seconds * 1000); });
+  const done = work(() => over).then(() => true, error => { if (!over) throw error; return false; });
+  const whole = await Promise.race([done, limit]);
+  clearTimeout(timer);
+  return whole && !over;
+}
+
 // Exit code 77 says that a test cannot run here.
 export async function openBrowser({ width = 1280, height = 720 } = {}) {
   const program = PROGRAMS.find(existsSync);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Memory of the page while it plays: memory.mjs PAGE [SECONDS]. Prints that of JavaScript and of WebAssembly each fifth of the time; exit code 1 where either grows by more than
+// Memory of the page while it plays: memory.mjs PAGE [SECONDS]. Prints that of JavaScript and of all workers' WebAssembly each fifth of the time; exit code 1 where either grows by more than
 // a tenth after the first.
 import { resolve } from "node:path";
 import { openBrowser } from "./browser.mjs";
@@ -14,7 +14,7 @@ try {
   for (let part = 0; part < 5; part++) {
     await new Promise(r => setTimeout(r, 200 * Number(seconds)));
     await browser.send("HeapProfiler.collectGarbage");
-    taken.push(await browser.run("[performance.memory.usedJSHeapSize, page.engine.library.calls.memory.buffer.byteLength, page.frames]"));
+    taken.push(await browser.run("[performance.memory.usedJSHeapSize, page.view.lanes.memory.reduce((a, b) => a + b), page.frames]"));
     const [script, library, frames] = taken[part];
     console.log(`${frames} frames: JavaScript ${(script / 1e6).toFixed(2)} MB, WebAssembly ${(library / 1e6).toFixed(2)} MB`);
   }

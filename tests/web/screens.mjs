@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Screenshots of the page with all of the window's pixels: screens.mjs PAGE FOLDER. Desktop, dark and light, and phone; and how long the first picture takes.
-// Minutes each with a software GL.
+// Screenshots of the page at rest, with the judge's first word: screens.mjs PAGE FOLDER. Desktop, dark and light, and phone; and how long the first picture takes.
 import { writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { openBrowser } from "./browser.mjs";
@@ -14,10 +13,9 @@ for (const [name, width, height, scale, scheme, link] of views) {
     await browser.size(width, height, scale, name === "phone");
     await browser.send("Emulation.setEmulatedMedia", { features: [{ name: "prefers-color-scheme", value: scheme }] });
     await browser.open("file://" + resolve(page) + link);
-    await browser.run(`(async () => { for (let i = 0; (page.frames || 0) < 3; i++) await new Promise(r => setTimeout(r, 50));
-      const before = page.frames; page.scale = 1; setPlaying(false); changed();
-      while (page.frames === before) await new Promise(r => setTimeout(r, 50));
-      await new Promise(r => setTimeout(r, 4000)); showFigures(); })()`);
+    await browser.run(`(async () => { while (page.frames < 3) await new Promise(r => setTimeout(r, 50));
+      page.settings.time = 10; setPlaying(false);
+      while (!page.settled || page.pictures[0].width < sizes(() => 1)[0] || page.figures.length === 0) await new Promise(r => setTimeout(r, 100)); showFigures(); })()`);
     console.log(name, "first picture after", Math.round(await browser.run("page.firstPicture")), "ms;", (await browser.run("document.getElementById('figures').textContent")).replaceAll("\n", "; "));
     writeFileSync(join(folder, `web-${name}.png`), await browser.screenshot());
     if (browser.errors.length) console.log(browser.errors.slice(0, 3));

@@ -1,50 +1,64 @@
 // SPDX-License-Identifier: MIT
-// The three functions for other pages.
+// Pictures of a scene in a canvas; the three functions for other pages.
 
 function presets() { return Object.fromEntries(SETTINGS.map(s => [s.name, s.preset])); }
 
-// What draws in a canvas. `picture` has the canvas' size unless it is said otherwise. Rejects with a text where WebGL2 is missing.
+// What draws in a canvas. `way`: "shaders" of its WebGL2, or "lanes", the library in WebAssembly, which is faster where the CPU does WebGL2's work.
+// Rejects with a text where WebGL2 is missing.
 async function create(canvas) {
-  const { texts, code } = await unpacked();
-  const library = await openLibrary(await WebAssembly.compile(code));
-  const view = { canvas, engine: new Engine(canvas, library, texts), settings: presets() };
-  view.engine.update(view.settings);
-  return view;
+  const { texts, module } = await unpacked(), lanes = new Lanes(module), engine = new Engine(canvas, lanes, texts);
+  return { canvas, lanes, engine, library: await openLibrary(module), way: engine.byCpu ? "lanes" : "shaders", settings: presets(), last: Promise.resolve() };
 }
 
 // Changes settings by name. Throws where there is no such setting, or no such sea.
 function setScene(view, changes) {
   for (const name in changes)
     if (!(name in view.settings)) throw new Error(`there is no setting ${name}; allowed: ${SETTINGS.map(s => s.name).join(", ")}`);
-  Object.assign(view.settings, changes);
-  if (view.engine.update(view.settings) < 0) throw new Error("no sea has this wind and this fetch");
+  const settings = { ...view.settings, ...changes };
+  view.library.checkSea(settings);
+  view.settings = settings;
 }
 
-// Draws the scene by a method at a time in seconds and shows it. Resolves when it is drawn.
-async function render(view, { method = "mangata", time = view.settings.time } = {}) {
-  if (!(method in METHODS)) throw new Error(`there is no method ${method}; allowed: ${Object.keys(METHODS).join(", ")}`);
-  const { engine, canvas } = view, { width, height } = canvas;
-  if (!view.target || view.target.width !== width || view.target.height !== height) {
-    if (view.target) engine.discard(view.target);
-    if (view.history) [view.history.current, ...view.history.pictures].forEach(t => engine.discard(t));
-    view.target = engine.target(width, height);
-    view.history = null;
-  }
-  const until = async step => { while (!step()) await new Promise(next => setTimeout(next, 5)); };
-  let picture = view.target;
-  if (METHODS[method].blends) {
-    view.history = view.history || engine.history(width, height);
-    view.history.frames = 0;
-    for (let frame = 0; frame < TAA_FRAMES; frame++) {
-      engine.update({ ...view.settings, time: time - (TAA_FRAMES - 1 - frame) / 30 });
-      await until(() => engine.blend(view.history));
-      engine.gl.finish();
+// Draws the scene by a method at a time in seconds and shows it. Resolves when it is drawn; one picture of a view is drawn at a time.
+function render(view, { method = "mangata", time = view.settings.time, ...options } = {}) {
+  if (!(method in METHODS)) return Promise.reject(new Error(`there is no method ${method}; allowed: ${Object.keys(METHODS).join(", ")}`));
+  const { engine, canvas } = view, settings = { ...view.settings, time };
+  const next = async () => {
+    const { width, height } = canvas;
+    if (!view.target || view.target.width !== width || view.target.height !== height) {
+      if (view.target) engine.discard(view.target);
+      view.target = engine.target(width, height);
     }
-    picture = view.history.pictures[0];
-  } else {
-    engine.update({ ...view.settings, time });
-    await until(() => engine.draw(method, picture));
+    await paint(view, method, settings, view.target, options);
+    await engine.compiled(engine.program("display.frag", "", "", ""));
+    engine.show(view.target);
+    await engine.finished();
+  };
+  return (view.last = view.last.then(next, next));
+}
+
+// Draws one picture into a target; `options`: way, jitter and sorted as engine.draw() has them, columns of pixels that matter, a history, and stale(). False: stale() was true, and the picture is not whole.
+async function paint(view, method, settings, target, options = {}) {
+  const { engine, lanes } = view;
+  if (METHODS[method].blends) return paintBlended(view, settings, target, options);
+  if ((options.way || view.way) === "shaders" || !METHODS[method].byLanes) return engine.draw(method, target, settings, options);
+  const { jitter, columns, stale } = options, { width, height } = target;
+  const picture = await lanes.pixels({ method, settings, width, height, jitter, columns }, stale);
+  if (!picture) return false;
+  engine.put(target, picture);
+  return true;
+}
+
+// A picture of taa: with a history of its own, or as the newest frame of `options.history`.
+async function paintBlended(view, settings, target, { history, ...options }) {
+  const { engine } = view, own = history ? null : engine.history(target.width, target.height), h = history || own, frames = own ? TAA_FRAMES : 1;
+  let whole = true;
+  for (let frame = 0; frame < frames && whole; frame++) {
+    const time = settings.time - (frames - 1 - frame) / 30;
+    whole = await paint(view, "none", { ...settings, time }, h.current, { ...options, jitter: taaOffset(h.frames % TAA_FRAMES) });
+    if (whole) await engine.blend(h);
   }
-  await until(() => engine.show(picture));
-  view.engine.gl.finish();
+  if (whole) engine.copy(h.pictures[0], target);
+  if (own) [own.current, ...own.pictures].forEach(t => engine.discard(t));
+  return whole;
 }

@@ -1,68 +1,29 @@
 // SPDX-License-Identifier: MIT
-// The library as WebAssembly, and its kernels as WebGL2 programs: scenes from settings, pictures of a method into textures, textures to the canvas.
+// The kernels as WebGL2 programs: pictures of a method into textures, textures to the canvas.
 
 const DATA_WIDTH = 1024; // texels of a row, as in web_data.glsl
+// `byLanes`: workers can draw it, too.
 const METHODS = {
-  none: { about: "one sample at the pixel's centre", program: ["points.frag"] },
-  "ggx-moments": { about: "as in game engines: GGX of the slopes' moments", program: ["slopes.frag", "kernels/baselines/ggx_moments.k", "ggx_moments_result"] },
-  bruneton: { about: "Bruneton et al. 2010: Gaussian slopes", program: ["slopes.frag", "kernels/baselines/bruneton.k", "bruneton_result"] },
+  none: { about: "one sample at the pixel's centre", program: ["points.frag"], byLanes: true },
+  "ggx-moments": { about: "as in game engines: GGX of the slopes' moments", program: ["slopes.frag", "kernels/baselines/ggx_moments.k", "ggx_moments_result"], byLanes: true },
+  bruneton: { about: "Bruneton et al. 2010: Gaussian slopes", program: ["slopes.frag", "kernels/baselines/bruneton.k", "bruneton_result"], byLanes: true },
   taa: { about: "temporal anti-aliasing: eight frames of none", program: ["points.frag"], blends: true },
-  mangata: { about: "this library's closed form", program: ["slopes.frag", "kernels/glitter/glitter.k", "glitter_result"] },
+  mangata: { about: "this library's closed form", program: ["slopes.frag", "kernels/glitter/glitter.k", "glitter_result"], byLanes: true },
 };
 // As src/frame/whole_frame.h has them: frames of taa, and where in the pixel each looks (Halton 2, 3).
 const TAA_FRAMES = 8;
 
-async function unpacked() {
-  const bytes = Uint8Array.from(atob(PACKED), c => c.charCodeAt(0));
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
-  const all = await new Response(stream).arrayBuffer();
-  const length = new DataView(all).getUint32(0, true);
-  return { texts: JSON.parse(new TextDecoder().decode(new Uint8Array(all, 4, length))), code: all.slice(4 + length) };
-}
-
-// One thread's copy of the library.
-async function openLibrary(module) {
-  const nothing = () => 0;
-  const instance = await WebAssembly.instantiate(module, { wasi_snapshot_preview1: { fd_close: nothing, fd_seek: nothing, fd_write: nothing } });
-  const calls = instance.exports;
-  calls._initialize();
-  const library = { calls, numbers: {} };
-  library.bytes = (at, size) => new Uint8Array(calls.memory.buffer, at, size);
-  library.floats = (at, count) => new Float32Array(calls.memory.buffer, at, count);
-  library.method = name => {
-    if (!(name in library.numbers)) {
-      const text = new TextEncoder().encode(name + "\0");
-      const at = calls.take(text.length);
-      library.bytes(at, text.length).set(text);
-      library.numbers[name] = calls.method_number(at);
-    }
-    return library.numbers[name];
-  };
-  // Bits: 1 the sky has changed, 2 the sea has. Below 0: there is no such sea, and the one before stays.
-  library.update = settings => {
-    new Float64Array(calls.memory.buffer, calls.settings(), SETTINGS.length).set(SETTINGS.map(s => settings[s.name]));
-    new Float64Array(calls.memory.buffer, calls.target(), 3).set(cameraTarget(settings));
-    return calls.update();
-  };
-  return library;
-}
-
-// A point one metre ahead of the camera, in the decimals that commands have.
-function cameraTarget(s) {
-  const pitch = s.pitch * Math.PI / 180, heading = s.heading * Math.PI / 180;
-  const ahead = [Math.sin(heading) * Math.cos(pitch), Math.sin(pitch), -Math.cos(heading) * Math.cos(pitch)];
-  return ahead.map((v, i) => Number(((i === 1 ? s.height : 0) + v).toFixed(5)));
-}
-
 class Engine {
   // Throws a text where the canvas has no WebGL2 that can draw this.
-  constructor(canvas, library, texts) {
+  constructor(canvas, lanes, texts) {
     const gl = canvas.getContext("webgl2", { antialias: false, depth: false, alpha: false, preserveDrawingBuffer: true, powerPreference: "high-performance" });
     if (!gl) throw new Error("this browser has no WebGL2");
     if (!gl.getExtension("EXT_color_buffer_float")) throw new Error("its WebGL2 cannot draw into floating-point pictures");
-    Object.assign(this, { canvas, library, texts, gl, programs: new Map(), buffers: {}, textures: {}, times: {} });
+    Object.assign(this, { canvas, lanes, texts, gl, programs: new Map(), buffers: {}, textures: {}, times: {} });
     this.parallel = gl.getExtension("KHR_parallel_shader_compile");
     this.inBlock = gl.getParameter(gl.MAX_UNIFORM_BLOCK_SIZE) >= 512 * 96;
+    const names = gl.getExtension("WEBGL_debug_renderer_info");
+    this.byCpu = /swiftshader|llvmpipe|softpipe|software|basic render/i.test(gl.getParameter(names ? names.UNMASKED_RENDERER_WEBGL : gl.RENDERER));
     this.empty = gl.createVertexArray();
     gl.bindVertexArray(this.empty);
     gl.disable(gl.DITHER);
@@ -125,19 +86,19 @@ class Engine {
     return entry.places[name];
   }
 
-  methodProgram(name) {
+  // `choppy`, `foamy`: what the water is.
+  methodProgram(name, { choppy, foamy }) {
     const { program: [file, kernel, result] } = METHODS[name];
-    const defines = (this.choppy ? "#define CHOPPY_WATER\n" : "") + (this.foamy ? "#define FOAMY_WATER\n" : "");
+    const defines = (choppy ? "#define CHOPPY_WATER\n" : "") + (foamy ? "#define FOAMY_WATER\n" : "");
     return this.program(file, kernel || "", result, defines);
   }
 
   // ---- data ----
 
-  block(name, index, bytes, at) {
-    const gl = this.gl;
-    const buffer = this.buffers[name] = this.buffers[name] || gl.createBuffer();
+  block(name, index, bytes) {
+    const gl = this.gl, buffer = this.buffers[name] = this.buffers[name] || gl.createBuffer();
     gl.bindBuffer(gl.UNIFORM_BUFFER, buffer);
-    gl.bufferData(gl.UNIFORM_BUFFER, this.library.bytes(at, bytes), gl.STREAM_DRAW);
+    gl.bufferData(gl.UNIFORM_BUFFER, bytes, gl.STREAM_DRAW);
     gl.bindBufferBase(gl.UNIFORM_BUFFER, index, buffer);
   }
 
@@ -146,18 +107,18 @@ class Engine {
     this.gl.bindTexture(this.gl.TEXTURE_2D, texture);
   }
 
-  newTexture(name, format, width, height) {
+  newTexture(name, format, width, height, levels = 1) {
     const gl = this.gl, texture = gl.createTexture();
     this.bind(name, texture);
-    gl.texStorage2D(gl.TEXTURE_2D, 1, format, width, height);
-    for (const side of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, side, gl.NEAREST);
+    gl.texStorage2D(gl.TEXTURE_2D, levels, format, width, height);
+    for (const side of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, side, levels > 1 && side === gl.TEXTURE_MIN_FILTER ? gl.NEAREST_MIPMAP_NEAREST : gl.NEAREST);
     for (const side of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) gl.texParameteri(gl.TEXTURE_2D, side, gl.CLAMP_TO_EDGE);
     return texture;
   }
 
   // Texels of four numbers each, in rows of DATA_WIDTH.
-  data(name, at, texels, whole) {
-    const gl = this.gl, rows = Math.max(1, Math.ceil(texels / DATA_WIDTH));
+  data(name, numbers) {
+    const gl = this.gl, whole = numbers instanceof Uint32Array, texels = numbers.length / 4, rows = Math.max(1, Math.ceil(texels / DATA_WIDTH));
     let entry = this.textures[name];
     if (!entry || entry.rows < rows) {
       if (entry) gl.deleteTexture(entry.texture);
@@ -165,29 +126,27 @@ class Engine {
       entry = this.textures[name] = { rows: room, texture: this.newTexture(name, whole ? gl.RGBA32UI : gl.RGBA32F, DATA_WIDTH, room) };
     }
     this.bind(name, entry.texture);
-    const full = Math.floor(texels / DATA_WIDTH), rest = texels % DATA_WIDTH, buffer = this.library.calls.memory.buffer;
-    const put = (row, width, height, from) => {
-      const numbers = 4 * width * height, start = at + 16 * from;
-      const view = whole ? new Uint32Array(buffer, start, numbers) : new Float32Array(buffer, start, numbers);
-      gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, row, width, height, whole ? gl.RGBA_INTEGER : gl.RGBA, whole ? gl.UNSIGNED_INT : gl.FLOAT, view);
-    };
+    const full = Math.floor(texels / DATA_WIDTH), rest = texels % DATA_WIDTH;
+    const put = (row, width, height, from) =>
+      gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, row, width, height, whole ? gl.RGBA_INTEGER : gl.RGBA, whole ? gl.UNSIGNED_INT : gl.FLOAT, numbers, 4 * from);
     if (full > 0) put(0, DATA_WIDTH, full, 0);
     if (rest > 0) put(full, rest, 1, full * DATA_WIDTH);
   }
 
-  // Takes the settings. As library.update().
-  update(settings) {
-    const gl = this.gl, changed = this.library.update(settings);
-    this.time = settings.time;
-    this.choppy = settings.choppiness > 0;
-    this.foamy = this.choppy && settings.foam > 0;
-    if (changed > 0 && changed & 1) {
-      const columns = 192, rows = 129;
-      if (!this.sky) this.sky = this.newTexture("sky_texture", gl.RGB32F, columns, rows);
-      this.bind("sky_texture", this.sky);
-      gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, columns, rows, gl.RGB, gl.FLOAT, this.library.floats(this.library.calls.sky_table(), 3 * columns * rows));
+  // What lanes.tiles() gave.
+  upload(tiles) {
+    const gl = this.gl, columns = 192, rows = 129;
+    this.block("frame", 0, tiles.frame);
+    if (tiles.foam) {
+      this.block("foam", 1, tiles.foam);
+      this.data("foam_texture", tiles.foamWaves);
     }
-    return changed;
+    if (this.inBlock) this.block("waves", 2, tiles.waves);
+    else this.data("wave_texture", tiles.waves.subarray(0, 24 * tiles.waveCount));
+    for (const [name, numbers] of [["tile", tiles.tiles], ["list", tiles.lists], ["search", tiles.searched], ["hit", tiles.hits]]) this.data(name + "_texture", numbers);
+    if (!this.sky) this.sky = this.newTexture("sky_texture", gl.RGB32F, columns, rows);
+    this.bind("sky_texture", this.sky);
+    gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, columns, rows, gl.RGB, gl.FLOAT, tiles.sky);
   }
 
   // A picture to draw into.
@@ -203,82 +162,93 @@ class Engine {
     this.gl.deleteFramebuffer(target.frame);
   }
 
-  // Uploads what the shaders read of a picture; `jitter` in pixels, `sorted` false: every wave counts in every tile.
-  prepare(method, width, height, jitter = [0, 0], sorted = true) {
-    const gl = this.gl, calls = this.library.calls, start = performance.now();
-    const at = calls.prepare(this.library.method(method), width, height, jitter[0], jitter[1], sorted ? 1 : 0);
-    const [frame, waves, foam, tiles, lists, searched, hits, waveCount, hasFoam, choppy, columns, rows, listCount, searchCount, hitCount] =
-      new Int32Array(calls.memory.buffer, at, 15);
-    this.times.prepare = performance.now() - start;
-    this.foamy = hasFoam !== 0;
-    this.choppy = choppy !== 0;
-    this.block("frame", 0, calls.frame_bytes(), frame);
-    if (hasFoam) {
-      this.block("foam", 1, calls.foam_bytes(), foam);
-      this.data("foam_texture", foam + calls.foam_bytes(), 6 * waveCount);
-    }
-    if (this.inBlock) this.block("waves", 2, 512 * 96, waves);
-    else this.data("wave_texture", waves, 6 * waveCount);
-    this.data("tile_texture", tiles, columns * rows * calls.tile_bytes() / 16, true);
-    this.data("list_texture", lists, listCount);
-    this.data("search_texture", searched, 2 * searchCount);
-    this.data("hit_texture", hits, 2 * hitCount);
-    this.columns = columns;
-    this.times.upload = performance.now() - start - this.times.prepare;
+  // A picture that lanes.pixels() gave.
+  put(target, picture) {
+    const gl = this.gl;
+    this.block("frame", 0, picture.frame);
+    this.bind("first_texture", target.texture);
+    gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, target.width, target.height, gl.RGBA, gl.FLOAT, picture.data);
   }
 
-  // Draws with a program that reads the prepared data. False while it is compiled.
-  shade(entry, target) {
+  // Draws over rows and columns of pixels of a target: the first, and that after the last.
+  fill(entry, target, rows = [0, target.height], columns = [0, target.width]) {
     const gl = this.gl;
-    if (!this.isReady(entry)) return false;
     gl.useProgram(entry.program);
-    gl.uniform2i(this.place(entry, "tile_grid"), this.columns, target.height);
     gl.bindFramebuffer(gl.FRAMEBUFFER, target.frame);
     gl.viewport(0, 0, target.width, target.height);
+    gl.enable(gl.SCISSOR_TEST);
+    gl.scissor(columns[0], rows[0], columns[1] - columns[0], rows[1] - rows[0]);
     gl.drawArrays(gl.TRIANGLES, 0, 3);
+    gl.disable(gl.SCISSOR_TEST);
+  }
+
+  // Until what has been asked for is drawn.
+  async finished() {
+    const gl = this.gl, sync = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    gl.flush();
+    while (gl.clientWaitSync(sync, 0, 0) === gl.TIMEOUT_EXPIRED) await pause(1);
+    gl.deleteSync(sync);
+  }
+
+  async compiled(entry) {
+    while (!this.isReady(entry)) await pause(5);
+    return entry;
+  }
+
+  // A picture of the scene by a method that needs no history. With `stale`, it is drawn in bands; false: stale() was true, and the picture is not whole.
+  // `jitter` in pixels; `sorted` false: every wave counts in every tile.
+  async draw(method, target, settings, { jitter, sorted, columns, stale } = {}) {
+    const start = performance.now(), { width, height } = target;
+    const tiles = await this.lanes.tiles({ method, settings, width, height, jitter, sorted, columns }, stale);
+    if (!tiles) return false;
+    this.times.tiles = performance.now() - start;
+    const entry = await this.compiled(this.methodProgram(method, { choppy: tiles.choppy, foamy: tiles.foam !== null }));
+    this.upload(tiles);
+    this.bind("sky_texture", this.sky);
+    this.gl.useProgram(entry.program);
+    this.gl.uniform2i(this.place(entry, "tile_grid"), tiles.columns, height);
+    for (let row = 0, rows = stale ? Math.ceil(5e4 / width) : height; row < height; row += rows) {
+      this.fill(entry, target, [row, Math.min(height, row + rows)], columns);
+      await this.finished();
+      if (stale && stale()) return false;
+    }
     return true;
   }
 
-  // A picture of the scene by a method that needs no history. False while its program is compiled.
-  draw(method, target, options = {}) {
-    if (!this.isReady(this.methodProgram(method))) return false; // nothing is uploaded in vain: drivers would queue it
-    this.prepare(method, target.width, target.height, options.jitter, options.sorted !== false);
-    this.bind("sky_texture", this.sky);
-    return this.shade(this.methodProgram(method), target);
-  }
-
-  // The next frame of taa into `history`, { current, pictures: two targets, frames }; the picture is then history.pictures[0].
-  blend(history) {
-    const gl = this.gl, index = history.frames % TAA_FRAMES, width = history.current.width, height = history.current.height;
-    const entry = this.program("blend.frag", "", "", "");
-    if (!this.isReady(entry) || !this.draw("taa", history.current, { jitter: taaOffset(index) })) return false;
+  // Adds history.current to `history`, { current, pictures: two targets, frames }; the picture is then history.pictures[0].
+  async blend(history) {
+    const gl = this.gl, entry = await this.compiled(this.program("blend.frag", "", "", ""));
     gl.useProgram(entry.program);
     this.bind("current_texture", history.current.texture);
     this.bind("history_texture", history.pictures[0].texture);
     gl.uniform1f(this.place(entry, "share"), history.frames === 0 ? 1 : Math.max(1 / (history.frames + 1), 0.1));
-    gl.bindFramebuffer(gl.FRAMEBUFFER, history.pictures[1].frame);
-    gl.viewport(0, 0, width, height);
-    gl.drawArrays(gl.TRIANGLES, 0, 3);
+    this.fill(entry, history.pictures[1]);
     history.pictures.reverse();
     history.frames++;
-    return true;
+  }
+
+  copy(from, to) {
+    const gl = this.gl;
+    gl.bindFramebuffer(gl.READ_FRAMEBUFFER, from.frame);
+    gl.bindFramebuffer(gl.DRAW_FRAMEBUFFER, to.frame);
+    gl.blitFramebuffer(0, 0, from.width, from.height, 0, 0, to.width, to.height, gl.COLOR_BUFFER_BIT, gl.NEAREST);
   }
 
   history(width, height) {
     return { current: this.target(width, height), pictures: [this.target(width, height), this.target(width, height)], frames: 0 };
   }
 
-  // Shows one picture, or two with a wipe at this column of the canvas.
-  show(first, second, wipe) {
-    const gl = this.gl, entry = this.program("display.frag", "", "", "");
+  // Shows one picture, or two of the same size: the first in the left `share` of the canvas, which gets the picture's size. False while the program is compiled.
+  show(first, second = first, share = 1) {
+    const { gl, canvas } = this, { width, height } = first, entry = this.program("display.frag", "", "", "");
     if (!this.isReady(entry)) return false;
+    if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
     gl.useProgram(entry.program);
     this.bind("first_texture", first.texture);
-    this.bind("second_texture", (second || first).texture);
-    gl.uniform2f(this.place(entry, "window"), this.canvas.width, this.canvas.height);
-    gl.uniform1f(this.place(entry, "wipe"), second ? wipe : -1);
+    this.bind("second_texture", second.texture);
+    gl.uniform1i(this.place(entry, "wipe"), Math.round(share * width));
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
-    gl.viewport(0, 0, this.canvas.width, this.canvas.height);
+    gl.viewport(0, 0, width, height);
     gl.drawArrays(gl.TRIANGLES, 0, 3);
     return true;
   }

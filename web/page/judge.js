@@ -1,47 +1,105 @@
 // SPDX-License-Identifier: MIT
-// The judge: brute force that refines while the picture stands still, in a second copy of the library, and what a picture's figures are beside it.
+// The judge: brute force of two instants a frame apart, in a worker of its own, and what pictures of both instants are beside it.
 
-class Judge {
-  constructor(library) { this.library = library; this.key = ""; }
-
-  // Begins anew where the scene has changed.
-  ask(settings, width, height) {
-    const key = JSON.stringify([settings, width, height]);
-    if (key === this.key) return;
-    Object.assign(this, { key, width, height, samples: 0, row: 0 });
-    this.library.update(settings);
-    this.library.calls.picture_begin(this.library.method("none"), width, height, 1);
-  }
-
-  // Works for so many milliseconds; a sample of every pixel at a time.
-  work(budget) {
-    const end = performance.now() + budget, calls = this.library.calls;
-    while (performance.now() < end && this.samples < 256) {
-      if (this.row === 0 && this.samples === 0) calls.picture_next_sample();
-      calls.picture_row(this.row++);
-      if (this.row * 16 >= this.height) {
-        this.row = 0;
-        if (++this.samples < 256) calls.picture_next_sample();
+// What the judge's worker does: { begin }, then { work: milliseconds, samples } until it has so many and { pictures }, as often as wanted.
+function judgeTasks(post) {
+  let instants, scene, row, samples;
+  const begin = ({ settings, width, height }) => {
+    scene = { width, height, count: width * height };
+    row = samples = 0;
+    instants.forEach((library, i) => {
+      const { calls } = library;
+      library.update(settings[i]);
+      calls.picture_begin(library.method("none"), width, height, 1, 0, 0);
+      calls.picture_next_sample();
+    });
+  };
+  // A row of both instants at a time. Samples are numbered from 1.
+  const work = (milliseconds, most) => {
+    const end = performance.now() + milliseconds;
+    while (samples < most && performance.now() < end) {
+      instants.forEach(library => library.calls.picture_row(row, 0, Math.ceil(scene.width / 32)));
+      row++;
+      if (row * 16 >= scene.height) {
+        row = 0;
+        samples++;
+        instants.forEach(library => library.calls.picture_next_sample());
       }
     }
-  }
-
-  // Of a picture of float RGBA as the judge's size: RMSE of displayed luminance, light and texture contrast over the judge's.
-  figures(pixels, exposure) {
-    if (this.samples < 4) return null;
-    const truth = this.library.floats(this.library.calls.picture_color(), 3 * this.width * this.height);
-    const shown = v => 1 - Math.exp(-v * exposure), luma = (a, i) => 0.2126 * a[i] + 0.7152 * a[i + 1] + 0.0722 * a[i + 2];
-    let squares = 0, light = 0, trueLight = 0, contrast = 0, trueContrast = 0;
-    let before = 0, trueBefore = 0;
-    const count = this.width * this.height, all = this.samples + (this.row > 0 ? 1 : 0);
-    for (let i = 0; i < count; i++) {
-      const rowsDone = Math.floor(i / this.width) < this.row * 16 ? all : this.samples;
-      const a = shown(luma(pixels, 4 * i)), b = shown(luma(truth, 3 * i) / rowsDone);
-      squares += (a - b) ** 2;
-      light += a; trueLight += b;
-      if (i % this.width) { contrast += (a - before) ** 2; trueContrast += (b - trueBefore) ** 2; }
-      before = a; trueBefore = b;
+  };
+  const lumaOf = (library, at, weight) => {
+    const { calls } = library, out = calls.take(4 * scene.count);
+    calls.picture_luma(at, weight, scene.count, out);
+    const luma = library.copy(Float32Array, out, scene.count);
+    calls.give(out);
+    return luma;
+  };
+  const radiance = (library, at) => {
+    const rgba = new Float32Array(library.calls.memory.buffer, at, 4 * scene.count);
+    let sum = 0;
+    for (let i = 0; i < rgba.length; i += 4) sum += 0.2126 * rgba[i] + 0.7152 * rgba[i + 1] + 0.0722 * rgba[i + 2];
+    return sum;
+  };
+  // Sums of products over pixels: the halves of the samples are independent, so that their noise has no share in a product of both.
+  const product = (count, a, b) => {
+    let sum = 0;
+    for (let i = 0; i < count; i++) sum += a(i) * b(i);
+    return sum;
+  };
+  const figures = pictures => {
+    const { width, count } = scene, weight = 2 / samples, beside = plane => i => (i % width ? plane[i] - plane[i - 1] : 0), step = (a, b) => i => b[i] - a[i];
+    const truth = instants.map(library => [0, 1].map(half => lumaOf(library, library.calls.picture_half(half), weight)));
+    const light = [0, 1].reduce((sum, half) => sum + radiance(instants[0], instants[0].calls.picture_half(half)), 0) / samples;
+    const contrast = product(count, beside(truth[0][0]), beside(truth[0][1])), flicker = product(count, step(truth[0][0], truth[1][0]), step(truth[0][1], truth[1][1]));
+    return pictures.map(pair => {
+      const { calls } = instants[0], at = calls.take(16 * count);
+      const planes = pair.map(rgba => {
+        new Float32Array(calls.memory.buffer, at, 4 * count).set(rgba);
+        return { luma: lumaOf(instants[0], at, 1), light: radiance(instants[0], at) };
+      });
+      calls.give(at);
+      const own = planes[0].luma, squares = product(count, step(truth[0][0], own), step(truth[0][1], own));
+      return {
+        error: Math.sqrt(Math.max(0, squares / count)), energy: planes[0].light / light,
+        contrast: Math.sqrt(product(count, beside(own), beside(own)) / contrast), flicker: Math.sqrt(product(count, step(own, planes[1].luma), step(own, planes[1].luma)) / flicker),
+      };
+    });
+  };
+  return async task => {
+    try {
+      if (task.module) instants = Promise.all([openLibrary(task.module), openLibrary(task.module)]);
+      else instants = await instants;
+      if (task.begin) begin(task.begin);
+      if (task.work) work(task.work, task.samples);
+      post({ samples, sides: task.pictures ? figures(task.pictures) : null });
+    } catch (error) {
+      post({ wrong: error.message });
     }
-    return { error: Math.sqrt(squares / count), light: light / trueLight, contrast: Math.sqrt(contrast / trueContrast), samples: this.samples };
+  };
+}
+
+class Judge {
+  constructor(module) { this.worker = new TaskWorker(module, judgeTasks); this.round = 0; this.idle = true; }
+
+  stop() { this.round++; this.idle = true; }
+
+  // Judges pictures[side][instant], floats of width × height, of settings[instant] by up to `most` samples. `duty`: share of the time that it works.
+  // found(sides, samples) gets error, energy, contrast and flicker whenever the samples have doubled.
+  async begin({ settings, width, height, pictures, most, duty }, found) {
+    const round = ++this.round;
+    this.idle = false;
+    let next = 8;
+    await this.worker.ask({ begin: { settings, width, height } });
+    while (round === this.round && next <= most) {
+      const start = performance.now(), { samples } = await this.worker.ask({ work: 30, samples: next });
+      if (round !== this.round) return;
+      if (samples === next) {
+        const { sides } = await this.worker.ask({ pictures });
+        if (round === this.round) found(sides, samples);
+        next *= 2;
+      }
+      if (duty < 1) await pause((performance.now() - start) * (1 / duty - 1));
+    }
+    if (round === this.round) this.idle = true;
   }
 }

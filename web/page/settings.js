@@ -18,9 +18,9 @@ function fitted(setting, value) {
   return Number.isFinite(v) ? Number(v.toFixed(decimals(setting))) : setting.preset;
 }
 
-// What differs from the presets, behind the page's address.
-function linkOf(settings, methods) {
-  const words = SETTINGS.filter(s => s.name !== "time" && settings[s.name] !== s.preset).map(s => `${s.name}=${settings[s.name]}`);
+// What differs from the presets, behind the page's address; the time where the picture stands still.
+function linkOf(settings, methods, timed) {
+  const words = SETTINGS.filter(s => (s.name === "time" ? timed : settings[s.name] !== s.preset)).map(s => `${s.name}=${settings[s.name]}`);
   return "#" + [`methods=${methods.join("~")}`, ...words].join("&");
 }
 
@@ -28,7 +28,7 @@ function settingsOfLink(hash) {
   const words = new URLSearchParams(hash.replace(/^#/, "")), settings = presets();
   for (const s of SETTINGS) if (words.has(s.name)) settings[s.name] = fitted(s, words.get(s.name));
   const methods = (words.get("methods") || "").split("~").filter(m => m in METHODS);
-  return { settings, methods };
+  return { settings, methods, timed: words.has("time") };
 }
 
 // The command that renders the same picture. Glare is left out, for the page draws none.

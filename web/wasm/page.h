@@ -48,6 +48,9 @@ size_t page_hits(const FrameData *data, const page_tile *tile, float *values);
 void page_estimate(const FrameData *data, const page_tile *tile, tile_estimate *estimate);
 void page_sample(const FrameData *data, const page_tile *tile, const tile_estimate *estimate, const float *dx, const float *dy, float weight, tile_pixels *out);
 void page_shade(const FrameData *data, mgt_method method, const page_tile *tile, const tile_estimate *estimate, tile_pixels *out);
-void page_display(const FrameData *data, const float *rgb, uint8_t *rgba, size_t count);
+
+/* Displayed pixels, 4 bytes each, and displayed luma, of `count` pixels of 4 floats. */
+void page_display(const FrameData *data, const float *rgba, uint8_t *shown, size_t count);
+void page_luma(const FrameData *data, const float *rgba, float weight, float *luma, size_t count);
 
 #endif

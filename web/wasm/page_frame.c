@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "params/methods.h"
+
 /* A buffer that grows. */
 typedef struct page_buffer {
     void *data;
@@ -33,16 +35,19 @@ typedef struct shader_tile {
 } shader_tile;
 _Static_assert(sizeof(shader_tile) % 16 == 0, "texels");
 
-/* What the page uploads. */
+/* What the page uploads: first what a frame has, then what a row of tiles has. */
 static struct page_upload {
-    const void *frame_data, *waves, *foam, *tiles, *lists, *searched, *hits;
-    int wave_count, has_foam, choppy;
+    const void *frame_data, *waves, *foam, *lean_data, *lean_waves;
+    int wave_count, has_foam, choppy, lean_count;
     int tile_columns, tile_rows;
+    const void *tiles, *lists, *searched, *hits;
     int list_count, search_count, hit_count;
 } upload;
 
 static frame prepared;
 static wave_set set;
+static LeanData lean_data;
+static lean_waves lean;
 static page_buffer tiles, lists, searched, hits;
 
 EXPORT(tile_bytes) int page_tile_bytes(void) { return sizeof(shader_tile); }
@@ -55,7 +60,7 @@ static void add_tile(const FrameData *data, uint32_t x, uint32_t y)
     page_sort(data, &set, x, y, &tile);
     const TileData *d = &tile.waves.data;
     const int count = d->resolved_count + d->mixed_count;
-    shader_tile *t = (shader_tile *)tiles.data + y * (uint32_t)upload.tile_columns + x;
+    shader_tile *t = (shader_tile *)tiles.data + x;
     t->data = *d;
     t->parts = (tile_parts){upload.list_count, upload.search_count, upload.hit_count, 0};
     page_wave *list = reserve(&lists, (size_t)(upload.list_count + count) * sizeof *list);
@@ -91,10 +96,22 @@ EXPORT(prepare) const void *page_prepare(int method, int columns, int rows, doub
                                   .choppy = page_scene()->water.choppiness > 0,
                                   .tile_columns = (columns + TILE_WIDTH - 1) / TILE_WIDTH,
                                   .tile_rows = (rows + TILE_HEIGHT - 1) / TILE_HEIGHT};
-    reserve(&tiles, (size_t)upload.tile_columns * (size_t)upload.tile_rows * sizeof(shader_tile));
-    for (int y = 0; y < upload.tile_rows; y++)
-        for (int x = 0; x < upload.tile_columns; x++)
-            add_tile(&prepared.data, (uint32_t)x, (uint32_t)y);
+    if (method_of((mgt_method)method)->tables & METHOD_LEAN_MAP) {
+        lean_data = sines_snap(&page_scene()->water, frame_meeting(&prepared, &prepared.close, (interval){page_scene()->time, 0}), &lean);
+        upload.lean_data = &lean_data;
+        upload.lean_waves = lean.waves;
+        upload.lean_count = (int)lean.count;
+    }
+    reserve(&tiles, (size_t)upload.tile_columns * sizeof(shader_tile));
+    return &upload;
+}
+
+/* The tiles from `first` up to `end` of a row of the prepared picture; what the others hold does not matter. */
+EXPORT(prepare_row) const void *page_prepare_row(int row, int first, int end)
+{
+    upload.list_count = upload.search_count = upload.hit_count = 0;
+    for (int x = first; x < end; x++)
+        add_tile(&prepared.data, (uint32_t)x, (uint32_t)row);
     upload.tiles = tiles.data;
     upload.lists = lists.data;
     upload.searched = searched.data;

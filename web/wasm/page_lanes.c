@@ -69,4 +69,39 @@ void page_shade(const FrameData *data, mgt_method method, const page_tile *tile,
     lanes_method(method, &t, out);
 }
 
-void page_display(const FrameData *data, const float *rgb, uint8_t *rgba, size_t count) { lanes_display(data, rgb, rgba, count); }
+/* Displayed colours of MGT_LANES pixels of 4 floats, or of as many as there are. */
+static vec3 displayed_pixels(CTX cx, const float *rgba, float weight, size_t count)
+{
+    float rgb[3 * MGT_LANES] = {0};
+    for (size_t i = 0; i < count && i < MGT_LANES; i++)
+        for (size_t c = 0; c < 3; c++)
+            rgb[3 * i + c] = weight * rgba[4 * i + c];
+    return displayed_lanes(cx, rgb, MGT_LANES);
+}
+
+void page_display(const FrameData *data, const float *rgba, uint8_t *shown, size_t count)
+{
+    const struct kernel_context cx = {.frame = data};
+    for (size_t i = 0; i < count; i += MGT_LANES) {
+        const vec3 color = displayed_pixels(&cx, rgba + 4 * i, 1, count - i);
+        float code[3][MGT_LANES];
+        store(code[0], display_code(&cx, color.x));
+        store(code[1], display_code(&cx, color.y));
+        store(code[2], display_code(&cx, color.z));
+        for (size_t lane = 0; lane < MGT_LANES && i + lane < count; lane++) {
+            for (size_t c = 0; c < 3; c++)
+                shown[4 * (i + lane) + c] = (uint8_t)code[c][lane];
+            shown[4 * (i + lane) + 3] = 255;
+        }
+    }
+}
+
+void page_luma(const FrameData *data, const float *rgba, float weight, float *luma, size_t count)
+{
+    const struct kernel_context cx = {.frame = data};
+    for (size_t i = 0; i < count; i += MGT_LANES) {
+        float lanes[MGT_LANES];
+        store(lanes, display_luma(&cx, displayed_pixels(&cx, rgba + 4 * i, weight, count - i)));
+        memcpy(luma + i, lanes, (count - i < MGT_LANES ? count - i : MGT_LANES) * sizeof *luma);
+    }
+}

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Pictures by the CPU's kernels: what is shown without WebGL, and the judge's brute force, sample by sample. */
+ * Pictures by the CPU's kernels: what is shown without WebGL, and the judge's brute force, sample by sample in two halves. */
 #include "page.h"
 
 #include <stdlib.h>
@@ -15,45 +15,48 @@ static struct picture {
     uint32_t samples;
     frame frame;
     wave_set set;
-    float *color;    /* 3 floats a pixel */
-    float *coverage; /* of the light */
+    float *half[2]; /* 4 floats a pixel: colour, coverage of the light. Samples with odd numbers are in the second */
     uint8_t *shown;
 } picture;
 
-/* Begins a picture of the scene as it is now; `sampled`: of point samples over pixel and shutter instead of the method's. */
-EXPORT(picture_begin) int page_picture_begin(int method, int columns, int rows, int sampled)
+static void *room(void *old, size_t size)
+{
+    void *data = realloc(old, size);
+    if (!data)
+        abort();
+    return data;
+}
+
+/* Begins a picture of the scene as it is now; `sampled`: of point samples over pixel and shutter instead of the method's. The rays are moved by the jitter, in pixels. */
+EXPORT(picture_begin) void page_picture_begin(int method, int columns, int rows, int sampled, double jitter_x, double jitter_y)
 {
     struct picture *p = &picture;
-    const size_t pixels = (size_t)columns * (size_t)rows;
-    if (p->columns * p->rows != pixels) {
-        free(p->color), free(p->coverage), free(p->shown);
-        p->color = malloc(3 * pixels * sizeof *p->color);
-        p->coverage = malloc(pixels * sizeof *p->coverage);
-        p->shown = malloc(4 * pixels);
-        if (!p->color || !p->coverage || !p->shown)
-            return 0;
+    const size_t pixels = (size_t)columns * (size_t)rows, halves = sampled ? 2 : 1;
+    if (p->columns * p->rows != pixels)
+        p->shown = room(p->shown, 4 * pixels);
+    for (size_t h = 0; h < halves; h++) {
+        p->half[h] = room(p->half[h], 4 * pixels * sizeof(float));
+        memset(p->half[h], 0, 4 * pixels * sizeof(float));
     }
     p->method = (mgt_method)method;
     p->columns = (uint32_t)columns;
     p->rows = (uint32_t)rows;
     p->sampled = sampled;
     p->samples = 0;
-    memset(p->color, 0, 3 * pixels * sizeof *p->color);
-    memset(p->coverage, 0, pixels * sizeof *p->coverage);
-    p->frame = page_frame(p->method, p->columns, p->rows, (const double[2]){0, 0});
+    p->frame = page_frame(p->method, p->columns, p->rows, (const double[2]){jitter_x, jitter_y});
     bool filter;
     const interval time = page_interval(&p->frame, p->method, &filter);
     wave_set_build(&p->frame, &p->frame.close, time, filter, &p->set);
-    return 1;
 }
 
-/* A place in the pixel: additive recurrence over the samples, another start for each pixel. */
+/* A place in the pixel: additive recurrence over a half's samples, another start for each pixel and half. */
 static void jitter(uint32_t tile_x, uint32_t tile_y, uint32_t sample, float *dx, float *dy)
 {
+    const double first = sample / 2 * 0.7548776662466927, second = sample / 2 * 0.5698402909980532;
     for (uint32_t i = 0; i < TILE_PIXELS; i++) {
-        const uint64_t x = tile_x * TILE_WIDTH + i % TILE_WIDTH, y = tile_y * TILE_HEIGHT + i / TILE_WIDTH, bits = hash_of(x << 32 | y);
-        const float u = hash_unit(bits) + (float)(sample * 0.7548776662466927 - (uint32_t)(sample * 0.7548776662466927));
-        const float v = hash_unit(hash_of(bits)) + (float)(sample * 0.5698402909980532 - (uint32_t)(sample * 0.5698402909980532));
+        const uint64_t x = tile_x * TILE_WIDTH + i % TILE_WIDTH, y = tile_y * TILE_HEIGHT + i / TILE_WIDTH, bits = hash_of(x << 32 | y << 1 | sample % 2);
+        const float u = hash_unit(bits) + (float)(first - (uint32_t)first);
+        const float v = hash_unit(hash_of(bits)) + (float)(second - (uint32_t)second);
         dx[i] = u - (u >= 1) - 0.5f;
         dy[i] = v - (v >= 1) - 0.5f;
     }
@@ -61,27 +64,28 @@ static void jitter(uint32_t tile_x, uint32_t tile_y, uint32_t sample, float *dx,
 
 static void keep_tile(uint32_t tile_x, uint32_t tile_y, const tile_pixels *t)
 {
+    float *half = picture.half[picture.samples % 2];
     for (uint32_t i = 0; i < TILE_PIXELS; i++) {
         const uint32_t x = tile_x * TILE_WIDTH + i % TILE_WIDTH, y = tile_y * TILE_HEIGHT + i / TILE_WIDTH;
         if (x >= picture.columns || y >= picture.rows)
             continue;
-        const size_t at = (size_t)y * picture.columns + x;
-        picture.color[3 * at] += t->red[i];
-        picture.color[3 * at + 1] += t->green[i];
-        picture.color[3 * at + 2] += t->blue[i];
-        picture.coverage[at] += t->coverage[i];
+        float *pixel = half + 4 * ((size_t)y * picture.columns + x);
+        pixel[0] += t->red[i];
+        pixel[1] += t->green[i];
+        pixel[2] += t->blue[i];
+        pixel[3] += t->coverage[i];
     }
 }
 
-/* The next row of tiles of the picture, or of its next sample. */
-EXPORT(picture_row) void page_picture_row(int row)
+/* The tiles from `first` up to `end` of a row of the picture, or of its next sample. */
+EXPORT(picture_row) void page_picture_row(int row, int first, int end)
 {
     static page_tile tile;
     static tile_estimate estimate[HIT_ROWS];
     static tile_pixels pixels;
     static float dx[TILE_PIXELS], dy[TILE_PIXELS];
     const FrameData *data = &picture.frame.data;
-    for (uint32_t x = 0; x * TILE_WIDTH < picture.columns; x++) {
+    for (uint32_t x = (uint32_t)first; x < (uint32_t)end; x++) {
         page_sort(data, &picture.set, x, (uint32_t)row, &tile);
         page_estimate(data, &tile, estimate);
         memset(&pixels, 0, sizeof pixels);
@@ -104,17 +108,20 @@ EXPORT(picture_next_sample) void page_picture_next_sample(void)
     wave_set_build(&picture.frame, &picture.frame.close, (interval){instant, 0}, false, &picture.set);
 }
 
-EXPORT(picture_color) const float *page_picture_color(void) { return picture.color; }
-EXPORT(picture_coverage) const float *page_picture_coverage(void) { return picture.coverage; }
+EXPORT(picture_frame) const void *page_picture_frame(void) { return &picture.frame.data; }
+EXPORT(picture_half) const float *page_picture_half(int half) { return picture.half[half]; }
 
-/* The picture as it is displayed: 4 bytes a pixel. The sums of samples are divided by their number. */
-EXPORT(picture_shown) const uint8_t *page_picture_shown(void)
+/* `count` pixels from `first` of a method's picture as they are displayed: 4 bytes each. */
+EXPORT(picture_shown) const uint8_t *page_picture_shown(int first, int count)
 {
-    FrameData data = picture.frame.data;
-    if (picture.samples > 1)
-        data.exposure /= (float)picture.samples;
-    page_display(&data, picture.color, picture.shown, (size_t)picture.columns * picture.rows);
-    return picture.shown;
+    page_display(&picture.frame.data, picture.half[0] + 4 * first, picture.shown + 4 * first, (size_t)count);
+    return picture.shown + 4 * first;
+}
+
+/* Displayed luma in [0, 1] of `count` pixels of 4 floats, which are multiplied by `weight`. */
+EXPORT(picture_luma) void page_picture_luma(const float *rgba, float weight, int count, float *luma)
+{
+    page_luma(&picture.frame.data, rgba, weight, luma, (size_t)count);
 }
 
 /* The number of a method's name; -1: there is none. */
@@ -125,4 +132,5 @@ EXPORT(method_number) int page_method_number(const char *name)
     return method_from_name(name, &quality) ? (int)quality.method : -1;
 }
 
-EXPORT(take) void *page_take(size_t size) { return malloc(size); }
+EXPORT(take) void *page_take(size_t size) { return room(NULL, size); }
+EXPORT(give) void page_give(void *data) { free(data); }

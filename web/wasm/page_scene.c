@@ -46,20 +46,26 @@ static mgt_status draw_sea(void)
 
 static double *light_number(const char *key) { return (double *)((char *)&scene.light + field_find(light_rows, key, strlen(key))->offset); }
 
-/* Scene and sky anew. 0, or bits: 1 the sky's table has changed, 2 the sea has; below 0: no such sea. */
-EXPORT(update) int page_update(void)
+/* The scene's sea anew, where its settings have changed. Below 0: no such sea, and the one before stays. */
+EXPORT(take_sea) int page_take_sea(void)
 {
-    int changed = 0;
     if (!sky) {
         sky = sky_state_create();
         mgt_scene_init(&scene, sizeof scene);
     }
-    if (memcmp(drawn, settings, sizeof drawn) != 0) {
-        if (draw_sea() != MGT_OK)
-            return -1;
-        memcpy(drawn, settings, sizeof drawn);
-        changed |= 2;
-    }
+    if (memcmp(drawn, settings, sizeof drawn) == 0)
+        return 0;
+    if (draw_sea() != MGT_OK)
+        return -1;
+    memcpy(drawn, settings, sizeof drawn);
+    return 0;
+}
+
+/* Scene and sky anew. Below 0: no such sea. */
+EXPORT(update) int page_update(void)
+{
+    if (page_take_sea() < 0)
+        return -1;
     mgt_light_init(&scene.light, settings[SETTING_moon] != 0 ? MGT_SOURCE_MOON : MGT_SOURCE_SUN);
     *light_number("elevation_deg") = settings[SETTING_elevation];
     *light_number("azimuth_deg") = settings[SETTING_azimuth];
@@ -72,11 +78,10 @@ EXPORT(update) int page_update(void)
     scene.shutter = settings[SETTING_shutter] / 30;
     scene.frame_interval = 1.0 / 30;
     scene.post.exposure_ev = settings[SETTING_exposure];
-    if (!sky_state_same_inputs(sky, &scene.sky, &scene.light)) {
+    if (!sky_state_same_inputs(sky, &scene.sky, &scene.light))
         sky_state_build(sky, &scene.sky, &scene.light);
-        changed |= 1;
-    }
-    return sky_state_see_air(sky, &scene) ? changed | 1 : changed;
+    sky_state_see_air(sky, &scene);
+    return 0;
 }
 
 frame page_frame(mgt_method method, uint32_t columns, uint32_t rows, const double jitter[2])

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// The library as WebAssembly, and workers that call it.
+
+const pause = milliseconds => new Promise(resolve => setTimeout(resolve, milliseconds));
+
+async function unpacked() {
+  const bytes = Uint8Array.from(atob(PACKED), c => c.charCodeAt(0));
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
+  const all = await new Response(stream).arrayBuffer();
+  const length = new DataView(all).getUint32(0, true);
+  return { texts: JSON.parse(new TextDecoder().decode(new Uint8Array(all, 4, length))), module: await WebAssembly.compile(all.slice(4 + length)) };
+}
+
+// A point one metre ahead of the camera, in the decimals that commands have.
+function cameraTarget(s) {
+  const pitch = s.pitch * Math.PI / 180, heading = s.heading * Math.PI / 180;
+  const ahead = [Math.sin(heading) * Math.cos(pitch), Math.sin(pitch), -Math.cos(heading) * Math.cos(pitch)];
+  return ahead.map((v, i) => Number(((i === 1 ? s.height : 0) + v).toFixed(5)));
+}
+
+// One copy of the library, with a scene of its own. Workers have the text of this function.
+async function openLibrary(module) {
+  const nothing = () => 0;
+  const instance = await WebAssembly.instantiate(module, { wasi_snapshot_preview1: { fd_close: nothing, fd_seek: nothing, fd_write: nothing } });
+  const calls = instance.exports, numbers = {};
+  calls._initialize();
+  const take = settings => {
+    new Float64Array(calls.memory.buffer, calls.settings(), SETTINGS.length).set(SETTINGS.map(s => settings[s.name]));
+    new Float64Array(calls.memory.buffer, calls.target(), 3).set(cameraTarget(settings));
+  };
+  const check = good => { if (!good) throw new Error("no sea has this wind and this fetch"); };
+  return {
+    calls,
+    copy: (Type, at, count) => new Type(calls.memory.buffer.slice(at, at + count * Type.BYTES_PER_ELEMENT)),
+    method(name) {
+      if (!(name in numbers)) {
+        const text = new TextEncoder().encode(name + "\0"), at = calls.take(text.length);
+        new Uint8Array(calls.memory.buffer, at, text.length).set(text);
+        numbers[name] = calls.method_number(at);
+        calls.give(at);
+      }
+      return numbers[name];
+    },
+    // Both throw where there is no such sea; the one before stays.
+    checkSea(settings) { take(settings); check(calls.take_sea() >= 0); },
+    update(settings) { take(settings); check(calls.update() >= 0); },
+  };
+}
+
+// Where workers may not be started, their tasks are done here, between the page's own. `tasks` is a function that makes what takes a task from what posts an answer.
+class TaskWorker {
+  constructor(module, tasks) {
+    this.waiting = [];
+    const answered = answer => this.waiting.shift().resolve(answer);
+    const here = () => {
+      const take = tasks(answered);
+      this.post = task => setTimeout(() => take(task));
+      this.waiting.forEach(w => this.post(w.task));
+    };
+    try {
+      const text = `const SETTINGS = ${JSON.stringify(SETTINGS)};\n${cameraTarget}\n${openLibrary}\n${tasks}\nconst take = ${tasks.name}((answer, moved) => postMessage(answer, moved));\nonmessage = e => take(e.data);`;
+      const address = URL.createObjectURL(new Blob([text], { type: "text/javascript" })), worker = new Worker(address);
+      worker.onmessage = event => { URL.revokeObjectURL(address); answered(event.data); };
+      worker.onerror = event => { event.preventDefault(); here(); };
+      this.post = task => worker.postMessage(task);
+    } catch {
+      here();
+    }
+    this.ask({ module });
+  }
+
+  // Resolves to the task's answer. Rejects with what is wrong.
+  ask(task) {
+    return new Promise((resolve, reject) => {
+      this.waiting.push({ task, resolve: answer => (answer.wrong ? reject(new Error(answer.wrong)) : resolve(answer)) });
+      this.post(task);
+    });
+  }
+}
