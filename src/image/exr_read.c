@@ -151,30 +151,78 @@ static exr_selection select_channels(const exr_attr_chlist_t *list, const char *
     return selection;
 }
 
-static file_status no_such_layer(const input_file *input, const exr_attr_chlist_t *list, const char *layer, file_error *error)
+/* The channels of one part. */
+typedef struct exr_found {
+    int part;
+    const exr_attr_chlist_t *list;
+    exr_selection selection; /* none: there is no such layer */
+} exr_found;
+
+/* The nameless channels of the part of this name, as other programs write layers. */
+static exr_result_t find_part(exr_context_t context, int parts, const char *name, exr_found *found)
+{
+    exr_result_t code = EXR_ERR_SUCCESS;
+    for (int part = 0; part < parts && found->selection.count == 0 && !code; part++) {
+        const char *own = NULL;
+        if (exr_get_name(context, part, &own) != EXR_ERR_SUCCESS || !own || strcmp(own, name) != 0)
+            continue;
+        found->part = part;
+        code = exr_get_channels(context, part, &found->list);
+        if (!code)
+            found->selection = select_channels(found->list, NULL);
+    }
+    return code;
+}
+
+static exr_result_t find_layer(exr_context_t context, const char *layer, exr_found *found)
+{
+    int parts = 0;
+    exr_result_t code = exr_get_count(context, &parts);
+    *found = (exr_found){0};
+    for (int part = 0; part < parts && found->selection.count == 0 && !code; part++) {
+        found->part = part;
+        code = exr_get_channels(context, part, &found->list);
+        if (!code)
+            found->selection = select_channels(found->list, layer || parts == 1 ? layer : "color");
+    }
+    if (!code && found->selection.count == 0 && layer && parts > 1)
+        code = find_part(context, parts, layer, found);
+    return code;
+}
+
+static file_status no_such_layer(exr_context_t context, const input_file *input, const char *layer, file_error *error)
 {
     char names[256] = "";
     size_t used = 0;
-    for (int i = 0; i < list->num_channels && used < sizeof names; i++) {
-        int length = snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", list->entries[i].name.str);
-        used += length > 0 ? (size_t)length : 0;
+    int parts = 0;
+    exr_get_count(context, &parts);
+    for (int part = 0; part < parts; part++) {
+        const exr_attr_chlist_t *list = NULL;
+        const bool good = exr_get_channels(context, part, &list) == EXR_ERR_SUCCESS;
+        for (int i = 0; good && i < list->num_channels && used < sizeof names; i++) {
+            int length = snprintf(names + used, sizeof names - used, "%s%s", used ? ", " : "", list->entries[i].name.str);
+            used += length > 0 ? (size_t)length : 0;
+        }
     }
     return file_error_set(error, FILE_ARGUMENT, "%s: has no layer %s; its channels are: %s", input->path, layer ? layer : "color", names);
 }
 
 /* ---- pixels ---- */
 
-static exr_result_t read_pixels(exr_context_t context, float_image *image, const exr_attr_chlist_t *list, const exr_selection *selection, int32_t first_y)
+static exr_result_t read_pixels(exr_context_t context, float_image *image, const exr_found *found, int32_t first_y)
 {
+    const exr_attr_chlist_t *list = found->list;
+    const exr_selection *selection = &found->selection;
+    const int part = found->part;
     exr_decode_pipeline_t decoder = EXR_DECODE_PIPELINE_INITIALIZER;
     exr_chunk_info_t chunk;
     int32_t rows = 0;
     bool initialized = false;
-    exr_result_t code = exr_get_scanlines_per_chunk(context, 0, &rows);
+    exr_result_t code = exr_get_scanlines_per_chunk(context, part, &rows);
     if (!code && rows < 1)
         code = EXR_ERR_FILE_BAD_HEADER;
     for (uint32_t y = 0; y < image->height && !code; y += (uint32_t)rows) {
-        code = exr_read_scanline_chunk_info(context, 0, (int)(first_y + (int64_t)y), &chunk);
+        code = exr_read_scanline_chunk_info(context, part, (int)(first_y + (int64_t)y), &chunk);
         if (code)
             break;
         uint32_t expected = image->height - y < (uint32_t)rows ? image->height - y : (uint32_t)rows;
@@ -182,7 +230,7 @@ static exr_result_t read_pixels(exr_context_t context, float_image *image, const
             code = EXR_ERR_BAD_CHUNK_LEADER;
             break;
         }
-        code = initialized ? exr_decoding_update(context, 0, &chunk, &decoder) : exr_decoding_initialize(context, 0, &chunk, &decoder);
+        code = initialized ? exr_decoding_update(context, part, &chunk, &decoder) : exr_decoding_initialize(context, part, &chunk, &decoder);
         for (int c = 0; c < decoder.channel_count && !code; c++)
             decoder.channels[c].decode_to_ptr = NULL;
         for (int s = 0; s < selection->count && !code; s++) {
@@ -199,25 +247,25 @@ static exr_result_t read_pixels(exr_context_t context, float_image *image, const
             channel->user_line_stride = (int32_t)(image->width * image->channels * sizeof(float));
         }
         if (!code && !initialized)
-            code = exr_decoding_choose_default_routines(context, 0, &decoder);
+            code = exr_decoding_choose_default_routines(context, part, &decoder);
         initialized = true;
         if (!code)
-            code = exr_decoding_run(context, 0, &decoder);
+            code = exr_decoding_run(context, part, &decoder);
     }
     exr_decoding_destroy(context, &decoder);
     return code;
 }
 
 /* Refuses, with a reason, what this reader does not unpack. */
-static file_status check_kind(exr_context_t context, const input_file *input, file_error *error)
+static file_status check_kind(exr_context_t context, int part, const input_file *input, file_error *error)
 {
     exr_storage_t storage;
     exr_compression_t compression;
-    exr_result_t code = exr_get_storage(context, 0, &storage);
+    exr_result_t code = exr_get_storage(context, part, &storage);
     if (!code && storage != EXR_STORAGE_SCANLINE)
         return file_error_set(error, FILE_BAD, "%s: tiled and deep EXR are not supported", input->path);
     if (!code)
-        code = exr_get_compression(context, 0, &compression);
+        code = exr_get_compression(context, part, &compression);
     if (!code && (compression == EXR_COMPRESSION_DWAA || compression == EXR_COMPRESSION_DWAB))
         return file_error_set(error, FILE_BAD, "%s: DWA compression is not supported", input->path);
     return code ? bad_exr(input, code, error) : FILE_OK;
@@ -226,7 +274,7 @@ static file_status check_kind(exr_context_t context, const input_file *input, fi
 file_status exr_read(float_image *image, const input_file *input, const char *layer, file_error *error)
 {
     exr_context_t context = NULL;
-    const exr_attr_chlist_t *list = NULL;
+    exr_found found;
     exr_attr_box2i_t window;
     file_status status;
     exr_result_t code = start_read(&context, input);
@@ -234,23 +282,21 @@ file_status exr_read(float_image *image, const input_file *input, const char *la
         status = bad_exr(input, code, error);
         goto fail;
     }
-    status = check_kind(context, input, error);
+    code = find_layer(context, layer, &found);
+    status = code ? bad_exr(input, code, error) : check_kind(context, found.part, input, error);
     if (status != FILE_OK)
         goto fail;
-    code = exr_get_channels(context, 0, &list);
-    if (!code)
-        code = exr_get_data_window(context, 0, &window);
+    code = exr_get_data_window(context, found.part, &window);
     if (code) {
         status = bad_exr(input, code, error);
         goto fail;
     }
-    exr_selection selection = select_channels(list, layer);
-    if (selection.count == 0) {
-        status = no_such_layer(input, list, layer, error);
+    if (found.selection.count == 0) {
+        status = no_such_layer(context, input, layer, error);
         goto fail;
     }
-    for (int s = 0; s < selection.count; s++) {
-        const exr_attr_chlist_entry_t *entry = &list->entries[selection.channels[s]];
+    for (int s = 0; s < found.selection.count; s++) {
+        const exr_attr_chlist_entry_t *entry = &found.list->entries[found.selection.channels[s]];
         if (entry->x_sampling != 1 || entry->y_sampling != 1) {
             status = file_error_set(error, FILE_BAD, "%s: subsampled channels are not supported", input->path);
             goto fail;
@@ -260,11 +306,11 @@ file_status exr_read(float_image *image, const input_file *input, const char *la
     int64_t height = (int64_t)window.max.y - window.min.y + 1;
     image->width = width >= 1 && width <= PICTURE_SIDE_MAX ? (uint32_t)width : 0;
     image->height = height >= 1 && height <= PICTURE_SIDE_MAX ? (uint32_t)height : 0;
-    image->channels = (uint32_t)selection.count;
+    image->channels = (uint32_t)found.selection.count;
     status = float_image_allocate(image, input->path, error);
     if (status != FILE_OK)
         goto fail;
-    code = read_pixels(context, image, list, &selection, window.min.y);
+    code = read_pixels(context, image, &found, window.min.y);
     if (code)
         status = bad_exr(input, code, error);
 

@@ -16,7 +16,8 @@
 
 enum {
     ZIP_LEVEL = 4, /* stated, so that another version's default does not change our bytes */
-    CHANNELS_MAX = 64
+    CHANNELS_MAX = 64,
+    PARTS_MAX = CHANNELS_MAX
 };
 
 typedef struct exr_sink {
@@ -30,7 +31,13 @@ typedef struct exr_source {
     char name[EXR_CHANNEL_NAME_SIZE];
     const picture_layer *layer;
     uint32_t component;
+    int part;
 } exr_source;
+
+typedef struct exr_parts {
+    int count;
+    const char *names[PARTS_MAX];
+} exr_parts;
 
 static int64_t sink_write(exr_const_context_t context, void *user, const void *bytes, uint64_t size, uint64_t offset, exr_stream_error_func_ptr_t report)
 {
@@ -50,8 +57,20 @@ static void ignore_message(exr_const_context_t context, exr_result_t code, const
     (void)message;
 }
 
-/* Lists the channels of all layers; 0 with an error set where a layer cannot be written. */
-static int list_sources(exr_source *sources, const char *path, const picture_layer *layers, size_t count, file_error *error)
+/* The part of a layer, which may be a new one. */
+static int take_part(exr_parts *parts, const picture_layer *layer, bool several)
+{
+    const char *name = !several ? "mangata" : layer->part ? layer->part : layer->name;
+    int i = 0;
+    while (i < parts->count && strcmp(parts->names[i], name) != 0)
+        i++;
+    if (i == parts->count)
+        parts->names[parts->count++] = name;
+    return i;
+}
+
+/* Lists the channels of all layers and their parts; 0 with an error set where a layer cannot be written. */
+static int list_sources(exr_source *sources, exr_parts *parts, bool several, const char *path, const picture_layer *layers, size_t count, file_error *error)
 {
     int used = 0;
     for (size_t i = 0; i < count; i++) {
@@ -68,6 +87,7 @@ static int list_sources(exr_source *sources, const char *path, const picture_lay
                 exr_channel_name(source->name, layer->name, layer->channels, c);
             source->layer = layer;
             source->component = c;
+            source->part = take_part(parts, layer, several);
             for (int other = 0; other < used; other++)
                 if (strcmp(sources[other].name, source->name) == 0)
                     return file_error_set(error, FILE_ARGUMENT, "%s: channel %s is given twice", path, source->name), 0;
@@ -131,32 +151,52 @@ static exr_result_t write_description(exr_context_t context, int part, const exr
     return code ? code : write_matrix(context, part, "worldToNDC", desc->world_to_ndc);
 }
 
-static exr_result_t write_header(exr_context_t context, uint32_t width, uint32_t height, const exr_source *sources, int count, const exr_desc *desc,
-                                 const metadata_list *metadata)
+static exr_result_t write_strings(exr_context_t context, int part, const metadata_entry *entries, size_t count)
 {
-    int part = 0;
-    exr_result_t code = exr_set_longname_support(context, 1);
-    if (!code)
-        code = exr_add_part(context, "mangata", EXR_STORAGE_SCANLINE, &part);
-    if (!code)
-        code = write_windows(context, part, width, height, desc);
-    if (!code && desc->described)
-        code = write_description(context, part, desc);
-    if (!code)
-        code = exr_set_zip_compression_level(context, part, ZIP_LEVEL);
-    for (int i = 0; i < count && !code; i++)
-        code =
-            exr_add_channel(context, part, sources[i].name, is_half(desc, &sources[i]) ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT, EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
-    for (size_t i = 0; metadata && i < metadata->count && !code; i++) {
-        char name[EXR_ATTRIBUTE_NAME_SIZE];
+    exr_result_t code = EXR_ERR_SUCCESS;
+    for (size_t i = 0; i < count && !code; i++)
+        code = exr_attr_set_string(context, part, entries[i].key, entries[i].value);
+    return code;
+}
+
+static exr_result_t write_metadata(exr_context_t context, const metadata_list *metadata)
+{
+    char name[EXR_ATTRIBUTE_NAME_SIZE];
+    exr_result_t code = EXR_ERR_SUCCESS;
+    for (size_t i = 0; i < metadata->count && !code; i++) {
         exr_attribute_name(name, metadata->entries[i].key);
-        code = exr_attr_set_string(context, part, name, metadata->entries[i].value);
+        code = exr_attr_set_string(context, 0, name, metadata->entries[i].value);
     }
-    if (metadata && !code) {
-        char name[EXR_ATTRIBUTE_NAME_SIZE];
-        exr_attribute_name(name, FILE_CHECK_KEY);
-        code = exr_attr_set_string(context, part, name, FILE_CHECK_NONE);
+    exr_attribute_name(name, FILE_CHECK_KEY);
+    return code ? code : exr_attr_set_string(context, 0, name, FILE_CHECK_NONE);
+}
+
+static exr_result_t add_part(exr_context_t context, const char *name, uint32_t width, uint32_t height, const exr_desc *desc, int *part)
+{
+    exr_result_t code = exr_add_part(context, name, EXR_STORAGE_SCANLINE, part);
+    if (!code)
+        code = write_windows(context, *part, width, height, desc);
+    if (!code && desc->described)
+        code = write_description(context, *part, desc);
+    return code ? code : exr_set_zip_compression_level(context, *part, ZIP_LEVEL);
+}
+
+static exr_result_t write_header(exr_context_t context, uint32_t width, uint32_t height, const exr_source *sources, int count, const exr_parts *parts,
+                                 const exr_desc *desc, const metadata_list *metadata)
+{
+    exr_result_t code = exr_set_longname_support(context, 1);
+    for (int p = 0; p < parts->count && !code; p++) {
+        int part = 0;
+        code = add_part(context, parts->names[p], width, height, desc, &part);
+        for (int i = 0; i < count && !code; i++)
+            if (sources[i].part == part)
+                code = exr_add_channel(context, part, sources[i].name, is_half(desc, &sources[i]) ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT,
+                                       EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
     }
+    if (metadata && !code)
+        code = write_metadata(context, metadata);
+    if (!code)
+        code = write_strings(context, sources[count - 1].part, desc->attributes, desc->attribute_count);
     return code ? code : exr_write_header(context);
 }
 
@@ -218,31 +258,31 @@ static exr_result_t compress_or_store(exr_encode_pipeline_t *encoder)
     return code;
 }
 
-static exr_result_t write_pixels(exr_context_t context, float *band, uint32_t width, uint32_t height, const exr_source *sources, int count,
+static exr_result_t write_pixels(exr_context_t context, int part, float *band, uint32_t width, uint32_t height, const exr_source *sources, int count,
                                  const exr_desc *desc)
 {
     exr_encode_pipeline_t encoder = EXR_ENCODE_PIPELINE_INITIALIZER;
     exr_result_t (*compress)(exr_encode_pipeline_t *) = NULL;
     exr_chunk_info_t chunk;
     int32_t rows = 0;
-    exr_result_t code = exr_get_scanlines_per_chunk(context, 0, &rows);
+    exr_result_t code = exr_get_scanlines_per_chunk(context, part, &rows);
     for (uint32_t y = 0; y < height && !code; y += (uint32_t)rows) {
-        code = exr_write_scanline_chunk_info(context, 0, (int)(desc->y + y), &chunk);
+        code = exr_write_scanline_chunk_info(context, part, (int)(desc->y + y), &chunk);
         if (!code && y == 0)
-            code = exr_encoding_initialize(context, 0, &chunk, &encoder);
+            code = exr_encoding_initialize(context, part, &chunk, &encoder);
         else if (!code)
-            code = exr_encoding_update(context, 0, &chunk, &encoder);
+            code = exr_encoding_update(context, part, &chunk, &encoder);
         if (!code)
             code = gather_band(&encoder, band, width, y, chunk.height, sources, count, desc);
         if (!code && y == 0)
-            code = exr_encoding_choose_default_routines(context, 0, &encoder);
+            code = exr_encoding_choose_default_routines(context, part, &encoder);
         if (!code && y == 0 && encoder.compress_fn) {
             compress = encoder.compress_fn;
             encoder.encoding_user_data = &compress;
             encoder.compress_fn = compress_or_store;
         }
         if (!code)
-            code = exr_encoding_run(context, 0, &encoder);
+            code = exr_encoding_run(context, part, &encoder);
     }
     exr_encoding_destroy(context, &encoder);
     return code;
@@ -260,12 +300,13 @@ file_status picture_write_exr_described(const char *path, uint32_t width, uint32
 {
     enum { CHUNK_ROWS_MAX = 32 }; /* of PIZ */
     exr_source sources[CHANNELS_MAX];
+    exr_parts parts = {0};
     file_status status = picture_check_size(path, width, height, error);
     if (status == FILE_OK)
         status = metadata_check(metadata, error);
     if (status != FILE_OK)
         return status;
-    int count = list_sources(sources, path, layers, layer_count, error);
+    int count = list_sources(sources, &parts, desc->parts, path, layers, layer_count, error);
     if (count == 0)
         return FILE_ARGUMENT;
 
@@ -284,9 +325,9 @@ file_status picture_write_exr_described(const char *path, uint32_t width, uint32
     initializer.write_fn = sink_write;
     exr_result_t code = exr_start_write(&context, path, EXR_WRITE_FILE_DIRECTLY, &initializer);
     if (!code)
-        code = write_header(context, width, height, sources, count, desc, metadata);
-    if (!code)
-        code = write_pixels(context, band, width, height, sources, count, desc);
+        code = write_header(context, width, height, sources, count, &parts, desc, metadata);
+    for (int part = 0; part < parts.count && !code; part++)
+        code = write_pixels(context, part, band, width, height, sources, count, desc);
     /* Writes the table of chunks, too. */
     exr_result_t finish_code = context ? exr_finish(&context) : EXR_ERR_SUCCESS;
     if (!code)

@@ -22,6 +22,7 @@ picture_format picture_format_of(const char *path);
 typedef struct picture_layer {
     const char *name;      /* "color", "coverage", "mask", "depth", "normal"; others as [A-Za-z0-9_]+ */
     const char *channel;   /* EXR, of 1 channel: its whole name, such as "A"; NULL: after `name` */
+    const char *part;      /* EXR of several parts: the name of its part; NULL: `name` */
     bool exact;            /* EXR: 32 bits in files of half floats too, for distances and counts */
     uint32_t channels;     /* channels to write: 1 or 3 */
     const float *pixels;   /* top left pixel */
@@ -49,7 +50,10 @@ typedef enum exr_packing { EXR_PACKING_ZIP = 0, EXR_PACKING_PIZ, EXR_PACKING_NON
  * pixels that are the whole picture, no attributes. */
 typedef struct exr_desc {
     exr_packing packing;
-    bool half;                              /* 16 bits; finite values beyond ±65504 become these */
+    bool half;                        /* 16 bits; finite values beyond ±65504 become these */
+    bool parts;                       /* a part for each layer, or for the layers of one `part`; metadata stand in the first */
+    const metadata_entry *attributes; /* further string attributes of the part of the layer that comes last, by their whole names */
+    size_t attribute_count;
     uint32_t x, y;                          /* of the pixels' corner in the whole picture: data window and display window */
     uint32_t display_width, display_height; /* of the whole picture; 0: as large as the pixels */
     bool described;                         /* whether all that follows is written */
@@ -81,8 +85,8 @@ typedef struct float_image {
 } float_image;
 
 /* Reads .png (8 and 16 bit, values as stored / 255 or / 65535; grey 1 channel, colour 3, alpha added only where it is not
- * opaque everywhere), .pfm or .exr (first part, scanline; half, float or uint; not DWA). `layer`: an EXR layer ("depth") or
- * channel ("depth.Z"), NULL for "color" or else the only layer there is; PNG and PFM hold one layer and ignore it. The kind is told by
+ * opaque everywhere), .pfm or .exr (scanlines of half, float or uint; not DWA). `layer`: an EXR layer ("depth"), of
+ * any part, channel ("depth.Z") or part, NULL for "color" or else the only layer there is; PNG and PFM hold one layer and ignore it. The kind is told by
  * the content, not by the extension. On failure *image is all zero. */
 file_status picture_read(float_image *image, const char *path, const char *layer, file_error *error);
 

@@ -6,6 +6,7 @@
 #include <openexr.h>
 #include <spng.h>
 
+#include "image/cryptomatte.h"
 #include "image/picture.h"
 
 enum { WIDTH = 13, HEIGHT = 37 }; /* more than two chunks of EXR, no multiples of anything */
@@ -317,26 +318,86 @@ static void test_exr_round_trip(void **state)
     assert_non_null(strstr(error.text, "depth.Z"));
 }
 
-/* Noise does not shrink, and less and less noise comes by a chunk that is as long compressed as it is itself. */
+/* Layers in parts of their own are read like those of one part; the attributes stand with the last. */
+static void test_exr_parts(void **state)
+{
+    enum { W = 7, H = 19 };
+    test_folder *folder = *state;
+    static float values[W * H * 3];
+    const metadata_entry attribute = {"note/of a part", "here"};
+    const picture_layer layers[] = {{.name = "color", .channels = 3, .pixels = values},
+                                    {.name = "mask", .channel = "A", .part = "color", .channels = 1, .pixels = values + 2},
+                                    {.name = "depth", .channels = 1, .pixels = values + 5, .exact = true},
+                                    {.name = "far", .channel = "Z", .channels = 1, .pixels = values + 9}};
+    static const struct {
+        const char *layer;
+        uint32_t channels, offset;
+    } expected[] = {{NULL, 3, 0}, {"A", 1, 2}, {"depth", 1, 5}, {"depth.Z", 1, 5}, {"far", 1, 9}, {"Z", 1, 9}};
+    char path[512];
+    fill_floats(values, W * H * 3);
+    for (int packing = EXR_PACKING_ZIP; packing <= EXR_PACKING_NONE; packing++) {
+        const exr_desc desc = {.packing = (exr_packing)packing, .parts = true, .attributes = &attribute, .attribute_count = 1};
+        file_error error;
+        assert_int_equal(picture_write_exr_described(in_folder(folder, "parts.exr", path), W, H, layers, 4, &desc, &test_metadata,
+                                                     &(output_options){.overwrite = true}, &error),
+                         FILE_OK);
+        assert_metadata(path);
+        for (size_t i = 0; i < sizeof expected / sizeof *expected; i++) {
+            float_image image;
+            assert_int_equal(picture_read(&image, path, expected[i].layer, &error), FILE_OK);
+            assert_int_equal(image.channels, expected[i].channels);
+            assert_memory_equal(image.pixels, values + expected[i].offset, W * H * image.channels * sizeof(float));
+            float_image_free(&image);
+        }
+        float_image none;
+        assert_int_equal(picture_read(&none, path, "sky", &error), FILE_ARGUMENT);
+        assert_non_null(strstr(error.text, "depth.Z, Z"));
+    }
+}
+
+/* The specification's own examples. */
+static void test_cryptomatte(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name;
+        double id;
+    } examples[] = {{"hello", 6.0705627102400005616e-17}, {"cube", -4.08461912519e+15}, {"sphere", 2.79018604383e+15}, {"plane", 3.66557617593e-11}};
+    for (int i = 0; i < 4; i++)
+        assert_true(fabs((double)cryptomatte_id(examples[i].name) / examples[i].id - 1) < 1e-7);
+    assert_int_equal(cryptomatte_hash(""), 0);
+    assert_int_equal(cryptomatte_bits(""), 1u << 23);
+    static const char *const names[] = {"sky", "a \"b\"", "sky"};
+    cryptomatte_header header;
+    assert_true(cryptomatte_header_make(&header, "crypto_object", names, 3));
+    assert_string_equal(header.entries[0].key, "cryptomatte/f834d0a/name");
+    assert_string_equal(header.entries[1].value, "MurmurHash3_32");
+    assert_non_null(strstr(header.manifest, "{\"sky\":\"d12be799\",\"a \\\"b\\\"\":\""));
+    cryptomatte_header_free(&header);
+}
+
+/* Noise does not shrink, and blocks of rows with less and less noise come by one that is as long compressed as it is itself. */
 static void test_exr_of_noise(void **state)
 {
-    enum { SIDE = 16, VALUES = SIDE * SIDE, STEPS = 48 };
+    enum { WIDTH_OF_NOISE = 16, BLOCK = 16 * WIDTH_OF_NOISE, BLOCKS = 48, VALUES = BLOCKS * BLOCK };
     test_folder *folder = *state;
     char path[512];
     static float values[VALUES];
     uint32_t seed = 1;
-    for (int i = 0; i < VALUES; i++) {
+    for (int i = 0; i < BLOCK; i++) {
         seed = seed * 1664525u + 1013904223u;
-        values[i] = ldexpf((float)(seed >> 8) - 8388608.0f, (int)(seed & 127) - 90);
+        for (int block = 0; block < BLOCKS; block++)
+            values[block * BLOCK + i] = i <= block ? 0 : ldexpf((float)(seed >> 8) - 8388608.0f, (int)(seed & 127) - 90);
     }
-    for (int step = 0; step < STEPS; step++) {
-        const exr_desc desc = {.packing = step % 8 == 7 ? EXR_PACKING_PIZ : EXR_PACKING_ZIP};
+    for (int packing = EXR_PACKING_ZIP; packing <= EXR_PACKING_PIZ; packing++) {
+        const exr_desc desc = {.packing = (exr_packing)packing};
         const picture_layer layer = {.name = "depth", .channels = 1, .pixels = values};
         float_image image;
         file_error error;
-        values[step] = 0;
         in_folder(folder, "noise.exr", path);
-        assert_int_equal(picture_write_exr_described(path, SIDE, SIDE, &layer, 1, &desc, NULL, &(output_options){.overwrite = true}, &error), FILE_OK);
+        assert_int_equal(picture_write_exr_described(path, WIDTH_OF_NOISE, VALUES / WIDTH_OF_NOISE, &layer, 1, &desc, NULL,
+                                                     &(output_options){.overwrite = true}, &error),
+                         FILE_OK);
         assert_int_equal(picture_read(&image, path, NULL, &error), FILE_OK);
         assert_memory_equal(image.pixels, values, sizeof values);
         float_image_free(&image);
@@ -598,6 +659,8 @@ int main(void)
         IN_FOLDER(test_pfm_replaces_its_sidecar),
         IN_FOLDER(test_exr_round_trip),
         IN_FOLDER(test_exr_of_noise),
+        IN_FOLDER(test_exr_parts),
+        cmocka_unit_test(test_cryptomatte),
         IN_FOLDER(test_exr_refuses_bad_layers),
         IN_FOLDER(test_exr_of_others),
         IN_FOLDER(test_damaged_png),
