@@ -498,3 +498,51 @@ void path_traced_tile(const path_traced *truth, uint32_t tile_x, uint32_t tile_y
     if (mirrored)
         write_mean((const double(*)[BATCH])s->mirror, s->samples, out->mirrored_red, out->mirrored_green, out->mirrored_blue);
 }
+
+/* ---- what is seen ---- */
+
+/* Goes on through the surface, or mirrored where nothing comes through; returns the share that is mirrored. */
+static double go_on(const path_traced *t, path_traced_scratch *s, light_part p, const surface_point *w)
+{
+    const double n = t->job.scene->water.index_of_refraction;
+    const crossing c = cross_surface(p.direction, w->normal, p.wet ? 1 / n : n);
+    const bool through = c.reflectance < 1;
+    push_part(s, &p, w, through ? c.through : c.mirrored, through, 1);
+    return c.reflectance;
+}
+
+static int32_t seen_at_end(const path_traced *t, const light_part *p, const trace_hit *met)
+{
+    if (met->triangle >= 0)
+        return (int32_t)t->job.world->object[met->triangle];
+    /* Through a crest is through water; from within it the sky lies behind the surface. */
+    const bool wet = t->job.camera.position[1] < 0;
+    return (wet ? p->wet : p->events > 0) ? SEEN_WATER : SEEN_SKY;
+}
+
+void path_traced_see(const path_traced *truth, uint32_t tile_x, uint32_t tile_y, uint32_t worker, uint32_t sample, path_traced_seen *out)
+{
+    path_traced_scratch *s = truth->scratch[worker];
+    s->part_count = 0;
+    aim_sample(truth, s, tile_x, tile_y, sample);
+    look_ahead(truth, s, BATCH, true);
+    for (size_t i = 0; i < BATCH; i++) {
+        const bool surface = s->met[i].triangle < 0 && s->surface[i].distance < HUGE_VAL;
+        out->mirrored[i] = surface ? (float)go_on(truth, s, s->batch[i], &s->surface[i]) : 0;
+        if (!surface)
+            out->object[i] = seen_at_end(truth, &s->batch[i], &s->met[i]);
+    }
+    while (s->part_count) {
+        const size_t count = s->part_count;
+        s->part_count = 0;
+        memcpy(s->batch, s->parts, count * sizeof *s->batch);
+        look_ahead(truth, s, count, false);
+        for (size_t i = 0; i < count; i++) {
+            const bool again = s->met[i].triangle < 0 && s->surface[i].distance < HUGE_VAL;
+            if (again && s->batch[i].events < PATH_MOST_EVENTS)
+                go_on(truth, s, s->batch[i], &s->surface[i]);
+            else
+                out->object[s->batch[i].pixel] = seen_at_end(truth, &s->batch[i], &s->met[i]);
+        }
+    }
+}

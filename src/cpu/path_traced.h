@@ -26,7 +26,7 @@ typedef struct path_traced_job {
     const trace_scene *trace; /* of that world */
     const path_dry *dry;      /* likewise; NULL: nothing is dry */
     /* Radiance of what rays end at: points() of the shading kernels. `user` is its scene. */
-    void (*shade)(const shade_scene *user, const shade_hits *hits, float *rgb);
+    void (*shade)(const shade_scene *user, const shade_hits *hits, float *rgb); /* not needed by path_traced_see() */
     const shade_scene *user;
     mgt_isa isa; /* any gives the same bits */
     uint32_t workers;
@@ -51,5 +51,16 @@ void path_traced_free(path_traced *truth); /* NULL is allowed */
 /* Pixels of the tile (tile_x, tile_y) of the lattice, also those beyond the image. One call a worker at a time. `mirrored`: its planes are wanted,
  * too. The bits depend on the tile alone. */
 void path_traced_tile(const path_traced *truth, uint32_t tile_x, uint32_t tile_y, uint32_t worker, bool mirrored, path_traced_pixels *out);
+
+enum { SEEN_SKY = -1, SEEN_WATER = -2 };
+
+/* What one ray through each pixel of a tile shows: the first object on its way through the surface, which mirrors it only where nothing goes through. */
+typedef struct path_traced_seen {
+    int32_t object[TILE_PIXELS]; /* of the scene, SEEN_WATER: none under the surface or in the water, SEEN_SKY: none in the air */
+    float mirrored[TILE_PIXELS]; /* share of the light that the surface mirrors where the ray met it first; else 0 */
+} path_traced_seen;
+
+/* The same samples as path_traced_tile() takes: `sample` below the square of refraction_samples. */
+void path_traced_see(const path_traced *truth, uint32_t tile_x, uint32_t tile_y, uint32_t worker, uint32_t sample, path_traced_seen *out);
 
 #endif
