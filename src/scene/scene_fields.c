@@ -20,7 +20,7 @@ static const char *const spectrum_kinds[] = {"none", "pierson-moskowitz", "jonsw
 static const char *const spectrum_spreadings[] = {"mitsuyasu", "hasselmann", "donelan-banner", "fixed", NULL};
 static const char *const spectrum_slopes[] = {"spectrum", "cox-munk", NULL};
 static const char *const clarities[] = {"pure", "clear", "coastal", "murky", NULL};
-static const char *const shapes[] = {"mesh", "plane", "box", "sphere", "steps", "pool", "floor", NULL};
+const char *const scene_shape_names[] = {"mesh", "plane", "box", "sphere", "steps", "pool", "floor", NULL};
 
 static void prepare_keyframe(const void *parent, void *item)
 {
@@ -213,7 +213,7 @@ static const field_row object_fields[] =
     {{"name", FIELD_TEXT, offsetof(scene_object, name), FIELD_NO_PIXELS, NO_RANGE, NULL, .doc = "free text"},
      {"mesh", FIELD_TEXT, offsetof(scene_object, mesh), FIELD_NO_PIXELS, NO_RANGE, NULL,
       .doc = "file of triangles (.gltf, .glb, .obj, .ply), from the scene's folder; this or shape"},
-     {"shape", FIELD_CHOICE, offsetof(scene_object, shape), 0, NO_RANGE, NULL, .doc = "a built-in shape; mesh: the file in mesh", .choices = shapes},
+     {"shape", FIELD_CHOICE, offsetof(scene_object, shape), 0, NO_RANGE, NULL, .doc = "a built-in shape; mesh: the file in mesh", .choices = scene_shape_names},
      {"size", FIELD_VECTOR, offsetof(scene_object, size), 0, 1e-3, 1e5, "m", .doc = "of a shape along x, y and z, before scale"},
      {"triangles", FIELD_COUNT, offsetof(scene_object, triangles), 0, 0, SCENE_SHAPE_TRIANGLES, NULL,
       .doc = "at most so many of a shape, as even as it goes; 0: as few as its form needs"},

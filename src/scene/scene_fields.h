@@ -102,6 +102,7 @@ typedef struct scene_material {
 } scene_material;
 
 typedef enum scene_shape { SHAPE_MESH, SHAPE_PLANE, SHAPE_BOX, SHAPE_SPHERE, SHAPE_STEPS, SHAPE_POOL, SHAPE_FLOOR } scene_shape;
+extern const char *const scene_shape_names[]; /* ends with NULL */
 
 typedef struct scene_object {
     char *name, *mesh, *heights; /* owned; NULL: none */

@@ -157,6 +157,8 @@ bool scene_file_frame(const scene_file *file, int frame, mgt_scene *out)
 
 const scene_values *scene_file_values(const scene_file *file) { return &file->values; }
 
+const char *scene_file_object_name(const scene_file *file, size_t object) { return scene_models_label(file->values.models, object); }
+
 const char *scene_file_path(const scene_file *file) { return file->path; }
 
 const char *scene_file_description(const scene_file *file) { return file->values.description != NULL ? file->values.description : ""; }

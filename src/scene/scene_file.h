@@ -64,6 +64,10 @@ void scene_file_free(scene_file *file);
  * clock runs on, and a camera path's end is where the camera rests. Returns false, with *out untouched, when frame is negative or has no legal camera. */
 bool scene_file_frame(const scene_file *file, int frame, mgt_scene *out);
 
+/* What object `object` of a frame's scene is called: the file's `name`, "NAME/2" at the first of its instances; without a name after its shape or the mesh's file, made different
+ * from those before. The parts of one mesh share it. NULL: there is no such object. */
+const char *scene_file_object_name(const scene_file *file, size_t object);
+
 const char *scene_file_path(const scene_file *file);        /* as given to scene_file_load(); never NULL */
 const char *scene_file_description(const scene_file *file); /* "" where there is none; never NULL */
 

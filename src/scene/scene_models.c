@@ -34,6 +34,9 @@ struct scene_models {
     size_t texture_count;
     mgt_object *objects;
     size_t object_count, object_room;
+    uint32_t *label_of; /* of each object */
+    char **labels;      /* owned: of each place of each object of the file */
+    size_t label_count;
     uint64_t *hashes; /* of each object of the file */
     size_t hash_count;
 };
@@ -279,9 +282,14 @@ static bool add_parts(models_reader *r, size_t index, const tree_node *item, con
         if (objects == NULL)
             return scene_error_memory(r->error);
         m->objects = objects;
+        uint32_t *label_of = realloc(m->label_of, room * sizeof *label_of);
+        if (label_of == NULL)
+            return scene_error_memory(r->error);
+        m->label_of = label_of;
         m->object_room = room;
     }
     for (size_t i = 0; i < model->part_count; i++) {
+        m->label_of[m->object_count] = (uint32_t)(m->label_count - 1);
         mgt_object *o = &m->objects[m->object_count++];
         const placement whole = product(p.at, model->parts[i].transform);
         *o = (mgt_object){.mesh = model->parts[i].mesh,
@@ -290,6 +298,44 @@ static bool add_parts(models_reader *r, size_t index, const tree_node *item, con
         if (texture != NULL)
             o->material.texture = texture;
     }
+    return true;
+}
+
+static bool is_label(const scene_models *m, const char *text)
+{
+    for (size_t i = 0; i < m->label_count; i++)
+        if (strcmp(m->labels[i], text) == 0)
+            return true;
+    return false;
+}
+
+/* What an object without a name is called after: its shape, or its file without folder and extension. */
+static void describe(const scene_object *object, char text[64])
+{
+    const char *slash = object->mesh != NULL ? strrchr(object->mesh, '/') : NULL, *stem = slash != NULL ? slash + 1 : object->mesh;
+    const int length = stem != NULL && object->shape == SHAPE_MESH ? (int)strcspn(stem, ".") : 0;
+    snprintf(text, 64, "%.*s", length > 0 ? length : 40, length > 0 ? stem : scene_shape_names[object->shape]);
+}
+
+/* Names the next place: NAME, then NAME/2, …. Objects of one name share their places' names; without one an object has a name of its own. */
+static bool add_label(models_reader *r, size_t index, const scene_object *object, size_t place, const char *first)
+{
+    scene_models *m = r->models;
+    char own[96], *text = NULL;
+    size_t size = 0;
+    const bool named = object->name != NULL && object->name[0] != '\0';
+    describe(object, own);
+    if (!named && place == 0 && is_label(m, own))
+        snprintf(own + strlen(own), sizeof own - strlen(own), "-%zu", index + 1);
+    const char *base = first != NULL ? first : named ? object->name : own;
+    char **labels = grown(m->labels, m->label_count, sizeof *labels);
+    if (labels != NULL)
+        m->labels = labels;
+    size = strlen(base) + 24;
+    if (labels == NULL || (text = malloc(size)) == NULL)
+        return scene_error_memory(r->error);
+    snprintf(text, size, place == 0 ? "%s" : "%s/%zu", base, place + 1);
+    m->labels[m->label_count++] = text;
     return true;
 }
 
@@ -306,11 +352,12 @@ static bool add_object(models_reader *r, size_t index, const tree_node *item, co
         return false;
     r->models->hashes[index] = texture != NULL ? model_hash(model->hash, &texture->hash, sizeof texture->hash) : model->hash;
     const mgt_texture *picture = texture != NULL ? texture->texture : NULL;
-    if (!add_parts(r, index, item, object, model, &object->pose, picture))
+    if (!add_label(r, index, object, 0, NULL) || !add_parts(r, index, item, object, model, &object->pose, picture))
         return false;
     const scene_pose *poses = object->instances.items;
+    const size_t first = r->models->label_count - 1;
     for (size_t i = 0; i < object->instances.count; i++)
-        if (!add_parts(r, index, item, object, model, &poses[i], picture))
+        if (!add_label(r, index, object, i + 1, r->models->labels[first]) || !add_parts(r, index, item, object, model, &poses[i], picture))
             return false;
     return true;
 }
@@ -360,6 +407,10 @@ void scene_models_release(scene_models *models)
     }
     free(models->models);
     free(models->textures);
+    for (size_t i = 0; i < models->label_count; i++)
+        free(models->labels[i]);
+    free(models->labels);
+    free(models->label_of);
     free(models->objects);
     free(models->hashes);
     free(models);
@@ -369,6 +420,11 @@ const mgt_object *scene_models_objects(const scene_models *models, size_t *count
 {
     *count = models != NULL ? models->object_count : 0;
     return models != NULL ? models->objects : NULL;
+}
+
+const char *scene_models_label(const scene_models *models, size_t object)
+{
+    return models != NULL && object < models->object_count ? models->labels[models->label_of[object]] : NULL;
 }
 
 void scene_models_write(FILE *stream, const scene_models *models)

@@ -20,6 +20,9 @@ void scene_models_release(scene_models *models);
 /* The objects of the scene; NULL where there are none. They live as long as `models`. */
 const mgt_object *scene_models_objects(const scene_models *models, size_t *count);
 
+/* What object `object` of them is called: the name of the file's object, "NAME/2" at its second place; without a name after its shape or mesh. NULL: there is none. */
+const char *scene_models_label(const scene_models *models, size_t object);
+
 /* What stands in the files, a line "objects[0].content HASH" each, for the canonical text. */
 void scene_models_write(FILE *stream, const scene_models *models);
 
