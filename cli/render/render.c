@@ -152,7 +152,9 @@ static const option render_options[] = {
      .set = add_layer},
     {"exr", 0, "WORDS",
      ".exr: half (16 bits), piz or none (for ZIP), alpha (channel A, the\n"
-     "fraction of water), z (channel Z, metres along the view), acescg",
+     "fraction of water), z (channel Z, metres along the view), acescg,\n"
+     "parts (a part for each layer), cryptomatte or cryptomatte:N (mattes\n"
+     "of objects, water and sky by NxN rays a pixel; default 4)",
      .set = option_exr, .offset = offsetof(render_request, exr)},
     {"codec", 0, "NAME", "films: h264 (default of .mp4), hevc (10 bits), prores (422 HQ, default\nof .mov)", .set = set_codec},
     {"crf", 0, "N", "films: quality of h264 and hevc, 0 (best) to 51 (default 16)", .set = set_crf},

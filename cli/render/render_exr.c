@@ -5,12 +5,31 @@
 #include <math.h>
 #include <string.h>
 
+#include "cli/common/numbers.h"
+#include "cli/render/render_crypto.h"
+#include "cpu/object_ids.h"
 #include "params/names.h"
 
 /* Radiance is in kcd/m². */
 enum { NITS = 1000 };
 
-static const char *const exr_words[] = {"float", "half", "zip", "piz", "none", "alpha", "z", "acescg", NULL};
+static const char *const exr_words[] = {"float", "half", "zip", "piz", "none", "alpha", "z", "acescg", "parts", "cryptomatte", NULL};
+
+/* "cryptomatte:8" */
+static bool take_side(exr_choice *choice, const char *word, size_t length)
+{
+    static const char start[] = "cryptomatte:";
+    uint64_t side;
+    char digits[8] = "";
+    const size_t before = sizeof start - 1;
+    if (length <= before || length >= before + sizeof digits || strncmp(word, start, before) != 0)
+        return false;
+    memcpy(digits, word + before, length - before);
+    if (!number_parse_u64(digits, OBJECT_SIDE_MAX, &side) || side == 0)
+        return false;
+    choice->crypto = (uint32_t)side;
+    return true;
+}
 
 static bool take_word(exr_choice *choice, const char *word, size_t length)
 {
@@ -33,8 +52,13 @@ static bool take_word(exr_choice *choice, const char *word, size_t length)
         return choice->z = true;
     case 7:
         return choice->acescg = true;
+    case 8:
+        return choice->parts = true;
+    case 9:
+        choice->crypto = CRYPTO_SIDE_DEFAULT;
+        return true;
     default:
-        return false;
+        return take_side(choice, word, length);
     }
 }
 
@@ -52,11 +76,13 @@ int option_exr(const option *o, void *place, const char *value)
 
 void exr_choice_write(FILE *stream, const exr_choice *choice)
 {
-    fprintf(stream, "%s%s%s%s%s", choice->half ? " half" : "",
+    fprintf(stream, "%s%s%s%s%s%s", choice->half ? " half" : "",
             choice->packing == EXR_PACKING_PIZ    ? " piz"
             : choice->packing == EXR_PACKING_NONE ? " none"
                                                   : "",
-            choice->alpha ? " alpha" : "", choice->z ? " z" : "", choice->acescg ? " acescg" : "");
+            choice->alpha ? " alpha" : "", choice->z ? " z" : "", choice->acescg ? " acescg" : "", choice->parts ? " parts" : "");
+    if (choice->crypto)
+        fprintf(stream, " cryptomatte %u of %08x", choice->crypto, choice->crypto_names);
 }
 
 /* ---- the camera ---- */
@@ -103,6 +129,7 @@ exr_desc exr_desc_of(const exr_choice *choice, const mgt_scene *scene, double fp
     const camera_axes c = axes_of(scene);
     exr_desc desc = {.packing = choice->packing,
                      .half = choice->half,
+                     .parts = choice->parts,
                      .x = image->crop_x,
                      .y = image->crop_y,
                      .display_width = image->width,

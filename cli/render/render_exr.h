@@ -12,13 +12,15 @@
 typedef struct exr_choice {
     bool half;
     exr_packing packing;
-    bool alpha, z, acescg;
+    bool alpha, z, acescg, parts;
+    uint32_t crypto;       /* N of N × N rays a pixel for mattes; 0: none */
+    uint32_t crypto_names; /* what the mattes are named after, once the scene is known */
 } exr_choice;
 
-/* "half,piz,alpha,z,acescg" into an exr_choice. */
+/* "half,piz,alpha,z,acescg,parts,cryptomatte:8" into an exr_choice. */
 option_set option_exr;
 
-static inline bool exr_choice_is_plain(const exr_choice *c) { return !(c->half || c->packing || c->alpha || c->z || c->acescg); }
+static inline bool exr_choice_is_plain(const exr_choice *c) { return !(c->half || c->packing || c->alpha || c->z || c->acescg || c->parts || c->crypto); }
 
 /* The words that are not the default, each behind a space; nothing where there are none. */
 void exr_choice_write(FILE *stream, const exr_choice *choice);

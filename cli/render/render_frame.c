@@ -118,10 +118,10 @@ static picture_layer layer_of(const mgt_target *target)
 static file_status write_exr(frame_buffer *buffer, const render_request *request, const mgt_scene *scene, double fps, const char *path,
                              const metadata_list *metadata, const output_options *options, file_error *error)
 {
-    picture_layer layers[LAYER_COUNT + 2];
+    picture_layer layers[LAYER_COUNT + 2 + CRYPTO_CHANNELS];
     size_t count = 0;
     const size_t pixels = (size_t)buffer->width * buffer->height;
-    const exr_desc desc = scene ? exr_desc_of(&request->exr, scene, fps) : (exr_desc){0};
+    exr_desc desc = scene ? exr_desc_of(&request->exr, scene, fps) : (exr_desc){0};
     for (; count < request->layer_count; count++) {
         const mgt_target *target = &buffer->targets[count];
         layers[count] = layer_of(target);
@@ -130,6 +130,7 @@ static file_status write_exr(frame_buffer *buffer, const render_request *request
     }
     if (request->exr.alpha) {
         layers[count] = layer_of(target_of_layer(buffer, MGT_LAYER_MASK));
+        layers[count].part = "color";
         layers[count++].channel = "A";
     }
     if (buffer->planar && scene) {
@@ -137,7 +138,15 @@ static file_status write_exr(frame_buffer *buffer, const render_request *request
         memcpy(buffer->planar, layers[count].pixels, pixels * sizeof *buffer->planar);
         exr_planar_depth(buffer->planar, scene);
         layers[count].pixels = buffer->planar;
+        layers[count].part = "color";
         layers[count++].channel = "Z";
+    }
+    if (buffer->crypto && scene) {
+        const file_status status = render_crypto_draw(buffer->crypto, scene, error);
+        if (status != FILE_OK)
+            return status;
+        render_crypto_layers(buffer->crypto, layers + count, &desc);
+        count += CRYPTO_CHANNELS;
     }
     return picture_write_exr_described(path, buffer->width, buffer->height, layers, count, &desc, metadata, options, error);
 }

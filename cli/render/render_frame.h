@@ -3,6 +3,7 @@
 #ifndef MANGATA_CLI_RENDER_RENDER_FRAME_H
 #define MANGATA_CLI_RENDER_RENDER_FRAME_H
 
+#include "cli/render/render_crypto.h"
 #include "cli/render/render_request.h"
 
 /* One buffer a layer, used again for every frame. */
@@ -11,7 +12,8 @@ typedef struct frame_buffer {
     bool displayed;         /* one layer that becomes 8-bit RGBA */
     size_t count;           /* layers asked for, then those from which alpha and planar depth are made */
     mgt_target targets[LAYER_COUNT];
-    float *planar; /* planar depth; NULL: not asked for */
+    float *planar;         /* planar depth; NULL: not asked for */
+    render_crypto *crypto; /* mattes, borrowed; NULL: not asked for */
 } frame_buffer;
 
 /* Allocates what the request needs; prints the error and returns the exit code. */

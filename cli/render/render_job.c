@@ -19,7 +19,8 @@ typedef struct render_job {
     mgt_context *context;
     mgt_context_info info;
     frame_buffer buffer;
-    mgt_image image; /* of every frame, with the crop */
+    render_crypto *crypto; /* NULL: not asked for */
+    mgt_image image;       /* of every frame, with the crop */
     output_options output;
     progress progress;
     uint64_t rendered, skipped;
@@ -112,6 +113,15 @@ static int create_context(render_job *job)
         console_detail(&job->request->out, "backend %s, %s, %u lanes, %u threads", mgt_backend_name(job->info.backend), mgt_isa_name(job->info.isa),
                        job->info.lanes, job->info.threads);
     return EXIT_CODE_OK;
+}
+
+static int create_crypto(render_job *job)
+{
+    render_request *r = job->request;
+    const int code = render_crypto_create(&job->crypto, job->scene, &r->context, r->exr.crypto, job->image.crop_width, job->image.crop_height);
+    if (code == EXIT_CODE_OK)
+        r->exr.crypto_names = render_crypto_names(job->crypto);
+    return code;
 }
 
 /* All frames, so that an hour of rendering does not end at a bad one. */
@@ -376,12 +386,15 @@ static int run(render_job *job)
         code = create_context(job);
     if (code == EXIT_CODE_OK)
         code = check_frames(job);
+    if (code == EXIT_CODE_OK && job->request->exr.crypto)
+        code = create_crypto(job);
     if (code == EXIT_CODE_OK && !render_is_film(job->request))
         code = check_stills(job);
     if (code == EXIT_CODE_OK)
         code = frame_buffer_create(&job->buffer, job->request, job->image.crop_width, job->image.crop_height);
     if (code != EXIT_CODE_OK)
         return code;
+    job->buffer.crypto = job->crypto;
     /* A farm may have more machines than there are frames. */
     if (frame_list_length(&job->request->frames) == 0)
         return report(job, seconds_now() - start);
@@ -403,6 +416,7 @@ int render_job_run(render_request *request)
     const int code = run(job);
     json_decref(job->files);
     frame_buffer_free(&job->buffer);
+    render_crypto_free(job->crypto);
     mgt_context_destroy(job->context);
     free(job->canonical);
     scene_file_free(job->scene);

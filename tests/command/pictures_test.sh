@@ -76,9 +76,71 @@ END
     says aces.exr 'chromaticities: 0.713, 0.293, 0.165, 0.83, 0.128, 0.044, 0.32168, 0.33767'
     oiiotool whole.exr --ch R,G,B --ccmatrix 0.6130974024,0.0701937225,0.0206155929,0.3395231462,0.9163538791,0.1095697729,0.0473794514,0.0134523985,0.8698146342 -d float -o matrix.exr || fail "oiiotool --ccmatrix"
     expect 0 '' "$MANGATA" diff aces.exr matrix.exr --display -4 --max-rmse 1e-6
+    # A part for each layer: the same values as in one part, and readable by layer, by channel and by part.
+    works render "$sunset" -o parts.exr --layer all --exr parts,alpha,z "${size[@]}"
+    oiiotool --info -a -v parts.exr >parts.txt
+    grep -q ' 11 subimages: ' parts.txt && grep -q 'channel list: R, G, B, A, Z' parts.txt && grep -q 'subimagename: "normal"' parts.txt || fail "parts: $(cat parts.txt)"
+    (($(grep -c 'whiteLuminance: 1000' parts.txt) == 11 && $(grep -c mangata.render_hash parts.txt) == 1)) || fail "attributes of parts: $(cat parts.txt)"
+    for layer in color coverage depth normal normal.Y samples foam; do
+        expect 0 '' "$MANGATA" diff parts.exr whole.exr --layer $layer --max-rmse 0
+    done
+    expect 0 'nothing to render' render "$sunset" -o parts.exr --layer all --exr parts,alpha,z --size 128x72 --skip-existing
+    oiiotool whole.exr --ch depth.Z --chnames Z --attrib oiio:subimagename depth whole.exr --ch R,G,B --attrib oiio:subimagename rgb --siappend -o foreign.exr
+    expect 0 '' "$MANGATA" diff foreign.exr whole.exr --layer color --max-rmse 0
+    oiiotool foreign.exr --subimage depth --chnames depth.Z -o depth.exr
+    expect 0 '' "$MANGATA" diff depth.exr whole.exr --layer depth --max-rmse 0
+    expect 0 '' "$MANGATA" diff foreign.exr depth.exr --layer depth --max-rmse 0
+    works render "$SOURCE/scenes/pool.yaml" -o matte.exr --layer color --layer depth --exr parts,half,cryptomatte:2 "${size[@]}"
+    oiiotool --info -a -v matte.exr >parts.txt
+    grep -q 'crypto_object02.A' parts.txt && grep -q 'subimagename: "crypto_object"' parts.txt && grep -q '[[]f,f,f,f,f,f,f,f,f,f,f,f[]]' parts.txt || fail "mattes in parts: $(cat parts.txt)"
+    (($(grep -c 'cryptomatte/f834d0a/manifest.*"balls/2":"' parts.txt) == 1)) || fail "manifest: $(cat parts.txt)"
 else
     echo "NOTICE: no oiiotool here; EXR was not read by another program"
 fi
+
+# Cryptomatte, read by a decoder of its own.
+python=/usr/bin/python3
+[[ -x $python ]] || python=python3
+mattes() { timeout 60 "$python" "$SOURCE/tests/command/cryptomatte.py" "$@" || fail "cryptomatte.py $*"; }
+near() { awk -v a="$1" -v b="$2" -v by="$3" 'BEGIN { exit !(a - b < by && b - a < by) }' || fail "$4: $1, not $2"; }
+matte() { works render "$1" -o "$2" --exr none,cryptomatte:8 --layer depth --method none --quiet "${@:3}"; }
+"$MANGATA" render "$simple" -o embree.exr --exr cryptomatte:1 "${small[@]}" --quiet 2>/dev/null
+if (($? != 69)) && command -v "$python" >/dev/null; then
+    # A ball half before the sky, half before the water: its outline on the screen is a disk of known size.
+    cat >ball.yaml <<'END'
+mangata: 1
+image: {width: 60, height: 40}
+camera: {position: [0, 50, 0], target: [0, 50, -10], fov_y_deg: 40}
+objects: [{shape: sphere, size: [4, 4, 4], position: [0, 50, -12], triangles: 20000}]
+END
+    matte ball.yaml ball.exr
+    disk=$(awk 'BEGIN { t = 0.36397; r = 2 / sqrt(144 - 4); print atan2(0, -1) * r * r / (4 * t * t * 1.5) }')
+    near "$(mattes ball.exr sphere)" "$disk" 0.0005 "the ball's share of the picture"
+    near "$(mattes ball.exr sky)" "$(mattes ball.exr water)" 0.002 "sky over a high horizon, and water below it"
+    [[ $(mattes ball.exr sphere 30 20) == 1.0 ]] || fail "the middle of the ball: $(mattes ball.exr sphere 30 20)"
+    # A floor under flat water, seen from straight above: the surface mirrors ((n - 1) / (n + 1))².
+    cat >floor.yaml <<'END'
+mangata: 1
+image: {width: 41, height: 41}
+camera: {position: [0, 3, 0], target: [0, 0, 0], up: [0, 0, -1], fov_y_deg: 20}
+objects: [{name: "the floor \"é\"", shape: plane, size: [9, 9, 9], position: [0, -1, 0]}, {name: tile, shape: box, size: [0.3, 0.3, 0.3], position: [0, 0.4, 0.35]}]
+water: {ior: 1.333}
+END
+    matte floor.yaml floor.exr
+    near "$(mattes floor.exr 'the floor "é"' 20 20)" "$(awk 'BEGIN { r = 0.333 / 2.333; print 1 - r * r }')" 1e-4 "what comes through the surface"
+    near "$(mattes floor.exr water 20 20)" "$(awk 'BEGIN { r = 0.333 / 2.333; print r * r }')" 1e-4 "what it mirrors"
+    # Every name, place by place; a crop and any number of threads give the same bytes.
+    matte "$SOURCE/scenes/pool.yaml" pool.exr --size 96x54
+    matte "$SOURCE/scenes/pool.yaml" crop.exr --size 96x54 --crop 21,9,40,30 --threads 3
+    mattes crop.exr --crop-of pool.exr 21 9
+    expect 73 'was not rendered' render floor.yaml -o floor.exr --exr none,cryptomatte:8 --layer depth --method none --skip-existing --set 'objects[1].name=brick'
+    expect 0 'nothing to render' render floor.yaml -o floor.exr --exr none,cryptomatte:8 --layer depth --method none --skip-existing
+else
+    echo "NOTICE: no python3 or no Embree here; mattes were not decoded"
+fi
+for word in cryptomatte:0 cryptomatte:17 cryptomatte: cryptomatte:4x cryptomatt; do
+    expect 64 'allowed are float, half' render "$simple" -o a.exr --exr $word
+done
 
 # Hashes: what --exr says changes them; the default of a whole picture does not.
 expect 64 'exr is for .exr' render "$simple" -o a.png --exr half
