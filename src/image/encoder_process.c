@@ -117,7 +117,9 @@ static void add_words(argument_list *list, const char *const *words, int crf)
 static argument_list encoder_arguments(const encoder_desc *desc)
 {
     static const char *const before[] = {"ffmpeg", "-nostdin", "-hide_banner", "-loglevel", "error", "-xerror", "-y", "-f", "rawvideo", NULL};
-    static const char *const tagged[] = {"-color_range", "tv", "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709", NULL};
+    /* Pixels are sRGB-encoded, which ProRes has no number for. */
+    const char *const transfer = desc->codec == VIDEO_CODEC_PRORES ? "bt709" : "iec61966-2-1";
+    const char *const tagged[] = {"-color_range", "tv", "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", transfer, NULL};
     static const char *const input[] = {"-i", "pipe:0", "-map", "0:v:0", NULL};
     static const char *const after[] = {"-fflags", "+bitexact", "-flags:v", "+bitexact", "-map_metadata", "-1", "-movflags", "+faststart+use_metadata_tags",
                                         NULL};

@@ -164,14 +164,14 @@ if command -v ffprobe >/dev/null; then
         [[ $found == "$wanted,30/1" ]] || fail "$file: $found instead of $wanted,30/1"
         exists "$file.json"
     }
-    film a.mp4 h264,yuv420p,tv,bt709,bt709,bt709
-    film best.mp4 h264,yuv420p,tv,bt709,bt709,bt709 --crf 1
-    film worst.mp4 h264,yuv420p,tv,bt709,bt709,bt709 --crf 51
+    film a.mp4 h264,yuv420p,tv,bt709,iec61966-2-1,bt709
+    film best.mp4 h264,yuv420p,tv,bt709,iec61966-2-1,bt709 --crf 1
+    film worst.mp4 h264,yuv420p,tv,bt709,iec61966-2-1,bt709 --crf 51
     (($(stat -c %s best.mp4) > $(stat -c %s a.mp4) && $(stat -c %s a.mp4) > $(stat -c %s worst.mp4))) || fail "--crf: $(stat -c %s best.mp4 a.mp4 worst.mp4)"
     film b.mov prores,yuv422p10le,tv,bt709,bt709,bt709
     if ffmpeg -v error -encoders | grep -q libx265; then
-        film c.mp4 hevc,yuv420p10le,tv,bt709,bt709,bt709 --codec hevc
-        film d.mov hevc,yuv420p10le,tv,bt709,bt709,bt709 --codec hevc --crf 20
+        film c.mp4 hevc,yuv420p10le,tv,bt709,iec61966-2-1,bt709 --codec hevc
+        film d.mov hevc,yuv420p10le,tv,bt709,iec61966-2-1,bt709 --codec hevc --crf 20
         works render "$simple" -o again.mp4 --frames 0-3 "${small[@]}" --quiet --codec hevc
         same c.mp4 again.mp4
     fi

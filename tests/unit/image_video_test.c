@@ -228,7 +228,7 @@ static void test_mp4_film(void **state)
              "frames:format_tags=render_hash -of default=nk=1:nw=1 'file:%s' | tr '\\n' ,",
              path);
     first_line(command, line, sizeof line);
-    assert_string_equal(line, "h264,64,36,yuv420p,tv,bt709,bt709,bt709,30/1,7,abc,");
+    assert_string_equal(line, "h264,64,36,yuv420p,tv,bt709,iec61966-2-1,bt709,30/1,7,abc,");
 
     snprintf(
         command, sizeof command,
