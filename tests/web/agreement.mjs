@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The page's pictures against the command's: agreement.mjs PAGE MANGATA WIDTH HEIGHT SCENES [SECONDS]. By shaders and by the library in WebAssembly. Prints the RMSE of
+// The page's pictures against the command's: agreement.mjs PAGE MANGATA WIDTH HEIGHT SCENES [SECONDS [METHOD]]. By shaders and by the library in WebAssembly. Prints the RMSE of
 // displayed values, the times of frames and what sorting the waves by tiles gains. When the seconds end it says what it has reached; exit code 1 where that is nothing.
 import { execFile } from "node:child_process";
 import { mkdtempSync, rmSync, statSync, writeFileSync } from "node:fs";
@@ -8,7 +8,7 @@ import { join, resolve } from "node:path";
 import { promisify } from "node:util";
 import { openBrowser, withinSeconds } from "./browser.mjs";
 
-const [page, mangata, width, height, count, seconds = "45"] = process.argv.slice(2);
+const [page, mangata, width, height, count, seconds = "45", only = ""] = process.argv.slice(2);
 const MOST_RMSE = 0.01, MOST_BYTES = 400e3;
 const run = promisify(execFile);
 const browser = await openBrowser();
@@ -21,7 +21,7 @@ async function compare([scene, method, way]) {
   const drawn = await browser.run(`(async () => {
     setScene(tested, { ...presets(), ...${JSON.stringify(changes)} });
     const timed = async options => {
-      await render(tested, options);
+      if (!METHODS[options.method].blends) await render(tested, options); // which compiles
       const start = performance.now();
       await render(tested, options);
       return { frame: performance.now() - start, tiles: tested.engine.times.tiles };
@@ -43,10 +43,10 @@ try {
   const whole = await withinSeconds(Number(seconds), async ended => {
     await browser.open("file://" + resolve(page) + "#still");
     await browser.run(`(async () => { window.tested = await create(Object.assign(document.createElement("canvas"), { width: ${width}, height: ${height} })); })()`);
-    const methods = await browser.run("Object.entries(METHODS).map(([name, m]) => ({ name, lanes: m.byLanes || m.blends, last: m.blends || m.map || false }))");
+    const methods = await browser.run("Object.entries(METHODS).map(([name, m]) => ({ name, lanes: m.byLanes || m.blends, last: m.blends ? 2 : m.map ? 1 : 0 }))");
     methods.reverse().sort((a, b) => a.last - b.last); // mangata first, what takes longest last
     for (const scene of (await browser.run("GALLERY")).slice(0, Number(count)))
-      for (const { name, lanes } of methods) cases.push(...(lanes ? [[scene, name, "lanes"]] : []), [scene, name, "shaders"]);
+      for (const { name, lanes } of methods.filter(m => !only || m.name === only)) cases.push(...(lanes ? [[scene, name, "lanes"]] : []), [scene, name, "shaders"]);
     for (const one of cases) if (!ended()) await compare(one);
   });
   if (!whole) console.log(`the ${seconds} seconds ended: ${compared} of ${cases.length} pictures were compared`);

@@ -7,11 +7,13 @@ const METHODS = {
   none: { about: "one sample at the pixel's centre", program: ["points.frag"], byLanes: true },
   "ggx-moments": { about: "as in game engines: GGX of the slopes' moments", program: ["slopes.frag", "kernels/baselines/ggx_moments.k", "ggx_moments_result"], byLanes: true },
   bruneton: { about: "Bruneton et al. 2010: Gaussian slopes", program: ["slopes.frag", "kernels/baselines/bruneton.k", "bruneton_result"], byLanes: true },
+  leadr: { about: "Dupuy et al. 2013: a tiled map of slope moments", program: ["slopes.frag", "kernels/baselines/leadr.k", "leadr_result"], map: true },
   taa: { about: "temporal anti-aliasing: eight frames of none", program: ["points.frag"], blends: true },
   mangata: { about: "this library's closed form", program: ["slopes.frag", "kernels/glitter/glitter.k", "glitter_result"], byLanes: true },
 };
 // As src/frame/whole_frame.h has them: frames of taa, and where in the pixel each looks (Halton 2, 3).
 const TAA_FRAMES = 8;
+const MAP_LEVELS = 13; // of the map of slope moments: 4096 texels to 1
 
 class Engine {
   // Throws a text where the canvas has no WebGL2 that can draw this.
@@ -68,7 +70,7 @@ class Engine {
       const logs = entry.shaders.map(s => gl.getShaderInfoLog(s)).join("\n");
       throw new Error(`${entry.key}: ${logs} ${gl.getProgramInfoLog(entry.program)}`);
     }
-    ["FrameBlock", "FoamBlock", "WaveBlock"].forEach((block, i) => {
+    ["FrameBlock", "FoamBlock", "WaveBlock", "LeanBlock"].forEach((block, i) => {
       const index = gl.getUniformBlockIndex(entry.program, block);
       if (index !== gl.INVALID_INDEX) gl.uniformBlockBinding(entry.program, index, i);
     });
@@ -88,8 +90,8 @@ class Engine {
 
   // `choppy`, `foamy`: what the water is.
   methodProgram(name, { choppy, foamy }) {
-    const { program: [file, kernel, result] } = METHODS[name];
-    const defines = (choppy ? "#define CHOPPY_WATER\n" : "") + (foamy ? "#define FOAMY_WATER\n" : "");
+    const { program: [file, kernel, result], map } = METHODS[name];
+    const defines = (map ? "#define LEAN_MAP\n" : "") + (choppy ? "#define CHOPPY_WATER\n" : "") + (foamy ? "#define FOAMY_WATER\n" : "");
     return this.program(file, kernel || "", result, defines);
   }
 
@@ -203,6 +205,7 @@ class Engine {
     if (!tiles) return false;
     this.times.tiles = performance.now() - start;
     const entry = await this.compiled(this.methodProgram(method, { choppy: tiles.choppy, foamy: tiles.foam !== null }));
+    if (METHODS[method].map && !await this.makeMap({ method, settings, width, height }, tiles.lean, stale)) return false;
     this.upload(tiles);
     this.bind("sky_texture", this.sky);
     this.gl.useProgram(entry.program);
@@ -212,6 +215,48 @@ class Engine {
       await this.finished();
       if (stale && stale()) return false;
     }
+    return true;
+  }
+
+  // The map of slope moments that `lean` says; one that is there already stays. this.progress, where it is set, gets the share of the map that is made.
+  async makeMap(job, lean, stale) {
+    const { gl } = this, key = lean.waves.join();
+    this.block("lean", 3, lean.data);
+    const map = this.map = this.map || {
+      mean: this.newTexture("lean_mean_texture", gl.RG16F, MAP_SIZE, MAP_SIZE, MAP_LEVELS), frame: gl.createFramebuffer(),
+      square: this.newTexture("lean_square_texture", gl.RGBA16F, MAP_SIZE / 2, MAP_SIZE / 2, MAP_LEVELS - 1),
+    };
+    if (map.key === key) return true;
+    map.key = "";
+    let bands = 0;
+    const put = (slopes, band) => {
+      this.bind("lean_mean_texture", map.mean);
+      gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, band * MAP_BAND, MAP_SIZE, MAP_BAND, gl.RG, gl.HALF_FLOAT, slopes);
+      if (this.progress) this.progress(++bands * MAP_BAND / MAP_SIZE);
+    };
+    if (!await this.lanes.slopes(job, put, stale)) return false;
+    const entry = await this.compiled(this.program("lean_shrink.frag", "", "", ""));
+    gl.useProgram(entry.program);
+    const levels = (name, first, last) => {
+      this.bind(name, name === "lean_mean_texture" ? map.mean : map.square);
+      gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_BASE_LEVEL, first);
+      gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAX_LEVEL, last);
+    };
+    gl.bindFramebuffer(gl.FRAMEBUFFER, map.frame);
+    for (let level = 1; level < MAP_LEVELS; level++) {
+      // What is read is never what is drawn into: of the second moments level 1 reads nothing, but some level must be named.
+      levels("lean_mean_texture", level - 1, level - 1);
+      levels("lean_square_texture", level === 1 ? 1 : level - 2, level === 1 ? 1 : level - 2);
+      gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, map.mean, level);
+      gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT1, gl.TEXTURE_2D, map.square, level - 1);
+      gl.drawBuffers([gl.COLOR_ATTACHMENT0, gl.COLOR_ATTACHMENT1]);
+      gl.viewport(0, 0, MAP_SIZE >> level, MAP_SIZE >> level);
+      gl.uniform1i(this.place(entry, "level"), level);
+      gl.drawArrays(gl.TRIANGLES, 0, 3);
+    }
+    levels("lean_mean_texture", 0, MAP_LEVELS - 1);
+    levels("lean_square_texture", 0, MAP_LEVELS - 2);
+    map.key = key;
     return true;
   }
 
@@ -262,7 +307,7 @@ class Engine {
 }
 
 const TEXTURES = ["sky_texture", "tile_texture", "list_texture", "search_texture", "hit_texture", "wave_texture", "foam_texture", "first_texture", "second_texture",
-  "current_texture", "history_texture"];
+  "current_texture", "history_texture", "lean_mean_texture", "lean_square_texture"];
 
 function halton(index, base) {
   let value = 0;

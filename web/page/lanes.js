@@ -2,14 +2,15 @@
 // Rows of tiles by workers: pixels of the library's own kernels, or what shaders read of the tiles.
 
 const TILE_ROWS = 16, TILE_COLUMNS = 32; // pixels of a tile
+const MAP_SIZE = 4096, MAP_BAND = 64;      // texels of the map of slopes each way, and rows of a band of it
 
-// What a worker does with a job's rows. A job is { id, kind, settings, method, width, height, jitter, sorted, tiles }; `tiles`: the first column of tiles, and that after the last.
+// What a worker does with a job's rows. A job is { id, kind: "pixels", "shown", "tiles" or "slopes", settings, method, width, height, jitter, sorted, tiles }; `tiles`: the first column of tiles, and that after the last.
 function laneTasks(post) {
   let library, begun = 0, head = 0;
   const begin = job => {
     const { calls } = library, number = library.method(job.method);
     library.update(job.settings);
-    if (job.kind === "tiles") head = calls.prepare(number, job.width, job.height, ...job.jitter, job.sorted ? 1 : 0);
+    if (job.kind === "tiles" || job.kind === "slopes") head = calls.prepare(number, job.width, job.height, ...job.jitter, job.sorted ? 1 : 0);
     else calls.picture_begin(number, job.width, job.height, 0, ...job.jitter);
     begun = job.id;
   };
@@ -29,6 +30,7 @@ function laneTasks(post) {
       searched: library.copy(Float32Array, searched, 8 * searchCount), hits: library.copy(Float32Array, hits, 8 * hitCount),
     };
   };
+  const slopesOf = band => ({ data: library.copy(Uint16Array, library.calls.lean_band(band), library.calls.lean_band_rows() * 4096 * 2) });
   const headOf = () => {
     const { calls } = library, [frame, waves, foam, leanData, leanWaves, waveCount, hasFoam, choppy, leanCount, columns, rows] = numbersAt(head, 11);
     const foamBytes = calls.foam_bytes();
@@ -49,7 +51,7 @@ function laneTasks(post) {
       library = await library;
       const { job, row } = task;
       if (job.id !== begun) begin(job);
-      const answer = job.kind === "tiles" ? { ...tilesOf(job, row), head: task.first ? headOf() : null } : pixelsOf(job, row);
+      const answer = job.kind === "tiles" ? { ...tilesOf(job, row), head: task.first ? headOf() : null } : job.kind === "slopes" ? slopesOf(row) : pixelsOf(job, row);
       answer.memory = library.calls.memory.buffer.byteLength;
       post(answer, [answer.data, answer.tiles, answer.lists, answer.searched, answer.hits].filter(Boolean).map(a => a.buffer));
     } catch (error) {
@@ -68,7 +70,7 @@ class Lanes {
 
   // Every row's answer goes to take(answer, row). False: stale() was true, and not all rows are done. `columns`: of pixels, the first that matters, and that after the last.
   async run(job, take, stale = () => false) {
-    const { jitter = [0, 0], sorted = true, columns = [0, job.width] } = job, rows = Math.ceil(job.height / TILE_ROWS);
+    const { jitter = [0, 0], sorted = true, columns = [0, job.width] } = job, rows = job.kind === "slopes" ? MAP_SIZE / MAP_BAND : Math.ceil(job.height / TILE_ROWS);
     const whole = { ...job, jitter, sorted, tiles: [Math.floor(columns[0] / TILE_COLUMNS), Math.ceil(columns[1] / TILE_COLUMNS)], id: ++this.jobs };
     let next = 0, done = 0;
     await Promise.all(this.workers.map(async (worker, index) => {
@@ -91,6 +93,9 @@ class Lanes {
     }, stale);
     return whole ? picture : null;
   }
+
+  // Level 0 of the map of slope moments of a picture: bands of slopes x, z in half precision go to take(slopes, band). False: stale() was true.
+  slopes(job, take, stale) { return this.run({ ...job, kind: "slopes" }, (answer, band) => take(answer.data, band), stale); }
 
   // What the shaders read of a picture's tiles. Null: stale() was true.
   async tiles(job, stale) {

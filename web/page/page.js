@@ -82,6 +82,13 @@ async function take(pictures, settled) {
   page.frames++;
 }
 
+function tellProgress(share) {
+  if (share === 1) tell("");
+  else if (page.mapBegun === undefined) page.mapBegun = performance.now();
+  else if (performance.now() - page.mapBegun > 400) tell(`The map of slopes of leadr is being made: ${Math.round(100 * share)} %`);
+  if (share === 1) page.mapBegun = undefined;
+}
+
 // ---- moving pictures: as many pixels as hold 30 frames a second ----
 
 async function drawMoving() {
@@ -196,12 +203,14 @@ async function drawStill(lanes, reason) {
   const word = `This is a still picture: ${reason}. The command below renders it, and films.`, old = element("canvas"), canvas = old.cloneNode();
   old.replaceWith(canvas); // a canvas that had a context of another kind has no 2D one
   page.playing = false;
+  for (const option of element("right").options) option.disabled = !METHODS[option.value].byLanes;
+  if (!METHODS[page.methods[1]].byLanes) { page.methods[1] = "mangata"; changed(); }
   for (;; await pause(100)) {
     if (!page.dirty) continue;
     const { version } = page, width = 640, height = Math.round(640 * canvas.clientHeight / Math.max(canvas.clientWidth, 1)) || 360, method = page.methods[1];
     page.dirty = false;
     try {
-      const picture = await lanes.pixels({ method: METHODS[method].byLanes ? method : "mangata", settings: page.settings, width, height }, () => page.version !== version, true);
+      const picture = await lanes.pixels({ method, settings: page.settings, width, height }, () => page.version !== version, true);
       if (!picture) continue;
       Object.assign(canvas, { width, height });
       canvas.getContext("2d").putImageData(new ImageData(picture.data, width, height), 0, 0);
@@ -230,6 +239,7 @@ async function start() {
     return;
   }
   page.judge = new Judge(module);
+  page.view.engine.progress = tellProgress;
   element("canvas").addEventListener("webglcontextlost", event => { event.preventDefault(); location.reload(); });
   await page.view.engine.compiled(page.view.engine.program("display.frag", "", "", ""));
   loop();

@@ -3,6 +3,9 @@
  * Methods that shade a pixel from its slopes; method.k is the method's kernel, method_result its function.
  */
 #include "web_data.glsl"
+#ifdef LEAN_MAP
+#include "lean_map.glsl"
+#endif
 #include "method.k"
 #include "kernels/glitter/foam_over.k"
 

@@ -39,6 +39,9 @@ typedef struct page_tile {
 /* Sorts the waves of a tile. */
 void page_sort(const FrameData *data, const wave_set *set, uint32_t x, uint32_t y, page_tile *out);
 
+/* The map of slope moments whose bands are asked for. */
+void page_lean_begin(const lean_waves *of);
+
 enum { NODE_VALUES = 8 }; /* of a node, or of a hit of grazing water */
 
 /* First hits of a tile as shaders read them: of its nodes, or, in grazing water, of every pixel. Returns how many values there are. */

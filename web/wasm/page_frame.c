@@ -101,6 +101,7 @@ EXPORT(prepare) const void *page_prepare(int method, int columns, int rows, doub
         upload.lean_data = &lean_data;
         upload.lean_waves = lean.waves;
         upload.lean_count = (int)lean.count;
+        page_lean_begin(&lean);
     }
     reserve(&tiles, (size_t)upload.tile_columns * sizeof(shader_tile));
     return &upload;
