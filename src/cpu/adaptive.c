@@ -108,6 +108,16 @@ static void add_part(const tile_cells *part, float share, tile_cells *sum)
     memcpy(sum->detail.height, part->detail.height, part->count * sizeof *part->detail.height);
 }
 
+/* The parts of a leaf lie one after the other. */
+static void average_contrasts(tile_detail *detail, size_t count)
+{
+    for (size_t i = 0; i < count; i += 4) {
+        const float mean = lane_parts_contrast(detail->contrast + i);
+        for (size_t k = 0; k < 4; k++)
+            detail->contrast[i + k] = mean;
+    }
+}
+
 /* Renders the cells that wait, all of one size. */
 static bool grow(const refinement *f, size_t tile, int across, int down, uint32_t worker)
 {
@@ -133,6 +143,8 @@ static bool grow(const refinement *f, size_t tile, int across, int down, uint32_
         a->kernels->cells(&data, a->sky, &s->close, f->moves ? &s->open : NULL, cells);
         add_part(cells, 1.0f / (float)parts, sum);
     }
+    if (!a->frame->data.sky_black)
+        average_contrasts(&sum->detail, cells->count);
     for (size_t i = 0; i < cells->count; i++) {
         leaf l = leaf_from(&sum->pixels, &sum->detail, i);
         l.column = (uint32_t)cells->column[i];

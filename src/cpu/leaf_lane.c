@@ -19,6 +19,8 @@ float lane_weight(const FrameData *frame, const float color[3], float shown)
     return leaf_weight(&cx, vec3(color[0], color[1], color[2]), shown);
 }
 
+float lane_parts_contrast(const float parts[4]) { return parts_contrast(NULL, parts[0], parts[1], parts[2], parts[3]); }
+
 int lane_class(int level, bool dark) { return leaf_class(NULL, level, dark); }
 
 int lane_next_points(lane_leaf l) { return (int)leaf_next_points(NULL, (float)l.points, l.places, l.coverage); }

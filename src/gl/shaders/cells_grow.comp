@@ -233,10 +233,14 @@ void take_pixels(int from)
     }
 }
 
-/* What the pieces of the shutter have summed up. */
-Leaf new_cell(int i)
+float contrast_at(int i) { return uintBitsToFloat(leaves[LEAF_VECTORS * i + 2].w); }
+
+/* What the pieces of the shutter have summed up. `first`: of the parts of the same leaf, which lie one after the other. */
+Leaf new_cell(int i, int first)
 {
     Leaf l = leaf_at(i);
+    if (cells_data.sky_black == 0)
+        l.contrast = parts_contrast(0, contrast_at(first), contrast_at(first + 1), contrast_at(first + 2), contrast_at(first + 3));
     l.split = int(leaf_split(0, uintBitsToFloat(leaves[LEAF_VECTORS * i].z)));
     l.points = 0.0f;
     return judged(l);
@@ -249,7 +253,7 @@ void take_cells(int from, int count, int level)
         bool there = i + lane < count;
         Leaf l = no_leaf();
         if (there)
-            l = new_cell(from + i + lane);
+            l = new_cell(from + i + lane, from + i + (lane & ~3));
         if (there)
             spent += level_cost[level];
         take_group(there, l, l.bucket <= least, there ? float(level_cost[level]) : 0.0f);
