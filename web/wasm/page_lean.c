@@ -36,7 +36,7 @@ void page_lean_begin(const lean_waves *of)
 {
     bool same = columns && of->count == waves.count;
     for (size_t i = 0; same && i < of->count; i++)
-        same = of->waves[i].periods_x == waves.waves[i].periods_x && of->waves[i].periods_z == waves.waves[i].periods_z;
+        same = lean_column_part(of, i, 1) == lean_column_part(&waves, i, 1);
     waves = *of;
     if (!same)
         make_columns();
