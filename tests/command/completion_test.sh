@@ -15,6 +15,8 @@ for verb in $verbs; do
         grep -q -- "\\\\-\\\\-${option//-/\\\\-}\\\\fR" made/mangata-$verb.1 || fail "mangata-$verb.1 lacks --$option"
     done
 done
+exists made/mangata-viewer.1
+grep -q -- '\\-\\-shaders\\fR' made/mangata-viewer.1 && grep -q '^.SS Keys' made/mangata-viewer.1 || fail "mangata-viewer.1 lacks options or keys"
 if command -v man >/dev/null && command -v nroff >/dev/null; then
     for page in made/*.1; do
         warnings=$(MANROFFSEQ='' MANWIDTH=100 man --warnings -E UTF-8 -l -Tutf8 -Z "$page" 2>&1 >/dev/null)
@@ -55,6 +57,25 @@ has json compare --progress j
 for verb in $verbs; do has --help $verb --he; done
 if command -v zsh >/dev/null; then
     timeout 20 zsh -n made/_mangata || fail "_mangata"
-    grep -q 'podee-pixel' made/_mangata || fail "_mangata knows no methods"
+    # What a terminal of zsh offers.
+    printf '%s\n' 'mangata ren' 'mangata render --me' 'mangata render --method=p' 'mangata render --set light.e' 'mangata render ' 'mangata render --layer c' 'mangata compare --progress j' \
+        'mangata diff --error-' >made/lines
+    timeout 60 zsh -f "$SOURCE/tests/command/zsh_complete.zsh" made <made/lines >made/offers 2>&1
+    offers() { # LINE OFFER…: these and no others
+        local line=$1 found
+        shift
+        found=$(awk -v line="LINE: $line" '$0 == line { on = 1; next } /^LINE: / { on = 0 } on' made/offers | tr '\n' ' ')
+        [[ $found == "$* " ]] || fail "zsh offers for '$line': $found"
+    }
+    offers 'mangata ren' render
+    offers 'mangata render --me' --method
+    offers 'mangata render --method=p' podee-pixel podee-uniform
+    offers 'mangata render --set light.e' light.elevation_deg=
+    offers 'mangata render ' a.yaml folder made
+    offers 'mangata render --layer c' color coverage
+    offers 'mangata compare --progress j' json
+    offers 'mangata diff --error-' --error-map --error-top
+else
+    echo "NOTICE: no zsh here; its completion was not tried"
 fi
 finish
