@@ -210,7 +210,7 @@ static const field_row material_fields[] =
 static const char *const dry_words[] = {"false", "true", NULL};
 
 static const field_row object_fields[] =
-    {{"name", FIELD_TEXT, offsetof(scene_object, name), FIELD_NO_PIXELS, NO_RANGE, NULL, .doc = "free text"},
+    {{"name", FIELD_TEXT, offsetof(scene_object, name), FIELD_NO_PIXELS, NO_RANGE, NULL, .doc = "free text, after which mattes are called"},
      {"mesh", FIELD_TEXT, offsetof(scene_object, mesh), FIELD_NO_PIXELS, NO_RANGE, NULL,
       .doc = "file of triangles (.gltf, .glb, .obj, .ply), from the scene's folder; this or shape"},
      {"shape", FIELD_CHOICE, offsetof(scene_object, shape), 0, NO_RANGE, NULL, .doc = "a built-in shape; mesh: the file in mesh", .choices = scene_shape_names},
