@@ -103,7 +103,7 @@ python=/usr/bin/python3
 [[ -x $python ]] || python=python3
 mattes() { timeout 60 "$python" "$SOURCE/tests/command/cryptomatte.py" "$@" || fail "cryptomatte.py $*"; }
 near() { awk -v a="$1" -v b="$2" -v by="$3" 'BEGIN { exit !(a - b < by && b - a < by) }' || fail "$4: $1, not $2"; }
-matte() { works render "$1" -o "$2" --exr none,cryptomatte:8 --layer depth --method none --quiet "${@:3}"; }
+matte() { works render "$1" -o "$2" --exr none,cryptomatte:${side:-8} --layer depth --method none --quiet "${@:3}"; }
 "$MANGATA" render "$simple" -o embree.exr --exr cryptomatte:1 "${small[@]}" --quiet 2>/dev/null
 if (($? != 69)) && command -v "$python" >/dev/null; then
     # A ball half before the sky, half before the water: its outline on the screen is a disk of known size.
@@ -130,8 +130,8 @@ END
     near "$(mattes floor.exr 'the floor "é"' 20 20)" "$(awk 'BEGIN { r = 0.333 / 2.333; print 1 - r * r }')" 1e-4 "what comes through the surface"
     near "$(mattes floor.exr water 20 20)" "$(awk 'BEGIN { r = 0.333 / 2.333; print r * r }')" 1e-4 "what it mirrors"
     # Every name, place by place; a crop and any number of threads give the same bytes.
-    matte "$SOURCE/scenes/pool.yaml" pool.exr --size 96x54
-    matte "$SOURCE/scenes/pool.yaml" crop.exr --size 96x54 --crop 21,9,40,30 --threads 3
+    side=2 matte "$SOURCE/scenes/pool.yaml" pool.exr --size 96x54
+    side=2 matte "$SOURCE/scenes/pool.yaml" crop.exr --size 96x54 --crop 21,9,40,30 --threads 3
     mattes crop.exr --crop-of pool.exr 21 9
     expect 73 'was not rendered' render floor.yaml -o floor.exr --exr none,cryptomatte:8 --layer depth --method none --skip-existing --set 'objects[1].name=brick'
     expect 0 'nothing to render' render floor.yaml -o floor.exr --exr none,cryptomatte:8 --layer depth --method none --skip-existing
