@@ -8,35 +8,13 @@
 #include <string.h>
 #include <time.h>
 
-#include "frame/backend.h"
-#include "cpu/adaptive.h"
-#include "cpu/adaptive_podee.h"
-#include "frame/frame.h"
+#include "cpu/cpu_state.h"
 #include "cpu/glare.h"
 #include "cpu/inspect.h"
-#include "cpu/lean_map.h"
 #include "cpu/query_lanes.h"
 #include "cpu/baseline_lanes.h"
-#include "base/thread_pool.h"
-#include "cpu/tile_job.h"
-#include "frame/whole_frame.h"
 #include "reference/reference.h"
 #include "frame/targets.h"
-
-typedef struct cpu_state {
-    thread_pool *pool;
-    const lane_kernels *kernels;
-    mgt_isa isa;
-    sky_state *sky;       /* of the last frame */
-    podee_tables podee;   /* empty until a frame needs them */
-    lean_map *lean;       /* NULL until a frame needs it */
-    refinement *adaptive; /* NULL until a frame needs it */
-    refraction *objects;  /* NULL until a frame has some */
-    frame_waves *waves;
-    tile_scratch **scratch; /* one a worker */
-    mgt_progress_function progress;
-    void *progress_user;
-} cpu_state;
 
 /* ---- instruction sets ---- */
 
@@ -475,7 +453,7 @@ static mgt_status display(render_job *job, const reporter *r)
 
 /* ---- mgt_render ---- */
 
-static mgt_status prepare_sky(cpu_state *s, const reporter *r, const mgt_scene *scene)
+mgt_status cpu_prepare_sky(cpu_state *s, const reporter *r, const mgt_scene *scene)
 {
     const bool same = sky_state_same_inputs(s->sky, &scene->sky, &scene->light);
     const mgt_status status = same ? MGT_OK : sky_state_build(s->sky, &scene->sky, &scene->light);
@@ -523,12 +501,9 @@ static bool wants_glare(const mgt_scene *scene, const mgt_target *targets, size_
     return false;
 }
 
-/* Or only water, which a camera in it sees everywhere. */
-static bool shows_objects(const frame *f) { return f->scene->object_count > 0 || f->under; }
-
-static mgt_status render_picture(cpu_state *s, const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count, const frame_pass *pass)
+mgt_status cpu_render_picture(cpu_state *s, const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count, const frame_pass *pass)
 {
-    mgt_status status = prepare_sky(s, r, scene);
+    mgt_status status = cpu_prepare_sky(s, r, scene);
     if (status != MGT_OK)
         return status;
     status = prepare_podee(s, r, scene);
@@ -562,7 +537,7 @@ static mgt_status render_picture(cpu_state *s, const reporter *r, const mgt_scen
         }
         reference_frame_destroy(job.reference);
     } else {
-        const bool objects = shows_objects(&job.frame);
+        const bool objects = cpu_shows_objects(&job.frame);
         frame_waves_build(&job.frame, s->waves);
         if (objects)
             status = refraction_prepare(&s->objects, r, &job.frame, s->sky, s->kernels, s->isa, s->pool);
@@ -590,169 +565,12 @@ static mgt_status render_picture(cpu_state *s, const reporter *r, const mgt_scen
     return status;
 }
 
-/* ---- methods that work on whole pictures ---- */
-
-typedef struct picture_user {
-    cpu_state *state;
-    const reporter *r;
-} picture_user;
-
-static mgt_status make_picture(void *user, const mgt_scene *scene, const mgt_target *targets, size_t count, const frame_pass *pass)
-{
-    const picture_user *u = user;
-    return render_picture(u->state, u->r, scene, targets, count, pass);
-}
-
-static mgt_status show_picture(void *user, const mgt_scene *scene, const float *radiance, const mgt_target *target)
-{
-    const picture_user *u = user;
-    return cpu_display(u->state, u->r, scene, radiance, target);
-}
-
-typedef struct luma_job {
-    const lane_kernels *kernels;
-    const FrameData *frame;
-    const float *radiance;
-    float *luma;
-    size_t width;
-} luma_job;
-
-static void luma_row(void *argument, size_t y)
-{
-    const luma_job *job = argument;
-    job->kernels->baselines->luma(job->frame, job->radiance + 3 * y * job->width, job->luma + y * job->width, job->width);
-}
-
-static mgt_status luma_of_picture(void *user, const mgt_scene *scene, const float *radiance, float *luma)
-{
-    const picture_user *u = user;
-    const mgt_status status = prepare_sky(u->state, u->r, scene);
-    if (status != MGT_OK)
-        return status;
-    const frame f = frame_of(scene, u->state->sky, true);
-    luma_job job = {u->state->kernels, &f.data, radiance, luma, scene->image.width};
-    thread_pool_each(u->state->pool, scene->image.height, luma_row, &job);
-    return MGT_OK;
-}
-
-static void run_rows(void *user, size_t count, void (*body)(void *, size_t), void *argument)
-{
-    const picture_user *u = user;
-    thread_pool_each(u->state->pool, count, body, argument);
-}
-
-static bool report_adaptive(void *argument, double fraction)
-{
-    const cpu_state *s = argument;
-    return !s->progress || s->progress(s->progress_user, fraction);
-}
-
-/* What the paper's adaptive scheme begins with: clamped waves over the shutter, and a Gaussian of the others. */
-static mgt_status approximate_picture(const picture_user *u, const mgt_scene *scene, const picture_planes *out)
-{
-    mgt_scene plain = *scene;
-    plain.quality = plain_quality(&scene->quality, MGT_METHOD_PODEE_UNIFORM);
-    const size_t size = sizeof(mgt_target);
-    const mgt_target layers[] = {{size, MGT_LAYER_COLOR, MGT_FORMAT_RGB32F, out->color, 0},
-                                 {size, MGT_LAYER_COVERAGE, MGT_FORMAT_R32F, out->coverage, 0},
-                                 {size, MGT_LAYER_MASK, MGT_FORMAT_R32F, out->water, 0}};
-    const frame_pass pass = {camera_rays_of(&scene->camera, scene->image.width, scene->image.height), 0, 0.3, true};
-    return render_picture(u->state, u->r, &plain, layers, 3, &pass);
-}
-
-/* What all tiles see of objects, before method adaptive begins. */
-typedef struct objects_job {
-    tile_job tiles;
-    tile_scratch **scratch;
-    uint32_t columns;
-    tile_opened *seen;
-} objects_job;
-
-static void see_tile(void *argument, size_t tile, uint32_t worker)
-{
-    const objects_job *job = argument;
-    tile_scratch *s = job->scratch[worker];
-    tile_see_objects(&job->tiles, (uint32_t)(tile % job->columns), (uint32_t)(tile / job->columns), s);
-    refraction_keep(&s->objects, &job->seen[tile]);
-}
-
-static mgt_status see_objects(const picture_user *u, const frame *f, objects_job *job)
-{
-    cpu_state *s = u->state;
-    if (!shows_objects(f))
-        return MGT_OK;
-    const mgt_image *image = &f->scene->image;
-    job->columns = (image->width + TILE_WIDTH - 1) / TILE_WIDTH;
-    const size_t tiles = (size_t)job->columns * ((image->height + TILE_HEIGHT - 1) / TILE_HEIGHT);
-    job->scratch = s->scratch;
-    job->seen = malloc(tiles * sizeof *job->seen);
-    if (!job->seen)
-        return report_error(u->r, MGT_ERROR_MEMORY, "render.memory", "out of memory for the objects of %u x %u pixels", image->width, image->height);
-    frame_waves_build(f, s->waves);
-    const mgt_status status = refraction_prepare(&s->objects, u->r, f, s->sky, s->kernels, s->isa, s->pool);
-    if (status != MGT_OK)
-        return status;
-    job->tiles = (tile_job){.frame = f, .waves = s->waves, .kernels = s->kernels, .sky = s->sky->table, .objects = s->objects};
-    const thread_loop loop = {tiles, see_tile, job, NULL};
-    thread_pool_run(s->pool, &loop);
-    return MGT_OK;
-}
-
-/* What stands in front of the water, over the finished picture. */
-static void put_objects_before(const objects_job *job, const picture_planes *p)
-{
-    for (uint32_t y = 0; y < p->height && job->seen; y++)
-        for (uint32_t x = 0; x < p->width; x++) {
-            const tile_opened *o = &job->seen[(size_t)(y / TILE_HEIGHT) * job->columns + x / TILE_WIDTH];
-            const size_t from = (size_t)(y % TILE_HEIGHT) * TILE_WIDTH + x % TILE_WIDTH, to = (size_t)y * p->width + x;
-            const float share = o->share[from];
-            for (size_t k = 0; k < 3 && share > 0; k++)
-                p->color[3 * to + k] += share * (o->color[k][from] - p->color[3 * to + k]);
-            p->coverage[to] *= 1 - share;
-            p->water[to] *= 1 - share;
-        }
-}
-
-static mgt_status adapt_picture(void *user, const mgt_scene *scene, const picture_planes *out)
-{
-    const picture_user *u = user;
-    cpu_state *s = u->state;
-    const bool podee = scene->quality.adaptive == MGT_ADAPTIVE_PODEE;
-    mgt_status status = podee ? approximate_picture(u, scene, out) : prepare_sky(s, u->r, scene);
-    if (status != MGT_OK)
-        return status;
-    const frame f = frame_of(scene, s->sky, true);
-    objects_job objects = {.seen = NULL};
-    status = see_objects(u, &f, &objects);
-    if (status != MGT_OK) {
-        free(objects.seen);
-        return status;
-    }
-    const adaptive_frame a = {&f, s->kernels, s->sky->table, s->pool, s->scratch, objects.seen, report_adaptive, s};
-    status = podee ? adaptive_podee_render(&a, out) : adaptive_render(&a, &s->adaptive, out);
-    if (status == MGT_OK)
-        put_objects_before(&objects, out);
-    free(objects.seen);
-    if (status == MGT_OK)
-        return MGT_OK;
-    return report_error(u->r, status, status == MGT_CANCELLED ? "render.cancelled" : "render.memory",
-                        status == MGT_CANCELLED ? "rendering was cancelled" : "out of memory for method adaptive");
-}
-
-static mgt_status cpu_render(void *state, const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count)
-{
-    const method_row *row = method_of(scene->quality.method);
-    if (row->way != METHOD_PASS)
-        return render_picture(state, r, scene, targets, count, NULL);
-    picture_user user = {state, r};
-    const picture_maker maker = {&user, make_picture, show_picture, luma_of_picture, run_rows, adapt_picture};
-    return whole_frame_render(&maker, r, scene, targets, count);
-}
+/* ---- what the CPU alone does ---- */
 
 mgt_status cpu_display(void *state, const reporter *r, const mgt_scene *scene, const float *radiance, const mgt_target *target)
 {
     cpu_state *s = state;
-    mgt_status status = prepare_sky(s, r, scene);
+    mgt_status status = cpu_prepare_sky(s, r, scene);
     if (status != MGT_OK)
         return status;
     render_job job = {.state = s, .scene = scene, .targets = target, .target_count = 1};
@@ -772,7 +590,7 @@ mgt_status cpu_display(void *state, const reporter *r, const mgt_scene *scene, c
 mgt_status cpu_inspect(void *state, const reporter *r, const mgt_scene *scene, uint32_t x, uint32_t y, mgt_pixel_info *info)
 {
     cpu_state *s = state;
-    const mgt_status status = prepare_sky(s, r, scene);
+    const mgt_status status = cpu_prepare_sky(s, r, scene);
     if (status != MGT_OK)
         return status;
     mgt_scene ours = *scene;

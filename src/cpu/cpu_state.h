@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: MIT
+ * What a context of the CPU backend keeps from frame to frame, and the picture that its methods are made of. */
+#ifndef MANGATA_CPU_CPU_STATE_H
+#define MANGATA_CPU_CPU_STATE_H
+
+#include "base/thread_pool.h"
+#include "cpu/adaptive.h"
+#include "cpu/lean_map.h"
+#include "cpu/tile_job.h"
+#include "frame/backend.h"
+#include "frame/frame.h"
+#include "frame/whole_frame.h"
+
+typedef struct cpu_state {
+    thread_pool *pool;
+    const lane_kernels *kernels;
+    mgt_isa isa;
+    sky_state *sky;       /* of the last frame */
+    podee_tables podee;   /* empty until a frame needs them */
+    lean_map *lean;       /* NULL until a frame needs it */
+    refinement *adaptive; /* NULL until a frame needs it */
+    refraction *objects;  /* NULL until a frame has some */
+    frame_waves *waves;
+    tile_scratch **scratch; /* one a worker */
+    mgt_progress_function progress;
+    void *progress_user;
+} cpu_state;
+
+/* Brings the sky's tables to this scene. */
+mgt_status cpu_prepare_sky(cpu_state *s, const reporter *r, const mgt_scene *scene);
+
+/* Renders by a method that needs no other picture. `pass` NULL: the picture is the whole frame. */
+mgt_status cpu_render_picture(cpu_state *s, const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count, const frame_pass *pass);
+
+/* Or only water, which a camera in it sees everywhere. */
+static inline bool cpu_shows_objects(const frame *f) { return f->scene->object_count > 0 || f->under; }
+
+/* mgt_render() by any method. */
+mgt_status cpu_render(void *state, const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count);
+
+#endif
