@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/exact_sum.h"
 #include "reference/equations.h"
 #include "reference/light_cells.h"
 #include "reference/reference_frame.h"
@@ -33,6 +34,7 @@ static void set_sample_range(reference_frame *frame, const mgt_quality *quality)
     frame->sample_first = quality->sample_first < total ? quality->sample_first : total;
     const uint64_t remaining = total - frame->sample_first;
     frame->sample_count = quality->sample_count && quality->sample_count < remaining ? quality->sample_count : remaining;
+    frame->most = EXACT_SUM_MOST / (double)total;
 }
 
 typedef struct lane_build {
@@ -223,11 +225,13 @@ static bool shade_hit(const reference_frame *frame, const double view[3], double
     return reference_lights_met(frame->lights, mirrored);
 }
 
-/* Sums of a pixel. Samples are added in the order of their index, so that batches leave no trace. */
+/* Sums of a pixel, the same in whatever order and parts samples are added. */
+_Static_assert((int)REFERENCE_SUM_WORDS == 2 * SUM_COUNT, "two words a sum");
+
 typedef struct pixel_sums {
     uint64_t hits, covered;
-    double foam, hidden; /* foam, and how much of what is covered it hides */
-    double rgb[3];
+    exact_sum foam, hidden; /* foam, and how much of what is covered it hides */
+    exact_sum rgb[3];
 } pixel_sums;
 
 /* Puts foam over the water of a hit and returns how much of it. */
@@ -268,8 +272,9 @@ static void add_sample(const reference_frame *frame, const reference_batch *batc
         sums->covered += covered;
         if (frame->foam) {
             const double share = cover_with_foam(frame, batch, i, rgb);
-            sums->foam += share;
-            sums->hidden += covered ? share : 0;
+            const exact_sum hidden = exact_term(share, frame->most);
+            sums->foam += hidden;
+            sums->hidden += covered ? hidden : 0;
         }
         if (frame->sky.air && with_color)
             look_through_air(frame, view, batch->distance[i], rgb);
@@ -278,21 +283,30 @@ static void add_sample(const reference_frame *frame, const reference_batch *batc
         memcpy(rgb, frame->sky.body_radiance, sizeof rgb);
     }
     for (int c = 0; c < 3; c++)
-        sums->rgb[c] += rgb[c];
+        sums->rgb[c] += exact_term(rgb[c], frame->most);
 }
 
-static void store_pixel(const reference_result *result, size_t at, const pixel_sums *sums, uint64_t count)
+static void add_pixel(uint64_t words[REFERENCE_SUM_WORDS], const pixel_sums *sums)
+{
+    for (size_t c = 0; c < 3; c++)
+        exact_add(words + 2 * (SUM_RED + c), sums->rgb[c]);
+    exact_add(words + 2 * SUM_COVERAGE, exact_count(sums->covered) - sums->hidden);
+    exact_add(words + 2 * SUM_WATER, exact_count(sums->hits));
+    exact_add(words + 2 * SUM_FOAM, sums->foam);
+}
+
+static void store_pixel(const reference_result *result, size_t at, const uint64_t words[REFERENCE_SUM_WORDS], uint64_t count)
 {
     const double n = count ? (double)count : 1;
     if (result->coverage)
-        result->coverage[at] = (float)(((double)sums->covered - sums->hidden) / n);
+        result->coverage[at] = (float)exact_mean(exact_load(words + 2 * SUM_COVERAGE), n);
     if (result->foam)
-        result->foam[at] = (float)(sums->foam / n);
+        result->foam[at] = (float)exact_mean(exact_load(words + 2 * SUM_FOAM), n);
     if (result->mask)
-        result->mask[at] = (float)((double)sums->hits / n);
+        result->mask[at] = (float)exact_mean(exact_load(words + 2 * SUM_WATER), n);
     if (result->color)
-        for (int c = 0; c < 3; c++)
-            result->color[3 * at + (size_t)c] = (float)(sums->rgb[c] / n);
+        for (size_t c = 0; c < 3; c++)
+            result->color[3 * at + c] = (float)exact_mean(exact_load(words + 2 * (SUM_RED + c)), n);
 }
 
 /* ---- blocks ---- */
@@ -304,14 +318,28 @@ typedef struct block {
 
 static size_t block_offset(const block *area, uint64_t pixel) { return (size_t)(pixel / area->width) * area->stride + (size_t)(pixel % area->width); }
 
+/* Where the samples of a block go: into sums, or into pixels. */
+typedef struct sample_sink {
+    uint64_t *sums; /* of the block's top left pixel; NULL: into pixels */
+    const reference_result *result;
+} sample_sink;
+
+static void finish_pixel(const sample_sink *sink, size_t at, const pixel_sums *sums, uint64_t count)
+{
+    uint64_t own[REFERENCE_SUM_WORDS] = {0};
+    add_pixel(sink->sums ? sink->sums + at * REFERENCE_SUM_WORDS : own, sums);
+    if (!sink->sums)
+        store_pixel(sink->result, at, own, count);
+}
+
 /* Batches run on over the pixels' borders, so that few samples a pixel still fill the lanes. */
-static void render_samples(const reference_frame *frame, const block *area, const reference_result *result, reference_batch *batch)
+static void render_samples(const reference_frame *frame, const block *area, const sample_sink *sink, bool with_color, reference_batch *batch)
 {
     const uint64_t pixels = (uint64_t)area->width * area->height, count = frame->sample_count;
     pixel_sums sums = {0};
     if (count == 0) {
         for (uint64_t pixel = 0; pixel < pixels; pixel++)
-            store_pixel(result, block_offset(area, pixel), &sums, 0);
+            finish_pixel(sink, block_offset(area, pixel), &sums, 0);
         return;
     }
     uint64_t pixel_in = 0, sample_in = 0;   /* next to place */
@@ -331,14 +359,22 @@ static void render_samples(const reference_frame *frame, const block *area, cons
         }
         frame->trace(frame, batch, filled);
         for (uint32_t i = 0; i < filled; i++) {
-            add_sample(frame, batch, i, result->color != NULL, &sums);
+            add_sample(frame, batch, i, with_color, &sums);
             if (++sample_out == count) {
-                store_pixel(result, block_offset(area, pixel_out++), &sums, count);
+                finish_pixel(sink, block_offset(area, pixel_out++), &sums, count);
                 memset(&sums, 0, sizeof sums);
                 sample_out = 0;
             }
         }
     }
+}
+
+static void store_means(const reference_frame *frame, const block *area, const reference_result *result)
+{
+    const size_t stride = result->sums_stride ? result->sums_stride : area->width;
+    for (uint32_t y = 0; y < area->height; y++)
+        for (uint32_t x = 0; x < area->width; x++)
+            store_pixel(result, (size_t)y * area->stride + x, result->sums + ((size_t)y * stride + x) * REFERENCE_SUM_WORDS, frame->sample_count);
 }
 
 static void store_geometry(const reference_result *result, size_t at, const reference_batch *batch, uint32_t i)
@@ -400,12 +436,23 @@ void reference_render_block(const reference_frame *frame, uint32_t x0, uint32_t 
     const block area = {x0, y0, width, height, result->row_stride ? result->row_stride : width};
     reference_batch batch;
     batch.evaluations = 0;
-    if (result->color || result->coverage || result->mask || result->foam)
-        render_samples(frame, &area, result, &batch);
+    const bool pixels = result->color || result->coverage || result->mask || result->foam;
+    if (pixels && result->sums)
+        store_means(frame, &area, result);
+    else if (pixels)
+        render_samples(frame, &area, &(sample_sink){NULL, result}, result->color != NULL, &batch);
     if (frame->light_cells && (result->color || result->coverage))
         add_light_cells(frame, &area, result);
     if (result->depth || result->normal)
         render_geometry(frame, &area, result, &batch);
     if (result->evaluations)
         *result->evaluations += batch.evaluations;
+}
+
+void reference_sum_block(const reference_frame *frame, uint32_t x0, uint32_t y0, uint32_t width, uint32_t height, uint64_t *sums, size_t row_stride)
+{
+    const block area = {x0, y0, width, height, row_stride};
+    reference_batch batch;
+    if (width > 0 && height > 0 && frame->sample_count > 0)
+        render_samples(frame, &area, &(sample_sink){sums, NULL}, true, &batch);
 }

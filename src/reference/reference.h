@@ -10,6 +10,8 @@
  * Coverage of a sample is 1 when the mirrored ray lies within a light's angular radius and that light's centre stands at or
  * above the horizon. Only the first hit counts; nothing shadows the mirrored ray.
  *
+ * Sums over samples are exact (base/exact_sum.h): whatever the order and the ranges in which samples are taken, their sums have the same bits.
+ *
  * With quality.light_cells samples show the sky alone, and mirrored lights are found as light_cells.h tells, all of them whatever the range of samples.
  * Coverage is then an estimate that may exceed 1 a little.
  */
@@ -47,6 +49,9 @@ typedef struct reference_options {
 
 typedef struct reference_frame reference_frame;
 
+/* Words of a pixel's sums, two a sum: radiance of red, green and blue, coverage, mask and foam. */
+enum { REFERENCE_SUM_WORDS = 12 };
+
 /* Planes of floats, the first pixel being the block's own top left one. Any pointer may be NULL. */
 typedef struct reference_result {
     float *color;          /* 3 per pixel */
@@ -56,6 +61,8 @@ typedef struct reference_result {
     float *depth;          /* 1: metres along the centre ray at scene.time, +inf without water */
     float *normal;         /* 3: of the surface at that hit, (0,0,0) without water */
     size_t row_stride;     /* pixels from a row to the next; 0: the block's width */
+    const uint64_t *sums;  /* of reference_sum_block(), whose means stand in for samples of its own: those of the frame's range; NULL: none */
+    size_t sums_stride;    /* pixels from a row of sums to the next; 0: the block's width */
     uint64_t *evaluations; /* adds how often a sum of waves, of all or of the longest, was evaluated for a ray; NULL: not wanted */
 } reference_result;
 
@@ -71,5 +78,9 @@ uint32_t reference_frame_lanes(const reference_frame *frame);
 /* Renders the pixels [x0, x0 + width) × [y0, y0 + height) of the whole image, blocks of any size in any order from any number
  * of threads. Uses about 400 KiB of stack and allocates nothing. */
 void reference_render_block(const reference_frame *frame, uint32_t x0, uint32_t y0, uint32_t width, uint32_t height, const reference_result *result);
+
+/* Adds the frame's samples of a block to sums, the first ones being those of the block's own top left pixel. As above, but for light_cells, which
+ * belong to pictures. */
+void reference_sum_block(const reference_frame *frame, uint32_t x0, uint32_t y0, uint32_t width, uint32_t height, uint64_t *sums, size_t row_stride);
 
 #endif
