@@ -103,6 +103,17 @@ static mgt_status render_instead(mgt_context *context, const mgt_scene *own, con
     return status == MGT_OK ? cpu_backend.render(state, &context->report, own, targets, count) : status;
 }
 
+mgt_status scene_ready(const reporter *r, mgt_scene *own)
+{
+    scene_to_sea_level(own);
+    if (method_draws(own))
+        return MGT_OK;
+    return report_error(
+        r, MGT_ERROR_UNSUPPORTED, "render.method",
+        "method %s computes the water's surface alone, no objects and no camera under water; ssaa with refraction truth traces them by brute force",
+        mgt_method_name(own->quality.method));
+}
+
 mgt_status mgt_render(mgt_context *context, const mgt_scene *scene, const mgt_target *targets, size_t count)
 {
     if (!context)
@@ -115,12 +126,9 @@ mgt_status mgt_render(mgt_context *context, const mgt_scene *scene, const mgt_ta
         status = targets_take(&context->report, &own, own_targets, targets, count);
     if (status != MGT_OK)
         return status;
-    scene_to_sea_level(&own);
-    if (!method_draws(&own))
-        return report_error(
-            &context->report, MGT_ERROR_UNSUPPORTED, "render.method",
-            "method %s computes the water's surface alone, no objects and no camera under water; ssaa with refraction truth traces them by brute force",
-            mgt_method_name(own.quality.method));
+    status = scene_ready(&context->report, &own);
+    if (status != MGT_OK)
+        return status;
     const char *lacks = NULL;
     for (size_t i = 0; i < count && !lacks && context->backend == &gl_backend; i++)
         lacks = gl_lacks_layer(&own, own_targets[i].layer);

@@ -16,6 +16,9 @@ struct mgt_context {
     char error[REPORTER_TEXT];
 };
 
+/* Brings a checked scene to sea level. MGT_ERROR_UNSUPPORTED where its method cannot draw it. */
+mgt_status scene_ready(const reporter *r, mgt_scene *own);
+
 /* The CPU backend's state: the context's own, or a second one beside another backend. */
 mgt_status cpu_state(mgt_context *context, void **state);
 

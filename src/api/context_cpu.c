@@ -2,7 +2,9 @@
  * What only the CPU does, whatever a context renders with. */
 #include "api/context.h"
 #include "api/structs.h"
+#include "base/exact_sum.h"
 #include "frame/targets.h"
+#include "params/methods.h"
 
 mgt_status cpu_state(mgt_context *context, void **state)
 {
@@ -36,6 +38,63 @@ mgt_status mgt_display(mgt_context *context, const mgt_scene *scene, const float
     if (status == MGT_OK)
         status = cpu_state(context, &state);
     return status == MGT_OK ? cpu_display(state, &context->report, &own, radiance, &own_target) : status;
+}
+
+/* A scene whose method has sums, at sea level. */
+static mgt_status take_summed(mgt_context *context, const mgt_scene *scene, const uint64_t *sums, mgt_scene *own)
+{
+    const reporter *r = &context->report;
+    const mgt_status status = scene_take(r, own, scene);
+    if (status != MGT_OK)
+        return status;
+    if (!sums)
+        return report_error(r, MGT_ERROR_ARGUMENT, "render.sums", "the sums are NULL");
+    if (!method_has_sums(own->quality.method))
+        return report_error(r, MGT_ERROR_UNSUPPORTED, "render.sums", "method %s has no sums of samples; reference has", mgt_method_name(own->quality.method));
+    return MGT_OK;
+}
+
+mgt_status mgt_sum_samples(mgt_context *context, const mgt_scene *scene, uint64_t *sums)
+{
+    void *state = NULL;
+    mgt_scene own;
+    if (!context)
+        return MGT_ERROR_ARGUMENT;
+    context->error[0] = 0;
+    mgt_status status = take_summed(context, scene, sums, &own);
+    if (status == MGT_OK)
+        status = scene_ready(&context->report, &own);
+    if (status != MGT_OK || context->backend == &null_backend)
+        return status;
+    status = cpu_state(context, &state);
+    return status == MGT_OK ? cpu_sum(state, &context->report, &own, sums) : status;
+}
+
+void mgt_sums_add(uint64_t *sums, const uint64_t *more, size_t pixels)
+{
+    for (size_t i = 0; i < pixels * SUM_COUNT; i++)
+        exact_add(sums + 2 * i, exact_load(more + 2 * i));
+}
+
+mgt_status mgt_render_sums(mgt_context *context, const mgt_scene *scene, const uint64_t *sums, const mgt_target *targets, size_t count)
+{
+    void *state = NULL;
+    mgt_scene own;
+    mgt_target own_targets[MOST_TARGETS];
+    if (!context)
+        return MGT_ERROR_ARGUMENT;
+    context->error[0] = 0;
+    const reporter *r = &context->report;
+    mgt_status status = take_summed(context, scene, sums, &own);
+    if (status == MGT_OK)
+        status = targets_take(r, &own, own_targets, targets, count);
+    if (status == MGT_OK)
+        status = scene_ready(r, &own);
+    if (status == MGT_OK && context->backend == &null_backend)
+        return null_backend.render(NULL, r, &own, own_targets, count);
+    if (status == MGT_OK)
+        status = cpu_state(context, &state);
+    return status == MGT_OK ? cpu_render_sums(state, r, &own, sums, own_targets, count) : status;
 }
 
 mgt_status mgt_inspect_pixel(mgt_context *context, const mgt_scene *scene, uint32_t x, uint32_t y, mgt_pixel_info *info)

@@ -162,8 +162,9 @@ typedef struct render_job {
     reference_frame *reference;
     atomic_bool cancelled;
     const frame_pass *pass; /* NULL: the picture is the whole frame */
-    double fraction;        /* done when progress was last told; the caller's thread only */
-    double last_told;       /* seconds */
+    picture_sums sums;
+    double fraction;  /* done when progress was last told; the caller's thread only */
+    double last_told; /* seconds */
 } render_job;
 
 /* A rectangle of finished pixels in planes, wherever they come from. */
@@ -329,6 +330,21 @@ static uint32_t reference_block_width(const mgt_quality *q)
     return samples > 16384 ? 1 : samples > 2048 ? 4 : REFERENCE_WIDTH;
 }
 
+/* Of a pixel within the crop. */
+static size_t sums_place(const render_job *job, const region *block)
+{
+    return ((size_t)(block->y - job->crop.y) * job->crop.width + block->x - job->crop.x) * MGT_SUM_WORDS;
+}
+
+static void sum_reference_block(void *argument, size_t index, uint32_t worker)
+{
+    (void)worker;
+    const render_job *job = argument;
+    uint32_t offset[2];
+    const region b = block_of(job, index, offset);
+    reference_sum_block(job->reference, b.x, b.y, b.width, b.height, job->sums.add + sums_place(job, &b), job->crop.width);
+}
+
 static void render_reference_block(void *argument, size_t index, uint32_t worker)
 {
     (void)worker;
@@ -343,7 +359,9 @@ static void render_reference_block(void *argument, size_t index, uint32_t worker
                                      .mask = pixels ? mask : NULL,
                                      .foam = pixels ? foam : NULL,
                                      .depth = surface ? depth : NULL,
-                                     .normal = surface ? normal : NULL};
+                                     .normal = surface ? normal : NULL,
+                                     .sums = job->sums.show ? job->sums.show + sums_place(job, &block) : NULL,
+                                     .sums_stride = job->crop.width};
     reference_render_block(job->reference, block.x, block.y, block.width, block.height, &result);
     const pixel_planes planes = {
         .color = {color, color + 1, color + 2},
@@ -410,6 +428,7 @@ static void reference_air(const void *user, const double direction[3], double di
     sky_air_lookup(user, direction, distance, leaves, light);
 }
 
+_Static_assert((int)MGT_SUM_WORDS == (int)REFERENCE_SUM_WORDS, "sums are the reference's");
 _Static_assert((int)MAX_LIGHTS == (int)REFERENCE_LIGHTS, "the oracle has every light");
 
 static mgt_status make_reference(render_job *job, const reporter *r)
@@ -501,7 +520,8 @@ static bool wants_glare(const mgt_scene *scene, const mgt_target *targets, size_
     return false;
 }
 
-mgt_status cpu_render_picture(cpu_state *s, const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count, const frame_pass *pass)
+mgt_status cpu_render_picture(cpu_state *s, const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count, const frame_pass *pass,
+                              picture_sums sums)
 {
     mgt_status status = cpu_prepare_sky(s, r, scene);
     if (status != MGT_OK)
@@ -509,8 +529,8 @@ mgt_status cpu_render_picture(cpu_state *s, const reporter *r, const mgt_scene *
     status = prepare_podee(s, r, scene);
     if (status != MGT_OK)
         return status;
-    render_job job = {.state = s, .scene = scene, .targets = targets, .target_count = count, .pass = pass};
-    job.frame = frame_of(scene, s->sky, wants_layer(targets, count, MGT_LAYER_COLOR, MGT_LAYER_COLOR));
+    render_job job = {.state = s, .scene = scene, .targets = targets, .target_count = count, .pass = pass, .sums = sums};
+    job.frame = frame_of(scene, s->sky, sums.add || wants_layer(targets, count, MGT_LAYER_COLOR, MGT_LAYER_COLOR));
     if (pass)
         job.frame.close = rays_above(&job.frame, &pass->camera);
     status = prepare_lean(s, r, &job.frame);
@@ -530,10 +550,10 @@ mgt_status cpu_render_picture(cpu_state *s, const reporter *r, const mgt_scene *
         status = make_reference(&job, r);
         if (status == MGT_OK) {
             const uint32_t width = reference_block_width(&scene->quality);
-            if (scene->quality.light_cells > 0)
+            if (scene->quality.light_cells > 0 && !sums.add)
                 finished = run_loop(&job, CELLS_WIDTH, CELLS_HEIGHT, render_reference_block);
             else
-                finished = run_loop(&job, width, width == REFERENCE_WIDTH ? REFERENCE_HEIGHT : 1, render_reference_block);
+                finished = run_loop(&job, width, width == REFERENCE_WIDTH ? REFERENCE_HEIGHT : 1, sums.add ? sum_reference_block : render_reference_block);
         }
         reference_frame_destroy(job.reference);
     } else {
@@ -566,6 +586,20 @@ mgt_status cpu_render_picture(cpu_state *s, const reporter *r, const mgt_scene *
 }
 
 /* ---- what the CPU alone does ---- */
+
+mgt_status cpu_sum(void *state, const reporter *r, const mgt_scene *scene, uint64_t *sums)
+{
+    return cpu_render_picture(state, r, scene, NULL, 0, NULL, (picture_sums){.add = sums});
+}
+
+mgt_status cpu_render_sums(void *state, const reporter *r, const mgt_scene *scene, const uint64_t *sums, const mgt_target *targets, size_t count)
+{
+    const region crop = image_region(&scene->image);
+    if (wants_glare(scene, targets, count) && (crop.width != scene->image.width || crop.height != scene->image.height))
+        return report_error(r, MGT_ERROR_UNSUPPORTED, "render.glare",
+                            "the glare of displayed colour needs the sums of the whole picture, and these are of a crop");
+    return cpu_render_picture(state, r, scene, targets, count, NULL, (picture_sums){.show = sums});
+}
 
 mgt_status cpu_display(void *state, const reporter *r, const mgt_scene *scene, const float *radiance, const mgt_target *target)
 {

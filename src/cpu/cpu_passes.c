@@ -14,7 +14,7 @@ typedef struct picture_user {
 static mgt_status make_picture(void *user, const mgt_scene *scene, const mgt_target *targets, size_t count, const frame_pass *pass)
 {
     const picture_user *u = user;
-    return cpu_render_picture(u->state, u->r, scene, targets, count, pass);
+    return cpu_render_picture(u->state, u->r, scene, targets, count, pass, (picture_sums){0});
 }
 
 static mgt_status show_picture(void *user, const mgt_scene *scene, const float *radiance, const mgt_target *target)
@@ -71,7 +71,7 @@ static mgt_status approximate_picture(const picture_user *u, const mgt_scene *sc
                                  {size, MGT_LAYER_COVERAGE, MGT_FORMAT_R32F, out->coverage, 0},
                                  {size, MGT_LAYER_MASK, MGT_FORMAT_R32F, out->water, 0}};
     const frame_pass pass = {camera_rays_of(&scene->camera, scene->image.width, scene->image.height), 0, 0.3, true};
-    return cpu_render_picture(u->state, u->r, &plain, layers, 3, &pass);
+    return cpu_render_picture(u->state, u->r, &plain, layers, 3, &pass, (picture_sums){0});
 }
 
 /* What all tiles see of objects, before method adaptive begins. */
@@ -157,7 +157,7 @@ mgt_status cpu_render(void *state, const reporter *r, const mgt_scene *scene, co
 {
     const method_row *row = method_of(scene->quality.method);
     if (row->way != METHOD_PASS)
-        return cpu_render_picture(state, r, scene, targets, count, NULL);
+        return cpu_render_picture(state, r, scene, targets, count, NULL, (picture_sums){0});
     picture_user user = {state, r};
     const picture_maker maker = {&user, make_picture, show_picture, luma_of_picture, run_rows, adapt_picture};
     return whole_frame_render(&maker, r, scene, targets, count);

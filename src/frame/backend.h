@@ -29,6 +29,8 @@ extern const backend_functions null_backend;
 
 /* What only the CPU does, whatever a context renders with. `state` is one that cpu_backend has created; arguments have been checked. */
 mgt_status cpu_display(void *state, const reporter *r, const mgt_scene *scene, const float *radiance, const mgt_target *target);
+mgt_status cpu_sum(void *state, const reporter *r, const mgt_scene *scene, uint64_t *sums);
+mgt_status cpu_render_sums(void *state, const reporter *r, const mgt_scene *scene, const uint64_t *sums, const mgt_target *targets, size_t count);
 mgt_status cpu_inspect(void *state, const reporter *r, const mgt_scene *scene, uint32_t x, uint32_t y, mgt_pixel_info *info);
 
 #endif

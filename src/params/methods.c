@@ -143,6 +143,8 @@ _Static_assert(sizeof method_rows / sizeof *method_rows - 1 <= METHOD_SLOTS, "ar
 
 const method_row *method_of(mgt_method method) { return &method_rows[method]; }
 
+bool method_has_sums(mgt_method method) { return method_rows[method].way == METHOD_REFERENCE; }
+
 bool method_is_sampled(mgt_method method) { return method_rows[method].way == METHOD_SAMPLES || method_rows[method].way == METHOD_REFERENCE; }
 
 enum { MOST_STRATA = 1024 };
