@@ -15,6 +15,7 @@
 #include "image/exr_names.h"
 #include "image/metadata.h"
 #include "image/picture_formats.h"
+#include "image/sums_file.h"
 
 enum { CHECK_DIGITS = sizeof FILE_CHECK_NONE - 1, BLOCK_BYTES = 1 << 16, EXR_HEADER_MOST = 4 << 20 };
 
@@ -144,6 +145,8 @@ static file_status is_whole(const input_file *input, picture_format format, bool
         *whole = is_png_whole(input->stream, input->size);
     } else if (format == PICTURE_EXR) {
         *whole = is_exr_whole(fileno(input->stream), input->size);
+    } else if (format == PICTURE_SUMS) {
+        *whole = sums_are_whole(input);
     } else {
         status = metadata_read(input->path, FILE_CHECK_KEY, &recorded, error);
         if (status == FILE_OK && recorded != NULL)
@@ -183,8 +186,10 @@ file_status file_state_read(const char *path, const char *key, const char *value
         *state = sound ? FILE_STATE_SAME : FILE_STATE_DAMAGED;
     } else if (status != FILE_MEMORY && begins_like(&input, format)) {
         /* Files of other formats do not show whether they are damaged or of another program. */
-        const bool damaged = (format == PICTURE_PNG && !is_png_whole(input.stream, input.size)) ||
-                             (format == PICTURE_EXR && exr_check_place(fileno(input.stream)) != UINT64_MAX && !is_exr_whole(fileno(input.stream), input.size));
+        const bool damaged =
+            (format == PICTURE_PNG && !is_png_whole(input.stream, input.size)) ||
+            (format == PICTURE_EXR && exr_check_place(fileno(input.stream)) != UINT64_MAX && !is_exr_whole(fileno(input.stream), input.size)) ||
+            (format == PICTURE_SUMS && !sums_are_whole(&input));
         *state = status == FILE_BAD || input.size == 0 || damaged ? FILE_STATE_DAMAGED : FILE_STATE_OTHER;
     }
     free(recorded);

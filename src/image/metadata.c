@@ -12,6 +12,7 @@
 
 #include "image/metadata_json.h"
 #include "image/picture_formats.h"
+#include "image/sums_file.h"
 
 enum { KEY_LENGTH_MAX = 79, VALUE_LENGTH_MAX = 1 << 20, SIDECAR_SIZE_MAX = 16 << 20 };
 
@@ -164,8 +165,10 @@ file_status metadata_read(const char *path, const char *key, char **value, file_
         status = png_metadata_read(&input, key, value, error);
     else if (format == PICTURE_EXR)
         status = exr_metadata_read(&input, key, value, error);
+    else if (format == PICTURE_SUMS)
+        status = sums_metadata_read(&input, key, value, error);
     input_file_close(&input);
-    if (format == PICTURE_PNG || format == PICTURE_EXR)
+    if (format == PICTURE_PNG || format == PICTURE_EXR || format == PICTURE_SUMS)
         return status == FILE_OK ? none_if_empty(value) : status;
 
     char *sidecar = metadata_sidecar_path(path);

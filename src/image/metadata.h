@@ -28,7 +28,7 @@ file_status metadata_check(const metadata_list *metadata, file_error *error);
 /* "PATH.json" for the picture at `path` ("road.pfm" has "road.pfm.json"); the caller frees it. NULL: out of memory. */
 char *metadata_sidecar_path(const char *path);
 
-/* Reads what the file at `path` (.png, .exr by their own content; others by their sidecar) records for `key`.
+/* Reads what the file at `path` (.png, .exr, .sums by their own content; others by their sidecar) records for `key`.
  * FILE_OK with *value NULL: the file is there but records no such key, or an empty value, or has no sidecar. FILE_MISSING: no such file.
  * The caller frees *value. */
 file_status metadata_read(const char *path, const char *key, char **value, file_error *error);

@@ -18,7 +18,8 @@ picture_format picture_format_of(const char *path)
     static const struct {
         const char *extension;
         picture_format format;
-    } known[] = {{".png", PICTURE_PNG}, {".exr", PICTURE_EXR}, {".pfm", PICTURE_PFM}, {".mp4", PICTURE_MP4}, {".mov", PICTURE_MOV}, {".y4m", PICTURE_Y4M}};
+    } known[] = {{".png", PICTURE_PNG}, {".exr", PICTURE_EXR}, {".pfm", PICTURE_PFM},  {".mp4", PICTURE_MP4},
+                 {".mov", PICTURE_MOV}, {".y4m", PICTURE_Y4M}, {".sums", PICTURE_SUMS}};
     const char *slash = strrchr(path, '/');
     const char *name = slash ? slash + 1 : path;
     const char *dot = strrchr(name, '.');
@@ -54,7 +55,7 @@ picture_format input_file_format(const input_file *input)
 {
     static const unsigned char png[8] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
     static const unsigned char exr[4] = {0x76, 0x2f, 0x31, 0x01};
-    unsigned char start[8] = {0};
+    unsigned char start[sizeof SUMS_MAGIC - 1] = {0};
     size_t length = fread(start, 1, sizeof start, input->stream);
     rewind(input->stream);
     if (length >= sizeof png && memcmp(start, png, sizeof png) == 0)
@@ -63,6 +64,8 @@ picture_format input_file_format(const input_file *input)
         return PICTURE_EXR;
     if (length >= 2 && start[0] == 'P' && (start[1] == 'F' || start[1] == 'f'))
         return PICTURE_PFM;
+    if (length >= sizeof SUMS_MAGIC - 1 && memcmp(start, SUMS_MAGIC, sizeof SUMS_MAGIC - 1) == 0)
+        return PICTURE_SUMS;
     return PICTURE_UNKNOWN;
 }
 
@@ -122,6 +125,9 @@ file_status picture_read(float_image *image, const char *path, const char *layer
         break;
     case PICTURE_PFM:
         status = pfm_read(image, &input, error);
+        break;
+    case PICTURE_SUMS:
+        status = file_error_set(error, FILE_BAD, "%s: holds sums of samples; mangata merge makes a picture of them", path);
         break;
     default:
         status = file_error_set(error, FILE_BAD, "%s: is not a PNG, EXR or PFM picture", path);

@@ -11,7 +11,7 @@
 #include "image/metadata.h"
 #include "image/output_file.h"
 
-typedef enum picture_format { PICTURE_UNKNOWN = 0, PICTURE_PNG, PICTURE_EXR, PICTURE_PFM, PICTURE_MP4, PICTURE_MOV, PICTURE_Y4M } picture_format;
+typedef enum picture_format { PICTURE_UNKNOWN = 0, PICTURE_PNG, PICTURE_EXR, PICTURE_PFM, PICTURE_MP4, PICTURE_MOV, PICTURE_Y4M, PICTURE_SUMS } picture_format;
 
 /* By the extension, upper or lower case. */
 picture_format picture_format_of(const char *path);

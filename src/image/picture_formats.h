@@ -8,6 +8,9 @@
 
 #include "image/picture.h"
 
+/* How a file of sums begins. */
+#define SUMS_MAGIC "mangata sums 1\n"
+
 enum { PICTURE_SIDE_MAX = 32768 };
 
 /* A regular file open for reading, at its start. */
@@ -21,7 +24,7 @@ typedef struct input_file {
 file_status input_file_open(input_file *input, const char *path, file_error *error);
 void input_file_close(input_file *input);
 
-/* Kind by the first bytes (PNG, EXR, PFM or unknown); leaves the stream at its start. */
+/* Kind by the first bytes (PNG, EXR, PFM, sums or unknown); leaves the stream at its start. */
 picture_format input_file_format(const input_file *input);
 
 /* FILE_ARGUMENT unless 1 ≤ sides ≤ PICTURE_SIDE_MAX; for writers. */
