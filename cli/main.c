@@ -15,6 +15,7 @@ typedef struct verb {
 
 static const verb verbs[] = {
     {"render", "render frames of a scene into pictures or a film", verb_render},
+    {"merge", "make the picture whose samples were rendered in parts", verb_merge},
     {"diff", "measure how far pictures are from other pictures", verb_diff},
     {"compare", "compare methods with the reference: tables and a page", verb_compare},
     {"figures", "make the tables and plates of the papers again", verb_figures},

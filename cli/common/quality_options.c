@@ -17,12 +17,18 @@ static bool set_integral(quality_options *o, const char *value, char *wrong, siz
     return o->integral || (snprintf(wrong, size, "--integral %s: allowed is exact or kernels", value), false);
 }
 
+enum { PARTS_MOST = 1000000 };
+
 static bool set_range(quality_options *o, const char *value, char *wrong, size_t size)
 {
     uint64_t range[2];
+    o->part[1] = 0;
+    o->range_given = number_parse_list(value, '/', PARTS_MOST, 2, o->part) && o->part[0] < o->part[1];
+    if (o->range_given)
+        return true;
     o->range_given = number_parse_list(value, ',', UINT64_MAX, 2, range) && range[1] > 0;
     if (!o->range_given)
-        return snprintf(wrong, size, "--samples-range %s: allowed is FIRST,COUNT with COUNT at least 1", value), false;
+        return snprintf(wrong, size, "--samples-range %s: allowed is FIRST,COUNT with COUNT at least 1, or I/N, the part I of 0 ... N-1", value), false;
     o->choice.values.sample_first = range[0];
     o->choice.values.sample_count = range[1];
     return true;
@@ -107,6 +113,14 @@ bool quality_options_apply(const quality_options *options, const mgt_quality *ba
     const uint64_t total = (uint64_t)out->spatial_samples * out->spatial_samples * out->time_samples;
     if (!field_applies(quality_fields, spatial, out, false))
         return snprintf(wrong, size, "--samples-range: method %s takes one sample", method_name(out).text), false;
+    if (o.part[1] > total)
+        return snprintf(wrong, size, "--samples-range %llu/%llu: a pixel has only %llu samples", (unsigned long long)o.part[0], (unsigned long long)o.part[1],
+                        (unsigned long long)total),
+               false;
+    if (o.part[1]) {
+        q->sample_first = total * o.part[0] / o.part[1];
+        q->sample_count = total * (o.part[0] + 1) / o.part[1] - q->sample_first;
+    }
     if (q->sample_first >= total || q->sample_count > total - q->sample_first)
         return snprintf(wrong, size, "--samples-range %llu,%llu: allowed is FIRST,COUNT within the %llu samples of a pixel",
                         (unsigned long long)q->sample_first, (unsigned long long)q->sample_count, (unsigned long long)total),

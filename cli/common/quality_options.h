@@ -9,6 +9,7 @@ typedef struct quality_options {
     quality_choice choice;
     int integral;        /* --integral, an old way to choose kernels: 0 not given, 1 exact, 2 kernels */
     bool range_given;    /* --samples-range */
+    uint64_t part[2];    /* of --samples-range I/N; N 0: it is FIRST,COUNT */
     bool number_in_name; /* --method ssaaN, whose N --spatial must not contradict */
 } quality_options;
 

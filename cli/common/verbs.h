@@ -5,6 +5,7 @@
 
 /* Each takes the words after its name and returns the exit code. */
 int verb_render(int count, char **arguments);
+int verb_merge(int count, char **arguments);
 int verb_diff(int count, char **arguments);
 int verb_compare(int count, char **arguments);
 int verb_figures(int count, char **arguments);

@@ -39,6 +39,8 @@ static int add_layer(const option *o, void *place, const char *value)
 /* What a kind of file can hold. */
 static int check_layers(render_request *r)
 {
+    if (r->format == PICTURE_SUMS)
+        return EXIT_CODE_OK;
     if (r->layer_count == 0)
         r->layers[r->layer_count++] = MGT_LAYER_COLOR;
     if (r->format == PICTURE_EXR)
@@ -84,18 +86,40 @@ static bool film_fits(render_request *r)
     return true;
 }
 
-static int check_output(render_request *r)
+static int set_checkpoint(const option *o, void *place, const char *value)
+{
+    render_request *r = place;
+    if (!number_parse_double(value, &r->checkpoint) || r->checkpoint < 0.1 || r->checkpoint > 86400)
+        return option_wrong(o, value, "a number of seconds from 0.1 to 86400");
+    return EXIT_CODE_OK;
+}
+
+/* What files of sums, merges and checkpoints cannot have. */
+static int check_sums(render_request *r)
+{
+    if (r->format == PICTURE_SUMS && r->layer_count)
+        return console_error(EXIT_CODE_USAGE, "-o %s: a file of sums serves every layer; --layer belongs to mangata merge", r->output);
+    if (r->checkpoint > 0 && render_is_film(r))
+        return console_error(EXIT_CODE_USAGE, "-o %s: --checkpoint is for pictures; a film is made of them afterwards", r->output);
+    if (r->format == PICTURE_SUMS && r->context.backend == MGT_BACKEND_GL)
+        return console_error(EXIT_CODE_USAGE, "-o %s: sums are the CPU's; leave out --backend gl", r->output);
+    if (r->format == PICTURE_SUMS && r->context.backend == MGT_BACKEND_AUTO)
+        r->context.backend = MGT_BACKEND_CPU;
+    return EXIT_CODE_OK;
+}
+
+static int check_output(render_request *r, const char *verb)
 {
     if (!r->scene_path)
-        return console_error(EXIT_CODE_USAGE, "no scene given; see mangata render --help");
+        return console_error(EXIT_CODE_USAGE, "no scene given; see mangata %s --help", verb);
     if (!r->output)
-        return console_error(EXIT_CODE_USAGE, "no output given: -o OUT; see mangata render --help");
+        return console_error(EXIT_CODE_USAGE, "no output given: -o OUT; see mangata %s --help", verb);
     const char *wrong = frame_path_parse(&r->path, r->output);
     if (wrong)
         return console_error(EXIT_CODE_USAGE, "-o %s: %s", r->output, wrong);
     r->format = picture_format_of(r->output);
     if (r->format == PICTURE_UNKNOWN)
-        return console_error(EXIT_CODE_USAGE, "-o %s: unknown kind of file; allowed are .png .exr .pfm .mp4 .mov .y4m", r->output);
+        return console_error(EXIT_CODE_USAGE, "-o %s: unknown kind of file; allowed are .png .exr .pfm .mp4 .mov .y4m .sums", r->output);
     if (render_is_film(r) && r->path.numbered)
         return console_error(EXIT_CODE_USAGE, "-o %s: a film is one file; leave the frame number out", r->output);
     if (!render_is_film(r) && !r->path.numbered && frame_list_length(&r->frames) > 1)
@@ -107,24 +131,55 @@ static int check_output(render_request *r)
         return console_error(EXIT_CODE_USAGE, "-o %s: --exr is for .exr alone", r->output);
     if (!film_fits(r))
         return EXIT_CODE_USAGE;
-    return check_layers(r);
+    const int code = check_sums(r);
+    return code == EXIT_CODE_OK ? check_layers(r) : code;
 }
 
-static int run(void *request)
+static int render_checked(render_request *r)
 {
-    render_request *r = request;
-    const int code = check_output(r);
-    if (code != EXIT_CODE_OK)
-        return code;
     r->progress = progress_mode_heard(r->progress, r->out.quiet);
     r->out.json_notes = r->progress == PROGRESS_JSON;
     return render_job_run(r);
 }
 
+static int run(void *request)
+{
+    const int code = check_output(request, "render");
+    return code == EXIT_CODE_OK ? render_checked(request) : code;
+}
+
+static int run_merge(void *request)
+{
+    render_request *r = request;
+    const int code = check_output(r, "merge");
+    if (code != EXIT_CODE_OK)
+        return code;
+    if (!r->part_count)
+        return console_error(EXIT_CODE_USAGE, "no parts given: mangata merge SCENE PART.sums... -o OUT; see mangata merge --help");
+    return render_checked(r);
+}
+
+/* The scene, then parts. */
+static int add_merged(const option *o, void *place, const char *value)
+{
+    render_request *r = place;
+    (void)o;
+    if (!r->scene_path) {
+        r->scene_path = value;
+        return EXIT_CODE_OK;
+    }
+    const char *wrong = frame_path_parse(&r->parts[r->part_count], value);
+    if (wrong)
+        return console_error(EXIT_CODE_USAGE, "%s: %s", value, wrong);
+    r->part_paths[r->part_count++] = value;
+    return EXIT_CODE_OK;
+}
+
 static const option render_options[] = {
     {"output", 'o', "OUT",
      "the file to write: .png .exr .pfm, or a film: .mp4 .mov .y4m;\n"
-     "several pictures: frame_%04d.png or frame_####.png",
+     "several pictures: frame_%04d.png or frame_####.png; .sums:\n"
+     "sums of samples, for mangata merge",
      .set = option_text, .offset = offsetof(render_request, output)},
     OPTION_SEA,
     {"frames", 0, "LIST",
@@ -136,8 +191,6 @@ static const option render_options[] = {
      .allowed = "WxH, each from 1 to 32768 pixels, such as 1280x720"},
     {"crop", 0, "X,Y,W,H", "render this rectangle of the picture alone", .set = set_crop},
     {"method", 0, OPTION_VALUE_METHOD, "how pixels are filtered: one of the methods below (default mangata)", .set = option_quality,
-     .offset = offsetof(render_request, options)},
-    {"samples-range", 0, "FIRST,COUNT", "reference, ssaaN: take only these of the NxNxM samples", .set = option_quality,
      .offset = offsetof(render_request, options)},
     {"integral", 0, "exact|kernels", "podee-*: --kernels exact, or 9 where --kernels is not given", .set = option_quality,
      .offset = offsetof(render_request, options)},
@@ -158,8 +211,6 @@ static const option render_options[] = {
      .set = option_exr, .offset = offsetof(render_request, exr)},
     {"codec", 0, "NAME", "films: h264 (default of .mp4), hevc (10 bits), prores (422 HQ, default\nof .mov)", .set = set_codec},
     {"crf", 0, "N", "films: quality of h264 and hevc, 0 (best) to 51 (default 16)", .set = set_crf},
-    {"backend", 0, "NAME", "cpu (default), gl, auto, or null (renders nothing: for tests)", .set = option_context, .offset = offsetof(render_request, context)},
-    CONTEXT_OPTION_GL_DEVICE(render_request),
     CONTEXT_OPTION_THREADS(render_request),
     CONTEXT_OPTION_ISA(render_request),
     {"overwrite", 0, NULL, "replace existing output", .set = option_given, .offset = offsetof(render_request, overwrite)},
@@ -170,7 +221,17 @@ static const option render_options[] = {
      .set = option_given, .offset = offsetof(render_request, skip_existing)},
     {"stamp", 0, NULL, "record host, date, threads and instruction set in the output", .set = option_given, .offset = offsetof(render_request, stamp)},
     OPTION_PROGRESS(render_request),
+    /* From here on not of merge. */
+    {"samples-range", 0, "FIRST,COUNT", "reference, ssaaN: take only these of the NxNxM samples; or I/N,\nthe part I of N equal ones", .set = option_quality,
+     .offset = offsetof(render_request, options)},
+    {"checkpoint", 0, "SECONDS",
+     "reference: keep what is done in OUT.checkpoint about so often, from\n"
+     "which the same command goes on after a kill",
+     .set = set_checkpoint},
+    {"backend", 0, "NAME", "cpu (default), gl, auto, or null (renders nothing: for tests)", .set = option_context, .offset = offsetof(render_request, context)},
+    CONTEXT_OPTION_GL_DEVICE(render_request),
 };
+enum { RENDER_ONLY = 4 };
 
 static const option_table render_table = {"render",
                                           "SCENE -o OUT [options]\n       mangata render --sea wind=12 -o OUT [options]",
@@ -190,4 +251,30 @@ int verb_render(int count, char **arguments)
 {
     render_request request = {.options = quality_options_none(), .progress = progress_mode_auto()};
     return options_run(&render_table, &request, count, arguments);
+}
+
+static const option_table merge_table =
+    {"merge",
+     "SCENE PART.sums... -o OUT [options]",
+     "Makes the picture of which mangata render -o PART.sums --samples-range has rendered the samples.",
+     render_options,
+     sizeof render_options / sizeof render_options[0] - RENDER_ONLY,
+     .notes = "The scene and the options are those of the parts, which hold exact sums: however the samples were cut into parts, the picture has\n"
+              "the bytes of the one that a single mangata render makes. A part that is numbered, p0_%04d.sums, stands for a part of each frame.\n"
+              "exit codes: those of render; 65 a part that is damaged, of something else, or given twice, 66 a part or samples missing",
+     .operand = {.set = add_merged},
+     .quality = offsetof(render_request, options),
+     .changes = offsetof(render_request, changes),
+     .run = run_merge};
+
+int verb_merge(int count, char **arguments)
+{
+    render_request request = {.options = quality_options_none(), .progress = progress_mode_auto()};
+    request.part_paths = calloc((size_t)count + 1, sizeof *request.part_paths);
+    request.parts = calloc((size_t)count + 1, sizeof *request.parts);
+    const int code =
+        request.part_paths && request.parts ? options_run(&merge_table, &request, count, arguments) : console_error(EXIT_CODE_FAILED, "out of memory");
+    free(request.part_paths);
+    free(request.parts);
+    return code;
 }

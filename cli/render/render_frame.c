@@ -15,7 +15,7 @@ static mgt_format layer_format(mgt_layer layer, bool displayed)
 
 static size_t pixel_bytes(mgt_format format) { return format == MGT_FORMAT_RGB32F ? 12 : 4; }
 
-static bool fits_in_memory(double bytes)
+bool frame_buffer_fits(double bytes)
 {
     const double pages = (double)sysconf(_SC_PHYS_PAGES), page = (double)sysconf(_SC_PAGESIZE);
     return pages <= 0 || bytes < pages * page;
@@ -51,12 +51,12 @@ int frame_buffer_create(frame_buffer *buffer, const render_request *request, uin
     mgt_layer layers[LAYER_COUNT];
     const size_t count = list_layers(request, layers), pixels = (size_t)width * height;
     *buffer = (frame_buffer){.width = width, .height = height};
-    buffer->displayed = request->format != PICTURE_EXR && request->format != PICTURE_PFM;
+    buffer->displayed = request->format != PICTURE_EXR && request->format != PICTURE_PFM && request->format != PICTURE_SUMS;
     double bytes = request->exr.z ? 4.0 * (double)pixels : 0;
     for (size_t i = 0; i < count; i++)
         bytes += (double)pixels * (double)pixel_bytes(layer_format(layers[i], buffer->displayed));
     /* Linux grants more than there is and kills later; better to say no now. */
-    if (!fits_in_memory(bytes))
+    if (!frame_buffer_fits(bytes))
         goto fail;
     if (request->exr.z && !(buffer->planar = calloc(pixels, sizeof *buffer->planar)))
         goto fail;

@@ -16,6 +16,9 @@ typedef struct frame_buffer {
     render_crypto *crypto; /* mattes, borrowed; NULL: not asked for */
 } frame_buffer;
 
+/* Whether the machine has so much memory at all. */
+bool frame_buffer_fits(double bytes);
+
 /* Allocates what the request needs; prints the error and returns the exit code. */
 int frame_buffer_create(frame_buffer *buffer, const render_request *request, uint32_t width, uint32_t height);
 void frame_buffer_free(frame_buffer *buffer);

@@ -8,45 +8,31 @@
 #include "image/file_whole.h"
 #include "image/video.h"
 #include "cli/common/interrupt.h"
-#include "cli/render/render_frame.h"
-#include "cli/render/render_record.h"
+#include "cli/render/render_job.h"
+#include "cli/render/render_sums.h"
 #include "params/methods.h"
 
-typedef struct render_job {
-    render_request *request;
-    scene_file *scene;
-    char *canonical;
-    mgt_context *context;
-    mgt_context_info info;
-    frame_buffer buffer;
-    render_crypto *crypto; /* NULL: not asked for */
-    mgt_image image;       /* of every frame, with the crop */
-    output_options output;
-    progress progress;
-    uint64_t rendered, skipped;
-    double seconds, least, most; /* of rendering alone */
-    json_t *files;               /* with --json */
-} render_job;
+enum { FRAMES_TEXT = 240 };
 
-enum { PATH_SIZE = 4600, FRAMES_TEXT = 240 };
-
-static int stopped(const render_job *job)
+int render_job_stopped(const render_job *job)
 {
     console_note(&job->request->out, "mangata: stopped; nothing unfinished was left behind%s",
-                 job->request->path.numbered ? "; --skip-existing goes on where it stopped" : "");
+                 job->request->checkpoint > 0  ? "; the same command goes on from the last checkpoint"
+                 : job->request->path.numbered ? "; --skip-existing goes on where it stopped"
+                                               : "");
     return interrupt_exit_code();
 }
 
-static int file_failure(render_job *job, const file_error *error)
+int render_job_file_failure(render_job *job, const file_error *error)
 {
     progress_clear(&job->progress);
-    return error->status == FILE_CANCELLED ? stopped(job) : console_file_error(error);
+    return error->status == FILE_CANCELLED ? render_job_stopped(job) : console_file_error(error);
 }
 
 static bool on_progress(void *user, double fraction)
 {
     render_job *job = user;
-    progress_update(&job->progress, fraction);
+    progress_update(&job->progress, job->before + job->share * fraction);
     return *interrupt_flag() == 0;
 }
 
@@ -99,7 +85,7 @@ static int load_scene(render_job *job)
     if (i->crop_x >= i->width || i->crop_y >= i->height || i->crop_width > i->width - i->crop_x || i->crop_height > i->height - i->crop_y)
         return console_error(EXIT_CODE_USAGE, "--crop %u,%u,%u,%u: it lies outside the picture of %u x %u pixels", i->crop_x, i->crop_y, i->crop_width,
                              i->crop_height, i->width, i->height);
-    return EXIT_CODE_OK;
+    return render_sums_wanted(r) ? render_sums_check(r, &first) : EXIT_CODE_OK;
 }
 
 static int create_context(render_job *job)
@@ -141,7 +127,7 @@ static int check_frames(render_job *job)
         if (status != MGT_OK)
             return console_library_error(job->context, status);
         if (*interrupt_flag())
-            return stopped(job);
+            return render_job_stopped(job);
     }
     return EXIT_CODE_OK;
 }
@@ -164,7 +150,7 @@ static int check_output(render_job *job, const char *path, const sha256_text *ha
         if (plan->skip)
             return EXIT_CODE_OK;
         if (status == FILE_MEMORY)
-            return file_failure(job, &error);
+            return render_job_file_failure(job, &error);
         if (status == FILE_OK && state == FILE_STATE_DAMAGED) {
             plan->output.overwrite = true;
             if (whole) {
@@ -178,32 +164,47 @@ static int check_output(render_job *job, const char *path, const sha256_text *ha
         }
     }
     if (output_file_check(path, &plan->output, &error) != FILE_OK)
-        return file_failure(job, &error);
+        return render_job_file_failure(job, &error);
     return EXIT_CODE_OK;
 }
 
-static int print_path(const render_job *job, uint32_t frame, char path[PATH_SIZE])
+int render_job_path(const frame_path *pattern, const char *given, uint32_t frame, char path[JOB_PATH])
 {
-    if (!frame_path_print(&job->request->path, frame, path, PATH_SIZE))
-        return console_error(EXIT_CODE_USAGE, "-o %s: the path is too long", job->request->output);
+    if (!frame_path_print(pattern, frame, path, JOB_PATH))
+        return console_error(EXIT_CODE_USAGE, "%s: the path is too long", given);
     return EXIT_CODE_OK;
+}
+
+static int print_path(const render_job *job, uint32_t frame, char path[JOB_PATH])
+{
+    return render_job_path(&job->request->path, job->request->output, frame, path);
 }
 
 /* Writes the frame as text into `number`. */
-static int hash_frame(const render_job *job, uint32_t frame, char number[16], sha256_text *hash)
+static int hash_frame(render_job *job, uint32_t frame, char number[16], sha256_text *hash)
 {
+    char meant[100];
     snprintf(number, 16, "%u", frame);
-    if (!render_hash(job->request, job->canonical, &job->image, &job->info, number, hash))
+    snprintf(meant, sizeof meant, "%s", number);
+    if (job->request->part_count && job->request->format == PICTURE_SUMS) {
+        const int code = render_sums_plan(job, frame);
+        if (code != EXIT_CODE_OK)
+            return code;
+        if (!render_sums_complete(job))
+            snprintf(meant, sizeof meant, "%s in %s", number, sha256(job->ranges.items, job->ranges.count * sizeof job->ranges.items[0]).text);
+    }
+    if (!render_hash(job->request, job->canonical, &job->image, &job->info, meant, hash))
         return console_error(EXIT_CODE_FAILED, "out of memory");
     return EXIT_CODE_OK;
 }
 
 static int check_stills(render_job *job)
 {
+    const bool merges = job->request->part_count > 0;
     const uint64_t count = frame_list_length(&job->request->frames);
     for (uint64_t i = 0; i < count; i++) {
         const uint32_t frame = frame_list_at(&job->request->frames, i);
-        char path[PATH_SIZE], number[16];
+        char path[JOB_PATH], number[16];
         sha256_text hash;
         output_plan plan;
         int code = print_path(job, frame, path);
@@ -211,6 +212,8 @@ static int check_stills(render_job *job)
             code = hash_frame(job, frame, number, &hash);
         if (code == EXIT_CODE_OK)
             code = check_output(job, path, &hash, false, &plan);
+        if (code == EXIT_CODE_OK && merges && !plan.skip)
+            code = render_sums_plan(job, frame);
         if (code != EXIT_CODE_OK)
             return code;
     }
@@ -219,19 +222,32 @@ static int check_stills(render_job *job)
 
 /* ---- rendering ----------------------------------------------------------------------------------------- */
 
-static int render_frame(render_job *job, uint32_t frame, mgt_scene *scene, double *seconds)
+/* Samples into sums, where pictures are made of them, and sums or samples into pixels. */
+static mgt_status render_pixels(render_job *job, const mgt_scene *scene)
 {
-    const int code = frame_scene(job, frame, scene);
+    if (job->request->format == PICTURE_SUMS)
+        return MGT_OK;
+    return job->sums ? mgt_render_sums(job->context, scene, job->sums, job->buffer.targets, job->buffer.count)
+                     : mgt_render(job->context, scene, job->buffer.targets, job->buffer.count);
+}
+
+static int render_frame(render_job *job, uint32_t frame, const char *path, mgt_scene *scene, double *seconds)
+{
+    int code = frame_scene(job, frame, scene);
     if (code != EXIT_CODE_OK)
         return code;
     progress_frame(&job->progress, frame);
     const double start = seconds_now();
-    const mgt_status status = mgt_render(job->context, scene, job->buffer.targets, job->buffer.count);
+    if (job->sums)
+        code = render_sums_fill(job, frame, scene, path);
+    if (code != EXIT_CODE_OK)
+        return code;
+    const mgt_status status = render_pixels(job, scene);
     *seconds = seconds_now() - start;
     if (status != MGT_OK || *interrupt_flag())
         progress_clear(&job->progress);
     if (status == MGT_CANCELLED || *interrupt_flag())
-        return stopped(job);
+        return render_job_stopped(job);
     if (status != MGT_OK)
         return console_error(exit_code_of_status(status), "frame %u: %s", frame, mgt_last_error(job->context));
     if (job->buffer.displayed)
@@ -255,7 +271,7 @@ static void list_file(render_job *job, const char *path, const char *frames, con
 
 static int render_still(render_job *job, uint32_t frame)
 {
-    char path[PATH_SIZE], number[16];
+    char path[JOB_PATH], number[16];
     sha256_text hash;
     output_plan plan = {0};
     /* Asked again here: another machine of a farm may have finished it meanwhile. */
@@ -269,22 +285,28 @@ static int render_still(render_job *job, uint32_t frame)
     mgt_scene scene;
     double seconds = 0;
     if (!plan.skip) {
-        code = render_frame(job, frame, &scene, &seconds);
+        if (job->sums)
+            code = render_sums_plan(job, frame);
+        if (code == EXIT_CODE_OK)
+            code = render_frame(job, frame, path, &scene, &seconds);
         if (code != EXIT_CODE_OK)
             return code;
         render_record record;
         file_error error;
         render_record_fill(&record, job->request, &job->info, &hash, number, scene.time, seconds);
-        file_status status = frame_buffer_write(&job->buffer, job->request, &scene, scene_file_fps(job->scene), path, &record.list, &plan.output, &error);
+        file_status status = job->request->format == PICTURE_SUMS
+                                 ? render_sums_write(job, frame, path, &record, &plan.output, &error)
+                                 : frame_buffer_write(&job->buffer, job->request, &scene, scene_file_fps(job->scene), path, &record.list, &plan.output, &error);
         if (status == FILE_EXISTS && job->request->skip_existing) {
             code = check_output(job, path, &hash, true, &plan);
             if (code != EXIT_CODE_OK || plan.skip)
                 status = FILE_OK;
         }
         if (status != FILE_OK)
-            return file_failure(job, &error);
+            return render_job_file_failure(job, &error);
         if (code != EXIT_CODE_OK)
             return code;
+        render_sums_done(job, path);
     }
     list_file(job, path, number, &hash, plan.skip);
     progress_frame_done(&job->progress, path, seconds);
@@ -295,7 +317,7 @@ static int render_stills(render_job *job)
 {
     const uint64_t count = frame_list_length(&job->request->frames);
     for (uint64_t i = 0; i < count; i++) {
-        const int code = *interrupt_flag() ? stopped(job) : render_still(job, frame_list_at(&job->request->frames, i));
+        const int code = *interrupt_flag() ? render_job_stopped(job) : render_still(job, frame_list_at(&job->request->frames, i));
         if (code != EXIT_CODE_OK)
             return code;
     }
@@ -321,6 +343,10 @@ static int render_film(render_job *job)
         list_file(job, path, frames, &hash, true);
         return EXIT_CODE_OK;
     }
+    for (uint64_t i = 0; i < count && r->part_count && code == EXIT_CODE_OK; i++)
+        code = render_sums_plan(job, frame_list_at(&r->frames, i));
+    if (code != EXIT_CODE_OK)
+        return code;
     mgt_scene first;
     code = frame_scene(job, frame_list_at(&r->frames, 0), &first);
     if (code != EXIT_CODE_OK)
@@ -337,13 +363,16 @@ static int render_film(render_job *job)
     video_writer *writer = NULL;
     file_error error;
     if (video_writer_open(&writer, path, &desc, &error) != FILE_OK)
-        return file_failure(job, &error);
+        return render_job_file_failure(job, &error);
     for (uint64_t i = 0; i < count; i++) {
         mgt_scene scene;
         double seconds;
-        code = render_frame(job, frame_list_at(&r->frames, i), &scene, &seconds);
+        const uint32_t frame = frame_list_at(&r->frames, i);
+        code = job->sums ? render_sums_plan(job, frame) : EXIT_CODE_OK;
+        if (code == EXIT_CODE_OK)
+            code = render_frame(job, frame, path, &scene, &seconds);
         if (code == EXIT_CODE_OK && video_writer_frame(writer, job->buffer.targets[0].pixels, 0, &error) != FILE_OK)
-            code = file_failure(job, &error);
+            code = render_job_file_failure(job, &error);
         if (code != EXIT_CODE_OK) {
             video_writer_abort(writer);
             return code;
@@ -351,7 +380,7 @@ static int render_film(render_job *job)
         progress_frame_done(&job->progress, path, seconds);
     }
     if (video_writer_finish(writer, &error) != FILE_OK)
-        return file_failure(job, &error);
+        return render_job_file_failure(job, &error);
     list_file(job, path, frames, &hash, false);
     return EXIT_CODE_OK;
 }
@@ -390,6 +419,8 @@ static int run(render_job *job)
         code = create_crypto(job);
     if (code == EXIT_CODE_OK && !render_is_film(job->request))
         code = check_stills(job);
+    if (code == EXIT_CODE_OK && render_sums_wanted(job->request))
+        code = render_sums_create(job);
     if (code == EXIT_CODE_OK)
         code = frame_buffer_create(&job->buffer, job->request, job->image.crop_width, job->image.crop_height);
     if (code != EXIT_CODE_OK)
@@ -410,6 +441,7 @@ int render_job_run(render_request *request)
     if (!job)
         return console_error(EXIT_CODE_FAILED, "out of memory");
     job->request = request;
+    job->share = 1;
     job->output = (output_options){.overwrite = request->overwrite, .cancel = interrupt_flag()};
     if (request->out.json)
         job->files = json_array();
@@ -417,6 +449,7 @@ int render_job_run(render_request *request)
     json_decref(job->files);
     frame_buffer_free(&job->buffer);
     render_crypto_free(job->crypto);
+    free(job->sums);
     mgt_context_destroy(job->context);
     free(job->canonical);
     scene_file_free(job->scene);

@@ -15,7 +15,13 @@
 bool render_hash(const render_request *request, const char *canonical, const mgt_image *image, const mgt_context_info *info, const char *frames,
                  sha256_text *hash);
 
-enum { RECORD_ENTRIES = 18, RECORD_TEXT = 256 };
+#define SUMS_HASH_KEY "sums_hash"
+
+/* Hash of everything that changes a sample of a frame: not of ranges, layers and kind of file. False when memory runs out. */
+bool sums_hash(const render_request *request, const char *canonical, const mgt_image *image, const mgt_context_info *info, const char *frame,
+               sha256_text *hash);
+
+enum { RECORD_ENTRIES = 22, RECORD_TEXT = 256 };
 
 /* Metadata with the memory of its values. Not to be copied: the entries point into it. */
 typedef struct render_record {
@@ -27,5 +33,12 @@ typedef struct render_record {
 /* `seconds` below 0: not known. */
 void render_record_fill(render_record *record, const render_request *request, const mgt_context_info *info, const sha256_text *hash, const char *frames,
                         double time, double seconds);
+
+/* What files of sums record besides, and by which they know each other: the hash last. */
+void render_record_fill_sums(render_record *record, const render_request *request, const mgt_image *image, const mgt_context_info *info,
+                             const sha256_text *sums_hash, const char *frame);
+
+/* Adds these entries to those of render_record_fill(). */
+void render_record_add_sums(render_record *record, const render_record *sums);
 
 #endif

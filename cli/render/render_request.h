@@ -35,6 +35,12 @@ typedef struct render_request {
         bool crf_given;
     } film;
 
+    /* Of mangata merge: files of sums, as given and taken apart. */
+    const char **part_paths;
+    frame_path *parts;
+    size_t part_count;
+
+    double checkpoint; /* seconds between checkpoints; 0: none */
     bool overwrite, skip_existing, stamp;
     progress_mode progress;
 } render_request;

@@ -225,6 +225,31 @@ for name, data in [("PFM without a size", b"PF\n"), ("PFM of 2^32", b"PF\n429496
                    ("EXR of long names", b"\x76\x2f\x31\x01\x02\0\0\0" + b"a" * 70000), ("EXR attribute of 2 GiB", b"\x76\x2f\x31\x01\x02\0\0\0channels\0chlist\0\xff\xff\xff\x7f"), ("text", b"a picture"), ("y4m", b"YUV4MPEG2 W9 H9\n")]:
     row("diff " + name, {"a": data, "b.png": png(2, 2)}, ["diff", "a", "b.png"], BAD, "^mangata: a: ")
 
+# ---- files of sums ----
+
+
+def sums(pixels="4x3", ranges="0,1", rows=b"\0" * 36, text=None, checksum=True, **more):
+    """A part of a picture of 4 x 3 pixels, whose hash is none."""
+    text = json.dumps({"mangata_version": "0.1.0", "method": "reference", "pixels": pixels, "ranges": ranges, **more}).encode() if text is None else text
+    data = b"mangata sums 1\n" + struct.pack("<I", len(text)) + text + rows
+    return data + struct.pack("<I", zlib.crc32(data) if checksum else 1)
+
+
+for name, data, pattern in [
+        ("empty", b"", "is not a file of sums"), ("text", b"a part", "is not a file of sums"), ("of version 2", b"mangata sums 2\n", "is not a file of sums"), ("PNG", png(4, 3), "is not a file of sums"),
+        ("without a head", b"mangata sums 1\n", "ends too early"), ("head of 4 GiB", b"mangata sums 1\n\xff\xff\xff\xff" + b"{" * 100, "metadata are longer"),
+        ("head cut", sums()[:60], "metadata are longer|ends too early"), ("head a list", sums(text=b"[]"), "not a JSON object"), ("100000 levels", sums(text=b"[" * 100000), "not a JSON object"), ("key twice", sums(text=b'{"a": "b", "a": "c"}'), "not a JSON object"),
+        ("no size", sums(text=b'{"ranges": "0,1"}'), "pixels is missing"), ("size a number", sums(text=b'{"pixels": 3}'), "pixels is missing"), ("size 0", sums("0x3"), "pixels is missing"), ("size of words", sums("4x"), "pixels is missing"),
+        ("32768 x 99999", sums("32768x99999"), "pixels is missing"), ("size -4", sums("-4x3"), "pixels is missing"), ("no ranges", sums(text=b'{"pixels": "4x3"}'), "ranges is missing"), ("empty ranges", sums(ranges=""), "ranges is missing"),
+        ("range of none", sums(ranges="0,0"), "ranges is missing"), ("range of 2^64", sums(ranges="0,18446744073709551616"), "ranges is missing"), ("range -1", sums(ranges="-1,2"), "ranges is missing"), ("ranges that overlap", sums(ranges="0,3 2,2"), "ranges is missing"),
+        ("10000 ranges", sums(ranges=" ".join(f"{2 * i},1" for i in range(10000))), "ranges is missing"), ("another method", sums(method="ssaa2"), "it has method ssaa2, and this merge has reference"),
+        ("another version", sums(mangata_version="9.9\x1b[31m" + "x" * 5000), "it has mangata_version 9.9.\\[31mx+, and this merge has"), ("no hash", sums(), "it has method_options unknown")]:
+    row("merge " + name, {"s.yaml": "mangata: 1\nimage: {width: 4, height: 3}\n", "p.sums": data}, ["merge", "s.yaml", "p.sums", "-o", "a.png", "--method", "reference"], BAD, "^mangata: p.sums: .*" + pattern)
+row("merge a device", {"s.yaml": "mangata: 1\n"}, ["merge", "s.yaml", "/dev/zero", "-o", "a.png", "--method", "reference"], BAD, "/dev/zero: is no regular file")
+row("merge a folder", {"s.yaml": "mangata: 1\n"}, ["merge", "s.yaml", "d", "-o", "a.png", "--method", "reference"], BAD, "d: is a directory")
+row("merge nothing", {"s.yaml": "mangata: 1\n"}, ["merge", "s.yaml", "p.sums", "-o", "a.png", "--method", "reference"], MISSING, "p.sums: .*No such file")
+row("diff sums", {"a": sums(), "b.png": png(2, 2)}, ["diff", "a", "b.png"], BAD, "^mangata: a: holds sums of samples; mangata merge")
+
 # ---- scenes ----
 
 for name, text, place in [

@@ -2,7 +2,7 @@
 # Every kind of wrong command line: exit code 64 and one line with a hint; help and version.
 . "$CHECK"
 
-for verb in render diff compare scene bench info view; do
+for verb in render merge diff compare scene bench info view; do
     expect 0 '' "$MANGATA" $verb --help
     grep -q "^usage: mangata $verb" stdout.txt || fail "$verb --help has no usage line"
     [[ ! -s stderr.txt ]] || fail "$verb --help writes to stderr"
