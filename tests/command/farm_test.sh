@@ -49,10 +49,15 @@ printf '#!/bin/sh\necho "$@" >>"%s/calls"\n' "$work" >bin/scontrol
 printf '#!/bin/sh\nexit 0\n' >bin/sleep
 printf '#!/bin/sh\necho "$@" >"%s/arguments"\nexit $CODE\n' "$work" >bin/ends
 chmod +x bin/*
-task() { # CODE RESTARTS: runs task 3 of 8
+slurm() { # [NAME=VALUE…] -- WORDS…: runs task 3 of 8
+    local values=()
+    while [[ $1 != -- ]]; do values+=("$1") && shift; done
+    env PATH="$work/bin:$PATH" SLURM_JOB_ID=77 SLURM_ARRAY_JOB_ID=77 SLURM_ARRAY_TASK_ID=3 SLURM_ARRAY_TASK_COUNT=8 SLURM_CPUS_PER_TASK=2 "${values[@]}" \
+        "$SOURCE/contrib/farm/mangata.sbatch" "${@:2}"
+}
+task() { # CODE RESTARTS
     rm -f calls
-    env PATH="$work/bin:$PATH" CODE="$1" MANGATA=ends SLURM_JOB_ID=77 SLURM_ARRAY_JOB_ID=77 SLURM_ARRAY_TASK_ID=3 SLURM_ARRAY_TASK_COUNT=8 SLURM_RESTART_COUNT="$2" \
-        SLURM_CPUS_PER_TASK=2 "$SOURCE/contrib/farm/mangata.sbatch" 'a b.yaml' -o 'f_%d.png' 2>/dev/null
+    slurm CODE="$1" MANGATA=ends SLURM_RESTART_COUNT="$2" -- 'a b.yaml' -o 'f_%d.png' 2>/dev/null
     [[ $? == "$1" ]] || fail "mangata.sbatch does not end with $1"
 }
 for code in 73 75 137 143; do
@@ -66,6 +71,17 @@ for code in 0 1 64 65 66 69; do
     absent calls
 done
 [[ $(cat arguments) == 'render a b.yaml -o f_%d.png --shard 3/8 --threads 2 --skip-existing --progress text' ]] || fail "mangata.sbatch: $(cat arguments)"
+
+# One frame in parts.
+frame=("$simple" --method reference --spatial 2 --time-samples 3 --size 16x9)
+for ((i = 0; i < 5; i++)); do
+    slurm MANGATA="$MANGATA" SLURM_ARRAY_TASK_ID=$i SLURM_ARRAY_TASK_COUNT=5 -- --part parts "${frame[@]}" 2>stderr.txt || fail "--part $i: $(cat stderr.txt)"
+done
+slurm MANGATA="$MANGATA" -- --merge parts "${frame[@]}" -o frame.exr 2>stderr.txt || fail "--merge: $(cat stderr.txt)"
+works render "${frame[@]}" -o whole.exr --quiet
+same whole.exr frame.exr
+slurm MANGATA=ends CODE=0 -- --part parts x.yaml --method reference
+[[ $(cat arguments) == 'render x.yaml --method reference -o parts/3-of-8.sums --samples-range 3/8 --checkpoint 300 --threads 2 --skip-existing --progress text' ]] || fail "--part: $(cat arguments)"
 
 # The script that the OpenJD template embeds.
 if python3 -c 'import yaml' 2>/dev/null; then
