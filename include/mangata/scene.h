@@ -219,6 +219,8 @@ typedef struct mgt_scene {
     mgt_camera camera_open; /* when it opens; used when camera_moves */
     bool camera_moves;
     bool aerial;           /* aerial perspective: the air of MGT_SKY_ATMOSPHERE dims what lies behind it and adds the light that it scatters */
+    bool stars;            /* the stars of the naked eye stand in MGT_SKY_ATMOSPHERE; by day it outshines them */
+    bool night_tint;       /* 8-bit targets show by night what rods see: bluish, without hue. By day nothing changes */
     float foam;            /* fraction of the water that whitecaps cover, [0, 0.5]; 0: none. Only choppy water seen from above shows foam */
     double time;           /* seconds, when the shutter closes */
     double shutter;        /* seconds the shutter is open, ≥ 0; light is integrated over [time − shutter, time] */

@@ -74,8 +74,8 @@ MGT_API size_t mgt_sea_wave_count(const mgt_sea *sea);
  * MGT_ERROR_MEMORY. mgt_last_error(NULL) has the words, and nothing has been written. */
 MGT_API mgt_status mgt_sea_waves(const mgt_sea *sea, mgt_wave *waves, size_t capacity);
 
-/* Writes the waves as mgt_sea_waves() does and sets the scene's waves, choppiness, foam and aerial perspective, so that it renders as a scene file with water.wind
- * does. The scene points to `waves`, which must stay in place while it is used. Errors as above; *scene is then unchanged. */
+/* Writes the waves as mgt_sea_waves() does and sets the scene's waves, choppiness, foam, aerial perspective and, where its light is the moon, stars and night tint, so
+ * that it renders as a scene file with water.wind does. The scene points to `waves`, which must stay in place while it is used. Errors as above; *scene is then unchanged. */
 MGT_API mgt_status mgt_sea_scene(const mgt_sea *sea, mgt_wave *waves, size_t capacity, mgt_scene *scene);
 
 MGT_API const char *mgt_spectrum_name(mgt_spectrum spectrum);

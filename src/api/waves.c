@@ -9,6 +9,7 @@
 #include "api/structs.h"
 #include "api/validate.h"
 #include "params/foam.h"
+#include "params/scene_rows.h"
 #include "params/waves.h"
 #include "sea/sea.h"
 #include "sea/sea_rows.h"
@@ -142,6 +143,7 @@ mgt_status mgt_sea_scene(const mgt_sea *sea, mgt_wave *waves, size_t capacity, m
     const double foam = own.wind > 0 ? (double)own.foam * foam_share_of_wind(settings_of(&own).wind) : 0;
     scene->foam = (float)(foam < MOST_FOAM ? foam : MOST_FOAM);
     scene->aerial = own.wind > 0;
+    scene->stars = scene->night_tint = own.wind > 0 && light_is_moon(&scene->light);
     return MGT_OK;
 }
 

@@ -9,6 +9,7 @@
 #include <time.h>
 
 #include "cpu/cpu_state.h"
+#include "frame/stars.h"
 #include "cpu/glare.h"
 #include "cpu/inspect.h"
 #include "cpu/query_lanes.h"
@@ -429,6 +430,13 @@ static void reference_air(const void *user, const double direction[3], double di
 }
 
 _Static_assert((int)MGT_SUM_WORDS == (int)REFERENCE_SUM_WORDS, "sums are the reference's");
+
+static void reference_stars(const void *user, const double direction[3], double pixel_angle, double rgb[3])
+{
+    const sky_state *sky = user;
+    stars_lookup(sky->table, direction, pixel_angle, rgb);
+}
+
 _Static_assert((int)MAX_LIGHTS == (int)REFERENCE_LIGHTS, "the oracle has every light");
 
 static mgt_status make_reference(render_job *job, const reporter *r)
@@ -436,6 +444,7 @@ static mgt_status make_reference(render_job *job, const reporter *r)
     const sky_state *sky = job->state->sky;
     reference_sky rs = {.lookup = job->scene->sky.model == MGT_SKY_BLACK ? NULL : reference_lookup,
                         .air = sky_state_has_air(job->scene) ? reference_air : NULL,
+                        .stars = job->frame.data.stars ? reference_stars : NULL,
                         .user = sky};
     sky_upwelling_radiance(sky, &job->scene->water, rs.body_radiance);
     for (int i = 0; i < lights_count(sky->lights); i++)

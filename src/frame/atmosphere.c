@@ -10,6 +10,7 @@
 
 #include "frame/air.h"
 #include "frame/spectrum.h"
+#include "frame/stars.h"
 #include "params/scene_rows.h"
 
 #define PI 3.14159265358979323846
@@ -160,10 +161,9 @@ static double log_key(sky_state *state)
  * half the sky's, is put at 0.15 when it is as bright as day (2 kcd/m²). Fainter scenes are kept darker, as the eye sees them: each
  * factor of 2 in the key moves the picture by 2^0.12. A full moon's night, 17 stops below the day, comes out 2 stops darker.
  * Without a sky, glitter is the picture: 2% of the light's radiance (a full mirror's at normal incidence) goes to 0.15. */
-static double automatic_exposure(sky_state *state)
+static double automatic_exposure(const sky_state *state, double key)
 {
     const double compression = 0.12, day = 2.0;
-    double key = log_key(state) - 1.0;
     if (isfinite(key)) {
         return fmin(log2(0.15) - key + compression * fmin(key - log2(day), 0.0), 100.0);
     }
@@ -224,11 +224,14 @@ static void fill_state(sky_state *s, const mgt_sky *sky, const mgt_light *light,
     lights_set(s->lights, light, 1, air, &weights);
     if (air) {
         fill_atmosphere(s, air, &weights, ray);
+        stars_fill(air, &weights, sky->night, s->table);
     } else if (sky->model == MGT_SKY_GRADIENT) {
         fill_gradient(s);
     }
     sum_irradiance(s);
-    s->exposure_ev = automatic_exposure(s);
+    const double key = log_key(s) - 1.0;
+    s->adaptation = exp2(key);
+    s->exposure_ev = automatic_exposure(s, key);
 }
 
 sky_state *sky_state_create(void)

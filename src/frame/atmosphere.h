@@ -16,7 +16,7 @@
  * u = column/(SKY_COLUMNS − 1), v = row/(SKY_ROWS − 1): the table's edges are the horizon, the zenith and the two half
  * planes through that light. */
 
-/* 290 KiB. Radiance in kcd/m², irradiance in klx (kcd·sr/m²), linear sRGB. */
+/* 390 KiB. Radiance in kcd/m², irradiance in klx (kcd·sr/m²), linear sRGB. */
 typedef struct sky_state {
     mgt_sky sky; /* the input it was built from, with the lights */
     light_set *lights;
@@ -24,13 +24,15 @@ typedef struct sky_state {
     double irradiance_sky[3]; /* on the horizontal, from the table */
     double exposure_ev;       /* automatic exposure: the picture is radiance · 2^exposure_ev before the tone map */
 
+    double adaptation; /* luminance of sky near the horizon and water, kcd/m²; 0: the sky is black */
+
     double air_height; /* height of the eye that the rows of air were filled for, metres; < 0: not filled */
     double air_rate;   /* FRAME(cx).air_rate, see air.h */
 
     struct scattering *air; /* MGT_SKY_ATMOSPHERE; NULL: another model */
     struct scattering_ray *ray;
 
-    float table[SKY_TABLE_ROWS * SKY_COLUMNS * 3]; /* rows from the horizon up, no disk in it; then those of air.h */
+    float table[SKY_TABLE_ROWS * SKY_COLUMNS * 3]; /* rows from the horizon up, no disk in it; then those of air.h and stars.h */
 } sky_state;
 
 /* A black sky without lights, NULL without memory. The caller owns it. */

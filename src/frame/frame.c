@@ -142,6 +142,8 @@ frame frame_of(const mgt_scene *scene, const sky_state *sky, bool want_color)
     const double ev = scene->post.exposure_ev + (scene->post.auto_exposure ? sky->exposure_ev : 0);
     d->exposure = (float)exp2(ev);
     d->tone_map = (int)scene->post.tone_map;
+    d->rod_luminance = scene->night_tint ? (float)sky->adaptation : 0;
+    d->stars = scene->stars && scene->sky.model == MGT_SKY_ATMOSPHERE;
     d->slope_floor = 1e-9f;
     d->pixel_angle = (float)(2 * tan(scene->camera.fov_y_deg * pi / 360) / scene->image.height);
     d->want_color = want_color;

@@ -15,6 +15,8 @@ const mgt_light light_defaults[] =
     {[MGT_SOURCE_SUN] = {.body = MGT_SOURCE_SUN, .elevation_deg = 30, .angular_radius_deg = 0.2665, .radiance = {1.98e6f, 1.88e6f, 1.80e6f}},
      [MGT_SOURCE_MOON] = {.body = MGT_SOURCE_MOON, .elevation_deg = 30, .angular_radius_deg = 0.2590, .radiance = {3.75f, 3.45f, 3.0f}}};
 
+bool light_is_moon(const mgt_light *light) { return light->body == MGT_SOURCE_MOON; }
+
 static void decide_body(void *parent)
 {
     mgt_light *light = parent;
@@ -75,6 +77,9 @@ const field_row scene_rows[] = {PART(camera, camera_rows, "when the shutter clos
                                 PART(light, light_rows, "the sun or the moon"),
                                 PART(sky, sky_rows, "what the water mirrors"),
                                 {"aerial", FIELD_SWITCH, offsetof(mgt_scene, aerial), .doc = "whether the air before the water is seen",
+                                 .choices = switch_words},
+                                {"stars", FIELD_SWITCH, offsetof(mgt_scene, stars), .doc = "whether stars are seen in the sky", .choices = switch_words},
+                                {"night_tint", FIELD_SWITCH, offsetof(mgt_scene, night_tint), .doc = "whether colours are shown as by night",
                                  .choices = switch_words},
                                 PART(water, water_rows, "the surface and what is under it"),
                                 {"foam", FIELD_SHARE, offsetof(mgt_scene, foam), 0, 0, MOST_FOAM, NULL, .doc = "share of the water that whitecaps cover"},

@@ -76,6 +76,8 @@
 /* What a body brings along, by mgt_source; at elevation 30°, azimuth 0. */
 extern const mgt_light light_defaults[];
 
+bool light_is_moon(const mgt_light *light);
+
 extern const field_row image_rows[];  /* of an mgt_image, but for its crop */
 extern const field_row light_rows[];  /* of an mgt_light */
 extern const field_row sky_rows[];    /* of an mgt_sky */

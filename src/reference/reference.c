@@ -259,6 +259,17 @@ static void look_through_air(const reference_frame *frame, const double view[3],
         rgb[c] = leaves[c] * rgb[c] + light[c];
 }
 
+static void add_stars(const reference_frame *frame, const reference_batch *batch, uint32_t i, const double view[3], double rgb[3])
+{
+    const double pixel = 2 * tan(frame->scene.camera.fov_y_deg * 3.14159265358979323846 / 360) / frame->scene.image.height;
+    const double x = (batch->pixel_x[i] - 0.5 * frame->scene.image.width) * pixel, y = (batch->pixel_y[i] - 0.5 * frame->scene.image.height) * pixel;
+    const double direction[3] = {view[0], fmax(view[1], 0), view[2]};
+    double stars[3];
+    frame->sky.stars(frame->sky.user, direction, pixel * pow(1 + x * x + y * y, -0.75), stars);
+    for (int c = 0; c < 3; c++)
+        rgb[c] += stars[c];
+}
+
 static void add_sample(const reference_frame *frame, const reference_batch *batch, uint32_t i, bool with_color, pixel_sums *sums)
 {
     const double view[3] = {batch->direction_x[i], batch->direction_y[i], batch->direction_z[i]};
@@ -266,6 +277,8 @@ static void add_sample(const reference_frame *frame, const reference_batch *batc
     if (!(batch->distance[i] < HUGE_VAL)) {
         if (with_color)
             radiance_of_sky(frame, view, LIGHTS_ALL, rgb);
+        if (with_color && frame->sky.stars)
+            add_stars(frame, batch, i, view, rgb);
     } else if (batch->distance[i] > 0) {
         sums->hits++;
         const bool covered = shade_hit(frame, view, batch->slope_x[i], batch->slope_z[i], with_color ? rgb : NULL);

@@ -30,6 +30,9 @@ typedef struct reference_sky {
     void (*lookup)(const void *user, const double direction[3], double rgb[3]);
     /* Transmittance and in-scattered light of the air up to water `distance` metres along a unit direction. NULL: there is no air. */
     void (*air)(const void *user, const double direction[3], double distance, double leaves[3], double light[3]);
+    /* What stars add in a unit direction with direction[1] ≥ 0; below 0 between them. `pixel_angle`: side in radians of a square of the pixel's solid
+     * angle, over which they are spread. NULL: there are none. */
+    void (*stars)(const void *user, const double direction[3], double pixel_angle, double rgb[3]);
     const void *user;
     double disks[REFERENCE_LIGHTS][3];                   /* mean over each light's disk, at the observer */
     double body_radiance[3];                             /* leaves the water with the factor 1 − F */

@@ -91,7 +91,9 @@ char *scene_values_canonical(const scene_values *values, size_t *length)
     if (effective.camera.path.count > 0) /* the still camera is then never looked through */
         effective.camera.still = ((const scene_keyframe *)effective.camera.path.items)[0].camera;
     effective.water.waves = scene_water_all(&values->water);
-    effective.sky.aerial = scene_values_aerial(values) ? AERIAL_ON : AERIAL_OFF;
+    effective.sky.aerial = scene_values_aerial(values) ? WHEN_ON : WHEN_OFF;
+    effective.sky.stars = scene_values_by_night(values, values->sky.stars) ? WHEN_ON : WHEN_OFF;
+    effective.post.night_tint = scene_values_by_night(values, values->post.night_tint) ? WHEN_ON : WHEN_OFF;
     effective.water.foam.share = scene_water_foam(&values->water);
     if (!effective.post.exposure.automatic)
         effective.post.exposure_offset = 0;

@@ -25,8 +25,13 @@ void scene_values_write_out_sea(scene_values *values)
     water->sea = (scene_list){0};
     free(water->spectrum.file);
     const scene_values defaults = scene_values_defaults();
+    /* The wind that says so goes. */
     if (scene_values_aerial(values))
-        values->sky.aerial = AERIAL_ON; /* the wind that says so goes */
+        values->sky.aerial = WHEN_ON;
+    if (scene_values_by_night(values, values->sky.stars))
+        values->sky.stars = WHEN_ON;
+    if (scene_values_by_night(values, values->post.night_tint))
+        values->post.night_tint = WHEN_ON;
     water->foam.share = scene_water_foam(water);
     water->foam.amount = 0;
     water->spectrum = defaults.water.spectrum;
@@ -455,6 +460,10 @@ bool scene_overrides_between(const scene_values *from, const scene_values *to, s
         goal.water.height = from->water.height;
         if (scene_values_aerial(to) == scene_values_aerial(from))
             goal.sky.aerial = from->sky.aerial;
+        if (scene_values_by_night(to, to->sky.stars) == scene_values_by_night(from, from->sky.stars))
+            goal.sky.stars = from->sky.stars;
+        if (scene_values_by_night(to, to->post.night_tint) == scene_values_by_night(from, from->post.night_tint))
+            goal.post.night_tint = from->post.night_tint;
         if (goal.water.foam.amount == 0 && goal.water.foam.share == scene_water_foam(&from->water)) {
             goal.water.foam.amount = from->water.foam.amount;
             goal.water.foam.share = from->water.foam.share;

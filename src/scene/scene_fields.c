@@ -233,12 +233,14 @@ static const field_row object_fields[] =
       .doc = "what it is made of; replaces the materials of a mesh's file", .fields = material_fields},
      {0}};
 
-static const char *const aerial_words[] = {"auto", "off", "on", NULL};
+static const char *const when_words[] = {"auto", "off", "on", NULL};
 
 static const field_row sky_fields[] =
     {SKY_LOOK_ROWS(scene_sky, look),
      {"aerial", FIELD_CHOICE, offsetof(scene_sky, aerial), 0, NO_RANGE, NULL,
-      .doc = "on: the air of the atmosphere is seen before the water, more of it with turbidity; auto: on with water.wind, else off", .choices = aerial_words},
+      .doc = "on: the air of the atmosphere is seen before the water, more of it with turbidity; auto: on with water.wind, else off", .choices = when_words},
+     {"stars", FIELD_CHOICE, offsetof(scene_sky, stars), 0, NO_RANGE, NULL,
+      .doc = "on: the stars of the naked eye stand in the sky (atmosphere); auto: on with water.wind and the moon, else off", .choices = when_words},
      {0}};
 
 static const field_row scene_post_fields[] = {{"exposure", FIELD_EXPOSURE, offsetof(scene_post, exposure), 0, EXPOSURE_RANGE,
@@ -246,6 +248,9 @@ static const field_row scene_post_fields[] = {{"exposure", FIELD_EXPOSURE, offse
                                               {"exposure_offset", FIELD_NUMBER, offsetof(scene_post, exposure_offset), 0, EXPOSURE_RANGE,
                                                .doc = "added to the automatic exposure"},
                                               POST_ROWS(scene_post),
+                                              {"night_tint", FIELD_CHOICE, offsetof(scene_post, night_tint), 0, NO_RANGE, NULL,
+                                               .doc = "on: dark scenes have the bluish grey of the night; auto: on with water.wind and the moon, else off",
+                                               .choices = when_words},
                                               {0}};
 
 static const field_row scene_fields[] =

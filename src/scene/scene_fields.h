@@ -117,6 +117,9 @@ typedef struct scene_object {
     scene_material material;
 } scene_object;
 
+/* auto: as water.wind and the light say. */
+typedef enum scene_when { WHEN_AUTO, WHEN_OFF, WHEN_ON } scene_when;
+
 typedef struct scene_exposure {
     bool automatic;
     double stops; /* when not automatic */
@@ -127,14 +130,12 @@ typedef struct scene_post {
     double exposure_offset; /* when automatic */
     mgt_tone_map tone_map;
     float glare;
+    scene_when night_tint;
 } scene_post;
-
-/* auto: as water.wind says. */
-typedef enum scene_aerial { AERIAL_AUTO, AERIAL_OFF, AERIAL_ON } scene_aerial;
 
 typedef struct scene_sky {
     mgt_sky look;
-    scene_aerial aerial;
+    scene_when aerial, stars;
 } scene_sky;
 
 typedef struct scene_values {
@@ -166,10 +167,12 @@ static inline bool scene_water_has_sea(const scene_water *water)
     return water->spectrum.settings.kind != SPECTRUM_NONE || water->wind.speed > 0 || water->swell.count > 0 || water->height != 1;
 }
 
+/* What `auto` stands for. */
 static inline bool scene_values_aerial(const scene_values *values)
 {
-    return values->sky.aerial == AERIAL_ON || (values->sky.aerial == AERIAL_AUTO && values->water.wind.speed > 0);
+    return values->sky.aerial == WHEN_ON || (values->sky.aerial == WHEN_AUTO && values->water.wind.speed > 0);
 }
+bool scene_values_by_night(const scene_values *values, scene_when when);
 
 /* All waves as they are rendered. Belongs to `water`. */
 static inline scene_list scene_water_all(const scene_water *water) { return scene_water_has_sea(water) ? water->sea : water->waves; }

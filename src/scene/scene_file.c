@@ -126,6 +126,8 @@ bool scene_values_shot(const scene_values *values, double time, mgt_scene *out)
     scene.light = values->light;
     scene.sky = values->sky.look;
     scene.aerial = scene_values_aerial(values);
+    scene.stars = scene_values_by_night(values, values->sky.stars);
+    scene.night_tint = scene_values_by_night(values, values->post.night_tint);
     const scene_list waves = scene_water_all(&values->water);
     scene.water = (mgt_water){.waves = waves.items,
                               .wave_count = waves.count,

@@ -6,8 +6,14 @@
 #include <string.h>
 
 #include "params/options.h"
+#include "params/scene_rows.h"
 #include "scene/scene_models.h"
 #include "sea/sea.h"
+
+bool scene_values_by_night(const scene_values *values, scene_when when)
+{
+    return when == WHEN_ON || (when == WHEN_AUTO && values->water.wind.speed > 0 && light_is_moon(&values->light));
+}
 
 scene_values scene_values_defaults(void)
 {

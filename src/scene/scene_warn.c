@@ -51,12 +51,17 @@ static bool warn_of_foam(const scene_tree *tree, const scene_water *water, scene
     return true;
 }
 
-static bool warn_of_air(const scene_tree *tree, const scene_sky *sky, scene_error *warning)
+static bool warn_of_sky(const scene_tree *tree, const scene_sky *sky, scene_error *warning)
 {
-    const tree_node *node = tree_get(tree_get(tree->root, "sky"), "aerial");
-    if (node == NULL || sky->aerial != AERIAL_ON || sky->look.model == MGT_SKY_ATMOSPHERE)
+    if (sky->look.model == MGT_SKY_ATMOSPHERE)
         return true;
-    return tree_error(tree, node->source, node->place, warning, "sky.aerial shows the air of the model atmosphere: with another sky.model there is none");
+    const tree_node *mapping = tree_get(tree->root, "sky"), *aerial = tree_get(mapping, "aerial"), *stars = tree_get(mapping, "stars");
+    if (aerial != NULL && sky->aerial == WHEN_ON)
+        return tree_error(tree, aerial->source, aerial->place, warning,
+                          "sky.aerial shows the air of the model atmosphere: with another sky.model there is none");
+    if (stars != NULL && sky->stars == WHEN_ON)
+        return tree_error(tree, stars->source, stars->place, warning, "sky.stars shows stars in the model atmosphere: with another sky.model there are none");
+    return true;
 }
 
 static const tree_node *camera_node(const scene_tree *tree)
@@ -87,6 +92,6 @@ static bool warn_of_camera(const scene_tree *tree, const scene_values *values, s
 
 bool scene_warn(const scene_tree *tree, const scene_values *values, scene_error *warning)
 {
-    return warn_of_wave(tree, &values->water, warning) && warn_of_foam(tree, &values->water, warning) && warn_of_air(tree, &values->sky, warning) &&
+    return warn_of_wave(tree, &values->water, warning) && warn_of_foam(tree, &values->water, warning) && warn_of_sky(tree, &values->sky, warning) &&
            warn_of_camera(tree, values, warning);
 }

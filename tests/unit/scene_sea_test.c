@@ -49,6 +49,9 @@ static void the_wind_stands_for_a_spectrum(void **state)
         {"{wind: 7, choppiness: 0.7}", "{wind: 7}"},
         {"{wind: 7, foam: {amount: 1}}", "{wind: 7}"},
         {"{wind: 7}\nsky: {aerial: auto}", "{wind: 7}"},
+        {"{wind: 7}\nlight: {body: moon}", "{wind: 7}\nlight: {body: moon}\nsky: {stars: on}\npost: {night_tint: on}"},
+        {"{wind: 7}\nsky: {stars: auto}\npost: {night_tint: auto}", "{wind: 7}\nsky: {stars: off}\npost: {night_tint: off}"},
+        {"{waves: []}\nlight: {body: moon}", "{waves: []}\nlight: {body: moon}\nsky: {stars: off}\npost: {night_tint: off}"},
         {"{waves: []}\nsky: {aerial: auto}", "{waves: []}\nsky: {aerial: off}"},
     };
     for (size_t i = 0; i < COUNT(seas); i++) {

@@ -71,6 +71,12 @@ pattern() { grep -E "$1" all.txt; }
     echo 'set camera.position [0, 900, 0]'
     change sky.aerial on # auto is off without a wind
     echo 'set camera.position [0, 3, 0]'
+    echo 'set light.body moon'
+    echo 'set camera.target [0, 8, -10]'
+    change sky.stars on # auto is off without a wind
+    change post.night_tint on
+    echo 'set camera.target [0, 3, -10]'
+    echo 'set light.body sun'
     vary post.exposure post.exposure_offset post.tone_map post.glare
     vary camera.position camera.target camera.fov_y_deg time.shutter time.fps clock.time
     vary $(pattern '^water\.waves\[[0-9]+\]')

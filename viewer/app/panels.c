@@ -200,12 +200,12 @@ static void draw_objects(viewer *v)
 
 static void draw_look(viewer *v)
 {
-    static const char *const sky[][4] = {[MGT_SKY_ATMOSPHERE] = {"sky.turbidity", "sky.night", "sky.aerial", NULL},
+    static const char *const sky[][5] = {[MGT_SKY_ATMOSPHERE] = {"sky.turbidity", "sky.night", "sky.stars", "sky.aerial", NULL},
                                          [MGT_SKY_GRADIENT] = {"sky.zenith", "sky.horizon", NULL},
                                          [MGT_SKY_BLACK] = {NULL}};
     static const char *const water[] = {"water.level", "water.ior", "water.body_albedo", NULL};
     static const char *const under[] = {"water.absorption", "water.scattering", NULL}; /* for what is seen through it */
-    static const char *const post[] = {"post.tone_map", "post.glare", NULL};
+    static const char *const post[] = {"post.tone_map", "post.night_tint", "post.glare", NULL};
     if (ui_header("Light", true))
         draw_mapping(v, "light", light_rows);
     if (ui_header("Sky", true)) {

@@ -67,6 +67,7 @@ EXPORT(update) int page_update(void)
     if (page_take_sea() < 0)
         return -1;
     mgt_light_init(&scene.light, settings[SETTING_moon] != 0 ? MGT_SOURCE_MOON : MGT_SOURCE_SUN);
+    scene.stars = scene.night_tint = settings[SETTING_moon] != 0;
     *light_number("elevation_deg") = settings[SETTING_elevation];
     *light_number("azimuth_deg") = settings[SETTING_azimuth];
     scene.sky.turbidity = (float)settings[SETTING_turbidity];

@@ -62,7 +62,15 @@
 
 /* Below it, what the air before the water does; see air.k. */
 #define AIR_ROWS 32
-#define SKY_TABLE_ROWS (SKY_ROWS + AIR_ROWS + 1)
+
+/* Below these, the stars; see stars.k. */
+#define STAR_CLEAR_ROW (SKY_ROWS + AIR_ROWS + 1)
+#define STAR_CELL_ROW (STAR_CLEAR_ROW + 1)
+#define STAR_CELLS 64 /* along a side of the square around the hemisphere's map */
+#define STAR_ROW (STAR_CELL_ROW + 22)
+#define STAR_COUNT (22 * SKY_COLUMNS)
+#define STARS_A_CELL 16 /* at most */
+#define SKY_TABLE_ROWS (STAR_ROW + 22)
 
 /* Circular kernels of podee-*, see podee_mixture.k. As a texture the slices of the sweep stand side by side. */
 #define PODEE_COLUMNS 512
