@@ -169,7 +169,7 @@ static bool bench_rate(const bench *b)
     printf("## Operations and the peak\n\nThe operations that a `mangata` frame of `smooth` needs (%.2f × 10⁹, counted by the instrumented kernels; what "
            "neighbours wait for each other is not counted), over its GPU time, beside fused multiply-adds in registers at their best.\n\n",
            1e-9 * flops(&count.all));
-    printf("| FMA peak, GFLOP/s | ms a frame | GFLOP/s | share of the peak |\n|---:|---:|---:|---:|\n| %.1f | %.3f | %.1f | %.1f %% |\n\n", 1e-9 * peak,
+    printf("| FMA peak, GFLOP/s | ms a frame | GFLOP/s | fraction of the peak |\n|---:|---:|---:|---:|\n| %.1f | %.3f | %.1f | %.1f %% |\n\n", 1e-9 * peak,
            1e3 * t[METHODS - 1].median, 1e-9 * rate, 100 * rate / peak);
     return true;
 }

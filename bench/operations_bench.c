@@ -87,7 +87,7 @@ int main(int argc, char **argv)
     if (done)
         printf("A frame of `smooth` by `mangata` against the peak: %d independent chains of fma in registers (SSE2: a multiplication and an "
                "addition), the best of 20 runs. The peak is measured next to the frame's time, for the clock differs by instruction set.\n\n"
-               "| instruction set | threads | FMA peak, GFLOP/s | ms a frame | GFLOP/s | share of the peak |\n|---|---:|---:|---:|---:|---:|\n",
+               "| instruction set | threads | FMA peak, GFLOP/s | ms a frame | GFLOP/s | fraction of the peak |\n|---|---:|---:|---:|---:|---:|\n",
                FMA_CHAINS);
     for (size_t i = 0; i < sizeof isas / sizeof *isas && done; i++)
         for (uint32_t threads = 1; threads <= THREADS && done; threads++) {

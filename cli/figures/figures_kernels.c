@@ -82,7 +82,7 @@ static void measure_shares(figures_job *f, const podee_tables *tables, share_err
                 const double *from = moves ? p.from : p.to;
                 const double exact = moves ? disk_path_quadrature(from, p.to, p.covariance, 1) : disk_probability(p.to, p.covariance, 1);
                 for (int w = 0; w < WAYS; w++) {
-                    const double share = mixture_path_share(tables, way_kernels[w], from, p.to, p.covariance);
+                    const double share = mixture_path_fraction(tables, way_kernels[w], from, p.to, p.covariance);
                     squares[moves][w] += (share - exact) * (share - exact) / CASES;
                     if (!moves && out->elongation[i] <= 9) {
                         nine += w == WAY_9 ? share : 0;

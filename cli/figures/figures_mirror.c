@@ -66,10 +66,10 @@ static void share_errors(const slope_law *law, double errors[2])
             mirror_direction(to_eye, slope, light);
             if (light[1] < 0.02)
                 continue; /* below the horizon */
-            const double share = mirror_disk_share(to_eye, light, law, radius);
+            const double share = mirror_disk_fraction(to_eye, light, law, radius);
             exact += share;
-            sums[0] += fabs(linear_disk_share(to_eye, light, law, radius, law->mean) - share);
-            sums[1] += fabs(linear_disk_share(to_eye, light, law, radius, slope) - share);
+            sums[0] += fabs(linear_disk_fraction(to_eye, light, law, radius, law->mean) - share);
+            sums[1] += fabs(linear_disk_fraction(to_eye, light, law, radius, slope) - share);
         }
     for (int i = 0; i < 2; i++)
         errors[i] = sums[i] / exact;

@@ -231,7 +231,7 @@ mgt_status glare_apply(float *rgb, size_t width, size_t height, size_t row_strid
     }
     glare_parallel_for run = parallel_for ? parallel_for : serial_for;
     float shares[GLARE_MAX_LEVELS];
-    p.kept = glare_plan_shares(&plan, glare, shares);
+    p.kept = glare_plan_fractions(&plan, glare, shares);
     for (size_t k = 0; k < p.count; ++k) {
         p.levels[k].weight = shares[k];
     }

@@ -131,7 +131,7 @@ KERNEL vec3 UPWELLING(CTX cx)
 #define MIRRORS_OBJECTS(cx) ((cx)->light != NULL)
 
 KERNEL vec3 OBJECTS_COLOR(CTX cx) { return (vec3){light_plane(cx, 3), light_plane(cx, 4), light_plane(cx, 5)}; }
-KERNEL real OBJECTS_SHARE(CTX cx) { return light_plane(cx, 6); }
+KERNEL real OBJECTS_COVERAGE(CTX cx) { return light_plane(cx, 6); }
 KERNEL vec3 CLEAR_TO_LIGHT(CTX cx) { return (vec3){light_plane(cx, 7), light_plane(cx, 8), light_plane(cx, 9)}; }
 KERNEL vec3 DEEP_WATER(CTX cx) { return (vec3){light_plane(cx, 10), light_plane(cx, 11), light_plane(cx, 12)}; }
 

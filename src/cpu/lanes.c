@@ -40,7 +40,7 @@ KERNEL real SWEEP_TEXEL(CTX cx, real v, real u, real slice)
     return gather_floats(cx->podee->sweep, whole(real_fma(row, real_broadcast(PODEE_COLUMNS), v)));
 }
 
-KERNEL real SHARE_TEXEL(CTX cx, real r, real slice) { return gather_floats(cx->podee->share, whole(real_fma(slice, real_broadcast(PODEE_COLUMNS), r))); }
+KERNEL real FRACTION_TEXEL(CTX cx, real r, real slice) { return gather_floats(cx->podee->share, whole(real_fma(slice, real_broadcast(PODEE_COLUMNS), r))); }
 
 #include "kernels/glitter/pixel.k"
 
@@ -132,7 +132,7 @@ static void classify_waves(const struct kernel_context *cx, const wave_set *set,
 
 static void list_wave(const struct kernel_context *cx, const wave_set *set, const wave_classes *c, int wave, WaveData *out)
 {
-    *out = wave_shared(cx, wave_placed(cx, set->data[wave], c->turns[wave]), c->share[wave]);
+    *out = wave_weighted(cx, wave_placed(cx, set->data[wave], c->turns[wave]), c->share[wave]);
 }
 
 /* The resolved waves, then the mixed ones, each in the set's order. */

@@ -23,7 +23,7 @@ static double reach_of(double e) { return sqrt(fmax(e * e - 1, 0)); }
 
 KERNEL real SWEEP_TEXEL(CTX cx, real v, real u, real slice) { return cx->podee->sweep[((size_t)slice * PODEE_ROWS + (size_t)u) * PODEE_COLUMNS + (size_t)v]; }
 
-KERNEL real SHARE_TEXEL(CTX cx, real r, real slice) { return cx->podee->share[(size_t)slice * PODEE_COLUMNS + (size_t)r]; }
+KERNEL real FRACTION_TEXEL(CTX cx, real r, real slice) { return cx->podee->share[(size_t)slice * PODEE_COLUMNS + (size_t)r]; }
 
 #include "kernels/glitter/glitter.k"
 #include "kernels/baselines/podee_mixture.k"
@@ -42,7 +42,7 @@ mixture mixture_fitted(int kernels, double e)
     return m;
 }
 
-double mixture_path_share(const podee_tables *tables, mgt_mixture kernels, const double from[2], const double to[2], const double covariance[3])
+double mixture_path_fraction(const podee_tables *tables, mgt_mixture kernels, const double from[2], const double to[2], const double covariance[3])
 {
     const FrameData data = {.podee_kernels = (int)kernels, .podee_elongation = 1e6f};
     const struct kernel_context cx = {.frame = &data, .podee = tables};

@@ -12,6 +12,6 @@ mixture mixture_fitted(int kernels, double e);
 
 /* The share of a Gaussian on a straight path of means that lies in the disk of radius 1, as a frame with `kernels` takes it, never falling back;
  * Riemann sums leave the path out. covariance: xx, xy, yy. */
-double mixture_path_share(const podee_tables *tables, mgt_mixture kernels, const double from[2], const double to[2], const double covariance[3]);
+double mixture_path_fraction(const podee_tables *tables, mgt_mixture kernels, const double from[2], const double to[2], const double covariance[3]);
 
 #endif

@@ -28,7 +28,7 @@ typedef struct ray_step {
 typedef struct light_part {
     double origin[3], direction[3]; /* x and z relative to the camera's foot */
     double time;                    /* seconds, from scene.time */
-    double pixel_share;             /* of the camera's ray, over its depth: what its steps count from */
+    double pixel_fraction;          /* of the camera's ray, over its depth: what its steps count from */
     double before, after, water;    /* metres, as in shade_hits */
     double share;                   /* of the pixel's sample */
     ray_step steps[2];              /* the footprint, over the sample's share of the pixel; bends after the first are left out */
@@ -252,7 +252,7 @@ static crossing cross_surface(const double direction[3], const double normal[3],
 /* Begins at the surface, a little on the side that it goes to, so that rounding does not let it cross at once. */
 static void push_part(path_traced_scratch *s, const light_part *from, const surface_point *w, const double direction[3], bool crosses, double share)
 {
-    if (share < PATH_LEAST_SHARE || s->part_count == MOST_PARTS)
+    if (share < PATH_LEAST_WEIGHT || s->part_count == MOST_PARTS)
         return;
     light_part *p = &s->parts[s->part_count++];
     *p = *from;
@@ -308,7 +308,7 @@ static ray_step step_aside(const light_part *p, const surface_point *w, const do
 static void set_steps(const path_traced *t, light_part *p, const surface_point *w, double index, const crossing *c, bool through)
 {
     const camera_rays *r = &t->job.camera;
-    const double size = p->pixel_share / t->side;
+    const double size = p->pixel_fraction / t->side;
     for (int i = 0; i < 2; i++) {
         double step[3];
         for (int k = 0; k < 3; k++)
@@ -440,7 +440,7 @@ static light_part camera_part(const path_traced *t, double x, double y, uint16_t
     light_part p = {.origin = {0, c->position[1], 0}, .pixel = pixel, .wet = c->position[1] < 0};
     for (int k = 0; k < 3; k++)
         p.direction[k] = c->corner[k] + x * c->right[k] + y * c->down[k];
-    p.pixel_share = 1 / sqrt(dot(p.direction, p.direction));
+    p.pixel_fraction = 1 / sqrt(dot(p.direction, p.direction));
     scale_to_unit(p.direction);
     return p;
 }

@@ -12,11 +12,11 @@
 
 /*
  * A ray meets the surface first, is bent, and goes on. Where it meets the surface again, at a crest or from inside the water, it goes on both as
- * what is let through and as what is mirrored, each weighed by Fresnel's equations; parts below PATH_LEAST_SHARE of the pixel are let go, and a
+ * what is let through and as what is mirrored, each weighed by Fresnel's equations; parts below PATH_LEAST_WEIGHT of the pixel are let go, and a
  * part that met the surface PATH_MOST_EVENTS times ends there, in what lies in its direction far away. Radiance is not divided by the square of
  * the index of refraction. In air a surface inside dry hulls is none: rays pass it.
  */
-#define PATH_LEAST_SHARE 0.001
+#define PATH_LEAST_WEIGHT 0.001
 #define PATH_MOST_EVENTS 8
 
 typedef struct path_traced_job {

@@ -34,7 +34,7 @@ KERNEL real SHADOW_TEXEL(CTX cx, real column, real row)
 }
 
 #include "kernels/refraction/shadow.k"
-#define SUN_SHARE(cx, position, first, second, dry) shadow_over(cx, position, first, second, dry)
+#define SUN_VISIBILITY(cx, position, first, second, dry) shadow_over(cx, position, first, second, dry)
 
 #include "kernels/refraction/material.k"
 

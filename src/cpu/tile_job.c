@@ -77,7 +77,7 @@ static void render_samples(tile_place place, tile_scratch *scratch)
     memset(&scratch->pixels, 0, sizeof scratch->pixels);
     for (uint64_t sample = first; sample < first + count;) {
         const uint64_t m = sample / per_time, end = (m + 1) * per_time < first + count ? (m + 1) * per_time : first + count;
-        const double share = time_share(q, m);
+        const double share = shutter_fraction(q, m);
         const camera_rays camera = camera_at(f, share);
         const wave_set *waves = &job->waves->samples;
         if (q->time_samples > 1) {

@@ -59,7 +59,7 @@ FrameData cell_frame(const FrameData *data, int across, int down)
     d.pixel_angle = ldexpf(d.pixel_angle, across > down ? -across : -down);
     if (across + down > 0) {
         /* Small cells see glints so sharp that no wave's share may be a tile's mean. */
-        d.sort_shares = 0;
+        d.sort_weights = 0;
         d.sort_start = 1e-3f;
     }
     return d;

@@ -72,7 +72,7 @@ static void set_method(frame *f)
     d->ramp_scale = (float)(podee ? width > 0 ? 1 / width : 1e9 : 1 / (end * end));
     d->sort_start = (float)(start * start);
     d->sort_end = keep ? 1e30f : (float)(end * end);
-    d->sort_shares = podee || bruneton ? 0 : 1;
+    d->sort_weights = podee || bruneton ? 0 : 1;
     d->grazing_fall = row->hits > 0 && !f->under ? 2.5f : 0;
     d->hit_rows = (float)(row->hits > 0 ? row->hits : 1);
     d->hit_rows_fall = 0.8f * d->grazing_fall;
@@ -96,7 +96,7 @@ static void set_through(frame *f)
     d->ramp_scale = (float)(1 / (end * end));
     d->sort_start = (float)(start * start);
     d->sort_end = (float)(end * end);
-    d->sort_shares = 1;
+    d->sort_weights = 1;
     d->grazing_fall = 0;
     d->ndf_per_pixel = d->ndf_mean = 0;
 }

@@ -15,7 +15,7 @@ void frame_waves_build(const frame *f, frame_waves *waves)
         wave_set_build(f, &f->open, (interval){s->time - s->shutter, 0}, true, &waves->open);
 }
 
-double time_share(const mgt_quality *q, uint64_t m)
+double shutter_fraction(const mgt_quality *q, uint64_t m)
 {
     return q->time_samples == 1 ? 1 : ((double)m + (double)hash_unit(hash_of(q->seed ^ hash_of(~m)))) / q->time_samples;
 }

@@ -16,7 +16,7 @@ typedef struct frame_waves {
 void frame_waves_build(const frame *f, frame_waves *waves);
 
 /* Where in the shutter, from its opening (0) to its closing (1), ssaa's time sample `m` lies, and the camera there. */
-double time_share(const mgt_quality *q, uint64_t m);
+double shutter_fraction(const mgt_quality *q, uint64_t m);
 camera_rays camera_at(const frame *f, double share);
 
 #endif

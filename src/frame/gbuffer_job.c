@@ -7,8 +7,8 @@
 #include "base/triples.h"
 
 enum {
-    GUARD_LEAST = 16, /* pixels around the image, … */
-    GUARD_SHARE = 20, /* … or one in so many, whichever is more */
+    GUARD_LEAST = 16,    /* pixels around the image, … */
+    GUARD_FRACTION = 20, /* … or one in so many, whichever is more */
 };
 
 RefractData refract_data_of(double camera_height, double index, int map)
@@ -30,7 +30,7 @@ RefractData refract_data_of(double camera_height, double index, int map)
 
 static uint32_t guard_of(uint32_t size)
 {
-    const uint32_t share = (size + GUARD_SHARE - 1) / GUARD_SHARE;
+    const uint32_t share = (size + GUARD_FRACTION - 1) / GUARD_FRACTION;
     return ((share > GUARD_LEAST ? share : GUARD_LEAST) + 15) / 16 * 16;
 }
 

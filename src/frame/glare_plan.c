@@ -17,7 +17,7 @@ static double octave_share(double centre)
     return from < to ? exp2(-0.5 * from) - exp2(-0.5 * to) : 0.0;
 }
 
-float glare_plan_shares(const glare_plan *plan, float glare, float shares[GLARE_MAX_LEVELS])
+float glare_plan_fractions(const glare_plan *plan, float glare, float shares[GLARE_MAX_LEVELS])
 {
     double all = exp2(-0.5 * FINEST_OCTAVE) - exp2(-0.5 * COARSEST_OCTAVE), spread = 0.0;
     glare = fminf(glare, 1.0f);

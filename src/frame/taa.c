@@ -53,7 +53,7 @@ static bool history_place(const taa_step *s, uint32_t x, uint32_t y, double at[2
 
 #include "kernels/display/blend.k"
 
-float taa_share(int frames) { return fmaxf(1.0f / (float)(frames + 1), 0.1f); }
+float taa_weight(int frames) { return fmaxf(1.0f / (float)(frames + 1), 0.1f); }
 
 static inline BlendPixel pixel_of(const picture_planes *p, size_t i)
 {
@@ -86,7 +86,7 @@ static BlendPixel blended(const taa_step *s, uint32_t x, uint32_t y)
             least = blend_least(NULL, least, p);
             most = blend_most(NULL, most, p);
         }
-    return taa_blend(NULL, now, s->still ? pixel_of(s->history, pixel) : history_at(s->history, at), least, most, taa_share(s->frames));
+    return taa_blend(NULL, now, s->still ? pixel_of(s->history, pixel) : history_at(s->history, at), least, most, taa_weight(s->frames));
 }
 
 void taa_blend_row(const taa_step *s, uint32_t y)

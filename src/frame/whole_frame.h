@@ -74,7 +74,7 @@ mgt_camera taa_camera(const mgt_scene *scene, double share);
 void taa_offset(int back, double offset[2]);
 
 /* What the newest of so many frames and one counts: a mean over all frames until a tenth is reached. */
-float taa_share(int frames);
+float taa_weight(int frames);
 
 /* One frame of the history: row `y` of `out` from the current picture and the history so far, of `frames` frames. Pixels' hits are
  * sought at `before`, the history's camera, unless `still`. */

@@ -18,7 +18,7 @@ enum { CHUNK_SLOTS = 1 << 20, CHUNK_SLOTS_SOFTWARE = 1 << 15 };
 enum { RESEND = 500 };
 
 /* Of the progress that a picture makes. */
-static const double approximate_share = 0.3;
+static const double approximate_fraction = 0.3;
 
 typedef struct slots_run {
     gl_run run;
@@ -235,7 +235,7 @@ static mgt_status render_approximate(gl_renderer *g, const gl_job *job, const re
 {
     gl_plain_frame plain;
     gl_plain_frame_of(job->frame, MGT_METHOD_PODEE_UNIFORM, &plain);
-    gl_progress_part part = gl_progress_part_of(job, 0, approximate_share);
+    gl_progress_part part = gl_progress_part_of(job, 0, approximate_fraction);
     gl_job own = gl_job_of_part(job, &plain.frame, &part);
     own.wants_depth = own.wants_normal = false;
     own.behind = true;
@@ -247,7 +247,7 @@ mgt_status gl_adaptive_podee_render(gl_renderer *g, const gl_job *job, const rep
     mgt_status status = render_approximate(g, job, r);
     if (status != MGT_OK)
         return status;
-    gl_progress_part part = gl_progress_part_of(job, approximate_share, 1 - approximate_share);
+    gl_progress_part part = gl_progress_part_of(job, approximate_fraction, 1 - approximate_fraction);
     const gl_job own = gl_job_of_part(job, job->frame, &part);
     slots_run s = {.tile_columns = (job->area.width + TILE_WIDTH - 1) / TILE_WIDTH, .tile_rows = (job->area.height + TILE_HEIGHT - 1) / TILE_HEIGHT};
     s.data = slots_data_of(g, job, s.tile_columns, s.tile_rows);

@@ -336,7 +336,7 @@ static mgt_status render_samples(gl_run *run, const gl_band *b)
     mgt_status status = MGT_OK;
     for (uint64_t sample = q->sample_first; sample < end && status == MGT_OK;) {
         const uint64_t m = sample / per_time, next = (m + 1) * per_time < end ? (m + 1) * per_time : end;
-        const double share = time_share(q, m);
+        const double share = shutter_fraction(q, m);
         const camera_rays camera = job->camera_at(job->camera_user, share);
         wave_set_build(f, &camera, (interval){f->scene->time - (1 - share) * f->scene->shutter, 0}, false, run->g->waves);
         status = prepare_set(run, b);

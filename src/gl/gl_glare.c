@@ -103,7 +103,7 @@ static mgt_status apply_glare(gl_renderer *g, float glare, const region *area, G
         return status;
     float shares[GLARE_LEVELS];
     const glare_plan plan = glare_plan_of(area->width, area->height);
-    const float kept = glare_plan_shares(&plan, glare, shares);
+    const float kept = glare_plan_fractions(&plan, glare, shares);
     *shown = g->glare.sizes[0];
     shown->keep = kept;
     shown->gain = g->glare.count == 1 ? shares[0] : 1;

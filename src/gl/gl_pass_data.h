@@ -48,7 +48,7 @@ enum {
     UNIT_FINE = 1,
     UNIT_COARSE = 2,
     UNIT_SWEEP = 1, /* tables of podee-* */
-    UNIT_SHARE = 2,
+    UNIT_FRACTION = 2,
     UNIT_LEAN_MEAN = 1,
     UNIT_LEAN_SQUARE = 2,
     UNIT_CURRENT = 1,  /* color, coverage and mask of the picture that is blended … */

@@ -49,7 +49,7 @@ mgt_status gl_podee_prepare(gl_renderer *g, const mgt_scene *scene, const report
 void gl_podee_bind(const gl_renderer *g)
 {
     gl_bind_texture(g, UNIT_SWEEP, g->podee.sweep.name);
-    gl_bind_texture(g, UNIT_SHARE, g->podee.share.name);
+    gl_bind_texture(g, UNIT_FRACTION, g->podee.share.name);
 }
 
 void gl_podee_free(gl_renderer *g)

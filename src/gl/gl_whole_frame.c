@@ -199,7 +199,7 @@ static mgt_status add_to_history(gl_renderer *g, const gl_job *job, int back, co
         .width = (int)job->area.width,
         .height = (int)job->area.height,
         .still = !job->frame->scene->camera_moves,
-        .share = taa_share(frames),
+        .share = taa_weight(frames),
     };
     const camera_rays now = rays_before(job, back), before = rays_before(job, back + 1);
     set_reprojection(&data, &now, &before);

@@ -99,7 +99,7 @@ size_t field_size(const field_row *field)
         return sizeof(uint64_t);
     case FIELD_NUMBER:
         return sizeof(double);
-    case FIELD_SHARE:
+    case FIELD_FLOAT:
         return sizeof(float);
     case FIELD_VECTOR:
     case FIELD_SCALE:
@@ -195,7 +195,7 @@ bool field_parse(const field_row *field, const char *text, void *value)
         return true;
     case FIELD_COUNT:
     case FIELD_NUMBER:
-    case FIELD_SHARE:
+    case FIELD_FLOAT:
         if (!number_read(text, &number) || !field_in_range(field, number))
             return false;
         if (field->type == FIELD_COUNT)
@@ -214,7 +214,7 @@ static double number_at(const field_row *field, const void *value)
 {
     return field->type == FIELD_COUNT   ? *(const uint32_t *)value
            : field->type == FIELD_LARGE ? (double)*(const uint64_t *)value
-           : field->type == FIELD_SHARE ? (double)*(const float *)value
+           : field->type == FIELD_FLOAT ? (double)*(const float *)value
                                         : *(const double *)value;
 }
 
@@ -259,7 +259,7 @@ short_number field_print(const field_row *field, const void *value)
         snprintf(out.text, sizeof out.text, "[%g, %g, %g]", component(field, value, 0), component(field, value, 1), component(field, value, 2));
         return out;
     }
-    if (field->type == FIELD_SHARE)
+    if (field->type == FIELD_FLOAT)
         return float_text(*(const float *)value);
     if (field->type != FIELD_LARGE)
         return double_text(number_at(field, value));
@@ -325,7 +325,7 @@ bool field_numbers_write(FILE *stream, const field_row *field, const void *value
     case FIELD_COUNT:
     case FIELD_LARGE:
     case FIELD_NUMBER:
-    case FIELD_SHARE:
+    case FIELD_FLOAT:
         fputs(field_print(field, value).text, stream);
         return true;
     case FIELD_SCALE:
@@ -381,7 +381,7 @@ void field_allowed(const field_row *field, char *out, size_t size)
         snprintf(out, size, field->min == field->max ? "%s" : "a whole number, %s", range);
         break;
     case FIELD_NUMBER:
-    case FIELD_SHARE:
+    case FIELD_FLOAT:
         snprintf(out, size, "a number, %s", range);
         break;
     case FIELD_VECTOR:

@@ -27,7 +27,7 @@ typedef enum field_type {
     FIELD_COUNT,    /* uint32_t */
     FIELD_LARGE,    /* uint64_t */
     FIELD_NUMBER,   /* double */
-    FIELD_SHARE,    /* float */
+    FIELD_FLOAT,    /* float */
     FIELD_VECTOR,   /* double[3] */
     FIELD_SCALE,    /* double[3]: one number for all, or three */
     FIELD_COLOR,    /* float[3] */

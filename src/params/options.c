@@ -106,7 +106,7 @@ static void reset(const field_row *field, void *values)
         *(int *)value = (int)preset;
     else if (field->type == FIELD_NUMBER)
         *(double *)value = preset;
-    else if (field->type == FIELD_SHARE)
+    else if (field->type == FIELD_FLOAT)
         *(float *)value = (float)preset;
     else
         memset(value, 0, field_size(field));

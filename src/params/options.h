@@ -21,7 +21,7 @@ enum {
 #define POST_ROWS(type)                                                                                                              \
     {"tone_map", FIELD_CHOICE, offsetof(type, tone_map), .doc = "how radiance becomes displayed colour", .choices = tone_map_names}, \
     {                                                                                                                                \
-        "glare", FIELD_SHARE, offsetof(type, glare), 0, 0, 1, NULL, .doc = "fraction of the light that the eye scatters"             \
+        "glare", FIELD_FLOAT, offsetof(type, glare), 0, 0, 1, NULL, .doc = "fraction of the light that the eye scatters"             \
     }
 #define EXPOSURE_RANGE -60, 60, "stops"
 

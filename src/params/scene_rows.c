@@ -82,8 +82,8 @@ const field_row scene_rows[] = {PART(camera, camera_rows, "when the shutter clos
                                 {"night_tint", FIELD_SWITCH, offsetof(mgt_scene, night_tint), .doc = "whether colours are shown as by night",
                                  .choices = switch_words},
                                 PART(water, water_rows, "the surface and what is under it"),
-                                {"foam", FIELD_SHARE, offsetof(mgt_scene, foam), 0, 0, MOST_FOAM, NULL, .doc = "share of the water that whitecaps cover"},
-                                {"foam_persistence", FIELD_SHARE, offsetof(mgt_scene, foam_persistence), 0, 0, 60, "s", .doc = "how long foam lasts"},
+                                {"foam", FIELD_FLOAT, offsetof(mgt_scene, foam), 0, 0, MOST_FOAM, NULL, .doc = "share of the water that whitecaps cover"},
+                                {"foam_persistence", FIELD_FLOAT, offsetof(mgt_scene, foam_persistence), 0, 0, 60, "s", .doc = "how long foam lasts"},
                                 PART(post, post_fields, "from radiance to displayed colour"),
                                 PART(quality, quality_fields, "how it is rendered"),
                                 {0}};

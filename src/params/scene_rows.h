@@ -30,7 +30,7 @@
 #define SKY_LOOK_ROWS(type, look)                                                                                                                            \
     {"model", FIELD_CHOICE, offsetof(type, look.model), .doc = "atmosphere: scattering, day to night; gradient: horizon to zenith; black: only the glitter", \
      .choices = sky_model_names},                                                                                                                            \
-        {"turbidity", FIELD_SHARE, offsetof(type, look.turbidity), 0, 1, 10, NULL, .doc = "aerosol amount over clear air (atmosphere)"},                     \
+        {"turbidity", FIELD_FLOAT, offsetof(type, look.turbidity), 0, 1, 10, NULL, .doc = "aerosol amount over clear air (atmosphere)"},                     \
         {"zenith", FIELD_COLOR, offsetof(type, look.zenith), 0, 0, 1e9, "kcd/m²", .doc = "linear sRGB, straight up (gradient)"},                             \
         {"horizon", FIELD_COLOR, offsetof(type, look.horizon), 0, 0, 1e9, "kcd/m²", .doc = "linear sRGB, at the horizon (gradient)"},                        \
     {                                                                                                                                                        \
@@ -41,7 +41,7 @@
 #define WATER_BODY_ROWS(type)                                                                                                                  \
     {"level", FIELD_NUMBER, offsetof(type, level), 0, -1e6, 1e6, "m", .doc = "height of the mean surface"},                                    \
         {"choppiness",                                                                                                                         \
-         FIELD_SHARE,                                                                                                                          \
+         FIELD_FLOAT,                                                                                                                          \
          offsetof(type, choppiness),                                                                                                           \
          0,                                                                                                                                    \
          0,                                                                                                                                    \

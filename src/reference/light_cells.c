@@ -328,7 +328,7 @@ static void work_off(cells_job *job)
 
 /* ---- pixels of the plane ---- */
 
-static const double curved_share = 0.4; /* of the slope's deviation: what second derivatives may add over a cell decides its size; measured */
+static const double curved_fraction = 0.4; /* of the slope's deviation: what second derivatives may add over a cell decides its size; measured */
 
 /* How many cells a pixel has along each of its sides, and from how many strata they are taken. */
 typedef struct pixel_grid {
@@ -578,7 +578,7 @@ uint64_t light_cells_render(const reference_frame *frame, const light_cells_area
     job.evaluations = 0;
     job.stacked = job.hits = 0;
     job.batch.evaluations = 0;
-    job.size = reference_waves_straight(frame->waves, frame->wave_count, curved_share);
+    job.size = reference_waves_straight(frame->waves, frame->wave_count, curved_fraction);
     set_lights(&job);
     memset(sums, 0, (size_t)area->width * area->height * sizeof *sums);
     const plane_area below = area_below(frame, area);

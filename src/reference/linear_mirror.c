@@ -33,7 +33,7 @@ static double mirrored_density(const double to_eye[3], const double light[3], co
     return density > 0 && mirror_map_jacobian(to_eye, light, slope, j) ? density / fabs(determinant(j)) : 0;
 }
 
-double mirror_disk_share(const double to_eye[3], const double light[3], const slope_law *law, double radius)
+double mirror_disk_fraction(const double to_eye[3], const double light[3], const slope_law *law, double radius)
 {
     /* Gauss–Legendre in the squared distance, even steps around. */
     static const double node[6] = {0.12523340851146891547, 0.36783149899818019375, 0.58731795428661744730,
@@ -73,7 +73,7 @@ static void map_law(const linear_map *map, const slope_law *law, const double at
     covariance[2] = j[1][0] * j[1][0] * s[0] + 2 * j[1][0] * j[1][1] * s[1] + j[1][1] * j[1][1] * s[2];
 }
 
-double linear_disk_share(const double to_eye[3], const double light[3], const slope_law *law, double radius, const double at[2])
+double linear_disk_fraction(const double to_eye[3], const double light[3], const slope_law *law, double radius, const double at[2])
 {
     linear_map map;
     double mean[2], covariance[3];

@@ -12,10 +12,10 @@ typedef struct slope_law {
 } slope_law;
 
 /* The share of slopes whose mirror ray meets the light's disk of this radius on the plane r·L = 1, by quadrature over the disk. */
-double mirror_disk_share(const double to_eye[3], const double light[3], const slope_law *law, double radius);
+double mirror_disk_fraction(const double to_eye[3], const double light[3], const slope_law *law, double radius);
 
 /* The same with the map replaced by its first-order expansion at the slope `at`; 0 where the ray of `at` points away from the light. */
-double linear_disk_share(const double to_eye[3], const double light[3], const slope_law *law, double radius, const double at[2]);
+double linear_disk_fraction(const double to_eye[3], const double light[3], const slope_law *law, double radius, const double at[2]);
 
 /* ∬ |linear − true| of the two densities on the light plane, expanded at the law's mean; 0 … 2. */
 double linear_density_error(const double to_eye[3], const double light[3], const slope_law *law);

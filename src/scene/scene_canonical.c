@@ -23,7 +23,7 @@ static void write_value(FILE *stream, const field_row *field, const void *value)
     case FIELD_NUMBER:
         write_number(stream, *(const double *)value, DOUBLE_DIGITS);
         break;
-    case FIELD_SHARE:
+    case FIELD_FLOAT:
         write_number(stream, (double)*(const float *)value, FLOAT_DIGITS);
         break;
     case FIELD_VECTOR:

@@ -195,16 +195,16 @@ static const field_row instance_fields[] = {PLACE(
 
 static const field_row material_fields[] =
     {{"base_color", FIELD_COLOR, LOOK(base_color), 0, 0, 1, NULL, .doc = "linear sRGB, times the texture"},
-     {"roughness", FIELD_SHARE, LOOK(roughness), 0, 0.02, 1, NULL, .doc = "of the gloss (GGX, alpha is its square)"},
-     {"metallic", FIELD_SHARE, LOOK(metallic), 0, 0, 1, NULL, .doc = "1: a metal; 0: mirrors 4% at normal incidence and is diffuse below"},
+     {"roughness", FIELD_FLOAT, LOOK(roughness), 0, 0.02, 1, NULL, .doc = "of the gloss (GGX, alpha is its square)"},
+     {"metallic", FIELD_FLOAT, LOOK(metallic), 0, 0, 1, NULL, .doc = "1: a metal; 0: mirrors 4% at normal incidence and is diffuse below"},
      {"texture", FIELD_TEXT, offsetof(scene_material, texture), FIELD_NO_PIXELS, NO_RANGE, NULL,
       .doc = "PNG or JPEG picture, from the scene's folder; on shapes it repeats each metre"},
      {"pattern", FIELD_CHOICE, LOOK(pattern), 0, NO_RANGE, NULL,
       .doc = "puts pattern_color on the joints between tiles, every other field or every other stripe", .choices = pattern_names},
      {"pattern_color", FIELD_COLOR, LOOK(pattern_color), 0, 0, 1, NULL, .doc = "linear sRGB"},
-     {"pattern_size", FIELD_SHARE, LOOK(pattern_size), 0, 1e-4, 1e6, NULL,
+     {"pattern_size", FIELD_FLOAT, LOOK(pattern_size), 0, 1e-4, 1e6, NULL,
       .doc = "side of a tile, field or stripe in texture coordinates, which are metres on shapes"},
-     {"pattern_joint", FIELD_SHARE, LOOK(pattern_joint), 0, 0, 0.999, NULL, .doc = "width of a joint as a fraction of a tile"},
+     {"pattern_joint", FIELD_FLOAT, LOOK(pattern_joint), 0, 0, 0.999, NULL, .doc = "width of a joint as a fraction of a tile"},
      {0}};
 
 static const char *const dry_words[] = {"false", "true", NULL};

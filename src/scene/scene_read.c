@@ -258,7 +258,7 @@ static bool read_field(scene_reader *reader, const field_row *field, const tree_
     case FIELD_COUNT:
     case FIELD_LARGE:
     case FIELD_NUMBER:
-    case FIELD_SHARE:
+    case FIELD_FLOAT:
     case FIELD_CHOICE:
     case FIELD_SWITCH:
         return read_single(reader, field, node, place);

@@ -124,7 +124,7 @@ static void write_type_schema(FILE *stream, const field_row *field, const void *
     case FIELD_COUNT:
     case FIELD_LARGE:
     case FIELD_NUMBER:
-    case FIELD_SHARE:
+    case FIELD_FLOAT:
         if (field->min == field->max) {
             fprintf(stream, "\"const\": %s", double_text(field->min).text);
             break;

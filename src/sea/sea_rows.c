@@ -22,8 +22,8 @@ const field_row sea_rows[] = {{"spectrum", FIELD_CHOICE, offsetof(mgt_sea, spect
                               {"count", FIELD_COUNT, offsetof(mgt_sea, count), 0, 1, MGT_MAX_WAVES, .unit = NULL},
                               {"seed", FIELD_COUNT, offsetof(mgt_sea, seed), 0, 0, 4294967295, .unit = NULL},
                               {"cox_munk", FIELD_COUNT, offsetof(mgt_sea, cox_munk), 0, 0, 1, .unit = NULL},
-                              {"choppiness", FIELD_SHARE, offsetof(mgt_sea, choppiness), 0, 0, 1, .unit = NULL},
-                              {"foam", FIELD_SHARE, offsetof(mgt_sea, foam), 0, SEA_FOAM, .unit = NULL},
+                              {"choppiness", FIELD_FLOAT, offsetof(mgt_sea, choppiness), 0, 0, 1, .unit = NULL},
+                              {"foam", FIELD_FLOAT, offsetof(mgt_sea, foam), 0, SEA_FOAM, .unit = NULL},
                               {"swell_count", FIELD_COUNT, offsetof(mgt_sea, swell_count), 0, 0, SEA_SWELLS, .unit = NULL},
                               {0}};
 

@@ -40,7 +40,7 @@ layout(std140) uniform ShadeBlock { ShadeData shade_data; };
 LayerPixel LAYER(int cx, int layer, float column, float row);
 #define MIRRORED_WITHIN(cx, a, b) (a.x < b.x)
 vec3 TEXTURE(int cx, float object, float u, float v, float level);
-float SUN_SHARE(int cx, vec3 position, vec3 first, vec3 second, bool dry);
+float SUN_VISIBILITY(int cx, vec3 position, vec3 first, vec3 second, bool dry);
 float SHADOW_TEXEL(int cx, float column, float row);
 GLSL
 

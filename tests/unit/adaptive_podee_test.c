@@ -167,11 +167,11 @@ static void light_share_is_a_ratio_of_lengths(void **state)
             const double t = (k + 0.5) / steps, x = from.x + t * (to.x - from.x), y = from.y + t * (to.y - from.y);
             inside += x * x + y * y < radius * radius;
         }
-        const double share = (double)light_length_share(NULL, from, to, (float)radius);
+        const double share = (double)light_length_fraction(NULL, from, to, (float)radius);
         assert_true(share >= 0 && share <= 1);
         worst = fmax(worst, fabs(share - (double)inside / steps));
         if (reach < 0.05)
-            near_arc = fmax(near_arc, fabs(share - (double)light_arc_share(NULL, from, to, (float)radius)));
+            near_arc = fmax(near_arc, fabs(share - (double)light_arc_fraction(NULL, from, to, (float)radius)));
     }
     expect_below("share of the segment in the disk, against counting", worst, 2e-4);
     expect_below("ratio of lengths against that of arcs, short paths", near_arc, 2e-3);

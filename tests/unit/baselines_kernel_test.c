@@ -117,11 +117,11 @@ static void bruneton_splits_by_pixels_a_wavelength(void **state)
 {
     (void)state;
     const struct kernel_context cx = {0};
-    assert_true((double)bruneton_share(&cx, (float)(1 / (2.5 * 2.5))) > 0.9999 && bruneton_share(&cx, 1.0f) == 0 && bruneton_share(&cx, 9.0f) == 0);
-    assert_true(fabs((double)bruneton_share(&cx, (float)(1 / (1.75 * 1.75))) - 0.5) < 1e-5);
+    assert_true((double)bruneton_fraction(&cx, (float)(1 / (2.5 * 2.5))) > 0.9999 && bruneton_fraction(&cx, 1.0f) == 0 && bruneton_fraction(&cx, 9.0f) == 0);
+    assert_true(fabs((double)bruneton_fraction(&cx, (float)(1 / (1.75 * 1.75))) - 0.5) < 1e-5);
     double last = 1;
     for (double f = 0.1; f < 3; f += 0.01) {
-        const double share = (double)bruneton_share(&cx, (float)(f * f));
+        const double share = (double)bruneton_fraction(&cx, (float)(f * f));
         assert_true(share <= last && share >= 0);
         last = share;
     }

@@ -110,7 +110,7 @@ static void no_light_is_added(void **state)
                 const double angle = (a + 0.5) / 64 * 2 * acos(-1);
                 const vec2 mean = vec2(m.slope.x + (float)(radius * cos(angle)), m.slope.y + (float)(radius * sin(angle)));
                 const SlopeGaussian g = {mean, (float)(0.5 * alpha[0] * alpha[0]), 0, (float)(0.5 * alpha[1] * alpha[1])};
-                sum += (double)ggx_light_share(&b->cx, m, ggx_slopes(&b->cx, g)) * radius * width * 2 * acos(-1) / 64;
+                sum += (double)ggx_light_fraction(&b->cx, m, ggx_slopes(&b->cx, g)) * radius * width * 2 * acos(-1) / 64;
             }
         }
         char what[64];

@@ -91,7 +91,7 @@ struct kernel_context {
 #define SEARCH_WAVE(cx, i) ((cx)->wave[i])
 #define UPWELLING(cx) vec3(0.0f, 0.0f, 0.0f)
 #define MIRRORS_OBJECTS(cx) 0
-#define OBJECTS_SHARE(cx) 0.0f
+#define OBJECTS_COVERAGE(cx) 0.0f
 #define OBJECTS_COLOR(cx) vec3(0.0f, 0.0f, 0.0f)
 #define CLEAR_TO_LIGHT(cx) vec3(1.0f, 1.0f, 1.0f)
 #define DEEP_WATER(cx) vec3(0.0f, 0.0f, 0.0f)

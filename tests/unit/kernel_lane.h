@@ -41,7 +41,7 @@
 #define SEARCH_WAVE(cx, i) ((cx)->search[i])
 #define UPWELLING(cx) vec3(FRAME(cx).body_r, FRAME(cx).body_g, FRAME(cx).body_b)
 #define MIRRORS_OBJECTS(cx) 0
-#define OBJECTS_SHARE(cx) 0.0f
+#define OBJECTS_COVERAGE(cx) 0.0f
 #define OBJECTS_COLOR(cx) vec3(0.0f, 0.0f, 0.0f)
 #define CLEAR_TO_LIGHT(cx) vec3(1.0f, 1.0f, 1.0f)
 #define DEEP_WATER(cx) vec3(0.0f, 0.0f, 0.0f)
@@ -54,7 +54,7 @@ KERNEL vec3 SKY_TEXEL(CTX cx, real column, real row)
 
 KERNEL real SWEEP_TEXEL(CTX cx, real v, real u, real slice) { return cx->podee->sweep[((size_t)slice * PODEE_ROWS + (size_t)u) * PODEE_COLUMNS + (size_t)v]; }
 
-KERNEL real SHARE_TEXEL(CTX cx, real r, real slice) { return cx->podee->share[(size_t)slice * PODEE_COLUMNS + (size_t)r]; }
+KERNEL real FRACTION_TEXEL(CTX cx, real r, real slice) { return cx->podee->share[(size_t)slice * PODEE_COLUMNS + (size_t)r]; }
 
 #define LEAN(cx) ((cx)->lean->data)
 

@@ -94,7 +94,7 @@ static void pixel_ndf_is_the_mean_over_the_span(void **state)
         const TileData tile = {.mixed_count = 1};
         const struct kernel_context cx = {.frame = &data, .tile = &tile, .waves = &w};
         const double half = (double)half_span(&cx, p, w);
-        const double share = (double)podee_share(&cx, p, w);
+        const double share = (double)podee_fraction(&cx, p, w);
         if (share == 0 || half > 100)
             continue;
         const PodeeSurface s = podee_surface(&cx, 0, 0, vec2(0, 0), p);

@@ -260,7 +260,7 @@ static void tiles_sort_without_loss(void **state)
             const Footprint p = footprint_at(&b->cx, ray, d->camera_height / -ray.y);
             for (int i = 0; i < d->resolved_count; i++) {
                 const real frequency = wave_frequency(&b->cx, p, b->tile.waves[i]);
-                share_error = fmax(share_error, fabs(listed_share(&b->tile.waves[i]) - (double)resolved_share(&b->cx, frequency)));
+                share_error = fmax(share_error, fabs(listed_share(&b->tile.waves[i]) - (double)resolved_weight(&b->cx, frequency)));
             }
         }
     kernel_bench_destroy(b);

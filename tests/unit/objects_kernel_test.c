@@ -44,7 +44,7 @@ static double post_column = -1, post_depth; /* of a post before it, three column
 
 KERNEL vec3 TEXTURE(CTX cx, real texture, real u, real v, real level) { return vec3(texture, u, v * level); }
 KERNEL vec3 SKY_TEXEL(CTX cx, real column, real row) { return vec3(0.0f, 0.0f, 0.0f); }
-KERNEL real SUN_SHARE(CTX cx, vec3 position, vec3 first, vec3 second, mask dry) { return 1.0f; }
+KERNEL real SUN_VISIBILITY(CTX cx, vec3 position, vec3 first, vec3 second, mask dry) { return 1.0f; }
 
 #include "kernels/refraction/layer.k"
 

@@ -96,7 +96,7 @@ static void look_ups_hold_over_the_whole_range(void **state)
         const TablePlace place = table_place(&cx, (float)deviation);
         const double from[2] = {0, v}, to[2] = {u, v}, at[2] = {hypot(u, v), 0};
         sweep = fmax(sweep, fabs((double)table_sweep(&cx, place, (float)u, (float)v) - u * exact_mean(from, to, deviation)));
-        share = fmax(share, fabs((double)table_share(&cx, place, (float)at[0]) - exact_mean(at, at, deviation)));
+        share = fmax(share, fabs((double)table_fraction(&cx, place, (float)at[0]) - exact_mean(at, at, deviation)));
     }
     expect_below("S(u, v) over ±R, σ .02 to 8", sweep, 2e-3);
     expect_below("F(r)", share, 2e-3);

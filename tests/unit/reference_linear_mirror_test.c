@@ -48,7 +48,7 @@ static void shares_are_those_of_drawn_slopes(void **state)
             draw(&r, &s.law, slope);
             hits += mirror_map(s.to_eye, s.light, slope, point) && point[0] * point[0] + point[1] * point[1] < s.radius * s.radius;
         }
-        const double share = mirror_disk_share(s.to_eye, s.light, &s.law, s.radius), noise = sqrt(share * (1 - share) / DRAWS) + 1e-6;
+        const double share = mirror_disk_fraction(s.to_eye, s.light, &s.law, s.radius), noise = sqrt(share * (1 - share) / DRAWS) + 1e-6;
         worst = fmax(worst, fabs(share - (double)hits / DRAWS) / noise);
     }
     expect_below("share in the disk against drawn slopes, deviations of their noise", worst, 3.5);
@@ -62,9 +62,9 @@ static void the_mirror_slope_is_the_better_place(void **state)
     double at_mean = 0, at_mirror = 0, sum = 0;
     for (int i = 0; i < 200; i++) {
         const setting s = random_setting(&r, 0.08, 0.25);
-        const double share = mirror_disk_share(s.to_eye, s.light, &s.law, s.radius);
-        at_mean += fabs(linear_disk_share(s.to_eye, s.light, &s.law, s.radius, s.law.mean) - share);
-        at_mirror += fabs(linear_disk_share(s.to_eye, s.light, &s.law, s.radius, s.mirror) - share);
+        const double share = mirror_disk_fraction(s.to_eye, s.light, &s.law, s.radius);
+        at_mean += fabs(linear_disk_fraction(s.to_eye, s.light, &s.law, s.radius, s.law.mean) - share);
+        at_mirror += fabs(linear_disk_fraction(s.to_eye, s.light, &s.law, s.radius, s.mirror) - share);
         sum += share;
     }
     expect_below("mean error over mean share, Jacobian at the mirror slope", at_mirror / sum, 0.01);

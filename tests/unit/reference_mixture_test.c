@@ -91,7 +91,7 @@ static void feline_is_what_renders(void **state)
             weights += p->weight;
         }
         assert_true(fabs(weights - 1) < 1e-12);
-        worst = fmax(worst, fabs(sum - mixture_path_share(&tables, MGT_MIXTURE_FELINE, at, at, covariance)));
+        worst = fmax(worst, fabs(sum - mixture_path_fraction(&tables, MGT_MIXTURE_FELINE, at, at, covariance)));
     }
     podee_tables_free(&tables);
     expect_below("Feline in double against the kernel's share", worst, 2e-3);

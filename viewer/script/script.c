@@ -157,7 +157,7 @@ static void step_random(viewer *v)
     const size_t length = strlen(s->spared);
     const control *c;
     do
-        c = &list[(size_t)(random_share(&s->chance) * (double)count)];
+        c = &list[(size_t)(random_fraction(&s->chance) * (double)count)];
     while (length > 0 && strncmp(c->name, s->spared, length) == 0);
     const control_text value = control_random(c, &s->chance);
     /* Some values exclude each other; what matters is that a refusal leaves things as they were. */

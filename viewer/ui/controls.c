@@ -332,7 +332,7 @@ void control_read(const control *c, double numbers[3])
     case FIELD_NUMBER:
         numbers[0] = *(const double *)c->value;
         break;
-    case FIELD_SHARE:
+    case FIELD_FLOAT:
         numbers[0] = (double)*(const float *)c->value;
         break;
     case FIELD_VECTOR:
@@ -427,7 +427,7 @@ static void write_value(const control_board *board, const control *c, const doub
     case FIELD_NUMBER:
         *(double *)c->value = allowed(field, numbers[0]);
         break;
-    case FIELD_SHARE:
+    case FIELD_FLOAT:
         *(float *)c->value = (float)allowed(field, numbers[0]);
         break;
     case FIELD_VECTOR:
@@ -488,7 +488,7 @@ control_text control_print(const control *c)
     else if (control_width(c) == 3)
         snprintf(out.text, sizeof out.text, "[%s, %s, %s]", double_text(n[0]).text, double_text(n[1]).text, double_text(n[2]).text);
     else
-        snprintf(out.text, sizeof out.text, "%s", c->field->type == FIELD_SHARE ? float_text((float)n[0]).text : double_text(n[0]).text);
+        snprintf(out.text, sizeof out.text, "%s", c->field->type == FIELD_FLOAT ? float_text((float)n[0]).text : double_text(n[0]).text);
     return out;
 }
 
@@ -565,7 +565,7 @@ bool control_set(const control_board *board, const char *name, const char *text,
 
 /* ---- chance ------------------------------------------------------------------------------------------------------ */
 
-double random_share(uint64_t *state)
+double random_fraction(uint64_t *state)
 {
     *state = *state * 6364136223846793005u + 1442695040888963407u;
     return (double)(*state >> 33) * 0x1p-31;
@@ -575,7 +575,7 @@ static double random_number(const control *c, uint64_t *state)
 {
     const control_hint *h = c->hint;
     const double low = h ? fmax(h->low, c->field->min) : c->field->min, high = h ? fmin(h->high, c->field->max) : c->field->max;
-    const double share = random_share(state), first = low > 0 ? low : high * 1e-3; /* a logarithmic scale has no 0 */
+    const double share = random_fraction(state), first = low > 0 ? low : high * 1e-3; /* a logarithmic scale has no 0 */
     double number = h && h->logarithmic ? first * pow(high / first, share) : low + (high - low) * share;
     if (c->field->type == FIELD_COUNT || c->field->type == FIELD_LARGE)
         number = round(number);
@@ -587,7 +587,7 @@ control_text control_random(const control *c, uint64_t *state)
     control_text out = {""};
     if (c->field->choices) {
         const int count = field_word_count(c->field);
-        const int now = field_place(c->field, c->value), other = (now + 1 + (int)(random_share(state) * (count - 1))) % count;
+        const int now = field_place(c->field, c->value), other = (now + 1 + (int)(random_fraction(state) * (count - 1))) % count;
         snprintf(out.text, sizeof out.text, "%s", field_word(c->field, other));
         return out;
     }

@@ -61,6 +61,6 @@ bool control_set_number(const control_board *board, const char *name, double num
 control_text control_random(const control *c, uint64_t *state);
 
 /* The next random number in [0, 1) of that generator. */
-double random_share(uint64_t *state);
+double random_fraction(uint64_t *state);
 
 #endif

@@ -95,7 +95,7 @@ WaveData listed_wave(int i)
     vec4 entry = texelFetch(list_texture, data_texel(tile_first_wave + i), 0);
     int at = WAVE_VECTORS * int(entry.x);
     WaveData w = wave_of_vectors(WAVE_VECTOR(at), WAVE_VECTOR(at + 1), WAVE_VECTOR(at + 2), WAVE_VECTOR(at + 3), WAVE_VECTOR(at + 4), WAVE_VECTOR(at + 5));
-    return wave_shared(0, wave_placed(0, w, entry.y), entry.z);
+    return wave_weighted(0, wave_placed(0, w, entry.y), entry.z);
 }
 
 vec3 SKY_TEXEL(int cx, float column, float row) { return texelFetch(sky_texture, ivec2(int(column), int(row)), 0).rgb; }

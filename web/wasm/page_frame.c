@@ -84,7 +84,7 @@ EXPORT(prepare) const void *page_prepare(int method, int columns, int rows, doub
     if (!sorted) {
         prepared.data.sort_start = -1;
         prepared.data.sort_end = 1e30f;
-        prepared.data.sort_shares = 0;
+        prepared.data.sort_weights = 0;
     }
     const interval time = page_interval(&prepared, (mgt_method)method, &filter);
     wave_set_build(&prepared, &prepared.close, time, filter, &set);

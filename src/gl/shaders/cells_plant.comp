@@ -2,7 +2,7 @@
  *
  * Method adaptive begins: pixels of a band by method `mangata`, the first leaves of the refinement.
  */
-#define SHARED_WAVES
+#define WEIGHTED_WAVES
 #include "lattice_data.glsl"
 #include "kernels/adaptive/cells.k"
 #include "kernels/adaptive/refinement.k"

@@ -2,7 +2,7 @@
  *
  * Cells by the model of method `mangata`, over one piece of the shutter: one invocation a cell.
  */
-#define SHARED_WAVES
+#define WEIGHTED_WAVES
 #define CELLS_PASS
 #define PARTS(cx) TILE(cx).parts
 #include "lattice_data.glsl"

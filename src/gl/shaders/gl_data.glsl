@@ -79,8 +79,8 @@ WaveData listed_wave(int i)
 {
     TileWave entry = tile_wave_of_vector(tile_waves[tile_slot * pass_data.wave_stride + i]);
     WaveData w = wave_placed(0, SET_WAVE(entry.index), entry.turns);
-#ifdef SHARED_WAVES
-    w = wave_shared(0, w, entry.share);
+#ifdef WEIGHTED_WAVES
+    w = wave_weighted(0, w, entry.share);
 #endif
     return w;
 }
@@ -142,13 +142,13 @@ vec3 body_light()
 
 #undef UPWELLING
 #undef MIRRORS_OBJECTS
-#undef OBJECTS_SHARE
+#undef OBJECTS_COVERAGE
 #undef OBJECTS_COLOR
 #undef CLEAR_TO_LIGHT
 #undef DEEP_WATER
 #define UPWELLING(cx) body_light()
 #define MIRRORS_OBJECTS(cx) pass_data.objects
-#define OBJECTS_SHARE(cx) texelFetch(mirrored_texture, layer_texel, 0).a
+#define OBJECTS_COVERAGE(cx) texelFetch(mirrored_texture, layer_texel, 0).a
 #define OBJECTS_COLOR(cx) texelFetch(mirrored_texture, layer_texel, 0).rgb
 #define CLEAR_TO_LIGHT(cx) texelFetch(clear_texture, layer_texel, 0).rgb
 #define DEEP_WATER(cx) texelFetch(deep_texture, layer_texel, 0).rgb

@@ -2,7 +2,7 @@
  *
  * The mean shading normal of the filtered methods.
  */
-#define SHARED_WAVES
+#define WEIGHTED_WAVES
 #include "lattice_data.glsl"
 #include "kernels/glitter/glitter.k"
 #include "normal.glsl"

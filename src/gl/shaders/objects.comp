@@ -2,7 +2,7 @@
  *
  * The water in the pixels of a band, filtered, over the shutter, and which of the pixels see objects in which way.
  */
-#define SHARED_WAVES
+#define WEIGHTED_WAVES
 #define OBJECTS_PASS
 #define LISTS_GROW
 #include "lattice_data.glsl"

@@ -130,4 +130,4 @@ vec3 TEXTURE(int cx, float object, float u, float v, float level)
 float SHADOW_TEXEL(int cx, float column, float row) { return texelFetch(shadow_texture, ivec2(int(column), int(row)), 0).r; }
 
 #include "kernels/refraction/shadow.k"
-#define SUN_SHARE(cx, position, first, second, dry) shadow_over(cx, position, first, second, dry)
+#define SUN_VISIBILITY(cx, position, first, second, dry) shadow_over(cx, position, first, second, dry)

@@ -3,7 +3,7 @@
  * What pixels see through the surface, and mirrored by it, through several places of each. A workgroup stays within its tile, whose waves it sums: on Mesa's llvmpipe the
  * sums of pixels listed from several tiles depend on which of them stand beside each other.
  */
-#define SHARED_WAVES
+#define WEIGHTED_WAVES
 #define OBJECTS_PASS
 #include "lattice_data.glsl"
 #include "kernels/glitter/glitter.k"

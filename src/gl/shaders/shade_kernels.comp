@@ -7,7 +7,7 @@
 
 /* src/frame/podee_tables.h; the slices of the sweep stand side by side. */
 layout(binding = 1) uniform sampler2D sweep_texture;
-layout(binding = 2) uniform sampler2D share_texture;
+layout(binding = 2) uniform sampler2D fraction_texture;
 
 float SWEEP_TEXEL(int cx, float v, float u, float slice)
 {
@@ -15,7 +15,7 @@ float SWEEP_TEXEL(int cx, float v, float u, float slice)
     return texelFetch(sweep_texture, ivec2(int(v), int(u)) + ivec2(PODEE_COLUMNS, PODEE_ROWS) * ivec2(s % PODEE_SLICES_ACROSS, s / PODEE_SLICES_ACROSS), 0).r;
 }
 
-float SHARE_TEXEL(int cx, float r, float slice) { return texelFetch(share_texture, ivec2(int(r), int(slice)), 0).r; }
+float FRACTION_TEXEL(int cx, float r, float slice) { return texelFetch(fraction_texture, ivec2(int(r), int(slice)), 0).r; }
 
 #include "kernels/baselines/podee_mixture.k"
 #define METHOD_STATE PodeeState
