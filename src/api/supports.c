@@ -6,7 +6,6 @@
 #include "frame/backend.h"
 #include "frame/podee_rules.h"
 #include "frame/targets.h"
-#include "params/foam.h"
 #include "params/methods.h"
 #include "trace/trace.h"
 
@@ -37,8 +36,6 @@ const char *gl_lacks(const mgt_scene *scene)
         return "the method runs";
     if (scene->quality.method == MGT_METHOD_ADAPTIVE && gl_lacks_scheme(scene))
         return gl_lacks_scheme(scene);
-    if (scene->quality.method == MGT_METHOD_ADAPTIVE && foam_draws(scene))
-        return "method adaptive with foam runs";
     if (scene->object_count == 0)
         return NULL;
     if (refraction == MGT_REFRACTION_DISTANCE_FIELD || refraction == MGT_REFRACTION_PATH_TRACED)

@@ -81,6 +81,8 @@ static int pool_of(const cells_run *c)
     return least(pool < allowed || allowed < pixels ? pool : allowed, 1 << 28);
 }
 
+static size_t sets_of(const cells_run *c) { return LEAF_INSTANTS + (size_t)(c->parts[0] + c->parts[1] + c->parts[2] + CELL_CLASSES * c->data.moves); }
+
 static mgt_status reserve(cells_run *c)
 {
     gl_renderer *g = c->g;
@@ -97,7 +99,8 @@ static mgt_status reserve(cells_run *c)
         {&cells->leaves, 2 * (size_t)d->pool * leaf},
         {&cells->state, state_words(d) * sizeof(uint32_t)},
         {&cells->pixels, (size_t)d->tiles * TILE_PIXELS * 2 * sizeof(float)},
-        {&cells->sets, c->set_vectors * 16 * (LEAF_INSTANTS + (size_t)(c->parts[0] + c->parts[1] + c->parts[2] + CELL_CLASSES * d->moves))},
+        {&cells->sets, c->set_vectors * 16 * sets_of(c)},
+        {&cells->foam, c->frame->foam.some ? sizeof(foam_set) * sets_of(c) : 0},
         {&cells->frames, LEAF_SIDES * sizeof(FrameData)},
         {&g->tiles, slots * sizeof(TileData)},
         {&g->tile_waves, slots * (size_t)c->run->wave_stride * sizeof(TileWave)},
@@ -116,7 +119,7 @@ static mgt_status reserve(cells_run *c)
 
 void gl_cells_free(const gl_api *gl, gl_cells *c)
 {
-    gl_buffer *const buffers[] = {&c->leaves, &c->state, &c->pixels, &c->sets, &c->frames};
+    gl_buffer *const buffers[] = {&c->leaves, &c->state, &c->pixels, &c->sets, &c->foam, &c->frames};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++)
         gl_buffer_free(gl, buffers[i]);
 }
@@ -152,6 +155,22 @@ static void write_views(const ViewData *view, ViewData *out)
             *out++ = cell_view(view, across, 2 * level - across);
 }
 
+static mgt_status upload_foam(cells_run *c, size_t index)
+{
+    gl_renderer *g = c->g;
+    const foam_set *foam = &g->waves->foam;
+    size_t offset;
+    mgt_status status;
+    void *at = g->waves->has_foam ? begin_upload(c, sizeof *foam, &offset, &status) : NULL;
+    if (!g->waves->has_foam)
+        return MGT_OK;
+    if (!at)
+        return status;
+    memcpy(at, foam, sizeof *foam);
+    g->gl.CopyNamedBufferSubData(g->ring.buffer, g->cells.foam.name, (GLintptr)offset, (GLintptr)(index * sizeof *foam), (GLsizeiptr)sizeof *foam);
+    return MGT_OK;
+}
+
 /* The set that g->waves holds. */
 static mgt_status upload_set(cells_run *c, size_t index)
 {
@@ -169,7 +188,7 @@ static mgt_status upload_set(cells_run *c, size_t index)
     at += waves * sizeof(SortData);
     write_views(&set->view, (ViewData *)(void *)at);
     g->gl.CopyNamedBufferSubData(g->ring.buffer, g->cells.sets.name, (GLintptr)offset, (GLintptr)(index * size), (GLsizeiptr)size);
-    return MGT_OK;
+    return upload_foam(c, index);
 }
 
 static mgt_status place_set(cells_run *c, cell_time at, bool filter, size_t index)
@@ -217,6 +236,8 @@ static void bind_sets(const cells_run *c)
 {
     const gl_renderer *g = c->g;
     g->gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, BIND_WAVES, g->cells.sets.name);
+    if (c->frame->foam.some)
+        g->gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, BIND_FOAM, g->cells.foam.name);
     g->gl.BindBufferRange(GL_UNIFORM_BUFFER, BIND_FRAME, g->cells.frames.name, 0, (GLsizeiptr)(LEAF_SIDES * sizeof(FrameData)));
     g->gl.BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, g->cells.state.name);
 }

@@ -11,6 +11,7 @@ typedef struct gl_cells {
     gl_buffer state;  /* numbers of the frame and its tiles, and lists */
     gl_buffer pixels; /* weights, and heights of hits */
     gl_buffer sets;   /* waves */
+    gl_buffer foam;   /* a foam_set for each of these, where there is foam */
     gl_buffer frames; /* FrameData for cells of each size */
 } gl_cells;
 

@@ -39,10 +39,10 @@ enum {
     BIND_LEAVES = 4, /* … and cells_data.glsl */
     BIND_CELLS = 5,
     BIND_WAVES = 6, /* the frame's waves, except on software OpenGL; for cells: all sets of waves */
-    BIND_FOAM = 7,  /* programs of shading */
-    BIND_SLOTS = 7,
-    BIND_PIXELS = 7,
-    STORAGE_BINDINGS,
+    BIND_FOAM = 7,  /* programs of shading; for cells: one for each set of waves */
+    BIND_SLOTS = 8, /* method adaptive, beside foam */
+    BIND_PIXELS = 8,
+    STORAGE_BINDINGS, /* so many must be there */
 
     UNIT_SKY = 0, /* textures; those that no program reads together share units */
     UNIT_FINE = 1,

@@ -40,11 +40,11 @@ static mgt_status read_limits(gl_renderer *g, const reporter *r)
     g->gl.GetIntegerv(GL_MAX_COMPUTE_SHARED_MEMORY_SIZE, &shared);
     g->gl.GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &table);
     g->gl.GetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &bytes);
-    if (storage < 8 || shared < 32768)
+    if (storage < STORAGE_BINDINGS || shared < 32768)
         return report_error(r, MGT_ERROR_UNAVAILABLE, "context.gl",
                             "the OpenGL context has %d storage blocks and %d bytes of shared memory for compute shaders; "
-                            "8 and 32768 are needed",
-                            storage, shared);
+                            "%d and 32768 are needed",
+                            storage, shared, STORAGE_BINDINGS);
     g->limits = (gl_limits){
         .texture_side = (uint32_t)texture,
         .software = is_software(&g->gl),

@@ -12,7 +12,7 @@ layout(std140, binding = 0) uniform FrameBlock { FrameData frame_of_halvings[LEA
 #include "cells_data.glsl"
 
 layout(local_size_x = CELLS_GROUP) in;
-layout(std430, binding = 7) readonly buffer PixelBlock { vec2 pixel_data[]; };
+layout(std430, binding = 8) readonly buffer PixelBlock { vec2 pixel_data[]; };
 
 shared double lane_variance[CELLS_GROUP], lane_shown[CELLS_GROUP];
 

@@ -17,7 +17,7 @@ layout(binding = 1, r32f) coherent uniform image2D coverage_image;
 layout(binding = 2, r32f) coherent uniform image2D water_image;
 layout(binding = 3, r32f) coherent uniform image2D samples_image;
 layout(binding = 5, r32f) coherent uniform image2D detail_image;
-layout(std430, binding = 7) readonly buffer PixelBlock { vec2 pixel_data[]; };
+layout(std430, binding = 8) readonly buffer PixelBlock { vec2 pixel_data[]; };
 
 int tile, words, lane, least;
 int first_place; /* of the tile's leaves */

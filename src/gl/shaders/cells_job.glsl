@@ -26,5 +26,5 @@ int first_set(int kind)
     return sets;
 }
 
-int set_of_part(int kind, bool open) { return (first_set(kind) + cells_data.part + (open ? 0 : cells_data.moves)) * set_vectors(); }
-int set_of_instant() { return (first_set(3) + cells_data.instant) * set_vectors(); }
+int set_of_part(int kind, bool open) { return first_set(kind) + cells_data.part + (open ? 0 : cells_data.moves); }
+int set_of_instant() { return first_set(3) + cells_data.instant; }

@@ -17,7 +17,7 @@ layout(binding = 4, r32f) writeonly uniform image2D importance_image;
 layout(binding = 5, r32f) writeonly uniform image2D detail_image;
 
 /* A pixel's weight, and the height of the surface where its ray meets it; infinite where it is not all water. */
-layout(std430, binding = 7) writeonly buffer PixelBlock { vec2 pixel_data[]; };
+layout(std430, binding = 8) writeonly buffer PixelBlock { vec2 pixel_data[]; };
 
 CellResult nothing_but_sky(PixelRay p)
 {

@@ -56,7 +56,7 @@ void main()
     Leaf l = leaf_at(int(state[at]));
     ivec2 pixel = leaf_pixel(l);
     tile_slot = slot;
-    set_at = set_of_instant();
+    turn_to_set(set_of_instant());
     layer_texel = ivec2(tile % cells_data.columns, tile / cells_data.columns) * ivec2(TILE_WIDTH, TILE_HEIGHT) + pixel;
     int index = int(l.points) + cells_data.instant + LEAF_INSTANTS * (POINT_GROUP * int(state[at + 2]) + lane);
     int before = group - int(state[tile_words(tile) + TILE_POINT_FIRST]);

@@ -11,7 +11,7 @@
 #include "cells_job.glsl"
 
 layout(local_size_x = CELLS_GROUP) in;
-layout(std430, binding = 7) readonly buffer PixelBlock { vec2 pixel_data[]; };
+layout(std430, binding = 8) readonly buffer PixelBlock { vec2 pixel_data[]; };
 
 CellResult nothing_but_sky(PixelRay p)
 {
@@ -53,7 +53,7 @@ float search_start(Job job, ivec2 pixel, vec2 place)
 void look(Job job, int slot, bool open)
 {
     tile_slot = slot + (open ? cells_data.slots : 0);
-    set_at = set_of_part(job.kind, open);
+    turn_to_set(set_of_part(job.kind, open));
 }
 
 /* In grazing water the hit of the leaf that the cell is a part of says nothing of the cell's. */

@@ -16,7 +16,7 @@ ViewData view_data;
 void sort_points(int place, int slot)
 {
     int tile = int(state[cells_data.point_tiles_at + place]);
-    set_at = set_of_instant();
+    turn_to_set(set_of_instant());
     view_data = set_view(0);
     tile_slot = slot;
     sort_tile(tile % cells_data.columns, tile / cells_data.columns, 0, 0);
@@ -30,7 +30,7 @@ void sort_cells(int place, int slot)
     frame_halvings = max(job.halvings.x, job.halvings.y);
     for (int end = 0; end <= cells_data.moves; end++) {
         bool open = end < cells_data.moves;
-        set_at = set_of_part(job.kind, open);
+        turn_to_set(set_of_part(job.kind, open));
         view_data = set_view(1 + cell_size(job.halvings.x, job.halvings.y));
         tile_slot = slot + (open ? cells_data.slots : 0);
         sort_tile(job.tile % cells_data.columns, job.tile / cells_data.columns, open ? 0 : cells_data.slots * cells_data.moves, 1 - cells_data.sky_black);

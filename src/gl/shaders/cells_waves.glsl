@@ -7,11 +7,18 @@ layout(std140, binding = 0) uniform FrameBlock { FrameData frame_of_halvings[LEA
 layout(std430, binding = 6) readonly buffer SetBlock { uvec4 wave_sets[]; };
 
 int frame_halvings = 0; /* how often the pixel has been halved, the way that it has more often */
-int set_at = 0;         /* where the set begins */
+int set_at = 0;         /* where the set begins, … */
+int foam_place = 0;        /* … and which one it is */
 
 #define FRAME(cx) frame_of_halvings[frame_halvings]
 
 int set_vectors() { return pass_data.wave_count * (SET_WAVE_VECTORS + SET_SORT_VECTORS) + SET_VIEWS * SET_VIEW_VECTORS; }
+
+void turn_to_set(int index)
+{
+    set_at = index * set_vectors();
+    foam_place = index;
+}
 
 WaveData SET_WAVE(int i)
 {

@@ -1,10 +1,22 @@
 /* SPDX-License-Identifier: MIT
  *
- * Where the kernels find foam: a foam_set, in programs that are built for it; in others there is none.
+ * Where the kernels find foam: a foam_set, in programs that are built for it; in others there is none. Cells and their points have a foam_set for each
+ * set of waves, and foam_place says which one is meant.
  */
 #include "kernels/waves/foam_types.k"
 
-#ifdef FOAMY_WATER
+#if defined(FOAMY_WATER) && defined(CELLS_PASS)
+struct FoamSet {
+    FoamData data;
+    FoamSine sines[2 * FOAM_SINES];
+    FoamWave waves[MAX_WAVES];
+};
+layout(std430, binding = 7) restrict readonly buffer FoamBlock { FoamSet foam_sets[]; };
+#define FOAMY(cx) 1
+#define FOAM(cx) foam_sets[foam_place].data
+#define FOAM_WAVE(cx, i) foam_sets[foam_place].waves[i]
+#define FOAM_SINE(cx, i) foam_sets[foam_place].sines[i]
+#elif defined(FOAMY_WATER)
 layout(std430, binding = 7) restrict readonly buffer FoamBlock
 {
     FoamData foam_data;

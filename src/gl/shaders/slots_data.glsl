@@ -33,7 +33,7 @@ layout(std430, binding = 4) PLAN_ACCESS buffer PlanBlock
 layout(std430, binding = 5) TASK_ACCESS buffer TaskBlock { uvec2 tasks[]; };
 
 /* SLOT_FLOATS each: the sum over a task's slots, a place a pixel of the band, and behind them the results of a chunk. */
-layout(std430, binding = 7) SLOT_ACCESS buffer SlotBlock { float slot_values[]; };
+layout(std430, binding = 8) SLOT_ACCESS buffer SlotBlock { float slot_values[]; };
 
 int task_place(int band_tile, int task) { return band_tile * TILE_PIXELS + task; }
 int result_place(int slot) { return slots_data.band_tiles * TILE_PIXELS + slot; }
