@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: MIT
 // The page's pictures against the command's: agreement.mjs PAGE MANGATA WIDTH HEIGHT SCENES [SECONDS [METHOD]]. By shaders and by the library in WebAssembly. Prints the RMSE of
 // displayed values, the times of frames and what sorting the waves by tiles gains. When the seconds end it says what it has reached; exit code 1 where that is nothing.
-import { execFile } from "node:child_process";
-import { mkdtempSync, rmSync, statSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
-import { join, resolve } from "node:path";
-import { promisify } from "node:util";
+import { statSync } from "node:fs";
+import { resolve } from "node:path";
 import { openBrowser, withinSeconds } from "./browser.mjs";
+import { rmseOfCommand } from "./command.mjs";
 
 const [page, mangata, width, height, count, seconds = "45", only = ""] = process.argv.slice(2);
 const MOST_RMSE = 0.01, MOST_BYTES = 400e3;
-const run = promisify(execFile);
 const browser = await openBrowser();
-const folder = mkdtempSync(join(tmpdir(), "web-agreement-"));
 let failed = statSync(page).size > MOST_BYTES, compared = 0, cases = [];
 console.log(`size ${(statSync(page).size / 1000).toFixed(0)} KB`);
 
@@ -29,10 +25,7 @@ async function compare([scene, method, way]) {
     const options = { method: "${method}", way: "${way}" }, slow = ${way === "shaders" && method === "mangata"} ? await timed({ ...options, sorted: false }) : null, fast = await timed(options);
     return { slow, fast, command: commandOf(tested.settings, "${method}", ${width}, ${height}), png: tested.canvas.toDataURL().split(",")[1] };
   })()`);
-  const [ours, theirs] = [join(folder, "page.png"), join(folder, "sea.png")];
-  writeFileSync(ours, Buffer.from(drawn.png, "base64"));
-  await run("sh", ["-c", `${drawn.command.replace(/^mangata/, resolve(mangata))} --overwrite -q`], { cwd: folder });
-  const rmse = JSON.parse((await run(mangata, ["diff", ours, theirs, "--metrics", "rmse", "--json"])).stdout).rmse, { slow, fast } = drawn;
+  const { slow, fast } = drawn, rmse = await rmseOfCommand(mangata, drawn.command, drawn.png);
   failed ||= !(rmse <= MOST_RMSE);
   compared++;
   const tiles = way === "shaders" ? `, of which tiles ${fast.tiles.toFixed(0)} ms` : "", gain = slow ? `; unsorted ${slow.frame.toFixed(0)} ms, sorting gains × ${(slow.frame / fast.frame).toFixed(2)}` : "";
@@ -54,6 +47,5 @@ try {
   console.log(`errors on the console: ${browser.errors.length} ${browser.errors.slice(0, 3).join("; ")}`);
 } finally {
   await browser.close();
-  rmSync(folder, { recursive: true });
 }
 process.exit(failed ? 1 : 0);
