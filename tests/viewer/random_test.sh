@@ -2,12 +2,17 @@
 # Hundreds of changes by chance: no OpenGL error, no crash, and memory that does not grow. OpenGL's error flag is read after every frame.
 . "$CHECK"
 
-# The size of the picture stays, so that memory may. Tables are made once and kept: lean's map, 246 MiB, and those of podee, 64 MiB, are there before memory is
-# counted, for all changes that are counted have been made before.
+# The size of the picture stays, so that memory may. Tables are made once and kept: lean's map, 246 MiB, and those of podee, 64 MiB, are made before memory is
+# counted.
 again=$'random 150 2 image.\nrandom 200 3 image.'
 [[ -z ${SANITIZED:-} ]] || again= # memory is not compared there
 drive "$SOURCE/scenes/smooth.json" --size 480x300 <<END
 set a.method lean
+settle
+set a.method podee-uniform
+set a.kernels 5
+settle
+set a.kernels 1
 settle
 random 150 1 image.
 random 150 2 image.
