@@ -55,6 +55,7 @@ function changed() {
   page.dirty = true;
   page.version++;
   page.figures = [];
+  placeWipe();
   SETTINGS.forEach(showValue);
   element("left").value = page.methods[0];
   element("right").value = page.methods[1];
@@ -68,7 +69,7 @@ function changed() {
 function placeWipe() {
   element("edge").style.left = 100 * page.wipe + "%";
   for (const [i, id] of ["label-left", "label-right"].entries()) {
-    element(id).textContent = page.methods[i];
+    element(id).replaceChildren(page.methods[i], ...(page.figures.length ? [Object.assign(document.createElement("small"), { textContent: page.meters[i].join("\n") })] : []));
     element(id).style.left = 100 * page.wipe + "%";
   }
 }

@@ -40,17 +40,25 @@ function judgeTasks(post) {
     for (let i = 0; i < rgba.length; i += 4) sum += 0.2126 * rgba[i] + 0.7152 * rgba[i + 1] + 0.0722 * rgba[i + 2];
     return sum;
   };
-  // Sums of products over pixels: the halves of the samples are independent, so that their noise has no share in a product of both.
-  const product = (count, a, b) => {
+  // Sum of squares over pixels of what `of` makes of planes at a pixel.
+  const squares = of => {
     let sum = 0;
-    for (let i = 0; i < count; i++) sum += a(i) * b(i);
+    for (let i = 0; i < scene.count; i++) sum += of(i) ** 2;
     return sum;
   };
+  // Displayed luma of an instant's mean, and half of what its halves differ by: the mean's noise.
+  const truthOf = library => {
+    const { calls } = library, halves = [0, 1].map(half => calls.picture_half(half)), at = calls.take(16 * scene.count);
+    const [first, second, sum] = [...halves, at].map(place => new Float32Array(calls.memory.buffer, place, 4 * scene.count));
+    for (let i = 0; i < sum.length; i++) sum[i] = first[i] + second[i];
+    const mean = lumaOf(library, at, 1 / samples), [a, b] = halves.map(half => lumaOf(library, half, 2 / samples)), light = radiance(library, at) / samples;
+    calls.give(at);
+    return { mean, noise: a.map((v, i) => (v - b[i]) / 2), light };
+  };
   const figures = pictures => {
-    const { width, count } = scene, weight = 2 / samples, beside = plane => i => (i % width ? plane[i] - plane[i - 1] : 0), step = (a, b) => i => b[i] - a[i];
-    const truth = instants.map(library => [0, 1].map(half => lumaOf(library, library.calls.picture_half(half), weight)));
-    const light = [0, 1].reduce((sum, half) => sum + radiance(instants[0], instants[0].calls.picture_half(half)), 0) / samples;
-    const contrast = product(count, beside(truth[0][0]), beside(truth[0][1])), flicker = product(count, step(truth[0][0], truth[1][0]), step(truth[0][1], truth[1][1]));
+    const { width, count } = scene, [now, next] = instants.map(truthOf);
+    const beside = plane => i => (i % width ? plane[i] - plane[i - 1] : 0), step = (a, b) => i => b[i] - a[i];
+    const contrast = squares(beside(now.mean)) - squares(beside(now.noise)), flicker = squares(step(now.mean, next.mean)) - squares(step(now.noise, next.noise));
     return pictures.map(pair => {
       const { calls } = instants[0], at = calls.take(16 * count);
       const planes = pair.map(rgba => {
@@ -58,10 +66,10 @@ function judgeTasks(post) {
         return { luma: lumaOf(instants[0], at, 1), light: radiance(instants[0], at) };
       });
       calls.give(at);
-      const own = planes[0].luma, squares = product(count, step(truth[0][0], own), step(truth[0][1], own));
+      const own = planes[0].luma;
       return {
-        error: Math.sqrt(Math.max(0, squares / count)), energy: planes[0].light / light,
-        contrast: Math.sqrt(product(count, beside(own), beside(own)) / contrast), flicker: Math.sqrt(product(count, step(own, planes[1].luma), step(own, planes[1].luma)) / flicker),
+        error: Math.sqrt(Math.max(0, squares(step(now.mean, own)) - squares(i => now.noise[i])) / count), energy: planes[0].light / now.light,
+        contrast: Math.sqrt(squares(beside(own)) / contrast), flicker: Math.sqrt(squares(step(own, planes[1].luma)) / flicker),
       };
     });
   };
@@ -88,7 +96,7 @@ class Judge {
   async begin({ settings, width, height, pictures, most, duty }, found) {
     const round = ++this.round;
     this.idle = false;
-    let next = 8;
+    let next = 16;
     await this.worker.ask({ begin: { settings, width, height } });
     while (round === this.round && next <= most) {
       const start = performance.now(), { samples } = await this.worker.ask({ work: 30, samples: next });

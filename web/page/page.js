@@ -4,7 +4,7 @@
 const element = id => document.getElementById(id);
 const FIRST_PIXELS = 16e3; // of the first picture, before any time is known
 const LEAST_PIXELS = 8e3; // of a moving picture, however long it takes
-const JUDGED_PIXELS = 33e3;
+const JUDGED_PIXELS = 16e3;
 const page = {
   settings: presets(), methods: ["none", "mangata"], wipe: 0.5, playing: true, frames: 0,
   dirty: true, version: 0, // of what is to be seen
@@ -150,7 +150,7 @@ async function rest() {
 
 // Small pictures of both methods at two instants a frame apart, and the judge's word on them.
 async function judge(most, duty, stale) {
-  const { view } = page, [columns, rows] = sizes(() => page.scale), shrink = Math.min(1, Math.sqrt(JUDGED_PIXELS / (columns * rows)));
+  const { view } = page, [columns, rows] = sizes(() => (page.playing ? page.scale : 1)), shrink = Math.min(1, Math.sqrt(JUDGED_PIXELS / (columns * rows)));
   const both = targets("small", Math.round(columns * shrink), Math.round(rows * shrink)), { width, height } = both[0];
   const settings = [{ ...page.settings }, { ...page.settings, time: page.settings.time + 1 / 30 }], methods = [...page.methods], pictures = [[], []];
   for (const instant of [0, 1]) {
@@ -159,10 +159,11 @@ async function judge(most, duty, stale) {
     painted.forEach((picture, side) => { pictures[side][instant] = view.engine.read(picture); });
   }
   page.judge.begin({ settings, width, height, pictures, most, duty }, (sides, samples) => {
-    const times = ratio => (Number.isFinite(ratio) ? `× ${ratio.toFixed(2)}` : "unknown yet");
-    page.figures = [...sides.map((f, side) => `${methods[side]}: error ${f.error.toFixed(3)}, energy ${times(f.energy)}, contrast ${times(f.contrast)}, flicker ${times(f.flicker)}`),
-      `judged by ${samples} samples a pixel of ${width} × ${height}`];
+    const times = ratio => (Number.isFinite(ratio) ? `× ${ratio.toFixed(2)}` : "?");
+    page.meters = sides.map(f => [`flicker ${times(f.flicker)}`, `energy ${times(f.energy)}`, `contrast ${times(f.contrast)}`, `error ${f.error.toFixed(3)}`]);
+    page.figures = [...page.meters.map((meter, side) => `${methods[side]}: ${meter.join(", ")}`), `over those of brute force, ${samples} samples a pixel of ${width} × ${height}`];
     showFigures();
+    placeWipe();
   }).catch(error => tell(error.message));
 }
 
