@@ -112,9 +112,10 @@ static void add_part(const tile_cells *part, float share, tile_cells *sum)
 static void average_contrasts(tile_detail *detail, size_t count)
 {
     for (size_t i = 0; i < count; i += 4) {
-        const float mean = lane_parts_contrast(detail->contrast + i);
+        float parts[4];
+        memcpy(parts, detail->contrast + i, sizeof parts);
         for (size_t k = 0; k < 4; k++)
-            detail->contrast[i + k] = mean;
+            detail->contrast[i + k] = lane_parts_contrast(parts[k], parts);
     }
 }
 

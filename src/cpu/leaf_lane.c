@@ -19,7 +19,7 @@ float lane_weight(const FrameData *frame, const float color[3], float shown)
     return leaf_weight(&cx, vec3(color[0], color[1], color[2]), shown);
 }
 
-float lane_parts_contrast(const float parts[4]) { return parts_contrast(NULL, parts[0], parts[1], parts[2], parts[3]); }
+float lane_parts_contrast(float own, const float parts[4]) { return parts_contrast(NULL, own, parts[0], parts[1], parts[2], parts[3]); }
 
 int lane_class(int level, bool dark) { return leaf_class(NULL, level, dark); }
 

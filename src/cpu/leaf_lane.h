@@ -14,8 +14,8 @@ uint8_t lane_split(float aspect);
 /* What a squared error of a pixel of this colour is worth; `shown` as in CellResult. */
 float lane_weight(const FrameData *frame, const float color[3], float shown);
 
-/* What each of a leaf's four parts counts with under a sky, from their contrasts. */
-float lane_parts_contrast(const float parts[4]);
+/* What one of a leaf's four parts, of its own contrast, counts with under a sky, from the contrasts of all. */
+float lane_parts_contrast(float own, const float parts[4]);
 
 /* Which of the shutter's pieces cells of a level see, 0 to 2. */
 int lane_class(int level, bool dark);

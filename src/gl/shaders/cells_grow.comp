@@ -240,7 +240,7 @@ Leaf new_cell(int i, int first)
 {
     Leaf l = leaf_at(i);
     if (cells_data.sky_black == 0)
-        l.contrast = parts_contrast(0, contrast_at(first), contrast_at(first + 1), contrast_at(first + 2), contrast_at(first + 3));
+        l.contrast = parts_contrast(0, l.contrast, contrast_at(first), contrast_at(first + 1), contrast_at(first + 2), contrast_at(first + 3));
     l.split = int(leaf_split(0, uintBitsToFloat(leaves[LEAF_VECTORS * i].z)));
     l.points = 0.0f;
     return judged(l);
