@@ -333,6 +333,33 @@ static void octaves_are_the_spectrums(void **state)
     expect_below("octaves of a flat spectrum", worst, 0.01);
 }
 
+/* One scale alone has none, water that does not graze half a power an octave, and grazing water the more the more of it is unresolved and the steeper the view
+ * is over the slopes, up to the most that seas from 100 m show. */
+static void scales_grow_with_what_is_unresolved(void **state)
+{
+    (void)state;
+    const mgt_scene scene = black_scene(WIDTH, HEIGHT, NULL, 0);
+    kernel_bench *b = kernel_bench_create(&scene);
+    b->tile.data.slope_variance = 0.05f;
+    for (int grazing = 0; grazing < 2; grazing++)
+        for (int parts = 0; parts < 2; parts++) {
+            b->tile.data.grazing = grazing;
+            b->tile.data.parts = parts;
+            float before_part[11] = {0};
+            for (int p = 0; p <= 10; p++)
+                for (int a = 0; a <= 10; a++) {
+                    const vec3 view = vec3(0, 0.02f * (float)a, 1);
+                    const float unresolved = 0.005f * (float)p, power = scales_power(&b->cx, view, unresolved, 5);
+                    assert_float_equal(scales_power(&b->cx, view, unresolved, 1), 0, 0);
+                    assert_true(power >= before_part[a] && (a == 0 || power >= before_part[a - 1]) && power <= (grazing ? 0.8f : 1.0f));
+                    before_part[a] = power;
+                }
+            assert_float_equal(scales_power(&b->cx, vec3(0, 0.2f, 1), 0.05f, 5), grazing ? 0.8f : 1.0f, 1e-6f);
+            assert_float_equal(scales_power(&b->cx, vec3(0, 0.02f, 1), 0.005f, 2), grazing ? 0.0f : 0.5f, 1e-6f);
+        }
+    kernel_bench_destroy(b);
+}
+
 /* Mean and variance of a normal x seen in proportion to max(x, 0), by the midpoint rule. */
 static void visible_moments_are_their_integrals(void **state)
 {
@@ -488,6 +515,7 @@ int main(void)
         cmocka_unit_test(slopes_are_those_at_the_shutters_ends),
         cmocka_unit_test(unresolved_sea_mirrors_its_probability),
         cmocka_unit_test(octaves_are_the_spectrums),
+        cmocka_unit_test(scales_grow_with_what_is_unresolved),
         cmocka_unit_test(visible_moments_are_their_integrals),
         cmocka_unit_test(grazing_slopes_give_back_what_counts_twice),
         cmocka_unit_test(mean_of_a_pixel_is_beside_its_middle),
