@@ -40,7 +40,7 @@ mgt_status mgt_display(mgt_context *context, const mgt_scene *scene, const float
     return status == MGT_OK ? cpu_display(state, &context->report, &own, radiance, &own_target) : status;
 }
 
-/* A scene whose method has sums, at sea level. */
+/* A checked scene whose method has sums, at sea level. */
 static mgt_status take_summed(mgt_context *context, const mgt_scene *scene, const uint64_t *sums, mgt_scene *own)
 {
     const reporter *r = &context->report;
@@ -51,7 +51,7 @@ static mgt_status take_summed(mgt_context *context, const mgt_scene *scene, cons
         return report_error(r, MGT_ERROR_ARGUMENT, "render.sums", "the sums are NULL");
     if (!method_has_sums(own->quality.method))
         return report_error(r, MGT_ERROR_UNSUPPORTED, "render.sums", "method %s has no sums of samples; reference has", mgt_method_name(own->quality.method));
-    return MGT_OK;
+    return scene_ready(r, own);
 }
 
 mgt_status mgt_sum_samples(mgt_context *context, const mgt_scene *scene, uint64_t *sums)
@@ -62,8 +62,6 @@ mgt_status mgt_sum_samples(mgt_context *context, const mgt_scene *scene, uint64_
         return MGT_ERROR_ARGUMENT;
     context->error[0] = 0;
     mgt_status status = take_summed(context, scene, sums, &own);
-    if (status == MGT_OK)
-        status = scene_ready(&context->report, &own);
     if (status != MGT_OK || context->backend == &null_backend)
         return status;
     status = cpu_state(context, &state);
@@ -88,8 +86,6 @@ mgt_status mgt_render_sums(mgt_context *context, const mgt_scene *scene, const u
     mgt_status status = take_summed(context, scene, sums, &own);
     if (status == MGT_OK)
         status = targets_take(r, &own, own_targets, targets, count);
-    if (status == MGT_OK)
-        status = scene_ready(r, &own);
     if (status == MGT_OK && context->backend == &null_backend)
         return null_backend.render(NULL, r, &own, own_targets, count);
     if (status == MGT_OK)
