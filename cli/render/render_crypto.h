@@ -11,7 +11,8 @@ enum { CRYPTO_SIDE_DEFAULT = 4, CRYPTO_CHANNELS = 12 };
 
 typedef struct render_crypto render_crypto;
 
-/* For pictures of `width` × `height` pixels of the scene by `side` × `side` rays a pixel. Borrows the scene. *crypto is NULL on failure, which is printed; an exit code. */
+/* For pictures of `width` × `height` pixels of the scene by `side` × `side` rays a pixel. Borrows the scene. An exit code; on failure, which is printed,
+ * *crypto is NULL. */
 int render_crypto_create(render_crypto **crypto, const scene_file *file, const context_options *context, uint32_t side, uint32_t width, uint32_t height);
 
 /* A hash of the names, which change no pixel of other layers and are not in the scene's canonical text. */

@@ -331,7 +331,7 @@ static uint32_t reference_block_width(const mgt_quality *q)
     return samples > 16384 ? 1 : samples > 2048 ? 4 : REFERENCE_WIDTH;
 }
 
-/* Of a pixel within the crop. */
+/* The first word of the block's top left pixel among the sums of the crop. */
 static size_t sums_place(const render_job *job, const region *block)
 {
     return ((size_t)(block->y - job->crop.y) * job->crop.width + block->x - job->crop.x) * MGT_SUM_WORDS;

@@ -25,10 +25,10 @@ typedef struct object_ids_job {
 } object_ids_job;
 
 /*
- * Fills `pixels`, those of the scene's crop. Rays, jittered by the scene's seed in strata of the pixel and of the open shutter (of its end where the camera moves),
- * meet objects, or the surface and through it the objects behind. A ray that meets the surface counts as water by the share of its light that is mirrored
- * there, with the rest as what it meets then: an object, or the water. The bits depend neither on threads nor on the crop. MGT_ERROR_UNAVAILABLE in builds that
- * cannot trace, MGT_CANCELLED; then the pixels hold nothing of use.
+ * Fills `pixels`, those of the scene's crop, by rays that the scene's seed jitters in strata of the pixel and of the open shutter (of its end where the
+ * camera moves). A ray that meets the surface counts as water with the fraction of its light that is mirrored there, and with the rest as what it meets
+ * behind: an object, or the water. The bits depend neither on threads nor on the crop. After MGT_ERROR_UNAVAILABLE, in builds that cannot trace, or
+ * MGT_CANCELLED the pixels hold nothing of use.
  */
 mgt_status object_ids_draw(const object_ids_job *job, const reporter *report, object_shares *pixels);
 

@@ -36,7 +36,8 @@ typedef struct flip_exposures {
 enum { FLIP_EXPOSURES_MAX = 64 };
 
 /* The papers' range: from where the reference's brightest luminance is tone-mapped to 0.85 up to where its median is (of an even number of
- * pixels the mean of the two in the middle); one a stop, at least two, at most FLIP_EXPOSURES_MAX. Where the median is 0, that of the positive luminances stands in; a black picture gives {0, 0, 1}. */
+ * pixels the mean of the two in the middle); one a stop, at least two, at most FLIP_EXPOSURES_MAX. Where the median is 0, that of the positive
+ * luminances stands in; a black picture gives {0, 0, 1}. */
 flip_exposures flip_exposures_of(flip *flip, flip_picture reference);
 
 /* HDR-FLIP: the greatest FLIP of each pixel over the exposures, each of 2^stops · light, tone-mapped by Narkowicz's fit of ACES, clamped. */

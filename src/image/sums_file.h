@@ -1,9 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* Files of exact sums of samples (.sums): parts of a picture that several machines share, and checkpoints of one.
  *
- * "mangata sums 1" and a newline; 4 bytes, how long what follows is; a JSON object of strings, the metadata and among them `pixels` ("64x36", of the crop) and `ranges`
- * ("0,128 256,64", first sample and count); row by row and word by word, a byte and so many bytes a pixel as its low half says, from the place in the word that
- * its high half says, all others being zero; CRC-32 of all before. Numbers are little endian. */
+ * Numbers are little endian. A file holds, one after the other:
+ * - "mangata sums 1" and a newline;
+ * - 4 bytes, the length of the JSON object that follows: strings, the metadata, and among them `pixels` ("64x36", of the crop) and `ranges`
+ *   ("0,128 256,64", each a first sample and a count);
+ * - for each row of pixels, for each word of a pixel: one byte, then the bytes of that word of all the row's pixels that may be other than zero. The
+ *   byte's low half is how many those are of each pixel, its high half which of the word's eight is the first, 0 being the lowest;
+ * - the CRC-32 of all before. */
 #ifndef MANGATA_IMAGE_SUMS_FILE_H
 #define MANGATA_IMAGE_SUMS_FILE_H
 

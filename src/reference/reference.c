@@ -225,9 +225,9 @@ static bool shade_hit(const reference_frame *frame, const double view[3], double
     return reference_lights_met(frame->lights, mirrored);
 }
 
-/* Sums of a pixel, the same in whatever order and parts samples are added. */
 _Static_assert((int)REFERENCE_SUM_WORDS == 2 * SUM_COUNT, "two words a sum");
 
+/* Sums of a pixel, the same in whatever order and parts samples are added. */
 typedef struct pixel_sums {
     uint64_t hits, covered;
     exact_sum foam, hidden; /* foam, and how much of what is covered it hides */

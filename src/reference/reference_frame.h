@@ -61,7 +61,7 @@ struct reference_frame {
     double height_bound; /* no wave rises above it, ± */
 
     uint64_t sample_first, sample_count; /* resolved range */
-    double most;                         /* that a sample adds */
+    double most;                         /* what one sample adds at most, so that the sums of all fit */
 
     uint32_t level_count;
     reference_level levels[REFERENCE_LEVELS];
