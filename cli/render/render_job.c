@@ -180,7 +180,7 @@ static int print_path(const render_job *job, uint32_t frame, char path[JOB_PATH]
     return render_job_path(&job->request->path, job->request->output, frame, path);
 }
 
-/* Writes the frame as text into `number`. */
+/* Writes the frame as text into `number`. A part that parts are joined into is told from another by the samples that they hold. */
 static int hash_frame(render_job *job, uint32_t frame, char number[16], sha256_text *hash)
 {
     char meant[100];
@@ -285,10 +285,7 @@ static int render_still(render_job *job, uint32_t frame)
     mgt_scene scene;
     double seconds = 0;
     if (!plan.skip) {
-        if (job->sums)
-            code = render_sums_plan(job, frame);
-        if (code == EXIT_CODE_OK)
-            code = render_frame(job, frame, path, &scene, &seconds);
+        code = render_frame(job, frame, path, &scene, &seconds);
         if (code != EXIT_CODE_OK)
             return code;
         render_record record;
@@ -367,10 +364,7 @@ static int render_film(render_job *job)
     for (uint64_t i = 0; i < count; i++) {
         mgt_scene scene;
         double seconds;
-        const uint32_t frame = frame_list_at(&r->frames, i);
-        code = job->sums ? render_sums_plan(job, frame) : EXIT_CODE_OK;
-        if (code == EXIT_CODE_OK)
-            code = render_frame(job, frame, path, &scene, &seconds);
+        code = render_frame(job, frame_list_at(&r->frames, i), path, &scene, &seconds);
         if (code == EXIT_CODE_OK && video_writer_frame(writer, job->buffer.targets[0].pixels, 0, &error) != FILE_OK)
             code = render_job_file_failure(job, &error);
         if (code != EXIT_CODE_OK) {

@@ -23,7 +23,7 @@ typedef struct render_job {
     double seconds, least, most; /* of rendering alone */
     json_t *files;               /* with --json */
     uint64_t *sums;              /* of the frame, where pictures are made of sums; NULL: they are not */
-    sums_ranges ranges;          /* whose samples they hold, or will hold */
+    sums_ranges ranges;          /* the samples that they hold, or that a merge's parts hold */
 } render_job;
 
 enum { JOB_PATH = 4600 };

@@ -101,18 +101,18 @@ static int join_part(render_job *job, const sums_file *part, const char *path)
     for (size_t i = 0; i < part->ranges.count; i++) {
         const sums_range *range = &part->ranges.items[i];
         sums_range overlap;
-        if (range->first < all.first || range->first + range->count > all.first + all.count)
+        const bool inside = range->first >= all.first && range->first + range->count <= all.first + all.count;
+        const sums_joined joined = inside ? sums_ranges_join(&job->ranges, *range, &overlap) : SUMS_JOINED;
+        if (inside && joined == SUMS_JOINED)
+            continue;
+        progress_clear(&job->progress);
+        if (!inside)
             return console_error(EXIT_CODE_BAD_INPUT, "%s: it has the samples %" PRIu64 ",%" PRIu64 "; allowed are those within %" PRIu64 ",%" PRIu64, path,
                                  range->first, range->count, all.first, all.count);
-        switch (sums_ranges_join(&job->ranges, *range, &overlap)) {
-        case SUMS_OVERLAP:
+        if (joined == SUMS_OVERLAP)
             return console_error(EXIT_CODE_BAD_INPUT, "%s: its samples %" PRIu64 ",%" PRIu64 " are in an earlier part as well", path, overlap.first,
                                  overlap.count);
-        case SUMS_TOO_MANY:
-            return console_error(EXIT_CODE_BAD_INPUT, "%s: the parts leave more than %d gaps between their samples", path, SUMS_RANGES_MOST);
-        case SUMS_JOINED:
-            break;
-        }
+        return console_error(EXIT_CODE_BAD_INPUT, "%s: the parts leave more than %d gaps between their samples", path, SUMS_RANGES_MOST);
     }
     return EXIT_CODE_OK;
 }
@@ -135,49 +135,37 @@ static int open_part(render_job *job, size_t index, uint32_t frame, const render
     return wrong;
 }
 
-static int plan_parts(render_job *job, uint32_t frame, const render_record *record)
+/* Opens every part of the frame, joins their ranges and, with `add`, fills the job's sums with theirs. */
+static int read_parts(render_job *job, uint32_t frame, const render_record *record, bool add)
 {
     const render_request *r = job->request;
     char path[JOB_PATH];
     sums_file part;
-    progress_clear(&job->progress);
+    file_error error;
+    if (add)
+        clear_sums(job);
     job->ranges.count = 0;
     for (size_t i = 0; i < r->part_count; i++) {
         int code = *interrupt_flag() ? render_job_stopped(job) : open_part(job, i, frame, record, path, &part);
         if (code != EXIT_CODE_OK)
             return code;
         code = join_part(job, &part, path);
+        if (code == EXIT_CODE_OK && add && sums_add(&part, job->image.crop_width, job->image.crop_height, job->sums, &error) != FILE_OK)
+            code = render_job_file_failure(job, &error);
         sums_close(&part);
         if (code != EXIT_CODE_OK)
             return code;
+        if (add)
+            progress_update(&job->progress, (double)(i + 1) / (double)r->part_count);
     }
     const sums_range gap = sums_ranges_gap(&job->ranges, wanted_range(&r->quality));
-    if (gap.count && r->format != PICTURE_SUMS)
-        return console_error(EXIT_CODE_NO_INPUT,
-                             "frame %u: no part has the samples %" PRIu64 ",%" PRIu64 " of %" PRIu64 "; mangata render … -o PART.sums --samples-range %" PRIu64
-                             ",%" PRIu64 " makes it",
-                             frame, gap.first, gap.count, samples_of(&r->quality), gap.first, gap.count);
-    return EXIT_CODE_OK;
-}
-
-static int add_parts(render_job *job, uint32_t frame, const render_record *record)
-{
-    const size_t count = job->request->part_count;
-    char path[JOB_PATH];
-    sums_file part;
-    file_error error;
-    memset(job->sums, 0, pixels_of(job) * MGT_SUM_WORDS * sizeof *job->sums);
-    for (size_t i = 0; i < count; i++) {
-        const int code = *interrupt_flag() ? render_job_stopped(job) : open_part(job, i, frame, record, path, &part);
-        if (code != EXIT_CODE_OK)
-            return code;
-        const file_status status = sums_add(&part, job->image.crop_width, job->image.crop_height, job->sums, &error);
-        sums_close(&part);
-        if (status != FILE_OK)
-            return render_job_file_failure(job, &error);
-        progress_update(&job->progress, (double)(i + 1) / (double)count);
-    }
-    return EXIT_CODE_OK;
+    if (gap.count == 0 || r->format == PICTURE_SUMS)
+        return EXIT_CODE_OK;
+    progress_clear(&job->progress);
+    return console_error(EXIT_CODE_NO_INPUT,
+                         "frame %u: no part has the samples %" PRIu64 ",%" PRIu64 " of %" PRIu64 "; mangata render … -o PART.sums --samples-range %" PRIu64
+                         ",%" PRIu64 " makes it",
+                         frame, gap.first, gap.count, samples_of(&r->quality), gap.first, gap.count);
 }
 
 /* ---- checkpoints ---- */
@@ -300,13 +288,8 @@ file_status render_sums_write(render_job *job, uint32_t frame, const char *path,
 int render_sums_plan(render_job *job, uint32_t frame)
 {
     render_record record;
-    if (job->request->part_count) {
-        const int code = record_of(job, frame, &record);
-        return code == EXIT_CODE_OK ? plan_parts(job, frame, &record) : code;
-    }
-    job->ranges.count = 1;
-    job->ranges.items[0] = wanted_range(&job->request->quality);
-    return EXIT_CODE_OK;
+    const int code = record_of(job, frame, &record);
+    return code == EXIT_CODE_OK ? read_parts(job, frame, &record, false) : code;
 }
 
 int render_sums_fill(render_job *job, uint32_t frame, const mgt_scene *scene, const char *path)
@@ -317,7 +300,7 @@ int render_sums_fill(render_job *job, uint32_t frame, const mgt_scene *scene, co
     if (code != EXIT_CODE_OK)
         return code;
     if (job->request->part_count)
-        return add_parts(job, frame, &record);
+        return read_parts(job, frame, &record, true);
     clear_sums(job);
     if (job->request->checkpoint <= 0)
         return sum_range(job, frame, scene, wanted_range(&job->request->quality));

@@ -14,14 +14,14 @@ int render_sums_check(const render_request *request, const mgt_scene *scene);
 /* Memory for the sums of a frame. */
 int render_sums_create(render_job *job);
 
-/* Before a frame: which samples its sums will hold. Of a merge: reads the head of every part, which must belong to this frame and share no sample with another; a
- * picture needs all samples. */
+/* Of a merge, before anything is rendered: reads the heads of a frame's parts into job->ranges. Each must belong to the frame and share no sample with
+ * another; a picture needs all samples. */
 int render_sums_plan(render_job *job, uint32_t frame);
 
 /* Whether the planned sums are of all samples of a pixel. */
 bool render_sums_complete(const render_job *job);
 
-/* Fills the sums of a planned frame. `path`: the output's, beside which a checkpoint stands. */
+/* Fills the sums of a frame and job->ranges, after the same checks. `path`: the output's, beside which a checkpoint stands. */
 int render_sums_fill(render_job *job, uint32_t frame, const mgt_scene *scene, const char *path);
 
 /* Writes the sums of the frame. `record`: what any output of it records; gets more. */
