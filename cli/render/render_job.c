@@ -29,6 +29,16 @@ int render_job_file_failure(render_job *job, const file_error *error)
     return error->status == FILE_CANCELLED ? render_job_stopped(job) : console_file_error(error);
 }
 
+int render_job_ended(render_job *job, uint32_t frame, mgt_status status)
+{
+    if (status == MGT_OK && !*interrupt_flag())
+        return EXIT_CODE_OK;
+    progress_clear(&job->progress);
+    if (status == MGT_CANCELLED || *interrupt_flag())
+        return render_job_stopped(job);
+    return console_error(exit_code_of_status(status), "frame %u: %s", frame, mgt_last_error(job->context));
+}
+
 static bool on_progress(void *user, double fraction)
 {
     render_job *job = user;
@@ -244,12 +254,9 @@ static int render_frame(render_job *job, uint32_t frame, const char *path, mgt_s
         return code;
     const mgt_status status = render_pixels(job, scene);
     *seconds = seconds_now() - start;
-    if (status != MGT_OK || *interrupt_flag())
-        progress_clear(&job->progress);
-    if (status == MGT_CANCELLED || *interrupt_flag())
-        return render_job_stopped(job);
-    if (status != MGT_OK)
-        return console_error(exit_code_of_status(status), "frame %u: %s", frame, mgt_last_error(job->context));
+    code = render_job_ended(job, frame, status);
+    if (code != EXIT_CODE_OK)
+        return code;
     if (job->buffer.displayed)
         frame_buffer_display(&job->buffer);
     job->seconds += *seconds;

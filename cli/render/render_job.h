@@ -31,6 +31,9 @@ enum { JOB_PATH = 4600 };
 /* Says that a signal has stopped the render; its exit code. */
 int render_job_stopped(const render_job *job);
 
+/* What a call into the library for a frame ended with: prints its error, or that a signal has stopped it. An exit code. */
+int render_job_ended(render_job *job, uint32_t frame, mgt_status status);
+
 /* Prints an error of a file and returns its exit code. */
 int render_job_file_failure(render_job *job, const file_error *error);
 

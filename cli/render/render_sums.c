@@ -225,15 +225,10 @@ static int sum_range(render_job *job, uint32_t frame, const mgt_scene *scene, su
     sums_range unused;
     part.quality.sample_first = range.first;
     part.quality.sample_count = range.count;
-    const mgt_status status = mgt_sum_samples(job->context, &part, job->sums);
-    if (status != MGT_OK || *interrupt_flag())
-        progress_clear(&job->progress);
-    if (status == MGT_CANCELLED || *interrupt_flag())
-        return render_job_stopped(job);
-    if (status != MGT_OK)
-        return console_error(exit_code_of_status(status), "frame %u: %s", frame, mgt_last_error(job->context));
-    sums_ranges_join(&job->ranges, range, &unused);
-    return EXIT_CODE_OK;
+    const int code = render_job_ended(job, frame, mgt_sum_samples(job->context, &part, job->sums));
+    if (code == EXIT_CODE_OK)
+        sums_ranges_join(&job->ranges, range, &unused);
+    return code;
 }
 
 /* In slices of about the time between checkpoints. */
