@@ -4,11 +4,7 @@
  */
 #define _GNU_SOURCE /* memfd_create */
 
-#include <sys/mman.h>
-#include <unistd.h>
-
-#include "fuzz.h"
-#include "image/file_whole.h"
+#include "fuzz_file.h"
 #include "image/sums_file.h"
 
 enum { PIXELS_MOST = 4096 };
@@ -37,17 +33,8 @@ static void read_sums(const char *path)
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
 {
-    char path[64], *value = NULL;
-    file_error error = {0};
-    file_state state;
-    const int descriptor = memfd_create("fuzz", MFD_CLOEXEC);
-    fuzz_require(descriptor >= 0 && write(descriptor, bytes, size) == (ssize_t)size, "no memory file");
-    snprintf(path, sizeof path, "/proc/self/fd/%d", descriptor);
-    read_sums(path);
-    if (metadata_read(path, "render_hash", &value, &error) != FILE_OK)
-        fuzz_require_message(error.text);
-    free(value);
-    file_state_read(path, "render_hash", "abc", true, &state, &error);
-    close(descriptor);
+    const fuzz_file file = fuzz_file_open(bytes, size);
+    read_sums(file.path);
+    fuzz_file_close(&file);
     return 0;
 }
