@@ -342,7 +342,7 @@ static const option diff_options[] = {
     {"error-map", 0, "METRIC=FILE",
      "writes the error of each pixel by rmse, relrmse, flip, hdr-flip, ssim\n"
      "or flicker, which is measured: a .png in colours from black to pale\n"
-     "yellow, or .exr or .pfm with the values; may be repeated",
+     "yellow, or .exr or .pfm with the values; repeat it for more metrics",
      .set = option_error_map, .offset = offsetof(diff_request, maps)},
     {"error-top", 0, "X", "what the brightest colour of a .png map of rmse, relrmse or flicker\nstands for (default 1)", .set = set_error_top,
      .offset = offsetof(diff_request, maps.top)},

@@ -25,6 +25,8 @@ int option_error_map(const option *o, void *place, const char *value)
     if (i == MAPPED || !value[length])
         return option_wrong(o, value, mapped_words);
     diff_map *map = &m->maps[mapped[i]];
+    if (map->path)
+        return console_error(EXIT_CODE_USAGE, "--%s %s: the metric has a map already, %s", o->name, value, map->path);
     map->path = value + length + 1;
     map->format = picture_format_of(map->path);
     if (map->format != PICTURE_PNG && map->format != PICTURE_EXR && map->format != PICTURE_PFM)
