@@ -67,7 +67,8 @@ int option_exr(const option *o, void *place, const char *value)
     for (const char *word = value;; word++) {
         const size_t length = strcspn(word, ",");
         if (!take_word(place, word, length))
-            return console_error(EXIT_CODE_USAGE, "--%s %s: allowed are %s, with commas between them", o->name, value, names_list(exr_words).text);
+            return console_error(EXIT_CODE_USAGE, "--%s %s: allowed are %s, or cryptomatte:N with N from 1 to %d, with commas between them", o->name, value,
+                                 names_list(exr_words).text, OBJECT_SIDE_MAX);
         word += length;
         if (!*word)
             return EXIT_CODE_OK;

@@ -139,7 +139,7 @@ else
     echo "NOTICE: no python3 or no Embree here; mattes were not decoded"
 fi
 for word in cryptomatte:0 cryptomatte:17 cryptomatte: cryptomatte:4x cryptomatt; do
-    expect 64 'allowed are float, half' render "$simple" -o a.exr --exr $word
+    expect 64 'allowed are float, half, .* or cryptomatte:N with N from 1 to 16' render "$simple" -o a.exr --exr $word
 done
 
 # Hashes: what --exr says changes them; the default of a whole picture does not.
