@@ -98,7 +98,7 @@ static int set_checkpoint(const option *o, void *place, const char *value)
 static int check_sums(render_request *r)
 {
     if (r->format == PICTURE_SUMS && r->layer_count)
-        return console_error(EXIT_CODE_USAGE, "-o %s: a file of sums serves every layer; --layer belongs to mangata merge", r->output);
+        return console_error(EXIT_CODE_USAGE, "-o %s: a file of sums serves every layer; --layer is for the mangata merge that makes a picture", r->output);
     if (r->checkpoint > 0 && render_is_film(r))
         return console_error(EXIT_CODE_USAGE, "-o %s: --checkpoint is for pictures; a film is made of them afterwards", r->output);
     if (r->format == PICTURE_SUMS && r->context.backend == MGT_BACKEND_GL)
@@ -256,7 +256,7 @@ int verb_render(int count, char **arguments)
 static const option_table merge_table =
     {"merge",
      "SCENE PART.sums... -o OUT [options]",
-     "Makes the picture of which mangata render -o PART.sums --samples-range has rendered the samples.",
+     "Makes a picture of samples that mangata render -o PART.sums --samples-range has rendered in parts.",
      render_options,
      sizeof render_options / sizeof render_options[0] - RENDER_ONLY,
      .notes = "The scene and the options are those of the parts, which hold exact sums: however the samples were cut into parts, the picture has\n"

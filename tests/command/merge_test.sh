@@ -104,7 +104,7 @@ works merge "$sunset" glare.sums -o glare.exr "${glare[@]}" --quiet
 # What a file of sums cannot be asked for.
 bad() { expect 64 "$1" render "$sunset" -o bad.sums "${@:2}"; }
 bad 'method mangata has no exact sums of samples; --method reference has'
-bad '--layer belongs to mangata merge' --method reference --layer color
+bad '--layer is for the mangata merge that makes a picture' --method reference --layer color
 bad 'leave out --backend gl' --method reference --backend gl
 bad '--samples-range 3/3: allowed is FIRST,COUNT .*, or I/N' --method reference --samples-range 3/3
 bad '--samples-range 0/600: a pixel has only 512 samples' --method reference --samples-range 0/600
