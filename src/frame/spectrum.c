@@ -9,6 +9,8 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "base/srgb_matrix.h"
+
 /* Value of a table whose nodes lie `step` apart from `first`, linear between them, constant outside. */
 static double table_at(const double *values, size_t count, double first, double step, double at)
 {
@@ -53,7 +55,6 @@ static void observer_xyz(double nm, double xyz[3])
 
 spectrum_weights spectrum_weights_make(void)
 {
-    static const double srgb_from_xyz[3][3] = {{3.2404542, -1.5371385, -0.4985314}, {-0.9692660, 1.8760108, 0.0415560}, {0.0556434, -0.2040259, 1.0572252}};
     spectrum_weights weights;
     memset(&weights, 0, sizeof weights);
     for (int nm = 360; nm <= 780; ++nm) {

@@ -4,13 +4,13 @@
 
 #include <math.h>
 
+#include "base/srgb_matrix.h"
 #include "image/metrics_color.h"
 
 static double lab_inverse(double f) { return f > 6.0 / 29.0 ? f * f * f : 3 * (6.0 / 29.0) * (6.0 / 29.0) * (f - 4.0 / 29.0); }
 
 static void color_of(double t, uint8_t rgb[3])
 {
-    static const double to_light[3][3] = {{3.2404542, -1.5371385, -0.4985314}, {-0.9692660, 1.8760108, 0.0415560}, {0.0556434, -0.2040259, 1.0572252}};
     static const double white[3] = {0.95047, 1, 1.08883};
     const double lightness = 98 * t;
     const double chroma = 220 * pow(t, 0.75) * pow(1 - t, 1.25) + 31 * t * t * t;
@@ -20,7 +20,7 @@ static void color_of(double t, uint8_t rgb[3])
     for (int c = 0; c < 3; c++) {
         double light = 0;
         for (int k = 0; k < 3; k++)
-            light += to_light[c][k] * white[k] * lab_inverse(f[k]);
+            light += srgb_from_xyz[c][k] * white[k] * lab_inverse(f[k]);
         rgb[c] = (uint8_t)(color_srgb_encode(color_clamp((float)light)) * 255 + 0.5f);
     }
 }
