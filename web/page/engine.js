@@ -137,7 +137,7 @@ class Engine {
 
   // What lanes.tiles() gave.
   upload(tiles) {
-    const gl = this.gl, columns = 192, rows = 129;
+    const gl = this.gl, { skyColumns: columns, skyRows: rows } = tiles;
     this.block("frame", 0, tiles.frame);
     if (tiles.foam) {
       this.block("foam", 1, tiles.foam);
@@ -207,7 +207,6 @@ class Engine {
     const entry = await this.compiled(this.methodProgram(method, { choppy: tiles.choppy, foamy: tiles.foam !== null }));
     if (METHODS[method].map && !await this.makeMap({ method, settings, width, height }, tiles.lean, stale)) return false;
     this.upload(tiles);
-    this.bind("sky_texture", this.sky);
     this.gl.useProgram(entry.program);
     this.gl.uniform2i(this.place(entry, "tile_grid"), tiles.columns, height);
     for (let row = 0, rows = stale ? Math.ceil(5e4 / width) : height; row < height; row += rows) {

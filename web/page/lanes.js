@@ -38,7 +38,7 @@ function laneTasks(post) {
       frame: library.copy(Uint8Array, frame, calls.frame_bytes()), waves: library.copy(Float32Array, waves, 512 * 24), waveCount, choppy: choppy !== 0, columns, rows,
       foam: hasFoam ? library.copy(Uint8Array, foam, foamBytes) : null, foamWaves: hasFoam ? library.copy(Float32Array, foam + foamBytes, 24 * waveCount) : null,
       lean: leanData ? { data: library.copy(Uint8Array, leanData, 32), waves: library.copy(Uint8Array, leanWaves, 32 * leanCount), count: leanCount } : null,
-      sky: library.copy(Float32Array, calls.sky_table(), 3 * 192 * 129), tileWords: calls.tile_bytes() / 4,
+      skyColumns: calls.sky_columns(), skyRows: calls.sky_rows(), sky: library.copy(Float32Array, calls.sky_table(), 3 * calls.sky_columns() * calls.sky_rows()), tileWords: calls.tile_bytes() / 4,
     };
   };
   return async task => {

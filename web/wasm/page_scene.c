@@ -22,6 +22,8 @@ const sky_state *page_sky(void) { return sky; }
 EXPORT(settings) double *page_settings(void) { return settings; }
 EXPORT(target) double *page_target(void) { return target; }
 EXPORT(sky_table) const float *page_sky_table(void) { return sky->table; }
+EXPORT(sky_columns) int page_sky_columns(void) { return SKY_COLUMNS; }
+EXPORT(sky_rows) int page_sky_rows(void) { return SKY_TABLE_ROWS; }
 
 static mgt_status draw_sea(void)
 {
