@@ -2,14 +2,12 @@
  * The tiled map of slope moments of methods lean and leadr, made from the waves of an instant. */
 #include "cpu/lean_map.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "frame/frame.h"
 #include "cpu/baseline_lanes.h"
-
-static const double turn = 6.28318530717958647692;
+#include "cpu/lean_rows.h"
 
 /* ---- level 0 ---- */
 
@@ -25,15 +23,7 @@ static void fill_columns(void *argument, size_t block, uint32_t worker)
 {
     (void)worker;
     const map_job *job = argument;
-    const lean_waves *waves = &job->map->waves;
-    for (size_t i = 0; i < waves->count; i++) {
-        float *out = job->columns + (block * waves->count + i) * 2 * LEAN_BLOCK;
-        for (int x = 0; x < LEAN_BLOCK; x++) {
-            const unsigned part = lean_column_part(waves, i, block * LEAN_BLOCK + (size_t)x);
-            out[x] = job->cosines[part % LEAN_SIZE];
-            out[LEAN_BLOCK + x] = job->cosines[(part + 3 * LEAN_SIZE / 4) % LEAN_SIZE];
-        }
-    }
+    lean_fill_block(&job->map->waves, job->cosines, block, job->columns);
 }
 
 static void fill_rows(void *argument, size_t index, uint32_t worker)
@@ -42,12 +32,7 @@ static void fill_rows(void *argument, size_t index, uint32_t worker)
     const map_job *job = argument;
     const lean_waves *waves = &job->map->waves;
     lean_phase phases[MGT_MAX_WAVES];
-    for (size_t i = 0; i < waves->count; i++)
-        for (int r = 0; r < LEAN_ROWS; r++) {
-            const double angle = lean_row_angle(waves, i, index * LEAN_ROWS + (size_t)r);
-            phases[i].cosine[r] = (float)cos(angle);
-            phases[i].minus_sine[r] = (float)-sin(angle);
-        }
+    lean_fill_phases(waves, index * LEAN_ROWS, phases);
     const size_t first = index * LEAN_ROWS * LEAN_SIZE;
     job->kernels->baselines->lean_rows(waves, phases, job->map->slope_x + first, job->map->slope_z + first);
 }
@@ -110,8 +95,7 @@ static bool fill(lean_map *map, const lane_kernels *kernels, thread_pool *pool)
     map->waves.columns = job.columns = malloc((map->waves.count + 1) * LEAN_SIZE * 2 * sizeof *job.columns);
     const bool enough = allocate(map) && job.cosines && job.columns;
     if (enough) {
-        for (int i = 0; i < LEAN_SIZE; i++)
-            job.cosines[i] = (float)cos(turn * i / LEAN_SIZE);
+        lean_fill_cosines(job.cosines);
         thread_pool_run(pool, &(thread_loop){.count = LEAN_SIZE / LEAN_BLOCK, .body = fill_columns, .argument = &job});
         thread_pool_run(pool, &(thread_loop){.count = LEAN_SIZE / LEAN_ROWS, .body = fill_rows, .argument = &job});
         for (; job.level < LEAN_LEVELS - 1; job.level++)

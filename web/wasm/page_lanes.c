@@ -2,6 +2,7 @@
  * The kernels over a tile once more, with what the page's shaders read of it. The library's file is a part of this one. */
 #include "cpu/lanes.c"
 
+#include "cpu/baseline_lanes.h"
 #include "cpu/tile_job.h"
 #include "page.h"
 
@@ -69,39 +70,28 @@ void page_shade(const FrameData *data, mgt_method method, const page_tile *tile,
     lanes_method(method, &t, out);
 }
 
-/* Displayed colours of MGT_LANES pixels of 4 floats, or of as many as there are. */
-static vec3 displayed_pixels(CTX cx, const float *rgba, float weight, size_t count)
+enum { PACKED = 64 };
+
+/* Colours of at most PACKED pixels of 4 floats, times `weight`. Returns how many. */
+static size_t pack(const float *rgba, float weight, size_t count, float rgb[3 * PACKED])
 {
-    float rgb[3 * MGT_LANES] = {0};
-    for (size_t i = 0; i < count && i < MGT_LANES; i++)
+    const size_t pixels = count < PACKED ? count : PACKED;
+    for (size_t i = 0; i < pixels; i++)
         for (size_t c = 0; c < 3; c++)
             rgb[3 * i + c] = weight * rgba[4 * i + c];
-    return displayed_lanes(cx, rgb, MGT_LANES);
+    return pixels;
 }
 
 void page_display(const FrameData *data, const float *rgba, uint8_t *shown, size_t count)
 {
-    const struct kernel_context cx = {.frame = data};
-    for (size_t i = 0; i < count; i += MGT_LANES) {
-        const vec3 color = displayed_pixels(&cx, rgba + 4 * i, 1, count - i);
-        float code[3][MGT_LANES];
-        store(code[0], display_code(&cx, color.x));
-        store(code[1], display_code(&cx, color.y));
-        store(code[2], display_code(&cx, color.z));
-        for (size_t lane = 0; lane < MGT_LANES && i + lane < count; lane++) {
-            for (size_t c = 0; c < 3; c++)
-                shown[4 * (i + lane) + c] = (uint8_t)code[c][lane];
-            shown[4 * (i + lane) + 3] = 255;
-        }
-    }
+    float rgb[3 * PACKED];
+    for (size_t i = 0; i < count; i += PACKED)
+        lanes_display(data, rgb, shown + 4 * i, pack(rgba + 4 * i, 1, count - i, rgb));
 }
 
 void page_luma(const FrameData *data, const float *rgba, float weight, float *luma, size_t count)
 {
-    const struct kernel_context cx = {.frame = data};
-    for (size_t i = 0; i < count; i += MGT_LANES) {
-        float lanes[MGT_LANES];
-        store(lanes, display_luma(&cx, displayed_pixels(&cx, rgba + 4 * i, weight, count - i)));
-        memcpy(luma + i, lanes, (count - i < MGT_LANES ? count - i : MGT_LANES) * sizeof *luma);
-    }
+    float rgb[3 * PACKED];
+    for (size_t i = 0; i < count; i += PACKED)
+        baseline_kernels_4.luma(data, rgb, luma + i, pack(rgba + 4 * i, weight, count - i, rgb));
 }

@@ -2,11 +2,11 @@
  * Level 0 of the map of slope moments of method leadr, by bands of rows, in half precision. Shaders make its other levels. */
 #include "page.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "cpu/baseline_lanes.h"
+#include "cpu/lean_rows.h"
 
 enum { BAND_ROWS = 64 };
 
@@ -18,18 +18,12 @@ static uint16_t band[BAND_ROWS * LEAN_SIZE][2];
 static void make_columns(void)
 {
     static float cosines[LEAN_SIZE];
-    for (int i = 0; i < LEAN_SIZE; i++)
-        cosines[i] = (float)cos(6.28318530717958647692 * i / LEAN_SIZE);
-    float *out = columns = realloc(columns, waves.count * LEAN_SIZE * 2 * sizeof *columns);
+    lean_fill_cosines(cosines);
+    columns = realloc(columns, waves.count * LEAN_SIZE * 2 * sizeof *columns);
     if (waves.count > 0 && !columns)
         abort();
-    for (size_t first = 0; first < LEAN_SIZE; first += LEAN_BLOCK)
-        for (size_t i = 0; i < waves.count; i++, out += 2 * LEAN_BLOCK)
-            for (size_t x = 0; x < LEAN_BLOCK; x++) {
-                const unsigned part = lean_column_part(&waves, i, first + x);
-                out[x] = cosines[part % LEAN_SIZE];
-                out[LEAN_BLOCK + x] = cosines[(part + 3 * LEAN_SIZE / 4) % LEAN_SIZE];
-            }
+    for (size_t block = 0; block < LEAN_SIZE / LEAN_BLOCK; block++)
+        lean_fill_block(&waves, cosines, block, columns);
 }
 
 void page_lean_begin(const lean_waves *of)
@@ -59,12 +53,7 @@ EXPORT(lean_band) const uint16_t *page_lean_band(int index)
 {
     static lean_phase phases[MGT_MAX_WAVES];
     for (size_t row = 0; row < BAND_ROWS; row += LEAN_ROWS) {
-        for (size_t i = 0; i < waves.count; i++)
-            for (size_t r = 0; r < LEAN_ROWS; r++) {
-                const double angle = lean_row_angle(&waves, i, (size_t)index * BAND_ROWS + row + r);
-                phases[i].cosine[r] = (float)cos(angle);
-                phases[i].minus_sine[r] = (float)-sin(angle);
-            }
+        lean_fill_phases(&waves, (size_t)index * BAND_ROWS + row, phases);
         baseline_kernels_4.lean_rows(&waves, phases, rows[0], rows[1]);
         for (size_t i = 0; i < LEAN_ROWS * LEAN_SIZE; i++)
             for (int c = 0; c < 2; c++)

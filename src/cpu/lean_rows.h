@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: MIT
+ * What lean_rows() of a baseline_kernels reads, made from the waves of a map of slope moments. */
+#ifndef MANGATA_CPU_LEAN_ROWS_H
+#define MANGATA_CPU_LEAN_ROWS_H
+
+#include <math.h>
+
+#include "cpu/lean_map.h"
+
+/* Of LEAN_SIZE equal parts of a turn. */
+static inline void lean_fill_cosines(float *cosines)
+{
+    for (int i = 0; i < LEAN_SIZE; i++)
+        cosines[i] = (float)cos(6.28318530717958647692 * i / LEAN_SIZE);
+}
+
+/* The part of `columns`, which become lean_waves.columns, that belongs to a block of LEAN_BLOCK columns. */
+static inline void lean_fill_block(const lean_waves *waves, const float *cosines, size_t block, float *columns)
+{
+    float *out = columns + block * waves->count * 2 * LEAN_BLOCK;
+    for (size_t i = 0; i < waves->count; i++, out += 2 * LEAN_BLOCK)
+        for (int x = 0; x < LEAN_BLOCK; x++) {
+            const unsigned part = lean_column_part(waves, i, block * LEAN_BLOCK + (size_t)x);
+            out[x] = cosines[part % LEAN_SIZE];
+            out[LEAN_BLOCK + x] = cosines[(part + 3 * LEAN_SIZE / 4) % LEAN_SIZE];
+        }
+}
+
+/* A phase per wave for LEAN_ROWS rows from `row` on. */
+static inline void lean_fill_phases(const lean_waves *waves, size_t row, lean_phase *phases)
+{
+    for (size_t i = 0; i < waves->count; i++)
+        for (int r = 0; r < LEAN_ROWS; r++) {
+            const double angle = lean_row_angle(waves, i, row + (size_t)r);
+            phases[i].cosine[r] = (float)cos(angle);
+            phases[i].minus_sine[r] = (float)-sin(angle);
+        }
+}
+
+#endif
