@@ -217,7 +217,7 @@ class Engine {
     return true;
   }
 
-  // The map of slope moments that `lean` says; one that is there already stays. this.progress, where it is set, gets the share of the map that is made.
+  // The map of slope moments that `lean` says; one that is there already stays. this.progress, where it is set, gets the fraction of the map that is made.
   async makeMap(job, lean, stale) {
     const { gl } = this, key = lean.waves.join();
     this.block("lean", 3, lean.data);
@@ -265,7 +265,7 @@ class Engine {
     gl.useProgram(entry.program);
     this.bind("current_texture", history.current.texture);
     this.bind("history_texture", history.pictures[0].texture);
-    gl.uniform1f(this.place(entry, "share"), history.frames === 0 ? 1 : Math.max(1 / (history.frames + 1), 0.1));
+    gl.uniform1f(this.place(entry, "weight"), history.frames === 0 ? 1 : Math.max(1 / (history.frames + 1), 0.1));
     this.fill(entry, history.pictures[1]);
     history.pictures.reverse();
     history.frames++;
@@ -282,19 +282,17 @@ class Engine {
     return { current: this.target(width, height), pictures: [this.target(width, height), this.target(width, height)], frames: 0 };
   }
 
-  // Shows one picture, or two of the same size: the first in the left `share` of the canvas, which gets the picture's size. False while the program is compiled.
-  show(first, second = first, share = 1) {
+  // Shows one picture, or two of the same size: the first in the left `fraction` of the canvas, which gets the picture's size. The program must have been compiled.
+  show(first, second = first, fraction = 1) {
     const { gl, canvas } = this, { width, height } = first, entry = this.program("display.frag", "", "", "");
-    if (!this.isReady(entry)) return false;
     if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
     gl.useProgram(entry.program);
     this.bind("first_texture", first.texture);
     this.bind("second_texture", second.texture);
-    gl.uniform1i(this.place(entry, "wipe"), Math.round(share * width));
+    gl.uniform1i(this.place(entry, "wipe"), Math.round(fraction * width));
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
     gl.viewport(0, 0, width, height);
     gl.drawArrays(gl.TRIANGLES, 0, 3);
-    return true;
   }
 
   read(target) {

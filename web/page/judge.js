@@ -91,7 +91,7 @@ class Judge {
 
   stop() { this.round++; this.idle = true; }
 
-  // Judges pictures[side][instant], floats of width × height, of settings[instant] by up to `most` samples. `duty`: share of the time that it works.
+  // Judges pictures[side][instant], floats of width × height, of settings[instant] by up to `most` samples. `duty`: fraction of the time that it works.
   // found(sides, samples) gets error, energy, contrast and flicker whenever the samples have doubled.
   async begin({ settings, width, height, pictures, most, duty }, found) {
     const round = ++this.round;

@@ -29,7 +29,7 @@ function setPlaying(playing) {
 
 // ---- pictures ----
 
-// Of a picture with a share of the window's pixels each way.
+// Width and height of a picture; scale(): its pixels over the window's, each way. The first call decides page.scale.
 function sizes(scale) {
   const canvas = element("canvas"), ratio = Math.min(devicePixelRatio || 1, 2);
   const width = Math.max(64, Math.round(canvas.clientWidth * ratio)), height = Math.max(36, Math.round(canvas.clientHeight * ratio));
@@ -82,11 +82,11 @@ async function take(pictures, settled) {
   page.frames++;
 }
 
-function tellProgress(share) {
-  if (share === 1) tell("");
+function tellProgress(fraction) {
+  if (fraction === 1) tell("");
   else if (page.mapBegun === undefined) page.mapBegun = performance.now();
-  else if (performance.now() - page.mapBegun > 400) tell(`The map of slopes of leadr is being made: ${Math.round(100 * share)} %`);
-  if (share === 1) page.mapBegun = undefined;
+  else if (performance.now() - page.mapBegun > 400) tell(`The map of slopes of leadr is being made: ${Math.round(100 * fraction)} %`);
+  if (fraction === 1) page.mapBegun = undefined;
 }
 
 // ---- moving pictures: as many pixels as hold 30 frames a second ----

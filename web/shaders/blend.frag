@@ -8,7 +8,7 @@
 precision highp sampler2D;
 uniform sampler2D current_texture;
 uniform sampler2D history_texture;
-uniform float share; /* of the newest frame; 1: there is no history */
+uniform float weight; /* of the newest frame; 1: there is no history */
 layout(location = 0) out vec4 shown;
 
 BlendPixel pixel_of(vec4 v)
@@ -31,7 +31,7 @@ void main()
         most = blend_most(0, most, p);
     }
     BlendPixel mixed_pixel = now;
-    if (share < 1.0f)
-        mixed_pixel = taa_blend(0, now, pixel_of(texelFetch(history_texture, texel, 0)), least, most, share);
+    if (weight < 1.0f)
+        mixed_pixel = taa_blend(0, now, pixel_of(texelFetch(history_texture, texel, 0)), least, most, weight);
     shown = vec4(mixed_pixel.color, mixed_pixel.coverage);
 }

@@ -89,7 +89,7 @@ layout(std140) uniform WaveBlock { vec4 frame_waves[WAVES_IN_BLOCK * WAVE_VECTOR
 #define WAVE_VECTOR(at) texelFetch(wave_texture, data_texel(at), 0)
 #endif
 
-/* A wave of the tile: the frame's, with the tile's phase and share. The index is the bits of a whole number. */
+/* A wave of the tile: the frame's, with the tile's phase and weight. The index is the bits of a whole number. */
 WaveData listed_wave(int i)
 {
     vec4 entry = texelFetch(list_texture, data_texel(tile_first_wave + i), 0);
