@@ -12,16 +12,9 @@
 
 enum { CELLS = STAR_CELLS * STAR_CELLS };
 
-/* By visual magnitude, from −1 on. */
+/* Stars of the whole sky brighter than a visual magnitude, from −1 on. */
 static const double counts[] = {1, 4, 15, 48, 171, 513, 1602, 4800, 14000};
 enum { LAST = sizeof counts / sizeof *counts - 1 };
-
-double stars_brighter_than(double magnitude)
-{
-    const double place = fmin(fmax(magnitude + 1, 0), LAST);
-    const int i = place < LAST ? (int)place : LAST - 1;
-    return counts[i] * pow(counts[i + 1] / counts[i], place - i);
-}
 
 double stars_magnitude_of(double rank)
 {

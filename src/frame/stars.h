@@ -9,8 +9,7 @@
 #include "frame/scattering.h"
 #include "kernels/common/constants.h"
 
-/* Stars of the whole sky that are brighter than a visual magnitude, and the reverse: log-linear between whole magnitudes (Allen 1973, section 117). */
-double stars_brighter_than(double magnitude);
+/* The visual magnitude than which so many stars of the whole sky, ≥ 1, are brighter; their logarithm is linear between whole magnitudes (Allen 1973, section 117). */
 double stars_magnitude_of(double rank);
 
 /* Illuminance outside the atmosphere of a star of a visual magnitude, klx: 2.54e-9 at 0. */
