@@ -6,25 +6,25 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Octaves of spread as log2 of a share of the image's height: 1/512 … 1/4. */
+/* Octaves of spread as log2 of a fraction of the image's height: 1/512 … 1/4. */
 #define FINEST_OCTAVE (-9.0)
 #define COARSEST_OCTAVE (-2.0)
 
 /* ∫ 2^(−x/2) dx over the part of [centre − ½, centre + ½] that is glare. */
-static double octave_share(double centre)
+static double octave_fraction(double centre)
 {
     double from = fmax(centre - 0.5, FINEST_OCTAVE), to = fmin(centre + 0.5, COARSEST_OCTAVE);
     return from < to ? exp2(-0.5 * from) - exp2(-0.5 * to) : 0.0;
 }
 
-float glare_plan_fractions(const glare_plan *plan, float glare, float shares[GLARE_MAX_LEVELS])
+float glare_plan_fractions(const glare_plan *plan, float glare, float fractions[GLARE_MAX_LEVELS])
 {
     double all = exp2(-0.5 * FINEST_OCTAVE) - exp2(-0.5 * COARSEST_OCTAVE), spread = 0.0;
     glare = fminf(glare, 1.0f);
     for (size_t k = 0; k < plan->count; ++k) {
-        double share = glare * octave_share((double)(k + 1) - log2((double)plan->image.height)) / all;
-        shares[k] = (float)share;
-        spread += share;
+        double fraction = glare * octave_fraction((double)(k + 1) - log2((double)plan->image.height)) / all;
+        fractions[k] = (float)fraction;
+        spread += fraction;
     }
     return (float)(1.0 - spread);
 }

@@ -21,8 +21,8 @@ typedef struct glare_plan {
 
 glare_plan glare_plan_of(size_t width, size_t height);
 
-/* Share of the light that each level spreads, for glare in [0, 1]; returns the share that stays. */
-float glare_plan_fractions(const glare_plan *plan, float glare, float shares[GLARE_MAX_LEVELS]);
+/* Fraction of the light that each level spreads, for glare in [0, 1]; returns the fraction that stays. */
+float glare_plan_fractions(const glare_plan *plan, float glare, float fractions[GLARE_MAX_LEVELS]);
 
 /* For each level four weights a column, then four a row, on the finer pixels 2i − 1 … 2i + 2: 4·Σ(width + height) floats. False without
  * memory. */
