@@ -18,9 +18,9 @@ function judgeTasks(post) {
   const work = (milliseconds, most) => {
     const end = performance.now() + milliseconds;
     while (samples < most && performance.now() < end) {
-      instants.forEach(library => library.calls.picture_row(row, 0, Math.ceil(scene.width / 32)));
+      instants.forEach(library => library.calls.picture_row(row, 0, Math.ceil(scene.width / TILE_COLUMNS)));
       row++;
-      if (row * 16 >= scene.height) {
+      if (row * TILE_ROWS >= scene.height) {
         row = 0;
         samples++;
         instants.forEach(library => library.calls.picture_next_sample());

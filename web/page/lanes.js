@@ -16,7 +16,7 @@ function laneTasks(post) {
   };
   const numbersAt = (at, count) => new Int32Array(library.calls.memory.buffer, at, count);
   const pixelsOf = (job, row) => {
-    const { calls } = library, first = row * 16 * job.width, count = Math.min(16, job.height - row * 16) * job.width;
+    const { calls } = library, first = row * TILE_ROWS * job.width, count = Math.min(TILE_ROWS, job.height - row * TILE_ROWS) * job.width;
     calls.picture_row(row, ...job.tiles);
     const data = job.kind === "shown" ? library.copy(Uint8ClampedArray, calls.picture_shown(first, count), 4 * count)
       : library.copy(Float32Array, calls.picture_half(0) + 16 * first, 4 * count);
@@ -30,7 +30,7 @@ function laneTasks(post) {
       searched: library.copy(Float32Array, searched, 8 * searchCount), hits: library.copy(Float32Array, hits, 8 * hitCount),
     };
   };
-  const slopesOf = band => ({ data: library.copy(Uint16Array, library.calls.lean_band(band), library.calls.lean_band_rows() * 4096 * 2) });
+  const slopesOf = band => ({ data: library.copy(Uint16Array, library.calls.lean_band(band), library.calls.lean_band_rows() * MAP_SIZE * 2) });
   const headOf = () => {
     const { calls } = library, [frame, waves, foam, leanData, leanWaves, waveCount, hasFoam, choppy, leanCount, columns, rows] = numbersAt(head, 11);
     const foamBytes = calls.foam_bytes();

@@ -58,7 +58,7 @@ class TaskWorker {
       this.waiting.forEach(w => this.post(w.task));
     };
     try {
-      const text = `const SETTINGS = ${JSON.stringify(SETTINGS)};\n${cameraTarget}\n${openLibrary}\n${tasks}\nconst take = ${tasks.name}((answer, moved) => postMessage(answer, moved));\nonmessage = e => take(e.data);`;
+      const text = `const SETTINGS = ${JSON.stringify(SETTINGS)}, TILE_ROWS = ${TILE_ROWS}, TILE_COLUMNS = ${TILE_COLUMNS}, MAP_SIZE = ${MAP_SIZE};\n${cameraTarget}\n${openLibrary}\n${tasks}\nconst take = ${tasks.name}((answer, moved) => postMessage(answer, moved));\nonmessage = e => take(e.data);`;
       const address = URL.createObjectURL(new Blob([text], { type: "text/javascript" })), worker = new Worker(address);
       worker.onmessage = event => { URL.revokeObjectURL(address); answered(event.data); };
       worker.onerror = event => { event.preventDefault(); here(); };
