@@ -83,8 +83,6 @@ static void fill_places(float *cells, float *list)
         memcpy(list + 3 * first[cell_of(stars[i])]++, stars[i], sizeof stars[i]);
 }
 
-static const double spot_radius = 1.7610; /* pixels */
-
 static void add_cell(const float *table, int cell_x, int cell_z, const double direction[3], double radius, double rgb[3])
 {
     const float *cell = table + 3 * (SKY_COLUMNS * STAR_CELL_ROW + cell_z * STAR_CELLS + cell_x);
@@ -93,8 +91,8 @@ static void add_cell(const float *table, int cell_x, int cell_z, const double di
         const double color = floor(0.25 * (double)star[0]), x = (double)star[0] - 4 * color - 1, z = (double)star[1] - 1, squared = x * x + z * z;
         const double across = sqrt(2 - squared);
         const double away[3] = {x * across - direction[0], 1 - squared - direction[1], z * across - direction[2]};
-        const double share = fmax(1 - (away[0] * away[0] + away[1] * away[1] + away[2] * away[2]) / (radius * radius), 0);
-        const double redder = 2 * color / 7 - 1, light = (double)star[2] * share * share * share;
+        const double fall = fmax(1 - (away[0] * away[0] + away[1] * away[1] + away[2] * away[2]) / (radius * radius), 0);
+        const double redder = 2 * color / 7 - 1, light = (double)star[2] * fall * fall * fall;
         rgb[0] += light * (1 + 0.25 * redder);
         rgb[1] += light * (1 - 0.026 * redder);
         rgb[2] += light * (1 - 0.479 * redder);
@@ -103,8 +101,8 @@ static void add_cell(const float *table, int cell_x, int cell_z, const double di
 
 void stars_lookup(const float *table, const double direction[3], double pixel_angle, double rgb[3])
 {
-    const double reach = 1.0 / STAR_CELLS, radius = fmin(spot_radius * pixel_angle, reach);
-    const double shown = fmin(fmax(2 - spot_radius * pixel_angle / reach, 0), 1), across = sqrt(1 + direction[1]);
+    const double reach = 1.0 / STAR_CELLS, radius = fmin(STAR_SPOT * pixel_angle, reach);
+    const double shown = fmin(fmax(2 - STAR_SPOT * pixel_angle / reach, 0), 1), across = sqrt(1 + direction[1]);
     const int cell_x = (int)fmin(fmax(floor((direction[0] / across + 1) * 0.5 * STAR_CELLS - 0.5), 0), STAR_CELLS - 2);
     const int cell_z = (int)fmin(fmax(floor((direction[2] / across + 1) * 0.5 * STAR_CELLS - 0.5), 0), STAR_CELLS - 2);
     rgb[0] = rgb[1] = rgb[2] = 0;

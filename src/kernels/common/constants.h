@@ -69,7 +69,8 @@
 #define STAR_CELLS 64 /* along a side of the square around the hemisphere's map */
 #define STAR_ROW (STAR_CELL_ROW + 22)
 #define STAR_COUNT (22 * SKY_COLUMNS)
-#define STARS_A_CELL 16 /* at most */
+#define STARS_A_CELL 16  /* at most */
+#define STAR_SPOT 1.7610 /* radius in pixels of a star's spot, see stars.k */
 #define SKY_TABLE_ROWS (STAR_ROW + 22)
 
 /* Circular kernels of podee-*, see podee_mixture.k. As a texture the slices of the sweep stand side by side. */
