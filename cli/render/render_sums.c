@@ -156,7 +156,7 @@ static int read_parts(render_job *job, uint32_t frame, const render_record *reco
         if (code != EXIT_CODE_OK)
             return code;
         if (add)
-            progress_update(&job->progress, (double)(i + 1) / (double)r->part_count);
+            progress_update(&job->progress, job->share * (double)(i + 1) / (double)r->part_count);
     }
     const sums_range gap = sums_ranges_gap(&job->ranges, wanted_range(&r->quality));
     if (gap.count == 0 || r->format == PICTURE_SUMS)
@@ -235,14 +235,14 @@ static int sum_range(render_job *job, uint32_t frame, const mgt_scene *scene, su
 static int sum_in_slices(render_job *job, uint32_t frame, const mgt_scene *scene, const render_record *record, const char *path)
 {
     const sums_range all = wanted_range(&job->request->quality);
-    const double between = job->request->checkpoint;
+    const double between = job->request->checkpoint, most = job->share;
     int code = load_checkpoint(job, record, path);
     uint64_t done = job->ranges.count ? job->ranges.items[0].count : 0, slice = (all.count + 127) / 128;
     double saved = seconds_now();
     while (code == EXIT_CODE_OK && done < all.count) {
         slice = slice < all.count - done ? slice : all.count - done;
-        job->before = (double)done / (double)all.count;
-        job->share = (double)slice / (double)all.count;
+        job->before = most * (double)done / (double)all.count;
+        job->share = most * (double)slice / (double)all.count;
         const double start = seconds_now();
         code = sum_range(job, frame, scene, (sums_range){all.first + done, slice});
         if (code != EXIT_CODE_OK)
@@ -255,8 +255,6 @@ static int sum_in_slices(render_job *job, uint32_t frame, const mgt_scene *scene
             saved = seconds_now();
         }
     }
-    job->before = 0;
-    job->share = 1;
     return code;
 }
 
@@ -287,7 +285,15 @@ int render_sums_plan(render_job *job, uint32_t frame)
     return code == EXIT_CODE_OK ? read_parts(job, frame, &record, false) : code;
 }
 
-int render_sums_fill(render_job *job, uint32_t frame, const mgt_scene *scene, const char *path)
+/* How much of a frame's progress its sums are. The picture made of them takes about as long as one sample, or as its parts to be read. */
+static double progress_of_sums(const render_request *r)
+{
+    const double samples = (double)wanted_range(&r->quality).count;
+    return r->format == PICTURE_SUMS ? 1 : r->part_count ? 0.5 : samples / (samples + 1);
+}
+
+/* Sums of parts, or of samples rendered here. */
+static int fill(render_job *job, uint32_t frame, const mgt_scene *scene, const char *path)
 {
     render_record record;
     char checkpoint[JOB_PATH];
@@ -302,4 +308,15 @@ int render_sums_fill(render_job *job, uint32_t frame, const mgt_scene *scene, co
     if (!checkpoint_path(path, checkpoint))
         return console_error(EXIT_CODE_USAGE, "-o %s: the path is too long", path);
     return sum_in_slices(job, frame, scene, &record, checkpoint);
+}
+
+int render_sums_fill(render_job *job, uint32_t frame, const mgt_scene *scene, const char *path)
+{
+    const double sums = progress_of_sums(job->request);
+    job->before = 0;
+    job->share = sums;
+    const int code = fill(job, frame, scene, path);
+    job->before = sums;
+    job->share = 1 - sums;
+    return code;
 }

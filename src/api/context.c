@@ -90,15 +90,20 @@ mgt_status mgt_scene_check(mgt_context *context, const mgt_scene *scene)
     return scene_take(&context->report, &own, scene);
 }
 
-/* On the CPU what OpenGL lacks, which the log says once a method: a warning where OpenGL was asked for by name. */
+void announce_cpu(mgt_context *context, mgt_method method, const char *lacks)
+{
+    const uint32_t bit = 1u << method;
+    if (!(context->told_of_cpu & bit))
+        report(&context->report, context->desc.backend == MGT_BACKEND_AUTO ? MGT_LOG_INFO : MGT_LOG_WARNING, "render.cpu",
+               "the CPU renders this frame by method %s: %s on the CPU alone", mgt_method_name(method), lacks);
+    context->told_of_cpu |= bit;
+}
+
+/* On the CPU what OpenGL lacks. */
 static mgt_status render_instead(mgt_context *context, const mgt_scene *own, const mgt_target *targets, size_t count, const char *lacks)
 {
     void *state = NULL;
-    const uint32_t method = 1u << own->quality.method;
-    if (!(context->told_of_cpu & method))
-        report(&context->report, context->desc.backend == MGT_BACKEND_AUTO ? MGT_LOG_INFO : MGT_LOG_WARNING, "render.cpu",
-               "the CPU renders this frame by method %s: %s on the CPU alone", mgt_method_name(own->quality.method), lacks);
-    context->told_of_cpu |= method;
+    announce_cpu(context, own->quality.method, lacks);
     const mgt_status status = cpu_state(context, &state);
     return status == MGT_OK ? cpu_backend.render(state, &context->report, own, targets, count) : status;
 }

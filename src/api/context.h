@@ -19,6 +19,10 @@ struct mgt_context {
 /* Brings a checked scene to sea level. MGT_ERROR_UNSUPPORTED where its method cannot draw it. */
 mgt_status scene_ready(const reporter *r, mgt_scene *own);
 
+/* Logs, once a method, that the CPU renders in place of OpenGL: a warning where OpenGL was asked for by name. `lacks`: a subject and a verb, such as
+ * "the method runs". */
+void announce_cpu(mgt_context *context, mgt_method method, const char *lacks);
+
 /* The CPU backend's state: the context's own, or a second one beside another backend. */
 mgt_status cpu_state(mgt_context *context, void **state);
 

@@ -28,7 +28,9 @@ for ((kill = 0; kill < 5; kill++)); do
 done
 rm -f .mangata-*
 cp frame.exr.checkpoint kept
-expect 0 'goes on after' render "$sunset" "${long[@]}" -o frame.exr --layer all --checkpoint 0.1
+expect 0 'goes on after' render "$sunset" "${long[@]}" -o frame.exr --layer all --checkpoint 0.1 --progress text
+grep -E '^Progress: [0-9]+%$' stderr.txt | tee progress | sort -n -k2 -c || fail "progress runs backwards: $(cat progress)"
+[[ $(tail -n 1 progress) == 'Progress: 100%' ]] || fail "progress ends with $(tail -n 1 progress)"
 same whole.exr frame.exr
 absent frame.exr.checkpoint
 

@@ -91,6 +91,17 @@ static void the_cpus_frames_are_announced(void **state)
         sea_render(context, &scene, cases[i].target, 1);
         assert_int_equal(strstr(log.ids, "render.cpu") != NULL, cases[i].announced);
     }
+    mgt_context_destroy(context);
+
+    /* Sums are the CPU's as well. */
+    static uint64_t sums[SEA_WIDTH * SEA_HEIGHT * MGT_SUM_WORDS];
+    assert_int_equal(mgt_context_create(&context, &desc), MGT_OK);
+    scene.quality.method = MGT_METHOD_REFERENCE;
+    for (int i = 0; i < 2; i++) {
+        log.ids[0] = 0;
+        assert_int_equal(mgt_sum_samples(context, &scene, sums), MGT_OK);
+        assert_int_equal(strstr(log.ids, "render.cpu") != NULL, i == 0);
+    }
     assert_false(mgt_supports(MGT_BACKEND_CPU, &scene, (mgt_layer)99) || mgt_supports((mgt_backend)9, &scene, MGT_LAYER_COLOR));
     scene.image.width = 0;
     assert_false(mgt_supports(MGT_BACKEND_CPU, &scene, MGT_LAYER_COLOR) || mgt_supports(MGT_BACKEND_CPU, NULL, MGT_LAYER_COLOR));
