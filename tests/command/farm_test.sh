@@ -83,42 +83,71 @@ same whole.exr frame.exr
 slurm MANGATA=ends CODE=0 -- --part parts x.yaml --method reference
 [[ $(cat arguments) == 'render x.yaml --method reference -o parts/3-of-8.sums --samples-range 3/8 --checkpoint 300 --threads 2 --skip-existing --progress text' ]] || fail "--part: $(cat arguments)"
 
-# The script that the OpenJD template embeds.
+# Templates of Open Job Description, checked by its specification, and their tasks. Frames in parts have the bytes of the whole.
+frame+=(--quiet)
 if python3 -c 'import yaml' 2>/dev/null; then
-    python3 - "$SOURCE/contrib/farm/mangata.openjd.yaml" "$simple" "$work" "$MANGATA" >task.sh <<'END' || fail "mangata.openjd.yaml"
-import re, sys, yaml
-template = yaml.safe_load(open(sys.argv[1]))
-assert template["specificationVersion"] == "jobtemplate-2023-09"
-values = {"Param." + p["name"]: p.get("default") for p in template["parameterDefinitions"]}
-values.update({"Param.Scene": sys.argv[2], "Param.OutputFolder": sys.argv[3], "Param.Options": "--size 64x36 --backend null", "Param.Command": sys.argv[4],
-               "Task.Param.Frame": "7"})
-step, = template["steps"]
-assert step["parameterSpace"]["taskParameterDefinitions"] == [{"name": "Frame", "type": "INT", "range": "{{Param.Frames}}"}]
-script = step["script"]
-assert script["actions"]["onRun"]["args"] == ["{{Task.File.%s}}" % script["embeddedFiles"][0]["name"]]
-print(re.sub(r"\{\{(.*?)\}\}", lambda m: str(values[m[1]]), script["embeddedFiles"][0]["data"]))
-END
-    bash task.sh 2>stderr.txt || fail "mangata.openjd.yaml: $(cat stderr.txt)"
-    exists frame_0007.exr
+    openjd() { python3 "${CHECK%/*}/openjd.py" "$SOURCE/contrib/farm/$1.openjd.yaml" "Command=$MANGATA" "Scene=$simple" "${@:2}" 2>stderr.txt; }
+    openjd mangata OutputFolder=. Frames=7-8 'Options=--size 64x36 --backend null' || fail "mangata.openjd.yaml: $(cat stderr.txt)"
+    exists frame_0007.exr frame_0008.exr
     grep -qx 'openjd_progress: 100' stderr.txt || fail "mangata.openjd.yaml: $(cat stderr.txt)"
+    openjd mangata OutputFolder=. Frames=7 'Options=--size 64x36 --method none' && fail "mangata.openjd.yaml: another picture was kept"
+    openjd mangata_parts PartsFolder=openjd_parts OutputFolder=. FileName=o_%d.exr Frames=0-2:2 Parts=3 "Options=${frame[*]:1}" 'PictureOptions=--layer all' ||
+        fail "mangata_parts.openjd.yaml: $(cat stderr.txt)"
+    grep -qx 'openjd_progress: 100' stderr.txt || fail "mangata_parts.openjd.yaml: $(cat stderr.txt)"
+    for i in 0 2; do
+        works render "${frame[@]}" -o o_whole.exr --overwrite --frames $i --layer all
+        same o_whole.exr o_$i.exr
+    done
+    [[ $(ls openjd_parts | tr '\n' ' ') == '0_0-of-3.sums 0_1-of-3.sums 0_2-of-3.sums 2_0-of-3.sums 2_1-of-3.sums 2_2-of-3.sums ' ]] || fail "openjd_parts: $(ls openjd_parts)"
 else
-    echo "NOTICE: no python3-yaml here; the OpenJD template was not tested"
+    echo "NOTICE: no python3-yaml here; the OpenJD templates were not tested"
 fi
 
-# The tasks that the Flamenco job type makes.
+# The tasks that the Flamenco job types make, as lines of their names, their dependencies and the words of their commands. Those of parts are run.
 if command -v node >/dev/null; then
-    node -e '
-const chunks = ["0-7", "8-9"], tasks = [];
-const author = { Task: (name, type) => ({ name, type, commands: [], addCommand(c) { this.commands.push(c); } }), Command: (name, parameters) => ({ name, ...parameters }) };
-const frameChunker = (frames, size) => { if (frames !== "0-9" || size !== 8) throw "frameChunker"; return chunks; };
-eval(require("fs").readFileSync(process.argv[1], "utf8") + ";globalThis.type = JOB_TYPE; globalThis.compile = compileJob;");
-const settings = Object.fromEntries(type.settings.map((s) => [s.key, s.default]));
-compile({ settings: { ...settings, scene: "a b.yaml", frames: "0-9", folder: "/out", options: "--seed  3" }, addTask: (t) => tasks.push(t) });
-const words = JSON.stringify(tasks.map((t) => [t.name, t.type, ...t.commands.map((c) => [c.name, c.exe, ...c.args])]));
-const task = (c) => ["render-" + c, "misc", ["exec", "mangata", "render", "a b.yaml", "-o", "/out/frame_####.exr", "--frames", c, "--skip-existing", "--progress", "text", "--seed", "3"]];
-if (words !== JSON.stringify(chunks.map(task))) { console.log(words); process.exit(1); }
-' "$SOURCE/contrib/farm/mangata.flamenco.js" || fail "mangata.flamenco.js"
+    flamenco() { # TYPE CHUNKS SETTINGS
+        node -e '
+const [file, chunks, given] = process.argv.slice(1);
+const author = {
+    Task: (name, type) => ({ name, type, commands: [], before: [], addCommand(c) { this.commands.push(c); }, addDependency(t) { this.before.push(t.name); } }),
+    Command: (name, parameters) => ({ name, ...parameters }),
+};
+const frameChunker = (frames, size) => { if (frames !== "0-9" || size !== (file.includes("parts") ? 1 : 8)) throw "frameChunker"; return chunks.split(" "); };
+eval(require("fs").readFileSync(file, "utf8") + ";globalThis.type = JOB_TYPE; globalThis.compile = compileJob;");
+const settings = { frames: "0-9", ...JSON.parse(given) };
+for (const s of type.settings) {
+    if (!["string", "int32"].includes(s.type) || !s.key || !s.description) throw s;
+    settings[s.key] ??= s.default;
+    if (settings[s.key] === undefined) throw `${s.key} has no value`;
+}
+const added = [];
+compile({ settings, addTask: (t) => {
+    for (const b of t.before) if (!added.includes(b)) throw `${t.name} is behind ${b}, which is not added`;
+    added.push(t.name);
+    const { name, exe, args } = t.commands[0];
+    if (t.commands.length !== 1 || name !== "exec" || t.type !== "misc" || !args.every((a) => typeof a === "string")) throw t.name;
+    console.log([t.name, t.before.join(","), exe, ...args].join("\t"));
+} });
+' "$SOURCE/contrib/farm/$1.flamenco.js" "$2" "$3" >tasks.txt 2>stderr.txt || fail "$1.flamenco.js: $(cat stderr.txt)"
+    }
+    flamenco mangata '0-7 8-9' '{"scene": "a b.yaml", "folder": "/out", "options": "--seed  3"}'
+    for chunk in 0-7 8-9; do
+        printf 'render-%s||mangata|render|a b.yaml|-o|/out/frame_####.exr|--frames|%s|--skip-existing|--progress|text|--seed|3\n' $chunk $chunk
+    done | tr '|' '\t' >expected.txt
+    diff expected.txt tasks.txt || fail "mangata.flamenco.js"
+    mkdir flamenco_parts
+    flamenco mangata_parts '0 2' "{\"scene\": \"$simple\", \"parts\": 3, \"parts_folder\": \"flamenco_parts\", \"folder\": \".\", \"file_name\": \"l_#.exr\",
+        \"command\": \"$MANGATA\", \"options\": \"${frame[*]:1}\", \"picture_options\": \"--layer all\"}"
+    [[ $(cut -f 1,2 tasks.txt | tr '\t\n' ': ') == 'part-0-0: part-0-1: part-0-2: merge-0:part-0-0,part-0-1,part-0-2 part-2-0: part-2-1: part-2-2: merge-2:part-2-0,part-2-1,part-2-2 ' ]] ||
+        fail "mangata_parts.flamenco.js: $(cut -f 1,2 tasks.txt)"
+    while IFS=$'\t' read -r -a words; do
+        "${words[@]:2}" 2>stderr.txt </dev/null || fail "${words[0]}: $(cat stderr.txt)"
+    done < <(sed 's/\t\t/\t-\t/' tasks.txt)
+    for i in 0 2; do
+        works render "${frame[@]}" -o l_whole.exr --overwrite --frames $i --layer all
+        same l_whole.exr l_$i.exr
+    done
 else
-    echo "NOTICE: no node here; the Flamenco job type was not tested"
+    echo "NOTICE: no node here; the Flamenco job types were not tested"
 fi
 finish
