@@ -129,20 +129,32 @@ static void automatic_choice(void **state)
     mgt_context_destroy(context);
 }
 
-/* A function that an old OpenGL lacks. */
-static mgt_gl_function without_compute(const char *name) { return strcmp(name, "glDispatchCompute") == 0 ? NULL : gl_egl_get_proc(name); }
+static const char *const functions[] = {
+#define GL_NAME(TYPE, name) "gl" #name,
+    GL_FUNCTIONS(GL_NAME)
+#undef GL_NAME
+};
+static const char *missing; /* the function that an old OpenGL lacks */
 
+static mgt_gl_function without_one(const char *name) { return strcmp(name, missing) == 0 ? NULL : gl_egl_get_proc(name); }
+
+/* Each function of the table is missing in turn. */
 static void incomplete_hosts_are_refused(void **state)
 {
     (void)state;
     mgt_context_desc desc;
     mgt_context_desc_init(&desc, sizeof desc);
     desc.backend = MGT_BACKEND_GL;
-    desc.gl_get_proc = without_compute;
+    desc.gl_get_proc = without_one;
     mgt_context *context = NULL;
-    assert_int_equal(mgt_context_create(&context, &desc), MGT_ERROR_UNAVAILABLE);
-    assert_null(context);
-    assert_non_null(strstr(mgt_last_error(NULL), "glDispatchCompute"));
+    for (size_t i = 0; i < sizeof functions / sizeof *functions; i++) {
+        char lacks[80];
+        missing = functions[i];
+        snprintf(lacks, sizeof lacks, "lacks %s;", missing);
+        assert_int_equal(mgt_context_create(&context, &desc), MGT_ERROR_UNAVAILABLE);
+        assert_null(context);
+        assert_non_null(strstr(mgt_last_error(NULL), lacks));
+    }
     desc.gl_get_proc = gl_egl_get_proc; /* every function, and no context that is current */
     assert_int_equal(mgt_context_create(&context, &desc), MGT_ERROR_UNAVAILABLE);
     assert_null(context);
