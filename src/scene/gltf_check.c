@@ -182,8 +182,8 @@ static bool check_attributes(gltf_reader *g, const json_value *attributes, const
     for (const json_value *v = json_text_first(&g->json, attributes); v != NULL; v = json_text_next(&g->json, v)) {
         const char *name = g->json.text + v->key_at;
         if (v->kind != JSON_NUMBER || !is_whole(v->number, 0, (double)g->lists[GLTF_ACCESSORS].count - 1))
-            return gltf_refuse(g, v, "%s.%.*s is none of the %zu accessors; allowed: their number, from 0", where,
-                               (int)(v->key_length < 40 ? v->key_length : 40), name, g->lists[GLTF_ACCESSORS].count);
+            return gltf_refuse(g, v, "%s.%s is none of the %zu accessors; allowed: their number, from 0", where, scene_quote_text(name, v->key_length).text,
+                               g->lists[GLTF_ACCESSORS].count);
         const gltf_accessor *a = &g->accessors[(size_t)v->number];
         for (size_t i = 0; i < sizeof rules / sizeof *rules; i++) {
             const size_t length = strlen(rules[i].name);

@@ -65,6 +65,8 @@ static bool read_string(json_reader *r, uint32_t *at, uint32_t *length)
             return fails(r, "a string has no end");
         if (c == '"')
             break;
+        if (c < 0x20)
+            return fails(r, "a string has a control character, which must be escaped");
         if (c == '\\') {
             if (escaped(r->json->text + r->at + 1, r->json->length - r->at - 1, &taken) < 0)
                 return fails(r, "an escape in a string is not valid in JSON");

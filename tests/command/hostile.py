@@ -138,6 +138,7 @@ for name, text, pattern in [
         ("not UTF-8", b'{"a": "\xff"}', "not printable UTF-8"), ("a bare word", "{a: 1}", "name in quotes"), ("no colon", '{"a" 1}', "colon is missing"), ("no comma", '{"a": 1 "b": 2}', "comma"),
         ("trailing comma", '{"a": 1,}', "name in quotes"), ("NaN", '{"a": NaN}', "not valid in JSON"), ("1e999", '{"a": 1e999}', "too large"), ("a long number", '{"a": ' + "1" * 100 + "}", "63 characters"),
         ("01", '{"a": 01}', "comma"), ("minus", '{"a": -}', "digit"), ("escape", '{"a": "\\q"}', "escape"), ("half an escape", '{"a": "\\u12"}', "escape"), ("no end", '{"a": "b', "no end"),
+        ("a line end in a string", '{"a\nb": 1}', "control character"), ("a tab in a string", '{"a": "\t"}', "control character"),
         ("two million values", "[" + "0," * 2100000 + "0]", "2000000 values")]:
     check("JSON " + name, "x.gltf", text, "x.gltf:[0-9]+:[0-9]+: .*" + pattern)
 
