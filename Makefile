@@ -23,7 +23,7 @@ test: setup
 check: setup
 	scripts/check
 
-# HOURS of one core; corpora grow from run to run.
+# HOURS of the clock; corpora grow from run to run.
 fuzz: setup
 	scripts/fuzz $(or $(HOURS),0.1)
 
