@@ -6,8 +6,8 @@ function presets() { return Object.fromEntries(SETTINGS.map(s => [s.name, s.pres
 // What draws in a canvas. `way`: "shaders" of its WebGL2, or "lanes", the library in WebAssembly, which is faster where the CPU does WebGL2's work.
 // Rejects with a text where WebGL2 is missing.
 async function create(canvas) {
-  const { texts, module } = await unpacked(), lanes = new Lanes(module), engine = new Engine(canvas, lanes, texts);
-  return { canvas, lanes, engine, library: await openLibrary(module), way: engine.byCpu ? "lanes" : "shaders", settings: presets(), last: Promise.resolve() };
+  const { texts, module } = await unpacked(), library = await openLibrary(module), lanes = new Lanes(module), engine = new Engine(canvas, lanes, texts, library.calls);
+  return { canvas, lanes, engine, library, way: engine.byCpu ? "lanes" : "shaders", settings: presets(), last: Promise.resolve() };
 }
 
 // Changes settings by name. Throws where there is no such setting, or no such sea.

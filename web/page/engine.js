@@ -17,13 +17,15 @@ const MAP_LEVELS = 13; // of the map of slope moments: 4096 texels to 1
 
 class Engine {
   // Throws a text where the canvas has no WebGL2 that can draw this.
-  constructor(canvas, lanes, texts) {
+  constructor(canvas, lanes, texts, calls) {
     const gl = canvas.getContext("webgl2", { antialias: false, depth: false, alpha: false, preserveDrawingBuffer: true, powerPreference: "high-performance" });
     if (!gl) throw new Error("this browser has no WebGL2");
     if (!gl.getExtension("EXT_color_buffer_float")) throw new Error("its WebGL2 cannot draw into floating-point pictures");
     Object.assign(this, { canvas, lanes, texts, gl, programs: new Map(), buffers: {}, textures: {}, times: {} });
     this.parallel = gl.getExtension("KHR_parallel_shader_compile");
-    this.inBlock = gl.getParameter(gl.MAX_UNIFORM_BLOCK_SIZE) >= 512 * 96;
+    this.mostWaves = calls.waves_most();
+    this.blockBytes = this.mostWaves * calls.wave_bytes();
+    this.inBlock = gl.getParameter(gl.MAX_UNIFORM_BLOCK_SIZE) >= this.blockBytes;
     const names = gl.getExtension("WEBGL_debug_renderer_info");
     this.byCpu = /swiftshader|llvmpipe|softpipe|software|basic render/i.test(gl.getParameter(names ? names.UNMASKED_RENDERER_WEBGL : gl.RENDERER));
     this.empty = gl.createVertexArray();
@@ -47,7 +49,7 @@ class Engine {
     const key = [file, method, defines].join();
     if (this.programs.has(key)) return this.programs.get(key);
     const gl = this.gl, program = gl.createProgram();
-    const head = "#version 300 es\n" + defines + (result ? `#define method_result ${result}\n` : "") + (this.inBlock ? "#define WAVES_IN_BLOCK 512\n" : "");
+    const head = "#version 300 es\n" + defines + (result ? `#define method_result ${result}\n` : "") + (this.inBlock ? `#define WAVES_IN_BLOCK ${this.mostWaves}\n` : "");
     const shaders = [[gl.VERTEX_SHADER, "whole.vert"], [gl.FRAGMENT_SHADER, file]].map(([kind, name]) => {
       const shader = gl.createShader(kind);
       gl.shaderSource(shader, (name === file ? head : "#version 300 es\n") + this.assembled(name, new Set(), method));
@@ -143,8 +145,11 @@ class Engine {
       this.block("foam", 1, tiles.foam);
       this.data("foam_texture", tiles.foamWaves);
     }
-    if (this.inBlock) this.block("waves", 2, tiles.waves);
-    else this.data("wave_texture", tiles.waves.subarray(0, 24 * tiles.waveCount));
+    if (this.inBlock) {
+      const all = new Float32Array(this.blockBytes / 4); // shaders ask for a whole block
+      all.set(tiles.waves);
+      this.block("waves", 2, all);
+    } else this.data("wave_texture", tiles.waves);
     for (const [name, numbers] of [["tile", tiles.tiles], ["list", tiles.lists], ["search", tiles.searched], ["hit", tiles.hits]]) this.data(name + "_texture", numbers);
     if (!this.sky) this.sky = this.newTexture("sky_texture", gl.RGB32F, columns, rows);
     this.bind("sky_texture", this.sky);

@@ -232,9 +232,9 @@ async function start() {
   if (matchMedia("(prefers-reduced-motion: reduce)").matches) setPlaying(false);
   changed();
   placeWipe();
-  const { texts, module } = await unpacked(), lanes = new Lanes(module);
+  const { texts, module } = await unpacked(), lanes = new Lanes(module), { calls } = await openLibrary(module);
   try {
-    page.view = { canvas: element("canvas"), lanes, engine: new Engine(element("canvas"), lanes, texts) };
+    page.view = { canvas: element("canvas"), lanes, engine: new Engine(element("canvas"), lanes, texts, calls) };
   } catch (error) {
     drawStill(lanes, error.message);
     return;

@@ -51,6 +51,11 @@ static lean_waves lean;
 static page_buffer tiles, lists, searched, hits;
 
 EXPORT(tile_bytes) int page_tile_bytes(void) { return sizeof(shader_tile); }
+EXPORT(waves_most) int page_waves_most(void) { return PAGE_WAVES; }
+EXPORT(wave_bytes) int page_wave_bytes(void) { return sizeof(WaveData); }
+EXPORT(foam_wave_bytes) int page_foam_wave_bytes(void) { return sizeof(FoamWave); }
+EXPORT(lean_bytes) int page_lean_bytes(void) { return sizeof(LeanData); }
+EXPORT(lean_wave_bytes) int page_lean_wave_bytes(void) { return sizeof(LeanWave); }
 EXPORT(frame_bytes) int page_frame_bytes(void) { return sizeof(FrameData); }
 EXPORT(foam_bytes) int page_foam_bytes(void) { return sizeof(FoamData) + 2 * FOAM_SINES * sizeof(FoamSine); }
 
