@@ -33,19 +33,44 @@ static double mean_number(const mgt_water *water)
 /* Mean of a cosine over an interval of so many radians to both sides, over its middle. */
 static double mean_cosine(double half) { return fabs(half) < 1e-4 ? 1 - half * half / 6 : sin(half) / half; }
 
-static void add_breaking(foam_sea *sea, const mgt_wave *wave, double choppiness, double breaking_number, const double span[FOAM_MOMENTS])
+/* A wave of the scene that breaks. */
+typedef struct breaking_wave {
+    double k, part; /* radians per metre; what counts of it */
+    size_t index;
+} breaking_wave;
+
+/* By rising k, equal ones in their order; without qsort(), which may allocate. */
+static void sort_by_length(breaking_wave *waves, breaking_wave *room, size_t count)
 {
-    const wave_numbers w = wave_numbers_of(wave);
-    const double k = hypot(w.x, w.z), relative = k / breaking_number, part = exp(-relative * relative / 2);
-    if (!(k > 0) || part < least_part || w.height == 0)
+    if (count < 2)
         return;
-    foam_wave f = {.x = w.x, .z = w.z, .frequency = w.frequency, .start = w.start, .height = w.height, .press = choppiness * w.height * k * part};
-    for (int j = 0; j < FOAM_MOMENTS; j++)
-        f.held[j] = mean_cosine(w.frequency * span[j] / 2);
-    int at = sea->wave_count++;
-    for (; at > 0 && hypot(sea->waves[at - 1].x, sea->waves[at - 1].z) > k; at--)
-        sea->waves[at] = sea->waves[at - 1];
-    sea->waves[at] = f;
+    const size_t middle = count / 2;
+    sort_by_length(waves, room, middle);
+    sort_by_length(waves + middle, room, count - middle);
+    memcpy(room, waves, middle * sizeof *room);
+    for (size_t left = 0, right = middle, at = 0; left < middle; at++)
+        waves[at] = right < count && waves[right].k < room[left].k ? waves[right++] : room[left++];
+}
+
+static void add_breaking(foam_sea *sea, const mgt_water *water, double breaking_number, const double span[FOAM_MOMENTS])
+{
+    breaking_wave breaking[MGT_MAX_WAVES], room[MGT_MAX_WAVES / 2];
+    size_t count = 0;
+    for (size_t i = 0; i < water->wave_count; i++) {
+        const wave_numbers w = wave_numbers_of(&water->waves[i]);
+        const double k = hypot(w.x, w.z), relative = k / breaking_number, part = exp(-relative * relative / 2);
+        if (k > 0 && part >= least_part && w.height != 0)
+            breaking[count++] = (breaking_wave){k, part, i};
+    }
+    sort_by_length(breaking, room, count);
+    for (size_t i = 0; i < count; i++) {
+        const wave_numbers w = wave_numbers_of(&water->waves[breaking[i].index]);
+        const double press = (double)water->choppiness * w.height * breaking[i].k * breaking[i].part;
+        foam_wave *f = &sea->waves[sea->wave_count++];
+        *f = (foam_wave){.x = w.x, .z = w.z, .frequency = w.frequency, .start = w.start, .height = w.height, .press = press};
+        for (int j = 0; j < FOAM_MOMENTS; j++)
+            f->held[j] = mean_cosine(w.frequency * span[j] / 2);
+    }
 }
 
 static void measure_waves(foam_sea *sea)
@@ -115,31 +140,50 @@ static double gamma_share(double z, double skewness, double *lacking)
     return 0.5 * erfc(-y / sqrt(2));
 }
 
-double foam_sea_share(const foam_sea *sea, double least)
+/* Covariance of J now and in each moment. */
+typedef struct moment_covariance {
+    double of[FOAM_MOMENTS];
+} moment_covariance;
+
+static moment_covariance covariance_of(const foam_sea *sea)
+{
+    moment_covariance c = {{0}};
+    for (int j = 0; j < sea->moments; j++)
+        for (int i = 0; i < sea->wave_count; i++) {
+            const foam_wave *w = &sea->waves[i];
+            c.of[j] += w->press * w->press / 2 * w->held[j] * cos(w->frequency * sea->age[j]);
+        }
+    return c;
+}
+
+static double share_below(const foam_sea *sea, const moment_covariance *together, double least)
 {
     const double deviation = sqrt(sea->variance), *t = sea->shape;
     const double xx = t[0] + t[2], xz = t[1] + t[3], zz = t[2] + t[4];
     const double skewness = 6 * deviation * (xx * zz - xz * xz);
     double share = 0;
     for (int j = 0; j < sea->moments; j++) {
-        double together = 0, lacking;
-        for (int i = 0; i < sea->wave_count; i++) {
-            const foam_wave *w = &sea->waves[i];
-            together += w->press * w->press / 2 * w->held[j] * cos(w->frequency * sea->age[j]);
-        }
+        double lacking;
         const double below = gamma_share((least - 1) / deviation, skewness, &lacking);
-        share += sea->weight[j] * fmax(below - together / deviation * lacking, 0);
+        share += sea->weight[j] * fmax(below - together->of[j] / deviation * lacking, 0);
     }
     return share;
 }
 
+double foam_sea_share(const foam_sea *sea, double least)
+{
+    const moment_covariance together = covariance_of(sea);
+    return share_below(sea, &together, least);
+}
+
 static double threshold(const foam_sea *sea)
 {
+    const moment_covariance together = covariance_of(sea);
     const double deviation = sqrt(sea->variance);
     double low = 1 - 6 * deviation, high = 1 + 6 * deviation;
     for (int i = 0; i < 60; i++) {
         const double middle = 0.5 * (low + high);
-        if (foam_sea_share(sea, middle) < sea->share)
+        if (share_below(sea, &together, middle) < sea->share)
             low = middle;
         else
             high = middle;
@@ -170,8 +214,7 @@ bool foam_sea_of(const mgt_scene *scene, foam_sea *sea)
         sea->whiteness[j] = whitenesses[j];
     }
     sea->deviation = sqrt(waves_variances(water->waves, water->wave_count, 1, 0).height);
-    for (size_t i = 0; i < water->wave_count; i++)
-        add_breaking(sea, &water->waves[i], (double)water->choppiness, number, span);
+    add_breaking(sea, water, number, span);
     measure_waves(sea);
     if (!(sea->variance > 0))
         return false;
