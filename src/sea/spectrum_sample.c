@@ -11,7 +11,8 @@
 #include "sea/spectrum_math.h"
 #include "params/waves.h"
 
-enum { CELLS = 4096, DIRECTIONS = 720, HARMONIC_STEP = 64 };
+/* Waves that share a cell of the grid have one length: more than CELL_WAVES take a finer grid. */
+enum { CELLS = 4096, CELL_WAVES = 512, FINE_CELLS = 8 * CELLS, DIRECTIONS = 720, HARMONIC_STEP = 64 };
 
 static const double HEIGHT_SHARE = 0.25, TAIL_BEGINS = 3 /* peaks */;
 
@@ -20,24 +21,28 @@ static const double HEIGHT_SHARE = 0.25, TAIL_BEGINS = 3 /* peaks */;
 /* The variances below each node of a grid that is even in log frequency. */
 typedef struct frequency_grid {
     double low, step; /* of log frequency */
-    double height[CELLS + 1], slope[CELLS + 1];
+    int cells;
+    double *slope; /* behind `height`, as long */
+    double height[];
 } frequency_grid;
 
 static double node_frequency(const frequency_grid *grid, double node) { return portable_exp(grid->low + grid->step * node); }
 
 /* By Simpson's rule in each cell. */
-static frequency_grid *make_grid(const wave_spectrum *spectrum)
+static frequency_grid *make_grid(const wave_spectrum *spectrum, int cells)
 {
-    frequency_grid *grid = malloc(sizeof *grid);
+    frequency_grid *grid = malloc(sizeof *grid + 2 * ((size_t)cells + 1) * sizeof *grid->height);
     if (grid == NULL)
         return NULL;
+    grid->cells = cells;
+    grid->slope = grid->height + cells + 1;
     grid->low = portable_log(spectrum->low);
-    grid->step = (portable_log(spectrum->high) - grid->low) / CELLS;
+    grid->step = (portable_log(spectrum->high) - grid->low) / cells;
     grid->height[0] = grid->slope[0] = 0;
     double height_before = 0, slope_before = 0;
-    for (int i = 0; i <= 2 * CELLS; i++) {
+    for (int i = 0; i <= 2 * cells; i++) {
         /* The ends themselves: rounding must not carry them out of the spectrum. */
-        const double f = i == 0 ? spectrum->low : i == 2 * CELLS ? spectrum->high : node_frequency(grid, i / 2.0);
+        const double f = i == 0 ? spectrum->low : i == 2 * cells ? spectrum->high : node_frequency(grid, i / 2.0);
         const double k = dispersion_wave_number(f, spectrum->depth);
         const double height = grid->step / 6 * f * wave_spectrum_density(spectrum, f), slope = k * k * height;
         const int node = (i + 1) / 2;
@@ -123,7 +128,7 @@ static double slope_difference(const wave_spectrum *spectrum, const frequency_gr
 static double bent_slope(const frequency_grid *grid, int node, double power)
 {
     double sum = 0;
-    for (int i = node; i < CELLS; i++)
+    for (int i = node; i < grid->cells; i++)
         sum += (grid->slope[i + 1] - grid->slope[i]) * portable_exp(power * grid->step * (i + 0.5 - node));
     return sum;
 }
@@ -141,7 +146,7 @@ bool spectrum_bend_tail(wave_spectrum *spectrum, cox_munk slopes, spectrum_fault
     const double from = spectrum->kind == SPECTRUM_BUOY ? spectrum->tail_from : fmin(TAIL_BEGINS * spectrum->peak, halfway);
     fault->key = NULL;
     spectrum->bend_from = INFINITY;
-    frequency_grid *grid = make_grid(spectrum);
+    frequency_grid *grid = make_grid(spectrum, CELLS);
     if (grid == NULL)
         return false;
     fault->key = "slope";
@@ -198,16 +203,16 @@ static mgt_wave make_wave(const wave_spectrum *spectrum, double height_variance,
 bool spectrum_sample(const wave_spectrum *spectrum, uint32_t seed, size_t count, mgt_wave *waves)
 {
     const double golden = 0.61803398874989484820;
-    frequency_grid *grid = make_grid(spectrum);
+    frequency_grid *grid = make_grid(spectrum, count > CELL_WAVES ? FINE_CELLS : CELLS);
     if (grid == NULL)
         return false;
-    const double height_scale = HEIGHT_SHARE / grid->height[CELLS], slope_scale = (1 - HEIGHT_SHARE) / grid->slope[CELLS];
+    const double height_scale = HEIGHT_SHARE / grid->height[grid->cells], slope_scale = (1 - HEIGHT_SHARE) / grid->slope[grid->cells];
     const double start = uniform(seed, 0);
     double height_before = 0, slope_before = 0;
     int cell = 0;
     for (size_t i = 0; i < count; i++) {
         const double share = (double)(i + 1) / (double)count;
-        while (cell < CELLS - 1 && height_scale * grid->height[cell + 1] + slope_scale * grid->slope[cell + 1] < share)
+        while (cell < grid->cells - 1 && height_scale * grid->height[cell + 1] + slope_scale * grid->slope[cell + 1] < share)
             cell++;
         const double height_step = grid->height[cell + 1] - grid->height[cell], slope_step = grid->slope[cell + 1] - grid->slope[cell];
         const double low = height_scale * grid->height[cell] + slope_scale * grid->slope[cell];
@@ -226,7 +231,7 @@ bool spectrum_sample(const wave_spectrum *spectrum, uint32_t seed, size_t count,
 
 bool spectrum_statistics(const wave_spectrum *spectrum, sea_statistics *out)
 {
-    frequency_grid *grid = make_grid(spectrum);
+    frequency_grid *grid = make_grid(spectrum, CELLS);
     if (grid == NULL)
         return false;
     const double slope = grid->slope[CELLS], difference = slope_difference(spectrum, grid, 0, CELLS);
