@@ -223,8 +223,8 @@ static double exponent(const double *waves, const double *seconds, int count)
 
 static bool bench_growth(bench *b)
 {
-    enum { STEPS = 4 };
-    static const double counts[STEPS] = {16, 64, 256, 512};
+    enum { STEPS = 5 };
+    static const double counts[STEPS] = {16, 64, 256, 512, 2048};
     static const char *const methods[] = {"none", "podee-uniform", "mangata"};
     enum { METHODS = 3 };
     bench_scene scenes[STEPS] = {{0}};
@@ -242,7 +242,7 @@ static bool bench_growth(bench *b)
                b->width, b->height, b->info.threads);
         for (int i = 0; i < STEPS; i++)
             printf(" %.0f waves, ms |", counts[i]);
-        printf(" exponent | limit | |\n|---|---:|---:|---:|---:|---:|---:|---|\n");
+        printf(" exponent | limit | |\n|---|---:|---:|---:|---:|---:|---:|---:|---|\n");
         for (int m = 0; m < METHODS; m++) {
             double seconds[STEPS];
             printf("| `%s` |", methods[m]);

@@ -305,7 +305,7 @@ static const option waves_options[] = {
     [OPT_SPREAD] = {"spread", 0, "S", "s of cos^2s of half the angle, for --directions fixed (default 10)", .set = set_key},
     [OPT_SLOPE] = {"slope", 0, "NAME", "slope variance of the short waves: spectrum (default), or cox-munk, a clean sea's", .set = set_key},
     [OPT_SHORTEST] = {"shortest", 0, "M", "length of the shortest wave (default 0.05; buoy: the table's end)", .set = set_key},
-    [OPT_COUNT] = {"count", 'n', "N", "number of waves, 1 to 512 (default 64)", .set = set_key},
+    [OPT_COUNT] = {"count", 'n', "N", "number of waves, 1 to 2048 (default 64)", .set = set_key},
     [OPT_SEED] = {"seed", 0, "N", "another seed: another sea of the same kind (default 1)", .set = set_key},
     [OPT_FILE] = {"buoy", 0, "FILE",
                   "a measured spectrum: lines of frequency (Hz), direction (degrees,\n"

@@ -29,7 +29,7 @@ extern "C" {
 #define MGT_VERSION_STRING "0.1.0"
 
 /* Limits that are checked. */
-#define MGT_MAX_WAVES 512
+#define MGT_MAX_WAVES 2048
 #define MGT_MAX_OBJECTS 65536
 #define MGT_MAX_TRIANGLES 67108864 /* of a mesh, and of all objects of a scene together */
 #define MGT_MAX_IMAGE_SIDE 32768

@@ -48,31 +48,82 @@ static mgt_water_answers answers_from(const mgt_water_answers *all, size_t first
     return a;
 }
 
+/* What is asked of the water. */
+typedef struct question {
+    const mgt_water *water;
+    double time;
+    const double *points; /* of a query: `count` of them, … */
+    mgt_water_answers *answers;
+    const double *rays; /* … or of a trace */
+    double reach, *distance;
+    size_t count;
+} question;
+
 /* Answers with foam, which belongs to the place where the water of a point rests; in blocks, so that these places fit on the stack. */
-static void answer_with_foam(const mgt_water *water, double time, const water_terms *terms, const double *points, size_t count, mgt_water_answers *answers)
+static void answer_with_foam(const question *q, const water_terms *terms)
 {
     enum { SOME = 128 };
     double rest[2 * SOME];
     foam_sea sea;
     mgt_scene scene;
     mgt_scene_init(&scene, sizeof scene);
-    scene.water = *water;
-    scene.foam = answers->foam_share;
-    scene.foam_persistence = answers->foam_persistence;
+    scene.water = *q->water;
+    scene.foam = q->answers->foam_share;
+    scene.foam_persistence = q->answers->foam_persistence;
     const bool some = foam_sea_of(&scene, &sea);
     size_t unsettled = 0;
-    for (size_t first = 0; first < count; first += SOME) {
-        const size_t points_left = count - first, now = points_left < SOME ? points_left : SOME;
-        mgt_water_answers part = answers_from(answers, first);
-        query_lanes().query(terms, water->level, points + 2 * first, now, &part, rest);
+    for (size_t first = 0; first < q->count; first += SOME) {
+        const size_t points_left = q->count - first, now = points_left < SOME ? points_left : SOME;
+        const double *points = q->points + 2 * first;
+        mgt_water_answers part = answers_from(q->answers, first);
+        query_lanes().query(terms, q->water->level, points, now, &part, rest);
         unsettled += part.unsettled;
         for (size_t i = 0; i < now; i++) {
-            const double here = 0 * (points[2 * (first + i)] + points[2 * (first + i) + 1]); /* 0, or NaN where the point is not finite */
-            const double share = some && here == 0 ? reference_foam_at(&sea, rest[2 * i], rest[2 * i + 1], time).share : here;
-            answers->foam[first + i] = (float)share;
+            const double here = 0 * (points[2 * i] + points[2 * i + 1]); /* 0, or NaN where the point is not finite */
+            const double share = some && here == 0 ? reference_foam_at(&sea, rest[2 * i], rest[2 * i + 1], q->time).share : here;
+            q->answers->foam[first + i] = (float)share;
         }
     }
-    answers->unsettled = unsettled;
+    q->answers->unsettled = unsettled;
+}
+
+static void answer_by(const question *q, water_term *room)
+{
+    double covariance[3];
+    const water_terms terms = water_terms_at(q->water, q->time, q->rays ? 0 : q->answers->least_wavelength, room, covariance);
+    if (q->rays) {
+        query_lanes().trace(&terms, q->water->level, q->rays, q->count, q->reach, q->distance);
+        return;
+    }
+    for (int i = 0; i < 3; i++)
+        q->answers->covariance[i] = covariance[i];
+    if (q->answers->foam)
+        answer_with_foam(q, &terms);
+    else
+        query_lanes().query(&terms, q->water->level, q->points, q->count, q->answers, NULL);
+}
+
+enum { FEW_WAVES = 512 };
+
+static __attribute__((noinline)) void answer_few(const question *q)
+{
+    water_term room[FEW_WAVES];
+    answer_by(q, room);
+}
+
+static __attribute__((noinline)) void answer_many(const question *q)
+{
+    water_term room[MGT_MAX_WAVES];
+    answer_by(q, room);
+}
+
+/* Nothing is allocated: seas of few waves need less stack. */
+static void answer(const question *q)
+{
+    if (q->water->wave_count <= FEW_WAVES)
+        answer_few(q);
+    else
+        answer_many(q);
 }
 
 mgt_status mgt_water_query(const mgt_water *water, double time, const double *points, size_t count, mgt_water_answers *answers)
@@ -88,12 +139,7 @@ mgt_status mgt_water_query(const mgt_water *water, double time, const double *po
         status = report_error(&r, MGT_ERROR_ARGUMENT, "query.points", "mgt_water_query: the list of points is NULL");
     if (status != MGT_OK)
         return status;
-    water_terms terms;
-    water_terms_at(water, time, own.least_wavelength, &terms, own.covariance);
-    if (own.foam)
-        answer_with_foam(water, time, &terms, points, count, &own);
-    else
-        query_lanes().query(&terms, water->level, points, count, &own, NULL);
+    answer(&(question){.water = water, .time = time, .points = points, .answers = &own, .count = count});
     return struct_give(&r, &water_answers_kind, &own, answers);
 }
 
@@ -107,9 +153,7 @@ mgt_status mgt_water_trace(const mgt_water *water, double time, const double *ra
         return report_error(&r, MGT_ERROR_ARGUMENT, "query.rays", "mgt_water_trace: the list of %s is NULL", rays ? "distances" : "rays");
     if (!(reach >= 0 && reach <= 1e9))
         return report_error(&r, MGT_ERROR_ARGUMENT, "query.reach", "mgt_water_trace: reach is %g; allowed is 0 to 1e9", reach);
-    water_terms terms;
-    double unused[3];
-    water_terms_at(water, time, 0, &terms, unused);
-    query_lanes().trace(&terms, water->level, rays, count, reach, distance);
+    if (count > 0)
+        answer(&(question){.water = water, .time = time, .rays = rays, .count = count, .reach = reach, .distance = distance});
     return MGT_OK;
 }

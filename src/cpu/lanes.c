@@ -101,8 +101,8 @@ static inline float any_of(real x)
 
 /* The classes of all waves, an array per member that is read again. */
 typedef struct wave_classes {
-    float kind[MGT_MAX_WAVES], turns[MGT_MAX_WAVES], share[MGT_MAX_WAVES], lost[MGT_MAX_WAVES], searched[MGT_MAX_WAVES];
-    float along[MGT_MAX_WAVES], most[MGT_MAX_WAVES];
+    float kind[MGT_MAX_WAVES + KEY_GAP], turns[MGT_MAX_WAVES + KEY_GAP], share[MGT_MAX_WAVES + KEY_GAP], lost[MGT_MAX_WAVES + KEY_GAP];
+    float searched[MGT_MAX_WAVES + KEY_GAP], along[MGT_MAX_WAVES + KEY_GAP], most[MGT_MAX_WAVES + KEY_GAP];
 } wave_classes;
 
 _Static_assert(sizeof(SortWave) == SORT_KEYS * sizeof(real), "nothing but keys");

@@ -33,11 +33,11 @@ static inline __attribute__((always_inline)) void sum_single(const water_terms *
     const wide_places places = load_places(g->x, g->z);
     for (int i = 0; i < w->count; i++) {
         const SinCos t = sincos_turns(NULL, turns_of(w, i, &places));
-        height = real_fma(t.s, real_broadcast(w->single[i].up), height);
-        slope_x = real_fma(t.c, real_broadcast(w->single[i].lean_x), slope_x);
-        slope_z = real_fma(t.c, real_broadcast(w->single[i].lean_z), slope_z);
+        height = real_fma(t.s, real_broadcast(w->of[i].single.up), height);
+        slope_x = real_fma(t.c, real_broadcast(w->of[i].single.lean_x), slope_x);
+        slope_z = real_fma(t.c, real_broadcast(w->of[i].single.lean_z), slope_z);
         if (moving)
-            rise = real_fma(t.c, real_broadcast(w->single[i].rise), rise);
+            rise = real_fma(t.c, real_broadcast(w->of[i].single.rise), rise);
     }
     store_sum(g->height, height);
     store_sum(g->slope_x, slope_x);
@@ -52,10 +52,10 @@ static inline void sum_double(const water_terms *w, query_group *g)
         wide height = wide_of(0), slope_x = height, slope_z = height, rise = height;
         for (int i = 0; i < w->count; i++) {
             const wide_sine t = sine_of_turns(turns_at(w, i, x, z));
-            height = wide_fma(t.sine, wide_of(w->up[i]), height);
-            slope_x = wide_fma(t.cosine, wide_of(w->lean_x[i]), slope_x);
-            slope_z = wide_fma(t.cosine, wide_of(w->lean_z[i]), slope_z);
-            rise = wide_fma(t.cosine, wide_of(w->rise[i]), rise);
+            height = wide_fma(t.sine, wide_of(w->of[i].up), height);
+            slope_x = wide_fma(t.cosine, wide_of(w->of[i].lean_x), slope_x);
+            slope_z = wide_fma(t.cosine, wide_of(w->of[i].lean_z), slope_z);
+            rise = wide_fma(t.cosine, wide_of(w->of[i].rise), rise);
         }
         wide_store(g->height + half * WIDE, height);
         wide_store(g->slope_x + half * WIDE, slope_x);
@@ -184,9 +184,9 @@ static traced_ray ray_start(const water_terms *w, double level, const double *ra
     r.speed = __builtin_sqrt(length);
     double slope = 0;
     for (int i = 0; i < w->count; i++) {
-        const double turns = w->along_x[i] * r.direction[0] + w->along_z[i] * r.direction[2], radians = 6.28318530717958647692 * turns;
-        slope += __builtin_fabs(w->up[i] * radians);
-        r.bend += w->up[i] * radians * radians;
+        const double turns = w->of[i].along_x * r.direction[0] + w->of[i].along_z * r.direction[2], radians = 6.28318530717958647692 * turns;
+        slope += __builtin_fabs(w->of[i].up * radians);
+        r.bend += w->of[i].up * radians * radians;
     }
     if (w->choppy) { /* a surface that leans by S at most, and is pressed by as much, leans by S/√(1 − S²) */
         const double pressed = w->pressed < 0.9 ? w->pressed : 0.9, steeper = 1 / __builtin_sqrt(1 - pressed * pressed);
@@ -275,7 +275,7 @@ void JOIN(trace_lanes_, MGT_LANES)(const water_terms *terms, double level, const
     enum { MOST_LOOKS = 100000 };
     double crest = 1e-9;
     for (int i = 0; i < terms->count; i++)
-        crest += terms->up[i];
+        crest += terms->of[i].up;
     for (size_t first = 0; first < count; first += MGT_LANES) {
         traced_ray r[MGT_LANES];
         query_group g;

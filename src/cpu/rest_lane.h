@@ -38,7 +38,7 @@ static inline real turns_away(const water_terms *w, int i, const rest_search *s,
 {
     real at;
     __builtin_memcpy(&at, s->turns[i], sizeof at);
-    return real_fma(away_x, real_broadcast(w->single[i].along_x), real_fma(away_z, real_broadcast(w->single[i].along_z), at));
+    return real_fma(away_x, real_broadcast(w->of[i].single.along_x), real_fma(away_z, real_broadcast(w->of[i].single.along_z), at));
 }
 
 /* Shift, and minus its derivative. */
@@ -53,11 +53,11 @@ static inline shift_sums shift_away(const water_terms *w, int count, const rest_
     shift_sums d = {zero, zero, zero, zero, zero};
     for (int i = 0; i < count; i++) {
         const SinCos t = sincos_wave(NULL, turns_away(w, i, s, away_x, away_z));
-        d.x = real_fma(t.c, real_broadcast(w->single[i].shift_x), d.x);
-        d.z = real_fma(t.c, real_broadcast(w->single[i].shift_z), d.z);
-        d.xx = real_fma(t.s, real_broadcast(w->single[i].press_xx), d.xx);
-        d.xz = real_fma(t.s, real_broadcast(w->single[i].press_xz), d.xz);
-        d.zz = real_fma(t.s, real_broadcast(w->single[i].press_zz), d.zz);
+        d.x = real_fma(t.c, real_broadcast(w->of[i].single.shift_x), d.x);
+        d.z = real_fma(t.c, real_broadcast(w->of[i].single.shift_z), d.z);
+        d.xx = real_fma(t.s, real_broadcast(w->of[i].single.press_xx), d.xx);
+        d.xz = real_fma(t.s, real_broadcast(w->of[i].single.press_xz), d.xz);
+        d.zz = real_fma(t.s, real_broadcast(w->of[i].single.press_zz), d.zz);
     }
     return d;
 }
@@ -77,28 +77,28 @@ static inline __attribute__((always_inline)) rest_sums rest_single(const water_t
     __builtin_memset(&d, 0, sizeof d);
     for (int i = 0; i < w->count; i++) {
         const SinCos t = sincos_turns(NULL, turns_away(w, i, s, away_x, away_z));
-        d.height = real_fma(t.s, real_broadcast(w->single[i].up), d.height);
-        d.slope_x = real_fma(t.c, real_broadcast(w->single[i].lean_x), d.slope_x);
-        d.slope_z = real_fma(t.c, real_broadcast(w->single[i].lean_z), d.slope_z);
+        d.height = real_fma(t.s, real_broadcast(w->of[i].single.up), d.height);
+        d.slope_x = real_fma(t.c, real_broadcast(w->of[i].single.lean_x), d.slope_x);
+        d.slope_z = real_fma(t.c, real_broadcast(w->of[i].single.lean_z), d.slope_z);
         if (moving) {
-            d.rise = real_fma(t.c, real_broadcast(w->single[i].rise), d.rise);
-            d.drift_x = real_fma(t.s, real_broadcast(w->single[i].drift_x), d.drift_x);
-            d.drift_z = real_fma(t.s, real_broadcast(w->single[i].drift_z), d.drift_z);
+            d.rise = real_fma(t.c, real_broadcast(w->of[i].single.rise), d.rise);
+            d.drift_x = real_fma(t.s, real_broadcast(w->of[i].single.drift_x), d.drift_x);
+            d.drift_z = real_fma(t.s, real_broadcast(w->of[i].single.drift_z), d.drift_z);
         }
-        d.shift.x = real_fma(t.c, real_broadcast(w->single[i].shift_x), d.shift.x);
-        d.shift.z = real_fma(t.c, real_broadcast(w->single[i].shift_z), d.shift.z);
-        d.shift.xx = real_fma(t.s, real_broadcast(w->single[i].press_xx), d.shift.xx);
-        d.shift.xz = real_fma(t.s, real_broadcast(w->single[i].press_xz), d.shift.xz);
-        d.shift.zz = real_fma(t.s, real_broadcast(w->single[i].press_zz), d.shift.zz);
-        const real along_x = t.c * w->single[i].radians_x, along_z = t.c * w->single[i].radians_z, high_x = t.s * w->single[i].radians_x,
-                   high_z = t.s * w->single[i].radians_z;
-        d.bend_xx = real_fma(high_x, real_broadcast(w->single[i].lean_x), d.bend_xx);
-        d.bend_xz = real_fma(high_x, real_broadcast(w->single[i].lean_z), d.bend_xz);
-        d.bend_zz = real_fma(high_z, real_broadcast(w->single[i].lean_z), d.bend_zz);
-        d.xxx = real_fma(along_x, real_broadcast(w->single[i].press_xx), d.xxx);
-        d.xxz = real_fma(along_z, real_broadcast(w->single[i].press_xx), d.xxz);
-        d.xzz = real_fma(along_x, real_broadcast(w->single[i].press_zz), d.xzz);
-        d.zzz = real_fma(along_z, real_broadcast(w->single[i].press_zz), d.zzz);
+        d.shift.x = real_fma(t.c, real_broadcast(w->of[i].single.shift_x), d.shift.x);
+        d.shift.z = real_fma(t.c, real_broadcast(w->of[i].single.shift_z), d.shift.z);
+        d.shift.xx = real_fma(t.s, real_broadcast(w->of[i].single.press_xx), d.shift.xx);
+        d.shift.xz = real_fma(t.s, real_broadcast(w->of[i].single.press_xz), d.shift.xz);
+        d.shift.zz = real_fma(t.s, real_broadcast(w->of[i].single.press_zz), d.shift.zz);
+        const real along_x = t.c * w->of[i].single.radians_x, along_z = t.c * w->of[i].single.radians_z, high_x = t.s * w->of[i].single.radians_x,
+                   high_z = t.s * w->of[i].single.radians_z;
+        d.bend_xx = real_fma(high_x, real_broadcast(w->of[i].single.lean_x), d.bend_xx);
+        d.bend_xz = real_fma(high_x, real_broadcast(w->of[i].single.lean_z), d.bend_xz);
+        d.bend_zz = real_fma(high_z, real_broadcast(w->of[i].single.lean_z), d.bend_zz);
+        d.xxx = real_fma(along_x, real_broadcast(w->of[i].single.press_xx), d.xxx);
+        d.xxz = real_fma(along_z, real_broadcast(w->of[i].single.press_xx), d.xxz);
+        d.xzz = real_fma(along_x, real_broadcast(w->of[i].single.press_zz), d.xzz);
+        d.zzz = real_fma(along_z, real_broadcast(w->of[i].single.press_zz), d.zzz);
     }
     return d;
 }
@@ -112,17 +112,17 @@ static inline void rest_double(const water_terms *w, rest_group *g)
         wide xx = zero, xz = zero, zz = zero;
         for (int i = 0; i < w->count; i++) {
             const wide_sine t = sine_of_turns(turns_at(w, i, x, z));
-            height = wide_fma(t.sine, wide_of(w->up[i]), height);
-            slope_x = wide_fma(t.cosine, wide_of(w->lean_x[i]), slope_x);
-            slope_z = wide_fma(t.cosine, wide_of(w->lean_z[i]), slope_z);
-            rise = wide_fma(t.cosine, wide_of(w->rise[i]), rise);
-            shift_x = wide_fma(t.cosine, wide_of(w->shift_x[i]), shift_x);
-            shift_z = wide_fma(t.cosine, wide_of(w->shift_z[i]), shift_z);
-            drift_x = wide_fma(t.sine, wide_of(w->drift_x[i]), drift_x);
-            drift_z = wide_fma(t.sine, wide_of(w->drift_z[i]), drift_z);
-            xx = wide_fma(t.sine, wide_of(w->press_xx[i]), xx);
-            xz = wide_fma(t.sine, wide_of(w->press_xz[i]), xz);
-            zz = wide_fma(t.sine, wide_of(w->press_zz[i]), zz);
+            height = wide_fma(t.sine, wide_of(w->of[i].up), height);
+            slope_x = wide_fma(t.cosine, wide_of(w->of[i].lean_x), slope_x);
+            slope_z = wide_fma(t.cosine, wide_of(w->of[i].lean_z), slope_z);
+            rise = wide_fma(t.cosine, wide_of(w->of[i].rise), rise);
+            shift_x = wide_fma(t.cosine, wide_of(w->of[i].shift_x), shift_x);
+            shift_z = wide_fma(t.cosine, wide_of(w->of[i].shift_z), shift_z);
+            drift_x = wide_fma(t.sine, wide_of(w->of[i].drift_x), drift_x);
+            drift_z = wide_fma(t.sine, wide_of(w->of[i].drift_z), drift_z);
+            xx = wide_fma(t.sine, wide_of(w->of[i].press_xx), xx);
+            xz = wide_fma(t.sine, wide_of(w->of[i].press_xz), xz);
+            zz = wide_fma(t.sine, wide_of(w->of[i].press_zz), zz);
         }
         wide_store(g->height + half * WIDE, height);
         wide_store(g->slope_x + half * WIDE, slope_x);

@@ -61,7 +61,7 @@ static inline real real_of_wides(const wide halves[HALVES]) { return (real)_mm_m
 static inline wide turns_at(const water_terms *w, int i, wide x, wide z)
 {
     const double rounder = 0x1.8p52; /* in p + rounder nothing is left below one */
-    const wide p = wide_fma(wide_of(w->along_x[i]), x, wide_fma(wide_of(w->along_z[i]), z, wide_of(w->start[i])));
+    const wide p = wide_fma(wide_of(w->of[i].along_x), x, wide_fma(wide_of(w->of[i].along_z), z, wide_of(w->of[i].start)));
     return p - ((p + rounder) - rounder);
 }
 

@@ -4,6 +4,7 @@
 #define MANGATA_FRAME_FOAM_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 #include "frame/atmosphere.h"
 #include "frame/kernel_data.h"
@@ -22,6 +23,9 @@ typedef struct foam_set {
     FoamSine sines[2 * FOAM_SINES];
     FoamWave waves[MGT_MAX_WAVES];
 } foam_set;
+
+/* Up to its last wave. */
+static inline size_t foam_set_bytes(const foam_set *set) { return offsetof(foam_set, waves) + (size_t)set->data.foam_waves * sizeof *set->waves; }
 
 void frame_foam_of(const mgt_scene *scene, const sky_state *sky, frame_foam *foam);
 

@@ -3,6 +3,8 @@
 #include "frame/frame.h"
 
 #include <math.h>
+#include <stddef.h>
+#include <string.h>
 
 #include "base/triples.h"
 #include "frame/lights.h"
@@ -129,7 +131,10 @@ void frame_look(frame *f, const camera_rays *open, const camera_rays *close)
 
 frame frame_of(const mgt_scene *scene, const sky_state *sky, bool want_color)
 {
-    frame f = {.scene = scene, .under = scene->camera.position[1] < 0};
+    frame f;
+    memset(&f, 0, offsetof(frame, foam)); /* what foam there is none of is not read */
+    f.scene = scene;
+    f.under = scene->camera.position[1] < 0;
     FrameData *d = &f.data;
     lights_place(sky->lights, f.under, d);
     d->index_of_refraction = (float)(f.under ? 1 / scene->water.index_of_refraction : scene->water.index_of_refraction);

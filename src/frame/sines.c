@@ -9,14 +9,25 @@
 
 static const double pi = 3.14159265358979323846, turn = 6.28318530717958647692;
 
+/* Sorts `order` from `first` up to `end`; equal amplitudes stay in their order. */
+static void sort_order(const mgt_wave *waves, uint16_t *order, uint16_t *room, size_t first, size_t end)
+{
+    if (end - first < 2)
+        return;
+    const size_t middle = (first + end) / 2;
+    sort_order(waves, order, room, first, middle);
+    sort_order(waves, order, room, middle, end);
+    memcpy(room + first, order + first, (middle - first) * sizeof *room);
+    for (size_t left = first, right = middle, at = first; left < middle; at++)
+        order[at] = right < end && waves[order[right]].amplitude > waves[room[left]].amplitude ? order[right++] : room[left++];
+}
+
 void sines_order(const mgt_water *water, uint16_t *order)
 {
-    for (size_t i = 0; i < water->wave_count; i++) {
-        size_t at = i;
-        for (; at > 0 && water->waves[order[at - 1]].amplitude < water->waves[i].amplitude; at--)
-            order[at] = order[at - 1];
-        order[at] = (uint16_t)i;
-    }
+    uint16_t room[MGT_MAX_WAVES];
+    for (size_t i = 0; i < water->wave_count; i++)
+        order[i] = (uint16_t)i;
+    sort_order(water->waves, order, room, 0, water->wave_count);
 }
 
 static WaveData wave_data(const mgt_wave *w, double choppiness, double half)
@@ -260,66 +271,66 @@ static double turns_at(const mgt_wave *wave, double time)
     return turns - nearbyint(turns);
 }
 
-/* Of the last term. */
-static void add_shift_terms(water_terms *terms, const mgt_wave *w, double choppiness)
+static void add_shift_terms(water_term *t, const mgt_wave *w, double choppiness)
 {
-    const int n = terms->count - 1;
     const double k = hypot(w->kx, w->kz), shift = k > 0 ? choppiness / k : 0;
-    terms->shift_x[n] = shift * terms->lean_x[n];
-    terms->shift_z[n] = shift * terms->lean_z[n];
-    terms->drift_x[n] = -w->omega * terms->shift_x[n];
-    terms->drift_z[n] = -w->omega * terms->shift_z[n];
-    terms->pressed += choppiness * w->amplitude * k;
-    terms->press_xx[n] = terms->shift_x[n] * w->kx;
-    terms->press_xz[n] = terms->shift_x[n] * w->kz;
-    terms->press_zz[n] = terms->shift_z[n] * w->kz;
-    terms->single[n].along_x = (float)terms->along_x[n];
-    terms->single[n].along_z = (float)terms->along_z[n];
-    terms->single[n].radians_x = (float)w->kx;
-    terms->single[n].radians_z = (float)w->kz;
-    terms->single[n].shift_x = (float)terms->shift_x[n];
-    terms->single[n].shift_z = (float)terms->shift_z[n];
-    terms->single[n].drift_x = (float)terms->drift_x[n];
-    terms->single[n].drift_z = (float)terms->drift_z[n];
-    terms->single[n].press_xx = (float)terms->press_xx[n];
-    terms->single[n].press_xz = (float)terms->press_xz[n];
-    terms->single[n].press_zz = (float)terms->press_zz[n];
+    t->shift_x = shift * t->lean_x;
+    t->shift_z = shift * t->lean_z;
+    t->drift_x = -w->omega * t->shift_x;
+    t->drift_z = -w->omega * t->shift_z;
+    t->press_xx = t->shift_x * w->kx;
+    t->press_xz = t->shift_x * w->kz;
+    t->press_zz = t->shift_z * w->kz;
+    t->single.along_x = (float)t->along_x;
+    t->single.along_z = (float)t->along_z;
+    t->single.radians_x = (float)w->kx;
+    t->single.radians_z = (float)w->kz;
+    t->single.shift_x = (float)t->shift_x;
+    t->single.shift_z = (float)t->shift_z;
+    t->single.drift_x = (float)t->drift_x;
+    t->single.drift_z = (float)t->drift_z;
+    t->single.press_xx = (float)t->press_xx;
+    t->single.press_xz = (float)t->press_xz;
+    t->single.press_zz = (float)t->press_zz;
 }
 
-static void add_term(water_terms *terms, const mgt_wave *w, double time)
+static void fill_term(water_term *t, const mgt_wave *w, double time)
 {
-    const int n = terms->count++;
-    terms->along_x[n] = w->kx * turns_per_radian;
-    terms->along_z[n] = w->kz * turns_per_radian;
-    terms->start[n] = turns_at(w, time);
-    terms->up[n] = w->amplitude;
-    terms->lean_x[n] = w->amplitude * w->kx;
-    terms->lean_z[n] = w->amplitude * w->kz;
-    terms->rise[n] = w->amplitude * w->omega;
-    terms->single[n].up = (float)terms->up[n];
-    terms->single[n].lean_x = (float)terms->lean_x[n];
-    terms->single[n].lean_z = (float)terms->lean_z[n];
-    terms->single[n].rise = (float)terms->rise[n];
+    t->along_x = w->kx * turns_per_radian;
+    t->along_z = w->kz * turns_per_radian;
+    t->start = turns_at(w, time);
+    t->up = w->amplitude;
+    t->lean_x = w->amplitude * w->kx;
+    t->lean_z = w->amplitude * w->kz;
+    t->rise = w->amplitude * w->omega;
+    t->single.up = (float)t->up;
+    t->single.lean_x = (float)t->lean_x;
+    t->single.lean_z = (float)t->lean_z;
+    t->single.rise = (float)t->rise;
 }
 
-void water_terms_at(const mgt_water *water, double time, double least, water_terms *terms, double covariance[3])
+water_terms water_terms_at(const mgt_water *water, double time, double least, water_term *room, double covariance[3])
 {
+    const bool choppy = water->choppiness > 0 && water->wave_count > 0;
+    water_terms terms = {.choppy = choppy,
+                         .folds = (double)water->choppiness * sines_steepest(water) >= 1,
+                         .straight = 0.3 * sines_steepest(water) / fmax(sines_sharpest(water), 1e-300),
+                         .of = room};
     uint16_t order[MGT_MAX_WAVES];
-    terms->count = 0;
-    terms->choppy = water->choppiness > 0 && water->wave_count > 0;
-    terms->folds = (double)water->choppiness * sines_steepest(water) >= 1;
-    terms->sum = terms->pressed = 0;
-    terms->straight = 0.3 * sines_steepest(water) / fmax(sines_sharpest(water), 1e-300);
-    if (terms->choppy)
+    if (choppy)
         sines_order(water, order);
     covariance[0] = covariance[1] = covariance[2] = 0;
     for (size_t i = 0; i < water->wave_count; i++) {
-        const mgt_wave *w = &water->waves[terms->choppy ? order[i] : i];
-        if (hypot(w->kx, w->kz) * least <= 2 * pi) {
-            add_term(terms, w, time);
-            terms->sum += w->amplitude;
-            if (terms->choppy)
-                add_shift_terms(terms, w, (double)water->choppiness);
+        const mgt_wave *w = &water->waves[choppy ? order[i] : i];
+        const double k = hypot(w->kx, w->kz);
+        if (k * least <= 2 * pi) {
+            water_term *t = &room[terms.count++];
+            fill_term(t, w, time);
+            terms.sum += w->amplitude;
+            if (choppy) {
+                add_shift_terms(t, w, (double)water->choppiness);
+                terms.pressed += (double)water->choppiness * w->amplitude * k;
+            }
             continue;
         }
         const double variance = w->amplitude * w->amplitude / 2;
@@ -327,4 +338,5 @@ void water_terms_at(const mgt_water *water, double time, double least, water_ter
         covariance[1] += variance * w->kx * w->kz;
         covariance[2] += variance * w->kz * w->kz;
     }
+    return terms;
 }

@@ -13,12 +13,15 @@
 #include "kernels/common/constants.h"
 #include "mangata/mangata.h"
 
+/* Floats between arrays whose starts would otherwise share a set of the processor's cache. */
+enum { KEY_GAP = 16 };
+
 /* The waves over an interval as a camera meets them: what is the same for every tile. Sorted by amplitude, the largest first. */
 typedef struct wave_set {
     ViewData view;
     WaveData data[MGT_MAX_WAVES]; /* phase left open */
     /* SortData's members, an array each; room for the widest lanes, and zero there. */
-    float keys[SORT_KEYS][MGT_MAX_WAVES];
+    float keys[SORT_KEYS][MGT_MAX_WAVES + KEY_GAP];
     bool has_foam;
     foam_set foam;
 } wave_set;

@@ -161,13 +161,14 @@ static mgt_status upload_foam(cells_run *c, size_t index)
     const foam_set *foam = &g->waves->foam;
     size_t offset;
     mgt_status status;
-    void *at = g->waves->has_foam ? begin_upload(c, sizeof *foam, &offset, &status) : NULL;
+    const size_t size = foam_set_bytes(foam);
+    void *at = g->waves->has_foam ? begin_upload(c, size, &offset, &status) : NULL;
     if (!g->waves->has_foam)
         return MGT_OK;
     if (!at)
         return status;
-    memcpy(at, foam, sizeof *foam);
-    g->gl.CopyNamedBufferSubData(g->ring.buffer, g->cells.foam.name, (GLintptr)offset, (GLintptr)(index * sizeof *foam), (GLsizeiptr)sizeof *foam);
+    memcpy(at, foam, size);
+    g->gl.CopyNamedBufferSubData(g->ring.buffer, g->cells.foam.name, (GLintptr)offset, (GLintptr)(index * sizeof *foam), (GLsizeiptr)size);
     return MGT_OK;
 }
 

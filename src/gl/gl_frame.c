@@ -80,10 +80,10 @@ static mgt_status reserve_layers(gl_renderer *g, const gl_job *job, const report
 /* ---- a set of waves ---- */
 
 /* Uniform data of all passes over one set: they stay valid until the set after the next. */
-static size_t set_bytes(void)
+static size_t set_bytes(const gl_renderer *g)
 {
-    return sizeof(FrameData) + MGT_MAX_WAVES * (sizeof(WaveData) + sizeof(SortData)) + sizeof(ViewData) + 3 * sizeof(PassData) + sizeof(LeanData) +
-           sizeof(foam_set);
+    const size_t waves = gl_wave_room(g, (size_t)g->waves->view.wave_count);
+    return sizeof(FrameData) + waves * (sizeof(WaveData) + sizeof(SortData)) + sizeof(ViewData) + 3 * sizeof(PassData) + sizeof(LeanData) + sizeof(foam_set);
 }
 
 enum { SET_PARTS = 9 };
@@ -100,23 +100,25 @@ static void upload_waves(gl_renderer *g)
     const wave_set *set = g->waves;
     const size_t count = (size_t)set->view.wave_count;
     size_t offset;
-    memcpy(gl_ring_allocate(&g->ring, MGT_MAX_WAVES * sizeof(WaveData), &offset), set->data, count * sizeof(WaveData));
-    const GLenum block = g->limits.software ? GL_UNIFORM_BUFFER : GL_SHADER_STORAGE_BUFFER;
-    g->gl.BindBufferRange(block, g->limits.software ? BIND_UNIFORM_WAVES : BIND_WAVES, g->ring.buffer, (GLintptr)offset, MGT_MAX_WAVES * sizeof(WaveData));
-    SortData *sort = gl_ring_allocate(&g->ring, MGT_MAX_WAVES * sizeof(SortData), &offset);
+    const size_t room = gl_wave_room(g, count);
+    memcpy(gl_ring_allocate(&g->ring, room * sizeof(WaveData), &offset), set->data, count * sizeof(WaveData));
+    const GLenum block = g->waves_in_block ? GL_UNIFORM_BUFFER : GL_SHADER_STORAGE_BUFFER;
+    g->gl.BindBufferRange(block, g->waves_in_block ? BIND_UNIFORM_WAVES : BIND_WAVES, g->ring.buffer, (GLintptr)offset, (GLsizeiptr)(room * sizeof(WaveData)));
+    SortData *sort = gl_ring_allocate(&g->ring, room * sizeof(SortData), &offset);
     sines_sort_data(set, sort);
-    g->gl.BindBufferRange(GL_SHADER_STORAGE_BUFFER, BIND_SORT, g->ring.buffer, (GLintptr)offset, MGT_MAX_WAVES * sizeof(SortData));
+    g->gl.BindBufferRange(GL_SHADER_STORAGE_BUFFER, BIND_SORT, g->ring.buffer, (GLintptr)offset, (GLsizeiptr)(room * sizeof(SortData)));
     gl_uniform(g, BIND_EXTRA, &set->view, sizeof set->view);
     if (!set->has_foam)
         return;
-    memcpy(gl_ring_allocate(&g->ring, sizeof set->foam, &offset), &set->foam, sizeof set->foam);
-    g->gl.BindBufferRange(GL_SHADER_STORAGE_BUFFER, BIND_FOAM, g->ring.buffer, (GLintptr)offset, sizeof set->foam);
+    const size_t foam = foam_set_bytes(&set->foam);
+    memcpy(gl_ring_allocate(&g->ring, foam, &offset), &set->foam, foam);
+    g->gl.BindBufferRange(GL_SHADER_STORAGE_BUFFER, BIND_FOAM, g->ring.buffer, (GLintptr)offset, (GLsizeiptr)foam);
 }
 
 mgt_status gl_sort_tiles(const FrameData *data, const gl_run *run, const gl_band *b, uint32_t first_slot, uint32_t open_slots)
 {
     gl_renderer *g = run->g;
-    mgt_status status = gl_ring_begin(&g->gl, &g->ring, set_bytes(), SET_PARTS, run->r);
+    mgt_status status = gl_ring_begin(&g->gl, &g->ring, set_bytes(g), SET_PARTS, run->r);
     if (status != MGT_OK)
         return status;
     gl_pass_begin(g, "tiles");

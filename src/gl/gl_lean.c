@@ -40,8 +40,10 @@ static void upload_waves(gl_renderer *g)
 {
     const lean_waves *waves = &g->lean.waves;
     size_t offset;
-    memcpy(gl_ring_allocate(&g->ring, sizeof waves->waves, &offset), waves->waves, waves->count * sizeof *waves->waves);
-    g->gl.BindBufferRange(GL_UNIFORM_BUFFER, BIND_PICTURE, g->ring.buffer, (GLintptr)offset, sizeof waves->waves);
+    const size_t room = gl_wave_room(g, waves->count) * sizeof *waves->waves;
+    memcpy(gl_ring_allocate(&g->ring, room, &offset), waves->waves, waves->count * sizeof *waves->waves);
+    const GLenum block = g->waves_in_block ? GL_UNIFORM_BUFFER : GL_SHADER_STORAGE_BUFFER;
+    g->gl.BindBufferRange(block, g->waves_in_block ? BIND_PICTURE : BIND_WAVES, g->ring.buffer, (GLintptr)offset, (GLsizeiptr)room);
 }
 
 static mgt_status run_level(gl_renderer *g, int level, const reporter *r)
@@ -68,7 +70,7 @@ static mgt_status fill(gl_renderer *g, const reporter *r)
 {
     mgt_status status = create_textures(g, r);
     if (status == MGT_OK)
-        status = gl_ring_begin(&g->gl, &g->ring, LEAN_LEVELS * sizeof(LeanPass) + MGT_MAX_WAVES * sizeof(LeanWave), LEAN_LEVELS + 1, r);
+        status = gl_ring_begin(&g->gl, &g->ring, LEAN_LEVELS * sizeof(LeanPass) + gl_wave_room(g, g->lean.waves.count) * sizeof(LeanWave), LEAN_LEVELS + 1, r);
     if (status != MGT_OK)
         return status;
     gl_pass_begin(g, "lean");

@@ -23,7 +23,7 @@ enum {
     BIND_PICTURE = 1, /* what a pass over objects or a map of slopes reads */
     BIND_PASS = 2,
     BIND_EXTRA = 3,         /* the view that sorts tiles, a map of slopes, glare, a blend, or window */
-    BIND_UNIFORM_WAVES = 4, /* the frame's waves, on software OpenGL */
+    BIND_UNIFORM_WAVES = 4, /* the frame's waves, where waves_in_block of gl_renderer.h */
     UNIFORM_BINDINGS,
 
     BIND_TILES = 0, /* storage blocks */
@@ -38,7 +38,7 @@ enum {
     BIND_TASKS = 5,
     BIND_LEAVES = 4, /* … and cells_data.glsl */
     BIND_CELLS = 5,
-    BIND_WAVES = 6, /* the frame's waves, except on software OpenGL; for cells: all sets of waves */
+    BIND_WAVES = 6, /* the frame's waves, or those of the map of slopes, else; for cells: all sets of waves */
     BIND_FOAM = 7,  /* programs of shading; for cells: one for each set of waves */
     BIND_SLOTS = 8, /* method adaptive, beside foam */
     BIND_PIXELS = 8,

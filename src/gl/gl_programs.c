@@ -103,13 +103,14 @@ typedef struct define_text {
     char text[256];
 } define_text;
 
-static const char *const water_defines[WATER_KINDS] =
+static const char *const water_defines[WATER_MANY_WAVES] =
     {[WATER_SINES] = "", [WATER_CHOPPY] = "#define CHOPPY_WATER\n", [WATER_FOAM] = "#define CHOPPY_WATER\n#define FOAMY_WATER\n"};
 
 static define_text defines_of(const gl_programs *p, const program_text *t)
 {
     define_text d;
-    int used = snprintf(d.text, sizeof d.text, "%s%s", p->defines ? p->defines : "", water_defines[p->water]);
+    int used = snprintf(d.text, sizeof d.text, "%s%s%s", p->defines ? p->defines : "", water_defines[p->water % WATER_MANY_WAVES],
+                        p->water < WATER_MANY_WAVES ? "" : "#define MANY_WAVES\n");
     if (t->result)
         used += snprintf(d.text + used, sizeof d.text - (size_t)used, "#define method_result %s\n", t->result);
     if (t->method && t->method->tables & METHOD_LEAN_MAP)

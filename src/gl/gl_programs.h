@@ -59,8 +59,8 @@ typedef enum gl_program {
 /* That shades pixels by a method, from tables or without. Methods whose rows name the same shader share it. */
 gl_program gl_method_program(mgt_method method, bool tables);
 
-/* Kinds of water, for which programs are built apart. */
-typedef enum gl_water { WATER_SINES = 0, WATER_CHOPPY, WATER_FOAM, WATER_KINDS } gl_water;
+/* Kinds of water, for which programs are built apart: the three, and on software OpenGL the three of more waves than a uniform block holds. */
+typedef enum gl_water { WATER_SINES = 0, WATER_CHOPPY, WATER_FOAM, WATER_MANY_WAVES, WATER_KINDS = 2 * WATER_MANY_WAVES } gl_water;
 
 typedef struct gl_programs {
     const gl_api *gl;

@@ -84,8 +84,9 @@ static void fill_material(const shade_material *m, bool smooth, float out[MATERI
     memcpy(out, values, sizeof values);
 }
 
-/* The table of materials, whose textures are `used`. */
-static mgt_status upload_materials(const gl_api *gl, gl_refraction *o, const world *w, const used_texture *used, size_t used_count, const reporter *r)
+/* The table of materials, whose textures are `used`, and of the scene's waves. */
+static mgt_status upload_materials(const gl_api *gl, gl_refraction *o, const world *w, size_t waves, const used_texture *used, size_t used_count,
+                                   const reporter *r)
 {
     const shade_scene *s = o->shade;
     const size_t floats = FIRST_MATERIAL + MATERIAL_FLOATS * w->object_count;
@@ -94,8 +95,8 @@ static mgt_status upload_materials(const gl_api *gl, gl_refraction *o, const wor
     if (!map)
         return status == MGT_OK ? MGT_ERROR_MEMORY : status;
     memcpy(map, s->linear, sizeof s->linear);
-    memcpy(map + TEXTURE_CODES, s->waves, sizeof s->waves);
-    memcpy(map + FIRST_AGAIN, o->again, sizeof o->again);
+    memcpy(map + TEXTURE_CODES, s->waves, waves * sizeof *s->waves);
+    memcpy(map + FIRST_AGAIN, o->again, waves * sizeof *o->again);
     float *materials = map + FIRST_MATERIAL;
     for (size_t i = 0; i < w->object_count; i++)
         fill_material(&s->materials[i], w->objects[i].smooth, materials + MATERIAL_FLOATS * i);
@@ -107,7 +108,7 @@ static mgt_status upload_materials(const gl_api *gl, gl_refraction *o, const wor
     return MGT_OK;
 }
 
-static mgt_status update_materials(gl_renderer *g, const reporter *r)
+static mgt_status update_materials(gl_renderer *g, size_t waves, const reporter *r)
 {
     gl_refraction *o = &g->refraction;
     const world *w = g->objects.world;
@@ -130,7 +131,7 @@ static mgt_status update_materials(gl_renderer *g, const reporter *r)
     if (status == MGT_OK && (!o->texels.texture || !are_uploaded(o, used, count)))
         status = upload_textures(&g->gl, o, used, count, texels, r);
     if (status == MGT_OK)
-        status = upload_materials(&g->gl, o, w, used, count, r);
+        status = upload_materials(&g->gl, o, w, waves, used, count, r);
     free(used);
     return status;
 }
@@ -207,7 +208,7 @@ mgt_status gl_refraction_prepare(gl_renderer *g, const frame *f, const region *a
         status = gl_gbuffers_draw(g, &direct, mirrors ? &mirrored : NULL, r);
     refraction_wave_list(f, w, o->again);
     if (status == MGT_OK)
-        status = update_materials(g, r);
+        status = update_materials(g, f->scene->water.wave_count, r);
     if (status == MGT_OK)
         status = update_shadows(&g->gl, o, r);
     const gbuffer shape = gbuffer_shape(&direct);

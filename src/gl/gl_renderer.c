@@ -230,9 +230,13 @@ static mgt_status update_sky(gl_renderer *g, const mgt_scene *scene, const repor
     return gl_check(&g->gl, "sky", r);
 }
 
+size_t gl_wave_room(const gl_renderer *g, size_t count) { return g->waves_in_block ? BLOCK_WAVES : count > 0 ? count : 1; }
+
 mgt_status gl_frame_begin(gl_renderer *g, const mgt_scene *scene, const reporter *r)
 {
-    g->programs.water = !(scene->water.choppiness > 0) ? WATER_SINES : foam_draws(scene) ? WATER_FOAM : WATER_CHOPPY;
+    const gl_water water = !(scene->water.choppiness > 0) ? WATER_SINES : foam_draws(scene) ? WATER_FOAM : WATER_CHOPPY;
+    g->waves_in_block = g->limits.software && scene->water.wave_count <= BLOCK_WAVES;
+    g->programs.water = g->limits.software && !g->waves_in_block ? water + WATER_MANY_WAVES : water;
     mgt_status status = update_sky(g, scene, r);
     if (status == MGT_OK)
         status = reserve_least(g, r);

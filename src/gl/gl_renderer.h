@@ -89,6 +89,7 @@ typedef struct gl_renderer {
     GLuint vertex_array; /* empty */
     sky_state *sky;      /* of the last frame */
     wave_set *waves;     /* of the pass being prepared */
+    bool waves_in_block; /* the frame's stand in a uniform block, else in a storage buffer */
     const char *pass;    /* the current one's name */
 } gl_renderer;
 
@@ -102,6 +103,9 @@ mgt_status gl_pass_end(gl_renderer *g, const reporter *r);
 
 /* Program `which` in use, built if need be. */
 mgt_status gl_use(gl_renderer *g, gl_program which, const reporter *r);
+
+/* Waves that a block of `count` has room for: as many as shaders declare, or at least one. */
+size_t gl_wave_room(const gl_renderer *g, size_t count);
 
 /* A texture for the next dispatch. */
 void gl_bind_texture(const gl_renderer *g, GLuint unit, GLuint texture);

@@ -101,7 +101,7 @@ static const field_row spectrum_fields[] =
       .doc = "cox-munk: the short waves are scaled to the mean-square slope of a clean sea in this wind", .choices = spectrum_slopes},
      {"shortest", FIELD_NUMBER, offsetof(scene_spectrum, settings.shortest), 0, SEA_SHORTEST, "m",
       .doc = "length of the shortest wave; 0: 0.05 m, or a table's end"},
-     {"count", FIELD_COUNT, offsetof(scene_spectrum, count), 0, 1, MGT_MAX_WAVES, NULL, .doc = "number of waves, with those of waves at most 512"},
+     {"count", FIELD_COUNT, offsetof(scene_spectrum, count), 0, 1, MGT_MAX_WAVES, NULL, .doc = "number of waves, with those of waves at most 2048"},
      {"seed", FIELD_COUNT, offsetof(scene_spectrum, seed), 0, 0, 4294967295, NULL, .doc = "another seed: another sea of the same kind"},
      {"file", FIELD_TEXT, offsetof(scene_spectrum, file), 0, NO_RANGE, NULL,
       .doc = "table of a buoy, or a file of NDBC's or Datawell's, from the scene's folder (see waves.md)"},
@@ -132,7 +132,7 @@ static const field_row swell_fields[] =
       .doc = "where it comes from: 0 is -z (\"north\"), 90 is +x (\"east\")"},
      {"spread", FIELD_NUMBER, offsetof(scene_swell, spread), 0, SEA_SPREAD, NULL,
       .doc = "s of cos^2s of half the angle to its direction: 25 from near, 75 from far away"},
-     {"count", FIELD_COUNT, offsetof(scene_swell, count), 0, 1, MGT_MAX_WAVES, NULL, .doc = "number of waves, with all others at most 512"},
+     {"count", FIELD_COUNT, offsetof(scene_swell, count), 0, 1, MGT_MAX_WAVES, NULL, .doc = "number of waves, with all others at most 2048"},
      {"seed", FIELD_COUNT, offsetof(scene_swell, seed), 0, 0, 4294967295, NULL, .doc = "another seed: another swell of the same kind"},
      {0}};
 

@@ -45,7 +45,7 @@ refused 65 '^scene.yaml:[0-9]+:[0-9]+: .*up' scene.yaml
     printf 'mangata: 1\nwater:\n  waves:\n'
     for ((i = 0; i < 10000; i++)); do echo '    - {amplitude: 0.01, a: 1, b: 0, c: 1}'; done
 } >scene.yaml
-refused 65 '^scene.yaml:[0-9]+:[0-9]+: .*512' scene.yaml
+refused 65 '^scene.yaml:[0-9]+:[0-9]+: .*2048' scene.yaml
 : >scene.yaml
 refused 65 '^scene.yaml' scene.yaml
 head -c 4096 /dev/urandom >scene.yaml

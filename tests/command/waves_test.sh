@@ -14,14 +14,14 @@ works waves -q -o pm.yaml --spectrum pierson-moskowitz --wind 10 -n 100
 works waves -q -o jonswap.yaml --spectrum jonswap --wind 8 --fetch 50000 --directions mitsuyasu --seed 4
 works waves -q -o tma.yaml --spectrum tma --wind 12 --fetch 30000 --depth 6 --direction 90 --gamma 2.2 --slope cox-munk --shortest 0.1
 works waves -q -o buoy.yaml --buoy "$buoy" -n 32
-works waves -q -o deep.yml --spectrum tma --depth 9000 -n 512
+works waves -q -o deep.yml --spectrum tma --depth 9000 -n 2048
 works waves -q -o unified.yaml --spectrum elfouhaily --wind 10 --fetch 200000
 for scene in pm jonswap tma buoy unified; do
     expect 0 '' check "$scene.yaml"
     works render "$scene.yaml" -o "$scene.png" -q "${small[@]}" --frames 0
 done
 expect 0 '' check deep.yml
-grep -q '512 waves' stdout.txt || fail "deep.yml: $(cat stdout.txt)"
+grep -q '2048 waves' stdout.txt || fail "deep.yml: $(cat stdout.txt)"
 same <(waves -q --wind 9 --seed 3) <(waves -q --wind 9 --seed 3)
 differ <(waves -q --wind 9 --seed 3) <(waves -q --wind 9 --seed 4)
 
@@ -102,7 +102,7 @@ expect 0 '' check folder/table.yaml
 cp near.txt folder/beside.txt
 printf 'mangata: 1\nwater: {spectrum: {model: buoy, file: beside.txt}}\n' >folder/beside.yaml
 expect 0 '' check folder/beside.yaml
-expect 65 'count is 9999; allowed: a whole number, 1 to 512' check folder/beside.yaml --set water.spectrum.count=9999
+expect 65 'count is 9999; allowed: a whole number, 1 to 2048' check folder/beside.yaml --set water.spectrum.count=9999
 
 # ---- the scenes of the repository ----
 for scene in breeze gale lagoon; do
@@ -118,7 +118,7 @@ expect 64 '--wind 400: allowed' waves --wind 400
 expect 64 '--wind fresh: allowed' waves --wind fresh
 expect 64 '--fetch -1: allowed is a number, 100 to 1e7 m' waves --fetch -1
 expect 64 '--depth -2: allowed is a number, 0 to 12000 m' waves --depth=-2
-expect 64 '--count 0: allowed is a whole number, 1 to 512' waves -n 0
+expect 64 '--count 0: allowed is a whole number, 1 to 2048' waves -n 0
 expect 64 '--count 100000: allowed' waves -n 100000
 expect 64 '--count 1.5: allowed' waves -n 1.5
 expect 64 '--seed -1: allowed' waves --seed -1

@@ -363,9 +363,9 @@ static void lanes_answer_alike(void **state)
     for (int i = 0; i < 2 * POINTS; i++)
         points[i] = random_range(&r, -1e4, 1e4);
     points[20] = NAN;
-    static water_terms terms;
     double covariance[3];
-    water_terms_at(&scene.water, 3, 0, &terms, covariance);
+    water_term room[WAVES];
+    const water_terms terms = water_terms_at(&scene.water, 3, 0, room, covariance);
     for (uint32_t exact = 0; exact < 2; exact++) {
         for (int k = 0; k < 2; k++) {
             mgt_water_answers answers;

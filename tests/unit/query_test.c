@@ -152,9 +152,9 @@ static void lanes_agree(void **state)
     static answer_set expected, got;
     mgt_wave waves[WAVES];
     const mgt_water water = sea(waves);
-    static water_terms taken;
     double none[3];
-    water_terms_at(&water, 0, 0, &taken, none);
+    water_term room[WAVES];
+    const water_terms taken = water_terms_at(&water, 0, 0, room, none);
     assert_int_equal(taken.count, WAVES);
     scatter(points);
     for (uint32_t exact = 0; exact < 2; exact++) {

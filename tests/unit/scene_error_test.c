@@ -121,7 +121,7 @@ static void messages_say_what_where_and_what_is_allowed(void **state)
         {"mangata: 1\nlight: {radiance: [1, 2]}\n",
          "s.yaml:2:19: light.radiance is a list of 2; allowed: a list of 3 numbers [r, g, b], each 0 to 1e12 kcd/m²"},
         {"mangata: 1\nlight: {radiance: [1, 2, red]}\n", "s.yaml:2:26: light.radiance[2] is red; allowed: a number, 0 to 1e12 kcd/m²"},
-        {"mangata: 1\nwater: {waves: {a: 1}}\n", "s.yaml:2:16: water.waves is a mapping; allowed: a list of at most 512 mappings"},
+        {"mangata: 1\nwater: {waves: {a: 1}}\n", "s.yaml:2:16: water.waves is a mapping; allowed: a list of at most 2048 mappings"},
         {"mangata: 1\ndescription: [a]\n", "s.yaml:2:14: description is a list of 1; allowed: text"},
         /* ranges */
         {"mangata: 1\nlight: {elevation_deg: .nan}\n", "s.yaml:2:24: light.elevation_deg is .nan; allowed: a number, -90 to 90 degrees"},
@@ -166,11 +166,11 @@ static void messages_say_what_where_and_what_is_allowed(void **state)
         {"mangata: 1\nwater: {swell: {height: 2}}\n", "s.yaml:2:16: water.swell is a mapping; allowed: a list of at most 16 mappings"},
         {"mangata: 1\nwater: {swell: [{period: 2}]}\n", "s.yaml:2:17: water.swell[0].height is missing; required: height: a number, 0.001 to 50 m"},
         {"mangata: 1\nwater: {swell: [{height: 2, period: 0}]}\n", "s.yaml:2:37: water.swell[0].period is 0; allowed: a number, 1 to 40 s"},
-        {"mangata: 1\nwater: {wind: {speed: 8, count: 500}, swell: [{height: 2}]}\n",
-         "s.yaml:2:33: water.wind.count is 500, with water.waves and water.swell 524 in all; allowed: together at most 512"},
-        {"mangata: 1\nwater: {swell: [{height: 2, count: 300}, {height: 2, count: 300}]}\n",
-         "s.yaml:2:16: water.swell.count is 600, with water.waves 600 in all; allowed: together at most 512"},
-        {"mangata: 1\nwater: {wind: {speed: 8, count: 513}}\n", "s.yaml:2:33: water.wind.count is 513; allowed: a whole number, 1 to 512"},
+        {"mangata: 1\nwater: {wind: {speed: 8, count: 2036}, swell: [{height: 2}]}\n",
+         "s.yaml:2:33: water.wind.count is 2036, with water.waves and water.swell 2060 in all; allowed: together at most 2048"},
+        {"mangata: 1\nwater: {swell: [{height: 2, count: 1100}, {height: 2, count: 1100}]}\n",
+         "s.yaml:2:16: water.swell.count is 2200, with water.waves 2200 in all; allowed: together at most 2048"},
+        {"mangata: 1\nwater: {wind: {speed: 8, count: 2049}}\n", "s.yaml:2:33: water.wind.count is 2049; allowed: a whole number, 1 to 2048"},
         {"mangata: 1\nwater:\n  wind: 8\n  waves: [{amplitude: 1, a: 1, b: 1, c: 1}]\n",
          "s.yaml:4:3: water.waves stands beside water.wind, which replaces it; allowed: one of them"},
         {"mangata: 1\nwater:\n  spectrum: {model: jonswap}\n  wind: {speed: 8}\n",
@@ -347,8 +347,8 @@ static void hostile_files_are_refused(void **state)
         size_t count;
         const char *tail, *message;
     } cases[] = {
-        {"mangata: 1\nwater: {waves: [", "{amplitude: .1, a: 1, b: 1, c: 1},", 10000, "]}", "s.yaml:2:16: water.waves has 10000 items; allowed: at most 512"},
-        {"mangata: 1\nwater: {waves: [", "{amplitude: .1, a: 1, b: 1, c: 1},", 513, "]}", "s.yaml:2:16: water.waves has 513 items; allowed: at most 512"},
+        {"mangata: 1\nwater: {waves: [", "{amplitude: .1, a: 1, b: 1, c: 1},", 10000, "]}", "s.yaml:2:16: water.waves has 10000 items; allowed: at most 2048"},
+        {"mangata: 1\nwater: {waves: [", "{amplitude: .1, a: 1, b: 1, c: 1},", 2049, "]}", "s.yaml:2:16: water.waves has 2049 items; allowed: at most 2048"},
         {"", "[", 100000, "", "s.yaml:1:33: nested too deep; allowed: at most 32 levels"},
         {"", "{a: ", 100000, "", "s.yaml:1:129: nested too deep; allowed: at most 32 levels"},
         {"", "- ", 3000, "x", "s.yaml:1:65: nested too deep; allowed: at most 32 levels"},

@@ -371,19 +371,19 @@ static void canonical_text_knows_values_not_spelling(void **state)
             fail_msg("%s does not change the canonical text", wave_changes[i]);
 }
 
-static void most_waves_are_512(void **state)
+static void the_most_waves_are_read(void **state)
 {
     (void)state;
     static const char wave[] = "{amplitude: 0.001, a: 1, b: 2, c: 3, phase: 4},";
-    char *text = malloc(512 * sizeof wave + 100);
+    char *text = malloc(MGT_MAX_WAVES * sizeof wave + 100);
     assert_non_null(text);
     char *at = text + sprintf(text, "mangata: 1\nwater: {waves: [");
-    for (int i = 0; i < 512; i++)
+    for (int i = 0; i < MGT_MAX_WAVES; i++)
         at += sprintf(at, "%s", wave);
     strcpy(at, "]}\n");
     scene_file *file = parse(text, NULL, 0);
-    assert_int_equal(frame_of(file, 0).water.wave_count, 512);
-    assert_true(frame_of(file, 0).water.waves[511].phase == 4);
+    assert_int_equal(frame_of(file, 0).water.wave_count, MGT_MAX_WAVES);
+    assert_true(frame_of(file, 0).water.waves[MGT_MAX_WAVES - 1].phase == 4);
     scene_file_free(file);
     free(text);
 }
@@ -402,7 +402,7 @@ int main(void)
         cmocka_unit_test(evenly_spaced_keyframes_make_a_straight_steady_path),
         cmocka_unit_test(negative_frames_are_refused),
         cmocka_unit_test(canonical_text_knows_values_not_spelling),
-        cmocka_unit_test(most_waves_are_512),
+        cmocka_unit_test(the_most_waves_are_read),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

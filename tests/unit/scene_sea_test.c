@@ -272,7 +272,7 @@ static void bad_words_say_what_is_allowed(void **state)
         {"wind=-3", "--sea wind=-3: wind is \"-3\"; allowed: a number, 0 or 0.5 to 75 m/s", SCENE_ERROR_BAD_SCENE},
         {"wind=nan", "--sea wind=nan: wind is \"nan\"; allowed: a number, 0 or 0.5 to 75 m/s", SCENE_ERROR_BAD_SCENE},
         {"wind=3}", "--sea wind=3}: wind is \"3}\"; allowed: a number, 0 or 0.5 to 75 m/s", SCENE_ERROR_BAD_SCENE},
-        {"wind=3,count=1.5", "--sea wind=3,count=1.5: count is \"1.5\"; allowed: a whole number, 1 to 512", SCENE_ERROR_BAD_SCENE},
+        {"wind=3,count=1.5", "--sea wind=3,count=1.5: count is \"1.5\"; allowed: a whole number, 1 to 2048", SCENE_ERROR_BAD_SCENE},
         {"wind=0", "--sea wind=0: there is no wind and no swell; allowed: such as wind=12,direction=30", SCENE_ERROR_BAD_SCENE},
         {"seed=2", "--sea seed=2: there is no wind and no swell; allowed: such as wind=12,direction=30", SCENE_ERROR_BAD_SCENE},
         {"swell=-1", "--sea swell=-1: swell is \"-1\"; allowed: a number, 0.001 to 50 m", SCENE_ERROR_BAD_SCENE},

@@ -225,7 +225,7 @@ static void spreadings_are_the_published_ones(void **state)
 static void waves_have_the_variances_of_their_spectrum(void **state)
 {
     (void)state;
-    static const size_t counts[] = {1, 2, 5, 16, 64, 511, 512};
+    static const size_t counts[] = {1, 2, 5, 16, 64, 511, 512, 2048};
     mgt_wave waves[MGT_MAX_WAVES];
     for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++)
         for (double depth = 0; depth < 20; depth += 8) {
@@ -479,7 +479,7 @@ static void bad_spectra_say_where(void **state)
         {"{model: tma}", "sea.yaml:2:19: water.spectrum.depth is 0: tma is a sea of limited depth"},
         {"{model: jonswap, wind: 20, depth: 3}", "sea.yaml:2:53: water.spectrum.depth is 3 m, shallow for this sea's waves"},
         {"{model: buoy}", "sea.yaml:2:19: water.spectrum.file is missing"},
-        {"{model: jonswap, count: 513}", "count is 513; allowed: a whole number, 1 to 512"},
+        {"{model: jonswap, count: 2049}", "count is 2049; allowed: a whole number, 1 to 2048"},
         {"{model: jonswap, shortest: 500}", "sea.yaml:2:46: water.spectrum.shortest leaves no room"},
         {"{model: jonswap, wind: 0.5, fetch: 100, shortest: 0.01, slope: cox-munk}", "sea.yaml:2:82: water.spectrum.slope cannot be cox-munk"},
         {"{model: buoy, file: no-such-table.txt}", "no-such-table.txt: No such file"},
@@ -495,9 +495,9 @@ static void bad_spectra_say_where(void **state)
             fail_msg("%s gives \"%s\", not \"%s\"", bad[i][0], error.text, bad[i][1]);
     }
     scene_error error = {0};
-    const char *override = "water.waves=[{amplitude: 0, a: 1, b: 1, c: 1}]", *scene = "mangata: 1\nwater: {spectrum: {model: jonswap, count: 512}}\n";
+    const char *override = "water.waves=[{amplitude: 0, a: 1, b: 1, c: 1}]", *scene = "mangata: 1\nwater: {spectrum: {model: jonswap, count: 2048}}\n";
     assert_null(scene_file_parse(scene, strlen(scene), "sea.yaml", &override, 1, &error));
-    assert_non_null(strstr(error.text, "sea.yaml:2:43: water.spectrum.count is 512, with water.waves 513 in all; allowed: together at most 512"));
+    assert_non_null(strstr(error.text, "sea.yaml:2:43: water.spectrum.count is 2048, with water.waves 2049 in all; allowed: together at most 2048"));
 }
 
 int main(void)

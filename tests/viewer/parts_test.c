@@ -168,7 +168,7 @@ static void a_spectrum_stays_one(void **state)
     assert_int_equal(words.count, 2);
     scene_overrides_free(&words);
     /* A sea that cannot be made says why, and the former one stays. */
-    d.values.water.spectrum.count = 512;
+    d.values.water.spectrum.count = 2048;
     document_changed(&d, false);
     document_refresh(&d);
     assert_true(d.fault.kind == SCENE_ERROR_BAD_SCENE && strstr(d.fault.text, "water.spectrum.count") != NULL);

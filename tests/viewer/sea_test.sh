@@ -23,7 +23,7 @@ expect-change
 undo
 expect-value water.swell[0].period 12
 # no such sea: the reason stands over the picture, the former sea stays
-set water.wind.count 512
+set water.wind.count 2048
 frames 2
 expect-error water
 undo

@@ -23,9 +23,8 @@ class Engine {
     if (!gl.getExtension("EXT_color_buffer_float")) throw new Error("its WebGL2 cannot draw into floating-point pictures");
     Object.assign(this, { canvas, lanes, texts, gl, programs: new Map(), buffers: {}, textures: {}, times: {} });
     this.parallel = gl.getExtension("KHR_parallel_shader_compile");
-    this.mostWaves = calls.waves_most();
-    this.blockBytes = this.mostWaves * calls.wave_bytes();
-    this.inBlock = gl.getParameter(gl.MAX_UNIFORM_BLOCK_SIZE) >= this.blockBytes;
+    this.blockBytes = calls.block_waves() * calls.wave_bytes();
+    this.blockWaves = gl.getParameter(gl.MAX_UNIFORM_BLOCK_SIZE) >= this.blockBytes ? calls.block_waves() : 0;
     const names = gl.getExtension("WEBGL_debug_renderer_info");
     this.byCpu = /swiftshader|llvmpipe|softpipe|software|basic render/i.test(gl.getParameter(names ? names.UNMASKED_RENDERER_WEBGL : gl.RENDERER));
     this.empty = gl.createVertexArray();
@@ -49,7 +48,7 @@ class Engine {
     const key = [file, method, defines].join();
     if (this.programs.has(key)) return this.programs.get(key);
     const gl = this.gl, program = gl.createProgram();
-    const head = "#version 300 es\n" + defines + (result ? `#define method_result ${result}\n` : "") + (this.inBlock ? `#define WAVES_IN_BLOCK ${this.mostWaves}\n` : "");
+    const head = "#version 300 es\n" + defines + (result ? `#define method_result ${result}\n` : "");
     const shaders = [[gl.VERTEX_SHADER, "whole.vert"], [gl.FRAGMENT_SHADER, file]].map(([kind, name]) => {
       const shader = gl.createShader(kind);
       gl.shaderSource(shader, (name === file ? head : "#version 300 es\n") + this.assembled(name, new Set(), method));
@@ -90,10 +89,10 @@ class Engine {
     return entry.places[name];
   }
 
-  // `choppy`, `foamy`: what the water is.
-  methodProgram(name, { choppy, foamy }) {
+  // `choppy`, `foamy`, `waves`: what the water is, and of how many.
+  methodProgram(name, { choppy, foamy, waves }) {
     const { program: [file, kernel, result], map } = METHODS[name];
-    const defines = (map ? "#define LEAN_MAP\n" : "") + (choppy ? "#define CHOPPY_WATER\n" : "") + (foamy ? "#define FOAMY_WATER\n" : "");
+    const defines = (map ? "#define LEAN_MAP\n" : "") + (choppy ? "#define CHOPPY_WATER\n" : "") + (foamy ? "#define FOAMY_WATER\n" : "") + (waves <= this.blockWaves ? `#define WAVES_IN_BLOCK ${this.blockWaves}\n` : "");
     return this.program(file, kernel || "", result, defines);
   }
 
@@ -145,7 +144,7 @@ class Engine {
       this.block("foam", 1, tiles.foam);
       this.data("foam_texture", tiles.foamWaves);
     }
-    if (this.inBlock) {
+    if (tiles.waveCount <= this.blockWaves) {
       const all = new Float32Array(this.blockBytes / 4); // shaders ask for a whole block
       all.set(tiles.waves);
       this.block("waves", 2, all);
@@ -209,7 +208,7 @@ class Engine {
     const tiles = await this.lanes.tiles({ method, settings, width, height, jitter, sorted, columns }, stale);
     if (!tiles) return false;
     this.times.tiles = performance.now() - start;
-    const entry = await this.compiled(this.methodProgram(method, { choppy: tiles.choppy, foamy: tiles.foam !== null }));
+    const entry = await this.compiled(this.methodProgram(method, { choppy: tiles.choppy, foamy: tiles.foam !== null, waves: tiles.waveCount }));
     if (METHODS[method].map && !await this.makeMap({ method, settings, width, height }, tiles.lean, stale)) return false;
     this.upload(tiles);
     this.gl.useProgram(entry.program);

@@ -5,6 +5,7 @@ const element = id => document.getElementById(id);
 const FIRST_PIXELS = 16e3; // of the first picture, before any time is known
 const LEAST_PIXELS = 8e3; // of a moving picture, however long it takes
 const JUDGED_PIXELS = 16e3;
+const SWELL_WAVES = 24; // of a swell, where none says how many
 const page = {
   settings: presets(), methods: ["none", "mangata"], wipe: 0.5, playing: true, frames: 0,
   dirty: true, version: 0, // of what is to be seen
@@ -115,7 +116,8 @@ function adapt(way, took, pixels) {
 
 // Workers draw until the shaders are compiled. Then the faster of both does, but for WebGL2 that the CPU draws: there workers do.
 function chooseWay() {
-  const { engine } = page.view, key = page.methods.join(), water = { choppy: page.settings.choppiness > 0, foamy: page.settings.choppiness > 0 && page.settings.foam > 0 };
+  const { engine } = page.view, key = page.methods.join(), { choppiness, foam, waves, swell } = page.settings;
+  const water = { choppy: choppiness > 0, foamy: choppiness > 0 && foam > 0, waves: waves + (swell > 0 ? SWELL_WAVES : 0) };
   if (engine.byCpu || page.chosenFor === key) return;
   if (page.triedFor === key) {
     if (--page.trial > 0) return;

@@ -15,10 +15,6 @@ enum {
     SETTING_COUNT
 };
 
-/* Waves of a sea at most: as many as fit into a uniform block of 48 KiB. */
-enum { PAGE_WAVES = 512 };
-_Static_assert(PAGE_WAVES <= MGT_MAX_WAVES, "waves of a scene");
-
 /* The scene and the sky that the settings ask for. */
 const mgt_scene *page_scene(void);
 const sky_state *page_sky(void);

@@ -51,7 +51,7 @@ static lean_waves lean;
 static page_buffer tiles, lists, searched, hits;
 
 EXPORT(tile_bytes) int page_tile_bytes(void) { return sizeof(shader_tile); }
-EXPORT(waves_most) int page_waves_most(void) { return PAGE_WAVES; }
+EXPORT(block_waves) int page_block_waves(void) { return BLOCK_WAVES; }
 EXPORT(wave_bytes) int page_wave_bytes(void) { return sizeof(WaveData); }
 EXPORT(foam_wave_bytes) int page_foam_wave_bytes(void) { return sizeof(FoamWave); }
 EXPORT(lean_bytes) int page_lean_bytes(void) { return sizeof(LeanData); }

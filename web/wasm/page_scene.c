@@ -12,7 +12,7 @@
 static double settings[SETTING_COUNT];
 static double target[3];           /* the camera's, as the page writes it into commands */
 static double drawn[SETTING_moon]; /* settings of the sea that `waves` are of */
-static mgt_wave waves[PAGE_WAVES];
+static mgt_wave waves[MGT_MAX_WAVES];
 static mgt_scene scene;
 static sky_state *sky;
 
@@ -43,7 +43,7 @@ static mgt_status draw_sea(void)
     swell.direction_deg = settings[SETTING_swell_direction];
     sea.swells = &swell;
     sea.swell_count = swell.height > 0;
-    return mgt_sea_scene(&sea, waves, PAGE_WAVES, &scene);
+    return mgt_sea_scene(&sea, waves, MGT_MAX_WAVES, &scene);
 }
 
 static double *light_number(const char *key) { return (double *)((char *)&scene.light + field_find(light_rows, key, strlen(key))->offset); }

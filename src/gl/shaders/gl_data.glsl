@@ -61,8 +61,8 @@ TileWave tile_wave_of_vector(uvec4 v) { return TileWave(int(v.x), uintBitsToFloa
 uvec4 vector_of_tile_wave(int index, float turns, float share) { return uvec4(uint(index), floatBitsToUint(turns), floatBitsToUint(share), 0u); }
 
 #ifndef CELLS_PASS
-#ifdef SOFTWARE_GL /* reads of uniform blocks need no loop over lanes */
-layout(std140, binding = 4) uniform WaveBlock { vec4 frame_waves[MAX_WAVES * WAVE_VECTORS]; };
+#if defined(SOFTWARE_GL) && !defined(MANY_WAVES) /* reads of uniform blocks need no loop over lanes */
+layout(std140, binding = 4) uniform WaveBlock { vec4 frame_waves[BLOCK_WAVES * WAVE_VECTORS]; };
 #else
 layout(std430, binding = 6) restrict readonly buffer WaveBlock { vec4 frame_waves[]; }; /* WAVE_VECTORS each: WaveData */
 #endif

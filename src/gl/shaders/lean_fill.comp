@@ -9,7 +9,11 @@
 #include "kernels/waves/lean_grid.k"
 
 layout(std140, binding = 3) uniform LeanPassBlock { LeanPass lean_pass; };
-layout(std140, binding = 1) uniform LeanWaveBlock { LeanWave lean_waves[MAX_WAVES]; };
+#if defined(SOFTWARE_GL) && !defined(MANY_WAVES)
+layout(std140, binding = 1) uniform LeanWaveBlock { LeanWave lean_waves[BLOCK_WAVES]; };
+#else
+layout(std430, binding = 6) restrict readonly buffer LeanWaveBlock { LeanWave lean_waves[]; };
+#endif
 layout(binding = 0) writeonly uniform image2D mean_image;
 
 const int ROWS = 16;

@@ -10,7 +10,7 @@
 const int LANES = 64;
 layout(local_size_x = 64) in;
 
-const int WORDS = MAX_WAVES / 32; /* of 32 waves */
+const int WORDS = MAX_WAVES / 32; /* of 32 waves; at most one for each invocation */
 shared uint resolved_bits[WORDS];
 shared uint mixed_bits[WORDS];
 shared uint searched_bits[WORDS];
@@ -64,7 +64,7 @@ struct Counts {
 Counts count_all()
 {
     Counts c = Counts(0, 0, 0);
-    for (int i = 0; i < WORDS; i++) {
+    for (int i = 0; i < (pass_data.wave_count + 31) / 32; i++) {
         c.resolved += bitCount(resolved_bits[i]);
         c.mixed += bitCount(mixed_bits[i]);
         c.searched += bitCount(searched_bits[i]);

@@ -8,7 +8,8 @@
 
 /* ---- waves ---- */
 
-#define MAX_WAVES 512 /* of a scene */
+#define MAX_WAVES 2048  /* of a scene */
+#define BLOCK_WAVES 512 /* that uniform blocks hold, where waves stand in these: 48 KiB */
 
 #define SORT_KEYS 6 /* members of SortData that sort a wave, see tile.k */
 
