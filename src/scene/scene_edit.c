@@ -145,12 +145,6 @@ static bool mappings_equal(const field_row *mapping, const void *left, const voi
 
 bool scene_values_equal(const scene_values *left, const scene_values *right) { return mappings_equal(scene_root_field(), left, right); }
 
-bool scene_objects_equal(const scene_values *left, const scene_values *right)
-{
-    const field_row *objects = child_field(scene_root_field(), "objects", 7);
-    return lists_equal(objects, &left->objects, &right->objects);
-}
-
 /* As a double-quoted scalar of JSON, which YAML reads too. */
 static void write_text(FILE *stream, const char *text)
 {

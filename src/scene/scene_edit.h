@@ -21,15 +21,12 @@ void scene_values_write_out_sea(scene_values *values);
 /* Makes the paths of meshes, textures, heights and a buoy's table independent of the folder of the scene's file. False when memory runs out. */
 bool scene_values_fix_files(scene_values *values, const char *scene_path);
 
-/* scene_file_parse() for a text that differs little from `like`: where the objects are the same, so are their models, which are not read again. */
+/* scene_file_parse() for a text that differs little from `like`, whose models are taken where the new objects are made of the same. NULL: there is none. */
 scene_file *scene_file_parse_like(const scene_values *like, const char *text, size_t length, const char *name, const char *const *overrides,
                                   size_t override_count, scene_error *error);
 
 /* Whether both hold the same for every key. */
 bool scene_values_equal(const scene_values *left, const scene_values *right);
-
-/* Whether both list the same objects. */
-bool scene_objects_equal(const scene_values *left, const scene_values *right);
 
 /* The field that a path such as "light.elevation_deg", "water.waves[2].a" or "camera.path" names, and where `values` hold it. NULL where
  * there is none, or no such item. */

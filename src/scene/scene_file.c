@@ -58,9 +58,7 @@ scene_file *scene_file_parse_like(const scene_values *like, const char *text, si
     file->values = scene_values_defaults();
     if (!scene_read(&tree, &file->values, error) || !scene_check(&tree, &file->values, error) || !scene_sea_read(&tree, &file->values.water, error))
         goto fail;
-    if (like != NULL && scene_objects_equal(like, &file->values))
-        file->values.models = scene_models_share(like->models);
-    else if (!scene_models_read(&tree, &file->values, error))
+    if (!scene_models_read(&tree, &file->values, like != NULL ? like->models : NULL, error))
         goto fail;
     scene_warn(&tree, &file->values, &file->warning);
     tree_free(&tree);

@@ -2,36 +2,48 @@
  *
  * The objects of a scene with what they are made of: which keys go together, each file once, every instance at its place.
  */
+#define _POSIX_C_SOURCE 200809L
+
 #include "scene/scene_models.h"
 
 #include <math.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
+#include "base/pixel_budget.h"
 #include "scene/model.h"
 #include "scene/scene_sea.h"
 #include "sea/spectrum_math.h"
 
-/* A model or a texture with the file it came from. */
-typedef struct loaded_model {
-    char *path; /* owned; NULL: a shape's */
+/* What a model or a texture was made from. Equal sources make equal ones. */
+typedef struct model_source {
+    char *path;         /* owned: of the mesh, the heights or the texture; NULL: none */
+    struct stat stamp;  /* the file's; zeros where there is none */
+    scene_object shape; /* a shape's own numbers; owns nothing */
     model_use use;
-    scene_model model;
+} model_source;
+
+/* A model, or a texture, counted by its owners: several readings of a scene share it. */
+typedef struct loaded_model {
+    atomic_int owners;
+    model_source source;
+    uint64_t pixels;   /* of its textures */
+    scene_model model; /* a texture has none */
+    mgt_texture *texture;
+    uint64_t hash; /* the texture's */
 } loaded_model;
 
-typedef struct loaded_texture {
-    char *path; /* owned */
-    mgt_texture *texture;
-    uint64_t hash;
-} loaded_texture;
+/* Owned, as is a share of each. */
+typedef struct loaded_list {
+    loaded_model **items;
+    size_t count;
+} loaded_list;
 
 struct scene_models {
     atomic_int owners;
-    loaded_model *models;
-    size_t model_count;
-    loaded_texture *textures;
-    size_t texture_count;
+    loaded_list models, textures;
     mgt_object *objects;
     size_t object_count, object_room;
     uint32_t *label_of; /* of each object */
@@ -44,6 +56,7 @@ struct scene_models {
 typedef struct models_reader {
     const scene_tree *tree;
     scene_models *models;
+    const scene_models *former; /* of an earlier reading; NULL: none */
     scene_error *error;
     uint64_t triangles;
     uint64_t pixels; /* of textures */
@@ -106,25 +119,84 @@ static bool refuse_fault(const models_reader *r, size_t index, const tree_node *
 /* Room for one more in an array; NULL when memory runs out. */
 static void *grown(void *items, size_t count, size_t size) { return realloc(items, (count + 1) * size); }
 
-/* A place for the model of `path` (taken over; NULL: a shape's), or the one that is there already. NULL when memory runs out. */
-static loaded_model *place_for_model(scene_models *m, char *path, model_use use, bool *found)
+static void release_loaded(loaded_model *m)
 {
-    for (size_t i = 0; path != NULL && i < m->model_count; i++)
-        if (m->models[i].path != NULL && strcmp(m->models[i].path, path) == 0 && m->models[i].use.own_materials == use.own_materials &&
-            m->models[i].use.dry == use.dry) {
-            free(path);
-            *found = true;
-            return &m->models[i];
-        }
-    loaded_model *models = grown(m->models, m->model_count, sizeof *models);
-    if (models == NULL) {
-        free(path);
-        return NULL;
+    if (m == NULL || atomic_fetch_sub(&m->owners, 1) > 1)
+        return;
+    free(m->source.path);
+    model_free(&m->model);
+    mgt_texture_destroy(m->texture);
+    free(m);
+}
+
+static void release_list(loaded_list *list)
+{
+    for (size_t i = 0; i < list->count; i++)
+        release_loaded(list->items[i]);
+    free(list->items);
+}
+
+static bool same_file(const model_source *a, const model_source *b)
+{
+    if (a->path == NULL || b->path == NULL)
+        return a->path == b->path;
+    return strcmp(a->path, b->path) == 0 && a->stamp.st_dev == b->stamp.st_dev && a->stamp.st_ino == b->stamp.st_ino && a->stamp.st_size == b->stamp.st_size &&
+           a->stamp.st_mtim.tv_sec == b->stamp.st_mtim.tv_sec && a->stamp.st_mtim.tv_nsec == b->stamp.st_mtim.tv_nsec;
+}
+
+static bool same_shape(const scene_object *a, const scene_object *b)
+{
+    if (a->shape != b->shape || a->shape == SHAPE_MESH)
+        return a->shape == b->shape;
+    return memcmp(a->size, b->size, sizeof a->size) == 0 && a->triangles == b->triangles && a->count == b->count && a->rim_width == b->rim_width &&
+           a->rim_height == b->rim_height && a->lowest == b->lowest && a->highest == b->highest;
+}
+
+static loaded_model *find_loaded(const loaded_list *list, const model_source *source)
+{
+    for (size_t i = 0; i < list->count; i++) {
+        const model_source *other = &list->items[i]->source;
+        if (other->use.own_materials == source->use.own_materials && other->use.dry == source->use.dry && same_file(other, source) &&
+            same_shape(&other->shape, &source->shape))
+            return list->items[i];
     }
-    m->models = models;
-    models[m->model_count] = (loaded_model){.path = path, .use = use};
-    *found = false;
-    return &models[m->model_count++];
+    return NULL;
+}
+
+/* The entry of a source (taken over) in a list: the one that is there, a share of the former reading's, or, with *fresh, one that is still to be made. NULL
+ * when memory runs out. */
+static loaded_model *take_loaded(models_reader *r, loaded_list *list, const loaded_list *former, model_source source, bool *fresh)
+{
+    *fresh = false;
+    loaded_model *found = find_loaded(list, &source), *shared = NULL, **items = NULL;
+    if (found == NULL && former != NULL)
+        shared = find_loaded(former, &source);
+    if (shared != NULL && r->pixels + shared->pixels > pixel_budget())
+        shared = NULL;
+    if (found == NULL && (items = grown(list->items, list->count, sizeof(loaded_model *))) != NULL) {
+        list->items = items;
+        found = shared != NULL ? shared : calloc(1, sizeof *found);
+    }
+    *fresh = found != NULL && items != NULL && shared == NULL;
+    if (*fresh)
+        found->source = source;
+    else
+        free(source.path);
+    if (items != NULL && found != NULL) {
+        atomic_fetch_add(&found->owners, 1);
+        list->items[list->count++] = found;
+        r->pixels += found->pixels;
+    }
+    return found;
+}
+
+/* False when memory runs out. `file` may be NULL. */
+static bool source_of(const models_reader *r, const char *file, model_source *out)
+{
+    *out = (model_source){.path = file != NULL ? scene_file_beside(r->tree->file_name, file) : NULL};
+    if (out->path != NULL && stat(out->path, &out->stamp) != 0)
+        out->stamp = (struct stat){0};
+    return file == NULL || out->path != NULL;
 }
 
 static bool make_shape(scene_model *out, const scene_object *object, const char *path, model_fault *fault)
@@ -143,60 +215,53 @@ static bool make_shape(scene_model *out, const scene_object *object, const char 
     return good;
 }
 
-/* NULL with the error set. Valid until the next one is taken. */
+/* NULL with the error set. */
 static const scene_model *take_model(models_reader *r, size_t index, const tree_node *item, const scene_object *object)
 {
     const bool is_mesh = object->shape == SHAPE_MESH;
     const char *file = is_mesh ? object->mesh : object->shape == SHAPE_FLOOR ? object->heights : NULL;
-    char *path = file != NULL ? scene_file_beside(r->tree->file_name, file) : NULL, *key = is_mesh ? path : NULL;
-    const model_use use = {.own_materials = !object->material.given, .dry = object->dry};
+    model_source source;
     model_fault fault = {0};
-    bool found = false, good = false;
-    loaded_model *place = file == NULL || path != NULL ? place_for_model(r->models, key, use, &found) : NULL;
-    if (place == NULL) {
-        if (!is_mesh)
-            free(path);
+    bool fresh = false;
+    if (!source_of(r, file, &source)) {
         scene_error_memory(r->error);
         return NULL;
     }
-    if (found)
-        return &place->model;
-    good = is_mesh ? model_load(&place->model, place->path, use, &r->pixels, &fault) : make_shape(&place->model, object, path, &fault);
-    if (!is_mesh)
-        free(path);
+    source.shape = *object;
+    source.use = (model_use){.own_materials = is_mesh && !object->material.given, .dry = object->dry};
+    loaded_model *m = take_loaded(r, &r->models->models, r->former != NULL ? &r->former->models : NULL, source, &fresh);
+    if (m == NULL)
+        scene_error_memory(r->error);
+    if (m == NULL || !fresh)
+        return m != NULL ? &m->model : NULL;
+    const uint64_t before = r->pixels;
+    const bool good =
+        is_mesh ? model_load(&m->model, m->source.path, m->source.use, &r->pixels, &fault) : make_shape(&m->model, object, m->source.path, &fault);
+    m->pixels = r->pixels - before;
     if (good)
-        return &place->model;
+        return &m->model;
     refuse_fault(r, index, item, is_mesh ? "mesh" : file != NULL ? "heights" : "shape", &fault);
     return NULL;
 }
 
-static const loaded_texture *take_texture(models_reader *r, size_t index, const tree_node *item, const char *file)
+static const loaded_model *take_texture(models_reader *r, size_t index, const tree_node *item, const char *file)
 {
-    scene_models *m = r->models;
-    char *path = scene_file_beside(r->tree->file_name, file);
-    for (size_t i = 0; path != NULL && i < m->texture_count; i++)
-        if (strcmp(m->textures[i].path, path) == 0) {
-            free(path);
-            return &m->textures[i];
-        }
-    loaded_texture *textures = path != NULL ? grown(m->textures, m->texture_count, sizeof *textures) : NULL;
-    if (textures == NULL) {
-        free(path);
-        scene_error_memory(r->error);
-        return NULL;
-    }
-    m->textures = textures;
-    loaded_texture *t = &textures[m->texture_count];
+    model_source source;
     model_fault fault = {0};
-    *t = (loaded_texture){.path = path};
-    t->texture = texture_load(path, &r->pixels, &t->hash, &fault);
-    if (t->texture == NULL) {
-        free(path);
-        refuse_fault(r, index, item, "material.texture", &fault);
-        return NULL;
-    }
-    m->texture_count++;
-    return t;
+    bool fresh = false;
+    loaded_model *t =
+        source_of(r, file, &source) ? take_loaded(r, &r->models->textures, r->former != NULL ? &r->former->textures : NULL, source, &fresh) : NULL;
+    if (t == NULL)
+        scene_error_memory(r->error);
+    if (t == NULL || !fresh)
+        return t;
+    const uint64_t before = r->pixels;
+    t->texture = texture_load(t->source.path, &r->pixels, &t->hash, &fault);
+    t->pixels = r->pixels - before;
+    if (t->texture != NULL)
+        return t;
+    refuse_fault(r, index, item, "material.texture", &fault);
+    return NULL;
 }
 
 /* ---- places ----------------------------------------------------------------------------------------------------- */
@@ -341,7 +406,7 @@ static bool add_label(models_reader *r, size_t index, const scene_object *object
 
 static bool add_object(models_reader *r, size_t index, const tree_node *item, const scene_object *object)
 {
-    const loaded_texture *texture = NULL;
+    const loaded_model *texture = NULL;
     const char *file = object->material.texture;
     if (!check_keys(r, index, item, object))
         return false;
@@ -362,13 +427,13 @@ static bool add_object(models_reader *r, size_t index, const tree_node *item, co
     return true;
 }
 
-bool scene_models_read(const scene_tree *tree, scene_values *values, scene_error *error)
+bool scene_models_read(const scene_tree *tree, scene_values *values, const scene_models *former, scene_error *error)
 {
     const scene_object *objects = values->objects.items;
     const size_t count = values->objects.count;
     if (count == 0)
         return true;
-    models_reader r = {.tree = tree, .models = calloc(1, sizeof *r.models), .error = error};
+    models_reader r = {.tree = tree, .models = calloc(1, sizeof *r.models), .former = former, .error = error};
     if (r.models == NULL)
         return scene_error_memory(error);
     atomic_init(&r.models->owners, 1);
@@ -397,16 +462,8 @@ void scene_models_release(scene_models *models)
 {
     if (models == NULL || atomic_fetch_sub(&models->owners, 1) > 1)
         return;
-    for (size_t i = 0; i < models->model_count; i++) {
-        free(models->models[i].path);
-        model_free(&models->models[i].model);
-    }
-    for (size_t i = 0; i < models->texture_count; i++) {
-        free(models->textures[i].path);
-        mgt_texture_destroy(models->textures[i].texture);
-    }
-    free(models->models);
-    free(models->textures);
+    release_list(&models->models);
+    release_list(&models->textures);
     for (size_t i = 0; i < models->label_count; i++)
         free(models->labels[i]);
     free(models->labels);

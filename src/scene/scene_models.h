@@ -10,8 +10,9 @@
 
 typedef struct scene_models scene_models; /* immutable, counted by its owners */
 
-/* Loads and builds what values->objects name into values->models; errors at the places of their keys. Each file is read once. */
-bool scene_models_read(const scene_tree *tree, scene_values *values, scene_error *error);
+/* Loads and builds what values->objects name into values->models; errors at the places of their keys. Each file is read once, and not at all where `former` has it
+ * from the same file and of the same time. `former`: of an earlier reading, or NULL. */
+bool scene_models_read(const scene_tree *tree, scene_values *values, const scene_models *former, scene_error *error);
 
 /* Another owner, and one fewer. NULL is allowed. */
 scene_models *scene_models_share(scene_models *models);

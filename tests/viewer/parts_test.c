@@ -222,6 +222,48 @@ static void objects_are_built_anew(void **state)
     document_close(&d);
 }
 
+static const mgt_object *object_of(document *d, mgt_scene *scene)
+{
+    document_refresh(d);
+    assert_true(d->fault.kind == SCENE_ERROR_NONE && scene_values_shot(&d->values, 0, scene) && scene->object_count == 1);
+    return &scene->objects[0];
+}
+
+/* A mesh is made again where its shape or its file has changed, not where it is put elsewhere. */
+static void what_is_moved_keeps_its_mesh(void **state)
+{
+    static const char *const written[] = {
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+        "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 2\nproperty list uchar int vertex_indices\n"
+        "end_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n3 0 1 2\n3 1 3 2\n"};
+    const folder *f = *state;
+    char mesh[128], text[256], error[256];
+    settings s = settings_defaults();
+    mgt_scene scene;
+    for (int of_file = 0; of_file < 2; of_file++) {
+        snprintf(mesh, sizeof mesh, "%s.ply", f->scene);
+        write_file(mesh, written[0]);
+        snprintf(text, sizeof text, "mangata: 1\nobjects: [{%s%s%s}]\n", of_file ? "mesh: \"" : "shape: box, size: [1, 1, 1]", of_file ? mesh : "",
+                 of_file ? "\"" : "");
+        write_file(f->scene, text);
+        document d = open_document(f);
+        const control_board board = {&d, &s};
+        const mgt_mesh *first = object_of(&d, &scene)->mesh;
+        assert_true(control_set(&board, "objects[0].position", "[1, 2, 3]", error, sizeof error));
+        const mgt_object *moved = object_of(&d, &scene);
+        assert_true(moved->mesh == first && moved->transform[1][3] == 2);
+        assert_true(control_set(&board, "objects[0].scale", "[1, 2, 1]", error, sizeof error));
+        assert_true(object_of(&d, &scene)->mesh == first);
+        if (of_file)
+            write_file(mesh, written[1]);
+        assert_true(control_set(&board, of_file ? "objects[0].position" : "objects[0].size", "[2, 2, 2]", error, sizeof error));
+        assert_true(object_of(&d, &scene)->mesh != first);
+        document_close(&d);
+        unlink(mesh);
+    }
+}
+
 static void a_saved_scene_is_whole_and_replaces_nothing(void **state)
 {
     const folder *f = *state;
@@ -497,6 +539,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(a_spectrum_stays_one, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(a_wind_takes_the_place_of_waves, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(objects_are_built_anew, make_folder, remove_folder),
+        cmocka_unit_test_setup_teardown(what_is_moved_keeps_its_mesh, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(a_saved_scene_is_whole_and_replaces_nothing, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(every_control_reads_back_and_keeps_to_its_range, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(every_value_of_the_scene_is_a_control, make_folder, remove_folder),

@@ -64,7 +64,7 @@ void document_replace(document *d, scene_values *values)
 {
     scene_values_free(&d->values);
     d->values = *values;
-    d->stale = d->other_objects = false;
+    d->stale = false;
     d->fault = (scene_error){0};
     *values = (scene_values){0};
 }
@@ -146,7 +146,6 @@ void document_changed(document *d, bool objects)
         water->spectrum.settings.kind = SPECTRUM_NONE;
     }
     d->stale |= objects || scene_water_has_sea(water);
-    d->other_objects |= objects;
 }
 
 void document_refresh(document *d)
@@ -155,7 +154,7 @@ void document_refresh(document *d)
     if (!d->stale)
         return;
     char *text = text_of_values(&d->values, &size);
-    scene_file *file = text ? scene_file_parse_like(d->other_objects ? NULL : &d->values, text, size, "the scene", NULL, 0, &d->fault) : NULL;
+    scene_file *file = text ? scene_file_parse_like(&d->values, text, size, "the scene", NULL, 0, &d->fault) : NULL;
     scene_values made = {0};
     d->stale = false;
     if (!text || (file && !scene_values_copy(&made, scene_file_values(file))))
@@ -169,7 +168,6 @@ void document_refresh(document *d)
         made.water.sea = sea;
         made.models = models;
         d->fault = (scene_error){0};
-        d->other_objects = false;
     }
     scene_values_free(&made);
     scene_file_free(file);

@@ -15,8 +15,7 @@ typedef struct document {
     struct stat stamp;   /* of the file when it was last read, good or bad */
     scene_error error;   /* of that reading; kind SCENE_ERROR_NONE when it was good */
     scene_error fault;   /* why sea or models cannot be made of the values; kind SCENE_ERROR_NONE: they can */
-    bool stale;          /* they are not those of the values yet, … */
-    bool other_objects;  /* … and it is the objects that have changed */
+    bool stale;          /* they are not those of the values yet */
 } document;
 
 /* Reads `path`, then changes it by `words` ("key=value"). False with the reason in *error; *d is then empty. */
