@@ -134,5 +134,6 @@ KERNEL vec3 OBJECTS_COLOR(CTX cx) { return (vec3){light_plane(cx, 3), light_plan
 KERNEL real OBJECTS_COVERAGE(CTX cx) { return light_plane(cx, 6); }
 KERNEL vec3 CLEAR_TO_LIGHT(CTX cx) { return (vec3){light_plane(cx, 7), light_plane(cx, 8), light_plane(cx, 9)}; }
 KERNEL vec3 DEEP_WATER(CTX cx) { return (vec3){light_plane(cx, 10), light_plane(cx, 11), light_plane(cx, 12)}; }
+KERNEL real FRONT_COVERAGE(CTX cx) { return light_plane(cx, 13); }
 
 #endif

@@ -48,6 +48,7 @@ typedef struct tile_light {
     float share[TILE_PIXELS];       /* … and how much that is */
     float clear[3][TILE_PIXELS];    /* what objects and water leave of the light's disk */
     float deep[3][TILE_PIXELS];     /* under water: what shines where no surface is */
+    float front[TILE_PIXELS];       /* how much of the pixel objects in front of the water cover */
 } tile_light;
 
 typedef struct lean_map lean_map; /* cpu/lean_map.h */

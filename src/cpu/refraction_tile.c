@@ -394,6 +394,7 @@ void refraction_tile(refraction *r, const tile_waves *waves, const tile_estimate
     if (r->frame->under)
         see_deep(r, at.column, at.row, o);
     see_light(r, o);
+    memcpy(o->light.front, o->share, sizeof o->share);
     keep_layers(o);
 }
 
@@ -446,6 +447,7 @@ void refraction_blend(tile_objects *o, const tile_opened *opened)
     for (size_t i = 0; i < TILE_PIXELS; i++)
         o->share[i] = 0.5f * (o->share[i] + opened->share[i]);
     blend_planes(o->light.through[0], opened->light.through[0], sizeof o->light / sizeof o->light.share, weight);
+    memcpy(o->light.front, o->share, sizeof o->share);
 }
 
 bool refraction_covers(const tile_objects *o)

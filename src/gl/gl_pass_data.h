@@ -68,7 +68,8 @@ enum {
     UNIT_TREE = UNIT_FRONT_LAYER + 2,
     UNIT_NEIGHBOURS,
     UNIT_FRONT = 1,
-    UNIT_CLEAR = 12, /* what methods see of objects */
+    UNIT_HIDDEN = 11, /* what methods see of objects */
+    UNIT_CLEAR,
     UNIT_DEEP,
     UNIT_BODY,
     UNIT_REFLECTION,

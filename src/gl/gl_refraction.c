@@ -379,9 +379,9 @@ mgt_status gl_refraction_blend(gl_renderer *g, const PassData *pass, const repor
 void gl_refraction_bind_light(const gl_renderer *g)
 {
     const gl_refraction *o = &g->refraction;
-    const gl_image *const images[] = {&o->seen.clear, &o->seen.deep, &o->seen.body, &o->seen.mirrored};
+    const gl_image *const images[] = {&o->seen.front, &o->seen.clear, &o->seen.deep, &o->seen.body, &o->seen.mirrored};
     for (GLuint i = 0; i < sizeof images / sizeof *images; i++)
-        gl_bind_texture(g, UNIT_CLEAR + i, images[i]->name);
+        gl_bind_texture(g, UNIT_HIDDEN + i, images[i]->name);
 }
 
 void gl_refraction_bind_front(const gl_renderer *g)

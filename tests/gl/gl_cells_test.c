@@ -183,7 +183,7 @@ static void crops_are_parts_of_the_whole(void **state)
     mgt_context_destroy(gl);
 }
 
-/* Objects in front of the water hide what is sampled behind them, which both backends do not see alike: samples go elsewhere. */
+/* Objects are shown alike, and what they hide takes no samples. */
 static void objects_are_shown(void **state)
 {
     (void)state;

@@ -294,6 +294,38 @@ static void every_method_shows_objects(void **state)
     mgt_context_destroy(context);
 }
 
+/* However many samples method adaptive may take, it takes none for what objects hide, beyond the first look at each pixel. */
+static void what_objects_hide_takes_no_samples(void **state)
+{
+    (void)state;
+    static const char *const cameras[] = {"camera.fov_y_deg=55", "camera={position: [0.4, 0.8, 4.4], target: [0.1, 0.3, 0], fov_y_deg: 40}"};
+    static float few[WIDTH * HEIGHT];
+    mgt_context *context = sea_context(2, MGT_ISA_AUTO);
+    for (int i = 0; i < 2; i++) {
+        view v = view_of(&cameras[i], 1);
+        v.scene.quality.method = MGT_METHOD_ADAPTIVE;
+        v.scene.quality.samples = 1;
+        assert_int_equal(draw(context, &v.scene, "adaptive"), DRAWN_WELL);
+        memcpy(few, planes[7], sizeof few);
+        v.scene.quality.samples = 60;
+        assert_int_equal(draw(context, &v.scene, "adaptive"), DRAWN_WELL);
+        int hidden = 0, seen = 0;
+        for (int p = 0; p < WIDTH * HEIGHT; p++) {
+            const bool more = planes[7][p] > few[p];
+            seen += planes[2][p] > 0 && more;
+            if (!is_inside(planes[2], p) || !isfinite(planes[3][p]))
+                continue;
+            hidden++;
+            if (more)
+                fail_msg("camera %d: pixel %d %d, hidden by objects, took %g samples, %g at first", i, p % WIDTH, p / WIDTH, (double)planes[7][p],
+                         (double)few[p]);
+        }
+        assert_true(hidden > 50 && seen > 100);
+        scene_file_free(v.file);
+    }
+    mgt_context_destroy(context);
+}
+
 /* ---- meshes ---- */
 
 static mgt_status make(mgt_mesh **mesh, const float *positions, uint32_t vertices, const uint32_t *indices, uint32_t triangles)
@@ -409,8 +441,10 @@ static void crops_and_long_pictures(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_refraction_ends),     cmocka_unit_test(index_one_is_straight), cmocka_unit_test(every_method_shows_objects),
-        cmocka_unit_test(broken_meshes_are_refused), cmocka_unit_test(poor_triangles_render), cmocka_unit_test(crops_and_long_pictures),
+        cmocka_unit_test(every_refraction_ends),      cmocka_unit_test(index_one_is_straight),
+        cmocka_unit_test(every_method_shows_objects), cmocka_unit_test(what_objects_hide_takes_no_samples),
+        cmocka_unit_test(broken_meshes_are_refused),  cmocka_unit_test(poor_triangles_render),
+        cmocka_unit_test(crops_and_long_pictures),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -128,6 +128,7 @@ vec3 SKY_TEXEL(int cx, float column, float row) { return texelFetch(sky_texture,
 
 #ifndef OBJECTS_PASS
 /* Objects, where the scene has some, as objects.comp saw them. */
+layout(binding = 11) uniform sampler2D front_texture;
 layout(binding = 12) uniform sampler2D clear_texture;
 layout(binding = 13) uniform sampler2D deep_texture;
 layout(binding = 14) uniform sampler2D body_texture;
@@ -146,10 +147,12 @@ vec3 body_light()
 #undef OBJECTS_COLOR
 #undef CLEAR_TO_LIGHT
 #undef DEEP_WATER
+#undef FRONT_COVERAGE
 #define UPWELLING(cx) body_light()
 #define MIRRORS_OBJECTS(cx) pass_data.objects
 #define OBJECTS_COVERAGE(cx) texelFetch(mirrored_texture, layer_texel, 0).a
 #define OBJECTS_COLOR(cx) texelFetch(mirrored_texture, layer_texel, 0).rgb
 #define CLEAR_TO_LIGHT(cx) texelFetch(clear_texture, layer_texel, 0).rgb
 #define DEEP_WATER(cx) texelFetch(deep_texture, layer_texel, 0).rgb
+#define FRONT_COVERAGE(cx) texelFetch(front_texture, layer_texel, 0).a
 #endif
