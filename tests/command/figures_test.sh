@@ -2,7 +2,11 @@
 # `mangata figures`: what it writes, that its figures are those of render and diff, going on after a kill, bad input.
 . "$CHECK"
 json() { "$JSON_GET" "$1" <stdout.txt || echo "no $1"; }
-figures() { "$MANGATA" figures --scenes "$SOURCE/scenes" "$@"; }
+# The pool without what stands around it: voxels of distances fill a twentieth of the space.
+mkdir small && cp -r "$SOURCE/scenes" small/scenes && ln -s "$SOURCE/data" small/data
+awk '/^  - name:/ { drop = /deck|wall|hedges/ } !drop' "$SOURCE/scenes/pool.yaml" >small/scenes/pool.yaml
+scenes=$work/small/scenes
+figures() { "$MANGATA" figures --scenes "$scenes" "$@"; }
 tiny=(--size 32x18 --spatial 2 --time-samples 2 --frames 0-1 --refraction-samples 1 --time-runs 0)
 
 # Everything is there, and complete: 4 scenes of 13 methods and the reference, 2 frames; 15 views of objects, 60 pictures by their methods and 15 of the truth.
@@ -34,7 +38,7 @@ expect 0 '' "$MANGATA" diff m_#.pfm t_#.pfm --frames 0-1 --json
 ours=$(grep '^smooth,podee-uniform' all/table1.csv | cut -d, -f4)
 awk -v a="$ours" -v b="$(json rmse)" 'BEGIN { exit !(a > 0 && (a - b) * (a - b) < 1e-12) }' || fail "RMSE $ours, mangata diff says $(json rmse)"
 
-draw() { render "$SOURCE/scenes/pool.yaml" -o "$1" --frames 0 --size 32x18 --method none --quiet "${@:2}"; }
+draw() { render "$scenes/pool.yaml" -o "$1" --frames 0 --size 32x18 --method none --quiet "${@:2}"; }
 draw o.pfm --layer refraction --refraction off
 draw r.pfm --layer refraction --refraction truth --refraction-samples 1
 draw w.pfm --layer mask
@@ -70,11 +74,11 @@ exists fits/fig21.svg
 [[ ! -s stdout.txt ]] || fail "a plate is no data: $(head -c 200 stdout.txt)"
 
 # Killed without warning, it goes on.
-spatial=8
-[[ -z ${SANITIZED:-} ]] || spatial=4
-slow=(--only table1 --size 64x36 --spatial $spatial --time-samples 4 --frames 0-1 --time-runs 0 --progress json --quiet)
+size=64x36 spatial=8
+[[ -z ${SANITIZED:-} ]] || size=40x22 spatial=4
+slow=(--only table1 --size $size --spatial $spatial --time-samples 4 --frames 0-1 --time-runs 0 --progress json --quiet)
 : >killed.txt
-"$MANGATA" figures --scenes "$SOURCE/scenes" -o k "${slow[@]}" 2>killed.txt >/dev/null &
+"$MANGATA" figures --scenes "$scenes" -o k "${slow[@]}" 2>killed.txt >/dev/null &
 process=$!
 for ((i = 0; i < 1200; i++)); do
     (($(grep -c '"event":"frame"' killed.txt) >= 3)) && break
@@ -88,11 +92,13 @@ absent k/index.html
 expect 0 '' figures -o k "${slow[@]}"
 again=$(grep -c '"event":"frame"' stderr.txt)
 ((count + again == 56 || count + again == 55)) || fail "$count pictures before the kill, $again after it, not 56"
-expect 0 '' figures -o whole "${slow[@]}"
-same k/table1.csv whole/table1.csv
+if [[ -z ${SANITIZED:-} ]]; then
+    expect 0 '' figures -o whole "${slow[@]}"
+    same k/table1.csv whole/table1.csv
+fi
 
 # SIGTERM ends cleanly.
-"$MANGATA" figures --scenes "$SOURCE/scenes" -o s "${slow[@]}" --spatial 64 2>/dev/null >/dev/null &
+"$MANGATA" figures --scenes "$scenes" -o s "${slow[@]}" --spatial 64 2>/dev/null >/dev/null &
 process=$!
 for ((i = 0; i < 600; i++)); do
     [[ -d s/frames/high ]] && break
