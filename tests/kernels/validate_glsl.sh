@@ -8,6 +8,7 @@ kernels=$source/src/kernels
 command -v glslangValidator >/dev/null 2>&1 || { echo "glslangValidator is not installed"; exit 77; }
 work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
+mkdir "$work/whole" || exit 1
 failed=0
 
 check() { # name, version line, extension, epilogue, kernel
@@ -19,14 +20,8 @@ check() { # name, version line, extension, epilogue, kernel
     again | caustic | footprint | material | narrow | shadow | spread | water_path | water_seen) more="$kernels/refraction/refract_accessors_glsl.k $kernels/refraction/narrow_types.k $kernels/refraction/shade_types.k $kernels/refraction/layer.k $work/object_accessors.glsl" ;;
     esac
     # shellcheck disable=SC2086 # nothing where there is none
-    "$source/scripts/kernel_glsl" "$2" "$kernels/common/prelude_glsl.k" "$kernels/waves/sines_types.k" "$kernels/common/accessors_glsl.k" "$kernels/waves/foam_accessors_glsl.k" $more "$5" >"$work/$1.$3" || { failed=1; return; }
-    printf '%s\n' "$4" >>"$work/$1.$3"
-    if ! glslangValidator "$work/$1.$3" >"$work/log" 2>&1; then
-        failed=1
-        echo "FAILED: $1 as GLSL $2"
-        grep '^// ' "$work/$1.$3"
-        grep -E 'ERROR|WARNING' "$work/log"
-    fi
+    "$source/scripts/kernel_glsl" "$2" "$kernels/common/prelude_glsl.k" "$kernels/waves/sines_types.k" "$kernels/common/accessors_glsl.k" "$kernels/waves/foam_accessors_glsl.k" $more "$5" >"$work/whole/$1.$3" || failed=1
+    printf '%s\n' "$4" >>"$work/whole/$1.$3"
 }
 
 # For the validator alone: what the kernels of objects read, wherever a shader may keep it.
@@ -54,6 +49,16 @@ for kernel in "$kernels"/*/*.k; do
     check "$name" "450 core" comp 'layout(local_size_x = 8, local_size_y = 8) in; void main() {}' "$kernel"
     check "$name" "300 es" frag 'void main() {}' "$kernel"
 done
+# One process compiles all of them, much faster than one each.
+if ! glslangValidator "$work"/whole/* >"$work/log" 2>&1; then
+    failed=1
+    for whole in "$work"/whole/*; do
+        glslangValidator "$whole" >"$work/log" 2>&1 && continue
+        echo "FAILED: $(basename "$whole") as GLSL $(sed -n '1s/#version //p' "$whole")"
+        grep '^// ' "$whole"
+        grep -E 'ERROR|WARNING' "$work/log"
+    done
+fi
 echo "$count kernel files, each as GLSL 4.50 and GLSL ES 3.00"
 
 # The check itself must be able to fail, and say where.
