@@ -4,7 +4,7 @@
 
 declare -A quick=(
     [render]='--size 32x18' [bench]='--size 32x18 --frames 1 --repeat 1' [figures]='--scenes nowhere'
-    [compare]='--size 16x9 --frames 0-1 --spatial 1 --time-samples 1 --time-runs 0 --metrics rmse,flip'
+    [compare]='--size 16x9 --frames 0-1 --spatial 1 --time-samples 1 --time-runs 0 --metrics rmse,flip,flicker'
 )
 mangata() { "$MANGATA" "$@"; }
 unset DISPLAY WAYLAND_DISPLAY
