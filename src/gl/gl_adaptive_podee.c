@@ -91,7 +91,7 @@ static void bind_layers(const gl_renderer *g)
     const gl_layers *l = &g->layers;
     const gl_image *const images[] = {&l->color, &l->coverage, &l->water, &l->samples, &l->importance, &l->detail};
     for (GLuint i = 0; i < sizeof images / sizeof *images; i++)
-        g->gl.BindImageTexture(IMAGE_COLOR + i, images[i]->name, 0, GL_FALSE, 0, GL_READ_WRITE, images[i]->name ? images[i]->format : GL_R32F);
+        gl_bind_image(g, IMAGE_COLOR + i, images[i], GL_READ_WRITE);
     gl_bind_texture(g, UNIT_SKY, g->sky_texture);
     gl_refraction_bind_light(g);
 }

@@ -227,7 +227,7 @@ static void bind(const cells_run *c)
     gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, BIND_CELLS, g->cells.state.name);
     gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, BIND_PIXELS, g->cells.pixels.name);
     for (GLuint i = 0; i < sizeof images / sizeof *images; i++)
-        gl->BindImageTexture(i, images[i]->name, 0, GL_FALSE, 0, GL_READ_WRITE, images[i]->format);
+        gl_bind_image(g, i, images[i], GL_READ_WRITE);
     gl_bind_texture(g, UNIT_SKY, g->sky_texture);
     gl_refraction_bind_light(g);
 }

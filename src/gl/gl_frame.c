@@ -169,7 +169,7 @@ void gl_bind_layers(const gl_renderer *g)
     const gl_layers *l = &g->layers;
     const gl_image *const images[IMAGE_LAYERS] = {&l->color, &l->coverage, &l->water, &l->depth, &l->normal};
     for (GLuint i = 0; i < IMAGE_LAYERS; i++)
-        g->gl.BindImageTexture(i, images[i]->name, 0, GL_FALSE, 0, GL_READ_WRITE, images[i]->format);
+        gl_bind_image(g, i, images[i], GL_READ_WRITE);
     gl_bind_texture(g, UNIT_SKY, g->sky_texture);
 }
 

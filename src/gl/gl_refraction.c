@@ -230,7 +230,7 @@ static void bind_images(gl_renderer *g, GLenum access)
     gl_image *images[IMAGES];
     list_images(&g->refraction.seen, images);
     for (GLuint i = 0; i < IMAGES; i++)
-        g->gl.BindImageTexture(i, images[i]->name, 0, GL_FALSE, 0, access, images[i]->format);
+        gl_bind_image(g, i, images[i], access);
 }
 
 static void bind_all(gl_renderer *g)
@@ -390,7 +390,7 @@ void gl_refraction_bind_front(const gl_renderer *g)
     gl_bind_texture(g, UNIT_FRONT + 1, g->refraction.seen.surface.name);
     const gl_image *const layers[] = {&g->refraction.seen.body, &g->refraction.seen.error};
     for (GLuint i = 0; i < 2; i++)
-        g->gl.BindImageTexture(IMAGE_LAYERS + i, layers[i]->name, 0, GL_FALSE, 0, GL_WRITE_ONLY, layers[i]->format);
+        gl_bind_image(g, IMAGE_LAYERS + i, layers[i], GL_WRITE_ONLY);
 }
 
 void gl_refraction_free(const gl_api *gl, gl_refraction *o)

@@ -183,6 +183,11 @@ void gl_bind_texture(const gl_renderer *g, GLuint unit, GLuint texture)
     g->gl.BindSampler(unit, g->sampler);
 }
 
+void gl_bind_image(const gl_renderer *g, GLuint unit, const gl_image *image, GLenum access)
+{
+    g->gl.BindImageTexture(unit, image->name, 0, GL_FALSE, 0, access, image->name ? image->format : GL_R32F);
+}
+
 /* ---- begin of a frame ---- */
 
 /* llvmpipe compiles a program anew for other formats of the images and textures that it may read, and where nothing is bound. What a frame lacks is a texel

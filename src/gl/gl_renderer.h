@@ -110,6 +110,9 @@ size_t gl_wave_room(const gl_renderer *g, size_t count);
 /* A texture for the next dispatch. */
 void gl_bind_texture(const gl_renderer *g, GLuint unit, GLuint texture);
 
+/* An image for the next dispatch; nothing where it was never reserved. */
+void gl_bind_image(const gl_renderer *g, GLuint unit, const gl_image *image, GLenum access);
+
 /* A uniform block for the next dispatch, copied into the ring. */
 void gl_uniform(gl_renderer *g, GLuint binding, const void *data, size_t size);
 

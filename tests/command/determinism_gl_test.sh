@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# OpenGL: the same bytes every time, whichever of its threads comes first.
+# OpenGL: the same bytes every time, whichever of its threads comes first, and the same layer whichever others are drawn.
 . "$CHECK"
 
 for view in hull diver; do
@@ -9,5 +9,13 @@ for view in hull diver; do
         works render "${objects[@]}" -o g$n.exr --layer all
         same g1.exr g$n.exr
     done
+done
+
+# A layer alone is what it is among all.
+for method in none fxaa taa; do
+    alone=("$SOURCE/scenes/high.json" --backend gl --method $method --size 96x54 --quiet --overwrite)
+    "$MANGATA" render "${alone[@]}" -o all.exr --layer all || continue
+    works render "${alone[@]}" -o alone.pfm --layer coverage
+    expect 0 '' "$MANGATA" diff alone.pfm all.exr --layer coverage --max-rmse 1e-6
 done
 finish
