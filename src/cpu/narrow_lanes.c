@@ -247,4 +247,17 @@ static void lanes_mirrored(const narrow_scene *n, const tile_offset *at, const t
     }
 }
 
-const narrow_kernels LANES_NAME(MGT_LANES) = {lanes_water, lanes_beside, lanes_refracted, lanes_mirrored};
+static void lanes_along(const narrow_scene *n, int layer, const float from[3], const float direction[3], float after, int32_t pixels[SHARP_PLACES])
+{
+    _Static_assert(SHARP_PLACES % 16 == 0, "whole vectors of any width");
+    const struct kernel_context cx = {.narrow = n};
+    const vec3 begin = vec3(real(from[0]), real(from[1]), real(from[2])), turn = vec3(real(direction[0]), real(direction[1]), real(direction[2]));
+    for (int i = 0; i < SHARP_PLACES; i += MGT_LANES) {
+        const real share = (lane_numbers() + ((float)i + 0.5f)) * (1.0f / SHARP_PLACES);
+        const Place p = place_along(&cx, layer, begin, turn, real(after), share);
+        const LayerPlace at = layer_place(&cx, p.column, p.row);
+        store_whole(pixels + i, whole_select(p.inside > real(0.0f), whole(at.y) * (int)n->layers[0]->width + whole(at.x), whole(real(-1.0f))));
+    }
+}
+
+const narrow_kernels LANES_NAME(MGT_LANES) = {lanes_water, lanes_beside, lanes_refracted, lanes_mirrored, lanes_along};

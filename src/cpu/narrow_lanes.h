@@ -64,6 +64,8 @@ struct narrow_kernels {
     void (*refracted)(const narrow_scene *n, const tile_offset *at, const tile_water *water, int branch, tile_ends *out);
     /* What its mean slope mirrors of the camera's own side. */
     void (*mirrored)(const narrow_scene *n, const tile_offset *at, const tile_water *water, tile_ends *out);
+    /* Pixels of a layer at even steps along the image of a ray, −1 outside of it. `from`: as in narrow_types.k; after: as in place_along(). */
+    void (*along)(const narrow_scene *n, int layer, const float from[3], const float direction[3], float after, int32_t pixels[SHARP_PLACES]);
 };
 
 #endif

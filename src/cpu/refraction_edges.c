@@ -161,15 +161,22 @@ static void follow_shown(surface_ray *s, const gbuffer *g, double column, double
     s->open |= triangle < 0;
 }
 
-/* Those that the pixels on the straight line between two show. */
-static void follow_between(surface_ray *s, const gbuffer *g, size_t first, size_t last)
+/* Those that pixels along the ray's image show, up to the point that it is known to meet. */
+static void follow_along(surface_ray *s, const gbuffer *g, bool mirrored)
 {
-    const double x = (double)(first % g->width), y = (double)(first / g->width);
-    const double across = (double)(last % g->width) - x, down = (double)(last / g->width) - y;
-    for (int k = 0; k <= SHARP_PLACES; k++) {
-        const double share = (double)k / SHARP_PLACES;
-        follow_shown(s, g, rint(x + share * across), rint(y + share * down));
+    const refraction *r = s->r;
+    const double foot[3] = {(double)r->narrow.data.foot_x, 0, (double)r->narrow.data.foot_z};
+    float from[3], direction[3];
+    for (int k = 0; k < 3; k++) {
+        const double up = k == 1 ? (double)r->narrow.data.side : 1;
+        from[k] = (float)(up * (s->from[k] - foot[k]));
+        direction[k] = (float)(up * s->direction[k]);
     }
+    int32_t pixels[SHARP_PLACES];
+    r->kernels->narrow->along(&r->narrow, mirrored ? LAYER_REFLECTED : LAYER_REFRACTED, from, direction, (float)s->nearest, pixels);
+    for (int k = 0; k < SHARP_PLACES; k++)
+        if (pixels[k] >= 0)
+            follow_shown(s, g, pixels[k] % g->width, pixels[k] / g->width);
 }
 
 /* Follows the surfaces that pixels around this one show: a surface that a nearer one hides here may be seen beside it. */
@@ -185,18 +192,18 @@ static void follow_around(surface_ray *s, const gbuffer *g, size_t pixel)
 
 /* Follows the surfaces along the image of a ray whose search did not converge, then those around it. An empty pixel of the mirrored layer does not set `open`:
  * that picture may end before the scene does. */
-static void follow_lost(surface_ray *s, const gbuffer *g, size_t element, int32_t pixel, int32_t last, bool mirrored)
+static void follow_lost(surface_ray *s, const gbuffer *g, int32_t pixel, int32_t last, bool mirrored)
 {
     const bool open = s->open;
+    follow_along(s, g, mirrored);
     if (last >= 0)
-        follow_between(s, g, element, (size_t)last);
+        follow_shown(s, g, (double)(last % (int32_t)g->width), (double)(last / (int32_t)g->width));
     if (s->met < 0 && !mirrored)
         follow_around(s, g, (size_t)pixel);
     s->open = open || (s->open && !s->lost && !mirrored);
 }
 
-/* `element`: of the layer, where the ray meets the water. */
-static void sharpen_pixel(const refraction *r, tile_objects *o, size_t i, size_t element)
+static void sharpen_pixel(const refraction *r, tile_objects *o, size_t i)
 {
     tile_ends *e = &o->ends;
     const camera_rays *c = &r->camera;
@@ -217,7 +224,7 @@ static void sharpen_pixel(const refraction *r, tile_objects *o, size_t i, size_t
     /* Over the water the sky is all around. */
     s.open = (r->frame->under && e->total[i] == 0) || by_nothing(g, (size_t)e->pixel[i]);
     if (point_is_lost(NULL, e->error[i]))
-        follow_lost(&s, g, element, e->pixel[i], e->last[i], e->total[i] > 0);
+        follow_lost(&s, g, e->pixel[i], e->last[i], e->total[i] > 0);
     if (s.met < 0 && !s.open)
         return;
     e->triangle[i] = s.met;
@@ -226,12 +233,9 @@ static void sharpen_pixel(const refraction *r, tile_objects *o, size_t i, size_t
         e->position[k][i] = (float)(s.from[k] + s.nearest * s.direction[k]);
 }
 
-void refraction_sharpen(const refraction *r, const tile_offset *at, tile_objects *o, size_t count)
+void refraction_sharpen(const refraction *r, tile_objects *o, size_t count)
 {
-    const gbuffer *g = r->narrow.layers[0];
-    for (size_t k = 0; k < count; k++) {
-        const size_t i = o->list[k];
-        if (o->ends.doubt[i] > 0 && o->ends.pixel[i] >= 0)
-            sharpen_pixel(r, o, i, (size_t)(g->top + at->row + i / TILE_WIDTH) * g->width + g->left + at->column + i % TILE_WIDTH);
-    }
+    for (size_t k = 0; k < count; k++)
+        if (o->ends.doubt[o->list[k]] > 0 && o->ends.pixel[o->list[k]] >= 0)
+            sharpen_pixel(r, o, o->list[k]);
 }

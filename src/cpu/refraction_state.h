@@ -88,7 +88,7 @@ double refraction_meet(const surface_facet *f, const double ray[3]);
 void refraction_end_at(const refraction *r, tile_objects *o, size_t i, float last);
 
 /* Where what a layer shows breaks off or bends, the pixel of the answer is not enough: the rays of doubtful ends among the listed ones meet the
- * surfaces that it and its neighbours show, and the nearest one counts. `at`: the place that the rays go through. */
-void refraction_sharpen(const refraction *r, const tile_offset *at, tile_objects *o, size_t count);
+ * surfaces that it and its neighbours show, and the nearest one counts. */
+void refraction_sharpen(const refraction *r, tile_objects *o, size_t count);
 
 #endif

@@ -245,7 +245,7 @@ static void see_branch(refraction *r, const tile_offset *at, int branch, size_t 
     memcpy(part, o->ends.part, sizeof part);
     const mgt_refraction method = r->frame->scene->quality.refraction;
     if (method == MGT_REFRACTION_TWO_PHASE)
-        refraction_sharpen(r, at, o, count);
+        refraction_sharpen(r, o, count);
     if (method == MGT_REFRACTION_HYBRID || method == MGT_REFRACTION_DISTANCE_FIELD)
         trace_doubtful(r, o, count);
     const double n = r->frame->scene->water.index_of_refraction;

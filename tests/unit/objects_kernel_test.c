@@ -28,8 +28,8 @@ static ShadeData shade_data;
 static NarrowData narrow_data;
 static RefractData refract_data;
 static SearchWave waves[4];
-static double floor_depth;                  /* of the plane that the layer shows */
-static double post_column = -1, post_depth; /* of a post before it, three columns wide */
+static double floor_depth;                            /* of the plane that the layer shows */
+static double post_column = -1, post_row, post_depth; /* of what stands before it, three pixels wide and high */
 
 #define MGT_LANES 1
 #include "kernels/common/prelude_c.h"
@@ -639,7 +639,7 @@ enum { WIDTH = 320, HEIGHT = 180 };
 static LayerPixel layer_pixel(double column, double row)
 {
     double ray[3];
-    if (post_column >= 0 && fabs(column - post_column) <= 1)
+    if (post_column >= 0 && fabs(column - post_column) <= 1 && fabs(row - post_row) <= 1)
         return (LayerPixel){(float)post_depth, vec3(0.0f, 0.0f, 1.0f), 0.0f};
     const double x = column - (double)narrow_data.left, y = row - (double)narrow_data.top;
     ray[0] = (double)narrow_data.corner_x + x * (double)narrow_data.right_x + y * (double)narrow_data.down_x;
@@ -741,44 +741,66 @@ static void waves_lead_to_the_floor(void **state)
     assert_true(found > 2000 && certain > 0.9 * found);
 }
 
-static double depth_of_view(const double view[3])
+/* Whether a ray that ends at `f` passes behind what a layer shows at a place of its image, 3 × 3 pixels that stand `share` times as deep as it does. */
+static bool passes_behind(WaterHit hit, FoundPoint f, Place p, double share)
 {
-    const double to_depth[3] = {(double)narrow_data.depth_x, (double)narrow_data.depth_y, (double)narrow_data.depth_z};
-    return dot3(to_depth, view);
+    post_column = rint((double)p.column) + 40, post_row = rint((double)p.row) + 30;
+    post_depth = share * (double)p.depth;
+    assert_true(passed_place(NULL, LAYER_REFRACTED, hit, f, 0.0f).inside == 0);
+    const Place found = passed_place(NULL, LAYER_REFRACTED, hit, f, 1.0f);
+    assert_true(found.inside == 0 || (fabs((double)found.column - post_column) <= 1 && fabs((double)found.row - post_row) <= 1));
+    post_column = -1;
+    return found.inside > 0;
 }
 
-/* A ray that bends over the picture of the floor passes behind what stands before it there, and behind nothing else. */
-static void rays_pass_behind_posts(void **state)
+/* Where the refracted layer shows the point of a ray `way` metres behind the surface. */
+static Place image_behind(WaterHit hit, const double bent[3], double way)
+{
+    const double along = (double)hit.along;
+    const vec3 at = vec3((float)(along * (double)hit.view.x + way * bent[0]), (float)(way * bent[1]), (float)(along * (double)hit.view.z + way * bent[2]));
+    return place_at(NULL, from_camera(NULL, layer_image(NULL, LAYER_REFRACTED, at)));
+}
+
+/* A ray that bends over the picture of the floor passes behind what stands before it along its image, which is a curve, and behind nothing else. */
+static void rays_pass_behind_things(void **state)
 {
     (void)state;
     numbers.state = 9;
-    int rays = 0;
-    for (int i = 0; i < 3000; i++) {
-        floor_depth = range(0.5, 3);
-        set_view(false, range(1, 5), range(0.4, 1.3));
-        const double column = floor(range(20, WIDTH - 20)), row = floor(range(20, HEIGHT - 20)), moved = floor(range(12, 30));
+    int places = 0, curved = 0, wrong = 0;
+    for (int i = 0; i < 20000; i++) {
+        const bool under = i % 2;
+        floor_depth = range(1, 6);
+        set_view(under, range(1, 5), under ? range(0.9, 1.4) : range(0.4, 1.3));
+        const double column = floor(range(20, WIDTH - 20)), row = floor(range(20, HEIGHT - 20));
         const vec3 ray = layer_ray(NULL, (float)column, (float)row);
-        double view[3] = {(double)ray.x, (double)ray.y, (double)ray.z};
+        double view[3] = {(double)ray.x, (double)ray.y, (double)ray.z}, normal[3] = {range(-0.3, 0.3), 1, range(-0.3, 0.3)}, bent[3];
         unit3(view);
-        if (view[1] > -0.15 || !(layer_pixel(column + 40 + moved, row + 30).depth < 1e30f))
+        unit3(normal);
+        if (view[1] > -0.15 || !refract3(view, normal, (double)narrow_data.ratio, bent) || bent[1] > -0.15)
             continue;
-        rays++;
-        const WaterHit hit = {vec3((float)view[0], (float)view[1], (float)view[2]), (float)((double)narrow_data.distance / -view[1]), vec3(0.0f, 1.0f, 0.0f),
+        const double along = (double)narrow_data.distance / -view[1], way = floor_depth / -bent[1];
+        const WaterHit hit = {vec3((float)view[0], (float)view[1], (float)view[2]), (float)along, vec3((float)normal[0], (float)normal[1], (float)normal[2]),
                               (float)column, (float)row};
-        const FoundPoint f = {.column = (float)(column + 40 + moved), .row = (float)(row + 30), .shown = 1};
-        const double begins = 1 / ((double)hit.along * depth_of_view(view)), ends = 1 / (double)layer_pixel((double)f.column, (double)f.row).depth;
-        const double halfway = begins + 0.5 * (ends - begins);
-        assert_true(passed_place(NULL, 0, hit, f, 1.0f).inside == 0);
-        post_column = column + 40 + floor(moved / 2);
-        post_depth = 0.9 / halfway; /* nearer than the ray there */
-        assert_true(passed_place(NULL, 0, hit, f, 1.0f).inside == 1);
-        assert_true(passed_place(NULL, 0, hit, f, 0.0f).inside == 0);
-        post_depth = 1.1 / halfway;
-        assert_true(passed_place(NULL, 0, hit, f, 1.0f).inside == 0);
-        post_column = -1;
+        const FoundPoint f = find_refracted(NULL, hit, bent_at(NULL, hit.view, hit.normal));
+        if (!(f.shown > 0 && f.residual < 1))
+            continue;
+        assert_true(passed_place(NULL, LAYER_REFRACTED, hit, f, 1.0f).inside == 0);
+        const double ends[2] = {(double)f.column - 40 - column, (double)f.row - 30 - row}, length = hypot(ends[0], ends[1]);
+        for (int k = 1; k < 4; k++) {
+            const Place p = image_behind(hit, bent, way * k / 4), next = image_behind(hit, bent, way * k / 4 * 1.02);
+            const double to[2] = {(double)p.column - column, (double)p.row - row};
+            const double pixel = hypot((double)(next.column - p.column), (double)(next.row - p.row));
+            const bool sinks = fabs((double)(next.depth / p.depth) - 1) * 3 > 0.2 * pixel; /* by a fifth within what stands there */
+            if (sinks || hypot(to[0], to[1]) < 4 || hypot(to[0] - ends[0], to[1] - ends[1]) < 4)
+                continue;
+            places++;
+            wrong += !passes_behind(hit, f, p, 0.8) + passes_behind(hit, f, p, 1.25);
+            curved += fabs(to[0] * ends[1] - to[1] * ends[0]) > 2 * length;
+        }
     }
-    printf("posts: %d rays\n", rays);
-    assert_true(rays > 1500);
+    printf("behind things: %d places, %d of them more than two pixels beside the straight line, %d wrong\n", places, curved, wrong);
+    assert_true(places > 3000 && curved > 200);
+    assert_true(wrong < places / 500);
 }
 
 int main(void)
@@ -787,7 +809,7 @@ int main(void)
         cmocka_unit_test(patterns_are_box_means),       cmocka_unit_test(glow_is_the_integral),         cmocka_unit_test(footprints_follow_the_rays),
         cmocka_unit_test(spreads_turn_with_the_camera), cmocka_unit_test(caustics_are_shares_of_area),  cmocka_unit_test(slopes_bend_the_view_to_the_light),
         cmocka_unit_test(rays_bend_by_snells_law),      cmocka_unit_test(flat_water_needs_no_search),   cmocka_unit_test(waves_lead_to_the_floor),
-        cmocka_unit_test(rays_meet_the_next_wave),      cmocka_unit_test(parts_of_light_are_all_of_it), cmocka_unit_test(rays_pass_behind_posts),
+        cmocka_unit_test(rays_meet_the_next_wave),      cmocka_unit_test(parts_of_light_are_all_of_it), cmocka_unit_test(rays_pass_behind_things),
         cmocka_unit_test(rays_beside_meet_the_surface),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -78,18 +78,25 @@ RayEnd sharpened(RayEnd end, WaterHit hit, int layer, FoundPoint f)
         return end;
     bool by_nothing = narrow_data.side < 0.0f && layer == LAYER_REFRACTED; /* over the water the sky is all around */
     bool is_lost = point_is_lost(0, end.error), refracted = layer == LAYER_REFRACTED;
-    LayerPlace begin = layer_place(0, hit.column, hit.row);
-    vec2 first = vec2(begin.x, begin.y), line = vec2(f.last_column, f.last_row) - first;
     ShownSurfaces s =
         ShownSurfaces(camera_position() + hit.along * turned(0, hit.view), end.ray.direction, -1, INFINITE, -1, false, false, by_nothing);
-    int between = 9 + (is_lost && f.last_column >= 0.0f ? SHARP_PLACES + 1 : 0), around = between + (is_lost && refracted ? AROUND_PLACES : 0);
+    int along = 9 + (is_lost ? SHARP_PLACES : 0), last = along + (is_lost && f.last_column >= 0.0f ? 1 : 0);
+    int around = last + (is_lost && refracted ? AROUND_PLACES : 0);
+    float after = INFINITE;
     for (int i = 0; i < around; i++) {
-        if (i == 9)
+        if (i == 9) {
             by_nothing = s.open;
-        if (i == between && s.met >= 0)
+            after = s.along;
+        }
+        if (i == last && s.met >= 0)
             break;
-        vec2 place = i < between ? first + line * (float(i - 9) / float(SHARP_PLACES)) : vec2(at) + place_around(0, i - between);
-        s = follow_shown(s, layer, i < 9 ? at + ivec2(i % 3 - 1, i / 3 - 1) : ivec2(roundEven(place)), end.triangle);
+        ivec2 asked = i < 9 ? at + ivec2(i % 3 - 1, i / 3 - 1) : i < last ? ivec2(int(f.last_column), int(f.last_row)) : ivec2(roundEven(vec2(at) + place_around(0, i - last)));
+        if (i >= 9 && i < along) {
+            Place p = place_along(0, layer, left_at(0, hit), f.direction, after, (float(i - 9) + 0.5f) / float(SHARP_PLACES));
+            LayerPlace there = layer_place(0, p.column, p.row);
+            asked = p.inside > 0.0f ? ivec2(int(there.x), int(there.y)) : ivec2(-1);
+        }
+        s = follow_shown(s, layer, asked, end.triangle);
     }
     bool open = by_nothing || (s.open && (around == 9 || (refracted && !s.lost)));
     if ((s.unsure && point_is_near(0, end.error) && end.ray.after < s.along) || (s.met < 0 && !open))
