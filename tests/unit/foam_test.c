@@ -209,6 +209,35 @@ static void folds_give_numbers(void **state)
     kernel_bench_destroy(b);
 }
 
+/* Where the highest of several points is seen: the share of it that is foam, weighted by its area, against the integral over height and J. */
+static void crests_are_seen_first(void **state)
+{
+    (void)state;
+    FoamData data = {0};
+    const struct kernel_context cx = {.foam = &data};
+    double worst = 0;
+    for (int points = 2; points <= 8; points *= 2)
+        for (double correlation = -0.6; correlation < -0.1; correlation += 0.2) {
+            const double deviation = 0.2, least = 1 - 1.8 * deviation;
+            data.least = (float)least;
+            double foam = 0, all = 0;
+            for (double h = -6; h < 6; h += 0.02)
+                for (double x = -6; x < 6; x += 0.02) { /* of J beside what goes with the height */
+                    const double area = 1 + deviation * (correlation * h + sqrt(1 - correlation * correlation) * x);
+                    const double seen = points * pow(0.5 * erfc(-h * M_SQRT1_2), points - 1) * exp(-(h * h + x * x) / 2) * area;
+                    all += seen;
+                    foam += area < least ? seen : 0;
+                }
+            const real others = log((double)points);
+            const FoamSight sight = {.above = 0.86f * others / (1 + 0.1f * others), .kept = 1 / (1 + others * (0.63f + 0.075f * others))};
+            const float high = (float)(deviation * correlation), variance = (float)(deviation * deviation);
+            const FoamMean level = {.mean = 1, .squared = 1, .skewness = 0};
+            const double got = (double)foam_share_at(&cx, level, level, variance, variance, foam_view(&cx, sight, 1, 0, 0, high, high));
+            worst = fmax(worst, fabs(got / (foam / all) - 1));
+        }
+    expect_below("foam on the highest of 2, 4, 8 points, over the integral less 1", worst, 0.08);
+}
+
 /* ---- scenes ---- */
 
 static void water_without_foam_has_none(void **state)
@@ -243,6 +272,7 @@ int main(void)
         cmocka_unit_test(patterns_cover_their_share),
         cmocka_unit_test(kernels_agree_with_double_precision),
         cmocka_unit_test(footprints_keep_the_share),
+        cmocka_unit_test(crests_are_seen_first),
         cmocka_unit_test(folds_give_numbers),
         cmocka_unit_test(water_without_foam_has_none),
     };
