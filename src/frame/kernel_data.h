@@ -15,6 +15,7 @@
 #include "kernels/waves/foam_types.k"
 #include "kernels/waves/sines_types.k"
 #include "kernels/baselines/lean_types.k"
+#include "kernels/display/reproject_types.k"
 #include "kernels/refraction/refract_types.k"
 #include "kernels/refraction/narrow_types.k"
 #include "kernels/refraction/shade_types.k"

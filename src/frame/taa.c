@@ -4,54 +4,47 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/triples.h"
 #include "frame/whole_frame.h"
 
 /* ---- one row ---- */
 
-/* Where a point of the world is seen by a camera, in pixels; false behind it. */
-static bool project(const camera_rays *c, const double point[3], double at[2])
+Reprojection reprojection_of(const camera_rays *now, const camera_rays *before)
 {
-    const double *r = c->right, *d = c->down;
-    const double n[3] = {r[1] * d[2] - r[2] * d[1], r[2] * d[0] - r[0] * d[2], r[0] * d[1] - r[1] * d[0]};
-    double ahead = 0, corner = 0, rr = 0, dd = 0, across = 0, along = 0;
-    for (int i = 0; i < 3; i++) {
-        ahead += n[i] * (point[i] - c->position[i]);
-        corner += n[i] * c->corner[i];
-    }
-    if (!(ahead * corner > 0))
-        return false;
-    for (int i = 0; i < 3; i++) {
-        const double off = (point[i] - c->position[i]) * (corner / ahead) - c->corner[i];
-        across += off * r[i], rr += r[i] * r[i];
-        along += off * d[i], dd += d[i] * d[i];
-    }
-    at[0] = across / rr;
-    at[1] = along / dd;
-    return true;
-}
-
-/* Where the history shows what pixel (x, y) shows now; false where it does not. Waves carry no point along: water stays where it is. */
-static bool history_place(const taa_step *s, uint32_t x, uint32_t y, double at[2])
-{
-    at[0] = x, at[1] = y;
-    if (s->still)
-        return true;
-    const float depth = s->current->depth[(size_t)y * s->current->width + x];
-    const double far = isfinite(depth) ? (double)depth : 1e9;
-    double ray[3], length = 0, point[3];
-    for (int i = 0; i < 3; i++) {
-        ray[i] = s->now.corner[i] + x * s->now.right[i] + y * s->now.down[i];
-        length += ray[i] * ray[i];
-    }
-    for (int i = 0; i < 3; i++)
-        point[i] = s->now.position[i] + ray[i] * (far / sqrt(length));
-    return project(&s->before, point, at) && at[0] >= 0 && at[1] >= 0 && at[0] <= s->current->width - 1 && at[1] <= s->current->height - 1;
+    const double *right = before->right, *down = before->down;
+    double normal[3];
+    cross3(right, down, normal);
+    const double ahead = dot3(normal, before->corner), columns = dot3(right, right), rows = dot3(down, down);
+    return (Reprojection){.ray_x = (float)now->corner[0],
+                          .ray_y = (float)now->corner[1],
+                          .ray_z = (float)now->corner[2],
+                          .right_x = (float)now->right[0],
+                          .right_y = (float)now->right[1],
+                          .right_z = (float)now->right[2],
+                          .down_x = (float)now->down[0],
+                          .down_y = (float)now->down[1],
+                          .down_z = (float)now->down[2],
+                          .moved_x = (float)(now->position[0] - before->position[0]),
+                          .moved_y = (float)(now->position[1] - before->position[1]),
+                          .moved_z = (float)(now->position[2] - before->position[2]),
+                          .ahead_x = (float)(normal[0] / ahead),
+                          .ahead_y = (float)(normal[1] / ahead),
+                          .ahead_z = (float)(normal[2] / ahead),
+                          .column_x = (float)(right[0] / columns),
+                          .column_y = (float)(right[1] / columns),
+                          .column_z = (float)(right[2] / columns),
+                          .first_column = (float)(dot3(before->corner, right) / columns),
+                          .row_x = (float)(down[0] / rows),
+                          .row_y = (float)(down[1] / rows),
+                          .row_z = (float)(down[2] / rows),
+                          .first_row = (float)(dot3(before->corner, down) / rows)};
 }
 
 #define MGT_LANES 1
 #include "kernels/common/prelude_c.h"
 
 #include "kernels/display/blend.k"
+#include "kernels/display/reproject.k"
 
 float taa_weight(int frames) { return fmaxf(1.0f / (float)(frames + 1), 0.1f); }
 
@@ -62,23 +55,31 @@ static inline BlendPixel pixel_of(const picture_planes *p, size_t i)
 }
 
 /* Bilinear. */
-static BlendPixel history_at(const picture_planes *p, const double at[2])
+static BlendPixel history_at(const picture_planes *p, ReprojectedPixel at)
 {
-    const uint32_t x0 = (uint32_t)at[0], y0 = (uint32_t)at[1], x1 = x0 + 1 < p->width ? x0 + 1 : x0, y1 = y0 + 1 < p->height ? y0 + 1 : y0;
-    const float u = (float)(at[0] - x0), v = (float)(at[1] - y0);
+    const uint32_t x0 = (uint32_t)at.column, y0 = (uint32_t)at.row, x1 = x0 + 1 < p->width ? x0 + 1 : x0, y1 = y0 + 1 < p->height ? y0 + 1 : y0;
+    const float u = at.column - (float)x0, v = at.row - (float)y0;
     const size_t high = (size_t)y0 * p->width, low = (size_t)y1 * p->width;
     const BlendPixel above = blend_mixed(NULL, pixel_of(p, high + x0), pixel_of(p, high + x1), u);
     return blend_mixed(NULL, above, blend_mixed(NULL, pixel_of(p, low + x0), pixel_of(p, low + x1), u), v);
 }
 
-static BlendPixel blended(const taa_step *s, uint32_t x, uint32_t y)
+static BlendPixel blended(const taa_step *s, const Reprojection *history, uint32_t x, uint32_t y)
 {
     const picture_planes *current = s->current;
+    const float width = (float)current->width, height = (float)current->height;
     const size_t pixel = (size_t)y * current->width + x;
     const BlendPixel now = pixel_of(current, pixel);
-    double at[2];
-    if (!history_place(s, x, y, at))
-        return now;
+    BlendPixel past;
+    if (s->still) {
+        past = pixel_of(s->history, pixel);
+    } else {
+        /* Waves carry no point along: water stays where it is. */
+        const ReprojectedPixel at = reproject(NULL, *history, width, height, (float)x, (float)y, current->depth[pixel]);
+        if (!at.inside)
+            return now;
+        past = history_at(s->history, at);
+    }
     BlendPixel least = now, most = now;
     for (uint32_t j = y > 0 ? y - 1 : 0; j <= y + 1 && j < current->height; j++)
         for (uint32_t i = x > 0 ? x - 1 : 0; i <= x + 1 && i < current->width; i++) {
@@ -86,14 +87,15 @@ static BlendPixel blended(const taa_step *s, uint32_t x, uint32_t y)
             least = blend_least(NULL, least, p);
             most = blend_most(NULL, most, p);
         }
-    return taa_blend(NULL, now, s->still ? pixel_of(s->history, pixel) : history_at(s->history, at), least, most, taa_weight(s->frames));
+    return taa_blend(NULL, now, past, least, most, taa_weight(s->frames));
 }
 
 void taa_blend_row(const taa_step *s, uint32_t y)
 {
+    const Reprojection history = s->still ? (Reprojection){0} : reprojection_of(&s->now, &s->before);
     for (uint32_t x = 0; x < s->current->width; x++) {
         const size_t pixel = (size_t)y * s->current->width + x;
-        const BlendPixel p = blended(s, x, y);
+        const BlendPixel p = blended(s, &history, x, y);
         memcpy(s->out->color + 3 * pixel, &p.color, sizeof p.color);
         s->out->coverage[pixel] = p.coverage;
         s->out->water[pixel] = p.water;

@@ -88,4 +88,7 @@ typedef struct taa_step {
 
 void taa_blend_row(const taa_step *step, uint32_t y);
 
+/* From what the camera `now` sees to the picture of the camera `before`. */
+Reprojection reprojection_of(const camera_rays *now, const camera_rays *before);
+
 #endif

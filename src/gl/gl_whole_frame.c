@@ -2,7 +2,6 @@
  * Methods that work on whole pictures, on the GPU: fxaa on one of method `none`, taa on several, adaptive on its own. */
 #include "gl/gl_whole_frame.h"
 
-#include "base/triples.h"
 #include "frame/targets.h"
 
 /* ---- pictures of other methods ---- */
@@ -144,26 +143,6 @@ static mgt_status render_fxaa(gl_renderer *g, const gl_job *job, const reporter 
 
 /* ---- taa ---- */
 
-/* How a point before the camera `now` becomes a pixel of the camera `before`. */
-static void set_reprojection(BlendData *d, const camera_rays *now, const camera_rays *before)
-{
-    const double *right = before->right, *down = before->down;
-    double normal[3];
-    cross3(right, down, normal);
-    const double ahead = dot3(normal, before->corner), columns = dot3(right, right), rows = dot3(down, down);
-    d->ray_x = (float)now->corner[0], d->ray_y = (float)now->corner[1], d->ray_z = (float)now->corner[2];
-    d->right_x = (float)now->right[0], d->right_y = (float)now->right[1], d->right_z = (float)now->right[2];
-    d->down_x = (float)now->down[0], d->down_y = (float)now->down[1], d->down_z = (float)now->down[2];
-    d->moved_x = (float)(now->position[0] - before->position[0]);
-    d->moved_y = (float)(now->position[1] - before->position[1]);
-    d->moved_z = (float)(now->position[2] - before->position[2]);
-    d->ahead_x = (float)(normal[0] / ahead), d->ahead_y = (float)(normal[1] / ahead), d->ahead_z = (float)(normal[2] / ahead);
-    d->column_x = (float)(right[0] / columns), d->column_y = (float)(right[1] / columns), d->column_z = (float)(right[2] / columns);
-    d->row_x = (float)(down[0] / rows), d->row_y = (float)(down[1] / rows), d->row_z = (float)(down[2] / rows);
-    d->first_column = (float)(dot3(before->corner, right) / columns);
-    d->first_row = (float)(dot3(before->corner, down) / rows);
-}
-
 /* The rays of the frame `back` frames ago, through the pixels' centres. */
 static camera_rays rays_before(const gl_job *job, int back)
 {
@@ -202,7 +181,7 @@ static mgt_status add_to_history(gl_renderer *g, const gl_job *job, int back, co
         .share = taa_weight(frames),
     };
     const camera_rays now = rays_before(job, back), before = rays_before(job, back + 1);
-    set_reprojection(&data, &now, &before);
+    data.history = reprojection_of(&now, &before);
     bind_textures(g, UNIT_HISTORY, &g->history[0]);
     gl_bind_texture(g, UNIT_DEPTH, g->layers.depth.name);
     return blend(g, PROGRAM_TAA, &data, &g->history[1], r);

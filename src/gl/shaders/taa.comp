@@ -4,6 +4,7 @@
  * the pixel's neighbours show now.
  */
 #include "blend.glsl"
+#include "kernels/display/reproject.k"
 
 layout(binding = 4) uniform sampler2D history_color_texture;
 layout(binding = 5) uniform sampler2D history_coverage_texture;
@@ -14,33 +15,6 @@ BlendPixel pixel_of_history(ivec2 texel)
 {
     return BlendPixel(texelFetch(history_color_texture, texel, 0).rgb,
                       texelFetch(history_coverage_texture, texel, 0).r, texelFetch(history_water_texture, texel, 0).r);
-}
-
-/* Where the history shows what the pixel shows now. */
-struct HistoryPlace {
-    vec2 at;
-    bool known;
-};
-
-/* Waves carry no point along: water stays where it is. */
-HistoryPlace history_place(ivec2 texel)
-{
-    if (blend_data.still != 0)
-        return HistoryPlace(vec2(texel), true);
-    vec3 ray = vec3(blend_data.ray_x, blend_data.ray_y, blend_data.ray_z);
-    ray += float(texel.x) * vec3(blend_data.right_x, blend_data.right_y, blend_data.right_z);
-    ray += float(texel.y) * vec3(blend_data.down_x, blend_data.down_y, blend_data.down_z);
-    float far = min(texelFetch(depth_texture, texel, 0).r, 1e9f);
-    vec3 point = vec3(blend_data.moved_x, blend_data.moved_y, blend_data.moved_z) + ray * (far / length(ray));
-    float ahead = dot(vec3(blend_data.ahead_x, blend_data.ahead_y, blend_data.ahead_z), point);
-    if (!(ahead > 0.0f))
-        return HistoryPlace(vec2(0.0f), false);
-    point /= ahead;
-    vec2 at = vec2(dot(vec3(blend_data.column_x, blend_data.column_y, blend_data.column_z), point) - blend_data.first_column,
-                   dot(vec3(blend_data.row_x, blend_data.row_y, blend_data.row_z), point) - blend_data.first_row);
-    vec2 last = vec2(blend_size() - 1);
-    bool inside = all(greaterThanEqual(at, vec2(-0.001f))) && all(lessThanEqual(at, last + 0.001f)); /* rounding */
-    return HistoryPlace(clamp(at, vec2(0.0f), last), inside);
 }
 
 BlendPixel history_at(vec2 at)
@@ -58,10 +32,18 @@ void main()
     if (any(greaterThanEqual(texel, blend_size())))
         return;
     BlendPixel now = pixel_of_current(texel);
-    HistoryPlace place = history_place(texel);
-    if (!place.known) {
-        store_blend(texel, now);
-        return;
+    BlendPixel past;
+    if (blend_data.still != 0) {
+        past = pixel_of_history(texel);
+    } else {
+        /* Waves carry no point along: water stays where it is. */
+        ReprojectedPixel at = reproject(0, blend_data.history, float(blend_data.width), float(blend_data.height), float(texel.x), float(texel.y),
+                                        texelFetch(depth_texture, texel, 0).r);
+        if (!at.inside) {
+            store_blend(texel, now);
+            return;
+        }
+        past = history_at(vec2(at.column, at.row));
     }
     BlendPixel least = now, most = now;
     for (int i = 0; i < 9; i++) {
@@ -70,10 +52,5 @@ void main()
         least = blend_least(0, least, p);
         most = blend_most(0, most, p);
     }
-    BlendPixel past;
-    if (blend_data.still != 0)
-        past = pixel_of_history(texel);
-    else
-        past = history_at(place.at);
     store_blend(texel, taa_blend(0, now, past, least, most, blend_data.share));
 }
