@@ -30,7 +30,7 @@ void plot_curve(svg *s, const plot *p, const double *x, const double *y, size_t 
 /* A line of the legend, the first in row 0, from (x, y) down. */
 void plot_key(svg *s, double x, double y, int row, const char *color, const char *dash, const char *text);
 
-/* Colours that also the colour-blind tell apart; index modulo 8. */
+/* Colours that colour-blind readers can distinguish too; index modulo 8. */
 const char *plot_color(size_t index);
 
 #endif

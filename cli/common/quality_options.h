@@ -15,7 +15,7 @@ typedef struct quality_options {
 
 quality_options quality_options_none(void);
 
-/* Reads one option by its name without dashes. False with what is wrong and what is allowed; *known tells whether there is such an option. */
+/* Reads one option by its name without dashes. False with what is wrong and what is allowed; *known: whether there is such an option. */
 bool quality_option_set(quality_options *options, const char *name, size_t length, const char *value, bool *known, char *wrong, size_t size);
 
 /* Replaces the alias of an option, and that of a value, by the name that is written. What has none stays. */

@@ -26,7 +26,7 @@ typedef enum truth_score {
     TRUTH_CONTRAST_GREATEST,
     TRUTH_MEAN_LEAST,
     TRUTH_MEAN_GREATEST,
-    TRUTH_SPECKS, /* share of the pixels beyond what the halves show of each other */
+    TRUTH_SPECKS, /* fraction of the pixels further off than the halves are from each other */
     COMPARE_METRICS
 } truth_score;
 enum { TRUTH_SCORES = COMPARE_METRICS - CLIP_METRICS };
@@ -54,7 +54,7 @@ typedef struct compare_scene {
     mgt_quality *methods;             /* one a method: the request's, over the scene's quality */
     mgt_quality reference;            /* the request's; objects are seen through the waves as they are */
     mgt_quality halves[2];            /* where the reference has them: its own, of half the time samples, seeds in sequence */
-    bool black_sky;                   /* colour tells nothing that coverage does not */
+    bool black_sky;                   /* colour holds nothing that coverage does not */
     double reference_seconds;         /* of a frame, on average; NaN: not known */
     compare_result *results;          /* one a method */
     clip_scores noise[COMPARE_KINDS]; /* the reference's noise floor in each score; NaN without halves */
@@ -68,7 +68,7 @@ typedef struct compare_job {
     progress progress;
     compare_scene scenes[COMPARE_SCENES]; /* request->scene_count of them */
     size_t frame_count;
-    double part_first, part_share;                     /* of the picture in work: where the render that runs begins, and its share */
+    double part_first, part_share;                     /* of the picture in work: where the render that runs begins, and its fraction */
     uint64_t rendered, kept;                           /* pictures */
     char missing[COMPARE_KINDS][COMPARE_METRICS][160]; /* why a metric has no score; "" where it has */
 } compare_job;

@@ -18,7 +18,7 @@ static const mgt_mixture way_kernels[WAYS] = {MGT_MIXTURE_1, MGT_MIXTURE_3, MGT_
 static const char *const way_dashes[WAYS] = {"", "", "", "", "7 4", "2 3"};
 enum { WAY_5 = 2, WAY_9 = 3, WAY_FELINE = 4, WAY_RIEMANN = 5 };
 
-/* ---- the share of one pixel ---- */
+/* ---- the part of one pixel ---- */
 
 /* Elongations ½ octave apart. */
 enum { ELONGATIONS = 10, CASES = 200 };

@@ -50,7 +50,7 @@ static double lopsidedness(double lowest, double highest)
     return density_error(&across, lowest, highest) / density_error(&along, lowest, highest);
 }
 
-/* What a renderer needs: the share of slopes that show the light, over lights that stand as the slopes' own distribution mirrors them. Mean absolute
+/* What a renderer needs: the fraction of slopes that show the light, over lights that stand as the slopes' own distribution mirrors them. Mean absolute
  * error over mean share, with the Jacobian at the slopes' mean and at the slope that mirrors the light's centre. */
 static void share_errors(const slope_law *law, double errors[2])
 {

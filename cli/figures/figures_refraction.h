@@ -61,7 +61,7 @@ enum { ARTEFACT = 32 };
 /* Of the radiance that comes through the surface, sRGB-encoded, on whole pixels of water. NaN: not measured. */
 typedef struct refraction_score {
     double rmse, many;      /* 0 … 255: against one ray in the same place, against many over the pixel */
-    double artefacts;       /* share of the pixels of water */
+    double artefacts;       /* fraction of the pixels of water */
     double ssim, flip, yee; /* of the frame, black where no water; Yee's of Figs. 10 and 11 alone, since it takes a program of its own */
 } refraction_score;
 
@@ -90,7 +90,7 @@ void figures_refraction(figures_job *f);
 const compare_scene *refraction_scene(const refraction_figures *r, refraction_view view);
 size_t refraction_picture(refraction_method method);
 
-/* What comes through the surface as displayed, black where no water, of a picture and of the truth. Returns an exit code; the caller frees both. */
+/* What comes through the surface as displayed, black where no water, of a picture and of the path-traced reference. Returns an exit code; the caller frees both. */
 typedef struct refraction_pair {
     float_image image[2], mask;
     uint64_t left_out; /* pixels without water, or with some */
@@ -114,14 +114,14 @@ typedef struct refraction_panel {
 
 typedef enum refraction_kind {
     PANEL_PICTURE,    /* as `mangata render` shows it */
-    PANEL_DIFFERENCE, /* from the truth: white none, red ARTEFACT, black three times that; grey where no water */
+    PANEL_DIFFERENCE, /* from the path-traced reference: white none, red ARTEFACT, black three times that; grey where no water */
     PANEL_ARTEFACTS   /* the same as red pixels over the grey picture */
 } refraction_kind;
 
 /* Panels of a plate, each so many columns right of and rows below the first. */
 typedef struct refraction_cell {
     refraction_view view;
-    refraction_method method; /* SHOWN_RAY: the truth, of many rays */
+    refraction_method method; /* SHOWN_RAY: the path-traced reference, of many rays */
     refraction_kind kind;
     int column, row;
     const char *title, *text; /* NULL: its scores */

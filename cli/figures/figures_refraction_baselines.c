@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* The methods beside the truth, on flat water (Fig. 10) and on waves (Fig. 11): pictures, differences and what metrics make of them. */
+/* The methods beside the path-traced reference, on flat water (Fig. 10) and on waves (Fig. 11): pictures, differences and what metrics make of them. */
 #include <math.h>
 
 #include "cli/figures/figures_refraction.h"
 
 enum { PANELS = 4, ACROSS = 320, GAP = 12, TOP = 34, ROW = 44 };
 
-/* The truth, then the paper's three. */
+/* The path-traced reference, then the paper's three. */
 static const refraction_method panels[PANELS] = {SHOWN_RAY, SHOWN_TWO_PHASE, SHOWN_SCREEN_SPACE, SHOWN_DISTANCE_FIELD};
 
 /* Pictures, the part with bunny, ball and shadow larger, and differences, one below the other. */

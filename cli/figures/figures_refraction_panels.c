@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Panels of the plates of refraction: parts of pictures, of their differences from the truth, and of their artefacts. */
+/* Panels of the plates of refraction: parts of pictures, of their differences from the path-traced reference, and of their artefacts. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -179,7 +179,7 @@ static void check(refraction_figures *r)
             least = fmin(least, quickest_ratio(r, TIMED_TWO_PHASE, i, baselines[m], i));
         snprintf(claim, sizeof claim, "Liu Table 3, %s: frame rate of two-phase over that without refraction", i ? "128k" : "16k");
         figures_check(r->figures, claim, quickest_ratio(r, TIMED_TWO_PHASE, i, TIMED_OFF, i), 0.7, INFINITY);
-        /* A few frames on a machine with other work tell no less. */
+        /* A few frames suffice, also on a machine with other work. */
         snprintf(claim, sizeof claim, "Liu Table 3, %s: frame rate of two-phase over that of the fastest baseline", i ? "128k" : "16k");
         figures_check(r->figures, claim, least, 0.95, INFINITY);
     }

@@ -87,7 +87,7 @@ void refraction_angles(refraction_figures *r)
 
 /* ---- Figs. 14 and 15 ---- */
 
-/* A row: two-phase, screen space, no refraction and the truth of a part; `letters` "": without titles. */
+/* A row: two-phase, screen space, no refraction and the path-traced reference of a part; `letters` "": without titles. */
 static void put_row(refraction_figures *r, svg *sheet, refraction_panel p, const char *letters)
 {
     static const refraction_method methods[] = {SHOWN_TWO_PHASE, SHOWN_SCREEN_SPACE, SHOWN_OFF, SHOWN_RAY};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* From what rays show to pairs of a name's number and its share. */
+/* From what rays show to pairs of a name's number and its coverage. */
 #include "cli/render/render_crypto.h"
 
 #include <stdlib.h>

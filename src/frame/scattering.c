@@ -17,11 +17,11 @@
 #define TOP (EARTH + TOP_HEIGHT)
 #define SEA_ALBEDO 0.06
 
-#define LIGHT_ROWS 40    /* heights of the transmittance table, */
-#define LIGHT_COLUMNS 96 /* … and zenith angles above the horizon */
-#define MEAN_ROWS 16     /* heights of the mean radiance, */
-#define MEAN_BELOW 40    /* … light below the horizontal: sines −0.4 … 0 in steps of 0.01, */
-#define MEAN_ABOVE 24    /* … above: sine = (i/24)² */
+#define LIGHT_ROWS 40    /* heights of the table of transmittance */
+#define LIGHT_COLUMNS 96 /* zenith angles above the horizon of the table of transmittance */
+#define MEAN_ROWS 16     /* heights of the table of mean radiance */
+#define MEAN_BELOW 40    /* angles of light below the horizontal in that table: sines from −0.4 to 0 in steps of 0.01 */
+#define MEAN_ABOVE 24    /* angles above it: sine = (i/24)² */
 #define MEAN_COLUMNS (MEAN_BELOW + MEAN_ABOVE + 1)
 #define VIEW_STEPS 40
 #define AIR_STEPS 12 /* stretches of a path that ends in the air */
@@ -30,7 +30,7 @@
 #define GATHER_AZIMUTHS 4
 #define ORDERS 4 /* gathered one by one; the rest as a geometric series */
 
-/* Radiance or share by band, as a vector; what is beyond BANDS means nothing. */
+/* Radiance or fraction by band, as a vector; entries beyond BANDS are unused. */
 typedef float band_values __attribute__((vector_size(16 * sizeof(float)), aligned(16)));
 _Static_assert(BANDS <= 16, "bands fit into a vector");
 
