@@ -9,8 +9,8 @@
 /* A view's rays; 1 of their `along` is 1 of clip space's w. */
 typedef struct view_rays {
     camera_rays rays;
-    double clip_depth[3]; /* clip z of the ray of pixel (0, 0), and its changes per pixel to the right and down, for 1 of w; … */
-    double clip_offset;   /* … plus this for any w */
+    double clip_depth[3]; /* clip z of the ray of pixel (0, 0), and its changes per pixel to the right and down, for 1 of w */
+    double clip_offset;   /* added to clip z whatever w is */
 } view_rays;
 
 /* `matrix` is the view's or its view_open. NULL, or what is wrong with the matrices. */

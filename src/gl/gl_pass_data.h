@@ -51,10 +51,10 @@ enum {
     UNIT_FRACTION = 2,
     UNIT_LEAN_MEAN = 1,
     UNIT_LEAN_SQUARE = 2,
-    UNIT_CURRENT = 1,  /* color, coverage and mask of the picture that is blended … */
-    UNIT_LUMA = 4,     /* … its luma (fxaa) … */
-    UNIT_HISTORY = 4,  /* … or the same three of the history (taa) … */
-    UNIT_DEPTH = 7,    /* … where the camera moves */
+    UNIT_CURRENT = 1,  /* color, coverage and mask of the picture that is blended */
+    UNIT_LUMA = 4,     /* fxaa: that picture's luma */
+    UNIT_HISTORY = 4,  /* taa: color, coverage and mask of the history */
+    UNIT_DEPTH = 7,    /* taa: depth of that picture, where the camera moves */
     UNIT_VERTICES = 1, /* objects: see objects_data.glsl */
     UNIT_INDICES,
     UNIT_OWNERS,

@@ -14,8 +14,8 @@ typedef enum gl_program {
     PROGRAM_NODES,        /* first hits of the tiles' lattices */
     PROGRAM_SURFACE,      /* depth and normal at an instant */
     PROGRAM_NORMAL,       /* the filtered methods' mean shading normal */
-    PROGRAM_LEAN_FILL,    /* the map of slope moments, level 0 … */
-    PROGRAM_LEAN_SHRINK,  /* … and the next coarser level */
+    PROGRAM_LEAN_FILL,    /* the map of slope moments, level 0 */
+    PROGRAM_LEAN_SHRINK,  /* that map's next coarser level */
     PROGRAM_LUMA,         /* of the displayed picture, for the next */
     PROGRAM_FXAA,
     PROGRAM_TAA, /* one frame into the history */
@@ -25,33 +25,33 @@ typedef enum gl_program {
     PROGRAM_COPY,             /* a layer into a texture of the host */
     PROGRAM_VIEW,             /* layers into a framebuffer of the host */
     PROGRAM_GBUFFER,          /* objects as they are */
-    PROGRAM_GBUFFER_BENT,     /* … and where refraction by the flat mean surface shows them */
-    PROGRAM_OBJECTS,          /* water in the pixels, and which of these see objects: */
-    PROGRAM_OBJECTS_FRONT,    /* in front of the water, */
-    PROGRAM_OBJECTS_THROUGH,  /* through its surface, */
-    PROGRAM_OBJECTS_TRACED,   /* there, where rays are traced, */
-    PROGRAM_OBJECTS_PLACES,   /* through several places of each pixel, */
-    PROGRAM_OBJECTS_MIRRORED, /* in the mirror that it is, */
-    PROGRAM_OBJECTS_DEEP,     /* or only water */
+    PROGRAM_GBUFFER_BENT,     /* objects where refraction by the flat mean surface shows them */
+    PROGRAM_OBJECTS,          /* water in each pixel, and the pixels that see objects */
+    PROGRAM_OBJECTS_FRONT,    /* objects in front of the water */
+    PROGRAM_OBJECTS_THROUGH,  /* objects through its surface */
+    PROGRAM_OBJECTS_TRACED,   /* objects through the surface, by traced rays */
+    PROGRAM_OBJECTS_PLACES,   /* objects through several places of each pixel */
+    PROGRAM_OBJECTS_MIRRORED, /* objects that the surface mirrors */
+    PROGRAM_OBJECTS_DEEP,     /* light of the water for pixels under it that see no surface */
     PROGRAM_OBJECTS_BLEND,    /* both ends of the shutter */
-    PROGRAM_OBJECTS_COMPOSE,  /* what is in front over the layers */
-    PROGRAM_SLOTS_WEIGH,      /* scheme podee of method adaptive: importance of pixels, */
-    PROGRAM_SLOTS_SCAN,       /* its prefix sum over tiles, */
+    PROGRAM_OBJECTS_COMPOSE,  /* objects in front over the layers */
+    PROGRAM_SLOTS_WEIGH,      /* scheme podee of method adaptive: importance of pixels */
+    PROGRAM_SLOTS_SCAN,       /* prefix sum of importance over tiles */
     PROGRAM_SLOTS_LIST,       /* the tasks of a band */
-    PROGRAM_SLOTS_CHUNKS,     /* and the number of their slots; */
-    PROGRAM_SLOTS_TRACE,      /* a ray each, */
-    PROGRAM_SLOTS_SUM,        /* their sums, */
-    PROGRAM_SLOTS_BLEND,      /* which become part of the picture */
-    PROGRAM_CELLS_PLANT,      /* method adaptive: pixels, the first leaves, */
-    PROGRAM_CELLS_PLAN,       /* what a round may spend, … */
-    PROGRAM_CELLS_CHOOSE,     /* … on which leaves, … */
-    PROGRAM_CELLS_ALLOCATE,   /* … where they go, … */
-    PROGRAM_CELLS_LIST,       /* … and a list of what is to be rendered: */
-    PROGRAM_CELLS_SORT,       /* waves of each tile's cells, */
-    PROGRAM_CELLS_SHADE,      /* cells, */
-    PROGRAM_CELLS_POINTS,     /* points; */
-    PROGRAM_CELLS_GROW,       /* what came of them, */
-    PROGRAM_CELLS_CENSUS,     /* and what is left */
+    PROGRAM_SLOTS_CHUNKS,     /* workgroups that each chunk of slots needs */
+    PROGRAM_SLOTS_TRACE,      /* a ray for each slot */
+    PROGRAM_SLOTS_SUM,        /* sums of the slots of a pixel */
+    PROGRAM_SLOTS_BLEND,      /* sums into the picture */
+    PROGRAM_CELLS_PLANT,      /* method adaptive: each pixel's first cell */
+    PROGRAM_CELLS_PLAN,       /* what a round may spend */
+    PROGRAM_CELLS_CHOOSE,     /* cells that the round splits or gives points */
+    PROGRAM_CELLS_ALLOCATE,   /* places of each tile's cells, jobs and groups */
+    PROGRAM_CELLS_LIST,       /* list of the cells to render */
+    PROGRAM_CELLS_SORT,       /* sorts the waves for each tile's cells */
+    PROGRAM_CELLS_SHADE,      /* shades cells */
+    PROGRAM_CELLS_POINTS,     /* point samples of cells */
+    PROGRAM_CELLS_GROW,       /* cells take what shading found */
+    PROGRAM_CELLS_CENSUS,     /* cost and worth of a tile's open cells */
     PROGRAM_METHODS,          /* first of the methods' own */
     PROGRAM_COUNT = PROGRAM_METHODS + 2 * METHOD_SLOTS
 } gl_program;

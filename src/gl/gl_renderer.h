@@ -22,8 +22,8 @@ typedef struct gl_layers {
     gl_image coverage, water, depth; /* R32F */
     gl_image normal;                 /* RGBA32F, alpha 1 */
     gl_image display;                /* RGBA8 */
-    gl_image samples;                /* R32F, as the next two: what method adaptive has spent, … */
-    gl_image importance, detail;     /* … what for, and what came of it; of other methods one number everywhere */
+    gl_image samples;                /* R32F: what method adaptive has spent; of other methods one number everywhere */
+    gl_image importance, detail;     /* R32F: what samples were spent for, and what came of them; likewise */
 } gl_layers;
 
 enum { GLARE_LEVELS = 16 };

@@ -9,8 +9,8 @@
 #include "base/report.h"
 
 typedef struct trace_ray {
-    float origin[3], direction[3]; /* in the triangles' coordinates; the direction has any length … */
-    float least, most;             /* … and distances count in it: hits nearer than `least` or beyond `most` do not count */
+    float origin[3], direction[3]; /* in the triangles' coordinates; the direction has any length, which is the unit of distances */
+    float least, most;             /* hits nearer than `least` or beyond `most` do not count */
 } trace_ray;
 
 typedef struct trace_hit {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Point samples of leaves at one instant: a workgroup takes a share of a leaf's.
+ * Point samples of leaves at one instant: a workgroup takes a part of a leaf's.
  */
 #define EXACT_FMA
 #define CELLS_PASS
