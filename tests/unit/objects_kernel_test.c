@@ -1,50 +1,16 @@
 /* SPDX-License-Identifier: MIT
- * The kernels that find and shade points of objects, at one lane, against integrals, finite differences and Snell's law in double precision. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
-
-#include "cpu/kernel_context.h"
-#include "cpu/gbuffer.h"
-#include "cpu/narrow_lanes.h"
-#include "frame/refraction_data.h"
-#include "unit/random_numbers.h"
-
-#pragma GCC diagnostic ignored "-Wunused-parameter" /* the dialect hands cx to every function */
-#pragma GCC diagnostic ignored "-Wshadow"
-
-static const double pi = 3.14159265358979323846;
+ * The kernels that find points of objects behind the surface, at one lane, against finite differences, small steps and Snell's law in double precision. */
+#include "unit/objects_lane.h"
 
 /* The data of one case. */
-static FrameData frame_data;
-static ShadeData shade_data;
 static NarrowData narrow_data;
 static RefractData refract_data;
-static SearchWave waves[4];
 static double floor_depth;                            /* of the plane that the layer shows */
 static double post_column = -1, post_row, post_depth; /* of what stands before it, three pixels wide and high */
 
-#define MGT_LANES 1
-#include "kernels/common/prelude_c.h"
-
-#define FRAME(cx) frame_data
-#define SHADE(cx) shade_data
-#define CHOPPY_LIGHT(cx) 0
 #define NARROW(cx) narrow_data
 #define CHOPPY_BEHIND(cx) NARROW(cx).choppy
 #define REFRACT(cx) refract_data
-#define SEARCH_WAVE(cx, i) (waves[i])
-
-KERNEL vec3 TEXTURE(CTX cx, real texture, real u, real v, real level) { return vec3(texture, u, v * level); }
-KERNEL vec3 SKY_TEXEL(CTX cx, real column, real row) { return vec3(0.0f, 0.0f, 0.0f); }
-KERNEL real SUN_VISIBILITY(CTX cx, vec3 position, vec3 first, vec3 second, mask dry) { return 1.0f; }
 
 #include "kernels/refraction/layer.k"
 
@@ -52,97 +18,10 @@ static LayerPixel layer_pixel(double column, double row);
 KERNEL LayerPixel LAYER(CTX cx, int layer, real column, real row) { return layer_pixel((double)column, (double)row); }
 #define MIRRORED_WITHIN(cx, a, b) ((void)(a), (void)(b), true)
 
-#include "kernels/refraction/material.k"
-#include "kernels/common/mirror.k"
 #include "kernels/refraction/again.k"
 #include "kernels/refraction/spread.k"
 
 #include "unit/kernel_words_off.h"
-#undef dot
-#undef cross
-#undef scale
-#undef add
-#undef sub
-#undef normalize
-
-static random_state numbers;
-
-static double range(double low, double high) { return random_range(&numbers, low, high); }
-
-static double dot3(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-static void unit3(double v[3])
-{
-    const double length = sqrt(dot3(v, v));
-    for (int k = 0; k < 3; k++)
-        v[k] /= length;
-}
-
-/* Snell's law: false where nothing gets through. `ratio`: index before over index behind. */
-static bool refract3(const double ray[3], const double normal[3], double ratio, double out[3])
-{
-    const double cosine = -dot3(ray, normal), squared = 1 - ratio * ratio * (1 - cosine * cosine);
-    if (squared < 0)
-        return false;
-    for (int k = 0; k < 3; k++)
-        out[k] = ratio * ray[k] + (ratio * cosine - sqrt(squared)) * normal[k];
-    return true;
-}
-
-/* ---- patterns ---- */
-
-static double tile_at(double x, double joint)
-{
-    const double f = x - floor(x);
-    return f > joint / 2 && f < 1 - joint / 2 ? 1 : 0;
-}
-
-static double square_at(double x) { return ((long long)floor(x) & 1) == 0 ? 1 : -1; }
-
-static double pattern_at(int kind, double joint, double u, double v)
-{
-    const double tiles = 1 - tile_at(u, joint) * tile_at(v, joint), checks = 0.5 * (1 - square_at(u) * square_at(v)), stripes = 0.5 * (1 - square_at(u));
-    return kind == 1 ? tiles : kind == 2 ? checks : kind == 3 ? stripes : 0;
-}
-
-static void patterns_are_box_means(void **state)
-{
-    (void)state;
-    enum { STEPS = 400 };
-    numbers.state = 1;
-    double worst = 0;
-    for (int i = 0; i < 400; i++) {
-        const int kind = i % 4;
-        const double joint = range(0, 0.5), u = range(-30, 30), v = range(-30, 30), wide = exp(range(-4, 2)), high = exp(range(-4, 2));
-        double sum = 0;
-        for (int y = 0; y < STEPS; y++)
-            for (int x = 0; x < STEPS; x++)
-                sum += pattern_at(kind, joint, u + wide * ((x + 0.5) / STEPS - 0.5), v + high * ((y + 0.5) / STEPS - 0.5));
-        const float share = pattern_share(NULL, (float)kind, (float)joint, (float)u, (float)v, (float)wide, (float)high);
-        worst = fmax(worst, fabs((double)share - sum / (STEPS * STEPS)));
-    }
-    printf("patterns: within %.2g of the box's mean\n", worst);
-    assert_true(worst < 0.012); /* the sum's own steps: two edges of 1/400 a side, twice */
-}
-
-/* ---- light in water ---- */
-
-static void glow_is_the_integral(void **state)
-{
-    (void)state;
-    numbers.state = 2;
-    for (int i = 0; i < 200; i++) {
-        const double light = range(0, 10), sigma = exp(range(-6, 1)), b = sigma * range(0, 1), slant = range(1, 1.5), depth = range(0, 5),
-                     distance = exp(range(-3, 3)), fall = range(-1, 1) > 0 ? range(0, 1) : -range(0, 1) * fmin(depth / distance, 1);
-        double sum = 0;
-        for (int k = 0; k < 20000; k++) {
-            const double x = distance * (k + 0.5) / 20000;
-            sum += light * b / (4 * pi) * exp(-sigma * slant * (depth + fall * x)) * exp(-sigma * x) * distance / 20000;
-        }
-        const float found = scattered_once(NULL, (float)light, (float)sigma, (float)b, (float)slant, (float)depth, (float)fall, (float)distance);
-        assert_true(fabs((double)found - sum) <= 1e-4 * sum + 1e-7);
-    }
-}
 
 /* ---- footprints ---- */
 
@@ -364,112 +243,6 @@ static void spreads_turn_with_the_camera(void **state)
     const RayAxes above = ray_axes(NULL, vec3(0.6f, -0.8f, 0.0f)), below = ray_axes(NULL, vec3(0.6f, 0.8f, 0.0f));
     assert_true(above.side.x == below.side.x && above.side.z == below.side.z);
     assert_true(above.rise.x == -below.rise.x && above.rise.y == below.rise.y && above.rise.z == -below.rise.z);
-}
-
-/* ---- caustics ---- */
-
-static void surface_at(double x, double z, double out[6])
-{
-    memset(out, 0, 6 * sizeof *out);
-    for (int i = 0; i < shade_data.caustic_waves; i++) {
-        const double a = 2 * pi * (double)waves[i].turns_x, b = 2 * pi * (double)waves[i].turns_z, A = (double)waves[i].amplitude;
-        const double phase = a * x + b * z + 2 * pi * (double)waves[i].phase;
-        out[0] += A * sin(phase), out[1] += A * a * cos(phase), out[2] += A * b * cos(phase);
-    }
-}
-
-static void send(const double light[3], double x, double z, double depth, double to[2])
-{
-    double s[6], bent[3];
-    surface_at(x, z, s);
-    double normal[3] = {-s[1], 1, -s[2]}, ray[3] = {-light[0], -light[1], -light[2]};
-    unit3(normal);
-    assert_true(refract3(ray, normal, 1 / 1.333, bent));
-    to[0] = x - (depth + s[0]) * bent[0] / bent[1];
-    to[1] = z - (depth + s[0]) * bent[2] / bent[1];
-}
-
-/* Before rays cross, the light at a point is that of the one place that sends its ray there, over the share of the area. */
-static void caustics_are_shares_of_area(void **state)
-{
-    (void)state;
-    numbers.state = 4;
-    double worst = 0;
-    for (int i = 0; i < 400; i++) {
-        double light[3] = {range(-0.5, 0.5), 1, range(-0.5, 0.5)};
-        shade_data = (ShadeData){.index = 1.333f, .caustic_waves = 4, .sun_air_x = (float)light[0], .sun_air_z = (float)light[2]};
-        unit3(light);
-        for (int k = 0; k < 4; k++)
-            waves[k] = (SearchWave){(float)range(-0.5, 0.5), (float)range(-0.5, 0.5), (float)range(0, 1), 0.01f, 0, 0, 0, 0};
-        const double x = range(-5, 5), z = range(-5, 5), depth = range(0.5, 3), h = 1e-4;
-        double at[2], right[2], ahead[2];
-        send(light, x, z, depth, at);
-        send(light, x + h, z, depth, right);
-        send(light, x, z + h, depth, ahead);
-        const double det = ((right[0] - at[0]) * (ahead[1] - at[1]) - (right[1] - at[1]) * (ahead[0] - at[0])) / (h * h);
-        const float share = caustic_share(NULL, vec3((float)at[0], (float)-depth, (float)at[1]), 0.0f);
-        double s[6];
-        surface_at(x, z, s);
-        const double falls = 1 - (s[1] * light[0] + s[2] * light[2]) / light[1]; /* on a square metre of the mean surface */
-        worst = fmax(worst, fabs((double)share * sqrt(det * det + 0.02) / falls - 1));
-    }
-    printf("caustics: within %.2g of the share of area\n", worst);
-    assert_true(worst < 5e-3);
-}
-
-/* ---- the light through the surface ---- */
-
-static void slopes_bend_the_view_to_the_light(void **state)
-{
-    (void)state;
-    numbers.state = 5;
-    int seen = 0;
-    for (int i = 0; i < 2000; i++) {
-        /* Mirrored at the surface: the eye is above, the light below. */
-        const double elevation = range(0.2, 1.5), azimuth = range(-0.7, 0.7), steep = range(0.7, 1.5);
-        double light[3] = {cos(elevation), -sin(elevation), 0}, view[3] = {-cos(steep) * cos(azimuth), sin(steep), cos(steep) * sin(azimuth)};
-        double e[3] = {-light[2], 0, light[0]}, f[3];
-        unit3(e);
-        for (int k = 0; k < 3; k++)
-            f[k] = light[(k + 1) % 3] * e[(k + 2) % 3] - light[(k + 2) % 3] * e[(k + 1) % 3];
-        frame_data = (FrameData){.lights[0].light_x = (float)light[0],
-                                 .lights[0].light_y = (float)light[1],
-                                 .lights[0].light_z = (float)light[2],
-                                 .lights[0].axis_e_x = (float)e[0],
-                                 .lights[0].axis_e_y = (float)e[1],
-                                 .lights[0].axis_e_z = (float)e[2],
-                                 .lights[0].axis_f_x = (float)f[0],
-                                 .lights[0].axis_f_y = (float)f[1],
-                                 .lights[0].axis_f_z = (float)f[2],
-                                 .index_of_refraction = 1 / 1.333f,
-                                 .camera_under = 1};
-        const vec3 v = vec3((float)view[0], (float)view[1], (float)view[2]);
-        const Mirror m = mirror_at(NULL, v);
-        const double cosine =
-            ((double)m.slope.x * light[0] - light[1] + (double)m.slope.y * light[2]) / sqrt(1 + pow((double)m.slope.x, 2) + pow((double)m.slope.y, 2));
-        if (!(m.possible > 0) || cosine < 0.2) /* light along the surface: differences tell nothing */
-            continue;
-        seen++;
-        const double ray[3] = {-view[0], -view[1], -view[2]}, h = 1e-5;
-        double end[3][2];
-        for (int k = 0; k < 3; k++) {
-            double normal[3] = {-((double)m.slope.x + (k == 1 ? h : 0)), 1, -((double)m.slope.y + (k == 2 ? h : 0))}, bent[3];
-            unit3(normal);
-            assert_true(refract3(ray, normal, 1.333, bent));
-            end[k][0] = dot3(bent, e) / dot3(bent, light);
-            end[k][1] = dot3(bent, f) / dot3(bent, light);
-            assert_true(dot3(bent, light) > 0);
-        }
-        const double j[4] = {(end[1][0] - end[0][0]) / h, (end[2][0] - end[0][0]) / h, (end[1][1] - end[0][1]) / h, (end[2][1] - end[0][1]) / h};
-        const double found[4] = {(double)m.j_ex, (double)m.j_ez, (double)m.j_fx, (double)m.j_fz};
-        assert_true(hypot(end[0][0], end[0][1]) < 2e-5);
-        for (int k = 0; k < 4; k++)
-            assert_true(fabs(found[k] - j[k]) < 3e-3 * (1 + fabs(j[k])));
-        const LightRay l = light_ray(NULL, v, m.slope);
-        assert_true(fabs((double)l.ray.x - light[0]) + fabs((double)l.ray.y - light[1]) + fabs((double)l.ray.z - light[2]) < 2e-5);
-    }
-    printf("light under water: %d of 2000 views have a slope for it\n", seen);
-    assert_true(seen > 500);
 }
 
 /* ---- the narrow phase ---- */
@@ -806,11 +579,9 @@ static void rays_pass_behind_things(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(patterns_are_box_means),       cmocka_unit_test(glow_is_the_integral),         cmocka_unit_test(footprints_follow_the_rays),
-        cmocka_unit_test(spreads_turn_with_the_camera), cmocka_unit_test(caustics_are_shares_of_area),  cmocka_unit_test(slopes_bend_the_view_to_the_light),
-        cmocka_unit_test(rays_bend_by_snells_law),      cmocka_unit_test(flat_water_needs_no_search),   cmocka_unit_test(waves_lead_to_the_floor),
-        cmocka_unit_test(rays_meet_the_next_wave),      cmocka_unit_test(parts_of_light_are_all_of_it), cmocka_unit_test(rays_pass_behind_things),
-        cmocka_unit_test(rays_beside_meet_the_surface),
+        cmocka_unit_test(footprints_follow_the_rays),   cmocka_unit_test(spreads_turn_with_the_camera), cmocka_unit_test(rays_bend_by_snells_law),
+        cmocka_unit_test(flat_water_needs_no_search),   cmocka_unit_test(waves_lead_to_the_floor),      cmocka_unit_test(rays_meet_the_next_wave),
+        cmocka_unit_test(parts_of_light_are_all_of_it), cmocka_unit_test(rays_pass_behind_things),      cmocka_unit_test(rays_beside_meet_the_surface),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
