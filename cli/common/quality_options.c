@@ -110,7 +110,7 @@ bool quality_options_apply(const quality_options *options, const mgt_quality *ba
         return false;
     if (!o.range_given)
         return true;
-    const uint64_t total = (uint64_t)out->spatial_samples * out->spatial_samples * out->time_samples;
+    const uint64_t total = quality_samples(out);
     if (!field_applies(quality_fields, spatial, out, false))
         return snprintf(wrong, size, "--samples-range: method %s takes one sample", method_name(out).text), false;
     if (o.part[1] > total)

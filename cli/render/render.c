@@ -225,8 +225,8 @@ static const option render_options[] = {
     {"samples-range", 0, "FIRST,COUNT", "reference, ssaaN: take only these of the NxNxM samples; or I/N,\nthe part I of N equal ones", .set = option_quality,
      .offset = offsetof(render_request, options)},
     {"checkpoint", 0, "SECONDS",
-     "reference: keep what is done in OUT.checkpoint about so often, from\n"
-     "which the same command goes on after a kill",
+     "reference, ssaaN: keep what is done in OUT.checkpoint about so\n"
+     "often, from which the same command goes on after a kill",
      .set = set_checkpoint},
     {"backend", 0, "NAME", "cpu (default), gl, auto, or null (renders nothing: for tests)", .set = option_context, .offset = offsetof(render_request, context)},
     CONTEXT_OPTION_GL_DEVICE(render_request),

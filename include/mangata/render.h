@@ -165,14 +165,14 @@ MGT_API mgt_status mgt_display(mgt_context *context, const mgt_scene *scene, con
 enum { MGT_SUM_WORDS = 12 };
 
 /* Adds the samples quality.sample_first, … of the crop's pixels to `sums`, which begin as zeros. Always on the CPU, which the log of an OpenGL context
- * says ("render.cpu"). Methods: reference; another one is MGT_ERROR_UNSUPPORTED. After a failure, or when it is cancelled, `sums` are useless. A context of MGT_BACKEND_NULL adds nothing. */
+ * says ("render.cpu"). Methods: reference and ssaa; another one is MGT_ERROR_UNSUPPORTED. After a failure, or when it is cancelled, `sums` are useless. A context of MGT_BACKEND_NULL adds nothing. */
 MGT_API mgt_status mgt_sum_samples(mgt_context *context, const mgt_scene *scene, uint64_t *sums);
 
 /* Adds sums to sums, both of so many pixels. Any thread. */
 MGT_API void mgt_sums_add(uint64_t *sums, const uint64_t *more, size_t pixels);
 
 /* mgt_render(), on the CPU, with these sums of the scene's range of samples in place of samples of its own. What is no mean of samples it renders: depth,
- * normal, and the lights of quality.light_cells. Displayed colour with glare needs the sums of a whole picture: those of a crop are MGT_ERROR_UNSUPPORTED. */
+ * normal, objects, and the lights of quality.light_cells. Displayed colour with glare needs the sums of a whole picture: those of a crop are MGT_ERROR_UNSUPPORTED. */
 MGT_API mgt_status mgt_render_sums(mgt_context *context, const mgt_scene *scene, const uint64_t *sums, const mgt_target *targets, size_t count);
 
 /* What method `mangata` knows of one pixel. Near the horizon a pixel shows two hits, one above the other: water, coverage and radiance are then their

@@ -49,8 +49,9 @@ static mgt_status take_summed(mgt_context *context, const mgt_scene *scene, cons
         return status;
     if (!sums)
         return report_error(r, MGT_ERROR_ARGUMENT, "render.sums", "the sums are NULL");
-    if (!method_has_sums(own->quality.method))
-        return report_error(r, MGT_ERROR_UNSUPPORTED, "render.sums", "method %s has no sums of samples; reference has", mgt_method_name(own->quality.method));
+    if (!quality_has_sums(&own->quality))
+        return report_error(r, MGT_ERROR_UNSUPPORTED, "render.sums", "method %s has no sums of samples; reference and ssaa have",
+                            mgt_method_name(own->quality.method));
     if (context->backend == &gl_backend)
         announce_cpu(context, own->quality.method, "sums of samples are made");
     return scene_ready(r, own);

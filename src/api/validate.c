@@ -6,6 +6,7 @@
 
 #include "frame/mesh.h"
 #include "frame/targets.h"
+#include "params/methods.h"
 #include "params/scene_rows.h"
 
 mgt_status validate_desc(const reporter *r, const mgt_context_desc *desc)
@@ -110,7 +111,7 @@ static mgt_status check_quality(const reporter *r, const mgt_quality *q)
     char wrong[160];
     if (quality_conflict(q, wrong, sizeof wrong))
         return report_error(r, MGT_ERROR_SCENE, "render.scene", "quality: %s", wrong);
-    const uint64_t samples = (uint64_t)q->spatial_samples * q->spatial_samples * q->time_samples;
+    const uint64_t samples = quality_samples(q);
     if (q->sample_first >= samples || q->sample_count > samples - q->sample_first)
         return report_error(r, MGT_ERROR_SCENE, "render.scene", "quality.sample_first %llu and sample_count %llu lie outside the %llu samples of a pixel",
                             (unsigned long long)q->sample_first, (unsigned long long)q->sample_count, (unsigned long long)samples);

@@ -317,6 +317,12 @@ static void render_tile(void *argument, size_t index, uint32_t worker)
         keep_radiance(job, &block, &planes);
 }
 
+static void sum_tile(void *argument, size_t index, uint32_t worker)
+{
+    const render_job *job = argument;
+    tile_render(&job->tiles, job->first_x + (uint32_t)(index % job->columns), job->first_y + (uint32_t)(index / job->columns), job->state->scratch[worker]);
+}
+
 /* Blocks shrink with the samples of a pixel so that progress and cancelling stay prompt. */
 enum { REFERENCE_WIDTH = 16, REFERENCE_HEIGHT = 4, REFERENCE_PIXELS = 1024 };
 
@@ -326,8 +332,7 @@ _Static_assert(CELLS_WIDTH *CELLS_HEIGHT <= REFERENCE_PIXELS && REFERENCE_WIDTH 
 
 static uint32_t reference_block_width(const mgt_quality *q)
 {
-    const uint64_t all = (uint64_t)q->spatial_samples * q->spatial_samples * q->time_samples - q->sample_first;
-    const uint64_t samples = q->sample_count ? q->sample_count : all;
+    const uint64_t samples = q->sample_count ? q->sample_count : quality_samples(q) - q->sample_first;
     return samples > 16384 ? 1 : samples > 2048 ? 4 : REFERENCE_WIDTH;
 }
 
@@ -545,7 +550,7 @@ mgt_status cpu_render_picture(cpu_state *s, const reporter *r, const mgt_scene *
     status = prepare_lean(s, r, &job.frame);
     if (status != MGT_OK)
         return status;
-    job.wants.pixels = wants_layer(targets, count, MGT_LAYER_COLOR, MGT_LAYER_MASK) || wants_layer(targets, count, MGT_LAYER_FOAM, MGT_LAYER_FOAM);
+    job.wants.pixels = sums.add || wants_layer(targets, count, MGT_LAYER_COLOR, MGT_LAYER_MASK) || wants_layer(targets, count, MGT_LAYER_FOAM, MGT_LAYER_FOAM);
     job.wants.surface = wants_layer(targets, count, MGT_LAYER_DEPTH, MGT_LAYER_NORMAL);
     job.crop = job.area = image_region(&scene->image);
     if (wants_glare(scene, targets, count)) {
@@ -580,10 +585,12 @@ mgt_status cpu_render_picture(cpu_state *s, const reporter *r, const mgt_scene *
                                .keep_going_argument = &job,
                                .lean = s->lean,
                                .objects = objects ? s->objects : NULL,
-                               .behind = pass && pass->behind};
+                               .behind = pass && pass->behind,
+                               .sums = sums,
+                               .crop = job.crop};
         if (status == MGT_OK)
-            finished = run_loop(&job, TILE_WIDTH, TILE_HEIGHT, render_tile);
-        if (objects && finished)
+            finished = run_loop(&job, TILE_WIDTH, TILE_HEIGHT, sums.add ? sum_tile : render_tile);
+        if (objects && finished && !sums.add)
             refraction_report(s->objects, r);
     }
     if (status == MGT_OK && (!finished || atomic_load(&job.cancelled)))

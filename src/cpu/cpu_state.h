@@ -29,12 +29,6 @@ typedef struct cpu_state {
 /* Brings the sky's tables to this scene. */
 mgt_status cpu_prepare_sky(cpu_state *s, const reporter *r, const mgt_scene *scene);
 
-/* Sums of the crop's samples (base/exact_sum.h). At most one is not NULL. */
-typedef struct picture_sums {
-    uint64_t *add;        /* samples are added to these; no target is written */
-    const uint64_t *show; /* targets show their means; no sample is taken */
-} picture_sums;
-
 /* Renders by a method that needs no other picture. `pass` NULL: the picture is the whole frame. */
 mgt_status cpu_render_picture(cpu_state *s, const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count, const frame_pass *pass,
                               picture_sums sums);

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "cpu/raster_lanes.h"
+#include "cpu/sample_sums.h"
 #include "cpu/baseline_lanes.h"
 #include "frame/atmosphere.h"
 
@@ -232,6 +233,19 @@ static void lanes_sample(const FrameData *frame, const float *sky, const tile_li
         accumulate(out->coverage + i, p.coverage, weight);
         accumulate(out->water + i, p.water, weight);
         accumulate(out->foam + i, p.foam, weight);
+    }
+}
+
+static void lanes_sum(const float *values, sample_terms *terms)
+{
+    const double to_high = 0x1.8p44, to_low = 0x1.8p-4; /* rounds to multiples of 2⁻⁸ and of 2⁻⁵⁶ */
+    for (size_t i = 0; i < TILE_PIXELS; i++) {
+        const double number = values[i] == values[i] ? (double)values[i] : 0;
+        const double above = number > -SAMPLE_TERM_MOST ? number : -SAMPLE_TERM_MOST;
+        const double value = above < SAMPLE_TERM_MOST ? above : SAMPLE_TERM_MOST;
+        const double high = (value + to_high) - to_high;
+        terms->high[i] += high;
+        terms->low[i] += ((value - high) + to_low) - to_low;
     }
 }
 
@@ -673,6 +687,7 @@ const lane_kernels LANES_NAME(MGT_LANES) = {
     lanes_sort,
     lanes_estimate,
     lanes_sample,
+    lanes_sum,
     lanes_method,
     lanes_cells,
     lanes_surface,

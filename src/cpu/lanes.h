@@ -84,6 +84,7 @@ typedef struct tile_surface {
     float normal_x[TILE_PIXELS], normal_y[TILE_PIXELS], normal_z[TILE_PIXELS];
 } tile_surface;
 
+typedef struct sample_terms sample_terms;         /* cpu/sample_sums.h */
 typedef struct shade_kernels shade_kernels;       /* cpu/shade.h */
 typedef struct narrow_kernels narrow_kernels;     /* cpu/narrow_lanes.h */
 typedef struct front_kernels front_kernels;       /* cpu/front_lanes.h */
@@ -100,6 +101,8 @@ typedef struct lane_kernels {
        NULL where there are none, here and below. */
     void (*sample)(const FrameData *frame, const float *sky, const tile_light *light, const tile_waves *tile, const tile_estimate *estimate, const float *dx,
                    const float *dy, float weight, tile_pixels *out);
+    /* Adds one sample a pixel to the sums of a plane. What is not a number counts as 0. */
+    void (*sum)(const float *values, sample_terms *terms);
     /* Methods that shade each pixel once: METHOD_CENTRE and METHOD_FILTERED. */
     void (*method)(mgt_method method, const method_tile *tile, tile_pixels *out);
     /* Cells by method `mangata`; the waves are sorted for their level. Lists are filled up to whole vectors. */

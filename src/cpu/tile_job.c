@@ -65,16 +65,26 @@ static void jitter(tile_place place, uint64_t seed, uint32_t n, uint64_t index, 
     }
 }
 
-static void render_samples(tile_place place, tile_scratch *scratch)
+static void take_sample(tile_place place, uint64_t sample, tile_scratch *scratch)
+{
+    const tile_job *job = place.job;
+    const FrameData *data = &job->frame->data;
+    const mgt_quality *q = &job->frame->scene->quality;
+    const uint64_t per_time = (uint64_t)q->spatial_samples * q->spatial_samples;
+    jitter(place, q->seed, q->spatial_samples, sample % per_time, sample, scratch);
+    memset(&scratch->sample, 0, sizeof scratch->sample);
+    job->kernels->sample(data, job->sky, light_of(job, scratch), &scratch->close, scratch->close_estimate, scratch->jitter_x, scratch->jitter_y, 1,
+                         &scratch->sample);
+    sample_sums_add(&scratch->sums, job->kernels, &scratch->sample, data->want_color != 0, scratch->close.foam != NULL);
+}
+
+/* Sums up the samples [first, first + count). False: cancelled. */
+static bool take_samples(tile_place place, uint64_t first, uint64_t count, tile_scratch *scratch)
 {
     const tile_job *job = place.job;
     const frame *f = job->frame;
     const mgt_quality *q = &f->scene->quality;
     const uint64_t per_time = (uint64_t)q->spatial_samples * q->spatial_samples;
-    const uint64_t first = q->sample_first;
-    const uint64_t count = q->sample_count ? q->sample_count : per_time * q->time_samples - first;
-    const float weight = 1.0f / (float)count;
-    memset(&scratch->pixels, 0, sizeof scratch->pixels);
     for (uint64_t sample = first; sample < first + count;) {
         const uint64_t m = sample / per_time, end = (m + 1) * per_time < first + count ? (m + 1) * per_time : first + count;
         const double share = shutter_fraction(q, m);
@@ -87,12 +97,45 @@ static void render_samples(tile_place place, tile_scratch *scratch)
         build(place, waves, &scratch->close, scratch->close_estimate);
         for (; sample < end; sample++) {
             if (sample % 16 == 15 && job->keep_going && !job->keep_going(job->keep_going_argument, scratch->worker))
-                return;
-            jitter(place, q->seed, q->spatial_samples, sample % per_time, sample, scratch);
-            job->kernels->sample(&f->data, job->sky, light_of(job, scratch), &scratch->close, scratch->close_estimate, scratch->jitter_x, scratch->jitter_y,
-                                 weight, &scratch->pixels);
+                return false;
+            take_sample(place, sample, scratch);
         }
     }
+    sample_sums_settle(&scratch->sums);
+    return true;
+}
+
+/* The part of the tile that lies in the crop, row by row, from or to sums of the crop. */
+static void exchange_sums(tile_place place, sample_sums *sums)
+{
+    const tile_job *job = place.job;
+    const region *crop = &job->crop;
+    const uint32_t left = place.x * TILE_WIDTH, top = place.y * TILE_HEIGHT;
+    for (uint32_t i = 0; i < TILE_PIXELS; i++) {
+        const uint32_t x = left + i % TILE_WIDTH, y = top + i / TILE_WIDTH;
+        if (x < crop->x || y < crop->y || x - crop->x >= crop->width || y - crop->y >= crop->height)
+            continue;
+        const size_t at = ((size_t)(y - crop->y) * crop->width + x - crop->x) * SAMPLE_SUM_WORDS;
+        uint64_t *own = sums->words + (size_t)i * SAMPLE_SUM_WORDS;
+        if (job->sums.show)
+            memcpy(own, job->sums.show + at, SAMPLE_SUM_WORDS * sizeof *own);
+        for (size_t k = 0; job->sums.add && k < SAMPLE_SUM_WORDS; k += 2)
+            exact_add(job->sums.add + at + k, exact_load(own + k));
+    }
+}
+
+static void render_samples(tile_place place, tile_scratch *scratch)
+{
+    const tile_job *job = place.job;
+    const mgt_quality *q = &job->frame->scene->quality;
+    const uint64_t count = q->sample_count ? q->sample_count : quality_samples(q) - q->sample_first;
+    sample_sums_clear(&scratch->sums);
+    if (!job->sums.show && !take_samples(place, q->sample_first, count, scratch))
+        return;
+    if (job->sums.show || job->sums.add)
+        exchange_sums(place, &scratch->sums);
+    if (!job->sums.add)
+        sample_sums_mean(&scratch->sums, count, &scratch->pixels);
 }
 
 /* ---- one shading a pixel ---- */
@@ -233,6 +276,6 @@ void tile_render(const tile_job *job, uint32_t tile_x, uint32_t tile_y, tile_scr
         render_pixels(place, scratch);
     if (job->wants.surface && !covered)
         render_surface(place, scratch);
-    if (job->objects && !job->behind)
+    if (job->objects && !job->behind && !job->sums.add)
         refraction_compose(&scratch->objects, job->wants.pixels ? &scratch->pixels : NULL, job->wants.surface ? &scratch->surface : NULL);
 }

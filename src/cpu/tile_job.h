@@ -4,15 +4,18 @@
 #define MANGATA_CPU_TILE_JOB_H
 
 #include "cpu/refraction.h"
+#include "cpu/sample_sums.h"
 #include "frame/frame_waves.h"
+#include "frame/targets.h"
 
-/* What a worker needs while it renders a tile; about 1.3 MiB, of which waves touch what the scene has. */
+/* What a worker needs while it renders a tile; about 1.4 MiB, of which waves touch what the scene has. */
 typedef struct tile_scratch {
     uint32_t worker; /* whose it is */
     tile_waves close, open;
     tile_estimate close_estimate[HIT_ROWS], open_estimate[HIT_ROWS];
     float jitter_x[TILE_PIXELS], jitter_y[TILE_PIXELS];
-    tile_pixels pixels;
+    tile_pixels pixels, sample;
+    sample_sums sums; /* of ssaa */
     tile_surface surface;
     wave_set sample_waves;
     tile_objects objects; /* where there are some, … */
@@ -23,6 +26,12 @@ typedef struct tile_wants {
     bool pixels;  /* color, coverage or mask */
     bool surface; /* depth or normal */
 } tile_wants;
+
+/* Sums of the crop's samples (base/exact_sum.h). At most one is not NULL. */
+typedef struct picture_sums {
+    uint64_t *add;        /* samples are added to these; no target is written */
+    const uint64_t *show; /* targets show their means; no sample is taken */
+} picture_sums;
 
 /* One frame's tiles. */
 typedef struct tile_job {
@@ -38,6 +47,8 @@ typedef struct tile_job {
     const struct lean_map *lean; /* filled, for methods lean and leadr; else NULL */
     refraction *objects;         /* prepared for the frame; NULL: the scene has none */
     bool behind;                 /* objects in front of the water are left out */
+    picture_sums sums;           /* of methods that take samples */
+    region crop;                 /* whose sums they are */
 } tile_job;
 
 /* Whether any pixel of the tile can see water. */

@@ -21,7 +21,7 @@ float samples_per_pixel(const mgt_quality *quality)
         const uint32_t samples = method_of(q->method)->samples;
         return samples ? (float)samples : 1;
     }
-    const uint64_t all = (uint64_t)q->spatial_samples * q->spatial_samples * q->time_samples - q->sample_first;
+    const uint64_t all = quality_samples(q) - q->sample_first;
     return (float)(q->sample_count ? q->sample_count : all);
 }
 

@@ -470,7 +470,7 @@ mgt_status gl_prepare_objects(const gl_run *run)
 
 static double count_steps(const mgt_quality *q)
 {
-    const uint64_t all = (uint64_t)q->spatial_samples * q->spatial_samples * q->time_samples - q->sample_first;
+    const uint64_t all = quality_samples(q) - q->sample_first;
     if (method_of(q->method)->way == METHOD_SAMPLES)
         return (double)(q->sample_count ? q->sample_count : all);
     return q->path_segments > 1 ? q->path_segments : 1;

@@ -143,9 +143,11 @@ _Static_assert(sizeof method_rows / sizeof *method_rows - 1 <= METHOD_SLOTS, "ar
 
 const method_row *method_of(mgt_method method) { return &method_rows[method]; }
 
-bool method_has_sums(mgt_method method) { return method_rows[method].way == METHOD_REFERENCE; }
-
 bool method_is_sampled(mgt_method method) { return method_rows[method].way == METHOD_SAMPLES || method_rows[method].way == METHOD_REFERENCE; }
+
+uint64_t quality_samples(const mgt_quality *q) { return (uint64_t)q->spatial_samples * q->spatial_samples * q->time_samples; }
+
+bool quality_has_sums(const mgt_quality *quality) { return method_is_sampled(quality->method); }
 
 enum { MOST_STRATA = 1024 };
 

@@ -51,8 +51,10 @@ extern const size_t method_count;
 const method_row *method_of(mgt_method method);
 /* Whether it takes samples by pixel and shutter: the options of ssaa. */
 bool method_is_sampled(mgt_method method);
-/* Whether mgt_sum_samples() knows it. */
-bool method_has_sums(mgt_method method);
+/* Samples of a pixel, of a method that takes some. */
+uint64_t quality_samples(const mgt_quality *quality);
+/* Whether mgt_sum_samples() knows its method. */
+bool quality_has_sums(const mgt_quality *quality);
 
 /* A name such as "mangata" or "ssaa4", with the method's default numbers of samples; false: there is none. */
 bool method_from_name(const char *name, mgt_quality *quality);

@@ -64,7 +64,7 @@ absent k.png
 for value in 0 -1 0.01 1e9 nan x ''; do
     expect 64 "--checkpoint $value: allowed is a number of seconds from 0.1 to 86400" render "$sunset" -o bad.png --method reference --checkpoint "$value"
 done
-expect 64 'method ssaa4 has no exact sums' render "$sunset" -o bad.png --method ssaa4 --checkpoint 5
+expect 64 'method msaa32 has no exact sums' render "$sunset" -o bad.png --method msaa32 --checkpoint 5
 expect 64 'the glare of displayed colour needs the sums of the whole picture' render "$sunset" -o bad.png --method reference --checkpoint 5 --crop 0,0,9,9 --set post.glare=0.1
 expect 64 '--checkpoint is for pictures' render "$sunset" -o bad.y4m --method reference --checkpoint 5
 absent bad.*

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: MIT
  * Exact sums: terms, and pictures from sums whose samples were taken in parts.
  */
+#include <float.h>
+
 #include "api_sea.h"
-#include "base/exact_sum.h"
+#include "cpu/sample_sums.h"
 #include "random_numbers.h"
 
 enum { PIXELS = SEA_WIDTH * SEA_HEIGHT, WORDS = PIXELS * MGT_SUM_WORDS };
@@ -99,6 +101,53 @@ static void compare_parts(mgt_context *context, const mgt_scene *scene, uint64_t
     }
 }
 
+/* Terms of all sizes in planes of a tile, by every lane width, against sums of exact terms. */
+static void planes_are_summed_exactly(void **state)
+{
+    (void)state;
+    static sample_sums sums;
+    static tile_pixels pixels;
+    static const struct {
+        mgt_isa isa;
+        const lane_kernels *kernels;
+    } widths[] =
+    { {MGT_ISA_SCALAR, &lane_kernels_1},
+#if defined(__x86_64__)
+      {MGT_ISA_AVX2, &lane_kernels_8},
+      {MGT_ISA_AVX512, &lane_kernels_16},
+#endif
+      {MGT_ISA_AUTO, &lane_kernels_4} };
+    const float special[] = {0, -0.0f, NAN, INFINITY, -INFINITY, 0x1p-57f, -0x1p-57f, 0x1.8p-56f, 1e12f, -3, FLT_MAX, FLT_TRUE_MIN};
+    enum { SPECIAL = sizeof special / sizeof *special, TERMS = 3 * SAMPLE_TERMS_MOST + 1 };
+    for (size_t w = 0; w < sizeof widths / sizeof *widths; w++) {
+        if (!mgt_isa_available(widths[w].isa))
+            continue;
+        random_state random = {9};
+        exact_sum expected[2] = {0};
+        sample_sums_clear(&sums);
+        for (int term = 0; term < TERMS; term++) {
+            for (size_t i = 0; i < TILE_PIXELS; i++) {
+                pixels.red[i] = i < SPECIAL ? special[i] : (float)ldexp(random_range(&random, -1, 1), (int)random_range(&random, -31, 42));
+                pixels.foam[i] = pixels.red[i];
+            }
+            /* 24 digits from 2⁻³² on are multiples of 2⁻⁵⁶. */
+            expected[0] += exact_term((double)pixels.red[TILE_PIXELS - 1], SAMPLE_TERM_MOST);
+            expected[1] += exact_term((double)pixels.red[SPECIAL], SAMPLE_TERM_MOST);
+            sample_sums_add(&sums, widths[w].kernels, &pixels, true, false);
+        }
+        sample_sums_settle(&sums);
+        assert_true(exact_load(sums.words + SAMPLE_SUM_WORDS * (TILE_PIXELS - 1)) == expected[0]);
+        assert_true(exact_load(sums.words + SAMPLE_SUM_WORDS * SPECIAL) == expected[1]);
+        const double values[SPECIAL] = {0, 0, 0, SAMPLE_TERM_MOST, -SAMPLE_TERM_MOST, 0, 0, 0x1p-55, (double)1e12f, -3, SAMPLE_TERM_MOST, 0};
+        for (size_t i = 0; i < SPECIAL; i++) {
+            assert_true(value_of(exact_load(sums.words + SAMPLE_SUM_WORDS * i)) == TERMS * values[i]);
+            assert_true(exact_load(sums.words + SAMPLE_SUM_WORDS * i + 2 * SUM_FOAM) == 0);
+        }
+        sample_sums_mean(&sums, TERMS, &pixels);
+        assert_true(pixels.red[9] == -3 && pixels.red[8] == 1e12f && pixels.foam[9] == 0);
+    }
+}
+
 static void parts_make_the_bytes_of_the_whole(void **state)
 {
     (void)state;
@@ -117,6 +166,10 @@ static void parts_make_the_bytes_of_the_whole(void **state)
     scene.water.choppiness = 0.7f;
     scene.foam = 0.3f;
     scene.foam_persistence = 4;
+    compare_parts(context, &scene, 20);
+    scene.quality.method = MGT_METHOD_SSAA;
+    compare_parts(context, &scene, 20);
+    scene.foam = scene.water.choppiness = 0;
     compare_parts(context, &scene, 20);
     mgt_context_destroy(context);
 }
@@ -151,9 +204,8 @@ static void what_has_no_sums_is_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(terms_are_cut_to_multiples),
-        cmocka_unit_test(words_carry),
-        cmocka_unit_test(parts_make_the_bytes_of_the_whole),
+        cmocka_unit_test(terms_are_cut_to_multiples),  cmocka_unit_test(words_carry),
+        cmocka_unit_test(planes_are_summed_exactly),   cmocka_unit_test(parts_make_the_bytes_of_the_whole),
         cmocka_unit_test(what_has_no_sums_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
