@@ -301,18 +301,18 @@ static void take_patch(const chunk_job *job, const patch *p)
     work_until(job, PATCH_BATCH - 1);
 }
 
+#define MGT_LANES 1
+#include "kernels/common/prelude_c.h"
+
+#include "kernels/refraction/edges.k"
+
+static vec3 corner_of(const patch *p, int i) { return vec3(p->corner[i][0], p->corner[i][1], p->corner[i][2]); }
+
 /* Whether a triangle of a closed object that the surface cuts open shows the camera its back. */
 static bool shows_inside(const broad_view *view, const patch *p)
 {
-    if (!view->world->objects[view->world->object[p->triangle]].cut)
-        return false;
-    float a[3], b[3], to[3];
-    for (int k = 0; k < 3; k++) {
-        a[k] = p->corner[1][k] - p->corner[0][k];
-        b[k] = p->corner[2][k] - p->corner[0][k];
-        to[k] = (k == 1 ? view->picture.eye_height : 0) - p->corner[0][k];
-    }
-    return (a[1] * b[2] - a[2] * b[1]) * to[0] + (a[2] * b[0] - a[0] * b[2]) * to[1] + (a[0] * b[1] - a[1] * b[0]) * to[2] < 0;
+    return view->world->objects[view->world->object[p->triangle]].cut &&
+           shows_back(NULL, corner_of(p, 0), corner_of(p, 1), corner_of(p, 2), vec3(0.0f, view->picture.eye_height, 0.0f));
 }
 
 static void take_triangle(const chunk_job *job, size_t index)

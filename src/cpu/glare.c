@@ -18,6 +18,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define MGT_LANES 1
+#include "kernels/common/prelude_c.h"
+
+#include "kernels/display/glare.k"
+
 #define ROWS_PER_TASK 8
 #define BLOCK 128 /* coarse pixels a row is cut into, so that scratch fits the first cache */
 
@@ -104,9 +109,8 @@ static void down_row(const down_job *job, size_t row)
     const level *coarse = job->coarse;
     const float *weight = &coarse->down[4 * row];
     const float *source[4];
-    for (size_t t = 0; t < 4; ++t) {
-        size_t y = 2 * row + t > 0 ? 2 * row + t - 1 : 0;
-        source[t] = job->fine + (y < job->fine_height ? y : job->fine_height - 1) * job->fine_stride;
+    for (int t = 0; t < 4; ++t) {
+        source[t] = job->fine + (size_t)glare_finer(NULL, (int)row, t, (int)job->fine_height) * job->fine_stride;
     }
     float *out = coarse->rgb + row * coarse->stride;
     for (size_t from = 0; from < coarse->width; from += BLOCK) {
@@ -154,11 +158,9 @@ typedef struct up_job {
 static void up_row(const up_job *job, size_t row)
 {
     const level *coarse = job->coarse;
-    size_t near = row / 2, far = row % 2 ? near + 1 : near - 1; /* wraps at row 0: clamped next */
-    if (far >= coarse->height) {
-        far = near;
-    }
-    const float *a = coarse->rgb + near * coarse->stride, *b = coarse->rgb + far * coarse->stride;
+    const size_t about = row / 2, beside = (size_t)glare_beside(NULL, (int)row, (int)coarse->height);
+    const size_t even = 3 * (size_t)(1 + glare_side(NULL, 0)), odd = 3 * (size_t)(1 + glare_side(NULL, 1)); /* floats from the texel before */
+    const float *a = coarse->rgb + about * coarse->stride, *b = coarse->rgb + beside * coarse->stride;
     float *fine = job->fine + row * job->fine_stride;
     float near_gain = GLARE_NEAR * job->gain, far_gain = GLARE_FAR * job->gain, keep = job->keep;
     for (size_t from = 0; from < coarse->width; from += BLOCK) {
@@ -169,18 +171,16 @@ static void up_row(const up_job *job, size_t row)
         for (size_t i = 0; i < length; i += 4) { /* the rows' room at the end bears the overshoot */
             store(mixed + offset + i, near_gain * load(a + 3 * first + i) + far_gain * load(b + 3 * first + i));
         }
-        if (from == 0) {
-            memcpy(mixed, mixed + 3, 3 * sizeof(float));
-        }
-        if (last == from + count) {
-            memcpy(mixed + offset + length, mixed + offset + length - 3, 3 * sizeof(float));
-        }
+        const size_t left = (size_t)glare_beside(NULL, (int)(2 * from), (int)coarse->width) + 1 - from;
+        const size_t right = (size_t)glare_beside(NULL, (int)(2 * (from + count) - 1), (int)coarse->width) + 1 - from;
+        memmove(mixed, mixed + 3 * left, 3 * sizeof(float));
+        memmove(mixed + 3 * (count + 1), mixed + 3 * right, 3 * sizeof(float));
         mixed[3 * (count + 2)] = 0.0f; /* read by the last pixel's fourth lane, then dropped */
         for (size_t x = 0; x < count; ++x) {
             const float *m = &mixed[3 * x];
             lanes centre = GLARE_NEAR * load(m + 3);
-            store(spread + 6 * x, centre + GLARE_FAR * load(m));
-            store(spread + 6 * x + 3, centre + GLARE_FAR * load(m + 6));
+            store(spread + 6 * x, centre + GLARE_FAR * load(m + even));
+            store(spread + 6 * x + 3, centre + GLARE_FAR * load(m + odd));
         }
         size_t end = 2 * (from + count) < job->fine_width ? 2 * (from + count) : job->fine_width;
         float *out = fine + 6 * from;

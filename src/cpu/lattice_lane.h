@@ -36,14 +36,12 @@ static void search_nodes(const struct kernel_context *cx, tile_nodes *nodes)
     }
 }
 
+/* On every lane. */
+static vec3 node_ray(const tile_nodes *n, int i) { return vec3(real(n->ray_x[i]), real(n->ray_y[i]), real(n->ray_z[i])); }
+
 static bool tile_may_occlude(const struct kernel_context *cx, const tile_nodes *n)
 {
-    for (int corner = 0; corner < 4; corner++) {
-        const int i = (corner & 1 ? NODE_COLUMNS - 1 : 0) + (corner & 2 ? NODE_COUNT - NODE_COLUMNS : 0);
-        if (any_lane(may_occlude(cx, vec3(real(n->ray_x[i]), real(n->ray_y[i]), real(n->ray_z[i])))))
-            return true;
-    }
-    return false;
+    return any_lane(corners_occlude(cx, node_ray(n, 0), node_ray(n, NODE_COLUMNS - 1), node_ray(n, NODE_COUNT - NODE_COLUMNS), node_ray(n, NODE_COUNT - 1)));
 }
 
 /* ---- estimates of pixels ---- */
@@ -83,7 +81,7 @@ static void judge_cells(const struct kernel_context *cx, const tile_nodes *nodes
             at[3][i] = at[2][i] + 1;
         }
         const LatticeNode tl = gather_node(nodes, at[0]), tr = gather_node(nodes, at[1]), ll = gather_node(nodes, at[2]), lr = gather_node(nodes, at[3]);
-        store(doubt + first, occlude ? cell_doubt(cx, tl, tr, ll, lr) : real(0.0f));
+        store(doubt + first, cell_doubt(cx, tl, tr, ll, lr, occlude));
         store(from + first, cell_from(cx, tl, tr, ll, lr));
     }
 }
@@ -160,6 +158,20 @@ static void search_columns(const struct kernel_context *cx, tile_estimate *estim
             walk_column(&columns, lane_numbers() + (float)x, part);
 }
 
+static void store_own_searches(const struct kernel_context *cx, tile_estimate *estimate)
+{
+    const HitEstimate own = own_search(cx);
+    for (int i = 0; i < TILE_PIXELS; i += MGT_LANES) {
+        store(estimate->height + i, own.height);
+        store(estimate->from + i, own.from);
+        store(estimate->search + i, own.search);
+        store(estimate->slope_x + i, own.slope.x);
+        store(estimate->slope_z + i, own.slope.y);
+        store(estimate->shift_x + i, own.shift.x);
+        store(estimate->shift_z + i, own.shift.y);
+    }
+}
+
 static void lanes_estimate(const FrameData *frame, const tile_waves *tile, tile_estimate *estimate)
 {
     const struct kernel_context cx = {.frame = frame, .tile = &tile->data, .waves = tile->waves, .search = tile->search};
@@ -169,9 +181,7 @@ static void lanes_estimate(const FrameData *frame, const tile_waves *tile, tile_
         return;
     }
     if (tile->data.search_pixels) {
-        *estimate = (tile_estimate){0};
-        for (int i = 0; i < TILE_PIXELS; i++)
-            estimate->search[i] = 1;
+        store_own_searches(&cx, estimate);
         return;
     }
     tile_nodes nodes;

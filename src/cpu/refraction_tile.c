@@ -75,26 +75,18 @@ static void leave_covered(tile_objects *o)
         o->water.share[i] = o->share[i] < 1 ? o->water.share[i] : 0;
 }
 
-/* What objects leave of the light's disk; under water, where its radiance is n² times as much, the way from the surface too. */
+/* What objects, and under water the way from the surface, leave of the light's disk. */
 static void see_light(const refraction *r, tile_objects *o)
 {
-    const mgt_water *water = &r->frame->scene->water;
-    const camera_rays *c = &r->camera;
     const float foot_x = r->narrow.data.foot_x, foot_z = r->narrow.data.foot_z;
-    const double n = water->index_of_refraction;
-    float x[TILE_PIXELS], z[TILE_PIXELS], lit[TILE_PIXELS];
+    float x[TILE_PIXELS], z[TILE_PIXELS], way[TILE_PIXELS];
     for (size_t i = 0; i < TILE_PIXELS; i++) {
-        const bool seen = o->water.share[i] > 0;
-        x[i] = seen ? foot_x + o->water.along[i] * o->water.view[0][i] : foot_x;
-        z[i] = seen ? foot_z + o->water.along[i] * o->water.view[2][i] : foot_z;
+        const float along = o->water.share[i] > 0 ? o->water.along[i] : 0;
+        x[i] = along > 0 ? foot_x + along * o->water.view[0][i] : foot_x;
+        z[i] = along > 0 ? foot_z + along * o->water.view[2][i] : foot_z;
+        way[i] = r->frame->under ? along : 0;
     }
-    r->kernels->shade->sun(r->shade, TILE_PIXELS, x, z, lit);
-    for (size_t i = 0; i < TILE_PIXELS; i++)
-        for (int k = 0; k < 3; k++) {
-            const double way = c->position[1] < 0 && o->water.share[i] > 0 ? (double)o->water.along[i] : 0;
-            const double left = way > 0 ? n * n * exp(-way * ((double)water->absorption[k] + (double)water->scattering[k])) : 1;
-            o->light.clear[k][i] = lit[i] * (float)left;
-        }
+    r->kernels->shade->disk(r->shade, TILE_PIXELS, x, z, way, (float *const[3]){o->light.clear[0], o->light.clear[1], o->light.clear[2]});
 }
 
 /* Under water: what it shines where it has no surface. */
@@ -248,12 +240,10 @@ static void see_branch(refraction *r, const tile_offset *at, int branch, size_t 
         refraction_sharpen(r, o, count);
     if (method == MGT_REFRACTION_HYBRID || method == MGT_REFRACTION_DISTANCE_FIELD)
         trace_doubtful(r, o, count);
-    const double n = r->frame->scene->water.index_of_refraction;
-    const float through = (float)(r->frame->under ? n * n : 1 / (n * n));
     for (size_t k = 0; k < count; k++) {
         const size_t i = o->list[k];
         o->error[i] = fmaxf(o->error[i], o->ends.error[i]);
-        o->ends.gain[i] = o->ends.total[i] > 0 ? 1 : through;
+        o->ends.gain[i] = gain_behind(NULL, r->narrow.data.gain, o->ends.total[i] > 0);
     }
     refraction_shade_listed(r, o, count);
     for (size_t i = 0; i < count; i++)

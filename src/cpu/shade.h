@@ -25,8 +25,9 @@ typedef struct shade_kernels {
     /* Radiance that arrives at the near end of each ray, kcd/m²: 3 floats a hit. What the water on the way takes and adds is counted; Fresnel's share at
        its surface and the light's disk in the sky are not. The bits depend on the hit alone. Any number of threads at once. */
     void (*points)(const shade_scene *s, const shade_hits *hits, float *rgb);
-    /* Share of the light's disk that no object hides from points of the mean surface, (x, 0, z) in the world's coordinates. */
-    void (*sun)(const shade_scene *s, size_t count, const float *x, const float *z, float *share);
+    /* What objects leave of the light's disk over points of the mean surface, (x, 0, z) in the world's coordinates, and `way` metres of water between
+       them and the eye, 0 above the surface: disk_through_water() of water_path.k. Three planes of `count` numbers. */
+    void (*disk)(const shade_scene *s, size_t count, const float *x, const float *z, const float *way, float *const clear[3]);
 } shade_kernels;
 
 #endif

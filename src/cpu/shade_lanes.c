@@ -151,16 +151,19 @@ static void lanes_points(const shade_scene *s, const shade_hits *h, float *rgb)
     }
 }
 
-static void lanes_sun(const shade_scene *s, size_t count, const float *x, const float *z, float *share)
+static void lanes_disk(const shade_scene *s, size_t count, const float *x, const float *z, const float *way, float *const clear[3])
 {
     const struct kernel_context cx = {.shade = s};
     for (size_t i = 0; i < count; i += MGT_LANES) {
         const size_t some = count - i < MGT_LANES ? count - i : MGT_LANES;
-        float lanes[MGT_LANES];
-        store(lanes, shadow_at_point(&cx, vec3(load_some(x + i, some), real(0.0f), load_some(z + i, some)), lane_numbers() < real(0.0f)));
+        const real lit = shadow_at_point(&cx, vec3(load_some(x + i, some), real(0.0f), load_some(z + i, some)), lane_numbers() < real(0.0f));
+        const vec3 left = disk_through_water(&cx, lit, load_some(way + i, some));
+        float lanes[3][MGT_LANES];
+        store(lanes[0], left.x), store(lanes[1], left.y), store(lanes[2], left.z);
         for (size_t lane = 0; lane < some; lane++)
-            share[i + lane] = lanes[lane];
+            for (int k = 0; k < 3; k++)
+                clear[k][i + lane] = lanes[k][lane];
     }
 }
 
-const shade_kernels LANES_NAME(MGT_LANES) = {lanes_points, lanes_sun};
+const shade_kernels LANES_NAME(MGT_LANES) = {lanes_points, lanes_disk};

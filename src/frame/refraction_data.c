@@ -107,6 +107,7 @@ NarrowData refraction_narrow_data(const frame *f, const world *w, const gbuffer 
         .depth_y = (float)rows[2][1],
         .depth_z = (float)rows[2][2],
         .ratio = (float)(f->under ? n : 1 / n),
+        .gain = (float)(f->under ? n * n : 1 / (n * n)),
         .corner_x = (float)c->corner[0],
         .corner_y = (float)c->corner[1],
         .corner_z = (float)c->corner[2],

@@ -125,8 +125,7 @@ LatticeNode node_of(int column, int row)
 bool tile_may_occlude()
 {
     float right = float(TILE_WIDTH), down = float(TILE_HEIGHT);
-    return may_occlude(0, pixel_ray_at(0, 0.0f, 0.0f)) || may_occlude(0, pixel_ray_at(0, right, 0.0f)) || may_occlude(0, pixel_ray_at(0, 0.0f, down)) ||
-           may_occlude(0, pixel_ray_at(0, right, down));
+    return corners_occlude(0, pixel_ray_at(0, 0.0f, 0.0f), pixel_ray_at(0, right, 0.0f), pixel_ray_at(0, 0.0f, down), pixel_ray_at(0, right, down));
 }
 
 /* `pixel`: its column, and the row of the hit. */

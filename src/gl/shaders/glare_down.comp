@@ -14,12 +14,11 @@ void main()
         return;
     vec4 across = glare_weights[glare_data.across + texel.x];
     vec4 down = glare_weights[glare_data.down + texel.y];
-    ivec2 last = ivec2(glare_data.fine_width, glare_data.fine_height) - 1;
     vec3 sum = vec3(0.0f);
     for (int j = 0; j < 4; j++) {
         vec3 row = vec3(0.0f);
         for (int i = 0; i < 4; i++) {
-            ivec2 at = clamp(2 * texel + ivec2(i, j) - 1, ivec2(0), last); /* what lies beyond an edge has no weight */
+            ivec2 at = ivec2(glare_finer(0, texel.x, i, glare_data.fine_width), glare_finer(0, texel.y, j, glare_data.fine_height));
             row += across[i] * texelFetch(fine_texture, at, 0).rgb;
         }
         sum += down[j] * row;

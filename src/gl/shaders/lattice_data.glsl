@@ -46,11 +46,10 @@ LatticeNode node_of(int column, int row)
     return node;
 }
 
-/* By the rays of the tile's corners. */
 bool tile_may_occlude()
 {
-    return may_occlude(0, node_of(0, 0).ray) || may_occlude(0, node_of(NODE_COLUMNS - 1, 0).ray) || may_occlude(0, node_of(0, NODE_ROWS - 1).ray) ||
-           may_occlude(0, node_of(NODE_COLUMNS - 1, NODE_ROWS - 1).ray);
+    return corners_occlude(0, node_of(0, 0).ray, node_of(NODE_COLUMNS - 1, 0).ray, node_of(0, NODE_ROWS - 1).ray,
+                           node_of(NODE_COLUMNS - 1, NODE_ROWS - 1).ray);
 }
 
 /* The hits of a pixel lie one above the other: this is the first one's row. */
@@ -71,12 +70,8 @@ HitEstimate pixel_estimate(ivec2 pixel)
         estimate.shift = vec2(node_data[at + 3], node_data[at + 4]);
         return estimate;
     }
-    if (TILE(0).search_pixels != 0) {
-        estimate.height = 0.0f;
-        estimate.from = 0.0f;
-        estimate.search = 1.0f;
-        return estimate;
-    }
+    if (TILE(0).search_pixels != 0)
+        return own_search(0);
     ivec2 cell = pixel / ivec2(NODE_STEP_X, NODE_STEP_Y);
     vec2 part = vec2(pixel % ivec2(NODE_STEP_X, NODE_STEP_Y)) / vec2(float(NODE_STEP_X), float(NODE_STEP_Y));
     return cell_estimate(0, node_of(cell.x, cell.y), node_of(cell.x + 1, cell.y), node_of(cell.x, cell.y + 1), node_of(cell.x + 1, cell.y + 1),

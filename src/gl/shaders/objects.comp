@@ -8,6 +8,7 @@
 #include "lattice_data.glsl"
 #include "kernels/glitter/glitter.k"
 #include "objects_water.glsl"
+#include "kernels/refraction/water_path.k"
 
 layout(local_size_x = TILE_WIDTH, local_size_y = GROUP_ROWS) in;
 layout(binding = 0) writeonly uniform image2D body_image;
@@ -18,17 +19,14 @@ layout(binding = 4) writeonly uniform image2D error_image;
 layout(binding = 5) writeonly uniform image2D clear_image; /* what objects and water leave of the light's disk */
 layout(binding = 6) writeonly uniform image2D deep_image;
 
-/* What objects leave of the light's disk; under water, where its radiance is n² times as much, the way from the surface too. */
+/* What objects, and under water the way from the surface, leave of the light's disk. */
 vec3 clear_to_light(PixelWater w)
 {
     vec3 at = vec3(narrow_data.foot_x, 0.0f, narrow_data.foot_z);
-    if (!(w.share > 0.0f))
-        return vec3(shadow_at_point(0, at, false));
-    float lit = shadow_at_point(0, at + w.hit.along * vec3(w.hit.view.x, 0.0f, w.hit.view.z), false);
-    if (narrow_data.side > 0.0f)
-        return vec3(lit);
-    return lit * shade_data.index * shade_data.index * exp(-w.hit.along * vec3(shade_data.absorption_r + shade_data.scattering_r, shade_data.absorption_g + shade_data.scattering_g,
-                                         shade_data.absorption_b + shade_data.scattering_b));
+    if (w.share > 0.0f)
+        at += w.hit.along * vec3(w.hit.view.x, 0.0f, w.hit.view.z);
+    bool wet = w.share > 0.0f && narrow_data.side < 0.0f;
+    return disk_through_water(0, shadow_at_point(0, at, false), wet ? w.hit.along : 0.0f);
 }
 
 bool are_like(ivec2 a, ivec2 b)

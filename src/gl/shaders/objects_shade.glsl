@@ -8,13 +8,6 @@
 #define SEARCH_WAVE(cx, i) caustic_wave(i)
 #include "kernels/refraction/material.k"
 
-/* Radiance at the camera over that behind the surface; `total`: it is mirrored there. */
-float gain_behind(bool total)
-{
-    float squared = shade_data.index * shade_data.index;
-    return total ? 1.0f : narrow_data.side > 0.0f ? 1.0f / squared : squared;
-}
-
 /* Where nothing gets through, what comes from behind the surface is what it mirrors. */
 bool mirrors_all(PixelWater water) { return objects_data.mirrors != 0 && bent_by_method(0, surface_of_method(0, water.hit)).total > 0.0f; }
 
@@ -128,7 +121,7 @@ RayEnd end_behind(RayEnd end, PixelWater w, TracedRay r, Bent bent)
     end.ray.water = metres_in_water(0, narrow_data.side, w.hit.along, end.ray.after, r.total) + r.wet;
     end.ray.after += r.way;
     end.ray.footprint = footprint_behind(w.hit, bent, w.variation, end.ray.after);
-    end.ray.gain = gain_behind(r.total);
+    end.ray.gain = gain_behind(0, narrow_data.gain, r.total);
     return end;
 }
 
