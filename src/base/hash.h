@@ -5,20 +5,20 @@
 
 #include <stdint.h>
 
-#include "base/hash_numbers.h"
+#define WORD64 uint64_t
+#define HASH static inline
+#define HASH_FLOAT(u) ((float)(u))
 
-#define HASH_WORD(name) ((uint64_t)name##_HIGH << 32 | name##_LOW)
+#define word_of(high, low) ((uint64_t)(uint32_t)(high) << 32 | (uint32_t)(low))
+#define word_sum(a, b) ((a) + (b))
+#define word_product(a, b) ((a) * (b))
+#define word_xor(a, b) ((a) ^ (b))
+#define word_shift(a, places) ((a) >> (places))
+#define word_high(a) ((uint32_t)((a) >> 32))
+#define word_low(a) ((uint32_t)(a))
 
-/* The finaliser of SplitMix64 with its two rounds. */
-static inline uint64_t hash_of(uint64_t x)
-{
-    x += HASH_WORD(HASH_STEP);
-    x = (x ^ (x >> 30)) * HASH_WORD(HASH_FIRST);
-    x = (x ^ (x >> 27)) * HASH_WORD(HASH_SECOND);
-    return x ^ (x >> 31);
-}
-
-/* Uniform in [0, 1). */
-static inline float hash_unit(uint64_t hash) { return (float)(hash >> 40) * 0x1p-24f; }
+#define uint uint32_t
+#include "base/hash_rounds.h"
+#undef uint
 
 #endif

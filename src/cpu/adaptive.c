@@ -48,7 +48,7 @@ static FrameData sort_cells(const refinement *f, size_t tile, int across, int do
         sort_set(f, tile, parts->sets[part], across, down, &s->open);
     s->close.data.parts = s->open.data.parts = across + down > 0 && !data.sky_black;
     if (f->moves)
-        s->close.data.light_reach = s->open.data.light_reach = s->close.data.light_reach | s->open.data.light_reach;
+        tile_join_reach(s);
     if (across + down == 0)
         t->dark = !data.sky_black && (s->close.data.light_reach == 0 || (f->by_display && lights_dark(&data)));
     refinement_price(f, t, (across + down) / 2, s->close.data.resolved_count + s->close.data.mixed_count);
@@ -260,9 +260,9 @@ static double next_share(const refinement *f, frame_budget *b, size_t round)
     const mgt_quality *q = &f->a->frame->scene->quality;
     const double used = refinement_spent(f);
     if (q->target_rmse > 0)
-        return round < MOST_ROUNDS && refinement_predicted_rmse(f) > q->target_rmse ? 0.3 * used : 0;
+        return round < MOST_ROUNDS ? share_towards(NULL, refinement_predicted_rmse(f), q->target_rmse, used) : 0;
     if (q->target_displayed > 0)
-        return round < MOST_ROUNDS && refinement_predicted_displayed(f) > q->target_displayed ? 0.3 * used : 0;
+        return round < MOST_ROUNDS ? share_towards(NULL, refinement_predicted_displayed(f), q->target_displayed, used) : 0;
     if (q->budget_ms > 0) {
         const double time = now(), left = b->end - time;
         /* The first pixels are cheaper than cells: half of their speed is a careful estimate. */
@@ -273,8 +273,7 @@ static double next_share(const refinement *f, frame_budget *b, size_t round)
         b->before = used;
         return round < MOST_ROUNDS && left > 0.02 * (b->end - b->began) ? share * left * speed : 0;
     }
-    const double left = b->evaluations - used;
-    return left > 0.005 * b->evaluations ? lane_round_per_cent((int)round) / 100.0 * left : 0;
+    return share_of_samples(NULL, (int)round, b->evaluations, used);
 }
 
 /* Within a round, on the caller's thread. */

@@ -166,8 +166,8 @@ static void see_tile(const detail_job *job, size_t tile, const wave_set *set, ti
 static void add_ray(const detail_job *job, const tile_corner *c, uint16_t pixel, tile_sums *sums, temporal_rays *rays)
 {
     const uint32_t column = pixel % TILE_WIDTH, row = pixel / TILE_WIDTH;
-    const uint64_t key = hash_of(job->a->frame->scene->quality.seed ^ hash_of(sums->samples[pixel]++));
-    const uint64_t bits = hash_of(key ^ ((uint64_t)(c->left + column) << 32 | (c->top + row)));
+    const uint64_t key = hash_of_sample(job->a->frame->scene->quality.seed, sums->samples[pixel]++);
+    const uint64_t bits = hash_of_pixel(key, c->left + column, c->top + row);
     const size_t i = rays->count++;
     rays->pixel[i] = pixel;
     rays->column[i] = (float)column + (hash_unit(bits) - 0.5f);

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT
  * Point samples of method adaptive, for cells of so many waves that splits would long say the same. */
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -13,14 +12,14 @@ typedef struct point_batch {
     uint16_t pixel[TILE_PIXELS]; /* of the tile */
 } point_batch;
 
-/* Point `index` of a leaf's sequence: the R2 sequence (Roberts 2018), shifted by the leaf and the seed. Its hit is looked for as its pixel's is. */
-static void add_point(const leaf *l, double shift, int index, uint32_t owner, point_batch *batch, tile_scratch *s)
+/* Point `index` of a leaf's sequence. Its hit is looked for as its pixel's is. */
+static void add_point(const leaf *l, double lot, int index, uint32_t owner, point_batch *batch, tile_scratch *s)
 {
-    const double u = shift + index * 0.75487766624669276, v = 0.5 + shift * 977 + index * 0.56984029099805327;
+    const LeafPlace place = place_of_leaf(l);
     const int i = batch->count++;
     batch->owner[i] = owner;
-    s->jitter_x[i] = (float)(ldexp(l->column + u - floor(u), -l->across) - 0.5 - i % TILE_WIDTH);
-    s->jitter_y[i] = (float)(ldexp(l->row + v - floor(v), -l->down) - 0.5 - i / TILE_WIDTH);
+    s->jitter_x[i] = point_place(NULL, place.column, place.across, point_across(NULL, lot, index), i % TILE_WIDTH);
+    s->jitter_y[i] = point_place(NULL, place.row, place.down, point_down(NULL, lot, index), i / TILE_WIDTH);
     const size_t pixel = (size_t)(l->row >> l->down) * TILE_WIDTH + (l->column >> l->across);
     batch->pixel[i] = (uint16_t)pixel;
     s->close_estimate->height[i] = s->open_estimate->height[pixel];
@@ -32,8 +31,6 @@ static void add_point(const leaf *l, double shift, int index, uint32_t owner, po
 
 /* What is summed of a leaf's points: colour, coverage, water and the square of the luminance. */
 enum { POINT_SUMS = 6 };
-
-static double luminance_of(double red, double green, double blue) { return 0.2126 * red + 0.7152 * green + 0.0722 * blue; }
 
 /* Sums go to sums[POINT_SUMS × owner]. */
 static void render_points(const refinement *f, size_t tile, point_batch *batch, tile_scratch *s, double *sums)
@@ -50,7 +47,7 @@ static void render_points(const refinement *f, size_t tile, point_batch *batch, 
                           &s->pixels);
     for (int i = 0; i < batch->count; i++) {
         double *sum = sums + POINT_SUMS * batch->owner[i];
-        const double luminance = luminance_of((double)s->pixels.red[i], (double)s->pixels.green[i], (double)s->pixels.blue[i]);
+        const double luminance = point_luminance(NULL, (double)s->pixels.red[i], (double)s->pixels.green[i], (double)s->pixels.blue[i]);
         sum[0] += (double)s->pixels.red[i];
         sum[1] += (double)s->pixels.green[i];
         sum[2] += (double)s->pixels.blue[i];
@@ -61,19 +58,16 @@ static void render_points(const refinement *f, size_t tile, point_batch *batch, 
     batch->count = 0;
 }
 
-/* The leaf's values become the mean of all its points, old and new. Under a sky the luminance of the points says how far off their mean is. */
+/* The leaf's values become the mean of all its points, old and new. */
 static void take_points(leaf *l, const double sums[POINT_SUMS], bool sky_black)
 {
-    const int first = l->points, end = leaf_next_points(l);
-    const double before = luminance_of((double)l->color[0], (double)l->color[1], (double)l->color[2]);
-    const double squares = first * (first * (double)l->contrast + before * before) + sums[5];
-    float *const values[] = {&l->color[0], &l->color[1], &l->color[2], &l->coverage, &l->water};
-    for (int k = 0; k < 5; k++)
-        *values[k] = (float)((first * (double)*values[k] + sums[k]) / end);
-    const double mean = luminance_of((double)l->color[0], (double)l->color[1], (double)l->color[2]);
-    l->contrast = sky_black ? l->contrast * (l->places / (float)end) : (float)(fmax(squares / end - mean * mean, 0) / end);
-    l->variance = l->coverage * fmaxf(l->water - l->coverage, 0) / (float)end;
-    l->places = (float)end;
+    const int end = leaf_next_points(l);
+    const PointSums all = {sums[0], sums[1], sums[2], sums[3], sums[4], sums[5]};
+    const LeafValues before = {l->color[0], l->color[1], l->color[2], l->coverage, l->water, l->variance, l->contrast, l->places};
+    const LeafValues v = values_with_points(NULL, before, all, l->points, end, sky_black);
+    l->color[0] = v.red, l->color[1] = v.green, l->color[2] = v.blue;
+    l->coverage = v.coverage, l->water = v.water;
+    l->variance = v.variance, l->contrast = v.contrast, l->places = v.places;
     l->points = (uint16_t)end;
 }
 
@@ -94,9 +88,9 @@ bool refinement_scatter_points(const refinement *f, size_t tile, size_t end, uin
             const leaf *l = &t->leaves[i];
             if (!l->chosen || l->shape != SPLIT_POINTS)
                 continue;
-            const double shift = leaf_lot(tile, l, ~a->frame->scene->quality.seed);
+            const double lot = leaf_lot(NULL, (int)tile, place_of_leaf(l), ~a->frame->scene->quality.seed);
             for (int n = l->points + k; n < leaf_next_points(l); n += INSTANTS) {
-                add_point(l, shift, n, (uint32_t)i, &batch, s);
+                add_point(l, lot, n, (uint32_t)i, &batch, s);
                 if (batch.count == TILE_PIXELS)
                     render_points(f, tile, &batch, s, sums);
             }

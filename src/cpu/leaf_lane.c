@@ -36,5 +36,3 @@ float lane_split_worth(bool by_display, float places, float split_worth) { retur
 float lane_points_worth(lane_leaf l, float area, float cost) { return leaf_points_worth(NULL, (float)l.points, l.places, l.coverage, area, cost); }
 
 uint16_t lane_bucket(float worth) { return (uint16_t)leaf_bucket(NULL, worth); }
-
-float lane_round_per_cent(int round) { return round_per_cent(NULL, round); }

@@ -35,7 +35,4 @@ float lane_split_worth(bool by_display, float places, float split_worth);
 float lane_points_worth(lane_leaf l, float area, float cost);
 uint16_t lane_bucket(float worth);
 
-/* Per cent of what is left of a number of samples that a round may spend; 0: no such round. */
-float lane_round_per_cent(int round);
-
 #endif

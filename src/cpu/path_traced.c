@@ -450,12 +450,12 @@ static void aim_sample(const path_traced *t, path_traced_scratch *s, uint32_t ti
     const mgt_scene *scene = t->job.scene;
     const uint32_t strata = t->side * t->side;
     const double shutter = scene->camera_moves ? 0 : scene->shutter;
-    const uint64_t key = hash_of(t->job.scene->quality.seed ^ hash_of(sample));
+    const uint64_t key = hash_of_sample(t->job.scene->quality.seed, sample);
     for (uint32_t i = 0; i < BATCH; i++) {
         const uint32_t x = tile_x * TILE_WIDTH + i % TILE_WIDTH, y = tile_y * TILE_HEIGHT + i / TILE_WIDTH;
         double dx = 0, dy = 0, share = 0.5; /* of the shutter */
         if (t->side > 1) {
-            const uint64_t bits = hash_of(key ^ ((uint64_t)x << 32 | y));
+            const uint64_t bits = hash_of_pixel(key, x, y);
             dx = (sample % t->side + (double)hash_unit(bits)) / t->side - 0.5;
             dy = (sample / t->side + (double)hash_unit(hash_of(bits))) / t->side - 0.5;
             const uint64_t first = hash_of(scene->quality.seed ^ hash_of((uint64_t)x << 32 | y));

@@ -6,7 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/hash.h"
 #include "cpu/leaf_lane.h"
 
 const uint8_t halvings[4][2] = {{1, 1}, {0, 2}, {2, 0}, {0, 0}};
@@ -48,17 +47,16 @@ static void refinement_appraise(const refinement *f, refinement_tile *t)
 {
     double cost = t->cost[0];
     for (int level = 0; level < LEVELS; level++) {
-        const double next = level + 1 < LEVELS ? t->cost[level + 1] : 0;
-        cost = next > 0 ? next : 1.2 * cost * refinement_parts(f, t, level + 1)->count / refinement_parts(f, t, level)->count;
+        const double known = level + 1 < LEVELS ? t->cost[level + 1] : 0;
+        cost = next_cost(NULL, known, cost, refinement_parts(f, t, level)->count, refinement_parts(f, t, level + 1)->count);
         t->below[level] = 4 * cost;
-        t->worth[level] = (float)((double)(areas[level] * areas[level]) / t->below[level]);
+        t->worth[level] = split_worth_of(NULL, areas[level], t->below[level]);
     }
 }
 
 void refinement_price(const refinement *f, refinement_tile *t, int level, int waves)
 {
-    const double all = SAMPLE_TENTHS / 10.0 * f->parts[0].sets[0]->view.wave_count + SAMPLE_WAVES;
-    t->cost[level] = refinement_parts(f, t, level)->count * (waves + CELL_WAVES) / all;
+    t->cost[level] = cell_cost(NULL, refinement_parts(f, t, level)->count, waves, f->parts[0].sets[0]->view.wave_count);
     refinement_appraise(f, t);
 }
 
@@ -121,48 +119,24 @@ bool refinement_plan(refinement *f, double budget, size_t round)
         memset(f->census[i], 0, sizeof **f->census);
     const thread_loop loop = {(size_t)f->columns * f->rows, count_tile, f, NULL};
     thread_pool_run(f->a->pool, &loop);
-    double left = budget * COST_UNIT;
-    f->plan = (round_plan){0, 0, -1};
-    bool any = false;
-    for (int b = WORTH_BUCKETS - 1; b >= 0; b--) {
+    RoundPlan plan = plan_begun(NULL, budget);
+    for (int b = WORTH_BUCKETS - 1; b >= 0 && !plan.ended; b--) {
         uint64_t cells = 0, points = 0;
         for (size_t i = 0; i < f->workers; i++) {
             cells += f->census[i]->cells[b];
             points += f->census[i]->points[b];
         }
-        if (f->plan.points < b && (double)points <= left) {
-            left -= (double)points;
-            any |= points > 0;
-        } else if (f->plan.points < b) {
-            f->plan.points = b;
-        }
-        any |= cells > 0;
-        if ((double)cells > left) {
-            f->plan.bucket = b;
-            f->plan.share = left / (double)cells;
-            break;
-        }
-        left -= (double)cells;
+        plan = plan_with_bucket(NULL, plan, b, (double)cells, (double)points);
     }
-    if (f->plan.points < f->plan.bucket)
-        f->plan.points = f->plan.bucket - 1; /* those of the last bucket have been paid for */
-    const int least = f->plan.bucket - KEPT_OCTAVES * WORTH_STEPS;
-    if (round >= KEPT_ROUNDS && least > f->least_bucket)
-        f->least_bucket = least;
-    return any;
-}
-
-double leaf_lot(size_t tile, const leaf *l, uint64_t seed)
-{
-    const uint64_t size = (uint64_t)l->across << 8 | l->down, place = (uint64_t)l->column << 32 | l->row;
-    return (double)(hash_of(hash_of(hash_of(seed ^ hash_of(tile)) ^ size) ^ place) >> 11) * 0x1p-53;
+    f->plan = plan_ended(NULL, plan);
+    f->least_bucket = settled_bucket(NULL, f->plan, (int)round, false, f->least_bucket);
+    return f->plan.any;
 }
 
 bool leaf_chosen(const refinement *f, size_t tile, const leaf *l)
 {
-    if (l->shape == SPLIT_POINTS)
-        return l->bucket > f->plan.points;
-    return l->bucket > f->plan.bucket || (l->bucket == f->plan.bucket && leaf_lot(tile, l, 0) < f->plan.share);
+    const bool points = l->shape == SPLIT_POINTS, on_edge = !points && l->bucket == f->plan.bucket;
+    return plan_takes(NULL, f->plan, l->bucket, points, on_edge ? leaf_lot(NULL, (int)tile, place_of_leaf(l), 0) : 0);
 }
 
 double refinement_spent(const refinement *f)
@@ -198,8 +172,7 @@ double refinement_predicted_displayed(const refinement *f)
             sum += (double)(areas[l->level] * areas[l->level] * l->contrast * f->weight[leaf_pixel(f, tile, l)]);
         }
     }
-    /* Against brute force on two seas, sunset and moonlit, with 2 to 64 samples, the error is .5 to 2 times this. */
-    return sqrt(0.2 * sum / ((double)f->out->width * f->out->height));
+    return predicted_displayed(NULL, sum, (double)f->out->width * f->out->height);
 }
 
 double refinement_predicted_rmse(const refinement *f)
@@ -211,8 +184,7 @@ double refinement_predicted_rmse(const refinement *f)
         for (size_t i = 0; i < t->count; i++)
             sum += (double)(areas[t->leaves[i].level] * areas[t->leaves[i].level] * t->leaves[i].variance);
     }
-    /* Against brute force on four scenes the variance of a cell is about a third of what it says. */
-    return sqrt(0.35 * sum / ((double)f->out->width * f->out->height));
+    return predicted_rmse(NULL, sum, (double)f->out->width * f->out->height);
 }
 
 /* ---- memory ---- */

@@ -6,6 +6,7 @@
 #include <stdatomic.h>
 
 #include "cpu/adaptive.h"
+#include "cpu/rounds_lane.h"
 #include "frame/cell_waves.h"
 
 enum {
@@ -47,12 +48,6 @@ typedef struct shutter_parts {
     wave_set *sets[MOST_PARTS + 1];
 } shutter_parts;
 
-typedef struct round_plan {
-    int bucket;   /* cells above this bucket are split, … */
-    double share; /* … and this share of those in it */
-    int points;   /* leaves that take points: those above this bucket; they are too dear for shares */
-} round_plan;
-
 struct refinement {
     const adaptive_frame *a;
     const picture_planes *out;
@@ -70,7 +65,7 @@ struct refinement {
     tile_cells **sums;                 /* … and one for the mean over the shutter's parts */
     struct census **census;            /* one a worker */
     size_t workers;
-    round_plan plan;
+    RoundPlan plan;
     double done, share; /* of the budget, before this round and in it */
     int least_bucket;   /* leaves up to this one are settled */
     atomic_bool failed; /* memory was short */
@@ -78,12 +73,12 @@ struct refinement {
 
 /* ---- leaves ---- */
 
+static inline LeafPlace place_of_leaf(const leaf *l) { return (LeafPlace){(int)l->column, (int)l->row, l->across, l->down}; }
+
 /* The pixel that a leaf of the tile lies in. */
 size_t leaf_pixel(const refinement *f, size_t tile, const leaf *l);
 /* A leaf is final: its share of the pixel. */
 void leaf_settle(const refinement *f, size_t tile, const leaf *l);
-/* A number in [0, 1) that is the leaf's own, for one seed. */
-double leaf_lot(size_t tile, const leaf *l, uint64_t seed);
 /* How many points it has after its next turn. */
 int leaf_next_points(const leaf *l);
 /* Of its split or points, evaluations of all waves. */

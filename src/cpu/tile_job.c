@@ -8,6 +8,12 @@
 #include <math.h>
 #include <string.h>
 
+#define MGT_LANES 1
+#include "kernels/common/prelude_c.h"
+
+#include "kernels/common/strata.k"
+#include "kernels/waves/light_reach.k"
+
 bool tile_sees_water(const tile_waves *tile)
 {
     const TileData *d = &tile->data;
@@ -55,13 +61,12 @@ static const tile_light *light_of(const tile_job *job, const tile_scratch *scrat
 /* A jittered place in stratum `index` of n × n for every pixel of the tile. */
 static void jitter(tile_place place, uint64_t seed, uint32_t n, uint64_t index, uint64_t sample, tile_scratch *scratch)
 {
-    const float column = (float)(index % n), row = (float)(index / n), size = 1.0f / (float)n;
-    const uint64_t key = hash_of(seed ^ hash_of(sample));
+    const int strata = (int)n, column = (int)(index % n), row = (int)(index / n);
+    const uint64_t key = hash_of_sample(seed, sample);
     for (uint32_t i = 0; i < TILE_PIXELS; i++) {
-        const uint64_t x = place.x * TILE_WIDTH + i % TILE_WIDTH, y = place.y * TILE_HEIGHT + i / TILE_WIDTH;
-        const uint64_t bits = hash_of(key ^ (x << 32 | y));
-        scratch->jitter_x[i] = (column + hash_unit(bits)) * size - 0.5f;
-        scratch->jitter_y[i] = (row + hash_unit(hash_of(bits))) * size - 0.5f;
+        const uint64_t bits = hash_of_pixel(key, place.x * TILE_WIDTH + i % TILE_WIDTH, place.y * TILE_HEIGHT + i / TILE_WIDTH);
+        scratch->jitter_x[i] = stratum_place(NULL, column, hash_unit(bits), strata);
+        scratch->jitter_y[i] = stratum_place(NULL, row, hash_unit(hash_of(bits)), strata);
     }
 }
 
@@ -140,11 +145,10 @@ static void render_samples(tile_place place, tile_scratch *scratch)
 
 /* ---- one shading a pixel ---- */
 
-/* Light that slopes reach at one end of the shutter is on their path at the other one, too. */
-static void share_light(tile_scratch *scratch)
+void tile_join_reach(tile_scratch *scratch)
 {
-    const int reach = scratch->close.data.light_reach | scratch->open.data.light_reach;
-    scratch->close.data.light_reach = scratch->open.data.light_reach = reach;
+    TileData *close = &scratch->close.data, *open = &scratch->open.data;
+    close->light_reach = open->light_reach = reach_of_both(NULL, close->light_reach, open->light_reach);
 }
 
 static void shade_pixels(const tile_job *job, bool moves, tile_scratch *scratch, tile_pixels *out)
@@ -176,7 +180,7 @@ static void render_shaded(tile_place place, tile_scratch *scratch)
     build(place, waves, &scratch->close, scratch->close_estimate);
     if (moves) {
         build(place, &job->waves->open, &scratch->open, scratch->open_estimate);
-        share_light(scratch);
+        tile_join_reach(scratch);
     }
     shade_pixels(job, moves, scratch, &scratch->pixels);
 }
@@ -196,7 +200,7 @@ static void build_segment(tile_place place, double from, double to, tile_scratch
     const camera_rays before = camera_at(f, from);
     wave_set_build(f, &before, (interval){open, 0}, true, &scratch->sample_waves);
     build(place, &scratch->sample_waves, &scratch->open, scratch->open_estimate);
-    share_light(scratch);
+    tile_join_reach(scratch);
 }
 
 /* The path in several straight pieces (P1 §3.4): the mean over the parts of the shutter. */

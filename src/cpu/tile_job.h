@@ -57,6 +57,9 @@ bool tile_sees_water(const tile_waves *tile);
 /* The estimates of its pixels; zero where none does. */
 void tile_find_estimates(const lane_kernels *kernels, const FrameData *data, const tile_waves *tile, tile_estimate *estimate);
 
+/* Where the camera moves: joins what close and open know of the light. */
+void tile_join_reach(tile_scratch *scratch);
+
 /* Fills scratch->pixels and scratch->surface for the tile (tile_x, tile_y) of the lattice. Not for the reference. */
 void tile_render(const tile_job *job, uint32_t tile_x, uint32_t tile_y, tile_scratch *scratch);
 

@@ -7,20 +7,25 @@
 layout(std140, binding = 0) uniform FrameBlock { FrameData frame_of_halvings[LEAF_SIDES]; };
 #define FRAME(cx) frame_of_halvings[0]
 #include "kernels/adaptive/refinement.k"
+#include "word64.glsl"
+#include "kernels/adaptive/rounds.k"
 #include "cells_data.glsl"
-#include "cells_lot.glsl"
 
 layout(local_size_x = CELLS_GROUP) in;
 
 shared uint size_counts[CELL_SIZES];
 shared uint chosen_cells, chosen_points, point_groups;
 
+LeafPlace place_of(Leaf l) { return LeafPlace(l.place.x, l.place.y, l.halvings.x, l.halvings.y); }
+
 bool is_chosen(int tile, Leaf l)
 {
-    if (l.split == SPLIT_POINTS)
-        return l.bucket > int(state[CELLS_POINTS]);
-    int bucket = int(state[CELLS_BUCKET]);
-    return l.bucket > bucket || (l.bucket == bucket && leaf_lot(tile, l, uvec2(0u)) < state_double(CELLS_SHARE));
+    RoundPlan p = plan_begun(0, 0.0lf);
+    p.bucket = int(state[CELLS_BUCKET]);
+    p.points = int(state[CELLS_POINTS]);
+    p.share = state_double(CELLS_SHARE);
+    bool on_edge = l.bucket == p.bucket && l.split != SPLIT_POINTS;
+    return plan_takes(0, p, l.bucket, l.split == SPLIT_POINTS, on_edge ? leaf_lot(0, tile, place_of(l), uvec2(0u)) : 0.0lf);
 }
 
 void choose(int tile, int i)

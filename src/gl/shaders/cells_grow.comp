@@ -9,6 +9,8 @@
 layout(std140, binding = 0) uniform FrameBlock { FrameData frame_of_halvings[LEAF_SIDES]; };
 #define FRAME(cx) frame_of_halvings[0]
 #include "kernels/adaptive/refinement.k"
+#include "word64.glsl"
+#include "kernels/adaptive/rounds.k"
 #include "cells_data.glsl"
 
 layout(local_size_x = CELLS_GROUP) in;
@@ -40,18 +42,16 @@ void appraise()
 {
     double cost = level_cost[0];
     for (int level = 0; level < LEAF_LEVELS; level++) {
-        double next = level + 1 < LEAF_LEVELS ? level_cost[level + 1] : 0.0lf;
-        cost = next > 0.0lf ? next : 1.2lf * cost * double(part_count(level + 1)) / double(part_count(level));
+        cost = next_cost(0, level + 1 < LEAF_LEVELS ? level_cost[level + 1] : 0.0lf, cost, part_count(level), part_count(level + 1));
         level_below[level] = 4.0lf * cost;
-        level_worth[level] = float(double(leaf_area(level) * leaf_area(level)) / level_below[level]);
+        level_worth[level] = split_worth_of(0, leaf_area(level), level_below[level]);
     }
 }
 
 /* Cells of a level evaluate so many waves in each part of the shutter. */
 void price(int level, int waves)
 {
-    double all = double(SAMPLE_TENTHS) / 10.0lf * double(cells_data.waves) + double(SAMPLE_WAVES);
-    level_cost[level] = double(part_count(level)) * double(waves + CELL_WAVES) / all;
+    level_cost[level] = cell_cost(0, part_count(level), waves, cells_data.waves);
     appraise();
 }
 
@@ -280,22 +280,18 @@ void take_all_cells(int from)
         }
 }
 
-double luminance_of(dvec3 color) { return 0.2126lf * color.r + 0.7152lf * color.g + 0.0722lf * color.b; }
-
-/* The leaf's values become the mean of all its points, old and new. Under a sky the luminance of the points says how far off their mean is. */
-Leaf with_points(Leaf l, double sums[POINT_SUMS])
+/* The leaf's values become the mean of all its points, old and new. */
+Leaf with_points(Leaf l, PointSums sums)
 {
-    double first = double(l.points), end = double(leaf_next_points(0, l.points, l.places, l.coverage));
-    double before = luminance_of(dvec3(l.color));
-    double squares = first * (first * double(l.contrast) + before * before) + sums[5];
-    l.color = vec3(float((first * double(l.color.r) + sums[0]) / end), float((first * double(l.color.g) + sums[1]) / end),
-                   float((first * double(l.color.b) + sums[2]) / end));
-    l.coverage = float((first * double(l.coverage) + sums[3]) / end);
-    l.water = float((first * double(l.water) + sums[4]) / end);
-    double mean = luminance_of(dvec3(l.color));
-    l.contrast = cells_data.sky_black != 0 ? l.contrast * (l.places / float(end)) : float(max(squares / end - mean * mean, 0.0lf) / end);
-    l.variance = l.coverage * max(l.water - l.coverage, 0.0f) / float(end);
-    l.places = float(end);
+    int end = int(leaf_next_points(0, l.points, l.places, l.coverage));
+    LeafValues v = LeafValues(l.color.r, l.color.g, l.color.b, l.coverage, l.water, l.variance, l.contrast, l.places);
+    v = values_with_points(0, v, sums, int(l.points), end, cells_data.sky_black != 0);
+    l.color = vec3(v.red, v.green, v.blue);
+    l.coverage = v.coverage;
+    l.water = v.water;
+    l.variance = v.variance;
+    l.contrast = v.contrast;
+    l.places = v.places;
     l.points = float(end);
     return l;
 }
@@ -311,7 +307,7 @@ Leaf new_points(Leaf l)
         for (int i = 0; i < groups; i++)
             sums[k] += state_double(cells_data.point_groups_at + POINT_GROUP_WORDS * (group + i) + POINT_SUMS_AT + 2 * k);
     }
-    return judged(with_points(l, sums));
+    return judged(with_points(l, PointSums(sums[0], sums[1], sums[2], sums[3], sums[4], sums[5])));
 }
 
 void take_points(int from, int count)

@@ -6,7 +6,8 @@
 #include "kernels/common/types.k"
 layout(std140, binding = 0) uniform FrameBlock { FrameData frame_of_halvings[LEAF_SIDES]; };
 #define FRAME(cx) frame_of_halvings[0]
-#include "kernels/adaptive/refinement.k"
+#include "word64.glsl"
+#include "kernels/adaptive/rounds.k"
 #include "cells_state.glsl"
 
 layout(local_size_x = CELLS_LANES) in;
@@ -51,22 +52,17 @@ void count_leaves()
     state[CELLS_LEAVES] = uint(sum);
 }
 
-/* Of coverage a third, of the displayed luminance a fifth of what leaves say, as refinement.c measured. */
-double predicted(double of_sum, double sum) { return sqrt(of_sum * sum / (double(cells_data.width) * double(cells_data.height))); }
-
 /* How much the round may spend; 0: it is enough. */
 double next_share(int round, double used)
 {
     double variance = sum_of_tiles(TILE_VARIANCE, TILE_OPEN_VARIANCE), shown = sum_of_tiles(TILE_SHOWN, TILE_OPEN_SHOWN);
+    double pixels = double(cells_data.width) * double(cells_data.height), rmse = predicted_rmse(0, variance, pixels);
     double budget = sum_of_tiles(TILE_WATER, TILE_WATER) * double(cells_data.samples);
     if (cells_data.target_rmse > 0.0f)
-        return predicted(0.35lf, variance) > double(cells_data.target_rmse) ? 0.3lf * used : 0.0lf;
-    if (cells_data.target_displayed > 0.0f) {
-        double off = cells_data.sky_black != 0 ? predicted(0.35lf, variance) : predicted(0.2lf, shown);
-        return off > double(cells_data.target_displayed) ? 0.3lf * used : 0.0lf;
-    }
-    double left = budget - used;
-    return left > 0.005lf * budget ? double(round_per_cent(0, round)) / 100.0lf * left : 0.0lf;
+        return share_towards(0, rmse, double(cells_data.target_rmse), used);
+    if (cells_data.target_displayed > 0.0f)
+        return share_towards(0, cells_data.sky_black != 0 ? rmse : predicted_displayed(0, shown, pixels), double(cells_data.target_displayed), used);
+    return share_of_samples(0, round, budget, used);
 }
 
 /* ---- the census ---- */
@@ -74,51 +70,24 @@ double next_share(int round, double used)
 const int CHUNK = 256; /* buckets that are read together */
 shared uvec4 bucket_costs[CHUNK];
 
-struct Plan {
-    int bucket, points;
-    double share, left;
-    bool any, ended;
-};
-
 double whole(uvec2 words) { return double(words.y) * 4294967296.0lf + double(words.x); }
 
-Plan with_bucket(Plan p, int b, uvec4 costs)
+/* From the best bucket down until the share is spent. */
+RoundPlan plan_for(double share)
 {
-    double cells = whole(costs.xy), points = whole(costs.zw);
-    if (p.points < b && points <= p.left) {
-        p.left -= points;
-        p.any = p.any || points > 0.0lf;
-    } else if (p.points < b) {
-        p.points = b;
-    }
-    p.any = p.any || cells > 0.0lf;
-    if (cells > p.left) {
-        p.bucket = b;
-        p.share = p.left / cells;
-        p.ended = true;
-        return p;
-    }
-    p.left -= cells;
-    return p;
-}
-
-/* From the best bucket down until the share is spent. Leaves with points are too dear for shares of a bucket: from the first bucket on that cannot be paid
- * they wait. */
-Plan plan_for(double share)
-{
-    Plan p = Plan(0, -1, 0.0lf, share * double(COST_UNIT), false, false);
+    RoundPlan p = plan_begun(0, share);
     for (int end = WORTH_BUCKETS; end > 0; end -= CHUNK) {
         int at = CELLS_CENSUS + 4 * (end - CHUNK + lane);
         bucket_costs[lane] = uvec4(state[at], state[at + 1], state[at + 2], state[at + 3]);
         barrier();
         if (lane == 0)
-            for (int b = end - 1; b >= end - CHUNK && !p.ended; b--)
-                p = with_bucket(p, b, bucket_costs[b - end + CHUNK]);
+            for (int b = end - 1; b >= end - CHUNK && p.ended == 0; b--) {
+                uvec4 costs = bucket_costs[b - end + CHUNK];
+                p = plan_with_bucket(0, p, b, whole(costs.xy), whole(costs.zw));
+            }
         barrier();
     }
-    if (p.points < p.bucket)
-        p.points = p.bucket - 1; /* those of the last bucket have been paid for */
-    return p;
+    return plan_ended(0, p);
 }
 
 void clear_census()
@@ -135,15 +104,13 @@ void set_size(int at, bool runs)
 }
 
 /* A pool that fills settles leaves from the first round on. */
-void store_plan(int round, Plan p)
+void store_plan(int round, RoundPlan p)
 {
     state[CELLS_BUCKET] = uint(p.bucket);
     state[CELLS_POINTS] = uint(p.points);
     set_state_double(CELLS_SHARE, p.share);
-    int keep = p.bucket - KEPT_OCTAVES * WORTH_STEPS;
     bool crowded = double(state[CELLS_LEAVES]) > 0.625lf * double(cells_data.pool);
-    if (p.any && (round >= KEPT_ROUNDS || crowded) && keep > int(state[CELLS_LEAST]))
-        state[CELLS_LEAST] = uint(keep);
+    state[CELLS_LEAST] = uint(settled_bucket(0, p, round, crowded, int(state[CELLS_LEAST])));
 }
 
 void main()
@@ -158,12 +125,12 @@ void main()
     double used = sum_of_tiles(TILE_SPENT, TILE_SPENT);
     double share = next_share(round, used);
     count_leaves();
-    Plan p = plan_for(max(share, 0.0lf));
+    RoundPlan p = plan_for(max(share, 0.0lf));
     barrier();
     clear_census();
     if (lane != 0)
         return;
-    bool runs = share > 0.0lf && p.any;
+    bool runs = share > 0.0lf && p.any != 0;
     store_plan(round, p);
     state[CELLS_ROUND] = uint(round + 1);
     state[CELLS_RUNNING] = runs ? 1u : 0u;

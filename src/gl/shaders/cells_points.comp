@@ -8,28 +8,27 @@
 #include "kernels/glitter/sample.k"
 #include "cells_data.glsl"
 #include "cells_job.glsl"
-#include "cells_lot.glsl"
+#include "word64.glsl"
+#include "kernels/adaptive/rounds.k"
 
 layout(local_size_x = POINT_GROUP) in;
 
 shared double lane_sums[POINT_SUMS][POINT_GROUP];
 
-/* Point `index` of the leaf's sequence: the R2 sequence (Roberts 2018), shifted by the leaf and the seed. In pixels from the tile's first one's centre. It
- * is rounded as a jitter about the pixel `about`, at whose place the CPU samples it. */
-vec2 point_place(int tile, Leaf l, int index, ivec2 about)
+/* Of point `index` of the leaf's sequence, in pixels from the tile's first one's centre. It is rounded as a jitter about the pixel `about`, at whose place the
+ * CPU samples it. */
+vec2 place_of_point(int tile, Leaf l, int index, ivec2 about)
 {
-    precise double shift = leaf_lot(tile, l, ~uvec2(uint(cells_data.seed_low), uint(cells_data.seed_high)));
-    precise double u = shift + double(index) * 0.75487766624669276lf;
-    precise double v = 0.5lf + shift * 977.0lf + double(index) * 0.56984029099805327lf;
-    precise dvec2 corner = dvec2(l.place) + dvec2(u, v) - dvec2(floor(u), floor(v));
-    precise dvec2 place = corner / dvec2(double(1 << l.halvings.x), double(1 << l.halvings.y)) - 0.5lf - dvec2(about);
-    precise vec2 jittered = vec2(about) + vec2(place);
+    LeafPlace place = LeafPlace(l.place.x, l.place.y, l.halvings.x, l.halvings.y);
+    double lot = leaf_lot(0, tile, place, ~uvec2(uint(cells_data.seed_low), uint(cells_data.seed_high)));
+    precise vec2 jittered = vec2(about) + vec2(point_place(0, place.column, place.across, point_across(0, lot, index), about.x),
+                                               point_place(0, place.row, place.down, point_down(0, lot, index), about.y));
     return jittered;
 }
 
 void keep(int group, int lane, PixelResult p)
 {
-    double luminance = 0.2126lf * double(p.color.r) + 0.7152lf * double(p.color.g) + 0.0722lf * double(p.color.b);
+    double luminance = point_luminance(0, double(p.color.r), double(p.color.g), double(p.color.b));
     double values[POINT_SUMS] =
         double[POINT_SUMS](double(p.color.r), double(p.color.g), double(p.color.b), double(p.coverage), double(p.water), luminance * luminance);
     for (int k = 0; k < POINT_SUMS; k++)
@@ -60,6 +59,6 @@ void main()
     layer_texel = ivec2(tile % cells_data.columns, tile / cells_data.columns) * ivec2(TILE_WIDTH, TILE_HEIGHT) + pixel;
     int index = int(l.points) + cells_data.instant + LEAF_INSTANTS * (POINT_GROUP * int(state[at + 2]) + lane);
     int before = group - int(state[tile_words(tile) + TILE_POINT_FIRST]);
-    vec2 where = point_place(tile, l, index, ivec2(lane, before % TILE_HEIGHT));
+    vec2 where = place_of_point(tile, l, index, ivec2(lane, before % TILE_HEIGHT));
     keep(group, lane, sample_pixel(0, where.x, where.y, pixel_estimate(pixel)));
 }

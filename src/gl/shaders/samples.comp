@@ -5,7 +5,8 @@
 #define EXACT_FMA
 #include "lattice_data.glsl"
 #include "kernels/glitter/sample.k"
-#include "jitter.glsl"
+#include "word64.glsl"
+#include "kernels/common/strata.k"
 
 layout(local_size_x = TILE_WIDTH, local_size_y = GROUP_ROWS) in;
 layout(binding = 0, rgba32f) uniform image2D color_image;
@@ -15,13 +16,12 @@ layout(binding = 2, r32f) uniform image2D water_image;
 /* A place in the sample's stratum, in pixels from the pixel's centre. */
 vec2 jitter(ivec2 pixel, int index)
 {
-    uvec2 number = add_64(uvec2(uint(pass_data.sample_first_low), uint(pass_data.sample_first_high)), uvec2(uint(index), 0u));
-    uvec2 key = mix_64(uvec2(uint(pass_data.seed_low), uint(pass_data.seed_high)) ^ mix_64(number));
-    uvec2 bits = mix_64(key ^ uvec2(uint(pixel.y), uint(pixel.x)));
+    uvec2 number = word_sum(word_of(uint(pass_data.sample_first_high), uint(pass_data.sample_first_low)), word_of(0u, uint(index)));
+    uvec2 key = hash_of_sample(word_of(uint(pass_data.seed_high), uint(pass_data.seed_low)), number);
+    uvec2 bits = hash_of_pixel(key, uint(pixel.x), uint(pixel.y));
     int stratum = pass_data.stratum_first + index;
-    vec2 corner = vec2(float(stratum % pass_data.strata), float(stratum / pass_data.strata));
-    precise vec2 place = (corner + vec2(unit_64(bits), unit_64(mix_64(bits)))) * (1.0f / float(pass_data.strata)) - 0.5f;
-    return place;
+    return vec2(stratum_place(0, stratum % pass_data.strata, hash_unit(bits), pass_data.strata),
+                stratum_place(0, stratum / pass_data.strata, hash_unit(hash_of(bits)), pass_data.strata));
 }
 
 void main()

@@ -5,7 +5,8 @@
 #define EXACT_FMA
 #include "lattice_data.glsl"
 #include "kernels/adaptive/temporal_ray.k"
-#include "jitter.glsl"
+#include "word64.glsl"
+#include "kernels/common/strata.k"
 
 #define SLOT_ACCESS writeonly
 #include "slots_data.glsl"
@@ -39,9 +40,9 @@ int task_of(int band_tile, uint slot)
 /* Where the pixel's sample of this number looks, in pixels from the pixel's centre. */
 vec2 random_place(ivec2 pixel, uint number)
 {
-    uvec2 key = mix_64(uvec2(uint(slots_data.seed_low), uint(slots_data.seed_high)) ^ mix_64(uvec2(number, 0u)));
-    uvec2 bits = mix_64(key ^ uvec2(uint(pixel.y), uint(pixel.x)));
-    return vec2(unit_64(bits) - 0.5f, unit_64(mix_64(bits)) - 0.5f);
+    uvec2 key = hash_of_sample(word_of(uint(slots_data.seed_high), uint(slots_data.seed_low)), word_of(0u, number));
+    uvec2 bits = hash_of_pixel(key, uint(pixel.x), uint(pixel.y));
+    return vec2(stratum_place(0, 0, hash_unit(bits), 1), stratum_place(0, 0, hash_unit(hash_of(bits)), 1));
 }
 
 PixelResult trace(int band_tile, int pixel, uint number)

@@ -5,6 +5,7 @@
  *
  * Define VIEW and SET_SORT(i), wave i as SortData, before.
  */
+#include "kernels/waves/light_reach.k"
 #include "kernels/waves/tile.k"
 
 const int LANES = 64;
@@ -114,14 +115,15 @@ TileData finished_tile(TileView view, Counts counts)
     return t;
 }
 
-/* Light that slopes reach when the shutter opens is on their path when it closes, too, and the other way round. */
-int shared_reach(bool meets_light, int open_slots)
+/* Joined with that of the tile when the shutter opens, which changes with it. `open_slots`: as in PassData. */
+int joined_reach(int closed, int open_slots)
 {
+    if (open_slots == 0)
+        return closed;
     int opened = tile_slot + open_slots;
-    meets_light = meets_light || (open_slots != 0 && tile_data[opened].light_reach != 0);
-    if (open_slots != 0 && meets_light)
-        tile_data[opened].light_reach = 1;
-    return meets_light ? 1 : 0;
+    int reach = reach_of_both(0, closed, tile_data[opened].light_reach);
+    tile_data[opened].light_reach = reach;
+    return reach;
 }
 
 /* The tile (tile_x, tile_y) of the view, into tile_slot. `open_slots`: as in PassData. */
@@ -152,7 +154,7 @@ void sort_tile(int tile_x, int tile_y, int open_slots, int parts)
     barrier();
     if (lane == 0) {
         TileData tile = finished_tile(view, counts);
-        tile.light_reach = shared_reach(tile_meets_light(0, column, row, width, height) > 0.0f, open_slots);
+        tile.light_reach = joined_reach(tile_meets_light(0, column, row, width, height) > 0.0f ? 1 : 0, open_slots);
         tile.parts = parts;
         tile_data[tile_slot] = tile;
     }

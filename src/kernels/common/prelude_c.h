@@ -22,6 +22,8 @@
  *     #pragma once, no name that GLSL reserves (active, common, filter, input, output, sample, ...), no member called length.
  *  7. Every operation here is exactly rounded and the kernels are built with -ffp-contract=off, so that every lane width
  *     with fused multiply-add gives the same bits. SSE2 (4 lanes), where fma(a,b,c) is a*b+c, is outside that promise, as is WebAssembly.
+ *  8. `double` is uniform and GLSL ES has none: only files that the page does without use it. DOUBLE(x) converts; constants are quotients of whole
+ *     numbers, since the languages do not agree how a double is written. PRECISE before a variable: its sums are not reordered.
  */
 #ifndef MANGATA_KERNELS_COMMON_PRELUDE_C_H
 #define MANGATA_KERNELS_COMMON_PRELUDE_C_H
@@ -200,6 +202,10 @@ KERNEL real real_fma(real a, real b, real c) { return a * b + c; }
 #define uniform_max(a, b) mgt_uniform_max(a, b)
 #define uniform_sqrt(x) __builtin_sqrtf(x)
 #define uniform_float(x) ((float)(x))
+#define PRECISE
+#define DOUBLE(x) ((double)(x))
+#define sqrt_of_double(x) __builtin_sqrt(x)
+#define floor_of_double(x) __builtin_floor(x)
 #define INFINITE real_broadcast(__builtin_inff())
 
 KERNEL float mgt_uniform_min(float a, float b) { return a < b ? a : b; }
