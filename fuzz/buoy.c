@@ -24,7 +24,7 @@ static void read_table(const char *text, size_t length)
     spectrum_table_free(&table);
 }
 
-int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
+void fuzz_input(const uint8_t *bytes, size_t size)
 {
     scene_error error;
     scene_place place;
@@ -40,5 +40,4 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
         free(table);
     }
     free(text);
-    return 0;
 }

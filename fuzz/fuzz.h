@@ -13,7 +13,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Called by libFuzzer, or by driver.c where there is none. */
+/* The target: a file of its own for each. */
+void fuzz_input(const uint8_t *bytes, size_t size);
+
+/* Calls it within a limit of time. Called by libFuzzer, or by driver.c where there is none. */
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size);
 
 /* Where `good` is false, ends the process, which the fuzzer reports with the input. */

@@ -5,10 +5,9 @@
 #include "fuzz.h"
 #include "scene/obj_check.h"
 
-int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
+void fuzz_input(const uint8_t *bytes, size_t size)
 {
     model_fault fault = {0};
     if (!obj_check("fuzz.obj", (const char *)bytes, size, &fault))
         fuzz_require_message(fault.text);
-    return 0;
 }

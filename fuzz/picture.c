@@ -7,7 +7,7 @@
 #include "fuzz_file.h"
 #include "image/picture.h"
 
-int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
+void fuzz_input(const uint8_t *bytes, size_t size)
 {
     static const char *const layers[] = {NULL, "color", "depth", "coverage"};
     const fuzz_file file = fuzz_file_open(bytes, size);
@@ -20,5 +20,4 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
         float_image_free(&image);
     }
     fuzz_file_close(&file);
-    return 0;
 }

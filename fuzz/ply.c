@@ -5,7 +5,7 @@
 #include "fuzz.h"
 #include "scene/model_ply.h"
 
-int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
+void fuzz_input(const uint8_t *bytes, size_t size)
 {
     model_fault fault = {0};
     mesh_data mesh = {0};
@@ -18,5 +18,4 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
         fuzz_require_message(fault.text);
     model_free(&model);
     mesh_data_free(&mesh);
-    return 0;
 }

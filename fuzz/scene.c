@@ -82,13 +82,13 @@ static void read_again(const scene_file *file)
     scene_file_free(again);
 }
 
-int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
+void fuzz_input(const uint8_t *bytes, size_t size)
 {
     const char *overrides[OVERRIDES];
     size_t count = 0, turn = size;
     scene_error error;
     if (size > INPUT_BYTES)
-        return 0;
+        return;
     char *text = fuzz_text(bytes, size), *mark = strstr(text, "\n%%\n");
     size_t length = mark != NULL ? (size_t)(mark - text) + 1 : size;
     for (size_t i = 0; i < size; i++)
@@ -107,5 +107,4 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
     }
     scene_file_free(file);
     free(text);
-    return 0;
 }

@@ -10,7 +10,7 @@ static const char base[] = "mangata: 1\nimage: {width: 64, height: 36}\ncamera: 
                            "water: {waves: [{amplitude: 0.02, a: 1.5, b: 0.3, c: -3.8, phase: 0.7}, {amplitude: 0.01, a: 2, b: 1, c: 4}]}\n"
                            "objects: [{shape: box, position: [0, -1, -5]}, {shape: steps, count: 3}]\n";
 
-int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
+void fuzz_input(const uint8_t *bytes, size_t size)
 {
     enum { WORDS = 16, BYTES = 4096 };
     const char *words[WORDS];
@@ -18,7 +18,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
     char *state = NULL;
     scene_error error;
     if (size > BYTES)
-        return 0;
+        return;
     char *text = fuzz_text(bytes, size);
     for (char *line = strtok_r(text, "\n", &state); line != NULL && count < WORDS; line = strtok_r(NULL, "\n", &state))
         if (strstr(line, "triangles") == NULL)
@@ -28,5 +28,4 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
         fuzz_require_message(error.text);
     scene_file_free(file);
     free(text);
-    return 0;
 }

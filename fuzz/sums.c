@@ -31,10 +31,9 @@ static void read_sums(const char *path)
     sums_close(&file);
 }
 
-int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
+void fuzz_input(const uint8_t *bytes, size_t size)
 {
     const fuzz_file file = fuzz_file_open(bytes, size);
     read_sums(file.path);
     fuzz_file_close(&file);
-    return 0;
 }
