@@ -55,8 +55,8 @@ MGT_API void mgt_scene_file_free(mgt_scene_file *file);
  * mgt_scene_init(); its waves and objects point into `file` and live as long. MGT_IO_BAD, with *scene untouched: the frame has no legal camera. */
 MGT_API mgt_io_status mgt_scene_file_frame(const mgt_scene_file *file, uint32_t frame, mgt_scene *scene, size_t size);
 
-MGT_API uint32_t mgt_scene_file_frame_count(const mgt_scene_file *file); /* ≥ 1 */
-MGT_API double mgt_scene_file_fps(const mgt_scene_file *file);           /* > 0 */
+MGT_API uint32_t mgt_scene_file_frame_count(const mgt_scene_file *file); /* ≥ 1; of NULL 0 */
+MGT_API double mgt_scene_file_fps(const mgt_scene_file *file);           /* > 0; of NULL 0 */
 
 /* A warning about values that are legal but probably a mistake: one line, "" where there is none. Lives as long as the file. */
 MGT_API const char *mgt_scene_file_warning(const mgt_scene_file *file);

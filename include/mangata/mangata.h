@@ -15,7 +15,8 @@
  *               same size. Structs without struct_size never change.
  *   Errors      functions return an mgt_status; mgt_last_error() and the log say what was wrong. After a
  *               failure no object has changed; pixels of the targets may have been written in part.
- *   Threads     a context is used by one thread at a time; different contexts are independent.
+ *   Threads     a context is used by one thread at a time; different contexts are independent. A call that renders, inspects or sums with a
+ *               context whose earlier call still runs, on another thread or around a callback, returns MGT_ERROR_ARGUMENT and does nothing.
  *   Determinism the pixels depend on the scene alone: not on threads, tiles, crop, instruction set (AVX2,
  *               AVX-512 and the scalar build agree to the bit) or what was rendered before.
  */

@@ -72,7 +72,7 @@ MGT_API void mgt_context_desc_init(mgt_context_desc *desc, size_t size);
  * mgt_last_error(NULL) gives the detail. The caller owns the context and destroys it. */
 MGT_API mgt_status mgt_context_create(mgt_context **context, const mgt_context_desc *desc);
 
-/* Frees the context and joins its threads. NULL is allowed. */
+/* Frees the context and joins its threads. NULL is allowed. Not from a callback of the context, nor while another thread uses it. */
 MGT_API void mgt_context_destroy(mgt_context *context);
 
 /* Detail of the last failure on this context; NULL: of the last mgt_context_create(), mgt_mesh_create() or mgt_texture_create() on this thread, empty
@@ -154,7 +154,7 @@ MGT_API mgt_status mgt_render(mgt_context *context, const mgt_scene *scene, cons
 
 /* Displayed colour of radiance that the caller holds, as mgt_render() makes it for scene.post: exposure, glare, tone map and sRGB, on the CPU whatever
  * the backend. For means over several sample ranges. `radiance`: the whole image, 3 floats a pixel, tightly packed, finite and ≥ 0.
- * `target`: MGT_LAYER_COLOR in MGT_FORMAT_RGBA8_SRGB, of the crop. */
+ * `target`: MGT_LAYER_COLOR in MGT_FORMAT_RGBA8_SRGB, of the crop. MGT_ERROR_ARGUMENT: a number of `radiance` is another one. */
 MGT_API mgt_status mgt_display(mgt_context *context, const mgt_scene *scene, const float *radiance, const mgt_target *target);
 
 /* ---- sums of samples ------------------------------------------------------------------------------------ */
@@ -168,7 +168,7 @@ enum { MGT_SUM_WORDS = 12 };
  * says ("render.cpu"). Methods: reference and ssaa; another one is MGT_ERROR_UNSUPPORTED. After a failure, or when it is cancelled, `sums` are useless. A context of MGT_BACKEND_NULL adds nothing. */
 MGT_API mgt_status mgt_sum_samples(mgt_context *context, const mgt_scene *scene, uint64_t *sums);
 
-/* Adds sums to sums, both of so many pixels. Any thread. */
+/* Adds sums to sums, both of so many pixels; nothing where one is NULL. Any thread. */
 MGT_API void mgt_sums_add(uint64_t *sums, const uint64_t *more, size_t pixels);
 
 /* mgt_render(), on the CPU, with these sums of the scene's range of samples in place of samples of its own. What is no mean of samples it renders: depth,

@@ -74,6 +74,20 @@ void mgt_context_destroy(mgt_context *context)
     free(context);
 }
 
+bool context_enter(mgt_context *context)
+{
+    if (!context || atomic_exchange(&context->busy, true))
+        return false;
+    context->error[0] = 0;
+    return true;
+}
+
+mgt_status context_leave(mgt_context *context, mgt_status status)
+{
+    atomic_store(&context->busy, false);
+    return status;
+}
+
 const char *mgt_last_error(const mgt_context *context) { return context ? context->error : creation_error_text(); }
 
 mgt_status mgt_context_get_info(const mgt_context *context, mgt_context_info *info)
@@ -119,11 +133,8 @@ mgt_status scene_ready(const reporter *r, mgt_scene *own)
         mgt_method_name(own->quality.method));
 }
 
-mgt_status mgt_render(mgt_context *context, const mgt_scene *scene, const mgt_target *targets, size_t count)
+static mgt_status render_frame(mgt_context *context, const mgt_scene *scene, const mgt_target *targets, size_t count)
 {
-    if (!context)
-        return MGT_ERROR_ARGUMENT;
-    context->error[0] = 0;
     mgt_scene own;
     mgt_target own_targets[MOST_TARGETS];
     mgt_status status = scene_take(&context->report, &own, scene);
@@ -139,4 +150,9 @@ mgt_status mgt_render(mgt_context *context, const mgt_scene *scene, const mgt_ta
         lacks = gl_lacks_layer(&own, own_targets[i].layer);
     return lacks ? render_instead(context, &own, own_targets, count, lacks)
                  : context->backend->render(context->state, &context->report, &own, own_targets, count);
+}
+
+mgt_status mgt_render(mgt_context *context, const mgt_scene *scene, const mgt_target *targets, size_t count)
+{
+    return context_enter(context) ? context_leave(context, render_frame(context, scene, targets, count)) : MGT_ERROR_ARGUMENT;
 }

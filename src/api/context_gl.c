@@ -8,15 +8,12 @@
 
 static mgt_status check_backend(mgt_context *context, const char *function)
 {
-    if (!context)
-        return MGT_ERROR_ARGUMENT;
-    context->error[0] = 0;
     if (context->backend->render_views)
         return MGT_OK;
     return report_error(&context->report, MGT_ERROR_UNAVAILABLE, "gl.context", "%s needs a context of the OpenGL backend", function);
 }
 
-mgt_status mgt_gl_render_textures(mgt_context *context, const mgt_scene *scene, const mgt_gl_texture *textures, size_t count)
+static mgt_status render_textures(mgt_context *context, const mgt_scene *scene, const mgt_gl_texture *textures, size_t count)
 {
     mgt_status status = check_backend(context, "mgt_gl_render_textures");
     if (status != MGT_OK)
@@ -36,6 +33,11 @@ mgt_status mgt_gl_render_textures(mgt_context *context, const mgt_scene *scene, 
     if (gl_lacks(&own))
         return report_error(r, MGT_ERROR_UNSUPPORTED, "render.texture", "%s on the CPU alone: use mgt_render()", gl_lacks(&own));
     return context->backend->render_textures(context->state, r, &own, own_textures, count);
+}
+
+mgt_status mgt_gl_render_textures(mgt_context *context, const mgt_scene *scene, const mgt_gl_texture *textures, size_t count)
+{
+    return context_enter(context) ? context_leave(context, render_textures(context, scene, textures, count)) : MGT_ERROR_ARGUMENT;
 }
 
 /* `out->view` has been set. */
@@ -64,7 +66,7 @@ static mgt_status check_view(const reporter *r, const mgt_scene *scene, size_t i
     return status;
 }
 
-mgt_status mgt_gl_render_views(mgt_context *context, const mgt_scene *scene, const mgt_gl_view *views, size_t count)
+static mgt_status render_views(mgt_context *context, const mgt_scene *scene, const mgt_gl_view *views, size_t count)
 {
     mgt_status status = check_backend(context, "mgt_gl_render_views");
     if (status != MGT_OK)
@@ -86,6 +88,11 @@ mgt_status mgt_gl_render_views(mgt_context *context, const mgt_scene *scene, con
     return status == MGT_OK ? context->backend->render_views(context->state, r, checked, count) : status;
 }
 
+mgt_status mgt_gl_render_views(mgt_context *context, const mgt_scene *scene, const mgt_gl_view *views, size_t count)
+{
+    return context_enter(context) ? context_leave(context, render_views(context, scene, views, count)) : MGT_ERROR_ARGUMENT;
+}
+
 size_t mgt_gl_get_timings(const mgt_context *context, mgt_gl_timing *timings, size_t capacity)
 {
     if (!context || !context->backend->get_timings)
@@ -93,7 +100,7 @@ size_t mgt_gl_get_timings(const mgt_context *context, mgt_gl_timing *timings, si
     return context->backend->get_timings(context->state, timings, timings ? capacity : 0);
 }
 
-mgt_status mgt_gl_set_sources(mgt_context *context, const mgt_gl_source *sources, size_t count)
+static mgt_status set_sources(mgt_context *context, const mgt_gl_source *sources, size_t count)
 {
     mgt_status status = check_backend(context, "mgt_gl_set_sources");
     if (status != MGT_OK)
@@ -105,4 +112,9 @@ mgt_status mgt_gl_set_sources(mgt_context *context, const mgt_gl_source *sources
         if (!sources[i].name || !sources[i].text)
             return report_error(r, MGT_ERROR_ARGUMENT, "gl.sources", "source %zu: name or text is NULL", i);
     return context->backend->set_sources(context->state, r, sources, count);
+}
+
+mgt_status mgt_gl_set_sources(mgt_context *context, const mgt_gl_source *sources, size_t count)
+{
+    return context_enter(context) ? context_leave(context, set_sources(context, sources, count)) : MGT_ERROR_ARGUMENT;
 }

@@ -9,6 +9,7 @@
 
 #include "api/context.h"
 #include "api/structs.h"
+#include "api/validate.h"
 
 static atomic_uint_fast64_t last_id;
 
@@ -193,9 +194,11 @@ static mgt_status check_texture(const reporter *r, const mgt_texture_desc *d)
 {
     if (d->width < 1 || d->width > 16384 || d->height < 1 || d->height > 16384)
         return report_error(r, MGT_ERROR_ARGUMENT, "texture.desc", "the texture is %u x %u pixels; allowed is 1 to 16384 a side", d->width, d->height);
-    const ptrdiff_t stride = d->row_stride;
-    if (!d->pixels || (stride != 0 && (stride < 0 ? -stride : stride) < 4 * (ptrdiff_t)d->width))
-        return report_error(r, MGT_ERROR_ARGUMENT, "texture.desc", "pixels is NULL or row_stride %td shorter than a row of %u pixels", stride, d->width);
+    const size_t step = stride_length(d->row_stride);
+    if (!d->pixels || (step != 0 && step < 4 * (size_t)d->width))
+        return report_error(r, MGT_ERROR_ARGUMENT, "texture.desc", "pixels is NULL or row_stride %td shorter than a row of %u pixels", d->row_stride, d->width);
+    if (step > PTRDIFF_MAX / d->height)
+        return report_error(r, MGT_ERROR_ARGUMENT, "texture.desc", "row_stride %td: no memory holds %u such rows", d->row_stride, d->height);
     return MGT_OK;
 }
 

@@ -80,6 +80,9 @@ const struct_kind scene_kind = KIND(mgt_scene, "render.scene", 1, quality.sample
                                               .body_albedo = {0.006f, 0.022f, 0.030f}},
                                     .foam_persistence = 3, .post = {.auto_exposure = true, .tone_map = MGT_TONE_AGX, .glare = 0.03f});
 
+/* A later version's struct is at most so much larger; a greater size is no version's. */
+enum { LATER_BYTES = 1024 };
+
 /* ---- initialising ---- */
 
 static void fill(void *to, size_t size, const void *from, size_t known)
@@ -91,7 +94,7 @@ static void fill(void *to, size_t size, const void *from, size_t known)
 
 static void init(const struct_kind *kind, void *theirs, size_t size)
 {
-    if (!theirs || size < sizeof size)
+    if (!theirs || size < sizeof size || size > kind->size + LATER_BYTES)
         return;
     fill(theirs, size, kind->defaults, kind->size);
     memcpy(theirs, &size, sizeof size);
@@ -104,7 +107,7 @@ void mgt_texture_desc_init(mgt_texture_desc *desc, size_t size) { init(&texture_
 void mgt_scene_init(mgt_scene *scene, size_t size)
 {
     init(&scene_kind, scene, size);
-    if (!scene || size < offsetof(mgt_scene, quality))
+    if (!scene || size < offsetof(mgt_scene, quality) || size > sizeof *scene + LATER_BYTES)
         return;
     const mgt_quality quality = quality_defaults();
     scene->light = light_defaults[MGT_SOURCE_SUN];
@@ -120,7 +123,7 @@ void mgt_gl_texture_init(mgt_gl_texture *texture, size_t size) { init(&gl_textur
 void mgt_quality_init(mgt_quality *quality, size_t size)
 {
     const mgt_quality defaults = quality_defaults();
-    if (quality)
+    if (quality && size <= sizeof *quality + LATER_BYTES)
         fill(quality, size, &defaults, sizeof defaults);
 }
 
@@ -132,9 +135,6 @@ void mgt_light_init(mgt_light *light, mgt_source body)
 
 /* ---- reading and filling ---- */
 
-/* A later version's struct is at most so much larger; a greater size is no version's. */
-enum { LATER_BYTES = 1024 };
-
 static mgt_status check_size(const reporter *r, const struct_kind *kind, size_t index, size_t size)
 {
     if (size >= kind->least && size <= kind->size + LATER_BYTES && size % _Alignof(size_t) == 0)
@@ -145,9 +145,10 @@ static mgt_status check_size(const reporter *r, const struct_kind *kind, size_t 
 
 mgt_status struct_take(const reporter *r, const struct_kind *kind, void *own, const void *theirs, size_t count)
 {
-    if (!theirs || count < 1 || count > kind->most)
-        return report_error(r, MGT_ERROR_ARGUMENT, kind->id, "%zu of %s at %s; allowed is 1 to %zu and a pointer to them", count, kind->name,
-                            theirs ? "a pointer" : "NULL", kind->most);
+    if (!theirs)
+        return report_error(r, MGT_ERROR_ARGUMENT, kind->id, "the pointer to %s is NULL", kind->name);
+    if (count < 1 || count > kind->most)
+        return report_error(r, MGT_ERROR_ARGUMENT, kind->id, "%zu of %s; allowed is 1 to %zu", count, kind->name, kind->most);
     const size_t size = *(const size_t *)theirs;
     for (size_t i = 0; i < count; i++) {
         const char *from = (const char *)theirs + i * size;

@@ -111,6 +111,10 @@ static mgt_status check_quality(const reporter *r, const mgt_quality *q)
     char wrong[160];
     if (quality_conflict(q, wrong, sizeof wrong))
         return report_error(r, MGT_ERROR_SCENE, "render.scene", "quality: %s", wrong);
+    for (size_t i = 0; i < sizeof q->method_option_room / sizeof q->method_option_room[0]; i++)
+        if (q->method_option_room[i] != 0)
+            return report_error(r, MGT_ERROR_SCENE, "render.scene", "quality.method_option_room[%zu] is %g; allowed is 0: this version has no such option", i,
+                                q->method_option_room[i]);
     const uint64_t samples = quality_samples(q);
     if (q->sample_first >= samples || q->sample_count > samples - q->sample_first)
         return report_error(r, MGT_ERROR_SCENE, "render.scene", "quality.sample_first %llu and sample_count %llu lie outside the %llu samples of a pixel",
@@ -196,6 +200,8 @@ static bool layer_takes(mgt_layer layer, mgt_format format)
     return false;
 }
 
+size_t stride_length(ptrdiff_t stride) { return stride < 0 ? 0 - (size_t)stride : (size_t)stride; }
+
 static mgt_status validate_target(const reporter *r, const region *area, const mgt_target *target, size_t index)
 {
     if (!layer_takes(target->layer, target->format))
@@ -205,8 +211,11 @@ static mgt_status validate_target(const reporter *r, const region *area, const m
         return report_error(r, MGT_ERROR_ARGUMENT, "render.target", "target %zu: pixels is NULL", index);
     const size_t row = format_size(target->format) * area->width;
     const ptrdiff_t stride = target->row_stride;
-    if (stride != 0 && (size_t)(stride < 0 ? -stride : stride) < row)
+    const size_t step = stride_length(stride);
+    if (stride != 0 && step < row)
         return report_error(r, MGT_ERROR_ARGUMENT, "render.target", "target %zu: row_stride %td is shorter than a row of %zu bytes", index, stride, row);
+    if (step > PTRDIFF_MAX / area->height)
+        return report_error(r, MGT_ERROR_ARGUMENT, "render.target", "target %zu: row_stride %td: no memory holds %u such rows", index, stride, area->height);
     if (target->format != MGT_FORMAT_RGBA8_SRGB && ((uintptr_t)target->pixels % sizeof(float) != 0 || stride % (ptrdiff_t)sizeof(float) != 0))
         return report_error(r, MGT_ERROR_ARGUMENT, "render.target", "target %zu: pixels and row_stride of a float format must be multiples of 4", index);
     return MGT_OK;

@@ -4,6 +4,7 @@
 #ifndef MANGATA_BASE_EXACT_SUM_H
 #define MANGATA_BASE_EXACT_SUM_H
 
+#include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -48,6 +49,16 @@ static inline double exact_mean(exact_sum sum, double count) { return (double)(e
 enum { SUM_RED = 0, SUM_GREEN, SUM_BLUE, SUM_COVERAGE, SUM_WATER, SUM_FOAM, SUM_COUNT };
 
 static inline exact_sum exact_load(const uint64_t *words) { return (exact_sum)words[1] << 64 | words[0]; }
+
+/* Whether `samples` samples can have these sums of a pixel: none is below 0, and coverage, water and foam are at most one a sample (but for rounding). */
+static inline bool exact_sums_fit(const uint64_t *words, uint64_t samples)
+{
+    const exact_sum most = exact_count(samples) + (exact_count(samples) >> 10);
+    for (int i = 0; i < SUM_COUNT; i++)
+        if ((exact_signed)exact_load(words + 2 * i) < 0 || (i >= SUM_COVERAGE && exact_load(words + 2 * i) > most))
+            return false;
+    return true;
+}
 
 static inline void exact_add(uint64_t *words, exact_sum term)
 {

@@ -311,11 +311,17 @@ file_status sums_add(sums_file *file, uint32_t width, uint32_t height, uint64_t 
     unsigned char *packed = malloc((size_t)file->width * 8), crc[4];
     uint64_t *words = malloc(row * sizeof *words);
     file_status status = packed && words ? FILE_OK : file_error_errno(error, FILE_MEMORY, file->input.path, NULL, ENOMEM);
+    uint64_t samples = 0;
+    for (size_t i = 0; i < file->ranges.count; i++)
+        samples += file->ranges.items[i].count;
     for (uint32_t y = 0; y < file->height && status == FILE_OK; y++, sums += row) {
         memset(words, 0, row * sizeof *words);
         for (size_t word = 0; word < SUMS_WORDS && status == FILE_OK; word++)
             if (!add_words(file, packed, words + word))
                 status = unsound(&file->input, "its rows are damaged or it ends too early", error);
+        for (size_t i = 0; i < row && status == FILE_OK; i += SUMS_WORDS)
+            if (!exact_sums_fit(words + i, samples))
+                status = unsound(&file->input, "it holds sums that its samples cannot have", error);
         for (size_t i = 0; i < row; i += 2)
             exact_add(sums + i, exact_load(words + i));
     }

@@ -62,6 +62,6 @@ mgt_io_status mgt_scene_file_frame(const mgt_scene_file *file, uint32_t frame, m
     return MGT_IO_OK;
 }
 
-uint32_t mgt_scene_file_frame_count(const mgt_scene_file *file) { return (uint32_t)scene_file_frame_count(inner(file)); }
-double mgt_scene_file_fps(const mgt_scene_file *file) { return scene_file_fps(inner(file)); }
-const char *mgt_scene_file_warning(const mgt_scene_file *file) { return scene_file_warning(inner(file)); }
+uint32_t mgt_scene_file_frame_count(const mgt_scene_file *file) { return file ? (uint32_t)scene_file_frame_count(inner(file)) : 0; }
+double mgt_scene_file_fps(const mgt_scene_file *file) { return file ? scene_file_fps(inner(file)) : 0; }
+const char *mgt_scene_file_warning(const mgt_scene_file *file) { return file ? scene_file_warning(inner(file)) : ""; }

@@ -47,7 +47,7 @@ static const char *name_of(const char *const *names, int value)
 /* Writes the place of `name` to an enum, all of which are ints. */
 static bool find(const char *const *names, const char *name, void *value)
 {
-    for (int i = 0; name && names[i]; i++)
+    for (int i = 0; name && value && names[i]; i++)
         if (strcmp(names[i], name) == 0)
             return memcpy(value, &i, sizeof i), true;
     return false;
@@ -101,7 +101,7 @@ bool mgt_spreading_from_name(const char *name, mgt_spreading *spreading) { retur
 bool mgt_mixture_from_name(const char *name, mgt_mixture *kernels)
 {
     int place;
-    if (!find(kernels_names, name, &place))
+    if (!kernels || !find(kernels_names, name, &place))
         return false;
     *kernels = (mgt_mixture)kernels_values[place];
     return true;
@@ -111,7 +111,7 @@ const char *mgt_method_name(mgt_method method) { return (size_t)method < method_
 
 bool mgt_method_from_name(const char *name, mgt_method *method)
 {
-    for (size_t i = 0; name && i < method_count; i++)
+    for (size_t i = 0; name && method && i < method_count; i++)
         if (strcmp(method_rows[i].properties.name, name) == 0)
             return *method = (mgt_method)i, true;
     return false;

@@ -107,6 +107,17 @@ refused() { # CODE PATTERN PARTS… -- options
 }
 refused 66 'no part has the samples 16,16 of 48; .* --samples-range 16,16 makes it' a.sums c.sums
 refused 66 'gone.sums: .*No such file' a.sums gone.sums
+# Whole by its checksum, and no sums of samples: red below 0, and a coverage of thousands.
+python3 - <<'END'
+import struct, zlib
+data = open("a.sums", "rb").read()
+head = data[:15 + 4 + struct.unpack("<I", data[15:19])[0]]
+for name, words in (("red", (0, 1)), ("coverage", (7,))):
+    rows = b"".join(b"\x08" + b"\xff" * 8 * 33 if word in words else b"\0" for word in range(12)) + b"\0" * 12 * 18
+    whole = head + rows
+    open(name + ".sums", "wb").write(whole + struct.pack("<I", zlib.crc32(whole)))
+END
+for kind in red coverage; do refused 65 "^mangata: $kind.sums: is not a sound file of sums: it holds sums that its samples cannot have" $kind.sums b.sums c.sums; done
 refused 65 '^mangata: ac.sums: its samples 0,16 are in an earlier part as well' a.sums b.sums ac.sums
 refused 65 '^mangata: a.sums: it has seed 5, and this merge has 6' a.sums b.sums c.sums -- --seed 6
 refused 65 '^mangata: a.sums: it has samples 48, and this merge has 96' a.sums b.sums c.sums -- --time-samples 6

@@ -2,6 +2,8 @@
  *
  * Contexts: what creation accepts and resolves to, errors and log messages, progress and cancelling.
  */
+#include <pthread.h>
+
 #include "api_sea.h"
 
 typedef struct log_record {
@@ -258,11 +260,118 @@ static void progress_can_cancel(void **state)
     mgt_context_destroy(context);
 }
 
+/* What a callback gets from the context that calls it. */
+typedef struct inner_calls {
+    mgt_context *context;
+    mgt_scene scene;
+    mgt_target target;
+    mgt_pixel_info info;
+    int calls, refused;
+} inner_calls;
+
+static bool call_again(void *user, double fraction)
+{
+    inner_calls *inner = user;
+    (void)fraction;
+    inner->calls += 4;
+    inner->refused += mgt_render(inner->context, &inner->scene, &inner->target, 1) == MGT_ERROR_ARGUMENT;
+    inner->refused += mgt_inspect_pixel(inner->context, &inner->scene, 0, 0, &inner->info) == MGT_ERROR_ARGUMENT;
+    inner->refused += mgt_display(inner->context, &inner->scene, inner->target.pixels, &inner->target) == MGT_ERROR_ARGUMENT;
+    inner->refused += mgt_sum_samples(inner->context, &inner->scene, NULL) == MGT_ERROR_ARGUMENT;
+    return true;
+}
+
+/* A callback's calls are refused, and change nothing of the frame around them. */
+static void a_context_in_use_is_refused(void **state)
+{
+    (void)state;
+    static float pixels[SEA_WIDTH * SEA_HEIGHT], inner_pixels[SEA_WIDTH * SEA_HEIGHT], alone[SEA_WIDTH * SEA_HEIGHT];
+    mgt_wave waves[SEA_WAVES];
+    mgt_scene scene = sea_scene(waves);
+    scene.quality = (mgt_quality){.method = MGT_METHOD_REFERENCE, .spatial_samples = 8, .time_samples = 8};
+    inner_calls inner = {.scene = scene, .info = {.struct_size = sizeof inner.info}};
+    inner.target = sea_target(MGT_LAYER_COVERAGE, MGT_FORMAT_R32F, inner_pixels, 0);
+    mgt_context_desc desc;
+    mgt_context_desc_init(&desc, sizeof desc);
+    desc.threads = 2;
+    desc.progress = call_again;
+    desc.progress_user = &inner;
+    assert_int_equal(mgt_context_create(&inner.context, &desc), MGT_OK);
+    mgt_target target = sea_target(MGT_LAYER_COVERAGE, MGT_FORMAT_R32F, pixels, 0);
+    sea_render(inner.context, &scene, &target, 1);
+    assert_true(inner.calls > 0 && inner.refused == inner.calls);
+    mgt_context_destroy(inner.context);
+    mgt_context *context = sea_context(1, MGT_ISA_AUTO);
+    target.pixels = alone;
+    sea_render(context, &scene, &target, 1);
+    mgt_context_destroy(context);
+    assert_memory_equal(pixels, alone, sizeof alone);
+}
+
+/* One of four threads that share a context. */
+static void *share_context(void *user)
+{
+    mgt_wave waves[SEA_WAVES];
+    const mgt_scene scene = sea_scene(waves);
+    static _Thread_local float pixels[SEA_WIDTH * SEA_HEIGHT];
+    const mgt_target target = sea_target(MGT_LAYER_COVERAGE, MGT_FORMAT_R32F, pixels, 0);
+    for (int i = 0; i < 20; i++) {
+        const mgt_status status = mgt_render(user, &scene, &target, 1);
+        if (status != MGT_OK && status != MGT_ERROR_ARGUMENT)
+            return user;
+    }
+    return NULL;
+}
+
+static void threads_do_not_share_a_context(void **state)
+{
+    (void)state;
+    mgt_context *context = sea_context(2, MGT_ISA_AUTO);
+    pthread_t threads[4];
+    for (int i = 0; i < 4; i++)
+        assert_int_equal(pthread_create(&threads[i], NULL, share_context, context), 0);
+    for (int i = 0; i < 4; i++) {
+        void *failed = context;
+        assert_int_equal(pthread_join(threads[i], &failed), 0);
+        assert_null(failed);
+    }
+    mgt_context_destroy(context);
+}
+
+/* A host's mistakes that no status can answer. */
+static void missing_pointers_do_nothing(void **state)
+{
+    (void)state;
+    uint64_t sums[MGT_SUM_WORDS] = {1};
+    mgt_method method = MGT_METHOD_NONE;
+    mgt_scene scene;
+    mgt_sums_add(NULL, sums, 1);
+    mgt_sums_add(sums, NULL, 1);
+    assert_int_equal(sums[0], 1);
+    assert_false(mgt_method_from_name(NULL, &method));
+    assert_false(mgt_method_from_name("none", NULL));
+    assert_false(mgt_layer_from_name("color", NULL));
+    assert_false(mgt_refraction_from_name("liu", NULL));
+    assert_false(mgt_mixture_from_name("exact", NULL));
+    memset(&scene, 7, sizeof scene);
+    mgt_scene_init(&scene, SIZE_MAX);
+    mgt_quality_init(&scene.quality, SIZE_MAX);
+    assert_int_equal(((unsigned char *)&scene)[0], 7);
+    assert_int_equal(((unsigned char *)&scene.quality)[0], 7);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(creation_refuses_nonsense), cmocka_unit_test(creation_resolves),        cmocka_unit_test(texts_are_there),
-        cmocka_unit_test(enums_have_names_and_back), cmocka_unit_test(render_errors_are_logged), cmocka_unit_test(progress_can_cancel),
+        cmocka_unit_test(creation_refuses_nonsense),
+        cmocka_unit_test(creation_resolves),
+        cmocka_unit_test(texts_are_there),
+        cmocka_unit_test(enums_have_names_and_back),
+        cmocka_unit_test(render_errors_are_logged),
+        cmocka_unit_test(progress_can_cancel),
+        cmocka_unit_test(a_context_in_use_is_refused),
+        cmocka_unit_test(threads_do_not_share_a_context),
+        cmocka_unit_test(missing_pointers_do_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -282,7 +282,7 @@ static void bad_targets_are_refused(void **state)
     mgt_target many[17];
     for (int i = 0; i < 17; i++)
         many[i] = good;
-    refused(context, &scene, NULL, 1, "1 to 16");
+    refused(context, &scene, NULL, 1, "NULL");
     refused(context, &scene, many, 0, "1 to 16");
     refused(context, &scene, many, 17, "1 to 16");
     sea_render(context, &scene, many, 16);
@@ -303,8 +303,8 @@ static void bad_targets_are_refused(void **state)
     refused(context, &scene, &t, 1, "struct_size");
     t.struct_size = sizeof t + 1;
     refused(context, &scene, &t, 1, "struct_size");
-    static const ptrdiff_t strides[] = {12 * SEA_WIDTH - 4, -(12 * SEA_WIDTH - 4), 4, -4, 12 * SEA_WIDTH + 2, PTRDIFF_MIN + 1};
-    for (size_t i = 0; i + 1 < sizeof strides / sizeof *strides; i++) {
+    static const ptrdiff_t strides[] = {12 * SEA_WIDTH - 4, -(12 * SEA_WIDTH - 4), 4, -4, 12 * SEA_WIDTH + 2, PTRDIFF_MIN, PTRDIFF_MIN + 4, PTRDIFF_MAX - 3};
+    for (size_t i = 0; i < sizeof strides / sizeof *strides; i++) {
         t = good;
         t.row_stride = strides[i];
         refused(context, &scene, &t, 1, "row_stride");

@@ -193,6 +193,14 @@ static void what_has_no_sums_is_refused(void **state)
     assert_int_equal(mgt_render_sums(context, &scene, NULL, &target, 1), MGT_ERROR_ARGUMENT);
     assert_int_equal(mgt_render_sums(NULL, &scene, sums, &target, 1), MGT_ERROR_ARGUMENT);
     assert_int_equal(mgt_render_sums(context, &scene, sums, NULL, 1), MGT_ERROR_ARGUMENT);
+    for (int sum = 0; sum < SUM_COUNT; sum++) { /* what no samples sum up to: less than 0, and more than one a sample */
+        memset(sums, 0, sizeof sums);
+        sums[MGT_SUM_WORDS + 2 * sum] = UINT64_MAX;
+        sums[MGT_SUM_WORDS + 2 * sum + 1] = sum < SUM_COVERAGE ? UINT64_MAX : 0xffff;
+        assert_int_equal(mgt_render_sums(context, &scene, sums, &target, 1), MGT_ERROR_ARGUMENT);
+        assert_non_null(strstr(mgt_last_error(context), "the sums of pixel 1, 0 are not those of"));
+    }
+    memset(sums, 0, sizeof sums);
     scene.image.crop_width = scene.image.crop_height = 8;
     scene.post.glare = 0.1f;
     assert_int_equal(mgt_render_sums(context, &scene, sums, &target, 1), MGT_ERROR_UNSUPPORTED);
