@@ -7,7 +7,7 @@ import numpy as np
 
 from ._library import ffi, io, names
 from .rendering import render
-from .scenes import Document, Scene, as_scene, new_error, raise_io
+from .scenes import Document, Scene, as_scene, new_error, path_bytes, raise_io, without_nul
 
 _METRICS = names(io.mgt_metric_name)
 
@@ -39,7 +39,7 @@ def _measure(a: np.ndarray, b: np.ndarray, words: Optional[str], clip: bool, enc
     frames, desc.height, desc.width, desc.channels = a.shape
     desc.srgb_encoded = encoding == "srgb"
     desc.pixels_per_degree = pixels_per_degree
-    kept = ffi.new("char[]", words.encode()) if words is not None else ffi.NULL
+    kept = ffi.new("char[]", without_nul(words.encode())) if words is not None else ffi.NULL
     desc.metrics = kept
     pointers = [ffi.new("float *[]", [ffi.cast("float *", frame.__array_interface__["data"][0]) for frame in clip_]) for clip_ in (a, b)]
     scores = ffi.new("double[]", len(_METRICS))
@@ -131,7 +131,7 @@ def read(path: Union[str, os.PathLike], layer: Optional[str] = None) -> np.ndarr
     picture = ffi.new("mgt_io_picture *")
     picture.struct_size = ffi.sizeof("mgt_io_picture")
     error = new_error()
-    status = io.mgt_io_picture_read(picture, os.fspath(path).encode(), layer.encode() if layer else ffi.NULL, error)
+    status = io.mgt_io_picture_read(picture, path_bytes(path), without_nul(layer.encode()) if layer else ffi.NULL, error)
     if status:
         raise_io(status, error)
     # The array keeps the buffer, which keeps these pixels.

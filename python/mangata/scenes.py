@@ -33,6 +33,18 @@ def raise_io(status: int, error) -> None:
     raise SceneError(reason)
 
 
+def without_nul(data: bytes) -> bytes:
+    """What C reads to its end."""
+    if b"\0" in data:
+        raise ValueError("embedded null byte")
+    return data
+
+
+def path_bytes(path: Union[str, bytes, os.PathLike]) -> bytes:
+    """A file's name as the system has it."""
+    return without_nul(os.fsencode(path))
+
+
 def new_error():
     error = ffi.new("mgt_io_error *")
     io.mgt_io_error_init(error, ffi.sizeof("mgt_io_error"))
@@ -74,16 +86,16 @@ class Scene:
 
     def _open(self, kind: str, source: str, changes: Dict[str, Any], name: str) -> None:
         self._kind, self._source, self._changes, self._name = kind, source, changes, name
-        words = [ffi.new("char[]", f"{key}={_yaml(value)}".encode()) for key, value in changes.items()]
+        words = [ffi.new("char[]", without_nul(f"{key}={_yaml(value)}".encode())) for key, value in changes.items()]
         array = ffi.new("char *[]", words) if words else ffi.NULL
         error, out = new_error(), ffi.new("mgt_scene_file **")
-        data = source.encode()
+        data = path_bytes(source) if kind == "file" else source.encode()
         if kind == "file":
             status = io.mgt_scene_file_load(out, data, array, len(words), error)
         elif kind == "sea":
-            status = io.mgt_scene_file_sea(out, data, array, len(words), error)
+            status = io.mgt_scene_file_sea(out, without_nul(data), array, len(words), error)
         else:
-            status = io.mgt_scene_file_parse(out, data, len(data), name.encode(), array, len(words), error)
+            status = io.mgt_scene_file_parse(out, data, len(data), without_nul(name.encode()), array, len(words), error)
         if status:
             raise_io(status, error)
         self._file = ffi.gc(out[0], io.mgt_scene_file_free)

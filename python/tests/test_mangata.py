@@ -75,6 +75,30 @@ def test_bad_scenes_are_scene_errors(wrong):
         wrong()
 
 
+def test_names_end_where_they_end(tmp_path):
+    # A NUL would end a name of C early: another file, another value.
+    for wrong in (lambda: mangata.load(str(SIMPLE) + "\0.yaml"), lambda: mangata.load(SIMPLE, {"light.elevation_deg=3 #\0": 1}), lambda: mangata.sea(wind="9\0"), lambda: mangata.read("a\0.png"), lambda: mangata.Scene("mangata: 1", name="a\0b")):
+        with pytest.raises(ValueError, match="null"):
+            wrong()
+    odd = os.fsdecode(os.fsencode(tmp_path) + b"/\xff.yaml")
+    with open(odd, "w", encoding="ascii") as out:
+        out.write("mangata: 1\ntime: {frames: 7}\n")
+    assert mangata.load(odd).frames == 7
+
+
+def test_arrays_of_all_kinds(scene):
+    for answer in ({"points": np.zeros((4, 3))}, {"points": np.zeros(())}, {"points": [["a", "b"]]}, {"points": np.zeros((4, 2)), "answers": ["depth"]}, {"points": np.zeros((4, 2)), "least_wavelength": float("nan")}, {"points": np.zeros((4, 2)), "time": float("inf")}):
+        with pytest.raises((ValueError, mangata.MangataError)):
+            mangata.query(scene, **answer)
+    points = np.random.default_rng(1).uniform(-9, 9, (6, 4))
+    wanted = mangata.query(scene, np.ascontiguousarray(points[:, ::2]))["height"]
+    for same in (points[:, ::2], np.asfortranarray(points[:, ::2]), points[:, ::2].astype(">f8"), points[:, ::2].tolist()):
+        assert np.array_equal(mangata.query(scene, same)["height"], wanted)
+    assert np.isnan(mangata.query(scene, [[np.nan, 0], [np.inf, 0]])["height"]).all() and mangata.query(scene, np.zeros((0, 2)))["height"].shape == (0,)
+    with pytest.raises(ValueError):
+        mangata.trace(scene, np.zeros((2, 3)), np.zeros((3, 3)))
+
+
 def test_missing_file_is_missing():
     with pytest.raises(FileNotFoundError):
         mangata.load("/nowhere/scene.yaml")
