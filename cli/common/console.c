@@ -8,15 +8,15 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "scene/scene_text.h"
+
 /* A file's name may hold anything; a message stays one line and sends nothing odd to a terminal. */
 static void print_line(const char *prefix, const char *format, va_list arguments)
 {
-    char text[2048];
+    char text[2048], line[2048];
     vsnprintf(text, sizeof text, format, arguments);
-    for (char *p = text; *p; p++)
-        if ((unsigned char)*p < 0x20 || *p == 0x7f)
-            *p = '?';
-    fprintf(stderr, "%s%s\n", prefix, text);
+    scene_copy_line(line, sizeof line, text, strlen(text));
+    fprintf(stderr, "%s%s\n", prefix, line);
 }
 
 /* The same as {"event": "note", "text": …}. */

@@ -358,7 +358,8 @@ bool field_in_range(const field_row *field, double value)
 void field_range(const field_row *field, bool with_unit, char *out, size_t size)
 {
     short_number low = double_text(field->min), high = double_text(field->max);
-    const char *min = low.text, *max = high.text;
+    /* The largest of 64 bits is no double. */
+    const char *min = low.text, *max = field->type == FIELD_LARGE && field->max >= 0x1p64 ? "18446744073709551615" : high.text;
     const char *space = with_unit && field->unit != NULL ? " " : "";
     const char *unit = with_unit && field->unit != NULL ? field->unit : "";
     if (field->min == field->max)

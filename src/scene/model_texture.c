@@ -64,6 +64,8 @@ static decoded decode_png(const void *bytes, size_t length, const char *name, co
     if (!code)
         code = spng_decode_image(context, out.pixels, size, SPNG_FMT_RGBA8, 0);
     if (!code)
+        code = spng_decode_chunks(context); /* the checksum of what was decoded, and what follows */
+    if (!code)
         goto done;
     free(out.pixels);
     out.pixels = NULL;

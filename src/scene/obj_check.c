@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_CORNERS = 65536, KIND_COUNT = 3 };
+enum { MAX_CORNERS = 65536, MAX_PARTS = 65536, KIND_COUNT = 3 };
 
 /* In the order in which a corner "1/2/3" names them. */
 static const struct {
@@ -13,11 +13,21 @@ static const struct {
     int least, most; /* numbers on a line; colours may follow a place */
 } kinds[KIND_COUNT] = {{"v", "places", 3, 8}, {"vt", "texture coordinates", 1, 3}, {"vn", "normals", 3, 3}};
 
+/* What begins another piece of the model where its name is another one. */
+enum { PART_COUNT = 3 };
+static const char *const part_words[PART_COUNT] = {"o", "g", "usemtl"};
+
 typedef struct obj_reader {
     const char *path, *bytes, *at, *end;
     model_fault *fault;
     uint64_t counts[KIND_COUNT], totals[KIND_COUNT]; /* so far, and in the whole file */
     uint64_t triangles;
+    struct {
+        const char *word; /* the rest of the last line of this kind */
+        size_t length;
+    } names[PART_COUNT];
+    bool part_begins; /* since the last face */
+    int parts;        /* pieces with faces, each a mesh to the importer, whose time grows as their square */
 } obj_reader;
 
 static bool refuse(const obj_reader *r, const char *at, const char *what, const char *allowed)
@@ -127,8 +137,22 @@ static bool check_face(obj_reader *r)
         if (++corners > MAX_CORNERS)
             return refuse(r, word, "a face has more than 65536 corners", "3 to 65536");
     }
+    r->parts += r->part_begins || r->parts == 0;
+    r->part_begins = false;
+    if (r->parts > MAX_PARTS)
+        return refuse(r, r->at, "there are more than 65536 objects, groups and changes of material", "at most so many");
     r->triangles += corners > 2 ? (uint64_t)corners - 2 : 0;
     return r->triangles <= MGT_MAX_TRIANGLES || refuse(r, r->at, "there are more than 67108864 triangles", "at most so many");
+}
+
+static void read_part(obj_reader *r, int kind)
+{
+    size_t length;
+    const char *word = next_word(r, &length);
+    if (r->names[kind].word == NULL || r->names[kind].length != length || memcmp(r->names[kind].word, word, length) != 0)
+        r->part_begins = true;
+    r->names[kind].word = word;
+    r->names[kind].length = length;
 }
 
 /* Two rounds, as faces may name what follows them: counting, and checking. */
@@ -143,6 +167,9 @@ static bool read_lines(obj_reader *r, bool check)
                 r->counts[kind]++;
                 good = !check || check_numbers(r, kind);
             }
+        for (int kind = 0; check && kind < PART_COUNT; kind++)
+            if (is_word(word, length, part_words[kind]))
+                read_part(r, kind);
         if (check && is_word(word, length, "f"))
             good = check_face(r);
         if (!good)

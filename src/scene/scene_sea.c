@@ -180,7 +180,8 @@ void scene_wind_fault(spectrum_fault *fault)
                  "makes waves, after this fetch, whose slopes cannot be those of a clean sea; allowed: another wind or fetch, or water.spectrum");
     } else if (strcmp(fault->key, "wind") == 0 || strcmp(fault->key, "shortest") == 0) {
         fault->key = "speed";
-        snprintf(fault->text, sizeof fault->text, "makes waves, after this fetch, that are all shorter than %g m; allowed: a longer fetch, or a stronger wind",
+        snprintf(fault->text, sizeof fault->text,
+                 "makes waves, after this fetch and over this depth, that are all shorter than %g m; allowed: a longer fetch, deeper water, or a stronger wind",
                  4 * SPECTRUM_SHORTEST);
     }
 }

@@ -31,8 +31,15 @@ static size_t character_length(const unsigned char *text, size_t length)
     return overlong || surrogate || beyond ? 0 : count;
 }
 
-/* Copies text as one line of whole characters; returns how many bytes of the source went in. */
-static size_t copy_line(char *out, size_t size, const char *text, size_t length)
+/* Controls of three bytes that reorder what a terminal shows (U+200E, U+200F, U+202A … U+202E, U+2066 … U+2069), or end a line (U+2028, U+2029). */
+static bool is_hidden(const unsigned char *text)
+{
+    if (text[0] != 0xe2 || (text[1] != 0x80 && text[1] != 0x81))
+        return false;
+    return text[1] == 0x80 ? (text[2] >= 0x8e && text[2] <= 0x8f) || (text[2] >= 0xa8 && text[2] <= 0xae) : text[2] >= 0xa6 && text[2] <= 0xa9;
+}
+
+size_t scene_copy_line(char *out, size_t size, const char *text, size_t length)
 {
     size_t used = 0, at = 0;
     while (at < length) {
@@ -40,6 +47,7 @@ static size_t copy_line(char *out, size_t size, const char *text, size_t length)
         bool bad = count == 0 || (count == 1 && ((unsigned char)text[at] < 0x20 || text[at] == 0x7f));
         /* U+0080 … U+009F are control characters too */
         bad |= count == 2 && (unsigned char)text[at] == 0xc2 && (unsigned char)text[at + 1] < 0xa0;
+        bad |= count == 3 && is_hidden((const unsigned char *)text + at);
         size_t written = bad ? 1 : count;
         if (used + written >= size)
             break;
@@ -61,7 +69,7 @@ bool scene_error_set_va(scene_error *error, scene_error_kind kind, const char *f
     char line[2 * sizeof error->text];
     int length = vsnprintf(line, sizeof line, format, arguments);
     error->kind = kind;
-    copy_line(error->text, sizeof error->text, line, length < 0 ? 0 : strlen(line));
+    scene_copy_line(error->text, sizeof error->text, line, length < 0 ? 0 : strlen(line));
     return false;
 }
 
@@ -92,7 +100,7 @@ scene_error_kind scene_error_of_fault(regular_file_fault fault)
 scene_quote scene_quote_text(const char *text, size_t length)
 {
     scene_quote quote;
-    size_t taken = copy_line(quote.text, QUOTE_BYTES + 1, text, length);
+    size_t taken = scene_copy_line(quote.text, QUOTE_BYTES + 1, text, length);
     if (taken < length)
         strcat(quote.text, "...");
     return quote;
@@ -110,7 +118,7 @@ scene_name scene_file_name(const char *path)
         strcpy(name.text, "...");
     }
     size_t used = strlen(name.text);
-    copy_line(name.text + used, sizeof name.text - used, path, strlen(path));
+    scene_copy_line(name.text + used, sizeof name.text - used, path, strlen(path));
     return name;
 }
 

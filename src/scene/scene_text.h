@@ -38,6 +38,10 @@ bool scene_error_memory(scene_error *error);
 /* Of a file that cannot be read. */
 scene_error_kind scene_error_of_fault(regular_file_fault fault);
 
+/* Copies text to `out` of `size` bytes as one line of whole UTF-8 characters: what is none, and what controls a terminal, becomes '?'. Returns how many bytes of the
+ * text went in. */
+size_t scene_copy_line(char *out, size_t size, const char *text, size_t length);
+
 /* Control characters replaced, cut to about 60 characters with "..." where longer. */
 scene_quote scene_quote_text(const char *text, size_t length);
 

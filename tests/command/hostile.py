@@ -21,11 +21,44 @@ import zlib
 SANITIZED = os.environ.get("SANITIZED") == "1"
 SECONDS, MEGABYTES = (60, 1 << 20) if SANITIZED else (5, 500)
 BAD, MISSING, USAGE = 65, 66, 64
-rows = []  # name, files {name: bytes}, words of the command, exit code, pattern of the message
+rows = []  # name, files {name: bytes, Link, Folder or Pipe}, words of the command, exit code, pattern of the message
+
+
+class Link(str):
+    """A symbolic link to this."""
+
+    def make(self, path):
+        os.symlink(self, path)
+
+
+class Packed:
+    """A long content, packed: forks of a large process take long, and their memory counts as the command's."""
+
+    def __init__(self, content):
+        self.content = zlib.compress(content, 1)
+
+    def make(self, path):
+        with open(path, "wb") as out:
+            out.write(zlib.decompress(self.content))
+
+
+class Folder:
+    def make(self, path):
+        os.mkdir(path)
+
+
+class Pipe:
+    def make(self, path):
+        os.mkfifo(path)
+
+
+def kept(content):
+    content = content.encode() if isinstance(content, str) and not isinstance(content, Link) else content
+    return Packed(content) if isinstance(content, bytes) and len(content) > 1 << 16 else content
 
 
 def row(name, files, words, code, pattern):
-    rows.append((name, {k: v.encode() if isinstance(v, str) else v for k, v in files.items()}, words, code, pattern))
+    rows.append((name, {file: kept(content) for file, content in files.items()}, words, code, pattern))
 
 
 def check(name, file, content, pattern, code=BAD, more=None, key="mesh"):
@@ -287,6 +320,98 @@ for words, pattern in [
     row("words " + " ".join(w[:30] for w in words).replace("\x1b", "ESC"), {"s.yaml": "mangata: 1\n"}, words, (USAGE, BAD), pattern)
 
 
+# ---- of other kinds: encodings, numbers at their limits, texts that a terminal obeys, names of files ----
+
+S = {"s.yaml": "mangata: 1\nimage: {width: 8, height: 8}\n"}
+LONE = "frequency 0.1 Hz has one direction"
+for name, text, pattern in [
+        ("UTF-16", "\ufeffmangata: 1\n".encode("utf-16-le"), "1:1: not a text file"), ("UTF-32", "\ufeffmangata: 1\n".encode("utf-32-le"), "1:1: not a text file"), ("half a pair in UTF-8", b"mangata: 1\ndescription: \xed\xa0\x80\n", "2:14: not a text"),
+        ("a slash of two bytes", b"mangata: 1\ndescription: \xc0\xaf\n", "2:14: not a text"), ("NUL behind the end", b"mangata: 1\n\0x: [\n", "2:1: not a text"), ("U+202E in a key", "mangata: 1\n\u202eabc: 1\n", r'2:1: unknown key "\?abc"'),
+        ("U+2028 in a key", "mangata: 1\n\"a\u2028b\": 1\n", r'unknown key "a\?b"|2:'), ("U+2066 in a text", "mangata: 1\nsky: {model: \u2066black}\n", r'2:14: sky.model is \?black'), ("U+009B in a key", b"mangata: 1\nk\xc2\x9b31m: 1\n", r'2:1: unknown key "k\?31m"'),
+        ("escape in a key", 'mangata: 1\n"\\e[31mX": 1\n', r'2:1: unknown key "\?\[31mX"'), ("escape in a value", 'mangata: 1\nsky: {model: "\\e]0;a\\a"}\n', "2:14: sky.model"), ("line end in a value", 'mangata: 1\nsky: {model: "a\\nb"}\n', r'2:14: sky.model is the text "a\?b"'),
+        ("carriage returns alone", "mangata: 1\rimage: {width: 0}\r", "2:16: image.width is 0"), ("YAML 9.9", "%YAML 9.9\n---\nmangata: 1\n", "1:1: not valid"), ("a tag's prefix", "%TAG ! tag:x,2000:\n---\nmangata: !foo 1\n", "3:15: tags"), ("text behind the end", "mangata: 1\n...\nfoo\n", "2:1: a second"),
+        ("comments alone", "# nothing\n", "1:1: the file is empty"), ("an empty key", 'mangata: 1\n"": 1\n', '2:1: unknown key ""'), ("a mapping as key", "mangata: 1\n{a: 1}: 1\n", "2:1: a list or mapping"), ("merge key", "mangata: 1\nimage: {<<: {width: 3}}\n", "2:9: unknown key"),
+        ("a text as version", "mangata: '1'\n", "1:10: mangata is the text"), ("no version but a key", "mangata:\n", "1:1: mangata is empty"), ("nine aliases of nine", "mangata: 1\na: &a [x,x,x]\n" + "".join(f"{chr(98 + i)}: &{chr(98 + i)} [{','.join(['*' + chr(97 + i)] * 9)}]\n" for i in range(9)), "2:7: anchors"),
+        ("-0 pixels", "mangata: 1\nimage: {width: -0}\n", "2:16: image.width is -0"), ("least double", "mangata: 1\nimage: {width: 4.9e-324}\n", "2:16: image.width"), ("1e400", "mangata: 1\nlight: {elevation_deg: 1e400}\n", "2:24: light"), ("-inf", "mangata: 1\nlight: {elevation_deg: -.inf}\n", "2:24: light"),
+        ("400 digits", "mangata: 1\nimage: {width: " + "9" * 400 + "}\n", "2:16: image.width is 9+[.]{3};"), ("thousands by _", "mangata: 1\nimage: {width: 1_000}\n", "2:16"), ("a time", "mangata: 1\nimage: {width: 12:30:45}\n", "2:16"), ("Arabic digits", "mangata: 1\nimage: {width: ١٢}\n", "2:16"),
+        ("true", "mangata: 1\nimage: {width: true}\n", "2:16"), ("a number in quotes", "mangata: 1\nimage: {width: '3'}\n", "2:16: image.width is the text"), ("seed of 2^64", "mangata: 1\nquality: {method: ssaa, seed: 18446744073709551616}\n", "2:31: quality.seed is 18446744073709551616; allowed: a whole number, 0 to 18446744073709551615"),
+        ("seed of half", "mangata: 1\nquality: {method: ssaa, seed: .5}\n", "2:31"), ("camera a nanometre from its target", "mangata: 1\ncamera: {position: [1e-320, 4, 0], target: [1e-320, 4, 1e-9]}\n", "2:44: camera"), ("up of nan", "mangata: 1\ncamera: {up: [.nan, 1, 0]}\n", "2:15"),
+        ("path of 100000", "mangata: 1\ncamera: {path: [" + ",".join(f"{{time: {i}}}" for i in range(100000)) + "]}\n", "2:16: camera.path has 100000"), ("text of 15 MiB", "mangata: 1\ndescription: " + "x" * (15 << 20) + "\n", "2:14: a text is too long"), ("number of 15 MiB", "mangata: 1\nimage: {width: " + "1" * (15 << 20) + "}\n", "2:16: a text is too long"),
+        ("key of 15 MiB", "mangata: 1\n" + "a" * (15 << 20) + ": 1\n", "2:1: a text is too long"), ("900000 mappings", "mangata: 1\nobjects: [" + "{}," * 900000 + "{}]\n", "2:10: objects has 900001"), ("quotes of 10 MB", "mangata: 1\ndescription: '" + "''" * 5000000 + "'\n", "2:14: a text"),
+        ("a million dashes", "mangata: 1\nobjects:\n" + "- " * 1000000 + "\n", "3:63: nested too deep"), ("100000 question marks", "mangata: 1\n" + "? " * 100000 + "\n", "2:3: a list or mapping"), ("a pair's half in JSON", '{"mangata": 1, "description": "\\ud800"}', "1:32: not valid"), ("NUL in JSON", '{"mangata": 1, "description": "\\u0000"}', "1:31: a text holds a NUL"),
+        ("an empty name of a mesh", "mangata: 1\nobjects: [{mesh: ''}]\n", "2:12: objects"), ("mesh is the scene", "mangata: 1\nobjects: [{mesh: s.yaml}]\n", "2:18: .*another extension"), ("mesh is memory", "mangata: 1\nobjects: [{mesh: /proc/self/mem}]\n", "2:18: .*another extension"), ("texture of /proc", "mangata: 1\nobjects: [{shape: box, material: {texture: /proc/cpuinfo}}]\n", "2:44: .*neither PNG nor JPEG"),
+        ("scale 0", "mangata: 1\nobjects: [{shape: box, scale: 0}]\n", "2:31"), ("size of 1e-320", "mangata: 1\nobjects: [{shape: box, size: [1e-320, 1, 1]}]\n", "2:31"), ("turned by 1e308", "mangata: 1\nobjects: [{shape: box, rotation_deg: [1e308, 1, 1]}]\n", "2:39"), ("start 1e300", "mangata: 1\ntime: {start: 1e300}\n", "2:15"), ("fps 1e-320", "mangata: 1\ntime: {fps: 1e-320}\n", "2:13"),
+        ("wind 1e-320", "mangata: 1\nwater: {wind: {speed: 1e-320}}\n", "2:23"), ("water of 1e-300 m", "mangata: 1\nwater: {wind: {speed: 9, depth: 1e-300}}\n", "2:23: .*over this depth, that are all shorter.*deeper water"), ("fetch 1e-300", "mangata: 1\nwater: {wind: {speed: 9, fetch: 1e-300}}\n", "2:33"), ("seed -1", "mangata: 1\nwater: {wind: {speed: 9, seed: -1}}\n", "2:32")]:
+    row("scene of " + name, {"s.yaml": text}, ["scene", "check", "s.yaml"], BAD, f"^s.yaml:{pattern}" if re.match("[0-9]", pattern) else pattern)
+for name, words in [("long", "a" * 5000 + ".ply"), ("deep", "a/" * 2500 + "x.ply"), ("of two lines", '"a\\nb.ply"')]:
+    row(f"scene of a mesh's name {name}", {"s.yaml": f"mangata: 1\nobjects: [{{mesh: {words}}}]\n"}, ["scene", "check", "s.yaml"], MISSING, "s.yaml:2:18: objects.0..mesh: ")
+
+ZEROS = zlib.compress(bytes(100 << 20), 1)
+for name, data, pattern in [
+        ("filter 5", png(2, 2, data=zlib.compress(b"\5\0\0\0\0\0\0" * 2)), "invalid scanline filter"), ("two headers", png(2, 2)[:33] + png(2, 2)[8:], "invalid chunk position"), ("header late", png(2, 2)[:8] + chunk(b"tEXt", b"a\0b") + png(2, 2)[8:], "IHDR"),
+        ("another checksum of its data", png(2, 2)[:-16] + b"\0\0\0\0" + png(2, 2)[-12:], "checksum"), ("chunk of 2^31", png(2, 2)[:33] + struct.pack(">I", 1 << 31) + b"IDAT" + b"x" * 10, "length"), ("unknown critical chunk", png(2, 2)[:33] + chunk(b"ABCD", b"x") + png(2, 2)[33:], "critical"),
+        ("100000 texts", png(2, 2)[:33] + chunk(b"tEXt", b"render_hash\0x") * 100000 + png(2, 2)[33:], "limits"), ("profile of 100 MB", png(2, 2, more=chunk(b"iCCP", b"a\0\0" + ZEROS)), "limits"), ("text of 100 MB", png(2, 2, more=chunk(b"iTXt", b"a\0\1\0\0\0" + ZEROS)), "limits")]:
+    check("PNG of " + name, "x.png", data, "x.png: .*" + pattern, key="texture")
+    row("diff PNG of " + name, {"a.png": data, "b.png": png(2, 2)}, ["diff", "a.png", "b.png"], BAD, "^mangata: a.png: .*" + pattern)
+
+
+def exr(window=(0, 0, 0, 0), channels=None, version=2, tail=b""):
+    """An EXR file of one pixel, or one that says something else."""
+    channels = b"".join(n + b"\0" + struct.pack("<iB3xii", 2, 0, 1, 1) for n in (b"B", b"G", b"R")) + b"\0" if channels is None else channels
+    box = struct.pack("<4i", *window)
+    attributes = [(b"channels", b"chlist", channels), (b"compression", b"compression", b"\0"), (b"dataWindow", b"box2i", box), (b"displayWindow", b"box2i", box), (b"lineOrder", b"lineOrder", b"\0"),
+                  (b"pixelAspectRatio", b"float", struct.pack("<f", 1)), (b"screenWindowCenter", b"v2f", b"\0" * 8), (b"screenWindowWidth", b"float", struct.pack("<f", 1))]
+    head = b"\x76\x2f\x31\x01" + struct.pack("<I", version) + b"".join(n + b"\0" + t + b"\0" + struct.pack("<i", len(d)) + d for n, t, d in attributes) + b"\0"
+    return head + (struct.pack("<Qii3f", len(head) + 8, 0, 12, 1, 2, 3) if not tail else tail)
+
+
+def channel(kind, step):
+    return b"R\0" + struct.pack("<iB3xii", kind, 0, step, step) + b"\0"
+
+
+for name, data, pattern in [
+        ("window of 2^31", exr((0, 0, 2**31 - 1, 2**31 - 1)), "EXR"), ("window of all", exr((-2**31, -2**31, 2**31 - 1, 2**31 - 1)), "EXR"), ("window inside out", exr((5, 5, 0, 0)), "EXR"), ("30000 x 30000", exr((0, 0, 29999, 29999)), "900000000 pixels.*MANGATA_PIXELS"), ("a row of 2^30", exr((0, 0, 1 << 30, 0)), "EXR"),
+        ("5000 x 5000 without rows", exr((0, 0, 4999, 4999)), "EXR"), ("steps of 0", exr(channels=channel(2, 0)), "EXR"), ("steps of 2^31", exr(channels=channel(2, 2**31 - 1)), "EXR"),
+        ("numbers of kind 9", exr(channels=channel(9, 1)), "EXR"), ("version 3", exr(version=3), "EXR"), ("tiles that are none", exr(version=0x202), "EXR"), ("parts that are none", exr(version=0x1002), "EXR"),
+        ("a row beyond", exr(tail=struct.pack("<Q", 1 << 63) + b"\0" * 20), "EXR"), ("a row in the header", exr(tail=struct.pack("<Q", 8) + b"\0" * 20), "EXR"), ("a row of -1 bytes", exr(tail=struct.pack("<Qii", len(exr()) - 20, 0, -1) + b"\0" * 12), "EXR"), ("row 2^31", exr(tail=struct.pack("<Qii", len(exr()) - 20, 2**31 - 1, 12) + b"\0" * 12), "EXR"),
+        ("PFM with a comment", b"PF\n# a\n1 1\n-1.0\n" + b"\0" * 12, "PFM"), ("PFM of scale inf", b"PF\n1 1\ninf\n" + b"\0" * 12, "PFM"), ("PFM of 0x1", b"PF\n0x1 1\n-1.0\n" + b"\0" * 12, "PFM"), ("PFM of three sizes", b"PF\n1 1 1\n-1.0\n" + b"\0" * 12, "PFM"), ("PFM with line ends of two bytes", b"PF\r\n1 1\r\n-1.0\r\n" + b"\0" * 12, "PFM")]:
+    row("diff of " + name, {"a": data, "b.png": png(1, 1)}, ["diff", "a", "b.png"], BAD, "^mangata: a: .*" + pattern)
+
+for name, text, pattern in [
+        ("UTF-16", "0.1 0 1\n".encode("utf-16"), ":1:1: not a text"), ("NUL", b"0.1 0 1\n0.2\0 0 1\n", ":2:4: not a text"), ("1e-320 Hz", "1e-320 0 1\n2e-320 0 1\n", ":1:1: frequency"), ("1e300 Hz", "1e300 0 1\n2e300 0 1\n", ":1:1: frequency"), ("density 1e300", "0.1 0 1e300\n0.2 0 1\n", ":1:7: density"), ("all zero", "0.1 0 -0\n0.2 0 0\n", LONE),
+        ("direction 1e300", "0.1 1e300 1\n0.2 0 1\n", ":1:5: direction"), ("a frequency twice", "0.1 0 1\n0.1 0 1\n", "twice"), ("0 Hz", "0 0 1\n0.1 0 1\n", ":1:1: frequency"), ("-0.1 Hz", "-0.1 0 1\n", ":1:1: frequency"), ("hexadecimal", "0x1p-3 0 1\n", ":1:1: frequency"), ("decimal commas", "0,1 0 1\n", ":1:7: more than"), ("semicolons", "0.1;0;1\n", ":1:1: "),
+        ("carriage returns alone", "0.1 0 1\r0.2 0 1\r", ":1:9: more"), ("17 MiB", "0.1 0 1\n" * 2300000, "larger than 16 MiB"), ("six columns", "0.1 0 1 2 3 4\n", ":1:9: more"), ("NDBC of many nines", "#YY MM DD hh mm\n" + "9 " * 100000, ":2:1: there are fewer"), ("NDBC of brackets", "#YY MM DD hh mm Sep_Freq\n2026 1 1 1 1 0.1 1 ((((((0.1)\n", ":2:20: ")]:
+    row("buoy of " + name, {"x.txt": text}, ["waves", "--buoy", "x.txt", "-o", "o.yaml"], BAD, f"x.txt{pattern}" if pattern[0] == ":" else pattern)
+
+# Pieces of a model, whose number makes the importer slow; and lines that other programs obey.
+for name, text, code, pattern in [
+        ("100000 objects", V + "".join(f"o a{i}\nf 1 2 3\n" for i in range(100000)), BAD, "x.obj:131077:[0-9]+: there are more than 65536 objects"), ("200000 groups", V + "".join(f"g a{i}\nf 1 2 3\n" for i in range(200000)), BAD, "x.obj:131077:[0-9]+: there are more"),
+        ("a million names of one group", V + "g a\n" * 1000000 + "f 1 2 3\n", 0, ""), ("a command", "csh touch a\ncall x.obj\n" + V + "f 1 2 3\n", 0, ""), ("itself as material", "mtllib x.obj\n" + V + "f 1 2 3\n", 0, ""), ("a file above as material", "mtllib ../../../../etc/passwd\n" + V + "usemtl a\nf 1 2 3\n", 0, ""),
+        ("lines alone", V + "l 1 2\n", BAD, "x.obj:5:1: .*without a face"), ("UTF-16", (V + "f 1 2 3\n").encode("utf-16"), BAD, "x.obj:1:[0-9]+: a byte is zero"), ("v 1e38", "v 1e38 -1e38 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", BAD, "x.obj")]:
+    row("OBJ of " + name, {"s.yaml": "mangata: 1\nobjects:\n  - {mesh: x.obj}\n", "x.obj": text}, ["scene", "check", "s.yaml"], code, pattern)
+for name, text, code, pattern in [
+        ("20 million digits", HEAD + "1" * 20000000, BAD, "x.ply"), ("half a million comments", "ply\n" + "comment a\n" * 500000 + HEAD[4:] + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", 0, ""), ("a vertex at inf", HEAD + "inf 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", BAD, "x.ply"), ("a vertex at 1e7", HEAD + "1e7 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", BAD, "x.ply"), ("faces of two", HEAD + "0 0 0\n1 0 0\n0 1 0\n2 0 1\n", BAD, "x.ply"),
+        ("a list of -1", HEAD.replace("uchar", "char") + "0 0 0\n1 0 0\n0 1 0\n-1\n", BAD, "x.ply"), ("x twice", HEAD.replace("float y", "float x") + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", BAD, "x.ply"), ("2^32 vertices in binary", HEAD.replace("vertex 3", "vertex 4294967295").replace("ascii", "binary_little_endian"), BAD, "x.ply")]:
+    row("PLY of " + name, {"s.yaml": "mangata: 1\nobjects:\n  - {mesh: x.ply}\n", "x.ply": text}, ["scene", "check", "s.yaml"], code, pattern)
+
+LOOP = {"l.png": Link("m.png"), "m.png": Link("l.png"), "n": Link("n")}
+OUT = ["render", "s.yaml", "-o"]
+for name, files, words, code, pattern in [
+        ("no word", {}, [""], USAGE, ""), ("a line end", {}, ["\n"], USAGE, ""), ("no scene", {}, ["render", ""], (USAGE, MISSING, BAD), ""), ("an option of 100000 letters", {}, ["render", "--" + "a" * 100000], USAGE, "aaa"), ("two scenes", {}, OUT[:2] + ["s.yaml", "-o", "a.png"], USAGE, ""), ("no name of the output", {}, OUT + [""], USAGE, "-o"),
+        ("output is a folder", {}, OUT + ["d"], USAGE, "-o|d"), ("output in a folder that is none", {}, OUT + ["x/y.png"], 73, "x/y.png"), ("output under a file", {}, OUT + ["s.yaml/a.png"], 73, "s.yaml/a.png"), ("output in /proc", {}, OUT + ["/proc/a.png"], 73, "/proc/a.png"), ("output behind /dev/full", {}, OUT + ["/dev/full"], (USAGE, 73), ""),
+        ("output is a folder of pictures", {"e.png": Folder()}, OUT + ["e.png", "--overwrite"], 73, "e.png"), ("output a link to itself", LOOP, OUT + ["l.png"], 73, "l.png"), ("output in a link to itself", LOOP, OUT + ["n/a.png"], 73, "n/a.png"), ("scene a link to itself", LOOP, ["scene", "check", "n"], (BAD, MISSING), "n: "),
+        ("output a link to nothing", {"g.png": Link("/nowhere/x.png")}, OUT + ["g.png"], 73, "g.png"), ("output a pipe", {"f.png": Pipe()}, OUT + ["f.png"], 73, "f.png"), ("skips a pipe", {"f.png": Pipe()}, OUT + ["f.png", "--skip-existing"], 73, "f.png"), ("skips a folder", {"f.png": Folder()}, OUT + ["f.png", "--skip-existing"], 73, "f.png"),
+        ("a name of 300 letters", {}, OUT + ["a" * 300 + ".png"], USAGE, "aaa"), ("a path of 5000 letters", {}, OUT + ["a/" * 2500 + "x.png"], (USAGE, 73), ""), ("a path of 100000 letters", {}, OUT + ["a/" * 50000 + "x.png"], (USAGE, 73), ""), ("two numbers in a name", {}, OUT + ["a%04d%04d.png"], USAGE, "one frame number"), ("a number of 10^9 digits", {}, OUT + ["a%0999999999d.png"], USAGE, "-o"),
+        ("%*d", {}, OUT + ["a%*d.png"], USAGE, "-o"), ("frames twice", {}, OUT + ["a_%d.png", "--frames", "0,0"], USAGE, "twice"), ("frames in steps of 0", {}, OUT + ["a_%d.png", "--frames", "0-5:0"], USAGE, "step"), ("65535 x 65535", {}, OUT + ["a.png", "--size", "65535x65535"], (USAGE, BAD), "65535|size"), ("+4x4", {}, OUT + ["a.png", "--size", "+4x4"], USAGE, "size"),
+        ("crop of 2^32", {}, OUT + ["a.png", "--crop", "4294967295,0,2,1"], (USAGE, BAD), "crop"), ("1025 threads", {}, OUT + ["a.png", "--threads", "1025"], USAGE, "threads"), ("ssaa0", {}, OUT + ["a.png", "--method", "ssaa0"], USAGE, "ssaa"), ("method ff", {}, OUT + ["a.png", "--method", b"\xff"], USAGE, "method"),
+        ("set =1", {}, OUT + ["a.png", "--set", "=1"], (USAGE, BAD), "--set"), ("set a value of two lines", {}, OUT + ["a.png", "--set", "image.width=3\nmangata: 2"], (USAGE, BAD), "--set"), ("set 100000 brackets", {}, OUT + ["a.png", "--set", "x=" + "[" * 100000], (USAGE, BAD), "--set"), ("set 100000 dots", {}, OUT + ["a.png", "--set", "." * 100000 + "=1"], (USAGE, BAD), "--set"),
+        ("set wave 10^20", {}, OUT + ["a.png", "--set", "water.waves[99999999999999999999].amplitude=1"], (USAGE, BAD), "--set"), ("a sea of 1e300", {}, ["render", "--sea", "wind=1e300", "-o", "a.png"], (USAGE, BAD), "wind"), ("a sea of nothing", {}, ["render", "--sea", "", "-o", "a.png"], USAGE, "sea"), ("layer twice", {}, OUT + ["a.exr", "--layer", "color,color"], USAGE, "layer"),
+        ("mattes of 0 rays", {}, OUT + ["a.exr", "--exr", "cryptomatte:0"], USAGE, "exr|cryptomatte"), ("shard 3/3", {}, OUT + ["a_%d.png", "--shard", "3/3"], USAGE, "shard"), ("shard of 0", {}, OUT + ["a_%d.png", "--shard", "0/0"], USAGE, "shard"), ("nan samples", {}, OUT + ["a.png", "--samples", "nan"], USAGE, "samples"), ("checkpoints every 1e300 s", {}, OUT + ["a.png", "--checkpoint", "1e300"], USAGE, "checkpoint"),
+        ("diff of one device", {}, ["diff", "/dev/zero", "/dev/zero"], BAD, "regular"), ("diff of names with %s", {}, ["diff", "a%s.png", "b%s.png"], (USAGE, MISSING), ""), ("diff by nan", {"a.png": png(2, 2)}, ["diff", "a.png", "a.png", "--ppd", "nan"], USAGE, "ppd"), ("bench of 0 frames", {}, ["bench", "s.yaml", "--frames", "0"], USAGE, "frames"),
+        ("a scene's name that colours", {}, ["scene", "check", "\x1b]0;x\x07.yaml"], MISSING, r"\?\]0;x\?.yaml"), ("a scene's name in no encoding", {}, ["scene", "check", b"\xff.yaml"], MISSING, r"\?.yaml"), ("a scene's name from right to left", {}, ["scene", "check", "\u202eb.yaml"], MISSING, r"\?b.yaml"), ("a waves' file in a folder", {}, ["waves", "--wind", "9", "-o", "d"], USAGE, "d")]:
+    row("words: " + name, {**S, **files}, words, code, pattern)
+
+
 def run(command, words, folder):
     """Exit code, message, seconds of a core and megabytes, of the command and what it started."""
     with open(os.path.join(folder, ".out"), "w+b") as out, open(os.path.join(folder, ".err"), "w+b") as err:
@@ -311,7 +436,11 @@ def main():
         folder = tempfile.mkdtemp(prefix="mangata-hostile-")
         os.mkdir(os.path.join(folder, "d"))
         for file, content in files.items():
-            with open(os.path.join(folder, file), "wb") as out:
+            path = os.path.join(folder, file)
+            if not isinstance(content, bytes):
+                content.make(path)
+                continue
+            with open(path, "wb") as out:
                 out.write(content)
         before = sorted(os.listdir(folder))
         found, message, seconds, megabytes = run(sys.argv[1], words, folder)
@@ -321,7 +450,7 @@ def main():
             wrong.append(f"exit code {found} instead of {code}")
         if found != 0 and (message.count("\n") != 1 or not re.search(pattern, message)):
             wrong.append(f"says {message[:300]!r}, not {pattern!r}")
-        if re.search("[^\\x20-\\x7e\\n\\u00a0-\\U0010ffff]", message):
+        if re.search("[^\\x20-\\x7e\\n\\u00a0-\\U0010ffff]|[\\u2028-\\u202e\\u2066-\\u2069]", message):
             wrong.append("prints control characters")
         if seconds > SECONDS:
             wrong.append(f"takes {seconds:.1f} s of a core")

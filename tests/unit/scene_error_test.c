@@ -184,7 +184,7 @@ static void messages_say_what_where_and_what_is_allowed(void **state)
         {"mangata: 1\nwater: {wind: {speed: 20, fetch: 500}}\n",
          "s.yaml:2:34: water.wind.fetch is 500 m, too short for the spectrum in this wind; allowed: at least 2365 m"},
         {"mangata: 1\nwater: {wind: {speed: 0.5, fetch: 200}}\n",
-         "s.yaml:2:23: water.wind.speed makes waves, after this fetch, that are all shorter than 0.2 m; allowed: a longer fetch, or a stronger wind"},
+         "s.yaml:2:23: water.wind.speed makes waves, after this fetch and over this depth, that are all shorter than 0.2 m; allowed: a longer fetch, deeper water, or a stronger wind"},
         {"mangata: 1\npost: {exposure: 2, exposure_offset: 1}\n",
          "s.yaml:2:21: post.exposure_offset stands beside an exposure that is a number; allowed: only with exposure: auto"},
     };
