@@ -110,11 +110,14 @@ bool quality_options_apply(const quality_options *options, const mgt_quality *ba
         return false;
     if (!o.range_given)
         return true;
-    const uint64_t total = quality_samples(out);
-    if (!field_applies(quality_fields, spatial, out, false))
+    const uint64_t total = quality_range(out);
+    const char *whose = out->method == MGT_METHOD_ADAPTIVE ? "the picture" : "a pixel";
+    if (total == 0 && out->method == MGT_METHOD_ADAPTIVE)
+        return snprintf(wrong, size, "--samples-range: of adaptive, --adaptive podee with --slots has ranges"), false;
+    if (total == 0)
         return snprintf(wrong, size, "--samples-range: method %s takes one sample", method_name(out).text), false;
     if (o.part[1] > total)
-        return snprintf(wrong, size, "--samples-range %llu/%llu: a pixel has only %llu samples", (unsigned long long)o.part[0], (unsigned long long)o.part[1],
+        return snprintf(wrong, size, "--samples-range %llu/%llu: %s has only %llu samples", (unsigned long long)o.part[0], (unsigned long long)o.part[1], whose,
                         (unsigned long long)total),
                false;
     if (o.part[1]) {
@@ -122,8 +125,8 @@ bool quality_options_apply(const quality_options *options, const mgt_quality *ba
         q->sample_count = total * (o.part[0] + 1) / o.part[1] - q->sample_first;
     }
     if (q->sample_first >= total || q->sample_count > total - q->sample_first)
-        return snprintf(wrong, size, "--samples-range %llu,%llu: allowed is FIRST,COUNT within the %llu samples of a pixel",
-                        (unsigned long long)q->sample_first, (unsigned long long)q->sample_count, (unsigned long long)total),
+        return snprintf(wrong, size, "--samples-range %llu,%llu: allowed is FIRST,COUNT within the %llu samples of %s", (unsigned long long)q->sample_first,
+                        (unsigned long long)q->sample_count, (unsigned long long)total, whose),
                false;
     /* The whole range is the same picture as no range. */
     out->sample_first = q->sample_first;

@@ -222,10 +222,11 @@ static const option render_options[] = {
     {"stamp", 0, NULL, "record host, date, threads and instruction set in the output", .set = option_given, .offset = offsetof(render_request, stamp)},
     OPTION_PROGRESS(render_request),
     /* From here on not of merge. */
-    {"samples-range", 0, "FIRST,COUNT", "reference, ssaaN: take only these of the NxNxM samples; or I/N,\nthe part I of N equal ones", .set = option_quality,
+    {"samples-range", 0, "FIRST,COUNT",
+     "reference, ssaaN: take only these of the NxNxM samples; or I/N,\nthe part I of N equal ones. adaptive podee: of the M of --slots", .set = option_quality,
      .offset = offsetof(render_request, options)},
     {"checkpoint", 0, "SECONDS",
-     "reference, ssaaN: keep what is done in OUT.checkpoint about so\n"
+     "what has ranges: keep what is done in OUT.checkpoint about so\n"
      "often, from which the same command goes on after a kill",
      .set = set_checkpoint},
     {"backend", 0, "NAME", "cpu (default), gl, auto, or null (renders nothing: for tests)", .set = option_context, .offset = offsetof(render_request, context)},

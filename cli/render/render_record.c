@@ -162,7 +162,7 @@ void render_record_fill(render_record *record, const render_request *request, co
         add(record, "refraction", "%s", field_print(field_find(quality_fields, "refraction", 10), &q->refraction).text);
     add(record, render_is_film(request) ? "frames" : "frame", "%s", frames);
     add(record, "time", "%s", number_print(time).text);
-    add(record, "samples", "%" PRIu64, quality_samples(q));
+    add(record, "samples", "%" PRIu64, quality_range(q) ? quality_range(q) : quality_samples(q));
     if (q->sample_count)
         add(record, "samples_range", "%" PRIu64 ",%" PRIu64, q->sample_first, q->sample_count);
     add(record, "seed", "%" PRIu64, q->seed);
@@ -181,7 +181,7 @@ void render_record_fill_sums(render_record *record, const render_request *reques
     if (strcmp(record->entries[record->list.count - 1].key, "method_options") != 0)
         add(record, "method_options", "none");
     add(record, "frame", "%s", frame);
-    add(record, "samples", "%" PRIu64, quality_samples(q));
+    add(record, "samples", "%" PRIu64, quality_range(q));
     add(record, "seed", "%" PRIu64, q->seed);
     add(record, "size", "%ux%u", image->width, image->height);
     add(record, "crop", "%u,%u,%u,%u", image->crop_x, image->crop_y, image->crop_width, image->crop_height);

@@ -17,7 +17,7 @@ _Static_assert((int)SUMS_WORDS == (int)MGT_SUM_WORDS, "files hold what the libra
 /* The samples that the request asks for. */
 static sums_range wanted_range(const mgt_quality *q)
 {
-    return (sums_range){q->sample_first, q->sample_count ? q->sample_count : quality_samples(q) - q->sample_first};
+    return (sums_range){q->sample_first, q->sample_count ? q->sample_count : quality_range(q) - q->sample_first};
 }
 
 bool render_sums_wanted(const render_request *r) { return r->format == PICTURE_SUMS || r->part_count > 0 || r->checkpoint > 0; }
@@ -25,10 +25,11 @@ bool render_sums_wanted(const render_request *r) { return r->format == PICTURE_S
 int render_sums_check(const render_request *r, const mgt_scene *scene)
 {
     const char *what = r->part_count ? "merge" : r->format == PICTURE_SUMS ? "-o .sums" : "--checkpoint";
-    if (!quality_has_sums(&r->quality))
-        return console_error(EXIT_CODE_USAGE,
-                             "%s: method %s has no exact sums of samples; reference and ssaaN have, and other methods share out frames by --shard", what,
-                             method_name(&r->quality).text);
+    if (quality_range(&r->quality) == 0)
+        return console_error(
+            EXIT_CODE_USAGE,
+            "%s: method %s has no exact sums of samples; reference, ssaaN, and adaptive --adaptive podee --slots have, and others share out frames by --shard",
+            what, method_name(&r->quality).text);
     const mgt_image *image = &scene->image;
     const bool displayed = r->format != PICTURE_SUMS && r->format != PICTURE_EXR && r->format != PICTURE_PFM && r->layers[0] == MGT_LAYER_COLOR;
     if (displayed && scene->post.glare > 0 && (image->crop_width != image->width || image->crop_height != image->height))
@@ -163,7 +164,7 @@ static int read_parts(render_job *job, uint32_t frame, const render_record *reco
     return console_error(EXIT_CODE_NO_INPUT,
                          "frame %u: no part has the samples %" PRIu64 ",%" PRIu64 " of %" PRIu64 "; mangata render … -o PART.sums --samples-range %" PRIu64
                          ",%" PRIu64 " makes it",
-                         frame, gap.first, gap.count, quality_samples(&r->quality), gap.first, gap.count);
+                         frame, gap.first, gap.count, quality_range(&r->quality), gap.first, gap.count);
 }
 
 /* ---- checkpoints ---- */
@@ -265,7 +266,7 @@ void render_sums_done(const render_job *job, const char *path)
 
 /* ---- a frame ---- */
 
-bool render_sums_complete(const render_job *job) { return sums_ranges_gap(&job->ranges, (sums_range){0, quality_samples(&job->request->quality)}).count == 0; }
+bool render_sums_complete(const render_job *job) { return sums_ranges_gap(&job->ranges, (sums_range){0, quality_range(&job->request->quality)}).count == 0; }
 
 file_status render_sums_write(render_job *job, uint32_t frame, const char *path, render_record *record, const output_options *output, file_error *error)
 {

@@ -164,8 +164,8 @@ MGT_API mgt_status mgt_display(mgt_context *context, const mgt_scene *scene, con
  * several machines or several runs share ends as mgt_render() makes it. */
 enum { MGT_SUM_WORDS = 12 };
 
-/* Adds the samples quality.sample_first, … of the crop's pixels to `sums`, which begin as zeros. Always on the CPU, which the log of an OpenGL context
- * says ("render.cpu"). Methods: reference and ssaa; another one is MGT_ERROR_UNSUPPORTED. After a failure, or when it is cancelled, `sums` are useless. A context of MGT_BACKEND_NULL adds nothing. */
+/* Adds the samples quality.sample_first, … (of adaptive those of the slots) of the crop's pixels to `sums`, which begin as zeros. Always on the CPU, which the log of an OpenGL context
+ * says ("render.cpu"). Methods: reference, ssaa, and adaptive by podee with sample_slots; another one is MGT_ERROR_UNSUPPORTED. After a failure, or when it is cancelled, `sums` are useless. A context of MGT_BACKEND_NULL adds nothing. */
 MGT_API mgt_status mgt_sum_samples(mgt_context *context, const mgt_scene *scene, uint64_t *sums);
 
 /* Adds sums to sums, both of so many pixels; nothing where one is NULL. Any thread. */

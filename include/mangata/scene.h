@@ -174,8 +174,9 @@ typedef struct mgt_quality {
     mgt_method method;
     uint32_t spatial_samples;    /* N of N×N strata a pixel: ssaa, reference; 1 … 1024 */
     uint32_t time_samples;       /* M strata of the shutter: ssaa (1: the instant t), reference; 1 … 65536 */
-    uint64_t sample_first;       /* ssaa, reference: first of the N·N·M samples to take; the mean of those that are taken is returned */
-    uint64_t sample_count;       /* ssaa, reference: how many samples to take; 0: all that remain */
+    uint64_t sample_first;       /* ssaa, reference: first of the N·N·M samples to take; the mean of those that are taken is returned.
+                                    adaptive, podee: first of the sample_slots slots, which must be given, on the CPU */
+    uint64_t sample_count;       /* how many samples to take; 0: all that remain */
     uint64_t seed;               /* of the jitter */
     bool ndf_mean_drop;          /* podee-pixel: leave the mean slope B out of the path (P1 Eq. 4 as printed) */
     mgt_mixture kernels;         /* podee-*: how the elliptical Gaussian on the light plane is integrated */

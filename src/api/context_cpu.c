@@ -66,8 +66,9 @@ static mgt_status take_summed(mgt_context *context, const mgt_scene *scene, cons
         return status;
     if (!sums)
         return report_error(r, MGT_ERROR_ARGUMENT, "render.sums", "the sums are NULL");
-    if (!quality_has_sums(&own->quality))
-        return report_error(r, MGT_ERROR_UNSUPPORTED, "render.sums", "method %s has no sums of samples; reference and ssaa have",
+    if (quality_range(&own->quality) == 0)
+        return report_error(r, MGT_ERROR_UNSUPPORTED, "render.sums",
+                            "method %s has no sums of samples; reference, ssaa, and adaptive by podee with sample_slots have",
                             mgt_method_name(own->quality.method));
     if (context->backend == &gl_backend)
         announce_cpu(context, own->quality.method, "sums of samples are made");
@@ -102,7 +103,7 @@ static mgt_status check_sums(const reporter *r, const uint64_t *sums, const mgt_
     const region area = image_region(&scene->image);
     const size_t pixels = (size_t)area.width * area.height;
     const mgt_quality *q = &scene->quality;
-    const uint64_t samples = q->sample_count ? q->sample_count : quality_samples(q) - q->sample_first;
+    const uint64_t samples = q->sample_count ? q->sample_count : quality_range(q) - q->sample_first;
     for (size_t i = 0; i < pixels; i++)
         if (!exact_sums_fit(sums + i * 2 * SUM_COUNT, samples))
             return report_error(r, MGT_ERROR_ARGUMENT, "render.sums", "the sums of pixel %zu, %zu are not those of %llu samples", i % area.width,

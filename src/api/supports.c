@@ -20,6 +20,8 @@ static const char *gl_lacks_scheme(const mgt_scene *scene)
     const double pixels = (double)scene->image.width * scene->image.height, slots = q->sample_slots ? (double)q->sample_slots : podee_samples_of(q) * pixels;
     if (q->budget_ms > 0)
         return "a budget of milliseconds is kept";
+    if (q->adaptive == MGT_ADAPTIVE_PODEE && (q->sample_first || q->sample_count))
+        return "a range of samples is taken";
     return q->adaptive == MGT_ADAPTIVE_PODEE && slots > most_slots ? "more than 2^31 samples of a picture are taken" : NULL;
 }
 

@@ -115,10 +115,16 @@ static mgt_status check_quality(const reporter *r, const mgt_quality *q)
         if (q->method_option_room[i] != 0)
             return report_error(r, MGT_ERROR_SCENE, "render.scene", "quality.method_option_room[%zu] is %g; allowed is 0: this version has no such option", i,
                                 q->method_option_room[i]);
-    const uint64_t samples = quality_samples(q);
+    const bool slots = q->method == MGT_METHOD_ADAPTIVE && q->adaptive == MGT_ADAPTIVE_PODEE;
+    if (slots && q->sample_slots == 0 && (q->sample_first || q->sample_count))
+        return report_error(r, MGT_ERROR_SCENE, "render.scene", "quality.sample_first and sample_count: adaptive by podee needs sample_slots for them");
+    if (slots && q->sample_slots == 0)
+        return MGT_OK;
+    const uint64_t samples = slots ? quality_range(q) : quality_samples(q);
     if (q->sample_first >= samples || q->sample_count > samples - q->sample_first)
-        return report_error(r, MGT_ERROR_SCENE, "render.scene", "quality.sample_first %llu and sample_count %llu lie outside the %llu samples of a pixel",
-                            (unsigned long long)q->sample_first, (unsigned long long)q->sample_count, (unsigned long long)samples);
+        return report_error(r, MGT_ERROR_SCENE, "render.scene", "quality.sample_first %llu and sample_count %llu lie outside the %llu samples of %s",
+                            (unsigned long long)q->sample_first, (unsigned long long)q->sample_count, (unsigned long long)samples,
+                            slots ? "the picture" : "a pixel");
     return MGT_OK;
 }
 

@@ -15,6 +15,7 @@ typedef struct adaptive_frame {
     thread_pool *pool;
     tile_scratch **scratch;     /* one a worker */
     const tile_opened *objects; /* a tile each, in rows: what they see of objects; NULL: there are none */
+    picture_sums sums;          /* of scheme podee */
     /* Asked now and then on the caller's thread with the share done; false: stop with MGT_CANCELLED. */
     bool (*keep_going)(void *argument, double fraction);
     void *keep_going_argument;

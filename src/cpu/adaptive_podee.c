@@ -74,7 +74,9 @@ typedef struct detail_job {
     double *before; /* tiles + 1: sums of importance over tasks, of each tile at first, then of all tiles before it */
     double *water;  /* pixels of water in each tile */
     uint64_t slots;
-    double fraction; /* last told, on the caller's thread */
+    uint64_t first, end; /* the slots that are taken */
+    double most;         /* no sample's value is above it, so that sums fit */
+    double fraction;     /* last told, on the caller's thread */
     atomic_bool cancelled;
 } detail_job;
 
@@ -82,14 +84,9 @@ typedef struct detail_job {
 typedef struct tile_tasks {
     size_t count;
     uint16_t pixel[TILE_PIXELS];
-    double before[TILE_PIXELS]; /* the prefix sum of importance over the whole picture */
+    double before[TILE_PIXELS];      /* the prefix sum of importance over the whole picture */
+    uint64_t first[TILE_PIXELS + 1]; /* slots: a task has those from here to the next task's first one */
 } tile_tasks;
-
-/* What the slots of a tile have brought. */
-typedef struct tile_sums {
-    uint64_t samples[TILE_PIXELS];
-    double color[TILE_PIXELS][3], coverage[TILE_PIXELS], water[TILE_PIXELS];
-} tile_sums;
 
 typedef struct tile_corner {
     uint32_t left, top, width, height; /* as much of the tile as lies in the picture */
@@ -133,7 +130,11 @@ static void add_tiles(detail_job *job)
         water += job->water[tile];
     }
     job->before[job->tiles] = sum;
-    job->slots = podee_slots_of(&job->a->frame->scene->quality, water);
+    const mgt_quality *q = &job->a->frame->scene->quality;
+    job->slots = podee_slots_of(q, water);
+    job->first = q->sample_first;
+    job->end = q->sample_count ? q->sample_first + q->sample_count : job->slots;
+    job->most = EXACT_SUM_MOST / (double)job->slots;
 }
 
 static void list_tasks(const detail_job *job, size_t tile, tile_tasks *tasks)
@@ -150,6 +151,18 @@ static void list_tasks(const detail_job *job, size_t tile, tile_tasks *tasks)
             tasks->before[tasks->count++] = sum;
             sum += (double)job->out->importance[i];
         }
+    const double all = job->before[job->tiles];
+    for (size_t task = 0; task < tasks->count; task++)
+        tasks->first[task] = podee_first_slot(tasks->before[task], job->slots, all);
+    tasks->first[tasks->count] = podee_first_slot(job->before[tile + 1], job->slots, all);
+}
+
+/* How many slots of a task are taken. */
+static uint64_t samples_of_task(const detail_job *job, const tile_tasks *tasks, size_t task)
+{
+    const uint64_t first = tasks->first[task] > job->first ? tasks->first[task] : job->first;
+    const uint64_t end = tasks->first[task + 1] < job->end ? tasks->first[task + 1] : job->end;
+    return end > first ? end - first : 0;
 }
 
 /* ---- samples ---- */
@@ -162,11 +175,11 @@ static void see_tile(const detail_job *job, size_t tile, const wave_set *set, ti
     tile_find_estimates(a->kernels, &a->frame->data, waves, estimate);
 }
 
-/* A random place in the pixel for its next sample. */
-static void add_ray(const detail_job *job, const tile_corner *c, uint16_t pixel, tile_sums *sums, temporal_rays *rays)
+/* A random place in the pixel for its sample `number`. */
+static void add_ray(const detail_job *job, const tile_corner *c, uint16_t pixel, uint64_t number, temporal_rays *rays)
 {
     const uint32_t column = pixel % TILE_WIDTH, row = pixel / TILE_WIDTH;
-    const uint64_t key = hash_of_sample(job->a->frame->scene->quality.seed, sums->samples[pixel]++);
+    const uint64_t key = hash_of_sample(job->a->frame->scene->quality.seed, number);
     const uint64_t bits = hash_of_pixel(key, c->left + column, c->top + row);
     const size_t i = rays->count++;
     rays->pixel[i] = pixel;
@@ -174,16 +187,14 @@ static void add_ray(const detail_job *job, const tile_corner *c, uint16_t pixel,
     rays->row[i] = (float)row + (hash_unit(hash_of(bits)) - 0.5f);
 }
 
-static void add_results(const temporal_rays *rays, tile_sums *sums)
+static void add_results(const temporal_rays *rays, double most, sample_sums *sums)
 {
     const tile_pixels *p = &rays->pixels;
+    const float *const values[] = {p->red, p->green, p->blue, p->coverage, p->water};
     for (size_t i = 0; i < rays->count; i++) {
-        const uint16_t pixel = rays->pixel[i];
-        sums->color[pixel][0] += (double)p->red[i];
-        sums->color[pixel][1] += (double)p->green[i];
-        sums->color[pixel][2] += (double)p->blue[i];
-        sums->coverage[pixel] += (double)p->coverage[i];
-        sums->water[pixel] += (double)p->water[i];
+        uint64_t *words = sums->words + (size_t)rays->pixel[i] * SAMPLE_SUM_WORDS;
+        for (size_t plane = 0; plane <= SUM_WATER; plane++)
+            exact_add(words + 2 * plane, exact_term((double)values[plane][i], most));
     }
 }
 
@@ -200,7 +211,7 @@ static bool told(void *argument, double fraction)
 enum { BATCHES_BETWEEN_WORDS = 256 };
 
 /* The slots [first, end). False: cancelled. */
-static bool take_samples(detail_job *job, size_t tile, const tile_tasks *tasks, uint64_t first, uint64_t end, uint32_t worker, tile_sums *sums)
+static bool take_samples(detail_job *job, size_t tile, const tile_tasks *tasks, uint64_t first, uint64_t end, uint32_t worker)
 {
     const adaptive_frame *a = job->a;
     tile_scratch *s = a->scratch[worker];
@@ -217,12 +228,13 @@ static bool take_samples(detail_job *job, size_t tile, const tile_tasks *tasks, 
     for (uint64_t k = first; k < end;) {
         for (rays.count = 0; k < end && rays.count < TILE_PIXELS; k++) {
             const double place = podee_slot_place(k, job->slots, job->before[job->tiles]);
-            add_ray(job, &corner, tasks->pixel[podee_task_at(tasks->before, tasks->count, place)], sums, &rays);
+            const size_t task = podee_task_at(tasks->before, tasks->count, place);
+            add_ray(job, &corner, tasks->pixel[task], k - tasks->first[task], &rays);
         }
         if (a->objects)
             light_of_pixels(&a->objects[tile].light, rays.pixel, rays.count, &s->objects.light);
         a->kernels->baselines->temporal(&t, &rays);
-        add_results(&rays, sums);
+        add_results(&rays, job->most, &s->sums);
         if (++batches % BATCHES_BETWEEN_WORDS == 0 && worker == 0 && a->keep_going)
             told(job, job->fraction);
         if (atomic_load_explicit(&job->cancelled, memory_order_relaxed))
@@ -232,20 +244,23 @@ static bool take_samples(detail_job *job, size_t tile, const tile_tasks *tasks, 
 }
 
 /* Eq. 4 for every layer. A task without a slot stays as it is. */
-static void blend_pixel(const picture_planes *p, size_t i, const tile_sums *sums, uint16_t pixel, double weight)
+static void blend_pixel(const picture_planes *p, size_t i, const uint64_t *words, uint64_t samples, double weight)
 {
-    const double n = (double)sums->samples[pixel];
+    const double n = (double)samples;
     p->samples[i] = (float)n;
-    if (n == 0)
+    if (samples == 0)
         return;
+    double mean[SUM_COUNT];
+    for (size_t plane = 0; plane < SUM_COUNT; plane++)
+        mean[plane] = exact_mean(exact_load(words + 2 * plane), n);
     for (size_t c = 0; c < 3; c++)
-        p->color[3 * i + c] = (float)((1 - weight) * (double)p->color[3 * i + c] + weight * (sums->color[pixel][c] / n));
-    p->detail[i] = (float)(sums->coverage[pixel] / n);
-    p->coverage[i] = (float)((1 - weight) * (double)p->coverage[i] + weight * (sums->coverage[pixel] / n));
-    p->water[i] = (float)((1 - weight) * (double)p->water[i] + weight * (sums->water[pixel] / n));
+        p->color[3 * i + c] = (float)((1 - weight) * (double)p->color[3 * i + c] + weight * mean[SUM_RED + c]);
+    p->detail[i] = (float)mean[SUM_COVERAGE];
+    p->coverage[i] = (float)((1 - weight) * (double)p->coverage[i] + weight * mean[SUM_COVERAGE]);
+    p->water[i] = (float)((1 - weight) * (double)p->water[i] + weight * mean[SUM_WATER]);
 }
 
-static void blend_tile(const detail_job *job, size_t tile, const tile_tasks *tasks, const tile_sums *sums, const float *frequencies)
+static void blend_tile(const detail_job *job, size_t tile, const tile_tasks *tasks, const sample_sums *sums, const float *frequencies)
 {
     const tile_corner c = corner_of(job, tile);
     const double per_importance = (double)job->slots / job->before[job->tiles];
@@ -253,32 +268,42 @@ static void blend_tile(const detail_job *job, size_t tile, const tile_tasks *tas
         const uint16_t pixel = tasks->pixel[task];
         const size_t i = (size_t)(c.top + pixel / TILE_WIDTH) * job->out->width + c.left + pixel % TILE_WIDTH;
         const double weight = podee_detail_weight(per_importance * (double)job->out->importance[i], (double)frequencies[pixel]);
-        blend_pixel(job->out, i, sums, pixel, weight);
+        blend_pixel(job->out, i, sums->words + (size_t)pixel * SAMPLE_SUM_WORDS, samples_of_task(job, tasks, task), weight);
     }
+}
+
+/* Whether the picture's sums have pixels of the tile; true where there are none. */
+static bool is_summed(const detail_job *job, size_t tile)
+{
+    const picture_sums *sums = &job->a->sums;
+    const tile_corner c = corner_of(job, tile);
+    return (!sums->add && !sums->show) || (c.left < sums->crop.x + sums->crop.width && c.left + c.width > sums->crop.x &&
+                                           c.top < sums->crop.y + sums->crop.height && c.top + c.height > sums->crop.y);
 }
 
 static void sample_tile(void *argument, size_t tile, uint32_t worker)
 {
     detail_job *job = argument;
-    const double sum = job->before[job->tiles];
-    const uint64_t first = podee_first_slot(job->before[tile], job->slots, sum), end = podee_first_slot(job->before[tile + 1], job->slots, sum);
-    if (first == end)
-        return;
     const adaptive_frame *a = job->a;
+    const double sum = job->before[job->tiles];
+    const uint64_t own = podee_first_slot(job->before[tile], job->slots, sum), next = podee_first_slot(job->before[tile + 1], job->slots, sum);
+    const uint64_t first = own > job->first ? own : job->first, end = next < job->end ? next : job->end;
+    if (first >= end || !is_summed(job, tile))
+        return;
     tile_scratch *s = a->scratch[worker];
     tile_tasks tasks;
-    tile_sums sums;
     float frequencies[TILE_PIXELS];
-    memset(&sums, 0, sizeof sums);
+    sample_sums_clear(&s->sums);
     list_tasks(job, tile, &tasks);
     see_tile(job, tile, job->close, &s->close, s->close_estimate);
-    if (job->open)
+    if (job->open && !a->sums.show)
         see_tile(job, tile, job->open, &s->open, s->open_estimate);
-    if (!take_samples(job, tile, &tasks, first, end, worker, &sums))
+    if (!a->sums.show && !take_samples(job, tile, &tasks, first, end, worker))
         return;
+    sample_sums_exchange(&s->sums, &a->sums, (uint32_t)(tile % job->columns), (uint32_t)(tile / job->columns));
     const method_tile t = {.frame = &a->frame->data, .close = &s->close};
     a->kernels->baselines->frequencies(&t, job->close, frequencies);
-    blend_tile(job, tile, &tasks, &sums, frequencies);
+    blend_tile(job, tile, &tasks, &s->sums, frequencies);
 }
 
 static void place_waves(const detail_job *job)

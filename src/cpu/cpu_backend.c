@@ -586,8 +586,7 @@ mgt_status cpu_render_picture(cpu_state *s, const reporter *r, const mgt_scene *
                                .lean = s->lean,
                                .objects = objects ? s->objects : NULL,
                                .behind = pass && pass->behind,
-                               .sums = sums,
-                               .crop = job.crop};
+                               .sums = sums};
         if (status == MGT_OK)
             finished = run_loop(&job, TILE_WIDTH, TILE_HEIGHT, sums.add ? sum_tile : render_tile);
         if (objects && finished && !sums.add)
@@ -605,7 +604,7 @@ mgt_status cpu_render_picture(cpu_state *s, const reporter *r, const mgt_scene *
 
 mgt_status cpu_sum(void *state, const reporter *r, const mgt_scene *scene, uint64_t *sums)
 {
-    return cpu_render_picture(state, r, scene, NULL, 0, NULL, (picture_sums){.add = sums});
+    return cpu_render_summed(state, r, scene, NULL, 0, (picture_sums){.add = sums, .crop = image_region(&scene->image)});
 }
 
 mgt_status cpu_render_sums(void *state, const reporter *r, const mgt_scene *scene, const uint64_t *sums, const mgt_target *targets, size_t count)
@@ -614,7 +613,7 @@ mgt_status cpu_render_sums(void *state, const reporter *r, const mgt_scene *scen
     if (wants_glare(scene, targets, count) && (crop.width != scene->image.width || crop.height != scene->image.height))
         return report_error(r, MGT_ERROR_UNSUPPORTED, "render.glare",
                             "the glare of displayed colour needs the sums of the whole picture, and these are of a crop");
-    return cpu_render_picture(state, r, scene, targets, count, NULL, (picture_sums){.show = sums});
+    return cpu_render_summed(state, r, scene, targets, count, (picture_sums){.show = sums, .crop = crop});
 }
 
 mgt_status cpu_display(void *state, const reporter *r, const mgt_scene *scene, const float *radiance, const mgt_target *target)

@@ -9,6 +9,7 @@
 typedef struct picture_user {
     cpu_state *state;
     const reporter *r;
+    picture_sums sums; /* of method adaptive */
 } picture_user;
 
 static mgt_status make_picture(void *user, const mgt_scene *scene, const mgt_target *targets, size_t count, const frame_pass *pass)
@@ -142,7 +143,7 @@ static mgt_status adapt_picture(void *user, const mgt_scene *scene, const pictur
         free(objects.seen);
         return status;
     }
-    const adaptive_frame a = {&f, s->kernels, s->sky->table, s->pool, s->scratch, objects.seen, report_adaptive, s};
+    const adaptive_frame a = {&f, s->kernels, s->sky->table, s->pool, s->scratch, objects.seen, u->sums, report_adaptive, s};
     status = podee ? adaptive_podee_render(&a, out) : adaptive_render(&a, &s->adaptive, out);
     if (status == MGT_OK)
         put_objects_before(&objects, out);
@@ -153,12 +154,29 @@ static mgt_status adapt_picture(void *user, const mgt_scene *scene, const pictur
                         status == MGT_CANCELLED ? "rendering was cancelled" : "out of memory for method adaptive");
 }
 
+/* Adds samples of method adaptive, which needs the whole picture to know where they belong. */
+static mgt_status sum_adaptive(picture_user *u, const mgt_scene *scene)
+{
+    mgt_scene whole = *scene;
+    whole.image = (mgt_image){.width = scene->image.width, .height = scene->image.height};
+    picture_planes p = picture_planes_create(whole.image.width, whole.image.height, METHOD_PASS_ADAPTIVE);
+    if (!p.color)
+        return report_error(u->r, MGT_ERROR_MEMORY, "render.memory", "out of memory for %u x %u pixels", whole.image.width, whole.image.height);
+    const mgt_status status = adapt_picture(u, &whole, &p);
+    picture_planes_free(&p);
+    return status;
+}
+
+mgt_status cpu_render_summed(cpu_state *s, const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count, picture_sums sums)
+{
+    if (method_of(scene->quality.method)->way != METHOD_PASS)
+        return cpu_render_picture(s, r, scene, targets, count, NULL, sums);
+    picture_user user = {s, r, sums};
+    const picture_maker maker = {&user, make_picture, show_picture, luma_of_picture, run_rows, adapt_picture};
+    return sums.add ? sum_adaptive(&user, scene) : whole_frame_render(&maker, r, scene, targets, count);
+}
+
 mgt_status cpu_render(void *state, const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count)
 {
-    const method_row *row = method_of(scene->quality.method);
-    if (row->way != METHOD_PASS)
-        return cpu_render_picture(state, r, scene, targets, count, NULL, (picture_sums){0});
-    picture_user user = {state, r};
-    const picture_maker maker = {&user, make_picture, show_picture, luma_of_picture, run_rows, adapt_picture};
-    return whole_frame_render(&maker, r, scene, targets, count);
+    return cpu_render_summed(state, r, scene, targets, count, (picture_sums){0});
 }

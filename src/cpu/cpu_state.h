@@ -36,6 +36,9 @@ mgt_status cpu_render_picture(cpu_state *s, const reporter *r, const mgt_scene *
 /* True under water as well: there every pixel shows water from within. */
 static inline bool cpu_shows_objects(const frame *f) { return f->scene->object_count > 0 || f->under; }
 
+/* By any method that has sums. */
+mgt_status cpu_render_summed(cpu_state *s, const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count, picture_sums sums);
+
 /* mgt_render() by any method. */
 mgt_status cpu_render(void *state, const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count);
 

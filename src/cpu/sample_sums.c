@@ -26,6 +26,22 @@ void sample_sums_add(sample_sums *sums, const lane_kernels *kernels, const tile_
         sample_sums_settle(sums);
 }
 
+void sample_sums_exchange(sample_sums *sums, const picture_sums *picture, uint32_t tile_x, uint32_t tile_y)
+{
+    const region *crop = &picture->crop;
+    for (uint32_t i = 0; i < TILE_PIXELS && (picture->add || picture->show); i++) {
+        const uint32_t x = tile_x * TILE_WIDTH + i % TILE_WIDTH, y = tile_y * TILE_HEIGHT + i / TILE_WIDTH;
+        if (x < crop->x || y < crop->y || x - crop->x >= crop->width || y - crop->y >= crop->height)
+            continue;
+        const size_t at = ((size_t)(y - crop->y) * crop->width + x - crop->x) * SAMPLE_SUM_WORDS;
+        uint64_t *own = sums->words + (size_t)i * SAMPLE_SUM_WORDS;
+        if (picture->show)
+            memcpy(own, picture->show + at, SAMPLE_SUM_WORDS * sizeof *own);
+        for (size_t k = 0; picture->add && k < SAMPLE_SUM_WORDS; k += 2)
+            exact_add(picture->add + at + k, exact_load(own + k));
+    }
+}
+
 void sample_sums_mean(const sample_sums *sums, uint64_t count, tile_pixels *out)
 {
     float *const values[SUM_COUNT] = {out->red, out->green, out->blue, out->coverage, out->water, out->foam};

@@ -5,6 +5,14 @@
 
 #include "base/exact_sum.h"
 #include "cpu/lanes.h"
+#include "frame/targets.h"
+
+/* Sums of a crop's samples. At most one is not NULL. */
+typedef struct picture_sums {
+    uint64_t *add;        /* samples are added to these; no target is written */
+    const uint64_t *show; /* targets show their means; no sample is taken */
+    region crop;
+} picture_sums;
 
 enum { SAMPLE_SUM_WORDS = 2 * SUM_COUNT };
 
@@ -32,6 +40,9 @@ void sample_sums_add(sample_sums *sums, const lane_kernels *kernels, const tile_
 
 /* Moves all terms into the words. */
 void sample_sums_settle(sample_sums *sums);
+
+/* Reads or adds the words of that part of the tile (tile_x, tile_y) that lies in the crop, if the picture has sums. */
+void sample_sums_exchange(sample_sums *sums, const picture_sums *picture, uint32_t tile_x, uint32_t tile_y);
 
 /* The means over `count` samples, which is above 0. */
 void sample_sums_mean(const sample_sums *sums, uint64_t count, tile_pixels *out);

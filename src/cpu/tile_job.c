@@ -110,25 +110,6 @@ static bool take_samples(tile_place place, uint64_t first, uint64_t count, tile_
     return true;
 }
 
-/* The part of the tile that lies in the crop, row by row, from or to sums of the crop. */
-static void exchange_sums(tile_place place, sample_sums *sums)
-{
-    const tile_job *job = place.job;
-    const region *crop = &job->crop;
-    const uint32_t left = place.x * TILE_WIDTH, top = place.y * TILE_HEIGHT;
-    for (uint32_t i = 0; i < TILE_PIXELS; i++) {
-        const uint32_t x = left + i % TILE_WIDTH, y = top + i / TILE_WIDTH;
-        if (x < crop->x || y < crop->y || x - crop->x >= crop->width || y - crop->y >= crop->height)
-            continue;
-        const size_t at = ((size_t)(y - crop->y) * crop->width + x - crop->x) * SAMPLE_SUM_WORDS;
-        uint64_t *own = sums->words + (size_t)i * SAMPLE_SUM_WORDS;
-        if (job->sums.show)
-            memcpy(own, job->sums.show + at, SAMPLE_SUM_WORDS * sizeof *own);
-        for (size_t k = 0; job->sums.add && k < SAMPLE_SUM_WORDS; k += 2)
-            exact_add(job->sums.add + at + k, exact_load(own + k));
-    }
-}
-
 static void render_samples(tile_place place, tile_scratch *scratch)
 {
     const tile_job *job = place.job;
@@ -137,8 +118,7 @@ static void render_samples(tile_place place, tile_scratch *scratch)
     sample_sums_clear(&scratch->sums);
     if (!job->sums.show && !take_samples(place, q->sample_first, count, scratch))
         return;
-    if (job->sums.show || job->sums.add)
-        exchange_sums(place, &scratch->sums);
+    sample_sums_exchange(&scratch->sums, &job->sums, place.x, place.y);
     if (!job->sums.add)
         sample_sums_mean(&scratch->sums, count, &scratch->pixels);
 }

@@ -6,7 +6,6 @@
 #include "cpu/refraction.h"
 #include "cpu/sample_sums.h"
 #include "frame/frame_waves.h"
-#include "frame/targets.h"
 
 /* What a worker needs while it renders a tile; about 1.4 MiB, of which waves touch what the scene has. */
 typedef struct tile_scratch {
@@ -27,12 +26,6 @@ typedef struct tile_wants {
     bool surface; /* depth or normal */
 } tile_wants;
 
-/* Sums of the crop's samples (base/exact_sum.h). At most one is not NULL. */
-typedef struct picture_sums {
-    uint64_t *add;        /* samples are added to these; no target is written */
-    const uint64_t *show; /* targets show their means; no sample is taken */
-} picture_sums;
-
 /* One frame's tiles. */
 typedef struct tile_job {
     const frame *frame;
@@ -48,7 +41,6 @@ typedef struct tile_job {
     refraction *objects;         /* prepared for the frame; NULL: the scene has none */
     bool behind;                 /* objects in front of the water are left out */
     picture_sums sums;           /* of methods that take samples */
-    region crop;                 /* whose sums they are */
 } tile_job;
 
 /* Whether any pixel of the tile can see water. */

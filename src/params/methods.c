@@ -147,7 +147,12 @@ bool method_is_sampled(mgt_method method) { return method_rows[method].way == ME
 
 uint64_t quality_samples(const mgt_quality *q) { return (uint64_t)q->spatial_samples * q->spatial_samples * q->time_samples; }
 
-bool quality_has_sums(const mgt_quality *quality) { return method_is_sampled(quality->method); }
+uint64_t quality_range(const mgt_quality *q)
+{
+    if (q->method == MGT_METHOD_ADAPTIVE)
+        return q->adaptive == MGT_ADAPTIVE_PODEE ? q->sample_slots : 0;
+    return method_is_sampled(q->method) ? quality_samples(q) : 0;
+}
 
 enum { MOST_STRATA = 1024 };
 

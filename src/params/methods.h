@@ -53,8 +53,8 @@ const method_row *method_of(mgt_method method);
 bool method_is_sampled(mgt_method method);
 /* Samples of a pixel, of a method that takes some. */
 uint64_t quality_samples(const mgt_quality *quality);
-/* Whether mgt_sum_samples() knows its method. */
-bool quality_has_sums(const mgt_quality *quality);
+/* How many samples a range is taken from, those of a pixel or, of adaptive, the slots of the picture. 0: there are no ranges, and no sums. */
+uint64_t quality_range(const mgt_quality *quality);
 
 /* A name such as "mangata" or "ssaa4", with the method's default numbers of samples; false: there is none. */
 bool method_from_name(const char *name, mgt_quality *quality);

@@ -27,6 +27,7 @@ static void decide_method(void *parent)
 #define LARGEST 18446744073709551615.0
 #define ONE(place) (UINT64_C(1) << (place))
 #define SAMPLED "method", ONE(MGT_METHOD_SSAA) | ONE(MGT_METHOD_REFERENCE), true
+#define RANGED "method", ONE(MGT_METHOD_SSAA) | ONE(MGT_METHOD_REFERENCE) | ONE(MGT_METHOD_ADAPTIVE), true
 #define PODEE "method", ONE(MGT_METHOD_PODEE_UNIFORM) | ONE(MGT_METHOD_PODEE_PIXEL)
 #define ADAPTIVE "method", ONE(MGT_METHOD_ADAPTIVE)
 #define ALONG "adaptive", ONE(MGT_ADAPTIVE_PODEE)
@@ -41,9 +42,10 @@ const field_row quality_fields[] =
       .absent = "8 for reference, 4 for ssaa", .member = "spatial_samples", .when = {{SAMPLED}}},
      {"time_samples", FIELD_COUNT, MEMBER(time_samples), 0, 1, 65536, NULL, .doc = "samples of the open shutter", .preset = 1,
       .absent = "8 for reference, 1 for ssaa", .label = "M", .when = {{SAMPLED}}},
-     {"sample_first", FIELD_LARGE, MEMBER(sample_first), FIELD_NO_FLAG, 0, LARGEST, NULL, .doc = "first of the samples that are taken", .when = {{SAMPLED}}},
+     {"sample_first", FIELD_LARGE, MEMBER(sample_first), FIELD_NO_FLAG, 0, LARGEST, NULL,
+      .doc = "first of the samples that are taken; of adaptive, of the slots of podee", .when = {{RANGED}}},
      {"sample_count", FIELD_LARGE, MEMBER(sample_count), FIELD_NO_FLAG, 0, LARGEST, NULL, .doc = "how many samples are taken", .absent = "all that remain",
-      .when = {{SAMPLED}}},
+      .when = {{RANGED}}},
      {"seed", FIELD_LARGE, MEMBER(seed), 0, 0, LARGEST, NULL, .doc = "seed of the jitter"},
      {"ndf_mean", FIELD_SWITCH, MEMBER(ndf_mean_drop), 0, .doc = "add the mean slope of the filtered waves, or drop it as printed in the paper",
       .choices = mean_words, .member = "ndf_mean_drop", .when = {{"method", ONE(MGT_METHOD_PODEE_PIXEL), true}}},

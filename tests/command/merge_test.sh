@@ -44,30 +44,33 @@ for i in 0 1 2; do works render "$sunset" "${cells[@]}" -o l$i.sums --samples-ra
 works merge "$sunset" l?.sums "${cells[@]}" -o cells_merged.exr --layer color --layer coverage --quiet
 same cells.exr cells_merged.exr
 
-# Point samples as well, of a sea and of what stands in the water; where tiles are cut by a crop.
+# Point samples as well, of a sea and of what stands in the water.
 for scene in sunset.json pool.yaml; do
-    points=(--method ssaa3 --time-samples 2 --size 40x23) # 18 samples
-    works render "$SOURCE/scenes/$scene" "${points[@]}" -o points.exr --layer all --quiet --overwrite
-    works render "$SOURCE/scenes/$scene" "${points[@]}" -o points.png --quiet --overwrite
-    for cut in '0 1 18' '0 5 11 18'; do
-        rm -f s_*
-        read -ra at <<<"$cut"
-        for ((i = 1; i < ${#at[@]}; i++)); do
-            works render "$SOURCE/scenes/$scene" "${points[@]}" -o "s_$i.sums" --samples-range "${at[i - 1]},$((at[i] - at[i - 1]))" --quiet --isa "$([[ $i == 1 ]] && echo scalar || echo auto)"
-        done
-        for kind in exr png; do
-            arguments=(-o points_merged.$kind)
-            [[ $kind == png ]] || arguments+=(--layer all)
-            works merge "$SOURCE/scenes/$scene" s_*.sums "${points[@]}" "${arguments[@]}" --quiet --overwrite
-            same points.$kind points_merged.$kind
-        done
-    done
+    points=("$SOURCE/scenes/$scene" --method ssaa3 --time-samples 2 --size 40x23 --quiet --overwrite) # 18 samples
+    works render "${points[@]}" -o points.exr --layer all
+    at=(0 1 7 18)
+    for i in 1 2 3; do works render "${points[@]}" -o s_$i.sums --samples-range "${at[i - 1]},$((at[i] - at[i - 1]))" --isa "$([[ $i == 1 ]] && echo scalar || echo auto)"; done
+    works merge "${points[@]}" s_?.sums -o points_merged.exr --layer all
+    same points.exr points_merged.exr
 done
-points=(--method ssaa2 --time-samples 3 --size 70x40 --set post.glare=0 --crop 30,14,21,9)
-works render "$sunset" "${points[@]}" -o points.png --quiet --overwrite
-for i in 0 1 2; do works render "$sunset" "${points[@]}" -o t$i.sums --samples-range $i/3 --quiet; done
-works merge "$sunset" t?.sums "${points[@]}" -o points_merged.png --quiet --overwrite
-same points.png points_merged.png
+
+# Slots of the paper's adaptive scheme.
+slots=("$SOURCE/scenes/hull.yaml" --method adaptive --adaptive podee --slots 5003 --size 49x27 --quiet)
+works render "${slots[@]}" -o slots.exr --layer all
+at=(0 1 1700 5003)
+for i in 1 2 3; do works render "${slots[@]}" -o u_$i.sums --samples-range "${at[i - 1]},$((at[i] - at[i - 1]))"; done
+works merge "${slots[@]}" u_?.sums -o slots_merged.exr --layer all
+same slots.exr slots_merged.exr
+
+# A crop that cuts tiles.
+for method in 'ssaa2 --time-samples 3' 'adaptive --adaptive podee --slots 5003'; do
+    read -ra words <<<"$method"
+    cut=("$sunset" --method "${words[@]}" --size 70x40 --set post.glare=0 --crop 30,14,21,9 --quiet --overwrite)
+    works render "${cut[@]}" -o cut.png
+    for i in 0 1; do works render "${cut[@]}" -o t$i.sums --samples-range $i/2; done
+    works merge "${cut[@]}" t?.sums -o cut_merged.png
+    same cut.png cut_merged.png
+done
 
 # Frames: a numbered part stands for one of each frame. Films as well.
 clip=(--method reference --spatial 1 --time-samples 3 --size 12x8 --frames 0-2)
@@ -139,7 +142,11 @@ works merge "$sunset" glare.sums -o glare.exr "${glare[@]}" --quiet
 
 # What a file of sums cannot be asked for.
 bad() { expect 64 "$1" render "$sunset" -o bad.sums "${@:2}"; }
-bad 'method mangata has no exact sums of samples; reference and ssaaN have'
+bad 'method mangata has no exact sums of samples; reference, ssaaN, and adaptive --adaptive podee --slots have'
+bad 'method adaptive has no exact sums of samples' --method adaptive --adaptive podee
+bad '--samples-range: of adaptive, --adaptive podee with --slots has ranges' --method adaptive --samples-range 0/2
+bad '--samples-range 0/10: the picture has only 9 samples' --method adaptive --adaptive podee --slots 9 --samples-range 0/10
+bad '--samples-range 5,5: allowed is FIRST,COUNT within the 9 samples of the picture' --method adaptive --adaptive podee --slots 9 --samples-range 5,5
 bad '--layer is for the mangata merge that makes a picture' --method reference --layer color
 bad 'leave out --backend gl' --method reference --backend gl
 bad '--samples-range 3/3: allowed is FIRST,COUNT .*, or I/N' --method reference --samples-range 3/3

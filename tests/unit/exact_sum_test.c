@@ -171,6 +171,10 @@ static void parts_make_the_bytes_of_the_whole(void **state)
     compare_parts(context, &scene, 20);
     scene.foam = scene.water.choppiness = 0;
     compare_parts(context, &scene, 20);
+    scene.quality.method = MGT_METHOD_ADAPTIVE;
+    scene.quality.adaptive = MGT_ADAPTIVE_PODEE;
+    scene.quality.sample_slots = 1999;
+    compare_parts(context, &scene, 1999);
     mgt_context_destroy(context);
 }
 
@@ -187,7 +191,20 @@ static void what_has_no_sums_is_refused(void **state)
     assert_int_equal(mgt_sum_samples(context, &scene, sums), MGT_ERROR_UNSUPPORTED);
     assert_non_null(strstr(mgt_last_error(context), "method mangata has no sums"));
     assert_int_equal(mgt_render_sums(context, &scene, sums, &target, 1), MGT_ERROR_UNSUPPORTED);
+    scene.quality.method = MGT_METHOD_ADAPTIVE;
+    scene.quality.adaptive = MGT_ADAPTIVE_PODEE;
+    scene.quality.sample_first = 3;
+    assert_int_equal(mgt_render(context, &scene, &target, 1), MGT_ERROR_SCENE);
+    assert_non_null(strstr(mgt_last_error(context), "adaptive by podee needs sample_slots"));
+    scene.quality.sample_slots = 4;
+    assert_int_equal(mgt_render(context, &scene, &target, 1), MGT_OK);
+    assert_false(mgt_supports(MGT_BACKEND_GL, &scene, MGT_LAYER_COLOR));
+    scene.quality.sample_first = 4;
+    assert_int_equal(mgt_render(context, &scene, &target, 1), MGT_ERROR_SCENE);
+    scene.quality.sample_first = scene.quality.sample_slots = 0;
+    assert_int_equal(mgt_sum_samples(context, &scene, sums), MGT_ERROR_UNSUPPORTED);
     scene.quality.method = MGT_METHOD_REFERENCE;
+    scene.quality.adaptive = MGT_ADAPTIVE_CELLS;
     assert_int_equal(mgt_sum_samples(context, &scene, NULL), MGT_ERROR_ARGUMENT);
     assert_int_equal(mgt_sum_samples(NULL, &scene, sums), MGT_ERROR_ARGUMENT);
     assert_int_equal(mgt_render_sums(context, &scene, NULL, &target, 1), MGT_ERROR_ARGUMENT);
