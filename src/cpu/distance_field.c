@@ -6,6 +6,7 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* In voxels: how far from a triangle points know it exactly, which is further than the corners of any cell that it crosses; and the farthest that a
  * point of a triangle lies from the nearest point of the grid. */
@@ -127,28 +128,28 @@ static void enter_layers(void *argument, size_t index, uint32_t worker)
         job->squares[i] = f->distance[i] <= half_diagonal * f->voxel ? 0 : FLT_MAX;
 }
 
-/* Room for the lower envelope of one line's parabolas. */
-typedef struct envelope {
-    float *square, *from; /* of the line, and where each parabola of the envelope begins to count */
-    int32_t *triangle;
-    uint32_t *place;
-} envelope;
+enum { BESIDE = 16 }; /* lines that are moved to and fro together: where they run across the memory's order, a line of the cache holds them all */
 
-static void transform_line(build_job *job, const envelope *e, size_t start, size_t step, uint32_t length)
+/* Some lines, one after the other, and room for the lower envelope of one line's parabolas. */
+typedef struct line_room {
+    float *square, *from; /* of all lines; where each parabola of the envelope begins to count */
+    int32_t *triangle;    /* of all lines */
+    uint32_t *place;
+    float *lowest;    /* of all lines: the envelope, … */
+    int32_t *nearest; /* … and the triangle that it belongs to */
+} line_room;
+
+static void transform_line(const line_room *e, const float *square, const int32_t *triangle, size_t first, uint32_t length)
 {
-    float *squares = job->squares;
-    int32_t *triangles = job->field->triangle;
     int count = 0;
     for (uint32_t q = 0; q < length; q++) {
-        e->square[q] = squares[start + q * step];
-        e->triangle[q] = triangles[start + q * step];
-        if (e->square[q] == FLT_MAX)
+        if (square[q] == FLT_MAX)
             continue;
         float from = -FLT_MAX;
         while (count > 0) {
             const uint32_t p = e->place[count - 1];
             const float fp = (float)p, fq = (float)q;
-            from = (e->square[q] + fq * fq - e->square[p] - fp * fp) / (2 * (fq - fp));
+            from = (square[q] + fq * fq - square[p] - fp * fp) / (2 * (fq - fp));
             if (from > e->from[count - 1])
                 break;
             count--;
@@ -157,17 +158,45 @@ static void transform_line(build_job *job, const envelope *e, size_t start, size
         e->from[count] = count ? from : -FLT_MAX;
         count++;
     }
-    if (count == 0)
-        return;
     int at = 0;
     for (uint32_t q = 0; q < length; q++) {
         while (at + 1 < count && e->from[at + 1] < (float)q)
             at++;
-        const float d = (float)q - (float)e->place[at];
-        squares[start + q * step] = e->square[e->place[at]] + d * d;
-        if (job->field->distance[start + q * step] == FLT_MAX)
-            triangles[start + q * step] = e->triangle[e->place[at]];
+        const uint32_t p = count > 0 ? e->place[at] : q;
+        const float d = (float)q - (float)p;
+        e->lowest[first + q] = square[p] + d * d;
+        e->nearest[first + q] = triangle[p];
     }
+}
+
+/* A line in the memory's order. */
+static void transform_one(build_job *job, const line_room *e, size_t start, uint32_t length)
+{
+    distance_field *f = job->field;
+    transform_line(e, job->squares + start, f->triangle + start, 0, length);
+    memcpy(job->squares + start, e->lowest, length * sizeof *e->lowest);
+    for (uint32_t q = 0; q < length; q++)
+        f->triangle[start + q] = f->distance[start + q] == FLT_MAX ? e->nearest[q] : f->triangle[start + q];
+}
+
+/* Neighbouring lines across it; `start`: of the first one. */
+static void transform_some(build_job *job, const line_room *e, size_t start, size_t step, uint32_t length, uint32_t lines)
+{
+    distance_field *f = job->field;
+    for (uint32_t q = 0; q < length; q++)
+        for (uint32_t k = 0; k < lines; k++) {
+            e->square[k * length + q] = job->squares[start + q * step + k];
+            e->triangle[k * length + q] = f->triangle[start + q * step + k];
+        }
+    for (uint32_t k = 0; k < lines; k++)
+        transform_line(e, e->square + (size_t)k * length, e->triangle + (size_t)k * length, (size_t)k * length, length);
+    for (uint32_t q = 0; q < length; q++)
+        for (uint32_t k = 0; k < lines; k++) {
+            const size_t i = start + q * step + k;
+            job->squares[i] = e->lowest[k * length + q];
+            if (f->distance[i] == FLT_MAX)
+                f->triangle[i] = e->nearest[k * length + q];
+        }
 }
 
 static void transform_lines(void *argument, size_t index, uint32_t worker)
@@ -177,16 +206,27 @@ static void transform_lines(void *argument, size_t index, uint32_t worker)
     const distance_field *f = job->field;
     const int axis = job->axis;
     const uint32_t length = f->size[axis], across = axis == 0 ? f->size[1] : f->size[0], lines = across * (axis == 2 ? f->size[1] : f->size[2]);
-    const size_t step = axis == 0 ? 1 : axis == 1 ? f->size[0] : (size_t)f->size[0] * f->size[1];
-    float *room = malloc((size_t)length * 4 * sizeof *room);
+    const size_t step = axis == 0 ? 1 : axis == 1 ? f->size[0] : (size_t)f->size[0] * f->size[1], all = (size_t)length * BESIDE;
+    float *room = malloc((4 * all + 2 * (size_t)length) * sizeof *room);
     if (!room) {
         job->failed = 1;
         return;
     }
-    const envelope e = {room, room + length, (int32_t *)(void *)(room + 2 * (size_t)length), (uint32_t *)(void *)(room + 3 * (size_t)length)};
-    for (uint32_t line = (uint32_t)index * LINES; line < lines && line < (index + 1) * LINES; line++) {
-        const uint32_t i = line % across, j = line / across;
-        transform_line(job, &e, axis == 0 ? index_of(f, 0, i, j) : axis == 1 ? index_of(f, i, 0, j) : index_of(f, i, j, 0), step, length);
+    int32_t *const whole = (int32_t *)(void *)(room + 2 * all + length);
+    const line_room e = {.square = room,
+                         .lowest = room + all,
+                         .from = room + 2 * all,
+                         .triangle = whole,
+                         .nearest = whole + all,
+                         .place = (uint32_t *)(void *)(whole + 2 * all)};
+    const uint32_t end = (uint32_t)(index + 1) * LINES < lines ? (uint32_t)(index + 1) * LINES : lines;
+    for (uint32_t line = (uint32_t)index * LINES, some = 1; line < end; line += some) {
+        const uint32_t i = line % across, j = line / across, left = end - line < across - i ? end - line : across - i;
+        some = axis == 0 ? 1 : left < BESIDE ? left : BESIDE;
+        if (axis == 0)
+            transform_one(job, &e, index_of(f, 0, i, j), length);
+        else
+            transform_some(job, &e, axis == 1 ? index_of(f, i, 0, j) : index_of(f, i, j, 0), step, length, some);
     }
     free(room);
 }
