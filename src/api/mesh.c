@@ -190,6 +190,16 @@ static void fill_levels(mgt_texture *t)
     }
 }
 
+static void fill_linear(mgt_texture *t, size_t count)
+{
+    float linear[256];
+    for (uint32_t i = 0; i < 256; i++)
+        linear[i] = (float)to_linear(i);
+    for (size_t i = 0; i < count; i++)
+        for (int k = 0; k < 4; k++)
+            t->linear[4 * i + (size_t)k] = k < 3 ? linear[t->texels[i] >> 8 * k & 255] : 0;
+}
+
 static mgt_status check_texture(const reporter *r, const mgt_texture_desc *d)
 {
     if (d->width < 1 || d->width > 16384 || d->height < 1 || d->height > 16384)
@@ -226,8 +236,9 @@ mgt_status mgt_texture_create(mgt_texture **texture, const mgt_texture_desc *des
             t->levels++;
         } while (t->width >> t->levels || t->height >> t->levels);
         t->texels = malloc(count * sizeof *t->texels);
+        t->linear = count <= LINEAR_TEXELS ? malloc(count * 4 * sizeof *t->linear) : NULL;
     }
-    if (!t || !t->texels) {
+    if (!t || !t->texels || (count <= LINEAR_TEXELS && !t->linear)) {
         mgt_texture_destroy(t);
         return report_error(&r, MGT_ERROR_MEMORY, "texture.create", "out of memory for a texture of %u x %u pixels", own.width, own.height);
     }
@@ -237,6 +248,8 @@ mgt_status mgt_texture_create(mgt_texture **texture, const mgt_texture_desc *des
             t->texels[(size_t)y * t->width + x] = row[4 * x] | (uint32_t)row[4 * x + 1] << 8 | (uint32_t)row[4 * x + 2] << 16 | 255u << 24;
     }
     fill_levels(t);
+    if (t->linear)
+        fill_linear(t, count);
     *texture = t;
     return MGT_OK;
 }
@@ -246,5 +259,6 @@ void mgt_texture_destroy(mgt_texture *texture)
     if (!texture)
         return;
     free(texture->texels);
+    free(texture->linear);
     free(texture);
 }

@@ -59,6 +59,8 @@ static void free_layer(gbuffer *layer)
     *layer = (gbuffer){0};
 }
 
+static uint32_t blocks_of(uint32_t pixels) { return (pixels + GBUFFER_BLOCK - 1) / GBUFFER_BLOCK; }
+
 static bool shape_layers(gbuffers *g, const gbuffer_job *job)
 {
     struct gbuffer_store *s = g->store;
@@ -69,12 +71,15 @@ static bool shape_layers(gbuffers *g, const gbuffer_job *job)
     const size_t tiles = (size_t)((shape.width + RASTER_TILE - 1) / RASTER_TILE) * ((shape.height + RASTER_TILE - 1) / RASTER_TILE);
     free_layer(&g->front);
     free_layer(&g->refracted);
+    free(g->nearest);
     free(s->empty);
-    s->empty = calloc(LAYERS * tiles + 3, sizeof *s->empty);
+    s->empty = calloc(LAYERS * tiles, sizeof *s->empty);
     g->front = g->refracted = shape;
+    g->columns = blocks_of(shape.width), g->rows = blocks_of(shape.height);
+    g->nearest = malloc((size_t)g->columns * g->rows * sizeof *g->nearest);
     g->front.depth = malloc(count * sizeof(float)), g->front.triangle = malloc(count * sizeof(int32_t));
     g->refracted.depth = malloc(count * sizeof(float)), g->refracted.triangle = malloc(count * sizeof(int32_t));
-    return s->empty && g->front.depth && g->front.triangle && g->refracted.depth && g->refracted.triangle;
+    return s->empty && g->nearest && g->front.depth && g->front.triangle && g->refracted.depth && g->refracted.triangle;
 }
 
 static void free_store(struct gbuffer_store *s)
@@ -100,6 +105,7 @@ void gbuffers_free(gbuffers *g)
 {
     free_layer(&g->front);
     free_layer(&g->refracted);
+    free(g->nearest);
     free_store(g->store);
     *g = (gbuffers){0};
 }
@@ -167,6 +173,24 @@ static void bin_chunk(void *argument, size_t index, uint32_t worker)
     broad_chunk(&job->view, index, job->store->scratch[worker], &job->store->bins[index], &job->store->counts[worker]);
 }
 
+/* Of the blocks of the refracted layer's tile whose first pixel this is. */
+static void find_nearest(gbuffers *g, uint32_t x, uint32_t y)
+{
+    _Static_assert(RASTER_TILE % GBUFFER_BLOCK == 0, "whole blocks");
+    const gbuffer *layer = &g->refracted;
+    const uint32_t right = x + RASTER_TILE < layer->width ? x + RASTER_TILE : layer->width,
+                   bottom = y + RASTER_TILE < layer->height ? y + RASTER_TILE : layer->height;
+    for (uint32_t row = y; row < bottom; row++) {
+        const float *depth = layer->depth + (size_t)row * layer->width;
+        float *nearest = g->nearest + (size_t)(row / GBUFFER_BLOCK) * g->columns;
+        for (uint32_t column = x; column < right; column++) {
+            float *least = &nearest[column / GBUFFER_BLOCK];
+            const bool first = row % GBUFFER_BLOCK == 0 && column % GBUFFER_BLOCK == 0;
+            *least = first || depth[column] < *least ? depth[column] : *least;
+        }
+    }
+}
+
 static void draw_tile(void *argument, size_t index, uint32_t worker)
 {
     const draw_job *job = argument;
@@ -200,24 +224,24 @@ static void draw_tile(void *argument, size_t index, uint32_t worker)
         const size_t at = (size_t)(y + row) * layer->width + (size_t)x;
         kernels->tile_row(tile, row, layer->depth + at, layer->triangle + at);
     }
+    if (layer == &job->out->refracted)
+        find_nearest(job->out, (uint32_t)x, (uint32_t)y);
 }
 
-/* Notes which tiles of the refracted layer are empty, and the rectangle that holds the others. */
-static void bound_layer(const draw_job *job)
+/* Counts the blocks of the refracted layer that show nothing, and finds the rectangle that holds the others. */
+static void bound_layer(gbuffers *g)
 {
-    gbuffers *g = job->out;
-    const raster_grid *grid = &job->view.grid;
-    const size_t tiles = (size_t)grid->columns * (size_t)grid->rows;
     float *within = g->within;
-    g->empty = job->store->empty + REFRACTED_LAYER * tiles;
-    g->columns = grid->columns;
-    within[0] = (float)grid->width, within[1] = -1, within[2] = (float)grid->height, within[3] = -1;
-    for (size_t i = 0; i < tiles; i++) {
-        if (g->empty[i])
+    g->empties = 0;
+    within[0] = (float)g->refracted.width, within[1] = -1, within[2] = (float)g->refracted.height, within[3] = -1;
+    for (uint32_t i = 0; i < g->columns * g->rows; i++) {
+        if (!(g->nearest[i] < INFINITY)) {
+            g->empties++;
             continue;
-        const float x = (float)((int32_t)(i % (size_t)grid->columns) * RASTER_TILE), y = (float)((int32_t)(i / (size_t)grid->columns) * RASTER_TILE);
-        within[0] = fminf(within[0], x), within[1] = fmaxf(within[1], x + RASTER_TILE - 1);
-        within[2] = fminf(within[2], y), within[3] = fmaxf(within[3], y + RASTER_TILE - 1);
+        }
+        const float x = (float)(i % g->columns * GBUFFER_BLOCK), y = (float)(i / g->columns * GBUFFER_BLOCK);
+        within[0] = fminf(within[0], x), within[1] = fmaxf(within[1], x + GBUFFER_BLOCK - 1);
+        within[2] = fminf(within[2], y), within[3] = fmaxf(within[3], y + GBUFFER_BLOCK - 1);
     }
 }
 
@@ -261,7 +285,7 @@ static bool draw_layers(draw_job *job, thread_pool *pool)
             return false;
     const thread_loop tiles = {(size_t)LAYERS * (size_t)grid->columns * (size_t)grid->rows, draw_tile, job, NULL};
     thread_pool_run(pool, &tiles);
-    bound_layer(job);
+    bound_layer(job->out);
     job->out->counts = (gbuffer_counts){0, 0, 0};
     for (uint32_t i = 0; i < s->workers; i++) {
         job->out->counts.front_triangles += s->counts[i].drawn[FRONT_LAYER];

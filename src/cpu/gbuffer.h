@@ -19,13 +19,16 @@ typedef struct gbuffer_counts {
     size_t splits;                         /* triangles added because the map bends */
 } gbuffer_counts;
 
+enum { GBUFFER_BLOCK = 8 };
+
 typedef struct gbuffers {
     gbuffer front, refracted;
     RefractData refract; /* what the kernels' true_point() and virtual_point() need */
     gbuffer_counts counts;
     uint64_t drawn;              /* how often */
-    const uint8_t *empty;        /* refracted layer: 1 for each tile of RASTER_TILE² pixels that shows nothing, row by row; readable three bytes beyond */
-    int32_t columns;             /* tiles in a row */
+    float *nearest;              /* refracted layer: the least depth in each block of GBUFFER_BLOCK² pixels, row by row */
+    uint32_t columns, rows;      /* of blocks */
+    uint32_t empties;            /* blocks that show nothing */
     float within[4];             /* refracted layer: first and last column, first and last row of the pixels that may show something */
     struct gbuffer_store *store; /* its own: memory and what the layers were drawn from */
 } gbuffers;

@@ -95,6 +95,33 @@ static inline mask gather_ints(const int *table, mask at)
 #endif
 }
 
+/* Four numbers of a table's row; a row a lane. */
+typedef struct four_reals {
+    real x, y, z, w;
+} four_reals;
+
+static inline four_reals gather_rows(const float *table, mask row)
+{
+#if MGT_LANES == 16
+    int at[16];
+    __builtin_memcpy(at, &row, sizeof at);
+    __m512 q[4]; /* rows i, i + 4, i + 8, i + 12 */
+    for (int i = 0; i < 4; i++) {
+        q[i] = _mm512_castps128_ps512(_mm_loadu_ps(table + 4 * (size_t)at[i]));
+        q[i] = _mm512_insertf32x4(q[i], _mm_loadu_ps(table + 4 * (size_t)at[i + 4]), 1);
+        q[i] = _mm512_insertf32x4(q[i], _mm_loadu_ps(table + 4 * (size_t)at[i + 8]), 2);
+        q[i] = _mm512_insertf32x4(q[i], _mm_loadu_ps(table + 4 * (size_t)at[i + 12]), 3);
+    }
+    const __m512d low = _mm512_castps_pd(_mm512_unpacklo_ps(q[0], q[1])), low_2 = _mm512_castps_pd(_mm512_unpacklo_ps(q[2], q[3]));
+    const __m512d high = _mm512_castps_pd(_mm512_unpackhi_ps(q[0], q[1])), high_2 = _mm512_castps_pd(_mm512_unpackhi_ps(q[2], q[3]));
+    return (four_reals){(real)_mm512_unpacklo_pd(low, low_2), (real)_mm512_unpackhi_pd(low, low_2), (real)_mm512_unpacklo_pd(high, high_2),
+                        (real)_mm512_unpackhi_pd(high, high_2)};
+#else
+    const mask at = 4 * row;
+    return (four_reals){gather_floats(table, at), gather_floats(table + 1, at), gather_floats(table + 2, at), gather_floats(table + 3, at)};
+#endif
+}
+
 /* Bytes; three beyond the table's last may be read. */
 static inline mask gather_bytes(const uint8_t *table, mask at)
 {

@@ -25,26 +25,34 @@
 
 #include "kernels/refraction/layer.k"
 
-enum { TILE_SHIFT = 6 };
-_Static_assert(1 << TILE_SHIFT == RASTER_TILE, "a column's tile");
+enum { BLOCK_SHIFT = 3 };
+_Static_assert(1 << BLOCK_SHIFT == GBUFFER_BLOCK, "a column's block");
 
-/* Layers are larger than caches, and most of a mirrored one is empty: tiles that show nothing are not read. */
-KERNEL LayerPixel LAYER(CTX cx, int layer, real column, real row)
+KERNEL real LAYER_NEAREST(CTX cx, int layer, real column, real row)
+{
+    const gbuffers *drawn = cx->narrow->drawn[layer];
+    return gather_floats(drawn->nearest, (whole(row) >> BLOCK_SHIFT) * (int)drawn->columns + (whole(column) >> BLOCK_SHIFT));
+}
+
+/* Layers are larger than caches, and most of a mirrored one is empty: blocks that show nothing are not read. */
+KERNEL real LAYER_DEPTH(CTX cx, int layer, real column, real row)
+{
+    if (cx->narrow->drawn[layer]->empties > 0 && !any_lane(LAYER_NEAREST(cx, layer, column, row) < real(1e30f)))
+        return INFINITE;
+    const gbuffer *g = cx->narrow->layers[layer];
+    return gather_floats(g->depth, whole(row) * (int)g->width + whole(column));
+}
+
+KERNEL LayerPlane LAYER_PLANE(CTX cx, int layer, real column, real row)
 {
     const gbuffer *g = cx->narrow->layers[layer];
-    const gbuffers *drawn = cx->narrow->drawn[layer];
-    const mask x = whole(column), y = whole(row), at = y * (int)g->width + x;
-    LayerPixel p = {INFINITE, vec3(real(0.0f), real(1.0f), real(0.0f)), real(0.0f)};
-    if (!any_lane(gather_bytes(drawn->empty, (y >> TILE_SHIFT) * (int)drawn->columns + (x >> TILE_SHIFT)) == 0))
+    const mask triangle = gather_ints(g->triangle, whole(row) * (int)g->width + whole(column)), shown = triangle >= 0;
+    LayerPlane p = {vec3(real(0.0f), real(1.0f), real(0.0f)), real(0.0f), SELECT(shown, real(1.0f), real(0.0f))};
+    if (!any_lane(shown))
         return p;
-    p.depth = gather_floats(g->depth, at);
-    if (!any_lane(p.depth < real(1e30f)))
-        return p;
-    const mask triangle = gather_ints(g->triangle, at), shown = triangle >= 0;
-    const float *planes = cx->narrow->planes;
-    const mask plane = 4 * (triangle & ~(triangle >> 31));
-    p.normal = SELECT3(shown, vec3(gather_floats(planes, plane), gather_floats(planes + 1, plane), gather_floats(planes + 2, plane)), p.normal);
-    p.level = SELECT(shown, gather_floats(planes + 3, plane), p.level);
+    const four_reals plane = gather_rows(cx->narrow->planes, triangle & ~(triangle >> 31));
+    p.normal = SELECT3(shown, vec3(plane.x, plane.y, plane.z), p.normal);
+    p.level = SELECT(shown, plane.w, p.level);
     return p;
 }
 
@@ -78,6 +86,8 @@ static void lanes_water(const FrameData *data, const tile_waves *tile, const til
         store(out->share + i, p.water);
         if (!any_lane(p.water > real(0.0f)))
             continue;
+        store(out->column + i, lane_numbers() + ((float)(at->column + i % TILE_WIDTH) + at->dx));
+        store(out->row + i, real((float)(at->row + i / TILE_WIDTH) + at->dy));
         const SeenWater w = seen_water(&cx, p.ray,
                                        (HitEstimate){load(estimate->height + i), load(estimate->from + i), load(estimate->search + i),
                                                      vec2(real(0.0f), real(0.0f)), vec2(load(estimate->shift_x + i), load(estimate->shift_z + i))});
@@ -93,25 +103,26 @@ static void lanes_water(const FrameData *data, const tile_waves *tile, const til
 
 /* ---- what lies behind it ---- */
 
-static WaterHit load_water(const tile_water *w, const tile_offset *at, size_t i)
+static vec3 load_vector(const float (*planes)[TILE_PIXELS], size_t i) { return vec3(load(planes[0] + i), load(planes[1] + i), load(planes[2] + i)); }
+
+static WaterHit load_water(const tile_water *w, size_t i)
 {
-    WaterHit hit;
-    hit.view = vec3(load(w->view[0] + i), load(w->view[1] + i), load(w->view[2] + i));
-    hit.along = load(w->along + i);
-    hit.normal = vec3(load(w->normal[0] + i), load(w->normal[1] + i), load(w->normal[2] + i));
-    hit.column = lane_numbers() + ((float)(at->column + i % TILE_WIDTH) + at->dx);
-    hit.row = real((float)(at->row + i / TILE_WIDTH) + at->dy);
-    return hit;
+    return (WaterHit){load_vector(w->view, i), load(w->along + i), load_vector(w->normal, i), load(w->column + i), load(w->row + i)};
+}
+
+static WaterVariation variation_of(vec3 slopes, vec3 bend, vec3 path)
+{
+    WaterVariation v;
+    v.bend_xx = bend.x, v.bend_xz = bend.y, v.bend_zz = bend.z;
+    v.path = vec2(path.x, path.y);
+    v.path_along = path.z;
+    v.variance_xx = slopes.x, v.variance_xz = slopes.y, v.variance_zz = slopes.z;
+    return v;
 }
 
 static WaterVariation load_variation(const tile_water *w, size_t i)
 {
-    WaterVariation v;
-    v.bend_xx = load(w->bend[0] + i), v.bend_xz = load(w->bend[1] + i), v.bend_zz = load(w->bend[2] + i);
-    v.path = vec2(load(w->path[0] + i), load(w->path[1] + i));
-    v.path_along = load(w->path[2] + i);
-    v.variance_xx = load(w->slopes[0] + i), v.variance_xz = load(w->slopes[1] + i), v.variance_zz = load(w->slopes[2] + i);
-    return v;
+    return variation_of(load_vector(w->slopes, i), load_vector(w->bend, i), load_vector(w->path, i));
 }
 
 static void store_whole(int32_t *p, mask m) { memcpy(p, &m, sizeof m); }
@@ -181,25 +192,43 @@ static void store_way(const struct kernel_context *cx, tile_ends *out, size_t i,
     store_vector(out->from, i, vec3(from.x + n->data.foot_x, from.y, from.z + n->data.foot_z));
 }
 
-static void lanes_beside(const narrow_scene *n, const tile_offset *at, const tile_water *water, const float *edge, tile_water *out)
+static vec3 gather_vector(const float (*planes)[TILE_PIXELS], mask at)
+{
+    return vec3(gather_floats(planes[0], at), gather_floats(planes[1], at), gather_floats(planes[2], at));
+}
+
+static void lanes_beside(const narrow_scene *n, const tile_places *places, const tile_water *water, tile_water *out)
 {
     const struct kernel_context cx = {.narrow = n};
-    const tile_offset centres = {at->column, at->row, 0, 0};
-    for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
-        const real share = SELECT(load(edge + i) > real(0.0f), load(water->share + i), real(0.0f));
-        store(out->share + i, share);
-        if (!any_lane(share > real(0.0f)))
-            continue;
-        const WaterHit centre = load_water(water, &centres, i);
-        const WaterHit hit = hit_beside(&cx, centre, load_variation(water, i), vec2(real(at->dx), real(at->dy)));
-        const mask moves = share > real(0.0f);
-        store_vector(out->view, i, SELECT3(moves, hit.view, centre.view));
-        store(out->along + i, SELECT(moves, hit.along, centre.along));
-        store_vector(out->normal, i, SELECT3(moves, hit.normal, centre.normal));
+    memset(out->share, 0, sizeof out->share);
+    for (size_t i = 0; i < places->count; i += MGT_LANES) {
+        int pixels[MGT_LANES];
+        float shares[MGT_LANES], dx[MGT_LANES], dy[MGT_LANES];
+        for (size_t lane = 0; lane < MGT_LANES; lane++) {
+            const size_t place = i + lane < places->count ? i + lane : places->count - 1;
+            pixels[lane] = places->pixel[place];
+            shares[lane] = i + lane < places->count ? 1 : 0;
+            dx[lane] = places->dx[place], dy[lane] = places->dy[place];
+        }
+        mask at;
+        memcpy(&at, pixels, sizeof at);
+        const WaterHit centre = {gather_vector(water->view, at), gather_floats(water->along, at), gather_vector(water->normal, at),
+                                 gather_floats(water->column, at), gather_floats(water->row, at)};
+        const vec3 slopes = gather_vector(water->slopes, at), bend = gather_vector(water->bend, at), path = gather_vector(water->path, at);
+        const WaterHit hit = hit_beside(&cx, centre, variation_of(slopes, bend, path), vec2(load(dx), load(dy)));
+        store(out->share + i, load(shares));
+        store(out->column + i, hit.column);
+        store(out->row + i, hit.row);
+        store_vector(out->view, i, hit.view);
+        store(out->along + i, hit.along);
+        store_vector(out->normal, i, hit.normal);
+        store_vector(out->slopes, i, slopes);
+        store_vector(out->bend, i, bend);
+        store_vector(out->path, i, path);
     }
 }
 
-static void lanes_refracted(const narrow_scene *n, const tile_offset *at, const tile_water *water, int branch, tile_ends *out)
+static void lanes_refracted(const narrow_scene *n, const tile_water *water, int branch, tile_ends *out)
 {
     const struct kernel_context cx = {.narrow = n, .search = n->waves};
     for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
@@ -208,7 +237,7 @@ static void lanes_refracted(const narrow_scene *n, const tile_offset *at, const 
             wet = AND(wet, is_split(&cx, load(out->part + i)));
         if (!any_lane(wet))
             continue;
-        const WaterHit hit = surface_of_method(&cx, load_water(water, at, i));
+        const WaterHit hit = surface_of_method(&cx, load_water(water, i));
         const Bent bent = bent_by_method(&cx, hit);
         const SeenBehind seen = find_behind(&cx, hit, wet, branch);
         const mask total = AND(wet, seen.bent.total > real(0.0f));
@@ -228,14 +257,14 @@ static void lanes_refracted(const narrow_scene *n, const tile_offset *at, const 
     }
 }
 
-static void lanes_mirrored(const narrow_scene *n, const tile_offset *at, const tile_water *water, tile_ends *out)
+static void lanes_mirrored(const narrow_scene *n, const tile_water *water, tile_ends *out)
 {
     const struct kernel_context cx = {.narrow = n};
     for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
         const mask wet = load(water->share + i) > real(0.0f);
         if (!any_lane(wet))
             continue;
-        const WaterHit hit = load_water(water, at, i);
+        const WaterHit hit = load_water(water, i);
         const Bent bent = {mirrored_by_mean(&cx, hit.view, hit.normal), real(1.0f)};
         const FoundPoint f = find_mirrored(&cx, hit, bent.direction);
         store_found(&cx, out, i, hit, f, wet, n->data.side > 0 ? real(0.0f) : hit.along + f.after, false);

@@ -19,7 +19,9 @@ typedef struct narrow_scene {
 
 /* The surface in the pixels of a tile; directions as in narrow_types.k, y away from the surface on the camera's side. */
 typedef struct tile_water {
-    float share[TILE_PIXELS];     /* of the pixel that is water; 0: the rest is not set */
+    float share[TILE_PIXELS];  /* of the pixel that is water; 0: the rest is not set */
+    float column[TILE_PIXELS]; /* of the ray, in the image; pixel centres at whole numbers */
+    float row[TILE_PIXELS];
     float view[3][TILE_PIXELS];   /* unit, of the ray */
     float along[TILE_PIXELS];     /* metres */
     float normal[3][TILE_PIXELS]; /* unit */
@@ -55,15 +57,22 @@ typedef struct tile_offset {
     float dx, dy;
 } tile_offset;
 
+/* Rays through places of a tile's pixels. */
+typedef struct tile_places {
+    size_t count;
+    uint16_t pixel[TILE_PIXELS];            /* of the tile */
+    float dx[TILE_PIXELS], dy[TILE_PIXELS]; /* from its centre */
+} tile_places;
+
 struct narrow_kernels {
     /* The filtered surface, over the time that the waves were sorted for. */
     void (*water)(const FrameData *frame, const tile_waves *tile, const tile_estimate *estimate, const tile_offset *at, tile_water *out);
-    /* The surface about a tile's known one, in another place of those pixels whose `edge` is not 0; the others get no share. */
-    void (*beside)(const narrow_scene *n, const tile_offset *at, const tile_water *water, const float *edge, tile_water *out);
+    /* The surface where these rays meet it, from that at the centres of their pixels: a ray each, in their order. Its `share` is 0 beyond them. */
+    void (*beside)(const narrow_scene *n, const tile_places *places, const tile_water *water, tile_water *out);
     /* What lies behind it, on branch 0; on branch 1 of again.k only where out->part says that branch 0 is split. */
-    void (*refracted)(const narrow_scene *n, const tile_offset *at, const tile_water *water, int branch, tile_ends *out);
+    void (*refracted)(const narrow_scene *n, const tile_water *water, int branch, tile_ends *out);
     /* What its mean slope mirrors of the camera's own side. */
-    void (*mirrored)(const narrow_scene *n, const tile_offset *at, const tile_water *water, tile_ends *out);
+    void (*mirrored)(const narrow_scene *n, const tile_water *water, tile_ends *out);
     /* Pixels of a layer at even steps along the image of a ray, −1 outside of it. `from`: as in narrow_types.k; after: as in place_along(). */
     void (*along)(const narrow_scene *n, int layer, const float from[3], const float direction[3], float after, int32_t pixels[SHARP_PLACES]);
 };

@@ -207,12 +207,12 @@ static void sharpen_pixel(const refraction *r, tile_objects *o, size_t i)
 {
     tile_ends *e = &o->ends;
     const camera_rays *c = &r->camera;
-    const double side = r->frame->under ? -1 : 1, along = (double)o->water.along[i];
+    const double side = r->frame->under ? -1 : 1, along = (double)o->met->along[i];
     const gbuffer *g = r->narrow.layers[e->total[i] > 0];
     surface_ray s = {.r = r, .nearest = INFINITY, .met = -1};
     for (int k = 0; k < 3; k++) {
         s.from[k] = e->way[i] > 0 ? (double)e->from[k][i]
-                                  : c->position[k] - (k == 1 ? 0 : r->world->origin[k / 2]) + along * (k == 1 ? side : 1) * (double)o->water.view[k][i];
+                                  : c->position[k] - (k == 1 ? 0 : r->world->origin[k / 2]) + along * (k == 1 ? side : 1) * (double)o->met->view[k][i];
         s.direction[k] = (double)e->direction[k][i];
     }
     int32_t triangles[REFRACTION_NEIGHBOURS];

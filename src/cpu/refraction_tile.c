@@ -137,7 +137,7 @@ void refraction_end_at(const refraction *r, tile_objects *o, size_t i, float las
 {
     tile_ends *e = &o->ends;
     e->after[i] = e->way[i] + last;
-    e->water[i] = metres_in_water(NULL, r->narrow.data.side, o->water.along[i], last, e->total[i] > 0) + e->wet[i];
+    e->water[i] = metres_in_water(NULL, r->narrow.data.side, o->met->along[i], last, e->total[i] > 0) + e->wet[i];
     for (int k = 0; k < 3; k++)
         e->spread[k][i] = e->terms[k][i] + e->after[i] * (e->terms[3 + k][i] + e->after[i] * e->terms[6 + k][i]);
 }
@@ -157,9 +157,9 @@ static void trace_doubtful(refraction *r, tile_objects *o, size_t count)
         if (!searches && e->doubt[i] == 0)
             continue;
         trace_ray *ray = &o->rays[doubtful];
-        const double along = (double)o->water.along[i] * TRACE_START;
+        const double along = (double)o->met->along[i] * TRACE_START;
         for (int axis = 0; axis < 3; axis++) {
-            const double view = (double)o->water.view[axis][i] * (axis == 1 ? side : 1);
+            const double view = (double)o->met->view[axis][i] * (axis == 1 ? side : 1);
             ray->origin[axis] = e->way[i] > 0 ? e->from[axis][i] : (float)(foot[axis] + along * view);
             ray->direction[axis] = e->direction[axis][i];
         }
@@ -211,11 +211,11 @@ static void add_listed(const tile_objects *o, size_t count, float (*planes)[TILE
 }
 
 /* What the surface mirrors in one place of every listed pixel, added to that of the others; the list is used up. */
-static void see_mirrored(const refraction *r, const tile_offset *at, size_t count, tile_objects *o)
+static void see_mirrored(const refraction *r, size_t count, tile_objects *o)
 {
     if (!r->mirrors || count == 0)
         return;
-    r->kernels->narrow->mirrored(&r->narrow, at, &o->water, &o->ends);
+    r->kernels->narrow->mirrored(&r->narrow, o->met, &o->ends);
     size_t mirrored = 0;
     for (size_t k = 0; k < count; k++) {
         const uint16_t i = o->list[k];
@@ -229,12 +229,12 @@ static void see_mirrored(const refraction *r, const tile_offset *at, size_t coun
     add_listed(o, mirrored, o->light.mirrored);
 }
 
-/* Radiance on one branch of the rays through a place of every listed pixel, added to what came through before. */
-static void see_branch(refraction *r, const tile_offset *at, int branch, size_t count, tile_objects *o)
+/* Radiance on one branch of the listed rays through o->met, in o->rgb, weighed by their part. */
+static void end_branch(refraction *r, int branch, size_t count, tile_objects *o)
 {
+    tile_ends *e = &o->ends;
     float part[TILE_PIXELS];
-    r->kernels->narrow->refracted(&r->narrow, at, &o->water, branch, &o->ends);
-    memcpy(part, o->ends.part, sizeof part);
+    r->kernels->narrow->refracted(&r->narrow, o->met, branch, e);
     const mgt_refraction method = r->frame->scene->quality.refraction;
     if (method == MGT_REFRACTION_TWO_PHASE)
         refraction_sharpen(r, o, count);
@@ -242,17 +242,37 @@ static void see_branch(refraction *r, const tile_offset *at, int branch, size_t 
         trace_doubtful(r, o, count);
     for (size_t k = 0; k < count; k++) {
         const size_t i = o->list[k];
-        o->error[i] = fmaxf(o->error[i], o->ends.error[i]);
-        o->ends.gain[i] = gain_behind(NULL, r->narrow.data.gain, o->ends.total[i] > 0);
+        part[k] = e->part[i];
+        e->gain[i] = gain_behind(NULL, r->narrow.data.gain, e->total[i] > 0);
     }
     refraction_shade_listed(r, o, count);
-    for (size_t i = 0; i < count; i++)
-        for (int k = 0; k < 3; k++)
-            o->rgb[3 * i + (size_t)k] *= part[o->list[i]];
+    for (size_t k = 0; k < count; k++)
+        for (size_t c = 0; c < 3; c++)
+            o->rgb[3 * k + c] *= part[k];
+}
+
+static float greater(float a, float b) { return a > b ? a : b; }
+
+/* Radiance on one branch of the rays through a place of every listed pixel, added to what came through before. */
+static void see_branch(refraction *r, int branch, size_t count, tile_objects *o)
+{
+    end_branch(r, branch, count, o);
+    for (size_t k = 0; k < count; k++)
+        o->error[o->list[k]] = greater(o->error[o->list[k]], o->ends.error[o->list[k]]);
     add_listed(o, count, o->light.through);
-    for (size_t i = 0; i < count; i++)
-        for (int k = 0; k < 3 && o->ends.first[o->list[i]] > 0; k++)
-            o->light.mirrored[k][o->list[i]] += o->rgb[3 * i + (size_t)k];
+    for (size_t k = 0; k < count; k++)
+        for (size_t c = 0; c < 3 && o->ends.first[o->list[k]] > 0; c++)
+            o->light.mirrored[c][o->list[k]] += o->rgb[3 * k + c];
+}
+
+/* Of the first `count` rays of `all`, those whose second branch counts. */
+static size_t list_split(tile_objects *o, const uint16_t *all, size_t count)
+{
+    size_t split = 0;
+    for (size_t k = 0; k < count; k++)
+        if (o->ends.part[all[k]] < LEAST_WHOLE)
+            o->list[split++] = all[k];
+    return split;
 }
 
 /* What is reflected totally is what the surface mirrors: the list keeps the others. */
@@ -269,61 +289,84 @@ static size_t leave_total(tile_objects *o, size_t count)
     return left;
 }
 
-/* Radiance through one place of every listed pixel, added to what came through before. */
-static void see_branches(refraction *r, const tile_offset *at, size_t count, tile_objects *o)
+/* Radiance through one place of every listed pixel, and what it mirrors, added to that of the others; the list is used up. */
+static void see_place(refraction *r, size_t count, tile_objects *o)
 {
-    see_branch(r, at, 0, count, o);
+    o->met = &o->water;
+    see_branch(r, 0, count, o);
     uint16_t all[TILE_PIXELS];
     memcpy(all, o->list, count * sizeof *all);
-    size_t split = 0;
-    for (size_t i = 0; i < count; i++) {
-        o->seen[all[i]] += 1;
-        o->edge[all[i]] = o->ends.doubt[all[i]];
-        if (o->ends.part[all[i]] < LEAST_WHOLE)
-            o->list[split++] = all[i];
+    for (size_t k = 0; k < count; k++) {
+        o->seen[all[k]] += 1;
+        o->edge[all[k]] = o->ends.doubt[all[k]];
     }
+    const size_t split = list_split(o, all, count);
     if (split > 0)
-        see_branch(r, at, 1, split, o);
+        see_branch(r, 1, split, o);
     memcpy(o->list, all, count * sizeof *all);
+    see_mirrored(r, leave_total(o, count), o);
 }
 
-/* The same, and what it mirrors; the list is used up. */
-static void see_place(refraction *r, const tile_offset *at, size_t count, tile_objects *o)
+/* The other rays of these pixels, and what comes through. */
+static void see_beside(refraction *r, const uint16_t *pixels, size_t count, tile_objects *o)
 {
-    see_branches(r, at, count, o);
-    see_mirrored(r, at, leave_total(o, count), o);
+    const int rays = r->narrow.data.edge_rays;
+    tile_places *p = &o->places;
+    p->count = 0;
+    for (int ray = 0; ray < rays; ray++) {
+        const vec2 place = edge_ray(NULL, ray);
+        for (size_t k = 0; k < count; k++, p->count++) {
+            p->pixel[p->count] = pixels[k];
+            p->dx[p->count] = place.x, p->dy[p->count] = place.y;
+        }
+    }
+    o->met = &o->beside;
+    r->kernels->narrow->beside(&r->narrow, p, &o->water, &o->beside);
+    uint16_t all[TILE_PIXELS];
+    for (size_t k = 0; k < p->count; k++)
+        o->list[k] = all[k] = (uint16_t)k;
+    end_branch(r, 0, p->count, o);
+    float *first = o->first;
+    memcpy(first, o->rgb, 3 * p->count * sizeof *first);
+    for (size_t k = 0; k < p->count; k++)
+        o->error[p->pixel[k]] = greater(o->error[p->pixel[k]], o->ends.error[k]);
+    const size_t split = list_split(o, all, p->count);
+    if (split > 0)
+        end_branch(r, 1, split, o);
+    for (size_t k = 0, other = 0; k < p->count; k++) {
+        const size_t pixel = p->pixel[k];
+        const bool both = other < split && o->list[other] == k;
+        for (size_t c = 0; c < 3; c++) {
+            o->light.through[c][pixel] += first[3 * k + c];
+            if (both)
+                o->light.through[c][pixel] += o->rgb[3 * other + c];
+        }
+        if (both)
+            o->error[pixel] = greater(o->error[pixel], o->ends.error[k]);
+        other += both;
+        o->seen[pixel] += 1;
+    }
 }
 
 /* Where an outline may pass through a pixel, the mean of more rays. What the surface mirrors, it mirrors at the pixel's centre. */
-static void see_outlines(refraction *r, tile_offset at, tile_objects *o)
+static void see_outlines(refraction *r, tile_objects *o)
 {
-    size_t edges = 0;
-    for (size_t i = 0; i < TILE_PIXELS; i++) {
-        o->edge[i] = o->water.share[i] > 0 && o->edge[i] > 0 ? 1 : 0;
-        edges += o->edge[i] > 0;
-    }
-    if (edges == 0)
-        return;
+    uint16_t edges[TILE_PIXELS];
     float total[TILE_PIXELS];
-    memcpy(total, o->ends.first, sizeof total);
-    memcpy(o->kept, o->light.mirrored, sizeof o->kept);
-    o->centre = o->water;
-    for (int ray = 0; ray < r->narrow.data.edge_rays; ray++) {
-        const vec2 place = edge_ray(NULL, ray);
-        at.dx = place.x, at.dy = place.y;
-        float edge[TILE_PIXELS];
-        memcpy(edge, o->edge, sizeof edge);
-        r->kernels->narrow->beside(&r->narrow, &at, &o->centre, edge, &o->water);
-        see_branches(r, &at, list_water(o), o);
-        memcpy(o->edge, edge, sizeof edge);
-    }
-    memcpy(&o->water, &o->centre, sizeof o->water);
-    memcpy(o->light.mirrored, o->kept, sizeof o->kept);
+    size_t count = 0;
     for (size_t i = 0; i < TILE_PIXELS; i++)
-        for (int k = 0; k < 3 && o->edge[i] > 0; k++) {
-            o->light.through[k][i] /= o->seen[i];
-            if (total[i] > 0)
-                o->light.mirrored[k][i] = o->light.through[k][i];
+        if (o->water.share[i] > 0 && o->edge[i] > 0) {
+            total[count] = o->ends.first[i];
+            edges[count++] = (uint16_t)i;
+        }
+    const size_t most = TILE_PIXELS / (size_t)r->narrow.data.edge_rays;
+    for (size_t first = 0; first < count; first += most)
+        see_beside(r, edges + first, count - first < most ? count - first : most, o);
+    for (size_t k = 0; k < count; k++)
+        for (size_t c = 0; c < 3; c++) {
+            o->light.through[c][edges[k]] /= o->seen[edges[k]];
+            if (total[k] > 0)
+                o->light.mirrored[c][edges[k]] = o->light.through[c][edges[k]];
         }
     memset(o->seen, 0, sizeof o->seen);
 }
@@ -349,16 +392,16 @@ static void see_refracted(refraction *r, const tile_waves *waves, const tile_est
         look_at_water(r, waves, estimate, &at, o);
         const size_t count = list_water(o);
         if (count > 0)
-            see_place(r, &at, count, o);
+            see_place(r, count, o);
     }
     at.dx = at.dy = 0;
     if (n > 1 && !r->truth)
         look_at_water(r, waves, estimate, &at, o);
     const size_t count = list_water(o);
     if (n == 1 && count > 0 && !r->truth)
-        see_place(r, &at, count, o);
+        see_place(r, count, o);
     if (count > 0 && r->narrow.data.edge_rays > 0)
-        see_outlines(r, at, o);
+        see_outlines(r, o);
     for (size_t i = 0; i < TILE_PIXELS; i++) {
         if (o->seen[i] <= 1)
             continue;

@@ -47,9 +47,26 @@ typedef struct texel_lanes {
     real share; /* weight of the second texel */
 } texel_lanes;
 
-/* The two texels around a texture coordinate, which is 1 at `size` texels and within ±1e9. */
-static inline texel_lanes texels_about(real coordinate, mask size)
+/* The two texels around a place at x texels, in a texture of a power of two of them; |x| < 2^30. */
+static inline texel_lanes texels_of_power(real x, mask size)
 {
+    const real whole_x = floor(x), half = real(0.5f), within = x - whole_x;
+    const mask upper = within >= half, texel = whole(whole_x) + 1;
+    texel_lanes t;
+    t.first = whole_select(upper, texel - 1, texel - 2) & (size - 1);
+    t.second = whole_select(upper, texel, texel - 1) & (size - 1);
+    t.share = SELECT(upper, x - (whole_x + half), within + half);
+    return t;
+}
+
+/* The two texels around a texture coordinate, which is 1 at `size` texels and within ±1e9. `power`: all sizes are powers of two; the bits are the same. */
+static inline texel_lanes texels_about(real coordinate, mask size, bool power)
+{
+    if (power) {
+        const real x = coordinate * real_from_int(size);
+        if (!any_lane(abs(x) >= real(1073741824.0f)))
+            return texels_of_power(x, size);
+    }
     float share[MGT_LANES], places[MGT_LANES];
     int sizes[MGT_LANES], first[MGT_LANES];
     __builtin_memcpy(places, &coordinate, sizeof places);
@@ -76,27 +93,44 @@ static inline texel_lanes texels_about(real coordinate, mask size)
     return t;
 }
 
-static inline vec3 texel_color(const shade_scene *s, mask rgba)
+typedef float texel_color __attribute__((vector_size(16)));
+
+static inline texel_color color_of(const shade_scene *s, const mgt_texture *t, int texel)
 {
-    return (vec3){gather_floats(s->linear, rgba & 255), gather_floats(s->linear, rgba >> 8 & 255), gather_floats(s->linear, rgba >> 16 & 255)};
+    texel_color c;
+    if (t->linear) {
+        __builtin_memcpy(&c, t->linear + 4 * (size_t)texel, sizeof c);
+        return c;
+    }
+    const uint32_t rgba = t->texels[texel];
+    return (texel_color){s->linear[rgba & 255], s->linear[rgba >> 8 & 255], s->linear[rgba >> 16 & 255], 0};
+}
+
+/* Texels are looked up and blended a lane at a time, all colours of one at once. */
+static inline vec3 bilinear_color(const shade_scene *s, const mgt_texture *t, mask level, real u, real v)
+{
+    const mask none = level - level, one = none + 1, wide = (none + (int)t->width) >> level, high = (none + (int)t->height) >> level;
+    const mask width = whole_select(wide > 1, wide, one), height = whole_select(high > 1, high, one);
+    const bool power = (t->width & (t->width - 1)) == 0 && (t->height & (t->height - 1)) == 0;
+    const texel_lanes columns = texels_about(u, width, power), rows = texels_about(v, height, power);
+    const mask start = gather_ints((const int *)t->level_start, level);
+    const mask upper = start + rows.first * width, lower = start + rows.second * width;
+    const mask corners[4] = {upper + columns.first, upper + columns.second, lower + columns.first, lower + columns.second};
+    int at[4][MGT_LANES];
+    float across[MGT_LANES], down[MGT_LANES], colors[4 * MGT_LANES];
+    __builtin_memcpy(at, corners, sizeof at);
+    store(across, columns.share);
+    store(down, rows.share);
+    for (int i = 0; i < MGT_LANES; i++) {
+        const texel_color a = color_of(s, t, at[0][i]), b = color_of(s, t, at[1][i]), c = color_of(s, t, at[2][i]), d = color_of(s, t, at[3][i]);
+        const texel_color above = a + across[i] * (b - a), below = c + across[i] * (d - c), color = above + down[i] * (below - above);
+        __builtin_memcpy(colors + 4 * i, &color, sizeof color);
+    }
+    const four_reals lanes = gather_rows(colors, whole(lane_numbers()));
+    return (vec3){lanes.x, lanes.y, lanes.z};
 }
 
 static inline vec3 blended_color(vec3 a, vec3 b, real share) { return (vec3){a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), a.z + share * (b.z - a.z)}; }
-
-static inline vec3 bilinear_color(const shade_scene *s, const mgt_texture *t, mask level, real u, real v)
-{
-    const int *const texels = (const int *)t->texels;
-    const mask none = level - level, one = none + 1, wide = (none + (int)t->width) >> level, high = (none + (int)t->height) >> level;
-    const mask width = whole_select(wide > 1, wide, one), height = whole_select(high > 1, high, one);
-    const texel_lanes columns = texels_about(u, width), rows = texels_about(v, height);
-    const mask start = gather_ints((const int *)t->level_start, level);
-    const mask upper = start + rows.first * width, lower = start + rows.second * width;
-    const vec3 above =
-        blended_color(texel_color(s, gather_ints(texels, upper + columns.first)), texel_color(s, gather_ints(texels, upper + columns.second)), columns.share);
-    const vec3 below =
-        blended_color(texel_color(s, gather_ints(texels, lower + columns.first)), texel_color(s, gather_ints(texels, lower + columns.second)), columns.share);
-    return blended_color(above, below, rows.share);
-}
 
 /* Black where a coordinate is not within ±1e9. */
 static inline vec3 trilinear_color(const shade_scene *s, const mgt_texture *t, real u, real v, real level)

@@ -22,7 +22,10 @@ struct mgt_mesh {
 /* Fills `neighbours`; false: out of memory. */
 bool mesh_find_neighbours(mgt_mesh *m);
 
-enum { TEXTURE_LEVELS = 15 };
+enum {
+    TEXTURE_LEVELS = 15,
+    LINEAR_TEXELS = 1 << 20 /* up to as many are kept in linear light, too */
+};
 
 struct mgt_texture {
     uint64_t id;
@@ -30,6 +33,7 @@ struct mgt_texture {
     uint32_t levels;                      /* down to 1 × 1: level l has max(1, size >> l) texels a side */
     uint32_t level_start[TEXTURE_LEVELS]; /* first texel of each in `texels` */
     uint32_t *texels;                     /* RGBA, 8 bits each, red lowest; sRGB, averaged in linear light */
+    float *linear;                        /* the same in linear light, 4 a texel; NULL: too many */
 };
 
 #endif

@@ -33,7 +33,9 @@ layout(std140) uniform ShadeBlock { ShadeData shade_data; };
 #define CHOPPY_BEHIND(cx) NARROW(cx).choppy
 #define SHADE(cx) shade_data
 #define CHOPPY_LIGHT(cx) SHADE(cx).choppy
-LayerPixel LAYER(int cx, int layer, float column, float row);
+LayerPlane LAYER_PLANE(int cx, int layer, float column, float row);
+float LAYER_DEPTH(int cx, int layer, float column, float row);
+float LAYER_NEAREST(int cx, int layer, float column, float row);
 #define MIRRORED_WITHIN(cx, a, b) (a.x < b.x)
 vec3 TEXTURE(int cx, float object, float u, float v, float level);
 float SUN_VISIBILITY(int cx, vec3 position, vec3 first, vec3 second, bool dry);

@@ -14,8 +14,16 @@ static double post_column = -1, post_row, post_depth; /* of what stands before i
 
 #include "kernels/refraction/layer.k"
 
-static LayerPixel layer_pixel(double column, double row);
-KERNEL LayerPixel LAYER(CTX cx, int layer, real column, real row) { return layer_pixel((double)column, (double)row); }
+/* Of a pixel. */
+typedef struct layer_pixel {
+    float depth;
+    LayerPlane plane;
+} layer_pixel;
+
+static layer_pixel pixel_of_layer(double column, double row);
+KERNEL real LAYER_DEPTH(CTX cx, int layer, real column, real row) { return pixel_of_layer((double)column, (double)row).depth; }
+KERNEL LayerPlane LAYER_PLANE(CTX cx, int layer, real column, real row) { return pixel_of_layer((double)column, (double)row).plane; }
+#define LAYER_NEAREST(cx, layer, column, row) 0.0f
 #define MIRRORED_WITHIN(cx, a, b) ((void)(a), (void)(b), true)
 
 #include "kernels/refraction/again.k"
@@ -409,11 +417,11 @@ static void parts_of_light_are_all_of_it(void **state)
 enum { WIDTH = 320, HEIGHT = 180 };
 
 /* What a flat surface shows of a level floor or ceiling at the centre of a pixel. */
-static LayerPixel layer_pixel(double column, double row)
+static layer_pixel pixel_of_layer(double column, double row)
 {
     double ray[3];
     if (post_column >= 0 && fabs(column - post_column) <= 1 && fabs(row - post_row) <= 1)
-        return (LayerPixel){(float)post_depth, vec3(0.0f, 0.0f, 1.0f), 0.0f};
+        return (layer_pixel){(float)post_depth, {vec3(0.0f, 0.0f, 1.0f), 0.0f, 1.0f}};
     const double x = column - (double)narrow_data.left, y = row - (double)narrow_data.top;
     ray[0] = (double)narrow_data.corner_x + x * (double)narrow_data.right_x + y * (double)narrow_data.down_x;
     ray[1] = (double)narrow_data.corner_y + x * (double)narrow_data.right_y + y * (double)narrow_data.down_y;
@@ -421,13 +429,13 @@ static LayerPixel layer_pixel(double column, double row)
     const double length = sqrt(dot3(ray, ray)), up[3] = {0, 1, 0};
     double view[3] = {ray[0] / length, ray[1] / length, ray[2] / length}, bent[3];
     if (view[1] > -1e-3 || !refract3(view, up, (double)narrow_data.ratio, bent))
-        return (LayerPixel){INFINITY, vec3(0.0f, 1.0f, 0.0f), 0.0f};
+        return (layer_pixel){INFINITY, {vec3(0.0f, 1.0f, 0.0f), 0.0f, 0.0f}};
     const double h = (double)narrow_data.distance, along = h / -view[1], way = floor_depth / -bent[1];
     const double side = (double)narrow_data.side;
     const vec3 p = vec3((float)(along * view[0] + way * bent[0]), (float)(-side * floor_depth), (float)(along * view[2] + way * bent[2]));
     const vec3 image = virtual_point(NULL, p);
     const double from[3] = {(double)image.x, side * (double)image.y - h, (double)image.z};
-    return (LayerPixel){(float)(dot3(from, ray) / (length * length)), vec3(0.0f, 1.0f, 0.0f), (float)(-side * floor_depth)};
+    return (layer_pixel){(float)(dot3(from, ray) / (length * length)), {vec3(0.0f, 1.0f, 0.0f), (float)(-side * floor_depth), 1.0f}};
 }
 
 static void set_view(bool under, double height, double pitch)

@@ -43,16 +43,23 @@ float layer_inverse(int layer, ivec2 at)
     return (layer == LAYER_REFRACTED ? texelFetch(far_depth, at, 0).r : texelFetch(mirrored_depth, at, 0).r) / objects_data.least_depth;
 }
 
-LayerPixel LAYER(int cx, int layer, float column, float row)
+float LAYER_DEPTH(int cx, int layer, float column, float row)
 {
     ivec2 at = ivec2(int(column), int(row));
     float inverse = layer == LAYER_REFRACTED ? texelFetch(far_depth, at, 0).r : texelFetch(mirrored_depth, at, 0).r;
-    vec4 plane = texelFetch(plane_table, max(layer_triangle(layer, at), 0));
-    return LayerPixel(inverse > 0.0f ? objects_data.least_depth / inverse : INFINITE, plane.xyz, plane.w);
+    return inverse > 0.0f ? objects_data.least_depth / inverse : INFINITE;
 }
 
-/* OpenGL keeps no bounds of the mirrored layer: any rectangle may show something. */
+LayerPlane LAYER_PLANE(int cx, int layer, float column, float row)
+{
+    int triangle = layer_triangle(layer, ivec2(int(column), int(row)));
+    vec4 plane = texelFetch(plane_table, max(triangle, 0));
+    return LayerPlane(plane.xyz, plane.w, triangle < 0 ? 0.0f : 1.0f);
+}
+
+/* OpenGL keeps no bounds of the layers: any place may show something, as near as can be. */
 #define MIRRORED_WITHIN(cx, a, b) true
+#define LAYER_NEAREST(cx, layer, column, row) 0.0f
 
 ivec3 triangle_corners(int triangle)
 {
