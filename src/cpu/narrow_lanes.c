@@ -197,7 +197,7 @@ static vec3 gather_vector(const float (*planes)[TILE_PIXELS], mask at)
     return vec3(gather_floats(planes[0], at), gather_floats(planes[1], at), gather_floats(planes[2], at));
 }
 
-static void lanes_beside(const narrow_scene *n, const tile_places *places, const tile_water *water, tile_water *out)
+static void lanes_beside(const narrow_scene *n, const ray_places *places, const tile_water *water, tile_water *out)
 {
     const struct kernel_context cx = {.narrow = n};
     memset(out->share, 0, sizeof out->share);

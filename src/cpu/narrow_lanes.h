@@ -58,17 +58,17 @@ typedef struct tile_offset {
 } tile_offset;
 
 /* Rays through places of a tile's pixels. */
-typedef struct tile_places {
+typedef struct ray_places {
     size_t count;
     uint16_t pixel[TILE_PIXELS];            /* of the tile */
     float dx[TILE_PIXELS], dy[TILE_PIXELS]; /* from its centre */
-} tile_places;
+} ray_places;
 
 struct narrow_kernels {
     /* The filtered surface, over the time that the waves were sorted for. */
     void (*water)(const FrameData *frame, const tile_waves *tile, const tile_estimate *estimate, const tile_offset *at, tile_water *out);
     /* The surface where these rays meet it, from that at the centres of their pixels: a ray each, in their order. Its `share` is 0 beyond them. */
-    void (*beside)(const narrow_scene *n, const tile_places *places, const tile_water *water, tile_water *out);
+    void (*beside)(const narrow_scene *n, const ray_places *places, const tile_water *water, tile_water *out);
     /* What lies behind it, on branch 0; on branch 1 of again.k only where out->part says that branch 0 is split. */
     void (*refracted)(const narrow_scene *n, const tile_water *water, int branch, tile_ends *out);
     /* What its mean slope mirrors of the camera's own side. */

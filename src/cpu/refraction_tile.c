@@ -311,7 +311,7 @@ static void see_place(refraction *r, size_t count, tile_objects *o)
 static void see_beside(refraction *r, const uint16_t *pixels, size_t count, tile_objects *o)
 {
     const int rays = r->narrow.data.edge_rays;
-    tile_places *p = &o->places;
+    ray_places *p = &o->places;
     p->count = 0;
     for (int ray = 0; ray < rays; ray++) {
         const vec2 place = edge_ray(NULL, ray);
