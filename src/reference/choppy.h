@@ -23,8 +23,9 @@ typedef struct curve_point {
     double along, across; /* v, w */
     double distance;      /* s */
     double above;         /* g */
-    double above_change;  /* dg/dv, ds/dv */
+    double above_change;  /* dg/dv, ds/dv, dw/dv */
     double distance_change;
+    double across_change;
     choppy_sums sums;
 } curve_point;
 
@@ -35,31 +36,45 @@ static inline double between(const double a[2], const double m[3], const double 
     return a[0] * (m[0] * b[0] + m[1] * b[1]) + a[1] * (m[1] * b[0] + m[2] * b[1]);
 }
 
-/* The point at v; `across` is near its w. Newton's steps within what the shift can be; halves of that where they lead out of it. */
-static curve_point curve_at(const choppy_ray *ray, const choppy_level *level, double v, double across)
+/* Share of the height over the water within which a point may be wrong while the ray is still above it. */
+static const double most_doubt = 0.02;
+
+/* The point at v; `across` is near its w. Newton's steps within what the shift can be; halves of that where they lead out of it. They end early where
+ * the ray is above `rest`, and what is left of the way to the plane cannot change this height by more than most_doubt of it: g and dg/dv are then
+ * lowered by as much. `rest` of +inf: they never end early. */
+static curve_point curve_at(const choppy_ray *ray, const choppy_level *level, double v, double across, double rest)
 {
     const reference_columns *c = &ray->frame->columns;
     double least = -level->shift, most = level->shift, w = fmin(fmax(across, least), most);
+    const double fall = level->slope * level->most_stretch, rise = fabs(ray->rise) * level->most_stretch; /* for a metre of w, at most */
+    double doubt = 0, stretch = 1;
     choppy_sums sums = {0};
     for (int i = 0; i < 60; i++) {
         sums = choppy_sums_at(c, level->waves, ray->origin[0] + v * ray->along[0] + w * ray->across[0], ray->origin[2] + v * ray->along[1] + w * ray->across[1],
                               ray->time_offset);
         const double off = w + dot2(ray->across, sums.shift);
+        stretch = between(ray->across, sums.stretch, ray->across);
         if (fabs(off) < 1e-10 * (1 + level->shift))
             break;
+        const double above = ray->origin[1] + ray->rise * (v + dot2(ray->along, sums.shift)) - sums.height - rest;
+        if (stretch > 0.5 && fabs(off) / stretch * (fall + rise) < most_doubt * above) {
+            doubt = fabs(off) / stretch;
+            break;
+        }
         if (off > 0)
             most = w;
         else
             least = w;
-        const double stretch = between(ray->across, sums.stretch, ray->across), next = w - off / stretch;
+        const double next = w - off / stretch;
         w = stretch > 0.05 && next > least && next < most ? next : 0.5 * (least + most);
     }
     curve_point p = {.along = v, .across = w, .sums = sums};
-    const double across_change = -between(ray->across, sums.stretch, ray->along) / fmax(between(ray->across, sums.stretch, ray->across), 0.05);
+    p.across_change = -between(ray->across, sums.stretch, ray->along) / fmax(stretch, 0.05);
     p.distance = v + dot2(ray->along, sums.shift);
-    p.above = ray->origin[1] + ray->rise * p.distance - sums.height;
-    p.distance_change = between(ray->along, sums.stretch, ray->along) + across_change * between(ray->along, sums.stretch, ray->across);
-    p.above_change = ray->rise * p.distance_change - dot2(sums.slope, ray->along) - across_change * dot2(sums.slope, ray->across);
+    p.above = ray->origin[1] + ray->rise * p.distance - sums.height - doubt * (fall + rise);
+    p.distance_change = between(ray->along, sums.stretch, ray->along) + p.across_change * between(ray->along, sums.stretch, ray->across);
+    p.above_change = ray->rise * p.distance_change - dot2(sums.slope, ray->along) - p.across_change * dot2(sums.slope, ray->across);
+    p.above_change -= doubt * (level->bend + fabs(ray->rise) * level->shift_bend);
     return p;
 }
 
@@ -146,10 +161,11 @@ static void choppy_search(const reference_frame *frame, reference_batch *batch, 
     double v = start - frame->choppy[finest].shift, across = 0, last = v;
     for (int64_t k = 0; k < most_evaluations; k++) {
         const choppy_level *l = &frame->choppy[level];
-        const curve_point p = curve_at(&ray, l, v, across);
+        const double rest = l->rest * (1 + fabs(ray.rise) * l->most_stretch) + l->rest_shift;
+        const curve_point p = curve_at(&ray, l, v, across, rest);
+        const double above = p.above - rest;
         batch->evaluations++;
         across = p.across;
-        const double rest = l->rest * (1 + fabs(ray.rise) * l->most_stretch) + l->rest_shift, above = p.above - rest;
         if (p.distance < start) { /* before the ray begins */
             last = v;
             v += fmax((start - p.distance) / l->most_stretch, 1e-9 * (1 + start));
@@ -168,7 +184,7 @@ static void choppy_search(const reference_frame *frame, reference_batch *batch, 
             curve_point hit = p;
             for (int halvings = 0; halvings < 100 && under - free > tolerance; halvings++) {
                 const double middle = 0.5 * (free + under);
-                const curve_point q = curve_at(&ray, l, middle, across);
+                const curve_point q = curve_at(&ray, l, middle, across, HUGE_VAL);
                 if (q.above > 0)
                     free = middle;
                 else
@@ -184,6 +200,7 @@ static void choppy_search(const reference_frame *frame, reference_batch *batch, 
         }
         last = v;
         v += step;
+        across += p.across_change * step;
         if (p.distance / horizontal > far_away)
             return;
         if (level > 0) {
