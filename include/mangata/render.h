@@ -164,15 +164,18 @@ MGT_API mgt_status mgt_display(mgt_context *context, const mgt_scene *scene, con
  * several machines or several runs share ends as mgt_render() makes it. */
 enum { MGT_SUM_WORDS = 12 };
 
-/* Adds the samples quality.sample_first, … (of adaptive those of the slots) of the crop's pixels to `sums`, which begin as zeros. Always on the CPU, which the log of an OpenGL context
- * says ("render.cpu"). Methods: reference, ssaa, and adaptive by podee with sample_slots; another one is MGT_ERROR_UNSUPPORTED. After a failure, or when it is cancelled, `sums` are useless. A context of MGT_BACKEND_NULL adds nothing. */
+/* Adds samples of the crop's pixels to `sums`, which begin as zeros: quality.sample_count of them from quality.sample_first on. Of adaptive these numbers
+ * count the slots of the whole picture. Methods: reference, ssaa, and adaptive by podee with sample_slots; another one is MGT_ERROR_UNSUPPORTED.
+ * Always on the CPU, which the log of an OpenGL context says ("render.cpu"). A context of MGT_BACKEND_NULL adds nothing. After a failure, or when it is
+ * cancelled, `sums` are useless. */
 MGT_API mgt_status mgt_sum_samples(mgt_context *context, const mgt_scene *scene, uint64_t *sums);
 
 /* Adds sums to sums, both of so many pixels; nothing where one is NULL. Any thread. */
 MGT_API void mgt_sums_add(uint64_t *sums, const uint64_t *more, size_t pixels);
 
 /* mgt_render(), on the CPU, with these sums of the scene's range of samples in place of samples of its own. What is no mean of samples it renders: depth,
- * normal, objects, and the lights of quality.light_cells. Displayed colour with glare needs the sums of a whole picture: those of a crop are MGT_ERROR_UNSUPPORTED. */
+ * normal, objects, and the lights of quality.light_cells. Displayed colour with glare needs the sums of a whole picture: those of a crop are
+ * MGT_ERROR_UNSUPPORTED. */
 MGT_API mgt_status mgt_render_sums(mgt_context *context, const mgt_scene *scene, const uint64_t *sums, const mgt_target *targets, size_t count);
 
 /* What method `mangata` knows of one pixel. Near the horizon a pixel shows two hits, one above the other: water, coverage and radiance are then their

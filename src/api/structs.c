@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "api/validate.h"
+#include "base/struct_size.h"
 #include "params/scene_rows.h"
 #include "sea/sea.h"
 
@@ -80,9 +81,6 @@ const struct_kind scene_kind = KIND(mgt_scene, "render.scene", 1, quality.sample
                                               .body_albedo = {0.006f, 0.022f, 0.030f}},
                                     .foam_persistence = 3, .post = {.auto_exposure = true, .tone_map = MGT_TONE_AGX, .glare = 0.03f});
 
-/* A later version's struct is at most so much larger; a greater size is no version's. */
-enum { LATER_BYTES = 1024 };
-
 /* ---- initialising ---- */
 
 static void fill(void *to, size_t size, const void *from, size_t known)
@@ -94,7 +92,7 @@ static void fill(void *to, size_t size, const void *from, size_t known)
 
 static void init(const struct_kind *kind, void *theirs, size_t size)
 {
-    if (!theirs || size < sizeof size || size > kind->size + LATER_BYTES)
+    if (!theirs || !struct_size_fits(size, sizeof size, kind->size))
         return;
     fill(theirs, size, kind->defaults, kind->size);
     memcpy(theirs, &size, sizeof size);
@@ -107,7 +105,7 @@ void mgt_texture_desc_init(mgt_texture_desc *desc, size_t size) { init(&texture_
 void mgt_scene_init(mgt_scene *scene, size_t size)
 {
     init(&scene_kind, scene, size);
-    if (!scene || size < offsetof(mgt_scene, quality) || size > sizeof *scene + LATER_BYTES)
+    if (!scene || !struct_size_fits(size, offsetof(mgt_scene, quality), sizeof *scene))
         return;
     const mgt_quality quality = quality_defaults();
     scene->light = light_defaults[MGT_SOURCE_SUN];
@@ -123,7 +121,7 @@ void mgt_gl_texture_init(mgt_gl_texture *texture, size_t size) { init(&gl_textur
 void mgt_quality_init(mgt_quality *quality, size_t size)
 {
     const mgt_quality defaults = quality_defaults();
-    if (quality && size <= sizeof *quality + LATER_BYTES)
+    if (quality && struct_size_fits(size, 0, sizeof *quality))
         fill(quality, size, &defaults, sizeof defaults);
 }
 
@@ -137,7 +135,7 @@ void mgt_light_init(mgt_light *light, mgt_source body)
 
 static mgt_status check_size(const reporter *r, const struct_kind *kind, size_t index, size_t size)
 {
-    if (size >= kind->least && size <= kind->size + LATER_BYTES && size % _Alignof(size_t) == 0)
+    if (struct_size_fits(size, kind->least, kind->size) && size % _Alignof(size_t) == 0)
         return MGT_OK;
     return report_error(r, MGT_ERROR_ARGUMENT, kind->id, "%s %zu: struct_size is %zu; this library knows %zu to %zu", kind->name, index, size, kind->least,
                         kind->size);

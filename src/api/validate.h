@@ -12,6 +12,7 @@ mgt_status validate_rows(const reporter *r, const char *path, const field_row *f
 
 mgt_status validate_waves(const reporter *r, const mgt_water *water);
 mgt_status validate_scene(const reporter *r, const mgt_scene *scene);
+
 /* Bytes from a row to the next one, either way; 0: rows are tightly packed. */
 size_t stride_length(ptrdiff_t stride);
 

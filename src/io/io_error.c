@@ -6,14 +6,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-const char *mgt_io_version(void) { return MGT_VERSION_STRING; }
+#include "base/struct_size.h"
 
-/* A later version's struct is at most so large. */
-enum { MOST_BYTES = sizeof(mgt_io_error) + 1024 };
+const char *mgt_io_version(void) { return MGT_VERSION_STRING; }
 
 void mgt_io_error_init(mgt_io_error *error, size_t size)
 {
-    if (error && size >= sizeof error->struct_size && size <= MOST_BYTES) {
+    if (error && struct_size_fits(size, sizeof error->struct_size, sizeof *error)) {
         memset(error, 0, size);
         error->struct_size = size;
     }
@@ -41,7 +40,7 @@ static size_t place_of(const char *text, mgt_io_error *error)
 
 mgt_io_status io_error_take(mgt_io_error *error, mgt_io_status status, const char *text)
 {
-    if (!error || error->struct_size < sizeof *error || error->struct_size > MOST_BYTES)
+    if (!error || !struct_size_fits(error->struct_size, sizeof *error, sizeof *error))
         return status;
     mgt_io_error_init(error, error->struct_size);
     snprintf(error->text, sizeof error->text, "%s", text + place_of(text, error));

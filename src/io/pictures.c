@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/struct_size.h"
 #include "image/metrics_clip.h"
 #include "io/io_error.h"
 
@@ -32,12 +33,9 @@ void mgt_io_picture_free(mgt_io_picture *picture)
     picture->pixels = NULL;
 }
 
-/* A later version's struct is at most so large. */
-enum { MOST_BYTES = sizeof(mgt_metrics_desc) + 1024 };
-
 void mgt_metrics_desc_init(mgt_metrics_desc *desc, size_t size)
 {
-    if (desc && size >= sizeof desc->struct_size && size <= MOST_BYTES) {
+    if (desc && struct_size_fits(size, sizeof desc->struct_size, sizeof *desc)) {
         memset(desc, 0, size);
         desc->struct_size = size;
     }
@@ -75,8 +73,7 @@ mgt_io_status mgt_metrics_measure(const mgt_metrics_desc *desc, const float *con
     file_error problem;
     clip_scores result;
     clip_maps maps = {{0}};
-    if (!desc || desc->struct_size < sizeof *desc || desc->struct_size > MOST_BYTES || !a || !b || !scores || frames == 0 ||
-        (map && map_metric >= CLIP_METRICS))
+    if (!desc || !struct_size_fits(desc->struct_size, sizeof *desc, sizeof *desc) || !a || !b || !scores || frames == 0 || (map && map_metric >= CLIP_METRICS))
         return io_error_take(error, MGT_IO_ARGUMENT, "a pointer is missing, or there is no frame or no such metric");
     const mgt_io_status status = read_desc(&d, desc, error);
     if (status != MGT_IO_OK)

@@ -3,6 +3,7 @@
  * mirror.k at one lane against the exact mirror map, its finite differences and quadratures.
  */
 #include "kernel_lane.h"
+#include "unit/light_data.h"
 
 #include "reference/quadrature.h"
 
@@ -22,18 +23,9 @@ static void make_case(mirror_case *c, random_state *r, double radius_deg)
     direction_of(random_range(r, 3, 50), 0, c->light);
     double e[3], f[3];
     light_plane_axes(c->light, e, f);
-    c->frame = (FrameData){.lights[0].light_x = (float)c->light[0],
-                           .lights[0].light_y = (float)c->light[1],
-                           .lights[0].light_z = (float)c->light[2],
-                           .lights[0].disk_radius = (float)tan(radius_deg * pi / 180),
-                           .lights[0].axis_e_x = (float)e[0],
-                           .lights[0].axis_e_y = (float)e[1],
-                           .lights[0].axis_e_z = (float)e[2],
-                           .lights[0].axis_f_x = (float)f[0],
-                           .lights[0].axis_f_y = (float)f[1],
-                           .lights[0].axis_f_z = (float)f[2],
-                           .lights[0].light_visible = 1,
-                           .index_of_refraction = 1.333f};
+    c->frame = (FrameData){.lights[0] = light_data(c->light, e, f), .index_of_refraction = 1.333f};
+    c->frame.lights[0].disk_radius = (float)tan(radius_deg * pi / 180);
+    c->frame.lights[0].light_visible = 1;
     c->cx.frame = &c->frame;
 }
 

@@ -4,6 +4,7 @@
  * the light point and its Jacobian (Eqs. 8–13).
  */
 #include "kernel_lane.h"
+#include "unit/light_data.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -148,15 +149,7 @@ static void light_point_is_the_exact_map(void **state)
         direction_of(random_range(&r, 2, 80), random_range(&r, 130, 230), view);
         direction_of(random_range(&r, 3, 80), 0, light);
         light_plane_axes(light, e, f);
-        const FrameData data = {.lights[0].light_x = (float)light[0],
-                                .lights[0].light_y = (float)light[1],
-                                .lights[0].light_z = (float)light[2],
-                                .lights[0].axis_e_x = (float)e[0],
-                                .lights[0].axis_e_y = (float)e[1],
-                                .lights[0].axis_e_z = (float)e[2],
-                                .lights[0].axis_f_x = (float)f[0],
-                                .lights[0].axis_f_y = (float)f[1],
-                                .lights[0].axis_f_z = (float)f[2]};
+        const FrameData data = {.lights[0] = light_data(light, e, f)};
         const struct kernel_context cx = {.frame = &data};
         const double slope[2] = {random_range(&r, -0.3, 0.3), random_range(&r, -0.3, 0.3)};
         if (!mirror_map(view, light, slope, exact) || hypot(exact[0], exact[1]) > 3 || !mirror_map_jacobian(view, light, slope, exact_jacobian))

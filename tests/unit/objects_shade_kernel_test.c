@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * The kernels that shade points of objects, at one lane, against box means, integrals, areas of light and finite differences in double precision. */
+#include "unit/light_data.h"
 #include "unit/objects_lane.h"
 
 static ShadeData shade_data; /* of the case */
@@ -136,17 +137,7 @@ static void slopes_bend_the_view_to_the_light(void **state)
         unit3(e);
         for (int k = 0; k < 3; k++)
             f[k] = light[(k + 1) % 3] * e[(k + 2) % 3] - light[(k + 2) % 3] * e[(k + 1) % 3];
-        frame_data = (FrameData){.lights[0].light_x = (float)light[0],
-                                 .lights[0].light_y = (float)light[1],
-                                 .lights[0].light_z = (float)light[2],
-                                 .lights[0].axis_e_x = (float)e[0],
-                                 .lights[0].axis_e_y = (float)e[1],
-                                 .lights[0].axis_e_z = (float)e[2],
-                                 .lights[0].axis_f_x = (float)f[0],
-                                 .lights[0].axis_f_y = (float)f[1],
-                                 .lights[0].axis_f_z = (float)f[2],
-                                 .index_of_refraction = 1 / 1.333f,
-                                 .camera_under = 1};
+        frame_data = (FrameData){.lights[0] = light_data(light, e, f), .index_of_refraction = 1 / 1.333f, .camera_under = 1};
         const vec3 v = vec3((float)view[0], (float)view[1], (float)view[2]);
         const Mirror m = mirror_at(NULL, v);
         const double cosine =
