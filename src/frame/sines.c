@@ -30,11 +30,37 @@ void sines_order(const mgt_water *water, uint16_t *order)
     sort_order(water->waves, order, room, 0, water->wave_count);
 }
 
-static WaveData wave_data(const mgt_wave *w, double choppiness, double half)
+/* Covariance of the slopes of all waves at rest. */
+typedef struct slope_covariance {
+    double xx, xz, zz;
+} slope_covariance;
+
+static slope_covariance covariance_of(const mgt_water *water)
+{
+    slope_covariance c = {0, 0, 0};
+    for (size_t i = 0; i < water->wave_count; i++) {
+        const mgt_wave *w = &water->waves[i];
+        const double half = w->amplitude * w->amplitude / 2;
+        c.xx += half * w->kx * w->kx;
+        c.xz += half * w->kx * w->kz;
+        c.zz += half * w->kz * w->kz;
+    }
+    return c;
+}
+
+/* What the slopes of all waves add to a choppy wave's share of slope variance, per area of the surface, over that share at rest: choppiness² k̂ᵀCk̂, to the first
+ * order. That the resolved waves press the unresolved ones together is not in it; choppy.k counts it. */
+static double steeper_by(const mgt_wave *w, double choppiness, const slope_covariance *c)
+{
+    const double squared = w->kx * w->kx + w->kz * w->kz;
+    return squared > 0 ? choppiness * choppiness * (w->kx * w->kx * c->xx + 2 * w->kx * w->kz * c->xz + w->kz * w->kz * c->zz) / squared : 0;
+}
+
+static WaveData wave_data(const mgt_wave *w, double choppiness, double half, const slope_covariance *c)
 {
     const double cos_half = cos(w->omega * half), sin_half = sin(w->omega * half);
     const double squared = w->kx * w->kx + w->kz * w->kz, A = w->amplitude;
-    const double octave = squared > 0 ? 0.5 * log2(squared) : 0;
+    const double octave = squared > 0 ? 0.5 * log2(squared) : 0, unresolved = A * A / 2 * (1 + steeper_by(w, choppiness, c));
     return (WaveData){
         .turns_x = (float)(w->kx / (2 * pi)),
         .turns_z = (float)(w->kz / (2 * pi)),
@@ -53,11 +79,11 @@ static WaveData wave_data(const mgt_wave *w, double choppiness, double half)
         .odd_height = (float)(A * sin_half),
         .cos_half = (float)cos_half,
         .sin_half = (float)sin_half,
-        .octave_mass = (float)(A * A * squared / 2 * octave),
-        .octave_sq_mass = (float)(A * A * squared / 2 * octave * octave),
-        .variance_xx = (float)(A * A / 2 * w->kx * w->kx),
-        .variance_xz = (float)(A * A / 2 * w->kx * w->kz),
-        .variance_zz = (float)(A * A / 2 * w->kz * w->kz),
+        .octave_mass = (float)(unresolved * squared * octave),
+        .octave_sq_mass = (float)(unresolved * squared * octave * octave),
+        .variance_xx = (float)(unresolved * w->kx * w->kx),
+        .variance_xz = (float)(unresolved * w->kx * w->kz),
+        .variance_zz = (float)(unresolved * w->kz * w->kz),
         .shift = squared > 0 ? (float)(choppiness / sqrt(squared)) : 0,
     };
 }
@@ -85,11 +111,12 @@ static void store_keys(wave_set *set, size_t i, const SortData *s)
 
 void sines_place(const mgt_water *water, const uint16_t *order, wave_meeting at, wave_set *set)
 {
+    const slope_covariance covariance = covariance_of(water);
     double variance = 0, slope_variance = 0;
     for (size_t i = water->wave_count; i-- > 0;) { /* from the smallest, for lesser_variance */
         const mgt_wave *w = &water->waves[order[i]];
         SortData s = sort_data(w, at);
-        set->data[i] = wave_data(w, at.turns != 0 ? -(double)water->choppiness : (double)water->choppiness, at.half);
+        set->data[i] = wave_data(w, at.turns != 0 ? -(double)water->choppiness : (double)water->choppiness, at.half, &covariance);
         variance += w->amplitude * w->amplitude / 2;
         slope_variance += w->amplitude * w->amplitude * (w->kx * w->kx + w->kz * w->kz) / 2;
         s.lesser_variance = (float)variance;

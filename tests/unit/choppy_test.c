@@ -194,6 +194,42 @@ static void ripples_lean_more_on_crests(void **state)
     }
 }
 
+/* The covariance of slopes that a pixel holds of which it resolves nothing, against the means at points of the world over many seas of other phases. */
+static void slopes_of_a_whole_sea(void **state)
+{
+    (void)state;
+    enum { SEAS = 40000 };
+    mgt_wave waves[WAVES];
+    mgt_scene scene = black_scene(640, 360, waves, WAVES);
+    random_state r = {41};
+    for (int i = 0; i < WAVES; i++) { /* along x twice as steep as across */
+        const double length = exp(random_range(&r, log(0.4), log(30))), k = 2 * pi / length, angle = random_range(&r, -0.9, 0.9);
+        waves[i] = (mgt_wave){.amplitude = 0.06 / k, .kx = k * cos(angle), .kz = k * sin(angle)};
+    }
+    scene.water.choppiness = 1;
+    kernel_bench *b = kernel_bench_create(&scene);
+    kernel_bench_tile(b, false, false, 320, 300);
+    double rest[2] = {0, 0}, said[2] = {0, 0}, found[2] = {0, 0};
+    for (int i = 0; i < WAVES; i++) {
+        rest[0] += pow(waves[i].amplitude * waves[i].kx, 2) / 2, rest[1] += pow(waves[i].amplitude * waves[i].kz, 2) / 2;
+        said[0] += (double)b->set.data[i].variance_xx, said[1] += (double)b->set.data[i].variance_zz;
+    }
+    kernel_bench_destroy(b);
+    for (int sea = 0; sea < SEAS; sea++) {
+        for (int i = 0; i < WAVES; i++)
+            waves[i].phase = random_range(&r, 0, 2 * pi);
+        const water_point s = water_surface(&scene.water, 0, 0, 0);
+        for (int axis = 0; axis < 2; axis++)
+            found[axis] += pow(s.slope[axis], 2) / SEAS;
+    }
+    for (int axis = 0; axis < 2; axis++) {
+        print_message("  variance %s at rest %.4f: × %.3f in the world, the library says %.3f\n", axis ? "across" : "along", rest[axis],
+                      found[axis] / rest[axis], said[axis] / rest[axis]);
+        assert_float_equal(said[axis] / rest[axis], found[axis] / rest[axis], 0.02);
+    }
+    assert_true(found[0] / rest[0] > 1.04);
+}
+
 /* ---- renders ---- */
 
 enum { WIDTH = 96, HEIGHT = 54 };
@@ -528,6 +564,7 @@ int main(void)
         cmocka_unit_test(kernels_see_the_surface),
         cmocka_unit_test(the_shutters_ends_are_the_surface_then),
         cmocka_unit_test(ripples_lean_more_on_crests),
+        cmocka_unit_test(slopes_of_a_whole_sea),
         cmocka_unit_test(rays_meet_choppy_water_first),
         cmocka_unit_test(folds_are_drawn),
         cmocka_unit_test(questions_find_the_place_of_rest),
