@@ -33,6 +33,23 @@ KERNEL real SHADOW_TEXEL(CTX cx, real column, real row)
     return gather_floats(cx->shade->shadows->height, whole(row) * (int)SHADE(cx).shadow_columns + whole(column));
 }
 
+enum { SHADOW_SHIFT = 3 };
+_Static_assert(1 << SHADOW_SHIFT == SHADOW_BLOCK, "a texel's block");
+
+/* Blocks as wide as the texels asked for, or wider: these lie in four of them. */
+KERNEL vec2 SHADOW_RANGE(CTX cx, real column, real row, real width, mask dry)
+{
+    const shadow_map *m = cx->shade->shadows;
+    const mask none = whole(real(0.0f)), blocks = whole(width * (1.0f / SHADOW_BLOCK)), most = none + (m->levels - 1);
+    mask level = (real_bits(real_from_int(blocks)) >> 23) - 126;
+    level = whole_select(blocks > 0, level, none);
+    level = whole_select(level < most, level, most);
+    const mask shift = level + SHADOW_SHIFT, across = gather_ints(m->across, level);
+    const mask half = whole_select(dry, none + (int)(m->halves - 1) * m->blocks, none);
+    const mask block = gather_ints(m->start, level) + half + (whole(row) >> shift) * across + (whole(column) >> shift);
+    return vec2(gather_floats(m->range, 2 * block), gather_floats(m->range, 2 * block + 1));
+}
+
 #include "kernels/refraction/shadow.k"
 #define SUN_VISIBILITY(cx, position, first, second, dry) shadow_over(cx, position, first, second, dry)
 
@@ -156,7 +173,8 @@ static void lanes_disk(const shade_scene *s, size_t count, const float *x, const
     const struct kernel_context cx = {.shade = s};
     for (size_t i = 0; i < count; i += MGT_LANES) {
         const size_t some = count - i < MGT_LANES ? count - i : MGT_LANES;
-        const real lit = shadow_at_point(&cx, vec3(load_some(x + i, some), real(0.0f), load_some(z + i, some)), lane_numbers() < real(0.0f));
+        const vec3 at = vec3(load_some(x + i, some), real(0.0f), load_some(z + i, some)), point = vec3(real(0.0f), real(0.0f), real(0.0f));
+        const real lit = shadow_over(&cx, at, point, point, lane_numbers() < real(0.0f));
         const vec3 left = disk_through_water(&cx, lit, load_some(way + i, some));
         float lanes[3][MGT_LANES];
         store(lanes[0], left.x), store(lanes[1], left.y), store(lanes[2], left.z);

@@ -22,8 +22,10 @@ static shadow_rays straight_rays(const shadow_rays *rays) { return (shadow_rays)
 
 void shadow_map_free(shadow_map *m)
 {
-    if (m)
+    if (m) {
         free(m->height);
+        free(m->range);
+    }
     free(m);
 }
 
@@ -176,6 +178,119 @@ static void draw_world(const map_half *h, const world *w)
     }
 }
 
+/* ---- blocks ---- */
+
+typedef struct height_range {
+    float least, greatest;
+} height_range;
+
+static height_range joined(height_range a, height_range b)
+{
+    return (height_range){a.least < b.least ? a.least : b.least, a.greatest > b.greatest ? a.greatest : b.greatest};
+}
+
+static const height_range no_heights = {INFINITY, -INFINITY};
+
+static void set_levels(shadow_map *m)
+{
+    const uint32_t side = m->columns > m->rows ? m->columns : m->rows;
+    for (bool whole = false; !whole; m->levels++) {
+        const uint32_t block = (uint32_t)SHADOW_BLOCK << m->levels;
+        m->across[m->levels] = (int)((m->columns + block - 1) / block);
+        m->start[m->levels] = m->blocks;
+        m->blocks += m->across[m->levels] * (int)((m->rows + block - 1) / block);
+        whole = block >= side;
+    }
+}
+
+static int blocks_down(const shadow_map *m, int level)
+{
+    return ((level + 1 < m->levels ? m->start[level + 1] : m->blocks) - m->start[level]) / m->across[level];
+}
+
+/* A plane of numbers' ranges. */
+typedef struct range_plane {
+    height_range *of;
+    int across, down;
+} range_plane;
+
+/* Of four blocks, of which this is the first one. */
+static height_range range_of_four(const range_plane *p, int column, int row)
+{
+    height_range r = no_heights;
+    for (int y = row; y < row + 2 && y < p->down; y++)
+        for (int x = column; x < column + 2 && x < p->across; x++)
+            r = joined(r, p->of[(size_t)y * (size_t)p->across + (size_t)x]);
+    return r;
+}
+
+static height_range range_of_texels(const shadow_map *m, const float *half, int column, int row)
+{
+    height_range r = no_heights;
+    for (uint32_t y = (uint32_t)row * SHADOW_BLOCK; y < (uint32_t)(row + 1) * SHADOW_BLOCK && y < m->rows; y++)
+        for (uint32_t x = (uint32_t)column * SHADOW_BLOCK; x < (uint32_t)(column + 1) * SHADOW_BLOCK && x < m->columns; x++) {
+            const float height = half[(size_t)y * m->columns + x];
+            r = joined(r, (height_range){height, height});
+        }
+    return r;
+}
+
+/* Blocks of a half by themselves, level by level, each from the one before. */
+static void find_blocks(const shadow_map *m, const float *half, height_range *blocks)
+{
+    for (int level = 0; level < m->levels; level++) {
+        const int across = m->across[level], down = blocks_down(m, level);
+        const range_plane finer = level > 0 ? (range_plane){blocks + m->start[level - 1], m->across[level - 1], blocks_down(m, level - 1)} : (range_plane){0};
+        height_range *out = blocks + m->start[level];
+        for (int row = 0; row < down; row++)
+            for (int column = 0; column < across; column++)
+                *out++ = level > 0 ? range_of_four(&finer, 2 * column, 2 * row) : range_of_texels(m, half, column, row);
+    }
+}
+
+static void join_blocks(const shadow_map *m, height_range *blocks, float *range)
+{
+    for (int level = 0; level < m->levels; level++) {
+        const range_plane plane = {blocks + m->start[level], m->across[level], blocks_down(m, level)};
+        for (int row = 0; row < plane.down; row++)
+            for (int column = 0; column < plane.across; column++) {
+                const height_range r = range_of_four(&plane, column, row);
+                *range++ = r.least, *range++ = r.greatest;
+            }
+    }
+}
+
+static bool find_ranges(shadow_map *m)
+{
+    set_levels(m);
+    height_range *blocks = malloc((size_t)m->blocks * sizeof *blocks);
+    m->range = malloc((size_t)m->blocks * m->halves * 2 * sizeof *m->range);
+    for (size_t half = 0; half < m->halves && blocks && m->range; half++) {
+        find_blocks(m, m->height + half * m->columns * m->rows, blocks);
+        join_blocks(m, blocks, m->range + half * (size_t)m->blocks * 2);
+    }
+    free(blocks);
+    return blocks && m->range;
+}
+
+/* ---- the map ---- */
+
+static bool make_room(shadow_map *m)
+{
+    const size_t count = (size_t)m->columns * m->rows * m->halves;
+    m->height = malloc(count * sizeof *m->height);
+    for (size_t i = 0; i < count && m->height; i++)
+        m->height[i] = -INFINITY;
+    return m->height != NULL;
+}
+
+static void draw_map(const shadow_map *m, const world *w)
+{
+    draw_world(&(map_half){m, m->rays, m->height}, w);
+    if (m->halves > 1)
+        draw_world(&(map_half){m, straight_rays(&m->rays), m->height + (size_t)m->columns * m->rows}, w);
+}
+
 mgt_status shadow_map_update(shadow_map **map, const world *w, const shadow_rays *rays)
 {
     if (*map && (*map)->version == w->version && memcmp(&(*map)->rays, rays, sizeof *rays) == 0)
@@ -190,17 +305,12 @@ mgt_status shadow_map_update(shadow_map **map, const world *w, const shadow_rays
     if (w->triangle_count == 0)
         return MGT_OK;
     place_map(m, w);
-    const size_t half = (size_t)m->columns * m->rows, count = half * m->halves;
-    m->height = malloc(count * sizeof *m->height);
-    if (!m->height) {
-        shadow_map_free(m);
-        *map = NULL;
-        return MGT_ERROR_MEMORY;
+    if (make_room(m)) {
+        draw_map(m, w);
+        if (find_ranges(m))
+            return MGT_OK;
     }
-    for (size_t i = 0; i < count; i++)
-        m->height[i] = -INFINITY;
-    draw_world(&(map_half){m, m->rays, m->height}, w);
-    if (m->halves > 1)
-        draw_world(&(map_half){m, straight_rays(rays), m->height + half}, w);
-    return MGT_OK;
+    shadow_map_free(m);
+    *map = NULL;
+    return MGT_ERROR_MEMORY;
 }

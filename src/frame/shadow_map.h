@@ -16,6 +16,8 @@ typedef struct shadow_rays {
     double air[2], water[2]; /* lean */
 } shadow_rays;
 
+enum { SHADOW_SIDE = 2048, SHADOW_BLOCK = 8, SHADOW_LEVELS = 9 }; /* texels: most a side of a half, a side of the smallest blocks */
+
 typedef struct shadow_map {
     uint64_t version; /* of the world it was drawn from */
     shadow_rays rays;
@@ -24,9 +26,11 @@ typedef struct shadow_map {
     float left, top;        /* place of its corner, metres in the world's coordinates */
     float texel;            /* metres */
     float *height;          /* columns × rows × halves; −inf: nothing */
+    int levels;             /* of blocks of SHADOW_BLOCK << level texels a side; the last one is one block */
+    int across[SHADOW_LEVELS], start[SHADOW_LEVELS];
+    int blocks;   /* of all levels of a half */
+    float *range; /* blocks × halves × 2: least and greatest height in the block at hand, the one to its right, the one below and the one between them */
 } shadow_map;
-
-enum { SHADOW_SIDE = 2048 }; /* most texels a side of a half */
 
 /* *m is NULL at first; what it holds stays while the world's version and the rays are the same. MGT_ERROR_MEMORY leaves none. */
 mgt_status shadow_map_update(shadow_map **m, const world *w, const shadow_rays *rays);

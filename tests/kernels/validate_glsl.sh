@@ -40,6 +40,7 @@ float LAYER_NEAREST(int cx, int layer, float column, float row);
 vec3 TEXTURE(int cx, float object, float u, float v, float level);
 float SUN_VISIBILITY(int cx, vec3 position, vec3 first, vec3 second, bool dry);
 float SHADOW_TEXEL(int cx, float column, float row);
+vec2 SHADOW_RANGE(int cx, float column, float row, float width, bool dry);
 GLSL
 
 echo "float LUMA(int cx, float column, float row);" >"$work/luma.glsl"

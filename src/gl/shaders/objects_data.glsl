@@ -136,5 +136,8 @@ vec3 TEXTURE(int cx, float object, float u, float v, float level)
 
 float SHADOW_TEXEL(int cx, float column, float row) { return texelFetch(shadow_texture, ivec2(int(column), int(row)), 0).r; }
 
+/* OpenGL keeps no blocks of the map. */
+#define SHADOW_RANGE(cx, column, row, width, dry) vec2(0.0f - INFINITE, INFINITE)
+
 #include "kernels/refraction/shadow.k"
 #define SUN_VISIBILITY(cx, position, first, second, dry) shadow_over(cx, position, first, second, dry)
