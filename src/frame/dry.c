@@ -266,16 +266,6 @@ static bool list_places(dry_search *s)
 
 /* ---- all ---- */
 
-static void add_bounds(const world *w, const world_object *o, float low[3], float high[3])
-{
-    for (size_t i = 3 * (size_t)o->first_triangle; i < 3 * ((size_t)o->first_triangle + o->triangle_count); i++)
-        for (int k = 0; k < 3; k++) {
-            const float x = w->positions[3 * (size_t)w->indices[i] + (size_t)k];
-            low[k] = fminf(low[k], x);
-            high[k] = fmaxf(high[k], x);
-        }
-}
-
 /* The dry meshes' triangles and bounds, and which objects reach into these. */
 static bool list_triangles(dry_search *s, world *w)
 {
@@ -285,7 +275,8 @@ static bool list_triangles(dry_search *s, world *w)
     for (size_t i = 0; i < w->object_count; i++)
         if (w->objects[i].dry) {
             count += w->objects[i].triangle_count;
-            add_bounds(w, &w->objects[i], s->low, s->high);
+            for (int k = 0; k < 3; k++)
+                s->low[k] = fminf(s->low[k], w->objects[i].low[k]), s->high[k] = fmaxf(s->high[k], w->objects[i].high[k]);
         }
     double squared = 0;
     for (int k = 0; k < 3; k++)
@@ -295,11 +286,9 @@ static bool list_triangles(dry_search *s, world *w)
     s->triangles = malloc((count + 1) * sizeof *s->triangles);
     for (size_t i = 0; s->triangles && i < w->object_count; i++) {
         world_object *o = &w->objects[i];
-        float low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
-        add_bounds(w, o, low, high);
         o->in_dry = true;
         for (int k = 0; k < 3; k++)
-            o->in_dry = o->in_dry && low[k] <= s->high[k] && high[k] >= s->low[k];
+            o->in_dry = o->in_dry && o->low[k] <= s->high[k] && o->high[k] >= s->low[k];
         for (size_t t = 0; o->dry && t < o->triangle_count; t++)
             s->triangles[s->triangle_count++] = o->first_triangle + (uint32_t)t;
     }

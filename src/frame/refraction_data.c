@@ -87,6 +87,41 @@ void refraction_wave_list(const frame *f, const world *w, SearchWave *out)
 /* One ray a pixel, unless someone asks for a number. */
 static bool smooths_edges(const mgt_quality *q) { return q->refraction == MGT_REFRACTION_TWO_PHASE && q->refraction_samples == 0; }
 
+/* Pictures are rounded to parts of pixels: they overlap at the waterline, and the water itself says what is in front. */
+static double reach_of(const frame *f) { return fmax(sines_crest(&f->scene->water), 0.002); }
+
+typedef struct box {
+    float low[3], high[3];
+} box;
+
+/* In the coordinates of narrow.k, a little wider. */
+static box box_from_camera(const frame *f, const world *w, box b)
+{
+    const double foot[3] = {f->close.position[0] - w->origin[0], 0, f->close.position[2] - w->origin[1]};
+    box c;
+    for (int k = 0; k < 3; k++) {
+        const bool turned = f->under && k == 1;
+        c.low[k] = (float)((double)(turned ? -b.high[k] : b.low[k]) - foot[k]) - 1e-3f;
+        c.high[k] = (float)((double)(turned ? -b.low[k] : b.high[k]) - foot[k]) + 1e-3f;
+    }
+    return c;
+}
+
+/* The objects that reach to the camera's side. */
+static box near_box(const frame *f, const world *w)
+{
+    const float reach = (float)reach_of(f);
+    box b = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    for (size_t i = 0; i < w->object_count; i++) {
+        const world_object *o = &w->objects[i];
+        if (f->under ? o->low[1] > reach : o->high[1] < -reach)
+            continue;
+        for (int k = 0; k < 3; k++)
+            b.low[k] = fminf(b.low[k], o->low[k]), b.high[k] = fmaxf(b.high[k], o->high[k]);
+    }
+    return b;
+}
+
 NarrowData refraction_narrow_data(const frame *f, const world *w, const gbuffer *layer)
 {
     const camera_rays *c = &f->close;
@@ -94,6 +129,8 @@ NarrowData refraction_narrow_data(const frame *f, const world *w, const gbuffer 
     const float place = 1.0f / (float)(f->scene->quality.refraction_samples ? f->scene->quality.refraction_samples : 1);
     double rows[3][3];
     invert(c->right, c->down, c->corner, rows);
+    const box all = box_from_camera(f, w, (box){{w->low[0], w->low[1], w->low[2]}, {w->high[0], w->high[1], w->high[2]}});
+    const box near = box_from_camera(f, w, near_box(f, w));
     return (NarrowData){
         .column_x = (float)rows[0][0],
         .column_y = (float)rows[0][1],
@@ -129,12 +166,18 @@ NarrowData refraction_narrow_data(const frame *f, const world *w, const gbuffer 
         .stride = 2,
         .place = place,
         .looked = looks_up(f->scene->quality.refraction) ? 1 : place,
-        .low_x = (float)(w->low[0] + w->origin[0] - c->position[0]) - 1e-3f,
-        .low_y = (f->under ? -w->high[1] : w->low[1]) - 1e-3f,
-        .low_z = (float)(w->low[2] + w->origin[1] - c->position[2]) - 1e-3f,
-        .high_x = (float)(w->high[0] + w->origin[0] - c->position[0]) + 1e-3f,
-        .high_y = (f->under ? -w->low[1] : w->high[1]) + 1e-3f,
-        .high_z = (float)(w->high[2] + w->origin[1] - c->position[2]) + 1e-3f,
+        .low_x = all.low[0],
+        .low_y = all.low[1],
+        .low_z = all.low[2],
+        .high_x = all.high[0],
+        .high_y = all.high[1],
+        .high_z = all.high[2],
+        .near_low_x = near.low[0],
+        .near_low_y = near.low[1],
+        .near_low_z = near.low[2],
+        .near_high_x = near.high[0],
+        .near_high_y = near.high[1],
+        .near_high_z = near.high[2],
         .wave_height = (float)sines_crest(&f->scene->water),
         .waves = waves_met_again(f),
         .wave_slope = (float)(steeper(f) * sines_steepest(&f->scene->water)),
@@ -147,8 +190,7 @@ NarrowData refraction_narrow_data(const frame *f, const world *w, const gbuffer 
 gbuffer_job refraction_job(const frame *f)
 {
     const mgt_scene *scene = f->scene;
-    /* Pictures are rounded to parts of pixels: they overlap at the waterline, and the water itself says what is in front. */
-    const double reach = fmax(sines_crest(&scene->water), 0.002);
+    const double reach = reach_of(f);
     return (gbuffer_job){
         .camera = f->under ? mirrored_rays(&f->close) : f->close,
         .width = scene->image.width,

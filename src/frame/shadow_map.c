@@ -29,21 +29,9 @@ void shadow_map_free(shadow_map *m)
     free(m);
 }
 
-/* Of an object: its vertices' bounds. */
 typedef struct bounds {
     float low[3], high[3];
 } bounds;
-
-static bounds bounds_of(const world *w, const world_object *o)
-{
-    bounds b = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
-    for (size_t i = 3 * (size_t)o->first_triangle; i < 3 * ((size_t)o->first_triangle + o->triangle_count); i++)
-        for (size_t k = 0; k < 3; k++) {
-            const float at = w->positions[3 * (size_t)w->indices[i] + k];
-            b.low[k] = fminf(b.low[k], at), b.high[k] = fmaxf(b.high[k], at);
-        }
-    return b;
-}
 
 /* Bounds of all objects that can cast shadows on something. A level ground without end, with nothing wholly under it, would leave the others a few texels. */
 static bounds bounds_of_casters(const world *w)
@@ -52,13 +40,13 @@ static bounds bounds_of_casters(const world *w)
     float lowest_top = INFINITY;
     for (size_t i = 0; i < w->object_count; i++)
         if (w->objects[i].triangle_count > 0)
-            lowest_top = fminf(lowest_top, bounds_of(w, &w->objects[i]).high[1]);
+            lowest_top = fminf(lowest_top, w->objects[i].high[1]);
     for (size_t i = 0; i < w->object_count; i++) {
-        const bounds b = bounds_of(w, &w->objects[i]);
-        if (w->objects[i].triangle_count == 0 || (b.low[1] == b.high[1] && b.high[1] <= lowest_top))
+        const world_object *o = &w->objects[i];
+        if (o->triangle_count == 0 || (o->low[1] == o->high[1] && o->high[1] <= lowest_top))
             continue;
         for (int k = 0; k < 3; k++)
-            all.low[k] = fminf(all.low[k], b.low[k]), all.high[k] = fmaxf(all.high[k], b.high[k]);
+            all.low[k] = fminf(all.low[k], o->low[k]), all.high[k] = fmaxf(all.high[k], o->high[k]);
     }
     if (all.low[0] > all.high[0]) {
         memcpy(all.low, w->low, sizeof all.low);

@@ -171,6 +171,18 @@ static void fill_neighbours(const mgt_mesh *mesh, size_t triangle, uint32_t firs
     }
 }
 
+static void find_object_bounds(const world *w, world_object *o)
+{
+    for (int k = 0; k < 3; k++)
+        o->low[k] = INFINITY, o->high[k] = -INFINITY;
+    for (size_t i = 3 * (size_t)o->first_triangle; i < 3 * ((size_t)o->first_triangle + o->triangle_count); i++)
+        for (int k = 0; k < 3; k++) {
+            const float x = w->positions[3 * (size_t)w->indices[i] + (size_t)k];
+            o->low[k] = x < o->low[k] ? x : o->low[k];
+            o->high[k] = x > o->high[k] ? x : o->high[k];
+        }
+}
+
 static void fill_object(void *argument, size_t index, uint32_t worker)
 {
     (void)worker;
@@ -208,20 +220,20 @@ static void fill_object(void *argument, size_t index, uint32_t worker)
         fill_neighbours(mesh, i, o->first_triangle, mirrors, w->neighbours + 3 * (o->first_triangle + i));
         w->object[o->first_triangle + i] = (uint32_t)index;
     }
+    find_object_bounds(w, o);
     o->cut = is_cut(w, o);
     o->dry = mesh->dry;
 }
 
 static void find_bounds(world *w)
 {
-    for (int k = 0; k < 3; k++)
+    for (int k = 0; k < 3; k++) {
         w->low[k] = INFINITY, w->high[k] = -INFINITY;
-    for (size_t i = 0; i < 3 * w->triangle_count; i++)
-        for (int k = 0; k < 3; k++) {
-            const float x = w->positions[3 * (size_t)w->indices[i] + (size_t)k];
-            w->low[k] = x < w->low[k] ? x : w->low[k];
-            w->high[k] = x > w->high[k] ? x : w->high[k];
+        for (size_t i = 0; i < w->object_count; i++) {
+            w->low[k] = fminf(w->low[k], w->objects[i].low[k]);
+            w->high[k] = fmaxf(w->high[k], w->objects[i].high[k]);
         }
+    }
 }
 
 static bool allocate(world *w, size_t objects, size_t vertices, size_t triangles)

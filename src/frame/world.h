@@ -10,10 +10,11 @@
 typedef struct world_object {
     mgt_material material;
     uint32_t first_triangle, triangle_count;
-    bool smooth; /* the mesh has normals of its own; else its triangles are flat and `normals` holds zeros */
-    bool cut;    /* closed, and the mean surface cuts it */
-    bool dry;    /* a hull */
-    bool in_dry; /* reaches into the bounds of dry objects, itself among them */
+    float low[3], high[3]; /* bounds of the vertices in use; low > high where there are none */
+    bool smooth;           /* the mesh has normals of its own; else its triangles are flat and `normals` holds zeros */
+    bool cut;              /* closed, and the mean surface cuts it */
+    bool dry;              /* a hull */
+    bool in_dry;           /* reaches into the bounds of dry objects, itself among them */
 } world_object;
 
 /*
@@ -33,7 +34,7 @@ typedef struct world {
     uint32_t *object;      /* of a triangle: index into objects */
     world_object *objects; /* as the scene's; read from the scene of every frame, their textures live only during it */
     float *dry;            /* 2 a triangle, of its front and its back: see dry.h; NULL: nothing is dry */
-    float low[3], high[3]; /* bounds of the vertices in use; low > high where there is nothing */
+    float low[3], high[3]; /* bounds of all objects */
 } world;
 
 /*
