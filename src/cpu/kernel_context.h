@@ -16,7 +16,7 @@ struct kernel_context {
     const FoamData *foam; /* NULL: there is none */
     const FoamWave *foam_waves;
     const FoamSine *foam_sines;
-    const float *sky;                  /* SKY_TABLE_ROWS × SKY_COLUMNS × 3 */
+    const float *sky;                  /* SKY_TABLE_ROWS × SKY_COLUMNS × 3, and one beyond */
     const ViewData *view;              /* only while tiles are sorted */
     const podee_tables *podee;         /* only where podee-* replaces its Gaussian by kernels */
     const struct lean_map *lean;       /* methods lean and leadr alone */

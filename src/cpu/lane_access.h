@@ -21,26 +21,6 @@
         (table)[(at)[0]], (table)[(at)[1]], (table)[(at)[2]], (table)[(at)[3]] \
     }
 
-KERNEL vec3 SKY_TEXEL(CTX cx, real column, real row)
-{
-    const real index = real_fma(row, real_broadcast(SKY_COLUMNS), column);
-#if MGT_LANES == 1
-    const float *texel = cx->sky + 3 * (int)index;
-    return (vec3){texel[0], texel[1], texel[2]};
-#else
-    const mask at = __builtin_convertvector(index, mask) * 3;
-#if MGT_LANES == 16
-    return (vec3){(real)_mm512_i32gather_ps((__m512i)at, cx->sky, 4), (real)_mm512_i32gather_ps((__m512i)at, cx->sky + 1, 4),
-                  (real)_mm512_i32gather_ps((__m512i)at, cx->sky + 2, 4)};
-#elif MGT_LANES == 8
-    return (vec3){(real)_mm256_i32gather_ps(cx->sky, (__m256i)at, 4), (real)_mm256_i32gather_ps(cx->sky + 1, (__m256i)at, 4),
-                  (real)_mm256_i32gather_ps(cx->sky + 2, (__m256i)at, 4)};
-#else
-    return (vec3){FOUR_OF(cx->sky, at), FOUR_OF(cx->sky + 1, at), FOUR_OF(cx->sky + 2, at)};
-#endif
-#endif
-}
-
 /* ---- loads and stores ---- */
 
 static inline real load(const float *p)
@@ -95,32 +75,44 @@ static inline mask gather_ints(const int *table, mask at)
 #endif
 }
 
-/* Four numbers of a table's row; a row a lane. */
+/* Four numbers in a row of a table, a place a lane. */
 typedef struct four_reals {
     real x, y, z, w;
 } four_reals;
 
-static inline four_reals gather_rows(const float *table, mask row)
+static inline four_reals gather_fours(const float *table, mask first)
 {
 #if MGT_LANES == 16
     int at[16];
-    __builtin_memcpy(at, &row, sizeof at);
-    __m512 q[4]; /* rows i, i + 4, i + 8, i + 12 */
+    __builtin_memcpy(at, &first, sizeof at);
+    __m512 q[4]; /* those of the lanes i, i + 4, i + 8, i + 12 */
     for (int i = 0; i < 4; i++) {
-        q[i] = _mm512_castps128_ps512(_mm_loadu_ps(table + 4 * (size_t)at[i]));
-        q[i] = _mm512_insertf32x4(q[i], _mm_loadu_ps(table + 4 * (size_t)at[i + 4]), 1);
-        q[i] = _mm512_insertf32x4(q[i], _mm_loadu_ps(table + 4 * (size_t)at[i + 8]), 2);
-        q[i] = _mm512_insertf32x4(q[i], _mm_loadu_ps(table + 4 * (size_t)at[i + 12]), 3);
+        q[i] = _mm512_castps128_ps512(_mm_loadu_ps(table + at[i]));
+        q[i] = _mm512_insertf32x4(q[i], _mm_loadu_ps(table + at[i + 4]), 1);
+        q[i] = _mm512_insertf32x4(q[i], _mm_loadu_ps(table + at[i + 8]), 2);
+        q[i] = _mm512_insertf32x4(q[i], _mm_loadu_ps(table + at[i + 12]), 3);
     }
     const __m512d low = _mm512_castps_pd(_mm512_unpacklo_ps(q[0], q[1])), low_2 = _mm512_castps_pd(_mm512_unpacklo_ps(q[2], q[3]));
     const __m512d high = _mm512_castps_pd(_mm512_unpackhi_ps(q[0], q[1])), high_2 = _mm512_castps_pd(_mm512_unpackhi_ps(q[2], q[3]));
     return (four_reals){(real)_mm512_unpacklo_pd(low, low_2), (real)_mm512_unpackhi_pd(low, low_2), (real)_mm512_unpacklo_pd(high, high_2),
                         (real)_mm512_unpackhi_pd(high, high_2)};
+#elif MGT_LANES == 8
+    int at[8];
+    __builtin_memcpy(at, &first, sizeof at);
+    __m256 q[4]; /* those of the lanes i, i + 4 */
+    for (int i = 0; i < 4; i++)
+        q[i] = _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(table + at[i])), _mm_loadu_ps(table + at[i + 4]), 1);
+    const __m256d low = _mm256_castps_pd(_mm256_unpacklo_ps(q[0], q[1])), low_2 = _mm256_castps_pd(_mm256_unpacklo_ps(q[2], q[3]));
+    const __m256d high = _mm256_castps_pd(_mm256_unpackhi_ps(q[0], q[1])), high_2 = _mm256_castps_pd(_mm256_unpackhi_ps(q[2], q[3]));
+    return (four_reals){(real)_mm256_unpacklo_pd(low, low_2), (real)_mm256_unpackhi_pd(low, low_2), (real)_mm256_unpacklo_pd(high, high_2),
+                        (real)_mm256_unpackhi_pd(high, high_2)};
 #else
-    const mask at = 4 * row;
-    return (four_reals){gather_floats(table, at), gather_floats(table + 1, at), gather_floats(table + 2, at), gather_floats(table + 3, at)};
+    return (four_reals){gather_floats(table, first), gather_floats(table + 1, first), gather_floats(table + 2, first), gather_floats(table + 3, first)};
 #endif
 }
+
+/* Rows of four, a row a lane. */
+static inline four_reals gather_rows(const float *table, mask row) { return gather_fours(table, 4 * row); }
 
 /* Bytes; three beyond the table's last may be read. */
 static inline mask gather_bytes(const uint8_t *table, mask at)
@@ -134,6 +126,14 @@ static inline mask gather_bytes(const uint8_t *table, mask at)
 #else
     return (mask)FOUR_OF(table, at);
 #endif
+}
+
+/* ---- the sky ---- */
+
+KERNEL vec3 SKY_TEXEL(CTX cx, real column, real row)
+{
+    const four_reals texel = gather_fours(cx->sky, whole(real_fma(row, real_broadcast(SKY_COLUMNS), column)) * 3);
+    return (vec3){texel.x, texel.y, texel.z};
 }
 
 /* 0, 1, 2, … for the lanes. */

@@ -218,6 +218,8 @@ static void sharpen_pixel(const refraction *r, tile_objects *o, size_t i)
     int32_t triangles[REFRACTION_NEIGHBOURS];
     const size_t count = refraction_neighbours(g, (size_t)e->pixel[i], triangles);
     for (size_t k = 0; k < count; k++)
+        __builtin_prefetch(&r->surface[triangles[k]]);
+    for (size_t k = 0; k < count; k++)
         follow_surface(&s, triangles[k]);
     if (s.lost && point_is_near(NULL, e->error[i]) && (double)(e->after[i] - e->way[i]) < s.nearest)
         return;

@@ -153,6 +153,9 @@ static inline vec3 object_texture(const shade_scene *s, real object, real u, rea
 {
     float objects[MGT_LANES];
     store(objects, object);
+    const mgt_texture *shared = s->materials[(size_t)objects[0]].texture;
+    if (shared && all_lanes(object == real(objects[0])))
+        return trilinear_color(s, shared, u, v, level);
     vec3 color = vec3(real(0.0f), real(0.0f), real(0.0f));
     for (int i = 0; i < MGT_LANES; i++) {
         const mgt_texture *t = s->materials[(size_t)objects[i]].texture;

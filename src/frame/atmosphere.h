@@ -32,7 +32,7 @@ typedef struct sky_state {
     struct scattering *air; /* MGT_SKY_ATMOSPHERE; NULL: another model */
     struct scattering_ray *ray;
 
-    float table[SKY_TABLE_ROWS * SKY_COLUMNS * 3]; /* rows from the horizon up, no disk in it; then those of air.h and stars.h */
+    float table[SKY_TABLE_ROWS * SKY_COLUMNS * 3 + 1]; /* rows from the horizon up, no disk in it; then those of air.h and stars.h; one float is read beyond */
 } sky_state;
 
 /* A black sky without lights, NULL without memory. The caller owns it. */
