@@ -194,7 +194,7 @@ mgt_status refraction_prepare(refraction **state, const reporter *report, const 
     r->kernels = kernels;
     r->frame = f;
     if (world_update(&r->world, f->scene, pool) != MGT_OK || !build_planes(r) || set_camera(r, pool) != MGT_OK ||
-        shade_update(&r->shade, r->world, f, sky) != MGT_OK)
+        shade_update(&r->shade, r->world, f, sky) != MGT_OK || !shade_list_triangles(r->shade))
         goto out_of_memory;
     atomic_store(&r->pixels, 0);
     atomic_store(&r->traced, 0);

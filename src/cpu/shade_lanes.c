@@ -57,60 +57,36 @@ KERNEL vec2 SHADOW_RANGE(CTX cx, real column, real row, real width, mask dry)
 
 /* ---- hits ---- */
 
-/* The numbers of a hit that are read from a triangle and its object, as in HitTriangle and HitMaterial. */
-enum { TRIANGLE_FLOATS = 24, MATERIAL_FLOATS = 14, OBJECT_FLOATS = TRIANGLE_FLOATS + MATERIAL_FLOATS };
-
-static void read_triangle(const shade_scene *s, size_t triangle, float *out)
+/* A record of `floats` numbers a lane, in `out`; neighbours often share theirs. */
+static inline void read_records(const float *table, int floats, mask record, real *out)
 {
-    const world *w = s->world;
-    const uint32_t object = w->object[triangle];
-    const bool smooth = w->objects[object].smooth;
-    const uint32_t *corner = w->indices + 3 * triangle;
-    const float *p0 = w->positions + 3 * (size_t)corner[0];
-    for (int k = 0; k < 3; k++) {
-        out[k] = p0[k];
-        out[3 + k] = w->positions[3 * (size_t)corner[1] + (size_t)k] - p0[k];
-        out[6 + k] = w->positions[3 * (size_t)corner[2] + (size_t)k] - p0[k];
-        for (int c = 0; c < 3; c++)
-            out[9 + 3 * c + k] = smooth ? w->normals[3 * (size_t)corner[c] + (size_t)k] : 0;
+    int records[MGT_LANES];
+    memcpy(records, &record, sizeof records);
+    if (all_lanes(record == records[0])) {
+        for (int k = 0; k < floats; k++)
+            out[k] = real(table[(size_t)floats * (size_t)records[0] + (size_t)k]);
+        return;
     }
-    for (int c = 0; c < 3; c++)
-        for (int k = 0; k < 2; k++)
-            out[18 + 2 * c + k] = w->texcoords[2 * (size_t)corner[c] + (size_t)k];
-    const shade_material *m = &s->materials[object];
-    float *values = out + TRIANGLE_FLOATS;
-    for (int k = 0; k < 3; k++)
-        values[k] = m->base[k], values[6 + k] = m->color[k];
-    values[3] = m->alpha, values[4] = m->metallic, values[5] = m->kind;
-    values[9] = m->inverse_size, values[10] = m->joint, values[11] = (float)object;
-    values[12] = m->texture_width, values[13] = m->texture_height;
+    for (int k = 0; k < floats; k += 4) {
+        const four_reals four = gather_fours(table + k, floats * record);
+        out[k] = four.x, out[k + 1] = four.y, out[k + 2] = four.z, out[k + 3] = four.w;
+    }
 }
-
-/* Where a hit has no triangle: one that does no harm. */
-static const float no_triangle[OBJECT_FLOATS] = {[3] = 1, [8] = 1, [TRIANGLE_FLOATS + 3] = 1, [TRIANGLE_FLOATS + 9] = 1};
 
 static vec3 triple(const real *v) { return (vec3){v[0], v[1], v[2]}; }
 
-/* Triangles and materials of MGT_LANES hits; neighbours mostly share theirs. */
+/* Triangles and materials of MGT_LANES hits. */
 static void read_objects(const shade_scene *s, const int32_t *triangle, HitTriangle *t, HitMaterial *m)
 {
-    float one[OBJECT_FLOATS];
-    real v[OBJECT_FLOATS];
+    real v[HIT_TRIANGLE_FLOATS], o[HIT_MATERIAL_FLOATS];
     mask triangles;
     memcpy(&triangles, triangle, sizeof triangles);
-    for (int k = 0; k < OBJECT_FLOATS; k++)
-        v[k] = real(no_triangle[k]);
-    for (int i = 0; i < MGT_LANES; i++) {
-        if (triangle[i] < 0 || (i > 0 && triangle[i] == triangle[i - 1]))
-            continue;
-        read_triangle(s, (size_t)triangle[i], one);
-        const mask same = triangles == triangle[i];
-        for (int k = 0; k < OBJECT_FLOATS; k++)
-            v[k] = SELECT(same, real(one[k]), v[k]);
-    }
+    const mask none = triangles >> 31, zero = none & 0;
+    const mask object = gather_ints((const int *)s->world->object, triangles & ~none);
+    read_records(s->triangles, HIT_TRIANGLE_FLOATS, whole_select(none, zero + (int)s->world->triangle_count, triangles), v);
+    read_records(s->material_rows, HIT_MATERIAL_FLOATS, whole_select(none, zero + (int)s->world->object_count, object), o);
     *t = (HitTriangle){triple(v), triple(v + 3), triple(v + 6), triple(v + 9), triple(v + 12), triple(v + 15), {v[18], v[19]}, {v[20], v[21]}, {v[22], v[23]}};
-    const real *o = v + TRIANGLE_FLOATS;
-    *m = (HitMaterial){triple(o), o[3], o[4], o[5], triple(o + 6), o[9], o[10], o[11], o[12], o[13]};
+    *m = (HitMaterial){triple(o), o[3], o[4], o[5], triple(o + 6), o[9], o[10], real_from_int(object & ~none), o[11], o[12]};
 }
 
 /* `count` floats from `p`, the last one repeated. */

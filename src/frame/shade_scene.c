@@ -126,19 +126,73 @@ static shade_material material_of(const mgt_material *m)
     return out;
 }
 
+static void fill_material(const shade_material *m, float *out)
+{
+    const float values[HIT_MATERIAL_FLOATS] = {m->base[0],  m->base[1],  m->base[2],      m->alpha, m->metallic,      m->kind,          m->color[0],
+                                               m->color[1], m->color[2], m->inverse_size, m->joint, m->texture_width, m->texture_height};
+    memcpy(out, values, sizeof values);
+}
+
 static bool set_materials(shade_scene *s, const world *w)
 {
-    if (w->object_count > s->material_room) {
-        shade_material *more = realloc(s->materials, w->object_count * sizeof *more);
-        if (!more)
+    if (w->object_count > s->material_room || !s->material_rows) {
+        shade_material *more = realloc(s->materials, (w->object_count + 1) * sizeof *more);
+        s->materials = more ? more : s->materials;
+        float *rows = realloc(s->material_rows, (w->object_count + 1) * HIT_MATERIAL_FLOATS * sizeof *rows);
+        s->material_rows = rows ? rows : s->material_rows;
+        if (!more || !rows)
             return false;
-        s->materials = more;
         s->material_room = w->object_count;
     }
-    for (size_t i = 0; i < w->object_count; i++)
+    for (size_t i = 0; i < w->object_count; i++) {
         s->materials[i] = material_of(&w->objects[i].material);
+        fill_material(&s->materials[i], s->material_rows + i * HIT_MATERIAL_FLOATS);
+    }
+    fill_material(&(shade_material){.alpha = 1, .inverse_size = 1}, s->material_rows + w->object_count * HIT_MATERIAL_FLOATS);
     return true;
 }
+
+/* ---- triangles ---- */
+
+static void fill_triangle(const world *w, size_t triangle, float *out)
+{
+    const bool smooth = w->objects[w->object[triangle]].smooth;
+    const uint32_t *corner = w->indices + 3 * triangle;
+    const float *p0 = w->positions + 3 * (size_t)corner[0];
+    for (int k = 0; k < 3; k++) {
+        out[k] = p0[k];
+        out[3 + k] = w->positions[3 * (size_t)corner[1] + (size_t)k] - p0[k];
+        out[6 + k] = w->positions[3 * (size_t)corner[2] + (size_t)k] - p0[k];
+        for (int c = 0; c < 3; c++)
+            out[9 + 3 * c + k] = smooth ? w->normals[3 * (size_t)corner[c] + (size_t)k] : 0;
+    }
+    for (int c = 0; c < 3; c++)
+        for (int k = 0; k < 2; k++)
+            out[18 + 2 * c + k] = w->texcoords[2 * (size_t)corner[c] + (size_t)k];
+}
+
+bool shade_list_triangles(shade_scene *s)
+{
+    /* What a ray that meets nothing is shaded with does no harm. */
+    static const float no_triangle[HIT_TRIANGLE_FLOATS] = {[3] = 1, [8] = 1};
+    const world *w = s->world;
+    if (s->triangles && s->triangle_version == w->version)
+        return true;
+    if (!s->triangles || w->triangle_count > s->triangle_room) {
+        free(s->triangles);
+        s->triangles = malloc((w->triangle_count + 1) * sizeof no_triangle);
+        s->triangle_room = w->triangle_count;
+    }
+    if (!s->triangles)
+        return false;
+    for (size_t i = 0; i < w->triangle_count; i++)
+        fill_triangle(w, i, s->triangles + i * HIT_TRIANGLE_FLOATS);
+    memcpy(s->triangles + w->triangle_count * HIT_TRIANGLE_FLOATS, no_triangle, sizeof no_triangle);
+    s->triangle_version = w->version;
+    return true;
+}
+
+/* ---- all ---- */
 
 static void fill_codes(shade_scene *s)
 {
@@ -175,5 +229,7 @@ void shade_free(shade_scene *s)
         return;
     shadow_map_free(s->shadows);
     free(s->materials);
+    free(s->material_rows);
+    free(s->triangles);
     free(s);
 }
