@@ -14,6 +14,7 @@
 #include "cpu/leaf_lane.h"
 #include "cpu/refinement.h"
 #include "frame/cell_waves.h"
+#include "frame/skyline.h"
 
 /* ---- the picture of pixels ---- */
 
@@ -318,7 +319,12 @@ static void place_waves(refinement *f)
         for (int i = 0; i < (f->moves ? p->count + 1 : p->count); i++) {
             const cell_time part = cell_part(whole->scene, p->count, i);
             const camera_rays camera = camera_at(whole, part.share);
-            wave_set_build(whole, &camera, part.time, true, p->sets[i]);
+            if (k == 0) {
+                wave_set_build(whole, &camera, part.time, true, p->sets[i]);
+                continue;
+            }
+            wave_set_place(whole, &camera, part.time, true, p->sets[i]);
+            skyline_copy(f->parts[0].sets[f->moves && i > 0], p->sets[i]);
         }
     }
     for (int k = 0; k < INSTANTS; k++) {

@@ -16,6 +16,7 @@ struct kernel_context {
     const FoamData *foam; /* NULL: there is none */
     const FoamWave *foam_waves;
     const FoamSine *foam_sines;
+    const float *skyline;              /* pairs, as wave_set has them; only where a tile says so */
     const float *sky;                  /* SKY_TABLE_ROWS × SKY_COLUMNS × 3, and one beyond */
     const ViewData *view;              /* only while tiles are sorted */
     const podee_tables *podee;         /* only where podee-* replaces its Gaussian by kernels */
@@ -31,7 +32,7 @@ struct kernel_context {
 /* For the pixels of a tile. */
 static inline struct kernel_context context_for(const FrameData *data, const tile_waves *tile)
 {
-    struct kernel_context cx = {.frame = data, .tile = &tile->data, .waves = tile->waves, .search = tile->search};
+    struct kernel_context cx = {.frame = data, .tile = &tile->data, .waves = tile->waves, .search = tile->search, .skyline = tile->skyline};
     if (tile->foam) {
         cx.foam = &tile->foam->data;
         cx.foam_waves = tile->foam->waves;

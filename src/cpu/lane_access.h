@@ -143,6 +143,12 @@ static inline real lane_numbers(void)
     return load(numbers);
 }
 
+KERNEL vec2 SKYLINE(CTX cx, real entry)
+{
+    const mask at = 2 * whole(entry);
+    return (vec2){gather_floats(cx->skyline, at), gather_floats(cx->skyline + 1, at)};
+}
+
 /* ---- light of objects ---- */
 
 /* A plane of a tile_light at the vector that cx stands for. */

@@ -192,6 +192,8 @@ static void list_tile(const struct kernel_context *cx, const wave_set *set, cons
     out->data.origin_z = any_of(place->origin_z);
     out->data.grazing = any_of(place->grazing) > 0;
     out->data.refined = any_of(place->refined) > 0;
+    out->data.skyline = (int)any_of(place->skyline);
+    out->skyline = set->skyline[0];
     out->data.search_pixels = out->data.search_pixels || out->data.grazing;
     out->foam = set->has_foam ? &set->foam : NULL;
     out->data.light_reach = any_of(tile_meets_light(cx, sorting->column, sorting->row, sorting->width, sorting->height)) > 0;
@@ -632,7 +634,7 @@ static void store_normal(tile_surface *out, size_t i, vec2 slope, mask water)
 
 static void lanes_surface(const FrameData *frame, const tile_waves *tile, const tile_estimate *estimate, tile_surface *out)
 {
-    const struct kernel_context context = {.frame = frame, .tile = &tile->data, .waves = tile->waves, .search = tile->search};
+    const struct kernel_context context = context_for(frame, tile);
     for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
         const vec3 ray = pixel_ray_at(&context, lane_numbers() + (float)(i % TILE_WIDTH), real_broadcast((float)(i / TILE_WIDTH)));
         const SampleHit hit = sample_hit(&context, ray, load_estimate(estimate, i));
@@ -645,7 +647,7 @@ static void lanes_surface(const FrameData *frame, const tile_waves *tile, const 
 
 static void lanes_filtered_normal(const FrameData *frame, const tile_waves *tile, const tile_estimate *estimate, tile_surface *out)
 {
-    const struct kernel_context context = {.frame = frame, .tile = &tile->data, .waves = tile->waves, .search = tile->search};
+    const struct kernel_context context = context_for(frame, tile);
     for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
         const real column = lane_numbers() + (float)(i % TILE_WIDTH);
         vec2 slope = vec2(real(0.0f), real(0.0f));

@@ -17,6 +17,7 @@ typedef struct tile_waves {
     WaveData waves[MGT_MAX_WAVES];
     SearchWave search[MGT_MAX_WAVES];
     const foam_set *foam; /* of the wave_set that it was sorted from; NULL: none */
+    const float *skyline; /* of the same set, as it has it */
 } tile_waves;
 
 /* Where the first hits are looked for, a value per pixel (see HitEstimate in pixel.k). A tile has HIT_ROWS of them, for the first and the next

@@ -174,7 +174,7 @@ static void store_own_searches(const struct kernel_context *cx, tile_estimate *e
 
 static void lanes_estimate(const FrameData *frame, const tile_waves *tile, tile_estimate *estimate)
 {
-    const struct kernel_context cx = {.frame = frame, .tile = &tile->data, .waves = tile->waves, .search = tile->search};
+    const struct kernel_context cx = context_for(frame, tile);
     if (tile->data.grazing) {
         memset(estimate, 0, (size_t)tile->data.hit_rows * sizeof *estimate);
         search_columns(&cx, estimate);

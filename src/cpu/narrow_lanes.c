@@ -79,7 +79,7 @@ static void store_vector(float (*planes)[TILE_PIXELS], size_t i, vec3 v)
 
 static void lanes_water(const FrameData *data, const tile_waves *tile, const tile_estimate *estimate, const tile_offset *at, tile_water *out)
 {
-    const struct kernel_context cx = {.frame = data, .tile = &tile->data, .waves = tile->waves, .search = tile->search};
+    const struct kernel_context cx = context_for(data, tile);
     for (size_t i = 0; i < TILE_PIXELS; i += MGT_LANES) {
         const real column = lane_numbers() + ((float)(i % TILE_WIDTH) + at->dx), row = real((float)(i / TILE_WIDTH) + at->dy);
         const PixelRay p = pixel_ray_filtered(&cx, column, row);

@@ -8,6 +8,7 @@
 
 #include "base/triples.h"
 #include "frame/lights.h"
+#include "frame/skyline.h"
 #include "params/methods.h"
 
 static const double pi = 3.14159265358979323846;
@@ -127,6 +128,7 @@ void frame_look(frame *f, const camera_rays *open, const camera_rays *close)
         data[i]->ends[0] = camera_data(&f->open);
         data[i]->ends[1] = camera_data(&f->close);
     }
+    f->skyline_entries = skyline_span(&f->open, &f->close, f->scene->image.width, f->scene->image.height, data);
 }
 
 frame frame_of(const mgt_scene *scene, const sky_state *sky, bool want_color)
@@ -186,7 +188,7 @@ wave_meeting frame_meeting(const frame *f, const camera_rays *camera, interval t
     return (wave_meeting){camera->position[0], camera->position[2], time.middle, time.half, f->under ? 0.5 : 0};
 }
 
-void wave_set_build(const frame *f, const camera_rays *camera, interval time, bool filter, wave_set *set)
+void wave_set_place(const frame *f, const camera_rays *camera, interval time, bool filter, wave_set *set)
 {
     set->view = (ViewData){.rays = camera_data(camera), .camera_height = (float)camera->position[1]};
     sines_place(&f->scene->water, f->order, frame_meeting(f, camera, time), set);
@@ -195,4 +197,10 @@ void wave_set_build(const frame *f, const camera_rays *camera, interval time, bo
     set->has_foam = f->foam.some;
     if (set->has_foam)
         foam_place(&f->foam, camera->position[0], camera->position[2], time.middle, time.half, filter, &set->foam);
+}
+
+void wave_set_build(const frame *f, const camera_rays *camera, interval time, bool filter, wave_set *set)
+{
+    wave_set_place(f, camera, time, filter, set);
+    skyline_find(&f->data, f->skyline_entries, set);
 }

@@ -19,6 +19,7 @@ typedef struct frame {
     camera_rays close, open;       /* cameras when the shutter closes and opens, on the upper side of what is called the water; see `under` */
     bool under;                    /* the camera is under water: cameras, light and waves are mirrored at the mean surface */
     uint16_t order[MGT_MAX_WAVES]; /* of the scene's waves by falling amplitude */
+    int skyline_entries;           /* 0: the picture does not show the horizon */
     frame_foam foam;
 } frame;
 
@@ -50,7 +51,10 @@ interval frame_shutter(const frame *f);
 /* The frame's waves as a camera meets them: those of a camera under water are turned over. */
 wave_meeting frame_meeting(const frame *f, const camera_rays *camera, interval time);
 
-/* Places the frame's waves before a camera. `filter` false: every wave is resolved (point samples). */
+/* Places the frame's waves before a camera, but for the skyline. `filter` false: every wave is resolved (point samples). */
+void wave_set_place(const frame *f, const camera_rays *camera, interval time, bool filter, wave_set *set);
+
+/* The same with the skyline of filtered waves. */
 void wave_set_build(const frame *f, const camera_rays *camera, interval time, bool filter, wave_set *set);
 
 #endif

@@ -3,14 +3,16 @@
 #include "frame/frame_waves.h"
 
 #include "base/hash.h"
+#include "frame/skyline.h"
 
 void frame_waves_build(const frame *f, frame_waves *waves)
 {
     const mgt_scene *s = f->scene;
     const interval now = {s->time, 0};
     wave_set_build(f, &f->close, now, false, &waves->samples);
-    wave_set_build(f, &f->close, now, true, &waves->now);
     wave_set_build(f, &f->close, frame_shutter(f), true, &waves->shutter);
+    wave_set_place(f, &f->close, now, true, &waves->now);
+    skyline_copy(&waves->shutter, &waves->now);
     if (s->camera_moves)
         wave_set_build(f, &f->open, (interval){s->time - s->shutter, 0}, true, &waves->open);
 }

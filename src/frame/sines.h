@@ -24,6 +24,7 @@ typedef struct wave_set {
     float keys[SORT_KEYS][MGT_MAX_WAVES + KEY_GAP];
     bool has_foam;
     foam_set foam;
+    float skyline[SKYLINE_MOST][2]; /* where view.skyline is 1: how high crests rise over the horizon, metres a metre, and how far off they stand, metres */
 } wave_set;
 
 /* Where and when waves are met: a point of the mean surface, and an interval of time. `turns` are added to every phase: half of one turns the

@@ -93,6 +93,7 @@ static void bind_layers(const gl_renderer *g)
     for (GLuint i = 0; i < sizeof images / sizeof *images; i++)
         gl_bind_image(g, IMAGE_COLOR + i, images[i], GL_READ_WRITE);
     gl_bind_texture(g, UNIT_SKY, g->sky_texture);
+    gl_bind_texture(g, UNIT_SKYLINE, g->skyline_texture);
     gl_refraction_bind_light(g);
 }
 

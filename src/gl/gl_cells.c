@@ -192,12 +192,10 @@ static mgt_status upload_set(cells_run *c, size_t index)
     return upload_foam(c, index);
 }
 
-static mgt_status place_set(cells_run *c, cell_time at, bool filter, size_t index)
+static camera_rays camera_of(const cells_run *c, double share)
 {
     const gl_job *job = c->run->job;
-    const camera_rays camera = c->data.moves ? job->camera_at(job->camera_user, at.share) : c->frame->close;
-    wave_set_build(c->frame, &camera, at.time, filter, c->g->waves);
-    return upload_set(c, index);
+    return c->data.moves ? job->camera_at(job->camera_user, share) : c->frame->close;
 }
 
 /* In the order that cells_job.glsl counts them in. */
@@ -207,10 +205,18 @@ static mgt_status upload_sets(cells_run *c)
     size_t index = 0;
     mgt_status status = MGT_OK;
     for (int k = 0; k < CELL_CLASSES; k++)
-        for (int i = 0; i < c->parts[k] + c->data.moves && status == MGT_OK; i++)
-            status = place_set(c, cell_part(s, c->parts[k], i), true, index++);
-    for (int i = 0; i < LEAF_INSTANTS && status == MGT_OK; i++)
-        status = place_set(c, cell_instant(s, i), false, index++);
+        for (int i = 0; i < c->parts[k] + c->data.moves && status == MGT_OK; i++) {
+            const cell_time part = cell_part(s, c->parts[k], i);
+            const camera_rays camera = camera_of(c, part.share);
+            gl_place_waves(c->run, &camera, part.time, c->data.moves && i == 0);
+            status = upload_set(c, index++);
+        }
+    for (int i = 0; i < LEAF_INSTANTS && status == MGT_OK; i++) {
+        const cell_time instant = cell_instant(s, i);
+        const camera_rays camera = camera_of(c, instant.share);
+        wave_set_build(c->frame, &camera, instant.time, false, c->g->waves);
+        status = upload_set(c, index++);
+    }
     return status;
 }
 
@@ -229,6 +235,7 @@ static void bind(const cells_run *c)
     for (GLuint i = 0; i < sizeof images / sizeof *images; i++)
         gl_bind_image(g, i, images[i], GL_READ_WRITE);
     gl_bind_texture(g, UNIT_SKY, g->sky_texture);
+    gl_bind_texture(g, UNIT_SKYLINE, g->skyline_texture);
     gl_refraction_bind_light(g);
 }
 
@@ -286,15 +293,14 @@ static mgt_status run_tiles(cells_run *c, gl_program program) { return run_group
 
 static mgt_status sort_band(cells_run *c, const gl_band *b)
 {
-    const gl_job *job = c->run->job;
     const mgt_scene *s = c->frame->scene;
     const FrameData *data = &c->frame->data;
     mgt_status status = MGT_OK;
     for (int i = 0; i <= c->data.moves && status == MGT_OK; i++) {
         const cell_time part = cell_part(s, 1, i);
-        const camera_rays camera = c->data.moves ? job->camera_at(job->camera_user, part.share) : c->frame->close;
+        const camera_rays camera = camera_of(c, part.share);
         const bool opens = i < c->data.moves;
-        wave_set_build(c->frame, &camera, part.time, true, c->g->waves);
+        gl_place_waves(c->run, &camera, part.time, opens);
         status = gl_sort_tiles(data, c->run, b, opens ? b->tiles : 0, !opens && c->data.moves ? b->tiles : 0);
     }
     return status == MGT_OK ? gl_search_nodes(c->run, b->tiles * (1 + (uint32_t)c->data.moves)) : status;

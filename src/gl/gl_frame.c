@@ -79,6 +79,32 @@ static mgt_status reserve_layers(gl_renderer *g, const gl_job *job, const report
 
 /* ---- a set of waves ---- */
 
+static void find_skyline(gl_run *run, const camera_rays *camera, interval time, int row)
+{
+    gl_renderer *g = run->g;
+    wave_set_build(run->job->frame, camera, time, true, g->waves);
+    if (!g->waves->view.skyline)
+        return;
+    run->crests[row] = g->waves->view.skyline_top;
+    g->gl.TextureSubImage2D(g->skyline_texture, 0, 0, row, SKYLINE_MOST, 1, GL_RG, GL_FLOAT, g->waves->skyline);
+}
+
+static void find_skylines(gl_run *run)
+{
+    const frame *f = run->job->frame;
+    find_skyline(run, &f->close, frame_shutter(f), 0);
+    if (f->scene->camera_moves)
+        find_skyline(run, &f->open, (interval){f->scene->time - f->scene->shutter, 0}, 1);
+}
+
+void gl_place_waves(const gl_run *run, const camera_rays *camera, interval time, bool opens)
+{
+    ViewData *view = &run->g->waves->view;
+    wave_set_place(run->job->frame, camera, time, true, run->g->waves);
+    view->skyline_top = run->crests[opens];
+    view->skyline = view->skyline_top > 0 ? 1 + opens : 0;
+}
+
 /* Uniform data of all passes over one set: they stay valid until the set after the next. */
 static size_t set_bytes(const gl_renderer *g)
 {
@@ -150,6 +176,7 @@ mgt_status gl_search_nodes(const gl_run *run, uint32_t tiles)
     gl_pass_begin(g, "nodes");
     const mgt_status status = gl_use(g, PROGRAM_NODES, run->r);
     if (status == MGT_OK) {
+        gl_bind_texture(g, UNIT_SKYLINE, g->skyline_texture);
         g->gl.DispatchCompute(tiles, WALK_PARTS, 1);
         g->gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     }
@@ -171,6 +198,7 @@ void gl_bind_layers(const gl_renderer *g)
     for (GLuint i = 0; i < IMAGE_LAYERS; i++)
         gl_bind_image(g, i, images[i], GL_READ_WRITE);
     gl_bind_texture(g, UNIT_SKY, g->sky_texture);
+    gl_bind_texture(g, UNIT_SKYLINE, g->skyline_texture);
 }
 
 /* Whether podee's tables stand for its closed form. */
@@ -244,11 +272,11 @@ static mgt_status prepare_part(const gl_run *run, const gl_band *b, double from,
     mgt_status status = MGT_OK;
     if (needs_open(run)) {
         const camera_rays before = from > 0 ? job->camera_at(job->camera_user, from) : f->open;
-        wave_set_build(f, &before, (interval){open, 0}, true, run->g->waves);
+        gl_place_waves(run, &before, (interval){open, 0}, true);
         status = sort_tiles(run, b, b->tiles, 0);
     }
     const interval part = {0.5 * (open + close), 0.5 * (close - open)};
-    wave_set_build(f, &camera, s->camera_moves ? (interval){close, 0} : part, true, run->g->waves);
+    gl_place_waves(run, &camera, s->camera_moves ? (interval){close, 0} : part, false);
     if (status == MGT_OK)
         status = sort_tiles(run, b, 0, needs_open(run) ? b->tiles : 0);
     return status == MGT_OK ? gl_search_nodes(run, needs_open(run) ? 2 * b->tiles : b->tiles) : status;
@@ -363,7 +391,7 @@ static mgt_status render_surface(gl_run *run, const gl_band *b, bool ready)
         status = run_pixels(run, &b->pass, "surface", PROGRAM_SURFACE);
     if (status != MGT_OK || !run->job->wants_normal || run->waves == MGT_WAVES_POINT)
         return status;
-    wave_set_build(f, &f->close, now, true, run->g->waves);
+    gl_place_waves(run, &f->close, now, false);
     status = prepare_set(run, b);
     if (status == MGT_OK)
         status = run_pixels(run, &b->pass, "surface", PROGRAM_NORMAL);
@@ -373,7 +401,7 @@ static mgt_status render_surface(gl_run *run, const gl_band *b, bool ready)
 /* What the band's pixels see of objects through a camera. */
 static mgt_status see_objects(const gl_run *run, const gl_band *b, const camera_rays *camera, interval time)
 {
-    wave_set_build(run->job->frame, camera, time, true, run->g->waves);
+    wave_set_place(run->job->frame, camera, time, true, run->g->waves);
     mgt_status status = gl_sort_tiles(&run->job->frame->through, run, b, 0, 0);
     if (status == MGT_OK)
         status = gl_search_nodes(run, b->tiles);
@@ -493,6 +521,7 @@ mgt_status gl_run_begin(gl_run *run, gl_renderer *g, const gl_job *job, size_t s
                     .waves = method->properties.waves,
                     .objects = job->frame->scene->object_count > 0 || job->frame->under};
     run->program = gl_method_program(job->frame->scene->quality.method, uses_podee_tables(run));
+    find_skylines(run);
     return reserve_tiles(run, sets);
 }
 

@@ -22,8 +22,9 @@ typedef struct gl_run {
     uint32_t first_row, end_row, first_column, columns; /* of tiles */
     uint32_t band_rows;
     int wave_stride;
-    bool objects;  /* the scene has some, or the camera is under water */
-    GLsync behind; /* of the last step but one told */
+    bool objects;    /* the scene has some, or the camera is under water */
+    float crests[2]; /* view.skyline_top when the shutter closes and when it opens, whose skylines are in the renderer's texture; 0: there is none */
+    GLsync behind;   /* of the last step but one told */
     double done, steps;
 } gl_run;
 
@@ -33,6 +34,9 @@ void gl_run_end(gl_run *run);
 
 /* The band that begins with a row of tiles. */
 gl_band gl_band_at(const gl_run *run, uint32_t row);
+
+/* The frame's waves before a camera, into g->waves; `opens`: they have the skyline of the shutter's opening, else of its end. */
+void gl_place_waves(const gl_run *run, const camera_rays *camera, interval time, bool opens);
 
 /* Sorts the waves that g->waves holds into the band's tiles from `first_slot` on. `open_slots`: where the same tiles stand as they were when the
  * shutter opened, as in PassData. */

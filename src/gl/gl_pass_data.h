@@ -47,6 +47,7 @@ enum {
     UNIT_SKY = 0, /* textures; those that no program reads together share units */
     UNIT_FINE = 1,
     UNIT_COARSE = 2,
+    UNIT_SKYLINE = 3,
     UNIT_SWEEP = 1, /* tables of podee-* */
     UNIT_FRACTION = 2,
     UNIT_LEAN_MEAN = 1,

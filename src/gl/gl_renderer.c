@@ -62,6 +62,8 @@ static void create_textures(gl_renderer *g)
     g->gl.SamplerParameteri(g->sampler, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     g->gl.CreateTextures(GL_TEXTURE_2D, 1, &g->sky_texture);
     g->gl.TextureStorage2D(g->sky_texture, 1, GL_RGBA32F, SKY_COLUMNS, SKY_TABLE_ROWS);
+    g->gl.CreateTextures(GL_TEXTURE_2D, 1, &g->skyline_texture);
+    g->gl.TextureStorage2D(g->skyline_texture, 1, GL_RG32F, SKYLINE_MOST, 2);
 }
 
 mgt_status gl_renderer_create(gl_renderer **out, mgt_gl_get_proc get_proc, const reporter *r)
@@ -138,6 +140,8 @@ void gl_renderer_destroy(gl_renderer *g)
         gl->DeleteVertexArrays(1, &g->vertex_array);
     if (g->sky_texture)
         gl->DeleteTextures(1, &g->sky_texture);
+    if (g->skyline_texture)
+        gl->DeleteTextures(1, &g->skyline_texture);
     if (g->sampler)
         gl->DeleteSamplers(1, &g->sampler);
     sky_state_destroy(g->sky);

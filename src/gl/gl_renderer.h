@@ -84,13 +84,14 @@ typedef struct gl_renderer {
     const gl_host_state *host; /* during a call in a host's context, else NULL */
     uint32_t threads;          /* for tables that the CPU makes; 0: as many as this process may use */
     GLuint sky_texture;
-    GLuint sampler;      /* of all textures: the nearest texel */
-    bool samplers_set;   /* see gl_frame_begin() */
-    GLuint vertex_array; /* empty */
-    sky_state *sky;      /* of the last frame */
-    wave_set *waves;     /* of the pass being prepared */
-    bool waves_in_block; /* the frame's stand in a uniform block, else in a storage buffer */
-    const char *pass;    /* the current one's name */
+    GLuint skyline_texture; /* a row when the shutter closes, a row when it opens */
+    GLuint sampler;         /* of all textures: the nearest texel */
+    bool samplers_set;      /* see gl_frame_begin() */
+    GLuint vertex_array;    /* empty */
+    sky_state *sky;         /* of the last frame */
+    wave_set *waves;        /* of the pass being prepared */
+    bool waves_in_block;    /* the frame's stand in a uniform block, else in a storage buffer */
+    const char *pass;       /* the current one's name */
 } gl_renderer;
 
 /* The current context must be the one that the functions of r->gl belong to, here and below. */

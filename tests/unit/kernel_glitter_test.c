@@ -489,7 +489,8 @@ static void nearness_of_two_rows_is_that_between(void **state)
     for (size_t k = 0; k < 400; k++) {
         const double fall = random_range(&r, 0.05, 0.5), part = fall * random_range(&r, 0.01, 0.03), slope = random_range(&r, -0.3, 0.3) * fall;
         const double bend = random_range(&r, -2, 2) * fall;
-        const struct kernel_context cx = {.tile = NULL};
+        const TileData tile = {.skyline = 0};
+        const struct kernel_context cx = {.tile = &tile};
         const vec3 middle = {1, (float)-fall, 0};
         double ours = 0, mean = 0;
         for (int side = -1; side <= 1; side += 2) {

@@ -96,6 +96,7 @@ struct kernel_context {
 #define CLEAR_TO_LIGHT(cx) vec3(1.0f, 1.0f, 1.0f)
 #define DEEP_WATER(cx) vec3(0.0f, 0.0f, 0.0f)
 #define FRONT_COVERAGE(cx) 0.0f
+#define SKYLINE(cx, i) vec2(0.0f, 0.0f)
 #define SKY_TEXEL(cx, column, row) scale(vec3(column, row, 0.0f), 0.0f)
 
 #define WAVE_MODEL /* instead of sines.k */

@@ -45,6 +45,7 @@
 #define OBJECTS_COLOR(cx) vec3(0.0f, 0.0f, 0.0f)
 #define CLEAR_TO_LIGHT(cx) vec3(1.0f, 1.0f, 1.0f)
 #define DEEP_WATER(cx) vec3(0.0f, 0.0f, 0.0f)
+#define SKYLINE(cx, i) vec2(0.0f, 0.0f)
 #define FRONT_COVERAGE(cx) 0.0f
 
 KERNEL vec3 SKY_TEXEL(CTX cx, real column, real row)

@@ -149,7 +149,7 @@ class Engine {
       all.set(tiles.waves);
       this.block("waves", 2, all);
     } else this.data("wave_texture", tiles.waves);
-    for (const [name, numbers] of [["tile", tiles.tiles], ["list", tiles.lists], ["search", tiles.searched], ["hit", tiles.hits]]) this.data(name + "_texture", numbers);
+    for (const [name, numbers] of [["tile", tiles.tiles], ["list", tiles.lists], ["search", tiles.searched], ["hit", tiles.hits], ["skyline", tiles.skyline]]) this.data(name + "_texture", numbers);
     if (!this.sky) this.sky = this.newTexture("sky_texture", gl.RGB32F, columns, rows);
     this.bind("sky_texture", this.sky);
     gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, columns, rows, gl.RGB, gl.FLOAT, tiles.sky);
@@ -307,7 +307,7 @@ class Engine {
   }
 }
 
-const TEXTURES = ["sky_texture", "tile_texture", "list_texture", "search_texture", "hit_texture", "wave_texture", "foam_texture", "first_texture", "second_texture",
+const TEXTURES = ["sky_texture", "tile_texture", "list_texture", "search_texture", "hit_texture", "wave_texture", "foam_texture", "skyline_texture", "first_texture", "second_texture",
   "current_texture", "history_texture", "lean_mean_texture", "lean_square_texture"];
 
 function halton(index, base) {

@@ -32,11 +32,12 @@ function laneTasks(post) {
   };
   const slopesOf = band => ({ data: library.copy(Uint16Array, library.calls.lean_band(band), library.calls.lean_band_rows() * MAP_SIZE * 2) });
   const headOf = () => {
-    const { calls } = library, [frame, waves, foam, leanData, leanWaves, waveCount, hasFoam, choppy, leanCount, columns, rows] = numbersAt(head, 11);
+    const { calls } = library, [frame, waves, foam, leanData, leanWaves, waveCount, hasFoam, choppy, leanCount, columns, rows] = numbersAt(head, 11), [skyline, skylineCount] = numbersAt(head + 72, 2);
     const foamBytes = calls.foam_bytes();
     return {
       frame: library.copy(Uint8Array, frame, calls.frame_bytes()), waves: library.copy(Float32Array, waves, calls.wave_bytes() / 4 * waveCount), waveCount, choppy: choppy !== 0, columns, rows,
       foam: hasFoam ? library.copy(Uint8Array, foam, foamBytes) : null, foamWaves: hasFoam ? library.copy(Float32Array, foam + foamBytes, calls.foam_wave_bytes() / 4 * waveCount) : null,
+      skyline: library.copy(Float32Array, skyline, 2 * Math.max(2, skylineCount)),
       lean: leanData ? { data: library.copy(Uint8Array, leanData, calls.lean_bytes()), waves: library.copy(Uint8Array, leanWaves, calls.lean_wave_bytes() * leanCount), count: leanCount } : null,
       skyColumns: calls.sky_columns(), skyRows: calls.sky_rows(), sky: library.copy(Float32Array, calls.sky_table(), 3 * calls.sky_columns() * calls.sky_rows()), tileWords: calls.tile_bytes() / 4,
     };

@@ -23,6 +23,7 @@ uniform sampler2D list_texture;   /* TileWave */
 uniform sampler2D search_texture; /* SearchWave, two texels each */
 uniform sampler2D hit_texture;    /* of nodes, or of pixels of grazing water, two texels each */
 uniform sampler2D wave_texture;   /* WaveData, six texels each */
+uniform sampler2D skyline_texture; /* two entries each */
 uniform ivec2 tile_grid;          /* columns, and the picture's height in pixels */
 
 #include "tile_texels.glsl"
@@ -99,6 +100,13 @@ WaveData listed_wave(int i)
 }
 
 vec3 SKY_TEXEL(int cx, float column, float row) { return texelFetch(sky_texture, ivec2(int(column), int(row)), 0).rgb; }
+
+#undef SKYLINE
+vec2 SKYLINE(int cx, float entry)
+{
+    vec4 entries = texelFetch(skyline_texture, data_texel(int(entry) / 2), 0);
+    return int(entry) % 2 == 0 ? entries.xy : entries.zw;
+}
 
 #include "kernels/glitter/pixel.k"
 #define HIT_FOUND(cx, column, row, hit, where)

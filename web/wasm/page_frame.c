@@ -42,6 +42,8 @@ static struct page_upload {
     int tile_columns, tile_rows;
     const void *tiles, *lists, *searched, *hits;
     int list_count, search_count, hit_count;
+    const void *skyline; /* pairs of floats */
+    int skyline_count;   /* of them, even; 0: the tiles read none */
 } upload;
 
 static frame prepared;
@@ -96,6 +98,8 @@ EXPORT(prepare) const void *page_prepare(int method, int columns, int rows, doub
     upload = (struct page_upload){.frame_data = &prepared.data,
                                   .waves = set.data,
                                   .foam = &set.foam,
+                                  .skyline = set.skyline,
+                                  .skyline_count = set.view.skyline ? SKYLINE_MOST : 0,
                                   .wave_count = set.view.wave_count,
                                   .has_foam = set.has_foam,
                                   .choppy = page_scene()->water.choppiness > 0,

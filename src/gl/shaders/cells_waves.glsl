@@ -41,7 +41,7 @@ ViewData set_view(int size)
     int at = set_at + pass_data.wave_count * (SET_WAVE_VECTORS + SET_SORT_VECTORS) + size * SET_VIEW_VECTORS;
     vec4 a = uintBitsToFloat(wave_sets[at]), b = uintBitsToFloat(wave_sets[at + 1]), c = uintBitsToFloat(wave_sets[at + 2]);
     vec4 d = uintBitsToFloat(wave_sets[at + 3]), f = uintBitsToFloat(wave_sets[at + 4]);
-    uvec4 e = wave_sets[at + 4];
+    uvec4 e = wave_sets[at + 4], g = wave_sets[at + 5];
     CameraRays rays = CameraRays(a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w, c.x, c.y, c.z, c.w);
-    return ViewData(rays, d.x, d.y, d.z, d.w, int(e.x), int(e.y), f.z, f.w);
+    return ViewData(rays, d.x, d.y, d.z, d.w, int(e.x), int(e.y), f.z, f.w, int(g.x), uintBitsToFloat(g.y), 0.0f, 0.0f);
 }

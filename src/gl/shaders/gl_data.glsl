@@ -127,6 +127,10 @@ void enter_tile(int lanes)
 vec3 SKY_TEXEL(int cx, float column, float row) { return texelFetch(sky_texture, ivec2(int(column), int(row)), 0).rgb; }
 
 #ifndef OBJECTS_PASS
+#undef SKYLINE
+layout(binding = 3) uniform sampler2D skyline_texture;
+vec2 SKYLINE(int cx, float entry) { return texelFetch(skyline_texture, ivec2(int(entry), TILE(cx).skyline - 1), 0).rg; }
+
 /* Objects, where the scene has some, as objects.comp saw them. */
 layout(binding = 11) uniform sampler2D front_texture;
 layout(binding = 12) uniform sampler2D clear_texture;

@@ -111,6 +111,7 @@ TileData finished_tile(TileView view, Counts counts)
     t.origin_z = view.origin_z;
     t.grazing = view.grazing > 0.0f ? 1 : 0;
     t.refined = view.refined > 0.0f ? 1 : 0;
+    t.skyline = int(view.skyline);
     t.search_pixels = max(t.search_pixels, t.grazing);
     return t;
 }

@@ -11,7 +11,8 @@
 #define MAX_WAVES 2048  /* of a scene */
 #define BLOCK_WAVES 512 /* that uniform blocks hold, where waves stand in these: 48 KiB */
 
-#define SORT_KEYS 6 /* members of SortData that sort a wave, see tile.k */
+#define SKYLINE_MOST 4096 /* entries of a skyline */
+#define SORT_KEYS 6       /* members of SortData that sort a wave, see tile.k */
 
 /* WaveClass.kind: how a tile counts a wave. */
 #define WAVE_UNRESOLVED 0
