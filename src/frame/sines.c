@@ -138,6 +138,32 @@ void sines_sort_data(const wave_set *set, SortData *out)
     }
 }
 
+void sines_for_rays(const wave_set *set, SearchWave *out)
+{
+    for (int i = 0; i < set->view.wave_count; i++) {
+        const WaveData *d = &set->data[i];
+        out[i] = (SearchWave){.turns_x = d->turns_x,
+                              .turns_z = d->turns_z,
+                              .phase = set->keys[4][i],
+                              .amplitude = d->amplitude,
+                              .shift_x = d->shift * d->k_x,
+                              .shift_z = d->shift * d->k_z};
+    }
+}
+
+void sines_first(const wave_set *set, int count, double *slope, double *bend)
+{
+    *slope = *bend = 0;
+    for (int i = 0; i < count; i++) {
+        const WaveData *d = &set->data[i];
+        const double k_squared = (double)(d->k_x * d->k_x + d->k_z * d->k_z);
+        *slope += (double)d->half_variance * k_squared;
+        *bend += (double)d->half_variance * k_squared * k_squared;
+    }
+}
+
+double sines_lesser_variance(const wave_set *set, int i) { return i < set->view.wave_count ? (double)set->keys[5][i] : 0; }
+
 int sines_moving(const wave_set *set)
 {
     int count = set->view.wave_count;

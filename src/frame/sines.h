@@ -44,6 +44,15 @@ void sines_place(const mgt_water *water, const uint16_t *order, wave_meeting at,
 /* The set as the GPU sorts it. */
 void sines_sort_data(const wave_set *set, SortData *out);
 
+/* The set's waves as rays look for them from under the camera. */
+void sines_for_rays(const wave_set *set, SearchWave *out);
+
+/* Variances of the slopes and of the second derivatives of the set's first waves. */
+void sines_first(const wave_set *set, int count, double *slope, double *bend);
+
+/* Variance of the heights of the set's waves from the i-th on, metres². */
+double sines_lesser_variance(const wave_set *set, int i);
+
 /* Waves of the set that are not flat; they come first. */
 int sines_moving(const wave_set *set);
 

@@ -106,40 +106,23 @@ typedef struct water_line {
 
 static double reach_begins(int i) { return ldexp(0.25, i); }
 
-/* The first waves of the set. */
 static large_waves first_waves(const wave_set *set, int count)
 {
-    double slope = 0, bend = 0;
-    for (int i = 0; i < count; i++) {
-        const WaveData *d = &set->data[i];
-        const double k_squared = (double)(d->k_x * d->k_x + d->k_z * d->k_z);
-        slope += (double)d->half_variance * k_squared;
-        bend += (double)d->half_variance * k_squared * k_squared;
-    }
+    double slope, bend;
+    sines_first(set, count, &slope, &bend);
     return (large_waves){count, (float)(4 * sqrt(slope)), (float)(1.4 * sqrt(bend))};
 }
 
-/* The variance of the heights of the waves from the i-th on. */
-static double lesser_variance(const wave_set *set, int i) { return i < set->view.wave_count ? (double)set->keys[5][i] : 0; }
-
 static void place_waves(const wave_set *set, double pixel, water_line *w)
 {
-    for (int i = 0; i < set->view.wave_count; i++) {
-        const WaveData *d = &set->data[i];
-        w->waves[i] = (SearchWave){.turns_x = set->keys[0][i],
-                                   .turns_z = set->keys[1][i],
-                                   .phase = set->keys[4][i],
-                                   .amplitude = d->amplitude,
-                                   .shift_x = d->shift * d->k_x,
-                                   .shift_z = d->shift * d->k_z};
-    }
+    sines_for_rays(set, w->waves);
     int count = set->view.wave_count;
     for (int i = 0; i < REACHES; i++) {
         const double least = 0.1 * pixel * reach_begins(i);
-        while (count > 0 && lesser_variance(set, count - 1) < least * least)
+        while (count > 0 && sines_lesser_variance(set, count - 1) < least * least)
             count--;
         const int largest = count < 16 ? count : count / 2;
-        const double rest = lesser_variance(set, largest) - lesser_variance(set, count);
+        const double rest = sines_lesser_variance(set, largest) - sines_lesser_variance(set, count);
         w->reaches[i] = (reach){first_waves(set, count), first_waves(set, largest), (float)(3 * sqrt(fmax(rest, 0)))};
     }
 }
@@ -282,6 +265,16 @@ static rise rise_beside(CTX cx, const water_line *w, real dx, real dz, real befo
     return (rise){SELECT(lower, anew.slope, first.slope), SELECT(lower, anew.distance, first.distance)};
 }
 
+/* Whether the camera is above the surface. Within a wave it sees no skyline. */
+static bool stands_over_water(CTX cx, const water_line *w)
+{
+    float height[MGT_LANES];
+    vec2 shift = {real(0.0f), real(0.0f)};
+    const surface_point p = surface_at(cx, w, w->reaches[0].all.count, real(0.0f), real(0.0f), 4, &shift);
+    memcpy(height, &p.height, sizeof height);
+    return height[0] < w->camera_height;
+}
+
 void skyline_copy(const wave_set *from, wave_set *to)
 {
     to->view.skyline = from->view.skyline;
@@ -303,6 +296,10 @@ void skyline_find(const FrameData *data, int entries, wave_set *set)
                        .pixel = data->pixel_angle};
     place_waves(set, (double)data->pixel_angle, &line);
     const struct kernel_context cx = {data};
+    if (!stands_over_water(&cx, &line)) {
+        set->view.skyline = 0;
+        return;
+    }
     float top = 0;
     /* A lane goes through neighbouring directions. */
     const int each = (entries + MGT_LANES - 1) / MGT_LANES;
