@@ -22,8 +22,11 @@ function(add_lanes name source definition)
     target_include_directories(${name}_${width} PRIVATE ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src)
     target_compile_definitions(${name}_${width} PRIVATE ${definition}=${width})
     target_compile_options(${name}_${width} PRIVATE ${flags} -Wno-unused-parameter)
-    if(MANGATA_FUZZ) # kernels read no files, and take minutes to build with sanitizers
-      target_compile_options(${name}_${width} PRIVATE -O1 -fno-sanitize=all)
+    if(MANGATA_SANITIZE) # kernels take minutes to build with sanitizers, at -O1 half as many
+      target_compile_options(${name}_${width} PRIVATE -O1)
+    endif()
+    if(MANGATA_FUZZ) # they read no files
+      target_compile_options(${name}_${width} PRIVATE -fno-sanitize=all)
     endif()
     set_property(GLOBAL APPEND PROPERTY MANGATA_LANE_OBJECTS $<TARGET_OBJECTS:${name}_${width}>)
   endforeach()
