@@ -323,6 +323,7 @@ static void place_waves(refinement *f)
                 wave_set_build(whole, &camera, part.time, true, p->sets[i]);
                 continue;
             }
+            /* Finding a skyline takes long, and those of parts of the shutter are nearly the same. */
             wave_set_place(whole, &camera, part.time, true, p->sets[i]);
             skyline_copy(f->parts[0].sets[f->moves && i > 0], p->sets[i]);
         }

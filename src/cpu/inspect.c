@@ -41,18 +41,17 @@ static SlopeState slopes_of(const struct kernel_context *cx, const tile_estimate
 }
 
 /* The first hit in double precision at the instant t, near where the pixel's search began: Newton along the ray. */
-static void find_hit(const frame *f, tile_pixel at, const TileData *tile, const tile_estimate *estimate, mgt_pixel_info *info)
+static void find_hit(const frame *f, const struct kernel_context *cx, tile_pixel at, const tile_estimate *estimate, mgt_pixel_info *info)
 {
     const camera_rays *c = &f->close;
     const double x = at.tile_x * (double)TILE_WIDTH + at.column, y = at.tile_y * (double)TILE_HEIGHT + at.row;
     double ray[3];
     for (int i = 0; i < 3; i++)
         ray[i] = c->corner[i] + x * c->right[i] + y * c->down[i];
-    const uint32_t row = at.row * (uint32_t)tile->hit_rows;
+    const uint32_t row = at.row * (uint32_t)cx->tile->hit_rows;
     const double start = (double)estimate[row / TILE_HEIGHT].height[row % TILE_HEIGHT * TILE_WIDTH + at.column];
-    const bool crests = tile->skyline != 0;
-    const double steep = hypot(ray[0], ray[2]) * 0.1 * sqrt((double)tile->slope_variance), fall = crests ? fmax(-ray[1], steep) : -ray[1];
-    double along = crests ? start : ray[1] < 0 ? (c->position[1] - start) / fall : 0;
+    const double fall = fmax(-ray[1], (double)crest_fall(cx) * hypot(ray[0], ray[2]));
+    double along = cx->tile->skyline != 0 ? start : fall > 0 ? (c->position[1] - start) / fall : 0;
     for (int step = 0; step < 8 && fall > 0; step++) {
         const double point[2] = {c->position[0] + along * ray[0], c->position[2] + along * ray[2]};
         double gap = c->position[1] + along * ray[1], closing = ray[1];
@@ -140,7 +139,7 @@ void inspect_pixel(const frame *f, const frame_waves *waves, const float *sky, u
     info->resolved = (uint32_t)cx.tile->resolved_count;
     info->mixed = (uint32_t)cx.tile->mixed_count;
     info->filtered = (uint32_t)f->scene->water.wave_count - info->resolved - info->mixed;
-    find_hit(f, pixel, cx.tile, scratch->close_estimate, info);
+    find_hit(f, &cx, pixel, scratch->close_estimate, info);
     if (cx.tile->light_reach != 0)
         describe_mirror(&cx, open, close, info);
 }

@@ -217,7 +217,7 @@ static void sharpen_pixel(const refraction *r, tile_objects *o, size_t i)
     }
     int32_t triangles[REFRACTION_NEIGHBOURS];
     const size_t count = refraction_neighbours(g, (size_t)e->pixel[i], triangles);
-    for (size_t k = 0; k < count; k++)
+    for (size_t k = 0; k < count; k++) /* they lie far apart */
         __builtin_prefetch(&r->surface[triangles[k]]);
     for (size_t k = 0; k < count; k++)
         follow_surface(&s, triangles[k]);

@@ -3,6 +3,7 @@
 #include "cpu/tile_job.h"
 
 #include "base/hash.h"
+#include "frame/skyline.h"
 #include "params/methods.h"
 
 #include <math.h>
@@ -165,7 +166,7 @@ static void render_shaded(tile_place place, tile_scratch *scratch)
     shade_pixels(job, moves, scratch, &scratch->pixels);
 }
 
-/* One of the parts the shutter is cut into, between two shares of it. */
+/* One of the parts the shutter is cut into, between two shares of it; its skyline is the shutter's. */
 static void build_segment(tile_place place, double from, double to, tile_scratch *scratch)
 {
     const frame *f = place.job->frame;
@@ -173,12 +174,14 @@ static void build_segment(tile_place place, double from, double to, tile_scratch
     const double open = s->time - (1 - from) * s->shutter, close = s->time - (1 - to) * s->shutter;
     const camera_rays camera = camera_at(f, to);
     const interval shutter = {0.5 * (open + close), 0.5 * (close - open)};
-    wave_set_build(f, &camera, s->camera_moves ? (interval){close, 0} : shutter, true, &scratch->sample_waves);
+    wave_set_place(f, &camera, s->camera_moves ? (interval){close, 0} : shutter, true, &scratch->sample_waves);
+    skyline_copy(&place.job->waves->shutter, &scratch->sample_waves);
     build(place, &scratch->sample_waves, &scratch->close, scratch->close_estimate);
     if (!s->camera_moves)
         return;
     const camera_rays before = camera_at(f, from);
-    wave_set_build(f, &before, (interval){open, 0}, true, &scratch->sample_waves);
+    wave_set_place(f, &before, (interval){open, 0}, true, &scratch->sample_waves);
+    skyline_copy(&place.job->waves->open, &scratch->sample_waves);
     build(place, &scratch->sample_waves, &scratch->open, scratch->open_estimate);
     tile_join_reach(scratch);
 }

@@ -202,5 +202,6 @@ void wave_set_place(const frame *f, const camera_rays *camera, interval time, bo
 void wave_set_build(const frame *f, const camera_rays *camera, interval time, bool filter, wave_set *set)
 {
     wave_set_place(f, camera, time, filter, set);
-    skyline_find(&f->data, f->skyline_entries, set);
+    if (filter && skyline_may_stand(f, camera))
+        skyline_find(f, set);
 }

@@ -104,13 +104,13 @@ typedef struct water_line {
     float pixel; /* radians */
 } water_line;
 
-static double reach_begins(int i) { return ldexp(0.25, i); }
+static float reach_begins(int i) { return ldexpf(0.25f, i); }
 
 static large_waves first_waves(const wave_set *set, int count)
 {
     double slope, bend;
     sines_first(set, count, &slope, &bend);
-    return (large_waves){count, (float)(4 * sqrt(slope)), (float)(1.4 * sqrt(bend))};
+    return (large_waves){count, (float)(4 * sqrt(slope)), fmaxf((float)(1.4 * sqrt(bend)), 1e-9f)};
 }
 
 static void place_waves(const wave_set *set, double pixel, water_line *w)
@@ -118,7 +118,7 @@ static void place_waves(const wave_set *set, double pixel, water_line *w)
     sines_for_rays(set, w->waves);
     int count = set->view.wave_count;
     for (int i = 0; i < REACHES; i++) {
-        const double least = 0.1 * pixel * reach_begins(i);
+        const double least = 0.1 * pixel * (double)reach_begins(i);
         while (count > 0 && sines_lesser_variance(set, count - 1) < least * least)
             count--;
         const int largest = count < 16 ? count : count / 2;
@@ -205,63 +205,85 @@ static surface_point surface_at(CTX cx, const water_line *w, int count, real x, 
 /* Steps at most: past them a ray keeps what it has risen to. */
 enum { MOST_LOOKS = 4096 };
 
-typedef struct rise {
-    real slope;    /* of the ray */
-    real distance; /* of the crest that it rose on; 0: it met none */
-} rise;
+/* Rays on their way out. */
+typedef struct rising_rays {
+    real dx, dz;   /* their directions */
+    real slope;    /* how steeply they rise */
+    real distance; /* of the crest that they rose on; 0: they met none */
+    real along;    /* how far they are out, metres */
+    vec2 shift;    /* about that of choppy water there */
+    mask busy;
+} rising_rays;
 
-/* From rays of these slopes on. Lanes that are not `wanted` cost nothing. */
-static rise rise_from(CTX cx, const water_line *w, real dx, real dz, real start, mask wanted)
+/* What a ray sees of the surface under it. */
+typedef struct glance {
+    const large_waves *waves; /* that were looked at */
+    real gap;                 /* to the surface of them, less what the others may lift it by, metres */
+    vec2 slope;
+} glance;
+
+static glance look_at(CTX cx, const water_line *w, const reach *r, rising_rays *rays)
 {
-    rise risen = {start, real(0.0f)};
-    real along = real(0.25f);
-    vec2 shift = {real(0.0f), real(0.0f)};
-    mask busy = wanted;
+    const real x = rays->along * rays->dx, z = rays->along * rays->dz, height = fma(rays->slope, rays->along, real(w->camera_height));
+    vec2 shift = rays->shift;
+    surface_point p = surface_at(cx, w, r->largest.count, x, z, 1, &shift);
+    const real gap = height - p.height - real(r->rest);
+    if (!any_lane(AND(rays->busy, gap < real(0.0f)))) {
+        rays->shift = shift;
+        return (glance){&r->largest, gap, p.slope};
+    }
+    p = surface_at(cx, w, r->all.count, x, z, 2, &rays->shift);
+    return (glance){&r->all, height - p.height, p.slope};
+}
+
+/* A ray that has met the surface climbs as far as the slope lasts at least; elsewhere it goes as far as the surface cannot rise to it. */
+static real step_of(CTX cx, const rising_rays *rays, const glance *g)
+{
+    const large_waves *waves = g->waves;
+    const real closing = fma(g->slope.x, rays->dx, g->slope.y * rays->dz) - rays->slope;
+    const SearchBounds bounds = bounds_along(cx, (vec3){rays->dx, rays->slope, rays->dz}, real(1.0f), waves->slope, waves->bend);
+    const real free_step = search_step(cx, bounds, max(g->gap, real(0.0f)), closing);
+    const mask climbs = AND(g->gap <= real(0.0f), closing > real(0.0f));
+    return max(SELECT(climbs, closing / real(waves->bend), free_step), real(0.05f * waves->slope / waves->bend));
+}
+
+/* Rays that rise by `start` at first, where `wanted`; the others stay where they are. */
+static rising_rays rise_from(CTX cx, const water_line *w, real dx, real dz, real start, mask wanted)
+{
+    rising_rays rays = {dx, dz, start, real(0.0f), real(reach_begins(0)), {real(0.0f), real(0.0f)}, wanted};
     int at = 0;
-    for (int look = 0; look < MOST_LOOKS && any_lane(busy); look++) {
-        const float nearest = least_of(along, busy);
-        while (at + 1 < REACHES && nearest >= (float)reach_begins(at + 1))
+    for (int look = 0; look < MOST_LOOKS && any_lane(rays.busy); look++) {
+        const float nearest = least_of(rays.along, rays.busy);
+        while (at + 1 < REACHES && nearest >= reach_begins(at + 1))
             at++;
         const reach *r = &w->reaches[at];
         if (r->all.count == 0)
             break;
-        const real x = along * dx, z = along * dz, height = fma(risen.slope, along, real(w->camera_height));
-        const vec3 ray = {dx, risen.slope, dz};
-        const large_waves *all = &r->largest;
-        vec2 shift_there = shift;
-        surface_point p = surface_at(cx, w, all->count, x, z, 1, &shift_there);
-        real gap = height - p.height - real(r->rest);
-        if (any_lane(AND(busy, gap < real(0.0f)))) {
-            all = &r->all;
-            p = surface_at(cx, w, all->count, x, z, 2, &shift);
-            gap = height - p.height;
-        } else
-            shift = shift_there;
-        const mask meets = AND(busy, gap < real(0.0f));
-        risen.slope = SELECT(meets, min(risen.slope - gap / along, real(4.0f)), risen.slope);
-        risen.distance = SELECT(meets, along, risen.distance);
-        const real closing = fma(p.slope.x, dx, p.slope.y * dz) - risen.slope;
-        const SearchBounds bounds = bounds_along(cx, ray, real(1.0f), all->slope, all->bend);
-        const real climbs = closing / real(all->bend);
-        const real least = real(0.05f * all->slope / all->bend);
-        const real step = SELECT(AND(gap <= real(0.0f), closing > real(0.0f)), climbs, search_step(cx, bounds, max(gap, real(0.0f)), closing));
-        along = along + max(step, least);
-        /* Of what is further off no crest rises by a quarter of a pixel more. */
-        busy = AND(busy, fma(risen.slope + real(0.1f * w->pixel), along, real(w->camera_height)) < real(w->crest));
+        const glance g = look_at(cx, w, r, &rays);
+        const mask meets = AND(rays.busy, g.gap < real(0.0f));
+        rays.slope = SELECT(meets, min(rays.slope - g.gap / rays.along, real(4.0f)), rays.slope);
+        rays.distance = SELECT(meets, rays.along, rays.distance);
+        rays.along = rays.along + step_of(cx, &rays, &g);
+        /* No crest further out would lift the ray by a tenth of a pixel. */
+        rays.busy = AND(rays.busy, fma(rays.slope + real(0.1f * w->pixel), rays.along, real(w->camera_height)) < real(w->crest));
     }
-    return risen;
+    return rays;
 }
 
-/* `before`: the slope of the neighbouring ray. This one is seldom much lower, and where it begins a little lower it passes over nearer crests at once. */
+typedef struct rise {
+    real slope, distance;
+} rise;
+
+/* `before`: the slope of the neighbouring rays. These are seldom much lower, and where they begin a little lower they pass over nearer crests at once. */
 static rise rise_beside(CTX cx, const water_line *w, real dx, real dz, real before)
 {
     const real least = real(0.02f * w->pixel);
     const real start = max(before - real(0.4f * w->pixel), least);
-    const rise first = rise_from(cx, w, dx, dz, start, start > real(0.0f));
+    const rising_rays first = rise_from(cx, w, dx, dz, start, start >= least);
     const mask lower = AND(first.distance == real(0.0f), start > least);
     if (!any_lane(lower))
-        return first;
-    const rise anew = rise_from(cx, w, dx, dz, least, lower);
+        return (rise){first.slope, first.distance};
+    const rising_rays anew = rise_from(cx, w, dx, dz, least, lower);
     return (rise){SELECT(lower, anew.slope, first.slope), SELECT(lower, anew.distance, first.distance)};
 }
 
@@ -283,12 +305,35 @@ void skyline_copy(const wave_set *from, wave_set *to)
         memcpy(to->skyline, from->skyline, sizeof to->skyline);
 }
 
-void skyline_find(const FrameData *data, int entries, wave_set *set)
+bool skyline_may_stand(const frame *f, const camera_rays *camera)
 {
-    set->view.skyline =
-        set->view.filter_waves && data->grazing_fall > 0 && entries > 0 && !data->camera_under && set->view.camera_height < set->view.displacement;
-    if (!set->view.skyline)
-        return;
+    return f->data.grazing_fall > 0 && f->skyline_entries > 0 && !f->under && camera->position[1] < sines_crest(&f->scene->water);
+}
+
+/* Four entries, `each` apart, from the i-th on. Returns their slopes. */
+static real find_entries(CTX cx, const water_line *line, int i, int each, real before, wave_set *set)
+{
+    float dx[MGT_LANES], dz[MGT_LANES], slope[MGT_LANES], distance[MGT_LANES];
+    for (int lane = 0; lane < MGT_LANES; lane++) {
+        float direction[2];
+        direction_of(line->frame, lane * each + i, direction);
+        dx[lane] = direction[0];
+        dz[lane] = direction[1];
+    }
+    const rise risen = rise_beside(cx, line, load(dx), load(dz), before);
+    memcpy(slope, &risen.slope, sizeof slope);
+    memcpy(distance, &risen.distance, sizeof distance);
+    for (int lane = 0; lane < MGT_LANES && lane * each + i < SKYLINE_MOST; lane++) {
+        float *entry = set->skyline[lane * each + i];
+        entry[0] = distance[lane] > 0 ? slope[lane] : 0;
+        entry[1] = distance[lane];
+    }
+    return risen.slope;
+}
+
+void skyline_find(const frame *f, wave_set *set)
+{
+    const FrameData *data = &f->data;
     water_line line = {.frame = data,
                        .camera_height = set->view.camera_height,
                        .crest = set->view.displacement,
@@ -296,33 +341,16 @@ void skyline_find(const FrameData *data, int entries, wave_set *set)
                        .pixel = data->pixel_angle};
     place_waves(set, (double)data->pixel_angle, &line);
     const struct kernel_context cx = {data};
-    if (!stands_over_water(&cx, &line)) {
-        set->view.skyline = 0;
+    if (!stands_over_water(&cx, &line))
         return;
-    }
-    float top = 0;
     /* A lane goes through neighbouring directions. */
-    const int each = (entries + MGT_LANES - 1) / MGT_LANES;
+    const int each = (f->skyline_entries + MGT_LANES - 1) / MGT_LANES;
     real before = real(0.0f);
-    for (int i = 0; i < each; i++) {
-        float dx[MGT_LANES], dz[MGT_LANES], slope[MGT_LANES], distance[MGT_LANES];
-        for (int lane = 0; lane < MGT_LANES; lane++) {
-            float direction[2];
-            direction_of(data, lane * each + i, direction);
-            dx[lane] = direction[0];
-            dz[lane] = direction[1];
-        }
-        const rise risen = rise_beside(&cx, &line, load(dx), load(dz), before);
-        before = risen.slope;
-        memcpy(slope, &risen.slope, sizeof slope);
-        memcpy(distance, &risen.distance, sizeof distance);
-        for (int lane = 0; lane < MGT_LANES && lane * each + i < SKYLINE_MOST; lane++) {
-            float *entry = set->skyline[lane * each + i];
-            entry[0] = distance[lane] > 0 ? slope[lane] : 0;
-            entry[1] = distance[lane];
-            top = entry[0] > top ? entry[0] : top;
-        }
-    }
-    set->view.skyline_top = top > 0 ? top + 2 * data->pixel_angle : 0;
+    for (int i = 0; i < each; i++)
+        before = find_entries(&cx, &line, i, each, before, set);
+    float top = 0;
+    for (int i = 0; i < f->skyline_entries; i++)
+        top = set->skyline[i][0] > top ? set->skyline[i][0] : top;
     set->view.skyline = top > 0;
+    set->view.skyline_top = top > 0 ? top + 2 * data->pixel_angle : 0;
 }

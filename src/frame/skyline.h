@@ -9,8 +9,12 @@
  * horizon is not shown. */
 int skyline_span(const camera_rays *open, const camera_rays *close, uint32_t width, uint32_t height, FrameData *const data[2]);
 
-/* Fills view.skyline and, where that is 1, `entries` of the set's skyline. Its waves and the rest of its view are there. */
-void skyline_find(const FrameData *data, int entries, wave_set *set);
+/* Whether a camera is lower than the highest crests, and the picture shows the horizon by a method that draws these. */
+bool skyline_may_stand(const frame *f, const camera_rays *camera);
+
+/* Fills view.skyline, view.skyline_top and the skyline of a set of filtered waves that has been placed before such a camera. A camera within a wave sees
+ * none. */
+void skyline_find(const frame *f, wave_set *set);
 
 /* Gives a set the skyline of another one of nearly the same time and camera. */
 void skyline_copy(const wave_set *from, wave_set *to);

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "frame/frame_waves.h"
+#include "frame/skyline.h"
 #include "frame/targets.h"
 #include "frame/whole_frame.h"
 #include "gl/gl_frame.h"
@@ -79,9 +80,12 @@ static mgt_status reserve_layers(gl_renderer *g, const gl_job *job, const report
 
 /* ---- a set of waves ---- */
 
+/* Once a run, for finding it takes the CPU long. */
 static void find_skyline(gl_run *run, const camera_rays *camera, interval time, int row)
 {
     gl_renderer *g = run->g;
+    if (!skyline_may_stand(run->job->frame, camera))
+        return;
     wave_set_build(run->job->frame, camera, time, true, g->waves);
     if (!g->waves->view.skyline)
         return;
