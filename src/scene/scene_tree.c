@@ -121,6 +121,7 @@ bool tree_error(const scene_tree *tree, const char *source, scene_place place, s
 /* A document being read: the open collections and the key that waits for its value. */
 typedef struct tree_reader {
     scene_tree *tree;
+    const char *text; /* all of it */
     const char *source;
     scene_error *error;
     tree_node *open[TREE_MAX_DEPTH];
@@ -141,10 +142,11 @@ static scene_place event_place(const tree_reader *reader, struct fy_event *event
     return (scene_place){mark->line + 1, mark->column + 1};
 }
 
+static enum fy_scalar_style scalar_style(struct fy_token *value) { return value != NULL ? fy_scalar_token_get_style(value) : FYSS_ANY; }
+
 static bool is_quoted(struct fy_event *event)
 {
-    struct fy_token *value = event->scalar.value;
-    enum fy_scalar_style style = value != NULL ? fy_scalar_token_get_style(value) : FYSS_ANY;
+    enum fy_scalar_style style = scalar_style(event->scalar.value);
     return style == FYSS_SINGLE_QUOTED || style == FYSS_DOUBLE_QUOTED;
 }
 
@@ -175,17 +177,53 @@ static bool place_node(tree_reader *reader, tree_node *node)
     return true;
 }
 
-static bool read_scalar(tree_reader *reader, const struct fy_event_scalar_data *scalar, scene_place place)
+static bool is_blank(char c) { return c == ' ' || c == '\t'; }
+static bool is_break(char c) { return c == '\n' || c == '\r'; }
+
+/* The text of a single-quoted scalar, from its source (YAML 1.2.2, 7.3.2), in the tree's memory. libfyaml 0.7 reads texts wrongly where two doubled quotes follow each other, and
+ * leaks memory where five do. NULL when memory runs out. */
+static const char *single_quoted_text(tree_reader *reader, struct fy_token *value, size_t *length)
+{
+    const char *at = reader->text + fy_token_start_mark(value)->input_pos;
+    const char *end = reader->text + fy_token_end_mark(value)->input_pos;
+    char *text = tree_allocate(reader->tree, (size_t)(end - at) + 1), *out = text;
+    if (text == NULL)
+        return NULL;
+    while (at < end) {
+        if (!is_break(*at)) {
+            at += *at == '\''; /* the first of two */
+            *out++ = *at++;
+            continue;
+        }
+        /* Blanks around line ends are dropped; one line end is a space, of more all but the first are kept. */
+        size_t breaks = 0;
+        while (out > text && is_blank(out[-1]))
+            out--;
+        for (; at < end && (is_blank(*at) || is_break(*at)); at++)
+            breaks += *at == '\n' || (*at == '\r' && at[1] != '\n');
+        if (breaks == 1)
+            *out++ = ' ';
+        for (; breaks > 1; breaks--)
+            *out++ = '\n';
+    }
+    *out = '\0';
+    *length = (size_t)(out - text);
+    return text;
+}
+
+static bool read_scalar(tree_reader *reader, struct fy_token *value, scene_place place)
 {
     size_t length = 0;
-    const char *text = scalar->value != NULL ? fy_token_get_text(scalar->value, &length) : "";
+    enum fy_scalar_style style = scalar_style(value);
+    const bool single = style == FYSS_SINGLE_QUOTED;
+    const char *text = single ? single_quoted_text(reader, value, &length) : value != NULL ? fy_token_get_text(value, &length) : "";
     if (text == NULL)
         return scene_error_memory(reader->error);
     if (length > TREE_MAX_SCALAR)
         return refuse(reader, place, "a text is too long; allowed: at most 65536 bytes");
     if (memchr(text, '\0', length) != NULL)
         return refuse(reader, place, "a text holds a NUL character; allowed: any other");
-    const char *copy = tree_copy_text(reader->tree, text, length);
+    const char *copy = single ? text : tree_copy_text(reader->tree, text, length);
     if (copy == NULL)
         return scene_error_memory(reader->error);
     if (awaits_key(reader)) {
@@ -193,7 +231,7 @@ static bool read_scalar(tree_reader *reader, const struct fy_event_scalar_data *
         reader->key_place = place;
         return true;
     }
-    bool plain = scalar->value == NULL || fy_scalar_token_get_style(scalar->value) == FYSS_PLAIN || fy_scalar_token_get_style(scalar->value) == FYSS_ANY;
+    bool plain = style == FYSS_PLAIN || style == FYSS_ANY;
     bool null = plain && (length == 0 || strcmp(copy, "~") == 0 || strcasecmp(copy, "null") == 0);
     tree_node *node = tree_add_node(reader->tree, null ? TREE_NULL : TREE_SCALAR, place, reader->source);
     if (node != NULL) {
@@ -242,7 +280,7 @@ static bool read_event(tree_reader *reader, struct fy_event *event)
         return refuse(reader, place, "aliases (*name) are not supported; allowed: the value written out");
     case FYET_SCALAR:
         place.column -= is_quoted(event); /* nor the quote */
-        return refuse_extras(reader, event, place) && read_scalar(reader, &event->scalar, place);
+        return refuse_extras(reader, event, place) && read_scalar(reader, event->scalar.value, place);
     case FYET_SEQUENCE_START:
         return refuse_extras(reader, event, place) && open_collection(reader, event, TREE_LIST, place);
     case FYET_MAPPING_START:
@@ -304,7 +342,7 @@ static void discard_output(struct fy_diag *diagnostics, void *user, const char *
 
 tree_node *tree_parse(scene_tree *tree, const char *text, size_t length, const char *source, scene_error *error)
 {
-    tree_reader reader = {.tree = tree, .source = source, .error = error, .last = {1, 1}};
+    tree_reader reader = {.tree = tree, .text = text, .source = source, .error = error, .last = {1, 1}};
     tree_node *root = NULL;
     scene_place place;
     struct fy_diag *diagnostics = NULL;

@@ -110,6 +110,9 @@ static void messages_say_what_where_and_what_is_allowed(void **state)
          "s.yaml:2:2: unknown key \"lihgt\" in the scene; did you mean \"light\"? allowed: mangata, description, image, camera, time, "
          "light, sky, water, objects, post, quality"},
         {"{\"mangata\": 1,\n \"description\": \"\\u00e9\", \"light\": 'x'}", "s.yaml:2:36: light is the text \"x\"; allowed: a mapping {key: value, ...}"},
+        {"mangata: 1\ndescription: 'a''''\n\n  é'''''\nlight: 'x''''y'''\n", "s.yaml:5:8: light is the text \"x''y'\"; allowed: a mapping {key: value, ...}"},
+        {"{mangata: 1, description: 'é''''', 'x''''y': 1}",
+         "s.yaml:1:36: unknown key \"x''y\" in the scene; allowed: mangata, description, image, camera, time, light, sky, water, objects, post, quality"},
         {"mangata: 1\nlight: {elevation_deg: [3]}\n", "s.yaml:2:24: light.elevation_deg is a list of 1; allowed: a number, -90 to 90 degrees"},
         {"mangata: 1\nlight: {body: star}\n", "s.yaml:2:15: light.body is star; allowed: one of sun, moon"},
         {"mangata: 1\nlight: {source: star}\n", "s.yaml:2:17: light.source is star; allowed: one of sun, moon"},
@@ -205,6 +208,7 @@ static void override_messages_name_the_option(void **state)
         {"light=3", "light is 3; allowed: a mapping {key: value, ...}"},
         {"light={body: sun, source: moon}",
          "key \"source\" stands beside \"body\" at line 1, column 2; \"source\" is the new name of \"body\"; allowed: one of them"},
+        {"light={'x''''y': 1}", "unknown key \"x''y\" in light; allowed: body, elevation_deg, azimuth_deg, angular_radius_deg, radiance"},
         {"light.source.x=3", "source is a single value; allowed: source=value"},
         {"light.body.x=3", "body is a single value; allowed: body=value"},
         {"light[0]=3", "light is a mapping; allowed: a key, as in light.key"},

@@ -15,6 +15,7 @@
 #include <string.h>
 
 #include "scene/scene_file.h"
+#include "scene/scene_tree.h"
 
 #define DATA MGT_SOURCE_DIR "/tests/data/scenes/"
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
@@ -388,6 +389,57 @@ static void the_most_waves_are_read(void **state)
     free(text);
 }
 
+/* Writes keys and texts in their order, with a '|' between two. */
+static void list_texts(const tree_node *node, char *out)
+{
+    const char *const texts[] = {node->key, node->text};
+    for (size_t i = 0; i < COUNT(texts); i++)
+        if (texts[i] != NULL)
+            sprintf(out + strlen(out), "%s%s", out[0] != '\0' ? "|" : "", texts[i]);
+    for (const tree_node *child = node->first; child != NULL; child = child->next)
+        list_texts(child, out);
+}
+
+static void single_quoted_texts_are_read_by_yamls_rules(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *texts;
+    } cases[] = {
+        {"'plain \\n \"text\" # {}'", "plain \\n \"text\" # {}"},
+        {"'it''s'", "it's"},
+        {"'x''''y'", "x''y"},
+        {"'x''''y''''''z''w'", "x''y'''z'w"},
+        {"'''''start'", "''start"},
+        {"'end'''''", "end''"},
+        {"''''", "'"},
+        {"''''''''''''", "'''''"},
+        {"''", ""},
+        {"' '", " "},
+        {"k: ' a \t\n  b''''c\r\n \td '", "k| a b''c d "},
+        {"k: 'a\n \t\n\n  ''''b\r  '", "k|a\n\n''b "},
+        {"'\n\n'", "\n"},
+        {"'x''''y': 'a''''b'\n? '''''z'\n: ''''", "x''y|a''b|''z|'"},
+        {"{'''''': ['a''''b', 'c''''''''''d', {'''k''''': ''}], 'é''''ü': '''''水'}", "''|a''b|c'''''d|'k''||é''ü|''水"},
+        {"\xef\xbb\xbf- '~'\n- 'a''''b' # '\n- \"c''''d\"\n- e''''f\n", "~|a''b|c''''d|e''''f"},
+    };
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        scene_tree tree = {.file_name = "test"};
+        scene_error error;
+        char texts[128] = "";
+        const tree_node *root = tree_parse(&tree, cases[i].text, strlen(cases[i].text), NULL, &error);
+        if (root == NULL)
+            fail_msg("%s: %s", cases[i].text, error.text);
+        list_texts(root, texts);
+        assert_string_equal(texts, cases[i].texts);
+        tree_free(&tree);
+    }
+    static const char *const override = "description='a''''b'''''";
+    scene_file *file = parse("mangata: 1", &override, 1);
+    assert_string_equal(scene_file_description(file), "a''b''");
+    scene_file_free(file);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -403,6 +455,7 @@ int main(void)
         cmocka_unit_test(negative_frames_are_refused),
         cmocka_unit_test(canonical_text_knows_values_not_spelling),
         cmocka_unit_test(the_most_waves_are_read),
+        cmocka_unit_test(single_quoted_texts_are_read_by_yamls_rules),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
