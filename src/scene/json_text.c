@@ -307,16 +307,7 @@ char *json_text_string(const json_text *json, const json_value *value)
         const long c = escaped(text + i + 1, value->length - i - 1, &taken);
         i += taken;
         /* Six bytes of "\u" become three at most; halves of a pair stay apart, and no file has such a name. */
-        if (c < 0x80) {
-            *to++ = c != 0 ? (char)c : '?';
-        } else if (c < 0x800) {
-            *to++ = (char)(0xc0 | c >> 6);
-            *to++ = (char)(0x80 | (c & 0x3f));
-        } else {
-            *to++ = (char)(0xe0 | c >> 12);
-            *to++ = (char)(0x80 | (c >> 6 & 0x3f));
-            *to++ = (char)(0x80 | (c & 0x3f));
-        }
+        to = scene_write_character(to, c != 0 ? (uint32_t)c : '?');
     }
     *to = '\0';
     return out;

@@ -145,6 +145,16 @@ bool scene_text_is_clean(const char *text, size_t length, scene_place *place)
     return true;
 }
 
+char *scene_write_character(char *out, uint32_t code)
+{
+    const int more = code < 0x80 ? 0 : code < 0x800 ? 1 : code < 0x10000 ? 2 : 3; /* bytes behind the first */
+    static const uint8_t leads[] = {0, 0xc0, 0xe0, 0xf0};
+    *out++ = (char)(leads[more] | code >> 6 * more);
+    for (int i = more - 1; i >= 0; i--)
+        *out++ = (char)(0x80 | (code >> 6 * i & 0x3f));
+    return out;
+}
+
 size_t scene_edit_distance(const char *word, size_t word_length, const char *known)
 {
     size_t known_length = strlen(known);

@@ -8,6 +8,7 @@
 #include <stdarg.h>
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 #include "base/regular_file.h"
 #include "scene/scene_file.h"
@@ -50,6 +51,9 @@ scene_name scene_file_name(const char *path);
 /* Whether the bytes are UTF-8 without control characters other than tab and line ends; *place is the
  * first bad one, or the end of the text. */
 bool scene_text_is_clean(const char *text, size_t length, scene_place *place);
+
+/* Writes a character in UTF-8, at most four bytes; returns the place behind it. */
+char *scene_write_character(char *out, uint32_t code);
 
 /* Number of single-character edits (insert, delete, replace, swap of neighbours) between two short words; words over
  * 63 bytes are infinitely far apart (SIZE_MAX). */

@@ -12,6 +12,8 @@
 
 #include <libfyaml.h>
 
+#include "scene/scene_quoted.h"
+
 enum { BLOCK_BYTES = 64 * 1024 };
 
 /* Memory of a tree: blocks that are freed together. */
@@ -142,12 +144,11 @@ static scene_place event_place(const tree_reader *reader, struct fy_event *event
     return (scene_place){mark->line + 1, mark->column + 1};
 }
 
-static enum fy_scalar_style scalar_style(struct fy_token *value) { return value != NULL ? fy_scalar_token_get_style(value) : FYSS_ANY; }
-
-static bool is_quoted(struct fy_event *event)
+/* NUL where there is none. */
+static char scalar_quote(struct fy_token *value)
 {
-    enum fy_scalar_style style = scalar_style(event->scalar.value);
-    return style == FYSS_SINGLE_QUOTED || style == FYSS_DOUBLE_QUOTED;
+    const enum fy_scalar_style style = value != NULL ? fy_scalar_token_get_style(value) : FYSS_ANY;
+    return style == FYSS_SINGLE_QUOTED ? '\'' : style == FYSS_DOUBLE_QUOTED ? '"' : '\0';
 }
 
 static bool awaits_key(const tree_reader *reader) { return reader->depth > 0 && reader->open[reader->depth - 1]->kind == TREE_MAPPING && reader->key == NULL; }
@@ -177,53 +178,34 @@ static bool place_node(tree_reader *reader, tree_node *node)
     return true;
 }
 
-static bool is_blank(char c) { return c == ' ' || c == '\t'; }
-static bool is_break(char c) { return c == '\n' || c == '\r'; }
-
-/* The text of a single-quoted scalar, from its source (YAML 1.2.2, 7.3.2), in the tree's memory. libfyaml 0.7 reads texts wrongly where two doubled quotes follow each other, and
- * leaks memory where five do. NULL when memory runs out. */
-static const char *single_quoted_text(tree_reader *reader, struct fy_token *value, size_t *length)
+/* The text of a quoted scalar in the tree's memory; NULL when memory runs out. */
+static const char *quoted_text(tree_reader *reader, struct fy_token *value, char quote, size_t *length)
 {
-    const char *at = reader->text + fy_token_start_mark(value)->input_pos;
-    const char *end = reader->text + fy_token_end_mark(value)->input_pos;
-    char *text = tree_allocate(reader->tree, (size_t)(end - at) + 1), *out = text;
+    const size_t start = fy_token_start_mark(value)->input_pos, size = fy_token_end_mark(value)->input_pos - start;
+    char *text = tree_allocate(reader->tree, 2 * size + 1);
     if (text == NULL)
         return NULL;
-    while (at < end) {
-        if (!is_break(*at)) {
-            at += *at == '\''; /* the first of two */
-            *out++ = *at++;
-            continue;
-        }
-        /* Blanks around line ends are dropped; one line end is a space, of more all but the first are kept. */
-        size_t breaks = 0;
-        while (out > text && is_blank(out[-1]))
-            out--;
-        for (; at < end && (is_blank(*at) || is_break(*at)); at++)
-            breaks += *at == '\n' || (*at == '\r' && at[1] != '\n');
-        if (breaks == 1)
-            *out++ = ' ';
-        for (; breaks > 1; breaks--)
-            *out++ = '\n';
-    }
-    *out = '\0';
-    *length = (size_t)(out - text);
+    *length = scene_unquote(reader->text + start, size, quote, text);
+    text[*length] = '\0';
     return text;
 }
 
 static bool read_scalar(tree_reader *reader, struct fy_token *value, scene_place place)
 {
     size_t length = 0;
-    enum fy_scalar_style style = scalar_style(value);
-    const bool single = style == FYSS_SINGLE_QUOTED;
-    const char *text = single ? single_quoted_text(reader, value, &length) : value != NULL ? fy_token_get_text(value, &length) : "";
+    const char quote = scalar_quote(value);
+    const bool quoted = quote != '\0';
+    const char *text = quoted ? quoted_text(reader, value, quote, &length) : value != NULL ? fy_token_get_text(value, &length) : "";
     if (text == NULL)
         return scene_error_memory(reader->error);
     if (length > TREE_MAX_SCALAR)
         return refuse(reader, place, "a text is too long; allowed: at most 65536 bytes");
-    if (memchr(text, '\0', length) != NULL)
+    if (memchr(text, '\0', length) != NULL && quoted)
         return refuse(reader, place, "a text holds a NUL character; allowed: any other");
-    const char *copy = single ? text : tree_copy_text(reader->tree, text, length);
+    if (memchr(text, '\0', length) != NULL) /* libfyaml 0.7 loses a line end there, and leaves a NUL at the end */
+        return refuse(reader, place,
+                      "a text behind > has an empty line before one that is indented by one more; allowed: by two or more, or such a text behind |");
+    const char *copy = quoted ? text : tree_copy_text(reader->tree, text, length);
     if (copy == NULL)
         return scene_error_memory(reader->error);
     if (awaits_key(reader)) {
@@ -231,7 +213,8 @@ static bool read_scalar(tree_reader *reader, struct fy_token *value, scene_place
         reader->key_place = place;
         return true;
     }
-    bool plain = style == FYSS_PLAIN || style == FYSS_ANY;
+    const enum fy_scalar_style style = value != NULL ? fy_scalar_token_get_style(value) : FYSS_ANY;
+    const bool plain = style == FYSS_PLAIN || style == FYSS_ANY;
     bool null = plain && (length == 0 || strcmp(copy, "~") == 0 || strcasecmp(copy, "null") == 0);
     tree_node *node = tree_add_node(reader->tree, null ? TREE_NULL : TREE_SCALAR, place, reader->source);
     if (node != NULL) {
@@ -279,7 +262,7 @@ static bool read_event(tree_reader *reader, struct fy_event *event)
         place.column--; /* libfyaml marks the name, not the star */
         return refuse(reader, place, "aliases (*name) are not supported; allowed: the value written out");
     case FYET_SCALAR:
-        place.column -= is_quoted(event); /* nor the quote */
+        place.column -= scalar_quote(event->scalar.value) != '\0'; /* nor the quote */
         return refuse_extras(reader, event, place) && read_scalar(reader, event->scalar.value, place);
     case FYET_SEQUENCE_START:
         return refuse_extras(reader, event, place) && open_collection(reader, event, TREE_LIST, place);

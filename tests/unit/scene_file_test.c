@@ -400,7 +400,7 @@ static void list_texts(const tree_node *node, char *out)
         list_texts(child, out);
 }
 
-static void single_quoted_texts_are_read_by_yamls_rules(void **state)
+static void quoted_texts_are_read_by_yamls_rules(void **state)
 {
     (void)state;
     static const struct {
@@ -421,6 +421,14 @@ static void single_quoted_texts_are_read_by_yamls_rules(void **state)
         {"'\n\n'", "\n"},
         {"'x''''y': 'a''''b'\n? '''''z'\n: ''''", "x''y|a''b|''z|'"},
         {"{'''''': ['a''''b', 'c''''''''''d', {'''k''''': ''}], 'é''''ü': '''''水'}", "''|a''b|c'''''d|'k''||é''ü|''水"},
+        {"\"plain '' # {}\"", "plain '' # {}"},
+        {"\"\"", ""},
+        {"{\"\\\"\\\"\\\"\\\"\": [\"x\\\"\\\"\", \"\\\\\\\\\\n\"]}", "\"\"\"\"|x\"\"|\\\\\n"},
+        {"\"\\a\\b\\t\\\t\\v\\f\\r\\e\\ \\/\\N\\_\\L\\P\"", "\a\b\t\t\v\f\r\x1b /\xc2\x85\xc2\xa0\xe2\x80\xa8\xe2\x80\xa9"},
+        {"\"\\x41\\xe9\\u6C34\\U0001f30a\\ud83c\\uDF0A\"", "Aé水🌊🌊"},
+        {"\" a \t\n  b\\ \n\\ c\\t \r\n \td \"", " a b   c\t d "},
+        {"\"a \\\n\t  b\\\\\\\r\n  \\\"\\\"\"", "a b\\\"\""},
+        {"k: \"a \\\n\n \n  b\n\n\n  c\n \"", "k|a \n\nb\n\nc "},
         {"\xef\xbb\xbf- '~'\n- 'a''''b' # '\n- \"c''''d\"\n- e''''f\n", "~|a''b|c''''d|e''''f"},
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
@@ -455,7 +463,7 @@ int main(void)
         cmocka_unit_test(negative_frames_are_refused),
         cmocka_unit_test(canonical_text_knows_values_not_spelling),
         cmocka_unit_test(the_most_waves_are_read),
-        cmocka_unit_test(single_quoted_texts_are_read_by_yamls_rules),
+        cmocka_unit_test(quoted_texts_are_read_by_yamls_rules),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
