@@ -51,7 +51,7 @@ static FrameData sort_cells(const refinement *f, size_t tile, int across, int do
     if (f->moves)
         tile_join_reach(s);
     if (across + down == 0)
-        t->dark = !data.sky_black && (s->close.data.light_reach == 0 || (f->by_display && lights_dark(&data)));
+        t->dark = lane_dark(&data, s->close.data.light_reach, f->by_display, lights_dark(&data));
     refinement_price(f, t, (across + down) / 2, s->close.data.resolved_count + s->close.data.mixed_count);
     return data;
 }

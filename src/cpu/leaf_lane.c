@@ -21,6 +21,12 @@ float lane_weight(const FrameData *frame, const float color[3], float shown)
 
 float lane_parts_contrast(float own, const float parts[4]) { return parts_contrast(NULL, own, parts[0], parts[1], parts[2], parts[3]); }
 
+bool lane_dark(const FrameData *frame, int light_reach, bool by_display, bool lights_dark)
+{
+    const struct kernel_context cx = {.frame = frame};
+    return tile_dark(&cx, light_reach, by_display, lights_dark);
+}
+
 int lane_class(int level, bool dark) { return leaf_class(NULL, level, dark); }
 
 int lane_next_points(lane_leaf l) { return (int)leaf_next_points(NULL, (float)l.points, l.places, l.coverage); }

@@ -17,6 +17,9 @@ float lane_weight(const FrameData *frame, const float color[3], float shown);
 /* What one of a leaf's four parts, of its own contrast, counts with under a sky, from the contrasts of all. */
 float lane_parts_contrast(float own, const float parts[4]);
 
+/* Whether a tile with this TileData.light_reach mirrors no light; the rest as tile_dark() has it. */
+bool lane_dark(const FrameData *frame, int light_reach, bool by_display, bool lights_dark);
+
 /* Which of the shutter's pieces cells of a level see, 0 to 2. */
 int lane_class(int level, bool dark);
 

@@ -52,7 +52,7 @@ CellResult pixel_result(ivec2 at)
 /* Once a tile: what its pixels cost, and whether light is mirrored there. */
 void tell_of_tile(int tile)
 {
-    bool dark = FRAME(0).sky_black == 0 && (TILE(0).light_reach == 0 || (cells_data.by_display != 0 && cells_data.lights_dark != 0));
+    bool dark = tile_dark(0, TILE(0).light_reach, cells_data.by_display != 0, cells_data.lights_dark != 0);
     state[tile_words(tile) + TILE_DARK] = dark ? 1u : 0u;
     state[tile_words(tile) + TILE_WAVES] = uint(TILE(0).resolved_count + TILE(0).mixed_count);
 }
