@@ -113,6 +113,11 @@ static mgt_status see_objects(const picture_user *u, const frame *f, objects_job
     return MGT_OK;
 }
 
+#define MGT_LANES 1
+#include "kernels/common/prelude_c.h"
+
+#include "kernels/refraction/compose.k"
+
 /* What stands in front of the water, over the finished picture. */
 static void put_objects_before(const objects_job *job, const picture_planes *p)
 {
@@ -122,9 +127,9 @@ static void put_objects_before(const objects_job *job, const picture_planes *p)
             const size_t from = (size_t)(y % TILE_HEIGHT) * TILE_WIDTH + x % TILE_WIDTH, to = (size_t)y * p->width + x;
             const float share = o->share[from];
             for (size_t k = 0; k < 3 && share > 0; k++)
-                p->color[3 * to + k] += share * (o->color[k][from] - p->color[3 * to + k]);
-            p->coverage[to] *= 1 - share;
-            p->water[to] *= 1 - share;
+                p->color[3 * to + k] = light_over(NULL, p->color[3 * to + k], o->color[k][from], share);
+            p->coverage[to] = left_behind(NULL, p->coverage[to], share);
+            p->water[to] = left_behind(NULL, p->water[to], share);
         }
 }
 

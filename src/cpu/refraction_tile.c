@@ -131,6 +131,7 @@ static void keep_layers(tile_objects *o)
 #define MGT_LANES 1
 #include "kernels/common/prelude_c.h"
 
+#include "kernels/refraction/compose.k"
 #include "kernels/refraction/edges.k"
 
 void refraction_end_at(const refraction *r, tile_objects *o, size_t i, float last)
@@ -433,10 +434,10 @@ void refraction_tile(refraction *r, const tile_waves *waves, const tile_estimate
 
 /* ---- over the water ---- */
 
-static void put_before(float *below, const float *above, const float *share)
+static void put_plane_before(float *behind, const float *objects, const float *share)
 {
     for (size_t i = 0; i < TILE_PIXELS; i++)
-        below[i] = share[i] >= 1 ? above[i] : share[i] > 0 ? below[i] + share[i] * (above[i] - below[i]) : below[i];
+        behind[i] = put_before(NULL, behind[i], objects[i], share[i]);
 }
 
 void light_of_pixels(const tile_light *light, const uint16_t *pixels, size_t count, tile_light *out)
@@ -464,7 +465,7 @@ static void blend_planes(float *planes, const float *others, size_t count, const
 {
     for (size_t plane = 0; plane < count; plane++, planes += TILE_PIXELS, others += TILE_PIXELS)
         for (size_t i = 0; i < TILE_PIXELS; i++)
-            planes[i] = (1 - weight[i]) * planes[i] + weight[i] * others[i];
+            planes[i] = light_of_ends(NULL, planes[i], others[i], weight[i]);
 }
 
 void refraction_blend(tile_objects *o, const tile_opened *opened)
@@ -472,13 +473,12 @@ void refraction_blend(tile_objects *o, const tile_opened *opened)
     _Static_assert(sizeof(tile_light) % (TILE_PIXELS * sizeof(float)) == 0, "planes of floats");
     float weight[TILE_PIXELS];
     for (size_t i = 0; i < TILE_PIXELS; i++) {
-        const float both = o->share[i] + opened->share[i];
         weight[i] = opened_weight(NULL, o->share[i], opened->share[i]);
-        for (int k = 0; k < 3 && both > 0; k++)
-            o->color[k][i] = (o->share[i] * o->color[k][i] + opened->share[i] * opened->color[k][i]) / both;
+        for (int k = 0; k < 3; k++)
+            o->color[k][i] = objects_of_ends(NULL, o->color[k][i], opened->color[k][i], o->share[i], opened->share[i]);
     }
     for (size_t i = 0; i < TILE_PIXELS; i++)
-        o->share[i] = 0.5f * (o->share[i] + opened->share[i]);
+        o->share[i] = share_of_ends(NULL, o->share[i], opened->share[i]);
     blend_planes(o->light.through[0], opened->light.through[0], sizeof o->light / sizeof o->light.share, weight);
     memcpy(o->light.front, o->share, sizeof o->share);
 }
@@ -494,13 +494,13 @@ bool refraction_covers(const tile_objects *o)
 void refraction_compose(const tile_objects *o, tile_pixels *pixels, tile_surface *surface)
 {
     if (pixels) {
-        put_before(pixels->red, o->color[0], o->share);
-        put_before(pixels->green, o->color[1], o->share);
-        put_before(pixels->blue, o->color[2], o->share);
+        put_plane_before(pixels->red, o->color[0], o->share);
+        put_plane_before(pixels->green, o->color[1], o->share);
+        put_plane_before(pixels->blue, o->color[2], o->share);
         for (size_t i = 0; i < TILE_PIXELS; i++) {
-            pixels->coverage[i] *= 1 - o->share[i];
-            pixels->water[i] *= 1 - o->share[i];
-            pixels->foam[i] *= 1 - o->share[i];
+            pixels->coverage[i] = left_behind(NULL, pixels->coverage[i], o->share[i]);
+            pixels->water[i] = left_behind(NULL, pixels->water[i], o->share[i]);
+            pixels->foam[i] = left_behind(NULL, pixels->foam[i], o->share[i]);
         }
     }
     if (!surface)

@@ -4,7 +4,7 @@
  */
 #include "kernels/common/prelude_glsl.k"
 #include "pass_data.k"
-#include "kernels/refraction/edges.k"
+#include "kernels/refraction/compose.k"
 
 layout(std140, binding = 2) uniform PassBlock { PassData pass_data; };
 
@@ -21,19 +21,30 @@ layout(binding = 3) uniform sampler2D front_texture;
 layout(binding = 4) uniform sampler2D clear_texture;
 layout(binding = 5) uniform sampler2D deep_texture;
 
+vec4 light_of_both(vec4 closed, vec4 opened, float weight)
+{
+    return vec4(light_of_ends(0, closed.r, opened.r, weight), light_of_ends(0, closed.g, opened.g, weight), light_of_ends(0, closed.b, opened.b, weight),
+                light_of_ends(0, closed.a, opened.a, weight));
+}
+
+/* Colour, and the share of the pixel. */
+vec4 objects_of_both(vec4 closed, vec4 opened)
+{
+    return vec4(objects_of_ends(0, closed.r, opened.r, closed.a, opened.a), objects_of_ends(0, closed.g, opened.g, closed.a, opened.a),
+                objects_of_ends(0, closed.b, opened.b, closed.a, opened.a), share_of_ends(0, closed.a, opened.a));
+}
+
 void main()
 {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     texel += ivec2(pass_data.tile_x * TILE_WIDTH - pass_data.area_x, pass_data.tile_y * TILE_HEIGHT - pass_data.area_y);
     if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, ivec2(pass_data.area_width, pass_data.area_height))))
         return;
-    vec4 close = imageLoad(front_image, texel), open = texelFetch(front_texture, texel, 0);
-    float both = close.w + open.w;
-    float share = opened_weight(0, close.w, open.w);
-    imageStore(body_image, texel, mix(imageLoad(body_image, texel), texelFetch(body_texture, texel, 0), share));
-    imageStore(mirrored_image, texel, mix(imageLoad(mirrored_image, texel), texelFetch(mirrored_texture, texel, 0), share));
-    imageStore(clear_image, texel, mix(imageLoad(clear_image, texel), texelFetch(clear_texture, texel, 0), share));
-    imageStore(deep_image, texel, mix(imageLoad(deep_image, texel), texelFetch(deep_texture, texel, 0), share));
-    if (both > 0.0f)
-        imageStore(front_image, texel, vec4((close.w * close.rgb + open.w * open.rgb) / both, 0.5f * both));
+    vec4 closed = imageLoad(front_image, texel), opened = texelFetch(front_texture, texel, 0);
+    float weight = opened_weight(0, closed.a, opened.a);
+    imageStore(body_image, texel, light_of_both(imageLoad(body_image, texel), texelFetch(body_texture, texel, 0), weight));
+    imageStore(mirrored_image, texel, light_of_both(imageLoad(mirrored_image, texel), texelFetch(mirrored_texture, texel, 0), weight));
+    imageStore(clear_image, texel, light_of_both(imageLoad(clear_image, texel), texelFetch(clear_texture, texel, 0), weight));
+    imageStore(deep_image, texel, light_of_both(imageLoad(deep_image, texel), texelFetch(deep_texture, texel, 0), weight));
+    imageStore(front_image, texel, objects_of_both(closed, opened));
 }

@@ -4,6 +4,7 @@
  */
 #include "kernels/common/prelude_glsl.k"
 #include "pass_data.k"
+#include "kernels/refraction/compose.k"
 
 layout(std140, binding = 2) uniform PassBlock { PassData pass_data; };
 
@@ -27,14 +28,15 @@ void main()
     vec4 front = texelFetch(front_texture, texel, 0);
     if (!(front.w > 0.0f))
         return;
-    vec3 below = imageLoad(color_image, texel).rgb;
-    imageStore(color_image, texel, vec4(below + front.w * (front.rgb - below), 1.0f));
-    imageStore(coverage_image, texel, imageLoad(coverage_image, texel) * (1.0f - front.w));
+    vec3 behind = imageLoad(color_image, texel).rgb;
+    imageStore(color_image, texel, vec4(put_before(0, behind.r, front.r, front.w), put_before(0, behind.g, front.g, front.w), put_before(0, behind.b, front.b, front.w), 1.0f));
+    imageStore(coverage_image, texel, vec4(left_behind(0, imageLoad(coverage_image, texel).r, front.w)));
     float water = imageLoad(water_image, texel).r;
-    imageStore(water_image, texel, vec4(water + front.w * ((pass_data.front_shows != 0 ? 1.0f : 0.0f) - water)));
-    if (front.w < FRONT_SHOWS)
-        return;
+    imageStore(water_image, texel, vec4(pass_data.front_shows != 0 ? put_before(0, water, 1.0f, front.w) : left_behind(0, water, front.w)));
+    /* Of the instant at which the shutter closes; shares may be means over the shutter. */
     vec4 surface = texelFetch(surface_texture, texel, 0);
+    if (!(surface.w < INFINITE))
+        return;
     imageStore(depth_image, texel, vec4(surface.w));
     imageStore(normal_image, texel, vec4(surface.xyz, 1.0f));
     /* The layers of refraction show water alone. */
