@@ -27,19 +27,6 @@ static void ray_through(const refraction *r, double x, double y, double ray[3])
         ray[k] = c->corner[k] + x * c->right[k] + y * c->down[k];
 }
 
-/* Multiple of a ray through the pixel at which it meets the plane of the surface there. */
-static double meet_water(const tile_objects *o, size_t i, bool under, const double ray[3])
-{
-    const tile_water *w = &o->water;
-    if (!(w->share[i] > 0))
-        return INFINITY;
-    const double up = under ? -1 : 1;
-    const double normal[3] = {(double)w->normal[0][i], up * (double)w->normal[1][i], (double)w->normal[2][i]};
-    const double view[3] = {(double)w->view[0][i], up * (double)w->view[1][i], (double)w->view[2][i]};
-    const double closing = dot3(normal, ray);
-    return closing < 0 ? (double)w->along[i] * dot3(normal, view) / closing : INFINITY;
-}
-
 /* ---- what is shaded ---- */
 
 static void flush(const refraction *r, tile_objects *o, size_t *count)
@@ -85,17 +72,26 @@ static void add_point(const front_pixel *p, const double ray[3], double along, i
 
 /* ---- edges ---- */
 
-#define MGT_LANES 1
-#include "kernels/common/prelude_c.h"
+#include "kernels/common/prelude_double.h"
 
 #include "kernels/refraction/edges.k"
 
+/* Multiple of a ray through the pixel at which it meets the plane of the surface there. */
+static double meet_water(const tile_objects *o, size_t i, bool under, const double ray[3])
+{
+    const tile_water *w = &o->water;
+    const double up = under ? -1 : 1;
+    const vec3 normal = vec3((double)w->normal[0][i], up * (double)w->normal[1][i], (double)w->normal[2][i]);
+    const vec3 view = vec3((double)w->view[0][i], up * (double)w->view[1][i], (double)w->view[2][i]);
+    return meet_surface(NULL, w->share[i] > 0, normal, view, (double)w->along[i], vec3(ray[0], ray[1], ray[2]));
+}
+
 /* The dry level of the side of a triangle that a ray meets. */
-static float level_of(const refraction *r, int32_t triangle, const double ray[3])
+static double level_of(const refraction *r, int32_t triangle, const double ray[3])
 {
     const float *levels = r->front.dry, *plane = r->planes + 4 * (size_t)triangle;
     const double facing = (double)plane[0] * ray[0] + (double)plane[1] * ray[1] + (double)plane[2] * ray[2];
-    return levels ? level_faced(NULL, levels[2 * (size_t)triangle], levels[2 * (size_t)triangle + 1], (float)facing) : -INFINITY;
+    return levels ? level_faced(NULL, (double)levels[2 * (size_t)triangle], (double)levels[2 * (size_t)triangle + 1], facing) : -INFINITY;
 }
 
 /* Whether the place lies between two pixels that both see something: then it does, too, even if it meets none of the tiny triangles at hand. */
@@ -132,9 +128,9 @@ static void see_edge(front_pixel *p, tile_objects *o, size_t *count)
         if (triangle < 0)
             continue;
         const double water = meet_water(o, p->i, p->r->frame->under, ray);
-        const float level = level_of(p->r, triangle, ray);
-        p->dry = is_inside_dry(NULL, (float)(eye[1] + nearest * ray[1]), level);
-        if (nearest < water || is_inside_dry(NULL, (float)(eye[1] + water * ray[1]), level))
+        const double level = level_of(p->r, triangle, ray);
+        p->dry = is_inside_dry(NULL, (double)(float)(eye[1] + nearest * ray[1]), level);
+        if (stands_in_front(NULL, nearest, water, (double)(float)(eye[1] + water * ray[1]), level))
             add_point(p, ray, nearest, triangle, o, count);
     }
 }
