@@ -6,8 +6,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "cpu/refraction_state.h"
 #include "base/triples.h"
+#include "cpu/surface_lane.h"
 
 /* The tile's pixel at hand. */
 typedef struct front_pixel {
@@ -72,10 +72,6 @@ static void add_point(const front_pixel *p, const double ray[3], double along, i
 
 /* ---- edges ---- */
 
-#include "kernels/common/prelude_double.h"
-
-#include "kernels/refraction/edges.k"
-
 /* Multiple of a ray through the pixel at which it meets the plane of the surface there. */
 static double meet_water(const tile_objects *o, size_t i, bool under, const double ray[3])
 {
@@ -109,17 +105,18 @@ static void see_edge(front_pixel *p, tile_objects *o, size_t *count)
     const world *w = p->r->world;
     const camera_rays *c = &p->r->camera;
     const double eye[3] = {c->position[0] - w->origin[0], c->position[1], c->position[2] - w->origin[1]};
-    surface_facet facets[REFRACTION_NEIGHBOURS];
+    const struct kernel_context cx = {p->r->surface};
+    Facet facets[REFRACTION_NEIGHBOURS];
     p->candidate_count = refraction_neighbours(g, p->element, p->candidates);
     for (size_t k = 0; k < p->candidate_count; k++)
-        facets[k] = refraction_facet_of(p->r, p->candidates[k], eye);
+        facets[k] = facet_of(&cx, p->candidates[k], vec3(eye[0], eye[1], eye[2]));
     for (int place = 0; place < EDGE_PLACES; place++) {
         const vec2 within = edge_place(NULL, place);
         double ray[3], nearest = INFINITY;
         int32_t triangle = -1;
         ray_through(p->r, p->x + (double)within.x, p->y + (double)within.y, ray);
         for (size_t k = 0; k < p->candidate_count; k++) {
-            const double along = refraction_meet(&facets[k], ray);
+            const double along = meet_facet(NULL, facets[k], vec3(ray[0], ray[1], ray[2]));
             if (along < nearest)
                 nearest = along, triangle = p->candidates[k];
         }

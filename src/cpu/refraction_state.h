@@ -73,17 +73,6 @@ enum { REFRACTION_NEIGHBOURS = 9 };
  * Returns how many. */
 size_t refraction_neighbours(const gbuffer *g, size_t element, int32_t triangles[REFRACTION_NEIGHBOURS]);
 
-/* A triangle as rays from one point meet it. */
-typedef struct surface_facet {
-    double edges[2][3], to[3], turned[3], level;
-} surface_facet;
-
-/* `from`: in the world's coordinates. */
-surface_facet refraction_facet_of(const refraction *r, int32_t triangle, const double from[3]);
-
-/* Multiple of a ray at which it meets the triangle; +inf: it does not. */
-double refraction_meet(const surface_facet *f, const double ray[3]);
-
 /* Ends a pixel's ray `last` metres behind where it met the surface last: `after`, `water` and the footprint. */
 void refraction_end_at(const refraction *r, tile_objects *o, size_t i, float last);
 

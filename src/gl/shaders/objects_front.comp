@@ -27,7 +27,7 @@ RayEnd end_in_front(ivec2 image, PixelWater w, bool edge, vec2 place)
     end.triangle = -1;
     for (int i = 0; edge && i < 9; i++) {
         int triangle = front_triangle_at(at + ivec2(i % 3 - 1, i / 3 - 1));
-        float met = triangle >= 0 ? follow_surface(triangle, camera_position(), ray, 1).along : INFINITE;
+        float met = triangle >= 0 ? meet_facet(0, facet_of(0, triangle, camera_position()), ray) : INFINITE;
         if (met < along) {
             along = met;
             end.triangle = triangle;

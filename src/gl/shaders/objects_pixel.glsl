@@ -115,76 +115,9 @@ bool is_in_front(int triangle, float along, PixelWater w, vec3 ray)
 
 /* ---- surfaces of triangles ---- */
 
-/* Where a ray meets a triangle's plane. */
-struct Crossing {
-    float weight[3]; /* of the corners; negative beyond the edge across */
-    float along;     /* multiple of the ray; INFINITE: nowhere */
-};
+vec3 SURFACE_CORNER(int cx, int triangle, int i) { return texelFetch(vertex_table, 2 * int(texelFetch(index_table, 3 * triangle + i).r)).xyz; }
 
-Crossing crossing_of(int triangle, vec3 from, vec3 ray)
-{
-    ivec3 corner = triangle_corners(triangle);
-    vec3 p = texelFetch(vertex_table, 2 * corner.x).xyz;
-    vec3 e1 = texelFetch(vertex_table, 2 * corner.y).xyz - p, e2 = texelFetch(vertex_table, 2 * corner.z).xyz - p;
-    vec3 to = from - p, across = cross(ray, e2), around = cross(to, e1);
-    float det = dot(e1, across);
-    Crossing c;
-    c.along = INFINITE;
-    if (det == 0.0f)
-        return c;
-    float u = dot(to, across) / det, v = dot(ray, around) / det;
-    c.weight[0] = 1.0f - u - v;
-    c.weight[1] = u;
-    c.weight[2] = v;
-    c.along = dot(e2, around) / det;
-    return c;
-}
+#define SURFACE_NORMAL(cx, triangle) texelFetch(plane_table, triangle).xyz
+#define SURFACE_NEIGHBOUR(cx, triangle, i) texelFetch(neighbour_table, 3 * (triangle) + (i)).r
 
-bool faces(int triangle, vec3 ray) { return dot(texelFetch(plane_table, triangle).xyz, ray) < 0.0f; }
-
-/* The triangle across the edge that the ray passes farthest beyond, if it shows the ray the same side; −1: none. */
-int triangle_towards(int triangle, Crossing c, vec3 ray)
-{
-    bool facing = faces(triangle, ray);
-    float least = 0.0f;
-    int next = -1;
-    for (int corner = 0; corner < 3; corner++) {
-        if (!(c.weight[corner] < least))
-            continue;
-        int across = texelFetch(neighbour_table, 3 * triangle + (corner == 2 ? 0 : corner + 1)).r;
-        if (across < 0 || faces(across, ray) != facing)
-            continue;
-        least = c.weight[corner];
-        next = across;
-    }
-    return next;
-}
-
-/* Where a ray meets a surface of triangles. */
-struct SurfaceHit {
-    int triangle; /* −1: nowhere */
-    float along;  /* multiple of the ray, INFINITE: nowhere */
-    bool lost;    /* triangles are so small that nobody knows */
-};
-
-/* Where a ray meets the surface that a triangle near it belongs to: from triangle to triangle, across the edges that the ray passes beyond, `steps`
- * of them at most. */
-SurfaceHit follow_surface(int triangle, vec3 from, vec3 ray, int steps)
-{
-    int before = -1;
-    for (int i = 0; i < steps; i++) {
-        Crossing c = crossing_of(triangle, from, ray);
-        if (!(c.along > 0.0f && c.along < INFINITE))
-            return SurfaceHit(-1, INFINITE, false);
-        if (c.weight[1] >= 0.0f && c.weight[2] >= 0.0f && c.weight[1] + c.weight[2] <= 1.0f)
-            return SurfaceHit(triangle, c.along, false);
-        int next = triangle_towards(triangle, c, ray);
-        if (next < 0)
-            return SurfaceHit(-1, INFINITE, false);
-        if (next == before) /* between both, by rounding */
-            return SurfaceHit(triangle, c.along, false);
-        before = triangle;
-        triangle = next;
-    }
-    return SurfaceHit(-1, INFINITE, true);
-}
+#include "kernels/refraction/surfaces.k"

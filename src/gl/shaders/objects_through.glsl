@@ -49,6 +49,26 @@ struct ShownSurfaces {
     bool open;   /* a pixel that was asked shows nothing */
 };
 
+/* Follows the surface that a triangle near the ray belongs to. */
+ShownSurfaces follow_surface(ShownSurfaces s, int triangle, int answer)
+{
+    int start = triangle, before = -1;
+    for (int i = 0; i < SURFACE_STEPS; i++) {
+        SurfaceStep next = surface_step(0, triangle, before, s.from, s.direction);
+        if (next.along < s.along) {
+            s.along = next.along;
+            s.met = triangle;
+        }
+        if (next.next < 0)
+            return s;
+        before = triangle;
+        triangle = next.next;
+    }
+    s.lost = true;
+    s.unsure = s.unsure || start == answer;
+    return s;
+}
+
 ShownSurfaces follow_shown(ShownSurfaces s, int layer, ivec2 at, int answer)
 {
     if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, ivec2(int(narrow_data.columns), int(narrow_data.rows)))))
@@ -58,14 +78,7 @@ ShownSurfaces follow_shown(ShownSurfaces s, int layer, ivec2 at, int answer)
     if (triangle < 0 || triangle == s.asked)
         return s;
     s.asked = triangle;
-    SurfaceHit there = follow_surface(triangle, s.from, s.direction, SURFACE_STEPS);
-    s.lost = s.lost || there.lost;
-    s.unsure = s.unsure || (there.lost && triangle == answer);
-    if (there.along < s.along) {
-        s.along = there.along;
-        s.met = there.triangle;
-    }
-    return s;
+    return follow_surface(s, triangle, answer);
 }
 
 /* An answer in doubt is decided by the nearest surface that the ray meets among those that its pixel and the neighbours show. Where the search did not converge,
