@@ -90,13 +90,12 @@ static double level_of(const refraction *r, int32_t triangle, const double ray[3
     return levels ? level_faced(NULL, (double)levels[2 * (size_t)triangle], (double)levels[2 * (size_t)triangle + 1], facing) : -INFINITY;
 }
 
-/* Whether the place lies between two pixels that both see something: then it does, too, even if it meets none of the tiny triangles at hand. */
-static bool between_objects(const front_pixel *p, vec2 place)
+/* What the pixel's neighbour shows that a place of it lies nearest to; −1: nothing. */
+static int32_t triangle_beside(const front_pixel *p, vec2 place)
 {
     const gbuffer *g = &p->r->direct.front;
     const vec2 side = edge_side(NULL, place);
-    const ptrdiff_t step = (ptrdiff_t)side.x + (ptrdiff_t)g->width * (ptrdiff_t)side.y;
-    return g->triangle[p->element] >= 0 && g->triangle[(size_t)((ptrdiff_t)p->element + step)] >= 0;
+    return g->triangle[(size_t)((ptrdiff_t)p->element + (ptrdiff_t)side.x + (ptrdiff_t)g->width * (ptrdiff_t)side.y)];
 }
 
 static void see_edge(front_pixel *p, tile_objects *o, size_t *count)
@@ -105,30 +104,28 @@ static void see_edge(front_pixel *p, tile_objects *o, size_t *count)
     const world *w = p->r->world;
     const camera_rays *c = &p->r->camera;
     const double eye[3] = {c->position[0] - w->origin[0], c->position[1], c->position[2] - w->origin[1]};
-    const struct kernel_context cx = {p->r->surface};
+    const struct kernel_context cx = {.surface = p->r->surface};
     Facet facets[REFRACTION_NEIGHBOURS];
     p->candidate_count = refraction_neighbours(g, p->element, p->candidates);
     for (size_t k = 0; k < p->candidate_count; k++)
         facets[k] = facet_of(&cx, p->candidates[k], vec3(eye[0], eye[1], eye[2]));
     for (int place = 0; place < EDGE_PLACES; place++) {
         const vec2 within = edge_place(NULL, place);
-        double ray[3], nearest = INFINITY;
-        int32_t triangle = -1;
+        FrontHit hit = {-1, INFINITE};
+        double ray[3];
         ray_through(p->r, p->x + (double)within.x, p->y + (double)within.y, ray);
-        for (size_t k = 0; k < p->candidate_count; k++) {
-            const double along = meet_facet(NULL, facets[k], vec3(ray[0], ray[1], ray[2]));
-            if (along < nearest)
-                nearest = along, triangle = p->candidates[k];
-        }
-        if (triangle < 0 && between_objects(p, within))
-            nearest = (double)g->depth[p->element], triangle = g->triangle[p->element];
-        if (triangle < 0)
+        for (size_t k = 0; k < p->candidate_count; k++)
+            hit = nearer_hit(NULL, hit, p->candidates[k], facets[k], vec3(ray[0], ray[1], ray[2]));
+        const int32_t own = g->triangle[p->element];
+        if (own >= 0 && shows_pixel(NULL, hit, own, triangle_beside(p, within)))
+            hit = (FrontHit){own, (double)g->depth[p->element]};
+        if (hit.triangle < 0)
             continue;
         const double water = meet_water(o, p->i, p->r->frame->under, ray);
-        const double level = level_of(p->r, triangle, ray);
-        p->dry = is_inside_dry(NULL, (double)(float)(eye[1] + nearest * ray[1]), level);
-        if (stands_in_front(NULL, nearest, water, (double)(float)(eye[1] + water * ray[1]), level))
-            add_point(p, ray, nearest, triangle, o, count);
+        const double level = level_of(p->r, hit.triangle, ray);
+        p->dry = is_inside_dry(NULL, (double)(float)(eye[1] + hit.along * ray[1]), level);
+        if (stands_in_front(NULL, hit.along, water, (double)(float)(eye[1] + water * ray[1]), level))
+            add_point(p, ray, hit.along, hit.triangle, o, count);
     }
 }
 

@@ -45,7 +45,7 @@ static void rays_meet_what_they_are_sent_to(void **state)
     random_state r = {5};
     for (int i = 0; i < 20000; i++) {
         const surface_triangle t = random_triangle(&r);
-        const struct kernel_context cx = {&t};
+        const struct kernel_context cx = {.surface = &t};
         double weight[3] = {random_range(&r, -0.5, 1.2), random_range(&r, -0.5, 1.2), 0};
         weight[2] = 1 - weight[0] - weight[1];
         const vec3 from = vec3((double)coordinate(&r) + 3, (double)coordinate(&r), (double)coordinate(&r)), target = point_of(&t, weight);
@@ -68,7 +68,7 @@ static void rays_along_a_triangle_meet_nothing(void **state)
 {
     (void)state;
     const surface_triangle t = {.corners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .neighbours = {-1, -1, -1}, .normal = {0, 0, 1}};
-    const struct kernel_context cx = {&t};
+    const struct kernel_context cx = {.surface = &t};
     assert_true(isinf(meet_facet(&cx, facet_of(&cx, 0, vec3(-1.0, 0.2, 0.0)), vec3(1.0, 0.0, 0.0))));
     assert_true(isinf(meet_facet(&cx, facet_of(&cx, 0, vec3(0.2, 0.2, 1.0)), vec3(1.0, 0.0, 0.0))));
 }
@@ -98,7 +98,7 @@ static void make_strip(surface_triangle t[TRIANGLES], int bent)
 /* The triangle that a way from `start` ends at; −1: it meets none. */
 static int end_of_way(const surface_triangle *t, int start, vec3 from, vec3 ray)
 {
-    const struct kernel_context cx = {t};
+    const struct kernel_context cx = {.surface = t};
     int triangle = start, before = -1;
     for (int i = 0; i < SURFACE_STEPS; i++) {
         const SurfaceStep s = surface_step(&cx, triangle, before, from, ray);

@@ -11,32 +11,28 @@ layout(local_size_x = LIST_GROUP) in;
 layout(binding = 2) writeonly uniform image2D front_image;   /* what stands in front of water and sky, and its share of the pixel */
 layout(binding = 3) writeonly uniform image2D surface_image; /* its normal, and metres along the ray */
 
-/* Whether the place lies between two pixels that both see something: then it does, too, even if it meets none of the tiny triangles at hand. */
-bool between_objects(ivec2 at, vec2 place)
+/* What the pixel's neighbour shows that a place of it lies nearest to; −1: nothing. */
+int triangle_beside(ivec2 at, vec2 place)
 {
     vec2 side = edge_side(0, place);
-    return front_triangle_at(at) >= 0 && front_triangle_at(at + ivec2(int(side.x), int(side.y))) >= 0;
+    return front_triangle_at(at + ivec2(int(side.x), int(side.y)));
 }
 
 RayEnd end_in_front(ivec2 image, PixelWater w, bool edge, vec2 place)
 {
     ivec2 at = front_texel(image);
     vec3 ray = camera_ray(image, place);
-    float along = INFINITE;
-    RayEnd end;
-    end.triangle = -1;
+    FrontHit hit = FrontHit(-1, INFINITE);
     for (int i = 0; edge && i < 9; i++) {
         int triangle = front_triangle_at(at + ivec2(i % 3 - 1, i / 3 - 1));
-        float met = triangle >= 0 ? meet_facet(0, facet_of(0, triangle, camera_position()), ray) : INFINITE;
-        if (met < along) {
-            along = met;
-            end.triangle = triangle;
-        }
+        if (triangle >= 0)
+            hit = nearer_hit(0, hit, triangle, facet_of(0, triangle, camera_position()), ray);
     }
-    if (end.triangle < 0 && (!edge || between_objects(at, place))) {
-        end.triangle = front_triangle_at(at);
-        along = front_depth_at(at);
-    }
+    if (!edge || shows_pixel(0, hit, front_triangle_at(at), triangle_beside(at, place)))
+        hit = FrontHit(front_triangle_at(at), front_depth_at(at));
+    RayEnd end;
+    end.triangle = hit.triangle;
+    float along = hit.along;
     float size = sqrt(length_squared(ray));
     end.ray.position = camera_position() + ray * along;
     end.ray.direction = ray / size;

@@ -120,4 +120,18 @@ vec3 SURFACE_CORNER(int cx, int triangle, int i) { return texelFetch(vertex_tabl
 #define SURFACE_NORMAL(cx, triangle) texelFetch(plane_table, triangle).xyz
 #define SURFACE_NEIGHBOUR(cx, triangle, i) texelFetch(neighbour_table, 3 * (triangle) + (i)).r
 
-#include "kernels/refraction/surfaces.k"
+/* Invocations keep no list of triangles. */
+#define SURFACE_KNOWN(cx, triangle) false
+#define IS_IN_LAYER(cx, layer, column, row) ((column) >= 0.0f && (row) >= 0.0f && (column) < narrow_data.columns && (row) < narrow_data.rows)
+#define SHOWN_TRIANGLE(cx, layer, column, row) layer_triangle(layer, ivec2(int(column), int(row)))
+#define ALONG_RAY(cx, end, nearest, i) place_along_ray(end.layer, end.from, end.direction, nearest, i)
+
+vec2 place_along_ray(int layer, vec3 from, vec3 direction, float nearest, int i)
+{
+    vec3 begin = turned(0, from - vec3(narrow_data.foot_x, 0.0f, narrow_data.foot_z));
+    Place p = place_along(0, layer, begin, turned(0, direction), nearest, (float(i) + 0.5f) / float(SHARP_PLACES));
+    LayerPlace there = layer_place(0, p.column, p.row);
+    return p.inside > 0.0f ? vec2(there.x, there.y) : vec2(-1.0f);
+}
+
+#include "kernels/refraction/shown.k"

@@ -38,86 +38,20 @@ bool is_doubtful(FoundPoint f, int layer)
     return f.column >= 0.0f && point_is_doubtful(0, f.residual, breaks_off(layer, ivec2(int(f.column), int(f.row))));
 }
 
-/* A ray, and its nearest hit among the surfaces that the pixels asked so far show. */
-struct ShownSurfaces {
-    vec3 from, direction;
-    int met;     /* triangle of the hit; −1: none */
-    float along; /* distance of the hit along the ray; INFINITE: none */
-    int asked;   /* triangle of the last pixel asked */
-    bool lost;   /* following a surface ended after SURFACE_STEPS triangles */
-    bool unsure; /* the same for the surface that the answer's pixel shows */
-    bool open;   /* a pixel that was asked shows nothing */
-};
-
-/* Follows the surface that a triangle near the ray belongs to. */
-ShownSurfaces follow_surface(ShownSurfaces s, int triangle, int answer)
-{
-    int start = triangle, before = -1;
-    for (int i = 0; i < SURFACE_STEPS; i++) {
-        SurfaceStep next = surface_step(0, triangle, before, s.from, s.direction);
-        if (next.along < s.along) {
-            s.along = next.along;
-            s.met = triangle;
-        }
-        if (next.next < 0)
-            return s;
-        before = triangle;
-        triangle = next.next;
-    }
-    s.lost = true;
-    s.unsure = s.unsure || start == answer;
-    return s;
-}
-
-ShownSurfaces follow_shown(ShownSurfaces s, int layer, ivec2 at, int answer)
-{
-    if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, ivec2(int(narrow_data.columns), int(narrow_data.rows)))))
-        return s;
-    int triangle = layer_triangle(layer, at);
-    s.open = s.open || triangle < 0;
-    if (triangle < 0 || triangle == s.asked)
-        return s;
-    s.asked = triangle;
-    return follow_surface(s, triangle, answer);
-}
-
-/* An answer in doubt is decided by the nearest surface that the ray meets among those that its pixel and the neighbours show. Where the search did not converge,
- * the surfaces along the ray's image in the layer count as well, then those around its pixel. An empty pixel of the mirrored layer does not set `open`: that
- * picture may end before the scene does. */
+/* An answer in doubt is decided by the surfaces that pixels show. */
 RayEnd sharpened(RayEnd end, WaterHit hit, int layer, FoundPoint f)
 {
-    ivec2 at = ivec2(int(f.column), int(f.row));
     if (!is_doubtful(f, layer))
         return end;
-    bool by_nothing = narrow_data.side < 0.0f && layer == LAYER_REFRACTED; /* over the water the sky is all around */
-    bool is_lost = point_is_lost(0, end.error), refracted = layer == LAYER_REFRACTED;
-    ShownSurfaces s =
-        ShownSurfaces(camera_position() + hit.along * turned(0, hit.view), end.ray.direction, -1, INFINITE, -1, false, false, by_nothing);
-    int along = 9 + (is_lost ? SHARP_PLACES : 0), last = along + (is_lost && f.last_column >= 0.0f ? 1 : 0);
-    int around = last + (is_lost && refracted ? AROUND_PLACES : 0);
-    float after = INFINITE;
-    for (int i = 0; i < around; i++) {
-        if (i == 9) {
-            by_nothing = s.open;
-            after = s.along;
-        }
-        if (i == last && s.met >= 0)
-            break;
-        ivec2 asked = i < 9 ? at + ivec2(i % 3 - 1, i / 3 - 1) : i < last ? ivec2(int(f.last_column), int(f.last_row)) : ivec2(roundEven(vec2(at) + place_around(0, i - last)));
-        if (i >= 9 && i < along) {
-            Place p = place_along(0, layer, left_at(0, hit), f.direction, after, (float(i - 9) + 0.5f) / float(SHARP_PLACES));
-            LayerPlace there = layer_place(0, p.column, p.row);
-            asked = p.inside > 0.0f ? ivec2(int(there.x), int(there.y)) : ivec2(-1);
-        }
-        s = follow_shown(s, layer, asked, end.triangle);
-    }
-    bool open = by_nothing || (s.open && (around == 9 || (refracted && !s.lost)));
-    if ((s.unsure && point_is_near(0, end.error) && end.ray.after < s.along) || (s.met < 0 && !open))
+    DoubtfulEnd doubtful = DoubtfulEnd(camera_position() + hit.along * turned(0, hit.view), end.ray.direction, layer, f.column, f.row, f.last_column, f.last_row,
+                                       end.error, end.ray.after);
+    ShownSurfaces s = surfaces_shown(0, doubtful, narrow_data.side < 0.0f);
+    if (s.stands)
         return end;
     end.triangle = s.met;
-    end.ray.after = s.met < 0 ? 0.0f : s.along;
+    end.ray.after = s.met < 0 ? 0.0f : s.nearest;
     if (s.met >= 0)
-        end.ray.position = s.from + s.along * s.direction;
+        end.ray.position = doubtful.from + s.nearest * doubtful.direction;
     return end;
 }
 
