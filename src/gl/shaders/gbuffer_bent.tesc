@@ -25,9 +25,7 @@ float parts_of_edge(int i, int j)
     float squared = edge_length_squared(0, image_a, image_b);
     if (!edge_counts(0, a, b, squared))
         return 1.0f;
-    float error = image_error_squared(0, far_image(0, scale(add(a, b), 0.5f)), scale(add(image_a, image_b), 0.5f));
-    if (squared > picture_data.long_squared)
-        error = max(error, max(quarter_error_squared(0, a, b, image_a, image_b), quarter_error_squared(0, b, a, image_b, image_a)));
+    float error = edge_error_squared(0, a, b, image_a, image_b, far_image(0, scale(add(a, b), 0.5f)), squared, INFINITE);
     float parts = ceil(sqrt(sqrt(error / picture_data.error_squared)));
     /* Where it meets the surface: from below, images run along the edge of Snell's window there; and paths of the same length begin there. */
     if ((refract_data.side < 0.0f || refract_data.map == MAP_PATH) && (a.y < 0.0f) != (b.y < 0.0f))
