@@ -48,10 +48,13 @@ static inline void dry_boat_free(dry_boat *b)
     scene_file_free(b->file);
 }
 
-static inline double dry_dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+/* Sanitizers check what is tested, not what it is tested against. */
+#define DRY_ORACLE __attribute__((no_sanitize("address", "undefined")))
+
+DRY_ORACLE static inline double dry_dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /* Multiple of a ray at which it meets a triangle; +inf: it does not. *facing: its normal · the ray. */
-static inline double dry_meet(const world *w, size_t triangle, const double from[3], const double ray[3], double *facing)
+DRY_ORACLE static inline double dry_meet(const world *w, size_t triangle, const double from[3], const double ray[3], double *facing)
 {
     double p[3][3], a[3], b[3], to[3];
     for (int c = 0; c < 3; c++)
@@ -71,7 +74,7 @@ static inline double dry_meet(const world *w, size_t triangle, const double from
 }
 
 /* The nearest of the boat's triangles; *triangle is −1 where there is none. */
-static inline double dry_nearest(const world *w, const double from[3], const double ray[3], int32_t *triangle, double *facing)
+DRY_ORACLE static inline double dry_nearest(const world *w, const double from[3], const double ray[3], int32_t *triangle, double *facing)
 {
     double nearest = INFINITY, side;
     *triangle = -1;

@@ -137,7 +137,7 @@ static void test_sun(void **state)
     (void)state;
     scene_file *file;
     const mgt_scene scene = scene_of("breeze.yaml", 0.2665, &file);
-    compare_scene("sun", scene, (part){750, 300, 8, 6}, 40, 4, 64);
+    compare_scene("sun", scene, (part){750, 300, 8, 6}, MGT_SANITIZED ? 16 : 40, 4, MGT_SANITIZED ? 16 : 64);
     scene_file_free(file);
 }
 
