@@ -16,6 +16,9 @@
 #include "cpu/lane_access.h"
 #include "cpu/lane_display.h"
 
+#include "kernels/baselines/lean_moments.k"
+#include "kernels/waves/lean_grid.k"
+
 #define LEAN(cx) ((cx)->lean->data)
 
 /* Where a texel's moments begin; level 0 has none. */
@@ -43,19 +46,20 @@ KERNEL vec2 LEAN_MEAN(CTX cx, real level, real column, real row)
 
 KERNEL vec3 LEAN_SQUARE(CTX cx, real level, real column, real row)
 {
-    float at[3][MGT_LANES], square[3][MGT_LANES];
+    float at[3][MGT_LANES], slope[2][MGT_LANES] = {{0}}, square[3][MGT_LANES] = {{0}};
     store(at[0], level), store(at[1], column), store(at[2], row);
     for (int i = 0; i < MGT_LANES; i++) {
         const int l = (int)at[0][i], x = (int)at[1][i], z = (int)at[2][i];
         if (l == 0) {
-            const float sx = cx->lean->slope_x[(size_t)z * LEAN_SIZE + (size_t)x], sz = cx->lean->slope_z[(size_t)z * LEAN_SIZE + (size_t)x];
-            square[0][i] = sx * sx, square[1][i] = sx * sz, square[2][i] = sz * sz;
+            slope[0][i] = cx->lean->slope_x[(size_t)z * LEAN_SIZE + (size_t)x];
+            slope[1][i] = cx->lean->slope_z[(size_t)z * LEAN_SIZE + (size_t)x];
         } else {
             const float *texel = lean_texel_at(cx, l, x, z);
             square[0][i] = texel[2], square[1][i] = texel[3], square[2][i] = texel[4];
         }
     }
-    return (vec3){load(square[0]), load(square[1]), load(square[2])};
+    const LeanMoments points = point_moments(cx, (vec2){load(slope[0]), load(slope[1])});
+    return SELECT3(level < real(1.0f), points.square, ((vec3){load(square[0]), load(square[1]), load(square[2])}));
 }
 
 #include "kernels/baselines/bruneton.k"
@@ -216,20 +220,19 @@ static void lanes_lean_rows(const lean_waves *waves, const lean_phase *phases, f
 {
     for (size_t column = 0; column < LEAN_SIZE; column += MGT_LANES) {
         const float *wave = waves->columns + column / LEAN_BLOCK * waves->count * 2 * LEAN_BLOCK + column % LEAN_BLOCK;
-        real x[LEAN_ROWS], z[LEAN_ROWS];
+        vec2 slopes[LEAN_ROWS];
         for (int r = 0; r < LEAN_ROWS; r++)
-            x[r] = z[r] = real(0.0f);
+            slopes[r] = vec2(real(0.0f), real(0.0f));
         for (size_t i = 0; i < waves->count; i++, wave += 2 * LEAN_BLOCK) {
             const real cosine = load(wave), sine = load(wave + LEAN_BLOCK);
             for (int r = 0; r < LEAN_ROWS; r++) {
-                const real steep = fma(cosine, real(phases[i].cosine[r]), sine * real(phases[i].minus_sine[r]));
-                x[r] = fma(steep, real(lean_slope_x(waves, i)), x[r]);
-                z[r] = fma(steep, real(lean_slope_z(waves, i)), z[r]);
+                const real steep = grid_cosine(NULL, cosine, sine, real(phases[i].cosine[r]), real(phases[i].minus_sine[r]));
+                slopes[r] = grid_slopes(NULL, slopes[r], lean_wave(waves, i), steep);
             }
         }
         for (int r = 0; r < LEAN_ROWS; r++) {
-            store(slope_x + (size_t)r * LEAN_SIZE + column, x[r]);
-            store(slope_z + (size_t)r * LEAN_SIZE + column, z[r]);
+            store(slope_x + (size_t)r * LEAN_SIZE + column, slopes[r].x);
+            store(slope_z + (size_t)r * LEAN_SIZE + column, slopes[r].y);
         }
     }
 }

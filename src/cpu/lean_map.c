@@ -44,13 +44,11 @@ static void shrink_slopes(const map_job *job, size_t row, float *out)
     const float *x = job->map->slope_x + 2 * row * LEAN_SIZE, *z = job->map->slope_z + 2 * row * LEAN_SIZE;
     for (size_t column = 0; column < LEAN_SIZE / 2; column++, out += LEAN_MOMENTS) {
         const size_t at[4] = {2 * column, 2 * column + 1, LEAN_SIZE + 2 * column, LEAN_SIZE + 2 * column + 1};
-        float sum[LEAN_MOMENTS] = {0};
-        for (int i = 0; i < 4; i++) {
-            const float sx = x[at[i]], sz = z[at[i]];
-            sum[0] += sx, sum[1] += sz, sum[2] += sx * sx, sum[3] += sx * sz, sum[4] += sz * sz;
-        }
-        for (int m = 0; m < LEAN_MOMENTS; m++)
-            out[m] = 0.25f * sum[m];
+        LeanMoments finer[4];
+        for (int i = 0; i < 4; i++)
+            finer[i] = point_moments(NULL, vec2(x[at[i]], z[at[i]]));
+        const LeanMoments m = coarser_moments(NULL, finer[0], finer[1], finer[2], finer[3]);
+        out[0] = m.mean.x, out[1] = m.mean.y, out[2] = m.square.x, out[3] = m.square.y, out[4] = m.square.z;
     }
 }
 
@@ -67,7 +65,7 @@ static void shrink_row(void *argument, size_t row, uint32_t worker)
     const float *in = job->map->levels[job->level] + 2 * row * stride;
     for (size_t column = 0; column < width; column++, in += 2 * LEAN_MOMENTS, out += LEAN_MOMENTS)
         for (int m = 0; m < LEAN_MOMENTS; m++)
-            out[m] = 0.25f * (in[m] + in[m + LEAN_MOMENTS] + in[m + stride] + in[m + LEAN_MOMENTS + stride]);
+            out[m] = coarser_moment(NULL, in[m], in[m + LEAN_MOMENTS], in[m + stride], in[m + LEAN_MOMENTS + stride]);
 }
 
 /* ---- the whole ---- */

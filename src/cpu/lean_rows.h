@@ -7,6 +7,13 @@
 
 #include "cpu/lean_map.h"
 
+/* After all other headers. */
+#define MGT_LANES 1
+#include "kernels/common/prelude_c.h"
+
+#include "kernels/baselines/lean_moments.k"
+#include "kernels/waves/lean_grid.k"
+
 /* Of LEAN_SIZE equal parts of a turn. */
 static inline void lean_fill_cosines(float *cosines)
 {
@@ -20,9 +27,9 @@ static inline void lean_fill_block(const lean_waves *waves, const float *cosines
     float *out = columns + block * waves->count * 2 * LEAN_BLOCK;
     for (size_t i = 0; i < waves->count; i++, out += 2 * LEAN_BLOCK)
         for (int x = 0; x < LEAN_BLOCK; x++) {
-            const unsigned part = lean_column_part(waves, i, block * LEAN_BLOCK + (size_t)x);
-            out[x] = cosines[part % LEAN_SIZE];
-            out[LEAN_BLOCK + x] = cosines[(part + 3 * LEAN_SIZE / 4) % LEAN_SIZE];
+            const int parts = (int)lean_column_part(waves, i, block * LEAN_BLOCK + (size_t)x);
+            out[x] = cosines[grid_parts(NULL, parts)];
+            out[LEAN_BLOCK + x] = cosines[grid_parts(NULL, parts + 3 * LEAN_SIZE / 4)];
         }
 }
 

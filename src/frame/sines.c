@@ -306,10 +306,13 @@ LeanData sines_snap(const mgt_water *water, wave_meeting at, lean_waves *out)
     };
 }
 
+#include "kernels/common/prelude_double.h"
+
+#include "kernels/waves/lean_grid.k"
+
 double lean_row_angle(const lean_waves *waves, size_t i, size_t row)
 {
-    const unsigned part = (unsigned)waves->waves[i].periods_z * (unsigned)row % LEAN_SIZE;
-    return turn * (waves->turns[i] - rint(waves->turns[i]) + (double)part / LEAN_SIZE);
+    return turn * grid_phase(NULL, waves->waves[i], waves->turns[i] - rint(waves->turns[i]), 0, (int)row);
 }
 
 /* ---- at points ---- */

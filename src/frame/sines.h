@@ -100,7 +100,6 @@ LeanData sines_snap(const mgt_water *water, wave_meeting at, lean_waves *out);
 static inline unsigned lean_column_part(const lean_waves *w, size_t i, size_t column) { return (unsigned)w->waves[i].periods_x * (unsigned)column; }
 double lean_row_angle(const lean_waves *waves, size_t i, size_t row);
 
-static inline float lean_slope_x(const lean_waves *w, size_t i) { return w->waves[i].slope_x; }
-static inline float lean_slope_z(const lean_waves *w, size_t i) { return w->waves[i].slope_z; }
+static inline LeanWave lean_wave(const lean_waves *w, size_t i) { return w->waves[i]; }
 
 #endif

@@ -6,6 +6,7 @@
 #include "kernels/common/prelude_glsl.k"
 #include "pass_data.k"
 #include "kernels/waves/sines_types.k"
+#include "kernels/common/math.k"
 #include "kernels/waves/lean_grid.k"
 
 layout(std140, binding = 3) uniform LeanPassBlock { LeanPass lean_pass; };
@@ -28,12 +29,12 @@ void main()
         slopes[r] = vec2(0.0f);
     for (int i = 0; i < lean_pass.wave_count; i++) {
         LeanWave w = lean_waves[i];
-        SinCos t = sincos_turns(0, grid_phase(0, w, column, first_row));
+        SinCos t = sincos_turns(0, grid_phase(0, w, w.turns, column, first_row));
         SinCos row = sincos_turns(0, grid_row_turns(0, w));
         for (int r = 0; r < ROWS; r++) {
-            slopes[r] += t.c * grid_slope(0, w);
+            slopes[r] = grid_slopes(0, slopes[r], w, t.c);
             float sine = fma(t.s, row.c, t.c * row.s);
-            t.c = fma(t.c, row.c, -t.s * row.s);
+            t.c = grid_cosine(0, t.c, t.s, row.c, -row.s);
             t.s = sine;
         }
     }

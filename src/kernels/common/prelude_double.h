@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * The kernel dialect as C in double precision, one value at a time, in place of prelude_c.h: for kernels that shaders evaluate in floats where C, at few
- * places, takes doubles. The rules are those of prelude_c.h, but that nothing is fused, and that a kernel which looks at the bits of a float is none for it.
+ * places, takes doubles. The rules are those of prelude_c.h, but that dot() and cross() are not fused, and that a kernel which looks at the bits of a float is
+ * none for it.
  */
 #ifndef MANGATA_KERNELS_COMMON_PRELUDE_DOUBLE_H
 #define MANGATA_KERNELS_COMMON_PRELUDE_DOUBLE_H
@@ -37,6 +38,7 @@ typedef int mask;
 #define abs(x) __builtin_fabs(x)
 #define sqrt(x) __builtin_sqrt(x)
 #define floor(x) __builtin_floor(x)
+#define fma(a, b, c) __builtin_fma(a, b, c)
 #define INFINITE __builtin_inf()
 
 KERNEL real real_min(real a, real b) { return a < b ? a : b; }
