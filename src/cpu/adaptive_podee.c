@@ -16,34 +16,23 @@
 #include "base/hash.h"
 #include "cpu/baseline_lanes.h"
 
+#include "kernels/common/prelude_double.h"
+
+#include "kernels/adaptive/slot_order.k"
+#include "kernels/adaptive/slots.k"
+
 /* ---- the paper's equations ---- */
 
 uint64_t podee_slots_of(const mgt_quality *q, double water)
 {
-    const double slots = podee_samples_of(q) * water;
-    return q->sample_slots ? q->sample_slots : slots > 1 ? (uint64_t)(slots + 0.5) : 1;
+    return q->sample_slots ? q->sample_slots : (uint64_t)slots_of_water(NULL, podee_samples_of(q), water);
 }
 
-float podee_importance(const podee_rules *rules, float coverage)
-{
-    const double away = ((double)coverage - rules->center) / rules->width;
-    return (float)exp(-0.5 * away * away);
-}
+float podee_importance(const podee_rules *rules, float coverage) { return (float)slot_importance(NULL, (double)coverage, rules->center, 0, rules->width); }
 
-double podee_slot_place(uint64_t k, uint64_t slots, double sum) { return ((double)k + 0.5) / (double)slots * sum; }
+double podee_slot_place(uint64_t k, uint64_t slots, double sum) { return slot_place(NULL, (double)k, (double)slots, sum); }
 
-uint64_t podee_first_slot(double place, uint64_t slots, double sum)
-{
-    uint64_t low = 0, high = slots;
-    while (low < high) {
-        const uint64_t middle = low + (high - low) / 2;
-        if (podee_slot_place(middle, slots, sum) < place)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
-}
+uint64_t podee_first_slot(double place, uint64_t slots, double sum) { return (uint64_t)first_slot(NULL, place, (double)slots, sum); }
 
 size_t podee_task_at(const double *prefix, size_t count, double place)
 {
@@ -56,11 +45,7 @@ size_t podee_task_at(const double *prefix, size_t count, double place)
     return low;
 }
 
-double podee_detail_weight(double samples, double frequency)
-{
-    const double nyquist = 0.5;
-    return fmin(fmax(samples * nyquist / fmax(frequency, 1e-6), 0), 1);
-}
+double podee_detail_weight(double samples, double frequency) { return slot_weight(NULL, samples, frequency); }
 
 /* ---- one picture ---- */
 
@@ -110,8 +95,8 @@ static void weigh_tile(void *argument, size_t tile, uint32_t worker)
     for (uint32_t y = 0; y < c.height; y++)
         for (uint32_t x = 0; x < c.width; x++) {
             const size_t i = (size_t)(c.top + y) * p->width + c.left + x;
-            const float importance = podee_importance(&job->rules, p->coverage[i]);
-            p->importance[i] = p->water[i] > 0 && (double)importance > job->rules.threshold ? importance : 0;
+            const double importance = (double)podee_importance(&job->rules, p->coverage[i]);
+            p->importance[i] = (float)task_importance(NULL, importance, (double)p->water[i], job->rules.threshold);
             sum += (double)p->importance[i];
             water += (double)p->water[i];
         }

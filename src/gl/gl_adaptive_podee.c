@@ -57,7 +57,7 @@ static SlotsData slots_data_of(const gl_renderer *g, const gl_job *job, uint32_t
         .chunk_slots = chunk,
         .center = (float)rules.center,
         .center_low = (float)(rules.center - (double)(float)rules.center),
-        .inverse_width = (float)(1 / rules.width),
+        .center_width = (float)rules.width,
         .threshold = float_below(rules.threshold),
         .samples_low = (int)(uint32_t)bits,
         .samples_high = (int)(uint32_t)(bits >> 32),

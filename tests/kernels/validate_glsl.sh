@@ -16,6 +16,7 @@ check() { # name, version line, extension, epilogue, kernel
     case $1 in
     lean | leadr) more=$kernels/baselines/lean_accessors_glsl.k ;;
     fxaa) more=$work/luma.glsl ;;
+    slots) more=$kernels/common/math.k ;;
     rounds) more=$source/src/gl/shaders/word64.glsl ;;
     refract_*) more=$kernels/refraction/refract_accessors_glsl.k ;;
     again | caustic | footprint | material | narrow | shadow | shown | spread | surfaces | water_path | water_seen) more="$kernels/refraction/refract_accessors_glsl.k $kernels/refraction/narrow_types.k $kernels/refraction/shade_types.k $kernels/refraction/layer.k $work/object_accessors.glsl" ;;
@@ -58,7 +59,7 @@ for kernel in "$kernels"/*/*.k; do
     case $name in prelude_glsl | accessors_glsl | *_accessors_glsl) continue ;; esac
     count=$((count + 1))
     check "$name" "450 core" comp 'layout(local_size_x = 8, local_size_y = 8) in; void main() {}' "$kernel"
-    [ "$name" = rounds ] || check "$name" "300 es" frag 'void main() {}' "$kernel"
+    [ "$name" = rounds ] || [ "$name" = slot_order ] || check "$name" "300 es" frag 'void main() {}' "$kernel"
 done
 # One process compiles all of them, much faster than one each.
 if ! glslangValidator "$work"/whole/* >"$work/log" 2>&1; then
@@ -70,7 +71,7 @@ if ! glslangValidator "$work"/whole/* >"$work/log" 2>&1; then
         grep -E 'ERROR|WARNING' "$work/log"
     done
 fi
-echo "$count kernel files, each as GLSL 4.50 and, but for rounds.k, as GLSL ES 3.00"
+echo "$count kernel files, each as GLSL 4.50 and, but for those with doubles, as GLSL ES 3.00"
 
 # The check itself must be able to fail, and say where.
 printf '/* broken */\n#include "kernels/common/math.k"\nKERNEL real broken(CTX cx, real x) { return x +; }\n' >"$work/broken.k"

@@ -15,21 +15,21 @@ layout(binding = 3, r32f) writeonly uniform image2D samples_image;
 layout(binding = 4, r32f) readonly uniform image2D importance_image;
 layout(binding = 5, r32f) writeonly uniform image2D detail_image;
 
-float finest_frequency_squared(ivec2 at)
+float finest_frequency(ivec2 at)
 {
     PixelRay p = pixel_ray_filtered(0, float(at.x), float(at.y));
     Footprint f = mean_footprint(0, p);
     float squared = 0.0f;
     for (int w = 0; w < slots_data.moving_waves; w++)
         squared = max(squared, wave_frequency(0, f, SET_WAVE(w)));
-    return p.water > 0.0f ? squared : 0.0f;
+    return p.water > 0.0f ? sqrt(squared) : 0.0f;
 }
 
 void blend_task(ivec2 texel, ivec2 at, int place, float slots)
 {
     int from = SLOT_FLOATS * place;
     float per_importance = float(double(plan_slots) / packDouble2x32(plan_sum));
-    float weight = slot_weight(0, per_importance * imageLoad(importance_image, texel).r, finest_frequency_squared(at));
+    float weight = slot_weight(0, per_importance * imageLoad(importance_image, texel).r, finest_frequency(at));
     vec3 color = vec3(slot_values[from], slot_values[from + 1], slot_values[from + 2]) / slots;
     float coverage = slot_values[from + 3] / slots, water = slot_values[from + 4] / slots;
     if (FRAME(0).want_color != 0)

@@ -5,6 +5,7 @@
  */
 #include "kernels/common/prelude_glsl.k"
 #include "pass_data.k"
+#include "kernels/adaptive/slot_order.k"
 
 #define PLAN_ACCESS
 #define TASK_ACCESS writeonly
@@ -17,21 +18,8 @@ const int LANE_PIXELS = TILE_PIXELS / TASK_LANES;
 shared double sums[TASK_LANES];
 shared int counts[TASK_LANES + 1];
 
-/* The first slot that looks at `place` in the prefix sum or beyond; M where none does. The quotient is at most one slot off. */
-uint first_slot(double place)
-{
-    double sum = packDouble2x32(plan_sum), slots = double(plan_slots);
-    if (plan_slots == 0u || place >= sum)
-        return plan_slots;
-    double guess = floor(place / sum * slots - 0.5LF) - 1.0LF;
-    uint slot = guess > 0.0LF ? uint(guess) : 0u;
-    for (int i = 0; i < 4; i++) {
-        precise double looks_at = (double(slot) + 0.5LF) / slots * sum;
-        if (slot < plan_slots && looks_at < place)
-            slot++;
-    }
-    return slot;
-}
+/* The first slot that looks at `place` in the prefix sum or beyond. */
+uint first_at(double place) { return plan_slots == 0u ? 0u : uint(first_slot(0, place, double(plan_slots), packDouble2x32(plan_sum))); }
 
 void main()
 {
@@ -53,7 +41,7 @@ void main()
     if (lane == 0) {
         double before = packDouble2x32(plan_tiles[tile].xy);
         int tasks_before = 0;
-        plan_tiles[tile].z = first_slot(before);
+        plan_tiles[tile].z = first_at(before);
         for (int i = 0; i < TASK_LANES; i++) {
             double importance = sums[i];
             int here = counts[i];
@@ -69,7 +57,7 @@ void main()
     int place = task_place(band_tile, counts[lane]);
     for (int i = 0; i < LANE_PIXELS; i++)
         if (own[i] > 0.0f) {
-            tasks[place] = uvec2(first_slot(before), uint(lane * LANE_PIXELS + i));
+            tasks[place] = uvec2(first_at(before), uint(lane * LANE_PIXELS + i));
             before += double(own[i]);
             place++;
         }

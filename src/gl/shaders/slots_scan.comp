@@ -4,6 +4,7 @@
  */
 #include "kernels/common/prelude_glsl.k"
 #include "pass_data.k"
+#include "kernels/adaptive/slot_order.k"
 
 #define PLAN_ACCESS
 #include "slots_data.glsl"
@@ -18,8 +19,7 @@ uint slots_of(double water)
 {
     if (slots_data.slots != 0)
         return uint(slots_data.slots);
-    double slots = packDouble2x32(uvec2(uint(slots_data.samples_low), uint(slots_data.samples_high))) * water;
-    return slots > 1.0LF ? uint(slots + 0.5LF) : 1u;
+    return uint(slots_of_water(0, packDouble2x32(uvec2(uint(slots_data.samples_low), uint(slots_data.samples_high))), water));
 }
 
 void main()

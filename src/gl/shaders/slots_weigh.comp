@@ -4,6 +4,7 @@
  */
 #include "kernels/common/prelude_glsl.k"
 #include "pass_data.k"
+#include "kernels/common/math.k"
 #include "kernels/adaptive/slots.k"
 
 #define PLAN_ACCESS
@@ -22,8 +23,8 @@ shared double waters[TASK_LANES];
 
 float importance_of(float coverage, float water)
 {
-    float value = slot_importance(0, coverage, slots_data.center, slots_data.center_low, slots_data.inverse_width);
-    return water > 0.0f && value > slots_data.threshold ? value : 0.0f;
+    float value = slot_importance(0, coverage, slots_data.center, slots_data.center_low, slots_data.center_width);
+    return task_importance(0, value, water, slots_data.threshold);
 }
 
 void main()

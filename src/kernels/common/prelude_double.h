@@ -40,9 +40,14 @@ typedef int mask;
 #define floor(x) __builtin_floor(x)
 #define fma(a, b, c) __builtin_fma(a, b, c)
 #define INFINITE __builtin_inf()
+#define PRECISE
+#define DOUBLE(x) ((double)(x))
+#define floor_of_double(x) __builtin_floor(x)
 
 KERNEL real real_min(real a, real b) { return a < b ? a : b; }
 KERNEL real real_max(real a, real b) { return a > b ? a : b; }
+/* In place of that of math.k. */
+KERNEL real exp_real(CTX cx, real x) { return __builtin_exp(x); }
 KERNEL bool any_lane(mask m) { return m != 0; }
 
 /* ---- Vectors ---- */
