@@ -24,7 +24,7 @@
 #define SHADE(cx) ((cx)->shade->data)
 #define CHOPPY_LIGHT(cx) SHADE(cx).choppy
 
-KERNEL vec3 TEXTURE(CTX cx, real texture, real u, real v, real level) { return object_texture(cx->shade, texture, u, v, level); }
+KERNEL vec3 TEXTURE(CTX cx, real texture, real u, real v, real level) { return object_texture(cx, texture, u, v, level); }
 
 #include "kernels/sky/sky.k"
 

@@ -130,32 +130,22 @@ static inline vec3 bilinear_color(const shade_scene *s, const mgt_texture *t, ma
     return (vec3){lanes.x, lanes.y, lanes.z};
 }
 
-static inline vec3 blended_color(vec3 a, vec3 b, real share) { return (vec3){a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), a.z + share * (b.z - a.z)}; }
+typedef const mgt_texture *texture_name;
 
-/* Black where a coordinate is not within ±1e9. */
-static inline vec3 trilinear_color(const shade_scene *s, const mgt_texture *t, real u, real v, real level)
-{
-    const mask good = AND(abs(u) < real(1e9f), abs(v) < real(1e9f));
-    const real none = real(0.0f), most = real((float)(t->levels - 1));
-    const real l = SELECT(level > none, SELECT(level < most, level, most), none), x = SELECT(good, u, none), y = SELECT(good, v, none);
-    const mask fine = whole(l);
-    vec3 color = bilinear_color(s, t, fine, x, y);
-    const mask mixed = AND(real_from_int(fine) < l, good);
-    if (any_lane(mixed)) {
-        const mask coarse = whole_select(mixed, fine + 1, fine);
-        color = SELECT3(mixed, blended_color(color, bilinear_color(s, t, coarse, x, y), l - real_from_int(fine)), color);
-    }
-    return SELECT3(good, color, vec3(none, none, none));
-}
+#define TEXTURE_NAME texture_name
+#define TEXTURE_LEVEL(cx, texture, level, u, v) bilinear_color((cx)->shade, texture, whole(level), u, v)
+
+#include "kernels/refraction/texture.k"
 
 /* `object`: whose material's texture it is, if it has one. Neighbours mostly share theirs. */
-static inline vec3 object_texture(const shade_scene *s, real object, real u, real v, real level)
+static inline vec3 object_texture(const struct kernel_context *cx, real object, real u, real v, real level)
 {
+    const shade_scene *s = cx->shade;
     float objects[MGT_LANES];
     store(objects, object);
     const mgt_texture *shared = s->materials[(size_t)objects[0]].texture;
     if (shared && all_lanes(object == real(objects[0])))
-        return trilinear_color(s, shared, u, v, level);
+        return texture_color(cx, shared, u, v, level, real((float)(shared->levels - 1)));
     vec3 color = vec3(real(0.0f), real(0.0f), real(0.0f));
     for (int i = 0; i < MGT_LANES; i++) {
         const mgt_texture *t = s->materials[(size_t)objects[i]].texture;
@@ -163,7 +153,7 @@ static inline vec3 object_texture(const shade_scene *s, real object, real u, rea
         for (int k = 0; k < i && !known; k++)
             known = objects[k] == objects[i];
         if (!known)
-            color = SELECT3(object == real(objects[i]), trilinear_color(s, t, u, v, level), color);
+            color = SELECT3(object == real(objects[i]), texture_color(cx, t, u, v, level, real((float)(t->levels - 1))), color);
     }
     return color;
 }

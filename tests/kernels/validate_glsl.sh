@@ -19,7 +19,7 @@ check() { # name, version line, extension, epilogue, kernel
     slots) more=$kernels/common/math.k ;;
     rounds) more=$source/src/gl/shaders/word64.glsl ;;
     refract_*) more=$kernels/refraction/refract_accessors_glsl.k ;;
-    again | caustic | footprint | material | narrow | shadow | shown | spread | surfaces | water_path | water_seen) more="$kernels/refraction/refract_accessors_glsl.k $kernels/refraction/narrow_types.k $kernels/refraction/shade_types.k $kernels/refraction/layer.k $work/object_accessors.glsl" ;;
+    again | caustic | footprint | material | narrow | shadow | shown | spread | surfaces | texture | water_path | water_seen) more="$kernels/refraction/refract_accessors_glsl.k $kernels/refraction/narrow_types.k $kernels/refraction/shade_types.k $kernels/refraction/layer.k $work/object_accessors.glsl" ;;
     esac
     # shellcheck disable=SC2086 # nothing where there is none
     "$source/scripts/kernel_glsl" "$2" "$kernels/common/prelude_glsl.k" "$kernels/waves/sines_types.k" "$kernels/common/accessors_glsl.k" "$kernels/waves/foam_accessors_glsl.k" $more "$5" >"$work/whole/$1.$3" || failed=1
@@ -45,6 +45,8 @@ bool IS_IN_LAYER(int cx, int layer, float column, float row);
 int SHOWN_TRIANGLE(int cx, int layer, float column, float row);
 bool SURFACE_KNOWN(int cx, int triangle);
 #define ALONG_RAY(cx, end, nearest, i) vec2(nearest, i)
+#define TEXTURE_NAME int
+vec3 TEXTURE_LEVEL(int cx, int texture_name, float level, float u, float v);
 vec3 TEXTURE(int cx, float object, float u, float v, float level);
 float SUN_VISIBILITY(int cx, vec3 position, vec3 first, vec3 second, bool dry);
 float SHADOW_TEXEL(int cx, float column, float row);

@@ -139,7 +139,8 @@ static void fail_each_allocation(mgt_status (*life)(int which))
         if (outstanding != 0)
             fail_msg("allocation %ld of %ld failed and %ld blocks leaked", k, count, (long)outstanding);
     }
-    print_message("  each of %ld allocations%s failed once; %d were reported as a thread's\n", MGT_SANITIZED ? (count + 2) / 3 : count, MGT_SANITIZED ? ", every third," : "", other);
+    print_message("  each of %ld allocations%s failed once; %d were reported as a thread's\n", MGT_SANITIZED ? (count + 2) / 3 : count,
+                  MGT_SANITIZED ? ", every third," : "", other);
 }
 
 static void allocations_may_fail(void **state)

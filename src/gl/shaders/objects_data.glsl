@@ -109,28 +109,22 @@ vec3 texture_texel(TextureLevel l, int x, int y)
     return vec3(linear_of_code(rgba & 255u), linear_of_code(rgba >> 8 & 255u), linear_of_code(rgba >> 16 & 255u));
 }
 
-vec3 texture_bilinear(int object, int level, float u, float v)
+#define TEXTURE_NAME int
+vec3 TEXTURE_LEVEL(int cx, int object, float level, float u, float v);
+#include "kernels/refraction/texture.k"
+
+vec3 TEXTURE_LEVEL(int cx, int object, float level, float u, float v)
 {
-    TextureLevel l = texture_level(object, level);
+    TextureLevel l = texture_level(object, int(level));
     vec2 at = vec2((u - floor(u)) * float(l.width), (v - floor(v)) * float(l.height)) - 0.5f;
     vec2 first = floor(at), share = at - first;
     int x = int(first.x), y = int(first.y);
-    vec3 top = texture_texel(l, x, y) + share.x * (texture_texel(l, x + 1, y) - texture_texel(l, x, y));
-    vec3 bottom = texture_texel(l, x, y + 1) + share.x * (texture_texel(l, x + 1, y + 1) - texture_texel(l, x, y + 1));
-    return top + share.y * (bottom - top);
+    vec3 top = blended_color(0, texture_texel(l, x, y), texture_texel(l, x + 1, y), share.x);
+    vec3 bottom = blended_color(0, texture_texel(l, x, y + 1), texture_texel(l, x + 1, y + 1), share.x);
+    return blended_color(0, top, bottom, share.y);
 }
 
-vec3 TEXTURE(int cx, float object, float u, float v, float level)
-{
-    if (!(abs(u) < 1e9f && abs(v) < 1e9f))
-        return vec3(0.0f);
-    float l = clamp(level, 0.0f, material_texel(int(object), 3).w - 1.0f);
-    int fine = int(l);
-    vec3 near = texture_bilinear(int(object), fine, u, v);
-    if (!(float(fine) < l))
-        return near;
-    return near + (l - float(fine)) * (texture_bilinear(int(object), fine + 1, u, v) - near);
-}
+vec3 TEXTURE(int cx, float object, float u, float v, float level) { return texture_color(0, int(object), u, v, level, material_texel(int(object), 3).w - 1.0f); }
 
 /* ---- shadows ---- */
 
