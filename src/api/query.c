@@ -52,9 +52,9 @@ static mgt_water_answers answers_from(const mgt_water_answers *all, size_t first
 typedef struct question {
     const mgt_water *water;
     double time;
-    const double *points; /* of a query: `count` of them, … */
+    const double *points; /* of a query; `count` of them */
     mgt_water_answers *answers;
-    const double *rays; /* … or of a trace */
+    const double *rays; /* of a trace; `count` of them */
     double reach, *distance;
     size_t count;
 } question;

@@ -16,8 +16,8 @@ typedef struct broad_view {
     PictureData picture;
     raster_grid grid;
     float foot[2];       /* the camera's foot in the world */
-    float crest;         /* metres that the refracted layer goes on for on the camera's side, … */
-    float trough;        /* … and the front layer beyond the surface */
+    float crest;         /* metres that the refracted layer goes on for on the camera's side */
+    float trough;        /* metres that the front layer goes on for beyond the surface */
     bool mirrored;       /* see gbuffer_job */
     const float *images; /* of all vertices, as raster_kernels.images fills them */
 } broad_view;

@@ -135,8 +135,8 @@ typedef struct line_room {
     float *square, *from; /* of all lines; where each parabola of the envelope begins to count */
     int32_t *triangle;    /* of all lines */
     uint32_t *place;
-    float *lowest;    /* of all lines: the envelope, … */
-    int32_t *nearest; /* … and the triangle that it belongs to */
+    float *lowest;    /* of all lines: the envelope */
+    int32_t *nearest; /* of all lines: the triangle that the envelope belongs to */
 } line_room;
 
 static void transform_line(const line_room *e, const float *square, const int32_t *triangle, size_t first, uint32_t length)

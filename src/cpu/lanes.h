@@ -45,8 +45,8 @@ typedef struct tile_detail {
 /* What the pixels of a tile see of objects through the surface and mirrored by it, see pixel.k. Kernels read the planes by their numbers. */
 typedef struct tile_light {
     float through[3][TILE_PIXELS];  /* what comes through */
-    float mirrored[3][TILE_PIXELS]; /* what objects shine instead of what they hide of the sky, … */
-    float share[TILE_PIXELS];       /* … and how much that is */
+    float mirrored[3][TILE_PIXELS]; /* what objects shine where they hide the sky */
+    float share[TILE_PIXELS];       /* how much of the mirrored sky objects hide */
     float clear[3][TILE_PIXELS];    /* what objects and water leave of the light's disk */
     float deep[3][TILE_PIXELS];     /* under water: what shines where no surface is */
     float front[TILE_PIXELS];       /* how much of the pixel objects in front of the water cover */

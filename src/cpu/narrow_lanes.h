@@ -25,9 +25,9 @@ typedef struct tile_water {
     float view[3][TILE_PIXELS];   /* unit, of the ray */
     float along[TILE_PIXELS];     /* metres */
     float normal[3][TILE_PIXELS]; /* unit */
-    float slopes[3][TILE_PIXELS]; /* WaterVariation's: covariance xx, xz, zz of the slopes that the pixel does not resolve, … */
-    float bend[3][TILE_PIXELS];   /* … second derivatives of the others, … */
-    float path[3][TILE_PIXELS];   /* … and change over the shutter of the slope and of `along` */
+    float slopes[3][TILE_PIXELS]; /* covariance xx, xz, zz of the slopes that the pixel does not resolve; this and the next two: see WaterVariation */
+    float bend[3][TILE_PIXELS];   /* second derivatives of the resolved waves */
+    float path[3][TILE_PIXELS];   /* change over the shutter of the slope and of `along` */
 } tile_water;
 
 /* Where rays end, as shade_hits takes them. */
@@ -36,9 +36,9 @@ typedef struct tile_ends {
     float position[3][TILE_PIXELS];
     float direction[3][TILE_PIXELS];
     float before[TILE_PIXELS], after[TILE_PIXELS], water[TILE_PIXELS];
-    float way[TILE_PIXELS];       /* metres of `after` to where the ray met the surface last; 0: it met it once … */
-    float wet[TILE_PIXELS];       /* … of them in water, … */
-    float from[3][TILE_PIXELS];   /* … and where that is; not set where it met it once */
+    float way[TILE_PIXELS];       /* metres of `after` to where the ray met the surface last; 0: it met it once */
+    float wet[TILE_PIXELS];       /* metres of `way` in water */
+    float from[3][TILE_PIXELS];   /* where it met the surface last; not set where it met it once */
     float part[TILE_PIXELS];      /* of the light that goes this way */
     float first[TILE_PIXELS];     /* 1 where the surface lets nothing through as it is met first */
     float spread[3][TILE_PIXELS]; /* the footprint, as in shade_hits */

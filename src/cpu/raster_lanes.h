@@ -40,8 +40,8 @@ typedef struct setup_batch {
 /* A triangle in the picture, drawn where all three edges' numbers are 0 or more. Coordinates count subpixels from the middle pixel's centre. */
 typedef struct raster_triangle {
     int32_t x[3], y[3];                    /* clockwise on the screen, y down */
-    float inverse_depth, slope_x, slope_y; /* 1/depth at corner 0, and its change per pixel … */
-    float least, most;                     /* … within these */
+    float inverse_depth, slope_x, slope_y; /* 1/depth at corner 0, and its change per pixel */
+    float least, most;                     /* bounds of 1/depth over the triangle */
     int32_t triangle;                      /* of the world */
 } raster_triangle;
 

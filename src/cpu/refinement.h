@@ -38,8 +38,8 @@ typedef struct refinement_tile {
     float worth[LEVELS];  /* of a split, for each unit of squared error */
     double spent;
     bool dark;             /* under a sky: no light is mirrored here, and what is mirrored of the sky needs no pieces of the shutter */
-    double final_variance; /* of what is split no more: sum of squared errors of pixels' coverage, … */
-    double final_shown;    /* … and under a sky of their displayed luminance */
+    double final_variance; /* of what is split no more: sum of squared errors of pixels' coverage */
+    double final_shown;    /* the same of their displayed luminance, under a sky */
 } refinement_tile;
 
 /* The shutter in straight pieces. While the camera stands, sets[i] is over piece i; where it moves, sets[i] and sets[i + 1] are the instants around it. */
@@ -61,8 +61,8 @@ struct refinement {
     bool moves;                        /* the camera does */
     shutter_parts parts[CELL_CLASSES]; /* of pixels, of cells and of sharp cells */
     wave_set *instants[INSTANTS];      /* as points see them */
-    tile_cells **cells;                /* one a worker, … */
-    tile_cells **sums;                 /* … and one for the mean over the shutter's parts */
+    tile_cells **cells;                /* one a worker */
+    tile_cells **sums;                 /* one a worker, for the mean over the shutter's parts */
     struct census **census;            /* one a worker */
     size_t workers;
     RoundPlan plan;

@@ -26,9 +26,9 @@ typedef struct tile_objects {
     uint16_t list[TILE_PIXELS];
     float seen[TILE_PIXELS];      /* places of a pixel that met water */
     float edge[TILE_PIXELS];      /* 1 where pictures do not certify what is seen through the last one, else 0 */
-    tile_water beside;            /* the water in other places of pixels at outlines … */
-    ray_places places;            /* … and these */
-    const tile_water *met;        /* the one of both whose rays `ends` are of */
+    tile_water beside;            /* the water in other places of pixels at outlines */
+    ray_places places;            /* the places of `beside` */
+    const tile_water *met;        /* `water` or `beside`: the one whose rays `ends` are of */
     float first[3 * TILE_PIXELS]; /* rgb of their first branch */
     trace_ray rays[TILE_PIXELS];
     trace_hit hits[TILE_PIXELS];

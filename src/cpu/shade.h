@@ -13,9 +13,9 @@ typedef struct shade_hits {
     const int32_t *triangle;   /* of the world; −1: the ray meets nothing, and ends in the sky or in deep water as its direction says */
     const float *position[3];  /* x, y, z in the world's coordinates; not read where there is no triangle */
     const float *direction[3]; /* unit, in which the ray goes when it ends */
-    const float *before;       /* metres from the camera to the water's surface (to the hit where it meets none), … */
-    const float *after;        /* … and from there on */
-    const float *water;        /* metres of all these that lie in water; where nothing is met: those before the ray left for good */
+    const float *before;       /* metres from the camera to the water's surface, or to the hit where it meets no surface */
+    const float *after;        /* metres from the surface to the hit */
+    const float *water;        /* metres of both that lie in water; where nothing is met, those before the ray left the water for good */
     const float *spread[3];    /* covariance side side, side rise, rise rise of what the ray covers, as in footprint.k */
     const float *gain;         /* radiance at the camera over that at the end: its index of refraction over the end's, squared; NULL: 1 */
 } shade_hits;

@@ -12,8 +12,8 @@ enum { KNOWN_FACETS = 32 };
 /* What a ray came by. */
 typedef struct surface_way {
     int count;
-    int32_t visited[KNOWN_FACETS]; /* triangles … */
-    uint64_t perhaps;              /* … and the bits that their numbers share */
+    int32_t visited[KNOWN_FACETS]; /* triangles that it met */
+    uint64_t perhaps;              /* a filter: the bits that the numbers of `visited` set */
     int32_t along[SHARP_PLACES];   /* elements of its layer along its image, −1 outside; once they are asked for */
 } surface_way;
 

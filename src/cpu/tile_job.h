@@ -17,8 +17,8 @@ typedef struct tile_scratch {
     sample_sums sums; /* of ssaa */
     tile_surface surface;
     wave_set sample_waves;
-    tile_objects objects; /* where there are some, … */
-    tile_opened opened;   /* … and the camera moves */
+    tile_objects objects; /* where there are some */
+    tile_opened opened;   /* where there are objects and the camera moves */
 } tile_scratch;
 
 typedef struct tile_wants {

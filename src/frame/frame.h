@@ -13,8 +13,8 @@ typedef struct camera_rays {
 } camera_rays;
 
 typedef struct frame {
-    FrameData data;    /* of the methods that draw what the surface mirrors, … */
-    FrameData through; /* … and of what is seen through it in scenes with objects: other waves count as resolved */
+    FrameData data;    /* of the methods that draw what the surface mirrors */
+    FrameData through; /* in scenes with objects, of what is seen through the surface: other waves count as resolved there */
     const mgt_scene *scene;
     camera_rays close, open;       /* cameras when the shutter closes and opens, on the upper side of what is called the water; see `under` */
     bool under;                    /* the camera is under water: cameras, light and waves are mirrored at the mean surface */

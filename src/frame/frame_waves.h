@@ -9,8 +9,8 @@
 typedef struct frame_waves {
     wave_set samples; /* the instant t, as point samples see it */
     wave_set now;     /* the instant t, filtered */
-    wave_set shutter; /* over the shutter; the instant t where the camera moves … */
-    wave_set open;    /* … and then the instant the shutter opens, at the camera's place of that time */
+    wave_set shutter; /* over the shutter; where the camera moves, the instant t */
+    wave_set open;    /* where the camera moves: the instant the shutter opens, from the camera's place of that time */
 } frame_waves;
 
 void frame_waves_build(const frame *f, frame_waves *waves);

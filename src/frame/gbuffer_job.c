@@ -7,8 +7,8 @@
 #include "base/triples.h"
 
 enum {
-    GUARD_LEAST = 16,    /* pixels around the image, … */
-    GUARD_FRACTION = 20, /* … or one in so many, whichever is more */
+    GUARD_LEAST = 16,    /* pixels of the guard band on each side, at least */
+    GUARD_FRACTION = 20, /* it is this fraction of the image where that is more: one in so many */
 };
 
 RefractData refract_data_of(double camera_height, double index, int map)

@@ -22,8 +22,8 @@ typedef struct shade_scene {
     FrameData frame;
     const float *sky;
     const world *world;
-    shade_material *materials; /* an object each … */
-    float *material_rows;      /* … and as records; one more for rays that meet nothing */
+    shade_material *materials; /* one an object */
+    float *material_rows;      /* the same as records, and one more for rays that meet nothing */
     size_t material_room;
     float *triangles; /* a record each, and one more; NULL before shade_list_triangles() */
     size_t triangle_room;

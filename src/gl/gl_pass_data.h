@@ -34,9 +34,9 @@ enum {
     BIND_SORT = 5,
     BIND_OBJECT_WATER = 4, /* objects: see objects_pixel.glsl */
     BIND_OBJECT_LISTS = 5,
-    BIND_PLAN = 4, /* method adaptive: see slots_data.glsl */
+    BIND_PLAN = 4, /* method adaptive, scheme podee: see slots_data.glsl */
     BIND_TASKS = 5,
-    BIND_LEAVES = 4, /* … and cells_data.glsl */
+    BIND_LEAVES = 4, /* method adaptive, cells: see cells_data.glsl */
     BIND_CELLS = 5,
     BIND_WAVES = 6, /* the frame's waves, or those of the map of slopes, else; for cells: all sets of waves */
     BIND_FOAM = 7,  /* programs of shading; for cells: one for each set of waves */

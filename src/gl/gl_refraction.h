@@ -34,11 +34,11 @@ typedef struct gl_refraction {
     shade_scene *shade;
     gl_table materials; /* RGBA32F */
     gl_table texels;    /* R32UI, of all textures */
-    uint64_t *textures; /* identities of those that `texels` holds, in their order, … */
+    uint64_t *textures; /* identities of those that `texels` holds, in their order */
     size_t texture_count, texture_room;
     gl_image shadows;        /* R32F */
-    shadow_rays shadow_rays; /* of the map that it holds, … */
-    uint64_t shadow_version; /* … and the version of its world; 0: none */
+    shadow_rays shadow_rays; /* of the map that `shadows` holds */
+    uint64_t shadow_version; /* of the world in that map; 0: none */
     gl_buffer water, lists;  /* of a band's pixels: see objects_pixel.glsl */
     gl_objects_block block;
     SearchWave again[MAX_WAVES]; /* those of block.narrow.waves */

@@ -13,8 +13,8 @@
 #define PI 3.14159265358979323846
 #define COLOR_EXPONENT 0.7f   /* q_c */
 #define FEATURE_EXPONENT 0.5f /* q_f */
-#define KNEE_INPUT 0.4f       /* p_c: of the greatest colour difference … */
-#define KNEE_OUTPUT 0.95f     /* p_t: … this much is used for what lies below it */
+#define KNEE_INPUT 0.4f       /* p_c: where the knee is, as a fraction of the greatest colour difference */
+#define KNEE_OUTPUT 0.95f     /* p_t: fraction of 0 … 1 that differences below the knee get */
 #define FEATURE_DEGREES 0.082 /* w: width of the edges and points looked for */
 #define TONE_TARGET 0.85      /* where the range of exposures ends, of white */
 

@@ -37,9 +37,9 @@ typedef struct foam_sea {
     int moments; /* 1: fresh foam alone */
     double least;
     double share;                   /* of the water, as asked for */
-    double age[FOAM_MOMENTS];       /* seconds, of each moment, … */
-    double weight[FOAM_MOMENTS];    /* … its part in the mean, … */
-    double whiteness[FOAM_MOMENTS]; /* … and the share of light that its foam sends back */
+    double age[FOAM_MOMENTS];       /* seconds, of each moment */
+    double weight[FOAM_MOMENTS];    /* of each moment in the mean */
+    double whiteness[FOAM_MOMENTS]; /* share of light that foam of that age sends back */
     double deviation;               /* metres, of the height of all waves */
     double variance;                /* of J at rest */
     double shape[5];                /* Σ ½press² k̂ᵢk̂ⱼk̂ₖk̂ₗ over the variance: xxxx, xxxz, xxzz, xzzz, zzzz */

@@ -25,7 +25,7 @@ void scene_values_write_out_sea(scene_values *values)
     water->sea = (scene_list){0};
     free(water->spectrum.file);
     const scene_values defaults = scene_values_defaults();
-    /* The wind that says so goes. */
+    /* `auto` follows from the wind, which goes: what it stood for is written out. */
     if (scene_values_aerial(values))
         values->sky.aerial = WHEN_ON;
     if (scene_values_by_night(values, values->sky.stars))

@@ -31,9 +31,9 @@
 
 enum { WIDTH = 320, HEIGHT = 180, PIXELS = WIDTH * HEIGHT };
 
-static const double far_off = 5e-3;      /* a pixel off by more than this has flipped at a discontinuity: … */
-static const double most_far_off = 1e-3; /* … this share of them may have */
-static const double largest_rms = 5e-5;  /* of the others */
+static const double far_off = 5e-3;      /* a pixel off by more than this has flipped at a discontinuity */
+static const double most_far_off = 1e-3; /* share of pixels that may have flipped */
+static const double largest_rms = 5e-5;  /* of the pixels that have not flipped */
 /* Adaptive: the share of pixels that may have got another number of samples; they are left out of the rest. Scheme podee shares samples out by one sum over
  * the picture: where a path touches the light's limb, coverage differs by 1e-4 for an ulp of a ray, and that moves every later border between two pixels'
  * samples by a good part of one. More pixels then may differ, but by one sample. */
@@ -97,8 +97,8 @@ static const struct {
 };
 enum { OBJECT_METHODS = sizeof object_methods / sizeof *object_methods, OBJECT_VARIANTS = OBJECT_METHODS - 9 };
 
-static const int steps_off = 2;            /* a pixel off by more displayed steps than this has flipped: another triangle, another iterate … */
-static const double most_steps_off = 2e-3; /* … which this share of them may have */
+static const int steps_off = 2;            /* a pixel off by more displayed steps than this has flipped: another triangle, another iterate */
+static const double most_steps_off = 2e-3; /* share of pixels that may have flipped so */
 
 /* What the command line asks for. */
 typedef struct agreement_plan {

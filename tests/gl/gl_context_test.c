@@ -245,10 +245,10 @@ static void crops_are_parts_of_the_whole(void **state)
         mgt_scene crop = scene;
         crop.image.crop_x = X, crop.image.crop_y = Y, crop.image.crop_width = W, crop.image.crop_height = H;
         const mgt_target targets[] = {sea_target(MGT_LAYER_COVERAGE, MGT_FORMAT_R32F, part, 0), sea_target(MGT_LAYER_COLOR, MGT_FORMAT_RGBA8_SRGB, shown, 0)};
-        sea_render(gl, &crop, targets, 1); /* alone: rendered as small as it is … */
+        sea_render(gl, &crop, targets, 1); /* alone: rendered as small as it is */
         for (size_t y = 0; y < H; y++)
             assert_memory_equal(part + y * W, whole.coverage + (y + Y) * SEA_WIDTH + X, W * sizeof(float));
-        sea_render(gl, &crop, targets, 2); /* … with glare out of the whole picture */
+        sea_render(gl, &crop, targets, 2); /* with glare: cut out of the whole picture */
         for (size_t y = 0; y < H; y++) {
             assert_memory_equal(part + y * W, whole.coverage + (y + Y) * SEA_WIDTH + X, W * sizeof(float));
             assert_memory_equal(shown + y * W * 4, whole.shown + ((y + Y) * SEA_WIDTH + X) * 4, W * 4);

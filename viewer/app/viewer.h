@@ -42,8 +42,8 @@ typedef struct renderers {
     picture pictures[SIDE_COUNT];
     uint64_t serial;            /* of the last order */
     uint64_t shown[SIDE_COUNT]; /* order that each side's texture is of */
-    shot ordered;               /* what the last order showed, with a share of its models, … */
-    render_order last;          /* … and the order itself */
+    shot ordered;               /* what the last order showed, with a share of its models */
+    render_order last;          /* the last order */
     double seconds_per_pixel;   /* of live frames, smoothed */
     double changed_at;          /* seconds_now() of the last change */
     bool reduced;               /* the last order was below the full size */
@@ -152,8 +152,8 @@ typedef struct viewer {
     char save_name[VIEWER_TEXT], picture_name[VIEWER_TEXT];
     uint32_t picture_size[2]; /* of the next picture; 0: as in the window */
     script *script;           /* NULL: none */
-    double polled_at;         /* seconds_now() when the files were last looked at, … */
-    double advanced_at;       /* … and when the clock last went on */
+    double polled_at;         /* seconds_now() when the files were last looked at */
+    double advanced_at;       /* seconds_now() when the clock last went on */
     float ui_scale;           /* in use */
     int windowed[4];          /* place and size to go back to from full screen */
     bool quit;

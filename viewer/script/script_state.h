@@ -33,10 +33,10 @@ struct script {
     char *words[WORDS + 1]; /* into text; the last one of a command may be the rest of the line */
     int count;
 
-    int frames_left;   /* to let by before going on */
-    bool settling;     /* … and until the picture is done, */
-    uint64_t samples;  /* with this many samples (0: all) */
-    double give_up_at; /* seconds_now() */
+    int frames_left;   /* to let by before the next command */
+    bool settling;     /* the next command waits until the picture is done */
+    uint64_t samples;  /* that the picture needs to be done; 0: all */
+    double give_up_at; /* seconds_now() when waiting ends */
     capture capture;
     char file[LINE_SIZE];
     window_pixels mark, before, after;

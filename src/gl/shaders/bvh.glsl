@@ -12,8 +12,8 @@ struct TreeHit {
 
 /* What the boxes ask of a ray. They are asked as if each were wider by what rounding the ray's origin may be off by. */
 struct TreeRay {
-    vec3 low;     /* origin, for the sides of less … */
-    vec3 high;    /* … and of greater coordinates */
+    vec3 low;     /* origin, for the sides of boxes with the lesser coordinates */
+    vec3 high;    /* the same for the sides with the greater ones */
     vec3 inverse; /* of the direction; no component is infinite */
 };
 

@@ -83,8 +83,8 @@ void add_to_tile(int word, double value)
 /* ---- a group of leaves ---- */
 
 shared uint group_pixels[2 * TILE_PIXELS]; /* which leaves of the group lie in a pixel, bits; zero between groups */
-shared vec4 group_color[CELLS_GROUP];      /* what leaves add to pixels: colour and coverage, … */
-shared vec4 group_water[CELLS_GROUP];      /* … water, detail, samples */
+shared vec4 group_color[CELLS_GROUP];      /* what leaves add to pixels: colour and coverage */
+shared vec4 group_water[CELLS_GROUP];      /* likewise: water, detail, samples */
 shared uint group_kept[2];
 shared int kept; /* of the tile so far */
 

@@ -10,15 +10,15 @@
 
 #define CELLS_ROUND 0
 #define CELLS_RUNNING 1 /* 1 while rounds go on */
-#define CELLS_BUCKET 2  /* what the round splits: cells above this bucket, … */
-#define CELLS_POINTS 3  /* … leaves with points above this one … */
+#define CELLS_BUCKET 2  /* the round splits the cells above this bucket */
+#define CELLS_POINTS 3  /* it adds points to leaves above this bucket */
 #define CELLS_LEAST 4   /* leaves up to this bucket are settled */
-#define CELLS_SHARE 5   /* … and this share of the cells in the bucket, a double */
+#define CELLS_SHARE 5   /* it splits this share of the cells in the bucket, a double */
 #define CELLS_BUDGET 7  /* evaluations in all, a double */
-#define CELLS_JOBS 9    /* of the round: tiles of one size of cells, … */
-#define CELLS_GROUPS 10 /* … groups of cells of one job, … */
+#define CELLS_JOBS 9    /* of the round: tiles of one size of cells */
+#define CELLS_GROUPS 10 /* of the round: groups of cells of one job */
 #define CELLS_POINT_TILES 11
-#define CELLS_POINT_GROUPS 12 /* … groups of points of one leaf */
+#define CELLS_POINT_GROUPS 12 /* of the round: groups of points of one leaf */
 #define CELLS_LEAVES 13       /* that are open */
 #define CELLS_USED 14         /* evaluations before the round, a double */
 
@@ -38,12 +38,12 @@
 
 /* ---- a tile's words ---- */
 
-#define TILE_FIRST 0        /* its leaves in the pool, … */
-#define TILE_LEAVES 1       /* … and how many */
-#define TILE_NEXT 2         /* where they are to go; */
-#define TILE_KEPT 3         /* first those that stay, … */
-#define TILE_CHILDREN 4     /* … then new cells, … */
-#define TILE_POINT_LEAVES 5 /* … then those that take points */
+#define TILE_FIRST 0        /* place of its first leaf in the pool */
+#define TILE_LEAVES 1       /* number of its leaves */
+#define TILE_NEXT 2         /* where they go next: those that stay, then new cells, then those that take points */
+#define TILE_KEPT 3         /* number that stay */
+#define TILE_CHILDREN 4     /* number of new cells */
+#define TILE_POINT_LEAVES 5 /* number that take points */
 #define TILE_JOBS 6
 #define TILE_GROUPS 7
 #define TILE_POINT_GROUPS 8
@@ -51,14 +51,14 @@
 #define TILE_GROUP_FIRST 10
 #define TILE_POINT_TILE 11
 #define TILE_POINT_FIRST 12
-#define TILE_DARK 13          /* 1: no light is mirrored there, and what is mirrored of the sky needs no pieces of the shutter */
-#define TILE_WAVES 14         /* of its pixels */
-#define TILE_SPENT 16         /* doubles: evaluations, … */
-#define TILE_VARIANCE 18      /* … squared errors of what is settled: of coverage … */
-#define TILE_SHOWN 20         /* … and of the displayed luminance, … */
-#define TILE_OPEN_VARIANCE 22 /* … the same of what is open, … */
-#define TILE_OPEN_SHOWN 24
-#define TILE_WATER 26                            /* … pixels of water */
+#define TILE_DARK 13                             /* 1: no light is mirrored there, and what is mirrored of the sky needs no pieces of the shutter */
+#define TILE_WAVES 14                            /* of its pixels */
+#define TILE_SPENT 16                            /* evaluations; this and the next five are doubles */
+#define TILE_VARIANCE 18                         /* squared error of settled leaves, of coverage */
+#define TILE_SHOWN 20                            /* the same of the displayed luminance */
+#define TILE_OPEN_VARIANCE 22                    /* squared error of open leaves, of coverage */
+#define TILE_OPEN_SHOWN 24                       /* the same of the displayed luminance */
+#define TILE_WATER 26                            /* pixels of water */
 #define TILE_COST 32                             /* of a cell of each level, evaluations, doubles; 0: unknown */
 #define TILE_BELOW (TILE_COST + 2 * LEAF_LEVELS) /* of a split of a cell, in COST_UNIT-ths */
 #define TILE_WORTH (TILE_BELOW + LEAF_LEVELS)    /* of it, for each unit of squared error, floats */

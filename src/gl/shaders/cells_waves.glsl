@@ -7,8 +7,8 @@ layout(std140, binding = 0) uniform FrameBlock { FrameData frame_of_halvings[LEA
 layout(std430, binding = 6) readonly buffer SetBlock { uvec4 wave_sets[]; };
 
 int frame_halvings = 0; /* how often the pixel has been halved, the way that it has more often */
-int set_at = 0;         /* where the set begins, … */
-int foam_place = 0;        /* … and which one it is */
+int set_at = 0;         /* where the set begins */
+int foam_place = 0;        /* number of the set */
 
 #define FRAME(cx) frame_of_halvings[frame_halvings]
 

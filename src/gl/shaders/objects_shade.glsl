@@ -21,8 +21,8 @@ struct RayEnd {
 /* A ray behind the surface, from where it met it last. */
 struct TracedRay {
     vec3 from, direction;
-    float way;  /* metres to there from where the pixel meets the surface … */
-    float wet;  /* … of them in water */
+    float way;  /* metres to there from where the pixel meets the surface */
+    float wet;  /* metres of `way` in water */
     float part; /* of the pixel's light */
     bool total; /* it is on the camera's side */
 };

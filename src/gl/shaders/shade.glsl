@@ -9,8 +9,8 @@ layout(binding = 1, r32f) uniform image2D coverage_image;
 layout(binding = 2, r32f) uniform image2D water_image;
 layout(binding = 3) writeonly uniform image2D depth_image;
 
-float wet_hits = 0.0f; /* of the pixel's hits those that met water, … */
-float nearness = 0.0f; /* … and the sum of 1/distance of these, which is even over the screen, 1/metres */
+float wet_hits = 0.0f; /* number of the pixel's hits that met water */
+float nearness = 0.0f; /* sum of 1/distance of these hits, 1/metres; it is linear over the screen */
 
 PixelResult nothing_but_sky(PixelRay p)
 {

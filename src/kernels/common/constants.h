@@ -157,15 +157,15 @@
 
 /* ---- method adaptive, scheme podee: see slots_data.glsl ---- */
 
-#define SLOT_GROUP 64     /* slots of a workgroup, … */
-#define SLOT_GROUPS 32768 /* … and at most so many of these in a row */
+#define SLOT_GROUP 64     /* slots of a workgroup */
+#define SLOT_GROUPS 32768 /* workgroups in a row of a dispatch, at most */
 #define SLOT_FLOATS 5     /* a result: colour, coverage, water */
 #define TASK_LANES 128    /* invocations over a tile's tasks */
 
 /* ---- method adaptive: the leaves of its refinement, see refinement.k ---- */
 
-#define LEAF_LEVELS 9                    /* a pixel has up to 4^8 cells, … */
-#define LEAF_SIDES (2 * LEAF_LEVELS - 1) /* … split up to 16 times one way */
+#define LEAF_LEVELS 9                    /* a pixel has up to 4^8 cells */
+#define LEAF_SIDES (2 * LEAF_LEVELS - 1) /* a pixel may be halved up to 16 times one way */
 #define LEAF_SHARP_LEVEL 5               /* from which cells see glints so sharp that the bend of a path shows */
 #define LEAF_PARTS 16                    /* straight pieces of the shutter, at most */
 #define LEAF_INSTANTS 8                  /* of the shutter, that points are spread over */
@@ -178,16 +178,16 @@
 
 #define LEAF_POINTS_PLACES 16 /* cells of more places are given points: splits would long say the same */
 #define LEAF_POINTS_LEVEL 5   /* under a sky only from this level, for the model knows the mirrored sky well */
-#define LEAF_LEAST_POINTS 256 /* then four times as many, … */
-#define LEAF_MOST_POINTS 4096 /* … to this */
+#define LEAF_LEAST_POINTS 256 /* of a leaf's first turn; every next turn gives it four times as many */
+#define LEAF_MOST_POINTS 4096 /* of a leaf */
 
 /* What a split is worth, counted in steps of a 32nd of an octave from 2^-80 on. */
 #define WORTH_STEPS 32
 #define WORTH_OCTAVES 96
 #define WORTH_BUCKETS (WORTH_STEPS * WORTH_OCTAVES)
 #define WORTH_ZERO 80
-#define KEPT_OCTAVES 5 /* leaves worth less than 2^-5 of what was split last are settled, … */
-#define KEPT_ROUNDS 2  /* … after the first rounds, which take only the best */
+#define KEPT_OCTAVES 5 /* leaves worth less than 2^-5 of what was split last are settled */
+#define KEPT_ROUNDS 2  /* rounds that settle none, for they take only the best */
 
 #define COST_UNIT 65536 /* evaluations of all waves are counted in these parts */
 /* What a cell and a point sample cost besides their waves, in waves of a cell; measured, as are the 11 tenths that a wave of a sample costs. */
