@@ -12,12 +12,14 @@ else()
   set(MANGATA_DOUBLE_LANES 1:-O2)
 endif()
 
-# Sanitizers watch every width, or, where this processor runs AVX-512, scalar kernels and those of AVX-512: the others are the same source.
+# Sanitizers watch scalar kernels and the widest ones that this processor runs: the others are the same source. Where that is not known they watch all.
 set(MANGATA_SANITIZED_LANES .)
 if(EXISTS /proc/cpuinfo)
-  file(STRINGS /proc/cpuinfo processor REGEX "^flags.*avx512vl" LIMIT_COUNT 1)
-  if(processor)
+  file(STRINGS /proc/cpuinfo processor REGEX "^flags" LIMIT_COUNT 1)
+  if(processor MATCHES "avx512vl")
     set(MANGATA_SANITIZED_LANES "^1:|avx512")
+  elseif(processor MATCHES "avx2")
+    set(MANGATA_SANITIZED_LANES "^1:|mavx2")
   endif()
 endif()
 
