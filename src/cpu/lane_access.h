@@ -6,7 +6,7 @@
 #define FRAME(cx) (*(cx)->frame)
 #define VIEW(cx) (*(cx)->view)
 #define TILE(cx) (*(cx)->tile)
-#define CHOPPY(cx) TILE(cx).choppy
+#define CHOPPY(cx) (TILE(cx).pressed > 0.0f ? 1 : 0)
 #define WAVE(cx, i) ((cx)->waves[i])
 #define SEARCH_WAVE(cx, i) ((cx)->search[i])
 #define FOAMY(cx) ((cx)->foam != NULL)

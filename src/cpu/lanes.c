@@ -507,7 +507,7 @@ static void lanes_cells(const FrameData *frame, const float *sky, const tile_wav
     }
     /* In grazing water the parent's hit says nothing of its parts', and in choppy water nothing of where they rest. */
     const bool grazing = close->data.grazing || (open && open->data.grazing);
-    const float searched = grazing || close->data.choppy ? 1 : 0;
+    const float searched = grazing || close->data.pressed > 0 ? 1 : 0;
     for (size_t i = 0; i < count; i++) {
         cells->estimate.search[i] = searched;
         cells->estimate.from[i] = 0;

@@ -195,7 +195,7 @@ static void lanes_estimate(const FrameData *frame, const tile_waves *tile, tile_
         estimate->shift_x[i] = estimate->shift_z[i] = 0;
     }
     estimate_heights(&cx, &nodes, estimate);
-    if (tile->data.choppy) {
+    if (tile->data.pressed > 0) {
         spread_shifts(&cx, nodes.shift_x, estimate->shift_x);
         spread_shifts(&cx, nodes.shift_z, estimate->shift_z);
     }

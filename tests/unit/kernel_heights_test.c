@@ -81,7 +81,7 @@ struct kernel_context {
 
 #define FRAME(cx) (*(cx)->frame)
 #define TILE(cx) (*(cx)->tile)
-#define CHOPPY(cx) TILE(cx).choppy
+#define CHOPPY(cx) (TILE(cx).pressed > 0.0f ? 1 : 0)
 #define PARTS(cx) TILE(cx).parts
 #define FOAMY(cx) 0
 #define FOAM(cx) ((FoamData){0})

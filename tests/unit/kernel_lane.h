@@ -31,7 +31,7 @@
 
 #define FRAME(cx) (*(cx)->frame)
 #define TILE(cx) (*(cx)->tile)
-#define CHOPPY(cx) TILE(cx).choppy
+#define CHOPPY(cx) (TILE(cx).pressed > 0.0f ? 1 : 0)
 #define PARTS(cx) TILE(cx).parts
 #define FOAMY(cx) ((cx)->foam != NULL)
 #define FOAM(cx) (*(cx)->foam)
