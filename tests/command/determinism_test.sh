@@ -14,8 +14,9 @@ crop_of() { # FILE X Y W H OUT: the rectangle of a grey PFM, as raw bytes
         dd if="$1" bs=4 iflag=skip_bytes,count_bytes skip=$((header + 4 * ((height - 1 - row) * width + $2))) count=$((4 * $4)) status=none >>"$6"
     done
 }
-more_threads=(2 7) film=0-59 views=(hull diver) ways=(two-phase hybrid broad screen-space truth)
-[[ -z ${SANITIZED:-} ]] || more_threads=(7) film=29-31 views=(hull) ways=(hybrid truth)
+more_threads=(2 7) film=0-59
+declare -A views=([hull]="two-phase broad screen-space" [diver]="two-phase hybrid truth")
+[[ -z ${SANITIZED:-} ]] || more_threads=(7) film=29-31 views=([hull]="hybrid truth")
 # Instruction sets with fma beside the one that is chosen.
 others=()
 "$MANGATA" info --json >info.json
@@ -47,8 +48,8 @@ done
 differ whole.raw /dev/null
 
 # Objects: through the water, mirrored by it and before it, seen from above and from below.
-for view in "${views[@]}"; do
-    for refraction in "${ways[@]}"; do
+for view in "${!views[@]}"; do
+    for refraction in ${views[$view]}; do
         objects=("$SOURCE/scenes/$view.yaml" --frames 4 --refraction $refraction --refraction-samples 2 --caustics on "${size[@]}" "${quiet[@]}")
         [[ $refraction == hybrid || $refraction == truth ]] && { "$MANGATA" render "${objects[@]}" -o probe.png || continue; } # without Embree there is none
         works render "${objects[@]}" -o t1.exr --layer all --threads 1

@@ -66,13 +66,15 @@ absent transition/fig13.svg transition/table1.md
 expect 0 '4 pictures rendered, 0 kept' figures -o border --only liu-7 --size 32x18 --refraction-samples 1 --time-runs 3
 exists border/liu-fig7.svg
 absent border/liu-fig8.svg border/fig11.svg border/frames/pool-16k
-expect 0 '0 pictures rendered, 0 kept' figures -o speed --only liu-table3 --size 32x18 --time-runs 1 --json
-[[ $(json liu_table3) == 14 && $(json liu_table3.0.published_frames_per_second) == 55.* && $(json run.rendered) == 0 ]] || fail "$(head -c 600 stdout.txt)"
-awk -v ms="$(json liu_table3.2.milliseconds)" 'BEGIN { exit !(ms > 0) }' || fail "two-phase takes $(json liu_table3.2.milliseconds) ms"
-cp speed/frames/pool-16k/times.json times.json
-expect 0 '' figures -o speed --only liu-table3 --size 32x18 --time-runs 1
-same times.json speed/frames/pool-16k/times.json
-grep -q '^| `two-phase` |' speed/refraction.md || fail "$(cat speed/refraction.md)"
+if [[ -z ${SANITIZED:-} ]]; then
+    expect 0 '0 pictures rendered, 0 kept' figures -o speed --only liu-table3 --size 32x18 --time-runs 1 --json
+    [[ $(json liu_table3) == 14 && $(json liu_table3.0.published_frames_per_second) == 55.* && $(json run.rendered) == 0 ]] || fail "$(head -c 600 stdout.txt)"
+    awk -v ms="$(json liu_table3.2.milliseconds)" 'BEGIN { exit !(ms > 0) }' || fail "two-phase takes $(json liu_table3.2.milliseconds) ms"
+    cp speed/frames/pool-16k/times.json times.json
+    expect 0 '' figures -o speed --only liu-table3 --size 32x18 --time-runs 1
+    same times.json speed/frames/pool-16k/times.json
+    grep -q '^| `two-phase` |' speed/refraction.md || fail "$(cat speed/refraction.md)"
+fi
 expect 0 '0 pictures rendered' "$MANGATA" figures -o fits --only 21 --scenes nowhere
 exists fits/fig21.svg
 [[ ! -s stdout.txt ]] || fail "a plate is no data: $(head -c 200 stdout.txt)"

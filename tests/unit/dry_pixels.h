@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Pixels of water inside a dry hull, counted by plain double precision: every triangle of scenes/hull.yaml's boat is asked for every ray. Include it
+ * Pixels of water inside a dry hull, counted by plain double precision: every triangle of scenes/hull.yaml's boat that a ray may meet is asked. Include it
  * after api_sea.h.
  */
 #ifndef MANGATA_TESTS_DRY_PIXELS_H
@@ -11,7 +11,7 @@
 #include "frame/world.h"
 #include "scene/scene_file.h"
 
-enum { DRY_WIDTH = 112, DRY_HEIGHT = 63, DRY_PIXELS = DRY_WIDTH * DRY_HEIGHT, DRY_AROUND = 24, DRY_FRAMES = 6 };
+enum { DRY_WIDTH = 112, DRY_HEIGHT = 63, DRY_PIXELS = DRY_WIDTH * DRY_HEIGHT, DRY_AROUND = 24, DRY_FRAMES = 6, DRY_BLOCK = 16 };
 
 /* How the boat lies in each frame: it rolls by up to 20° and pitches. */
 static const char *const dry_frames[DRY_FRAMES] = {"objects[0].rotation_deg=[0, -38, 2]",    "objects[0].rotation_deg=[0, -38, 12]",
@@ -23,7 +23,35 @@ typedef struct dry_boat {
     mgt_scene scene;
     thread_pool *pool;
     world *world;
+    double (*spheres)[4];
 } dry_boat;
+
+/* Sanitizers check what is tested, not what it is tested against. */
+#define DRY_ORACLE __attribute__((no_sanitize("address", "undefined")))
+
+DRY_ORACLE static inline double dry_dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/* A sphere about every block of DRY_BLOCK triangles of the first object: its centre and its squared radius. */
+DRY_ORACLE static inline double (*dry_spheres_of(const world *w))[4]
+{
+    const size_t corners = 3 * (size_t)w->objects[0].triangle_count, step = 3 * DRY_BLOCK;
+    double(*spheres)[4] = calloc(corners / step + 1, sizeof *spheres);
+    assert_non_null(spheres);
+    for (size_t i = 0; i < corners; i += step) {
+        double *s = spheres[i / step];
+        const size_t end = i + step < corners ? i + step : corners;
+        for (size_t c = i; c < end; c++)
+            for (int k = 0; k < 3; k++)
+                s[k] += (double)w->positions[3 * (size_t)w->indices[c] + (size_t)k] / (double)(end - i);
+        for (size_t c = i; c < end; c++) {
+            double to[3];
+            for (int k = 0; k < 3; k++)
+                to[k] = (double)w->positions[3 * (size_t)w->indices[c] + (size_t)k] - s[k];
+            s[3] = fmax(s[3], dry_dot(to, to) * 1.001);
+        }
+    }
+    return spheres;
+}
 
 static inline dry_boat dry_boat_of(int pose, const char *more)
 {
@@ -38,20 +66,17 @@ static inline dry_boat dry_boat_of(int pose, const char *more)
     b.pool = thread_pool_create(2);
     assert_non_null(b.pool);
     assert_int_equal(world_update(&b.world, &b.scene, b.pool), MGT_OK);
+    b.spheres = dry_spheres_of(b.world);
     return b;
 }
 
 static inline void dry_boat_free(dry_boat *b)
 {
+    free(b->spheres);
     world_free(b->world);
     thread_pool_destroy(b->pool);
     scene_file_free(b->file);
 }
-
-/* Sanitizers check what is tested, not what it is tested against. */
-#define DRY_ORACLE __attribute__((no_sanitize("address", "undefined")))
-
-DRY_ORACLE static inline double dry_dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /* Multiple of a ray at which it meets a triangle; +inf: it does not. *facing: its normal · the ray. */
 DRY_ORACLE static inline double dry_meet(const world *w, size_t triangle, const double from[3], const double ray[3], double *facing)
@@ -73,12 +98,23 @@ DRY_ORACLE static inline double dry_meet(const world *w, size_t triangle, const 
     return u >= 0 && v >= 0 && u + v <= 1 ? along : INFINITY;
 }
 
-/* The nearest of the boat's triangles; *triangle is −1 where there is none. */
-DRY_ORACLE static inline double dry_nearest(const world *w, const double from[3], const double ray[3], int32_t *triangle, double *facing)
+/* Whether the line of a ray stays outside a sphere. */
+DRY_ORACLE static inline bool dry_passes(const double sphere[4], const double from[3], const double ray[3])
+{
+    const double to[3] = {sphere[0] - from[0], sphere[1] - from[1], sphere[2] - from[2]}, along = dry_dot(to, ray);
+    return dry_dot(to, to) - along * along / dry_dot(ray, ray) > sphere[3];
+}
+
+/* The nearest of the boat's triangles; *triangle is −1 where there is none. `spheres` spare the triangles of blocks that the ray passes; NULL asks all. */
+DRY_ORACLE static inline double dry_nearest(const world *w, double (*spheres)[4], const double from[3], const double ray[3], int32_t *triangle, double *facing)
 {
     double nearest = INFINITY, side;
     *triangle = -1;
     for (size_t t = 0; t < w->objects[0].triangle_count; t++) {
+        if (spheres && t % DRY_BLOCK == 0 && dry_passes(spheres[t / DRY_BLOCK], from, ray)) {
+            t += DRY_BLOCK - 1;
+            continue;
+        }
         const double along = dry_meet(w, t, from, ray, &side);
         if (along < nearest)
             nearest = along, *triangle = (int32_t)t, *facing = side;
@@ -87,17 +123,17 @@ DRY_ORACLE static inline double dry_nearest(const world *w, const double from[3]
 }
 
 /* The definition, in more directions than anyone else asks. */
-static inline bool dry_encloses(const world *w, const double point[3])
+static inline bool dry_encloses(const world *w, double (*spheres)[4], const double point[3])
 {
     static const double down[3] = {0, -1, 0};
     int32_t met;
     double facing;
-    dry_nearest(w, point, down, &met, &facing);
+    dry_nearest(w, spheres, point, down, &met, &facing);
     int missed = 0;
     for (int i = 0; i < DRY_AROUND && met >= 0 && missed <= DRY_AROUND / 8; i++) {
         const double angle = 2 * M_PI * (i + 0.2) / DRY_AROUND, ray[3] = {cos(angle), 0, sin(angle)};
         int32_t there;
-        dry_nearest(w, point, ray, &there, &facing);
+        dry_nearest(w, spheres, point, ray, &there, &facing);
         missed += there < 0;
     }
     return met >= 0 && missed <= DRY_AROUND / 8;
@@ -112,11 +148,11 @@ static inline int dry_shown(const dry_boat *b, const camera_rays *c, double x, d
     int32_t triangle;
     for (int k = 0; k < 3; k++)
         ray[k] = c->corner[k] + x * c->right[k] + y * c->down[k];
-    const double along = dry_nearest(b->world, from, ray, &triangle, &facing), first = (crest - from[1]) / ray[1];
+    const double along = dry_nearest(b->world, b->spheres, from, ray, &triangle, &facing), first = (crest - from[1]) / ray[1];
     if (triangle < 0)
         return 0;
     const double enters[3] = {from[0] + first * ray[0], from[1] + first * ray[1], from[2] + first * ray[2]};
-    return along <= first ? 1 : dry_encloses(b->world, enters) ? 2 : 0;
+    return along <= first ? 1 : dry_encloses(b->world, b->spheres, enters) ? 2 : 0;
 }
 
 /* Of the pixels, by their corners and centres: 1: nothing but the boat; 2: nothing but its inside below the crests. */

@@ -48,11 +48,11 @@ static int compare_places(const world *w, int count, int *wrong)
         }
         for (int k = 0; k < 3; k++)
             ray[k] = at[k] - eye[k];
-        if ((at[1] > b.least_rim - 0.005 && at[1] < b.most_rim + 0.005) || dry_nearest(w, eye, ray, &before, &facing) <= 1)
+        if ((at[1] > b.least_rim - 0.005 && at[1] < b.most_rim + 0.005) || dry_nearest(w, NULL, eye, ray, &before, &facing) <= 1)
             continue;
-        dry_nearest(w, at, ray, &behind, &facing);
+        dry_nearest(w, NULL, at, ray, &behind, &facing);
         const double level = behind < 0 ? -INFINITY : (double)w->dry[2 * behind + (facing > 0)];
-        const bool drawn = at[1] < level, truly = dry_encloses(w, at), traced = dry ? path_dry_holds(dry, at) : truly;
+        const bool drawn = at[1] < level, truly = dry_encloses(w, NULL, at), traced = dry ? path_dry_holds(dry, at) : truly;
         inside += truly;
         *wrong += drawn != truly || traced != truly;
         if (drawn != truly || traced != truly)
