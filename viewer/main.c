@@ -244,7 +244,7 @@ static bool open_scene(viewer *v)
         return false;
     }
     char wrong[600];
-    const mgt_quality base = scene_file_quality(v->document.file);
+    const mgt_quality base = scene_file_quality(v->document.source->file);
     mgt_quality *a = &v->settings.sides[SIDE_A];
     const uint32_t spatial = a->spatial_samples;
     if (!quality_options_apply(&r->quality, &base, a, wrong, sizeof wrong)) {
@@ -255,12 +255,11 @@ static bool open_scene(viewer *v)
         a->spatial_samples = spatial;
     v->board = (control_board){&v->document, &v->settings};
     v->settings.clock.time = v->document.values.time.start;
-    v->home = v->document.values.camera.still;
     document_save_name(&v->document, v->save_name, sizeof v->save_name);
     recent_add(r->scene_path);
     snprintf(v->picture_name, sizeof v->picture_name, "mangata.png");
     v->film = (film_choice){.name = "film", .last = UINT32_MAX, .crf = VIDEO_CRF_DEFAULT};
-    if (history_start(&v->history, &v->document.values, &v->settings))
+    if (history_start(&v->history, &v->document, &v->settings))
         return true;
     v->exit_code = console_error(EXIT_CODE_FAILED, "out of memory");
     return false;
@@ -309,7 +308,6 @@ static int run(const view_request *request)
     history_free(&v->history);
     document_close(&v->document);
     dialog_free(v);
-    free(v->opened_path);
     const int code = v->exit_code;
     free(v);
     return code;

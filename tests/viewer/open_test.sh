@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Opening another scene: by path, by dropping, from the dialog; what was opened lately is listed; a bad file changes nothing.
+# Opening another scene: by path, by dropping, from the dialog; what was opened lately is listed; a bad file changes nothing. Undo brings back the scene before.
 . "$CHECK"
 
 cp "$SOURCE/scenes/sunset.json" first.json
@@ -20,6 +20,12 @@ press ctrl+o
 screenshot dialog.png
 press escape
 screenshot closed.png
+# the first sea of the dialog
+press ctrl+o
+drag 150 123 150 123
+expect-value water.wind.speed 3
+undo
+screenshot undone.png
 drop first.json
 expect-same
 END
@@ -27,6 +33,56 @@ same kept.png second.png
 differ sea.png second.png
 differ dialog.png sea.png
 same closed.png sea.png
+same undone.png sea.png
 [[ $(head -n 1 state/mangata/recent) == "$PWD/first.json" ]] || fail "opened lately: $(cat state/mangata/recent)"
 (($(grep -c first.json state/mangata/recent) == 1)) || fail "a scene is listed twice"
+
+# Undo brings back the scene before with its edits, though its file is gone; redo opens again, though an opening has failed since.
+drive first.json --size 240x160 --set light.azimuth_deg=9 <<'END'
+set panel.shown off
+frames 2
+set light.elevation_deg 20
+set a.method none
+set a.spatial 3
+picture edited.png
+open second.json
+expect-value a.method mangata
+set light.elevation_deg 33
+copy bad.yaml second.json
+wait-reload
+expect-error second.json:2:
+mark
+undo
+undo
+expect-no-error
+expect-value light.elevation_deg 20
+expect-value light.azimuth_deg 9
+picture undone.png
+save-scene undone.yaml
+command
+drop bad.yaml
+drop missing.yaml
+redo
+expect-error second.json:2:
+redo
+expect-value light.elevation_deg 33
+expect-same
+# opening the same file is a step, too, and what follows an undone opening takes its place
+open first.json
+open first.json
+undo
+undo
+expect-same
+press r
+undo
+undo
+press r
+expect-value light.azimuth_deg 9
+set light.azimuth_deg 8
+undo
+picture again.png
+END
+for file in undone.png again.png; do cmp -s "$file" edited.png || fail "$file is another picture than edited.png"; done
+grep -q '^mangata render first.json .*light.azimuth_deg=9' stdout.txt || fail "the command is of another scene: $(cat stdout.txt)"
+grep -q 'elevation_deg: 20' undone.yaml || fail "the saved scene is another: $(cat undone.yaml)"
 finish

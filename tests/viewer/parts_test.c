@@ -126,14 +126,14 @@ static void a_broken_file_changes_nothing(void **state)
     set(&d, "light.elevation_deg=20");
     write_file(f->scene, "mangata: 1\nlight: {elevation_deg: far}\n");
     assert_int_equal(document_poll(&d), DOCUMENT_BROKEN);
-    assert_non_null(strstr(d.error.text, "scene.yaml:2:24: "));
+    assert_non_null(strstr(d.source->error.text, "scene.yaml:2:24: "));
     assert_true(d.values.light.elevation_deg == 20);
     assert_int_equal(document_poll(&d), DOCUMENT_SAME); /* told once */
     unlink(f->scene);
     assert_int_equal(document_poll(&d), DOCUMENT_SAME); /* editors replace files */
     write_file(f->scene, scene_text);
     assert_int_equal(document_poll(&d), DOCUMENT_READ_ANEW);
-    assert_int_equal(d.error.kind, SCENE_ERROR_NONE);
+    assert_int_equal(d.source->error.kind, SCENE_ERROR_NONE);
     assert_true(d.values.light.elevation_deg == 20);
     document_close(&d);
 }
@@ -164,7 +164,7 @@ static void a_spectrum_stays_one(void **state)
     document_refresh(&d);
     assert_true(d.fault.kind == SCENE_ERROR_NONE && ((const mgt_wave *)d.values.water.sea.items)[3].amplitude != before);
     scene_overrides words;
-    assert_true(scene_overrides_between(scene_file_values(d.file), &d.values, &words));
+    assert_true(scene_overrides_between(scene_file_values(d.source->file), &d.values, &words));
     assert_int_equal(words.count, 2);
     scene_overrides_free(&words);
     /* A sea that cannot be made says why, and the former one stays. */
@@ -442,35 +442,35 @@ static void states_are_undone_and_redone(void **state)
 {
     (void)state;
     history h = {0};
-    scene_values values = scene_values_defaults();
+    document d = {.values = scene_values_defaults()};
     settings chosen = settings_defaults();
-    assert_true(history_start(&h, &values, &chosen) && history_is_current(&h, &values, &chosen));
-    assert_false(history_add(&h, &values, &chosen)); /* nothing has changed */
+    assert_true(history_start(&h, &d, &chosen) && history_is_current(&h, &d, &chosen));
+    assert_false(history_add(&h, &d, &chosen)); /* nothing has changed */
     assert_null(history_step(&h, -1));
     for (int i = 1; i <= 3; i++) {
-        values.light.elevation_deg = 10 * i;
-        assert_true(history_add(&h, &values, &chosen));
+        d.values.light.elevation_deg = 10 * i;
+        assert_true(history_add(&h, &d, &chosen));
     }
     chosen.view.wipe = 0.25;
-    assert_true(history_add(&h, &values, &chosen));
+    assert_true(history_add(&h, &d, &chosen));
     assert_true(history_step(&h, -1)->settings.view.wipe == 0.5);
     assert_true(history_step(&h, -1)->values.light.elevation_deg == 20);
     assert_true(history_step(&h, 1)->values.light.elevation_deg == 30);
-    history_follow(&h, 7, &values.camera.still);
+    history_follow(&h, 7, &d.values.camera.still);
     chosen.clock.time = 7;
     chosen.view.wipe = 0.5;
-    assert_true(history_is_current(&h, &values, &chosen));
-    values.light.elevation_deg = 50; /* in place of the wipe that was undone */
-    assert_true(history_add(&h, &values, &chosen));
+    assert_true(history_is_current(&h, &d, &chosen));
+    d.values.light.elevation_deg = 50; /* in place of the wipe that was undone */
+    assert_true(history_add(&h, &d, &chosen));
     assert_null(history_step(&h, 1));
     for (int i = 0; i < 2000; i++) {
-        values.light.elevation_deg = i % 2;
-        assert_true(history_add(&h, &values, &chosen));
+        d.values.light.elevation_deg = i % 2;
+        assert_true(history_add(&h, &d, &chosen));
     }
     assert_true(h.count < 1000 && h.at == h.count - 1);
     history_free(&h);
-    assert_false(history_add(&h, &values, &chosen));
-    scene_values_free(&values);
+    assert_false(history_add(&h, &d, &chosen));
+    document_close(&d);
 }
 
 static void keyframes_stay_in_order(void **state)

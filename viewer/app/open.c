@@ -14,40 +14,37 @@
 void viewer_set_title(viewer *v)
 {
     char title[VIEWER_TEXT];
-    const char *slash = strrchr(v->document.path, '/');
-    snprintf(title, sizeof title, "%.500s - Mangata", slash ? slash + 1 : v->document.path);
+    snprintf(title, sizeof title, "%.500s - Mangata", scene_source_name(v->document.source));
     glfwSetWindowTitle(v->window, title);
+}
+
+void viewer_take_document(viewer *v, document *other)
+{
+    document_close(&v->document);
+    v->document = *other;
+    *other = (document){0};
+    v->selected_wave = v->selected_keyframe = 0;
+    snprintf(v->scene_error.text, sizeof v->scene_error.text, "%s", v->document.source->error.text);
+    v->inspection.valid = false;
+    document_save_name(&v->document, v->save_name, sizeof v->save_name);
+    viewer_set_title(v);
 }
 
 bool viewer_open(viewer *v, const char *path, char *error, size_t error_size)
 {
     document other;
     scene_error problem;
-    char *name = strdup(path);
-    if (!name) {
-        snprintf(error, error_size, "out of memory");
-        return false;
-    }
-    if (!document_open(&other, name, NULL, 0, &problem)) {
+    if (!document_open(&other, path, NULL, 0, &problem)) {
         snprintf(error, error_size, "%s", problem.text);
-        free(name);
         return false;
     }
-    document_close(&v->document);
-    free(v->opened_path);
-    v->opened_path = name;
-    v->document = other;
-    v->settings.sides[SIDE_A] = scene_file_quality(other.file);
+    viewer_keep_step(v, true);
+    viewer_take_document(v, &other);
+    v->settings.sides[SIDE_A] = scene_file_quality(v->document.source->file);
     v->settings.waves = settings_defaults().waves;
-    v->settings.clock.time = other.values.time.start;
-    v->home = other.values.camera.still;
+    v->settings.clock.time = v->document.values.time.start;
     viewer_reset_camera(v);
-    v->selected_wave = v->selected_keyframe = 0;
-    v->scene_error.text[0] = 0;
-    v->inspection.valid = false;
-    document_save_name(&v->document, v->save_name, sizeof v->save_name);
-    viewer_set_title(v);
-    history_start(&v->history, &v->document.values, &v->settings);
+    viewer_keep_step(v, true);
     recent_add(path);
     v->dialog.shown = false;
     return true;

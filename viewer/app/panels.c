@@ -342,7 +342,7 @@ static void draw_files(viewer *v)
     if (ui_button("back to the file", 0))
         viewer_revert(v);
     ui_tooltip("Takes back every change since the scene was read.");
-    const char *description = scene_file_description(v->document.file);
+    const char *description = scene_file_description(v->document.source->file);
     if (description[0]) {
         ui_space(6);
         ui_text_wrapped(UI_TONE_FAINT, description);

@@ -17,7 +17,7 @@
 static void write_method(FILE *stream, const viewer *v, const mgt_quality *q)
 {
     quality_choice method = quality_choice_none();
-    const mgt_quality base = scene_file_quality(v->document.file);
+    const mgt_quality base = scene_file_quality(v->document.source->file);
     mgt_quality given;
     char unused[200];
     fprintf(stream, " --method %s", method_name(q).text);
@@ -40,10 +40,10 @@ char *viewer_command(const viewer *v)
     size_t size = 0;
     if (!viewer_frame_values(v, v->place.width, v->place.height, &values))
         return NULL;
-    FILE *stream = scene_overrides_between(scene_file_values(v->document.file), &values, &words) ? open_memstream(&text, &size) : NULL;
+    FILE *stream = scene_overrides_between(scene_file_values(v->document.source->file), &values, &words) ? open_memstream(&text, &size) : NULL;
     if (stream) {
         fputs("mangata render", stream);
-        shell_scene(stream, v->document.path);
+        shell_scene(stream, v->document.source->path);
         fputs(" -o frame.png --frames 0", stream);
         write_method(stream, v, &q);
         if (v->settings.view.layer != MGT_LAYER_COLOR && v->settings.view.layer != MGT_LAYER_DEPTH)

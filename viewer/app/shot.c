@@ -31,7 +31,7 @@ mgt_camera *viewer_free_camera(viewer *v)
 
 void viewer_reset_camera(viewer *v)
 {
-    v->document.values.camera.still = v->home;
+    v->document.values.camera.still = v->document.source->home;
     v->settings.move.path = 1;
     v->settings.view.zoom = 1;
     v->settings.view.center_x = v->settings.view.center_y = 0.5;
@@ -44,9 +44,8 @@ void viewer_revert(viewer *v)
         return;
     }
     v->settings.waves = settings_defaults().waves;
-    v->home = v->document.values.camera.still;
     viewer_reset_camera(v);
-    viewer_report(v, false, "back to %s", v->document.path);
+    viewer_report(v, false, "back to %s", v->document.source->path);
 }
 
 /* A camera in the air does not sink into the waves; one that is under water stays there. */
@@ -188,7 +187,7 @@ bool viewer_take_shot(viewer *v, shot *out)
         v->scene_error.is_error = true;
         return false;
     }
-    if (v->document.error.kind == SCENE_ERROR_NONE)
+    if (v->document.source->error.kind == SCENE_ERROR_NONE)
         snprintf(v->scene_error.text, sizeof v->scene_error.text, "%s", v->document.fault.kind == SCENE_ERROR_NONE ? "" : v->document.fault.text);
     v->scene_error.is_error = true;
     out->models = values.models;
@@ -247,7 +246,7 @@ void viewer_advance(viewer *v, double seconds)
     const bool *k = v->pointer.keys;
     const double step = v->settings.move.speed * seconds * (v->pointer.fast ? 5 : 1);
     const double forward = k[0] - k[2], right = k[3] - k[1], up = k[5] - k[4];
-    const bool moves = forward != 0 || right != 0 || up != 0, kept = !moves && history_is_current(&v->history, &v->document.values, &v->settings);
+    const bool moves = forward != 0 || right != 0 || up != 0, kept = !moves && history_is_current(&v->history, &v->document, &v->settings);
     run_clock(v, seconds);
     if (moves)
         camera_move(viewer_free_camera(v), forward * step, right * step, up * step);
@@ -260,20 +259,18 @@ void viewer_advance(viewer *v, double seconds)
 
 void viewer_poll_files(viewer *v)
 {
-    const mgt_camera before = scene_file_values(v->document.file)->camera.still;
+    const scene_source *source = v->document.source;
     switch (document_poll(&v->document)) {
     case DOCUMENT_SAME:
         break;
     case DOCUMENT_READ_ANEW:
         v->scene_error.text[0] = 0;
-        if (!scene_camera_equal(&before, &scene_file_values(v->document.file)->camera.still))
-            v->home = scene_file_values(v->document.file)->camera.still;
-        viewer_report(v, false, "%s: read again", v->document.path);
+        viewer_report(v, false, "%s: read again", source->path);
         break;
     case DOCUMENT_BROKEN:
-        snprintf(v->scene_error.text, sizeof v->scene_error.text, "%s", v->document.error.text);
+        snprintf(v->scene_error.text, sizeof v->scene_error.text, "%s", source->error.text);
         v->scene_error.is_error = true;
-        viewer_log(v, "%s", v->document.error.text);
+        viewer_log(v, "%s", source->error.text);
         break;
     }
 }

@@ -22,7 +22,7 @@ void viewer_keep_step(viewer *v, bool all)
     if (!all && is_held(v))
         return;
     document_refresh(&v->document);
-    history_add(&v->history, &v->document.values, &v->settings);
+    history_add(&v->history, &v->document, &v->settings);
 }
 
 /* The first control in which the boards differ, and how many others do. */
@@ -56,16 +56,27 @@ bool viewer_undo(viewer *v, int by)
     viewer_keep_step(v, true);
     const history_state *state = history_step(&v->history, by);
     document there = {0};
-    if (!state || !scene_values_copy(&there.values, &state->values)) {
+    if (!state) {
         viewer_tell(v, "there is nothing to %s", word);
         return false;
     }
+    if (!scene_values_copy(&there.values, &state->values)) {
+        history_step(&v->history, -by);
+        viewer_report(v, true, "out of memory");
+        return false;
+    }
     settings chosen = state->settings;
-    if (v->settings.clock.play && chosen.clock.play) /* the clock runs on */
-        chosen.clock.time = v->settings.clock.time;
-    const control_board other = {&there, &chosen};
-    describe(&v->board, &other, what, sizeof what);
-    document_replace(&v->document, &there.values);
+    if (state->source == v->document.source) {
+        if (v->settings.clock.play && chosen.clock.play) /* the clock runs on */
+            chosen.clock.time = v->settings.clock.time;
+        const control_board other = {&there, &chosen};
+        describe(&v->board, &other, what, sizeof what);
+        document_replace(&v->document, &there.values);
+    } else {
+        snprintf(what, sizeof what, "scene %s", scene_source_name(state->source));
+        there.source = scene_source_share(state->source);
+        viewer_take_document(v, &there);
+    }
     document_changed(&v->document, false); /* tells again why a sea cannot be made */
     v->settings = chosen;
     history_follow(&v->history, chosen.clock.time, &v->document.values.camera.still);

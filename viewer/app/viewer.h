@@ -140,12 +140,10 @@ typedef struct viewer {
     ui_stand_in stand_in;
     inspection inspection;
     open_dialog dialog;
-    char *opened_path; /* of the scene, where it is another than at the start; owned */
     judging judging;
     film_choice film;
     film_export *film_export; /* NULL: none is under way */
     double film_fraction;     /* of it that is done */
-    mgt_camera home;          /* the camera that "reset" goes back to */
     size_t selected_wave, selected_keyframe, selected_object;
     int held_handle; /* of the plot of waves; -1: none */
     int open_tab;    /* page of the panel to open, from 1; 0: as it is */
@@ -244,8 +242,11 @@ void viewer_judge(viewer *v);
 
 void viewer_set_title(viewer *v);
 
-/* Opens another scene in place of this one; its undoing begins anew. False with the reason in `error`, and nothing has changed. */
+/* Opens another scene in place of this one, as a step that can be undone. False with the reason in `error`, and nothing has changed. */
 bool viewer_open(viewer *v, const char *path, char *error, size_t error_size);
+
+/* Shows a document of another file; takes over what it owns. */
+void viewer_take_document(viewer *v, document *other);
 
 /* A file dropped on the window: a scene is opened, a model becomes an object. */
 void viewer_drop(viewer *v, const char *path);

@@ -8,6 +8,7 @@
 
 #include "image/output_file.h"
 #include "scene/scene_models.h"
+#include "scene/scene_path.h"
 
 static bool values_of_words(const scene_values *base, const char *const *words, size_t count, scene_values *out, scene_error *error);
 
@@ -29,34 +30,69 @@ static bool same_stamp(const struct stat *a, const struct stat *b)
     return a->st_mtim.tv_sec == b->st_mtim.tv_sec && a->st_mtim.tv_nsec == b->st_mtim.tv_nsec && a->st_size == b->st_size && a->st_ino == b->st_ino;
 }
 
+scene_source *scene_source_share(scene_source *source)
+{
+    if (source)
+        source->shares++;
+    return source;
+}
+
+void scene_source_release(scene_source *source)
+{
+    if (!source || --source->shares > 0)
+        return;
+    scene_file_free(source->file);
+    free(source->path);
+    free(source);
+}
+
+static scene_source *source_create(const char *path)
+{
+    scene_source *source = calloc(1, sizeof *source);
+    char *name = strdup(path);
+    if (!source || !name) {
+        free(source);
+        free(name);
+        return NULL;
+    }
+    *source = (scene_source){.path = name, .shares = 1};
+    if (stat(path, &source->stamp) != 0)
+        source->stamp = (struct stat){0};
+    return source;
+}
+
 bool document_open(document *d, const char *path, const char *const *words, size_t count, scene_error *error)
 {
-    *d = (document){.path = path};
-    if (stat(path, &d->stamp) != 0)
-        d->stamp = (struct stat){0};
+    scene_source *source = source_create(path);
+    *d = (document){.source = source};
+    if (!source)
+        return scene_error_memory(error);
     scene_file *changed = scene_file_open(path, words, count, error);
-    if (!changed)
+    if (!changed) {
+        document_close(d);
         return false;
-    d->file = scene_file_open(path, NULL, 0, error);
+    }
+    source->file = scene_file_open(path, NULL, 0, error);
     /* A file may be good only with what the words change. */
-    if (!d->file) {
-        d->file = changed;
+    if (!source->file) {
+        source->file = changed;
         changed = NULL;
     }
-    if (copy_values(&d->values, changed ? changed : d->file)) {
-        scene_file_free(changed);
-        *error = (scene_error){0};
-        return true;
-    }
+    const bool good = copy_values(&d->values, changed ? changed : source->file);
     scene_file_free(changed);
-    document_close(d);
-    return scene_error_memory(error);
+    if (!good) {
+        document_close(d);
+        return scene_error_memory(error);
+    }
+    source->home = d->values.camera.still;
+    *error = (scene_error){0};
+    return true;
 }
 
 void document_close(document *d)
 {
     scene_values_free(&d->values);
-    scene_file_free(d->file);
+    scene_source_release(d->source);
     *d = (document){0};
 }
 
@@ -72,9 +108,10 @@ void document_replace(document *d, scene_values *values)
 bool document_revert(document *d)
 {
     scene_values values;
-    if (!copy_values(&values, d->file))
+    if (!copy_values(&values, d->source->file))
         return false;
     document_replace(d, &values);
+    d->source->home = d->values.camera.still;
     return true;
 }
 
@@ -202,7 +239,7 @@ static bool merge(document *d, const scene_file *fresh, scene_values *out)
     scene_overrides mine = {0}, theirs = {0};
     scene_values old, new = {0};
     const char **words = NULL;
-    bool good = copy_values(&old, d->file) && copy_values(&new, fresh) && scene_overrides_between(&old, &d->values, &mine) &&
+    bool good = copy_values(&old, d->source->file) && copy_values(&new, fresh) && scene_overrides_between(&old, &d->values, &mine) &&
                 scene_overrides_between(&old, &new, &theirs);
     if (good)
         words = calloc(mine.count + 1, sizeof *words);
@@ -223,37 +260,46 @@ document_news document_poll(document *d)
 {
     struct stat stamp;
     scene_values values;
-    if (stat(d->path, &stamp) != 0 || same_stamp(&stamp, &d->stamp))
+    scene_source *source = d->source;
+    if (stat(source->path, &stamp) != 0 || same_stamp(&stamp, &source->stamp))
         return DOCUMENT_SAME;
-    d->stamp = stamp;
-    scene_file *fresh = scene_file_open(d->path, NULL, 0, &d->error);
+    source->stamp = stamp;
+    scene_file *fresh = scene_file_open(source->path, NULL, 0, &source->error);
     if (!fresh)
         return DOCUMENT_BROKEN;
     if (!merge(d, fresh, &values)) {
         scene_file_free(fresh);
-        scene_error_memory(&d->error);
+        scene_error_memory(&source->error);
         return DOCUMENT_BROKEN;
     }
+    const mgt_camera *camera = &scene_file_values(fresh)->camera.still;
+    if (!scene_camera_equal(&scene_file_values(source->file)->camera.still, camera))
+        source->home = *camera;
     document_replace(d, &values);
-    scene_file_free(d->file);
-    d->file = fresh;
-    d->error = (scene_error){0};
+    scene_file_free(source->file);
+    source->file = fresh;
+    source->error = (scene_error){0};
     return DOCUMENT_READ_ANEW;
 }
 
 /* ---- saving -------------------------------------------------------------------------------------------------- */
 
+const char *scene_source_name(const scene_source *source)
+{
+    const char *slash = strrchr(source->path, '/');
+    return slash ? slash + 1 : source->path;
+}
+
 void document_save_name(const document *d, char *name, size_t size)
 {
-    const char *slash = strrchr(d->path, '/');
-    const char *dot = strrchr(slash ? slash : d->path, '.');
-    const size_t length = dot ? (size_t)(dot - d->path) : strlen(d->path);
-    if (strncmp(d->path, "--", 2) == 0) { /* words of --sea */
+    const char *path = d->source->path, *dot = strrchr(scene_source_name(d->source), '.');
+    const size_t length = dot ? (size_t)(dot - path) : strlen(path);
+    if (strncmp(path, "--", 2) == 0) { /* words of --sea */
         snprintf(name, size, "sea-edited.yaml");
         return;
     }
-    const bool edited = length > 7 && strncmp(d->path + length - 7, "-edited", 7) == 0;
-    snprintf(name, size, "%.*s%s.yaml", (int)length, d->path, edited ? "" : "-edited");
+    const bool edited = length > 7 && strncmp(path + length - 7, "-edited", 7) == 0;
+    snprintf(name, size, "%.*s%s.yaml", (int)length, path, edited ? "" : "-edited");
 }
 
 /* Whether the text reads back as the same pictures. */

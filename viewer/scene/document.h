@@ -8,14 +8,25 @@
 #include "image/file_error.h"
 #include "scene/scene_edit.h"
 
+/* The file of a scene. The document and the steps of undo share it. */
+typedef struct scene_source {
+    char *path;        /* owned */
+    scene_file *file;  /* the last good one, as it is on the disk */
+    struct stat stamp; /* of the file when it was last read, good or bad */
+    scene_error error; /* of that reading; kind SCENE_ERROR_NONE when it was good */
+    mgt_camera home;   /* the camera that "reset" goes back to */
+    size_t shares;
+} scene_source;
+
+/* One more share of it, or one less; the last one frees it. NULL is allowed. */
+scene_source *scene_source_share(scene_source *source);
+void scene_source_release(scene_source *source);
+
 typedef struct document {
-    const char *path;    /* of the file; borrowed */
-    scene_file *file;    /* the last good one, as it is on the disk */
-    scene_values values; /* as changed */
-    struct stat stamp;   /* of the file when it was last read, good or bad */
-    scene_error error;   /* of that reading; kind SCENE_ERROR_NONE when it was good */
-    scene_error fault;   /* why sea or models cannot be made of the values; kind SCENE_ERROR_NONE: they can */
-    bool stale;          /* they are not those of the values yet */
+    scene_source *source; /* a share */
+    scene_values values;  /* as changed */
+    scene_error fault;    /* why sea or models cannot be made of the values; kind SCENE_ERROR_NONE: they can */
+    bool stale;           /* they are not those of the values yet */
 } document;
 
 /* Reads `path`, then changes it by `words` ("key=value"). False with the reason in *error; *d is then empty. */
@@ -25,7 +36,7 @@ void document_close(document *d);
 typedef enum document_news { DOCUMENT_SAME, DOCUMENT_READ_ANEW, DOCUMENT_BROKEN } document_news;
 
 /* Reads the file again if it has changed on the disk. What has changed in the file wins over what was changed here, which else stays. A
- * broken file changes nothing but `error`. */
+ * broken file changes nothing but the source's `error`. */
 document_news document_poll(document *d);
 
 /* Takes back every change. False when memory runs out. */
@@ -46,6 +57,9 @@ void document_replace(document *d, scene_values *values);
 
 /* Writes `values` as a scene file to `path`, whole or not at all, after reading it back in memory. */
 file_status document_save(const scene_values *values, const char *path, bool overwrite, file_error *error);
+
+/* The file's name without its folder. */
+const char *scene_source_name(const scene_source *source);
 
 /* "FOLDER/NAME-edited.yaml" for the file "FOLDER/NAME.ext". */
 void document_save_name(const document *d, char *name, size_t size);

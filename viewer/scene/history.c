@@ -17,15 +17,21 @@ static bool settings_equal(const settings *a, const settings *b)
     return equal;
 }
 
+static void state_free(history_state *state)
+{
+    scene_values_free(&state->values);
+    scene_source_release(state->source);
+}
+
 static void drop(history *h, size_t from, size_t to)
 {
     for (size_t i = from; i < to; i++)
-        scene_values_free(&h->states[i].values);
+        state_free(&h->states[i]);
     memmove(h->states + from, h->states + to, (h->count - to) * sizeof *h->states);
     h->count -= to - from;
 }
 
-static bool append(history *h, const scene_values *values, const settings *chosen)
+static bool append(history *h, const document *shown, const settings *chosen)
 {
     if (h->count == h->capacity) {
         const size_t capacity = h->capacity ? 2 * h->capacity : 16;
@@ -36,17 +42,18 @@ static bool append(history *h, const scene_values *values, const settings *chose
         h->capacity = capacity;
     }
     history_state *state = &h->states[h->count];
-    if (!scene_values_copy(&state->values, values))
+    if (!scene_values_copy(&state->values, &shown->values))
         return false;
+    state->source = scene_source_share(shown->source);
     state->settings = *chosen;
     h->at = h->count++;
     return true;
 }
 
-bool history_start(history *h, const scene_values *values, const settings *chosen)
+bool history_start(history *h, const document *shown, const settings *chosen)
 {
     history_free(h);
-    return append(h, values, chosen);
+    return append(h, shown, chosen);
 }
 
 void history_free(history *h)
@@ -57,22 +64,22 @@ void history_free(history *h)
     *h = (history){0};
 }
 
-bool history_is_current(const history *h, const scene_values *values, const settings *chosen)
+bool history_is_current(const history *h, const document *shown, const settings *chosen)
 {
     const history_state *now = h->count > 0 ? &h->states[h->at] : NULL;
-    return now && settings_equal(&now->settings, chosen) && scene_values_equal(&now->values, values);
+    return now && now->source == shown->source && settings_equal(&now->settings, chosen) && scene_values_equal(&now->values, &shown->values);
 }
 
-bool history_add(history *h, const scene_values *values, const settings *chosen)
+bool history_add(history *h, const document *shown, const settings *chosen)
 {
-    if (h->count == 0 || history_is_current(h, values, chosen))
+    if (h->count == 0 || history_is_current(h, shown, chosen))
         return false;
     drop(h, h->at + 1, h->count);
     if (h->count == MOST_STATES) {
         drop(h, 0, 1);
         h->at--;
     }
-    return append(h, values, chosen);
+    return append(h, shown, chosen);
 }
 
 void history_follow(history *h, double time, const mgt_camera *camera)

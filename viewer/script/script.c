@@ -211,7 +211,7 @@ static bool is_waiting(viewer *v)
     if (s->judging > 0 && !take_judgement(v))
         return true;
     if (s->waiting_reload && s->words[0] && strcmp(s->words[0], "wait-reload") == 0) {
-        const struct stat *a = &s->reload_stamp, *b = &v->document.stamp;
+        const struct stat *a = &s->reload_stamp, *b = &v->document.source->stamp;
         if (a->st_mtim.tv_sec == b->st_mtim.tv_sec && a->st_mtim.tv_nsec == b->st_mtim.tv_nsec && a->st_size == b->st_size) {
             if (seconds_now() > s->give_up_at)
                 script_fail(v, "the scene has not been read again");

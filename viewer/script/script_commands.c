@@ -252,7 +252,7 @@ static void do_copy(viewer *v)
     if (!good)
         script_fail(v, "%s cannot be copied to %s", s->words[1], s->words[2]);
     v->script->waiting_reload = true;
-    v->script->reload_stamp = v->document.stamp;
+    v->script->reload_stamp = v->document.source->stamp;
 }
 
 static void do_wait_reload(viewer *v)
