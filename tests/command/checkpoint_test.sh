@@ -6,26 +6,30 @@ sunset=$SOURCE/scenes/sunset.json
 long=(--method reference --spatial 8 --time-samples 6 --size 96x54)
 works render "$sunset" "${long[@]}" -o whole.exr --layer all --quiet
 
-# Killed five times, each after another checkpoint.
-kept=0
-for ((kill = 0; kill < 5; kill++)); do
-    before=$(stat -c %i frame.exr.checkpoint 2>/dev/null)
-    "$MANGATA" render "$sunset" "${long[@]}" -o frame.exr --layer all --checkpoint 0.1 2>stderr.txt &
-    process=$!
-    for ((wait = 0; wait < 1000; wait++)); do
-        [[ $(stat -c %i frame.exr.checkpoint 2>/dev/null) == "$before" ]] || break
-        kill -0 $process 2>/dev/null || break
-        sleep 0.01
+# killed TIMES SAMPLES OPTION…: frame.exr, killed so often, each time after another checkpoint; it has SAMPLES in all.
+killed() {
+    local times=$1 samples=$2 kill wait process before now kept=0
+    shift 2
+    for ((kill = 0; kill < times; kill++)); do
+        before=$(stat -c %i frame.exr.checkpoint 2>/dev/null)
+        "$MANGATA" render "$sunset" "$@" -o frame.exr --layer all --checkpoint 0.1 2>stderr.txt &
+        process=$!
+        for ((wait = 0; wait < 1000; wait++)); do
+            [[ $(stat -c %i frame.exr.checkpoint 2>/dev/null) == "$before" ]] || break
+            kill -0 $process 2>/dev/null || break
+            sleep 0.01
+        done
+        kill -9 $process 2>/dev/null
+        wait $process 2>/dev/null
+        absent frame.exr
+        exists frame.exr.checkpoint
+        ((kill == 0)) || grep -Eq "^frame.exr.checkpoint: goes on after [0-9]+ of $samples samples\$" stderr.txt || fail "kill $kill: $(cat stderr.txt)"
+        now=$(sed -n 's/.*goes on after \([0-9]*\) .*/\1/p' stderr.txt)
+        ((kill == 0 || now > kept)) || fail "kill $kill: $now samples, not more than $kept"
+        kept=${now:-0}
     done
-    kill -9 $process 2>/dev/null
-    wait $process 2>/dev/null
-    absent frame.exr
-    exists frame.exr.checkpoint
-    ((kill == 0)) || grep -Eq '^frame.exr.checkpoint: goes on after [0-9]+ of 384 samples$' stderr.txt || fail "kill $kill: $(cat stderr.txt)"
-    now=$(sed -n 's/.*goes on after \([0-9]*\) .*/\1/p' stderr.txt)
-    ((kill == 0 || now > kept)) || fail "kill $kill: $now samples, not more than $kept"
-    kept=${now:-0}
-done
+}
+killed 5 384 "${long[@]}"
 rm -f .mangata-*
 cp frame.exr.checkpoint kept
 expect 0 'goes on after' render "$sunset" "${long[@]}" -o frame.exr --layer all --checkpoint 0.1 --progress text
@@ -49,6 +53,19 @@ works render "$sunset" "${quick[@]}" -o frame.exr --checkpoint 9 --overwrite --q
 absent frame.exr.checkpoint
 works render "$sunset" "${quick[@]}" -o plain.exr --quiet
 same frame.exr plain.exr
+
+# The other methods with exact sums: samples of each pixel, slots of the whole picture.
+others=(ssaa28 784 adaptive 400000)
+for ((i = 0; i < ${#others[@]}; i += 2)); do
+    other=(--method "${others[i]}" --size 48x27)
+    [[ ${others[i]} != adaptive ]] || other+=(--adaptive podee --slots "${others[i + 1]}")
+    rm -f frame.exr
+    works render "$sunset" "${other[@]}" -o other.exr --layer all --quiet --overwrite
+    killed 2 "${others[i + 1]}" "${other[@]}"
+    expect 0 'goes on after' render "$sunset" "${other[@]}" -o frame.exr --layer all --checkpoint 0.1
+    same other.exr frame.exr
+    rm -f .mangata-*
+done
 
 # A part can have checkpoints of its own.
 works render "$sunset" "${quick[@]}" --time-samples 4 --samples-range 1,2 -o a.sums --checkpoint 0.1 --quiet
