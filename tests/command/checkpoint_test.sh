@@ -6,13 +6,13 @@ sunset=$SOURCE/scenes/sunset.json
 long=(--method reference --spatial 8 --time-samples 6 --size 96x54)
 works render "$sunset" "${long[@]}" -o whole.exr --layer all --quiet
 
-# killed TIMES SAMPLES OPTION…: frame.exr, killed so often, each time after another checkpoint; it has SAMPLES in all.
+# killed TIMES SAMPLES SCENE OPTION…: frame.exr, killed so often, each time after another checkpoint; it has SAMPLES in all.
 killed() {
     local times=$1 samples=$2 kill wait process before now kept=0
     shift 2
     for ((kill = 0; kill < times; kill++)); do
         before=$(stat -c %i frame.exr.checkpoint 2>/dev/null)
-        "$MANGATA" render "$sunset" "$@" -o frame.exr --layer all --checkpoint 0.1 2>stderr.txt &
+        "$MANGATA" render "$@" -o frame.exr --layer all --checkpoint 0.1 2>stderr.txt &
         process=$!
         for ((wait = 0; wait < 1000; wait++)); do
             [[ $(stat -c %i frame.exr.checkpoint 2>/dev/null) == "$before" ]] || break
@@ -29,7 +29,7 @@ killed() {
         kept=${now:-0}
     done
 }
-killed 5 384 "${long[@]}"
+killed 5 384 "$sunset" "${long[@]}"
 rm -f .mangata-*
 cp frame.exr.checkpoint kept
 expect 0 'goes on after' render "$sunset" "${long[@]}" -o frame.exr --layer all --checkpoint 0.1 --progress text
@@ -55,17 +55,19 @@ works render "$sunset" "${quick[@]}" -o plain.exr --quiet
 same frame.exr plain.exr
 
 # The other methods with exact sums: samples of each pixel, slots of the whole picture.
-others=(ssaa28 784 adaptive 400000)
-for ((i = 0; i < ${#others[@]}; i += 2)); do
-    other=(--method "${others[i]}" --size 48x27)
-    [[ ${others[i]} != adaptive ]] || other+=(--adaptive podee --slots "${others[i + 1]}")
+killed_twice() {
+    local samples=$1
+    shift
     rm -f frame.exr
-    works render "$sunset" "${other[@]}" -o other.exr --layer all --quiet --overwrite
-    killed 2 "${others[i + 1]}" "${other[@]}"
-    expect 0 'goes on after' render "$sunset" "${other[@]}" -o frame.exr --layer all --checkpoint 0.1
+    works render "$@" -o other.exr --layer all --quiet --overwrite
+    killed 2 "$samples" "$@" --threads 1 # so that there is time for two kills
+    expect 0 'goes on after' render "$@" -o frame.exr --layer all --checkpoint 0.1
     same other.exr frame.exr
+    absent frame.exr.checkpoint
     rm -f .mangata-*
-done
+}
+killed_twice 576 "$SOURCE/scenes/smooth.json" --method ssaa24 --size 48x27
+killed_twice 600000 "$SOURCE/scenes/smooth.json" --method adaptive --adaptive podee --slots 600000 --size 48x27
 
 # A part can have checkpoints of its own.
 works render "$sunset" "${quick[@]}" --time-samples 4 --samples-range 1,2 -o a.sums --checkpoint 0.1 --quiet
