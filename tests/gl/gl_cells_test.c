@@ -16,7 +16,7 @@
 #include "mangata/gl.h"
 #include "scene/scene_file.h"
 
-enum { WIDTH = 160, HEIGHT = 90, PIXELS = WIDTH * HEIGHT };
+enum { WIDTH = 96, HEIGHT = 54, PIXELS = WIDTH * HEIGHT };
 
 static const double most_others = 5e-3; /* share of the pixels that may have another number of samples; */
 static const double largest_rms = 5e-5; /* of the others */
@@ -104,23 +104,35 @@ static void expect_alike(const char *name, const picture *a, const picture *b)
     assert_true((double)steps <= 1e-3 * 3 * PIXELS);
 }
 
-static const char *const seas[] = {"simple.json", "smooth.json", "medium.json", "high.json", "sunset.json", "gale.yaml", "moonlit.json"};
+/* With what the CPU renders. The plain run compares: sanitizers look at what draws. */
+static void compare(mgt_context *cpu, const mgt_scene *scene, const char *name, const picture *got)
+{
+    static picture expected;
+    if (MGT_SANITIZED)
+        return;
+    render(cpu, scene, &expected);
+    expect_alike(name, got, &expected);
+}
+
+/* Near waves, far ones, a low sun, the moon, and many waves. */
+static const char *const seas[] = {"smooth.json", "high.json", "sunset.json", "moonlit.json", "gale.yaml"};
 enum { SEAS = sizeof seas / sizeof *seas };
 
 static void pictures_are_those_of_the_cpu(void **state)
 {
     (void)state;
-    static picture expected, got, again;
+    static picture got, again;
     mgt_context *gl = context_of(MGT_BACKEND_GL), *cpu = context_of(MGT_BACKEND_CPU);
-    for (size_t i = 0; i < SEAS; i += MGT_SANITIZED ? 3 : 1) {
+    for (size_t i = 0; i < SEAS; i += MGT_SANITIZED ? SEAS - 1 : 1) {
         mgt_scene scene;
         scene_file *file = load(seas[i], &scene);
         assert_true(mgt_supports(MGT_BACKEND_GL, &scene, MGT_LAYER_SAMPLES));
-        render(cpu, &scene, &expected);
         render(gl, &scene, &got);
-        expect_alike(seas[i], &got, &expected);
-        render(gl, &scene, &again);
-        assert_memory_equal(&again, &got, sizeof got);
+        compare(cpu, &scene, seas[i], &got);
+        if (i % 2 == 0) {
+            render(gl, &scene, &again);
+            assert_memory_equal(&again, &got, sizeof got);
+        }
         scene_file_free(file);
     }
     mgt_context_destroy(gl);
@@ -131,7 +143,7 @@ static void pictures_are_those_of_the_cpu(void **state)
 static void options_are_those_of_the_cpu(void **state)
 {
     (void)state;
-    static picture expected, got;
+    static picture got;
     static const struct {
         const char *name, *sea;
         mgt_quality quality;
@@ -141,7 +153,6 @@ static void options_are_those_of_the_cpu(void **state)
         {"--samples 24", "smooth.json", {.samples = 24, .seed = 5}, false},
         {"--target-rmse", "smooth.json", {.target_rmse = 1e-3}, false},
         {"--target-displayed", "sunset.json", {.target_displayed = 0.03}, false},
-        {"moving", "smooth.json", {.samples = 0}, true},
         {"moving", "sunset.json", {.samples = 0}, true},
     };
     mgt_context *gl = context_of(MGT_BACKEND_GL), *cpu = context_of(MGT_BACKEND_CPU);
@@ -155,9 +166,8 @@ static void options_are_those_of_the_cpu(void **state)
         scene.camera_moves = cases[i].moves;
         scene.camera_open = scene.camera;
         scene.camera_open.position[0] -= 0.02;
-        render(cpu, &scene, &expected);
         render(gl, &scene, &got);
-        expect_alike(cases[i].name, &got, &expected);
+        compare(cpu, &scene, cases[i].name, &got);
         scene_file_free(file);
     }
     mgt_context_destroy(gl);
@@ -168,7 +178,7 @@ static void crops_are_parts_of_the_whole(void **state)
 {
     (void)state;
     static picture whole;
-    enum { X = 35, Y = 41, W = 40, H = 26 };
+    enum { X = 35, Y = 21, W = 40, H = 26 };
     static float part[W * H];
     mgt_context *gl = context_of(MGT_BACKEND_GL);
     mgt_scene scene;
@@ -188,18 +198,19 @@ static void objects_are_shown(void **state)
 {
     (void)state;
     static picture expected, got;
-    static const char *const scenes[] = {"shore.yaml", "hull.yaml", "diver.yaml"};
-    const int steps_off = 2; /* as in gl_agreement.c */
+    static const char *const scenes[] = {"shore.yaml", "hull.yaml", "diver.yaml"}; /* the last one costs sanitizers a quarter of the first */
+    const int steps_off = 2;                                                       /* as in gl_agreement.c */
     const double most_steps_off = 2e-3;
     mgt_context *gl = context_of(MGT_BACKEND_GL), *cpu = context_of(MGT_BACKEND_CPU);
-    for (size_t s = 0; s < sizeof scenes / sizeof *scenes; s += 1 + MGT_SANITIZED) {
+    for (size_t s = MGT_SANITIZED ? 2 : 0; s < sizeof scenes / sizeof *scenes; s++) {
         mgt_scene scene;
         scene_file *file = load(scenes[s], &scene);
         assert_true(mgt_supports(MGT_BACKEND_GL, &scene, MGT_LAYER_COLOR));
-        render(cpu, &scene, &expected);
         render(gl, &scene, &got);
+        if (!MGT_SANITIZED)
+            render(cpu, &scene, &expected);
         size_t off = 0;
-        for (size_t i = 0; i < PIXELS; i++) {
+        for (size_t i = 0; i < PIXELS && !MGT_SANITIZED; i++) {
             int worst = 0;
             for (size_t k = 0; k < 3; k++) {
                 const int d = abs(got.shown[4 * i + k] - expected.shown[4 * i + k]);
@@ -325,7 +336,7 @@ static mgt_gl_texture color_texture(const host *h)
 static void nothing_is_read_back(void **state)
 {
     (void)state;
-    enum { FRAMES = MGT_SANITIZED ? 10 : 30 };
+    enum { FRAMES = 10 };
     host h;
     host_start(&h);
     mgt_scene scene;

@@ -22,7 +22,7 @@ int host_gl_main(int argc, char **argv);
 #include "host_gl.c"
 #undef main
 
-enum { WIDTH = 320, HEIGHT = 180, CONVENTIONS = 3 };
+enum { WIDTH = 160, HEIGHT = 90, CONVENTIONS = 3 };
 static const double test_time = 3.7;
 
 typedef struct picture {
@@ -178,9 +178,9 @@ static bool at_an_edge(const oracle *o, int x, int y)
     return false;
 }
 
-static void check_geometry(depth_convention convention, const oracle *o)
+static void check_geometry(depth_convention convention, const oracle *o, picture *drawn)
 {
-    static picture drawn, bodies;
+    static picture bodies;
     mgt_wave waves[WAVES];
     make_waves(waves);
     engine e = start(convention);
@@ -192,8 +192,8 @@ static void check_geometry(depth_convention convention, const oracle *o)
     engine_draw_body(&e, &view, &scene.light, &pole);
     read_picture(e.framebuffer, &bodies);
     assert_int_equal(engine_draw(&e, test_time), MGT_OK);
-    read_picture(e.framebuffer, &drawn);
-    assert_lively(&drawn);
+    read_picture(e.framebuffer, drawn);
+    assert_lively(drawn);
 
     /* What is seen where a body is, and the depth of the water where a pixel's footprint is small. */
     long compared = 0, agreed = 0, seen_bodies = 0, drowned = 0, measured = 0, deep = 0;
@@ -204,12 +204,12 @@ static void check_geometry(depth_convention convention, const oracle *o)
             const seen expected = o->expected[y][x];
             if ((d->ball < INFINITY || d->pole < INFINITY) && !at_an_edge(o, x, y)) {
                 compared++;
-                agreed += seen_in(&drawn, &bodies, d, x, y) == expected;
+                agreed += seen_in(drawn, &bodies, d, x, y) == expected;
                 seen_bodies += expected != SEEN_WATER;
                 drowned += expected == SEEN_WATER;
             }
             if (expected == SEEN_WATER && d->water < 20) {
-                const double error = fabs(metres_of(&e, &view, drawn.depth[y][x]) / d->water - 1);
+                const double error = fabs(metres_of(&e, &view, drawn->depth[y][x]) / d->water - 1);
                 measured++;
                 deep += error > 5e-3; /* filtered methods find the surface of the waves that a pixel resolves */
                 worst = fmax(worst, error);
@@ -219,30 +219,21 @@ static void check_geometry(depth_convention convention, const oracle *o)
                   100.0 * (double)agreed / (double)compared, compared, seen_bodies, drowned);
     print_message("  %s: %.2f%% of %ld depths of water within .5%%, the worst off by %.3g\n", depth_names[convention],
                   100.0 * (double)(measured - deep) / (double)measured, measured, worst);
-    assert_true(seen_bodies > 500 && drowned > 50 && measured > 5000);
+    assert_true(seen_bodies > 125 && drowned > 12 && measured > 1250);
     assert_true((double)agreed >= 0.99 * (double)compared);
     assert_true((double)deep <= 0.01 * (double)measured);
     stop(&e);
 }
 
+/* In every convention, and all show the same. */
 static void bodies_meet_the_water(void **state)
 {
     (void)state;
     static oracle o;
-    make_oracle(&o);
-    for (int convention = 0; convention < CONVENTIONS; convention++)
-        check_geometry((depth_convention)convention, &o);
-}
-
-static void conventions_agree(void **state)
-{
-    (void)state;
     static picture pictures[CONVENTIONS];
+    make_oracle(&o);
     for (int convention = 0; convention < CONVENTIONS; convention++) {
-        engine e = start((depth_convention)convention);
-        assert_int_equal(engine_draw(&e, test_time), MGT_OK);
-        read_picture(e.framebuffer, &pictures[convention]);
-        stop(&e);
+        check_geometry((depth_convention)convention, &o, &pictures[convention]);
         const long different = count_different(&pictures[convention], &pictures[0], 2);
         print_message("  %s: %ld of %d pixels differ by more than 2 of 255\n", depth_names[convention], different, WIDTH * HEIGHT);
         assert_true(different <= WIDTH * HEIGHT / 1000);
@@ -326,7 +317,7 @@ static void view_is_the_picture(void **state)
     scene.objects = &object;
     scene.object_count = 1;
     scene.post.exposure_ev = 1; /* this evening is dim from below */
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < 4; i += 1 + 2 * MGT_SANITIZED) {
         scene.water.level = i % 2 ? 8 : 0;
         scene.quality.refraction = i < 2 ? MGT_REFRACTION_TWO_PHASE : MGT_REFRACTION_HYBRID;
         compare_view(&scene, 500);
@@ -342,7 +333,7 @@ static void parts_make_the_whole(void **state)
     mgt_wave waves[WAVES];
     make_waves(waves);
     const mgt_scene scene = make_scene(waves, test_time);
-    for (int convention = 0; convention < CONVENTIONS; convention++) {
+    for (int convention = 0; convention < CONVENTIONS; convention += 1 + MGT_SANITIZED) {
         engine e = start((depth_convention)convention);
         const mgt_gl_view view = whole_view(&e);
         clear(&e);
@@ -350,8 +341,8 @@ static void parts_make_the_whole(void **state)
         read_picture(e.framebuffer, &whole);
         assert_lively(&whole);
 
-        const mgt_gl_view quarters[4] = {part_of(view, 0, 84, 128, 96), part_of(view, 128, 84, 192, 96), part_of(view, 0, 0, 128, 84),
-                                         part_of(view, 128, 0, 192, 84)};
+        const mgt_gl_view quarters[4] = {part_of(view, 0, 42, 64, 48), part_of(view, 64, 42, 96, 48), part_of(view, 0, 0, 64, 42),
+                                         part_of(view, 64, 0, 96, 42)};
         clear(&e);
         draw_views(&e, &scene, quarters, 4);
         read_picture(e.framebuffer, &parts);
@@ -476,11 +467,10 @@ static void default_framebuffer(void **state)
 
 /* ---- what a frame costs the host ------------------------------------------------------------------------- */
 
-/* All that a host can draw; podee-* with kernels in place of its Gaussian on its second visit. */
-static const mgt_method methods[] = {MGT_METHOD_MANGATA,     MGT_METHOD_NONE,      MGT_METHOD_SSAA,        MGT_METHOD_PODEE_UNIFORM,
-                                     MGT_METHOD_PODEE_PIXEL, MGT_METHOD_MSAA32,    MGT_METHOD_LEAN,        MGT_METHOD_ADAPTIVE,
-                                     MGT_METHOD_LEADR,       MGT_METHOD_TOKUYOSHI, MGT_METHOD_BRUNETON,    MGT_METHOD_FXAA,
-                                     MGT_METHOD_TAA,         MGT_METHOD_TNDF,      MGT_METHOD_GGX_MOMENTS, MGT_METHOD_PODEE_PIXEL};
+/* All that a host can draw but leadr, which is lean with another kernel; podee-* with kernels in place of its Gaussian on its second visit. */
+static const mgt_method methods[] = {MGT_METHOD_MANGATA, MGT_METHOD_NONE, MGT_METHOD_SSAA,     MGT_METHOD_PODEE_UNIFORM, MGT_METHOD_PODEE_PIXEL,
+                                     MGT_METHOD_MSAA32,  MGT_METHOD_LEAN, MGT_METHOD_ADAPTIVE, MGT_METHOD_TOKUYOSHI,     MGT_METHOD_BRUNETON,
+                                     MGT_METHOD_FXAA,    MGT_METHOD_TAA,  MGT_METHOD_TNDF,     MGT_METHOD_GGX_MOMENTS,   MGT_METHOD_PODEE_PIXEL};
 enum { METHODS = sizeof methods / sizeof methods[0] };
 
 static mgt_quality quality_of(int i)
@@ -608,7 +598,7 @@ static long draw_changing(const engine *e, int first, int count, bool sky_change
 static void steady_frames_cost_nothing(void **state)
 {
     (void)state;
-    enum { WARM = 2 * METHODS, STEADY = 2 * METHODS }; /* each method in each size */
+    enum { WARM = 2 * METHODS, STEADY = METHODS }; /* each method in each size, then each again */
     engine e = start(DEPTH_REVERSED);
     assert_true(draw_changing(&e, 0, WARM, false) > 0); /* else the linker has not wrapped anything */
     const gl_calls calls = gl_calls_read();
@@ -690,10 +680,9 @@ static void wrong_views_are_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bodies_meet_the_water),   cmocka_unit_test(conventions_agree),        cmocka_unit_test(view_is_the_picture),
-        cmocka_unit_test(parts_make_the_whole),    cmocka_unit_test(multisampled_framebuffer), cmocka_unit_test(upper_left_origin),
-        cmocka_unit_test(default_framebuffer),     cmocka_unit_test(state_is_as_before),       cmocka_unit_test(steady_frames_cost_nothing),
-        cmocka_unit_test(wrong_views_are_refused),
+        cmocka_unit_test(bodies_meet_the_water),    cmocka_unit_test(view_is_the_picture),        cmocka_unit_test(parts_make_the_whole),
+        cmocka_unit_test(multisampled_framebuffer), cmocka_unit_test(upper_left_origin),          cmocka_unit_test(default_framebuffer),
+        cmocka_unit_test(state_is_as_before),       cmocka_unit_test(steady_frames_cost_nothing), cmocka_unit_test(wrong_views_are_refused),
     };
     engine e;
     if (!headless_gl_start())
