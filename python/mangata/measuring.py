@@ -7,7 +7,7 @@ import numpy as np
 
 from ._library import ffi, io, names
 from .rendering import render
-from .scenes import Document, Scene, as_scene, new_error, path_bytes, raise_io, without_nul
+from .scenes import Scene, SceneLike, as_scene, new_error, path_bytes, raise_io, without_nul
 
 _METRICS = names(io.mgt_metric_name)
 
@@ -82,7 +82,7 @@ def error_map(a: np.ndarray, b: np.ndarray, metric: str = "flip", *, encoding: s
 
 
 def compare(
-    scenes: Union[Scene, Document, Sequence[Any], Mapping[str, Any]],
+    scenes: Union[SceneLike, Sequence[SceneLike], Mapping[str, SceneLike]],
     methods: Sequence[str],
     *,
     layer: str = "coverage",

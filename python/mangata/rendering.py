@@ -2,13 +2,13 @@
 """Rendering into numpy arrays."""
 import re
 import threading
-from typing import Any, Callable, Dict, Mapping, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, Mapping, Optional, Sequence, Tuple
 
 import numpy as np
 
 from ._library import ffi, lib, names, text
 from .errors import Cancelled, MangataError, SceneError
-from .scenes import Document, Scene, as_scene
+from .scenes import Scene, SceneLike, as_scene
 
 Progress = Callable[[float], Optional[bool]]
 
@@ -64,7 +64,7 @@ class Context:
     def _fail(self, _kind, exception, _traceback) -> None:
         self._raised = exception
 
-    def render_into(self, scene, targets: Sequence[Tuple[str, np.ndarray]], progress: Optional[Progress] = None) -> None:
+    def render_into(self, scene: Any, targets: Sequence[Tuple[str, np.ndarray]], progress: Optional[Progress] = None) -> None:
         """Renders a C scene, `Scene.frame()`, into arrays of the crop's size: float32 (h, w, 3) of color, normal and refraction, float32 (h, w) of the other
         layers, uint8 (h, w, 4) of "display". Rows may have a stride; pixels of a row are packed. Nothing is copied."""
         array = ffi.new("mgt_target[]", len(targets))
@@ -134,7 +134,7 @@ def _context(backend: str, threads: int, isa: str) -> Context:
 
 
 def render(
-    scene: Union[Scene, Document],
+    scene: SceneLike,
     method: Optional[str] = None,
     layers: Sequence[str] = ("color",),
     frame: int = 0,

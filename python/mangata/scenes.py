@@ -4,6 +4,8 @@ import json
 import os
 from typing import Any, Dict, Mapping, Optional, Tuple, Union
 
+import numpy as np
+
 from ._library import ffi, io, text
 from .errors import MangataError, SceneError
 
@@ -100,7 +102,7 @@ class Scene:
             raise_io(status, error)
         self._file = ffi.gc(out[0], io.mgt_scene_file_free)
 
-    def frame(self, frame: int = 0):
+    def frame(self, frame: int = 0) -> Any:
         """The C struct `mgt_scene *` of a frame; what it points to lives as long as this scene."""
         scene = ffi.new("mgt_scene *")
         if not 0 <= frame < 1 << 31 or io.mgt_scene_file_frame(self._file, frame, scene, ffi.sizeof("mgt_scene")):
@@ -128,20 +130,22 @@ class Scene:
         """A warning about values that are legal but probably a mistake; "" where there is none."""
         return text(io.mgt_scene_file_warning(self._file)) or ""
 
-    def waves(self, frame: int = 0):
+    def waves(self, frame: int = 0) -> np.ndarray:
         """The waves, an array of shape (count, 5): amplitude in metres, kx and kz in radians a metre, omega in radians a second, phase in radians;
         y += amplitude · sin(kx x + kz z + omega t + phase)."""
-        import numpy
-
         water = self.frame(frame).water
-        return numpy.array([[w.amplitude, w.kx, w.kz, w.omega, w.phase] for w in (water.waves[i] for i in range(water.wave_count))]).reshape(-1, 5)
+        return np.array([[w.amplitude, w.kx, w.kz, w.omega, w.phase] for w in (water.waves[i] for i in range(water.wave_count))]).reshape(-1, 5)
 
     def __repr__(self) -> str:
         width, height = self.size
         return f"<mangata.Scene {self._source if self._kind != 'text' else self._name!r}: {width} x {height}, {self.frames} frames>"
 
 
-def as_scene(scene: Union[Scene, Document, os.PathLike]) -> Scene:
+# What functions take as a scene.
+SceneLike = Union[Scene, Document, os.PathLike]
+
+
+def as_scene(scene: SceneLike) -> Scene:
     """A Scene; a path of a scene file, or a dictionary, becomes one."""
     if isinstance(scene, Scene):
         return scene
@@ -150,4 +154,4 @@ def as_scene(scene: Union[Scene, Document, os.PathLike]) -> Scene:
     return Scene.load(scene)
 
 
-__all__ = ["Scene", "as_scene", "MangataError"]
+__all__ = ["Scene", "SceneLike", "as_scene", "MangataError"]

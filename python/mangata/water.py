@@ -1,14 +1,27 @@
 # SPDX-License-Identifier: MIT
 """Queries about the water."""
-from typing import Dict, Optional, Sequence, Union
+from typing import Any, Dict, Optional, Sequence, TypedDict, cast
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ._library import ffi, lib, text
 from .errors import MangataError, SceneError
-from .scenes import Document, Scene, as_scene
+from .scenes import SceneLike, as_scene
 
 _ANSWERS = {"height": ("double *", np.float64, ()), "normal": ("float *", np.float32, (3,)), "velocity": ("float *", np.float32, (3,)), "jacobian": ("float *", np.float32, ()), "foam": ("float *", np.float32, ())}
+
+
+class Answers(TypedDict, total=False):
+    """What `query` gives: the answers asked for, "covariance" and "unsettled"."""
+
+    height: np.ndarray
+    normal: np.ndarray
+    velocity: np.ndarray
+    jacobian: np.ndarray
+    foam: np.ndarray
+    covariance: np.ndarray
+    unsettled: int
 
 
 def _pointer(kind: str, array: np.ndarray):
@@ -23,15 +36,15 @@ def _raise(status: int) -> None:
 
 
 def query(
-    scene: Union[Scene, Document],
-    points,
+    scene: SceneLike,
+    points: ArrayLike,
     time: Optional[float] = None,
     answers: Sequence[str] = ("height", "normal"),
     *,
     frame: int = 0,
     least_wavelength: float = 0.0,
     exact: bool = False,
-) -> Dict[str, np.ndarray]:
+) -> Answers:
     """Height, slope, motion and foam of the water at points.
 
     points   array (…, 2) of x and z in metres, float64; other types are copied
@@ -52,7 +65,7 @@ def query(
     lib.mgt_water_answers_init(asked, ffi.sizeof("mgt_water_answers"))
     asked.least_wavelength, asked.exact = least_wavelength, int(exact)
     asked.foam_share, asked.foam_persistence = view.foam, view.foam_persistence
-    result: Dict[str, np.ndarray] = {}
+    result: Dict[str, Any] = {}
     for name in answers:
         if name not in _ANSWERS:
             raise ValueError(f"answer {name!r}: allowed is {', '.join(_ANSWERS)}")
@@ -65,13 +78,16 @@ def query(
         _raise(status)
     result["covariance"] = np.array(list(asked.covariance))
     result["unsettled"] = int(asked.unsettled)
-    return result
+    return cast(Answers, result)
 
 
-def trace(scene: Union[Scene, Document], origins, directions, reach: float = 1e5, time: Optional[float] = None, *, frame: int = 0) -> np.ndarray:
+def trace(
+    scene: SceneLike, origins: ArrayLike, directions: ArrayLike, reach: float = 1e5, time: Optional[float] = None, *, frame: int = 0
+) -> np.ndarray:
     """Where rays first meet the water: multiples of their direction, float64 (…), inf where they do not by `reach`.
 
-    origins, directions  arrays (…, 3) of metres, which may be broadcast against each other
+    origins, directions  arrays (…, 3), in metres and of any length, which may be broadcast against each other
+    time     seconds; None: that of `frame`
     """
     view = as_scene(scene).frame(frame)
     origins, directions = np.broadcast_arrays(np.asarray(origins, np.float64), np.asarray(directions, np.float64))

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: MIT
 """The package against the command, against numpy, and with bad input."""
 import gc
+import inspect
 import os
 import subprocess
 import threading
+import typing
 
 import numpy as np
 import pytest
@@ -294,3 +296,22 @@ def test_every_public_name_has_a_docstring_and_types():
         assert thing.__doc__, name
         if callable(thing) and not isinstance(thing, type):
             assert "return" in thing.__annotations__, name
+
+
+# ---- types ----
+
+
+def test_all_that_is_public_has_types_and_text():
+    assert os.path.exists(os.path.join(os.path.dirname(mangata.__file__), "py.typed"))
+    for name in mangata.__all__:
+        thing = getattr(mangata, name)
+        assert thing.__doc__, name
+        members = [(key, member) for key, member in vars(thing).items() if not key.startswith("_") or key == "__init__"] if inspect.isclass(thing) else [(name, thing)]
+        for key, member in members:
+            function = member.fget if isinstance(member, property) else getattr(member, "__func__", member)
+            if not inspect.isfunction(function):
+                continue
+            hints = typing.get_type_hints(function)
+            missing = [word for word in [*inspect.signature(function).parameters, "return"] if word not in hints and word not in ("self", "cls")]
+            assert not missing, f"{name}, {key}: no type of {', '.join(missing)}"
+            assert function.__doc__ or key == "__init__", f"{name}, {key}: no text"
