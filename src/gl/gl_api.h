@@ -114,7 +114,7 @@ typedef struct gl_api {
 #undef GL_MEMBER
 } gl_api;
 
-/* Fills the table. NULL, or the name of the first function that `get_proc` does not know. */
+/* Fills the table. Returns NULL, or the name of the first function that `get_proc` does not know. */
 const char *gl_api_load(gl_api *gl, mgt_gl_get_proc get_proc);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * A tree of boxes over a world's triangles, as shaders walk it: see bvh.glsl. */
+ * The bounding volume hierarchy over a world's triangles, in the form that shaders read: see bvh.glsl. */
 #ifndef MANGATA_GL_GL_BVH_H
 #define MANGATA_GL_GL_BVH_H
 
@@ -8,11 +8,11 @@
 #include "kernels/common/constants.h"
 
 /*
- * One list of texels of four numbers: nodes of four texels, the root first, then leaves of one. A node:
+ * One list of texels of four numbers. It holds the nodes, of four texels each and the root first, then the leaves, of one texel each. A node is
  *     left low x, y, z, left child      left high x, y, z, right child      right low x, y, z, 0      right high x, y, z, 0
- * with floats by their bits; a box is wider than its triangles by what rounding may be off by. A child is the texel where a node begins, or
- * BVH_LEAF + the texel of a leaf: up to four triangles in rising order, then BVH_NOTHING. There is a root always, if need be of empty leaves.
- * No path from the root passes through more than BVH_LEVELS nodes, so that a walk that puts off one child a node needs room for as many.
+ * with floats stored by their bits. A box is wider than its triangles by the error that rounding may have. A child is the first texel of a node, or BVH_LEAF +
+ * the texel of a leaf. A leaf holds up to BVH_LEAF_TRIANGLES triangles in rising order; BVH_NOTHING fills the rest. There always is a root, with empty leaves if
+ * there are no triangles. A path from the root passes at most BVH_LEVELS nodes, so a traversal that postpones one child per node needs room for so many.
  */
 
 typedef struct gl_bvh {
@@ -20,7 +20,8 @@ typedef struct gl_bvh {
     uint32_t (*texels)[4];
 } gl_bvh;
 
-/* The same tree whatever the pool's threads. Beside the tree it takes 28 bytes a triangle and as much again as the tree while it is built. */
+/* Builds the tree of `w` into `out`, which the caller frees with gl_bvh_free(). The tree does not depend on the number of the pool's threads. Besides the tree
+ * the build temporarily needs 28 bytes per triangle and as much memory as the tree. Returns MGT_OK or MGT_ERROR_MEMORY. */
 mgt_status gl_bvh_build(gl_bvh *out, const world *w, thread_pool *pool);
 void gl_bvh_free(gl_bvh *b);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Method adaptive's cells on the GPU: the memory of its rounds. */
+ * Memory for the refinement cells of method adaptive on the GPU. */
 #ifndef MANGATA_GL_GL_CELLS_H
 #define MANGATA_GL_GL_CELLS_H
 
@@ -7,12 +7,12 @@
 
 /* Kept between frames, see cells_layout.h. */
 typedef struct gl_cells {
-    gl_buffer leaves; /* two sides, which rounds take in turns */
-    gl_buffer state;  /* numbers of the frame and its tiles, and lists */
-    gl_buffer pixels; /* weights, and heights of hits */
-    gl_buffer sets;   /* waves */
-    gl_buffer foam;   /* a foam_set for each of these, where there is foam */
-    gl_buffer frames; /* FrameData for cells of each size */
+    gl_buffer leaves; /* the pool of leaves: two sides, of which each round reads one and writes the other */
+    gl_buffer state;  /* words of the frame, words of its tiles, and lists */
+    gl_buffer pixels; /* weight and height of the hit for each pixel */
+    gl_buffer sets;   /* sets of waves */
+    gl_buffer foam;   /* a foam_set for each set of waves, if there is foam */
+    gl_buffer frames; /* a FrameData for each size of cells */
 } gl_cells;
 
 void gl_cells_free(const gl_api *gl, gl_cells *c);

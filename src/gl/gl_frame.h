@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: MIT
- * The steps that frames on the GPU are made of: bands of tiles, and passes over each. */
+ * The steps of a frame on the GPU: bands of tiles, and passes over each band. */
 #ifndef MANGATA_GL_GL_FRAME_H
 #define MANGATA_GL_GL_FRAME_H
 
 #include "gl/gl_renderer.h"
 
-/* Rows of tiles that the buffers of the renderer hold at a time. */
+/* Rows of tiles that the renderer's buffers hold at one time. */
 typedef struct gl_band {
     PassData pass;
-    uint32_t tiles; /* of one set of waves */
+    uint32_t tiles; /* number of the band's tiles */
 } gl_band;
 
-/* One picture of a frame. */
+/* The drawing of one picture of a frame. */
 typedef struct gl_run {
     gl_renderer *g;
     const gl_job *job;
@@ -19,13 +19,13 @@ typedef struct gl_run {
     const method_row *method;
     mgt_method_waves waves;
     gl_program program;
-    uint32_t first_row, end_row, first_column, columns; /* of tiles */
-    uint32_t band_rows;
-    int wave_stride;
-    bool objects;    /* the scene has some, or the camera is under water */
-    float crests[2]; /* view.skyline_top when the shutter closes and when it opens, whose skylines are in the renderer's texture; 0: there is none */
-    GLsync behind;   /* of the last step but one told */
-    double done, steps;
+    uint32_t first_row, end_row, first_column, columns; /* the picture's tiles: rows first_row … end_row − 1, and columns from first_column on */
+    uint32_t band_rows;                                 /* rows of tiles of a band */
+    int wave_stride;                                    /* PassData.wave_stride */
+    bool objects;                                       /* the scene has objects, or the camera is under water */
+    float crests[2];                                    /* skyline_top of the views when the shutter closes and when it opens; 0: there is no skyline */
+    GLsync behind;                                      /* fence behind the last step that was submitted; NULL: none, as long as nothing reports progress */
+    double done, steps;                                 /* progress: steps that are done, steps in all */
 } gl_run;
 
 /* Fills the run, and reserves the band's lists of waves: each tile has a place in each of `sets`. */
@@ -35,30 +35,30 @@ void gl_run_end(gl_run *run);
 /* The band that begins with a row of tiles. */
 gl_band gl_band_at(const gl_run *run, uint32_t row);
 
-/* The frame's waves before a camera, into g->waves; `opens`: they have the skyline of the shutter's opening, else of its end. */
+/* Places the frame's waves before a camera, in g->waves. `opens`: their skyline is that of the shutter's opening; otherwise that of its closing. */
 void gl_place_waves(const gl_run *run, const camera_rays *camera, interval time, bool opens);
 
-/* Sorts the waves that g->waves holds into the band's tiles from `first_slot` on. `open_slots`: where the same tiles stand as they were when the
- * shutter opened, as in PassData. */
+/* Sorts the waves of g->waves for the band's tiles, which are stored from `first_slot` on. `open_slots` is PassData.open_slots. */
 mgt_status gl_sort_tiles(const FrameData *data, const gl_run *run, const gl_band *b, uint32_t first_slot, uint32_t open_slots);
 
-/* Lattices of first hits in the first `tiles` tiles. */
+/* Searches the lattices of first hits of the first `tiles` tiles. */
 mgt_status gl_search_nodes(const gl_run *run, uint32_t tiles);
 
 /* Binds the tiles' buffers, the layers as images and the sky. Layers that do not exist are not written: a store to no image has no effect. */
 void gl_bind_tiles(const gl_renderer *g);
 void gl_bind_layers(const gl_renderer *g);
 
-/* Of scenes with objects: their layers and what else their passes need; where the camera moves, what all pixels see of them when the shutter opens. */
+/* Prepares the passes over objects in a scene that has some: draws the objects' layers and makes their tables. If the camera moves, it also finds what all
+ * pixels see of the objects when the shutter opens. */
 mgt_status gl_prepare_objects(const gl_run *run);
 
-/* What the band's pixels see of objects; nothing where there are none. */
+/* Finds what the band's pixels see of objects. Does nothing without objects. */
 mgt_status gl_see_band(const gl_run *run, const gl_band *b);
 
-/* Objects in front of the water over the band's layers. */
+/* Draws the objects in front of the water over the band's layers. */
 mgt_status gl_put_objects_in_front(const gl_run *run, const gl_band *b);
 
-/* Tells that a step has been sent, and waits until the one before has run, so that the caller hears where the GPU is. */
+/* Reports that a step has been submitted. Waits until the step before it has run, so that reported progress is that of the GPU. */
 mgt_status gl_step_done(gl_run *run, double steps);
 
 #endif

@@ -17,7 +17,7 @@ typedef struct image_binding {
     GLint name, level, layered, layer, access, format;
 } image_binding;
 
-/* Everything: program, buffers, textures, images, pixel store and what drawing a view needs. */
+/* The saved state: program, buffers, textures, images, pixel store, and the state that drawing a view changes. */
 typedef struct gl_host_state {
     GLint program;
     GLint uniform_buffer, storage_buffer, pack_buffer, unpack_buffer, indirect_buffer;
@@ -37,14 +37,14 @@ typedef struct gl_host_state {
     GLint blend_source_rgb, blend_destination_rgb, blend_source_alpha, blend_destination_alpha, blend_equation_rgb, blend_equation_alpha;
 } gl_host_state;
 
-/* Saves, and sets the pixel store that transfers here rely on. */
+/* Saves the state of the current context, then sets the pixel store that transfers of the backend rely on. */
 void gl_host_state_save(const gl_api *gl, gl_host_state *s);
 void gl_host_state_restore(const gl_api *gl, const gl_host_state *s);
 
-/* Of that, what is set before triangles are drawn. */
+/* Restores only the part of the state that drawing triangles uses. */
 void gl_host_state_restore_drawing(const gl_api *gl, const gl_host_state *s);
 
-/* Switches off all that would change what a full-screen triangle writes, but for depth test and blending. */
+/* Switches off everything that would change what a full-screen triangle writes, except depth test and blending. */
 void gl_host_state_neutral(const gl_api *gl, const gl_host_state *s);
 
 #endif

@@ -11,7 +11,7 @@ typedef struct gl_buffer {
     size_t size;
 } gl_buffer;
 
-/* At least `size` bytes; the old contents are lost when it grows. `flags` are those of glNamedBufferStorage. */
+/* Makes the buffer at least `size` bytes large. If it grows, its contents are lost. `flags` are those of glNamedBufferStorage. */
 mgt_status gl_buffer_reserve(const gl_api *gl, gl_buffer *b, size_t size, GLbitfield flags, const reporter *r);
 void gl_buffer_free(const gl_api *gl, gl_buffer *b);
 
@@ -21,12 +21,12 @@ typedef struct gl_image {
     uint32_t width, height;
 } gl_image;
 
-/* At least width × height texels of `format`; the old contents are lost when it grows. */
+/* Makes the image at least width × height texels of `format` large. If it grows, its contents are lost. */
 mgt_status gl_image_reserve(const gl_api *gl, gl_image *image, GLenum format, uint32_t width, uint32_t height, const reporter *r);
 void gl_image_free(const gl_api *gl, gl_image *image);
 
-/* Uniform data on their way: one mapped buffer in segments. A segment is written again when the GPU has read it, which it has long done by the
- * time the others are full. */
+/* A ring of uniform data that the CPU writes and the GPU reads: one mapped buffer in segments. A segment is written again after the GPU has read it, which it
+ * usually has by the time that the other segments are full. */
 enum { RING_SEGMENTS = 3 };
 
 typedef struct gl_ring {
@@ -34,21 +34,21 @@ typedef struct gl_ring {
     char *map;
     size_t segment_size, alignment;
     int segment;
-    size_t used;                  /* of the segment */
-    GLsync fences[RING_SEGMENTS]; /* behind the last commands that read a segment; NULL: none */
+    size_t used;                  /* bytes of the current segment that are in use */
+    GLsync fences[RING_SEGMENTS]; /* fence behind the last commands that read each segment; NULL: none */
 } gl_ring;
 
 mgt_status gl_ring_create(const gl_api *gl, gl_ring *ring, size_t segment_size, const reporter *r);
 void gl_ring_free(const gl_api *gl, gl_ring *ring);
 
-/* What the next `parts` allocations, `size` bytes in all, need together in one segment: their data stay until the commands issued before the next but
- * one call have run. */
+/* Reserves room in one segment for the next `parts` allocations, which are `size` bytes together. Their data stay until the commands have run that are issued
+ * before the call after the next one. */
 mgt_status gl_ring_begin(const gl_api *gl, gl_ring *ring, size_t size, size_t parts, const reporter *r);
 
-/* A place to write `size` bytes, as `offset` in ring->buffer. */
+/* Allocates `size` bytes of the reserved room. Returns their address; `offset` returns their place in ring->buffer. */
 void *gl_ring_allocate(gl_ring *ring, size_t size, size_t *offset);
 
-/* Reports errors of OpenGL since the last check, with the name of the pass. */
+/* Reports the errors of OpenGL since the last check, with the name of the pass. Returns MGT_OK if there was none. */
 mgt_status gl_check(const gl_api *gl, const char *pass, const reporter *r);
 
 #endif

@@ -17,13 +17,13 @@ _Static_assert(sizeof(GbufferData) % 16 == 0 && sizeof(ObjectsData) % 16 == 0, "
 _Static_assert(sizeof(CellsData) % 16 == 0, "std140 layout");
 _Static_assert(sizeof(SortData) == 32 && sizeof(TileWave) == 16, "std430 layout");
 
-/* Binding points, as in the shaders. */
+/* Binding points; those in the shaders are equal. Names that no program uses together share numbers. */
 enum {
     BIND_FRAME = 0,   /* uniform blocks */
-    BIND_PICTURE = 1, /* what a pass over objects or a map of slopes reads */
+    BIND_PICTURE = 1, /* uniform data of a pass over objects or of a map of slopes */
     BIND_PASS = 2,
     BIND_EXTRA = 3,         /* the view that sorts tiles, a map of slopes, glare, a blend, or window */
-    BIND_UNIFORM_WAVES = 4, /* the frame's waves, where waves_in_block of gl_renderer.h */
+    BIND_UNIFORM_WAVES = 4, /* the frame's waves if gl_renderer.waves_in_block is true */
     UNIFORM_BINDINGS,
 
     BIND_TILES = 0, /* storage blocks */
@@ -38,11 +38,11 @@ enum {
     BIND_TASKS = 5,
     BIND_LEAVES = 4, /* method adaptive, cells: see cells_data.glsl */
     BIND_CELLS = 5,
-    BIND_WAVES = 6, /* the frame's waves, or those of the map of slopes, else; for cells: all sets of waves */
-    BIND_FOAM = 7,  /* programs of shading; for cells: one for each set of waves */
-    BIND_SLOTS = 8, /* method adaptive, beside foam */
-    BIND_PIXELS = 8,
-    STORAGE_BINDINGS, /* so many must be there */
+    BIND_WAVES = 6,   /* the frame's waves if they are in no uniform block, the waves of the map of slopes, or all sets of waves of cells */
+    BIND_FOAM = 7,    /* the foam of programs that shade; for cells the foam of each set of waves */
+    BIND_SLOTS = 8,   /* method adaptive, scheme podee */
+    BIND_PIXELS = 8,  /* method adaptive, cells */
+    STORAGE_BINDINGS, /* number of storage bindings that the context must have */
 
     UNIT_SKY = 0, /* textures; those that no program reads together share units */
     UNIT_FINE = 1,
@@ -69,7 +69,7 @@ enum {
     UNIT_TREE = UNIT_FRONT_LAYER + 2,
     UNIT_NEIGHBOURS,
     UNIT_FRONT = 1,
-    UNIT_HIDDEN = 11, /* what methods see of objects */
+    UNIT_HIDDEN = 11, /* images of the passes over objects that methods read */
     UNIT_CLEAR,
     UNIT_DEEP,
     UNIT_BODY,
@@ -82,7 +82,7 @@ enum {
     IMAGE_DEPTH,
     IMAGE_NORMAL,
     IMAGE_LAYERS,
-    IMAGE_SAMPLES = IMAGE_DEPTH, /* method adaptive's instead */
+    IMAGE_SAMPLES = IMAGE_DEPTH, /* of method adaptive, instead of depth */
     IMAGE_IMPORTANCE,
     IMAGE_DETAIL,
     IMAGE_UNITS = 7 /* objects.comp has names of its own for them */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Scenes with objects on the GPU: what pixels see of them through the water's surface, mirrored by it and in front of it. */
+ * Passes over scenes with objects on the GPU: objects in front of the water, objects behind its surface, and objects that the surface mirrors. */
 #ifndef MANGATA_GL_GL_REFRACTION_H
 #define MANGATA_GL_GL_REFRACTION_H
 
@@ -21,46 +21,46 @@ typedef struct gl_objects_block {
     ObjectsData objects;
 } gl_objects_block;
 
-/* What pixels see of objects: see the shaders of their names. */
+/* Images of the objects that pixels see. The shaders objects_*.comp write and describe them. */
 typedef struct gl_seen {
     gl_image body, mirrored; /* RGBA32F */
     gl_image front, surface; /* RGBA32F */
     gl_image error;          /* R32F */
-    gl_image clear, deep;    /* RGBA32F; the last while a camera is under water */
+    gl_image clear, deep;    /* RGBA32F; `deep` only for a camera under water */
 } gl_seen;
 
 typedef struct gl_refraction {
-    gl_seen seen, opened; /* now, and while a camera moves, when the shutter opened */
+    gl_seen seen, opened; /* when the shutter closes and, for a moving camera alone, when it opens; gl_refraction_blend() puts the mean of both in `seen` */
     shade_scene *shade;
     gl_table materials; /* RGBA32F */
-    gl_table texels;    /* R32UI, of all textures */
-    uint64_t *textures; /* identities of those that `texels` holds, in their order */
+    gl_table texels;    /* R32UI: the texels of all textures */
+    uint64_t *textures; /* identities of the textures that `texels` holds, in the same order */
     size_t texture_count, texture_room;
     gl_image shadows;        /* R32F */
-    shadow_rays shadow_rays; /* of the map that `shadows` holds */
-    uint64_t shadow_version; /* of the world in that map; 0: none */
-    gl_buffer water, lists;  /* of a band's pixels: see objects_pixel.glsl */
+    shadow_rays shadow_rays; /* rays of the light for which the map in `shadows` was made */
+    uint64_t shadow_version; /* version of the world in that map; 0: none */
+    gl_buffer water, lists;  /* values and lists of a band's pixels: see objects_pixel.glsl */
     gl_objects_block block;
-    SearchWave again[MAX_WAVES]; /* those of block.narrow.waves */
+    SearchWave again[MAX_WAVES]; /* the waves that NarrowData.waves counts */
 } gl_refraction;
 
-/* Everything that the objects of a frame need before its bands: draws them, and brings lights, materials and shadows up to date. */
+/* Prepares the objects of a frame before its bands: draws their layers and updates lights, materials and shadows. */
 mgt_status gl_refraction_prepare(struct gl_renderer *g, const frame *f, const region *area, const reporter *r);
 
-/* A texel of each image and table that a frame may do without: see gl_frame_begin(). */
+/* Reserves one texel of each image and table that a frame may lack: see gl_frame_begin(). */
 mgt_status gl_refraction_reserve_least(struct gl_renderer *g, const reporter *r);
 
-/* Pixels of a band that the buffers can take at a time. */
+/* Largest number of pixels of a band. */
 enum { REFRACTION_PIXELS = 1 << 20 };
 
-/* What the pixels of a band see of objects. The band's tiles are those of the filtered waves over frame_shutter(). */
+/* Finds what the pixels of a band see of objects. The band's tiles must be those of the filtered waves over frame_shutter(). */
 mgt_status gl_refraction_see(struct gl_renderer *g, const PassData *pass, const reporter *r);
 
-/* Keeps what has been seen as that of the shutter's opening, and makes it part of a band's. */
+/* gl_refraction_keep() keeps the images as those of the shutter's opening. gl_refraction_blend() then makes those of a band the mean of both ends. */
 void gl_refraction_keep(struct gl_renderer *g);
 mgt_status gl_refraction_blend(struct gl_renderer *g, const PassData *pass, const reporter *r);
 
-/* Binds what methods read of it, and what objects_compose.comp does. */
+/* gl_refraction_bind_light() binds the images that methods read, gl_refraction_bind_front() those that objects_compose.comp reads. */
 void gl_refraction_bind_light(const struct gl_renderer *g);
 void gl_refraction_bind_front(const struct gl_renderer *g);
 

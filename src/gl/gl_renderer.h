@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * What the OpenGL backend keeps between frames, and the passes that make a frame of it. */
+ * The renderer of the OpenGL backend: its state between frames, and the passes of a frame. */
 #ifndef MANGATA_GL_GL_RENDERER_H
 #define MANGATA_GL_GL_RENDERER_H
 
@@ -22,13 +22,13 @@ typedef struct gl_layers {
     gl_image coverage, water, depth; /* R32F */
     gl_image normal;                 /* RGBA32F, alpha 1 */
     gl_image display;                /* RGBA8 */
-    gl_image samples;                /* R32F: what method adaptive has spent; of other methods one number everywhere */
-    gl_image importance, detail;     /* R32F: what samples were spent for, and what came of them; likewise */
+    gl_image samples;                /* R32F: samples per pixel; methods other than adaptive have the same number everywhere */
+    gl_image importance, detail;     /* R32F: the layers MGT_LAYER_IMPORTANCE and MGT_LAYER_DETAIL */
 } gl_layers;
 
 enum { GLARE_LEVELS = 16 };
 
-/* The pyramid for pictures of one size. */
+/* The blur pyramid of glare for pictures of one size. */
 typedef struct gl_glare {
     uint32_t width, height;
     size_t count;
@@ -43,7 +43,7 @@ typedef struct gl_podee {
     bool filled;
 } gl_podee;
 
-/* What scheme podee of method adaptive keeps of a picture and of a band: see slots_data.glsl. */
+/* Buffers of scheme podee of method adaptive, for a picture and for a band: see slots_data.glsl. */
 typedef struct gl_slots {
     gl_buffer plan, tasks, values, commands;
 } gl_slots;
@@ -52,15 +52,15 @@ typedef struct gl_slots {
 typedef struct gl_lean {
     LeanData data;
     GLuint mean, square; /* RG32F; RGBA32F, from level 1 on */
-    lean_waves waves;    /* that fill it */
+    lean_waves waves;    /* the waves that fill the map */
     bool filled;
 } gl_lean;
 
 typedef struct gl_limits {
     uint32_t texture_side;
-    bool software;        /* llvmpipe and its like */
-    size_t storage_bytes; /* of a buffer that shaders write */
-    size_t table_texels;  /* elements of a buffer that shaders fetch */
+    bool software;        /* the driver renders on the CPU, as llvmpipe does */
+    size_t storage_bytes; /* largest size of a buffer that shaders write */
+    size_t table_texels;  /* largest number of elements of a buffer that shaders fetch */
 } gl_limits;
 
 typedef struct gl_renderer {
@@ -69,9 +69,9 @@ typedef struct gl_renderer {
     gl_programs programs;
     gl_ring ring;
     gl_timers timers;
-    gl_buffer tiles, tile_waves, search_waves, nodes; /* of a band */
+    gl_buffer tiles, tile_waves, search_waves, nodes; /* lists of a band of tiles */
     gl_layers layers;
-    gl_layers history[2]; /* color, coverage and mask alone: for fxaa and taa */
+    gl_layers history[2]; /* for fxaa and taa; these have color, coverage and mask alone */
     gl_image luma;        /* R32F, for fxaa */
     gl_glare glare;
     gl_podee podee;
@@ -81,57 +81,57 @@ typedef struct gl_renderer {
     gl_objects objects;
     gl_gbuffers gbuffers;
     gl_refraction refraction;
-    const gl_host_state *host; /* during a call in a host's context, else NULL */
-    uint32_t threads;          /* for tables that the CPU makes; 0: as many as this process may use */
+    const gl_host_state *host; /* the saved state of the host's context during a call in it, else NULL */
+    uint32_t threads;          /* threads for tables that the CPU makes; 0: as many as this process may use */
     GLuint sky_texture;
-    GLuint skyline_texture; /* a row when the shutter closes, a row when it opens */
-    GLuint sampler;         /* of all textures: the nearest texel */
+    GLuint skyline_texture; /* two rows: the skylines when the shutter closes and when it opens */
+    GLuint sampler;         /* the sampler of all textures, which takes the nearest texel */
     bool samplers_set;      /* see gl_frame_begin() */
-    GLuint vertex_array;    /* empty */
-    sky_state *sky;         /* of the last frame */
-    wave_set *waves;        /* of the pass being prepared */
-    bool waves_in_block;    /* the frame's stand in a uniform block, else in a storage buffer */
-    const char *pass;       /* the current one's name */
+    GLuint vertex_array;    /* a vertex array without attributes */
+    sky_state *sky;         /* the sky of the last frame */
+    wave_set *waves;        /* the waves of the pass that is being prepared */
+    bool waves_in_block;    /* true: the frame's waves stand in a uniform block; false: in a storage buffer */
+    const char *pass;       /* name of the current pass */
 } gl_renderer;
 
-/* The current context must be the one that the functions of r->gl belong to, here and below. */
+/* Creates a renderer in the current OpenGL context, which `get_proc` belongs to. The same context must be current during every other call below. */
 mgt_status gl_renderer_create(gl_renderer **out, mgt_gl_get_proc get_proc, const reporter *r);
 void gl_renderer_destroy(gl_renderer *g);
 
-/* A pass: its debug group and its timer. The end looks for errors. */
+/* Begin and end a pass with its debug group and its timer. gl_pass_end() reports errors of OpenGL. */
 void gl_pass_begin(gl_renderer *g, const char *name);
 mgt_status gl_pass_end(gl_renderer *g, const reporter *r);
 
-/* Program `which` in use, built if need be. */
+/* Makes program `which` current. Builds it first if it has not been built. */
 mgt_status gl_use(gl_renderer *g, gl_program which, const reporter *r);
 
-/* Waves that a block of `count` has room for: as many as shaders declare, or at least one. */
+/* Number of waves that a block for `count` waves has room for. In a uniform block that is the number that shaders declare; elsewhere it is at least one. */
 size_t gl_wave_room(const gl_renderer *g, size_t count);
 
-/* A texture for the next dispatch. */
+/* Binds a texture to a unit. */
 void gl_bind_texture(const gl_renderer *g, GLuint unit, GLuint texture);
 
-/* An image for the next dispatch; nothing where it was never reserved. */
+/* Binds an image to a unit. An image that was never reserved unbinds the unit. */
 void gl_bind_image(const gl_renderer *g, GLuint unit, const gl_image *image, GLenum access);
 
-/* A uniform block for the next dispatch, copied into the ring. */
+/* Copies `data` into the ring and binds the copy as a uniform block. */
 void gl_uniform(gl_renderer *g, GLuint binding, const void *data, size_t size);
 
-/* Where a camera is from the shutter's opening (0) to its closing (1); below 0, where it was before. */
+/* The camera's rays at the fraction `share` of the shutter, from its opening (0) to its closing (1). A negative `share` is a time before the shutter opens. */
 typedef camera_rays (*gl_camera_at)(const void *user, double share);
 
-/* What to draw. */
+/* A frame to draw. */
 typedef struct gl_job {
     const frame *frame;
-    gl_camera_at camera_at; /* for samples and parts of the shutter, and frames before */
-    const void *camera_user;
-    region area;       /* of the image: what the layers get; all of it for methods that work on whole pictures */
-    bool wants_pixels; /* color, coverage or mask */
+    gl_camera_at camera_at;  /* cameras of samples, of parts of the shutter and of earlier frames */
+    const void *camera_user; /* first argument of camera_at */
+    region area;             /* part of the image that the layers hold; the whole image for methods that work on whole pictures */
+    bool wants_pixels;       /* color, coverage or mask is asked for */
     bool wants_depth, wants_normal;
-    bool shaded_depth;              /* the depth that the method itself finds will do: filtered ones are spared another look for point samples */
-    bool background;                /* sky behind the water */
-    bool behind;                    /* objects in front of the water are left out */
-    mgt_progress_function progress; /* NULL: none, and nothing waits */
+    bool shaded_depth;              /* true: the depth of the method's own hit will do, so filtered methods need no search for point samples */
+    bool background;                /* false: the sky behind the water is left out */
+    bool behind;                    /* true: objects in front of the water are left out */
+    mgt_progress_function progress; /* NULL: progress is not reported, and the CPU does not wait for the GPU */
     void *progress_user;
 } gl_job;
 
@@ -141,19 +141,20 @@ mgt_status gl_frame_render(gl_renderer *g, const gl_job *job, const reporter *r)
 /* The same for methods that work on whole pictures. */
 mgt_status gl_whole_frame_render(gl_renderer *g, const gl_job *job, const reporter *r);
 
-/* The layers that only method adaptive makes a picture of: memory for them, and what they hold for other methods. */
+/* The layers samples, importance and detail, which only method adaptive computes. gl_spent_reserve() reserves their memory. gl_spent_fill() fills them with the
+ * constants of another method. */
 mgt_status gl_spent_reserve(gl_renderer *g, const region *area, const reporter *r);
 mgt_status gl_spent_fill(gl_renderer *g, const region *area, const mgt_quality *quality, const reporter *r);
 
-/* Method adaptive: colour, coverage, mask and those layers. */
+/* Method adaptive: draw color, coverage, mask, samples, importance and detail. gl_adaptive_podee_render() is scheme podee. */
 mgt_status gl_adaptive_render(gl_renderer *g, const gl_job *job, const reporter *r);
 mgt_status gl_adaptive_podee_render(gl_renderer *g, const gl_job *job, const reporter *r);
 void gl_adaptive_podee_free(gl_renderer *g);
 
-/* The same for the cells of method adaptive; gl_cells.c. */
+/* The same by refinement cells; see gl_cells.c. */
 mgt_status gl_cells_render(gl_renderer *g, const gl_job *job, const reporter *r);
 
-/* What single methods read beside: filled where they are not yet, bound for the next dispatch, freed. */
+/* Tables of podee-* and the map of lean and leadr. The functions …_prepare fill them if they are not up to date, …_bind bind them for the next dispatch. */
 mgt_status gl_podee_prepare(gl_renderer *g, const mgt_scene *scene, const reporter *r);
 void gl_podee_bind(const gl_renderer *g);
 void gl_podee_free(gl_renderer *g);
@@ -167,7 +168,7 @@ mgt_status gl_display_render(gl_renderer *g, const frame *f, const region *area,
 /* Frees the pyramid. */
 void gl_glare_free(gl_renderer *g);
 
-/* Before a frame: programs for its kind of water, something in every place that they may read, and the sky's texture up to date. */
+/* Prepares a frame: chooses the programs for its kind of water, binds something to every unit that they may read, and updates the sky's texture. */
 mgt_status gl_frame_begin(gl_renderer *g, const mgt_scene *scene, const reporter *r);
 
 #endif

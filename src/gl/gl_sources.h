@@ -19,13 +19,13 @@ typedef struct gl_text {
 extern const gl_text gl_texts[];
 extern const size_t gl_text_count;
 
-/* Texts that stand in for embedded ones: one block of memory, or none. */
+/* Texts that replace embedded ones, in one block of memory. */
 typedef struct gl_replacements {
     gl_text *texts;
     size_t count;
 } gl_replacements;
 
-/* Copies; false without memory. `count` may be 0. */
+/* Copies `sources` into `out`. `count` may be 0. Returns false when out of memory. */
 bool gl_replacements_copy(gl_replacements *out, const mgt_gl_source *sources, size_t count);
 void gl_replacements_free(gl_replacements *r);
 
@@ -34,14 +34,14 @@ bool gl_text_exists(const char *name);
 
 enum { MAX_FILES = 64 };
 
-/* A whole source, and which file each number of a #line names. */
+/* A whole source, and the files that the numbers of its #line directives stand for. */
 typedef struct gl_source {
     char *text;
     size_t length, capacity;
     const char *files[MAX_FILES]; /* [0] is what stands before the first file */
     int file_count;
-    const char *kernel;  /* of a method, or NULL */
-    const char *missing; /* name of a file that was asked for and is not there, else NULL */
+    const char *kernel;  /* name of the text that #include "method.k" stands for, or NULL */
+    const char *missing; /* name of an included file that does not exist, or NULL */
     bool out_of_memory;
 } gl_source;
 
@@ -50,11 +50,11 @@ typedef struct gl_source {
 bool gl_source_assemble(gl_source *out, const gl_replacements *replaced, const char *main, const char *kernel, const char *defines);
 void gl_source_free(gl_source *s);
 
-/* A number that differs, but for one case in 10^19, where the text does. */
+/* A 64-bit hash of the source's text. */
 uint64_t gl_source_hash(const gl_source *s);
 
-/* The first error of a driver's log as "glitter.k:12: …". Knows "0:12(5): error: …", "0(12) : error …" and "ERROR: 0:12: …"; a log without any
- * gives its first line. */
+/* Writes the first error of a driver's log to `out` in the form "glitter.k:12: …". It knows the forms "0:12(5): error: …", "0(12) : error …" and
+ * "ERROR: 0:12: …". If there is none of these, it writes the log's first line. */
 void gl_source_explain(const gl_source *s, const char *log, char *out, size_t size);
 
 #endif

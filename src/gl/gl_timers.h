@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * GPU time of passes by timestamps, read a few frames later and never waited for. */
+ * GPU times of passes by timestamps. They are read a few frames later, so that the CPU never waits for them. */
 #ifndef MANGATA_GL_GL_TIMERS_H
 #define MANGATA_GL_GL_TIMERS_H
 
@@ -17,7 +17,7 @@ typedef struct timer_frame {
 
 typedef struct gl_timers {
     timer_frame frames[TIMER_FRAMES];
-    int current; /* frame being timed; −1: none, since the GPU is behind */
+    int current; /* frame that is being timed; −1: none, because the GPU is behind */
     int next;
     mgt_gl_timing timings[TIMER_NAMES];
     size_t count;

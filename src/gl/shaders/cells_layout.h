@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Where the buffers of method adaptive's cells hold what, for C and GLSL; see cells_data.glsl. Places are counted in words of four bytes, a double is two
- * of them.
+ * The layout of the buffers of method adaptive's cells, for C and GLSL; see cells_data.glsl. Places are counted in words of four bytes. A double has two words.
  */
 #ifndef CELLS_LAYOUT_H
 #define CELLS_LAYOUT_H
@@ -9,20 +8,20 @@
 /* ---- the frame's words ---- */
 
 #define CELLS_ROUND 0
-#define CELLS_RUNNING 1 /* 1 while rounds go on */
-#define CELLS_BUCKET 2  /* the round splits the cells above this bucket */
-#define CELLS_POINTS 3  /* it adds points to leaves above this bucket */
-#define CELLS_LEAST 4   /* leaves up to this bucket are settled */
-#define CELLS_SHARE 5   /* it splits this share of the cells in the bucket, a double */
-#define CELLS_BUDGET 7  /* evaluations in all, a double */
-#define CELLS_JOBS 9    /* of the round: tiles of one size of cells */
-#define CELLS_GROUPS 10 /* of the round: groups of cells of one job */
-#define CELLS_POINT_TILES 11
-#define CELLS_POINT_GROUPS 12 /* of the round: groups of points of one leaf */
-#define CELLS_LEAVES 13       /* that are open */
+#define CELLS_RUNNING 1       /* 1: rounds go on; 0: the refinement has ended */
+#define CELLS_BUCKET 2        /* the round splits the cells above this bucket */
+#define CELLS_POINTS 3        /* the round adds points to the leaves above this bucket */
+#define CELLS_LEAST 4         /* leaves up to this bucket are settled */
+#define CELLS_SHARE 5         /* the round splits this fraction of the cells in the bucket, a double */
+#define CELLS_BUDGET 7        /* evaluations that may be spent in all, a double */
+#define CELLS_JOBS 9          /* number of the round's jobs; a job is the cells of one size in a tile */
+#define CELLS_GROUPS 10       /* number of the round's groups; a group is cells of one job */
+#define CELLS_POINT_TILES 11  /* number of the round's tiles with points */
+#define CELLS_POINT_GROUPS 12 /* number of the round's groups of points; a group is points of one leaf */
+#define CELLS_LEAVES 13       /* number of open leaves */
 #define CELLS_USED 14         /* evaluations before the round, a double */
 
-/* Sizes of dispatches, four words each. */
+/* Sizes of indirect dispatches, four words each. */
 #define CELLS_SIZES 64
 #define CELLS_BATCHES 16
 #define CELLS_TILES_SIZE CELLS_SIZES
@@ -32,7 +31,7 @@
 #define CELLS_POINT_SIZE (CELLS_POINT_SORT_SIZE + 4 * CELLS_BATCHES)
 #define CELLS_SIZES_END (CELLS_POINT_SIZE + 4 * CELLS_BATCHES)
 
-/* What leaves of a bucket cost: two words for cells, then two for points, the lower one first. */
+/* Cost of the leaves of each bucket: two words for cells, then two for points, the lower word first. */
 #define CELLS_CENSUS 512
 #define CELLS_TILES (CELLS_CENSUS + 4 * WORTH_BUCKETS)
 
@@ -40,7 +39,7 @@
 
 #define TILE_FIRST 0        /* place of its first leaf in the pool */
 #define TILE_LEAVES 1       /* number of its leaves */
-#define TILE_NEXT 2         /* where they go next: those that stay, then new cells, then those that take points */
+#define TILE_NEXT 2         /* place of its leaves in the other side of the pool: those that stay, then new cells, then those that take points */
 #define TILE_KEPT 3         /* number that stay */
 #define TILE_CHILDREN 4     /* number of new cells */
 #define TILE_POINT_LEAVES 5 /* number that take points */
@@ -52,17 +51,17 @@
 #define TILE_POINT_TILE 11
 #define TILE_POINT_FIRST 12
 #define TILE_DARK 13                             /* 1: no light is mirrored there, and what is mirrored of the sky needs no pieces of the shutter */
-#define TILE_WAVES 14                            /* of its pixels */
-#define TILE_SPENT 16                            /* evaluations; this and the next five are doubles */
-#define TILE_VARIANCE 18                         /* squared error of settled leaves, of coverage */
-#define TILE_SHOWN 20                            /* the same of the displayed luminance */
-#define TILE_OPEN_VARIANCE 22                    /* squared error of open leaves, of coverage */
-#define TILE_OPEN_SHOWN 24                       /* the same of the displayed luminance */
-#define TILE_WATER 26                            /* pixels of water */
-#define TILE_COST 32                             /* of a cell of each level, evaluations, doubles; 0: unknown */
-#define TILE_BELOW (TILE_COST + 2 * LEAF_LEVELS) /* of a split of a cell, in COST_UNIT-ths */
-#define TILE_WORTH (TILE_BELOW + LEAF_LEVELS)    /* of it, for each unit of squared error, floats */
-#define TILE_SIZES 72                            /* leaves that are split into cells of a size: see cell_size() */
+#define TILE_WAVES 14                            /* number of resolved and mixed waves of its pixels */
+#define TILE_SPENT 16                            /* evaluations, a double */
+#define TILE_VARIANCE 18                         /* squared error of the coverage of settled leaves, a double */
+#define TILE_SHOWN 20                            /* squared error of the displayed luminance of settled leaves, a double */
+#define TILE_OPEN_VARIANCE 22                    /* squared error of the coverage of open leaves, a double */
+#define TILE_OPEN_SHOWN 24                       /* squared error of the displayed luminance of open leaves, a double */
+#define TILE_WATER 26                            /* pixels of water, a double */
+#define TILE_COST 32                             /* for each level the evaluations of a cell, doubles; 0: unknown */
+#define TILE_BELOW (TILE_COST + 2 * LEAF_LEVELS) /* for each level the cost of splitting a cell, in units of 1 / COST_UNIT */
+#define TILE_WORTH (TILE_BELOW + LEAF_LEVELS)    /* for each level the worth of such a split per unit of squared error, floats */
+#define TILE_SIZES 72                            /* for each size the number of leaves that are split into cells of that size: see cell_size() */
 #define CELL_SIZES (LEAF_LEVELS * LEAF_LEVELS - 1)
 #define CELLS_TILE_WORDS (TILE_SIZES + CELL_SIZES)
 
@@ -76,9 +75,9 @@
 
 /* ---- workgroups ---- */
 
-#define CELLS_GROUP 64  /* cells, or leaves of a tile that are looked at together */
+#define CELLS_GROUP 64  /* cells of a workgroup, or leaves of a tile that are processed together */
 #define POINT_GROUP 32  /* points of a leaf at one instant */
-#define CELLS_LANES 256 /* of what runs over all tiles */
+#define CELLS_LANES 256 /* invocations of passes over all tiles */
 
 /* ---- wave sets, in words of 16 bytes: waves, as they are sorted, then views ---- */
 
@@ -91,9 +90,9 @@
 
 #define LEAF_VECTORS 3
 
-/* CellsData.mode of cells_grow.comp: which leaves there are. */
-#define GROW_PIXELS 0 /* pixels, as they were planted */
-#define GROW_ROUND 1  /* what a round has made */
-#define GROW_END 2    /* all that are left are settled */
+/* CellsData.mode of cells_grow.comp: the leaves that it reads. */
+#define GROW_PIXELS 0 /* pixels, from cells_plant.comp */
+#define GROW_ROUND 1  /* the result of a round */
+#define GROW_END 2    /* the last leaves, which are all settled */
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * What method adaptive keeps on the GPU between its passes: numbers of the frame and of each tile, and lists. See cells_layout.h.
+ * The state of method adaptive's cells between passes: words of the frame, words of each tile, and lists. See cells_layout.h.
  */
 #include "pass_data.k"
 
@@ -18,7 +18,7 @@ void set_state_double(int at, double value)
 
 int tile_words(int tile) { return CELLS_TILES + tile * CELLS_TILE_WORDS; }
 
-/* The place of a size of cells among all: by level, then by halvings across. Level 0 has none. */
+/* Number of a size of cells, in order of level, then of halvings across. Level 0 has no number. */
 int cell_size(int across, int down)
 {
     int level = (across + down) / 2;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Where the kernels find foam: a foam_set, in programs that are built for it; in others there is none. Cells and their points have a foam_set for each
- * set of waves, and foam_place says which one is meant.
+ * Accessors of foam. Programs that are built for foam read a foam_set. For cells and their points there is a foam_set for each set of waves, and foam_place is
+ * the number of the current one. Other programs have no foam.
  */
 #include "kernels/waves/foam_types.k"
 

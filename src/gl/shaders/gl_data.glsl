@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Where the kernels find their data in the compute passes. A band's tiles stand in storage buffers; tile_slot says which one is meant.
+ * Accessors of the kernels in compute passes. A band's tiles stand in storage buffers. tile_slot is the number of the current one.
  */
 #include "kernels/common/prelude_glsl.k"
 #include "kernels/common/types.k"
@@ -22,14 +22,14 @@ layout(std140, binding = 0) uniform FrameBlock { FrameData frame_data; };
 #define TILE_ACCESS readonly
 #endif
 layout(std430, binding = 0) restrict TILE_ACCESS buffer TileBlock { TileData tile_data[]; };
-/* Waves as vectors, which GPUs load at once: a struct of floats they load float by float. */
+/* Waves stand as vectors, because GPUs load a vector with one instruction, but a struct float by float. */
 layout(std430, binding = 1) restrict TILE_ACCESS buffer TileWaveBlock { uvec4 tile_waves[]; };    /* TileWave */
 layout(std430, binding = 2) restrict TILE_ACCESS buffer SearchBlock { vec4 search_waves[]; };     /* SEARCH_VECTORS each: SearchWave */
 
 layout(binding = 0) uniform sampler2D sky_texture;
 
 int tile_slot = 0;
-ivec2 layer_texel = ivec2(0); /* the pixel's */
+ivec2 layer_texel = ivec2(0); /* texel of the current pixel in the layers */
 
 #ifdef CACHES_TILE
 #define TILE(cx) cached_tile

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * First hits of a tile: a lattice, and what a pixel estimates from the four nodes about it; or every pixel's own.
+ * First hits of a tile: the nodes of a lattice, from which pixels estimate their hits, or in a grazing tile the hit of every pixel.
  */
 #include "gl_data.glsl"
 #include "kernels/glitter/pixel.k"
@@ -8,7 +8,7 @@
 #ifndef NODE_ACCESS
 #define NODE_ACCESS readonly
 #endif
-/* Of a tile TILE_FLOATS: its nodes, or where its water is grazing every hit. */
+/* TILE_FLOATS elements for each tile: its nodes, or in a grazing tile its hits. */
 layout(std430, binding = 3) restrict NODE_ACCESS buffer NodeBlock { float node_data[]; };
 
 int hit_place(int column, int row) { return tile_slot * TILE_FLOATS + (row * TILE_WIDTH + column) * HIT_FLOATS; }
@@ -52,10 +52,10 @@ bool tile_may_occlude()
                            node_of(NODE_COLUMNS - 1, NODE_ROWS - 1).ray);
 }
 
-/* The hits of a pixel lie one above the other: this is the first one's row. */
+/* Row of a pixel's first hit. The hits of a pixel lie one above the other. */
 int first_row(int row) { return row * int(TILE(0).hit_rows); }
 
-/* `pixel`: its column, and the row of the hit. */
+/* The estimate of a hit. `pixel` is the pixel's column and the row of the hit. */
 HitEstimate pixel_estimate(ivec2 pixel)
 {
     HitEstimate estimate;

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT
  *
- * Scheme podee of method adaptive, as src/cpu/adaptive_podee.c has it: pixels of the approximate picture that matter are tasks, in the order of tiles
- * and of pixels within a tile, and the picture's slots are shared out among them by a prefix sum of their importance.
+ * Data of scheme podee of method adaptive, which is that of src/cpu/adaptive_podee.c. Important pixels of the approximate picture are tasks, in the order of
+ * tiles and of pixels within a tile. The picture's slots are distributed over the tasks by a prefix sum v of their importance.
  *
- * Slot k looks at (k + 1/2)/M · Σv in the prefix sum. A task therefore owns the slots from the first one that looks at its sum or beyond up to the next
- * task's first. These firsts are found once a task in double precision; all that follows searches and compares whole numbers. Slots of a band are
- * rendered in chunks, since nobody waits to hear how many there are: dispatches that turn out to be too many have no workgroups.
+ * Slot k stands at (k + 1/2)/M · Σv in the prefix sum. So a task's first slot is the first one at or beyond the sum before the task, and its last slot is the
+ * one before the next task's first. The first slots are computed once for each task in double precision. Everything after that compares whole numbers. A band's
+ * slots are rendered in chunks. The CPU does not wait for their number, so it submits the largest possible number of chunks; superfluous ones have no
+ * workgroups.
  */
 layout(std140, binding = 3) uniform SlotsBlock { SlotsData slots_data; };
 
@@ -19,8 +20,8 @@ layout(std140, binding = 3) uniform SlotsBlock { SlotsData slots_data; };
 #define SLOT_ACCESS readonly
 #endif
 
-/* Of each tile of the picture, and at the end of all: the bits of a double, the sum of importance over the tasks before it; its first slot; how many tasks
- * it has. While sums are taken: those of its own importance and water. */
+/* Each element of plan_tiles is a tile of the picture; one more follows the last tile. Its members are the sum of importance over the tasks before the tile (the
+ * bits of a double), the tile's first slot, and its number of tasks. While sums are taken it holds the tile's own importance and water. */
 layout(std430, binding = 4) PLAN_ACCESS buffer PlanBlock
 {
     uint plan_slots; /* M; 0: there are no tasks */
@@ -29,16 +30,16 @@ layout(std430, binding = 4) PLAN_ACCESS buffer PlanBlock
     uvec4 plan_tiles[];
 };
 
-/* TILE_PIXELS places a tile of the band: a task's first slot, and its pixel. */
+/* TILE_PIXELS elements for each tile of the band: a task's first slot, and its pixel. */
 layout(std430, binding = 5) TASK_ACCESS buffer TaskBlock { uvec2 tasks[]; };
 
-/* SLOT_FLOATS each: the sum over a task's slots, a place a pixel of the band, and behind them the results of a chunk. */
+/* Elements of SLOT_FLOATS each: for each pixel of the band the sum over a task's slots, then the results of a chunk's slots. */
 layout(std430, binding = 8) SLOT_ACCESS buffer SlotBlock { float slot_values[]; };
 
 int task_place(int band_tile, int task) { return band_tile * TILE_PIXELS + task; }
 int result_place(int slot) { return slots_data.band_tiles * TILE_PIXELS + slot; }
 
-/* Slots of the band. */
+/* The band's slots are those from band_first() to band_end() − 1. */
 uint band_first() { return plan_tiles[slots_data.first_tile].z; }
 uint band_end() { return plan_tiles[slots_data.first_tile + slots_data.band_tiles].z; }
 uint chunk_first() { return band_first() + uint(slots_data.chunk) * uint(slots_data.chunk_slots); }
