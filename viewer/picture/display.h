@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Pictures of sides A and B as textures, and how they are shown: wiped, subtracted, false-coloured, magnified. */
+ * Shows the pictures of sides A and B, which are textures: with a wipe between them, as their difference, in false colours, magnified. */
 #ifndef MANGATA_VIEWER_PICTURE_DISPLAY_H
 #define MANGATA_VIEWER_PICTURE_DISPLAY_H
 
@@ -16,22 +16,23 @@ typedef struct display_view {
     compare_mode compare;
     float wipe; /* A is left of this fraction of the width */
     float difference_scale;
-    float low, high;                /* what the palette's ends stand for, where the layer is a number */
-    bool logarithmic;               /* steps of equal ratio in between */
-    float zoom, center_x, center_y; /* what is shown is 1/zoom of the picture around this place, both from 0 to 1, y down */
+    float low, high;                /* values of a layer of numbers at the ends of the palette */
+    bool logarithmic;               /* true: the palette is even in the value's logarithm; false: in the value */
+    float zoom, center_x, center_y; /* 1/zoom of the picture's width and height is shown around this place, whose coordinates are in [0, 1] with y down */
 } display_view;
 
-/* On the current context; NULL with a line of text in error. */
+/* Creates a display in the current OpenGL context, which the caller destroys. Returns NULL on failure, with a line of text in `error`. */
 display *display_create(const gl_functions *gl, char *error, size_t error_size);
 void display_destroy(display *d);
 
-/* Takes over a picture from memory: bytes of displayed colour (4 a pixel) for MGT_LAYER_COLOR, else floats (1 or 3 a pixel). */
+/* Copies a picture from memory into a side's texture. `pixels` are 4 bytes of displayed colour per pixel for MGT_LAYER_COLOR; for other layers 1 or 3 floats per
+ * pixel. */
 void display_upload(display *d, int side, mgt_layer layer, uint32_t width, uint32_t height, const void *pixels);
 
-/* A texture for mgt_gl_render_textures() to write the layer into; needs OpenGL 4.2. */
+/* Returns a side's texture, into which mgt_gl_render_textures() can write the layer. Needs OpenGL 4.2. */
 GLuint display_texture(display *d, int side, mgt_layer layer, uint32_t width, uint32_t height);
 
-/* Draws. A side without a picture, or with one of another layer than side A's, is left out. */
+/* Draws the view. A side without a picture is left out, as is one whose layer is not side A's. */
 void display_draw(const display *d, const display_view *view);
 
 #endif

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Films and numbered pictures by the command itself, `mangata render`, as a process of its own: what it writes is what the command writes, whole or not at all. */
+ * Exports films and numbered pictures by the command `mangata render` in a process of its own. So a file is the same as the command's, and it appears whole or not
+ * at all. */
 #ifndef MANGATA_VIEWER_PICTURE_FILM_EXPORT_H
 #define MANGATA_VIEWER_PICTURE_FILM_EXPORT_H
 
@@ -17,7 +18,7 @@ void film_export_destroy(film_export *f);
 
 typedef enum film_state { FILM_BUSY, FILM_SAVED, FILM_FAILED } film_state;
 
-/* Does not wait. *fraction of the whole is done; FAILED: the reason is in `error`. */
+/* The state of the export; does not wait. *fraction is the part that is done, in [0, 1]. After FILM_FAILED the reason is in `error`. */
 film_state film_export_poll(film_export *f, double *fraction, char *error, size_t error_size);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Two pictures against brute force, in a thread of low priority: references of two frames that follow each other are gathered sample by sample, and the
- * error, FLIP and flicker of both pictures against them are told again and again. */
+ * Compares two pictures with brute force, in a thread of low priority. It renders references of two successive frames sample by sample, and meanwhile repeatedly
+ * computes the error, FLIP and flicker of both pictures against them. */
 #ifndef MANGATA_VIEWER_PICTURE_JUDGE_H
 #define MANGATA_VIEWER_PICTURE_JUDGE_H
 
@@ -12,38 +12,39 @@ enum { JUDGE_FRAMES = 2 };
 
 /* What is to be judged. Sizes of both frames are the same. */
 typedef struct judge_order {
-    mgt_scene frames[JUDGE_FRAMES]; /* as seen at t and a frame later; their waves are copied, those of the first for both; quality is not read */
+    mgt_scene frames[JUDGE_FRAMES]; /* the scene at t and one frame later; the first one's waves are copied and used for both; quality is not read */
     mgt_quality quality[SIDE_COUNT];
-    struct scene_models *models; /* that the frames' objects belong to, kept while they are needed; NULL: none */
+    struct scene_models *models; /* models of the frames' objects, shared while they are needed; NULL: there are none */
 } judge_order;
 
-/* Of displayed values, 0 to 1. Noise of the references is taken out of error and flicker. */
+/* Scores over displayed values, which are in [0, 1]. The noise of the references has been subtracted from error and flicker. */
 typedef struct judge_scores {
-    double error;   /* root mean square against the reference of t */
-    double flip;    /* mean FLIP of the same */
-    double flicker; /* root mean square of the step from frame to frame against the references' step */
+    double error;   /* root mean square error against the reference of t */
+    double flip;    /* mean FLIP against the reference of t */
+    double flicker; /* root mean square error of the change from frame to frame, against the references' change */
 } judge_scores;
 
 typedef struct judgement {
     judge_scores sides[SIDE_COUNT];
-    double noise;            /* root mean square error that the reference of t still has; an error below it is not known yet */
-    double step_noise;       /* the same of the references' step */
-    uint32_t samples, total; /* of each reference, taken and wanted */
+    double noise;            /* root mean square error of the reference of t; smaller errors of pictures cannot be measured yet */
+    double step_noise;       /* root mean square error of the references' change from frame to frame */
+    uint32_t samples, total; /* samples of each reference: taken so far, and wanted */
 } judgement;
 
 typedef struct judge judge;
 
-/* `desc`: the machine's part of its context. `wake` is called on its thread when there is something to take. NULL on failure, with the reason in `error`. */
+/* Creates a judge with a context by `desc`. It calls `wake` on its thread when there are new scores. Returns NULL on failure, with the reason in `error`. */
 judge *judge_create(const mgt_context_desc *desc, void (*wake)(void), char *error, size_t error_size);
 void judge_destroy(judge *j); /* NULL is allowed */
 
-/* Begins with another order; what was under way ends at once. */
+/* Begins with another order. Stops the work on the former one at once. */
 void judge_post(judge *j, const judge_order *order);
 
-/* Ends what is under way at once. */
+/* Stops the work at once. */
 void judge_stop(judge *j);
 
-/* The newest figures since the last order. False where there are none, or none since the last call; *problem (may be NULL) is then the text of a failure or "". */
+/* Takes the newest scores of the last order. Returns false if there are none since the last call. `problem`, which may be NULL, then gets the text of a failure,
+ * or "". */
 bool judge_take(judge *j, judgement *out, char *problem, size_t problem_size);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Pictures rendered into files in the background, one at a time, by a context of their own. */
+ * Renders pictures into files in the background, one at a time, in a context of its own. */
 #ifndef MANGATA_VIEWER_PICTURE_PICTURE_SAVER_H
 #define MANGATA_VIEWER_PICTURE_PICTURE_SAVER_H
 
@@ -9,10 +9,10 @@ struct scene_models;
 
 typedef struct picture_saver picture_saver;
 
-/* NULL when memory runs out. `desc` names the machine's part of the context; `wake` is called on another thread when a picture is done. */
+/* Creates a saver whose context is created by `desc`. It calls `wake` on another thread when a picture is done. Returns NULL when out of memory. */
 picture_saver *picture_saver_create(const mgt_context_desc *desc, void (*wake)(void));
 
-/* Stops what is under way; nothing unfinished is left behind. NULL is allowed. */
+/* Stops the rendering, which leaves no unfinished file, and frees the saver. NULL is allowed. */
 void picture_saver_destroy(picture_saver *s);
 
 /* Starts on a copy of the scene, whose objects belong to `models`. `path` ends in .png (displayed colour) or .exr (every layer). False with the reason in `error`. */
@@ -20,7 +20,8 @@ bool picture_saver_start(picture_saver *s, const mgt_scene *scene, struct scene_
 
 typedef enum picture_saver_state { SAVER_IDLE, SAVER_BUSY, SAVER_SAVED, SAVER_FAILED } picture_saver_state;
 
-/* SAVED and FAILED are told once, with the path or the reason in `text`; while BUSY *fraction says how far it is. */
+/* The state of the saver. SAVER_SAVED and SAVER_FAILED are returned once, with the path or the reason in `text`. With SAVER_BUSY *fraction is the part that is
+ * done, in [0, 1]. */
 picture_saver_state picture_saver_poll(picture_saver *s, char *text, size_t size, double *fraction);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Rendering in a thread of its own with a CPU context of its own: frames as they are asked for, the latest first; methods of many samples
- * refine sample by sample until something changes. */
+ * Renders in a thread of its own with a CPU context of its own. Of the frames that are asked for it renders the latest one. Pictures of methods with many samples
+ * are refined sample by sample until something changes. */
 #ifndef MANGATA_VIEWER_PICTURE_RENDER_WORKER_H
 #define MANGATA_VIEWER_PICTURE_RENDER_WORKER_H
 
@@ -14,7 +14,7 @@ typedef struct render_order {
     bool wanted[SIDE_COUNT];
     mgt_layer layer;
     struct scene_models *models; /* what scene.objects belong to; shared when it is posted. NULL: there are none */
-    bool interruptible;          /* a newer order may stop it before it is done */
+    bool interruptible;          /* true: a newer order may stop this one before it is done */
 } render_order;
 
 /* A finished picture of one side. */
@@ -24,28 +24,28 @@ typedef struct picture {
     uint32_t width, height;
     void *pixels;                    /* as display_upload() takes them; owned */
     size_t capacity;                 /* bytes of `pixels` */
-    double seconds;                  /* that the last rendering call took */
-    uint64_t samples, samples_total; /* taken and wanted; 1 and 1 for methods without samples */
+    double seconds;                  /* duration of the last rendering call */
+    uint64_t samples, samples_total; /* samples taken so far, and wanted; 1 and 1 for methods without samples */
 } picture;
 
 void picture_free(picture *p);
 
 typedef struct render_worker render_worker;
 
-/* `refines`: takes the sides whose methods have many samples; else the others. `wake` is called on the worker's thread when there is something
- * to take. NULL on failure, with the reason in `error`. */
+/* `refines` true: the worker renders the sides whose methods have many samples; false: the other sides. It calls `wake` on its thread when there is a picture or
+ * an error to take. Returns NULL on failure, with the reason in `error`. */
 render_worker *render_worker_create(const mgt_context_desc *desc, bool refines, void (*wake)(void), char *error, size_t error_size);
 void render_worker_destroy(render_worker *w);
 
 void render_worker_post(render_worker *w, const render_order *order);
 
-/* Gives the newest picture of a side in exchange for the memory of an older one. False where there is none since the last call. */
+/* Takes the newest picture of a side; the worker gets the memory of *p in exchange. Returns false if there is no new picture since the last call. */
 bool render_worker_take(render_worker *w, int side, picture *p);
 
 /* Takes the text of a failure since the last call. */
 bool render_worker_take_error(render_worker *w, char *text, size_t size);
 
-/* Nothing is posted, under way, or waiting to be taken. */
+/* Whether no order is posted or under way, and no picture or error waits to be taken. */
 bool render_worker_is_idle(render_worker *w);
 
 /* What the context runs on. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * How long the last frames took. */
+ * Durations of the last frames. */
 #ifndef MANGATA_VIEWER_PICTURE_TIMINGS_H
 #define MANGATA_VIEWER_PICTURE_TIMINGS_H
 
@@ -7,7 +7,7 @@
 
 enum { TIMING_FRAMES = 120, PASS_COUNT = 12 };
 
-/* The last times, milliseconds; a ring. */
+/* A ring of the last durations, in milliseconds. */
 typedef struct timing_ring {
     float ms[TIMING_FRAMES];
     int next, count;
@@ -15,10 +15,10 @@ typedef struct timing_ring {
 
 void timing_add(timing_ring *ring, double seconds);
 
-/* The i-th of ring->count, the oldest first. */
+/* Duration number i of ring->count, milliseconds; number 0 is the oldest. */
 float timing_at(const timing_ring *ring, int i);
 
-/* 0 when there is none. */
+/* The median, milliseconds; 0 if the ring is empty. */
 float timing_median(const timing_ring *ring);
 
 typedef struct timings {

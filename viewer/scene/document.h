@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * The scene in work: loaded, watched, changed, saved. What is changed is measured against the file. */
+ * The scene that is edited: loaded from a file that is watched for changes, changed, saved. */
 #ifndef MANGATA_VIEWER_SCENE_DOCUMENT_H
 #define MANGATA_VIEWER_SCENE_DOCUMENT_H
 
@@ -11,22 +11,22 @@
 /* The file of a scene. The document and the steps of undo share it. */
 typedef struct scene_source {
     char *path;        /* owned */
-    scene_file *file;  /* the last good one, as it is on the disk */
-    struct stat stamp; /* of the file when it was last read, good or bad */
-    scene_error error; /* of that reading; kind SCENE_ERROR_NONE when it was good */
+    scene_file *file;  /* contents of the file when it was last read without an error */
+    struct stat stamp; /* state of the file when it was last read */
+    scene_error error; /* error of that reading; kind SCENE_ERROR_NONE: there was none */
     mgt_camera home;   /* the camera that "reset" goes back to */
-    size_t shares;
+    size_t shares;     /* number of owners */
 } scene_source;
 
-/* One more share of it, or one less; the last one frees it. NULL is allowed. */
+/* Add and remove an owner. Removing the last owner frees the source. NULL is allowed. */
 scene_source *scene_source_share(scene_source *source);
 void scene_source_release(scene_source *source);
 
 typedef struct document {
-    scene_source *source; /* a share */
-    scene_values values;  /* as changed */
-    scene_error fault;    /* why sea or models cannot be made of the values; kind SCENE_ERROR_NONE: they can */
-    bool stale;           /* they are not those of the values yet */
+    scene_source *source; /* shared with the steps of undo */
+    scene_values values;  /* values of the scene with all changes */
+    scene_error fault;    /* why sea or models cannot be made from the values; kind SCENE_ERROR_NONE: they can */
+    bool stale;           /* true: sea and models have not been made from the present values yet */
 } document;
 
 /* Reads `path`, then changes it by `words` ("key=value"). False with the reason in *error; *d is then empty. */
@@ -39,7 +39,7 @@ typedef enum document_news { DOCUMENT_SAME, DOCUMENT_READ_ANEW, DOCUMENT_BROKEN 
  * broken file changes nothing but the source's `error`. */
 document_news document_poll(document *d);
 
-/* Takes back every change. False when memory runs out. */
+/* Reverts every change. Returns false when out of memory. */
 bool document_revert(document *d);
 
 /* Changes one value as `--set key=value` does, every check included. False with the reason in *error and nothing changed. */
@@ -52,7 +52,7 @@ void document_changed(document *d, bool objects);
 /* Makes sea and models anew where values have changed. Where they cannot be, `fault` says why and the former ones stay. */
 void document_refresh(document *d);
 
-/* Puts other values in place; takes over what they own. */
+/* Replaces the values. Takes ownership of what `values` owns. */
 void document_replace(document *d, scene_values *values);
 
 /* Writes `values` as a scene file to `path`, whole or not at all, after reading it back in memory. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Where scenes are found: seas in a word, the scenes that come with the program, those opened lately, the files of a folder. */
+ * Sources of scenes: seas in a few words, scenes that come with the program, recently opened scenes, files of a folder. */
 #ifndef MANGATA_VIEWER_SCENE_SCENE_PLACES_H
 #define MANGATA_VIEWER_SCENE_SCENE_PLACES_H
 
@@ -28,7 +28,7 @@ char *shipped_folder(void);
 /* The names of a folder's scene files (.yaml, .yml, .json) and, with "/" behind them, of its folders, ".." first. Empty where it cannot be read. */
 name_list scenes_of_folder(const char *folder);
 
-/* Scenes opened lately, the last one first, from $XDG_STATE_HOME/mangata/recent (~/.local/state). */
+/* Recently opened scenes, the last one first. They are read from $XDG_STATE_HOME/mangata/recent; the default of the variable is ~/.local/state. */
 name_list recent_scenes(void);
 
 /* Puts a path first among them; files by their whole path. What cannot be written is not remembered. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * What the viewer can be set to beside the scene: one plain struct, described by a table of the same kind as the scene format's. */
+ * The viewer's settings besides the scene: one plain struct, described by a table of the same kind as the scene format's. */
 #ifndef MANGATA_VIEWER_SCENE_SETTINGS_H
 #define MANGATA_VIEWER_SCENE_SETTINGS_H
 
@@ -14,8 +14,8 @@ typedef struct view_settings {
     double wipe; /* fraction of the width that shows A */
     double difference_scale;
     int layer;                    /* mgt_layer */
-    double near_depth, far_depth; /* metres that the ends of the palette stand for */
-    double coverage_end;          /* coverage that its upper end stands for */
+    double near_depth, far_depth; /* depths at the ends of the palette, metres */
+    double coverage_end;          /* coverage at the palette's upper end */
     double lean_end;              /* horizontal part of a normal whose colour is full */
     int resolution;               /* resolution_mode */
     int frame;                    /* frame_mode */
@@ -25,12 +25,12 @@ typedef struct view_settings {
 typedef struct clock_settings {
     double time;  /* seconds of the scene's clock, when the shutter closes */
     int play;     /* off, on */
-    double speed; /* scene seconds a second; negative runs back */
-    int loop;     /* over the scene's frames: off, on */
+    double speed; /* seconds of the scene per second; negative: time runs backwards */
+    int loop;     /* play the scene's frames in a loop: off, on */
 } clock_settings;
 
 typedef struct wave_settings {
-    uint32_t count; /* how many of the scene's waves are used, the first ones */
+    uint32_t count; /* number of the scene's first waves that are used */
 } wave_settings;
 
 typedef enum move_mode { MOVE_ORBIT = 0, MOVE_FLY } move_mode;
@@ -39,7 +39,7 @@ typedef struct move_settings {
     int mode;         /* move_mode */
     int path;         /* the camera follows camera.path: off, on */
     double speed;     /* metres a second */
-    double clearance; /* metres that the camera stays above the water at its place */
+    double clearance; /* least height of the camera above the water at its place, metres */
 } move_settings;
 
 typedef struct panel_settings {
@@ -52,7 +52,7 @@ typedef struct inspect_settings {
 } inspect_settings;
 
 typedef struct settings {
-    mgt_quality sides[SIDE_COUNT]; /* with options that their methods do not take: another may */
+    mgt_quality sides[SIDE_COUNT]; /* these keep options that their method does not have, for a later choice of another method */
     view_settings view;
     clock_settings clock;
     wave_settings waves;

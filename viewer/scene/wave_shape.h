@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Waves as people think of them: length, direction and speed in place of a, b and c. */
+ * Waves by length, direction and speed instead of the scene format's a, b and c. */
 #ifndef MANGATA_VIEWER_SCENE_WAVE_SHAPE_H
 #define MANGATA_VIEWER_SCENE_WAVE_SHAPE_H
 
@@ -11,7 +11,7 @@ typedef struct wave_shape {
     double speed;         /* metres a second that crests travel, along the direction */
 } wave_shape;
 
-/* Without a wave vector: the longest length there is. */
+/* The shape of a wave. A wave without a wave vector has the greatest allowed length. */
 wave_shape wave_shape_of(const mgt_wave *wave);
 void wave_set_shape(mgt_wave *wave, const wave_shape *shape);
 
