@@ -62,7 +62,7 @@ MGT_API void mgt_gl_view_init(mgt_gl_view *view, size_t size);
 MGT_API mgt_status mgt_gl_render_views(mgt_context *context, const mgt_scene *scene, const mgt_gl_view *views, size_t count);
 
 /* A texture of yours that receives a layer of scene.image's size (the crop's), top row first: texel (0, 0) is the top left pixel. GL_TEXTURE_2D with immutable
- * storage, in the format GL_R32F or GL_R16F (coverage, mask, depth, samples, importance, detail), GL_RGBA32F or GL_RGBA16F (color, normal; alpha 1),
+ * storage, in the format GL_R32F or GL_R16F (coverage, mask, depth, samples, importance, detail, foam), GL_RGBA32F or GL_RGBA16F (color, normal; alpha 1),
  * or GL_RGBA8 (displayed color, encoded for sRGB, with glare). */
 typedef struct mgt_gl_texture {
     size_t struct_size;

@@ -111,7 +111,7 @@ typedef enum mgt_layer {
     /* Scenes with objects; not in textures and views of OpenGL. Elsewhere 0. */
     MGT_LAYER_REFRACTION,       /* 3: radiance that arrives through the water's surface, before the Fresnel transmittance is applied; 0 where no water */
     MGT_LAYER_REFRACTION_ERROR, /* 1: estimated distance, in pixels, from what is shown to what the refracted ray meets; +inf where it is unknown */
-    MGT_LAYER_FOAM              /* 1: fraction of the pixel that foam covers, [0, 1]; not in textures and views of OpenGL */
+    MGT_LAYER_FOAM              /* 1: fraction of the pixel that foam covers, [0, 1]; of methods that work on whole pictures their base's */
 } mgt_layer;
 
 typedef enum mgt_format {

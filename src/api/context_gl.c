@@ -25,7 +25,7 @@ static mgt_status render_textures(mgt_context *context, const mgt_scene *scene, 
     if (status == MGT_OK)
         status = struct_take(r, &gl_texture_kind, own_textures, textures, count);
     for (size_t i = 0; i < count && status == MGT_OK; i++)
-        if ((int)own_textures[i].layer < 0 || (int)own_textures[i].layer > MGT_LAYER_DETAIL)
+        if (((int)own_textures[i].layer < 0 || (int)own_textures[i].layer > MGT_LAYER_DETAIL) && own_textures[i].layer != MGT_LAYER_FOAM)
             status = report_error(r, MGT_ERROR_ARGUMENT, "render.texture", "texture %zu: layer %d does not exist", i, (int)own_textures[i].layer);
     if (status != MGT_OK)
         return status;

@@ -51,7 +51,7 @@ const char *gl_lacks_layer(const mgt_scene *scene, mgt_layer layer)
 {
     /* Of a moving camera's refraction only the mean over the shutter is kept, which its layers are not. */
     const bool refraction = scene->object_count > 0 && !scene->camera_moves && method_of(scene->quality.method)->way != METHOD_PASS;
-    if (layer <= MGT_LAYER_DETAIL || (refraction && (layer == MGT_LAYER_REFRACTION || layer == MGT_LAYER_REFRACTION_ERROR)))
+    if (layer <= MGT_LAYER_DETAIL || layer == MGT_LAYER_FOAM || (refraction && (layer == MGT_LAYER_REFRACTION || layer == MGT_LAYER_REFRACTION_ERROR)))
         return gl_lacks(scene);
     return "a layer that was asked for runs";
 }

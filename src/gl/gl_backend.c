@@ -170,12 +170,13 @@ static layer_source source_of(const gl_renderer *g, const mgt_target *target)
     case MGT_LAYER_DETAIL:
         return (layer_source){&l->detail, GL_RED, GL_FLOAT};
     case MGT_LAYER_COLOR:
-    case MGT_LAYER_FOAM: /* rendered on the CPU */
         break;
     case MGT_LAYER_REFRACTION:
         return (layer_source){&g->refraction.seen.body, channels, GL_FLOAT};
     case MGT_LAYER_REFRACTION_ERROR:
         return (layer_source){&g->refraction.seen.error, GL_RED, GL_FLOAT};
+    case MGT_LAYER_FOAM:
+        return (layer_source){&l->foam, GL_RED, GL_FLOAT};
     }
     return (layer_source){&l->color, channels, GL_FLOAT};
 }
@@ -225,6 +226,7 @@ void layer_wants_add(layer_wants *w, mgt_layer layer, bool display)
     w->pixels |= layer <= MGT_LAYER_MASK;
     w->depth |= layer == MGT_LAYER_DEPTH;
     w->normal |= layer == MGT_LAYER_NORMAL;
+    w->foam |= layer == MGT_LAYER_FOAM;
     w->display |= display;
     w->spent |= layer >= MGT_LAYER_SAMPLES && layer <= MGT_LAYER_DETAIL;
 }
@@ -247,6 +249,7 @@ mgt_status gl_layers_render(gl_backend_state *s, const reporter *r, const mgt_sc
         .wants_pixels = wants->pixels || (wants->spent && adapts),
         .wants_depth = wants->depth,
         .wants_normal = wants->normal,
+        .wants_foam = wants->foam,
         .background = true,
         .progress = report_progress ? s->desc.progress : NULL,
         .progress_user = s->desc.progress_user,

@@ -30,7 +30,7 @@ mgt_status gl_leave(gl_backend_state *s, const gl_scope *scope, mgt_status statu
 
 /* The layers that a call asks for. */
 typedef struct layer_wants {
-    bool color, pixels, depth, normal, display;
+    bool color, pixels, depth, normal, foam, display;
     bool spent; /* samples, importance or detail is asked for */
 } layer_wants;
 

@@ -56,6 +56,9 @@ static mgt_status reserve_tiles(gl_run *run, size_t sets)
     return status;
 }
 
+/* Foam is found where pixels are shaded. */
+static bool shades_pixels(const gl_job *job) { return job->wants_pixels || job->wants_foam; }
+
 static mgt_status reserve_layers(gl_renderer *g, const gl_job *job, const reporter *r)
 {
     gl_layers *l = &g->layers;
@@ -65,16 +68,21 @@ static mgt_status reserve_layers(gl_renderer *g, const gl_job *job, const report
                             "%u x %u pixels are more than this OpenGL's textures hold: %u a side; render a crop or use the CPU", a->width, a->height,
                             g->limits.texture_side);
     mgt_status status = MGT_OK;
-    if (job->wants_pixels && job->frame->data.want_color)
+    const bool shades = shades_pixels(job);
+    if (shades && job->frame->data.want_color)
         status = gl_image_reserve(&g->gl, &l->color, GL_RGBA32F, a->width, a->height, r);
-    if (status == MGT_OK && job->wants_pixels)
+    if (status == MGT_OK && shades)
         status = gl_image_reserve(&g->gl, &l->coverage, GL_R32F, a->width, a->height, r);
-    if (status == MGT_OK && job->wants_pixels)
+    if (status == MGT_OK && shades)
         status = gl_image_reserve(&g->gl, &l->water, GL_R32F, a->width, a->height, r);
     if (status == MGT_OK && job->wants_depth)
         status = gl_image_reserve(&g->gl, &l->depth, GL_R32F, a->width, a->height, r);
     if (status == MGT_OK && job->wants_normal)
         status = gl_image_reserve(&g->gl, &l->normal, GL_RGBA32F, a->width, a->height, r);
+    if (status == MGT_OK && job->wants_foam)
+        status = gl_image_reserve(&g->gl, &l->foam, GL_R32F, a->width, a->height, r);
+    if (status == MGT_OK && job->wants_foam) /* programs for water without foam write none */
+        g->gl.ClearTexImage(l->foam.name, 0, GL_RED, GL_FLOAT, NULL);
     return status;
 }
 
@@ -201,6 +209,7 @@ void gl_bind_layers(const gl_renderer *g)
     const gl_image *const images[IMAGE_LAYERS] = {&l->color, &l->coverage, &l->water, &l->depth, &l->normal};
     for (GLuint i = 0; i < IMAGE_LAYERS; i++)
         gl_bind_image(g, i, images[i], GL_READ_WRITE);
+    gl_bind_image(g, IMAGE_FOAM, &l->foam, GL_READ_WRITE);
     gl_bind_texture(g, UNIT_SKY, g->sky_texture);
     gl_bind_texture(g, UNIT_SKYLINE, g->skyline_texture);
 }
@@ -432,7 +441,7 @@ mgt_status gl_put_objects_in_front(const gl_run *run, const gl_band *b)
     if (status == MGT_OK) {
         gl_uniform(g, BIND_PASS, &b->pass, sizeof b->pass);
         gl_bind_layers(g);
-        for (GLuint i = IMAGE_COLOR; i <= IMAGE_WATER && !run->job->wants_pixels; i++) /* finished by another picture of the frame */
+        for (GLuint i = IMAGE_COLOR; i <= IMAGE_WATER && !shades_pixels(run->job); i++) /* finished by another picture of the frame */
             g->gl.BindImageTexture(i, 0, 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32F);
         gl_refraction_bind_front(g);
         g->gl.DispatchCompute((GLuint)b->pass.columns, (GLuint)b->pass.rows * GROUPS_A_TILE, 1);
@@ -462,6 +471,7 @@ gl_band gl_band_at(const gl_run *run, uint32_t row)
                 .show_background = job->background,
                 .objects = run->objects,
                 .front_shows = !job->background,
+                .write_foam = job->wants_foam,
             },
         .tiles = run->columns * rows,
     };
@@ -474,11 +484,11 @@ static mgt_status render_band(gl_run *run, uint32_t row)
     const gl_band b = gl_band_at(run, row);
     mgt_status status = gl_see_band(run, &b);
     const bool points = run->waves == MGT_WAVES_POINT;
-    if (status == MGT_OK && job->wants_pixels)
+    if (status == MGT_OK && shades_pixels(job))
         status = !points ? render_filtered(run, &b) : samples ? render_samples(run, &b) : render_centre(run, &b);
     const bool depth = job->wants_depth && (points || !job->shaded_depth);
     if (status == MGT_OK && (depth || job->wants_normal))
-        status = render_surface(run, &b, job->wants_pixels && points && !samples);
+        status = render_surface(run, &b, shades_pixels(job) && points && !samples);
     return status == MGT_OK && run->objects && !job->behind ? gl_put_objects_in_front(run, &b) : status;
 }
 
@@ -546,7 +556,7 @@ mgt_status gl_frame_render(gl_renderer *g, const gl_job *job, const reporter *r)
     mgt_status status = reserve_layers(g, job, r);
     if (status == MGT_OK)
         status = gl_run_begin(&run, g, job, method->properties.waves == MGT_WAVES_SHUTTER && job->frame->scene->camera_moves ? 2 : 1, r);
-    if (status == MGT_OK && job->wants_pixels)
+    if (status == MGT_OK && shades_pixels(job))
         status = prepare_tables(&run);
     if (status == MGT_OK && run.objects)
         status = gl_prepare_objects(&run);

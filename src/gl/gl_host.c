@@ -17,6 +17,7 @@ static bool takes_layer(GLenum format, mgt_layer layer)
     case MGT_LAYER_SAMPLES:
     case MGT_LAYER_IMPORTANCE:
     case MGT_LAYER_DETAIL:
+    case MGT_LAYER_FOAM:
         return format == GL_R32F || format == GL_R16F;
     case MGT_LAYER_NORMAL:
         return format == GL_RGBA32F || format == GL_RGBA16F;
@@ -30,9 +31,17 @@ static bool takes_layer(GLenum format, mgt_layer layer)
 static mgt_status check_texture(const gl_backend_state *s, const mgt_gl_texture *t, size_t index, const region *crop, GLenum *format, const reporter *r)
 {
     const gl_api *gl = &s->renderer->gl;
-    static const char *const layers[] =
-        {"color (GL_RGBA32F, GL_RGBA16F or GL_RGBA8)", "coverage (GL_R32F or GL_R16F)", "mask (GL_R32F or GL_R16F)",       "depth (GL_R32F or GL_R16F)",
-         "normal (GL_RGBA32F or GL_RGBA16F)",          "samples (GL_R32F or GL_R16F)",  "importance (GL_R32F or GL_R16F)", "detail (GL_R32F or GL_R16F)"};
+    static const char *const layers[] = {
+        [MGT_LAYER_COLOR] = "color (GL_RGBA32F, GL_RGBA16F or GL_RGBA8)",
+        [MGT_LAYER_COVERAGE] = "coverage (GL_R32F or GL_R16F)",
+        [MGT_LAYER_MASK] = "mask (GL_R32F or GL_R16F)",
+        [MGT_LAYER_DEPTH] = "depth (GL_R32F or GL_R16F)",
+        [MGT_LAYER_NORMAL] = "normal (GL_RGBA32F or GL_RGBA16F)",
+        [MGT_LAYER_SAMPLES] = "samples (GL_R32F or GL_R16F)",
+        [MGT_LAYER_IMPORTANCE] = "importance (GL_R32F or GL_R16F)",
+        [MGT_LAYER_DETAIL] = "detail (GL_R32F or GL_R16F)",
+        [MGT_LAYER_FOAM] = "foam (GL_R32F or GL_R16F)",
+    };
     if (!gl->IsTexture(t->texture))
         return report_error(r, MGT_ERROR_ARGUMENT, "render.texture", "texture %zu: %u is no texture of this context", index, t->texture);
     GLint target = 0, immutable = 0, levels = 0, width = 0, height = 0, internal = 0;
@@ -74,6 +83,8 @@ static const gl_image *image_of(const gl_layers *l, mgt_layer layer, GLenum form
         return &l->importance;
     case MGT_LAYER_DETAIL:
         return &l->detail;
+    case MGT_LAYER_FOAM:
+        return &l->foam;
     case MGT_LAYER_COLOR:
     default:
         break;

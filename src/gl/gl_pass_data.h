@@ -82,10 +82,11 @@ enum {
     IMAGE_DEPTH,
     IMAGE_NORMAL,
     IMAGE_LAYERS,
+    IMAGE_FOAM = 7,              /* written where pass_data.write_foam is 1 */
     IMAGE_SAMPLES = IMAGE_DEPTH, /* of method adaptive, instead of depth */
     IMAGE_IMPORTANCE,
     IMAGE_DETAIL,
-    IMAGE_UNITS = 7 /* objects.comp has names of its own for them */
+    IMAGE_UNITS = 8 /* objects.comp has names of its own for them */
 };
 
 #endif

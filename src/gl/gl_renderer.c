@@ -108,7 +108,7 @@ mgt_status gl_renderer_create(gl_renderer **out, mgt_gl_get_proc get_proc, const
 
 static void free_layers(const gl_api *gl, gl_layers *l)
 {
-    gl_image *const images[] = {&l->color, &l->coverage, &l->water, &l->depth, &l->normal, &l->display, &l->samples, &l->importance, &l->detail};
+    gl_image *const images[] = {&l->color, &l->coverage, &l->water, &l->depth, &l->normal, &l->foam, &l->display, &l->samples, &l->importance, &l->detail};
     for (size_t i = 0; i < sizeof images / sizeof *images; i++)
         gl_image_free(gl, images[i]);
 }
@@ -199,7 +199,7 @@ void gl_bind_image(const gl_renderer *g, GLuint unit, const gl_image *image, GLe
 static mgt_status reserve_least(gl_renderer *g, const reporter *r)
 {
     gl_layers *l = &g->layers;
-    gl_image *const colors[] = {&l->color, &l->normal}, *const numbers[] = {&l->coverage, &l->water, &l->depth};
+    gl_image *const colors[] = {&l->color, &l->normal}, *const numbers[] = {&l->coverage, &l->water, &l->depth, &l->foam};
     mgt_status status = MGT_OK;
     for (size_t i = 0; i < sizeof colors / sizeof *colors && status == MGT_OK; i++)
         status = gl_image_reserve(&g->gl, colors[i], GL_RGBA32F, 1, 1, r);

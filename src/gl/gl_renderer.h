@@ -21,6 +21,7 @@ typedef struct gl_layers {
     gl_image color;                  /* RGBA32F, alpha 1 */
     gl_image coverage, water, depth; /* R32F */
     gl_image normal;                 /* RGBA32F, alpha 1 */
+    gl_image foam;                   /* R32F */
     gl_image display;                /* RGBA8 */
     gl_image samples;                /* R32F: samples per pixel; methods other than adaptive have the same number everywhere */
     gl_image importance, detail;     /* R32F: the layers MGT_LAYER_IMPORTANCE and MGT_LAYER_DETAIL */
@@ -128,6 +129,7 @@ typedef struct gl_job {
     region area;             /* part of the image that the layers hold; the whole image for methods that work on whole pictures */
     bool wants_pixels;       /* color, coverage or mask is asked for */
     bool wants_depth, wants_normal;
+    bool wants_foam;                /* true: pixels are shaded even if wants_pixels is false */
     bool shaded_depth;              /* true: the depth of the method's own hit will do, so filtered methods need no search for point samples */
     bool background;                /* false: the sky behind the water is left out */
     bool behind;                    /* true: objects in front of the water are left out */

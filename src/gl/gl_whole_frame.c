@@ -207,12 +207,12 @@ static mgt_status render_taa(gl_renderer *g, const gl_job *job, const reporter *
 
 /* ---- all ---- */
 
-/* Depth and normal are those of the base. */
-static mgt_status render_surface(gl_renderer *g, const gl_job *job, double share, const reporter *r)
+/* Depth, normal and foam are those of the base. */
+static mgt_status render_surface(gl_renderer *g, const gl_job *job, gl_progress_part part, const reporter *r)
 {
     gl_plain_frame base;
     base_frame_of(job->frame, &base);
-    gl_progress_part part = gl_progress_part_of(job, 1 - share, share);
+    base.frame.data.want_color = 0;
     gl_job own = gl_job_of_part(job, &base.frame, &part);
     own.wants_pixels = false;
     return gl_frame_render(g, &own, r);
@@ -221,10 +221,18 @@ static mgt_status render_surface(gl_renderer *g, const gl_job *job, double share
 mgt_status gl_whole_frame_render(gl_renderer *g, const gl_job *job, const reporter *r)
 {
     if (!job->wants_pixels)
-        return render_surface(g, job, 1, r);
+        return render_surface(g, job, gl_progress_part_of(job, 0, 1), r);
     const method_pass pass = method_of(job->frame->scene->quality.method)->pass;
     if (pass == METHOD_PASS_FXAA)
         return render_fxaa(g, job, r);
-    const mgt_status status = pass == METHOD_PASS_TAA ? render_taa(g, job, r) : gl_adaptive_render(g, job, r);
-    return status == MGT_OK && (job->wants_depth || job->wants_normal) ? render_surface(g, job, 0, r) : status;
+    /* Foam before the picture, whose layers it is shaded into; depth and normal after it, which may leave others behind. */
+    gl_job foam = *job, picture = *job, surface = *job;
+    foam.wants_depth = foam.wants_normal = false;
+    picture.wants_foam = surface.wants_foam = false;
+    mgt_status status = job->wants_foam ? render_surface(g, &foam, gl_progress_part_of(job, 0, 0), r) : MGT_OK;
+    if (status == MGT_OK)
+        status = pass == METHOD_PASS_TAA ? render_taa(g, &picture, r) : gl_adaptive_render(g, &picture, r);
+    if (status == MGT_OK && (job->wants_depth || job->wants_normal))
+        status = render_surface(g, &surface, gl_progress_part_of(job, 1, 0), r);
+    return status;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * OpenGL against the CPU: every method on scene files, coverage and displayed colour, and the displayed bytes with glare.
+ * OpenGL against the CPU: every method on scene files, coverage, foam and displayed colour, and the displayed bytes with glare.
  * usage: gl_agreement [--quick] [--only METHOD] SCENE…      Exit 1 where a limit is missed, 77 without OpenGL.
  * With --quick the default method is compared at half the size, others at three tenths and on every third scene, and seas by adaptive cells not at all:
  * gl_cells_test compares these.
@@ -108,7 +108,7 @@ typedef struct agreement_plan {
 
 typedef struct layers {
     size_t pixels;
-    float coverage[PIXELS], color[3 * PIXELS], samples[PIXELS];
+    float coverage[PIXELS], color[3 * PIXELS], samples[PIXELS], foam[PIXELS];
     unsigned char shown[4 * PIXELS];
 } layers;
 
@@ -139,14 +139,15 @@ static difference compare(const float *a, const float *b, size_t count, size_t c
 
 static bool render(mgt_context *context, const mgt_scene *scene, layers *out)
 {
-    mgt_target targets[4];
-    for (int i = 0; i < 4; i++)
+    mgt_target targets[5];
+    for (int i = 0; i < 5; i++)
         mgt_target_init(&targets[i], sizeof *targets);
     targets[0].layer = MGT_LAYER_COVERAGE, targets[0].format = MGT_FORMAT_R32F, targets[0].pixels = out->coverage;
     targets[1].format = MGT_FORMAT_RGB32F, targets[1].pixels = out->color;
     targets[2].pixels = out->shown;
     targets[3].layer = MGT_LAYER_SAMPLES, targets[3].format = MGT_FORMAT_R32F, targets[3].pixels = out->samples;
-    if (mgt_render(context, scene, targets, 4) == MGT_OK)
+    targets[4].layer = MGT_LAYER_FOAM, targets[4].format = MGT_FORMAT_R32F, targets[4].pixels = out->foam;
+    if (mgt_render(context, scene, targets, scene->foam > 0 ? 5 : 4) == MGT_OK)
         return true;
     fprintf(stderr, "gl_agreement: %s\n", mgt_last_error(context));
     return false;
@@ -193,15 +194,19 @@ static recounted leave_out_recounted(const layers *reference, layers *other)
     return (recounted){(double)by_one / (double)reference->pixels, (double)by_more / (double)reference->pixels};
 }
 
-static bool print(const char *scene, const char *method, const difference *coverage, const difference *color, double bytes_off, mgt_adaptive scheme,
-                  recounted samples)
+static bool is_near(const difference *d) { return d->far_share <= most_far_off && d->rms <= largest_rms; }
+
+/* `foam`: NULL where there is none. */
+static bool print(const char *scene, const char *method, const difference *coverage, const difference *color, const difference *foam, double bytes_off,
+                  mgt_adaptive scheme, recounted samples)
 {
-    const bool good = counts_agree(scheme, samples) && coverage->far_share <= most_far_off && coverage->rms <= largest_rms &&
-                      color->far_share <= most_far_off && color->rms <= largest_rms && bytes_off <= most_bytes_off;
+    const bool good = counts_agree(scheme, samples) && is_near(coverage) && is_near(color) && (!foam || is_near(foam)) && bytes_off <= most_bytes_off;
     printf("%-10s %-14s %9.4f %% %9.1e %9.4f %% %9.1e %9.4f %%", scene, method, 100 * coverage->far_share, coverage->rms, 100 * color->far_share, color->rms,
            100 * bytes_off);
     if (samples.by_one > 0 || samples.by_more > 0)
         printf("%9.4f %% %9.4f %%", 100 * samples.by_one, 100 * samples.by_more);
+    if (foam)
+        printf("  foam %.4f %% %.1e", 100 * foam->far_share, foam->rms);
     printf("  %s\n", good ? "ok" : "MISSED");
     fflush(stdout);
     return good;
@@ -320,7 +325,10 @@ static bool compare_scene(mgt_context *cpu, mgt_context *gl, const char *path, i
         display(&scene, sky->exposure_ev, other.pixels, other.color);
         const difference coverage = compare(other.coverage, reference.coverage, reference.pixels, 1),
                          color = compare(other.color, reference.color, reference.pixels, 3);
-        good = print(label, methods[m].name, &coverage, &color, (double)bytes_off / (4.0 * (double)reference.pixels), scene.quality.adaptive, samples) && good;
+        const difference foam = compare(other.foam, reference.foam, reference.pixels, 1);
+        good = print(label, methods[m].name, &coverage, &color, scene.foam > 0 ? &foam : NULL, (double)bytes_off / (4.0 * (double)reference.pixels),
+                     scene.quality.adaptive, samples) &&
+               good;
     }
     scene_file_free(file);
     return good && rendered;

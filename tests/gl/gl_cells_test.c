@@ -422,6 +422,47 @@ static void views_show_the_picture(void **state)
     host_stop(&h);
 }
 
+/* ---- foam ---- */
+
+/* The layer in pictures and in textures, of the method whose pixels cells begin with. */
+static void foam_is_that_of_the_cpu(void **state)
+{
+    (void)state;
+    static float expected[SIDE * SIDE], got[SIDE * SIDE], held[SIDE * SIDE], coverage[SIDE * SIDE];
+    host h;
+    host_start(&h);
+    mgt_context *cpu = context_of(MGT_BACKEND_CPU);
+    mgt_scene scene;
+    scene_file *file = load("../tests/gl/foam.yaml", &scene);
+    scene.image = (mgt_image){.width = SIDE, .height = SIDE};
+    scene.quality.method = MGT_METHOD_MANGATA;
+    const mgt_target truly = target_of(MGT_LAYER_FOAM, MGT_FORMAT_R32F, expected);
+    const mgt_target targets[] = {target_of(MGT_LAYER_FOAM, MGT_FORMAT_R32F, got), target_of(MGT_LAYER_COVERAGE, MGT_FORMAT_R32F, coverage)};
+    mgt_gl_texture texture = color_texture(&h);
+    texture.layer = MGT_LAYER_FOAM;
+    assert_int_equal(mgt_gl_render_textures(h.context, &scene, &texture, 1), MGT_ERROR_ARGUMENT); /* four channels */
+    assert_non_null(strstr(mgt_last_error(h.context), "layer foam (GL_R32F or GL_R16F)"));
+    texture.texture = texture_of(&h, GL_R32F);
+    assert_true(mgt_supports(MGT_BACKEND_GL, &scene, MGT_LAYER_FOAM));
+    if (mgt_render(cpu, &scene, &truly, 1) != MGT_OK || mgt_render(h.context, &scene, targets, 2) != MGT_OK ||
+        mgt_gl_render_textures(h.context, &scene, &texture, 1) != MGT_OK)
+        fail_msg("%s%s", mgt_last_error(cpu), mgt_last_error(h.context));
+    h.gl.GetTextureSubImage(texture.texture, 0, 0, 0, 0, SIDE, SIDE, 1, GL_RED, GL_FLOAT, sizeof held, held);
+    double sum = 0, squared = 0;
+    for (size_t i = 0; i < SIDE * SIDE; i++) {
+        const double off = (double)got[i] - (double)expected[i];
+        sum += (double)expected[i];
+        squared += off * off;
+    }
+    printf("  %.2f %% of the picture is foam, rms %.1e\n", 100 * sum / (SIDE * SIDE), sqrt(squared / (SIDE * SIDE)));
+    assert_true(sum > 1e-3 * SIDE * SIDE);
+    assert_true(sqrt(squared / (SIDE * SIDE)) <= largest_rms);
+    assert_memory_equal(held, got, sizeof held);
+    scene_file_free(file);
+    mgt_context_destroy(cpu);
+    host_stop(&h);
+}
+
 int main(void)
 {
     mgt_context_desc desc;
@@ -438,7 +479,7 @@ int main(void)
         cmocka_unit_test(pictures_are_those_of_the_cpu), cmocka_unit_test(options_are_those_of_the_cpu),
         cmocka_unit_test(crops_are_parts_of_the_whole),  cmocka_unit_test(objects_are_shown),
         cmocka_unit_test(a_budget_of_time_is_the_cpus),  cmocka_unit_test(nothing_is_read_back),
-        cmocka_unit_test(views_show_the_picture),
+        cmocka_unit_test(views_show_the_picture),        cmocka_unit_test(foam_is_that_of_the_cpu),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -559,7 +559,7 @@ static void wrong_textures_are_refused(void **state)
     changed[2].texture = 0;
     changed[3].texture = 12345;
     changed[4].struct_size = 1;
-    changed[5].layer = (mgt_layer)9;
+    changed[5].layer = MGT_LAYER_REFRACTION_ERROR;
     changed[6] = host_texture(&h, MGT_LAYER_COLOR, GL_RGBA32UI, SEA_WIDTH, SEA_HEIGHT);
     changed[7] = host_texture(&h, MGT_LAYER_COLOR, GL_RGBA32F, SEA_WIDTH, SEA_HEIGHT + 1);
     for (size_t i = 0; i < 8; i++) {

@@ -30,3 +30,19 @@ layout(std430, binding = 7) restrict readonly buffer FoamBlock
 #else
 #include "kernels/waves/no_foam_accessors_glsl.k"
 #endif
+
+/* The layer, which stays 0 where there is none. Programs that write it define FOAM_LAYER. */
+#if defined(FOAMY_WATER) && defined(FOAM_LAYER)
+layout(binding = 7, r32f) uniform image2D foam_image;
+
+float stored_foam(ivec2 texel) { return pass_data.write_foam != 0 ? imageLoad(foam_image, texel).r : 0.0f; }
+
+void store_foam(ivec2 texel, float foam)
+{
+    if (pass_data.write_foam != 0)
+        imageStore(foam_image, texel, vec4(foam));
+}
+#else
+#define stored_foam(texel) 0.0f
+#define store_foam(texel, foam)
+#endif

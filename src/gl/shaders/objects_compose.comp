@@ -16,6 +16,7 @@ layout(binding = 3) writeonly uniform image2D depth_image;
 layout(binding = 4) writeonly uniform image2D normal_image;
 layout(binding = 5) writeonly uniform image2D body_image;
 layout(binding = 6) writeonly uniform image2D error_image;
+layout(binding = 7, r32f) uniform image2D foam_image;
 layout(binding = 1) uniform sampler2D front_texture;
 layout(binding = 2) uniform sampler2D surface_texture;
 
@@ -33,6 +34,8 @@ void main()
     imageStore(coverage_image, texel, vec4(left_behind(0, imageLoad(coverage_image, texel).r, front.w)));
     float water = imageLoad(water_image, texel).r;
     imageStore(water_image, texel, vec4(pass_data.front_shows != 0 ? put_before(0, water, 1.0f, front.w) : left_behind(0, water, front.w)));
+    if (pass_data.write_foam != 0)
+        imageStore(foam_image, texel, vec4(left_behind(0, imageLoad(foam_image, texel).r, front.w)));
     /* Of the instant at which the shutter closes; shares may be means over the shutter. */
     vec4 surface = texelFetch(surface_texture, texel, 0);
     if (!(surface.w < INFINITE))

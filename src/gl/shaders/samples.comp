@@ -3,6 +3,7 @@
  * Point samples: methods `none` and `ssaaN`. A dispatch adds some samples of one instant to the layers.
  */
 #define EXACT_FMA
+#define FOAM_LAYER
 #include "lattice_data.glsl"
 #include "kernels/glitter/sample.k"
 #include "word64.glsl"
@@ -30,12 +31,13 @@ void main()
     if (!pixel.inside)
         return;
     vec3 color = vec3(0.0f);
-    float coverage = 0.0f, water = 0.0f;
+    float coverage = 0.0f, water = 0.0f, foam = 0.0f;
     if (pass_data.clear == 0) {
         if (FRAME(0).want_color != 0)
             color = imageLoad(color_image, pixel.texel).rgb;
         coverage = imageLoad(coverage_image, pixel.texel).r;
         water = imageLoad(water_image, pixel.texel).r;
+        foam = stored_foam(pixel.texel);
     }
     HitEstimate estimate = pixel_estimate(pixel.at);
     ivec2 image = pixel.texel + ivec2(pass_data.area_x, pass_data.area_y);
@@ -48,9 +50,11 @@ void main()
         color += p.color * pass_data.weight;
         coverage += p.coverage * pass_data.weight;
         water += p.water * pass_data.weight;
+        foam += p.foam * pass_data.weight;
     }
     if (FRAME(0).want_color != 0)
         imageStore(color_image, pixel.texel, vec4(color, 1.0f));
     imageStore(coverage_image, pixel.texel, vec4(coverage));
     imageStore(water_image, pixel.texel, vec4(water));
+    store_foam(pixel.texel, foam);
 }

@@ -18,6 +18,7 @@ PixelResult nothing_but_sky(PixelRay p)
     result.color = FRAME(0).want_color != 0 ? background(0, p.sky_ray) : vec3(0.0f);
     result.coverage = 0.0f;
     result.water = 0.0f;
+    result.foam = 0.0f;
     return result;
 }
 
@@ -60,11 +61,13 @@ PixelResult part_of_mean(PixelResult result, ivec2 texel)
     result.color *= pass_data.weight;
     result.coverage *= pass_data.weight;
     result.water *= pass_data.weight;
+    result.foam *= pass_data.weight;
     if (pass_data.clear == 0) {
         if (FRAME(0).want_color != 0)
             result.color += imageLoad(color_image, texel).rgb;
         result.coverage += imageLoad(coverage_image, texel).r;
         result.water += imageLoad(water_image, texel).r;
+        result.foam += stored_foam(texel);
     }
     return result;
 }
@@ -81,6 +84,7 @@ void main()
         result.color += shown.color;
         result.coverage += shown.coverage;
         result.water += shown.water;
+        result.foam += shown.foam;
     }
     if (!pixel.inside)
         return;
@@ -90,6 +94,7 @@ void main()
         result.color /= float(hits);
         result.coverage /= float(hits);
         result.water /= float(hits);
+        result.foam /= float(hits);
     }
     if (pass_data.weight != 1.0f)
         result = part_of_mean(result, pixel.texel);
@@ -97,4 +102,5 @@ void main()
         imageStore(color_image, pixel.texel, vec4(result.color, 1.0f));
     imageStore(coverage_image, pixel.texel, vec4(result.coverage));
     imageStore(water_image, pixel.texel, vec4(result.water));
+    store_foam(pixel.texel, result.foam);
 }

@@ -3,6 +3,7 @@
  * Methods `podee-uniform` and `podee-pixel` with circular kernels, read from tables, in place of the Gaussian (`--kernels`).
  */
 #define CACHES_TILE
+#define FOAM_LAYER
 #include "lattice_data.glsl"
 
 /* src/frame/podee_tables.h; the slices of the sweep stand side by side. */

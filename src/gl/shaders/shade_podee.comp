@@ -3,6 +3,7 @@
  * Methods `podee-uniform` and `podee-pixel`.
  */
 #define CACHES_TILE
+#define FOAM_LAYER
 #include "lattice_data.glsl"
 #include "kernels/baselines/podee.k"
 #define METHOD_STATE PodeeState

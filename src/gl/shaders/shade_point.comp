@@ -4,6 +4,7 @@
  * kernel's function.
  */
 #define EXACT_FMA
+#define FOAM_LAYER
 #include "lattice_data.glsl"
 #include "method.k"
 
@@ -22,4 +23,5 @@ void main()
         imageStore(color_image, pixel.texel, vec4(result.color, 1.0f));
     imageStore(coverage_image, pixel.texel, vec4(result.coverage));
     imageStore(water_image, pixel.texel, vec4(result.water));
+    store_foam(pixel.texel, result.foam);
 }

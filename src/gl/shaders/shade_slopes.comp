@@ -5,6 +5,7 @@
  * Searches and second looks are for few pixels: a workgroup gathers these into full warps.
  */
 #define WEIGHTED_WAVES
+#define FOAM_LAYER
 #define CACHES_TILE
 #define UNROLLED 4 /* of searches: left to themselves, compilers unroll them for half a minute */
 #include "lattice_data.glsl"
