@@ -46,7 +46,7 @@ void air_along(const scattering *air, const spectrum_weights *weights, const air
     light_along(air, weights, view, ray, sine, cos_azimuth, light);
 }
 
-/* A row of finite distances; the last row of the table is that of infinity. */
+/* Fills the row of the table for the finite distance at which the air's opacity is w < 1. */
 static void fill_row(const scattering *air, const spectrum_weights *weights, const air_view *view, double w, const float night[3], scattering_ray *ray,
                      float *light, float *leaves)
 {

@@ -11,25 +11,27 @@
 #include "frame/scattering.h"
 #include "kernels/common/constants.h"
 
-/* An eye and a light. */
+/* The eye that looks along a path and the light that shines on it. */
 typedef struct air_view {
-    double height;            /* of the eye, metres above the sea; taken as AIR_LEAST to AIR_MOST */
-    double sin_light;         /* of the light's elevation */
-    double rgb_irradiance[3]; /* of the light outside the atmosphere */
+    double height;            /* of the eye above the sea, metres; clamped to [AIR_LEAST, AIR_MOST] */
+    double sin_light;         /* sine of the light's elevation */
+    double rgb_irradiance[3]; /* by the light outside the atmosphere, on a plane that faces it, linear sRGB, klx */
 } air_view;
 
+/* Limits of the eye's height, metres. */
 #define AIR_LEAST 0.1
 #define AIR_MOST 5e4
 
-/* FRAME(cx).air_rate: extinction at 540 nm, the mean from the sea to the eye, 1/metre. */
+/* Mean extinction at 540 nm between the sea and an eye at `height` metres, 1/metre. Kernels read it as FRAME(cx).air_rate. */
 double air_rate(const scattering *air, double height);
 
-/* Transmittance (`leaves`, NULL: not wanted) and in-scattered light (kcd/m²) of a path of `distance` metres. cos_azimuth: cosine between the path's
- * horizontal direction and the light's. `ray` is scratch memory. */
+/* Transmittance (`leaves`, may be NULL) and in-scattered light (`light`, kcd/m²) of a path of `distance` metres, both linear sRGB. `cos_azimuth` is the
+ * cosine of the angle between the horizontal directions of the path and of the light. `ray` is scratch memory. */
 void air_along(const scattering *air, const spectrum_weights *weights, const air_view *view, double distance, double cos_azimuth, scattering_ray *ray,
                double leaves[3], double light[3]);
 
-/* Fills AIR_ROWS + 1 rows of SKY_COLUMNS texels. `horizon` are the sky's texels there, in which `night` is added everywhere. */
+/* Fills AIR_ROWS + 1 rows of SKY_COLUMNS texels in `table`. `horizon` is the row of the sky's table at the horizon. That row includes `night`, the radiance
+ * of the night sky, so a path gets the part of it that grows with the path's opacity. `ray` is scratch memory. */
 void air_fill(const scattering *air, const spectrum_weights *weights, const air_view *view, const float *horizon, const float night[3], scattering_ray *ray,
               float *table);
 

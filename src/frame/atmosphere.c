@@ -55,7 +55,7 @@ static void fill_atmosphere(sky_state *state, const scattering *air, const spect
     }
 }
 
-/* sin(φ/2) of a direction's azimuth from the light. */
+/* The table's u = sin(φ/2), where φ is a direction's azimuth from the first light. */
 static double azimuth_column(const sky_state *state, const double direction[3])
 {
     double across = sqrt(fmax(direction[0] * direction[0] + direction[2] * direction[2], 1e-24));
@@ -64,7 +64,7 @@ static double azimuth_column(const sky_state *state, const double direction[3])
     return fmin(0.5 * sqrt(chord_x * chord_x + chord_z * chord_z), 1.0);
 }
 
-/* Bilinear, `right` and `up` from the texel at `low`. */
+/* Bilinear interpolation between four texels; `low` is the lower left one, `right` and `up` in [0, 1] are the place between them. */
 static void blend_texels(const float *low, double right, double up, double rgb[3])
 {
     const float *high = low + SKY_COLUMNS * 3;
@@ -98,7 +98,7 @@ void sky_air_lookup(const sky_state *state, const double direction[3], double di
 
 /* ---- sums over the table -------------------------------------------------------------------------------- */
 
-/* Trapezium weights of a column over φ (both half circles together 2π) and of a row over y = v². */
+/* Weight of a column in the trapezium rule over φ; the weights of all columns sum to 2π. */
 static double azimuth_weight(int column)
 {
     double from = (double)(column > 0 ? column - 1 : 0) / (SKY_COLUMNS - 1);
@@ -106,6 +106,7 @@ static double azimuth_weight(int column)
     return 2.0 * (asin(to) - asin(from));
 }
 
+/* Weight of a row in the trapezium rule over y = v²; the weights of all rows sum to 1. */
 static double height_weight(int row)
 {
     double from = (double)(row > 0 ? row - 1 : 0) / (SKY_ROWS - 1);
@@ -128,9 +129,9 @@ static void sum_irradiance(sky_state *state)
     }
 }
 
-/* Key luminance (log2) of the sky up to 20° over the horizon, by solid angle: seven parts of the logarithm of the mean and three of
- * the mean of the logarithm. The former alone would let a small bright glow darken the whole picture, the latter burn the glow out.
- * −infinity where the sky is black. */
+/* log2 of the key luminance of the sky up to 20° over the horizon, −infinity where the sky is black. It mixes the logarithm of the mean (weight 0.7) and the
+ * mean of the logarithm (weight 0.3), both over solid angle. The former alone would let a small bright glow darken the whole picture. The latter alone would
+ * let the glow burn out. */
 static double log_key(sky_state *state)
 {
     double sums[2] = {0.0, 0.0}, weights = 0.0, mean = 0.0;
@@ -145,7 +146,7 @@ static double log_key(sky_state *state)
                 const float *t = texel(state, column, row);
                 const double rgb[3] = {t[0], t[1], t[2]};
                 double weight = height_weight(row) * azimuth_weight(column), luminance = spectrum_luminance(rgb);
-                sums[pass] += weight * (pass ? log2(fmax(luminance, mean / 4096.0)) : luminance); /* black spots count 12 stops */
+                sums[pass] += weight * (pass ? log2(fmax(luminance, mean / 4096.0)) : luminance); /* a black texel counts as 12 stops below the mean */
                 weights += weight;
             }
         }
@@ -157,10 +158,10 @@ static double log_key(sky_state *state)
     return 0.7 * log2(mean) + 0.3 * sums[1] / weights;
 }
 
-/* Automatic exposure. The sky near the horizon and the water, which mirrors a part of it, share the picture: their common key,
- * half the sky's, is put at 0.15 when it is as bright as day (2 kcd/m²). Fainter scenes are kept darker, as the eye sees them: each
- * factor of 2 in the key moves the picture by 2^0.12. A full moon's night, 17 stops below the day, comes out 2 stops darker.
- * Without a sky, glitter is the picture: 2% of the light's radiance (a full mirror's at normal incidence) goes to 0.15. */
+/* Automatic exposure, log2. The key of a picture that shows the sky near the horizon and the water that mirrors it is half the sky's key. A key as bright as
+ * day (2 kcd/m²) is displayed at 0.15. Fainter scenes are displayed darker, as the eye sees them: a key lower by a factor of 2 darkens the picture by
+ * 2^0.12. A full moon's night, 17 stops below the day, comes out 2 stops darker. Under a black sky the picture is glitter: 2% of the light's radiance, which
+ * is the radiance of a mirrored light at normal incidence, is displayed at 0.15. */
 static double automatic_exposure(const sky_state *state, double key)
 {
     const double compression = 0.12, day = 2.0;
@@ -173,7 +174,7 @@ static double automatic_exposure(const sky_state *state, double key)
 
 /* ---- interface ------------------------------------------------------------------------------------------ */
 
-/* Share of unpolarised light that a flat surface mirrors, seen from above. */
+/* Fresnel's reflectance of a flat surface for unpolarised light from above; `n` is the water's index of refraction. */
 static double fresnel(double cosine, double n)
 {
     double inside = sqrt(fmax(0.0, 1.0 - (1.0 - cosine * cosine) / (n * n)));
@@ -181,7 +182,7 @@ static double fresnel(double cosine, double n)
     return cosine + inside > 0.0 ? 0.5 * (s * s + p * p) : 1.0;
 }
 
-/* Irradiance by the lights, as much of it as goes through a flat surface. */
+/* Irradiance by the lights that enters the water through a flat surface. */
 static void sum_entering(const light_set *lights, double n, double rgb[3])
 {
     rgb[0] = rgb[1] = rgb[2] = 0.0;
@@ -210,7 +211,7 @@ void sky_upwelling_radiance(const sky_state *state, const mgt_water *water, doub
     }
 }
 
-/* Everything that follows from the inputs; the state then owns `air` and `ray` (scratch memory). */
+/* Computes the whole state from the inputs. The state takes ownership of `air` and `ray`. */
 static void fill_state(sky_state *s, const mgt_sky *sky, const mgt_light *light, scattering *air, scattering_ray *ray)
 {
     light_set *lights = s->lights;
@@ -263,10 +264,10 @@ void sky_state_destroy(sky_state *state)
 
 mgt_status sky_state_build(sky_state *state, const mgt_sky *sky, const mgt_light *light)
 {
-    const mgt_sky wanted = *sky; /* may be the state's own */
+    const mgt_sky wanted = *sky; /* a copy, because `sky` may be the state's own */
     scattering *air = NULL;
     scattering_ray *ray = NULL;
-    if (wanted.model == MGT_SKY_ATMOSPHERE) { /* else a light that moves from frame to frame allocates nothing */
+    if (wanted.model == MGT_SKY_ATMOSPHERE) { /* the other models allocate nothing, so that lights may move from frame to frame */
         air = scattering_create(wanted.turbidity, light_radius_sine(light));
         ray = scattering_ray_create();
         if (!air || !ray) {

@@ -27,7 +27,7 @@ extern const backend_functions cpu_backend;
 extern const backend_functions gl_backend; /* src/gl/missing in builds without OpenGL */
 extern const backend_functions null_backend;
 
-/* What only the CPU does, whatever a context renders with. `state` is one that cpu_backend has created; arguments have been checked. */
+/* Functions that only the CPU backend has; contexts of other backends call them, too. cpu_backend has created `state`. The arguments have been checked. */
 mgt_status cpu_display(void *state, const reporter *r, const mgt_scene *scene, const float *radiance, const mgt_target *target);
 mgt_status cpu_sum(void *state, const reporter *r, const mgt_scene *scene, uint64_t *sums);
 mgt_status cpu_render_sums(void *state, const reporter *r, const mgt_scene *scene, const uint64_t *sums, const mgt_target *targets, size_t count);

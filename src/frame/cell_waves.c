@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * What the cells of method adaptive look at: the shutter in straight pieces, rays of cells, and the frame's numbers for them. */
+ * Times, rays and uniform numbers for the refinement cells of method adaptive. */
 #include "frame/cell_waves.h"
 
 #include <math.h>
@@ -8,7 +8,7 @@
 
 /* ---- the shutter ---- */
 
-/* How far the slopes' path over a piece of the shutter strays from a straight one, RMS, over the light's radius in slopes. */
+/* RMS distance of the slopes' path during one of `parts` pieces of the shutter from a straight path, divided by the light's radius in slope space. */
 static double path_bend(const frame *f, int parts)
 {
     const mgt_scene *s = f->scene;
@@ -58,7 +58,7 @@ FrameData cell_frame(const FrameData *data, int across, int down)
     FrameData d = *data;
     d.pixel_angle = ldexpf(d.pixel_angle, across > down ? -across : -down);
     if (across + down > 0) {
-        /* Small cells see glints so sharp that no wave's share may be a tile's mean. */
+        /* Glints in small cells are sharp: a wave's weight must be that of the cell, not the mean of its tile. */
         d.sort_weights = 0;
         d.sort_start = 1e-3f;
     }

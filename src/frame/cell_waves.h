@@ -1,32 +1,33 @@
 /* SPDX-License-Identifier: MIT
- * What the cells of method adaptive look at: the shutter in straight pieces, rays of cells, and the frame's numbers for them. */
+ * Times, rays and uniform numbers for the refinement cells of method adaptive. */
 #ifndef MANGATA_FRAME_CELL_WAVES_H
 #define MANGATA_FRAME_CELL_WAVES_H
 
 #include "frame/frame_waves.h"
 
-/* Pieces of the shutter, for pixels, cells and sharp cells: see leaf_class() of refinement.k. */
+/* Classes of leaves: pixels, cells and sharp cells. See leaf_class() of refinement.k. */
 enum { CELL_CLASSES = 3 };
 
-/* How many pieces keep the path in slope space straight enough for each. */
+/* For each class the number of equal pieces of the shutter, a power of two up to LEAF_PARTS, in each of which a point's path in slope space is nearly
+ * straight. */
 void cell_part_counts(const frame *f, int counts[CELL_CLASSES]);
 
-/* An instant or a piece of the shutter. */
+/* An instant of the shutter, or a piece of it. */
 typedef struct cell_time {
-    double share; /* where the camera is, from the shutter's opening (0) to its closing (1) */
-    interval time;
+    double share;  /* time of the camera's place as a fraction of the shutter, from its opening (0) to its closing (1) */
+    interval time; /* time of the waves */
 } cell_time;
 
-/* Piece i of `count`; where the camera moves, instant i of count + 1. */
+/* Piece i of `count` equal pieces of the shutter. If the camera moves: instant i of the count + 1 ends of these pieces. */
 cell_time cell_part(const mgt_scene *scene, int count, int i);
 
-/* Instant i of those that points are spread over, in the middle of its stratum. */
+/* The middle of stratum i of LEAF_INSTANTS equal strata of the shutter. */
 cell_time cell_instant(const mgt_scene *scene, int i);
 
-/* Rays of cells: every pixel is halved so many times each way. */
+/* A view whose pixels are the cells that a pixel becomes when it is halved `across` times horizontally and `down` times vertically. */
 ViewData cell_view(const ViewData *view, int across, int down);
 
-/* What kernels are told of the frame for them. */
+/* The frame's uniform numbers for such cells. */
 FrameData cell_frame(const FrameData *data, int across, int down);
 
 #endif

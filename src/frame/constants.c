@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * What the kernels' constants and the public enums have in common. */
+ * Checks that constants of the kernels equal the public enums. */
 #include "frame/kernel_data.h"
 #include "mangata/gl.h"
 #include "mangata/mangata.h"

@@ -1,46 +1,47 @@
 /* SPDX-License-Identifier: MIT
- * Which sides of triangles face the inside of dry hulls.
+ * Which sides of triangles face the dry inside of hulls, and up to which height.
  *
- * One horizontal direction at a time the triangles of all dry meshes are sorted into bins of a picture along it: a vertical half-plane that begins at a
- * point meets those of one column alone. Their spans of heights, joined upwards from the point's height on, are the wall in that direction. Few places
- * climb their walls to the rim; the others ask the nearest of these. */
+ * For one horizontal direction at a time, the triangles of all dry meshes are projected along it and sorted into bins of that picture. The vertical
+ * half-plane that begins at a point and extends along the direction meets the triangles of one column of bins alone. It cuts each of them in a span of
+ * heights. The spans that join, from the point's height upwards, are the wall in that direction. At most MOST_CLIMBS places follow their walls up to the rim;
+ * every other place takes the rim of the nearest of these. */
 #include "frame/dry.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* A place before a side of a triangle. */
+/* A point just before a side of a triangle. */
 typedef struct dry_place {
     double at[3];
     size_t side;                 /* index into world.dry */
-    bool climbs;                 /* walls are followed up to their tops; else only as far as the bin at hand shows them */
-    double tops[DRY_MISSES + 1]; /* the lowest walls so far, rising */
+    bool climbs;                 /* true: walls are followed up to their tops; false: only a wall at the place's own height is looked for */
+    double tops[DRY_MISSES + 1]; /* tops of the lowest walls so far, in rising order; −inf: no wall */
 } dry_place;
 
-/* A corner as a picture shows it. */
+/* A triangle's corner in the coordinates of a dry_view, metres. */
 typedef struct dry_corner {
     double across, up, ahead;
 } dry_corner;
 
-/* Triangles by where a picture along one direction shows them; depth grows along it. */
+/* The dry triangles, sorted into the bins of their orthographic picture along one direction. */
 typedef struct dry_view {
-    double across[3], up[3], ahead[3];
-    double low[2], bin[2]; /* corner of the picture and size of a bin, metres */
-    uint32_t bins;         /* a side */
-    dry_corner *corners;   /* 3 a triangle of the list of dry ones */
-    uint32_t *first;       /* bins² + 1 */
-    uint32_t *items;       /* indices into that list */
+    double across[3], up[3], ahead[3]; /* axes of the picture, and the direction of view */
+    double low[2], bin[2];             /* lowest coordinates in the picture, and the size of a bin, metres */
+    uint32_t bins;                     /* number of bins along each side */
+    dry_corner *corners;               /* 3 for each triangle of dry_search.triangles */
+    uint32_t *first;                   /* the items of bin i begin at first[i] and end before first[i + 1] */
+    uint32_t *items;                   /* indices into dry_search.triangles */
     size_t room;
 } dry_view;
 
 typedef struct dry_search {
     world *world;
-    uint32_t *triangles; /* of the dry meshes */
+    uint32_t *triangles; /* indices of the dry meshes' triangles in the world */
     size_t triangle_count;
-    float low[3], high[3]; /* their bounds */
-    double aside;          /* metres that places stand before their sides */
-    double gap;            /* metres that a wall may leave open upwards */
+    float low[3], high[3]; /* bounds of these triangles */
+    double aside;          /* greatest distance of a place from its side, metres */
+    double gap;            /* height of the greatest gap that a wall may have, metres */
     dry_view view;
     dry_place *places;
     size_t place_count;
@@ -69,7 +70,7 @@ static double least(double a, double b, double c) { return a < b ? a < c ? a : c
 
 static double most(double a, double b, double c) { return -least(-a, -b, -c); }
 
-/* Counts the triangles of each bin that their bounds touch, or puts them in. */
+/* `put` false: counts in first[] the triangles whose bounds touch each bin. `put` true: stores them, moving each first[] back to the bin's begin. */
 static void sort_triangles(dry_view *v, size_t count, bool put)
 {
     for (size_t i = 0; i < count; i++) {
@@ -125,7 +126,7 @@ static bool set_view(dry_search *s, const double across[3], const double up[3], 
     return true;
 }
 
-/* Where a triangle meets the half-plane that begins at depth `from` in a column: heights; low > high where it does not. */
+/* The heights between which a triangle meets a half-plane. low > high: it does not meet it. */
 typedef struct dry_span {
     double low, high;
 } dry_span;
@@ -150,7 +151,8 @@ static dry_span span_of(const dry_corner corner[3], double column, double from)
     return height[0] < height[1] ? (dry_span){height[0], height[1]} : (dry_span){height[1], height[0]};
 }
 
-/* How high the triangles ahead of a place stand, but for small gaps, from its own height on; −inf: none stands there. */
+/* Height of the top of the wall ahead of a place: the triangles that stand on the place's height and on each other, with gaps of at most s->gap. −inf: there
+ * is no wall. */
 static double wall_top(const dry_search *s, const dry_place *p)
 {
     const dry_view *v = &s->view;
@@ -185,8 +187,8 @@ static bool is_within(const dry_search *s, const double at[3])
 
 enum { PLACES = 2 };
 
-/* A little before a side of a triangle: near its lowest corner, as what the side sees there is dry from the lowest height on; and in its middle, as
- * corners may be stuck through a wall. */
+/* A point a little before a side of a triangle, and the side that it stands for. With `which` 0 it is near the lowest corner, where the side is dry from its
+ * lowest height on. With `which` 1 it is in the middle, because corners may be stuck through a wall. */
 static void place_before(const dry_search *s, size_t triangle, double side, int which, double out[3])
 {
     double p[3][3];
@@ -224,7 +226,7 @@ static void do_places(dry_search *s, place_body body, thread_pool *pool)
     thread_pool_run(pool, &loop);
 }
 
-/* In the plan, whose rows go south: whether a triangle lies straight below. Places without one are marked. */
+/* Looks for a triangle straight below a place, in a view downwards. tops[0] becomes −inf if there is none. */
 static void look_down(const dry_search *s, dry_place *p)
 {
     const double reach = wall_top(s, p);
@@ -266,7 +268,7 @@ static bool list_places(dry_search *s)
 
 /* ---- all ---- */
 
-/* The dry meshes' triangles and bounds, and which objects reach into these. */
+/* Lists the dry meshes' triangles, finds their bounds, and finds the objects that reach into these bounds. */
 static bool list_triangles(dry_search *s, world *w)
 {
     size_t count = 0;
@@ -295,7 +297,7 @@ static bool list_triangles(dry_search *s, world *w)
     return s->triangles != NULL;
 }
 
-/* The rim about a place: that of the nearest place inside whose walls were climbed. −inf: the place is not inside. */
+/* The rim's height for a place: that of the nearest inside place that has climbed its walls, which is every step-th. −inf: the place is not inside. */
 static float level_of(const dry_search *s, const dry_place *p, size_t step)
 {
     double level = -INFINITY, nearest = INFINITY;
@@ -325,7 +327,7 @@ static bool search_levels(dry_search *s, float *levels, thread_pool *pool)
     for (size_t i = 0; i < left; i += step)
         s->places[i].climbs = true;
     for (int i = 0; i < DRY_DIRECTIONS; i++) {
-        const double angle = 6.283185307179586 * (i + 0.37) / DRY_DIRECTIONS; /* along no axis, where meshes have their seams */
+        const double angle = 6.283185307179586 * (i + 0.37) / DRY_DIRECTIONS; /* not along an axis, because meshes often have seams there */
         const double ahead[3] = {cos(angle), 0, sin(angle)}, across[3] = {-sin(angle), 0, cos(angle)};
         if (!set_view(s, across, up, ahead))
             return false;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * From a sea's foam in double precision to that of kernels. */
+ * A frame's foam in single precision, relative to a camera. */
 #include "frame/foam.h"
 
 #include <math.h>
@@ -74,7 +74,7 @@ static FoamWave wave_of(const foam_sea *sea, const foam_wave *w, double x, doubl
                       .shared_3 = (float)shared[3]};
 }
 
-/* A kernel's sine stands for a cosine: a quarter of a turn on. */
+/* foam_sine is a cosine and FoamSine is a sine, so a quarter of a turn is added to the phase. */
 static FoamSine sine_of(const foam_sine *s, double x, double z)
 {
     return (FoamSine){(float)(s->x / turn), (float)(s->z / turn), reduced(s->x * x + s->z * z + s->start + pi / 2), (float)s->size};

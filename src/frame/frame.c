@@ -44,7 +44,6 @@ camera_rays mirrored_rays(const camera_rays *rays)
     return m;
 }
 
-/* A camera on the surface, or beyond it while another of its frame is not, is moved a little way off. */
 camera_rays rays_above(const frame *f, const camera_rays *rays)
 {
     camera_rays above = f->under ? mirrored_rays(rays) : *rays;
@@ -52,8 +51,8 @@ camera_rays rays_above(const frame *f, const camera_rays *rays)
     return above;
 }
 
-/* Which ellipses fall back to Riemann sums: P1 §3.6 has "the minor axis multiplied by the number of circular kernels"; one circle is no
- * mixture, and Feline has a number of its own for every ellipse. */
+/* Elongation above which an ellipse falls back to Riemann sums. Podee et al. §3.6 take "the minor axis multiplied by the number of circular kernels". A single
+ * circle is no mixture and Feline chooses the number of its kernels for every ellipse, so these two have no limit. */
 static double elongation_limit(const mgt_quality *q)
 {
     if (q->elongation_limit != 0)
@@ -61,7 +60,8 @@ static double elongation_limit(const mgt_quality *q)
     return q->kernels == MGT_MIXTURE_1 || q->kernels == MGT_MIXTURE_FELINE ? 1e6 : (double)q->kernels;
 }
 
-/* Where waves turn from resolved to unresolved: P1's linear ramp, or ours, chosen by error and flicker on the standard scenes. */
+/* Sets the frequencies between which waves turn from resolved to unresolved: the linear ramp of Podee et al., that of Bruneton et al., or ours, which was
+ * chosen by error and flicker on the standard scenes. */
 static void set_method(frame *f)
 {
     const mgt_quality *q = &f->scene->quality;
@@ -88,8 +88,8 @@ static void set_method(frame *f)
 #include "mangata/method_options.h"
 }
 
-/* What is seen through the surface does not depend on how its reflections are drawn. Of the waves a pixel sees those that face it, which are shorter on
- * the screen than they are along the mean surface: more of them count as resolved. The end is chosen by error and flicker on far floors. */
+/* Sets the uniform numbers for what is seen through the surface, which are the same for all methods. A pixel sees the faces of waves that are turned towards
+ * it, through which more of the waves count as resolved. The end of the ramp was chosen by error and flicker on far floors. */
 static void set_through(frame *f)
 {
     const double start = 0.1, end = 1.6; /* cycles per pixel */
@@ -134,7 +134,7 @@ void frame_look(frame *f, const camera_rays *open, const camera_rays *close)
 frame frame_of(const mgt_scene *scene, const sky_state *sky, bool want_color)
 {
     frame f;
-    memset(&f, 0, offsetof(frame, foam)); /* what foam there is none of is not read */
+    memset(&f, 0, offsetof(frame, foam)); /* frame_foam_of() sets what is read of `foam` */
     f.scene = scene;
     f.under = scene->camera.position[1] < 0;
     FrameData *d = &f.data;
@@ -155,7 +155,7 @@ frame frame_of(const mgt_scene *scene, const sky_state *sky, bool want_color)
     d->pixel_angle = (float)(2 * tan(scene->camera.fov_y_deg * pi / 360) / scene->image.height);
     d->want_color = want_color;
     d->air_rate = sky_state_has_air(scene) ? (float)sky->air_rate : 0;
-    d->sky_black = scene->sky.model == MGT_SKY_BLACK && scene->object_count == 0; /* what objects shine still shows */
+    d->sky_black = scene->sky.model == MGT_SKY_BLACK && scene->object_count == 0; /* the surface mirrors objects under a black sky, too */
     set_method(&f);
     set_through(&f);
     sines_order(&scene->water, f.order);

@@ -13,31 +13,31 @@ typedef struct camera_rays {
 } camera_rays;
 
 typedef struct frame {
-    FrameData data;    /* of the methods that draw what the surface mirrors */
-    FrameData through; /* in scenes with objects, of what is seen through the surface: other waves count as resolved there */
+    FrameData data;    /* for the reflections on the surface */
+    FrameData through; /* for what is seen through the surface, which has another limit between resolved and unresolved waves; for scenes with objects */
     const mgt_scene *scene;
-    camera_rays close, open;       /* cameras when the shutter closes and opens, on the upper side of what is called the water; see `under` */
-    bool under;                    /* the camera is under water: cameras, light and waves are mirrored at the mean surface */
-    uint16_t order[MGT_MAX_WAVES]; /* of the scene's waves by falling amplitude */
-    int skyline_entries;           /* 0: the picture does not show the horizon */
+    camera_rays close, open;       /* cameras when the shutter closes and opens; position[1] > 0, for which a camera under water is mirrored, see `under` */
+    bool under;                    /* the camera is under water: cameras, lights and waves are mirrored at the mean surface */
+    uint16_t order[MGT_MAX_WAVES]; /* indices of the scene's waves by falling amplitude */
+    int skyline_entries;           /* entries of a skyline of this frame; 0: the picture does not show the horizon */
     frame_foam foam;
 } frame;
 
 camera_rays camera_rays_of(const mgt_camera *camera, uint32_t width, uint32_t height);
 
-/* The same, mirrored at the mean surface y = 0. */
+/* Rays mirrored at the mean surface y = 0. */
 camera_rays mirrored_rays(const camera_rays *rays);
 
-/* A camera as a frame takes it: above the surface, if need be mirrored or moved off it. */
+/* Rays of a camera above the mean surface, as frame.close has them: mirrored if f->under, and raised to a height of at least 0.1 mm. */
 camera_rays rays_above(const frame *f, const camera_rays *rays);
 
-/* Takes the rays of both ends of the shutter. */
+/* Sets the frame's cameras at both ends of the shutter. */
 void frame_look(frame *f, const camera_rays *open, const camera_rays *close);
 
-/* `sky` must have been built from the scene; the scene must outlive the frame. */
+/* Prepares a frame. `sky` must have been built from the scene, and the scene must outlive the frame. */
 frame frame_of(const mgt_scene *scene, const sky_state *sky, bool want_color);
 
-/* The same frame of another scene, which differs by its quality alone. */
+/* The frame of a scene that differs from f->scene by its quality alone. */
 frame frame_by_quality(const frame *f, const mgt_scene *scene);
 
 /* The middle of an interval of time and half of its length. */
@@ -45,16 +45,16 @@ typedef struct interval {
     double middle, half;
 } interval;
 
-/* While the shutter is open, or the instant t where the camera moves: its other end is a camera of its own then. */
+/* The interval during which the shutter is open. If the camera moves: the instant t, because the shutter's opening then has a camera of its own. */
 interval frame_shutter(const frame *f);
 
-/* The frame's waves as a camera meets them: those of a camera under water are turned over. */
+/* Where and when a camera meets the frame's waves. For a camera under water the waves are turned upside down. */
 wave_meeting frame_meeting(const frame *f, const camera_rays *camera, interval time);
 
-/* Places the frame's waves before a camera, but for the skyline. `filter` false: every wave is resolved (point samples). */
+/* Fills a set with the frame's waves relative to a camera, without a skyline. `filter` false: every wave is resolved, as point samples see them. */
 void wave_set_place(const frame *f, const camera_rays *camera, interval time, bool filter, wave_set *set);
 
-/* The same with the skyline of filtered waves. */
+/* Fills a set as wave_set_place() does, with the skyline if `filter` is true. */
 void wave_set_build(const frame *f, const camera_rays *camera, interval time, bool filter, wave_set *set);
 
 #endif

@@ -9,14 +9,16 @@
 typedef struct frame_waves {
     wave_set samples; /* the instant t, as point samples see it */
     wave_set now;     /* the instant t, filtered */
-    wave_set shutter; /* over the shutter; where the camera moves, the instant t */
-    wave_set open;    /* where the camera moves: the instant the shutter opens, from the camera's place of that time */
+    wave_set shutter; /* the interval during which the shutter is open, filtered; if the camera moves: the instant t */
+    wave_set open;    /* if the camera moves: the instant at which the shutter opens, relative to the camera of that instant; else not set */
 } frame_waves;
 
 void frame_waves_build(const frame *f, frame_waves *waves);
 
-/* Where in the shutter, from its opening (0) to its closing (1), ssaa's time sample `m` lies, and the camera there. */
+/* Time of the time sample `m` of method ssaa as a fraction of the shutter, from its opening (0) to its closing (1). */
 double shutter_fraction(const mgt_quality *q, uint64_t m);
+
+/* The camera at such a fraction of the shutter. */
 camera_rays camera_at(const frame *f, double share);
 
 #endif

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * Method fxaa (after Lottes 2009): finds edges in the displayed picture of method `none` and reads every pixel a little across its edge.
  *
- * Luma has twelve bits (display_luma() of tone.k). By bytes a step of one, which rounding may cause, would move what is blended too far for the
- * pictures of two machines to agree; without steps ties would fall as rounding has it. */
+ * Luma has twelve bits (display_luma() of tone.k). With eight bits a rounding difference of one step would change the blend so much that the pictures of two
+ * machines would not agree. Without quantisation rounding would decide ties. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -80,7 +80,7 @@ mgt_status fxaa_render(const picture_maker *m, const reporter *r, const mgt_scen
     status = m->render(m->user, scene, layers, 3, NULL);
     if (status != MGT_OK)
         goto done;
-    status = m->luma(m->user, scene, in.color, job.luma); /* edges are those of the tone-mapped picture, before glare */
+    status = m->luma(m->user, scene, in.color, job.luma); /* edges are found in the tone-mapped picture before glare */
     if (status != MGT_OK)
         goto done;
     m->run(m->user, out->height, fxaa_row, &job);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * What a picture of the objects is drawn from, and its shape. */
+ * The rasterised layers of objects: what they depend on, and their shape. */
 #include "frame/gbuffer_job.h"
 
 #include <math.h>
@@ -7,8 +7,8 @@
 #include "base/triples.h"
 
 enum {
-    GUARD_LEAST = 16,    /* pixels of the guard band on each side, at least */
-    GUARD_FRACTION = 20, /* it is this fraction of the image where that is more: one in so many */
+    GUARD_LEAST = 16,    /* least width of the guard band on each side, pixels */
+    GUARD_FRACTION = 20, /* the guard band on each side is at least the image's size divided by this */
 };
 
 RefractData refract_data_of(double camera_height, double index, int map)
@@ -40,13 +40,13 @@ gbuffer gbuffer_shape(const gbuffer_job *job)
     return (gbuffer){.width = (job->width + 2 * left + 15) / 16 * 16, .height = job->height + 2 * top, .left = left, .top = top};
 }
 
-/* The rays' inverse: p = depth · corner + x · right + y · down, where x and y are pixels times depth from the image's first one. */
+/* The inverse of the rays: it gives x, y and depth with p = depth · corner + x · right + y · down, where x and y are pixel coordinates times depth. */
 PictureData gbuffer_picture(const gbuffer_job *job)
 {
     const gbuffer layer = gbuffer_shape(job);
     const double middle_x = layer.left + job->width / 2, middle_y = layer.top + job->height / 2;
     const camera_rays *c = &job->camera;
-    const double tau = job->error > 0 ? job->error : 0.1, edge = 0.8 * tau; /* the middle of a triangle may be off by a little more than its edges */
+    const double tau = job->error > 0 ? job->error : 0.1, edge = 0.8 * tau; /* the error in a triangle's middle may be a little greater than at its edges */
     double depth[3], x[3], y[3];
     cross3(c->right, c->down, depth);
     cross3(c->down, c->corner, x);

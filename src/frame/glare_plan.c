@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: MIT
- * The blur pyramid of glare: its levels, and what each of them spreads. cpu/glare.c has the mathematics. */
+ * The blur pyramid of glare: its levels, and the fraction of the light that each of them spreads. cpu/glare.c has the mathematics. */
 #include "frame/glare_plan.h"
 #include "kernels/common/constants.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-/* Octaves of spread as log2 of a fraction of the image's height: 1/512 … 1/4. */
+/* The finest and the coarsest spread of glare, as log2 of a fraction of the image's height: 1/512 and 1/4. */
 #define FINEST_OCTAVE (-9.0)
 #define COARSEST_OCTAVE (-2.0)
 
-/* ∫ 2^(−x/2) dx over the part of [centre − ½, centre + ½] that is glare. */
+/* ∫ 2^(−x/2) dx, times a constant, over the part of [centre − ½, centre + ½] that lies between the finest and the coarsest octave. */
 static double octave_fraction(double centre)
 {
     double from = fmax(centre - 0.5, FINEST_OCTAVE), to = fmin(centre + 0.5, COARSEST_OCTAVE);
@@ -39,7 +39,7 @@ void glare_weigh_axis(size_t fine_count, const float *fine_mass, size_t coarse_c
             w[t] = inside ? subdivision[t] : 0.0f;
         }
         if (i == 0) {
-            w[1] += GLARE_FAR; /* a fine pixel at the edge takes its whole value from the last coarse one */
+            w[1] += GLARE_FAR; /* a fine pixel at the edge takes its whole value from the coarse pixel at the edge */
         }
         if (i + 1 == coarse_count && 2 * i + 1 < fine_count) {
             w[2] += GLARE_FAR;
@@ -77,7 +77,7 @@ bool glare_plan_weights(const glare_plan *plan, float *weights)
     return true;
 }
 
-/* Levels are added while they count and can still be halved. */
+/* Levels are added while both sides are longer than a pixel and the next octave is not past the coarsest one. */
 glare_plan glare_plan_of(size_t width, size_t height)
 {
     glare_plan plan = {.image = {width, height}};

@@ -8,7 +8,7 @@
 #define STRUCT(name)          \
     typedef struct name name; \
     struct name
-/* The end of a struct whose size is a multiple of 16, as std140 rounds it up. */
+/* Stands at the end of a struct: rounds its size up to a multiple of 16 bytes, as std140 does. */
 #define STD140 __attribute__((aligned(16)))
 #define MGT_METHOD_OPTION(name, method, least, most, preset, meaning) float name;
 #include "kernels/common/types.k"

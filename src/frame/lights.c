@@ -26,12 +26,12 @@ struct light_state {
     double tan_radius;   /* tangent of the light's angular radius */
     double limb;         /* u of the limb darkening I(μ)/I(1) = 1 − u·(1 − μ), μ² = 1 − (angle/radius)²: sun 0.6, moon 0 */
 
-    /* Mean radiance of the whole disk as seen from the water: what lies below the horizon counts as zero, so this fades to 0
-     * while the light sets. The part still above has light_radiance / light_visible. */
+    /* Mean radiance of the whole disk as seen from the water. The part below the horizon counts as black, so this fades to 0 while the light sets. The mean
+     * radiance of the part above the horizon is light_radiance / light_visible. */
     double light_radiance[3];
-    double light_visible;       /* share of the disk's light-weighted area above the horizon, [0, 1] */
-    double light_solid_angle;   /* sr, of the whole disk */
-    double irradiance_light[3]; /* on the horizontal, from the disk */
+    double light_visible;       /* fraction of the disk's light that comes from above the horizon, [0, 1] */
+    double light_solid_angle;   /* of the whole disk, sr */
+    double irradiance_light[3]; /* on a horizontal plane at the water */
 };
 
 struct light_set {
@@ -77,7 +77,7 @@ static double limb_factor(double limb, double relative_distance)
     return (1 - limb * (1 - mu)) / (1 - limb / 3);
 }
 
-/* Mean over the disk of what each of its horizontal strips sends through the air; strips below the horizon send nothing. */
+/* Sets the light that passes through the air: the transmittance is averaged over horizontal strips of the disk. Strips below the horizon are black. */
 static void through_air(light_state *state, const struct scattering *air, const struct spectrum_weights *weights)
 {
     enum { STRIPS = 64, DEPTHS = 16 };
@@ -114,7 +114,7 @@ static void through_air(light_state *state, const struct scattering *air, const 
     spectrum_to_rgb(weights, irradiance, outside, state->irradiance_light);
 }
 
-/* All of it until the light's centre meets the horizon. */
+/* Sets the light without an atmosphere: nothing is lost while the light's centre is above the horizon, and all below. */
 static void without_air(light_state *state)
 {
     const bool up = state->light.elevation_deg >= 0;

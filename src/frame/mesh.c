@@ -9,9 +9,9 @@
 
 #include "base/hash.h"
 
-enum { MOST_AROUND = 64 }; /* edges at a vertex that are looked at, so that hostile meshes take no longer */
+enum { MOST_AROUND = 64 }; /* most edges at a vertex that are compared; it bounds the time for hostile meshes */
 
-/* Edges by the vertex that they begin at: those of vertex v are edge[start[v]] … edge[start[v + 1] − 1], edge e of triangle t being 3 t + e. */
+/* Edges by the vertex at which they begin. Those of vertex v are edge[start[v]] … edge[start[v + 1] − 1]. Edge e of triangle t has the number 3 t + e. */
 typedef struct edge_list {
     uint32_t *start, *edge;
 } edge_list;
@@ -20,7 +20,7 @@ static uint64_t hash_of_position(const float p[3])
 {
     uint64_t hash = 0;
     for (int k = 0; k < 3; k++) {
-        const float x = p[k] + 0.0f; /* no −0 */
+        const float x = p[k] + 0.0f; /* turns −0 into 0 */
         uint32_t bits;
         memcpy(&bits, &x, sizeof bits);
         hash = hash_of(hash ^ bits);
@@ -30,7 +30,7 @@ static uint64_t hash_of_position(const float p[3])
 
 static bool same_position(const float a[3], const float b[3]) { return a[0] == b[0] && a[1] == b[1] && a[2] == b[2]; }
 
-/* The first vertex at every vertex's position, NULL: out of memory. */
+/* For each vertex the first vertex at its position. NULL: out of memory. */
 static uint32_t *find_first(const mgt_mesh *m)
 {
     size_t room = 16;
@@ -82,7 +82,7 @@ static uint32_t count_at(const edge_list *l, uint32_t vertex)
     return count < MOST_AROUND ? count : MOST_AROUND;
 }
 
-/* The triangle whose edge goes from `end` to `begin`; −1: none. It is looked for at the end where fewer edges begin. */
+/* The triangle that has an edge from `end` to `begin`; −1: none. Of the two vertices, the search takes the one where fewer edges begin. */
 static int32_t triangle_across(const mgt_mesh *m, const uint32_t *first, const edge_list *l, uint32_t begin, uint32_t end)
 {
     const uint32_t at_begin = count_at(l, begin), at_end = count_at(l, end);

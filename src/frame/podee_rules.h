@@ -5,14 +5,14 @@
 
 #include "mangata/mangata.h"
 
-/* Defaults filled in. */
+/* Options of scheme podee with their defaults filled in. */
 typedef struct podee_rules {
     double center, width, threshold;
 } podee_rules;
 
 podee_rules podee_rules_of(const mgt_quality *quality);
 
-/* Slots of a pixel of water, where no number for the whole picture is given. */
+/* Sample slots for each pixel of water, for scenes that give no number for the whole picture. */
 double podee_samples_of(const mgt_quality *quality);
 
 #endif

@@ -8,7 +8,7 @@
 static const double pi = 3.14159265358979323846;
 static const double least_deviation = 0.02, deviation_range = 400;
 
-/* F is needed between its columns, and at more places, to be integrated: RADII of them, up to the corner of the sweep's square. */
+/* Number of finer radii at which F is computed for the integrals S. */
 enum { RADII = 2048, MAX_CHORDS = 512 };
 
 double podee_slice_deviation(int slice) { return least_deviation * pow(deviation_range, (double)slice / (PODEE_SLICES - 1)); }
@@ -17,10 +17,10 @@ double podee_slice_reach(int slice) { return 1 + 4 * podee_slice_deviation(slice
 
 /* ---- F ---- */
 
-/* F at `count` radii, `spacing` apart from 0 on. The Gaussian at distance r along v: chords of the disk at v = sin θ, θ equispaced,
- *   F(r) = ∫ N(v; r, σ²) · [2Φ(cos θ/σ) − 1] · cos θ dθ,
- * which converges exponentially. From one radius to the next a chord's density changes by a factor that itself changes by a constant
- * one; it is followed from the radius nearest to the chord both ways. */
+/* F at `count` radii: 0, spacing, 2·spacing, … The Gaussian lies at distance r along v. The disk is summed over its chords at v = sin θ for equispaced θ:
+ *   F(r) = ∫ N(v; r, σ²) · [2Φ(cos θ/σ) − 1] · cos θ dθ.
+ * The sum converges exponentially. From one radius to the next a chord's density N is multiplied by a factor, and this factor by a constant. The recurrence
+ * runs both ways from the radius nearest to the chord. */
 static void convolve(double deviation, double spacing, int count, float *out)
 {
     double sum[RADII];
@@ -93,7 +93,7 @@ static void build_slice(void *argument, size_t index)
     const podee_tables *tables = argument;
     const int s = (int)index;
     const double deviation = podee_slice_deviation(s), reach = podee_slice_reach(s);
-    /* Beyond five deviations from the disk there is nothing worth a float of the table. */
+    /* Farther than five deviations from the disk F is negligible. */
     const double furthest = 1 + 5 * deviation, fine_spacing = furthest / (RADII - 2);
     float fine[RADII];
     convolve(deviation, fine_spacing, RADII, fine);

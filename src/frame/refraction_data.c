@@ -39,7 +39,7 @@ void refraction_plane(const world *w, size_t triangle, float plane[4])
     plane[3] = (float)level;
 }
 
-/* The matrix whose columns are three vectors, inverted. */
+/* Inverts the matrix with these three columns. */
 static void invert(const double right[3], const double down[3], const double corner[3], double rows[3][3])
 {
     const double *columns[3] = {right, down, corner};
@@ -56,21 +56,21 @@ static void invert(const double right[3], const double down[3], const double cor
             rows[i][k] /= det;
 }
 
-/* Whether a method shows what the nearest pixel of a layer shows, however many rays there are. */
+/* Whether a method reads a layer at whole pixels, even if a pixel has several rays. */
 static bool looks_up(mgt_refraction method)
 {
     return method == MGT_REFRACTION_LIU || method == MGT_REFRACTION_BROAD || method == MGT_REFRACTION_NARROW || method == MGT_REFRACTION_SCREEN_SPACE ||
            method == MGT_REFRACTION_OFF;
 }
 
-/* What choppiness may multiply slopes by. */
+/* Greatest factor by which choppiness makes slopes steeper. */
 static double steeper(const frame *f)
 {
     const double pressed = sines_pressed(&f->scene->water);
     return 1 / sqrt(1 - pressed * pressed);
 }
 
-/* From above, rays behind a surface as steep as a crest is are refracted to 41° or more below the horizontal. */
+/* Number of the waves that rays behind the surface may meet again, 0: they meet none. Seen from above, this needs slopes above √(n² − 1). */
 static int waves_met_again(const frame *f)
 {
     const double n = f->scene->water.index_of_refraction, steepest = steeper(f) * sines_steepest(&f->scene->water);
@@ -84,17 +84,18 @@ void refraction_wave_list(const frame *f, const world *w, SearchWave *out)
     sines_searched(&s->water, (wave_meeting){.x = w->origin[0], .z = w->origin[1], .middle = s->time - half}, out);
 }
 
-/* One ray a pixel, unless someone asks for a number. */
+/* Whether edges get extra rays: with method two-phase, unless the scene asks for a number of rays. */
 static bool smooths_edges(const mgt_quality *q) { return q->refraction == MGT_REFRACTION_TWO_PHASE && q->refraction_samples == 0; }
 
-/* Pictures are rounded to parts of pixels: they overlap at the waterline, and the water itself says what is in front. */
+/* Height and depth, metres, up to which both layers show objects. It is never 0: layers are rounded to parts of pixels, so they must overlap at the waterline.
+ * The water decides which of them a pixel shows. */
 static double reach_of(const frame *f) { return fmax(sines_crest(&f->scene->water), 0.002); }
 
 typedef struct box {
     float low[3], high[3];
 } box;
 
-/* In the coordinates of narrow.k, a little wider. */
+/* A box in the coordinates of narrow.k, made a little larger. */
 static box box_from_camera(const frame *f, const world *w, box b)
 {
     const double foot[3] = {f->close.position[0] - w->origin[0], 0, f->close.position[2] - w->origin[1]};
@@ -107,7 +108,7 @@ static box box_from_camera(const frame *f, const world *w, box b)
     return c;
 }
 
-/* The objects that reach to the camera's side. */
+/* Bounds of the objects that reach to the camera's side of the surface. */
 static box near_box(const frame *f, const world *w)
 {
     const float reach = (float)reach_of(f);
@@ -210,7 +211,7 @@ gbuffer_job refraction_mirrored_job(const frame *f)
     job.map = MAP_STRAIGHT;
     job.trough = 0;
     job.mirrored = true;
-    job.crest *= 0.5; /* few waves reach as far as all of them together could: below, the surface would mostly hide what is shown */
+    job.crest *= 0.5; /* crests this high are rare; deeper down the surface would hide most of what the layer shows */
     return job;
 }
 

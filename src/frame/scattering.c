@@ -11,7 +11,7 @@
 #define BANDS SPECTRUM_BANDS
 #define PI 3.14159265358979323846
 
-/* Kilometres throughout this file. */
+/* Lengths are in kilometres throughout this file. */
 #define EARTH 6371.0
 #define TOP_HEIGHT 120.0
 #define TOP (EARTH + TOP_HEIGHT)
@@ -24,17 +24,17 @@
 #define MEAN_ABOVE 24    /* angles above it: sine = (i/24)² */
 #define MEAN_COLUMNS (MEAN_BELOW + MEAN_ABOVE + 1)
 #define VIEW_STEPS 40
-#define AIR_STEPS 12 /* stretches of a path that ends in the air */
+#define AIR_STEPS 12 /* number of stretches of a path that ends in the air */
 #define GATHER_STEPS 12
 #define GATHER_ZENITHS 8
 #define GATHER_AZIMUTHS 4
-#define ORDERS 4 /* gathered one by one; the rest as a geometric series */
+#define ORDERS 4 /* orders of scattering that are gathered one by one; a geometric series stands for the others */
 
-/* Radiance or fraction by band, as a vector; entries beyond BANDS are unused. */
+/* A radiance or a fraction for each band, as a vector; entries beyond BANDS are unused. */
 typedef float band_values __attribute__((vector_size(16 * sizeof(float)), aligned(16)));
 _Static_assert(BANDS <= 16, "bands fit into a vector");
 
-/* Extinction at sea level and full density, 1/km. */
+/* Coefficients at full density, 1/km. */
 typedef struct medium {
     double rayleigh[BANDS];
     double aerosol_scattering[BANDS];
@@ -50,11 +50,11 @@ struct scattering {
     band_values order[2][MEAN_ROWS][MEAN_COLUMNS]; /* of the last two orders, while gathering */
 };
 
-/* A stretch of a ray: where its light sits in the tables and what it sends along the ray per unit of incoming light. */
+/* A stretch of a ray: its place in the tables, and the light that it scatters to the eye per unit of incoming light. */
 typedef struct ray_step {
     double distance, radius;
     double horizon;                /* sine of the horizon's depression, ≤ 0 */
-    double nearest, inverse_range; /* of the distance to space, for the transmittance table */
+    double nearest, inverse_range; /* least distance to space, and 1/(greatest − least distance), for the columns of the transmittance table */
     int light_row, mean_row;
     float light_up, mean_up;
     band_values rayleigh, aerosol, all; /* transmittance to the eye × scattering × length */
@@ -199,7 +199,7 @@ static band_values blend(const band_values *low, const band_values *high, float 
     return (w00 * low[0] + w10 * low[1]) + (w01 * high[0] + w11 * high[1]);
 }
 
-/* Share of the light's disk above the horizon of this point. */
+/* Fraction of the light's disk above the horizon, seen from a stretch. */
 static float light_above(const scattering *air, const ray_step *at, double sine)
 {
     return (float)clamped(0.5 + 0.5 * (sine - at->horizon) / air->sin_radius, 0.0, 1.0);
@@ -231,7 +231,7 @@ static band_values mean_at(const band_values (*table)[MEAN_COLUMNS], const ray_s
 
 typedef enum stretches { EVEN, DENSE_NEAR_START } stretches;
 
-/* Splits a ray of this length into stretches; within each the density counts as constant. */
+/* Splits a ray of length `whole` into stretches, within each of which the density counts as constant. */
 static void split_ray(const medium *air, double start, double sine, double whole, stretches how, int count, scattering_ray *ray)
 {
     ray->length = whole;
@@ -277,7 +277,7 @@ static void aim_ray(const medium *air, double start, double sine, int count, sca
               ray);
 }
 
-/* Light of the first order along a ray, phase functions included; seen: by the eye, not gathered. */
+/* Radiance along a ray by single scattering with the phase functions. `seen` true: for the eye; false: for the table of mean radiance. */
 static band_values single_scattering(const scattering *air, const scattering_ray *ray, double sin_light, double cos_angle, bool seen)
 {
     band_values rayleigh = {0}, aerosol = {0};
@@ -295,7 +295,7 @@ static band_values single_scattering(const scattering *air, const scattering_ray
     return rayleigh_share * rayleigh + aerosol_share * aerosol;
 }
 
-/* Adds the light of a mean radiance, scattered once more and equally to all sides. */
+/* Adds the light that a ray scatters isotropically from a table of mean radiance. */
 static void add_scattered_mean(const band_values (*mean)[MEAN_COLUMNS], const scattering_ray *ray, double sin_light, double cos_angle, band_values *sum)
 {
     for (int i = 0; i < ray->count; ++i) {
@@ -304,7 +304,8 @@ static void add_scattered_mean(const band_values (*mean)[MEAN_COLUMNS], const sc
     }
 }
 
-/* Adds the sea at the ray's end: lit by the light itself, or (mean not NULL) by the sky of twice that mean, as its lower half is dark. */
+/* Adds the sea at the ray's end. `mean` NULL: the light itself shines on it. Otherwise a sky of twice the mean radiance does, because the lower half of the
+ * directions is dark. */
 static void add_ground(const scattering *air, const scattering_ray *ray, const band_values (*mean)[MEAN_COLUMNS], double sin_light, double cos_angle,
                        band_values *sum)
 {
@@ -345,7 +346,7 @@ static gather_direction gather_direction_make(int index)
     return d;
 }
 
-/* order[to] := mean radiance of the light that order[from] scatters; from < 0: of the light itself. */
+/* Fills order[to] with the mean radiance of the light that order[from] scatters; from < 0: that the light itself scatters. */
 static void gather_order(scattering *air, int from, int to, scattering_ray rays[GATHER_ZENITHS])
 {
     band_values(*out)[MEAN_COLUMNS] = air->order[to];

@@ -3,9 +3,9 @@
  * Light scattered by a spherical atmosphere of air, aerosol and ozone over a dark sea, seen from sea level.
  *
  * Single scattering is summed along each view ray with the true phase functions. All further orders use a small table of the
- * mean radiance J(height, sun) at a point: order n + 1 is gathered from order n, scattering isotropically, as in Hillaire,
- * "A scalable and production ready sky and atmosphere rendering technique" (2020), but order by order instead of one closed
- * local sum, which twilight needs: there the light comes from far away.
+ * mean radiance J(height, sun) at a point: order n + 1 is gathered from order n with isotropic scattering. This follows Hillaire,
+ * "A scalable and production ready sky and atmosphere rendering technique" (2020). Unlike there, the orders are gathered one by one instead of by a closed
+ * local sum, because twilight comes from far away.
  */
 #ifndef MANGATA_FRAME_SCATTERING_H
 #define MANGATA_FRAME_SCATTERING_H
@@ -30,7 +30,7 @@ scattering_ray *scattering_ray_create(void);
 void scattering_ray_destroy(scattering_ray *ray);
 void scattering_ray_aim(const scattering *air, double sin_elevation, scattering_ray *ray);
 
-/* Aims at a path that begins at this height and ends after this length, both in kilometres. `sine` of its elevation: −1 … 1. */
+/* Prepares a path that begins at `height` and ends after `length`, both in kilometres. `sine` is that of its elevation, −1 … 1. */
 void scattering_ray_aim_through(const scattering *air, double height, double sine, double length, scattering_ray *ray);
 
 /* Transmittance of the whole ray. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * What shading needs beside the hits: light in air and in water, materials, shadows. */
+ * What the shading of objects needs beside the hits: light in air and in water, materials, shadows. */
 #include "frame/shade_scene.h"
 
 #include <math.h>
@@ -18,7 +18,7 @@ static double fresnel(double cosine, double n)
     return 0.5 * a * a * (1 + b * b);
 }
 
-/* Of light from everywhere above. */
+/* Fresnel's reflectance into a medium of index n, for diffuse light. */
 static double fresnel_diffuse(double n)
 {
     enum { STEPS = 64 };
@@ -30,7 +30,7 @@ static double fresnel_diffuse(double n)
     return mirrored;
 }
 
-/* How the light's rays lean in air and, bent by a flat surface, in water. A light that stands lower than the least height counts as if there. */
+/* The slopes of the light's rays in air and, refracted by a flat surface, in water. A light below the least elevation is placed there. */
 static shadow_rays rays_of(const double direction[3], double n)
 {
     const double level = hypot(direction[0], direction[2]), up = fmax(direction[1], 0.01);
@@ -54,7 +54,7 @@ static void set_light(ShadeData *d, const frame *f, const sky_state *sky, const 
     light_beam(light, sun);
     for (int i = 0; i < 3; i++) {
         sun[i] = up > 0 ? sun[i] : 0;
-        sun_water[i] = sun[i] * up * entering * slant; /* as much light as met the surface, on a beam of another width */
+        sun_water[i] = sun[i] * up * entering * slant; /* the flux through the surface is kept, while the beam's cross-section changes */
         above[i] = sky->irradiance_sky[i];
         ground[i] = 0.25 * (above[i] + sun[i] * fmax(up, 0));
     }
@@ -84,7 +84,7 @@ static void set_water(ShadeData *d, const frame *f, const sky_state *sky)
     d->pixel_angle = f->data.pixel_angle;
 }
 
-/* Phases at the world's origin, at the frame's instant. */
+/* Fills the waves of caustics, with phases at the world's origin and the frame's instant. */
 static void set_waves(shade_scene *s, const frame *f, const world *w, const sky_state *sky)
 {
     const mgt_water *water = &f->scene->water;
@@ -173,7 +173,7 @@ static void fill_triangle(const world *w, size_t triangle, float *out)
 
 bool shade_list_triangles(shade_scene *s)
 {
-    /* What a ray that meets nothing is shaded with does no harm. */
+    /* The record for rays that meet nothing: shading with it gives finite numbers, which are not shown. */
     static const float no_triangle[HIT_TRIANGLE_FLOATS] = {[3] = 1, [8] = 1};
     const world *w = s->world;
     if (s->triangles && s->triangle_version == w->version)

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A vertex as the light sees it: place in texels, and height. */
+/* A vertex: the place where the light's ray through it meets the mean surface, and its height. */
 typedef struct light_point {
     double u, v, y;
 } light_point;
@@ -17,7 +17,7 @@ static light_point place_of(const shadow_rays *rays, const double p[3])
     return (light_point){p[0] - lean[0] * p[1], p[2] - lean[1] * p[1], p[1]};
 }
 
-/* For points in dry hulls. */
+/* Rays that are not refracted, for points in dry hulls. */
 static shadow_rays straight_rays(const shadow_rays *rays) { return (shadow_rays){{rays->air[0], rays->air[1]}, {rays->air[0], rays->air[1]}}; }
 
 void shadow_map_free(shadow_map *m)
@@ -33,7 +33,7 @@ typedef struct bounds {
     float low[3], high[3];
 } bounds;
 
-/* Bounds of all objects that can cast shadows on something. A level ground without end, with nothing wholly under it, would leave the others a few texels. */
+/* Bounds of the objects that can cast shadows. A flat level object under all others is left out: a large ground would leave few texels for the others. */
 static bounds bounds_of_casters(const world *w)
 {
     bounds all = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
@@ -55,7 +55,8 @@ static bounds bounds_of_casters(const world *w)
     return all;
 }
 
-/* The box of places that their bounds have; heights between are convex in each medium, so corners and the waterline suffice. */
+/* Places the map over all places of the casters' bounds. In each medium a place is linear in the point, so the bounds' corners and their sections with the
+ * mean surface suffice. */
 static void place_map(shadow_map *m, const world *w)
 {
     const bounds b = bounds_of_casters(w);
@@ -84,7 +85,7 @@ typedef struct map_half {
     float *height;
 } map_half;
 
-/* Texel centres within the triangle get its height there, if it is greater. */
+/* Raises every texel whose centre is within the triangle to the triangle's height there. */
 static void draw_triangle(const map_half *h, const light_point corner[3])
 {
     const shadow_map *m = h->map;
@@ -95,7 +96,7 @@ static void draw_triangle(const map_half *h, const light_point corner[3])
     const double low = fmin(fmin(a->v, b->v), c->v), high = fmax(fmax(a->v, b->v), c->v);
     const double first = ceil(fmax(low - 0.5, 0)), last = floor(fmin(high - 0.5, (double)m->rows - 1));
     for (double row = first; row <= last; row++) {
-        /* The span of the row: where all three edges hold it. */
+        /* The triangle covers the columns between the edges that cross the row's middle. */
         const double v = row + 0.5;
         double from = INFINITY, to = -INFINITY;
         for (int i = 0; i < 3; i++) {
@@ -132,7 +133,7 @@ static void draw_points(const map_half *h, const double (*points)[3], size_t cou
     }
 }
 
-/* The part of a triangle on one side of the surface, where the light's rays are straight. */
+/* Draws the part of a triangle on one side of the mean surface, where the light's rays are straight. */
 static void draw_side(const map_half *h, const double p[3][3], double side)
 {
     double part[4][3];
@@ -196,13 +197,13 @@ static int blocks_down(const shadow_map *m, int level)
     return ((level + 1 < m->levels ? m->start[level + 1] : m->blocks) - m->start[level]) / m->across[level];
 }
 
-/* A plane of numbers' ranges. */
+/* The ranges of a level's blocks, row by row. */
 typedef struct range_plane {
     height_range *of;
     int across, down;
 } range_plane;
 
-/* Of four blocks, of which this is the first one. */
+/* Range of a square of four blocks, of which (column, row) is the upper left one. */
 static height_range range_of_four(const range_plane *p, int column, int row)
 {
     height_range r = no_heights;
@@ -223,7 +224,7 @@ static height_range range_of_texels(const shadow_map *m, const float *half, int 
     return r;
 }
 
-/* Blocks of a half by themselves, level by level, each from the one before. */
+/* Fills the ranges of single blocks of a half; each level is made from the one before. */
 static void find_blocks(const shadow_map *m, const float *half, height_range *blocks)
 {
     for (int level = 0; level < m->levels; level++) {

@@ -48,8 +48,8 @@ static slope_covariance covariance_of(const mgt_water *water)
     return c;
 }
 
-/* What the slopes of all waves add to a choppy wave's share of slope variance, per area of the surface, over that share at rest: choppiness² k̂ᵀCk̂, to the first
- * order. That the resolved waves press the unresolved ones together is not in it; choppy.k counts it. */
+/* Relative increase of a choppy wave's slope variance per horizontal area by the slopes of all waves: choppiness² k̂ᵀCk̂, to the first order. It leaves out
+ * that resolved waves compress unresolved ones; choppy.k adds this. */
 static double steeper_by(const mgt_wave *w, double choppiness, const slope_covariance *c)
 {
     const double squared = w->kx * w->kx + w->kz * w->kz;
@@ -90,7 +90,7 @@ static WaveData wave_data(const mgt_wave *w, double choppiness, double half, con
 
 _Static_assert(sizeof(SortData) >= SORT_KEYS * sizeof(float), "the keys come first");
 
-/* Its lesser_variance is left open. */
+/* A wave's sort keys, without lesser_variance. */
 static SortData sort_data(const mgt_wave *w, wave_meeting at)
 {
     const double turns_x = w->kx / (2 * pi), turns_z = w->kz / (2 * pi);
@@ -113,7 +113,7 @@ void sines_place(const mgt_water *water, const uint16_t *order, wave_meeting at,
 {
     const slope_covariance covariance = covariance_of(water);
     double variance = 0, slope_variance = 0;
-    for (size_t i = water->wave_count; i-- > 0;) { /* from the smallest, for lesser_variance */
+    for (size_t i = water->wave_count; i-- > 0;) { /* the smallest wave first: lesser_variance sums up the smaller ones */
         const mgt_wave *w = &water->waves[order[i]];
         SortData s = sort_data(w, at);
         set->data[i] = wave_data(w, at.turns != 0 ? -(double)water->choppiness : (double)water->choppiness, at.half, &covariance);
@@ -187,7 +187,7 @@ void sines_searched(const mgt_water *water, wave_meeting at, SearchWave *out)
     }
 }
 
-/* Of the surface's derivative of this order: its sum over the waves, or four deviations where that is less. */
+/* A bound that the surface's derivative of this order seldom exceeds: four standard deviations, or the sum over the waves if that is less. */
 static double seldom_above(const mgt_water *water, int order)
 {
     double sum = 0, variance = 0;
@@ -219,7 +219,7 @@ double sines_path_bend(const mgt_water *water, double half)
     return sqrt(sum);
 }
 
-/* The place of rest of choppy water that is shifted to a point: steps that always come nearer. */
+/* The place of rest of the choppy water that is shifted to `point`, by fixed-point iteration, and the shift's derivative there plus the unit matrix. */
 static void place_of_rest(const mgt_water *water, const double point[2], double time, double rest[2], double stretch[3])
 {
     rest[0] = point[0], rest[1] = point[1];
@@ -319,7 +319,7 @@ double lean_row_angle(const lean_waves *waves, size_t i, size_t row)
 
 static const double turns_per_radian = 0.15915494309189533577;
 
-/* ω·t + phase in turns, within ±1/2: what rounding takes from the product counts, for t may be many periods. */
+/* ω·t + phase in turns, within ±1/2. The product's rounding error is added back, because t may be many periods. */
 static double turns_at(const mgt_wave *wave, double time)
 {
     const double product = wave->omega * time, lost = fma(wave->omega, time, -product);

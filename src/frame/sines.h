@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * What a frame prepares of sine waves: as tiles sort them, as the first-hit search bounds them, on the grid of a map of slopes. Only what
- * implements sines looks inside the structs. */
+ * Sine waves of a frame, prepared for tiles, for the first-hit search and for the map of slope moments. Only the implementation of sines reads the members of
+ * the structs. */
 #ifndef MANGATA_FRAME_SINES_H
 #define MANGATA_FRAME_SINES_H
 
@@ -16,88 +16,92 @@
 /* Floats between arrays whose starts would otherwise share a set of the processor's cache. */
 enum { KEY_GAP = 16 };
 
-/* The waves over an interval as a camera meets them: what is the same for every tile. Sorted by amplitude, the largest first. */
+/* The waves over an interval of time relative to a camera, shared by all tiles. They are sorted by amplitude, the largest first. */
 typedef struct wave_set {
     ViewData view;
-    WaveData data[MGT_MAX_WAVES]; /* phase left open */
-    /* SortData's members, an array each; room for the widest lanes, and zero there. */
+    WaveData data[MGT_MAX_WAVES]; /* without phases, which tiles add */
+    /* An array for each of the first SORT_KEYS members of SortData, padded with zeros for the widest lanes. */
     float keys[SORT_KEYS][MGT_MAX_WAVES + KEY_GAP];
     bool has_foam;
     foam_set foam;
-    float skyline[SKYLINE_MOST][2]; /* where view.skyline is 1: how high crests rise over the horizon, metres a metre, and how far off they stand, metres */
+    float skyline[SKYLINE_MOST][2]; /* if view.skyline is 1: slope of the ray to the highest crest in a direction, and the crest's distance, metres */
 } wave_set;
 
-/* Where and when waves are met: a point of the mean surface, and an interval of time. `turns` are added to every phase: half of one turns the
- * surface over. */
+/* A point of the mean surface, relative to which phases are given, and an interval of time. */
 typedef struct wave_meeting {
-    double x, z;
-    double middle, half;
-    double turns;
+    double x, z;         /* metres */
+    double middle, half; /* middle and half length of the interval, seconds */
+    double turns;        /* added to every phase, turns: 1/2 turns the surface upside down */
 } wave_meeting;
 
-/* The waves' numbers by falling amplitude. */
+/* Fills `order` with the waves' indices by falling amplitude. */
 void sines_order(const mgt_water *water, uint16_t *order);
 
-/* Fills the set but for the camera's part of its view. */
+/* Fills a set, except for the members of `view` that depend on the camera. */
 void sines_place(const mgt_water *water, const uint16_t *order, wave_meeting at, wave_set *set);
 
-/* The set as the GPU sorts it. */
+/* Fills `out` with the sort keys of the set's waves, for the GPU. */
 void sines_sort_data(const wave_set *set, SortData *out);
 
-/* The set's waves as rays look for them from under the camera. */
+/* Fills `out` with the set's waves for rays that search the surface, relative to the point under the camera. */
 void sines_for_rays(const wave_set *set, SearchWave *out);
 
-/* Variances of the slopes and of the second derivatives of the set's first waves. */
+/* Variances of the slopes and of the second derivatives of the set's `count` largest waves. */
 void sines_first(const wave_set *set, int count, double *slope, double *bend);
 
 /* Variance of the heights of the set's waves from the i-th on, metres². */
 double sines_lesser_variance(const wave_set *set, int i);
 
-/* Waves of the set that are not flat; they come first. */
+/* Number of the set's waves with an amplitude above 0; they come first. */
 int sines_moving(const wave_set *set);
 
-/* The scene's waves for the light they gather, relative to the point and the interval's middle. */
+/* Fills `out` with the scene's waves for rays that search the surface, with phases at the point (at.x, at.z) and the interval's middle. */
 void sines_searched(const mgt_water *water, wave_meeting at, SearchWave *out);
 
-/* What the waves seldom rise above the mean surface by: four deviations, or their sum where that is less. */
+/* Height above the mean surface that the waves seldom exceed, metres: four standard deviations, or the sum of the amplitudes if that is less. */
 double sines_crest(const mgt_water *water);
 
-/* What their slopes and second derivatives seldom are above, likewise. */
+/* Slope that the waves seldom exceed, by the same rule. */
 double sines_steepest(const mgt_water *water);
+
+/* Second derivative that the waves seldom exceed, by the same rule, 1/metre. */
 double sines_sharpest(const mgt_water *water);
 
-/* Share of its area that the shift of choppy water seldom takes from it, at most .9; 0: the waves are sines. */
+/* Relative compression by choppiness that the water seldom exceeds, at most .9; 0: the waves are sines. */
 double sines_pressed(const mgt_water *water);
 
-/* Root of the sum of the waves' slope variances, each times (1 − cos(omega·half))²: how far the slopes' path over ± half seconds is from a
- * straight one. */
+/* RMS distance of the slopes' path over ± half seconds from a straight path: the root of the sum of the waves' slope variances, each times
+ * (1 − cos(omega·half))². */
 double sines_path_bend(const mgt_water *water, double half);
 
-/* `gap`, the height of a ray's point over the mean surface, less the waves; `closing`, how fast it grows, likewise. `ray`: its direction. */
+/* Subtracts the waves' height at `point` from *gap, the height of a ray's point over the mean surface. Subtracts the waves' slope along the direction `ray`
+ * from *closing, the derivative of that height along the ray. */
 void sines_lower(const mgt_water *water, const double point[2], double time, const double ray[3], double *gap, double *closing);
 
 /* ---- the grid of the map of slope moments of methods lean and leadr ---- */
 
 enum {
     LEAN_LEVELS = 13,
-    LEAN_MOMENTS = 5, /* mean x, z; second moments xx, xz, zz */
-    LEAN_BLOCK = 16,  /* columns side by side in lean_waves.columns */
-    LEAN_ROWS = 4,    /* rows filled at a time */
+    LEAN_MOMENTS = 5, /* mean slopes x, z; second moments xx, xz, zz */
+    LEAN_BLOCK = 16,  /* columns of a block of lean_waves.columns */
+    LEAN_ROWS = 4,    /* rows that are filled together */
 };
 
-/* Waves with whole periods across the map. */
+/* Waves that have whole numbers of periods across the map. */
 typedef struct lean_waves {
     size_t count;
     double turns[MGT_MAX_WAVES]; /* phase under the camera */
     LeanWave waves[MGT_MAX_WAVES];
-    const float *columns; /* while the map is filled: by blocks of columns: for every wave LEAN_BLOCK cosines, then as many sines */
+    const float *columns; /* only while the map is filled: for each block of columns and each wave LEAN_BLOCK cosines, then LEAN_BLOCK sines */
 } lean_waves;
 
-/* Snaps the waves to the map's grid. Those too short for it go to the rest. */
+/* Snaps the waves to the map's grid. The returned rest_… members hold the slope covariance of waves that are too short for the grid. */
 LeanData sines_snap(const mgt_water *water, wave_meeting at, lean_waves *out);
 
-/* Parts of LEAN_SIZE of a turn that wave i passes up to a column, and turns up to a row. */
+/* Phase of wave i that the columns up to `column` add, in units of 1/LEAN_SIZE turn. */
 static inline unsigned lean_column_part(const lean_waves *w, size_t i, size_t column) { return (unsigned)w->waves[i].periods_x * (unsigned)column; }
+
+/* Phase of wave i at the beginning of a row, radians. */
 double lean_row_angle(const lean_waves *waves, size_t i, size_t row);
 
 static inline LeanWave lean_wave(const lean_waves *w, size_t i) { return w->waves[i]; }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
- * The skyline of the water: a ray goes out from the camera in each direction and rises where it meets the surface, so that it ends up on the highest
- * crest.
+ * The skyline of the water: in each direction a ray marches away from the camera. Where it meets the surface, it is raised, so that in the end it touches the
+ * highest crest.
  *
- * A bearing is a direction on the horizon, from −2 to 2 all around: aside/(|ahead| + |aside|) before the camera, and what is left to ±2 behind it. */
+ * A bearing is a horizontal direction as a number from −2 to 2. It is b = aside/(|ahead| + |aside|) in front of the camera, and ±2 − b behind it. */
 #include "frame/skyline.h"
 
 #include <math.h>
@@ -10,7 +10,7 @@
 
 /* ---- the picture's bearings ---- */
 
-/* Slopes of rays between which a picture shows the horizon and what stands above it. */
+/* A ray between these slopes shows the horizon or what may stand above it. */
 static const double lowest_ray = -0.05, highest_ray = 1;
 
 typedef struct heading {
@@ -49,7 +49,7 @@ static void widen(const camera_rays *c, heading h, double column, double row, sp
     s->last = fmax(s->last, bearing);
 }
 
-/* The extremes lie on the picture's sides. */
+/* Widens a span by the bearings along the picture's border, where the extremes are. */
 static void widen_by_sides(const camera_rays *c, heading h, uint32_t width, uint32_t height, span *s)
 {
     enum { PLACES = 256 };
@@ -80,19 +80,19 @@ int skyline_span(const camera_rays *open, const camera_rays *close, uint32_t wid
 
 /* ---- the waves ---- */
 
-/* The largest waves. */
+/* The `count` largest waves. */
 typedef struct large_waves {
     int count;
-    float slope, bend; /* four deviations of their slopes, 1.4 of their second derivatives */
+    float slope, bend; /* bounds: four standard deviations of their slopes, and 1.4 of their second derivatives */
 } large_waves;
 
-/* What is looked at from a distance on: the waves that a pixel there can show, and the largest of these, high above which no other is looked at. */
+/* Waves that rays sum from a distance on. A ray high above the largest waves needs no others. */
 typedef struct reach {
-    large_waves all, largest;
-    float rest; /* three deviations of what all have more than the largest, metres */
+    large_waves all, largest; /* the waves that a pixel at this distance can show, and the largest of them */
+    float rest;               /* three standard deviations of the height of all without the largest, metres */
 } reach;
 
-/* Distances double from a quarter of a metre. */
+/* Number of distances. They begin with a quarter of a metre, and each is twice the one before. */
 enum { REACHES = 24 };
 
 typedef struct water_line {
@@ -101,7 +101,7 @@ typedef struct water_line {
     reach reaches[REACHES];
     float camera_height, crest;
     bool choppy;
-    float pixel; /* radians */
+    float pixel; /* angle of a pixel, radians */
 } water_line;
 
 static float reach_begins(int i) { return ldexpf(0.25f, i); }
@@ -166,7 +166,7 @@ static float least_of(real x, mask busy)
     return least;
 }
 
-/* Height and slope of the surface at a point. `shift`: about that of choppy water there; the better one is left. */
+/* Height and slope of the surface at a point. */
 typedef struct surface_point {
     real height;
     vec2 slope;
@@ -196,29 +196,29 @@ static surface_point choppy_point(CTX cx, const water_line *w, int count, real x
     return p;
 }
 
-/* `looks`: at choppy water. */
+/* The surface at a point. For choppy water `looks` Newton steps improve *shift, an estimate of the water's horizontal shift there. */
 static surface_point surface_at(CTX cx, const water_line *w, int count, real x, real z, int looks, vec2 *shift)
 {
     return w->choppy ? choppy_point(cx, w, count, x, z, looks, shift) : flat_point(cx, w, count, x, z);
 }
 
-/* Steps at most: past them a ray keeps what it has risen to. */
+/* Most steps of a ray. After them it keeps the slope that it has. */
 enum { MOST_LOOKS = 4096 };
 
-/* Rays on their way out. */
+/* Rays that march away from the camera. */
 typedef struct rising_rays {
-    real dx, dz;   /* their directions */
-    real slope;    /* how steeply they rise */
-    real distance; /* of the crest that they rose on; 0: they met none */
-    real along;    /* how far they are out, metres */
-    vec2 shift;    /* about that of choppy water there */
+    real dx, dz;   /* horizontal directions, unit */
+    real slope;    /* height gained per metre */
+    real distance; /* horizontal distance of the crest that raised the ray last, metres; 0: none did */
+    real along;    /* horizontal distance from the camera, metres */
+    vec2 shift;    /* estimate of choppy water's shift at the ray's place, metres */
     mask busy;
 } rising_rays;
 
-/* What a ray sees of the surface under it. */
+/* The surface under a ray. */
 typedef struct glance {
-    const large_waves *waves; /* that were looked at */
-    real gap;                 /* to the surface of them, less what the others may lift it by, metres */
+    const large_waves *waves; /* the waves that were summed */
+    real gap;                 /* lower bound of the ray's height above the surface, metres; < 0: the ray is below the surface */
     vec2 slope;
 } glance;
 
@@ -236,7 +236,8 @@ static glance look_at(CTX cx, const water_line *w, const reach *r, rising_rays *
     return (glance){&r->all, height - p.height, p.slope};
 }
 
-/* A ray that has met the surface climbs as far as the slope lasts at least; elsewhere it goes as far as the surface cannot rise to it. */
+/* Length of the next step. A ray that was below a rising surface steps as far as the slope lasts at least. Any other steps as far as the surface cannot reach
+ * it. */
 static real step_of(CTX cx, const rising_rays *rays, const glance *g)
 {
     const large_waves *waves = g->waves;
@@ -247,7 +248,7 @@ static real step_of(CTX cx, const rising_rays *rays, const glance *g)
     return max(SELECT(climbs, closing / real(waves->bend), free_step), real(0.05f * waves->slope / waves->bend));
 }
 
-/* Rays that rise by `start` at first, where `wanted`; the others stay where they are. */
+/* Marches rays that begin with the slope `start`, in the lanes `wanted`. */
 static rising_rays rise_from(CTX cx, const water_line *w, real dx, real dz, real start, mask wanted)
 {
     rising_rays rays = {dx, dz, start, real(0.0f), real(reach_begins(0)), {real(0.0f), real(0.0f)}, wanted};
@@ -264,7 +265,7 @@ static rising_rays rise_from(CTX cx, const water_line *w, real dx, real dz, real
         rays.slope = SELECT(meets, min(rays.slope - g.gap / rays.along, real(4.0f)), rays.slope);
         rays.distance = SELECT(meets, rays.along, rays.distance);
         rays.along = rays.along + step_of(cx, &rays, &g);
-        /* No crest further out would lift the ray by a tenth of a pixel. */
+        /* A ray is done when no crest farther away can raise it by a tenth of a pixel. */
         rays.busy = AND(rays.busy, fma(rays.slope + real(0.1f * w->pixel), rays.along, real(w->camera_height)) < real(w->crest));
     }
     return rays;
@@ -274,7 +275,8 @@ typedef struct rise {
     real slope, distance;
 } rise;
 
-/* `before`: the slope of the neighbouring rays. These are seldom much lower, and where they begin a little lower they pass over nearer crests at once. */
+/* Marches rays that begin a little below `before`, the slope of the neighbouring rays, which saves the steps up nearer crests. Rays that meet nothing begin
+ * anew from the lowest slope. */
 static rise rise_beside(CTX cx, const water_line *w, real dx, real dz, real before)
 {
     const real least = real(0.02f * w->pixel);
@@ -287,7 +289,7 @@ static rise rise_beside(CTX cx, const water_line *w, real dx, real dz, real befo
     return (rise){SELECT(lower, anew.slope, first.slope), SELECT(lower, anew.distance, first.distance)};
 }
 
-/* Whether the camera is above the surface. Within a wave it sees no skyline. */
+/* Whether the camera is above the surface. A camera within a wave sees no skyline. */
 static bool stands_over_water(CTX cx, const water_line *w)
 {
     float height[MGT_LANES];
@@ -310,7 +312,7 @@ bool skyline_may_stand(const frame *f, const camera_rays *camera)
     return f->data.grazing_fall > 0 && f->skyline_entries > 0 && !f->under && camera->position[1] < sines_crest(&f->scene->water);
 }
 
-/* Four entries, `each` apart, from the i-th on. Returns their slopes. */
+/* Fills four entries, i, i + each, i + 2·each and i + 3·each. Returns their slopes. */
 static real find_entries(CTX cx, const water_line *line, int i, int each, real before, wave_set *set)
 {
     float dx[MGT_LANES], dz[MGT_LANES], slope[MGT_LANES], distance[MGT_LANES];
@@ -343,7 +345,7 @@ void skyline_find(const frame *f, wave_set *set)
     const struct kernel_context cx = {data};
     if (!stands_over_water(&cx, &line))
         return;
-    /* A lane goes through neighbouring directions. */
+    /* Each lane goes through neighbouring directions, because a ray begins with its neighbour's slope. */
     const int each = (f->skyline_entries + MGT_LANES - 1) / MGT_LANES;
     real before = real(0.0f);
     for (int i = 0; i < each; i++)

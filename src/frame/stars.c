@@ -12,7 +12,7 @@
 
 enum { CELLS = STAR_CELLS * STAR_CELLS };
 
-/* Stars of the whole sky brighter than a visual magnitude, from −1 on. */
+/* Number of stars in the whole sky that are brighter than the visual magnitudes −1, 0, 1, … */
 static const double counts[] = {1, 4, 15, 48, 171, 513, 1602, 4800, 14000};
 enum { LAST = sizeof counts / sizeof *counts - 1 };
 
@@ -26,7 +26,7 @@ double stars_magnitude_of(double rank)
 
 double stars_illuminance(double magnitude) { return 2.54e-9 * pow(10, -0.4 * magnitude); }
 
-/* The upper hemisphere has each second star. */
+/* Illuminance of the i-th brightest star of the upper hemisphere, which has every second star of the whole sky. */
 static double illuminance_of(int i) { return stars_illuminance(stars_magnitude_of(2 * i + 1)); }
 
 double stars_mean_radiance(void)
@@ -37,7 +37,7 @@ double stars_mean_radiance(void)
     return sum / (2 * PI);
 }
 
-/* SplitMix64, in [0, 1). */
+/* A random number in [0, 1), by SplitMix64. */
 static double chance(uint64_t *state)
 {
     uint64_t x = *state += 0x9e3779b97f4a7c15u;
@@ -52,7 +52,7 @@ static int cell_of(const float star[3])
     return (int)(z * (0.5 * STAR_CELLS)) * STAR_CELLS + (int)(x * (0.5 * STAR_CELLS));
 }
 
-/* Evenly over the disk, which keeps areas; no cell gets more than the kernel reads. */
+/* Places a star evenly over the disk, an equal-area map of the hemisphere. No cell gets more stars than the kernel reads. */
 static void place_star(uint64_t *state, int count[CELLS], float star[3])
 {
     for (;;) {

@@ -54,7 +54,7 @@ static inline BlendPixel pixel_of(const picture_planes *p, size_t i)
     return (BlendPixel){{c[0], c[1], c[2]}, p->coverage[i], p->water[i]};
 }
 
-/* Bilinear. */
+/* The history by bilinear interpolation. */
 static BlendPixel history_at(const picture_planes *p, ReprojectedPixel at)
 {
     const uint32_t x0 = (uint32_t)at.column, y0 = (uint32_t)at.row, x1 = x0 + 1 < p->width ? x0 + 1 : x0, y1 = y0 + 1 < p->height ? y0 + 1 : y0;
@@ -74,7 +74,7 @@ static BlendPixel blended(const taa_step *s, const Reprojection *history, uint32
     if (s->still) {
         past = pixel_of(s->history, pixel);
     } else {
-        /* Waves carry no point along: water stays where it is. */
+        /* Only the camera's motion counts: waves do not carry points of the water along. */
         const ReprojectedPixel at = reproject(NULL, *history, width, height, (float)x, (float)y, current->depth[pixel]);
         if (!at.inside)
             return now;
@@ -195,7 +195,7 @@ mgt_status taa_render(const picture_maker *m, const reporter *r, const mgt_scene
         history = next;
         next = swap;
     }
-    if (history != out) /* the first is never `out`, and TAA_FRAMES decides which is last */
+    if (history != out) /* the parity of TAA_FRAMES decides which of the two planes is written last */
         memcpy(out->color, history->color, (size_t)out->width * out->height * 5 * sizeof(float));
 done:
     picture_planes_free(&current);

@@ -5,7 +5,7 @@
 
 #include "frame/sines.h"
 
-/* Nodes of a tile, filled up to whole vectors of any width. */
+/* Number of a tile's nodes, rounded up to whole vectors of any width. */
 enum { NODE_PADDED = (NODE_COUNT + 15) / 16 * 16 };
 
 #endif

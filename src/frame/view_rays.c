@@ -54,7 +54,7 @@ static bool invert3(const double a[3], const double b[3], const double c[3], dou
     return true;
 }
 
-/* An eye-space direction in the world. */
+/* Rotates a direction from eye space to world space. */
 static void to_world(const double matrix[16], const double eye[3], double out[3])
 {
     for (int i = 0; i < 3; i++)

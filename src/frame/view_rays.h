@@ -6,20 +6,21 @@
 #include "frame/frame.h"
 #include "mangata/gl.h"
 
-/* A view's rays; 1 of their `along` is 1 of clip space's w. */
+/* A view's rays. A point at position + d · ray has w = d in clip space. */
 typedef struct view_rays {
     camera_rays rays;
-    double clip_depth[3]; /* clip z of the ray of pixel (0, 0), and its changes per pixel to the right and down, for 1 of w */
-    double clip_offset;   /* added to clip z whatever w is */
+    double clip_depth[3]; /* clip z for w = 1 on the ray of pixel (0, 0), and its changes per pixel to the right and down; without clip_offset */
+    double clip_offset;   /* constant that is added to clip z for every w */
 } view_rays;
 
-/* `matrix` is the view's or its view_open. NULL, or what is wrong with the matrices. */
+/* Fills `out` from the view's projection and `matrix`, its world-to-eye matrix when the shutter closes or opens. Returns NULL, or a text that says what is
+ * wrong with the matrices. */
 const char *view_rays_of(const mgt_gl_view *view, const double matrix[16], view_rays *out);
 
-/* A legal camera at the same place, for checks that want one. */
+/* A valid camera at the same place that looks the same way, for checks of scenes. */
 mgt_camera view_camera(const camera_rays *rays, uint32_t width, uint32_t height);
 
-/* Radians that a pixel spans where the view meets the plane of its pixels at right angles: the same for all parts of a view. */
+/* Angle of a pixel where the view direction is perpendicular to the image plane, radians. It is the same for all parts of a split view. */
 double view_pixel_angle(const camera_rays *rays);
 
 /* A view that has been checked. */

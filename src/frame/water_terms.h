@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * The water at an instant as a sum of sines of phases that grow evenly, for those who ask at points.
+ * The water at an instant as a sum of terms, for queries at points.
  */
 #ifndef MANGATA_FRAME_WATER_TERMS_H
 #define MANGATA_FRAME_WATER_TERMS_H
@@ -9,35 +9,36 @@
 
 #include "mangata/mangata.h"
 
-/* With t = along_x·x + along_z·z + start turns: height Σ up·sin t, slope Σ lean·cos t, its speed upwards Σ rise·cos t. */
+/* A wave's term. With t = along_x·x + along_z·z + start turns the water has the height Σ up·sin t, the slope Σ lean·cos t and the vertical velocity
+ * Σ rise·cos t. Choppy water at a place of rest is shifted by Σ shift·cos t. The shift grows by Σ drift·sin t a second. Its spatial derivative is
+ * −Σ press·sin t. */
 typedef struct water_term {
     double along_x, along_z; /* turns per metre */
     double start;            /* turns, within ±1/2 */
     double up;               /* metres */
     double lean_x, lean_z;
     double rise; /* metres per second */
-    /* Of choppy water, else not set: at a place of rest it is shifted by Σ shift·cos t, which grows by Σ drift·sin t a second, and its derivative is
-     * −Σ press·sin t. */
+    /* The members from here to `single`, and `single` as far as it repeats them, are set for choppy water alone. */
     double shift_x, shift_z; /* metres */
     double drift_x, drift_z; /* metres per second */
     double press_xx, press_xz, press_zz;
     struct {
         float along_x, along_z, radians_x, radians_z, up, lean_x, lean_z, rise, shift_x, shift_z, drift_x, drift_z, press_xx, press_xz, press_zz;
-    } single; /* the same in single precision */
+    } single; /* the members in single precision; radians_x and radians_z are along_x and along_z in radians per metre */
 } water_term;
 
 typedef struct water_terms {
-    bool choppy;     /* the terms stand in order of size */
-    bool folds;      /* it is pressed so hard that it may fold */
-    double sum;      /* metres: of all heights */
-    double pressed;  /* of all derivatives of the shift */
-    double straight; /* metres over which the slopes change little */
-    int count;
-    water_term *of;
+    bool choppy;     /* the water is choppy; the terms are then sorted by falling amplitude */
+    bool folds;      /* the compression may exceed 1, so that the surface may fold over */
+    double sum;      /* sum of the terms' amplitudes, metres */
+    double pressed;  /* sum of the greatest derivatives of the terms' shifts */
+    double straight; /* distance over which the slopes change little, metres */
+    int count;       /* number of terms */
+    water_term *of;  /* the terms, in the caller's `room` */
 } water_terms;
 
-/* The terms of waves that are at least `least` metres long, in `room`, a place each of the water's waves, and the covariance (xx, xz, zz) of the slopes of all
- * others. */
+/* Makes the terms of waves that are at least `least` metres long, in `room`, which has space for all of the water's waves. `covariance` becomes the slope
+ * covariance (xx, xz, zz) of the shorter waves. */
 water_terms water_terms_at(const mgt_water *water, double time, double least, water_term *room, double covariance[3]);
 
 #endif

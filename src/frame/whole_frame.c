@@ -104,7 +104,7 @@ mgt_quality plain_quality(const mgt_quality *q, mgt_method method)
                          .caustics = q->caustics};
 }
 
-/* By another method and without a crop. */
+/* The scene with another method and without a crop. */
 static mgt_scene plain_scene(const mgt_scene *scene, mgt_method method)
 {
     mgt_scene plain = *scene;
@@ -113,7 +113,7 @@ static mgt_scene plain_scene(const mgt_scene *scene, mgt_method method)
     return plain;
 }
 
-/* Depth, normal and what is seen through the surface are those of the pass's base; `share` of the progress is theirs. */
+/* Renders the layers depth, normal, refraction and foam by the base of the method. `share` is their fraction of the progress. */
 static mgt_status render_surface(const picture_maker *m, const mgt_scene *scene, const mgt_target *targets, size_t count, double share)
 {
     const frame_pass pass = {camera_rays_of(&scene->camera, scene->image.width, scene->image.height), 0, share, false};

@@ -83,7 +83,7 @@ static void transform_point(const double m[3][4], const double p[3], double out[
         out[i] = m[i][0] * p[0] + m[i][1] * p[1] + m[i][2] * p[2] + m[i][3];
 }
 
-/* Whole metres in the middle of all objects: numbers near them keep their precision, wherever they are. */
+/* Places the origin at whole metres in the middle of all objects, so that positions in single precision are precise however far away the objects are. */
 static void choose_origin(world *w, const mgt_scene *scene)
 {
     double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
@@ -112,7 +112,7 @@ typedef struct fill_job {
     size_t *first_vertex; /* of each object */
 } fill_job;
 
-/* For normals: the transposed inverse times the determinant's absolute value. Returns whether the transform mirrors. */
+/* The matrix for normals: the transposed inverse times the determinant's absolute value. Returns whether the transform mirrors. */
 static bool cofactors(const double m[3][4], double out[3][3])
 {
     for (int i = 0; i < 3; i++)
@@ -139,7 +139,7 @@ static void fill_normals(const mgt_mesh *mesh, const double matrix[3][3], float 
     }
 }
 
-/* The vector areas of a closed mesh sum up to nothing. */
+/* Whether an object is closed and the mean surface cuts it. The vector areas of a closed mesh sum up to zero. */
 static bool is_cut(const world *w, const world_object *o)
 {
     double sum[3] = {0, 0, 0}, area = 0;
@@ -161,7 +161,7 @@ static bool is_cut(const world *w, const world_object *o)
     return low < 0 && high > 0 && sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]) < 1e-3 * area;
 }
 
-/* A mirrored triangle has its corners in the other order: its first edge is the last one. */
+/* Copies a triangle's neighbours. A mirrored triangle has its corners in reverse order, so its edges are reversed, too. */
 static void fill_neighbours(const mgt_mesh *mesh, size_t triangle, uint32_t first, bool mirrors, int32_t to[3])
 {
     const int32_t *from = mesh->neighbours + 3 * triangle;
@@ -262,7 +262,7 @@ static mgt_status build(world **out, const mgt_scene *scene, thread_pool *pool)
         vertices += scene->objects[i].mesh->vertex_count;
         triangles += scene->objects[i].mesh->triangle_count;
     }
-    /* Vertices are counted in 32 bits; more than three a triangle are in no triangle. */
+    /* Vertices are counted in 32 bits. */
     if (vertices > UINT32_MAX || triangles > MGT_MAX_TRIANGLES || !allocate(&k->world, scene->object_count, vertices, triangles))
         goto fail;
     world *w = &k->world;

@@ -12,9 +12,9 @@ typedef struct world_object {
     uint32_t first_triangle, triangle_count;
     float low[3], high[3]; /* bounds of the vertices in use; low > high where there are none */
     bool smooth;           /* the mesh has normals of its own; else its triangles are flat and `normals` holds zeros */
-    bool cut;              /* closed, and the mean surface cuts it */
-    bool dry;              /* a hull */
-    bool in_dry;           /* reaches into the bounds of dry objects, itself among them */
+    bool cut;              /* it is closed, and the mean surface cuts it */
+    bool dry;              /* it is a hull without water inside */
+    bool in_dry;           /* it reaches into the bounds of all dry objects; always true of a dry object */
 } world_object;
 
 /*
@@ -23,24 +23,22 @@ typedef struct world_object {
  * about 44 where most vertices are shared; where something is dry, 8 a triangle more.
  */
 typedef struct world {
-    uint64_t version; /* of the geometry, unlike that of every other world of the process: what is built for it may stay while this is the same */
+    uint64_t version; /* identifies the geometry within the process; what was built from a world stays valid while its version is the same */
     double origin[2]; /* x, z */
     size_t vertex_count, triangle_count, object_count;
     float *positions;      /* 3 a vertex, and room for one float more, as Embree wants */
     float *normals;        /* 3 a vertex, unit; see world_object.smooth */
     float *texcoords;      /* 2 a vertex */
     uint32_t *indices;     /* 3 a triangle, counter-clockwise seen from outside */
-    int32_t *neighbours;   /* 3 a triangle: those across the edges from each corner to the next, −1: none */
-    uint32_t *object;      /* of a triangle: index into objects */
-    world_object *objects; /* as the scene's; read from the scene of every frame, their textures live only during it */
-    float *dry;            /* 2 a triangle, of its front and its back: see dry.h; NULL: nothing is dry */
+    int32_t *neighbours;   /* 3 a triangle: the triangles across its edges, of which edge i goes from corner i to the next; −1: none */
+    uint32_t *object;      /* for each triangle its object, an index into `objects` */
+    world_object *objects; /* in the scene's order; materials are those of the latest frame's scene, and their textures live only during that frame */
+    float *dry;            /* 2 a triangle: the levels of its front and its back, see dry.h; NULL: no object is dry */
     float low[3], high[3]; /* bounds of all objects */
 } world;
 
-/*
- * The scene's objects in *w, which is NULL at first. What is there stays, with its version, while meshes, transforms and water.level are the same;
- * materials are read anew. MGT_ERROR_MEMORY leaves *w NULL.
- */
+/* Makes *w, which is NULL at first, the world of the scene's objects. The geometry and its version are kept while meshes, transforms and water.level are the
+ * same. Materials are read anew in every call. After MGT_ERROR_MEMORY *w is NULL. */
 mgt_status world_update(world **w, const mgt_scene *scene, thread_pool *pool);
 void world_free(world *w); /* NULL is allowed */
 

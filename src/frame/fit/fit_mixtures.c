@@ -4,10 +4,10 @@
  *   ninja fit_mixtures && ./fit_mixtures > mixture_fits.k
  *
  * The elliptical Gaussian has standard deviations 1 and e. One circular kernel stands in its centre, the others in pairs on its long
- * axis. Minimised is the integral of the squared difference (Eq. 25) over that of the square of the ellipse's own Gaussian. For given
- * places and widths the best weights solve a linear system; NLopt's BOBYQA finds places and widths, from each elongation to the next
- * shorter one, so that they stay on one smooth branch. Then every parameter becomes a polynomial in log e, and NLopt's L-BFGS moves
- * all the coefficients together to where the mean error over the elongations is least. */
+ * axis. The error that is minimised is the integral of the squared difference (Eq. 25), divided by the integral of the elliptical Gaussian's square. For
+ * given places and widths the best weights solve a linear system. NLopt's BOBYQA finds places and widths. It starts each elongation from the result of the
+ * next longer one, so that the results stay on one smooth branch. Then every parameter becomes a polynomial in log e. NLopt's L-BFGS optimises all
+ * coefficients together for the least mean error over the elongations. */
 #include <math.h>
 #include <nlopt.h>
 #include <stdio.h>
@@ -18,13 +18,13 @@ enum { MAX_PAIRS = 4, MAX_MEMBERS = MAX_PAIRS + 1, GRID = 65, MAX_TERMS = 9, MAX
 
 static const double longest = 9, pi = 3.14159265358979323846;
 
-/* Member 0 stands in the centre, member i > 0 for a pair at ±distance. */
+/* Member 0 is the kernel in the centre; each member i > 0 is a pair of kernels at ±distance. */
 typedef struct mixture {
     int members;
     double weight[MAX_MEMBERS], deviation[MAX_MEMBERS], distance[MAX_MEMBERS];
 } mixture;
 
-/* ∬ of the product of two Gaussians: that of their difference at 0. */
+/* ∬ of the product of two normalised Gaussians whose centres are `apart` along y; variance_x and variance_y are the sums of their variances. */
 static double product(double variance_x, double variance_y, double apart)
 {
     return exp(-apart * apart / (2 * variance_y)) / (2 * pi * sqrt(variance_x * variance_y));
@@ -58,7 +58,7 @@ static double relative_error(const mixture *m, double e)
     return sum / whole;
 }
 
-/* The weights that minimise the error: Gaussian elimination with pivots, a trace of ridge where members coincide. */
+/* Finds the weights that minimise the error, by Gaussian elimination with pivots. A small ridge keeps the system regular where members coincide. */
 static void solve_weights(mixture *m, double e)
 {
     const int n = m->members;
@@ -134,7 +134,7 @@ static double fit_one(problem *p, double *x)
 
 /* ---- all elongations ---- */
 
-/* Every parameter of every member is a polynomial in log e of `terms` coefficients: weight, log deviation, distance / √(e² − 1). */
+/* Each member's weight, log deviation and distance / √(e² − 1) as polynomials in log e with `terms` coefficients. */
 typedef struct curves {
     int members, terms;
     double coefficient[MAX_UNKNOWNS];
@@ -162,7 +162,8 @@ static mixture mixture_at(const curves *c, double x)
     return m;
 }
 
-/* Mean relative error; the derivatives of one mixture's error by differences, those of the polynomials by the chain rule. */
+/* Mean relative error over the elongations. The gradient takes the derivatives of a mixture's error from finite differences, and the chain rule for the
+ * coefficients. */
 static double mean_error(unsigned n, const double *x, double *gradient, void *data)
 {
     curves *c = data;
@@ -173,7 +174,7 @@ static double mean_error(unsigned n, const double *x, double *gradient, void *da
     for (int g = 1; g < GRID; g++) {
         const double at = grid_log(g), e = exp(at), root = sqrt(e * e - 1);
         mixture m = mixture_at(c, at);
-        /* The relative L2 norm, so that every elongation counts. */
+        /* The root of the error, so that elongations with small errors count, too. */
         const double norm = sqrt(relative_error(&m, e) + 1e-8);
         sum += norm;
         for (int parameter = 0; gradient && parameter < 3; parameter++)
@@ -197,7 +198,7 @@ static double mean_error(unsigned n, const double *x, double *gradient, void *da
     return sum / (GRID - 1);
 }
 
-/* Least squares of a polynomial through values on the grid, by normal equations in long double. */
+/* Fits a polynomial to values on the grid by least squares; the normal equations are solved in long double. */
 static void fit_curve(const double *value, int first, int terms, double *out)
 {
     long double a[MAX_TERMS][MAX_TERMS + 1] = {{0}};
@@ -232,7 +233,7 @@ static curves fit_all(int pairs, int terms)
         x[i] = log(pairs ? longest / (1.2 * members) : sqrt(longest));
     for (int i = 1; i < members; i++)
         x[members + i - 1] = 1.9 * i / members;
-    /* The shortest elongations say little about the parameters: any mixture of equal kernels would do. */
+    /* The shortest elongations hardly determine the parameters: any mixture of equal kernels fits them. */
     const int first = 6;
     for (int g = GRID - 1; g >= first; g--) {
         problem p = {members, exp(grid_log(g))};
