@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Light along a way through the air.
+ * Light along a straight path through the air.
  */
 #include "reference/air.h"
 
@@ -8,7 +8,7 @@
 
 static const double earth = 6371;
 
-/* U.S. Standard Atmosphere 1976 up to 30 km: minus the logarithm of the density over the sea's, every 5 km. */
+/* Density of air relative to that at sea level, up to 30 km: U.S. Standard Atmosphere 1976, whose logarithm is tabulated every 5 km. */
 static double air_density(double height)
 {
     static const double falls[] = {0, 0.509, 1.085, 1.839, 2.623, 3.412, 4.198};
@@ -17,7 +17,8 @@ static double air_density(double height)
     return exp(-fall);
 }
 
-/* 1/km: air by Bucholtz 1995, sea aerosol with Ångström's exponent 1 over a scale height of 1.2 km. Ozone begins at 12 km: such ways end below. */
+/* Extinction at a height, 1/km: air after Bucholtz 1995, and sea aerosol with the Ångström exponent 1 and a scale height of 1.2 km. Ozone is left out: it
+ * begins at 12 km, and paths end below. */
 static double extinction(double turbidity, double nanometres, double height)
 {
     const double air = 0.01162 * pow(nanometres / 550, -4.08), aerosol = 0.0972 * (turbidity - 1) / 1.2 * (550 / nanometres);

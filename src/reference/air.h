@@ -5,11 +5,11 @@
 #ifndef MANGATA_REFERENCE_AIR_H
 #define MANGATA_REFERENCE_AIR_H
 
-/* A path; lengths in kilometres. */
+/* A straight path through the atmosphere; lengths are in kilometres. */
 typedef struct reference_way {
     double turbidity;
-    double height; /* where it begins, over the sea */
-    double sine;   /* of its elevation there */
+    double height; /* height of its beginning above the sea */
+    double sine;   /* sine of its elevation at its beginning */
     double length;
 } reference_way;
 

@@ -15,24 +15,24 @@
 
 /* ---- steps ---- */
 
-/* Of one level, for one ray. */
+/* Bounds of one level of waves, for one ray in each lane. f is the ray's height above the waves of the level. */
 typedef struct level_bounds {
-    _Alignas(64) double rest[REFERENCE_LANES]; /* of the other waves' height */
-    double random_rest[REFERENCE_LANES];       /* the same where it and the curvature's bound are so many deviations, else 0 */
-    double height_error[REFERENCE_LANES];      /* of sums in single precision, within reach of the anchor */
+    _Alignas(64) double rest[REFERENCE_LANES]; /* bound of the other waves' height */
+    double random_rest[REFERENCE_LANES];       /* `rest` if both it and the bound of the curvature are numbers of standard deviations, else 0 */
+    double height_error[REFERENCE_LANES];      /* bound of the rounding errors of sums in single precision, within reach of the anchor */
     double slope_error[REFERENCE_LANES];
-    double least[REFERENCE_LANES], inverse_least[REFERENCE_LANES]; /* derivative of f, and 1 over its absolute value */
+    double least[REFERENCE_LANES], inverse_least[REFERENCE_LANES]; /* lower bound of the derivative of f, and 1/−least */
     double curvature[REFERENCE_LANES], inverse_curvature[REFERENCE_LANES];
-    double reach[REFERENCE_LANES];   /* metres */
-    double ascend[REFERENCE_LANES];  /* fewer waves serve a greater f as well; measured */
-    double descend[REFERENCE_LANES]; /* a smaller f wants more waves; measured */
+    double reach[REFERENCE_LANES];   /* greatest distance from the anchor, metres */
+    double ascend[REFERENCE_LANES];  /* above this f the ray goes on with fewer waves; chosen by measurements */
+    double descend[REFERENCE_LANES]; /* below this f the ray goes on with more waves; chosen by measurements */
 } level_bounds;
 
-enum { APPROACH_RAYS = 128 }; /* at a time */
+enum { APPROACH_RAYS = 128 }; /* number of rays whose bounds are kept at a time */
 
-/* The same for those rays. */
+/* The members of level_bounds that depend on the ray, for each of these rays and each level. */
 typedef struct approach_bounds {
-    uint32_t first; /* of the rays */
+    uint32_t first; /* index of the first of the rays in the batch */
     _Alignas(64) double slope_error[REFERENCE_LEVELS][APPROACH_RAYS], reach[REFERENCE_LEVELS][APPROACH_RAYS];
     double least[REFERENCE_LEVELS][APPROACH_RAYS], inverse_least[REFERENCE_LEVELS][APPROACH_RAYS];
     double random_rest[REFERENCE_LEVELS][APPROACH_RAYS];
@@ -46,10 +46,10 @@ typedef struct approach_state {
     _Alignas(64) int64_t evaluations[REFERENCE_LANES];
     level_bounds own;
     _Alignas(64) double height[REFERENCE_LANES], slope[REFERENCE_LANES];
-    double anchor[REFERENCE_LANES];   /* metres */
-    uint32_t placed[REFERENCE_LANES]; /* waves that know the anchor */
+    double anchor[REFERENCE_LANES];   /* distance along the ray from which phases in single precision count, metres */
+    uint32_t placed[REFERENCE_LANES]; /* number of waves whose phases count from the anchor */
     uint32_t level[REFERENCE_LANES], ray[REFERENCE_LANES];
-    uint32_t active; /* bits */
+    uint32_t active; /* bit i is set while lane i has a ray */
 } approach_state;
 
 static uint32_t whole_blocks(uint32_t waves)

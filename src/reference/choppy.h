@@ -16,16 +16,16 @@ typedef struct choppy_ray {
     const reference_frame *frame;
     double origin[3], time_offset;
     double along[2], across[2]; /* horizontal, unit */
-    double rise;                /* of the ray for a metre along */
+    double rise;                /* height that the ray gains per metre along */
 } choppy_ray;
 
 typedef struct curve_point {
-    double along, across; /* v, w */
-    double distance;      /* s */
-    double above;         /* g */
-    double above_change;  /* dg/dv, ds/dv, dw/dv */
-    double distance_change;
-    double across_change;
+    double along, across;   /* v, w */
+    double distance;        /* s */
+    double above;           /* g */
+    double above_change;    /* dg/dv */
+    double distance_change; /* ds/dv */
+    double across_change;   /* dw/dv */
     choppy_sums sums;
 } curve_point;
 

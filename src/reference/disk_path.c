@@ -9,7 +9,7 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* The Gaussian in its own axes: deviations along the major and the minor one. */
+/* The Gaussian in its principal axes: standard deviations along the major and the minor axis. */
 typedef struct disk_case {
     double mean[2];
     double major, minor;
@@ -133,7 +133,7 @@ double disk_path_quadrature(const double p0[2], const double p1[2], const double
     return integrate_pieces(probability_on_path, &path, 0, 1, cuts, count, 2e-9);
 }
 
-/* Part [*enter, *leave] ⊂ [0, 1] of the segment within the disk. */
+/* The part [*enter, *leave] ⊂ [0, 1] of the segment from p0 to p1 that lies within the disk. */
 static bool segment_in_disk(const double p0[2], const double p1[2], double radius, double *enter, double *leave)
 {
     const double step[2] = {p1[0] - p0[0], p1[1] - p0[1]};

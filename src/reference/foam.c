@@ -21,7 +21,7 @@ double reference_normal_quantile(double p)
     return 0.5 * (low + high);
 }
 
-/* Of J at a moment: its mean over the moment's length, and the variance and skewness about that. */
+/* J at a moment: its mean over the moment's length, and the variance and the skewness of its deviation from that. */
 typedef struct moment_press {
     double mean, variance, skewness;
 } moment_press;

@@ -8,17 +8,17 @@
 #include "params/foam.h"
 
 typedef struct foam_point {
-    double share; /* of the point that is covered, [0, 1] */
-    double white; /* Σ share · whiteness */
+    double share; /* fraction of the point that foam covers, [0, 1] */
+    double white; /* the sum of that fraction times the foam's whiteness, over the moments */
 } foam_point;
 
-/* At a place of rest in world coordinates and a time in seconds. */
+/* The foam at a place of rest (x, z), world coordinates in metres, and at a time in seconds. */
 foam_point reference_foam_at(const foam_sea *sea, double x, double z, double time);
 
-/* What of the foam, before its pattern, each moment has there: 0 or 1 now, in [0, 1] before. */
+/* The fraction of foam that each moment adds at that place, before the pattern is applied: 0 or 1 for the moment now, in [0, 1] for earlier ones. */
 void reference_foam_moments(const foam_sea *sea, double x, double z, double time, double shares[FOAM_MOMENTS]);
 
-/* x of which the standard normal distribution's P is p, for p in (0, 1). */
+/* The quantile of the standard normal distribution for the probability p in (0, 1). */
 double reference_normal_quantile(double p);
 
 #endif

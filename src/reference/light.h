@@ -9,18 +9,18 @@
 
 #include "mangata/mangata.h"
 
-enum { REFERENCE_LIGHTS = 1 }; /* of a scene */
+enum { REFERENCE_LIGHTS = 1 }; /* most lights of a scene */
 
 typedef struct reference_lights reference_lights;
 
-/* (sin az·cos el, sin el, −cos az·cos el) */
+/* Unit direction to a light: (sin az·cos el, sin el, −cos az·cos el). */
 void light_direction(const mgt_light *light, double direction[3]);
 
-/* Radiance over the disk's mean, at `relative` = angle from the centre / radius, in [0, 1]:
- * (1 − u (1 − μ)) / (1 − u/3), μ = √(1 − relative²). */
+/* Limb darkening: the radiance at a point of the disk, divided by the disk's mean radiance: (1 − u (1 − μ)) / (1 − u/3), with μ = √(1 − relative²).
+ * `relative`, in [0, 1], is the point's angle from the disk's centre, divided by the angular radius. */
 double limb_profile(double u, double relative);
 
-/* For the caller to free(); NULL when memory is short. */
+/* The lights of a scene, which the caller frees by free(). NULL: out of memory. */
 reference_lights *reference_lights_of(const mgt_scene *scene);
 
 /* Whether a unit direction meets the disk of a light whose centre stands at or above the horizon. */
@@ -28,14 +28,14 @@ bool reference_lights_met(const reference_lights *lights, const double direction
 
 int reference_lights_count(const reference_lights *lights);
 
-/* Unit vector to a light. */
+/* Unit direction to a light's centre. */
 void reference_lights_toward(const reference_lights *lights, int light, double direction[3]);
 
 /* Direction and angular radius (radians) of a light. False where its centre stands below the horizon. */
 bool reference_lights_disk(const reference_lights *lights, int light, double direction[3], double *radius);
 
-/* Adds to `rgb` the radiance of the disks that a unit direction meets, `means[i]` being the mean over that of light i. `risen`: only of lights
- * whose centre stands at or above the horizon. */
+/* Adds to `rgb` the radiance of the disks that a unit direction meets. means[i] is the mean radiance of the disk of light i. `risen` true: only lights whose
+ * centre stands at or above the horizon count. */
 void reference_lights_add(const reference_lights *lights, const double means[REFERENCE_LIGHTS][3], const double direction[3], bool risen, double rgb[3]);
 
 #endif

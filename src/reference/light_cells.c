@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Light that the water mirrors, found on the surface: see the header.
+ * Lights that the water mirrors, by an integral over the surface; see the header.
  */
 #include "reference/light_cells.h"
 
@@ -38,16 +38,16 @@ static uint64_t mix_bits(uint64_t x)
 
 static uint64_t key_of(uint64_t key, uint64_t index) { return mix_bits(key + (index + 1) * 0x9e3779b97f4a7c15u); }
 
-/* In (0, 1), from 26 bits; which: 0 or 1. */
+/* One of two random numbers in (0, 1) from a key, of 26 bits each; `which` is 0 or 1. */
 static double random_of(uint64_t key, int which) { return ((double)(key >> (32 * which) & 0x3ffffff) + 0.5) * 0x1p-26; }
 
 /* ---- the camera at one instant ---- */
 
 typedef struct instant {
-    uint64_t key; /* of a pixel's random numbers at this time */
+    uint64_t key; /* key of a pixel's random numbers at this instant */
     double time_offset;
     vec3 position, forward, right, up;
-    double scale_x, scale_y; /* of the ray of depth 1, for each pixel */
+    double scale_x, scale_y; /* change of the ray of depth 1 per pixel */
     double half_width, half_height;
 } instant;
 
@@ -56,7 +56,7 @@ static vec3 between(const double a[3], const double b[3], double weight)
     return (vec3){a[0] + weight * (b[0] - a[0]), a[1] + weight * (b[1] - a[1]), a[2] + weight * (b[2] - a[2])};
 }
 
-/* `share` of the shutter before its closing. */
+/* The camera at the time `share` shutters before the shutter closes. */
 static instant instant_at(const reference_frame *frame, double share)
 {
     const reference_view *close = &frame->view, *open = &frame->view_open;
@@ -93,17 +93,17 @@ static place place_of(const instant *now, vec3 from_camera)
                    .depth = depth};
 }
 
-static const double least_fall = 1e-9; /* of a ray of depth 1 that meets the plane: rays that fall less see no water */
+static const double least_fall = 1e-9; /* a ray of depth 1 that falls by less counts as one that does not meet the mean surface */
 
 /* ---- cells ---- */
 
 typedef struct cell {
-    double x, y, half_x, half_y; /* on the picture of the plane */
+    double x, y, half_x, half_y; /* middle and half sides in the picture of the mean surface, pixels */
     double weight;               /* area of the picture for which the cell stands */
     uint64_t key;
-    double scale_x, scale_y; /* of its sides, over those before it was halved */
+    double scale_x, scale_y; /* its sides, divided by those before it was halved */
     uint8_t instant, halvings;
-    bool last; /* only its point remains to be evaluated */
+    bool last; /* it is not halved any more, only its point is evaluated */
 } cell;
 
 enum { MOST_INSTANTS = 64, MOST_HALVINGS = 18, STACK = 512 };
@@ -114,24 +114,24 @@ typedef struct pending_hit {
     uint32_t pixel;
 } pending_hit;
 
-/* How a cell lies on the plane. */
+/* A cell on the mean surface. */
 typedef struct cell_plane {
-    double along; /* depth of the plane */
-    vec2 at;      /* x and z */
-    vec2 a, b;    /* half of its sides */
-    double bulge; /* the cell lies within the parallelogram of its sides times this; +inf where it reaches the horizon */
+    double along; /* depth of its middle */
+    vec2 at;      /* x and z of its middle */
+    vec2 a, b;    /* its half sides */
+    double bulge; /* the cell lies within the parallelogram of the half sides a and b times this; +inf: the cell reaches the horizon */
 } cell_plane;
 
 typedef struct cells_job {
     const reference_frame *frame;
     const light_cells_area *area;
     light_cells_sum *sums;
-    double size; /* of cells, metres */
+    double size; /* size of cells, metres */
     uint64_t evaluations;
 
-    /* Of the pixel in work. */
+    /* The pixel that is being rendered. */
     instant instants[MOST_INSTANTS];
-    bool bounded; /* no corner of it reaches the horizon */
+    bool bounded; /* none of the pixel's corners reaches the horizon */
     uint32_t stacked;
     cell stack[STACK];
 
@@ -149,7 +149,7 @@ static vec2 plane_step(const instant *now, vec3 ray, vec3 step)
     return (vec2){along * (step.x - ray.x * step.y / ray.y), along * (step.z - ray.z * step.y / ray.y)};
 }
 
-/* False where its middle sees no plane. */
+/* Places a cell on the mean surface. Returns false if the ray through its middle does not meet the mean surface. */
 static bool lay_cell(const instant *now, const cell *c, cell_plane *plane)
 {
     const vec3 ray = ray_through(now, c->x, c->y);
@@ -167,7 +167,7 @@ static bool lay_cell(const instant *now, const cell *c, cell_plane *plane)
 
 /* ---- points ---- */
 
-/* Sums what the visible ones of the pending hits show. */
+/* Adds the light of those pending hits that are visible. */
 static void settle_hits(cells_job *job)
 {
     if (job->hits == 0)
@@ -185,7 +185,7 @@ static void settle_hits(cells_job *job)
     job->hits = 0;
 }
 
-/* Whether the mirror of a place meets a light; its radiance at the eye. */
+/* Whether a mirrored ray meets a light. `rgb` becomes the radiance that the eye sees. */
 static bool mirrors_light(const reference_frame *frame, vec3 view, vec3 normal, double rgb[3])
 {
     const double cosine = -dot3(view, normal);
@@ -288,8 +288,8 @@ static void enter_lane(cells_job *job, const cell *c, const cell_plane *plane, u
     l->scale_y[at] = c->scale_y;
 }
 
-/* Takes cells off the stack: as many as their halves will find room for, and one alone where there is little room. Its halves, one after the other, need
- * no more than a place for each time that it can be halved. */
+/* Takes cells off the stack: as many as there is room for their halves, or a single one if there is little room. A single cell needs no more places than the
+ * number of times that it can be halved. */
 static uint32_t take_off(cells_job *job)
 {
     const uint32_t room = STACK - MOST_HALVINGS - job->stacked, most = job->stacked + MOST_HALVINGS < STACK ? room : 1;
@@ -305,7 +305,7 @@ static uint32_t take_off(cells_job *job)
     return count;
 }
 
-/* Takes some cells off the stack and puts on it what they leave to do. */
+/* Takes some cells off the stack, processes them, and pushes the halves that remain. */
 static void work_off(cells_job *job)
 {
     const uint32_t count = take_off(job);
@@ -328,9 +328,10 @@ static void work_off(cells_job *job)
 
 /* ---- pixels of the plane ---- */
 
-static const double curved_fraction = 0.4; /* of the slope's deviation: what second derivatives may add over a cell decides its size; measured */
+static const double curved_fraction =
+    0.4; /* the most that second derivatives may change the slope over a cell, in standard deviations of the slope; chosen by measurements */
 
-/* How many cells a pixel has along each of its sides, and from how many strata they are taken. */
+/* Numbers of a pixel's cells, and of the strata from which cells are taken, along each side. */
 typedef struct pixel_grid {
     double cells[2], strata[2];
 } pixel_grid;
@@ -350,13 +351,13 @@ static pixel_grid grid_of(double size, const double sides[2], double most)
     return g;
 }
 
-/* A pixel of the picture of the plane. Vectors of its sides are those of the corners, times the squared fall there, over the least squared fall: a side anywhere
- * in the pixel lies between them. */
+/* A pixel of the picture of the mean surface. The vectors of its sides are those at the corners, times the squared fall of the ray there, divided by the least
+ * squared fall. Any side within the pixel is a mean of them. */
 typedef struct plane_pixel {
     int64_t x, y;
     bool bounded; /* no corner reaches the horizon */
     vec2 sides[2][4];
-    double lengths[2]; /* in the middle, or at the lower edge where that sees no plane */
+    double lengths[2]; /* lengths of the sides in the middle, or at the lower edge if the middle does not see the mean surface */
 } plane_pixel;
 
 static plane_pixel pixel_at(const instant *now, int64_t x, int64_t y)
@@ -415,7 +416,7 @@ static bool can_be_seen(const cells_job *job, const instant *now, const plane_pi
     return most[0] >= a->x0 && least[0] <= (double)a->x0 + a->width && most[1] >= a->y0 && least[1] <= (double)a->y0 + a->height;
 }
 
-/* Leaves those of the first `count` instants at which the pixel can be seen. */
+/* Keeps those of the first `count` instants at which the pixel can be seen. Returns their number. */
 static uint32_t keep_seen(cells_job *job, const plane_pixel *p, uint32_t count)
 {
     const double range = job->lanes.bend.height;
@@ -438,7 +439,7 @@ static uint32_t keep_seen(cells_job *job, const plane_pixel *p, uint32_t count)
     return kept;
 }
 
-/* Cells of one instant, one from each stratum. */
+/* Takes the cells of one instant, a random one from each stratum. */
 static void take_cells(cells_job *job, const plane_pixel *p, const pixel_grid *grid, uint32_t now, double weight)
 {
     const uint32_t wide = (uint32_t)grid->strata[0], high = (uint32_t)grid->strata[1];
@@ -461,7 +462,7 @@ static void take_cells(cells_job *job, const plane_pixel *p, const pixel_grid *g
     }
 }
 
-/* Looks at one pixel of the plane in `count` instants, from `first` of `all` on. */
+/* Renders one pixel of the mean surface at `count` of all instants, beginning with `first`. */
 static void look_at_pixel(cells_job *job, int64_t x, int64_t y, uint64_t key, uint32_t first, uint32_t count)
 {
     const mgt_quality *quality = &job->frame->scene.quality;
@@ -503,7 +504,7 @@ static void include(plane_area *to, double x, double y)
     to->most[1] = fmax(to->most[1], y);
 }
 
-/* Where the plane is under what a place of the picture may show. */
+/* Widens an area by the part of the mean surface that lies under the waves which a place of the picture may show. */
 static void include_below(const reference_frame *frame, const instant *now, double x, double y, plane_area *to)
 {
     const vec3 ray = ray_through(now, x, y);
@@ -533,7 +534,7 @@ static plane_area area_below(const reference_frame *frame, const light_cells_are
 
 /* ---- the whole ---- */
 
-/* Whether all of the plane that the picture may show stands before the camera. */
+/* Whether all of the mean surface that the picture may show is in front of the camera. */
 static bool plane_ahead(const reference_frame *frame)
 {
     for (int i = 0; i < 8; i++) {

@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: MIT
  *
- * Light that the water mirrors, found on the surface instead of along rays.
+ * Lights that the water mirrors, by an integral over the surface instead of rays.
  *
- * A small light is met by one ray in many thousands. Its mirror images stand where the surface's slope lies within a small ellipse, and
- * where that is can be told from sums of waves alone, without a search for hits. So the integral over a pixel and the open shutter is taken over the
- * mean surface: a place q of it lifts to the point P(q, t), which the camera sees at a pixel of its own, and area there is
+ * Only one mirrored ray in many thousands meets a small light. The light's mirror images are where the surface's slope lies within a small ellipse. Sums of
+ * waves tell where this is, without a search for hits. So the integral over a pixel and the shutter is taken over the mean surface. A place q of the mean
+ * surface is lifted to the point P(q, t) of the waves, which the camera may see in another pixel. The factor between areas of the picture is
  *
  *     |(P − C)·N| c_y² / (k³ |w_y|³)    for each area of the picture that the plane's place covers,
  *
  * with N = (−∂h/∂x, 1, −∂h/∂z), C the camera, c_y its height, k the depth of P, and w the ray of depth 1 through q.
  *
- * The picture of the plane is cut into pixels, those into cells. Of each cell, the slope at the middle, its derivatives there and a bound of
- * what second derivatives add tell whether any slope of the cell can mirror a light. If none can it adds exactly nothing. Else it is halved, until
- * the light fills a fair share of it; there one point, placed at random, is evaluated as a ray's hit would be. Points that mirror a light are kept if the ray
- * to them meets no water before. Where a pixel has more cells than are asked for, it takes cells at random, one from each of equal strata.
- * The estimate is unbiased: no cell that the light can fill is left out, and each point weighs what it stands for.
+ * The picture of the mean surface is divided into pixels, and each pixel into cells. The slope in a cell's middle, its derivatives there and a bound of the
+ * second derivatives' contribution tell whether any slope in the cell can mirror a light. If none can, the cell adds exactly nothing. Otherwise it is halved,
+ * until the light fills a fair share of it. Then a random point of the cell is evaluated like a ray's hit. A point that mirrors a light counts if the ray to
+ * it meets no water before. If a pixel has more cells than were asked for, it takes cells at random, one from each of equal strata. The estimate is unbiased:
+ * no cell that may mirror a light is left out, and the weight of a point is the area that it stands for.
  */
 #ifndef MANGATA_REFERENCE_LIGHT_CELLS_H
 #define MANGATA_REFERENCE_LIGHT_CELLS_H
@@ -31,11 +31,11 @@ typedef struct light_cells_sum {
     double rgb[3], coverage;
 } light_cells_sum;
 
-/* Whether cells can serve: a light is up, they are asked for, and the camera stands above all waves (reference_options.bound_deviations) and looks so that
- * the mean surface under what it shows lies before it. */
+/* Whether the frame uses cells: the scene asks for them, a light is above the horizon, the camera is above all waves (within
+ * reference_options.bound_deviations), and the mean surface that it shows is in front of it. */
 bool light_cells_serve(const reference_frame *frame);
 
-/* Fills sums[y · width + x] for an area of the picture. What a pixel gets does not depend on the area. Returns how often a sum of waves was evaluated. */
+/* Fills sums[y · width + x] for an area of the picture. A pixel's sum does not depend on the area. Returns the number of evaluated sums of waves. */
 uint64_t light_cells_render(const reference_frame *frame, const light_cells_area *area, light_cells_sum *sums);
 
 #endif

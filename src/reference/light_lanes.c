@@ -2,9 +2,9 @@
  *
  * Cells of the water in lanes: compiled once per lane count.
  *
- * A light of a small disk is mirrored by the slopes −(h.x, h.z)/h.y of h = l − v, l over the disk and v over the directions in which the camera sees the
- * cell. With h = h₀ + Δ that is (slope of h₀) − (Δ.xz + slope · Δ.y)/(h₀.y + Δ.y): linear in Δ but for the denominator, which bounds take at its least.
- * A cell is dark where along some direction of slopes its own slopes lie apart from those.
+ * The slopes that mirror a light with a small disk are −(h.x, h.z)/h.y for h = l − v, where l is any direction to the disk and v any direction in which the
+ * camera sees the cell. With h = h₀ + Δ this is (slope of h₀) − (Δ.xz + slope · Δ.y)/(h₀.y + Δ.y). It is linear in Δ except for the denominator, for which
+ * bounds take its least value. A cell is dark if along some direction in slope space the cell's slopes and these slopes do not overlap.
  */
 #include "reference/double_lanes.h"
 #include "reference/light_lanes.h"
@@ -17,7 +17,7 @@ typedef struct lane_pair {
     reals x, z;
 } lane_pair;
 
-/* What a cell's slopes are: those in the middle, what first derivatives add along the half sides, and bounds of the rest. */
+/* The slopes of a cell: the slope in its middle, its changes along the half sides by first derivatives, and bounds of the rest. */
 typedef struct lane_slopes {
     lane_pair middle, along_a, along_b;
     reals rest[2]; /* along the two axes */
@@ -26,8 +26,8 @@ typedef struct lane_slopes {
 /* Slopes that mirror a light. */
 typedef struct lane_mirror {
     lane_pair slope;
-    reals inverse; /* of the least h.y */
-    reals turn;    /* of the view within the cell: a bound of |Δv| */
+    reals inverse; /* 1 / the least h.y */
+    reals turn;    /* bound of |Δv|, the change of the view direction within the cell */
     masks bounded; /* the bounds hold */
 } lane_mirror;
 
@@ -48,7 +48,7 @@ static inline lane_mirror mirror_of(const light_disk *disk, const reals seen[3],
     return m;
 }
 
-/* How far the slopes that mirror the light reach along a vector. */
+/* Half extent of the slopes that mirror the light along a vector. */
 static inline reals reach_along(const light_disk *disk, const lane_mirror *m, lane_pair along)
 {
     const reals y = dot_pair(along, m->slope), square = fused(y, y, dot_pair(along, along));
@@ -63,7 +63,7 @@ static inline reals rest_along(const reference_cells *cells, const lane_slopes *
     return absolute(first) * s->rest[0] + absolute(second) * s->rest[1];
 }
 
-/* Whether the cell's slopes and those of the mirror lie apart along a vector. */
+/* Whether the cell's slopes and the slopes that mirror the light do not overlap along a vector. */
 static inline masks apart(const reference_cells *cells, const light_disk *disk, const lane_slopes *s, const lane_mirror *m, lane_pair along)
 {
     const lane_pair gap = {s->middle.x - m->slope.x, s->middle.z - m->slope.z};

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Cells of the water in lanes: sums of waves in their middles, and what these say of lights.
+ * Cells of the water in lanes: sums of waves in their middles, and whether the cells can mirror a light.
  */
 #ifndef MANGATA_REFERENCE_LIGHT_LANES_H
 #define MANGATA_REFERENCE_LIGHT_LANES_H
@@ -11,9 +11,9 @@ enum { REFERENCE_CELLS = 64 }; /* a multiple of every lane count */
 
 typedef enum cell_verdict {
     CELL_DARK,    /* no slope in it mirrors a light */
-    CELL_POINT,   /* a point of it may say what it mirrors */
-    CELL_HALVE_X, /* to be halved along its first side */
-    CELL_HALVE_Y  /* along its second */
+    CELL_POINT,   /* a random point of it is to be evaluated */
+    CELL_HALVE_X, /* it is to be halved along its first side */
+    CELL_HALVE_Y  /* it is to be halved along its second side */
 } cell_verdict;
 
 typedef struct light_disk {
@@ -25,18 +25,18 @@ typedef struct light_disk {
 typedef struct reference_cells {
     /* The input, for each cell. */
     _Alignas(64) double x[REFERENCE_CELLS], z[REFERENCE_CELLS], time_offset[REFERENCE_CELLS];
-    double eye_x[REFERENCE_CELLS], eye_y[REFERENCE_CELLS], eye_z[REFERENCE_CELLS]; /* where the camera stands */
+    double eye_x[REFERENCE_CELLS], eye_y[REFERENCE_CELLS], eye_z[REFERENCE_CELLS]; /* the camera's position at the cell's time */
     double a_x[REFERENCE_CELLS], a_z[REFERENCE_CELLS], b_x[REFERENCE_CELLS], b_z[REFERENCE_CELLS];
-    double scale_x[REFERENCE_CELLS], scale_y[REFERENCE_CELLS]; /* of the sides, of those that the bounds below are for */
+    double scale_x[REFERENCE_CELLS], scale_y[REFERENCE_CELLS]; /* lengths of the cell's sides, divided by those that `bend` is for */
 
     /* The input, for all. */
-    double axes[2][2];   /* of slopes: unit vectors, along the view and across */
-    reference_bend bend; /* along these, for sides of scale 1 */
-    double fair_share;   /* a cell is halved while it is wider than so many disks */
+    double axes[2][2];   /* unit axes of slope space, along the view and across */
+    reference_bend bend; /* bounds along these axes, for sides of scale 1 */
+    double fair_share;   /* a cell is halved while it is wider than this many disks */
     int lights;
     light_disk disks[REFERENCE_LIGHTS];
 
-    /* The output: the water in the middle, and a cell_verdict. */
+    /* The output: height and slope in the cell's middle, and a cell_verdict. */
     _Alignas(64) double height[REFERENCE_CELLS], slope_x[REFERENCE_CELLS], slope_z[REFERENCE_CELLS];
     int64_t verdict[REFERENCE_CELLS];
 } reference_cells;

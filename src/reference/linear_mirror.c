@@ -17,7 +17,7 @@ static double gaussian(const double mean[2], const double covariance[3], const d
 
 static double determinant(const double j[2][2]) { return j[0][0] * j[1][1] - j[0][1] * j[1][0]; }
 
-/* The density of mirror rays at a point of the light plane: that of the one slope that sends a ray there, over the map's stretch. */
+/* Density of the mirrored rays at a point of the light plane: the density of the one slope that sends a ray there, divided by the map's determinant. */
 static double mirrored_density(const double to_eye[3], const double light[3], const double e[3], const double f[3], const slope_law *law, double x, double y)
 {
     double direction[3], slope[2], j[2][2];
@@ -83,8 +83,8 @@ double linear_disk_fraction(const double to_eye[3], const double light[3], const
     return disk_probability(mean, covariance, radius);
 }
 
-/* Over slopes, where the true density is the law itself: r = Φ(s) turns ∬ |N(r) − p(s(r))/|J|| dr into ∬ |N(Φ(s)) |J| − p(s)| ds. What the linear law
- * has beyond the slopes that the light plane shows is added at the end. */
+/* The integral is taken over slopes, where the true density is the law itself: r = Φ(s) turns ∬ |N(r) − p(s(r))/|J|| dr into ∬ |N(Φ(s)) |J| − p(s)| ds. The
+ * part of the linear density that these slopes do not reach is added at the end. */
 double linear_density_error(const double to_eye[3], const double light[3], const slope_law *law)
 {
     enum { STEPS = 64 };

@@ -7,10 +7,11 @@
 
 typedef double integrand(double x, const void *user);
 
-/* ∫ f over [from, to] to an absolute `tolerance`: halves panels of 8 points until both halves agree with the whole. */
+/* ∫ f over [from, to] with an absolute `tolerance`. A panel of 8 points is halved until the sum of its halves agrees with the whole. */
 double integrate(integrand *f, const void *user, double from, double to, double tolerance);
 
-/* The same, cut first at the `count` points (any order, those outside are ignored; at most 14) where f may bend sharply. */
+/* ∫ f like integrate(), over pieces between `count` ≤ 14 points where f may bend sharply. The points may be in any order; those outside of [from, to] are
+ * ignored. */
 double integrate_pieces(integrand *f, const void *user, double from, double to, const double *cuts, int count, double tolerance);
 
 #endif

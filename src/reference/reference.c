@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * The brute-force renderer around the lanes: preparing a frame, placing samples, and what a sample sees at its first hit.
+ * The path-traced reference around the lanes: it prepares frames, places samples, and shades a sample's first hit.
  */
 #include "reference/reference.h"
 
@@ -43,7 +43,7 @@ typedef struct lane_build {
     reference_judge *judge;
 } lane_build;
 
-/* All zero when this processor lacks it. */
+/* The functions for an instruction set, all NULL if this processor lacks it. */
 static lane_build pick_build(mgt_isa isa)
 {
     const lane_build scalar = {1, reference_trace_1, reference_search_1, reference_bend_1, reference_judge_1}, missing = {0};
@@ -62,7 +62,7 @@ static lane_build pick_build(mgt_isa isa)
     return scalar;
 }
 
-/* False when memory is short. */
+/* Prepares the frame's foam. Returns false when out of memory. */
 static bool set_foam(reference_frame *frame, const mgt_scene *scene)
 {
     if (!foam_draws(scene))
@@ -188,7 +188,8 @@ static void place_sample(const reference_frame *frame, uint32_t x, uint32_t y, u
 
 typedef enum seen_lights { LIGHTS_NONE, LIGHTS_RISEN, LIGHTS_ALL } seen_lights;
 
-/* Sky and lights in a direction, LIGHTS_RISEN being those over the horizon; below the horizon the horizon's sky. */
+/* Radiance of sky and lights in a direction. LIGHTS_RISEN: only lights whose centre is above the horizon. A direction below the horizon gets the sky of the
+ * horizon. */
 static void radiance_of_sky(const reference_frame *frame, const double direction[3], seen_lights lights, double rgb[3])
 {
     const reference_sky *sky = &frame->sky;
@@ -207,7 +208,7 @@ static void radiance_of_sky(const reference_frame *frame, const double direction
         reference_lights_add(frame->lights, sky->disks, direction, lights == LIGHTS_RISEN, rgb);
 }
 
-/* One sample's mirror ray: whether it meets a light, and its radiance where `rgb` is not NULL. */
+/* Returns whether a sample's mirrored ray meets a light. `rgb`, if not NULL, becomes the sample's radiance. */
 static bool shade_hit(const reference_frame *frame, const double view[3], double slope_x, double slope_z, double rgb[3])
 {
     const double length = sqrt(slope_x * slope_x + 1 + slope_z * slope_z);
@@ -230,11 +231,11 @@ _Static_assert((int)REFERENCE_SUM_WORDS == 2 * SUM_COUNT, "two words a sum");
 /* Sums of a pixel, the same in whatever order and parts samples are added. */
 typedef struct pixel_sums {
     uint64_t hits, covered;
-    exact_sum foam, hidden; /* foam, and how much of what is covered it hides */
+    exact_sum foam, hidden; /* area of foam, and coverage that foam hides */
     exact_sum rgb[3];
 } pixel_sums;
 
-/* Puts foam over the water of a hit and returns how much of it. */
+/* Blends foam over the water of a hit. Returns the fraction that foam covers. */
 static double cover_with_foam(const reference_frame *frame, const reference_batch *batch, uint32_t i, double rgb[3])
 {
     const double *eye = frame->scene.camera.position;
@@ -291,7 +292,7 @@ static void add_sample(const reference_frame *frame, const reference_batch *batc
         }
         if (frame->sky.air && with_color)
             look_through_air(frame, view, batch->distance[i], rgb);
-    } else { /* the camera is under a crest: nothing but water */
+    } else { /* the camera is under a crest and sees nothing but water */
         sums->hits++;
         memcpy(rgb, frame->sky.body_radiance, sizeof rgb);
     }
@@ -331,7 +332,7 @@ typedef struct block {
 
 static size_t block_offset(const block *area, uint64_t pixel) { return (size_t)(pixel / area->width) * area->stride + (size_t)(pixel % area->width); }
 
-/* Where the samples of a block go: into sums, or into pixels. */
+/* The target of a block's samples: sums, or pixels. */
 typedef struct sample_sink {
     uint64_t *sums; /* of the block's top left pixel; NULL: into pixels */
     const reference_result *result;
@@ -345,7 +346,7 @@ static void finish_pixel(const sample_sink *sink, size_t at, const pixel_sums *s
         store_pixel(sink->result, at, own, count);
 }
 
-/* Batches run on over the pixels' borders, so that few samples a pixel still fill the lanes. */
+/* Renders a block's samples. A batch holds samples of several pixels, so that a few samples per pixel still fill the lanes. */
 static void render_samples(const reference_frame *frame, const block *area, const sample_sink *sink, bool with_color, reference_batch *batch)
 {
     const uint64_t pixels = (uint64_t)area->width * area->height, count = frame->sample_count;
@@ -355,8 +356,8 @@ static void render_samples(const reference_frame *frame, const block *area, cons
             finish_pixel(sink, block_offset(area, pixel), &sums, 0);
         return;
     }
-    uint64_t pixel_in = 0, sample_in = 0;   /* next to place */
-    uint64_t pixel_out = 0, sample_out = 0; /* next to add */
+    uint64_t pixel_in = 0, sample_in = 0;   /* the next sample to place */
+    uint64_t pixel_out = 0, sample_out = 0; /* the next sample to add */
     uint64_t key = pixel_key(frame->scene.quality.seed, area->x0, area->y0);
     while (pixel_in < pixels) {
         uint32_t filled = 0;
@@ -403,7 +404,7 @@ static void store_geometry(const reference_result *result, size_t at, const refe
     }
 }
 
-/* Depth and normal: one ray through each pixel's centre when the shutter closes. */
+/* Renders depth and normal by one ray through each pixel's centre, at the time at which the shutter closes. */
 static void render_geometry(const reference_frame *frame, const block *area, const reference_result *result, reference_batch *batch)
 {
     const uint64_t pixels = (uint64_t)area->width * area->height;
@@ -420,7 +421,7 @@ static void render_geometry(const reference_frame *frame, const block *area, con
     }
 }
 
-/* Adds lights to the colour of samples that saw none, and replaces their coverage. */
+/* Adds the lights by light_cells.h to the colour of samples, which do not see lights, and replaces their coverage. */
 static void add_light_cells(const reference_frame *frame, const block *area, const reference_result *result)
 {
     light_cells_sum sums[LIGHT_CELLS_PIXELS];

@@ -2,10 +2,10 @@
  *
  * First hits of a batch of rays with the displaced surface, in lanes. Compiled once per lane count.
  *
- * A ray searches on f(s) = (height of the ray) − (height of the water below it). From f, its derivative and bounds on the
- * water's slope and curvature along the ray follows a step that cannot pass the first zero; close to it, where bounds prove that
- * there is one zero alone, steps are Newton's. A lane that is done takes the next ray, so a long search holds up nobody. Over many
- * waves the search begins where approach.h ends.
+ * The search for a ray's hit looks for the first zero of f(s) = (height of the ray) − (height of the water below it). f, its derivative and bounds of the
+ * water's slope and curvature along the ray give a step that cannot pass the first zero. Near the zero, where the bounds prove that it is the only one, Newton's
+ * steps are taken. A lane that is done takes the next ray, so that a long search does not hold up the other lanes. With many waves the search begins where
+ * approach.h ends.
  */
 #include "reference/double_lanes.h"
 #include "reference/reference_frame.h"
@@ -17,9 +17,9 @@
 #define BEND NAME(reference_bend_, REFERENCE_LANES)
 
 static const double relative_tolerance = 1e-9;
-static const double least_distance = 1e-3;     /* metres: the tolerance does not shrink below this distance */
-static const double far_away = 1e9;            /* metres: beyond it there is no water */
-static const int64_t most_evaluations = 50000; /* rays within 1e-5 of the horizontal alone get there */
+static const double least_distance = 1e-3;     /* metres; added to the distance that the tolerance is relative to */
+static const double far_away = 1e9;            /* metres; rays see no water beyond it */
+static const int64_t most_evaluations = 50000; /* only rays within 1e-5 of the horizontal need as many */
 
 typedef struct lane_vector {
     reals x, y, z;
@@ -141,13 +141,13 @@ typedef struct search_state {
     _Alignas(64) double direction_x[REFERENCE_LANES], direction_y[REFERENCE_LANES], direction_z[REFERENCE_LANES];
     _Alignas(64) double time_offset[REFERENCE_LANES], slope_bound[REFERENCE_LANES], curvature_bound[REFERENCE_LANES];
     _Alignas(64) double end[REFERENCE_LANES];
-    _Alignas(64) double distance[REFERENCE_LANES]; /* where f is evaluated next */
-    _Alignas(64) double above[REFERENCE_LANES];    /* the last distance with f > 0 */
-    _Alignas(64) double below[REFERENCE_LANES];    /* the first known with f ≤ 0; +inf: none */
+    _Alignas(64) double distance[REFERENCE_LANES]; /* distance at which f is evaluated next */
+    _Alignas(64) double above[REFERENCE_LANES];    /* greatest known distance with f > 0 before the zero */
+    _Alignas(64) double below[REFERENCE_LANES];    /* least known distance with f ≤ 0; +inf: none is known */
     _Alignas(64) int64_t last[REFERENCE_LANES];    /* −1: the next evaluation is at the hit */
     _Alignas(64) int64_t evaluations[REFERENCE_LANES];
     uint32_t ray[REFERENCE_LANES];
-    uint32_t active; /* bits */
+    uint32_t active; /* bit i is set while lane i has a ray */
 } search_state;
 
 /* Gives a lane the next ray that can meet water, or idles it. Returns the index of the ray to look at next. */

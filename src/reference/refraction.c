@@ -5,12 +5,12 @@
 #include <math.h>
 #include <stdbool.h>
 
-/* How the optical length grows with the place of the crossing, at `x` from the point in air and `rest` from the one in water. */
+/* Derivative of the optical length by the place of the crossing, which is `x` metres from the point in air and `rest` metres from the point in water. */
 static double growth(double above, double below, double x, double rest, double index) { return x / hypot(above, x) - index * rest / hypot(below, rest); }
 
 double reference_crossing(double above, double below, double across, double index)
 {
-    /* Halved from the end that it is nearer to, so that both distances keep their digits. */
+    /* Bisection measures from the end that the crossing is nearer to, so that both distances keep their precision. */
     const bool early = growth(above, below, 0.5 * across, 0.5 * across, index) > 0;
     double low = 0, high = 0.5 * across;
     for (int i = 0; i < 64; i++) {

@@ -3,14 +3,12 @@
 #ifndef MANGATA_REFERENCE_REFRACTION_H
 #define MANGATA_REFERENCE_REFRACTION_H
 
-/*
- * By Fermat's principle: of all paths between a point in air, `above` metres over the surface, and one in water of index n, `below` metres under it,
- * `across` metres apart, the one whose optical length is least. Returns how far along the surface it crosses it, from under the point in air, found
- * by halving. `above` and `below` > 0.
- */
+/* The point where light crosses the surface, by Fermat's principle: its path has the least optical length of all paths. The path goes from a point in air,
+ * `above` > 0 metres over the surface, to a point `below` > 0 metres deep in water of the index of refraction `index`. The points are `across` metres apart
+ * horizontally. Returns the crossing's horizontal distance from the point in air, metres, found by bisection. */
 double reference_crossing(double above, double below, double across, double index);
 
-/* The angle of that path's ray in air to the vertical, radians. */
+/* The angle between the vertical and this path in air, radians. */
 double reference_air_angle(double above, double below, double across, double index);
 
 #endif

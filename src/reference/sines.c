@@ -11,7 +11,7 @@
 
 static const long double pi = 3.14159265358979323846264338327950288L;
 
-/* Of water at rest: where it is shifted to, and the derivatives that the surface there is made of. */
+/* Choppy water at a place of rest: its height, its shift, and their derivatives, from which those of the shifted surface follow. */
 typedef struct rest_sums {
     water_point flat;  /* height and its derivatives at rest */
     double shift[2];   /* metres */
@@ -46,7 +46,7 @@ static rest_sums sums_at_rest(const mgt_water *water, double x, double z, double
     return r;
 }
 
-/* The surface where the sums' water has been shifted to: derivatives by x = u + D(u). */
+/* The surface at the place x = u + D(u) to which the water is shifted, with derivatives by x. */
 static water_point shifted_surface(const rest_sums *r)
 {
     const double *b = r->stretch, det = b[0] * b[2] - b[1] * b[1];
@@ -70,7 +70,7 @@ water_point water_surface(const mgt_water *water, double x, double z, double tim
     rest_sums r = sums_at_rest(water, x, z, time);
     if (!(water->choppiness > 0))
         return r.flat;
-    /* Half of a step that always comes nearer, then Newton's. */
+    /* Newton's steps, shortened until they come nearer; if none does, half a fixed-point step, which always comes nearer. */
     for (int i = 0; i < 300; i++) {
         const double left[2] = {x - u[0] - r.shift[0], z - u[1] - r.shift[1]}, off = hypot(left[0], left[1]);
         if (off < 1e-14 * (1 + fabs(x) + fabs(z)))
@@ -101,7 +101,7 @@ void water_worst_case(const mgt_water *water, const double direction[3], double 
         *slope += fabs(wave->amplitude * (wave->kx * direction[0] + wave->kz * direction[2]));
         steepest += fabs(wave->amplitude) * hypot(wave->kx, wave->kz);
     }
-    /* A surface that leans by S at rest where it is not pressed is pressed by choppiness · S where it is level. */
+    /* If the steepest slope of sines is S, then choppiness compresses the surface by at most choppiness · S, which makes slopes steeper. */
     const double pressed = fmin((double)water->choppiness * steepest, 0.9);
     *slope /= 1 - pressed;
 }
@@ -114,7 +114,7 @@ static double reduced_half_turns(const mgt_wave *wave, const mgt_scene *scene)
     return (double)remainderl(phase / pi, 2.0L);
 }
 
-static const uint32_t most_single = 32; /* waves that one level serves as fast; measured */
+static const uint32_t most_single = 32; /* up to as many waves a single level is as fast; chosen by measurements */
 
 static int order_of(double a, double b) { return (a > b) - (a < b); }
 
@@ -171,7 +171,7 @@ static double square_curvature(const reference_wave *waves, size_t count)
 
 uint32_t reference_levels_of(const reference_wave *waves, uint32_t count, double deviations, reference_level levels[REFERENCE_LEVELS])
 {
-    const double ratio = 2; /* of neighbours' curvature, at least; measured */
+    const double ratio = 2; /* least ratio of the curvatures of neighbouring levels; chosen by measurements */
     uint32_t waves_of[REFERENCE_LEVELS] = {count}, used = 1;
     uint32_t fewer = count <= REFERENCE_MOST_WAVES ? (count - 1) / REFERENCE_BLOCK * REFERENCE_BLOCK : REFERENCE_MOST_WAVES;
     while (count > most_single && used < REFERENCE_LEVELS && fewer > 0) {
@@ -217,7 +217,7 @@ void reference_columns_shift(const reference_wave *waves, uint32_t count, double
     }
 }
 
-/* Of the derivative of this order of the height of waves. */
+/* Bound of the derivative of this order of the waves' height. */
 static double derivative_bound(const reference_wave *waves, uint32_t count, int order, double deviations)
 {
     double sum = 0, square = 0;
@@ -236,7 +236,7 @@ void choppy_levels_of(const reference_wave *waves, double choppiness, double dev
     for (uint32_t i = 0; i < level_count; i++) {
         const uint32_t count = levels[i].waves;
         const double slope = derivative_bound(waves, count, 1, deviations), bend = derivative_bound(waves, count, 2, deviations);
-        /* A step along the curve goes sideways too, by as much as the shift turns. */
+        /* A step along the curve goes sideways, too, because the shift changes its direction. */
         const double pressed = fmin(size * slope, 0.9), aside = 1 + pressed;
         out[i] = (choppy_level){.waves = count,
                                 .shift = size * derivative_bound(waves, all, 0, deviations),
@@ -308,5 +308,5 @@ double reference_waves_straight(const reference_wave *waves, uint32_t count, dou
 void reference_waves_mirror(reference_wave *waves, size_t count)
 {
     for (size_t i = 0; i < count; i++)
-        waves[i].phase += 1; /* half a turn: amplitudes stay positive, as the bounds want them */
+        waves[i].phase += 1; /* half a turn, so that amplitudes stay positive, as the bounds need them */
 }

@@ -9,7 +9,7 @@
 
 #include "mangata/mangata.h"
 
-/* Phases are kept in half turns (π radians): reducing them is then one exact subtraction. */
+/* A wave. Phases are in half turns (π radians), so that an exact subtraction reduces them. */
 typedef struct reference_wave {
     double amplitude;
     double amplitude_a, amplitude_b; /* amplitude × wave vector in radians per metre */
@@ -20,19 +20,19 @@ typedef struct reference_wave {
 
 enum {
     REFERENCE_LEVELS = 8,
-    REFERENCE_BLOCK = 16,      /* waves; but for the last level, levels are whole blocks */
-    REFERENCE_MOST_WAVES = 512 /* on any level but the last */
+    REFERENCE_BLOCK = 16,      /* waves of a block; all levels except the last have whole blocks */
+    REFERENCE_MOST_WAVES = 512 /* most waves of any level except the last */
 };
 
-/* The longest waves of a sea, and what the others add to their height. */
+/* The longest waves of a sea, and a bound of the others' height. */
 typedef struct reference_level {
-    uint32_t waves;    /* how many, from the first */
-    double rest;       /* metres: the bound of the others' height; 0 on the last level */
-    bool random;       /* that bound is so many deviations, not the sum */
-    double amplitudes; /* metres: the sum of theirs */
+    uint32_t waves;    /* number of the longest waves */
+    double rest;       /* bound of the other waves' height, metres; 0 on the last level */
+    bool random;       /* `rest` is a number of standard deviations, not the sum of amplitudes */
+    double amplitudes; /* sum of the longest waves' amplitudes, metres */
 } reference_level;
 
-/* The first waves once more, with waves of no height up to a whole block. */
+/* The members of the first waves as arrays, padded with waves of amplitude 0 to a whole block. */
 typedef struct reference_columns {
     _Alignas(64) double half_turns_a[REFERENCE_MOST_WAVES], half_turns_b[REFERENCE_MOST_WAVES], half_turns_c[REFERENCE_MOST_WAVES];
     double phase[REFERENCE_MOST_WAVES], amplitude_a[REFERENCE_MOST_WAVES], amplitude_b[REFERENCE_MOST_WAVES];
@@ -48,55 +48,55 @@ typedef struct choppy_sums {
     double stretch[3]; /* xx, xz, zz of 1 + ∂shift/∂place */
 } choppy_sums;
 
-/* What bounds choppy water along a curve of places of rest, over the longest waves. */
+/* Bounds of choppy water along a curve of places of rest, for the longest waves. */
 typedef struct choppy_level {
     uint32_t waves;
-    double shift;            /* metres: the shift of all waves along a direction */
-    double rest, rest_shift; /* metres: what the other waves add to the height, and what their shift adds by the slope of these */
-    double slope, bend;      /* of the height along the curve */
-    double most_stretch;     /* metres of water for a metre along it */
-    double shift_bend;       /* 1/metre */
+    double shift;            /* shift by all waves along a direction, metres */
+    double rest, rest_shift; /* height of the other waves, and the height by which their shift moves these waves along their slope, metres */
+    double slope, bend;      /* first and second derivative of the height along the curve */
+    double most_stretch;     /* metres of shifted water per metre of the curve */
+    double shift_bend;       /* second derivative of the shift along the curve, 1/metre */
 } choppy_level;
 
-/* Fills a wave for each of the scene's, the longest first where levels want it. */
+/* Fills `out` with the scene's waves. If levels are used, the longest wave comes first. */
 void reference_waves_of(const mgt_scene *scene, reference_wave *out);
 
-/* What a sum of these waves never rises above: the sum of amplitudes or so many deviations, whichever is less. */
+/* Bound of the sum of these waves: the sum of amplitudes or `deviations` standard deviations, whichever is less. */
 double reference_waves_bound(const reference_wave *waves, size_t count, double deviations);
 
 void reference_columns_of(const reference_wave *waves, uint32_t count, reference_columns *columns);
 
-/* The columns' shifts. `choppiness`: below 0 for water turned over. */
+/* Fills the columns' members for choppy water. `choppiness` < 0: the water is turned upside down. */
 void reference_columns_shift(const reference_wave *waves, uint32_t count, double choppiness, reference_columns *columns);
 
 /* Bounds of choppy water with the waves of these levels. */
 void choppy_levels_of(const reference_wave *waves, double choppiness, double deviations, const reference_level *levels, uint32_t level_count,
                       choppy_level *out);
 
-/* Fills levels, the last one being all waves, and returns how many. */
+/* Fills `levels`, of which the last one has all waves. Returns their number. */
 uint32_t reference_levels_of(const reference_wave *waves, uint32_t count, double deviations, reference_level levels[REFERENCE_LEVELS]);
 
 /* What the waves may change within parallelograms. Along direction i of slopes the slope differs from what first derivatives make of the middle's by no more than
  * first + both + second: of the first side, of both and of the second, so that shares x and y of the sides take x², x·y and y² of them. */
 typedef struct reference_bend {
     double first[2], both[2], second[2];
-    double height; /* metres by which the height may differ from the middle's within `whole` parallelograms along each side */
+    double height; /* bound of the difference in height from the middle, within whole[i] parallelograms along each side i, metres */
 } reference_bend;
 
-/* sides[i] are four vectors: side i is any mean of them. */
+/* Bounds for parallelograms whose side i is any mean of the four vectors sides[i]. */
 reference_bend reference_waves_bend(const reference_wave *waves, uint32_t count, const double sides[2][4][2], const double whole[2], const double axes[2][2]);
 
-/* Metres within which waves of any direction make of the slope, beside first derivatives, at most this share of its deviation. +inf without waves. */
+/* Distance within which the slope differs from its first-order expansion by at most `share` of its standard deviation, metres. +inf: there are no waves. */
 double reference_waves_straight(const reference_wave *waves, uint32_t count, double share);
 
 /* At a place of rest x, z and time offset: ∇²h − Σ slope_i ∇²D_i (xx, xz, zz), and the stretch of `sums`. */
 void choppy_bend_at_rest(const reference_wave *waves, uint32_t count, double choppiness, const double place[3], const double slope[2], double bend[3],
                          choppy_sums *sums);
 
-/* Turns the surface over. */
+/* Turns the surface upside down. */
 void reference_waves_mirror(reference_wave *waves, size_t count);
 
-/* Of all waves aligned: their height, and their slope along a direction. */
+/* Height and slope along a direction if the crests of all waves were aligned. */
 void water_worst_case(const mgt_water *water, const double direction[3], double *height, double *slope);
 
 #ifdef MANGATA_REFERENCE_DOUBLE_LANES_H /* for what is compiled in lanes */
@@ -145,7 +145,7 @@ static inline lane_hessian waves_hessian(const reference_wave *waves, uint32_t c
     return sum;
 }
 
-/* Both of the above with one sine. */
+/* waves_at() and waves_hessian() together, with one sine and cosine for each wave. */
 static inline lane_surface waves_at_with_hessian(const reference_wave *waves, uint32_t count, reals x, reals z, reals time_offset, lane_hessian *bend)
 {
     lane_surface sum = {splat(0), splat(0), splat(0)};
