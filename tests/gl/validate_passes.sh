@@ -23,11 +23,23 @@ check() { # file, what to define
 }
 
 count=0
+foamy=0
 each_way() { # file, what to define
     count=$((count + 1))
     check "$1" "$2"
     check "$1" "$2
 #define SOFTWARE_GL"
+    grep -q FOAMY_WATER "$whole" || return 0
+    foamy=$((foamy + 1))
+    # As water_defines of gl_programs.c has it.
+    check "$1" "$2
+#define CHOPPY_WATER
+#define FOAMY_WATER"
+    check "$1" "$2
+#define SOFTWARE_GL
+#define MANY_WAVES
+#define CHOPPY_WATER
+#define FOAMY_WATER"
 }
 for pass in "$work"/*.comp "$work"/*.vert "$work"/*.frag "$work"/*.tesc "$work"/*.tese; do
     grep -q '"method\.k"' "$pass" || each_way "$pass" ""
@@ -52,6 +64,6 @@ if ! glslangValidator "$work"/whole/* >"$work/log" 2>&1; then
         grep -E 'ERROR|WARNING' "$work/log"
     done
 fi
-echo "$count passes, each for hardware and for software"
-[ $count -ge 12 ] || failed=1
+echo "$count passes, each for hardware and for software; $foamy of them also with foam"
+[ $count -ge 12 ] && [ $foamy -ge 12 ] || failed=1
 exit $failed
