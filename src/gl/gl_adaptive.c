@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Method adaptive on the GPU: which scheme runs, and the layers that it alone makes pictures of. */
+ * Method adaptive on the GPU: the choice of its scheme, and the layers samples, importance and detail. */
 #include "gl/gl_renderer.h"
 
 mgt_status gl_spent_reserve(gl_renderer *g, const region *area, const reporter *r)

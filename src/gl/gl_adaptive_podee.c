@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
- * Method adaptive, scheme podee, on the GPU: Podee et al., Adaptive Supersampling for Rendering Reflections on Water Surfaces, as published
- * (docs/adaptive.md). The passes and what they hand on stand in slots_data.glsl.
+ * Scheme podee of method adaptive on the GPU, as published: Podee et al., Adaptive Supersampling for Rendering Reflections on Water Surfaces
+ * (docs/adaptive.md). slots_data.glsl describes the data of its passes.
  *
- * How many slots a band has is known on the GPU alone. Chunks of them are dispatched as often as the picture could need, by commands that the GPU has
- * written; those behind the last slot are empty. */
+ * Only the GPU knows how many slots a band has. So the CPU submits the largest number of chunks of slots that the picture could need. The GPU writes the sizes
+ * of these indirect dispatches, and chunks beyond the last slot are empty. */
 #include <math.h>
 #include <string.h>
 
@@ -11,13 +11,14 @@
 #include "gl/gl_frame.h"
 #include "gl/gl_whole_frame.h"
 
-/* Slots of a dispatch: results fill 20 MiB. llvmpipe ends an invocation's loops after 65,535 turns, and a task may own a chunk's slots all by itself. */
+/* Slots of a chunk, whose results fill 20 MiB. llvmpipe ends the loops of an invocation after 65,535 iterations, and all slots of a chunk may belong to one
+ * task. */
 enum { CHUNK_SLOTS = 1 << 20, CHUNK_SLOTS_SOFTWARE = 1 << 15 };
 
-/* Chunks after which a band's uniform data are sent again, before the ring comes round to them. */
+/* Chunks after which a band's uniform data are uploaded again, before the ring overwrites them. */
 enum { RESEND = 500 };
 
-/* Of the progress that a picture makes. */
+/* Fraction of a picture's progress that the approximate picture makes. */
 static const double approximate_fraction = 0.3;
 
 typedef struct slots_run {
@@ -28,13 +29,14 @@ typedef struct slots_run {
 
 /* ---- what the passes are told ---- */
 
-/* No float above `value` is taken for one that is not. */
+/* The largest float that is not above `value`. Every float that is above it is above `value`, too. */
 static float float_below(double value)
 {
     const float f = (float)value;
     return (double)f > value ? nextafterf(f, -1) : f;
 }
 
+/* Largest number of slots that a picture may have. */
 static uint64_t most_slots(const mgt_quality *q, const region *area)
 {
     return q->sample_slots ? q->sample_slots : (uint64_t)(podee_samples_of(q) * area->width * area->height) + 1;
@@ -106,7 +108,7 @@ static void bind_storage(const gl_renderer *g)
     g->gl.BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, g->slots.commands.name);
 }
 
-/* Program and data of the next dispatch; a band's pass, or NULL. */
+/* Makes a program current and uploads its uniform data. `pass` is that of a band, or NULL. */
 static mgt_status use(const slots_run *s, gl_program program, const PassData *pass)
 {
     gl_renderer *g = s->run.g;
@@ -136,7 +138,7 @@ static mgt_status dispatch(const slots_run *s, gl_program program, const PassDat
     return status;
 }
 
-/* Importance of the whole picture, and its sums. */
+/* Computes the importance of all pixels of the picture, and its prefix sum over the tiles. */
 static mgt_status plan(const slots_run *s)
 {
     gl_renderer *g = s->run.g;
@@ -150,7 +152,8 @@ static mgt_status plan(const slots_run *s)
     return status == MGT_OK ? ended : status;
 }
 
-/* Tiles of all waves at both ends of the shutter, those of its opening behind the others. */
+/* Sorts all waves for the band's tiles at both ends of the shutter, and searches first hits. The tiles of the opening are stored behind those of the
+ * closing. */
 static mgt_status prepare_ends(slots_run *s, const gl_band *b)
 {
     const gl_run *run = &s->run;
@@ -167,6 +170,7 @@ static mgt_status prepare_ends(slots_run *s, const gl_band *b)
     return status == MGT_OK ? gl_search_nodes(run, s->data.two_ends ? 2 * b->tiles : b->tiles) : status;
 }
 
+/* Lists the tasks of the band's tiles and writes the sizes of its chunks. */
 static mgt_status list_tasks(const slots_run *s, const gl_band *b)
 {
     gl_renderer *g = s->run.g;
@@ -181,6 +185,7 @@ static mgt_status list_tasks(const slots_run *s, const gl_band *b)
     return status == MGT_OK ? ended : status;
 }
 
+/* Traces the slots of a chunk and adds their results to their tasks. */
 static mgt_status render_chunk(const slots_run *s, const gl_band *b)
 {
     gl_renderer *g = s->run.g;
@@ -197,6 +202,7 @@ static mgt_status render_chunk(const slots_run *s, const gl_band *b)
     return status == MGT_OK ? ended : status;
 }
 
+/* Blends the means of the band's tasks into the layers. */
 static mgt_status blend_tasks(const slots_run *s, const gl_band *b)
 {
     gl_renderer *g = s->run.g;
@@ -231,7 +237,7 @@ static mgt_status render_band(slots_run *s, const gl_band *b)
     return status == MGT_OK && s->run.objects ? gl_put_objects_in_front(&s->run, b) : status;
 }
 
-/* Clamped waves over the shutter, and a Gaussian of the others. */
+/* Renders the approximate picture by method podee-uniform into the layers. */
 static mgt_status render_approximate(gl_renderer *g, const gl_job *job, const reporter *r)
 {
     gl_plain_frame plain;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * The OpenGL backend: contexts, and mgt_render() with its reading back. */
+ * The OpenGL backend: its contexts, and mgt_render(), which reads the layers back. */
 #include "gl/gl_backend.h"
 
 #include <stdio.h>
@@ -58,7 +58,7 @@ static void APIENTRY forward_message(GLenum source, GLenum type, GLuint id, GLen
     (void)id, (void)length;
     const gl_backend_state *s = user;
     const mgt_log_level level = type == GL_DEBUG_TYPE_ERROR ? MGT_LOG_WARNING : MGT_LOG_DEBUG;
-    /* Compilers are listened to where a program is built, and the groups are our own. */
+    /* gl_programs.c reports messages of the compiler, and messages of the application are the backend's own debug groups. */
     if (source != GL_DEBUG_SOURCE_SHADER_COMPILER && source != GL_DEBUG_SOURCE_APPLICATION && severity != GL_DEBUG_SEVERITY_NOTIFICATION)
         report(&s->report, level, "gl.message", "%s", text);
 }
@@ -92,7 +92,7 @@ static void gl_destroy(void *state)
     free(s);
 }
 
-/* In the context that is current. */
+/* Creates the renderer in the current context. */
 static mgt_status create_renderer(gl_backend_state *s, const reporter *r, mgt_context_info *info)
 {
     const mgt_gl_get_proc get_proc = s->desc.gl_get_proc ? s->desc.gl_get_proc : gl_egl_get_proc;
@@ -140,9 +140,10 @@ static mgt_status gl_create(void **state, const mgt_context_desc *desc, const re
 
 /* ---- reading back ---- */
 
-/* Bytes that are read back at once. */
+/* Largest number of bytes that are read back at once, unless a row has more. */
 static const size_t transfer_bytes = (size_t)16 << 20;
 
+/* The image that holds a layer, and how OpenGL reads it back. */
 typedef struct layer_source {
     const gl_image *image;
     GLenum format, type;
@@ -181,7 +182,7 @@ static layer_source source_of(const gl_renderer *g, const mgt_target *target)
     return (layer_source){&l->color, channels, GL_FLOAT};
 }
 
-/* `crop` lies within `area`, which the layers hold. */
+/* Reads back the layer of a target. `area` is the part of the image that the layers hold, `crop` the part of it that is read. */
 static mgt_status read_target(gl_backend_state *s, const mgt_target *target, const region *area, const region *crop, const reporter *r)
 {
     const gl_api *gl = &s->renderer->gl;
@@ -210,6 +211,7 @@ static mgt_status read_target(gl_backend_state *s, const mgt_target *target, con
 
 /* ---- mgt_render ---- */
 
+/* The camera of a job of mgt_render(): see gl_camera_at. `user` is its frame. A camera before the shutter opens is one of method taa. */
 static camera_rays scene_camera_at(const void *user, double share)
 {
     const frame *f = user;

@@ -1,24 +1,27 @@
 /* SPDX-License-Identifier: MIT
- * A tree of boxes over a world's triangles: split where the surface area heuristic over bins of centroids finds it cheapest, in halves where a path
- * would otherwise grow too long. */
+ * Builds a bounding volume hierarchy over a world's triangles. A range of triangles is split at the plane that is cheapest by the surface area heuristic over
+ * bins of centroids. If every plane would make some path too long, the range is halved. */
 #include "gl/gl_bvh.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+/* Bins of an axis. Ranges of at most 1/PARTS of the triangles, or of at most LEAST_PART triangles, are parts, which threads build in parallel. */
 enum { BINS = 16, PARTS = 64, LEAST_PART = 4096 };
 
 typedef struct box {
     float low[3], high[3];
 } box;
 
+/* A triangle and its box. */
 typedef struct item {
     box box;
     uint32_t triangle;
 } item;
 
-/* What a child is until all parts are known: a node or, with BVH_LEAF, a leaf of the same tree; with CHILD_PART, the root of a part. */
+/* Flag of a child while the tree is built. A child without a flag is the index of a node of the same tree. With BVH_LEAF it is the index of a leaf of that
+ * tree. With CHILD_PART it is the index of a part, for whose root it stands. */
 #define CHILD_PART 0x40000000u
 
 typedef struct node {
@@ -30,10 +33,10 @@ typedef struct leaf {
     uint32_t triangles[BVH_LEAF_TRIANGLES];
 } leaf;
 
-/* A range of items that a tree of its own is built of. */
+/* A range of items that is built as a tree of its own. */
 typedef struct part {
     size_t first, count;
-    int levels;
+    int levels; /* largest number of nodes on a path */
 } part;
 
 typedef struct tree {
@@ -47,12 +50,12 @@ typedef struct tree {
 typedef struct build_job {
     const world *world;
     item *items;
-    part *parts; /* NULL: none are put off; else there is room for MOST_PARTS */
-    size_t part_count, part_size;
-    tree *trees; /* of the parts */
+    part *parts;                  /* room for MOST_PARTS; NULL: the tree is built as a whole */
+    size_t part_count, part_size; /* part_size: largest number of items of a part */
+    tree *trees;                  /* a tree for each part */
 } build_job;
 
-/* Ranges larger than a part are at most PARTS a level, and each leaves at most two parts. */
+/* A level has at most PARTS ranges that are larger than a part. Each of them is split into at most two parts. */
 enum { MOST_PARTS = 2 * PARTS * BVH_LEVELS };
 
 /* ---- boxes ---- */
@@ -67,7 +70,7 @@ static void box_add(box *b, const box *other)
     }
 }
 
-/* Half of it. */
+/* Half the surface area of a box. */
 static float box_area(const box *b)
 {
     const float x = b->high[0] - b->low[0], y = b->high[1] - b->low[1], z = b->high[2] - b->low[2];
@@ -84,7 +87,7 @@ static box box_of_triangle(const world *w, size_t triangle)
     return b;
 }
 
-/* Four units in the last place on either side. */
+/* The box, wider on each side by at least four units in the last place, the error that rounding may have. */
 static box widened(const box *b)
 {
     box wide;
@@ -103,7 +106,7 @@ static box box_of_items(const item *items, size_t count)
     return b;
 }
 
-/* Twice the middle. */
+/* Twice the coordinate of the box's centre. */
 static float centroid(const item *i, int axis) { return i->box.low[axis] + i->box.high[axis]; }
 
 /* ---- where to split ---- */
@@ -113,13 +116,13 @@ typedef struct bin {
     size_t count;
 } bin;
 
-/* Bins of one axis. */
+/* The bins of one axis. Bin i begins at the centroid() from + i / scale. */
 typedef struct bins {
     float from, scale;
     bin bins[BINS];
 } bins;
 
-/* The first part are the items in the bins below `bin`; axis −1: no plane will do. */
+/* A plane that splits a range. The items in bins below `bin` of the axis come first. axis −1: no plane is allowed. */
 typedef struct split {
     int axis, bin;
     float from, scale, cost;
@@ -131,6 +134,7 @@ static int bin_of(const item *i, int axis, float from, float scale)
     return at > 0 ? at < BINS ? (int)at : BINS - 1 : 0;
 }
 
+/* Distributes the items over the bins of the three axes. */
 static void fill_bins(const item *items, size_t count, bins out[3])
 {
     float low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
@@ -156,10 +160,10 @@ static void fill_bins(const item *items, size_t count, bins out[3])
         }
 }
 
-/* Leaves are visited whole. */
+/* Cost of a range by the surface area heuristic. A ray tests all triangles of a leaf, so the count is that of whole leaves. */
 static float cost_of(const box *b, size_t count) { return box_area(b) * (float)((count + BVH_LEAF_TRIANGLES - 1) / BVH_LEAF_TRIANGLES); }
 
-/* Neither side may hold more than `most`. */
+/* Puts the cheapest plane of an axis in `best` if it is cheaper than that. Neither side may hold more than `most` items. */
 static void try_axis(const bins *b, int axis, size_t count, uint64_t most, split *best)
 {
     float right[BINS];
@@ -191,7 +195,7 @@ static split best_split(const item *items, size_t count, uint64_t most)
     return best;
 }
 
-/* Moves what is to come first there, and returns how many that are. */
+/* Moves the items of the first side to the front of the range. Returns their number. */
 static size_t divide(item *items, size_t count, const split *s)
 {
     size_t first = 0, last = count;
@@ -209,6 +213,7 @@ static size_t divide(item *items, size_t count, const split *s)
 
 /* ---- growing ---- */
 
+/* Enlarges `list` if it has no room for one more element of `size` bytes. False: out of memory, `list` is unchanged. */
 static bool has_room(void **list, size_t count, size_t *room, size_t size)
 {
     if (count < *room)
@@ -222,6 +227,7 @@ static bool has_room(void **list, size_t count, size_t *room, size_t size)
     return true;
 }
 
+/* Adds a node, whose members are not set, and returns its index. If memory runs out, it sets out_of_memory and returns 0. */
 static uint32_t add_node(tree *t)
 {
     void *nodes = t->nodes;
@@ -233,6 +239,7 @@ static uint32_t add_node(tree *t)
     return (uint32_t)t->node_count++;
 }
 
+/* Adds a leaf and sorts its triangles. Returns it as a child. If memory runs out, it sets out_of_memory and returns 0. */
 static uint32_t add_leaf(tree *t, const item *items, size_t count)
 {
     void *leaves = t->leaves;
@@ -258,8 +265,8 @@ static uint32_t add_part(build_job *job, size_t first, size_t count, int levels)
     return CHILD_PART | (uint32_t)job->part_count++;
 }
 
-/* The tree of a range, in which at most `levels` nodes may stand in a row. A side takes no more than it can hold in one level less,
- * 4 · 2^(levels − 1): halves always do. */
+/* Builds the tree of a range of items and returns its root as a child: see CHILD_PART. A path may pass at most `levels` nodes. So a side may hold at most
+ * BVH_LEAF_TRIANGLES · 2^(levels − 1) items, which halves never exceed. */
 static uint32_t grow(build_job *job, tree *t, size_t first, size_t count, int levels)
 {
     item *items = job->items + first;
@@ -292,11 +299,12 @@ static void grow_part(void *argument, size_t index, uint32_t worker)
 
 /* ---- the list of texels ---- */
 
-/* Where a tree's nodes and leaves begin. */
+/* First texels of a tree's nodes and of its leaves. */
 typedef struct start {
     size_t node, leaf;
 } start;
 
+/* The child as gl_bvh.h defines it. `of` is where the child's own tree begins, `parts` where the parts begin. */
 static uint32_t address(uint32_t child, const start *of, const start *parts, const build_job *job)
 {
     if (child & BVH_LEAF)
@@ -329,7 +337,7 @@ static void put_tree(const tree *t, const start *at, const start *parts, const b
         memcpy(out->texels + at->leaf, t->leaves, t->leaf_count * sizeof *t->leaves);
 }
 
-/* The top of the tree, whose root comes first, then the parts. */
+/* Writes the list of texels: the nodes of the top of the tree, whose root is the first one, and those of the parts, then the leaves in the same order. */
 static mgt_status put_all(const tree *top, const build_job *job, gl_bvh *out)
 {
     out->node_count = top->node_count;
@@ -361,6 +369,7 @@ static mgt_status put_all(const tree *top, const build_job *job, gl_bvh *out)
 
 /* ---- the whole ---- */
 
+/* Triangles whose boxes a thread computes at a time. */
 enum { BLOCK = 65536 };
 
 static void fill_items(void *argument, size_t index, uint32_t worker)
@@ -372,7 +381,7 @@ static void fill_items(void *argument, size_t index, uint32_t worker)
         job->items[i] = (item){box_of_triangle(job->world, i), (uint32_t)i};
 }
 
-/* A root whatever there is: of so few triangles each side gets a leaf. */
+/* Builds the tree of at most BVH_LEAF_TRIANGLES triangles, of which there may be none: a root with two leaves. */
 static void grow_small(build_job *job, tree *t, size_t count)
 {
     const size_t left = count / 2;
@@ -422,7 +431,7 @@ mgt_status gl_bvh_build(gl_bvh *out, const world *w, thread_pool *pool)
         .items = malloc((count + 1) * sizeof *job.items),
         .part_size = count / PARTS > LEAST_PART ? count / PARTS : LEAST_PART,
     };
-    /* A tree of one part would have no root of its own. */
+    /* Fewer triangles would be a single part, and the top of the tree would have no root. */
     if (count > LEAST_PART) {
         job.parts = malloc(MOST_PARTS * sizeof *job.parts);
         job.trees = calloc(MOST_PARTS, sizeof *job.trees);

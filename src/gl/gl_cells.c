@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT
- * Method adaptive's cells on the GPU: a picture of pixels, then rounds that split what is worth most.
+ * The refinement tree of method adaptive on the GPU. It begins with one leaf per pixel. Each round splits the leaves whose split saves the most error per
+ * evaluation.
  *
- * The GPU itself decides what each round renders: dispatches take their sizes from the state, and those of rounds that are not needed are empty. Nothing is
- * read back. What a round does is written in cells_*.comp; it is what src/cpu/adaptive.c does. */
+ * The GPU decides what a round renders: indirect dispatches take their sizes from the state buffer, and are empty in rounds that are not needed. The CPU reads
+ * nothing back. The shaders cells_*.comp describe the steps of a round, which are those of src/cpu/adaptive.c. */
 #include "gl/gl_cells.h"
 
 #include <math.h>
@@ -14,39 +15,40 @@
 #include "gl/gl_frame.h"
 
 enum {
-    SAMPLE_ROUNDS = 10, /* that spend a number of samples, see round_per_cent() */
-    MOST_ROUNDS = 40,   /* that reach for an error */
-    JOBS_A_TILE = 6,    /* sizes of cells in a round, on average; pictures of sea had two to three */
+    SAMPLE_ROUNDS = 10, /* rounds that spend a given number of samples, see round_per_cent() */
+    MOST_ROUNDS = 40,   /* largest number of rounds towards a given error */
+    JOBS_A_TILE = 6,    /* room for jobs of a tile in a round, on average; in pictures of sea a tile had two to three */
     LEAST_JOBS = 4 * CELL_SIZES,
-    MOST_SLOTS = 32768, /* a row of a dispatch */
+    MOST_SLOTS = 32768, /* largest number of jobs of a batch: one row of a dispatch */
     STATE_PARTS = 4,
 };
 
-/* Memory of the lists of waves that a batch of jobs needs. */
+/* Memory of the wave lists of a batch of jobs, bytes. */
 static const size_t batch_bytes = (size_t)64 << 20;
 
-/* Memory of a side of the pool of leaves, unless pixels need more. */
+/* Memory of one side of the pool of leaves, bytes, unless the pixels need more: see pool_of(). */
 static const size_t pool_bytes = (size_t)256 << 20;
 
-/* One frame. */
+/* The refinement of one frame. */
 typedef struct cells_run {
     gl_run *run;
     gl_renderer *g;
     const frame *frame;
     CellsData data;
-    gl_band whole; /* the picture as one band */
-    int parts[CELL_CLASSES];
-    int batches, point_batches, most_parts;
-    size_t set_vectors; /* of 16 bytes */
+    gl_band whole;                          /* the whole picture as one band */
+    int parts[CELL_CLASSES];                /* pieces of the shutter for each class of leaves */
+    int batches, point_batches, most_parts; /* most_parts: largest number of pieces of cells */
+    size_t set_vectors;                     /* size of a set of waves, in vectors of 16 bytes */
 } cells_run;
 
 /* ---- memory ---- */
 
 static int least(int64_t a, int64_t b) { return (int)(a < b ? a : b); }
 
+/* Number of batches of `slots` entries that hold `count` entries, at most CELLS_BATCHES. */
 static int batches_of(int count, int slots) { return least(((int64_t)count + slots - 1) / slots, CELLS_BATCHES); }
 
-/* Lists of jobs, and how many of them run together. */
+/* Sets the sizes and places of the lists, and how many of their entries a batch has. data.pool must be set. */
 static void plan_lists(cells_run *c)
 {
     CellsData *d = &c->data;
@@ -68,10 +70,11 @@ static void plan_lists(cells_run *c)
     d->point_groups_at = d->point_tiles_at + d->tiles;
 }
 
+/* Size of the state buffer, in words of four bytes. */
 static size_t state_words(const CellsData *d) { return (size_t)d->point_groups_at + (size_t)d->most_point_groups * POINT_GROUP_WORDS; }
 
-/* Leaves that there is room for on a side of the pool: pictures of sea with eight samples have up to three a pixel; fewer where that is much memory, and
- * always half as much again as pixels. */
+/* Number of leaves that one side of the pool has room for. Pictures of sea with eight samples have up to three leaves per pixel. Large pictures get less room,
+ * but at least for 1.5 leaves per pixel. The largest buffer of this OpenGL limits the pool, too. If it cannot even hold the pixels, reserve() reports that. */
 static int pool_of(const cells_run *c)
 {
     const int64_t pixels = (int64_t)c->data.tiles * TILE_PIXELS, leaf = LEAF_VECTORS * 16, least_pool = pixels + pixels / 2;
@@ -81,8 +84,10 @@ static int pool_of(const cells_run *c)
     return least(pool < allowed || allowed < pixels ? pool : allowed, 1 << 28);
 }
 
+/* Number of sets of waves: see upload_sets(). */
 static size_t sets_of(const cells_run *c) { return LEAF_INSTANTS + (size_t)(c->parts[0] + c->parts[1] + c->parts[2] + CELL_CLASSES * c->data.moves); }
 
+/* Reserves all buffers. MGT_ERROR_UNSUPPORTED: one is larger than this OpenGL allows. */
 static mgt_status reserve(cells_run *c)
 {
     gl_renderer *g = c->g;
@@ -126,7 +131,8 @@ void gl_cells_free(const gl_api *gl, gl_cells *c)
 
 /* ---- waves ---- */
 
-/* By way of the ring, so that the GPU may still read what the buffer held. */
+/* Returns memory in the ring, `offset` bytes from its begin, for data that a command of the GPU then copies to their buffer. So earlier commands may still read
+ * what that buffer holds. NULL: failed, see `status`. */
 static void *begin_upload(cells_run *c, size_t size, size_t *offset, mgt_status *status)
 {
     gl_renderer *g = c->g;
@@ -147,6 +153,7 @@ static mgt_status upload_frames(cells_run *c)
     return status;
 }
 
+/* Writes the views of a set: that of pixels, then those of each size of cells in the order of cell_size(). */
 static void write_views(const ViewData *view, ViewData *out)
 {
     *out++ = *view;
@@ -155,6 +162,7 @@ static void write_views(const ViewData *view, ViewData *out)
             *out++ = cell_view(view, across, 2 * level - across);
 }
 
+/* Uploads the foam of the set in g->waves as number `index`, if it has any. */
 static mgt_status upload_foam(cells_run *c, size_t index)
 {
     gl_renderer *g = c->g;
@@ -172,7 +180,7 @@ static mgt_status upload_foam(cells_run *c, size_t index)
     return MGT_OK;
 }
 
-/* The set that g->waves holds. */
+/* Uploads the set of waves in g->waves as number `index`. */
 static mgt_status upload_set(cells_run *c, size_t index)
 {
     gl_renderer *g = c->g;
@@ -192,13 +200,14 @@ static mgt_status upload_set(cells_run *c, size_t index)
     return upload_foam(c, index);
 }
 
+/* The camera's rays at the fraction `share` of the shutter, which are always those of its closing if the camera does not move. */
 static camera_rays camera_of(const cells_run *c, double share)
 {
     const gl_job *job = c->run->job;
     return c->data.moves ? job->camera_at(job->camera_user, share) : c->frame->close;
 }
 
-/* In the order that cells_job.glsl counts them in. */
+/* Computes and uploads all sets of waves, in the order of set_of_part() and set_of_instant() in cells_job.glsl. */
 static mgt_status upload_sets(cells_run *c)
 {
     const mgt_scene *s = c->frame->scene;
@@ -222,6 +231,7 @@ static mgt_status upload_sets(cells_run *c)
 
 /* ---- dispatches ---- */
 
+/* Binds the tiles, the leaves, the state and the layers. */
 static void bind(const cells_run *c)
 {
     const gl_renderer *g = c->g;
@@ -239,7 +249,7 @@ static void bind(const cells_run *c)
     gl_refraction_bind_light(g);
 }
 
-/* Also for passes over rounds: the sets, and the frame's numbers. */
+/* Binds what rounds need besides: the sets of waves, the frame's uniform data and the sizes of indirect dispatches. */
 static void bind_sets(const cells_run *c)
 {
     const gl_renderer *g = c->g;
@@ -252,7 +262,7 @@ static void bind_sets(const cells_run *c)
 
 static void barrier_after(const gl_api *gl) { gl->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_COMMAND_BARRIER_BIT); }
 
-/* The program and its uniform data; `pass`: of the band, or of the picture. */
+/* Makes a program current and uploads its uniform data. `pass` is that of a band or of the whole picture. */
 static mgt_status use(cells_run *c, gl_program program, const PassData *pass)
 {
     gl_renderer *g = c->g;
@@ -266,7 +276,7 @@ static mgt_status use(cells_run *c, gl_program program, const PassData *pass)
     return MGT_OK;
 }
 
-/* Over as much as the state says at word `size`. */
+/* Runs a program over the number of workgroups that stands at word `size` of the state. */
 static mgt_status run_counted(cells_run *c, gl_program program, int size)
 {
     const mgt_status status = use(c, program, &c->whole.pass);
@@ -287,10 +297,12 @@ static mgt_status run_groups(cells_run *c, gl_program program, GLuint columns, G
     return MGT_OK;
 }
 
+/* Runs a program with one workgroup for each tile of the picture. */
 static mgt_status run_tiles(cells_run *c, gl_program program) { return run_groups(c, program, (GLuint)c->data.columns, (GLuint)c->data.rows); }
 
 /* ---- the picture of pixels ---- */
 
+/* Sorts the waves for the band's tiles and searches first hits: over the whole shutter, or at both of its ends if the camera moves. */
 static mgt_status sort_band(cells_run *c, const gl_band *b)
 {
     const mgt_scene *s = c->frame->scene;
@@ -306,6 +318,7 @@ static mgt_status sort_band(cells_run *c, const gl_band *b)
     return status == MGT_OK ? gl_search_nodes(c->run, b->tiles * (1 + (uint32_t)c->data.moves)) : status;
 }
 
+/* Makes the first leaves of a band, one per pixel. */
 static mgt_status plant_band(cells_run *c, uint32_t row)
 {
     gl_renderer *g = c->g;
@@ -328,7 +341,7 @@ static mgt_status plant_band(cells_run *c, uint32_t row)
     return status == MGT_OK ? ended : status;
 }
 
-/* The leaves of a round, or of the picture of pixels, take their place and are counted. */
+/* Settles or keeps the leaves that have been rendered. Then it counts the cost of the open leaves, except at the end. `mode` is GROW_… */
 static mgt_status grow(cells_run *c, int mode)
 {
     c->data.mode = mode;
@@ -340,6 +353,7 @@ static mgt_status grow(cells_run *c, int mode)
     return status;
 }
 
+/* Makes the first leaves of the picture, band by band. */
 static mgt_status plant(cells_run *c)
 {
     gl_run *run = c->run;
@@ -356,7 +370,7 @@ static mgt_status plant(cells_run *c)
 
 /* ---- rounds ---- */
 
-/* Which leaves the round takes, and where what becomes of them goes. */
+/* Chooses the leaves that the round splits or samples, and assigns places to the results. */
 static mgt_status plan_round(cells_run *c)
 {
     mgt_status status = run_groups(c, PROGRAM_CELLS_PLAN, 1, 1);
@@ -367,6 +381,7 @@ static mgt_status plan_round(cells_run *c)
     return status == MGT_OK ? run_counted(c, PROGRAM_CELLS_LIST, CELLS_TILES_SIZE) : status;
 }
 
+/* Shades the round's new cells, for one piece of the shutter after another. */
 static mgt_status shade_cells(cells_run *c)
 {
     mgt_status status = MGT_OK;
@@ -382,6 +397,7 @@ static mgt_status shade_cells(cells_run *c)
     return status;
 }
 
+/* Samples the round's points, one instant after another. */
 static mgt_status sample_points(cells_run *c)
 {
     mgt_status status = MGT_OK;
@@ -398,6 +414,7 @@ static mgt_status sample_points(cells_run *c)
     return status;
 }
 
+/* Runs a stage of a round as a pass with a name of its own. */
 static mgt_status run_stage(cells_run *c, const char *name, mgt_status (*stage)(cells_run *))
 {
     gl_pass_begin(c->g, name);
@@ -419,6 +436,7 @@ static mgt_status run_round(cells_run *c)
     return status == MGT_OK ? run_stage(c, "grow", grow_round) : status;
 }
 
+/* Runs the rounds, then settles the leaves that remain. */
 static mgt_status refine(cells_run *c, int rounds)
 {
     bind(c);
@@ -434,6 +452,7 @@ static mgt_status refine(cells_run *c, int rounds)
 
 /* ---- a frame ---- */
 
+/* Draws the objects in front of the water over all bands. */
 static mgt_status put_objects_in_front(const gl_run *run)
 {
     mgt_status status = MGT_OK;
@@ -444,6 +463,7 @@ static mgt_status put_objects_in_front(const gl_run *run)
     return status;
 }
 
+/* Uniform data of the refinement, without those of the pool and of the lists. */
 static CellsData data_of(const gl_job *job, const frame *f, const int parts[CELL_CLASSES])
 {
     const mgt_quality *q = &f->scene->quality;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * An OpenGL context of our own without a window, through libEGL opened at run time.
  *
- * The library stays open and displays stay initialised until the process ends: EGL hands the same display to everyone who asks for it, so
- * terminating it would pull it from under the host, and drivers do not bear being unloaded. */
+ * libEGL stays open and displays stay initialised until the process ends. EGL gives the same display to everyone who asks for it, so terminating it would also
+ * end the host's use of it. Drivers may crash when they are unloaded. */
 #include "gl/gl_egl.h"
 
 #include <EGL/egl.h>
@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Core functions come by dlsym, extensions by eglGetProcAddress. */
+/* The functions of EGL that are used. Core functions come from dlsym(). Those of extensions come from eglGetProcAddress() and may be NULL. */
 typedef struct egl_api {
     __typeof__(&eglGetProcAddress) GetProcAddress;
     __typeof__(&eglBindAPI) BindAPI;
@@ -112,6 +112,7 @@ static mgt_status open_surfaceless(gl_egl *egl, uint32_t device, const reporter 
     return MGT_OK;
 }
 
+/* Opens and initialises the display of device number `device`. An EGL that cannot list devices has device 0 alone. */
 static mgt_status open_display(gl_egl *egl, uint32_t device, const reporter *r)
 {
     const char *extensions = egl->api.QueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
@@ -127,6 +128,7 @@ static mgt_status open_display(gl_egl *egl, uint32_t device, const reporter *r)
 
 /* ---- contexts ---- */
 
+/* Creates a context of OpenGL 4.5 core. `robust`: one that reports resets of the GPU. EGL_NO_CONTEXT: EGL cannot create it. */
 static EGLContext create_context(const gl_egl *egl, bool robust)
 {
     const EGLint attributes[] = {
@@ -142,7 +144,7 @@ static EGLContext create_context(const gl_egl *egl, bool robust)
         EGL_LOSE_CONTEXT_ON_RESET,
         EGL_NONE,
     };
-    EGLConfig config = NULL; /* EGL_NO_CONFIG_KHR */
+    EGLConfig config = NULL; /* this is EGL_NO_CONFIG_KHR */
     const char *extensions = egl->api.QueryString(egl->display, EGL_EXTENSIONS);
     if (!has_extension(extensions, "EGL_KHR_no_config_context")) {
         const EGLint wanted[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_NONE};

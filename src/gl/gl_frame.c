@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
- * A frame on the GPU: bands of tiles, and the passes over each.
+ * A frame on the GPU: bands of tiles, and the passes over each band.
  *
- * A set of waves (an instant or a shutter interval before a camera) is sorted into the tiles of a band, their lattices of first hits are
- * searched, and then a method shades the band's pixels. The next set takes the same memory. */
+ * A set of waves is the waves at an instant or over a shutter interval, as one camera sees them. The set is sorted for the tiles of a band. Then the tiles'
+ * lattices of first hits are searched, and a method shades the band's pixels. The next set uses the same memory. */
 #include <string.h>
 
 #include "frame/frame_waves.h"
@@ -11,19 +11,22 @@
 #include "frame/whole_frame.h"
 #include "gl/gl_frame.h"
 
-/* Memory of a band's lists of waves, unless a single row of tiles needs more: a GPU waits at the end of each band for its slowest tile. */
+/* Memory of a band's wave lists, bytes, unless a single row of tiles needs more. Bands are large because a GPU waits at the end of each one for its slowest
+ * tile. */
 static const size_t band_bytes = (size_t)256 << 20, software_band_bytes = (size_t)64 << 20;
 
-/* Point samples of a dispatch, and pixels of a band where progress is told: what keeps both prompt. */
+/* Number of point samples up to which a dispatch takes more than one of each pixel, and largest number of pixels of a band if progress is reported. It keeps
+ * progress and cancelling prompt. */
 static const uint64_t prompt_samples = (uint64_t)1 << 20;
 
-/* Whether tiles are needed of two cameras at once. */
+/* Whether each tile is needed for two cameras, those at both ends of the shutter. */
 static bool needs_open(const gl_run *run) { return run->waves == MGT_WAVES_SHUTTER && run->job->frame->scene->camera_moves; }
 
 /* ---- memory ---- */
 
 static uint32_t least(uint64_t a, uint64_t b) { return (uint32_t)(a < b ? a : b); }
 
+/* Divides the picture into bands and reserves the lists of a band. */
 static mgt_status reserve_tiles(gl_run *run, size_t sets)
 {
     gl_renderer *g = run->g;
@@ -56,7 +59,7 @@ static mgt_status reserve_tiles(gl_run *run, size_t sets)
     return status;
 }
 
-/* Foam is found where pixels are shaded. */
+/* Whether pixels are shaded. That also finds the foam. */
 static bool shades_pixels(const gl_job *job) { return job->wants_pixels || job->wants_foam; }
 
 static mgt_status reserve_layers(gl_renderer *g, const gl_job *job, const reporter *r)
@@ -81,14 +84,14 @@ static mgt_status reserve_layers(gl_renderer *g, const gl_job *job, const report
         status = gl_image_reserve(&g->gl, &l->normal, GL_RGBA32F, a->width, a->height, r);
     if (status == MGT_OK && job->wants_foam)
         status = gl_image_reserve(&g->gl, &l->foam, GL_R32F, a->width, a->height, r);
-    if (status == MGT_OK && job->wants_foam) /* programs for water without foam write none */
+    if (status == MGT_OK && job->wants_foam) /* programs for water without foam do not write the layer */
         g->gl.ClearTexImage(l->foam.name, 0, GL_RED, GL_FLOAT, NULL);
     return status;
 }
 
 /* ---- a set of waves ---- */
 
-/* Once a run, for finding it takes the CPU long. */
+/* Finds the skyline of a camera and uploads it to a row of the texture. It is found once per run, because that takes the CPU long. */
 static void find_skyline(gl_run *run, const camera_rays *camera, interval time, int row)
 {
     gl_renderer *g = run->g;
@@ -117,14 +120,14 @@ void gl_place_waves(const gl_run *run, const camera_rays *camera, interval time,
     view->skyline = view->skyline_top > 0 ? 1 + opens : 0;
 }
 
-/* Uniform data of all passes over one set: they stay valid until the set after the next. */
+/* Size of the uniform data of all passes over one set. They stay valid until the set after the next one. */
 static size_t set_bytes(const gl_renderer *g)
 {
     const size_t waves = gl_wave_room(g, (size_t)g->waves->view.wave_count);
     return sizeof(FrameData) + waves * (sizeof(WaveData) + sizeof(SortData)) + sizeof(ViewData) + 3 * sizeof(PassData) + sizeof(LeanData) + sizeof(foam_set);
 }
 
-enum { SET_PARTS = 9 };
+enum { SET_PARTS = 9 }; /* number of allocations of these data */
 
 void gl_bind_tiles(const gl_renderer *g)
 {
@@ -196,7 +199,7 @@ mgt_status gl_search_nodes(const gl_run *run, uint32_t tiles)
     return status == MGT_OK ? ended : status;
 }
 
-/* Tiles and lattices of one camera at g->waves. */
+/* Sorts the waves of g->waves for the band's tiles and searches their lattices. */
 static mgt_status prepare_set(const gl_run *run, const gl_band *b)
 {
     const mgt_status status = sort_tiles(run, b, 0, 0);
@@ -214,7 +217,7 @@ void gl_bind_layers(const gl_renderer *g)
     gl_bind_texture(g, UNIT_SKYLINE, g->skyline_texture);
 }
 
-/* Whether podee's tables stand for its closed form. */
+/* Whether the pass is the variant of podee-* for circular kernels, not the closed form. */
 static bool uses_podee_tables(const gl_run *run)
 {
     return run->method->tables & METHOD_PODEE_TABLES && run->job->frame->scene->quality.kernels != MGT_MIXTURE_EXACT;
@@ -229,7 +232,7 @@ static void bind_tables(const gl_run *run)
         gl_lean_bind(run->g);
 }
 
-/* A program over the pixels of the band. */
+/* Runs a program over the pixels of a band. */
 static mgt_status run_pixels(const gl_run *run, const PassData *pass, const char *name, gl_program program)
 {
     gl_renderer *g = run->g;
@@ -274,7 +277,8 @@ mgt_status gl_step_done(gl_run *run, double steps)
 
 /* ---- methods ---- */
 
-/* Tiles for the part of the shutter between two shares of it, of both cameras where it moves; what the instant t shows is the part from 1 to 1. */
+/* Prepares the band's tiles for the part of the shutter between its fractions `from` and `to`, for the cameras at both ends if the camera moves. The part from
+ * 1 to 1 is the instant at which the shutter closes. */
 static mgt_status prepare_part(const gl_run *run, const gl_band *b, double from, double to)
 {
     const gl_job *job = run->job;
@@ -295,7 +299,7 @@ static mgt_status prepare_part(const gl_run *run, const gl_band *b, double from,
     return status == MGT_OK ? gl_search_nodes(run, needs_open(run) ? 2 * b->tiles : b->tiles) : status;
 }
 
-/* The mean over the parts of the shutter; all methods but podee-* know one part alone. */
+/* Shades a band by a filtered method: the mean over the parts of the shutter. Only methods podee-* have more than one part. */
 static mgt_status render_filtered(gl_run *run, const gl_band *b)
 {
     const mgt_quality *q = &run->job->frame->scene->quality;
@@ -317,6 +321,7 @@ static mgt_status render_filtered(gl_run *run, const gl_band *b)
     return status;
 }
 
+/* Shades a band at the centre of each pixel, at the instant at which the shutter closes. */
 static mgt_status render_centre(gl_run *run, const gl_band *b)
 {
     const frame *f = run->job->frame;
@@ -331,17 +336,17 @@ static mgt_status render_centre(gl_run *run, const gl_band *b)
     return status == MGT_OK ? gl_step_done(run, 1) : status;
 }
 
-/* Dispatches after which a set's uniform data are sent again, before the ring comes round to them. */
+/* Dispatches after which a set's uniform data are uploaded again, before the ring overwrites them. */
 enum { resend = 1000 };
 
-/* Samples [from, end) of one instant, whose tiles are ready, in dispatches of moderate length. */
+/* Adds the samples [from, end) of one instant, in short dispatches: see prompt_samples. The instant's tiles must be ready. */
 static mgt_status run_samples(gl_run *run, const gl_band *b, uint64_t from, uint64_t end)
 {
     const mgt_quality *q = &run->job->frame->scene->quality;
     const uint64_t per_time = (uint64_t)q->spatial_samples * q->spatial_samples;
     const uint64_t all = q->sample_count ? q->sample_count : per_time * q->time_samples - q->sample_first;
     const uint64_t pixels = (uint64_t)b->tiles * TILE_PIXELS;
-    /* llvmpipe ends an invocation's loops after 65,535 turns of all of them together, which many samples would reach. */
+    /* llvmpipe ends the loops of an invocation after 65,535 iterations in all, which many samples would reach. */
     const uint64_t most = pixels < prompt_samples && !run->g->limits.software ? prompt_samples / pixels : 1;
     mgt_status status = MGT_OK;
     for (int sent = 1; from < end && status == MGT_OK; sent++) {
@@ -369,6 +374,7 @@ static mgt_status run_samples(gl_run *run, const gl_band *b, uint64_t from, uint
     return status;
 }
 
+/* Shades a band by point samples, one instant after another. */
 static mgt_status render_samples(gl_run *run, const gl_band *b)
 {
     const gl_job *job = run->job;
@@ -390,7 +396,7 @@ static mgt_status render_samples(gl_run *run, const gl_band *b)
     return status;
 }
 
-/* `ready`: the tiles are those of point samples at the instant already. */
+/* Renders depth and normal at the instant at which the shutter closes. `ready`: the tiles hold the waves of that instant for point samples already. */
 static mgt_status render_surface(gl_run *run, const gl_band *b, bool ready)
 {
     const frame *f = run->job->frame;
@@ -411,7 +417,7 @@ static mgt_status render_surface(gl_run *run, const gl_band *b, bool ready)
     return status;
 }
 
-/* What the band's pixels see of objects through a camera. */
+/* Finds what the band's pixels see of objects from a camera, with the filtered waves over `time`. */
 static mgt_status see_objects(const gl_run *run, const gl_band *b, const camera_rays *camera, interval time)
 {
     wave_set_place(run->job->frame, camera, time, true, run->g->waves);
@@ -441,7 +447,7 @@ mgt_status gl_put_objects_in_front(const gl_run *run, const gl_band *b)
     if (status == MGT_OK) {
         gl_uniform(g, BIND_PASS, &b->pass, sizeof b->pass);
         gl_bind_layers(g);
-        for (GLuint i = IMAGE_COLOR; i <= IMAGE_WATER && !shades_pixels(run->job); i++) /* finished by another picture of the frame */
+        for (GLuint i = IMAGE_COLOR; i <= IMAGE_WATER && !shades_pixels(run->job); i++) /* another picture of the frame has finished these layers */
             g->gl.BindImageTexture(i, 0, 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32F);
         gl_refraction_bind_front(g);
         g->gl.DispatchCompute((GLuint)b->pass.columns, (GLuint)b->pass.rows * GROUPS_A_TILE, 1);
@@ -510,6 +516,7 @@ mgt_status gl_prepare_objects(const gl_run *run)
     return status == MGT_OK ? gl_refraction_prepare(g, f, &run->job->area, run->r) : status;
 }
 
+/* Number of steps of a band: parts of the shutter, or point samples. */
 static double count_steps(const mgt_quality *q)
 {
     const uint64_t all = quality_samples(q) - q->sample_first;

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT
- * What a camera sees of the objects, drawn by the GPU. */
+ * Draws the layers of the objects that a camera sees. */
 #include "gl/gl_gbuffer.h"
 
 #include "gl/gl_renderer.h"
 
 /* ---- memory ---- */
 
+/* Reserves the images of a layer and attaches them to its framebuffer. */
 static mgt_status reserve_layer(const gl_api *gl, gl_gbuffer *b, uint32_t width, uint32_t height, const reporter *r)
 {
     const GLuint depth = b->depth.name, triangle = b->triangle.name;
@@ -44,6 +45,7 @@ void gl_gbuffers_free(const gl_api *gl, gl_gbuffers *b)
 
 /* ---- drawing ---- */
 
+/* Sets the state that drawing a layer needs. */
 static void begin_drawing(const gl_renderer *g, const gl_gbuffers *b)
 {
     const gl_api *gl = &g->gl;
@@ -63,7 +65,7 @@ static void begin_drawing(const gl_renderer *g, const gl_gbuffers *b)
     gl->PatchParameteri(GL_PATCH_VERTICES, 3);
 }
 
-/* What later passes of a context of our own would trip over; a host gets all of its state back. */
+/* Restores the drawing state of a host. A context of our own resets only what would disturb later passes. */
 static void end_drawing(const gl_renderer *g)
 {
     if (g->host) {
@@ -80,7 +82,7 @@ static bool is_cut(const world_object *o) { return o->cut; }
 
 static bool is_in_dry(const world_object *o) { return o->in_dry; }
 
-/* Triangles of the objects that are something, or of the others. */
+/* Draws the triangles of all objects for which is() returns `so`. */
 static void draw_objects(const gl_api *gl, const world *w, bool (*is)(const world_object *o), bool so)
 {
     for (size_t i = 0; i < w->object_count; i++) {
@@ -93,7 +95,7 @@ static void draw_objects(const gl_api *gl, const world *w, bool (*is)(const worl
     }
 }
 
-/* One layer: on the side of the camera, or beyond the surface. */
+/* Draws one layer: the objects on the camera's side of the surface, or those beyond it. */
 static mgt_status draw_layer(gl_renderer *g, const gl_gbuffer *layer, const gbuffer_job *job, bool beyond, const reporter *r)
 {
     const gl_api *gl = &g->gl;
@@ -127,7 +129,7 @@ static mgt_status draw_layer(gl_renderer *g, const gl_gbuffer *layer, const gbuf
         return MGT_OK;
     if (w->dry && !job->mirrored && !beyond && refract.side > 0) {
         draw_objects(gl, w, is_in_dry, false);
-        data.crest = 1e30f; /* dry hulls hold no water back: what is inside is seen however deep it is */
+        data.crest = 1e30f; /* no water hides the inside of a dry hull, however deep it is */
         gl_uniform(g, BIND_EXTRA, &data, sizeof data);
         draw_objects(gl, w, is_in_dry, true);
         return MGT_OK;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Glare and display on the GPU; the pyramid's sizes and weights are those of src/cpu/glare.c. */
+ * Glare and display on the GPU. The pyramid has the sizes and weights of src/cpu/glare.c. */
 #include "frame/glare_plan.h"
 #include "gl/gl_renderer.h"
 #include "frame/targets.h"
@@ -14,7 +14,7 @@ void gl_glare_free(gl_renderer *g)
     g->glare = (gl_glare){0};
 }
 
-/* Where the levels' weights stand, in groups of four floats. */
+/* Sets the sizes of the levels and the places of their weights. Returns the number of weights in all. Places and number count groups of four floats. */
 static int place_levels(gl_glare *p, const glare_plan *plan)
 {
     int next = 0;
@@ -31,6 +31,7 @@ static int place_levels(gl_glare *p, const glare_plan *plan)
     return next;
 }
 
+/* Reserves the pyramid for pictures of this size and uploads its weights, unless it has that size already. */
 static mgt_status prepare_pyramid(gl_renderer *g, uint32_t width, uint32_t height, const reporter *r)
 {
     gl_glare *p = &g->glare;
@@ -62,6 +63,7 @@ static mgt_status prepare_pyramid(gl_renderer *g, uint32_t width, uint32_t heigh
     return status;
 }
 
+/* Runs a program of the pyramid over width × height pixels. */
 static mgt_status dispatch(gl_renderer *g, gl_program program, const GlareData *data, int width, int height, const reporter *r)
 {
     const mgt_status status = gl_use(g, program, r);
@@ -73,7 +75,8 @@ static mgt_status dispatch(gl_renderer *g, gl_program program, const GlareData *
     return MGT_OK;
 }
 
-/* All levels, from the picture down and back up to the first. */
+/* Computes the levels from the picture to the coarsest one, then adds each level to the next finer one, up to the first. `shares` are the fractions of the
+ * light that the levels spread. */
 static mgt_status spread(gl_renderer *g, const float *shares, const reporter *r)
 {
     gl_glare *p = &g->glare;
@@ -96,6 +99,8 @@ static mgt_status spread(gl_renderer *g, const float *shares, const reporter *r)
     return status;
 }
 
+/* Computes the pyramid of layers.color. `shown` gets the first level's size and factors for display.comp, or stays unchanged if the picture is too small for a
+ * pyramid. */
 static mgt_status apply_glare(gl_renderer *g, float glare, const region *area, GlareData *shown, const reporter *r)
 {
     mgt_status status = prepare_pyramid(g, area->width, area->height, r);

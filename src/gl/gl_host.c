@@ -7,7 +7,7 @@
 
 /* ---- textures ---- */
 
-/* Formats that a layer can be written to, the first two for floats. */
+/* Whether a texture of that format can hold the layer. */
 static bool takes_layer(GLenum format, mgt_layer layer)
 {
     switch (layer) {
@@ -28,6 +28,7 @@ static bool takes_layer(GLenum format, mgt_layer layer)
     return format == GL_RGBA32F || format == GL_RGBA16F || format == GL_RGBA8;
 }
 
+/* Checks a texture of the host. `index` is its number in messages. `format` gets its internal format. */
 static mgt_status check_texture(const gl_backend_state *s, const mgt_gl_texture *t, size_t index, const region *crop, GLenum *format, const reporter *r)
 {
     const gl_api *gl = &s->renderer->gl;
@@ -66,6 +67,7 @@ static mgt_status check_texture(const gl_backend_state *s, const mgt_gl_texture 
     return report_error(r, MGT_ERROR_ARGUMENT, "render.texture", "texture %zu: its format 0x%04x cannot hold layer %s", index, *format, layers[t->layer]);
 }
 
+/* The image that is copied to a texture of that format: the displayed colour for GL_RGBA8. */
 static const gl_image *image_of(const gl_layers *l, mgt_layer layer, GLenum format)
 {
     switch (layer) {
@@ -92,6 +94,7 @@ static const gl_image *image_of(const gl_layers *l, mgt_layer layer, GLenum form
     return format == GL_RGBA8 ? &l->display : &l->color;
 }
 
+/* Copies the part `crop` of a layer, which holds the part `area` of the image, to a texture of the host. */
 static mgt_status copy_layer(gl_backend_state *s, const mgt_gl_texture *t, GLenum format, const region *area, const region *crop, const reporter *r)
 {
     gl_renderer *g = s->renderer;
@@ -150,7 +153,8 @@ mgt_status gl_render_textures(void *state, const reporter *r, const mgt_scene *s
 
 /* ---- framebuffers ---- */
 
-/* Checks the framebuffer; `encodes` gets whether it turns linear colour into sRGB. */
+/* Checks a framebuffer of the host; 0 is the default one. `index` is the number of its view in messages. `encodes` gets whether the framebuffer encodes linear
+ * colours as sRGB. */
 static mgt_status check_framebuffer(const gl_api *gl, GLuint name, size_t index, bool *encodes, const reporter *r)
 {
     if (name != 0 && !gl->IsFramebuffer(name))
@@ -174,12 +178,12 @@ static mgt_status check_framebuffer(const gl_api *gl, GLuint name, size_t index,
     return MGT_OK;
 }
 
-/* Water of a view whose matrix and flag contradict each other would fail the depth test nearly everywhere. */
+/* Checks that reversed_depth agrees with the view's projection and the host's depth range. Otherwise the water would fail the depth test nearly everywhere. */
 static mgt_status check_depth_order(const gl_api *gl, const checked_view *v, size_t index, const reporter *r)
 {
     GLfloat range[2] = {0, 1};
     gl->GetFloati_v(GL_DEPTH_RANGE, 0, range);
-    const double nearer = v->close.clip_offset * (double)(range[1] - range[0]); /* above 0: what is nearer has a greater depth */
+    const double nearer = v->close.clip_offset * (double)(range[1] - range[0]); /* above 0: nearer points have greater depths */
     if (!(v->view->reversed_depth ? nearer < 0 : nearer > 0))
         return MGT_OK;
     return report_error(r, MGT_ERROR_ARGUMENT, "render.view",
@@ -187,7 +191,8 @@ static mgt_status check_depth_order(const gl_api *gl, const checked_view *v, siz
                         v->view->reversed_depth ? "true" : "false", nearer > 0 ? "greater" : "smaller");
 }
 
-/* Between the two ends of the shutter, and before, rays and place move evenly; never through the water. */
+/* The camera of a view's job: see gl_camera_at. `user` is its frame. Position and rays are linear in time, also before the shutter opens. The camera stays
+ * above a tenth of its last height, so it never crosses the surface. */
 static camera_rays view_camera_at(const void *user, double share)
 {
     const frame *f = user;
@@ -205,6 +210,7 @@ static camera_rays view_camera_at(const void *user, double share)
     return c;
 }
 
+/* Uniform data of the pass that draws a view, with the depth range and the clip mode of the host. */
 static WindowData window_data(const gl_api *gl, const checked_view *v, bool encodes)
 {
     const mgt_gl_view *view = v->view;
@@ -240,6 +246,7 @@ static WindowData window_data(const gl_api *gl, const checked_view *v, bool enco
     };
 }
 
+/* Sets the state for drawing a view: premultiplied blending, and a depth test in the view's order. */
 static void set_drawing(const gl_backend_state *s, const mgt_gl_view *view, const gl_host_state *host)
 {
     const gl_api *gl = &s->renderer->gl;
@@ -255,6 +262,7 @@ static void set_drawing(const gl_backend_state *s, const mgt_gl_view *view, cons
     gl->BlendEquationSeparatei(0, GL_FUNC_ADD, GL_FUNC_ADD);
 }
 
+/* Draws the layers of a view into the host's framebuffer. */
 static mgt_status draw_layers(gl_backend_state *s, const checked_view *v, bool encodes, const frame *f, const gl_host_state *host, const reporter *r)
 {
     gl_renderer *g = s->renderer;

@@ -2,7 +2,7 @@
  * The state of a host's OpenGL context that the backend touches: saved before a call and put back after it. */
 #include "gl/gl_host_state.h"
 
-/* Depth test first; it alone is used. */
+/* The capabilities that are saved. The depth test is the first one, which gl_host_state_neutral() leaves as it is. */
 static const GLenum capabilities[CAPABILITIES] = {
     GL_DEPTH_TEST,
     GL_CULL_FACE,
@@ -28,7 +28,7 @@ static const GLenum capabilities[CAPABILITIES] = {
     GL_CLIP_DISTANCE7,
 };
 
-/* Pixel stores, and what transfers here rely on. */
+/* The pixel-store parameters that are saved, and the values that transfers of the backend rely on. */
 static const struct {
     GLenum name;
     GLint value;
@@ -173,7 +173,7 @@ void gl_host_state_neutral(const gl_api *gl, const gl_host_state *s)
     for (int i = 1; i < CAPABILITIES; i++)
         if (s->capabilities[i])
             gl->Disable(capabilities[i]);
-    gl->Disable(GL_SCISSOR_TEST); /* of all viewports: Mesa clips the first picture of a framebuffer by any of them */
+    gl->Disable(GL_SCISSOR_TEST); /* of all viewports: Mesa clips what is first drawn into a framebuffer by any of them */
     gl->PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
     for (GLuint i = 0; i < (GLuint)s->draw_buffers; i++) {
         const GLboolean first = i == 0;
@@ -189,7 +189,7 @@ void gl_host_state_save(const gl_api *gl, gl_host_state *s)
     GLint deleted = 0;
     if (s->program)
         gl->GetProgramiv((GLuint)s->program, GL_DELETE_STATUS, &deleted);
-    if (deleted) /* it goes for good as soon as another one is in use */
+    if (deleted) /* OpenGL deletes it as soon as another program is made current */
         s->program = 0;
     gl->GetIntegerv(GL_UNIFORM_BUFFER_BINDING, &s->uniform_buffer);
     gl->GetIntegerv(GL_SHADER_STORAGE_BUFFER_BINDING, &s->storage_buffer);
@@ -211,7 +211,7 @@ void gl_host_state_save(const gl_api *gl, gl_host_state *s)
 
 void gl_host_state_restore(const gl_api *gl, const gl_host_state *s)
 {
-    /* A program that the host deleted while it was current is gone by now. */
+    /* A program that the host deleted while it was current no longer exists. */
     gl->UseProgram(gl->IsProgram((GLuint)s->program) ? (GLuint)s->program : 0);
     restore_ranges(gl, GL_UNIFORM_BUFFER, s->uniform, UNIFORM_BINDINGS);
     restore_ranges(gl, GL_SHADER_STORAGE_BUFFER, s->storage, STORAGE_BINDINGS);

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT
- * The map of slope moments of methods lean and leadr, made on the GPU from the waves of an instant. It is that of src/cpu/lean_map.c: level 0
- * keeps slopes alone, the second moments have a texture of their own from level 1 on. */
+ * The map of slope moments of methods lean and leadr, computed on the GPU from the waves at an instant. It equals that of src/cpu/lean_map.c. Level 0 holds
+ * mean slopes alone. A second texture holds the second moments of levels 1 and up. */
 #include <math.h>
 #include <string.h>
 
 #include "gl/gl_renderer.h"
 
-enum { FILL_COLUMNS = 64, FILL_ROWS = 16 }; /* of a workgroup of lean_fill.comp */
+enum { FILL_COLUMNS = 64, FILL_ROWS = 16 }; /* texels of a workgroup of lean_fill.comp */
 
 static mgt_status create_texture(const gl_api *gl, GLuint *texture, GLenum format, GLsizei levels, GLsizei size, const reporter *r)
 {
@@ -46,6 +46,7 @@ static void upload_waves(gl_renderer *g)
     g->gl.BindBufferRange(block, g->waves_in_block ? BIND_PICTURE : BIND_WAVES, g->ring.buffer, (GLintptr)offset, (GLsizeiptr)room);
 }
 
+/* Computes one level of the map: level 0 from the waves, the others from the next finer level. */
 static mgt_status run_level(gl_renderer *g, int level, const reporter *r)
 {
     const gl_api *gl = &g->gl;

@@ -66,10 +66,11 @@ void gl_buffer_free(const gl_api *gl, gl_buffer *b)
     *b = (gl_buffer){0};
 }
 
-/* llvmpipe compiles a program anew for each combination of images whose sides are powers of two or not: small images never have such sides. */
+/* Side of an image for at least `pixels` pixels. Sides of up to 4096 are never powers of two, because llvmpipe compiles a program again for each combination of
+ * images whose sides are powers of two or not. */
 static uint32_t side_of(uint32_t pixels)
 {
-    const uint32_t largest = 4096; /* of those that grow: the limits of OpenGL are powers of two, too */
+    const uint32_t largest = 4096; /* a larger side is not changed, because it may be the limit of OpenGL, a power of two */
     uint32_t side = pixels;
     while (side <= largest && (side & (side - 1)) == 0)
         side++;
@@ -82,7 +83,7 @@ mgt_status gl_image_reserve(const gl_api *gl, gl_image *image, GLenum format, ui
         return MGT_OK;
     uint32_t w = image->format == format && image->width > width ? image->width : width;
     uint32_t h = image->format == format && image->height > height ? image->height : height;
-    if ((uint64_t)w * h > 2 * (uint64_t)width * height) { /* a wide picture after a tall one is no larger for it */
+    if ((uint64_t)w * h > 2 * (uint64_t)width * height) { /* an image for a tall picture does not keep its height for a wide one */
         w = width;
         h = height;
     }
@@ -139,6 +140,7 @@ void gl_ring_free(const gl_api *gl, gl_ring *ring)
     *ring = (gl_ring){0};
 }
 
+/* Waits until the GPU has reached the fence or the context is lost. Then it deletes the fence. */
 static void wait_for(const gl_api *gl, GLsync *fence)
 {
     if (!*fence)
@@ -169,7 +171,7 @@ mgt_status gl_ring_begin(const gl_api *gl, gl_ring *ring, size_t size, size_t pa
         return status;
     }
     ring->fences[ring->segment] = gl->FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
-    gl->Flush(); /* so that it is reached while the other segments fill */
+    gl->Flush(); /* so that the GPU reaches the fence while the other segments are filled */
     ring->segment = (ring->segment + 1) % RING_SEGMENTS;
     ring->used = 0;
     wait_for(gl, &ring->fences[ring->segment]);

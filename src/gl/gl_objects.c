@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * A scene's objects on the GPU: fetched where they are drawn and where a ray meets them. */
+ * A scene's objects on the GPU, as tables that shaders fetch when they draw triangles and shade hits. */
 #include "gl/gl_objects.h"
 
 #include <string.h>
@@ -9,7 +9,8 @@
 
 /* ---- tables ---- */
 
-/* At least `size`. llvmpipe compiles a program anew where a table's size is a power of two or not, and (22.3) where bits 8 to 15 of it are zero or not. */
+/* Size of a table's buffer, at least `size` bytes. It is an odd multiple of 256 and no power of two. llvmpipe would compile a program again where the size
+ * changes between a power of two and another number. Version 22.3 would also do so where bits 8 to 15 of the size change between zero and another value. */
 static size_t table_bytes(size_t size)
 {
     const size_t block = 256, blocks = (size + block - 1) / block;
@@ -55,12 +56,13 @@ void gl_table_unmap(const gl_api *gl, const gl_table *t) { gl->UnmapNamedBuffer(
 
 enum { VERTEX_FLOATS = 8, PLANE_FLOATS = 4, BLOCK = 65536 };
 
+/* A table that threads fill in blocks of elements. `fill` writes element i to `out`. */
 typedef struct fill_job {
     const world *world;
     float *out;
     size_t count;
     void (*fill)(const world *w, size_t i, float *out);
-    size_t floats; /* of an element */
+    size_t floats; /* floats of an element */
 } fill_job;
 
 static void fill_vertex(const world *w, size_t i, float *out)
@@ -79,7 +81,7 @@ static void fill_block(void *argument, size_t index, uint32_t worker)
         job->fill(job->world, i, job->out + job->floats * i);
 }
 
-/* Planes of all triangles, then the dry levels of their sides. */
+/* Element i of the table of planes. The planes of all triangles come first, then the dry levels of the two sides of each triangle. */
 static void fill_plane(const world *w, size_t i, float *out)
 {
     if (i < w->triangle_count) {
@@ -91,7 +93,7 @@ static void fill_plane(const world *w, size_t i, float *out)
     memcpy(out, levels, sizeof levels);
 }
 
-/* Elements of RGBA32F texels. */
+/* Fills a table of RGBA32F texels from the world, on all threads. */
 static mgt_status upload_floats(const gl_api *gl, gl_objects *o, gl_table *t, fill_job job, const reporter *r)
 {
     const size_t size = job.floats * sizeof(float);
@@ -107,7 +109,7 @@ static mgt_status upload_floats(const gl_api *gl, gl_objects *o, gl_table *t, fi
     return MGT_OK;
 }
 
-/* Numbers of 32 bits. */
+/* Fills a table with `count` numbers of 32 bits. */
 static mgt_status upload_numbers(const gl_api *gl, gl_table *t, GLenum format, const void *numbers, size_t count, const reporter *r)
 {
     const mgt_status status = gl_table_reserve(gl, t, format, count, sizeof(uint32_t), r);

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
- * The tables of podee-* with kernels on the GPU. */
+ * Tables of methods podee-* with circular kernels, on the GPU. */
 #include "frame/podee_tables.h"
 #include "base/thread_pool.h"
 #include "gl/gl_renderer.h"
 
-/* The slices of the sweep stand side by side in one texture, so many a row. */
+/* The slices of the sweep lie side by side in one texture, SLICES_ACROSS in a row. */
 enum { SLICES_ACROSS = PODEE_SLICES_ACROSS, SLICES_DOWN = PODEE_SLICES / SLICES_ACROSS };
 
 static mgt_status build_tables(uint32_t threads, podee_tables *tables, const reporter *r)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * The programs of the passes: built when first needed, or all of them anew from replaced texts. */
+ * The programs of the passes. They are built when they are first needed, or all of them again from replaced texts. */
 #include "gl/gl_programs.h"
 
 #include <stdio.h>
@@ -9,10 +9,11 @@ enum { STAGES = 4 };
 
 static const GLenum stage_kinds[STAGES] = {GL_VERTEX_SHADER, GL_FRAGMENT_SHADER, GL_TESS_CONTROL_SHADER, GL_TESS_EVALUATION_SHADER};
 
-/* A compute shader, or a vertex and a fragment shader with or without tessellation: NAME.vert, NAME.frag, NAME.tesc, NAME.tese. */
+/* The texts of a program: a compute shader, or stages in the order of stage_kinds, of which those of tessellation may be missing. `kernel` is what #include
+ * "method.k" stands for, `result` is what method_result is defined as; both may be NULL. */
 typedef struct program_text {
     const char *name, *compute, *stages[STAGES];
-    const method_row *method; /* whose shader it is, or NULL */
+    const method_row *method; /* the method that the program shades by, or NULL */
     const char *kernel, *result;
 } program_text;
 
@@ -66,6 +67,7 @@ enum { LOG_SIZE = 4096 };
 
 /* ---- programs of methods ---- */
 
+/* The shader of a slot. The first METHOD_SLOTS slots are those of methods, the others those of their variants with tables. NULL: the slot is empty. */
 static const method_shader *shader_at(int slot)
 {
     const size_t method = (size_t)slot % METHOD_SLOTS;
@@ -84,7 +86,7 @@ gl_program gl_method_program(mgt_method method, bool tables)
     return (gl_program)(PROGRAM_METHODS + slot);
 }
 
-/* Empty where there is no such program. */
+/* The texts of a program, all NULL if there is no such program. */
 static program_text text_of(gl_program which)
 {
     if (which < PROGRAM_METHODS)
@@ -98,7 +100,7 @@ static program_text text_of(gl_program which)
     return (program_text){.name = row->properties.name, .compute = shader->pass, .method = row, .kernel = shader->kernel, .result = shader->result};
 }
 
-/* What the texts of a program are assembled behind. */
+/* The #define lines that precede the texts of a program. */
 typedef struct define_text {
     char text[256];
 } define_text;
@@ -120,6 +122,7 @@ static define_text defines_of(const gl_programs *p, const program_text *t)
 
 /* ---- building ---- */
 
+/* Reports a failure by the first error of a compiler's or linker's log. */
 static mgt_status explain(const gl_source *source, const char *program, const char *log, const reporter *r)
 {
     char text[REPORTER_TEXT];
@@ -171,7 +174,7 @@ static mgt_status compile(const gl_api *gl, GLuint program, const program_source
         gl->GetShaderInfoLog(shader, sizeof log, NULL, log);
         status = explain(&s->stages[stage], s->text.name, log, r);
     }
-    gl->DeleteShader(shader); /* lives on while attached */
+    gl->DeleteShader(shader); /* OpenGL keeps it while it is attached */
     return status;
 }
 
@@ -187,7 +190,7 @@ static mgt_status link(const gl_api *gl, GLuint program, const program_source *s
     return explain(&s->stages[0], s->text.name, log, r);
 }
 
-/* Builds a program, or takes p's own where its text is the same. */
+/* Builds a program. If `p` has one of the same text, `out` is that one. `out` is 0 after a failure, or if there is no such program. */
 static mgt_status build(const gl_programs *p, const gl_replacements *replaced, gl_program which, GLuint *out, uint64_t *hash, const reporter *r)
 {
     program_source s;

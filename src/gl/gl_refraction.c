@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Scenes with objects on the GPU: what pixels see of them. */
+ * Scenes with objects on the GPU: their textures, materials and shadows, and the passes that find what pixels see of them. */
 #include "gl/gl_refraction.h"
 
 #include <stdlib.h>
@@ -12,7 +12,7 @@
 
 /* ---- textures ---- */
 
-/* An object's texture, and where it begins among those of the frame. */
+/* The texture of an object. `first` is the texture's first texel among those of all textures. */
 typedef struct used_texture {
     const mgt_texture *texture;
     size_t object, first;
@@ -26,9 +26,10 @@ static int by_identity(const void *a, const void *b)
 
 static size_t texel_count(const mgt_texture *t) { return t->level_start[t->levels - 1] + 1; /* the last level is one texel */ }
 
+/* Whether entry i is the first one of its texture. `used` is sorted by identity. */
 static bool starts_texture(const used_texture *used, size_t i) { return i == 0 || used[i].texture->id != used[i - 1].texture->id; }
 
-/* Whether `texels` holds these already. */
+/* Whether o->texels holds exactly these textures already. */
 static bool are_uploaded(const gl_refraction *o, const used_texture *used, size_t count)
 {
     size_t known = 0;
@@ -38,6 +39,7 @@ static bool are_uploaded(const gl_refraction *o, const used_texture *used, size_
     return known == o->texture_count;
 }
 
+/* Uploads `texels` texels in all, those of each texture once. `used` is sorted by identity. */
 static mgt_status upload_textures(const gl_api *gl, gl_refraction *o, const used_texture *used, size_t count, size_t texels, const reporter *r)
 {
     o->texture_count = 0;
@@ -65,7 +67,8 @@ static mgt_status upload_textures(const gl_api *gl, gl_refraction *o, const used
 
 /* ---- materials ---- */
 
-/* The table begins with linear values of codes, the waves that make caustics and those that rays behind the surface meet again. */
+/* The table of materials begins with the linear values of sRGB codes. Then come the waves that make caustics, the waves that rays behind the surface meet
+ * again, and the materials. */
 enum {
     MATERIAL_FLOATS = 4 * MATERIAL_TEXELS,
     WAVE_FLOATS = sizeof(SearchWave) / sizeof(float),
@@ -84,7 +87,7 @@ static void fill_material(const shade_material *m, bool smooth, float out[MATERI
     memcpy(out, values, sizeof values);
 }
 
-/* The table of materials, whose textures are `used`, and of the scene's waves. */
+/* Uploads the table of materials. `waves` is the number of the scene's waves. `used` are the textures of the materials. */
 static mgt_status upload_materials(const gl_api *gl, gl_refraction *o, const world *w, size_t waves, const used_texture *used, size_t used_count,
                                    const reporter *r)
 {
@@ -108,6 +111,7 @@ static mgt_status upload_materials(const gl_api *gl, gl_refraction *o, const wor
     return MGT_OK;
 }
 
+/* Uploads the textures, if they have changed, and the table of materials. `waves` is the number of the scene's waves. */
 static mgt_status update_materials(gl_renderer *g, size_t waves, const reporter *r)
 {
     gl_refraction *o = &g->refraction;
@@ -138,6 +142,7 @@ static mgt_status update_materials(gl_renderer *g, size_t waves, const reporter 
 
 /* ---- shadows ---- */
 
+/* Uploads the shadow map if it has changed. */
 static mgt_status update_shadows(const gl_api *gl, gl_refraction *o, const reporter *r)
 {
     const shadow_map *m = o->shade->shadows;
@@ -160,7 +165,7 @@ static mgt_status update_shadows(const gl_api *gl, gl_refraction *o, const repor
 
 enum { IMAGES = 7 };
 
-/* In the order of objects.comp; the last one is used under water. */
+/* Lists the images in the order of their bindings in objects.comp. The last one is used under water alone. */
 static void list_images(gl_seen *o, gl_image *out[IMAGES])
 {
     gl_image *const images[IMAGES] = {&o->body, &o->mirrored, &o->front, &o->surface, &o->error, &o->clear, &o->deep};
@@ -225,6 +230,7 @@ mgt_status gl_refraction_prepare(gl_renderer *g, const frame *f, const region *a
     return status;
 }
 
+/* Binds the images of g->refraction.seen. */
 static void bind_images(gl_renderer *g, GLenum access)
 {
     gl_image *images[IMAGES];
@@ -233,6 +239,7 @@ static void bind_images(gl_renderer *g, GLenum access)
         gl_bind_image(g, i, images[i], access);
 }
 
+/* Binds all that the passes over a band read and write, except the lists. */
 static void bind_all(gl_renderer *g)
 {
     const gl_refraction *o = &g->refraction;
@@ -255,10 +262,12 @@ static void bind_all(gl_renderer *g)
 
 /* ---- the passes over a band ---- */
 
+/* Begin of a list: the size of an indirect dispatch over it, and the number of its pixels. */
 typedef struct list_head {
     uint32_t groups[3], count;
 } list_head;
 
+/* Reserves and binds the lists of a band of `pixels` pixels, and empties them. */
 static mgt_status empty_lists(gl_renderer *g, size_t pixels, const reporter *r)
 {
     const gl_api *gl = &g->gl;
@@ -281,6 +290,7 @@ static mgt_status empty_lists(gl_renderer *g, size_t pixels, const reporter *r)
     return MGT_OK;
 }
 
+/* Runs a program over the pixels of a list. */
 static mgt_status over_list(gl_renderer *g, gl_program program, int list, const reporter *r)
 {
     const mgt_status status = gl_use(g, program, r);
@@ -289,6 +299,7 @@ static mgt_status over_list(gl_renderer *g, gl_program program, int list, const 
     return status;
 }
 
+/* Runs a program over all pixels of the band. */
 static mgt_status over_pixels(gl_renderer *g, gl_program program, const PassData *pass, const reporter *r)
 {
     const mgt_status status = gl_use(g, program, r);
@@ -297,7 +308,7 @@ static mgt_status over_pixels(gl_renderer *g, gl_program program, const PassData
     return status;
 }
 
-/* Through several places of a pixel all is done at once. */
+/* Finds what pixels see through the surface. If each pixel has several places, one pass also finds what the surface mirrors and traces rays. */
 static mgt_status see_through(gl_renderer *g, const PassData *pass, const reporter *r)
 {
     if (g->refraction.block.objects.places > 1)
@@ -309,6 +320,7 @@ static mgt_status see_through(gl_renderer *g, const PassData *pass, const report
     return over_list(g, PROGRAM_OBJECTS_TRACED, LIST_TRACED, r);
 }
 
+/* Runs the passes of a band. The first one fills the lists that the others run over. */
 static mgt_status run_passes(gl_renderer *g, const PassData *pass, const reporter *r)
 {
     const gl_api *gl = &g->gl;

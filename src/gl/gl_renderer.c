@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * What the OpenGL backend keeps between frames. */
+ * The state of the OpenGL backend between frames. */
 #include "gl/gl_renderer.h"
 
 #include <stdlib.h>
@@ -7,7 +7,7 @@
 
 #include "params/foam.h"
 
-enum { RING_SEGMENT = 1 << 20 };
+enum { RING_SEGMENT = 1 << 20 }; /* bytes of a segment of the ring of uniform data, at first */
 
 static mgt_status check_version(const gl_api *gl, const reporter *r)
 {
@@ -16,7 +16,7 @@ static mgt_status check_version(const gl_api *gl, const reporter *r)
     gl->GetIntegerv(GL_MINOR_VERSION, &minor);
     if (major > 4 || (major == 4 && minor >= 5))
         return MGT_OK;
-    if (major == 0) /* functions that no context answers leave what was there */
+    if (major == 0) /* without a current context the calls had no effect */
         return report_error(r, MGT_ERROR_UNAVAILABLE, "context.gl", "no OpenGL context is current on this thread; one of 4.5 core or later is needed");
     return report_error(r, MGT_ERROR_UNAVAILABLE, "context.gl", "the OpenGL context has version %d.%d; 4.5 core or later is needed", major, minor);
 }
@@ -194,8 +194,8 @@ void gl_bind_image(const gl_renderer *g, GLuint unit, const gl_image *image, GLe
 
 /* ---- begin of a frame ---- */
 
-/* llvmpipe compiles a program anew for other formats of the images and textures that it may read, and where nothing is bound. What a frame lacks is a texel
- * of its format. */
+/* Reserves at least one texel of each layer, so that there is always something to bind. llvmpipe compiles a program again if a bound image or texture has
+ * another format, or if nothing is bound. */
 static mgt_status reserve_least(gl_renderer *g, const reporter *r)
 {
     gl_layers *l = &g->layers;
@@ -208,8 +208,9 @@ static mgt_status reserve_least(gl_renderer *g, const reporter *r)
     return status == MGT_OK ? gl_refraction_reserve_least(g, r) : status;
 }
 
-/* llvmpipe compiles a program anew for other samplers. A buffer's texture has none; there it takes the one that an earlier program had in the same place.
- * Therefore the first program has the sampler of all textures in every place. */
+/* Runs a program that reads all units with the sampler of all textures, once and on software OpenGL alone. llvmpipe compiles a program again if a sampler
+ * differs. A buffer texture has no sampler, and llvmpipe takes the one that an earlier program had in its place. After this program that is always the same
+ * one. */
 static mgt_status set_samplers(gl_renderer *g, const reporter *r)
 {
     if (g->samplers_set || !g->limits.software)
@@ -227,6 +228,7 @@ static mgt_status set_samplers(gl_renderer *g, const reporter *r)
     return gl_check(&g->gl, "samplers", r);
 }
 
+/* Computes and uploads the tables of the sky and of the air if their inputs have changed. */
 static mgt_status update_sky(gl_renderer *g, const mgt_scene *scene, const reporter *r)
 {
     const bool same = sky_state_same_inputs(g->sky, &scene->sky, &scene->light);

@@ -8,6 +8,7 @@
 
 /* ---- texts ---- */
 
+/* The name in gl_texts that equals the `length` characters at `name`. NULL: no such text is embedded. */
 static const char *embedded(const char *name, size_t length)
 {
     for (size_t i = 0; i < gl_text_count; i++)
@@ -20,6 +21,7 @@ const char *mgt_gl_source_name(size_t index) { return index < gl_text_count ? gl
 
 bool gl_text_exists(const char *name) { return embedded(name, strlen(name)) != NULL; }
 
+/* The text of that name: the replacement, if there is one. NULL: there is no such text. */
 static const char *text_of(const gl_replacements *replaced, const char *name)
 {
     for (size_t i = 0; i < replaced->count; i++)
@@ -61,6 +63,7 @@ void gl_replacements_free(gl_replacements *r)
 
 /* ---- assembly ---- */
 
+/* Appends `length` characters, unless memory has run out. */
 static void append(gl_source *s, const char *text, size_t length)
 {
     if (s->out_of_memory)
@@ -80,13 +83,14 @@ static void append(gl_source *s, const char *text, size_t length)
     s->text[s->length] = 0;
 }
 
+/* Appends a #line directive: the next line is number `line` of file number `file`. */
 static void append_line_mark(gl_source *s, int line, int file)
 {
     char mark[48];
     append(s, mark, (size_t)snprintf(mark, sizeof mark, "#line %d %d\n", line, file));
 }
 
-/* The file's name, without its folders, between the quotes of an #include; NULL for other lines. */
+/* The file's name in an #include line, without its folders. NULL: the line is another one. */
 static const char *included(const char *line, size_t length, size_t *name_length)
 {
     static const char word[] = "#include \"";
@@ -100,6 +104,7 @@ static const char *included(const char *line, size_t length, size_t *name_length
     return end ? name : NULL;
 }
 
+/* Appends a text, with the texts that it includes in place of its #include lines. Does nothing if the text has been appended before. */
 static void append_file(gl_source *s, const gl_replacements *replaced, const char *name)
 {
     for (int i = 1; i < s->file_count; i++)
@@ -163,7 +168,7 @@ uint64_t gl_source_hash(const gl_source *s)
 
 /* ---- messages ---- */
 
-/* "0:12(5): rest", "0(12) : rest", "ERROR: 0:12: rest". */
+/* Reads the file number, the line number and the message `rest` of a line in one of the forms that gl_source_explain() knows. False: it has another form. */
 static bool parse_place(const char *line, int *file, int *number, const char **rest)
 {
     static const char *const starts[] = {"ERROR: ", "error: "};

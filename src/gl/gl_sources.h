@@ -41,7 +41,7 @@ typedef struct gl_source {
     const char *files[MAX_FILES]; /* [0] is what stands before the first file */
     int file_count;
     const char *kernel;  /* name of the text that #include "method.k" stands for, or NULL */
-    const char *missing; /* name of an included file that does not exist, or NULL */
+    const char *missing; /* name of the text that includes an unknown file, or that is unknown itself; NULL: none */
     bool out_of_memory;
 } gl_source;
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * GPU time of passes by timestamps, read a few frames later and never waited for. */
+ * GPU times of passes by timestamps. They are read a few frames later, so that the CPU never waits for them. */
 #include "gl/gl_timers.h"
 
 #include <string.h>
@@ -18,6 +18,7 @@ void gl_timers_free(const gl_api *gl, gl_timers *t)
             gl->DeleteQueries(2 * TIMER_INTERVALS, t->frames[i].queries);
 }
 
+/* Adds the time of a pass to that of earlier passes of the same name. Names beyond TIMER_NAMES are dropped. */
 static void add_timing(gl_timers *t, const char *name, double seconds)
 {
     size_t i = 0;
@@ -30,7 +31,7 @@ static void add_timing(gl_timers *t, const char *name, double seconds)
     t->timings[i].seconds += seconds;
 }
 
-/* Whether the frame's timestamps have been read, or there were none. */
+/* Reads the timestamps of a frame. False: the GPU has not written them all. */
 static bool collect(const gl_api *gl, gl_timers *t, timer_frame *f)
 {
     if (f->count == 0)

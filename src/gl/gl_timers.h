@@ -26,6 +26,8 @@ typedef struct gl_timers {
 void gl_timers_create(const gl_api *gl, gl_timers *t);
 void gl_timers_free(const gl_api *gl, gl_timers *t);
 
+/* gl_timers_frame() begins a frame and reads the timestamps of earlier ones. gl_timers_begin() and gl_timers_end() enclose a pass. `name` must outlive the
+ * timers. */
 void gl_timers_frame(const gl_api *gl, gl_timers *t);
 void gl_timers_begin(const gl_api *gl, gl_timers *t, const char *name);
 void gl_timers_end(const gl_api *gl, gl_timers *t);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Methods that work on whole pictures, on the GPU: fxaa on one of method `none`, taa on several, adaptive on its own. */
+ * Methods over whole pictures, on the GPU: fxaa filters one picture of method `none`, taa blends several of them, adaptive renders its own pictures. */
 #include "gl/gl_whole_frame.h"
 
 #include "frame/targets.h"
@@ -13,6 +13,7 @@ void gl_plain_frame_of(const frame *f, mgt_method method, gl_plain_frame *out)
     out->frame = frame_by_quality(f, &out->scene);
 }
 
+/* The same frame by the method that the frame's method is based on. */
 static void base_frame_of(const frame *f, gl_plain_frame *out) { gl_plain_frame_of(f, method_of(f->scene->quality.method)->base, out); }
 
 gl_progress_part gl_progress_part_of(const gl_job *job, double first, double share)
@@ -59,7 +60,7 @@ static mgt_status reserve(gl_renderer *g, gl_layers *l, const region *area, bool
     return status;
 }
 
-/* Color, coverage and mask from g->layers, and what else is bound, to `out`. */
+/* Runs a program that reads the color, coverage and mask of g->layers and what the caller has bound, and writes those layers of `out`. */
 static mgt_status blend(gl_renderer *g, gl_program program, const BlendData *data, const gl_layers *out, const reporter *r)
 {
     const gl_api *gl = &g->gl;
@@ -97,6 +98,7 @@ static void swap_pictures(gl_layers *a, gl_layers *b)
 
 /* ---- fxaa ---- */
 
+/* Computes the luma of the displayed picture in layers.color. */
 static mgt_status make_luma(gl_renderer *g, const frame *f, const region *area, const reporter *r)
 {
     const gl_api *gl = &g->gl;
@@ -152,6 +154,7 @@ static camera_rays rays_before(const gl_job *job, int back)
     return job->camera_at(job->camera_user, 1 - back * taa_interval(s) / s->shutter);
 }
 
+/* Renders the picture of the frame `back` frames ago into g->layers, with that frame's subpixel offset. */
 static mgt_status render_current(gl_renderer *g, const gl_job *job, int back, const reporter *r)
 {
     gl_plain_frame none;
@@ -170,7 +173,7 @@ static mgt_status render_current(gl_renderer *g, const gl_job *job, int back, co
     return gl_frame_render(g, &own, r);
 }
 
-/* The picture in g->layers into the history, which is read from the first and written to the second of g->history. */
+/* Blends the picture in g->layers into the history. It reads the history from g->history[0] and writes the new one to g->history[1]. */
 static mgt_status add_to_history(gl_renderer *g, const gl_job *job, int back, const reporter *r)
 {
     const int frames = TAA_FRAMES - 1 - back;
@@ -207,7 +210,7 @@ static mgt_status render_taa(gl_renderer *g, const gl_job *job, const reporter *
 
 /* ---- all ---- */
 
-/* Depth, normal and foam are those of the base. */
+/* Renders depth, normal and foam by the base method. */
 static mgt_status render_surface(gl_renderer *g, const gl_job *job, gl_progress_part part, const reporter *r)
 {
     gl_plain_frame base;
@@ -225,7 +228,8 @@ mgt_status gl_whole_frame_render(gl_renderer *g, const gl_job *job, const report
     const method_pass pass = method_of(job->frame->scene->quality.method)->pass;
     if (pass == METHOD_PASS_FXAA)
         return render_fxaa(g, job, r);
-    /* Foam before the picture, whose layers it is shaded into; depth and normal after it, which may leave others behind. */
+    /* Foam is rendered before the picture, because shading it overwrites the picture's layers. Depth and normal are rendered after it, because the picture's
+     * passes may overwrite them. */
     gl_job foam = *job, picture = *job, surface = *job;
     foam.wants_depth = foam.wants_normal = false;
     picture.wants_foam = surface.wants_foam = false;

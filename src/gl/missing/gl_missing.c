@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Stands in for the OpenGL backend where its headers were not found. */
+ * Stands in for the OpenGL backend in builds that lack the headers of EGL or OpenGL. */
 #include "frame/backend.h"
 #include "mangata/gl.h"
 
