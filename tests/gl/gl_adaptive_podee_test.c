@@ -4,8 +4,6 @@
  */
 #include "gl_sea.h"
 
-#include "gl/gl_api.h"
-#include "gl/gl_egl.h"
 #include "mangata/gl.h"
 
 typedef struct picture {
@@ -219,26 +217,26 @@ static void limits_are_told(void **state)
 
 /* Calls by which a program reads what the GPU has made; and waits for room in the ring of uniform data, where the host is ahead of the GPU. */
 static int read_backs, waits;
-static gl_api host;
+static gl_host host;
 
 static void APIENTRY count_get_texture(GLuint texture, GLint level, GLint x, GLint y, GLint z, GLsizei width, GLsizei height, GLsizei depth, GLenum format,
                                        GLenum type, GLsizei size, void *pixels)
 {
     read_backs++;
-    host.GetTextureSubImage(texture, level, x, y, z, width, height, depth, format, type, size, pixels);
+    host.gl.GetTextureSubImage(texture, level, x, y, z, width, height, depth, format, type, size, pixels);
 }
 
 static void *APIENTRY count_map(GLuint buffer, GLintptr offset, GLsizeiptr length, GLbitfield access)
 {
     read_backs += (access & GL_MAP_READ_BIT) != 0;
-    return host.MapNamedBufferRange(buffer, offset, length, access);
+    return host.gl.MapNamedBufferRange(buffer, offset, length, access);
 }
 
 /* A look at a fence is no wait. */
 static GLenum APIENTRY count_wait(GLsync sync, GLbitfield flags, GLuint64 timeout)
 {
     waits += timeout > 0;
-    return host.ClientWaitSync(sync, flags, timeout);
+    return host.gl.ClientWaitSync(sync, flags, timeout);
 }
 
 static mgt_gl_function counting_get_proc(const char *name)
@@ -255,8 +253,8 @@ static mgt_gl_function counting_get_proc(const char *name)
 static GLuint host_texture(void)
 {
     GLuint name = 0;
-    host.CreateTextures(GL_TEXTURE_2D, 1, &name);
-    host.TextureStorage2D(name, 1, GL_R32F, SEA_WIDTH, SEA_HEIGHT);
+    host.gl.CreateTextures(GL_TEXTURE_2D, 1, &name);
+    host.gl.TextureStorage2D(name, 1, GL_R32F, SEA_WIDTH, SEA_HEIGHT);
     return name;
 }
 
@@ -267,19 +265,8 @@ static void frames_are_not_waited_for(void **state)
     static float got[2][PIXELS], expected[2][PIXELS];
     enum { FRAMES = 100 };
     static const mgt_layer written[] = {MGT_LAYER_COVERAGE, MGT_LAYER_SAMPLES};
-    char error[REPORTER_TEXT];
-    const reporter r = {.error = error};
-    gl_egl *egl = NULL;
-    gl_egl_scope scope;
-    assert_int_equal(gl_egl_create(&egl, 0, &r), MGT_OK);
-    assert_int_equal(gl_egl_enter(egl, &scope, &r), MGT_OK);
-    assert_null(gl_api_load(&host, gl_egl_get_proc));
-    mgt_context_desc desc;
-    mgt_context_desc_init(&desc, sizeof desc);
-    desc.backend = MGT_BACKEND_GL;
-    desc.gl_get_proc = counting_get_proc;
-    mgt_context *context = NULL;
-    assert_int_equal(mgt_context_create(&context, &desc), MGT_OK);
+    gl_host_start(&host);
+    mgt_context *context = gl_context_of(counting_get_proc);
 
     mgt_wave waves[SEA_WAVES];
     mgt_scene scene = podee_scene(waves);
@@ -299,30 +286,21 @@ static void frames_are_not_waited_for(void **state)
     print_message("  %d frames: %d readbacks, %d waits for room\n", FRAMES, read_backs, waits);
     assert_int_equal(read_backs, 0);
     for (int i = 0; i < 2; i++)
-        host.GetTextureSubImage(textures[i].texture, 0, 0, 0, 0, SEA_WIDTH, SEA_HEIGHT, 1, GL_RED, GL_FLOAT, sizeof got[i], got[i]);
+        host.gl.GetTextureSubImage(textures[i].texture, 0, 0, 0, 0, SEA_WIDTH, SEA_HEIGHT, 1, GL_RED, GL_FLOAT, sizeof got[i], got[i]);
     const mgt_target targets[] = {sea_target(written[0], MGT_FORMAT_R32F, expected[0], 0), sea_target(written[1], MGT_FORMAT_R32F, expected[1], 0)};
     sea_render(context, &scene, targets, 2);
     assert_true(read_backs > 0 && sum_of(got[1]) == 500);
     assert_memory_equal(got, expected, sizeof got);
     for (int i = 0; i < 2; i++)
-        host.DeleteTextures(1, &textures[i].texture);
+        host.gl.DeleteTextures(1, &textures[i].texture);
     mgt_context_destroy(context);
-    gl_egl_leave(egl, &scope);
-    gl_egl_destroy(egl);
+    gl_host_stop(&host);
 }
 
 int main(void)
 {
-    mgt_context_desc desc;
-    mgt_context_desc_init(&desc, sizeof desc);
-    desc.backend = MGT_BACKEND_GL;
-    mgt_context *context = NULL;
-    const mgt_status status = mgt_context_create(&context, &desc);
-    mgt_context_destroy(context);
-    if (status == MGT_ERROR_UNAVAILABLE) {
-        printf("SKIPPED: %s\n", mgt_last_error(NULL));
+    if (gl_is_missing())
         return 77;
-    }
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pictures_are_those_of_the_cpu), cmocka_unit_test(no_task_no_sample),
         cmocka_unit_test(bytes_do_not_change),           cmocka_unit_test(limits_are_told),

@@ -11,8 +11,7 @@
 #include <string.h>
 
 #include "frame/backend.h"
-#include "gl/gl_api.h"
-#include "gl/gl_egl.h"
+#include "gl/gl_host.h"
 #include "mangata/gl.h"
 #include "scene/scene_file.h"
 
@@ -284,39 +283,9 @@ static mgt_gl_function counting_get_proc(const char *name)
     return function;
 }
 
-/* A host's context, and ours in it. */
-typedef struct host {
-    gl_egl *egl;
-    gl_egl_scope scope;
-    gl_api gl;
-    mgt_context *context;
-} host;
-
-static void host_start(host *h)
-{
-    char error[REPORTER_TEXT];
-    const reporter r = {.error = error};
-    assert_int_equal(gl_egl_create(&h->egl, 0, &r), MGT_OK);
-    assert_int_equal(gl_egl_enter(h->egl, &h->scope, &r), MGT_OK);
-    assert_null(gl_api_load(&h->gl, gl_egl_get_proc));
-    mgt_context_desc desc;
-    mgt_context_desc_init(&desc, sizeof desc);
-    desc.backend = MGT_BACKEND_GL;
-    desc.gl_get_proc = counting_get_proc;
-    h->context = NULL;
-    assert_int_equal(mgt_context_create(&h->context, &desc), MGT_OK);
-}
-
-static void host_stop(host *h)
-{
-    mgt_context_destroy(h->context);
-    gl_egl_leave(h->egl, &h->scope);
-    gl_egl_destroy(h->egl);
-}
-
 enum { SIDE = 64 };
 
-static GLuint texture_of(const host *h, GLenum format)
+static GLuint texture_of(const gl_host *h, GLenum format)
 {
     GLuint name = 0;
     h->gl.CreateTextures(GL_TEXTURE_2D, 1, &name);
@@ -324,7 +293,7 @@ static GLuint texture_of(const host *h, GLenum format)
     return name;
 }
 
-static mgt_gl_texture color_texture(const host *h)
+static mgt_gl_texture color_texture(const gl_host *h)
 {
     mgt_gl_texture t;
     mgt_gl_texture_init(&t, sizeof t);
@@ -337,8 +306,9 @@ static void nothing_is_read_back(void **state)
 {
     (void)state;
     enum { FRAMES = 10 };
-    host h;
-    host_start(&h);
+    gl_host h;
+    gl_host_start(&h);
+    mgt_context *context = gl_context_of(counting_get_proc);
     mgt_scene scene;
     scene_file *file = load("simple.json", &scene);
     scene.image = (mgt_image){.width = SIDE, .height = SIDE};
@@ -346,19 +316,20 @@ static void nothing_is_read_back(void **state)
     reads = waits = 0;
     for (int i = 0; i < FRAMES; i++) {
         scene.time = 0.01 * i;
-        if (mgt_gl_render_textures(h.context, &scene, &texture, 1) != MGT_OK)
-            fail_msg("%s", mgt_last_error(h.context));
+        if (mgt_gl_render_textures(context, &scene, &texture, 1) != MGT_OK)
+            fail_msg("%s", mgt_last_error(context));
     }
     printf("  %d frames: %zu times read back, %zu times waited for room in the ring of uniform data\n", FRAMES, reads, waits);
     assert_int_equal(reads, 0);
     scene_file_free(file);
-    host_stop(&h);
+    mgt_context_destroy(context);
+    gl_host_stop(&h);
 }
 
 /* ---- a host's view ---- */
 
 /* Level, along −z, 45 degrees high. */
-static mgt_gl_view level_view(const host *h, GLuint color, double height)
+static mgt_gl_view level_view(const gl_host *h, GLuint color, double height)
 {
     mgt_gl_view v;
     mgt_gl_view_init(&v, sizeof v);
@@ -385,7 +356,7 @@ static mgt_gl_view level_view(const host *h, GLuint color, double height)
     return v;
 }
 
-static void read_color(const host *h, GLuint texture, float out[SIDE * SIDE * 4])
+static void read_color(const gl_host *h, GLuint texture, float out[SIDE * SIDE * 4])
 {
     h->gl.GetTextureSubImage(texture, 0, 0, 0, 0, SIDE, SIDE, 1, GL_RGBA, GL_FLOAT, SIDE * SIDE * 4 * (GLsizei)sizeof *out, out);
 }
@@ -394,20 +365,21 @@ static void views_show_the_picture(void **state)
 {
     (void)state;
     static float layer[SIDE * SIDE * 4], seen[SIDE * SIDE * 4];
-    host h;
-    host_start(&h);
+    gl_host h;
+    gl_host_start(&h);
+    mgt_context *context = gl_context_of(counting_get_proc);
     mgt_scene scene;
     scene_file *file = load("sunset.json", &scene);
     const double height = scene.camera.position[1];
     scene.image = (mgt_image){.width = SIDE, .height = SIDE};
     scene.camera = (mgt_camera){.position = {0, height, 0}, .target = {0, height, -1}, .up = {0, 1, 0}, .fov_y_deg = 45};
     const mgt_gl_texture texture = color_texture(&h);
-    if (mgt_gl_render_textures(h.context, &scene, &texture, 1) != MGT_OK)
-        fail_msg("%s", mgt_last_error(h.context));
+    if (mgt_gl_render_textures(context, &scene, &texture, 1) != MGT_OK)
+        fail_msg("%s", mgt_last_error(context));
     const GLuint shown = texture_of(&h, GL_RGBA32F);
     const mgt_gl_view view = level_view(&h, shown, height);
-    if (mgt_gl_render_views(h.context, &scene, &view, 1) != MGT_OK)
-        fail_msg("%s", mgt_last_error(h.context));
+    if (mgt_gl_render_views(context, &scene, &view, 1) != MGT_OK)
+        fail_msg("%s", mgt_last_error(context));
     read_color(&h, texture.texture, layer);
     read_color(&h, shown, seen);
     size_t off = 0;
@@ -419,7 +391,8 @@ static void views_show_the_picture(void **state)
     printf("  %zu of %d values differ\n", off, SIDE * SIDE * 4);
     assert_true(off <= SIDE * SIDE * 4 / 200);
     scene_file_free(file);
-    host_stop(&h);
+    mgt_context_destroy(context);
+    gl_host_stop(&h);
 }
 
 /* ---- foam ---- */
@@ -429,8 +402,9 @@ static void foam_is_that_of_the_cpu(void **state)
 {
     (void)state;
     static float expected[SIDE * SIDE], got[SIDE * SIDE], held[SIDE * SIDE], coverage[SIDE * SIDE];
-    host h;
-    host_start(&h);
+    gl_host h;
+    gl_host_start(&h);
+    mgt_context *context = gl_context_of(counting_get_proc);
     mgt_context *cpu = context_of(MGT_BACKEND_CPU);
     mgt_scene scene;
     scene_file *file = load("../tests/gl/foam.yaml", &scene);
@@ -440,13 +414,13 @@ static void foam_is_that_of_the_cpu(void **state)
     const mgt_target targets[] = {target_of(MGT_LAYER_FOAM, MGT_FORMAT_R32F, got), target_of(MGT_LAYER_COVERAGE, MGT_FORMAT_R32F, coverage)};
     mgt_gl_texture texture = color_texture(&h);
     texture.layer = MGT_LAYER_FOAM;
-    assert_int_equal(mgt_gl_render_textures(h.context, &scene, &texture, 1), MGT_ERROR_ARGUMENT); /* four channels */
-    assert_non_null(strstr(mgt_last_error(h.context), "layer foam (GL_R32F or GL_R16F)"));
+    assert_int_equal(mgt_gl_render_textures(context, &scene, &texture, 1), MGT_ERROR_ARGUMENT); /* four channels */
+    assert_non_null(strstr(mgt_last_error(context), "layer foam (GL_R32F or GL_R16F)"));
     texture.texture = texture_of(&h, GL_R32F);
     assert_true(mgt_supports(MGT_BACKEND_GL, &scene, MGT_LAYER_FOAM));
-    if (mgt_render(cpu, &scene, &truly, 1) != MGT_OK || mgt_render(h.context, &scene, targets, 2) != MGT_OK ||
-        mgt_gl_render_textures(h.context, &scene, &texture, 1) != MGT_OK)
-        fail_msg("%s%s", mgt_last_error(cpu), mgt_last_error(h.context));
+    if (mgt_render(cpu, &scene, &truly, 1) != MGT_OK || mgt_render(context, &scene, targets, 2) != MGT_OK ||
+        mgt_gl_render_textures(context, &scene, &texture, 1) != MGT_OK)
+        fail_msg("%s%s", mgt_last_error(cpu), mgt_last_error(context));
     h.gl.GetTextureSubImage(texture.texture, 0, 0, 0, 0, SIDE, SIDE, 1, GL_RED, GL_FLOAT, sizeof held, held);
     double sum = 0, squared = 0;
     for (size_t i = 0; i < SIDE * SIDE; i++) {
@@ -460,21 +434,14 @@ static void foam_is_that_of_the_cpu(void **state)
     assert_memory_equal(held, got, sizeof held);
     scene_file_free(file);
     mgt_context_destroy(cpu);
-    host_stop(&h);
+    mgt_context_destroy(context);
+    gl_host_stop(&h);
 }
 
 int main(void)
 {
-    mgt_context_desc desc;
-    mgt_context_desc_init(&desc, sizeof desc);
-    desc.backend = MGT_BACKEND_GL;
-    mgt_context *context = NULL;
-    const mgt_status status = mgt_context_create(&context, &desc);
-    mgt_context_destroy(context);
-    if (status == MGT_ERROR_UNAVAILABLE) {
-        printf("SKIPPED: %s\n", mgt_last_error(NULL));
+    if (gl_is_missing())
         return 77;
-    }
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pictures_are_those_of_the_cpu), cmocka_unit_test(options_are_those_of_the_cpu),
         cmocka_unit_test(crops_are_parts_of_the_whole),  cmocka_unit_test(objects_are_shown),

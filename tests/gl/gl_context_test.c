@@ -7,8 +7,6 @@
 
 #include <dlfcn.h>
 
-#include "gl/gl_api.h"
-#include "gl/gl_egl.h"
 #include "gl/gl_sources.h"
 #include "mangata/gl.h"
 
@@ -439,42 +437,7 @@ static void messages_name_the_file(void **state)
 
 /* ---- a host ---- */
 
-/* An OpenGL context as a host would have it, current on this thread. */
-typedef struct host {
-    gl_egl *egl;
-    gl_egl_scope scope;
-    gl_api gl;
-    char error[REPORTER_TEXT];
-} host;
-
-static void host_start(host *h)
-{
-    memset(h, 0, sizeof *h);
-    const reporter r = {.error = h->error};
-    assert_int_equal(gl_egl_create(&h->egl, 0, &r), MGT_OK);
-    assert_int_equal(gl_egl_enter(h->egl, &h->scope, &r), MGT_OK);
-    assert_null(gl_api_load(&h->gl, gl_egl_get_proc));
-}
-
-static void host_stop(host *h)
-{
-    gl_egl_leave(h->egl, &h->scope);
-    gl_egl_destroy(h->egl);
-}
-
-static mgt_context *host_context(void)
-{
-    mgt_context_desc desc;
-    mgt_context_desc_init(&desc, sizeof desc);
-    desc.backend = MGT_BACKEND_GL;
-    desc.gl_get_proc = gl_egl_get_proc;
-    mgt_context *context = NULL;
-    if (mgt_context_create(&context, &desc) != MGT_OK)
-        fail_msg("%s", mgt_last_error(NULL));
-    return context;
-}
-
-static mgt_gl_texture host_texture(const host *h, mgt_layer layer, GLenum format, int width, int height)
+static mgt_gl_texture host_texture(const gl_host *h, mgt_layer layer, GLenum format, int width, int height)
 {
     mgt_gl_texture t;
     mgt_gl_texture_init(&t, sizeof t);
@@ -484,7 +447,7 @@ static mgt_gl_texture host_texture(const host *h, mgt_layer layer, GLenum format
     return t;
 }
 
-static void read_texture(const host *h, GLuint texture, GLenum format, GLenum type, size_t size, void *out)
+static void read_texture(const gl_host *h, GLuint texture, GLenum format, GLenum type, size_t size, void *out)
 {
     h->gl.PixelStorei(GL_PACK_ALIGNMENT, 4);
     h->gl.GetTextureSubImage(texture, 0, 0, 0, 0, SEA_WIDTH, SEA_HEIGHT, 1, format, type, (GLsizei)size, out);
@@ -494,9 +457,9 @@ static void textures_hold_the_layers(void **state)
 {
     (void)state;
     static layers expected, got;
-    host h;
-    host_start(&h);
-    mgt_context *context = host_context();
+    gl_host h;
+    gl_host_start(&h);
+    mgt_context *context = gl_context_of(gl_egl_get_proc);
     mgt_wave waves[SEA_WAVES];
     const mgt_scene scene = sea_scene(waves);
     mgt_gl_texture t[] = {
@@ -539,15 +502,15 @@ static void textures_hold_the_layers(void **state)
     for (int i = 0; i < TEXTURES; i++)
         h.gl.DeleteTextures(1, &t[i].texture);
     mgt_context_destroy(context);
-    host_stop(&h);
+    gl_host_stop(&h);
 }
 
 static void wrong_textures_are_refused(void **state)
 {
     (void)state;
-    host h;
-    host_start(&h);
-    mgt_context *context = host_context();
+    gl_host h;
+    gl_host_start(&h);
+    mgt_context *context = gl_context_of(gl_egl_get_proc);
     mgt_wave waves[SEA_WAVES];
     mgt_scene scene = sea_scene(waves);
     mgt_gl_texture good = host_texture(&h, MGT_LAYER_COLOR, GL_RGBA16F, SEA_WIDTH, SEA_HEIGHT);
@@ -582,7 +545,7 @@ static void wrong_textures_are_refused(void **state)
     assert_int_equal(mgt_gl_render_textures(context, &scene, &good, 1), MGT_OK);
     assert_int_equal(h.gl.GetError(), GL_NO_ERROR);
     mgt_context_destroy(context);
-    host_stop(&h);
+    gl_host_stop(&h);
 }
 
 /* Other methods than adaptive have spent the same everywhere. */
@@ -609,16 +572,16 @@ static void spent_layers_are_even(void **state)
     }
     mgt_context_destroy(gl);
 
-    host h;
-    host_start(&h);
-    mgt_context *context = host_context();
+    gl_host h;
+    gl_host_start(&h);
+    mgt_context *context = gl_context_of(gl_egl_get_proc);
     mgt_gl_texture t = host_texture(&h, MGT_LAYER_SAMPLES, GL_R32F, SEA_WIDTH, SEA_HEIGHT);
     assert_int_equal(mgt_gl_render_textures(context, &scene, &t, 1), MGT_OK);
     read_texture(&h, t.texture, GL_RED, GL_FLOAT, sizeof got[0], got[0]);
     assert_true(got[0][0] == 1 && got[0][PIXELS - 1] == 1);
     h.gl.DeleteTextures(1, &t.texture);
     mgt_context_destroy(context);
-    host_stop(&h);
+    gl_host_stop(&h);
 }
 
 /* A context of our own comes and goes without a trace on the thread's current one, and renders nothing of a host's. */
@@ -626,8 +589,8 @@ static void the_threads_context_stays_current(void **state)
 {
     (void)state;
     static float pixels[PIXELS];
-    host h;
-    host_start(&h);
+    gl_host h;
+    gl_host_start(&h);
     void *(*const current)(void) = (void *(*)(void))dlsym(dlopen("libEGL.so.1", RTLD_NOW), "eglGetCurrentContext");
     assert_non_null(current);
     void *const before = current();
@@ -649,22 +612,14 @@ static void the_threads_context_stays_current(void **state)
     mgt_context_destroy(own);
     assert_ptr_equal(current(), before);
     assert_int_equal(h.gl.GetError(), GL_NO_ERROR);
-    host_stop(&h);
+    gl_host_stop(&h);
     assert_null(current());
 }
 
 int main(void)
 {
-    mgt_context_desc desc;
-    mgt_context_desc_init(&desc, sizeof desc);
-    desc.backend = MGT_BACKEND_GL;
-    mgt_context *context = NULL;
-    const mgt_status status = mgt_context_create(&context, &desc);
-    mgt_context_destroy(context);
-    if (status == MGT_ERROR_UNAVAILABLE) {
-        printf("SKIPPED: %s\n", mgt_last_error(NULL));
+    if (gl_is_missing())
         return 77;
-    }
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(creation_says_what_runs),
         cmocka_unit_test(automatic_choice),

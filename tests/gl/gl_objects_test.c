@@ -4,8 +4,6 @@
  */
 #include "gl_sea.h"
 
-#include "gl/gl_api.h"
-#include "gl/gl_egl.h"
 #include "mangata/gl.h"
 #include "trace/trace.h"
 #include "unit/test_mesh.h"
@@ -180,20 +178,10 @@ static void textures_hold_objects(void **state)
     (void)state;
     static layers expected;
     static float color[4 * PIXELS];
-    char error[REPORTER_TEXT] = "";
-    const reporter r = {.error = error};
-    gl_egl *egl = NULL;
-    gl_egl_scope scope;
-    gl_api gl;
-    assert_int_equal(gl_egl_create(&egl, 0, &r), MGT_OK);
-    assert_int_equal(gl_egl_enter(egl, &scope, &r), MGT_OK);
-    assert_null(gl_api_load(&gl, gl_egl_get_proc));
-    mgt_context_desc desc;
-    mgt_context_desc_init(&desc, sizeof desc);
-    desc.backend = MGT_BACKEND_GL;
-    desc.gl_get_proc = gl_egl_get_proc;
-    mgt_context *context = NULL;
-    assert_int_equal(mgt_context_create(&context, &desc), MGT_OK);
+    gl_host host;
+    gl_host_start(&host);
+    const gl_api gl = host.gl;
+    mgt_context *context = gl_context_of(gl_egl_get_proc);
     mgt_gl_texture texture;
     mgt_gl_texture_init(&texture, sizeof texture);
     gl.CreateTextures(GL_TEXTURE_2D, 1, &texture.texture);
@@ -216,22 +204,14 @@ static void textures_hold_objects(void **state)
     assert_non_null(strstr(mgt_last_error(context), "on the CPU alone"));
     gl.DeleteTextures(1, &texture.texture);
     mgt_context_destroy(context);
-    gl_egl_leave(egl, &scope);
-    gl_egl_destroy(egl);
+    gl_host_stop(&host);
     free_props(&p);
 }
 
 int main(void)
 {
-    mgt_context_desc desc;
-    mgt_context_desc_init(&desc, sizeof desc);
-    desc.backend = MGT_BACKEND_GL;
-    mgt_context *context = NULL;
-    if (mgt_context_create(&context, &desc) == MGT_ERROR_UNAVAILABLE) {
-        printf("SKIPPED: %s\n", mgt_last_error(NULL));
+    if (gl_is_missing())
         return 77;
-    }
-    mgt_context_destroy(context);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(objects_are_those_of_the_cpu),
         cmocka_unit_test(the_same_bytes_again),

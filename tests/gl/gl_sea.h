@@ -3,20 +3,12 @@
 #ifndef MANGATA_TESTS_GL_SEA_H
 #define MANGATA_TESTS_GL_SEA_H
 
+#include "gl_host.h"
 #include "unit/api_sea.h"
 
 enum { PIXELS = SEA_WIDTH * SEA_HEIGHT };
 
-static inline mgt_context *gl_context(void)
-{
-    mgt_context_desc desc;
-    mgt_context_desc_init(&desc, sizeof desc);
-    desc.backend = MGT_BACKEND_GL;
-    mgt_context *context = NULL;
-    if (mgt_context_create(&context, &desc) != MGT_OK)
-        fail_msg("%s", mgt_last_error(NULL));
-    return context;
-}
+static inline mgt_context *gl_context(void) { return gl_context_of(NULL); }
 
 typedef struct layers {
     float color[PIXELS * 3], color4[PIXELS * 4], coverage[PIXELS], mask[PIXELS], depth[PIXELS], normal[PIXELS * 3], normal4[PIXELS * 4];
