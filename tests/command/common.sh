@@ -38,6 +38,21 @@ works() {
     [[ ! -s stdout.txt ]] || fail "stdout is not empty: ${*##*/}"
 }
 
+# signalled SIGNAL CONDITION COMMAND…: runs it, its stderr in signalled.txt, and sends it the signal once the condition holds, at most a minute later. Its exit code.
+signalled() {
+    local signal=$1 condition=$2 process i
+    shift 2
+    : >signalled.txt
+    "$@" 2>signalled.txt >/dev/null &
+    process=$!
+    for ((i = 0; i < 1200; i++)); do
+        eval "$condition" && break
+        sleep 0.05
+    done
+    kill "-$signal" $process
+    wait $process 2>/dev/null
+}
+
 # exists FILE…; absent FILE… (patterns of the shell allowed): no file, also none of the hidden temporary ones.
 exists() {
     local file

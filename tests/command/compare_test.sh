@@ -95,16 +95,8 @@ done
 # Killed without warning, it goes on: no picture twice, and the same report at the end.
 slow=(--size 160x90 --spatial 2 --time-samples 4 --frames 0-3 --time-runs 0 --metrics rmse,flicker --methods none,ssaa8,mangata
     --progress json --quiet)
-: >killed.txt
-"$MANGATA" compare "$simple" -o k "${slow[@]}" 2>killed.txt &
-process=$!
-for ((i = 0; i < 600; i++)); do
-    (($(grep -c '"event":"frame"' killed.txt) >= 3)) && break
-    sleep 0.05
-done
-kill -9 $process
-wait $process 2>/dev/null
-done_before=$(grep '"event":"frame"' killed.txt | grep -o '"file":"[^"]*"' | sort)
+signalled KILL '(($(grep -c "\"event\":\"frame\"" signalled.txt) >= 3))' "$MANGATA" compare "$simple" -o k "${slow[@]}"
+done_before=$(grep '"event":"frame"' signalled.txt | grep -o '"file":"[^"]*"' | sort)
 count=$(wc -l <<<"$done_before")
 ((count >= 3 && count < 16)) || fail "killed after $count of 16 pictures"
 absent k/report.html
@@ -122,15 +114,8 @@ for name in report.json report.csv; do
 done
 no_temporaries whole
 
-# SIGINT ends cleanly.
-"$MANGATA" compare "$simple" -o s "${slow[@]}" --spatial 8 2>/dev/null &
-process=$!
-for ((i = 0; i < 600; i++)); do
-    [[ -e s/frames/simple/none_0000.exr ]] && break
-    sleep 0.05
-done
-kill -TERM $process
-wait $process
+# SIGTERM ends cleanly.
+signalled TERM '[[ -e s/frames/simple/none_0000.exr ]]' "$MANGATA" compare "$simple" -o s "${slow[@]}" --spatial 8
 result=$?
 ((result == 143)) || fail "SIGTERM ends with $result"
 no_temporaries s

@@ -83,16 +83,8 @@ exists fits/fig21.svg
 size=64x36 spatial=8 pictures=56
 [[ -z ${SANITIZED:-} ]] || size=40x22 spatial=4 pictures=28
 slow=(--only table1 --size $size --spatial $spatial --time-samples 4 --frames $frames --time-runs 0 --progress json --quiet)
-: >killed.txt
-"$MANGATA" figures --scenes "$scenes" -o k "${slow[@]}" 2>killed.txt >/dev/null &
-process=$!
-for ((i = 0; i < 1200; i++)); do
-    (($(grep -c '"event":"frame"' killed.txt) >= 3)) && break
-    sleep 0.05
-done
-kill -9 $process
-wait $process 2>/dev/null
-count=$(grep -c '"event":"frame"' killed.txt)
+signalled KILL '(($(grep -c "\"event\":\"frame\"" signalled.txt) >= 3))' "$MANGATA" figures --scenes "$scenes" -o k "${slow[@]}"
+count=$(grep -c '"event":"frame"' signalled.txt)
 ((count >= 3 && count < pictures)) || fail "killed after $count of $pictures pictures"
 absent k/index.html
 expect 0 '' figures -o k "${slow[@]}"
@@ -104,14 +96,7 @@ if [[ -z ${SANITIZED:-} ]]; then
 fi
 
 # SIGTERM ends cleanly.
-"$MANGATA" figures --scenes "$scenes" -o s "${slow[@]}" --spatial 64 2>/dev/null >/dev/null &
-process=$!
-for ((i = 0; i < 600; i++)); do
-    [[ -d s/frames/high ]] && break
-    sleep 0.05
-done
-kill -TERM $process
-wait $process
+signalled TERM '[[ -d s/frames/high ]]' "$MANGATA" figures --scenes "$scenes" -o s "${slow[@]}" --spatial 64
 result=$?
 ((result == 143)) || fail "SIGTERM ends with $result"
 no_temporaries s
