@@ -7,13 +7,13 @@ layout(binding = 14) uniform usamplerBuffer tree_table;
 
 struct TreeHit {
     int triangle; /* −1: nothing */
-    float along;  /* in lengths of the ray's direction; +inf: nothing */
+    float along;  /* multiple of the ray's direction; +inf: nothing */
 };
 
-/* What the boxes ask of a ray. They are asked as if each were wider by what rounding the ray's origin may be off by. */
+/* A ray, prepared for tests against boxes. The tests widen each box by the rounding error that the ray's origin may have. */
 struct TreeRay {
-    vec3 low;     /* origin, for the sides of boxes with the lesser coordinates */
-    vec3 high;    /* the same for the sides with the greater ones */
+    vec3 low;     /* origin, for the sides of boxes with the lower coordinates */
+    vec3 high;    /* origin, for the sides with the higher coordinates */
     vec3 inverse; /* of the direction; no component is infinite */
 };
 
@@ -24,7 +24,7 @@ TreeRay tree_ray(vec3 from, vec3 direction)
     return TreeRay(from + slack, from - slack, 1.0f / mix(direction, least, lessThan(abs(direction), vec3(1e-18f))));
 }
 
-/* Where a ray enters a box, +inf where it passes by or `most` is nearer. */
+/* Multiple of the direction at which a ray enters a box; +inf: it misses the box or enters it beyond `most`. */
 float enter_box(vec3 low, vec3 high, TreeRay r, float most)
 {
     vec3 a = (low - r.low) * r.inverse, b = (high - r.high) * r.inverse;
@@ -34,8 +34,8 @@ float enter_box(vec3 low, vec3 high, TreeRay r, float most)
     return begin <= end * 1.0000005f ? begin : INFINITE;
 }
 
-/* On which side of the line from p to q a ray from the origin passes: the volume that both span, within 6e-7 of the product of |q − p|, |q + p| and
- * the ray's length. Seen from q it is the same number with the other sign, to the last bit. */
+/* The side of the line from p to q on which a ray from the origin passes, as the signed volume that both span. Its rounding error is below 6e-7 times the
+ * product of |q − p|, |q + p| and the ray's length. With p and q exchanged, the result is exactly the negative. */
 float side_of_edge(vec3 p, vec3 q, vec3 direction)
 {
     vec3 along = q - p, sum = q + p;
@@ -46,7 +46,7 @@ float side_of_edge(vec3 p, vec3 q, vec3 direction)
     return side;
 }
 
-/* In lengths of the direction; +inf: the ray does not meet the triangle. */
+/* Multiple of the direction at which a ray meets a triangle; +inf: it does not. */
 float cross_triangle(int triangle, vec3 from, vec3 direction)
 {
     ivec3 corner = triangle_corners(triangle);
@@ -54,7 +54,7 @@ float cross_triangle(int triangle, vec3 from, vec3 direction)
     vec3 b = texelFetch(vertex_table, 2 * corner.y).xyz - from;
     vec3 c = texelFetch(vertex_table, 2 * corner.z).xyz - from;
     float u = side_of_edge(a, b, direction), v = side_of_edge(b, c, direction), w = side_of_edge(c, a, direction);
-    /* What rounding may be off by, so that nothing slips through where triangles meet. */
+    /* Rounding errors are allowed for, so that no ray slips through where triangles meet. */
     vec3 e = b - a, f = c - a;
     float longest = 4.0f * max(dot(e, e), dot(f, f)), farthest = 4.0f * max(dot(a, a), max(dot(b, b), dot(c, c)));
     float slack = 6e-7f * sqrt(longest * farthest * dot(direction, direction));
@@ -66,7 +66,8 @@ float cross_triangle(int triangle, vec3 from, vec3 direction)
     return closing != 0.0f && along >= 0.0f ? along : INFINITE;
 }
 
-/* Of several triangles at the same distance the first of the world's list counts, in whichever order they are met. */
+/* The nearer of `best` and the hits of a leaf. Of triangles at the same distance the one of the lowest index counts, so that the order of the traversal does
+ * not matter. */
 TreeHit nearer_of_leaf(TreeHit best, uint texel, vec3 from, vec3 direction)
 {
     uvec4 triangles = texelFetch(tree_table, int(texel));
@@ -79,9 +80,10 @@ TreeHit nearer_of_leaf(TreeHit best, uint texel, vec3 from, vec3 direction)
     return best;
 }
 
+/* The nearest triangle of the tree that the ray meets. */
 TreeHit trace_nearest(vec3 from, vec3 direction)
 {
-    uint waiting[BVH_LEVELS]; /* each node of a path puts off one child at most */
+    uint waiting[BVH_LEVELS]; /* each node of a path postpones at most one child */
     int depth = 0;
     uint at = 0u;
     TreeRay ray = tree_ray(from, direction);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Where each tile's leaves, jobs and groups of the round go: prefix sums over tiles by one workgroup. From the first tile on that finds no room tiles wait
- * for the next round.
+ * Assigns places to each tile's leaves, jobs and groups of the round by prefix sums over the tiles: one workgroup. The first tile that finds no room waits for
+ * the next round, and so do all tiles after it.
  */
 #include "kernels/common/prelude_glsl.k"
 #include "kernels/common/types.k"
@@ -11,13 +11,13 @@ layout(local_size_x = CELLS_LANES) in;
 
 /* What a tile asks for. */
 struct Demand {
-    uint jobs, groups, point_tiles, point_groups, more; /* more leaves than it has */
+    uint jobs, groups, point_tiles, point_groups, more; /* more: leaves that are added to the tile's */
 };
 
-const int KINDS = 6; /* the members of a demand, then the leaves that a tile will have */
+const int KINDS = 6; /* kinds of sums: the members of Demand, then the leaves that a tile will have */
 shared uint lane_sums[KINDS][CELLS_LANES];
-shared uint before[KINDS];  /* what the tiles before these ask for */
-shared uint granted[KINDS]; /* what has been granted in all */
+shared uint before[KINDS];  /* sums over the tiles before those that are processed */
+shared uint granted[KINDS]; /* sums over the tiles that have found room */
 
 int lane;
 
@@ -32,7 +32,7 @@ Demand demand_of(int words)
     return d;
 }
 
-/* Sums up to and with each invocation's, of the kinds from `first` to `end`. */
+/* Turns lane_sums of the kinds [first, end) into prefix sums, which include the invocation's own value. */
 void add_up(int first, int end)
 {
     for (int reach = 1; reach < CELLS_LANES; reach *= 2) {
@@ -54,7 +54,7 @@ bool has_room()
            state[CELLS_LEAVES] + before[4] + lane_sums[4][lane] <= uint(cells_data.pool);
 }
 
-/* The tile keeps what it has. */
+/* Gives a tile no room: all its leaves stay as they are. */
 void refuse(int words)
 {
     state[words + TILE_KEPT] = state[words + TILE_LEAVES];
@@ -67,6 +67,7 @@ void refuse(int words)
         state[words + TILE_SIZES + i] = 0u;
 }
 
+/* Assigns places to the tiles from `from` on, one for each invocation. */
 void take_tiles(int from)
 {
     int tile = from + lane, words = tile_words(tile);
@@ -102,7 +103,7 @@ void take_tiles(int from)
     barrier();
 }
 
-/* The size of a dispatch over so many of a list's entries, in rows where they are many. */
+/* Sets the size of an indirect dispatch over `count` entries of a list. It has several rows if they are many. */
 void set_size(int at, uint count)
 {
     const uint row = 32768u;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * Counts what the open leaves of a tile cost, by what that is worth, and adds up how far off they are: a workgroup a tile.
+ * Adds the cost of each open leaf of a tile to the bucket of the leaf's worth, and sums the squared errors of these leaves: one workgroup per tile.
  *
- * The counts are whole numbers, so that it does not matter who counts first.
+ * Costs are whole numbers, so that their sums do not depend on the order in which workgroups run.
  */
 #include "kernels/common/prelude_glsl.k"
 #include "kernels/common/types.k"
@@ -16,6 +16,7 @@ layout(std430, binding = 8) readonly buffer PixelBlock { vec2 pixel_data[]; };
 
 shared double lane_variance[CELLS_GROUP], lane_shown[CELLS_GROUP];
 
+/* Adds a cost to a bucket. A sum has two words. */
 void count_cost(int bucket, bool points, uint cost)
 {
     int at = CELLS_CENSUS + 4 * bucket + (points ? 2 : 0);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Which leaves of a tile the round splits or gives points, and how many cells and points these become: a workgroup a tile.
+ * Chooses the leaves of a tile that the round splits or gives points, and counts the new cells and groups of points: one workgroup per tile.
  */
 #include "kernels/common/prelude_glsl.k"
 #include "kernels/common/types.k"
@@ -28,6 +28,7 @@ bool is_chosen(int tile, Leaf l)
     return plan_takes(0, p, l.bucket, l.split == SPLIT_POINTS, on_edge ? leaf_lot(0, tile, place_of(l), uvec2(0u)) : 0.0lf);
 }
 
+/* Marks and counts leaf i if the round takes it. */
 void choose(int tile, int i)
 {
     Leaf l = leaf_at(i);

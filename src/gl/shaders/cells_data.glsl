@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: MIT
  *
- * The leaves of method adaptive in a pool: those of a tile one after the other. A round moves them from one side of the pool to the other.
+ * The pool of leaves of method adaptive. The leaves of a tile lie one after the other. A round moves them from one side of the pool to the other.
  *
- * A leaf is three vectors: column and row in cells of its size within the tile, each below the halvings that way; how it goes on; places. Colour and
- * coverage. Water, height, variance, contrast.
+ * A leaf is three vectors. The first one holds column and row, in cells of the leaf's size from the tile's corner, with the halvings in their upper bits, then
+ * how the leaf goes on, then `places`. The second one holds colour and coverage. The third one holds water, height, variance and contrast.
  */
 #include "cells_state.glsl"
 
 layout(std430, binding = 4) buffer LeafBlock { uvec4 leaves[]; };
 
-const uint NO_LEAF = 0xffffffffu; /* in place of a column: a pixel beyond the picture */
+const uint NO_LEAF = 0xffffffffu; /* in place of the column: the pixel lies outside of the picture */
 const int PLACE_BITS = 22;
-const uint SPLIT_MASK = 3u; /* how it goes on: SPLIT_…, then points taken in four steps, whether it is chosen, and the bucket */
+const uint SPLIT_MASK = 3u; /* how the leaf goes on: SPLIT_… in these bits, then the step of its points, CHOSEN and the bucket */
 const int POINTS_SHIFT = 2;
 const uint CHOSEN = 16u;
 const int BUCKET_SHIFT = 8;
@@ -31,7 +31,7 @@ struct Leaf {
 int leaf_level(Leaf l) { return (l.halvings.x + l.halvings.y) / 2; }
 float leaf_area(int level) { return ldexp(1.0f, -2 * level); }
 
-/* Of the tile. */
+/* The leaf's pixel in the tile. */
 ivec2 leaf_pixel(Leaf l) { return ivec2(l.place.x >> l.halvings.x, l.place.y >> l.halvings.y); }
 
 uvec2 packed_place(ivec2 place, ivec2 halvings) { return uvec2(place) | uvec2(halvings) << PLACE_BITS; }

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * Leaves that have been rendered take their place, a workgroup a tile: what a split of each is worth, which are settled, and what the tile has spent.
+ * Takes over leaves that have been rendered: one workgroup per tile. It computes what a split of each leaf is worth, settles leaves of little worth, which adds
+ * them to their pixels, and sums what the tile has spent.
  *
- * Leaves are looked at in groups of one size, in one order, so that sums of pixels have one order too. What is kept moves up to the tile's first place.
+ * Leaves are processed in groups of one size and in a fixed order, so that the sums of pixels have a fixed order, too. Leaves that stay open move up to the
+ * tile's first place.
  */
 #include "kernels/common/prelude_glsl.k"
 #include "kernels/common/types.k"
@@ -22,12 +24,12 @@ layout(binding = 5, r32f) coherent uniform image2D detail_image;
 layout(std430, binding = 8) readonly buffer PixelBlock { vec2 pixel_data[]; };
 
 int tile, words, lane, least;
-int first_place; /* of the tile's leaves */
+int first_place; /* of the tile's leaves in the pool */
 bool dark;
 
 /* ---- what cells cost ---- */
 
-shared double level_cost[LEAF_LEVELS]; /* of a cell; 0: unknown */
+shared double level_cost[LEAF_LEVELS]; /* evaluations of a cell; 0: unknown */
 shared double level_below[LEAF_LEVELS];
 shared float level_worth[LEAF_LEVELS];
 
@@ -37,7 +39,8 @@ int part_count(int level)
     return kind == 0 ? 1 : kind == 1 ? cells_data.parts_1 : cells_data.parts_2;
 }
 
-/* What splits cost and are worth, after a level's cost became known: where it is not, by the nearest level above. */
+/* Computes the cost and the worth of splits on all levels, after the cost of a level became known. The cost of a level that is not known follows from that of
+ * the nearest coarser level. */
 void appraise()
 {
     double cost = level_cost[0];
@@ -48,7 +51,7 @@ void appraise()
     }
 }
 
-/* Cells of a level evaluate so many waves in each part of the shutter. */
+/* Sets the cost of a level whose cells evaluate `waves` waves in each piece of the shutter. */
 void price(int level, int waves)
 {
     level_cost[level] = cell_cost(0, part_count(level), waves, cells_data.waves);
@@ -57,10 +60,10 @@ void price(int level, int waves)
 
 /* ---- sums of a tile ---- */
 
-double spent, settled_variance, settled_shown, water; /* this invocation's */
+double spent, settled_variance, settled_shown, water; /* sums over the leaves of this invocation */
 shared double lane_sums[CELLS_GROUP];
 
-/* In one order. */
+/* The sum over all invocations in a fixed order, which invocation 0 returns. The others return 0. */
 double sum_of_lanes(double value)
 {
     barrier();
@@ -73,6 +76,7 @@ double sum_of_lanes(double value)
     return sum;
 }
 
+/* Adds the sum of `value` over all invocations to a double of the tile's words. */
 void add_to_tile(int word, double value)
 {
     double sum = sum_of_lanes(value);
@@ -82,13 +86,13 @@ void add_to_tile(int word, double value)
 
 /* ---- a group of leaves ---- */
 
-shared uint group_pixels[2 * TILE_PIXELS]; /* which leaves of the group lie in a pixel, bits; zero between groups */
+shared uint group_pixels[2 * TILE_PIXELS]; /* for each pixel the bits of the group's leaves in it; zero between groups */
 shared vec4 group_color[CELLS_GROUP];      /* what leaves add to pixels: colour and coverage */
-shared vec4 group_water[CELLS_GROUP];      /* likewise: water, detail, samples */
-shared uint group_kept[2];
-shared int kept; /* of the tile so far */
+shared vec4 group_water[CELLS_GROUP];      /* the same for water, detail and samples */
+shared uint group_kept[2];                 /* bits of the group's leaves that stay */
+shared int kept; /* number of the tile's leaves that stay, so far */
 
-/* The first of a pixel's leaves adds them all, in order. */
+/* Adds all the group's leaves in a pixel to the layers, in order. `low` and `high` are their bits. The invocation of the first of them calls it. */
 void add_to_pixel(ivec2 pixel, uint low, uint high)
 {
     ivec2 texel = ivec2(tile % cells_data.columns, tile / cells_data.columns) * ivec2(TILE_WIDTH, TILE_HEIGHT) + pixel;
@@ -114,7 +118,7 @@ void add_to_pixel(ivec2 pixel, uint low, uint high)
 
 float pixel_weight(ivec2 pixel) { return pixel_data[tile * TILE_PIXELS + pixel.y * TILE_WIDTH + pixel.x].x; }
 
-/* What settling the leaf adds. */
+/* Settles a leaf: writes what it adds to its pixel, and adds its errors. */
 void settle(Leaf l, ivec2 pixel)
 {
     int level = leaf_level(l);
@@ -126,7 +130,7 @@ void settle(Leaf l, ivec2 pixel)
     settled_shown += double(area * area * l.contrast * pixel_weight(pixel));
 }
 
-/* One leaf an invocation, of those that are there: settles or keeps it. `samples`: what it has cost just now. */
+/* Settles or keeps one leaf for each invocation. `there`: the invocation has a leaf. `samples`: evaluations that the leaf has just cost. */
 void take_group(bool there, Leaf l, bool settles, float samples)
 {
     ivec2 pixel = there ? leaf_pixel(l) : ivec2(0);
@@ -164,7 +168,7 @@ void take_group(bool there, Leaf l, bool settles, float samples)
     barrier();
 }
 
-/* How the leaf goes on, as refinement_add() of the CPU. */
+/* The leaf with its next step and its bucket, as refinement_add() of the CPU sets them. */
 Leaf judged(Leaf l)
 {
     int level = leaf_level(l);
@@ -204,7 +208,7 @@ Leaf no_leaf()
 
 /* ---- kinds of leaves ---- */
 
-/* Leaves that were there before and have not been chosen. */
+/* Takes the leaves that the round did not choose. `all`: settles every leaf. */
 void take_old(int from, int count, bool all)
 {
     for (int i = 0; i < count; i += CELLS_GROUP) {
@@ -216,6 +220,7 @@ void take_old(int from, int count, bool all)
     }
 }
 
+/* Takes the tile's pixels, the first leaves. */
 void take_pixels(int from)
 {
     if (lane == 0)
@@ -235,7 +240,7 @@ void take_pixels(int from)
 
 float contrast_at(int i) { return uintBitsToFloat(leaves[LEAF_VECTORS * i + 2].w); }
 
-/* What the pieces of the shutter have summed up. `first`: of the parts of the same leaf, which lie one after the other. */
+/* The cell at place i after all pieces of the shutter. `first` is the place of the first of the four parts of the same leaf, which lie one after the other. */
 Leaf new_cell(int i, int first)
 {
     Leaf l = leaf_at(i);
@@ -246,7 +251,7 @@ Leaf new_cell(int i, int first)
     return judged(l);
 }
 
-/* Cells of one size; `from` is the first one's place. */
+/* Takes the tile's new cells of one size. `from` is the place of the first one. */
 void take_cells(int from, int count, int level)
 {
     for (int i = 0; i < count; i += CELLS_GROUP) {
@@ -260,6 +265,7 @@ void take_cells(int from, int count, int level)
     }
 }
 
+/* Takes all new cells of the tile, in the order in which cells_list.comp has listed them. */
 void take_all_cells(int from)
 {
     int job = int(state[words + TILE_JOB_FIRST]);
@@ -296,7 +302,7 @@ Leaf with_points(Leaf l, PointSums sums)
     return l;
 }
 
-/* Height stands for the place of the leaf's first group of points. */
+/* The leaf with its new points. On entry its `height` is the number of its first group of points, as bits. */
 Leaf new_points(Leaf l)
 {
     int group = int(floatBitsToUint(l.height)), end = int(leaf_next_points(0, l.points, l.places, l.coverage));
@@ -310,6 +316,7 @@ Leaf new_points(Leaf l)
     return judged(with_points(l, PointSums(sums[0], sums[1], sums[2], sums[3], sums[4], sums[5])));
 }
 
+/* Takes the leaves that have got points. */
 void take_points(int from, int count)
 {
     for (int i = 0; i < count; i += CELLS_GROUP) {

@@ -17,7 +17,8 @@ Job job_at(int place)
 
 int part_count(int kind) { return kind == 0 ? 1 : kind == 1 ? cells_data.parts_1 : cells_data.parts_2; }
 
-/* Sets stand in the order of classes; where the camera moves, of the instants between pieces. Those of points are the last. */
+/* Number of a class's first set. Each class has a set for each piece of the shutter, or for each end of a piece if the camera moves. The sets of points come
+ * last. */
 int first_set(int kind)
 {
     int sets = 0;

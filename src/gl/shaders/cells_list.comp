@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * Moves a tile's leaves to their place of the round, and lists the cells and points to be rendered: a workgroup a tile.
+ * Moves a tile's leaves to the other side of the pool, and lists the cells and points that the round renders: one workgroup per tile.
  *
- * Leaves keep their order: their places come from counting bits.
+ * Leaves keep their order, because their places come from counting bits.
  */
 #include "kernels/common/prelude_glsl.k"
 #include "kernels/common/types.k"
@@ -13,18 +13,18 @@ layout(std140, binding = 0) uniform FrameBlock { FrameData frame_of_halvings[LEA
 
 layout(local_size_x = CELLS_GROUP) in;
 
-/* What becomes of a leaf: cells of a size, or these. */
+/* Kinds of leaves. A leaf that is split into cells has the number of their size: see cell_size(). The others have these kinds. */
 const int KEPT = CELL_SIZES;
 const int POINTS = CELL_SIZES + 1;
 const int KINDS = CELL_SIZES + 2;
 
-shared uint kind_bits[2 * KINDS]; /* which leaves of a group are of the kind */
-shared int kind_place[KINDS];     /* where the kind's next leaf goes in the pool, or its cells */
-shared int group_chunks[CELLS_GROUP];
-shared int next_group; /* of points */
+shared uint kind_bits[2 * KINDS]; /* for each kind the bits of the group's leaves */
+shared int kind_place[KINDS];     /* for each kind the place in the pool of its next leaf or cell */
+shared int group_chunks[CELLS_GROUP]; /* groups of points of each leaf */
+shared int next_group; /* number of the next group of points */
 
 int tile, words, lane;
-bool refused; /* there was no room: all stay */
+bool refused; /* there was no room: all leaves stay */
 
 int kind_of(Leaf l, bool chosen)
 {
@@ -37,6 +37,7 @@ int kind_of(Leaf l, bool chosen)
 
 /* ---- jobs ---- */
 
+/* Lists a job and the groups of its cells. */
 void list_job(int job, int across, int down, int count, int group)
 {
     int at = cells_data.jobs_at + JOB_WORDS * job;
@@ -52,7 +53,7 @@ void list_job(int job, int across, int down, int count, int group)
     }
 }
 
-/* By one invocation; in the order in which cells are taken later. */
+/* Lists the tile's jobs, in the order in which cells_grow.comp takes their cells. One invocation calls it. */
 void list_jobs(int place)
 {
     int job = int(state[words + TILE_JOB_FIRST]), group = int(state[words + TILE_GROUP_FIRST]);
@@ -85,7 +86,7 @@ void move_leaf(int to, uvec4 first, int i)
     leaves[LEAF_VECTORS * to + 2] = leaves[LEAF_VECTORS * i + 2];
 }
 
-/* Cells begin with the height of what they are a part of. */
+/* Makes the four parts of a leaf. Each begins with the height of the leaf. */
 void make_cells(int to, Leaf l)
 {
     ivec2 more = ivec2(halvings_across(l.split), halvings_down(l.split));
@@ -98,7 +99,7 @@ void make_cells(int to, Leaf l)
     }
 }
 
-/* The leaf keeps where its groups of points begin in place of its height. */
+/* Moves a leaf that gets points and lists its groups of points. The number of the first group replaces the leaf's height. */
 void list_point_leaf(int to, uvec4 first, int i, int group, int groups, int tile_place)
 {
     move_leaf(to, first, i);
@@ -111,15 +112,17 @@ void list_point_leaf(int to, uvec4 first, int i, int group, int groups, int tile
     }
 }
 
-/* Before this invocation's, in its group. */
+/* Number of the kind's leaves before this invocation's leaf in the group. */
 int earlier(int kind)
 {
     uint low = kind_bits[2 * kind], high = kind_bits[2 * kind + 1];
     return lane < 32 ? bitCount(low & ((1u << lane) - 1u)) : bitCount(low) + bitCount(high & ((1u << (lane - 32)) - 1u));
 }
 
+/* Number of groups of points that the leaf gets. */
 int chunks_of(Leaf l) { return int(leaf_next_points(0, l.points, l.places, l.coverage) - l.points) / (POINT_GROUP * LEAF_INSTANTS); }
 
+/* Moves or splits one leaf for each invocation. `there`: the invocation has a leaf, which is leaf i. */
 void take_group(bool there, int i)
 {
     uvec4 first = uvec4(0u);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * What the next round may spend, and which leaves it splits for that: one workgroup.
+ * Computes how many evaluations the next round may spend, and which leaves it splits for them: one workgroup.
  */
 #include "kernels/common/prelude_glsl.k"
 #include "kernels/common/types.k"
@@ -17,7 +17,7 @@ shared uint running;
 
 int lane;
 
-/* Of a number that each tile has, in one order; on every invocation. */
+/* The sum over all tiles of the double at `word` and, if it is another word, of that at `other`. The order is fixed. Every invocation returns the sum. */
 double sum_of_tiles(int word, int other)
 {
     double sum = 0.0lf;
@@ -52,7 +52,7 @@ void count_leaves()
     state[CELLS_LEAVES] = uint(sum);
 }
 
-/* How much the round may spend; 0: it is enough. */
+/* Evaluations that the round may spend; not above 0: the refinement ends. */
 double next_share(int round, double used)
 {
     double variance = sum_of_tiles(TILE_VARIANCE, TILE_OPEN_VARIANCE), shown = sum_of_tiles(TILE_SHOWN, TILE_OPEN_SHOWN);
@@ -72,7 +72,7 @@ shared uvec4 bucket_costs[CHUNK];
 
 double whole(uvec2 words) { return double(words.y) * 4294967296.0lf + double(words.x); }
 
-/* From the best bucket down until the share is spent. */
+/* Plans a round: takes the buckets from the highest one down until `share` is spent. */
 RoundPlan plan_for(double share)
 {
     RoundPlan p = plan_begun(0, share);
@@ -103,7 +103,7 @@ void set_size(int at, bool runs)
     state[at + 2] = runs ? 1u : 0u;
 }
 
-/* A pool that fills settles leaves from the first round on. */
+/* Stores the plan. If the pool is more than 5/8 full, leaves are settled from the first round on. */
 void store_plan(int round, RoundPlan p)
 {
     state[CELLS_BUCKET] = uint(p.bucket);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Method adaptive begins: pixels of a band by method `mangata`, the first leaves of the refinement.
+ * Makes the first leaves of method adaptive: the pixels of a band, shaded by method `mangata`.
  */
 #define WEIGHTED_WAVES
 #include "lattice_data.glsl"
@@ -16,7 +16,7 @@ layout(binding = 3, r32f) writeonly uniform image2D samples_image;
 layout(binding = 4, r32f) writeonly uniform image2D importance_image;
 layout(binding = 5, r32f) writeonly uniform image2D detail_image;
 
-/* A pixel's weight, and the height of the surface where its ray meets it; infinite where it is not all water. */
+/* For each pixel its weight, and the height of its hit in metres, which is infinite unless the pixel is all water. */
 layout(std430, binding = 8) writeonly buffer PixelBlock { vec2 pixel_data[]; };
 
 CellResult nothing_but_sky(PixelRay p)
@@ -49,7 +49,7 @@ CellResult pixel_result(ivec2 at)
     return cell_result_of(0, p, open, close);
 }
 
-/* Once a tile: what its pixels cost, and whether light is mirrored there. */
+/* Stores how many waves the tile's pixels evaluate, and whether the tile mirrors no light. One invocation per tile calls it. */
 void tell_of_tile(int tile)
 {
     bool dark = tile_dark(0, TILE(0).light_reach, cells_data.by_display != 0, cells_data.lights_dark != 0);

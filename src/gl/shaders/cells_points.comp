@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Point samples of leaves at one instant: a workgroup takes a part of a leaf's.
+ * Point samples of leaves at one instant. A workgroup takes one group of points of a leaf.
  */
 #define EXACT_FMA
 #define CELLS_PASS
@@ -15,8 +15,8 @@ layout(local_size_x = POINT_GROUP) in;
 
 shared double lane_sums[POINT_SUMS][POINT_GROUP];
 
-/* Of point `index` of the leaf's sequence, in pixels from the tile's first one's centre. It is rounded as a jitter about the pixel `about`, at whose place the
- * CPU samples it. */
+/* Place of point `index` of the leaf's sequence, in pixels from the centre of the tile's first pixel. It is rounded as an offset from the pixel `about`,
+ * because the CPU samples the point as an offset from that pixel. */
 vec2 place_of_point(int tile, Leaf l, int index, ivec2 about)
 {
     LeafPlace place = LeafPlace(l.place.x, l.place.y, l.halvings.x, l.halvings.y);
@@ -26,6 +26,7 @@ vec2 place_of_point(int tile, Leaf l, int index, ivec2 about)
     return jittered;
 }
 
+/* Adds the points of the workgroup to the sums of the group, in a fixed order. */
 void keep(int group, int lane, PixelResult p)
 {
     double luminance = point_luminance(0, double(p.color.r), double(p.color.g), double(p.color.b));

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Cells by the model of method `mangata`, over one piece of the shutter: one invocation a cell.
+ * Shades cells by the model of method `mangata` over one piece of the shutter: one invocation per cell.
  */
 #define WEIGHTED_WAVES
 #define CELLS_PASS
@@ -28,7 +28,7 @@ CellResult nothing_but_sky(PixelRay p)
     return cell;
 }
 
-/* Height of the hit of the pixel two rows below, where neither camera nor water moves under the cell; else infinite. */
+/* Height of the hit of the pixel two rows below. Infinite: there is no such pixel, the camera moves, the shutter has several pieces, or the sky is black. */
 float height_below(Job job, ivec2 pixel)
 {
     ivec2 tile = ivec2(job.tile % cells_data.columns, job.tile / cells_data.columns), below = pixel + ivec2(0, 2);
@@ -38,25 +38,26 @@ float height_below(Job job, ivec2 pixel)
     return pixel_data[in_tile * TILE_PIXELS + below.y % TILE_HEIGHT * TILE_WIDTH + below.x].y;
 }
 
-/* Cells of a pixel are above all that the ray two pixels below has passed over. */
+/* Multiple of the cell's ray at which the search for its hit begins. The ray of the pixel two rows below has passed over all that lies before that place. */
 float search_start(Job job, ivec2 pixel, vec2 place)
 {
     float height = height_below(job, pixel);
     vec2 sides = vec2(ldexp(1.0f, job.halvings.x), ldexp(1.0f, job.halvings.y));
-    vec2 middle = (vec2(pixel) + vec2(0.5f, 2.5f)) * sides - 0.5f; /* of that pixel, in cells */
+    vec2 middle = (vec2(pixel) + vec2(0.5f, 2.5f)) * sides - 0.5f; /* centre of the pixel two rows below, in cells */
     vec3 ray = pixel_ray_at(0, middle.x, middle.y);
     float along = !isinf(height) && ray.y < -1e-7f ? (TILE(0).camera_height - height) / -ray.y : 0.0f;
     return row_start(0, pixel_ray_filtered(0, place.x, place.y).ray, ray, along).along;
 }
 
-/* Waves as they are when the shutter opens, or closes. */
+/* Selects the job's tile and waves at the opening or at the closing of the piece of the shutter. */
 void look(Job job, int slot, bool open)
 {
     tile_slot = slot + (open ? cells_data.slots : 0);
     turn_to_set(set_of_part(job.kind, open));
 }
 
-/* In grazing water the hit of the leaf that the cell is a part of says nothing of the cell's. */
+/* First estimate of a cell's hit. `height` is that of the leaf that the cell is a part of. In grazing tiles it says nothing of the cell's hit, and the hit is
+ * searched for. */
 HitEstimate estimate_of(Job job, int slot, ivec2 pixel, vec2 place, float height)
 {
     HitEstimate estimate;
@@ -86,7 +87,7 @@ CellResult cell_result(Job job, int slot, ivec2 pixel, vec2 place, float height)
     return cell_result_of(0, p, open, close);
 }
 
-/* Adds what the piece of the shutter shows to the cell's means; of heights the last one's stays. */
+/* Adds the result of a piece of the shutter, with weight `share`, to the cell's means. The height is that of the last piece. */
 void add_result(int at, uvec4 first, CellResult cell, float share, bool last)
 {
     vec4 color = uintBitsToFloat(leaves[at + 1]), water = uintBitsToFloat(leaves[at + 2]);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Sorts waves for the cells of a tile that have one size, or for a tile's points at an instant: a workgroup a job.
+ * Sorts the waves for each job, which is the cells of one size in a tile, or for the points of each tile at an instant: one workgroup each.
  */
 #define EXACT_FMA
 #define TILE_ACCESS

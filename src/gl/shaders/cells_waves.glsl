@@ -6,7 +6,7 @@
 layout(std140, binding = 0) uniform FrameBlock { FrameData frame_of_halvings[LEAF_SIDES]; };
 layout(std430, binding = 6) readonly buffer SetBlock { uvec4 wave_sets[]; };
 
-int frame_halvings = 0; /* how often the pixel has been halved, the way that it has more often */
+int frame_halvings = 0; /* halvings of the pixel across or down, whichever are more */
 int set_at = 0;         /* where the set begins */
 int foam_place = 0;        /* number of the set */
 
@@ -35,7 +35,7 @@ SortData SET_SORT(int i)
     return SortData(a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w);
 }
 
-/* 0: of pixels; else of cells of a size. */
+/* A view of the current set. `size` is 0 for pixels, and 1 + cell_size() for cells. */
 ViewData set_view(int size)
 {
     int at = set_at + pass_data.wave_count * (SET_WAVE_VECTORS + SET_SORT_VECTORS) + size * SET_VIEW_VECTORS;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * A layer into a texture of the host, whatever the format.
+ * Copies a layer to a texture of the host. The texture may have any format.
  */
 #include "glare.glsl"
 

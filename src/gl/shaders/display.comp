@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Displayed colour: glare, exposure, tone map, sRGB.
+ * Computes the displayed colour: glare, exposure, tone map, sRGB.
  */
 #include "glare.glsl"
 #include "kernels/common/types.k"

@@ -31,7 +31,7 @@ layout(std430, binding = 7) restrict readonly buffer FoamBlock
 #include "kernels/waves/no_foam_accessors_glsl.k"
 #endif
 
-/* The layer, which stays 0 where there is none. Programs that write it define FOAM_LAYER. */
+/* The layer of foam, which programs for water without foam do not write. Programs that write it define FOAM_LAYER. */
 #if defined(FOAMY_WATER) && defined(FOAM_LAYER)
 layout(binding = 7, r32f) uniform image2D foam_image;
 

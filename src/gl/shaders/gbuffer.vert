@@ -12,6 +12,7 @@ out gl_PerVertex {
     float gl_ClipDistance[1];
 };
 
+/* Whether triangle t shows the camera its back and is left out for that. */
 bool shows_inside(int t)
 {
     return gbuffer_data.drop_backs != 0 &&

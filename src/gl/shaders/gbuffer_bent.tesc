@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Splits the edges that refraction bends. Each level depends on its edge alone, so that neighbours split it at the same points; n parts are off by
- * 1/n² of what one is.
+ * Splits the edges that refraction bends. Each level depends on its edge alone, so that both triangles of an edge split it at the same points. The error of n
+ * parts is 1/n² of that of one part.
  */
 #include "gbuffer.glsl"
 
@@ -14,11 +14,12 @@ layout(location = 0) out vec3 patch_corner[];
 layout(location = 1) patch out int patch_triangle;
 
 #ifdef SOFTWARE_GL
-const float MOST_PARTS = 32.0f; /* llvmpipe loses track of triangles in 64 × 64 parts */
+const float MOST_PARTS = 32.0f; /* llvmpipe loses triangles that have 64 × 64 parts */
 #else
 const float MOST_PARTS = 64.0f;
 #endif
 
+/* Number of parts into which the edge from corner i to corner j is split. */
 float parts_of_edge(int i, int j)
 {
     vec3 a = corner[i], b = corner[j], image_a = corner_image[i], image_b = corner_image[j];
@@ -27,7 +28,8 @@ float parts_of_edge(int i, int j)
         return 1.0f;
     float error = edge_error_squared(0, a, b, image_a, image_b, far_image(0, scale(add(a, b), 0.5f)), squared, INFINITE);
     float parts = ceil(sqrt(sqrt(error / picture_data.error_squared)));
-    /* Where it meets the surface: from below, images run along the edge of Snell's window there; and paths of the same length begin there. */
+    /* An edge that meets the surface gets parts of about two pixels. Seen from below, its image there runs along the edge of Snell's window. With MAP_PATH,
+     * paths of the same length begin there. */
     if ((refract_data.side < 0.0f || refract_data.map == MAP_PATH) && (a.y < 0.0f) != (b.y < 0.0f))
         parts = max(parts, ceil(0.5f * sqrt(squared)));
     return clamp(parts, 1.0f, MOST_PARTS);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * The points of a split triangle, where they are seen.
+ * Places the points of a split triangle where they are seen.
  */
 #include "gbuffer.glsl"
 
@@ -19,7 +19,7 @@ out gl_PerVertex {
 void main()
 {
     triangle = patch_triangle;
-    /* Of an edge, both its triangles sum the same two products. */
+    /* On an edge, both its triangles sum the same two products, so that they have the same points. */
     precise vec3 p = (gl_TessCoord.x * patch_corner[0] + gl_TessCoord.y * patch_corner[1]) + gl_TessCoord.z * patch_corner[2];
     gl_Position = clip_of(far_image(0, p));
     gl_ClipDistance[0] = clip_distance_of(p);

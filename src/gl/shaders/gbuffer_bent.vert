@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Objects drawn where refraction by the flat mean surface shows them: where a corner is, and where it is seen.
+ * Corners of objects that are drawn where refraction by the flat mean surface shows them: where each corner is, and where it is seen.
  */
 #include "gbuffer_corner.glsl"
 

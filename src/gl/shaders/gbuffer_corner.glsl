@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Corners of triangles, fetched by their number: gl_PrimitiveID starts again with every part of a draw that Mesa's llvmpipe divides.
+ * Corners of triangles, fetched by gl_VertexID. The number of a triangle follows from it, because Mesa's llvmpipe divides draws and starts gl_PrimitiveID again
+ * in every part.
  */
 #include "gbuffer.glsl"
 

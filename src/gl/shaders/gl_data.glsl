@@ -15,7 +15,7 @@ layout(std140, binding = 0) uniform FrameBlock { FrameData frame_data; };
 #define FRAME(cx) frame_data
 #endif
 #ifdef SOFTWARE_GL
-#undef CACHES_TILE /* shared memory is memory like any other here, and each access a loop over lanes that takes long to compile */
+#undef CACHES_TILE /* shared memory is no faster there, and each access is a loop over lanes that takes long to compile */
 #endif
 
 #ifndef TILE_ACCESS
@@ -86,7 +86,7 @@ WaveData listed_wave(int i)
 }
 
 #ifdef CACHES_TILE
-/* The first waves of the workgroup's tile, which most tiles have no more than. */
+/* A cache of the first waves of the workgroup's tile. Most tiles have no more waves than that. */
 const int CACHED_WAVES = 64;
 shared vec4 cached_waves[CACHED_WAVES * WAVE_VECTORS];
 
@@ -106,11 +106,11 @@ void cache_wave(int i)
         cached_waves[WAVE_VECTORS * i + k] = v[k];
 }
 
-/* The whole workgroup turns to the tile of tile_slot. */
+/* Reads the tile tile_slot and its waves into the cache. The whole workgroup must call it. `lanes` is the number of its invocations. */
 void enter_tile(int lanes)
 {
     int lane = int(gl_LocalInvocationIndex);
-    barrier(); /* the last tile has been read */
+    barrier(); /* all invocations have read the previous tile */
     if (lane == 0)
         cached_tile = tile_data[tile_slot];
     barrier();
@@ -131,7 +131,7 @@ vec3 SKY_TEXEL(int cx, float column, float row) { return texelFetch(sky_texture,
 layout(binding = 3) uniform sampler2D skyline_texture;
 vec2 SKYLINE(int cx, float entry) { return texelFetch(skyline_texture, ivec2(int(entry), TILE(cx).skyline - 1), 0).rg; }
 
-/* Objects, where the scene has some, as objects.comp saw them. */
+/* Objects that the passes objects*.comp have found, if the scene has some. */
 layout(binding = 11) uniform sampler2D front_texture;
 layout(binding = 12) uniform sampler2D clear_texture;
 layout(binding = 13) uniform sampler2D deep_texture;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * The pyramid of src/cpu/glare.c: D takes a level to the next coarser one, U back.
+ * The pyramid of src/cpu/glare.c: the matrix D maps a level to the next coarser one, and U maps a level to the next finer one.
  */
 #include "kernels/common/prelude_glsl.k"
 #include "pass_data.k"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * One texel of D times the finer level.
+ * Computes a level of the pyramid: D times the next finer level.
  */
 #include "glare.glsl"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * A level keeps its share and takes in the coarser one.
+ * Adds the coarser level to a level of the pyramid: keep · level + gain · U · coarser level.
  */
 #include "glare.glsl"
 

@@ -101,6 +101,6 @@ TilePixel tile_pixel()
     return p;
 }
 
-/* Kernels below see the sky behind the water only where it is asked for. */
+/* The sky behind the water, as kernels see it that are included after this file. It is black if it is not asked for. */
 vec3 shown_background(vec3 ray) { return pass_data.show_background != 0 ? background(0, ray) : vec3(0.0f); }
 #define background(cx, ray) shown_background(ray)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * The map of slope moments. Of level 0 only slopes are kept: its moments are their products.
+ * Accessors of the map of slope moments. Level 0 stores slopes alone, and its second moments are their products.
  */
 #include "kernels/baselines/lean_types.k"
 #include "kernels/baselines/lean_moments.k"

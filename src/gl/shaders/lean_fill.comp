@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Level 0 of the map of slope moments. An invocation makes some rows of one column: a wave costs it the sine and cosine of two phases, and
- * from row to row a rotation.
+ * Computes level 0 of the map of slope moments. An invocation computes ROWS rows of one column. For each wave it computes the sine and cosine of two phases,
+ * and then a rotation from row to row.
  */
 #include "kernels/common/prelude_glsl.k"
 #include "pass_data.k"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * The next coarser level of the map of slope moments.
+ * Computes the next coarser level of the map of slope moments.
  */
 #include "kernels/common/prelude_glsl.k"
 #include "pass_data.k"
@@ -14,7 +14,7 @@ layout(binding = 1) writeonly uniform image2D square_image;
 
 layout(local_size_x = GROUP_SIDE, local_size_y = GROUP_SIDE) in;
 
-/* Of the next finer level. */
+/* The moments of a texel of the next finer level. */
 LeanMoments moments_at(ivec2 texel)
 {
     vec2 mean = texelFetch(mean_texture, texel, lean_pass.level - 1).rg;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Luma of the picture as it is displayed, before glare: what method `fxaa` looks for edges in.
+ * Luma of the displayed picture before glare, in which method `fxaa` finds edges.
  */
 #include "glare.glsl"
 #include "kernels/common/types.k"

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT
  *
- * First hits of each tile, one workgroup a tile: at its nodes, one invocation a node; or where its water is grazing at every pixel, one invocation a
- * column, or a part of it.
+ * First hits of each tile: one workgroup per tile, one invocation per node. In a grazing tile they are searched for every pixel: one invocation per column or
+ * part of a column.
  */
 #define NODE_ACCESS
 #define FINDS_HITS
 #include "lattice_data.glsl"
 
-layout(local_size_x = 32) in; /* TILE_WIDTH, and NODE_COUNT at most */
+layout(local_size_x = 32) in; /* TILE_WIDTH; not less than NODE_COUNT */
 
 void main()
 {

@@ -16,7 +16,7 @@ void main()
         return;
     vec2 slope = vec2(0.0f);
     float water = 0.0f;
-    for (int hit = 0; hit < int(TILE(0).hit_rows); hit++) { /* their mean */
+    for (int hit = 0; hit < int(TILE(0).hit_rows); hit++) { /* the mean over all hits */
         ivec2 at = ivec2(pixel.at.x, first_row(pixel.at.y) + hit);
         PixelRay p = pixel_ray_filtered(0, float(at.x), float(at.y));
         SlopeState state = slope_state(0, p.ray, pixel_estimate(at));

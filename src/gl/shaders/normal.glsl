@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * The layer of normals.
+ * Access to the layer of normals.
  */
 layout(binding = 4) writeonly uniform image2D normal_image;
 
+/* Stores the unit normal of a slope; 0 if there is no water. */
 void store_normal(ivec2 texel, vec2 slope, bool water)
 {
     vec3 normal = normalize(vec3(-slope.x, 1.0f, -slope.y));

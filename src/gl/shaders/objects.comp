@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * The water in the pixels of a band, filtered, over the shutter, and which of the pixels see objects in which way.
+ * Finds the filtered water over the shutter in the pixels of a band, and lists the pixels by the way in which they see objects.
  */
 #define WEIGHTED_WAVES
 #define OBJECTS_PASS
@@ -16,10 +16,10 @@ layout(binding = 1) writeonly uniform image2D mirrored_image;
 layout(binding = 2) writeonly uniform image2D front_image;
 layout(binding = 3) writeonly uniform image2D surface_image;
 layout(binding = 4) writeonly uniform image2D error_image;
-layout(binding = 5) writeonly uniform image2D clear_image; /* what objects and water leave of the light's disk */
+layout(binding = 5) writeonly uniform image2D clear_image; /* fraction of the light's disk that gets through objects and water */
 layout(binding = 6) writeonly uniform image2D deep_image;
 
-/* What objects, and under water the way from the surface, leave of the light's disk. */
+/* Fraction of the light's disk that objects and, for a camera under water, the water before the surface let through. */
 vec3 clear_to_light(PixelWater w)
 {
     vec3 at = vec3(narrow_data.foot_x, 0.0f, narrow_data.foot_z);
@@ -29,6 +29,7 @@ vec3 clear_to_light(PixelWater w)
     return disk_through_water(0, shadow_at_point(0, at, false), wet ? w.hit.along : 0.0f);
 }
 
+/* Whether two texels of the front layer show the same surface, or both show nothing. */
 bool are_like(ivec2 a, ivec2 b)
 {
     int s = front_triangle_at(a), t = front_triangle_at(b);
@@ -40,6 +41,7 @@ bool are_like(ivec2 a, ivec2 b)
     return surface_goes_on(0, here, there, front_depth_at(a), front_depth_at(b));
 }
 
+/* Whether the pixel sees an edge of an object in front, or a waterline. */
 bool is_edge(ivec2 image, PixelWater w)
 {
     ivec2 at = front_texel(image);

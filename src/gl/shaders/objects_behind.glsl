@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * Where rays behind the surface end.
+ * Ends of rays behind the surface.
  */
 #include "objects_shade.glsl"
 
-/* `wet`: metres in water. */
+/* The ray to a point that was found. `wet` is its length in water, metres. */
 HitRay ray_of(WaterHit hit, FoundPoint f, float wet)
 {
     vec3 position = turned(0, f.position);
@@ -18,7 +18,7 @@ HitRay ray_of(WaterHit hit, FoundPoint f, float wet)
     return r;
 }
 
-/* What the mean slope mirrors of objects and, under water, of the water; alpha: 1, or 0 for the sky. */
+/* What the surface with its mean slope mirrors of objects and, under water, of the water. alpha is 1, or 0 if it mirrors the sky. */
 vec4 seen_mirrored(PixelWater water)
 {
     Bent bent = Bent(mirrored_by_mean(0, water.hit.view, water.hit.normal), 1.0f);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * The mean of what a band's pixels see of objects at both ends of the shutter, where the camera moves.
+ * Computes the mean of what a band's pixels see of objects at both ends of the shutter, if the camera moves.
  */
 #include "kernels/common/prelude_glsl.k"
 #include "pass_data.k"
@@ -14,7 +14,7 @@ layout(binding = 1, rgba32f) uniform image2D mirrored_image;
 layout(binding = 2, rgba32f) uniform image2D front_image;
 layout(binding = 5, rgba32f) uniform image2D clear_image;
 layout(binding = 6, rgba32f) uniform image2D deep_image;
-/* When the shutter opened. */
+/* These show what the pixels saw when the shutter opened. */
 layout(binding = 1) uniform sampler2D body_texture;
 layout(binding = 2) uniform sampler2D mirrored_texture;
 layout(binding = 3) uniform sampler2D front_texture;
@@ -27,7 +27,7 @@ vec4 light_of_both(vec4 closed, vec4 opened, float weight)
                 light_of_ends(0, closed.a, opened.a, weight));
 }
 
-/* Colour, and the share of the pixel. */
+/* Mean of the objects in front: their colour, and in alpha the fraction of the pixel that they cover. */
 vec4 objects_of_both(vec4 closed, vec4 opened)
 {
     return vec4(objects_of_ends(0, closed.r, opened.r, closed.a, opened.a), objects_of_ends(0, closed.g, opened.g, closed.a, opened.a),

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Objects in front of water and sky, over the layers of a band.
+ * Draws objects in front of water and sky over the layers of a band.
  */
 #include "kernels/common/prelude_glsl.k"
 #include "pass_data.k"
@@ -36,7 +36,7 @@ void main()
     imageStore(water_image, texel, vec4(pass_data.front_shows != 0 ? put_before(0, water, 1.0f, front.w) : left_behind(0, water, front.w)));
     if (pass_data.write_foam != 0)
         imageStore(foam_image, texel, vec4(left_behind(0, imageLoad(foam_image, texel).r, front.w)));
-    /* Of the instant at which the shutter closes; shares may be means over the shutter. */
+    /* Depth and normal are those of the instant at which the shutter closes. Shares may be means over the shutter. */
     vec4 surface = texelFetch(surface_texture, texel, 0);
     if (!(surface.w < INFINITE))
         return;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Where the kernels that look for objects and shade them find their data.
+ * Data of the kernels that find and shade objects.
  */
 #include "kernels/refraction/refract_types.k"
 #include "kernels/refraction/narrow_types.k"
@@ -19,8 +19,10 @@ layout(binding = 2) uniform usamplerBuffer index_table;   /* three a triangle */
 layout(binding = 15) uniform isamplerBuffer neighbour_table; /* three a triangle, across the edges from each corner to the next; −1: none */
 layout(binding = 3) uniform usamplerBuffer owner_table;   /* the object of a triangle */
 layout(binding = 4) uniform samplerBuffer plane_table;    /* of a triangle: unit normal, and its product with a point; behind all, dry levels of its sides */
-layout(binding = 5) uniform samplerBuffer material_table; /* the linear values of sRGB codes, four each; waves that make caustics; waves that are met again; then four an object */
-layout(binding = 6) uniform usamplerBuffer texel_table;   /* of all textures */
+/* The linear values of sRGB codes, four in a texel; waves that make caustics; waves that rays behind the surface meet again; then four texels for each
+ * object. */
+layout(binding = 5) uniform samplerBuffer material_table;
+layout(binding = 6) uniform usamplerBuffer texel_table;   /* the texels of all textures */
 layout(binding = 7) uniform sampler2D shadow_texture;
 layout(binding = 8) uniform sampler2D far_depth;
 layout(binding = 9) uniform isampler2D far_triangle;
@@ -37,7 +39,7 @@ layout(binding = 13) uniform isampler2D front_triangle;
 
 int layer_triangle(int layer, ivec2 at) { return layer == LAYER_REFRACTED ? texelFetch(far_triangle, at, 0).r : texelFetch(mirrored_triangle, at, 0).r; }
 
-/* Of the depth. */
+/* Inverse of a layer's depth, 1/metres; 0: nothing is seen. */
 float layer_inverse(int layer, ivec2 at)
 {
     return (layer == LAYER_REFRACTED ? texelFetch(far_depth, at, 0).r : texelFetch(mirrored_depth, at, 0).r) / objects_data.least_depth;
@@ -57,7 +59,7 @@ LayerPlane LAYER_PLANE(int cx, int layer, float column, float row)
     return LayerPlane(plane.xyz, plane.w, triangle < 0 ? 0.0f : 1.0f);
 }
 
-/* OpenGL keeps no bounds of the layers: any place may show something, as near as can be. */
+/* The GPU has no bounds of the layers: any place may show something, at any depth. */
 #define MIRRORED_WITHIN(cx, a, b) true
 #define LAYER_NEAREST(cx, layer, column, row) 0.0f
 
@@ -130,7 +132,7 @@ vec3 TEXTURE(int cx, float object, float u, float v, float level) { return textu
 
 float SHADOW_TEXEL(int cx, float column, float row) { return texelFetch(shadow_texture, ivec2(int(column), int(row)), 0).r; }
 
-/* OpenGL keeps no blocks of the map. */
+/* The GPU has no bounds of blocks of the shadow map. */
 #define SHADOW_RANGE(cx, column, row, width, dry) vec2(0.0f - INFINITE, INFINITE)
 
 #include "kernels/refraction/shadow.k"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * What water shines to pixels that see no surface, under water.
+ * Radiance of the water in pixels that see no surface, for a camera under water.
  */
 #define OBJECTS_PASS
 #include "gl_data.glsl"

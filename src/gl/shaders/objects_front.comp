@@ -1,23 +1,24 @@
 /* SPDX-License-Identifier: MIT
  *
- * Pixels that see objects in front of the water. The front layer knows what the centre of each pixel sees. At edges and along waterlines eight places of
- * the pixel ask the triangles that it and its neighbours see, and the surface's plane.
+ * Shades objects in front of the water. The front layer holds what the centre of each pixel sees. At edges and along waterlines, rays through eight places of
+ * the pixel are tested against the triangles that the pixel and its neighbours see, and against the plane of the surface.
  */
 #define OBJECTS_PASS
 #include "gl_data.glsl"
 #include "objects_shade.glsl"
 
 layout(local_size_x = LIST_GROUP) in;
-layout(binding = 2) writeonly uniform image2D front_image;   /* what stands in front of water and sky, and its share of the pixel */
+layout(binding = 2) writeonly uniform image2D front_image;   /* colour of objects in front of water and sky, and the fraction of the pixel that they cover */
 layout(binding = 3) writeonly uniform image2D surface_image; /* its normal, and metres along the ray */
 
-/* What the pixel's neighbour shows that a place of it lies nearest to; −1: nothing. */
+/* The triangle that the pixel's neighbour on the side of `place` shows; −1: none. */
 int triangle_beside(ivec2 at, vec2 place)
 {
     vec2 side = edge_side(0, place);
     return front_triangle_at(at + ivec2(int(side.x), int(side.y)));
 }
 
+/* What the pixel's ray through `place` meets in front of the water. */
 RayEnd end_in_front(ivec2 image, PixelWater w, bool edge, vec2 place)
 {
     ivec2 at = front_texel(image);

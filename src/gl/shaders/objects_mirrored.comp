@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT
  *
- * What the surface mirrors of objects and, under water, of the water.
+ * Radiance that the surface mirrors of objects and, under water, of the water.
  */
 #define OBJECTS_PASS
 #include "gl_data.glsl"
 #include "objects_behind.glsl"
 
 layout(local_size_x = LIST_GROUP) in;
-layout(binding = 1) writeonly uniform image2D mirrored_image; /* what objects shine instead of what they hide of the sky, and how much that is */
+layout(binding = 1) writeonly uniform image2D mirrored_image; /* radiance that replaces the mirrored sky, and the fraction of the sky that it replaces */
 
 void main()
 {

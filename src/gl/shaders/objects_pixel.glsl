@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT
  *
- * Pixels of a band that see objects: what is known of the water in them, and lists of those that one pass has found for the next ones. An entry is
- * the number of a pixel in the band: tile · TILE_PIXELS + row · TILE_WIDTH + column.
+ * Pixels of a band that see objects: the water in them, and the lists by which one pass hands pixels on to the next ones. An entry of a list is the number of a
+ * pixel in the band: tile · TILE_PIXELS + row · TILE_WIDTH + column.
  */
 #include "objects_data.glsl"
 #include "kernels/refraction/spread.k"
 #include "kernels/refraction/edges.k"
 
 struct PixelWater {
-    float share; /* of the pixel; 0: the rest is not set */
+    float share; /* fraction of the pixel that is water; 0: the other members are not set */
     WaterHit hit;
     WaterVariation variation;
 };
@@ -18,11 +18,11 @@ struct PixelWater {
 #else
 #define LIST_ACCESS readonly
 #endif
-layout(std430, binding = 4) LIST_ACCESS buffer WaterBlock { float water_data[]; }; /* WATER_FLOATS a pixel: PixelWater, 1 in those of LIST_THROUGH, and of those whose rays are traced the light
-                                                                               * that is known and the rays of both branches */
+/* WATER_FLOATS for each pixel: PixelWater, 1 if it is in LIST_THROUGH, and if it is in LIST_TRACED the light that is known and the rays of both branches. */
+layout(std430, binding = 4) LIST_ACCESS buffer WaterBlock { float water_data[]; };
 
-/* Lists: pixels wholly in front of the water, pixels on edges, pixels that see through the surface, under water those that see no surface, and of those
- * that see through it those whose rays are traced. */
+/* The lists. LIST_FRONT: pixels that an object in front of the water fills. LIST_EDGES: pixels that see edges of objects. LIST_THROUGH: pixels that see through
+ * the surface. LIST_TRACED: those of LIST_THROUGH whose rays are traced. LIST_DEEP: for a camera under water, pixels that do not see the surface everywhere. */
 
 struct ListHead {
     uint groups_x, groups_y, groups_z, count;
@@ -74,7 +74,7 @@ ivec2 image_of(PixelWater w) { return ivec2(int(w.hit.column), int(w.hit.row)); 
 
 ivec2 texel_of_image(ivec2 image) { return image - ivec2(pass_data.area_x, pass_data.area_y); }
 
-/* The pixel that an invocation finds in a list; −1 behind its end. */
+/* The pixel of this invocation in a list; −1: the list has none for it. */
 int listed_pixel(int list)
 {
     uint i = gl_GlobalInvocationID.x;
@@ -97,7 +97,7 @@ float meet_water(PixelWater w, vec3 ray)
     return meet_surface(0, w.share > 0.0f, turned(0, w.hit.normal), turned(0, w.hit.view), w.hit.along, ray);
 }
 
-/* The dry level of the side of a triangle that a ray meets. */
+/* The dry level of that side of a triangle that a ray meets; −inf: nothing is dry. */
 float dry_level(int triangle, vec3 ray)
 {
     if (objects_data.dry == 0)
@@ -106,7 +106,7 @@ float dry_level(int triangle, vec3 ray)
     return level_faced(0, level.x, level.y, dot(texelFetch(plane_table, triangle).xyz, ray));
 }
 
-/* Whether what a ray of the camera shows, a multiple of it away, stands in front of the water. */
+/* Whether a triangle stands in front of the water. `along` is the multiple of the camera's ray at which the ray meets the triangle. */
 bool is_in_front(int triangle, float along, PixelWater w, vec3 ray)
 {
     float water = meet_water(w, ray);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * What pixels see through the surface, and mirrored by it, through several places of each. A workgroup stays within its tile, whose waves it sums: on Mesa's llvmpipe the
- * sums of pixels listed from several tiles depend on which of them stand beside each other.
+ * What pixels see through the surface and mirrored by it, as the mean over several places of each pixel. The pixels of a workgroup belong to one tile, whose
+ * waves they sum. On Mesa's llvmpipe the sums of pixels from several tiles would depend on which pixels share a workgroup.
  */
 #define WEIGHTED_WAVES
 #define OBJECTS_PASS

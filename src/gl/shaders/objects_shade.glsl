@@ -8,7 +8,7 @@
 #define SEARCH_WAVE(cx, i) caustic_wave(i)
 #include "kernels/refraction/material.k"
 
-/* Where nothing gets through, what comes from behind the surface is what it mirrors. */
+/* Whether the surface reflects totally, so that it mirrors all the light that the pixel's ray finds. */
 bool mirrors_all(PixelWater water) { return objects_data.mirrors != 0 && bent_by_method(0, surface_of_method(0, water.hit)).total > 0.0f; }
 
 struct RayEnd {
@@ -18,18 +18,18 @@ struct RayEnd {
     bool counts; /* false: there is nothing to shade */
 };
 
-/* A ray behind the surface, from where it met it last. */
+/* A ray behind the surface, from the last point at which it met the surface. */
 struct TracedRay {
     vec3 from, direction;
-    float way;  /* metres to there from where the pixel meets the surface */
+    float way;  /* length of the path from the pixel's hit to `from`, metres */
     float wet;  /* metres of `way` in water */
-    float part; /* of the pixel's light */
+    float part; /* fraction of the pixel's light */
     bool total; /* it is on the camera's side */
 };
 
 int ray_place(int pixel, int branch) { return WATER_FLOATS * pixel + WATER_RAYS + RAY_FLOATS * branch; }
 
-/* A branch that needs no tracing has no part of the light. */
+/* The ray of a branch. If the branch is not traced, its `part` is 0. */
 TracedRay known_ray(int pixel, int branch)
 {
     int i = ray_place(pixel, branch);
@@ -114,7 +114,7 @@ RayFootprint footprint_behind(WaterHit hit, Bent bent, WaterVariation variation,
     return RayFootprint(f.x, f.y, f.z);
 }
 
-/* An end whose `after` counts from where the ray met the surface last. `bent`: as the surface bends it first. */
+/* Completes an end whose `after` is measured from r.from. `bent` is the ray as the surface bends it at the pixel's hit. */
 RayEnd end_behind(RayEnd end, PixelWater w, TracedRay r, Bent bent)
 {
     end.ray.before = w.hit.along;

@@ -16,7 +16,7 @@ struct PlaceLight {
     float error;
 };
 
-/* Of an outline's pixel: through another place of it. */
+/* The light that a pixel on an outline sees through another place of it. */
 PlaceLight light_beside(PixelWater water, vec2 place)
 {
     PlaceLight light = PlaceLight(vec3(0.0f), 0.0f);

@@ -7,16 +7,17 @@
 #define SEARCH_WAVE(cx, i) wave_met_again(i)
 #include "kernels/refraction/again.k"
 
-layout(binding = 0) writeonly uniform image2D body_image;  /* what comes through the surface */
-layout(binding = 4) writeonly uniform image2D error_image; /* pixels that the point behind the surface is off by */
+layout(binding = 0) writeonly uniform image2D body_image;  /* radiance that comes through the surface */
+layout(binding = 4) writeonly uniform image2D error_image; /* error of the point behind the surface, pixels */
 
-/* ---- where what a layer shows breaks off or bends ---- */
+/* ---- discontinuities of a layer ---- */
 
 bool bends(int a, int b)
 {
     return a != b && a >= 0 && b >= 0 && planes_bend(0, texelFetch(plane_table, a).xyz, texelFetch(plane_table, b).xyz);
 }
 
+/* Whether depth or normal are discontinuous at a texel of a layer, or the texel lies on the layer's border. */
 bool breaks_off(int layer, ivec2 at)
 {
     if (any(lessThan(at, ivec2(1))) || any(greaterThanEqual(at + 1, ivec2(int(narrow_data.columns), int(narrow_data.rows)))))
@@ -32,13 +33,13 @@ bool breaks_off(int layer, ivec2 at)
     return depth_breaks(0, layer_inverse(layer, at), inverse[0], inverse[1], inverse[2], inverse[3], narrow_data.focal);
 }
 
-/* Whether the pictures do not certify a point. */
+/* Whether the layer does not prove that the point is the right one. */
 bool is_doubtful(FoundPoint f, int layer)
 {
     return f.column >= 0.0f && point_is_doubtful(0, f.residual, breaks_off(layer, ivec2(int(f.column), int(f.row))));
 }
 
-/* An answer in doubt is decided by the surfaces that pixels show. */
+/* Replaces a doubtful end by the nearest point of the surfaces that the layer shows along the ray. */
 RayEnd sharpened(RayEnd end, WaterHit hit, int layer, FoundPoint f)
 {
     if (!is_doubtful(f, layer))
@@ -58,11 +59,11 @@ RayEnd sharpened(RayEnd end, WaterHit hit, int layer, FoundPoint f)
 struct ThroughEnd {
     RayEnd end;
     TracedRay ray;
-    bool traced;   /* the ray shall be: the end does not count */
-    bool doubtful; /* at outlines: the pictures do not certify the end */
+    bool traced;   /* the ray must be traced: the end is not valid */
+    bool doubtful; /* the end is doubtful, and outlines get more rays */
 };
 
-/* On a branch of again.k. Where the surface lets nothing through, it mirrors the camera's own side. */
+/* What the pixel sees on a branch of again.k. If the surface reflects totally, that is on the camera's own side. */
 ThroughEnd end_through(PixelWater w, int branch)
 {
     WaterHit hit = surface_of_method(0, w.hit);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * What rays meet behind the surface, where the pictures do not certify an answer.
+ * Ends of rays behind the surface that are traced, because the layers do not prove an end.
  */
 #include "objects_shade.glsl"
 #include "bvh.glsl"

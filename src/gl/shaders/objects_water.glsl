@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT
  *
- * The filtered surface in a pixel.
+ * The filtered water in a pixel.
  */
 #include "objects_pixel.glsl"
 #include "kernels/refraction/water_seen.k"
 
-/* Through a place of the pixel, from its centre. */
+/* The water at a place of the pixel, in pixels from its centre. */
 PixelWater water_at(TilePixel where, vec2 place)
 {
     PixelWater w;

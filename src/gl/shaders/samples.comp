@@ -14,7 +14,7 @@ layout(binding = 0, rgba32f) uniform image2D color_image;
 layout(binding = 1, r32f) uniform image2D coverage_image;
 layout(binding = 2, r32f) uniform image2D water_image;
 
-/* A place in the sample's stratum, in pixels from the pixel's centre. */
+/* Place of sample `index` of the dispatch in its stratum, in pixels from the pixel's centre. */
 vec2 jitter(ivec2 pixel, int index)
 {
     uvec2 number = word_sum(word_of(uint(pass_data.sample_first_high), uint(pass_data.sample_first_low)), word_of(0u, uint(index)));
@@ -42,7 +42,7 @@ void main()
     HitEstimate estimate = pixel_estimate(pixel.at);
     ivec2 image = pixel.texel + ivec2(pass_data.area_x, pass_data.area_y);
     for (int i = 0; i < max(pass_data.sample_count, 1); i++) {
-        /* Along the horizon an ulp of the place is metres of the hit: no reordering of sums. */
+        /* `precise`, because along the horizon the last bit of the place moves the hit by metres. */
         precise vec2 place = vec2(pixel.at);
         if (pass_data.sample_count > 0)
             place += jitter(image, i);

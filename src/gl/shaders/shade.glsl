@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * A filtered method over the pixels of a band. Define CACHES_TILE before lattice_data.glsl is included, then METHOD_STATE, state_where() and
- * method_result.
+ * Shades the pixels of a band by a filtered method. Before including this file, define CACHES_TILE, include lattice_data.glsl, and define METHOD_STATE,
+ * state_where() and method_result.
  */
 layout(local_size_x = TILE_WIDTH, local_size_y = GROUP_ROWS) in;
 layout(binding = 0, rgba32f) uniform image2D color_image;
@@ -28,14 +28,15 @@ void turn_to(int slot)
     enter_tile(GROUP_PIXELS);
 }
 
-/* `pixel`: the column and the row of the hit. The whole workgroup comes here, for state_where() may wait for it. */
+/* The result of one hit of a pixel. `pixel` is the pixel's column and the row of the hit, `middle` the row of the pixel's centre among the hits. The whole
+ * workgroup must call it, because state_where() may wait for all invocations. */
 PixelResult hit_result(ivec2 pixel, float middle, bool inside)
 {
     PixelRay p = pixel_ray_filtered(0, float(pixel.x), float(pixel.y));
     bool water = inside && p.water > 0.0f;
     METHOD_STATE close, open;
     int cameras = pass_data.open_slots != 0 ? 2 : 1;
-    for (int camera = 0; camera < cameras; camera++) { /* a loop, for compilers build what it calls once */
+    for (int camera = 0; camera < cameras; camera++) { /* a loop, so that compilers build its body once */
         if (camera > 0)
             turn_to(tile_slot + pass_data.open_slots);
         open = state_where(water, pixel_ray_filtered(0, float(pixel.x), float(pixel.y)).ray, pixel);
@@ -55,7 +56,7 @@ PixelResult hit_result(ivec2 pixel, float middle, bool inside)
 #endif
 }
 
-/* A part of the shutter, and what the layers hold of those before. */
+/* The weighted result of a part of the shutter, added to what the layers hold of the parts before it. */
 PixelResult part_of_mean(PixelResult result, ivec2 texel)
 {
     result.color *= pass_data.weight;

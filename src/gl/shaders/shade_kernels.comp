@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT
  *
- * Methods `podee-uniform` and `podee-pixel` with circular kernels, read from tables, in place of the Gaussian (`--kernels`).
+ * Methods `podee-uniform` and `podee-pixel` with circular kernels instead of the ellipse in closed form (`--kernels`).
  */
 #define CACHES_TILE
 #define FOAM_LAYER
 #include "lattice_data.glsl"
 
-/* src/frame/podee_tables.h; the slices of the sweep stand side by side. */
+/* The tables of src/frame/podee_tables.h. The slices of the sweep lie side by side. */
 layout(binding = 1) uniform sampler2D sweep_texture;
 layout(binding = 2) uniform sampler2D fraction_texture;
 

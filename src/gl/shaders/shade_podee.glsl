@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * The state of a pixel for methods `podee-*`, where it is wanted.
+ * The state of a pixel for methods `podee-*`, which is not set unless it is `wanted`.
  */
 PodeeState state_where(bool wanted, vec3 ray, ivec2 pixel)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Methods that shade one point of the whole surface for each pixel of a band. Assembled once a method: method.k is its kernel, method_result the
- * kernel's function.
+ * Methods that shade one point of the whole surface for each pixel of a band. The text is assembled once for each method: method.k is its kernel, method_result
+ * the kernel's function.
  */
 #define EXACT_FMA
 #define FOAM_LAYER

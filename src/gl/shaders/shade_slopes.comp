@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT
  *
- * Methods that shade a pixel from its slopes. Assembled once a method: method.k is its kernel, method_result the kernel's function.
+ * Methods that shade a pixel from its slopes. The text is assembled once for each method: method.k is its kernel, method_result the kernel's function.
  *
- * Searches and second looks are for few pixels: a workgroup gathers these into full warps.
+ * Few pixels need a search or a second look at the surface. A workgroup gathers these pixels, so that neighbouring invocations process them.
  */
 #define WEIGHTED_WAVES
 #define FOAM_LAYER
 #define CACHES_TILE
-#define UNROLLED 4 /* of searches: left to themselves, compilers unroll them for half a minute */
+#define UNROLLED 4 /* steps of searches: without it, some compilers take half a minute to unroll them */
 #include "lattice_data.glsl"
 #ifdef LEAN_MAP
 #include "lean_data.glsl"
@@ -15,18 +15,18 @@
 #include "method.k"
 #include "kernels/glitter/foam_over.k"
 
-/* The pixels that wait: what they know, and what is found for them. */
+/* Pixels that wait for a search or for a second look: their inputs and results. */
 shared int waiting;
-shared int waiting_pixel[GROUP_PIXELS]; /* column, and row of the hit, of the tile */
+shared int waiting_pixel[GROUP_PIXELS]; /* place of the hit in the tile: row · TILE_WIDTH + column */
 shared float waiting_along[GROUP_PIXELS];
 shared vec2 waiting_shift[GROUP_PIXELS];
 shared Surface found_surface[GROUP_PIXELS];
 shared SearchHit found_hit[GROUP_PIXELS];
 
-/* This invocation's place in the list; −1 where it does not wait. */
+/* Lists the pixel of this invocation if `wanted` is true. Returns its place in the list; −1: it does not wait. */
 int wait_for(bool wanted, ivec2 pixel, float along, vec2 shift)
 {
-    barrier(); /* what was found before has been read */
+    barrier(); /* all results of the previous list have been read */
     if (gl_LocalInvocationIndex == 0u)
         waiting = 0;
     barrier();
@@ -40,6 +40,7 @@ int wait_for(bool wanted, ivec2 pixel, float along, vec2 shift)
     return place;
 }
 
+/* Whether this invocation processes a pixel of the list. */
 bool is_worker() { return int(gl_LocalInvocationIndex) < waiting; }
 
 vec3 waiting_ray()
@@ -48,6 +49,7 @@ vec3 waiting_ray()
     return pixel_ray_filtered(0, float(pixel % TILE_WIDTH), float(pixel / TILE_WIDTH)).ray;
 }
 
+/* Searches the first hits of the pixels whose `wanted` is true. The whole workgroup must call it. */
 SearchHit search_where(bool wanted, ivec2 pixel, HitEstimate estimate)
 {
     SearchHit hit = SearchHit(0.0f, 0.0f, vec2(0.0f), vec2(0.0f));
@@ -60,7 +62,7 @@ SearchHit search_where(bool wanted, ivec2 pixel, HitEstimate estimate)
     return hit;
 }
 
-/* slope_state() of glitter.k; to be called by the whole workgroup. */
+/* slope_state() of glitter.k. The whole workgroup must call it. */
 SlopeState state_where(bool wanted, vec3 ray, ivec2 pixel)
 {
     HitEstimate estimate = pixel_estimate(pixel);
@@ -68,7 +70,7 @@ SlopeState state_where(bool wanted, vec3 ray, ivec2 pixel)
     SurfaceLook look;
     bool lost = wanted && estimate.search > 0.0f;
     look.again = 0.0f;
-    for (int turn = 0; turn < 2; turn++) { /* where the lattice doubts the estimate, and where the look finds it wrong */
+    for (int turn = 0; turn < 2; turn++) { /* searches first where the lattice doubts the estimate, then where the look finds it wrong */
         SearchHit hit = search_where(lost, pixel, estimate);
         bool found = lost && hit.found > 0.0f;
         if (turn == 0) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * The mean of a task's slots into the layers, weighed by Eq. 3 (Eq. 4): a workgroup a tile of the band, an invocation a task. A task without a slot stays
- * as it is.
+ * Blends the mean of each task's slots into the layers with the weight of Eq. 3 (Eq. 4): one workgroup per tile of the band, one invocation per task. A task
+ * without slots keeps its approximate pixel.
  */
 #include "lattice_data.glsl"
 #include "kernels/adaptive/slots.k"

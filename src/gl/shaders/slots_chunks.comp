@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * How many workgroups each chunk of a band's slots needs: the commands of slots_trace.comp.
+ * Writes the sizes of the indirect dispatches of slots_trace.comp, one for each chunk of a band's slots.
  */
 #include "kernels/common/prelude_glsl.k"
 #include "pass_data.k"

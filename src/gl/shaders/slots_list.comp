@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * The tasks of a band's tiles, each with its first slot (Eq. 2): a workgroup a tile, four pixels an invocation; one workgroup more for the tile behind
- * the band.
+ * Lists the tasks of a band's tiles, each with its first slot (Eq. 2): one workgroup per tile, four pixels per invocation. One more workgroup finds the first
+ * slot of the tile behind the band.
  */
 #include "kernels/common/prelude_glsl.k"
 #include "pass_data.k"
@@ -18,7 +18,7 @@ const int LANE_PIXELS = TILE_PIXELS / TASK_LANES;
 shared double sums[TASK_LANES];
 shared int counts[TASK_LANES + 1];
 
-/* The first slot that looks at `place` in the prefix sum or beyond. */
+/* The first slot at or beyond `place` in the prefix sum. */
 uint first_at(double place) { return plan_slots == 0u ? 0u : uint(first_slot(0, place, double(plan_slots), packDouble2x32(plan_sum))); }
 
 void main()

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * The prefix sum of importance over the tiles, and M: one workgroup, each invocation over neighbouring tiles.
+ * Computes the prefix sum of importance over the tiles, and the number M of slots: one workgroup. Each invocation sums over a range of tiles.
  */
 #include "kernels/common/prelude_glsl.k"
 #include "pass_data.k"
@@ -14,7 +14,7 @@ layout(local_size_x = 256) in;
 shared double importances[LANES + 1];
 shared double waters[LANES];
 
-/* How many slots the picture gets for so many pixels of water. */
+/* Number of slots of a picture that shows `water` pixels of water. */
 uint slots_of(double water)
 {
     if (slots_data.slots != 0)

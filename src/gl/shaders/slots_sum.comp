@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Adds what the slots of a chunk have brought to their tasks, in the order of slots: a workgroup a tile of the band, an invocation a task.
+ * Adds the results of a chunk's slots to their tasks, in the order of slots: one workgroup per tile of the band, one invocation per task.
  */
 #include "kernels/common/prelude_glsl.k"
 #include "pass_data.k"
@@ -10,7 +10,7 @@
 
 layout(local_size_x = TASK_LANES) in;
 
-/* What rounding took from each addition is added to the next term. */
+/* A compensated sum (Kahan): the next term makes up for the rounding error `lost` of each addition. */
 struct TaskSum {
     float value[SLOT_FLOATS], lost[SLOT_FLOATS];
 };
@@ -43,7 +43,7 @@ void main()
     int count = int(plan_tiles[tile].w);
     uint tile_end = plan_tiles[tile + 1].z;
     uint slots_from = chunk_first(), slots_to = slots_from + uint(slots_data.chunk_slots);
-    bool starts = slots_data.chunk == 0; /* every sum of the band */
+    bool starts = slots_data.chunk == 0; /* this chunk is the first one of every sum of the band */
     if (!starts && (tile_end <= slots_from || plan_tiles[tile].z >= slots_to))
         return;
     for (int i = int(gl_LocalInvocationID.x); i < count; i += TASK_LANES) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * A chunk of a band's slots, an invocation each: finds its task and traces a ray through a random place of the task's pixel.
+ * Renders a chunk of a band's slots, one per invocation: finds the slot's task and traces a ray through a random place of the task's pixel.
  */
 #define EXACT_FMA
 #include "lattice_data.glsl"
@@ -37,7 +37,7 @@ int task_of(int band_tile, uint slot)
     return low;
 }
 
-/* Where the pixel's sample of this number looks, in pixels from the pixel's centre. */
+/* Place of sample `number` of a pixel, in pixels from the pixel's centre. */
 vec2 random_place(ivec2 pixel, uint number)
 {
     uvec2 key = hash_of_sample(word_of(uint(slots_data.seed_high), uint(slots_data.seed_low)), word_of(0u, number));

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Importance of each pixel (Eq. 1), and its sum over each tile: a workgroup a tile, four pixels an invocation.
+ * Computes the importance of each pixel (Eq. 1) and its sum over each tile: one workgroup per tile, four pixels per invocation.
  */
 #include "kernels/common/prelude_glsl.k"
 #include "pass_data.k"

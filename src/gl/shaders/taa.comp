@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * One frame of method `taa`, as src/frame/taa.c has it: the picture is blended into a history that follows the camera and is clamped to what
- * the pixel's neighbours show now.
+ * One frame of method `taa`, as in src/frame/taa.c. The picture is blended into a history, which is reprojected for the camera's movement and clamped to the
+ * range of the pixel's neighbours in the picture.
  */
 #include "blend.glsl"
 #include "kernels/display/reproject.k"
@@ -36,7 +36,7 @@ void main()
     if (blend_data.still != 0) {
         past = pixel_of_history(texel);
     } else {
-        /* Waves carry no point along: water stays where it is. */
+        /* Waves carry no point along, so the point seen is at rest. */
         ReprojectedPixel at = reproject(0, blend_data.history, float(blend_data.width), float(blend_data.height), float(texel.x), float(texel.y),
                                         texelFetch(depth_texture, texel, 0).r);
         if (!at.inside) {

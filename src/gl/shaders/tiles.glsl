@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * Sorts waves for a tile: one workgroup a tile, one invocation every 64th wave. Places in the lists come from counting bits and sums are taken in one order,
- * so that the result does not depend on which invocation is the faster.
+ * Sorts waves for a tile: one workgroup per tile. Each invocation takes every 64th wave. Places in the lists come from counting bits, and sums are taken in a
+ * fixed order, so that the result does not depend on the order in which invocations run.
  *
- * Define VIEW and SET_SORT(i), wave i as SortData, before.
+ * Before including this file, define VIEW(cx), and SET_SORT(i) as wave i in the form of SortData.
  */
 #include "kernels/waves/light_reach.k"
 #include "kernels/waves/tile.k"
@@ -11,12 +11,12 @@
 const int LANES = 64;
 layout(local_size_x = 64) in;
 
-const int WORDS = MAX_WAVES / 32; /* of 32 waves; at most one for each invocation */
+const int WORDS = MAX_WAVES / 32; /* words of the bits of 32 waves; at most one for each invocation */
 shared uint resolved_bits[WORDS];
 shared uint mixed_bits[WORDS];
 shared uint searched_bits[WORDS];
 
-TileSums own; /* this invocation's waves' */
+TileSums own; /* sums over the waves of this invocation */
 shared float sums[TILE_SUMS * LANES];
 shared float totals[TILE_SUMS];
 
@@ -45,7 +45,7 @@ void mark_wave(TileView view, int wave)
     own = sums_with_wave(0, own, SET_WAVE(wave), c.lost, c.searched, c.most);
 }
 
-/* Ones among the bits of waves before this one. */
+/* Defines a function that counts the set bits of the waves before a wave. */
 #define COUNT_BEFORE(name, bits)                                         \
     int name(int wave)                                                   \
     {                                                                    \
@@ -116,7 +116,7 @@ TileData finished_tile(TileView view, Counts counts)
     return t;
 }
 
-/* Joined with that of the tile when the shutter opens, which changes with it. `open_slots`: as in PassData. */
+/* light_reach of the tile and of the same tile when the shutter opens, joined. The latter tile gets the result, too. `open_slots` is PassData.open_slots. */
 int joined_reach(int closed, int open_slots)
 {
     if (open_slots == 0)
@@ -127,7 +127,7 @@ int joined_reach(int closed, int open_slots)
     return reach;
 }
 
-/* The tile (tile_x, tile_y) of the view, into tile_slot. `open_slots`: as in PassData. */
+/* Sorts the waves for the tile (tile_x, tile_y) of the view, and stores them at tile_slot. `open_slots` is PassData.open_slots, `parts` is TileData.parts. */
 void sort_tile(int tile_x, int tile_y, int open_slots, int parts)
 {
     int lane = int(gl_LocalInvocationIndex);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * The layers of a view into the host's framebuffer: premultiplied colour and the depth of the first hit.
+ * Draws the layers of a view into the host's framebuffer: premultiplied colour, and the depth of the first hit.
  */
 #include "kernels/common/prelude_glsl.k"
 #include "kernels/common/types.k"
@@ -16,7 +16,7 @@ layout(binding = 1) uniform sampler2D color_texture;
 layout(binding = 2) uniform sampler2D water_texture;
 layout(binding = 3) uniform sampler2D depth_texture;
 
-/* Not gl_FragCoord: some drivers turn it upside down where framebuffers of both kinds take turns. */
+/* This replaces gl_FragCoord, which some drivers turn upside down if the default framebuffer and others take turns. */
 layout(location = 0) in vec2 place;
 layout(location = 0) out vec4 shown;
 
@@ -32,6 +32,7 @@ vec3 host_color(vec3 radiance)
     return window_data.encodes != 0 ? vec3(srgb_decode(display.x), srgb_decode(display.y), srgb_decode(display.z)) : display;
 }
 
+/* Depth in the host's depth buffer of a point `metres` along the pixel's ray; infinity is allowed. */
 float window_depth(ivec2 texel, float metres)
 {
     vec2 at = vec2(texel);
