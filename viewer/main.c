@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * mangata-viewer: the window, and the loop of one frame after the other. */
+ * mangata-viewer: the window, and the loop that draws one frame after the other. */
 #include <GLFW/glfw3.h>
 
 #include <math.h>
@@ -13,6 +13,7 @@
 #include "params/methods.h"
 #include "cli/common/progress.h"
 
+/* Seconds between looks at the files, seconds that a frame waits for events when nothing moves, and seconds of a frame of a script. */
 static const double poll_interval = 0.2, idle_wait = 0.1, script_frame = 1 / 60.0;
 
 /* ---- the window ---- */
@@ -20,9 +21,10 @@ static const double poll_interval = 0.2, idle_wait = 0.1, script_frame = 1 / 60.
 static void on_glfw_error(int code, const char *text)
 {
     (void)code;
-    (void)text; /* told by glfwGetError where it matters */
+    (void)text; /* no_display() reads the error with glfwGetError() */
 }
 
+/* Creates the window with a context of OpenGL `major`.`minor` core. NULL: GLFW cannot. */
 static GLFWwindow *make_window(const view_request *r, const scene_values *values, int major, int minor)
 {
     const GLFWvidmode *screen = glfwGetVideoMode(glfwGetPrimaryMonitor());
@@ -96,7 +98,7 @@ static void follow_scale(viewer *v)
     glfwGetWindowContentScale(v->window, &x, &y);
     glfwGetWindowSize(v->window, &width, NULL);
     glfwGetFramebufferSize(v->window, &pixels, NULL);
-    /* Where window coordinates are pixels already, text grows with the screen's scale; elsewhere the system does it. */
+    /* If window coordinates are pixels, text must grow with the screen's scale. Otherwise the system scales the window. */
     const float scale = (float)v->settings.panel.scale * (pixels > width ? 1 : x);
     if (scale == v->ui_scale)
         return;
@@ -104,7 +106,7 @@ static void follow_scale(viewer *v)
     v->ui_scale = scale;
 }
 
-/* Where the picture goes and how many pixels it has. */
+/* Computes the place of the picture in the window and its full size in pixels. */
 static void place_picture(viewer *v)
 {
     int window_width, window_height, width, height;
@@ -120,7 +122,7 @@ static void place_picture(viewer *v)
         return;
     const mgt_image *image = &v->document.values.image;
     const float fit = fminf(p->room.width / (float)image->width, p->room.height / (float)image->height);
-    const float scale = fminf(fit, 1 / density); /* never larger than its pixels */
+    const float scale = fminf(fit, 1 / density); /* a pixel of the picture is never larger than one of the window */
     p->width = image->width;
     p->height = image->height;
     p->place.width = scale * (float)image->width;
@@ -129,14 +131,14 @@ static void place_picture(viewer *v)
     p->place.y = floorf((p->room.height - p->place.height) / 2);
 }
 
-/* What the upper end of the layer's palette stands for. */
+/* The value at the upper end of the layer's palette. */
 static float range_end(const view_settings *s)
 {
     switch ((mgt_layer)s->layer) {
     case MGT_LAYER_COVERAGE:
         return (float)s->coverage_end;
     case MGT_LAYER_DEPTH:
-        return (float)(fmax(s->near_depth, s->far_depth) * 1.0001); /* never the same as the lower one */
+        return (float)(fmax(s->near_depth, s->far_depth) * 1.0001); /* so that it differs from the lower end */
     case MGT_LAYER_NORMAL:
         return (float)s->lean_end;
     default:
@@ -187,6 +189,7 @@ static void time_frame(viewer *v)
     t->last_frame = now;
 }
 
+/* Whether the next frame must not wait for events, because something moves or changes. */
 static bool is_busy(const viewer *v)
 {
     const bool *k = v->pointer.keys;
@@ -202,10 +205,10 @@ static void run_frame(viewer *v)
         glfwPollEvents();
     else
         glfwWaitEventsTimeout(idle_wait);
-    /* What begins after a rest begins with no time gone by. */
+    /* The first frame after a wait has step 0, so that what begins to move does not jump. */
     const double now = seconds_now(), step = v->script ? script_frame : busy ? fmin(now - v->advanced_at, 0.1) : 0;
     v->advanced_at = now;
-    if (v->script && v->place.width > 0) /* from the second frame on: commands ask where the picture is */
+    if (v->script && v->place.width > 0) /* not in the first frame, because commands ask for the place of the picture */
         script_step(v);
     if (now - v->polled_at > poll_interval || v->script) {
         v->polled_at = now;
@@ -251,7 +254,7 @@ static bool open_scene(viewer *v)
         v->exit_code = console_error(EXIT_CODE_USAGE, "%s", wrong);
         return false;
     }
-    if (!method_is_sampled(a->method)) /* for the moment that it is chosen */
+    if (!method_is_sampled(a->method)) /* kept for when the user chooses a method with samples */
         a->spatial_samples = spatial;
     v->board = (control_board){&v->document, &v->settings};
     v->settings.clock.time = v->document.values.time.start;
@@ -283,7 +286,7 @@ static int run(const view_request *request)
     v->request = request;
     v->held_handle = -1;
     v->settings = settings_defaults();
-    v->settings.panel.judge = !request->script; /* what a script sees does not depend on the time it takes */
+    v->settings.panel.judge = !request->script; /* so that the window does not depend on the script's speed */
     glfwSetErrorCallback(on_glfw_error);
     const bool opened = open_scene(v) && open_script(v);
     interrupt_install();

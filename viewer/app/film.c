@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Film export: its part of the page Files, and what the command is asked for. */
+ * Film export: its part of the page Files, and the command that renders the film. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,7 +12,7 @@
 static const float label_units = 8.2f; /* widths, in heights of the text */
 
 typedef struct film_kind {
-    const char *label, *ending, *codec; /* codec NULL: has none */
+    const char *label, *ending, *codec; /* codec NULL: the kind has none */
     bool has_crf;
 } film_kind;
 
@@ -68,7 +68,8 @@ void size_draw(viewer *v, const char *label, uint32_t size[2])
 
 /* ---- the command ---- */
 
-/* The film as it is seen: its own start, the path only where it is followed, side A's method. NULL when memory runs out. */
+/* The text of the scene that the film shows: as in the window, but with the document's start, and by side A's method. The caller frees it. NULL: out of
+ * memory. */
 static char *film_text(const viewer *v, size_t *size)
 {
     const film_choice *c = &v->film;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Keys, and what GLFW reports. pointer.c has the pointer. */
+ * Keys, and the callbacks of GLFW. The pointer is in pointer.c. */
 #include <GLFW/glfw3.h>
 
 #include <math.h>
@@ -100,6 +100,7 @@ static void full_screen(viewer *v)
     }
 }
 
+/* Changes the exposure, or the offset of automatic exposure, by `stops`. */
 static void expose(viewer *v, double stops)
 {
     scene_post *post = &v->document.values.post;
@@ -107,6 +108,7 @@ static void expose(viewer *v, double stops)
     *value = fmin(fmax(*value + stops, -60), 60);
 }
 
+/* Records a keyframe at the clock's time. */
 static void record(viewer *v)
 {
     scene_values *values = &v->document.values;
@@ -187,7 +189,7 @@ static void press(viewer *v, int key, int modifiers)
         break;
     case GLFW_KEY_I:
         flip(&s->panel.inspector);
-        if (s->inspect.x == 0 && s->inspect.y == 0) /* nothing chosen yet */
+        if (s->inspect.x == 0 && s->inspect.y == 0) /* no pixel has been chosen yet */
             s->inspect = (inspect_settings){v->place.width / 2, v->place.height * 2 / 3};
         break;
     case GLFW_KEY_T:
@@ -277,7 +279,7 @@ static void on_focus(GLFWwindow *window, int focused)
 {
     viewer *v = viewer_of(window);
     ui_on_focus(window, focused);
-    memset(v->pointer.keys, 0, sizeof v->pointer.keys); /* a key let go elsewhere is never heard of */
+    memset(v->pointer.keys, 0, sizeof v->pointer.keys); /* the release of a key in another window is not reported */
     v->pointer.fast = false;
 }
 

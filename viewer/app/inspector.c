@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT
- * The pixel inspector: numbers of one pixel, and the light plane with the pixel's slopes on their way over the disk. */
+ * The pixel inspector: the numbers of one pixel, and a plot of the path of its mirrored view over the light's disk. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "viewer/app/panels.h"
 
+/* Computes a pixel of the full-size picture by mgt_inspect_pixel(). False: it failed, and v->render_error may say why. */
 static bool look_into(viewer *v, uint32_t x, uint32_t y, mgt_pixel_info *info)
 {
     shot now;
@@ -49,19 +50,19 @@ bool viewer_point_at(viewer *v, const double at[2], double point[3], double midd
 
 /* ---- the plot ---- */
 
-/* The light plane in the canvas: a place of so many light radii from the light's centre. */
+/* The mapping of the light plane to the canvas. */
 typedef struct plot {
     ui_rect box;
-    double scale; /* window units a light-plane unit */
-    double center[2];
+    double scale;     /* window coordinates per unit of the light plane */
+    double center[2]; /* point of the light plane at the canvas's centre */
 } plot;
 
-/* As seen by who looks at the light: its axis e points to the left. */
+/* Window x of coordinate e, whose axis points to the left, as for an observer who looks at the light. */
 static float plot_x(const plot *p, double e) { return p->box.x + p->box.width / 2 - (float)((e - p->center[0]) * p->scale); }
 
 static float plot_y(const plot *p, double f) { return p->box.y + p->box.height / 2 - (float)((f - p->center[1]) * p->scale); }
 
-/* Where the Gaussian has fallen to exp(−n²/2). */
+/* Draws the ellipse at `n` standard deviations of a Gaussian. */
 static void draw_ellipse(const plot *p, const double covariance[3], const double middle[2], double n, uint32_t color)
 {
     enum { STEPS = 48 };
@@ -81,7 +82,7 @@ static void draw_plot(const mgt_pixel_info *info)
     plot p = {.box = ui_canvas("light plane", 11 * ui_font_size())};
     const double middle[2] = {(info->path[0][0] + info->path[1][0]) / 2, (info->path[0][1] + info->path[1][1]) / 2};
     const double half[2] = {fabs(info->path[1][0] - info->path[0][0]) / 2, fabs(info->path[1][1] - info->path[0][1]) / 2};
-    /* Both the disk and two deviations about the path are to be seen. */
+    /* The plot shows the disk, and two standard deviations around the path. */
     const double spread = 2 * sqrt(fmax(fmax(info->covariance[0], info->covariance[2]), 0)), radius = 1.3 * info->light_radius;
     double need = 0;
     for (int i = 0; i < 2; i++) {

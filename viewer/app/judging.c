@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * When A and B are judged against brute force, and what stands beside the divider then. */
+ * Decides when A and B are judged against brute force, and draws the figures beside the divider. */
 #include <GLFW/glfw3.h>
 
 #include <stdio.h>
@@ -7,14 +7,14 @@
 #include "params/options.h"
 #include "viewer/app/panels.h"
 
-/* What is seen is finished, rests, and shows two methods. */
+/* Whether judging is on, two methods are compared in colour, and the picture is finished and does not move. */
 static bool is_wanted(const viewer *v)
 {
     const settings *s = &v->settings;
     return s->panel.judge && s->view.compare == COMPARE_WIPE && s->view.layer == MGT_LAYER_COLOR && !s->clock.play && viewer_is_settled(v, 1);
 }
 
-/* The scene a frame later too, with the clock lent for that moment. */
+/* The shots of this frame and of the next one. The clock is set to the latter for a moment. */
 static bool take_frames(viewer *v, shot shots[JUDGE_FRAMES])
 {
     const double time = v->settings.clock.time;
@@ -25,6 +25,7 @@ static bool take_frames(viewer *v, shot shots[JUDGE_FRAMES])
     return good;
 }
 
+/* Orders the judgement of what is shown. */
 static void begin(viewer *v)
 {
     judging *state = &v->judging;
@@ -72,7 +73,7 @@ void viewer_judge(viewer *v)
 
 /* ---- beside the divider ---- */
 
-/* The better of two is marked, where the references tell them apart. */
+/* Draws the figures of a side. A figure is marked if it is better than the other side's and the latter is above the noise. */
 static void draw_scores(ui_rect box, const judgement *found, int side, float unit)
 {
     const judge_scores *own = &found->sides[side], *other = &found->sides[SIDE_COUNT - 1 - side];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Messages: the journal and the line over the picture. */
+ * Messages: the log and the line over the picture. */
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -27,7 +27,7 @@ void viewer_log(viewer *v, const char *format, ...)
 
 static void show(viewer *v, bool is_error)
 {
-    /* What a script sees does not depend on the time it takes. */
+    /* In a script the message is not shown, so that the window does not depend on the script's speed. */
     v->message.is_error = is_error;
     v->message.until = v->script ? 0 : seconds_now() + (is_error ? 8 : 4);
 }

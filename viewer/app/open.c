@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Opening another scene: the dialog, files dropped on the window. */
+ * Opening another scene: the dialog, and files that are dropped on the window. */
 #include <GLFW/glfw3.h>
 
 #include <math.h>
@@ -59,7 +59,7 @@ static void open_or_tell(viewer *v, const char *path)
         viewer_report(v, true, "%s", error);
 }
 
-/* A model becomes a further object of the scene. */
+/* Adds a model as an object of the scene. */
 static void add_model(viewer *v, const char *path)
 {
     char name[40], value[VIEWER_TEXT], error[VIEWER_TEXT];
@@ -109,7 +109,7 @@ void dialog_toggle(viewer *v)
 
 static bool is_folder(const char *name) { return name[0] && name[strlen(name) - 1] == '/'; }
 
-/* A row each in two columns; the path of the one that was chosen. */
+/* Draws a row for each name. Returns the path of the one that was chosen, in `path`; NULL: none. */
 static const char *draw_rows(const char *folder, const name_list *list, bool with_folders, char path[OPEN_PATH])
 {
     const char *chosen = NULL;
@@ -127,6 +127,7 @@ static const char *draw_rows(const char *folder, const name_list *list, bool wit
     return chosen;
 }
 
+/* Lists the files of another folder. */
 static void enter(viewer *v, const char *path)
 {
     open_dialog *d = &v->dialog;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * What stands over the picture: the divider, errors, timings, legend, keys. */
+ * Everything over the picture: divider, errors, timings, legend, keys and log. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,6 +12,7 @@
 
 static const uint32_t white = 0xdde2eaff, faint = 0x8891a0ff, accent = 0xedc778ff, shade = 0x0a0d13c8, red = 0x5a1f1aee;
 
+/* Height of the text, window coordinates. */
 static float unit_of(const viewer *v) { return 13.5f * v->ui_scale; }
 
 /* ---- divider ---- */
@@ -60,6 +61,7 @@ static void draw_divider(const viewer *v)
 
 /* ---- errors and messages ---- */
 
+/* Draws a line in the middle of the picture at `y`. Returns the y of the next one. */
 static float draw_notice(const viewer *v, const notice *n, float y)
 {
     const float unit = unit_of(v), width = ui_text_width(n->text) + 2 * unit;
@@ -190,7 +192,7 @@ static void draw_legend(const viewer *v)
 
 /* ---- timings ---- */
 
-/* The last frames from left to right, a line where 30 and 60 a second are. */
+/* Draws the times of the last frames from left to right, up to `most` milliseconds, with lines at 60 and 30 frames a second. */
 static void draw_graph(const timing_ring *t, float most)
 {
     const ui_rect box = ui_canvas("graph", 5 * ui_font_size());
@@ -287,7 +289,7 @@ static void draw_log(viewer *v)
     ui_panel_end();
 }
 
-/* Where help is found, in the corner. */
+/* Draws in the corner which key shows the list of keys. */
 static void draw_hint(const viewer *v)
 {
     static const char text[] = "?  keys";

@@ -12,12 +12,13 @@
 #include "params/scene_rows.h"
 #include "params/waves.h"
 
-static const float panel_units = 23.5f, label_units = 8.2f; /* widths, in heights of the text */
+static const float panel_units = 23.5f, label_units = 8.2f; /* widths of the panel and of labels, in heights of the text */
 
 float panels_width(const viewer *v) { return v->settings.panel.shown ? floorf(panel_units * 13.5f * v->ui_scale) : 0; }
 
 /* ---- one control ---- */
 
+/* Sets the tooltip of a control: its description, name and range. */
 static void explain(const control *c)
 {
     char text[512], range[128];
@@ -104,7 +105,7 @@ bool panel_count(viewer *v, const char *label, uint32_t *value, uint32_t min, ui
     return ui_slider_count(label, value, min, max, false, zero);
 }
 
-/* A mapping of the scene, a control each row. */
+/* Draws the controls of a mapping, one per row. */
 static void draw_mapping(viewer *v, const char *path, const field_row *rows)
 {
     char name[64];
@@ -123,7 +124,7 @@ static void draw_side(viewer *v, int side)
     const picture *p = &v->render.pictures[side];
     char name[64], text[64];
     for (const field_row *field = quality_fields; field->key; field++) {
-        /* The jitter's seed matters to few methods. */
+        /* The seed is only shown for methods that use random numbers. */
         const bool jitters = method_is_sampled(q->method) || q->method == MGT_METHOD_ADAPTIVE || strcmp(field->key, "seed") != 0;
         snprintf(name, sizeof name, "%c.%s", letter, field->key);
         if (jitters && field_applies(quality_fields, field, q, false) && (!(field->flags & FIELD_OBJECTS) || v->document.values.objects.count > 0))
@@ -174,7 +175,7 @@ static const char *object_name(const scene_object *object, size_t index, char *r
     return room;
 }
 
-/* One object is chosen; its controls follow, then what refraction and caustics are set to. */
+/* Draws the list of objects and the controls of the one that is chosen. */
 static void draw_objects(viewer *v)
 {
     static const char *const keys[] = {"position",           "rotation_deg",      "scale",           "size", "material.base_color",
@@ -204,7 +205,7 @@ static void draw_look(viewer *v)
                                          [MGT_SKY_GRADIENT] = {"sky.zenith", "sky.horizon", NULL},
                                          [MGT_SKY_BLACK] = {NULL}};
     static const char *const water[] = {"water.level", "water.ior", "water.body_albedo", NULL};
-    static const char *const under[] = {"water.absorption", "water.scattering", NULL}; /* for what is seen through it */
+    static const char *const under[] = {"water.absorption", "water.scattering", NULL}; /* only for scenes with objects, which are seen through the water */
     static const char *const post[] = {"post.tone_map", "post.night_tint", "post.glare", NULL};
     if (ui_header("Light", true))
         draw_mapping(v, "light", light_rows);
@@ -229,7 +230,7 @@ static void draw_look(viewer *v)
 
 /* ---- camera ---- */
 
-/* From the first keyframe on. */
+/* Plays the camera path from its first keyframe on. */
 static void play_path(viewer *v)
 {
     const scene_keyframe *items = v->document.values.camera.path.items;
@@ -363,7 +364,7 @@ static void draw_renderer(const viewer *v)
     ui_text(UI_TONE_FAINT, text);
 }
 
-/* What is wanted on every page. */
+/* Draws the buttons above the pages. */
 static void draw_tools(viewer *v)
 {
     static const struct {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * The pointer: orbit, look, pan, the divider, magnifying. */
+ * The pointer: orbiting, looking around, grabbing the water, the divider, magnifying. */
 #include <GLFW/glfw3.h>
 
 #include <math.h>
@@ -9,7 +9,7 @@
 #include "viewer/app/viewer.h"
 #include "viewer/scene/camera_moves.h"
 
-/* Radians: a fifth and a seventh of a degree. */
+/* Radians per pixel of a drag, and the factor of a step of the wheel. */
 static const double turn_per_pixel = 0.0035, look_per_pixel = 0.0025, zoom_step = 1.12;
 
 static bool over_divider(const viewer *v, double x)
@@ -40,7 +40,7 @@ static void inspect_at(viewer *v, double x, double y)
 
 /* ---- drags ---- */
 
-/* What a press at the pointer's place begins. */
+/* The drag that a press of the button begins on the picture. */
 static drag_kind drag_of(const viewer *v, int button, int modifiers)
 {
     const bool left = button == GLFW_MOUSE_BUTTON_LEFT;
@@ -51,7 +51,7 @@ static drag_kind drag_of(const viewer *v, int button, int modifiers)
     return left ? DRAG_ORBIT : DRAG_NONE;
 }
 
-/* Takes hold of the water at the pointer, or, where there is none, of the picture's plane at the pivot. */
+/* Grabs the water at the pointer. Where there is none, the drag becomes DRAG_SLIDE. */
 static void begin_grab(viewer *v)
 {
     drag *d = &v->pointer.drag;
@@ -98,13 +98,14 @@ void input_button(viewer *v, int button, int action, int modifiers)
         begin_drag(v, drag_of(v, button, modifiers));
 }
 
-/* How low an orbit may go: a camera in the air stays there. */
+/* Least height of the camera on an orbit, metres. A camera above the water stays above it. */
 static double lowest_height(const viewer *v, const mgt_camera *camera)
 {
     const double level = v->document.values.water.level;
     return camera->position[1] < level ? -HUGE_VAL : level + v->settings.move.clearance;
 }
 
+/* Moves the camera so that the grabbed point stays under the pointer. */
 static void pull(viewer *v)
 {
     const drag *d = &v->pointer.drag;
@@ -117,7 +118,7 @@ static void pull(viewer *v)
     camera_grab(camera, (double)place->width / (double)place->height, d->point, at);
 }
 
-/* The camera moves in its own plane as the pivot would under the pointer. */
+/* Moves the camera in its own plane, so that the pivot follows the pointer. */
 static void slide(viewer *v)
 {
     const drag *d = &v->pointer.drag;
@@ -131,7 +132,7 @@ static void slide(viewer *v)
     camera_move(camera, 0, -(v->pointer.x - d->x) * per_pixel, (v->pointer.y - d->y) * per_pixel);
 }
 
-/* The way from the press on, so that what is limited on the way is not lost. */
+/* Turns the camera of the press by the whole way since then, so that a limit that was met on the way has no effect later. */
 static void turn_camera(viewer *v)
 {
     const drag *d = &v->pointer.drag;
@@ -175,7 +176,7 @@ void input_pointer(viewer *v, double x, double y)
     }
 }
 
-/* Magnifies about the pointer: what is under it stays there. */
+/* Changes the magnification. The point under the pointer stays there. */
 static void magnify(viewer *v, double factor)
 {
     view_settings *s = &v->settings.view;

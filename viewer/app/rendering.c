@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * What is rendered, where and at which size: orders to the workers, or straight into textures by OpenGL. */
+ * Decides what is rendered, by which renderer and at which size. Workers get orders, OpenGL renders straight into textures. */
 #include <GLFW/glfw3.h>
 
 #include <dirent.h>
@@ -15,7 +15,7 @@
 #include "scene/scene_models.h"
 #include "viewer/app/viewer.h"
 
-/* Frames a second that moving pictures hold, how long after the last change they count as still, and how small they may get. */
+/* Frames a second that moving pictures shall have, seconds after the last change until the picture counts as still, and the least fraction of the full size. */
 static const double moving_rate = 30, still_after = 0.25, least_scale = 0.2;
 
 /* ---- start and end ---- */
@@ -38,13 +38,13 @@ mgt_context_desc viewer_cpu_desc(const viewer *v)
     return desc;
 }
 
-/* OpenGL on the window's context. False with the reason in `why`. */
+/* Starts OpenGL in the window's context. False: `why` says why it is not used. */
 static bool start_gl(viewer *v, char *why, size_t size)
 {
     mgt_context_desc desc = viewer_cpu_desc(v);
     desc.backend = MGT_BACKEND_GL;
     desc.gl_get_proc = glfwGetProcAddress;
-    if (v->request->context.backend == MGT_BACKEND_GL) { /* what is only tried says its own line */
+    if (v->request->context.backend == MGT_BACKEND_GL) { /* if it is only tried, its failure is reported with another line */
         desc.log = on_log;
         desc.log_user = v;
     }
@@ -112,7 +112,7 @@ mgt_context *viewer_tools(viewer *v)
 
 /* ---- size ---- */
 
-/* The fraction of the full size at which moving pictures keep their rate. */
+/* The fraction of each side at which moving pictures are estimated to have moving_rate. */
 static double moving_scale(const viewer *v)
 {
     const double pixels = (double)v->place.width * v->place.height, seconds = v->render.seconds_per_pixel * pixels;
@@ -121,6 +121,7 @@ static double moving_scale(const viewer *v)
     return fmin(fmax(sqrt(0.8 / (moving_rate * seconds)), least_scale), 1);
 }
 
+/* The fraction of each side at which the settings want the picture. */
 static double wanted_scale(const viewer *v, bool moving)
 {
     switch ((resolution_mode)v->settings.view.resolution) {
@@ -138,7 +139,7 @@ static double wanted_scale(const viewer *v, bool moving)
     return moving ? moving_scale(v) : 1;
 }
 
-/* Steps of an eighth, so that sizes do not change from frame to frame. */
+/* Pixels of a scaled side. The scale has steps of an eighth, so that sizes do not change from frame to frame. */
 static uint32_t scaled(uint32_t side, double scale)
 {
     const double stepped = scale < 1 && scale > least_scale ? fmax(floor(scale * 8) / 8, least_scale) : scale;
@@ -148,6 +149,7 @@ static uint32_t scaled(uint32_t side, double scale)
 
 /* ---- orders ---- */
 
+/* Whether two shots show the same scene. */
 static bool same_shot(const shot *a, const shot *b)
 {
     const mgt_scene *s = &a->scene, *t = &b->scene;
@@ -158,6 +160,7 @@ static bool same_shot(const shot *a, const shot *b)
     return same;
 }
 
+/* Copies a shot with a share of its models. Releases those that `to` has had. */
 static void copy_shot(shot *to, const shot *from)
 {
     scene_models_release(to->models);
@@ -169,6 +172,7 @@ static void copy_shot(shot *to, const shot *from)
 
 static bool side_refines(const mgt_quality *q) { return method_is_sampled(q->method); }
 
+/* The order for what the settings ask for, still without a scene. */
 static render_order order_of(const viewer *v)
 {
     render_order o = {.serial = v->render.serial, .layer = (mgt_layer)v->settings.view.layer};
@@ -179,7 +183,7 @@ static render_order order_of(const viewer *v)
     return o;
 }
 
-/* Whether the two orders differ in what their sides show. */
+/* Whether two orders ask for the same layer, sides and qualities. */
 static bool same_wishes(const render_order *a, const render_order *b)
 {
     bool same = a->layer == b->layer && a->wanted[SIDE_B] == b->wanted[SIDE_B];
@@ -208,7 +212,7 @@ static void count_seconds(viewer *v, double seconds, uint32_t width, uint32_t he
     timing_add(&v->timings.render, seconds);
 }
 
-/* Sides without samples, straight into their textures. */
+/* Renders sides without samples into their textures. If OpenGL fails for good, the CPU takes over. */
 static void render_gl(viewer *v, const render_order *o)
 {
     for (int side = 0; side < SIDE_COUNT && v->render.gl; side++) {
@@ -239,6 +243,7 @@ static void render_gl(viewer *v, const render_order *o)
         count_seconds(v, sum, o->scene.image.width, o->scene.image.height);
 }
 
+/* Gives an order to all renderers that it concerns. */
 static void post(viewer *v, render_order *o)
 {
     bool live = false, refining = false;
@@ -250,13 +255,14 @@ static void post(viewer *v, render_order *o)
         render_gl(v, o);
     else if (live && v->render.live)
         render_worker_post(v->render.live, o);
-    /* Also when there is nothing to refine any more, to end what is under way. */
+    /* The worker also gets an order that needs no refinement, because it must stop what it is doing. */
     if (refining || side_refines(&v->render.last.quality[SIDE_A]) || side_refines(&v->render.last.quality[SIDE_B]))
         render_worker_post(v->render.refining, o);
 }
 
 static bool worker_is_behind(const viewer *v) { return v->render.live && !render_worker_is_idle(v->render.live); }
 
+/* Gives a new order if what is shown or its size has changed. */
 static void order(viewer *v)
 {
     shot now;
@@ -273,7 +279,7 @@ static void order(viewer *v)
     o.scene.image = (mgt_image){.width = scaled(v->place.width, scale), .height = scaled(v->place.height, scale)};
     const mgt_image *old = &v->render.last.scene.image;
     const bool resized = o.scene.image.width != old->width || o.scene.image.height != old->height;
-    /* While things move, one frame after the other; a size alone waits until they rest. */
+    /* While something moves, a frame is ordered after the one before it is done. A change of size alone waits until nothing moves. */
     if (!changed && (!resized || (moving && v->settings.view.resolution == RESOLUTION_AUTO && v->render.reduced)))
         return;
     v->render.behind = changed && moving && worker_is_behind(v) && !v->render.last.interruptible;
@@ -291,6 +297,7 @@ static void order(viewer *v)
 
 /* ---- results ---- */
 
+/* Takes the pictures of a worker into textures, and its error. */
 static void take(viewer *v, render_worker *w, bool refines)
 {
     char text[VIEWER_TEXT];
@@ -314,14 +321,15 @@ static void take(viewer *v, render_worker *w, bool refines)
 
 /* ---- kernel files of --shaders ---- */
 
-/* Files of the folder that stand in for texts of the library, and a number that differs once one of them changes. */
+/* The files of a folder that replace texts of the library. `stamp` is a number that changes if one of them changes. */
 typedef struct shader_files {
-    mgt_gl_source *sources; /* room for all that the library has; their texts are read when they are needed */
+    mgt_gl_source *sources; /* room for as many as the library has; use_shader_files() reads their texts */
     char (*paths)[1024];
     size_t count, room;
     int64_t stamp;
 } shader_files;
 
+/* The library's own string that equals `name`; NULL: the library has no text of that name. */
 static const char *library_name(const char *name)
 {
     const char *known;
@@ -344,7 +352,8 @@ static void add_shader_file(shader_files *f, const char *path, const char *name,
     f->stamp = f->stamp * 31 + (int64_t)status->st_mtim.tv_sec * 1000003 + status->st_mtim.tv_nsec + status->st_size;
 }
 
-/* In the order of their names, so that the same files give the same stamp; of two files of one name the first counts. */
+/* Finds the files of a folder and its subfolders in the order of their names, so that the same files give the same stamp. Of two files of one name the first
+ * counts. */
 static void find_shader_files(shader_files *f, const char *folder, int depth)
 {
     struct dirent **entries = NULL;
@@ -364,6 +373,7 @@ static void find_shader_files(shader_files *f, const char *folder, int depth)
     free(entries);
 }
 
+/* Gives the files to OpenGL. An error leaves the former ones in use. */
 static void use_shader_files(viewer *v, shader_files *f)
 {
     size_t good = 0;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * What leaves the viewer: pictures, scene files, the command that gives the same frame. */
+ * Output of the viewer: pictures, scene files, and the command that renders the same frame. */
 #include <GLFW/glfw3.h>
 
 #include <stdlib.h>
@@ -13,7 +13,7 @@
 
 /* ---- the command ---- */
 
-/* What side A does otherwise than the scene's own quality by the same method. */
+/* Writes the options of side A's method that differ from the scene's own quality by that method. */
 static void write_method(FILE *stream, const viewer *v, const mgt_quality *q)
 {
     quality_choice method = quality_choice_none();
@@ -162,7 +162,7 @@ bool viewer_save_scene(viewer *v, const char *path, char *error, size_t error_si
         snprintf(error, error_size, "out of memory");
         return false;
     }
-    /* The film keeps its start and its path, wherever the clock and the camera are. */
+    /* The saved scene keeps its start and its path, wherever the clock and the camera are. */
     values.time.start = v->document.values.time.start;
     bool good = true;
     if (values.camera.path.count == 0 && v->document.values.camera.path.count > 0) {

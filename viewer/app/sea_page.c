@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * The page of the sea: wind, spectrum, swells, single waves, and the plot of them all. */
+ * The page Sea: wind, spectrum, swells, single waves, and a plot of all waves. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -11,10 +11,11 @@ static const double gravity = 9.81, pi = 3.14159265358979323846;
 
 /* ---- the plot ---- */
 
-/* Lengths and heights over logarithmic axes. */
+/* Ranges of the plot's logarithmic axes: lengths and heights, metres. */
 static const double shortest = 0.03, longest = 600, lowest = 2e-4, highest = 6;
 static const uint32_t back = 0x10141cff, grid = 0x232b38ff, faint = 0x8891a0ff, accent = 0xedc778ff, blue = 0x6f9fd8ff, white = 0xf2f4f8ff;
 
+/* Window coordinate of a value on a logarithmic axis. Values are clamped to the axis. */
 static float place_on(double value, double low, double high, float from, float size)
 {
     return from + size * (float)(log(fmin(fmax(value, low), high) / low) / log(high / low));
@@ -48,7 +49,7 @@ static void draw_grid(const ui_rect *box)
     ui_draw_text(UI_LAYER_WINDOW, box->x + 3, plot_y(box, 0.01) - ui_font_size() - 1, faint, "1 cm");
 }
 
-/* The highest wave of those that are not a swell's. */
+/* The highest of the first `count` waves; NULL: there are none. */
 static const mgt_wave *peak_of(const scene_list *waves, size_t count)
 {
     const mgt_wave *items = waves->items, *peak = NULL;
@@ -58,6 +59,7 @@ static const mgt_wave *peak_of(const scene_list *waves, size_t count)
     return peak;
 }
 
+/* Number of waves that the swells make. They are the last ones of the sea. */
 static size_t swell_waves(const scene_water *water)
 {
     const scene_swell *swells = water->swell.items;
@@ -67,12 +69,13 @@ static size_t swell_waves(const scene_water *water)
     return count;
 }
 
+/* A point of the plot that can be dragged. */
 typedef struct plot_handle {
-    double length, height;
-    const char *name; /* shown beside it; NULL: none */
+    double length, height; /* metres; height is that of the crest */
+    const char *name;      /* shown beside it; NULL: none */
 } plot_handle;
 
-/* Handle `index`: first the swells, then the peak of the wind or spectrum, or each single wave. False beyond the last. */
+/* Finds handle `index`. The swells come first, then the peak of the wind or of the spectrum, or the single waves. False: there is no such handle. */
 static bool handle_at(const viewer *v, size_t index, plot_handle *out)
 {
     const scene_water *water = &v->document.values.water;
@@ -98,6 +101,7 @@ static bool handle_at(const viewer *v, size_t index, plot_handle *out)
     return true;
 }
 
+/* Holds the handle next to the pointer, if one is near. */
 static void pick_handle(viewer *v, const ui_rect *box, const ui_pointer *pointer)
 {
     plot_handle h;
@@ -119,7 +123,8 @@ static void set(viewer *v, const char *format, size_t index, const char *key, do
     control_set_number(&v->board, name, number);
 }
 
-/* The wind that a peak at another length asks for: about its square in a developed sea. Frame by frame it comes under the pointer. */
+/* Changes the wind or the height so that the peak comes to the pointer. In a developed sea the peak's length is about proportional to the square of the wind.
+ * That is not exact, so it takes several frames. */
 static void pull_peak(viewer *v, const plot_handle *h, double length, double height)
 {
     const scene_water *water = &v->document.values.water;
@@ -131,6 +136,7 @@ static void pull_peak(viewer *v, const plot_handle *h, double length, double hei
         control_set_number(&v->board, "water.amplitude", fmin(fmax(water->height * height / h->height, 0.01), 20));
 }
 
+/* Moves the held handle to the pointer. */
 static void pull_handle(viewer *v, const ui_rect *box, const ui_pointer *pointer)
 {
     plot_handle h;
@@ -155,6 +161,7 @@ static void pull_handle(viewer *v, const ui_rect *box, const ui_pointer *pointer
     set(v, "water.waves", index, "amplitude", height / fmax(water->height, 1e-6));
 }
 
+/* Draws a line for each wave in use, from the bottom of the plot to its height. */
 static void draw_sticks(const viewer *v, const ui_rect *box)
 {
     const scene_water *water = &v->document.values.water;

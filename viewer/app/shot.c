@@ -48,7 +48,7 @@ void viewer_revert(viewer *v)
     viewer_report(v, false, "back to %s", v->document.source->path);
 }
 
-/* A camera in the air does not sink into the waves; one that is under water stays there. */
+/* Keeps a camera above the waves under it by the clearance, unless it follows the path or is under water. */
 static void keep_camera_above(viewer *v)
 {
     mgt_camera *camera = &v->document.values.camera.still;
@@ -70,7 +70,7 @@ void viewer_write_out_sea(viewer *v)
     scene_values_write_out_sea(&v->document.values);
 }
 
-/* One more item at a list's end, not yet set; NULL, which is reported, where memory or `most` is at its end. */
+/* Appends an item, which is not set, to a list. NULL: memory has run out, or the list has `most` items; that has been reported. */
 static void *list_append(viewer *v, scene_list *list, size_t size, size_t most, const char *name)
 {
     char *items = list->count < most ? realloc(list->items, (list->count + 1) * size) : NULL;
@@ -85,6 +85,7 @@ static void *list_append(viewer *v, scene_list *list, size_t size, size_t most, 
     return items + (list->count - 1) * size;
 }
 
+/* Removes an item. `index` must be valid. */
 static void list_remove(scene_list *list, size_t size, size_t index)
 {
     char *items = list->items;
@@ -144,7 +145,7 @@ void sea_choose(viewer *v, sea_kind kind)
 void wave_add(viewer *v)
 {
     scene_list *list = &v->document.values.water.waves;
-    if (v->document.values.water.wind.speed > 0) /* which would replace it */
+    if (v->document.values.water.wind.speed > 0) /* a wind would replace the wave */
         viewer_write_out_sea(v);
     mgt_wave *added = list_append(v, list, sizeof *added, MGT_MAX_WAVES, "wave");
     if (!added)
@@ -167,6 +168,7 @@ void wave_remove(viewer *v, size_t index)
 
 /* ---- the shot ---- */
 
+/* Copies the waves that are in use, and returns their number. */
 static size_t take_waves(const viewer *v, mgt_wave *waves)
 {
     const scene_list list = scene_water_all(&v->document.values.water);
@@ -217,6 +219,7 @@ bool viewer_frame_values(const viewer *v, uint32_t width, uint32_t height, scene
 
 /* ---- clock ---- */
 
+/* Moves a running clock on by so many seconds of the window. */
 static void run_clock(viewer *v, double seconds)
 {
     clock_settings *clock = &v->settings.clock;

@@ -6,10 +6,10 @@
 #include "cli/common/progress.h"
 #include "viewer/app/viewer.h"
 
-/* Steps of the wheel that follow each other this fast are one. */
+/* Seconds. Steps of the wheel that follow each other faster are one step of undo. */
 static const double wheel_pause = 0.4;
 
-/* Whether what changes now may go on changing. */
+/* Whether a key, a button, the wheel or a control is held, so that the change may go on. */
 static bool is_held(const viewer *v)
 {
     const bool *k = v->pointer.keys;
@@ -25,7 +25,7 @@ void viewer_keep_step(viewer *v, bool all)
     history_add(&v->history, &v->document, &v->settings);
 }
 
-/* The first control in which the boards differ, and how many others do. */
+/* Writes the name of the first control in which two boards differ, and the number of the others. */
 static void describe(const control_board *from, const control_board *to, char *text, size_t size)
 {
     size_t counts[2], others = 0;
@@ -39,7 +39,7 @@ static void describe(const control_board *from, const control_board *to, char *t
             others++;
         else
             snprintf(text, size, "%s", left[i].name);
-        if (!same_name) /* a list of another length: what follows stands elsewhere */
+        if (!same_name) /* a list has another length: the controls after it have moved */
             break;
     }
     free(left);
@@ -67,7 +67,7 @@ bool viewer_undo(viewer *v, int by)
     }
     settings chosen = state->settings;
     if (state->source == v->document.source) {
-        if (v->settings.clock.play && chosen.clock.play) /* the clock runs on */
+        if (v->settings.clock.play && chosen.clock.play) /* a running clock is not set back */
             chosen.clock.time = v->settings.clock.time;
         const control_board other = {&there, &chosen};
         describe(&v->board, &other, what, sizeof what);
@@ -77,7 +77,7 @@ bool viewer_undo(viewer *v, int by)
         there.source = scene_source_share(state->source);
         viewer_take_document(v, &there);
     }
-    document_changed(&v->document, false); /* tells again why a sea cannot be made */
+    document_changed(&v->document, false); /* makes the sea again, so that an error of it is shown again */
     v->settings = chosen;
     history_follow(&v->history, chosen.clock.time, &v->document.values.camera.still);
     viewer_tell(v, "%s%s%s", word, what[0] ? ": " : "", what);
