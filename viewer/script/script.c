@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Scripts: one command a line, in the order of the file; what waits lets frames go by. */
+ * The engine of scripts: it runs the commands of a file line by line, and lets frames pass while a command waits. */
 #include <GLFW/glfw3.h>
 
 #include <stdarg.h>
@@ -10,7 +10,7 @@
 #include "params/methods.h"
 #include "viewer/script/script_state.h"
 
-enum { VARY_TRIES = 6 };
+enum { VARY_TRIES = 6 }; /* values that the command vary tries before it fails */
 
 script *script_open(const char *path)
 {
@@ -72,7 +72,7 @@ void script_capture(script *s, capture what)
 
 /* ---- words ---- */
 
-/* Takes the next word of at most so many; the last one is the rest of the line. */
+/* Splits the line into at most `most` words. Word number `most` is the rest of the line. */
 static void split(script *s, int most)
 {
     char *p = s->text;
@@ -94,6 +94,7 @@ static void split(script *s, int most)
 
 /* ---- going on ---- */
 
+/* Reads the next line that is neither empty nor a comment. False: the file has ended. */
 static bool read_line(script *s)
 {
     while (fgets(s->text, sizeof s->text, s->stream)) {
@@ -124,6 +125,7 @@ static void run_line(viewer *v)
     script_fail(v, "unknown command %.*s", (int)length, start);
 }
 
+/* Moves the pointer by one frame of the drag. */
 static void step_drag(viewer *v)
 {
     script *s = v->script;
@@ -133,7 +135,7 @@ static void step_drag(viewer *v)
     v->stand_in.x = (float)x;
     v->stand_in.y = (float)y;
     input_pointer(v, x, y);
-    /* The first frame lets the panels see the pointer; the button goes down in the second. */
+    /* In the first frame the panels get the pointer's place. The button goes down in the second one. */
     if (s->drag_at == 1) {
         v->stand_in.down[s->drag_button] = true;
         input_button(v, s->drag_button, GLFW_PRESS, 0);
@@ -146,6 +148,7 @@ static void step_drag(viewer *v)
     s->drag_at++;
 }
 
+/* Sets a random control to a random value. */
 static void step_random(viewer *v)
 {
     script *s = v->script;
@@ -160,7 +163,7 @@ static void step_random(viewer *v)
         c = &list[(size_t)(random_fraction(&s->chance) * (double)count)];
     while (length > 0 && strncmp(c->name, s->spared, length) == 0);
     const control_text value = control_random(c, &s->chance);
-    /* Some values exclude each other; what matters is that a refusal leaves things as they were. */
+    /* A value may be refused, because some values exclude each other. */
     if (!control_set(&v->board, c->name, value.text, error, sizeof error))
         viewer_log(v, "refused: %s", error);
     free(list);
@@ -168,7 +171,7 @@ static void step_random(viewer *v)
     script_wait(s, 1);
 }
 
-/* Prints the figures once they are against as many samples as are asked for. */
+/* Prints the figures if they are against as many samples as the command asks for. False: they are not yet. */
 static bool take_judgement(viewer *v)
 {
     static const char letters[] = {'A', 'B'};
@@ -176,7 +179,7 @@ static bool take_judgement(viewer *v)
     if (!state->has_found || state->found.samples < v->script->judging) {
         if (seconds_now() > v->script->give_up_at)
             script_fail(v, "there is no judgement after ten minutes");
-        glfwWaitEventsTimeout(0.02); /* the time is the judge's */
+        glfwWaitEventsTimeout(0.02); /* leaves the processor to the judge */
         return false;
     }
     for (int side = 0; side < SIDE_COUNT; side++)
@@ -186,6 +189,7 @@ static bool take_judgement(viewer *v)
     return true;
 }
 
+/* Whether the next command has to wait. Fails the script if it has waited too long. */
 static bool is_waiting(viewer *v)
 {
     script *s = v->script;
@@ -219,7 +223,7 @@ static bool is_waiting(viewer *v)
         }
         s->waiting_reload = false;
     }
-    return s->capture != CAPTURE_NONE; /* until the frame is drawn */
+    return s->capture != CAPTURE_NONE; /* a capture waits until the frame is drawn */
 }
 
 void script_step(viewer *v)
@@ -262,7 +266,7 @@ static void keep_pixels(window_pixels *to, window_pixels from)
 
 /* ---- a control changed, undone and redone ---- */
 
-/* Every control with its value; to be freed. NULL when memory runs out. */
+/* The values of all controls, one per line. The caller frees the text. NULL: out of memory. */
 static char *all_values(const viewer *v)
 {
     size_t count, size;
@@ -292,6 +296,7 @@ static void expect_values(viewer *v, const char *expected, const char *what)
     free(now);
 }
 
+/* Whether all sides that are shown have at most 16 samples. */
 static bool has_few_samples(const viewer *v)
 {
     bool few = true;
@@ -303,7 +308,7 @@ static bool has_few_samples(const viewer *v)
     return few;
 }
 
-/* Pictures of many samples are compared once all of them are there, where they are few. */
+/* Pictures of few samples are only compared when all samples are there. Those of many samples would take too long. */
 void script_capture_vary(viewer *v, capture what)
 {
     script_capture(v->script, what);
@@ -336,6 +341,7 @@ static void undo_to(viewer *v, size_t step)
         continue;
 }
 
+/* Goes on with the command vary after a capture. Takes ownership of `now`. */
 static void go_on_varying(viewer *v, capture what, window_pixels now)
 {
     script *s = v->script;

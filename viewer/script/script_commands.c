@@ -11,6 +11,7 @@
 #include "viewer/scene/camera_moves.h"
 #include "viewer/script/script_state.h"
 
+/* Reads word number `word` as a number. False: it is none, and the script has failed. */
 static bool number_at(viewer *v, int word, double *number)
 {
     const script *s = v->script;
@@ -20,7 +21,7 @@ static bool number_at(viewer *v, int word, double *number)
     return false;
 }
 
-/* The first words behind the command. */
+/* Reads the first `count` words after the command as numbers. False: one is none, and the script has failed. */
 static bool numbers_at(viewer *v, int count, double *numbers)
 {
     for (int i = 0; i < count; i++)
@@ -205,7 +206,7 @@ static void do_film(viewer *v)
         script_fail(v, "%s", error);
 }
 
-/* Waits for the judge and prints what it found. */
+/* Waits for the judge, and prints its figures. */
 static void do_judge(viewer *v)
 {
     double samples;
@@ -214,7 +215,7 @@ static void do_judge(viewer *v)
     script_settle(v->script, 1);
     v->settings.panel.judge = 1;
     v->script->judging = (uint32_t)fmax(samples, 2);
-    v->script->give_up_at = seconds_now() + 600; /* of low priority */
+    v->script->give_up_at = seconds_now() + 600; /* long, because the judge has a low priority */
 }
 
 static void do_lose_renderer(viewer *v) { viewer_lose_gl(v, "the script took it away"); }
@@ -236,7 +237,7 @@ static void do_save_scene(viewer *v)
         script_fail(v, "%s", error);
 }
 
-/* Copies a file over another, whole. */
+/* Copies the content of a file to another one. */
 static void do_copy(viewer *v)
 {
     const script *s = v->script;
@@ -286,7 +287,7 @@ static void do_expect_change(viewer *v) { script_capture(v->script, CAPTURE_CHAN
 
 static void do_expect_same(viewer *v) { script_capture(v->script, CAPTURE_SAME); }
 
-/* ---- the camera's way ---- */
+/* ---- movements of the camera ---- */
 
 static double aspect_of(const viewer *v) { return (double)v->place.place.width / (double)v->place.place.height; }
 
@@ -325,7 +326,8 @@ static void do_mark_camera(viewer *v)
     v->script->camera = *camera;
 }
 
-/* The angle between the arms from the pivot to the camera, in degrees a pixel of a drag. */
+/* Checks the angle between the directions from the pivot to the marked camera and to the present one, in degrees per pixel of the drag, and that the distance
+ * has not changed. */
 static void do_expect_orbit(viewer *v)
 {
     double n[2], dot = 0, length[2] = {0, 0};

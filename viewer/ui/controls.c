@@ -149,6 +149,7 @@ static const control_hint hints[] = {
 
 /* ---- finding ------------------------------------------------------------------------------------------------ */
 
+/* The hint of a control's name; NULL: there is none. Options of side B have those of side A. */
 static const control_hint *hint_of(const char *name)
 {
     char plain[64];
@@ -164,13 +165,13 @@ static const control_hint *hint_of(const char *name)
         for (size_t i = 0; i < sizeof hints / sizeof hints[0]; i++)
             if (strcmp(hints[i].name, plain) == 0)
                 return &hints[i];
-        if (strncmp(plain, "b.", 2) == 0) /* as side A's */
+        if (strncmp(plain, "b.", 2) == 0) /* side B has the hints of side A */
             plain[0] = 'a';
     }
     return NULL;
 }
 
-/* The controls of an object: where it stands and what it looks like. What a key does for other shapes alone is left to the file. */
+/* Whether a key of an object is a control. Those are its place, its size and its material. */
 static bool is_of_object(const char *key)
 {
     static const char *const keys[] = {"position", "rotation_deg", "scale", "size"};
@@ -180,20 +181,22 @@ static bool is_of_object(const char *key)
     return found;
 }
 
-/* Samples are taken in turn while a side refines. The document holds the numbers of a named clarity. Each side has a quality of its own. */
+/* Whether a value has no control. The range of samples belongs to the renderer. A named clarity of the water is held as numbers. The scene's quality is that of
+ * each side. */
 static bool is_left_out(const char *name)
 {
     const char *key = strncmp(name, "objects[", 8) == 0 ? strchr(name, '.') : NULL;
     return strcmp(name, "water.clarity") == 0 || (key && !is_of_object(key + 1)) || strncmp(name, "quality", 7) == 0 || strncmp(name + 1, ".sample_", 8) == 0;
 }
 
-/* A mesh has no size of its own. `value` is that of the name. */
+/* Whether a name is that of the size of a mesh, which has no effect. `value` is the value of that name. */
 static bool is_of_mesh(const char *name, const void *value)
 {
     const char *key = strncmp(name, "objects[", 8) == 0 ? strchr(name, '.') : NULL;
     return key && strcmp(key, ".size") == 0 && ((const scene_object *)(const void *)((const char *)value - offsetof(scene_object, size)))->shape == SHAPE_MESH;
 }
 
+/* Whether a field can be a control: it is a number or a choice, and more than one value is allowed. */
 static bool is_control(const field_row *field)
 {
     return field->type != FIELD_MAPPING && field->type != FIELD_LIST && field->type != FIELD_TEXT && field->min <= field->max &&
@@ -201,7 +204,7 @@ static bool is_control(const field_row *field)
 }
 
 typedef struct control_sink {
-    control *items; /* NULL: only counted */
+    control *items; /* NULL: controls are only counted */
     size_t count;
     bool of_scene;
 } control_sink;
@@ -217,6 +220,7 @@ static void add(control_sink *sink, const char *name, const field_row *field, vo
     sink->count++;
 }
 
+/* Adds the controls of a mapping and of all mappings and lists within it. `path` is the mapping's name. */
 static void walk(control_sink *sink, const char *path, const field_row *mapping, void *values)
 {
     for (const field_row *field = mapping->fields; field->key; field++) {
@@ -261,7 +265,7 @@ control *control_list(const control_board *board, size_t *count)
     return sink.items;
 }
 
-/* Follows a path of words through mappings; NULL where it leads nowhere. */
+/* Finds a setting by its name, such as "view.zoom"; NULL: there is none. */
 static const field_row *find_setting(settings *s, const char *path, void **value)
 {
     const field_row *field = settings_root_field();
@@ -281,6 +285,7 @@ static const field_row *find_setting(settings *s, const char *path, void **value
     return field;
 }
 
+/* Finds a value of a wave's shape by its name; NULL: it is none of those. */
 static const field_row *find_shape(const control_board *board, const char *name, mgt_wave **wave)
 {
     const scene_list *waves = &board->document->values.water.waves;
@@ -303,7 +308,7 @@ bool control_find(const control_board *board, const char *name, control *out)
     snprintf(out->name, sizeof out->name, "%s", name);
     out->hint = hint_of(name);
     out->field = scene_values_find(&board->document->values, name, &value);
-    memcpy(&out->value, &value, sizeof value); /* the document is ours to change */
+    memcpy(&out->value, &value, sizeof value); /* scene_values_find() returns a const pointer, but the document may be changed */
     if (!out->field)
         out->field = find_shape(board, name, &out->wave);
     if (!out->field) {
@@ -360,6 +365,7 @@ void control_read(const control *c, double numbers[3])
     }
 }
 
+/* The number, clamped to what the field allows. */
 static double allowed(const field_row *field, double number)
 {
     const double margin = 1e-3;
@@ -370,7 +376,7 @@ static double allowed(const field_row *field, double number)
     return number >= low ? number <= high ? number : high : low;
 }
 
-/* An option that excludes others takes their place. */
+/* Sets back the options that this one excludes. */
 static void leave_one_alternative(const control_board *board, const control *c)
 {
     for (int side = 0; side < SIDE_COUNT && c->field->alternative; side++)
@@ -386,14 +392,14 @@ static void write_choice(const control *c, int choice)
         c->field->change((char *)c->value - c->field->offset);
 }
 
-/* What a value of the water or of an object brings along. */
+/* Makes the changes that follow from a change of the water or of an object. `had_wind`: a wind made the sea before the change. */
 static void follow_change(const control_board *board, const control *c, bool had_wind)
 {
     document *d = board->document;
     scene_water *water = &d->values.water;
     size_t index;
     int used = 0;
-    if (water->wind.speed > 0 && !had_wind) { /* as where a file names a wind */
+    if (water->wind.speed > 0 && !had_wind) { /* these are the values that a file with a wind has */
         water->choppiness = SEA_CHOPPINESS;
         water->foam = (scene_foam){.amount = 1, .persistence = water->foam.persistence};
     }
@@ -403,7 +409,7 @@ static void follow_change(const control_board *board, const control *c, bool had
         water->foam.share = 0;
     if (sscanf(c->name, "objects[%zu].material.%n", &index, &used) == 1 && used > 0) {
         scene_object *object = (scene_object *)d->values.objects.items + index;
-        object->material.given = object->shape == SHAPE_MESH; /* a shape has no other */
+        object->material.given = object->shape == SHAPE_MESH; /* a shape always has a material of its own */
     }
     const bool objects = strncmp(c->name, "objects[", 8) == 0;
     if (objects || strncmp(c->name, "water.", 6) == 0)
@@ -492,6 +498,7 @@ control_text control_print(const control *c)
     return out;
 }
 
+/* Writes to `error` what is allowed. Returns false. */
 static bool refuse(const control *c, const char *text, char *error, size_t size)
 {
     char words[160];
@@ -505,7 +512,7 @@ static bool parse_number(const field_row *field, const char *text, double *numbe
     return number_parse_double(text, number) && field_in_range(field, *number);
 }
 
-/* "[x, y, z]" */
+/* Reads "[x, y, z]". */
 static bool parse_three(const field_row *field, const char *text, double numbers[3])
 {
     char words[3][40];
@@ -529,7 +536,7 @@ static bool parse(const control *c, const char *text, double numbers[3])
     return control_width(c) == 3 ? parse_three(c->field, text, numbers) : parse_number(c->field, text, &numbers[0]);
 }
 
-/* What is no control of its own: lists, items, whole mappings. */
+/* Sets a list, an item or a mapping by the rules of `--set`. */
 static bool set_by_word(const control_board *board, const char *name, const char *text, char *error, size_t error_size)
 {
     scene_error problem;
@@ -575,7 +582,7 @@ static double random_number(const control *c, uint64_t *state)
 {
     const control_hint *h = c->hint;
     const double low = h ? fmax(h->low, c->field->min) : c->field->min, high = h ? fmin(h->high, c->field->max) : c->field->max;
-    const double share = random_fraction(state), first = low > 0 ? low : high * 1e-3; /* a logarithmic scale has no 0 */
+    const double share = random_fraction(state), first = low > 0 ? low : high * 1e-3; /* a logarithmic scale does not begin at 0 */
     double number = h && h->logarithmic ? first * pow(high / first, share) : low + (high - low) * share;
     if (c->field->type == FIELD_COUNT || c->field->type == FIELD_LARGE)
         number = round(number);

@@ -15,7 +15,7 @@
 
 namespace {
 
-/* Night water with the moon's road as the one accent. */
+/* Colours of water at night, with one accent, that of moonlight on it. */
 const ImVec4 color_text(0.87f, 0.89f, 0.92f, 1.0f);
 const ImVec4 color_faint(0.52f, 0.57f, 0.64f, 1.0f);
 const ImVec4 color_accent(0.93f, 0.78f, 0.47f, 1.0f);
@@ -82,7 +82,7 @@ void set_style(float scale)
     ImGui::GetStyle() = style;
 }
 
-/* A common font of the system, else the one that ImGui brings. */
+/* Loads a common font of the system, or else the one of ImGui. */
 void load_font(float scale)
 {
     static const char *const candidates[] = {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
@@ -146,7 +146,7 @@ bool ui_create(GLFWwindow *window)
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
     ImGuiIO &io = ImGui::GetIO();
-    io.IniFilename = nullptr; /* nothing is remembered on disk */
+    io.IniFilename = nullptr; /* ImGui writes no file */
     io.LogFilename = nullptr;
     io.ConfigWindowsMoveFromTitleBarOnly = true;
     set_style(1);
@@ -332,7 +332,7 @@ bool ui_drag(const char *label, double *values, int count, double step, double m
                               ImGuiSliderFlags_NoRoundToFormat | ImGuiSliderFlags_AlwaysClamp);
 }
 
-/* A colour of any brightness: its greatest channel as a number, its hue as a swatch. */
+/* A colour of any brightness: a number for its largest channel, and a swatch for the rest. */
 bool ui_color(const char *label, float rgb[3], float *intensity)
 {
     const float most = rgb[0] > rgb[1] ? (rgb[0] > rgb[2] ? rgb[0] : rgb[2]) : (rgb[1] > rgb[2] ? rgb[1] : rgb[2]);
