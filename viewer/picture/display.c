@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Textures and the one program that shows them. */
+ * The textures of the sides, and the program that shows them. */
 #include "viewer/picture/display.h"
 
 #include <stdio.h>
@@ -7,11 +7,12 @@
 
 #include "viewer/picture/palette.h"
 
+/* The texture of a side. */
 typedef struct side_picture {
     GLuint texture;
     mgt_layer layer;
     uint32_t width, height;
-    bool immutable, filled;
+    bool immutable, filled; /* immutable storage is what mgt_gl_render_textures() needs; filled: it holds a picture */
 } side_picture;
 
 typedef struct display_uniforms {
@@ -32,7 +33,7 @@ static const char vertex_text[] = "#version 330 core\n"
                                   "void main()\n"
                                   "{\n"
                                   "    vec2 corner = vec2(gl_VertexID == 1 ? 2.0 : 0.0, gl_VertexID == 2 ? 2.0 : 0.0);\n"
-                                  "    place = vec2(corner.x, 1.0 - corner.y);\n" /* y down, as the pictures */
+                                  "    place = vec2(corner.x, 1.0 - corner.y);\n" /* y down, as in pictures */
                                   "    gl_Position = vec4(2.0 * corner - 1.0, 0.0, 1.0);\n"
                                   "}\n";
 
@@ -41,8 +42,8 @@ static const char fragment_text[] = "#version 330 core\n"
                                     "uniform int has_b, layer, compare, logarithmic;\n"
                                     "uniform float wipe, scale;\n"
                                     "uniform vec2 range;\n"
-                                    "uniform vec4 window;\n" /* corner and size of what is shown, in the picture */
-                                    "uniform vec2 pixels;\n" /* magnified: the picture's size; else 0 */
+                                    "uniform vec4 window;\n" /* corner and size of the part that is shown, fractions of the picture */
+                                    "uniform vec2 pixels;\n" /* size of the picture in pixels if it is magnified; otherwise 0 */
                                     "in vec2 place;\n"
                                     "out vec4 color;\n"
                                     "const int COLOR = 0, DEPTH = 3, NORMAL = 4;\n"
@@ -51,7 +52,7 @@ static const char fragment_text[] = "#version 330 core\n"
                                     "{\n"
                                     "    return texture(palettes, vec2((clamp(fraction, 0.0, 1.0) * 255.0 + 0.5) / 256.0, (kind + 0.5) / 2.0)).rgb;\n"
                                     "}\n"
-                                    "vec3 lean(vec3 normal)\n" /* palette_lean() */
+                                    "vec3 lean(vec3 normal)\n" /* the same as palette_lean() */
                                     "{\n"
                                     "    float turn = atan(normal.x, -normal.z) / 6.2831853;\n"
                                     "    vec3 hue = 0.55 + 0.45 * cos(6.2831853 * (turn + vec3(0.0, 0.33333333, 0.66666667)));\n"
@@ -202,11 +203,13 @@ void display_destroy(display *d)
 
 /* ---- textures ---- */
 
+/* Whether a side's texture is of this layer, size and kind of storage. */
 static bool fits(const side_picture *s, mgt_layer layer, uint32_t width, uint32_t height, bool immutable)
 {
     return s->texture && s->layer == layer && s->width == width && s->height == height && s->immutable == immutable;
 }
 
+/* Replaces a side's texture by one without storage, and binds it. */
 static void renew(display *d, int side, mgt_layer layer, uint32_t width, uint32_t height, bool immutable)
 {
     side_picture *s = &d->sides[side];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * The command as a child process: the scene on its standard input, lines of JSON from its standard error. */
+ * Film export by the command mangata as a child process. The scene is its standard input. Its standard error gives lines of JSON. */
 #define _GNU_SOURCE
 #include "viewer/picture/film_export.h"
 
@@ -20,14 +20,14 @@ enum { PATH_SIZE = 4096, LINE_SIZE = 4096, WORDS_MOST = 48 };
 
 struct film_export {
     pid_t pid;  /* 0: it has ended */
-    int output; /* its standard error */
+    int output; /* read end of its standard error, which never blocks */
     char line[LINE_SIZE];
-    size_t used; /* of the line that is not whole yet */
-    double fraction;
-    char text[512]; /* its last line that is no JSON */
+    size_t used;     /* characters of `line`, the line that is not complete yet */
+    double fraction; /* of the film that is done */
+    char text[512];  /* its last line that is not JSON: the reason of a failure */
 };
 
-/* A file without a name that holds the text, to be read from its start; -1 where there is no room. */
+/* Opens a file without a name that holds the text, at its start. Returns the descriptor; -1: it cannot be written. */
 static int file_of_text(const char *text, size_t size)
 {
     FILE *stream = tmpfile();
@@ -92,6 +92,7 @@ void film_export_destroy(film_export *f)
     free(f);
 }
 
+/* Takes the progress from a line, or keeps the line if it is not JSON. */
 static void take_line(film_export *f)
 {
     json_t *line = json_loads(f->line, 0, NULL);
@@ -103,6 +104,7 @@ static void take_line(film_export *f)
     json_decref(line);
 }
 
+/* Reads all that the command has written so far. */
 static void read_lines(film_export *f)
 {
     char block[1024];
@@ -123,7 +125,7 @@ film_state film_export_poll(film_export *f, double *fraction, char *error, size_
 {
     int status = 0;
     const pid_t ended = f->pid > 0 ? waitpid(f->pid, &status, WNOHANG) : 0;
-    read_lines(f); /* after it has ended, all that it has said */
+    read_lines(f); /* after waitpid(), so that all lines of a command that has ended are read */
     *fraction = f->fraction;
     if (ended == 0)
         return FILM_BUSY;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * The judging thread. */
+ * The thread that compares two sides with brute force. */
 #define _GNU_SOURCE
 #include "viewer/picture/judge.h"
 
@@ -20,9 +20,10 @@
 #include "scene/scene_models.h"
 #include "viewer/picture/strata.h"
 
+/* A sample of a half is one of STRATA strata. TOTAL is the number of samples of both halves together. */
 enum { ERROR_SIZE = 512, SPATIAL = 2, TIME_SAMPLES = 4, STRATA = SPATIAL * SPATIAL * TIME_SAMPLES, HALVES = 2, TOTAL = 1024, LOW_PRIORITY = 10 };
 
-/* A reference: sums of linear light over the samples of each half, and how both are displayed. */
+/* A reference in two independent halves: for each half the sum of linear light over its samples, and its displayed values in [0, 1]. */
 typedef struct reference_sums {
     double *sums[HALVES];
     float *displayed[HALVES];
@@ -34,7 +35,7 @@ struct judge {
     mgt_context_desc desc;
     void (*wake)(void);
 
-    pthread_mutex_t lock; /* over what follows */
+    pthread_mutex_t lock; /* protects the members up to `error` */
     pthread_cond_t posted;
     bool quit, has_order;
     judge_order order;
@@ -43,14 +44,14 @@ struct judge {
     bool has_found;
     char error[ERROR_SIZE];
 
-    atomic_bool stop; /* the work under way is to end */
+    atomic_bool stop; /* the work on the current order shall end */
 
-    /* of the thread alone */
+    /* members that only the thread uses */
     mgt_context *context;
     judge_order current;
     mgt_wave current_waves[MGT_MAX_WAVES];
-    size_t values;                          /* of a picture: 3 a pixel */
-    float *sides[SIDE_COUNT][JUDGE_FRAMES]; /* displayed values */
+    size_t values;                          /* number of values of a picture, 3 per pixel */
+    float *sides[SIDE_COUNT][JUDGE_FRAMES]; /* displayed values in [0, 1] */
     reference_sums references[JUDGE_FRAMES];
     float *light, *steps[1 + HALVES]; /* scratch: linear light; steps of a side and of both halves */
     uint8_t *bytes;                   /* scratch: a displayed picture */
@@ -107,6 +108,7 @@ static bool reserve(judge *j, size_t values)
 
 /* ---- pictures ---- */
 
+/* Keeps an error for judge_take(). Returns false. */
 static bool fail(judge *j, const char *text)
 {
     pthread_mutex_lock(&j->lock);
@@ -118,7 +120,7 @@ static bool fail(judge *j, const char *text)
 
 static bool is_stopped(const judge *j) { return atomic_load(&j->stop); }
 
-/* False when it was stopped, or failed (told). */
+/* Whether rendering has succeeded. A failure is kept as an error; one that was stopped is not. */
 static bool done(judge *j, mgt_status status) { return status == MGT_OK || (status != MGT_CANCELLED && fail(j, mgt_last_error(j->context))); }
 
 static void take_bytes(const judge *j, float *displayed)
@@ -150,8 +152,8 @@ static mgt_quality reference_quality(void)
     return q;
 }
 
-/* One more sample of a frame's reference, for the halves in turn. Each half takes all strata with a seed of its own before the next seed: the errors of both have
- * nothing to do with each other, which those of complementary strata would. */
+/* Adds a sample to a frame's reference, to the halves in turn. Each half takes all strata with a seed of its own before it takes the next seed. So the errors
+ * of the halves are independent, which they would not be if each half took other strata. */
 static bool add_sample(judge *j, int frame, uint32_t index)
 {
     const uint32_t half = index % HALVES, place = index / HALVES;
@@ -172,6 +174,7 @@ static bool add_sample(judge *j, int frame, uint32_t index)
     return true;
 }
 
+/* Computes the displayed values of a half. `samples` is the number of samples of both halves. */
 static bool display_half(judge *j, int frame, int half, uint32_t samples)
 {
     const reference_sums *r = &j->references[frame];
@@ -193,6 +196,7 @@ static float_image image_of(const judge *j, float *pixels)
     return (float_image){.width = j->current.frames[0].image.width, .height = j->current.frames[0].image.height, .channels = 3, .pixels = pixels};
 }
 
+/* Adds up the differences of picture `a` from a reference with the halves `b` and `b2`. */
 static bool compare(const judge *j, float *a, float *b, float *b2, noise_sums *sums, file_error *error)
 {
     const float_image images[3] = {image_of(j, a), image_of(j, b), image_of(j, b2)};
@@ -200,13 +204,14 @@ static bool compare(const judge *j, float *a, float *b, float *b2, noise_sums *s
     return noise_sums_add(sums, images, NULL, error) == FILE_OK;
 }
 
+/* Computes the step from a frame to the next one. */
 static void step_of(float *out, const float *later, const float *first, size_t count)
 {
     for (size_t i = 0; i < count; i++)
         out[i] = later[i] - first[i];
 }
 
-/* FLIP takes linear light; both go through scratch memory. */
+/* FLIP of a side's first frame against the mean of both halves. FLIP takes linear light, so both are decoded into scratch memory. */
 static double flip_of(judge *j, flip *f, const float *side)
 {
     const reference_sums *r = &j->references[0];
@@ -217,6 +222,7 @@ static double flip_of(judge *j, flip *f, const float *side)
     return flip_ldr(f, (flip_picture){j->steps[0], 3}, (flip_picture){j->steps[1], 3}, NULL);
 }
 
+/* Computes the figures of both sides and publishes them, unless the order has been stopped. False: it was stopped, or it has failed. */
 static bool measure(judge *j, flip *f, uint32_t samples)
 {
     judgement found = {.samples = samples, .total = TOTAL};
@@ -254,7 +260,7 @@ static bool measure(judge *j, flip *f, uint32_t samples)
     return stands;
 }
 
-/* Figures come whenever the samples have doubled. */
+/* Judges the current order. Figures are computed whenever the number of samples has doubled. */
 static void judge_order_of_thread(judge *j)
 {
     const mgt_image *image = &j->current.frames[0].image;
@@ -311,7 +317,7 @@ static void *run(void *argument)
             continue;
         }
         j->current = j->order;
-        j->order.models = NULL; /* this thread's now */
+        j->order.models = NULL; /* the thread owns them now */
         memcpy(j->current_waves, j->waves, j->current.frames[0].water.wave_count * sizeof *j->waves);
         for (int frame = 0; frame < JUDGE_FRAMES; frame++)
             j->current.frames[frame].water.waves = j->current_waves;
@@ -364,9 +370,9 @@ void judge_destroy(judge *j)
     free(j);
 }
 
-/* ---- from the other side ---- */
+/* ---- calls of the main thread ---- */
 
-/* Under the lock. */
+/* Stops the work, and drops the order, the figures and the error. The lock must be held. */
 static void forget(judge *j)
 {
     atomic_store(&j->stop, true);

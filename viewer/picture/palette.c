@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Palettes: colours at even steps, straight lines between them. */
+ * Palettes: colours at equal steps, with linear interpolation between them. */
 #include "viewer/picture/palette.h"
 
 #include <math.h>

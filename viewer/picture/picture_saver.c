@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * The saving thread. */
+ * The thread that renders and saves a picture. Everything but the atomics belongs to the main thread while `state` is SAVER_IDLE, and to the saving thread
+ * while it is SAVER_BUSY. */
 #include "viewer/picture/picture_saver.h"
 
 #include <pthread.h>
@@ -19,14 +20,14 @@ struct picture_saver {
     void (*wake)(void);
     pthread_t thread;
     bool started;
-    mgt_context *context; /* made by the first picture */
+    mgt_context *context; /* created for the first picture */
     mgt_scene scene;
     mgt_wave waves[MGT_MAX_WAVES];
-    scene_models *models; /* shared */
+    scene_models *models; /* a share of the models of `scene` */
     char path[PATH_SIZE];
     char error[ERROR_SIZE]; /* written before `state` */
     atomic_int state;       /* picture_saver_state */
-    atomic_bool stop;
+    atomic_bool stop;       /* rendering shall end */
     _Atomic double fraction;
 };
 

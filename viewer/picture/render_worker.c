@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * The rendering thread: a mailbox for orders, a slot for the pictures of each side. */
+ * The rendering thread. The last order waits in a mailbox, and the last picture of each side in a slot. */
 #define _POSIX_C_SOURCE 200809L
 #include "viewer/picture/render_worker.h"
 
@@ -17,11 +17,11 @@
 
 enum { ERROR_SIZE = 512 };
 
-/* Sums over the samples taken so far. */
+/* Sums of a picture over the samples that have been taken. */
 typedef struct accumulation {
     double *sums;
-    float *sample, *mean; /* floats: 3 or 1 a pixel */
-    size_t capacity;      /* of each, numbers */
+    float *sample, *mean; /* 3 or 1 numbers per pixel */
+    size_t capacity;      /* room of each array, numbers */
     uint64_t taken, total;
 } accumulation;
 
@@ -32,7 +32,7 @@ struct render_worker {
     mgt_context *context;
     mgt_context_info info;
 
-    pthread_mutex_t lock; /* over what follows */
+    pthread_mutex_t lock; /* protects the members up to `error` */
     pthread_cond_t posted;
     bool quit, has_order, busy;
     render_order order;
@@ -41,9 +41,9 @@ struct render_worker {
     bool is_ready[SIDE_COUNT];
     char error[ERROR_SIZE];
 
-    atomic_bool stop; /* the call under way is to end */
+    atomic_bool stop; /* the current call of mgt_render() shall end */
 
-    /* of the thread alone */
+    /* members that only the thread uses */
     render_order current;
     mgt_wave current_waves[MGT_MAX_WAVES];
     picture drawn[SIDE_COUNT];
@@ -58,6 +58,7 @@ void picture_free(picture *p)
 
 /* ---- memory ---- */
 
+/* Numbers per pixel of a layer. */
 static uint32_t floats_of(mgt_layer layer) { return layer == MGT_LAYER_COLOR || layer == MGT_LAYER_NORMAL ? 3 : 1; }
 
 static bool reserve_picture(picture *p, mgt_layer layer, uint32_t width, uint32_t height)
@@ -101,6 +102,7 @@ static bool reserve_accumulation(accumulation *a, size_t count)
 
 /* ---- one side ---- */
 
+/* Keeps an error for render_worker_take_error(). */
 static void fail(render_worker *w, const char *text)
 {
     pthread_mutex_lock(&w->lock);
@@ -109,6 +111,7 @@ static void fail(render_worker *w, const char *text)
     w->wake();
 }
 
+/* Puts the picture of a side that has been drawn into its slot. */
 static void publish(render_worker *w, int side)
 {
     pthread_mutex_lock(&w->lock);
@@ -120,7 +123,7 @@ static void publish(render_worker *w, int side)
     w->wake();
 }
 
-/* Renders into `pixels`; false when there is nothing to show: cancelled, or failed (told). */
+/* Renders the layer into `pixels`. False: it was cancelled, or it has failed, which is kept as an error. */
 static bool render(render_worker *w, const mgt_scene *scene, mgt_format format, void *pixels)
 {
     const mgt_target target = target_of(w->current.layer, format, pixels);
@@ -132,6 +135,7 @@ static bool render(render_worker *w, const mgt_scene *scene, mgt_format format, 
 
 static mgt_format float_format(mgt_layer layer) { return floats_of(layer) == 3 ? MGT_FORMAT_RGB32F : MGT_FORMAT_R32F; }
 
+/* Renders a side without samples, and publishes it. */
 static void render_once(render_worker *w, int side)
 {
     const render_order *o = &w->current;
@@ -153,11 +157,12 @@ static void render_once(render_worker *w, int side)
 
 /* ---- refinement ---- */
 
-/* Means over samples are meaningful for light and areas; depth and normal show one instant and are rendered once. */
+/* Whether the layer is a mean over samples: light and areas are. Depth and normal are those of an instant, and are rendered once. */
 static bool layer_refines(mgt_layer layer) { return layer <= MGT_LAYER_MASK; }
 
 static bool side_refines(const render_order *o, int side) { return o->wanted[side] && method_is_sampled(o->quality[side].method); }
 
+/* Empties the sums of a side. False: out of memory. */
 static bool begin_refinement(render_worker *w, int side)
 {
     const render_order *o = &w->current;
@@ -182,7 +187,7 @@ static void add_sample(accumulation *a, size_t count)
     }
 }
 
-/* One more sample of one side; false when the side is to be left alone. */
+/* Adds a sample to a side and publishes its mean. False: the side cannot be refined further. */
 static bool refine(render_worker *w, int side)
 {
     const render_order *o = &w->current;
@@ -231,7 +236,7 @@ static bool has_newer_order(render_worker *w)
     return newer;
 }
 
-/* Sides take turns. The first sample of each is finished whatever comes, so that something is seen while things move. */
+/* Refines the sides in turn. The first sample of each side is finished even if a new order comes, so that something is shown while things move. */
 static void run_refinement(render_worker *w)
 {
     bool going[SIDE_COUNT];
@@ -339,7 +344,7 @@ void render_worker_destroy(render_worker *w)
     free(w);
 }
 
-/* ---- from the other side ---- */
+/* ---- calls of the main thread ---- */
 
 void render_worker_post(render_worker *w, const render_order *order)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Rings of times. */
+ * Rings of the times of the last frames. */
 #include "viewer/picture/timings.h"
 
 #include <stdlib.h>

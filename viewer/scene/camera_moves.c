@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT
- * Orbit, flight and keyframes. */
+ * Orbiting, flying, grabbing the water, and keyframes. */
 #include "viewer/scene/camera_moves.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const double steepest = 1.553;   /* 89 degrees */
-static const double pivot_heights = 5;  /* the pivot's greatest distance, in heights over the water */
-static const double longest_grab = 500; /* of a grabbed point's greatest distance, in heights over it */
-static const double keyframe_gap = 1e-3;
+static const double steepest = 1.553;    /* largest elevation of a view, radians: 89 degrees */
+static const double pivot_heights = 5;   /* largest distance of the pivot, in units of the camera's height above the water */
+static const double longest_grab = 500;  /* largest distance of a grabbed point, in units of the camera's height above it */
+static const double keyframe_gap = 1e-3; /* seconds; keyframes that are closer are the same one */
 static const double pi = 3.14159265358979323846;
 enum { MOST_KEYFRAMES = 10000 };
 
@@ -49,7 +49,8 @@ void camera_set_pivot(mgt_camera *camera, double level)
         camera->target[i] = camera->position[i] + distance * axes.forward[i];
 }
 
-/* The direction at these angles, no lower than `lowest`; keeps off straight up and down, where the view would have no right side. */
+/* Turns a vector by an azimuth and an elevation, radians. The elevation stays above `lowest`, and off straight up and down, where the view would have no
+ * direction to the right. */
 static void turn(double v[3], double yaw, double pitch, double lowest)
 {
     const double length = length_of(v), azimuth = atan2(v[0], -v[2]) + yaw;
@@ -95,8 +96,9 @@ void camera_approach(mgt_camera *camera, double factor)
         camera->position[i] = camera->target[i] + factor * (camera->position[i] - camera->target[i]);
 }
 
-/* ---- what is seen where ---- */
+/* ---- projection ---- */
 
+/* Half the height of the picture at distance 1. */
 static double half_height(const mgt_camera *camera) { return tan(camera->fov_y_deg * pi / 360); }
 
 void camera_view_ray(const mgt_camera *camera, double aspect, const double at[2], double direction[3])
@@ -188,7 +190,7 @@ size_t keyframe_move(scene_list *path, size_t index, double time)
     scene_keyframe *items = keyframes_of(path);
     for (size_t i = 0; i < path->count; i++)
         if (i != index && fabs(items[i].time - time) < keyframe_gap)
-            return index; /* taken */
+            return index; /* another keyframe has that time */
     items[index].time = time;
     for (; index > 0 && items[index - 1].time > items[index].time; index--) {
         const scene_keyframe other = items[index - 1];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * The scene in work. */
+ * The scene that is edited. */
 #define _POSIX_C_SOURCE 200809L
 #include "viewer/scene/document.h"
 
@@ -12,7 +12,7 @@
 
 static bool values_of_words(const scene_values *base, const char *const *words, size_t count, scene_values *out, scene_error *error);
 
-/* The values of a file, which may be saved to another folder. */
+/* Copies the values of a file. Paths in them are made valid for other folders, because the scene may be saved in one. False: out of memory. */
 static bool copy_values(scene_values *out, const scene_file *file)
 {
     if (!scene_values_copy(out, scene_file_values(file)))
@@ -73,7 +73,7 @@ bool document_open(document *d, const char *path, const char *const *words, size
         return false;
     }
     source->file = scene_file_open(path, NULL, 0, error);
-    /* A file may be good only with what the words change. */
+    /* The file may be valid only with the changes of the words. */
     if (!source->file) {
         source->file = changed;
         changed = NULL;
@@ -117,6 +117,7 @@ bool document_revert(document *d)
 
 /* ---- changes as words --------------------------------------------------------------------------------------- */
 
+/* The values as the text of a scene file. The caller frees it. NULL: out of memory. */
 static char *text_of_values(const scene_values *values, size_t *size)
 {
     char *text = NULL;
@@ -130,16 +131,18 @@ static char *text_of_values(const scene_values *values, size_t *size)
     return NULL;
 }
 
-/* A file has a path or a still camera; in work there are both, one of them in use. */
+/* The values with the default position and target of the still camera. A file has a path or a still camera, but a document has both. The result borrows from
+ * `values`. */
 static scene_values without_still_camera(const scene_values *values)
 {
-    scene_values plain = *values; /* borrows */
+    scene_values plain = *values; /* borrows the lists */
     plain.camera.still = scene_values_defaults().camera.still;
     plain.camera.still.fov_y_deg = values->camera.still.fov_y_deg;
     memcpy(plain.camera.still.up, values->camera.still.up, sizeof plain.camera.still.up);
     return plain;
 }
 
+/* Changes `base` by words as `--set` does. The caller frees `out`. False: a word is not allowed, and `error` says why. */
 static bool values_of_words(const scene_values *base, const char *const *words, size_t count, scene_values *out, scene_error *error)
 {
     size_t size = 0;
@@ -213,13 +216,14 @@ void document_refresh(document *d)
 
 /* ---- the file on the disk ------------------------------------------------------------------------------------ */
 
+/* Whether two words "key=value" have the same key. */
 static bool same_key(const char *a, const char *b)
 {
     const size_t length = strcspn(a, "=");
     return length == strcspn(b, "=") && memcmp(a, b, length) == 0;
 }
 
-/* Leaves out the words whose keys the others have too; what is in brackets or braces counts as a whole. */
+/* Lists the words whose keys `others` does not have, and returns their number. A list or mapping in brackets or braces is one value. */
 static size_t without_keys_of(const scene_overrides *words, const scene_overrides *others, const char **out)
 {
     size_t count = 0;
@@ -233,7 +237,8 @@ static size_t without_keys_of(const scene_overrides *words, const scene_override
     return count;
 }
 
-/* The new file with the changes that the user had made to the old one. */
+/* The values of the new file with the changes that the user has made to the old one. Where both have changed a value, that of the file counts. False: out of
+ * memory. */
 static bool merge(document *d, const scene_file *fresh, scene_values *out)
 {
     scene_overrides mine = {0}, theirs = {0};
@@ -245,7 +250,7 @@ static bool merge(document *d, const scene_file *fresh, scene_values *out)
         words = calloc(mine.count + 1, sizeof *words);
     if (words)
         good = values_of_words(&new, words, without_keys_of(&mine, &theirs, words), out, NULL);
-    /* Changes that no longer fit are given up. */
+    /* If the user's changes do not fit the new file, they are dropped. */
     if (!words || !good)
         good = copy_values(out, fresh);
     scene_values_free(&old);
@@ -294,7 +299,7 @@ void document_save_name(const document *d, char *name, size_t size)
 {
     const char *path = d->source->path, *dot = strrchr(scene_source_name(d->source), '.');
     const size_t length = dot ? (size_t)(dot - path) : strlen(path);
-    if (strncmp(path, "--", 2) == 0) { /* words of --sea */
+    if (strncmp(path, "--", 2) == 0) { /* the path is the words of --sea */
         snprintf(name, size, "sea-edited.yaml");
         return;
     }
@@ -302,7 +307,7 @@ void document_save_name(const document *d, char *name, size_t size)
     snprintf(name, size, "%.*s%s.yaml", (int)length, path, edited ? "" : "-edited");
 }
 
-/* Whether the text reads back as the same pictures. */
+/* Whether the text, read back, gives the same scene. If not, `error` says so. */
 static bool reads_back(const char *text, size_t size, const scene_values *values, file_error *error)
 {
     scene_error problem = {0};

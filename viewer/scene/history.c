@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * The list of states. */
+ * The steps of undo: a list of states, of which one is current. */
 #include "viewer/scene/history.h"
 
 #include <stdlib.h>
@@ -7,7 +7,7 @@
 
 #include "scene/scene_edit.h"
 
-enum { MOST_STATES = 500 };
+enum { MOST_STATES = 500 }; /* the oldest state is dropped beyond that */
 
 static bool settings_equal(const settings *a, const settings *b)
 {
@@ -23,6 +23,7 @@ static void state_free(history_state *state)
     scene_source_release(state->source);
 }
 
+/* Frees and removes the states [from, to). */
 static void drop(history *h, size_t from, size_t to)
 {
     for (size_t i = from; i < to; i++)
@@ -31,6 +32,7 @@ static void drop(history *h, size_t from, size_t to)
     h->count -= to - from;
 }
 
+/* Appends a state and makes it the current one. False: out of memory, nothing has changed. */
 static bool append(history *h, const document *shown, const settings *chosen)
 {
     if (h->count == h->capacity) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Presets, folders, the list of recent scenes. */
+ * Presets of seas, folders of scenes, and the list of recent scenes. */
 #define _GNU_SOURCE
 #include "viewer/scene/scene_places.h"
 
@@ -51,7 +51,7 @@ void name_list_free(name_list *list)
     *list = (name_list){0};
 }
 
-/* Takes over `name`. */
+/* Appends a name, of which it takes ownership. NULL is ignored. If memory runs out, the name is dropped. */
 static void add(name_list *list, char *name)
 {
     char **names = name ? realloc(list->names, (list->count + 1) * sizeof *names) : NULL;
@@ -67,7 +67,7 @@ static void add(name_list *list, char *name)
 
 char *shipped_folder(void)
 {
-    static const char *const places[] = {"../share/mangata/scenes", "../scenes"}; /* installed, built */
+    static const char *const places[] = {"../share/mangata/scenes", "../scenes"}; /* beside an installed program, and beside one in the build folder */
     char program[PATH_SIZE];
     const ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
     if (length <= 0)
@@ -92,7 +92,7 @@ name_list scenes_of_folder(const char *folder)
     name_list list = {0};
     struct dirent **entries = NULL;
     const int count = scandir(folder, &entries, NULL, alphasort);
-    /* Folders first. */
+    /* Folders come first. */
     for (int pass = 0; pass < 2; pass++)
         for (int i = 0; i < count; i++) {
             const char *name = entries[i]->d_name;
@@ -112,9 +112,9 @@ name_list scenes_of_folder(const char *folder)
     return list;
 }
 
-/* ---- lately ---- */
+/* ---- recent scenes ---- */
 
-/* To be freed; NULL where there is no home. */
+/* The folder of the viewer's state, which the caller frees. NULL: there is none, or memory has run out. */
 static char *state_folder(void)
 {
     const char *state = getenv("XDG_STATE_HOME"), *home = getenv("HOME");
@@ -141,6 +141,7 @@ name_list recent_scenes(void)
     return list;
 }
 
+/* Creates a folder and those above it. Failures show when a file is written. */
 static void make_folders(char *path)
 {
     for (char *p = path + 1; (p = strchr(p, '/')); p++) {

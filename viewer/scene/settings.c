@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * The table of the viewer's own settings. */
+ * The tables of the viewer's own settings. */
 #include "viewer/scene/settings.h"
 
 #include <string.h>

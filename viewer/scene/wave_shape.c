@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT
- * Waves as people think of them. */
+ * Waves by length, direction and speed. */
 #include "viewer/scene/wave_shape.h"
 #include "params/waves.h"
 
 #include <math.h>
 
 static const double pi = 3.14159265358979323846;
-static const double longest = 1e5, shortest = 1e-4;
+static const double longest = 1e5, shortest = 1e-4; /* limits of wavelengths, metres */
 static const double gravity = 9.81;
 
 const field_row wave_shape_fields[] = {{"wavelength", FIELD_NUMBER, offsetof(wave_shape, wavelength), 0, 1e-4, 1e5, "m", .doc = "from crest to crest"},
