@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What one `mangata view` was asked to do; the command checks it, the viewer does it. */
+/* The command line of one `mangata view`. The command checks it, the viewer carries it out. */
 #ifndef MANGATA_CLI_VIEW_REQUEST_H
 #define MANGATA_CLI_VIEW_REQUEST_H
 
@@ -9,14 +9,15 @@
 typedef struct view_request {
     console out;
     const char *scene_path;
-    scene_changes changes;     /* width and height are the window's as well */
-    quality_options quality;   /* of side A */
-    context_options context;   /* but for the device: the window has one */
-    const char *script;        /* NULL: none */
-    const char *shader_folder; /* NULL: none */
+    scene_changes changes;     /* its width and height are also those of the window */
+    quality_options quality;   /* options of side A's method */
+    context_options context;   /* its gl_device is not used: the window has a device */
+    const char *script;        /* path of a script, "-": standard input; NULL: none */
+    const char *shader_folder; /* folder of shader files that replace built-in ones; NULL: none */
 } view_request;
 
-/* Reads the words behind "view". An exit code, or -1 when the help was printed and there is nothing more to do. Free in every case. */
+/* Reads the words after "view". The strings are borrowed from `arguments`. Returns an exit code, or -1: the help has been printed, and there is nothing more to
+ * do. The caller calls view_request_free() in every case. */
 int view_request_read(view_request *request, int count, char **arguments);
 void view_request_free(view_request *request);
 

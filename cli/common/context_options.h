@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What renders: the options that every verb which renders has. */
+/* The options of every verb that renders: backend, threads, instruction set and device. */
 #ifndef MANGATA_CLI_COMMON_CONTEXT_OPTIONS_H
 #define MANGATA_CLI_COMMON_CONTEXT_OPTIONS_H
 
@@ -9,13 +9,13 @@
 typedef struct context_options {
     mgt_backend backend;
     mgt_isa isa;
-    uint32_t threads, gl_device;
+    uint32_t threads, gl_device; /* as in mgt_context_desc */
 } context_options;
 
-/* "backend", "gl-device", "threads" or "isa" into context_options. */
+/* Reads "backend", "gl-device", "threads" or "isa". `place` is a context_options. */
 option_set option_context;
 
-/* Rows of a table whose request has `context`. */
+/* Rows of an option table whose request has a member `context`. */
 #define CONTEXT_OPTION_GL_DEVICE(request)                                                                                                                     \
     {                                                                                                                                                         \
         "gl-device", 0, "N", "OpenGL: which device of those that mangata info lists (default 0)", .set = option_context, .offset = offsetof(request, context) \
@@ -30,14 +30,15 @@ option_set option_context;
                                                                                                           .offset = offsetof(request, context) \
     }
 
-/* "backend" for verbs that draw: all but null. */
+/* Reads "backend" for verbs that draw, for which the null backend is not allowed. `place` is a context_options. */
 option_set option_drawing_backend;
 
-/* Creates the context, whose log goes to `out`, and says what it is. An exit code; errors are printed. */
+/* Creates the context, which the caller destroys, and fills `info`. Its log goes to `out`, which must outlive it. Prints what renders as a detail. Returns an
+ * exit code; errors are printed. */
 int context_open(const context_options *options, const console *out, mgt_progress_function progress, void *progress_user, mgt_context **context,
                  mgt_context_info *info);
 
-/* A target of whole rows in the caller's memory. */
+/* A target over the caller's memory, without padding between rows. */
 mgt_target target_of(mgt_layer layer, mgt_format format, void *pixels);
 
 #endif

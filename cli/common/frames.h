@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Which frames are meant, and the file each of them goes to. */
+/* Lists of frames, shards of work, and paths with a frame number. */
 #ifndef MANGATA_CLI_COMMON_FRAMES_H
 #define MANGATA_CLI_COMMON_FRAMES_H
 
@@ -7,33 +7,36 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Increasing frame numbers, kept as ranges so that a million frames cost nothing. */
+/* Frames first, first + step … last. */
 typedef struct frame_range {
     uint32_t first, last, step;
 } frame_range;
 
 enum { FRAME_RANGES = 256, FRAME_LIMIT = 99999999 };
 
+/* Increasing frame numbers as ranges. */
 typedef struct frame_list {
-    size_t count; /* of ranges */
+    size_t count; /* number of ranges */
     frame_range ranges[FRAME_RANGES];
 } frame_list;
 
-/* "7", "0-59", "0-56:8", "0,8,16", "0-9,20-29". Returns NULL, or what is wrong (static text). */
+/* Reads a list such as "7", "0-59", "0-56:8", "0,8,16" or "0-9,20-29". Returns NULL, or a static text that says what is wrong. */
 const char *frame_list_parse(frame_list *list, const char *text);
 
-/* The frames first … last. */
+/* Sets the list to the frames first … last. */
 void frame_list_span(frame_list *list, uint32_t first, uint32_t last);
 
+/* Number of frames of the list. */
 uint64_t frame_list_length(const frame_list *list);
 
-/* Frame number `index` of the list; index < length. */
+/* The frame at place `index` of the list, which must be below its length. */
 uint32_t frame_list_at(const frame_list *list, uint64_t index);
 
-/* The spelling that frame_list_parse() reads; cut short with "…" when it does not fit. */
+/* Prints the list as frame_list_parse() reads it. If it does not fit, it ends with "…". */
 void frame_list_print(const frame_list *list, char *text, size_t size);
 
-/* One of `count` parts of some work, one for each machine: the elements of a list whose index modulo `count` is `index`. Count 0: all elements. */
+/* One of `count` shards of some work, such as that of one machine. It has the elements of a list whose index modulo `count` is `index`. count 0: all
+ * elements. */
 typedef struct work_shard {
     uint32_t index, count;
 } work_shard;
@@ -42,22 +45,22 @@ enum { SHARD_LIMIT = 1000000 };
 
 static inline bool shard_has(const work_shard *shard, uint64_t element) { return shard->count == 0 || element % shard->count == shard->index; }
 
-/* Keeps the shard's frames of the list, which may be none. */
+/* Removes all frames from the list that the shard does not have. It may become empty. */
 void frame_list_shard(frame_list *list, const work_shard *shard);
 
-/* A path with the place of the frame number: "%d", "%04d" or "####" in the file's name (folders are taken as they are).
- * "%%" stands for a percent sign. */
+/* A path that may hold the frame number: "%d", "%04d" or "####" in the file's name. "%%" there stands for a percent sign. Names of folders are taken
+ * literally. */
 typedef struct frame_path {
-    bool numbered;
-    int digits;        /* at least */
-    char before[4096]; /* the whole path when not numbered */
-    char after[256];
+    bool numbered;     /* it holds the frame number */
+    int digits;        /* least number of digits */
+    char before[4096]; /* text before the number; the whole path if there is none */
+    char after[256];   /* text after the number */
 } frame_path;
 
-/* Returns NULL, or what is wrong (static text). */
+/* Reads a path. Returns NULL, or a static text that says what is wrong. */
 const char *frame_path_parse(frame_path *path, const char *text);
 
-/* False when the path is too long for `size`. */
+/* Prints the path of a frame. False: it is longer than `size` − 1 bytes. */
 bool frame_path_print(const frame_path *path, uint32_t frame, char *text, size_t size);
 
 #endif

@@ -1,24 +1,26 @@
 /* SPDX-License-Identifier: MIT */
-/* SIGINT, SIGTERM and SIGHUP end the process at once while files are read; later they set a flag, so that work stops at a clean place. */
+/* Handling of SIGINT, SIGTERM and SIGHUP. While files are read they end the process at once. Later they set a flag, so that work can stop at a clean place. A
+ * signal that the parent has set to be ignored, as nohup does, stays ignored. */
 #ifndef MANGATA_CLI_COMMON_INTERRUPT_H
 #define MANGATA_CLI_COMMON_INTERRUPT_H
 
 #include <signal.h>
 #include <stdbool.h>
 
-/* Until interrupt_install() a signal ends the process at once, with one line and 128 + its number: there is nothing to tidy up while files are read. */
+/* From this call to interrupt_install() a signal ends the process at once with one line on stderr and exit code 128 + its number. Nothing needs to be cleaned
+ * up while files are read. */
 void interrupt_while_reading(void);
 
-/* Installs the handlers; a signal that the parent set to be ignored (nohup) stays ignored. SIGPIPE becomes a write error. */
+/* From this call on the signals set the flag. SIGPIPE and SIGXFSZ are ignored, so that they become write errors. */
 void interrupt_install(void);
 
-/* The flag: 0, or the signal that came. */
+/* The flag: 0, or the number of the first signal that has come. */
 const volatile sig_atomic_t *interrupt_flag(void);
 
-/* 128 + the signal that came. */
+/* 128 + that number. */
 int interrupt_exit_code(void);
 
-/* An mgt_progress_function that goes on until then. */
+/* An mgt_progress_function that cancels once the flag is set. `user` is not used. */
 bool interrupt_keep_going(void *user, double fraction);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Command lines: one table a verb drives the parsing and the help. */
+/* Command lines. A verb's table of options drives both parsing and help. */
 #ifndef MANGATA_CLI_COMMON_OPTIONS_H
 #define MANGATA_CLI_COMMON_OPTIONS_H
 
@@ -8,27 +8,27 @@
 
 #include "cli/common/console.h"
 
-/* What the help calls the value of an option that names a method: it lists them. */
+/* Name in the help of a value that is a method. If a table has it, the help lists all methods. */
 #define OPTION_VALUE_METHOD "METHOD"
 
 typedef struct option option;
 
-/* Takes an option's value into `place`, which lies in the verb's request where the row says. An exit code; errors are printed. */
+/* Reads an option's value into `place`, the member of the verb's request at the row's offset. Returns an exit code; errors are printed. */
 typedef int option_set(const option *o, void *place, const char *value);
 
 struct option {
     const char *name;  /* without the dashes */
     char letter;       /* 0: none */
-    const char *value; /* what the help calls its value; NULL: a flag */
+    const char *value; /* name of its value in the help; NULL: it has none */
     const char *help;  /* may hold newlines */
     option_set *set;
-    size_t offset;        /* of what it sets in the request */
-    const char *allowed;  /* what a wrong value is told, where no number says it */
-    uint64_t least, most; /* of option_number and option_size */
-    bool operand;         /* "--name value" in one word is an operand; of verbs with changes */
+    size_t offset;        /* offset in the request of what it sets */
+    const char *allowed;  /* text about the allowed values, for the message of option_wrong() */
+    uint64_t least, most; /* range of option_number(); option_size() reads `least` */
+    bool operand;         /* "--name value" as one word is an operand; only in tables with `changes` */
 };
 
-/* A scene of a few words, in place of a file: an operand that scene_file_open() takes. */
+/* A sea of a few words instead of a scene's file. It becomes an operand that scene_file_open() takes. */
 #define OPTION_SEA                                                                                                                 \
     {                                                                                                                              \
         "sea", 0, "KEY=VALUE,...",                                                                                                 \
@@ -37,7 +37,7 @@ struct option {
             .operand = true                                                                                                        \
     }
 
-/* Rows of a table whose request has `progress`, and `shard`. */
+/* Rows of an option table whose request has the member `progress` or `shard`. */
 #define OPTION_PROGRESS(request)                                                                                                         \
     {                                                                                                                                    \
         "progress", 0, "MODE", "auto (default: a bar on a terminal), json, text, openjd\nor none", .set = option_progress,               \
@@ -48,57 +48,58 @@ struct option {
         "shard", 0, "I/N", what, .set = option_shard, .offset = offsetof(request, shard) \
     }
 
-/* A verb's command line. --help, --json, -v/--verbose and --quiet are known everywhere and not listed. A request begins with its console. */
+/* The command line of a verb. The options of every verb, --help, --json, -v/--verbose and -q/--quiet, are not in the table. A request must begin with a
+ * console. */
 typedef struct option_table {
-    const char *verb;  /* "render" */
-    const char *usage; /* "SCENE -o OUT [options]" */
-    const char *summary;
-    const option *options;
-    size_t count;
-    const char *notes;  /* printed below the options; may be NULL */
-    option operand;     /* takes the words that are no options */
-    size_t quality;     /* of the request's quality_options, where the verb takes these as well; 0: it does not */
-    size_t changes;     /* of the request's scene_changes; 0: none */
-    int (*run)(void *); /* what the verb does with the request; an exit code */
+    const char *verb;      /* name of the verb, such as "render" */
+    const char *usage;     /* the words after it, such as "SCENE -o OUT [options]" */
+    const char *summary;   /* printed before the options */
+    const option *options; /* the verb's own options */
+    size_t count;          /* their number */
+    const char *notes;     /* printed after the options; NULL: none */
+    option operand;        /* its `set` takes each word that is not an option */
+    size_t quality;        /* offset of the request's quality_options; 0: the verb has no options of quality */
+    size_t changes;        /* offset of the request's scene_changes; 0: it has none */
+    int (*run)(void *);    /* carries out the request; returns an exit code */
 } option_table;
 
-/* --set and --size of a scene, in order, the size last; and --sea. */
+/* Changes of a scene: --set in the order given, then --size. It also owns the operands of --sea. */
 typedef struct scene_changes {
-    const char **items; /* KEY=VALUE */
+    const char **items; /* KEY=VALUE; the array is owned */
     size_t count;
     uint32_t width, height; /* 0: not given */
-    char size[2][32];       /* as items */
-    char **operands;        /* those made of an option and its value; owned */
+    char size[2][32];       /* the items of --size */
+    char **operands;        /* operands made of an option and its value; owned */
     size_t operand_count;
 } scene_changes;
 
 void scene_changes_free(scene_changes *changes);
 
-/* What options usually set. */
+/* Functions for options, and the types of their `place`. */
 option_set option_given;     /* a bool */
 option_set option_text;      /* a const char *, borrowed */
 option_set option_number;    /* a uint64_t */
-option_set option_samples;   /* a uint32_t, in the range that the option of quality of this name has */
+option_set option_samples;   /* a uint32_t, in the range of the option of quality of the same name */
 option_set option_frames;    /* a frame_list */
-option_set option_change;    /* scene_changes: KEY=VALUE */
-option_set option_size;      /* scene_changes: WxH */
-option_set option_quality;   /* quality_options: the option of this name */
+option_set option_change;    /* a scene_changes, gets KEY=VALUE */
+option_set option_size;      /* a scene_changes, gets WxH */
+option_set option_quality;   /* a quality_options, gets its option of the same name */
 option_set option_progress;  /* a progress_mode */
 option_set option_shard;     /* a work_shard */
-option_set option_one_scene; /* an operand, once: a const char * */
+option_set option_one_scene; /* a const char *, for an operand that is given once */
 
-/* Says that --name is not `value` but what is allowed. EXIT_CODE_USAGE. */
+/* Prints that `value` is wrong and what is allowed. Returns EXIT_CODE_USAGE. */
 int option_wrong(const option *o, const char *value, const char *allowed);
 
-/* Reads the words after the verb into `request`. An exit code, or OPTIONS_HELP: the help has been printed and there is nothing more to do.
- * In every case the changes are to be freed. */
+/* Reads the words after the verb into `request`, which borrows them. Returns an exit code, or OPTIONS_HELP: the help has been printed, and there is nothing
+ * more to do. The caller frees the request's scene_changes in every case. */
 enum { OPTIONS_HELP = -1 };
 int options_read(const option_table *table, void *request, int count, char **arguments);
 
-/* The same, then runs the verb and frees the changes. An exit code. */
+/* The same, then runs the verb and frees the scene_changes. Returns an exit code. */
 int options_run(const option_table *table, void *request, int count, char **arguments);
 
-/* The nearest of `count` names, or NULL when none is near. `name_at(names, i)` gives the names. */
+/* The most similar of `count` names, at an edit distance of at most 2. NULL: there is none. `name_at(names, i)` returns name i. */
 const char *nearest_name(const char *text, const void *names, size_t count, const char *(*name_at)(const void *, size_t));
 
 #endif

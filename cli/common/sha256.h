@@ -5,7 +5,7 @@
 
 #include <stddef.h>
 
-/* 64 lower-case hexadecimal digits and the end of the string. */
+/* 64 lower-case hexadecimal digits and a 0. */
 typedef struct sha256_text {
     char text[65];
 } sha256_text;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Texture and specks as the JSON of `mangata diff` and `mangata compare`. */
+/* Texture and specks as JSON, for `mangata diff` and `mangata compare`. */
 #ifndef MANGATA_CLI_COMMON_TRUTH_JSON_H
 #define MANGATA_CLI_COMMON_TRUTH_JSON_H
 
@@ -7,7 +7,7 @@
 
 #include "image/metrics_truth.h"
 
-/* New objects; NULL when memory runs out. docs/command.md describes them. What is not defined is null, and a texture without bands is. */
+/* New objects, which docs/command.md describes. Values that are not defined are null, and so is a texture without bands. NULL: out of memory. */
 json_t *truth_texture_json(const truth_metrics *metrics);
 json_t *truth_specks_json(const truth_metrics *metrics);
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* The verbs of the command, one file each. */
+/* The verbs of the command. */
 #ifndef MANGATA_CLI_COMMON_VERBS_H
 #define MANGATA_CLI_COMMON_VERBS_H
 
-/* Each takes the words after its name and returns the exit code. */
+/* Each carries out the words after its name, prints errors and returns the exit code. */
 int verb_render(int count, char **arguments);
 int verb_merge(int count, char **arguments);
 int verb_diff(int count, char **arguments);
