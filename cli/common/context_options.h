@@ -33,8 +33,7 @@ option_set option_context;
 /* Reads "backend" for verbs that draw, for which the null backend is not allowed. `place` is a context_options. */
 option_set option_drawing_backend;
 
-/* Creates the context, which the caller destroys, and fills `info`. Its log goes to `out`, which must outlive it. Prints what renders as a detail. Returns an
- * exit code; errors are printed. */
+/* Creates the context, which the caller destroys, and fills `info`. Its log goes to `out`, which must outlive it. Returns an exit code; errors are printed. */
 int context_open(const context_options *options, const console *out, mgt_progress_function progress, void *progress_user, mgt_context **context,
                  mgt_context_info *info);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Pixels as text for a page: real values, packed small. */
+/* Pixels as compressed text for a page. */
 #ifndef MANGATA_CLI_COMPARE_COMPARE_PIXELS_H
 #define MANGATA_CLI_COMPARE_COMPARE_PIXELS_H
 
@@ -8,12 +8,13 @@
 
 #include "image/picture.h"
 
-/* Base64 of a zlib stream of half floats times `scale`; cli/compare/page/1-pixels.js is its reader. Per channel (of three: G, R − G, B − G,
- * differences of the bits modulo 2¹⁶) each pixel's bits minus those of its left neighbour (of the one above in the first column), modulo
- * 2¹⁶; first the high bytes of all, then the low ones. The caller frees the text; NULL when memory runs out. */
+/* Packs an image as base64 of a zlib stream, which cli/compare/page/1-pixels.js reads. Values are multiplied by `scale` and rounded to half floats. Three
+ * channels are stored as G, R − G and B − G. Each pixel is stored as the difference from its left neighbour, in the first column from the pixel above. All
+ * these differences are those of the bits modulo 2¹⁶. The high bytes of all values come first, then the low bytes. The caller frees the text. NULL: out of
+ * memory. */
 char *pixels_pack(const float_image *image, float scale, size_t *length);
 
-/* IEEE half precision of `value`, rounded to nearest; beyond its range the largest number, NaN as 0. */
+/* `value` as an IEEE half float, rounded to nearest. Values beyond its range become its largest number. NaN becomes 0. */
 uint16_t half_from_float(float value);
 
 #endif

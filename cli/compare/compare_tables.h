@@ -5,18 +5,18 @@
 
 #include "cli/compare/compare_job.h"
 
-/* Everything that was asked and measured; NULL when memory runs out. docs/compare.md describes it. */
+/* The request and all results, which docs/compare.md describes. NULL: out of memory. */
 json_t *compare_result_json(const compare_job *job);
 
-/* Whole files; the caller frees them, NULL when memory runs out. */
+/* The contents of the files report.json, report.csv and report.tex. `size` gets their length. The caller frees them. NULL: out of memory. */
 char *compare_json_text(const compare_job *job, size_t *size);
 char *compare_csv_text(const compare_job *job, size_t *size);
 char *compare_tex_text(const compare_job *job, size_t *size);
 
-/* What the gate is held against: the score over all scenes as one clip. */
+/* The score that a gate limits: that of all scenes as one clip. */
 double compare_gate_value(const compare_job *job, const compare_gate *gate);
 
-/* Samples a pixel that the method shades. */
+/* Number of samples that a method shades per pixel. */
 uint64_t compare_samples(const mgt_quality *quality);
 
 #endif

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* The figures of Liu, Han and Fei 2020 while they are made: views of the scenes with objects, their pictures and scores. */
+/* The figures of Liu, Han and Fei 2020: views of the scenes with objects, their pictures and scores. */
 #ifndef MANGATA_CLI_FIGURES_FIGURES_REFRACTION_H
 #define MANGATA_CLI_FIGURES_FIGURES_REFRACTION_H
 
 #include "cli/figures/figures_job.h"
 
-/* A file with a camera, waves and triangles of its own. The last two are timed, all others drawn. */
+/* Views: a scene's file with a camera, waves and number of triangles of its own. The last two are timed, the others rendered. */
 typedef enum refraction_view {
     VIEW_BELOW,
     VIEW_BORDER,
@@ -27,7 +27,8 @@ typedef enum refraction_view {
     REFRACTION_VIEWS
 } refraction_view;
 
-/* SHOWN_RAY: what methods are scored against, a ray through the middle of every pixel. From TIMED_TRUTH on: without reflections, for times. */
+/* Methods. The others are scored against SHOWN_RAY, which is path-traced with one ray through the centre of every pixel. Those from TIMED_TRUTH on render no
+ * reflections, and are timed. */
 typedef enum refraction_method {
     SHOWN_TWO_PHASE,
     SHOWN_HYBRID,
@@ -52,60 +53,63 @@ typedef enum refraction_method {
 
 extern const figure_method_text refraction_methods[REFRACTION_METHODS];
 
-/* The exposure of what is scored: sunlit tiles are bright, not white. */
+/* Pictures are scored at an exposure that many stops below the scene's, at which sunlit tiles are bright but not white. */
 enum { REFRACTION_STOPS_DOWN = 4 };
 
-/* Pixels whose displayed colour is off by more, 0 to 255, in some channel are artefacts. */
+/* A pixel is an artefact if a channel of its displayed colour, 0 to 255, is off by more than this. */
 enum { ARTEFACT = 32 };
 
-/* Of the radiance that comes through the surface, sRGB-encoded, on whole pixels of water. NaN: not measured. */
+/* Scores of the displayed radiance that comes through the surface, over pixels that are all water. NaN: not measured. */
 typedef struct refraction_score {
-    double rmse, many;      /* 0 … 255: against one ray in the same place, against many over the pixel */
-    double artefacts;       /* fraction of the pixels of water */
-    double ssim, flip, yee; /* of the frame, black where no water; Yee's of Figs. 10 and 11 alone, since it takes a program of its own */
+    double rmse, many;      /* RMSE, 0 to 255, against one path-traced ray through the pixel's centre, and against many over the pixel */
+    double artefacts;       /* fraction of these pixels */
+    double ssim, flip, yee; /* of the whole frame, black where there is no water; yee, which needs another program, for Figs. 10 and 11 alone */
 } refraction_score;
 
 typedef struct refraction_figures {
-    figures_job *figures;
+    figures_job *figures; /* borrowed */
     compare_request renders;
     compare_job *compare;
     char paths[REFRACTION_VIEWS][4300];
-    size_t place[REFRACTION_VIEWS]; /* of the scene in the comparison; COMPARE_SCENES: not wanted */
+    size_t place[REFRACTION_VIEWS]; /* index of the view's scene in the comparison; COMPARE_SCENES: the view is not needed */
     const char *overrides[REFRACTION_VIEWS][8];
-    char rock[64]; /* override of the pool that lacks its bunny; "" where it has it */
+    char rock[64]; /* override that replaces the bunny of the pool, if its model is missing; "": it is not */
     refraction_score scores[REFRACTION_VIEWS][REFRACTION_METHODS];
 } refraction_figures;
 
-/* Loads and checks the views; `folder` holds the scenes. Prints errors and returns the exit code; figures_refraction_close() follows in every
- * case. */
+/* Loads and checks the views of the scenes in `folder`. Prints errors and returns an exit code. figures_refraction_close() must be called in every case. */
 int figures_refraction_open(figures_job *f, const char *folder);
 void figures_refraction_close(figures_job *f);
 
-/* Renders, measures, and writes the part of the page; prints errors and leaves the exit code with the job. */
+/* Renders, measures, and writes this part of the page. Prints errors and sets the job's exit code. */
 void figures_refraction(figures_job *f);
 
-/* ---- shared by the makers ---- */
+/* ---- for the functions that make figures ---- */
 
-/* The place of a view's scene, and the number of its picture: SHOWN_RAY's is one ray a pixel, COMPARE_REFERENCE many. */
+/* A view's scene, and the number of a method's picture. The picture of SHOWN_RAY has one ray per pixel, that of COMPARE_REFERENCE many. */
 const compare_scene *refraction_scene(const refraction_figures *r, refraction_view view);
 size_t refraction_picture(refraction_method method);
 
-/* What comes through the surface as displayed, black where no water, of a picture and of the path-traced reference. Returns an exit code; the caller frees both. */
+/* A picture and the path-traced reference: displayed radiance that comes through the surface, in [0, 1], black where there is no water. */
 typedef struct refraction_pair {
     float_image image[2], mask;
-    uint64_t left_out; /* pixels without water, or with some */
+    uint64_t left_out; /* number of pixels that are not all water */
 } refraction_pair;
+/* Reads a pair; `truth` is the number of the reference's picture. Prints errors and returns an exit code. The caller frees the pair, which holds nothing after
+ * an error. */
 int refraction_pair_read(refraction_figures *r, refraction_view view, size_t picture, size_t truth, refraction_pair *out);
 void refraction_pair_free(refraction_pair *pair);
 
-/* How far a pixel of the pair, by its place, is off in the worst channel, 0 to 255. */
+/* The difference between both pictures at a pixel's index, 0 to 255, in the channel in which it is greatest. */
 double refraction_pair_difference(const refraction_pair *pair, size_t pixel);
 
-void refraction_measure(refraction_figures *r); /* figures_refraction_scores.c */
+/* Fills r->scores. figures_refraction_scores.c */
+void refraction_measure(refraction_figures *r);
 
 /* ---- figures_refraction_panels.c ---- */
 
-/* A part of a view, `across` units wide, at a place on the sheet; fractions of the whole, all zero: the whole. */
+/* A part of a view on the sheet, `across` units wide, with its upper left corner at (x, y). The part is given in fractions of the picture. All zero: the whole
+ * picture. */
 typedef struct refraction_panel {
     refraction_view view;
     double x, y, across;
@@ -113,39 +117,40 @@ typedef struct refraction_panel {
 } refraction_panel;
 
 typedef enum refraction_kind {
-    PANEL_PICTURE,    /* as `mangata render` shows it */
-    PANEL_DIFFERENCE, /* from the path-traced reference: white none, red ARTEFACT, black three times that; grey where no water */
-    PANEL_ARTEFACTS   /* the same as red pixels over the grey picture */
+    PANEL_PICTURE,    /* the picture as `mangata render` writes it */
+    PANEL_DIFFERENCE, /* difference from the path-traced reference: white is none, red is ARTEFACT, black three times that; grey where there is no water */
+    PANEL_ARTEFACTS   /* artefacts as red pixels over the picture in grey */
 } refraction_kind;
 
-/* Panels of a plate, each so many columns right of and rows below the first. */
+/* A panel of a plate, at a column and a row that count from 0. */
 typedef struct refraction_cell {
     refraction_view view;
-    refraction_method method; /* SHOWN_RAY: the path-traced reference, of many rays */
+    refraction_method method; /* SHOWN_RAY: the path-traced reference of many rays is shown */
     refraction_kind kind;
     int column, row;
-    const char *title, *text; /* NULL: its scores */
+    const char *title, *text; /* title above the panel, and text below it; text NULL: the scores */
 } refraction_cell;
 
+/* Height of a panel, units of the sheet. */
 double refraction_panel_height(const refraction_figures *r, const refraction_panel *p);
 
-/* `title` stands above the panel and names its letter, `text` below. */
+/* Draws a panel of picture number `picture`, with `title` above it and `text` below. */
 void refraction_panel_put(refraction_figures *r, svg *sheet, const refraction_panel *p, refraction_kind kind, size_t picture, const char *title,
                           const char *text);
 
-/* A step right is the panel's width and `gap`, a step down `row`. */
+/* Draws the panels of a plate. `first` is that of column 0 and row 0. A column is as wide as the panel and `gap`, a row is `row` high. */
 void refraction_cells_put(refraction_figures *r, svg *sheet, const refraction_panel *first, const refraction_cell *cells, size_t count, double gap, double row);
 
-/* "RMSE 3.1, artefacts 0.4%". */
+/* The scores of a method in a view as text: "RMSE 3.1, artefacts 0.4%". */
 typedef struct refraction_score_text {
     char text[96];
 } refraction_score_text;
 refraction_score_text refraction_score_print(const refraction_figures *r, refraction_view view, refraction_method method);
 
-/* Where on the view `whole` the panel's part is: a frame around it. */
+/* Draws a frame around the part that `part` shows on the panel `whole`. */
 void refraction_panel_mark(const refraction_figures *r, svg *sheet, const refraction_panel *whole, const refraction_panel *part);
 
-/* ---- the makers; each prints its errors and leaves the exit code with the job ---- */
+/* ---- the functions that make figures; each prints its errors and sets the job's exit code ---- */
 
 void refraction_below(refraction_figures *r);     /* figures_refraction_phases.c: Fig. 4 */
 void refraction_border(refraction_figures *r);    /* Fig. 7 */
@@ -159,7 +164,7 @@ void refraction_angles(refraction_figures *r);    /* Fig. 13 */
 void refraction_outdoors(refraction_figures *r);  /* Fig. 14 */
 void refraction_diver(refraction_figures *r);     /* Fig. 15 */
 
-/* DIR/refraction.md, which standard output gets as well, and the same in figures.json. */
+/* Writes the scores to DIR/refraction.md, to refraction_table for standard output, and to figures.json. */
 void refraction_write_table(refraction_figures *r);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What one `mangata figures` was asked to do. */
+/* The command line of one `mangata figures`. Strings are borrowed from it. */
 #ifndef MANGATA_CLI_FIGURES_FIGURES_REQUEST_H
 #define MANGATA_CLI_FIGURES_FIGURES_REQUEST_H
 
@@ -7,7 +7,7 @@
 #include "cli/common/frames.h"
 #include "cli/common/progress.h"
 
-/* Of Podee et al. 2021, then of Liu et al. 2020. */
+/* The figures and tables of Podee et al. 2021, then those of Liu et al. 2020. */
 typedef enum figure_id {
     FIGURE_TABLE1,
     FIGURE_11,
@@ -37,24 +37,24 @@ typedef enum figure_id {
 
 typedef struct figures_request {
     console out;
-    const char *folder;
-    const char *scenes; /* the folder of the standard scenes; NULL: look for it */
+    const char *folder; /* of the page */
+    const char *scenes; /* folder of the standard scenes; NULL: it is searched for */
     uint32_t wanted;    /* bits 1u << figure_id */
     scene_changes changes;
-    bool size_given;
-    mgt_quality reference;
-    uint32_t refraction_samples; /* of pictures of traced refraction */
+    bool size_given;             /* --size is given */
+    mgt_quality reference;       /* quality of the reference of Podee et al. */
+    uint32_t refraction_samples; /* rays per side of a pixel of path-traced pictures */
     frame_list frames;
-    work_shard shard; /* of all pictures */
-    uint64_t time_runs;
+    work_shard shard;   /* shard of all pictures; if it has a count, pictures are only rendered */
+    uint64_t time_runs; /* runs that are timed; 0: none */
     context_options context;
     progress_mode progress;
-    bool check;
-    char **arguments; /* as given, for the page */
+    bool check;       /* a claim that does not hold is an error */
+    char **arguments; /* the command line, for the page */
     int argument_count;
 } figures_request;
 
-/* Renders what is missing, measures, and writes plates and page; prints errors and returns the exit code. */
+/* Renders the pictures that do not exist, measures, and writes the plates and the page. Prints errors and returns an exit code. */
 int figures_run(const figures_request *request);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Packing, alpha, planar depth, crop and camera of an EXR. */
+/* The options of --exr, and what they need: packing, alpha, planar depth, crop and camera of an EXR file. */
 #ifndef MANGATA_CLI_RENDER_RENDER_EXR_H
 #define MANGATA_CLI_RENDER_RENDER_EXR_H
 
@@ -8,30 +8,31 @@
 #include "cli/common/options.h"
 #include "image/picture.h"
 
-/* --exr. */
+/* The value of --exr. All zero: the default. */
 typedef struct exr_choice {
-    bool half;
+    bool half; /* 16-bit floats */
     exr_packing packing;
-    bool alpha, z, acescg, parts;
-    uint32_t crypto;       /* N of N × N rays a pixel for mattes; 0: none */
-    uint32_t crypto_names; /* what the mattes are named after, once the scene is known */
+    bool alpha, z, acescg, parts; /* channel A, channel Z of planar depth, ACEScg instead of linear sRGB, a part for each layer */
+    uint32_t crypto;              /* mattes by N × N rays per pixel, this being N; 0: no mattes */
+    uint32_t crypto_names;        /* render_crypto_names() of the scene; 0: it has not been loaded */
 } exr_choice;
 
-/* "half,piz,alpha,z,acescg,parts,cryptomatte:8" into an exr_choice. */
+/* Reads words such as "half,piz,alpha,z,acescg,parts,cryptomatte:8". `place` is an exr_choice. */
 option_set option_exr;
 
+/* Whether the choice is the default. */
 static inline bool exr_choice_is_plain(const exr_choice *c) { return !(c->half || c->packing || c->alpha || c->z || c->acescg || c->parts || c->crypto); }
 
-/* The words that are not the default, each behind a space; nothing where there are none. */
+/* Writes the words that differ from the default, each after a blank. */
 void exr_choice_write(FILE *stream, const exr_choice *choice);
 
-/* How the picture of the scene is packed and described. `fps` frames a second. */
+/* Packing and attributes of a picture of the scene. `fps` is the number of frames per second. */
 exr_desc exr_desc_of(const exr_choice *choice, const mgt_scene *scene, double fps);
 
-/* Turns the crop's depths from metres along each ray into metres along the direction of view; infinities stay. */
+/* Converts the depths of the crop from metres along each ray to metres along the direction of view, in place. Infinite depths stay. */
 void exr_planar_depth(float *depth, const mgt_scene *scene);
 
-/* Turns linear sRGB into ACEScg, 3 floats a pixel. */
+/* Converts linear sRGB to ACEScg in place, 3 floats per pixel. */
 void exr_to_acescg(float *color, size_t pixels);
 
 #endif
