@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* `mangata bench`: time per frame of several methods, measured in turn so that all see the same machine. */
+/* `mangata bench`: time per frame of several methods. They take turns, so that a change of the machine's speed affects all of them. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -26,9 +26,9 @@ typedef struct bench_request {
 
 typedef struct bench_method {
     method_spec spec;
-    mgt_context *context; /* of its own: what one has drawn must not spare another the work */
+    mgt_context *context; /* each method has its own, so that it cannot reuse the work of another one */
     double *seconds;      /* frames × repeat */
-    double memory;        /* bytes at the peak; NaN: not known */
+    double memory;        /* largest number of bytes in use; NaN: not known */
 } bench_method;
 
 typedef struct bench {
@@ -72,7 +72,7 @@ static void close_context(bench_method *method)
     method->context = NULL;
 }
 
-/* Up to the contexts. */
+/* Reads the methods and the scene, and allocates the picture. */
 static int prepare(bench *b)
 {
     const bench_request *r = b->request;
@@ -118,7 +118,7 @@ static int render_once(bench *b, const bench_method *method, uint64_t frame, dou
 static int measure_memory(bench *b)
 {
     double unused;
-    memset(b->target.pixels, 0, (size_t)b->width * b->height * (b->request->display ? 4 : 12)); /* theirs is no method's */
+    memset(b->target.pixels, 0, (size_t)b->width * b->height * (b->request->display ? 4 : 12)); /* so that the picture's own memory is in use before */
     for (size_t m = 0; m < b->count; m++) {
         const double before = memory_use_begin();
         int code = open_context(b, &b->methods[m]);
@@ -136,7 +136,7 @@ static int measure(bench *b)
 {
     const uint64_t runs = b->request->frames * b->request->repeat;
     double unused;
-    /* Tables are built and memory is touched by the first frame, which does not count. */
+    /* The first frame builds tables and touches memory. It is not counted. */
     for (size_t m = 0; m < b->count; m++) {
         int code = open_context(b, &b->methods[m]);
         if (code == EXIT_CODE_OK)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* `mangata info`: what this build is made of and what this machine runs. */
+/* `mangata info`: what this build contains, and what this machine can run. */
 #include <libfyaml.h>
 #include <openexr_base.h>
 #include <spng.h>
@@ -15,7 +15,7 @@
 #define COMPILER "gcc " __VERSION__
 #endif
 
-/* First line of `ffmpeg -version`, or "" without ffmpeg. */
+/* Finds the version of ffmpeg; "": there is no ffmpeg. */
 static void find_ffmpeg(char *line, size_t size)
 {
     line[0] = 0;
@@ -54,7 +54,7 @@ static json_t *list_methods(void)
     return list;
 }
 
-/* What a context says when it cannot be created. */
+/* The message id of a context that cannot be created. */
 typedef struct refusal {
     char id[64];
 } refusal;
@@ -67,7 +67,7 @@ static void keep_refusal(void *user, mgt_log_level level, const char *id, const 
         snprintf(r->id, sizeof r->id, "%s", id);
 }
 
-/* The renderers of the OpenGL devices in their order; one that is there but of no use says why ("context.gl"). */
+/* The renderers of the OpenGL devices, in their order. For a device that cannot be used ("context.gl") it is the reason. */
 static json_t *list_gl_devices(void)
 {
     json_t *list = json_array();

@@ -9,12 +9,12 @@
 
 typedef struct scene_request {
     console out;
-    const char **words; /* room for every argument */
+    const char **words; /* has room for every argument */
     size_t word_count;
     scene_changes changes;
 } scene_request;
 
-/* What the loader cannot know, because only the library does: whether each frame can be rendered. */
+/* Checks whether each frame can be rendered, which only the library knows. */
 static int check_frames(const scene_file *scene, const char *path, scene_error *error)
 {
     mgt_context_desc desc;
@@ -94,7 +94,7 @@ static int print_schema(void)
 {
     if (scene_schema_write(stdout))
         return EXIT_CODE_OK;
-    /* console_finish() reports a stream that failed. */
+    /* console_finish() reports that writing has failed. */
     return ferror(stdout) ? EXIT_CODE_CANNOT_WRITE : console_error(EXIT_CODE_FAILED, "cannot make the schema: %s", strerror(errno));
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* `mangata view`: hands over to the viewer, a program of its own, so that this one links no window system. */
+/* `mangata view`: runs the viewer, which is another program, so that this one links no window system. */
 #define _GNU_SOURCE
 #include <errno.h>
 #include <stdio.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* `mangata waves`: a scene from a wind's or a buoy's wave spectrum. */
+/* `mangata waves`: a scene from the wave spectrum of a wind or of a buoy. */
 #include <errno.h>
 #include <limits.h>
 #include <math.h>
@@ -16,7 +16,7 @@
 #include "cli/common/verbs.h"
 #include "cli/waves_report.h"
 
-/* The first options, which are keys of the scene's `water.spectrum`. */
+/* The first options of the table. They are keys of the scene's `water.spectrum`. */
 enum {
     OPT_MODEL,
     OPT_WIND,
@@ -45,8 +45,8 @@ static const option waves_options[];
 
 typedef struct waves_request {
     console out;
-    scene_values values;     /* defaults, then the base */
-    scene_spectrum spectrum; /* borrows its file's name */
+    scene_values values;     /* defaults, then the values of --base */
+    scene_spectrum spectrum; /* the spectrum; it borrows the name of its file */
     bool given[SPECTRUM_OPTIONS];
     const char *output, *base;
     scene_changes changes;
@@ -62,10 +62,10 @@ static const field_row *spectrum_field(const scene_values *values, const char *k
     return scene_values_find(values, path, place);
 }
 
-/* The name of a choice into *place. */
+/* Reads the name of a choice into *place. */
 static bool set_choice(const field_row *field, const char *text, int *place) { return field_parse(field, text, place); }
 
-/* One key of the spectrum, with the checks of the scene format. */
+/* Reads a key of the spectrum with the checks of the scene format. */
 static int set_key(const option *o, void *request, const char *text)
 {
     waves_request *r = request;
@@ -96,7 +96,7 @@ static int set_key(const option *o, void *request, const char *text)
         break;
     default:
         memcpy(place, &text, sizeof text);
-        break; /* the table's name */
+        break; /* the path of the buoy's table */
     }
     return good ? EXIT_CODE_OK : option_wrong(o, text, id == OPT_MODEL ? "pierson-moskowitz, jonswap, tma, elfouhaily or buoy" : allowed);
 }
@@ -107,7 +107,7 @@ static int refuse_operand(const option *o, void *place, const char *value)
     return console_error(EXIT_CODE_USAGE, "%s: mangata waves takes options alone; a scene to start from is --base SCENE", value);
 }
 
-/* What contradicts itself, and what would be left unused without a word. */
+/* Refuses options that contradict each other, and prints notes about options that have no effect. */
 static int check_request(waves_request *r, const console *out)
 {
     static const int windy[] = {OPT_WIND, OPT_WIND_HEIGHT}, spread[] = {OPT_DIRECTIONS, OPT_SPREAD};
@@ -143,7 +143,7 @@ static int check_request(waves_request *r, const console *out)
 
 /* ---- the scene ---------------------------------------------------------------------------------------------- */
 
-/* The base with overrides, without its waves. */
+/* Loads --base with the overrides, without its waves. */
 static int load_base(const waves_request *r, scene_values *values)
 {
     scene_error error = {0};
@@ -176,7 +176,7 @@ static bool names_camera(const waves_request *r)
     return false;
 }
 
-/* The table's name as the scene must write it, seen from the scene's folder. NULL when memory runs out. */
+/* The path of the table as the scene must hold it, which is relative to the scene's folder or absolute. The caller frees it. NULL: out of memory. */
 static char *table_name(const waves_request *r)
 {
     const bool elsewhere = r->as_spectrum && r->output && strchr(r->output, '/') && r->spectrum.file[0] != '/';
@@ -198,7 +198,7 @@ static int write_scene(const waves_request *r, const scene_values *values)
     if (good && !r->output) {
         fwrite(text, 1, size, stdout);
     } else if (good) {
-        interrupt_install(); /* nothing is left half written */
+        interrupt_install(); /* so that no file is left incomplete */
         if (output_file_write_whole(r->output, text, size, &options, &error) != FILE_OK)
             code = console_file_error(&error);
     }
@@ -206,7 +206,7 @@ static int write_scene(const waves_request *r, const scene_values *values)
     return code;
 }
 
-/* What a key of the format is called on the command line. */
+/* The command-line option of a key of the scene format. */
 static const char *option_of_key(const char *key)
 {
     for (int i = 0; i < SPECTRUM_OPTIONS; i++)
@@ -223,7 +223,7 @@ static int refuse_sea(const scene_sea_fault *fault)
     return exit_code_of_scene_error(fault->error.kind);
 }
 
-/* The growth with fetch ends where the sea is fully developed. */
+/* Notes that a fetch is longer than a fully developed sea needs, because waves do not grow beyond that. */
 static void warn_of_fetch(const waves_request *r, const wave_spectrum *spectrum, const console *out)
 {
     const bool fetch = spectrum_takes_fetch(spectrum->kind);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What `mangata waves` says about a sea. */
+/* The report of `mangata waves` about a sea. */
 #include "cli/waves_report.h"
 
 #include <math.h>
@@ -29,7 +29,7 @@ bool waves_report_make(waves_report *report, const scene_spectrum *settings, con
                       .clean = sea->slopes};
     r.spectrum.table = NULL;
     if (s->kind == SPECTRUM_BUOY && !is_bent(&r))
-        r.clean = (cox_munk){NAN, NAN, NAN}; /* nobody said what the wind was */
+        r.clean = (cox_munk){NAN, NAN, NAN}; /* the wind is not known */
     if (is_bent(&r))
         r.slope = sea->slopes.total;
     else if (parametric && s->gamma == 1 && !(s->depth > 0))

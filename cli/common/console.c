@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* One-line messages and their exit codes. */
+/* Messages of one line and their exit codes. */
 #include "cli/common/console.h"
 
 #include <errno.h>
@@ -10,7 +10,7 @@
 
 #include "scene/scene_text.h"
 
-/* A file's name may hold anything; a message stays one line and sends nothing odd to a terminal. */
+/* Prints a message as one line without characters that control a terminal, because names of files may contain anything. */
 static void print_line(const char *prefix, const char *format, va_list arguments)
 {
     char text[2048], line[2048];
@@ -19,7 +19,7 @@ static void print_line(const char *prefix, const char *format, va_list arguments
     fprintf(stderr, "%s%s\n", prefix, line);
 }
 
-/* The same as {"event": "note", "text": …}. */
+/* Prints the message as {"event": "note", "text": …}. */
 static void print_json_line(const char *format, va_list arguments)
 {
     char text[2048];

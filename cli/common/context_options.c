@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What renders: the options that every verb which renders has. */
+/* The options of every verb that renders. */
 #include "cli/common/context_options.h"
 
 #include <string.h>

@@ -117,7 +117,7 @@ void frame_list_print(const frame_list *list, char *text, size_t size)
     }
 }
 
-/* Takes one mark for the frame number at `p`; returns its length, 0 when there is none, -1 when it is malformed. */
+/* Reads a mark for the frame number at `p`. Returns its length; 0: there is none, -1: it is malformed. */
 static int read_mark(const char *p, int *digits)
 {
     if (*p == '#') {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Signal handlers that only set a flag. A handler has no argument of its own, hence the one file-level variable. */
+/* Signal handlers. A handler has no argument for data of its own, so the flag is a variable of this file. */
 #include "cli/common/interrupt.h"
 
 #include <stddef.h>
@@ -16,7 +16,7 @@ static void note_signal(int signal)
 static void end_at_once(int signal)
 {
     static const char text[] = "mangata: stopped while a file was read\n";
-    /* Nothing can be done where it fails. */
+    /* If it fails, nothing can be done about it. */
     const ssize_t unused = write(STDERR_FILENO, text, sizeof text - 1);
     (void)unused;
     _exit(128 + signal);

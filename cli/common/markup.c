@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Escapes and base64. */
+/* Escaping for HTML, SVG and shells, and base64. */
 #include "cli/common/markup.h"
 
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Memory that this process has in use: /proc's resident set and its peak. */
+/* Memory that this process uses: the resident set and its peak in /proc. */
 #include "cli/common/memory_use.h"
 
 #include <math.h>
@@ -26,7 +26,7 @@ double memory_use_begin(void)
     malloc_trim(0);
 #endif
     FILE *file = fopen("/proc/self/clear_refs", "w");
-    const int written = file ? fputs("5", file) : EOF; /* the peak starts anew */
+    const int written = file ? fputs("5", file) : EOF; /* sets the peak back to the present value */
     if (!file || fclose(file) != 0 || written == EOF)
         return NAN;
     return status_bytes("VmRSS: %lf");

@@ -31,7 +31,7 @@ static void append(char *text, size_t size, const char *format, ...)
     va_end(arguments);
 }
 
-/* `name`: the spec's, as far as it has been read. */
+/* Adds an option to spec->options and to `name`, the part of the spec's name that has been read. */
 static void add_words(method_spec *spec, char name[METHOD_SPEC_TEXT], const char *word, size_t length)
 {
     const char *value = word + length + 1;
@@ -47,7 +47,7 @@ static bool set_option(method_spec *spec, char name[METHOD_SPEC_TEXT], const cha
     bool known = false;
     if (!word[length])
         return fail(wrong, wrong_size, "%s: options are written NAME:OPTION=VALUE", spec->name);
-    /* The method stands first, refraction follows the +, and the seed is that of all. */
+    /* The method comes first, refraction follows the +, and all methods have the same seed. */
     const bool apart = strncmp(word, "method=", 7) == 0 || strncmp(word, "refraction=", 11) == 0 || strncmp(word, "seed=", 5) == 0;
     if (!apart && quality_option_set(&spec->given, word, length, word + length + 1, &known, reason, sizeof reason)) {
         add_words(spec, name, word, length);

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Reads digits from *text and moves it behind them. */
+/* Reads digits from *text and moves *text behind them. */
 static bool read_digits(const char **text, uint64_t limit, uint64_t *number)
 {
     const char *p = *text;
@@ -74,7 +74,7 @@ number_text number_print(double number)
     return out;
 }
 
-/* Place of the first digit: 0 for 1 to 9.99, −1 for 0.1 to 0.999. */
+/* Decimal place of the first digit: 0 for 1 to 9.99, −1 for 0.1 to 0.999. */
 static int first_place(double magnitude) { return (int)floor(log10(magnitude)); }
 
 number_text number_print_measured(double value, double noise)

@@ -23,7 +23,7 @@ static const option common_options[] = {
 enum { COMMON_COUNT = sizeof common_options / sizeof common_options[0] };
 enum { COMMON_JSON, COMMON_VERBOSE, COMMON_QUIET, COMMON_HELP };
 
-/* ---- what options usually set ---- */
+/* ---- functions for options ---- */
 
 int option_wrong(const option *o, const char *value, const char *allowed)
 {
@@ -128,10 +128,10 @@ void scene_changes_free(scene_changes *changes)
 
 /* ---- the help ---- */
 
-/* The verb's own options, those of every verb, those of quality, and the aliases of these. */
+/* Number of the verb's own options, those of every verb, those of quality, and the aliases of the latter. */
 static size_t option_total(const option_table *table) { return table->count + COMMON_COUNT + (table->quality ? 2 * QUALITY_ROWS : 0); }
 
-/* What the help calls a value of an option. */
+/* Name in the help of the value of an option of quality. */
 static const char *value_word(const field_row *field, char *room, size_t size)
 {
     if (field->label)
@@ -143,7 +143,7 @@ static const char *value_word(const field_row *field, char *room, size_t size)
     return field->choices ? "NAME" : field->type == FIELD_COUNT || field->type == FIELD_LARGE ? "N" : "X";
 }
 
-/* Its name may hold '_' in place of '-'. */
+/* Option i of all options of a verb. Its name may have '_' instead of '-'. Its name is "" if it cannot be given. */
 static option option_at(const option_table *table, size_t i)
 {
     if (i < table->count)
@@ -158,6 +158,7 @@ static option option_at(const option_table *table, size_t i)
 
 static const char *option_name_at(const void *table, size_t i) { return option_at(table, i).name; }
 
+/* Whether the first `length` characters of `text` are `name`, with '-' for '_'. */
 static bool is_named(const char *name, const char *text, size_t length)
 {
     for (size_t i = 0; i < length; i++)
@@ -185,7 +186,7 @@ static void print_option(const option *o)
     putchar('\n');
 }
 
-/* The words of `text` in lines of at most 64 characters. */
+/* Writes the words of `text` to `out` in lines of at most 64 characters. */
 static void wrap(const char *text, char *out)
 {
     enum { WIDTH = 64 };
@@ -262,7 +263,7 @@ const char *nearest_name(const char *text, const void *names, size_t count, cons
     return best;
 }
 
-/* ---- the words ---- */
+/* ---- the command line ---- */
 
 typedef struct option_reader {
     const option_table *table;
@@ -282,7 +283,7 @@ static int unknown_option(const option_reader *reader, const char *text)
     return console_error(EXIT_CODE_USAGE, "unknown option %s; see mangata %s --help", name, reader->table->verb);
 }
 
-/* "--name value" as one operand. */
+/* Hands "--name value" as one word to the operand. */
 static int take_operand(const option_reader *reader, const option *o, const char *value)
 {
     const option *operand = &reader->table->operand;
@@ -352,7 +353,7 @@ int options_read(const option_table *table, void *request, int count, char **arg
     scene_changes *changes = table->changes ? (scene_changes *)((char *)request + table->changes) : NULL;
     bool operands_only = false;
     int code = EXIT_CODE_OK;
-    /* Each --set takes a word of the command line; two more hold the size. */
+    /* Each --set takes at least one word of the command line. Two more items hold the size. */
     if (changes && !(changes->items = calloc((size_t)count + 2, sizeof *changes->items)))
         return console_error(EXIT_CODE_FAILED, "out of memory");
     while (code == EXIT_CODE_OK && reader.next < count) {

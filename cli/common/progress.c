@@ -52,7 +52,7 @@ static void print_json_line(json_t *line)
     json_decref(line);
 }
 
-/* A line for each whole percent, as render managers read them. */
+/* Prints a line for each new percent, in the form that render managers read. */
 static void print_percent(progress *p, double all)
 {
     const int percent = (int)(100 * all);
@@ -62,6 +62,7 @@ static void print_percent(progress *p, double all)
     fprintf(stderr, p->mode == PROGRESS_OPENJD ? "openjd_progress: %d\n" : "Progress: %d%%\n", percent);
 }
 
+/* Fraction of all work that is done; `fraction` is that of the current frame. */
 static double share_done(const progress *p, double fraction)
 {
     return p->work > 0 ? (p->work_done + p->work_now * fraction) / p->work : ((double)p->frames_done + fraction) / (double)(p->frames ? p->frames : 1);

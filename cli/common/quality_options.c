@@ -34,7 +34,7 @@ static bool set_range(quality_options *o, const char *value, char *wrong, size_t
     return true;
 }
 
-/* The row of the option of this name, and whether that is its alias; NULL: there is none. */
+/* The row of an option. *alias: whether `name` is its alias. NULL: there is no such option. */
 static const field_row *row_of(const char *name, size_t length, bool *alias)
 {
     char key[40];
@@ -128,7 +128,7 @@ bool quality_options_apply(const quality_options *options, const mgt_quality *ba
         return snprintf(wrong, size, "--samples-range %llu,%llu: allowed is FIRST,COUNT within the %llu samples of %s", (unsigned long long)q->sample_first,
                         (unsigned long long)q->sample_count, (unsigned long long)total, whose),
                false;
-    /* The whole range is the same picture as no range. */
+    /* The whole range gives the same picture as no range. */
     out->sample_first = q->sample_first;
     out->sample_count = q->sample_count == total ? 0 : q->sample_count;
     return true;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* SVG, written as it goes. */
+/* Writing of SVG sheets. */
 #include "cli/common/svg.h"
 
 #include <math.h>

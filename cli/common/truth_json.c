@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-/* JSON has no NaN: null. */
+/* A JSON number, or null for NaN and infinities, which JSON does not have. */
 static json_t *json_number(double number) { return isfinite(number) ? json_real(number) : json_null(); }
 
 json_t *truth_specks_json(const truth_metrics *t)

@@ -8,9 +8,9 @@
 #include "cli/common/verbs.h"
 #include "params/methods.h"
 
-/* The request, and what must wait until the methods are known. */
+/* The request, and options that are read after the methods are known. */
 typedef struct compare_line {
-    compare_request request; /* first: rows reach into it */
+    compare_request request; /* first member, because rows have offsets into it */
     const char *methods;
     const char *external[COMPARE_METHODS];
     size_t external_count;
@@ -40,7 +40,7 @@ static int add_gate(const option *o, void *place, const char *value)
     return EXIT_CODE_OK;
 }
 
-/* Read when scenes and frames are known. */
+/* Keeps --external, which is read after scenes and frames are known. */
 static int add_external(const option *o, void *place, const char *value)
 {
     compare_line *line = place;
@@ -121,7 +121,7 @@ static int run(void *place)
         return console_error(EXIT_CODE_USAGE, "no scene given; see mangata compare --help");
     if (!r->folder || !r->folder[0])
         return console_error(EXIT_CODE_USAGE, "no folder given: -o DIR; see mangata compare --help");
-    /* Another seed than the methods': else a method that jitters would share the reference's samples and look better than it is. */
+    /* The reference has another seed than the methods. Otherwise a method with random samples would share samples with the reference and score too well. */
     r->reference.seed = line->seed + 1;
     r->reference.time_samples += r->reference.time_samples % 2;
     r->halved = true;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Checks the pictures of methods of others before anything is rendered. */
+/* External methods: their options, paths and checks. */
 #include "cli/compare/compare_external.h"
 
 #include <string.h>
@@ -23,7 +23,7 @@ static bool is_taken(const compare_request *r, const char *name)
     return taken;
 }
 
-/* What is wrong with the path, or NULL. */
+/* Returns what is wrong with the path; NULL: nothing. */
 static const char *check_path(const compare_request *r, const char *path)
 {
     frame_path name;
@@ -82,12 +82,12 @@ bool compare_external_path(const compare_job *job, const compare_scene *scene, s
     return console_error(0, "--external %s: the path is too long", pattern), false;
 }
 
-/* Whether the file holds the layer, of so many channels and the scene's size; an exit code. */
+/* Finds out whether a file holds a layer with that many channels and the scene's size. Returns an exit code; errors are printed. */
 static int look_for_layer(compare_job *job, const compare_scene *scene, const char *path, const char *layer, uint32_t channels, bool *found)
 {
     float_image image;
     file_error error;
-    const bool pfm = picture_format_of(path) == PICTURE_PFM; /* one layer, whatever its name */
+    const bool pfm = picture_format_of(path) == PICTURE_PFM; /* a .pfm file holds one layer, which has no name */
     const file_status status = picture_read(&image, path, layer, &error);
     *found = status == FILE_OK && image.channels == channels;
     if (status != FILE_OK)

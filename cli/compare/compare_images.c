@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The pictures of a comparison: one EXR a scene, method and frame with coverage and colour, kept under their render hashes. */
+/* The pictures of a comparison: an EXR file with coverage and colour for each scene, method and frame. A file with the right render hash is kept. */
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -16,7 +16,7 @@
 
 static const char seconds_key[] = "render_seconds";
 
-/* The `mangata render` that would make the same file. */
+/* The request of the `mangata render` that would make the same file. */
 static render_request picture_request(const compare_job *job, const compare_scene *scene, size_t picture)
 {
     render_request request = {.scene_path = scene->path,
@@ -40,7 +40,7 @@ static int hash_render(const compare_job *job, const compare_scene *scene, size_
     return render_hash(&request, scene->canonical, &image, &job->info, number, hash) ? EXIT_CODE_OK : console_error(EXIT_CODE_FAILED, "out of memory");
 }
 
-/* A reference of two halves is known by theirs. */
+/* The hash of a picture. That of a reference of two halves follows from their hashes. */
 static int hash_picture(const compare_job *job, const compare_scene *scene, size_t picture, size_t frame, sha256_text *hash)
 {
     sha256_text halves[2];
@@ -57,7 +57,7 @@ static int hash_picture(const compare_job *job, const compare_scene *scene, size
     return EXIT_CODE_OK;
 }
 
-/* Whether the file is there as these options would make it. What is there and different is rendered anew: the folder is ours. */
+/* Whether the file exists and is the one that these options would make. Other files are rendered again, because the folder belongs to the report. */
 static bool file_is_kept(const char *path, const sha256_text *hash)
 {
     file_error error;
@@ -65,7 +65,7 @@ static bool file_is_kept(const char *path, const sha256_text *hash)
     return file_state_read(path, RENDER_HASH_KEY, hash->text, true, &state, &error) == FILE_OK && state == FILE_STATE_SAME;
 }
 
-/* The same of a picture; a reference needs its halves too. */
+/* Finds out the same for a picture. A reference of two halves needs their files, too. */
 static int look_for_picture(const compare_job *job, const compare_scene *scene, size_t picture, size_t frame, bool *kept)
 {
     const size_t pictures[] = {picture, COMPARE_HALF, COMPARE_HALF + 1};
@@ -104,11 +104,11 @@ static int make_folders(compare_job *job)
     return code;
 }
 
-/* About how long the picture takes: for the time left. */
+/* Approximate work for a picture, from which the time left is estimated. */
 static double picture_work(const compare_scene *scene, size_t picture)
 {
     const mgt_quality *quality = compare_picture_quality(scene, picture);
-    const double each = method_of(quality->method)->way == METHOD_SAMPLES ? 1 : 4; /* double precision, or a filter's integral */
+    const double each = method_of(quality->method)->way == METHOD_SAMPLES ? 1 : 4; /* a filtered sample takes about four times as long as a point sample */
     return each * (double)compare_samples(quality) * scene->width * scene->height;
 }
 
@@ -137,7 +137,7 @@ static int write_picture(compare_job *job, frame_buffer *buffer, const compare_s
                                                                                                               : compare_file_failure(job, &error);
 }
 
-/* Renders and writes it. */
+/* Renders and writes a picture. */
 static int draw_picture(compare_job *job, frame_buffer *buffer, const compare_scene *scene, size_t picture, size_t frame)
 {
     mgt_scene view;
@@ -156,7 +156,7 @@ static int draw_picture(compare_job *job, frame_buffer *buffer, const compare_sc
     return write_picture(job, buffer, scene, picture, frame, seconds);
 }
 
-/* What the picture's file says; NaN: nothing. */
+/* Rendering time of a picture from its file's metadata; NaN: it has none. */
 static double recorded_seconds(const compare_job *job, const compare_scene *scene, size_t picture, size_t frame)
 {
     char path[COMPARE_PATH], *value = NULL;
@@ -168,7 +168,7 @@ static double recorded_seconds(const compare_job *job, const compare_scene *scen
     return seconds;
 }
 
-/* The layer becomes the mean of the two files'. */
+/* Sets a layer to the mean of the same layers of two files. */
 static int read_mean(compare_job *job, const char paths[2][COMPARE_PATH], const mgt_target *target)
 {
     float_image halves[2] = {{0}}, mean = {0};
@@ -185,7 +185,7 @@ static int read_mean(compare_job *job, const char paths[2][COMPARE_PATH], const 
     return good ? EXIT_CODE_OK : compare_file_failure(job, &error);
 }
 
-/* A half that an interrupted run left is taken as it is. */
+/* Renders the halves of a reference that do not exist, and writes their mean. */
 static int draw_reference(compare_job *job, frame_buffer *buffer, const compare_scene *scene, size_t frame)
 {
     char paths[2][COMPARE_PATH];
@@ -224,7 +224,7 @@ static int render_picture(compare_job *job, frame_buffer *buffer, const compare_
     return EXIT_CODE_OK;
 }
 
-/* Marks what is not to be drawn in `kept` (frames × pictures) and counts the rest. */
+/* Marks in `kept`, which has an element for each frame and picture, those that are not rendered. Adds up the number and the work of the others. */
 static int look_for_kept(compare_job *job, const compare_scene *scene, bool *kept, uint64_t *missing, double *work)
 {
     const size_t pictures = job->request->method_count + 1, each = job->frame_count * pictures, before = (size_t)(scene - job->scenes) * each;
@@ -251,7 +251,7 @@ static int render_scene(compare_job *job, const compare_scene *scene, const bool
     const render_request request = picture_request(job, scene, COMPARE_REFERENCE);
     frame_buffer buffer;
     int code = frame_buffer_create(&buffer, &request, scene->width, scene->height);
-    /* Frame by frame, so that each step holds as much of the reference's work and the time left is told well. */
+    /* All pictures of a frame come one after the other, so that the reference's work is evenly distributed and the time left is estimated well. */
     for (size_t i = 0; i < job->frame_count * pictures && code == EXIT_CODE_OK; i++) {
         if (*interrupt_flag())
             code = compare_stopped(job);
@@ -262,7 +262,7 @@ static int render_scene(compare_job *job, const compare_scene *scene, const bool
     return code;
 }
 
-/* From the records, so that a run that rendered nothing knows it as well. */
+/* Reads the times of the reference from its files, so that they are also known if nothing was rendered. */
 static void read_reference_seconds(compare_job *job, compare_scene *scene)
 {
     double sum = 0;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* One comparison from loading the scenes to the last gate: checks everything that can be checked first. */
+/* A comparison from loading the scenes to checking the limits. Everything that can be checked is checked before rendering. */
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -20,7 +20,7 @@ const char *compare_picture_name(const compare_job *job, size_t picture)
     return picture == COMPARE_REFERENCE ? "reference" : job->request->methods[picture - 1].name;
 }
 
-/* Of its files. */
+/* The name of a picture in its files' names. */
 static const char *picture_file(const compare_job *job, size_t picture)
 {
     return picture == COMPARE_REFERENCE || picture >= COMPARE_HALF ? compare_picture_name(job, picture) : job->request->methods[picture - 1].file;
@@ -122,7 +122,7 @@ static bool on_progress(void *user, double fraction)
     return *interrupt_flag() == 0;
 }
 
-/* "scenes/high.json" is "high", a second one "high-2"; "--sea wind=7.5" is "sea_wind_7_5". */
+/* Sets the name of a scene: "scenes/high.json" becomes "high", a second one "high-2"; "--sea wind=7.5" becomes "sea_wind_7_5". */
 static void name_scene(compare_job *job, size_t index)
 {
     compare_scene *scene = &job->scenes[index];
@@ -146,7 +146,7 @@ static void name_scene(compare_job *job, size_t index)
     }
 }
 
-/* With the overrides of the request and of the view. */
+/* Opens the scene's file with the overrides of the request and of the view. */
 static scene_file *load_file(const compare_job *job, const compare_scene *scene, scene_error *error)
 {
     const compare_request *r = job->request;
@@ -165,7 +165,7 @@ static scene_file *load_file(const compare_job *job, const compare_scene *scene,
     return file;
 }
 
-/* What the scene asks for and a method takes, unless the request says otherwise. */
+/* Sets the qualities of the reference and of the methods: those of the scene, changed by the request. */
 static int set_qualities(const compare_job *job, compare_scene *scene)
 {
     const compare_request *r = job->request;
@@ -230,7 +230,7 @@ static int load_scene(compare_job *job, size_t index)
     return EXIT_CODE_OK;
 }
 
-/* Every frame of every method, so that an hour of rendering does not end at a bad one. */
+/* Checks every frame of every method, so that an error does not appear after an hour of rendering. */
 static int check_scene(compare_job *job, const compare_scene *scene)
 {
     for (size_t frame = 0; frame < job->frame_count; frame++)
@@ -250,7 +250,7 @@ static int check_scene(compare_job *job, const compare_scene *scene)
     return EXIT_CODE_OK;
 }
 
-/* Makes the folder, in which `page` must be writable. */
+/* Makes the folder, and checks that the file `page` can be written there. */
 static int make_report_folder(compare_job *job, const char *page)
 {
     const char *folder = job->request->folder;
@@ -376,7 +376,7 @@ int compare_shard_done(const compare_job *job)
         json_pack("{s:{s:o, s:I, s:I}}", "run", "folder", console_json_text(r->folder), "rendered", (json_int_t)job->rendered, "kept", (json_int_t)job->kept));
 }
 
-/* Times, measures and writes the reports, once all pictures are drawn. */
+/* Times, measures and writes the reports, after all pictures have been rendered. */
 static int finish_report(compare_job *job)
 {
     int code = compare_time_methods(job);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Measures the kept pictures of every method against the reference's and its halves, frame by frame. */
+/* Measures the pictures of every method against those of the reference and its halves, frame by frame. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -39,7 +39,7 @@ int compare_display(compare_job *job, const mgt_scene *view, const float_image *
     return *interrupt_flag() ? compare_stopped(job) : console_library_error(job->context, status);
 }
 
-/* Displayed colour as a file of 8 bits would hold it, 0 … 1. */
+/* Converts light to displayed colour in [0, 1], rounded to 8 bits. */
 static int display(compare_job *job, const compare_scene *scene, size_t frame, const float_image *light, float_image *displayed)
 {
     const size_t values = 3 * (size_t)light->width * light->height;
@@ -67,14 +67,14 @@ static int read_frame(compare_job *job, const compare_scene *scene, size_t pictu
     return code == EXIT_CODE_OK && shows_displayed(job->request) ? display(job, scene, frame, &out[KIND_LIGHT], &out[KIND_DISPLAYED]) : code;
 }
 
-/* The metrics of one scene: a row of kinds for each method; NULL where a kind has nothing to measure. */
+/* The metrics of a scene, for each method and kind of picture. NULL: the kind has no metrics. */
 typedef struct measuring {
     clip_metrics *metrics[COMPARE_METHODS][COMPARE_KINDS];
     truth_metrics truth[COMPARE_METHODS][COMPARE_KINDS];
-    clip_metrics *noise[COMPARE_KINDS]; /* of half the reference against all of it */
+    clip_metrics *noise[COMPARE_KINDS]; /* of a half of the reference against the whole reference */
 } measuring;
 
-/* The pictures of a frame that methods are held against. */
+/* The pictures of a frame that methods are compared with. */
 typedef struct truth_pictures {
     float_image reference[COMPARE_KINDS], halves[2][COMPARE_KINDS];
 } truth_pictures;
@@ -106,7 +106,7 @@ static int start(compare_job *job, const compare_scene *scene, measuring *state)
     return code;
 }
 
-/* Coverage alone is freed of noise: its sums cost little. */
+/* Whether truth metrics are needed for a kind. Coverage always needs them for its RMSE without noise, which costs little. */
 static bool measures_truth(const truth_metrics *truth, int kind) { return kind == KIND_COVERAGE || truth->wants.texture || truth->wants.specks; }
 
 static bool lacks(const compare_result *result, int kind) { return kind == KIND_COVERAGE ? result->lacks_coverage : result->lacks_color; }
@@ -214,7 +214,7 @@ static void take_missing(compare_job *job, int kind, const clip_metrics *metrics
     }
 }
 
-/* For the dashes of its row. */
+/* Notes why a method has no scores of a kind, which explains the dashes in its row. */
 static void note_lack(compare_job *job, int kind, const char *name)
 {
     for (int i = 0; i < COMPARE_METRICS; i++)

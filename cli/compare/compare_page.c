@@ -15,7 +15,7 @@
 /* How the page shows a scene. */
 typedef struct scene_light {
     float scale;              /* stored = radiance × scale, a power of two, so that the sun fits into half floats */
-    double exposure;          /* of colour: stops that bring the reference's mean to a middle grey */
+    double exposure;          /* stops that bring the reference's mean colour to a middle grey */
     double coverage_exposure; /* stops that bring all but a few pixels of its coverage below white */
 } scene_light;
 
@@ -50,7 +50,7 @@ static int measure_light(compare_job *job, const compare_scene *scene, scene_lig
             const size_t count = (size_t)image.width * image.height * image.channels;
             for (size_t i = 0; i < count; i++) {
                 most = fmaxf(most, image.pixels[i]);
-                /* A logarithm's mean: a few glints must not decide. */
+                /* The mean of the logarithm, so that a few glints do not dominate. */
                 if (picture == COMPARE_REFERENCE && frame == 0)
                     sum += log2(fmax(image.pixels[i], 1e-6)) / (double)count;
             }
@@ -111,7 +111,7 @@ static int put_frame(const page *p, FILE *stream, size_t frame)
     return code;
 }
 
-/* As many frames as the page may hold, at least the first. */
+/* Packs the pictures of as many frames as the page may hold, at least of the first one. */
 static int pack_pictures(page *p)
 {
     int code = EXIT_CODE_OK;
@@ -169,7 +169,7 @@ static void put_score(FILE *stream, const compare_job *job, const compare_scene 
     fprintf(stream, ">%s</td>", number_print_measured(value, noise).text);
 }
 
-/* `scene` NULL: the means over all scenes. */
+/* Writes a row of the table. `scene` NULL: that of the means over all scenes. */
 static void put_row(FILE *stream, const compare_job *job, const compare_scene *scene, size_t index, size_t method)
 {
     const method_spec *spec = &job->request->methods[method];
@@ -199,7 +199,7 @@ static void put_row(FILE *stream, const compare_job *job, const compare_scene *s
     fputs("</tr>\n", stream);
 }
 
-/* `scene` NULL: of the means. */
+/* Writes the row of noise floors. `scene` NULL: those of the means. */
 static void put_noise_row(FILE *stream, const compare_job *job, const compare_scene *scene, size_t index)
 {
     fprintf(stream, "<tr data-scene=\"%d\"><td class=\"scene\">%s</td><th scope=\"row\">noise floor</th><td></td><td></td><td></td>", scene ? (int)index : -1,
@@ -284,7 +284,7 @@ static json_t *page_json(const page *p)
     return report;
 }
 
-/* A name in the data must not end the element that holds them. */
+/* Writes the report's JSON. "<" is escaped, so that a name in it cannot end the element that contains it. */
 static int put_data(FILE *stream, const page *p)
 {
     json_t *report = page_json(p);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Half floats, differences, zlib. */
+/* Packing of pixels: half floats, differences, zlib. */
 #include "cli/compare/compare_pixels.h"
 
 #include <math.h>
@@ -21,11 +21,11 @@ uint16_t half_from_float(float value)
         return sign | (uint16_t)lrintf(magnitude * 0x1p24f);
     int exponent;
     const float fraction = frexpf(magnitude, &exponent); /* magnitude = fraction · 2^exponent, fraction in [½, 1) */
-    /* A mantissa that rounds up to 2048 carries into the exponent, as it should. */
+    /* A mantissa that rounds up to 2048 correctly carries into the exponent. */
     return sign | (uint16_t)(((exponent + 14) << 10) + (int)lrintf(fraction * 2048) - 1024);
 }
 
-/* The halves of a channel in the order in which they are written. */
+/* The bits of a pixel in channel number `channel` of the packed order: G, R − G, B − G. */
 static uint16_t channel_bits(const float_image *image, float scale, size_t pixel, uint32_t channel)
 {
     const float *value = image->pixels + pixel * image->channels;

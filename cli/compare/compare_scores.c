@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The columns, their scores and who leads in them. */
+/* The columns, their scores, and the best methods. */
 #include "cli/compare/compare_scores.h"
 
 #include <math.h>
@@ -100,14 +100,14 @@ double score_noise(const compare_job *job, const compare_scene *scene, const sco
 
 number_text score_noise_text(double noise) { return number_print_measured(noise, 0.1 * noise); }
 
-/* Of the method's score from the best value; what has none is infinitely far. */
+/* Distance of a method's score from the best value; infinity: it has no score. */
 static double distance(const compare_job *job, const compare_scene *scene, size_t method, const score_column *column)
 {
     const double score = scene ? score_of(&scene->results[method], column) : score_mean(job, method, column);
     return isfinite(score) ? fabs(score - column->best) : INFINITY;
 }
 
-/* The two methods nearest to the best value, -1 where there are fewer with a score, and how much the second is further away. */
+/* The two methods nearest to the best value, and the difference of their distances from it. -1: fewer methods have a score. */
 typedef struct leaders {
     int first, second;
     double lead;
@@ -133,6 +133,7 @@ static leaders leaders_of(const compare_job *job, const compare_scene *scene, co
     return found;
 }
 
+/* Whether a lead is greater than the noise floor. */
 static bool leads(const compare_job *job, const compare_scene *scene, const score_column *column, double lead)
 {
     const double noise = score_noise(job, scene, column);
@@ -153,7 +154,7 @@ bool score_tied(const compare_job *job, const compare_scene *scene, const score_
     return found.second >= 0 && !leads(job, scene, column, found.lead);
 }
 
-/* "simple (RMSE, FLIP)"; returns how many columns were named. */
+/* Writes the columns with ties as "simple (RMSE, FLIP)". Returns their number. */
 static size_t put_ties(FILE *stream, const compare_job *job, const compare_scene *scene, bool main_alone, size_t before)
 {
     size_t count = 0;

@@ -22,7 +22,7 @@ double compare_gate_value(const compare_job *job, const compare_gate *gate)
 
 /* ---- JSON ------------------------------------------------------------------------------------------------ */
 
-/* JSON has no infinity and no NaN: null. */
+/* A JSON number, or null for NaN and infinities, which JSON does not have. */
 static json_t *number(double value) { return isfinite(value) ? json_real(value) : json_null(); }
 
 static json_t *owned_text(char *text)
@@ -85,7 +85,7 @@ static json_t *method_json(const compare_job *job, const compare_scene *scene, s
     return object;
 }
 
-/* Of each column the noise floor, or the method that is best, null where none is. */
+/* For each column the noise floor; null: not known. best_json() gives the best method; null: none is. */
 static json_t *floors_json(const compare_job *job, const compare_scene *scene)
 {
     json_t *floors = json_object();
@@ -127,7 +127,7 @@ static json_t *scene_json(const compare_job *job, const compare_scene *scene)
                      reference_json(job, scene), "methods", methods, "noise_floor", floors_json(job, scene), "best", best_json(job, scene));
 }
 
-/* Means over the scenes. */
+/* The results as means over the scenes. */
 static json_t *all_json(const compare_job *job)
 {
     json_t *list = json_array();
@@ -227,7 +227,7 @@ char *compare_csv_text(const compare_job *job, size_t *size)
 
 /* ---- LaTeX ----------------------------------------------------------------------------------------------- */
 
-/* Scene and method names hold [A-Za-z0-9_:=.-] alone. */
+/* Writes a name for LaTeX. Names of scenes and methods contain [A-Za-z0-9_:=.-] only. */
 static void tex_name(FILE *stream, const char *name)
 {
     for (; *name; name++)
@@ -271,7 +271,7 @@ static void tex_noise_row(FILE *stream, const compare_job *job, const compare_sc
     fputs(" \\\\\n", stream);
 }
 
-/* The line under the table. */
+/* Writes the line about ties under the table. False: out of memory. */
 static bool tex_ties(FILE *stream, const compare_job *job)
 {
     char *ties = score_ties_text(job, true);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Timed renders of every method, in runs of their own: the methods take turns, so that a change of the machine's pace meets all of them.
- * Kept in DIR/frames/SCENE/times.json, so that a comparison that goes on does not measure again. */
+/* Timed renders of every method. The methods take turns, so that a change of the machine's speed affects all of them. Times are kept in
+ * DIR/frames/SCENE/times.json, so that a comparison that is continued does not measure again. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,7 +16,7 @@ static bool is_timed(const compare_job *job, const compare_scene *scene, size_t 
     return !scene->view->untimed && compare_draws(scene, method + 1) && !compare_is_external(job->request, method);
 }
 
-/* What the times depend on, but for the machine itself. */
+/* A hash of everything that the times depend on, except the machine. False: out of memory. */
 static bool times_key(const compare_job *job, const compare_scene *scene, sha256_text *key)
 {
     const compare_request *r = job->request;
@@ -50,7 +50,7 @@ static bool times_path(const compare_job *job, const compare_scene *scene, char 
     return compare_file_path(job, name, path);
 }
 
-/* False: there are none for this key. */
+/* Reads the times from their file. False: there are none with this key. */
 static bool read_times(const compare_job *job, compare_scene *scene, const char *path, const sha256_text *key)
 {
     json_error_t error;
@@ -109,7 +109,7 @@ static int render_once(compare_job *job, mgt_context *context, const mgt_scene *
     return status == MGT_OK ? EXIT_CODE_OK : console_library_error(context, status);
 }
 
-/* Run 0 is not counted. */
+/* Renders run number `run` of a method. The caller does not count run 0. */
 static int time_once(compare_job *job, const compare_scene *scene, size_t method, size_t run, const mgt_target *target, double *seconds)
 {
     const uint32_t number = compare_frame_number(job, 0) + (scene->view->only_timed ? (uint32_t)run : 0);
@@ -150,7 +150,7 @@ static int time_scene(compare_job *job, compare_scene *scene, const char *path, 
     const mgt_target target = target_of(MGT_LAYER_COLOR, MGT_FORMAT_RGB32F, calloc((size_t)scene->width * scene->height, 3 * sizeof(float)));
     double *seconds = calloc(methods * runs, sizeof *seconds), unused;
     int code = target.pixels && seconds ? EXIT_CODE_OK : console_error(EXIT_CODE_FAILED, "out of memory");
-    /* Tables are built and memory is touched by a first frame, which does not count. */
+    /* Run 0 builds tables and touches memory. It is not counted. */
     for (size_t run = 0; run <= runs; run++)
         for (size_t m = 0; m < methods && code == EXIT_CODE_OK; m++)
             if (is_timed(job, scene, m))

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* `mangata diff A B`: errors of a picture against another, or of two series scored as one clip. */
+/* `mangata diff A B`: errors of a picture against another one, or of a series of pictures against another series, taken as one clip. */
 #include <inttypes.h>
 #include <math.h>
 #include <string.h>
@@ -16,10 +16,10 @@
 
 typedef struct diff_request {
     console out;
-    const char *paths[3], *layer; /* A, B and the second reference or NULL */
+    const char *paths[3], *layer; /* paths: A, B, and the second reference or NULL */
     frame_path names[3];
     bool gated, flicker;
-    frame_list frames; /* none: not given */
+    frame_list frames; /* empty: not given */
     double max_rmse;
     diff_metrics metrics;
     diff_prepare prepare;
@@ -91,7 +91,7 @@ static int set_error_top(const option *o, void *place, const char *value)
 
 static bool is_png(const char *path) { return picture_format_of(path) == PICTURE_PNG; }
 
-/* PNG holds sRGB-encoded values, the others light. */
+/* Checks the options of metrics, and chooses the encoding: .png files hold sRGB-encoded values, the others linear light. */
 static int check_metrics(diff_request *r)
 {
     if (r->flicker)
@@ -182,7 +182,7 @@ static int read_frame(const diff_request *r, uint32_t number, diff_frame *frame)
     return EXIT_CODE_OK;
 }
 
-/* image := next − image. */
+/* Sets image to next − image. */
 static void to_difference(float_image *image, const float_image *next)
 {
     const size_t count = (size_t)image->width * image->height * image->channels;
@@ -213,7 +213,7 @@ static int measure_frame(diff_request *r, uint32_t number, diff_frame *frame, fl
     if (code == EXIT_CODE_OK)
         code = add_frame(r, frame->images, previous, metrics);
     if (code == EXIT_CODE_OK && metrics->frames > before)
-        metrics->values -= frame->left_out * frame->images[0].channels; /* black in both: the sums hold nothing of them */
+        metrics->values -= frame->left_out * frame->images[0].channels; /* these are black in both, so they add nothing to the sums */
     if (code == EXIT_CODE_OK)
         code = diff_metrics_add(&r->metrics, number, frame, &r->maps);
     if (code == EXIT_CODE_OK)
@@ -229,7 +229,7 @@ static int measure(diff_request *r, image_metrics *metrics)
     for (uint64_t i = 0; i < count && code == EXIT_CODE_OK; i++) {
         diff_frame frame = {.count = r->paths[2] ? 3 : 2};
         code = *interrupt_flag() ? interrupt_exit_code() : measure_frame(r, frame_list_at(&r->frames, i), &frame, previous, metrics);
-        for (int k = 0; k < 2; k++) { /* the step to the next frame needs them */
+        for (int k = 0; k < 2; k++) { /* the difference from the next frame needs these pictures */
             float_image_free(&previous[k]);
             previous[k] = frame.images[k];
             frame.images[k] = (float_image){0};
@@ -241,7 +241,7 @@ static int measure(diff_request *r, image_metrics *metrics)
     return code;
 }
 
-/* JSON has no infinity: null. */
+/* A JSON number, or null for NaN and infinities, which JSON does not have. */
 static json_t *json_number(double number) { return isfinite(number) ? json_real(number) : json_null(); }
 
 static int print_report(diff_request *r, const image_metrics *m)
@@ -293,7 +293,7 @@ static int run(void *request)
     if ((code = check_request(r)) != EXIT_CODE_OK)
         return code;
     if (r->maps.wanted)
-        interrupt_install(); /* nothing is left half written */
+        interrupt_install(); /* so that no file is left incomplete */
     if ((code = measure(r, &metrics)) != EXIT_CODE_OK)
         return code;
     if (!(r->out.quiet && !r->out.json) && (code = print_report(r, &metrics)) != EXIT_CODE_OK)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Error maps as .png in colours, or as .exr and .pfm with the values themselves. */
+/* Error maps: .png files show colours, .exr and .pfm files hold the errors themselves. */
 #include "cli/diff/diff_maps.h"
 
 #include <math.h>
@@ -10,7 +10,7 @@
 #include "cli/common/numbers.h"
 #include "image/error_colors.h"
 
-/* Those that clip_metrics_add() fills. */
+/* The metrics that have maps: those that clip_metrics_add() fills. */
 static const clip_metric mapped[] = {CLIP_RMSE, CLIP_RELATIVE_RMSE, CLIP_FLIP, CLIP_HDR_FLIP, CLIP_SSIM, CLIP_FLICKER};
 enum { MAPPED = sizeof mapped / sizeof mapped[0], PATH_SIZE = sizeof(frame_path) };
 static const char mapped_words[] = "METRIC=FILE, where METRIC is rmse, relrmse, flip, hdr-flip, ssim or flicker and FILE ends in .png, .exr or .pfm";
@@ -126,7 +126,7 @@ static int write_map(const diff_maps *maps, clip_metric metric, const char *path
     const number_text score_text = number_print(score), top_text = number_print(top);
     metadata_entry entries[4] = {{"mangata_version", mgt_version()}, {"error_map", clip_metric_name(metric)}};
     metadata_list metadata = {entries, 2};
-    if (isfinite(score)) /* flicker of a first frame has none */
+    if (isfinite(score)) /* the flicker of a first frame has no score */
         entries[metadata.count++] = (metadata_entry){"score", score_text.text};
     if (map->format == PICTURE_PNG)
         entries[metadata.count++] = (metadata_entry){"brightest", top_text.text};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Feeds `mangata diff`'s frames to the metrics of clips and prints their scores. */
+/* Adds the frames of `mangata diff` to the metrics of clips, and prints the scores. */
 #include "cli/diff/diff_metrics.h"
 
 #include <math.h>
@@ -7,7 +7,7 @@
 
 #include "image/metrics_noise.h"
 
-/* JSON keys are words of their own: "hdr_flip" where the command line says "hdr-flip". */
+/* The key of a metric in JSON, such as "hdr_flip" for "hdr-flip" of the command line. */
 static const char *json_key(clip_metric metric)
 {
     static const char *const keys[CLIP_METRICS] = {
@@ -30,7 +30,7 @@ static const char *json_key(clip_metric metric)
 
 static bool is_wanted(const diff_metrics *m, int metric) { return m->wanted.metrics >> metric & 1; }
 
-/* JSON has neither infinity nor NaN: null. */
+/* Scores as JSON. NaN and infinities, which JSON does not have, become null. */
 static json_t *scores_to_json(const diff_metrics *m, const clip_scores *scores)
 {
     json_t *object = json_object();
@@ -94,7 +94,7 @@ static int get_scores(const diff_metrics *m, clip_scores *scores)
     return clip_metrics_scores(m->clip, scores, &error) == FILE_OK ? EXIT_CODE_OK : console_file_error(&error);
 }
 
-/* All NaN without a second reference. */
+/* The noise floors, all NaN without a second reference. */
 static int get_floors(const diff_metrics *m, clip_scores *floors)
 {
     file_error error;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What `mangata diff` makes of pictures before it compares them. */
+/* Preparation of pictures before `mangata diff` compares them. */
 #include "cli/diff/diff_prepare.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Prints texture, specks and errors freed of noise. */
+/* Reports texture, specks, and errors without the reference's noise. */
 #include "cli/diff/diff_truth.h"
 
 #include <inttypes.h>
@@ -18,10 +18,10 @@ int diff_truth_add(truth_metrics *t, const diff_frame *frame)
     return error.status == FILE_ARGUMENT ? console_error(EXIT_CODE_FAILED, "%s", error.text) : console_file_error(&error);
 }
 
-/* JSON has no NaN: null. */
+/* A JSON number, or null for NaN and infinities, which JSON does not have. */
 static json_t *json_number(double number) { return isfinite(number) ? json_real(number) : json_null(); }
 
-/* The report's object of that name, made where there is none. */
+/* The report's object `key`, which is created if it does not exist. */
 static json_t *object_of(json_t *report, const char *key)
 {
     if (!json_object_get(report, key))
@@ -47,7 +47,7 @@ int diff_truth_report(const truth_metrics *t, json_t *report)
     return failed ? console_error(EXIT_CODE_FAILED, "out of memory") : EXIT_CODE_OK;
 }
 
-/* "-" for what is not defined. */
+/* The number as text; "-": it is not defined. */
 static const char *number_text(double number, char text[32])
 {
     if (isfinite(number))

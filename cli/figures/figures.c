@@ -64,7 +64,7 @@ static const option figures_options[] = {
     OPTION_SHARD(figures_request,
                  "one of N machines' part of all pictures: draws it and measures\nnothing; the same command without --shard then measures all"),
     {"size", 0, "WxH", "size of what is scored (default 320x180; refraction 640x360, and\n1280x720 for its times)", set_size,
-     .least = 16, /* smaller pictures have no room for what the plates cut out of them */
+     .least = 16, /* smaller pictures are too small for the parts that plates show */
      .allowed = "WxH, each from 16 to 32768 pixels, such as 320x180"},
     {"spatial", 0, "N", "reference: NxN samples a pixel for each time sample (default 16)", .set = option_samples,
      .offset = offsetof(figures_request, reference.spatial_samples)},
@@ -113,7 +113,7 @@ int verb_figures(int count, char **arguments)
     mgt_quality_init(&request.reference, sizeof request.reference);
     method_from_name("reference", &request.reference);
     request.reference.spatial_samples = 16;
-    /* Not the methods' seed: else one that jitters would share the reference's samples. */
+    /* The reference has another seed than the methods. Otherwise a method with random samples would share samples with the reference. */
     request.reference.seed = 1;
     frame_list_parse(&request.frames, "0-56:8");
     return options_run(&figures_table, &request, count, arguments);

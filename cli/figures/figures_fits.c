@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Circular kernels against the ellipse they stand for (Fig. 21). */
+/* Circular kernels against the ellipse that they approximate (Fig. 21). */
 #include <math.h>
 
 #include "cpu/mixture_lane.h"
@@ -16,7 +16,7 @@ static const size_t fit_colors[FITS] = {0, 1, 2, 3, 2, 3};
 
 static mixture fit_at(int fit, double e) { return fit < FITTED ? mixture_fitted(fit_kernels[fit], e) : mixture_feline(e, fit_kernels[fit]); }
 
-/* The printed sum of Eq. 28 over Eq. 25, at some elongation, for three kernels. */
+/* The sum of Eq. 28 as it is printed, divided by Eq. 25, for three kernels at elongation e. */
 static double printed_over_true(double e)
 {
     const mixture m = mixture_fitted(3, e);
@@ -48,7 +48,7 @@ static void table_of_fits(figures_job *f)
     json_object_set_new(f->result, "fig21", json);
 }
 
-/* The largest, over elongations from 1.5, of a fit's error over the error of the next coarser one. */
+/* The largest ratio of a fit's error to that of the next coarser fit, for elongations from 1.5 to 9. */
 static double worst_step(void)
 {
     double worst = 0;
@@ -60,7 +60,7 @@ static double worst_step(void)
     return worst;
 }
 
-/* The least, over elongations from 1.5, of Feline's relative error over that of fitted kernels. */
+/* The least ratio of Feline's relative error to that of fitted kernels, for elongations from 1.5 to 9. */
 static double feline_least(int probes, int kernels)
 {
     double least = INFINITY;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* From the request to the page: which pictures are needed, who makes which figure, and what every figure shares. */
+/* The run of `mangata figures`: the pictures that are needed, the function that makes each figure, and functions that figures share. */
 #include "cli/figures/figures_job.h"
 
 #include <errno.h>
@@ -54,7 +54,7 @@ static bool method_wanted(const figures_job *f, figure_method method)
     return (wanted & six) || (figure_wanted(f, FIGURE_11) && (method == FIGURE_UNIFORM || method == FIGURE_MANGATA));
 }
 
-/* True when `folder` holds the scenes. */
+/* Whether `folder` holds the scenes. Sets f->folder and f->scene_paths. */
 static bool try_scenes(figures_job *f, const char *folder)
 {
     for (int i = 0; i < FIGURE_SCENES; i++)
@@ -65,7 +65,7 @@ static bool try_scenes(figures_job *f, const char *folder)
     return (size_t)snprintf(f->folder, sizeof f->folder, "%s", folder) < sizeof f->folder;
 }
 
-/* Here, beside a build folder, or where they are installed. */
+/* Finds the scenes in the present folder, beside a build folder, or where they are installed. */
 static int find_scenes(figures_job *f)
 {
     static const char *const places[] = {"../scenes", "../share/mangata/scenes"};
@@ -117,7 +117,7 @@ static int choose_pictures(figures_job *f)
     return EXIT_CODE_OK;
 }
 
-/* ---- pictures for the makers ---- */
+/* ---- pictures for the functions that make figures ---- */
 
 int figures_display(compare_job *job, size_t scene, size_t picture, size_t frame, double stops, uint8_t **rgba)
 {
@@ -251,7 +251,7 @@ static int print_tables(figures_job *f)
     return EXIT_CODE_OK;
 }
 
-/* figures.json, and what standard output is for. */
+/* Writes figures.json, and prints the result. */
 static int print_end(figures_job *f)
 {
     const figures_request *r = f->request;
@@ -287,7 +287,7 @@ static int run(figures_job *f)
     if (code != EXIT_CODE_OK)
         return code;
     code = compare_open(f->compare, &f->renders, "index.html");
-    /* Before the first picture of either part, so that hours of rendering do not end at a bad scene. */
+    /* The scenes of both parts are checked before the first picture, so that an error does not appear after hours of rendering. */
     if (code == EXIT_CODE_OK && figures_liu_wanted(f))
         code = figures_refraction_open(f, f->folder);
     if (code == EXIT_CODE_OK)

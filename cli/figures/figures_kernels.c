@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Circular kernels in place of an ellipse (Fig. 17): in pictures, and convolved with disk and path over elongations. */
+/* Circular kernels instead of an ellipse (Fig. 17): in pictures, and as errors of the light's fraction over elongation. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,16 +11,16 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* The ways of Fig. 17, in its order. */
+/* The approximations of Fig. 17, in its order. */
 enum { WAYS = 6 };
 static const figure_method way_methods[WAYS] = {FIGURE_KERNELS_1, FIGURE_KERNELS_3, FIGURE_KERNELS_5, FIGURE_KERNELS_9, FIGURE_FELINE, FIGURE_RIEMANN};
 static const mgt_mixture way_kernels[WAYS] = {MGT_MIXTURE_1, MGT_MIXTURE_3, MGT_MIXTURE_5, MGT_MIXTURE_9, MGT_MIXTURE_FELINE, MGT_MIXTURE_RIEMANN};
 static const char *const way_dashes[WAYS] = {"", "", "", "", "7 4", "2 3"};
 enum { WAY_5 = 2, WAY_9 = 3, WAY_FELINE = 4, WAY_RIEMANN = 5 };
 
-/* ---- the part of one pixel ---- */
+/* ---- the light's fraction in one pixel ---- */
 
-/* Elongations ½ octave apart. */
+/* Numbers of elongations, which are half an octave apart, and of random cases for each. */
 enum { ELONGATIONS = 10, CASES = 200 };
 
 static double elongation_at(int i) { return pow(2, 0.5 * i); }
@@ -37,8 +37,8 @@ static double random_between(random_numbers *r, double low, double high)
     return low + (high - low) * (double)((x ^ (x >> 31)) >> 11) * 0x1p-53;
 }
 
-/* As pixels meet them, in radii of the disk: minor deviation log-uniform from .1 to 8, path log-uniform from .01 to 10 in any direction, from a start
- * within 1.5 (1 + minor). */
+/* A path and a covariance as they are found in pixels, in radii of the disk. The minor deviation is log-uniform from 0.1 to 8. The path's length is log-uniform
+ * from 0.01 to 10, its direction uniform. It starts within 1.5 (1 + minor deviation) of the disk's centre. */
 typedef struct path_case {
     double from[2], to[2], covariance[3];
 } path_case;
@@ -59,7 +59,7 @@ static path_case random_case(random_numbers *r, double elongation)
 typedef struct share_errors {
     double elongation[ELONGATIONS];
     double moving[WAYS][ELONGATIONS], still[WAYS][ELONGATIONS]; /* rms */
-    double nine_over_riemann;                                   /* sums of still shares, elongations to 9 */
+    double nine_over_riemann;                                   /* ratio of the sums of fractions of points at rest, elongations up to 9 */
 } share_errors;
 
 static void in_order(void *user, size_t count, void (*body)(void *, size_t), void *argument)
@@ -122,7 +122,7 @@ static void plot_shares(figures_job *f, const share_errors *errors)
     figures_plate(f, &sheet, "fig17-elongation", "Error of the light's share over elongation, by kernels");
 }
 
-/* Elongations up to 8, all alike. */
+/* Root mean square of the errors at elongations up to 8, with equal weights. */
 static double mean_to_eight(const double errors[ELONGATIONS])
 {
     double sum = 0;
@@ -170,7 +170,7 @@ static void figure_of_shares(figures_job *f)
 
 /* ---- pictures ---- */
 
-/* Sums of coverage with a closed shutter, where nine kernels and the Riemann sum mean the same. */
+/* Sums of coverage without a shutter, by nine kernels and by the Riemann sum. In that case both approximate the same value. */
 static void still_sums(figures_job *f, size_t scene, double sums[2])
 {
     compare_job *job = f->compare;

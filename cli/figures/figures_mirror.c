@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Fig. 20: how far one Jacobian carries a Gaussian of slopes onto the light plane, as surfaces over the slopes' variances. */
+/* Fig. 20: the error of mapping a Gaussian of slopes to the light plane with a single Jacobian, as surfaces over the slopes' variances. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -9,17 +9,17 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* Variances of slope along x and z: 0.004, 0.008, …; deviations .06 to .22. */
+/* SIDE variances of slope along x and along z: 0.004, 0.008, …, which are deviations from 0.06 to 0.22. RINGS and SPOKES give the places of lights. */
 enum { SIDE = 12, RINGS = 3, SPOKES = 8 };
 static const double variance_step = 0.004, disk_degrees = 2;
 
-/* By pair of variances, x by z. */
+/* Errors for each pair of variances: index x, then z. */
 typedef struct error_field {
     double value[SIDE][SIDE];
     double mean, most;
 } error_field;
 
-/* In the x–y plane, so many degrees up: along x slopes tilt within the plane of view, along z across it. */
+/* The direction to the eye, in the x–y plane at an elevation in degrees. Slopes along x then lie in the plane of view, slopes along z across it. */
 static void view_direction(double degrees, double direction[3])
 {
     const double elevation = degrees * pi / 180;
@@ -28,7 +28,8 @@ static void view_direction(double degrees, double direction[3])
     direction[2] = 0;
 }
 
-/* What the paper plots, as far as its text says: the distance of the densities, the light where flat water mirrors it. */
+/* The error that the paper plots, according to its text: the distance of the densities, with the light where flat water mirrors it. It is the mean over
+ * elevations of the eye from `lowest` to `highest` degrees. */
 static double density_error(const slope_law *law, double lowest, double highest)
 {
     double sum = 0;
@@ -42,7 +43,7 @@ static double density_error(const slope_law *law, double lowest, double highest)
     return sum / views;
 }
 
-/* At low variance along x and high along z, over the reverse. */
+/* The error at low variance along x and high variance along z, divided by that at the reverse. */
 static double lopsidedness(double lowest, double highest)
 {
     const double low = variance_step, high = variance_step * SIDE;
@@ -50,22 +51,23 @@ static double lopsidedness(double lowest, double highest)
     return density_error(&across, lowest, highest) / density_error(&along, lowest, highest);
 }
 
-/* What a renderer needs: the fraction of slopes that show the light, over lights that stand as the slopes' own distribution mirrors them. Mean absolute
- * error over mean share, with the Jacobian at the slopes' mean and at the slope that mirrors the light's centre. */
+/* The error that matters to a renderer: that of the fraction of slopes that mirror the light. The lights are placed where the distribution of slopes mirrors
+ * them. Each error is the mean absolute error divided by the mean fraction. errors[0] uses the Jacobian at the mean slope, errors[1] that at the slope that
+ * mirrors the light's centre. */
 static void share_errors(const slope_law *law, double errors[2])
 {
     double sums[2] = {0, 0}, exact = 0;
     const double radius = tan(disk_degrees * pi / 180);
     for (int view = 1; view <= 8; view++)
         for (int place = 0; place < RINGS * SPOKES; place++) {
-            /* The middle of an equal part of the Gaussian's mass. */
+            /* Each place is the middle of an equal part of the Gaussian's mass. */
             const double away = sqrt(-2 * log(1 - (place / SPOKES + 0.5) / RINGS)), around = 2 * pi * (place % SPOKES + 0.5) / SPOKES;
             const double slope[2] = {away * cos(around) * sqrt(law->covariance[0]), away * sin(around) * sqrt(law->covariance[2])};
             double to_eye[3], light[3];
             view_direction(10 * view, to_eye);
             mirror_direction(to_eye, slope, light);
             if (light[1] < 0.02)
-                continue; /* below the horizon */
+                continue; /* the light is at or below the horizon */
             const double share = mirror_disk_fraction(to_eye, light, law, radius);
             exact += share;
             sums[0] += fabs(linear_disk_fraction(to_eye, light, law, radius, law->mean) - share);
@@ -97,7 +99,7 @@ static void measure(figures_job *f, error_field fields[3])
 /* ---- surfaces, seen from above the corner of large variances ---- */
 
 typedef struct view_box {
-    double x, y, half, rise, tall, top; /* the back corner, steps right and down of one cell, height of `top` */
+    double x, y, half, rise, tall, top; /* place of the back corner; step of a cell to the right and down; height of a value `top` */
 } view_box;
 
 static void project(const view_box *b, double x, double z, double value, double out[2])
@@ -141,7 +143,7 @@ static void draw_axes(svg *s, const view_box *b, double step)
 
 static void draw_surface(svg *s, const view_box *b, const error_field *field)
 {
-    /* From the back to the front. */
+    /* Cells are drawn from the back to the front. */
     for (int far = 0; far <= 2 * (SIDE - 2); far++)
         for (int x = 0; x < SIDE - 1; x++) {
             const int z = far - x;

@@ -8,7 +8,7 @@
 #include "cli/common/markup.h"
 #include "cli/common/memory_text.h"
 
-/* ---- for the makers ---- */
+/* ---- for the functions that make figures ---- */
 
 void figures_section(figures_job *f, const char *name, const char *title) { fprintf(f->page, "<section id=\"%s\"><h2>%s</h2>\n", name, title); }
 
@@ -54,7 +54,7 @@ void figures_check(figures_job *f, const char *claim, double value, double least
     json_array_append_new(f->checks, check);
 }
 
-/* ---- the whole ---- */
+/* ---- the whole page ---- */
 
 static const char page_head[] = "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
                                 "content=\"width=device-width, initial-scale=1\">\n"

@@ -6,9 +6,9 @@
 
 #include "cli/figures/figures_job.h"
 
-/* A picture's part and its place. */
+/* A part of a picture, and its place on the sheet. */
 typedef struct panel {
-    double x, y, scale; /* of a pixel */
+    double x, y, scale; /* scale: units of the sheet per pixel */
     svg_crop crop;
 } panel;
 
@@ -17,7 +17,7 @@ static void put_picture(figures_job *f, svg *sheet, size_t scene, size_t picture
     figures_put(f, sheet, scene, picture, &p->crop, p->x, p->y, p->scale);
 }
 
-/* Signed difference of coverage: red where the picture has too much light, blue where too little; white at half. */
+/* Draws the signed error of coverage: red where there is too much light, blue where there is too little. Half of full coverage has the strongest colour. */
 static void put_error(figures_job *f, svg *sheet, size_t scene, size_t picture, const panel *p)
 {
     const compare_scene *s = &f->compare->scenes[scene];
@@ -48,7 +48,7 @@ static void put_error(figures_job *f, svg *sheet, size_t scene, size_t picture, 
         float_image_free(&images[i]);
 }
 
-/* A panel's size such that pictures of any size take 300 units across. */
+/* A panel of the glitter, scaled to be `across` units wide. */
 static panel panel_of(const figures_job *f, size_t scene, double x, double y, double across)
 {
     panel p = {.x = x, .y = y, .crop = figures_glitter_crop(f->compare->scenes[scene].width, f->compare->scenes[scene].height)};
@@ -65,7 +65,7 @@ static const char *const scene_captions[FIGURE_SCENES] = {"Published: five sine 
                                                           "Published: 32 shorter sine waves, high detail: accurate near the camera, without "
                                                           "aliasing far away."};
 
-/* The reference's whole frame, with a frame around what the panels show of it. */
+/* Draws the whole reference, with a frame around the part that the panels show. */
 static void put_whole(figures_job *f, svg *sheet, size_t scene, double x, double y, double across)
 {
     const compare_scene *s = &f->compare->scenes[scene];
@@ -89,7 +89,7 @@ static void glitter(figures_job *f, size_t scene)
     if (!figures_sheet(f, &sheet, 4 * ACROSS + 5 * GAP, TOP + 2 * row + tall * across / ACROSS + 30))
         return;
     for (size_t i = 0; i < 7 && figures_good(f); i++) {
-        /* Two rows of four: the reference stands at the end of the first, the fifth place of which the methods skip. */
+        /* Panels are in two rows of four. The reference is at the end of the first row, and methods skip that place. */
         const size_t place = i < 3 ? i : i == 6 ? 3 : i + 1;
         const double x = GAP + (ACROSS + GAP) * (double)(place % 4), y = TOP + row * (double)(place / 4);
         const panel p = panel_of(f, scene, x, y, ACROSS);
@@ -182,7 +182,7 @@ void figures_transition(figures_job *f)
 
 /* ---- Fig. 12 ---- */
 
-/* The scene under a sky, so that the waves show, by `mangata`. */
+/* Renders the scene by method `mangata` under a sky, so that the waves are visible. */
 static int render_view(figures_job *f, size_t scene, uint32_t width, uint32_t height, uint8_t *rgba)
 {
     mgt_scene view;

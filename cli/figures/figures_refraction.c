@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The second part of the figures: which views are drawn by which methods, and the order of their plates. */
+/* The figures of Liu et al.: the views, the methods that render them, and the order of the plates. */
 #include "cli/figures/figures_refraction.h"
 
 #include <stdlib.h>
@@ -108,7 +108,7 @@ static int add_view(refraction_figures *r, refraction_view view, const char *fol
     return EXIT_CODE_OK;
 }
 
-/* The pool without its bunny is no error: the model comes over the network. */
+/* Replaces the bunny of the pool by a rock if its model is missing. That is not an error, because the model must be downloaded. */
 static void look_for_bunny(refraction_figures *r, const char *folder)
 {
     char path[4300];
@@ -207,7 +207,7 @@ int figures_refraction_open(figures_job *f, const char *folder)
     }
     r->figures = f;
     r->compare = compare;
-    r->compare->request = &r->renders; /* for compare_close(), where choose() fails */
+    r->compare->request = &r->renders; /* compare_close() reads it if choose() fails */
     f->refraction = r;
     const int code = choose(r, folder);
     return code == EXIT_CODE_OK ? compare_open(r->compare, &r->renders, "index.html") : code;

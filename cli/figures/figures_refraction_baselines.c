@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-/* The methods beside the path-traced reference, on flat water (Fig. 10) and on waves (Fig. 11): pictures, differences and what metrics make of them. */
+/* The methods beside the path-traced reference, on flat water (Fig. 10) and on waves (Fig. 11): pictures, differences and scores. */
 #include <math.h>
 
 #include "cli/figures/figures_refraction.h"
 
 enum { PANELS = 4, ACROSS = 320, GAP = 12, TOP = 34, ROW = 44 };
 
-/* The path-traced reference, then the paper's three. */
+/* The path-traced reference, then the three methods of the paper. */
 static const refraction_method panels[PANELS] = {SHOWN_RAY, SHOWN_TWO_PHASE, SHOWN_SCREEN_SPACE, SHOWN_DISTANCE_FIELD};
 
-/* Pictures, the part with bunny, ball and shadow larger, and differences, one below the other. */
+/* Draws a column: the picture, an enlarged part with bunny, ball and shadow, and the difference, one below the other. */
 static void put_column(refraction_figures *r, svg *sheet, refraction_view view, size_t column)
 {
     const refraction_method method = panels[column];

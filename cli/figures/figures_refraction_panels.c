@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Panels of the plates of refraction: parts of pictures, of their differences from the path-traced reference, and of their artefacts. */
+/* Panels of the plates of refraction: parts of pictures, their differences from the path-traced reference, and their artefacts. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,7 +22,7 @@ double refraction_panel_height(const refraction_figures *r, const refraction_pan
     return p->across * crop.height / crop.width;
 }
 
-/* White by red to black; grey where no water. */
+/* The colour of a difference: white over red to black, or grey where there is no water. */
 static void difference_pixel(uint8_t rgba[4], double difference, bool water)
 {
     const double t = difference / ARTEFACT, red = t < 1 ? 1 : fmax(1 - (t - 1) / 2, 0), other = fmax(1 - t, 0);
@@ -31,7 +31,7 @@ static void difference_pixel(uint8_t rgba[4], double difference, bool water)
     memcpy(rgba, water ? pixel : land, 4);
 }
 
-/* Paler and grey, so that red stands out. */
+/* Makes a pixel red if it is an artefact, otherwise pale and grey, so that red stands out. */
 static void artefact_pixel(uint8_t rgba[4], bool artefact)
 {
     const double grey = 0.299 * rgba[0] + 0.587 * rgba[1] + 0.114 * rgba[2];

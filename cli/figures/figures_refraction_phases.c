@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What each phase is for: from under the water (Fig. 4), at the borders (Fig. 7), behind other things (Figs. 8 and 9). */
+/* The effect of each phase: seen from under water (Fig. 4), at the borders (Fig. 7), behind other objects (Figs. 8 and 9). */
 #include <math.h>
 
 #include "cli/figures/figures_refraction.h"
@@ -40,7 +40,7 @@ void refraction_below(refraction_figures *r)
 
 /* ---- Fig. 7 ---- */
 
-/* Share of a band of pixels along the picture's border that are artefacts; the band is an eighth of the height wide. */
+/* Computes the fraction of artefacts in a band along the picture's border, an eighth of the height wide. */
 static int border_artefacts(refraction_figures *r, refraction_method method, double *share)
 {
     refraction_pair pair;

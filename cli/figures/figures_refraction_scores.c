@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Scores what comes through the surface against rays traced through the waves. */
+/* Scores the radiance that comes through the surface against path-traced references. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -62,7 +62,7 @@ static double share_of_artefacts(const refraction_pair *pair)
     return pixels > pair->left_out ? (double)count / (double)(pixels - pair->left_out) : 0;
 }
 
-/* The metrics of one pair; RMSE in 0 … 255 over whole pixels of water. */
+/* Computes the metrics of a pair. The RMSE is 0 to 255, over pixels that are all water. */
 static int score_pair(refraction_figures *r, const refraction_pair *pair, uint32_t metrics, clip_scores *scores)
 {
     const clip_metrics_desc desc = {.width = pair->mask.width, .height = pair->mask.height, .channels = 3, .metrics = metrics, .srgb_encoded = true};
@@ -75,7 +75,7 @@ static int score_pair(refraction_figures *r, const refraction_pair *pair, uint32
         status = clip_metrics_scores(clip, scores, &error);
     if (status == FILE_OK) {
         image_metrics sums = *clip_metrics_sums(clip);
-        sums.values -= 3 * pair->left_out; /* black in both */
+        sums.values -= 3 * pair->left_out; /* these pixels are black in both pictures */
         scores->values[CLIP_RMSE] = 255 * image_metrics_rmse(&sums);
     }
     clip_metrics_free(clip);

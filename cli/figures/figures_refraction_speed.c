@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Table 3: frames a second and memory, published and here; and every score of refraction as text. */
+/* Table 3: frames per second and memory, published and measured; and all scores of refraction as text. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,7 +11,7 @@
 enum { SIZES = 2 };
 static const refraction_view size_views[SIZES] = {VIEW_SPEED_16K, VIEW_SPEED_128K};
 
-/* Frames a second, 16k and 128k triangles; NaN: not published. */
+/* The published frames per second with 16k triangles (`size` 0) or 128k (1); NaN: not published. */
 static double published_rate(refraction_method method, int size)
 {
     switch (method) {
@@ -163,7 +163,7 @@ static void put_row(refraction_figures *r, refraction_method method)
     fputs("</tr>\n", page);
 }
 
-/* Of the quickest frames, which other work on the machine disturbs least. */
+/* Ratio of the times of the fastest frames, which other work on the machine disturbs least. */
 static double quickest_ratio(const refraction_figures *r, refraction_method method, int size, refraction_method other, int other_size)
 {
     return result_of(r, other, other_size)->time.least / result_of(r, method, size)->time.least;
@@ -179,7 +179,7 @@ static void check(refraction_figures *r)
             least = fmin(least, quickest_ratio(r, TIMED_TWO_PHASE, i, baselines[m], i));
         snprintf(claim, sizeof claim, "Liu Table 3, %s: frame rate of two-phase over that without refraction", i ? "128k" : "16k");
         figures_check(r->figures, claim, quickest_ratio(r, TIMED_TWO_PHASE, i, TIMED_OFF, i), 0.7, INFINITY);
-        /* A few frames suffice, also on a machine with other work. */
+        /* A few frames suffice, even if the machine does other work. */
         snprintf(claim, sizeof claim, "Liu Table 3, %s: frame rate of two-phase over that of the fastest baseline", i ? "128k" : "16k");
         figures_check(r->figures, claim, least, 0.95, INFINITY);
     }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Fewer triangles (Fig. 12), higher waves and other angles (Fig. 13), outdoors (Fig. 14), a diver's view (Fig. 15). */
+/* Fewer triangles (Fig. 12), higher waves and other angles (Fig. 13), outdoor scenes (Fig. 14), a diver's view (Fig. 15). */
 #include <math.h>
 
 #include "cli/figures/figures_refraction.h"
@@ -87,7 +87,7 @@ void refraction_angles(refraction_figures *r)
 
 /* ---- Figs. 14 and 15 ---- */
 
-/* A row: two-phase, screen space, no refraction and the path-traced reference of a part; `letters` "": without titles. */
+/* Draws a row of a part: two-phase, screen space, no refraction, and the path-traced reference. `letters` "": without titles. */
 static void put_row(refraction_figures *r, svg *sheet, refraction_panel p, const char *letters)
 {
     static const refraction_method methods[] = {SHOWN_TWO_PHASE, SHOWN_SCREEN_SPACE, SHOWN_OFF, SHOWN_RAY};
@@ -110,7 +110,7 @@ static void check_view(refraction_figures *r, const char *figure, refraction_vie
 
 enum { ACROSS = 320 };
 
-/* A sheet for two rows, the lower one so far below the upper one and from the border, and the upper row on it. False when memory runs out. */
+/* Starts a sheet for two rows, with `between` units between them and `below` units below, and draws the upper row. False: out of memory. */
 static bool start_rows(refraction_figures *r, svg *sheet, const refraction_panel *upper, refraction_panel *lower, double between, double below)
 {
     lower->y = TOP + refraction_panel_height(r, upper) + between;

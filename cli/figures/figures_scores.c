@@ -6,18 +6,18 @@
 #include "cli/figures/figures_job.h"
 #include "image/image_metrics.h"
 
-/* One frame of one picture. */
+/* A frame of a picture: coverage, and displayed RGBA at each exposure. */
 typedef struct scored_frame {
     float_image coverage;
     uint8_t *displayed[FIGURE_EXPOSURES];
 } scored_frame;
 
-/* Running sums of one method on one scene. */
+/* Sums of a method over the frames of a scene. */
 typedef struct scored_clip {
     image_metrics coverage;
-    double squares[FIGURE_EXPOSURES]; /* of displayed differences */
-    double half[2], excess[2];        /* of those at FIGURE_SHOWN above and below the middle row; of what is too bright there */
-    double values;
+    double squares[FIGURE_EXPOSURES]; /* sums of squared displayed differences */
+    double half[2], excess[2];        /* the same at FIGURE_SHOWN above and below the middle row; of values that are too bright there */
+    double values;                    /* number of displayed values */
 } scored_clip;
 
 static void free_frame(scored_frame *frame)

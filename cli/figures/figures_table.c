@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Table 1 beside the published one, and the same as bars (Fig. 18). */
+/* Table 1 beside the published one, and its scores as bars (Fig. 18). */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,13 +10,13 @@
 
 enum { TABLE_METHODS = FIGURE_MANGATA + 1 };
 
-/* RMSE of displayed colour, simple, smooth, medium, high. */
+/* The published RMSE of displayed colour, for the scenes simple, smooth, medium and high. */
 static const double published[TABLE_METHODS][FIGURE_SCENES] = {
     [FIGURE_NONE] = {0.0797, 0.0299, 0.0315, 0.0778},    [FIGURE_MSAA32] = {0.0795, 0.0287, 0.0282, 0.0676}, [FIGURE_LEAN] = {0.0675, 0.0329, 0.0298, 0.0633},
     [FIGURE_UNIFORM] = {0.0384, 0.0200, 0.0278, 0.0611}, [FIGURE_PIXEL] = {0.0384, 0.0192, 0.0229, 0.0610},  [FIGURE_MANGATA] = {NAN, NAN, NAN, NAN},
 };
 
-/* A column of scores: of coverage, or of displayed colour at an exposure. */
+/* Columns of scores: that of coverage, then those of displayed colour at each exposure. */
 enum { COLUMN_COVERAGE = 0, COLUMN_DISPLAYED, COLUMNS = COLUMN_DISPLAYED + FIGURE_EXPOSURES };
 
 static double score(const figures_job *f, int column, int scene, int method)
@@ -42,7 +42,7 @@ static int best_of(const figures_job *f, int column, int scene)
     return best;
 }
 
-/* mangata over the better of the two published models, mean over the scenes. */
+/* Score of mangata divided by that of the better of the two published models, mean over the scenes. */
 static double over_published(const figures_job *f, int column)
 {
     double sum = 0;
@@ -153,7 +153,7 @@ static void put_table(figures_job *f, int column)
     fputs("</table>\n", f->page);
 }
 
-/* Far and near water apart, and whether light is missing or too much. */
+/* Writes the errors of far and of near water, and the fractions of them that are too bright. */
 static void put_halves(figures_job *f)
 {
     fprintf(f->page, "<table><tr><th>RMSE, displayed colour, %+g stops</th>", figure_stops[FIGURE_SHOWN]);

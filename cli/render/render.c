@@ -36,7 +36,7 @@ static int add_layer(const option *o, void *place, const char *value)
     return EXIT_CODE_OK;
 }
 
-/* What a kind of file can hold. */
+/* Checks that the file format can hold the layers. */
 static int check_layers(render_request *r)
 {
     if (r->format == PICTURE_SUMS)
@@ -69,7 +69,7 @@ static int set_crf(const option *o, void *place, const char *value)
     return EXIT_CODE_OK;
 }
 
-/* Prints what is wrong. */
+/* Whether the options of films fit the format. If not, it prints why. */
 static bool film_fits(render_request *r)
 {
     const bool encoded = r->format == PICTURE_MP4 || r->format == PICTURE_MOV;
@@ -94,7 +94,7 @@ static int set_checkpoint(const option *o, void *place, const char *value)
     return EXIT_CODE_OK;
 }
 
-/* What files of sums, merges and checkpoints cannot have. */
+/* Checks the options that files of sums and checkpoints exclude. */
 static int check_sums(render_request *r)
 {
     if (r->format == PICTURE_SUMS && r->layer_count)
@@ -159,7 +159,7 @@ static int run_merge(void *request)
     return render_checked(r);
 }
 
-/* The scene, then parts. */
+/* Takes an operand of mangata merge: the scene first, then the parts. */
 static int add_merged(const option *o, void *place, const char *value)
 {
     render_request *r = place;
@@ -221,7 +221,7 @@ static const option render_options[] = {
      .set = option_given, .offset = offsetof(render_request, skip_existing)},
     {"stamp", 0, NULL, "record host, date, threads and instruction set in the output", .set = option_given, .offset = offsetof(render_request, stamp)},
     OPTION_PROGRESS(render_request),
-    /* From here on not of merge. */
+    /* The options from here on are not those of merge. */
     {"samples-range", 0, "FIRST,COUNT",
      "reference, ssaaN: take only these of the NxNxM samples; or I/N,\nthe part I of N equal ones. adaptive podee: of the M of --slots", .set = option_quality,
      .offset = offsetof(render_request, options)},

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* From what rays show to pairs of a name's number and its coverage. */
+/* Mattes: pairs of the id of a name and its coverage, from the objects that rays meet. */
 #include "cli/render/render_crypto.h"
 
 #include <stdlib.h>
@@ -16,19 +16,20 @@ struct render_crypto {
     context_options context;
     uint32_t side, width, height;
     size_t object_count;
-    uint32_t *labels;   /* of the scene's objects: places among the names */
-    const char **names; /* "sky", "water", then those of the objects, each once; borrowed */
-    float *ids;         /* of the names */
+    uint32_t *labels;   /* for each object of the scene the index of its name */
+    const char **names; /* "sky", "water", then the names of objects, each once; borrowed */
+    float *ids;         /* ids of the names */
     size_t name_count;
     cryptomatte_header header;
     object_shares *shares;
-    float *values; /* 12 a pixel: six pairs */
+    float *values; /* 12 for each pixel: six pairs of id and coverage */
 };
 
 static const char *const channel_names[CRYPTO_CHANNELS] = {LAYER "00.R", LAYER "00.G", LAYER "00.B", LAYER "00.A", LAYER "01.R", LAYER "01.G",
                                                            LAYER "01.B", LAYER "01.A", LAYER "02.R", LAYER "02.G", LAYER "02.B", LAYER "02.A"};
 _Static_assert((int)CRYPTO_CHANNELS == 2 * (int)OBJECT_RANKS, "a pair of channels for each rank");
 
+/* Index of a name, which is added if it is new. */
 static uint32_t take_name(render_crypto *c, const char *name)
 {
     uint32_t i = 0;
@@ -94,7 +95,7 @@ void render_crypto_free(render_crypto *c)
     free(c);
 }
 
-/* Ranks that show nothing are zeros, as the specification has them. */
+/* Writes the pairs. A rank that nothing covers is zero, as the specification says. */
 static void write_values(render_crypto *c)
 {
     for (size_t i = 0; i < (size_t)c->width * c->height; i++)

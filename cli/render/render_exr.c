@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* EXR as compositors expect it. */
+/* The options of --exr, and the attributes and values that compositors expect. */
 #include "cli/render/render_exr.h"
 
 #include <math.h>
@@ -15,7 +15,7 @@ enum { NITS = 1000 };
 
 static const char *const exr_words[] = {"float", "half", "zip", "piz", "none", "alpha", "z", "acescg", "parts", "cryptomatte", NULL};
 
-/* "cryptomatte:8" */
+/* Reads a word such as "cryptomatte:8". False: it is another one. */
 static bool take_side(exr_choice *choice, const char *word, size_t length)
 {
     static const char start[] = "cryptomatte:";
@@ -88,7 +88,7 @@ void exr_choice_write(FILE *stream, const exr_choice *choice)
 
 /* ---- the camera ---- */
 
-/* Right, up and the direction of view, all of length 1, and half the picture's size at distance 1. */
+/* Unit vectors to the right, up and along the direction of view, and half the picture's size at distance 1. */
 typedef struct camera_axes {
     double axis[3][3];
     double half_width, half_height;
@@ -147,7 +147,7 @@ exr_desc exr_desc_of(const exr_choice *choice, const mgt_scene *scene, double fp
         desc.world_to_camera[3][k] = -dot(scene->camera.position, c.axis[k]);
     }
     desc.world_to_camera[3][3] = 1;
-    /* Divided by the fourth column, the distance along the view; depth is 1 − 1 / distance. */
+    /* Coordinates are divided by the fourth column, the distance along the direction of view. Depth is 1 − 1 / distance. */
     for (int i = 0; i < 4; i++) {
         const double *row = desc.world_to_camera[i];
         desc.world_to_ndc[i][0] = 0.5 * (row[0] / c.half_width + row[2]);
@@ -172,7 +172,7 @@ void exr_planar_depth(float *depth, const mgt_scene *scene)
 
 void exr_to_acescg(float *color, size_t pixels)
 {
-    /* From the primaries of both, white adapted from D65 to that of ACES by Bradford's matrix. */
+    /* The matrix follows from the primaries of both spaces, with white adapted from D65 to that of ACES by Bradford's matrix. */
     static const double matrix[3][3] = {{0.6130974024, 0.3395231462, 0.0473794514},
                                         {0.0701937225, 0.9163538791, 0.0134523985},
                                         {0.0206155929, 0.1095697729, 0.8698146342}};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Frame memory and still pictures. */
+/* Memory for frames, and writing of still pictures. */
 #include "cli/render/render_frame.h"
 
 #include <stdlib.h>
@@ -29,7 +29,7 @@ static const mgt_target *target_of_layer(const frame_buffer *buffer, mgt_layer l
     return NULL;
 }
 
-/* The request's layers, and those that it needs besides. */
+/* Lists the layers of the request, then those that alpha and planar depth need. */
 static size_t list_layers(const render_request *request, mgt_layer layers[LAYER_COUNT])
 {
     size_t count = request->layer_count;
@@ -55,7 +55,7 @@ int frame_buffer_create(frame_buffer *buffer, const render_request *request, uin
     double bytes = request->exr.z ? 4.0 * (double)pixels : 0;
     for (size_t i = 0; i < count; i++)
         bytes += (double)pixels * (double)pixel_bytes(layer_format(layers[i], buffer->displayed));
-    /* Linux grants more than there is and kills later; better to say no now. */
+    /* Linux may grant more memory than there is and kill the process later, so this is checked first. */
     if (!frame_buffer_fits(bytes))
         goto fail;
     if (request->exr.z && !(buffer->planar = calloc(pixels, sizeof *buffer->planar)))
@@ -93,7 +93,7 @@ void frame_buffer_display(frame_buffer *buffer)
     const bool normal = target->layer == MGT_LAYER_NORMAL;
     const size_t stride = pixel_bytes(target->format);
     uint8_t *bytes = target->pixels;
-    /* Four bytes are written where at least four have been read. */
+    /* Pixel i is read at or behind the place where it is written, so nothing is overwritten before it is read. */
     for (size_t i = 0; i < (size_t)buffer->width * buffer->height; i++) {
         float value[3] = {0};
         uint8_t rgba[4] = {0, 0, 0, 255};
@@ -104,7 +104,7 @@ void frame_buffer_display(frame_buffer *buffer)
     }
 }
 
-/* Numbers that 16 bits are too few for. */
+/* Whether 16-bit floats are not precise enough for a layer. */
 static bool is_exact(mgt_layer layer) { return layer == MGT_LAYER_DEPTH || layer == MGT_LAYER_SAMPLES || layer == MGT_LAYER_REFRACTION_ERROR; }
 
 static picture_layer layer_of(const mgt_target *target)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* One render from loading the scene to the last file: checks everything that can be checked first, then renders frame by frame. */
+/* A render from loading the scene to the last file. Everything that can be checked is checked before the frames are rendered. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -120,7 +120,7 @@ static int create_crypto(render_job *job)
     return code;
 }
 
-/* All frames, so that an hour of rendering does not end at a bad one. */
+/* Checks all frames, so that an error does not appear after an hour of rendering. */
 static int check_frames(render_job *job)
 {
     const render_request *r = job->request;
@@ -232,7 +232,7 @@ static int check_stills(render_job *job)
 
 /* ---- rendering ----------------------------------------------------------------------------------------- */
 
-/* Samples into sums, where pictures are made of them, and sums or samples into pixels. */
+/* Renders the layers of a frame, from the sums if pictures are made of sums. A file of sums needs no layers. */
 static mgt_status render_pixels(render_job *job, const mgt_scene *scene)
 {
     if (job->request->format == PICTURE_SUMS)
@@ -281,7 +281,7 @@ static int render_still(render_job *job, uint32_t frame)
     char path[JOB_PATH], number[16];
     sha256_text hash;
     output_plan plan = {0};
-    /* Asked again here: another machine of a farm may have finished it meanwhile. */
+    /* Another machine of a render farm may have finished the frame since the first check. */
     int code = print_path(job, frame, path);
     if (code == EXIT_CODE_OK)
         code = hash_frame(job, frame, number, &hash);
@@ -335,7 +335,7 @@ static int render_film(render_job *job)
     const char *path = r->path.before;
     char frames[FRAMES_TEXT];
     frame_list_print(&r->frames, frames, sizeof frames);
-    /* The hash sees every range, the metadata a text that fits. */
+    /* The hash covers every range. The metadata hold a text that may be cut short. */
     sha256_text hash = sha256(r->frames.ranges, r->frames.count * sizeof r->frames.ranges[0]);
     if (!render_hash(r, job->canonical, &job->image, &job->info, hash.text, &hash))
         return console_error(EXIT_CODE_FAILED, "out of memory");
@@ -427,7 +427,7 @@ static int run(render_job *job)
     if (code != EXIT_CODE_OK)
         return code;
     job->buffer.crypto = job->crypto;
-    /* A farm may have more machines than there are frames. */
+    /* A render farm may have more machines than there are frames. */
     if (frame_list_length(&job->request->frames) == 0)
         return report(job, seconds_now() - start);
     job->progress = progress_start(job->request->progress, frame_list_length(&job->request->frames));

@@ -37,7 +37,7 @@ static const char *format_word(picture_format format)
     return "unknown";
 }
 
-/* Which group of builds that agree to the bit has rendered. */
+/* Name of the group of builds and devices whose results agree to the bit. */
 static const char *arithmetic_word(const mgt_context_info *info)
 {
     if (info->backend == MGT_BACKEND_GL)
@@ -47,7 +47,7 @@ static const char *arithmetic_word(const mgt_context_info *info)
     return info->isa == MGT_ISA_SSE2 ? "cpu without fma" : "cpu";
 }
 
-/* What a sample depends on, but for its number. */
+/* Writes what a sample depends on, with the range of samples. */
 static void write_head(FILE *stream, const mgt_quality *q, const char *canonical, const mgt_image *image, uint64_t first, uint64_t count)
 {
     fprintf(stream, "mangata %s\n%s\n", mgt_version(), canonical);
@@ -79,7 +79,7 @@ bool render_hash(const render_request *request, const char *canonical, const mgt
     fprintf(stream, "arithmetic %s\nformat %s\nlayers", arithmetic_word(info), format_word(request->format));
     for (size_t i = 0; i < request->layer_count; i++)
         fprintf(stream, " %s", mgt_layer_name(request->layers[i]));
-    /* A whole picture adds no line, so that the hash of older files stays the same. */
+    /* A whole picture adds no line, so that its hash equals that of files without this line. */
     if (request->format == PICTURE_EXR) {
         if (image->crop_x || image->crop_y || image->crop_width != image->width || image->crop_height != image->height)
             fputs("\ncrop in its place", stream);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Sums of samples, their parts and checkpoints. */
+/* Sums of samples, parts of sums, and checkpoints. */
 #define _POSIX_C_SOURCE 200809L
 
 #include "cli/render/render_sums.h"
@@ -14,7 +14,7 @@
 
 _Static_assert((int)SUMS_WORDS == (int)MGT_SUM_WORDS, "files hold what the library sums up");
 
-/* The samples that the request asks for. */
+/* The range of samples that the request asks for. */
 static sums_range wanted_range(const mgt_quality *q)
 {
     return (sums_range){q->sample_first, q->sample_count ? q->sample_count : quality_range(q) - q->sample_first};
@@ -57,9 +57,9 @@ static void clear_sums(render_job *job)
     job->ranges.count = 0;
 }
 
-/* ---- whose sums they are ---- */
+/* ---- the record of sums ---- */
 
-/* What a file of sums of this frame records. */
+/* Fills the record that a file of sums of this frame has. */
 static int record_of(const render_job *job, uint32_t frame, render_record *record)
 {
     char number[16];
@@ -71,7 +71,7 @@ static int record_of(const render_job *job, uint32_t frame, render_record *recor
     return EXIT_CODE_OK;
 }
 
-/* The first entry of `record` that the file has otherwise, the scene's hash last; NULL: the file is of this frame. */
+/* The first entry of `record` that differs in the file; the hash of the scene is the last one. NULL: the file belongs to this frame. */
 static const metadata_entry *other_entry(const sums_file *file, const render_record *record)
 {
     for (size_t i = 0; i < record->list.count; i++) {
@@ -93,7 +93,7 @@ static int other_part(const sums_file *part, const metadata_entry *entry, const 
     return console_error(EXIT_CODE_BAD_INPUT, "%s: it has %s %.80s, and this merge has %s", path, entry->key, found ? found : "unknown", entry->value);
 }
 
-/* Adds a part's range to the job's. */
+/* Adds the ranges of a part to those of the job. */
 static int join_part(render_job *job, const sums_file *part, const char *path)
 {
     const sums_range all = wanted_range(&job->request->quality);
@@ -116,7 +116,7 @@ static int join_part(render_job *job, const sums_file *part, const char *path)
     return EXIT_CODE_OK;
 }
 
-/* Opens a part of the frame, which must belong to the merge. */
+/* Opens a part and checks that it belongs to the frame. */
 static int open_part(render_job *job, size_t index, uint32_t frame, const render_record *record, char path[JOB_PATH], sums_file *part)
 {
     file_error error;
@@ -134,7 +134,7 @@ static int open_part(render_job *job, size_t index, uint32_t frame, const render
     return wrong;
 }
 
-/* Opens every part of the frame, joins their ranges and, with `add`, fills the job's sums with theirs. */
+/* Opens every part of the frame and joins their ranges. `add`: also adds up their sums. */
 static int read_parts(render_job *job, uint32_t frame, const render_record *record, bool add)
 {
     const render_request *r = job->request;
@@ -171,7 +171,7 @@ static int read_parts(render_job *job, uint32_t frame, const render_record *reco
 
 static bool checkpoint_path(const char *output, char path[JOB_PATH]) { return snprintf(path, JOB_PATH, "%s.checkpoint", output) < JOB_PATH; }
 
-/* Goes on from a checkpoint of this frame, if there is one. */
+/* Loads the checkpoint of this frame, if there is one. */
 static int load_checkpoint(render_job *job, const render_record *record, const char *path)
 {
     sums_file file;
@@ -202,7 +202,7 @@ static int load_checkpoint(render_job *job, const render_record *record, const c
     return EXIT_CODE_OK;
 }
 
-/* A checkpoint that cannot be written costs no more than itself. */
+/* Saves a checkpoint. If it cannot be written, that is noted, and rendering goes on. */
 static int save_checkpoint(render_job *job, const render_record *record, const char *path)
 {
     file_error error;
@@ -230,7 +230,7 @@ static int sum_range(render_job *job, uint32_t frame, const mgt_scene *scene, su
     return code;
 }
 
-/* In slices of about the time between checkpoints. */
+/* Renders the samples in slices that take about the time between checkpoints. */
 static int sum_in_slices(render_job *job, uint32_t frame, const mgt_scene *scene, const render_record *record, const char *path)
 {
     const sums_range all = wanted_range(&job->request->quality);
@@ -284,14 +284,14 @@ int render_sums_plan(render_job *job, uint32_t frame)
     return code == EXIT_CODE_OK ? read_parts(job, frame, &record, false) : code;
 }
 
-/* How much of a frame's progress its sums are. The picture made of them takes about as long as one sample, or as its parts to be read. */
+/* Fraction of a frame's progress that its sums make. Making the picture from them takes about as long as a sample, or as reading the parts. */
 static double progress_of_sums(const render_request *r)
 {
     const double samples = (double)wanted_range(&r->quality).count;
     return r->format == PICTURE_SUMS ? 1 : r->part_count ? 0.5 : samples / (samples + 1);
 }
 
-/* Sums of parts, or of samples rendered here. */
+/* Fills the sums from parts, or from samples that are rendered. */
 static int fill(render_job *job, uint32_t frame, const mgt_scene *scene, const char *path)
 {
     render_record record;
