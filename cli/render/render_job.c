@@ -190,7 +190,7 @@ static int print_path(const render_job *job, uint32_t frame, char path[JOB_PATH]
     return render_job_path(&job->request->path, job->request->output, frame, path);
 }
 
-/* Writes the frame as text into `number`. A part that parts are joined into is told from another by the samples that they hold. */
+/* Writes the frame as text into `number`. The hash of a part that a merge writes also covers the samples that it holds. */
 static int hash_frame(render_job *job, uint32_t frame, char number[16], sha256_text *hash)
 {
     char meant[100];

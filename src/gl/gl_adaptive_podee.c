@@ -27,7 +27,7 @@ typedef struct slots_run {
     GLuint tile_columns, tile_rows;
 } slots_run;
 
-/* ---- what the passes are told ---- */
+/* ---- uniform data of the passes ---- */
 
 /* The largest float that is not above `value`. Every float that is above it is above `value`, too. */
 static float float_below(double value)

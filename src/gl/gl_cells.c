@@ -519,7 +519,7 @@ static mgt_status prepare(cells_run *c)
 
 mgt_status gl_cells_render(gl_renderer *g, const gl_job *job, const reporter *r)
 {
-    frame colored = *job->frame; /* errors are weighed by colour, whatever layers are asked for */
+    frame colored = *job->frame; /* errors are weighed by colour, even if no colour is asked for */
     colored.data.want_color = colored.through.want_color = 1;
     gl_job own = *job;
     own.frame = &colored;

@@ -16,7 +16,7 @@
 #include "gl/gl_timers.h"
 #include "frame/targets.h"
 
-/* The layers of the picture on the GPU. Texel (0, 0) is the top left pixel of what is rendered. */
+/* The layers of the picture on the GPU. Texel (0, 0) is the top left pixel of the rendered part. */
 typedef struct gl_layers {
     gl_image color;                  /* RGBA32F, alpha 1 */
     gl_image coverage, water, depth; /* R32F */

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * The texts of kernels and passes, and how they become one GLSL source.
  *
- * They are embedded in the library by scripts/embed_text. `#include "folder/name"` is replaced by the text of that name, whatever its folder, where it
- * first occurs and dropped after that; `#line LINE NUMBER` marks every change of file, so that a compiler's message leads back to it. */
+ * They are embedded in the library by scripts/embed_text. The first `#include "folder/name"` of a name is replaced by the text of that name; the folder is
+ * ignored. Later ones are dropped. `#line LINE NUMBER` marks every change of file, so that a compiler's message leads back to it. */
 #ifndef MANGATA_GL_GL_SOURCES_H
 #define MANGATA_GL_GL_SOURCES_H
 
@@ -38,7 +38,7 @@ enum { MAX_FILES = 64 };
 typedef struct gl_source {
     char *text;
     size_t length, capacity;
-    const char *files[MAX_FILES]; /* [0] is what stands before the first file */
+    const char *files[MAX_FILES]; /* [0] stands for the lines before the first file */
     int file_count;
     const char *kernel;  /* name of the text that #include "method.k" stands for, or NULL */
     const char *missing; /* name of the text that includes an unknown file, or that is unknown itself; NULL: none */

@@ -9,11 +9,11 @@
 
 typedef struct film_export film_export;
 
-/* Starts the command, beside this program or else on the PATH, on a scene of this text; `words` follow "mangata render -" and end with NULL. NULL on failure,
- * with the reason in `error`. */
+/* Starts the command with a scene of this text. The command is the one beside this program, or else that on the PATH. `words` follow "mangata render -" and end
+ * with NULL. NULL: `error` says why it cannot be started. */
 film_export *film_export_start(const char *scene, size_t scene_size, const char *const *words, char *error, size_t error_size);
 
-/* Stops it; nothing unfinished is left behind. NULL is allowed. */
+/* Stops the command, which leaves no unfinished file, and frees the export. NULL is allowed. */
 void film_export_destroy(film_export *f);
 
 typedef enum film_state { FILM_BUSY, FILM_SAVED, FILM_FAILED } film_state;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Finding the OpenGL functions by name. */
+ * Finds the OpenGL functions by name. */
 #include "viewer/picture/gl_functions.h"
 
 #include <stddef.h>

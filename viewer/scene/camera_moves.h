@@ -10,6 +10,7 @@ typedef struct camera_axes {
     double forward[3], right[3], up[3];
 } camera_axes;
 
+/* The axes of a camera, which must not look along its up direction. */
 camera_axes camera_axes_of(const mgt_camera *camera);
 
 /* Moves the target along the view to the point where it meets the mean water at height `level`, but not too far away to turn about. The picture stays the same. */
@@ -34,11 +35,11 @@ bool camera_grab(mgt_camera *camera, double aspect, const double point[3], const
 /* Lifts the camera and its target until the camera is at least at this height. */
 void camera_keep_above(mgt_camera *camera, double height);
 
-/* Adds a keyframe, or replaces the one of about the same time. False when memory runs out. */
+/* Adds a keyframe, or replaces one whose time differs by at most 1 ms. False: the path has the largest number of keyframes, or memory has run out. */
 bool keyframe_record(scene_list *path, double time, const mgt_camera *camera);
 void keyframe_delete(scene_list *path, size_t index);
 
-/* Gives a keyframe another time and returns its new index; it stays apart from its neighbours. */
+/* Gives a keyframe another time and returns its new index. If another keyframe has about that time, nothing changes. */
 size_t keyframe_move(scene_list *path, size_t index, double time);
 
 #endif

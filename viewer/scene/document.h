@@ -29,27 +29,27 @@ typedef struct document {
     bool stale;           /* true: sea and models have not been made from the present values yet */
 } document;
 
-/* Reads `path`, then changes it by `words` ("key=value"). False with the reason in *error; *d is then empty. */
+/* Reads `path`, then changes it by `words` ("key=value"). False: *d is empty, and *error says why. */
 bool document_open(document *d, const char *path, const char *const *words, size_t count, scene_error *error);
 void document_close(document *d);
 
 typedef enum document_news { DOCUMENT_SAME, DOCUMENT_READ_ANEW, DOCUMENT_BROKEN } document_news;
 
-/* Reads the file again if it has changed on the disk. What has changed in the file wins over what was changed here, which else stays. A
- * broken file changes nothing but the source's `error`. */
+/* Reads the file again if it has changed on the disk. Changes of the user stay, except of values that have changed in the file. A file with an error changes
+ * nothing but the source's `error`. */
 document_news document_poll(document *d);
 
 /* Reverts every change. Returns false when out of memory. */
 bool document_revert(document *d);
 
-/* Changes one value as `--set key=value` does, every check included. False with the reason in *error and nothing changed. */
+/* Changes one value as `--set key=value` does, with every check. False: nothing has changed, and *error says why. */
 bool document_set(document *d, const char *word, scene_error *error);
 
-/* Tells that waves, seas or objects of `values` were changed in place. What becomes of the water is settled at once: where a wind makes the sea there are no waves
- * beside it. */
+/* Must be called after waves, seas or, with `objects`, objects of `values` have been changed in place. If a wind makes the sea, it removes single waves and the
+ * spectrum at once. */
 void document_changed(document *d, bool objects);
 
-/* Makes sea and models anew where values have changed. Where they cannot be, `fault` says why and the former ones stay. */
+/* Makes sea and models from the present values if they are stale. If that fails, `fault` says why, and the former ones stay. */
 void document_refresh(document *d);
 
 /* Replaces the values. Takes ownership of what `values` owns. */

@@ -63,10 +63,10 @@ typedef struct settings {
 
 settings settings_defaults(void);
 
-/* A mapping whose struct is settings. "off, on" stands for what is true or false. */
+/* The fields of settings as one mapping. */
 const field_row *settings_root_field(void);
 
-/* Whether a field is such a one. */
+/* Whether a field is a choice of "off" and "on". */
 bool field_is_switch(const field_row *field);
 
 extern const char *const layer_choices[]; /* in the order of mgt_layer */

@@ -50,7 +50,7 @@
 #define TILE_GROUP_FIRST 10
 #define TILE_POINT_TILE 11
 #define TILE_POINT_FIRST 12
-#define TILE_DARK 13                             /* 1: no light is mirrored there, and what is mirrored of the sky needs no pieces of the shutter */
+#define TILE_DARK 13                             /* 1: the tile mirrors no light, and the mirrored sky needs no pieces of the shutter */
 #define TILE_WAVES 14                            /* number of resolved and mixed waves of its pixels */
 #define TILE_SPENT 16                            /* evaluations, a double */
 #define TILE_VARIANCE 18                         /* squared error of the coverage of settled leaves, a double */
