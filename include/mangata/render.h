@@ -178,8 +178,9 @@ MGT_API void mgt_sums_add(uint64_t *sums, const uint64_t *more, size_t pixels);
  * MGT_ERROR_UNSUPPORTED. */
 MGT_API mgt_status mgt_render_sums(mgt_context *context, const mgt_scene *scene, const uint64_t *sums, const mgt_target *targets, size_t count);
 
-/* What method `mangata` knows of one pixel. Near the horizon a pixel shows two hits, one above the other: water, coverage and radiance are then their
- * mean, and slopes, covariances and the path are those of the lower one. Slopes are (∂y/∂x, ∂y/∂z). The light plane is r·L = 1, its axes as in the kernels: e horizontal, f up. */
+/* What method `mangata` knows of one pixel. Near the horizon a pixel shows two to eight hits, one above the other: water, coverage and radiance are then
+ * their mean, and slopes, covariances and the path are those of the lowest one. Slopes are (∂y/∂x, ∂y/∂z). The light plane is r·L = 1, its axes as in the
+ * kernels: e horizontal, f up. */
 typedef struct mgt_pixel_info {
     size_t struct_size;
     double water;                       /* fraction of the pixel that is water; where it is 0 all else is 0 */

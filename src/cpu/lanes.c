@@ -529,8 +529,8 @@ static struct kernel_context context_of(const method_tile *t, const tile_waves *
     return cx;
 }
 
-/* The light of pixels, for HIT_ROWS rows of hits each: those of part `part` of the tile. */
-static const tile_light *light_of_rows(const tile_light *light, int part, tile_light *rows)
+/* The light of pixels of `hits` hits each, for the rows of hits of part `part` of the tile. */
+static const tile_light *light_of_rows(const tile_light *light, int hits, int part, tile_light *rows)
 {
     enum { PLANES = sizeof *light / sizeof light->through[0] };
     if (!light)
@@ -538,32 +538,33 @@ static const tile_light *light_of_rows(const tile_light *light, int part, tile_l
     for (size_t plane = 0; plane < PLANES; plane++)
         for (int row = 0; row < TILE_HEIGHT; row++)
             memcpy(rows->through[0] + plane * TILE_PIXELS + row * TILE_WIDTH,
-                   light->through[0] + plane * TILE_PIXELS + (part * TILE_HEIGHT + row) / HIT_ROWS * TILE_WIDTH, TILE_WIDTH * sizeof(float));
+                   light->through[0] + plane * TILE_PIXELS + (part * TILE_HEIGHT + row) / hits * TILE_WIDTH, TILE_WIDTH * sizeof(float));
     return rows;
 }
 
-/* Adds the hits of TILE_HEIGHT rows, of which the first is row `first`, to the pixels that they are parts of. */
-static void add_rows(const tile_pixels *rows, int first, tile_pixels *out)
+/* Adds the hits of TILE_HEIGHT rows, of which the first is row `first`, to the pixels that they are parts of, which have `hits` each. */
+static void add_rows(const tile_pixels *rows, int hits, int first, tile_pixels *out)
 {
     const float *const from[] = {rows->red, rows->green, rows->blue, rows->coverage, rows->water, rows->foam};
     float *const into[] = {out->red, out->green, out->blue, out->coverage, out->water, out->foam};
     for (size_t k = 0; k < sizeof into / sizeof *into; k++)
         for (int row = 0; row < TILE_HEIGHT; row++)
             for (size_t x = 0; x < TILE_WIDTH; x += MGT_LANES)
-                accumulate(into[k] + (first + row) / HIT_ROWS * TILE_WIDTH + x, load(from[k] + row * TILE_WIDTH + x), 1.0f / HIT_ROWS);
+                accumulate(into[k] + (first + row) / hits * TILE_WIDTH + x, load(from[k] + row * TILE_WIDTH + x), 1.0f / (float)hits);
 }
 
-/* Every pixel is the mean of HIT_ROWS hits, one above the other. */
+/* Every pixel is the mean of several hits, one above the other. */
 static void several_hits(const method_tile *t, const struct kernel_context *close, const struct kernel_context *open, tile_pixels *out)
 {
     row_grid grid;
     tile_pixels rows;
     tile_light light;
+    const int hits = (int)t->close->data.hit_rows;
     memset(out, 0, sizeof *out);
-    for (int part = 0; part < HIT_ROWS; part++) {
-        render_glitter(close, light_of_rows(t->light, part, &light), rows_from(part * TILE_HEIGHT, &grid), t->close_estimate + part, open,
+    for (int part = 0; part < hits; part++) {
+        render_glitter(close, light_of_rows(t->light, hits, part, &light), rows_from(part * TILE_HEIGHT, &grid), t->close_estimate + part, open,
                        t->open_estimate + part, &rows, NULL);
-        add_rows(&rows, part * TILE_HEIGHT, out);
+        add_rows(&rows, hits, part * TILE_HEIGHT, out);
     }
 }
 

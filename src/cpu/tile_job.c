@@ -34,7 +34,7 @@ void tile_find_estimates(const lane_kernels *kernels, const FrameData *data, con
     if (tile_sees_water(tile))
         kernels->estimate(data, tile, estimate);
     else
-        memset(estimate, 0, HIT_ROWS * sizeof *estimate);
+        memset(estimate, 0, (size_t)tile->data.hit_rows * sizeof *estimate);
 }
 
 /* A tile of the lattice on its way. */

@@ -127,6 +127,7 @@ void frame_look(frame *f, const camera_rays *open, const camera_rays *close)
     for (int i = 0; i < 2; i++) {
         data[i]->ends[0] = camera_data(&f->open);
         data[i]->ends[1] = camera_data(&f->close);
+        data[i]->lowest_camera = (float)fmin(f->open.position[1], f->close.position[1]);
     }
     f->skyline_entries = skyline_span(&f->open, &f->close, f->scene->image.width, f->scene->image.height, data);
 }

@@ -61,7 +61,7 @@ void page_estimate(const FrameData *data, const page_tile *tile, tile_estimate *
     if (tile_sees_water(&tile->waves))
         lanes_estimate(data, &tile->waves, estimate);
     else
-        memset(estimate, 0, HIT_ROWS * sizeof *estimate);
+        memset(estimate, 0, (size_t)tile->waves.data.hit_rows * sizeof *estimate);
 }
 
 void page_shade(const FrameData *data, mgt_method method, const page_tile *tile, const tile_estimate *estimate, tile_pixels *out)

@@ -36,7 +36,7 @@
 #define TILE_PIXELS (TILE_WIDTH * TILE_HEIGHT)
 
 /* Largest number of hits, one above the other, of a pixel in grazing water. */
-#define HIT_ROWS 2
+#define HIT_ROWS 8
 #define WALK_PARTS 4 /* parts of a column of hits at the horizon */
 #define HIT_FLOATS 5 /* floats that are kept of a hit: see HitEstimate */
 #define TILE_FLOATS (TILE_PIXELS * HIT_ROWS * HIT_FLOATS)
