@@ -42,7 +42,7 @@ float coverage_at(float column, float row)
     return p.water * glitter_coverage(0, slopes, slopes);
 }
 
-/* As many hits as the library takes, one above the other: the tile's rows become theirs. */
+/* Several hits, one above the other: the tile's rows become theirs. The library takes up to four times as many far away, see docs/grazing.md. */
 void split_rows(float hits)
 {
     float part = 1.0 / hits, first = 0.5 * (part - 1.0); /* of the pixel, from its middle */

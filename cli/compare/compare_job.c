@@ -176,6 +176,8 @@ static int set_qualities(const compare_job *job, compare_scene *scene)
     reference.spatial_samples = r->reference.spatial_samples;
     reference.time_samples = r->reference.time_samples;
     reference.seed = r->reference.seed;
+    if (r->reference.refraction_samples > 0)
+        reference.refraction_samples = r->reference.refraction_samples;
     scene->reference = quality_restricted(&reference);
     for (size_t m = 0; m < r->method_count; m++) {
         if (!quality_options_apply(&r->methods[m].given, &base, &scene->methods[m], wrong, sizeof wrong))
