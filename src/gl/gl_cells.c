@@ -55,7 +55,7 @@ static void plan_lists(cells_run *c)
     const int64_t tiles = d->tiles, pixels = tiles * TILE_PIXELS;
     const size_t slot = (size_t)(1 + d->moves) * (sizeof(TileData) + (size_t)c->run->wave_stride * (sizeof(TileWave) + sizeof(SearchWave)));
     const int64_t most = batch_bytes / slot > 64 ? (int64_t)(batch_bytes / slot) : 64;
-    const int64_t point_most = (int64_t)(batch_bytes / (TILE_FLOATS * sizeof(float)));
+    const int64_t point_most = (int64_t)(batch_bytes / (TILE_FLOATS(c->frame->data.hit_rows) * sizeof(float)));
     d->most_jobs = least(JOBS_A_TILE * tiles + LEAST_JOBS, (int64_t)1 << 24);
     d->slots = least(least(most, d->most_jobs), MOST_SLOTS);
     c->batches = batches_of(d->most_jobs, d->slots);
@@ -110,7 +110,7 @@ static mgt_status reserve(cells_run *c)
         {&g->tiles, slots * sizeof(TileData)},
         {&g->tile_waves, slots * (size_t)c->run->wave_stride * sizeof(TileWave)},
         {&g->search_waves, slots * (size_t)c->run->wave_stride * sizeof(SearchWave)},
-        {&g->nodes, (size_t)d->point_slots * TILE_FLOATS * sizeof(float)},
+        {&g->nodes, (size_t)d->point_slots * TILE_FLOATS(c->frame->data.hit_rows) * sizeof(float)},
     };
     mgt_status status = MGT_OK;
     for (size_t i = 0; i < sizeof all / sizeof *all && status == MGT_OK; i++)

@@ -38,7 +38,8 @@ static mgt_status reserve_tiles(gl_run *run, size_t sets)
     run->end_row = (a->y + a->height - 1) / TILE_HEIGHT + 1;
     const size_t waves = f->scene->water.wave_count;
     run->wave_stride = (int)(waves > 0 ? waves : 1);
-    const size_t tile_bytes = sizeof(TileData) + TILE_FLOATS * sizeof(float) + (size_t)run->wave_stride * (sizeof(TileWave) + sizeof(SearchWave));
+    const size_t hit_bytes = TILE_FLOATS(f->data.hit_rows) * sizeof(float);
+    const size_t tile_bytes = sizeof(TileData) + hit_bytes + (size_t)run->wave_stride * (sizeof(TileWave) + sizeof(SearchWave));
     const size_t row_bytes = run->columns * sets * tile_bytes;
     uint64_t rows = (g->limits.software ? software_band_bytes : band_bytes) / row_bytes;
     if (run->job->progress)
@@ -55,7 +56,7 @@ static mgt_status reserve_tiles(gl_run *run, size_t sets)
     if (status == MGT_OK)
         status = gl_buffer_reserve(gl, &g->search_waves, tiles * (size_t)run->wave_stride * sizeof(SearchWave), 0, run->r);
     if (status == MGT_OK)
-        status = gl_buffer_reserve(gl, &g->nodes, tiles * TILE_FLOATS * sizeof(float), 0, run->r);
+        status = gl_buffer_reserve(gl, &g->nodes, tiles * hit_bytes, 0, run->r);
     return status;
 }
 

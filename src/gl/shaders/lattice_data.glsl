@@ -11,7 +11,10 @@
 /* TILE_FLOATS elements for each tile: its nodes, or in a grazing tile its hits. */
 layout(std430, binding = 3) restrict NODE_ACCESS buffer NodeBlock { float node_data[]; };
 
-int hit_place(int column, int row) { return tile_slot * TILE_FLOATS + (row * TILE_WIDTH + column) * HIT_FLOATS; }
+/* Place of a tile's first element. */
+int first_float() { return tile_slot * TILE_FLOATS(FRAME(0).hit_rows); }
+
+int hit_place(int column, int row) { return first_float() + (row * TILE_WIDTH + column) * HIT_FLOATS; }
 
 #ifdef FINDS_HITS
 void HIT_FOUND(int cx, float column, float row, HitEstimate hit, bool where)
@@ -33,7 +36,7 @@ void HIT_FOUND(int cx, float column, float row, HitEstimate hit, bool where)
 
 LatticeNode node_of(int column, int row)
 {
-    int at = tile_slot * TILE_FLOATS + (row * NODE_COLUMNS + column) * NODE_FLOATS;
+    int at = first_float() + (row * NODE_COLUMNS + column) * NODE_FLOATS;
     LatticeNode node;
     node.ray = vec3(node_data[at], node_data[at + 1], node_data[at + 2]);
     node.along = node_data[at + 3];

@@ -21,7 +21,7 @@ void main()
     if (gl_WorkGroupID.y > 0u || index >= NODE_COUNT || TILE(0).search_pixels != 0)
         return;
     LatticeNode node = lattice_node(0, pixel_ray_at(0, float(index % NODE_COLUMNS * NODE_STEP_X), float(index / NODE_COLUMNS * NODE_STEP_Y)));
-    int at = tile_slot * TILE_FLOATS + index * NODE_FLOATS;
+    int at = first_float() + index * NODE_FLOATS;
     node_data[at] = node.ray.x;
     node_data[at + 1] = node.ray.y;
     node_data[at + 2] = node.ray.z;

@@ -39,7 +39,8 @@
 #define HIT_ROWS 8
 #define WALK_PARTS 4 /* parts of a column of hits at the horizon */
 #define HIT_FLOATS 5 /* floats that are kept of a hit: see HitEstimate */
-#define TILE_FLOATS (TILE_PIXELS * HIT_ROWS * HIT_FLOATS)
+/* Floats that are kept of a tile's hits, by FrameData.hit_rows. */
+#define TILE_FLOATS(hit_rows) (TILE_PIXELS * HIT_FLOATS * ((hit_rows) > 1.0f ? HIT_ROWS : 1))
 
 /* Nodes of a tile's lattice of first hits, which lie on the tile's edges, too. They are denser down the screen than across, because water is foreshortened
  * down the screen. */
