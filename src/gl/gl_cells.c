@@ -20,7 +20,6 @@ enum {
     JOBS_A_TILE = 6,    /* room for jobs of a tile in a round, on average; in pictures of sea a tile had two to three */
     LEAST_JOBS = 4 * CELL_SIZES,
     MOST_SLOTS = 32768, /* largest number of jobs of a batch: one row of a dispatch */
-    STATE_PARTS = 4,
 };
 
 /* Memory of the wave lists of a batch of jobs, bytes. */
