@@ -35,7 +35,7 @@ typedef struct method_row {
     method_pass pass;
     method_transition transition;
     bool keeps_phases;                /* unresolved waves count one by one, not as a sum */
-    uint32_t hits;                    /* of a pixel in grazing water, which then is filtered by the faces that it shows; 0: it is as other water is */
+    uint32_t hits;                    /* of a pixel in grazing water near the eye, which is filtered by the faces that it shows; 0: it is as other water is */
     uint32_t tables;                  /* METHOD_LEAN_MAP and others */
     bool numbered;                    /* the name is followed by the number of strata along a side, as in ssaa4 */
     uint32_t spatial, time;           /* samples by default; 0: 1 */
