@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Exports films and numbered pictures by the command `mangata render` in a process of its own. So a file is the same as the command's, and it appears whole or not
- * at all. */
+ * Exports films and numbered pictures by the command `mangata render` in a process of its own. So a file is the same as the command's, and it appears whole or
+ * not at all. */
 #ifndef MANGATA_VIEWER_PICTURE_FILM_EXPORT_H
 #define MANGATA_VIEWER_PICTURE_FILM_EXPORT_H
 

@@ -13,7 +13,8 @@ typedef struct camera_axes {
 /* The axes of a camera, which must not look along its up direction. */
 camera_axes camera_axes_of(const mgt_camera *camera);
 
-/* Moves the target along the view to the point where it meets the mean water at height `level`, but not too far away to turn about. The picture stays the same. */
+/* Moves the target along the view to the point where it meets the mean water at height `level`, but not too far away to turn about. The picture stays the
+ * same. */
 void camera_set_pivot(mgt_camera *camera, double level);
 
 /* Turns the camera about its target. The position keeps its distance and stays at height `lowest` or higher. */
@@ -28,8 +29,8 @@ void camera_view_ray(const mgt_camera *camera, double aspect, const double at[2]
 /* The place at which a point is seen, in the coordinates of camera_view_ray(). Returns false if the point is behind the camera. */
 bool camera_project(const mgt_camera *camera, double aspect, const double point[3], double at[2]);
 
-/* Moves the camera horizontally until `point` is seen at a place of the picture. If the view at this place does not reach the point's height, it moves nothing and
- * returns false. */
+/* Moves the camera horizontally until `point` is seen at a place of the picture. If the view at this place does not reach the point's height, it moves nothing
+ * and returns false. */
 bool camera_grab(mgt_camera *camera, double aspect, const double point[3], const double at[2]);
 
 /* Lifts the camera and its target until the camera is at least at this height. */
