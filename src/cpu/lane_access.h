@@ -36,6 +36,21 @@ static inline real load(const float *p)
 
 static inline void store(float *p, real r) { __builtin_memcpy(p, &r, sizeof r); }
 
+/* Bit i is lane i's. */
+static inline unsigned lane_bits(mask m)
+{
+#if MGT_LANES == 16
+    return _mm512_movepi32_mask((__m512i)m);
+#else
+    int lanes[MGT_LANES];
+    unsigned bits = 0;
+    __builtin_memcpy(lanes, &m, sizeof lanes);
+    for (int i = 0; i < MGT_LANES; i++)
+        bits |= (unsigned)(lanes[i] != 0) << i;
+    return bits;
+#endif
+}
+
 /* Whole numbers as such. */
 static inline mask whole(real x)
 {

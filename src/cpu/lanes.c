@@ -49,16 +49,14 @@ KERNEL real FRACTION_TEXEL(CTX cx, real r, real slice) { return gather_floats(cx
 KERNEL void HIT_FOUND(CTX cx, real column, real row, HitEstimate hit, mask where)
 {
     float at[MGT_LANES], height[MGT_LANES], slope_x[MGT_LANES], slope_z[MGT_LANES], shift_x[MGT_LANES], shift_z[MGT_LANES];
-    store(at, real_select(where, real_fma(row, real_broadcast(TILE_WIDTH), column), real_broadcast(-1.0f)));
+    store(at, real_fma(row, real_broadcast(TILE_WIDTH), column));
     store(height, hit.height);
     store(slope_x, hit.slope.x);
     store(slope_z, hit.slope.y);
     store(shift_x, hit.shift.x);
     store(shift_z, hit.shift.y);
-    for (int i = 0; i < MGT_LANES; i++) {
-        if (at[i] < 0)
-            continue;
-        const int place = (int)at[i];
+    for (unsigned lanes = lane_bits(where); lanes != 0; lanes &= lanes - 1) {
+        const int i = __builtin_ctz(lanes), place = (int)at[i];
         tile_estimate *rows = cx->found + place / TILE_PIXELS;
         rows->height[place % TILE_PIXELS] = height[i];
         rows->slope_x[place % TILE_PIXELS] = slope_x[i];
@@ -488,7 +486,8 @@ static void place_starts(const struct kernel_context *cx, size_t count, tile_cel
         }
         const vec3 ray = pixel_ray_at(cx, load(column), load(row));
         const real along = SELECT(ray.y < real(-1e-7f), load(known) * (real(TILE(cx).camera_height) - load(height)) / (real(0.0f) - ray.y), real(0.0f));
-        store(cells->estimate.from + i, row_start(cx, pixel_ray_filtered(cx, load(cells->column + i), load(cells->row + i)).ray, ray, along).along);
+        const vec3 above = pixel_ray_filtered(cx, load(cells->column + i), load(cells->row + i)).ray;
+        store(cells->estimate.from + i, row_start(cx, above, inverse_speed_of(cx, above), ray, inverse_speed_of(cx, ray), along).along);
     }
 }
 

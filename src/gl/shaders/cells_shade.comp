@@ -46,7 +46,8 @@ float search_start(Job job, ivec2 pixel, vec2 place)
     vec2 middle = (vec2(pixel) + vec2(0.5f, 2.5f)) * sides - 0.5f; /* centre of the pixel two rows below, in cells */
     vec3 ray = pixel_ray_at(0, middle.x, middle.y);
     float along = !isinf(height) && ray.y < -1e-7f ? (TILE(0).camera_height - height) / -ray.y : 0.0f;
-    return row_start(0, pixel_ray_filtered(0, place.x, place.y).ray, ray, along).along;
+    vec3 above = pixel_ray_filtered(0, place.x, place.y).ray;
+    return row_start(0, above, inverse_speed_of(0, above), ray, inverse_speed_of(0, ray), along).along;
 }
 
 /* Selects the job's tile and waves at the opening or at the closing of the piece of the shutter. */
