@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Each script of scripts/ prints its usage for --help, and tells an unknown option in the last line of stderr with exit code 64, or 2 where it is in Python, before
-# it does anything. usage: scripts_test.sh SOURCE_DIR
+# it does anything. A wrong regular expression is told in the same way. usage: scripts_test.sh SOURCE_DIR
 set -u
 source=$1
 work=$(mktemp -d)
@@ -32,6 +32,14 @@ for script in "$source"/scripts/*; do
     grep -q 'usage: ' "$work/stderr" || fail "$name --no-such-option" "no usage"
     ((code == 2 || $(wc -l <"$work/stderr") == 1)) || fail "$name --no-such-option" "not one line"
     [[ ! -s $work/stdout ]] || fail "$name --no-such-option" "it writes to stdout"
+done
+for call in "seas --only" "foam --only" "same_pictures --only" "test_times build"; do
+    name=${call%% *}
+    # shellcheck disable=SC2086 # words
+    timeout 20 "$source"/scripts/$call '[' >"$work/stdout" 2>"$work/stderr" </dev/null
+    result=$?
+    ((result == 2)) || fail "$call [" "exit code $result instead of 2"
+    tail -n 1 "$work/stderr" | grep -q "^$name: error: .*unterminated" || fail "$call [" "not told"
 done
 [[ -z $(ls -A) ]] || fail "$(ls -A)" "left in the folder"
 ((count > 30)) || fail "$source/scripts" "$count scripts"
