@@ -58,7 +58,9 @@ function judgeTasks(post) {
   const figures = pictures => {
     const { width, count } = scene, [now, next] = instants.map(truthOf);
     const beside = plane => i => (i % width ? plane[i] - plane[i - 1] : 0), step = (a, b) => i => b[i] - a[i];
-    const contrast = squares(beside(now.mean)) - squares(beside(now.noise)), flicker = squares(step(now.mean, next.mean)) - squares(step(now.noise, next.noise));
+    // Where more than a third is noise, the rest is too small, for glints that few samples meet are clipped when displayed; the ratio to it is then a bound.
+    const rest = (all, noise) => ({ squared: all - noise, small: all < 3 * noise });
+    const contrast = rest(squares(beside(now.mean)), squares(beside(now.noise))), flicker = rest(squares(step(now.mean, next.mean)), squares(step(now.noise, next.noise)));
     return pictures.map(pair => {
       const { calls } = instants[0], at = calls.take(16 * count);
       const planes = pair.map(rgba => {
@@ -69,7 +71,8 @@ function judgeTasks(post) {
       const own = planes[0].luma;
       return {
         error: Math.sqrt(Math.max(0, squares(step(now.mean, own)) - squares(i => now.noise[i])) / count), energy: planes[0].light / now.light,
-        contrast: Math.sqrt(squares(beside(own)) / contrast), flicker: Math.sqrt(squares(step(own, planes[1].luma)) / flicker),
+        contrast: Math.sqrt(squares(beside(own)) / contrast.squared), flicker: Math.sqrt(squares(step(own, planes[1].luma)) / flicker.squared),
+        bounds: { contrast: contrast.small, flicker: flicker.small },
       };
     });
   };

@@ -161,8 +161,8 @@ async function judge(most, duty, stale) {
     painted.forEach((picture, side) => { pictures[side][instant] = view.engine.read(picture); });
   }
   page.judge.begin({ settings, width, height, pictures, most, duty }, (sides, samples) => {
-    const times = ratio => (Number.isFinite(ratio) ? `× ${ratio.toFixed(2)}` : "?");
-    page.meters = sides.map(f => [`flicker ${times(f.flicker)}`, `energy ${times(f.energy)}`, `contrast ${times(f.contrast)}`, `error ${f.error.toFixed(3)}`]);
+    const times = (ratio, bound) => (Number.isFinite(ratio) ? `${bound ? "≤" : "×"} ${ratio.toFixed(2)}` : "?");
+    page.meters = sides.map(f => [`flicker ${times(f.flicker, f.bounds.flicker)}`, `energy ${times(f.energy, false)}`, `contrast ${times(f.contrast, f.bounds.contrast)}`, `error ${f.error.toFixed(3)}`]);
     page.figures = [...page.meters.map((meter, side) => `${methods[side]}: ${meter.join(", ")}`), `over those of brute force, ${samples} samples a pixel of ${width} × ${height}`];
     showFigures();
     placeWipe();
