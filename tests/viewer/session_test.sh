@@ -93,6 +93,9 @@ screenshot path.png
 set view.layer color
 save-scene saved.yaml
 expect-refused light.elevation_deg 200
+set water.waves[3].wavelength 5
+expect-value water.waves[3].wavelength 5
+undo
 command
 picture viewer.png
 picture small.png 320x180
