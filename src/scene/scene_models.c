@@ -148,8 +148,8 @@ static bool same_shape(const scene_object *a, const scene_object *b)
 {
     if (a->shape != b->shape || a->shape == SHAPE_MESH)
         return a->shape == b->shape;
-    return memcmp(a->size, b->size, sizeof a->size) == 0 && a->triangles == b->triangles && a->count == b->count && a->rim_width == b->rim_width &&
-           a->rim_height == b->rim_height && a->lowest == b->lowest && a->highest == b->highest;
+    return a->size[0] == b->size[0] && a->size[1] == b->size[1] && a->size[2] == b->size[2] && a->triangles == b->triangles && a->count == b->count &&
+           a->rim_width == b->rim_width && a->rim_height == b->rim_height && a->lowest == b->lowest && a->highest == b->highest;
 }
 
 static loaded_model *find_loaded(const loaded_list *list, const model_source *source)
