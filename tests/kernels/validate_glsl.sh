@@ -46,7 +46,9 @@ int SHOWN_TRIANGLE(int cx, int layer, float column, float row);
 bool SURFACE_KNOWN(int cx, int triangle);
 #define ALONG_RAY(cx, end, nearest, i) vec2(nearest, i)
 #define TEXTURE_NAME int
-vec3 TEXTURE_LEVEL(int cx, int texture_name, float level, float u, float v);
+struct TextureLevel { float width, height; };
+TextureLevel TEXTURE_LEVEL(int cx, int texture_name, float level);
+vec3 TEXTURE_TEXEL(int cx, TextureLevel level, float column, float row);
 vec3 TEXTURE(int cx, float object, float u, float v, float level);
 float SUN_VISIBILITY(int cx, vec3 position, vec3 first, vec3 second, bool dry);
 float SHADOW_TEXEL(int cx, float column, float row);

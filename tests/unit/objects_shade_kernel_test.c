@@ -8,9 +8,28 @@ static ShadeData shade_data; /* of the case */
 #define SHADE(cx) shade_data
 #define CHOPPY_LIGHT(cx) 0
 
+/* A texture of any size, whose texels' colours are a formula. */
+typedef struct TextureLevel {
+    real width, height;
+} TextureLevel;
+
+#define TEXTURE_NAME TextureLevel
+#define TEXTURE_LEVEL(cx, name, level) ((TextureLevel){fmaxf((name).width / exp2f(level), 1), fmaxf((name).height / exp2f(level), 1)})
+
+static double texel_at(int column, int row, int color) { return fmod(0.37 * (column + 1) * (color + 1) + 0.61 * (row + 1), 1); }
+
+static bool texels_inside;
+
+KERNEL vec3 TEXTURE_TEXEL(CTX cx, TextureLevel l, real column, real row)
+{
+    texels_inside = texels_inside && column >= 0 && row >= 0 && column < l.width && row < l.height;
+    return vec3((float)texel_at((int)column, (int)row, 0), (float)texel_at((int)column, (int)row, 1), (float)texel_at((int)column, (int)row, 2));
+}
+
 KERNEL vec3 TEXTURE(CTX cx, real texture, real u, real v, real level) { return vec3(texture, u, v * level); }
 KERNEL real SUN_VISIBILITY(CTX cx, vec3 position, vec3 first, vec3 second, mask dry) { return 1.0f; }
 
+#include "kernels/refraction/texture.k"
 #include "kernels/refraction/material.k"
 #include "kernels/common/mirror.k"
 
@@ -50,6 +69,57 @@ static void patterns_are_box_means(void **state)
     }
     printf("patterns: within %.2g of the box's mean\n", worst);
     assert_true(worst < 0.012); /* the sum's own steps: two edges of 1/400 a side, twice */
+}
+
+/* ---- textures ---- */
+
+/* Bilinear, repeated. */
+static double level_at(int width, int height, double u, double v, int color)
+{
+    const double x = u * width - 0.5, y = v * height - 0.5, across = x - floor(x), down = y - floor(y);
+    double sum = 0;
+    for (int k = 0; k < 4; k++) {
+        const double column = floor(x) + (k & 1), row = floor(y) + (k >> 1);
+        sum += (k & 1 ? across : 1 - across) * (k >> 1 ? down : 1 - down) *
+               texel_at((int)(column - width * floor(column / width)), (int)(row - height * floor(row / height)), color);
+    }
+    return sum;
+}
+
+static void textures_repeat_between_texels_and_levels(void **state)
+{
+    (void)state;
+    numbers.state = 6;
+    texels_inside = true;
+    double worst = 0;
+    for (int i = 0; i < 4000; i++) {
+        const int width = 1 + (int)range(0, 300), height = i % 4 == 0 ? 256 : 1 + (int)range(0, 300);
+        const TextureLevel t = {(float)width, (float)height};
+        const bool edge = i % 5 == 0; /* at a multiple of a texel's half, where a rounded place changes the texels */
+        const float u = edge ? floorf((float)range(-900, 900)) / (float)(2 * width) : (float)range(-30, 30), v = (float)range(-2, 2),
+                    level = i % 3 ? 0 : (float)range(-1, 1);
+        const vec3 found = texture_color(NULL, t, u, v, level, 0);
+        for (int k = 0; k < 3; k++)
+            worst = fmax(worst, fabs((double)(k == 0 ? found.x : k == 1 ? found.y : found.z) - level_at(width, height, (double)u, (double)v, k)));
+    }
+    const TextureLevel t = {64, 32};
+    for (int i = 0; i < 400; i++) {
+        const float u = (float)range(-3, 3), v = (float)range(-3, 3), level = (float)range(0, 3);
+        const int fine = (int)level;
+        const double share = (double)level - fine;
+        const vec3 found = texture_color(NULL, t, u, v, level, 4);
+        const double wanted =
+            (1 - share) * level_at(64 >> fine, 32 >> fine, (double)u, (double)v, 1) + share * level_at(32 >> fine, 16 >> fine, (double)u, (double)v, 1);
+        worst = fmax(worst, fabs((double)found.y - wanted));
+    }
+    static const float far_away[] = {-1e-30f, 1e8f, -1e8f, 9.9e8f, 1e9f, INFINITY, -INFINITY, NAN};
+    for (size_t i = 0; i < sizeof far_away / sizeof *far_away; i++) {
+        const vec3 found = texture_color(NULL, t, far_away[i], 0.3f, 0, 0);
+        assert_true(fabsf(far_away[i]) < 1e9f ? found.x >= 0 && found.x < 1 : found.x == 0);
+    }
+    printf("textures: within %.2g of bilinear colour in double precision\n", worst);
+    assert_true(texels_inside);
+    assert_true(worst < 1e-4); /* 2⁻²³ of 300 texels */
 }
 
 /* ---- light in water ---- */
@@ -170,10 +240,8 @@ static void slopes_bend_the_view_to_the_light(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(patterns_are_box_means),
-        cmocka_unit_test(glow_is_the_integral),
-        cmocka_unit_test(caustics_are_shares_of_area),
-        cmocka_unit_test(slopes_bend_the_view_to_the_light),
+        cmocka_unit_test(patterns_are_box_means),      cmocka_unit_test(textures_repeat_between_texels_and_levels), cmocka_unit_test(glow_is_the_integral),
+        cmocka_unit_test(caustics_are_shares_of_area), cmocka_unit_test(slopes_bend_the_view_to_the_light),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

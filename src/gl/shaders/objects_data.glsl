@@ -88,43 +88,30 @@ float linear_of_code(uint code) { return texelFetch(material_table, int(code >> 
 
 /* A level of a texture. */
 struct TextureLevel {
-    int first, width, height;
+    int first; /* texel */
+    float width, height;
 };
 
-TextureLevel texture_level(int object, int level)
+TextureLevel TEXTURE_LEVEL(int cx, int object, float level)
 {
     vec4 m = material_texel(object, 3);
-    TextureLevel l = TextureLevel(floatBitsToInt(m.z), int(m.x), int(m.y));
-    for (int i = 0; i < level; i++) {
-        l.first += l.width * l.height;
-        l.width = max(l.width >> 1, 1);
-        l.height = max(l.height >> 1, 1);
+    int first = floatBitsToInt(m.z), width = int(m.x), height = int(m.y);
+    for (int i = 0; i < int(level); i++) {
+        first += width * height;
+        width = max(width >> 1, 1);
+        height = max(height >> 1, 1);
     }
-    return l;
+    return TextureLevel(first, float(width), float(height));
 }
 
-vec3 texture_texel(TextureLevel l, int x, int y)
+vec3 TEXTURE_TEXEL(int cx, TextureLevel l, float column, float row)
 {
-    int column = x < 0 ? x + l.width : x >= l.width ? x - l.width : x;
-    int row = y < 0 ? y + l.height : y >= l.height ? y - l.height : y;
-    uint rgba = texelFetch(texel_table, l.first + row * l.width + column).r;
+    uint rgba = texelFetch(texel_table, l.first + int(row) * int(l.width) + int(column)).r;
     return vec3(linear_of_code(rgba & 255u), linear_of_code(rgba >> 8 & 255u), linear_of_code(rgba >> 16 & 255u));
 }
 
 #define TEXTURE_NAME int
-vec3 TEXTURE_LEVEL(int cx, int object, float level, float u, float v);
 #include "kernels/refraction/texture.k"
-
-vec3 TEXTURE_LEVEL(int cx, int object, float level, float u, float v)
-{
-    TextureLevel l = texture_level(object, int(level));
-    vec2 at = vec2((u - floor(u)) * float(l.width), (v - floor(v)) * float(l.height)) - 0.5f;
-    vec2 first = floor(at), share = at - first;
-    int x = int(first.x), y = int(first.y);
-    vec3 top = blended_color(0, texture_texel(l, x, y), texture_texel(l, x + 1, y), share.x);
-    vec3 bottom = blended_color(0, texture_texel(l, x, y + 1), texture_texel(l, x + 1, y + 1), share.x);
-    return blended_color(0, top, bottom, share.y);
-}
 
 vec3 TEXTURE(int cx, float object, float u, float v, float level) { return texture_color(0, int(object), u, v, level, material_texel(int(object), 3).w - 1.0f); }
 
