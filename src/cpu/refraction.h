@@ -26,6 +26,7 @@ typedef struct tile_objects {
     uint16_t list[TILE_PIXELS];
     float seen[TILE_PIXELS];      /* places of a pixel that met water */
     float edge[TILE_PIXELS];      /* 1 where pictures do not certify what is seen through the last one, else 0 */
+    bool at_front[TILE_PIXELS];   /* the pixel sees an edge of an object in front, or a waterline */
     tile_water beside;            /* the water in other places of pixels at outlines */
     ray_places places;            /* the places of `beside` */
     const tile_water *met;        /* `water` or `beside`: the one whose rays `ends` are of */

@@ -16,8 +16,10 @@ typedef struct front_pixel {
     size_t element; /* of the front layer */
     size_t i;       /* in the tile */
     bool dry;       /* what it sees in the place at hand is inside a dry hull */
+    double eye[3];
     size_t candidate_count;
     int32_t candidates[REFRACTION_NEIGHBOURS];
+    Facet facets[REFRACTION_NEIGHBOURS]; /* of the candidates */
 } front_pixel;
 
 static void ray_through(const refraction *r, double x, double y, double ray[3])
@@ -41,8 +43,6 @@ static void flush(const refraction *r, tile_objects *o, size_t *count)
 static void add_point(const front_pixel *p, const double ray[3], double along, int32_t triangle, tile_objects *o, size_t *count)
 {
     const refraction *r = p->r;
-    const camera_rays *c = &r->camera;
-    const double foot[3] = {c->position[0] - r->world->origin[0], c->position[1], c->position[2] - r->world->origin[1]};
     const double length = sqrt(dot3(ray, ray));
     tile_ends *e = &o->ends;
     if (*count == TILE_PIXELS)
@@ -51,7 +51,7 @@ static void add_point(const front_pixel *p, const double ray[3], double along, i
     o->list[at] = (uint16_t)p->i;
     e->triangle[at] = triangle;
     for (int k = 0; k < 3; k++) {
-        e->position[k][at] = (float)(foot[k] + along * ray[k]);
+        e->position[k][at] = (float)(p->eye[k] + along * ray[k]);
         e->direction[k][at] = (float)(ray[k] / length);
     }
     e->before[at] = (float)(along * length);
@@ -72,10 +72,23 @@ static void add_point(const front_pixel *p, const double ray[3], double along, i
 
 /* ---- edges ---- */
 
-/* Multiple of a ray through the pixel at which it meets the plane of the surface there. */
-static double meet_water(const tile_objects *o, size_t i, bool under, const double ray[3])
+static void look_at_pixel(const refraction *r, const tile_offset *at, size_t i, front_pixel *p)
 {
-    const tile_water *w = &o->water;
+    const gbuffer *g = &r->direct.front;
+    const double *position = r->camera.position;
+    p->r = r, p->i = i;
+    p->x = at->column + (uint32_t)i % TILE_WIDTH, p->y = at->row + (uint32_t)i / TILE_WIDTH;
+    p->element = (size_t)(g->top + p->y) * g->width + g->left + p->x;
+    p->eye[0] = position[0] - r->world->origin[0], p->eye[1] = position[1], p->eye[2] = position[2] - r->world->origin[1];
+    p->candidate_count = refraction_neighbours(g, p->element, p->candidates);
+    const struct kernel_context cx = {.surface = r->surface};
+    for (size_t k = 0; k < p->candidate_count; k++)
+        p->facets[k] = facet_of(&cx, p->candidates[k], vec3(p->eye[0], p->eye[1], p->eye[2]));
+}
+
+/* Multiple of a ray at which it meets the plane of the surface in pixel i of the tile. */
+static double meet_water(const tile_water *w, size_t i, bool under, const double ray[3])
+{
     const double up = under ? -1 : 1;
     const vec3 normal = vec3((double)w->normal[0][i], up * (double)w->normal[1][i], (double)w->normal[2][i]);
     const vec3 view = vec3((double)w->view[0][i], up * (double)w->view[1][i], (double)w->view[2][i]);
@@ -98,33 +111,43 @@ static int32_t triangle_beside(const front_pixel *p, vec2 place)
     return g->triangle[(size_t)((ptrdiff_t)p->element + (ptrdiff_t)side.x + (ptrdiff_t)g->width * (ptrdiff_t)side.y)];
 }
 
+/* What the ray through a place of the pixel meets in front of the water; triangle −1: nothing. */
+static inline FrontHit hit_in_front(front_pixel *p, const tile_water *water, vec2 place, double ray[3])
+{
+    const refraction *r = p->r;
+    const gbuffer *g = &r->direct.front;
+    const struct kernel_context cx = {.surface = r->surface, .asked = p->candidates, .asked_count = p->candidate_count};
+    const FrontHit none = {-1, INFINITE};
+    FrontHit hit = none;
+    ray_through(r, p->x + (double)place.x, p->y + (double)place.y, ray);
+    for (size_t k = 0; k < p->candidate_count; k++)
+        hit = nearer_hit(&cx, hit, p->candidates[k], p->facets[k], vec3(p->eye[0], p->eye[1], p->eye[2]), vec3(ray[0], ray[1], ray[2]));
+    const int32_t own = g->triangle[p->element];
+    if (own >= 0 && shows_pixel(NULL, hit, own, triangle_beside(p, place)))
+        hit = (FrontHit){own, (double)g->depth[p->element]};
+    if (hit.triangle < 0)
+        return none;
+    const double along = meet_water(water, p->i, r->frame->under, ray), level = level_of(r, hit.triangle, ray);
+    p->dry = is_inside_dry(NULL, (double)(float)(p->eye[1] + hit.along * ray[1]), level);
+    return stands_in_front(NULL, hit.along, along, (double)(float)(p->eye[1] + along * ray[1]), level) ? hit : none;
+}
+
+bool refraction_hides(const refraction *r, const tile_offset *at, const tile_objects *o, size_t i, float x, float y)
+{
+    if (!o->at_front[i] || !(o->share[i] > 0))
+        return false;
+    front_pixel p;
+    look_at_pixel(r, at, i, &p);
+    double ray[3];
+    return hit_in_front(&p, &o->water, vec2((double)x, (double)y), ray).triangle >= 0;
+}
+
 static void see_edge(front_pixel *p, tile_objects *o, size_t *count)
 {
-    const gbuffer *g = &p->r->direct.front;
-    const world *w = p->r->world;
-    const camera_rays *c = &p->r->camera;
-    const double eye[3] = {c->position[0] - w->origin[0], c->position[1], c->position[2] - w->origin[1]};
-    const struct kernel_context cx = {.surface = p->r->surface};
-    Facet facets[REFRACTION_NEIGHBOURS];
-    p->candidate_count = refraction_neighbours(g, p->element, p->candidates);
-    for (size_t k = 0; k < p->candidate_count; k++)
-        facets[k] = facet_of(&cx, p->candidates[k], vec3(eye[0], eye[1], eye[2]));
     for (int place = 0; place < EDGE_PLACES; place++) {
-        const vec2 within = edge_place(NULL, place);
-        FrontHit hit = {-1, INFINITE};
         double ray[3];
-        ray_through(p->r, p->x + (double)within.x, p->y + (double)within.y, ray);
-        for (size_t k = 0; k < p->candidate_count; k++)
-            hit = nearer_hit(NULL, hit, p->candidates[k], facets[k], vec3(ray[0], ray[1], ray[2]));
-        const int32_t own = g->triangle[p->element];
-        if (own >= 0 && shows_pixel(NULL, hit, own, triangle_beside(p, within)))
-            hit = (FrontHit){own, (double)g->depth[p->element]};
-        if (hit.triangle < 0)
-            continue;
-        const double water = meet_water(o, p->i, p->r->frame->under, ray);
-        const double level = level_of(p->r, hit.triangle, ray);
-        p->dry = is_inside_dry(NULL, (double)(float)(eye[1] + hit.along * ray[1]), level);
-        if (stands_in_front(NULL, hit.along, water, (double)(float)(eye[1] + water * ray[1]), level))
+        const FrontHit hit = hit_in_front(p, &o->water, edge_place(NULL, place), ray);
+        if (hit.triangle >= 0)
             add_point(p, ray, hit.along, hit.triangle, o, count);
     }
 }
@@ -142,13 +165,13 @@ static size_t list_inside(const tile_front *front, tile_objects *o)
 
 static void see_edges(const refraction *r, const tile_offset *at, const tile_front *front, tile_objects *o)
 {
-    const gbuffer *g = &r->direct.front;
     size_t count = 0;
     for (uint32_t i = 0; i < TILE_PIXELS; i++) {
-        if (front->kind[i] != FRONT_EDGE)
+        o->at_front[i] = front->kind[i] == FRONT_EDGE;
+        if (!o->at_front[i])
             continue;
-        front_pixel p = {.r = r, .x = at->column + i % TILE_WIDTH, .y = at->row + i / TILE_WIDTH, .i = i};
-        p.element = (size_t)(g->top + p.y) * g->width + g->left + p.x;
+        front_pixel p;
+        look_at_pixel(r, at, i, &p);
         see_edge(&p, o, &count);
     }
     if (count > 0)

@@ -67,6 +67,9 @@ void refraction_spread(const tile_objects *o, size_t count, float (*planes)[TILE
 /* What stands in front of water and sky in the tile whose first pixel this is; the water must be known. */
 void refraction_front(const refraction *r, uint32_t column, uint32_t row, tile_objects *o);
 
+/* Whether an object in front hides the water in a place of the tile's pixel i, (x, y) pixels from its centre. o->water is known there, or at the centre. */
+bool refraction_hides(const refraction *r, const tile_offset *at, const tile_objects *o, size_t i, float x, float y);
+
 enum { REFRACTION_NEIGHBOURS = 9 };
 
 /* The triangles, each once, that an element of a layer and those around it show; those on the layer's edge count as far as they have neighbours.

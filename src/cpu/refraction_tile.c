@@ -59,11 +59,12 @@ void refraction_spread(const tile_objects *o, size_t count, float (*planes)[TILE
 
 /* ---- through the surface ---- */
 
-static size_t list_water(tile_objects *o)
+/* Pixels that are water; `unseen`: those alone where no place has met water yet. */
+static size_t list_water(tile_objects *o, bool unseen)
 {
     size_t count = 0;
     for (uint32_t i = 0; i < TILE_PIXELS; i++)
-        if (o->water.share[i] > 0)
+        if (o->water.share[i] > 0 && !(unseen && o->seen[i] > 0))
             o->list[count++] = (uint16_t)i;
     return count;
 }
@@ -73,6 +74,14 @@ static void leave_covered(tile_objects *o)
 {
     for (size_t i = 0; i < TILE_PIXELS; i++)
         o->water.share[i] = o->share[i] < 1 ? o->water.share[i] : 0;
+}
+
+/* The same of the place (at->dx, at->dy) of pixels at edges. */
+static void leave_hidden(const refraction *r, const tile_offset *at, tile_objects *o)
+{
+    for (size_t i = 0; i < TILE_PIXELS; i++)
+        if (o->water.share[i] > 0 && refraction_hides(r, at, o, i, at->dx, at->dy))
+            o->water.share[i] = 0;
 }
 
 /* What objects, and under water the way from the surface, leave of the light's disk. */
@@ -308,19 +317,23 @@ static void see_place(refraction *r, size_t count, tile_objects *o)
     see_mirrored(r, leave_total(o, count), o);
 }
 
-/* The other rays of these pixels, and what comes through. */
-static void see_beside(refraction *r, const uint16_t *pixels, size_t count, tile_objects *o)
+/* The other rays of these pixels that nothing in front hides, and what comes through. */
+static void see_beside(refraction *r, const tile_offset *at, const uint16_t *pixels, size_t count, tile_objects *o)
 {
     const int rays = r->narrow.data.edge_rays;
     ray_places *p = &o->places;
     p->count = 0;
     for (int ray = 0; ray < rays; ray++) {
         const vec2 place = edge_ray(NULL, ray);
-        for (size_t k = 0; k < count; k++, p->count++) {
+        for (size_t k = 0; k < count; k++) {
+            if (refraction_hides(r, at, o, pixels[k], place.x, place.y))
+                continue;
             p->pixel[p->count] = pixels[k];
-            p->dx[p->count] = place.x, p->dy[p->count] = place.y;
+            p->dx[p->count] = place.x, p->dy[p->count++] = place.y;
         }
     }
+    if (p->count == 0)
+        return;
     o->met = &o->beside;
     r->kernels->narrow->beside(&r->narrow, p, &o->water, &o->beside);
     uint16_t all[TILE_PIXELS];
@@ -349,20 +362,42 @@ static void see_beside(refraction *r, const uint16_t *pixels, size_t count, tile
     }
 }
 
-/* Where an outline may pass through a pixel, the mean of more rays. What the surface mirrors, it mirrors at the pixel's centre. */
-static void see_outlines(refraction *r, tile_objects *o)
+/* Whether something in front hides a pixel's centre, where the water would lie inside it or behind it, but not all of the other rays. */
+static bool hides_centre_alone(const refraction *r, const tile_offset *at, const tile_objects *o, size_t i)
+{
+    bool all = refraction_hides(r, at, o, i, 0, 0);
+    if (!all)
+        return false;
+    for (int ray = 0; ray < r->narrow.data.edge_rays && all; ray++) {
+        const vec2 place = edge_ray(NULL, ray);
+        all = refraction_hides(r, at, o, i, place.x, place.y);
+    }
+    return !all;
+}
+
+/* Where an outline may pass through a pixel, the mean of more rays. Rays that something in front hides do not count. What the surface mirrors, it mirrors at the
+ * pixel's centre. */
+static void see_outlines(refraction *r, const tile_offset *at, tile_objects *o)
 {
     uint16_t edges[TILE_PIXELS];
     float total[TILE_PIXELS];
     size_t count = 0;
-    for (size_t i = 0; i < TILE_PIXELS; i++)
-        if (o->water.share[i] > 0 && o->edge[i] > 0) {
-            total[count] = o->ends.first[i];
-            edges[count++] = (uint16_t)i;
-        }
+    for (size_t i = 0; i < TILE_PIXELS; i++) {
+        if (!(o->water.share[i] > 0))
+            continue;
+        const bool hidden = hides_centre_alone(r, at, o, i);
+        if (!hidden && !(o->edge[i] > 0))
+            continue;
+        total[count] = o->ends.first[i];
+        edges[count++] = (uint16_t)i;
+        for (size_t c = 0; c < 3 && hidden; c++)
+            o->light.through[c][i] = 0;
+        if (hidden)
+            o->seen[i] = o->error[i] = 0;
+    }
     const size_t most = TILE_PIXELS / (size_t)r->narrow.data.edge_rays;
     for (size_t first = 0; first < count; first += most)
-        see_beside(r, edges + first, count - first < most ? count - first : most, o);
+        see_beside(r, at, edges + first, count - first < most ? count - first : most, o);
     for (size_t k = 0; k < count; k++)
         for (size_t c = 0; c < 3; c++) {
             o->light.through[c][edges[k]] /= o->seen[edges[k]];
@@ -391,18 +426,19 @@ static void see_refracted(refraction *r, const tile_waves *waves, const tile_est
         at.dx = ((float)(place % n) + 0.5f) / (float)n - 0.5f;
         at.dy = ((float)(place / n) + 0.5f) / (float)n - 0.5f;
         look_at_water(r, waves, estimate, &at, o);
-        const size_t count = list_water(o);
+        leave_hidden(r, &at, o);
+        const size_t count = list_water(o, false);
         if (count > 0)
             see_place(r, count, o);
     }
     at.dx = at.dy = 0;
     if (n > 1 && !r->truth)
         look_at_water(r, waves, estimate, &at, o);
-    const size_t count = list_water(o);
-    if (n == 1 && count > 0 && !r->truth)
+    const size_t count = list_water(o, true);
+    if (count > 0 && !r->truth)
         see_place(r, count, o);
-    if (count > 0 && r->narrow.data.edge_rays > 0)
-        see_outlines(r, o);
+    if (r->narrow.data.edge_rays > 0)
+        see_outlines(r, &at, o);
     for (size_t i = 0; i < TILE_PIXELS; i++) {
         if (o->seen[i] <= 1)
             continue;
@@ -421,7 +457,7 @@ void refraction_tile(refraction *r, const tile_waves *waves, const tile_estimate
     refraction_front(r, at.column, at.row, o);
     leave_covered(o);
     see_refracted(r, waves, estimate, at, o);
-    const size_t count = list_water(o);
+    const size_t count = list_water(o, false);
     atomic_fetch_add_explicit(&r->pixels, count, memory_order_relaxed);
     if (r->truth)
         see_path_traced(r, tile_x, tile_y, worker, o);

@@ -23,6 +23,8 @@ struct kernel_context {
     const refraction *r; /* this and what follows: only where pixels of a layer are asked */
     const gbuffer *layer;
     surface_way *way;
+    const int32_t *asked; /* of a place in front of the water: the triangles that it asks */
+    size_t asked_count;
 };
 
 KERNEL vec3 vec3_of(const float v[3]) { return vec3((double)v[0], (double)v[1], (double)v[2]); }
@@ -30,6 +32,14 @@ KERNEL vec3 vec3_of(const float v[3]) { return vec3((double)v[0], (double)v[1], 
 KERNEL vec3 SURFACE_CORNER(CTX cx, int triangle, int i) { return vec3_of(cx->surface[triangle].corners[i]); }
 KERNEL vec3 SURFACE_NORMAL(CTX cx, int triangle) { return vec3_of(cx->surface[triangle].normal); }
 KERNEL int SURFACE_NEIGHBOUR(CTX cx, int triangle, int i) { return cx->surface[triangle].neighbours[i]; }
+
+KERNEL bool IS_ASKED(CTX cx, int triangle)
+{
+    bool asked = false;
+    for (size_t i = 0; i < cx->asked_count && !asked; i++)
+        asked = cx->asked[i] == triangle;
+    return asked;
+}
 
 #define IS_IN_LAYER(cx, number, column, row) ((column) >= 0 && (row) >= 0 && (column) < (cx)->layer->width && (row) < (cx)->layer->height)
 #define SHOWN_TRIANGLE(cx, number, column, row) ((cx)->layer->triangle[(size_t)(row) * (cx)->layer->width + (size_t)(column)])

@@ -13,7 +13,7 @@
 
 #include "gl/gl_bvh.h"
 
-enum { MOST = 20000, RAYS = 3000 };
+enum { MOST = 20000, RAYS = 1000 };
 
 static float unit(uint64_t *state)
 {

@@ -230,6 +230,72 @@ static void index_one_is_straight(void **state)
     mgt_context_destroy(context);
 }
 
+/* ---- edges in front ---- */
+
+/* A white ball of triangles smaller than a pixel, half in black water. */
+static const char *const ball[] = {"objects=[{shape: pool, size: [4, 1.5, 6], triangles: 600, material: {base_color: [0.02, 0.02, 0.02]}}, "
+                                   "{shape: sphere, size: [2.4, 2.4, 2.4], material: {base_color: [0.9, 0.9, 0.9]}}]",
+                                   "time.shutter=0"};
+
+static double mean_mask(const mgt_scene *scene)
+{
+    double sum = 0;
+    const uint32_t pixels = scene->image.width * scene->image.height;
+    for (uint32_t p = 0; p < pixels; p++)
+        sum += (double)planes[2][p];
+    return sum / pixels;
+}
+
+/* Triangles that no pixel's centre shows count, too: what stands in front hides as much of the water in a small picture as in one with four times the rows. */
+static void outlines_in_front_are_whole(void **state)
+{
+    (void)state;
+    mgt_context *context = sea_context(2, MGT_ISA_AUTO);
+    view v = view_of(ball, 2);
+    v.scene.quality.method = MGT_METHOD_NONE;
+    assert_int_equal(draw(context, &v.scene, "a ball"), DRAWN_WELL);
+    const double small = mean_mask(&v.scene);
+    v.scene.image.width *= 4, v.scene.image.height *= 4;
+    assert_int_equal(draw(context, &v.scene, "a large ball"), DRAWN_WELL);
+    const double large = mean_mask(&v.scene);
+    printf("a ball in front: %.4f of the picture is water, %.4f of one with four times the rows\n", small, large);
+    assert_true(fabs(small - large) < 0.001);
+    scene_file_free(v.file);
+    mgt_context_destroy(context);
+}
+
+/* What is seen beside a thing in front is what lies behind the water there, not the thing's inside. */
+static void what_hides_water_is_not_seen_through_it(void **state)
+{
+    (void)state;
+    static float wanted[3 * WIDTH * HEIGHT];
+    mgt_context *context = sea_context(2, MGT_ISA_AUTO);
+    view v = view_of(ball, 2);
+    v.scene.quality.method = MGT_METHOD_NONE;
+    v.scene.quality.refraction = MGT_REFRACTION_PATH_TRACED;
+    if (draw(context, &v.scene, "a ball, traced") == NOT_DRAWN)
+        skip();
+    memcpy(wanted, planes[0], sizeof wanted);
+    v.scene.quality.refraction = MGT_REFRACTION_TWO_PHASE;
+    for (uint32_t places = 0; places < 4; places += 3) {
+        v.scene.quality.refraction_samples = places;
+        assert_int_equal(draw(context, &v.scene, "a ball"), DRAWN_WELL);
+        double sum = 0;
+        int edges = 0;
+        for (int p = 0; p < WIDTH * HEIGHT; p++) {
+            if (!(planes[2][p] > 0 && planes[2][p] < 1))
+                continue;
+            edges++;
+            sum += pow((double)planes[0][3 * p] - (double)wanted[3 * p], 2);
+        }
+        printf("a ball in front, %u places: rms %.3f kcd/m2 of %d pixels at its edge\n", places, sqrt(sum / edges), edges);
+        assert_true(edges > 40);
+        assert_true(sqrt(sum / edges) < 0.32);
+    }
+    scene_file_free(v.file);
+    mgt_context_destroy(context);
+}
+
 /* ---- methods ---- */
 
 static const mgt_method methods[] = {MGT_METHOD_NONE,      MGT_METHOD_SSAA,   MGT_METHOD_PODEE_UNIFORM, MGT_METHOD_PODEE_PIXEL, MGT_METHOD_MANGATA,
@@ -441,9 +507,10 @@ static void crops_and_long_pictures(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_refraction_ends),      cmocka_unit_test(index_one_is_straight),
-        cmocka_unit_test(every_method_shows_objects), cmocka_unit_test(what_objects_hide_takes_no_samples),
-        cmocka_unit_test(broken_meshes_are_refused),  cmocka_unit_test(poor_triangles_render),
+        cmocka_unit_test(every_refraction_ends),       cmocka_unit_test(index_one_is_straight),
+        cmocka_unit_test(outlines_in_front_are_whole), cmocka_unit_test(what_hides_water_is_not_seen_through_it),
+        cmocka_unit_test(every_method_shows_objects),  cmocka_unit_test(what_objects_hide_takes_no_samples),
+        cmocka_unit_test(broken_meshes_are_refused),   cmocka_unit_test(poor_triangles_render),
         cmocka_unit_test(crops_and_long_pictures),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

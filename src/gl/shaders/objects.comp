@@ -99,7 +99,7 @@ void main()
     if (front)
         append(LIST_FRONT, number);
     bool through = water.share > 0.0f && !front;
-    water_data[WATER_FLOATS * number + WATER_THROUGH] = through ? 1.0f : 0.0f;
+    water_data[WATER_FLOATS * number + WATER_THROUGH] = !through ? 0.0f : edge ? 2.0f : 1.0f;
     if (through)
         append(LIST_THROUGH, number);
     if (narrow_data.side < 0.0f && water.share < 1.0f)

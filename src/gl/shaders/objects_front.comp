@@ -11,26 +11,11 @@ layout(local_size_x = LIST_GROUP) in;
 layout(binding = 2) writeonly uniform image2D front_image;   /* colour of objects in front of water and sky, and the fraction of the pixel that they cover */
 layout(binding = 3) writeonly uniform image2D surface_image; /* its normal, and metres along the ray */
 
-/* The triangle that the pixel's neighbour on the side of `place` shows; −1: none. */
-int triangle_beside(ivec2 at, vec2 place)
-{
-    vec2 side = edge_side(0, place);
-    return front_triangle_at(at + ivec2(int(side.x), int(side.y)));
-}
-
 /* What the pixel's ray through `place` meets in front of the water. */
 RayEnd end_in_front(ivec2 image, PixelWater w, bool edge, vec2 place)
 {
-    ivec2 at = front_texel(image);
     vec3 ray = camera_ray(image, place);
-    FrontHit hit = FrontHit(-1, INFINITE);
-    for (int i = 0; edge && i < 9; i++) {
-        int triangle = front_triangle_at(at + ivec2(i % 3 - 1, i / 3 - 1));
-        if (triangle >= 0)
-            hit = nearer_hit(0, hit, triangle, facet_of(0, triangle, camera_position()), ray);
-    }
-    if (!edge || shows_pixel(0, hit, front_triangle_at(at), triangle_beside(at, place)))
-        hit = FrontHit(front_triangle_at(at), front_depth_at(at));
+    FrontHit hit = edge ? hit_at_edge(image, place, ray) : FrontHit(front_triangle_at(front_texel(image)), front_depth_at(front_texel(image)));
     RayEnd end;
     end.triangle = hit.triangle;
     float along = hit.along;

@@ -18,7 +18,7 @@ struct PixelWater {
 #else
 #define LIST_ACCESS readonly
 #endif
-/* WATER_FLOATS for each pixel: PixelWater, 1 if it is in LIST_THROUGH, and if it is in LIST_TRACED the light that is known and the rays of both branches. */
+/* WATER_FLOATS for each pixel: PixelWater, 1 if it is in LIST_THROUGH, 2 if in LIST_EDGES too, and if it is in LIST_TRACED the light that is known and the rays of both branches. */
 layout(std430, binding = 4) LIST_ACCESS buffer WaterBlock { float water_data[]; };
 
 /* The lists. LIST_FRONT: pixels that an object in front of the water fills. LIST_EDGES: pixels that see edges of objects. LIST_THROUGH: pixels that see through
@@ -35,6 +35,9 @@ layout(std430, binding = 5) LIST_ACCESS buffer ListBlock {
 int band_pixels() { return pass_data.columns * pass_data.rows * TILE_PIXELS; }
 
 bool is_through(int pixel) { return water_data[WATER_FLOATS * pixel + WATER_THROUGH] > 0.0f; }
+
+/* Whether a pixel that looks through the surface sees an edge of an object in front as well. */
+bool is_at_edge(int pixel) { return water_data[WATER_FLOATS * pixel + WATER_THROUGH] > 1.0f; }
 
 PixelWater known_water(int pixel)
 {
@@ -122,6 +125,7 @@ vec3 SURFACE_CORNER(int cx, int triangle, int i) { return texelFetch(vertex_tabl
 
 /* Invocations keep no list of triangles. */
 #define SURFACE_KNOWN(cx, triangle) false
+#define IS_ASKED(cx, triangle) false
 #define IS_IN_LAYER(cx, layer, column, row) ((column) >= 0.0f && (row) >= 0.0f && (column) < narrow_data.columns && (row) < narrow_data.rows)
 #define SHOWN_TRIANGLE(cx, layer, column, row) layer_triangle(layer, ivec2(int(column), int(row)))
 #define ALONG_RAY(cx, end, nearest, i) place_along_ray(end.layer, end.from, end.direction, nearest, i)
@@ -135,3 +139,35 @@ vec2 place_along_ray(int layer, vec3 from, vec3 direction, float nearest, int i)
 }
 
 #include "kernels/refraction/shown.k"
+
+/* ---- edges of objects in front ---- */
+
+/* The triangle that the pixel's neighbour on the side of `place` shows; −1: none. */
+int triangle_beside(ivec2 at, vec2 place)
+{
+    vec2 side = edge_side(0, place);
+    return front_triangle_at(at + ivec2(int(side.x), int(side.y)));
+}
+
+/* What the ray of a pixel through one of its places meets of the triangles that the front layer shows there and around; triangle −1: nothing. */
+FrontHit hit_at_edge(ivec2 image, vec2 place, vec3 ray)
+{
+    ivec2 at = front_texel(image);
+    FrontHit hit = FrontHit(-1, INFINITE);
+    for (int i = 0; i < 9; i++) {
+        int triangle = front_triangle_at(at + ivec2(i % 3 - 1, i / 3 - 1));
+        if (triangle >= 0)
+            hit = nearer_hit(0, hit, triangle, facet_of(0, triangle, camera_position()), camera_position(), ray);
+    }
+    if (shows_pixel(0, hit, front_triangle_at(at), triangle_beside(at, place)))
+        hit = FrontHit(front_triangle_at(at), front_depth_at(at));
+    return hit;
+}
+
+/* Whether an object in front hides the water in a place of a pixel. `water`: of the place, or of the centre. */
+bool is_hidden(ivec2 image, PixelWater water, vec2 place)
+{
+    vec3 ray = camera_ray(image, place);
+    FrontHit hit = hit_at_edge(image, place, ray);
+    return hit.triangle >= 0 && is_in_front(hit.triangle, hit.along, water, ray);
+}

@@ -27,9 +27,16 @@ void main()
     float seen = 0.0f, error = 0.0f;
     vec3 color = vec3(0.0f);
     vec4 mirrored = vec4(0.0f);
-    for (int i = 0; i < places * places; i++) {
-        PixelWater water = water_at(where, (vec2(float(i % places), float(i / places)) + 0.5f) / float(places) - 0.5f);
-        if (!(water.share > 0.0f))
+    ivec2 image = texel + ivec2(pass_data.area_x, pass_data.area_y);
+    bool edge = is_at_edge(pixel);
+    for (int i = 0; i <= places * places; i++) {
+        /* The last place is the centre, for pixels whose others have no water or are hidden. */
+        bool centre = i == places * places;
+        if (centre && seen > 0.0f)
+            break;
+        vec2 at = centre ? vec2(0.0f) : (vec2(float(i % places), float(i / places)) + 0.5f) / float(places) - 0.5f;
+        PixelWater water = water_at(where, at);
+        if (!(water.share > 0.0f) || (edge && !centre && is_hidden(image, water, at)))
             continue;
         float part = 0.0f;
         vec3 place = vec3(0.0f);

@@ -59,14 +59,27 @@ void main()
         append(LIST_TRACED, pixel);
         return;
     }
-    int rays = doubtful ? narrow_data.edge_rays : 0;
+    ivec2 image = image_of(water);
+    bool edge = narrow_data.edge_rays > 0 && is_at_edge(pixel), hidden = edge && is_hidden(image, water, vec2(0.0f));
+    int rays = doubtful || hidden ? narrow_data.edge_rays : 0;
+    PlaceLight beside = PlaceLight(vec3(0.0f), 0.0f);
+    float seen = 0.0f;
     for (int i = 0; i < rays; i++) {
+        if (edge && is_hidden(image, water, edge_ray(0, i)))
+            continue;
         PlaceLight light = light_beside(water, edge_ray(0, i));
-        color += light.color;
-        error = max(error, light.error);
+        beside.color += light.color;
+        beside.error = max(beside.error, light.error);
+        seen += 1.0f;
     }
-    color /= float(rays + 1);
-    ivec2 texel = texel_of_image(image_of(water));
+    if (hidden && seen > 0.0f) {
+        color = beside.color / seen;
+        error = beside.error;
+    } else {
+        color = (color + beside.color) / (seen + 1.0f);
+        error = max(error, beside.error);
+    }
+    ivec2 texel = texel_of_image(image);
     imageStore(body_image, texel, vec4(color, 1.0f));
     if (mirrors_all(water))
         imageStore(mirrored_image, texel, vec4(color, 1.0f));

@@ -109,6 +109,7 @@
 /* ---- objects ---- */
 
 #define EDGE_PLACES 8          /* places in a pixel that look for objects at edges */
+#define EDGE_STEPS 8           /* triangles that a place of a pixel at an edge is looked for on, over the surface of each triangle that is shown */
 #define EDGE_RAYS 4            /* rays of a pixel at an outline behind the surface, besides the one through its centre */
 #define SURFACE_STEPS 128      /* largest number of triangles that a ray visits to find its own */
 #define SHARP_PLACES 16        /* pixels along a ray's image in a layer that are tried where the search did not converge */
@@ -149,7 +150,7 @@
 #define LIST_TRACED 4
 #define LISTS 5
 #define WATER_FLOATS 41
-#define WATER_THROUGH 17 /* place of the flag that tells whether the pixel looks through the surface */
+#define WATER_THROUGH 17 /* place of the number that tells whether the pixel looks through the surface, see objects_pixel.glsl */
 #define WATER_LIGHT 18
 #define WATER_RAYS 21
 #define RAY_FLOATS 10
