@@ -56,7 +56,7 @@ static void add_point(const front_pixel *p, const double ray[3], double along, i
     }
     e->before[at] = (float)(along * length);
     const float pixel = e->before[at] * r->frame->data.pixel_angle;
-    e->spread[0][at] = e->spread[2][at] = pixel * pixel / 12;
+    e->spread[0][at] = e->spread[2][at] = pixel * pixel / (12 * EDGE_PLACES);
     e->spread[1][at] = 0;
     e->after[at] = 0;
     e->gain[at] = 1;

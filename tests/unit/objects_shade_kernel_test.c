@@ -122,6 +122,86 @@ static void textures_repeat_between_texels_and_levels(void **state)
     assert_true(worst < 1e-4); /* 2⁻²³ of 300 texels */
 }
 
+/* ---- highlights ---- */
+
+static double ggx_at(double alpha, double cosine)
+{
+    const double squared = alpha * alpha, spread = cosine * cosine * (squared - 1) + 1;
+    return squared / (pi * spread * spread);
+}
+
+static double density_of(GlossyNormals g) { return (double)g.squared / (pi * (double)g.spread * (double)g.spread); }
+
+/* Where nothing turns, it is GGX. Where normals turn along one axis, it is near the mean of GGX over them, and its peak within a third. */
+static void highlights_are_means_over_normals(void **state)
+{
+    (void)state;
+    numbers.state = 7;
+    double flat = 0, error = 0, size = 0, peak = 0;
+    for (int i = 0; i < 400; i++) {
+        const double alpha = exp(range(-4, 0)), across = range(0, 0.4), along = range(0, 0.4), turn = range(0.5, 2) * alpha;
+        HitSurface s = {.shading = vec3(0, 1, 0)};
+        const double cosine = sqrt(1 - across * across - along * along);
+        const vec3 half = vec3((float)across, (float)cosine, (float)along);
+        flat = fmax(flat, fabs(density_of(glossy_normals(NULL, (float)alpha, s, half)) / ggx_at(alpha, cosine) - 1));
+        if (turn > 0.3)
+            continue;
+        s.turn_first = vec3((float)(0.6 * turn), 0, 0);
+        s.turn_second = vec3((float)(0.8 * turn), 0, 0);
+        double sum = 0, weights = 0, summit = 0;
+        for (int k = -400; k <= 400; k++) {
+            const double tilt = k / 100.0 * turn, weight = exp(-tilt * tilt / (2 * turn * turn));
+            sum += weight * ggx_at(alpha, across * sin(tilt) + cosine * cos(tilt));
+            summit += weight * ggx_at(alpha, cos(tilt));
+            weights += weight;
+        }
+        const double found = density_of(glossy_normals(NULL, (float)alpha, s, half)), top = density_of(glossy_normals(NULL, (float)alpha, s, vec3(0, 1, 0)));
+        error += fabs(found - sum / weights);
+        size += sum / weights;
+        peak = fmax(peak, fabs(top * weights / summit - 1));
+    }
+    printf("highlights: flat within %.2g, of a curved surface off by %.3f of their mean, their peaks by %.3f at most\n", flat, error / size, peak);
+    assert_true(flat < 2e-3);
+    assert_true(error / size < 0.17);
+    assert_true(peak < 0.2);
+}
+
+/* The turning of the normal over the footprint against that of points a tenth of its deviation apart. */
+static void normals_turn_as_they_do_between_points(void **state)
+{
+    (void)state;
+    numbers.state = 8;
+    double worst = 0;
+    int curved = 0;
+    for (int i = 0; i < 400; i++) {
+        HitTriangle t = {.corner = vec3(0, 0, 0), .edge_1 = vec3(1, 0, (float)range(-0.3, 0.3)), .edge_2 = vec3((float)range(-0.3, 0.3), 0, -1)};
+        vec3 *const normals[3] = {&t.normal_0, &t.normal_1, &t.normal_2};
+        for (int k = 0; k < 3; k++) {
+            double n[3] = {range(-0.5, 0.5), 1, range(-0.5, 0.5)};
+            unit3(n);
+            *normals[k] = vec3((float)n[0], (float)n[1], (float)n[2]);
+        }
+        double ray[3] = {range(-1, 1), -1, range(-1, 1)};
+        unit3(ray);
+        HitRay h = {.position = vec3(0.3f, 0, -0.3f), .direction = vec3((float)ray[0], (float)ray[1], (float)ray[2])};
+        h.footprint = (RayFootprint){.side_side = 1e-4f, .side_rise = (float)range(-5e-5, 5e-5), .rise_rise = 1e-4f};
+        const HitSurface s = hit_surface(NULL, t, h);
+        const vec3 *const sides[2] = {&s.first, &s.second}, *const turns[2] = {&s.turn_first, &s.turn_second};
+        for (int k = 0; k < 2; k++) {
+            const float part = 0.1f / 3.4641016f; /* of a side, √12 deviations long */
+            HitRay a = h, b = h;
+            a.position = sub(h.position, scale(*sides[k], part));
+            b.position = add(h.position, scale(*sides[k], part));
+            const vec3 change = scale(sub(hit_surface(NULL, t, b).shading, hit_surface(NULL, t, a).shading), 5.0f);
+            const double size = sqrt((double)length_squared(change));
+            worst = fmax(worst, sqrt((double)length_squared(sub(change, *turns[k]))) - 0.02 * size);
+            curved += size > 1e-3;
+        }
+    }
+    printf("turning normals: off by %.2g at most, beside 2%% of themselves; %d turn\n", worst, curved);
+    assert_true(worst < 1e-4 && curved > 300);
+}
+
 /* ---- light in water ---- */
 
 static void glow_is_the_integral(void **state)
@@ -240,8 +320,13 @@ static void slopes_bend_the_view_to_the_light(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(patterns_are_box_means),      cmocka_unit_test(textures_repeat_between_texels_and_levels), cmocka_unit_test(glow_is_the_integral),
-        cmocka_unit_test(caustics_are_shares_of_area), cmocka_unit_test(slopes_bend_the_view_to_the_light),
+        cmocka_unit_test(patterns_are_box_means),
+        cmocka_unit_test(textures_repeat_between_texels_and_levels),
+        cmocka_unit_test(highlights_are_means_over_normals),
+        cmocka_unit_test(normals_turn_as_they_do_between_points),
+        cmocka_unit_test(glow_is_the_integral),
+        cmocka_unit_test(caustics_are_shares_of_area),
+        cmocka_unit_test(slopes_bend_the_view_to_the_light),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

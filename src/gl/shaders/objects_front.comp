@@ -27,7 +27,7 @@ RayEnd end_in_front(ivec2 image, PixelWater w, bool edge, vec2 place)
     end.ray.water = narrow_data.side > 0.0f ? 0.0f : along * size;
     if (end.triangle >= 0 && is_inside_dry(0, end.ray.position.y, dry_level(end.triangle, ray)))
         end.ray.water = IN_DRY_HULL;
-    end.ray.footprint = straight_footprint(0, along * size, shade_data.pixel_angle);
+    end.ray.footprint = straight_footprint(0, along * size, shade_data.pixel_angle * (edge ? inversesqrt(float(EDGE_PLACES)) : 1.0f));
     end.ray.gain = 1.0f;
     end.error = 0.0f;
     end.counts = end.triangle >= 0 && is_in_front(end.triangle, along, w, ray);
