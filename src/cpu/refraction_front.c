@@ -2,7 +2,7 @@
  * Objects in front of the water, with smooth edges.
  *
  * The front layer knows what the centre of each pixel sees. At edges, where a neighbour sees something else, and along waterlines, eight places of the
- * pixel ask the triangles that it and its neighbours see, and the surface's plane. */
+ * pixel follow the surfaces of the triangles that it and its neighbours see, and ask the water's plane. */
 #include <math.h>
 #include <string.h>
 
@@ -56,7 +56,7 @@ static void add_point(const front_pixel *p, const double ray[3], double along, i
     }
     e->before[at] = (float)(along * length);
     const float pixel = e->before[at] * r->frame->data.pixel_angle;
-    e->spread[0][at] = e->spread[2][at] = pixel * pixel / (12 * EDGE_PLACES);
+    e->spread[0][at] = e->spread[2][at] = EDGE_PART * pixel * pixel / 12;
     e->spread[1][at] = 0;
     e->after[at] = 0;
     e->gain[at] = 1;
@@ -132,7 +132,7 @@ static inline FrontHit hit_in_front(front_pixel *p, const tile_water *water, vec
     return stands_in_front(NULL, hit.along, along, (double)(float)(p->eye[1] + along * ray[1]), level) ? hit : none;
 }
 
-bool refraction_hides(const refraction *r, const tile_offset *at, const tile_objects *o, size_t i, float x, float y)
+bool refraction_is_hidden(const refraction *r, const tile_offset *at, const tile_objects *o, size_t i, float x, float y)
 {
     if (!o->at_front[i] || !(o->share[i] > 0))
         return false;

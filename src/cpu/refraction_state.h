@@ -68,7 +68,7 @@ void refraction_spread(const tile_objects *o, size_t count, float (*planes)[TILE
 void refraction_front(const refraction *r, uint32_t column, uint32_t row, tile_objects *o);
 
 /* Whether an object in front hides the water in a place of the tile's pixel i, (x, y) pixels from its centre. o->water is known there, or at the centre. */
-bool refraction_hides(const refraction *r, const tile_offset *at, const tile_objects *o, size_t i, float x, float y);
+bool refraction_is_hidden(const refraction *r, const tile_offset *at, const tile_objects *o, size_t i, float x, float y);
 
 enum { REFRACTION_NEIGHBOURS = 9 };
 

@@ -80,7 +80,7 @@ static void leave_covered(tile_objects *o)
 static void leave_hidden(const refraction *r, const tile_offset *at, tile_objects *o)
 {
     for (size_t i = 0; i < TILE_PIXELS; i++)
-        if (o->water.share[i] > 0 && refraction_hides(r, at, o, i, at->dx, at->dy))
+        if (o->water.share[i] > 0 && refraction_is_hidden(r, at, o, i, at->dx, at->dy))
             o->water.share[i] = 0;
 }
 
@@ -326,7 +326,7 @@ static void see_beside(refraction *r, const tile_offset *at, const uint16_t *pix
     for (int ray = 0; ray < rays; ray++) {
         const vec2 place = edge_ray(NULL, ray);
         for (size_t k = 0; k < count; k++) {
-            if (refraction_hides(r, at, o, pixels[k], place.x, place.y))
+            if (refraction_is_hidden(r, at, o, pixels[k], place.x, place.y))
                 continue;
             p->pixel[p->count] = pixels[k];
             p->dx[p->count] = place.x, p->dy[p->count++] = place.y;
@@ -362,17 +362,17 @@ static void see_beside(refraction *r, const tile_offset *at, const uint16_t *pix
     }
 }
 
-/* Whether something in front hides a pixel's centre, where the water would lie inside it or behind it, but not all of the other rays. */
-static bool hides_centre_alone(const refraction *r, const tile_offset *at, const tile_objects *o, size_t i)
+/* Weight of the ray through a pixel's centre. */
+static float weight_of_centre(const refraction *r, const tile_offset *at, const tile_objects *o, size_t i)
 {
-    bool all = refraction_hides(r, at, o, i, 0, 0);
-    if (!all)
-        return false;
-    for (int ray = 0; ray < r->narrow.data.edge_rays && all; ray++) {
+    if (!refraction_is_hidden(r, at, o, i, 0, 0))
+        return 1;
+    int others = 0;
+    for (int ray = 0; ray < r->narrow.data.edge_rays; ray++) {
         const vec2 place = edge_ray(NULL, ray);
-        all = refraction_hides(r, at, o, i, place.x, place.y);
+        others += !refraction_is_hidden(r, at, o, i, place.x, place.y);
     }
-    return !all;
+    return centre_weight(NULL, true, (float)others);
 }
 
 /* Where an outline may pass through a pixel, the mean of more rays. Rays that something in front hides do not count. What the surface mirrors, it mirrors at the
@@ -385,15 +385,15 @@ static void see_outlines(refraction *r, const tile_offset *at, tile_objects *o)
     for (size_t i = 0; i < TILE_PIXELS; i++) {
         if (!(o->water.share[i] > 0))
             continue;
-        const bool hidden = hides_centre_alone(r, at, o, i);
-        if (!hidden && !(o->edge[i] > 0))
+        const float centre = weight_of_centre(r, at, o, i);
+        if (centre > 0 && !(o->edge[i] > 0))
             continue;
         total[count] = o->ends.first[i];
         edges[count++] = (uint16_t)i;
-        for (size_t c = 0; c < 3 && hidden; c++)
-            o->light.through[c][i] = 0;
-        if (hidden)
-            o->seen[i] = o->error[i] = 0;
+        for (size_t c = 0; c < 3; c++)
+            o->light.through[c][i] *= centre;
+        o->seen[i] = centre;
+        o->error[i] = centre > 0 ? o->error[i] : 0; /* it may be infinite */
     }
     const size_t most = TILE_PIXELS / (size_t)r->narrow.data.edge_rays;
     for (size_t first = 0; first < count; first += most)

@@ -132,7 +132,7 @@ static double ggx_at(double alpha, double cosine)
 
 static double density_of(GlossyNormals g) { return (double)g.squared / (pi * (double)g.spread * (double)g.spread); }
 
-/* Where nothing turns, it is GGX. Where normals turn along one axis, it is near the mean of GGX over them, and its peak within a third. */
+/* Where nothing turns, it is GGX. Where normals turn along one axis, it is near the mean of GGX over them, and its peak within a fifth. */
 static void highlights_are_means_over_normals(void **state)
 {
     (void)state;
@@ -166,7 +166,7 @@ static void highlights_are_means_over_normals(void **state)
     assert_true(peak < 0.2);
 }
 
-/* The turning of the normal over the footprint against that of points a tenth of its deviation apart. */
+/* The turning of the normal over the footprint against that between points a fifth of its deviation apart. */
 static void normals_turn_as_they_do_between_points(void **state)
 {
     (void)state;

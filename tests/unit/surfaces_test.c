@@ -101,7 +101,7 @@ static int end_of_way(const surface_triangle *t, int start, vec3 from, vec3 ray)
     const struct kernel_context cx = {.surface = t};
     int triangle = start, before = -1;
     for (int i = 0; i < SURFACE_STEPS; i++) {
-        const SurfaceStep s = surface_step(&cx, triangle, before, from, ray);
+        const SurfaceStep s = surface_step(&cx, triangle, before, facet_of(&cx, triangle, from), ray);
         if (s.along < INFINITY)
             return triangle;
         if (s.next < 0)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
  * Shades objects in front of the water. The front layer holds what the centre of each pixel sees. At edges and along waterlines, rays through eight places of
- * the pixel are tested against the triangles that the pixel and its neighbours see, and against the plane of the surface.
+ * the pixel follow the surfaces of the triangles that the pixel and its neighbours see, and are tested against the plane of the water.
  */
 #define OBJECTS_PASS
 #include "gl_data.glsl"
@@ -27,7 +27,7 @@ RayEnd end_in_front(ivec2 image, PixelWater w, bool edge, vec2 place)
     end.ray.water = narrow_data.side > 0.0f ? 0.0f : along * size;
     if (end.triangle >= 0 && is_inside_dry(0, end.ray.position.y, dry_level(end.triangle, ray)))
         end.ray.water = IN_DRY_HULL;
-    end.ray.footprint = straight_footprint(0, along * size, shade_data.pixel_angle * (edge ? inversesqrt(float(EDGE_PLACES)) : 1.0f));
+    end.ray.footprint = edge ? place_footprint(0, along * size, shade_data.pixel_angle) : straight_footprint(0, along * size, shade_data.pixel_angle);
     end.ray.gain = 1.0f;
     end.error = 0.0f;
     end.counts = end.triangle >= 0 && is_in_front(end.triangle, along, w, ray);

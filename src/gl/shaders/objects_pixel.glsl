@@ -18,7 +18,8 @@ struct PixelWater {
 #else
 #define LIST_ACCESS readonly
 #endif
-/* WATER_FLOATS for each pixel: PixelWater, 1 if it is in LIST_THROUGH, 2 if in LIST_EDGES too, and if it is in LIST_TRACED the light that is known and the rays of both branches. */
+/* WATER_FLOATS for each pixel: PixelWater; 1 if it is in LIST_THROUGH, 2 if it is in LIST_EDGES as well; and if it is in LIST_TRACED the light that is known and
+ * the rays of both branches. */
 layout(std430, binding = 4) LIST_ACCESS buffer WaterBlock { float water_data[]; };
 
 /* The lists. LIST_FRONT: pixels that an object in front of the water fills. LIST_EDGES: pixels that see edges of objects. LIST_THROUGH: pixels that see through
@@ -36,8 +37,8 @@ int band_pixels() { return pass_data.columns * pass_data.rows * TILE_PIXELS; }
 
 bool is_through(int pixel) { return water_data[WATER_FLOATS * pixel + WATER_THROUGH] > 0.0f; }
 
-/* Whether a pixel that looks through the surface sees an edge of an object in front as well. */
-bool is_at_edge(int pixel) { return water_data[WATER_FLOATS * pixel + WATER_THROUGH] > 1.0f; }
+/* Whether a pixel that looks through the surface sees an edge of an object in front, or a waterline, as well. */
+bool is_at_front(int pixel) { return water_data[WATER_FLOATS * pixel + WATER_THROUGH] > 1.0f; }
 
 PixelWater known_water(int pixel)
 {

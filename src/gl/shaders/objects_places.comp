@@ -28,7 +28,7 @@ void main()
     vec3 color = vec3(0.0f);
     vec4 mirrored = vec4(0.0f);
     ivec2 image = texel + ivec2(pass_data.area_x, pass_data.area_y);
-    bool edge = is_at_edge(pixel);
+    bool edge = is_at_front(pixel);
     for (int i = 0; i <= places * places; i++) {
         /* The last place is the centre, for pixels whose others have no water or are hidden. */
         bool centre = i == places * places;

@@ -60,7 +60,7 @@ void main()
         return;
     }
     ivec2 image = image_of(water);
-    bool edge = narrow_data.edge_rays > 0 && is_at_edge(pixel), hidden = edge && is_hidden(image, water, vec2(0.0f));
+    bool edge = narrow_data.edge_rays > 0 && is_at_front(pixel), hidden = edge && is_hidden(image, water, vec2(0.0f));
     int rays = doubtful || hidden ? narrow_data.edge_rays : 0;
     PlaceLight beside = PlaceLight(vec3(0.0f), 0.0f);
     float seen = 0.0f;
@@ -72,13 +72,9 @@ void main()
         beside.error = max(beside.error, light.error);
         seen += 1.0f;
     }
-    if (hidden && seen > 0.0f) {
-        color = beside.color / seen;
-        error = beside.error;
-    } else {
-        color = (color + beside.color) / (seen + 1.0f);
-        error = max(error, beside.error);
-    }
+    float centre = centre_weight(0, hidden, seen);
+    color = (centre * color + beside.color) / (centre + seen);
+    error = max(centre > 0.0f ? error : 0.0f, beside.error);
     ivec2 texel = texel_of_image(image);
     imageStore(body_image, texel, vec4(color, 1.0f));
     if (mirrors_all(water))

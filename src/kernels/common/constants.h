@@ -109,6 +109,7 @@
 /* ---- objects ---- */
 
 #define EDGE_PLACES 8          /* places in a pixel that look for objects at edges */
+#define EDGE_PART 0.125f       /* part of the pixel's area, and so of its footprint's variances, that one of them stands for */
 #define EDGE_STEPS 8           /* triangles that a place of a pixel at an edge is looked for on, over the surface of each triangle that is shown */
 #define EDGE_RAYS 4            /* rays of a pixel at an outline behind the surface, besides the one through its centre */
 #define SURFACE_STEPS 128      /* largest number of triangles that a ray visits to find its own */
