@@ -86,7 +86,10 @@ static void lanes_breaks(const gbuffer *g, const float *planes, float focal, uin
     out[0] = out[width - 1] = 1;
 }
 
-static void lanes_edges(const gbuffer *g, const float *planes, uint32_t row, uint8_t *out)
+/* The objects of triangles; of those below 0 any. */
+static mask object_of(const uint32_t *objects, mask triangle) { return gather_ints((const int *)objects, triangle & ~(triangle >> 31)); }
+
+static void lanes_edges(const gbuffer *g, const float *planes, const uint32_t *objects, uint32_t row, uint8_t *out)
 {
     const ptrdiff_t width = (ptrdiff_t)g->width, beside[4] = {-1, 1, -width, width};
     for (ptrdiff_t i = 0; i < width; i += MGT_LANES) {
@@ -99,7 +102,8 @@ static void lanes_edges(const gbuffer *g, const float *planes, uint32_t row, uin
             const mask there = load_whole(t + beside[k]), differ = here != there;
             if (!any_lane(differ))
                 continue;
-            const mask goes_on = surface_goes_on(NULL, normal_of(planes, here), normal_of(planes, there), depth, load(d + beside[k]));
+            const mask goes_on = surface_goes_on(NULL, object_of(objects, here) == object_of(objects, there), normal_of(planes, here), normal_of(planes, there),
+                                                 depth, load(d + beside[k]));
             edge = OR(edge, AND(differ, NOT(AND(goes_on, AND(here >= 0, there >= 0)))));
         }
         store_bits(out + i, edge);

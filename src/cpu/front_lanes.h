@@ -31,7 +31,7 @@ struct front_kernels {
     /* Of a row of a refracted layer: 1 where what it shows breaks off or bends next to a pixel, else 0. focal: pixels in a radian. */
     void (*breaks)(const gbuffer *g, const float *planes, float focal, uint32_t row, uint8_t *out);
     /* Of a row of the front layer, neither the first nor the last one: 1 where a neighbour of a pixel shows something else, else 0. */
-    void (*edges)(const gbuffer *g, const float *planes, uint32_t row, uint8_t *out);
+    void (*edges)(const gbuffer *g, const float *planes, const uint32_t *objects, uint32_t row, uint8_t *out);
     /* What the centres of a tile's pixels see in front of the water; `ends` of those inside. */
     void (*points)(const front_scene *n, const tile_offset *at, const tile_water *water, tile_front *out, tile_ends *ends);
 };

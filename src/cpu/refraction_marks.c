@@ -25,7 +25,7 @@ static void mark_row(void *argument, size_t index, uint32_t worker)
     if (!job->front)
         kernels->breaks(job->layer, job->r->planes, 1 / job->r->frame->data.pixel_angle, row, out);
     else if (row > 0 && row + 1 < job->layer->height)
-        kernels->edges(job->layer, job->r->planes, row, out);
+        kernels->edges(job->layer, job->r->planes, job->r->world->object, row, out);
     else
         memset(out, 1, job->layer->width);
 }

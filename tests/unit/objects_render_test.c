@@ -296,6 +296,39 @@ static void what_hides_water_is_not_seen_through_it(void **state)
     mgt_context_destroy(context);
 }
 
+/* Two things whose surfaces lie in one plane have an edge between them as others do: a row that crosses it has a pixel between both colours. */
+static void things_in_one_plane_have_an_edge(void **state)
+{
+    (void)state;
+    static const char *const slabs[] =
+        {"objects=[{shape: box, size: [3, 0.4, 3], position: [-1.5, 0.4, 0], material: {base_color: [0.1, 0.1, 0.1], roughness: 1}}, "
+         "{shape: box, size: [3, 0.4, 3], position: [1.5, 0.4, 0], material: {base_color: [0.8, 0.8, 0.8], roughness: 1}}]",
+         "camera={position: [0.05, 4, 0], target: [0.05, 0, 0], up: [0.3, 0, -1], fov_y_deg: 30}", "time.shutter=0"};
+    mgt_context *context = sea_context(2, MGT_ISA_AUTO);
+    view v = view_of(slabs, 3);
+    v.scene.quality.method = MGT_METHOD_NONE;
+    assert_int_equal(draw(context, &v.scene, "slabs"), DRAWN_WELL);
+    int rows = 0, smooth = 0;
+    for (int y = 0; y < HEIGHT; y++) {
+        bool crosses = false, between = false;
+        for (int x = 1; x + 1 < WIDTH; x++) {
+            const int i = y * WIDTH + x;
+            const float dark = planes[0][3 * i - 3], here = planes[0][3 * i], light = planes[0][3 * i + 3];
+            const bool on_top = planes[4][3 * i - 2] > 0.9f && planes[4][3 * i + 1] > 0.9f && planes[4][3 * i + 4] > 0.9f;
+            if (planes[2][i - 1] > 0 || planes[2][i + 1] > 0 || !on_top || !(light > 3 * dark))
+                continue;
+            crosses = true;
+            between = between || (here > 1.2f * dark && here < light / 1.1f);
+        }
+        rows += crosses;
+        smooth += between;
+    }
+    printf("things in one plane: %d of %d rows have a pixel between\n", smooth, rows);
+    assert_true(rows > 8 && smooth > rows / 2);
+    scene_file_free(v.file);
+    mgt_context_destroy(context);
+}
+
 /* ---- methods ---- */
 
 static const mgt_method methods[] = {MGT_METHOD_NONE,      MGT_METHOD_SSAA,   MGT_METHOD_PODEE_UNIFORM, MGT_METHOD_PODEE_PIXEL, MGT_METHOD_MANGATA,
@@ -507,10 +540,15 @@ static void crops_and_long_pictures(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_refraction_ends),       cmocka_unit_test(index_one_is_straight),
-        cmocka_unit_test(outlines_in_front_are_whole), cmocka_unit_test(what_hides_water_is_not_seen_through_it),
-        cmocka_unit_test(every_method_shows_objects),  cmocka_unit_test(what_objects_hide_takes_no_samples),
-        cmocka_unit_test(broken_meshes_are_refused),   cmocka_unit_test(poor_triangles_render),
+        cmocka_unit_test(every_refraction_ends),
+        cmocka_unit_test(index_one_is_straight),
+        cmocka_unit_test(outlines_in_front_are_whole),
+        cmocka_unit_test(what_hides_water_is_not_seen_through_it),
+        cmocka_unit_test(things_in_one_plane_have_an_edge),
+        cmocka_unit_test(every_method_shows_objects),
+        cmocka_unit_test(what_objects_hide_takes_no_samples),
+        cmocka_unit_test(broken_meshes_are_refused),
+        cmocka_unit_test(poor_triangles_render),
         cmocka_unit_test(crops_and_long_pictures),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

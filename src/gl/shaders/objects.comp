@@ -38,7 +38,7 @@ bool are_like(ivec2 a, ivec2 b)
     if (s < 0 || t < 0)
         return false;
     vec3 here = texelFetch(plane_table, s).xyz, there = texelFetch(plane_table, t).xyz;
-    return surface_goes_on(0, here, there, front_depth_at(a), front_depth_at(b));
+    return surface_goes_on(0, object_of(s) == object_of(t), here, there, front_depth_at(a), front_depth_at(b));
 }
 
 /* Whether the pixel sees an edge of an object in front, or a waterline. */

@@ -63,6 +63,8 @@ LayerPlane LAYER_PLANE(int cx, int layer, float column, float row)
 #define MIRRORED_WITHIN(cx, a, b) true
 #define LAYER_NEAREST(cx, layer, column, row) 0.0f
 
+int object_of(int triangle) { return int(texelFetch(owner_table, triangle).r); }
+
 ivec3 triangle_corners(int triangle)
 {
     return ivec3(int(texelFetch(index_table, 3 * triangle).r), int(texelFetch(index_table, 3 * triangle + 1).r),

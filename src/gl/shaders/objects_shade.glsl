@@ -129,7 +129,7 @@ vec3 shaded(int triangle, HitRay ray)
 {
     if (triangle < 0)
         return shade_nothing(0, ray, sky_radiance(0, ray.direction));
-    int object = int(texelFetch(owner_table, triangle).r);
+    int object = object_of(triangle);
     bool smooth_normals = material_texel(object, 2).w != 0.0f;
     return shade_hit(0, material_of(object), triangle_of(triangle, smooth_normals), ray);
 }
