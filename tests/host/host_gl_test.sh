@@ -3,8 +3,9 @@
 # there is no OpenGL 4.5 without a window.
 set -euo pipefail
 host=$1 mangata=$2
+. "${BASH_SOURCE%/*}/../screen.sh"
 work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+trap '[[ -z ${screen:-} ]] || kill "$screen"; rm -rf "$work"' EXIT
 cd "$work"
 
 die() {
@@ -36,9 +37,10 @@ __EGL_VENDOR_LIBRARY_DIRS=$work/none "$host" --headless none.png 2>message && co
 ldd "$host" >libraries
 if ! grep -q libglfw libraries; then
     echo "built without GLFW: no window"
-elif ! command -v xvfb-run >/dev/null; then
-    echo "xvfb-run is not installed: the window is not tested"
+elif ! command -v Xvfb >/dev/null; then
+    echo "Xvfb is not installed: the window is not tested"
 else
-    xvfb-run -a -s "-screen 0 800x600x24" timeout 5 "$host" --size 320x180 2>message && code=0 || code=$?
+    start_screen 800x600 . || die "Xvfb does not start: $(tail -n 3 xvfb.txt)"
+    timeout 5 "$host" --size 320x180 2>message && code=0 || code=$?
     ((code == 124)) || die "the window ends with $code: $(cat message)"
 fi
