@@ -28,7 +28,7 @@ void waves_report_print(const waves_report *report, const console *out);
 
 /* One line about the sea, for a scene's description. */
 typedef struct waves_title {
-    char text[240];
+    char text[320];
 } waves_title;
 waves_title waves_report_title(const waves_report *report);
 

@@ -92,7 +92,8 @@ bool method_spec_parse(method_spec *spec, const char *text, size_t length, char 
     const char *refraction_name = refraction ? refraction : "";
     quality_option_first_names(&(const char *){"refraction"}, &(size_t){10}, &refraction_name);
     snprintf(spec->options, sizeof spec->options, "--method %s%s%s", words, refraction ? " --refraction " : "", refraction_name);
-    snprintf(name, sizeof name, "%s%s%s", words, refraction ? "+" : "", refraction_name);
+    if (snprintf(name, sizeof name, "%s%s%s", words, refraction ? "+" : "", refraction_name) >= (int)sizeof name)
+        return fail(wrong, wrong_size, "%s: too long", spec->name);
     while (rest) {
         char *next = strchr(rest, ':');
         if (next)
