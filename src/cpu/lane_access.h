@@ -126,6 +126,39 @@ static inline four_reals gather_fours(const float *table, mask first)
 #endif
 }
 
+#if MGT_LANES == 16
+/* Six numbers in a row of a table, a place a lane. Two beyond them are read. */
+typedef struct six_reals {
+    real x, y, z, w, u, v;
+} six_reals;
+
+static inline six_reals gather_sixes(const float *table, mask first)
+{
+    int at[16];
+    __builtin_memcpy(at, &first, sizeof at);
+    __m512d low[4], high[4]; /* the numbers 0, 1, 4 and 5, and the others, of two lanes and of the two that are four further on */
+    for (int i = 0; i < 4; i++) {
+        const int lane = i / 2 * 8 + i % 2 * 2;
+        __m512 q[2];
+        for (int k = 0; k < 2; k++)
+            q[k] = _mm512_insertf32x8(_mm512_castps256_ps512(_mm256_loadu_ps(table + at[lane + k])), _mm256_loadu_ps(table + at[lane + k + 4]), 1);
+        low[i] = _mm512_castps_pd(_mm512_unpacklo_ps(q[0], q[1]));
+        high[i] = _mm512_castps_pd(_mm512_unpackhi_ps(q[0], q[1]));
+    }
+    __m512 n[2][4]; /* n[h][k]: the numbers k and k + 4 of the lanes 8 h to 8 h + 7 */
+    for (int h = 0; h < 2; h++) {
+        n[h][0] = _mm512_castpd_ps(_mm512_unpacklo_pd(low[2 * h], low[2 * h + 1]));
+        n[h][1] = _mm512_castpd_ps(_mm512_unpackhi_pd(low[2 * h], low[2 * h + 1]));
+        n[h][2] = _mm512_castpd_ps(_mm512_unpacklo_pd(high[2 * h], high[2 * h + 1]));
+        n[h][3] = _mm512_castpd_ps(_mm512_unpackhi_pd(high[2 * h], high[2 * h + 1]));
+    }
+    enum { FIRST = 2 << 2 | 2 << 6, SECOND = 1 | 3 << 2 | 1 << 4 | 3 << 6 };
+    return (six_reals){(real)_mm512_shuffle_f32x4(n[0][0], n[1][0], FIRST),  (real)_mm512_shuffle_f32x4(n[0][1], n[1][1], FIRST),
+                       (real)_mm512_shuffle_f32x4(n[0][2], n[1][2], FIRST),  (real)_mm512_shuffle_f32x4(n[0][3], n[1][3], FIRST),
+                       (real)_mm512_shuffle_f32x4(n[0][0], n[1][0], SECOND), (real)_mm512_shuffle_f32x4(n[0][1], n[1][1], SECOND)};
+}
+#endif
+
 /* Rows of four, a row a lane. */
 static inline four_reals gather_rows(const float *table, mask row) { return gather_fours(table, 4 * row); }
 
@@ -150,6 +183,19 @@ KERNEL vec3 SKY_TEXEL(CTX cx, real column, real row)
     const four_reals texel = gather_fours(cx->sky, whole(real_fma(row, real_broadcast(SKY_COLUMNS), column)) * 3);
     return (vec3){texel.x, texel.y, texel.z};
 }
+
+#if MGT_LANES == 16
+#define SKY_PAIRS
+typedef struct SkyPair {
+    vec3 left, right;
+} SkyPair;
+
+KERNEL SkyPair SKY_PAIR(CTX cx, real column, real row)
+{
+    const six_reals six = gather_sixes(cx->sky, whole(real_fma(row, real_broadcast(SKY_COLUMNS), column)) * 3);
+    return (SkyPair){{six.x, six.y, six.z}, {six.w, six.u, six.v}};
+}
+#endif
 
 /* 0, 1, 2, … for the lanes. */
 static inline real lane_numbers(void)
