@@ -93,7 +93,7 @@ bool method_spec_parse(method_spec *spec, const char *text, size_t length, char 
     quality_option_first_names(&(const char *){"refraction"}, &(size_t){10}, &refraction_name);
     snprintf(spec->options, sizeof spec->options, "--method %s%s%s", words, refraction ? " --refraction " : "", refraction_name);
     if (snprintf(name, sizeof name, "%s%s%s", words, refraction ? "+" : "", refraction_name) >= (int)sizeof name)
-        return fail(wrong, wrong_size, "%s: too long", spec->name);
+        return fail(wrong, wrong_size, "%s: more than %d characters", spec->name, METHOD_SPEC_TEXT - 1);
     while (rest) {
         char *next = strchr(rest, ':');
         if (next)

@@ -186,9 +186,7 @@ KERNEL vec3 SKY_TEXEL(CTX cx, real column, real row)
 
 #if MGT_LANES == 16
 #define SKY_PAIRS
-typedef struct SkyPair {
-    vec3 left, right;
-} SkyPair;
+#include "kernels/sky/sky_pair.k"
 
 KERNEL SkyPair SKY_PAIR(CTX cx, real column, real row)
 {
