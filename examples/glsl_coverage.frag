@@ -15,7 +15,7 @@ TileData tile;
 #define TILE(cx) tile
 #define CHOPPY(cx) 0
 #define WAVE(cx, i) waves[i]
-#define SEARCH_WAVE(cx, i) SearchWave(waves[i].turns_x, waves[i].turns_z, waves[i].phase, waves[i].even_height, waves[i].shift * waves[i].k_x, waves[i].shift * waves[i].k_z, 0.0, 0.0)
+#define SEARCH_WAVE(cx, i) search_wave_of(cx, waves[i], waves[i].phase)
 #define SKY_TEXEL(cx, column, row) vec3(0.0) /* coverage asks for no sky */
 #include "mangata_glitter.glsl"
 

@@ -138,16 +138,28 @@ void sines_sort_data(const wave_set *set, SortData *out)
     }
 }
 
+/* A wave as rays search it. `k`: radians per metre; `phase`: turns; `shift`: see WaveData. */
+static SearchWave search_wave(const double k[2], double phase, double amplitude, double shift)
+{
+    const double slope[2] = {amplitude * k[0], amplitude * k[1]};
+    return (SearchWave){.turns_x = (float)(k[0] / turn),
+                        .turns_z = (float)(k[1] / turn),
+                        .phase = (float)phase,
+                        .amplitude = (float)amplitude,
+                        .slope_x = (float)slope[0],
+                        .slope_z = (float)slope[1],
+                        .shift_x = (float)(shift * slope[0]),
+                        .shift_z = (float)(shift * slope[1]),
+                        .press_xx = (float)(-shift * slope[0] * k[0]),
+                        .press_xz = (float)(-shift * slope[0] * k[1]),
+                        .press_zz = (float)(-shift * slope[1] * k[1])};
+}
+
 void sines_for_rays(const wave_set *set, SearchWave *out)
 {
     for (int i = 0; i < set->view.wave_count; i++) {
         const WaveData *d = &set->data[i];
-        out[i] = (SearchWave){.turns_x = d->turns_x,
-                              .turns_z = d->turns_z,
-                              .phase = set->keys[4][i],
-                              .amplitude = d->amplitude,
-                              .shift_x = d->shift * d->k_x,
-                              .shift_z = d->shift * d->k_z};
+        out[i] = search_wave((const double[2]){(double)d->k_x, (double)d->k_z}, (double)set->keys[4][i], (double)d->amplitude, (double)d->shift);
     }
 }
 
@@ -178,12 +190,7 @@ void sines_searched(const mgt_water *water, wave_meeting at, SearchWave *out)
         const mgt_wave *w = &water->waves[i];
         const double phase = (w->kx * at.x + w->kz * at.z + w->omega * at.middle + w->phase) / turn;
         const double k = hypot(w->kx, w->kz), shift = k > 0 ? (double)water->choppiness / k : 0;
-        out[i] = (SearchWave){.turns_x = (float)(w->kx / turn),
-                              .turns_z = (float)(w->kz / turn),
-                              .phase = (float)(phase - rint(phase)),
-                              .amplitude = (float)w->amplitude,
-                              .shift_x = (float)(shift * w->kx),
-                              .shift_z = (float)(shift * w->kz)};
+        out[i] = search_wave((const double[2]){w->kx, w->kz}, phase - rint(phase), w->amplitude, shift);
     }
 }
 

@@ -176,8 +176,8 @@ static surface_point flat_point(CTX cx, const water_line *w, int count, real x, 
 {
     SearchSums s = search_sums_zero(cx);
     for (int i = 0; i < count; i++)
-        s = add_searched(cx, s, w->waves[i], true, x, z);
-    return (surface_point){s.height, scale(s.slope, real(6.2831853f))};
+        s = add_searched(cx, s, w->waves[i], true, false, x, z);
+    return (surface_point){s.height, s.slope};
 }
 
 static surface_point choppy_point(CTX cx, const water_line *w, int count, real x, real z, int looks, vec2 *shift)
@@ -186,10 +186,10 @@ static surface_point choppy_point(CTX cx, const water_line *w, int count, real x
     for (int look = 0; look < looks; look++) {
         SearchSums s = search_sums_zero(cx);
         for (int i = 0; i < count; i++)
-            s = add_searched_shift(cx, s, w->waves[i], true, x - shift->x, z - shift->y);
-        const Symmetric rest = at_rest(cx, real(6.2831853f) * s.xx, real(6.2831853f) * s.xz, real(6.2831853f) * s.zz);
+            s = add_searched_shift(cx, s, w->waves[i], true, false, x - shift->x, z - shift->y);
+        const Symmetric rest = at_rest(cx, s.xx, s.xz, s.zz);
         const vec2 left = sub(*shift, s.shift);
-        p.slope = symmetric_times(cx, rest, scale(s.slope, real(6.2831853f)));
+        p.slope = symmetric_times(cx, rest, s.slope);
         p.height = fma(p.slope.x, left.x, fma(p.slope.y, left.y, s.height));
         *shift = sub(*shift, symmetric_times(cx, rest, left));
     }

@@ -132,6 +132,15 @@ static wide sine_half_weight(wide z) { return sqrtl(8 * z) * sinl(pi() * fmaxl(s
 static wide cosine_half(wide z) { return sqrtl(2) * cosl(pi() * sqrtl(z)); }
 static wide cosine_half_weight(wide z) { return sqrtl(2) * sinl(pi() * sqrtl(z)) + 1e-6L; }
 
+/* C = (1/4 - z) p(z), so that sin is 0 where r jumps from 1/2 to -1/2. p is fitted to sin, with S as it is. */
+static wide coarse_sine(wide z) { return sqrtl(z) * (4.44131875L - z * (7.26150066L - z * 3.24235883L)); }
+static wide cosine_falling(wide z)
+{
+    wide r = sqrtl(fminl(fmaxl(z, 1e-9L), 0.25L - 1e-9L));
+    return sinl(2 * pi() * r) / (coarse_sine(r * r) * (0.25L - r * r));
+}
+static wide cosine_falling_weight(wide z) { return (0.25L - z) * coarse_sine(z) + 1e-6L; }
+
 /* Radians, z = r^2: sin = r + r z p(z), cos = 1 - k z + z p(z) with k = (2 / pi)^2 as a float. */
 static wide sine(wide z) { return z > 1e-6L ? (sinl(sqrtl(z)) / sqrtl(z) - 1) / z : -1 / 6.0L + z / 120; }
 static wide sine_weight(wide z) { return z * sqrtl(z) + 1e-6L; }
@@ -168,6 +177,8 @@ int main(void)
         {"sincos_turns, cosine", cosine_turns, cosine_turns_weight, 0, 1, 4},
         {"sincos_wave, sine", sine_half, sine_half_weight, 0, 0.25L, 4},
         {"sincos_wave, cosine", cosine_half, cosine_half_weight, 0, 0.25L, 4},
+        {"sincos_coarse, sine", sine_half, sine_half_weight, 0, 0.25L, 3},
+        {"sincos_coarse, cosine", cosine_falling, cosine_falling_weight, 0, 0.25L, 2},
         {"sincos_reduced, sine", sine, sine_weight, 0, 2.47L, 4},
         {"sincos_reduced, cosine", cosine, cosine_weight, 0, 2.47L, 5},
         {"exp2_fraction, relative", power_of_two, power_weight, -0.5L, 0.5L, 6},

@@ -11,6 +11,7 @@ enum { PROBE_INPUTS = 8, PROBE_OUTPUTS = 3, PROBE_BATCH = 16 };
 #define PROBE_FUNCTIONS(X)                                                                                      \
     X(PROBE_SINCOS_TURNS)                                                                                       \
     X(PROBE_SINCOS_WAVE)                                                                                        \
+    X(PROBE_SINCOS_COARSE)                                                                                      \
     X(PROBE_SINCOS_REDUCED)                                                                                     \
     X(PROBE_EXP2)                                                                                               \
     X(PROBE_EXP)                                                                                                \

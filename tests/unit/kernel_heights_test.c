@@ -107,6 +107,7 @@ typedef struct place {
 } place;
 
 KERNEL place wave_at(CTX cx, WaveData w, real x, real z) { return (place){(double)x, (double)z}; }
+KERNEL place wave_coarsely_at(CTX cx, WaveData w, real x, real z) { return wave_at(cx, w, x, z); }
 
 /* `sign`: −1 when the shutter opens, 1 when it closes. */
 static table_point drifted(const height_table *t, place p, int sign) { return table_at(t, p.x - sign * t->drift[0], p.z - sign * t->drift[1]); }
@@ -184,17 +185,21 @@ KERNEL Surface add_shared(CTX cx, Surface s, WaveData w, Footprint f)
     return s;
 }
 
-KERNEL SearchSums add_searched(CTX cx, SearchSums s, SearchWave w, bool live, real x, real z)
+KERNEL SearchSums add_searched(CTX cx, SearchSums s, SearchWave w, bool live, bool coarse, real x, real z)
 {
+    (void)coarse;
     const table_point p = table_at(w.table, (double)x, (double)z);
     const double share = live ? 1 : 0;
     s.height += (float)(share * p.height);
-    s.slope = add(s.slope, vec2((float)(share * p.slope[0] / 6.283185307179586), (float)(share * p.slope[1] / 6.283185307179586)));
+    s.slope = add(s.slope, vec2((float)(share * p.slope[0]), (float)(share * p.slope[1])));
     return s;
 }
 
 /* A table is not choppy. */
-KERNEL SearchSums add_searched_shift(CTX cx, SearchSums s, SearchWave w, bool live, real x, real z) { return add_searched(cx, s, w, live, x, z); }
+KERNEL SearchSums add_searched_shift(CTX cx, SearchSums s, SearchWave w, bool live, bool coarse, real x, real z)
+{
+    return add_searched(cx, s, w, live, coarse, x, z);
+}
 
 KERNEL RestSums add_instant_at_rest(CTX cx, RestSums r, WaveData w, place t)
 {

@@ -295,7 +295,7 @@ static double height_at_rest(const double rest[2], double shift[2])
         const double phase = 2 * pi * ((double)w.turns_x * x + (double)w.turns_z * z + (double)w.phase);
         height += (double)w.amplitude * sin(phase);
         for (int k = 0; k < 2; k++)
-            shift[k] += (double)w.amplitude * (double)(k ? w.shift_z : w.shift_x) * cos(phase);
+            shift[k] += (double)(k ? w.shift_z : w.shift_x) * cos(phase);
     }
     return height * (double)narrow_data.side;
 }
@@ -336,8 +336,12 @@ static void place_waves(double side, double choppiness)
     narrow_data.choppy = choppiness > 0;
     for (int i = 0; i < 4; i++) {
         const double *w = numbers_of[i], k = hypot(w[1], w[2]);
-        waves[i] = (SearchWave){(float)(w[1] / (2 * pi)), (float)(w[2] / (2 * pi)), (float)range(0, 1), (float)w[0], 0, 0, 0, 0};
-        waves[i].shift_x = (float)(choppiness * w[1] / k), waves[i].shift_z = (float)(choppiness * w[2] / k);
+        waves[i] =
+            (SearchWave){.turns_x = (float)(w[1] / (2 * pi)), .turns_z = (float)(w[2] / (2 * pi)), .phase = (float)range(0, 1), .amplitude = (float)w[0]};
+        waves[i].slope_x = (float)(w[0] * w[1]), waves[i].slope_z = (float)(w[0] * w[2]);
+        const double shift = choppiness * w[0] / k;
+        waves[i].shift_x = (float)(shift * w[1]), waves[i].shift_z = (float)(shift * w[2]);
+        waves[i].press_xx = (float)(-shift * w[1] * w[1]), waves[i].press_xz = (float)(-shift * w[1] * w[2]), waves[i].press_zz = (float)(-shift * w[2] * w[2]);
         narrow_data.wave_height += (float)w[0];
         narrow_data.wave_slope += (float)(w[0] * k);
         narrow_data.wave_bend += (float)(w[0] * k * k);

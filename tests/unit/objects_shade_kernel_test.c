@@ -254,8 +254,10 @@ static void caustics_are_shares_of_area(void **state)
         double light[3] = {range(-0.5, 0.5), 1, range(-0.5, 0.5)};
         shade_data = (ShadeData){.index = 1.333f, .caustic_waves = 4, .sun_air_x = (float)light[0], .sun_air_z = (float)light[2]};
         unit3(light);
-        for (int k = 0; k < 4; k++)
-            waves[k] = (SearchWave){(float)range(-0.5, 0.5), (float)range(-0.5, 0.5), (float)range(0, 1), 0.01f, 0, 0, 0, 0};
+        for (int k = 0; k < 4; k++) {
+            waves[k] = (SearchWave){.turns_x = (float)range(-0.5, 0.5), .turns_z = (float)range(-0.5, 0.5), .phase = (float)range(0, 1), .amplitude = 0.01f};
+            waves[k].slope_x = (float)(0.02 * pi) * waves[k].turns_x, waves[k].slope_z = (float)(0.02 * pi) * waves[k].turns_z;
+        }
         const double x = range(-5, 5), z = range(-5, 5), depth = range(0.5, 3), h = 1e-4;
         double at[2], right[2], ahead[2];
         send(light, x, z, depth, at);

@@ -27,7 +27,7 @@ function laneTasks(post) {
     const [tiles, lists, searched, hits, listCount, searchCount, hitCount] = numbersAt(calls.prepare_row(row, ...job.tiles) + 44, 7), columns = numbersAt(head, 11)[9];
     return {
       tiles: library.copy(Uint32Array, tiles, columns * calls.tile_bytes() / 4), lists: library.copy(Float32Array, lists, 4 * listCount),
-      searched: library.copy(Float32Array, searched, 8 * searchCount), hits: library.copy(Float32Array, hits, 8 * hitCount),
+      searched: library.copy(Float32Array, searched, 12 * searchCount), hits: library.copy(Float32Array, hits, 8 * hitCount),
     };
   };
   const slopesOf = band => ({ data: library.copy(Uint16Array, library.calls.lean_band(band), library.calls.lean_band_rows() * MAP_SIZE * 2) });
@@ -116,7 +116,7 @@ class Lanes {
         if (tiles[at + 2] !== 0xffffffff) tiles[at + 2] += first[2];
       }
       first[0] += lists.length / 4;
-      first[1] += searched.length / 8;
+      first[1] += searched.length / 12;
       first[2] += hits.length / 8;
     }
     return { ...head, tiles: joined("tiles"), lists: joined("lists"), searched: joined("searched"), hits: joined("hits") };

@@ -79,8 +79,8 @@ FoamWave foam_wave_at(int i)
 
 SearchWave searched_wave(int i)
 {
-    int at = 2 * (tile_first_search + i);
-    return search_wave_of_vectors(texelFetch(search_texture, data_texel(at), 0), CHOPPY(0) != 0 ? texelFetch(search_texture, data_texel(at + 1), 0) : vec4(0.0f));
+    int at = 3 * (tile_first_search + i);
+    return search_wave_of_vectors(texelFetch(search_texture, data_texel(at), 0), CHOPPY(0) != 0 ? texelFetch(search_texture, data_texel(at + 1), 0).zw : vec2(0.0f));
 }
 
 #ifdef WAVES_IN_BLOCK /* software rasterisers read blocks faster; not every GPU's are large enough */

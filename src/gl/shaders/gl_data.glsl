@@ -24,7 +24,7 @@ layout(std140, binding = 0) uniform FrameBlock { FrameData frame_data; };
 layout(std430, binding = 0) restrict TILE_ACCESS buffer TileBlock { TileData tile_data[]; };
 /* Waves stand as vectors, because GPUs load a vector with one instruction, but a struct float by float. */
 layout(std430, binding = 1) restrict TILE_ACCESS buffer TileWaveBlock { uvec4 tile_waves[]; };    /* TileWave */
-layout(std430, binding = 2) restrict TILE_ACCESS buffer SearchBlock { vec4 search_waves[]; };     /* SEARCH_VECTORS each: SearchWave */
+layout(std430, binding = 2) restrict TILE_ACCESS buffer SearchBlock { vec4 search_waves[]; };     /* SEARCH_VECTORS of each SearchWave */
 
 layout(binding = 0) uniform sampler2D sky_texture;
 
@@ -54,7 +54,7 @@ shared TileData cached_tile;
 SearchWave searched_wave(int i)
 {
     int at = SEARCH_VECTORS * (tile_slot * pass_data.wave_stride + i);
-    return search_wave_of_vectors(search_waves[at], CHOPPY(0) != 0 ? search_waves[at + 1] : vec4(0.0f));
+    return search_wave_of_vectors(search_waves[at], CHOPPY(0) != 0 ? search_waves[at + 1].xy : vec2(0.0f));
 }
 
 TileWave tile_wave_of_vector(uvec4 v) { return TileWave(int(v.x), uintBitsToFloat(v.y), uintBitsToFloat(v.z), 0.0f); }

@@ -73,14 +73,14 @@ ivec3 triangle_corners(int triangle)
 
 /* ---- materials ---- */
 
-const int WAVE_TEXELS = 2; /* of a SearchWave */
+const int WAVE_TEXELS = 3; /* of a SearchWave */
 
 vec4 material_texel(int object, int i) { return texelFetch(material_table, CODE_TEXELS + 2 * WAVE_TEXELS * MAX_WAVES + MATERIAL_TEXELS * object + i); }
 
 SearchWave wave_of_table(int i)
 {
-    vec4 a = texelFetch(material_table, CODE_TEXELS + WAVE_TEXELS * i), b = texelFetch(material_table, CODE_TEXELS + WAVE_TEXELS * i + 1);
-    return SearchWave(a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w);
+    int at = CODE_TEXELS + WAVE_TEXELS * i;
+    return search_wave_of_vectors(texelFetch(material_table, at), texelFetch(material_table, at + 1).zw);
 }
 
 SearchWave caustic_wave(int i) { return wave_of_table(i); }

@@ -61,6 +61,8 @@ struct kernel_context;
 
 /* Turns of a loop over waves that are taken as one; a lane of C gains nothing from that. */
 #define UNROLLED 1
+/* 1: loops over waves that a uniform changes are compiled once for each of its values, which saves time. Shaders compile one, which saves theirs. */
+#define LOOPS_APART 1
 
 /* Called once for each evaluation of an integrand; instrumented builds define it to count the lanes where `live` holds. */
 #ifndef TALLY

@@ -30,6 +30,7 @@
 struct kernel_context;
 
 #define UNROLLED 1
+#define LOOPS_APART 1
 #define TALLY(live) ((void)(operations_done.integrands += (live) != 0))
 
 typedef int mask;
