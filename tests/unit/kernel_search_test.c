@@ -90,6 +90,35 @@ static void grazing_views_meet_the_first_crest(void **state)
     expect_below("grazing: search beyond the hit, in its tolerance", f.beyond, 0.01);
 }
 
+/* walks_coarsely() reckons with how far sincos_coarse() moves the surface: 3e-4 of the search's bound over many waves. At most it is the error of a sine times
+ * the sum of all amplitudes. */
+static void coarse_sines_move_the_surface_little(void **state)
+{
+    (void)state;
+    mgt_wave waves[WAVES];
+    const mgt_scene scene = rough_sea(waves, 0.18);
+    kernel_bench *b = kernel_bench_create(&scene);
+    random_state r = {45};
+    double squares = 0, most = 0, sum = 0;
+    for (int i = 0; i < WAVES; i++)
+        sum += waves[i].amplitude;
+    for (int i = 0; i < RAYS; i++) {
+        const uint32_t x = (uint32_t)random_range(&r, 0, WIDTH), y = (uint32_t)random_range(&r, 190, HEIGHT);
+        kernel_bench_tile(b, false, false, x, y);
+        const vec3 ray = kernel_bench_ray(b, x, y);
+        const int count = b->tile.data.search_count;
+        const float along = 6 / -ray.y;
+        const double moved =
+            (double)(search_gap(&b->cx, ray, along, vec2(0, 0), count, true).gap - search_gap(&b->cx, ray, along, vec2(0, 0), count, false).gap);
+        squares += pow(moved / (double)b->tile.data.search_bound, 2) / RAYS;
+        most = fmax(most, fabs(moved) / sum);
+    }
+    kernel_bench_destroy(b);
+    expect_below("coarse sines: height, over the search's bound", sqrt(squares), 3e-4);
+    expect_below("coarse sines: height, over the sum of amplitudes", most, 1e-3);
+    assert_true(most > 1e-5);
+}
+
 /* Crests above the camera can only be met by searching from the camera on. */
 static void low_cameras_see_crests_above_them(void **state)
 {
@@ -145,6 +174,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(steep_views_meet_the_surface),
         cmocka_unit_test(grazing_views_meet_the_first_crest),
+        cmocka_unit_test(coarse_sines_move_the_surface_little),
         cmocka_unit_test(low_cameras_see_crests_above_them),
         cmocka_unit_test(good_estimates_are_mended),
     };
