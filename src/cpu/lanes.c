@@ -445,6 +445,9 @@ static void store_cell(tile_pixels *out, tile_detail *detail, size_t i, CellResu
     }
 }
 
+static CellResult cell_without_water(PixelResult sky) { return (CellResult){sky, real(0.0f), real(0.0f), real(0.0f), real(0.0f), real(1.0f), real(1.0f)}; }
+
+/* `detail` may be NULL, which saves its estimates of errors. */
 static void render_glitter(const struct kernel_context *cx, const tile_light *light, tile_places places, const tile_estimate *estimate,
                            const struct kernel_context *open, const tile_estimate *open_estimate, tile_pixels *out, tile_detail *detail)
 {
@@ -458,17 +461,17 @@ static void render_glitter(const struct kernel_context *cx, const tile_light *li
         look_at_tile(open, open_estimate, out->water, &open_looks);
     for (size_t i = 0; i < places.count; i += MGT_LANES) {
         const PixelRay p = pixel_rays(cx, &places, i);
-        CellResult cell =
-            {.height = real(0.0f), .variance = real(0.0f), .contrast = real(0.0f), .shown = real(0.0f), .places = real(1.0f), .aspect = real(1.0f)};
-        if (any_lane(p.water > real(0.0f))) {
-            const SlopeState state = looked_slopes(cx, &close_looks, i, p.ray);
-            here.light = light_at(light, i);
-            cell = cell_result_of(&here, p, open ? looked_slopes(open, &open_looks, i, pixel_rays(open, &places, i).ray) : state, state);
-        } else {
-            here.light = light_at(light, i);
-            cell.pixel = nothing_but_sky(&here, p);
+        here.light = light_at(light, i);
+        if (!any_lane(p.water > real(0.0f))) {
+            store_cell(out, detail, i, cell_without_water(nothing_but_sky(&here, p)));
+            continue;
         }
-        store_cell(out, detail, i, cell);
+        const SlopeState state = looked_slopes(cx, &close_looks, i, p.ray);
+        const SlopeState before = open ? looked_slopes(open, &open_looks, i, pixel_rays(open, &places, i).ray) : state;
+        if (detail)
+            store_cell(out, detail, i, cell_result_of(&here, p, before, state));
+        else
+            store_pixels(out, i, over_state(&here, glitter_result(&here, p, before, state), p, state));
     }
 }
 
