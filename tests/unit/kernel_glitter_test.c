@@ -388,6 +388,48 @@ static void visible_moments_are_their_integrals(void **state)
     expect_below("variance of the visible, of sigma squared", variance_error, 5e-4);
 }
 
+/* The mean of water_color() over a narrow Gaussian of slopes along x, each seen in proportion to its visibility, by the midpoint rule. */
+static double mean_color(const struct kernel_context *cx, vec3 view, double mean, double sigma)
+{
+    enum { STEPS = 400 };
+    double sum = 0, seen = 0;
+    for (int i = 0; i < STEPS; i++) {
+        const double t = 14 * (i + 0.5) / STEPS - 7, slope = mean + sigma * t;
+        const double weight = fmax((double)view.y - slope * (double)view.x, 0) * exp(-0.5 * t * t);
+        sum += weight * (double)water_color(cx, view, vec2((float)slope, 0)).y;
+        seen += weight;
+    }
+    return sum / seen;
+}
+
+/* Slopes that deviate by less than .015 take two points of the sky, others three. The largest errors are at the sun's aureole. */
+static void sky_of_narrow_slopes_needs_two_points(void **state)
+{
+    (void)state;
+    mgt_scene scene = black_scene(WIDTH, HEIGHT, NULL, 0);
+    scene.sky.model = MGT_SKY_ATMOSPHERE;
+    scene.sky.turbidity = 2;
+    scene.light.elevation_deg = 12;
+    kernel_bench *b = kernel_bench_create(&scene);
+    b->cx.sky = b->sky->table;
+    kernel_bench_tile(b, true, true, 80, 70);
+    enum { COUNT = 200 };
+    double narrow[COUNT], wide[COUNT];
+    for (int k = 0; k < 2 * COUNT; k++) {
+        const double sigma = k < COUNT ? 0.001 + 0.014 * (k % 20) / 20 : 0.017 + 0.033 * (k % 20) / 20;
+        const double mean = 0.05 * (k % 7 - 3), fall = sigma * (2.5 + k % 10) + fmax(mean, 0);
+        const vec3 view = {(float)sqrt(1 - fall * fall), (float)fall, 0};
+        const VisibleSlopes v = visible_slopes(&b->cx, view, vec2((float)mean, 0), (float)(sigma * sigma), 0, 0, 0);
+        const double exact = mean_color(&b->cx, view, mean, sigma);
+        (k < COUNT ? narrow : wide)[k % COUNT] = fabs((double)water_color_filtered(&b->cx, view, v).mean.y / exact - 1);
+    }
+    kernel_bench_destroy(b);
+    expect_below("colour of slopes that deviate by less than .015, median", quantile(narrow, COUNT, 0.5), 2e-3);
+    expect_below("the same, greatest", quantile(narrow, COUNT, 1), 0.02);
+    expect_below("colour of slopes that deviate by .017 to .05, median", quantile(wide, COUNT, 0.5), 4e-3);
+    expect_below("the same, greatest", quantile(wide, COUNT, 1), 0.05);
+}
+
 /* The mean by which a variable that is seen in proportion to its positive part, N(mu, variance), lies above mu, over its variance. */
 static double visible_pull(double mu, double variance)
 {
@@ -518,6 +560,7 @@ int main(void)
         cmocka_unit_test(octaves_are_the_spectrums),
         cmocka_unit_test(scales_grow_with_what_is_unresolved),
         cmocka_unit_test(visible_moments_are_their_integrals),
+        cmocka_unit_test(sky_of_narrow_slopes_needs_two_points),
         cmocka_unit_test(grazing_slopes_give_back_what_counts_twice),
         cmocka_unit_test(mean_of_a_pixel_is_beside_its_middle),
         cmocka_unit_test(nearness_of_two_rows_is_that_between),
