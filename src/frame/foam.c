@@ -42,28 +42,38 @@ static float reduced(double radians)
 
 static double mean_cosine(double half) { return fabs(half) < 1e-4 ? 1 - half * half / 6 : sin(half) / half; }
 
+/* Covariance of J at a moment and the slope now, by this wave, over its wave vector. */
+static double lean_of(const foam_sea *sea, const foam_wave *w, int j) { return w->height * w->press * w->held[j] / 2 * sin(w->frequency * sea->age[j]); }
+
+/* Covariance of J at a moment and the height now, by this wave, divided by the height's standard deviation. */
+static double high_of(const foam_sea *sea, const foam_wave *w, int j)
+{
+    return -w->height * w->press / sea->deviation * w->held[j] / 2 * cos(w->frequency * sea->age[j]);
+}
+
 static FoamWave wave_of(const foam_sea *sea, const foam_wave *w, double x, double z, double middle, double half)
 {
     const double k = hypot(w->x, w->z), blur = mean_cosine(w->frequency * half), variance = w->press * w->press / 2;
-    double held[FOAM_MOMENTS], shared[FOAM_MOMENTS];
+    double held[FOAM_MOMENTS], shared[FOAM_MOMENTS], lean[FOAM_MOMENTS], high[FOAM_MOMENTS];
     for (int j = 0; j < FOAM_MOMENTS; j++) {
         held[j] = w->held[j] * blur;
         shared[j] = variance * w->held[j] * cos(w->frequency * sea->age[j]) * blur * blur;
+        lean[j] = turn * lean_of(sea, w, j);
+        high[j] = high_of(sea, w, j);
     }
     return (FoamWave){.along_x = (float)(w->x / turn),
                       .along_z = (float)(w->z / turn),
                       .start = reduced(w->x * x + w->z * z + w->frequency * middle + w->start),
                       .held_0 = (float)held[0],
-                      .held_1 = (float)held[1],
-                      .held_2 = (float)held[2],
-                      .held_3 = (float)held[3],
                       .press_xx = (float)(-w->press * w->x * w->x / (k * k)),
                       .press_xz = (float)(-w->press * w->x * w->z / (k * k)),
                       .press_zz = (float)(-w->press * w->z * w->z / (k * k)),
-                      .back_c = (float)cos(w->frequency * sea->age[1]),
-                      .back_s = (float)sin(w->frequency * sea->age[1]),
-                      .half_c = (float)cos(w->frequency * (sea->age[3] - sea->age[2])),
-                      .half_s = (float)sin(w->frequency * (sea->age[3] - sea->age[2])),
+                      .back_c1 = (float)(held[1] * cos(w->frequency * sea->age[1])),
+                      .back_s1 = (float)(held[1] * sin(w->frequency * sea->age[1])),
+                      .back_c2 = (float)(held[2] * cos(w->frequency * sea->age[2])),
+                      .back_s2 = (float)(held[2] * sin(w->frequency * sea->age[2])),
+                      .back_c3 = (float)(held[3] * cos(w->frequency * sea->age[3])),
+                      .back_s3 = (float)(held[3] * sin(w->frequency * sea->age[3])),
                       .variance_now = (float)(variance * held[0] * held[0]),
                       .variance_old_1 = (float)(variance * held[1] * held[1]),
                       .variance_old_2 = (float)(variance * held[2] * held[2]),
@@ -71,7 +81,14 @@ static FoamWave wave_of(const foam_sea *sea, const foam_wave *w, double x, doubl
                       .shared_0 = (float)shared[0],
                       .shared_1 = (float)shared[1],
                       .shared_2 = (float)shared[2],
-                      .shared_3 = (float)shared[3]};
+                      .shared_3 = (float)shared[3],
+                      .lean_1 = (float)lean[1],
+                      .lean_2 = (float)lean[2],
+                      .lean_3 = (float)lean[3],
+                      .high_0 = (float)high[0],
+                      .high_1 = (float)high[1],
+                      .high_2 = (float)high[2],
+                      .high_3 = (float)high[3]};
 }
 
 /* foam_sine is a cosine and FoamSine is a sine, so a quarter of a turn is added to the phase. */
@@ -89,11 +106,10 @@ void foam_place(const frame_foam *foam, double x, double z, double middle, doubl
         const foam_wave *w = &sea->waves[i];
         out->waves[i] = wave_of(sea, w, x, z, middle, half);
         for (int j = 0; j < FOAM_MOMENTS; j++) {
-            const double held = w->held[j] / 2, turned = w->frequency * sea->age[j];
-            together[j] += w->press * w->press * held * cos(turned);
-            lean[j][0] += w->height * w->x * w->press * held * sin(turned);
-            lean[j][1] += w->height * w->z * w->press * held * sin(turned);
-            high[j] -= w->height * w->press / sea->deviation * held * cos(turned);
+            together[j] += w->press * w->press * w->held[j] / 2 * cos(w->frequency * sea->age[j]);
+            lean[j][0] += w->x * lean_of(sea, w, j);
+            lean[j][1] += w->z * lean_of(sea, w, j);
+            high[j] += high_of(sea, w, j);
         }
     }
     for (int i = 0; i < FOAM_SINES; i++) {

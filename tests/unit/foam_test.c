@@ -209,6 +209,38 @@ static void folds_give_numbers(void **state)
     kernel_bench_destroy(b);
 }
 
+/* Where a pixel resolves every wave, its ray has met what is seen, and nothing is left for the sight to change. The parts of waves add up to all. */
+static void resolved_waves_are_seen_once(void **state)
+{
+    (void)state;
+    mgt_wave waves[WAVES];
+    const mgt_scene scene = foam_scene(waves, 0.1f, 0.2);
+    kernel_bench *b = kernel_bench_create(&scene);
+    kernel_bench_tile(b, true, true, 320, 180);
+    b->cx = context_for(&b->frame.data, &b->tile);
+    const FoamSight sight = foam_sight(&b->cx, (vec3){0.9f, 0.1f, 0.3f}, (vec2){0, 0}, 0.02f, 0.003f, 0.01f);
+    const Footprint points = {{0, 0}, {0, 0}}, vast = {{1e3f, 0}, {0, 1e3f}};
+    random_state r = {15};
+    double near = 0, far = 0;
+    for (int i = 0; i < 500; i++) {
+        const float x = (float)random_range(&r, -500, 500), z = (float)random_range(&r, -500, 500);
+        const FoamShares seen = foam_shares(&b->cx, x, z, points, sight), even = foam_shares(&b->cx, x, z, points, foam_sight_even(&b->cx));
+        near = fmax(near, fmax(fabs((double)(seen.fresh - even.fresh)), fabs((double)(seen.old - even.old))));
+        const FoamShares less = foam_shares(&b->cx, x, z, vast, foam_sight_even(&b->cx));
+        far = fmax(far, fabs((double)(foam_shares(&b->cx, x, z, vast, sight).old - less.old)) / (double)less.old);
+    }
+    const FoamData *d = b->cx.foam;
+    double high = (double)d->high_1, lean = (double)d->lean_x_2;
+    for (int i = 0; i < d->foam_waves; i++) {
+        high -= (double)b->cx.foam_waves[i].high_1;
+        lean -= (double)b->cx.foam_waves[i].lean_2 * (double)b->cx.foam_waves[i].along_x;
+    }
+    kernel_bench_destroy(b);
+    expect_below("foam of resolved waves: change by the sight", near, 1e-3);
+    assert_true(far > 0.02);
+    expect_below("height's and slope's covariance with J less its parts", fmax(fabs(high), fabs(lean)), 1e-6);
+}
+
 /* Where the highest of several points is seen: the share of it that is foam, weighted by its area, against the integral over height and J. */
 static void crests_are_seen_first(void **state)
 {
@@ -232,7 +264,7 @@ static void crests_are_seen_first(void **state)
             const FoamSight sight = {.above = 0.86f * others / (1 + 0.1f * others), .kept = 1 / (1 + others * (0.63f + 0.075f * others))};
             const float high = (float)(deviation * correlation), variance = (float)(deviation * deviation);
             const FoamMean level = {.mean = 1, .squared = 1, .skewness = 0};
-            const double got = (double)foam_share_at(&cx, level, level, variance, variance, foam_view(&cx, sight, 1, 0, 0, high, high));
+            const double got = (double)foam_share_at(&cx, level, level, variance, variance, foam_view(&cx, sight, 0, high, high));
             worst = fmax(worst, fabs(got / (foam / all) - 1));
         }
     expect_below("foam on the highest of 2, 4, 8 points, over the integral less 1", worst, 0.08);
@@ -272,6 +304,7 @@ int main(void)
         cmocka_unit_test(patterns_cover_their_share),
         cmocka_unit_test(kernels_agree_with_double_precision),
         cmocka_unit_test(footprints_keep_the_share),
+        cmocka_unit_test(resolved_waves_are_seen_once),
         cmocka_unit_test(crests_are_seen_first),
         cmocka_unit_test(folds_give_numbers),
         cmocka_unit_test(water_without_foam_has_none),

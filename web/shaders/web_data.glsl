@@ -57,15 +57,16 @@ layout(std140) uniform FoamBlock
     FoamData foam_data;
     FoamSine foam_sines[2 * FOAM_SINES];
 };
-uniform sampler2D foam_texture; /* FoamWave, six texels each */
+uniform sampler2D foam_texture; /* FoamWave, seven texels each */
 #define FOAMY(cx) 1
 #define FOAM(cx) foam_data
 #define FOAM_SINE(cx, i) foam_sines[i]
 FoamWave foam_wave_at(int i)
 {
-    vec4 a = texelFetch(foam_texture, data_texel(6 * i), 0), b = texelFetch(foam_texture, data_texel(6 * i + 1), 0), c = texelFetch(foam_texture, data_texel(6 * i + 2), 0);
-    vec4 d = texelFetch(foam_texture, data_texel(6 * i + 3), 0), e = texelFetch(foam_texture, data_texel(6 * i + 4), 0), f = texelFetch(foam_texture, data_texel(6 * i + 5), 0);
-    return FoamWave(a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w, c.x, c.y, c.z, c.w, d.x, d.y, d.z, d.w, e.x, e.y, e.z, e.w, f.x, f.y, f.z, f.w);
+    vec4 a = texelFetch(foam_texture, data_texel(7 * i), 0), b = texelFetch(foam_texture, data_texel(7 * i + 1), 0), c = texelFetch(foam_texture, data_texel(7 * i + 2), 0);
+    vec4 d = texelFetch(foam_texture, data_texel(7 * i + 3), 0), e = texelFetch(foam_texture, data_texel(7 * i + 4), 0), f = texelFetch(foam_texture, data_texel(7 * i + 5), 0);
+    vec4 g = texelFetch(foam_texture, data_texel(7 * i + 6), 0);
+    return FoamWave(a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w, c.x, c.y, c.z, c.w, d.x, d.y, d.z, d.w, e.x, e.y, e.z, e.w, f.x, f.y, f.z, f.w, g.x, g.y, g.z, g.w);
 }
 #define FOAM_WAVE(cx, i) foam_wave_at(i)
 #else
