@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Foam: its share of a sea against random places of that sea, its patterns against their own mean, kernels against double precision, and water that folds.
+ * Foam: its share of a sea against random places of that sea, its patterns against their own mean, kernels against double precision, what an eye sees of it
+ * against integrals, and water that folds.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -30,6 +31,15 @@ static mgt_scene foam_scene(mgt_wave waves[WAVES], float share, double steepness
     scene.water.choppiness = 0.7f;
     scene.foam = share;
     return scene;
+}
+
+/* The scene must outlive the bench. */
+static kernel_bench *foam_bench(const mgt_scene *scene, bool filter)
+{
+    kernel_bench *b = kernel_bench_create(scene);
+    kernel_bench_tile(b, filter, filter, 320, 180);
+    b->cx = context_for(&b->frame.data, &b->tile);
+    return b;
 }
 
 /* det B of the breaking waves at a place of rest. */
@@ -104,9 +114,7 @@ static void patterns_cover_their_share(void **state)
     static const double sides[] = {0, 0.2, 1, 30};
     mgt_wave waves[WAVES];
     const mgt_scene scene = foam_scene(waves, 0.05f, 0.2);
-    kernel_bench *b = kernel_bench_create(&scene);
-    kernel_bench_tile(b, true, true, 320, 180);
-    b->cx = context_for(&b->frame.data, &b->tile);
+    kernel_bench *b = foam_bench(&scene, true);
     random_state r = {5};
     for (int side = 0; side < 4; side++)
         for (int k = 0; k < 4; k++) {
@@ -133,9 +141,7 @@ static void kernels_agree_with_double_precision(void **state)
     (void)state;
     mgt_wave waves[WAVES];
     const mgt_scene scene = foam_scene(waves, 0.1f, 0.2);
-    kernel_bench *b = kernel_bench_create(&scene);
-    kernel_bench_tile(b, false, false, 320, 180);
-    b->cx = context_for(&b->frame.data, &b->tile);
+    kernel_bench *b = foam_bench(&scene, false);
     const foam_sea *sea = &b->frame.foam.sea;
     const Footprint none = {{0, 0}, {0, 0}};
     random_state r = {9};
@@ -162,9 +168,7 @@ static void footprints_keep_the_share(void **state)
     static const double sides[] = {0.1, 1, 4, 16, 1000};
     mgt_wave waves[WAVES];
     const mgt_scene scene = foam_scene(waves, 0.05f, 0.2);
-    kernel_bench *b = kernel_bench_create(&scene);
-    kernel_bench_tile(b, true, true, 320, 180);
-    b->cx = context_for(&b->frame.data, &b->tile);
+    kernel_bench *b = foam_bench(&scene, true);
     for (int side = 0; side < 5; side++) {
         random_state r = {11};
         double area = 0, covered = 0;
@@ -190,9 +194,7 @@ static void folds_give_numbers(void **state)
     mgt_wave waves[WAVES];
     mgt_scene scene = foam_scene(waves, 0.3f, 1.5);
     scene.water.choppiness = 1;
-    kernel_bench *b = kernel_bench_create(&scene);
-    kernel_bench_tile(b, true, true, 320, 180);
-    b->cx = context_for(&b->frame.data, &b->tile);
+    kernel_bench *b = foam_bench(&scene, true);
     random_state r = {13};
     for (int i = 0; i < 20000; i++) {
         const float s = (float)exp(random_range(&r, -6, 6)), x = (float)random_range(&r, -500, 500), z = (float)random_range(&r, -500, 500);
@@ -209,36 +211,84 @@ static void folds_give_numbers(void **state)
     kernel_bench_destroy(b);
 }
 
-/* Where a pixel resolves every wave, its ray has met what is seen, and nothing is left for the sight to change. The parts of waves add up to all. */
+/* Old foam of moment 1 alone at a place, for a pixel of this side. */
+static double old_foam(const kernel_bench *b, const FoamData *data, double x, double z, float side, FoamSight sight)
+{
+    struct kernel_context cx = b->cx;
+    cx.foam = data;
+    const Footprint p = {{side, 0}, {0, side}};
+    return (double)foam_shares(&cx, (float)x, (float)z, p, sight).old;
+}
+
+/* The covariance of J at moment 1 and the slope now that a pixel of this side leaves to the sight, along x and z, by every wave's 1 − c. */
+static void lean_left(const foam_sea *sea, double side, double lean[2])
+{
+    lean[0] = lean[1] = 0;
+    for (int i = 0; i < sea->wave_count; i++) {
+        const foam_wave *w = &sea->waves[i];
+        const double f = side * hypot(w->x, w->z) / (2 * M_PI), root = fmax(1 - f * f / 1.44, 0);
+        const double all = w->height * w->press * w->held[1] / 2 * sin(w->frequency * sea->age[1]);
+        lean[0] += (1 - root * root) * all * w->x;
+        lean[1] += (1 - root * root) * all * w->z;
+    }
+}
+
+/* A sight along x and one along z change foam as what is left of the covariances along these axes; where every wave is resolved, by nothing. */
 static void resolved_waves_are_seen_once(void **state)
 {
     (void)state;
     mgt_wave waves[WAVES];
     const mgt_scene scene = foam_scene(waves, 0.1f, 0.2);
-    kernel_bench *b = kernel_bench_create(&scene);
-    kernel_bench_tile(b, true, true, 320, 180);
-    b->cx = context_for(&b->frame.data, &b->tile);
-    const FoamSight sight = foam_sight(&b->cx, (vec3){0.9f, 0.1f, 0.3f}, (vec2){0, 0}, 0.02f, 0.003f, 0.01f);
-    const Footprint points = {{0, 0}, {0, 0}}, vast = {{1e3f, 0}, {0, 1e3f}};
-    random_state r = {15};
-    double near = 0, far = 0;
-    for (int i = 0; i < 500; i++) {
-        const float x = (float)random_range(&r, -500, 500), z = (float)random_range(&r, -500, 500);
-        const FoamShares seen = foam_shares(&b->cx, x, z, points, sight), even = foam_shares(&b->cx, x, z, points, foam_sight_even(&b->cx));
-        near = fmax(near, fmax(fabs((double)(seen.fresh - even.fresh)), fabs((double)(seen.old - even.old))));
-        const FoamShares less = foam_shares(&b->cx, x, z, vast, foam_sight_even(&b->cx));
-        far = fmax(far, fabs((double)(foam_shares(&b->cx, x, z, vast, sight).old - less.old)) / (double)less.old);
-    }
-    const FoamData *d = b->cx.foam;
-    double high = (double)d->high_1, lean = (double)d->lean_x_2;
-    for (int i = 0; i < d->foam_waves; i++) {
-        high -= (double)b->cx.foam_waves[i].high_1;
-        lean -= (double)b->cx.foam_waves[i].lean_2 * (double)b->cx.foam_waves[i].along_x;
+    kernel_bench *b = foam_bench(&scene, true);
+    FoamData data = *b->cx.foam;
+    data.weight_2 = data.weight_3 = 0;
+    const FoamSight along_x = {.facing = {0.03f, 0}, .above = 0, .kept = 1}, along_z = {.facing = {0, 0.03f}, .above = 0, .kept = 1};
+    const FoamSight even = foam_sight_even(&b->cx);
+    for (double side = 0; side <= 8; side += 2) {
+        random_state r = {15};
+        double x_changes = 0, z_changes = 0, lean[2];
+        for (int i = 0; i < 500; i++) {
+            const double x = random_range(&r, -500, 500), z = random_range(&r, -500, 500), none = old_foam(b, &data, x, z, (float)side, even);
+            x_changes += old_foam(b, &data, x, z, (float)side, along_x) - none;
+            z_changes += old_foam(b, &data, x, z, (float)side, along_z) - none;
+        }
+        if (side == 0) {
+            expect_below("foam of resolved waves: change by the sight", hypot(x_changes, z_changes) / 500, 1e-6);
+            continue;
+        }
+        lean_left(&b->frame.foam.sea, side, lean);
+        char text[80];
+        snprintf(text, sizeof text, "pixels of %g m: angle of the change from that of 1 - c", side);
+        expect_below(text, fabs(remainder(atan2(z_changes, x_changes) - atan2(lean[1], lean[0]), M_PI)), 1e-3);
     }
     kernel_bench_destroy(b);
-    expect_below("foam of resolved waves: change by the sight", near, 1e-3);
-    assert_true(far > 0.02);
-    expect_below("height's and slope's covariance with J less its parts", fmax(fabs(high), fabs(lean)), 1e-6);
+}
+
+/* Of waves of which the fraction c is resolved: the mean over hits, which their whole slope chooses, with 1 − c of the covariance left for the sight, is what
+ * every c must give. J = 1 + deviation ζ, visible area 1 + lean ζ. */
+static void half_resolved_waves_are_seen_once(void **state)
+{
+    (void)state;
+    const double deviation = 0.2, lean = 0.05, threshold = -1.3;
+    FoamData data = {.least = (float)(1 + threshold * deviation)};
+    const struct kernel_context cx = {.foam = &data};
+    const FoamMean now = {.mean = 1, .squared = 1, .skewness = 0};
+    const FoamSight even = foam_sight_even(&cx);
+    const double exact = 0.5 * erfc(-threshold * M_SQRT1_2) - lean * exp(-0.5 * threshold * threshold) / sqrt(2 * M_PI);
+    double worst = 0;
+    for (int k = 0; k < 10; k++) {
+        const double c = 0.1 * k;
+        double foam = 0, all = 0;
+        for (double x = -6; x < 6; x += 0.01) {
+            const FoamMean then = {.mean = (float)(1 + deviation * c * x), .squared = 1, .skewness = 0};
+            const FoamView view = foam_view(&cx, even, (float)((1 - c) * lean * deviation), 0, 0);
+            const double weight = exp(-0.5 * x * x) * (1 + lean * x);
+            foam += weight * (double)foam_share_at(&cx, now, then, (float)(deviation * deviation * (1 - c * c)), 0, view);
+            all += weight;
+        }
+        worst = fmax(worst, fabs(foam / all / exact - 1));
+    }
+    expect_below("foam seen of waves resolved in part, over all waves' less 1", worst, 0.005);
 }
 
 /* Where the highest of several points is seen: the share of it that is foam, weighted by its area, against the integral over height and J. */
@@ -305,6 +355,7 @@ int main(void)
         cmocka_unit_test(kernels_agree_with_double_precision),
         cmocka_unit_test(footprints_keep_the_share),
         cmocka_unit_test(resolved_waves_are_seen_once),
+        cmocka_unit_test(half_resolved_waves_are_seen_once),
         cmocka_unit_test(crests_are_seen_first),
         cmocka_unit_test(folds_give_numbers),
         cmocka_unit_test(water_without_foam_has_none),
