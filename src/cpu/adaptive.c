@@ -96,16 +96,17 @@ static void plant_tile(void *argument, size_t tile, uint32_t worker)
 
 /* ---- rounds ---- */
 
-/* Adds what a piece of the shutter shows; of detail heights alone are its own, and those of the last piece stay. */
+/* Adds what a piece of the shutter shows, beside what cells keep of their leaf; of detail heights alone are its own, and those of the last piece stay. */
 static void add_part(const tile_cells *part, float share, tile_cells *sum)
 {
+    enum { PIXEL_PLANES = 5 };
     const float *const from[] = {part->pixels.red,      part->pixels.green,    part->pixels.blue,   part->pixels.coverage, part->pixels.water,
                                  part->detail.variance, part->detail.contrast, part->detail.places, part->detail.aspect};
     float *const into[] = {sum->pixels.red,      sum->pixels.green,    sum->pixels.blue,   sum->pixels.coverage, sum->pixels.water,
                            sum->detail.variance, sum->detail.contrast, sum->detail.places, sum->detail.aspect};
     for (size_t k = 0; k < sizeof into / sizeof *into; k++)
         for (size_t i = 0; i < part->count; i++)
-            into[k][i] += share * from[k][i];
+            into[k][i] += (k < PIXEL_PLANES ? share * (1 - part->kept[i]) : share) * from[k][i];
     memcpy(sum->detail.height, part->detail.height, part->count * sizeof *part->detail.height);
 }
 
@@ -128,7 +129,6 @@ static bool grow(const refinement *f, size_t tile, int across, int down, uint32_
     tile_scratch *s = a->scratch[worker];
     refinement_tile *t = &f->tiles[tile];
     const int level = (across + down) / 2, parts = refinement_parts(f, t, level)->count;
-    memset(&sum->pixels, 0, sizeof sum->pixels);
     memset(&sum->detail, 0, sizeof sum->detail);
     cells->light = NULL;
     if (a->objects) {
@@ -163,9 +163,10 @@ static bool grow(const refinement *f, size_t tile, int across, int down, uint32_
     return true;
 }
 
-/* Where neither camera nor water moves under the cell, it may begin its search at the hit of a pixel below. */
-static void add_children(const refinement *f, size_t tile, tile_cells *cells, const leaf *l)
+/* Where neither camera nor water moves under the cell, it may begin its search at the hit of a pixel below. `sum`: where what the cell shows is added up. */
+static void add_children(const refinement *f, size_t tile, tile_cells *cells, tile_pixels *sum, const leaf *l)
 {
+    const float kept = lane_kept(f->tiles[tile].dark, l->variance);
     const size_t below = leaf_pixel(f, tile, l) + 2 * (size_t)f->out->width;
     const bool still = !f->a->frame->data.sky_black && !f->moves && refinement_parts(f, &f->tiles[tile], l->level + 1)->count == 1;
     const bool known = still && below < (size_t)f->width * f->height;
@@ -174,6 +175,12 @@ static void add_children(const refinement *f, size_t tile, tile_cells *cells, co
         cells->column[cells->count] = (float)(l->column * wide + k % wide);
         cells->row[cells->count] = (float)((l->row << halvings[l->shape][1]) + k / wide);
         cells->below[cells->count] = known ? f->hit_height[below] : NAN;
+        cells->kept[cells->count] = kept;
+        sum->red[cells->count] = kept * l->color[0];
+        sum->green[cells->count] = kept * l->color[1];
+        sum->blue[cells->count] = kept * l->color[2];
+        sum->coverage[cells->count] = kept * l->coverage;
+        sum->water[cells->count] = kept * l->water;
         cells->estimate.height[cells->count++] = l->height;
     }
 }
@@ -188,7 +195,7 @@ static bool split_size(const refinement *f, size_t tile, int across, int down, s
         const leaf *l = &t->leaves[i];
         if (!l->chosen || l->shape == SPLIT_POINTS || l->across + halvings[l->shape][0] != across || l->down + halvings[l->shape][1] != down)
             continue;
-        add_children(f, tile, cells, l);
+        add_children(f, tile, cells, &f->sums[worker]->pixels, l);
         if (cells->count == TILE_PIXELS && !grow(f, tile, across, down, worker))
             return false;
     }

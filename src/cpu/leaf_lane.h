@@ -21,6 +21,7 @@ float lane_parts_contrast(float own, const float parts[4]);
 bool lane_dark(const FrameData *frame, int light_reach, bool by_display, bool lights_dark);
 
 /* Which of the shutter's pieces cells of a level see, 0 to 2. */
+float lane_kept(bool dark, float variance);
 int lane_class(int level, bool dark);
 
 /* The leaf's numbers that its points depend on. */

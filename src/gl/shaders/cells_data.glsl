@@ -10,7 +10,8 @@
 layout(std430, binding = 4) buffer LeafBlock { uvec4 leaves[]; };
 
 const uint NO_LEAF = 0xffffffffu; /* in place of the column: the pixel lies outside of the picture */
-const int PLACE_BITS = 22;
+const int PLACE_BITS = 22, HALVINGS_BITS = 5;
+const uint KEEPS = 1u << 31; /* a bit of the column's: the new cell keeps something of its leaf, see leaf_kept() */
 const uint SPLIT_MASK = 3u; /* how the leaf goes on: SPLIT_… in these bits, then the step of its points, CHOSEN and the bucket */
 const int POINTS_SHIFT = 2;
 const uint CHOSEN = 16u;
@@ -47,7 +48,7 @@ uint points_step(float points) { return points == 0.0f ? 0u : points < float(LEA
 Leaf leaf_from(uvec4 first, uvec4 second, uvec4 third)
 {
     Leaf l;
-    l.halvings = ivec2(first.xy >> PLACE_BITS);
+    l.halvings = ivec2(first.xy >> PLACE_BITS & ((1u << HALVINGS_BITS) - 1u));
     l.place = ivec2(first.xy & ((1u << PLACE_BITS) - 1u));
     l.split = int(first.z & SPLIT_MASK);
     l.points = points_of(first.z);

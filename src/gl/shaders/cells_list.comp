@@ -86,16 +86,17 @@ void move_leaf(int to, uvec4 first, int i)
     leaves[LEAF_VECTORS * to + 2] = leaves[LEAF_VECTORS * i + 2];
 }
 
-/* Makes the four parts of a leaf. Each begins with the height of the leaf. */
+/* Makes the four parts of a leaf. Each begins with the height of the leaf, and with what it keeps of its values. */
 void make_cells(int to, Leaf l)
 {
+    float kept = leaf_kept(0, state[words + TILE_DARK] != 0u, l.variance);
     ivec2 more = ivec2(halvings_across(l.split), halvings_down(l.split));
     for (int k = 0; k < 4; k++) {
         int wide = 1 << more.x;
         ivec2 place = ivec2(l.place.x * wide + k % wide, (l.place.y << more.y) + k / wide);
-        leaves[LEAF_VECTORS * (to + k)] = uvec4(packed_place(place, l.halvings + more), 0u, 0u);
-        leaves[LEAF_VECTORS * (to + k) + 1] = uvec4(0u);
-        leaves[LEAF_VECTORS * (to + k) + 2] = uvec4(0u, floatBitsToUint(l.height), 0u, 0u);
+        leaves[LEAF_VECTORS * (to + k)] = uvec4(packed_place(place, l.halvings + more) | uvec2(kept > 0.0f ? KEEPS : 0u, 0u), 0u, 0u);
+        leaves[LEAF_VECTORS * (to + k) + 1] = floatBitsToUint(kept * vec4(l.color, l.coverage));
+        leaves[LEAF_VECTORS * (to + k) + 2] = floatBitsToUint(vec4(kept * l.water, l.height, 0.0f, 0.0f));
     }
 }
 

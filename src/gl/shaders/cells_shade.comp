@@ -7,6 +7,7 @@
 #define PARTS(cx) TILE(cx).parts
 #include "lattice_data.glsl"
 #include "kernels/adaptive/cells.k"
+#include "kernels/adaptive/refinement.k"
 #include "cells_data.glsl"
 #include "cells_job.glsl"
 
@@ -88,13 +89,14 @@ CellResult cell_result(Job job, int slot, ivec2 pixel, vec2 place, float height)
     return cell_result_of(0, p, open, close);
 }
 
-/* Adds the result of a piece of the shutter, with weight `share`, to the cell's means. The height is that of the last piece. */
-void add_result(int at, uvec4 first, CellResult cell, float share, bool last)
+/* Adds the result of a piece of the shutter, with weight `share`, to the cell's means, of which the fraction `own` is not its leaf's. The height is that of the
+ * last piece. */
+void add_result(int at, uvec4 first, CellResult cell, float own, float share, bool last)
 {
     vec4 color = uintBitsToFloat(leaves[at + 1]), water = uintBitsToFloat(leaves[at + 2]);
     vec2 spread = uintBitsToFloat(first.zw) + share * vec2(cell.aspect, cell.places);
-    color += share * vec4(cell.pixel.color, cell.pixel.coverage);
-    water += share * vec4(cell.pixel.water, 0.0f, cell.variance, cell.contrast);
+    color += share * own * vec4(cell.pixel.color, cell.pixel.coverage);
+    water += share * vec4(own * cell.pixel.water, 0.0f, cell.variance, cell.contrast);
     water.y = last ? cell.height : water.y;
     leaves[at] = uvec4(first.xy, floatBitsToUint(spread));
     leaves[at + 1] = floatBitsToUint(color);
@@ -119,5 +121,6 @@ void main()
     ivec2 cell = ivec2(first.xy & ((1u << PLACE_BITS) - 1u)), pixel = ivec2(cell.x >> job.halvings.x, cell.y >> job.halvings.y);
     layer_texel = ivec2(job.tile % cells_data.columns, job.tile / cells_data.columns) * ivec2(TILE_WIDTH, TILE_HEIGHT) + pixel;
     CellResult result = cell_result(job, slot, pixel, vec2(cell), uintBitsToFloat(leaves[at + 2].y));
-    add_result(at, first, result, 1.0f / float(parts), cells_data.part + 1 == parts);
+    float own = (first.x & KEEPS) != 0u ? 1.0f - leaf_kept(0, true, 0.0f) : 1.0f;
+    add_result(at, first, result, own, 1.0f / float(parts), cells_data.part + 1 == parts);
 }
