@@ -74,7 +74,7 @@ typedef struct tile_cells {
     float column[TILE_PIXELS], row[TILE_PIXELS]; /* whole numbers, in cells from the tile's first one */
     int across, down;                            /* how often their pixels have been halved each way */
     float below[TILE_PIXELS];                    /* height of the hit of the pixel two rows under the cell's, metres; NAN: unknown */
-    float kept[TILE_PIXELS];                     /* fraction of what it shows that is its leaf's; the kernels do not read it */
+    float kept[TILE_PIXELS];                     /* leaf_kept() of its leaf; kernels do not read it */
     const tile_light *light;                     /* a value a cell; NULL: no objects */
     tile_estimate estimate;                      /* heights; search: 1 to search from above, 0: only where the height leads nowhere */
     tile_detail detail;                          /* out */

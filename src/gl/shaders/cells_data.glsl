@@ -11,7 +11,7 @@ layout(std430, binding = 4) buffer LeafBlock { uvec4 leaves[]; };
 
 const uint NO_LEAF = 0xffffffffu; /* in place of the column: the pixel lies outside of the picture */
 const int PLACE_BITS = 22, HALVINGS_BITS = 5;
-const uint KEEPS = 1u << 31; /* a bit of the column's: the new cell keeps something of its leaf, see leaf_kept() */
+const uint KEEPS = 1u << 31; /* in the column's word: the new cell keeps something of its leaf, see leaf_kept() */
 const uint SPLIT_MASK = 3u; /* how the leaf goes on: SPLIT_… in these bits, then the step of its points, CHOSEN and the bucket */
 const int POINTS_SHIFT = 2;
 const uint CHOSEN = 16u;
