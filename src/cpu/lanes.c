@@ -191,6 +191,7 @@ static void list_tile(const struct kernel_context *cx, const wave_set *set, cons
     out->data.grazing = any_of(place->grazing) > 0;
     out->data.refined = any_of(place->refined) > 0;
     out->data.skyline = (int)any_of(place->skyline);
+    out->data.whole_waves = any_of(place->whole);
     out->skyline = set->skyline[0];
     out->data.search_pixels = out->data.search_pixels || out->data.grazing;
     out->foam = set->has_foam ? &set->foam : NULL;

@@ -68,16 +68,17 @@ static FoamWave wave_of(const foam_sea *sea, const foam_wave *w, double x, doubl
                       .press_xx = (float)(-w->press * w->x * w->x / (k * k)),
                       .press_xz = (float)(-w->press * w->x * w->z / (k * k)),
                       .press_zz = (float)(-w->press * w->z * w->z / (k * k)),
+                      .along_squared = (float)(k * k / (turn * turn)),
                       .back_c1 = (float)(held[1] * cos(w->frequency * sea->age[1])),
-                      .back_s1 = (float)(held[1] * sin(w->frequency * sea->age[1])),
+                      .back_s1 = (float)(-held[1] * sin(w->frequency * sea->age[1])),
                       .back_c2 = (float)(held[2] * cos(w->frequency * sea->age[2])),
-                      .back_s2 = (float)(held[2] * sin(w->frequency * sea->age[2])),
+                      .back_s2 = (float)(-held[2] * sin(w->frequency * sea->age[2])),
                       .back_c3 = (float)(held[3] * cos(w->frequency * sea->age[3])),
-                      .back_s3 = (float)(held[3] * sin(w->frequency * sea->age[3])),
-                      .variance_now = (float)(variance * held[0] * held[0]),
-                      .variance_old_1 = (float)(variance * held[1] * held[1]),
-                      .variance_old_2 = (float)(variance * held[2] * held[2]),
-                      .variance_old_3 = (float)(variance * held[3] * held[3]),
+                      .back_s3 = (float)(-held[3] * sin(w->frequency * sea->age[3])),
+                      .variance_0 = (float)(variance * held[0] * held[0]),
+                      .variance_1 = (float)(variance * held[1] * held[1]),
+                      .variance_2 = (float)(variance * held[2] * held[2]),
+                      .variance_3 = (float)(variance * held[3] * held[3]),
                       .shared_0 = (float)shared[0],
                       .shared_1 = (float)shared[1],
                       .shared_2 = (float)shared[2],
@@ -91,6 +92,66 @@ static FoamWave wave_of(const foam_sea *sea, const foam_wave *w, double x, doubl
                       .high_3 = (float)high[3]};
 }
 
+/* What the waves up to one, all resolved, leave of each moment's variance and covariances, see the members rest_… of FoamWave. */
+typedef struct foam_rest {
+    double variance[FOAM_MOMENTS], shared[FOAM_MOMENTS], high[FOAM_MOMENTS], lean[FOAM_MOMENTS][2];
+} foam_rest;
+
+static foam_rest rest_of_all(const foam_sea *sea)
+{
+    foam_rest rest = {.variance = {0}};
+    for (int j = 0; j < FOAM_MOMENTS; j++) {
+        rest.variance[j] = sea->variance;
+        for (int i = 0; i < sea->wave_count; i++) {
+            const foam_wave *w = &sea->waves[i];
+            rest.shared[j] += w->press * w->press * w->held[j] / 2 * cos(w->frequency * sea->age[j]);
+            rest.high[j] += high_of(sea, w, j);
+            rest.lean[j][0] += w->x * lean_of(sea, w, j);
+            rest.lean[j][1] += w->z * lean_of(sea, w, j);
+        }
+    }
+    return rest;
+}
+
+static void store_rest(const foam_rest *rest, FoamWave *w)
+{
+    w->rest_variance_0 = (float)rest->variance[0];
+    w->rest_variance_1 = (float)rest->variance[1];
+    w->rest_variance_2 = (float)rest->variance[2];
+    w->rest_variance_3 = (float)rest->variance[3];
+    w->rest_shared_0 = (float)rest->shared[0];
+    w->rest_shared_1 = (float)rest->shared[1];
+    w->rest_shared_2 = (float)rest->shared[2];
+    w->rest_shared_3 = (float)rest->shared[3];
+    w->rest_high_0 = (float)rest->high[0];
+    w->rest_high_1 = (float)rest->high[1];
+    w->rest_high_2 = (float)rest->high[2];
+    w->rest_high_3 = (float)rest->high[3];
+    w->rest_lean_x_1 = (float)rest->lean[1][0];
+    w->rest_lean_x_2 = (float)rest->lean[2][0];
+    w->rest_lean_x_3 = (float)rest->lean[3][0];
+    w->rest_lean_z_1 = (float)rest->lean[1][1];
+    w->rest_lean_z_2 = (float)rest->lean[2][1];
+    w->rest_lean_z_3 = (float)rest->lean[3][1];
+}
+
+/* Fills the wave, of which the mean over half an interval of `half` seconds remains, and takes it from `rest`. */
+static FoamWave wave_with_rest(const foam_sea *sea, const foam_wave *w, double x, double z, double middle, double half, foam_rest *rest)
+{
+    const double blur = mean_cosine(w->frequency * half), variance = w->press * w->press / 2;
+    FoamWave out = wave_of(sea, w, x, z, middle, half);
+    store_rest(rest, &out);
+    for (int j = 0; j < FOAM_MOMENTS; j++) {
+        const double held = w->held[j] * blur;
+        rest->variance[j] -= variance * held * held;
+        rest->shared[j] -= variance * held * blur * cos(w->frequency * sea->age[j]);
+        rest->high[j] -= high_of(sea, w, j);
+        rest->lean[j][0] -= w->x * lean_of(sea, w, j);
+        rest->lean[j][1] -= w->z * lean_of(sea, w, j);
+    }
+    return out;
+}
+
 /* foam_sine is a cosine and FoamSine is a sine, so a quarter of a turn is added to the phase. */
 static FoamSine sine_of(const foam_sine *s, double x, double z)
 {
@@ -101,22 +162,15 @@ void foam_place(const frame_foam *foam, double x, double z, double middle, doubl
 {
     const foam_sea *sea = &foam->sea;
     FoamData *d = &out->data;
-    double together[FOAM_MOMENTS] = {0}, lean[FOAM_MOMENTS][2] = {{0}}, high[FOAM_MOMENTS] = {0};
-    for (int i = 0; i < sea->wave_count; i++) {
-        const foam_wave *w = &sea->waves[i];
-        out->waves[i] = wave_of(sea, w, x, z, middle, half);
-        for (int j = 0; j < FOAM_MOMENTS; j++) {
-            together[j] += w->press * w->press * w->held[j] / 2 * cos(w->frequency * sea->age[j]);
-            lean[j][0] += w->x * lean_of(sea, w, j);
-            lean[j][1] += w->z * lean_of(sea, w, j);
-            high[j] += high_of(sea, w, j);
-        }
-    }
+    foam_rest rest = rest_of_all(sea);
+    for (int i = 0; i < sea->wave_count; i++)
+        out->waves[i] = wave_with_rest(sea, &sea->waves[i], x, z, middle, half, &rest);
+    out->waves[sea->wave_count] = (FoamWave){.along_x = 0};
+    store_rest(&rest, &out->waves[sea->wave_count]);
     for (int i = 0; i < FOAM_SINES; i++) {
         out->sines[i] = sine_of(&sea->fresh[i], x, z);
         out->sines[FOAM_SINES + i] = sine_of(&sea->old[i], x, z);
     }
-    const float v = (float)sea->variance;
     *d = (FoamData){.foam_waves = sea->wave_count,
                     .foam_moments = sea->moments,
                     .least = (float)sea->least,
@@ -126,25 +180,6 @@ void foam_place(const frame_foam *foam, double x, double z, double middle, doubl
                     .shape_xxzz = (float)sea->shape[2],
                     .shape_xzzz = (float)sea->shape[3],
                     .shape_zzzz = (float)sea->shape[4],
-                    .whole = 1 / v,
-                    .lean_x_1 = (float)lean[1][0],
-                    .lean_x_2 = (float)lean[2][0],
-                    .lean_x_3 = (float)lean[3][0],
-                    .lean_z_1 = (float)lean[1][1],
-                    .lean_z_2 = (float)lean[2][1],
-                    .lean_z_3 = (float)lean[3][1],
-                    .high_0 = (float)high[0],
-                    .high_1 = (float)high[1],
-                    .high_2 = (float)high[2],
-                    .high_3 = (float)high[3],
-                    .variance_0 = v,
-                    .variance_1 = v,
-                    .variance_2 = v,
-                    .variance_3 = v,
-                    .together_0 = (float)together[0],
-                    .together_1 = (float)together[1],
-                    .together_2 = (float)together[2],
-                    .together_3 = (float)together[3],
                     .weight_0 = (float)sea->weight[0],
                     .weight_1 = (float)sea->weight[1],
                     .weight_2 = (float)sea->weight[2],

@@ -21,11 +21,11 @@ typedef struct frame_foam {
 typedef struct foam_set {
     FoamData data;
     FoamSine sines[2 * FOAM_SINES];
-    FoamWave waves[MGT_MAX_WAVES];
+    FoamWave waves[MGT_MAX_WAVES + 1]; /* one more than there are, see FoamData.foam_waves */
 } foam_set;
 
 /* Size of a set up to the last of its waves. */
-static inline size_t foam_set_bytes(const foam_set *set) { return offsetof(foam_set, waves) + (size_t)set->data.foam_waves * sizeof *set->waves; }
+static inline size_t foam_set_bytes(const foam_set *set) { return offsetof(foam_set, waves) + (size_t)(set->data.foam_waves + 1) * sizeof *set->waves; }
 
 /* Fills `foam`. `sky` must have been built from the scene. */
 void frame_foam_of(const mgt_scene *scene, const sky_state *sky, frame_foam *foam);

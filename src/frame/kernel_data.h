@@ -29,7 +29,7 @@ _Static_assert(sizeof(ShadeData) % 16 == 0, "std140 layout");
 _Static_assert(sizeof(NarrowData) % 16 == 0, "std140 layout");
 _Static_assert(sizeof(WaveData) == 96, "std140 layout");
 _Static_assert(sizeof(FoamData) % 16 == 0, "std140 layout");
-_Static_assert(sizeof(FoamWave) == 112, "std140 layout");
+_Static_assert(sizeof(FoamWave) == 192, "std140 layout");
 _Static_assert(sizeof(SearchWave) == 48, "std140 layout");
 _Static_assert(sizeof(RefractData) == 48, "std140 layout");
 _Static_assert(sizeof(PictureData) == 80, "std140 layout");

@@ -33,11 +33,12 @@ static mgt_scene foam_scene(mgt_wave waves[WAVES], float share, double steepness
     return scene;
 }
 
-/* The scene must outlive the bench. */
+/* The scene must outlive the bench. Its tile has no waves that every pixel resolves, for tests choose footprints of any size. */
 static kernel_bench *foam_bench(const mgt_scene *scene, bool filter)
 {
     kernel_bench *b = kernel_bench_create(scene);
     kernel_bench_tile(b, filter, filter, 320, 180);
+    b->tile.data.whole_waves = 0;
     b->cx = context_for(&b->frame.data, &b->tile);
     return b;
 }
@@ -211,6 +212,71 @@ static void folds_give_numbers(void **state)
     kernel_bench_destroy(b);
 }
 
+/* Waves that all pixels of a tile resolve are not split: what that changes. */
+static void whole_waves_need_no_split(void **state)
+{
+    (void)state;
+    mgt_wave waves[WAVES];
+    const mgt_scene scene = foam_scene(waves, 0.05f, 0.2);
+    kernel_bench *b = foam_bench(&scene, true);
+    static const double sides[] = {0.1, 0.5, 2};
+    for (int side = 0; side < 3; side++) {
+        random_state r = {21};
+        const float s = (float)sides[side];
+        const Footprint p = {{s, 0}, {0, s}};
+        double squared = 0, all = 0, difference = 0;
+        for (int i = 0; i < 4000; i++) {
+            const float x = (float)random_range(&r, -500, 500), z = (float)random_range(&r, -500, 500);
+            const vec3 view = {0.5f, 0.3f, 0.2f};
+            const FoamSight sight = foam_sight(&b->cx, view, (vec2){0, 0}, 0.01f, 0, 0.01f);
+            b->tile.data.whole_waves = 0;
+            const FoamShares split = foam_shares(&b->cx, x, z, p, sight);
+            b->tile.data.whole_waves = 0.03f / (2 * s * s);
+            const FoamShares whole = foam_shares(&b->cx, x, z, p, sight);
+            const double off = (double)(whole.fresh + whole.old - split.fresh - split.old);
+            squared += off * off;
+            difference += off;
+            all += (double)(split.fresh + split.old);
+        }
+        char text[80];
+        snprintf(text, sizeof text, "pixels of %g m: whole waves less split ones, rms over the mean", sides[side]);
+        expect_below(text, sqrt(squared * 4000) / all, 0.03);
+        snprintf(text, sizeof text, "pixels of %g m: the mean, less 1", sides[side]);
+        expect_below(text, fabs(difference / all), 0.005);
+    }
+    kernel_bench_destroy(b);
+}
+
+/* No pixel of a tile sees more of its whole waves than .173 cycles on the mean surface. */
+static void whole_waves_are_long_on_the_screen(void **state)
+{
+    (void)state;
+    mgt_wave waves[WAVES];
+    const mgt_scene scene = foam_scene(waves, 0.05f, 0.2);
+    kernel_bench *b = kernel_bench_create(&scene);
+    double most = 0;
+    int tiles = 0;
+    for (uint32_t y = 0; y < 360; y += TILE_HEIGHT)
+        for (uint32_t x = 0; x < 640; x += TILE_WIDTH) {
+            kernel_bench_tile(b, true, true, x, y);
+            const struct kernel_context cx = context_for(&b->frame.data, &b->tile);
+            if (b->tile.data.whole_waves == 0)
+                continue;
+            tiles++;
+            for (int i = 0; i < 64; i++) {
+                const PixelRay pixel = pixel_ray_filtered(&cx, (float)(i % 8 * (TILE_WIDTH - 1)) / 7, (float)(i / 8 * ((int)b->tile.data.hit_rows * TILE_HEIGHT - 1)) / 7);
+                const Footprint p = footprint_at(&cx, pixel.ray, -b->tile.data.camera_height / pixel.ray.y);
+                for (double angle = 0; angle < M_PI; angle += 0.1) {
+                    const double turns = sqrt((double)b->tile.data.whole_waves), along_x = turns * cos(angle), along_z = turns * sin(angle);
+                    most = fmax(most, hypot((double)p.right.x * along_x + (double)p.right.y * along_z, (double)p.down.x * along_x + (double)p.down.y * along_z));
+                }
+            }
+        }
+    assert_true(tiles > 20);
+    expect_below("cycles a pixel of waves that count as resolved", most, 0.1735);
+    kernel_bench_destroy(b);
+}
+
 /* Old foam of moment 1 alone at a place, for a pixel of this side. */
 static double old_foam(const kernel_bench *b, const FoamData *data, double x, double z, float side, FoamSight sight)
 {
@@ -354,6 +420,8 @@ int main(void)
         cmocka_unit_test(patterns_cover_their_share),
         cmocka_unit_test(kernels_agree_with_double_precision),
         cmocka_unit_test(footprints_keep_the_share),
+        cmocka_unit_test(whole_waves_need_no_split),
+        cmocka_unit_test(whole_waves_are_long_on_the_screen),
         cmocka_unit_test(resolved_waves_are_seen_once),
         cmocka_unit_test(half_resolved_waves_are_seen_once),
         cmocka_unit_test(crests_are_seen_first),

@@ -36,7 +36,7 @@ function laneTasks(post) {
     const foamBytes = calls.foam_bytes();
     return {
       frame: library.copy(Uint8Array, frame, calls.frame_bytes()), waves: library.copy(Float32Array, waves, calls.wave_bytes() / 4 * waveCount), waveCount, choppy: choppy !== 0, columns, rows,
-      foam: hasFoam ? library.copy(Uint8Array, foam, foamBytes) : null, foamWaves: hasFoam ? library.copy(Float32Array, foam + foamBytes, calls.foam_wave_bytes() / 4 * waveCount) : null,
+      foam: hasFoam ? library.copy(Uint8Array, foam, foamBytes) : null, foamWaves: hasFoam ? library.copy(Float32Array, foam + foamBytes, calls.foam_wave_bytes() / 4 * (waveCount + 1)) : null,
       skyline: library.copy(Float32Array, skyline, 2 * Math.max(2, skylineCount)),
       lean: leanData ? { data: library.copy(Uint8Array, leanData, calls.lean_bytes()), waves: library.copy(Uint8Array, leanWaves, calls.lean_wave_bytes() * leanCount), count: leanCount } : null,
       skyColumns: calls.sky_columns(), skyRows: calls.sky_rows(), sky: library.copy(Float32Array, calls.sky_table(), 3 * calls.sky_columns() * calls.sky_rows()), tileWords: calls.tile_bytes() / 4,

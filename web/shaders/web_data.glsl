@@ -57,18 +57,19 @@ layout(std140) uniform FoamBlock
     FoamData foam_data;
     FoamSine foam_sines[2 * FOAM_SINES];
 };
-uniform sampler2D foam_texture; /* FoamWave, seven texels each */
+uniform sampler2D foam_texture; /* FoamWave, twelve texels each */
 #define FOAMY(cx) 1
 #define FOAM(cx) foam_data
 #define FOAM_SINE(cx, i) foam_sines[i]
-FoamWave foam_wave_at(int i)
+vec4 foam_texel(int i) { return texelFetch(foam_texture, data_texel(i), 0); }
+FoamWave stored_foam_wave(int i)
 {
-    vec4 a = texelFetch(foam_texture, data_texel(7 * i), 0), b = texelFetch(foam_texture, data_texel(7 * i + 1), 0), c = texelFetch(foam_texture, data_texel(7 * i + 2), 0);
-    vec4 d = texelFetch(foam_texture, data_texel(7 * i + 3), 0), e = texelFetch(foam_texture, data_texel(7 * i + 4), 0), f = texelFetch(foam_texture, data_texel(7 * i + 5), 0);
-    vec4 g = texelFetch(foam_texture, data_texel(7 * i + 6), 0);
-    return FoamWave(a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w, c.x, c.y, c.z, c.w, d.x, d.y, d.z, d.w, e.x, e.y, e.z, e.w, f.x, f.y, f.z, f.w, g.x, g.y, g.z, g.w);
+    vec4 a = foam_texel(12 * i), b = foam_texel(12 * i + 1), c = foam_texel(12 * i + 2), d = foam_texel(12 * i + 3), e = foam_texel(12 * i + 4), f = foam_texel(12 * i + 5);
+    vec4 g = foam_texel(12 * i + 6), h = foam_texel(12 * i + 7), k = foam_texel(12 * i + 8), l = foam_texel(12 * i + 9), m = foam_texel(12 * i + 10), n = foam_texel(12 * i + 11);
+    return FoamWave(a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w, c.x, c.y, c.z, c.w, d.x, d.y, d.z, d.w, e.x, e.y, e.z, e.w, f.x, f.y, f.z, f.w, g.x, g.y, g.z, g.w, h.x, h.y, h.z, h.w, k.x, k.y, k.z, k.w, l.x, l.y, l.z, l.w,
+                    m.x, m.y, m.z, m.w, n.x, n.y, n.z, n.w);
 }
-#define FOAM_WAVE(cx, i) foam_wave_at(i)
+#define FOAM_WAVE(cx, i) stored_foam_wave(i)
 #else
 #include "kernels/waves/no_foam_accessors_glsl.k"
 #endif

@@ -9,7 +9,7 @@
 struct FoamSet {
     FoamData data;
     FoamSine sines[2 * FOAM_SINES];
-    FoamWave waves[MAX_WAVES];
+    FoamWave waves[MAX_WAVES + 1];
 };
 layout(std430, binding = 7) restrict readonly buffer FoamBlock { FoamSet foam_sets[]; };
 #define FOAMY(cx) 1

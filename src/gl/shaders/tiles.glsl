@@ -112,6 +112,7 @@ TileData finished_tile(TileView view, Counts counts)
     t.grazing = view.grazing > 0.0f ? 1 : 0;
     t.refined = view.refined > 0.0f ? 1 : 0;
     t.skyline = int(view.skyline);
+    t.whole_waves = view.whole;
     t.search_pixels = max(t.search_pixels, t.grazing);
     return t;
 }
