@@ -92,7 +92,7 @@ static FoamWave wave_of(const foam_sea *sea, const foam_wave *w, double x, doubl
                       .high_3 = (float)high[3]};
 }
 
-/* What the waves up to one, all resolved, leave of each moment's variance and covariances, see the members rest_… of FoamWave. */
+/* What the waves before one leave of the variance and the covariances of each moment if they are all resolved. See the members rest_… of FoamWave. */
 typedef struct foam_rest {
     double variance[FOAM_MOMENTS], shared[FOAM_MOMENTS], high[FOAM_MOMENTS], lean[FOAM_MOMENTS][2];
 } foam_rest;
@@ -135,7 +135,7 @@ static void store_rest(const foam_rest *rest, FoamWave *w)
     w->rest_lean_z_3 = (float)rest->lean[3][1];
 }
 
-/* Fills the wave, of which the mean over half an interval of `half` seconds remains, and takes it from `rest`. */
+/* The wave with `rest` as it is before it. Then takes from `rest` what the wave holds when it is resolved. For the other arguments see foam_place(). */
 static FoamWave wave_with_rest(const foam_sea *sea, const foam_wave *w, double x, double z, double middle, double half, foam_rest *rest)
 {
     const double blur = mean_cosine(w->frequency * half), variance = w->press * w->press / 2;

@@ -264,11 +264,13 @@ static void whole_waves_are_long_on_the_screen(void **state)
                 continue;
             tiles++;
             for (int i = 0; i < 64; i++) {
-                const PixelRay pixel = pixel_ray_filtered(&cx, (float)(i % 8 * (TILE_WIDTH - 1)) / 7, (float)(i / 8 * ((int)b->tile.data.hit_rows * TILE_HEIGHT - 1)) / 7);
+                const PixelRay pixel =
+                    pixel_ray_filtered(&cx, (float)(i % 8 * (TILE_WIDTH - 1)) / 7, (float)(i / 8 * ((int)b->tile.data.hit_rows * TILE_HEIGHT - 1)) / 7);
                 const Footprint p = footprint_at(&cx, pixel.ray, -b->tile.data.camera_height / pixel.ray.y);
                 for (double angle = 0; angle < M_PI; angle += 0.1) {
                     const double turns = sqrt((double)b->tile.data.whole_waves), along_x = turns * cos(angle), along_z = turns * sin(angle);
-                    most = fmax(most, hypot((double)p.right.x * along_x + (double)p.right.y * along_z, (double)p.down.x * along_x + (double)p.down.y * along_z));
+                    most =
+                        fmax(most, hypot((double)p.right.x * along_x + (double)p.right.y * along_z, (double)p.down.x * along_x + (double)p.down.y * along_z));
                 }
             }
         }
