@@ -42,25 +42,31 @@ static float reduced(double radians)
 
 static double mean_cosine(double half) { return fabs(half) < 1e-4 ? 1 - half * half / 6 : sin(half) / half; }
 
-/* Covariance of J at a moment and the slope now, by this wave, over its wave vector. */
-static double lean_of(const foam_sea *sea, const foam_wave *w, int j) { return w->height * w->press * w->held[j] / 2 * sin(w->frequency * sea->age[j]); }
+/* What a wave gives to the variance and the covariances of each moment, as FoamWave has them. */
+typedef struct foam_parts {
+    double held[FOAM_MOMENTS], variance[FOAM_MOMENTS], shared[FOAM_MOMENTS], high[FOAM_MOMENTS];
+    double lean[FOAM_MOMENTS]; /* over the wave vector, radians per metre */
+} foam_parts;
 
-/* Covariance of J at a moment and the height now, by this wave, divided by the height's standard deviation. */
-static double high_of(const foam_sea *sea, const foam_wave *w, int j)
+/* Of the mean over an interval of twice `half` seconds. */
+static foam_parts parts_of(const foam_sea *sea, const foam_wave *w, double half)
 {
-    return -w->height * w->press / sea->deviation * w->held[j] / 2 * cos(w->frequency * sea->age[j]);
+    const double blur = mean_cosine(w->frequency * half), variance = w->press * w->press / 2;
+    foam_parts parts;
+    for (int j = 0; j < FOAM_MOMENTS; j++) {
+        const double turned = w->frequency * sea->age[j];
+        parts.held[j] = w->held[j] * blur;
+        parts.variance[j] = variance * parts.held[j] * parts.held[j];
+        parts.shared[j] = variance * w->held[j] * cos(turned) * blur * blur;
+        parts.high[j] = -w->height * w->press / sea->deviation * w->held[j] / 2 * cos(turned);
+        parts.lean[j] = w->height * w->press * w->held[j] / 2 * sin(turned);
+    }
+    return parts;
 }
 
-static FoamWave wave_of(const foam_sea *sea, const foam_wave *w, double x, double z, double middle, double half)
+static FoamWave wave_of(const foam_sea *sea, const foam_wave *w, const foam_parts *parts, double x, double z, double middle)
 {
-    const double k = hypot(w->x, w->z), blur = mean_cosine(w->frequency * half), variance = w->press * w->press / 2;
-    double held[FOAM_MOMENTS], shared[FOAM_MOMENTS], lean[FOAM_MOMENTS], high[FOAM_MOMENTS];
-    for (int j = 0; j < FOAM_MOMENTS; j++) {
-        held[j] = w->held[j] * blur;
-        shared[j] = variance * w->held[j] * cos(w->frequency * sea->age[j]) * blur * blur;
-        lean[j] = turn * lean_of(sea, w, j);
-        high[j] = high_of(sea, w, j);
-    }
+    const double k = hypot(w->x, w->z), *held = parts->held;
     return (FoamWave){.along_x = (float)(w->x / turn),
                       .along_z = (float)(w->z / turn),
                       .start = reduced(w->x * x + w->z * z + w->frequency * middle + w->start),
@@ -75,21 +81,21 @@ static FoamWave wave_of(const foam_sea *sea, const foam_wave *w, double x, doubl
                       .back_s2 = (float)(-held[2] * sin(w->frequency * sea->age[2])),
                       .back_c3 = (float)(held[3] * cos(w->frequency * sea->age[3])),
                       .back_s3 = (float)(-held[3] * sin(w->frequency * sea->age[3])),
-                      .variance_0 = (float)(variance * held[0] * held[0]),
-                      .variance_1 = (float)(variance * held[1] * held[1]),
-                      .variance_2 = (float)(variance * held[2] * held[2]),
-                      .variance_3 = (float)(variance * held[3] * held[3]),
-                      .shared_0 = (float)shared[0],
-                      .shared_1 = (float)shared[1],
-                      .shared_2 = (float)shared[2],
-                      .shared_3 = (float)shared[3],
-                      .lean_1 = (float)lean[1],
-                      .lean_2 = (float)lean[2],
-                      .lean_3 = (float)lean[3],
-                      .high_0 = (float)high[0],
-                      .high_1 = (float)high[1],
-                      .high_2 = (float)high[2],
-                      .high_3 = (float)high[3]};
+                      .variance_0 = (float)parts->variance[0],
+                      .variance_1 = (float)parts->variance[1],
+                      .variance_2 = (float)parts->variance[2],
+                      .variance_3 = (float)parts->variance[3],
+                      .shared_0 = (float)parts->shared[0],
+                      .shared_1 = (float)parts->shared[1],
+                      .shared_2 = (float)parts->shared[2],
+                      .shared_3 = (float)parts->shared[3],
+                      .lean_1 = (float)(turn * parts->lean[1]),
+                      .lean_2 = (float)(turn * parts->lean[2]),
+                      .lean_3 = (float)(turn * parts->lean[3]),
+                      .high_0 = (float)parts->high[0],
+                      .high_1 = (float)parts->high[1],
+                      .high_2 = (float)parts->high[2],
+                      .high_3 = (float)parts->high[3]};
 }
 
 /* What the waves before one leave of the variance and the covariances of each moment if they are all resolved. See the members rest_… of FoamWave. */
@@ -97,18 +103,24 @@ typedef struct foam_rest {
     double variance[FOAM_MOMENTS], shared[FOAM_MOMENTS], high[FOAM_MOMENTS], lean[FOAM_MOMENTS][2];
 } foam_rest;
 
+/* Adds the covariances of a wave `times` 1 or −1. */
+static void add_covariances(foam_rest *rest, const foam_wave *w, const foam_parts *parts, double times)
+{
+    for (int j = 0; j < FOAM_MOMENTS; j++) {
+        rest->shared[j] += times * parts->shared[j];
+        rest->high[j] += times * parts->high[j];
+        rest->lean[j][0] += times * w->x * parts->lean[j];
+        rest->lean[j][1] += times * w->z * parts->lean[j];
+    }
+}
+
+/* All of it: no wave is resolved yet. What is not resolved is not a mean over an interval either. */
 static foam_rest rest_of_all(const foam_sea *sea)
 {
-    foam_rest rest = {.variance = {0}};
-    for (int j = 0; j < FOAM_MOMENTS; j++) {
-        rest.variance[j] = sea->variance;
-        for (int i = 0; i < sea->wave_count; i++) {
-            const foam_wave *w = &sea->waves[i];
-            rest.shared[j] += w->press * w->press * w->held[j] / 2 * cos(w->frequency * sea->age[j]);
-            rest.high[j] += high_of(sea, w, j);
-            rest.lean[j][0] += w->x * lean_of(sea, w, j);
-            rest.lean[j][1] += w->z * lean_of(sea, w, j);
-        }
+    foam_rest rest = {.variance = {sea->variance, sea->variance, sea->variance, sea->variance}};
+    for (int i = 0; i < sea->wave_count; i++) {
+        const foam_parts parts = parts_of(sea, &sea->waves[i], 0);
+        add_covariances(&rest, &sea->waves[i], &parts, 1);
     }
     return rest;
 }
@@ -135,23 +147,6 @@ static void store_rest(const foam_rest *rest, FoamWave *w)
     w->rest_lean_z_3 = (float)rest->lean[3][1];
 }
 
-/* The wave with `rest` as it is before it. Then takes from `rest` what the wave holds when it is resolved. For the other arguments see foam_place(). */
-static FoamWave wave_with_rest(const foam_sea *sea, const foam_wave *w, double x, double z, double middle, double half, foam_rest *rest)
-{
-    const double blur = mean_cosine(w->frequency * half), variance = w->press * w->press / 2;
-    FoamWave out = wave_of(sea, w, x, z, middle, half);
-    store_rest(rest, &out);
-    for (int j = 0; j < FOAM_MOMENTS; j++) {
-        const double held = w->held[j] * blur;
-        rest->variance[j] -= variance * held * held;
-        rest->shared[j] -= variance * held * blur * cos(w->frequency * sea->age[j]);
-        rest->high[j] -= high_of(sea, w, j);
-        rest->lean[j][0] -= w->x * lean_of(sea, w, j);
-        rest->lean[j][1] -= w->z * lean_of(sea, w, j);
-    }
-    return out;
-}
-
 /* foam_sine is a cosine and FoamSine is a sine, so a quarter of a turn is added to the phase. */
 static FoamSine sine_of(const foam_sine *s, double x, double z)
 {
@@ -163,8 +158,14 @@ void foam_place(const frame_foam *foam, double x, double z, double middle, doubl
     const foam_sea *sea = &foam->sea;
     FoamData *d = &out->data;
     foam_rest rest = rest_of_all(sea);
-    for (int i = 0; i < sea->wave_count; i++)
-        out->waves[i] = wave_with_rest(sea, &sea->waves[i], x, z, middle, half, &rest);
+    for (int i = 0; i < sea->wave_count; i++) {
+        const foam_parts parts = parts_of(sea, &sea->waves[i], half);
+        out->waves[i] = wave_of(sea, &sea->waves[i], &parts, x, z, middle);
+        store_rest(&rest, &out->waves[i]);
+        add_covariances(&rest, &sea->waves[i], &parts, -1);
+        for (int j = 0; j < FOAM_MOMENTS; j++)
+            rest.variance[j] -= parts.variance[j];
+    }
     out->waves[sea->wave_count] = (FoamWave){.along_x = 0};
     store_rest(&rest, &out->waves[sea->wave_count]);
     for (int i = 0; i < FOAM_SINES; i++) {

@@ -33,7 +33,7 @@ static mgt_scene foam_scene(mgt_wave waves[WAVES], float share, double steepness
     return scene;
 }
 
-/* The scene must outlive the bench. Its tile has no waves that every pixel resolves, for tests choose footprints of any size. */
+/* The scene must outlive the bench. In its tile no wave counts as resolved by every pixel, because the tests choose footprints of any size. */
 static kernel_bench *foam_bench(const mgt_scene *scene, bool filter)
 {
     kernel_bench *b = kernel_bench_create(scene);
