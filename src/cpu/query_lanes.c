@@ -188,10 +188,11 @@ static traced_ray ray_start(const water_terms *w, double level, const double *ra
         slope += __builtin_fabs(w->of[i].up * radians);
         r.bend += w->of[i].up * radians * radians;
     }
-    if (w->choppy) { /* a surface that leans by S at most, and is pressed by as much, leans by S/√(1 − S²) */
-        const double pressed = w->pressed < 0.9 ? w->pressed : 0.9, steeper = 1 / __builtin_sqrt(1 - pressed * pressed);
-        slope *= steeper;
-        r.bend *= steeper * steeper;
+    if (w->choppy) {
+        /* A wave of slope S that is pressed by P at most leans by S/√(1 − P²) at most. On its crest its curvature is that at rest over (1 − P)². So is that of
+         * a short wave on the crest of a long one. */
+        slope /= __builtin_sqrt(1 - w->pressed * w->pressed);
+        r.bend /= (1 - w->pressed) * (1 - w->pressed);
     }
     r.closing = slope + __builtin_fabs(r.direction[1]) + 1e-12 * r.speed;
     const double above = __builtin_fabs(r.origin[1]) - crest;
@@ -244,7 +245,7 @@ static void look_at_points(const water_terms *w, traced_ray *r, query_group *g, 
             ready[lane] = true;
         return;
     }
-    enum { MOST_TRIES = 40 };
+    enum { MOST_TRIES = 200 };
     rest_group rest;
     for (int lane = 0; lane < MGT_LANES; lane++) {
         rest.x[lane] = g->x[lane] - r[lane].shift[0];
@@ -256,15 +257,24 @@ static void look_at_points(const water_terms *w, traced_ray *r, query_group *g, 
         const double squared = left[0] * left[0] + left[1] * left[1], straight = w->straight * w->straight;
         double value[2], direction[2], step[2] = {left[0], left[1]}, slope[2];
         stretch_of(rest.xx[lane], rest.xz[lane], rest.zz[lane], value, direction);
-        if (squared < straight)
-            to_rest(value, direction, left, step);
-        to_rest(value, direction, (const double[]){rest.slope_x[lane], rest.slope_z[lane]}, slope);
+        const double least = 1 - w->pressed, most = value[0] > least ? value[0] : least;
+        value[1] = value[1] > least ? value[1] : least;
+        if (squared < straight) {
+            to_rest_by(most, value[1], direction, left, step);
+            const double far = step[0] * step[0] + step[1] * step[1];
+            if (far > straight) { /* where the water is pressed most, Newton's step is too long */
+                const double shorter = __builtin_sqrt(straight / far);
+                step[0] *= shorter;
+                step[1] *= shorter;
+            }
+        }
+        to_rest_by(most, value[1], direction, (const double[]){rest.slope_x[lane], rest.slope_z[lane]}, slope);
         r[lane].shift[0] -= step[0];
         r[lane].shift[1] -= step[1];
         g->height[lane] = rest.height[lane] + slope[0] * left[0] + slope[1] * left[1];
         g->slope_x[lane] = slope[0];
         g->slope_z[lane] = slope[1];
-        ready[lane] = squared < 1e-8 * straight || ++r[lane].tries >= MOST_TRIES;
+        ready[lane] = squared < 1e-8 * straight * (1 - w->pressed) * (1 - w->pressed) || ++r[lane].tries >= MOST_TRIES;
         if (ready[lane])
             r[lane].tries = 0;
     }

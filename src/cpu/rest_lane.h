@@ -180,15 +180,16 @@ static void newton_step(const double value[2], const double direction[2], const 
     to_rest_by(value[0] > 0.1 ? value[0] : 0.1, least, direction, v, out);
 }
 
-/* The answer at the point `left` beyond the one that the sums' place is shifted to. */
-static void keep_point(const rest_group *g, int lane, const double left[2], settled_point *p)
+/* The answer at the point `left` beyond the one that the sums' place is shifted to. Over a distance where waves are not straight it is that of the place. */
+static void keep_point(const water_terms *w, const rest_group *g, int lane, const double left[2], settled_point *p)
 {
-    double value[2], step[2];
+    double value[2], step[2] = {0, 0};
     stretch_of(g->xx[lane], g->xz[lane], g->zz[lane], value, p->worst);
-    newton_step(value, p->worst, left, step);
+    if (left[0] * left[0] + left[1] * left[1] < w->straight * w->straight)
+        newton_step(value, p->worst, left, step);
     const double slope[2] = {g->slope_x[lane], g->slope_z[lane]};
     to_rest(value, p->worst, slope, p->slope);
-    p->height = g->height[lane] + slope[0] * step[0] + slope[1] * step[1];
+    p->height = fmin(fmax(g->height[lane] + slope[0] * step[0] + slope[1] * step[1], -w->sum), w->sum);
     p->velocity[0] = g->drift_x[lane];
     p->velocity[1] = g->rise[lane];
     p->velocity[2] = g->drift_z[lane];
@@ -249,9 +250,11 @@ typedef struct settled_lanes {
 
 static inline void store_lanes(float *to, real value) { __builtin_memcpy(to, &value, sizeof value); }
 
-/* The answers at points `left` beyond those that the sums' places are shifted to: by a step that is right to the second order. */
-static inline void keep_lanes(const rest_sums *d, vec2 left, settled_lanes *out)
+/* The answers at points `left` beyond those that the sums' places are shifted to: by a step that is right to the second order. As keep_point() otherwise. */
+static inline void keep_lanes(const water_terms *w, const rest_sums *d, vec2 left, settled_lanes *out)
 {
+    const mask near = left.x * left.x + left.y * left.y < (float)(w->straight * w->straight);
+    left = SELECT2(near, left, vec2(real(0.0f), real(0.0f)));
     const stretch_lanes e = stretches_of(d->shift.xx, d->shift.xz, d->shift.zz);
     vec2 s = newton_steps(&e, left);
     const real x = d->xxx * s.x * s.x + 2 * d->xxz * s.x * s.y + d->xzz * s.y * s.y, z = d->xxz * s.x * s.x + 2 * d->xzz * s.x * s.y + d->zzz * s.y * s.y;
@@ -265,7 +268,8 @@ static inline void keep_lanes(const rest_sums *d, vec2 left, settled_lanes *out)
     const real a = SELECT(first, radius - there.half, there.across), b = SELECT(first, there.across, radius + there.half), length = sqrt(a * a + b * b);
     const mask round = length <= 0;
     const real inverse = 1 / SELECT(round, real(1.0f), length);
-    store_lanes(out->height, d->height + ((d->slope_x - 0.5f * turn_x) * s.x + (d->slope_z - 0.5f * turn_z) * s.y));
+    const real most = real((float)w->sum), height = d->height + ((d->slope_x - 0.5f * turn_x) * s.x + (d->slope_z - 0.5f * turn_z) * s.y);
+    store_lanes(out->height, max(min(height, most), 0 - most));
     store_lanes(out->slope_x, slope.x);
     store_lanes(out->slope_z, slope.y);
     store_lanes(out->jacobian, there.most * there.least);
@@ -345,7 +349,7 @@ static void settle_exact(const water_terms *w, const double at[][2], rest_group 
             const double left[2] = {at[lane][0] - g->x[lane] - g->shift_x[lane], at[lane][1] - g->z[lane] - g->shift_z[lane]};
             points[lane].settled = left[0] * left[0] + left[1] * left[1] <= near * near;
             if (points[lane].settled || look + 1 == LOOKS) {
-                keep_point(g, lane, left, &points[lane]);
+                keep_point(w, g, lane, left, &points[lane]);
                 open -= points[lane].settled;
                 continue;
             }
@@ -382,7 +386,7 @@ static void settle_single(const water_terms *w, bool moving, const double at[][2
         const vec2 left = vec2(aim.point.x - aim.away.x - d.shift.x, aim.point.y - aim.away.y - d.shift.z);
         float far[MGT_LANES], away_x[MGT_LANES], away_z[MGT_LANES];
         settled_lanes found;
-        keep_lanes(&d, left, &found);
+        keep_lanes(w, &d, left, &found);
         store_lanes(far, left.x * left.x + left.y * left.y);
         store_lanes(away_x, aim.away.x);
         store_lanes(away_z, aim.away.y);

@@ -372,6 +372,14 @@ static void fill_term(water_term *t, const mgt_wave *w, double time)
     t->single.rise = (float)t->rise;
 }
 
+/* The bound of a sum of sines by the sum of their amplitudes, or by four standard deviations where that is less. It is kept below 1, where the surface stands
+ * upright. Many sines seldom reach four deviations, so that .9 will do there. */
+static double pressed_at_most(double sum, double variance)
+{
+    const double deviations = 4 * sqrt(variance);
+    return sum <= deviations ? fmin(sum, 0.98) : fmin(deviations, 0.9);
+}
+
 water_terms water_terms_at(const mgt_water *water, double time, double least, water_term *room, double covariance[3])
 {
     const bool choppy = water->choppiness > 0 && water->wave_count > 0;
@@ -382,6 +390,7 @@ water_terms water_terms_at(const mgt_water *water, double time, double least, wa
     uint16_t order[MGT_MAX_WAVES];
     if (choppy)
         sines_order(water, order);
+    double pressed = 0, pressed_variance = 0;
     covariance[0] = covariance[1] = covariance[2] = 0;
     for (size_t i = 0; i < water->wave_count; i++) {
         const mgt_wave *w = &water->waves[choppy ? order[i] : i];
@@ -392,7 +401,9 @@ water_terms water_terms_at(const mgt_water *water, double time, double least, wa
             terms.sum += w->amplitude;
             if (choppy) {
                 add_shift_terms(t, w, (double)water->choppiness);
-                terms.pressed += (double)water->choppiness * w->amplitude * k;
+                const double press = (double)water->choppiness * w->amplitude * k;
+                pressed += press;
+                pressed_variance += press * press / 2;
             }
             continue;
         }
@@ -401,5 +412,6 @@ water_terms water_terms_at(const mgt_water *water, double time, double least, wa
         covariance[1] += variance * w->kx * w->kz;
         covariance[2] += variance * w->kz * w->kz;
     }
+    terms.pressed = pressed_at_most(pressed, pressed_variance);
     return terms;
 }

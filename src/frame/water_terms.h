@@ -31,7 +31,7 @@ typedef struct water_terms {
     bool choppy;     /* the water is choppy; the terms are then sorted by falling amplitude */
     bool folds;      /* the compression may exceed 1, so that the surface may fold over */
     double sum;      /* sum of the terms' amplitudes, metres */
-    double pressed;  /* sum of the greatest derivatives of the terms' shifts */
+    double pressed;  /* bound of the derivative of the shift, below 1 */
     double straight; /* distance over which the slopes change little, metres */
     int count;       /* number of terms */
     water_term *of;  /* the terms, in the caller's `room` */

@@ -287,6 +287,58 @@ static void rays_meet_the_first_crest(void **state)
     assert_true(hits > RAYS / 2 && hits < RAYS && worst <= 1e-6);
 }
 
+/* Gap between a ray and choppy water whose waves run along x, which does not fold. The place of rest is found by halving. */
+static double gap_at_crests(const mgt_water *water, const double ray[6], double along)
+{
+    const double x = ray[0] + along * ray[3];
+    double low = x - 10, high = x + 10;
+    for (int i = 0; i < 50; i++) {
+        const double middle = 0.5 * (low + high);
+        double to = middle;
+        for (size_t j = 0; j < water->wave_count; j++)
+            to += (double)water->choppiness * water->waves[j].amplitude * cos(water->waves[j].kx * middle + water->waves[j].phase);
+        if (to < x)
+            low = middle;
+        else
+            high = middle;
+    }
+    double gap = ray[1] + along * ray[4];
+    for (size_t j = 0; j < water->wave_count; j++)
+        gap -= water->waves[j].amplitude * sin(water->waves[j].kx * low + water->waves[j].phase);
+    return gap;
+}
+
+/* One wave, and a long one with a short one on its crests, up to nearly upright: no ray from above or from below passes through a crest. */
+static void rays_meet_sharp_crests(void **state)
+{
+    (void)state;
+    enum { RAYS = 120 };
+    uint64_t lot = 12;
+    for (int count = 1; count <= 2; count++)
+        for (int steep = 0; steep < 3; steep++) {
+            const double pressed = (const double[]){0.3, 0.7, 0.95}[steep], part = count == 1 ? 1 : 0.7;
+            const mgt_wave waves[2] = {{.amplitude = part * pressed / 0.6, .kx = 0.6}, {.amplitude = (1 - part) * pressed / 3.1, .kx = 3.1, .phase = 1}};
+            const mgt_water water = {.waves = waves, .wave_count = (size_t)count, .choppiness = 1};
+            double rays[6 * RAYS], distance[RAYS], worst = 0;
+            for (int i = 0; i < RAYS; i++) {
+                double *r = rays + 6 * i;
+                const double side = i % 2 ? 1 : -1;
+                r[0] = 50 * random_unit(&lot), r[1] = side * (2 + 2 * random_unit(&lot)), r[2] = 0;
+                r[3] = 2 * random_unit(&lot) - 1, r[4] = -side * pow(10, -1.5 * random_unit(&lot)), r[5] = 0.3;
+            }
+            assert_int_equal(mgt_water_trace(&water, 0, rays, RAYS, 30, distance), MGT_OK);
+            for (int i = 0; i < RAYS; i++) {
+                const double *r = rays + 6 * i, start = gap_at_crests(&water, r, 0), end = isinf(distance[i]) ? 30 : distance[i];
+                for (double along = 0; along < end - 1e-6; along += 0.02) /* a crest that was passed */
+                    worst = fmax(worst, start > 0 ? -gap_at_crests(&water, r, along) : gap_at_crests(&water, r, along));
+                if (!isinf(distance[i]))
+                    worst = fmax(worst, fabs(gap_at_crests(&water, r, distance[i])));
+            }
+            print_message("  %d waves pressed by %.2f: off by %.1e m at most\n", count, pressed, worst);
+            assert_true(worst <= 1e-8);
+        }
+}
+
 static void odd_rays_end(void **state)
 {
     (void)state;
@@ -425,6 +477,7 @@ int main(void)
         cmocka_unit_test(lanes_agree),
         cmocka_unit_test(threads_agree),
         cmocka_unit_test(rays_meet_the_first_crest),
+        cmocka_unit_test(rays_meet_sharp_crests),
         cmocka_unit_test(odd_rays_end),
         cmocka_unit_test(bad_questions_are_refused),
         cmocka_unit_test(what_is_not_finite_gets_nan),
