@@ -101,7 +101,7 @@ static void query_choppy(const water_terms *terms, double level, const double *p
         settle(terms, answers, at, &g, found);
         for (int lane = 0; lane < MGT_LANES && first + (size_t)lane < count; lane++) {
             const bool finite = 0 * (at[lane][0] + at[lane][1]) == 0;
-            if (finite && (terms->folds || !found[lane].settled || found[lane].least < 0.2))
+            if (finite && (!found[lane].settled || found[lane].least < terms->folded))
                 settle_folded(terms, answers, at[lane], &found[lane]);
             write_choppy(at[lane], &found[lane], level, first + (size_t)lane, answers);
             for (size_t c = 0; c < 2 && rest; c++)
@@ -170,18 +170,19 @@ typedef struct traced_ray {
 /* Starts where the ray enters the slab that holds the surface. */
 static traced_ray ray_start(const water_terms *w, double level, const double *ray, double crest, double reach)
 {
-    traced_ray r = {.origin = {ray[0], ray[1] - level, ray[2]}, .direction = {ray[3], ray[4], ray[5]}, .bend = 1e-12};
+    traced_ray r = {.origin = {ray[0], ray[1] - level, ray[2]}, .direction = {ray[3], ray[4], ray[5]}};
     double length = 0, finite = 0;
     for (int c = 0; c < 3; c++) {
         length += r.direction[c] * r.direction[c];
         finite += 0 * (r.origin[c] + r.direction[c]);
     }
-    if (!(length > 0) || finite != 0 || !(length < 1e300)) {
+    if (!(length >= 0.99e-200) || finite != 0 || !(length <= 1.01e200)) {
         r.along = __builtin_nan("");
         r.arrived = true;
         return r;
     }
     r.speed = __builtin_sqrt(length);
+    r.bend = 1e-12 * length;
     double slope = 0;
     for (int i = 0; i < w->count; i++) {
         const double turns = w->of[i].along_x * r.direction[0] + w->of[i].along_z * r.direction[2], radians = 6.28318530717958647692 * turns;

@@ -372,6 +372,10 @@ static void fill_term(water_term *t, const mgt_wave *w, double time)
     t->single.rise = (float)t->rise;
 }
 
+/* See water_terms.folded. Water that is pressed by less than 1 folds nowhere, and by less than 1.5 only near where it was found to be pressed: compared with a
+ * search from everywhere, over seas from wind and over one wave. */
+static double folded_below(double pressed) { return pressed < 1 ? 0.2 : pressed < 1.5 ? 0.6 : (double)INFINITY; }
+
 /* The bound of a sum of sines by the sum of their amplitudes, or by four standard deviations where that is less. It is kept below 1, where the surface stands
  * upright. Many sines seldom reach four deviations, so that .9 will do there. */
 static double pressed_at_most(double sum, double variance)
@@ -384,7 +388,7 @@ water_terms water_terms_at(const mgt_water *water, double time, double least, wa
 {
     const bool choppy = water->choppiness > 0 && water->wave_count > 0;
     water_terms terms = {.choppy = choppy,
-                         .folds = (double)water->choppiness * sines_steepest(water) >= 1,
+                         .folded = folded_below((double)water->choppiness * sines_steepest(water)),
                          .straight = 0.3 * sines_steepest(water) / fmax(sines_sharpest(water), 1e-300),
                          .of = room};
     uint16_t order[MGT_MAX_WAVES];

@@ -472,15 +472,9 @@ static void what_is_not_finite_gets_nan(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sums_are_exact),
-        cmocka_unit_test(short_waves_are_a_covariance),
-        cmocka_unit_test(lanes_agree),
-        cmocka_unit_test(threads_agree),
-        cmocka_unit_test(rays_meet_the_first_crest),
-        cmocka_unit_test(rays_meet_sharp_crests),
-        cmocka_unit_test(odd_rays_end),
-        cmocka_unit_test(bad_questions_are_refused),
-        cmocka_unit_test(what_is_not_finite_gets_nan),
+        cmocka_unit_test(sums_are_exact), cmocka_unit_test(short_waves_are_a_covariance), cmocka_unit_test(lanes_agree),
+        cmocka_unit_test(threads_agree),  cmocka_unit_test(rays_meet_the_first_crest),    cmocka_unit_test(rays_meet_sharp_crests),
+        cmocka_unit_test(odd_rays_end),   cmocka_unit_test(bad_questions_are_refused),    cmocka_unit_test(what_is_not_finite_gets_nan),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
