@@ -63,18 +63,23 @@ def metrics(
 ) -> Dict[str, float]:
     """Scores of picture a against b, the reference, by name; 0 is best, but for energy, ssim and flicker-ratio, where 1 is.
 
+    All are NaN where a value is finite in one picture only, NaN in either, or infinite with unlike signs.
+
     a, b       float arrays (h, w) or (h, w, 3); with clip=True (frames, h, w) or (frames, h, w, 3), scored as one clip. float32 is not copied
-    metrics    "rmse,flip" or a list; None: all that are defined
+    metrics    "rmse,flip" or a list; None: all that are defined, of pictures that cannot be compared all that there are
     encoding   of the values: "linear" or "srgb"
     pixels_per_degree  of the viewer's eye, for FLIP; 0: 67.0206, as in its papers
     """
     words = metrics if metrics is None or isinstance(metrics, str) else ",".join(metrics)
     scores, _ = _measure(a, b, words, clip, encoding, pixels_per_degree)
-    return {name: score for name, score in zip(_METRICS, scores) if score == score or (words and name in words.split(","))}
+    asked = words.split(",") if words else _METRICS if np.isnan(scores).all() else ()
+    return {name: score for name, score in zip(_METRICS, scores) if score == score or name in asked}
 
 
 def error_map(a: np.ndarray, b: np.ndarray, metric: str = "flip", *, encoding: str = "linear", pixels_per_degree: float = 0.0) -> np.ndarray:
-    """The error of each pixel of a against b, float32 (h, w), by "rmse", "relrmse" (over b's own strength), "flip", "hdr-flip" or "ssim" (1 − SSIM): docs/command.md."""
+    """The error of each pixel of a against b, float32 (h, w), by "rmse", "relrmse" (over b's own strength), "flip", "hdr-flip" or "ssim" (1 − SSIM): docs/command.md.
+
+    NaN at pixels that cannot be compared, as those that are NaN in a alone."""
     mapped = ("rmse", "relrmse", "flip", "hdr-flip", "ssim")
     if metric not in mapped:
         raise ValueError(f"metric {metric!r}: allowed is {', '.join(mapped)}")

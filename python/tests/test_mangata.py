@@ -256,6 +256,21 @@ def test_metrics_on_arrays():
             bad()
 
 
+def test_broken_pictures_have_no_scores():
+    b = np.random.default_rng(3).random((20, 30, 3), np.float32)
+    for value, rows in ((np.nan, 20), (np.nan, 10), (np.inf, 1), (-np.inf, 1)):
+        a = b.copy()
+        a[:rows] = value
+        for pair in ((a, b), (b, a)):
+            scores = mangata.metrics(*pair)
+            assert list(scores) == mangata.metric_names() and np.isnan(list(scores.values())).all()
+            assert np.isnan(list(mangata.metrics(*pair, "rmse,energy,flip,ssim").values())).all()
+            broken = np.isnan(mangata.error_map(*pair, "rmse"))
+            assert broken[:rows].all() and not broken[rows:].any()
+    b[0, 0] = np.inf
+    assert mangata.metrics(b, b, "rmse") == {"rmse": 0}
+
+
 def test_metrics_are_those_of_the_command(scene, tmp_path):
     a, b = (mangata.render(scene, method, ["coverage"], size=SMALL)["coverage"] for method in ("none", "mangata"))
     for method, name in (("none", "a"), ("mangata", "b")):

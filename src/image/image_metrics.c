@@ -8,6 +8,8 @@ typedef struct row_sums {
     double a, b, b_squared, difference_squared;
 } row_sums;
 
+bool image_values_comparable(float a, float b) { return (isfinite(a) && isfinite(b)) || a == b; }
+
 static void note_difference(image_metrics *metrics, double difference, uint32_t x, uint32_t y, uint32_t channel)
 {
     if (!(difference > metrics->max_difference))
@@ -28,7 +30,7 @@ static row_sums add_row(image_metrics *metrics, const float *a, const float *b, 
             metrics->non_finite_a += !isfinite(*a);
             metrics->non_finite_b += !isfinite(*b);
             if (!isfinite(*a) || !isfinite(*b)) {
-                if (*a == *b)
+                if (image_values_comparable(*a, *b))
                     metrics->equal_infinities++;
                 else
                     metrics->mismatches++;

@@ -3,6 +3,7 @@
 #ifndef MANGATA_IMAGE_IMAGE_METRICS_H
 #define MANGATA_IMAGE_IMAGE_METRICS_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "image/file_error.h"
@@ -14,12 +15,15 @@ typedef struct image_metrics {
     uint64_t values;                     /* finite in both: what the sums hold */
     uint64_t equal_infinities;           /* the same infinity in both: equal, outside the sums */
     uint64_t non_finite_a, non_finite_b; /* NaN or infinite values in A, in B */
-    uint64_t mismatches;                 /* values finite in one only, of unlike infinities, or NaN in either: never equal */
+    uint64_t mismatches;                 /* values that cannot be compared: never equal */
     double sum_a, sum_b, sum_b_squared, sum_difference_squared;
     double max_difference;
     uint64_t max_frame; /* where max_difference is: number of the frame added, pixel, channel */
     uint32_t max_x, max_y, max_channel;
 } image_metrics;
+
+/* False where values are finite in one only, of unlike infinities, or NaN in either: such have no difference. */
+bool image_values_comparable(float a, float b);
 
 /* Adds one frame. Sizes and channels must agree (FILE_ARGUMENT, nothing added). */
 file_status image_metrics_add(image_metrics *metrics, const float_image *a, const float_image *b, file_error *error);
