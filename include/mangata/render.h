@@ -180,13 +180,13 @@ MGT_API mgt_status mgt_render_sums(mgt_context *context, const mgt_scene *scene,
 
 /* What method `mangata` knows of one pixel. Near the horizon a pixel shows two to eight hits, one above the other: water, coverage and radiance are then
  * their mean, and slopes, covariances and the path are those of the lowest one. Slopes are (∂y/∂x, ∂y/∂z). The light plane is r·L = 1, its axes as in the
- * kernels: e horizontal, f up. */
+ * kernels: e horizontal, f up. Objects are not seen, and quality.path_segments counts as 1. */
 typedef struct mgt_pixel_info {
     size_t struct_size;
-    double water;                       /* fraction of the pixel that is water; where it is 0 all else is 0 */
-    double coverage;                    /* as the layer's */
-    double radiance[3];                 /* kcd/m² */
-    double position[3];                 /* of the hit, metres */
+    double water;                       /* fraction of the pixel that is water; where it is 0 all else but radiance is 0 */
+    double coverage;                    /* as the layer's, without what foam hides */
+    double radiance[3];                 /* kcd/m², as the layer `color`, with foam and air; not defined for a camera under water */
+    double position[3];                 /* of the hit in the world, metres, water.level included */
     double distance;                    /* along the ray, metres */
     double slope_open[2];               /* mean slope when the shutter opens */
     double slope_close[2];              /* mean slope when it closes */

@@ -12,7 +12,7 @@
 #include "kernels/common/prelude_c.h"
 
 #include "cpu/lane_access.h"
-#include "kernels/glitter/glitter.k"
+#include "kernels/glitter/foam_over.k"
 
 /* The pixel within its tile. */
 typedef struct tile_pixel {
@@ -60,7 +60,7 @@ static void find_hit(const frame *f, const struct kernel_context *cx, tile_pixel
         along -= fmin(fmax(move, -0.1 * along), 0.1 * along);
     }
     for (int i = 0; i < 3; i++)
-        info->position[i] = c->position[i] + along * ray[i];
+        info->position[i] = c->position[i] + along * ray[i] + (i == 1 ? f->scene->water.level : 0);
     info->distance = along * sqrt(ray[0] * ray[0] + ray[1] * ray[1] + ray[2] * ray[2]);
 }
 
@@ -97,7 +97,7 @@ static bool add_hit(const struct kernel_context *cx, tile_pixel at, SlopeState o
     /* The light of deep water is traced for whole tiles alone. */
     const bool dark = ray.water > 0 || cx->frame->camera_under != 0;
     const vec3 sky = dark ? (vec3){0, 0, 0} : background(cx, ray.sky_ray);
-    const PixelResult result = ray.water > 0 ? glitter_result(cx, ray, open, close) : (PixelResult){sky, 0, 0, 0};
+    const PixelResult result = ray.water > 0 ? over_state(cx, glitter_result(cx, ray, open, close), ray, close) : (PixelResult){sky, 0, 0, 0};
     info->water = (double)((float)info->water + result.water * part);
     info->coverage = (double)((float)info->coverage + result.coverage * part);
     const float color[] = {result.color.x, result.color.y, result.color.z};

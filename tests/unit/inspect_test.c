@@ -98,6 +98,60 @@ static void pixels_are_the_frames(void **state)
     mgt_context_destroy(context);
 }
 
+/* A sea of 20 m/s with foam and air, far above the zero of heights. */
+static mgt_scene stormy_scene(mgt_wave *waves, size_t count)
+{
+    mgt_scene scene;
+    mgt_sea sea;
+    mgt_scene_init(&scene, sizeof scene);
+    mgt_sea_init(&sea, sizeof sea);
+    sea.wind = 20;
+    sea.count = 48;
+    sea.foam = 4;
+    mgt_sea_scene(&sea, waves, count, &scene);
+    scene.image.width = WIDTH;
+    scene.image.height = HEIGHT;
+    scene.water.level = 50;
+    scene.camera.position[1] = 70;
+    scene.camera.target[1] = 67;
+    scene.camera.target[2] = -8;
+    scene.light.elevation_deg = 30;
+    scene.light.angular_radius_deg = 5;
+    return scene;
+}
+
+static void foam_and_air_are_the_frames(void **state)
+{
+    (void)state;
+    static mgt_wave waves[MGT_MAX_WAVES];
+    static float foam[PIXELS], depth[PIXELS];
+    mgt_context *context = make_context(MGT_BACKEND_CPU);
+    mgt_scene scene = stormy_scene(waves, MGT_MAX_WAVES);
+    assert_true(scene.foam > 0 && scene.aerial);
+    check_frame(context, &scene);
+    render(context, &scene, MGT_LAYER_FOAM, MGT_FORMAT_R32F, foam);
+    render(context, &scene, MGT_LAYER_DEPTH, MGT_FORMAT_R32F, depth);
+    size_t foamy = 0, near = 0, agree = 0;
+    for (uint32_t y = HEIGHT / 2; y < HEIGHT; y += 6)
+        for (uint32_t x = 0; x < WIDTH; x += 11) {
+            const size_t i = y * WIDTH + x;
+            const mgt_pixel_info info = inspect(context, &scene, x, y);
+            double square = 0;
+            for (int axis = 0; axis < 3; axis++)
+                square += pow(info.position[axis] - scene.camera.position[axis], 2);
+            assert_true(fabs(sqrt(square) / info.distance - 1) < 1e-6);
+            foamy += foam[i] > 0.05f;
+            near++;
+            agree += fabs(info.distance / (double)depth[i] - 1) < 1e-3;
+        }
+    assert_true(foamy > near / 2 && agree > near * 19 / 20);
+    scene.camera_open = scene.camera;
+    scene.camera_open.target[0] -= 1;
+    scene.camera_moves = true;
+    check_frame(context, &scene);
+    mgt_context_destroy(context);
+}
+
 static const mgt_wave long_waves[] = {{0.05, 1.1, 0.4, -3.2, 0.3}, {0.03, -0.5, 1.3, -3.6, 2.0}};
 
 static mgt_scene calm_scene(void)
@@ -258,6 +312,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pixels_are_the_frames),
+        cmocka_unit_test(foam_and_air_are_the_frames),
         cmocka_unit_test(hits_lie_on_the_water_and_slopes_are_its_own),
         cmocka_unit_test(the_path_is_that_of_the_mirrored_view),
         cmocka_unit_test(wrong_arguments_are_refused),
