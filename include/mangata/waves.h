@@ -54,7 +54,7 @@ typedef struct mgt_sea {
     uint32_t seed;           /* another one: another sea of the same kind */
     uint32_t cox_munk;    /* 1: short waves are scaled to the mean-square slope of a clean sea in this wind (Cox and Munk 1954); 0: as the spectrum has them */
     float choppiness;     /* for mgt_sea_scene(): of the water, [0, 1] */
-    float foam;           /* for mgt_sea_scene(): whitecaps as a multiple of those of the wind at sea, 3.84e-6 U^3.41 of the water, [0, 10] */
+    float foam;           /* for mgt_sea_scene(): whitecaps as a multiple of those of the wind at sea, 3.84e-6 U^3.41 of the water, U m/s at 10 m; [0, 10] */
     uint32_t swell_count; /* 0 … 16 */
     const mgt_swell *swells; /* swell_count of them, the caller's, read during the call; NULL where there are none */
 } mgt_sea;

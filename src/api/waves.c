@@ -140,7 +140,8 @@ mgt_status mgt_sea_scene(const mgt_sea *sea, mgt_wave *waves, size_t capacity, m
     scene->water.waves = waves;
     scene->water.wave_count = wave_count(&own);
     scene->water.choppiness = own.choppiness;
-    const double foam = own.wind > 0 ? (double)own.foam * foam_share_of_wind(settings_of(&own).wind) : 0;
+    const spectrum_settings settings = settings_of(&own);
+    const double foam = own.wind > 0 ? (double)own.foam * foam_share_of_wind(spectrum_wind_10(&settings)) : 0;
     scene->foam = (float)(foam < MOST_FOAM ? foam : MOST_FOAM);
     scene->aerial = own.wind > 0;
     scene->stars = scene->night_tint = own.wind > 0 && light_is_moon(&scene->light);

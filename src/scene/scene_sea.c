@@ -76,7 +76,7 @@ static scene_spectrum drawn_from(const scene_water *water) { return water->wind.
 double scene_water_wind(const scene_water *water)
 {
     const scene_spectrum drawn = drawn_from(water);
-    return drawn.settings.kind == SPECTRUM_NONE || drawn.settings.kind == SPECTRUM_BUOY ? 0 : drawn.settings.wind;
+    return drawn.settings.kind == SPECTRUM_NONE || drawn.settings.kind == SPECTRUM_BUOY ? 0 : spectrum_wind_10(&drawn.settings);
 }
 
 double scene_water_foam(const scene_water *water)

@@ -153,10 +153,16 @@ static bool make_buoy(wave_spectrum *s, const spectrum_table *table, double shor
     return true;
 }
 
+static double wind_height_of(const spectrum_settings *settings)
+{
+    return settings->wind_height > 0 ? settings->wind_height : settings->kind == SPECTRUM_PIERSON_MOSKOWITZ ? 19.5 : 10;
+}
+
+double spectrum_wind_10(const spectrum_settings *settings) { return wind_at_height(settings->wind, wind_height_of(settings), 10); }
+
 bool wave_spectrum_make(wave_spectrum *out, const spectrum_settings *settings, const spectrum_table *table, spectrum_fault *fault)
 {
-    const bool pierson = settings->kind == SPECTRUM_PIERSON_MOSKOWITZ, buoy = settings->kind == SPECTRUM_BUOY;
-    const double height = settings->wind_height > 0 ? settings->wind_height : pierson ? 19.5 : 10;
+    const bool buoy = settings->kind == SPECTRUM_BUOY;
     const double half_turns = (settings->direction_deg + 180) / 360;
     double shortest = settings->shortest;
     if (!(shortest > 0) && (!buoy || settings->slope == SLOPE_COX_MUNK))
@@ -164,7 +170,7 @@ bool wave_spectrum_make(wave_spectrum *out, const spectrum_settings *settings, c
     wave_spectrum s = {
         .kind = settings->kind,
         .depth = settings->depth,
-        .wind_10 = wind_at_height(settings->wind, height, 10),
+        .wind_10 = spectrum_wind_10(settings),
         .tail_from = INFINITY,
         .bend_from = INFINITY,
         .directions = settings->directions,
@@ -181,8 +187,8 @@ bool wave_spectrum_make(wave_spectrum *out, const spectrum_settings *settings, c
     if (settings->kind == SPECTRUM_ELFOUHAILY) {
         if (!make_elfouhaily(&s, s.wind_10, settings->fetch, fault))
             return false;
-    } else if (pierson)
-        make_pierson_moskowitz(&s, wind_at_height(settings->wind, height, 19.5));
+    } else if (settings->kind == SPECTRUM_PIERSON_MOSKOWITZ)
+        make_pierson_moskowitz(&s, wind_at_height(settings->wind, wind_height_of(settings), 19.5));
     else
         make_jonswap(&s, s.wind_10, settings->fetch, settings->gamma);
     const double shallow = 0.7616 * G / (s.peak * s.peak); /* k d = 1 at the peak: tanh 1 */

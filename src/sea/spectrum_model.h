@@ -61,6 +61,9 @@ static inline bool spectrum_takes_gamma(spectrum_kind kind) { return kind == SPE
 /* Whether it comes with directions of its own. */
 static inline bool spectrum_has_directions(spectrum_kind kind) { return kind == SPECTRUM_ELFOUHAILY || kind == SPECTRUM_BUOY; }
 
+/* m/s at 10 m. */
+double spectrum_wind_10(const spectrum_settings *settings);
+
 /* A spectrum ready to be evaluated. */
 typedef struct wave_spectrum {
     spectrum_kind kind;

@@ -95,6 +95,53 @@ static void seas_are_those_of_files(void **unused)
         "sky: {aerial: on}\nwater: {choppiness: 0.7, foam: {amount: 1}, spectrum: {model: pierson-moskowitz, wind: 10, count: 33, directions: donelan-banner}}");
 }
 
+static float foam_of(mgt_sea sea, mgt_spectrum spectrum, double wind_height)
+{
+    static mgt_wave waves[ROOM];
+    mgt_scene scene;
+    mgt_scene_init(&scene, sizeof scene);
+    sea.spectrum = spectrum;
+    sea.wind_height = wind_height;
+    assert_int_equal(mgt_sea_scene(&sea, waves, ROOM, &scene), MGT_OK);
+    return scene.foam;
+}
+
+/* Foam follows the wind at 10 m by a logarithmic profile, whatever the spectrum and the height at which the wind is given. */
+static void foam_follows_the_wind_at_ten_metres(void **unused)
+{
+    (void)unused;
+    static const struct {
+        mgt_spectrum spectrum;
+        const char *model;
+        double given, height;
+    } cases[] = {{MGT_SPECTRUM_AUTO, NULL, 0, 10},
+                 {MGT_SPECTRUM_AUTO, NULL, 100, 100},
+                 {MGT_SPECTRUM_ELFOUHAILY, "elfouhaily", 0, 10},
+                 {MGT_SPECTRUM_ELFOUHAILY, "elfouhaily", 100, 100},
+                 {MGT_SPECTRUM_PIERSON_MOSKOWITZ, "pierson-moskowitz", 0, 19.5},
+                 {MGT_SPECTRUM_PIERSON_MOSKOWITZ, "pierson-moskowitz", 2, 2}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        mgt_sea sea = sea_now();
+        sea.wind = 15;
+        const double at_ten = 15 / (1 + sqrt(1.3e-3) / 0.4 * log(cases[i].height / 10)), expected = 3.84e-6 * pow(at_ten, 3.41);
+        const double foam = (double)foam_of(sea, cases[i].spectrum, cases[i].given);
+        if (!(fabs(foam / expected - 1) < 1e-6))
+            fail_msg("case %zu: %.9g, not %.9g", i, foam, expected);
+        if (!cases[i].model)
+            continue;
+        char water[256];
+        sea.spectrum = cases[i].spectrum;
+        sea.spreading = MGT_SPREADING_MITSUYASU;
+        sea.fetch = sea.spectrum == MGT_SPECTRUM_ELFOUHAILY ? 5e4 : 0;
+        sea.wind_height = cases[i].given;
+        snprintf(
+            water, sizeof water,
+            "sky: {aerial: on}\nwater: {choppiness: 0.7, foam: {amount: 1}, spectrum: {model: %s, wind: 15, wind_height: %g, count: 160, slope: cox-munk%s}}",
+            cases[i].model, cases[i].given, cases[i].spectrum == MGT_SPECTRUM_ELFOUHAILY ? ", fetch: 5e4" : ", directions: mitsuyasu");
+        assert_as_file(&sea, water);
+    }
+}
+
 static void every_wind_makes_a_sea(void **unused)
 {
     (void)unused;
@@ -287,8 +334,10 @@ static void names_go_both_ways(void **unused)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(seas_are_those_of_files),   cmocka_unit_test(every_wind_makes_a_sea),
-                                       cmocka_unit_test(bad_seas_are_refused),      cmocka_unit_test(other_versions_are_served),
-                                       cmocka_unit_test(foam_is_where_it_is_drawn), cmocka_unit_test(names_go_both_ways)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(seas_are_those_of_files),   cmocka_unit_test(foam_follows_the_wind_at_ten_metres),
+
+                                       cmocka_unit_test(every_wind_makes_a_sea),    cmocka_unit_test(bad_seas_are_refused),
+                                       cmocka_unit_test(other_versions_are_served), cmocka_unit_test(foam_is_where_it_is_drawn),
+                                       cmocka_unit_test(names_go_both_ways)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
