@@ -144,7 +144,8 @@ mgt_status mgt_sea_scene(const mgt_sea *sea, mgt_wave *waves, size_t capacity, m
     const double foam = own.wind > 0 ? (double)own.foam * foam_share_of_wind(spectrum_wind_10(&settings)) : 0;
     scene->foam = (float)(foam < MOST_FOAM ? foam : MOST_FOAM);
     scene->aerial = own.wind > 0;
-    scene->stars = scene->night_tint = own.wind > 0 && light_is_moon(&scene->light);
+    if (own.wind > 0 && light_is_moon(&scene->light))
+        scene->stars = scene->night_tint = 1;
     return MGT_OK;
 }
 

@@ -142,6 +142,24 @@ static void foam_follows_the_wind_at_ten_metres(void **unused)
     }
 }
 
+/* Under the sun the caller's stars and night tint are left alone. */
+static void night_is_set_under_the_moon_alone(void **unused)
+{
+    (void)unused;
+    static mgt_wave waves[ROOM];
+    const mgt_sea sea = sea_now();
+    for (int i = 0; i < 4; i++) {
+        mgt_scene scene;
+        mgt_scene_init(&scene, sizeof scene);
+        const bool moon = i & 1, before = i & 2;
+        scene.light.body = moon ? MGT_SOURCE_MOON : MGT_SOURCE_SUN;
+        scene.stars = scene.night_tint = before;
+        assert_int_equal(mgt_sea_scene(&sea, waves, ROOM, &scene), MGT_OK);
+        assert_int_equal(scene.stars, moon || before);
+        assert_int_equal(scene.night_tint, moon || before);
+    }
+}
+
 static void every_wind_makes_a_sea(void **unused)
 {
     (void)unused;
@@ -334,10 +352,13 @@ static void names_go_both_ways(void **unused)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(seas_are_those_of_files),   cmocka_unit_test(foam_follows_the_wind_at_ten_metres),
-
-                                       cmocka_unit_test(every_wind_makes_a_sea),    cmocka_unit_test(bad_seas_are_refused),
-                                       cmocka_unit_test(other_versions_are_served), cmocka_unit_test(foam_is_where_it_is_drawn),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(seas_are_those_of_files),
+                                       cmocka_unit_test(foam_follows_the_wind_at_ten_metres),
+                                       cmocka_unit_test(night_is_set_under_the_moon_alone),
+                                       cmocka_unit_test(every_wind_makes_a_sea),
+                                       cmocka_unit_test(bad_seas_are_refused),
+                                       cmocka_unit_test(other_versions_are_served),
+                                       cmocka_unit_test(foam_is_where_it_is_drawn),
                                        cmocka_unit_test(names_go_both_ways)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
