@@ -65,7 +65,8 @@ MGT_API void mgt_sea_init(mgt_sea *sea, size_t size);
 /* A swell one metre high, period 12 s, from north, spread 40, of 24 waves. */
 MGT_API void mgt_swell_init(mgt_swell *swell);
 
-/* Number of waves of the wind and of all swells together. 0 where `sea` is NULL or its struct_size is no version's. */
+/* Number of waves of the wind and of all swells together. 0, too, where `sea` is NULL, its struct_size is no version's or a
+ * member is out of its range; mgt_last_error(NULL) then has the words. */
 MGT_API size_t mgt_sea_wave_count(const mgt_sea *sea);
 
 /* Writes mgt_sea_wave_count() waves to `waves`, which has room for `capacity`: those of the wind from the longest to the shortest, then those of each swell.

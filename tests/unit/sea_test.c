@@ -222,7 +222,10 @@ static void bad_seas_are_refused(void **unused)
     WITH(sea.struct_size = 8, ROOM, MGT_ERROR_ARGUMENT, "struct_size is 8");
     assert_int_equal(mgt_sea_waves(NULL, NULL, 0), MGT_ERROR_ARGUMENT);
     assert_int_equal(mgt_sea_wave_count(NULL), 0);
-    const mgt_sea sea = sea_now();
+    mgt_sea sea = sea_now();
+    sea.choppiness = 1.5f;
+    assert_int_equal(mgt_sea_wave_count(&sea), 0);
+    sea = sea_now();
     assert_int_equal(mgt_sea_waves(&sea, NULL, ROOM), MGT_ERROR_ARGUMENT);
     static mgt_wave waves[ROOM];
     assert_int_equal(mgt_sea_scene(&sea, waves, ROOM, NULL), MGT_ERROR_ARGUMENT);
