@@ -75,8 +75,9 @@ MGT_API mgt_status mgt_context_create(mgt_context **context, const mgt_context_d
 /* Frees the context and joins its threads. NULL is allowed. Not from a callback of the context, nor while another thread uses it. */
 MGT_API void mgt_context_destroy(mgt_context *context);
 
-/* Detail of the last failure on this context; NULL: of the last mgt_context_create(), mgt_mesh_create() or mgt_texture_create() on this thread, empty
- * where that succeeded. Never NULL; valid until the next such call. A function that gets NULL for its context only returns MGT_ERROR_ARGUMENT. */
+/* Detail of the last failure on this context; NULL: of the last call on this thread that takes no context, empty where that succeeded. Such calls are
+ * mgt_context_create(), mgt_mesh_create(), mgt_texture_create(), mgt_supports(), mgt_method_info(), mgt_sea_wave_count(), mgt_sea_waves(), mgt_sea_scene(),
+ * mgt_water_query() and mgt_water_trace(). Never NULL; valid until the next such call. A function that gets NULL for its context only returns MGT_ERROR_ARGUMENT. */
 MGT_API const char *mgt_last_error(const mgt_context *context);
 
 typedef struct mgt_context_info {

@@ -75,6 +75,34 @@ static void creation_refuses_nonsense(void **state)
     assert_false(mgt_isa_available((mgt_isa)99));
 }
 
+/* Every call without a context leaves its own words, or none. */
+static void calls_without_a_context_share_an_error(void **state)
+{
+    (void)state;
+    mgt_context_desc bad;
+    mgt_context_desc_init(&bad, sizeof bad);
+    bad.threads = 1025;
+    mgt_context *context = NULL;
+    mgt_method_properties properties;
+    mgt_scene scene;
+    mgt_scene_init(&scene, sizeof scene);
+    assert_int_equal(mgt_context_create(&context, &bad), MGT_ERROR_ARGUMENT);
+    assert_non_null(strstr(mgt_last_error(NULL), "threads"));
+    assert_int_equal(mgt_method_info((mgt_method)99, &properties, sizeof properties), MGT_ERROR_ARGUMENT);
+    assert_non_null(strstr(mgt_last_error(NULL), "method 99"));
+    assert_int_equal(mgt_method_info(MGT_METHOD_MANGATA, &properties, sizeof properties), MGT_OK);
+    assert_string_equal(mgt_last_error(NULL), "");
+    scene.struct_size = 4;
+    assert_false(mgt_supports(MGT_BACKEND_CPU, &scene, MGT_LAYER_COLOR));
+    assert_non_null(strstr(mgt_last_error(NULL), "struct_size"));
+    assert_int_equal(mgt_sea_wave_count(NULL), 0);
+    assert_null(strstr(mgt_last_error(NULL), "struct_size"));
+    assert_true(strlen(mgt_last_error(NULL)) > 0);
+    scene.struct_size = sizeof scene;
+    assert_true(mgt_supports(MGT_BACKEND_CPU, &scene, MGT_LAYER_COLOR));
+    assert_string_equal(mgt_last_error(NULL), "");
+}
+
 static void creation_resolves(void **state)
 {
     (void)state;
@@ -364,6 +392,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(creation_refuses_nonsense),
+        cmocka_unit_test(calls_without_a_context_share_an_error),
         cmocka_unit_test(creation_resolves),
         cmocka_unit_test(texts_are_there),
         cmocka_unit_test(enums_have_names_and_back),
