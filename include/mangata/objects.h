@@ -20,7 +20,7 @@ typedef struct mgt_mesh_desc {
     size_t struct_size;
     const float *positions;  /* 3 a vertex, metres, within ±1e6 */
     const float *normals;    /* 3 a vertex, of any length; NULL: those of the triangles */
-    const float *texcoords;  /* 2 a vertex, (0, 0) the top left of a texture, (1, 1) its bottom right; it repeats. NULL: all (0, 0) */
+    const float *texcoords;  /* 2 a vertex, (0, 0) the top left of a texture, (1, 1) its bottom right; it repeats; within ±1e6. NULL: all (0, 0) */
     uint32_t vertex_count;   /* at least 1 */
     uint32_t triangle_count; /* 1 … MGT_MAX_TRIANGLES */
     const uint32_t *indices; /* 3 a triangle, below vertex_count; counter-clockwise seen from outside. Both sides are drawn */
@@ -42,7 +42,7 @@ MGT_API void mgt_mesh_desc_init(mgt_mesh_desc *desc, size_t size);
 MGT_API void mgt_texture_desc_init(mgt_texture_desc *desc, size_t size);
 
 /* Copies what the description points to. On failure *mesh is NULL, the status says why and mgt_last_error(NULL) gives the detail. Triangles without
- * area are dropped; it is an error if none is left, or if a number is not finite. The caller owns the result and destroys it. */
+ * area are dropped; it is an error if none is left, or if a number is out of its range or not finite. The caller owns the result and destroys it. */
 MGT_API mgt_status mgt_mesh_create(mgt_mesh **mesh, const mgt_mesh_desc *desc);
 MGT_API mgt_status mgt_texture_create(mgt_texture **texture, const mgt_texture_desc *desc);
 MGT_API void mgt_mesh_destroy(mgt_mesh *mesh); /* NULL is allowed, as below */
@@ -66,14 +66,15 @@ typedef struct mgt_material {
     const mgt_texture *texture; /* times base_color; NULL: none */
     mgt_pattern pattern;        /* replaces base_color by pattern_color here and there */
     float pattern_color[3];     /* of the joints, of every other field, of every other stripe */
-    float pattern_size;         /* side of a tile, field or stripe in texture coordinates (metres for meshes that are laid out so), > 0 */
-    float pattern_joint;        /* width of a joint in tiles, [0, 1) */
+    float pattern_size;         /* side of a tile, field or stripe in texture coordinates (metres for meshes that are laid out so), [1e-4, 1e6] */
+    float pattern_joint;        /* width of a joint in tiles, [0, 0.999] */
 } mgt_material;
 
 /* A mesh somewhere in the scene. */
 typedef struct mgt_object {
     const mgt_mesh *mesh;
-    double transform[3][4]; /* from the mesh to the world: position = transform · (x, y, z, 1); it may mirror but not flatten */
+    double transform[3][4]; /* from the mesh to the world: position = transform · (x, y, z, 1); each number within ±1e6. It may mirror but not flatten: the
+                               determinant of the first three columns is beyond ±1e-24 */
     mgt_material material;
 } mgt_object;
 

@@ -147,8 +147,8 @@ static mgt_status check_material(const reporter *r, size_t index, const mgt_mate
     TRY(object_range(r, index, "material.pattern", (int)m->pattern, 0, MGT_PATTERN_STRIPES));
     if (m->pattern == MGT_PATTERN_NONE)
         return MGT_OK;
-    TRY(object_range(r, index, "material.pattern_joint", (double)m->pattern_joint, 0, 0.999));
-    return object_range(r, index, "material.pattern_size", (double)m->pattern_size, 1e-4, 1e6);
+    TRY(object_range(r, index, "material.pattern_joint", (double)m->pattern_joint, 0, (double)0.999f));
+    return object_range(r, index, "material.pattern_size", (double)m->pattern_size, (double)1e-4f, 1e6);
 }
 
 static mgt_status check_objects(const reporter *r, const mgt_scene *scene)

@@ -470,6 +470,65 @@ static void broken_meshes_are_refused(void **state)
     }
 }
 
+static mgt_status make_with_texcoord(float value)
+{
+    static const float positions[] = {0, 0, 0, 1, 0, 0, 0, 0, 1};
+    static const uint32_t indices[] = {0, 1, 2};
+    const float texcoords[6] = {0, 0, 0, value};
+    mgt_mesh *mesh;
+    mgt_mesh_desc desc;
+    mgt_mesh_desc_init(&desc, sizeof desc);
+    desc.positions = positions, desc.vertex_count = 3, desc.indices = indices, desc.triangle_count = 1;
+    desc.texcoords = texcoords;
+    const mgt_status status = mgt_mesh_create(&mesh, &desc);
+    mgt_mesh_destroy(mesh);
+    return status;
+}
+
+/* The ranges that mangata/objects.h states. */
+static void ranges_of_objects_end_where_stated(void **state)
+{
+    (void)state;
+    assert_int_equal(make_with_texcoord(-1e6f), MGT_OK);
+    assert_int_equal(make_with_texcoord(1.001e6f), MGT_ERROR_ARGUMENT);
+    assert_int_equal(make_with_texcoord(NAN), MGT_ERROR_ARGUMENT);
+
+    const view v = view_of(NULL, 0);
+    mgt_context *context = sea_context(1, MGT_ISA_AUTO);
+    mgt_scene scene = v.scene;
+    mgt_object object = v.scene.objects[0]; /* of tiles */
+    scene.objects = &object;
+    scene.object_count = 1;
+    const struct {
+        float size, joint;
+        mgt_status status;
+    } patterns[] = {{1e-4f, 0, MGT_OK},
+                    {1e6f, 0.999f, MGT_OK},
+                    {0.9e-4f, 0, MGT_ERROR_SCENE},
+                    {1.001e6f, 0, MGT_ERROR_SCENE},
+                    {1, 0.9991f, MGT_ERROR_SCENE},
+                    {1, -0.001f, MGT_ERROR_SCENE}};
+    for (size_t i = 0; i < sizeof patterns / sizeof patterns[0]; i++) {
+        object.material.pattern_size = patterns[i].size;
+        object.material.pattern_joint = patterns[i].joint;
+        if (mgt_scene_check(context, &scene) != patterns[i].status)
+            fail_msg("pattern %zu: %s", i, mgt_last_error(context));
+    }
+    object = v.scene.objects[0];
+    const struct {
+        double scale, shift;
+        mgt_status status;
+    } places[] = {{1.01e-8, -1e6, MGT_OK}, {-1e6, 1e6, MGT_OK}, {0.99e-8, 0, MGT_ERROR_SCENE}, {1.001e6, 0, MGT_ERROR_SCENE}, {1, -1.001e6, MGT_ERROR_SCENE}};
+    for (size_t i = 0; i < sizeof places / sizeof places[0]; i++) {
+        const double s = places[i].scale;
+        memcpy(object.transform, (double[3][4]){{s, 0, 0, places[i].shift}, {0, s, 0, 0}, {0, 0, s, 0}}, sizeof object.transform);
+        if (mgt_scene_check(context, &scene) != places[i].status)
+            fail_msg("place %zu: %s", i, mgt_last_error(context));
+    }
+    mgt_context_destroy(context);
+    scene_file_free(v.file);
+}
+
 /* Needles, specks and triangles as wide as the world, through the camera and across the waterline, among sound ones. */
 static void poor_triangles_render(void **state)
 {
@@ -548,6 +607,7 @@ int main(void)
         cmocka_unit_test(every_method_shows_objects),
         cmocka_unit_test(what_objects_hide_takes_no_samples),
         cmocka_unit_test(broken_meshes_are_refused),
+        cmocka_unit_test(ranges_of_objects_end_where_stated),
         cmocka_unit_test(poor_triangles_render),
         cmocka_unit_test(crops_and_long_pictures),
     };
