@@ -60,9 +60,36 @@ LD_LIBRARY_PATH=$folder "$work/by_pkgconfig" "$work/a.ppm"
 (($(stat -c %s "$work/a.ppm") == 15 + 640 * 360 * 3)) || die "the example's picture is short"
 (($(tail -c +16 "$work/a.ppm" | od -An -v -tu1 -w3 | sort -u | wc -l) > 100)) || die "the example's picture is blank"
 
+# The library of files, linked by its own module alone.
+cat >"$work/files.c" <<'END'
+#include <mangata/io.h>
+#include <mangata/mangata.h>
+#include <string.h>
+
+int main(int count, char **words)
+{
+    mgt_scene_file *file = NULL;
+    mgt_scene scene;
+    mgt_context *context = NULL;
+    if (count != 2 || strcmp(mgt_io_version(), mgt_version()) != 0 || mgt_scene_file_load(&file, words[1], NULL, 0, NULL) != MGT_IO_OK)
+        return 1;
+    const bool good = mgt_scene_file_frame(file, 0, &scene, sizeof scene) == MGT_IO_OK && mgt_context_create(&context, NULL) == MGT_OK &&
+                      mgt_scene_check(context, &scene) == MGT_OK;
+    mgt_context_destroy(context);
+    mgt_scene_file_free(file);
+    return !good;
+}
+END
+"$cc" -std=c17 -Wall -Wextra -Werror "${flags[@]}" "$work/files.c" $(pkg-config --cflags --libs mangata-io) -o "$work/files"
+LD_LIBRARY_PATH=$folder "$work/files" "$source/scenes/simple.json" || die "a program of libmangata-io, by pkg-config"
+[[ $(pkg-config --modversion mangata-io) == $(pkg-config --modversion mangata) ]] || die "versions of the modules differ"
+
 # The static one, which has no other global symbol than the public interface either.
 nm -g --defined-only "$folder/libmangata.a" | awk 'NF == 3 { print $3 }' | sort | diff "$work/declared" - || die "global symbols of libmangata.a"
-"$cc" -std=c17 "${flags[@]}" "$source/examples/render.c" $(pkg-config --static --cflags --libs mangata | sed 's/-lmangata/-l:libmangata.a/') -o "$work/static"
+static_words="pkg-config --static --cflags --libs mangata | sed 's/-lmangata/-l:libmangata.a/'"
+grep -qF "$static_words" "$source/README.md" || die "README.md has other words for the static library"
+"$cc" -std=c17 "${flags[@]}" "$source/examples/render.c" $(eval "$static_words") -o "$work/static"
+! ldd "$work/static" | grep mangata || die "the static library is not linked"
 "$work/static" "$work/static.ppm"
 cmp "$work/a.ppm" "$work/static.ppm" || die "the static library draws something else"
 
