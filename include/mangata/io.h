@@ -52,7 +52,8 @@ MGT_API mgt_io_status mgt_scene_file_sea(mgt_scene_file **file, const char *word
 MGT_API void mgt_scene_file_free(mgt_scene_file *file);
 
 /* The scene as frame `frame` (0 …) shows it: time = start + frame / fps when the shutter closes. `scene` is initialised by this call to `size` bytes, as by
- * mgt_scene_init(); its waves and objects point into `file` and live as long. MGT_IO_BAD, with *scene untouched: the frame has no legal camera. */
+ * mgt_scene_init(); its waves and objects point into `file` and live as long. Errors leave *scene untouched.
+ * MGT_IO_BAD: the frame has no legal camera; MGT_IO_ARGUMENT: a pointer is missing, `frame` is above 2^31 − 1, or `size` is less than that of struct_size. */
 MGT_API mgt_io_status mgt_scene_file_frame(const mgt_scene_file *file, uint32_t frame, mgt_scene *scene, size_t size);
 
 MGT_API uint32_t mgt_scene_file_frame_count(const mgt_scene_file *file); /* ≥ 1; of NULL 0 */

@@ -271,6 +271,14 @@ def test_broken_pictures_have_no_scores():
     assert mangata.metrics(b, b, "rmse") == {"rmse": 0}
 
 
+def test_frames_beyond_every_scene(scene):
+    from mangata._library import ffi, io
+
+    out = ffi.new("mgt_scene *")
+    for frame, status in ((0, io.MGT_IO_OK), (2**31 - 1, io.MGT_IO_OK), (2**31, io.MGT_IO_ARGUMENT), (0xFFFFFFFF, io.MGT_IO_ARGUMENT)):
+        assert io.mgt_scene_file_frame(scene._file, frame, out, ffi.sizeof("mgt_scene")) == status
+
+
 def test_metrics_are_those_of_the_command(scene, tmp_path):
     a, b = (mangata.render(scene, method, ["coverage"], size=SMALL)["coverage"] for method in ("none", "mangata"))
     for method, name in (("none", "a"), ("mangata", "b")):
