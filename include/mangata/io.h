@@ -94,9 +94,10 @@ MGT_API void mgt_metrics_desc_init(mgt_metrics_desc *desc, size_t size);
 MGT_API const char *mgt_metric_name(uint32_t metric);
 
 /* Measures `frames` pictures of each clip, `a[i]` and `b[i]` with width · height · channels floats, top row first, tightly packed. `scores` gets a number for each
- * metric by its place in mgt_metric_name(): NaN where it was not asked for or is not defined. All are NaN where a value of any frame is finite in one clip only, NaN in either, or infinite with
- * unlike signs; equal infinities are equal. `map`: NULL, or width · height floats that get the error map of the last frame by `map_metric`, which is measured:
- * rmse, relrmse, flip, hdr-flip, ssim (1 − SSIM); NaN at pixels with such values. Threads: as many as the caller likes, of different calls. */
+ * metric by its place in mgt_metric_name(): NaN where it was not asked for or is not defined. All are NaN where a value of any frame is finite in one clip only,
+ * NaN in either, or infinite with unlike signs; equal infinities are equal. `map`: NULL, or width · height floats that get the error map of the last frame by
+ * `map_metric`, which is measured: rmse, relrmse, flip, hdr-flip, ssim (1 − SSIM) or flicker (of the step to that frame); NaN at pixels with such values.
+ * MGT_IO_ARGUMENT, with nothing measured: the other metrics have no map. Threads: as many as the caller likes, of different calls. */
 MGT_API mgt_io_status mgt_metrics_measure(const mgt_metrics_desc *desc, const float *const *a, const float *const *b, size_t frames, double *scores,
                                           uint32_t map_metric, float *map, mgt_io_error *error);
 

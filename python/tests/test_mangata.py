@@ -269,6 +269,31 @@ def test_broken_pictures_have_no_scores():
             assert broken[:rows].all() and not broken[rows:].any()
     b[0, 0] = np.inf
     assert mangata.metrics(b, b, "rmse") == {"rmse": 0}
+def test_maps_are_written_or_refused():
+    """By the library itself: what Python's error_map() refuses as well."""
+    from mangata._library import ffi, io, text
+
+    mapped = {"rmse", "relrmse", "flip", "hdr-flip", "ssim", "flicker"}
+    frames = [np.full((20, 30), value, np.float32) for value in (0.25, 0.5)]
+    desc = ffi.new("mgt_metrics_desc *")
+    io.mgt_metrics_desc_init(desc, ffi.sizeof("mgt_metrics_desc"))
+    desc.width, desc.height, desc.channels = 30, 20, 1
+    words = desc.metrics = ffi.new("char[]", b"rmse")
+    a, b = (ffi.new("float *[]", [ffi.from_buffer("float[]", frame)]) for frame in frames)
+    scores = ffi.new("double[]", 32)
+    error = ffi.new("mgt_io_error *")
+    io.mgt_io_error_init(error, ffi.sizeof("mgt_io_error"))
+    for metric, name in enumerate(mangata.metric_names()):
+        scores[0] = -1
+        out = np.full((20, 30), np.nan, np.float32)
+        status = io.mgt_metrics_measure(desc, a, b, 1, scores, metric, ffi.from_buffer("float[]", out), error)
+        if name in mapped:
+            assert status == io.MGT_IO_OK and np.isfinite(out).all(), name
+        else:
+            assert status == io.MGT_IO_ARGUMENT and np.isnan(out).all() and scores[0] == -1, name
+            assert text(error.text).startswith(f"metric {name} has no map")
+    assert io.mgt_metrics_measure(desc, a, b, 1, scores, 2, ffi.NULL, error) == io.MGT_IO_OK
+    del words
 
 
 def test_frames_beyond_every_scene(scene):

@@ -59,6 +59,16 @@ static mgt_io_status read_desc(clip_metrics_desc *out, const mgt_metrics_desc *d
     return MGT_IO_OK;
 }
 
+/* Metrics whose maps clip_metrics_add() fills. */
+static bool has_map(uint32_t metric)
+{
+    static const clip_metric mapped[] = {CLIP_RMSE, CLIP_RELATIVE_RMSE, CLIP_FLIP, CLIP_HDR_FLIP, CLIP_SSIM, CLIP_FLICKER};
+    for (size_t i = 0; i < sizeof mapped / sizeof mapped[0]; i++)
+        if (mapped[i] == (clip_metric)metric)
+            return true;
+    return false;
+}
+
 /* The pixels are only read. */
 static float_image image_of(const mgt_metrics_desc *desc, const float *pixels)
 {
@@ -84,6 +94,11 @@ mgt_io_status mgt_metrics_measure(const mgt_metrics_desc *desc, const float *con
     clip_maps maps = {{0}};
     if (!desc || !struct_size_fits(desc->struct_size, sizeof *desc, sizeof *desc) || !a || !b || !scores || frames == 0 || (map && map_metric >= CLIP_METRICS))
         return io_error_take(error, MGT_IO_ARGUMENT, "a pointer is missing, or there is no frame or no such metric");
+    if (map && !has_map(map_metric)) {
+        char text[120];
+        snprintf(text, sizeof text, "metric %s has no map; allowed are rmse, relrmse, flip, hdr-flip, ssim, flicker", mgt_metric_name(map_metric));
+        return io_error_take(error, MGT_IO_ARGUMENT, text);
+    }
     const mgt_io_status status = read_desc(&d, desc, error);
     if (status != MGT_IO_OK)
         return status;
