@@ -37,7 +37,7 @@ def _choose(words: Sequence[str], word: str, what: str) -> int:
 class Context:
     """What renders: threads and tables that are kept from one frame to the next. One thread renders at a time, others wait.
 
-    backend: "cpu", "gl", "auto" or "null". threads: 0 for as many as the CPUs that this process may use. isa: the highest instruction set.
+    backend: "cpu", "gl", "auto" or "null". threads: up to 1024; 0 for as many as the CPUs that this process may use. isa: the highest instruction set.
     """
 
     def __init__(self, backend: str = "cpu", threads: int = 0, isa: str = "auto") -> None:
@@ -45,6 +45,8 @@ class Context:
         lib.mgt_context_desc_init(desc, ffi.sizeof("mgt_context_desc"))
         desc.backend = _choose(_BACKENDS, backend, "backend")
         desc.isa = _choose(_ISAS, isa, "isa")
+        if not 0 <= threads <= 1024:
+            raise ValueError(f"threads {threads}: allowed is 0, as many as the CPUs, to 1024")
         desc.threads = threads
         self._progress: Optional[Progress] = None
         self._raised: Optional[BaseException] = None
@@ -161,7 +163,7 @@ def render(
     changes  values of the scene: {"light.elevation_deg": 6}
     out      arrays to render into, by layer, in place of new ones
     progress called with the fraction done several times a second; returning False stops with Cancelled, an exception passes through
-    options  those of the method: samples=16, spatial=8, time_samples=8, seed=1, kernels="9", refraction="hybrid", …
+    options  those of the method: samples=16, spatial=8, time_samples=8, seed=1, kernels="9", refraction="hybrid", …; those of other methods do nothing
 
     The same scene, frame and options give the same numbers, whatever the threads. Errors: SceneError with file, line, column; MangataError.
     """
@@ -180,6 +182,8 @@ def render(
         scene = _changed(scene, given)
     view = scene.frame(frame)
     if crop is not None:
+        if not all(0 <= number <= max(view.image.width, view.image.height) for number in crop):
+            raise ValueError(f"crop {crop}: it lies outside the picture of {view.image.width} x {view.image.height} pixels")
         view.image.crop_x, view.image.crop_y, view.image.crop_width, view.image.crop_height = crop
     width, height = _crop_size(view.image)
     if not 0 < width <= view.image.width or not 0 < height <= view.image.height:

@@ -154,6 +154,16 @@ def test_bad_arguments(scene):
             mangata.render(scene, size=SMALL, **arguments)
 
 
+def test_numbers_that_c_does_not_hold(scene):
+    for threads in (-1, 1025, 2**32, 2**80):
+        for ask in (lambda: mangata.Context(threads=threads), lambda: mangata.render(scene, size=SMALL, threads=threads)):
+            with pytest.raises(ValueError, match=f"threads {threads}: allowed is 0"):
+                ask()
+    for crop in ((-1, 0, 4, 4), (0, 0, 2**32, 4), (0, -(2**70), 4, 4)):
+        with pytest.raises(ValueError, match="lies outside the picture of 64 x 36"):
+            mangata.render(scene, size=SMALL, crop=crop)
+
+
 def test_progress_and_cancel(scene):
     seen = []
     mangata.render(scene, "reference", size=(320, 180), progress=seen.append)
