@@ -203,10 +203,10 @@ file_status output_file_sync(output_file *file, file_error *error)
     return FILE_OK;
 }
 
-/* Gives the final name; without overwrite the kernel itself refuses an existing one, so that there is no race. */
-static int publish(const output_file *file)
+/* Gives the final name; without `replace` the kernel itself refuses an existing one, so that there is no race. */
+static int give_name(const output_file *file, bool replace)
 {
-    if (file->options.overwrite)
+    if (replace)
         return renameat(file->folder, file->temporary_name, file->folder, file->name);
     if (renameat2(file->folder, file->temporary_name, file->folder, file->name, RENAME_NOREPLACE) == 0)
         return 0;
@@ -219,31 +219,53 @@ static int publish(const output_file *file)
     return 0;
 }
 
-file_status output_file_finish(output_file *file, file_error *error)
+file_status output_file_publish(output_file *file, bool replace, file_error *error)
 {
-    file_status status = output_file_sync(file, error);
-    if (status != FILE_OK)
-        goto fail;
-    int closed = close(file->descriptor); /* network file systems report late errors here */
+    const int closed = file->descriptor >= 0 ? close(file->descriptor) : 0; /* network file systems report late errors here */
     file->descriptor = -1;
-    if (closed != 0 && errno != EINTR) {
-        status = file_error_errno(error, FILE_WRITE, file->path, "cannot write", errno);
-        goto fail;
-    }
-    if (publish(file) != 0) {
-        status = errno == EEXIST ? file_error_set(error, FILE_EXISTS, "%s: exists already", file->path)
-                                 : file_error_errno(error, FILE_WRITE, file->path, "cannot write", errno);
-        goto fail;
-    }
+    if (closed != 0 && errno != EINTR)
+        return file_error_errno(error, FILE_WRITE, file->path, "cannot write", errno);
+    if (give_name(file, replace) != 0)
+        return errno == EEXIST ? file_error_set(error, FILE_EXISTS, "%s: exists already", file->path)
+                               : file_error_errno(error, FILE_WRITE, file->path, "cannot write", errno);
     file->temporary_name[0] = '\0'; /* no longer ours to remove */
     /* Some file systems cannot sync a folder; the file is whole in any case. */
     if (file->folder_can_sync && fsync(file->folder) != 0 && errno == EIO)
-        status = file_error_errno(error, FILE_WRITE, file->path, "folder", EIO);
+        return file_error_errno(error, FILE_WRITE, file->path, "folder", EIO);
+    return FILE_OK;
+}
 
-fail:
+bool output_file_is_published(const output_file *file) { return file->temporary_name[0] == '\0'; }
+
+file_status output_file_finish(output_file *file, file_error *error)
+{
+    file_status status = output_file_sync(file, error);
+    if (status == FILE_OK)
+        status = output_file_publish(file, file->options.overwrite, error);
     output_file_abort(file);
     return status;
 }
+
+file_status output_file_check_target(const output_file *file, bool overwrite, file_error *error)
+{
+    return check_target(file->folder, file->path, overwrite, error);
+}
+
+int output_file_open_target(const output_file *file)
+{
+    /* Locks of network file systems want a file that may be written. */
+    const int flags = O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, target = openat(file->folder, file->name, O_RDWR | flags);
+    return target >= 0 || errno == ENOENT ? target : openat(file->folder, file->name, O_RDONLY | flags);
+}
+
+bool output_file_is_target(const output_file *file, int descriptor)
+{
+    struct stat target, other;
+    return fstat(descriptor, &other) == 0 && fstatat(file->folder, file->name, &target, AT_SYMLINK_NOFOLLOW) == 0 && target.st_dev == other.st_dev &&
+           target.st_ino == other.st_ino;
+}
+
+void output_file_remove_target(const output_file *file) { unlinkat(file->folder, file->name, 0); }
 
 file_status output_file_write_whole(const char *path, const void *bytes, size_t size, const output_options *options, file_error *error)
 {

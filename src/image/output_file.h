@@ -46,6 +46,19 @@ file_status output_file_sync(output_file *file, file_error *error);
  * is removed. */
 file_status output_file_finish(output_file *file, file_error *error);
 
+/* Gives the final name to a file that output_file_sync() has flushed, whatever the cancel flag says. Without `replace` FILE_EXISTS where the name is taken; then
+ * the call may be made again. Does not free `file`. */
+file_status output_file_publish(output_file *file, bool replace, file_error *error);
+
+bool output_file_is_published(const output_file *file);
+
+/* What stands under the final name now. Check: FILE_OK where `file` may have the name, FILE_EXISTS, FILE_WRITE. Open: a descriptor of the caller's, not through a
+ * link; -1 and errno. Is: whether that is the open file `descriptor`. */
+file_status output_file_check_target(const output_file *file, bool overwrite, file_error *error);
+int output_file_open_target(const output_file *file);
+bool output_file_is_target(const output_file *file, int descriptor);
+void output_file_remove_target(const output_file *file);
+
 /* A whole file at once. */
 file_status output_file_write_whole(const char *path, const void *bytes, size_t size, const output_options *options, file_error *error);
 

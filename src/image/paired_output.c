@@ -1,17 +1,23 @@
 /* SPDX-License-Identifier: MIT */
-/* Publishing a picture and its sidecar in the right order. */
+/* Publishing a picture and its sidecar in the right order, one process after another. */
 #define _POSIX_C_SOURCE 200809L
 
 #include "image/paired_output.h"
 
 #include <errno.h>
+#include <fcntl.h>
+#include <jansson.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "image/file_whole.h"
 #include "image/metadata_json.h"
+
+enum { SIDECAR_MOST = 16 << 20, LOCK_TRIES = 500, LOCK_PAUSE_MS = 10 };
 
 /* The list's text with the picture's checksum last, and where that stands. NULL: out of memory. */
 static char *sidecar_text(const metadata_list *metadata, uint64_t *check_place)
@@ -29,15 +35,43 @@ static char *sidecar_text(const metadata_list *metadata, uint64_t *check_place)
     return text;
 }
 
+/* Whether the open file is a sidecar as this module writes them. */
+static bool is_sidecar(int descriptor)
+{
+    struct stat info;
+    json_error_t unused;
+    if (fstat(descriptor, &info) != 0 || !S_ISREG(info.st_mode) || info.st_size > SIDECAR_MOST)
+        return false;
+    json_t *object = json_loadfd(descriptor, 0, &unused);
+    const bool is = json_is_string(json_object_get(object, FILE_CHECK_KEY));
+    json_decref(object);
+    return is;
+}
+
+/* Without overwrite only a sidecar that was left alone may be replaced. */
+static file_status check_sidecar(const paired_output *output, file_error *error)
+{
+    const int standing = output->overwrite ? -1 : output_file_open_target(output->sidecar);
+    if (output->overwrite || (standing < 0 && errno == ENOENT))
+        return FILE_OK;
+    const bool is = standing >= 0 && is_sidecar(standing);
+    if (standing >= 0)
+        close(standing);
+    return is ? FILE_OK : output_file_check_target(output->sidecar, false, error);
+}
+
 file_status paired_output_open(paired_output *output, const char *path, const metadata_list *metadata, const output_options *options, file_error *error)
 {
     *output = (paired_output){0};
+    output_options replacing = options ? *options : (output_options){0};
+    replacing.overwrite = true;
     char *sidecar_path = NULL;
     char *json = NULL;
     file_status status = metadata_check(metadata, error);
     if (status != FILE_OK)
         return status;
 
+    output->overwrite = options && options->overwrite;
     sidecar_path = metadata_sidecar_path(path);
     if (!sidecar_path) {
         status = file_error_errno(error, FILE_MEMORY, path, NULL, ENOMEM);
@@ -52,13 +86,15 @@ file_status paired_output_open(paired_output *output, const char *path, const me
             status = file_error_errno(error, FILE_MEMORY, sidecar_path, NULL, ENOMEM);
             goto fail;
         }
-        status = output_file_open(&output->sidecar, sidecar_path, options, error);
+        status = output_file_open(&output->sidecar, sidecar_path, &replacing, error);
+        if (status == FILE_OK)
+            status = check_sidecar(output, error);
         if (status == FILE_OK)
             status = output_file_write(output->sidecar, json, strlen(json), error);
         if (status != FILE_OK)
             goto fail;
     }
-    if (options && options->overwrite)
+    if (output->overwrite && !metadata)
         output->stale_sidecar = sidecar_path;
     else
         free(sidecar_path);
@@ -84,22 +120,73 @@ static file_status write_check(const paired_output *output, file_error *error)
     return status == FILE_OK ? output_file_write_at(output->sidecar, output->check_place, digits, sizeof digits - 1, error) : status;
 }
 
+/* Replaces the sidecar that is open as `standing`; -1: it cannot be opened. */
+static file_status replace_sidecar(const paired_output *output, int standing, file_error *error)
+{
+    file_status status = output_file_check_target(output->file, output->overwrite, error);
+    if (status == FILE_OK && !output->overwrite && (standing < 0 || !is_sidecar(standing)))
+        status = output_file_check_target(output->sidecar, false, error);
+    return status == FILE_OK ? output_file_publish(output->sidecar, true, error) : status;
+}
+
+/* Gives the sidecar its name, while no other process is between its sidecar and its picture. *own is the sidecar, open and locked; -1: it has no name.
+ * Who stops for longer than the tries take, or whose file system has no locks, is not waited for. */
+static file_status publish_sidecar(const paired_output *output, int *own, file_error *error)
+{
+    *own = fcntl(output_file_descriptor(output->sidecar), F_DUPFD_CLOEXEC, 0);
+    if (*own < 0)
+        return file_error_errno(error, FILE_WRITE, output_file_temporary_path(output->sidecar), "cannot write", errno);
+    flock(*own, LOCK_EX | LOCK_NB);
+    for (int tries = 0;; tries++) {
+        file_status status = output_file_check_cancel(output->sidecar, error);
+        if (status == FILE_OK)
+            status = output_file_check_target(output->file, output->overwrite, error);
+        if (status != FILE_OK)
+            return status;
+        status = output_file_publish(output->sidecar, false, error);
+        if (status != FILE_EXISTS)
+            return status;
+        const int standing = output_file_open_target(output->sidecar);
+        bool ours = standing < 0 && errno != ENOENT;
+        if (standing >= 0)
+            ours = (flock(standing, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) && output_file_is_target(output->sidecar, standing);
+        ours = ours || tries == LOCK_TRIES;
+        if (ours)
+            status = replace_sidecar(output, standing, error);
+        if (standing >= 0)
+            close(standing);
+        if (ours)
+            return status;
+        nanosleep(&(struct timespec){.tv_nsec = LOCK_PAUSE_MS * 1000000L}, NULL);
+    }
+}
+
+/* After a failure: takes the sidecar away, unless it now belongs to a picture. */
+static void withdraw_sidecar(const paired_output *output, int own)
+{
+    const bool replaces = output->overwrite && output_file_check_target(output->file, false, NULL) != FILE_OK;
+    if (output_file_is_published(output->sidecar) && !output_file_is_published(output->file) && !replaces && output_file_is_target(output->sidecar, own))
+        output_file_remove_target(output->sidecar);
+}
+
 file_status paired_output_finish(paired_output *output, file_error *error)
 {
+    int own = -1;
     file_status status = output_file_sync(output->file, error);
     if (status == FILE_OK && output->sidecar)
         status = write_check(output, error);
     if (status == FILE_OK && output->sidecar)
         status = output_file_sync(output->sidecar, error);
+    if (status == FILE_OK && output->sidecar)
+        status = publish_sidecar(output, &own, error);
     if (status == FILE_OK && output->stale_sidecar && unlink(output->stale_sidecar) != 0 && errno != ENOENT)
         status = file_error_errno(error, FILE_WRITE, output->stale_sidecar, "cannot replace", errno);
-    if (status == FILE_OK) {
-        status = output_file_finish(output->file, error);
-        output->file = NULL;
-    }
-    if (status == FILE_OK && output->sidecar) {
-        status = output_file_finish(output->sidecar, error);
-        output->sidecar = NULL;
+    if (status == FILE_OK)
+        status = output_file_publish(output->file, output->overwrite, error);
+    if (own >= 0) {
+        if (status != FILE_OK)
+            withdraw_sidecar(output, own);
+        close(own);
     }
     paired_output_abort(output);
     return status;

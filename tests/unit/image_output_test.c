@@ -10,8 +10,43 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 
+#include "image/file_whole.h"
 #include "image/output_file.h"
 #include "image/picture.h"
+
+/* What happens right after files get their names. */
+static struct {
+    int names;                     /* so many from now on, the action follows the last one */
+    volatile sig_atomic_t *cancel; /* the action: sets this flag, */
+    const char *foreign;           /* or creates this file, else kills the process */
+    useconds_t pause;              /* after each */
+} after_names;
+
+int __real_renameat(int from, const char *old, int to, const char *name);
+int __real_renameat2(int from, const char *old, int to, const char *name, unsigned flags);
+int __wrap_renameat(int from, const char *old, int to, const char *name);
+int __wrap_renameat2(int from, const char *old, int to, const char *name, unsigned flags);
+
+static int named(int result)
+{
+    const int code = errno;
+    if (result == 0 && after_names.pause > 0)
+        usleep(after_names.pause);
+    if (result == 0 && after_names.names > 0 && --after_names.names == 0) {
+        if (after_names.cancel)
+            *after_names.cancel = 1;
+        else if (after_names.foreign)
+            write_bytes(after_names.foreign, "theirs", 6);
+        else
+            kill(getpid(), SIGKILL);
+    }
+    errno = code;
+    return result;
+}
+
+int __wrap_renameat(int from, const char *old, int to, const char *name) { return named(__real_renameat(from, old, to, name)); }
+
+int __wrap_renameat2(int from, const char *old, int to, const char *name, unsigned flags) { return named(__real_renameat2(from, old, to, name, flags)); }
 
 static void test_appears_only_when_finished(void **state)
 {
@@ -296,6 +331,135 @@ static void test_kill(void **state)
     free(bytes);
 }
 
+/* ---- a picture and its sidecar ---- */
+
+static const char *const hashes[] = {"zero", "one", "two", "three"};
+
+/* Writes the picture number `which` with its sidecar. */
+static file_status write_pair(const char *path, int which, const output_options *options)
+{
+    float values[48];
+    for (int i = 0; i < 48; i++)
+        values[i] = (float)(which + i);
+    const picture_layer layer = {.name = "color", .channels = 3, .pixels = values};
+    const metadata_entry entry = {"render_hash", hashes[which]};
+    return picture_write_pfm(path, 4, 4, &layer, &(metadata_list){&entry, 1}, options, NULL);
+}
+
+static file_state pair_state(const char *path, int which)
+{
+    file_state state = FILE_STATE_OTHER;
+    file_error error;
+    assert_int_equal(file_state_read(path, "render_hash", hashes[which], true, &state, &error), FILE_OK);
+    return state;
+}
+
+/* A child that is killed after its first file has its name. */
+static void kill_between(const char *path, int which, bool overwrite)
+{
+    const pid_t child = fork();
+    if (child == 0) {
+        after_names.names = 1;
+        write_pair(path, which, &(output_options){.overwrite = overwrite});
+        _exit(0);
+    }
+    int result;
+    waitpid(child, &result, 0);
+    assert_true(WIFSIGNALED(result));
+}
+
+/* A signal between the two names takes neither away. */
+static void test_pair_is_not_cancelled_between(void **state)
+{
+    test_folder *folder = *state;
+    char path[512];
+    in_folder(folder, "a.pfm", path);
+    for (int round = 0; round < 2; round++) {
+        volatile sig_atomic_t cancel = 0;
+        after_names.names = 1;
+        after_names.cancel = &cancel;
+        assert_int_equal(write_pair(path, round, &(output_options){.overwrite = round == 1, .cancel = &cancel}), FILE_OK);
+        after_names.cancel = NULL;
+        assert_int_equal(cancel, 1);
+        assert_int_equal(pair_state(path, round), FILE_STATE_SAME);
+        assert_int_equal(folder_entries(folder->path), 2);
+    }
+}
+
+static void test_pair_killed_between(void **state)
+{
+    test_folder *folder = *state;
+    char path[512], sidecar[512], old[512];
+    in_folder(folder, "a.pfm", path);
+    in_folder(folder, "a.pfm.json", sidecar);
+    kill_between(path, 1, false);
+    assert_false(file_exists(path));
+    assert_true(file_exists(sidecar));
+    assert_int_equal(write_pair(path, 0, NULL), FILE_OK);
+    assert_int_equal(pair_state(path, 0), FILE_STATE_SAME);
+
+    assert_int_equal(write_pair(in_folder(folder, "old.pfm", old), 0, NULL), FILE_OK);
+    kill_between(path, 1, true);
+    assert_same_bytes(path, old);
+    assert_int_equal(pair_state(path, 1), FILE_STATE_DAMAGED);
+    assert_int_equal(write_pair(path, 1, NULL), FILE_EXISTS);
+    assert_int_equal(write_pair(path, 1, &(output_options){.overwrite = true}), FILE_OK);
+    assert_int_equal(pair_state(path, 1), FILE_STATE_SAME);
+}
+
+/* Another program's file gets the name of the picture between the two: it stays, and the sidecar goes. */
+static void test_pair_fails_between(void **state)
+{
+    test_folder *folder = *state;
+    char path[512];
+    after_names.names = 1;
+    after_names.foreign = in_folder(folder, "a.pfm", path);
+    assert_int_equal(write_pair(path, 0, NULL), FILE_EXISTS);
+    after_names.foreign = NULL;
+    size_t size;
+    unsigned char *bytes = file_bytes(path, &size);
+    assert_int_equal(size, 6);
+    free(bytes);
+    assert_int_equal(folder_entries(folder->path), 1);
+}
+
+/* Of several processes that write other pictures under one name, one wins, or with overwrite each in turn; the sidecar is always the picture's. */
+static void test_pair_of_many_processes(void **state)
+{
+    enum { WRITERS = 4, ROUNDS = 30 };
+    test_folder *folder = *state;
+    char path[512];
+    in_folder(folder, "a.pfm", path);
+    for (int round = 0; round < ROUNDS; round++) {
+        const bool overwrite = round % 2 == 1;
+        pid_t writers[WRITERS];
+        int written = 0, same = 0;
+        if (round % 4 == 0)
+            folder_clear(folder->path);
+        if (round % 8 == 4) { /* left by a process that was killed */
+            folder_clear(folder->path);
+            kill_between(path, 0, false);
+        }
+        for (int i = 0; i < WRITERS; i++) {
+            if ((writers[i] = fork()) != 0)
+                continue;
+            after_names.pause = 3000;
+            _exit(write_pair(path, i, &(output_options){.overwrite = overwrite}));
+        }
+        for (int i = 0; i < WRITERS; i++) {
+            int result;
+            waitpid(writers[i], &result, 0);
+            assert_true(WIFEXITED(result));
+            assert_true(WEXITSTATUS(result) == FILE_OK || (!overwrite && WEXITSTATUS(result) == FILE_EXISTS));
+            written += WEXITSTATUS(result) == FILE_OK;
+        }
+        assert_int_equal(written, overwrite ? WRITERS : round % 4 == 0);
+        for (int i = 0; i < WRITERS; i++)
+            same += pair_state(path, i) == FILE_STATE_SAME;
+        assert_int_equal(same, 1);
+    }
+}
+
 /* The leftover of a killed process neither blocks nor confuses the next one. */
 static void test_leftover_is_no_obstacle(void **state)
 {
@@ -324,6 +488,10 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_file_size_limit, folder_setup, folder_teardown),
         cmocka_unit_test_setup_teardown(test_full_disk, folder_setup, folder_teardown),
         cmocka_unit_test_setup_teardown(test_kill, folder_setup, folder_teardown),
+        cmocka_unit_test_setup_teardown(test_pair_is_not_cancelled_between, folder_setup, folder_teardown),
+        cmocka_unit_test_setup_teardown(test_pair_killed_between, folder_setup, folder_teardown),
+        cmocka_unit_test_setup_teardown(test_pair_fails_between, folder_setup, folder_teardown),
+        cmocka_unit_test_setup_teardown(test_pair_of_many_processes, folder_setup, folder_teardown),
         cmocka_unit_test_setup_teardown(test_leftover_is_no_obstacle, folder_setup, folder_teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
