@@ -148,34 +148,54 @@ typedef struct output_plan {
     output_options output; /* otherwise; overwrites a damaged file */
 } output_plan;
 
-/* Fills the plan for `path`; prints an error if it may not be written. Only --skip-existing reads the file, and only with `whole` to its end. */
+/* Whether --skip-existing keeps the file at `path`, or replaces a damaged one. Prints an error if it does neither. Only with `whole` it is read to its end. */
+static int check_existing(render_job *job, const char *path, const sha256_text *hash, bool whole, output_plan *plan)
+{
+    file_error error;
+    file_state state;
+    const file_status status = file_state_read(path, RENDER_HASH_KEY, hash->text, whole, &state, &error);
+    plan->skip = status == FILE_OK && state == FILE_STATE_SAME;
+    if (plan->skip)
+        return EXIT_CODE_OK;
+    if (status == FILE_MEMORY)
+        return render_job_file_failure(job, &error);
+    if (status == FILE_OK && state == FILE_STATE_DAMAGED) {
+        plan->output.overwrite = true;
+        if (whole) {
+            progress_clear(&job->progress);
+            console_note(&job->request->out, "%s: damaged; it is rendered again", path);
+        }
+    } else if (status != FILE_MISSING && !job->request->overwrite) {
+        progress_clear(&job->progress);
+        return console_error(EXIT_CODE_CANNOT_WRITE, "%s: it exists, but was not rendered from this scene with these options; --overwrite replaces it", path);
+    }
+    return EXIT_CODE_OK;
+}
+
+/* Fills the plan for `path`; prints an error if it may not be written. Another machine may finish the file between the two looks, then it is looked at once more. */
 static int check_output(render_job *job, const char *path, const sha256_text *hash, bool whole, output_plan *plan)
 {
     file_error error;
+    file_status status = FILE_EXISTS;
     *plan = (output_plan){.output = job->output};
-    if (job->request->skip_existing) {
-        file_state state;
-        const file_status status = file_state_read(path, RENDER_HASH_KEY, hash->text, whole, &state, &error);
-        plan->skip = status == FILE_OK && state == FILE_STATE_SAME;
-        if (plan->skip)
-            return EXIT_CODE_OK;
-        if (status == FILE_MEMORY)
-            return render_job_file_failure(job, &error);
-        if (status == FILE_OK && state == FILE_STATE_DAMAGED) {
-            plan->output.overwrite = true;
-            if (whole) {
-                progress_clear(&job->progress);
-                console_note(&job->request->out, "%s: damaged; it is rendered again", path);
-            }
-        } else if (status != FILE_MISSING && !job->request->overwrite) {
-            progress_clear(&job->progress);
-            return console_error(EXIT_CODE_CANNOT_WRITE, "%s: it exists, but was not rendered from this scene with these options; --overwrite replaces it",
-                                 path);
-        }
+    for (int looks = 0; looks < 2 && status == FILE_EXISTS; looks++) {
+        const int code = job->request->skip_existing ? check_existing(job, path, hash, whole, plan) : EXIT_CODE_OK;
+        if (code != EXIT_CODE_OK || plan->skip)
+            return code;
+        status = output_file_check(path, &plan->output, &error);
     }
-    if (output_file_check(path, &plan->output, &error) != FILE_OK)
-        return render_job_file_failure(job, &error);
-    return EXIT_CODE_OK;
+    return status == FILE_OK ? EXIT_CODE_OK : render_job_file_failure(job, &error);
+}
+
+/* Whether a file that could not be written because it exists by now is kept, as --skip-existing asks. Prints an error if not. */
+static int check_finished(render_job *job, const char *path, const sha256_text *hash, const file_error *error, bool *kept)
+{
+    output_plan plan = {0};
+    if (error->status != FILE_EXISTS || !job->request->skip_existing)
+        return render_job_file_failure(job, error);
+    const int code = check_output(job, path, hash, true, &plan);
+    *kept = plan.skip;
+    return code != EXIT_CODE_OK || plan.skip ? code : render_job_file_failure(job, error);
 }
 
 int render_job_path(const frame_path *pattern, const char *given, uint32_t frame, char path[JOB_PATH])
@@ -301,13 +321,8 @@ static int render_still(render_job *job, uint32_t frame)
         file_status status = job->request->format == PICTURE_SUMS
                                  ? render_sums_write(job, frame, path, &record, &plan.output, &error)
                                  : frame_buffer_write(&job->buffer, job->request, &scene, scene_file_fps(job->scene), path, &record.list, &plan.output, &error);
-        if (status == FILE_EXISTS && job->request->skip_existing) {
-            code = check_output(job, path, &hash, true, &plan);
-            if (code != EXIT_CODE_OK || plan.skip)
-                status = FILE_OK;
-        }
         if (status != FILE_OK)
-            return render_job_file_failure(job, &error);
+            code = check_finished(job, path, &hash, &error, &plan.skip);
         if (code != EXIT_CODE_OK)
             return code;
         render_sums_done(job, path);
@@ -366,8 +381,13 @@ static int render_film(render_job *job)
                              .output = plan.output};
     video_writer *writer = NULL;
     file_error error;
-    if (video_writer_open(&writer, path, &desc, &error) != FILE_OK)
-        return render_job_file_failure(job, &error);
+    bool kept = false;
+    if (video_writer_open(&writer, path, &desc, &error) != FILE_OK) {
+        code = check_finished(job, path, &hash, &error, &kept);
+        if (code == EXIT_CODE_OK)
+            list_file(job, path, frames, &hash, kept);
+        return code;
+    }
     for (uint64_t i = 0; i < count; i++) {
         mgt_scene scene;
         double seconds;
@@ -381,8 +401,10 @@ static int render_film(render_job *job)
         progress_frame_done(&job->progress, path, seconds);
     }
     if (video_writer_finish(writer, &error) != FILE_OK)
-        return render_job_file_failure(job, &error);
-    list_file(job, path, frames, &hash, false);
+        code = check_finished(job, path, &hash, &error, &kept);
+    if (code != EXIT_CODE_OK)
+        return code;
+    list_file(job, path, frames, &hash, kept);
     return EXIT_CODE_OK;
 }
 

@@ -22,6 +22,29 @@ done
 expect 64 'shard takes numbered pictures' render "$simple" -o n.mp4 --shard 0/2 "${small[@]}" "${null[@]}"
 expect 64 'shard takes numbered pictures' render "$simple" -o n.png --shard 0/2 "${small[@]}" "${null[@]}"
 
+# Machines that render the same files at once end well; each keeps what another has finished meanwhile.
+at_once() { # OPTIONS…
+    local machines=() machine
+    for machine in 1 2 3; do
+        render "$simple" --size 32x18 --threads 1 --skip-existing --quiet "$@" 2>once_$machine &
+        machines+=($!)
+    done
+    for machine in 1 2 3; do
+        wait "${machines[machine - 1]}" || fail "one of three machines at once, $*: exit code $?: $(cat once_$machine)"
+        [[ ! -s once_$machine ]] || fail "one of three machines at once, $*: $(cat once_$machine)"
+    done
+    expect 0 'kept, nothing to render' render "$simple" --size 32x18 --skip-existing "$@"
+}
+mkdir once
+for ((i = 0; i < 3; i++)); do
+    at_once -o 'once/f_%d.pfm' --frames 0-29
+    at_once -o 'once/f_%d.png' --frames 0-29
+    at_once -o once/f.y4m --frames 0-3
+    ! command -v ffmpeg >/dev/null || at_once -o once/f.mp4 --frames 0-3
+    no_temporaries once
+    rm once/*
+done
+
 # Progress as render managers read it: increasing, to the end.
 render "$simple" -o 'p_%d.png' --frames 0-3 "${small[@]}" --progress text --quiet 2>progress
 grep -vE '^Progress: [0-9]+%$' progress && fail "--progress text: $(cat progress)"
