@@ -455,6 +455,8 @@ static int run(render_job *job)
     job->progress = progress_start(job->request->progress, frame_list_length(&job->request->frames));
     code = render_is_film(job->request) ? render_film(job) : render_stills(job);
     progress_clear(&job->progress);
+    if (code == EXIT_CODE_OK && *interrupt_flag())
+        code = render_job_stopped(job); /* while the last file got its name */
     return code == EXIT_CODE_OK ? report(job, seconds_now() - start) : code;
 }
 

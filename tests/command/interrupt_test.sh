@@ -66,6 +66,46 @@ frames=$(ls kill/f_*.png | wc -l)
 "$MANGATA" diff kill/f_%05d.png kill/f_%05d.png --frames "0-$((frames - 1))" >/dev/null || fail "not every frame is whole"
 absent kill/film.y4m kill/film.y4m.json
 
+# Stopped or killed while files get their names, a film or a picture with a sidecar is whole or not there, and the same command goes on.
+if command -v strace >/dev/null && [[ -z ${SANITIZED:-} ]]; then
+    named() { # SIGNAL CALL CODE OUT [options]: the signal comes with the CALLth renameat() or renameat2()
+        local signal=$1 call=$2 code=$3 out=$4 result
+        shift 4
+        (strace -f -o /dev/null -e trace=renameat,renameat2 -e "inject=renameat:signal=$signal:when=$call" \
+            -e "inject=renameat2:signal=$signal:when=$call" "$MANGATA" render "$simple" -o "named/$out" "${small[@]}" --quiet "$@"; exit $?) >/dev/null 2>&1
+        result=$?
+        ((result == code)) || fail "$signal with name $call of $out: exit code $result"
+    }
+    outs=(a.pfm a.y4m)
+    ! command -v ffmpeg >/dev/null || outs+=(a.mp4)
+    mkdir named
+    for out in "${outs[@]}"; do
+        for call in 1 2; do
+            named TERM $call 143 $out --frames 0
+            exists named/$out named/$out.json
+            no_temporaries named
+            expect 0 'kept' render "$simple" -o named/$out "${small[@]}" --frames 0 --skip-existing
+            rm named/$out*
+            named KILL $call 137 $out --frames 0
+            absent named/$out
+            works render "$simple" -o named/$out "${small[@]}" --quiet --frames 0 --skip-existing
+            rm -r named/.mangata*
+            # The first name is the sidecar's, the second the picture's.
+            cp named/$out old
+            named KILL $call 137 $out --frames 0 --overwrite --method ssaa2
+            same named/$out old
+            if ((call == 1)); then
+                expect 0 'kept' render "$simple" -o named/$out "${small[@]}" --frames 0 --skip-existing
+            else
+                expect 0 'damaged; it is rendered again' render "$simple" -o named/$out "${small[@]}" --frames 0 --skip-existing --method ssaa2
+            fi
+            rm -r named/.mangata* named/$out*
+        done
+    done
+else
+    echo "NOTICE: no strace here, or a sanitized build: no signal came while files got their names"
+fi
+
 # A series that was killed goes on where it stopped.
 works render "$simple" -o "kill/f_%05d.png" --frames 0-9 --size 320x180 "${null[@]}" --skip-existing --quiet
 finish
