@@ -229,7 +229,8 @@ static const option render_options[] = {
      "what has ranges: keep what is done in OUT.checkpoint about so\n"
      "often, from which the same command goes on after a kill",
      .set = set_checkpoint},
-    {"backend", 0, "NAME", "cpu (default), gl, auto, or null (renders nothing: for tests)", .set = option_context, .offset = offsetof(render_request, context)},
+    {"backend", 0, "NAME", "cpu (default), gl, auto, or null (for tests: renders nothing, writes\nfiles whose pixels are zero)", .set = option_context,
+     .offset = offsetof(render_request, context)},
     CONTEXT_OPTION_GL_DEVICE(render_request),
 };
 enum { RENDER_ONLY = 4 };

@@ -107,6 +107,11 @@ for out in d.png d.exr d.pfm d.y4m; do
 done
 echo '{"render_hash": ' >d.pfm.json
 again d.pfm
+# The backend null writes pixels of zero, which no other backend takes for its own.
+works render "$simple" -o null.pfm "${small[@]}" "${null[@]}" --quiet
+(($(tail -c $((64 * 36 * 12)) null.pfm | tr -d '\0' | wc -c) == 0)) || fail "--backend null: pixels are not zero"
+expect 73 'null.pfm: .*was not rendered' render "$simple" -o null.pfm "${small[@]}" --skip-existing
+
 echo foreign >y.png
 expect 73 'y.png' render "$simple" -o y.png "${small[@]}" "${null[@]}" --skip-existing
 [[ $(cat y.png) == foreign ]] || fail "a foreign file was replaced"
