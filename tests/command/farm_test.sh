@@ -45,6 +45,17 @@ for ((i = 0; i < 3; i++)); do
     rm once/*
 done
 
+# A picture that appears after it was looked for and before its name is checked, which here comes a second late.
+if command -v strace >/dev/null && [[ -z ${SANITIZED:-} ]]; then
+    works render "$simple" -o done.png "${small[@]}" --quiet
+    (sleep 0.5; cp done.png .late && mv .late late.png) &
+    expect 0 'late.png: kept' strace -f -o /dev/null -P late.png -e trace=newfstatat -e inject=newfstatat:delay_enter=1s:when=1 \
+        "$MANGATA" render "$simple" -o late.png "${small[@]}" --skip-existing
+    wait
+else
+    echo "NOTICE: no strace here, or a sanitized build: no picture appeared between look and check"
+fi
+
 # Progress as render managers read it: increasing, to the end.
 render "$simple" -o 'p_%d.png' --frames 0-3 "${small[@]}" --progress text --quiet 2>progress
 grep -vE '^Progress: [0-9]+%$' progress && fail "--progress text: $(cat progress)"
