@@ -122,8 +122,8 @@ class Scene:
     @property
     def size(self) -> Tuple[int, int]:
         """Width and height in pixels."""
-        image = self.frame(0).image
-        return image.width, image.height
+        view = self.frame(0)  # structs inside it live as long as it does
+        return view.image.width, view.image.height
 
     @property
     def warning(self) -> str:
@@ -133,7 +133,8 @@ class Scene:
     def waves(self, frame: int = 0) -> np.ndarray:
         """The waves, an array of shape (count, 5): amplitude in metres, kx and kz in radians a metre, omega in radians a second, phase in radians;
         y += amplitude · sin(kx x + kz z + omega t + phase)."""
-        water = self.frame(frame).water
+        view = self.frame(frame)  # structs inside it live as long as it does
+        water = view.water
         return np.array([[w.amplitude, w.kx, w.kz, w.omega, w.phase] for w in (water.waves[i] for i in range(water.wave_count))]).reshape(-1, 5)
 
     def __repr__(self) -> str:

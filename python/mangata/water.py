@@ -56,7 +56,8 @@ def query(
 
     Also in the result: "covariance" float64 (3,), "unsettled" int, points of choppy water whose place of rest was not found.
     """
-    view = as_scene(scene).frame(frame)
+    scene = as_scene(scene)  # the waves of its frames live as long as it does
+    view = scene.frame(frame)
     points = np.ascontiguousarray(points, np.float64)
     if points.ndim < 1 or points.shape[-1] != 2:
         raise ValueError(f"points need the shape (…, 2), x and z in metres, not {points.shape}")
@@ -89,7 +90,8 @@ def trace(
     origins, directions  arrays (…, 3), in metres and of any length, which may be broadcast against each other
     time     seconds; None: that of `frame`
     """
-    view = as_scene(scene).frame(frame)
+    scene = as_scene(scene)  # the waves of its frames live as long as it does
+    view = scene.frame(frame)
     origins, directions = np.broadcast_arrays(np.asarray(origins, np.float64), np.asarray(directions, np.float64))
     if origins.shape[-1:] != (3,):
         raise ValueError(f"origins and directions need the shape (…, 3), not {origins.shape}")

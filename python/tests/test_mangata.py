@@ -237,6 +237,21 @@ def test_trace_ends_on_the_water(scene):
     assert np.isinf(mangata.trace(scene, [0, 4, 0], [0, 1, 0]))
 
 
+def test_waves_and_answers_outlive_the_frame():
+    sea = mangata.sea(wind=12)
+    waves, churn = sea.waves(), []
+    for _ in range(50):
+        churn.append(bytes(range(256)) * 8)  # takes what was freed
+        assert np.array_equal(sea.waves(), waves) and np.all(waves[:, 0] > 0)
+        assert sea.size == (1280, 720)
+    document = {"water": {"waves": [{"amplitude": 0.5, "a": 0.3, "b": 0.4, "c": -1}]}}
+    kept = mangata.Scene(document)
+    for _ in range(50):
+        churn.append(bytes(range(256)) * 8)
+        assert np.array_equal(mangata.query(document, [[1.0, 2.0]])["height"], mangata.query(kept, [[1.0, 2.0]])["height"])
+        assert np.array_equal(mangata.trace(document, [0, 4, 0], [0, -1, 0.1]), mangata.trace(kept, [0, 4, 0], [0, -1, 0.1]))
+
+
 def test_sea():
     sea = mangata.sea(wind=12, count=50, changes={"light.elevation_deg": 6})
     assert len(sea.waves()) == 50 and sea.frame().light.elevation_deg == 6
