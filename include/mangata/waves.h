@@ -49,7 +49,7 @@ typedef struct mgt_sea {
     double depth;            /* metres, up to 12000; 0: deep water */
     double gamma;            /* how far the peak stands out, 1 … 20: jonswap, tma */
     double spread;           /* of MGT_SPREADING_FIXED, 0 … 1000 */
-    double shortest;         /* length of the shortest wave, metres, up to 1000; 0: 0.05 */
+    double shortest;         /* length of the shortest wave, metres, 1e-4 … 1000; 0: 0.05 */
     uint32_t count;          /* waves of the wind, 1 … MGT_MAX_WAVES; with those of all swells at most as many */
     uint32_t seed;           /* another one: another sea of the same kind */
     uint32_t cox_munk;    /* 1: short waves are scaled to the mean-square slope of a clean sea in this wind (Cox and Munk 1954); 0: as the spectrum has them */

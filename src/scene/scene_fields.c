@@ -99,7 +99,7 @@ static const field_row spectrum_fields[] =
      {"spread", FIELD_NUMBER, offsetof(scene_spectrum, settings.spread), 0, SEA_SPREAD, NULL, .doc = "s of directions: fixed; 0: from everywhere"},
      {"slope", FIELD_CHOICE, offsetof(scene_spectrum, settings.slope), 0, NO_RANGE, NULL,
       .doc = "cox-munk: the short waves are scaled to the mean-square slope of a clean sea in this wind", .choices = spectrum_slopes},
-     {"shortest", FIELD_NUMBER, offsetof(scene_spectrum, settings.shortest), 0, SEA_SHORTEST, "m",
+     {"shortest", FIELD_NUMBER, offsetof(scene_spectrum, settings.shortest), FIELD_OR_ZERO, SEA_SHORTEST, "m",
       .doc = "length of the shortest wave; 0: 0.05 m, or a table's end"},
      {"count", FIELD_COUNT, offsetof(scene_spectrum, count), 0, 1, MGT_MAX_WAVES, NULL, .doc = "number of waves, with those of waves at most 2048"},
      {"seed", FIELD_COUNT, offsetof(scene_spectrum, seed), 0, 0, 4294967295, NULL, .doc = "another seed: another sea of the same kind"},

@@ -15,7 +15,7 @@
 #define SEA_DEPTH 0, 12000
 #define SEA_GAMMA 1, 20
 #define SEA_SPREAD 0, 1000
-#define SEA_SHORTEST 0, 1000
+#define SEA_SHORTEST 1e-4, 1000 /* or 0; wave numbers stay below a wave's most, 1e5 */
 #define SEA_FOAM 0, 10
 #define SWELL_HEIGHT 0.001, 50
 #define SWELL_PERIOD 1, 40

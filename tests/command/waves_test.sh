@@ -130,6 +130,8 @@ expect 64 '--spectrum buoy needs --buoy FILE' waves --spectrum buoy
 expect 64 '--buoy is for --spectrum buoy' waves --spectrum jonswap --buoy "$buoy"
 expect 64 'ends in .yaml or .yml' waves -o sea.png
 expect 64 'takes options alone' waves pm.yaml
+expect 64 '--shortest 5e-5: allowed is a number, 0 or 0.0001 to 1000 m' waves --shortest 5e-5
+expect 64 '--shortest 1e-9: allowed' waves --shortest 1e-9
 expect 65 '--shortest leaves no room between the shortest wave, 900 m' waves --shortest 900
 expect 65 '--fetch is 500 m, too short for the spectrum in this wind; allowed: at least 2365 m' waves --spectrum elfouhaily --wind 20 --fetch 500
 expect 0 '--directions changes nothing: elfouhaily has its own' waves --spectrum elfouhaily --directions fixed

@@ -204,6 +204,7 @@ static void bad_seas_are_refused(void **unused)
     WITH(sea.wind = (double)NAN, ROOM, MGT_ERROR_SCENE, "sea.wind is nan");
     WITH(sea.wind = 76, ROOM, MGT_ERROR_SCENE, "sea.wind is 76");
     WITH(sea.fetch = 3, ROOM, MGT_ERROR_SCENE, "sea.fetch is 3");
+    WITH(sea.shortest = 5e-5, ROOM, MGT_ERROR_SCENE, "sea.shortest is 5e-5; allowed is a number, 0 or 0.0001 to 1000 m");
     WITH(sea.fetch = 200, ROOM, MGT_ERROR_SCENE, "sea.fetch is 200 m, too short");
     WITH(sea.spectrum = (mgt_spectrum)9, ROOM, MGT_ERROR_SCENE, "sea.spectrum");
     WITH(sea.spreading = (mgt_spreading)-1, ROOM, MGT_ERROR_SCENE, "sea.spreading");
