@@ -16,13 +16,16 @@ enum { CELLS = 4096, CELL_WAVES = 512, FINE_CELLS = 8 * CELLS, DIRECTIONS = 720,
 
 static const double HEIGHT_SHARE = 0.25, TAIL_BEGINS = 3 /* peaks */;
 
+/* A difference of two variances that is a smaller fraction of them has lost too many digits. */
+static const double CANCELLED = 1e-10;
+
 /* ---- quadrature over frequency ------------------------------------------------------------------------------ */
 
 /* The variances below each node of a grid that is even in log frequency. */
 typedef struct frequency_grid {
     double low, step; /* of log frequency */
     int cells;
-    double *slope; /* behind `height`, as long */
+    double *slope, *rest; /* behind `height`, as long; `rest` is the variance of the height above each node */
     double height[];
 } frequency_grid;
 
@@ -31,11 +34,13 @@ static double node_frequency(const frequency_grid *grid, double node) { return p
 /* By Simpson's rule in each cell. */
 static frequency_grid *make_grid(const wave_spectrum *spectrum, int cells)
 {
-    frequency_grid *grid = malloc(sizeof *grid + 2 * ((size_t)cells + 1) * sizeof *grid->height);
+    frequency_grid *grid = malloc(sizeof *grid + 3 * ((size_t)cells + 1) * sizeof *grid->height);
     if (grid == NULL)
         return NULL;
     grid->cells = cells;
     grid->slope = grid->height + cells + 1;
+    grid->rest = grid->slope + cells + 1;
+    grid->rest[cells] = 0;
     grid->low = portable_log(spectrum->low);
     grid->step = (portable_log(spectrum->high) - grid->low) / cells;
     grid->height[0] = grid->slope[0] = 0;
@@ -52,13 +57,17 @@ static frequency_grid *make_grid(const wave_spectrum *spectrum, int cells)
         } else if (i % 2 != 0) {
             grid->height[node] = grid->height[node - 1] + height_before + 4 * height;
             grid->slope[node] = grid->slope[node - 1] + slope_before + 4 * slope;
+            grid->rest[node - 1] = height_before + 4 * height;
         } else {
             grid->height[node] += height;
             grid->slope[node] += slope;
+            grid->rest[node - 1] += height;
             height_before = height;
             slope_before = slope;
         }
     }
+    for (int i = cells - 1; i >= 0; i--)
+        grid->rest[i] += grid->rest[i + 1];
     return grid;
 }
 
@@ -208,7 +217,7 @@ bool spectrum_sample(const wave_spectrum *spectrum, uint32_t seed, size_t count,
         return false;
     const double height_scale = HEIGHT_SHARE / grid->height[grid->cells], slope_scale = (1 - HEIGHT_SHARE) / grid->slope[grid->cells];
     const double start = uniform(seed, 0);
-    double height_before = 0, slope_before = 0;
+    double height_before = 0, slope_before = 0, rest_before = grid->rest[0];
     int cell = 0;
     for (size_t i = 0; i < count; i++) {
         const double share = (double)(i + 1) / (double)count;
@@ -218,10 +227,13 @@ bool spectrum_sample(const wave_spectrum *spectrum, uint32_t seed, size_t count,
         const double low = height_scale * grid->height[cell] + slope_scale * grid->slope[cell];
         const double part = i + 1 == count ? 1 : (share - low) / (height_scale * height_step + slope_scale * slope_step);
         const double height = grid->height[cell] + part * height_step, slope = grid->slope[cell] + part * slope_step;
+        const double rest = grid->rest[cell] - part * (grid->rest[cell] - grid->rest[cell + 1]);
+        const double variance = height - height_before < CANCELLED * height ? rest_before - rest : height - height_before;
         const double turns = start + golden * (double)i;
-        waves[i] = make_wave(spectrum, height - height_before, slope - slope_before, turns - floor(turns), 2 * SPECTRUM_PI * uniform(seed, i + 1));
+        waves[i] = make_wave(spectrum, variance, slope - slope_before, turns - floor(turns), 2 * SPECTRUM_PI * uniform(seed, i + 1));
         height_before = height;
         slope_before = slope;
+        rest_before = rest;
     }
     free(grid);
     return true;

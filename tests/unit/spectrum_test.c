@@ -331,6 +331,29 @@ static spectrum_table parse_table(const char *text)
     return table;
 }
 
+/* Their heights are a trillionth of the sea's variance and less. */
+static void short_waves_of_a_high_sea_are_no_noise(void **state)
+{
+    (void)state;
+    static mgt_wave waves[MGT_MAX_WAVES];
+    static const size_t counts[] = {1, 64, MGT_MAX_WAVES};
+    for (size_t i = 0; i < 3; i++) {
+        spectrum_settings settings = settings_of(SPECTRUM_PIERSON_MOSKOWITZ, 75);
+        wave_spectrum s;
+        spectrum_fault fault;
+        settings.shortest = 1e-4;
+        assert_true(wave_spectrum_make(&s, &settings, NULL, &fault));
+        assert_true(spectrum_sample(&s, 1, counts[i], waves));
+        double before = 0;
+        for (size_t k = 0; k < counts[i]; k++) {
+            const double number = hypot(waves[k].kx, waves[k].kz);
+            assert_true(waves[k].amplitude > 0 && number >= before * (1 - 1e-6) && number < 2 * SPECTRUM_PI / 1e-4);
+            before = number;
+        }
+        assert_near(waves_statistics(waves, counts[i], s.downwind).slope, statistics(&s).slope, 1e-4 * statistics(&s).slope);
+    }
+}
+
 static void a_table_is_integrated_by_trapezia(void **state)
 {
     (void)state;
@@ -480,6 +503,7 @@ static void bad_spectra_say_where(void **state)
         {"{model: jonswap, wind: 20, depth: 3}", "sea.yaml:2:53: water.spectrum.depth is 3 m, shallow for this sea's waves"},
         {"{model: buoy}", "sea.yaml:2:19: water.spectrum.file is missing"},
         {"{model: jonswap, count: 2049}", "count is 2049; allowed: a whole number, 1 to 2048"},
+        {"{model: jonswap, shortest: 5e-5}", "sea.yaml:2:46: water.spectrum.shortest is 5e-5; allowed: a number, 0 or 0.0001 to 1000 m"},
         {"{model: jonswap, shortest: 500}", "sea.yaml:2:46: water.spectrum.shortest leaves no room"},
         {"{model: jonswap, wind: 0.5, fetch: 100, shortest: 0.01, slope: cox-munk}", "sea.yaml:2:82: water.spectrum.slope cannot be cox-munk"},
         {"{model: buoy, file: no-such-table.txt}", "no-such-table.txt: No such file"},
@@ -515,6 +539,7 @@ int main(void)
         cmocka_unit_test(waves_run_with_the_wind),
         cmocka_unit_test(seeds_make_other_seas_of_the_same_kind),
         cmocka_unit_test(cox_and_munk_are_met),
+        cmocka_unit_test(short_waves_of_a_high_sea_are_no_noise),
         cmocka_unit_test(a_table_is_integrated_by_trapezia),
         cmocka_unit_test(a_tail_goes_on_where_a_table_ends),
         cmocka_unit_test(bad_tables_say_where),
