@@ -143,6 +143,20 @@ static int check_request(waves_request *r, const console *out)
 
 /* ---- the scene ---------------------------------------------------------------------------------------------- */
 
+/* The length of the folder in a path. */
+static size_t folder_length(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? (size_t)(slash - path) + 1 : 0;
+}
+
+/* Whether the scene may go into another folder than that of --base, from which its relative paths start. */
+static bool is_elsewhere(const waves_request *r)
+{
+    const size_t length = folder_length(r->base);
+    return !r->output || length != folder_length(r->output) || memcmp(r->base, r->output, length) != 0;
+}
+
 /* Loads --base with the overrides, without its waves. */
 static int load_base(const waves_request *r, scene_values *values)
 {
@@ -154,8 +168,10 @@ static int load_base(const waves_request *r, scene_values *values)
         console_scene_error(&error);
         return exit_code_of_scene_error(error.kind);
     }
-    const bool copied = scene_values_copy(values, scene_file_values(file));
+    bool copied = scene_values_copy(values, scene_file_values(file));
     scene_file_free(file);
+    if (copied && r->base && is_elsewhere(r))
+        copied = scene_values_fix_files(values, r->base);
     if (!copied)
         return console_error(EXIT_CODE_FAILED, "out of memory");
     free(values->water.waves.items);

@@ -95,7 +95,18 @@ works render key.yaml -o key.png -q --frames 0
 same moon.png key.png # the same waves, and the same render hash
 works render key.yaml -o other.png -q --frames 0 --set water.spectrum.seed=2
 differ other.png key.png
+cp -r "$SOURCE/scenes/models" models
+cp "$SOURCE/scenes/hull.yaml" hull.yaml
 mkdir folder
+works waves -q -o folder/hull.yaml --base hull.yaml
+expect 0 '' check folder/hull.yaml
+works waves -q -o hull2.yaml --base hull.yaml
+grep -q 'mesh: "models/hull.ply"' hull2.yaml || fail "beside its base a scene keeps its paths: $(grep mesh hull2.yaml)"
+"$MANGATA" waves -q --base hull.yaml >folder/piped.yaml || fail "a scene to a pipe"
+(cd folder && "$MANGATA" waves -q --base ../hull.yaml >../piped.yaml && "$MANGATA" waves -q --base ../hull.yaml -o hull3.yaml) || fail "from another folder"
+for scene in folder/piped piped folder/hull3; do
+    expect 0 '' check $scene.yaml
+done
 cp "$buoy" near.txt
 works waves -q -o folder/table.yaml --buoy near.txt --as-spectrum -n 20
 expect 0 '' check folder/table.yaml
