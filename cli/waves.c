@@ -174,6 +174,7 @@ static int load_base(const waves_request *r, scene_values *values)
         copied = scene_values_fix_files(values, r->base);
     if (!copied)
         return console_error(EXIT_CODE_FAILED, "out of memory");
+    scene_values_write_out_auto(values);
     free(values->water.waves.items);
     free(values->water.sea.items);
     free(values->water.swell.items);

@@ -15,6 +15,16 @@ enum { PATH_SIZE = 96 };
 
 /* ---- for a program that goes on with the values -------------------------------------------------------------- */
 
+void scene_values_write_out_auto(scene_values *values)
+{
+    if (scene_values_aerial(values))
+        values->sky.aerial = WHEN_ON;
+    if (scene_values_by_night(values, values->sky.stars))
+        values->sky.stars = WHEN_ON;
+    if (scene_values_by_night(values, values->post.night_tint))
+        values->post.night_tint = WHEN_ON;
+}
+
 void scene_values_write_out_sea(scene_values *values)
 {
     scene_water *water = &values->water;
@@ -25,13 +35,7 @@ void scene_values_write_out_sea(scene_values *values)
     water->sea = (scene_list){0};
     free(water->spectrum.file);
     const scene_values defaults = scene_values_defaults();
-    /* `auto` follows from the wind, which goes: what it stood for is written out. */
-    if (scene_values_aerial(values))
-        values->sky.aerial = WHEN_ON;
-    if (scene_values_by_night(values, values->sky.stars))
-        values->sky.stars = WHEN_ON;
-    if (scene_values_by_night(values, values->post.night_tint))
-        values->post.night_tint = WHEN_ON;
+    scene_values_write_out_auto(values); /* the wind goes */
     water->foam.share = scene_water_foam(water);
     water->foam.amount = 0;
     water->spectrum = defaults.water.spectrum;

@@ -15,6 +15,9 @@ const scene_values *scene_file_values(const scene_file *file);
  * where the camera is not a legal one. */
 bool scene_values_shot(const scene_values *values, double time, mgt_scene *out);
 
+/* Writes out what `auto` stands for where it follows from the wind. */
+void scene_values_write_out_auto(scene_values *values);
+
 /* Turns what a spectrum and a factor made into explicit waves, the spectrum into none, the factor into 1. */
 void scene_values_write_out_sea(scene_values *values);
 

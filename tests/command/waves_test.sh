@@ -107,6 +107,11 @@ grep -q 'mesh: "models/hull.ply"' hull2.yaml || fail "beside its base a scene ke
 for scene in folder/piped piped folder/hull3; do
     expect 0 '' check $scene.yaml
 done
+printf 'mangata: 1\nlight: {body: moon}\nwater: {wind: 12}\n' >night.yaml
+works waves -q -o night_sea.yaml --base night.yaml
+for key in aerial stars night_tint; do
+    grep -q "$key: on" night_sea.yaml || fail "night_sea.yaml has no $key"
+done
 cp "$buoy" near.txt
 works waves -q -o folder/table.yaml --buoy near.txt --as-spectrum -n 20
 expect 0 '' check folder/table.yaml
