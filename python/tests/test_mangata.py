@@ -256,6 +256,8 @@ def test_sea():
     sea = mangata.sea(wind=12, count=50, changes={"light.elevation_deg": 6})
     assert len(sea.waves()) == 50 and sea.frame().light.elevation_deg == 6
     assert mangata.render(sea, size=SMALL)["color"].mean() > 0
+    with pytest.raises(mangata.SceneError, match="swell_period is given, but no swell"):
+        mangata.sea(wind=12, swell_period=9)
 
 
 # ---- metrics ----

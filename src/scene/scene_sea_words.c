@@ -120,6 +120,10 @@ static bool read_words(const char *text, sea_words *words, scene_error *error)
         if (*at == '\0')
             break;
     }
+    for (unsigned i = 0; !(words->swell.height > 0) && word_at(i).row != NULL; i++)
+        if (words->seen >> i & 1 && word_at(i).offset >= offsetof(sea_words, swell))
+            return refuse(error, SCENE_ERROR_BAD_SCENE, text, "%s is given, but no swell; allowed: beside swell, its height, such as swell=2,swell_period=9",
+                          word_at(i).name);
     return words->wind.speed > 0 || words->swell.height > 0 ||
            refuse(error, SCENE_ERROR_BAD_SCENE, text, "there is no wind and no swell; allowed: such as wind=12,direction=30");
 }

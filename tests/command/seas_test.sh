@@ -53,6 +53,9 @@ refused 64 'one scene at a time: short.yaml and --sea wind=8 are given' short.ya
 refused 64 'one scene at a time' --sea wind=3 --sea wind=8
 expect 64 '--sea needs a value' render -o out.png --sea
 refused 65 '--sea wind=gale: wind is "gale"; allowed: a number' --sea wind=gale
+refused 65 '--sea wind=12,swell_period=9: swell_period is given, but no swell; allowed: beside swell, its height' --sea wind=12,swell_period=9
+refused 65 'swell_direction is given, but no swell' --sea swell_direction=30,swell_spread=20
+expect 0 '' "$MANGATA" scene check --sea swell_period=9,swell=2,wind=12
 refused 65 '--sea seed=8: there is no wind and no swell' --sea seed=8
 refused 65 '--sea wind=20,fetch=500: fetch is 500 m, too short' --sea wind=20,fetch=500
 refused 65 '^--set water.waves=.*: water.waves stands beside water.wind' --sea wind=8 --set 'water.waves=[{amplitude: 1, a: 1, b: 1, c: 1}]'
