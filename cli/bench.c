@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* `mangata bench`: time per frame of several methods. They take turns, so that a change of the machine's speed affects all of them. */
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,6 +13,7 @@
 #include "cli/common/progress.h"
 #include "cli/common/verbs.h"
 #include "params/methods.h"
+#include "scene/scene_text.h"
 
 enum { METHOD_LIMIT = 16 };
 
@@ -164,7 +166,9 @@ static int print_report(bench *b)
         width = length >= width ? length + 1 : width;
     }
     if (!list) {
-        printf("%s, %u x %u, ", b->request->scene_path, b->width, b->height);
+        char name[PATH_MAX];
+        scene_copy_line(name, sizeof name, b->request->scene_path, strlen(b->request->scene_path));
+        printf("%s, %u x %u, ", name, b->width, b->height);
         if (b->info.backend == MGT_BACKEND_GL)
             printf("%s, ", b->info.renderer);
         else

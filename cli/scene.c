@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* `mangata scene check FILE…` and `mangata scene schema`. */
 #include <errno.h>
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "cli/common/options.h"
 #include "cli/common/verbs.h"
+#include "scene/scene_text.h"
 
 typedef struct scene_request {
     console out;
@@ -71,8 +73,11 @@ static int check_file(const scene_request *r, const char *path, json_t *list)
         json_array_append_new(list, code == EXIT_CODE_OK
                                         ? describe(scene, path)
                                         : json_pack("{s:o, s:b, s:o}", "file", console_json_text(path), "ok", 0, "error", console_json_text(error.text)));
-    else if (code == EXIT_CODE_OK && !r->out.quiet)
-        printf("%s: ok, %zu waves, %d frames\n", path, scene_file_wave_count(scene), scene_file_frame_count(scene));
+    else if (code == EXIT_CODE_OK && !r->out.quiet) {
+        char name[PATH_MAX];
+        scene_copy_line(name, sizeof name, path, strlen(path));
+        printf("%s: ok, %zu waves, %d frames\n", name, scene_file_wave_count(scene), scene_file_frame_count(scene));
+    }
     scene_file_free(scene);
     return code;
 }

@@ -54,6 +54,14 @@ if "$MANGATA" render "$hull" -o probe.pfm --size 32x18 --quiet --refraction trut
     alike 'pixels of path-traced'
 fi
 
+# Names on standard output neither obey nor reorder a terminal.
+hostile=$'red\e[31m \u202egnp\nline.json'
+cp "$simple" "$hostile"
+expect 0 '' "$MANGATA" scene check "$hostile"
+[[ $(cat stdout.txt) == 'red?[31m ?gnp?line.json: ok, '* ]] || fail "$(cat -v stdout.txt)"
+expect 0 '' "$MANGATA" bench "$hostile" --size 16x9 --frames 1 --repeat 1 --methods none
+[[ $(head -1 stdout.txt) == 'red?[31m ?gnp?line.json, 16 x 9, '* ]] || fail "$(cat -v stdout.txt)"
+
 # Methods in one word: tables hold the old names.
 expect 0 '' "$MANGATA" bench "$simple" --size 16x9 --frames 1 --repeat 1 --json --methods podee-pixel:mixture=9:path-segments=2,none+path-traced
 [[ $("$JSON_GET" methods.0.method <stdout.txt) == podee-pixel:kernels=9:path-segments=2 ]] || fail "$(cat stdout.txt)"
