@@ -14,7 +14,7 @@
 
 enum { FREQUENCY, DIRECTION, DENSITY, COLUMNS };
 
-static const double TURN = 2 * SPECTRUM_PI, WIDEST_GAP = SPECTRUM_WIDEST_GAP;
+static const double TURN = 2 * SPECTRUM_PI, WIDEST_GAP = SPECTRUM_WIDEST_GAP, MOST_AMPLITUDE = 1000 /* of a scene's wave, m */;
 
 /* ---- lines into points -------------------------------------------------------------------------------------- */
 
@@ -32,6 +32,7 @@ typedef struct table_reader {
     size_t room; /* points */
     int line;
     bool begun;        /* a header or a row was read */
+    bool converted;    /* the lines are not those of the file */
     double per_radian; /* factor from the file's density to that per radian */
 } table_reader;
 
@@ -54,6 +55,8 @@ static bool refuse(const table_reader *r, int column, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(what, sizeof what, format, arguments);
     va_end(arguments);
+    if (r->converted)
+        return scene_error_set(r->error, SCENE_ERROR_BAD_SCENE, "%s: %s", scene_file_name(r->name).text, what);
     return scene_error_set(r->error, SCENE_ERROR_BAD_SCENE, "%s:%d:%d: %s", scene_file_name(r->name).text, r->line, column, what);
 }
 
@@ -132,7 +135,8 @@ static bool add_point(table_reader *r, const double values[COLUMNS], int column)
     double turns = (values[DIRECTION] + 180) / 360;
     turns -= floor(turns);
     table->rows[table->row_count - 1].count++;
-    table->points[table->point_count++] = (spectrum_point){.azimuth = TURN * turns, .density = r->per_radian * values[DENSITY] / TURN};
+    table->points[table->point_count++] =
+        (spectrum_point){.azimuth = TURN * turns, .density = r->per_radian * values[DENSITY] / TURN, .line = r->line, .column = column};
     return true;
 }
 
@@ -168,48 +172,80 @@ static int compare_points(const void *left, const void *right)
     return (a > b) - (a < b);
 }
 
-static bool finish_row(const table_reader *r, spectrum_row *row)
+/* Refuses the table at the line of a point. */
+static bool refuse_at(table_reader *r, const spectrum_point *point, const char *wrong)
+{
+    r->line = point->line;
+    return refuse(r, point->column, "%s", wrong);
+}
+
+static bool finish_row(table_reader *r, spectrum_row *row)
 {
     spectrum_point *points = r->table->points + row->first;
-    const double hertz = row->frequency / TURN;
-    if (row->count < 2)
-        return scene_error_set(r->error, SCENE_ERROR_BAD_SCENE, "%s: frequency %g Hz has one direction; allowed: at least two", scene_file_name(r->name).text,
-                               hertz);
+    char wrong[128];
+    if (row->count < 2) {
+        snprintf(wrong, sizeof wrong, "frequency %g Hz has one direction; allowed: at least two", row->frequency / TURN);
+        return refuse_at(r, points, wrong);
+    }
     qsort(points, row->count, sizeof *points, compare_points);
     for (size_t i = 0; i < row->count; i++) {
+        const spectrum_point *next = &points[(i + 1) % row->count];
         const double gap = spectrum_row_gap(points, row->count, i);
-        if (gap < 1e-9)
-            return scene_error_set(r->error, SCENE_ERROR_BAD_SCENE, "%s: frequency %g Hz has a direction twice; allowed: each once",
-                                   scene_file_name(r->name).text, hertz);
+        if (gap < 1e-9) {
+            snprintf(wrong, sizeof wrong, "frequency %g Hz has a direction twice; allowed: each once", row->frequency / TURN);
+            return refuse_at(r, next->line > points[i].line ? next : &points[i], wrong);
+        }
         if (gap <= WIDEST_GAP)
-            row->density += gap * (points[i].density + points[(i + 1) % row->count].density) / 2;
+            row->density += gap * (points[i].density + next->density) / 2;
     }
     return true;
 }
 
-static bool finish_table(const table_reader *r)
+/* The variance of the height, with a tail of ω⁻⁵ beyond the table. */
+static double table_variance(const spectrum_table *table)
 {
-    double most = 0;
-    for (size_t i = 0; i < r->table->row_count; i++) {
-        if (!finish_row(r, &r->table->rows[i]))
-            return false;
-        most = fmax(most, r->table->rows[i].density);
-    }
-    const char *fault = r->table->row_count == 0  ? "no rows"
-                        : r->table->row_count < 2 ? "only one frequency"
-                        : !(most > 0)             ? "no waves, every density is 0"
-                                                  : NULL;
-    if (fault == NULL)
-        return true;
-    return scene_error_set(r->error, SCENE_ERROR_BAD_SCENE,
-                           "%s: the table holds %s; allowed: lines of frequency (Hz), direction (degrees, where waves come from) and density "
-                           "(m²/Hz/degree) for at least two frequencies",
-                           scene_file_name(r->name).text, fault);
+    const spectrum_row *rows = table->rows, *last = &rows[table->row_count - 1];
+    double sum = last->density * last->frequency / 4;
+    for (size_t i = 0; i + 1 < table->row_count; i++)
+        sum += (rows[i + 1].frequency - rows[i].frequency) * (rows[i].density + rows[i + 1].density) / 2;
+    return sum;
 }
 
-bool spectrum_table_parse(spectrum_table *out, const char *text, size_t length, const char *name, scene_error *error)
+static bool finish_table(table_reader *r)
 {
-    table_reader r = {.table = out, .name = name, .error = error, .line = 1, .per_radian = 180 / SPECTRUM_PI};
+    spectrum_table *table = r->table;
+    const spectrum_point *highest = table->points;
+    double most = 0;
+    char wrong[160];
+    for (size_t i = 0; i < table->row_count; i++) {
+        if (!finish_row(r, &table->rows[i]))
+            return false;
+        most = fmax(most, table->rows[i].density);
+    }
+    for (size_t i = 0; i < table->point_count; i++)
+        highest = table->points[i].density > highest->density ? &table->points[i] : highest;
+    const char *fault = table->row_count == 0 ? "no rows" : table->row_count < 2 ? "only one frequency" : !(most > 0) ? "no waves, every density is 0" : NULL;
+    if (table->row_count >= 2 && !(most > 0) && highest->density > 0)
+        return refuse_at(r, highest,
+                         "the table holds no waves: gaps of over 90 degrees, as on both sides of this direction, count as empty; allowed: smaller ones");
+    if (fault != NULL) {
+        r->line = table->row_count > 0 ? table->points[0].line : r->line;
+        return refuse(r, 1,
+                      "the table holds %s; allowed: lines of frequency (Hz), direction (degrees, where waves come from) and density "
+                      "(m²/Hz/degree) for at least two frequencies",
+                      fault);
+    }
+    const double amplitude = sqrt(2 * table_variance(table));
+    if (amplitude > MOST_AMPLITUDE) {
+        snprintf(wrong, sizeof wrong, "densities such as this one make a wave of %.6g m; allowed: waves of at most %g m", amplitude, MOST_AMPLITUDE);
+        return refuse_at(r, highest, wrong);
+    }
+    return true;
+}
+
+static bool parse_table(spectrum_table *out, const char *text, size_t length, const char *name, bool converted, scene_error *error)
+{
+    table_reader r = {.table = out, .name = name, .error = error, .line = 1, .converted = converted, .per_radian = 180 / SPECTRUM_PI};
     scene_place place;
     *out = (spectrum_table){0};
     if (!scene_text_is_clean(text, length, &place)) {
@@ -233,6 +269,11 @@ bool spectrum_table_parse(spectrum_table *out, const char *text, size_t length, 
     return false;
 }
 
+bool spectrum_table_parse(spectrum_table *out, const char *text, size_t length, const char *name, scene_error *error)
+{
+    return parse_table(out, text, length, name, false, error);
+}
+
 bool spectrum_table_load(spectrum_table *out, const char *path, scene_error *error)
 {
     size_t length;
@@ -250,7 +291,7 @@ bool spectrum_table_load(spectrum_table *out, const char *path, scene_error *err
         text = table;
         length = strlen(table);
     }
-    const bool good = spectrum_table_parse(out, text, length, path, error);
+    const bool good = parse_table(out, text, length, path, format != BUOY_TABLE, error);
     free(text);
     return good;
 }

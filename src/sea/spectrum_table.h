@@ -15,8 +15,9 @@ typedef struct spectrum_row {
 } spectrum_row;
 
 typedef struct spectrum_point {
-    double azimuth; /* radians in [0, 2π), where the waves travel to, clockwise from -z; rising within a row */
-    double density; /* m²·s/rad² */
+    double azimuth;   /* radians in [0, 2π), where the waves travel to, clockwise from -z; rising within a row */
+    double density;   /* m²·s/rad² */
+    int line, column; /* of the file that it was read from, from 1 */
 } spectrum_point;
 
 typedef struct spectrum_table {

@@ -156,7 +156,7 @@ expect 65 '--slope cannot be cox-munk' waves --wind 0.5 --fetch 100 --shortest 0
 expect 66 'no-such.txt: No such file' waves --buoy no-such.txt
 expect 66 'no-such.yaml: No such file' waves --base no-such.yaml
 : >empty.txt
-expect 65 'empty.txt: the table holds no rows; allowed: lines of frequency' waves --buoy empty.txt
+expect 65 'empty.txt:1:1: the table holds no rows; allowed: lines of frequency' waves --buoy empty.txt
 printf '0.1 0 1\n0.1 10 much\n' >word.txt
 expect 65 'word.txt:2:8: density is much; allowed' waves --buoy word.txt
 expect 73 'pm.yaml.*--overwrite replaces it' waves -q -o pm.yaml

@@ -415,14 +415,16 @@ static void bad_tables_say_where(void **state)
 {
     (void)state;
     static const char *const bad[][2] = {
-        {"", "buoy.txt: the table holds no rows; allowed: lines of"},
+        {"", "buoy.txt:1:1: the table holds no rows; allowed: lines of"},
         {"# nothing\n\n", "no rows"},
         {"frequency direction density\n", "no rows"},
-        {"0.1 0 1\n0.1 10 1\n", "only one frequency"},
+        {"0.1 0 1\n0.1 10 1\n", "buoy.txt:1:1: the table holds only one frequency"},
         {"0.1 0 0\n0.1 10 0\n0.2 0 0\n0.2 10 0\n", "every density is 0"},
-        {"0.1 0 1\n0.2 0 1\n", "0.1 Hz has one direction"},
-        {"0.1 0 1\n0.1 0 1\n0.2 0 1\n0.2 1 1\n", "0.1 Hz has a direction twice"},
+        {"0.1 0 1\n0.1 9 1\n 0.2 0 1\n", "buoy.txt:3:2: frequency 0.2 Hz has one direction"},
+        {"0.1 0 1\n0.1 0 1\n0.2 0 1\n0.2 1 1\n", "buoy.txt:2:1: frequency 0.1 Hz has a direction twice"},
         {"0.1 0 1\n0.1 360 1\n0.2 0 1\n0.2 1 1\n", "has a direction twice"},
+        {"0.1 0 0\n0.1 180 0\n0.2 0 0\n0.2 180 1\n", "buoy.txt:4:1: the table holds no waves: gaps of over 90 degrees"},
+        {"0.1 0 0\n0.1 10 0\n0.2 0 0\n0.2 10 1e9\n", "buoy.txt:4:1: densities such as this one make a wave of"},
         {"0.1 0 1\n0.1 x 1\n", "buoy.txt:2:5: direction is x; allowed: a number, -360 to 360 degrees"},
         {"0.1 0 1\n0.1 10 -1\n", "buoy.txt:2:8: density is -1; allowed: a number, 0 to 1e9"},
         {"0.1 0 nan\n", "buoy.txt:1:7: density is nan"},
