@@ -11,6 +11,7 @@
 #include "cli/common/interrupt.h"
 #include "cli/common/numbers.h"
 #include "cli/common/options.h"
+#include "params/waves.h"
 #include "scene/scene_edit.h"
 #include "scene/scene_sea.h"
 #include "cli/common/verbs.h"
@@ -250,6 +251,18 @@ static void warn_of_fetch(const waves_request *r, const wave_spectrum *spectrum,
                      r->spectrum.settings.fetch / 1000);
 }
 
+/* Refuses waves that a scene cannot hold. */
+static int check_heights(const scene_water *water)
+{
+    const scene_list all = scene_water_all(water);
+    const mgt_wave *waves = all.items;
+    for (size_t i = 0; i < all.count; i++)
+        if (!(wave_crest(&waves[i]) <= 1000))
+            return console_error(EXIT_CODE_BAD_INPUT, "water.amplitude is %g, which makes a wave of %g m; allowed: waves of at most 1000 m", water->height,
+                                 wave_crest(&waves[i]));
+    return EXIT_CODE_OK;
+}
+
 static int make_scene(const waves_request *r, scene_values *values, const console *out)
 {
     static const char here[] = "";
@@ -263,7 +276,7 @@ static int make_scene(const waves_request *r, scene_values *values, const consol
     if (!scene_sea_open(&sea, &values->water.spectrum, here, &fault))
         return refuse_sea(&fault);
     warn_of_fetch(r, &sea.spectrum, out);
-    int code = scene_sea_fill(&values->water, here, &fault) ? EXIT_CODE_OK : refuse_sea(&fault);
+    int code = scene_sea_fill(&values->water, here, &fault) ? check_heights(&values->water) : refuse_sea(&fault);
     const scene_list waves = scene_water_all(&values->water);
     if (code == EXIT_CODE_OK && !waves_report_make(&report, &r->spectrum, &sea, waves.items, waves.count))
         code = console_error(EXIT_CODE_FAILED, "out of memory");

@@ -155,6 +155,7 @@ expect 0 '--gamma changes nothing' waves --spectrum elfouhaily --gamma 2
 expect 65 '--slope cannot be cox-munk' waves --wind 0.5 --fetch 100 --shortest 0.01 --slope cox-munk
 expect 66 'no-such.txt: No such file' waves --buoy no-such.txt
 expect 66 'no-such.yaml: No such file' waves --base no-such.yaml
+expect 65 'water.amplitude is 900, which makes a wave of' waves --base night.yaml --set water.amplitude=900 --wind 40 --fetch 1e6 -n 1
 : >empty.txt
 expect 65 'empty.txt:1:1: the table holds no rows; allowed: lines of frequency' waves --buoy empty.txt
 printf '0.1 0 1\n0.1 10 much\n' >word.txt
