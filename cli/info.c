@@ -104,12 +104,12 @@ static json_t *collect(const mgt_context_info *info)
     exr_get_library_version(&major, &minor, &patch, &extra);
     snprintf(exr, sizeof exr, "%d.%d.%d", major, minor, patch);
     find_ffmpeg(ffmpeg, sizeof ffmpeg);
-    return json_pack("{s:s, s:s, s:{s:s, s:s, s:i, s:i}, s:o, s:{s:s, s:s, s:s, s:s, s:s*}, s:[s,s,s,s,s,s], s:[s,s,s], s:o, s:o}", "version", mgt_version(),
+    return json_pack("{s:s, s:s, s:{s:s, s:s, s:i, s:i}, s:o, s:{s:s, s:s, s:s, s:s, s:s*}, s:[s,s,s,s,s,s,s], s:[s,s,s], s:o, s:o}", "version", mgt_version(),
                      "compiler", COMPILER, "default", "backend", mgt_backend_name(info->backend), "isa", mgt_isa_name(info->isa), "lanes", (int)info->lanes,
                      "threads", (int)info->threads, "instruction_sets", list_isas(), "libraries", "libfyaml", fy_library_version(), "libspng",
                      spng_version_string(), "openexr", exr, "jansson", jansson_version_str(), "ffmpeg", ffmpeg[0] ? ffmpeg : NULL, "formats", "png", "exr",
-                     "pfm", "sums", "y4m", ffmpeg[0] ? "mp4" : "mp4 (needs ffmpeg)", "backends", "cpu", "gl", "null", "gl_devices", list_gl_devices(),
-                     "methods", list_methods());
+                     "pfm", "sums", "y4m", ffmpeg[0] ? "mp4" : "mp4 (needs ffmpeg)", ffmpeg[0] ? "mov" : "mov (needs ffmpeg)", "backends", "cpu", "gl", "null",
+                     "gl_devices", list_gl_devices(), "methods", list_methods());
 }
 
 static void print_words(const char *label, const json_t *list)

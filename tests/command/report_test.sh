@@ -22,6 +22,7 @@ for key in version default.isa default.threads default.lanes instruction_sets li
 done
 expect 0 '' "$MANGATA" info
 grep -q '^instruction sets .*scalar' stdout.txt || fail "info: $(cat stdout.txt)"
+grep -q '^formats .*mp4.* mov' stdout.txt || fail "info: $(cat stdout.txt)"
 expect 0 '' "$MANGATA" bench "$simple" --size 64x36 --methods none,mangata --frames 2 --repeat 2 --json
 [[ $(json methods) == 2 && $(json runs) == 4 && $(json methods.1.method) == mangata && $(json methods.0.median_ms) != 0 ]] || fail "$(cat stdout.txt)"
 expect 0 '' "$MANGATA" bench "$simple" --size 64x36 --methods none --display --repeat 1
