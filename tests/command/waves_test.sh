@@ -126,6 +126,14 @@ for scene in breeze gale lagoon; do
     works render "$SOURCE/scenes/$scene.yaml" -o "$scene.png" -q "${small[@]}" --frames 0
 done
 
+# ---- the examples of the documentation ----
+for page in waves choppy; do
+    awk '/^```yaml/ { on = 1; next } /^```/ && on { exit } on' "$SOURCE/docs/$page.md" >$page.yaml
+    expect 0 '' check $page.yaml
+done
+awk '/^# comments/ { on = 1 } /^```/ { on = 0 } on' "$SOURCE/docs/waves.md" >example.txt
+works waves -q -o example.yaml --buoy example.txt
+
 # ---- nonsense ----
 expect 64 '--wind -3: allowed is a number, 0.5 to 75 m/s' waves --wind -3
 expect 64 '--wind 0: allowed' waves --wind 0
