@@ -276,7 +276,8 @@ static void bad_words_say_what_is_allowed(void **state)
         {"wind=0", "--sea wind=0: there is no wind and no swell; allowed: such as wind=12,direction=30", SCENE_ERROR_BAD_SCENE},
         {"seed=2", "--sea seed=2: there is no wind and no swell; allowed: such as wind=12,direction=30", SCENE_ERROR_BAD_SCENE},
         {"swell=-1", "--sea swell=-1: swell is \"-1\"; allowed: a number, 0.001 to 50 m", SCENE_ERROR_BAD_SCENE},
-        {"swell_period=9", "--sea swell_period=9: there is no wind and no swell; allowed: such as wind=12,direction=30", SCENE_ERROR_BAD_SCENE},
+        {"swell_period=9", "--sea swell_period=9: swell_period is given, but no swell; allowed: beside swell, its height, such as swell=2,swell_period=9",
+         SCENE_ERROR_BAD_SCENE},
         {"wind=20,fetch=500", "--sea wind=20,fetch=500: fetch is 500 m, too short for the spectrum in this wind; allowed: at least 2365 m",
          SCENE_ERROR_BAD_SCENE},
     };
