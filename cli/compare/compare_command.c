@@ -36,10 +36,13 @@ char *compare_picture_command(const compare_job *job, const compare_scene *scene
     shell_scene(stream, scene->path);
     fprintf(stream, " -o %s_%%04d.exr --layer color --layer coverage --frames %s",
             reference ? compare_picture_name(job, picture) : r->methods[picture - 1].file, frames);
-    if (reference)
-        fprintf(stream, " --method reference --spatial %u --time-samples %u%s", q->spatial_samples, q->time_samples,
-                q->refraction == MGT_REFRACTION_PATH_TRACED ? " --refraction truth" : "");
-    else
+    if (reference && q->method == MGT_METHOD_SSAA)
+        fprintf(stream, " --method ssaa%u --time-samples %u", q->spatial_samples, q->time_samples);
+    else if (reference)
+        fprintf(stream, " --method reference --spatial %u --time-samples %u", q->spatial_samples, q->time_samples);
+    if (reference && q->refraction == MGT_REFRACTION_PATH_TRACED)
+        fprintf(stream, " --refraction truth --refraction-samples %u", q->refraction_samples);
+    if (!reference)
         fprintf(stream, " %s", r->methods[picture - 1].options);
     if (q->seed)
         fprintf(stream, " --seed %llu", (unsigned long long)q->seed);

@@ -187,13 +187,49 @@ static int set_qualities(const compare_job *job, compare_scene *scene)
     return EXIT_CODE_OK;
 }
 
-static void set_halves(const compare_job *job, compare_scene *scene)
+/* Tells whether method `reference` cannot draw a frame: it computes the water's surface alone, seen from above. */
+static int look_below(const compare_job *job, const compare_scene *scene, bool *below)
 {
+    *below = false;
+    for (size_t frame = 0; frame < job->frame_count && !*below && scene->reference.method == MGT_METHOD_REFERENCE; frame++) {
+        mgt_scene view;
+        if (!compare_frame_scene(job, scene, COMPARE_REFERENCE, frame, &view))
+            return EXIT_CODE_BAD_INPUT;
+        *below = !mgt_supports(MGT_BACKEND_NULL, &view, MGT_LAYER_COVERAGE);
+    }
+    return EXIT_CODE_OK;
+}
+
+/* Sets method ssaa with as many refracted rays as samples, in whole squares, and at least `instants` time samples: a single one would be the instant when
+ * the shutter closes. */
+static void sample_below(mgt_quality *quality, uint32_t instants)
+{
+    enum { MOST_SIDE = 64 };
+    quality->method = MGT_METHOD_SSAA;
+    quality->time_samples = quality->time_samples > instants ? quality->time_samples : instants;
+    quality->refraction_samples = 2;
+    while (quality->refraction_samples < MOST_SIDE && (uint64_t)quality->refraction_samples * quality->refraction_samples < compare_samples(quality))
+        quality->refraction_samples++;
+    *quality = quality_restricted(quality);
+}
+
+/* Sets the quality of the reference's objects and that of its halves. */
+static int finish_reference(const compare_job *job, compare_scene *scene, bool objects)
+{
+    bool below;
+    const int code = look_below(job, scene, &below);
+    if (objects)
+        scene->reference.refraction = MGT_REFRACTION_PATH_TRACED;
     for (int half = 0; half < 2 && job->request->halved; half++) {
         scene->halves[half] = scene->reference;
         scene->halves[half].time_samples /= 2;
         scene->halves[half].seed += (uint64_t)half;
+        if (below)
+            sample_below(&scene->halves[half], 2);
     }
+    if (below)
+        sample_below(&scene->reference, job->request->halved ? 4 : 2);
+    return code;
 }
 
 static int load_scene(compare_job *job, size_t index)
@@ -214,7 +250,7 @@ static int load_scene(compare_job *job, size_t index)
     scene->methods = calloc(r->method_count, sizeof *scene->methods);
     if (!scene->canonical || !scene->results || !scene->methods)
         return console_error(EXIT_CODE_FAILED, "out of memory");
-    const int code = set_qualities(job, scene);
+    int code = set_qualities(job, scene);
     if (code != EXIT_CODE_OK)
         return code;
     if (!compare_frame_scene(job, scene, COMPARE_REFERENCE, 0, &first))
@@ -222,9 +258,9 @@ static int load_scene(compare_job *job, size_t index)
     scene->width = first.image.width;
     scene->height = first.image.height;
     scene->black_sky = first.sky.model == MGT_SKY_BLACK;
-    if (first.object_count > 0)
-        scene->reference.refraction = MGT_REFRACTION_PATH_TRACED;
-    set_halves(job, scene);
+    code = finish_reference(job, scene, first.object_count > 0);
+    if (code != EXIT_CODE_OK)
+        return code;
     const compare_scene *other = &job->scenes[0];
     if (r->gate_count && (scene->width != other->width || scene->height != other->height))
         return console_error(EXIT_CODE_USAGE, "%s has %u x %u pixels, %s has %u x %u; a limit scores all scenes as one clip, so give --size", other->path,

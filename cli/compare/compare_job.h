@@ -54,8 +54,8 @@ typedef struct compare_scene {
     char *canonical; /* the scene's canonical text; owned */
     uint32_t width, height;
     mgt_quality *methods;             /* for each method the scene's quality, changed by the method's options; owned */
-    mgt_quality reference;            /* of the reference; it traces refraction through the actual waves */
-    mgt_quality halves[2];            /* of the halves, if the request wants them: half the reference's time samples, and successive seeds */
+    mgt_quality reference;            /* of the reference; ssaa where there is more to see than the surface, objects by refraction truth */
+    mgt_quality halves[2];            /* of the halves, if the request wants them: half the reference's samples, and successive seeds */
     bool black_sky;                   /* the sky is black, so colour shows nothing that coverage does not show */
     double reference_seconds;         /* mean rendering time of a frame; NaN: not known */
     compare_result *results;          /* for each method; owned */

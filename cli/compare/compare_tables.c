@@ -109,10 +109,11 @@ static json_t *best_json(const compare_job *job, const compare_scene *scene)
 
 static json_t *reference_json(const compare_job *job, const compare_scene *scene)
 {
+    const json_int_t samples = (json_int_t)compare_samples(&scene->reference);
     if (!job->request->halved)
-        return json_pack("{s:o, s:o}", "time_ms", number(1e3 * scene->reference_seconds), "command",
+        return json_pack("{s:o, s:I, s:o}", "time_ms", number(1e3 * scene->reference_seconds), "samples", samples, "command",
                          owned_text(compare_picture_command(job, scene, COMPARE_REFERENCE)));
-    return json_pack("{s:o, s:o, s:o}", "time_ms", number(1e3 * scene->reference_seconds), "command",
+    return json_pack("{s:o, s:I, s:o, s:o}", "time_ms", number(1e3 * scene->reference_seconds), "samples", samples, "command",
                      owned_text(compare_picture_command(job, scene, COMPARE_HALF)), "second_command",
                      owned_text(compare_picture_command(job, scene, COMPARE_HALF + 1)));
 }

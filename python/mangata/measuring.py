@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: MIT
 """Metrics on arrays, comparisons of methods, pictures from files."""
+import math
 import os
 from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
-from ._library import ffi, io, names
+from ._library import ffi, io, lib, names
 from .rendering import render
 from .scenes import Scene, SceneLike, as_scene, new_error, path_bytes, raise_io, without_nul
 
@@ -86,6 +87,20 @@ def error_map(a: np.ndarray, b: np.ndarray, metric: str = "flip", *, encoding: s
     return _measure(a, b, metric, False, encoding, pixels_per_degree, _METRICS.index(metric), True)[1]
 
 
+def _reference(scene: Scene, frames: Sequence[int], options: Mapping[str, Any]) -> Tuple[str, Dict[str, Any]]:
+    """The method of the reference and its options: where there is more to see than the surface from above, ssaa takes as many samples and refracted rays."""
+    options = {"seed": 1, **options}
+    views = [scene.changed({"quality.method": "reference"}).frame(frame) for frame in frames]
+    if all(lib.mgt_supports(lib.MGT_BACKEND_NULL, view, lib.MGT_LAYER_COVERAGE) for view in views):
+        return "reference", options
+    options = {"spatial": 8, "time_samples": 8, **options}
+    options["time_samples"] = max(2, options["time_samples"])  # a single one would be the instant when the shutter closes
+    if views[0].object_count:
+        side = min(64, 1 + math.isqrt(options["spatial"] ** 2 * options["time_samples"] - 1))
+        options = {"refraction": "truth", "refraction_samples": side, **options}
+    return "ssaa", options
+
+
 def compare(
     scenes: Union[SceneLike, Sequence[SceneLike], Mapping[str, SceneLike]],
     methods: Sequence[str],
@@ -102,7 +117,7 @@ def compare(
     """Renders methods and the reference, and scores each method's clip against it: a list of {"scene", "method", metric: score, …}.
 
     scenes     one, a list, or a dictionary of names and scenes
-    reference  options of the method "reference": {"spatial": 8, "time_samples": 8}
+    reference  options of the method "reference": {"spatial": 8, "time_samples": 8}; in scenes with objects, and under water, of ssaa with refraction "truth"
     external   methods of your own: names and functions of a scene and a frame that return the layer's array
     progress   called with a line before each picture
     """
@@ -116,15 +131,16 @@ def compare(
     for name, scene in scenes.items():
         scene = as_scene(scene).changed({**(changes or {}), **({"image.width": size[0], "image.height": size[1]} if size else {})})
 
-        def draw(method: str, **options: Any) -> np.ndarray:
+        def draw(method: str, title: str = "", **options: Any) -> np.ndarray:
             pictures = []
             for frame in frames:
                 if progress:
-                    progress(f"{name}, {method}, frame {frame}")
+                    progress(f"{name}, {title or method}, frame {frame}")
                 pictures.append(external[method](scene, frame) if external and method in external else render(scene, method, [layer], frame, **options)[layer])
             return np.stack(pictures)
 
-        truth = draw("reference", **{"seed": 1, **(reference or {})})
+        method, options = _reference(scene, frames, reference or {})
+        truth = draw(method, "reference", **options)
         for method in [*methods, *(external or {})]:
             scores, _ = _measure(draw(method), truth, words, True, "linear", 0.0)
             rows.append({"scene": name, "method": method, **{m: s for m, s in zip(_METRICS, scores) if m in words.split(",")}})

@@ -352,6 +352,22 @@ def test_compare_with_a_method_of_ones_own(scene):
     assert rows[2]["energy"] == 0 and rows[2]["relrmse"] == pytest.approx(1)
 
 
+def test_compare_where_there_is_more_than_the_surface(scene):
+    hull = os.path.join(os.path.dirname(SIMPLE), "hull.yaml")
+    lines = []
+    try:
+        mangata.render(hull, layers=["color"], size=(16, 9), refraction="truth")
+    except mangata.MangataError:
+        pytest.skip("no Embree here")
+    rows = mangata.compare([hull], ["none", "ssaa4"], layer="color", size=(32, 18), reference={"spatial": 2, "time_samples": 4}, metrics="rmse", progress=lines.append)
+    assert [row["scene"] for row in rows] == ["hull", "hull"] and lines[0] == "hull, reference, frame 0"
+    truth = mangata.render(hull, "ssaa2", size=(32, 18), time_samples=4, seed=1, refraction="truth", refraction_samples=4)["color"]
+    none = mangata.render(hull, "none", size=(32, 18))["color"]
+    assert rows[0]["rmse"] == pytest.approx(mangata.metrics(none, truth, "rmse")["rmse"], rel=1e-9)
+    under = mangata.compare({"under": scene}, ["none"], size=SMALL, changes={"camera.position": [0, -1, 0]}, reference={"spatial": 1, "time_samples": 1})
+    assert under[0]["method"] == "none"
+
+
 def test_pictures_outlive_what_read_them(scene, tmp_path):
     command("render", SIMPLE, "-o", tmp_path / "a.pfm", "--layer", "coverage", "--size", "64x36")
     picture = mangata.read(tmp_path / "a.pfm")

@@ -69,6 +69,28 @@ expect 0 '' compare "$simple" -o tie "${quick[@]}" --time-runs 0 --methods podee
 grep -q 'No best is marked where .* noise floor: simple (RMSE, relative RMSE' tie/report.tex && grep -q 'id="ties">No best is marked' tie/report.html ||
     fail "ties: $(cat tie/report.tex)"
 
+# Where there is more to see than the surface, the reference is ssaa, of objects by refraction truth, and of each scene its own.
+hull=$SOURCE/scenes/hull.yaml
+if "$MANGATA" render "$hull" -o probe.pfm --size 32x18 --quiet --refraction truth 2>/dev/null; then # without Embree there is none
+    expect 0 '8 pictures rendered' compare "$hull" "$simple" -o w --size 32x18 --spatial 2 --time-samples 8 --frames 0 --time-runs 0 \
+        --methods none+off,mangata,ssaa4+truth:time-samples=16:refraction-samples=16 --metrics rmse,flip
+    below='--method ssaa2 --time-samples 4 --refraction truth --refraction-samples 4 --seed'
+    [[ $(report scenes.0.reference.command w) == *"$below 1 "* && $(report scenes.0.reference.second_command w) == *"$below 2 "* &&
+        $(report scenes.0.reference.samples w) == 32 && $(report scenes.1.reference.command w) == *'--method reference --spatial 2 --time-samples 4 --seed 1'* ]] ||
+        fail "references: $(report scenes.0.reference w) $(report scenes.1.reference w)"
+    render "$hull" -o half.exr --layer color --layer coverage --size 32x18 --quiet ${below% --seed} --seed 2
+    expect 0 '' "$MANGATA" diff half.exr w/frames/hull/reference-2_0000.exr --layer color --max-rmse 0
+    awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) column[$i] = i } $1 == "hull" { score[$2] = $column["displayed.rmse"]; floor = $column["displayed.rmse.noise-floor"] }
+        END { truth = score["ssaa4+truth:time-samples=16:refraction-samples=16"] / floor
+              exit !(floor > 0 && truth > 0.6 && truth < 1.6 && score["mangata"] < 0.5 * score["none+off"]) }' w/report.csv ||
+        fail "scores of objects: $(cat w/report.csv)"
+    expect 0 '2 pictures rendered' compare "$hull" -o w2 "${tiny[@]}" --frames 0 --time-runs 0 --methods none --metrics rmse
+    [[ $(report scenes.0.reference.command w2) == *'--time-samples 2 --refraction truth --refraction-samples 3'* && $(report scenes.0.reference.samples w2) == 16 ]] ||
+        fail "halves of one instant: $(report scenes.0.reference w2)"
+fi
+expect 0 '2 pictures rendered' compare "$simple" -o w3 "${tiny[@]}" --frames 0 --time-runs 0 --methods none --metrics rmse --set camera.position=[0,-1,0]
+[[ $(report scenes.0.reference.command w3) == *'--method ssaa2 --time-samples 2 --seed 1 '* ]] || fail "a camera under water: $(report scenes.0.reference w3)"
+
 # Nothing is rendered or timed twice; what was asked anew is.
 before=$(stat -c %Y.%i r/frames/*/*)
 expect 0 '0 pictures rendered, 8 kept' compare "$simple" "$smooth" -o r "${quick[@]}" --methods mangata
