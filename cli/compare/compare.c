@@ -172,7 +172,7 @@ static const option compare_options[] = {
      .set = option_number, .offset = offsetof(compare_request, time_runs), .most = 1000},
     {"max-rmse", 0, "METHOD=X",
      "exit with 2 when the method's RMSE of coverage over all scenes\n"
-     "is above X; may be repeated",
+     "is above X or values are not comparable; may be repeated",
      .set = add_gate},
     {"max-flicker", 0, "METHOD=X", "the same for its flicker against the reference", .set = add_gate},
     {"picture-mb", 0, "N",

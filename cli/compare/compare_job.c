@@ -336,9 +336,15 @@ static int check_gates(const compare_job *job)
     for (size_t i = 0; i < job->request->gate_count; i++) {
         const compare_gate *gate = &job->request->gates[i];
         const double value = compare_gate_value(job, gate);
-        if (!(value <= gate->limit))
+        char *mismatches = score_mismatches_text(job, gate->method);
+        if (!mismatches)
+            code = console_error(EXIT_CODE_FAILED, "out of memory");
+        else if (mismatches[0])
+            code = console_error(EXIT_CODE_DIFFERENT, "%s, so it passes no limit", mismatches);
+        else if (!(value <= gate->limit))
             code = console_error(EXIT_CODE_DIFFERENT, "%s: %s of coverage %g is above %g", job->request->methods[gate->method].name,
                                  gate->flicker ? "flicker" : "RMSE", value, gate->limit);
+        free(mismatches);
     }
     return code;
 }
@@ -352,6 +358,12 @@ static int print_end(const compare_job *job)
         const char *missing = score_wanted(r, &score_columns[c]) ? score_missing(job, &score_columns[c]) : NULL;
         if (missing)
             console_note(&r->out, "mangata: warning: %s is unavailable: %s", score_columns[c].title, missing);
+    }
+    for (size_t m = 0; m < r->method_count; m++) {
+        char *mismatches = score_mismatches_text(job, m);
+        if (mismatches && mismatches[0])
+            console_note(&r->out, "mangata: warning: %s", mismatches);
+        free(mismatches);
     }
     if (!r->out.json)
         return EXIT_CODE_OK;
@@ -387,6 +399,7 @@ static void free_scene(compare_scene *scene, size_t methods)
     for (size_t m = 0; scene->results && m < methods; m++) {
         for (int k = 0; k < COMPARE_KINDS; k++)
             free(scene->results[m].frames[k]);
+        free(scene->results[m].mismatches);
         json_decref(scene->results[m].texture);
         json_decref(scene->results[m].specks);
     }

@@ -42,6 +42,8 @@ typedef struct compare_result {
     double truth[TRUTH_SCORES];         /* index: truth_score − TRUTH_CORRELATION; NaN: not measured or not defined */
     double truth_noise[TRUTH_SCORES];   /* noise floors of these scores */
     double noiseless_rmse;              /* RMSE of coverage without the reference's noise; NaN: the reference has no halves */
+    uint64_t *mismatches;               /* for each frame the number of values that are infinite or NaN in its picture or the reference's alone; owned */
+    bool unscored[COMPARE_KINDS];       /* some of these values are of that kind, so it has no scores */
     json_t *texture, *specks;           /* as in mangata diff, owned; NULL: not measured */
 } compare_result;
 

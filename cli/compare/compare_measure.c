@@ -111,12 +111,38 @@ static bool measures_truth(const truth_metrics *truth, int kind) { return kind =
 
 static bool lacks(const compare_result *result, int kind) { return kind == KIND_COVERAGE ? result->lacks_coverage : result->lacks_color; }
 
+static uint64_t count_mismatches(const float_image *a, const float_image *b)
+{
+    const size_t values = (size_t)a->width * a->height * a->channels;
+    uint64_t count = 0;
+    for (size_t i = 0; i < values; i++)
+        count += !(isfinite(a->pixels[i]) && isfinite(b->pixels[i])) && !(a->pixels[i] == b->pixels[i]);
+    return count;
+}
+
+/* Counts the values of a frame that no score can be made of. */
+static void look_for_mismatches(compare_result *result, size_t frame, const float_image images[COMPARE_KINDS], const float_image reference[COMPARE_KINDS])
+{
+    static const compare_kind kinds[] = {KIND_COVERAGE, KIND_LIGHT}; /* displayed colour is made of light */
+    for (int i = 0; i < 2; i++) {
+        const compare_kind kind = kinds[i];
+        const uint64_t count = lacks(result, kind) ? 0 : count_mismatches(&images[kind], &reference[kind]);
+        result->mismatches[frame] += count;
+        result->unscored[kind] |= count > 0;
+        result->unscored[KIND_DISPLAYED] |= kind == KIND_LIGHT && count > 0;
+    }
+}
+
 static int add_method_frame(compare_job *job, compare_scene *scene, measuring *state, size_t method, size_t frame, const truth_pictures *truth)
 {
     float_image images[COMPARE_KINDS] = {{0}};
+    compare_result *result = &scene->results[method];
     int code = read_frame(job, scene, method + 1, frame, images);
+    if (code == EXIT_CODE_OK)
+        look_for_mismatches(result, frame, images, truth->reference);
+    const bool scored = code == EXIT_CODE_OK && !result->mismatches[frame] && !(frame > 0 && result->mismatches[frame - 1]); /* flicker is of both frames */
     for (int k = 0; k < COMPARE_KINDS && code == EXIT_CODE_OK; k++) {
-        if (lacks(&scene->results[method], k))
+        if (lacks(result, k))
             continue;
         const float_image trio[] = {images[k], truth->halves[0][k], truth->halves[1][k]};
         const truth_frame against = {.images = trio, .count = 3};
@@ -125,8 +151,8 @@ static int add_method_frame(compare_job *job, compare_scene *scene, measuring *s
         if (state->metrics[method][k]) {
             if (clip_metrics_add(state->metrics[method][k], &images[k], &truth->reference[k], NULL, &scores, &error) != FILE_OK)
                 code = compare_file_failure(job, &error);
-            else
-                scene->results[method].frames[k][frame] = scores.scores;
+            else if (scored)
+                result->frames[k][frame] = scores.scores;
         }
         if (code == EXIT_CODE_OK && job->request->halved && measures_truth(&state->truth[method][k], k) &&
             truth_metrics_add(&state->truth[method][k], &against, &error) != FILE_OK)
@@ -193,9 +219,9 @@ static void take_truth(compare_job *job, compare_result *result, const truth_met
 {
     if (!job->request->halved)
         return;
-    if (!result->lacks_coverage)
+    if (!result->lacks_coverage && !result->unscored[KIND_COVERAGE])
         result->noiseless_rmse = noise_sums_rmse(&truth[KIND_COVERAGE].noise);
-    if (result->lacks_color)
+    if (result->lacks_color || result->unscored[KIND_LIGHT])
         return;
     if (job->request->truth.texture)
         take_texture(job, result, &truth[KIND_LIGHT]);
@@ -215,10 +241,12 @@ static void take_missing(compare_job *job, int kind, const clip_metrics *metrics
 }
 
 /* Notes why a method has no scores of a kind, which explains the dashes in its row. */
-static void note_lack(compare_job *job, int kind, const char *name)
+static void note_lack(compare_job *job, int kind, const char *name, bool absent)
 {
+    const char *layer = kind == KIND_COVERAGE ? "coverage" : "color";
     for (int i = 0; i < COMPARE_METRICS; i++)
-        snprintf(job->missing[kind][i], sizeof job->missing[kind][i], "%s has no %s", name, kind == KIND_COVERAGE ? "coverage" : "color");
+        snprintf(job->missing[kind][i], sizeof job->missing[kind][i], absent ? "%s has no %s" : "%s has values of %s that are infinite or not a number", name,
+                 layer);
 }
 
 static int take_scores(compare_job *job, compare_scene *scene, const measuring *state)
@@ -226,9 +254,10 @@ static int take_scores(compare_job *job, compare_scene *scene, const measuring *
     file_error error;
     for (int k = 0; k < COMPARE_KINDS; k++) {
         for (size_t m = 0; m < job->request->method_count; m++) {
-            if (lacks(&scene->results[m], k))
-                note_lack(job, k, job->request->methods[m].name);
-            if (!state->metrics[m][k] || lacks(&scene->results[m], k))
+            const bool lacking = lacks(&scene->results[m], k), unscored = lacking || scene->results[m].unscored[k];
+            if (unscored)
+                note_lack(job, k, job->request->methods[m].name, lacking);
+            if (!state->metrics[m][k] || unscored)
                 continue;
             if (clip_metrics_scores(state->metrics[m][k], &scene->results[m].clip[k], &error) != FILE_OK)
                 return compare_file_failure(job, &error);
@@ -266,6 +295,9 @@ static int make_room(compare_job *job, compare_scene *scene)
     }
     for (size_t m = 0; m < job->request->method_count; m++) {
         compare_result *result = &scene->results[m];
+        result->mismatches = calloc(job->frame_count, sizeof *result->mismatches);
+        if (!result->mismatches)
+            return console_error(EXIT_CODE_FAILED, "out of memory");
         result->noiseless_rmse = NAN;
         for (int i = 0; i < TRUTH_SCORES; i++)
             result->truth[i] = result->truth_noise[i] = NAN;

@@ -251,6 +251,23 @@ static void put_table(FILE *stream, const compare_job *job)
     fputs("</tfoot>", stream);
 }
 
+/* A line for each method with values that no score can be made of. */
+static int put_mismatches(FILE *stream, const compare_job *job)
+{
+    for (size_t m = 0; m < job->request->method_count; m++) {
+        char *mismatches = score_mismatches_text(job, m);
+        if (!mismatches)
+            return console_error(EXIT_CODE_FAILED, "out of memory");
+        if (mismatches[0]) {
+            fputs("<p class=\"caption mismatches\">", stream);
+            markup_escape(stream, mismatches);
+            fputs("</p>\n", stream);
+        }
+        free(mismatches);
+    }
+    return EXIT_CODE_OK;
+}
+
 static int put_ties(FILE *stream, const compare_job *job)
 {
     char *ties = score_ties_text(job, false);
@@ -332,6 +349,8 @@ static int put_mark(FILE *stream, const page *p, const char *mark, size_t length
         put_table(stream, p->job);
     else if (strncmp(mark, "ties", length) == 0)
         return put_ties(stream, p->job);
+    else if (strncmp(mark, "mismatches", length) == 0)
+        return put_mismatches(stream, p->job);
     else if (strncmp(mark, "data", length) == 0)
         return put_data(stream, p);
     else if (strncmp(mark, "pictures", length) == 0)

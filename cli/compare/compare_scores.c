@@ -193,6 +193,28 @@ char *score_ties_text(const compare_job *job, bool main_alone)
     return text;
 }
 
+char *score_mismatches_text(const compare_job *job, size_t method)
+{
+    enum { LISTED = 4 };
+    char *text = NULL, path[COMPARE_PATH];
+    size_t size = 0, files = 0;
+    FILE *stream = open_memstream(&text, &size);
+    if (!stream)
+        return NULL;
+    for (size_t s = 0; s < job->request->scene_count; s++)
+        for (size_t f = 0; f < job->frame_count; f++) {
+            const uint64_t count = job->scenes[s].results[method].mismatches[f];
+            if (count == 0 || files++ >= LISTED || !compare_picture_path(job, &job->scenes[s], method + 1, f, path))
+                continue;
+            if (files == 1)
+                fprintf(stream, "%s: values that are infinite or not a number in one picture only: ", job->request->methods[method].name);
+            fprintf(stream, "%s%s (%llu)", files > 1 ? ", " : "", path, (unsigned long long)count);
+        }
+    if (files > LISTED)
+        fprintf(stream, " and %zu more files", files - LISTED);
+    return memory_text_finish(stream, &text);
+}
+
 double score_pooled(const compare_job *job, size_t method, const score_column *column)
 {
     double sum = 0;

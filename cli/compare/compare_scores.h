@@ -40,6 +40,10 @@ bool score_tied(const compare_job *job, const compare_scene *scene, const score_
  * memory. */
 char *score_ties_text(const compare_job *job, bool main_alone);
 
+/* The pictures of a method that hold values which are infinite or not a number in one picture only, and how many: "NAME: such values in FILE (NUMBER), …".
+ * The caller frees it. "": there are none. NULL: out of memory. */
+char *score_mismatches_text(const compare_job *job, size_t method);
+
 /* Why no method has a score on any scene; NULL: one has. */
 const char *score_missing(const compare_job *job, const score_column *column);
 

@@ -54,6 +54,19 @@ static json_t *columns_json(const compare_job *job)
     return list;
 }
 
+/* The files with values that are infinite or not a number in one picture only. */
+static json_t *mismatches_json(const compare_job *job, const compare_scene *scene, size_t method)
+{
+    json_t *list = json_array();
+    for (size_t f = 0; f < job->frame_count; f++) {
+        const uint64_t count = scene->results[method].mismatches[f];
+        char path[COMPARE_PATH];
+        if (count && compare_picture_path(job, scene, method + 1, f, path))
+            json_array_append_new(list, json_pack("{s:o, s:I}", "file", console_json_text(path), "values", (json_int_t)count));
+    }
+    return list;
+}
+
 static json_t *method_json(const compare_job *job, const compare_scene *scene, size_t method)
 {
     const method_spec *spec = &job->request->methods[method];
@@ -76,6 +89,10 @@ static json_t *method_json(const compare_job *job, const compare_scene *scene, s
                   "frames", frames, "command", external ? json_null() : owned_text(compare_picture_command(job, scene, method + 1)));
     if (external)
         json_object_set_new(object, "external", console_json_text(external));
+    json_t *mismatches = mismatches_json(job, scene, method);
+    if (json_array_size(mismatches))
+        json_object_set(object, "mismatches", mismatches);
+    json_decref(mismatches);
     if (job->request->halved)
         json_object_set_new(object, "noiseless_rmse", number(result->noiseless_rmse));
     if (result->texture)
@@ -142,6 +159,15 @@ static json_t *all_json(const compare_job *job)
     return list;
 }
 
+static bool has_mismatches(const compare_job *job, size_t method)
+{
+    for (size_t s = 0; s < job->request->scene_count; s++)
+        for (size_t f = 0; f < job->frame_count; f++)
+            if (job->scenes[s].results[method].mismatches[f])
+                return true;
+    return false;
+}
+
 static json_t *gates_json(const compare_job *job)
 {
     json_t *list = json_array();
@@ -150,7 +176,7 @@ static json_t *gates_json(const compare_job *job)
         const double value = compare_gate_value(job, gate);
         json_array_append_new(list, json_pack("{s:s, s:s, s:f, s:o, s:b}", "gate", gate->flicker ? "max-flicker" : "max-rmse", "method",
                                               job->request->methods[gate->method].name, "limit", gate->limit, "value", number(value), "passed",
-                                              value <= gate->limit));
+                                              value <= gate->limit && !has_mismatches(job, gate->method)));
     }
     return list;
 }

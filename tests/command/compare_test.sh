@@ -179,6 +179,29 @@ absent e/frames/simple/Mine_1.0_0000.exr
 expect 0 '0 pictures rendered, 4 kept' compare "$simple" -o e "${tiny[@]}" --frames 0-1 --time-runs 0 --methods none --metrics rmse,flip \
     --external grey=other/coverage_%d.pfm --json --max-rmse grey=1
 [[ $(json scenes.0.methods.1.scores) == *'"displayed.flip":null'* && $(json scenes.0.methods.1.scores) == '{"coverage.rmse":0.'* ]] || fail "coverage alone: $(json scenes.0.methods.1)"
+# A picture that is not a number scores nothing, is named and passes no gate.
+pfm() { # FILE, then the bytes of each of its 576 values
+    { printf 'Pf\n32 18\n-1.0\n' && for ((i = 0; i < 576; i++)); do printf "$2"; done; } >"$1"
+}
+pfm other/bad_0.pfm '\0\0\300\177'
+pfm other/bad_1.pfm '\0\0\0\0'
+printf '\0\0\200\177' | dd of=other/bad_1.pfm bs=1 seek=94 conv=notrunc status=none
+cp other/bad_1.pfm other/inf_0.pfm
+bad=(compare "$simple" -o e "${tiny[@]}" --frames 0-1 --time-runs 0 --methods none --metrics rmse,energy,flicker --external 'mine=other/bad_%d.pfm')
+said='mine: values that are infinite or not a number in one picture only: other/bad_0.pfm \(576\), other/bad_1.pfm \(1\)'
+expect 0 "warning: $said\$" "${bad[@]}"
+[[ $(report scenes.0.methods.1.mismatches.0 e) == '{"file":"other/bad_0.pfm","values":576}' && $(report scenes.0.methods.1.mismatches.1.values e) == 1 &&
+    $(report scenes.0.methods.1.scores e) == '{"coverage.rmse":null,"coverage.energy":null,'* && $(report scenes.0.methods.1.frames e) != *[0-9]* &&
+    $(report scenes.0.methods.1.noiseless_rmse e) == null && $(report scenes.0.methods.0.mismatches e) == no* && $(report scenes.0.best e) != *mine* ]] ||
+    fail "values that are not a number: $(report scenes.0.methods.1 e)"
+grep -Eq "mismatches\">$said<" e/report.html && grep -q '^simple,mine,,,,,,' e/report.csv || fail "tables of values that are not a number: $(cat e/report.csv)"
+expect 2 "^mangata: $said, so it passes no limit" "${bad[@]}" --max-rmse mine=1 --quiet
+expect 2 'mine: .*so it passes no limit' "${bad[@]}" --max-flicker mine=9 --quiet
+[[ $(report gates.0.passed e) == false ]] || fail "the gate: $(report gates e)"
+expect 0 '' "${bad[@]}" --max-rmse none=1
+expect 2 'mine: .*other/inf_0.pfm \(1\), so' compare "$simple" -o e "${tiny[@]}" --frames 0 --time-runs 0 --methods none --metrics texture,rmse --external mine=other/inf_0.pfm \
+    --max-rmse mine=1 --quiet
+
 external() { compare "$simple" -o x "${tiny[@]}" --frames 0-1 --methods none --external "$@"; }
 expect 64 'allowed is NAME=PATH' external other/%04d.exr
 expect 64 'allowed is NAME=PATH' external 'my own=other/%04d.exr'
