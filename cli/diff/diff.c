@@ -23,6 +23,7 @@ typedef struct diff_request {
     double max_rmse;
     diff_metrics metrics;
     diff_prepare prepare;
+    uint64_t counted; /* number of pixels that the mask has selected so far */
     truth_metrics truth;
     diff_maps maps;
     bool encoding_given;
@@ -204,12 +205,24 @@ static int add_frame(const diff_request *r, const float_image pair[2], float_ima
     return image_metrics_add(metrics, &previous[0], &previous[1], &error) == FILE_OK ? EXIT_CODE_OK : console_file_error(&error);
 }
 
-static int measure_frame(diff_request *r, uint32_t number, diff_frame *frame, float_image previous[2], image_metrics *metrics)
+/* Counts the pixels of frame `place` of the list that the mask selects. A mask of none in any frame would make all pictures alike. */
+static int count_pixels(diff_request *r, uint64_t place, const diff_frame *frame)
 {
+    r->counted += (uint64_t)frame->images[0].width * frame->images[0].height - frame->left_out;
+    if (r->counted > 0 || place + 1 < frame_list_length(&r->frames))
+        return EXIT_CODE_OK;
+    return console_error(EXIT_CODE_BAD_INPUT, "%s: this mask selects no pixel; those of at least 0.999 are compared", r->prepare.mask);
+}
+
+static int measure_frame(diff_request *r, uint64_t place, diff_frame *frame, float_image previous[2], image_metrics *metrics)
+{
+    const uint32_t number = frame_list_at(&r->frames, place);
     const uint64_t before = metrics->frames;
     int code = read_frame(r, number, frame);
     if (code == EXIT_CODE_OK)
         code = diff_prepare_frame(&r->prepare, number, frame);
+    if (code == EXIT_CODE_OK && r->prepare.mask)
+        code = count_pixels(r, place, frame);
     if (code == EXIT_CODE_OK)
         code = add_frame(r, frame->images, previous, metrics);
     if (code == EXIT_CODE_OK && metrics->frames > before)
@@ -228,7 +241,7 @@ static int measure(diff_request *r, image_metrics *metrics)
     const uint64_t count = frame_list_length(&r->frames);
     for (uint64_t i = 0; i < count && code == EXIT_CODE_OK; i++) {
         diff_frame frame = {.count = r->paths[2] ? 3 : 2};
-        code = *interrupt_flag() ? interrupt_exit_code() : measure_frame(r, frame_list_at(&r->frames, i), &frame, previous, metrics);
+        code = *interrupt_flag() ? interrupt_exit_code() : measure_frame(r, i, &frame, previous, metrics);
         for (int k = 0; k < 2; k++) { /* the difference from the next frame needs these pictures */
             float_image_free(&previous[k]);
             previous[k] = frame.images[k];

@@ -10,6 +10,7 @@ pfm() {
     for value; do
         case $value in
         0) printf '\0\0\0\0' ;;
+        0.9) printf '\146\146\146\077' ;;
         1) printf '\0\0\200\077' ;;
         2) printf '\0\0\0\100' ;;
         4) printf '\0\0\200\100' ;;
@@ -35,6 +36,8 @@ expect 0 '' "$MANGATA" diff a.pfm b.pfm --max-rmse 1
 pfm i.pfm 1 inf 1 2
 pfm n.pfm 1 nan 1 2
 expect 0 '' "$MANGATA" diff i.pfm i.pfm --max-rmse 0
+expect 0 '' "$MANGATA" diff i.pfm b.pfm
+grep -Eq '^mismatches +1 values' stdout.txt || fail "mismatches: $(cat stdout.txt)"
 "$MANGATA" diff n.pfm n.pfm --max-rmse 9 >/dev/null 2>&1
 [[ $? == 2 ]] || fail "NaN passes a gate"
 "$MANGATA" diff i.pfm b.pfm --max-rmse 9 >/dev/null 2>&1
@@ -71,6 +74,15 @@ expect 0 '' "$MANGATA" diff a.pfm b.pfm --display -2 --json
 [[ $(number rmse) == 0.13232* ]] || fail "displayed: $(cat stdout.txt)" # 1 and 0.73536, once in four
 expect 1 'large.pfm has 64 x 36 pixels of 1 channel; a mask of 2 x 2 of 1 is needed' "$MANGATA" diff a.pfm b.pfm --mask large.pfm
 expect 66 'none.pfm' "$MANGATA" diff a.pfm b.pfm --mask none.pfm
+pfm half.pfm 0 0.9 0 0
+expect 65 '^mangata: half.pfm: this mask selects no pixel' "$MANGATA" diff a.pfm b.pfm --mask half.pfm --metrics ssim,specks --max-rmse 0 --error-map ssim=masked.png
+expect 65 'half.pfm: this mask' "$MANGATA" diff p_#.pfm q_#.pfm --frames 0-2 --mask half.pfm
+absent masked.png
+cp half.pfm m_0.pfm
+cp m.pfm m_1.pfm
+cp half.pfm m_2.pfm
+expect 0 '' "$MANGATA" diff p_#.pfm q_#.pfm --frames 0-2 --mask m_#.pfm --json
+[[ $(number values) == 1 && $(number rmse) == 1.0 ]] || fail "a mask of one frame: $(cat stdout.txt)"
 expect 64 '--display x: allowed is a number of stops' "$MANGATA" diff a.pfm b.pfm --display x
 expect 64 'leave --encoding out' "$MANGATA" diff a.pfm b.pfm --display 0 --encoding linear
 
