@@ -13,7 +13,8 @@ void diff_prepare_display(float_image *image, double exposure)
     const size_t count = (size_t)image->width * image->height * image->channels;
     const float factor = (float)exp2(exposure);
     for (size_t i = 0; i < count; i++)
-        image->pixels[i] = color_srgb_encode(color_clamp(image->pixels[i] * factor));
+        if (!isnan(image->pixels[i])) /* clamping would make it black */
+            image->pixels[i] = color_srgb_encode(color_clamp(image->pixels[i] * factor));
 }
 
 static void blacken(float_image *image, size_t pixel)

@@ -17,7 +17,7 @@ typedef struct diff_prepare {
     frame_path mask_name; /* `mask` as a pattern of paths */
 } diff_prepare;
 
-/* The two steps of the preparation, in place. diff_prepare_display() converts linear light to displayed values. diff_prepare_mask() sets pixels black where
+/* The two steps of the preparation, in place. diff_prepare_display() converts linear light to displayed values; NaN stays. diff_prepare_mask() sets pixels black where
  * `mask`, which has one channel and the images' size, is below 0.999. It returns their number. */
 void diff_prepare_display(float_image *image, double exposure);
 uint64_t diff_prepare_mask(float_image *images, size_t count, const float_image *mask);

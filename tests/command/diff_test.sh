@@ -40,6 +40,9 @@ expect 0 '' "$MANGATA" diff i.pfm b.pfm
 grep -Eq '^mismatches +1 values' stdout.txt || fail "mismatches: $(cat stdout.txt)"
 "$MANGATA" diff n.pfm n.pfm --max-rmse 9 >/dev/null 2>&1
 [[ $? == 2 ]] || fail "NaN passes a gate"
+pfm zero.pfm 1 0 1 2
+"$MANGATA" diff n.pfm zero.pfm --display 0 --max-rmse 9 >/dev/null 2>&1
+[[ $? == 2 ]] || fail "NaN passes a gate as displayed"
 "$MANGATA" diff i.pfm b.pfm --max-rmse 9 >/dev/null 2>&1
 [[ $? == 2 ]] || fail "an infinity against a number passes a gate"
 
