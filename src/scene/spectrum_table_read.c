@@ -235,9 +235,9 @@ static bool finish_table(table_reader *r)
                       "(m²/Hz/degree) for at least two frequencies",
                       fault);
     }
-    const double amplitude = sqrt(2 * table_variance(table));
-    if (amplitude > MOST_AMPLITUDE) {
-        snprintf(wrong, sizeof wrong, "densities such as this one make a wave of %.6g m; allowed: waves of at most %g m", amplitude, MOST_AMPLITUDE);
+    const double height = sqrt(2 * table_variance(table));
+    if (height > MOST_AMPLITUDE) {
+        snprintf(wrong, sizeof wrong, "densities such as this one make a wave of %.6g m; allowed: waves of at most %g m", height, MOST_AMPLITUDE);
         return refuse_at(r, highest, wrong);
     }
     return true;
