@@ -7,6 +7,7 @@
 #include "cli/compare/compare_scores.h"
 #include "cli/common/interrupt.h"
 #include "cli/common/truth_json.h"
+#include "image/image_metrics.h"
 
 static uint32_t metrics_of_kind(const compare_request *request, compare_kind kind)
 {
@@ -116,7 +117,7 @@ static uint64_t count_mismatches(const float_image *a, const float_image *b)
     const size_t values = (size_t)a->width * a->height * a->channels;
     uint64_t count = 0;
     for (size_t i = 0; i < values; i++)
-        count += !(isfinite(a->pixels[i]) && isfinite(b->pixels[i])) && !(a->pixels[i] == b->pixels[i]);
+        count += !image_values_comparable(a->pixels[i], b->pixels[i]);
     return count;
 }
 

@@ -10,27 +10,25 @@
 #include "cli/common/numbers.h"
 #include "image/error_colors.h"
 
-/* The metrics that have maps: those that clip_metrics_add() fills. */
-static const clip_metric mapped[] = {CLIP_RMSE, CLIP_RELATIVE_RMSE, CLIP_FLIP, CLIP_HDR_FLIP, CLIP_SSIM, CLIP_FLICKER};
-enum { MAPPED = sizeof mapped / sizeof mapped[0], PATH_SIZE = sizeof(frame_path) };
-static const char mapped_words[] = "METRIC=FILE, where METRIC is rmse, relrmse, flip, hdr-flip, ssim or flicker and FILE ends in .png, .exr or .pfm";
+enum { PATH_SIZE = sizeof(frame_path) };
+static const char allowed[] = "METRIC=FILE, where METRIC is " CLIP_MAPPED_WORDS " and FILE ends in .png, .exr or .pfm";
 
 int option_error_map(const option *o, void *place, const char *value)
 {
     diff_maps *m = place;
     const size_t length = strcspn(value, "=");
     int i = 0;
-    while (i < MAPPED && (strlen(clip_metric_name(mapped[i])) != length || strncmp(clip_metric_name(mapped[i]), value, length) != 0))
+    while (i < CLIP_MAPPED && (strlen(clip_metric_name(clip_mapped[i])) != length || strncmp(clip_metric_name(clip_mapped[i]), value, length) != 0))
         i++;
-    if (i == MAPPED || !value[length])
-        return option_wrong(o, value, mapped_words);
-    diff_map *map = &m->maps[mapped[i]];
+    if (i == CLIP_MAPPED || !value[length])
+        return option_wrong(o, value, allowed);
+    diff_map *map = &m->maps[clip_mapped[i]];
     if (map->path)
         return console_error(EXIT_CODE_USAGE, "--%s %s: the metric has a map already, %s", o->name, value, map->path);
     map->path = value + length + 1;
     map->format = picture_format_of(map->path);
     if (map->format != PICTURE_PNG && map->format != PICTURE_EXR && map->format != PICTURE_PFM)
-        return option_wrong(o, value, mapped_words);
+        return option_wrong(o, value, allowed);
     const char *wrong = frame_path_parse(&map->name, map->path);
     if (wrong)
         return console_error(EXIT_CODE_USAGE, "--%s %s: %s", o->name, value, wrong);
@@ -41,9 +39,9 @@ int option_error_map(const option *o, void *place, const char *value)
 uint32_t diff_maps_metrics(const diff_maps *maps)
 {
     uint32_t set = 0;
-    for (int i = 0; i < MAPPED; i++)
-        if (maps->maps[mapped[i]].path)
-            set |= 1u << mapped[i];
+    for (int i = 0; i < CLIP_MAPPED; i++)
+        if (maps->maps[clip_mapped[i]].path)
+            set |= 1u << clip_mapped[i];
     return set;
 }
 
@@ -57,7 +55,7 @@ static int print_path(const diff_map *map, uint32_t frame, char path[PATH_SIZE])
 
 static int check_name(const diff_maps *maps, int place, bool numbered, const char *const inputs[3])
 {
-    const diff_map *map = &maps->maps[mapped[place]];
+    const diff_map *map = &maps->maps[clip_mapped[place]];
     if (map->name.numbered != numbered)
         return console_error(EXIT_CODE_USAGE, "--error-map %s: %s", map->path,
                              numbered ? "several frames are compared; number the files: flip_%04d.png" : "one picture is compared; leave the frame number out");
@@ -65,7 +63,7 @@ static int check_name(const diff_maps *maps, int place, bool numbered, const cha
         if (inputs[i] && strcmp(inputs[i], map->path) == 0)
             return console_error(EXIT_CODE_USAGE, "--error-map %s: that picture is compared", map->path);
     for (int i = 0; i < place; i++)
-        if (maps->maps[mapped[i]].path && strcmp(maps->maps[mapped[i]].path, map->path) == 0)
+        if (maps->maps[clip_mapped[i]].path && strcmp(maps->maps[clip_mapped[i]].path, map->path) == 0)
             return console_error(EXIT_CODE_USAGE, "--error-map %s: two maps of one name", map->path);
     return EXIT_CODE_OK;
 }
@@ -73,8 +71,8 @@ static int check_name(const diff_maps *maps, int place, bool numbered, const cha
 int diff_maps_check(const diff_maps *maps, bool numbered, const frame_list *frames, const char *const inputs[3])
 {
     const output_options options = options_of(maps);
-    for (int i = 0; i < MAPPED; i++) {
-        const diff_map *map = &maps->maps[mapped[i]];
+    for (int i = 0; i < CLIP_MAPPED; i++) {
+        const diff_map *map = &maps->maps[clip_mapped[i]];
         int code = map->path ? check_name(maps, i, numbered, inputs) : EXIT_CODE_OK;
         for (uint64_t f = 0; map->path && f < frame_list_length(frames) && code == EXIT_CODE_OK; f++) {
             char path[PATH_SIZE];
@@ -91,9 +89,9 @@ int diff_maps_check(const diff_maps *maps, bool numbered, const frame_list *fram
 
 int diff_maps_prepare(diff_maps *maps, size_t pixels)
 {
-    for (int i = 0; i < MAPPED; i++) {
-        float **map = &maps->pixels.maps[mapped[i]];
-        if (maps->maps[mapped[i]].path && !*map && !(*map = calloc(pixels, sizeof **map)))
+    for (int i = 0; i < CLIP_MAPPED; i++) {
+        float **map = &maps->pixels.maps[clip_mapped[i]];
+        if (maps->maps[clip_mapped[i]].path && !*map && !(*map = calloc(pixels, sizeof **map)))
             return console_error(EXIT_CODE_FAILED, "out of memory");
     }
     return EXIT_CODE_OK;
@@ -144,8 +142,8 @@ static int write_map(const diff_maps *maps, clip_metric metric, const char *path
 
 int diff_maps_write(diff_maps *maps, uint32_t frame, uint32_t width, uint32_t height, const clip_scores *scores)
 {
-    for (int i = 0; i < MAPPED; i++) {
-        const clip_metric metric = mapped[i];
+    for (int i = 0; i < CLIP_MAPPED; i++) {
+        const clip_metric metric = clip_mapped[i];
         char path[PATH_SIZE];
         if (!maps->maps[metric].path)
             continue;
@@ -164,8 +162,8 @@ int diff_maps_write(diff_maps *maps, uint32_t frame, uint32_t width, uint32_t he
 
 void diff_maps_free(diff_maps *maps)
 {
-    for (int i = 0; i < MAPPED; i++)
-        free(maps->pixels.maps[mapped[i]]);
+    for (int i = 0; i < CLIP_MAPPED; i++)
+        free(maps->pixels.maps[clip_mapped[i]]);
     json_decref(maps->files);
     *maps = (diff_maps){.wanted = false};
 }

@@ -32,15 +32,15 @@ MGT_API void mgt_water_answers_init(mgt_water_answers *answers, size_t size);
 
 /* Answers for `count` points, x and z of each in metres, within ±1e9. Of `water`, its waves, choppiness and level are read. A point that is not finite gets NaN.
  * Any thread, several at once; nothing is allocated or kept, and a point's answer depends neither on the others nor on the thread. With AVX2 and AVX-512 it is
- * the same to the bit. 64 waves take a core with AVX2 about 65 ns a point; of choppy water two to three times
- * as long, and a little more where the wind is so strong that crests fold. The stack needs up to 0.4 MiB, with more than 512 waves 0.7.
+ * the same to the bit. 64 waves take a core with AVX2 about 65 ns a point, of choppy water two to three times as long, and a little more in winds so strong
+ * that crests fold. The stack needs up to 0.4 MiB, with more than 512 waves 0.7.
  * MGT_ERROR_SCENE: a wave is out of its range; MGT_ERROR_ARGUMENT: the time is not within ±1e9 s, or a pointer is missing. mgt_last_error(NULL) says which,
  * and nothing has been written. */
 MGT_API mgt_status mgt_water_query(const mgt_water *water, double time, const double *points, size_t count, mgt_water_answers *answers);
 
 /* Where rays first meet the surface, from above or from below. `rays` are `count` origins and directions, x y z and x y z in metres; origins within ±1e9, and
- * directions of lengths from 1e-100 to 1e100. `distance` gets `count` numbers: multiples of the direction, at most `reach` (0 … 1e9); +infinity where the water is not met
- * by then; NaN where a ray is not finite, has no direction, or has not ended after 100,000 evaluations of the water, as a ray along the
+ * directions of lengths from 1e-100 to 1e100. `distance` gets `count` numbers: multiples of the direction, at most `reach` (0 … 1e9); +infinity where the
+ * water is not met by then; NaN where a ray is not finite, has no such direction, or has not ended after 100,000 evaluations of the water, as a ray along the
  * surface may not. No crest is stepped over: a hit is the first one. It lies within 1e-9 m of the surface, or within 1e-9 of the way to it.
  * Threads and errors as for mgt_water_query(). */
 MGT_API mgt_status mgt_water_trace(const mgt_water *water, double time, const double *rays, size_t count, double reach, double *distance);

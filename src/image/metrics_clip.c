@@ -59,6 +59,8 @@ static const char *const names[CLIP_METRICS] = {
 const char clip_metric_words[] = "rmse, relrmse, energy, flip, hdr-flip, ssim, yee, flicker (all of its kinds), flicker-power, flicker-ratio, "
                                  "flicker-bright, flicker-glints, flicker-sizes";
 
+const clip_metric clip_mapped[CLIP_MAPPED] = {CLIP_RMSE, CLIP_RELATIVE_RMSE, CLIP_FLIP, CLIP_HDR_FLIP, CLIP_SSIM, CLIP_FLICKER};
+
 const char *clip_metric_name(clip_metric metric) { return names[metric]; }
 
 static uint32_t metrics_of_word(const char *word, size_t length)

@@ -40,6 +40,11 @@ bool clip_metrics_parse(const char *list, uint32_t *metrics);
 /* The words that clip_metrics_parse() knows, for messages and helps. */
 extern const char clip_metric_words[];
 
+/* The metrics that have maps: those that clip_metrics_add() fills. */
+enum { CLIP_MAPPED = 6 };
+extern const clip_metric clip_mapped[CLIP_MAPPED];
+#define CLIP_MAPPED_WORDS "rmse, relrmse, flip, hdr-flip, ssim or flicker"
+
 typedef struct clip_metrics_desc {
     uint32_t width, height;
     uint32_t channels;                    /* 1 (coverage, grey light) or 3 (colour) */

@@ -59,12 +59,10 @@ static mgt_io_status read_desc(clip_metrics_desc *out, const mgt_metrics_desc *d
     return MGT_IO_OK;
 }
 
-/* Metrics whose maps clip_metrics_add() fills. */
 static bool has_map(uint32_t metric)
 {
-    static const clip_metric mapped[] = {CLIP_RMSE, CLIP_RELATIVE_RMSE, CLIP_FLIP, CLIP_HDR_FLIP, CLIP_SSIM, CLIP_FLICKER};
-    for (size_t i = 0; i < sizeof mapped / sizeof mapped[0]; i++)
-        if (mapped[i] == (clip_metric)metric)
+    for (int i = 0; i < CLIP_MAPPED; i++)
+        if (clip_mapped[i] == (clip_metric)metric)
             return true;
     return false;
 }
@@ -96,7 +94,7 @@ mgt_io_status mgt_metrics_measure(const mgt_metrics_desc *desc, const float *con
         return io_error_take(error, MGT_IO_ARGUMENT, "a pointer is missing, or there is no frame or no such metric");
     if (map && !has_map(map_metric)) {
         char text[120];
-        snprintf(text, sizeof text, "metric %s has no map; allowed are rmse, relrmse, flip, hdr-flip, ssim, flicker", mgt_metric_name(map_metric));
+        snprintf(text, sizeof text, "metric %s has no map; allowed is " CLIP_MAPPED_WORDS, mgt_metric_name(map_metric));
         return io_error_take(error, MGT_IO_ARGUMENT, text);
     }
     const mgt_io_status status = read_desc(&d, desc, error);
