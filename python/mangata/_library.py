@@ -21,18 +21,23 @@ def _read(path):
         return f.read()
 
 
+def _load(name):
+    """A library for good: threads of Embree may still run when the interpreter ends, which would unload their code."""
+    return ffi.dlopen(name, ffi.RTLD_NOW | os.RTLD_NODELETE)
+
+
 def _open():
     for folder in _places():
         declarations = os.path.join(folder, "python", "declarations.h")
         libraries = [os.path.join(folder, name) for name in ("libmangata.so", "libmangata-io.so")]
         if os.path.exists(declarations) and all(map(os.path.exists, libraries)):
             ffi.cdef(_read(declarations))
-            return [ffi.dlopen(path) for path in libraries]
+            return [_load(path) for path in libraries]
     declarations = os.path.join(_HERE, "declarations.h")
     if not os.path.exists(declarations):
         raise ImportError("mangata: neither built here (make) nor installed; MANGATA_BUILD names a build folder")
     ffi.cdef(_read(declarations))
-    return [ffi.dlopen(name) for name in _read(os.path.join(_HERE, "libraries.txt")).split()]
+    return [_load(name) for name in _read(os.path.join(_HERE, "libraries.txt")).split()]
 
 
 lib, io = _open()
