@@ -267,10 +267,9 @@ static double next_share(const refinement *f, frame_budget *b, size_t round)
     enum { MOST_ROUNDS = 40 };
     const mgt_quality *q = &f->a->frame->scene->quality;
     const double used = refinement_spent(f);
-    if (q->target_rmse > 0)
-        return round < MOST_ROUNDS ? share_towards(NULL, refinement_predicted_rmse(f), q->target_rmse, used) : 0;
-    if (q->target_displayed > 0)
-        return round < MOST_ROUNDS ? share_towards(NULL, refinement_predicted_displayed(f), q->target_displayed, used) : 0;
+    const error_goal goal = refinement_goal(f);
+    if (goal.target > 0)
+        return round < MOST_ROUNDS ? share_towards(NULL, goal.predicted, goal.target, used) : 0;
     if (q->budget_ms > 0) {
         const double time = now(), left = b->end - time;
         /* The first pixels are cheaper than cells: half of their speed is a careful estimate. */

@@ -100,6 +100,44 @@ bool refinement_add(const refinement *f, size_t tile, leaf l)
     return true;
 }
 
+/* ---- the error that is left ---- */
+
+static double coverage_error(const refinement *f)
+{
+    double sum = 0;
+    for (size_t tile = 0; tile < (size_t)f->columns * f->rows; tile++) {
+        const refinement_tile *t = &f->tiles[tile];
+        sum += t->final_variance;
+        for (size_t i = 0; i < t->count; i++)
+            sum += (double)(areas[t->leaves[i].level] * areas[t->leaves[i].level] * t->leaves[i].variance);
+    }
+    return predicted_rmse(NULL, sum, (double)f->out->width * f->out->height);
+}
+
+static double displayed_error(const refinement *f)
+{
+    if (f->a->frame->data.sky_black)
+        return coverage_error(f);
+    double sum = 0;
+    for (size_t tile = 0; tile < (size_t)f->columns * f->rows; tile++) {
+        const refinement_tile *t = &f->tiles[tile];
+        sum += t->final_shown;
+        for (size_t i = 0; i < t->count; i++) {
+            const leaf *l = &t->leaves[i];
+            sum += (double)(areas[l->level] * areas[l->level] * l->contrast * f->weight[leaf_pixel(f, tile, l)]);
+        }
+    }
+    return predicted_displayed(NULL, sum, (double)f->out->width * f->out->height);
+}
+
+error_goal refinement_goal(const refinement *f)
+{
+    const mgt_quality *q = &f->a->frame->scene->quality;
+    if (q->target_rmse > 0)
+        return (error_goal){coverage_error(f), q->target_rmse};
+    return q->target_displayed > 0 ? (error_goal){displayed_error(f), q->target_displayed} : (error_goal){0, 0};
+}
+
 /* ---- rounds ---- */
 
 static void count_tile(void *argument, size_t tile, uint32_t worker)
@@ -129,7 +167,8 @@ bool refinement_plan(refinement *f, double budget, size_t round)
         plan = plan_with_bucket(NULL, plan, b, (double)cells, (double)points);
     }
     f->plan = plan_ended(NULL, plan);
-    f->least_bucket = settled_bucket(NULL, f->plan, (int)round, false, f->least_bucket);
+    const error_goal goal = refinement_goal(f);
+    f->least_bucket = settled_bucket(NULL, f->plan, (int)round, kept_octaves(NULL, goal.predicted, goal.target), false, f->least_bucket);
     return f->plan.any;
 }
 
@@ -157,34 +196,6 @@ double refinement_water(const refinement *f)
         for (size_t i = 0; i < f->tiles[tile].count; i++)
             sum += (double)f->tiles[tile].leaves[i].water;
     return sum;
-}
-
-double refinement_predicted_displayed(const refinement *f)
-{
-    if (f->a->frame->data.sky_black)
-        return refinement_predicted_rmse(f);
-    double sum = 0;
-    for (size_t tile = 0; tile < (size_t)f->columns * f->rows; tile++) {
-        const refinement_tile *t = &f->tiles[tile];
-        sum += t->final_shown;
-        for (size_t i = 0; i < t->count; i++) {
-            const leaf *l = &t->leaves[i];
-            sum += (double)(areas[l->level] * areas[l->level] * l->contrast * f->weight[leaf_pixel(f, tile, l)]);
-        }
-    }
-    return predicted_displayed(NULL, sum, (double)f->out->width * f->out->height);
-}
-
-double refinement_predicted_rmse(const refinement *f)
-{
-    double sum = 0;
-    for (size_t tile = 0; tile < (size_t)f->columns * f->rows; tile++) {
-        const refinement_tile *t = &f->tiles[tile];
-        sum += t->final_variance;
-        for (size_t i = 0; i < t->count; i++)
-            sum += (double)(areas[t->leaves[i].level] * areas[t->leaves[i].level] * t->leaves[i].variance);
-    }
-    return predicted_rmse(NULL, sum, (double)f->out->width * f->out->height);
 }
 
 /* ---- memory ---- */

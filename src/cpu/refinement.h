@@ -98,12 +98,15 @@ bool leaf_chosen(const refinement *f, size_t tile, const leaf *l);
 /* Points for the chosen ones among the tile's first `end` leaves that take them (adaptive_points.c). False: memory is short. */
 bool refinement_scatter_points(const refinement *f, size_t tile, size_t end, uint32_t worker);
 
-/* Evaluations so far; pixels of water; the RMSE over the picture that the leaves expect, of coverage. */
+/* Evaluations so far; pixels of water. */
 double refinement_spent(const refinement *f);
 double refinement_water(const refinement *f);
-double refinement_predicted_rmse(const refinement *f);
-/* Of the displayed luminance, 0 to 1; under a black sky of coverage. */
-double refinement_predicted_displayed(const refinement *f);
+
+/* The RMSE over the picture that the leaves expect, of coverage or of the displayed luminance (0 to 1; under a black sky of coverage), and the target of it. */
+typedef struct error_goal {
+    double predicted, target; /* target 0: the frame has none, and nothing is predicted */
+} error_goal;
+error_goal refinement_goal(const refinement *f);
 
 /* ---- memory ---- */
 

@@ -147,6 +147,27 @@ static void a_target_error_is_met(void **state)
     mgt_context_destroy(context);
 }
 
+static void a_small_target_has_its_samples(void **state)
+{
+    (void)state;
+    mgt_wave waves[SEA_WAVES];
+    static layers l;
+    mgt_context *context = sea_context(2, MGT_ISA_AUTO);
+    mgt_scene scene = glitter_scene(waves, MGT_METHOD_ADAPTIVE);
+    /* Half the error takes more than half as many samples again. No leaf that such an error needs may be settled in the first rounds. */
+    static const double targets[] = {0.004, 0.002, 0.001};
+    double before = 0;
+    for (size_t i = 0; i < sizeof targets / sizeof *targets; i++) {
+        scene.quality.target_rmse = targets[i];
+        render_layers(context, &scene, &l);
+        const double spent = sum_of(l.samples) / sum_of(l.water);
+        print_message("target %g: %.1f samples\n", targets[i], spent);
+        assert_true(spent > 1.5 * before);
+        before = spent;
+    }
+    mgt_context_destroy(context);
+}
+
 enum { DISPLAYED = 4 * PIXELS };
 
 static void render_displayed(mgt_context *context, const mgt_scene *scene, uint8_t rgba[DISPLAYED])
@@ -289,6 +310,7 @@ int main(void)
         cmocka_unit_test(more_samples_are_nearer_to_brute_force),
         cmocka_unit_test(shutters_of_any_length_converge),
         cmocka_unit_test(a_target_error_is_met),
+        cmocka_unit_test(a_small_target_has_its_samples),
         cmocka_unit_test(history_leaves_no_trace),
         cmocka_unit_test(nothing_to_find_costs_nothing),
         cmocka_unit_test(a_displayed_target_is_met_and_no_picture_gets_worse),

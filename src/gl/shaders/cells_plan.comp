@@ -52,17 +52,23 @@ void count_leaves()
     state[CELLS_LEAVES] = uint(sum);
 }
 
+/* The error that a target is compared with, and the target; 0: there is none. */
+double predicted, target;
+
+void find_goal()
+{
+    double variance = sum_of_tiles(TILE_VARIANCE, TILE_OPEN_VARIANCE), shown = sum_of_tiles(TILE_SHOWN, TILE_OPEN_SHOWN);
+    double pixels = double(cells_data.width) * double(cells_data.height);
+    bool by_coverage = cells_data.target_rmse > 0.0f;
+    predicted = by_coverage || cells_data.sky_black != 0 ? predicted_rmse(0, variance, pixels) : predicted_displayed(0, shown, pixels);
+    target = double(by_coverage ? cells_data.target_rmse : cells_data.target_displayed);
+}
+
 /* Evaluations that the round may spend; not above 0: the refinement ends. */
 double next_share(int round, double used)
 {
-    double variance = sum_of_tiles(TILE_VARIANCE, TILE_OPEN_VARIANCE), shown = sum_of_tiles(TILE_SHOWN, TILE_OPEN_SHOWN);
-    double pixels = double(cells_data.width) * double(cells_data.height), rmse = predicted_rmse(0, variance, pixels);
     double budget = sum_of_tiles(TILE_WATER, TILE_WATER) * double(cells_data.samples);
-    if (cells_data.target_rmse > 0.0f)
-        return share_towards(0, rmse, double(cells_data.target_rmse), used);
-    if (cells_data.target_displayed > 0.0f)
-        return share_towards(0, cells_data.sky_black != 0 ? rmse : predicted_displayed(0, shown, pixels), double(cells_data.target_displayed), used);
-    return share_of_samples(0, round, budget, used);
+    return target > 0.0lf ? share_towards(0, predicted, target, used) : share_of_samples(0, round, budget, used);
 }
 
 /* ---- the census ---- */
@@ -110,7 +116,7 @@ void store_plan(int round, RoundPlan p)
     state[CELLS_POINTS] = uint(p.points);
     set_state_double(CELLS_SHARE, p.share);
     bool crowded = double(state[CELLS_LEAVES]) > 0.625lf * double(cells_data.pool);
-    state[CELLS_LEAST] = uint(settled_bucket(0, p, round, crowded, int(state[CELLS_LEAST])));
+    state[CELLS_LEAST] = uint(settled_bucket(0, p, round, kept_octaves(0, predicted, target), crowded, int(state[CELLS_LEAST])));
 }
 
 void main()
@@ -123,6 +129,7 @@ void main()
     if (running == 0u)
         return;
     double used = sum_of_tiles(TILE_SPENT, TILE_SPENT);
+    find_goal();
     double share = next_share(round, used);
     count_leaves();
     RoundPlan p = plan_for(max(share, 0.0lf));

@@ -192,8 +192,9 @@
 #define WORTH_OCTAVES 96
 #define WORTH_BUCKETS (WORTH_STEPS * WORTH_OCTAVES)
 #define WORTH_ZERO 80
-#define KEPT_OCTAVES 5 /* leaves worth less than 2^-5 of the worth that was split last are settled */
-#define KEPT_ROUNDS 2  /* number of first rounds that settle no leaf, because they take only the best */
+#define KEPT_OCTAVES 5  /* leaves worth less than 2^-5 of the worth that was split last are settled */
+#define KEPT_HALVINGS 3 /* towards an error, also the leaves that so many halvings of the error need are kept */
+#define KEPT_ROUNDS 2   /* number of first rounds that settle no leaf, because they take only the best */
 
 #define COST_UNIT 65536 /* costs are counted in units of 1 / COST_UNIT of an evaluation of all waves */
 /* Measured costs, in waves of a cell: CELL_WAVES of a cell besides its waves, SAMPLE_WAVES of a point sample besides its waves, SAMPLE_TENTHS tenths of each
