@@ -161,6 +161,10 @@ static void messages_say_what_where_and_what_is_allowed(void **state)
          "  - {time: 2, position: [2, 5, 0], target: [-2, 5, 0]}\n",
          "s.yaml:5:3: camera.path at 1 s (frame 4): the camera looks at its own position; allowed: a target apart from position"},
         /* seas */
+        {"mangata: 1\nwater:\n  spectrum: {wind: 12}\n",
+         "s.yaml:3:13: water.spectrum.model is missing; required: model: one of none, pierson-moskowitz, jonswap, tma, elfouhaily, buoy"},
+        {"mangata: 1\nwater: {spectrum: {}}\n",
+         "s.yaml:2:19: water.spectrum.model is missing; required: model: one of none, pierson-moskowitz, jonswap, tma, elfouhaily, buoy"},
         {"mangata: 1\nwater: {wind: -3}\n", "s.yaml:2:15: water.wind is -3; allowed: a number, 0 or 0.5 to 75 m/s, or a mapping {key: value, ...}"},
         {"mangata: 1\nwater: {wind: strong}\n", "s.yaml:2:15: water.wind is strong; allowed: a number, 0 or 0.5 to 75 m/s, or a mapping {key: value, ...}"},
         {"mangata: 1\nwater: {wind: \"8\"}\n",

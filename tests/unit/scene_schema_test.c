@@ -124,9 +124,10 @@ static bool loads(const char *override)
     static const char path[] = "mangata: 1\ncamera: {path: [{time: 0, position: [0, 4, 0], target: [0, 3, -1], up: [0.3, 1, 0.2]}]}\n";
     static const char calm[] = "mangata: 1\ncamera: {up: [0.3, 1, 0.2]}\n"; /* the wind excludes other waves */
     static const char swell[] = "mangata: 1\ncamera: {up: [0.3, 1, 0.2]}\nwater: {swell: [{height: 1}]}\n";
+    static const char spectrum[] = "mangata: 1\ncamera: {up: [0.3, 1, 0.2]}\nwater: {spectrum: {model: none}}\n";
     static const struct {
         const char *key, *text;
-    } bases[] = {{"camera.path", path}, {"water.wind", calm}, {"water.swell", swell}, {"", text}};
+    } bases[] = {{"camera.path", path}, {"water.wind", calm}, {"water.swell", swell}, {"water.spectrum", spectrum}, {"", text}};
     size_t i = 0;
     while (strncmp(override, bases[i].key, strlen(bases[i].key)) != 0)
         i++;
