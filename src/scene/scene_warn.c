@@ -70,7 +70,7 @@ static const tree_node *camera_node(const scene_tree *tree)
     return path != NULL ? path : position != NULL ? position : mapping != NULL ? mapping : tree->root;
 }
 
-/* Methods look through the surface from the side of the mean surface that the camera is on. */
+/* Methods look through the surface from the side of the mean surface that the camera is on; at its height they see it from above. */
 static bool warn_of_camera(const scene_tree *tree, const scene_values *values, scene_error *warning)
 {
     const scene_list waves = scene_water_all(&values->water);
@@ -80,11 +80,12 @@ static bool warn_of_camera(const scene_tree *tree, const scene_values *values, s
         const mgt_camera camera = scene_camera_at(&values->camera, time);
         const double above = camera.position[1] - values->water.level;
         const double water = waves_height(waves.items, waves.count, camera.position[0], camera.position[2], time);
-        if (above > 0 ? above < water : above > water) {
+        const bool dry = above >= 0;
+        if (dry ? above < water : above > water) {
             const tree_node *node = camera_node(tree);
             return tree_error(tree, node->source, node->place, warning,
                               "in frame %u a wave stands %.3g m %s the mean surface at the camera, which is at %.3g m: it is drawn as if it were %s", frame,
-                              fabs(water), water > 0 ? "over" : "under", above, above > 0 ? "dry" : "under water");
+                              fabs(water), water > 0 ? "over" : "under", above, dry ? "dry" : "under water");
         }
     }
     return true;
