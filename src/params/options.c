@@ -181,8 +181,7 @@ bool quality_is_chosen(const quality_choice *choice, const field_row *field) { r
 static void simplify(const field_row *field, void *values)
 {
     double number, written;
-    if (field->flags & FIELD_OR_ZERO && field->absent && number_read(field->absent, &number) &&
-        number_read(field_print(field, field_at(field, values)).text, &written) && written == number)
+    if (field->absent && number_read(field->absent, &number) && number_read(field_print(field, field_at(field, values)).text, &written) && written == number)
         reset(field, values);
 }
 
@@ -201,7 +200,6 @@ bool quality_choose(quality_choice *choice, const field_row *field, const char *
     } else if (!field_parse(field, text, (char *)q + field->offset)) {
         return false;
     }
-    simplify(field, q);
     choice->rows |= bit_of(field);
     return true;
 }
@@ -257,6 +255,8 @@ bool quality_apply(const quality_choice *choice, const mgt_quality *base, mgt_qu
             snprintf(wrong, size, "%s: it is for %s alone", flag.text, words);
             return false;
         }
+    for (const field_row *field = quality_fields; field->key; field++)
+        simplify(field, &q);
     *out = quality_restricted(&q);
     /* Methods without samples of their own take one; records and hashes say so. */
     if (!field_applies(quality_fields, field_find(quality_fields, "spatial", 7), out, false))

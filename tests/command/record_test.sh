@@ -39,9 +39,15 @@ podee=$(hash_of --method podee-pixel)
 for option in 'kernels 9' 'kernels feline' 'integral kernels' 'path-segments 2' 'transition hard' 'transition-width 0.2'; do
     [[ $(hash_of --method podee-pixel --$option) != "$podee" ]] || fail "the hash must depend on --$option"
 done
-for option in 'kernels exact' 'integral exact' 'path-segments 1' 'transition soft'; do
+for option in 'kernels exact' 'integral exact' 'path-segments 1' 'transition soft' 'transition-width 0.3' 'set quality.transition_width=0.3'; do
     [[ $(hash_of --method podee-pixel --$option) == "$podee" ]] || fail "--$option is the default"
 done
+slots=(--method adaptive --adaptive podee)
+podee=$(hash_of "${slots[@]}")
+for option in 'samples 8' 'importance-center 0.1' 'importance-width 0.04' 'importance-threshold 0.05' 'set quality.importance_threshold=0.05'; do
+    [[ $(hash_of "${slots[@]}" --$option) == "$podee" ]] || fail "--$option is the default of adaptive"
+done
+[[ $(hash_of "${slots[@]}" --importance-threshold 0.06) != "$podee" ]] || fail "the hash must depend on --importance-threshold"
 
 [[ $(hash_of --method reference) != $(hash_of --method reference --light-cells 20) ]] || fail "the hash must depend on --light-cells"
 [[ $(hash_of --method ggx-moments) != $(hash_of --method ggx-moments --roughness-floor 0.1) ]] || fail "the hash must depend on --roughness-floor"
