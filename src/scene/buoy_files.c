@@ -43,10 +43,13 @@ typedef struct buoy_reader {
     scene_error *error;
 } buoy_reader;
 
-static bool refuse(const buoy_reader *r, const char *place, const char *what, const char *allowed)
+static scene_place place_of(const buoy_reader *r, const char *at) { return (scene_place){r->number, (int)(at - r->line) + 1}; }
+
+static bool refuse(const buoy_reader *r, const char *at, const char *what, const char *allowed)
 {
-    return scene_error_set(r->error, SCENE_ERROR_BAD_SCENE, "%s:%d:%d: %s; allowed: %s", scene_file_name(r->path).text, r->number, (int)(place - r->line) + 1,
-                           what, allowed);
+    const scene_place place = place_of(r, at);
+    return scene_error_set(r->error, SCENE_ERROR_BAD_SCENE, "%s:%d:%d: %s; allowed: %s", scene_file_name(r->path).text, place.line, place.column, what,
+                           allowed);
 }
 
 static bool is_blank(char c) { return c == ' ' || c == '\t' || c == ',' || c == '\r'; }
@@ -99,9 +102,13 @@ static bool word_number(buoy_word word, double *value)
 
 /* ---- the plain table ---------------------------------------------------------------------------------------- */
 
+/* Says where in the buoy's file the lines that follow come from, for messages about them. */
+static void write_place(FILE *stream, scene_place place) { fprintf(stream, BUOY_PLACE "\n", place.line, place.column); }
+
 /* Writes a frequency's density spread by the shares, which need not add up to 1; negative ones count as 0. */
-static void write_bin(FILE *stream, double frequency, double density, const double shares[DIRECTIONS])
+static void write_bin(FILE *stream, scene_place place, double frequency, double density, const double shares[DIRECTIONS])
 {
+    write_place(stream, place);
     double sum = 0;
     for (int i = 0; i < DIRECTIONS; i++)
         sum += fmax(shares[i], 0);
@@ -132,6 +139,8 @@ static bool convert_datawell(buoy_reader *r, FILE *stream)
         double value;
         if (!word_number(word, &value) || (i == DENSITY_LINE && !(value >= 0 && value <= 1e4)))
             return refuse(r, word.text, "this is no number about the buoy", "twelve lines of one number each, the fourth the greatest density in m²/Hz");
+        if (i == DENSITY_LINE && !(value > 0))
+            return refuse(r, word.text, "the greatest density is 0: the buoy saw no waves", "a density above 0 in m²/Hz");
         most = i == DENSITY_LINE ? value : most;
         if (!next_line(r))
             return refuse(r, r->at, "the file ends before its spectrum",
@@ -150,7 +159,7 @@ static bool convert_datawell(buoy_reader *r, FILE *stream)
                           "rising frequencies of 0.0001 to 100 Hz, shares of the greatest density, degrees");
         last = values[0];
         spread_datawell(values[2], values[3], shares);
-        write_bin(stream, values[0], values[1] * most, shares);
+        write_bin(stream, place_of(r, r->line), values[0], values[1] * most, shares);
     } while (next_line(r));
     return true;
 }
@@ -161,7 +170,9 @@ typedef struct ndbc_record {
     char time[32]; /* "2026 01 31 12 40" */
     size_t count;
     double frequency[BINS], value[BINS]; /* MISSING or more: not measured */
-    bool archived;                       /* the header has the frequencies, and r1 and r2 are hundredths */
+    scene_place place[BINS];             /* of the values */
+    int frequency_line;
+    bool archived; /* the header has the frequencies, and r1 and r2 are hundredths */
 } ndbc_record;
 
 static const char NDBC_ALLOWED[] = "#YY MM DD hh mm and frequencies, or records of such a time and value (frequency) value (frequency) …";
@@ -178,6 +189,7 @@ static bool read_frequencies(buoy_reader *r, ndbc_record *record)
         record->frequency[record->count++] = last = value;
     }
     record->archived = record->count > 0;
+    record->frequency_line = r->number;
     return true;
 }
 
@@ -208,6 +220,7 @@ static bool read_values(buoy_reader *r, ndbc_record *record)
         if (record->archived) {
             if (count == record->count)
                 return refuse(r, word.text, "there are more values than frequencies", NDBC_ALLOWED);
+            record->place[count] = place_of(r, word.text);
             record->value[count++] = value;
             continue;
         }
@@ -222,6 +235,8 @@ static bool read_values(buoy_reader *r, ndbc_record *record)
         if (!word_number(bracket, &frequency) || !(frequency > last && frequency >= LOWEST && frequency <= HIGHEST) || count == BINS)
             return refuse(r, bracket.text, "this is no frequency of the spectrum", "at most 256 rising frequencies to 100 Hz");
         record->frequency[count] = last = frequency;
+        record->frequency_line = r->number;
+        record->place[count] = place_of(r, word.text);
         record->value[count++] = value;
     }
     if (count < 2 || (record->archived && count < record->count))
@@ -284,8 +299,8 @@ static bool read_beside(const char *path, const ndbc_record *density, int quanti
                                                                              scene_file_name(name).text, place.line, place.column, NDBC_ALLOWED);
     good = good && read_record(name, text, density->time, record, error);
     if (good && (record->count != density->count || memcmp(record->frequency, density->frequency, record->count * sizeof record->frequency[0]) != 0))
-        good = scene_error_set(error, SCENE_ERROR_BAD_SCENE, "%s: it has other frequencies than %s; allowed: files of the same buoy and time",
-                               scene_file_name(name).text, scene_file_name(path).text);
+        good = scene_error_set(error, SCENE_ERROR_BAD_SCENE, "%s:%d:1: it has other frequencies than %s; allowed: files of the same buoy and time",
+                               scene_file_name(name).text, record->frequency_line, scene_file_name(path).text);
     free(text);
     return good;
 }
@@ -316,11 +331,13 @@ static bool convert_ndbc(const char *path, const char *text, FILE *stream, scene
     bool good = read_record(path, text, NULL, &density, error);
     for (int i = 0; good && i < 4; i++)
         good = read_beside(path, &density, i, &quantities[i], error);
+    if (good)
+        write_place(stream, density.place[0]);
     for (size_t bin = 0; good && bin < density.count; bin++) {
         double shares[DIRECTIONS];
         if (density.value[bin] >= 0 && density.value[bin] < MISSING) {
             spread_ndbc(quantities, bin, shares);
-            write_bin(stream, density.frequency[bin], density.value[bin], shares);
+            write_bin(stream, density.place[bin], density.frequency[bin], density.value[bin], shares);
         }
     }
     free(quantities);

@@ -12,6 +12,9 @@
 
 typedef enum buoy_format { BUOY_TABLE, BUOY_NDBC, BUOY_DATAWELL } buoy_format;
 
+/* A line of a converted table: the lines after it come from this line and column of the file. */
+#define BUOY_PLACE "# %d %d"
+
 /* By how a file begins. Texts end with a NUL here and below, as buoy_file_read() leaves them. */
 buoy_format buoy_format_of(const char *text);
 

@@ -31,8 +31,8 @@ typedef struct table_reader {
     scene_error *error;
     size_t room; /* points */
     int line;
+    int column;        /* of a converted table: where its lines come from; else 0 */
     bool begun;        /* a header or a row was read */
-    bool converted;    /* the lines are not those of the file */
     double per_radian; /* factor from the file's density to that per radian */
 } table_reader;
 
@@ -55,8 +55,6 @@ static bool refuse(const table_reader *r, int column, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(what, sizeof what, format, arguments);
     va_end(arguments);
-    if (r->converted)
-        return scene_error_set(r->error, SCENE_ERROR_BAD_SCENE, "%s: %s", scene_file_name(r->name).text, what);
     return scene_error_set(r->error, SCENE_ERROR_BAD_SCENE, "%s:%d:%d: %s", scene_file_name(r->name).text, r->line, column, what);
 }
 
@@ -145,6 +143,8 @@ static bool read_line(table_reader *r, const char *line, size_t length)
     table_word words[COLUMNS + 1];
     double values[COLUMNS];
     const size_t count = split(line, length, words);
+    if (count == 0 && r->column > 0)
+        sscanf(line, BUOY_PLACE, &r->line, &r->column);
     if (count == 0)
         return true;
     const bool first = !r->begun;
@@ -161,7 +161,7 @@ static bool read_line(table_reader *r, const char *line, size_t length)
             const scene_quote quote = scene_quote_text(words[i].text, words[i].length);
             return refuse(r, words[i].column, "%s is %s; allowed: %s", columns[i].name, quote.text, columns[i].allowed);
         }
-    return add_point(r, values, words[0].column);
+    return add_point(r, values, r->column > 0 ? r->column : words[0].column);
 }
 
 /* ---- rows --------------------------------------------------------------------------------------------------- */
@@ -224,16 +224,16 @@ static bool finish_table(table_reader *r)
     }
     for (size_t i = 0; i < table->point_count; i++)
         highest = table->points[i].density > highest->density ? &table->points[i] : highest;
+    const char *allowed = r->column > 0 ? "densities above 0 at two frequencies at least"
+                                        : "lines of frequency (Hz), direction (degrees, where waves come from) and density (m²/Hz/degree) for at least two "
+                                          "frequencies";
     const char *fault = table->row_count == 0 ? "no rows" : table->row_count < 2 ? "only one frequency" : !(most > 0) ? "no waves, every density is 0" : NULL;
     if (table->row_count >= 2 && !(most > 0) && highest->density > 0)
         return refuse_at(r, highest,
                          "the table holds no waves: gaps of over 90 degrees, as on both sides of this direction, count as empty; allowed: smaller ones");
     if (fault != NULL) {
         r->line = table->row_count > 0 ? table->points[0].line : r->line;
-        return refuse(r, 1,
-                      "the table holds %s; allowed: lines of frequency (Hz), direction (degrees, where waves come from) and density "
-                      "(m²/Hz/degree) for at least two frequencies",
-                      fault);
+        return refuse(r, 1, "the table holds %s; allowed: %s", fault, allowed);
     }
     const double height = sqrt(2 * table_variance(table));
     if (height > MOST_AMPLITUDE) {
@@ -245,7 +245,7 @@ static bool finish_table(table_reader *r)
 
 static bool parse_table(spectrum_table *out, const char *text, size_t length, const char *name, bool converted, scene_error *error)
 {
-    table_reader r = {.table = out, .name = name, .error = error, .line = 1, .converted = converted, .per_radian = 180 / SPECTRUM_PI};
+    table_reader r = {.table = out, .name = name, .error = error, .line = 1, .column = converted, .per_radian = 180 / SPECTRUM_PI};
     scene_place place;
     *out = (spectrum_table){0};
     if (!scene_text_is_clean(text, length, &place)) {
@@ -257,7 +257,7 @@ static bool parse_table(spectrum_table *out, const char *text, size_t length, co
         length -= 3;
     }
     bool good = true;
-    for (size_t at = 0; good && at < length; r.line++) {
+    for (size_t at = 0; good && at < length; r.line += !converted) {
         const char *end = memchr(text + at, '\n', length - at);
         const size_t size = end != NULL ? (size_t)(end - text) - at : length - at;
         good = read_line(&r, text + at, size);

@@ -73,16 +73,21 @@ static const char datawell[] = "17\r\n231\r\n7.143\r\n4.5E+0\r\n10.0\r\n8.5\r\n7
                                "0.025,0.000E+00,100.0,70.0,0.1,2.0\r\n0.080,1.000E+00,281.2,20.0,0.1,2.0\r\n"
                                "0.120,4.000E-01,300.0,30.0,0.1,2.0\r\n0.580,1.000E-03,20.0,75.0,0.1,2.0\r\n";
 
-static int make_files(void **state)
+static void make_texts(void)
 {
-    (void)state;
-    if (mkdtemp(folder) == NULL)
-        return -1;
     for (int i = 0; i < 5; i++) {
         write_text(real_time[i][0], real_time[i][1]);
         write_text(archived[i][0], archived[i][1]);
     }
     write_text("buoy.spt", datawell);
+}
+
+static int make_files(void **state)
+{
+    (void)state;
+    if (mkdtemp(folder) == NULL)
+        return -1;
+    make_texts();
     return 0;
 }
 
@@ -158,7 +163,14 @@ static void bad_files_say_where(void **state)
         {"a.data_spec", "#YY MM DD hh mm\n2026 1 1 1 1 0.1 1 (0.1)\n", "a.data_spec:2:1: there are fewer values than frequencies"},
         {"a.data_spec", "#YY MM DD hh mm\n2026 1 1 1 1 0.1 1 (0.1) 1 (0.2)\n", "a.swdir: No such file"},
         {"b.txt", "#YY MM DD hh mm\n2026 1 1 1 1 0.1 1 (0.1) 1 (0.2)\n", "b.txt: the name does not say where its directions are; allowed: STATION.data_spec"},
-        {"46042.swr1", "#YY MM DD hh mm\n2026 01 31 12 40 0.9 (0.033) 0.9 (0.071) 1 (0.1) 1 (0.2)\n", "46042.swr1: it has other frequencies than"},
+        {"46042.swr1", "#YY MM DD hh mm\n2026 01 31 12 40 0.9 (0.033) 0.9 (0.071) 1 (0.1) 1 (0.2)\n", "46042.swr1:2:1: it has other frequencies than"},
+        {"46042.data_spec", "#YY MM DD hh mm\n\n2026 01 31 12 40 0.1 0.0 (0.033) 0.0 (0.070) 0.0 (0.1) 0 (0.2)\n",
+         "46042.data_spec:3:1: the table holds no waves, every density is 0; allowed: densities above 0 at two frequencies at least"},
+        {"46042.data_spec", "#YY MM DD hh mm\n2026 01 31 12 40 0.1 MM (0.033) MM (0.070) MM (0.1) 999 (0.2)\n", "46042.data_spec:2:1: the table holds no rows"},
+        {"46042.data_spec", "#YY MM DD hh mm\n2026 01 31 12 40 0.1 MM (0.033) MM (0.070) 3 (0.1) MM (0.2)\n",
+         "46042.data_spec:2:1: the table holds only one frequency"},
+        {"46042w2025.txt", "#YY MM DD hh mm .0330 .0700 .1000 .2000\n2026 01 31 12 40 0 0 0 0\n", "46042w2025.txt:2:1: the table holds no waves"},
+        {"46042i2025.txt", "#YY MM DD hh mm .0330 .0700 .1000 .2100\n2026 01 31 12 40 0 0 0 0\n", "46042i2025.txt:1:1: it has other frequencies than"},
         {"46042.swr1", "#YY MM DD hh mm\n2026 01 31 12 41 0.9 (0.033)\n", "46042.swr1: there is no record of 2026 01 31 12 40; allowed"},
         {"46042.swr1", "nothing\n", "46042.swr1:1:1: the header is missing"},
         {"46042.swr1", "\x01", "46042.swr1:1:1: not a text file"},
@@ -170,20 +182,24 @@ static void bad_files_say_where(void **state)
         {"a.spt", "1\n2\n3\n4\n5\n6\n7\n8\n9\n10\n11\n12\n0.1,1,90\n", "a.spt:13:9: a number is missing"},
         {"a.spt", "1\n2\n3\n4\n5\n6\n7\n8\n9\n10\n11\n12\n0.1,1,90,20\n0.1,1,90,20\n", "a.spt:14:1: these are not frequency, density, direction and spread"},
         {"a.spt", "1\n2\n3\n4\n5\n6\n7\n8\n9\n10\n11\n12\n0.1,1,9e9,20\n", "a.spt:13:1: these are not"},
-        {"a.spt", "1\n2\n3\n4\n5\n6\n7\n8\n9\n10\n11\n12\n0.1,0,90,20\n0.2,0,90,20\n", "a.spt: the table holds no waves, every density is 0"},
+        {"a.spt", "1\n2\n3\n4\n5\n6\n7\n8\n9\n10\n11\n12\n0.1,0,90,20\n0.2,0,90,20\n", "a.spt:13:1: the table holds no waves, every density is 0"},
+        {"a.spt", "1\n2\n3\n0\n5\n6\n7\n8\n9\n10\n11\n12\n0.1,1,90,20\n0.2,1,90,20\n", "a.spt:4:1: the greatest density is 0"},
+        {"a.spt", "1\n2\n3\n9e3\n5\n6\n7\n8\n9\n10\n11\n12\n0.1,1,90,20\n0.2,900,90,20\n0.3,1,90,20\n",
+         "a.spt:14:1: densities such as this one make a wave of"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         spectrum_table table;
         scene_error error = {0};
         write_text(cases[i].name, cases[i].text);
-        const char *load_name = strncmp(cases[i].name, "46042", 5) == 0 ? "46042.data_spec" : cases[i].name;
+        const bool archive = strncmp(cases[i].name, "46042", 5) == 0 && strstr(cases[i].name, "2025.txt") != NULL;
+        const char *load_name = archive ? "46042w2025.txt" : strncmp(cases[i].name, "46042", 5) == 0 ? "46042.data_spec" : cases[i].name;
         if (spectrum_table_load(&table, in_folder(load_name), &error))
             fail_msg("%s is no error", cases[i].text);
         assert_null(table.rows);
         if (strstr(error.text, cases[i].message) == NULL)
             fail_msg("\"%s\" gives \"%s\", not \"%s\"", cases[i].text, error.text, cases[i].message);
+        make_texts();
     }
-    write_text(real_time[3][0], real_time[3][1]);
 }
 
 /* A byte of a file changed or cut off: an error or another sea, no more. */
