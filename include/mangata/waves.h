@@ -12,7 +12,7 @@ extern "C" {
 
 /* Density of the waves over frequency. docs/waves.md has the formulas. */
 typedef enum mgt_spectrum {
-    MGT_SPECTRUM_AUTO = 0,          /* ELFOUHAILY in deep water; TMA in water of a depth, its fetch at most that of a fully developed sea */
+    MGT_SPECTRUM_AUTO = 0,          /* ELFOUHAILY */
     MGT_SPECTRUM_PIERSON_MOSKOWITZ, /* a fully developed sea of the open ocean (Pierson and Moskowitz 1964) */
     MGT_SPECTRUM_JONSWAP,           /* limited by fetch (Hasselmann et al. 1973) */
     MGT_SPECTRUM_TMA,               /* JONSWAP in water of a depth (Bouws et al. 1985) */

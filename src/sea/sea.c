@@ -6,24 +6,14 @@
 
 #include "sea/spectrum_sample.h"
 
-/* Of water that is not deep the spectrum is TMA's, which would grow for ever. */
-static double bounded_fetch(double wind, double fetch)
-{
-    const double developed = developed_fetch(wind);
-    return fetch > 0 && fetch < developed ? fetch : developed;
-}
-
 spectrum_settings sea_of_wind(double wind, double direction_deg, double fetch, double depth)
 {
-    const bool deep = !(depth > 0);
-    return (spectrum_settings){.kind = deep ? SPECTRUM_ELFOUHAILY : SPECTRUM_TMA,
+    return (spectrum_settings){.kind = SPECTRUM_ELFOUHAILY,
                                .wind = wind,
                                .wind_height = 10,
-                               .fetch = deep ? fetch : bounded_fetch(wind, fetch),
+                               .fetch = fetch,
                                .depth = depth,
-                               .gamma = SEA_PEAKEDNESS,
                                .direction_deg = direction_deg,
-                               .directions = DIRECTIONS_HASSELMANN,
                                .slope = SLOPE_COX_MUNK};
 }
 

@@ -30,8 +30,8 @@ enum { SEA_SWELLS = 16 }; /* at most */
 #define SWELL_USUAL_PERIOD 12
 #define SWELL_USUAL_SPREAD 40
 
-/* A whole sea from the wind alone, at 10 m: in deep water the spectrum of Elfouhaily et al., else TMA's, with Cox and Munk's slopes. `fetch`, metres; 0: fully
- * developed. */
+/* A whole sea from the wind alone, at 10 m: the spectrum of Elfouhaily et al. with Cox and Munk's slopes. `fetch`, metres; 0: fully developed. `depth`, metres;
+ * 0: deep. */
 spectrum_settings sea_of_wind(double wind, double direction_deg, double fetch, double depth);
 
 /* A spectrum from settings, with its tail scaled to Cox and Munk's slopes if they ask for it. False with *fault filled; fault->key is NULL if memory runs out. */

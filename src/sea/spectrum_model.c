@@ -105,12 +105,6 @@ static void make_pierson_moskowitz(wave_spectrum *s, double wind_19_5)
     s->peak = pierson_moskowitz_peak(wind_19_5);
 }
 
-double developed_fetch(double wind_10)
-{
-    const double ratio = jonswap_peak(wind_10, 1) / pierson_moskowitz_peak(wind_at_height(wind_10, 10, 19.5));
-    return ratio * ratio * ratio;
-}
-
 static void make_jonswap(wave_spectrum *s, double wind_10, double fetch, double gamma)
 {
     s->alpha = 0.076 * portable_pow(wind_10 * wind_10 / (fetch * G), 0.22);
@@ -192,10 +186,11 @@ bool wave_spectrum_make(wave_spectrum *out, const spectrum_settings *settings, c
     else
         make_jonswap(&s, s.wind_10, settings->fetch, settings->gamma);
     const double shallow = 0.7616 * G / (s.peak * s.peak); /* k d = 1 at the peak: tanh 1 */
-    if (settings->kind != SPECTRUM_TMA && s.depth > 0 && s.depth < shallow)
-        return refuse(fault, "depth",
-                      "is %g m, shallow for this sea's waves, and the model one of deep water; allowed: the model tma, 0 (deep), or above %.3g m", s.depth,
-                      shallow);
+    if (!spectrum_takes_depth(settings->kind) && s.depth > 0 && s.depth < shallow)
+        return refuse(
+            fault, "depth",
+            "is %g m, shallow for this sea's waves, and the model one of deep water; allowed: the models tma and elfouhaily, 0 (deep), or above %.3g m",
+            s.depth, shallow);
     s.low = LOWEST * s.peak;
     s.high = dispersion_frequency(2 * SPECTRUM_PI / shortest, s.depth);
     *out = s;
@@ -210,7 +205,7 @@ double wave_spectrum_peak(const wave_spectrum *spectrum)
 {
     /* The factor of depth falls towards low frequencies and moves the highest point up a little; that of Elfouhaily et al. is not at their k_p. */
     double best = spectrum->peak;
-    if (spectrum->kind == SPECTRUM_TMA || spectrum->kind == SPECTRUM_ELFOUHAILY)
+    if (spectrum_takes_depth(spectrum->kind))
         for (double f = 0.5 * spectrum->peak, most = 0; f < 3 * spectrum->peak; f += 0.001 * spectrum->peak) {
             const double density = wave_spectrum_density(spectrum, f);
             if (density > most) {
@@ -223,26 +218,18 @@ double wave_spectrum_peak(const wave_spectrum *spectrum)
 
 /* ---- densities ---------------------------------------------------------------------------------------------- */
 
-/* dk/dω in water of this depth. */
-static double numbers_per_frequency(double wave_number, double frequency, double depth)
-{
-    const double t = depth > 0 ? portable_tanh(wave_number * depth) : 1;
-    return 2 * frequency / (G * (t + wave_number * depth * (1 - t * t)));
-}
-
+/* Of deep water. */
 static double parametric_density(const wave_spectrum *s, double frequency)
 {
-    if (s->kind == SPECTRUM_ELFOUHAILY) {
-        const double k = dispersion_wave_number(frequency, s->depth);
-        return unified_density(&s->unified, k) * numbers_per_frequency(k, frequency, s->depth);
-    }
+    if (s->kind == SPECTRUM_ELFOUHAILY)
+        return unified_density(&s->unified, dispersion_wave_number(frequency, 0)) * (2 * frequency / G); /* dk/dω */
     const double ratio = s->peak / frequency, square = frequency * frequency;
     double density = s->alpha * G * G / (square * square * frequency) * portable_exp(-1.25 * ratio * ratio * ratio * ratio);
     if (s->gamma > 1) {
         const double width = frequency <= s->peak ? 0.07 : 0.09, x = (frequency / s->peak - 1) / width;
         density *= portable_pow(s->gamma, portable_exp(-x * x / 2));
     }
-    return s->kind == SPECTRUM_TMA ? density * depth_factor(frequency, s->depth) : density;
+    return density;
 }
 
 double wave_spectrum_density(const wave_spectrum *s, double frequency)
@@ -251,7 +238,7 @@ double wave_spectrum_density(const wave_spectrum *s, double frequency)
         return 0;
     double density;
     if (s->kind != SPECTRUM_BUOY)
-        density = parametric_density(s, frequency);
+        density = parametric_density(s, frequency) * (spectrum_takes_depth(s->kind) ? depth_factor(frequency, s->depth) : 1);
     else if (frequency > s->tail_from)
         density = spectrum_table_density(s->table, s->tail_from) * portable_pow(frequency / s->tail_from, -5);
     else
@@ -297,7 +284,7 @@ double wave_spectrum_spreading(const wave_spectrum *s, double frequency, double 
     if (s->kind == SPECTRUM_BUOY)
         return spectrum_table_at(s->table, frequency, azimuth);
     if (s->kind == SPECTRUM_ELFOUHAILY) /* as symmetric as the paper's in its slopes, but no wave runs against the wind */
-        return fabs(angle) < SPECTRUM_PI / 2 ? 1 + unified_asymmetry(&s->unified, dispersion_wave_number(frequency, s->depth)) * portable_cos(2 * angle) : 0;
+        return fabs(angle) < SPECTRUM_PI / 2 ? 1 + unified_asymmetry(&s->unified, dispersion_wave_number(frequency, 0)) * portable_cos(2 * angle) : 0;
     const double ratio = frequency / s->peak, wind_over_speed = s->wind_10 * s->peak / G;
     switch (s->directions) {
     case DIRECTIONS_MITSUYASU:

@@ -21,7 +21,7 @@ typedef enum spectrum_kind {
     SPECTRUM_PIERSON_MOSKOWITZ, /* fully developed sea of the open ocean (Pierson and Moskowitz 1964) */
     SPECTRUM_JONSWAP,           /* limited by fetch (Hasselmann et al. 1973) */
     SPECTRUM_TMA,               /* JONSWAP times Kitaigorodskii's factor of depth (Bouws et al. 1985) */
-    SPECTRUM_ELFOUHAILY,        /* limited by fetch, long and short waves alike (Elfouhaily et al. 1997) */
+    SPECTRUM_ELFOUHAILY,        /* limited by fetch, long and short waves alike (Elfouhaily et al. 1997); of a depth times the same factor */
     SPECTRUM_BUOY               /* measured: a table */
 } spectrum_kind;
 
@@ -54,6 +54,9 @@ typedef struct spectrum_settings {
 #define SPECTRUM_SHORTEST 0.05
 
 static inline bool spectrum_takes_fetch(spectrum_kind kind) { return kind == SPECTRUM_JONSWAP || kind == SPECTRUM_TMA || kind == SPECTRUM_ELFOUHAILY; }
+
+/* Whether it may be of limited depth. */
+static inline bool spectrum_takes_depth(spectrum_kind kind) { return kind == SPECTRUM_TMA || kind == SPECTRUM_ELFOUHAILY; }
 
 /* Whether it is up to the settings how far the peak stands out. */
 static inline bool spectrum_takes_gamma(spectrum_kind kind) { return kind == SPECTRUM_JONSWAP || kind == SPECTRUM_TMA; }
@@ -113,9 +116,6 @@ double depth_factor(double frequency, double depth);
 
 /* Wind at another height over a neutral sea with the drag coefficient 1.3e-3: a logarithmic profile. */
 double wind_at_height(double wind, double height, double wanted_height);
-
-/* The fetch, in metres, after which JONSWAP's peak has come down to that of Pierson and Moskowitz in this wind at 10 m: about 1.9e4 U²/g. */
-double developed_fetch(double wind_10);
 
 /* Significant wave height 4 √m0 of α g² ω⁻⁵ exp(-5/4 (ω_p/ω)⁴) γ^…; exact for γ = 1, to γ = 7 by the fit 1 - 0.287 ln γ, good to 1 %;
  * NAN beyond. */

@@ -126,21 +126,29 @@ static void jonswap_is_pierson_moskowitz_without_its_peak(void **state)
     assert_near(statistics(&peaked).height, closed_form_height(flat.alpha, flat.peak, 3.3), 0.02);
 }
 
-static void tma_is_jonswap_in_deep_water(void **state)
+/* A very large depth changes nothing, a small one multiplies by the factor. */
+static void depth_is_a_factor_on_deep_water(const spectrum_settings *of_deep, spectrum_kind kind)
 {
-    (void)state;
-    spectrum_settings settings = settings_of(SPECTRUM_JONSWAP, 12);
-    const wave_spectrum deep = make(&settings);
-    settings.kind = SPECTRUM_TMA;
+    const wave_spectrum deep = make(of_deep);
+    spectrum_settings settings = *of_deep;
+    settings.kind = kind;
     settings.depth = 3000;
-    const wave_spectrum tma = make(&settings);
+    const wave_spectrum deeper = make(&settings);
     for (double w = deep.low; w < deep.high; w *= 1.07)
-        assert_near(wave_spectrum_density(&tma, w), wave_spectrum_density(&deep, w), 1e-12);
+        assert_near(wave_spectrum_density(&deeper, w), wave_spectrum_density(&deep, w), 1e-12);
     settings.depth = 5;
     const wave_spectrum shallow = make(&settings);
     assert_near(wave_spectrum_density(&shallow, deep.peak), depth_factor(deep.peak, 5) * wave_spectrum_density(&deep, deep.peak), 1e-12);
     assert_true(statistics(&shallow).height < 0.8 * statistics(&deep).height);
     assert_true(wave_spectrum_peak(&shallow) > deep.peak);
+}
+
+static void depth_leads_from_deep_water(void **state)
+{
+    (void)state;
+    const spectrum_settings jonswap = settings_of(SPECTRUM_JONSWAP, 12), unified = settings_of(SPECTRUM_ELFOUHAILY, 12);
+    depth_is_a_factor_on_deep_water(&jonswap, SPECTRUM_TMA);
+    depth_is_a_factor_on_deep_water(&unified, SPECTRUM_ELFOUHAILY);
 }
 
 /* Discrete sums over an even grid, another rule than the one that the code uses. */
@@ -534,7 +542,7 @@ int main(void)
         cmocka_unit_test(the_factor_of_depth_is_a_ratio_of_derivatives),
         cmocka_unit_test(pierson_moskowitz_has_its_height_and_slope),
         cmocka_unit_test(jonswap_is_pierson_moskowitz_without_its_peak),
-        cmocka_unit_test(tma_is_jonswap_in_deep_water),
+        cmocka_unit_test(depth_leads_from_deep_water),
         cmocka_unit_test(the_quadrature_is_right),
         cmocka_unit_test(spreadings_are_the_published_ones),
         cmocka_unit_test(waves_have_the_variances_of_their_spectrum),
