@@ -163,7 +163,7 @@ def render(
     changes  values of the scene: {"light.elevation_deg": 6}
     out      arrays to render into, by layer, in place of new ones
     progress called with the fraction done several times a second; returning False stops with Cancelled, an exception passes through
-    options  those of the method: samples=16, spatial=8, time_samples=8, seed=1, kernels="9", refraction="hybrid", …; those of other methods do nothing
+    options  those of the method: samples=16, spatial=8, time_samples=8, seed=1, kernels="9", refraction="hybrid", …; one that it does not read is a SceneError
 
     The same scene, frame and options give the same numbers, whatever the threads. Errors: SceneError with file, line, column; MangataError.
     """
@@ -174,6 +174,8 @@ def render(
         # The scene format has the number of ssaaN as a key of its own.
         number = re.fullmatch(r"ssaa([0-9]+)", method)
         given["quality.method"] = "ssaa" if number else method
+        if number and "spatial" in options:
+            raise ValueError("spatial: write the number into ssaaN")
         if number:
             given["quality.spatial"] = int(number[1])
     given.update({f"quality.{key}": value for key, value in options.items()})
@@ -181,6 +183,9 @@ def render(
     if given:
         scene = _changed(scene, given)
     view = scene.frame(frame)
+    for option in options:
+        if lib.mgt_option_check(view, option.encode()):
+            raise SceneError(text(lib.mgt_last_error(ffi.NULL)))
     if crop is not None:
         if not all(0 <= number <= max(view.image.width, view.image.height) for number in crop):
             raise ValueError(f"crop {crop}: it lies outside the picture of {view.image.width} x {view.image.height} pixels")

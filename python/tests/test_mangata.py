@@ -47,6 +47,18 @@ def test_changes_take_numbers_lists_and_arrays(scene):
     assert scene.frame(0).camera.position[1] != 9
 
 
+def test_options_that_the_method_does_not_read_are_refused(scene):
+    for method, option in (("mangata", {"spatial": 3}), ("none", {"time_samples": 1}), ("podee-pixel", {"samples": 4}), (None, {"kernels": "9"}), ("adaptive", {"slots": 9})):
+        with pytest.raises(mangata.SceneError, match=rf"^{next(iter(option))}: it is for .*method .* alone$"):
+            mangata.render(scene, method, size=SMALL, **option)
+    with pytest.raises(ValueError, match="spatial: write the number into ssaaN"):
+        mangata.render(scene, "ssaa2", size=SMALL, spatial=3)
+    with pytest.raises(mangata.SceneError, match="unknown key"):
+        mangata.render(scene, "mangata", size=SMALL, colour=3)
+    mangata.render(scene, "ssaa", size=SMALL, spatial=1, seed=2)
+    mangata.render(scene, "mangata", size=SMALL, changes={"quality.spatial": 3})
+
+
 def test_errors_carry_file_line_and_column(tmp_path):
     path = tmp_path / "bad: name.yaml"
     path.write_text("mangata: 1\nlight:\n  elevation_deg: 300\n")

@@ -68,8 +68,32 @@ static void rows_are_public(void **state)
     assert_true(later.known.struct_size == sizeof later && later.known.waves == MGT_WAVES_SHUTTER && later.unknown == 0);
 }
 
+/* Options that a method does not read are found, though the API ignores those that are always set. */
+static void options_say_who_reads_them(void **state)
+{
+    (void)state;
+    mgt_scene scene;
+    mgt_scene_init(&scene, sizeof scene);
+    assert_int_equal(mgt_option_check(&scene, "seed"), MGT_OK);
+    assert_int_equal(mgt_option_check(&scene, "spatial"), MGT_ERROR_SCENE);
+    assert_string_equal(mgt_last_error(NULL), "spatial: it is for method ssaa or reference alone");
+    assert_int_equal(mgt_option_check(&scene, "mixture"), MGT_ERROR_SCENE);
+    scene.quality.method = MGT_METHOD_SSAA;
+    assert_int_equal(mgt_option_check(&scene, "spatial"), MGT_OK);
+    scene.quality.method = MGT_METHOD_ADAPTIVE;
+    assert_int_equal(mgt_option_check(&scene, "slots"), MGT_ERROR_SCENE);
+    assert_string_equal(mgt_last_error(NULL), "slots: it is for method adaptive and adaptive podee alone");
+    assert_int_equal(mgt_option_check(&scene, "target_rmse"), MGT_OK);
+    assert_int_equal(mgt_option_check(&scene, "colour"), MGT_ERROR_ARGUMENT);
+    assert_int_equal(mgt_option_check(&scene, NULL), MGT_ERROR_ARGUMENT);
+    assert_int_equal(mgt_option_check(NULL, "seed"), MGT_ERROR_ARGUMENT);
+    scene.image.width = 0;
+    assert_int_equal(mgt_option_check(&scene, "seed"), MGT_ERROR_SCENE);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(rows_are_whole), cmocka_unit_test(names_lead_back), cmocka_unit_test(rows_are_public)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(rows_are_whole), cmocka_unit_test(names_lead_back), cmocka_unit_test(rows_are_public),
+                                       cmocka_unit_test(options_say_who_reads_them)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
