@@ -121,6 +121,9 @@ static int check_request(waves_request *r, const console *out)
         return console_error(EXIT_CODE_USAGE, "--spectrum buoy needs --buoy FILE");
     if (s->kind == SPECTRUM_TMA && !(s->depth > 0))
         return console_error(EXIT_CODE_USAGE, "--spectrum tma needs --depth M, above 0 and at most 12000");
+    file_error error;
+    if (r->output && output_file_check_kind(r->output, &error) != FILE_OK)
+        return console_file_error(&error);
     const char *name = r->output ? strrchr(r->output, '.') : NULL;
     if (r->output && (!name || (strcmp(name, ".yaml") != 0 && strcmp(name, ".yml") != 0)))
         return console_error(EXIT_CODE_USAGE, "%s: allowed is a name that ends in .yaml or .yml", r->output);

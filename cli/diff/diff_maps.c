@@ -26,6 +26,9 @@ int option_error_map(const option *o, void *place, const char *value)
     if (map->path)
         return console_error(EXIT_CODE_USAGE, "--%s %s: the metric has a map already, %s", o->name, value, map->path);
     map->path = value + length + 1;
+    file_error error;
+    if (output_file_check_kind(map->path, &error) != FILE_OK)
+        return console_file_error(&error);
     map->format = picture_format_of(map->path);
     if (map->format != PICTURE_PNG && map->format != PICTURE_EXR && map->format != PICTURE_PFM)
         return option_wrong(o, value, allowed);

@@ -114,6 +114,9 @@ static int check_output(render_request *r, const char *verb)
         return console_error(EXIT_CODE_USAGE, "no scene given; see mangata %s --help", verb);
     if (!r->output)
         return console_error(EXIT_CODE_USAGE, "no output given: -o OUT; see mangata %s --help", verb);
+    file_error error;
+    if (output_file_check_kind(r->output, &error) != FILE_OK)
+        return console_file_error(&error);
     const char *wrong = frame_path_parse(&r->path, r->output);
     if (wrong)
         return console_error(EXIT_CODE_USAGE, "-o %s: %s", r->output, wrong);

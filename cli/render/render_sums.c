@@ -178,7 +178,7 @@ static int load_checkpoint(render_job *job, const render_record *record, const c
     file_error error;
     const file_status status = sums_open(&file, path, &error);
     if (status == FILE_MISSING)
-        return EXIT_CODE_OK;
+        return output_file_check(path, &job->output, &error) == FILE_OK ? EXIT_CODE_OK : render_job_file_failure(job, &error);
     if (status == FILE_MEMORY)
         return render_job_file_failure(job, &error);
     const sums_range wanted = wanted_range(&job->request->quality);

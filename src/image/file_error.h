@@ -6,7 +6,7 @@
 typedef enum file_status {
     FILE_OK = 0,
     FILE_ARGUMENT,    /* the caller asked for something meaningless (size 0, unknown extension, no such layer) */
-    FILE_MISSING,     /* an input that is not there or cannot be opened */
+    FILE_MISSING,     /* an input that is not there, cannot be opened, or is no regular file */
     FILE_BAD,         /* an input that is not what it should be: truncated, garbage, unsupported kind */
     FILE_EXISTS,      /* the output exists and overwriting was not asked for */
     FILE_WRITE,       /* the output cannot be written: folder missing or unwritable, disk full, … */

@@ -174,8 +174,6 @@ file_status file_state_read(const char *path, const char *key, const char *value
     char *recorded = NULL;
     *state = FILE_STATE_OTHER;
     file_status status = input_file_open(&input, path, error);
-    if (status == FILE_BAD)
-        return FILE_OK;
     if (status != FILE_OK)
         return status;
     const picture_format format = input_file_format(&input);

@@ -70,18 +70,30 @@ static file_status open_folder(const char *path, int *folder, bool *can_sync, fi
 }
 
 /* Only a regular file (or a link, which is replaced itself) may give way to the new one. */
+static file_status check_mode(mode_t mode, const char *path, file_error *error)
+{
+    if (S_ISDIR(mode))
+        return file_error_set(error, FILE_WRITE, "%s: is a directory", path);
+    if (!S_ISREG(mode) && !S_ISLNK(mode))
+        return file_error_set(error, FILE_WRITE, "%s: is not a regular file", path);
+    return FILE_OK;
+}
+
 static file_status check_target(int folder, const char *path, bool overwrite, file_error *error)
 {
     struct stat info;
     if (fstatat(folder, last_part(path), &info, AT_SYMLINK_NOFOLLOW) != 0)
         return errno == ENOENT ? FILE_OK : file_error_errno(error, FILE_WRITE, path, "cannot write", errno);
-    if (S_ISDIR(info.st_mode))
-        return file_error_set(error, FILE_WRITE, "%s: is a directory", path);
-    if (!S_ISREG(info.st_mode) && !S_ISLNK(info.st_mode))
-        return file_error_set(error, FILE_WRITE, "%s: is not a regular file", path);
-    if (!overwrite)
+    const file_status status = check_mode(info.st_mode, path, error);
+    if (status == FILE_OK && !overwrite)
         return file_error_set(error, FILE_EXISTS, "%s: exists already", path);
-    return FILE_OK;
+    return status;
+}
+
+file_status output_file_check_kind(const char *path, file_error *error)
+{
+    struct stat info;
+    return lstat(path, &info) == 0 ? check_mode(info.st_mode, path, error) : FILE_OK;
 }
 
 file_status output_file_check(const char *path, const output_options *options, file_error *error)

@@ -38,7 +38,7 @@ file_status input_file_open(input_file *input, const char *path, file_error *err
     if (!regular_file_open(&file, path))
         return file.fault == REGULAR_FILE_MISSING  ? file_error_errno(error, FILE_MISSING, path, "cannot read", errno)
                : file.fault == REGULAR_FILE_MEMORY ? file_error_errno(error, FILE_MEMORY, path, NULL, ENOMEM)
-                                                   : file_error_set(error, FILE_BAD, "%s: %s", path, file.what);
+                                                   : file_error_set(error, FILE_MISSING, "%s: %s", path, file.what);
     input->size = file.size;
     input->stream = file.stream;
     return FILE_OK;

@@ -20,7 +20,7 @@ typedef struct input_file {
     uint64_t size;
 } input_file;
 
-/* FILE_MISSING where it cannot be opened, FILE_BAD where it is no regular file (a pipe would hang, a directory cannot be read). */
+/* FILE_MISSING where it cannot be opened, or is no regular file (a pipe would hang, a directory cannot be read). */
 file_status input_file_open(input_file *input, const char *path, file_error *error);
 void input_file_close(input_file *input);
 

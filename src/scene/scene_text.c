@@ -89,11 +89,10 @@ scene_error_kind scene_error_of_fault(regular_file_fault fault)
     switch (fault) {
     case REGULAR_FILE_MEMORY:
         return SCENE_ERROR_MEMORY;
-    case REGULAR_FILE_MISSING:
-    case REGULAR_FILE_FOLDER:
-        return SCENE_ERROR_MISSING_INPUT;
-    default:
+    case REGULAR_FILE_LARGE:
         return SCENE_ERROR_BAD_SCENE;
+    default:
+        return SCENE_ERROR_MISSING_INPUT;
     }
 }
 

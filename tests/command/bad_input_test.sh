@@ -53,15 +53,37 @@ refused 65 '^scene.yaml' scene.yaml
 head -c 300 "$SOURCE/scenes/sunset.json" >scene.yaml
 refused 65 '^scene.yaml:[0-9]+:[0-9]+: ' scene.yaml
 
-# A named pipe or a device is refused at once, whatever it stands for; standard input is "-".
+# A named pipe, a device or a directory is refused at once, whatever it stands for; standard input is "-".
 mkfifo pipe.yaml
-refused 65 '^pipe.yaml: is no regular file .standard input is "-".; allowed: ' pipe.yaml
-refused 65 '^/dev/zero: is no regular file' /dev/zero
-expect 65 '^pipe.yaml: is no regular file' "$MANGATA" scene check pipe.yaml
-expect 65 '^pipe.yaml: is no regular file' "$MANGATA" bench pipe.yaml
-expect 65 '^pipe.yaml: is no regular file' "$MANGATA" waves --base pipe.yaml
-expect 65 'pipe.yaml: is no regular file' "$MANGATA" waves --buoy pipe.yaml
-expect 65 'pipe.yaml: is no regular file' "$MANGATA" diff pipe.yaml pipe.yaml
+mkdir -p folder.yaml
+refused 66 'pipe.yaml: is no regular file .standard input is "-".; allowed: ' pipe.yaml
+refused 66 '/dev/zero: is no regular file' /dev/zero
+for special in pipe.yaml folder.yaml; do
+    is="$special: is (no regular file|a directory)"
+    refused 66 "$is" "$special"
+    expect 66 "$is" "$MANGATA" scene check "$special"
+    expect 66 "$is" "$MANGATA" bench "$special"
+    expect 66 "$is" "$MANGATA" compare "$special" -o special
+    expect 66 "$is" "$MANGATA" waves --base "$special"
+    expect 66 "$is" "$MANGATA" waves --buoy "$special"
+    expect 66 "$is" "$MANGATA" diff "$special" "$special"
+    expect 66 "$is" "$MANGATA" merge "$simple" "$special" -o merged.png --method ssaa2
+done
+
+# Nor does a command write to one, whatever its extension.
+mkfifo pipe.png
+mkdir -p folder.png
+for special in pipe.yaml folder.yaml pipe.png folder.png /dev/null; do
+    is="$special: is (not a regular file|a directory)"
+    expect 73 "$is" "$MANGATA" render "$simple" -o "$special" --overwrite
+    expect 73 "$is" "$MANGATA" render "$simple" -o "$special" --skip-existing
+    expect 73 "$is" "$MANGATA" merge "$simple" part.sums -o "$special" --overwrite
+    expect 73 "$is" "$MANGATA" waves -o "$special" --overwrite
+    expect 73 "$is" "$MANGATA" diff part.png part.png --error-map "rmse=$special" --overwrite
+done
+for special in pipe.png /dev/null; do
+    expect 73 "$special: it is not a folder" "$MANGATA" compare "$simple" -o "$special"
+done
 printf 'mangata: 1\nwater: {choppiness: 3}\n' >bad.yaml
 from() { # CODE PATTERN FILE COMMAND…
     expect "$1" "$2" bash -c 'exec "${@:2}" <"$1"' bash "${@:3}"
@@ -83,7 +105,7 @@ refused 65 '^scene.yaml:3:12: .*cut.ply: ends too early; allowed: ' scene.yaml
 scene 'mangata: 1' 'objects:' '  - {mesh: bad.obj}'
 refused 65 '^scene.yaml:3:12: .*bad.obj:2:1: ' scene.yaml
 scene 'mangata: 1' 'objects:' '  - {mesh: pipe.ply}'
-refused 65 '^scene.yaml:3:12: .*pipe.ply: is no regular file' scene.yaml
+refused 66 'scene.yaml:3:12: .*pipe.ply: is no regular file' scene.yaml
 scene 'mangata: 1' 'objects:' '  - {mesh: sand.png}'
 refused 65 '^scene.yaml:3:12: .*sand.png: has another extension; allowed: .*gltf, .glb, .obj or .ply' scene.yaml
 scene 'mangata: 1' 'objects:' '  - {shape: box, material: {texture: cut.png}}'

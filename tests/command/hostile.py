@@ -253,7 +253,7 @@ for name, data, pattern in PNGS:
 check("JPEG cut", "x.jpg", b"\xff\xd8\xff\xe0\0\x10JFIF\0\1\2\0\0\1\0\1\0\0", "x.jpg: .*JPEG", key="texture")
 check("JPEG noise", "x.jpg", b"\xff\xd8\xff" + bytes(range(256)) * 20, "x.jpg: .*JPEG", key="texture")
 check("a folder", "d", None, "d: is a directory", MISSING, key="texture")
-check("a device", "/dev/zero", None, "/dev/zero: is no regular file", key="texture")
+check("a device", "/dev/zero", None, "/dev/zero: is no regular file", MISSING, key="texture")
 for name, data in [("PFM without a size", b"PF\n"), ("PFM of 2^32", b"PF\n4294967296 1\n-1.0\n"), ("PFM negative", b"PF\n-1 1\n-1.0\n"), ("PFM scale 0", b"PF\n1 1\n0\n" + b"\0" * 12), ("PFM scale nan", b"PF\n1 1\nnan\n" + b"\0" * 12), ("PFM cut", b"PF\n4 4\n-1.0\n" + b"\0" * 100),
                    ("PFM long", b"PF\n1 1\n-1.0\n" + b"\0" * 13), ("PFM 32768 x 32768", b"Pf\n32768 32768\n-1.0\n"), ("EXR magic", b"\x76\x2f\x31\x01"), ("EXR zeros", b"\x76\x2f\x31\x01" + b"\0" * 400), ("EXR noise", b"\x76\x2f\x31\x01\x02\0\0\0" + bytes(range(1, 256)) * 9),
                    ("EXR of long names", b"\x76\x2f\x31\x01\x02\0\0\0" + b"a" * 70000), ("EXR attribute of 2 GiB", b"\x76\x2f\x31\x01\x02\0\0\0channels\0chlist\0\xff\xff\xff\x7f"), ("text", b"a picture"), ("y4m", b"YUV4MPEG2 W9 H9\n")]:
@@ -279,8 +279,8 @@ for name, data, pattern in [
         ("10000 ranges", sums(ranges=" ".join(f"{2 * i},1" for i in range(10000))), "ranges is missing"), ("another method", sums(method="ssaa2"), "it has method ssaa2, and this merge has reference"),
         ("another version", sums(mangata_version="9.9\x1b[31m" + "x" * 5000), "it has mangata_version 9.9.\\[31mx+, and this merge has"), ("no hash", sums(), "it has method_options unknown")]:
     row("merge " + name, {"s.yaml": "mangata: 1\nimage: {width: 4, height: 3}\n", "p.sums": data}, ["merge", "s.yaml", "p.sums", "-o", "a.png", "--method", "reference"], BAD, "^mangata: p.sums: .*" + pattern)
-row("merge a device", {"s.yaml": "mangata: 1\n"}, ["merge", "s.yaml", "/dev/zero", "-o", "a.png", "--method", "reference"], BAD, "/dev/zero: is no regular file")
-row("merge a folder", {"s.yaml": "mangata: 1\n"}, ["merge", "s.yaml", "d", "-o", "a.png", "--method", "reference"], BAD, "d: is a directory")
+row("merge a device", {"s.yaml": "mangata: 1\n"}, ["merge", "s.yaml", "/dev/zero", "-o", "a.png", "--method", "reference"], MISSING, "/dev/zero: is no regular file")
+row("merge a folder", {"s.yaml": "mangata: 1\n"}, ["merge", "s.yaml", "d", "-o", "a.png", "--method", "reference"], MISSING, "d: is a directory")
 row("merge nothing", {"s.yaml": "mangata: 1\n"}, ["merge", "s.yaml", "p.sums", "-o", "a.png", "--method", "reference"], MISSING, "p.sums: .*No such file")
 row("diff sums", {"a": sums(), "b.png": png(2, 2)}, ["diff", "a", "b.png"], BAD, "^mangata: a: holds sums of samples; mangata merge")
 
@@ -299,7 +299,7 @@ for name, text, place in [
 row("scene of 17 MiB", {"s.yaml": "# " + "x" * (17 << 20)}, ["scene", "check", "s.yaml"], BAD, "larger than 16 MiB")
 row("scene missing", {}, ["scene", "check", "s.yaml"], MISSING, "s.yaml: No such file")
 row("scene a folder", {}, ["scene", "check", "d"], MISSING, "directory")
-row("scene a device", {}, ["scene", "check", "/dev/urandom"], BAD, "no regular file")
+row("scene a device", {}, ["scene", "check", "/dev/urandom"], MISSING, "no regular file")
 
 # ---- spectra ----
 
@@ -398,7 +398,7 @@ LOOP = {"l.png": Link("m.png"), "m.png": Link("l.png"), "n": Link("n")}
 OUT = ["render", "s.yaml", "-o"]
 for name, files, words, code, pattern in [
         ("no word", {}, [""], USAGE, ""), ("a line end", {}, ["\n"], USAGE, ""), ("no scene", {}, ["render", ""], (USAGE, MISSING, BAD), ""), ("an option of 100000 letters", {}, ["render", "--" + "a" * 100000], USAGE, "aaa"), ("two scenes", {}, OUT[:2] + ["s.yaml", "-o", "a.png"], USAGE, ""), ("no name of the output", {}, OUT + [""], USAGE, "-o"),
-        ("output is a folder", {}, OUT + ["d"], USAGE, "-o|d"), ("output in a folder that is none", {}, OUT + ["x/y.png"], 73, "x/y.png"), ("output under a file", {}, OUT + ["s.yaml/a.png"], 73, "s.yaml/a.png"), ("output in /proc", {}, OUT + ["/proc/a.png"], 73, "/proc/a.png"), ("output behind /dev/full", {}, OUT + ["/dev/full"], (USAGE, 73), ""),
+        ("output is a folder", {}, OUT + ["d"], 73, "d: is a directory"), ("output in a folder that is none", {}, OUT + ["x/y.png"], 73, "x/y.png"), ("output under a file", {}, OUT + ["s.yaml/a.png"], 73, "s.yaml/a.png"), ("output in /proc", {}, OUT + ["/proc/a.png"], 73, "/proc/a.png"), ("output behind /dev/full", {}, OUT + ["/dev/full"], 73, "/dev/full: is not a regular file"),
         ("output is a folder of pictures", {"e.png": Folder()}, OUT + ["e.png", "--overwrite"], 73, "e.png"), ("output a link to itself", LOOP, OUT + ["l.png"], 73, "l.png"), ("output in a link to itself", LOOP, OUT + ["n/a.png"], 73, "n/a.png"), ("scene a link to itself", LOOP, ["scene", "check", "n"], (BAD, MISSING), "n: "),
         ("output a link to nothing", {"g.png": Link("/nowhere/x.png")}, OUT + ["g.png"], 73, "g.png"), ("output a pipe", {"f.png": Pipe()}, OUT + ["f.png"], 73, "f.png"), ("skips a pipe", {"f.png": Pipe()}, OUT + ["f.png", "--skip-existing"], 73, "f.png"), ("skips a folder", {"f.png": Folder()}, OUT + ["f.png", "--skip-existing"], 73, "f.png"),
         ("a name of 300 letters", {}, OUT + ["a" * 300 + ".png"], USAGE, "aaa"), ("a path of 5000 letters", {}, OUT + ["a/" * 2500 + "x.png"], (USAGE, 73), ""), ("a path of 100000 letters", {}, OUT + ["a/" * 50000 + "x.png"], (USAGE, 73), ""), ("two numbers in a name", {}, OUT + ["a%04d%04d.png"], USAGE, "one frame number"), ("a number of 10^9 digits", {}, OUT + ["a%0999999999d.png"], USAGE, "-o"),
@@ -407,8 +407,8 @@ for name, files, words, code, pattern in [
         ("set =1", {}, OUT + ["a.png", "--set", "=1"], (USAGE, BAD), "--set"), ("set a value of two lines", {}, OUT + ["a.png", "--set", "image.width=3\nmangata: 2"], (USAGE, BAD), "--set"), ("set 100000 brackets", {}, OUT + ["a.png", "--set", "x=" + "[" * 100000], (USAGE, BAD), "--set"), ("set 100000 dots", {}, OUT + ["a.png", "--set", "." * 100000 + "=1"], (USAGE, BAD), "--set"),
         ("set wave 10^20", {}, OUT + ["a.png", "--set", "water.waves[99999999999999999999].amplitude=1"], (USAGE, BAD), "--set"), ("a sea of 1e300", {}, ["render", "--sea", "wind=1e300", "-o", "a.png"], (USAGE, BAD), "wind"), ("a sea of nothing", {}, ["render", "--sea", "", "-o", "a.png"], USAGE, "sea"), ("layer twice", {}, OUT + ["a.exr", "--layer", "color,color"], USAGE, "layer"),
         ("mattes of 0 rays", {}, OUT + ["a.exr", "--exr", "cryptomatte:0"], USAGE, "exr|cryptomatte"), ("shard 3/3", {}, OUT + ["a_%d.png", "--shard", "3/3"], USAGE, "shard"), ("shard of 0", {}, OUT + ["a_%d.png", "--shard", "0/0"], USAGE, "shard"), ("nan samples", {}, OUT + ["a.png", "--samples", "nan"], USAGE, "samples"), ("checkpoints every 1e300 s", {}, OUT + ["a.png", "--checkpoint", "1e300"], USAGE, "checkpoint"),
-        ("diff of one device", {}, ["diff", "/dev/zero", "/dev/zero"], BAD, "regular"), ("diff of names with %s", {}, ["diff", "a%s.png", "b%s.png"], (USAGE, MISSING), ""), ("diff by nan", {"a.png": png(2, 2)}, ["diff", "a.png", "a.png", "--ppd", "nan"], USAGE, "ppd"), ("bench of 0 frames", {}, ["bench", "s.yaml", "--frames", "0"], USAGE, "frames"),
-        ("a scene's name that colours", {}, ["scene", "check", "\x1b]0;x\x07.yaml"], MISSING, r"\?\]0;x\?.yaml"), ("a scene's name in no encoding", {}, ["scene", "check", b"\xff.yaml"], MISSING, r"\?.yaml"), ("a scene's name from right to left", {}, ["scene", "check", "\u202eb.yaml"], MISSING, r"\?b.yaml"), ("a waves' file in a folder", {}, ["waves", "--wind", "9", "-o", "d"], USAGE, "d")]:
+        ("diff of one device", {}, ["diff", "/dev/zero", "/dev/zero"], MISSING, "regular"), ("diff of names with %s", {}, ["diff", "a%s.png", "b%s.png"], (USAGE, MISSING), ""), ("diff by nan", {"a.png": png(2, 2)}, ["diff", "a.png", "a.png", "--ppd", "nan"], USAGE, "ppd"), ("bench of 0 frames", {}, ["bench", "s.yaml", "--frames", "0"], USAGE, "frames"),
+        ("a scene's name that colours", {}, ["scene", "check", "\x1b]0;x\x07.yaml"], MISSING, r"\?\]0;x\?.yaml"), ("a scene's name in no encoding", {}, ["scene", "check", b"\xff.yaml"], MISSING, r"\?.yaml"), ("a scene's name from right to left", {}, ["scene", "check", "\u202eb.yaml"], MISSING, r"\?b.yaml"), ("a waves' file in a folder", {}, ["waves", "--wind", "9", "-o", "d"], 73, "d: is a directory")]:
     row("words: " + name, {**S, **files}, words, code, pattern)
 
 

@@ -581,9 +581,9 @@ static void test_unreadable_inputs(void **state)
     assert_int_equal(picture_read(&image, in_folder(folder, "none.png", path), NULL, &error), FILE_MISSING);
     assert_non_null(strstr(error.text, "No such file"));
     assert_int_equal(metadata_read(path, "a", &value, &error), FILE_MISSING);
-    assert_int_equal(picture_read(&image, folder->path, NULL, &error), FILE_BAD);
+    assert_int_equal(picture_read(&image, folder->path, NULL, &error), FILE_MISSING);
     assert_int_equal(mkfifo(in_folder(folder, "pipe.exr", path), 0600), 0);
-    assert_int_equal(picture_read(&image, path, NULL, &error), FILE_BAD); /* and does not wait for a writer */
+    assert_int_equal(picture_read(&image, path, NULL, &error), FILE_MISSING); /* and does not wait for a writer */
     write_bytes(in_folder(folder, "text.png", path), "hello, this is text", 19);
     assert_int_equal(picture_read(&image, path, NULL, &error), FILE_BAD);
     assert_non_null(strstr(error.text, "is not a PNG, EXR or PFM"));

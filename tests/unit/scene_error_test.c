@@ -278,7 +278,7 @@ static void files_that_cannot_be_read(void **state)
                  "/nowhere/at/all.yaml: No such file or directory; allowed: a YAML or JSON file of at most 16 MiB");
     assert_error(load_fails("/tmp"), SCENE_ERROR_MISSING_INPUT, "/tmp: is a directory; allowed: a YAML or JSON file of at most 16 MiB");
     assert_error(load_fails(""), SCENE_ERROR_MISSING_INPUT, "the scene's file name is empty; allowed: the path of a YAML or JSON file");
-    assert_error(load_fails("/dev/zero"), SCENE_ERROR_BAD_SCENE,
+    assert_error(load_fails("/dev/zero"), SCENE_ERROR_MISSING_INPUT,
                  "/dev/zero: is no regular file (standard input is \"-\"); allowed: a YAML or JSON file of at most 16 MiB");
     assert_error(load_fails("/nowhere/new\nline"), SCENE_ERROR_MISSING_INPUT,
                  "/nowhere/new?line: No such file or directory; allowed: a YAML or JSON file of at most 16 MiB");
