@@ -222,6 +222,8 @@ static const option render_options[] = {
      "with the same options; together with --overwrite: replace\n"
      "the rest",
      .set = option_given, .offset = offsetof(render_request, skip_existing)},
+    {"dry-run", 0, NULL, "check everything that is checked before the first frame; render and\nwrite nothing", .set = option_given,
+     .offset = offsetof(render_request, dry_run)},
     {"stamp", 0, NULL, "record host, date, threads and instruction set in the output", .set = option_given, .offset = offsetof(render_request, stamp)},
     OPTION_PROGRESS(render_request),
     /* The options from here on are not those of merge. */

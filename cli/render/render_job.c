@@ -343,29 +343,37 @@ static int render_stills(render_job *job)
     return EXIT_CODE_OK;
 }
 
+/* Checks what can be checked before a film is rendered. `frames` gets the list of its frames as text, which may be cut short. */
+static int check_film(render_job *job, char frames[FRAMES_TEXT], sha256_text *hash, output_plan *plan)
+{
+    const render_request *r = job->request;
+    const uint64_t count = frame_list_length(&r->frames);
+    frame_list_print(&r->frames, frames, FRAMES_TEXT);
+    /* The hash covers every range. */
+    *hash = sha256(r->frames.ranges, r->frames.count * sizeof r->frames.ranges[0]);
+    if (!render_hash(r, job->canonical, &job->image, &job->info, hash->text, hash))
+        return console_error(EXIT_CODE_FAILED, "out of memory");
+    int code = check_output(job, r->path.before, hash, true, plan);
+    for (uint64_t i = 0; i < count && r->part_count && code == EXIT_CODE_OK && !plan->skip; i++)
+        code = render_sums_plan(job, frame_list_at(&r->frames, i));
+    return code;
+}
+
 static int render_film(render_job *job)
 {
     const render_request *r = job->request;
     const uint64_t count = frame_list_length(&r->frames);
     const char *path = r->path.before;
     char frames[FRAMES_TEXT];
-    frame_list_print(&r->frames, frames, sizeof frames);
-    /* The hash covers every range. The metadata hold a text that may be cut short. */
-    sha256_text hash = sha256(r->frames.ranges, r->frames.count * sizeof r->frames.ranges[0]);
-    if (!render_hash(r, job->canonical, &job->image, &job->info, hash.text, &hash))
-        return console_error(EXIT_CODE_FAILED, "out of memory");
+    sha256_text hash;
     output_plan plan;
-    int code = check_output(job, path, &hash, true, &plan);
-    if (code != EXIT_CODE_OK)
+    int code = check_film(job, frames, &hash, &plan);
+    if (code != EXIT_CODE_OK || r->dry_run)
         return code;
     if (plan.skip) {
         list_file(job, path, frames, &hash, true);
         return EXIT_CODE_OK;
     }
-    for (uint64_t i = 0; i < count && r->part_count && code == EXIT_CODE_OK; i++)
-        code = render_sums_plan(job, frame_list_at(&r->frames, i));
-    if (code != EXIT_CODE_OK)
-        return code;
     mgt_scene first;
     code = frame_scene(job, frame_list_at(&r->frames, 0), &first);
     if (code != EXIT_CODE_OK)
@@ -414,7 +422,9 @@ static int report(render_job *job, double wall)
 {
     const render_request *r = job->request;
     const double mean = job->rendered ? job->seconds / (double)job->rendered : 0;
-    if (job->rendered)
+    if (r->dry_run)
+        console_note(&r->out, "%s: nothing speaks against it; a dry run renders nothing", r->output);
+    else if (job->rendered)
         console_note(&r->out, "%s: %" PRIu64 " frame%s of %u x %u by %s, %.1f ms each%s", r->output, job->rendered, job->rendered == 1 ? "" : "s",
                      job->buffer.width, job->buffer.height, method_name(&r->quality).text, 1e3 * mean, job->skipped ? ", others kept" : "");
     else
@@ -422,8 +432,8 @@ static int report(render_job *job, double wall)
     if (!r->out.json)
         return EXIT_CODE_OK;
     return console_print_json(json_pack("{s:s, s:o, s:s, s:i, s:i, s:I, s:I, s:{s:f, s:f, s:f}, s:f, s:s, s:s, s:i, s:O}", "version", mgt_version(), "scene",
-                                        console_json_text(r->scene_path), "method", method_name(&r->quality).text, "width", (int)job->buffer.width, "height",
-                                        (int)job->buffer.height, "rendered", (json_int_t)job->rendered, "skipped", (json_int_t)job->skipped,
+                                        console_json_text(r->scene_path), "method", method_name(&r->quality).text, "width", (int)job->image.crop_width,
+                                        "height", (int)job->image.crop_height, "rendered", (json_int_t)job->rendered, "skipped", (json_int_t)job->skipped,
                                         "seconds_per_frame", "mean", mean, "min", job->least, "max", job->most, "seconds", wall, "backend",
                                         mgt_backend_name(job->info.backend), "isa", mgt_isa_name(job->info.isa), "threads", (int)job->info.threads, "files",
                                         job->files));
@@ -442,6 +452,10 @@ static int run(render_job *job)
         code = create_crypto(job);
     if (code == EXIT_CODE_OK && !render_is_film(job->request))
         code = check_stills(job);
+    if (code == EXIT_CODE_OK && job->request->dry_run && render_is_film(job->request))
+        code = render_film(job);
+    if (code == EXIT_CODE_OK && job->request->dry_run)
+        return report(job, seconds_now() - start);
     if (code == EXIT_CODE_OK && render_sums_wanted(job->request))
         code = render_sums_create(job);
     if (code == EXIT_CODE_OK)

@@ -41,7 +41,7 @@ typedef struct render_request {
     size_t part_count;
 
     double checkpoint; /* seconds between checkpoints; 0: no checkpoints */
-    bool overwrite, skip_existing, stamp;
+    bool overwrite, skip_existing, dry_run, stamp;
     progress_mode progress;
 } render_request;
 

@@ -121,4 +121,24 @@ expect 73 'null.pfm: .*was not rendered' render "$simple" -o null.pfm "${small[@
 echo foreign >y.png
 expect 73 'y.png' render "$simple" -o y.png "${small[@]}" "${null[@]}" --skip-existing
 [[ $(cat y.png) == foreign ]] || fail "a foreign file was replaced"
+
+# A dry run renders nothing, and ends as a run that is refused before its first frame.
+dry=(render "$simple" "${small[@]}" --dry-run)
+for output in dry.png dry.exr 'dry_%d.pfm' dry.y4m; do
+    expect 0 "$output: nothing speaks against it" "${dry[@]}" -o "$output"
+    [[ ! -s stdout.txt ]] || fail "--dry-run -o $output: stdout is not empty"
+done
+"$MANGATA" "${dry[@]}" -o dry.png --json >stdout.txt 2>/dev/null || fail "--dry-run --json"
+[[ $("$JSON_GET" rendered <stdout.txt) == 0 && $("$JSON_GET" width <stdout.txt) == 64 ]] || fail "--dry-run --json: $(cat stdout.txt)"
+absent dry*
+expect 73 'nowhere' "${dry[@]}" -o nowhere/dry.png
+expect 73 'nowhere' "${dry[@]}" -o nowhere/dry.y4m
+works render "$simple" "${small[@]}" -o 'dry_%d.png' --frames 2 --quiet
+works render "$simple" "${small[@]}" -o dry.y4m --frames 0-1 --quiet
+expect 73 'dry_2.png: exists already' "${dry[@]}" -o 'dry_%d.png' --frames 0-2
+expect 73 'dry_2.png: it exists, but was not rendered' "${dry[@]}" -o 'dry_%d.png' --frames 0-2 --skip-existing --seed 5
+expect 73 'dry.y4m: it exists, but was not rendered' "${dry[@]}" -o dry.y4m --frames 0-2 --skip-existing
+expect 0 'nothing speaks against it' "${dry[@]}" -o 'dry_%d.png' --frames 0-2 --skip-existing
+expect 0 'nothing speaks against it' "${dry[@]}" -o dry.y4m --frames 0-1 --skip-existing
+absent dry_0.png dry_1.png
 finish
