@@ -244,6 +244,8 @@ static int check_stills(render_job *job)
             code = check_output(job, path, &hash, false, &plan);
         if (code == EXIT_CODE_OK && merges && !plan.skip)
             code = render_sums_plan(job, frame);
+        if (code == EXIT_CODE_OK && job->request->checkpoint > 0 && !plan.skip)
+            code = render_sums_check_checkpoint(job, frame, path);
         if (code != EXIT_CODE_OK)
             return code;
     }
@@ -325,8 +327,8 @@ static int render_still(render_job *job, uint32_t frame)
             code = check_finished(job, path, &hash, &error, &plan.skip);
         if (code != EXIT_CODE_OK)
             return code;
-        render_sums_done(job, path);
     }
+    render_sums_done(job, frame, path);
     list_file(job, path, number, &hash, plan.skip);
     progress_frame_done(&job->progress, path, seconds);
     return EXIT_CODE_OK;

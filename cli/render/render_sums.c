@@ -171,32 +171,79 @@ static int read_parts(render_job *job, uint32_t frame, const render_record *reco
 
 static bool checkpoint_path(const char *output, char path[JOB_PATH]) { return snprintf(path, JOB_PATH, "%s.checkpoint", output) < JOB_PATH; }
 
+typedef enum checkpoint_state { CHECKPOINT_NONE = 0, CHECKPOINT_OURS, CHECKPOINT_OTHER, CHECKPOINT_DAMAGED } checkpoint_state;
+
+/* Says what the file at `path` is for the frame of `record`. Only CHECKPOINT_OURS leaves it open. FILE_OK or FILE_MEMORY. */
+static file_status open_checkpoint(const render_job *job, const render_record *record, const char *path, sums_file *file, checkpoint_state *state,
+                                   file_error *error)
+{
+    const file_status status = sums_open(file, path, error);
+    const sums_range wanted = wanted_range(&job->request->quality);
+    const bool ours = status == FILE_OK && !other_entry(file, record) && file->ranges.count == 1 && file->ranges.items[0].first == wanted.first &&
+                      file->ranges.items[0].count <= wanted.count;
+    *state = ours                                         ? CHECKPOINT_OURS
+             : status == FILE_MISSING                     ? CHECKPOINT_NONE
+             : status == FILE_BAD && sums_are_begun(path) ? CHECKPOINT_DAMAGED
+                                                          : CHECKPOINT_OTHER;
+    if (!ours)
+        sums_close(file);
+    return status == FILE_MEMORY ? FILE_MEMORY : FILE_OK;
+}
+
+static int refuse_checkpoint(render_job *job, const char *path)
+{
+    progress_clear(&job->progress);
+    return console_error(EXIT_CODE_CANNOT_WRITE, "%s: it is no checkpoint of this scene with these options; --overwrite begins anew", path);
+}
+
+static void note_damaged(render_job *job, const char *path)
+{
+    progress_clear(&job->progress);
+    console_note(&job->request->out, "%s: damaged; the frame begins anew", path);
+}
+
+int render_sums_check_checkpoint(render_job *job, uint32_t frame, const char *path)
+{
+    render_record record;
+    char checkpoint[JOB_PATH];
+    sums_file file;
+    file_error error;
+    checkpoint_state state;
+    int code = record_of(job, frame, &record);
+    if (code != EXIT_CODE_OK || job->output.overwrite || !checkpoint_path(path, checkpoint))
+        return code;
+    if (open_checkpoint(job, &record, checkpoint, &file, &state, &error) != FILE_OK)
+        return render_job_file_failure(job, &error);
+    if (state == CHECKPOINT_OTHER)
+        code = refuse_checkpoint(job, checkpoint);
+    sums_close(&file);
+    return code;
+}
+
 /* Loads the checkpoint of this frame, if there is one. */
 static int load_checkpoint(render_job *job, const render_record *record, const char *path)
 {
     sums_file file;
     file_error error;
-    const file_status status = sums_open(&file, path, &error);
-    if (status == FILE_MISSING)
-        return output_file_check(path, &job->output, &error) == FILE_OK ? EXIT_CODE_OK : render_job_file_failure(job, &error);
-    if (status == FILE_MEMORY)
+    checkpoint_state state;
+    if (open_checkpoint(job, record, path, &file, &state, &error) != FILE_OK)
         return render_job_file_failure(job, &error);
-    const sums_range wanted = wanted_range(&job->request->quality);
-    const bool ours = status == FILE_OK && !other_entry(&file, record) && file.ranges.count == 1 && file.ranges.items[0].first == wanted.first &&
-                      file.ranges.items[0].count <= wanted.count;
-    if (!ours && !job->output.overwrite) {
-        sums_close(&file);
-        progress_clear(&job->progress);
-        return console_error(EXIT_CODE_CANNOT_WRITE, "%s: it is no checkpoint of this scene with these options; --overwrite begins anew", path);
-    }
-    if (ours && sums_add(&file, job->image.crop_width, job->image.crop_height, job->sums, &error) == FILE_OK) {
+    if (state == CHECKPOINT_NONE)
+        return output_file_check(path, &job->output, &error) == FILE_OK ? EXIT_CODE_OK : render_job_file_failure(job, &error);
+    if (state == CHECKPOINT_OTHER && !job->output.overwrite)
+        return refuse_checkpoint(job, path);
+    if (state == CHECKPOINT_DAMAGED)
+        note_damaged(job, path);
+    if (state != CHECKPOINT_OURS)
+        return EXIT_CODE_OK;
+    if (sums_add(&file, job->image.crop_width, job->image.crop_height, job->sums, &error) == FILE_OK) {
         job->ranges = file.ranges;
         progress_clear(&job->progress);
-        console_note(&job->request->out, "%s: goes on after %" PRIu64 " of %" PRIu64 " samples", path, job->ranges.items[0].count, wanted.count);
-    } else if (ours) {
+        console_note(&job->request->out, "%s: goes on after %" PRIu64 " of %" PRIu64 " samples", path, job->ranges.items[0].count,
+                     wanted_range(&job->request->quality).count);
+    } else {
         clear_sums(job);
-        progress_clear(&job->progress);
-        console_note(&job->request->out, "%s: damaged; the frame begins anew", path);
+        note_damaged(job, path);
     }
     sums_close(&file);
     return EXIT_CODE_OK;
@@ -257,10 +304,23 @@ static int sum_in_slices(render_job *job, uint32_t frame, const mgt_scene *scene
     return code;
 }
 
-void render_sums_done(const render_job *job, const char *path)
+void render_sums_done(const render_job *job, uint32_t frame, const char *path)
 {
+    render_record record;
     char checkpoint[JOB_PATH];
-    if (job->request->checkpoint > 0 && checkpoint_path(path, checkpoint))
+    sums_file file;
+    file_error error;
+    checkpoint_state state = CHECKPOINT_OURS;
+    if (quality_range(&job->request->quality) == 0 || !checkpoint_path(path, checkpoint))
+        return;
+    if (job->request->checkpoint <= 0) {
+        /* One that an earlier run with --checkpoint left. That of another picture may still be wanted. */
+        if (access(checkpoint, F_OK) != 0 || record_of(job, frame, &record) != EXIT_CODE_OK ||
+            open_checkpoint(job, &record, checkpoint, &file, &state, &error) != FILE_OK)
+            return;
+        sums_close(&file);
+    }
+    if (state == CHECKPOINT_OURS)
         unlink(checkpoint);
 }
 

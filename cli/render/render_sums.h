@@ -28,7 +28,10 @@ int render_sums_fill(render_job *job, uint32_t frame, const mgt_scene *scene, co
 /* Writes the sums of the frame to a file. `record` is the metadata of any output; it gets those of sums, too. */
 file_status render_sums_write(render_job *job, uint32_t frame, const char *path, render_record *record, const output_options *output, file_error *error);
 
-/* Removes the checkpoint of an output that has been written. */
-void render_sums_done(const render_job *job, const char *path);
+/* Checks before anything is rendered that the checkpoint of an output, if there is one, is that of this frame. */
+int render_sums_check_checkpoint(render_job *job, uint32_t frame, const char *path);
+
+/* Removes the checkpoint of an output that is complete. Without --checkpoint only one of this very frame is removed, which an earlier run left. */
+void render_sums_done(const render_job *job, uint32_t frame, const char *path);
 
 #endif

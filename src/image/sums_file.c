@@ -283,6 +283,19 @@ void sums_close(sums_file *file)
     memset(file, 0, sizeof *file);
 }
 
+bool sums_are_begun(const char *path)
+{
+    char start[MAGIC_BYTES];
+    input_file input;
+    file_error error;
+    if (input_file_open(&input, path, &error) != FILE_OK)
+        return false;
+    const size_t got = fread(start, 1, MAGIC_BYTES, input.stream);
+    const bool begun = !ferror(input.stream) && memcmp(start, magic, got) == 0;
+    input_file_close(&input);
+    return begun;
+}
+
 const char *sums_metadata(const sums_file *file, const char *key) { return json_string_value(json_object_get(file->metadata, key)); }
 
 /* One word of a row of pixels. False: the file ends, or holds what the writer does not write. */

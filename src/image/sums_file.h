@@ -53,6 +53,10 @@ typedef struct sums_file {
 file_status sums_open(sums_file *file, const char *path, file_error *error);
 void sums_close(sums_file *file);
 
+/* Whether a file that sums_open() calls FILE_BAD begins like a file of sums, as far as it goes: it is damaged or was cut short, perhaps to nothing, and is not of
+ * another kind. */
+bool sums_are_begun(const char *path);
+
 /* What it records for `key`; NULL: nothing. Lives as long as the file is open. */
 const char *sums_metadata(const sums_file *file, const char *key);
 

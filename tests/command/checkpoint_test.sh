@@ -54,6 +54,43 @@ absent frame.exr.checkpoint
 works render "$sunset" "${quick[@]}" -o plain.exr --quiet
 same frame.exr plain.exr
 
+# One that was cut short, even to nothing, is damaged as well. What was never a checkpoint stays.
+for bytes in 0 7 40; do
+    head -c $bytes kept >frame.exr.checkpoint
+    expect 0 'frame.exr.checkpoint: damaged; the frame begins anew' render "$sunset" "${quick[@]}" -o frame.exr --checkpoint 9 --overwrite
+    rm frame.exr
+    head -c $bytes kept >frame.exr.checkpoint
+    expect 0 'frame.exr.checkpoint: damaged; the frame begins anew' render "$sunset" "${quick[@]}" -o frame.exr --checkpoint 9
+    same frame.exr plain.exr
+    absent frame.exr.checkpoint
+    rm frame.exr
+done
+echo 'a text' >frame.exr.checkpoint
+expect 73 'it is no checkpoint of this scene' render "$sunset" "${quick[@]}" -o frame.exr --checkpoint 9
+expect 73 'it is no checkpoint of this scene' render "$sunset" "${quick[@]}" -o frame.exr --checkpoint 9 --dry-run
+exists frame.exr.checkpoint
+rm frame.exr.checkpoint
+
+# It is refused before any frame is rendered.
+cp kept f_2.exr.checkpoint
+expect 73 'f_2.exr.checkpoint: it is no checkpoint' render "$sunset" "${quick[@]}" -o 'f_%d.exr' --frames 0-2 --checkpoint 9
+absent f_0.exr f_1.exr
+rm f_2.exr.checkpoint
+
+# A picture that is completed without checkpoints needs none any more; that of another picture stays.
+restore
+works render "$sunset" "${long[@]}" -o frame.exr --layer all --quiet
+absent frame.exr.checkpoint
+restore
+works render "$sunset" "${long[@]}" -o frame.exr --layer all --quiet --skip-existing
+absent frame.exr.checkpoint
+restore
+works render "$sunset" "${quick[@]}" -o frame.exr --quiet --overwrite
+same kept frame.exr.checkpoint
+works render "$sunset" --method none --size 16x9 -o frame.exr --quiet --overwrite
+same kept frame.exr.checkpoint
+rm frame.exr.checkpoint
+
 # The other methods with exact sums: samples of each pixel, slots of the whole picture.
 killed_twice() {
     local samples=$1
