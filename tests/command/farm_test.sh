@@ -81,13 +81,23 @@ grep -q 'skip-existing' stderr.txt || fail "after a signal: $(cat stderr.txt)"
 mkdir bin
 printf '#!/bin/sh\necho "$@" >>"%s/calls"\n' "$work" >bin/scontrol
 printf '#!/bin/sh\nexit 0\n' >bin/sleep
-printf '#!/bin/sh\necho "$@" >"%s/arguments"\nexit $CODE\n' "$work" >bin/ends
+cat >bin/ends <<END
+#!/bin/sh
+case " \$* " in *" --dry-run "*) exit \${DRY:-0} ;; esac
+echo "\$@" >>"$work/arguments"
+exit \$CODE
+END
 chmod +x bin/*
 slurm() { # [NAME=VALUE…] -- WORDS…: runs task 3 of 8
     local values=()
     while [[ $1 != -- ]]; do values+=("$1") && shift; done
     env PATH="$work/bin:$PATH" SLURM_JOB_ID=77 SLURM_ARRAY_JOB_ID=77 SLURM_ARRAY_TASK_ID=3 SLURM_ARRAY_TASK_COUNT=8 SLURM_CPUS_PER_TASK=2 "${values[@]}" \
         "$SOURCE/contrib/farm/mangata.sbatch" "${@:2}"
+}
+expect_usage() { # PATTERN [NAME=VALUE…] -- WORDS…: it says how it is used
+    slurm "${@:2}" 2>stderr.txt
+    [[ $? == 64 ]] || fail "mangata.sbatch ${*:2} does not end with 64: $(cat stderr.txt)"
+    grep -q '^usage: sbatch' stderr.txt && grep -q "^mangata.sbatch: .*$1" stderr.txt || fail "mangata.sbatch ${*:2}: $(cat stderr.txt)"
 }
 task() { # CODE RESTARTS
     rm -f calls
@@ -104,7 +114,49 @@ for code in 0 1 64 65 66 69; do
     task $code 0
     absent calls
 done
+# A refusal that a dry run repeats is not tried again.
+rm -f calls
+slurm CODE=73 DRY=73 MANGATA=ends -- a.yaml -o f.png 2>/dev/null
+[[ $? == 73 ]] || fail "mangata.sbatch does not end with 73"
+absent calls
+[[ $(tail -n 1 arguments) == *'a.yaml -o f.png '* ]] || fail "mangata.sbatch: $(cat arguments)"
+works render "$simple" -o frame_003.png --method none "${small[@]}" --quiet
+for words in '-o frame_%03d.png --frames 0-7' '-o nowhere/frame_%03d.png'; do
+    # shellcheck disable=SC2086 # options are words
+    slurm MANGATA="$MANGATA" -- "$simple" "${small[@]}" $words 2>stderr.txt
+    [[ $? == 73 ]] || fail "mangata.sbatch $words does not end with 73: $(cat stderr.txt)"
+    absent calls
+done
+rm -f arguments
+slurm CODE=0 MANGATA=ends -- 'a b.yaml' -o 'f_%d.png' 2>/dev/null
 [[ $(cat arguments) == 'render a b.yaml -o f_%d.png --shard 3/8 --threads 2 --skip-existing --progress text' ]] || fail "mangata.sbatch: $(cat arguments)"
+
+# Arrays that do not begin at 0, or have a step, have all shards; arrays with gaps are refused unless it is said how many tasks there are.
+shards_of() { # MIN MAX STEP COUNT ID…
+    local id
+    rm -f arguments
+    for id in "${@:5}"; do
+        slurm CODE=0 MANGATA=ends SLURM_ARRAY_TASK_MIN="$1" SLURM_ARRAY_TASK_MAX="$2" SLURM_ARRAY_TASK_STEP="$3" SLURM_ARRAY_TASK_COUNT="$4" SLURM_ARRAY_TASK_ID="$id" -- a.yaml -o f.png
+        slurm CODE=0 MANGATA=ends SLURM_ARRAY_TASK_MIN="$1" SLURM_ARRAY_TASK_MAX="$2" SLURM_ARRAY_TASK_STEP="$3" SLURM_ARRAY_TASK_COUNT="$4" SLURM_ARRAY_TASK_ID="$id" -- --part shards a.yaml
+    done
+    grep -oE -- '--(shard|samples-range) [^ ]*' arguments | cut -d ' ' -f 2 | tr '\n' ' '
+}
+[[ $(shards_of 1 4 1 4 1 2 3 4) == '0/4 0/4 1/4 1/4 2/4 2/4 3/4 3/4 ' ]] || fail "array 1-4: $(cat arguments)"
+[[ $(shards_of 0 6 2 4 0 2 4 6) == '0/4 0/4 1/4 1/4 2/4 2/4 3/4 3/4 ' ]] || fail "array 0-6:2: $(cat arguments)"
+[[ $(shards_of 10 16 3 3 10 13 16) == '0/3 0/3 1/3 1/3 2/3 2/3 ' ]] || fail "array 10-16:3: $(cat arguments)"
+[[ $(MANGATA_SHARDS=64 shards_of 5 17 1 2 5 17) == '5/64 5/64 17/64 17/64 ' ]] || fail "array 5,17 of 64: $(cat arguments)"
+for id in 5 17; do
+    expect_usage 'an array with gaps' SLURM_ARRAY_TASK_MIN=5 SLURM_ARRAY_TASK_MAX=17 SLURM_ARRAY_TASK_COUNT=2 SLURM_ARRAY_TASK_ID=$id -- a.yaml -o f.png
+done
+
+# Too few words, or no job.
+for words in '' --part '--part parts' --merge '--merge parts'; do
+    # shellcheck disable=SC2086 # options are words
+    expect_usage '' -- $words
+done
+env -u SLURM_JOB_ID -u SLURM_ARRAY_TASK_ID "$SOURCE/contrib/farm/mangata.sbatch" --merge parts a.yaml -o a.exr 2>stderr.txt
+[[ $? == 64 ]] || fail "mangata.sbatch without Slurm does not end with 64: $(cat stderr.txt)"
+grep -q '^usage: sbatch' stderr.txt || fail "mangata.sbatch without Slurm: $(cat stderr.txt)"
 
 # One frame in parts.
 frame=("$simple" --method reference --spatial 2 --time-samples 3 --size 16x9)
@@ -114,6 +166,7 @@ done
 slurm MANGATA="$MANGATA" -- --merge parts "${frame[@]}" -o frame.exr 2>stderr.txt || fail "--merge: $(cat stderr.txt)"
 works render "${frame[@]}" -o whole.exr --quiet
 same whole.exr frame.exr
+rm -f arguments
 slurm MANGATA=ends CODE=0 -- --part parts x.yaml --method reference
 [[ $(cat arguments) == 'render x.yaml --method reference -o parts/3-of-8.sums --samples-range 3/8 --checkpoint 300 --threads 2 --skip-existing --progress text' ]] || fail "--part: $(cat arguments)"
 
