@@ -209,7 +209,9 @@ static int run(void *place)
     bench b = {.request = request};
     if (!request->scene_path)
         return console_error(EXIT_CODE_USAGE, "no scene given; see mangata bench --help");
-    int code = prepare(&b);
+    int code = context_options_check(&request->context);
+    if (code == EXIT_CODE_OK)
+        code = prepare(&b);
     interrupt_install();
     if (code == EXIT_CODE_OK && request->memory)
         code = measure_memory(&b);

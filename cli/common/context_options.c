@@ -18,8 +18,16 @@ int option_context(const option *o, void *place, const char *value)
         return mgt_isa_from_name(value, &options->isa) ? EXIT_CODE_OK : option_wrong(o, value, names_list(isa_names).text);
     if (!number_parse_u64(value, device ? 1023 : 1024, &n))
         return option_wrong(o, value, device ? "a number from 0 to 1023" : "a number from 0 (all CPUs) to 1024");
+    options->gl_device_given = options->gl_device_given || device;
     *(device ? &options->gl_device : &options->threads) = (uint32_t)n;
     return EXIT_CODE_OK;
+}
+
+int context_options_check(const context_options *options)
+{
+    if (!options->gl_device_given || options->backend != MGT_BACKEND_CPU)
+        return EXIT_CODE_OK;
+    return console_error(EXIT_CODE_USAGE, "--gl-device %u: it is for --backend gl or auto alone", options->gl_device);
 }
 
 int option_drawing_backend(const option *o, void *place, const char *value)

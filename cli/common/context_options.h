@@ -10,6 +10,7 @@ typedef struct context_options {
     mgt_backend backend;
     mgt_isa isa;
     uint32_t threads, gl_device; /* as in mgt_context_desc */
+    bool gl_device_given;
 } context_options;
 
 /* Reads "backend", "gl-device", "threads" or "isa". `place` is a context_options. */
@@ -29,6 +30,9 @@ option_set option_context;
         "isa", 0, "NAME", "highest instruction set: auto (default), scalar, sse2, avx2,\navx512 or neon", .set = option_context,               \
                                                                                                           .offset = offsetof(request, context) \
     }
+
+/* Refuses a device of OpenGL for the CPU. Returns an exit code. */
+int context_options_check(const context_options *options);
 
 /* Reads "backend" for verbs that draw, for which the null backend is not allowed. `place` is a context_options. */
 option_set option_drawing_backend;

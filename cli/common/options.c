@@ -44,6 +44,14 @@ int option_text(const option *o, void *place, const char *value)
     return EXIT_CODE_OK;
 }
 
+int option_text_once(const option *o, void *place, const char *value)
+{
+    const char *before = *(const char **)place;
+    if (before)
+        return console_error(EXIT_CODE_USAGE, "--%s is given twice: %s and %s", o->name, before, value);
+    return option_text(o, place, value);
+}
+
 int option_number(const option *o, void *place, const char *value)
 {
     uint64_t number;
@@ -326,10 +334,13 @@ static int act(const option_reader *reader, size_t index, const option *o, const
     }
 }
 
-static int take_value(option_reader *reader, const option *o, size_t index, const char *attached)
+/* `letter`: the option was given by its letter, behind which the value may stand without a blank. */
+static int take_value(option_reader *reader, const option *o, size_t index, bool letter, const char *attached)
 {
     if (!o->value && attached)
         return console_error(EXIT_CODE_USAGE, "--%s takes no value", o->name);
+    if (letter && o->value && attached && *attached == '=')
+        return console_error(EXIT_CODE_USAGE, "-%c%s: allowed is -%c %s or --%s=%s", o->letter, attached, o->letter, o->value, o->name, o->value);
     if (o->value && !attached && reader->next >= reader->count)
         return console_error(EXIT_CODE_USAGE, "--%s needs a value: %s", o->name, o->value);
     return act(reader, index, o, !o->value || attached ? attached : reader->arguments[reader->next++]);
@@ -342,7 +353,7 @@ static int read_option(option_reader *reader, const char *text)
     for (size_t i = 0; i < option_total(reader->table); i++) {
         const option o = option_at(reader->table, i);
         if (letter ? o.letter == text[1] : is_named(o.name, text + 2, length))
-            return take_value(reader, i < reader->table->count ? &reader->table->options[i] : &o, i, !text[end] ? NULL : text + end + !letter);
+            return take_value(reader, i < reader->table->count ? &reader->table->options[i] : &o, i, letter, !text[end] ? NULL : text + end + !letter);
     }
     return unknown_option(reader, text);
 }

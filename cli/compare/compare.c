@@ -128,7 +128,9 @@ static int run(void *place)
     r->picture_bytes = line->megabytes * 1000000;
     r->progress = progress_mode_heard(r->progress, r->out.quiet);
     r->out.json_notes = r->progress == PROGRESS_JSON;
-    int code = add_methods(r, line);
+    int code = context_options_check(&r->context);
+    if (code == EXIT_CODE_OK)
+        code = add_methods(r, line);
     for (size_t i = 0; i < line->external_count && code == EXIT_CODE_OK; i++)
         code = compare_external_add(r, line->external[i]);
     if (code == EXIT_CODE_OK)
@@ -138,7 +140,7 @@ static int run(void *place)
 
 static const option compare_options[] = {
     OPTION_SEA,
-    {"output", 'o', "DIR", "the folder of the report; made where it is missing", .set = option_text, .offset = offsetof(compare_request, folder)},
+    {"output", 'o', "DIR", "the folder of the report; made where it is missing", .set = option_text_once, .offset = offsetof(compare_request, folder)},
     {"methods", 0, "LIST",
      "methods to compare, each NAME or NAME:OPTION=VALUE with an\n"
      "option of mangata render, such as podee-pixel:ndf-mean=drop\n"

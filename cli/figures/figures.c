@@ -48,13 +48,16 @@ static int run(void *request)
     figures_request *r = request;
     if (!r->folder || !r->folder[0])
         return console_error(EXIT_CODE_USAGE, "no folder given: -o DIR; see mangata figures --help");
+    const int wrong = context_options_check(&r->context);
+    if (wrong != EXIT_CODE_OK)
+        return wrong;
     r->progress = progress_mode_heard(r->progress, r->out.quiet);
     r->out.json_notes = r->progress == PROGRESS_JSON;
     return figures_run(r);
 }
 
 static const option figures_options[] = {
-    {"output", 'o', "DIR", "the folder of plates and page; made where it is missing", .set = option_text, .offset = offsetof(figures_request, folder)},
+    {"output", 'o', "DIR", "the folder of plates and page; made where it is missing", .set = option_text_once, .offset = offsetof(figures_request, folder)},
     {"only", 0, "LIST", "of table1, 11 to 18, 20, 21, liu-4, liu-7 to liu-15 and liu-table3\n(default: all), such as table1,17,liu-10", .set = set_only,
      .offset = offsetof(figures_request, wanted)},
     {"frames", 0, "LIST",

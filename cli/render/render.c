@@ -134,7 +134,9 @@ static int check_output(render_request *r, const char *verb)
         return console_error(EXIT_CODE_USAGE, "-o %s: --exr is for .exr alone", r->output);
     if (!film_fits(r))
         return EXIT_CODE_USAGE;
-    const int code = check_sums(r);
+    int code = context_options_check(&r->context);
+    if (code == EXIT_CODE_OK)
+        code = check_sums(r);
     return code == EXIT_CODE_OK ? check_layers(r) : code;
 }
 
@@ -183,7 +185,7 @@ static const option render_options[] = {
      "the file to write: .png .exr .pfm, or a film: .mp4 .mov .y4m;\n"
      "several pictures: frame_%04d.png or frame_####.png; .sums:\n"
      "sums of samples, for mangata merge",
-     .set = option_text, .offset = offsetof(render_request, output)},
+     .set = option_text_once, .offset = offsetof(render_request, output)},
     OPTION_SEA,
     {"frames", 0, "LIST",
      "A, A-B, A-B:STEP or a list of these (default: all frames of the\n"

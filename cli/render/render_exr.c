@@ -62,6 +62,32 @@ static bool take_word(exr_choice *choice, const char *word, size_t length)
     }
 }
 
+/* What a word chooses that another word chooses otherwise; EXR_KINDS: nothing of the kind. */
+static int kind_of(const char *word, size_t length)
+{
+    static const struct {
+        const char *word;
+        int kind;
+    } kinds[] = {{"half", EXR_BITS}, {"float", EXR_BITS}, {"zip", EXR_PACKING}, {"piz", EXR_PACKING}, {"none", EXR_PACKING}};
+    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++)
+        if (strlen(kinds[i].word) == length && strncmp(kinds[i].word, word, length) == 0)
+            return kinds[i].kind;
+    return length >= 11 && strncmp(word, "cryptomatte", 11) == 0 ? EXR_MATTES : EXR_KINDS;
+}
+
+/* Prints an error where an earlier word has chosen otherwise. */
+static int note_word(const option *o, exr_choice *choice, const char *word, size_t length)
+{
+    const int kind = kind_of(word, length);
+    if (kind == EXR_KINDS)
+        return EXIT_CODE_OK;
+    char *before = choice->words[kind];
+    if (*before && (strlen(before) != length || strncmp(before, word, length) != 0))
+        return console_error(EXIT_CODE_USAGE, "--%s: %s and %.*s contradict each other", o->name, before, (int)length, word);
+    snprintf(before, sizeof choice->words[0], "%.*s", (int)length, word);
+    return EXIT_CODE_OK;
+}
+
 int option_exr(const option *o, void *place, const char *value)
 {
     for (const char *word = value;; word++) {
@@ -69,9 +95,10 @@ int option_exr(const option *o, void *place, const char *value)
         if (!take_word(place, word, length))
             return console_error(EXIT_CODE_USAGE, "--%s %s: allowed are %s, or cryptomatte:N with N from 1 to %d, with commas between them", o->name, value,
                                  names_list(exr_words).text, OBJECT_SIDE_MAX);
+        const int code = note_word(o, place, word, length);
         word += length;
-        if (!*word)
-            return EXIT_CODE_OK;
+        if (code != EXIT_CODE_OK || !*word)
+            return code;
     }
 }
 

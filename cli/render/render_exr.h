@@ -8,10 +8,14 @@
 #include "cli/common/options.h"
 #include "image/picture.h"
 
+/* What one word alone can choose. */
+enum { EXR_BITS, EXR_PACKING, EXR_MATTES, EXR_KINDS };
+
 /* The value of --exr. All zero: the default. */
 typedef struct exr_choice {
     bool half; /* 16-bit floats */
     exr_packing packing;
+    char words[EXR_KINDS][16];    /* the words that have chosen the two and `crypto`; "": none yet */
     bool alpha, z, acescg, parts; /* channel A, channel Z of planar depth, ACEScg instead of linear sRGB, a part for each layer */
     uint32_t crypto;              /* mattes by N × N rays per pixel, this being N; 0: no mattes */
     uint32_t crypto_names;        /* render_crypto_names() of the scene; 0: it has not been loaded */

@@ -23,6 +23,20 @@ expect 64 'unknown verb zzz; see mangata --help' "$MANGATA" zzz
 expect 64 'unknown option --fames; did you mean --frames\?' render "$simple" -o a.png --fames 3
 expect 64 'unknown option -x' render "$simple" -x
 expect 64 '--overwrite takes no value' render "$simple" -o a.png --overwrite=yes
+expect 64 '-o=o.exr: allowed is -o OUT or --output=OUT' render "$simple" -o=o.exr
+expect 64 '-n=5: allowed is -n N or --count=N' "$MANGATA" waves -n=5
+expect 64 '--output is given twice: a.exr and b.exr' render "$simple" -o a.exr --output b.exr
+expect 64 '--output is given twice' "$MANGATA" waves -o a.yaml -o b.yaml
+expect 64 '--output is given twice' "$MANGATA" compare "$simple" -o a -o b
+for words in half,float zip,none,piz 'half --exr float' cryptomatte,cryptomatte:8; do
+    # shellcheck disable=SC2086 # options are words
+    expect 64 '^mangata: --exr: [a-z:0-9]+ and [a-z:0-9]+ contradict each other' render "$simple" -o a.exr --exr $words
+done
+works render "$simple" -o twice.exr --exr half,half,none --exr none "${small[@]}" "${null[@]}" --quiet
+expect 64 '--gl-device 5: it is for --backend gl or auto alone' render "$simple" -o a.exr --gl-device 5
+expect 64 '--gl-device 0: it is for --backend gl or auto alone' render "$simple" -o a.exr --gl-device 0 --backend cpu
+expect 64 '--gl-device 5: it is for --backend gl or auto alone' "$MANGATA" bench "$simple" --gl-device 5
+expect 64 '--gl-device 5: it is for --backend gl or auto alone' "$MANGATA" compare "$simple" -o a --gl-device 5
 expect 64 '--frames needs a value' render "$simple" -o a.png --frames
 expect 64 'no scene given' render -o a.png
 expect 64 'no output given' render "$simple"
