@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* `mangata waves`: a scene from the wave spectrum of a wind or of a buoy. */
+#include <ctype.h>
 #include <errno.h>
 #include <limits.h>
 #include <math.h>
@@ -108,10 +109,64 @@ static int refuse_operand(const option *o, void *place, const char *value)
     return console_error(EXIT_CODE_USAGE, "%s: mangata waves takes options alone; a scene to start from is --base SCENE", value);
 }
 
-/* Refuses options that contradict each other, and prints notes about options that have no effect. */
-static int check_request(waves_request *r, const console *out)
+/* Refuses an option that the spectrum does not take. */
+static int refuse_unused(int id, const char *takers) { return console_error(EXIT_CODE_USAGE, "--%s: it is for %s alone", waves_options[id].name, takers); }
+
+static int check_unused(const waves_request *r)
 {
     static const int windy[] = {OPT_WIND, OPT_WIND_HEIGHT}, spread[] = {OPT_DIRECTIONS, OPT_SPREAD};
+    const spectrum_settings *s = &r->spectrum.settings;
+    const bool buoy = s->kind == SPECTRUM_BUOY;
+    if (r->given[OPT_FETCH] && !spectrum_takes_fetch(s->kind))
+        return refuse_unused(OPT_FETCH, "jonswap, tma and elfouhaily");
+    if (r->given[OPT_GAMMA] && !spectrum_takes_gamma(s->kind))
+        return refuse_unused(OPT_GAMMA, "jonswap and tma");
+    for (size_t i = 0; i < 2; i++)
+        if (r->given[windy[i]] && buoy && s->slope != SLOPE_COX_MUNK)
+            return refuse_unused(windy[i], "the spectra of a wind, or for --slope cox-munk,");
+    if (r->given[OPT_DIRECTION] && buoy)
+        return refuse_unused(OPT_DIRECTION, "the spectra of a wind");
+    for (size_t i = 0; i < 2; i++)
+        if (r->given[spread[i]] && spectrum_has_directions(s->kind))
+            return refuse_unused(spread[i], "pierson-moskowitz, jonswap and tma");
+    if (r->given[OPT_SPREAD] && s->directions != DIRECTIONS_FIXED)
+        return refuse_unused(OPT_SPREAD, "--directions fixed");
+    return EXIT_CODE_OK;
+}
+
+/* Whether `change`, KEY=VALUE, is of `key` or of something in it. */
+static bool changes_key(const char *change, const char *key)
+{
+    const size_t length = strlen(key);
+    return strncmp(change, key, length) == 0 && !isalnum((unsigned char)change[length]) && change[length] != '_';
+}
+
+static bool changes_any(const scene_changes *changes, const char *key)
+{
+    for (size_t i = 0; i < changes->count; i++)
+        if (changes_key(changes->items[i], key))
+            return true;
+    return false;
+}
+
+/* Refuses changes of what says which waves there are: that is up to the options here. */
+static int check_changes(const scene_changes *changes)
+{
+    static const char *const keys_of_waves[] = {"water.wind", "water.waves", "water.sea", "water.swell", "water.spectrum"};
+    for (size_t i = 0; i < sizeof keys_of_waves / sizeof keys_of_waves[0]; i++)
+        if (changes_any(changes, keys_of_waves[i]))
+            return console_error(EXIT_CODE_USAGE,
+                                 "--set %s: the waves are those of --wind, --spectrum and the other options; --set is for the rest of the scene",
+                                 keys_of_waves[i]);
+    for (size_t i = 0; i < changes->count; i++)
+        if (strncmp(changes->items[i], "water=", 6) == 0)
+            return console_error(EXIT_CODE_USAGE, "--set water: one key of it at a time, such as water.choppiness=0.7");
+    return EXIT_CODE_OK;
+}
+
+/* Refuses options that contradict each other. */
+static int check_request(waves_request *r)
+{
     spectrum_settings *s = &r->spectrum.settings;
     if (r->given[OPT_FILE] && !r->given[OPT_MODEL])
         s->kind = SPECTRUM_BUOY;
@@ -127,22 +182,8 @@ static int check_request(waves_request *r, const console *out)
     const char *name = r->output ? strrchr(r->output, '.') : NULL;
     if (r->output && (!name || (strcmp(name, ".yaml") != 0 && strcmp(name, ".yml") != 0)))
         return console_error(EXIT_CODE_USAGE, "%s: allowed is a name that ends in .yaml or .yml", r->output);
-    const bool buoy = s->kind == SPECTRUM_BUOY, directions = spectrum_has_directions(s->kind);
-    if (r->given[OPT_FETCH] && !spectrum_takes_fetch(s->kind))
-        console_note(out, "--fetch changes nothing: it is for jonswap, tma and elfouhaily");
-    if (r->given[OPT_GAMMA] && !spectrum_takes_gamma(s->kind))
-        console_note(out, "--gamma changes nothing: it is for jonswap and tma");
-    for (size_t i = 0; i < 2; i++)
-        if (r->given[windy[i]] && buoy && s->slope != SLOPE_COX_MUNK)
-            console_note(out, "--%s changes nothing: of a measured sea only --slope cox-munk asks for a wind", waves_options[windy[i]].name);
-    if (r->given[OPT_DIRECTION] && buoy)
-        console_note(out, "--direction changes nothing: a table has its own directions");
-    for (size_t i = 0; i < 2; i++)
-        if (r->given[spread[i]] && directions)
-            console_note(out, "--%s changes nothing: %s has its own directions", waves_options[spread[i]].name, buoy ? "a table" : "elfouhaily");
-    if (r->given[OPT_SPREAD] && !directions && s->directions != DIRECTIONS_FIXED)
-        console_note(out, "--spread changes nothing: it is for --directions fixed");
-    return EXIT_CODE_OK;
+    const int code = check_unused(r);
+    return code == EXIT_CODE_OK ? check_changes(&r->changes) : code;
 }
 
 /* ---- the scene ---------------------------------------------------------------------------------------------- */
@@ -179,6 +220,11 @@ static int load_base(const waves_request *r, scene_values *values)
     if (!copied)
         return console_error(EXIT_CODE_FAILED, "out of memory");
     scene_values_write_out_auto(values);
+    /* That of the base tells of its waves. */
+    if (r->base && !changes_any(&r->changes, "description")) {
+        free(values->description);
+        values->description = NULL;
+    }
     free(values->water.waves.items);
     free(values->water.sea.items);
     free(values->water.swell.items);
@@ -187,14 +233,6 @@ static int load_base(const waves_request *r, scene_values *values)
     values->water.spectrum = (scene_spectrum){0};
     values->water.wind = scene_values_defaults().water.wind;
     return EXIT_CODE_OK;
-}
-
-static bool names_camera(const waves_request *r)
-{
-    for (size_t i = 0; i < r->changes.count; i++)
-        if (strncmp(r->changes.items[i], "camera", 6) == 0)
-            return true;
-    return false;
 }
 
 /* The path of the table as the scene must hold it, which is relative to the scene's folder or absolute. The caller frees it. NULL: out of memory. */
@@ -286,7 +324,7 @@ static int make_scene(const waves_request *r, scene_values *values, const consol
     scene_sea_close(&sea);
     if (code != EXIT_CODE_OK)
         return code;
-    if (!r->base && !names_camera(r))
+    if (!r->base && !changes_any(&r->changes, "camera"))
         scene_sea_place_camera(&values->camera.still, report.waves.height);
     if (!values->description)
         values->description = strdup(waves_report_title(&report).text);
@@ -311,7 +349,7 @@ static int make_scene(const waves_request *r, scene_values *values, const consol
 static int run(void *request)
 {
     waves_request *r = request;
-    int code = check_request(r, &r->out);
+    int code = check_request(r);
     if (code == EXIT_CODE_OK)
         code = load_base(r, &r->values);
     return code == EXIT_CODE_OK ? make_scene(r, &r->values, &r->out) : code;
@@ -345,7 +383,8 @@ static const option waves_options[] = {
                   "where waves come from), density (m^2/Hz/degree), or a file of\n"
                   "NDBC's (.data_spec, ...w2025.txt) or Datawell's (.spt); see docs/waves.md",
                   .set = set_key},
-    {"output", 'o', "SCENE", "scene file to write, .yaml or .yml (default: standard output)", .set = option_text, .offset = offsetof(waves_request, output)},
+    {"output", 'o', "SCENE", "scene file to write, .yaml or .yml (default: standard output)", .set = option_text_once,
+     .offset = offsetof(waves_request, output)},
     {"base", 0, "SCENE", "take all but the waves from this scene", .set = option_text, .offset = offsetof(waves_request, base)},
     {"set", 0, "KEY=VALUE", "change a value of that scene, e.g. light.body=moon; may be repeated", .set = option_change,
      .offset = offsetof(waves_request, changes)},

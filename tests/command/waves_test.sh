@@ -158,8 +158,34 @@ expect 64 '--shortest 5e-5: allowed is a number, 0 or 0.0001 to 1000 m' waves --
 expect 64 '--shortest 1e-9: allowed' waves --shortest 1e-9
 expect 65 '--shortest leaves no room between the shortest wave, 900 m' waves --shortest 900
 expect 65 '--fetch is 500 m, too short for the spectrum in this wind; allowed: at least 2365 m' waves --spectrum elfouhaily --wind 20 --fetch 500
-expect 0 '--directions changes nothing: elfouhaily has its own' waves --spectrum elfouhaily --directions fixed
-expect 0 '--gamma changes nothing' waves --spectrum elfouhaily --gamma 2
+unused() { # OPTION TAKERS LINE…: an option that the spectrum does not take
+    expect 64 "^mangata: --$1: it is for $2 alone" waves "${@:3}"
+}
+unused directions 'pierson-moskowitz, jonswap and tma' --spectrum elfouhaily --directions mitsuyasu
+unused directions 'pierson-moskowitz, jonswap and tma' --buoy "$buoy" --directions fixed
+unused spread 'pierson-moskowitz, jonswap and tma' --spectrum elfouhaily --spread 5
+unused spread '--directions fixed' --wind 8 --spread 5
+unused spread '--directions fixed' --wind 8 --directions mitsuyasu --spread 5
+unused gamma 'jonswap and tma' --spectrum elfouhaily --gamma 2
+unused gamma 'jonswap and tma' --spectrum pierson-moskowitz --wind 8 --gamma 2
+unused fetch 'jonswap, tma and elfouhaily' --spectrum pierson-moskowitz --wind 8 --fetch 5000
+unused fetch 'jonswap, tma and elfouhaily' --buoy "$buoy" --fetch 5000
+unused wind 'the spectra of a wind, or for --slope cox-munk,' --buoy "$buoy" --wind 5
+unused wind-height 'the spectra of a wind, or for --slope cox-munk,' --buoy "$buoy" --wind-height 5
+unused direction 'the spectra of a wind' --buoy "$buoy" --direction 5
+works waves -q -o bent.yaml --buoy "$buoy" --wind 5 --slope cox-munk
+for key in wind=5 'waves[0].amplitude=1' 'sea={wind: 3}' swell.height=1 'spectrum={model: jonswap}'; do
+    expect 64 "^mangata: --set water.${key%%[=[.]*}: the waves are those of --wind" waves --wind 8 --set "water.$key"
+    expect 64 "^mangata: --set water.${key%%[=[.]*}: the waves are those of --wind" waves --base "$SOURCE/scenes/gale.yaml" --set "water.$key"
+done
+expect 64 '--set water: one key of it at a time' waves --set 'water={wind: 5}'
+works waves -q -o choppy.yaml --wind 8 --set water.choppiness=0.3
+
+# The description tells of the new waves.
+works waves -q -o gale.yaml --wind 8 --base "$SOURCE/scenes/gale.yaml"
+grep -q '^description: "a JONSWAP sea, wind 8 m/s' gale.yaml || fail "gale.yaml: $(grep ^description gale.yaml)"
+works waves -q -o told.yaml --wind 8 --base "$SOURCE/scenes/gale.yaml" --set 'description=less of a gale'
+grep -q '^description: "less of a gale"' told.yaml || fail "told.yaml: $(grep ^description told.yaml)"
 expect 65 '--slope cannot be cox-munk' waves --wind 0.5 --fetch 100 --shortest 0.01 --slope cox-munk
 expect 66 'no-such.txt: No such file' waves --buoy no-such.txt
 expect 66 'no-such.yaml: No such file' waves --base no-such.yaml
@@ -171,7 +197,6 @@ expect 65 'word.txt:2:8: density is much; allowed' waves --buoy word.txt
 expect 73 'pm.yaml.*--overwrite replaces it' waves -q -o pm.yaml
 works waves -q -o pm.yaml --overwrite
 expect 73 'no-folder' waves -q -o no-folder/pm.yaml
-expect 0 '--fetch changes nothing' waves --spectrum pierson-moskowitz --fetch 1000
 expect 0 'fully developed' waves --wind 3 --fetch 1e6
 if [[ -w /dev/full ]]; then
     waves -q >/dev/full 2>stderr.txt
