@@ -109,6 +109,15 @@ static int check_metrics(diff_request *r)
     return EXIT_CODE_OK;
 }
 
+/* Whether some picture may have layers. Files are read by their content, whatever their extension. */
+static bool may_have_layers(const diff_request *r)
+{
+    for (size_t i = 0; i < 3 && r->paths[i]; i++)
+        if (!is_png(r->paths[i]) && picture_format_of(r->paths[i]) != PICTURE_PFM)
+            return true;
+    return false;
+}
+
 static int check_second_reference(const diff_request *r)
 {
     if (r->flicker)
@@ -133,6 +142,8 @@ static int check_request(diff_request *r)
         if (wrong)
             return console_error(EXIT_CODE_USAGE, "%s: %s", r->paths[i], wrong);
     }
+    if (r->layer && !may_have_layers(r))
+        return console_error(EXIT_CODE_USAGE, "--layer %s: it is for .exr alone", r->layer);
     const char *wrong = r->prepare.mask ? frame_path_parse(&r->prepare.mask_name, r->prepare.mask) : NULL;
     if (wrong)
         return console_error(EXIT_CODE_USAGE, "--mask %s: %s", r->prepare.mask, wrong);
@@ -154,6 +165,17 @@ static int check_request(diff_request *r)
     r->metrics.wanted.metrics |= diff_maps_metrics(&r->maps);
     const bool measures = r->metrics.wanted.metrics || r->truth.wants.texture || r->truth.wants.specks;
     return code == EXIT_CODE_OK && measures ? check_metrics(r) : code;
+}
+
+/* PNG hold encoded values of colour, the other formats linear light. Fractions such as coverage are the same in all. */
+static void warn_of_encoding(const diff_request *r)
+{
+    for (size_t i = 1; i < 3 && r->paths[i]; i++)
+        if (is_png(r->paths[i]) != is_png(r->paths[0]))
+            console_note(
+                &r->out,
+                "mangata: warning: %s and %s are compared as they are stored, sRGB-encoded against linear if they are colours; compare two .png, or two .exr or .pfm with --display EV",
+                r->paths[0], r->paths[i]);
 }
 
 static int read_picture(const diff_request *r, size_t which, uint32_t frame, float_image *image)
@@ -305,6 +327,7 @@ static int run(void *request)
     image_metrics metrics = {0};
     if ((code = check_request(r)) != EXIT_CODE_OK)
         return code;
+    warn_of_encoding(r);
     if (r->maps.wanted)
         interrupt_install(); /* so that no file is left incomplete */
     if ((code = measure(r, &metrics)) != EXIT_CODE_OK)

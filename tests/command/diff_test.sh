@@ -166,4 +166,15 @@ expect 64 'linear and srgb' "$MANGATA" diff a.pfm b.pfm --metrics flip --encodin
 expect 64 'from 4 to 400' "$MANGATA" diff a.pfm b.pfm --metrics flip --pixels-per-degree 3
 expect 64 'above 0' "$MANGATA" diff a.pfm b.pfm --metrics flicker --glint-threshold 0
 expect 64 'unlike encoding' "$MANGATA" diff a.pfm scene.png --metrics flip
+
+# Pictures of colour in unlike encodings are compared as they are stored, which is said.
+works render "$simple" -o kind.png "${small[@]}" --quiet
+works render "$simple" -o kind.exr "${small[@]}" --quiet
+expect 0 'warning: kind.png and kind.exr are compared as they are stored, sRGB-encoded against linear' "$MANGATA" diff kind.png kind.exr
+for pair in 'kind.png kind.png' 'kind.exr kind.exr'; do
+    # shellcheck disable=SC2086 # two words
+    "$MANGATA" diff $pair >stdout.txt 2>stderr.txt || fail "diff $pair"
+    [[ ! -s stderr.txt ]] || fail "diff $pair: $(cat stderr.txt)"
+done
+expect 64 '--layer coverage: it is for .exr alone' "$MANGATA" diff kind.png kind.png --layer coverage
 finish
