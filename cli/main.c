@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* The mangata command: finds the verb and runs it. */
+#include <pthread.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/resource.h>
 
+#include "base/thread_start.h"
 #include "cli/common/console.h"
 #include "cli/common/interrupt.h"
 #include "cli/common/options.h"
@@ -71,8 +74,34 @@ static int run(int argc, char **argv)
     return console_error(EXIT_CODE_USAGE, "unknown %s %s; see mangata --help", word[0] == '-' ? "option" : "verb", word);
 }
 
+typedef struct command_line {
+    int count;
+    char **words;
+    int code;
+} command_line;
+
+static void *run_in_thread(void *argument)
+{
+    command_line *line = argument;
+    line->code = run(line->count, line->words);
+    return NULL;
+}
+
+/* Runs the command in a thread of its own where the process's stack is too small for a frame. */
+static int run_with_room(int argc, char **argv)
+{
+    struct rlimit limit;
+    pthread_t thread;
+    command_line line = {argc, argv, EXIT_CODE_FAILED};
+    const bool small = getrlimit(RLIMIT_STACK, &limit) == 0 && limit.rlim_cur < THREAD_STACK_BYTES;
+    if (!small || thread_start(&thread, run_in_thread, &line) != 0)
+        return run(argc, argv);
+    pthread_join(thread, NULL);
+    return line.code;
+}
+
 int main(int argc, char **argv)
 {
     interrupt_while_reading();
-    return console_finish(run(argc, argv));
+    return console_finish(run_with_room(argc, argv));
 }

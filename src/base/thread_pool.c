@@ -11,6 +11,8 @@
 #include <stdlib.h>
 #include <time.h>
 
+#include "base/thread_start.h"
+
 struct thread_pool {
     pthread_mutex_t lock;
     pthread_cond_t start, finish;
@@ -95,6 +97,19 @@ static void *worker_main(void *argument)
     return NULL;
 }
 
+int thread_start(pthread_t *thread, void *(*run)(void *), void *argument)
+{
+    pthread_attr_t attributes;
+    size_t stack = 0;
+    if (pthread_attr_init(&attributes) != 0)
+        return ENOMEM;
+    if (pthread_attr_getstacksize(&attributes, &stack) == 0 && stack < THREAD_STACK_BYTES)
+        pthread_attr_setstacksize(&attributes, THREAD_STACK_BYTES);
+    const int code = pthread_create(thread, &attributes, run, argument);
+    pthread_attr_destroy(&attributes);
+    return code;
+}
+
 static bool start_worker(thread_pool *pool)
 {
     worker *w = malloc(sizeof *w);
@@ -102,7 +117,7 @@ static bool start_worker(thread_pool *pool)
     if (!w)
         return false;
     *w = (worker){pool, pool->started + 1};
-    if (pthread_create(&pool->threads[pool->started], NULL, worker_main, w) != 0) {
+    if (thread_start(&pool->threads[pool->started], worker_main, w) != 0) {
         free(w);
         errno = EAGAIN;
         return false;
