@@ -2,25 +2,29 @@
 /* Frame ranges and numbered paths. */
 #include "cli/common/frames.h"
 
+#include <assert.h>
 #include <stdio.h>
 #include <string.h>
 
 static const char *const range_help = "allowed are A, A-B, A-B:STEP and lists of these, such as 0-59 or 0,8,16";
 
-static bool read_number(const char **text, uint32_t *number)
+static_assert(FRAME_LIMIT == 99999999, "FRAME_LIMIT_TEXT");
+
+/* Reads a number at *text. Returns NULL, or what is wrong. */
+static const char *read_number(const char **text, uint32_t *number)
 {
     const char *p = *text;
     uint32_t value = 0;
     for (; *p >= '0' && *p <= '9'; p++) {
-        if (value > FRAME_LIMIT)
-            return false;
         value = value * 10 + (uint32_t)(*p - '0');
+        if (value > FRAME_LIMIT)
+            return "frames and steps go up to " FRAME_LIMIT_TEXT;
     }
-    if (p == *text || value > FRAME_LIMIT)
-        return false;
+    if (p == *text)
+        return range_help;
     *text = p;
     *number = value;
-    return true;
+    return NULL;
 }
 
 const char *frame_list_parse(frame_list *list, const char *text)
@@ -28,13 +32,14 @@ const char *frame_list_parse(frame_list *list, const char *text)
     list->count = 0;
     for (;;) {
         frame_range range = {.step = 1};
-        if (!read_number(&text, &range.first))
-            return range_help;
+        const char *wrong = read_number(&text, &range.first);
         range.last = range.first;
-        if (*text == '-' && (text++, !read_number(&text, &range.last)))
-            return range_help;
-        if (*text == ':' && (text++, !read_number(&text, &range.step)))
-            return range_help;
+        if (!wrong && *text == '-')
+            text++, wrong = read_number(&text, &range.last);
+        if (!wrong && *text == ':')
+            text++, wrong = read_number(&text, &range.step);
+        if (wrong)
+            return wrong;
         if (range.step == 0)
             return "the step must be at least 1";
         if (range.last < range.first)

@@ -13,6 +13,7 @@ typedef struct frame_range {
 } frame_range;
 
 enum { FRAME_RANGES = 256, FRAME_LIMIT = 99999999 };
+#define FRAME_LIMIT_TEXT "99999999" /* the same as text */
 
 /* Increasing frame numbers as ranges. */
 typedef struct frame_list {

@@ -188,8 +188,9 @@ static const option render_options[] = {
      .set = option_text_once, .offset = offsetof(render_request, output)},
     OPTION_SEA,
     {"frames", 0, "LIST",
-     "A, A-B, A-B:STEP or a list of these (default: all frames of the\n"
-     "scene for a film or a numbered name, else frame 0)",
+     "A, A-B, A-B:STEP or a list of these, up to " FRAME_LIMIT_TEXT "\n"
+     "(default: all frames of the scene for a film or a numbered name,\n"
+     "else frame 0)",
      .set = option_frames, .offset = offsetof(render_request, frames)},
     OPTION_SHARD(render_request, "one of N machines' part: the frames whose place in the list,\ncounted from 0, modulo N is I"),
     {"size", 0, "WxH", "size in pixels instead of the scene's", .set = option_size, .offset = offsetof(render_request, changes), .least = 1,

@@ -55,8 +55,11 @@ expect 64 '--crop 60,0,10,10: it lies outside the picture of 64 x 36 pixels' ren
 for value in ssaa ssaa0 ssaa1025 ssaa-1 ssaax Mangata '' reference8; do
     bad method "$value" 'none, ssaaN'
 done
-for value in '' - 1- -1 5-3 1-9:0 1,1 3,2 1-5,5 1,,2 1.5 999999999999 0-9x; do
+for value in '' - 1- -1 5-3 1-9:0 1,1 3,2 1-5,5 1,,2 1.5 0-9x; do
     bad frames "$value" '(allowed|must|twice)'
+done
+for value in 100000000 0-100000000 0-1:100000000 4294967296 99999999999999999999; do
+    bad frames "$value" 'frames and steps go up to 99999999'
 done
 bad seed -1 'whole number'
 bad seed 18446744073709551616 'whole number'
