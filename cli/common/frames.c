@@ -181,6 +181,16 @@ const char *frame_path_parse(frame_path *path, const char *text)
     return NULL;
 }
 
+bool frame_path_folder_is_marked(const frame_path *path)
+{
+    const char *end = strrchr(path->before, '/');
+    int digits;
+    for (const char *p = path->before; end && p < end; p++)
+        if (read_mark(p, &digits) > 0)
+            return true;
+    return false;
+}
+
 bool frame_path_print(const frame_path *path, uint32_t frame, char *text, size_t size)
 {
     const int length =

@@ -61,6 +61,9 @@ typedef struct frame_path {
 /* Reads a path. Returns NULL, or a static text that says what is wrong. */
 const char *frame_path_parse(frame_path *path, const char *text);
 
+/* Whether a folder's name, which is taken literally, holds what would be a frame number in the file's name. */
+bool frame_path_folder_is_marked(const frame_path *path);
+
 /* Prints the path of a frame. False: it is longer than `size` − 1 bytes. */
 bool frame_path_print(const frame_path *path, uint32_t frame, char *text, size_t size);
 

@@ -210,6 +210,22 @@ static int print_path(const render_job *job, uint32_t frame, char path[JOB_PATH]
     return render_job_path(&job->request->path, job->request->output, frame, path);
 }
 
+/* Checks the folder of the output, so that all frames need not be gone through to see that it is missing. */
+static int check_folder(render_job *job)
+{
+    const render_request *r = job->request;
+    char path[JOB_PATH];
+    file_error error;
+    const int code = frame_list_length(&r->frames) ? print_path(job, frame_list_at(&r->frames, 0), path) : EXIT_CODE_OK;
+    if (code != EXIT_CODE_OK || !frame_list_length(&r->frames))
+        return code;
+    if (output_file_check_folder(path, &error) == FILE_OK)
+        return EXIT_CODE_OK;
+    if (error.status == FILE_WRITE && frame_path_folder_is_marked(&r->path))
+        return console_error(EXIT_CODE_CANNOT_WRITE, "%s; a frame number is allowed in the file's name alone", error.text);
+    return console_file_error(&error);
+}
+
 /* Writes the frame as text into `number`. The hash of a part that a merge writes also covers the samples that it holds. */
 static int hash_frame(render_job *job, uint32_t frame, char number[16], sha256_text *hash)
 {
@@ -446,6 +462,8 @@ static int run(render_job *job)
     const double start = seconds_now();
     int code = load_scene(job);
     interrupt_install();
+    if (code == EXIT_CODE_OK)
+        code = check_folder(job);
     if (code == EXIT_CODE_OK)
         code = create_context(job);
     if (code == EXIT_CODE_OK)

@@ -110,6 +110,16 @@ file_status output_file_check(const char *path, const output_options *options, f
     return status;
 }
 
+file_status output_file_check_folder(const char *path, file_error *error)
+{
+    int folder = -1;
+    bool can_sync = false;
+    const file_status status = open_folder(path, &folder, &can_sync, error);
+    if (status == FILE_OK)
+        close(folder);
+    return status;
+}
+
 /* The name tells its origin and does not grow with the target's, which may be as long as the file system allows. */
 static file_status create_temporary(output_file *file, file_error *error)
 {

@@ -25,6 +25,9 @@ typedef struct output_file output_file;
  * directory or device is in the way. For an early message before hours of rendering; writers check again, without a race. */
 file_status output_file_check(const char *path, const output_options *options, file_error *error);
 
+/* The same of its folder alone: whether it exists. */
+file_status output_file_check_folder(const char *path, file_error *error);
+
 /* FILE_WRITE where a directory, a device or a named pipe has this name, else FILE_OK: to be asked before a name is judged by its extension. */
 file_status output_file_check_kind(const char *path, file_error *error);
 

@@ -29,6 +29,9 @@ expect 64 'normal' "$MANGATA" diff all.exr two.exr --layer normal
 # A mask as a grey picture is the mask within half a step of 8 bits, water below and sky above.
 "$MANGATA" diff coverage.png coverage.png >/dev/null || fail "a grey picture cannot be read"
 
+# A missing folder is told before ten million frames are checked.
+expect 73 'big/x_0.png: cannot write: folder big: No such file' timeout 20 "$MANGATA" render "$simple" -o 'big/x_%d.png' --frames 0-9999999
+
 # Numbering; one frame through a numbered name; an explicit list.
 works render "$simple" -o 'n_%04d.png' --frames 0-4:2,9 "${small[@]}" "${null[@]}" --quiet
 exists n_0000.png n_0002.png n_0004.png n_0009.png

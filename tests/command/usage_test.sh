@@ -146,6 +146,9 @@ for name in a%s.png a%n.png a%04x.png a%4d.png a%.png a%99d.png 'a%0100d.png' 'a
     expect 64 'the frame number is written' render "$simple" -o "$name" "${null[@]}"
 done
 expect 64 'only one frame number' render "$simple" -o 'a%04d_%d.png'
+for folder in %04d a####b; do
+    expect 73 "folder $folder: No such file or directory; a frame number is allowed in the file's name alone" render "$simple" -o "$folder/e.png"
+done
 expect 64 'only one frame number' render "$simple" -o 'a##_##.png'
 expect 64 'depth does not fit into 8 bits; write .exr or .pfm' render "$simple" -o a.png --layer depth
 expect 64 'only .exr holds several layers' render "$simple" -o a.pfm --layer mask --layer depth
