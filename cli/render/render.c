@@ -25,7 +25,7 @@ static int add_layer(const option *o, void *place, const char *value)
     mgt_layer layer = MGT_LAYER_COLOR;
     const bool all = strcmp(value, "all") == 0;
     if (!all && !mgt_layer_from_name(value, &layer))
-        return console_error(EXIT_CODE_USAGE, "--%s %s: allowed is %s or all", o->name, value, names_list(layer_names).text);
+        return console_error(EXIT_CODE_USAGE, "--%s %s: allowed is %s or all; --layer may be repeated", o->name, value, names_list(layer_names).text);
     bool wanted[LAYER_COUNT] = {false};
     for (size_t i = 0; i < r->layer_count; i++)
         wanted[r->layers[i]] = true;
@@ -206,14 +206,15 @@ static const option render_options[] = {
      .set = option_change, .offset = offsetof(render_request, changes)},
     {"layer", 0, "NAME",
      "color (default), coverage, mask, depth, normal, samples,\n"
-     "importance, detail, refraction, refraction_error or foam;\n"
-     ".exr takes several, or all",
+     "importance, detail, refraction, refraction_error or foam; may be\n"
+     "repeated for .exr, which also takes all",
      .set = add_layer},
     {"exr", 0, "WORDS",
-     ".exr: half (16 bits), piz or none (for ZIP), alpha (channel A, the\n"
-     "fraction of water), z (channel Z, metres along the view), acescg,\n"
-     "parts (a part for each layer), cryptomatte or cryptomatte:N (mattes\n"
-     "of objects, water and sky by NxN rays a pixel; default 4)",
+     ".exr, separated by commas: float (default) or half (16 bits), zip\n"
+     "(default), piz or none, alpha (channel A, the fraction of water),\n"
+     "z (channel Z, metres along the view), acescg, parts (a part for\n"
+     "each layer), cryptomatte or cryptomatte:N (mattes of objects, water\n"
+     "and sky by NxN rays a pixel; default 4)",
      .set = option_exr, .offset = offsetof(render_request, exr)},
     {"codec", 0, "NAME", "films: h264 (default of .mp4), hevc (10 bits), prores (422 HQ, default\nof .mov)", .set = set_codec},
     {"crf", 0, "N", "films: quality of h264 and hevc, 0 (best) to 51 (default 16)", .set = set_crf},
@@ -243,19 +244,20 @@ static const option render_options[] = {
 };
 enum { RENDER_ONLY = 4 };
 
-static const option_table render_table = {"render",
-                                          "SCENE -o OUT [options]\n       mangata render --sea wind=12 -o OUT [options]",
-                                          "Renders frames of a scene into pictures or a film.",
-                                          render_options,
-                                          sizeof render_options / sizeof render_options[0],
-                                          .notes =
-                                              "The same scene, frame and options give the same bytes, whatever the threads and the machine.\n"
-                                              "exit codes: 0 done, 1 failed, 64 usage, 65 bad scene, 66 no such input, 69 not available,\n"
-                                              "73 cannot write, 75 try again (a device was lost, no thread could be started), 130 and 143 stopped by a signal",
-                                          .operand = {.set = option_one_scene, .offset = offsetof(render_request, scene_path)},
-                                          .quality = offsetof(render_request, options),
-                                          .changes = offsetof(render_request, changes),
-                                          .run = run};
+static const option_table render_table =
+    {"render",
+     "SCENE -o OUT [options]\n       mangata render --sea wind=12 -o OUT [options]",
+     "Renders frames of a scene into pictures or a film.",
+     render_options,
+     sizeof render_options / sizeof render_options[0],
+     .notes = "The same scene, frame and options give the same bytes, whatever the threads and the machine, but for --isa sse2,\n"
+              "a compatible build without fused arithmetic.\n"
+              "exit codes: 0 done, 1 failed, 64 usage, 65 bad scene, 66 no such input, 69 not available,\n"
+              "73 cannot write, 75 try again (a device was lost, no thread could be started), 130 and 143 stopped by a signal",
+     .operand = {.set = option_one_scene, .offset = offsetof(render_request, scene_path)},
+     .quality = offsetof(render_request, options),
+     .changes = offsetof(render_request, changes),
+     .run = run};
 
 int verb_render(int count, char **arguments)
 {
