@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* A render from loading the scene to the last file. Everything that can be checked is checked before the frames are rendered. */
+#include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "image/file_whole.h"
 #include "image/video.h"
@@ -165,9 +167,16 @@ static int check_existing(render_job *job, const char *path, const sha256_text *
             progress_clear(&job->progress);
             console_note(&job->request->out, "%s: damaged; it is rendered again", path);
         }
-    } else if (status != FILE_MISSING && !job->request->overwrite) {
+    } else if (!job->request->overwrite) {
+        const bool unreadable = access(path, R_OK) != 0 && errno == EACCES && access(path, F_OK) == 0;
+        if (status == FILE_MISSING && !unreadable)
+            return EXIT_CODE_OK;
+        /* What --overwrite does not replace, such as a directory, has an error of its own. */
+        if (output_file_check(path, &(output_options){.overwrite = true}, &error) != FILE_OK)
+            return render_job_file_failure(job, &error);
         progress_clear(&job->progress);
-        return console_error(EXIT_CODE_CANNOT_WRITE, "%s: it exists, but was not rendered from this scene with these options; --overwrite replaces it", path);
+        return console_error(EXIT_CODE_CANNOT_WRITE, "%s: it exists, but %s; --overwrite replaces it", path,
+                             unreadable ? "cannot be read: Permission denied" : "was not rendered from this scene with these options");
     }
     return EXIT_CODE_OK;
 }

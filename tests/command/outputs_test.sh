@@ -29,6 +29,20 @@ expect 64 'normal' "$MANGATA" diff all.exr two.exr --layer normal
 # A mask as a grey picture is the mask within half a step of 8 bits, water below and sky above.
 "$MANGATA" diff coverage.png coverage.png >/dev/null || fail "a grey picture cannot be read"
 
+# What --skip-existing cannot keep: --overwrite is named only where it helps.
+mkdir dir.png
+mkfifo pipe.png
+expect 73 'dir.png: is a directory$' render "$simple" -o dir.png --skip-existing "${small[@]}"
+expect 73 'pipe.png: is not a regular file$' render "$simple" -o pipe.png --skip-existing "${small[@]}"
+expect 73 'a.png: it exists, but was not rendered from this scene with these options; --overwrite' render "$simple" -o a.png --skip-existing --seed 9 --method ssaa2 "${small[@]}"
+if ((EUID != 0)); then
+    cp a.png secret.png
+    chmod 0 secret.png
+    expect 73 'secret.png: it exists, but cannot be read: Permission denied; --overwrite' render "$simple" -o secret.png --skip-existing "${small[@]}"
+    works render "$simple" -o secret.png --skip-existing --overwrite "${small[@]}" --quiet
+fi
+rm -r dir.png pipe.png
+
 # A missing folder is told before ten million frames are checked.
 expect 73 'big/x_0.png: cannot write: folder big: No such file' timeout 20 "$MANGATA" render "$simple" -o 'big/x_%d.png' --frames 0-9999999
 
