@@ -352,6 +352,7 @@ static int render_still(render_job *job, uint32_t frame)
             code = check_finished(job, path, &hash, &error, &plan.skip);
         if (code != EXIT_CODE_OK)
             return code;
+        job->lost += plan.skip;
     }
     render_sums_done(job, frame, path);
     list_file(job, path, number, &hash, plan.skip);
@@ -439,21 +440,37 @@ static int render_film(render_job *job)
         code = check_finished(job, path, &hash, &error, &kept);
     if (code != EXIT_CODE_OK)
         return code;
+    job->lost += kept;
     list_file(job, path, frames, &hash, kept);
     return EXIT_CODE_OK;
 }
 
 /* ---- the end -------------------------------------------------------------------------------------------- */
 
+/* What the report says of files that were kept beside those that were rendered. */
+static void print_kept(const render_job *job, char *text, size_t size)
+{
+    const bool film = render_is_film(job->request);
+    text[0] = 0;
+    if (job->lost && (film || job->lost == job->rendered))
+        snprintf(text, size, "; kept %s that another process has finished meanwhile", film ? "the film" : job->lost == 1 ? "the picture" : "the pictures");
+    else if (job->lost)
+        snprintf(text, size, "; kept %" PRIu64 " that another process has finished meanwhile", job->lost);
+    if (job->skipped > job->lost)
+        snprintf(text + strlen(text), size - strlen(text), ", others kept");
+}
+
 static int report(render_job *job, double wall)
 {
+    char kept[120];
+    print_kept(job, kept, sizeof kept);
     const render_request *r = job->request;
     const double mean = job->rendered ? job->seconds / (double)job->rendered : 0;
     if (r->dry_run)
         console_note(&r->out, "%s: nothing speaks against it; a dry run renders nothing", r->output);
     else if (job->rendered)
         console_note(&r->out, "%s: %" PRIu64 " frame%s of %u x %u by %s, %.1f ms each%s", r->output, job->rendered, job->rendered == 1 ? "" : "s",
-                     job->buffer.width, job->buffer.height, method_name(&r->quality).text, 1e3 * mean, job->skipped ? ", others kept" : "");
+                     job->buffer.width, job->buffer.height, method_name(&r->quality).text, 1e3 * mean, kept);
     else
         console_note(&r->out, "%s: %snothing to render", r->output, job->skipped ? "kept, " : "");
     if (!r->out.json)

@@ -20,6 +20,7 @@ typedef struct render_job {
     progress progress;
     double before, share;        /* fractions of a frame's progress: before the current call into the library, and of that call */
     uint64_t rendered, skipped;  /* numbers of frames */
+    uint64_t lost;               /* number of files whose frames were rendered, but that another process has finished meanwhile; they count as skipped */
     double seconds, least, most; /* rendering time of all frames, of the fastest and of the slowest frame */
     json_t *files;               /* list of the files, with --json; NULL: not requested */
     uint64_t *sums;              /* sums of the frame, if pictures are made of sums; NULL: they are not */

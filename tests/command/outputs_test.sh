@@ -43,6 +43,24 @@ if ((EUID != 0)); then
 fi
 rm -r dir.png pipe.png
 
+# A picture and a film that another process finishes while they are rendered: the report says whose is kept.
+if [[ -z ${SANITIZED:-} ]]; then
+    for name in rival.png rival.y4m; do
+        slow=(--size 320x180 --threads 1 --method reference --spatial 3)
+        [[ $name == *.png ]] || slow+=(--frames 0-1)
+        works render "$simple" -o "done_$name" "${slow[@]}" --quiet
+        render "$simple" -o $name "${slow[@]}" --skip-existing --progress json 2>rival.txt &
+        for ((i = 0; i < 1200; i++)); do
+            grep -q '"progress"' rival.txt && break
+            sleep 0.01
+        done
+        [[ $name == *.png ]] || cp "done_$name.json" $name.json
+        cp "done_$name" .rival && mv .rival $name
+        wait $! || fail "$name: exit code $?: $(cat rival.txt)"
+        grep -Eq '"text": ?".*ms each; kept the (picture|film) that another process has finished meanwhile"' rival.txt || fail "$name: $(tail -n 1 rival.txt)"
+    done
+fi
+
 # A missing folder is told before ten million frames are checked.
 expect 73 'big/x_0.png: cannot write: folder big: No such file' timeout 20 "$MANGATA" render "$simple" -o 'big/x_%d.png' --frames 0-9999999
 
