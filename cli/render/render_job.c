@@ -402,6 +402,10 @@ static int render_film(render_job *job)
         list_file(job, path, frames, &hash, true);
         return EXIT_CODE_OK;
     }
+    if (r->format != PICTURE_Y4M && (job->buffer.width % 2 || job->buffer.height % 2))
+        console_note(&r->out,
+                     "mangata: warning: %s: encoders take even sides, so the film has %u x %u pixels, its last column or row twice; .y4m keeps %u x %u", path,
+                     job->buffer.width + job->buffer.width % 2, job->buffer.height + job->buffer.height % 2, job->buffer.width, job->buffer.height);
     mgt_scene first;
     code = frame_scene(job, frame_list_at(&r->frames, 0), &first);
     if (code != EXIT_CODE_OK)
