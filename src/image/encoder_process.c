@@ -250,7 +250,8 @@ static file_status encoder_failure(encoder_process *process, int exit_status, fi
     if (message[0])
         return file_error_set(error, FILE_WRITE, "%s: ffmpeg failed: %s", process->path, message);
     if (WIFSIGNALED(exit_status))
-        return file_error_set(error, FILE_WRITE, "%s: ffmpeg was ended by signal %d", process->path, WTERMSIG(exit_status));
+        return file_error_set(error, FILE_WRITE, "%s: ffmpeg was ended by signal %d: %s", process->path, WTERMSIG(exit_status),
+                              strsignal(WTERMSIG(exit_status)));
     return file_error_set(error, FILE_WRITE, "%s: ffmpeg failed with status %d", process->path, WEXITSTATUS(exit_status));
 }
 

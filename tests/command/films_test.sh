@@ -16,6 +16,13 @@ if command -v ffmpeg >/dev/null; then
     ffmpeg -v error -i a.mp4 -f null - 2>&1 | grep . && fail "ffmpeg cannot read a.mp4"
     [[ $(ffprobe -v error -count_frames -show_entries stream=nb_read_frames -of csv=p=0 a.mp4 | tr -d ,) == 5 ]] || fail "a.mp4 has not 5 frames"
 fi
+if command -v ffprobe >/dev/null; then
+    expect 0 'warning: odd.mp4: encoders take even sides, so the film has 66 x 38 pixels' render "$simple" -o odd.mp4 --frames 0 --size 65x37
+    [[ $(ffprobe -v error -show_entries stream=width,height -of csv=p=0 odd.mp4) == 66,38* ]] || fail "odd.mp4 has another size"
+    expect 73 'ffmpeg (was ended by signal [0-9]+: File size limit exceeded|failed)' \
+        bash -c 'ulimit -f 4; exec "$0" render "$1" -o long.mp4 --frames 0-4 --size 640x360 --crf 0' "$MANGATA" "$simple"
+    absent long.mp4
+fi
 mkdir empty
 expect 69 'ffmpeg' env PATH="$work/empty" "$MANGATA" render "$simple" -o b.mp4 --frames 0-1 "${small[@]}"
 absent b.mp4 b.mp4.json
