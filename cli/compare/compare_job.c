@@ -330,6 +330,18 @@ static int write_reports(compare_job *job)
     return code == EXIT_CODE_OK ? compare_page_write(job) : code;
 }
 
+/* Appends a word to a list; "…" stands for what does not fit. */
+static void list_word(char *text, size_t size, const char *word)
+{
+    static const char more[] = ", …";
+    const size_t used = strlen(text);
+    const bool cut = used >= sizeof more && strcmp(text + used - strlen(more), more) == 0;
+    if (used + strlen(word) + 2 * sizeof more < size && !cut)
+        snprintf(text + used, size - used, "%s%s", used ? ", " : "", word);
+    else if (!cut && used + sizeof more <= size)
+        snprintf(text + used, size - used, "%s", more);
+}
+
 static int check_gates(const compare_job *job)
 {
     int code = EXIT_CODE_OK;
@@ -349,16 +361,48 @@ static int check_gates(const compare_job *job)
     return code;
 }
 
+/* Why a column has no score; NULL: it has one, or is not wanted. */
+static const char *column_missing(const compare_job *job, size_t column)
+{
+    return score_wanted(job->request, &score_columns[column]) ? score_missing(job, &score_columns[column]) : NULL;
+}
+
+/* Warns of columns without any score, once a reason. */
+static void warn_of_missing(const compare_job *job)
+{
+    const compare_request *r = job->request;
+    char methods[240] = "", scenes[240] = "";
+    for (size_t m = 0; m < r->method_count; m++)
+        list_word(methods, sizeof methods, r->methods[m].name);
+    for (size_t s = 0; s < r->scene_count; s++)
+        list_word(scenes, sizeof scenes, job->scenes[s].name);
+    for (size_t c = 0; c < score_column_count; c++) {
+        char titles[400] = "";
+        const char *missing = column_missing(job, c), *other;
+        bool told = false;
+        size_t count = 0;
+        for (size_t i = 0; missing && i < c; i++)
+            told |= (other = column_missing(job, i)) && strcmp(other, missing) == 0;
+        for (size_t i = c; missing && !told && i < score_column_count; i++) {
+            bool listed = false;
+            for (size_t j = c; j < i; j++)
+                listed |= strcmp(score_columns[j].title, score_columns[i].title) == 0;
+            if (listed || !(other = column_missing(job, i)) || strcmp(other, missing) != 0)
+                continue;
+            list_word(titles, sizeof titles, score_columns[i].title);
+            count++;
+        }
+        if (count)
+            console_note(&r->out, "mangata: warning: %s %s unavailable for %s on %s: %s", titles, count == 1 ? "is" : "are", methods, scenes, missing);
+    }
+}
+
 static int print_end(const compare_job *job)
 {
     const compare_request *r = job->request;
     console_note(&r->out, "%s/report.html: %zu scene%s, %zu methods, %zu frames; %llu pictures rendered, %llu kept", r->folder, r->scene_count,
                  r->scene_count == 1 ? "" : "s", r->method_count, job->frame_count, (unsigned long long)job->rendered, (unsigned long long)job->kept);
-    for (size_t c = 0; c < score_column_count; c++) {
-        const char *missing = score_wanted(r, &score_columns[c]) ? score_missing(job, &score_columns[c]) : NULL;
-        if (missing)
-            console_note(&r->out, "mangata: warning: %s is unavailable: %s", score_columns[c].title, missing);
-    }
+    warn_of_missing(job);
     for (size_t m = 0; m < r->method_count; m++) {
         char *mismatches = score_mismatches_text(job, m);
         if (mismatches && mismatches[0])
