@@ -107,7 +107,7 @@ static bool read_word(const char *all, const char *text, size_t length, sea_word
     if (field_parse(word.row, value, (char *)words + word.offset))
         return true;
     field_allowed(word.row, allowed, sizeof allowed);
-    return refuse(error, SCENE_ERROR_BAD_SCENE, all, "%s is \"%s\"; allowed: %s", word.name, scene_quote_text(equals + 1, size).text, allowed);
+    return refuse(error, SCENE_ERROR_BAD_OVERRIDE, all, "%s is \"%s\"; allowed: %s", word.name, scene_quote_text(equals + 1, size).text, allowed);
 }
 
 static bool read_words(const char *text, sea_words *words, scene_error *error)
@@ -122,10 +122,10 @@ static bool read_words(const char *text, sea_words *words, scene_error *error)
     }
     for (unsigned i = 0; !(words->swell.height > 0) && word_at(i).row != NULL; i++)
         if (words->seen >> i & 1 && word_at(i).offset >= offsetof(sea_words, swell))
-            return refuse(error, SCENE_ERROR_BAD_SCENE, text, "%s is given, but no swell; allowed: beside swell, its height, such as swell=2,swell_period=9",
+            return refuse(error, SCENE_ERROR_BAD_OVERRIDE, text, "%s is given, but no swell; allowed: beside swell, its height, such as swell=2,swell_period=9",
                           word_at(i).name);
     return words->wind.speed > 0 || words->swell.height > 0 ||
-           refuse(error, SCENE_ERROR_BAD_SCENE, text, "there is no wind and no swell; allowed: such as wind=12,direction=30");
+           refuse(error, SCENE_ERROR_BAD_OVERRIDE, text, "there is no wind and no swell; allowed: such as wind=12,direction=30");
 }
 
 /* ---- the scene ---------------------------------------------------------------------------------------------- */
@@ -179,7 +179,7 @@ static bool refuse_sea(scene_error *error, const char *text, scene_sea_fault *fa
             word = word_at(i);
             break;
         }
-    return refuse(error, SCENE_ERROR_BAD_SCENE, text, "%s %s", word.name, fault->setting.text);
+    return refuse(error, SCENE_ERROR_BAD_OVERRIDE, text, "%s %s", word.name, fault->setting.text);
 }
 
 /* Values with the sea of the words, and a camera over it. */

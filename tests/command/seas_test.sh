@@ -47,22 +47,22 @@ refused() { # CODE PATTERN options
     expect "$1" "$2" render "${@:3}" "${null[@]}" -o out.png
     absent out.png
 }
-refused 64 '--sea wynd=8: unknown key "wynd"; allowed: wind, direction, fetch, depth, count, seed, swell, swell_period.*' --sea wynd=8
-refused 64 '--sea 8: "8" is not of the form key=value' --sea 8
+refused 64 '^mangata: --sea wynd=8: unknown key "wynd"; allowed: wind, direction, fetch, depth, count, seed, swell, swell_period.*' --sea wynd=8
+refused 64 '^mangata: --sea 8: "8" is not of the form key=value' --sea 8
 refused 64 'one scene at a time: short.yaml and --sea wind=8 are given' short.yaml --sea wind=8
 refused 64 'one scene at a time' --sea wind=3 --sea wind=8
 expect 64 '--sea needs a value' render -o out.png --sea
-refused 65 '--sea wind=gale: wind is "gale"; allowed: a number' --sea wind=gale
-refused 65 '--sea wind=12,swell_period=9: swell_period is given, but no swell; allowed: beside swell, its height' --sea wind=12,swell_period=9
-refused 65 'swell_direction is given, but no swell' --sea swell_direction=30,swell_spread=20
+refused 64 '^mangata: --sea wind=gale: wind is "gale"; allowed: a number' --sea wind=gale
+refused 64 '^mangata: --sea wind=12,swell_period=9: swell_period is given, but no swell; allowed: beside swell, its height' --sea wind=12,swell_period=9
+refused 64 'swell_direction is given, but no swell' --sea swell_direction=30,swell_spread=20
 expect 0 '' "$MANGATA" scene check --sea swell_period=9,swell=2,wind=12
-refused 65 '--sea seed=8: there is no wind and no swell' --sea seed=8
-refused 65 '--sea wind=20,fetch=500: fetch is 500 m, too short' --sea wind=20,fetch=500
+refused 64 '^mangata: --sea seed=8: there is no wind and no swell' --sea seed=8
+refused 64 '^mangata: --sea wind=20,fetch=500: fetch is 500 m, too short' --sea wind=20,fetch=500
 refused 65 '^--set water.waves=.*: water.waves stands beside water.wind' --sea wind=8 --set 'water.waves=[{amplitude: 1, a: 1, b: 1, c: 1}]'
 refused 65 '^--set water.wind=8: water.wind stands beside water.waves of the file' "$simple" --set water.wind=8
 printf 'mangata: 1\nwater:\n  wind: 8\n  spectrum: {model: jonswap}\n' >both.yaml
 refused 65 '^both.yaml:4:3: water.spectrum stands beside water.wind, which replaces it; allowed: one of them' both.yaml
-refused 65 '--sea wind=8,swell=99: swell is "99"; allowed: a number, 0.001 to 50 m' --sea wind=8,swell=99
+refused 64 '^mangata: --sea wind=8,swell=99: swell is "99"; allowed: a number, 0.001 to 50 m' --sea wind=8,swell=99
 printf 'mangata: 1\nwater: {waves: [{wavelength: 4, height: 1, b: 2}]}\n' >forms.yaml
 refused 65 '^forms.yaml:2:44: water.waves.0..b stands beside wavelength, which is of another form' forms.yaml
 printf 'mangata: 1\nwater: {wind: light}\n' >light.yaml
