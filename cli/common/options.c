@@ -88,6 +88,8 @@ int option_size(const option *o, void *place, const char *value)
     uint64_t side[2];
     if (!number_parse_list(value, 'x', MGT_MAX_IMAGE_SIDE, 2, side) || side[0] < o->least || side[1] < o->least)
         return option_wrong(o, value, o->allowed);
+    if (side[0] * side[1] > (uint64_t)SCENE_PIXELS_MOST)
+        return console_error(EXIT_CODE_USAGE, "--%s %s: allowed are %u pixels in all", o->name, value, (unsigned)SCENE_PIXELS_MOST);
     changes->width = (uint32_t)side[0];
     changes->height = (uint32_t)side[1];
     return EXIT_CODE_OK;

@@ -9,7 +9,6 @@
 #include "scene/scene_path.h"
 #include "scene/scene_read.h"
 
-static const double MAX_PIXELS = 268435456; /* 2^28 */
 static const double MIN_KEYFRAME_GAP = 1e-6;
 
 /* The first of two nodes that is there: where a message about both of them points. */
@@ -18,12 +17,12 @@ static const tree_node *either(const tree_node *first, const tree_node *second) 
 static bool check_image(const scene_tree *tree, const mgt_image *image, scene_error *error)
 {
     double pixels = (double)image->width * image->height;
-    if (pixels <= MAX_PIXELS)
+    if (pixels <= SCENE_PIXELS_MOST)
         return true;
     const tree_node *mapping = tree_get(tree->root, "image");
     const tree_node *node = either(tree_get(mapping, "height"), tree_get(mapping, "width"));
-    return tree_error(tree, node->source, node->place, error, "image is %u x %u = %.0f pixels; allowed: width x height at most %.0f", image->width,
-                      image->height, pixels, MAX_PIXELS);
+    return tree_error(tree, node->source, node->place, error, "image is %u x %u = %.0f pixels; allowed: width x height at most %d", image->width, image->height,
+                      pixels, SCENE_PIXELS_MOST);
 }
 
 static bool refuse_camera(const scene_tree *tree, const tree_node *node, camera_fault fault, const char *where, scene_error *error)

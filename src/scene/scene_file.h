@@ -11,13 +11,15 @@
 
 #include "mangata/mangata.h"
 
+enum { SCENE_PIXELS_MOST = 268435456 }; /* pixels of a scene's image: 2^28 */
+
 typedef struct scene_file scene_file; /* immutable after loading: any number of threads may read it */
 
 typedef enum scene_error_kind {
     SCENE_ERROR_NONE = 0,
     SCENE_ERROR_MISSING_INPUT, /* the file does not exist or cannot be read (exit 66) */
     SCENE_ERROR_BAD_SCENE,     /* syntax or meaning, of the file or of an override's key or value (exit 65) */
-    SCENE_ERROR_BAD_OVERRIDE,  /* an override that is not of the form key=value (exit 64) */
+    SCENE_ERROR_BAD_OVERRIDE,  /* an override that is not of the form key=value, or words about a sea that make none (exit 64) */
     SCENE_ERROR_MEMORY         /* an allocation failed (exit 1) */
 } scene_error_kind;
 
@@ -42,7 +44,7 @@ scene_file *scene_file_parse(const char *text, size_t length, const char *name, 
 
 /* A scene from a few words about its sea, such as "wind=12,direction=30,seed=3": the keys of water.wind, with wind for speed and without "_deg", and
  * of one water.swell, swell for its height, else with "swell_" in front. A low sun stands straight ahead, the camera over the crests, and the film has two seconds. scene_file_path() is "--sea wind=12,…". Errors as of
- * scene_file_load(), "--sea wind=12,…: …"; words that are not of the form are a SCENE_ERROR_BAD_OVERRIDE. */
+ * scene_file_load(), "--sea wind=12,…: …", which are a SCENE_ERROR_BAD_OVERRIDE. */
 scene_file *scene_file_sea(const char *words, const char *const *overrides, size_t override_count, scene_error *error);
 
 /* scene_file_load(), or where `path` begins with "--sea " scene_file_sea() of the rest. */
