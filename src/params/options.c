@@ -159,7 +159,11 @@ static bool find_conflict(const mgt_quality *quality, const quality_choice *choi
         if (!field->alternative || !(choice ? quality_is_chosen(choice, field) : option_is_set(field, quality)))
             continue;
         if (first && first->alternative == field->alternative) {
-            snprintf(wrong, size, "%s and %s exclude each other: each says how much to sample", first->key, field->key);
+            const char *const form = "%s and %s exclude each other: each says how much to sample";
+            if (choice)
+                snprintf(wrong, size, form, option_flag_of(first).text, option_flag_of(field).text);
+            else
+                snprintf(wrong, size, form, first->key, field->key);
             return true;
         }
         first = field;

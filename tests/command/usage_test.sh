@@ -130,6 +130,7 @@ for both in '--samples 8 --target-rmse 0.01' '--samples 8 --budget-ms 10' '--tar
     # shellcheck disable=SC2086 # options are words
     adaptive 'each says how much to sample' $both
 done
+adaptive '^mangata: --samples and --target-rmse exclude each other' --samples 4 --target-rmse 0.1
 adaptive '--slots: it is for method adaptive and adaptive podee alone' --slots 1000
 adaptive '--slots: it is for method adaptive and adaptive podee alone' --adaptive cells --slots 1000
 for option in 'target-rmse 0.01' 'target-displayed 0.01' 'budget-ms 10'; do
