@@ -55,7 +55,10 @@ static bool set_option(method_spec *spec, char name[METHOD_SPEC_TEXT], const cha
     }
     if (known)
         return fail(wrong, wrong_size, "%s: %s", spec->name, reason);
-    return fail(wrong, wrong_size, "%s: unknown option %.*s; see the options of quality in mangata render --help", spec->name, (int)length, word);
+    return fail(
+        wrong, wrong_size,
+        "%s: unknown option %.*s; allowed are the options of quality in mangata render --help, but for seed and for refraction, which is written METHOD+NAME",
+        spec->name, (int)length, word);
 }
 
 static void print_file_name(method_spec *spec)

@@ -181,6 +181,7 @@ expect 64 'no scene given' "$MANGATA" scene check
 expect 64 'unknown method fast; allowed are none, ssaaN' "$MANGATA" bench "$simple" --methods none,fast
 expect 64 'none\+mirror: --refraction mirror: allowed is one of two-phase, hybrid' "$MANGATA" bench "$simple" --methods none+mirror
 expect 64 'it is for refraction two-phase' "$MANGATA" bench "$simple" --methods none+off:tess-error=1
+expect 64 'unknown option seed; allowed are the options of quality in mangata render --help, but for seed' "$MANGATA" bench "$simple" --methods none:seed=3
 expect 64 'unknown option refraction;' "$MANGATA" bench "$simple" --methods none:refraction=off
 expect 64 'info takes no' "$MANGATA" info now
 cp "$MANGATA" alone # the viewer is looked for beside the command first
