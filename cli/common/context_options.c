@@ -2,6 +2,7 @@
 /* The options of every verb that renders. */
 #include "cli/common/context_options.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #include "params/names.h"
@@ -36,6 +37,16 @@ int option_drawing_backend(const option *o, void *place, const char *value)
     return mgt_backend_from_name(value, &options->backend) && options->backend != MGT_BACKEND_NULL ? EXIT_CODE_OK : option_wrong(o, value, o->allowed);
 }
 
+/* Says which instruction sets there are instead. */
+static int refuse_isa(mgt_isa isa)
+{
+    char sets[120] = "";
+    for (int i = MGT_ISA_AUTO; i <= MGT_ISA_NEON; i++)
+        if (mgt_isa_available((mgt_isa)i))
+            snprintf(sets + strlen(sets), sizeof sets - strlen(sets), "%s%s", sets[0] ? ", " : "", mgt_isa_name((mgt_isa)i));
+    return console_error(EXIT_CODE_UNAVAILABLE, "--isa %s: this processor or build does not have it; available are %s", mgt_isa_name(isa), sets);
+}
+
 int context_open(const context_options *options, const console *out, mgt_progress_function progress, void *progress_user, mgt_context **context,
                  mgt_context_info *info)
 {
@@ -50,6 +61,8 @@ int context_open(const context_options *options, const console *out, mgt_progres
     desc.progress = progress;
     desc.progress_user = progress_user;
     const mgt_status status = mgt_context_create(context, &desc);
+    if (status == MGT_ERROR_UNAVAILABLE && (desc.backend == MGT_BACKEND_CPU || desc.backend == MGT_BACKEND_AUTO) && !mgt_isa_available(desc.isa))
+        return refuse_isa(desc.isa);
     if (status != MGT_OK)
         return console_library_error(NULL, status);
     info->struct_size = sizeof *info;
