@@ -14,13 +14,25 @@ static const double MIN_KEYFRAME_GAP = 1e-6;
 /* The first of two nodes that is there: where a message about both of them points. */
 static const tree_node *either(const tree_node *first, const tree_node *second) { return first != NULL ? first : second; }
 
+/* The part of a value that --set has written; NULL: it stands in the file as it is. */
+static const tree_node *overridden(const tree_node *node)
+{
+    if (node == NULL || node->source != NULL)
+        return node;
+    for (const tree_node *child = node->first; child != NULL; child = child->next)
+        if (child->source != NULL)
+            return child;
+    return NULL;
+}
+
 static bool check_image(const scene_tree *tree, const mgt_image *image, scene_error *error)
 {
     double pixels = (double)image->width * image->height;
     if (pixels <= SCENE_PIXELS_MOST)
         return true;
     const tree_node *mapping = tree_get(tree->root, "image");
-    const tree_node *node = either(tree_get(mapping, "height"), tree_get(mapping, "width"));
+    const tree_node *width = tree_get(mapping, "width"), *height = tree_get(mapping, "height");
+    const tree_node *node = either(either(overridden(height), overridden(width)), either(height, width));
     return tree_error(tree, node->source, node->place, error, "image is %u x %u = %.0f pixels; allowed: width x height at most %d", image->width, image->height,
                       pixels, SCENE_PIXELS_MOST);
 }
@@ -41,9 +53,10 @@ static const tree_node *faulty_node(const tree_node *mapping, camera_fault fault
 {
     const tree_node *up = tree_get(mapping, "up"), *target = tree_get(mapping, "target"), *position = tree_get(mapping, "position");
     /* A value from the command line was written last. */
-    const tree_node *point = position != NULL && position->source != NULL && (target == NULL || target->source == NULL) ? position : either(target, position);
-    const tree_node *node = fault == CAMERA_NO_UP ? either(up, point) : point;
-    return either(node, either(mapping, fallback));
+    const tree_node *given = either(overridden(target), overridden(position)), *point = either(target, position);
+    if (fault == CAMERA_NO_UP)
+        given = either(overridden(up), given);
+    return either(given, either(fault == CAMERA_NO_UP ? either(up, point) : point, either(mapping, fallback)));
 }
 
 static bool check_still_camera(const scene_tree *tree, const scene_camera *camera, scene_error *error)
@@ -66,11 +79,13 @@ static bool check_keyframes(const scene_tree *tree, const scene_camera *camera, 
                               "camera.%s stands beside camera.path, which replaces it; allowed: one of them", excluded[i]);
     }
     const scene_keyframe *keyframes = camera->path.items;
+    const tree_node *before = NULL; /* time of the keyframe before */
     const tree_node *item = path->first;
     for (size_t i = 0; i < camera->path.count; i++, item = item->next) {
-        const tree_node *time = tree_get(item, "time");
+        const tree_node *time = tree_get(item, "time"), *blamed = either(overridden(time), either(overridden(before), time));
+        before = time;
         if (i > 0 && !(keyframes[i].time - keyframes[i - 1].time >= MIN_KEYFRAME_GAP))
-            return tree_error(tree, time->source, time->place, error,
+            return tree_error(tree, blamed->source, blamed->place, error,
                               "camera.path[%zu].time is %s; allowed: later than camera.path[%zu].time, %s s, by at least 1e-6 s", i, time->text, i - 1,
                               double_text(keyframes[i - 1].time).text);
         camera_fault fault = scene_camera_fault(&keyframes[i].camera);
@@ -121,16 +136,18 @@ static bool check_foam(const scene_tree *tree, const scene_water *water, scene_e
     const tree_node *foam = tree_get(tree_get(tree->root, "water"), "foam"), *amount = tree_get(foam, "amount"), *share = tree_get(foam, "share");
     if (amount == NULL || !(water->foam.amount > 0) || share == NULL || !(water->foam.share > 0))
         return true;
-    return tree_error(tree, share->key_source != NULL ? share->key_source : share->source, share->key_place, error,
+    const tree_node *node = overridden(share) == NULL && overridden(amount) != NULL ? amount : share;
+    return tree_error(tree, node->key_source != NULL ? node->key_source : node->source, node->key_place, error,
                       "water.foam.share stands beside water.foam.amount; allowed: one of them");
 }
 
 static bool check_exposure(const scene_tree *tree, const scene_values *values, scene_error *error)
 {
-    const tree_node *offset = tree_get(tree_get(tree->root, "post"), "exposure_offset");
+    const tree_node *post = tree_get(tree->root, "post"), *offset = tree_get(post, "exposure_offset"), *exposure = tree_get(post, "exposure");
     if (values->post.exposure.automatic || offset == NULL)
         return true;
-    return tree_error(tree, offset->key_source != NULL ? offset->key_source : offset->source, offset->key_place, error,
+    const tree_node *node = overridden(offset) == NULL && overridden(exposure) != NULL ? exposure : offset;
+    return tree_error(tree, node->key_source != NULL ? node->key_source : node->source, node->key_place, error,
                       "post.exposure_offset stands beside an exposure that is a number; allowed: only with exposure: auto");
 }
 
@@ -138,7 +155,16 @@ static bool check_quality(const scene_tree *tree, const mgt_quality *quality, sc
 {
     char wrong[160];
     const tree_node *node = tree_get(tree->root, "quality");
-    return node == NULL || !quality_conflict(quality, wrong, sizeof wrong) || tree_error(tree, node->source, node->place, error, "quality: %s", wrong);
+    if (node == NULL || !quality_conflict(quality, wrong, sizeof wrong))
+        return true;
+    const tree_node *blamed = NULL;
+    for (const tree_node *child = node->first; child != NULL; child = child->next) {
+        const field_row *field = field_find(quality_fields, child->key, strlen(child->key));
+        if (field != NULL && field->alternative && overridden(child) != NULL)
+            blamed = child;
+    }
+    blamed = either(blamed, node);
+    return tree_error(tree, blamed->source, blamed->place, error, "quality: %s", wrong);
 }
 
 bool scene_check(const scene_tree *tree, const scene_values *values, scene_error *error)

@@ -128,6 +128,17 @@ else
     expect 66 'scripts/fetch_models' "$MANGATA" scene check "$SOURCE/scenes/pool.yaml"
 fi
 
+# What --set has made wrong together with the file is blamed on --set.
+printf '%s\n' 'mangata: 1' 'image: {width: 64, height: 32000}' 'camera: {position: [0, 4, 0], target: [0, 1, 0], up: [0, 0, -1]}' 'water: {wind: 8, foam: {share: 0.1}}' \
+    'post: {exposure: auto, exposure_offset: 1}' 'quality: {method: adaptive, target_rmse: 0.1}' >scene2.yaml
+expect 0 '' "$MANGATA" scene check scene2.yaml
+refused 65 '^--set camera.target=.0,0,0.: camera: up is zero or parallel' "$simple" --set 'camera.position=[0,4,0]' --set 'camera.target=[0,0,0]'
+refused 65 '^--set camera.position.1.=1: camera: ' scene2.yaml --set 'camera.position[1]=1'
+refused 65 '^--set image.width=32768: image is 32768 x 32000' scene2.yaml --set image.width=32768
+refused 65 '^--set water.foam.amount=1: water.foam.share' scene2.yaml --set water.foam.amount=1
+refused 65 '^--set post.exposure=3: post.exposure_offset' scene2.yaml --set post.exposure=3
+refused 65 '^--set quality.samples=4: quality: samples and target_rmse exclude' scene2.yaml --set quality.samples=4
+
 refused 65 'light.elevation_degrees' "$simple" --set light.elevation_degrees=3
 refused 65 'elevation_deg' "$simple" --set light.elevation_deg=nan
 refused 65 'elevation_deg' "$simple" --set light.elevation_deg=high
