@@ -24,6 +24,7 @@ typedef struct render_job {
     double seconds, least, most; /* rendering time of all frames, of the fastest and of the slowest frame */
     json_t *files;               /* list of the files, with --json; NULL: not requested */
     uint64_t *sums;              /* sums of the frame, if pictures are made of sums; NULL: they are not */
+    bool unsaved;                /* it has been noted that a checkpoint cannot be written */
     sums_ranges ranges;          /* samples that `sums` or the parts of a merge hold */
 } render_job;
 

@@ -249,7 +249,7 @@ static int load_checkpoint(render_job *job, const render_record *record, const c
     return EXIT_CODE_OK;
 }
 
-/* Saves a checkpoint. If it cannot be written, that is noted, and rendering goes on. */
+/* Saves a checkpoint. If it cannot be written, that is noted once, and rendering goes on. */
 static int save_checkpoint(render_job *job, const render_record *record, const char *path)
 {
     file_error error;
@@ -258,10 +258,11 @@ static int save_checkpoint(render_job *job, const render_record *record, const c
     const file_status status = sums_write(path, job->image.crop_width, job->image.crop_height, job->sums, &job->ranges, &record->list, &output, &error);
     if (status == FILE_CANCELLED)
         return render_job_file_failure(job, &error);
-    if (status != FILE_OK) {
+    if (status != FILE_OK && !job->unsaved) {
         progress_clear(&job->progress);
         console_note(&job->request->out, "%s; the frame goes on without a checkpoint", error.text);
     }
+    job->unsaved |= status != FILE_OK;
     return EXIT_CODE_OK;
 }
 

@@ -124,4 +124,8 @@ expect 64 'method msaa32 has no exact sums' render "$sunset" -o bad.png --method
 expect 64 'the glare of displayed colour needs the sums of the whole picture' render "$sunset" -o bad.png --method reference --checkpoint 5 --crop 0,0,9,9 --set post.glare=0.1
 expect 64 '--checkpoint is for pictures' render "$sunset" -o bad.y4m --method reference --checkpoint 5
 absent bad.*
+# A checkpoint that cannot be written, for its name is too long, is told once.
+long=$(printf 'x%.0s' {1..245}).png
+expect 0 'the frame goes on without a checkpoint' render "$simple" -o "$long" --size 160x90 --method reference --spatial 6 --checkpoint 0.1
+(($(grep -c 'goes on without' stderr.txt) == 1)) || fail "a checkpoint that cannot be written: $(cut -c 1-60 stderr.txt)"
 finish
