@@ -94,8 +94,8 @@ static const option_table figures_table = {"figures",
                                            "-o DIR [options]",
                                            "Makes the tables and plates of Podee et al. 2021 and of Liu et al. 2020 again on the standard scenes:\n"
                                            "DIR/index.html with one SVG a plate, table1.md, table1.csv, refraction.md and figures.json. Pictures are\n"
-                                           "kept in DIR/frames: the same command again goes on where it was stopped. Prints the tables, or with\n"
-                                           "--json everything measured.",
+                                           "kept in DIR/frames: the same command again goes on where it was stopped. The first time all of\n"
+                                           "it takes about half an hour of two cores. Prints the tables, or with --json everything measured.",
                                            figures_options,
                                            sizeof figures_options / sizeof figures_options[0],
                                            .notes = "exit codes: 0 done, 2 a claim does not hold (--check), 64 usage, 65 bad scene, 66 no such scene,\n"

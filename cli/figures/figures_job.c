@@ -292,6 +292,9 @@ static int run(figures_job *f)
         code = figures_refraction_open(f, f->folder);
     if (code == EXIT_CODE_OK)
         code = make_pictures_folder(f);
+    if (code == EXIT_CODE_OK && r->progress == PROGRESS_NONE)
+        console_note(&r->out, "%s: all plates and tables take about half an hour of two cores the first time; --progress text tells how far they are",
+                     r->folder);
     if (code == EXIT_CODE_OK && f->renders.method_count)
         code = compare_render(f->compare);
     if (code == EXIT_CODE_OK && r->shard.count) {

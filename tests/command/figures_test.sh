@@ -61,6 +61,7 @@ fi
 
 # A part alone: only its pictures; what needs no scene renders nothing.
 expect 0 '16 pictures rendered, 0 kept' figures -o transition --only 11 --size 32x18 --spatial 1 --time-samples 1 --frames 0 --time-runs 0
+head -n 1 stderr.txt | grep -q '^transition: all plates and tables take about half an hour' || fail "figures does not say how long it takes: $(head -n 1 stderr.txt)"
 exists transition/fig11.svg
 absent transition/fig13.svg transition/table1.md
 expect 0 '4 pictures rendered, 0 kept' figures -o border --only liu-7 --size 32x18 --refraction-samples 1 --time-runs 3
