@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "image/output_file.h"
 #include "cli/common/interrupt.h"
@@ -176,12 +177,14 @@ static int check_request(waves_request *r)
         return console_error(EXIT_CODE_USAGE, "--spectrum buoy needs --buoy FILE");
     if (s->kind == SPECTRUM_TMA && !(s->depth > 0))
         return console_error(EXIT_CODE_USAGE, "--spectrum tma needs --depth M, above 0 and at most 12000");
+    if (r->output && strcmp(r->output, "-") == 0)
+        r->output = NULL;
     file_error error;
     if (r->output && output_file_check_kind(r->output, &error) != FILE_OK)
         return console_file_error(&error);
     const char *name = r->output ? strrchr(r->output, '.') : NULL;
-    if (r->output && (!name || (strcmp(name, ".yaml") != 0 && strcmp(name, ".yml") != 0)))
-        return console_error(EXIT_CODE_USAGE, "%s: allowed is a name that ends in .yaml or .yml", r->output);
+    if (r->output && (!name || (strcasecmp(name, ".yaml") != 0 && strcasecmp(name, ".yml") != 0)))
+        return console_error(EXIT_CODE_USAGE, "%s: allowed is a name that ends in .yaml or .yml, or - for standard output", r->output);
     const int code = check_unused(r);
     return code == EXIT_CODE_OK ? check_changes(&r->changes) : code;
 }

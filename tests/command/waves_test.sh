@@ -153,6 +153,10 @@ expect 64 '--spectrum tma needs --depth' waves --spectrum tma --wind 8
 expect 64 '--spectrum buoy needs --buoy FILE' waves --spectrum buoy
 expect 64 '--buoy is for --spectrum buoy' waves --spectrum jonswap --buoy "$buoy"
 expect 64 'ends in .yaml or .yml' waves -o sea.png
+works waves --wind 8 -n 8 -q -o CAPITALS.YAML
+expect 0 '' waves --wind 8 -n 8 -q -o -
+same stdout.txt CAPITALS.YAML
+[[ ! -e ./- ]] || fail "waves -o - has written a file"
 expect 64 'takes options alone' waves pm.yaml
 expect 64 '--shortest 5e-5: allowed is a number, 0 or 0.0001 to 1000 m' waves --shortest 5e-5
 expect 64 '--shortest 1e-9: allowed' waves --shortest 1e-9
