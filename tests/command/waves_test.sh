@@ -179,11 +179,11 @@ unused wind-height 'the spectra of a wind, or for --slope cox-munk,' --buoy "$bu
 unused direction 'the spectra of a wind' --buoy "$buoy" --direction 5
 works waves -q -o bent.yaml --buoy "$buoy" --wind 5 --slope cox-munk
 for key in wind=5 'waves[0].amplitude=1' 'sea={wind: 3}' swell.height=1 'spectrum={model: jonswap}'; do
-    expect 64 "^mangata: --set water.${key%%[=[.]*}: the waves are those of --wind" waves --wind 8 --set "water.$key"
-    expect 64 "^mangata: --set water.${key%%[=[.]*}: the waves are those of --wind" waves --base "$SOURCE/scenes/gale.yaml" --set "water.$key"
+    expect 64 "^mangata: --set water.${key%%[^a-z]*}: the waves are those of --wind" waves --wind 8 --set "water.$key"
+    expect 64 "^mangata: --set water.${key%%[^a-z]*}: the waves are those of --wind" waves --base "$SOURCE/scenes/gale.yaml" --set "water.$key"
 done
 expect 64 '--set water: one key of it at a time' waves --set 'water={wind: 5}'
-works waves -q -o choppy.yaml --wind 8 --set water.choppiness=0.3
+works waves -q -o calmer.yaml --wind 8 --set water.choppiness=0.3
 
 # The description tells of the new waves.
 works waves -q -o gale.yaml --wind 8 --base "$SOURCE/scenes/gale.yaml"
