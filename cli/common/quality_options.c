@@ -84,7 +84,7 @@ bool quality_option_set(quality_options *options, const char *name, size_t lengt
         return false;
     if (quality_choose(&options->choice, field, value)) {
         if (field == quality_fields)
-            options->number_in_name = method_of(options->choice.values.method)->numbered;
+            options->number_in_name = method_of(options->choice.values.method)->numbered && value[strcspn(value, "0123456789")];
         return true;
     }
     field_allowed(field, allowed, sizeof allowed);
@@ -105,7 +105,7 @@ bool quality_options_apply(const quality_options *options, const mgt_quality *ba
         quality_choose(&o.choice, kernels, o.integral == 1 ? "exact" : "9");
     }
     if (o.number_in_name && quality_is_chosen(&o.choice, spatial))
-        return snprintf(wrong, size, "--spatial: write the number into ssaaN"), false;
+        return snprintf(wrong, size, "--spatial: the number stands in ssaaN already; allowed are ssaaN or --method ssaa --spatial N"), false;
     if (!quality_apply(&o.choice, base, out, wrong, size))
         return false;
     if (!o.range_given)

@@ -174,7 +174,8 @@ bool method_from_name(const char *name, mgt_quality *quality)
         const size_t length = strlen(row->properties.name);
         if (strncmp(name, row->properties.name, length) != 0)
             continue;
-        const uint32_t number = row->numbered ? number_behind(name, length) : name[length] == 0;
+        const bool bare = name[length] == 0;
+        const uint32_t number = !row->numbered ? bare : bare ? METHOD_SIDE_DEFAULT : number_behind(name, length);
         if (number == 0)
             continue;
         quality->method = (mgt_method)i;
@@ -200,8 +201,10 @@ method_names_text method_names(void)
 {
     method_names_text out;
     size_t used = 0;
+    char numbers[40];
+    snprintf(numbers, sizeof numbers, "N (N from 1 to %d)", MOST_STRATA);
     for (size_t i = 0; i < method_count; i++)
         used += (size_t)snprintf(out.text + used, sizeof out.text - used, "%s%s%s", i ? ", " : "", method_rows[i].properties.name,
-                                 method_rows[i].numbered ? "N" : "");
+                                 method_rows[i].numbered ? numbers : "");
     return out;
 }

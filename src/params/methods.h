@@ -56,7 +56,9 @@ uint64_t quality_samples(const mgt_quality *quality);
 /* How many samples a range is taken from, those of a pixel or, of adaptive, the slots of the picture. 0: there are no ranges, and no sums. */
 uint64_t quality_range(const mgt_quality *quality);
 
-/* A name such as "mangata" or "ssaa4", with the method's default numbers of samples; false: there is none. */
+enum { METHOD_SIDE_DEFAULT = 4 }; /* N of "ssaa" */
+
+/* A name such as "mangata" or "ssaa4", with the method's default numbers of samples; "ssaa" stands for "ssaa4". False: there is none. */
 bool method_from_name(const char *name, mgt_quality *quality);
 
 typedef struct method_text {
@@ -64,7 +66,7 @@ typedef struct method_text {
 } method_text;
 method_text method_name(const mgt_quality *quality);
 
-/* All names, for messages: "none, ssaaN, …". */
+/* All names, for messages: "none, ssaaN (N from 1 to 1024), …". */
 typedef struct method_names_text {
     char text[400];
 } method_names_text;

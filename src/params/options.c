@@ -19,7 +19,7 @@ static void decide_method(void *parent)
 {
     mgt_quality *q = parent;
     const method_row *row = method_of(q->method);
-    q->spatial_samples = row->spatial ? row->spatial : 4;
+    q->spatial_samples = row->spatial ? row->spatial : METHOD_SIDE_DEFAULT;
     q->time_samples = row->time ? row->time : 1;
 }
 

@@ -64,6 +64,16 @@ fi
 # A missing folder is told before ten million frames are checked.
 expect 73 'big/x_0.png: cannot write: folder big: No such file' timeout 20 "$MANGATA" render "$simple" -o 'big/x_%d.png' --frames 0-9999999
 
+# ssaaN is ssaa with --spatial N, in whatever order.
+works render "$simple" -o ssaa2.png --method ssaa2 --seed 3 "${small[@]}" --quiet
+works render "$simple" -o ssaa_2.png --method ssaa --spatial 2 --seed 3 "${small[@]}" --quiet
+works render "$simple" -o 2_ssaa.png --spatial 2 --method ssaa --seed 3 "${small[@]}" --quiet
+same ssaa2.png ssaa_2.png
+same ssaa2.png 2_ssaa.png
+works render "$simple" -o ssaa4.png --method ssaa4 "${small[@]}" --quiet
+works render "$simple" -o ssaa.png --method ssaa "${small[@]}" --quiet
+same ssaa4.png ssaa.png
+
 # Numbering; one frame through a numbered name; an explicit list.
 works render "$simple" -o 'n_%04d.png' --frames 0-4:2,9 "${small[@]}" "${null[@]}" --quiet
 exists n_0000.png n_0002.png n_0004.png n_0009.png

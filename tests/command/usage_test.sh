@@ -53,8 +53,8 @@ for value in 1,2,3 1,2,3,0 a,b,c,d 1,2,3,4,5 -1,0,1,1; do
 done
 bad size 32768x32768 'allowed are 268435456 pixels in all'
 expect 64 '--crop 60,0,10,10: it lies outside the picture of 64 x 36 pixels' render "$simple" -o a.png --crop 60,0,10,10 "${small[@]}"
-for value in ssaa ssaa0 ssaa1025 ssaa-1 ssaax Mangata '' reference8; do
-    bad method "$value" 'none, ssaaN'
+for value in ssaa0 ssaa1025 ssaa-1 ssaax Mangata '' reference8; do
+    bad method "$value" 'none, ssaaN .N from 1 to 1024.'
 done
 for value in '' - 1- -1 5-3 1-9:0 1,1 3,2 1-5,5 1,,2 1.5 0-9x; do
     bad frames "$value" '(allowed|must|twice)'

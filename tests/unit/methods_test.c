@@ -39,10 +39,11 @@ static void names_lead_back(void **state)
     assert_true(method_from_name("ssaa1024", &q));
     assert_int_equal(q.spatial_samples, 1024);
     assert_int_equal(q.time_samples, 1);
+    assert_true(method_from_name("ssaa", &q));
+    assert_int_equal(q.spatial_samples, 4);
     assert_true(method_from_name("reference", &q));
     assert_int_equal(q.spatial_samples * q.time_samples, 64);
-    static const char *const wrong[] = {"",       "ssaa",     "ssaa0",  "ssaa1025", "ssaaN", "ssaa4x", "ssaa-1", "ssaa99999999999999999999",
-                                        "mangat", "mangata1", "Mangata"};
+    static const char *const wrong[] = {"", "ssaa0", "ssaa1025", "ssaaN", "ssaa4x", "ssaa-1", "ssaa99999999999999999999", "mangat", "mangata1", "Mangata"};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
         assert_false(method_from_name(wrong[i], &q));
 }
