@@ -386,8 +386,7 @@ static const option waves_options[] = {
                   "where waves come from), density (m^2/Hz/degree), or a file of\n"
                   "NDBC's (.data_spec, ...w2025.txt) or Datawell's (.spt); see docs/waves.md",
                   .set = set_key},
-    {"output", 'o', "SCENE", "scene file to write, .yaml or .yml (default: standard output)", .set = option_text_once,
-     .offset = offsetof(waves_request, output)},
+    {"output", 'o', "SCENE", "scene file to write, .yaml or .yml (default: standard output)", .set = option_text, .offset = offsetof(waves_request, output)},
     {"base", 0, "SCENE", "take all but the waves from this scene", .set = option_text, .offset = offsetof(waves_request, base)},
     {"set", 0, "KEY=VALUE", "change a value of that scene, e.g. light.body=moon; may be repeated", .set = option_change,
      .offset = offsetof(waves_request, changes)},

@@ -44,14 +44,6 @@ int option_text(const option *o, void *place, const char *value)
     return EXIT_CODE_OK;
 }
 
-int option_text_once(const option *o, void *place, const char *value)
-{
-    const char *before = *(const char **)place;
-    if (before)
-        return console_error(EXIT_CODE_USAGE, "--%s is given twice: %s and %s", o->name, before, value);
-    return option_text(o, place, value);
-}
-
 int option_number(const option *o, void *place, const char *value)
 {
     uint64_t number;

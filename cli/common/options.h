@@ -78,7 +78,6 @@ void scene_changes_free(scene_changes *changes);
 /* Functions for options, and the types of their `place`. */
 option_set option_given;     /* a bool */
 option_set option_text;      /* a const char *, borrowed */
-option_set option_text_once; /* the same, for an option that is given once at most */
 option_set option_number;    /* a uint64_t */
 option_set option_samples;   /* a uint32_t, in the range of the option of quality of the same name */
 option_set option_frames;    /* a frame_list */

@@ -140,7 +140,7 @@ static int run(void *place)
 
 static const option compare_options[] = {
     OPTION_SEA,
-    {"output", 'o', "DIR", "the folder of the report; made where it is missing", .set = option_text_once, .offset = offsetof(compare_request, folder)},
+    {"output", 'o', "DIR", "the folder of the report; made where it is missing", .set = option_text, .offset = offsetof(compare_request, folder)},
     {"methods", 0, "LIST",
      "methods to compare, each NAME or NAME:OPTION=VALUE with an\n"
      "option of mangata render, such as podee-pixel:ndf-mean=drop\n"

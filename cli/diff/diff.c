@@ -327,11 +327,11 @@ static int run(void *request)
     image_metrics metrics = {0};
     if ((code = check_request(r)) != EXIT_CODE_OK)
         return code;
-    warn_of_encoding(r);
     if (r->maps.wanted)
         interrupt_install(); /* so that no file is left incomplete */
     if ((code = measure(r, &metrics)) != EXIT_CODE_OK)
         return code;
+    warn_of_encoding(r);
     if (!(r->out.quiet && !r->out.json) && (code = print_report(r, &metrics)) != EXIT_CODE_OK)
         return code;
     const double rmse = image_metrics_rmse(&metrics);

@@ -57,7 +57,7 @@ static int run(void *request)
 }
 
 static const option figures_options[] = {
-    {"output", 'o', "DIR", "the folder of plates and page; made where it is missing", .set = option_text_once, .offset = offsetof(figures_request, folder)},
+    {"output", 'o', "DIR", "the folder of plates and page; made where it is missing", .set = option_text, .offset = offsetof(figures_request, folder)},
     {"only", 0, "LIST", "of table1, 11 to 18, 20, 21, liu-4, liu-7 to liu-15 and liu-table3\n(default: all), such as table1,17,liu-10", .set = set_only,
      .offset = offsetof(figures_request, wanted)},
     {"frames", 0, "LIST",

@@ -185,7 +185,7 @@ static const option render_options[] = {
      "the file to write: .png .exr .pfm, or a film: .mp4 .mov .y4m;\n"
      "several pictures: frame_%04d.png or frame_####.png; .sums:\n"
      "sums of samples, for mangata merge",
-     .set = option_text_once, .offset = offsetof(render_request, output)},
+     .set = option_text, .offset = offsetof(render_request, output)},
     OPTION_SEA,
     {"frames", 0, "LIST",
      "A, A-B, A-B:STEP or a list of these, up to " FRAME_LIMIT_TEXT "\n"

@@ -25,9 +25,6 @@ expect 64 'unknown option -x' render "$simple" -x
 expect 64 '--overwrite takes no value' render "$simple" -o a.png --overwrite=yes
 expect 64 '-o=o.exr: allowed is -o OUT or --output=OUT' render "$simple" -o=o.exr
 expect 64 '-n=5: allowed is -n N or --count=N' "$MANGATA" waves -n=5
-expect 64 '--output is given twice: a.exr and b.exr' render "$simple" -o a.exr --output b.exr
-expect 64 '--output is given twice' "$MANGATA" waves -o a.yaml -o b.yaml
-expect 64 '--output is given twice' "$MANGATA" compare "$simple" -o a -o b
 for words in half,float zip,none,piz 'half --exr float' cryptomatte,cryptomatte:8; do
     # shellcheck disable=SC2086 # options are words
     expect 64 '^mangata: --exr: [a-z:0-9]+ and [a-z:0-9]+ contradict each other' render "$simple" -o a.exr --exr $words
