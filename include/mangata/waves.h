@@ -43,7 +43,7 @@ typedef struct mgt_sea {
     mgt_spectrum spectrum;
     mgt_spreading spreading; /* pierson-moskowitz, jonswap, tma */
     double wind;             /* m/s, 0.5 … 75; 0: none, swells alone */
-    double wind_height;      /* metres over the water at which it blows, up to 200; 0: 19.5 for pierson-moskowitz, else 10 */
+    double wind_height;      /* metres over the water at which it blows, 0.5 … 200; 0: 19.5 for pierson-moskowitz, else 10 */
     double direction_deg;    /* ±1e6, as a swell's */
     double fetch;            /* metres of open water before the wind, 100 … 1e7; auto and elfouhaily, 0: a fully developed sea */
     double depth;            /* metres, up to 12000; 0: deep water */

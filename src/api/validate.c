@@ -81,15 +81,6 @@ static mgt_status check_camera(const reporter *r, const char *name, const mgt_ca
     return MGT_OK;
 }
 
-/* Rows that are no mappings. */
-static bool rows_are_legal(const field_row *fields, const void *values)
-{
-    for (const field_row *field = fields; field->key; field++)
-        if (!field_is_legal(field, field_at(field, values)))
-            return false;
-    return true;
-}
-
 mgt_status validate_waves(const reporter *r, const mgt_water *water)
 {
     if (water->wave_count > MGT_MAX_WAVES)
@@ -97,7 +88,7 @@ mgt_status validate_waves(const reporter *r, const mgt_water *water)
     if (water->wave_count > 0 && !water->waves)
         return report_error(r, MGT_ERROR_ARGUMENT, "render.scene", "water.waves is NULL although water.wave_count is %zu", water->wave_count);
     for (size_t i = 0; i < water->wave_count; i++) {
-        if (rows_are_legal(wave_rows, &water->waves[i]))
+        if (wave_is_legal(&water->waves[i]))
             continue;
         char name[40];
         snprintf(name, sizeof name, "water.waves[%zu].", i);

@@ -3,6 +3,7 @@
 #include "mangata/waves.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -93,6 +94,18 @@ static mgt_status draw(const reporter *r, const mgt_sea *sea, mgt_wave *waves)
     return good ? MGT_OK : report_error(r, MGT_ERROR_MEMORY, "waves.memory", "out of memory for the waves of a sea");
 }
 
+/* Whatever the settings, no wave leaves the library that a scene could not hold. */
+static mgt_status check_drawn(const reporter *r, const mgt_wave *waves, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (!wave_is_legal(&waves[i])) {
+            char name[40];
+            snprintf(name, sizeof name, "sea: its wave %zu: ", i);
+            return validate_rows(r, name, wave_rows, &waves[i]);
+        }
+    return MGT_OK;
+}
+
 static mgt_status fill_waves(const reporter *r, const mgt_sea *sea, mgt_wave *waves, size_t capacity)
 {
     const size_t count = wave_count(sea);
@@ -103,7 +116,9 @@ static mgt_status fill_waves(const reporter *r, const mgt_sea *sea, mgt_wave *wa
     mgt_wave *own = malloc((count ? count : 1) * sizeof *own);
     if (!own)
         return report_error(r, MGT_ERROR_MEMORY, "waves.memory", "out of memory for the waves of a sea");
-    const mgt_status status = draw(r, sea, own);
+    mgt_status status = draw(r, sea, own);
+    if (status == MGT_OK)
+        status = check_drawn(r, own, count);
     if (status == MGT_OK && count > 0)
         memcpy(waves, own, count * sizeof *own);
     free(own);

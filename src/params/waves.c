@@ -14,6 +14,14 @@ const field_row wave_rows[] = {{"amplitude", FIELD_NUMBER, offsetof(mgt_wave, am
                                {"phase", FIELD_NUMBER, offsetof(mgt_wave, phase), 0, -1e9, 1e9, "rad", .doc = "phase at x = z = 0, time 0"},
                                {0}};
 
+bool wave_is_legal(const mgt_wave *wave)
+{
+    for (const field_row *field = wave_rows; field->key; field++)
+        if (!field_is_legal(field, field_at(field, wave)))
+            return false;
+    return true;
+}
+
 wave_course wave_course_of(const mgt_wave *wave, double least)
 {
     const double k = hypot(wave->kx, wave->kz);

@@ -10,6 +10,9 @@
 
 extern const field_row wave_rows[]; /* of an mgt_wave */
 
+/* Whether every number is within its row's range, which none is that is not finite. */
+bool wave_is_legal(const mgt_wave *wave);
+
 /* How a wave travels: its number in radians per metre, where its crests go to (0 is −z, π/2 is +x), and their speed in metres per second. */
 typedef struct wave_course {
     double number, heading, speed;

@@ -85,7 +85,7 @@ static const field_row spectrum_fields[] =
     {{"model", FIELD_CHOICE, offsetof(scene_spectrum, settings.kind), FIELD_REQUIRED, NO_RANGE, NULL,
       .doc = "which sea; none: no further waves; buoy: the table in file", .choices = spectrum_kinds},
      {"wind", FIELD_NUMBER, offsetof(scene_spectrum, settings.wind), 0, SEA_WIND, "m/s", .doc = "speed of the wind"},
-     {"wind_height", FIELD_NUMBER, offsetof(scene_spectrum, settings.wind_height), 0, SEA_WIND_HEIGHT, "m",
+     {"wind_height", FIELD_NUMBER, offsetof(scene_spectrum, settings.wind_height), FIELD_OR_ZERO, SEA_WIND_HEIGHT, "m",
       .doc = "where the wind was measured; 0: 19.5 m for pierson-moskowitz, else 10 m, as in their papers"},
      {"fetch", FIELD_NUMBER, offsetof(scene_spectrum, settings.fetch), 0, SEA_FETCH, "m",
       .doc = "stretch of open water that the wind has crossed (jonswap, tma, elfouhaily)"},

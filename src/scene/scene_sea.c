@@ -163,7 +163,7 @@ static bool check_heights(const scene_tree *tree, const scene_water *water, scen
 {
     const mgt_wave *waves = water->sea.items;
     for (size_t i = 0; i < water->sea.count; i++)
-        if (wave_crest(&waves[i]) > 1000) {
+        if (!(wave_crest(&waves[i]) <= 1000)) {
             const tree_node *mapping = tree_get(tree->root, "water"), *node = tree_get(mapping, "amplitude");
             node = node != NULL ? node : mapping;
             return tree_error(tree, node->source, node->place, error, "water.amplitude is %s, which makes a wave of %s m; allowed: waves of at most 1000 m",

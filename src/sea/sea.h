@@ -9,7 +9,7 @@
 
 /* Least and greatest value of each member. */
 #define SEA_WIND 0.5, 75
-#define SEA_WIND_HEIGHT 0, 200
+#define SEA_WIND_HEIGHT 0.5, 200 /* or 0; the logarithmic profile ends near the water */
 #define SEA_DIRECTION -1e6, 1e6
 #define SEA_FETCH 100, 1e7
 #define SEA_DEPTH 0, 12000

@@ -12,7 +12,7 @@
 const field_row sea_rows[] = {{"spectrum", FIELD_CHOICE, offsetof(mgt_sea, spectrum), 0, NO_RANGE, NULL, .choices = spectrum_names},
                               {"spreading", FIELD_CHOICE, offsetof(mgt_sea, spreading), 0, NO_RANGE, NULL, .choices = spreading_names},
                               {"wind", FIELD_NUMBER, offsetof(mgt_sea, wind), FIELD_OR_ZERO, SEA_WIND, .unit = "m/s"},
-                              {"wind_height", FIELD_NUMBER, offsetof(mgt_sea, wind_height), 0, SEA_WIND_HEIGHT, .unit = "m"},
+                              {"wind_height", FIELD_NUMBER, offsetof(mgt_sea, wind_height), FIELD_OR_ZERO, SEA_WIND_HEIGHT, .unit = "m"},
                               {"direction_deg", FIELD_NUMBER, offsetof(mgt_sea, direction_deg), 0, SEA_DIRECTION, .unit = "degrees"},
                               {"fetch", FIELD_NUMBER, offsetof(mgt_sea, fetch), FIELD_OR_ZERO, SEA_FETCH, .unit = "m"},
                               {"depth", FIELD_NUMBER, offsetof(mgt_sea, depth), 0, SEA_DEPTH, .unit = "m"},

@@ -160,6 +160,7 @@ same stdout.txt CAPITALS.YAML
 expect 64 'takes options alone' waves pm.yaml
 expect 64 '--shortest 5e-5: allowed is a number, 0 or 0.0001 to 1000 m' waves --shortest 5e-5
 expect 64 '--shortest 1e-9: allowed' waves --shortest 1e-9
+expect 64 '--wind-height 1.5e-4: allowed is a number, 0 or 0.5 to 200 m' waves --wind-height 1.5e-4
 expect 65 '--shortest leaves no room between the shortest wave, 900 m' waves --shortest 900
 expect 65 '--fetch is 500 m, too short for the spectrum in this wind; allowed: at least 2365 m' waves --spectrum elfouhaily --wind 20 --fetch 500
 unused() { # OPTION TAKERS LINE…: an option that the spectrum does not take

@@ -203,6 +203,10 @@ static void bad_seas_are_refused(void **unused)
     WITH(sea.wind = 0.4, ROOM, MGT_ERROR_SCENE, "sea.wind is 0.4; allowed is ");
     WITH(sea.wind = (double)NAN, ROOM, MGT_ERROR_SCENE, "sea.wind is nan");
     WITH(sea.wind = 76, ROOM, MGT_ERROR_SCENE, "sea.wind is 76");
+    WITH(sea.wind_height = 1.5e-4, ROOM, MGT_ERROR_SCENE, "sea.wind_height is 0.00015; allowed is a number, 0 or 0.5 to 200 m");
+    WITH(sea.wind_height = 0.49, ROOM, MGT_ERROR_SCENE, "sea.wind_height is 0.49");
+    WITH(sea.wind_height = -1, ROOM, MGT_ERROR_SCENE, "sea.wind_height is -1");
+    WITH(sea.wind_height = (double)NAN, ROOM, MGT_ERROR_SCENE, "sea.wind_height is nan");
     WITH(sea.fetch = 3, ROOM, MGT_ERROR_SCENE, "sea.fetch is 3");
     WITH(sea.shortest = 5e-5, ROOM, MGT_ERROR_SCENE, "sea.shortest is 5e-5; allowed is a number, 0 or 0.0001 to 1000 m");
     WITH(sea.fetch = 200, ROOM, MGT_ERROR_SCENE, "sea.fetch is 200 m, too short");
