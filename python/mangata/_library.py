@@ -37,7 +37,15 @@ def _open():
     if not os.path.exists(declarations):
         raise ImportError("mangata: neither built here (make) nor installed; MANGATA_BUILD names a build folder")
     ffi.cdef(_read(declarations))
-    return [_load(name) for name in _read(os.path.join(_HERE, "libraries.txt")).split()]
+    # Each line is a library's place from here in the prefix of the installation; elsewhere the system knows its name.
+    libraries = _read(os.path.join(_HERE, "libraries.txt")).split()
+    beside = [os.path.normpath(os.path.join(_HERE, path)) for path in libraries]
+    if all(map(os.path.exists, beside)):
+        return [_load(path) for path in beside]
+    try:
+        return [_load(os.path.basename(path)) for path in libraries]
+    except OSError as error:
+        raise ImportError(f"mangata: {error}; looked for {' and '.join(beside)}, then where the system has libraries") from error
 
 
 lib, io = _open()

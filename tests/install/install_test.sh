@@ -48,7 +48,8 @@ objdump -p "$library" | grep -Eq 'SONAME +libmangata\.so\.0\.1$' || die "no sona
 
 # The Python package, where the system's Python has what it needs.
 if /usr/bin/python3 -c 'import cffi, numpy' 2>/dev/null && ((${#flags[@]} == 0)); then
-    (cd "$work" && LD_LIBRARY_PATH=$folder PYTHONPATH=$prefix/lib/python3/dist-packages /usr/bin/python3 -c 'import mangata; mangata.render(mangata.sea(wind=5), size=(16, 9))') ||
+    # It finds the libraries of its own prefix.
+    (cd "$work" && PYTHONPATH=$prefix/lib/python3/dist-packages /usr/bin/python3 -c 'import mangata; mangata.render(mangata.sea(wind=5), size=(16, 9))') ||
         die "the installed Python package"
 fi
 
