@@ -169,7 +169,10 @@ MGT_API bool mgt_refraction_from_name(const char *name, mgt_refraction *refracti
 MGT_API bool mgt_adaptive_from_name(const char *name, mgt_adaptive *adaptive);
 MGT_API bool mgt_mixture_from_name(const char *name, mgt_mixture *kernels);
 
-/* Settings of quality. Words before a colon name the methods or kinds of refraction that read the member; the others ignore it. */
+/* Settings of quality. Words before a colon name the methods, schemes or kinds of refraction that read the member. Elsewhere a value other than
+ * mgt_scene_init()'s is refused with MGT_ERROR_SCENE, "… is for method adaptive alone". Ignored instead are spatial_samples, time_samples, sample_first,
+ * sample_count, ndf_mean_drop and tess_error; with podee-* elongation_limit where kernels are exact or riemann, and transition_width where transition_hard.
+ * Scene files may hold options of any method; those of others than the one chosen are left out of the scenes that they make. */
 typedef struct mgt_quality {
     mgt_method method;
     uint32_t spatial_samples;    /* N of N×N strata a pixel: ssaa, reference; 1 … 1024 */

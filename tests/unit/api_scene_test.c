@@ -16,6 +16,7 @@
 
 #include "mangata/mangata.h"
 #include "params/methods.h"
+#include "params/options.h"
 
 enum { SIDE = 8 };
 
@@ -293,6 +294,40 @@ static void podee_is_checked(void **state)
     ACCEPT(quality.transition_hard, true);
 }
 
+/* What mangata/scene.h says of members that the method does not read: all are refused but these. */
+static void unread_options_are_refused_or_ignored(void **state)
+{
+    static const char *const ignored = " spatial_samples time_samples sample_first sample_count ndf_mean_drop tess_error ";
+    api_state *a = *state;
+    int refused = 0, left = 0;
+    for (const field_row *field = quality_fields; field->key; field++) {
+        if (!field->when[0].key)
+            continue;
+        mgt_scene scene = a->scene;
+        scene.quality.method = MGT_METHOD_NONE;
+        scene.quality.refraction = MGT_REFRACTION_OFF;
+        void *place = (char *)&scene.quality + field->offset;
+        if (field->type == FIELD_NUMBER)
+            *(double *)place = field->max;
+        else if (field->type == FIELD_COUNT)
+            *(uint32_t *)place = 3;
+        else if (field->type == FIELD_LARGE)
+            *(uint64_t *)place = 3;
+        else if (field->type == FIELD_SWITCH)
+            *(bool *)place = true;
+        else
+            *(int *)place = field->values ? field->values[1] : 1;
+        char name[64];
+        snprintf(name, sizeof name, " %s ", field->member ? field->member : field->key);
+        const bool ignores = strstr(ignored, name) != NULL;
+        name[strlen(name) - 1] = 0;
+        expect(a, &scene, ignores ? MGT_OK : MGT_ERROR_SCENE, ignores ? NULL : name + 1);
+        ignores ? left++ : refused++;
+    }
+    assert_int_equal(left, 6);
+    assert_true(refused > 10);
+}
+
 static void null_is_refused(void **state)
 {
     api_state *a = *state;
@@ -312,6 +347,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(water_is_checked, setup, teardown),
         cmocka_unit_test_setup_teardown(quality_is_checked, setup, teardown),
         cmocka_unit_test_setup_teardown(podee_is_checked, setup, teardown),
+        cmocka_unit_test_setup_teardown(unread_options_are_refused_or_ignored, setup, teardown),
         cmocka_unit_test_setup_teardown(null_is_refused, setup, teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
