@@ -21,7 +21,8 @@ typedef struct mgt_water_answers {
     float *velocity;         /* metres per second, of the surface: x, y, z of each point; x and z are 0 where the water is not choppy */
     double covariance[3];    /* written: xx, xz and zz of the slopes of the waves shorter than least_wavelength */
     float *jacobian;         /* area of a piece of water divided by its area at rest, a number a point: 1 without choppiness; below 0 the water folds over */
-    size_t unsettled;        /* written: points of choppy water whose place at rest was not found; they have the answers of a place near it */
+    size_t unsettled;        /* written: points of choppy water whose place at rest was not found; they have the answers of a place near it. In folds others may
+                                miss the highest water (docs/query.md) */
     float *foam;             /* fraction of each point that foam covers, 0 … 1, a number a point: 0 without choppiness */
     float foam_share;        /* for `foam`: scene.foam, fraction of the whole water, 0 … 0.5 */
     float foam_persistence;  /* for `foam`: scene.foam_persistence, seconds, 0 … 60; 3 */
@@ -42,6 +43,8 @@ MGT_API mgt_status mgt_water_query(const mgt_water *water, double time, const do
  * directions of lengths from 1e-100 to 1e100. `distance` gets `count` numbers: multiples of the direction, at most `reach` (0 … 1e9); +infinity where the
  * water is not met by then; NaN where a ray is not finite, has no such direction, or has not ended after 100,000 evaluations of the water, as a ray along the
  * surface may not. No crest is stepped over: a hit is the first one. It lies within 1e-9 m of the surface, or within 1e-9 of the way to it.
+ * Where choppy water folds (steepness times choppiness above 1) this is not promised: the surface is then the highest water that mgt_water_query() finds, which
+ * ends straight down where a crest hangs over, and a thin crest may be missed.
  * Threads and errors as for mgt_water_query(). */
 MGT_API mgt_status mgt_water_trace(const mgt_water *water, double time, const double *rays, size_t count, double reach, double *distance);
 

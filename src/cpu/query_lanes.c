@@ -164,6 +164,7 @@ typedef struct traced_ray {
     double along, speed;            /* metres a unit of `along` */
     double shift[2];                /* about that of choppy water at `along` */
     int tries;                      /* looks at it there */
+    double outside;                 /* the last `along` that was on the ray's side of water that folds */
     bool arrived;
 } traced_ray;
 
@@ -237,11 +238,50 @@ static void ray_advance(traced_ray *r, double height, double slope_x, double slo
     }
 }
 
+/* The highest water of a fold ends at once where a crest hangs over: between a point before it and one behind it the end is found by halving. True where
+ * the ray has been moved to look again. */
+static bool ray_returns(traced_ray *r, double height)
+{
+    const double gap = (r->origin[1] + r->direction[1] * r->along - height) * r->side;
+    if (!(gap < -1e-9)) {
+        r->outside = r->along;
+        return false;
+    }
+    if (r->side == 0 || r->along - r->outside <= 1e-9 * (r->along + 1 / r->speed))
+        return false;
+    r->along = 0.5 * (r->outside + r->along);
+    return true;
+}
+
+/* Looks at the water at the rays' points, where it folds at the highest, as queries do. */
+static void look_at_folds(const water_terms *w, const traced_ray *r, query_group *g)
+{
+    mgt_water_answers exact = {.exact = 1};
+    rest_group rest;
+    double at[MGT_LANES][2];
+    settled_point found[MGT_LANES];
+    for (int lane = 0; lane < MGT_LANES; lane++) {
+        at[lane][0] = rest.x[lane] = r[lane].arrived ? 0 : g->x[lane];
+        at[lane][1] = rest.z[lane] = r[lane].arrived ? 0 : g->z[lane];
+    }
+    settle(w, &exact, at, &rest, found);
+    for (int lane = 0; lane < MGT_LANES; lane++) {
+        if (!r[lane].arrived && (!found[lane].settled || found[lane].least < w->folded))
+            settle_folded(w, &exact, at[lane], &found[lane]);
+        g->height[lane] = found[lane].height;
+        g->slope_x[lane] = found[lane].slope[0];
+        g->slope_z[lane] = found[lane].slope[1];
+    }
+}
+
 /* Looks at the water at the rays' points; `ready`: lanes whose place of rest has been found. */
 static void look_at_points(const water_terms *w, traced_ray *r, query_group *g, bool *ready)
 {
-    if (!w->choppy) {
-        sum_double(w, g);
+    if (!w->choppy || w->folds) {
+        if (w->folds)
+            look_at_folds(w, r, g);
+        else
+            sum_double(w, g);
         for (int lane = 0; lane < MGT_LANES; lane++)
             ready[lane] = true;
         return;
@@ -306,7 +346,7 @@ void JOIN(trace_lanes_, MGT_LANES)(const water_terms *terms, double level, const
             look_at_points(terms, r, &g, ready);
             travelling = 0;
             for (int lane = 0; lane < MGT_LANES; lane++) {
-                if (!r[lane].arrived && ready[lane])
+                if (!r[lane].arrived && ready[lane] && !(terms->folds && ray_returns(&r[lane], g.height[lane])))
                     ray_advance(&r[lane], g.height[lane], g.slope_x[lane], g.slope_z[lane], crest, reach);
                 travelling += !r[lane].arrived;
             }

@@ -388,6 +388,7 @@ water_terms water_terms_at(const mgt_water *water, double time, double least, wa
 {
     const bool choppy = water->choppiness > 0 && water->wave_count > 0;
     water_terms terms = {.choppy = choppy,
+                         .folds = (double)water->choppiness * sines_steepest(water) >= 1,
                          .folded = folded_below((double)water->choppiness * sines_steepest(water)),
                          .straight = 0.3 * sines_steepest(water) / fmax(sines_sharpest(water), 1e-300),
                          .of = room};

@@ -29,6 +29,7 @@ typedef struct water_term {
 
 typedef struct water_terms {
     bool choppy;     /* the water is choppy; the terms are then sorted by falling amplitude */
+    bool folds;      /* the water is so steep that it may fold */
     double folded;   /* where the lesser eigenvalue of B = 1 + ∂shift/∂place is below this, other places may be shifted to the same point */
     double sum;      /* sum of the terms' amplitudes, metres */
     double pressed;  /* bound of the derivative of the shift, below 1 */

@@ -389,6 +389,47 @@ static void a_fold_answers_with_its_highest_water(void **state)
     expect_below("height off the highest of the fold, metres", worst, 1e-3);
 }
 
+static double water_at(const mgt_water *water, double x, double z)
+{
+    const double at[2] = {x, z};
+    double height;
+    mgt_water_answers answers;
+    mgt_water_answers_init(&answers, sizeof answers);
+    answers.height = &height;
+    answers.exact = 1;
+    assert_int_equal(mgt_water_query(water, 0, at, 1, &answers), MGT_OK);
+    return height;
+}
+
+/* Where water folds, rays meet the highest of it, that of queries; flat ones seldom later than where they get below it. */
+static void rays_meet_the_highest_water_of_a_fold(void **state)
+{
+    (void)state;
+    enum { RAYS = 100 };
+    const mgt_wave wave = {.amplitude = 1.2 / 0.7, .kx = 0.7};
+    const mgt_water water = {.waves = &wave, .wave_count = 1, .choppiness = 1};
+    double rays[6 * RAYS], distance[RAYS], worst = 0;
+    int inside = 0;
+    for (int i = 0; i < RAYS; i++)
+        memcpy(rays + 6 * i, (const double[6]){i ? 0.31 * i : 2.315903, 20, 0.1 * i, 0, -1, 0}, 6 * sizeof *rays);
+    assert_int_equal(mgt_water_trace(&water, 0, rays, RAYS, 100, distance), MGT_OK);
+    expect_below("the highest water that a ray straight down meets, off by metres", fabs(20 - distance[0] - 1.6514), 1e-4);
+    for (int i = 0; i < RAYS; i++)
+        worst = fmax(worst, fabs(20 - distance[i] - water_at(&water, rays[6 * i], rays[6 * i + 2])));
+    expect_below("rays straight down off the answers of queries, metres", worst, 1e-8);
+    for (int i = 0; i < RAYS; i++) {
+        rays[6 * i + 3] = i % 2 ? 1 : -1;
+        rays[6 * i + 4] = -0.2 - 0.01 * i;
+    }
+    assert_int_equal(mgt_water_trace(&water, 0, rays, RAYS, 1000, distance), MGT_OK);
+    for (int i = 0; i < RAYS; i++) {
+        const double *r = rays + 6 * i, before = distance[i] - 1e-2;
+        assert_true(isfinite(distance[i]));
+        inside += water_at(&water, r[0] + before * r[3], r[2]) > r[1] + before * r[4] + 1e-6;
+    }
+    expect_below("rays, of 100, more than a centimetre behind the end of a crest that hangs over", inside, 1);
+}
+
 static void lanes_answer_alike(void **state)
 {
     (void)state;
@@ -569,6 +610,7 @@ int main(void)
         cmocka_unit_test(folds_are_drawn),
         cmocka_unit_test(questions_find_the_place_of_rest),
         cmocka_unit_test(a_fold_answers_with_its_highest_water),
+        cmocka_unit_test(rays_meet_the_highest_water_of_a_fold),
         cmocka_unit_test(lanes_answer_alike),
         cmocka_unit_test(rays_are_traced_to_choppy_water),
         cmocka_unit_test(mirrored_rays_meet_other_waves),
