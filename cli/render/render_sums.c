@@ -229,7 +229,7 @@ static int load_checkpoint(render_job *job, const render_record *record, const c
     if (open_checkpoint(job, record, path, &file, &state, &error) != FILE_OK)
         return render_job_file_failure(job, &error);
     if (state == CHECKPOINT_NONE)
-        return output_file_check(path, &job->output, &error) == FILE_OK ? EXIT_CODE_OK : render_job_file_failure(job, &error);
+        return output_file_check_kind(path, &error) == FILE_OK ? EXIT_CODE_OK : render_job_file_failure(job, &error);
     if (state == CHECKPOINT_OTHER && !job->output.overwrite)
         return refuse_checkpoint(job, path);
     if (state == CHECKPOINT_DAMAGED)

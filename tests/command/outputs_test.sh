@@ -49,9 +49,10 @@ if [[ -z ${SANITIZED:-} ]]; then
         slow=(--size 320x180 --threads 1 --method reference --spatial 3)
         [[ $name == *.png ]] || slow+=(--frames 0-1)
         works render "$simple" -o "done_$name" "${slow[@]}" --quiet
+        rm -f rival.txt
         render "$simple" -o $name "${slow[@]}" --skip-existing --progress json 2>rival.txt &
         for ((i = 0; i < 1200; i++)); do
-            grep -q '"progress"' rival.txt && break
+            grep -qs '"progress"' rival.txt && break
             sleep 0.01
         done
         [[ $name == *.png ]] || cp "done_$name.json" $name.json
