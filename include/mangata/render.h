@@ -76,8 +76,9 @@ MGT_API mgt_status mgt_context_create(mgt_context **context, const mgt_context_d
 MGT_API void mgt_context_destroy(mgt_context *context);
 
 /* Detail of the last failure on this context; NULL: of the last call on this thread that takes no context, empty where that succeeded. Such calls are
- * mgt_context_create(), mgt_mesh_create(), mgt_texture_create(), mgt_supports(), mgt_option_check(), mgt_method_info(), mgt_sea_wave_count(), mgt_sea_waves(), mgt_sea_scene(),
- * mgt_water_query() and mgt_water_trace(). Never NULL; valid until the next such call. A function that gets NULL for its context only returns MGT_ERROR_ARGUMENT. */
+ * mgt_context_create(), mgt_mesh_create(), mgt_texture_create(), mgt_supports(), mgt_option_check(), mgt_method_info(), mgt_sea_wave_count(),
+ * mgt_sea_waves(), mgt_sea_scene(), mgt_water_query() and mgt_water_trace(). Never NULL; valid until the next such call. A function that gets NULL for its
+ * context only returns MGT_ERROR_ARGUMENT. */
 MGT_API const char *mgt_last_error(const mgt_context *context);
 
 typedef struct mgt_context_info {
@@ -150,8 +151,9 @@ MGT_API mgt_status mgt_scene_check(mgt_context *context, const mgt_scene *scene)
  * knows whether a context of the backend can be created here. Any thread. */
 MGT_API bool mgt_supports(mgt_backend backend, const mgt_scene *scene, mgt_layer layer);
 
-/* Whether a render of the scene reads an option of its quality, by the option's key in scene files ("time_samples"). MGT_ERROR_SCENE: the method or another option
- * does not read it, and mgt_last_error(NULL) says which do; or the scene is not valid. MGT_ERROR_ARGUMENT: a pointer is NULL, or there is no such option. Any thread. */
+/* Whether a render of the scene reads an option of its quality, by the option's key in scene files ("time_samples"). MGT_ERROR_SCENE: the method or another
+ * option does not read it, and mgt_last_error(NULL) says which do; or the scene is not valid. MGT_ERROR_ARGUMENT: a pointer is NULL, or there is no such option.
+ * Any thread. */
 MGT_API mgt_status mgt_option_check(const mgt_scene *scene, const char *option);
 
 /* Renders one frame into `count` targets (1 … 16). Blocks until done. The same scene gives the same bytes. */
