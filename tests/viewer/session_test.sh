@@ -8,7 +8,7 @@ expect 69 'no window can be opened: ' env -u DISPLAY -u WAYLAND_DISPLAY "$MANGAT
 printf 'mangata: 1\nlight:\n  elevation_deg: steep\n' >bad.yaml
 expect 65 '^bad.yaml:3:18: ' view bad.yaml
 expect 66 'missing.yaml: ' view missing.yaml
-expect 65 '--sea wind=gale: wind is "gale"' view --sea wind=gale
+expect 64 '--sea wind=gale: wind is "gale"' view --sea wind=gale
 expect 66 'missing.txt' view "$simple" --script missing.txt
 expect 64 '--backend cuda: allowed is auto, cpu or gl' view "$simple" --backend cuda
 echo 'no-such-command' >unknown.txt
