@@ -172,10 +172,10 @@ static void warn_of_encoding(const diff_request *r)
 {
     for (size_t i = 1; i < 3 && r->paths[i]; i++)
         if (is_png(r->paths[i]) != is_png(r->paths[0]))
-            console_note(
-                &r->out,
-                "mangata: warning: %s and %s are compared as they are stored, sRGB-encoded against linear if they are colours; compare two .png, or two .exr or .pfm with --display EV",
-                r->paths[0], r->paths[i]);
+            console_note(&r->out,
+                         "mangata: warning: %s and %s are compared as they are stored, sRGB-encoded against linear if they are colours; "
+                         "compare two .png, or two .exr or .pfm with --display EV",
+                         r->paths[0], r->paths[i]);
 }
 
 static int read_picture(const diff_request *r, size_t which, uint32_t frame, float_image *image)
