@@ -356,8 +356,41 @@ static void scales_grow_with_what_is_unresolved(void **state)
                 }
             assert_float_equal(scales_power(&b->cx, vec3(0, 0.2f, 1), 0.05f, 5), grazing ? 0.8f : 1.0f, 1e-6f);
             assert_float_equal(scales_power(&b->cx, vec3(0, 0.02f, 1), 0.005f, 2), grazing ? 0.0f : 0.5f, 1e-6f);
+            /* A light has half as much power again at five octaves, and a part of it below. */
+            const vec3 view = vec3(0, 0.1f, 1);
+            const float light = grazing ? 1.5f * scales_power(&b->cx, view, 0.03f, 5) : 1;
+            assert_float_equal(light_scales_power(&b->cx, view, 0.03f, 5), light, 1e-6f);
+            assert_float_equal(light_scales_power(&b->cx, view, 0.03f, 9), light, 1e-6f);
+            assert_float_equal(light_scales_power(&b->cx, view, 0.03f, 2), (grazing ? 0.25f : 0.5f) * light, 1e-6f);
+            assert_float_equal(light_scales_power(&b->cx, view, 0.03f, 1), 0, 0);
         }
     kernel_bench_destroy(b);
+}
+
+/* All that spreads slopes over a pixel reaches twice as far: the unresolved waves, and the bend for the sky and for the light. */
+static void widened_slopes_reach_twice_as_far(void **state)
+{
+    (void)state;
+    const struct kernel_context cx = {.frame = NULL};
+    const SlopeState s = {.open = {0.1f, 0.2f},
+                          .close = {0.3f, 0.4f},
+                          .variance_xx = 1,
+                          .variance_xz = 2,
+                          .variance_zz = 3,
+                          .bend_xx = 4,
+                          .bend_xz = 5,
+                          .bend_zz = 6,
+                          .light_bend_xx = 7,
+                          .light_bend_xz = 8,
+                          .light_bend_zz = 9};
+    const SlopeState wide = slopes_widened(&cx, s);
+    const float narrow_spread[] = {s.variance_xx, s.variance_xz, s.variance_zz, s.bend_xx, s.bend_xz, s.bend_zz, s.light_bend_xx, s.light_bend_xz, s.light_bend_zz};
+    const float wide_spread[] = {wide.variance_xx, wide.variance_xz,    wide.variance_zz,   wide.bend_xx,      wide.bend_xz,
+                                 wide.bend_zz,     wide.light_bend_xx, wide.light_bend_xz, wide.light_bend_zz};
+    for (size_t i = 0; i < sizeof wide_spread / sizeof *wide_spread; i++)
+        assert_float_equal(wide_spread[i], 4 * narrow_spread[i], 0);
+    assert_memory_equal(&wide.open, &s.open, sizeof s.open);
+    assert_memory_equal(&wide.close, &s.close, sizeof s.close);
 }
 
 /* Mean and variance of a normal x seen in proportion to max(x, 0), by the midpoint rule. */
@@ -559,6 +592,7 @@ int main(void)
         cmocka_unit_test(unresolved_sea_mirrors_its_probability),
         cmocka_unit_test(octaves_are_the_spectrums),
         cmocka_unit_test(scales_grow_with_what_is_unresolved),
+        cmocka_unit_test(widened_slopes_reach_twice_as_far),
         cmocka_unit_test(visible_moments_are_their_integrals),
         cmocka_unit_test(sky_of_narrow_slopes_needs_two_points),
         cmocka_unit_test(grazing_slopes_give_back_what_counts_twice),

@@ -85,6 +85,7 @@ KERNEL vec3 LEAN_SQUARE(CTX cx, real level, real column, real row)
 #include "kernels/baselines/leadr.k"
 #include "kernels/baselines/msaa.k"
 #include "kernels/glitter/sample.k"
+#include "kernels/adaptive/cells.k"
 #include "kernels/adaptive/slots.k"
 #include "kernels/adaptive/temporal_ray.k"
 #include "kernels/baselines/tndf.k"
