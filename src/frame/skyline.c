@@ -242,7 +242,7 @@ static real step_of(CTX cx, const rising_rays *rays, const glance *g)
 {
     const large_waves *waves = g->waves;
     const real closing = fma(g->slope.x, rays->dx, g->slope.y * rays->dz) - rays->slope;
-    const SearchBounds bounds = bounds_along(cx, (vec3){rays->dx, rays->slope, rays->dz}, real(1.0f), waves->slope, waves->bend);
+    const SearchBounds bounds = bounds_along(cx, (vec3){rays->dx, rays->slope, rays->dz}, real(1.0f), real(waves->slope), waves->bend);
     const real free_step = search_step(cx, bounds, max(g->gap, real(0.0f)), closing);
     const mask climbs = AND(g->gap <= real(0.0f), closing > real(0.0f));
     return max(SELECT(climbs, closing / real(waves->bend), free_step), real(0.05f * waves->slope / waves->bend));

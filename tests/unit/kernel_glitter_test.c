@@ -384,8 +384,9 @@ static void widened_slopes_reach_twice_as_far(void **state)
                           .light_bend_xz = 8,
                           .light_bend_zz = 9};
     const SlopeState wide = slopes_widened(&cx, s);
-    const float narrow_spread[] = {s.variance_xx, s.variance_xz, s.variance_zz, s.bend_xx, s.bend_xz, s.bend_zz, s.light_bend_xx, s.light_bend_xz, s.light_bend_zz};
-    const float wide_spread[] = {wide.variance_xx, wide.variance_xz,    wide.variance_zz,   wide.bend_xx,      wide.bend_xz,
+    const float narrow_spread[] = {s.variance_xx, s.variance_xz,   s.variance_zz,   s.bend_xx,      s.bend_xz,
+                                   s.bend_zz,     s.light_bend_xx, s.light_bend_xz, s.light_bend_zz};
+    const float wide_spread[] = {wide.variance_xx, wide.variance_xz,   wide.variance_zz,   wide.bend_xx,      wide.bend_xz,
                                  wide.bend_zz,     wide.light_bend_xx, wide.light_bend_xz, wide.light_bend_zz};
     for (size_t i = 0; i < sizeof wide_spread / sizeof *wide_spread; i++)
         assert_float_equal(wide_spread[i], 4 * narrow_spread[i], 0);
