@@ -56,8 +56,8 @@ typedef struct mgt_gl_view {
 MGT_API void mgt_gl_view_init(mgt_gl_view *view, size_t size);
 
 /* Draws the water of `scene` into `count` views (1 … 16). Water is tested against your depth buffer and writes its own depth, that of the waves
- * which a pixel resolves; the pixels of the horizon blend into what your framebuffer holds. Methods: all but MGT_METHOD_REFERENCE, and
- * MGT_METHOD_ADAPTIVE with a budget of time (MGT_ERROR_UNSUPPORTED). fxaa looks for edges in the water of the view alone; taa renders the seven
+ * which a pixel resolves; the pixels of the horizon blend into what your framebuffer holds. A scene that OpenGL does not render itself,
+ * see mgt_supports(), is MGT_ERROR_UNSUPPORTED. fxaa looks for edges in the water of the view alone; taa renders the seven
  * frames before it anew, its camera on the line from view_open to view. */
 MGT_API mgt_status mgt_gl_render_views(mgt_context *context, const mgt_scene *scene, const mgt_gl_view *views, size_t count);
 
@@ -75,7 +75,7 @@ typedef struct mgt_gl_texture {
 /* The layer color, level 0; no texture yet. */
 MGT_API void mgt_gl_texture_init(mgt_gl_texture *texture, size_t size);
 
-/* Renders one frame into `count` textures (1 … 16) without waiting for it. Methods as for views. */
+/* Renders one frame into `count` textures (1 … 16) without waiting for it. Refuses the same scenes as mgt_gl_render_views(). */
 MGT_API mgt_status mgt_gl_render_textures(mgt_context *context, const mgt_scene *scene, const mgt_gl_texture *textures, size_t count);
 
 /* GPU time of a pass, of the latest frame whose timer has been read; a few frames late, since nothing waits. */
@@ -91,7 +91,7 @@ MGT_API size_t mgt_gl_get_timings(const mgt_context *context, mgt_gl_timing *tim
  * the ones in use stay, and mgt_last_error() says "glitter.k:12: …". count 0 goes back to the built-in files. */
 typedef struct mgt_gl_source {
     const char *name;
-    const char *text; /* ends with 0 */
+    const char *text; /* NUL-terminated */
 } mgt_gl_source;
 
 MGT_API mgt_status mgt_gl_set_sources(mgt_context *context, const mgt_gl_source *sources, size_t count);

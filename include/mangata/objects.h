@@ -24,9 +24,9 @@ typedef struct mgt_mesh_desc {
     uint32_t vertex_count;   /* at least 1 */
     uint32_t triangle_count; /* 1 … MGT_MAX_TRIANGLES */
     const uint32_t *indices; /* 3 a triangle, below vertex_count; counter-clockwise seen from outside. Both sides are drawn */
-    uint32_t dry;            /* 1: a hull, open or closed at the top; no water is drawn inside. 0: water passes through the mesh. A place is inside where
-                              * triangles of dry meshes lie straight below it and surround it at its own height; gaps of up to an eighth of all
-                              * directions do not count. Water above the rim is drawn */
+    uint32_t dry;            /* 1: a hull, open or closed at the top; no water is drawn inside. 0: water passes through the mesh. A point is inside if
+                              * a triangle of a dry mesh lies straight below it and dry meshes surround it at its own height. The wall may be missing in
+                              * up to an eighth of all directions. Water above the rim is drawn */
     uint32_t reserved;       /* 0 */
 } mgt_mesh_desc;
 

@@ -21,11 +21,11 @@ typedef struct mgt_water_answers {
     float *velocity;         /* metres per second, of the surface: x, y, z of each point; x and z are 0 where the water is not choppy */
     double covariance[3];    /* written: xx, xz and zz of the slopes of the waves shorter than least_wavelength */
     float *jacobian;         /* area of a piece of water divided by its area at rest, a number a point: 1 without choppiness; below 0 the water folds over */
-    size_t unsettled;        /* written: points of choppy water whose place at rest was not found; they have the answers of a place near it. In folds others may
-                                miss the highest water (docs/query.md) */
-    float *foam;             /* fraction of each point that foam covers, 0 … 1, a number a point: 0 without choppiness */
-    float foam_share;        /* for `foam`: scene.foam, fraction of the whole water, 0 … 0.5 */
-    float foam_persistence;  /* for `foam`: scene.foam_persistence, seconds, 0 … 60; 3 */
+    size_t unsettled;       /* written: number of points of choppy water whose place at rest was not found. They get the answers of a place near it. Where water
+                                folds, other points may miss the highest water (docs/query.md) */
+    float *foam;            /* fraction of each point that foam covers, 0 … 1, a number a point: 0 without choppiness */
+    float foam_share;       /* for `foam`: scene.foam, fraction of the whole water, 0 … 0.5 */
+    float foam_persistence; /* for `foam`: scene.foam_persistence, seconds, 0 … 60; 3 */
 } mgt_water_answers;
 
 /* All pointers NULL: asks nothing. */

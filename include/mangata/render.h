@@ -101,7 +101,8 @@ MGT_API bool mgt_isa_available(mgt_isa isa);
 
 typedef enum mgt_layer {
     MGT_LAYER_COLOR = 0, /* 3 channels: radiance in kcd/m², or displayed colour in 8-bit formats */
-    MGT_LAYER_COVERAGE,  /* 1: fraction of pixel area × shutter time whose mirror ray meets the light, [0, 1] (P1 Eq. 17 / L_l) */
+    MGT_LAYER_COVERAGE,  /* 1: fraction of pixel area × shutter time whose mirrored ray meets the light, [0, 1]: Podee et al. 2021,
+                            Eq. 17, over the light's radiance */
     MGT_LAYER_MASK,      /* 1: fraction of the pixel that is water */
     MGT_LAYER_DEPTH,     /* 1: metres along the ray to the first hit at time t; +inf where there is no water */
     MGT_LAYER_NORMAL,    /* 3: world space unit normal, the mean shading normal at time t; (0,0,0) where no water */
@@ -110,16 +111,17 @@ typedef enum mgt_layer {
     MGT_LAYER_IMPORTANCE, /* 1: adaptive: what decides where samples go, from the analytic picture. Cells: predicted error of its coverage; podee:
                              Eq. 1 where it is above the threshold. Others: 0 */
     MGT_LAYER_DETAIL,     /* 1: adaptive: coverage of the added samples alone, 0 where there are none. Others: 0 */
-    /* Scenes with objects; not in textures and views of OpenGL. Elsewhere 0. */
+    /* Only scenes with objects have the next two layers; elsewhere they are 0. Textures and views of OpenGL do not take them. */
     MGT_LAYER_REFRACTION,       /* 3: radiance that arrives through the water's surface, before the Fresnel transmittance is applied; 0 where no water */
     MGT_LAYER_REFRACTION_ERROR, /* 1: estimated distance, in pixels, from what is shown to what the refracted ray meets; +inf where it is unknown */
-    MGT_LAYER_FOAM              /* 1: fraction of the pixel that foam covers, [0, 1]; of methods that work on whole pictures their base's */
+    /* All scenes; textures of OpenGL take it, too. */
+    MGT_LAYER_FOAM /* 1: fraction of the pixel that foam covers, [0, 1]; of methods that work on whole pictures their base's */
 } mgt_layer;
 
 typedef enum mgt_format {
-    MGT_FORMAT_R32F = 0,  /* one float: all but color and normal */
-    MGT_FORMAT_RGB32F,    /* three floats: color, normal */
-    MGT_FORMAT_RGBA32F,   /* four floats, alpha 1: color, normal */
+    MGT_FORMAT_R32F = 0,  /* one float: layers of 1 channel */
+    MGT_FORMAT_RGB32F,    /* three floats: layers of 3 channels */
+    MGT_FORMAT_RGBA32F,   /* four floats, alpha 1: layers of 3 channels */
     MGT_FORMAT_RGBA8_SRGB /* displayed colour with exposure, glare, tone map and sRGB transfer, alpha 255: color only */
 } mgt_format;
 
@@ -166,9 +168,9 @@ MGT_API mgt_status mgt_display(mgt_context *context, const mgt_scene *scene, con
 
 /* ---- sums of samples ------------------------------------------------------------------------------------ */
 
-/* Words of a pixel's sums: 6 sums of 128 bits, low word first, of multiples of 2⁻⁵⁶: radiance of red, green and blue, coverage, mask, foam. The pixels are
- * the crop's, row by row, tightly packed. Sums have the same bits in whatever order and ranges samples are added, so that a picture whose samples
- * several machines or several runs share ends as mgt_render() makes it. */
+/* The sums of a pixel fill 12 words. They are six integers of 128 bits, low word first, that count multiples of 2⁻⁵⁶: the sums of red, green and blue
+ * radiance, coverage, mask and foam. The pixels are the crop's, row by row, tightly packed. Sums have the same bits in whatever order and ranges samples are
+ * added, so that a picture whose samples several machines or several runs share ends as mgt_render() makes it. */
 enum { MGT_SUM_WORDS = 12 };
 
 /* Adds samples of the crop's pixels to `sums`, which begin as zeros: quality.sample_count of them from quality.sample_first on. Of adaptive these numbers
@@ -177,11 +179,11 @@ enum { MGT_SUM_WORDS = 12 };
  * cancelled, `sums` are useless. */
 MGT_API mgt_status mgt_sum_samples(mgt_context *context, const mgt_scene *scene, uint64_t *sums);
 
-/* Adds sums to sums, both of so many pixels; nothing where one is NULL. Any thread. */
+/* Adds the sums `more` to `sums`; both hold `pixels` pixels. If either is NULL, nothing happens. Any thread. */
 MGT_API void mgt_sums_add(uint64_t *sums, const uint64_t *more, size_t pixels);
 
-/* mgt_render(), on the CPU, with these sums of the scene's range of samples in place of samples of its own. What is no mean of samples it renders: depth,
- * normal, objects, and the lights of quality.light_cells. Displayed colour with glare needs the sums of a whole picture: those of a crop are
+/* mgt_render(), on the CPU, with these sums of the scene's range of samples in place of samples of its own. It still renders what is no mean of samples:
+ * depth, normal, objects, and the lights of quality.light_cells. Displayed colour with glare needs the sums of a whole picture: those of a crop are
  * MGT_ERROR_UNSUPPORTED. */
 MGT_API mgt_status mgt_render_sums(mgt_context *context, const mgt_scene *scene, const uint64_t *sums, const mgt_target *targets, size_t count);
 

@@ -11,7 +11,7 @@ extern "C" {
 #endif
 
 /* One sine wave, which raises the water by amplitude · sin(kx·x + kz·z + omega·t + phase). It travels against (kx, kz) where omega is positive.
- * Scene files and P1 Eq. 1 call kx, kz and omega a, b and c. */
+ * Scene files and Podee et al. 2021, Eq. 1, call kx, kz and omega a, b and c. */
 typedef struct mgt_wave {
     double amplitude; /* metres, 0 … 1000 */
     double kx, kz;    /* wave vector, radians per metre, ±1e5 */
@@ -144,12 +144,12 @@ typedef enum mgt_adaptive {
 /* How podee-* integrates its Gaussian over the light disk and the shutter. */
 typedef enum mgt_mixture {
     MGT_MIXTURE_EXACT = 0, /* the ellipse itself, in closed form */
-    MGT_MIXTURE_1 = 1,     /* 1, 3, 5 or 9 circular Gaussians, fitted (P1 App. C), from tables of 64 MiB that the context keeps */
+    MGT_MIXTURE_1 = 1,     /* 1, 3, 5 or 9 circular Gaussians, fitted (Podee et al. 2021, App. C), from tables of 64 MiB that the context keeps */
     MGT_MIXTURE_3 = 3,
     MGT_MIXTURE_5 = 5,
     MGT_MIXTURE_9 = 9,
     MGT_MIXTURE_FELINE = 32, /* circular Gaussians placed by the formulae of McCormack et al. 1999 */
-    MGT_MIXTURE_RIEMANN = 33 /* a sum over the disk when the shutter closes: P1's fallback, everywhere */
+    MGT_MIXTURE_RIEMANN = 33 /* a sum over the disk when the shutter closes: the fallback of Podee et al. 2021, everywhere */
 } mgt_mixture;
 
 MGT_API const char *mgt_source_name(mgt_source body);
@@ -169,8 +169,8 @@ MGT_API bool mgt_refraction_from_name(const char *name, mgt_refraction *refracti
 MGT_API bool mgt_adaptive_from_name(const char *name, mgt_adaptive *adaptive);
 MGT_API bool mgt_mixture_from_name(const char *name, mgt_mixture *kernels);
 
-/* Settings of quality. Words before a colon name the methods, schemes or kinds of refraction that read the member. Elsewhere a value other than
- * mgt_scene_init()'s is refused with MGT_ERROR_SCENE, "… is for method adaptive alone". Ignored instead are spatial_samples, time_samples, sample_first,
+/* Settings of quality. Words before a colon name the methods, adaptive schemes or refraction methods that read the member. With others any value
+ * but mgt_scene_init()'s is refused with MGT_ERROR_SCENE, "… is for method adaptive alone". Ignored instead are spatial_samples, time_samples, sample_first,
  * sample_count, ndf_mean_drop and tess_error; with podee-* elongation_limit where kernels are exact or riemann, and transition_width where transition_hard.
  * Scene files may hold options of any method; those of others than the one chosen are left out of the scenes that they make. */
 typedef struct mgt_quality {
@@ -181,15 +181,17 @@ typedef struct mgt_quality {
                                     adaptive, podee: first of the sample_slots slots, which must be given, on the CPU */
     uint64_t sample_count;       /* how many samples to take; 0: all that remain */
     uint64_t seed;               /* of the jitter */
-    bool ndf_mean_drop;          /* podee-pixel: leave the mean slope B out of the path (P1 Eq. 4 as printed) */
+    bool ndf_mean_drop;          /* podee-pixel: leave the mean slope B out of the path (Podee et al. 2021, Eq. 4 as printed) */
     mgt_mixture kernels;         /* podee-*: how the elliptical Gaussian on the light plane is integrated */
     double elongation_limit;     /* podee-* with kernels: ellipses longer than this, major over minor axis, are summed without time as by
-                                 MGT_MIXTURE_RIEMANN, 1 … 1e6; 0: as many as there are kernels (P1 §3.6), and 1e6 for 1 kernel and Feline */
+                                 MGT_MIXTURE_RIEMANN, 1 … 1e6; 0: as many as there are kernels (Podee et al. 2021, §3.6), and 1e6 for 1 kernel
+                                 and Feline */
     uint32_t path_segments;      /* podee-*: straight pieces of the shutter, each with its own Gaussian, 1 … 64; 0: 1 */
     double transition_width;     /* podee-*: cycles per pixel below the Nyquist limit of 0.5 in which waves turn from resolved to unresolved
                                  (Eq. 20), up to 0.5; 0: 0.3 */
     bool transition_hard;        /* podee-*: no transition, waves turn at 0.5 cycles per pixel (Fig. 11) */
-    mgt_adaptive adaptive;       /* adaptive: the scheme; at most one of the next three and target_displayed says when it ends */
+    mgt_adaptive adaptive;       /* adaptive: the scheme. At most one of samples, target_rmse, budget_ms, target_displayed and sample_slots
+                                    is set; it says how much is sampled */
     double samples;              /* adaptive: evaluations of all waves per pixel of water, on average, 1 … 4096. Cells and points count by what they
                                  cost; a ray of podee, traced at both ends of the shutter, counts as one. 0: 8 where no other end is given */
     double target_rmse;          /* adaptive, cells: ends where the predicted RMSE of coverage over the image is this, 1e-6 … 1; 0: none */
@@ -239,7 +241,7 @@ typedef struct mgt_scene {
     mgt_quality quality; /* the last member, so that it may grow at its end with the scene; the structs above never change */
 } mgt_scene;
 
-/* A 1280×720 noon view of a flat sea without waves by the default method: every field legal. */
+/* A legal scene by the default method: 1280 × 720 pixels, a camera 4 m above flat water that looks north, and the sun 30° above the northern horizon. */
 MGT_API void mgt_scene_init(mgt_scene *scene, size_t size);
 
 /* The default method. `size` is sizeof(mgt_quality), as with structs that begin with their size. */

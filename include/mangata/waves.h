@@ -34,7 +34,7 @@ typedef struct mgt_swell {
     double direction_deg; /* ±1e6 */
     double spread;        /* s of cos^2s of half the angle, 0 … 1000: 25 from near, 75 from far away */
     uint32_t count;       /* of waves, 1 … MGT_MAX_WAVES */
-    uint32_t seed;        /* another one: another swell of the same kind */
+    uint32_t seed;        /* of the random phases and directions */
 } mgt_swell;
 
 /* A sea. What a scene file has as water.wind or water.spectrum, and water.swell. */
@@ -51,10 +51,11 @@ typedef struct mgt_sea {
     double spread;           /* of MGT_SPREADING_FIXED, 0 … 1000 */
     double shortest;         /* length of the shortest wave, metres, 1e-4 … 1000; 0: 0.05 */
     uint32_t count;          /* waves of the wind, 1 … MGT_MAX_WAVES; with those of all swells at most as many */
-    uint32_t seed;           /* another one: another sea of the same kind */
+    uint32_t seed;           /* of the random phases and directions */
     uint32_t cox_munk;    /* 1: short waves are scaled to the mean-square slope of a clean sea in this wind (Cox and Munk 1954); 0: as the spectrum has them */
     float choppiness;     /* for mgt_sea_scene(): of the water, [0, 1] */
-    float foam;           /* for mgt_sea_scene(): whitecaps as a multiple of those of the wind at sea, 3.84e-6 U^3.41 of the water, U m/s at 10 m; [0, 10] */
+    float foam;           /* for mgt_sea_scene(): factor on the fraction of the water that whitecaps cover in this wind, [0, 10]. That fraction is
+                             3.84e-6 U^3.41, with U the wind in m/s at 10 m */
     uint32_t swell_count; /* 0 … 16 */
     const mgt_swell *swells; /* swell_count of them, the caller's, read during the call; NULL where there are none */
 } mgt_sea;
