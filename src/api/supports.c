@@ -41,7 +41,7 @@ const char *gl_lacks(const mgt_scene *scene)
     if (scene->object_count == 0)
         return NULL;
     if (refraction == MGT_REFRACTION_DISTANCE_FIELD || refraction == MGT_REFRACTION_PATH_TRACED)
-        return "refraction distance-field and truth run";
+        return "refraction distance-field and path-traced run";
     if (refraction == MGT_REFRACTION_LIU && scene->camera.position[1] < 0)
         return "refraction liu from under water runs";
     return scene->quality.refraction_samples > MOST_PLACES ? "more than 4 x 4 samples of refraction a pixel run" : NULL;

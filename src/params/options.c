@@ -32,6 +32,8 @@ static void decide_method(void *parent)
 #define ADAPTIVE "method", ONE(MGT_METHOD_ADAPTIVE)
 #define ALONG "adaptive", ONE(MGT_ADAPTIVE_PODEE)
 #define BY_CELLS "adaptive", ONE(MGT_ADAPTIVE_CELLS)
+enum { PLACE_1 = 1, PLACE_3, PLACE_5, PLACE_9, PLACE_FELINE }; /* in kernels_names */
+#define MIXTURES "kernels", ONE(PLACE_1) | ONE(PLACE_3) | ONE(PLACE_5) | ONE(PLACE_9) | ONE(PLACE_FELINE), true
 #define BENDING "refraction", ONE(MGT_REFRACTION_TWO_PHASE) | ONE(MGT_REFRACTION_HYBRID) | ONE(MGT_REFRACTION_LIU) | ONE(MGT_REFRACTION_BROAD), true
 enum { HOW_MUCH = 1 }; /* alternatives: each says how much to sample */
 
@@ -53,7 +55,7 @@ const field_row quality_fields[] =
       .doc = "how the elliptical Gaussian is integrated: exactly, as so many circular ones, as feline's, or as a sum over the disk", .choices = kernels_names,
       .alias = "mixture", .values = kernels_values, .label = "K", .when = {{PODEE}}},
      {"elongation", FIELD_NUMBER, MEMBER(elongation_limit), FIELD_OR_ZERO, 1, 1e6, NULL, .doc = "ellipses longer than this are summed as by riemann",
-      .absent = "the number of kernels; 1 and feline: never", .member = "elongation_limit", .label = "E", .when = {{PODEE}, {"kernels", 0x3e, true}}},
+      .absent = "the number of kernels; 1 and feline: never", .member = "elongation_limit", .label = "E", .when = {{PODEE}, {MIXTURES}}},
      {"path_segments", FIELD_COUNT, MEMBER(path_segments), FIELD_OR_ZERO, 1, 64, NULL, .doc = "straight pieces of the open shutter", .absent = "1",
       .when = {{PODEE}}},
      {"transition", FIELD_SWITCH, MEMBER(transition_hard), .doc = "waves turn from resolved to unresolved softly or hard", .choices = transition_words,
@@ -85,7 +87,7 @@ const field_row quality_fields[] =
      {"tess_error", FIELD_NUMBER, MEMBER(tess_error), FIELD_OBJECTS | FIELD_OR_ZERO, 0.01, 100, "pixels", .doc = "how far off a bent triangle may be",
       .absent = "0.1", .label = "PX", .when = {{BENDING}}},
      {"refraction_samples", FIELD_COUNT, MEMBER(refraction_samples), FIELD_OBJECTS | FIELD_OR_ZERO, 1, 64, NULL, .doc = "N of N x N refracted rays a pixel",
-      .absent = "1 ray, 4 more at outlines of two-phase, and 4 x 4 for truth"},
+      .absent = "1 ray, 4 more at outlines of two-phase, and 4 x 4 for path-traced"},
      {"caustics", FIELD_SWITCH, MEMBER(caustics), FIELD_OBJECTS, .doc = "light that the waves focus on what lies under them", .choices = switch_words},
 #define MGT_METHOD_OPTION(name, method_, least, most, preset_, meaning) \
     {#name, FIELD_NUMBER, MEMBER(name), 0, least, most, NULL, .doc = #meaning, .preset = preset_, .when = {{"method", ONE(method_)}}},
