@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Options of quality on the command line: the rows of params/options.h, and two that are not rows of it, --integral and --samples-range. */
-#ifndef MANGATA_TOOLS_QUALITY_OPTIONS_H
-#define MANGATA_TOOLS_QUALITY_OPTIONS_H
+#ifndef MANGATA_CLI_COMMON_QUALITY_OPTIONS_H
+#define MANGATA_CLI_COMMON_QUALITY_OPTIONS_H
 
 #include "params/options.h"
 

@@ -3,8 +3,8 @@
  *
  * A public struct begins with its size, which stands for the version of the header that its owner was compiled with: members are only ever
  * added at the end. The library works on copies of its own version. */
-#ifndef MANGATA_CORE_STRUCTS_H
-#define MANGATA_CORE_STRUCTS_H
+#ifndef MANGATA_API_STRUCTS_H
+#define MANGATA_API_STRUCTS_H
 
 #include "frame/backend.h"
 

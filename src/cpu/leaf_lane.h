@@ -20,8 +20,10 @@ float lane_parts_contrast(float own, const float parts[4]);
 /* Whether a tile with this TileData.light_reach mirrors no light; the rest as tile_dark() has it. */
 bool lane_dark(const FrameData *frame, int light_reach, bool by_display, bool lights_dark);
 
-/* Which of the shutter's pieces cells of a level see, 0 to 2. */
+/* Fraction of a leaf's values that its parts keep: leaf_kept(). */
 float lane_kept(bool dark, float variance);
+
+/* Class of the cells of a level, which decides how many pieces of the shutter they see: leaf_class(). */
 int lane_class(int level, bool dark);
 
 /* The leaf's numbers that its points depend on. */

@@ -186,7 +186,7 @@ static void build_segment(tile_place place, double from, double to, tile_scratch
     tile_join_reach(scratch);
 }
 
-/* The path in several straight pieces (P1 §3.4): the mean over the parts of the shutter. */
+/* The path in several straight pieces (Podee et al. 2021, §3.4): the mean over the parts of the shutter. */
 static void render_segments(tile_place place, tile_scratch *scratch)
 {
     const tile_job *job = place.job;
