@@ -93,7 +93,7 @@ mgt_status mgt_sum_samples(mgt_context *context, const mgt_scene *scene, uint64_
 
 void mgt_sums_add(uint64_t *sums, const uint64_t *more, size_t pixels)
 {
-    for (size_t i = 0; sums && more && i < pixels * SUM_COUNT; i++)
+    for (size_t i = 0; sums && more && i < pixels * EXACT_COUNT; i++)
         exact_add(sums + 2 * i, exact_load(more + 2 * i));
 }
 
@@ -105,7 +105,7 @@ static mgt_status check_sums(const reporter *r, const uint64_t *sums, const mgt_
     const mgt_quality *q = &scene->quality;
     const uint64_t samples = q->sample_count ? q->sample_count : quality_range(q) - q->sample_first;
     for (size_t i = 0; i < pixels; i++)
-        if (!exact_sums_fit(sums + i * 2 * SUM_COUNT, samples))
+        if (!exact_sums_fit(sums + i * 2 * EXACT_COUNT, samples))
             return report_error(r, MGT_ERROR_ARGUMENT, "render.sums", "the sums of pixel %zu, %zu are not those of %llu samples", i % area.width,
                                 i / area.width, (unsigned long long)samples);
     return MGT_OK;

@@ -46,7 +46,7 @@ static inline exact_sum exact_count(uint64_t count) { return (exact_sum)count <<
 static inline double exact_mean(exact_sum sum, double count) { return (double)(exact_signed)sum * 0x1p-56 / count; }
 
 /* What a method sums up for a pixel, each sum as two words, the low one first: six sums fill MGT_SUM_WORDS of the public interface. */
-enum { SUM_RED = 0, SUM_GREEN, SUM_BLUE, SUM_COVERAGE, SUM_WATER, SUM_FOAM, SUM_COUNT };
+enum { EXACT_RED = 0, EXACT_GREEN, EXACT_BLUE, EXACT_COVERAGE, EXACT_WATER, EXACT_FOAM, EXACT_COUNT };
 
 static inline exact_sum exact_load(const uint64_t *words) { return (exact_sum)words[1] << 64 | words[0]; }
 
@@ -54,8 +54,8 @@ static inline exact_sum exact_load(const uint64_t *words) { return (exact_sum)wo
 static inline bool exact_sums_fit(const uint64_t *words, uint64_t samples)
 {
     const exact_sum most = exact_count(samples) + (exact_count(samples) >> 10);
-    for (int i = 0; i < SUM_COUNT; i++)
-        if ((exact_signed)exact_load(words + 2 * i) < 0 || (i >= SUM_COVERAGE && exact_load(words + 2 * i) > most))
+    for (int i = 0; i < EXACT_COUNT; i++)
+        if ((exact_signed)exact_load(words + 2 * i) < 0 || (i >= EXACT_COVERAGE && exact_load(words + 2 * i) > most))
             return false;
     return true;
 }

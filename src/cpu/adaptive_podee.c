@@ -178,7 +178,7 @@ static void add_results(const temporal_rays *rays, double most, sample_sums *sum
     const float *const values[] = {p->red, p->green, p->blue, p->coverage, p->water};
     for (size_t i = 0; i < rays->count; i++) {
         uint64_t *words = sums->words + (size_t)rays->pixel[i] * SAMPLE_SUM_WORDS;
-        for (size_t plane = 0; plane <= SUM_WATER; plane++)
+        for (size_t plane = 0; plane <= EXACT_WATER; plane++)
             exact_add(words + 2 * plane, exact_term((double)values[plane][i], most));
     }
 }
@@ -235,14 +235,14 @@ static void blend_pixel(const picture_planes *p, size_t i, const uint64_t *words
     p->samples[i] = (float)n;
     if (samples == 0)
         return;
-    double mean[SUM_COUNT];
-    for (size_t plane = 0; plane < SUM_COUNT; plane++)
+    double mean[EXACT_COUNT];
+    for (size_t plane = 0; plane < EXACT_COUNT; plane++)
         mean[plane] = exact_mean(exact_load(words + 2 * plane), n);
     for (size_t c = 0; c < 3; c++)
-        p->color[3 * i + c] = (float)((1 - weight) * (double)p->color[3 * i + c] + weight * mean[SUM_RED + c]);
-    p->detail[i] = (float)mean[SUM_COVERAGE];
-    p->coverage[i] = (float)((1 - weight) * (double)p->coverage[i] + weight * mean[SUM_COVERAGE]);
-    p->water[i] = (float)((1 - weight) * (double)p->water[i] + weight * mean[SUM_WATER]);
+        p->color[3 * i + c] = (float)((1 - weight) * (double)p->color[3 * i + c] + weight * mean[EXACT_RED + c]);
+    p->detail[i] = (float)mean[EXACT_COVERAGE];
+    p->coverage[i] = (float)((1 - weight) * (double)p->coverage[i] + weight * mean[EXACT_COVERAGE]);
+    p->water[i] = (float)((1 - weight) * (double)p->water[i] + weight * mean[EXACT_WATER]);
 }
 
 static void blend_tile(const detail_job *job, size_t tile, const tile_tasks *tasks, const sample_sums *sums, const float *frequencies)

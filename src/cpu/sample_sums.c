@@ -6,7 +6,7 @@ void sample_sums_clear(sample_sums *sums) { memset(sums, 0, sizeof *sums); }
 
 void sample_sums_settle(sample_sums *sums)
 {
-    for (size_t plane = 0; plane < SUM_COUNT; plane++) {
+    for (size_t plane = 0; plane < EXACT_COUNT; plane++) {
         sample_terms *t = &sums->planes[plane];
         for (size_t i = 0; i < TILE_PIXELS; i++) {
             const exact_sum high = (exact_sum)(int64_t)(t->high[i] * 0x1p8) << (EXACT_SUM_BITS - 8), low = (exact_sum)(int64_t)(t->low[i] * 0x1p56);
@@ -19,8 +19,8 @@ void sample_sums_settle(sample_sums *sums)
 
 void sample_sums_add(sample_sums *sums, const lane_kernels *kernels, const tile_pixels *pixels, bool color, bool foam)
 {
-    const float *const values[SUM_COUNT] = {pixels->red, pixels->green, pixels->blue, pixels->coverage, pixels->water, pixels->foam};
-    for (size_t plane = color ? SUM_RED : SUM_COVERAGE; plane < (foam ? SUM_COUNT : SUM_FOAM); plane++)
+    const float *const values[EXACT_COUNT] = {pixels->red, pixels->green, pixels->blue, pixels->coverage, pixels->water, pixels->foam};
+    for (size_t plane = color ? EXACT_RED : EXACT_COVERAGE; plane < (foam ? EXACT_COUNT : EXACT_FOAM); plane++)
         kernels->sum(values[plane], &sums->planes[plane]);
     if (++sums->terms == SAMPLE_TERMS_MOST)
         sample_sums_settle(sums);
@@ -44,8 +44,8 @@ void sample_sums_exchange(sample_sums *sums, const picture_sums *picture, uint32
 
 void sample_sums_mean(const sample_sums *sums, uint64_t count, tile_pixels *out)
 {
-    float *const values[SUM_COUNT] = {out->red, out->green, out->blue, out->coverage, out->water, out->foam};
-    for (size_t plane = 0; plane < SUM_COUNT; plane++)
+    float *const values[EXACT_COUNT] = {out->red, out->green, out->blue, out->coverage, out->water, out->foam};
+    for (size_t plane = 0; plane < EXACT_COUNT; plane++)
         for (size_t i = 0; i < TILE_PIXELS; i++)
             values[plane][i] = (float)exact_mean(exact_load(sums->words + SAMPLE_SUM_WORDS * i + 2 * plane), (double)count);
 }

@@ -14,7 +14,7 @@ typedef struct picture_sums {
     region crop;
 } picture_sums;
 
-enum { SAMPLE_SUM_WORDS = 2 * SUM_COUNT };
+enum { SAMPLE_SUM_WORDS = 2 * EXACT_COUNT };
 
 /* Terms are multiples of 2⁻⁸ in one double and what is left, a multiple of 2⁻⁵⁶, in another one. Both are exact for SAMPLE_TERMS_MOST terms of at most
  * SAMPLE_TERM_MOST. */
@@ -28,7 +28,7 @@ typedef struct sample_terms {
 
 /* Planes by their number among the sums. */
 typedef struct sample_sums {
-    sample_terms planes[SUM_COUNT];
+    sample_terms planes[EXACT_COUNT];
     uint32_t terms;                                 /* in `planes` */
     uint64_t words[TILE_PIXELS * SAMPLE_SUM_WORDS]; /* pixel by pixel, see MGT_SUM_WORDS */
 } sample_sums;

@@ -13,7 +13,7 @@
 #include "base/exact_sum.h"
 #include "image/metadata_json.h"
 
-_Static_assert((int)SUMS_WORDS == 2 * (int)SUM_COUNT, "two words a sum");
+_Static_assert((int)SUMS_WORDS == 2 * (int)EXACT_COUNT, "two words a sum");
 
 static const char magic[] = SUMS_MAGIC;
 enum { MAGIC_BYTES = sizeof magic - 1, TEXT_MOST = 1 << 20, RANGE_TEXT = 42, ENTRIES_MOST = 64, BLOCK = 1 << 16 };

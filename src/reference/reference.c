@@ -226,7 +226,7 @@ static bool shade_hit(const reference_frame *frame, const double view[3], double
     return reference_lights_met(frame->lights, mirrored);
 }
 
-_Static_assert((int)REFERENCE_SUM_WORDS == 2 * SUM_COUNT, "two words a sum");
+_Static_assert((int)REFERENCE_SUM_WORDS == 2 * EXACT_COUNT, "two words a sum");
 
 /* Sums of a pixel, the same in whatever order and parts samples are added. */
 typedef struct pixel_sums {
@@ -303,24 +303,24 @@ static void add_sample(const reference_frame *frame, const reference_batch *batc
 static void add_pixel(uint64_t words[REFERENCE_SUM_WORDS], const pixel_sums *sums)
 {
     for (size_t c = 0; c < 3; c++)
-        exact_add(words + 2 * (SUM_RED + c), sums->rgb[c]);
-    exact_add(words + 2 * SUM_COVERAGE, exact_count(sums->covered) - sums->hidden);
-    exact_add(words + 2 * SUM_WATER, exact_count(sums->hits));
-    exact_add(words + 2 * SUM_FOAM, sums->foam);
+        exact_add(words + 2 * (EXACT_RED + c), sums->rgb[c]);
+    exact_add(words + 2 * EXACT_COVERAGE, exact_count(sums->covered) - sums->hidden);
+    exact_add(words + 2 * EXACT_WATER, exact_count(sums->hits));
+    exact_add(words + 2 * EXACT_FOAM, sums->foam);
 }
 
 static void store_pixel(const reference_result *result, size_t at, const uint64_t words[REFERENCE_SUM_WORDS], uint64_t count)
 {
     const double n = count ? (double)count : 1;
     if (result->coverage)
-        result->coverage[at] = (float)exact_mean(exact_load(words + 2 * SUM_COVERAGE), n);
+        result->coverage[at] = (float)exact_mean(exact_load(words + 2 * EXACT_COVERAGE), n);
     if (result->foam)
-        result->foam[at] = (float)exact_mean(exact_load(words + 2 * SUM_FOAM), n);
+        result->foam[at] = (float)exact_mean(exact_load(words + 2 * EXACT_FOAM), n);
     if (result->mask)
-        result->mask[at] = (float)exact_mean(exact_load(words + 2 * SUM_WATER), n);
+        result->mask[at] = (float)exact_mean(exact_load(words + 2 * EXACT_WATER), n);
     if (result->color)
         for (size_t c = 0; c < 3; c++)
-            result->color[3 * at + c] = (float)exact_mean(exact_load(words + 2 * (SUM_RED + c)), n);
+            result->color[3 * at + c] = (float)exact_mean(exact_load(words + 2 * (EXACT_RED + c)), n);
 }
 
 /* ---- blocks ---- */

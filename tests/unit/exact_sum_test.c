@@ -141,7 +141,7 @@ static void planes_are_summed_exactly(void **state)
         const double values[SPECIAL] = {0, 0, 0, SAMPLE_TERM_MOST, -SAMPLE_TERM_MOST, 0, 0, 0x1p-55, (double)1e12f, -3, SAMPLE_TERM_MOST, 0};
         for (size_t i = 0; i < SPECIAL; i++) {
             assert_true(value_of(exact_load(sums.words + SAMPLE_SUM_WORDS * i)) == TERMS * values[i]);
-            assert_true(exact_load(sums.words + SAMPLE_SUM_WORDS * i + 2 * SUM_FOAM) == 0);
+            assert_true(exact_load(sums.words + SAMPLE_SUM_WORDS * i + 2 * EXACT_FOAM) == 0);
         }
         sample_sums_mean(&sums, TERMS, &pixels);
         assert_true(pixels.red[9] == -3 && pixels.red[8] == 1e12f && pixels.foam[9] == 0);
@@ -210,10 +210,10 @@ static void what_has_no_sums_is_refused(void **state)
     assert_int_equal(mgt_render_sums(context, &scene, NULL, &target, 1), MGT_ERROR_ARGUMENT);
     assert_int_equal(mgt_render_sums(NULL, &scene, sums, &target, 1), MGT_ERROR_ARGUMENT);
     assert_int_equal(mgt_render_sums(context, &scene, sums, NULL, 1), MGT_ERROR_ARGUMENT);
-    for (int sum = 0; sum < SUM_COUNT; sum++) { /* what no samples sum up to: less than 0, and more than one a sample */
+    for (int sum = 0; sum < EXACT_COUNT; sum++) { /* what no samples sum up to: less than 0, and more than one a sample */
         memset(sums, 0, sizeof sums);
         sums[MGT_SUM_WORDS + 2 * sum] = UINT64_MAX;
-        sums[MGT_SUM_WORDS + 2 * sum + 1] = sum < SUM_COVERAGE ? UINT64_MAX : 0xffff;
+        sums[MGT_SUM_WORDS + 2 * sum + 1] = sum < EXACT_COVERAGE ? UINT64_MAX : 0xffff;
         assert_int_equal(mgt_render_sums(context, &scene, sums, &target, 1), MGT_ERROR_ARGUMENT);
         assert_non_null(strstr(mgt_last_error(context), "the sums of pixel 1, 0 are not those of"));
     }

@@ -150,7 +150,7 @@ void sort_tile(int tile_x, int tile_y, int open_slots, int parts)
     if (lane < TILE_SUMS) {
         float total = 0.0f;
         for (int i = 0; i < LANES; i++)
-            total = lane < SUM_LARGEST ? total + sums[lane * LANES + i] : max(total, sums[lane * LANES + i]);
+            total = lane < TILE_SUM_LARGEST ? total + sums[lane * LANES + i] : max(total, sums[lane * LANES + i]);
         totals[lane] = total;
     }
     barrier();

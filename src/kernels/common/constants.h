@@ -19,13 +19,13 @@
 #define WAVE_RESOLVED 1
 #define WAVE_MIXED 2
 
-/* Places of TileSums.value, the sums over a tile's waves; SUM_LARGEST and SUM_MOST are maxima. */
-#define SUM_LOST 0     /* five values: slope covariance xx, xz, zz of the unresolved waves, filtered_octave, filtered_octave_sq */
-#define SUM_SEARCHED 5 /* six values of all searched waves: height, slope and second derivative, each followed by its variance */
-#define SUM_COARSE 11  /* the same six values of the largest searched waves */
-#define SUM_REST 17    /* two values of the other searched waves: height and its variance */
-#define SUM_LARGEST 19 /* largest squared frequency of a searched wave, (turns per metre)² */
-#define SUM_MOST 20    /* largest squared frequency of a searched wave on the screen, (cycles per pixel)² */
+/* Places of TileSums.value, the sums over a tile's waves; TILE_SUM_LARGEST and TILE_SUM_MOST are maxima. */
+#define TILE_SUM_LOST 0     /* five values: slope covariance xx, xz, zz of the unresolved waves, filtered_octave, filtered_octave_sq */
+#define TILE_SUM_SEARCHED 5 /* six values of all searched waves: height, slope and second derivative, each followed by its variance */
+#define TILE_SUM_COARSE 11  /* the same six values of the largest searched waves */
+#define TILE_SUM_REST 17    /* two values of the other searched waves: height and its variance */
+#define TILE_SUM_LARGEST 19 /* largest squared frequency of a searched wave, (turns per metre)² */
+#define TILE_SUM_MOST 20    /* largest squared frequency of a searched wave on the screen, (cycles per pixel)² */
 #define TILE_SUMS 21
 
 /* ---- the picture's lattice ---- */
