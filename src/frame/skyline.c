@@ -187,7 +187,7 @@ static surface_point choppy_point(CTX cx, const water_line *w, int count, real x
         SearchSums s = search_sums_zero(cx);
         for (int i = 0; i < count; i++)
             s = add_searched_shift(cx, s, w->waves[i], true, false, x - shift->x, z - shift->y);
-        const Symmetric rest = at_rest(cx, s.xx, s.xz, s.zz);
+        const Symmetric rest = inverse_stretch(cx, s.xx, s.xz, s.zz);
         const vec2 left = sub(*shift, s.shift);
         p.slope = symmetric_times(cx, rest, s.slope);
         p.height = fma(p.slope.x, left.x, fma(p.slope.y, left.y, s.height));
