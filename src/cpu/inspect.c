@@ -51,7 +51,7 @@ static void find_hit(const frame *f, const struct kernel_context *cx, tile_pixel
     const uint32_t row = at.row * (uint32_t)cx->tile->hit_rows;
     const double start = (double)estimate[row / TILE_HEIGHT].height[row % TILE_HEIGHT * TILE_WIDTH + at.column];
     const double fall = fmax(-ray[1], (double)crest_fall(cx) * hypot(ray[0], ray[2]));
-    double along = cx->tile->skyline != 0 ? start : fall > 0 ? (c->position[1] - start) / fall : 0;
+    double along = cx->tile->skyline != SKYLINE_NONE ? start : fall > 0 ? (c->position[1] - start) / fall : 0;
     for (int step = 0; step < 8 && fall > 0; step++) {
         const double point[2] = {c->position[0] + along * ray[0], c->position[2] + along * ray[2]};
         double gap = c->position[1] + along * ray[1], closing = ray[1];

@@ -353,6 +353,6 @@ void skyline_find(const frame *f, wave_set *set)
     float top = 0;
     for (int i = 0; i < f->skyline_entries; i++)
         top = set->skyline[i][0] > top ? set->skyline[i][0] : top;
-    set->view.skyline = top > 0;
+    set->view.skyline = top > 0 ? 1 : SKYLINE_NONE;
     set->view.skyline_top = top > 0 ? top + 2 * data->pixel_angle : 0;
 }

@@ -99,7 +99,7 @@ static void find_skyline(gl_run *run, const camera_rays *camera, interval time, 
     if (!skyline_may_stand(run->job->frame, camera))
         return;
     wave_set_build(run->job->frame, camera, time, true, g->waves);
-    if (!g->waves->view.skyline)
+    if (g->waves->view.skyline == SKYLINE_NONE)
         return;
     run->crests[row] = g->waves->view.skyline_top;
     g->gl.TextureSubImage2D(g->skyline_texture, 0, 0, row, SKYLINE_MOST, 1, GL_RG, GL_FLOAT, g->waves->skyline);
@@ -118,7 +118,7 @@ void gl_place_waves(const gl_run *run, const camera_rays *camera, interval time,
     ViewData *view = &run->g->waves->view;
     wave_set_place(run->job->frame, camera, time, true, run->g->waves);
     view->skyline_top = run->crests[opens];
-    view->skyline = view->skyline_top > 0 ? 1 + opens : 0;
+    view->skyline = view->skyline_top > 0 ? 1 + opens : SKYLINE_NONE;
 }
 
 /* Size of the uniform data of all passes over one set. They stay valid until the set after the next one. */

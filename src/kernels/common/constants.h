@@ -12,6 +12,7 @@
 #define BLOCK_WAVES 512 /* waves that a uniform block holds, 48 KiB */
 
 #define SKYLINE_MOST 4096 /* largest number of entries of a skyline */
+#define SKYLINE_NONE 0    /* TileData.skyline where the horizon is the water's edge */
 #define SORT_KEYS 6       /* members of SortData that sort a wave, see tile.k */
 
 /* WaveClass.kind: how a tile counts a wave. */
