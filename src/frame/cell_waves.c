@@ -17,7 +17,7 @@ static double path_bend(const frame *f, int parts)
 
 void cell_part_counts(const frame *f, int counts[CELL_CLASSES])
 {
-    static const double allowed[CELL_CLASSES] = {1e9, 0.5, 0.02};
+    static const double allowed[CELL_CLASSES] = {[CELLS_WHOLE] = 1e9, [CELLS_PARTS] = 0.5, [CELLS_SHARP] = 0.02};
     for (int k = 0; k < CELL_CLASSES; k++) {
         counts[k] = 1;
         while (counts[k] < LEAF_PARTS && path_bend(f, counts[k]) > allowed[k])

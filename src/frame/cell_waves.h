@@ -5,11 +5,8 @@
 
 #include "frame/frame_waves.h"
 
-/* Classes of leaves: pixels, cells and sharp cells. See leaf_class() of refinement.k. */
-enum { CELL_CLASSES = 3 };
-
-/* For each class the number of equal pieces of the shutter, a power of two up to LEAF_PARTS, in each of which a point's path in slope space is nearly
- * straight. */
+/* For each class of leaves, CELLS_…, the number of equal pieces of the shutter, a power of two up to LEAF_PARTS, in each of which a point's path in slope space
+ * is nearly straight. */
 void cell_part_counts(const frame *f, int counts[CELL_CLASSES]);
 
 /* An instant of the shutter, or a piece of it. */

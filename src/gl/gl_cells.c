@@ -84,7 +84,10 @@ static int pool_of(const cells_run *c)
 }
 
 /* Number of sets of waves: see upload_sets(). */
-static size_t sets_of(const cells_run *c) { return LEAF_INSTANTS + (size_t)(c->parts[0] + c->parts[1] + c->parts[2] + CELL_CLASSES * c->data.moves); }
+static size_t sets_of(const cells_run *c)
+{
+    return LEAF_INSTANTS + (size_t)(c->parts[CELLS_WHOLE] + c->parts[CELLS_PARTS] + c->parts[CELLS_SHARP] + CELL_CLASSES * c->data.moves);
+}
 
 /* Reserves all buffers. MGT_ERROR_UNSUPPORTED: one is larger than this OpenGL allows. */
 static mgt_status reserve(cells_run *c)

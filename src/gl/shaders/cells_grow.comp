@@ -33,11 +33,7 @@ shared double level_cost[LEAF_LEVELS]; /* evaluations of a cell; 0: unknown */
 shared double level_below[LEAF_LEVELS];
 shared float level_worth[LEAF_LEVELS];
 
-int part_count(int level)
-{
-    int kind = leaf_class(0, level, dark);
-    return kind == 0 ? 1 : kind == 1 ? cells_data.parts_1 : cells_data.parts_2;
-}
+int parts_of_level(int level) { return parts_of_class(leaf_class(0, level, dark)); }
 
 /* Computes the cost and the worth of splits on all levels, after the cost of a level became known. The cost of a level that is not known follows from that of
  * the nearest coarser level. */
@@ -45,7 +41,7 @@ void appraise()
 {
     double cost = level_cost[0];
     for (int level = 0; level < LEAF_LEVELS; level++) {
-        cost = next_cost(0, level + 1 < LEAF_LEVELS ? level_cost[level + 1] : 0.0lf, cost, part_count(level), part_count(level + 1));
+        cost = next_cost(0, level + 1 < LEAF_LEVELS ? level_cost[level + 1] : 0.0lf, cost, parts_of_level(level), parts_of_level(level + 1));
         level_below[level] = 4.0lf * cost;
         level_worth[level] = split_worth_of(0, leaf_area(level), level_below[level]);
     }
@@ -54,7 +50,7 @@ void appraise()
 /* Sets the cost of a level whose cells evaluate `waves` waves in each piece of the shutter. */
 void price(int level, int waves)
 {
-    level_cost[level] = cell_cost(0, part_count(level), waves, cells_data.waves);
+    level_cost[level] = cell_cost(0, parts_of_level(level), waves, cells_data.waves);
     appraise();
 }
 

@@ -5,7 +5,7 @@
 struct Job {
     int tile;
     ivec2 halvings; /* across and down */
-    int kind;       /* leaf_class() */
+    int kind;       /* leaf_class(): CELLS_… */
 };
 
 Job job_at(int place)
@@ -15,17 +15,15 @@ Job job_at(int place)
     return Job(int(state[at]), ivec2(how & 255, how >> 8 & 255), how >> 16);
 }
 
-int part_count(int kind) { return kind == 0 ? 1 : kind == 1 ? cells_data.parts_1 : cells_data.parts_2; }
-
 /* Number of a class's first set. Each class has a set for each piece of the shutter, or for each end of a piece if the camera moves. The sets of points come
  * last. */
 int first_set(int kind)
 {
     int sets = 0;
     for (int k = 0; k < kind; k++)
-        sets += part_count(k) + cells_data.moves;
+        sets += parts_of_class(k) + cells_data.moves;
     return sets;
 }
 
 int set_of_part(int kind, bool open) { return first_set(kind) + cells_data.part + (open ? 0 : cells_data.moves); }
-int set_of_instant() { return first_set(3) + cells_data.instant; }
+int set_of_instant() { return first_set(CELL_CLASSES) + cells_data.instant; }

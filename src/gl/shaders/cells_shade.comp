@@ -33,7 +33,7 @@ CellResult nothing_but_sky(PixelRay p)
 float height_below(Job job, ivec2 pixel)
 {
     ivec2 tile = ivec2(job.tile % cells_data.columns, job.tile / cells_data.columns), below = pixel + ivec2(0, 2);
-    if (cells_data.sky_black != 0 || cells_data.moves != 0 || part_count(job.kind) != 1 || tile.y * TILE_HEIGHT + below.y >= cells_data.height)
+    if (cells_data.sky_black != 0 || cells_data.moves != 0 || parts_of_class(job.kind) != 1 || tile.y * TILE_HEIGHT + below.y >= cells_data.height)
         return INFINITE;
     int in_tile = below.y < TILE_HEIGHT ? job.tile : job.tile + cells_data.columns;
     return pixel_data[in_tile * TILE_PIXELS + below.y % TILE_HEIGHT * TILE_WIDTH + below.x].y;
@@ -113,7 +113,7 @@ void main()
     if (slot < 0 || slot >= cells_data.slots || lane >= int(state[entry + 2]))
         return;
     Job job = job_at(place);
-    int parts = part_count(job.kind), at = LEAF_VECTORS * (int(state[entry + 1]) + lane);
+    int parts = parts_of_class(job.kind), at = LEAF_VECTORS * (int(state[entry + 1]) + lane);
     if (cells_data.part >= parts)
         return;
     frame_halvings = max(job.halvings.x, job.halvings.y);

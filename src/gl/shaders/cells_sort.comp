@@ -25,7 +25,7 @@ void sort_points(int place, int slot)
 void sort_cells(int place, int slot)
 {
     Job job = job_at(place);
-    if (cells_data.part >= part_count(job.kind))
+    if (cells_data.part >= parts_of_class(job.kind))
         return;
     frame_halvings = max(job.halvings.x, job.halvings.y);
     for (int end = 0; end <= cells_data.moves; end++) {

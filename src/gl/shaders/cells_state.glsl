@@ -25,5 +25,8 @@ int cell_size(int across, int down)
     return level * level - 1 + across;
 }
 
+/* Number of pieces of the shutter that leaves of a class see, see leaf_class(). */
+int parts_of_class(int kind) { return kind == CELLS_WHOLE ? 1 : kind == CELLS_PARTS ? cells_data.parts_1 : cells_data.parts_2; }
+
 int halvings_across(int split) { return split == SPLIT_EVEN ? 1 : split == SPLIT_ROWS ? 0 : 2; }
 int halvings_down(int split) { return 2 - halvings_across(split); }

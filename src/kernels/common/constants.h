@@ -177,6 +177,12 @@
 #define LEAF_PARTS 16                    /* largest number of straight pieces of the shutter */
 #define LEAF_INSTANTS 8                  /* instants of the shutter that points are spread over */
 
+/* Classes of pixels and cells by the pieces of the shutter that they see, see leaf_class(). */
+#define CELLS_WHOLE 0 /* the shutter as one piece: pixels, and cells of tiles that mirror no light */
+#define CELLS_PARTS 1 /* pieces */
+#define CELLS_SHARP 2 /* the pieces of sharp cells */
+#define CELL_CLASSES 3
+
 /* How a leaf is refined: into 2 × 2 cells, four rows or four columns, whichever makes the parts rounder on the water, or by point samples. */
 #define SPLIT_EVEN 0
 #define SPLIT_ROWS 1
