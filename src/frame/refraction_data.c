@@ -127,7 +127,7 @@ NarrowData refraction_narrow_data(const frame *f, const world *w, const gbuffer 
 {
     const camera_rays *c = &f->close;
     const double n = f->scene->water.index_of_refraction;
-    const float place = 1.0f / (float)(f->scene->quality.refraction_samples ? f->scene->quality.refraction_samples : 1);
+    const float ray_side = 1.0f / (float)(f->scene->quality.refraction_samples ? f->scene->quality.refraction_samples : 1);
     double rows[3][3];
     invert(c->right, c->down, c->corner, rows);
     const box all = box_from_camera(f, w, (box){{w->low[0], w->low[1], w->low[2]}, {w->high[0], w->high[1], w->high[2]}});
@@ -165,8 +165,8 @@ NarrowData refraction_narrow_data(const frame *f, const world *w, const gbuffer 
         .method = (int)f->scene->quality.refraction,
         .thickness = 0.5f,
         .stride = 2,
-        .place = place,
-        .looked = looks_up(f->scene->quality.refraction) ? 1 : place,
+        .ray_side = ray_side,
+        .lookup_side = looks_up(f->scene->quality.refraction) ? 1 : ray_side,
         .low_x = all.low[0],
         .low_y = all.low[1],
         .low_z = all.low[2],

@@ -141,8 +141,8 @@ static Spread spread_of_case(const bent_case *c, const double direction[3])
     narrow_data = (NarrowData){
         .ratio = (float)c->ratio,
         .side = 1,
-        .place = 1,
-        .looked = 1,
+        .ray_side = 1,
+        .lookup_side = 1,
         .depth_x = (float)c->forward[0],
         .depth_y = (float)c->forward[1],
         .depth_z = (float)c->forward[2],
