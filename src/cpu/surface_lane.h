@@ -33,7 +33,7 @@ KERNEL vec3 SURFACE_CORNER(CTX cx, int triangle, int i) { return vec3_of(cx->sur
 KERNEL vec3 SURFACE_NORMAL(CTX cx, int triangle) { return vec3_of(cx->surface[triangle].normal); }
 KERNEL int SURFACE_NEIGHBOUR(CTX cx, int triangle, int i) { return cx->surface[triangle].neighbours[i]; }
 
-KERNEL bool IS_ASKED(CTX cx, int triangle)
+KERNEL bool IS_TESTED(CTX cx, int triangle)
 {
     bool asked = false;
     for (size_t i = 0; i < cx->asked_count && !asked; i++)

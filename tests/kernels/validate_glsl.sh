@@ -44,7 +44,7 @@ int SURFACE_NEIGHBOUR(int cx, int triangle, int i);
 bool IS_IN_LAYER(int cx, int layer, float column, float row);
 int SHOWN_TRIANGLE(int cx, int layer, float column, float row);
 bool SURFACE_KNOWN(int cx, int triangle);
-bool IS_ASKED(int cx, int triangle);
+bool IS_TESTED(int cx, int triangle);
 #define ALONG_RAY(cx, end, nearest, i) vec2(nearest, i)
 #define TEXTURE_NAME int
 struct TextureLevel { float width, height; };

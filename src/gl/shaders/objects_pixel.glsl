@@ -126,7 +126,7 @@ vec3 SURFACE_CORNER(int cx, int triangle, int i) { return texelFetch(vertex_tabl
 
 /* Invocations keep no list of triangles. */
 #define SURFACE_KNOWN(cx, triangle) false
-#define IS_ASKED(cx, triangle) false
+#define IS_TESTED(cx, triangle) false
 #define IS_IN_LAYER(cx, layer, column, row) ((column) >= 0.0f && (row) >= 0.0f && (column) < narrow_data.columns && (row) < narrow_data.rows)
 #define SHOWN_TRIANGLE(cx, layer, column, row) layer_triangle(layer, ivec2(int(column), int(row)))
 #define ALONG_RAY(cx, end, nearest, i) place_along_ray(end.layer, end.from, end.direction, nearest, i)
