@@ -56,7 +56,7 @@ static void fxaa_row(void *argument, size_t y)
         const int column = x + s.dx, row = (int)y + s.dy;
         const bool inside = column >= 0 && row >= 0 && column < width && row < height;
         const size_t to = y * in->width + (size_t)x, from = inside ? (size_t)row * in->width + (size_t)column : to;
-        const BlendPixel p = blend_mixed(NULL, pixel_of(in, to), pixel_of(in, from), s.amount);
+        const BlendPixel p = blend_lerp(NULL, pixel_of(in, to), pixel_of(in, from), s.amount);
         memcpy(out->color + 3 * to, &p.color, sizeof p.color);
         out->coverage[to] = p.coverage;
         out->water[to] = p.water;

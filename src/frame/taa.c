@@ -60,8 +60,8 @@ static BlendPixel history_at(const picture_planes *p, ReprojectedPixel at)
     const uint32_t x0 = (uint32_t)at.column, y0 = (uint32_t)at.row, x1 = x0 + 1 < p->width ? x0 + 1 : x0, y1 = y0 + 1 < p->height ? y0 + 1 : y0;
     const float u = at.column - (float)x0, v = at.row - (float)y0;
     const size_t high = (size_t)y0 * p->width, low = (size_t)y1 * p->width;
-    const BlendPixel above = blend_mixed(NULL, pixel_of(p, high + x0), pixel_of(p, high + x1), u);
-    return blend_mixed(NULL, above, blend_mixed(NULL, pixel_of(p, low + x0), pixel_of(p, low + x1), u), v);
+    const BlendPixel above = blend_lerp(NULL, pixel_of(p, high + x0), pixel_of(p, high + x1), u);
+    return blend_lerp(NULL, above, blend_lerp(NULL, pixel_of(p, low + x0), pixel_of(p, low + x1), u), v);
 }
 
 static BlendPixel blended(const taa_step *s, const Reprojection *history, uint32_t x, uint32_t y)

@@ -22,5 +22,5 @@ void main()
     ivec2 from = texel + ivec2(int(s.dx), int(s.dy));
     if (any(lessThan(from, ivec2(0))) || any(greaterThanEqual(from, blend_size())))
         from = texel;
-    store_blend(texel, blend_mixed(0, pixel_of_current(texel), pixel_of_current(from), s.amount));
+    store_blend(texel, blend_lerp(0, pixel_of_current(texel), pixel_of_current(from), s.amount));
 }

@@ -21,9 +21,9 @@ BlendPixel history_at(vec2 at)
 {
     ivec2 first = ivec2(at), second = min(first + 1, blend_size() - 1);
     vec2 t = at - vec2(first);
-    BlendPixel above = blend_mixed(0, pixel_of_history(first), pixel_of_history(ivec2(second.x, first.y)), t.x);
-    BlendPixel below = blend_mixed(0, pixel_of_history(ivec2(first.x, second.y)), pixel_of_history(second), t.x);
-    return blend_mixed(0, above, below, t.y);
+    BlendPixel above = blend_lerp(0, pixel_of_history(first), pixel_of_history(ivec2(second.x, first.y)), t.x);
+    BlendPixel below = blend_lerp(0, pixel_of_history(ivec2(first.x, second.y)), pixel_of_history(second), t.x);
+    return blend_lerp(0, above, below, t.y);
 }
 
 void main()
