@@ -187,10 +187,13 @@ KERNEL real real_fma(real a, real b, real c) { return a * b + c; }
 #define NOT(a) mask_not(a)
 #define SELECT(m, a, b) real_select(m, MGT_LIFT(a), MGT_LIFT(b))
 
-/* ---- Scalars ---- */
+KERNEL mask no_lane(CTX cx) { return (mask){0}; }
+KERNEL mask every_lane(CTX cx) { return NOT(no_lane(cx)); }
 
 #define real(u) real_broadcast(u)
 /* One instruction: min is a < b ? a : b, max is a > b ? a : b. */
+/* ---- Scalars ---- */
+
 #define min(a, b) real_min(MGT_LIFT(a), MGT_LIFT(b))
 #define max(a, b) real_max(MGT_LIFT(a), MGT_LIFT(b))
 #define clamp(x, low, high) real_min(real_max(MGT_LIFT(x), MGT_LIFT(low)), MGT_LIFT(high))
