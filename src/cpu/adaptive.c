@@ -85,7 +85,7 @@ static void plant_tile(void *argument, size_t tile, uint32_t worker)
             l.column = x;
             l.row = y;
             f->hit_height[to] = l.water >= 1 ? l.height : NAN;
-            f->weight[to] = lane_weight(&a->frame->data, l.color, detail->shown[from]);
+            f->weight[to] = lane_weight(&a->frame->data, l.color, detail->display_slope_squared[from]);
             p->importance[to] = sqrtf(l.variance);
             p->samples[to] = l.water > 0 ? (float)t->cost[0] : 0;
             t->spent += (double)p->samples[to];

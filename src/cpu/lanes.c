@@ -440,7 +440,7 @@ static void store_cell(tile_pixels *out, tile_detail *detail, size_t i, CellResu
         store(detail->height + i, c.height);
         store(detail->variance + i, c.variance);
         store(detail->contrast + i, c.contrast);
-        store(detail->shown + i, c.shown);
+        store(detail->display_slope_squared + i, c.display_slope_squared);
         store(detail->aspect + i, c.aspect);
         store(detail->places + i, c.places);
     }

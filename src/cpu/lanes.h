@@ -39,7 +39,7 @@ typedef struct tile_pixels {
 
 /* How a pixel or cell of method `mangata` goes on, see cells.k. */
 typedef struct tile_detail {
-    float height[TILE_PIXELS], variance[TILE_PIXELS], contrast[TILE_PIXELS], shown[TILE_PIXELS], aspect[TILE_PIXELS], places[TILE_PIXELS];
+    float height[TILE_PIXELS], variance[TILE_PIXELS], contrast[TILE_PIXELS], display_slope_squared[TILE_PIXELS], aspect[TILE_PIXELS], places[TILE_PIXELS];
 } tile_detail;
 
 /* What the pixels of a tile see of objects through the surface and mirrored by it, see pixel.k. Kernels read the planes by their numbers. */

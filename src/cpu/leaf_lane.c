@@ -13,10 +13,10 @@
 
 uint8_t lane_split(float aspect) { return (uint8_t)leaf_split(NULL, aspect); }
 
-float lane_weight(const FrameData *frame, const float color[3], float shown)
+float lane_weight(const FrameData *frame, const float color[3], float display_slope_squared)
 {
     const struct kernel_context cx = {.frame = frame};
-    return leaf_weight(&cx, vec3(color[0], color[1], color[2]), shown);
+    return leaf_weight(&cx, vec3(color[0], color[1], color[2]), display_slope_squared);
 }
 
 float lane_parts_contrast(float own, const float parts[4]) { return parts_contrast(NULL, own, parts[0], parts[1], parts[2], parts[3]); }

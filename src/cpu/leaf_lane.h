@@ -11,8 +11,8 @@
 /* SPLIT_… for an aspect of CellResult. */
 uint8_t lane_split(float aspect);
 
-/* What a squared error of a pixel of this colour is worth; `shown` as in CellResult. */
-float lane_weight(const FrameData *frame, const float color[3], float shown);
+/* What a squared error of a pixel of this colour is worth; `display_slope_squared` as in CellResult. */
+float lane_weight(const FrameData *frame, const float color[3], float display_slope_squared);
 
 /* What one of a leaf's four parts, of its own contrast, counts with under a sky, from the contrasts of all. */
 float lane_parts_contrast(float own, const float parts[4]);

@@ -28,7 +28,7 @@ CellResult nothing_but_sky(PixelRay p)
     cell.height = 0.0f;
     cell.variance = 0.0f;
     cell.contrast = 0.0f;
-    cell.shown = 0.0f;
+    cell.display_slope_squared = 0.0f;
     cell.places = 1.0f;
     cell.aspect = 1.0f;
     return cell;
@@ -84,7 +84,7 @@ void main()
     l.variance = cell.variance;
     l.contrast = cell.contrast;
     set_leaf(leaf, l);
-    pixel_data[leaf] = vec2(leaf_weight(0, cell.pixel.color, cell.shown), cell.pixel.water >= 1.0f ? cell.height : INFINITE);
+    pixel_data[leaf] = vec2(leaf_weight(0, cell.pixel.color, cell.display_slope_squared), cell.pixel.water >= 1.0f ? cell.height : INFINITE);
     imageStore(color_image, pixel.texel, vec4(0.0f, 0.0f, 0.0f, 1.0f));
     imageStore(coverage_image, pixel.texel, vec4(0.0f));
     imageStore(water_image, pixel.texel, vec4(0.0f));

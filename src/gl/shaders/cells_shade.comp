@@ -23,7 +23,7 @@ CellResult nothing_but_sky(PixelRay p)
     cell.height = 0.0f;
     cell.variance = 0.0f;
     cell.contrast = 0.0f;
-    cell.shown = 0.0f;
+    cell.display_slope_squared = 0.0f;
     cell.places = 1.0f;
     cell.aspect = 1.0f;
     return cell;
