@@ -3,10 +3,10 @@
 #ifndef MANGATA_BASE_FOAM_NUMBERS_H
 #define MANGATA_BASE_FOAM_NUMBERS_H
 
-#define FOAM_MOMENTS 4    /* that its age is made of; the first is now */
-#define FOAM_OCTAVES 7    /* of its patterns */
-#define FOAM_SINES 42     /* of a pattern, as many an octave */
-#define FOAM_FINE 0.2f    /* deviation of what a pattern has beyond them */
-#define FOAM_LONGER 0.45f /* of the slopes' deviation: what counts where faces are seen, see foam_sight() */
+#define FOAM_MOMENTS 4    /* number of moments whose foam is shown; moment 0 is now */
+#define FOAM_OCTAVES 7    /* octaves of wavelengths of a foam pattern */
+#define FOAM_SINES 42     /* sines of a foam pattern, the same number in each octave */
+#define FOAM_FINE 0.2f    /* standard deviation of the part of a pattern that its sines leave out */
+#define FOAM_LONGER 0.45f /* fraction of the slopes' standard deviation that counts for the visibility of breaking waves, see foam_sight() */
 
 #endif

@@ -111,7 +111,7 @@
 
 #define EDGE_PLACES 8          /* places in a pixel that look for objects at edges */
 #define EDGE_PART 0.125f       /* part of the pixel's area, and so of its footprint's variances, that one of them stands for */
-#define EDGE_STEPS 8           /* triangles that a place of a pixel at an edge is looked for on, over the surface of each triangle that is shown */
+#define EDGE_STEPS 8           /* largest number of neighbouring triangles that the search for a place of an edge pixel follows */
 #define EDGE_RAYS 4            /* rays of a pixel at an outline behind the surface, besides the one through its centre */
 #define SURFACE_STEPS 128      /* largest number of triangles that a ray visits to find its own */
 #define SHARP_PLACES 16        /* pixels along a ray's image in a layer that are tried where the search did not converge */
@@ -159,7 +159,7 @@
 
 /* How often a ray behind the surface is followed when it meets the surface again. */
 #define MOST_AGAIN 6
-/* A part of such a ray's light that is at least so large stands for all of it. */
+/* A ray is not split if its greater part holds at least this fraction of the light. */
 #define LEAST_WHOLE 0.98f
 
 /* ---- method adaptive, scheme podee: see slots_data.glsl ---- */

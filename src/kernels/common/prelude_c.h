@@ -18,8 +18,10 @@
  *  4. KERNEL before each function, CTX cx its first parameter; values are returned, several by a STRUCT. No out
  *     parameters, pointers, recursion, statics or globals.
  *  5. Data come from named accessors (WAVE(cx, i), ...) that each backend defines.
- *  6. Literals end in f. No casts, no int times real, no arrays indexed per lane, no directives but #include "x.k" and
- *     #pragma once, no name that GLSL reserves (active, common, filter, input, output, sample, ...), no member called length.
+ *  6. Literals end in f. No casts, no int times real, no arrays indexed per lane, no name that GLSL reserves (active, common, filter, input,
+ *     output, sample, ...), no member called length. Directives: #include, #pragma once, #define of a constant or an accessor, and #ifndef
+ *     around a file or around a default of an accessor. A part for shaders alone stands behind one #ifdef at the end of its file and need not
+ *     keep these rules.
  *  7. Every operation here is exactly rounded and the kernels are built with -ffp-contract=off, so that every lane width
  *     with fused multiply-add gives the same bits. SSE2 (4 lanes), where fma(a,b,c) is a*b+c, is outside that promise, as is WebAssembly.
  *  8. `double` is uniform and GLSL ES has none: only files that the page does without use it. DOUBLE(x) converts; constants are quotients of whole
@@ -190,10 +192,10 @@ KERNEL real real_fma(real a, real b, real c) { return a * b + c; }
 KERNEL mask no_lane(CTX cx) { return (mask){0}; }
 KERNEL mask every_lane(CTX cx) { return NOT(no_lane(cx)); }
 
-#define real(u) real_broadcast(u)
-/* One instruction: min is a < b ? a : b, max is a > b ? a : b. */
 /* ---- Scalars ---- */
 
+#define real(u) real_broadcast(u)
+/* One instruction: min is a < b ? a : b, max is a > b ? a : b. */
 #define min(a, b) real_min(MGT_LIFT(a), MGT_LIFT(b))
 #define max(a, b) real_max(MGT_LIFT(a), MGT_LIFT(b))
 #define clamp(x, low, high) real_min(real_max(MGT_LIFT(x), MGT_LIFT(low)), MGT_LIFT(high))
