@@ -20,6 +20,17 @@
 #define WAVE_RESOLVED 1
 #define WAVE_MIXED 2
 
+/* Cycles per pixel from which nothing of a wave is resolved, f₀ of resolved.k. Methods podee-* and bruneton have ramps of their own, and so has
+ * what is seen through the surface. */
+#define RESOLVED_END 1.2f
+#define RESOLVED_SCALE (1.0f / (RESOLVED_END * RESOLVED_END))
+
+/* Pixels per wavelength between which method bruneton turns waves into geometry. */
+#define BRUNETON_LEAST 1.0f
+#define BRUNETON_MOST 2.5f
+
+#define FACING_LEAST 0.4f /* a mean slope is turned until the eye sees at least this fraction of what it sees of level water, see facing_slope() */
+
 /* Places of TileSums.value, the sums over a tile's waves; TILE_SUM_LARGEST and TILE_SUM_MOST are maxima. */
 #define TILE_SUM_LOST 0     /* five values: slope covariance xx, xz, zz of the unresolved waves, filtered_octave, filtered_octave_sq */
 #define TILE_SUM_SEARCHED 5 /* six values of all searched waves: height, slope and second derivative, each followed by its variance */
