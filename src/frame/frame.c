@@ -68,8 +68,10 @@ static void set_method(frame *f)
     const method_row *row = method_of(q->method);
     const bool podee = row->transition == TRANSITION_PODEE, keep = row->keeps_phases;
     const double width = q->transition_hard ? 0 : q->transition_width != 0 ? q->transition_width : 0.3;
-    const bool bruneton = row->transition == TRANSITION_BRUNETON; /* 2.5 to 1 pixels a wavelength, see bruneton.k */
-    const double end = podee ? 0.5 : bruneton ? 1.0 : 1.2, start = podee ? end - width : bruneton ? 0.4 : 0.1; /* cycles per pixel */
+    const bool bruneton = row->transition == TRANSITION_BRUNETON;
+    /* Cycles per pixel. */
+    const double end = podee ? 0.5 : bruneton ? 1 / (double)BRUNETON_LEAST : (double)RESOLVED_END;
+    const double start = podee ? end - width : bruneton ? 1 / (double)BRUNETON_MOST : 0.1;
     FrameData *d = &f->data;
     d->ramp_start = (float)start;
     d->ramp_scale = (float)(podee ? width > 0 ? 1 / width : 1e9 : 1 / (end * end));
