@@ -75,7 +75,7 @@ static void run_rows(frame_stage stage, const struct kernel_context *cx, int fir
         /* All of the state has to come out, else compilers leave out sums. */
         store(out->red + i, state.open.x + state.open.y + state.variance_xx + state.variance_xz + state.variance_zz);
         store(out->green + i, state.close.x + state.close.y + state.bend_xx + state.bend_xz + state.bend_zz);
-        store(out->blue + i, state.octave + state.octave_sq + state.mirror.j_ex + state.mirror.j_ez + state.mirror.j_fx + state.mirror.j_fz);
+        store(out->blue + i, state.octave + state.octave_sq + state.mirror.j.ex + state.mirror.j.ez + state.mirror.j.fx + state.mirror.j.fz);
         if (stage == STAGE_COVERAGE)
             store(out->coverage + i, glitter_coverage(&context, state, state));
     }

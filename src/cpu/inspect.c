@@ -67,7 +67,7 @@ static void find_hit(const frame *f, const struct kernel_context *cx, tile_pixel
 /* J S Jᵀ of a covariance xx, xz, zz. */
 static void map_covariance(const Mirror *m, const double s[3], double out[3])
 {
-    const double ex = (double)m->j_ex, ez = (double)m->j_ez, fx = (double)m->j_fx, fz = (double)m->j_fz;
+    const double ex = (double)m->j.ex, ez = (double)m->j.ez, fx = (double)m->j.fx, fz = (double)m->j.fz;
     out[0] = ex * ex * s[0] + 2 * ex * ez * s[1] + ez * ez * s[2];
     out[1] = ex * fx * s[0] + (ex * fz + ez * fx) * s[1] + ez * fz * s[2];
     out[2] = fx * fx * s[0] + 2 * fx * fz * s[1] + fz * fz * s[2];

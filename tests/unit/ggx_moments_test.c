@@ -79,7 +79,7 @@ static void kernel_is_the_engines_product(void **state)
                       .radius = (double)b->frame.data.lights[0].disk_radius};
         const SlopeGaussian g = {vec2((float)c.mean[0], (float)c.mean[1]), (float)c.covariance[0], (float)c.covariance[1], (float)c.covariance[2]};
         const double exact =
-            engine_coverage(&c, (double[]){(double)m.slope.x, (double)m.slope.y}, (double[]){(double)m.j_ex, (double)m.j_ez, (double)m.j_fx, (double)m.j_fz});
+            engine_coverage(&c, (double[]){(double)m.slope.x, (double)m.slope.y}, (double[]){(double)m.j.ex, (double)m.j.ez, (double)m.j.fx, (double)m.j.fz});
         const bool faces = visible_weight(&b->cx, view, g.mean) > 0.02f && visible_weight(&b->cx, light, g.mean) > 0.02f;
         if (m.possible > 0 && faces && exact > 1e-7) {
             worst = fmax(worst, fabs((double)ggx_coverage(&b->cx, view, m, ggx_slopes(&b->cx, g)) / exact - 1));

@@ -70,7 +70,7 @@ static void jacobian_is_that_of_the_exact_map(void **state)
         double s[2], exact[2][2];
         mirror_slope(c.view, c.light, s);
         assert_true(mirror_map_jacobian(c.view, c.light, s, exact));
-        const double ours[2][2] = {{(double)m.j_ex, (double)m.j_ez}, {(double)m.j_fx, (double)m.j_fz}};
+        const double ours[2][2] = {{(double)m.j.ex, (double)m.j.ez}, {(double)m.j.fx, (double)m.j.fz}};
         double size = 0, off = 0;
         for (int j = 0; j < 4; j++) {
             size = fmax(size, fabs(exact[j / 2][j % 2]));
@@ -146,7 +146,7 @@ static void linear_map_keeps_the_probability(void **state)
             continue;
         const Mirror m = mirror_of(&c);
         const vec2 at = mirror_to_light(&c.cx, m, vec2((float)mean[0] - m.slope.x, (float)mean[1] - m.slope.y));
-        const double j[2][2] = {{(double)m.j_ex, (double)m.j_ez}, {(double)m.j_fx, (double)m.j_fz}};
+        const double j[2][2] = {{(double)m.j.ex, (double)m.j.ez}, {(double)m.j.fx, (double)m.j.fz}};
         double on_plane[3];
         for (int k = 0; k < 3; k++) {
             const double *p = j[k == 2], *q = j[k > 0];

@@ -156,7 +156,7 @@ static void light_point_is_the_exact_map(void **state)
             continue;
         const LightPoint p = light_point(&cx, vec3((float)view[0], (float)view[1], (float)view[2]), vec2((float)slope[0], (float)slope[1]));
         position = fmax(position, hypot((double)p.position.x - exact[0], (double)p.position.y - exact[1]));
-        const double ours[4] = {(double)p.j_ex, (double)p.j_ez, (double)p.j_fx, (double)p.j_fz};
+        const double ours[4] = {(double)p.j.ex, (double)p.j.ez, (double)p.j.fx, (double)p.j.fz};
         double size = 0, off = 0;
         for (int k = 0; k < 4; k++) {
             size = fmax(size, fabs(exact_jacobian[k / 2][k % 2]));

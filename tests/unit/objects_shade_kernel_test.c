@@ -308,7 +308,7 @@ static void slopes_bend_the_view_to_the_light(void **state)
             assert_true(dot3(bent, light) > 0);
         }
         const double j[4] = {(end[1][0] - end[0][0]) / h, (end[2][0] - end[0][0]) / h, (end[1][1] - end[0][1]) / h, (end[2][1] - end[0][1]) / h};
-        const double found[4] = {(double)m.j_ex, (double)m.j_ez, (double)m.j_fx, (double)m.j_fz};
+        const double found[4] = {(double)m.j.ex, (double)m.j.ez, (double)m.j.fx, (double)m.j.fz};
         assert_true(hypot(end[0][0], end[0][1]) < 2e-5);
         for (int k = 0; k < 4; k++)
             assert_true(fabs(found[k] - j[k]) < 3e-3 * (1 + fabs(j[k])));
