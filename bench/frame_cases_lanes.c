@@ -19,10 +19,10 @@ static size_t evaluations;
 
 #include "kernels/common/disk_path.k"
 
-static real keeping_disk_path(CTX cx, vec2 p0, vec2 p1, real sxx, real sxy, real syy, real radius)
+static real keeping_disk_path(CTX cx, vec2 p0, vec2 p1, Symmetric covariance, real radius)
 {
     const size_t before = evaluations;
-    const real share = gaussian_disk_path(cx, p0, p1, sxx, sxy, syy, radius);
+    const real share = gaussian_disk_path(cx, p0, p1, covariance, radius);
     disk_path_cases *k = kept;
     if (!k)
         return share;
@@ -32,7 +32,7 @@ static real keeping_disk_path(CTX cx, vec2 p0, vec2 p1, real sxx, real sxy, real
         return share;
     k->in_reach++;
     if (k->count < k->capacity) {
-        const real values[DISK_PATH_INPUTS] = {p0.x, p0.y, p1.x, p1.y, sxx, sxy, syy, radius};
+        const real values[DISK_PATH_INPUTS] = {p0.x, p0.y, p1.x, p1.y, covariance.xx, covariance.xz, covariance.zz, radius};
         __builtin_memcpy(k->values + k->count++ * DISK_PATH_INPUTS * MGT_LANES, values, sizeof values);
     }
     return share;
@@ -52,7 +52,7 @@ static float replay(const disk_path_cases *cases, size_t first, size_t count)
         const float *v = cases->values + i * DISK_PATH_INPUTS * MGT_LANES;
         real in[DISK_PATH_INPUTS];
         __builtin_memcpy(in, v, sizeof in);
-        sum = sum + gaussian_disk_path(&context, (vec2){in[0], in[1]}, (vec2){in[2], in[3]}, in[4], in[5], in[6], in[7]);
+        sum = sum + gaussian_disk_path(&context, (vec2){in[0], in[1]}, (vec2){in[2], in[3]}, (Symmetric){in[4], in[5], in[6]}, in[7]);
     }
     float lanes[MGT_LANES];
     __builtin_memcpy(lanes, &sum, sizeof lanes);

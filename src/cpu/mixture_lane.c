@@ -46,6 +46,6 @@ double mixture_path_fraction(const podee_tables *tables, mgt_mixture kernels, co
 {
     const FrameData data = {.podee_kernels = (int)kernels, .podee_elongation = 1e6f};
     const struct kernel_context cx = {.frame = &data, .podee = tables};
-    return (double)mixture_disk_path(&cx, vec2((float)from[0], (float)from[1]), vec2((float)to[0], (float)to[1]), (float)covariance[0], (float)covariance[1],
-                                     (float)covariance[2], 1);
+    const Symmetric on_light = {(float)covariance[0], (float)covariance[1], (float)covariance[2]};
+    return (double)mixture_disk_path(&cx, vec2((float)from[0], (float)from[1]), vec2((float)to[0], (float)to[1]), on_light, 1);
 }

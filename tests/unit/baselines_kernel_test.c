@@ -99,7 +99,7 @@ static void bruneton_is_the_limit_of_small_lights(void **state)
         const Mirror m = mirror_at(&b->cx, view);
         const double sx = random_range(&r, 0.05, 0.2), sz = random_range(&r, 0.05, 0.2);
         const vec2 mean = vec2((float)random_range(&r, -0.05, 0.05), (float)random_range(&r, -0.05, 0.05));
-        const SlopeGaussian g = slope_gaussian(&b->cx, mean, (float)(sx * sx), (float)(0.3 * sx * sz), (float)(sz * sz));
+        const SlopeGaussian g = slope_gaussian(&b->cx, mean, (Symmetric){(float)(sx * sx), (float)(0.3 * sx * sz), (float)(sz * sz)});
         const double disk = (double)leadr_coverage(&b->cx, view, m, g), point = (double)bruneton_coverage(&b->cx, view, m, g);
         if (disk > 1e-7 && (double)visible_weight(&b->cx, view, g.mean) > 0.02) {
             worst = fmax(worst, fabs(point / disk - 1));

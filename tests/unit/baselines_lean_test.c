@@ -161,7 +161,8 @@ static void masking_is_its_integral(void **state)
         const double v[3] = {cos(elevation) * cos(azimuth), sin(elevation), cos(elevation) * sin(azimuth)};
         const double mean[2] = {random_range(&r, -0.02, 0.02), random_range(&r, -0.02, 0.02)};
         const double sx = random_range(&r, 0.02, 0.2), sz = random_range(&r, 0.02, 0.2), c = random_range(&r, -0.5, 0.5);
-        const SlopeGaussian g = slope_gaussian(&cx, vec2((float)mean[0], (float)mean[1]), (float)(sx * sx), (float)(c * sx * sz), (float)(sz * sz));
+        const SlopeGaussian g =
+            slope_gaussian(&cx, vec2((float)mean[0], (float)mean[1]), (Symmetric){(float)(sx * sx), (float)(c * sx * sz), (float)(sz * sz)});
         const double mu = v[1] - v[0] * mean[0] - v[2] * mean[1];
         const double sigma = sqrt(v[0] * v[0] * sx * sx + 2 * v[0] * v[2] * c * sx * sz + v[2] * v[2] * sz * sz);
         if (mu < 0.02 * v[1])

@@ -201,7 +201,7 @@ static void folds_give_numbers(void **state)
         const float s = (float)exp(random_range(&r, -6, 6)), x = (float)random_range(&r, -500, 500), z = (float)random_range(&r, -500, 500);
         const Footprint p = {{s, 0}, {0, 2 * s}};
         const vec3 view = {0.6f, (float)random_range(&r, 0.001, 0.8), 0.2f};
-        const FoamSight sight = foam_sight(&b->cx, view, (vec2){0.3f, -0.2f}, 0.2f, 0.01f, 0.3f);
+        const FoamSight sight = foam_sight(&b->cx, view, (vec2){0.3f, -0.2f}, (Symmetric){0.2f, 0.01f, 0.3f});
         const Foam foam = foam_patterned(&b->cx, foam_shares(&b->cx, x, z, p, sight), x, z, p);
         assert_true(foam.share >= 0 && foam.share <= 1);
         assert_true(foam.white >= 0 && foam.white <= 1);
@@ -228,7 +228,7 @@ static void whole_waves_need_no_split(void **state)
         for (int i = 0; i < 4000; i++) {
             const float x = (float)random_range(&r, -500, 500), z = (float)random_range(&r, -500, 500);
             const vec3 view = {0.5f, 0.3f, 0.2f};
-            const FoamSight sight = foam_sight(&b->cx, view, (vec2){0, 0}, 0.01f, 0, 0.01f);
+            const FoamSight sight = foam_sight(&b->cx, view, (vec2){0, 0}, (Symmetric){0.01f, 0, 0.01f});
             b->tile.data.whole_waves = 0;
             const FoamShares split = foam_shares(&b->cx, x, z, p, sight);
             b->tile.data.whole_waves = 0.03f / (2 * s * s);
@@ -345,7 +345,7 @@ static void half_resolved_waves_are_seen_once(void **state)
     for (int falls = 0; falls < 2; falls++)
         for (double correlation = -0.3; correlation < 0.35; correlation += 0.15) {
             const double fall = falls ? 1 : 0.1;
-            FoamSight sight = foam_sight(&cx, (vec3){1, (float)fall, 0}, (vec2){0, 0}, (float)(1 / (FOAM_LONGER * FOAM_LONGER)), 0, 0);
+            FoamSight sight = foam_sight(&cx, (vec3){1, (float)fall, 0}, (vec2){0, 0}, (Symmetric){(float)(1 / (FOAM_LONGER * FOAM_LONGER)), 0, 0});
             sight.above = 0;
             sight.kept = 1;
             for (double length = 0.2; length < 2.5; length *= 1.6) {
@@ -417,7 +417,7 @@ static void faces_are_seen_first(void **state)
                     foam += area < least ? seen : 0;
                 }
             const float wider = (float)(slope * slope / (FOAM_LONGER * FOAM_LONGER)), variance = (float)(deviation * deviation);
-            FoamSight sight = foam_sight(&cx, (vec3){1, (float)fall, 0}, (vec2){0, 0}, wider, 0, 0);
+            FoamSight sight = foam_sight(&cx, (vec3){1, (float)fall, 0}, (vec2){0, 0}, (Symmetric){wider, 0, 0});
             sight.above = 0;
             sight.kept = 1;
             const FoamMean level = {.mean = 1, .squared = 1, .skewness = 0};

@@ -127,7 +127,8 @@ static void still_water_is_a_mirror(void **state)
     kernel_bench *b = bench_of(30, 1);
     const vec3 view = normalize(vec3(0.1f, 0.5f, 0.8f));
     const Mirror m = mirror_at(&b->cx, view);
-    const SlopeGaussian in = slope_gaussian(&b->cx, m.slope, 0, 0, 0), out = slope_gaussian(&b->cx, add(m.slope, vec2(0.2f, 0)), 0, 0, 0);
+    const SlopeGaussian in = slope_gaussian(&b->cx, m.slope, (Symmetric){0, 0, 0}),
+                        out = slope_gaussian(&b->cx, add(m.slope, vec2(0.2f, 0)), (Symmetric){0, 0, 0});
     expect_below("in the light, off 1 by", fabs((double)ggx_coverage(&b->cx, view, m, ggx_slopes(&b->cx, in)) - 1), 0.02);
     expect_below("beside it", (double)ggx_coverage(&b->cx, view, m, ggx_slopes(&b->cx, out)), 1e-6);
     kernel_bench_destroy(b);

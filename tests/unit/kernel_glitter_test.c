@@ -453,7 +453,7 @@ static void sky_of_narrow_slopes_needs_two_points(void **state)
         const double sigma = k < COUNT ? 0.001 + 0.014 * (k % 20) / 20 : 0.017 + 0.033 * (k % 20) / 20;
         const double mean = 0.05 * (k % 7 - 3), fall = sigma * (2.5 + k % 10) + fmax(mean, 0);
         const vec3 view = {(float)sqrt(1 - fall * fall), (float)fall, 0};
-        const VisibleSlopes v = visible_slopes(&b->cx, view, vec2((float)mean, 0), (float)(sigma * sigma), 0, 0, 0);
+        const VisibleSlopes v = visible_slopes(&b->cx, view, vec2((float)mean, 0), (Symmetric){(float)(sigma * sigma), 0, 0}, 0);
         const double exact = mean_color(&b->cx, view, mean, sigma);
         (k < COUNT ? narrow : wide)[k % COUNT] = fabs((double)water_color_filtered(&b->cx, view, v).mean.y / exact - 1);
     }

@@ -125,8 +125,8 @@ static double share_of(const path_case *p, mgt_mixture kernels, double elongatio
     const FrameData data = {.podee_kernels = (int)kernels, .podee_elongation = (float)elongation_limit, .lights[0].disk_radius = 1};
     const struct kernel_context cx = {.frame = &data, .podee = &tables};
     const double *from = still ? p->to : p->from;
-    return (double)mixture_disk_path(&cx, vec2((float)from[0], (float)from[1]), vec2((float)p->to[0], (float)p->to[1]), (float)p->covariance[0],
-                                     (float)p->covariance[1], (float)p->covariance[2], 1);
+    return (double)mixture_disk_path(&cx, vec2((float)from[0], (float)from[1]), vec2((float)p->to[0], (float)p->to[1]),
+                                     (Symmetric){(float)p->covariance[0], (float)p->covariance[1], (float)p->covariance[2]}, 1);
 }
 
 enum { KINDS = 5 };
@@ -229,7 +229,7 @@ static void extremes_are_shares(void **state)
         const struct kernel_context cx = {.frame = &data, .podee = &tables};
         const float from[2] = {(float)(away * random_range(&r, -1, 1)), (float)(away * random_range(&r, -1, 1))};
         const float share = mixture_disk_path(&cx, vec2(from[0], from[1]), vec2((float)((double)from[0] + step), (float)((double)from[1] - step / 3)),
-                                              (float)xx, (float)xy, (float)yy, (float)radius);
+                                              (Symmetric){(float)xx, (float)xy, (float)yy}, (float)radius);
         assert_true(share >= 0 && share <= 1);
     }
 }

@@ -141,7 +141,7 @@ static void any_light_radius_uses_the_same_tables(void **state)
         const double to[2] = {from[0] + length * cos(heading), from[1] + length * sin(heading)};
         const float variance = (float)(deviation * deviation * radius * radius);
         const float share = mixture_disk_path(&cx, vec2((float)(from[0] * radius), (float)(from[1] * radius)),
-                                              vec2((float)(to[0] * radius), (float)(to[1] * radius)), variance, 0, variance, (float)radius);
+                                              vec2((float)(to[0] * radius), (float)(to[1] * radius)), (Symmetric){variance, 0, variance}, (float)radius);
         worst = fmax(worst, fabs((double)share - exact_mean(from, to, deviation)));
     }
     expect_below("circles through the whole way, radius 1e-5 to .36", worst, 2e-3);
