@@ -105,6 +105,12 @@
 #define CODE_TEXELS (TEXTURE_CODES / 4)
 #define MATERIAL_TEXELS 4
 
+/* ---- colour: luminance of linear sRGB (ITU-R BT.709) ---- */
+
+#define LUMINANCE_RED 0.2126f
+#define LUMINANCE_GREEN 0.7152f
+#define LUMINANCE_BLUE 0.0722f
+
 /* ---- glare: spline weights of the nearer and of the farther coarse texel, along each axis ---- */
 
 #define GLARE_NEAR 0.75f
