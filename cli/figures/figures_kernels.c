@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/hash.h"
 #include "cpu/mixture_lane.h"
 #include "cli/figures/figures_job.h"
 #include "cli/common/plot.h"
@@ -29,13 +30,7 @@ typedef struct random_numbers {
     uint64_t state;
 } random_numbers;
 
-static double random_between(random_numbers *r, double low, double high)
-{
-    uint64_t x = r->state += 0x9e3779b97f4a7c15u;
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-    return low + (high - low) * (double)((x ^ (x >> 31)) >> 11) * 0x1p-53;
-}
+static double random_between(random_numbers *r, double low, double high) { return low + (high - low) * hash_fraction(hash_next(&r->state)); }
 
 /* A path and a covariance as they are found in pixels, in radii of the disk. The minor deviation is log-uniform from 0.1 to 8. The path's length is log-uniform
  * from 0.01 to 10, its direction uniform. It starts within 1.5 (1 + minor deviation) of the disk's centre. */

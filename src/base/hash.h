@@ -21,4 +21,15 @@
 #include "base/hash_rounds.h"
 #undef uint
 
+/* The next output of SplitMix64. */
+static inline uint64_t hash_next(uint64_t *state)
+{
+    const uint64_t output = hash_of(*state);
+    *state += word_of(HASH_STEP_HIGH, HASH_STEP_LOW);
+    return output;
+}
+
+/* Uniform in [0, 1), from 53 bits. */
+static inline double hash_fraction(uint64_t hash) { return (double)(hash >> 11) * 0x1p-53; }
+
 #endif

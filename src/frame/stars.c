@@ -8,6 +8,8 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "base/hash.h"
+
 #define PI 3.14159265358979323846
 
 enum { CELLS = STAR_CELLS * STAR_CELLS };
@@ -37,14 +39,8 @@ double stars_mean_radiance(void)
     return sum / (2 * PI);
 }
 
-/* A random number in [0, 1), by SplitMix64. */
-static double chance(uint64_t *state)
-{
-    uint64_t x = *state += 0x9e3779b97f4a7c15u;
-    x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ x >> 27) * 0x94d049bb133111ebu;
-    return (double)((x ^ x >> 31) >> 11) * 0x1p-53;
-}
+/* A random number in [0, 1). */
+static double chance(uint64_t *state) { return hash_fraction(hash_next(state)); }
 
 static int cell_of(const float star[3])
 {

@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/hash.h"
 #include "sea/spectrum_math.h"
 #include "params/waves.h"
 
@@ -189,17 +190,8 @@ bool spectrum_bend_tail(wave_spectrum *spectrum, cox_munk slopes, spectrum_fault
 
 /* ---- waves -------------------------------------------------------------------------------------------------- */
 
-/* A uniform number in [0, 1) for a seed and a counter: the finaliser of SplitMix64. */
-static double uniform(uint32_t seed, uint64_t counter)
-{
-    uint64_t x = ((uint64_t)seed << 32 | counter) + 0x9e3779b97f4a7c15U;
-    for (int i = 0; i < 2; i++) {
-        x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9U;
-        x = (x ^ (x >> 27)) * 0x94d049bb133111ebU;
-        x ^= x >> 31;
-    }
-    return (double)(x >> 11) * 0x1p-53;
-}
+/* A uniform number in [0, 1) for a seed and a counter. */
+static double uniform(uint32_t seed, uint64_t counter) { return hash_fraction(hash_mixed(hash_of((uint64_t)seed << 32 | counter))); }
 
 static mgt_wave make_wave(const wave_spectrum *spectrum, double height_variance, double slope_variance, double direction_share, double phase)
 {
