@@ -33,11 +33,11 @@ static inline __attribute__((always_inline)) void sum_single(const water_terms *
     const wide_places places = load_places(g->x, g->z);
     for (int i = 0; i < w->count; i++) {
         const SinCos t = sincos_turns(NULL, turns_of(w, i, &places));
-        height = real_fma(t.s, real_broadcast(w->of[i].single.up), height);
-        slope_x = real_fma(t.c, real_broadcast(w->of[i].single.lean_x), slope_x);
-        slope_z = real_fma(t.c, real_broadcast(w->of[i].single.lean_z), slope_z);
+        height = real_fma(t.s, real_broadcast(w->of[i].single.height), height);
+        slope_x = real_fma(t.c, real_broadcast(w->of[i].single.slope_x), slope_x);
+        slope_z = real_fma(t.c, real_broadcast(w->of[i].single.slope_z), slope_z);
         if (moving)
-            rise = real_fma(t.c, real_broadcast(w->of[i].single.rise), rise);
+            rise = real_fma(t.c, real_broadcast(w->of[i].single.vertical_velocity), rise);
     }
     store_sum(g->height, height);
     store_sum(g->slope_x, slope_x);
@@ -52,10 +52,10 @@ static inline void sum_double(const water_terms *w, query_group *g)
         wide height = wide_of(0), slope_x = height, slope_z = height, rise = height;
         for (int i = 0; i < w->count; i++) {
             const wide_sine t = sine_of_turns(turns_at(w, i, x, z));
-            height = wide_fma(t.sine, wide_of(w->of[i].up), height);
-            slope_x = wide_fma(t.cosine, wide_of(w->of[i].lean_x), slope_x);
-            slope_z = wide_fma(t.cosine, wide_of(w->of[i].lean_z), slope_z);
-            rise = wide_fma(t.cosine, wide_of(w->of[i].rise), rise);
+            height = wide_fma(t.sine, wide_of(w->of[i].height), height);
+            slope_x = wide_fma(t.cosine, wide_of(w->of[i].slope_x), slope_x);
+            slope_z = wide_fma(t.cosine, wide_of(w->of[i].slope_z), slope_z);
+            rise = wide_fma(t.cosine, wide_of(w->of[i].vertical_velocity), rise);
         }
         wide_store(g->height + half * WIDE, height);
         wide_store(g->slope_x + half * WIDE, slope_x);
@@ -187,8 +187,8 @@ static traced_ray ray_start(const water_terms *w, double level, const double *ra
     double slope = 0;
     for (int i = 0; i < w->count; i++) {
         const double turns = w->of[i].along_x * r.direction[0] + w->of[i].along_z * r.direction[2], radians = 6.28318530717958647692 * turns;
-        slope += __builtin_fabs(w->of[i].up * radians);
-        r.bend += w->of[i].up * radians * radians;
+        slope += __builtin_fabs(w->of[i].height * radians);
+        r.bend += w->of[i].height * radians * radians;
     }
     if (w->choppy) {
         /* A wave of slope S that is pressed by P at most leans by S/√(1 − P²) at most. On its crest its curvature is that at rest over (1 − P)². So is that of
@@ -326,7 +326,7 @@ void JOIN(trace_lanes_, MGT_LANES)(const water_terms *terms, double level, const
     enum { MOST_LOOKS = 100000 };
     double crest = 1e-9;
     for (int i = 0; i < terms->count; i++)
-        crest += terms->of[i].up;
+        crest += terms->of[i].height;
     for (size_t first = 0; first < count; first += MGT_LANES) {
         traced_ray r[MGT_LANES];
         query_group g;

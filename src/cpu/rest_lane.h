@@ -77,13 +77,13 @@ static inline __attribute__((always_inline)) rest_sums rest_single(const water_t
     __builtin_memset(&d, 0, sizeof d);
     for (int i = 0; i < w->count; i++) {
         const SinCos t = sincos_turns(NULL, turns_away(w, i, s, away_x, away_z));
-        d.height = real_fma(t.s, real_broadcast(w->of[i].single.up), d.height);
-        d.slope_x = real_fma(t.c, real_broadcast(w->of[i].single.lean_x), d.slope_x);
-        d.slope_z = real_fma(t.c, real_broadcast(w->of[i].single.lean_z), d.slope_z);
+        d.height = real_fma(t.s, real_broadcast(w->of[i].single.height), d.height);
+        d.slope_x = real_fma(t.c, real_broadcast(w->of[i].single.slope_x), d.slope_x);
+        d.slope_z = real_fma(t.c, real_broadcast(w->of[i].single.slope_z), d.slope_z);
         if (moving) {
-            d.rise = real_fma(t.c, real_broadcast(w->of[i].single.rise), d.rise);
-            d.drift_x = real_fma(t.s, real_broadcast(w->of[i].single.drift_x), d.drift_x);
-            d.drift_z = real_fma(t.s, real_broadcast(w->of[i].single.drift_z), d.drift_z);
+            d.rise = real_fma(t.c, real_broadcast(w->of[i].single.vertical_velocity), d.rise);
+            d.drift_x = real_fma(t.s, real_broadcast(w->of[i].single.shift_velocity_x), d.drift_x);
+            d.drift_z = real_fma(t.s, real_broadcast(w->of[i].single.shift_velocity_z), d.drift_z);
         }
         d.shift.x = real_fma(t.c, real_broadcast(w->of[i].single.shift_x), d.shift.x);
         d.shift.z = real_fma(t.c, real_broadcast(w->of[i].single.shift_z), d.shift.z);
@@ -92,9 +92,9 @@ static inline __attribute__((always_inline)) rest_sums rest_single(const water_t
         d.shift.zz = real_fma(t.s, real_broadcast(w->of[i].single.press_zz), d.shift.zz);
         const real along_x = t.c * w->of[i].single.radians_x, along_z = t.c * w->of[i].single.radians_z, high_x = t.s * w->of[i].single.radians_x,
                    high_z = t.s * w->of[i].single.radians_z;
-        d.bend_xx = real_fma(high_x, real_broadcast(w->of[i].single.lean_x), d.bend_xx);
-        d.bend_xz = real_fma(high_x, real_broadcast(w->of[i].single.lean_z), d.bend_xz);
-        d.bend_zz = real_fma(high_z, real_broadcast(w->of[i].single.lean_z), d.bend_zz);
+        d.bend_xx = real_fma(high_x, real_broadcast(w->of[i].single.slope_x), d.bend_xx);
+        d.bend_xz = real_fma(high_x, real_broadcast(w->of[i].single.slope_z), d.bend_xz);
+        d.bend_zz = real_fma(high_z, real_broadcast(w->of[i].single.slope_z), d.bend_zz);
         d.xxx = real_fma(along_x, real_broadcast(w->of[i].single.press_xx), d.xxx);
         d.xxz = real_fma(along_z, real_broadcast(w->of[i].single.press_xx), d.xxz);
         d.xzz = real_fma(along_x, real_broadcast(w->of[i].single.press_zz), d.xzz);
@@ -112,14 +112,14 @@ static inline void rest_double(const water_terms *w, rest_group *g)
         wide xx = zero, xz = zero, zz = zero;
         for (int i = 0; i < w->count; i++) {
             const wide_sine t = sine_of_turns(turns_at(w, i, x, z));
-            height = wide_fma(t.sine, wide_of(w->of[i].up), height);
-            slope_x = wide_fma(t.cosine, wide_of(w->of[i].lean_x), slope_x);
-            slope_z = wide_fma(t.cosine, wide_of(w->of[i].lean_z), slope_z);
-            rise = wide_fma(t.cosine, wide_of(w->of[i].rise), rise);
+            height = wide_fma(t.sine, wide_of(w->of[i].height), height);
+            slope_x = wide_fma(t.cosine, wide_of(w->of[i].slope_x), slope_x);
+            slope_z = wide_fma(t.cosine, wide_of(w->of[i].slope_z), slope_z);
+            rise = wide_fma(t.cosine, wide_of(w->of[i].vertical_velocity), rise);
             shift_x = wide_fma(t.cosine, wide_of(w->of[i].shift_x), shift_x);
             shift_z = wide_fma(t.cosine, wide_of(w->of[i].shift_z), shift_z);
-            drift_x = wide_fma(t.sine, wide_of(w->of[i].drift_x), drift_x);
-            drift_z = wide_fma(t.sine, wide_of(w->of[i].drift_z), drift_z);
+            drift_x = wide_fma(t.sine, wide_of(w->of[i].shift_velocity_x), drift_x);
+            drift_z = wide_fma(t.sine, wide_of(w->of[i].shift_velocity_z), drift_z);
             xx = wide_fma(t.sine, wide_of(w->of[i].press_xx), xx);
             xz = wide_fma(t.sine, wide_of(w->of[i].press_xz), xz);
             zz = wide_fma(t.sine, wide_of(w->of[i].press_zz), zz);

@@ -337,10 +337,10 @@ static double turns_at(const mgt_wave *wave, double time)
 static void add_shift_terms(water_term *t, const mgt_wave *w, double choppiness)
 {
     const double k = hypot(w->kx, w->kz), shift = k > 0 ? choppiness / k : 0;
-    t->shift_x = shift * t->lean_x;
-    t->shift_z = shift * t->lean_z;
-    t->drift_x = -w->omega * t->shift_x;
-    t->drift_z = -w->omega * t->shift_z;
+    t->shift_x = shift * t->slope_x;
+    t->shift_z = shift * t->slope_z;
+    t->shift_velocity_x = -w->omega * t->shift_x;
+    t->shift_velocity_z = -w->omega * t->shift_z;
     t->press_xx = t->shift_x * w->kx;
     t->press_xz = t->shift_x * w->kz;
     t->press_zz = t->shift_z * w->kz;
@@ -350,8 +350,8 @@ static void add_shift_terms(water_term *t, const mgt_wave *w, double choppiness)
     t->single.radians_z = (float)w->kz;
     t->single.shift_x = (float)t->shift_x;
     t->single.shift_z = (float)t->shift_z;
-    t->single.drift_x = (float)t->drift_x;
-    t->single.drift_z = (float)t->drift_z;
+    t->single.shift_velocity_x = (float)t->shift_velocity_x;
+    t->single.shift_velocity_z = (float)t->shift_velocity_z;
     t->single.press_xx = (float)t->press_xx;
     t->single.press_xz = (float)t->press_xz;
     t->single.press_zz = (float)t->press_zz;
@@ -362,14 +362,14 @@ static void fill_term(water_term *t, const mgt_wave *w, double time)
     t->along_x = w->kx * turns_per_radian;
     t->along_z = w->kz * turns_per_radian;
     t->start = turns_at(w, time);
-    t->up = w->amplitude;
-    t->lean_x = w->amplitude * w->kx;
-    t->lean_z = w->amplitude * w->kz;
-    t->rise = w->amplitude * w->omega;
-    t->single.up = (float)t->up;
-    t->single.lean_x = (float)t->lean_x;
-    t->single.lean_z = (float)t->lean_z;
-    t->single.rise = (float)t->rise;
+    t->height = w->amplitude;
+    t->slope_x = w->amplitude * w->kx;
+    t->slope_z = w->amplitude * w->kz;
+    t->vertical_velocity = w->amplitude * w->omega;
+    t->single.height = (float)t->height;
+    t->single.slope_x = (float)t->slope_x;
+    t->single.slope_z = (float)t->slope_z;
+    t->single.vertical_velocity = (float)t->vertical_velocity;
 }
 
 /* See water_terms.folded. Water that is pressed by less than 1 folds nowhere, and by less than 1.5 only near where it was found to be pressed: compared with a

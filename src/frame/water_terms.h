@@ -9,21 +9,22 @@
 
 #include "mangata/mangata.h"
 
-/* A wave's term. With t = along_x·x + along_z·z + start turns the water has the height Σ up·sin t, the slope Σ lean·cos t and the vertical velocity
- * Σ rise·cos t. Choppy water at a place of rest is shifted by Σ shift·cos t. The shift grows by Σ drift·sin t a second. Its spatial derivative is
- * −Σ press·sin t. */
+/* A wave's term. With t = along_x·x + along_z·z + start turns the water has the height Σ height·sin t, the slope Σ slope·cos t and the vertical
+ * velocity Σ vertical_velocity·cos t. Choppy water at a place of rest is shifted by Σ shift·cos t. The shift grows by Σ shift_velocity·sin t a second. Its
+ * spatial derivative is −Σ press·sin t. */
 typedef struct water_term {
     double along_x, along_z; /* turns per metre */
     double start;            /* turns, within ±1/2 */
-    double up;               /* metres */
-    double lean_x, lean_z;
-    double rise; /* metres per second */
+    double height;           /* metres */
+    double slope_x, slope_z;
+    double vertical_velocity; /* metres per second */
     /* The members from here to `single`, and `single` as far as it repeats them, are set for choppy water alone. */
-    double shift_x, shift_z; /* metres */
-    double drift_x, drift_z; /* metres per second */
+    double shift_x, shift_z;                   /* metres */
+    double shift_velocity_x, shift_velocity_z; /* metres per second */
     double press_xx, press_xz, press_zz;
     struct {
-        float along_x, along_z, radians_x, radians_z, up, lean_x, lean_z, rise, shift_x, shift_z, drift_x, drift_z, press_xx, press_xz, press_zz;
+        float along_x, along_z, radians_x, radians_z, height, slope_x, slope_z, vertical_velocity, shift_x, shift_z, shift_velocity_x, shift_velocity_z;
+        float press_xx, press_xz, press_zz;
     } single; /* the members in single precision; radians_x and radians_z are along_x and along_z in radians per metre */
 } water_term;
 
