@@ -44,7 +44,7 @@ typedef struct mgt_gl_view {
     double view_open[16];  /* where the shutter opens; used when scene.camera_moves */
     int32_t x, y;          /* viewport in the framebuffer, pixels from its lower left corner */
     uint32_t width, height;
-    uint32_t framebuffer; /* name of yours with a colour and a depth attachment, multisampled or not; 0: the default one */
+    uint32_t framebuffer; /* name of yours with a depth attachment and a colour one as its first draw buffer, multisampled or not; 0: the default one */
     mgt_gl_color color;
     bool reversed_depth; /* nearer is greater: tested with GL_GEQUAL instead of GL_LEQUAL. Clip depth mode and depth range are yours. What projection and
                             depth range contradict is an MGT_ERROR_ARGUMENT */

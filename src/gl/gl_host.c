@@ -153,8 +153,25 @@ mgt_status gl_render_textures(void *state, const reporter *r, const mgt_scene *s
 
 /* ---- framebuffers ---- */
 
+/* What the draw buffer `buffer` of a framebuffer is called where attachments are asked for: those of the default one have sides. */
+static GLenum attachment_of(GLenum buffer)
+{
+    switch (buffer) {
+    case GL_BACK:
+        return GL_BACK_LEFT;
+    case GL_FRONT:
+    case GL_LEFT:
+    case GL_FRONT_AND_BACK:
+        return GL_FRONT_LEFT;
+    case GL_RIGHT:
+        return GL_FRONT_RIGHT;
+    default:
+        return buffer;
+    }
+}
+
 /* Checks a framebuffer of the host; 0 is the default one. `index` is the number of its view in messages. `encodes` gets whether the framebuffer encodes linear
- * colours as sRGB. */
+ * colours as sRGB. Binds it, since its draw buffers can be asked for in no other way. */
 static mgt_status check_framebuffer(const gl_api *gl, GLuint name, size_t index, bool *encodes, const reporter *r)
 {
     if (name != 0 && !gl->IsFramebuffer(name))
@@ -162,13 +179,21 @@ static mgt_status check_framebuffer(const gl_api *gl, GLuint name, size_t index,
     const GLenum state = gl->CheckNamedFramebufferStatus(name, GL_DRAW_FRAMEBUFFER);
     if (state != GL_FRAMEBUFFER_COMPLETE)
         return report_error(r, MGT_ERROR_ARGUMENT, "render.view", "view %zu: framebuffer %u is not complete (status 0x%04x)", index, name, state);
-    GLint depth = GL_NONE, color = GL_NONE, type = GL_NONE, encoding = GL_LINEAR;
-    const GLenum depth_name = name ? GL_DEPTH_ATTACHMENT : GL_DEPTH, color_name = name ? GL_COLOR_ATTACHMENT0 : GL_BACK_LEFT;
+    GLint buffer = GL_NONE, depth = GL_NONE, color = GL_NONE, type = GL_NONE, encoding = GL_LINEAR;
+    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, name);
+    gl->GetIntegerv(GL_DRAW_BUFFER0, &buffer);
+    if (buffer == GL_NONE)
+        return report_error(r, MGT_ERROR_ARGUMENT, "render.view", "view %zu: the first draw buffer of framebuffer %u is GL_NONE; a colour attachment is needed",
+                            index, name);
+    const GLenum depth_name = name ? GL_DEPTH_ATTACHMENT : GL_DEPTH, color_name = attachment_of((GLenum)buffer);
     gl->GetNamedFramebufferAttachmentParameteriv(name, depth_name, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE, &depth);
     gl->GetNamedFramebufferAttachmentParameteriv(name, color_name, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE, &color);
-    if (depth == GL_NONE || color == GL_NONE)
-        return report_error(r, MGT_ERROR_ARGUMENT, "render.view", "view %zu: framebuffer %u has no %s attachment", index, name,
-                            depth == GL_NONE ? "depth" : "first colour");
+    if (depth == GL_NONE)
+        return report_error(r, MGT_ERROR_ARGUMENT, "render.view", "view %zu: framebuffer %u has no depth attachment", index, name);
+    if (color == GL_NONE)
+        return report_error(r, MGT_ERROR_ARGUMENT, "render.view",
+                            "view %zu: nothing is attached to framebuffer %u where its first draw buffer is, 0x%04x; a colour attachment is needed", index,
+                            name, (unsigned)buffer);
     gl->GetNamedFramebufferAttachmentParameteriv(name, color_name, GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE, &type);
     if (type == GL_INT || type == GL_UNSIGNED_INT)
         return report_error(r, MGT_ERROR_ARGUMENT, "render.view",

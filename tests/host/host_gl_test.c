@@ -419,6 +419,70 @@ static void upper_left_origin(void **state)
     stop(&e);
 }
 
+/* A framebuffer with a colour at two attachments, of which the second is the first draw buffer. */
+typedef struct two_colors {
+    GLuint framebuffer, color[2], depth;
+} two_colors;
+
+static two_colors make_two_colors(GLenum first, GLenum second)
+{
+    two_colors t;
+    const GLenum formats[] = {first, second};
+    glCreateFramebuffers(1, &t.framebuffer);
+    glCreateRenderbuffers(2, t.color);
+    glCreateRenderbuffers(1, &t.depth);
+    for (int i = 0; i < 2; i++)
+        if (formats[i] != GL_NONE) {
+            glNamedRenderbufferStorage(t.color[i], formats[i], WIDTH, HEIGHT);
+            glNamedFramebufferRenderbuffer(t.framebuffer, GL_COLOR_ATTACHMENT0 + (GLenum)i, GL_RENDERBUFFER, t.color[i]);
+        }
+    glNamedRenderbufferStorage(t.depth, GL_DEPTH_COMPONENT32F, WIDTH, HEIGHT);
+    glNamedFramebufferRenderbuffer(t.framebuffer, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, t.depth);
+    glNamedFramebufferDrawBuffer(t.framebuffer, GL_COLOR_ATTACHMENT1);
+    glNamedFramebufferReadBuffer(t.framebuffer, GL_COLOR_ATTACHMENT1);
+    return t;
+}
+
+static void delete_two_colors(two_colors *t)
+{
+    glDeleteFramebuffers(1, &t->framebuffer);
+    glDeleteRenderbuffers(2, t->color);
+    glDeleteRenderbuffers(1, &t->depth);
+}
+
+/* A view asks the attachment that it draws into whether it encodes colours itself, and whether it holds integers. */
+static void the_first_draw_buffer_counts(void **state)
+{
+    (void)state;
+    static picture plain, drawn;
+    mgt_wave waves[WAVES];
+    make_waves(waves);
+    const mgt_scene scene = make_scene(waves, test_time);
+    engine e = start(DEPTH_REVERSED);
+    mgt_gl_view view = whole_view(&e);
+    view.color = MGT_GL_COLOR_DISPLAY;
+    clear(&e);
+    draw_views(&e, &scene, &view, 1);
+    read_picture(e.framebuffer, &plain);
+    assert_lively(&plain);
+    static const GLenum formats[][2] = {{GL_RGBA8, GL_SRGB8_ALPHA8}, {GL_SRGB8_ALPHA8, GL_RGBA8}, {GL_RGBA8UI, GL_RGBA8}, {GL_NONE, GL_RGBA8}};
+    for (size_t i = 0; i < sizeof formats / sizeof *formats; i++) {
+        two_colors t = make_two_colors(formats[i][0], formats[i][1]);
+        glBindFramebuffer(GL_FRAMEBUFFER, t.framebuffer);
+        glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+        view.framebuffer = t.framebuffer;
+        glEnable(GL_FRAMEBUFFER_SRGB);
+        draw_views(&e, &scene, &view, 1);
+        glDisable(GL_FRAMEBUFFER_SRGB);
+        read_picture(t.framebuffer, &drawn);
+        const long different = count_different(&plain, &drawn, 2);
+        if (different > 0)
+            fail_msg("formats %zu: %ld pixels are others", i, different);
+        delete_two_colors(&t);
+    }
+    stop(&e);
+}
+
 /* Framebuffer 0, which only a surface brings: here one without a window, in a context of its own. */
 static void default_framebuffer(void **state)
 {
@@ -642,6 +706,15 @@ static void wrong_views_are_refused(void **state)
     expect_refused(&e, v, MGT_ERROR_ARGUMENT, "nothing attached");
     glNamedFramebufferRenderbuffer(framebuffer, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, color);
     expect_refused(&e, v, MGT_ERROR_ARGUMENT, "no depth attached");
+    two_colors t = make_two_colors(GL_RGBA8, GL_RGBA8UI);
+    v.framebuffer = t.framebuffer;
+    expect_refused(&e, v, MGT_ERROR_ARGUMENT, "integers where the first draw buffer is");
+    glNamedFramebufferDrawBuffer(t.framebuffer, GL_NONE);
+    expect_refused(&e, v, MGT_ERROR_ARGUMENT, "no draw buffer");
+    assert_non_null(strstr(mgt_last_error(e.mangata), "draw buffer of framebuffer"));
+    glNamedFramebufferDrawBuffer(t.framebuffer, GL_COLOR_ATTACHMENT5);
+    expect_refused(&e, v, MGT_ERROR_ARGUMENT, "a draw buffer with nothing attached");
+    delete_two_colors(&t);
     v.framebuffer = 999;
     expect_refused(&e, v, MGT_ERROR_ARGUMENT, "no such framebuffer");
     v.framebuffer = 0;
@@ -680,9 +753,10 @@ static void wrong_views_are_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bodies_meet_the_water),    cmocka_unit_test(view_is_the_picture),        cmocka_unit_test(parts_make_the_whole),
-        cmocka_unit_test(multisampled_framebuffer), cmocka_unit_test(upper_left_origin),          cmocka_unit_test(default_framebuffer),
-        cmocka_unit_test(state_is_as_before),       cmocka_unit_test(steady_frames_cost_nothing), cmocka_unit_test(wrong_views_are_refused),
+        cmocka_unit_test(bodies_meet_the_water),        cmocka_unit_test(view_is_the_picture),        cmocka_unit_test(parts_make_the_whole),
+        cmocka_unit_test(multisampled_framebuffer),     cmocka_unit_test(upper_left_origin),          cmocka_unit_test(default_framebuffer),
+        cmocka_unit_test(state_is_as_before),           cmocka_unit_test(steady_frames_cost_nothing), cmocka_unit_test(wrong_views_are_refused),
+        cmocka_unit_test(the_first_draw_buffer_counts),
     };
     engine e;
     if (!headless_gl_start())
