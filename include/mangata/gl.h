@@ -10,8 +10,8 @@
  *
  *   State       what these calls change is put back before they return: program, buffer and texture bindings they use, vertex array,
  *               framebuffers, viewport, depth, blend, colour mask, cull, scissor and stencil tests, sRGB writes, pixel store. Objects
- *               are made with direct state access. Your debug groups are untouched, and glGetError() stays clean: an error
- *               that you left pending is logged and cleared.
+ *               are made with direct state access. Your debug groups are untouched; where they fill their stack, passes have none.
+ *               glGetError() stays clean: an error that you left pending is logged and cleared; mgt_context_create() clears it, too.
  *   Waiting     only mgt_render() waits for the GPU. Parameters change from frame to frame without building a shader anew; a
  *               method's first frame builds its programs.
  *   Memory      buffers grow with the largest frame and the number of waves seen; a steady loop allocates nothing.

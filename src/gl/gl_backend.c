@@ -14,27 +14,40 @@
 
 static mgt_status check_lost(const gl_backend_state *s, const reporter *r)
 {
-    if (s->renderer->gl.GetGraphicsResetStatus() == GL_NO_ERROR)
-        return MGT_OK;
-    return report_error(r, MGT_ERROR_LOST, "gl.lost", "the OpenGL context was lost (the GPU was reset); create a new context");
+    return s->renderer->gl.GetGraphicsResetStatus() == GL_NO_ERROR ? MGT_OK : gl_report_lost(r);
+}
+
+/* Our own context. */
+static mgt_status enter_own(gl_backend_state *s, gl_scope *scope, const reporter *r)
+{
+    mgt_status status = gl_egl_enter(s->egl, &scope->egl, r);
+    if (status != MGT_OK)
+        return status;
+    status = check_lost(s, r);
+    if (status != MGT_OK)
+        gl_egl_leave(s->egl, &scope->egl);
+    return status;
+}
+
+/* A lost context answers no questions about its state. */
+static mgt_status enter_host(gl_backend_state *s, gl_scope *scope, const reporter *r)
+{
+    mgt_status status = check_lost(s, r);
+    if (status == MGT_OK && gl_clear_errors(&s->renderer->gl, r))
+        status = gl_report_lost(r);
+    if (status != MGT_OK)
+        return status;
+    gl_host_state_save(&s->renderer->gl, &scope->host);
+    s->renderer->host = &scope->host;
+    return MGT_OK;
 }
 
 mgt_status gl_enter(gl_backend_state *s, gl_scope *scope, const reporter *r)
 {
-    if (s->egl) {
-        const mgt_status status = gl_egl_enter(s->egl, &scope->egl, r);
-        if (status != MGT_OK)
-            return status;
-    } else {
-        GLenum error = GL_NO_ERROR;
-        for (int i = 0; i < 32 && (error = s->renderer->gl.GetError()) != GL_NO_ERROR; i++)
-            report(r, MGT_LOG_WARNING, "gl.host", "the host left OpenGL error 0x%04x behind; it has been cleared", error);
-        gl_host_state_save(&s->renderer->gl, &scope->host);
-        s->renderer->host = &scope->host;
-    }
-    const mgt_status status = check_lost(s, r);
+    *scope = (gl_scope){0}; /* the context may be lost at any time, and then nothing is written */
+    const mgt_status status = s->egl ? enter_own(s, scope, r) : enter_host(s, scope, r);
     if (status != MGT_OK)
-        return gl_leave(s, scope, status, r);
+        return status;
     gl_timers_frame(&s->renderer->gl, &s->renderer->timers);
     return MGT_OK;
 }

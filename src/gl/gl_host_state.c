@@ -196,6 +196,11 @@ void gl_host_state_save(const gl_api *gl, gl_host_state *s)
     gl->GetIntegerv(GL_PIXEL_PACK_BUFFER_BINDING, &s->pack_buffer);
     gl->GetIntegerv(GL_PIXEL_UNPACK_BUFFER_BINDING, &s->unpack_buffer);
     gl->GetIntegerv(GL_DISPATCH_INDIRECT_BUFFER_BINDING, &s->indirect_buffer);
+    gl->GetIntegerv(GL_QUERY_BUFFER_BINDING, &s->query_buffer);
+    GLint groups = 0, most_groups = 0;
+    gl->GetIntegerv(GL_DEBUG_GROUP_STACK_DEPTH, &groups);
+    gl->GetIntegerv(GL_MAX_DEBUG_GROUP_STACK_DEPTH, &most_groups);
+    s->group_fits = groups < most_groups;
     save_ranges(gl, GL_UNIFORM_BUFFER_BINDING, GL_UNIFORM_BUFFER_START, GL_UNIFORM_BUFFER_SIZE, s->uniform, UNIFORM_BINDINGS);
     save_ranges(gl, GL_SHADER_STORAGE_BUFFER_BINDING, GL_SHADER_STORAGE_BUFFER_START, GL_SHADER_STORAGE_BUFFER_SIZE, s->storage, STORAGE_BINDINGS);
     save_textures(gl, s);
@@ -207,6 +212,7 @@ void gl_host_state_save(const gl_api *gl, gl_host_state *s)
     }
     gl->BindBuffer(GL_PIXEL_PACK_BUFFER, 0);
     gl->BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+    gl->BindBuffer(GL_QUERY_BUFFER, 0);
 }
 
 void gl_host_state_restore(const gl_api *gl, const gl_host_state *s)
@@ -220,6 +226,7 @@ void gl_host_state_restore(const gl_api *gl, const gl_host_state *s)
     gl->BindBuffer(GL_PIXEL_PACK_BUFFER, (GLuint)s->pack_buffer);
     gl->BindBuffer(GL_PIXEL_UNPACK_BUFFER, (GLuint)s->unpack_buffer);
     gl->BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, (GLuint)s->indirect_buffer);
+    gl->BindBuffer(GL_QUERY_BUFFER, (GLuint)s->query_buffer);
     restore_textures(gl, s);
     restore_images(gl, s);
     gl_host_state_restore_drawing(gl, s);

@@ -20,7 +20,8 @@ typedef struct image_binding {
 /* The saved state: program, buffers, textures, images, pixel store, and the state that drawing a view changes. */
 typedef struct gl_host_state {
     GLint program;
-    GLint uniform_buffer, storage_buffer, pack_buffer, unpack_buffer, indirect_buffer;
+    GLint uniform_buffer, storage_buffer, pack_buffer, unpack_buffer, indirect_buffer, query_buffer;
+    bool group_fits; /* the stack of debug groups has room for one more; OpenGL has no way to put one of the host's back */
     buffer_range uniform[UNIFORM_BINDINGS], storage[STORAGE_BINDINGS];
     GLint active_texture, texture[TEXTURE_UNITS], table[TEXTURE_UNITS], sampler[TEXTURE_UNITS];
     image_binding images[IMAGE_UNITS];
@@ -37,7 +38,7 @@ typedef struct gl_host_state {
     GLint blend_source_rgb, blend_destination_rgb, blend_source_alpha, blend_destination_alpha, blend_equation_rgb, blend_equation_alpha;
 } gl_host_state;
 
-/* Saves the state of the current context, then sets the pixel store that transfers of the backend rely on. */
+/* Saves the state of the current context, then sets the pixel store and unbinds the buffers that transfers and queries of the backend would use. */
 void gl_host_state_save(const gl_api *gl, gl_host_state *s);
 void gl_host_state_restore(const gl_api *gl, const gl_host_state *s);
 

@@ -17,6 +17,10 @@ static const char *error_text(GLenum error)
         return "invalid operation";
     case GL_INVALID_FRAMEBUFFER_OPERATION:
         return "invalid framebuffer operation";
+    case GL_STACK_OVERFLOW:
+        return "stack overflow";
+    case GL_STACK_UNDERFLOW:
+        return "stack underflow";
     case GL_OUT_OF_MEMORY:
         return "out of memory";
     case GL_CONTEXT_LOST:
@@ -39,6 +43,26 @@ mgt_status gl_check(const gl_api *gl, const char *pass, const reporter *r)
         return MGT_OK;
     const mgt_status status = first == GL_OUT_OF_MEMORY ? MGT_ERROR_MEMORY : MGT_ERROR_UNAVAILABLE;
     return report_error(r, status, "gl.error", "OpenGL error 0x%04x (%s) in pass \"%s\"", first, error_text(first), pass);
+}
+
+bool gl_clear_errors(const gl_api *gl, const reporter *r)
+{
+    bool lost = false;
+    for (int i = 0; i < 32; i++) {
+        const GLenum error = gl->GetError();
+        if (error == GL_NO_ERROR)
+            break;
+        if (error == GL_CONTEXT_LOST)
+            lost = true;
+        else
+            report(r, MGT_LOG_WARNING, "gl.host", "the host left OpenGL error 0x%04x (%s) behind; it has been cleared", error, error_text(error));
+    }
+    return lost;
+}
+
+mgt_status gl_report_lost(const reporter *r)
+{
+    return report_error(r, MGT_ERROR_LOST, "gl.lost", "the OpenGL context was lost (the GPU was reset); create a new context");
 }
 
 /* ---- buffers and textures ---- */

@@ -51,4 +51,10 @@ void *gl_ring_allocate(gl_ring *ring, size_t size, size_t *offset);
 /* Reports the errors of OpenGL since the last check, with the name of the pass. Returns MGT_OK if there was none. */
 mgt_status gl_check(const gl_api *gl, const char *pass, const reporter *r);
 
+/* Clears the errors that the host has left pending, and logs each. Returns whether one says that the context is lost. */
+bool gl_clear_errors(const gl_api *gl, const reporter *r);
+
+/* Reports that the context is lost. Returns MGT_ERROR_LOST. */
+mgt_status gl_report_lost(const reporter *r);
+
 #endif

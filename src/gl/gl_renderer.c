@@ -82,6 +82,8 @@ mgt_status gl_renderer_create(gl_renderer **out, mgt_gl_get_proc get_proc, const
     const bool loaded = status == MGT_OK;
     if (status == MGT_OK)
         status = check_version(&g->gl, r);
+    if (status == MGT_OK && gl_clear_errors(&g->gl, r))
+        status = gl_report_lost(r);
     if (status == MGT_OK)
         status = read_limits(g, r);
     if (status == MGT_OK)
@@ -151,17 +153,22 @@ void gl_renderer_destroy(gl_renderer *g)
 
 /* ---- passes ---- */
 
+/* Whether passes have debug groups: not where the host's own fill the stack. */
+static bool grouped(const gl_renderer *g) { return !g->host || g->host->group_fits; }
+
 void gl_pass_begin(gl_renderer *g, const char *name)
 {
     g->pass = name;
-    g->gl.PushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, -1, name);
+    if (grouped(g))
+        g->gl.PushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, -1, name);
     gl_timers_begin(&g->gl, &g->timers, name);
 }
 
 mgt_status gl_pass_end(gl_renderer *g, const reporter *r)
 {
     gl_timers_end(&g->gl, &g->timers);
-    g->gl.PopDebugGroup();
+    if (grouped(g))
+        g->gl.PopDebugGroup();
     return gl_check(&g->gl, g->pass, r);
 }
 

@@ -159,6 +159,107 @@ static void incomplete_hosts_are_refused(void **state)
     assert_non_null(strstr(mgt_last_error(NULL), "no OpenGL context is current on this thread"));
 }
 
+/* ---- a host's errors, and a context that is lost ---- */
+
+/* The host's own error is no failure of creation; the log tells it. */
+static void pending_errors_are_cleared(void **state)
+{
+    (void)state;
+    gl_host h;
+    gl_host_start(&h);
+    log_record log = {0};
+    mgt_context_desc desc;
+    mgt_context_desc_init(&desc, sizeof desc);
+    desc.backend = MGT_BACKEND_GL;
+    desc.gl_get_proc = gl_egl_get_proc;
+    desc.log = keep_log;
+    desc.log_user = &log;
+    mgt_context *context = NULL;
+    h.gl.Enable(0xdead);
+    assert_int_equal(mgt_context_create(&context, &desc), MGT_OK);
+    assert_non_null(strstr(log.ids, "gl.host "));
+    assert_int_equal(h.gl.GetError(), GL_NO_ERROR);
+    mgt_context_destroy(context);
+    gl_host_stop(&h);
+}
+
+static gl_host lossy;       /* a host whose context gets lost: then its functions do nothing */
+static bool lost, tells;    /* `tells`: as long as glGetGraphicsResetStatus() says so; GL_CONTEXT_LOST tells it as well */
+static int calls_when_lost; /* questions about the host's state, and changes to it */
+
+static GLenum APIENTRY lost_status(void) { return lost && tells ? GL_INNOCENT_CONTEXT_RESET : GL_NO_ERROR; }
+
+static GLenum APIENTRY lost_error(void)
+{
+    static int turn;
+    return !lost ? lossy.gl.GetError() : ++turn % 3 ? GL_CONTEXT_LOST : GL_NO_ERROR;
+}
+
+static void APIENTRY lost_get_integer(GLenum name, GLint *out)
+{
+    calls_when_lost += lost;
+    if (!lost)
+        lossy.gl.GetIntegerv(name, out);
+}
+
+static void APIENTRY lost_bind_buffer(GLenum target, GLuint buffer)
+{
+    calls_when_lost += lost;
+    if (!lost)
+        lossy.gl.BindBuffer(target, buffer);
+}
+
+static mgt_gl_function lossy_get_proc(const char *name)
+{
+    static const struct {
+        const char *name;
+        mgt_gl_function function;
+    } own[] = {{"glGetGraphicsResetStatus", (mgt_gl_function)lost_status},
+               {"glGetError", (mgt_gl_function)lost_error},
+               {"glGetIntegerv", (mgt_gl_function)lost_get_integer},
+               {"glBindBuffer", (mgt_gl_function)lost_bind_buffer}};
+    for (size_t i = 0; i < sizeof own / sizeof *own; i++)
+        if (strcmp(own[i].name, name) == 0)
+            return own[i].function;
+    return gl_egl_get_proc(name);
+}
+
+/* Calls say so, ask a lost context for nothing that it does not answer, and blame nobody. */
+static void lost_contexts_are_told(void **state)
+{
+    (void)state;
+    gl_host_start(&lossy);
+    log_record log = {0};
+    mgt_context_desc desc;
+    mgt_context_desc_init(&desc, sizeof desc);
+    desc.backend = MGT_BACKEND_GL;
+    desc.gl_get_proc = lossy_get_proc;
+    desc.log = keep_log;
+    desc.log_user = &log;
+    mgt_context *context = NULL;
+    assert_int_equal(mgt_context_create(&context, &desc), MGT_OK);
+    static float pixels[PIXELS];
+    mgt_wave waves[SEA_WAVES];
+    const mgt_scene scene = sea_scene(waves);
+    const mgt_target target = sea_target(MGT_LAYER_MASK, MGT_FORMAT_R32F, pixels, 0);
+    sea_render(context, &scene, &target, 1);
+    for (int i = 0; i < 2; i++) {
+        lost = true;
+        tells = i == 0;
+        log.ids[0] = 0;
+        calls_when_lost = 0;
+        assert_int_equal(mgt_render(context, &scene, &target, 1), MGT_ERROR_LOST);
+        assert_int_equal(mgt_gl_set_sources(context, NULL, 0), MGT_ERROR_LOST);
+        assert_non_null(strstr(mgt_last_error(context), "create a new context"));
+        assert_int_equal(calls_when_lost, 0);
+        assert_null(strstr(log.ids, "gl.host"));
+        lost = false;
+        sea_render(context, &scene, &target, 1);
+    }
+    mgt_context_destroy(context);
+    gl_host_stop(&lossy);
+}
+
 /* ---- layers ---- */
 
 static void expect_same_layers(const layers *a, const layers *b)
@@ -625,6 +726,8 @@ int main(void)
         cmocka_unit_test(automatic_choice),
         cmocka_unit_test(the_cpus_frames_are_announced),
         cmocka_unit_test(incomplete_hosts_are_refused),
+        cmocka_unit_test(pending_errors_are_cleared),
+        cmocka_unit_test(lost_contexts_are_told),
         cmocka_unit_test(layers_are_those_of_the_cpu),
         cmocka_unit_test(crops_are_parts_of_the_whole),
         cmocka_unit_test(strides_are_kept),

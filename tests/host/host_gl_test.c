@@ -603,6 +603,35 @@ static void state_is_as_before(void **state)
     stop(&e);
 }
 
+/* A host may have as many debug groups as OpenGL takes: then the passes have none, and the host's stay. */
+static void full_stacks_of_debug_groups(void **state)
+{
+    (void)state;
+    static picture grouped, full;
+    mgt_wave waves[WAVES];
+    make_waves(waves);
+    const mgt_scene scene = make_scene(waves, test_time);
+    engine e = start(DEPTH_REVERSED);
+    const mgt_gl_view view = whole_view(&e);
+    GLint most = 0, depth = 0;
+    glGetIntegerv(GL_MAX_DEBUG_GROUP_STACK_DEPTH, &most);
+    for (int room = 1; room >= 0; room--) {
+        for (glGetIntegerv(GL_DEBUG_GROUP_STACK_DEPTH, &depth); depth < most - room; depth++)
+            glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, -1, "the host's");
+        clean();
+        clear(&e);
+        draw_views(&e, &scene, &view, 1);
+        read_picture(e.framebuffer, room ? &grouped : &full);
+        glGetIntegerv(GL_DEBUG_GROUP_STACK_DEPTH, &depth);
+        assert_int_equal(depth, most - room);
+    }
+    assert_lively(&full);
+    assert_memory_equal(&grouped, &full, sizeof full);
+    for (; depth > 1; depth--)
+        glPopDebugGroup();
+    stop(&e);
+}
+
 /* Everything that may change from frame to frame does; sky and light, which have a table, only if asked to. */
 static mgt_scene changing_scene(mgt_wave waves[WAVES], int frame, bool sky_changes)
 {
@@ -753,10 +782,10 @@ static void wrong_views_are_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bodies_meet_the_water),        cmocka_unit_test(view_is_the_picture),        cmocka_unit_test(parts_make_the_whole),
-        cmocka_unit_test(multisampled_framebuffer),     cmocka_unit_test(upper_left_origin),          cmocka_unit_test(default_framebuffer),
-        cmocka_unit_test(state_is_as_before),           cmocka_unit_test(steady_frames_cost_nothing), cmocka_unit_test(wrong_views_are_refused),
-        cmocka_unit_test(the_first_draw_buffer_counts),
+        cmocka_unit_test(bodies_meet_the_water),        cmocka_unit_test(view_is_the_picture),         cmocka_unit_test(parts_make_the_whole),
+        cmocka_unit_test(multisampled_framebuffer),     cmocka_unit_test(upper_left_origin),           cmocka_unit_test(default_framebuffer),
+        cmocka_unit_test(state_is_as_before),           cmocka_unit_test(steady_frames_cost_nothing),  cmocka_unit_test(wrong_views_are_refused),
+        cmocka_unit_test(the_first_draw_buffer_counts), cmocka_unit_test(full_stacks_of_debug_groups),
     };
     engine e;
     if (!headless_gl_start())
