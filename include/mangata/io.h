@@ -21,9 +21,9 @@ typedef enum mgt_io_status {
 /* What was wrong, and where. */
 typedef struct mgt_io_error {
     size_t struct_size;
-    uint32_t line, column; /* from 1; 0: no place in a file */
-    char file[1024];       /* "": the error is of no file; a longer name is cut short */
-    char text[1024];       /* one line of UTF-8: what is wrong, what is allowed; without the place */
+    uint32_t line, column; /* from 1; 0: of the file as a whole, or of none */
+    char file[1024];       /* as the call got it; "": the error is of no file; a longer name is cut short */
+    char text[1024];       /* one line of UTF-8: what is wrong, what is allowed; without file and place. One of a change begins with "change key=value: " */
 } mgt_io_error;
 
 /* Version of this library, "major.minor.patch". Objects of scenes are made here and rendered by libmangata, which must be of the same version. */
@@ -53,7 +53,8 @@ MGT_API void mgt_scene_file_free(mgt_scene_file *file);
 
 /* The scene as frame `frame` (0 …) shows it: time = start + frame / fps when the shutter closes. `scene` is initialised by this call to `size` bytes, as by
  * mgt_scene_init(); its waves and objects point into `file` and live as long. Errors leave *scene untouched.
- * MGT_IO_BAD: the frame has no legal camera; MGT_IO_ARGUMENT: a pointer is missing, `frame` is above 2^31 − 1, or `size` is less than that of struct_size. */
+ * MGT_IO_BAD: the frame has no legal camera; MGT_IO_ARGUMENT: a pointer is missing, `frame` is above 2^31 − 1, or `size` is less than that of struct_size
+ * or no version's. */
 MGT_API mgt_io_status mgt_scene_file_frame(const mgt_scene_file *file, uint32_t frame, mgt_scene *scene, size_t size);
 
 MGT_API uint32_t mgt_scene_file_frame_count(const mgt_scene_file *file); /* ≥ 1; of NULL 0 */
@@ -72,7 +73,7 @@ typedef struct mgt_io_picture {
 } mgt_io_picture;
 
 /* Reads .png (values / 255 or / 65535 as stored), .pfm or .exr. `layer`: an EXR layer or channel; NULL: color, or else the only one.
- * `picture->struct_size` must be set by the caller. On failure nothing is owned. */
+ * `picture->struct_size` must be set by the caller. On failure nothing is owned, and `pixels` is NULL. */
 MGT_API mgt_io_status mgt_io_picture_read(mgt_io_picture *picture, const char *path, const char *layer, mgt_io_error *error);
 MGT_API void mgt_io_picture_free(mgt_io_picture *picture);
 

@@ -18,7 +18,8 @@ class SceneError(MangataError, ValueError):
     """
 
     def __init__(self, reason: str, file: Optional[str] = None, line: Optional[int] = None, column: Optional[int] = None) -> None:
-        super().__init__(f"{file}:{line}:{column}: {reason}" if file else reason, "scene")
+        place = f"{file}:{line}:{column}: " if line else f"{file}: " if file else ""
+        super().__init__(place + reason, "scene")
         self.reason, self.file, self.line, self.column = reason, file, line, column
 
 

@@ -25,14 +25,12 @@ def _yaml(value: Any) -> str:
 
 def raise_io(status: int, error) -> None:
     """The exception of a failed call of libmangata-io."""
-    reason = text(error.text)
+    reason, file = text(error.text), text(error.file)
     if status == io.MGT_IO_MEMORY:
         raise MemoryError(reason)
     if status == io.MGT_IO_MISSING:
-        raise FileNotFoundError(reason)
-    if error.line:
-        raise SceneError(reason, text(error.file), error.line, error.column)
-    raise SceneError(reason)
+        raise FileNotFoundError(f"{file}: {reason}" if file else reason)
+    raise SceneError(reason, file or None, error.line or None, error.column or None)
 
 
 def without_nul(data: bytes) -> bytes:

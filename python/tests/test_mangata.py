@@ -114,10 +114,21 @@ def test_arrays_of_all_kinds(scene):
 
 
 def test_missing_file_is_missing():
-    with pytest.raises(FileNotFoundError):
+    with pytest.raises(FileNotFoundError, match="^/nowhere/scene.yaml: "):
         mangata.load("/nowhere/scene.yaml")
-    with pytest.raises(FileNotFoundError):
+    with pytest.raises(FileNotFoundError, match="^/nowhere/picture.exr: "):
         mangata.read("/nowhere/picture.exr")
+
+
+def test_errors_without_a_place(tmp_path):
+    path = tmp_path / "bad.png"
+    path.write_text("no picture")
+    with pytest.raises(mangata.SceneError) as caught:
+        mangata.read(path)
+    assert (caught.value.file, caught.value.line) == (str(path), None) and str(caught.value) == f"{path}: {caught.value.reason}"
+    with pytest.raises(mangata.SceneError, match='^change light.elevation_deg="high": ') as caught:
+        mangata.load(SIMPLE, {"light.elevation_deg": "high"})
+    assert caught.value.file is None
 
 
 # ---- rendering ----

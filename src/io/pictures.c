@@ -12,12 +12,15 @@ mgt_io_status mgt_io_picture_read(mgt_io_picture *picture, const char *path, con
 {
     float_image image;
     file_error problem;
-    if (!picture || picture->struct_size < sizeof *picture || !path)
+    const bool fits = picture && picture->struct_size >= sizeof *picture;
+    if (fits) {
+        picture->pixels = NULL;
+        picture->width = picture->height = picture->channels = 0;
+    }
+    if (!fits || !path)
         return io_error_take(error, MGT_IO_ARGUMENT, "a pointer or picture.struct_size is missing");
-    picture->pixels = NULL;
-    picture->width = picture->height = picture->channels = 0;
     if (picture_read(&image, path, layer, &problem) != FILE_OK)
-        return io_error_of_file(error, &problem);
+        return io_error_of_file(error, &problem, path);
     picture->width = image.width;
     picture->height = image.height;
     picture->channels = image.channels;
@@ -115,7 +118,7 @@ mgt_io_status mgt_metrics_measure(const mgt_metrics_desc *desc, const float *con
     const bool comparable = code == FILE_OK && clip_metrics_sums(metrics)->mismatches == 0;
     clip_metrics_free(metrics);
     if (code != FILE_OK)
-        return io_error_of_file(error, &problem);
+        return io_error_of_file(error, &problem, NULL);
     if (map)
         mark_incomparable(desc, a[frames - 1], b[frames - 1], map);
     for (int m = 0; m < CLIP_METRICS; m++)
