@@ -19,7 +19,8 @@ class Engine {
   // Throws a text where the canvas has no WebGL2 that can draw this.
   constructor(canvas, lanes, texts, calls) {
     const gl = canvas.getContext("webgl2", { antialias: false, depth: false, alpha: false, preserveDrawingBuffer: true, powerPreference: "high-performance" });
-    if (!gl) throw new Error("this browser has no WebGL2");
+    const others = gl || document.createElement("canvas").getContext("webgl2"); // another canvas has one
+    if (!gl) throw new Error(others ? "the canvas has a context of another kind; one without is needed" : "this browser has no WebGL2");
     if (!gl.getExtension("EXT_color_buffer_float")) throw new Error("its WebGL2 cannot draw into floating-point pictures");
     Object.assign(this, { canvas, lanes, texts, gl, programs: new Map(), buffers: {}, textures: {}, times: {} });
     this.parallel = gl.getExtension("KHR_parallel_shader_compile");
@@ -168,6 +169,19 @@ class Engine {
     this.gl.deleteFramebuffer(target.frame);
   }
 
+  // Deletes all that it holds in the canvas's WebGL2, but for targets.
+  free() {
+    const { gl, map } = this, textures = Object.values(this.textures).map(t => t.texture);
+    for (const { program, shaders } of this.programs.values()) {
+      shaders.forEach(s => gl.deleteShader(s));
+      gl.deleteProgram(program);
+    }
+    Object.values(this.buffers).forEach(b => gl.deleteBuffer(b));
+    [...textures, this.sky, ...(map ? [map.mean, map.square] : [])].forEach(t => gl.deleteTexture(t));
+    if (map) gl.deleteFramebuffer(map.frame);
+    gl.deleteVertexArray(this.empty);
+  }
+
   // A picture that lanes.pixels() gave.
   put(target, picture) {
     const gl = this.gl;
@@ -197,7 +211,10 @@ class Engine {
   }
 
   async compiled(entry) {
-    while (!this.isReady(entry)) await pause(5);
+    while (!this.isReady(entry)) {
+      if (this.gone) throw new Error("the shaders are gone"); // they will never be ready
+      await pause(5);
+    }
     return entry;
   }
 
@@ -286,16 +303,16 @@ class Engine {
     return { current: this.target(width, height), pictures: [this.target(width, height), this.target(width, height)], frames: 0 };
   }
 
-  // Shows one picture, or two of the same size: the first in the left `fraction` of the canvas, which gets the picture's size. The program must have been compiled.
+  // Shows one picture, or two of the same size: the first in the left `fraction` of the canvas, stretched over it. The program must have been compiled.
   show(first, second = first, fraction = 1) {
     const { gl, canvas } = this, { width, height } = first, entry = this.program("display.frag", "", "", "");
-    if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
     gl.useProgram(entry.program);
     this.bind("first_texture", first.texture);
     this.bind("second_texture", second.texture);
     gl.uniform1i(this.place(entry, "wipe"), Math.round(fraction * width));
+    gl.uniform2f(this.place(entry, "texels"), width / canvas.width, height / canvas.height);
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
-    gl.viewport(0, 0, width, height);
+    gl.viewport(0, 0, canvas.width, canvas.height);
     gl.drawArrays(gl.TRIANGLES, 0, 3);
   }
 

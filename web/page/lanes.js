@@ -69,6 +69,9 @@ class Lanes {
     this.memory = []; // bytes of each worker's library
   }
 
+  // Ends the workers. What they were asked for rejects.
+  end() { this.workers.forEach(worker => worker.end()); }
+
   // Every row's answer goes to take(answer, row). False: stale() was true, and not all rows are done. `columns`: of pixels, the first that matters, and that after the last.
   async run(job, take, stale = () => false) {
     const { jitter = [0, 0], sorted = true, columns = [0, job.width] } = job, rows = job.kind === "slopes" ? MAP_SIZE / MAP_BAND : Math.ceil(job.height / TILE_ROWS);

@@ -28,7 +28,10 @@ async function openLibrary(module) {
     new Float64Array(calls.memory.buffer, calls.settings(), SETTINGS.length).set(SETTINGS.map(s => settings[s.name]));
     new Float64Array(calls.memory.buffer, calls.target(), 3).set(cameraTarget(settings));
   };
-  const check = good => { if (!good) throw new Error("no sea has this wind and this fetch"); };
+  const check = (good, { wind, fetch }) => {
+    const allowed = "a longer fetch, or 0 for a fully developed sea";
+    if (!good) throw new Error(`no sea has a wind of ${wind} m/s over a fetch of ${fetch} km; allowed: ${allowed}`);
+  };
   return {
     calls,
     copy: (Type, at, count) => new Type(calls.memory.buffer.slice(at, at + count * Type.BYTES_PER_ELEMENT)),
@@ -42,8 +45,8 @@ async function openLibrary(module) {
       return numbers[name];
     },
     // Both throw where there is no such sea; the one before stays.
-    checkSea(settings) { take(settings); check(calls.take_sea() >= 0); },
-    update(settings) { take(settings); check(calls.update() >= 0); },
+    checkSea(settings) { take(settings); check(calls.take_sea() >= 0, settings); },
+    update(settings) { take(settings); check(calls.update() >= 0, settings); },
   };
 }
 
@@ -51,7 +54,7 @@ async function openLibrary(module) {
 class TaskWorker {
   constructor(module, tasks) {
     this.waiting = [];
-    const answered = answer => this.waiting.shift().resolve(answer);
+    const answered = answer => { if (!this.ended) this.waiting.shift().resolve(answer); };
     const here = () => {
       const take = tasks(answered);
       this.post = task => setTimeout(() => take(task));
@@ -59,20 +62,28 @@ class TaskWorker {
     };
     try {
       const text = `const SETTINGS = ${JSON.stringify(SETTINGS)}, TILE_ROWS = ${TILE_ROWS}, TILE_COLUMNS = ${TILE_COLUMNS}, MAP_SIZE = ${MAP_SIZE};\n${cameraTarget}\n${openLibrary}\n${tasks}\nconst take = ${tasks.name}((answer, moved) => postMessage(answer, moved));\nonmessage = e => take(e.data);`;
-      const address = URL.createObjectURL(new Blob([text], { type: "text/javascript" })), worker = new Worker(address);
+      const address = URL.createObjectURL(new Blob([text], { type: "text/javascript" })), worker = this.worker = new Worker(address);
       worker.onmessage = event => { URL.revokeObjectURL(address); answered(event.data); };
-      worker.onerror = event => { event.preventDefault(); here(); };
+      worker.onerror = event => { event.preventDefault(); if (!this.ended) here(); };
       this.post = task => worker.postMessage(task);
     } catch {
       here();
     }
-    this.ask({ module });
+    this.ask({ module }).catch(() => {}); // the next task tells
+  }
+
+  // What has been asked for, and will be, rejects.
+  end() {
+    this.ended = true;
+    if (this.worker) this.worker.terminate();
+    this.waiting.splice(0).forEach(w => w.reject(new Error("the worker has been ended")));
   }
 
   // Resolves to the task's answer. Rejects with what is wrong.
   ask(task) {
     return new Promise((resolve, reject) => {
-      this.waiting.push({ task, resolve: answer => (answer.wrong ? reject(new Error(answer.wrong)) : resolve(answer)) });
+      if (this.ended) throw new Error("the worker has been ended");
+      this.waiting.push({ task, reject, resolve: answer => (answer.wrong ? reject(new Error(answer.wrong)) : resolve(answer)) });
       this.post(task);
     });
   }

@@ -69,8 +69,12 @@ async function paintBoth(both, settings, { moving = false, stale } = {}) {
   return pictures;
 }
 
+// The canvas gets the pictures' size.
 function show() {
-  if (page.pictures) page.view.engine.show(page.pictures[0], page.pictures[1], page.wipe);
+  if (!page.pictures) return;
+  const [first, second] = page.pictures, { engine, canvas } = page.view, { width, height } = first;
+  if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
+  engine.show(first, second, page.wipe);
 }
 
 // Shows what was painted into page.spare. `settled`: the version of what is to be seen, where the pictures are whole; else 0.

@@ -11,12 +11,13 @@ layout(std140) uniform FrameBlock { FrameData frame_data; };
 precision highp sampler2D;
 uniform sampler2D first_texture;
 uniform sampler2D second_texture;
-uniform int wipe; /* columns of the first picture */
+uniform int wipe;    /* columns of the first picture */
+uniform vec2 texels; /* of a picture over pixels of the canvas, each way */
 layout(location = 0) out vec4 shown;
 
 void main()
 {
-    ivec2 at = ivec2(gl_FragCoord.xy);
+    ivec2 at = ivec2(gl_FragCoord.xy * texels);
     at.y = textureSize(first_texture, 0).y - 1 - at.y;
     vec3 color = vec3(0.0f);
     if (at.x < wipe)

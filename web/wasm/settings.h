@@ -4,6 +4,7 @@
  *
  * SETTING(name, label, unit, least, most, step, preset, place): `place` is where the command has it, "sea KEY" for a word of --sea, "set KEY" for --set,
  * "" for what the page says in another way. Steps say how many decimals a value keeps. A least value above 0 with a step of 0 has a slider of octaves.
+ * What has no unit and a step of 1 or more is a whole number.
  */
 SETTING(wind, "Wind", "m/s", 0.5, 33, 0.5, 8, "sea wind")
 SETTING(direction, "Wind from", "°", -180, 180, 1, 0, "sea direction")
