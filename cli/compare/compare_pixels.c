@@ -9,7 +9,8 @@
 
 #include "cli/common/markup.h"
 
-uint16_t half_from_float(float value)
+/* `value` as an IEEE half float, rounded to nearest. Values beyond its range become its largest number. NaN becomes 0. */
+static uint16_t half_from_float(float value)
 {
     const float most = 65504, least_normal = 0x1p-14f, magnitude = fabsf(value);
     const uint16_t sign = value < 0 ? 0x8000 : 0;

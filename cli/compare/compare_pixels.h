@@ -14,7 +14,4 @@
  * memory. */
 char *pixels_pack(const float_image *image, float scale, size_t *length);
 
-/* `value` as an IEEE half float, rounded to nearest. Values beyond its range become its largest number. NaN becomes 0. */
-uint16_t half_from_float(float value);
-
 #endif

@@ -148,7 +148,8 @@ int score_winner(const compare_job *job, const compare_scene *scene, const score
     return leads(job, scene, column, found.lead) ? found.first : -1;
 }
 
-bool score_tied(const compare_job *job, const compare_scene *scene, const score_column *column)
+/* Whether there is no winner, although at least two methods have a score. */
+static bool score_tied(const compare_job *job, const compare_scene *scene, const score_column *column)
 {
     const leaders found = leaders_of(job, scene, column);
     return found.second >= 0 && !leads(job, scene, column, found.lead);

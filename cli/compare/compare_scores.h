@@ -33,9 +33,6 @@ number_text score_noise_text(double noise);
  * over scenes. */
 int score_winner(const compare_job *job, const compare_scene *scene, const score_column *column);
 
-/* Whether there is no winner, although at least two methods have a score. */
-bool score_tied(const compare_job *job, const compare_scene *scene, const score_column *column);
-
 /* A line that names the scenes and columns in which methods are tied. `main_alone`: only main columns. The caller frees it. "": there is no tie. NULL: out of
  * memory. */
 char *score_ties_text(const compare_job *job, bool main_alone);

@@ -37,7 +37,8 @@ bool figure_wanted(const figures_job *f, figure_id id) { return (f->request->wan
 
 bool figures_podee_wanted(const figures_job *f) { return (f->request->wanted & ((1u << FIGURES_PODEE) - 1)) != 0; }
 
-bool figures_liu_wanted(const figures_job *f) { return f->request->wanted >> FIGURES_PODEE != 0; }
+/* Whether the request wants any figure of Liu et al. */
+static bool liu_wanted(const figures_job *f) { return f->request->wanted >> FIGURES_PODEE != 0; }
 
 int figures_no_memory(void) { return console_error(EXIT_CODE_FAILED, "out of memory"); }
 
@@ -108,7 +109,7 @@ static int choose_pictures(figures_job *f)
         f->picture[m] = ++c->method_count;
     }
     const bool scenes = c->method_count > 0 || figure_wanted(f, FIGURE_12);
-    const int code = scenes || figures_liu_wanted(f) ? find_scenes(f) : EXIT_CODE_OK;
+    const int code = scenes || liu_wanted(f) ? find_scenes(f) : EXIT_CODE_OK;
     if (!scenes || code != EXIT_CODE_OK)
         return code;
     for (int i = 0; i < FIGURE_SCENES; i++)
@@ -288,7 +289,7 @@ static int run(figures_job *f)
         return code;
     code = compare_open(f->compare, &f->renders, "index.html");
     /* The scenes of both parts are checked before the first picture, so that an error does not appear after hours of rendering. */
-    if (code == EXIT_CODE_OK && figures_liu_wanted(f))
+    if (code == EXIT_CODE_OK && liu_wanted(f))
         code = figures_refraction_open(f, f->folder);
     if (code == EXIT_CODE_OK)
         code = make_pictures_folder(f);

@@ -72,9 +72,8 @@ static inline bool figures_good(const figures_job *f) { return f->code == EXIT_C
 /* Whether the request wants a figure. */
 bool figure_wanted(const figures_job *f, figure_id id);
 
-/* Whether the request wants any figure of Podee et al., or any of Liu et al. */
+/* Whether the request wants any figure of Podee et al. */
 bool figures_podee_wanted(const figures_job *f);
-bool figures_liu_wanted(const figures_job *f);
 
 /* ---- for the functions that make figures: figures_page.c, figures_job.c ---- */
 

@@ -25,7 +25,8 @@ static double table_at(const double *values, size_t count, double first, double 
     return values[i] + (values[i + 1] - values[i]) * (x - (double)i);
 }
 
-double spectrum_sun(double nanometres)
+/* Extraterrestrial solar spectrum, W/(m²·nm), linear between nodes 20 nm apart (ASTM E490, smoothed). */
+static double sun_spectrum(double nanometres)
 {
     static const double irradiance[] = {1.10, 1.60, 1.74, 1.82, 2.05, 2.04, 1.93, 1.85, 1.87,
                                         1.83, 1.80, 1.74, 1.68, 1.62, 1.54, 1.48, 1.42, 1.36}; /* 380 … 720 */
@@ -64,7 +65,7 @@ spectrum_weights spectrum_weights_make(void)
         int band = x < SPECTRUM_BANDS - 2.0 ? (int)x : SPECTRUM_BANDS - 2;
         for (int c = 0; c < 3; ++c) {
             const double *m = srgb_from_xyz[c];
-            double response = (m[0] * xyz[0] + m[1] * xyz[1] + m[2] * xyz[2]) * spectrum_sun(nm);
+            double response = (m[0] * xyz[0] + m[1] * xyz[1] + m[2] * xyz[2]) * sun_spectrum(nm);
             weights.weight[c][band] += response * (1.0 - (x - band));
             weights.weight[c][band + 1] += response * (x - band);
         }

@@ -23,9 +23,6 @@ spectrum_weights spectrum_weights_make(void);
  * same luminance until no channel is negative. */
 void spectrum_to_rgb(const spectrum_weights *weights, const double spectrum[SPECTRUM_BANDS], const double light[3], double rgb[3]);
 
-/* Extraterrestrial solar spectrum, W/(m²·nm), linear between nodes 20 nm apart (ASTM E490, smoothed). */
-double spectrum_sun(double nanometres);
-
 /* Ozone absorption cross-section at about 225 K, m² (Chappuis band; after Gorshelev et al. 2014, smoothed). */
 double spectrum_ozone(double nanometres);
 

@@ -207,7 +207,7 @@ static mgt_status prepare_set(const gl_run *run, const gl_band *b)
     return status == MGT_OK ? gl_search_nodes(run, b->tiles) : status;
 }
 
-void gl_bind_layers(const gl_renderer *g)
+static void bind_layers(const gl_renderer *g)
 {
     const gl_layers *l = &g->layers;
     const gl_image *const images[IMAGE_LAYERS] = {&l->color, &l->coverage, &l->water, &l->depth, &l->normal};
@@ -241,7 +241,7 @@ static mgt_status run_pixels(const gl_run *run, const PassData *pass, const char
     const mgt_status status = gl_use(g, program, run->r);
     if (status == MGT_OK) {
         gl_uniform(g, BIND_PASS, pass, sizeof *pass);
-        gl_bind_layers(g);
+        bind_layers(g);
         if (program == run->program)
             bind_tables(run);
         else
@@ -447,7 +447,7 @@ mgt_status gl_put_objects_in_front(const gl_run *run, const gl_band *b)
     status = gl_use(g, PROGRAM_OBJECTS_COMPOSE, run->r);
     if (status == MGT_OK) {
         gl_uniform(g, BIND_PASS, &b->pass, sizeof b->pass);
-        gl_bind_layers(g);
+        bind_layers(g);
         for (GLuint i = IMAGE_COLOR; i <= IMAGE_WATER && !shades_pixels(run->job); i++) /* another picture of the frame has finished these layers */
             g->gl.BindImageTexture(i, 0, 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32F);
         gl_refraction_bind_front(g);

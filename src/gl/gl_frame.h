@@ -46,7 +46,6 @@ mgt_status gl_search_nodes(const gl_run *run, uint32_t tiles);
 
 /* Binds the tiles' buffers, the layers as images and the sky. Layers that do not exist are not written: a store to no image has no effect. */
 void gl_bind_tiles(const gl_renderer *g);
-void gl_bind_layers(const gl_renderer *g);
 
 /* Prepares the passes over objects in a scene that has some: draws the objects' layers and makes their tables. If the camera moves, it also finds what all
  * pixels see of the objects when the shutter opens. */

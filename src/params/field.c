@@ -355,13 +355,13 @@ bool field_in_range(const field_row *field, double value)
     return whole && ((above && below) || (value == 0 && field->flags & FIELD_OR_ZERO));
 }
 
-void field_range(const field_row *field, bool with_unit, char *out, size_t size)
+/* Writes the range of a number and its unit: "-90 to 90 degrees". */
+static void print_range(const field_row *field, char *out, size_t size)
 {
     short_number low = double_text(field->min), high = double_text(field->max);
     /* The largest of 64 bits is no double. */
     const char *min = low.text, *max = field->type == FIELD_LARGE && field->max >= 0x1p64 ? "18446744073709551615" : high.text;
-    const char *space = with_unit && field->unit != NULL ? " " : "";
-    const char *unit = with_unit && field->unit != NULL ? field->unit : "";
+    const char *space = field->unit != NULL ? " " : "", *unit = field->unit != NULL ? field->unit : "";
     if (field->min == field->max)
         snprintf(out, size, "%s", min);
     else if (field->flags & (FIELD_OPEN_MIN | FIELD_OPEN_MAX))
@@ -373,8 +373,8 @@ void field_range(const field_row *field, bool with_unit, char *out, size_t size)
 
 void field_allowed(const field_row *field, char *out, size_t size)
 {
-    char range[96];
-    field_range(field, true, range, sizeof range);
+    char range[160];
+    print_range(field, range, sizeof range);
     size_t used;
     switch (field->type) {
     case FIELD_COUNT:

@@ -111,9 +111,6 @@ const char *name_first(const name_alias *aliases, const char *word);
 /* "-90 to 90 degrees", "above 0 and below 179 degrees", "one of sun, moon", …: what a message allows. `out` is cut to size. */
 void field_allowed(const field_row *field, char *out, size_t size);
 
-/* Only the range and, if wanted, the unit of a number: "-90 to 90". */
-void field_range(const field_row *field, bool with_unit, char *out, size_t size);
-
 bool field_in_range(const field_row *field, double value);
 
 /* Reads a single number, choice or switch. False, with nothing written, where it is not allowed. */

@@ -38,7 +38,6 @@ static void set_sample_range(reference_frame *frame, const mgt_quality *quality)
 }
 
 typedef struct lane_build {
-    uint32_t lanes;
     reference_trace *trace, *search, *bend;
     reference_judge *judge;
 } lane_build;
@@ -46,15 +45,15 @@ typedef struct lane_build {
 /* The functions for an instruction set, all NULL if this processor lacks it. */
 static lane_build pick_build(mgt_isa isa)
 {
-    const lane_build scalar = {1, reference_trace_1, reference_search_1, reference_bend_1, reference_judge_1}, missing = {0};
+    const lane_build scalar = {reference_trace_1, reference_search_1, reference_bend_1, reference_judge_1}, missing = {0};
 #if defined(__x86_64__)
     const bool avx512 =
         __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl");
     const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
     if (isa == MGT_ISA_AVX512 || (isa == MGT_ISA_AUTO && avx512))
-        return avx512 ? (lane_build){8, reference_trace_8, reference_search_8, reference_bend_8, reference_judge_8} : missing;
+        return avx512 ? (lane_build){reference_trace_8, reference_search_8, reference_bend_8, reference_judge_8} : missing;
     if (isa == MGT_ISA_AVX2 || (isa == MGT_ISA_AUTO && avx2))
-        return avx2 ? (lane_build){4, reference_trace_4, reference_search_4, reference_bend_4, reference_judge_4} : missing;
+        return avx2 ? (lane_build){reference_trace_4, reference_search_4, reference_bend_4, reference_judge_4} : missing;
 #else
     if (isa == MGT_ISA_AVX512 || isa == MGT_ISA_AVX2)
         return missing;
@@ -106,7 +105,6 @@ mgt_status reference_frame_create(reference_frame **result, const mgt_scene *sce
     frame->search = build.search;
     frame->bend = build.bend;
     frame->judge = build.judge;
-    frame->lanes = build.lanes;
     frame->bound_deviations = options->bound_deviations > 0 ? options->bound_deviations : REFERENCE_BOUND_DEVIATIONS;
     frame->view = relative_view(&scene->camera, &scene->camera);
     frame->view_open = scene->camera_moves ? relative_view(&scene->camera_open, &scene->camera) : frame->view;
@@ -145,8 +143,6 @@ void reference_frame_mirror(reference_frame *frame)
     frame->choppiness = -frame->choppiness;
     reference_columns_shift(frame->waves, frame->wave_count, frame->choppiness, &frame->columns);
 }
-
-uint32_t reference_frame_lanes(const reference_frame *frame) { return frame->lanes; }
 
 /* ---- samples ---- */
 

@@ -75,9 +75,6 @@ typedef struct reference_result {
 mgt_status reference_frame_create(reference_frame **frame, const mgt_scene *scene, const reference_sky *sky, const reference_options *options);
 void reference_frame_destroy(reference_frame *frame);
 
-/* Number of samples that are computed side by side: 1, 4 or 8. */
-uint32_t reference_frame_lanes(const reference_frame *frame);
-
 /* Renders the pixels [x0, x0 + width) × [y0, y0 + height) of the image. Blocks may have any size and any order, and any number of threads may call. It uses
  * about 400 KiB of stack and allocates nothing. */
 void reference_render_block(const reference_frame *frame, uint32_t x0, uint32_t y0, uint32_t width, uint32_t height, const reference_result *result);

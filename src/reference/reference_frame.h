@@ -50,7 +50,6 @@ struct reference_frame {
     reference_sky sky;
     reference_trace *trace, *search, *bend;
     reference_judge *judge;
-    uint32_t lanes;
 
     reference_view view, view_open;
     double view_scale_x; /* width / height */

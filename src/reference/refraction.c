@@ -8,7 +8,8 @@
 /* Derivative of the optical length by the place of the crossing, which is `x` metres from the point in air and `rest` metres from the point in water. */
 static double growth(double above, double below, double x, double rest, double index) { return x / hypot(above, x) - index * rest / hypot(below, rest); }
 
-double reference_crossing(double above, double below, double across, double index)
+/* Horizontal distance of the path's crossing of the surface from the point in air, metres. */
+static double crossing(double above, double below, double across, double index)
 {
     /* Bisection measures from the end that the crossing is nearer to, so that both distances keep their precision. */
     const bool early = growth(above, below, 0.5 * across, 0.5 * across, index) > 0;
@@ -24,4 +25,4 @@ double reference_crossing(double above, double below, double across, double inde
     return early ? low : across - low;
 }
 
-double reference_air_angle(double above, double below, double across, double index) { return atan2(reference_crossing(above, below, across, index), above); }
+double reference_air_angle(double above, double below, double across, double index) { return atan2(crossing(above, below, across, index), above); }

@@ -2,6 +2,7 @@
 #include "scene/gltf_buffers.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 

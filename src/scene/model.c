@@ -5,6 +5,7 @@
 #include "scene/model.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 

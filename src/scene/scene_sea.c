@@ -65,13 +65,14 @@ bool scene_sea_open(scene_sea *sea, const scene_spectrum *settings, const char *
 
 void scene_sea_close(scene_sea *sea) { spectrum_table_free(&sea->table); }
 
-scene_spectrum scene_wind_spectrum(const scene_wind *wind)
+/* The spectrum that `water.wind` stands for. */
+static scene_spectrum wind_spectrum(const scene_wind *wind)
 {
     return (scene_spectrum){.settings = sea_of_wind(wind->speed, wind->direction_deg, wind->fetch, wind->depth), .count = wind->count, .seed = wind->seed};
 }
 
 /* What the waves beside the single ones are drawn from; its kind is none where there are no others. */
-static scene_spectrum drawn_from(const scene_water *water) { return water->wind.speed > 0 ? scene_wind_spectrum(&water->wind) : water->spectrum; }
+static scene_spectrum drawn_from(const scene_water *water) { return water->wind.speed > 0 ? wind_spectrum(&water->wind) : water->spectrum; }
 
 double scene_water_wind(const scene_water *water)
 {

@@ -29,9 +29,6 @@ typedef struct scene_sea_fault {
 bool scene_sea_open(scene_sea *sea, const scene_spectrum *settings, const char *scene_path, scene_sea_fault *fault);
 void scene_sea_close(scene_sea *sea);
 
-/* What `water.wind` is short for: in deep water the spectrum of Elfouhaily et al., else TMA's, with Cox and Munk's slopes. */
-scene_spectrum scene_wind_spectrum(const scene_wind *wind);
-
 /* m/s at 10 m, of the wind that makes the waves; 0: none does. */
 double scene_water_wind(const scene_water *water);
 

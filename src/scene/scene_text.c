@@ -4,6 +4,7 @@
  */
 #include "scene/scene_text.h"
 
+#include <stdarg.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -62,23 +63,17 @@ size_t scene_copy_line(char *out, size_t size, const char *text, size_t length)
     return at;
 }
 
-bool scene_error_set_va(scene_error *error, scene_error_kind kind, const char *format, va_list arguments)
+bool scene_error_set(scene_error *error, scene_error_kind kind, const char *format, ...)
 {
     if (error == NULL)
         return false;
     char line[2 * sizeof error->text];
-    int length = vsnprintf(line, sizeof line, format, arguments);
-    error->kind = kind;
-    scene_copy_line(error->text, sizeof error->text, line, length < 0 ? 0 : strlen(line));
-    return false;
-}
-
-bool scene_error_set(scene_error *error, scene_error_kind kind, const char *format, ...)
-{
     va_list arguments;
     va_start(arguments, format);
-    scene_error_set_va(error, kind, format, arguments);
+    const int length = vsnprintf(line, sizeof line, format, arguments);
     va_end(arguments);
+    error->kind = kind;
+    scene_copy_line(error->text, sizeof error->text, line, length < 0 ? 0 : strlen(line));
     return false;
 }
 

@@ -5,7 +5,6 @@
 #ifndef MANGATA_SCENE_SCENE_TEXT_H
 #define MANGATA_SCENE_SCENE_TEXT_H
 
-#include <stdarg.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -33,7 +32,6 @@ typedef struct scene_place {
 /* Fills *error (NULL is allowed) with one line: control characters become '?', what is too long is cut at a whole
  * character. Always returns false, so that callers can `return scene_error_set(…)`. */
 bool scene_error_set(scene_error *error, scene_error_kind kind, const char *format, ...) SCENE_FORMAT(3, 4);
-bool scene_error_set_va(scene_error *error, scene_error_kind kind, const char *format, va_list arguments) SCENE_FORMAT(3, 0);
 bool scene_error_memory(scene_error *error);
 
 /* Of a file that cannot be read. */

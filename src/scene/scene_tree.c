@@ -4,6 +4,7 @@
  */
 #include "scene/scene_tree.h"
 
+#include <stdarg.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>

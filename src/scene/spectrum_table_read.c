@@ -5,6 +5,7 @@
 #include "scene/spectrum_table_read.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -13,7 +13,6 @@
 #define CELLS_POINTS 3        /* the round adds points to the leaves above this bucket */
 #define CELLS_LEAST 4         /* leaves up to this bucket are settled */
 #define CELLS_SHARE 5         /* the round splits this fraction of the cells in the bucket, a double */
-#define CELLS_BUDGET 7        /* evaluations that may be spent in all, a double */
 #define CELLS_JOBS 9          /* number of the round's jobs; a job is the cells of one size in a tile */
 #define CELLS_GROUPS 10       /* number of the round's groups; a group is cells of one job */
 #define CELLS_POINT_TILES 11  /* number of the round's tiles with points */
