@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT
- * Method adaptive: pixels of method `mangata` are split into four cells again and again where that is worth most.
+ * Method adaptive: splits pixels of method mangata into four cells again and again where that saves the most error.
  *
- * A picture of pixels comes first. Every pixel or cell says how far off its coverage may be; the leaves of this refinement are split in order of the
- * squared error that this may save for each evaluation of the waves. That goes in rounds, for the cells of a round tell what the next one is worth.
- * Sums are kept per tile in a fixed order and counted in whole numbers across tiles, so that threads change nothing. */
+ * The picture of method mangata is rendered first. Its pixels are the first leaves of the refinement tree. Each leaf has an expected squared error, and leaves
+ * are split in the order of the squared error that a split may save per evaluation of the waves. Splits go in rounds, because the cells of a round decide which
+ * splits are worth most in the next one. Sums are kept per tile in a fixed order and counted in whole numbers across tiles, so that the result does not depend
+ * on threads. */
 #define _POSIX_C_SOURCE 199309L
 #include "cpu/adaptive.h"
 
@@ -30,7 +31,7 @@ static leaf leaf_from(const tile_pixels *p, const tile_detail *d, size_t i)
                   .shape = lane_split(d->aspect[i])};
 }
 
-/* Sorts the tile's waves of a set for cells; returns what the kernels are told of the frame then. */
+/* Sorts the waves of a set for a tile's cells. Returns the FrameData for these cells. */
 static FrameData sort_set(const refinement *f, size_t tile, const wave_set *set, int across, int down, tile_waves *out)
 {
     const FrameData data = cell_frame(&f->a->frame->data, across, down);
@@ -39,7 +40,7 @@ static FrameData sort_set(const refinement *f, size_t tile, const wave_set *set,
     return data;
 }
 
-/* One piece of the shutter: into s->close, and s->open where the camera moves. */
+/* Sorts the waves of one piece of the shutter into s->close, and into s->open if the camera moves. */
 static FrameData sort_cells(const refinement *f, size_t tile, int across, int down, int part, tile_scratch *s)
 {
     refinement_tile *t = &f->tiles[tile];
@@ -96,7 +97,8 @@ static void plant_tile(void *argument, size_t tile, uint32_t worker)
 
 /* ---- rounds ---- */
 
-/* Adds what a piece of the shutter shows, beside what cells keep of their leaf; of detail heights alone are its own, and those of the last piece stay. */
+/* Adds one piece of the shutter to the sums of cells. Pixel values count with the fraction that the cells do not keep of their leaf. Heights are not summed:
+ * those of the last piece stay. */
 static void add_part(const tile_cells *part, float share, tile_cells *sum)
 {
     enum { PIXEL_PLANES = 5 };
@@ -110,7 +112,7 @@ static void add_part(const tile_cells *part, float share, tile_cells *sum)
     memcpy(sum->detail.height, part->detail.height, part->count * sizeof *part->detail.height);
 }
 
-/* The parts of a leaf lie one after the other. */
+/* Applies parts_contrast(). The four parts of a leaf are neighbours in the arrays. */
 static void average_contrasts(tile_detail *detail, size_t count)
 {
     for (size_t i = 0; i < count; i += 4) {
@@ -121,7 +123,7 @@ static void average_contrasts(tile_detail *detail, size_t count)
     }
 }
 
-/* Renders the cells that wait, all of one size. */
+/* Renders the worker's cells, which are all of one size, and adds them as leaves. */
 static bool grow(const refinement *f, size_t tile, int across, int down, uint32_t worker)
 {
     const adaptive_frame *a = f->a;
@@ -163,7 +165,8 @@ static bool grow(const refinement *f, size_t tile, int across, int down, uint32_
     return true;
 }
 
-/* Where neither camera nor water moves under the cell, it may begin its search at the hit of a pixel below. `sum`: where what the cell shows is added up. */
+/* Appends the four cells of a leaf. A cell may begin its search at the hit of a pixel below if its class sees the shutter as one piece and the camera stands
+ * still. `sum` starts with the values that the cells keep of their leaf. */
 static void add_children(const refinement *f, size_t tile, tile_cells *cells, tile_pixels *sum, const leaf *l)
 {
     const float kept = lane_kept(f->tiles[tile].dark, l->variance);
@@ -185,7 +188,7 @@ static void add_children(const refinement *f, size_t tile, tile_cells *cells, ti
     }
 }
 
-/* The chosen leaves whose children have one size; `end` is how many leaves there were before the round. */
+/* Splits the chosen leaves whose cells have this size. `end`: number of leaves before the round. */
 static bool split_size(const refinement *f, size_t tile, int across, int down, size_t end, uint32_t worker)
 {
     refinement_tile *t = &f->tiles[tile];
@@ -254,14 +257,14 @@ static double now(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* What a frame has used and may use. */
+/* Evaluations and time of a frame. */
 typedef struct frame_budget {
-    double evaluations;         /* in all, for a number of samples */
+    double evaluations;         /* budget of evaluations, for a number of samples */
     double began, end;          /* seconds, for a budget of time */
-    double round_began, before; /* when the last round began, and what had been spent then */
+    double round_began, before; /* time at which the last round began, and evaluations before it */
 } frame_budget;
 
-/* How much the next round may spend; 0: it is enough. */
+/* Evaluations that the next round may spend; 0: the frame is done. */
 static double next_share(const refinement *f, frame_budget *b, size_t round)
 {
     enum { MOST_ROUNDS = 40 };
@@ -272,9 +275,9 @@ static double next_share(const refinement *f, frame_budget *b, size_t round)
         return round < MOST_ROUNDS ? share_towards(NULL, goal.predicted, goal.target, used) : 0;
     if (q->budget_ms > 0) {
         const double time = now(), left = b->end - time;
-        /* The first pixels are cheaper than cells: half of their speed is a careful estimate. */
+        /* Pixels are cheaper than cells, so half of the speed with pixels is a careful estimate for the first round. */
         const double speed = round == 0 ? 0.5 * used / (time - b->began) : (used - b->before) / (time - b->round_began);
-        /* A round may be three times as slow as the last one, when its cells turn to points. */
+        /* A round whose cells turn to points may be three times as slow as the round before it. */
         const double share = round == 0 ? 0.2 : 0.3;
         b->round_began = time;
         b->before = used;
@@ -283,7 +286,7 @@ static double next_share(const refinement *f, frame_budget *b, size_t round)
     return share_of_samples(NULL, (int)round, b->evaluations, used);
 }
 
-/* Within a round, on the caller's thread. */
+/* Called within a round on the caller's thread. */
 static bool report_progress(void *argument, double fraction)
 {
     const refinement *f = argument;
@@ -297,7 +300,7 @@ static mgt_status run_rounds(refinement *f)
     const size_t tiles = (size_t)f->columns * f->rows;
     const thread_loop plant = {tiles, plant_tile, f, NULL}, split = {tiles, split_tile, f, report_progress}, end = {tiles, settle_tile, f, NULL};
     frame_budget budget = {.began = now()};
-    /* Some of the time is for what follows: settling the leaves, and the display. */
+    /* A part of the time is left for settling the leaves and for display. */
     budget.end = budget.began + 1e-3 * q->budget_ms - 4e-9 * (double)f->out->width * f->out->height;
     thread_pool_run(a->pool, &plant);
     budget.evaluations = (q->samples > 0 ? q->samples : 8) * refinement_water(f);
@@ -329,7 +332,7 @@ static void place_waves(refinement *f)
                 wave_set_build(whole, &camera, part.time, true, p->sets[i]);
                 continue;
             }
-            /* Finding a skyline takes long, and those of parts of the shutter are nearly the same. */
+            /* A skyline takes long to find, and skylines of pieces of the shutter are nearly the same. */
             wave_set_place(whole, &camera, part.time, true, p->sets[i]);
             skyline_copy(f->parts[0].sets[f->moves && i > 0], p->sets[i]);
         }

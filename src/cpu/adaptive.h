@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Method adaptive: pixels of method `mangata` are split into four cells again and again where that is worth most. */
+ * Method adaptive: splits pixels of method mangata into four cells again and again where that saves the most error. */
 #ifndef MANGATA_CPU_ADAPTIVE_H
 #define MANGATA_CPU_ADAPTIVE_H
 
@@ -11,20 +11,20 @@
 typedef struct adaptive_frame {
     const frame *frame;
     const lane_kernels *kernels;
-    const float *sky; /* the table of a sky_state */
+    const float *sky; /* sky_state.table */
     thread_pool *pool;
-    tile_scratch **scratch;     /* one a worker */
-    const tile_opened *objects; /* a tile each, in rows: what they see of objects; NULL: there are none */
-    picture_sums sums;          /* of scheme podee */
-    /* Asked now and then on the caller's thread with the share done; false: stop with MGT_CANCELLED. */
+    tile_scratch **scratch;     /* one per worker */
+    const tile_opened *objects; /* objects in each tile, row by row; NULL: there are none */
+    picture_sums sums;          /* read by scheme podee */
+    /* Called repeatedly on the caller's thread with the fraction that is done. False: the frame ends with MGT_CANCELLED. */
     bool (*keep_going)(void *argument, double fraction);
     void *keep_going_argument;
 } adaptive_frame;
 
-/* Memory that frames of one size share; nothing else outlives a frame. */
+/* Memory that is kept between frames of one size. */
 typedef struct refinement refinement;
 
-/* Fills all planes but depth. MGT_ERROR_MEMORY where memory is short. *kept: NULL at first, made and remade as frames need it. */
+/* Fills all planes but depth. *kept is NULL at first and is reallocated when a frame's size needs it. Returns MGT_OK, MGT_CANCELLED or MGT_ERROR_MEMORY. */
 mgt_status adaptive_render(const adaptive_frame *a, refinement **kept, const picture_planes *out);
 void refinement_free(refinement *f);
 

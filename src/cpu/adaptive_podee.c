@@ -2,10 +2,10 @@
  * Method adaptive, scheme podee: Podee et al., Adaptive Supersampling for Rendering Reflections on Water Surfaces, as published
  * (docs/adaptive.md).
  *
- * Pixels of the approximate picture get an importance (Eq. 1); those above a threshold are tasks, among which a number of sample slots is
- * shared out in proportion to it (Eq. 2). Tasks stand in the order of tiles, and of pixels within a tile: a tile's slots then are neighbours, one
- * worker takes them all, and what the paper adds up atomically is added in one fixed order. Sums within tiles are taken in parallel, over tiles
- * serially. */
+ * Each pixel of the approximate picture has an importance (Eq. 1). Pixels whose importance is above a threshold are tasks. Sample slots are distributed among
+ * tasks in proportion to their importance (Eq. 2). Tasks are ordered by tile, and within a tile by pixel. So the slots of a tile are consecutive, one worker
+ * takes them all, and samples are added in a fixed order, where the paper adds atomically. Prefix sums are taken in parallel within tiles and serially over
+ * tiles. */
 #include "cpu/adaptive_podee.h"
 
 #include <math.h>
@@ -53,28 +53,28 @@ typedef struct detail_job {
     const adaptive_frame *a;
     const picture_planes *out;
     podee_rules rules;
-    wave_set *close, *open; /* all waves, unfiltered, at both ends of the shutter; open NULL where they are the same */
+    wave_set *close, *open; /* all waves, unfiltered, when the shutter closes and opens; `open` NULL: both are the same */
     uint32_t columns;
     size_t tiles;
-    double *before; /* tiles + 1: sums of importance over tasks, of each tile at first, then of all tiles before it */
-    double *water;  /* pixels of water in each tile */
-    uint64_t slots;
-    uint64_t first, end; /* the slots that are taken */
-    double most;         /* no sample's value is above it, so that sums fit */
-    double fraction;     /* last told, on the caller's thread */
+    double *before;      /* tiles + 1 sums of the tasks' importance: of each tile at first; after add_tiles() of all tiles before it */
+    double *water;       /* number of pixels of water in each tile */
+    uint64_t slots;      /* number of slots of the picture */
+    uint64_t first, end; /* range of slots whose samples are taken */
+    double most;         /* samples' values are clamped to this, so that sums do not overflow */
+    double fraction;     /* fraction at the last report of progress; only the caller's thread uses it */
     atomic_bool cancelled;
 } detail_job;
 
-/* A tile's pixels that are tasks. */
+/* The tasks of a tile. */
 typedef struct tile_tasks {
     size_t count;
-    uint16_t pixel[TILE_PIXELS];
-    double before[TILE_PIXELS];      /* the prefix sum of importance over the whole picture */
-    uint64_t first[TILE_PIXELS + 1]; /* slots: a task has those from here to the next task's first one */
+    uint16_t pixel[TILE_PIXELS];     /* each task's pixel in the tile */
+    double before[TILE_PIXELS];      /* exclusive prefix sum of importance over the whole picture */
+    uint64_t first[TILE_PIXELS + 1]; /* first slot of each task, and one past the last slot of the last task */
 } tile_tasks;
 
 typedef struct tile_corner {
-    uint32_t left, top, width, height; /* as much of the tile as lies in the picture */
+    uint32_t left, top, width, height; /* the part of the tile that lies in the picture */
 } tile_corner;
 
 static tile_corner corner_of(const detail_job *job, size_t tile)
@@ -104,7 +104,7 @@ static void weigh_tile(void *argument, size_t tile, uint32_t worker)
     job->water[tile] = water;
 }
 
-/* The sum over all tiles ends up in before[tiles]. */
+/* Replaces sums of tiles by prefix sums, with the sum over all tiles in before[tiles], and sets the members that depend on it. */
 static void add_tiles(detail_job *job)
 {
     double sum = 0, water = 0;
@@ -142,7 +142,7 @@ static void list_tasks(const detail_job *job, size_t tile, tile_tasks *tasks)
     tasks->first[tasks->count] = podee_first_slot(job->before[tile + 1], job->slots, all);
 }
 
-/* How many slots of a task are taken. */
+/* Number of samples that are taken for a task. */
 static uint64_t samples_of_task(const detail_job *job, const tile_tasks *tasks, size_t task)
 {
     const uint64_t first = tasks->first[task] > job->first ? tasks->first[task] : job->first;
@@ -160,7 +160,7 @@ static void see_tile(const detail_job *job, size_t tile, const wave_set *set, ti
     tile_find_estimates(a->kernels, &a->frame->data, waves, estimate);
 }
 
-/* A random place in the pixel for its sample `number`. */
+/* Appends a ray through a random place of the pixel, which depends on the sample's number. */
 static void add_ray(const detail_job *job, const tile_corner *c, uint16_t pixel, uint64_t number, temporal_rays *rays)
 {
     const uint32_t column = pixel % TILE_WIDTH, row = pixel / TILE_WIDTH;
@@ -186,7 +186,7 @@ static void add_results(const temporal_rays *rays, double most, sample_sums *sum
 static bool told(void *argument, double fraction)
 {
     detail_job *job = argument;
-    const double approximate = 0.3; /* share of the approximate picture in the whole */
+    const double approximate = 0.3; /* the approximate picture counts as this fraction of the work */
     job->fraction = fraction;
     if (!atomic_load(&job->cancelled) && !job->a->keep_going(job->a->keep_going_argument, approximate + (1 - approximate) * fraction))
         atomic_store(&job->cancelled, true);
@@ -195,7 +195,7 @@ static bool told(void *argument, double fraction)
 
 enum { BATCHES_BETWEEN_WORDS = 256 };
 
-/* The slots [first, end). False: cancelled. */
+/* Takes the samples of the slots [first, end). False: cancelled. */
 static bool take_samples(detail_job *job, size_t tile, const tile_tasks *tasks, uint64_t first, uint64_t end, uint32_t worker)
 {
     const adaptive_frame *a = job->a;
@@ -228,7 +228,7 @@ static bool take_samples(detail_job *job, size_t tile, const tile_tasks *tasks, 
     return true;
 }
 
-/* Eq. 4 for every layer. A task without a slot stays as it is. */
+/* Blends the samples' means into every layer, Eq. 4. A task without samples keeps its values. */
 static void blend_pixel(const picture_planes *p, size_t i, const uint64_t *words, uint64_t samples, double weight)
 {
     const double n = (double)samples;
@@ -257,7 +257,7 @@ static void blend_tile(const detail_job *job, size_t tile, const tile_tasks *tas
     }
 }
 
-/* Whether the picture's sums have pixels of the tile; true where there are none. */
+/* Whether the tile has pixels in the crop of the picture's sums; true if there are no sums. */
 static bool is_summed(const detail_job *job, size_t tile)
 {
     const picture_sums *sums = &job->a->sums;

@@ -7,28 +7,28 @@
 #include "cpu/adaptive.h"
 #include "frame/podee_rules.h"
 
-/* `out` holds colour, coverage and water of the approximate picture; they become the blended ones, and the other planes but depth are
- * filled. MGT_ERROR_MEMORY where memory is short. */
+/* `out` holds colour, coverage and water of the approximate picture. The samples are blended into these planes, and all other planes but depth are filled.
+ * Returns MGT_OK, MGT_CANCELLED or MGT_ERROR_MEMORY. */
 mgt_status adaptive_podee_render(const adaptive_frame *a, const picture_planes *out);
 
-/* ---- its parts ---- */
+/* ---- the equations, for tests ---- */
 
-/* M: as many slots as asked for, or so many a pixel of `water` pixels; at least 1. */
+/* M, the number of slots: quality.sample_slots, or else the samples per pixel times `water`, the number of pixels of water; at least 1. */
 uint64_t podee_slots_of(const mgt_quality *quality, double water);
 
-/* Eq. 1, scaled to 1 at its peak. */
+/* Importance of a pixel, Eq. 1, scaled to 1 at its peak. */
 float podee_importance(const podee_rules *rules, float coverage);
 
-/* Eq. 2 as it must be: where slot k of `slots` looks in a prefix sum that ends at `sum`. */
+/* Eq. 2, corrected: place of slot k of `slots` in a prefix sum that ends at `sum`. */
 double podee_slot_place(uint64_t k, uint64_t slots, double sum);
 
-/* The first slot that looks at `place` or beyond; `slots` where none does. */
+/* The first slot whose place is `place` or beyond; `slots`: there is none. */
 uint64_t podee_first_slot(double place, uint64_t slots, double sum);
 
-/* The last of `count` tasks whose exclusive prefix sum is at most `place`; the first one where none is. */
+/* The last of `count` tasks whose exclusive prefix sum is at most `place`; the first task if there is none. */
 size_t podee_task_at(const double *prefix, size_t count, double place);
 
-/* Eq. 3: `samples` is M v/Σv, `frequency` that of the finest wave, cycles per pixel. */
+/* Weight of a pixel's samples, Eq. 3. `samples` is M v/Σv. `frequency` is that of the finest wave, cycles per pixel. */
 double podee_detail_weight(double samples, double frequency);
 
 #endif

@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: MIT
- * Point samples of method adaptive, for cells of so many waves that splits would long say the same. */
+ * Point samples of method adaptive, for cells that show so many waves that many splits would not reduce the error. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "cpu/refinement.h"
 
-/* Points that wait to be rendered, and the leaf that each belongs to. */
+/* Points that are still to be rendered. */
 typedef struct point_batch {
     int count;
-    uint32_t owner[TILE_PIXELS];
-    uint16_t pixel[TILE_PIXELS]; /* of the tile */
+    uint32_t owner[TILE_PIXELS]; /* index of each point's leaf */
+    uint16_t pixel[TILE_PIXELS]; /* each point's pixel in the tile */
 } point_batch;
 
-/* Point `index` of a leaf's sequence. Its hit is looked for as its pixel's is. */
+/* Appends point `index` of a leaf's sequence. The search of its hit begins with the estimate of its pixel. */
 static void add_point(const leaf *l, double lot, int index, uint32_t owner, point_batch *batch, tile_scratch *s)
 {
     const LeafPlace place = place_of_leaf(l);
@@ -29,10 +29,10 @@ static void add_point(const leaf *l, double lot, int index, uint32_t owner, poin
     s->close_estimate->shift_z[i] = s->open_estimate->shift_z[pixel];
 }
 
-/* What is summed of a leaf's points: colour, coverage, water and the square of the luminance. */
+/* Sums over a leaf's points: red, green, blue, coverage, water and squared luminance. */
 enum { POINT_SUMS = 6 };
 
-/* Sums go to sums[POINT_SUMS × owner]. */
+/* Renders the points and adds them to the sums of their owners, sums[POINT_SUMS × owner]. */
 static void render_points(const refinement *f, size_t tile, point_batch *batch, tile_scratch *s, double *sums)
 {
     const tile_opened *objects = f->a->objects;
@@ -58,7 +58,7 @@ static void render_points(const refinement *f, size_t tile, point_batch *batch, 
     batch->count = 0;
 }
 
-/* The leaf's values become the mean of all its points, old and new. */
+/* Sets the leaf's values to the mean of its points, old and new. */
 static void take_points(leaf *l, const double sums[POINT_SUMS], bool sky_black)
 {
     const int end = leaf_next_points(l);

@@ -21,7 +21,7 @@
 
 #define LEAN(cx) ((cx)->lean->data)
 
-/* Where a texel's moments begin; level 0 has none. */
+/* The moments of a texel. Level 0 stores none. */
 static inline const float *lean_texel_at(const struct kernel_context *cx, int level, int column, int row)
 {
     return cx->lean->levels[level] + (((size_t)row * LEAN_SIZE >> level) + (size_t)column) * LEAN_MOMENTS;
@@ -106,7 +106,7 @@ static struct kernel_context context_of(const method_tile *t, const tile_waves *
     return cx;
 }
 
-/* Shades a point of the surface with all its waves. */
+/* A method that shades a point of the surface with all its waves. */
 typedef PixelResult point_method(CTX cx, real column, real row, HitEstimate estimate);
 
 static void point_pixels(point_method *shade, const method_tile *t, tile_pixels *out)
@@ -118,7 +118,7 @@ static void point_pixels(point_method *shade, const method_tile *t, tile_pixels 
     }
 }
 
-/* Shades a pixel from its slopes; `open` is `close` unless the camera moves. */
+/* A method that shades a pixel by its slopes. `open` is `close` unless the camera moves. */
 typedef PixelResult slope_method(CTX cx, PixelRay p, SlopeState open, SlopeState close);
 
 static void slope_pixels(slope_method *shade, const method_tile *t, tile_pixels *out)
@@ -199,7 +199,7 @@ static void lanes_temporal(const method_tile *t, temporal_rays *rays)
     }
 }
 
-/* On the mean surface; waves without height count for nothing. */
+/* Footprints are those on the mean surface. Waves without height are left out. */
 static void lanes_frequencies(const method_tile *t, const wave_set *waves, float *most)
 {
     const struct kernel_context cx = {.frame = t->frame, .tile = &t->close->data};

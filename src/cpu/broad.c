@@ -8,11 +8,10 @@
 #include "base/triples.h"
 
 enum {
-    MOST_SPLITS = 14, /* of a triangle's edges one after the other; edges in sight get too short for more long before */
-    MOST_CORNERS = 5
+    MOST_SPLITS = 14, /* depth of splits; edges within the picture get too short for more splits long before */
+    MOST_CORNERS = 5  /* corners of a triangle that two planes cut */
 };
 
-/* What a worker holds while it goes through a chunk. */
 typedef struct chunk_job {
     const broad_view *view;
     broad_scratch *scratch;
@@ -20,14 +19,14 @@ typedef struct chunk_job {
     broad_counts *counts;
 } chunk_job;
 
-/* A part of a triangle: points relative to the camera's foot, and how far on the far side of the surface they lie. */
+/* A part of a triangle. */
 typedef struct part {
-    int count;
-    float corner[MOST_CORNERS][3];
-    float far[MOST_CORNERS];
+    int count;                     /* number of corners */
+    float corner[MOST_CORNERS][3]; /* relative to the point of the mean surface below the camera, metres */
+    float far[MOST_CORNERS];       /* distance of each corner beyond the mean surface, metres */
 } part;
 
-/* ---- drawing what is flat ---- */
+/* ---- drawing ---- */
 
 static void load_patch(patch_batch *b, size_t i, const patch *from)
 {
@@ -54,7 +53,7 @@ static void draw_straight(const chunk_job *job)
     b->count = 0;
 }
 
-/* Whether all corners lie beyond one border of the picture, or too near. */
+/* Whether all corners lie beyond one border of the picture, or all are nearer than the least depth. */
 static bool is_outside(const PictureData *picture, const float image[3][3])
 {
     bool left = true, right = true, top = true, bottom = true, near = true;
@@ -69,7 +68,7 @@ static bool is_outside(const PictureData *picture, const float image[3][3])
     return left || right || top || bottom || near;
 }
 
-/* A triangle that stays where its images are. */
+/* Appends a triangle whose images are straight to the batch of these. */
 static void take_straight(const chunk_job *job, int layer, const patch *p)
 {
     broad_scratch *s = job->scratch;
@@ -100,7 +99,7 @@ static void push(const chunk_job *job, patch_stack *s, const patch *p)
     s->patches[s->count++] = *p;
 }
 
-/* Corners 0 to 2 of a patch and the middles of its edges, 3 to 5. */
+/* Points 0 to 2 are the corners of a patch, points 3 to 5 the middles of its edges. */
 typedef struct patch_points {
     float point[6][3], image[6][3];
 } patch_points;
@@ -118,7 +117,7 @@ static patch_points points_of(const patch_batch *b, const patch *p, size_t i)
     return points;
 }
 
-/* Triangles that take the place of one, by which of its edges are split (bit e: edge e, from corner e to the next one); of points 0 to 5. */
+/* Triangles of patch_points that replace a patch, by the set of edges that are split. Bit e is edge e, from corner e to the next one. */
 static const struct {
     int count;
     int8_t corner[4][3];
@@ -149,7 +148,7 @@ static void divide(const chunk_job *job, const patch *p, size_t i, int edges)
 
 static int split_edges(const patch_batch *b, size_t i) { return (b->split[0][i] > 0 ? 1 : 0) | (b->split[1][i] > 0 ? 2 : 0) | (b->split[2][i] > 0 ? 4 : 0); }
 
-/* Draws or divides the batch, which holds scratch->taken. `place`: their images are not known yet. */
+/* Draws or divides the patches of the batch, scratch->taken. `place`: their images are still to be computed. */
 static void work_batch(const chunk_job *job, bool place)
 {
     broad_scratch *s = job->scratch;
@@ -171,7 +170,7 @@ static void work_batch(const chunk_job *job, bool place)
     b->count = 0;
 }
 
-/* Works on the last ones of a stack. */
+/* Works on the last patches of a stack, up to PATCH_BATCH. `place`: as in work_batch(). */
 static void work_stack(const chunk_job *job, patch_stack *stack, bool place)
 {
     broad_scratch *s = job->scratch;
@@ -200,7 +199,8 @@ static void cut_edge(const part *p, int in, int out, float plane, part *to)
     to->far[to->count++] = plane;
 }
 
-/* What lies where far ≥ plane (`beyond`) or ≤ plane. Cuts go from the end with the larger `far` to the other one, for both. */
+/* The part where far ≥ plane if `beyond`, else that where far ≤ plane. An edge is cut from its end with the larger `far`, so that both parts get the same
+ * corner. */
 static part cut(const part *p, float plane, bool beyond, float side)
 {
     part out = {.count = 0};
@@ -236,7 +236,7 @@ static void draw_near(const chunk_job *job, const part *p, int32_t triangle)
     }
 }
 
-/* For later: the images of its corners are not known. */
+/* Pushes the part's triangles for later, because the images of new corners are not known yet. */
 static void push_part(const chunk_job *job, const part *p, int32_t triangle)
 {
     for (int i = 1; i + 1 < p->count; i++) {
@@ -247,7 +247,7 @@ static void push_part(const chunk_job *job, const part *p, int32_t triangle)
     }
 }
 
-/* How far beyond the surface the front layer shows an object: troughs may uncover some of it, dry hulls all. */
+/* Distance beyond the mean surface up to which the front layer shows an object, metres. Troughs may uncover a part of it, and dry hulls all of it. */
 static float uncovered(const broad_view *view, int32_t triangle)
 {
     const world *w = view->world;
@@ -255,7 +255,7 @@ static float uncovered(const broad_view *view, int32_t triangle)
     return all ? INFINITY : view->trough;
 }
 
-/* Both sides of a triangle that meets the surface, or comes near it from the camera's side. */
+/* Cuts a triangle that meets the mean surface or comes near it from the camera's side, and draws the parts into their layers. */
 static void cut_triangle(const chunk_job *job, const patch *whole, const float far[3])
 {
     const broad_view *view = job->view;
@@ -278,7 +278,7 @@ static void cut_triangle(const chunk_job *job, const patch *whole, const float f
     }
 }
 
-/* What of a triangle beyond the surface may be uncovered. */
+/* Draws the part of a triangle beyond the surface that may be uncovered into the front layer. */
 static void draw_uncovered(const chunk_job *job, const patch *whole, const float far[3])
 {
     part p = {.count = 3};

@@ -6,27 +6,27 @@
 #include "cpu/raster.h"
 #include "frame/world.h"
 
-enum { BROAD_CHUNK = 1024 }; /* triangles of the world that are worked on at a time */
+enum { BROAD_CHUNK = 1024 }; /* triangles of the world in a chunk, which one worker takes */
 
-/* What all triangles of a picture share. */
+/* What triangles of a picture have in common. */
 typedef struct broad_view {
     const world *world;
     const raster_kernels *kernels;
     RefractData refract;
     PictureData picture;
     raster_grid grid;
-    float foot[2];       /* the camera's foot in the world */
-    float crest;         /* metres that the refracted layer goes on for on the camera's side */
-    float trough;        /* metres that the front layer goes on for beyond the surface */
-    bool mirrored;       /* see gbuffer_job */
-    const float *images; /* of all vertices, as raster_kernels.images fills them */
+    float foot[2];       /* x and z of the camera in the world */
+    float crest;         /* gbuffer_job.crest; 0 for MAP_PATH */
+    float trough;        /* gbuffer_job.trough */
+    bool mirrored;       /* gbuffer_job.mirrored */
+    const float *images; /* images of all vertices, see raster_kernels.images */
 } broad_view;
 
-/* A triangle on its way. */
+/* A triangle of the world, or a part of one. */
 typedef struct patch {
     float corner[3][3], image[3][3];
-    int32_t triangle;
-    int32_t depth; /* how often it has been split */
+    int32_t triangle; /* triangle of the world */
+    int32_t depth;    /* number of splits that have led to this part */
 } patch;
 
 typedef struct broad_counts {
@@ -38,20 +38,20 @@ typedef struct patch_stack {
     size_t count, room;
 } patch_stack;
 
-/* A worker's memory; zeroed at first. */
+/* A worker's memory. It starts zeroed. */
 typedef struct broad_scratch {
     patch_batch batch;
-    patch taken[PATCH_BATCH]; /* what the batch holds */
-    patch_batch straight;     /* triangles that nothing bends */
+    patch taken[PATCH_BATCH]; /* the patches of `batch` */
+    patch_batch straight;     /* triangles whose images are straight */
     patch straight_taken[PATCH_BATCH];
     int straight_layer[PATCH_BATCH];
     setup_batch setup;
-    patch_stack waiting; /* with images */
-    patch_stack cut;     /* parts of triangles that meet the surface, without images */
-    bool failed;         /* memory was short */
+    patch_stack waiting; /* patches whose images are known */
+    patch_stack cut;     /* parts of triangles that the surface cuts; their images are not known yet */
+    bool failed;         /* out of memory */
 } broad_scratch;
 
-/* Bins of the triangles of one chunk, in an order of their own that depends on nothing else. */
+/* Fills the bins of one chunk of the world. Their order depends on the chunk alone. */
 void broad_chunk(const broad_view *view, size_t chunk, broad_scratch *scratch, raster_bins *bins, broad_counts *counts);
 void broad_scratch_free(broad_scratch *scratch);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * The CPU backend: tiles over a thread pool, the lanes that this processor runs, targets and display. */
+ * The CPU backend: renders tiles in a thread pool, chooses the lanes that this processor runs, and writes targets and displayed colours. */
 #define _POSIX_C_SOURCE 199309L
 #include <errno.h>
 #include <stdatomic.h>
@@ -153,34 +153,34 @@ typedef struct render_job {
     frame frame;
     tile_job tiles;
     tile_wants wants;
-    region area; /* rendered: the crop, or the whole image where glare needs it */
-    region crop; /* what the targets hold */
+    region area; /* region that is rendered: the crop, or the whole image if there is glare */
+    region crop; /* region that the targets hold */
     const mgt_target *targets;
     size_t target_count;
-    float *radiance;                    /* area.width × area.height × 3 for glare, or NULL */
-    uint32_t first_x, first_y, columns; /* blocks of the loop */
+    float *radiance;                    /* area.width × area.height × 3 floats for glare; NULL: there is none */
+    uint32_t first_x, first_y, columns; /* first block of the loop, and number of blocks in a row */
     uint32_t block_width, block_height;
     reference_frame *reference;
     atomic_bool cancelled;
     const frame_pass *pass; /* NULL: the picture is the whole frame */
     picture_sums sums;
-    double fraction;  /* done when progress was last told; the caller's thread only */
-    double last_told; /* seconds */
+    double fraction;  /* fraction done at the last report of progress; only the caller's thread uses it */
+    double last_told; /* time of that report, seconds */
 } render_job;
 
-/* A rectangle of finished pixels in planes, wherever they come from. */
+/* A rectangle of finished pixels in planes. */
 typedef struct pixel_planes {
-    const float *color[3]; /* red, green, blue, each `color_step` floats a pixel */
-    size_t color_step;
+    const float *color[3]; /* red, green and blue */
+    size_t color_step;     /* floats from pixel to pixel of `color` */
     const float *coverage, *water, *foam, *depth;
-    const float *refraction[3], *error; /* one float a pixel; NULL: zeros */
+    const float *refraction[3], *error; /* NULL: zeros */
     const float *normal[3];
-    size_t normal_step;
-    size_t stride; /* pixels a row */
+    size_t normal_step; /* floats from pixel to pixel of `normal` */
+    size_t stride;      /* pixels from row to row */
 } pixel_planes;
 
-/* Pixels of planes as rows of pixels, at most TILE_WIDTH: packed nearby and copied in one go, since single floats written to far rows would wait for
- * memory one by one. */
+/* Writes up to TILE_WIDTH pixels of planes to a row of a target. They are packed first and copied together, because single floats written to distant rows would
+ * each wait for memory. */
 static void write_pixels(const float *const source[3], size_t step, size_t first, uint32_t count, size_t channels, float *out)
 {
     float packed[4 * TILE_WIDTH];
@@ -245,7 +245,7 @@ static void write_row(const render_job *job, const mgt_target *t, const pixel_pl
     }
 }
 
-/* The part of `block` that the crop holds goes to every float target, and to display where no glare is to come. */
+/* Writes the part of `block` that lies in the crop to every float target, and to displayed targets unless glare is still to be added. */
 static void write_block(const render_job *job, const region *block, const pixel_planes *p)
 {
     const region *crop = &job->crop;
@@ -275,7 +275,7 @@ static void keep_radiance(const render_job *job, const region *block, const pixe
     }
 }
 
-/* The block with this index, cut to what is rendered; `offset` says where it begins within its uncut self. */
+/* The block with this index, cut to the area. `offset` receives the place of the cut block within the whole one. */
 static region block_of(const render_job *job, size_t index, uint32_t offset[2])
 {
     const uint32_t left = (job->first_x + (uint32_t)(index % job->columns)) * job->block_width;
@@ -323,10 +323,11 @@ static void sum_tile(void *argument, size_t index, uint32_t worker)
     tile_render(&job->tiles, job->first_x + (uint32_t)(index % job->columns), job->first_y + (uint32_t)(index / job->columns), job->state->scratch[worker]);
 }
 
-/* Blocks shrink with the samples of a pixel so that progress and cancelling stay prompt. */
+/* Blocks are narrower if a pixel has many samples, see reference_block_width(), so that progress and cancelling stay prompt. */
 enum { REFERENCE_WIDTH = 16, REFERENCE_HEIGHT = 4, REFERENCE_PIXELS = 1024 };
 
-/* Cells of the mean surface are lifted to other rows: high blocks look at few that they do not show. */
+/* Blocks of quality.light_cells. Waves lift cells of the mean surface into other rows of the picture, so tall blocks evaluate few cells that lie outside of
+ * them. */
 enum { CELLS_WIDTH = 8, CELLS_HEIGHT = 128 };
 _Static_assert(CELLS_WIDTH *CELLS_HEIGHT <= REFERENCE_PIXELS && REFERENCE_WIDTH * REFERENCE_HEIGHT <= REFERENCE_PIXELS, "blocks have room");
 
@@ -336,7 +337,7 @@ static uint32_t reference_block_width(const mgt_quality *q)
     return samples > 16384 ? 1 : samples > 2048 ? 4 : REFERENCE_WIDTH;
 }
 
-/* The first word of the block's top left pixel among the sums of the crop. */
+/* Index of the first word of the block's top left pixel in the sums of the crop. */
 static size_t sums_place(const render_job *job, const region *block)
 {
     return ((size_t)(block->y - job->crop.y) * job->crop.width + block->x - job->crop.x) * MGT_SUM_WORDS;
@@ -403,7 +404,7 @@ static bool forward_progress(void *argument, double fraction)
     return !atomic_load(&job->cancelled);
 }
 
-/* Within a long tile: worker 0 is the caller's thread and may speak to it. */
+/* Called within a long tile. Worker 0 is the caller's thread, so it may call back. */
 static bool keep_going(void *argument, uint32_t worker)
 {
     render_job *job = argument;
@@ -496,7 +497,7 @@ mgt_status cpu_prepare_sky(cpu_state *s, const reporter *r, const mgt_scene *sce
     return MGT_OK;
 }
 
-/* Once for all lights and frames of a context. */
+/* Builds the tables of podee-* once per context. They depend on neither lights nor frames. */
 static mgt_status prepare_podee(cpu_state *s, const reporter *r, const mgt_scene *scene)
 {
     const mgt_mixture k = scene->quality.kernels;
@@ -506,7 +507,7 @@ static mgt_status prepare_podee(cpu_state *s, const reporter *r, const mgt_scene
     return report_error(r, MGT_ERROR_MEMORY, "render.memory", "out of memory for the 64 MiB of tables that quality.kernels needs");
 }
 
-/* Every frame has waves of its own. */
+/* Builds the map of slope moments of the frame's waves. */
 static mgt_status prepare_lean(cpu_state *s, const reporter *r, const frame *f)
 {
     if (!(method_of(f->scene->quality.method)->tables & METHOD_LEAN_MAP))
@@ -600,7 +601,7 @@ mgt_status cpu_render_picture(cpu_state *s, const reporter *r, const mgt_scene *
     return status;
 }
 
-/* ---- what the CPU alone does ---- */
+/* ---- calls that only the CPU serves ---- */
 
 mgt_status cpu_sum(void *state, const reporter *r, const mgt_scene *scene, uint64_t *sums)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Methods that work on whole pictures, on the CPU. */
+ * Methods that work on whole pictures: METHOD_PASS on the CPU. */
 #include <stdlib.h>
 
 #include "cpu/adaptive_podee.h"
@@ -9,7 +9,7 @@
 typedef struct picture_user {
     cpu_state *state;
     const reporter *r;
-    picture_sums sums; /* of method adaptive */
+    picture_sums sums; /* for method adaptive, scheme podee */
 } picture_user;
 
 static mgt_status make_picture(void *user, const mgt_scene *scene, const mgt_target *targets, size_t count, const frame_pass *pass)
@@ -62,7 +62,7 @@ static bool report_adaptive(void *argument, double fraction)
     return !s->progress || s->progress(s->progress_user, fraction);
 }
 
-/* What the paper's adaptive scheme begins with: clamped waves over the shutter, and a Gaussian of the others. */
+/* Renders the picture that scheme podee begins with, by method podee-uniform. */
 static mgt_status approximate_picture(const picture_user *u, const mgt_scene *scene, const picture_planes *out)
 {
     mgt_scene plain = *scene;
@@ -75,7 +75,7 @@ static mgt_status approximate_picture(const picture_user *u, const mgt_scene *sc
     return cpu_render_picture(u->state, u->r, &plain, layers, 3, &pass, (picture_sums){0});
 }
 
-/* What all tiles see of objects, before method adaptive begins. */
+/* Finds the objects in all tiles before method adaptive begins. */
 typedef struct objects_job {
     tile_job tiles;
     tile_scratch **scratch;
@@ -118,7 +118,7 @@ static mgt_status see_objects(const picture_user *u, const frame *f, objects_job
 
 #include "kernels/refraction/compose.k"
 
-/* What stands in front of the water, over the finished picture. */
+/* Composes objects in front of the water over the finished picture. */
 static void put_objects_before(const objects_job *job, const picture_planes *p)
 {
     for (uint32_t y = 0; y < p->height && job->seen; y++)
@@ -159,7 +159,7 @@ static mgt_status adapt_picture(void *user, const mgt_scene *scene, const pictur
                         status == MGT_CANCELLED ? "rendering was cancelled" : "out of memory for method adaptive");
 }
 
-/* Adds samples of method adaptive, which needs the whole picture to know where they belong. */
+/* Adds samples of method adaptive. The samples of a crop depend on the whole picture, so all of it is computed. */
 static mgt_status sum_adaptive(picture_user *u, const mgt_scene *scene)
 {
     mgt_scene whole = *scene;

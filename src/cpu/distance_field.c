@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Voxels of distances: exact ones in a band around the triangles, from there on by the exact Euclidean transform of P. Felzenszwalb and D. Huttenlocher,
- * Distance Transforms of Sampled Functions, 2012; and spheres stepped through them. */
+ * Voxels of distances, and sphere tracing through them. Distances are exact in a band around the triangles. Beyond it they are those of the exact Euclidean
+ * transform of P. Felzenszwalb and D. Huttenlocher, Distance Transforms of Sampled Functions, 2012. */
 #include "cpu/distance_field.h"
 
 #include <float.h>
@@ -8,9 +8,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* In voxels: how far from a triangle points know it exactly, which is further than the corners of any cell that it crosses; and the farthest that a
- * point of a triangle lies from the nearest point of the grid. */
-static const float band = 1.8f, half_diagonal = 0.8661f;
+/* Distance from a triangle up to which points of the grid have its exact distance, voxels. It is above the diagonal of a cell, so it includes the corners of
+ * every cell that the triangle crosses. */
+static const float band = 1.8f;
+/* Largest distance of a point in space from the nearest point of the grid, voxels, rounded up. */
+static const float half_diagonal = 0.8661f;
 
 enum { LINES = 64, MOST_STEPS = 4096 };
 
@@ -50,7 +52,7 @@ static float square_to_edge(vector p, vector a, vector b)
     return dot(rest, rest);
 }
 
-/* Squared distance. */
+/* Squared distance of a point from a triangle. */
 static float square_to_triangle(vector p, const corners *t)
 {
     const vector ab = minus(t->b, t->a), ac = minus(t->c, t->a), ap = minus(p, t->a);
@@ -68,18 +70,18 @@ static float square_to_triangle(vector p, const corners *t)
 typedef struct build_job {
     distance_field *field;
     const world *world;
-    float *squares; /* of voxels, to the nearest point within half_diagonal of a triangle */
-    int axis;       /* of the pass */
+    float *squares; /* squared distance to the nearest point that lies within half_diagonal of a triangle, voxels² */
+    int axis;       /* axis of the current pass */
     _Atomic int failed;
 } build_job;
 
 static size_t index_of(const distance_field *f, uint32_t x, uint32_t y, uint32_t z) { return ((size_t)z * f->size[1] + y) * f->size[0] + x; }
 
 typedef struct span {
-    uint32_t from, to; /* to: beyond the last */
+    uint32_t from, to; /* `to` is one past the last */
 } span;
 
-/* Points of an axis within the band of an interval. */
+/* Points along an axis within the band around an interval. */
 static span band_of(const distance_field *f, int axis, float least, float most)
 {
     const float from = ceilf((least - f->low[axis]) / f->voxel - band), to = floorf((most - f->low[axis]) / f->voxel + band) + 1;
@@ -106,7 +108,7 @@ static void enter_triangle(distance_field *f, const corners *t, int32_t triangle
             }
 }
 
-/* Layers z of the grid, a few at a time; of triangles at one distance the first counts. */
+/* Enters all triangles into eight layers z of the grid. Of several triangles at the same distance the first one is kept. */
 static void enter_layers(void *argument, size_t index, uint32_t worker)
 {
     (void)worker;
@@ -128,15 +130,17 @@ static void enter_layers(void *argument, size_t index, uint32_t worker)
         job->squares[i] = f->distance[i] <= half_diagonal * f->voxel ? 0 : FLT_MAX;
 }
 
-enum { BESIDE = 16 }; /* lines that are moved to and fro together: where they run across the memory's order, a line of the cache holds them all */
+/* Lines across the memory's order are copied in groups of so many neighbours, which share cache lines. */
+enum { BESIDE = 16 };
 
-/* Some lines, one after the other, and room for the lower envelope of one line's parabolas. */
+/* Scratch memory for up to BESIDE lines, one after the other, and for the lower envelope of one line's parabolas. */
 typedef struct line_room {
-    float *square, *from; /* of all lines; where each parabola of the envelope begins to count */
-    int32_t *triangle;    /* of all lines */
-    uint32_t *place;
-    float *lowest;    /* of all lines: the envelope */
-    int32_t *nearest; /* of all lines: the triangle that the envelope belongs to */
+    float *square;     /* all lines: squared distances */
+    float *from;       /* one line: place from which on each parabola of the envelope is the lowest */
+    int32_t *triangle; /* all lines: nearest triangles */
+    uint32_t *place;   /* one line: vertex of each parabola of the envelope */
+    float *lowest;     /* all lines: the envelope */
+    int32_t *nearest;  /* all lines: triangle of the envelope's parabola */
 } line_room;
 
 static void transform_line(const line_room *e, const float *square, const int32_t *triangle, size_t first, uint32_t length)
@@ -169,7 +173,7 @@ static void transform_line(const line_room *e, const float *square, const int32_
     }
 }
 
-/* A line in the memory's order. */
+/* Transforms a line along x, whose points are consecutive in memory. */
 static void transform_one(build_job *job, const line_room *e, size_t start, uint32_t length)
 {
     distance_field *f = job->field;
@@ -179,7 +183,7 @@ static void transform_one(build_job *job, const line_room *e, size_t start, uint
         f->triangle[start + q] = f->distance[start + q] == FLT_MAX ? e->nearest[q] : f->triangle[start + q];
 }
 
-/* Neighbouring lines across it; `start`: of the first one. */
+/* Transforms neighbouring lines along y or z. `start`: index of the first line's first point. `step`: from point to point. */
 static void transform_some(build_job *job, const line_room *e, size_t start, size_t step, uint32_t length, uint32_t lines)
 {
     distance_field *f = job->field;
@@ -241,7 +245,7 @@ static void finish_layer(void *argument, size_t z, uint32_t worker)
             f->distance[i] = f->voxel * fmaxf(sqrtf(job->squares[i]) - half_diagonal, band);
 }
 
-/* The grid around the world, with room for the band. */
+/* Sets a grid that contains the world and the band around it. */
 static void choose_grid(distance_field *f, const world *w)
 {
     f->voxel = (float)DISTANCE_FIELD_VOXEL;
@@ -304,7 +308,7 @@ size_t distance_field_bytes(const distance_field *field) { return field ? sizeof
 
 /* ---- rays ---- */
 
-/* Between eight points of the grid; `at` in voxels from the first one, within the grid. */
+/* Distance interpolated between eight points of the grid. `at`: place in voxels from the first point, within the grid. */
 static float distance_at(const distance_field *f, vector at)
 {
     const float limit[3] = {(float)(f->size[0] - 2), (float)(f->size[1] - 2), (float)(f->size[2] - 2)};
@@ -323,7 +327,7 @@ static int32_t triangle_at(const distance_field *f, vector at)
     return f->triangle[index_of(f, (uint32_t)(at.x + 0.5f), (uint32_t)(at.y + 0.5f), (uint32_t)(at.z + 0.5f))];
 }
 
-/* The part of a ray within the grid; empty where from > to. */
+/* The part of a ray within the grid. It is empty if from > to. */
 typedef struct stretch {
     float from, to;
 } stretch;

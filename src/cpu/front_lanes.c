@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Edges of layers, and what the front one shows between them, compiled once per lane width (MGT_LANES).
+ * Edges of layers, and points of the front layer between them, compiled once per lane width (MGT_LANES).
  *
  * Whatever the width, a pixel sees the same operations in the same order: the bits do not depend on it. */
 #include "cpu/kernel_context.h"
@@ -51,7 +51,7 @@ static vec3 normal_of(const float *planes, mask triangle)
     return vec3(gather_floats(planes, at), gather_floats(planes + 1, at), gather_floats(planes + 2, at));
 }
 
-/* Dry levels of the sides that rays meet. */
+/* Dry level of the side of each lane's triangle that its ray meets. */
 static real levels_of(const float *dry, mask triangle, vec3 normal, vec3 ray)
 {
     if (!dry)
@@ -74,7 +74,7 @@ static void lanes_breaks(const gbuffer *g, const float *planes, float focal, uin
         real others[4];
         mask broken = lane_numbers() < real(0.0f);
         for (int k = 0; k < 4; k++) {
-            /* The last pixel of a row has no neighbour to its right, nor the first one to its left: they are set below. */
+            /* The first and the last pixel of a row read a pixel of another row here. Both are set to 1 below. */
             const mask there = load_whole(t + beside[k]);
             const mask differ = AND(here != there, AND(here >= 0, there >= 0));
             others[k] = 1.0f / load(d + beside[k]);
@@ -86,7 +86,7 @@ static void lanes_breaks(const gbuffer *g, const float *planes, float focal, uin
     out[0] = out[width - 1] = 1;
 }
 
-/* The objects of triangles; of those below 0 any. */
+/* Objects of triangles. Triangles below 0 get any object. */
 static mask object_of(const uint32_t *objects, mask triangle) { return gather_ints((const int *)objects, triangle & ~(triangle >> 31)); }
 
 static void lanes_edges(const gbuffer *g, const float *planes, const uint32_t *objects, uint32_t row, uint8_t *out)

@@ -1,38 +1,39 @@
 /* SPDX-License-Identifier: MIT
- * Edges of layers, and what the front one shows between them: functions that are compiled once per lane width. */
+ * Edges of layers, and points of the front layer between them: functions that are compiled once per lane width. */
 #ifndef MANGATA_CPU_FRONT_LANES_H
 #define MANGATA_CPU_FRONT_LANES_H
 
 #include "cpu/narrow_lanes.h"
 
-/* What objects in front of the water are looked up in. */
+/* The front layer and what its pixels are decided by. */
 typedef struct front_scene {
     const gbuffer *layer;
-    const uint8_t *edges;               /* as front_kernels.edges sets them */
-    const float *planes;                /* of the world's triangles, as in narrow_scene */
-    const float *dry;                   /* levels of their sides, see frame/dry.h; NULL: none is dry */
-    float corner[3], right[3], down[3]; /* rays of the camera */
-    float foot[3];                      /* the camera, in the world's coordinates */
+    const uint8_t *edges;               /* rows of front_kernels.edges() */
+    const float *planes;                /* planes of the world's triangles, as in narrow_scene */
+    const float *dry;                   /* dry levels of their sides, see frame/dry.h; NULL: nothing is dry */
+    float corner[3], right[3], down[3]; /* the camera's rays, see camera_rays */
+    float foot[3];                      /* position of the camera in the world's coordinates */
     float pixel_angle;
-    bool under;
-    uint32_t columns, rows; /* of the image */
+    bool under;             /* the camera is under water */
+    uint32_t columns, rows; /* size of the image */
 } front_scene;
 
+/* A pixel's place in front of the water: no object; inside an object; at an object's edge or at a waterline. */
 enum { FRONT_NOTHING, FRONT_INSIDE, FRONT_EDGE };
 
-/* In pixels within the image; others are FRONT_NOTHING. */
+/* Objects in front of the water in the pixels of a tile. Pixels outside of the image are FRONT_NOTHING. */
 typedef struct tile_front {
     uint8_t kind[TILE_PIXELS];
-    float *along;                 /* TILE_PIXELS: metres along the ray where the pixel is FRONT_INSIDE; else +inf */
-    float (*normal)[TILE_PIXELS]; /* 3 planes: unit, towards the camera; there alone */
+    float *along;                 /* TILE_PIXELS values: distance along the ray of FRONT_INSIDE pixels, metres; else +inf */
+    float (*normal)[TILE_PIXELS]; /* 3 planes: unit normal towards the camera; set where `along` is finite */
 } tile_front;
 
 struct front_kernels {
-    /* Of a row of a refracted layer: 1 where what it shows breaks off or bends next to a pixel, else 0. focal: pixels in a radian. */
+    /* Fills a row of marks of a refracted layer. 1: the surface that the pixel shows breaks off or bends beside it; else 0. `focal`: pixels per radian. */
     void (*breaks)(const gbuffer *g, const float *planes, float focal, uint32_t row, uint8_t *out);
-    /* Of a row of the front layer, neither the first nor the last one: 1 where a neighbour of a pixel shows something else, else 0. */
+    /* Fills a row of marks of the front layer, not the first or the last row. 1: a neighbour of the pixel does not continue its surface; else 0. */
     void (*edges)(const gbuffer *g, const float *planes, const uint32_t *objects, uint32_t row, uint8_t *out);
-    /* What the centres of a tile's pixels see in front of the water; `ends` of those inside. */
+    /* Finds what the centres of the tile's pixels see in front of the water. Fills `ends` for pixels that are FRONT_INSIDE. */
     void (*points)(const front_scene *n, const tile_offset *at, const tile_water *water, tile_front *out, tile_ends *ends);
 };
 

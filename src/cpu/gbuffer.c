@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * What a camera sees of the objects, apart on its own side of the mean surface and on the other one. */
+ * Draws the layers of the objects that a camera sees. */
 #include "cpu/gbuffer.h"
 
 #include <math.h>
@@ -10,26 +10,26 @@
 #include "base/triples.h"
 
 enum {
-    IMAGE_BLOCK = 1024 /* vertices that a worker takes at a time */
+    IMAGE_BLOCK = 1024 /* vertices that a worker maps at a time */
 };
 
-/* What the layers were drawn from, and the memory for the next ones. */
+/* The inputs of the last drawing, and memory for the next one. */
 struct gbuffer_store {
     bool drawn;
     uint64_t version;
     gbuffer_job job;
     float *images;
     size_t image_room;
-    raster_bins *bins; /* of the world's chunks */
+    raster_bins *bins; /* one per chunk of the world */
     size_t bin_count;
-    broad_scratch **scratch; /* of the workers */
+    broad_scratch **scratch; /* one per worker */
     raster_tile **tiles;
     uint32_t workers;
-    uint8_t *empty;       /* of all tiles of both layers: 1 where nothing has been drawn into memory that says so */
-    broad_counts *counts; /* of the workers */
+    uint8_t *empty;       /* one per tile of both layers: 1: the tile's memory already shows nothing */
+    broad_counts *counts; /* one per worker */
 };
 
-/* A picture in the making. */
+/* A drawing of both layers. */
 typedef struct draw_job {
     broad_view view;
     gbuffers *out;
@@ -130,7 +130,7 @@ static struct gbuffer_store *new_store(uint32_t workers)
     return NULL;
 }
 
-/* Room for the world's vertices and chunks; what another world needed more goes. */
+/* Fits memory to the world's vertices and chunks, and frees what a larger world needed. False: out of memory. */
 static bool fit_store(struct gbuffer_store *s, const world *w, size_t chunks)
 {
     if (!s->images || w->vertex_count > s->image_room || w->vertex_count < s->image_room / 4) {
@@ -173,7 +173,7 @@ static void bin_chunk(void *argument, size_t index, uint32_t worker)
     broad_chunk(&job->view, index, job->store->scratch[worker], &job->store->bins[index], &job->store->counts[worker]);
 }
 
-/* Of the blocks of the refracted layer's tile whose first pixel this is. */
+/* Sets `nearest` of the blocks in the refracted layer's tile whose first pixel is (x, y). */
 static void find_nearest(gbuffers *g, uint32_t x, uint32_t y)
 {
     _Static_assert(RASTER_TILE % GBUFFER_BLOCK == 0, "whole blocks");

@@ -2,13 +2,13 @@
  *
  * Glare by a blur pyramid.
  *
- * Let U carry a level to the next finer one: quadratic B-spline subdivision, weights 3/4 and 1/4 (Chaikin 1974), which repeated gives a
- * C¹ surface without blocks. Going down uses its transpose divided by the coarse pixel's mass m (m = Uᵀ applied to the finer masses):
- * D = m⁻¹·Uᵀ·m'. Then Σ m·value is the same on all levels, also where an odd size leaves half a pixel over, so the
- * picture's sum is kept exactly, and the whole spread is a symmetric operator.
+ * U takes a level to the next finer one by quadratic B-spline subdivision with the weights 3/4 and 1/4 (Chaikin 1974). Repeated, it gives a C¹ surface without
+ * blocks. D takes a level to the next coarser one: D = m⁻¹·Uᵀ·m', where m' are the masses of the finer pixels and m = Uᵀ·m' those of the coarser ones. Then
+ * Σ m·value is the same on all levels, also if an odd size leaves half a pixel over. So the picture's sum is kept exactly, and the whole spread is a symmetric
+ * operator.
  *
- * Each level spreads over an octave of angles. CIE's glare function falls as θ⁻³ near the source and θ⁻² far from it; with θ^−2.5
- * an octave's share of the light falls by √2.
+ * Each level spreads light over an octave of angles. CIE's glare function falls as θ⁻³ near the source and as θ⁻² far from it. With θ^−2.5 an octave has 1/√2
+ * of the light of the octave below it.
  */
 #include "cpu/glare.h"
 #include "kernels/common/constants.h"
@@ -24,7 +24,7 @@
 #include "kernels/display/glare.k"
 
 #define ROWS_PER_TASK 8
-#define BLOCK 128 /* coarse pixels a row is cut into, so that scratch fits the first cache */
+#define BLOCK 128 /* coarse pixels in a part of a row, so that scratch memory fits the first cache */
 
 typedef float lanes __attribute__((vector_size(16)));
 
@@ -37,18 +37,18 @@ static lanes load(const float *from)
 
 static void store(float *to, lanes v) { memcpy(to, &v, sizeof v); }
 
-/* Rows end with room for the fourth lane of the last pixel. */
+/* A level. Rows end with room for the fourth lane of the last pixel. */
 typedef struct level {
     size_t width, height, stride;
     float *rgb;
-    float *across, *down; /* four weights a column, a row, on the finer pixels 2i − 1 … 2i + 2 */
+    float *across, *down; /* four weights per column and per row, of the finer pixels 2i − 1 … 2i + 2 */
     float weight;
 } level;
 
 typedef struct pyramid {
     size_t count;
     level levels[GLARE_MAX_LEVELS];
-    float kept; /* share of the image that stays */
+    float kept; /* fraction of the image's light that is not spread */
     void *memory;
 } pyramid;
 
@@ -168,14 +168,14 @@ static void up_row(const up_job *job, size_t row)
         float mixed[3 * (BLOCK + 2) + 4], spread[6 * BLOCK + 4]; /* coarse pixels from − 1 … from + count, fine ones from 2·from */
         size_t first = from ? from - 1 : 0, last = from + count < coarse->width ? from + count + 1 : coarse->width;
         size_t offset = from ? 0 : 3, length = 3 * (last - first);
-        for (size_t i = 0; i < length; i += 4) { /* the rows' room at the end bears the overshoot */
+        for (size_t i = 0; i < length; i += 4) { /* the last vector reaches into the room at the rows' end */
             store(mixed + offset + i, near_gain * load(a + 3 * first + i) + far_gain * load(b + 3 * first + i));
         }
         const size_t left = (size_t)glare_beside(NULL, (int)(2 * from), (int)coarse->width) + 1 - from;
         const size_t right = (size_t)glare_beside(NULL, (int)(2 * (from + count) - 1), (int)coarse->width) + 1 - from;
         memmove(mixed, mixed + 3 * left, 3 * sizeof(float));
         memmove(mixed + 3 * (count + 1), mixed + 3 * right, 3 * sizeof(float));
-        mixed[3 * (count + 2)] = 0.0f; /* read by the last pixel's fourth lane, then dropped */
+        mixed[3 * (count + 2)] = 0.0f; /* the last pixel's fourth lane reads it, and its result is dropped */
         for (size_t x = 0; x < count; ++x) {
             const float *m = &mixed[3 * x];
             lanes centre = GLARE_NEAR * load(m + 3);

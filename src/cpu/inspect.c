@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * One pixel through the kernels in one lane: the same bits as the frame's, and what lies between. */
+ * Evaluates one pixel by the kernels in one lane, which gives the bits of the frame, and keeps intermediate values. */
 #include "cpu/kernel_context.h"
 #include "cpu/inspect.h"
 
@@ -14,10 +14,9 @@
 #include "cpu/lane_access.h"
 #include "kernels/glitter/foam_over.k"
 
-/* The pixel within its tile. */
 typedef struct tile_pixel {
     uint32_t tile_x, tile_y;
-    uint32_t column, row;
+    uint32_t column, row; /* place within the tile */
 } tile_pixel;
 
 static struct kernel_context sort_tile(const frame *f, const wave_set *set, const float *sky, tile_pixel at, tile_waves *waves, tile_estimate *estimate)
@@ -29,7 +28,7 @@ static struct kernel_context sort_tile(const frame *f, const wave_set *set, cons
     return cx;
 }
 
-/* The rows of a pixel are those of its hits. */
+/* The slopes at one hit. at.row counts rows of hits. */
 static SlopeState slopes_of(const struct kernel_context *cx, const tile_estimate *rows, tile_pixel at)
 {
     const tile_estimate *estimate = rows + at.row / TILE_HEIGHT;
@@ -40,7 +39,7 @@ static SlopeState slopes_of(const struct kernel_context *cx, const tile_estimate
     return slope_state(cx, pixel_ray_filtered(cx, (float)at.column, (float)at.row).ray, from);
 }
 
-/* The first hit in double precision at the instant t, near where the pixel's search began: Newton along the ray. */
+/* Fills the position and distance of the first hit when the shutter closes, by Newton's method along the ray in double precision from the pixel's estimate. */
 static void find_hit(const frame *f, const struct kernel_context *cx, tile_pixel at, const tile_estimate *estimate, mgt_pixel_info *info)
 {
     const camera_rays *c = &f->close;
@@ -64,7 +63,7 @@ static void find_hit(const frame *f, const struct kernel_context *cx, tile_pixel
     info->distance = along * sqrt(ray[0] * ray[0] + ray[1] * ray[1] + ray[2] * ray[2]);
 }
 
-/* J S Jᵀ of a covariance xx, xz, zz. */
+/* J S Jᵀ for a covariance S given as xx, xz, zz. */
 static void map_covariance(const Mirror *m, const double s[3], double out[3])
 {
     const double ex = (double)m->j.ex, ez = (double)m->j.ez, fx = (double)m->j.fx, fz = (double)m->j.fz;
@@ -89,12 +88,12 @@ static void describe_mirror(const struct kernel_context *cx, SlopeState open, Sl
     map_covariance(m, both, info->covariance);
 }
 
-/* Adds one of `hits`. Returns whether it is water. */
+/* Adds one of the pixel's `hits` hits to the means. Returns whether it is water. */
 static bool add_hit(const struct kernel_context *cx, tile_pixel at, SlopeState open, SlopeState close, uint32_t hits, mgt_pixel_info *info)
 {
     const PixelRay ray = pixel_ray_filtered(cx, (float)at.column, (float)at.row);
     const float part = 1.0f / (float)hits;
-    /* The light of deep water is traced for whole tiles alone. */
+    /* The light of deep water is known for whole tiles alone, so a camera under water gets black. */
     const bool dark = ray.water > 0 || cx->frame->camera_under != 0;
     const vec3 sky = dark ? (vec3){0, 0, 0} : background(cx, ray.sky_ray);
     const PixelResult result = ray.water > 0 ? over_state(cx, glitter_result(cx, ray, open, close), ray, close) : (PixelResult){sky, 0, 0, 0};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Where kernels find their data on the CPU, and how pixels are loaded and stored. Include it after the kernel prelude. */
+ * The kernels' accessors on the CPU, and loads and stores of vectors. Include it after the kernel prelude. */
 #ifndef MANGATA_CPU_LANE_ACCESS_H
 #define MANGATA_CPU_LANE_ACCESS_H
 
@@ -13,9 +13,9 @@
 #define FOAM(cx) (*(cx)->foam)
 #define FOAM_WAVE(cx, i) ((cx)->foam_waves[i])
 #define FOAM_SINE(cx, i) ((cx)->foam_sines[i])
-#define PARTS(cx) TILE(cx).parts /* 1: cells of method adaptive under a sky, not pixels */
+#define PARTS(cx) TILE(cx).parts
 
-/* An element a lane for the one width that has no instruction for it. */
+/* One element per lane, for 4 lanes, which have no gather instruction. */
 #define FOUR_OF(table, at)                                                     \
     {                                                                          \
         (table)[(at)[0]], (table)[(at)[1]], (table)[(at)[2]], (table)[(at)[3]] \
@@ -36,7 +36,7 @@ static inline real load(const float *p)
 
 static inline void store(float *p, real r) { __builtin_memcpy(p, &r, sizeof r); }
 
-/* Bit i is lane i's. */
+/* Bit i is set if lane i is. */
 static inline unsigned lane_bits(mask m)
 {
 #if MGT_LANES == 16
@@ -51,7 +51,7 @@ static inline unsigned lane_bits(mask m)
 #endif
 }
 
-/* Whole numbers as such. */
+/* Whole numbers in a real as integers. */
 static inline mask whole(real x)
 {
 #if MGT_LANES == 1
@@ -63,7 +63,7 @@ static inline mask whole(real x)
 
 static inline mask whole_select(mask m, mask a, mask b) { return real_bits(real_select(m, real_from_bits(a), real_from_bits(b))); }
 
-/* Single numbers of a table; an element a lane. */
+/* One element of a table per lane. */
 static inline real gather_floats(const float *table, mask at)
 {
 #if MGT_LANES == 1
@@ -90,7 +90,7 @@ static inline mask gather_ints(const int *table, mask at)
 #endif
 }
 
-/* Four numbers in a row of a table, a place a lane. */
+/* Four consecutive elements of a table per lane. */
 typedef struct four_reals {
     real x, y, z, w;
 } four_reals;
@@ -100,7 +100,7 @@ static inline four_reals gather_fours(const float *table, mask first)
 #if MGT_LANES == 16
     int at[16];
     __builtin_memcpy(at, &first, sizeof at);
-    __m512 q[4]; /* those of the lanes i, i + 4, i + 8, i + 12 */
+    __m512 q[4]; /* q[i]: elements of the lanes i, i + 4, i + 8 and i + 12 */
     for (int i = 0; i < 4; i++) {
         q[i] = _mm512_castps128_ps512(_mm_loadu_ps(table + at[i]));
         q[i] = _mm512_insertf32x4(q[i], _mm_loadu_ps(table + at[i + 4]), 1);
@@ -114,7 +114,7 @@ static inline four_reals gather_fours(const float *table, mask first)
 #elif MGT_LANES == 8
     int at[8];
     __builtin_memcpy(at, &first, sizeof at);
-    __m256 q[4]; /* those of the lanes i, i + 4 */
+    __m256 q[4]; /* q[i]: elements of the lanes i and i + 4 */
     for (int i = 0; i < 4; i++)
         q[i] = _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(table + at[i])), _mm_loadu_ps(table + at[i + 4]), 1);
     const __m256d low = _mm256_castps_pd(_mm256_unpacklo_ps(q[0], q[1])), low_2 = _mm256_castps_pd(_mm256_unpacklo_ps(q[2], q[3]));
@@ -127,7 +127,7 @@ static inline four_reals gather_fours(const float *table, mask first)
 }
 
 #if MGT_LANES == 16
-/* Six numbers in a row of a table, a place a lane. Two beyond them are read. */
+/* Six consecutive elements of a table per lane. The two elements behind them are read, too. */
 typedef struct six_reals {
     real x, y, z, w, u, v;
 } six_reals;
@@ -136,7 +136,7 @@ static inline six_reals gather_sixes(const float *table, mask first)
 {
     int at[16];
     __builtin_memcpy(at, &first, sizeof at);
-    __m512d low[4], high[4]; /* the numbers 0, 1, 4 and 5, and the others, of two lanes and of the two that are four further on */
+    __m512d low[4], high[4]; /* elements 0, 1, 4 and 5, and elements 2, 3, 6 and 7, of two lanes and of the two lanes that are four further on */
     for (int i = 0; i < 4; i++) {
         const int lane = i / 2 * 8 + i % 2 * 2;
         __m512 q[2];
@@ -145,7 +145,7 @@ static inline six_reals gather_sixes(const float *table, mask first)
         low[i] = _mm512_castps_pd(_mm512_unpacklo_ps(q[0], q[1]));
         high[i] = _mm512_castps_pd(_mm512_unpackhi_ps(q[0], q[1]));
     }
-    __m512 n[2][4]; /* n[h][k]: the numbers k and k + 4 of the lanes 8 h to 8 h + 7 */
+    __m512 n[2][4]; /* n[h][k]: elements k and k + 4 of the lanes 8 h to 8 h + 7 */
     for (int h = 0; h < 2; h++) {
         n[h][0] = _mm512_castpd_ps(_mm512_unpacklo_pd(low[2 * h], low[2 * h + 1]));
         n[h][1] = _mm512_castpd_ps(_mm512_unpackhi_pd(low[2 * h], low[2 * h + 1]));
@@ -159,10 +159,10 @@ static inline six_reals gather_sixes(const float *table, mask first)
 }
 #endif
 
-/* Rows of four, a row a lane. */
+/* One row of a table with four columns per lane. */
 static inline four_reals gather_rows(const float *table, mask row) { return gather_fours(table, 4 * row); }
 
-/* Bytes; three beyond the table's last may be read. */
+/* One byte of a table per lane. Up to three bytes behind the table may be read. */
 static inline mask gather_bytes(const uint8_t *table, mask at)
 {
 #if MGT_LANES == 1
@@ -195,7 +195,7 @@ KERNEL SkyPair SKY_PAIR(CTX cx, real column, real row)
 }
 #endif
 
-/* 0, 1, 2, … for the lanes. */
+/* The lanes' numbers: 0, 1, 2, … */
 static inline real lane_numbers(void)
 {
     static const float numbers[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
@@ -210,7 +210,7 @@ KERNEL vec2 SKYLINE(CTX cx, real entry)
 
 /* ---- light of objects ---- */
 
-/* A plane of a tile_light at the vector that cx stands for. */
+/* A plane of the tile_light at the pixels of this vector. */
 static inline real light_plane(CTX cx, size_t plane) { return load(cx->light + plane * TILE_PIXELS); }
 
 KERNEL vec3 UPWELLING(CTX cx)

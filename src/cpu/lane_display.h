@@ -5,7 +5,7 @@
 
 #include "kernels/display/tone.k"
 
-/* Of the first `count` pixels of 3 floats each, at most MGT_LANES; the other lanes show black. */
+/* Displayed colours of the first `count` pixels, at most MGT_LANES, of 3 floats each. Other lanes show black. */
 static inline vec3 displayed_lanes(const struct kernel_context *cx, const float *rgb, size_t count)
 {
     float channel[3][MGT_LANES] = {{0}};

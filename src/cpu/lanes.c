@@ -32,7 +32,6 @@ static const float infinity = INFINITY;
 #include "cpu/lane_access.h"
 #include "cpu/lane_display.h"
 
-/* Every index of the tables is a float: the largest is 2^24 - 1. */
 _Static_assert(PODEE_SLICES *PODEE_ROWS *PODEE_COLUMNS <= 1 << 24, "indices are exact in float");
 
 KERNEL real SWEEP_TEXEL(CTX cx, real v, real u, real slice)
@@ -45,7 +44,7 @@ KERNEL real FRACTION_TEXEL(CTX cx, real r, real slice) { return gather_floats(cx
 
 #include "kernels/glitter/pixel.k"
 
-/* Keeps the hits of lanes. */
+/* Stores a hit of each lane in `where`. Lanes store to scattered places, so they do it one by one. */
 KERNEL void HIT_FOUND(CTX cx, real column, real row, HitEstimate hit, mask where)
 {
     float at[MGT_LANES], height[MGT_LANES], slope_x[MGT_LANES], slope_z[MGT_LANES], shift_x[MGT_LANES], shift_z[MGT_LANES];
@@ -90,7 +89,7 @@ static inline HitEstimate load_hit(const struct kernel_context *cx, const tile_e
 
 /* ---- tiles ---- */
 
-/* A lane that stands for all, where all hold the same. */
+/* The value that all lanes hold. */
 static inline float any_of(real x)
 {
     float lanes[MGT_LANES];
@@ -98,13 +97,13 @@ static inline float any_of(real x)
     return lanes[0];
 }
 
-/* The classes of all waves, an array per member that is read again. */
+/* WaveClass of all waves, one array per member. */
 typedef struct wave_classes {
     float kind[MGT_MAX_WAVES + KEY_GAP], turns[MGT_MAX_WAVES + KEY_GAP], share[MGT_MAX_WAVES + KEY_GAP], lost[MGT_MAX_WAVES + KEY_GAP];
     float searched[MGT_MAX_WAVES + KEY_GAP], along[MGT_MAX_WAVES + KEY_GAP], most[MGT_MAX_WAVES + KEY_GAP];
 } wave_classes;
 
-_Static_assert(sizeof(SortWave) == SORT_KEYS * sizeof(real), "nothing but keys");
+_Static_assert(sizeof(SortWave) == SORT_KEYS * sizeof(real), "SortWave has no members but the keys");
 
 static inline SortWave load_sort_wave(const wave_set *set, int i)
 {
@@ -134,7 +133,7 @@ static void list_wave(const struct kernel_context *cx, const wave_set *set, cons
     *out = wave_weighted(cx, wave_placed(cx, set->data[wave], c->turns[wave]), c->share[wave]);
 }
 
-/* The resolved waves, then the mixed ones, each in the set's order. */
+/* Lists the resolved waves, then the mixed ones, each in the set's order. */
 static TileData list_waves(const struct kernel_context *cx, const wave_set *set, const wave_classes *c, float rows, tile_waves *out)
 {
     const int waves = set->view.wave_count;
@@ -161,7 +160,7 @@ static TileData list_waves(const struct kernel_context *cx, const wave_set *set,
     return sorted_tile(cx, sums, resolved, all - resolved, searched_count, rows);
 }
 
-/* A tile of the picture and its waves' classes. */
+/* A tile of the picture and the classes of its waves. */
 typedef struct tile_sorting {
     real column, row;
     float width, height;
@@ -239,7 +238,7 @@ static void lanes_sample(const FrameData *frame, const float *sky, const tile_li
 
 static void lanes_sum(const float *values, sample_terms *terms)
 {
-    const double to_high = 0x1.8p44, to_low = 0x1.8p-4; /* rounds to multiples of 2⁻⁸ and of 2⁻⁵⁶ */
+    const double to_high = 0x1.8p44, to_low = 0x1.8p-4; /* adding these rounds to multiples of 2⁻⁸ and of 2⁻⁵⁶ */
     for (size_t i = 0; i < TILE_PIXELS; i++) {
         const double number = values[i] == values[i] ? (double)values[i] : 0;
         const double above = number > -SAMPLE_TERM_MOST ? number : -SAMPLE_TERM_MOST;
@@ -272,13 +271,13 @@ static void store_pixels(tile_pixels *out, size_t i, PixelResult p)
 
 enum { SURFACE_FLOATS = sizeof(Surface) / sizeof(real) };
 
-/* Pixels of a tile, or cells of them, `count` whole vectors. */
+/* Pixels or cells of a tile. `count` is a multiple of MGT_LANES. */
 typedef struct tile_places {
     const float *column, *row;
     size_t count;
 } tile_places;
 
-/* TILE_HEIGHT whole rows. */
+/* Places of TILE_HEIGHT rows of pixels. */
 typedef struct row_grid {
     float column[TILE_PIXELS], row[TILE_PIXELS];
 } row_grid;
@@ -292,8 +291,8 @@ static tile_places rows_from(int first, row_grid *grid)
     return (tile_places){grid->column, grid->row, TILE_PIXELS};
 }
 
-/* What slope_state() of glitter.k knows of each pixel on its way. Searches and second looks are for few pixels: these are gathered from the whole
- * tile into full vectors. */
+/* Intermediate values of slope_state() of glitter.k at each pixel. Few pixels need a search or a second look, so these pixels are gathered from the whole tile
+ * into full vectors. */
 typedef struct tile_looks {
     tile_places places;
     float surface[SURFACE_FLOATS][TILE_PIXELS];
@@ -302,7 +301,7 @@ typedef struct tile_looks {
     uint16_t list[TILE_PIXELS + MGT_LANES];
 } tile_looks;
 
-/* The places i, i + 1, … */
+/* The rays of the places i to i + MGT_LANES − 1. */
 static inline PixelRay pixel_rays(const struct kernel_context *cx, const tile_places *p, size_t i)
 {
     return pixel_ray_filtered(cx, load(p->column + i), load(p->row + i));
@@ -317,7 +316,7 @@ static Surface load_surface(const tile_looks *l, size_t i)
     return s;
 }
 
-/* The pixels whose flag is set; the list's last vector is filled up with its last pixel. Returns how many vectors. */
+/* Lists the pixels whose flag is set. The last vector is filled up with the last pixel. Returns the number of vectors. */
 static size_t list_pixels(const float *flags, size_t places, uint16_t *list)
 {
     size_t count = 0;
@@ -348,7 +347,7 @@ static inline vec3 listed_ray(const struct kernel_context *cx, const tile_places
     return pixel_ray_filtered(cx, gather(p->column, list), gather(p->row, list)).ray;
 }
 
-/* Replaces the estimates that the lattice itself doubts. */
+/* Replaces estimates whose HitEstimate.search is set by searched hits. */
 static void search_doubtful(const struct kernel_context *cx, const tile_estimate *estimate, tile_looks *l)
 {
     const size_t vectors = list_pixels(l->lost, l->places.count, l->list);
@@ -393,7 +392,7 @@ static void look_again(const struct kernel_context *cx, tile_looks *l)
     }
 }
 
-/* Only where `wanted` is above 0. */
+/* Evaluates the surface at the pixels in which `wanted` is above 0. */
 static void look_at_tile(const struct kernel_context *cx, const tile_estimate *estimate, const float *wanted, tile_looks *l)
 {
     for (size_t i = 0; i < l->places.count; i += MGT_LANES) {
@@ -448,7 +447,7 @@ static void store_cell(tile_pixels *out, tile_detail *detail, size_t i, CellResu
 
 static CellResult cell_without_water(PixelResult sky) { return (CellResult){sky, real(0.0f), real(0.0f), real(0.0f), real(0.0f), real(1.0f), real(1.0f)}; }
 
-/* `detail` may be NULL, which saves its estimates of errors. */
+/* `detail` NULL: errors are not estimated, which saves time. */
 static void render_glitter(const struct kernel_context *cx, const tile_light *light, tile_places places, const tile_estimate *estimate,
                            const struct kernel_context *open, const tile_estimate *open_estimate, tile_pixels *out, tile_detail *detail)
 {
@@ -476,13 +475,13 @@ static void render_glitter(const struct kernel_context *cx, const tile_light *li
     }
 }
 
-/* Cells of a pixel are above all that the ray two pixels below has passed over. */
+/* Sets where the cells' searches begin. The ray two pixels below has passed over all water up to its hit, so cells above it start from there. */
 static void place_starts(const struct kernel_context *cx, size_t count, tile_cells *cells)
 {
     for (size_t i = 0; i < count; i += MGT_LANES) {
         float column[MGT_LANES], row[MGT_LANES], known[MGT_LANES], height[MGT_LANES];
         for (size_t lane = 0; lane < MGT_LANES; lane++) {
-            /* The middle of the pixel two rows below, in cells. */
+            /* The middle of the pixel two rows below, in units of cells. */
             column[lane] = ldexpf(floorf(ldexpf(cells->column[i + lane], -cells->across)) + 0.5f, cells->across) - 0.5f;
             row[lane] = ldexpf(floorf(ldexpf(cells->row[i + lane], -cells->down)) + 2.5f, cells->down) - 0.5f;
             known[lane] = isnan(cells->below[i + lane]) ? 0.0f : 1.0f;
@@ -508,7 +507,7 @@ static void lanes_cells(const FrameData *frame, const float *sky, const tile_wav
         cells->estimate.height[count] = cells->estimate.height[count - 1];
         cells->below[count] = cells->below[count - 1];
     }
-    /* In grazing water the parent's hit says nothing of its parts', and in choppy water nothing of where they rest. */
+    /* The parent's height says nothing about its parts' hits in grazing water, nor about their places at rest in choppy water. */
     const bool grazing = close->data.grazing || (open && open->data.grazing);
     const float searched = grazing || close->data.pressed > 0 ? 1 : 0;
     for (size_t i = 0; i < count; i++) {
@@ -532,7 +531,7 @@ static struct kernel_context context_of(const method_tile *t, const tile_waves *
     return cx;
 }
 
-/* The light of pixels of `hits` hits each, for the rows of hits of part `part` of the tile. */
+/* Copies the light of pixels that have `hits` hits each to the rows of hits of part `part` of the tile. */
 static const tile_light *light_of_rows(const tile_light *light, int hits, int part, tile_light *rows)
 {
     enum { PLANES = sizeof *light / sizeof light->through[0] };
@@ -545,7 +544,7 @@ static const tile_light *light_of_rows(const tile_light *light, int hits, int pa
     return rows;
 }
 
-/* Adds the hits of TILE_HEIGHT rows, of which the first is row `first`, to the pixels that they are parts of, which have `hits` each. */
+/* Adds TILE_HEIGHT rows of hits from row `first` on to their pixels, which have `hits` hits each. */
 static void add_rows(const tile_pixels *rows, int hits, int first, tile_pixels *out)
 {
     const float *const from[] = {rows->red, rows->green, rows->blue, rows->coverage, rows->water, rows->foam};
@@ -556,7 +555,7 @@ static void add_rows(const tile_pixels *rows, int hits, int first, tile_pixels *
                 accumulate(into[k] + (first + row) / hits * TILE_WIDTH + x, load(from[k] + row * TILE_WIDTH + x), 1.0f / (float)hits);
 }
 
-/* Every pixel is the mean of several hits, one above the other. */
+/* Renders pixels that are the mean of several hits, one above the other. */
 static void several_hits(const method_tile *t, const struct kernel_context *close, const struct kernel_context *open, tile_pixels *out)
 {
     row_grid grid;
@@ -609,7 +608,6 @@ static void none_pixels(const method_tile *t, tile_pixels *out)
     lanes_sample(t->frame, t->sky, t->light, t->close, t->close_estimate, NULL, NULL, 1, out);
 }
 
-/* Baselines are compiled apart. */
 static void lanes_method(mgt_method method, const method_tile *tile, tile_pixels *out)
 {
     switch (method) {
@@ -643,7 +641,7 @@ static void lanes_surface(const FrameData *frame, const tile_waves *tile, const 
         const vec3 ray = pixel_ray_at(&context, lane_numbers() + (float)(i % TILE_WIDTH), real_broadcast((float)(i / TILE_WIDTH)));
         const SampleHit hit = sample_hit(&context, ray, load_estimate(estimate, i));
         const mask water = hit.found > real(0.0f);
-        /* Within a wave the surface is behind the camera. */
+        /* A camera within a wave has the surface behind it. */
         store(out->along + i, SELECT(water, max(hit.along, real(0.0f)) * sqrt(length_squared(ray)), real(infinity)));
         store_normal(out, i, hit.slope, water);
     }
@@ -656,7 +654,7 @@ static void lanes_filtered_normal(const FrameData *frame, const tile_waves *tile
         const real column = lane_numbers() + (float)(i % TILE_WIDTH);
         vec2 slope = vec2(real(0.0f), real(0.0f));
         real water = real(0.0f);
-        for (int hit = 0; hit < (int)tile->data.hit_rows; hit++) { /* their mean */
+        for (int hit = 0; hit < (int)tile->data.hit_rows; hit++) {
             const size_t row = i / TILE_WIDTH * (size_t)tile->data.hit_rows + (size_t)hit, at = row * TILE_WIDTH + i % TILE_WIDTH;
             const PixelRay p = pixel_ray_filtered(&context, column, real_broadcast((float)row));
             const SlopeState state = slope_state(&context, p.ray, load_hit(&context, estimate + at / TILE_PIXELS, at % TILE_PIXELS));

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: MIT
- * Where the first hits of a tile are looked for: a lattice of nodes and what lies between them, or every pixel of its own. A part of lanes.c, whose kernels
- * it needs. */
+ * Estimates of a tile's first hits: interpolated from a lattice of nodes, or searched in every pixel. A part of lanes.c, whose kernels it needs. */
 #ifndef MANGATA_CPU_LATTICE_LANE_H
 #define MANGATA_CPU_LATTICE_LANE_H
 
-/* The nodes of a tile, an array per member. */
+/* The members of a tile's LatticeNodes, one array per member. */
 typedef struct tile_nodes {
     float ray_x[NODE_PADDED], ray_y[NODE_PADDED], ray_z[NODE_PADDED];
     float along[NODE_PADDED], found[NODE_PADDED];
@@ -36,7 +35,7 @@ static void search_nodes(const struct kernel_context *cx, tile_nodes *nodes)
     }
 }
 
-/* On every lane. */
+/* The ray of node i in every lane. */
 static vec3 node_ray(const tile_nodes *n, int i) { return vec3(real(n->ray_x[i]), real(n->ray_y[i]), real(n->ray_z[i])); }
 
 static bool tile_may_occlude(const struct kernel_context *cx, const tile_nodes *n)
@@ -67,7 +66,7 @@ static LatticeNode gather_node(const tile_nodes *n, const uint16_t *list)
     return node;
 }
 
-/* Which cells' pixels must search themselves, and from where; a lane is a cell. */
+/* Fills `doubt` and `from` of each lattice cell: whether its pixels must search on their own, and from where. One lane per cell. */
 static void judge_cells(const struct kernel_context *cx, const tile_nodes *nodes, float *doubt, float *from)
 {
     const bool occlude = tile_may_occlude(cx, nodes);
@@ -86,7 +85,7 @@ static void judge_cells(const struct kernel_context *cx, const tile_nodes *nodes
     }
 }
 
-/* The nodes at the left and right of every pixel column, for one row of nodes. */
+/* Planes of the nodes left and right of every pixel column, for one row of nodes. */
 typedef struct node_planes {
     float level[2][TILE_WIDTH], slope_x[2][TILE_WIDTH], slope_z[2][TILE_WIDTH], height[2][TILE_WIDTH];
 } node_planes;
@@ -128,7 +127,7 @@ static void estimate_heights(const struct kernel_context *cx, const tile_nodes *
     }
 }
 
-/* Of choppy water: the shifts of nodes, `from`, between them. */
+/* Interpolates one coordinate of the nodes' shifts, `from`, to pixels. For choppy water. */
 static void spread_shifts(const struct kernel_context *cx, const float *from, float *to)
 {
     for (int y = 0; y < TILE_HEIGHT; y++) {
@@ -148,7 +147,7 @@ static void spread_shifts(const struct kernel_context *cx, const float *from, fl
     }
 }
 
-/* Every hit of every pixel, from the lowest row up. */
+/* Searches every hit of every pixel, from the lowest row up, because a hit bounds the search of the one above it. */
 static void search_columns(const struct kernel_context *cx, tile_estimate *estimate)
 {
     struct kernel_context columns = *cx;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Decisions of refinement.k, of one leaf at a time. */
+ * The decisions of refinement.k for one leaf at a time. */
 #include "cpu/leaf_lane.h"
 
 #include "cpu/kernel_context.h"

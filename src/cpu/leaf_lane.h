@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Decisions of refinement.k, of one leaf at a time. */
+ * The decisions of refinement.k for one leaf at a time. */
 #ifndef MANGATA_CPU_LEAF_LANE_H
 #define MANGATA_CPU_LEAF_LANE_H
 
@@ -8,37 +8,39 @@
 
 #include "frame/kernel_data.h"
 
-/* SPLIT_… for an aspect of CellResult. */
+/* leaf_split(), as SPLIT_…. `aspect`: CellResult.aspect. */
 uint8_t lane_split(float aspect);
 
-/* What a squared error of a pixel of this colour is worth; `display_slope_squared` as in CellResult. */
+/* leaf_weight(): worth of a squared error of a pixel of this colour. `display_slope_squared`: as in CellResult. */
 float lane_weight(const FrameData *frame, const float color[3], float display_slope_squared);
 
-/* What one of a leaf's four parts, of its own contrast, counts with under a sky, from the contrasts of all. */
+/* parts_contrast(): contrast under a sky of one of a leaf's four parts. `own`: the contrast that the part was rendered with. `parts`: those of all four. */
 float lane_parts_contrast(float own, const float parts[4]);
 
-/* Whether a tile with this TileData.light_reach mirrors no light; the rest as tile_dark() has it. */
+/* tile_dark(): whether a tile with this TileData.light_reach mirrors no light. */
 bool lane_dark(const FrameData *frame, int light_reach, bool by_display, bool lights_dark);
 
-/* Fraction of a leaf's values that its parts keep: leaf_kept(). */
+/* leaf_kept(): fraction of a leaf's values that its parts keep. */
 float lane_kept(bool dark, float variance);
-
-/* Class of the cells of a level, which decides how many pieces of the shutter they see: leaf_class(). */
+/* leaf_class(): class of the cells of a level, which decides how many pieces of the shutter they see. */
 int lane_class(int level, bool dark);
 
-/* The leaf's numbers that its points depend on. */
+/* The values of a leaf that its points depend on. */
 typedef struct lane_leaf {
-    int points; /* 0: it is a cell */
+    int points; /* 0: the leaf is a cell */
     float places, coverage;
 } lane_leaf;
 
-/* How many points it has after its next turn. */
+/* leaf_next_points(): number of points after the leaf's next turn. */
 int lane_next_points(lane_leaf l);
+/* leaf_takes_points(): whether the leaf takes points, not a split. */
 bool lane_takes_points(const FrameData *frame, lane_leaf l, int level);
 
-/* How much of its squared error a split or points save for each evaluation. `split_worth`: of a split, for each unit of squared error. */
+/* leaf_split_worth(): fraction of the squared error that a split saves per evaluation. `split_worth`: split_worth_of() of rounds.k. */
 float lane_split_worth(bool by_display, float places, float split_worth);
+/* leaf_points_worth(): the same fraction for the next turn of points. */
 float lane_points_worth(lane_leaf l, float area, float cost);
+/* leaf_bucket(): bucket of a worth in the histogram. */
 uint16_t lane_bucket(float worth);
 
 #endif

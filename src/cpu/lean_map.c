@@ -14,9 +14,9 @@
 typedef struct map_job {
     lean_map *map;
     const lane_kernels *kernels;
-    float *cosines; /* of LEAN_SIZE equal parts of a turn */
-    float *columns;
-    int level; /* that is shrunk */
+    float *cosines; /* cosines of LEAN_SIZE equal parts of a turn */
+    float *columns; /* lean_waves.columns */
+    int level;      /* level that the next coarser one is made from */
 } map_job;
 
 static void fill_columns(void *argument, size_t block, uint32_t worker)

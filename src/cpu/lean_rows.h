@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * What lean_rows() of a baseline_kernels reads, made from the waves of a map of slope moments. */
+ * Tables that baseline_kernels.lean_rows() reads, made from the waves of a lean_map. */
 #ifndef MANGATA_CPU_LEAN_ROWS_H
 #define MANGATA_CPU_LEAN_ROWS_H
 
@@ -7,21 +7,21 @@
 
 #include "cpu/lean_map.h"
 
-/* After all other headers. */
+/* The prelude redefines names of other headers, so it comes last. */
 #define MGT_LANES 1
 #include "kernels/common/prelude_c.h"
 
 #include "kernels/baselines/lean_moments.k"
 #include "kernels/waves/lean_grid.k"
 
-/* Of LEAN_SIZE equal parts of a turn. */
+/* Fills the cosines of LEAN_SIZE equal parts of a turn. */
 static inline void lean_fill_cosines(float *cosines)
 {
     for (int i = 0; i < LEAN_SIZE; i++)
         cosines[i] = (float)cos(6.28318530717958647692 * i / LEAN_SIZE);
 }
 
-/* The part of `columns`, which become lean_waves.columns, that belongs to a block of LEAN_BLOCK columns. */
+/* Fills one block of LEAN_BLOCK columns of what becomes lean_waves.columns. */
 static inline void lean_fill_block(const lean_waves *waves, const float *cosines, size_t block, float *columns)
 {
     float *out = columns + block * waves->count * 2 * LEAN_BLOCK;
@@ -33,7 +33,7 @@ static inline void lean_fill_block(const lean_waves *waves, const float *cosines
         }
 }
 
-/* A phase per wave for LEAN_ROWS rows from `row` on. */
+/* Fills one phase per wave for LEAN_ROWS rows from `row` on. */
 static inline void lean_fill_phases(const lean_waves *waves, size_t row, lean_phase *phases)
 {
     for (size_t i = 0; i < waves->count; i++)

@@ -9,7 +9,7 @@
 #include "cpu/lanes.h"
 #include "frame/atmosphere.h"
 
-/* Before the prelude takes the names of <math.h>. */
+/* The prelude redefines names of <math.h>, so these come first. */
 static double log_of(double x) { return log(x); }
 
 static double exp_of(double x) { return exp(x); }

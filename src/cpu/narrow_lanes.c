@@ -34,7 +34,7 @@ KERNEL real LAYER_NEAREST(CTX cx, int layer, real column, real row)
     return gather_floats(drawn->nearest, (whole(row) >> BLOCK_SHIFT) * (int)drawn->columns + (whole(column) >> BLOCK_SHIFT));
 }
 
-/* Layers are larger than caches, and most of a mirrored one is empty: blocks that show nothing are not read. */
+/* Blocks that show nothing are not read, because layers are larger than caches and most of a mirrored layer is empty. */
 KERNEL real LAYER_DEPTH(CTX cx, int layer, real column, real row)
 {
     if (cx->narrow->drawn[layer]->empties > 0 && !any_lane(LAYER_NEAREST(cx, layer, column, row) < real(1e30f)))
@@ -127,7 +127,7 @@ static WaterVariation load_variation(const tile_water *w, size_t i)
 
 static void store_whole(int32_t *p, mask m) { memcpy(p, &m, sizeof m); }
 
-/* Whether the pictures do not certify a point: 1 or 0. */
+/* 1: the layers do not certify the point; else 0. `asked`: lanes whose answer has a pixel. */
 static real doubt_of(const struct kernel_context *cx, WaterHit hit, FoundPoint f, mask asked, mask pixel, mask mirrored)
 {
     const narrow_scene *n = cx->narrow;
@@ -150,7 +150,8 @@ static mask element_of(const narrow_scene *n, real column, real row)
     return whole(max(row, real(0.0f))) * (int)n->layers[0]->width + whole(max(column, real(0.0f)));
 }
 
-/* `mirrored`: looked for in the layer that the surface mirrors; `wet`: metres in water. */
+/* Stores a point that was found. `mirrored`: lanes whose search was in LAYER_REFLECTED. `wet`: metres of the ray in water. `certifies`: fill `doubt` and
+ * `last`. */
 static void store_found(const struct kernel_context *cx, tile_ends *out, size_t i, WaterHit hit, FoundPoint f, mask mirrored, real wet, bool certifies)
 {
     const narrow_scene *n = cx->narrow;
@@ -177,7 +178,7 @@ static void store_found(const struct kernel_context *cx, tile_ends *out, size_t 
     store(out->error + i, point_error(cx, f.residual));
 }
 
-/* Where the ray met the surface last, after store_found(). */
+/* Stores the ray's last hit with the surface. It follows store_found(), of which it replaces `before` and `after`. */
 static void store_way(const struct kernel_context *cx, tile_ends *out, size_t i, WaterHit hit, SeenBehind seen)
 {
     const narrow_scene *n = cx->narrow;

@@ -6,74 +6,76 @@
 #include "cpu/gbuffer.h"
 #include "cpu/lanes.h"
 
-/* What points are looked for in. */
+/* The layers and the waves in which the narrow phase searches. */
 typedef struct narrow_scene {
     NarrowData data;
     RefractData refract;
-    const gbuffer *layers[2];        /* beyond the surface, and as the surface mirrors it; all of one shape */
-    const gbuffers *drawn[2];        /* the drawn scenes whose refracted layers these are */
-    const uint8_t *breaks[2];        /* two-phase, hybrid: front_kernels.breaks of these layers */
-    const float *planes;             /* of the world's triangles: unit normal, and its product with a point of the triangle */
-    SearchWave waves[MGT_MAX_WAVES]; /* data.waves of them */
+    const gbuffer *layers[2];        /* LAYER_REFRACTED and LAYER_REFLECTED, both of one shape */
+    const gbuffers *drawn[2];        /* the pictures whose refracted layers these are */
+    const uint8_t *breaks[2];        /* two-phase, hybrid: front_kernels.breaks() of these layers */
+    const float *planes;             /* planes of the world's triangles: unit normal, and its product with a point of the triangle */
+    SearchWave waves[MGT_MAX_WAVES]; /* the first data.waves are set */
 } narrow_scene;
 
-/* The surface in the pixels of a tile; directions as in narrow_types.k, y away from the surface on the camera's side. */
+/* The surface in the pixels of a tile. Coordinates are those of narrow_types.k, so y points to the camera's side. */
 typedef struct tile_water {
-    float share[TILE_PIXELS];  /* of the pixel that is water; 0: the rest is not set */
-    float column[TILE_PIXELS]; /* of the ray, in the image; pixel centres at whole numbers */
-    float row[TILE_PIXELS];
-    float view[3][TILE_PIXELS];   /* unit, of the ray */
-    float along[TILE_PIXELS];     /* metres */
-    float normal[3][TILE_PIXELS]; /* unit */
-    float slopes[3][TILE_PIXELS]; /* covariance xx, xz, zz of the slopes that the pixel does not resolve; this and the next two: see WaterVariation */
-    float bend[3][TILE_PIXELS];   /* second derivatives of the resolved waves */
-    float path[3][TILE_PIXELS];   /* change over the shutter of the slope and of `along` */
+    float share[TILE_PIXELS];     /* fraction of the pixel that is water; 0: the other members are not set */
+    float column[TILE_PIXELS];    /* place of the ray in the image; pixel centres are at whole numbers */
+    float row[TILE_PIXELS];       /* as `column` */
+    float view[3][TILE_PIXELS];   /* unit direction of the ray */
+    float along[TILE_PIXELS];     /* length of the ray to the surface, metres */
+    float normal[3][TILE_PIXELS]; /* unit normal of the surface */
+    float slopes[3][TILE_PIXELS]; /* WaterVariation.variance_*: covariance xx, xz, zz of the slopes that the pixel does not resolve */
+    float bend[3][TILE_PIXELS];   /* WaterVariation.bend_*: second derivatives xx, xz, zz of the resolved waves, 1/metre */
+    float path[3][TILE_PIXELS];   /* WaterVariation.path and path_along: change over the shutter of both slopes and of `along` */
 } tile_water;
 
-/* Where rays end, as shade_hits takes them. */
+/* The ends of rays, see shade_hits. */
 typedef struct tile_ends {
     int32_t triangle[TILE_PIXELS];
     float position[3][TILE_PIXELS];
     float direction[3][TILE_PIXELS];
     float before[TILE_PIXELS], after[TILE_PIXELS], water[TILE_PIXELS];
-    float way[TILE_PIXELS];       /* metres of `after` to where the ray met the surface last; 0: it met it once */
+    float way[TILE_PIXELS];       /* metres from the ray's first hit with the surface to its last one; 0: there is one hit */
     float wet[TILE_PIXELS];       /* metres of `way` in water */
-    float from[3][TILE_PIXELS];   /* where it met the surface last; not set where it met it once */
-    float part[TILE_PIXELS];      /* of the light that goes this way */
-    float first[TILE_PIXELS];     /* 1 where the surface lets nothing through as it is met first */
-    float spread[3][TILE_PIXELS]; /* the footprint, as in shade_hits */
-    float terms[9][TILE_PIXELS];  /* Spread, for another `after`; two-phase, hybrid: where there is doubt */
-    float gain[TILE_PIXELS];      /* as in shade_hits */
-    float error[TILE_PIXELS];     /* pixels; +inf: unknown */
-    float total[TILE_PIXELS];     /* 1 where the surface lets nothing through */
-    float doubt[TILE_PIXELS];     /* two-phase, hybrid: 1 where the pictures do not certify the answer, else 0 */
-    int32_t pixel[TILE_PIXELS];   /* index in the layer of the pixel that gave the answer; −1: none */
-    int32_t last[TILE_PIXELS];    /* two-phase, hybrid: index of the pixel at which a point infinitely far along the ray is seen; −1: none */
+    float from[3][TILE_PIXELS];   /* the last hit with the surface, in the world's coordinates; not set where `way` is 0 */
+    float part[TILE_PIXELS];      /* fraction of the light on this branch, SeenBehind.part */
+    float first[TILE_PIXELS];     /* 1: the ray is totally reflected at its first hit with the surface; else 0 */
+    float spread[3][TILE_PIXELS]; /* shade_hits.spread */
+    float terms[9][TILE_PIXELS];  /* the nine coefficients of Spread, which give the footprint for another `after`; set by distance-field, and by two-phase
+                                     and hybrid in vectors with a doubtful pixel */
+    float gain[TILE_PIXELS];      /* shade_hits.gain */
+    float error[TILE_PIXELS];     /* point_error(), pixels; +inf: unknown */
+    float total[TILE_PIXELS];     /* 1: the ray ends on the camera's side of the surface; else 0 */
+    float doubt[TILE_PIXELS];     /* two-phase, hybrid: 1: the layers do not certify the answer; else 0 */
+    int32_t pixel[TILE_PIXELS];   /* element of the layer that gave the answer; −1: none */
+    int32_t last[TILE_PIXELS];    /* two-phase, hybrid: element of the layer at which the ray ends at infinity; −1: none */
 } tile_ends;
 
-/* Pixel 0 of the tile within the image, and the place in every pixel that rays go through, from its centre. */
 typedef struct tile_offset {
-    uint32_t column, row;
-    float dx, dy;
+    uint32_t column, row; /* the tile's first pixel in the image */
+    float dx, dy;         /* place in every pixel that rays go through, in pixels from its centre */
 } tile_offset;
 
 /* Rays through places of a tile's pixels. */
 typedef struct ray_places {
     size_t count;
-    uint16_t pixel[TILE_PIXELS];            /* of the tile */
-    float dx[TILE_PIXELS], dy[TILE_PIXELS]; /* from its centre */
+    uint16_t pixel[TILE_PIXELS];            /* index of each ray's pixel in the tile */
+    float dx[TILE_PIXELS], dy[TILE_PIXELS]; /* the ray's place, in pixels from that pixel's centre */
 } ray_places;
 
 struct narrow_kernels {
-    /* The filtered surface, over the time that the waves were sorted for. */
+    /* Fills the filtered surface, over the time that the waves were sorted for. */
     void (*water)(const FrameData *frame, const tile_waves *tile, const tile_estimate *estimate, const tile_offset *at, tile_water *out);
-    /* The surface where these rays meet it, from that at the centres of their pixels: a ray each, in their order. Its `share` is 0 beyond them. */
+    /* Fills the surface at the hits of other rays, one element per ray, from the surface at the pixels' centres. `share` of further elements is 0. */
     void (*beside)(const narrow_scene *n, const ray_places *places, const tile_water *water, tile_water *out);
-    /* What lies behind it, on branch 0; on branch 1 of again.k only where out->part says that branch 0 is split. */
+    /* Finds the ends of rays behind the surface, on branch 0 or 1 of again.k. Branch 1 is filled only where out->part, which branch 0 has set, is that of a
+       split ray. */
     void (*refracted)(const narrow_scene *n, const tile_water *water, int branch, tile_ends *out);
-    /* What its mean slope mirrors of the camera's own side. */
+    /* Finds the ends of rays that the surface's mean slope mirrors. */
     void (*mirrored)(const narrow_scene *n, const tile_water *water, tile_ends *out);
-    /* Pixels of a layer at even steps along the image of a ray, −1 outside of it. `from`: as in narrow_types.k; after: as in place_along(). */
+    /* Finds the elements of a layer at even steps along the image of a ray; −1: outside of the layer. `from` is in coordinates of narrow_types.k; `after`: see
+       place_along(). */
     void (*along)(const narrow_scene *n, int layer, const float from[3], const float direction[3], float after, int32_t pixels[SHARP_PLACES]);
 };
 

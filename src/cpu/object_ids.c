@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Counts what the rays of every pixel show, tile by tile. */
+ * Sums the labels that the rays of every pixel show, tile by tile. */
 #include "cpu/object_ids.h"
 
 #include <stdlib.h>
@@ -7,9 +7,9 @@
 #include "cpu/path_traced.h"
 #include "frame/targets.h"
 
-enum { LABELS_MAX = OBJECT_SIDE_MAX * OBJECT_SIDE_MAX + 1 }; /* each ray shows one object at most, and water */
+enum { LABELS_MAX = OBJECT_SIDE_MAX * OBJECT_SIDE_MAX + 1 }; /* one per ray, and water */
 
-/* What one pixel has shown so far. */
+/* Labels that a pixel has shown so far, and their weights in rays. */
 typedef struct pixel_labels {
     uint32_t count;
     uint32_t label[LABELS_MAX];
@@ -20,8 +20,8 @@ typedef struct drawing {
     const object_ids_job *job;
     const mgt_image *image;
     path_traced *truth;
-    uint32_t first_x, first_y, columns; /* of the tiles */
-    pixel_labels **scratch;             /* TILE_PIXELS for each worker */
+    uint32_t first_x, first_y, columns; /* first tile of the crop, and number of tiles in a row */
+    pixel_labels **scratch;             /* TILE_PIXELS elements per worker */
     object_shares *pixels;
 } drawing;
 
@@ -86,7 +86,7 @@ static void draw_tile(void *argument, size_t index, uint32_t worker)
     }
     for (uint32_t i = 0; i < TILE_PIXELS; i++) {
         const uint32_t x = tile_x * TILE_WIDTH + i % TILE_WIDTH - image->crop_x, y = tile_y * TILE_HEIGHT + i / TILE_WIDTH - image->crop_y;
-        if (x < image->crop_width && y < image->crop_height) /* left of the crop wraps around */
+        if (x < image->crop_width && y < image->crop_height) /* x and y wrap around left of and above the crop */
             d->pixels[(size_t)y * image->crop_width + x] = rank(&tile[i], (float)samples);
     }
 }
@@ -120,7 +120,6 @@ done:
     return status;
 }
 
-/* What rays are traced against. */
 typedef struct traced_world {
     world *world;
     trace_scene *trace;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Which objects each pixel shows, and how much of each: what mattes are cut out by. */
+ * The objects that each pixel shows and their fractions of the pixel, for mattes. */
 #ifndef MANGATA_CPU_OBJECT_IDS_H
 #define MANGATA_CPU_OBJECT_IDS_H
 
@@ -7,28 +7,28 @@
 
 enum { OBJECT_RANKS = 6, OBJECT_SIDE_MAX = 16 };
 
-/* What a pixel shows, the largest share first. Those beyond OBJECT_RANKS are lost; equal shares stand in the order of their labels. */
+/* The labels that a pixel shows, by falling share; equal shares are sorted by label. Labels beyond OBJECT_RANKS are dropped. */
 typedef struct object_shares {
     uint32_t label[OBJECT_RANKS];
-    float share[OBJECT_RANKS]; /* their sum is at most 1; 0: nothing more */
+    float share[OBJECT_RANKS]; /* fraction of the pixel; 0: there are no more labels */
 } object_shares;
 
 typedef struct object_ids_job {
-    const mgt_scene *scene;                        /* checked */
-    const uint32_t *labels;                        /* of the scene's objects; objects of one label count as one */
-    uint32_t sky, water;                           /* labels of what is no object */
-    uint32_t side;                                 /* N of N × N rays a pixel, 1 … OBJECT_SIDE_MAX */
-    uint32_t threads;                              /* 0: as many as there are */
-    mgt_isa isa;                                   /* any gives the same bits */
-    bool (*progress)(void *user, double fraction); /* called now and then; false stops. NULL: never */
+    const mgt_scene *scene;                        /* a scene that mgt_scene_check() has found valid */
+    const uint32_t *labels;                        /* labels of the scene's objects; objects of one label count as one */
+    uint32_t sky, water;                           /* labels of sky and water */
+    uint32_t side;                                 /* a pixel has side × side rays, 1 … OBJECT_SIDE_MAX */
+    uint32_t threads;                              /* 0: one per usable processor */
+    mgt_isa isa;                                   /* the bits do not depend on it */
+    bool (*progress)(void *user, double fraction); /* called repeatedly; false: stop. NULL: no calls */
     void *user;
 } object_ids_job;
 
 /*
- * Fills `pixels`, those of the scene's crop, by rays that the scene's seed jitters in strata of the pixel and of the open shutter (of its end where the
- * camera moves). A ray that meets the surface counts as water with the fraction of its light that is mirrored there, and with the rest as what it meets
- * behind: an object, or the water. The bits depend neither on threads nor on the crop. After MGT_ERROR_UNAVAILABLE, in builds that cannot trace, or
- * MGT_CANCELLED the pixels hold nothing of use.
+ * Fills `pixels`, the pixels of the scene's crop. The scene's seed jitters rays in strata of the pixel and of the open shutter. If the camera moves, all rays
+ * are at the shutter's end. The fraction of a ray's light that the surface mirrors counts as water; the rest counts as what the ray meets behind the surface,
+ * an object or the water. The bits depend neither on threads nor on the crop. Returns MGT_OK, MGT_ERROR_UNAVAILABLE in builds that cannot trace, MGT_CANCELLED,
+ * or an error of memory or threads; after a failure the pixels are undefined.
  */
 mgt_status object_ids_draw(const object_ids_job *job, const reporter *report, object_shares *pixels);
 

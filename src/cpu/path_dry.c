@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Which points lie inside dry hulls, by rays traced from each: what the ground truth of refraction goes by. */
+ * Which points lie inside dry hulls, decided by rays traced from each point. */
 #include "cpu/path_dry.h"
 
 #include <float.h>
@@ -10,9 +10,9 @@ enum { AROUND = 32, MAY_MISS = AROUND / 8 };
 
 struct path_dry {
     trace_scene *trace;
-    uint32_t *indices; /* of the dry triangles */
-    double low[3], high[3];
-    trace_ray around[AROUND];
+    uint32_t *indices;        /* vertices of the dry triangles */
+    double low[3], high[3];   /* box around them */
+    trace_ray around[AROUND]; /* horizontal directions */
 };
 
 void path_dry_free(path_dry *dry)
@@ -24,7 +24,7 @@ void path_dry_free(path_dry *dry)
     free(dry);
 }
 
-/* Returns how many there are. */
+/* Fills indices, low and high. Returns the number of dry triangles. */
 static size_t take_triangles(path_dry *dry, const world *w)
 {
     size_t count = 0;

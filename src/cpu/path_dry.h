@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Which points lie inside dry hulls, by rays traced from each: what the ground truth of refraction goes by. */
+ * Which points lie inside dry hulls, decided by rays traced from each point. For refraction path-traced. */
 #ifndef MANGATA_CPU_PATH_DRY_H
 #define MANGATA_CPU_PATH_DRY_H
 
@@ -9,12 +9,13 @@
 /* The dry meshes of a world. */
 typedef struct path_dry path_dry;
 
-/* *dry is NULL at first, and stays NULL where nothing is dry. It refers to the world, and is to be updated with it. On failure the report says why. */
+/* Rebuilds *dry for the world. *dry is NULL at first, and stays NULL if nothing is dry. It refers to the world, so call this after each change of it. A failure
+ * is reported. */
 mgt_status path_dry_update(path_dry **dry, const world *w, uint32_t threads, const reporter *r);
 void path_dry_free(path_dry *dry); /* NULL is allowed */
 
-/* Whether the meshes lie straight below a point, in the world's coordinates, and around it at its height: by frame/dry.h's definition, in twice as many
- * directions, of which an eighth may meet nothing. */
+/* Whether a point in the world's coordinates lies inside of the dry meshes by the definition in frame/dry.h, with twice as many directions around the point. An
+ * eighth of them may meet nothing. */
 bool path_dry_holds(const path_dry *dry, const double point[3]);
 
 #endif

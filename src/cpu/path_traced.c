@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * Rays through the wavy surface, 512 at a time: where they cross it next, which triangle they meet before, and what they do at a crossing.
+ * Traces rays through the wavy surface in batches of a tile: finds the next crossing and the nearest triangle before it, then splits rays at the crossing.
  *
- * Under water everything happens in a mirror: with y and the waves' heights negated, water lies above air and the search that finds the surface
- * from above finds it from below.
+ * Rays in water are searched in the mirror image of the scene, with y and the waves' heights negated. So the search that finds the surface from above also
+ * finds it from below.
  */
 #include "cpu/path_traced.h"
 
@@ -19,30 +19,32 @@ enum { BATCH = REFERENCE_BATCH, MOST_PARTS = BATCH * (PATH_MOST_EVENTS + 4) };
 
 _Static_assert((int)BATCH == (int)TILE_PIXELS, "a tile's rays are one batch");
 
-/* How far a step of the camera's ray, a pixel to the right or down, puts its hit with the surface and turns it there. */
+/* Differential of a ray for a step of the camera's ray by one pixel to the right or down. */
 typedef struct ray_step {
-    double at[3], turn[3];
+    double at[3];   /* change of the hit with the surface, metres */
+    double turn[3]; /* change of the direction behind it */
 } ray_step;
 
-/* A part of a pixel's light on its way. */
+/* A part of a pixel's light on its path. */
 typedef struct light_part {
     double origin[3], direction[3]; /* x and z relative to the camera's foot */
-    double time;                    /* seconds, from scene.time */
-    double pixel_fraction;          /* of the camera's ray, over its depth: what its steps count from */
-    double before, after, water;    /* metres, as in shade_hits */
-    double share;                   /* of the pixel's sample */
-    ray_step steps[2];              /* the footprint, over the sample's share of the pixel; bends after the first are left out */
-    uint16_t pixel;
-    uint8_t events;
-    bool wet, mirrored; /* in water; belongs to the mirrored radiance */
-    bool dry;           /* goes on inside a dry hull */
+    double time;                    /* seconds relative to scene.time */
+    double pixel_fraction;          /* 1 / the length of the camera's ray before it was normalised: scales steps of that ray */
+    double before, after, water;    /* as in shade_hits */
+    double share;                   /* fraction of the sample's light */
+    ray_step steps[2];              /* the footprint of the sample's part of the pixel; refractions after the first one are left out */
+    uint16_t pixel;                 /* pixel of the tile */
+    uint8_t events;                 /* number of hits with the surface */
+    bool wet;                       /* the part is in water */
+    bool mirrored;                  /* the part belongs to the mirrored radiance */
+    bool dry;                       /* the part goes on inside of a dry hull */
 } light_part;
 
-/* Where a ray meets the surface. */
+/* A ray's hit with the surface. */
 typedef struct surface_point {
-    double distance;  /* +inf: it does not */
-    double normal[3]; /* unit, towards the ray's origin */
-    double bend[3];   /* of the first surface: second derivatives xx, xz, zz */
+    double distance;  /* metres; +inf: there is no hit */
+    double normal[3]; /* unit normal towards the ray's origin */
+    double bend[3];   /* second derivatives xx, xz, zz; set at the first hit of a camera's ray */
 } surface_point;
 
 typedef struct batch_hits {
@@ -64,14 +66,14 @@ typedef struct path_traced_scratch {
     light_part batch[BATCH], parts[MOST_PARTS];
     size_t part_count;
     double through[3][BATCH], mirror[3][BATCH];
-    uint32_t samples[BATCH]; /* that met the surface */
+    uint32_t samples[BATCH]; /* number of samples that have met the surface */
 } path_traced_scratch;
 
 struct path_traced {
     path_traced_job job;
-    reference_frame *above, *below; /* the surface seen from the air, and mirrored from the water */
-    double offset[3];               /* from the camera's foot to the world's origin, to be added */
-    uint32_t side;                  /* N of N × N samples a pixel */
+    reference_frame *above, *below; /* the surface for rays in air, and its mirror image for rays in water */
+    double offset[3];               /* added to positions relative to the camera's foot, it gives those of the world */
+    uint32_t side;                  /* a pixel has side × side samples */
     path_traced_scratch **scratch;
 };
 
@@ -96,7 +98,7 @@ mgt_status path_traced_create(path_traced **truth, const path_traced_job *job)
     t->side = job->scene->quality.refraction_samples ? job->scene->quality.refraction_samples : 4;
     t->offset[0] = job->camera.position[0] - job->world->origin[0];
     t->offset[2] = job->camera.position[2] - job->world->origin[1];
-    mgt_scene scene = *job->scene; /* phases are counted from the camera's place */
+    mgt_scene scene = *job->scene; /* phases are relative to the camera, so the reference frames need its place */
     scene.camera.position[0] = job->camera.position[0];
     scene.camera.position[2] = job->camera.position[2];
     scene.camera_moves = false;
@@ -138,7 +140,7 @@ static void scale_to_unit(double a[3])
 
 static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-/* Next crossings of the batch's parts that are in water, or of the others. */
+/* Finds the next crossings of the batch's parts in water if `wet`, else of those in air. `first`: the parts come from the camera, and bends are wanted. */
 static void search_side(const path_traced *t, path_traced_scratch *s, size_t count, bool wet, bool first)
 {
     uint16_t from[BATCH];
@@ -185,7 +187,7 @@ static trace_ray ray_of(const path_traced *t, const light_part *p, double most)
     return ray;
 }
 
-/* Where a part in air meets the surface inside a dry hull, there is none: it goes on to what is there. */
+/* There is no water inside of dry hulls: parts in air whose hit with the surface lies in one go on to the next triangle. */
 static void pass_dry(const path_traced *t, path_traced_scratch *s, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
@@ -205,7 +207,7 @@ static void pass_dry(const path_traced *t, path_traced_scratch *s, size_t count)
     }
 }
 
-/* Fills surface and met for the first `count` parts of the batch; `first`: they come from the camera. */
+/* Fills `surface` and `met` for the first `count` parts of the batch. `first`: the parts come from the camera. */
 static void look_ahead(const path_traced *t, path_traced_scratch *s, size_t count, bool first)
 {
     search_side(t, s, count, false, first);
@@ -221,15 +223,15 @@ static void look_ahead(const path_traced *t, path_traced_scratch *s, size_t coun
 
 typedef struct crossing {
     double through[3], mirrored[3]; /* unit directions */
-    double reflectance;             /* unpolarised; 1: total internal reflection */
+    double reflectance;             /* of unpolarised light; 1: total reflection, and `through` is not set */
 } crossing;
 
-/* `index`: of the medium behind the surface over that before it. */
+/* Refracts and mirrors a ray. `index`: index of refraction behind the surface divided by that before it. */
 static crossing cross_surface(const double direction[3], const double normal[3], double index)
 {
     crossing c = {.reflectance = 1};
     const double cosine = -dot(direction, normal);
-    if (!(cosine > 0)) { /* a camera inside a wave: on it goes */
+    if (!(cosine > 0)) { /* the camera is inside of a wave, so the ray goes on straight */
         memcpy(c.through, direction, sizeof c.through);
         memcpy(c.mirrored, direction, sizeof c.mirrored);
         c.reflectance = 0;
@@ -237,7 +239,7 @@ static crossing cross_surface(const double direction[3], const double normal[3],
     }
     for (int k = 0; k < 3; k++)
         c.mirrored[k] = direction[k] + 2 * cosine * normal[k];
-    const double squared = 1 - (1 - cosine * cosine) / (index * index); /* of the refracted angle's cosine */
+    const double squared = 1 - (1 - cosine * cosine) / (index * index); /* squared cosine of the refracted angle */
     if (!(squared > 0))
         return c;
     const double refracted = sqrt(squared);
@@ -249,7 +251,7 @@ static crossing cross_surface(const double direction[3], const double normal[3],
     return c;
 }
 
-/* Begins at the surface, a little on the side that it goes to, so that rounding does not let it cross at once. */
+/* Pushes a part that leaves the surface. It begins a little beside the surface, on the side that it goes to, so that rounding does not make it cross again. */
 static void push_part(path_traced_scratch *s, const light_part *from, const surface_point *w, const double direction[3], bool crosses, double share)
 {
     if (share < PATH_LEAST_WEIGHT || s->part_count == MOST_PARTS)
@@ -276,8 +278,8 @@ static void advance(light_part *p, double distance, bool first)
         p->water += distance;
 }
 
-/* A ray that is `step` beside the camera's one, over how small the step is: where it meets the surface's tangent plane, and how the surface as it is
- * bent there turns it. */
+/* Differential quotient for a ray beside the camera's ray, over `step`: the change of its hit with the surface's tangent plane, and of its direction behind the
+ * surface, whose normal changes with its second derivatives. */
 static ray_step step_aside(const light_part *p, const surface_point *w, const double step[3], double index, const crossing *c, bool through)
 {
     static const double small = 1e-3;
@@ -288,7 +290,7 @@ static ray_step step_aside(const light_part *p, const surface_point *w, const do
     scale_to_unit(view);
     for (int k = 0; k < 3; k++)
         towards += (view[k] - p->direction[k]) * w->normal[k];
-    const double closing = fmax(-dot(p->direction, w->normal), 0.25 * fabs(p->direction[1] * w->normal[1])); /* outlines stand for no more */
+    const double closing = fmax(-dot(p->direction, w->normal), 0.25 * fabs(p->direction[1] * w->normal[1])); /* a bound at outlines */
     for (int k = 0; k < 3; k++)
         s.at[k] = w->distance * (view[k] - p->direction[k] + p->direction[k] * towards / fmax(closing, 1e-9)) / small;
     slope[0] = w->bend[0] * s.at[0] + w->bend[1] * s.at[2];
@@ -317,7 +319,7 @@ static void set_steps(const path_traced *t, light_part *p, const surface_point *
     }
 }
 
-/* What the first surface makes of a camera's ray. */
+/* Pushes the parts of a camera's ray behind its first hit with the surface. */
 static void begin_parts(const path_traced *t, path_traced_scratch *s, light_part p, const surface_point *w, bool mirrored)
 {
     const double n = t->job.scene->water.index_of_refraction;
@@ -349,7 +351,7 @@ static void split_part(const path_traced *t, path_traced_scratch *s, light_part 
 
 /* ---- where rays end ---- */
 
-/* Variances of a uniform variable over each step, across the ray. */
+/* Fills the covariance of the footprint across the ray. The ray is uniformly distributed over each step, with the variance 1/12. */
 static void spread_ray(const light_part *p, float spread[3])
 {
     const double *d = p->direction, level = hypot(d[0], d[2]);
@@ -412,7 +414,7 @@ static void shade_ends(const path_traced *t, path_traced_scratch *s)
     e->count = 0;
 }
 
-/* Follows what the pixels' rays became, the newest parts first: so few wait at a time. */
+/* Follows all parts to their ends. The newest parts come first, so that few wait at a time. */
 static void follow_parts(const path_traced *t, path_traced_scratch *s)
 {
     while (s->part_count) {
@@ -433,7 +435,7 @@ static void follow_parts(const path_traced *t, path_traced_scratch *s)
 
 /* ---- a tile ---- */
 
-/* The ray of a place (x, y) of the picture, pixel centres at whole numbers. */
+/* The camera's ray through a place (x, y) of the picture, in which pixel centres are at whole numbers. */
 static light_part camera_part(const path_traced *t, double x, double y, uint16_t pixel)
 {
     const camera_rays *c = &t->job.camera;
@@ -453,7 +455,7 @@ static void aim_sample(const path_traced *t, path_traced_scratch *s, uint32_t ti
     const uint64_t key = hash_of_sample(t->job.scene->quality.seed, sample);
     for (uint32_t i = 0; i < BATCH; i++) {
         const uint32_t x = tile_x * TILE_WIDTH + i % TILE_WIDTH, y = tile_y * TILE_HEIGHT + i / TILE_WIDTH;
-        double dx = 0, dy = 0, share = 0.5; /* of the shutter */
+        double dx = 0, dy = 0, share = 0.5; /* `share`: fraction of the shutter's time */
         if (t->side > 1) {
             const uint64_t bits = hash_of_pixel(key, x, y);
             dx = (sample % t->side + (double)hash_unit(bits)) / t->side - 0.5;
@@ -499,9 +501,9 @@ void path_traced_tile(const path_traced *truth, uint32_t tile_x, uint32_t tile_y
         write_mean((const double(*)[BATCH])s->mirror, s->samples, out->mirrored_red, out->mirrored_green, out->mirrored_blue);
 }
 
-/* ---- what is seen ---- */
+/* ---- objects along rays ---- */
 
-/* Goes on through the surface, or mirrored where nothing comes through; returns the share that is mirrored. */
+/* Pushes the refracted ray, or the mirrored one if the ray is totally reflected. Returns the reflectance. */
 static double go_on(const path_traced *t, path_traced_scratch *s, light_part p, const surface_point *w)
 {
     const double n = t->job.scene->water.index_of_refraction;
@@ -515,7 +517,7 @@ static int32_t seen_at_end(const path_traced *t, const light_part *p, const trac
 {
     if (met->triangle >= 0)
         return (int32_t)t->job.world->object[met->triangle];
-    /* Through a crest is through water; from within it the sky lies behind the surface. */
+    /* A ray of a camera in air that has met the surface counts as water even if it has left a crest. A ray of a camera under water may end in the sky. */
     const bool wet = t->job.camera.position[1] < 0;
     return (wet ? p->wet : p->events > 0) ? SEEN_WATER : SEEN_SKY;
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Heights, normals and velocities of the water at points. Phases are summed in double, for points may be many waves from the origin, and reduced there; the
- * sums over waves are single or double.
+ * Queries of the water at points and along rays. Phases are computed and reduced in double precision, because points may be many wavelengths from the origin.
+ * Sums over waves are in single or double precision.
  */
 #include <math.h>
 #include <stddef.h>
@@ -20,13 +20,13 @@
 
 /* ---- a group of points ---- */
 
-/* As many points as lanes. */
+/* Points of water that is not choppy, one per lane, and sums over waves. */
 typedef struct query_group {
     double x[MGT_LANES], z[MGT_LANES];
     double height[MGT_LANES], slope_x[MGT_LANES], slope_z[MGT_LANES], rise[MGT_LANES];
 } query_group;
 
-/* In single precision; `moving`: with the velocity. */
+/* Fills the sums in single precision. `moving`: with the velocity. */
 static inline __attribute__((always_inline)) void sum_single(const water_terms *w, query_group *g, bool moving)
 {
     real height = real_broadcast(0), slope_x = height, slope_z = height, rise = height;
@@ -112,7 +112,7 @@ static void query_choppy(const water_terms *terms, double level, const double *p
 
 static void write_point(const query_group *g, int lane, double level, size_t i, const mgt_water_answers *answers)
 {
-    const double here = 0 * (g->x[lane] + g->z[lane]); /* 0, or NaN where the point is not finite */
+    const double here = 0 * (g->x[lane] + g->z[lane]); /* 0, or NaN if the point is not finite */
     if (answers->height)
         answers->height[i] = level + g->height[lane] + here;
     if (answers->normal) {
@@ -156,19 +156,19 @@ void JOIN(query_lanes_, MGT_LANES)(const water_terms *terms, double level, const
 
 /* ---- rays ---- */
 
-/* A ray on its way to the surface. All that bounds the surface along it is in metres per unit of `along`. */
+/* A ray whose hit with the surface is searched. Rates are per unit of `along`, the multiple of the ray's direction. */
 typedef struct traced_ray {
-    double origin[3], direction[3]; /* the origin's height is over the mean surface */
-    double side;                    /* 1 from above, −1 from below, 0 before the first look */
-    double closing, bend;           /* most that the gap shrinks by, and that this rate grows by */
-    double along, speed;            /* metres a unit of `along` */
-    double shift[2];                /* about that of choppy water at `along` */
-    int tries;                      /* looks at it there */
-    double outside;                 /* the last `along` that was on the ray's side of water that folds */
+    double origin[3], direction[3]; /* the origin's height is relative to the mean surface */
+    double side;                    /* 1: the ray comes from above; −1: from below; 0: unknown so far */
+    double closing, bend;           /* upper bounds of the rate at which the gap shrinks, and of the growth of this rate */
+    double along, speed;            /* `speed`: metres per unit of `along` */
+    double shift[2];                /* estimate of the shift of choppy water at `along` */
+    int tries;                      /* number of steps of this estimate at `along` */
+    double outside;                 /* in water that folds: the last `along` on the ray's side of the surface */
     bool arrived;
 } traced_ray;
 
-/* Starts where the ray enters the slab that holds the surface. */
+/* A ray at the point at which it enters the slab that contains the surface. */
 static traced_ray ray_start(const water_terms *w, double level, const double *ray, double crest, double reach)
 {
     traced_ray r = {.origin = {ray[0], ray[1] - level, ray[2]}, .direction = {ray[3], ray[4], ray[5]}};
@@ -191,8 +191,8 @@ static traced_ray ray_start(const water_terms *w, double level, const double *ra
         r.bend += w->of[i].height * radians * radians;
     }
     if (w->choppy) {
-        /* A wave of slope S that is pressed by P at most leans by S/√(1 − P²) at most. On its crest its curvature is that at rest over (1 − P)². So is that of
-         * a short wave on the crest of a long one. */
+        /* A wave of slope S that is compressed by at most P has a slope of at most S/√(1 − P²). The curvature on its crest is that at rest over (1 − P)². So is
+         * that of a short wave on the crest of a long one. */
         slope /= __builtin_sqrt(1 - w->pressed * w->pressed);
         r.bend /= (1 - w->pressed) * (1 - w->pressed);
     }
@@ -208,7 +208,7 @@ static traced_ray ray_start(const water_terms *w, double level, const double *ra
     return r;
 }
 
-/* A step that jumps over no crest; near the surface it becomes Newton's. As search_step() in search_step.k. */
+/* A step that skips no crest, as search_step() in search_step.k. Near the surface it approaches Newton's step. */
 static double ray_step(const traced_ray *r, double gap, double closing)
 {
     const double root = __builtin_sqrt(closing * closing + 2 * r->bend * gap), spare = r->closing - closing;
@@ -238,8 +238,8 @@ static void ray_advance(traced_ray *r, double height, double slope_x, double slo
     }
 }
 
-/* The highest water of a fold ends at once where a crest hangs over: between a point before it and one behind it the end is found by halving. True where
- * the ray has been moved to look again. */
+/* The highest water of a fold ends abruptly under an overhanging crest, so a step may pass its end. The end is then found by bisection between a point before
+ * and a point behind it. True: the ray has been moved back, and its point must be evaluated again. */
 static bool ray_returns(traced_ray *r, double height)
 {
     const double gap = (r->origin[1] + r->direction[1] * r->along - height) * r->side;
@@ -253,7 +253,7 @@ static bool ray_returns(traced_ray *r, double height)
     return true;
 }
 
-/* Looks at the water at the rays' points, where it folds at the highest, as queries do. */
+/* Evaluates the water at the rays' points. Where it folds, the highest water counts, as in queries. */
 static void look_at_folds(const water_terms *w, const traced_ray *r, query_group *g)
 {
     mgt_water_answers exact = {.exact = 1};
@@ -274,7 +274,7 @@ static void look_at_folds(const water_terms *w, const traced_ray *r, query_group
     }
 }
 
-/* Looks at the water at the rays' points; `ready`: lanes whose place of rest has been found. */
+/* Evaluates the water at the rays' points. In choppy water each call takes one step towards the place at rest. `ready`: lanes whose place has been found. */
 static void look_at_points(const water_terms *w, traced_ray *r, query_group *g, bool *ready)
 {
     if (!w->choppy || w->folds) {
@@ -303,7 +303,7 @@ static void look_at_points(const water_terms *w, traced_ray *r, query_group *g, 
         if (squared < straight) {
             to_rest_by(most, value[1], direction, left, step);
             const double far = step[0] * step[0] + step[1] * step[1];
-            if (far > straight) { /* where the water is pressed most, Newton's step is too long */
+            if (far > straight) { /* Newton's step is too long where the water is most compressed */
                 const double shorter = __builtin_sqrt(straight / far);
                 step[0] *= shorter;
                 step[1] *= shorter;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
- * Triangles of homogeneous images, clipped and snapped to subpixels, and sorted into the tiles that they may touch.
+ * Clips triangles of homogeneous images, snaps them to subpixels, and sorts them into the tiles that they may touch.
  *
- * Vertices that triangles share become the same subpixels, whichever triangle they are computed for, and the ends of a cut edge count by their side
- * of the border: so neighbours meet without gap or overlap. */
+ * Neighbouring triangles meet without gap or overlap, because a shared vertex gives the same subpixels in each of its triangles, and a shared edge is always
+ * cut from its inner end. */
 #include "cpu/raster.h"
 
 #include <math.h>
@@ -13,7 +13,7 @@
 
 static const double coordinate_limit = COORDINATE_LIMIT;
 
-enum { MOST_CORNERS = 9 }; /* of a triangle that five borders cut, and one to spare */
+enum { MOST_CORNERS = 9 }; /* a triangle that five borders cut has up to eight */
 
 typedef struct polygon {
     int count;
@@ -37,7 +37,7 @@ static bool reserve(void **memory, size_t *room, size_t wanted, size_t size)
 
 static double side_of(const double plane[3], const double p[3]) { return plane[0] * p[0] + plane[1] * p[1] + plane[2] * p[2]; }
 
-/* What is left on the side where plane·p ≥ offset. */
+/* The part of a polygon where plane·p ≥ offset. */
 static polygon clipped(const polygon *p, const double plane[3], double offset)
 {
     polygon out = {.count = 0};
@@ -73,7 +73,7 @@ static polygon clip_to_limits(const float image[3][3], double least_depth)
 
 /* ---- setup ---- */
 
-/* The pixels whose centres may be covered, from the picture's first one. */
+/* Bounds of the pixels whose centres a triangle may cover, inclusive, from the picture's first pixel. */
 typedef struct pixel_box {
     int32_t left, right, top, bottom;
 } pixel_box;
@@ -89,11 +89,11 @@ static pixel_box box_of(const raster_triangle *t, const raster_grid *grid)
     return box;
 }
 
-/* Whether the triangle may cover a pixel's centre; corners come out clockwise. */
+/* Sets up a triangle with clockwise corners. False: it covers no pixel's centre. */
 static bool set_up(const double corner[3][3], const raster_grid *grid, int32_t triangle, raster_triangle *t, pixel_box *box)
 {
     double inverse[3];
-    for (int i = 0; i < 3; i++) { /* in floats, as raster_kernels.setups, so that corners shared with its triangles fall on the same subpixels */
+    for (int i = 0; i < 3; i++) { /* in floats, because shared corners must get the same subpixels as in raster_kernels.setups */
         const float one_over = 1.0f / (float)corner[i][2];
         inverse[i] = (double)one_over;
         t->x[i] = (int32_t)lrintf((float)corner[i][0] * one_over * SUBPIXELS);
@@ -121,7 +121,7 @@ static bool set_up(const double corner[3][3], const raster_grid *grid, int32_t t
 
 /* ---- bins ---- */
 
-/* Whether all of a tile lies outside an edge. */
+/* Whether the whole tile lies outside of an edge of the triangle. */
 static bool misses_tile(const raster_triangle *t, const raster_grid *grid, int32_t column, int32_t row)
 {
     const int64_t size = (RASTER_TILE - 1) * SUBPIXELS;
@@ -201,7 +201,7 @@ void raster_bins_sort(raster_bins *bins, const raster_grid *grid)
         bins->failed = true;
         return;
     }
-    /* Counted two places further on, so that filling the lists moves every start to its own place. */
+    /* Counts are kept two places further on. Filling the list increments each start to that of the next bin, which leaves it in its own place. */
     memset(bins->starts, 0, (count + 2) * sizeof *bins->starts);
     for (size_t i = 0; i < bins->entry_count; i++)
         bins->starts[bins->entries[i].bin + 2]++;

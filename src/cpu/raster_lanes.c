@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Points, triangles and pixels of G-buffers in lanes, compiled once per lane width (MGT_LANES).
+ * Points, triangles and pixels of layers, compiled once per lane width (MGT_LANES).
  *
  * Whatever the width, a point, an edge or a pixel sees the same operations in the same order: the bits do not depend on it. */
 #include "cpu/kernel_context.h"
@@ -128,14 +128,14 @@ static void lanes_patches(const RefractData *refract, const PictureData *picture
 
 /* ---- setup ---- */
 
-/* a b − c d, rounded about once: 0 only where it is. */
+/* a b − c d with an error of about one rounding, so that it is 0 only if the exact value is. */
 static inline real difference_of_products(real a, real b, real c, real d)
 {
     const real product = c * d;
     return fma(a, b, real(0.0f) - product) - product_error(c, d);
 }
 
-/* Whether a whole number lies between two, which are in subpixels. */
+/* Whether a pixel's centre lies between two coordinates in subpixels. */
 static inline mask holds_center(real low, real high) { return floor(high * (1.0f / SUBPIXELS)) * (float)SUBPIXELS >= low; }
 
 static inline mask reaches_over(vec3 image, float least_depth)
@@ -193,13 +193,14 @@ static void lanes_tile_clear(raster_tile *tile)
     memset(tile->triangle, 0xff, sizeof tile->triangle);
 }
 
-/* An edge's number at the pixels of a tile; 0 or more inside. It counts whole subpixels times pixels, rounded down, which leaves its sign. */
+/* The edge function of an edge at the pixels of a tile: 0 or more inside. Its unit is subpixels × pixels. It is rounded down to whole numbers, which keeps its
+ * sign. */
 typedef struct edge_number {
-    int32_t first, right, down; /* at the tile's first pixel, and its changes per pixel */
+    int32_t first, right, down; /* value at the tile's first pixel, and changes per pixel to the right and down */
 } edge_number;
 
-/* False if the tile lies outside the edge; if all of it lies inside, the number is 0. Pixels on an edge belong to the triangle if it is a top or a
- * left one: to one of the two that share it. */
+/* Fills the edge function. If the whole tile lies inside, it is 0 everywhere. False: the whole tile lies outside. Pixels on an edge belong to the triangle if
+ * the edge is a top or a left one, so they belong to one of the two triangles that share it. */
 static inline bool place_edge(const raster_triangle *t, int from, int to, const raster_tile *tile, edge_number *out)
 {
     const int64_t dx = (int64_t)t->x[to] - t->x[from], dy = (int64_t)t->y[to] - t->y[from];
@@ -214,13 +215,14 @@ static inline bool place_edge(const raster_triangle *t, int from, int to, const 
     return true;
 }
 
-/* First and last pixel, from the tile's first one, whose centres may lie between two subpixel coordinates. */
+/* First pixel, from the tile's first one, whose centre lies at or behind a coordinate in subpixels. */
 static inline int32_t first_pixel(int32_t least, int32_t origin)
 {
     const int32_t pixel = ((least + SUBPIXELS - 1) >> 8) - origin;
     return pixel > 0 ? pixel : 0;
 }
 
+/* Last pixel, from the tile's first one, whose centre lies at or before a coordinate in subpixels. */
 static inline int32_t last_pixel(int32_t most, int32_t origin, int32_t size)
 {
     const int32_t pixel = (most >> 8) - origin;
@@ -236,7 +238,7 @@ static inline mask load_ints(const int32_t *p)
 
 static inline void store_ints(int32_t *p, mask m) { memcpy(p, &m, sizeof m); }
 
-/* A triangle's numbers in every lane. */
+/* Members of raster_triangle in every lane. */
 typedef struct drawn_triangle {
     real inverse_depth, slope_x, slope_y, least, most, triangle;
 } drawn_triangle;
@@ -284,7 +286,7 @@ static void draw_triangle(raster_tile *tile, const raster_triangle *t)
         mask here[3] = {number[0], number[1], number[2]};
         real x = first_x;
         for (int32_t i = left; i <= right; i += MGT_LANES) {
-            /* Where no edge crosses the tile the numbers are all 0. */
+            /* Lanes beyond `right` lie outside of an edge or in the row's padding. */
             draw_vector(&d, tile, at + (size_t)i, (here[0] | here[1] | here[2]) >= 0, x, row);
             for (int k = 0; k < 3; k++)
                 here[k] += across[k];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * The leaves of method adaptive: what they are worth, which of them a round may split, and their memory. */
+ * The leaves of method adaptive: the worth of their splits, the plan of a round, and memory. */
 #include "cpu/refinement.h"
 
 #include <math.h>
@@ -10,9 +10,9 @@
 
 const uint8_t halvings[4][2] = {{1, 1}, {0, 2}, {2, 0}, {0, 0}};
 
-/* Of one worker; whole numbers, so that their sum does not depend on who counted what. */
+/* One worker's histograms of cost by the worth of splits. They are whole numbers, so that the sum over workers does not depend on the distribution of tiles. */
 struct census {
-    uint64_t cells[WORTH_BUCKETS], points[WORTH_BUCKETS]; /* what the leaves of a bucket cost */
+    uint64_t cells[WORTH_BUCKETS], points[WORTH_BUCKETS]; /* cost of splits and of points, in units of 1/COST_UNIT evaluation */
 };
 
 size_t leaf_pixel(const refinement *f, size_t tile, const leaf *l)
@@ -21,7 +21,7 @@ size_t leaf_pixel(const refinement *f, size_t tile, const leaf *l)
     return y * f->out->width + x;
 }
 
-static const float areas[LEVELS] = {1, 0x1p-2f, 0x1p-4f, 0x1p-6f, 0x1p-8f, 0x1p-10f, 0x1p-12f, 0x1p-14f, 0x1p-16f}; /* of a cell, pixels */
+static const float areas[LEVELS] = {1, 0x1p-2f, 0x1p-4f, 0x1p-6f, 0x1p-8f, 0x1p-10f, 0x1p-12f, 0x1p-14f, 0x1p-16f}; /* area of a cell of each level, pixels */
 
 void leaf_settle(const refinement *f, size_t tile, const leaf *l)
 {
@@ -38,11 +38,11 @@ void leaf_settle(const refinement *f, size_t tile, const leaf *l)
     f->tiles[tile].final_shown += (double)(area * area * l->contrast * f->weight[i]);
 }
 
-/* ---- what a split is worth ---- */
+/* ---- worth of splits ---- */
 
 const shutter_parts *refinement_parts(const refinement *f, const refinement_tile *t, int level) { return &f->parts[lane_class(level, t->dark)]; }
 
-/* What splits cost and are worth, after a level's cost became known: where it is not, by the nearest level above. */
+/* Updates the cost and worth of splits after a level's cost became known. An unknown cost is estimated from that of the nearest level above. */
 static void refinement_appraise(const refinement *f, refinement_tile *t)
 {
     double cost = t->cost[0];
@@ -191,7 +191,7 @@ double refinement_water(const refinement *f)
     double sum = 0;
     for (size_t i = 0; i < (size_t)f->out->width * f->out->height; i++)
         sum += (double)f->out->water[i];
-    /* Pixels whose leaves are open have their share there. */
+    /* Open leaves are not yet added to their pixels. */
     for (size_t tile = 0; tile < (size_t)f->columns * f->rows; tile++)
         for (size_t i = 0; i < f->tiles[tile].count; i++)
             sum += (double)f->tiles[tile].leaves[i].water;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
- * Scenes with objects: everything that a frame needs before its tiles.
+ * Scenes with objects: prepares a frame before its tiles.
  *
- * A frame draws three pictures of the objects: those on the camera's side of the water where they stand (front), those beyond it where the flat
- * surface shows them (refracted), and those on the camera's side where it mirrors them (reflected). The reflected picture is the refracted one of a
- * camera that is itself mirrored. Tiles then look points up in them for the waves as they are, and shade these. */
+ * A frame draws three layers of the objects: front has the objects on the camera's side of the water, refracted those beyond it where the flat surface shows
+ * them, and reflected those on the camera's side where the flat surface mirrors them. The reflected layer is the refracted layer of the mirrored camera. Tiles
+ * search in these layers for the points that rays bent by the waves meet, and shade these points. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -143,7 +143,7 @@ static front_scene front_scene_of(const refraction *r)
     return n;
 }
 
-/* Layers of the frame's camera, and what looks points up in them. */
+/* Draws the layers of the frame's camera and sets the data of searches in them. */
 static mgt_status set_camera(refraction *r, thread_pool *pool)
 {
     const frame *f = r->frame;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Scenes with objects: what the pixels of a tile see of them, through the water's surface, mirrored by it and in front of it. */
+ * Objects in the pixels of a tile: seen through the water's surface, mirrored by it, and in front of it. */
 #ifndef MANGATA_CPU_REFRACTION_H
 #define MANGATA_CPU_REFRACTION_H
 
@@ -8,29 +8,27 @@
 #include "cpu/shade.h"
 #include "cpu/path_traced.h"
 
-/* What objects are to the pixels of a tile. */
+/* Objects in the pixels of a tile. */
 typedef struct tile_objects {
-    tile_light light; /* through the surface and mirrored by it: for the methods that draw the water */
-    /* In front of water and sky. */
-    float share[TILE_PIXELS];     /* of the pixel */
-    float color[3][TILE_PIXELS];  /* kcd/m², of that share */
-    float along[TILE_PIXELS];     /* metres along the ray, where the share is most of the pixel; else +inf */
-    float normal[3][TILE_PIXELS]; /* unit, towards the camera; there alone */
-    /* Layers. */
-    float refraction[3][TILE_PIXELS];
-    float error[TILE_PIXELS];
-    /* Room to work in. */
+    tile_light light;                 /* for the methods that draw the water */
+    float share[TILE_PIXELS];         /* fraction of the pixel that objects in front of water and sky cover */
+    float color[3][TILE_PIXELS];      /* their mean radiance, kcd/m² */
+    float along[TILE_PIXELS];         /* their distance along the ray, metres; +inf: `share` is below FRONT_SHOWS */
+    float normal[3][TILE_PIXELS];     /* their unit normal towards the camera; set where `along` is finite */
+    float refraction[3][TILE_PIXELS]; /* MGT_LAYER_REFRACTION */
+    float error[TILE_PIXELS];         /* MGT_LAYER_REFRACTION_ERROR */
+    /* Scratch memory from here on. */
     tile_water water;
     tile_ends ends;
     float rgb[3 * TILE_PIXELS];
     uint16_t list[TILE_PIXELS];
-    float seen[TILE_PIXELS];      /* places of a pixel that met water */
-    float edge[TILE_PIXELS];      /* 1 where pictures do not certify what is seen through the last one, else 0 */
-    bool at_front[TILE_PIXELS];   /* the pixel sees an edge of an object in front, or a waterline */
-    tile_water beside;            /* the water in other places of pixels at outlines */
-    ray_places places;            /* the places of `beside` */
-    const tile_water *met;        /* `water` or `beside`: the one whose rays `ends` are of */
-    float first[3 * TILE_PIXELS]; /* rgb of their first branch */
+    float seen[TILE_PIXELS];      /* number of rays of the pixel that have met water */
+    float edge[TILE_PIXELS];      /* 1: the layers do not certify what the pixel's last ray shows; else 0 */
+    bool at_front[TILE_PIXELS];   /* the pixel is FRONT_EDGE */
+    tile_water beside;            /* the water at the further rays of pixels at outlines */
+    ray_places places;            /* the rays of `beside` */
+    const tile_water *met;        /* `water` or `beside`: the one whose rays end at `ends` */
+    float first[3 * TILE_PIXELS]; /* `rgb` of the first branch */
     trace_ray rays[TILE_PIXELS];
     trace_hit hits[TILE_PIXELS];
     path_traced_pixels truth;
@@ -39,40 +37,43 @@ typedef struct tile_objects {
 typedef struct refraction refraction;
 
 /*
- * Everything that a frame with objects needs before its tiles, in *r, which is NULL at first; what depends on the objects and the camera alone stays
- * between frames. The frame, its scene and the sky must outlive the tiles. On failure the report says why.
+ * Prepares what a frame with objects needs before its tiles. *r is NULL at first. What depends on the objects and the camera alone is kept between frames.
+ * The frame, its scene and the sky must outlive the tiles. A failure is reported.
  */
 mgt_status refraction_prepare(refraction **r, const reporter *report, const frame *f, const sky_state *sky, const lane_kernels *kernels, mgt_isa isa,
                               thread_pool *pool);
 void refraction_free(refraction *r); /* NULL is allowed */
 
-/* Tells the log, after a frame's tiles, what they took. */
+/* Logs numbers of triangles and of pixels after a frame's tiles. */
 void refraction_report(const refraction *r, const reporter *report);
 
-/* Objects in the tile (tile_x, tile_y). `waves` and `estimate`: sorted for the tile, filtered, over frame_shutter(). One call a worker at a time. */
+/* Fills *out for the tile (tile_x, tile_y). `waves` and `estimate` are those of the tile: filtered, for frame.through, over the shutter or, if the camera
+ * moves, at one of its ends. One call per worker at a time. */
 void refraction_tile(refraction *r, const tile_waves *waves, const tile_estimate *estimate, uint32_t tile_x, uint32_t tile_y, uint32_t worker,
                      tile_objects *out);
 
-/* What the tile saw of objects when the shutter opened. */
+/* Objects in the pixels of a tile when the shutter opens. */
 typedef struct tile_opened {
     tile_light light;
     float share[TILE_PIXELS], color[3][TILE_PIXELS];
 } tile_opened;
 
-/* Where the camera is when the shutter opens; NULL unless it moves. The ground truth knows no other camera than the last one. */
+/* The state for the camera when the shutter opens; NULL: it does not move, or the method is path-traced, which takes the camera of the closing shutter
+ * alone. */
 refraction *refraction_opened(const refraction *r);
 
-/* Mean of both ends of the shutter, but for the layers. */
+/* Copies what refraction_blend() needs of the opening shutter. */
 void refraction_keep(const tile_objects *o, tile_opened *opened);
+/* Replaces `light`, `share` and `color` by means over both ends of the shutter. */
 void refraction_blend(tile_objects *o, const tile_opened *opened);
 
-/* Whether objects in front leave nothing else of the tile. */
+/* Whether objects in front of the water cover the whole tile. */
 bool refraction_covers(const tile_objects *o);
 
-/* Planes of `count` places, each with the light of a pixel of the tile. */
+/* Copies the light of `count` listed pixels. Elements behind the last one repeat it. */
 void light_of_pixels(const tile_light *light, const uint16_t *pixels, size_t count, tile_light *out);
 
-/* Puts what stands in front before a tile's pixels, and before its layers of depth and normals; either may be NULL. */
+/* Composes objects in front over a tile's pixels, and over its depths and normals; either may be NULL. */
 void refraction_compose(const tile_objects *o, tile_pixels *pixels, tile_surface *surface);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Rays against the few triangles that a pixel of a layer and its neighbours show. */
+ * Intersects rays with the few triangles that a pixel of a layer and its neighbours show. */
 #include <math.h>
 
 #include "cpu/surface_lane.h"
@@ -20,7 +20,7 @@ size_t refraction_neighbours(const gbuffer *g, size_t element, int32_t triangles
     return count;
 }
 
-/* The triangles that an element and its neighbours show lie far apart. */
+/* Prefetches the triangles that an element and its neighbours show, because they are far apart in memory. */
 static void prefetch_neighbours(const refraction *r, const gbuffer *g, size_t element)
 {
     int32_t triangles[REFRACTION_NEIGHBOURS];

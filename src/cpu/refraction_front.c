@@ -1,25 +1,25 @@
 /* SPDX-License-Identifier: MIT
  * Objects in front of the water, with smooth edges.
  *
- * The front layer knows what the centre of each pixel sees. At edges, where a neighbour sees something else, and along waterlines, eight places of the
- * pixel follow the surfaces of the triangles that it and its neighbours see, and ask the water's plane. */
+ * The front layer has one point per pixel. At edges, where a neighbour does not continue the pixel's surface, and along waterlines, eight rays through the
+ * pixel are intersected with the surfaces of the triangles that it and its neighbours show, and with the water's plane. */
 #include <math.h>
 #include <string.h>
 
 #include "base/triples.h"
 #include "cpu/surface_lane.h"
 
-/* The tile's pixel at hand. */
+/* A pixel of the tile. */
 typedef struct front_pixel {
     const refraction *r;
-    uint32_t x, y;  /* in the image */
-    size_t element; /* of the front layer */
-    size_t i;       /* in the tile */
-    bool dry;       /* what it sees in the place at hand is inside a dry hull */
+    uint32_t x, y;  /* place in the image */
+    size_t element; /* element of the front layer */
+    size_t i;       /* index in the tile */
+    bool dry;       /* the last hit lies inside of a dry hull */
     double eye[3];
     size_t candidate_count;
     int32_t candidates[REFRACTION_NEIGHBOURS];
-    Facet facets[REFRACTION_NEIGHBOURS]; /* of the candidates */
+    Facet facets[REFRACTION_NEIGHBOURS]; /* the candidates for rays from the eye */
 } front_pixel;
 
 static void ray_through(const refraction *r, double x, double y, double ray[3])
@@ -29,7 +29,7 @@ static void ray_through(const refraction *r, double x, double y, double ray[3])
         ray[k] = c->corner[k] + x * c->right[k] + y * c->down[k];
 }
 
-/* ---- what is shaded ---- */
+/* ---- points to shade ---- */
 
 static void flush(const refraction *r, tile_objects *o, size_t *count)
 {
@@ -86,7 +86,7 @@ static void look_at_pixel(const refraction *r, const tile_offset *at, size_t i, 
         p->facets[k] = facet_of(&cx, p->candidates[k], vec3(p->eye[0], p->eye[1], p->eye[2]));
 }
 
-/* Multiple of a ray at which it meets the plane of the surface in pixel i of the tile. */
+/* Multiple of a ray at which it meets the surface's tangent plane in pixel i of the tile. */
 static double meet_water(const tile_water *w, size_t i, bool under, const double ray[3])
 {
     const double up = under ? -1 : 1;
@@ -95,7 +95,7 @@ static double meet_water(const tile_water *w, size_t i, bool under, const double
     return meet_surface(NULL, w->share[i] > 0, normal, view, (double)w->along[i], vec3(ray[0], ray[1], ray[2]));
 }
 
-/* The dry level of the side of a triangle that a ray meets. */
+/* Dry level of the side of a triangle that a ray meets. */
 static double level_of(const refraction *r, int32_t triangle, const double ray[3])
 {
     const float *levels = r->front.dry, *plane = r->planes + 4 * (size_t)triangle;
@@ -103,7 +103,7 @@ static double level_of(const refraction *r, int32_t triangle, const double ray[3
     return levels ? level_faced(NULL, (double)levels[2 * (size_t)triangle], (double)levels[2 * (size_t)triangle + 1], facing) : -INFINITY;
 }
 
-/* What the pixel's neighbour shows that a place of it lies nearest to; −1: nothing. */
+/* The triangle that the neighbour nearest to a place of the pixel shows; −1: nothing. */
 static int32_t triangle_beside(const front_pixel *p, vec2 place)
 {
     const gbuffer *g = &p->r->direct.front;
@@ -111,7 +111,7 @@ static int32_t triangle_beside(const front_pixel *p, vec2 place)
     return g->triangle[(size_t)((ptrdiff_t)p->element + (ptrdiff_t)side.x + (ptrdiff_t)g->width * (ptrdiff_t)side.y)];
 }
 
-/* What the ray through a place of the pixel meets in front of the water; triangle −1: nothing. */
+/* The hit in front of the water of the ray through a place of the pixel. `triangle` −1: there is none. */
 static inline FrontHit hit_in_front(front_pixel *p, const tile_water *water, vec2 place, double ray[3])
 {
     const refraction *r = p->r;

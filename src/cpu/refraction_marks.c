@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT
- * Edges of layers, marked once a drawing: where a pixel's neighbours show what is not to be seen as one with it. */
+ * Marks the pixels of layers whose neighbours do not continue their surface, once per drawing. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "cpu/refraction_state.h"
 
-/* Lanes that look bytes up read three more. */
+/* gather_bytes() reads up to three bytes behind a table. */
 enum { BYTES_BEYOND = 3 };
 
 typedef struct mark_job {

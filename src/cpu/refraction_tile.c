@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Scenes with objects: what the pixels of a tile see of them. */
+ * Scenes with objects: fills the tile_objects of a tile. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -59,7 +59,7 @@ void refraction_spread(const tile_objects *o, size_t count, float (*planes)[TILE
 
 /* ---- through the surface ---- */
 
-/* Pixels that are water; `unseen`: those alone where no place has met water yet. */
+/* Lists the pixels that are water. `unseen`: only those of which no ray has met water yet. */
 static size_t list_water(tile_objects *o, bool unseen)
 {
     size_t count = 0;
@@ -69,14 +69,14 @@ static size_t list_water(tile_objects *o, bool unseen)
     return count;
 }
 
-/* Nothing is looked for behind pixels that objects wholly cover. */
+/* Removes pixels that objects in front cover entirely from the water, so that nothing is searched behind them. */
 static void leave_covered(tile_objects *o)
 {
     for (size_t i = 0; i < TILE_PIXELS; i++)
         o->water.share[i] = o->share[i] < 1 ? o->water.share[i] : 0;
 }
 
-/* The same of the place (at->dx, at->dy) of pixels at edges. */
+/* Removes pixels from the water if an object in front hides the place (at->dx, at->dy) of them. */
 static void leave_hidden(const refraction *r, const tile_offset *at, tile_objects *o)
 {
     for (size_t i = 0; i < TILE_PIXELS; i++)
@@ -84,7 +84,7 @@ static void leave_hidden(const refraction *r, const tile_offset *at, tile_object
             o->water.share[i] = 0;
 }
 
-/* What objects, and under water the way from the surface, leave of the light's disk. */
+/* Fills light.clear: what objects, and for a camera under water the water on the ray, let through of the light's disk. */
 static void see_light(const refraction *r, tile_objects *o)
 {
     const float foot_x = r->narrow.data.foot_x, foot_z = r->narrow.data.foot_z;
@@ -98,7 +98,7 @@ static void see_light(const refraction *r, tile_objects *o)
     r->kernels->shade->disk(r->shade, TILE_PIXELS, x, z, way, (float *const[3]){o->light.clear[0], o->light.clear[1], o->light.clear[2]});
 }
 
-/* Under water: what it shines where it has no surface. */
+/* Fills light.deep: radiance of rays that meet no surface, for a camera under water. */
 static void see_deep(const refraction *r, uint32_t column, uint32_t row, tile_objects *o)
 {
     const camera_rays *c = &r->camera;
@@ -152,7 +152,8 @@ void refraction_end_at(const refraction *r, tile_objects *o, size_t i, float las
         e->spread[k][i] = e->terms[k][i] + e->after[i] * (e->terms[3 + k][i] + e->after[i] * e->terms[6 + k][i]);
 }
 
-/* Uncertain pixels are traced together: which ones depends on the tile alone. Of distance-field all are. */
+/* Replaces doubtful ends of listed rays by traced ones; method distance-field traces all listed rays. They are traced together. Which ones these are depends on
+ * the tile alone. */
 static void trace_doubtful(refraction *r, tile_objects *o, size_t count)
 {
     const bool searches = r->frame->scene->quality.refraction == MGT_REFRACTION_DISTANCE_FIELD;
@@ -196,7 +197,7 @@ static void trace_doubtful(refraction *r, tile_objects *o, size_t count)
     atomic_fetch_add_explicit(&r->traced, doubtful, memory_order_relaxed);
 }
 
-/* The ground truth in place of what the pictures tell, for what the surface mirrors too. */
+/* Replaces refracted and mirrored radiance by that of method path-traced. */
 static void see_path_traced(const refraction *r, uint32_t tile_x, uint32_t tile_y, uint32_t worker, tile_objects *o)
 {
     const bool mirrored = r->mirrors;
@@ -212,7 +213,7 @@ static void see_path_traced(const refraction *r, uint32_t tile_x, uint32_t tile_
     }
 }
 
-/* From o->rgb to the pixels in o->list. */
+/* Adds o->rgb to the planes' elements of the pixels in o->list. */
 static void add_listed(const tile_objects *o, size_t count, float (*planes)[TILE_PIXELS])
 {
     for (size_t i = 0; i < count; i++)
@@ -220,7 +221,7 @@ static void add_listed(const tile_objects *o, size_t count, float (*planes)[TILE
             planes[k][o->list[i]] += o->rgb[3 * i + (size_t)k];
 }
 
-/* What the surface mirrors in one place of every listed pixel, added to that of the others; the list is used up. */
+/* Adds the radiance that the surface mirrors at one place of every listed pixel. The list is overwritten. */
 static void see_mirrored(const refraction *r, size_t count, tile_objects *o)
 {
     if (!r->mirrors || count == 0)
@@ -239,7 +240,7 @@ static void see_mirrored(const refraction *r, size_t count, tile_objects *o)
     add_listed(o, mirrored, o->light.mirrored);
 }
 
-/* Radiance on one branch of the listed rays through o->met, in o->rgb, weighed by their part. */
+/* Fills o->rgb with the radiance on one branch of the listed rays of o->met, times their part of the light. */
 static void end_branch(refraction *r, int branch, size_t count, tile_objects *o)
 {
     tile_ends *e = &o->ends;
@@ -263,7 +264,7 @@ static void end_branch(refraction *r, int branch, size_t count, tile_objects *o)
 
 static float greater(float a, float b) { return a > b ? a : b; }
 
-/* Radiance on one branch of the rays through a place of every listed pixel, added to what came through before. */
+/* Adds the radiance on one branch of the rays through a place of every listed pixel to light.through. */
 static void see_branch(refraction *r, int branch, size_t count, tile_objects *o)
 {
     end_branch(r, branch, count, o);
@@ -275,7 +276,7 @@ static void see_branch(refraction *r, int branch, size_t count, tile_objects *o)
             o->light.mirrored[c][o->list[k]] += o->rgb[3 * k + c];
 }
 
-/* Of the first `count` rays of `all`, those whose second branch counts. */
+/* Lists those of the first `count` rays of `all` that are split, so that their second branch counts. Returns their number. */
 static size_t list_split(tile_objects *o, const uint16_t *all, size_t count)
 {
     size_t split = 0;
@@ -285,7 +286,7 @@ static size_t list_split(tile_objects *o, const uint16_t *all, size_t count)
     return split;
 }
 
-/* What is reflected totally is what the surface mirrors: the list keeps the others. */
+/* Removes totally reflected rays from the list, because their mirrored radiance is already known. Returns the number of the others. */
 static size_t leave_total(tile_objects *o, size_t count)
 {
     size_t left = 0;
@@ -299,7 +300,7 @@ static size_t leave_total(tile_objects *o, size_t count)
     return left;
 }
 
-/* Radiance through one place of every listed pixel, and what it mirrors, added to that of the others; the list is used up. */
+/* Adds the refracted and mirrored radiance at one place of every listed pixel. The list is overwritten. */
 static void see_place(refraction *r, size_t count, tile_objects *o)
 {
     o->met = &o->water;
@@ -317,7 +318,7 @@ static void see_place(refraction *r, size_t count, tile_objects *o)
     see_mirrored(r, leave_total(o, count), o);
 }
 
-/* The other rays of these pixels that nothing in front hides, and what comes through. */
+/* Adds the radiance of further rays through these pixels, without rays that objects in front hide. */
 static void see_beside(refraction *r, const tile_offset *at, const uint16_t *pixels, size_t count, tile_objects *o)
 {
     const int rays = r->narrow.data.edge_rays;
@@ -375,8 +376,8 @@ static float weight_of_centre(const refraction *r, const tile_offset *at, const 
     return centre_weight(NULL, true, (float)others);
 }
 
-/* Where an outline may pass through a pixel, the mean of more rays. Rays that something in front hides do not count. What the surface mirrors, it mirrors at the
- * pixel's centre. */
+/* Replaces light.through of pixels that an outline may cross by the mean over more rays. Rays that objects in front hide do not count. Mirrored radiance stays
+ * that at the pixel's centre. */
 static void see_outlines(refraction *r, const tile_offset *at, tile_objects *o)
 {
     uint16_t edges[TILE_PIXELS];
@@ -393,7 +394,7 @@ static void see_outlines(refraction *r, const tile_offset *at, tile_objects *o)
         for (size_t c = 0; c < 3; c++)
             o->light.through[c][i] *= centre;
         o->seen[i] = centre;
-        o->error[i] = centre > 0 ? o->error[i] : 0; /* it may be infinite */
+        o->error[i] = centre > 0 ? o->error[i] : 0; /* a factor would not do, since the error may be infinite */
     }
     const size_t most = TILE_PIXELS / (size_t)r->narrow.data.edge_rays;
     for (size_t first = 0; first < count; first += most)
@@ -413,7 +414,8 @@ static void look_at_water(const refraction *r, const tile_waves *waves, const ti
     leave_covered(o);
 }
 
-/* N × N places of every pixel that is water, or one. The water is that through the pixels' centres, also in the end. */
+/* Fills light.through, light.mirrored and light.share by n × n places of every pixel that is water. Pixels without a place that meets water take their centre.
+ * At the end o->water is that through the pixels' centres. */
 static void see_refracted(refraction *r, const tile_waves *waves, const tile_estimate *estimate, tile_offset at, tile_objects *o)
 {
     const uint32_t n = r->frame->scene->quality.refraction_samples ? r->frame->scene->quality.refraction_samples : 1;
@@ -496,7 +498,7 @@ void refraction_keep(const tile_objects *o, tile_opened *opened)
     memcpy(opened->color, o->color, sizeof o->color);
 }
 
-/* `weight`: of the others in each pixel. */
+/* Blends `count` planes with others. `weight`: weight of the others in each pixel. */
 static void blend_planes(float *planes, const float *others, size_t count, const float *weight)
 {
     for (size_t plane = 0; plane < count; plane++, planes += TILE_PIXELS, others += TILE_PIXELS)
@@ -541,7 +543,7 @@ void refraction_compose(const tile_objects *o, tile_pixels *pixels, tile_surface
     }
     if (!surface)
         return;
-    /* Of the instant at which the shutter closes; shares may be means over the shutter. */
+    /* Depth and normal are those when the shutter closes, so `along` decides: shares may be means over the shutter. */
     for (size_t i = 0; i < TILE_PIXELS; i++)
         if (o->along[i] < INFINITY) {
             surface->along[i] = o->along[i];

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Choppy water at points: the search of the places of rest that are shifted there, in single precision from where it began, or in double, and what is told
- * of the water at them. For files that are compiled once per lane width, after the kernel prelude and math.k.
+ * Choppy water at points. A search finds the place at rest that the water's shift moves to a point. It runs in single precision relative to where it began, or
+ * in double precision. B is 1 + ∂shift/∂place. For files that are compiled once per lane width, after the kernel prelude and math.k.
  */
 #ifndef MANGATA_CPU_REST_LANE_H
 #define MANGATA_CPU_REST_LANE_H
@@ -11,15 +11,15 @@
 #include "cpu/wide_lane.h"
 #include "mangata/mangata.h"
 
-/* Sums at places of rest, as many as lanes. */
+/* Sums over waves at places at rest, one per lane, in double precision. */
 typedef struct rest_group {
-    double x[MGT_LANES], z[MGT_LANES]; /* the places */
+    double x[MGT_LANES], z[MGT_LANES]; /* the place at rest */
     double height[MGT_LANES], slope_x[MGT_LANES], slope_z[MGT_LANES], rise[MGT_LANES];
     double shift_x[MGT_LANES], shift_z[MGT_LANES], drift_x[MGT_LANES], drift_z[MGT_LANES];
     double xx[MGT_LANES], xz[MGT_LANES], zz[MGT_LANES]; /* −∂shift/∂place */
 } rest_group;
 
-/* A search from places whose turns are known: in single precision, for it does not go many waves away. */
+/* The waves' phases where a search began, turns. Single precision is enough, because the search stays within a few wavelengths. */
 typedef struct rest_search {
     float turns[MGT_MAX_WAVES][MGT_LANES];
 } rest_search;
@@ -33,7 +33,7 @@ static void begin_search(const water_terms *w, const rest_group *g, rest_search 
     }
 }
 
-/* Turns of a wave so far from where the search began. */
+/* Phase of a wave at a distance (away_x, away_z) from where the search began, turns. */
 static inline real turns_away(const water_terms *w, int i, const rest_search *s, real away_x, real away_z)
 {
     real at;
@@ -41,12 +41,12 @@ static inline real turns_away(const water_terms *w, int i, const rest_search *s,
     return real_fma(away_x, real_broadcast(w->of[i].single.along_x), real_fma(away_z, real_broadcast(w->of[i].single.along_z), at));
 }
 
-/* Shift, and minus its derivative. */
 typedef struct shift_sums {
-    real x, z, xx, xz, zz;
+    real x, z;       /* shift, metres */
+    real xx, xz, zz; /* −∂shift/∂place */
 } shift_sums;
 
-/* As far as a search needs them, away_x and away_z from where it began. */
+/* Sums over the `count` largest waves at a distance (away_x, away_z) from where the search began. */
 static inline shift_sums shift_away(const water_terms *w, int count, const rest_search *s, real away_x, real away_z)
 {
     const real zero = real_broadcast(0);
@@ -62,7 +62,7 @@ static inline shift_sums shift_away(const water_terms *w, int count, const rest_
     return d;
 }
 
-/* Sums at places of rest in single precision. */
+/* Sums over waves at places at rest in single precision. */
 typedef struct rest_sums {
     real height, slope_x, slope_z, rise, drift_x, drift_z;
     shift_sums shift;
@@ -70,7 +70,7 @@ typedef struct rest_sums {
     real xxx, xxz, xzz, zzz;        /* −∂²shift/∂place² */
 } rest_sums;
 
-/* Where a search has come to; `moving`: with the velocity. */
+/* Sums at a distance (away_x, away_z) from where the search began. `moving`: with the velocity. */
 static inline __attribute__((always_inline)) rest_sums rest_single(const water_terms *w, const rest_search *s, real away_x, real away_z, bool moving)
 {
     rest_sums d;
@@ -103,7 +103,7 @@ static inline __attribute__((always_inline)) rest_sums rest_single(const water_t
     return d;
 }
 
-/* A search in double ends where second derivatives do not matter. */
+/* Fills the sums of a group. Second derivatives are left out, because a search in double ends so close that they do not matter. */
 static inline void rest_double(const water_terms *w, rest_group *g)
 {
     for (int half = 0; half < HALVES; half++) {
@@ -138,28 +138,28 @@ static inline void rest_double(const water_terms *w, rest_group *g)
     }
 }
 
-/* What is told of a point of choppy water. */
+/* The answer at a point of choppy water. */
 typedef struct settled_point {
     double height, slope[2], velocity[3], jacobian;
-    double least;    /* eigenvalue of B */
-    double worst[2]; /* unit, its direction */
-    double rest[2];  /* the place */
-    bool settled;
+    double least;    /* lesser eigenvalue of B */
+    double worst[2]; /* its unit eigenvector */
+    double rest[2];  /* place at rest */
+    bool settled;    /* the place was found, or the point is not finite */
 } settled_point;
 
-/* Eigenvalues of B = 1 − [xx, xz; xz, zz], the greater first, and the lesser one's direction. */
+/* Eigenvalues of B = 1 − [xx, xz; xz, zz], the greater one first, and the unit eigenvector of the lesser one. */
 static void stretch_of(double xx, double xz, double zz, double value[2], double direction[2])
 {
     const double middle = 1 - 0.5 * (xx + zz), half = 0.5 * (zz - xx), radius = __builtin_sqrt(half * half + xz * xz);
     value[0] = middle + radius;
     value[1] = middle - radius;
-    /* B − middle is [half, −xz; −xz, −half]; the eigenvector of −radius. */
+    /* The eigenvector of B − middle = [half, −xz; −xz, −half] to the eigenvalue −radius. The longer of two expressions for it is taken. */
     const double a = half <= 0 ? radius - half : xz, b = half <= 0 ? xz : radius + half, length = __builtin_sqrt(a * a + b * b);
     direction[0] = length > 0 ? a / length : 1;
     direction[1] = length > 0 ? b / length : 0;
 }
 
-/* B⁻¹ v. */
+/* B⁻¹ v, for B with the eigenvalues `most` and `least`. `direction`: unit eigenvector of `least`. */
 static void to_rest_by(double most, double least, const double direction[2], const double v[2], double out[2])
 {
     const double along = v[0] * direction[0] + v[1] * direction[1], across = v[1] * direction[0] - v[0] * direction[1];
@@ -167,20 +167,21 @@ static void to_rest_by(double most, double least, const double direction[2], con
     out[1] = along / least * direction[1] + across / most * direction[0];
 }
 
-/* The same with eigenvalues of at least 0.1. */
+/* B⁻¹ v with eigenvalues raised to 0.1, so that slopes stay finite where the water folds. */
 static void to_rest(const double value[2], const double direction[2], const double v[2], double out[2])
 {
     to_rest_by(value[0] > 0.1 ? value[0] : 0.1, value[1] > 0.1 ? value[1] : 0.1, direction, v, out);
 }
 
-/* Newton's step, also to a place where the water is folded over. */
+/* Newton's step B⁻¹ v. Eigenvalues keep away from 0, but the lesser one may be negative, as it is where the water folds over. */
 static void newton_step(const double value[2], const double direction[2], const double v[2], double out[2])
 {
     const double least = value[1] < 0 ? (value[1] < -0.05 ? value[1] : -0.05) : value[1] > 0.05 ? value[1] : 0.05;
     to_rest_by(value[0] > 0.1 ? value[0] : 0.1, least, direction, v, out);
 }
 
-/* The answer at the point `left` beyond the one that the sums' place is shifted to. Over a distance where waves are not straight it is that of the place. */
+/* Fills the answer at the point that lies `left` beyond the point to which the sums' place is shifted. The sums are extrapolated to it, unless it is too far
+ * for that. */
 static void keep_point(const water_terms *w, const rest_group *g, int lane, const double left[2], settled_point *p)
 {
     double value[2], step[2] = {0, 0};
@@ -199,7 +200,8 @@ static void keep_point(const water_terms *w, const rest_group *g, int lane, cons
     p->rest[1] = g->z[lane] + step[1];
 }
 
-/* A step towards the place of rest: one that always comes nearer, and Newton's where the waves are straight. */
+/* A step towards the place at rest: Newton's if the point is so near that slopes change little up to it, else the whole difference, which always comes
+ * nearer. */
 static void rest_step(const water_terms *w, const rest_group *g, int lane, const double left[2], double step[2])
 {
     step[0] = left[0];
@@ -211,9 +213,10 @@ static void rest_step(const water_terms *w, const rest_group *g, int lane, const
     }
 }
 
-/* Eigenvalues of B by lanes, and what its inverse is made of. */
+/* B in lanes: [middle + half, −across; −across, middle − half], with the eigenvalues middle ± radius. */
 typedef struct stretch_lanes {
-    real most, least, half, across, inverse_radius;
+    real most, least; /* eigenvalues */
+    real half, across, inverse_radius;
 } stretch_lanes;
 
 static inline stretch_lanes stretches_of(real xx, real xz, real zz)
@@ -222,7 +225,7 @@ static inline stretch_lanes stretches_of(real xx, real xz, real zz)
     return (stretch_lanes){middle + radius, middle - radius, half, xz, 1 / max(radius, real(1e-20f))};
 }
 
-/* B⁻¹ v with other eigenvalues: middle + part · (B − half their sum)/radius. */
+/* M⁻¹ v, for a matrix M with the eigenvectors of B and the eigenvalues `most` and `least`. M⁻¹ = middle + part · (B − its mean eigenvalue)/radius. */
 static inline vec2 to_rest_lanes(const stretch_lanes *e, real most, real least, vec2 v)
 {
     const real middle = 0.5f * (1 / most + 1 / least), part = 0.5f * (1 / most - 1 / least) * e->inverse_radius;
@@ -234,7 +237,7 @@ static inline vec2 newton_steps(const stretch_lanes *e, vec2 left)
     return to_rest_lanes(e, max(e->most, real(0.1f)), SELECT(e->least < 0, min(e->least, real(-0.05f)), max(e->least, real(0.05f))), left);
 }
 
-/* rest_step() by lanes. */
+/* rest_step() in lanes. */
 static inline vec2 rest_steps(const water_terms *w, shift_sums d, vec2 left)
 {
     const stretch_lanes e = stretches_of(d.xx, d.xz, d.zz);
@@ -242,7 +245,7 @@ static inline vec2 rest_steps(const water_terms *w, shift_sums d, vec2 left)
     return SELECT2(left.x * left.x + left.y * left.y < straight, newton_steps(&e, left), left);
 }
 
-/* What is told of points, by lanes. */
+/* Members of settled_point, one array per member. step_*: from the sums' place to the place at rest. */
 typedef struct settled_lanes {
     float height[MGT_LANES], slope_x[MGT_LANES], slope_z[MGT_LANES], jacobian[MGT_LANES], least[MGT_LANES], worst_x[MGT_LANES], worst_z[MGT_LANES];
     float step_x[MGT_LANES], step_z[MGT_LANES], drift_x[MGT_LANES], rise[MGT_LANES], drift_z[MGT_LANES];
@@ -250,7 +253,7 @@ typedef struct settled_lanes {
 
 static inline void store_lanes(float *to, real value) { __builtin_memcpy(to, &value, sizeof value); }
 
-/* The answers at points `left` beyond those that the sums' places are shifted to: by a step that is right to the second order. As keep_point() otherwise. */
+/* keep_point() in lanes, but with an extrapolation of second order. */
 static inline void keep_lanes(const water_terms *w, const rest_sums *d, vec2 left, settled_lanes *out)
 {
     const mask near = left.x * left.x + left.y * left.y < (float)(w->straight * w->straight);
@@ -283,12 +286,13 @@ static inline void keep_lanes(const water_terms *w, const rest_sums *d, vec2 lef
     store_lanes(out->drift_z, d->drift_z);
 }
 
-/* Points as a search sees them: from where it began. */
+/* A search in lanes. Both are relative to where it began. */
 typedef struct aim_lanes {
-    vec2 point, away;
+    vec2 point; /* the point whose place at rest is searched */
+    vec2 away;  /* the estimate of that place */
 } aim_lanes;
 
-/* Moves places to near those of rest. The largest waves alone serve for the first steps. */
+/* Searches near estimates of the places at rest in single precision. The first steps use the largest waves alone, which saves time. */
 static aim_lanes settle_roughly(const water_terms *w, const double at[][2], const rest_group *g, rest_search *s)
 {
     enum { LOOKS = 24, FIRST = 3 };
@@ -315,7 +319,7 @@ static aim_lanes settle_roughly(const water_terms *w, const double at[][2], cons
     return (aim_lanes){vec2(x, z), vec2(away_x, away_z)};
 }
 
-/* Number of points that are open; those that are not finite have no place to find. */
+/* Marks points that are not finite as settled, because they have no place at rest. Returns the number of the others. */
 static int begin_points(const double at[][2], settled_point *points)
 {
     int open = MGT_LANES;
@@ -326,7 +330,7 @@ static int begin_points(const double at[][2], settled_point *points)
     return open;
 }
 
-/* Finds the places of rest of as many points as lanes, from those in g. */
+/* Finds the places at rest of as many points as there are lanes, in double precision. The search begins at the places of g. */
 static void settle_exact(const water_terms *w, const double at[][2], rest_group *g, settled_point *points)
 {
     enum { LOOKS = 12 };
@@ -361,7 +365,7 @@ static void settle_exact(const water_terms *w, const double at[][2], rest_group 
     }
 }
 
-/* What lanes tell of a point whose search has ended, `away` from where it began. */
+/* The answer of one lane whose search has ended at the place `away`. */
 static settled_point point_of(const settled_lanes *of, int lane, const double away[2], bool settled)
 {
     return (settled_point){.height = (double)of->height[lane],
@@ -410,7 +414,8 @@ static void settle(const water_terms *w, const mgt_water_answers *asked, const d
         settle_single(w, asked->velocity, at, g, points);
 }
 
-/* Where the water may fold, other places may be shifted here too: the highest of those found from around. */
+/* Replaces the answer by that of the highest water at this point. Where water may fold, several places at rest may be shifted to the same point, so searches
+ * start from places around the one that was found. */
 static void settle_folded(const water_terms *w, const mgt_water_answers *asked, const double at[2], settled_point *p)
 {
     enum { STARTS = 32 };
@@ -423,7 +428,7 @@ static void settle_folded(const water_terms *w, const mgt_water_answers *asked, 
         settled_point found[MGT_LANES];
         for (int lane = 0; lane < MGT_LANES; lane++) {
             const int k = first + lane < STARTS ? first + lane : STARTS - 1;
-            /* Around the place found, at four distances; the first of eight directions is that in which the water is pressed most. */
+            /* The starts lie in eight directions at four distances. The first direction is that in which the water is most compressed. */
             const double away = 1.5 * w->straight * (1 + k / 8), c = p->worst[0], s = p->worst[1];
             const double *turn = eighths[k % 8];
             g.x[lane] = p->rest[0] + away * (c * turn[0] - s * turn[1]);

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
- * The kernels of the rounds of method adaptive, for C: uniform numbers alone. */
+ * The kernels of rounds.k in one lane, for C. */
 #ifndef MANGATA_CPU_ROUNDS_LANE_H
 #define MANGATA_CPU_ROUNDS_LANE_H
 
-/* Before the prelude, whose words mean others. */
+/* The prelude redefines names of these headers, so they come first. */
 #include <math.h>
 #include <stdlib.h>
 

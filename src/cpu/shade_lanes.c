@@ -36,7 +36,8 @@ KERNEL real SHADOW_TEXEL(CTX cx, real column, real row)
 enum { SHADOW_SHIFT = 3 };
 _Static_assert(1 << SHADOW_SHIFT == SHADOW_BLOCK, "a texel's block");
 
-/* Blocks as wide as the texels asked for, or wider: these lie in four of them. */
+/* Blocks of the chosen level are as wide as the square of texels or wider, so four of them contain it. shadow_map.range holds the bounds over such four
+ * blocks. */
 KERNEL vec2 SHADOW_RANGE(CTX cx, real column, real row, real width, mask dry)
 {
     const shadow_map *m = cx->shade->shadows;
@@ -57,7 +58,7 @@ KERNEL vec2 SHADOW_RANGE(CTX cx, real column, real row, real width, mask dry)
 
 /* ---- hits ---- */
 
-/* A record of `floats` numbers a lane, in `out`; neighbours often share theirs. */
+/* Reads a record of `floats` floats per lane. Neighbours often have the same record, so that case takes one read. */
 static inline void read_records(const float *table, int floats, mask record, real *out)
 {
     int records[MGT_LANES];
@@ -75,7 +76,7 @@ static inline void read_records(const float *table, int floats, mask record, rea
 
 static vec3 triple(const real *v) { return (vec3){v[0], v[1], v[2]}; }
 
-/* Triangles and materials of MGT_LANES hits. */
+/* Reads the triangles and materials of MGT_LANES hits. */
 static void read_objects(const shade_scene *s, const int32_t *triangle, HitTriangle *t, HitMaterial *m)
 {
     real v[HIT_TRIANGLE_FLOATS], o[HIT_MATERIAL_FLOATS];
@@ -89,7 +90,7 @@ static void read_objects(const shade_scene *s, const int32_t *triangle, HitTrian
     *m = (HitMaterial){triple(o), o[3], o[4], o[5], triple(o + 6), o[9], o[10], real_from_int(object & ~none), o[11], o[12]};
 }
 
-/* `count` floats from `p`, the last one repeated. */
+/* Loads `count` floats from `p`. Further lanes repeat the last one. */
 static real load_some(const float *p, size_t count)
 {
     if (count >= MGT_LANES)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * The kernels of rays against the triangles of surfaces, for C: a ray at a time, in double precision. Include it after all other headers. */
+ * The kernels of surfaces.k and shown.k for C: one ray at a time, in double precision. Include it after all other headers. */
 #ifndef MANGATA_CPU_SURFACE_LANE_H
 #define MANGATA_CPU_SURFACE_LANE_H
 
@@ -9,21 +9,21 @@
 
 enum { KNOWN_FACETS = 32 };
 
-/* What a ray came by. */
+/* The triangles and pixels that a ray has visited. */
 typedef struct surface_way {
-    int count;
-    int32_t visited[KNOWN_FACETS]; /* triangles that it met */
-    uint64_t perhaps;              /* a filter: the bits that the numbers of `visited` set */
-    int32_t along[SHARP_PLACES];   /* elements of its layer along its image, −1 outside; once they are asked for */
+    int count;                     /* number of elements of `visited` */
+    int32_t visited[KNOWN_FACETS]; /* triangles that the ray has been tested against */
+    uint64_t perhaps;              /* Bloom filter over `visited`: bit (triangle mod 64) is set */
+    int32_t along[SHARP_PLACES];   /* elements of the layer along the ray's image, −1: outside of it; filled by the first ALONG_RAY */
 } surface_way;
 
-/* What the kernels can reach through their accessors. */
+/* The kernels' data. Members besides `surface` may be NULL in kernels that do not read pixels of a layer. */
 struct kernel_context {
     const surface_triangle *surface;
-    const refraction *r; /* this and what follows: only where pixels of a layer are asked */
+    const refraction *r;
     const gbuffer *layer;
     surface_way *way;
-    const int32_t *asked; /* of a place in front of the water: the triangles that it asks */
+    const int32_t *asked; /* triangles that a place in front of the water is tested against anyway */
     size_t asked_count;
 };
 
@@ -72,7 +72,7 @@ static inline vec2 pixel_of_element(const gbuffer *g, int32_t element)
     return element < 0 ? vec2(-1.0, -1.0) : vec2((double)(element % (int32_t)g->width), (double)(element / (int32_t)g->width));
 }
 
-/* All are found when the first one is asked for. */
+/* Place 0 is read first, and finds all places. */
 #define ALONG_RAY(cx, end, nearest, i) \
     ((i) == 0 ? find_along(cx, (end).layer, (end).from, (end).direction, nearest) : (void)0, pixel_of_element((cx)->layer, (cx)->way->along[i]))
 

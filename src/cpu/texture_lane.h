@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Textures looked up a point a lane. Include it after lane_access.h.
+ * Texture lookups, one point per lane. Include it after lane_access.h.
  */
 #ifndef MANGATA_CPU_TEXTURE_LANE_H
 #define MANGATA_CPU_TEXTURE_LANE_H
@@ -9,11 +9,11 @@
 #include "cpu/shade.h"
 #include "frame/mesh.h"
 
-/* A level of a texture in each lane. */
+/* A mip level of a texture, which may differ between lanes. */
 typedef struct TextureLevel {
     const shade_scene *scene;
     const mgt_texture *texture;
-    mask start; /* its first texel */
+    mask start; /* index of its first texel */
     real width, height;
 } TextureLevel;
 
@@ -43,7 +43,7 @@ typedef const mgt_texture *texture_name;
 
 #include "kernels/refraction/texture.k"
 
-/* `object`: whose material's texture it is, if it has one. Neighbours mostly share theirs. */
+/* Colour of the texture of each lane's object; 0 where the object has none. Lanes mostly have the same object, so that case takes one lookup. */
 static inline vec3 object_texture(const struct kernel_context *cx, real object, real u, real v, real level)
 {
     const shade_scene *s = cx->shade;

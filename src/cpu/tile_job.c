@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * One tile of a frame by any method, into the worker's own planes. */
+ * Renders one tile of a frame by any method into the worker's planes. */
 #include "cpu/tile_job.h"
 
 #include "base/hash.h"
@@ -21,7 +21,7 @@ bool tile_sees_water(const tile_waves *tile)
     if (d->camera_height < d->search_bound)
         return true;
     const float width = TILE_WIDTH, height = TILE_HEIGHT * d->hit_rows;
-    const float steep = fabsf(d->right_y) + fabsf(d->down_y); /* a pixel's margin for partly covered ones */
+    const float steep = fabsf(d->right_y) + fabsf(d->down_y); /* a margin of one pixel, because partly covered pixels count */
     float least = d->ray_y;
     least = fminf(least, d->ray_y + width * d->right_y);
     least = fminf(least, d->ray_y + height * d->down_y);
@@ -37,7 +37,6 @@ void tile_find_estimates(const lane_kernels *kernels, const FrameData *data, con
         memset(estimate, 0, (size_t)tile->data.hit_rows * sizeof *estimate);
 }
 
-/* A tile of the lattice on its way. */
 typedef struct tile_place {
     const tile_job *job;
     uint32_t x, y;
@@ -59,7 +58,7 @@ static const tile_light *light_of(const tile_job *job, const tile_scratch *scrat
 
 /* ---- point samples ---- */
 
-/* A jittered place in stratum `index` of n × n for every pixel of the tile. */
+/* Sets a random place in stratum `index` of n × n for every pixel of the tile. */
 static void jitter(tile_place place, uint64_t seed, uint32_t n, uint64_t index, uint64_t sample, tile_scratch *scratch)
 {
     const int strata = (int)n, column = (int)(index % n), row = (int)(index / n);
@@ -84,7 +83,7 @@ static void take_sample(tile_place place, uint64_t sample, tile_scratch *scratch
     sample_sums_add(&scratch->sums, job->kernels, &scratch->sample, data->want_color != 0, scratch->close.foam != NULL);
 }
 
-/* Sums up the samples [first, first + count). False: cancelled. */
+/* Adds the samples [first, first + count) to the sums. False: cancelled. */
 static bool take_samples(tile_place place, uint64_t first, uint64_t count, tile_scratch *scratch)
 {
     const tile_job *job = place.job;
@@ -152,7 +151,6 @@ static const wave_set *waves_of(const tile_job *job)
     return waves == MGT_WAVES_POINT ? &job->waves->samples : waves == MGT_WAVES_INSTANT ? &job->waves->now : &job->waves->shutter;
 }
 
-/* One shading a pixel. */
 static void render_shaded(tile_place place, tile_scratch *scratch)
 {
     const tile_job *job = place.job;
@@ -166,7 +164,7 @@ static void render_shaded(tile_place place, tile_scratch *scratch)
     shade_pixels(job, moves, scratch, &scratch->pixels);
 }
 
-/* One of the parts the shutter is cut into, between two shares of it; its skyline is the shutter's. */
+/* Builds the tile for a part of the shutter between two fractions of it. Skylines of the parts are nearly the same, so that of the whole shutter serves. */
 static void build_segment(tile_place place, double from, double to, tile_scratch *scratch)
 {
     const frame *f = place.job->frame;
@@ -186,7 +184,7 @@ static void build_segment(tile_place place, double from, double to, tile_scratch
     tile_join_reach(scratch);
 }
 
-/* The path in several straight pieces (Podee et al. 2021, §3.4): the mean over the parts of the shutter. */
+/* Renders the mean over parts of the shutter, which replaces the path of the mirrored ray by several straight pieces: Podee et al. 2021, §3.4. */
 static void render_segments(tile_place place, tile_scratch *scratch)
 {
     const tile_job *job = place.job;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Vectors of half as many doubles as there are lanes, and the phases of waves at points, which may be many waves from the origin: summed and reduced in
- * double. For files that are compiled once per lane width, after the kernel prelude and math.k.
+ * Vectors of doubles, two of which have as many elements as there are lanes, and phases of waves at points. Points may be many wavelengths from the origin, so
+ * phases are summed and reduced in double precision. For files that are compiled once per lane width, after the kernel prelude and math.k.
  */
 #ifndef MANGATA_CPU_WIDE_LANE_H
 #define MANGATA_CPU_WIDE_LANE_H
@@ -57,15 +57,15 @@ static inline real real_of_wides(const wide halves[HALVES]) { return (real)_mm_m
 #endif
 #endif
 
-/* Turns of a wave at the points of a half, in [−1/2, 1/2]. */
+/* Phase of a wave at points, turns in [−1/2, 1/2]. */
 static inline wide turns_at(const water_terms *w, int i, wide x, wide z)
 {
-    const double rounder = 0x1.8p52; /* in p + rounder nothing is left below one */
+    const double rounder = 0x1.8p52; /* adding it rounds to whole numbers */
     const wide p = wide_fma(wide_of(w->of[i].along_x), x, wide_fma(wide_of(w->of[i].along_z), z, wide_of(w->of[i].start)));
     return p - ((p + rounder) - rounder);
 }
 
-/* The places of a group. */
+/* Coordinates of as many points as there are lanes. */
 typedef struct wide_places {
     wide x[HALVES], z[HALVES];
 } wide_places;
@@ -80,7 +80,7 @@ static inline wide_places load_places(const double *x, const double *z)
     return p;
 }
 
-/* Turns of a wave there, rounded to single precision last. */
+/* Phases of a wave at these points, turns. They are rounded to single precision after the reduction. */
 static inline real turns_of(const water_terms *w, int i, const wide_places *p)
 {
     wide turns[HALVES];
@@ -97,7 +97,7 @@ static inline void store_sum(double to[MGT_LANES], real sum)
         to[lane] = (double)single[lane];
 }
 
-/* Taylor's series of sin(y)/y and cos(y) in y² for |y| ≤ π/2, with what y is off by below 1e-15. */
+/* sin(y)/y by its Taylor series in y², for |y| ≤ π/2. The error is below 1e-15. */
 static inline wide sine_over(wide squared)
 {
     wide sum = wide_of(1 / 51090942171709440000.0);
@@ -113,6 +113,7 @@ static inline wide sine_over(wide squared)
     return wide_fma(sum, squared, wide_of(1));
 }
 
+/* cos(y) by its Taylor series in y², for |y| ≤ π/2. The error is below 1e-15. */
 static inline wide cosine(wide squared)
 {
     wide sum = wide_of(1 / 2432902008176640000.0);
@@ -135,7 +136,7 @@ typedef struct wide_sine {
 static inline wide_sine sine_of_turns(wide turns)
 {
     const wide y = turns * 3.14159265358979323846, squared = y * y;
-    const wide s = y * sine_over(squared); /* of half the phase */
+    const wide s = y * sine_over(squared); /* sine of half the phase */
     return (wide_sine){2 * s * cosine(squared), 1 - 2 * s * s};
 }
 
