@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Contexts: creation, what they resolved to, errors, and the one rendering call. */
+ * Contexts: creation, information, errors, and mgt_render(). */
 #include <stdlib.h>
 
 #include "api/context.h"
@@ -8,7 +8,7 @@
 #include "api/validate.h"
 #include "frame/targets.h"
 
-/* AUTO: OpenGL by hardware, else the CPU. Says which and why. */
+/* MGT_BACKEND_AUTO: creates OpenGL if it is hardware, else the CPU. Logs the choice and its reason. */
 static mgt_status create_auto(mgt_context *c, const mgt_context_desc *desc, const reporter *r)
 {
     const reporter quiet = {.error = r->error};
@@ -113,7 +113,7 @@ void announce_cpu(mgt_context *context, mgt_method method, const char *lacks)
     context->told_of_cpu |= bit;
 }
 
-/* On the CPU what OpenGL lacks. */
+/* Renders on the CPU a scene that OpenGL does not support. */
 static mgt_status render_instead(mgt_context *context, const mgt_scene *own, const mgt_target *targets, size_t count, const char *lacks)
 {
     void *state = NULL;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * What only the CPU does, whatever a context renders with. */
+ * Calls that the CPU serves with every backend. */
 #include <float.h>
 
 #include "api/context.h"
@@ -23,7 +23,7 @@ mgt_status cpu_state(mgt_context *context, void **state)
     return status;
 }
 
-/* Radiance of a whole image that the caller holds. */
+/* Checks the radiance of a whole image. */
 static mgt_status check_radiance(const reporter *r, const float *radiance, const mgt_image *image)
 {
     const size_t count = 3 * (size_t)image->width * image->height;
@@ -57,7 +57,7 @@ mgt_status mgt_display(mgt_context *context, const mgt_scene *scene, const float
     return context_enter(context) ? context_leave(context, display(context, scene, radiance, target)) : MGT_ERROR_ARGUMENT;
 }
 
-/* A checked scene whose method has sums, at sea level. */
+/* Takes and checks a scene whose method must have sums, and moves it to sea level. */
 static mgt_status take_summed(mgt_context *context, const mgt_scene *scene, const uint64_t *sums, mgt_scene *own)
 {
     const reporter *r = &context->report;
@@ -97,7 +97,7 @@ void mgt_sums_add(uint64_t *sums, const uint64_t *more, size_t pixels)
         exact_add(sums + 2 * i, exact_load(more + 2 * i));
 }
 
-/* Sums that samples of this scene's range can make. */
+/* Checks that the sums can be those of as many samples as the scene's range has. */
 static mgt_status check_sums(const reporter *r, const uint64_t *sums, const mgt_scene *scene)
 {
     const region area = image_region(&scene->image);

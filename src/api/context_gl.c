@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * The functions of mangata/gl.h: checks of their arguments, then the backend. */
+ * The functions of mangata/gl.h. They check their arguments and call the backend. */
 #include "api/context.h"
 #include "api/structs.h"
 #include "api/supports.h"
@@ -40,7 +40,7 @@ mgt_status mgt_gl_render_textures(mgt_context *context, const mgt_scene *scene, 
     return context_enter(context) ? context_leave(context, render_textures(context, scene, textures, count)) : MGT_ERROR_ARGUMENT;
 }
 
-/* `out->view` has been set. */
+/* Checks out->view, which is set, and fills the other members. */
 static mgt_status check_view(const reporter *r, const mgt_scene *scene, size_t index, checked_view *out)
 {
     const mgt_gl_view *view = out->view;

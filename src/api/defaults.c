@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * The version and the texts of states. */
+ * The library's version, and texts of mgt_status. */
 #include "mangata/mangata.h"
 
 const char *mgt_version(void) { return MGT_VERSION_STRING; }

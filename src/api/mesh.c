@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Meshes and textures: checked and copied once. */
+ * Meshes and textures. They are checked and copied when they are created. */
 #include "frame/mesh.h"
 
 #include <math.h>
@@ -62,7 +62,7 @@ static void *copy_of(const void *source, size_t count, size_t size)
     return copy;
 }
 
-/* Unit length; a normal of no length becomes up. */
+/* Normalises normals. A normal of length 0 becomes (0, 1, 0). */
 static void normalize_all(float *normals, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
@@ -162,7 +162,7 @@ static uint32_t to_byte(double linear)
 
 static uint32_t side(uint32_t size, uint32_t level) { return size >> level ? size >> level : 1; }
 
-/* Texel of level `to` from those it covers in the level above; the last one of an odd side takes three. */
+/* A texel of level `to`: the mean of the 2 × 2 texels that it covers in the level above. The last texel of an odd side covers three. */
 static uint32_t shrunk(const mgt_texture *t, const double linear[256], uint32_t to, uint32_t x, uint32_t y)
 {
     const uint32_t width = side(t->width, to - 1), height = side(t->height, to - 1);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Questions about the water at points. */
+ * The functions of mangata/query.h: queries of the water at points and along rays. */
 #include <math.h>
 
 #include "api/structs.h"
@@ -9,7 +9,7 @@
 #include "params/foam.h"
 #include "reference/foam.h"
 
-/* What both questions need. */
+/* Checks the arguments that mgt_water_query() and mgt_water_trace() share. */
 static mgt_status check_water(const reporter *r, const char *call, const mgt_water *water, double time)
 {
     if (!water)
@@ -37,7 +37,7 @@ static mgt_status check_answers(const reporter *r, const mgt_water_answers *answ
     return MGT_OK;
 }
 
-/* The answers' pointers moved on to the point `first`. */
+/* The answers with pointers to those of point `first` and the next ones. */
 static mgt_water_answers answers_from(const mgt_water_answers *all, size_t first)
 {
     mgt_water_answers a = *all;
@@ -48,18 +48,18 @@ static mgt_water_answers answers_from(const mgt_water_answers *all, size_t first
     return a;
 }
 
-/* What is asked of the water. */
+/* The arguments of a call. */
 typedef struct question {
     const mgt_water *water;
     double time;
-    const double *points; /* of a query; `count` of them */
+    const double *points; /* mgt_water_query() */
     mgt_water_answers *answers;
-    const double *rays; /* of a trace; `count` of them */
+    const double *rays; /* mgt_water_trace(); NULL: the call is mgt_water_query() */
     double reach, *distance;
-    size_t count;
+    size_t count; /* number of points or rays */
 } question;
 
-/* Answers with foam, which belongs to the place where the water of a point rests; in blocks, so that these places fit on the stack. */
+/* Answers a query that asks for foam. Foam belongs to the places where the points' water rests, so points are taken in blocks whose places fit on the stack. */
 static void answer_with_foam(const question *q, const water_terms *terms)
 {
     enum { SOME = 128 };
@@ -79,7 +79,7 @@ static void answer_with_foam(const question *q, const water_terms *terms)
         query_lanes().query(terms, q->water->level, points, now, &part, rest);
         unsettled += part.unsettled;
         for (size_t i = 0; i < now; i++) {
-            const double here = 0 * (points[2 * i] + points[2 * i + 1]); /* 0, or NaN where the point is not finite */
+            const double here = 0 * (points[2 * i] + points[2 * i + 1]); /* 0, or NaN if the point is not finite */
             const double share = some && here == 0 ? reference_foam_at(&sea, rest[2 * i], rest[2 * i + 1], q->time).share : here;
             q->answers->foam[first + i] = (float)share;
         }
@@ -117,7 +117,7 @@ static __attribute__((noinline)) void answer_many(const question *q)
     answer_by(q, room);
 }
 
-/* Nothing is allocated: seas of few waves need less stack. */
+/* The terms are on the stack, so that nothing is allocated. Seas of few waves get a smaller frame. */
 static void answer(const question *q)
 {
     if (q->water->wave_count <= FEW_WAVES)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Public structs: their kinds and defaults, how callers' are initialised, read and filled. */
+ * Public structs: kinds and defaults, and how those of callers are initialised, read and filled. */
 #include "api/structs.h"
 
 #include <assert.h>
@@ -18,8 +18,7 @@
 #type, id, most, END(type, last_of_first_version), sizeof(type), &(const type) { .struct_size = sizeof(type), __VA_ARGS__ } \
     }
 
-/* A member that is added later must not lie in what was padding of an earlier version, where callers leave anything. Where pointers have 32 bits no
- * earlier version is called. */
+/* A new member must not lie in the padding of an earlier version, because callers leave that uninitialised. There is no earlier version for 32-bit pointers. */
 #define UNPADDED(type, last) static_assert(sizeof(void *) != 8 || sizeof(type) == END(type, last), #type " ends with padding")
 UNPADDED(mgt_context_desc, gl_get_proc);
 UNPADDED(mgt_mesh_desc, reserved);
@@ -32,7 +31,7 @@ UNPADDED(mgt_sea, swells);
 UNPADDED(mgt_gl_view, reserved);
 UNPADDED(mgt_gl_texture, reserved);
 
-/* Structs inside others and in arrays never change: a new member would move what follows. */
+/* Structs within other structs or arrays never change, because a new member would move what follows. */
 #define FIXED(type, size) static_assert(sizeof(void *) != 8 || sizeof(type) == (size), #type " has changed: callers have it inside other structs")
 FIXED(mgt_wave, 40);
 FIXED(mgt_image, 24);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * What runs where. */
+ * Which scenes methods and backends can render. */
 #include "api/supports.h"
 
 #include "api/structs.h"
@@ -9,11 +9,11 @@
 #include "params/methods.h"
 #include "trace/trace.h"
 
-enum { MOST_PLACES = 4 }; /* rays of refraction along a side of a pixel, on OpenGL */
+enum { MOST_PLACES = 4 }; /* largest quality.refraction_samples on OpenGL */
 
-static const double most_slots = 2147483647; /* of a picture, on OpenGL */
+static const double most_slots = 2147483647; /* largest number of sample slots of a picture on OpenGL */
 
-/* Of method adaptive. A budget of time depends on the machine anyway. */
+/* What OpenGL does not support of method adaptive, as gl_lacks() words it; NULL: nothing. */
 static const char *gl_lacks_scheme(const mgt_scene *scene)
 {
     const mgt_quality *q = &scene->quality;
@@ -49,7 +49,7 @@ const char *gl_lacks(const mgt_scene *scene)
 
 const char *gl_lacks_layer(const mgt_scene *scene, mgt_layer layer)
 {
-    /* Of a moving camera's refraction only the mean over the shutter is kept, which its layers are not. */
+    /* For a moving camera OpenGL keeps the mean of refraction over the shutter, but these layers are of one instant. */
     const bool refraction = scene->object_count > 0 && !scene->camera_moves && method_of(scene->quality.method)->way != METHOD_PASS;
     if (layer <= MGT_LAYER_DETAIL || layer == MGT_LAYER_FOAM || (refraction && (layer == MGT_LAYER_REFRACTION || layer == MGT_LAYER_REFRACTION_ERROR)))
         return gl_lacks(scene);

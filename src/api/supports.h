@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * What runs on the CPU alone. */
+ * Which scenes methods and backends can render. */
 #ifndef MANGATA_API_SUPPORTS_H
 #define MANGATA_API_SUPPORTS_H
 
@@ -7,14 +7,14 @@
 
 #include "mangata/mangata.h"
 
-/* False where the method knows the water's surface alone, and the scene at sea level has objects or a camera under water. */
+/* Whether the method can draw a scene at sea level. A method without refraction draws neither objects nor from under water. */
 bool method_draws(const mgt_scene *scene);
 
-/* NULL where the shaders know all of a scene at sea level, else what runs on the CPU alone. Left to it are methods whose rows say so, refraction that
- * needs the CPU's data structures, and pixels that would keep the GPU busy for too long at once. */
+/* What OpenGL lacks to render a scene at sea level, as a subject and a verb that "on the CPU alone" completes; NULL: nothing. It lacks methods whose rows say
+ * so, refraction that needs data structures of the CPU, and pixels that would keep the GPU busy for too long at once. */
 const char *gl_lacks(const mgt_scene *scene);
 
-/* The same for one of its layers. */
+/* What OpenGL lacks to render a layer of such a scene, in the same form. */
 const char *gl_lacks_layer(const mgt_scene *scene, mgt_layer layer);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Checks of scenes and targets, done once, before any backend sees them. */
+ * Checks of scenes and targets. */
 #include "api/validate.h"
 
 #include <math.h>
@@ -119,7 +119,7 @@ static mgt_status check_quality(const reporter *r, const mgt_quality *q)
     return MGT_OK;
 }
 
-/* A field of objects[index]. */
+/* Checks the range of a field of objects[index]. */
 static mgt_status object_range(const reporter *r, size_t index, const char *field, double value, double low, double high)
 {
     if (value >= low && value <= high)

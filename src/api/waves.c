@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Seas from wind and swell, as the waves of a scene. */
+ * The functions of mangata/waves.h: seas of wind and swell as the waves of a scene. */
 #include "mangata/waves.h"
 
 #include <math.h>
@@ -71,7 +71,7 @@ static mgt_status take_sea(const reporter *r, const mgt_sea *theirs, mgt_sea *ow
     return status;
 }
 
-/* Into memory of the library's own first, so that a failure writes nothing. */
+/* Draws the waves of a sea. `waves` is memory of the library, so that a failure leaves the caller's unchanged. */
 static mgt_status draw(const reporter *r, const mgt_sea *sea, mgt_wave *waves)
 {
     wave_spectrum spectrum;
@@ -94,7 +94,7 @@ static mgt_status draw(const reporter *r, const mgt_sea *sea, mgt_wave *waves)
     return good ? MGT_OK : report_error(r, MGT_ERROR_MEMORY, "waves.memory", "out of memory for the waves of a sea");
 }
 
-/* Whatever the settings, no wave leaves the library that a scene could not hold. */
+/* Checks the drawn waves, because legal settings may give waves that a scene must not have. */
 static mgt_status check_drawn(const reporter *r, const mgt_wave *waves, size_t count)
 {
     for (size_t i = 0; i < count; i++)
