@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Seas of wind and swell.
+ * Settings and spectra of seas of wind and swell.
  */
 #include "sea/sea.h"
 

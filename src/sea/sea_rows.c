@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Rows of seas.
+ * Rows of an mgt_sea and of an mgt_swell.
  */
 #include "sea/sea_rows.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * The values of an mgt_sea and of an mgt_swell, one row each: ranges for the API.
+ * Rows of an mgt_sea and of an mgt_swell: the ranges of their members.
  */
 #ifndef MANGATA_SEA_SEA_ROWS_H
 #define MANGATA_SEA_SEA_ROWS_H

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Elementary functions of double with the same bits everywhere.
+ * Elementary functions of double with the same bits on every machine.
  */
 #include "sea/spectrum_math.h"
 
@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* ln 2 and π/2 in two parts; the first has so few digits that its product with a small whole number is exact. */
+/* ln 2 and π/2 in two parts. The first part has so few digits that its product with a small whole number is exact. */
 static const double LN2 = 0.693147180559945309417, LN2_HIGH = 0x1.62e42fee00000p-1, LN2_LOW = 1.90821492927058770002e-10;
 static const double HALF_PI_HIGH = 0x1.921fb54400000p+0, HALF_PI_LOW = 6.07710050650619224932e-11;
 
@@ -19,7 +19,7 @@ double portable_exp(double x)
     x = x < 700 ? x : 700;
     const double n = floor(x / LN2 + 0.5), r = (x - n * LN2_HIGH) - n * LN2_LOW;
     double sum = 1;
-    for (int i = 14; i > 0; i--) /* Taylor; |r| ≤ ln 2 / 2 */
+    for (int i = 14; i > 0; i--) /* Taylor series for |r| ≤ ln 2 / 2 */
         sum = 1 + r / i * sum;
     return ldexp(sum, (int)n);
 }
@@ -34,7 +34,7 @@ double portable_log(double x)
     }
     const double s = (m - 1) / (m + 1), square = s * s;
     double sum = 0;
-    for (int i = 23; i > 1; i -= 2) /* 2 artanh s; |s| < 0.172 */
+    for (int i = 23; i > 1; i -= 2) /* 2 artanh s by its series for |s| < 0.172 */
         sum = square * (1.0 / i + sum);
     return exponent * LN2_HIGH + (exponent * LN2_LOW + 2 * s * (1 + sum));
 }
@@ -46,7 +46,7 @@ double portable_tanh(double x)
     if (x > 20)
         return 1;
     const double square = x * x;
-    if (x < 0.02) /* the quotient below would cancel */
+    if (x < 0.02) /* the quotient below would lose digits by cancellation */
         return x * (1 - square * (1.0 / 3 - square * (2.0 / 15 - square * (17.0 / 315))));
     const double e = portable_exp(2 * x);
     return (e - 1) / (e + 1);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Elementary functions of double made of additions, products, quotients and roots alone, so that a sea made from its spectrum has the same
- * bits on every machine; the C library's differ in their last bits from one processor to the next. Relative errors below 2e-15.
+ * Elementary functions of double that use sums, products, quotients and square roots alone. So a sea that is made from a spectrum has the same bits on every
+ * machine, which it would not have with the C library's functions. Relative errors are below 2e-15.
  */
 #ifndef MANGATA_SEA_SPECTRUM_MATH_H
 #define MANGATA_SEA_SPECTRUM_MATH_H
@@ -15,7 +15,7 @@ double portable_tanh(double x);          /* x ≥ 0 */
 double portable_sin(double x);           /* |x| ≤ 1e6 */
 double portable_cos(double x);
 
-/* Rounded to seven significant digits, in which what else differs from one machine to the next is lost. */
+/* A value rounded to seven significant digits, which removes differences between machines in the last bits. */
 double seven_digits(double value);
 
 #endif

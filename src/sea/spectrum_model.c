@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Wave spectra as they were published.
+ * Published wave spectra.
  */
 #include "sea/spectrum_model.h"
 
@@ -11,7 +11,7 @@
 #include "sea/spectrum_math.h"
 
 static const double G = SPECTRUM_GRAVITY;
-static const double LOWEST = 0.3; /* in peaks; below it is less than e^-150 */
+static const double LOWEST = 0.3; /* lowest frequency over that of the peak; the density's exponential is below e^-150 there */
 
 /* ---- dispersion --------------------------------------------------------------------------------------------- */
 
@@ -22,7 +22,7 @@ double dispersion_wave_number(double frequency, double depth)
     const double deep = frequency * frequency / G;
     if (!(depth > 0) || deep * depth > 20)
         return deep;
-    /* Newton on k tanh(k d) = ω²/g from Eckart's estimate, which is at most 5 % off. */
+    /* Newton's method on k tanh(k d) = ω²/g from Eckart's estimate, whose error is at most 5 %. */
     double k = deep / sqrt(portable_tanh(deep * depth));
     for (int i = 0; i < 20; i++) {
         const double t = portable_tanh(k * depth), next = k - (k * t - deep) / (t + k * depth * (1 - t * t));
@@ -33,7 +33,7 @@ double dispersion_wave_number(double frequency, double depth)
     return k;
 }
 
-/* (k⁻³ ∂k/∂ω in this depth) over (the same in deep water), as Bouws et al. give it: tanh²(kd) / (1 + 2kd / sinh 2kd). */
+/* Ratio of k⁻³ ∂k/∂ω in this depth to its value in deep water, by Bouws et al.: tanh²(kd) / (1 + 2kd / sinh 2kd). */
 double depth_factor(double frequency, double depth)
 {
     if (!(depth > 0))
@@ -42,7 +42,7 @@ double depth_factor(double frequency, double depth)
     if (x > 40)
         return 1;
     const double t = portable_tanh(x / 2), inverse_sinh = (1 - t * t) / (2 * t), e = portable_exp(-x);
-    return t * t / (1 + x * (x < 1 ? inverse_sinh : 2 * e / (1 - e * e))); /* each without cancellation */
+    return t * t / (1 + x * (x < 1 ? inverse_sinh : 2 * e / (1 - e * e))); /* each form avoids cancellation */
 }
 
 /* ---- closed forms ------------------------------------------------------------------------------------------- */
@@ -59,7 +59,7 @@ double closed_form_height(double alpha, double peak, double gamma)
     return gamma <= 7 ? 4 * sqrt(variance / (1 - 0.287 * portable_log(gamma))) : NAN;
 }
 
-/* E₁(x) for x > 0: its series up to 1, beyond it the continued fraction. */
+/* E₁(x) for x > 0, by its series up to x = 1 and by the continued fraction beyond. */
 static double exponential_integral(double x)
 {
     if (x > 1) {
@@ -95,7 +95,7 @@ static bool refuse(spectrum_fault *fault, const char *key, const char *format, d
 
 static double jonswap_peak(double wind_10, double fetch) { return 22 * portable_pow(G * G / (wind_10 * fetch), 1.0 / 3); }
 
-/* Pierson and Moskowitz write α g² ω⁻⁵ exp(-β (g / (U ω))⁴) with β = 0.74; as a peak that is (4 β / 5)^¼ g / U. */
+/* Pierson and Moskowitz write α g² ω⁻⁵ exp(-β (g / (U ω))⁴) with β = 0.74, so the peak is at (4 β / 5)^¼ g / U. */
 static double pierson_moskowitz_peak(double wind_19_5) { return sqrt(sqrt(0.8 * 0.74)) * G / wind_19_5; }
 
 static void make_pierson_moskowitz(wave_spectrum *s, double wind_19_5)
@@ -185,7 +185,7 @@ bool wave_spectrum_make(wave_spectrum *out, const spectrum_settings *settings, c
         make_pierson_moskowitz(&s, wind_at_height(settings->wind, wind_height_of(settings), 19.5));
     else
         make_jonswap(&s, s.wind_10, settings->fetch, settings->gamma);
-    const double shallow = 0.7616 * G / (s.peak * s.peak); /* k d = 1 at the peak: tanh 1 */
+    const double shallow = 0.7616 * G / (s.peak * s.peak); /* k d = 1 at the peak, and 0.7616 = tanh 1 */
     if (!spectrum_takes_depth(settings->kind) && s.depth > 0 && s.depth < shallow)
         return refuse(
             fault, "depth",
@@ -203,7 +203,8 @@ bool wave_spectrum_make(wave_spectrum *out, const spectrum_settings *settings, c
 
 double wave_spectrum_peak(const wave_spectrum *spectrum)
 {
-    /* The factor of depth falls towards low frequencies and moves the highest point up a little; that of Elfouhaily et al. is not at their k_p. */
+    /* The factor of depth falls towards low frequencies, so it moves the highest density to a higher frequency. That of Elfouhaily et al. is not at their
+       k_p. */
     double best = spectrum->peak;
     if (spectrum_takes_depth(spectrum->kind))
         for (double f = 0.5 * spectrum->peak, most = 0; f < 3 * spectrum->peak; f += 0.001 * spectrum->peak) {
@@ -218,7 +219,7 @@ double wave_spectrum_peak(const wave_spectrum *spectrum)
 
 /* ---- densities ---------------------------------------------------------------------------------------------- */
 
-/* Of deep water. */
+/* Density in deep water. */
 static double parametric_density(const wave_spectrum *s, double frequency)
 {
     if (s->kind == SPECTRUM_ELFOUHAILY)
@@ -248,7 +249,7 @@ double wave_spectrum_density(const wave_spectrum *s, double frequency)
 
 /* ---- directions --------------------------------------------------------------------------------------------- */
 
-/* cos^2s of half the angle. */
+/* cos^2s of half the angle: its power 2 s. */
 static double half_cosine(double angle, double s) { return portable_pow(fabs(portable_cos(angle / 2)), 2 * s); }
 
 static double mitsuyasu_spread(double ratio, double wind_over_speed)
@@ -283,7 +284,7 @@ double wave_spectrum_spreading(const wave_spectrum *s, double frequency, double 
         return half_cosine(angle, s->bend_spread);
     if (s->kind == SPECTRUM_BUOY)
         return spectrum_table_at(s->table, frequency, azimuth);
-    if (s->kind == SPECTRUM_ELFOUHAILY) /* as symmetric as the paper's in its slopes, but no wave runs against the wind */
+    if (s->kind == SPECTRUM_ELFOUHAILY) /* the paper's is symmetric; only its half along the wind is used, because no wave runs against the wind */
         return fabs(angle) < SPECTRUM_PI / 2 ? 1 + unified_asymmetry(&s->unified, dispersion_wave_number(frequency, 0)) * portable_cos(2 * angle) : 0;
     const double ratio = frequency / s->peak, wind_over_speed = s->wind_10 * s->peak / G;
     switch (s->directions) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * From a spectrum to sines.
+ * Samples a spectrum by sines.
  */
 #include "sea/spectrum_sample.h"
 
@@ -12,27 +12,27 @@
 #include "sea/spectrum_math.h"
 #include "params/waves.h"
 
-/* Waves that share a cell of the grid have one length: more than CELL_WAVES take a finer grid. */
+/* Waves within one cell of the grid have the same length, so seas of more than CELL_WAVES waves use a finer grid. */
 enum { CELLS = 4096, CELL_WAVES = 512, FINE_CELLS = 8 * CELLS, DIRECTIONS = 720, HARMONIC_STEP = 64 };
 
-static const double HEIGHT_SHARE = 0.25, TAIL_BEGINS = 3 /* peaks */;
+static const double HEIGHT_SHARE = 0.25, TAIL_BEGINS = 3 /* times the peak frequency */;
 
-/* A difference of two variances that is a smaller fraction of them has lost too many digits. */
+/* A difference of two variances that is a smaller fraction of them has lost too many digits by cancellation. */
 static const double CANCELLED = 1e-10;
 
 /* ---- quadrature over frequency ------------------------------------------------------------------------------ */
 
-/* The variances below each node of a grid that is even in log frequency. */
+/* Variances of height and slope below each node of a grid with equal steps in the logarithm of frequency. */
 typedef struct frequency_grid {
-    double low, step; /* of log frequency */
+    double low, step; /* logarithm of the first node's frequency, and step of the logarithm */
     int cells;
-    double *slope, *rest; /* behind `height`, as long; `rest` is the variance of the height above each node */
+    double *slope, *rest; /* arrays of the same length behind `height`; `rest`: variance of the height above each node */
     double height[];
 } frequency_grid;
 
 static double node_frequency(const frequency_grid *grid, double node) { return portable_exp(grid->low + grid->step * node); }
 
-/* By Simpson's rule in each cell. */
+/* Integrates by Simpson's rule in each cell. NULL: out of memory. */
 static frequency_grid *make_grid(const wave_spectrum *spectrum, int cells)
 {
     frequency_grid *grid = malloc(sizeof *grid + 3 * ((size_t)cells + 1) * sizeof *grid->height);
@@ -47,7 +47,7 @@ static frequency_grid *make_grid(const wave_spectrum *spectrum, int cells)
     grid->height[0] = grid->slope[0] = 0;
     double height_before = 0, slope_before = 0;
     for (int i = 0; i <= 2 * cells; i++) {
-        /* The ends themselves: rounding must not carry them out of the spectrum. */
+        /* The ends are exact, because rounding must not move them out of the spectrum. */
         const double f = i == 0 ? spectrum->low : i == 2 * cells ? spectrum->high : node_frequency(grid, i / 2.0);
         const double k = dispersion_wave_number(f, spectrum->depth);
         const double height = grid->step / 6 * f * wave_spectrum_density(spectrum, f), slope = k * k * height;
@@ -74,7 +74,7 @@ static frequency_grid *make_grid(const wave_spectrum *spectrum, int cells)
 
 /* ---- quadrature over direction ------------------------------------------------------------------------------ */
 
-/* The share of a frequency's waves below each of DIRECTIONS + 1 azimuths from upwind around to upwind. */
+/* Fraction of a frequency's density below each of DIRECTIONS + 1 azimuths, which start upwind and go around to upwind. */
 static void cumulate_directions(const wave_spectrum *spectrum, double frequency, double share[DIRECTIONS + 1])
 {
     const double width = 2 * SPECTRUM_PI / DIRECTIONS;
@@ -85,13 +85,13 @@ static void cumulate_directions(const wave_spectrum *spectrum, double frequency,
         share[i] = share[i - 1] + (before + density) / 2;
         before = density;
     }
-    /* A table may have frequencies without waves: any direction will do. */
+    /* A table may have frequencies without waves, whose direction does not matter. */
     const double total = share[DIRECTIONS];
     for (int i = 1; i <= DIRECTIONS; i++)
         share[i] = total > 0 ? share[i] / total : (double)i / DIRECTIONS;
 }
 
-/* The azimuth below which a share u of [0, 1) of the waves is. */
+/* The azimuth below which the fraction u in [0, 1) of the density lies. */
 static double direction_quantile(const wave_spectrum *spectrum, double frequency, double u)
 {
     double share[DIRECTIONS + 1];
@@ -108,7 +108,7 @@ static double direction_quantile(const wave_spectrum *spectrum, double frequency
     return spectrum->downwind - SPECTRUM_PI + 2 * SPECTRUM_PI / DIRECTIONS * (low + part);
 }
 
-/* The mean of cos 2θ, θ from downwind: (upwind - crosswind) / (upwind + crosswind) of the slopes of one frequency. */
+/* Mean of cos 2θ, with θ from downwind. It is (upwind - crosswind) / (upwind + crosswind) for the mean-square slopes of one frequency. */
 static double second_harmonic(const wave_spectrum *spectrum, double frequency)
 {
     const double width = 2 * SPECTRUM_PI / DIRECTIONS;
@@ -121,7 +121,7 @@ static double second_harmonic(const wave_spectrum *spectrum, double frequency)
     return sum > 0 ? weighted / sum : 0;
 }
 
-/* Upwind minus crosswind variance of slope between two nodes. */
+/* Upwind minus crosswind mean-square slope of the waves between two nodes. */
 static double slope_difference(const wave_spectrum *spectrum, const frequency_grid *grid, int from, int to)
 {
     double sum = 0;
@@ -134,7 +134,7 @@ static double slope_difference(const wave_spectrum *spectrum, const frequency_gr
 
 /* ---- the tail ----------------------------------------------------------------------------------------------- */
 
-/* The mean-square slope of the waves beyond a node once they are multiplied by (ω/ω_node)^power. */
+/* Mean-square slope of the waves beyond a node if their density is multiplied by (ω/ω_node)^power. */
 static double bent_slope(const frequency_grid *grid, int node, double power)
 {
     double sum = 0;
@@ -143,7 +143,7 @@ static double bent_slope(const frequency_grid *grid, int node, double power)
     return sum;
 }
 
-/* The s of cos^2s whose mean of cos 2θ, s (s - 1) / ((s + 1) (s + 2)), is `harmonic`, as near as the form comes: -0.0718 is its least. */
+/* The s of cos^2s whose mean of cos 2θ, s (s - 1) / ((s + 1) (s + 2)), is `harmonic`. The least value of this form is -0.0718, so lower ones are clamped. */
 static double spread_of_harmonic(double harmonic)
 {
     const double r = fmin(fmax(harmonic, -0.0717), 0.95), b = 1 + 3 * r;
@@ -190,7 +190,7 @@ bool spectrum_bend_tail(wave_spectrum *spectrum, cox_munk slopes, spectrum_fault
 
 /* ---- waves -------------------------------------------------------------------------------------------------- */
 
-/* A uniform number in [0, 1) for a seed and a counter. */
+/* A uniform random number in [0, 1) for a seed and a counter, by two passes of the finaliser of SplitMix64. */
 static double uniform(uint32_t seed, uint64_t counter) { return hash_fraction(hash_mixed(hash_of((uint64_t)seed << 32 | counter))); }
 
 static mgt_wave make_wave(const wave_spectrum *spectrum, double height_variance, double slope_variance, double direction_share, double phase)

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT
  *
- * From a spectrum to sines.
+ * Samples a spectrum by sines.
  *
- * Frequencies: the spectrum is cut into as many strata as there are waves, each with the same share of three quarters mean-square slope and
- * one quarter variance of height: glitter is made of slopes, while the swell must not become a single wave. A stratum's wave has its whole
- * variance, A² / 2, and the wave number whose square is the stratum's mean, so that any number of waves has the spectrum's variance of height
- * and of slope exactly. Directions: quantiles of the spreading at the wave's frequency, at golden ratios from a start that the seed decides,
- * so that neighbouring frequencies run apart. Phases: uniform, by the seed. Numbers are rounded to seven digits.
+ * Frequencies: the spectrum is cut into as many strata as there are waves. Each has the same amount of a mixture of three quarters relative mean-square slope
+ * and one quarter relative variance of height. Slopes have the greater weight because glitter depends on them; height has some so that the longest waves do not
+ * become a single one. The wave of a stratum has the stratum's variance, A² / 2, and its mean-square slope. So any number of waves has exactly the spectrum's
+ * variances of height and slope. Directions: quantiles of the spreading at the wave's frequency, at multiples of the golden ratio from a start by the seed, so
+ * that waves of neighbouring frequencies have different directions. Phases: uniform, by the seed. Values are rounded to seven digits.
  */
 #ifndef MANGATA_SEA_SPECTRUM_SAMPLE_H
 #define MANGATA_SEA_SPECTRUM_SAMPLE_H
@@ -14,25 +14,24 @@
 #include "mangata/mangata.h"
 #include "sea/spectrum_model.h"
 
-/* Bends the spectrum's tail so that the mean-square slope down to the shortest wave is `slopes.total`, and lets the tail spread so that the
- * share upwind is theirs as far as it can. The tail begins at three times the peak, halfway to the shortest wave where that is nearer, or
- * where a table ends. False with *fault filled where no tail can do it, its key NULL where memory runs out. */
+/* Bends the spectrum's tail so that the mean-square slope down to the shortest wave is `slopes.total`, and sets the tail's spreading so that the ratio of
+ * upwind and crosswind slopes is theirs as far as possible. The tail begins at three times the peak frequency, or at the geometric mean of peak and highest
+ * frequency if that is lower, or where a table ends. Returns false and fills *fault if no tail can do this, and with fault->key NULL if memory runs out. */
 bool spectrum_bend_tail(wave_spectrum *spectrum, cox_munk slopes, spectrum_fault *fault);
 
-/* Fills `count` waves from the longest to the shortest. False when memory runs out. */
+/* Fills `count` waves from the longest to the shortest. False: out of memory. */
 bool spectrum_sample(const wave_spectrum *spectrum, uint32_t seed, size_t count, mgt_wave *waves);
 
-/* What a sea is like. */
 typedef struct sea_statistics {
-    double height;            /* significant, 4 √m0, m */
-    double slope;             /* mean square, upwind + crosswind */
-    double upwind, crosswind; /* its parts along and across an azimuth */
+    double height;            /* significant wave height 4 √m0, m */
+    double slope;             /* mean-square slope: upwind + crosswind */
+    double upwind, crosswind; /* mean-square slopes along and across an azimuth */
 } sea_statistics;
 
-/* By quadrature over the spectrum. */
+/* Statistics of a spectrum, by quadrature. The azimuth is that of the wind. False: out of memory. */
 bool spectrum_statistics(const wave_spectrum *spectrum, sea_statistics *out);
 
-/* Of sines. */
+/* Statistics of waves. */
 sea_statistics waves_statistics(const mgt_wave *waves, size_t count, double azimuth);
 
 #endif

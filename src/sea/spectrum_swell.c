@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Swell.
+ * The spectrum of swell.
  */
 #include "sea/spectrum_swell.h"
 
@@ -9,10 +9,10 @@
 #include "sea/spectrum_math.h"
 #include "sea/spectrum_sample.h"
 
-/* Goda (1983) found 3 to 10 for swell that had crossed an ocean. */
+/* Peak enhancement factor. Goda (1983) found 3 to 10 for swell that had crossed an ocean. */
 static const double PEAKEDNESS = 7;
 
-static const double LOWEST = 0.33, HIGHEST = 2.5; /* in peaks */
+static const double LOWEST = 0.33, HIGHEST = 2.5; /* frequencies over that of the peak */
 
 bool swell_spectrum_make(wave_spectrum *out, double height, double period, double direction_deg, double spread)
 {

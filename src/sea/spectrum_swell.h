@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT
  *
- * Swell: waves that have left their wind. The narrow form of JONSWAP with a height, a period and a direction of its own.
+ * Swell: waves that have left the wind that made them. Its spectrum is a narrow JONSWAP spectrum with a given height, period and direction.
  */
 #ifndef MANGATA_SEA_SPECTRUM_SWELL_H
 #define MANGATA_SEA_SPECTRUM_SWELL_H
 
 #include "sea/spectrum_model.h"
 
-/* A significant height in metres, a peak's period in seconds; where it comes from, 0 is -z, 90 is +x; s of cos^2s of half the angle. It has waves of a
- * third to two and a half times the peak's frequency, in deep water. False when memory runs out. */
+/* Makes the spectrum of swell in deep water. `height`: significant wave height, m. `period`: of the peak, s. `direction_deg`: where it comes from; 0 is -z, 90
+ * is +x. `spread`: s of cos^2s of half the angle. Frequencies are from a third to two and a half times that of the peak. False: out of memory. */
 bool swell_spectrum_make(wave_spectrum *out, double height, double period, double direction_deg, double spread);
 
 #endif

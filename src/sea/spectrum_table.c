@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * What a measured spectrum has between its points.
+ * Interpolation and means of a measured spectrum.
  */
 #include "sea/spectrum_table.h"
 
@@ -23,7 +23,7 @@ void spectrum_table_free(spectrum_table *table)
     *table = (spectrum_table){0};
 }
 
-/* The row at or before a frequency within the table; the last but one at its end. */
+/* The last row at or before a frequency within the table, but at most the last but one. */
 static size_t find_row(const spectrum_table *table, double frequency)
 {
     size_t low = 0, high = table->row_count - 1;
@@ -51,7 +51,7 @@ static double row_at(const spectrum_table *table, const spectrum_row *row, doubl
 {
     const spectrum_point *points = table->points + row->first;
     size_t low = 0, high = row->count;
-    while (low < high) { /* how many points lie at or before */
+    while (low < high) { /* `low` becomes the number of points at or before the azimuth */
         const size_t middle = low + (high - low) / 2;
         if (points[middle].azimuth <= azimuth)
             low = middle + 1;
@@ -96,7 +96,7 @@ double spectrum_table_mean_azimuth(const spectrum_table *table)
     }
     if (!(east * east + north * north > 0))
         return 0;
-    /* By bisection, for the same bits everywhere. */
+    /* Bisection gives the same bits on every machine. */
     const double length = sqrt(east * east + north * north);
     double low = 0, high = SPECTRUM_PI;
     for (int i = 0; i < 60; i++) {

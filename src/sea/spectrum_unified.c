@@ -10,8 +10,8 @@
 #include "sea/spectrum_model.h"
 
 static const double G = SPECTRUM_GRAVITY;
-static const double SLOWEST = 0.23;        /* m/s: the least phase speed, where gravity and surface tension are equal */
-static const double LONGEST_FETCH = 2.2e4; /* X0, of the fetch over U²/g */
+static const double SLOWEST = 0.23;        /* least phase speed, at which gravity and surface tension are equal, m/s */
+static const double LONGEST_FETCH = 2.2e4; /* X0 of the paper, a fetch over U²/g */
 static const double LN10 = 2.30258509299404568402;
 
 double unified_age(double wind, double fetch)
@@ -28,14 +28,14 @@ double unified_fetch(double wind, double age)
     return LONGEST_FETCH * wind * wind / G * portable_pow(x, 2.5);
 }
 
-/* By the roughness that waves of this age give the sea (Donelan et al. 1993). */
+/* Friction velocity by the roughness of a sea of this inverse wave age (Donelan et al. 1993), m/s. */
 static double friction_velocity(double wind, double age)
 {
     const double roughness = 3.7e-5 * wind * wind / G * portable_pow(age, 0.9);
     return 0.4 * wind / portable_log(10 / roughness);
 }
 
-/* Below 0 where the wind is too weak for short waves. */
+/* Equilibrium level of short waves. It is below 0 if the wind is too weak for them. */
 static double short_equilibrium(double friction)
 {
     const double growth = portable_log(friction / SLOWEST);
@@ -55,10 +55,10 @@ unified_sea unified_sea_make(double wind, double age)
                          .friction = friction};
 }
 
-/* Where the phase speed is least. */
+/* Wave number of the least phase speed. */
 static double slowest_number(void) { return 2 * G / (SLOWEST * SLOWEST); }
 
-/* With surface tension. */
+/* Phase speed of gravity waves with surface tension. */
 static double phase_speed(double wave_number)
 {
     const double ratio = wave_number / slowest_number();
@@ -68,8 +68,8 @@ static double phase_speed(double wave_number)
 double unified_density(const unified_sea *sea, double wave_number)
 {
     const double inverse = sea->peak_number / wave_number, beyond = sqrt(wave_number / sea->peak_number) - 1, speed = phase_speed(wave_number);
-    /* Pierson and Moskowitz' end at long waves and JONSWAP's peak. The paper prints both with the long waves alone; without them the short ones
-     * would double the height of the sea. */
+    /* The factors of Pierson and Moskowitz and of JONSWAP apply to both parts. The paper prints them with the long waves alone, but without them the short
+     * waves would double the height of the sea. */
     const double shape = portable_exp(-1.25 * inverse * inverse) * portable_pow(sea->gamma, portable_exp(-beyond * beyond / (2 * sea->width * sea->width)));
     const double of_gravity = sea->long_alpha * sea->peak_speed / speed * portable_exp(-sea->age / sqrt(10) * beyond);
     const double off = wave_number / slowest_number() - 1, of_friction = sea->short_alpha * SLOWEST / speed * portable_exp(-off * off / 4);
