@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * What foam is made of, for C and GLSL: see src/params/foam.h. */
+ * Numbers of foam for C and GLSL, see src/params/foam.h. */
 #ifndef MANGATA_BASE_FOAM_NUMBERS_H
 #define MANGATA_BASE_FOAM_NUMBERS_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Random numbers that belong to a counter: whoever asks, in whatever order, gets the same. */
+ * Counter-based random numbers: a number depends on its key alone, not on the order of the calls. */
 #ifndef MANGATA_BASE_HASH_H
 #define MANGATA_BASE_HASH_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Limit on the pixels of pictures that are read: a file of a few kilobytes can declare billions of them. */
+ * The limit on pixels of pictures that are read. It is needed because a file of a few kilobytes can declare billions of pixels. */
 #ifndef MANGATA_BASE_PIXEL_BUDGET_H
 #define MANGATA_BASE_PIXEL_BUDGET_H
 
@@ -9,7 +9,7 @@
 #define PIXEL_BUDGET_VARIABLE "MANGATA_PIXELS"
 enum { PIXEL_BUDGET_DEFAULT = 1 << 25 };
 
-/* Most pixels of one picture, and of all textures of a scene together. */
+/* Largest number of pixels of a picture, and of all textures of a scene together. */
 uint64_t pixel_budget(void);
 
 #endif

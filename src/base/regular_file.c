@@ -44,7 +44,7 @@ char *regular_file_read(regular_file *file, const char *path, bool or_standard_i
 {
     const bool standard_input = or_standard_input && strcmp(path, "-") == 0;
     char *text = NULL;
-    size_t room = 0; /* of the text, without its NUL */
+    size_t room = 0; /* memory for the text without its NUL, bytes */
     *length = 0;
     if (standard_input)
         *file = (regular_file){.stream = stdin};

@@ -5,7 +5,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 
-/* Where creation reports, since there is no context to hold the text yet. */
+/* The text of functions without a context, which could hold it. */
 static _Thread_local char creation_error[REPORTER_TEXT];
 
 reporter creation_reporter(void)

@@ -5,7 +5,7 @@
 
 #include "mangata/mangata.h"
 
-/* Where functions report: the log of a context and the text of mgt_last_error(). */
+/* The log and the text of mgt_last_error() that functions report to. */
 typedef struct reporter {
     mgt_log_function log;
     void *log_user;
@@ -14,14 +14,14 @@ typedef struct reporter {
 
 #define REPORTER_TEXT 512
 
-/* Writes the detail of a failure, logs it, as an error unless it was asked for (MGT_CANCELLED), and returns `status`, so that callers can `return report_error(…)`. */
+/* Writes the text of a failure and logs it: as an error, unless it is MGT_CANCELLED. Returns `status`. */
 mgt_status report_error(const reporter *r, mgt_status status, const char *id, const char *format, ...) __attribute__((format(printf, 4, 5)));
 void report(const reporter *r, mgt_log_level level, const char *id, const char *format, ...) __attribute__((format(printf, 4, 5)));
 
-/* For what is created without a context: the text of mgt_last_error(NULL), emptied. */
+/* The reporter of functions without a context. It logs nothing and writes the text of mgt_last_error(NULL), which this call clears. */
 reporter creation_reporter(void);
 
-/* Its text. */
+/* The text of mgt_last_error(NULL) on this thread. */
 const char *creation_error_text(void);
 
 #endif

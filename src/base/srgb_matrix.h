@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * From CIE XYZ, whose white D65 is (0.95047, 1, 1.08883), to linear sRGB. */
+ * The matrix from CIE XYZ, whose white D65 is (0.95047, 1, 1.08883), to linear sRGB. */
 #ifndef MANGATA_BASE_SRGB_MATRIX_H
 #define MANGATA_BASE_SRGB_MATRIX_H
 

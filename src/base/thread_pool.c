@@ -16,8 +16,8 @@
 struct thread_pool {
     pthread_mutex_t lock;
     pthread_cond_t start, finish;
-    uint64_t generation; /* counts loops, so that a sleeping thread knows a new one */
-    uint32_t running;    /* threads still inside the current loop */
+    uint64_t generation; /* number of loops, by which a sleeping thread recognises a new one */
+    uint32_t running;    /* number of threads inside the current loop */
     bool quit;
     thread_loop loop;
     atomic_size_t next;
@@ -32,7 +32,7 @@ typedef struct worker {
     uint32_t number;
 } worker;
 
-/* The quota of a cgroup (version 2, then 1) in whole CPUs; 0 without one. */
+/* The cgroup's quota in whole CPUs, by version 2 or else version 1; 0: there is none. */
 static uint32_t cgroup_cpus(void)
 {
     long long quota = 0, period = 0;
@@ -175,7 +175,7 @@ static double seconds(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* The caller's share of the loop, with progress ten times a second. */
+/* Takes part in the loop on the caller's thread, and reports progress ten times a second. */
 static void share_loop_reporting(thread_pool *pool)
 {
     const thread_loop *loop = &pool->loop;

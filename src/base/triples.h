@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Three numbers at a time: vectors in double precision, least and most of any kind. */
+ * Vectors of three doubles, and the least and greatest of three numbers of any type. */
 #ifndef MANGATA_BASE_TRIPLES_H
 #define MANGATA_BASE_TRIPLES_H
 
@@ -21,7 +21,7 @@ static inline void normalize3(double v[3])
         v[i] /= length;
 }
 
-/* Of an array of three numbers; it is read more than once. */
+/* Least and greatest element of an array of three numbers. The argument is evaluated more than once. */
 #define LEAST3(v) ((v)[0] < (v)[1] ? ((v)[0] < (v)[2] ? (v)[0] : (v)[2]) : ((v)[1] < (v)[2] ? (v)[1] : (v)[2]))
 #define MOST3(v) ((v)[0] > (v)[1] ? ((v)[0] > (v)[2] ? (v)[0] : (v)[2]) : ((v)[1] > (v)[2] ? (v)[1] : (v)[2]))
 

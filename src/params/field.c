@@ -9,7 +9,7 @@
 #include <string.h>
 #include <strings.h>
 
-/* "1e+09" to "1e9": what people write, and JSON and YAML read. */
+/* Shortens "1e+09" to "1e9", which JSON and YAML read, too. */
 static void shorten_exponent(char *text)
 {
     char *exponent = strchr(text, 'e');
@@ -50,7 +50,7 @@ short_number float_text(float value)
 
 static const char *skip_digits(const char *text) { return text + strspn(text, "0123456789"); }
 
-/* strtod alone would also take "nan", "1e" or " 3". */
+/* Whether the whole text is a decimal number. strtod() alone would also accept "nan", "1e" or " 3". */
 static bool is_decimal(const char *text)
 {
     text += *text == '-' || *text == '+';
@@ -144,7 +144,7 @@ void field_choose(const field_row *field, int place, void *value)
         *(int *)value = field->values ? field->values[place] : place;
 }
 
-/* Whole numbers keep all their digits. */
+/* Reads a whole number of up to 64 bits. A number of digits alone is not read as a double, which would round it. */
 static bool parse_large(const field_row *field, const char *text, uint64_t *value)
 {
     double number;
@@ -359,7 +359,7 @@ bool field_in_range(const field_row *field, double value)
 static void print_range(const field_row *field, char *out, size_t size)
 {
     short_number low = double_text(field->min), high = double_text(field->max);
-    /* The largest of 64 bits is no double. */
+    /* The largest number of 64 bits is not representable as a double. */
     const char *min = low.text, *max = field->type == FIELD_LARGE && field->max >= 0x1p64 ? "18446744073709551615" : high.text;
     const char *space = field->unit != NULL ? " " : "", *unit = field->unit != NULL ? field->unit : "";
     if (field->min == field->max)

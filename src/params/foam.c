@@ -15,10 +15,10 @@ double foam_share_of_wind(double wind) { return fmin(3.84e-6 * pow(fmax(wind, 0)
 
 /* ---- waves ---- */
 
-/* Shorter waves do not break: they count by exp(−(k/k₀)²/2), k₀ a multiple of the sea's root mean square wave number. */
+/* Short waves do not break. Waves count with the weight exp(−(k/k₀)²/2), where k₀ is break_number times mean_number(). Weights below least_part are dropped. */
 static const double break_number = 8, least_part = 0.02;
 
-/* The wave number √(mean square slope / mean square height). */
+/* √(mean-square slope / mean-square height): a mean wave number, radians per metre. */
 static double mean_number(const mgt_water *water)
 {
     double height = 0, slope = 0;
@@ -30,16 +30,16 @@ static double mean_number(const mgt_water *water)
     return height > 0 ? sqrt(slope / height) : 0;
 }
 
-/* Mean of a cosine over an interval of so many radians to both sides, over its middle. */
+/* Mean of a cosine over ±half radians around a point, divided by its value at that point. */
 static double mean_cosine(double half) { return fabs(half) < 1e-4 ? 1 - half * half / 6 : sin(half) / half; }
 
 /* A wave of the scene that breaks. */
 typedef struct breaking_wave {
-    double k, part; /* radians per metre; what counts of it */
+    double k, part; /* wave number, radians per metre, and weight */
     size_t index;
 } breaking_wave;
 
-/* By rising k, equal ones in their order; without qsort(), which may allocate. */
+/* Sorts by rising k and is stable. qsort() is not used, because it may allocate. */
 static void sort_by_length(breaking_wave *waves, breaking_wave *room, size_t count)
 {
     if (count < 2)
@@ -89,7 +89,7 @@ static void measure_waves(foam_sea *sea)
 
 /* ---- moments ---- */
 
-/* In quarters of the persistence: when the middle of each moment is, and how long. */
+/* Age of the middle and length of each moment, in quarters of the persistence. */
 static const double ages[FOAM_MOMENTS] = {0, 1, 2, 4}, spans[FOAM_MOMENTS] = {0.6, 1, 1.5, 2};
 static const double weights[FOAM_MOMENTS] = {0.3, 0.28, 0.24, 0.18}, whitenesses[FOAM_MOMENTS] = {0.55, 0.26, 0.14, 0.08};
 
@@ -97,7 +97,8 @@ static const double weights[FOAM_MOMENTS] = {0.3, 0.28, 0.24, 0.18}, whitenesses
 
 enum { DIRECTIONS = FOAM_SINES / FOAM_OCTAVES };
 
-/* Their directions and phases are spread by multiples of irrational numbers; lengths within an octave too, so that nothing repeats. */
+/* Fills a pattern. Multiples of irrational numbers spread directions, phases, and lengths within an octave, so that the pattern does not repeat. `drawn`:
+ * factor by which it is stretched along the wind. */
 static void fill_pattern(foam_sine sines[FOAM_SINES], double longest, const double wind[2], double drawn, double seed)
 {
     double sum = 0;
@@ -114,7 +115,7 @@ static void fill_pattern(foam_sine sines[FOAM_SINES], double longest, const doub
         sines[i].size *= sqrt((1 - FOAM_FINE * FOAM_FINE) / sum);
 }
 
-/* The main axis of the slopes of breaking waves. */
+/* The main axis of the covariance of breaking waves' slopes. */
 static void main_axis(const foam_sea *sea, double axis[2])
 {
     double xx = 0, xz = 0, zz = 0;
@@ -132,7 +133,8 @@ static void main_axis(const foam_sea *sea, double axis[2])
 
 /* ---- the threshold ---- */
 
-/* P(z) for a gamma distribution of mean 0, variance 1 and this skewness, by Wilson and Hilferty's cube root; and −E[z; z < its argument]. */
+/* Probability of values below z in a gamma distribution of mean 0, variance 1 and this skewness, by Wilson and Hilferty's cube root. *lacking becomes −E[x; x <
+ * z]. */
 static double gamma_share(double z, double skewness, double *lacking)
 {
     const double q = cbrt(fmax(1 + 0.5 * skewness * z, 0)), y = 3 * z / (q * q + q + 1) + skewness / 6;
@@ -140,7 +142,7 @@ static double gamma_share(double z, double skewness, double *lacking)
     return 0.5 * erfc(-y / sqrt(2));
 }
 
-/* Covariance of J now and in each moment. */
+/* Covariance of J now and J at each moment. */
 typedef struct moment_covariance {
     double of[FOAM_MOMENTS];
 } moment_covariance;

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * Whitecaps: which waves, moments and patterns foam is made of, for those who draw it and for those who judge them.
+ * Whitecaps: the waves, moments and patterns of a sea's foam, for the kernels and for the reference.
  *
- * Choppy water is pressed together at its crests. With B = 1 + ∂(shift)/∂(place of rest) there is foam where J = det B < ε, as in Dupuy and Bruneton,
- * Real-time animation and rendering of ocean whitecaps (2012). Here B is that of waves long enough to break; ε follows from the share of the water
- * that foam is to cover; and old foam is a weighted mean over earlier moments at the same place of rest.
+ * Choppy water is compressed at its crests. With B = 1 + ∂(shift)/∂(place at rest) foam covers the water where J = det B < ε, after Dupuy and Bruneton,
+ * Real-time animation and rendering of ocean whitecaps (2012). Here B is that of waves that are long enough to break, and ε follows from the fraction of the
+ * water that foam shall cover. Old foam is a weighted mean over earlier moments at the same place at rest.
  */
 #ifndef MANGATA_PARAMS_FOAM_H
 #define MANGATA_PARAMS_FOAM_H
@@ -12,49 +12,49 @@
 #include "base/foam_numbers.h"
 #include "mangata/mangata.h"
 
-/* Share of the water that whitecaps cover in a wind of so many m/s at 10 m: W = 3.84e-6 U^3.41, Monahan and O'Muircheartaigh 1980, at most MOST_FOAM. */
+/* Fraction of the water that whitecaps cover in a wind of U m/s at 10 m: 3.84e-6 U^3.41, Monahan and O'Muircheartaigh 1980, but at most MOST_FOAM. */
 double foam_share_of_wind(double wind);
 
 #define MOST_FOAM 0.5
 
-/* A wave that breaks: at a place of rest it adds −press k̂k̂ᵀ sin(x·X + z·Z + frequency·t + start) to B. */
+/* A wave that breaks. At the place (X, Z) at rest it adds −press k̂k̂ᵀ sin(x·X + z·Z + frequency·t + start) to B. */
 typedef struct foam_wave {
-    double x, z; /* radians per metre */
-    double frequency, start;
-    double height; /* metres, of the wave */
-    double press;
-    double held[FOAM_MOMENTS]; /* share of it that the mean over a moment's length leaves */
+    double x, z;               /* wave vector, radians per metre */
+    double frequency, start;   /* angular frequency, radians per second, and phase, radians */
+    double height;             /* amplitude, metres */
+    double press;              /* amplitude of the compression */
+    double held[FOAM_MOMENTS]; /* factor on the compression that the mean over each moment's length leaves */
 } foam_wave;
 
-/* A sine of the pattern, size · cos(x·X + z·Z + start) at a place of rest. */
+/* A sine of a pattern: size · cos(x·X + z·Z + start) at the place (X, Z) at rest. */
 typedef struct foam_sine {
     double x, z, start, size;
 } foam_sine;
 
-/* A sea's foam. Waves stand in falling order of length. */
+/* A sea's foam. */
 typedef struct foam_sea {
     int wave_count;
-    int moments; /* 1: fresh foam alone */
-    double least;
-    double share;                   /* of the water, as asked for */
-    double age[FOAM_MOMENTS];       /* seconds, of each moment */
-    double weight[FOAM_MOMENTS];    /* of each moment in the mean */
-    double whiteness[FOAM_MOMENTS]; /* share of light that foam of that age sends back */
-    double deviation;               /* metres, of the height of all waves */
-    double variance;                /* of J at rest */
-    double shape[5];                /* Σ ½press² k̂ᵢk̂ⱼk̂ₖk̂ₗ over the variance: xxxx, xxxz, xxzz, xzzz, zzzz */
-    foam_wave waves[MGT_MAX_WAVES];
-    foam_sine fresh[FOAM_SINES]; /* a field of variance 1 − FOAM_FINE² */
-    foam_sine old[FOAM_SINES];   /* another, drawn out along the wind */
+    int moments;                    /* number of moments: FOAM_MOMENTS, or 1 if foam does not last */
+    double least;                   /* the threshold ε */
+    double share;                   /* fraction of the water that foam shall cover */
+    double age[FOAM_MOMENTS];       /* age of foam of each moment, seconds */
+    double weight[FOAM_MOMENTS];    /* weight of each moment in the mean */
+    double whiteness[FOAM_MOMENTS]; /* albedo of foam of each moment */
+    double deviation;               /* standard deviation of the height of all waves, metres */
+    double variance;                /* variance of J at places at rest */
+    double shape[5];                /* Σ ½press² k̂ᵢk̂ⱼk̂ₖk̂ₗ / variance: xxxx, xxxz, xxzz, xzzz, zzzz */
+    foam_wave waves[MGT_MAX_WAVES]; /* from the longest to the shortest */
+    foam_sine fresh[FOAM_SINES];    /* pattern of fresh foam, of the variance 1 − FOAM_FINE² */
+    foam_sine old[FOAM_SINES];      /* pattern of old foam, of the same variance and stretched along the wind */
 } foam_sea;
 
-/* Whether a scene, its mean surface at y = 0, has foam that its camera sees. */
+/* Whether a scene whose mean surface is y = 0 has foam that its camera sees. */
 bool foam_draws(const mgt_scene *scene);
 
-/* False where there is no foam; `sea` is then unfinished. */
+/* Fills the foam of a scene. False: there is none, and `sea` is unfinished. */
 bool foam_sea_of(const mgt_scene *scene, foam_sea *sea);
 
-/* Share of the water, over the whole sea, that foam covers for a threshold. */
+/* Expected fraction of the water that foam covers for a threshold. */
 double foam_sea_share(const foam_sea *sea, double least);
 
 #endif

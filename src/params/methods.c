@@ -135,7 +135,7 @@ const method_row method_rows[] =
                 .way = METHOD_FILTERED,
                 .shader = &(const method_shader){"shade_slopes.comp", "ggx_moments.k", "ggx_moments_result"},
             },
-        {.properties = {.name = NULL}}, /* the end */
+        {.properties = {.name = NULL}},
 };
 
 const size_t method_count = sizeof method_rows / sizeof *method_rows - 1;
@@ -156,7 +156,7 @@ uint64_t quality_range(const mgt_quality *q)
 
 enum { MOST_STRATA = 1024 };
 
-/* "ssaa4" for "ssaa" and 4: the number behind the name of a numbered row; 0: it is none. */
+/* The number behind the name of a numbered row, which has `length` characters: 4 of "ssaa4"; 0: there is no legal number. */
 static uint32_t number_behind(const char *name, size_t length)
 {
     const char *digits = name + length;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Names of public enums, and back. */
+ * Names of public enums, and enums from names. */
 #include "params/names.h"
 
 #include <stdio.h>
@@ -44,7 +44,7 @@ static const char *name_of(const char *const *names, int value)
     return NULL;
 }
 
-/* Writes the place of `name` to an enum, all of which are ints. */
+/* Writes the place of `name` to an enum of any type; all have the size of an int. */
 static bool find(const char *const *names, const char *name, void *value)
 {
     for (int i = 0; name && value && names[i]; i++)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * The names of all public enums but mgt_method, whose rows are in methods.h. Each list is in the order of its enum and ended by NULL. */
+ * Names of all public enums but mgt_method, whose rows are in methods.h. Lists are in the order of their enums and NULL-terminated. */
 #ifndef MANGATA_PARAMS_NAMES_H
 #define MANGATA_PARAMS_NAMES_H
 
@@ -24,7 +24,7 @@ extern const char *const spreading_names[];
 extern const char *const status_names[];
 extern const char *const tone_map_names[];
 
-/* Newer names that are read as well. */
+/* Newer names, which are read, too. */
 extern const name_alias refraction_aliases[];
 
 /* The values of kernels_names, which have gaps. */
@@ -32,7 +32,7 @@ extern const int kernels_values[];
 
 enum { LAYER_COUNT = MGT_LAYER_FOAM + 1 };
 
-/* "color, coverage, mask": what a message allows. */
+/* A list of names for messages: "color, coverage, mask". */
 typedef struct names_text {
     char text[160];
 } names_text;

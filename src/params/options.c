@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * The options of quality: one row each.
+ * Rows of the options of quality.
  */
 #include "params/options.h"
 
@@ -14,7 +14,7 @@ static const char *const mean_words[] = {"add", "drop", NULL};
 static const char *const transition_words[] = {"soft", "hard", NULL};
 static const char *const switch_words[] = {"off", "on", NULL};
 
-/* A method brings its numbers of samples along. */
+/* Sets the method's default numbers of samples. */
 static void decide_method(void *parent)
 {
     mgt_quality *q = parent;
@@ -35,7 +35,7 @@ static void decide_method(void *parent)
 enum { PLACE_1 = 1, PLACE_3, PLACE_5, PLACE_9, PLACE_FELINE }; /* in kernels_names */
 #define MIXTURES "kernels", ONE(PLACE_1) | ONE(PLACE_3) | ONE(PLACE_5) | ONE(PLACE_9) | ONE(PLACE_FELINE), true
 #define BENDING "refraction", ONE(MGT_REFRACTION_TWO_PHASE) | ONE(MGT_REFRACTION_HYBRID) | ONE(MGT_REFRACTION_LIU) | ONE(MGT_REFRACTION_BROAD), true
-enum { HOW_MUCH = 1 }; /* alternatives: each says how much to sample */
+enum { HOW_MUCH = 1 }; /* field_row.alternative of options that say how much to sample */
 
 const field_row quality_fields[] =
     {{"method", FIELD_CHOICE, MEMBER(method), FIELD_NO_FLAG, .doc = "how waves smaller than a pixel and the open shutter are averaged",
@@ -153,7 +153,7 @@ void quality_write(FILE *stream, const mgt_quality *q, const char *format)
     }
 }
 
-/* Alternatives that are set; of a choice: that are chosen, though it be the default. */
+/* Whether two alternatives are set, or for a choice, whether two were chosen, even as defaults. */
 static bool find_conflict(const mgt_quality *quality, const quality_choice *choice, char *wrong, size_t size)
 {
     const field_row *first = NULL;
@@ -183,7 +183,7 @@ static uint64_t bit_of(const field_row *field) { return ONE(field - quality_fiel
 
 bool quality_is_chosen(const quality_choice *choice, const field_row *field) { return choice->rows & bit_of(field); }
 
-/* The default written out is the default: one picture has one hash. */
+/* Resets an option whose value is the default in words, so that one picture has one hash. */
 static void simplify(const field_row *field, void *values)
 {
     double number, written;
@@ -264,7 +264,7 @@ bool quality_apply(const quality_choice *choice, const mgt_quality *base, mgt_qu
     for (const field_row *field = quality_fields; field->key; field++)
         simplify(field, &q);
     *out = quality_restricted(&q);
-    /* Methods without samples of their own take one; records and hashes say so. */
+    /* Methods that take no numbers of samples have one sample in records and hashes. */
     if (!field_applies(quality_fields, field_find(quality_fields, "spatial", 7), out, false))
         out->spatial_samples = out->time_samples = 1;
     return true;

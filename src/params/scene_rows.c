@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * The values of an mgt_scene, one row each.
+ * Rows of an mgt_scene.
  */
 #include "params/scene_rows.h"
 
@@ -23,7 +23,7 @@ static void decide_body(void *parent)
     *light = light_defaults[light->body];
 }
 
-/* Another body brings its own radius and radiance; it stays where it is. */
+/* Sets the radius and radiance of another body. It stays in its place. */
 static void change_body(void *parent)
 {
     mgt_light *light = parent;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * The values of an mgt_scene, one row each: their ranges for the API and scene files, and what a change of a scene is.
+ * Rows of an mgt_scene, for ranges in the API and scene files, and for comparisons of scenes.
  */
 #ifndef MANGATA_PARAMS_SCENE_ROWS_H
 #define MANGATA_PARAMS_SCENE_ROWS_H
@@ -11,7 +11,7 @@
 
 #define FIELD_ANYWHERE -1e9, 1e9
 
-/* Rows of an mgt_camera, of which `member` of a struct is one. */
+/* Rows of an mgt_camera that is the member `member` of a struct. */
 #define CAMERA_ROWS(type, member, required)                                                                                                                 \
     {"position",                                                                                                                                            \
      FIELD_VECTOR,                                                                                                                                          \
@@ -26,7 +26,7 @@
         "fov_y_deg", FIELD_NUMBER, offsetof(type, member.fov_y_deg), FIELD_OPEN_MIN | FIELD_OPEN_MAX, 0, 179, "degrees", .doc = "vertical field of view"    \
     }
 
-/* Rows of an mgt_sky, of which `look` of a struct is one. */
+/* Rows of an mgt_sky that is the member `look` of a struct. */
 #define SKY_LOOK_ROWS(type, look)                                                                                                                            \
     {"model", FIELD_CHOICE, offsetof(type, look.model), .doc = "atmosphere: scattering, day to night; gradient: horizon to zenith; black: only the glitter", \
      .choices = sky_model_names},                                                                                                                            \
@@ -37,7 +37,7 @@
         "night", FIELD_COLOR, offsetof(type, look.night), 0, 0, 1e9, "kcd/m²", .doc = "linear sRGB, airglow and stars, added everywhere (atmosphere)"        \
     }
 
-/* Rows of what mgt_water and the scene format have in common, for a struct with members of these names. */
+/* Rows that mgt_water and the scene format have in common, for a struct with members of these names. */
 #define WATER_BODY_ROWS(type)                                                                                                                  \
     {"level", FIELD_NUMBER, offsetof(type, level), 0, -1e6, 1e6, "m", .doc = "height of the mean surface"},                                    \
         {"choppiness",                                                                                                                         \
@@ -73,17 +73,17 @@
             .doc = "fraction of the light entering the water that deep water sends up again, linear sRGB" \
     }
 
-/* What a body brings along, by mgt_source; at elevation 30°, azimuth 0. */
+/* Default lights by mgt_source, at elevation 30° and azimuth 0°. */
 extern const mgt_light light_defaults[];
 
 bool light_is_moon(const mgt_light *light);
 
-extern const field_row image_rows[];  /* of an mgt_image, but for its crop */
-extern const field_row light_rows[];  /* of an mgt_light */
-extern const field_row sky_rows[];    /* of an mgt_sky */
-extern const field_row camera_rows[]; /* of an mgt_camera */
+extern const field_row image_rows[];  /* rows of an mgt_image without its crop */
+extern const field_row light_rows[];  /* rows of an mgt_light */
+extern const field_row sky_rows[];    /* rows of an mgt_sky */
+extern const field_row camera_rows[]; /* rows of an mgt_camera */
 
-/* Rows of an mgt_scene, but for its image, camera_open, waves and objects. */
+/* Rows of an mgt_scene without its image, camera_open, waves and objects. */
 extern const field_row scene_rows[];
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Single waves for those who make, read and show them.
+ * Functions on single waves and on sums of waves.
  */
 #include "params/waves.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Single waves for those who make, read and show them.
+ * Functions on single waves and on sums of waves.
  */
 #ifndef MANGATA_PARAMS_WAVES_H
 #define MANGATA_PARAMS_WAVES_H
@@ -8,36 +8,37 @@
 #include "mangata/mangata.h"
 #include "params/field.h"
 
-extern const field_row wave_rows[]; /* of an mgt_wave */
+extern const field_row wave_rows[]; /* rows of an mgt_wave */
 
-/* Whether every number is within its row's range, which none is that is not finite. */
+/* Whether every number is within the range of its row. Numbers that are not finite are in no range. */
 bool wave_is_legal(const mgt_wave *wave);
 
-/* How a wave travels: its number in radians per metre, where its crests go to (0 is −z, π/2 is +x), and their speed in metres per second. */
 typedef struct wave_course {
-    double number, heading, speed;
+    double number;  /* wave number, radians per metre */
+    double heading; /* azimuth that the crests travel to, radians; 0 is −z, π/2 is +x */
+    double speed;   /* phase speed, metres per second */
 } wave_course;
 
-/* heading and speed are 0 where the number is at most `least`. */
+/* The course of a wave. Heading and speed are 0 if the wave number is at most `least`. */
 wave_course wave_course_of(const mgt_wave *wave, double least);
 
-/* Bounded to what the API accepts. */
+/* Sets a wave's wave vector and angular frequency. The frequency is clamped to the range of the API. */
 void wave_set_course(mgt_wave *wave, wave_course course);
 
-/* With its wave vector and angular frequency. */
+/* A wave of this amplitude, wave vector, angular frequency and phase. */
 mgt_wave wave_from(double height, double x, double z, double frequency, double phase);
 
-/* What a wave is, for those who add waves up: height · sin(x·X + z·Z + frequency·t + start). */
+/* A wave as height · sin(x·X + z·Z + frequency·t + start), with its amplitude as `height`. */
 typedef struct wave_numbers {
     double height, x, z, frequency, start;
 } wave_numbers;
 
 wave_numbers wave_numbers_of(const mgt_wave *wave);
 
-/* Multiplies the heights of waves, up to `most` metres. */
+/* Multiplies the amplitudes of waves by a factor. Amplitudes are at most `most` metres. */
 void waves_scale(mgt_wave *waves, size_t count, double factor, double most);
 
-/* Of the crest over the mean surface. */
+/* Height of the wave's crest over the mean surface, metres. */
 double wave_crest(const mgt_wave *wave);
 
 /* Height of the water at a place and time. */
