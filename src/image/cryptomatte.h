@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Names as Cryptomatte (specification 1.2) writes them into an EXR: numbers that channels of 32-bit floats hold, and the header that tells them. */
+/* Cryptomatte (specification 1.2) in an EXR: names as 32-bit floats for channels, and the attributes that list the names. */
 #ifndef MANGATA_IMAGE_CRYPTOMATTE_H
 #define MANGATA_IMAGE_CRYPTOMATTE_H
 
@@ -15,7 +15,7 @@ uint32_t cryptomatte_hash(const char *name);
 /* The hash with the exponent of a float that is neither 0, denormal, infinite nor NaN. */
 uint32_t cryptomatte_bits(const char *name);
 
-/* The float of these bits, which stands in the channel. */
+/* The float of these bits, which is the channel's value. */
 float cryptomatte_id(const char *name);
 
 enum { CRYPTOMATTE_ENTRIES = 4, CRYPTOMATTE_KEY = 48 };
@@ -27,7 +27,8 @@ typedef struct cryptomatte_header {
     char *manifest; /* owned */
 } cryptomatte_header;
 
-/* Of the layer ("crypto_object", borrowed) and the names that it may show, of which those given twice stand once. Not to be copied. False: out of memory. */
+/* Makes the attributes of a layer, such as "crypto_object", and of the names that it may show. Repeated names are listed once. `layer` is borrowed. The struct
+ * must not be copied. False: out of memory. */
 bool cryptomatte_header_make(cryptomatte_header *header, const char *layer, const char *const *names, size_t count);
 void cryptomatte_header_free(cryptomatte_header *header);
 

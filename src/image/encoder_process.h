@@ -14,28 +14,28 @@
 typedef struct encoder_process encoder_process;
 
 typedef struct encoder_desc {
-    uint32_t width, height; /* even */
-    video_codec codec;      /* not the default; ProRes takes frames of full chroma */
+    uint32_t width, height; /* even numbers */
+    video_codec codec;      /* not VIDEO_CODEC_DEFAULT; frames for ProRes have full chroma */
     int crf;
     uint32_t rate_numerator, rate_denominator;
     const metadata_list *metadata; /* NULL: no tags */
-    const char *path;              /* final name, for messages only; must outlive the process */
-    const output_file *file;       /* ffmpeg writes its temporary path; its cancel flag is heeded */
+    const char *path;              /* final name, for messages; must outlive the process */
+    const output_file *file;       /* ffmpeg writes to its temporary path; its cancel flag ends the process */
 } encoder_desc;
 
-/* Finds ffmpeg on the PATH and starts it without a shell, in a process group of its own, so that Ctrl-C reaches us alone. */
+/* Finds ffmpeg on the PATH and starts it without a shell. It gets a process group of its own, so that Ctrl-C does not reach it. */
 file_status encoder_process_start(encoder_process **process, const encoder_desc *desc, file_error *error);
 
-/* Passes bytes of frames; blocks until they are taken. */
+/* Passes bytes of frames to ffmpeg. Blocks until it has taken them. */
 file_status encoder_process_write(encoder_process *process, const void *bytes, size_t size, file_error *error);
 
-/* Ends the input, waits for ffmpeg and checks that it said success. Frees the process in every case. */
+/* Ends the input, waits for ffmpeg and checks its exit code. Frees the process in every case. */
 file_status encoder_process_finish(encoder_process *process, file_error *error);
 
-/* Kills ffmpeg, reaps it, frees the process. NULL is allowed. */
+/* Kills ffmpeg, waits for it and frees the process. NULL is allowed. */
 void encoder_process_abort(encoder_process *process);
 
-/* Whether the file is a whole .mp4 with its index in front: boxes that fill it exactly, moov before mdat. */
+/* Checks that the file is a whole .mp4 with its index in front: boxes fill it exactly, and moov comes before mdat. */
 file_status encoder_check_mp4(int descriptor, const char *path, file_error *error);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* How layers and metadata are named inside an EXR; the writer and the reader agree here. Private to src/image. */
+/* Names of layers and metadata in an EXR, for writer and reader. Private to src/image. */
 #ifndef MANGATA_IMAGE_EXR_NAMES_H
 #define MANGATA_IMAGE_EXR_NAMES_H
 
@@ -16,7 +16,7 @@ static inline bool exr_layer_name_is_valid(const char *name)
     return length >= 1 && length <= EXR_LAYER_NAME_MAX && strspn(name, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_") == length;
 }
 
-/* Colour is the nameless base layer, as viewers expect; the others are "layer.component". */
+/* Colour is the layer without a name, as viewers expect. Channels of other layers are "layer.component". */
 static inline void exr_channel_name(char out[EXR_CHANNEL_NAME_SIZE], const char *layer, uint32_t channels, uint32_t component)
 {
     const char *components = channels == 1 ? "Y" : strcmp(layer, "normal") == 0 ? "XYZ" : "RGB";
@@ -28,7 +28,7 @@ static inline void exr_channel_name(char out[EXR_CHANNEL_NAME_SIZE], const char 
         snprintf(out, EXR_CHANNEL_NAME_SIZE, "%s.%c", layer, components[component]);
 }
 
-/* A prefix keeps keys apart from the names of the format's own attributes ("version", "channels", …). */
+/* The prefix distinguishes keys from the format's own attributes, such as "version" and "channels". */
 static inline void exr_attribute_name(char out[EXR_ATTRIBUTE_NAME_SIZE], const char *key) { snprintf(out, EXR_ATTRIBUTE_NAME_SIZE, "mangata.%s", key); }
 
 #endif

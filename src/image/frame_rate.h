@@ -9,7 +9,7 @@ typedef struct frame_rate {
     uint32_t numerator, denominator;
 } frame_rate;
 
-/* 30 → 30/1, 29.97 → 30000/1001, else the nearest of thousandths; from 0.01 to 1000. */
+/* The fraction of a rate from 0.01 to 1000: 30 → 30/1, 29.97 → 30000/1001, otherwise the nearest number of thousandths. */
 frame_rate frame_rate_of(double frames_per_second);
 
 #endif

@@ -5,8 +5,8 @@
 
 #include "image/metadata.h"
 
-/* One JSON object of strings in the list's order, ending in a newline; the caller frees it. The list must have passed
- * metadata_check. NULL: out of memory. */
+/* The list as one JSON object of strings in the list's order, followed by a newline. The caller frees it. The list must have passed metadata_check(). NULL: out
+ * of memory. */
 char *metadata_json_text(const metadata_list *metadata);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Separable filters over planes of floats; beyond the border the nearest pixel goes on. Private to src/image. */
+/* Separable filters over planes of floats. Pixels beyond the border have the value of the nearest pixel. Private to src/image. */
 #ifndef MANGATA_IMAGE_METRICS_FILTER_H
 #define MANGATA_IMAGE_METRICS_FILTER_H
 
@@ -7,19 +7,19 @@
 
 enum { FILTER_RADIUS_MAX = 63 };
 
-/* weights[radius + d] belongs to the neighbour at distance d to the right or below: a correlation, not a convolution. */
+/* A kernel. weights[radius + d] is the weight of the neighbour d pixels to the right or below, so a filter is a correlation, not a convolution. */
 typedef struct filter_kernel {
     int radius; /* 0 … FILTER_RADIUS_MAX */
     float weights[2 * FILTER_RADIUS_MAX + 1];
 } filter_kernel;
 
-/* Samples of exp(−d²/2σ²), summing to 1. σ > 0, in pixels. */
+/* The kernel of exp(−d²/2σ²) at whole d, with the sum 1. `sigma` > 0, pixels. */
 filter_kernel filter_gaussian(double sigma, int radius);
 
-/* out = in filtered along rows; the two must not overlap. */
+/* Filters `in` along rows. `out` must not overlap it. */
 void filter_rows(float *out, const float *in, uint32_t width, uint32_t height, const filter_kernel *kernel);
 
-/* out = (or += where `add`) in filtered along columns; the two must not overlap. */
+/* Filters `in` along columns. If `add` is not 0, the result is added to `out`. They must not overlap. */
 void filter_columns(float *out, const float *in, uint32_t width, uint32_t height, const filter_kernel *kernel, int add);
 
 #endif

@@ -9,9 +9,9 @@
 
 enum { SSIM_BUFFERS = 7, SSIM_RADIUS = 5 };
 
-/* Mean SSIM of two grey pictures whose values span 0 … 1: Gaussian window of 11 × 11 with σ 1.5, K1 = .01, K2 = .03, over the places where
- * the window lies inside, or over all where there are none. `map`: SSIM of every pixel, or NULL. `buffers`: SSIM_BUFFERS · width · height
- * floats of scratch. */
+/* Mean SSIM of two grey pictures with values in 0 … 1. The window is a Gaussian of 11 × 11 pixels with σ 1.5; K1 = .01, K2 = .03. The mean is over pixels whose
+ * window lies within the picture, or over all pixels if there are none. `map` receives the SSIM of every pixel; NULL: not wanted. `buffers`: scratch memory of
+ * SSIM_BUFFERS · width · height floats. */
 double ssim_mean(const float *a, const float *b, uint32_t width, uint32_t height, float *map, float *buffers);
 
 #endif

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What pictures show of the truth's own texture and noise: texture, specks, and errors freed of the references' noise. Private to src/image, cli
- * and their tests. */
+/* Metrics against the truth behind two references: texture, specks, and errors without the references' noise. Private to src/image, cli and their tests. */
 #ifndef MANGATA_IMAGE_METRICS_TRUTH_H
 #define MANGATA_IMAGE_METRICS_TRUTH_H
 
@@ -12,49 +11,48 @@ typedef struct truth_words {
     bool texture, specks;
 } truth_words;
 
-/* Takes a list of --metrics: words of this file into *words, those of clips (metrics_clip.h) into the set *clip. False when a word is unknown; then
- * nothing is changed. */
+/* Reads a list of --metrics. Words of this file set *words, those of metrics_clip.h the set *clip. False: a word is unknown, and nothing changes. */
 bool truth_words_parse(const char *list, truth_words *words, uint32_t *clip);
 /* The words that this file adds, for messages. */
 extern const char truth_words_text[];
 
-/* Start from all zero, then fill the first two members; the size comes with the first frame. One thread at a time may use an object. */
+/* Metrics, which start zeroed except for the first two members. The size follows from the first frame. One thread at a time may use an object. */
 typedef struct truth_metrics {
     truth_words wants;
-    bool srgb_encoded;                /* the values; false: linear */
-    uint32_t width, height, channels; /* of the first frame */
-    float *luminance[3];              /* linear, of A, B and the second reference; NULL unless texture or specks are wanted */
-    texture *bands;                   /* NULL unless texture is wanted */
-    noise_sums noise;                 /* empty without a second reference */
+    bool srgb_encoded;                /* values are sRGB-encoded; false: linear */
+    uint32_t width, height, channels; /* those of the first frame */
+    float *luminance[3];              /* linear luminance of A, B and the second reference; NULL: neither texture nor specks are wanted */
+    texture *bands;                   /* NULL: texture is not wanted */
+    noise_sums noise;                 /* zeroed without a second reference */
     bool has_second;                  /* a frame had a second reference */
-    uint64_t pixels;                  /* that were looked at for specks, over all frames */
-    uint64_t specks;                  /* of A against B */
-    uint64_t reference_specks[2];     /* of B against the second reference, and the other way round */
+    uint64_t pixels;                  /* number of pixels in which specks were searched, over all frames */
+    uint64_t specks;                  /* number of specks of A against B */
+    uint64_t reference_specks[2];     /* number of specks of B against the second reference, and of that against B */
 } truth_metrics;
 
-/* The pictures of a frame: A, B and, where there is one, the second reference, of one size. */
+/* The pictures of a frame, of one size: A, B and, if there is one, the second reference. */
 typedef struct truth_frame {
     const float_image *images;
     size_t count;        /* 2 or 3 */
-    const bool *counted; /* one a pixel, false leaves it out; NULL: all count */
-    uint64_t left_out;   /* pixels that do not count */
+    const bool *counted; /* one per pixel, false: it is left out; NULL: no pixel is left out */
+    uint64_t left_out;   /* number of pixels that are left out */
 } truth_frame;
 
-/* Adds a frame; texture needs three pictures. FILE_ARGUMENT for unlike sizes and for other than 1 or 3 channels, FILE_MEMORY. */
+/* Adds a frame. Texture needs three pictures. Returns FILE_OK, FILE_ARGUMENT if sizes differ or channels are neither 1 nor 3, or FILE_MEMORY. */
 file_status truth_metrics_add(truth_metrics *metrics, const truth_frame *frame, file_error *error);
 
-/* Of the pixels looked at. The excess is what stands out of A beyond what the references show of each other (the mean of both ways): 0 without a
- * second reference. */
+/* Specks: `share` and other shares are fractions of the pixels in which they were searched. `excess` is the number of A's specks minus the references', which
+ * is the mean of both directions; 0 without a second reference. */
 typedef struct speck_figures {
     double share, reference_count, reference_share, excess, excess_share;
 } speck_figures;
 
 speck_figures truth_metrics_specks(const truth_metrics *metrics);
 
-/* Why there is no texture to tell of; NULL where there is some. */
+/* Why there are no scores of texture; NULL: there are some. */
 const char *truth_metrics_texture_missing(const truth_metrics *metrics);
 
-/* Frees what it holds and clears it. */
+/* Frees the members and zeroes the struct. */
 void truth_metrics_free(truth_metrics *metrics);
 
 #endif

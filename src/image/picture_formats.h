@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What the files of single formats share with one another: opening an input and checking a size. Private to src/image. */
+/* Functions that files of single formats share: opening inputs and checking sizes. Private to src/image. */
 #ifndef MANGATA_IMAGE_PICTURE_FORMATS_H
 #define MANGATA_IMAGE_PICTURE_FORMATS_H
 
@@ -8,35 +8,35 @@
 
 #include "image/picture.h"
 
-/* How a file of sums begins. */
+/* The beginning of a file of sums. */
 #define SUMS_MAGIC "mangata sums 1\n"
 
 enum { PICTURE_SIDE_MAX = 32768 };
 
-/* A regular file open for reading, at its start. */
+/* A regular file that is open for reading, at its start. */
 typedef struct input_file {
     FILE *stream;
     const char *path; /* borrowed */
     uint64_t size;
 } input_file;
 
-/* FILE_MISSING where it cannot be opened, or is no regular file (a pipe would hang, a directory cannot be read). */
+/* Opens a file. FILE_MISSING: it cannot be opened, or is no regular file. A pipe could block, and a directory cannot be read. */
 file_status input_file_open(input_file *input, const char *path, file_error *error);
 void input_file_close(input_file *input);
 
-/* Kind by the first bytes (PNG, EXR, PFM, sums or unknown); leaves the stream at its start. */
+/* The format by the first bytes: PNG, EXR, PFM, sums or unknown. The stream stays at its start. */
 picture_format input_file_format(const input_file *input);
 
-/* FILE_ARGUMENT unless 1 ≤ sides ≤ PICTURE_SIDE_MAX; for writers. */
+/* Checks a size for writers. FILE_ARGUMENT: a side is below 1 or above PICTURE_SIDE_MAX. */
 file_status picture_check_size(const char *path, uint32_t width, uint32_t height, file_error *error);
 
-/* FILE_BAD where a picture has more pixels than pixel_budget(); for readers, before they decode. */
+/* Checks a size for readers, before they decode. FILE_BAD: the picture has more pixels than pixel_budget(). */
 file_status picture_check_budget(const char *path, uint64_t width, uint64_t height, file_error *error);
 
-/* Allocates image->pixels for its size and channels, overflow-checked; for readers. */
+/* Allocates image->pixels for its size and channels, with a check for overflow. For readers. */
 file_status float_image_allocate(float_image *image, const char *path, file_error *error);
 
-/* Row `y` of caller's pixels, with the stride rules of picture.h. */
+/* Row `y` of the caller's pixels, with picture_layer.row_stride. */
 const void *picture_row(const void *pixels, size_t packed_row_bytes, ptrdiff_t row_stride, uint32_t y);
 
 file_status png_read(float_image *image, const input_file *input, file_error *error);
