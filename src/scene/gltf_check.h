@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT
  *
- * Validation of glTF 2.0 files before anything else reads them.
+ * Validates glTF 2.0 files before other code reads them.
  */
 #ifndef MANGATA_SCENE_GLTF_CHECK_H
 #define MANGATA_SCENE_GLTF_CHECK_H
 
 #include "scene/model.h"
 
-/* Checks a .gltf (`binary` false) or a .glb from its bytes: JSON, version 2, indices in range, every length and offset against its buffer and that against its
- * file, numbers of triangles, each node one parent and no circle. `path` is for messages and for the files beside it. *weight is how many bytes the file and
- * its buffers have in all. False with *fault filled: "FILE:LINE:COLUMN: what is wrong; allowed: …". */
+/* Checks the bytes of a .gltf, or of a .glb if `binary` is true: JSON, version 2, indices, lengths and offsets within buffers, buffers within files, numbers of
+ * triangles, and that nodes have at most one parent and form no circle. `path` is for messages and for files beside it. *weight becomes the size of the file
+ * and its buffers, bytes. False: *fault is filled with "FILE:LINE:COLUMN: what is wrong; allowed: …". */
 bool gltf_check(const char *path, const char *bytes, size_t length, bool binary, uint64_t *weight, model_fault *fault);
 
 #endif

@@ -7,10 +7,10 @@
 
 #include "scene/model.h"
 
-/* The triangles of a PLY file's bytes, polygons cut into fans, with smooth normals where it has none of its own. `name` is for messages. */
+/* Reads the triangles of a PLY file from its bytes. Polygons are cut into fans. A file without normals gets smooth ones. `name` is for messages. */
 bool ply_parse(mesh_data *out, const char *bytes, size_t length, const char *name, model_fault *fault);
 
-/* A model of the regular file at `path`. */
+/* Loads a model from the regular file at `path`. */
 bool ply_load(scene_model *out, const char *path, bool dry, model_fault *fault);
 
 #endif

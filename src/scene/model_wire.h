@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT
  *
- * What mangata-import, which reads glTF and OBJ files with assimp in a process of its own, writes for the process that started it: records in the
- * machine's own order of bytes, each filled up to a multiple of 8. Both belong to one build.
+ * Output of mangata-import, which reads glTF and OBJ files with assimp in a process of its own, for the process that has started it. Records have the machine's
+ * byte order and are padded to multiples of 8 bytes. Both processes belong to one build.
  *
  *     wire_header, and if its status is WIRE_GOOD:
- *     wire_picture with its bytes, one for each of picture_count
- *     wire_material, one for each of material_count
- *     wire_mesh with positions, normals and texture coordinates (float) and indices (uint32_t), one for each of mesh_count
- *     wire_part, one for each of part_count
+ *     picture_count times wire_picture and its bytes
+ *     material_count times wire_material
+ *     mesh_count times wire_mesh with positions, normals and texture coordinates (float) and indices (uint32_t)
+ *     part_count times wire_part
  */
 #ifndef MANGATA_SCENE_MODEL_WIRE_H
 #define MANGATA_SCENE_MODEL_WIRE_H
@@ -18,9 +18,9 @@ enum { WIRE_MAGIC = 0x3249474d, WIRE_NONE = UINT32_MAX };
 
 typedef enum wire_status {
     WIRE_GOOD,
-    WIRE_BAD,     /* `what` says what assimp says */
-    WIRE_MISSING, /* `what` names a file that the first refers to */
-    WIRE_MEMORY   /* more than the process may have */
+    WIRE_BAD,     /* the file is bad; `what` is assimp's message */
+    WIRE_MISSING, /* a file that the first one refers to is missing; `what` is its name */
+    WIRE_MEMORY   /* the process may not use that much memory */
 } wire_status;
 
 typedef struct wire_header {
@@ -33,21 +33,21 @@ typedef enum wire_picture_kind { WIRE_PICTURE_INSIDE, WIRE_PICTURE_RAW, WIRE_PIC
 
 typedef struct wire_picture {
     uint32_t kind;
-    uint32_t length; /* of the bytes behind: of a PNG or JPEG, or of a file's name */
+    uint32_t length; /* number of bytes that follow: a PNG, a JPEG, or a file's name */
 } wire_picture;
 
 typedef struct wire_material {
-    uint32_t plain;     /* 1: assimp's default, for meshes without a material; the other members are not set */
-    uint32_t has_color; /* base_color counts */
+    uint32_t plain;     /* 1: assimp's default for meshes without a material; the other members are not set */
+    uint32_t has_color; /* 1: base_color is set */
     float base_color[3];
     float shininess, roughness, metallic; /* NaN: not given */
-    uint32_t picture;                     /* of base_color; WIRE_NONE: none */
+    uint32_t picture;                     /* picture of the base colour; WIRE_NONE: there is none */
     uint32_t unused;
 } wire_material;
 
 typedef struct wire_mesh {
     uint32_t vertex_count, triangle_count;
-    uint32_t has_normals, has_texcoords; /* texture coordinates are counted from the bottom */
+    uint32_t has_normals, has_texcoords; /* texture coordinates start at the bottom of a picture */
     uint32_t material, unused;
 } wire_mesh;
 
@@ -56,7 +56,7 @@ typedef struct wire_part {
     double transform[3][4];
 } wire_part;
 
-/* Where its pipe is in the child; closed when it ends. */
+/* The child's descriptor of a pipe that closes when the child ends. */
 enum { WIRE_LIFE = 3 };
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Text for messages: safe quoting, shortest numbers, UTF-8 checks, the nearest known word.
+ * Texts for messages: safe quoting, checks of UTF-8, and the nearest known word.
  */
 #include "scene/scene_text.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * A YAML document as a tree of mappings, lists and scalars that know where they were written.
+ * A YAML document as a tree of mappings, lists and scalars with their places in the text.
  */
 #ifndef MANGATA_SCENE_SCENE_TREE_H
 #define MANGATA_SCENE_SCENE_TREE_H
@@ -12,20 +12,20 @@
 
 typedef enum tree_kind { TREE_NULL, TREE_SCALAR, TREE_LIST, TREE_MAPPING } tree_kind;
 
-/* One node; as a mapping's child it carries its key. Lives in its tree's memory. */
+/* A node. A child of a mapping has a key. The tree owns its memory. */
 typedef struct tree_node tree_node;
 struct tree_node {
     tree_kind kind;
-    bool plain;         /* scalar: written without quotes, so that it may be a number */
-    scene_place place;  /* of the value in its source */
-    const char *source; /* NULL: the file; else the override "key=value" that wrote it */
+    bool plain;         /* scalar: it has no quotes, so that it may be a number */
+    scene_place place;  /* place of the value in its source */
+    const char *source; /* the override "key=value" that the value is from; NULL: the file */
     const char *text;   /* scalar: NUL-terminated and without a NUL inside */
     size_t length;
-    const char *key; /* NULL for list items and the root; NUL-terminated */
+    const char *key; /* NUL-terminated; NULL for list items and the root */
     scene_place key_place;
-    const char *key_source; /* as `source`, of the key */
+    const char *key_source; /* source of the key, see `source` */
     tree_node *first, *last, *next;
-    size_t count; /* children */
+    size_t count; /* number of children */
 };
 
 typedef struct scene_tree {
@@ -35,26 +35,27 @@ typedef struct scene_tree {
     struct tree_block *blocks;
 } scene_tree;
 
-/* Limits on what one tree may hold; what lies beyond is refused with a message. */
+/* Limits of a tree. Larger documents are refused with a message. */
 enum { TREE_MAX_DEPTH = 32, TREE_MAX_NODES = 1000000, TREE_MAX_SCALAR = 65536 };
 
-/* Reads `text` as one YAML 1.2 document. Anchors, aliases and tags are refused. `source` is NULL for the scene file or the
- * override that the text comes from. NULL on failure, with *error filled. Nothing is printed. */
+/* Reads `text` as one YAML 1.2 document. Anchors, aliases and tags are refused. `source`: the override that the text is from; NULL: the scene file. NULL:
+ * *error is filled. Nothing is printed. */
 tree_node *tree_parse(scene_tree *tree, const char *text, size_t length, const char *source, scene_error *error);
 
-/* A new empty node; NULL when memory runs out. */
+/* A new empty node. NULL: out of memory. */
 tree_node *tree_add_node(scene_tree *tree, tree_kind kind, scene_place place, const char *source);
 void tree_append(tree_node *parent, tree_node *child);
-/* A copy of the bytes with a NUL behind, in the tree's memory; NULL when memory runs out. */
+/* A copy of the bytes with a NUL behind them, in the tree's memory. NULL: out of memory. */
 char *tree_copy_text(scene_tree *tree, const char *text, size_t length);
 
-/* Child of a mapping by key, of a list by index; NULL where there is none. */
+/* The child of a mapping with this key. NULL: there is none. */
 tree_node *tree_get(const tree_node *mapping, const char *key);
+/* Item `index` of a list. NULL: there is none. */
 tree_node *tree_at(const tree_node *list, size_t index);
 
 /* Fills *error with "file:line:column: …" or "--set key=value: …". Returns false. */
 bool tree_error(const scene_tree *tree, const char *source, scene_place place, scene_error *error, const char *format, ...) SCENE_FORMAT(5, 6);
 
-void tree_free(scene_tree *tree); /* its memory; the struct itself stays the caller's */
+void tree_free(scene_tree *tree); /* frees the tree's memory, but not the struct */
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Single waves of a scene as people measure them: by wavelength, direction and height.
+ * Single waves of a scene by wavelength, direction and height.
  */
 #ifndef MANGATA_SCENE_SCENE_WAVE_H
 #define MANGATA_SCENE_SCENE_WAVE_H
@@ -9,12 +9,12 @@
 
 typedef struct measured_wave {
     double wavelength;    /* m */
-    double direction_deg; /* where crests travel to: 0 is -z, 90 is +x */
-    double height;        /* m, from trough to crest */
-    double shift;         /* phase at x = z = 0, time 0 */
+    double direction_deg; /* where crests travel to; 0 is -z, 90 is +x */
+    double height;        /* height from trough to crest, m */
+    double shift;         /* phase at x = z = 0 and time 0 */
 } measured_wave;
 
-/* The other form of an mgt_wave: one of deep water, with numbers of seven digits so that it is the same on every machine. */
+/* The other form of an mgt_wave. It is a wave of deep water. Its numbers are rounded to seven digits, so that they are the same on every machine. */
 extern const field_form measured_wave_form;
 
 #endif
